@@ -1,0 +1,91 @@
+/* The framework: a simple graph whose nodes have coordinates. Nodes are beads, edges are interfaces (docs/formats.md). */
+#ifndef THR_FRAME_H
+#define THR_FRAME_H
+
+#include "graph/status.h"
+#include "graph/text.h"
+
+/* Half-edge h = 2*e + s is edge e seen from its end s: it leaves node edge[e][s] and arrives at edge[e][1-s].
+ * h ^ 1 is the same edge the other way. All arrays are owned; {0} is valid and empty. */
+typedef struct {
+  int n_nodes, n_edges;
+  double (*xyz)[3];  /* [n_nodes] coordinates in units */
+  int (*edge)[2];    /* [n_edges] the two nodes; never equal, no pair twice */
+  double *length;    /* [n_edges] cord used by one pass, in units, > 0 */
+  bool *foot;        /* [n_nodes] may a cord end come out here (--ends feet)? */
+  char **name;       /* [n_nodes] what the file calls the node: an OBJ vertex number, a COMPAS key, .. */
+  char units[16];    /* "mm" unless the file or the user says otherwise */
+  bool own_lengths;  /* lengths were given, not Euclidean */
+  int *first;        /* [n_nodes + 1] half-edges leaving v: half[first[v] .. first[v + 1] - 1], by ascending edge */
+  int *half;         /* [2 * n_edges] */
+} thr_frame;
+
+static inline int thr_tail(const thr_frame *f, int h) { return f->edge[h >> 1][h & 1]; }
+static inline int thr_head(const thr_frame *f, int h) { return f->edge[h >> 1][1 - (h & 1)]; }
+static inline int thr_degree(const thr_frame *f, int v) { return f->first[v + 1] - f->first[v]; }
+
+/* What a reader collects before welding: nodes in file order, edges as node indices. Fill it with the two add
+ * functions below, then call thr_draft_build. {0} is valid and empty. */
+typedef struct {
+  int n_nodes, n_edges, nodes_capacity, edges_capacity;
+  struct thr_draft_node {
+    double xyz[3];
+    char *name; /* owned; NULL means the index in decimal */
+    bool foot;
+  } *node;
+  struct thr_draft_edge {
+    int a, b;
+    double length; /* 0 = Euclidean */
+  } *edge;
+  char units[16]; /* "" = not said */
+} thr_draft;
+
+/* Appends a node; name may be NULL and is copied. Coordinates must be finite (THR_EINPUT otherwise). */
+thr_status thr_draft_add_node(thr_draft *d, const double xyz[3], const char *name, bool foot, thr_err *err) THR_MUST_CHECK;
+/* Appends an edge between node indices that exist already (THR_EINPUT otherwise). length 0 = Euclidean. */
+thr_status thr_draft_add_edge(thr_draft *d, int a, int b, double length, thr_err *err) THR_MUST_CHECK;
+void thr_draft_destroy(thr_draft *d);
+
+/* What was done to the file's data, and what is odd about it. */
+typedef struct {
+  double weld_tolerance;  /* in units */
+  int nodes_read, edges_read;
+  int welded_nodes;       /* merged into an earlier node */
+  int duplicate_edges;    /* dropped */
+  int zero_length_edges;  /* dropped: both ends weld to one node */
+  int isolated_nodes;     /* dropped: no edge */
+  int skipped_records;    /* records of the file that the reader knows but does not use (set by the reader) */
+  char skipped_kind[32];  /* the first such record's keyword */
+} thr_read_report;
+
+/* Welds nodes closer than tolerance (< 0: 1e-6 of the bounding box's diagonal), drops zero-length and duplicate
+ * edges and isolated nodes, and fills frame and report (nodes_read .. isolated_nodes). The lowest file index of a
+ * welded group gives coordinates and name; any member's foot makes it a foot. Nodes and edges keep file order.
+ * THR_EINPUT if no edge is left or an own length is not positive and finite. O(n log n). The draft is unchanged. */
+thr_status thr_draft_build(const thr_draft *d, double tolerance, thr_frame *frame, thr_read_report *report, thr_err *err) THR_MUST_CHECK;
+
+void thr_frame_destroy(thr_frame *f);
+thr_status thr_frame_copy(thr_frame *to, const thr_frame *from, thr_err *err) THR_MUST_CHECK;
+
+/* Index of the node with this name, or -1. O(n). */
+int thr_frame_find(const thr_frame *f, const char *name);
+
+/* Edge between two nodes, or -1. O(degree). */
+int thr_frame_edge_between(const thr_frame *f, int a, int b);
+
+/* Marks as feet the nodes within 1e-6 of the diagonal of the lowest z, and no others. */
+void thr_frame_feet_lowest(thr_frame *f);
+
+double thr_frame_total_length(const thr_frame *f);
+double thr_frame_diagonal(const thr_frame *f); /* of the bounding box, in units */
+
+/* 64-bit FNV-1a over counts, coordinates, edges, lengths and feet: names a framework in outputs. Not for security. */
+uint64_t thr_frame_hash(const thr_frame *f);
+
+/* Component number of every node (0, 1, .. by lowest node) in component[n_nodes]; *count receives how many. */
+thr_status thr_frame_components(const thr_frame *f, int *component, int *count, thr_err *err) THR_MUST_CHECK;
+
+/* Marks bridges (edges whose removal disconnects their component) in is_bridge[n_edges]. Iterative DFS, O(n + m). */
+thr_status thr_frame_bridges(const thr_frame *f, bool *is_bridge, thr_err *err) THR_MUST_CHECK;
+
+#endif

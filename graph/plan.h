@@ -1,0 +1,113 @@
+/* The threading plan: the small vocabulary through which all stages meet. An objective makes one, the checker,
+ * eval, compare and draw read it. docs/plan-format.md is the schema of its JSON. */
+#ifndef THR_PLAN_H
+#define THR_PLAN_H
+
+#include "graph/frame.h"
+#include "graph/text.h"
+
+typedef enum { THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET, THR_ENDS_NODES } thr_ends;
+
+/* What the user asked for; echoed in the plan so that it can be made again. */
+typedef struct {
+  int cover;         /* every edge gets at least this many passes, 1 .. 100 */
+  thr_ends ends;
+  bool *end_node;    /* [n_nodes] THR_ENDS_NODES only: where ends may be; owned, else NULL */
+  double mu;         /* friction coefficient cord on bead, used for the summary's pull factor */
+  double time_limit; /* s, 0 = none */
+} thr_plan_options;
+
+/* A cord: consecutive half-edges; half[i] arrives where half[i + 1] leaves. A closed cord also ends where it starts. */
+typedef struct {
+  char id[12];      /* "A", "B", .. "Z", "AA", .. */
+  int component;    /* of the framework, numbered by lowest node */
+  bool closed;      /* both ends at one node */
+  int n_passes;     /* >= 1 */
+  int *half;        /* [n_passes] owned */
+} thr_cord;
+
+/* One odd cut: the edges leaving a node set that holds an odd number of odd nodes. value is its dual multiplier in
+ * units of 1/denominator. Nodes >= n_nodes of the framework are slots (see thr_certificate). */
+typedef struct {
+  int n_nodes;
+  int *node;     /* ascending; owned */
+  int64_t value; /* >= 0 */
+} thr_cut;
+
+/* Proof of a lower bound on the extra cord of one component (Edmonds & Johnson 1973): a packing of odd cuts.
+ * Edge e weighs w_e = round(length_e * scale). With ends allowed at nodes F there are two more odd nodes, the slots
+ * n_nodes and n_nodes + 1, each joined to every node of F in the component by an edge of weight slot_cost, and to
+ * each other by one of 2 * slot_cost: a set of passes that leaves one open cord is then a T-join of that graph.
+ * If the cuts' values load no edge beyond w_e * denominator, no join is shorter than sum(value) / denominator. */
+typedef struct {
+  int component;
+  double scale;        /* integer weight per unit of length, > 0 */
+  int64_t denominator; /* > 0 */
+  int n_slots;         /* 0 (closed) or 2 */
+  int64_t slot_cost;
+  int64_t join;        /* weight of the extra passes of the plan, without slots */
+  int n_cuts;
+  thr_cut *cut;        /* owned */
+} thr_certificate;
+
+typedef struct {
+  bool present;
+  bool optimal;         /* proved: the checker agrees, or it says violation */
+  double lower_bound;   /* no plan with these options is shorter, in units of length */
+  double gap;           /* (length - lower_bound) / length */
+  int n_certificates;
+  thr_certificate *certificate; /* one per component; owned */
+} thr_length_proof;
+
+typedef struct {
+  double length;        /* of all cords, in units */
+  double base_length;   /* cover * sum of edge lengths */
+  double overlap;       /* length - base_length */
+  int passes;           /* of all cords */
+  int most_passes;      /* on one edge */
+  double turning;       /* sum of turning angles over all cords, rad; a closed cord counts the turn at its ends' node */
+  double max_turning;   /* of the cord that turns most, rad */
+  double worst_turn;    /* sharpest single turn, rad */
+  int u_turns;          /* turns from an edge back into the same edge */
+} thr_metrics;
+
+typedef struct {
+  thr_frame frame;
+  thr_plan_options options;
+  char *generator;      /* versions of program and libraries, one line; owned */
+  int n_cords;
+  thr_cord *cord;       /* owned */
+  thr_metrics metrics;
+  thr_length_proof proof;
+} thr_plan;
+
+thr_plan_options thr_plan_options_default(void);
+void thr_plan_destroy(thr_plan *p);
+void thr_cord_id(int i, char id[12]); /* 0 -> "A", 25 -> "Z", 26 -> "AA" */
+void thr_certificate_destroy(thr_certificate *c);
+
+const char *thr_ends_name(thr_ends e); /* "closed", "any", "feet", "nodes" */
+bool thr_plan_end_allowed(const thr_frame *f, const thr_plan_options *o, int v);
+
+/* First and last node of a cord (equal for a closed one). */
+int thr_cord_start(const thr_frame *f, const thr_cord *c);
+int thr_cord_end(const thr_frame *f, const thr_cord *c);
+double thr_cord_length(const thr_frame *f, const thr_cord *c);
+
+/* Turning angle in rad between arriving over half-edge in and leaving over half-edge out (head(in) = tail(out)):
+ * 0 = straight on, pi = U-turn. */
+double thr_turn_angle(const thr_frame *f, int in, int out);
+
+/* Sum of the turning angles inside a cord, rad; with_closure adds the turn between a closed cord's last and first pass. */
+double thr_cord_turning(const thr_frame *f, const thr_cord *c, bool with_closure);
+
+/* Computes metrics from frame, options.cover and cords alone. */
+thr_status thr_plan_measure(const thr_frame *f, int cover, const thr_cord *cord, int n_cords, thr_metrics *m, thr_err *err) THR_MUST_CHECK;
+
+/* JSON of a plan; and back. Reading checks structure (indices in range, consecutive passes meet is left to the checker
+ * as long as each pass names an edge and its two end nodes). Errors are "name: cords[2].nodes[17]: what". */
+void thr_plan_write(const thr_plan *p, thr_text *out);
+thr_status thr_plan_read(thr_plan *p, const char *path, thr_err *err) THR_MUST_CHECK;
+thr_status thr_plan_parse(thr_plan *p, const char *text, size_t n, const char *name, thr_err *err) THR_MUST_CHECK;
+
+#endif

@@ -1,0 +1,77 @@
+/* Status codes, error text and checked allocation. */
+#include "graph/status.h"
+
+#include <limits.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static long fail_at; /* 0: never; 1: the next allocation fails, and so does each later one */
+
+thr_status thr_fail(thr_err *err, thr_status code, const char *format, ...)
+{
+  if (err && err->code == THR_OK) {
+    va_list args;
+    va_start(args, format);
+    vsnprintf(err->text, sizeof err->text, format, args);
+    va_end(args);
+    for (char *c = err->text; *c; c++)
+      if ((unsigned char)*c < 32) *c = ' '; /* names from hostile files must not break the one-line rule */
+    err->code = code;
+  }
+  return code;
+}
+
+thr_status thr_nomem(thr_err *err)
+{
+  return thr_fail(err, THR_ENOMEM, "out of memory");
+}
+
+void thr_alloc_fail_at(long k)
+{
+  fail_at = k;
+}
+
+static bool may_allocate(size_t n, size_t size)
+{
+  if (fail_at > 1)
+    fail_at--;
+  else if (fail_at == 1)
+    return false;
+  return size == 0 || n <= PTRDIFF_MAX / size;
+}
+
+void *thr_calloc(size_t n, size_t size)
+{
+  if (!may_allocate(n, size)) return NULL;
+  return calloc(n ? n : 1, size ? size : 1);
+}
+
+void *thr_realloc(void *p, size_t n, size_t size)
+{
+  if (!may_allocate(n, size)) return NULL;
+  return realloc(p, n && size ? n * size : 1);
+}
+
+thr_status thr_grow(void *array, int count, int *capacity, size_t size, thr_err *err)
+{
+  if (count < *capacity) return THR_OK;
+  if (*capacity > INT_MAX / 2) return thr_nomem(err);
+  int wanted = *capacity ? 2 * *capacity : 16;
+  void *old, *grown;
+  memcpy(&old, array, sizeof old); /* array is the address of a T *, whatever T is */
+  grown = thr_realloc(old, (size_t)wanted, size);
+  if (!grown) return thr_nomem(err);
+  memcpy(array, &grown, sizeof grown);
+  *capacity = wanted;
+  return THR_OK;
+}
+
+char *thr_strdup(const char *s)
+{
+  size_t n = strlen(s) + 1;
+  char *copy = thr_calloc(n, 1);
+  if (copy) memcpy(copy, s, n);
+  return copy;
+}
