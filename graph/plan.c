@@ -1,0 +1,133 @@
+/* Plans: names, ends, turning angles, metrics. */
+#include "graph/plan.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+thr_plan_options thr_plan_options_default(void)
+{
+  return (thr_plan_options){.cover = 1, .ends = THR_ENDS_CLOSED, .end_node = NULL, .mu = 0.2, .time_limit = 0};
+}
+
+void thr_certificate_destroy(thr_certificate *c)
+{
+  for (int i = 0; i < c->n_cuts; i++)
+    free(c->cut[i].node);
+  free(c->cut);
+  *c = (thr_certificate){0};
+}
+
+void thr_plan_destroy(thr_plan *p)
+{
+  for (int i = 0; i < p->n_cords; i++)
+    free(p->cord[i].half);
+  free(p->cord);
+  for (int i = 0; i < p->proof.n_certificates; i++)
+    thr_certificate_destroy(&p->proof.certificate[i]);
+  free(p->proof.certificate);
+  free(p->options.end_node);
+  free(p->generator);
+  thr_frame_destroy(&p->frame);
+  *p = (thr_plan){0};
+}
+
+void thr_cord_id(int i, char id[12])
+{
+  char reversed[12];
+  int n = 0;
+  for (i++; i > 0; i = (i - 1) / 26)
+    reversed[n++] = (char)('A' + (i - 1) % 26);
+  for (int k = 0; k < n; k++)
+    id[k] = reversed[n - 1 - k];
+  id[n] = '\0';
+}
+
+const char *thr_ends_name(thr_ends e)
+{
+  static const char *const name[] = {"closed", "any", "feet", "nodes"};
+  return name[e];
+}
+
+bool thr_plan_end_allowed(const thr_frame *f, const thr_plan_options *o, int v)
+{
+  switch (o->ends) {
+  case THR_ENDS_FEET: return f->foot[v];
+  case THR_ENDS_NODES: return o->end_node[v];
+  default: return true;
+  }
+}
+
+int thr_cord_start(const thr_frame *f, const thr_cord *c)
+{
+  return thr_tail(f, c->half[0]);
+}
+
+int thr_cord_end(const thr_frame *f, const thr_cord *c)
+{
+  return thr_head(f, c->half[c->n_passes - 1]);
+}
+
+double thr_cord_length(const thr_frame *f, const thr_cord *c)
+{
+  double sum = 0;
+  for (int i = 0; i < c->n_passes; i++)
+    sum += f->length[c->half[i] >> 1];
+  return sum;
+}
+
+static void direction(const thr_frame *f, int h, double d[3])
+{
+  for (int i = 0; i < 3; i++)
+    d[i] = f->xyz[thr_head(f, h)][i] - f->xyz[thr_tail(f, h)][i];
+}
+
+double thr_turn_angle(const thr_frame *f, int in, int out)
+{
+  double a[3], b[3];
+  direction(f, in, a);
+  direction(f, out, b);
+  double cross[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  double dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  /* atan2 keeps full precision near 0 and pi, where acos loses half of it */
+  return atan2(sqrt(cross[0] * cross[0] + cross[1] * cross[1] + cross[2] * cross[2]), dot);
+}
+
+double thr_cord_turning(const thr_frame *f, const thr_cord *c, bool with_closure)
+{
+  double sum = 0;
+  for (int i = 0; i + 1 < c->n_passes; i++)
+    sum += thr_turn_angle(f, c->half[i], c->half[i + 1]);
+  if (with_closure && c->closed) sum += thr_turn_angle(f, c->half[c->n_passes - 1], c->half[0]);
+  return sum;
+}
+
+static void measure_cord(const thr_frame *f, const thr_cord *c, int *passes, thr_metrics *m)
+{
+  double turning = thr_cord_turning(f, c, true);
+  m->length += thr_cord_length(f, c);
+  m->passes += c->n_passes;
+  m->turning += turning;
+  if (turning > m->max_turning) m->max_turning = turning;
+  for (int i = 0; i < c->n_passes; i++) {
+    if (++passes[c->half[i] >> 1] > m->most_passes) m->most_passes = passes[c->half[i] >> 1];
+    if (i + 1 == c->n_passes && !c->closed) break;
+    int next = c->half[(i + 1) % c->n_passes];
+    double angle = thr_turn_angle(f, c->half[i], next);
+    if (angle > m->worst_turn) m->worst_turn = angle;
+    if (next == (c->half[i] ^ 1)) m->u_turns++;
+  }
+}
+
+thr_status thr_plan_measure(const thr_frame *f, int cover, const thr_cord *cord, int n_cords, thr_metrics *m, thr_err *err)
+{
+  *m = (thr_metrics){0};
+  int *passes = thr_calloc((size_t)f->n_edges, sizeof *passes);
+  if (!passes) return thr_nomem(err);
+  for (int i = 0; i < n_cords; i++)
+    measure_cord(f, &cord[i], passes, m);
+  m->base_length = cover * thr_frame_total_length(f);
+  m->overlap = m->length - m->base_length;
+  free(passes);
+  return THR_OK;
+}
