@@ -1,5 +1,6 @@
 /* The framework: drafts as readers collect them, welding, adjacency, hash. */
 #include "graph/frame.h"
+#include "graph/disjoint.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -43,23 +44,6 @@ void thr_draft_destroy(thr_draft *d)
 /* ---- welding: nodes closer than the tolerance are also close in their projection on any direction, so sort by a
  * projection that regular grids do not share and compare each node with the window before it ---- */
 
-static int find_root(int *parent, int v)
-{
-  while (parent[v] != v)
-    v = parent[v] = parent[parent[v]];
-  return v;
-}
-
-static void join_lowest(int *parent, int a, int b)
-{
-  a = find_root(parent, a);
-  b = find_root(parent, b);
-  if (a < b)
-    parent[b] = a;
-  else
-    parent[a] = b;
-}
-
 typedef struct {
   double along; /* projection on a fixed unit direction */
   int node;
@@ -92,11 +76,11 @@ static thr_status weld(const thr_draft *d, double tolerance, int *parent, thr_er
   for (int i = 0; i < n; i++)
     for (int j = i - 1; j >= 0 && !(p[i].along - p[j].along > tolerance); j--) {
       double apart = distance(d->node[p[i].node].xyz, d->node[p[j].node].xyz);
-      if (apart <= tolerance) join_lowest(parent, p[i].node, p[j].node);
+      if (apart <= tolerance) thr_disjoint_join(parent, p[i].node, p[j].node);
       if (apart == 0) break; /* what is close to this node was compared with its twin already */
     }
   for (int v = 0; v < n; v++)
-    parent[v] = find_root(parent, v);
+    parent[v] = thr_disjoint_find(parent, v);
   free(p);
   return THR_OK;
 }

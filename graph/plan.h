@@ -46,6 +46,7 @@ typedef struct {
   int n_slots;         /* 0 (closed) or 2 */
   int64_t slot_cost;
   int64_t join;        /* weight of the extra passes of the plan, without slots */
+  int64_t sum;         /* of the cuts' values */
   int n_cuts;
   thr_cut *cut;        /* owned */
 } thr_certificate;
@@ -104,8 +105,8 @@ double thr_cord_turning(const thr_frame *f, const thr_cord *c, bool with_closure
 /* Computes metrics from frame, options.cover and cords alone. */
 thr_status thr_plan_measure(const thr_frame *f, int cover, const thr_cord *cord, int n_cords, thr_metrics *m, thr_err *err) THR_MUST_CHECK;
 
-/* JSON of a plan; and back. Reading checks structure (indices in range, consecutive passes meet is left to the checker
- * as long as each pass names an edge and its two end nodes). Errors are "name: cords[2].nodes[17]: what". */
+/* JSON of a plan; and back. Errors are "name: place: what": THR_EINPUT for what is not a plan at all, THR_EVIOLATED for
+ * cords, metrics and proofs that contradict the framework (a pass whose edge does not join its two nodes). */
 void thr_plan_write(const thr_plan *p, thr_text *out);
 thr_status thr_plan_read(thr_plan *p, const char *path, thr_err *err) THR_MUST_CHECK;
 thr_status thr_plan_parse(thr_plan *p, const char *text, size_t n, const char *name, thr_err *err) THR_MUST_CHECK;

@@ -133,8 +133,9 @@ static void put_certificate(thr_text *t, const thr_certificate *c)
 {
   thr_text_printf(t, "{\"component\": %d, ", c->component);
   put_key_double(t, "scale", c->scale, ", ");
-  thr_text_printf(t, "\"denominator\": %" PRId64 ", \"slots\": %d, \"slot_cost\": %" PRId64 ", \"join\": %" PRId64 ",\n    \"cuts\": [",
-                  c->denominator, c->n_slots, c->slot_cost, c->join);
+  thr_text_printf(t, "\"denominator\": %" PRId64 ", \"slots\": %d, \"slot_cost\": %" PRId64 ", \"join\": %" PRId64
+                  ", \"sum\": %" PRId64 ",\n    \"cuts\": [",
+                  c->denominator, c->n_slots, c->slot_cost, c->join, c->sum);
   for (int k = 0; k < c->n_cuts; k++) {
     thr_text_printf(t, "%s      {\"value\": %" PRId64 ", \"nodes\": ", k ? ",\n" : "\n", c->cut[k].value);
     put_ints(t, c->cut[k].node, c->cut[k].n_nodes);
@@ -175,12 +176,13 @@ void thr_plan_write(const thr_plan *p, thr_text *t)
 
 typedef struct {
   const char *name; /* of the file, for messages */
+  thr_status code;  /* THR_EINPUT while the framework is read; a bad index in a cord or a proof is a violation */
   thr_err *err;
 } reader;
 
 static thr_status bad(const reader *r, const char *place, const char *what)
 {
-  return thr_fail(r->err, THR_EINPUT, "%s: %s: %s", r->name, place, what);
+  return thr_fail(r->err, r->code, "%s: %s: %s", r->name, place, what);
 }
 
 static thr_status need(const reader *r, const thr_json *o, const char *key, thr_json_type type, const thr_json **v)
@@ -188,7 +190,7 @@ static thr_status need(const reader *r, const thr_json *o, const char *key, thr_
   static const char *const article[] = {"null", "true or false", "a number", "text", "a list", "an object"};
   *v = thr_json_get(o, key);
   if (*v && thr_json_typeof(*v) == type) return THR_OK;
-  return thr_fail(r->err, THR_EINPUT, "%s: %s: %s; expected %s", r->name, key, *v ? "wrong type" : "missing", article[type]);
+  return thr_fail(r->err, r->code, "%s: %s: %s; expected %s", r->name, key, *v ? "wrong type" : "missing", article[type]);
 }
 
 static thr_status get_double(const reader *r, const thr_json *o, const char *key, double *out)
@@ -200,7 +202,7 @@ static thr_status get_double(const reader *r, const thr_json *o, const char *key
 static thr_status get_int64(const reader *r, const thr_json *o, const char *key, int64_t low, int64_t high, int64_t *out)
 {
   if (thr_json_int(thr_json_get(o, key), out) && *out >= low && *out <= high) return THR_OK;
-  return thr_fail(r->err, THR_EINPUT, "%s: %s: missing or not an integer from %" PRId64 " to %" PRId64, r->name, key, low, high);
+  return thr_fail(r->err, r->code, "%s: %s: missing or not an integer from %" PRId64 " to %" PRId64, r->name, key, low, high);
 }
 
 static thr_status get_int(const reader *r, const thr_json *o, const char *key, int low, int high, int *out)
@@ -216,9 +218,9 @@ static thr_status index_at(const reader *r, const thr_json *list, int i, int lim
 {
   int64_t wide;
   const thr_json *v = thr_json_at(list, i);
-  if (!thr_json_int(v, &wide)) return thr_fail(r->err, THR_EINPUT, "%s: %s[%d]: not an integer", r->name, place, i);
+  if (!thr_json_int(v, &wide)) return thr_fail(r->err, r->code, "%s: %s[%d]: not an integer", r->name, place, i);
   if (wide < 0 || wide >= limit)
-    return thr_fail(r->err, THR_EINPUT, "%s: %s[%d]: %" PRId64 " is out of range; expected 0 to %d", r->name, place, i, wide,
+    return thr_fail(r->err, r->code, "%s: %s[%d]: %" PRId64 " is out of range; expected 0 to %d", r->name, place, i, wide,
                     limit - 1);
   *out = (int)wide;
   return THR_OK;
@@ -326,7 +328,7 @@ static thr_status half_edge(const reader *r, const thr_frame *f, const char *id,
       *half = 2 * e + s;
       return THR_OK;
     }
-  return thr_fail(r->err, THR_EVIOLATED, "%s: cord %s, pass %d: edge %d joins nodes %d and %d, but the cord goes from %d to %d",
+  return thr_fail(r->err, r->code, "%s: cord %s, pass %d: edge %d joins nodes %d and %d, but the cord goes from %d to %d",
                   r->name, id, k + 1, e, f->edge[e][0], f->edge[e][1], a, b);
 }
 
@@ -416,6 +418,7 @@ static thr_status read_certificate(const reader *r, const thr_json *v, const thr
   if ((st = get_int(r, v, "slots", 0, 2, &c->n_slots))) return st;
   if ((st = get_int64(r, v, "slot_cost", 0, INT64_C(1) << 60, &c->slot_cost))) return st;
   if ((st = get_int64(r, v, "join", 0, INT64_C(1) << 60, &c->join))) return st;
+  if ((st = get_int64(r, v, "sum", 0, INT64_MAX, &c->sum))) return st;
   if ((st = need(r, v, "cuts", THR_JSON_ARRAY, &cuts))) return st;
   int n = thr_json_size(cuts);
   if (!(c->cut = thr_calloc((size_t)n, sizeof *c->cut))) return thr_nomem(r->err);
@@ -448,7 +451,7 @@ static thr_status read_proof(const reader *r, const thr_json *doc, const thr_fra
   return THR_OK;
 }
 
-static thr_status read_document(const reader *r, const thr_json *doc, thr_plan *p)
+static thr_status read_document(reader *r, const thr_json *doc, thr_plan *p)
 {
   const char *format = thr_json_string(thr_json_get(doc, "format"));
   int version;
@@ -460,6 +463,7 @@ static thr_status read_document(const reader *r, const thr_json *doc, thr_plan *
   if (!(p->generator = thr_strdup(generator ? generator : ""))) return thr_nomem(r->err);
   if ((st = read_frame(r, doc, &p->frame))) return st;
   if ((st = read_options(r, doc, &p->frame, &p->options))) return st;
+  r->code = THR_EVIOLATED;
   if ((st = read_cords(r, doc, p))) return st;
   if ((st = read_metrics(r, doc, &p->metrics))) return st;
   return read_proof(r, doc, &p->frame, &p->proof);
@@ -472,7 +476,7 @@ thr_status thr_plan_parse(thr_plan *p, const char *text, size_t n, const char *n
   *p = plan;
   thr_status st = thr_json_parse(&doc, text, n, name, err);
   if (st) return st;
-  st = read_document(&(reader){name, err}, doc, &plan);
+  st = read_document(&(reader){name, THR_EINPUT, err}, doc, &plan);
   thr_json_destroy(doc);
   if (st) thr_plan_destroy(&plan);
   *p = plan;

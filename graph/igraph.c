@@ -1,0 +1,61 @@
+/* The only file that knows igraph. igraph's default error handler aborts the program; ours returns the error code.
+ * No routine of igraph that uses GLPK may be called here: it would replace the hooks that lp/lp_glpk.c sets. */
+#include "graph/cuttree.h"
+
+#include <igraph.h>
+
+static thr_status failed(igraph_error_t code, thr_err *err)
+{
+  if (code == IGRAPH_ENOMEM) return thr_nomem(err);
+  return thr_fail(err, THR_ESOLVER, "igraph: %s", igraph_strerror(code));
+}
+
+static igraph_error_t cut_tree(const igraph_vector_int_t *ends, int n, const igraph_vector_t *capacity, int (*tree)[2], double *flow)
+{
+  igraph_t g, t;
+  igraph_vector_t flows;
+  igraph_error_t code = igraph_create(&g, ends, n, IGRAPH_UNDIRECTED);
+  if (code) return code;
+  if ((code = igraph_vector_init(&flows, 0))) goto no_flows;
+  if ((code = igraph_gomory_hu_tree(&g, &t, &flows, capacity))) goto no_tree;
+  for (int i = 0; i < n - 1; i++) {
+    tree[i][0] = (int)IGRAPH_FROM(&t, i);
+    tree[i][1] = (int)IGRAPH_TO(&t, i);
+    flow[i] = VECTOR(flows)[i];
+  }
+  igraph_destroy(&t);
+no_tree:
+  igraph_vector_destroy(&flows);
+no_flows:
+  igraph_destroy(&g);
+  return code;
+}
+
+thr_status thr_cut_tree(int n, int m, const int (*edge)[2], const double *capacity, int (*tree)[2], double *flow, thr_err *err)
+{
+  igraph_error_handler_t *old = igraph_set_error_handler(igraph_error_handler_ignore);
+  igraph_vector_int_t ends;
+  igraph_vector_t weights;
+  igraph_error_t code = igraph_vector_int_init(&ends, 2 * (igraph_integer_t)m);
+  if (code) goto no_ends;
+  if ((code = igraph_vector_init(&weights, m))) goto no_weights;
+  for (int e = 0; e < m; e++) {
+    VECTOR(ends)[2 * e] = edge[e][0];
+    VECTOR(ends)[2 * e + 1] = edge[e][1];
+    VECTOR(weights)[e] = capacity[e];
+  }
+  code = cut_tree(&ends, n, &weights, tree, flow);
+  igraph_vector_destroy(&weights);
+no_weights:
+  igraph_vector_int_destroy(&ends);
+no_ends:
+  igraph_set_error_handler(old);
+  return code ? failed(code, err) : THR_OK;
+}
+
+const char *thr_igraph_version(void)
+{
+  const char *text;
+  igraph_version(&text, NULL, NULL, NULL);
+  return text;
+}

@@ -1,0 +1,25 @@
+/* Time limits and interrupts. */
+#define _POSIX_C_SOURCE 200809L
+#include "graph/limits.h"
+
+#include <time.h>
+
+double thr_clock(void)
+{
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+double thr_limits_left(const thr_limits *l, double most)
+{
+  if (l->interrupted && *l->interrupted) return 0;
+  if (l->deadline == 0) return most;
+  double left = l->deadline - thr_clock();
+  return left < 0 ? 0 : left < most ? left : most;
+}
+
+bool thr_limits_stop(const thr_limits *l)
+{
+  return thr_limits_left(l, 1) <= 0;
+}

@@ -1,0 +1,284 @@
+/* The only file that knows GLPK. GLPK aborts on misuse and when memory runs out: every call runs under guarded(), whose
+ * error hook jumps out. After that GLPK's environment must be freed, which kills every problem of the process; each
+ * thr_lp remembers in which generation of the environment it was born. */
+#include "lp/lp.h"
+
+#include <glpk.h>
+#include <setjmp.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct thr_lp {
+  glp_prob *problem;
+  int generation;
+};
+
+static int generation;
+static jmp_buf escape;
+static char message[160]; /* GLPK's last words */
+
+static int keep_text(void *unused, const char *text)
+{
+  (void)unused;
+  size_t n = strcspn(text, "\n");
+  if (n > 0) {
+    if (n >= sizeof message) n = sizeof message - 1;
+    memcpy(message, text, n);
+    message[n] = '\0';
+  }
+  return 1; /* printed nothing, and GLPK must not either */
+}
+
+static void jump_out(void *unused)
+{
+  (void)unused;
+  longjmp(escape, 1);
+}
+
+/* Runs call(argument) with GLPK's aborts turned into THR_ESOLVER. The hooks are set anew each time because igraph,
+ * which shares the library, may have set its own. */
+static thr_status guarded(void (*call)(void *), void *argument, thr_err *err)
+{
+  message[0] = '\0';
+  glp_term_out(GLP_ON); /* through keep_text: an abort's reason passes here */
+  glp_term_hook(keep_text, NULL);
+  if (setjmp(escape)) {
+    glp_free_env();
+    generation++;
+    return thr_fail(err, THR_ESOLVER, "GLPK gave up: %s", message);
+  }
+  glp_error_hook(jump_out, NULL);
+  call(argument);
+  glp_error_hook(NULL, NULL);
+  glp_term_hook(NULL, NULL);
+  return THR_OK;
+}
+
+static thr_status check_alive(const thr_lp *lp, thr_err *err)
+{
+  if (lp->problem && lp->generation == generation) return THR_OK;
+  return thr_fail(err, THR_ESOLVER, "the linear programme was lost in an earlier failure of GLPK");
+}
+
+/* ---- building ---- */
+
+typedef struct {
+  thr_lp *lp;
+  int n;
+  const double *cost, *upper;
+} create_call;
+
+static void do_create(void *argument)
+{
+  create_call *c = argument;
+  glp_prob *p = c->lp->problem = glp_create_prob();
+  glp_set_obj_dir(p, GLP_MIN);
+  if (c->n > 0) glp_add_cols(p, c->n);
+  for (int j = 0; j < c->n; j++) {
+    glp_set_obj_coef(p, j + 1, c->cost[j]);
+    if (c->upper)
+      glp_set_col_bnds(p, j + 1, c->upper[j] > 0 ? GLP_DB : GLP_FX, 0, c->upper[j]);
+    else
+      glp_set_col_bnds(p, j + 1, GLP_LO, 0, 0);
+  }
+  glp_std_basis(p);
+}
+
+thr_status thr_lp_create(thr_lp **lp, int n_columns, const double *cost, const double *upper, thr_err *err)
+{
+  *lp = NULL;
+  thr_lp *made = thr_calloc(1, sizeof *made);
+  if (!made) return thr_nomem(err);
+  made->generation = generation;
+  create_call c = {made, n_columns, cost, upper};
+  thr_status st = guarded(do_create, &c, err);
+  if (st) {
+    free(made);
+    return st;
+  }
+  *lp = made;
+  return THR_OK;
+}
+
+static void do_destroy(void *argument)
+{
+  glp_delete_prob(argument);
+}
+
+void thr_lp_destroy(thr_lp *lp)
+{
+  if (!lp) return;
+  if (!check_alive(lp, NULL) && guarded(do_destroy, lp->problem, NULL)) lp->problem = NULL;
+  free(lp);
+}
+
+typedef struct {
+  glp_prob *problem;
+  int n, *index; /* both arrays are 1-based, as GLPK wants them */
+  double *value, lower;
+} row_call;
+
+static void do_add_row(void *argument)
+{
+  row_call *c = argument;
+  int row = glp_add_rows(c->problem, 1);
+  glp_set_row_bnds(c->problem, row, GLP_LO, c->lower, 0);
+  glp_set_mat_row(c->problem, row, c->n, c->index, c->value);
+}
+
+thr_status thr_lp_add_row(thr_lp *lp, int n, const int *column, const double *value, double lower, thr_err *err)
+{
+  thr_status st = check_alive(lp, err);
+  if (st) return st;
+  row_call c = {lp->problem, n, thr_calloc((size_t)n + 1, sizeof(int)), thr_calloc((size_t)n + 1, sizeof(double)), lower};
+  if (!c.index || !c.value) {
+    st = thr_nomem(err);
+    goto done;
+  }
+  for (int i = 0; i < n; i++) {
+    c.index[i + 1] = column[i] + 1;
+    c.value[i + 1] = value ? value[i] : 1;
+  }
+  st = guarded(do_add_row, &c, err);
+done:
+  free(c.index);
+  free(c.value);
+  return st;
+}
+
+typedef struct {
+  glp_prob *problem;
+  int n, *row;
+} drop_call;
+
+static void do_drop(void *argument)
+{
+  drop_call *c = argument;
+  glp_del_rows(c->problem, c->n, c->row);
+}
+
+thr_status thr_lp_drop_rows(thr_lp *lp, const bool *drop, thr_err *err)
+{
+  thr_status st = check_alive(lp, err);
+  if (st) return st;
+  int n = glp_get_num_rows(lp->problem);
+  drop_call c = {lp->problem, 0, thr_calloc((size_t)n + 1, sizeof(int))};
+  if (!c.row) return thr_nomem(err);
+  for (int i = 0; i < n; i++)
+    if (drop[i]) c.row[++c.n] = i + 1;
+  if (c.n > 0) st = guarded(do_drop, &c, err);
+  free(c.row);
+  return st;
+}
+
+int thr_lp_rows(const thr_lp *lp)
+{
+  return glp_get_num_rows(lp->problem);
+}
+
+typedef struct {
+  glp_prob *problem;
+  const double *cost;
+} cost_call;
+
+static void do_set_costs(void *argument)
+{
+  cost_call *c = argument;
+  for (int j = 1; j <= glp_get_num_cols(c->problem); j++)
+    glp_set_obj_coef(c->problem, j, c->cost[j - 1]);
+}
+
+thr_status thr_lp_set_costs(thr_lp *lp, const double *cost, thr_err *err)
+{
+  thr_status st = check_alive(lp, err);
+  cost_call c = {lp->problem, cost};
+  return st ? st : guarded(do_set_costs, &c, err);
+}
+
+/* ---- solving ---- */
+
+typedef struct {
+  glp_prob *problem;
+  bool exact;
+  int milliseconds, code;
+} solve_call;
+
+static void do_solve(void *argument)
+{
+  solve_call *c = argument;
+  glp_smcp options;
+  glp_init_smcp(&options);
+  options.msg_lev = GLP_MSG_OFF;
+  options.meth = GLP_DUALP; /* after new rows the basis stays dual feasible; it falls back to primal if not */
+  options.tm_lim = c->milliseconds;
+  c->code = c->exact ? glp_exact(c->problem, &options) : glp_simplex(c->problem, &options);
+}
+
+static void do_reset_basis(void *argument)
+{
+  glp_std_basis(argument);
+}
+
+static thr_lp_outcome outcome_of(glp_prob *problem)
+{
+  switch (glp_get_status(problem)) {
+  case GLP_OPT: return THR_LP_OPTIMAL;
+  case GLP_UNBND: return THR_LP_UNBOUNDED;
+  case GLP_NOFEAS: return THR_LP_INFEASIBLE;
+  default: return THR_LP_STOPPED;
+  }
+}
+
+static thr_status solve(thr_lp *lp, bool exact, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)
+{
+  /* Short slices, because an interrupt can only be seen between them; a slice keeps its basis. */
+  const double slice = 0.25;
+  *outcome = THR_LP_STOPPED;
+  thr_status st = check_alive(lp, err);
+  for (int restarts = 0; !st;) {
+    double seconds = thr_limits_left(limits, slice);
+    if (seconds <= 0) return THR_OK;
+    solve_call c = {lp->problem, exact, 1 + (int)(1000 * seconds), 0};
+    if ((st = guarded(do_solve, &c, err))) return st;
+    if (c.code == 0 && outcome_of(lp->problem) != THR_LP_STOPPED) {
+      *outcome = outcome_of(lp->problem);
+      return THR_OK;
+    }
+    if (c.code == GLP_ETMLIM) continue;
+    if (restarts++) return thr_fail(err, THR_ESOLVER, "GLPK's simplex method failed (code %d)", c.code);
+    st = guarded(do_reset_basis, lp->problem, err); /* a singular basis is refused, not repaired */
+  }
+  return st;
+}
+
+thr_status thr_lp_solve(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)
+{
+  return solve(lp, false, limits, outcome, err);
+}
+
+thr_status thr_lp_solve_exact(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)
+{
+  return solve(lp, true, limits, outcome, err);
+}
+
+void thr_lp_primal(const thr_lp *lp, double *x)
+{
+  for (int j = 1; j <= glp_get_num_cols(lp->problem); j++)
+    x[j - 1] = glp_get_col_prim(lp->problem, j);
+}
+
+void thr_lp_dual(const thr_lp *lp, double *dual)
+{
+  for (int i = 1; i <= glp_get_num_rows(lp->problem); i++)
+    dual[i - 1] = glp_get_row_dual(lp->problem, i);
+}
+
+double thr_lp_objective(const thr_lp *lp)
+{
+  return glp_get_obj_val(lp->problem);
+}
+
+const char *thr_glpk_version(void)
+{
+  return glp_version();
+}
