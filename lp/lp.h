@@ -18,6 +18,9 @@ void thr_lp_destroy(thr_lp *lp);
  * next solve starts from the last one. */
 thr_status thr_lp_add_row(thr_lp *lp, int n, const int *column, const double *value, double lower, thr_err *err) THR_MUST_CHECK;
 
+/* Is the row's slack basic, so that the row can go without spoiling the basis? */
+bool thr_lp_row_basic(const thr_lp *lp, int row);
+
 /* Removes the rows marked in drop[n_rows]; the others keep their order. */
 thr_status thr_lp_drop_rows(thr_lp *lp, const bool *drop, thr_err *err) THR_MUST_CHECK;
 

@@ -171,6 +171,11 @@ thr_status thr_lp_drop_rows(thr_lp *lp, const bool *drop, thr_err *err)
   return st;
 }
 
+bool thr_lp_row_basic(const thr_lp *lp, int row)
+{
+  return glp_get_row_stat(lp->problem, row + 1) == GLP_BS;
+}
+
 int thr_lp_rows(const thr_lp *lp)
 {
   return glp_get_num_rows(lp->problem);
@@ -211,6 +216,7 @@ static void do_solve(void *argument)
   options.msg_lev = GLP_MSG_OFF;
   options.meth = GLP_DUALP; /* after new rows the basis stays dual feasible; it falls back to primal if not */
   options.tm_lim = c->milliseconds;
+  options.tol_dj = 1e-9; /* the duals become certificates: GLPK's 1e-7 is too coarse to close them */
   c->code = c->exact ? glp_exact(c->problem, &options) : glp_simplex(c->problem, &options);
 }
 
@@ -231,8 +237,9 @@ static thr_lp_outcome outcome_of(glp_prob *problem)
 
 static thr_status solve(thr_lp *lp, bool exact, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)
 {
-  /* Short slices, because an interrupt can only be seen between them; a slice keeps its basis. */
-  const double slice = 0.25;
+  /* Short slices, because an interrupt can only be seen between them; a slice keeps its basis. The exact method factorizes
+   * in rational arithmetic at each start, so its slices must be long. */
+  const double slice = exact ? 20 : 0.25;
   *outcome = THR_LP_STOPPED;
   thr_status st = check_alive(lp, err);
   for (int restarts = 0; !st;) {

@@ -1,0 +1,394 @@
+/* The checker. Nothing here trusts what a plan says about itself; nothing here comes from the code that made it. */
+#include "graph/check.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+__extension__ typedef __int128 wide; /* sums of hostile 64-bit multipliers cannot overflow it */
+
+/* Lengths are sums of doubles, taken in an order of the plan's own. */
+static bool close_to(double a, double b)
+{
+  return fabs(a - b) <= 1e-9 * (1 + fabs(a) + fabs(b));
+}
+
+/* ---- cords ---- */
+
+static thr_status check_walk(const thr_frame *f, const thr_cord *c, thr_err *err)
+{
+  for (int i = 0; i + 1 < c->n_passes; i++)
+    if (thr_head(f, c->half[i]) != thr_tail(f, c->half[i + 1]))
+      return thr_fail(err, THR_EVIOLATED, "cord %s, pass %d: ends at node %d, but pass %d starts at node %d", c->id, i + 1,
+                      thr_head(f, c->half[i]), i + 2, thr_tail(f, c->half[i + 1]));
+  bool meets = thr_cord_start(f, c) == thr_cord_end(f, c);
+  if (c->closed != meets)
+    return thr_fail(err, THR_EVIOLATED, "cord %s: said to be %s, but runs from node %d to node %d", c->id, c->closed ? "closed" : "open",
+                    thr_cord_start(f, c), thr_cord_end(f, c));
+  return THR_OK;
+}
+
+static thr_status check_ends(const thr_frame *f, const thr_plan_options *o, const thr_cord *c, thr_err *err)
+{
+  if (o->ends == THR_ENDS_CLOSED && !c->closed)
+    return thr_fail(err, THR_EVIOLATED, "cord %s: open, but the plan's options say closed", c->id);
+  int end[2] = {thr_cord_start(f, c), thr_cord_end(f, c)};
+  for (int i = 0; i < 2; i++)
+    if (!thr_plan_end_allowed(f, o, end[i]))
+      return thr_fail(err, THR_EVIOLATED, "cord %s: %s at node %d, where no cord end is allowed", c->id, i ? "ends" : "starts", end[i]);
+  return THR_OK;
+}
+
+static thr_status check_cords(const thr_frame *f, const thr_plan_options *o, const int *component, const thr_cord *cord, int n_cords,
+                              int *passes, thr_err *err)
+{
+  thr_status st;
+  for (int i = 0; i < n_cords; i++) {
+    const thr_cord *c = &cord[i];
+    if ((st = check_walk(f, c, err))) return st;
+    if ((st = check_ends(f, o, c, err))) return st;
+    if (component[thr_cord_start(f, c)] != c->component)
+      return thr_fail(err, THR_EVIOLATED, "cord %s: said to be in component %d, but runs in component %d", c->id, c->component,
+                      component[thr_cord_start(f, c)]);
+    for (int k = 0; k < c->n_passes; k++)
+      passes[c->half[k] >> 1]++;
+  }
+  for (int e = 0; e < f->n_edges; e++)
+    if (passes[e] < o->cover)
+      return thr_fail(err, THR_EVIOLATED, "edge %d (nodes %d and %d): %d of %d passes", e, f->edge[e][0], f->edge[e][1], passes[e],
+                      o->cover);
+  return THR_OK;
+}
+
+/* ---- one certificate ---- */
+
+/* What it proves about the extra cord of its component. */
+typedef struct {
+  bool optimal;       /* the component's extra passes are a shortest join */
+  double extra_bound; /* no plan has less extra cord in this component, in units of length */
+} verdict_t;
+
+int64_t thr_certificate_weight(const thr_frame *f, const thr_certificate *c, int e)
+{
+  return (int64_t)nearbyint(f->length[e] * c->scale);
+}
+
+/* Work space over framework and slots, all zero between certificates. */
+typedef struct {
+  const thr_frame *f;
+  const thr_plan_options *o;
+  const int *component;
+  int *start, *node;  /* nodes of component k: node[start[k] .. start[k + 1] - 1] */
+  const thr_certificate *c;
+  wide *load;         /* [n_edges] */
+  wide *slot_load;    /* [2 * n_nodes] see load_set */
+  wide slot_base[2];  /* sum of the values of the sets that hold slot i */
+  wide between;       /* load of the edge between the slots */
+  bool *member;       /* [n_nodes + 2] */
+} certificate_check;
+
+static bool is_odd(const certificate_check *k, int v)
+{
+  if (v >= k->f->n_nodes) return true; /* a slot */
+  return (k->o->cover * thr_degree(k->f, v)) % 2 != 0;
+}
+
+static thr_status check_set(certificate_check *k, int i, thr_err *err)
+{
+  const thr_certificate *c = k->c;
+  const thr_cut *cut = &c->cut[i];
+  bool odd = false;
+  if (cut->value < 0)
+    return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: multiplier %" PRId64 " is negative", c->component, i,
+                    cut->value);
+  for (int j = 0; j < cut->n_nodes; j++) {
+    int v = cut->node[j];
+    if (j > 0 && v <= cut->node[j - 1])
+      return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: nodes are not ascending at %d", c->component, i, v);
+    if (v < k->f->n_nodes && k->component[v] != c->component)
+      return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: node %d is in component %d", c->component, i, v,
+                      k->component[v]);
+    odd ^= is_odd(k, v);
+  }
+  if (!odd)
+    return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: holds an even number of odd nodes", c->component, i);
+  return THR_OK;
+}
+
+/* Adds the multiplier of a cut to the edges that leave its set. The edge between slot i and node v is loaded by the sets that
+ * hold exactly one of them: slot_base[i] counts all sets with the slot, slot_load corrects it for those with v. */
+static void load_set(certificate_check *k, const thr_cut *cut)
+{
+  int n = k->f->n_nodes;
+  for (int j = 0; j < cut->n_nodes; j++)
+    k->member[cut->node[j]] = true;
+  for (int j = 0; j < cut->n_nodes; j++) {
+    int v = cut->node[j];
+    if (v >= n) {
+      k->slot_base[v - n] += cut->value;
+      continue;
+    }
+    for (int i = k->f->first[v]; i < k->f->first[v + 1]; i++)
+      if (!k->member[thr_head(k->f, k->f->half[i])]) k->load[k->f->half[i] >> 1] += cut->value;
+    for (int i = 0; i < k->c->n_slots; i++)
+      k->slot_load[2 * v + i] += k->member[n + i] ? -cut->value : cut->value;
+  }
+  if (k->member[n] != k->member[n + 1]) k->between += cut->value;
+  for (int j = 0; j < cut->n_nodes; j++)
+    k->member[cut->node[j]] = false;
+}
+
+static thr_status overloaded(const certificate_check *k, const char *what, int at, thr_err *err)
+{
+  return thr_fail(err, THR_EVIOLATED, "certificate of component %d: the cuts over %s %d add up to more than its weight", k->c->component,
+                  what, at);
+}
+
+/* Each edge of the component exactly once: by its first node. */
+#define FOR_EDGES(k, e)                                                                                                           \
+  for (int at_ = (k)->start[(k)->c->component]; at_ < (k)->start[(k)->c->component + 1]; at_++)                                    \
+    for (int i_ = (k)->f->first[(k)->node[at_]], e; i_ < (k)->f->first[(k)->node[at_] + 1]; i_++)                                  \
+      if ((k)->f->half[i_] % 2 == 0 && (e = (k)->f->half[i_] / 2, true))
+
+static thr_status check_loads(const certificate_check *k, thr_err *err)
+{
+  const thr_certificate *c = k->c;
+  FOR_EDGES(k, e)
+    if (k->load[e] > (wide)thr_certificate_weight(k->f, c, e) * c->denominator) return overloaded(k, "edge", e, err);
+  for (int j = k->start[c->component]; j < k->start[c->component + 1]; j++) {
+    int v = k->node[j];
+    if (!thr_plan_end_allowed(k->f, k->o, v)) continue;
+    for (int i = 0; i < c->n_slots; i++)
+      if (k->slot_base[i] + k->slot_load[2 * v + i] > (wide)c->slot_cost * c->denominator)
+        return overloaded(k, "the slot edge at node", v, err);
+  }
+  if (k->between > 2 * (wide)c->slot_cost * c->denominator) return overloaded(k, "the edge between the slots of component", c->component, err);
+  return THR_OK;
+}
+
+static void clear(certificate_check *k)
+{
+  FOR_EDGES(k, e) k->load[e] = 0;
+  for (int j = k->start[k->c->component]; j < k->start[k->c->component + 1]; j++)
+    k->slot_load[2 * k->node[j]] = k->slot_load[2 * k->node[j] + 1] = 0;
+  k->slot_base[0] = k->slot_base[1] = k->between = 0;
+}
+
+/* Compares the stated sums with the true ones, and says what they prove. */
+static thr_status judge(const certificate_check *k, wide sum, const int *passes, verdict_t *verdict, thr_err *err)
+{
+  const thr_certificate *c = k->c;
+  wide join = 0, slots = (wide)c->n_slots * c->slot_cost;
+  double rounding = 0, total = 0;
+  FOR_EDGES(k, e) {
+    int64_t w = thr_certificate_weight(k->f, c, e);
+    join += (wide)w * (passes[e] - k->o->cover);
+    rounding += fabs(k->f->length[e] - (double)w / c->scale);
+    total += k->f->length[e];
+  }
+  if (sum != c->sum)
+    return thr_fail(err, THR_EVIOLATED, "certificate of component %d: the multipliers do not add up to the stated sum %" PRId64, c->component,
+                    c->sum);
+  if (join != c->join)
+    return thr_fail(err, THR_EVIOLATED, "certificate of component %d: the extra passes do not weigh the stated %" PRId64, c->component,
+                    c->join);
+  /* One cord is a T-join of weight join + slots, and weights are integers: nothing fits between the bound and the next one. */
+  double bound = (double)(sum - slots * c->denominator) / (double)c->denominator / c->scale - rounding;
+  verdict->extra_bound = bound > 0 ? bound : 0;
+  verdict->optimal = join == 0 || (sum > (join + slots - 1) * c->denominator && rounding <= 1e-9 * total);
+  return THR_OK;
+}
+
+static thr_status check_numbers(const certificate_check *k, thr_err *err)
+{
+  const thr_certificate *c = k->c;
+  if (!(c->scale > 0) || c->denominator < 1)
+    return thr_fail(err, THR_EVIOLATED, "certificate of component %d: scale and denominator must be positive", c->component);
+  FOR_EDGES(k, e)
+    if (!(k->f->length[e] * c->scale < 1e18))
+      return thr_fail(err, THR_EVIOLATED, "certificate of component %d: scale is too large for edge %d", c->component, e);
+  if (c->n_slots != (k->o->ends == THR_ENDS_CLOSED ? 0 : 2))
+    return thr_fail(err, THR_EVIOLATED, "certificate of component %d: %d slots do not fit ends %s", c->component, c->n_slots,
+                    thr_ends_name(k->o->ends));
+  return THR_OK;
+}
+
+static thr_status run_certificate(certificate_check *k, const int *passes, verdict_t *verdict, thr_err *err)
+{
+  const thr_certificate *c = k->c;
+  wide sum = 0;
+  thr_status st = check_numbers(k, err);
+  if (st) return st;
+  for (int i = 0; i < c->n_cuts && !st; i++) {
+    if ((st = check_set(k, i, err))) break;
+    load_set(k, &c->cut[i]);
+    sum += c->cut[i].value;
+  }
+  if (!st) st = check_loads(k, err);
+  if (!st) st = judge(k, sum, passes, verdict, err);
+  clear(k);
+  return st;
+}
+
+static void certificate_check_destroy(certificate_check *k)
+{
+  free(k->start);
+  free(k->node);
+  free(k->load);
+  free(k->slot_load);
+  free(k->member);
+}
+
+static thr_status certificate_check_init(certificate_check *k, const thr_frame *f, const thr_plan_options *o, const int *component, thr_err *err)
+{
+  size_t n = (size_t)f->n_nodes;
+  *k = (certificate_check){.f = f, .o = o, .component = component};
+  k->start = thr_calloc(n + 2, sizeof *k->start);
+  k->node = thr_calloc(n, sizeof *k->node);
+  k->load = thr_calloc((size_t)f->n_edges, sizeof *k->load);
+  k->slot_load = thr_calloc(2 * n, sizeof *k->slot_load);
+  k->member = thr_calloc(n + 2, sizeof *k->member);
+  if (!k->start || !k->node || !k->load || !k->slot_load || !k->member) {
+    certificate_check_destroy(k);
+    return thr_nomem(err);
+  }
+  for (size_t v = 0; v < n; v++)
+    k->start[component[v] + 2]++;
+  for (size_t i = 1; i <= n; i++)
+    k->start[i + 1] += k->start[i];
+  for (int v = 0; v < f->n_nodes; v++)
+    k->node[k->start[component[v] + 1]++] = v;
+  return THR_OK;
+}
+
+/* ---- the whole proof ---- */
+
+static thr_status sum_verdicts(certificate_check *k, const int *passes, const thr_certificate *certificate, int n, bool *optimal,
+                               double *extra, thr_err *err)
+{
+  *optimal = true;
+  *extra = 0;
+  for (int i = 0; i < n; i++) {
+    verdict_t verdict;
+    if (certificate[i].component != i)
+      return thr_fail(err, THR_EVIOLATED, "certificate %d is for component %d; expected one per component in order", i,
+                      certificate[i].component);
+    k->c = &certificate[i];
+    thr_status st = run_certificate(k, passes, &verdict, err);
+    if (st) return st;
+    *optimal &= verdict.optimal;
+    *extra += verdict.extra_bound;
+  }
+  return THR_OK;
+}
+
+thr_status thr_check_length_proof(const thr_frame *f, const thr_plan_options *o, const thr_cord *cord, int n_cords,
+                                  const thr_certificate *certificate, int n_certificates, bool *optimal, double *lower_bound,
+                                  thr_err *err)
+{
+  thr_status st;
+  int n_components;
+  double extra;
+  certificate_check k = {0};
+  int *component = thr_calloc((size_t)f->n_nodes, sizeof *component), *passes = thr_calloc((size_t)f->n_edges, sizeof *passes);
+  if (!component || !passes) {
+    st = thr_nomem(err);
+    goto done;
+  }
+  if ((st = thr_frame_components(f, component, &n_components, err))) goto done;
+  if ((st = check_cords(f, o, component, cord, n_cords, passes, err))) goto done;
+  if (n_cords != n_components || n_certificates != n_components) {
+    st = thr_fail(err, THR_EVIOLATED, "%d cords and %d certificates for %d components; expected one of each per component", n_cords,
+                  n_certificates, n_components);
+    goto done;
+  }
+  if ((st = certificate_check_init(&k, f, o, component, err))) goto done;
+  if ((st = sum_verdicts(&k, passes, certificate, n_certificates, optimal, &extra, err))) goto done;
+  double length = 0;
+  for (int i = 0; i < n_cords; i++)
+    length += thr_cord_length(f, &cord[i]);
+  *lower_bound = *optimal ? length : fmin(length, o->cover * thr_frame_total_length(f) + extra);
+done:
+  certificate_check_destroy(&k);
+  free(component);
+  free(passes);
+  return st;
+}
+
+/* ---- the whole plan ---- */
+
+static thr_status metric(const char *name, double stated, double found, thr_err *err)
+{
+  if (close_to(stated, found)) return THR_OK;
+  return thr_fail(err, THR_EVIOLATED, "metrics.%s: stated %.12g, but the cords give %.12g", name, stated, found);
+}
+
+static thr_status check_metrics(const thr_plan *p, thr_err *err)
+{
+  thr_metrics m;
+  const thr_metrics *s = &p->metrics;
+  thr_status st = thr_plan_measure(&p->frame, p->options.cover, p->cord, p->n_cords, &m, err);
+  if (st) return st;
+  if ((st = metric("length", s->length, m.length, err))) return st;
+  if ((st = metric("base_length", s->base_length, m.base_length, err))) return st;
+  if ((st = metric("overlap", s->overlap, m.overlap, err))) return st;
+  if ((st = metric("passes", s->passes, m.passes, err))) return st;
+  if ((st = metric("most_passes", s->most_passes, m.most_passes, err))) return st;
+  if ((st = metric("turning", s->turning, m.turning, err))) return st;
+  if ((st = metric("max_turning", s->max_turning, m.max_turning, err))) return st;
+  if ((st = metric("worst_turn", s->worst_turn, m.worst_turn, err))) return st;
+  return metric("u_turns", s->u_turns, m.u_turns, err);
+}
+
+static thr_status check_claim(const thr_plan *p, thr_err *err)
+{
+  bool optimal;
+  double lower_bound;
+  const thr_length_proof *claim = &p->proof;
+  thr_status st = thr_check_length_proof(&p->frame, &p->options, p->cord, p->n_cords, claim->certificate, claim->n_certificates, &optimal,
+                                         &lower_bound, err);
+  if (st) return st;
+  if (claim->optimal && !optimal)
+    return thr_fail(err, THR_EVIOLATED, "proof.length: says optimal, but the certificate only proves %.12g of %.12g", lower_bound,
+                    p->metrics.length);
+  if (claim->lower_bound > lower_bound && !close_to(claim->lower_bound, lower_bound))
+    return thr_fail(err, THR_EVIOLATED, "proof.length.lower_bound: stated %.12g, but the certificate proves %.12g", claim->lower_bound,
+                    lower_bound);
+  if (!close_to(claim->gap, (p->metrics.length - claim->lower_bound) / p->metrics.length))
+    return thr_fail(err, THR_EVIOLATED, "proof.length.gap: stated %.12g, but length and lower bound give %.12g", claim->gap,
+                    (p->metrics.length - claim->lower_bound) / p->metrics.length);
+  return THR_OK;
+}
+
+static thr_status check_names(const thr_plan *p, thr_err *err)
+{
+  for (int i = 0; i < p->n_cords; i++) {
+    char id[12];
+    thr_cord_id(i, id);
+    if (strcmp(p->cord[i].id, id) != 0)
+      return thr_fail(err, THR_EVIOLATED, "cord number %d is called %s; expected %s", i + 1, p->cord[i].id, id);
+  }
+  return THR_OK;
+}
+
+thr_status thr_check_plan(const thr_plan *p, thr_err *err)
+{
+  thr_status st;
+  int n_components;
+  int *component = thr_calloc((size_t)p->frame.n_nodes, sizeof *component);
+  int *passes = thr_calloc((size_t)p->frame.n_edges, sizeof *passes);
+  if (!component || !passes) {
+    st = thr_nomem(err);
+    goto done;
+  }
+  if ((st = thr_frame_components(&p->frame, component, &n_components, err))) goto done;
+  if ((st = check_names(p, err))) goto done;
+  if ((st = check_cords(&p->frame, &p->options, component, p->cord, p->n_cords, passes, err))) goto done;
+  if ((st = check_metrics(p, err))) goto done;
+  if (p->proof.present) st = check_claim(p, err);
+done:
+  free(component);
+  free(passes);
+  return st;
+}

@@ -1,0 +1,21 @@
+/* The independent checker: recomputes every claim of a plan from its framework and cords, with no solver. */
+#ifndef THR_CHECK_H
+#define THR_CHECK_H
+
+#include "graph/plan.h"
+
+/* Integer weight of an edge under a certificate's scale. */
+int64_t thr_certificate_weight(const thr_frame *f, const thr_certificate *c, int e);
+
+/* Verifies all certificates, one per component, in exact integers: sets odd and inside the component, multipliers >= 0, no
+ * edge overloaded, sum and join as stated. Gives the lower bound on the plan's length: the length itself if every
+ * component is optimal. *optimal and *lower_bound are what a plan may claim. THR_EVIOLATED with the place and the
+ * numbers. O(sum of the degrees of the cuts' nodes). */
+thr_status thr_check_length_proof(const thr_frame *f, const thr_plan_options *o, const thr_cord *cord, int n_cords,
+                                  const thr_certificate *certificate, int n_certificates, bool *optimal, double *lower_bound,
+                                  thr_err *err) THR_MUST_CHECK;
+
+/* Verifies the whole plan. THR_OK, or THR_EVIOLATED with the first violation: cord, pass, nodes or certificate, cut, edge. */
+thr_status thr_check_plan(const thr_plan *p, thr_err *err) THR_MUST_CHECK;
+
+#endif

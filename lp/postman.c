@@ -1,0 +1,334 @@
+/* Framework -> T-join problem per component -> multiplicities and ends -> cords -> plan. */
+#include "lp/postman.h"
+#include "graph/check.h"
+#include "graph/tour.h"
+#include "lp/tjoin.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Sum of the integer weights of a component: 2^44 leaves each length exact to about 1e-13 of the sum, and the sum
+ * of all dual values in 64 bits. */
+#define WEIGHT_SUM 17592186044416.0
+
+typedef struct {
+  const thr_frame *f;
+  const thr_plan_options *o;
+  const thr_limits *limits;
+  int n_components;
+  int *component;       /* [n_nodes] */
+  int *start, *node;    /* nodes of component k: node[start[k] .. start[k + 1] - 1] */
+  int *local;           /* [n_nodes] position within the component */
+  int *passes;          /* [n_edges] result */
+  int (*ends)[2];       /* [n_components] result */
+  thr_certificate *certificate; /* [n_components] result */
+} postman;
+
+/* The T-join problem of one component; its edges are the component's, then the slots'. */
+typedef struct {
+  int n_nodes, n_edges, n_own; /* n_own: edges of the framework */
+  int (*edge)[2];
+  int64_t *weight;
+  bool *odd;
+  int *frame_edge;  /* [n_own] */
+  int *end_node;    /* [n_edges - n_own] framework node that a slot edge leads to, -1 for the edge between slots */
+} instance;
+
+static void instance_destroy(instance *in)
+{
+  free(in->edge);
+  free(in->weight);
+  free(in->odd);
+  free(in->frame_edge);
+  free(in->end_node);
+  *in = (instance){0};
+}
+
+static int64_t gcd(int64_t a, int64_t b)
+{
+  while (b) {
+    int64_t r = a % b;
+    a = b;
+    b = r;
+  }
+  return a;
+}
+
+/* A scale under which lengths round to integers: if the rounded weights have a common divisor that is no accident of
+ * rounding (all beads equal: the normal case), divide by it, which makes ties exact and multipliers small. */
+static double choose_scale(const thr_frame *f, const instance *in)
+{
+  double sum = 0;
+  for (int i = 0; i < in->n_own; i++)
+    sum += f->length[in->frame_edge[i]];
+  double scale = WEIGHT_SUM / sum;
+  int64_t divisor = 0;
+  for (int i = 0; i < in->n_own; i++)
+    divisor = gcd(divisor, (int64_t)nearbyint(f->length[in->frame_edge[i]] * scale));
+  if (divisor > 1) scale /= (double)divisor;
+  /* Dividing by a length close to the divisor is off by its rounding error; only an exact fit may be used. */
+  if (divisor > 1)
+    for (int i = 0; i < in->n_own; i++) {
+      double length = f->length[in->frame_edge[i]];
+      if (fabs(length - nearbyint(length * scale) / scale) > 1e-13 * sum) return WEIGHT_SUM / sum;
+    }
+  return scale;
+}
+
+static thr_status instance_allocate(instance *in, int n_slots, int n_end_nodes, thr_err *err)
+{
+  int n_slot_edges = n_slots ? 1 + n_slots * n_end_nodes : 0;
+  in->n_edges = in->n_own + n_slot_edges;
+  in->n_nodes += n_slots;
+  in->edge = thr_calloc((size_t)in->n_edges, sizeof *in->edge);
+  in->weight = thr_calloc((size_t)in->n_edges, sizeof *in->weight);
+  in->odd = thr_calloc((size_t)in->n_nodes, sizeof *in->odd);
+  in->frame_edge = thr_calloc((size_t)in->n_own, sizeof *in->frame_edge);
+  in->end_node = thr_calloc((size_t)n_slot_edges, sizeof *in->end_node);
+  return in->edge && in->weight && in->odd && in->frame_edge && in->end_node ? THR_OK : thr_nomem(err);
+}
+
+/* No two nodes of the component are further apart than twice this: the longest path from its first node in a
+ * breadth-first tree. in->odd serves as the mark of visited nodes and is cleared again. */
+static thr_status radius(const postman *m, int k, instance *in, int64_t *longest, thr_err *err)
+{
+  int first = m->start[k], n = m->start[k + 1] - first, tail = 0;
+  int *queue = thr_calloc((size_t)n, sizeof *queue);
+  int64_t *far = thr_calloc((size_t)n, sizeof *far);
+  *longest = 0;
+  if (queue && far) queue[tail++] = 0, in->odd[0] = true;
+  for (int at = 0; at < tail; at++) {
+    int v = m->node[first + queue[at]];
+    for (int i = m->f->first[v]; i < m->f->first[v + 1]; i++) {
+      int h = m->f->half[i], w = m->local[thr_head(m->f, h)];
+      if (in->odd[w]) continue;
+      in->odd[w] = true;
+      queue[tail++] = w;
+      far[w] = far[queue[at]] + thr_certificate_weight(m->f, &m->certificate[k], h >> 1);
+      if (far[w] > *longest) *longest = far[w];
+    }
+  }
+  memset(in->odd, 0, (size_t)n * sizeof *in->odd);
+  thr_status st = queue && far ? THR_OK : thr_nomem(err);
+  free(queue);
+  free(far);
+  return st;
+}
+
+/* Two more odd nodes, the slots, stand for the cord's ends (docs/method.md). A path over a slot costs 2 * slot_cost, more than
+ * any path inside the component, so in a shortest join each slot has one edge. */
+static void add_slots(const postman *m, int k, instance *in, int64_t slot_cost)
+{
+  int slot = in->n_nodes - 2, n = in->n_own;
+  in->odd[slot] = in->odd[slot + 1] = true;
+  for (int j = m->start[k]; j < m->start[k + 1]; j++) {
+    if (!thr_plan_end_allowed(m->f, m->o, m->node[j])) continue;
+    for (int i = 0; i < 2; i++) {
+      in->edge[n][0] = j - m->start[k];
+      in->edge[n][1] = slot + i;
+      in->weight[n] = slot_cost;
+      in->end_node[n++ - in->n_own] = m->node[j];
+    }
+  }
+  in->edge[n][0] = slot;
+  in->edge[n][1] = slot + 1;
+  in->weight[n] = 2 * slot_cost;
+  in->end_node[n - in->n_own] = -1;
+}
+
+static void fill_own_edges(const postman *m, int k, instance *in)
+{
+  int n = 0;
+  for (int j = m->start[k]; j < m->start[k + 1]; j++)
+    for (int v = m->node[j], i = m->f->first[v]; i < m->f->first[v + 1]; i++) {
+      int h = m->f->half[i];
+      if (h % 2) continue; /* each edge once, from its first node */
+      in->frame_edge[n] = h / 2;
+      in->edge[n][0] = m->local[v];
+      in->edge[n++][1] = m->local[thr_head(m->f, h)];
+    }
+}
+
+static thr_status instance_init(const postman *m, int k, instance *in, thr_certificate *c, thr_err *err)
+{
+  const thr_frame *f = m->f;
+  int degrees = 0, n_end_nodes = 0;
+  c->component = k;
+  c->denominator = THR_DUAL_DENOMINATOR;
+  c->n_slots = m->o->ends == THR_ENDS_CLOSED ? 0 : 2;
+  in->n_nodes = m->start[k + 1] - m->start[k];
+  for (int j = m->start[k]; j < m->start[k + 1]; j++) {
+    degrees += thr_degree(f, m->node[j]);
+    n_end_nodes += thr_plan_end_allowed(f, m->o, m->node[j]);
+  }
+  in->n_own = degrees / 2;
+  if (n_end_nodes == 0)
+    return thr_fail(err, THR_EINFEASIBLE, "component %d (the one with node %s) has no node where a cord may end; add a foot there, or use "
+                    "--ends closed", k, f->name[m->node[m->start[k]]]);
+  thr_status st = instance_allocate(in, c->n_slots, n_end_nodes, err);
+  if (st) return st;
+  fill_own_edges(m, k, in);
+  c->scale = choose_scale(f, in);
+  for (int i = 0; i < in->n_own; i++)
+    in->weight[i] = thr_certificate_weight(f, c, in->frame_edge[i]);
+  if (c->n_slots) {
+    if ((st = radius(m, k, in, &c->slot_cost, err))) return st;
+    add_slots(m, k, in, ++c->slot_cost);
+  }
+  for (int j = m->start[k]; j < m->start[k + 1]; j++)
+    in->odd[m->local[m->node[j]]] = m->o->cover * thr_degree(f, m->node[j]) % 2 != 0;
+  return THR_OK;
+}
+/* Reads passes, ends and certificate of component k off the join. */
+static void take_result(postman *m, int k, const instance *in, thr_tjoin *t)
+{
+  thr_certificate *c = &m->certificate[k];
+  int n_ends = 0;
+  m->ends[k][0] = m->ends[k][1] = -1;
+  for (int i = 0; i < in->n_edges; i++) {
+    if (!t->in_join[i]) continue;
+    if (i < in->n_own) {
+      m->passes[in->frame_edge[i]]++;
+      c->join += in->weight[i];
+    } else if (in->end_node[i - in->n_own] >= 0) {
+      assert(n_ends < 2);
+      m->ends[k][n_ends++] = in->end_node[i - in->n_own];
+    }
+  }
+  if (m->ends[k][0] > m->ends[k][1]) {
+    int larger = m->ends[k][0];
+    m->ends[k][0] = m->ends[k][1];
+    m->ends[k][1] = larger;
+  }
+  c->sum = t->sum;
+  c->n_cuts = t->n_cuts;
+  c->cut = t->cut;
+  t->cut = NULL;
+  t->n_cuts = 0;
+  for (int i = 0; i < c->n_cuts; i++)
+    for (int j = 0; j < c->cut[i].n_nodes; j++) {
+      int v = c->cut[i].node[j], own = in->n_nodes - c->n_slots; /* nodes ascend within a component: still sorted */
+      c->cut[i].node[j] = v < own ? m->node[m->start[k] + v] : m->f->n_nodes + v - own;
+    }
+}
+
+static thr_status solve_component(postman *m, int k, thr_err *err)
+{
+  instance in = {0};
+  thr_tjoin t = {0};
+  thr_status st = instance_init(m, k, &in, &m->certificate[k], err);
+  if (!st) {
+    thr_tjoin_problem p = {in.n_nodes, in.n_edges, (const int(*)[2])in.edge, in.weight, in.odd, m->certificate[k].n_slots};
+    st = thr_tjoin_solve(&p, m->limits, &t, err);
+  }
+  if (!st || st == THR_ELIMIT) take_result(m, k, &in, &t);
+  thr_tjoin_destroy(&t);
+  instance_destroy(&in);
+  return st;
+}
+
+static void postman_destroy(postman *m)
+{
+  for (int k = 0; m->certificate && k < m->n_components; k++)
+    thr_certificate_destroy(&m->certificate[k]);
+  free(m->certificate);
+  free(m->component);
+  free(m->start);
+  free(m->node);
+  free(m->local);
+  free(m->passes);
+  free(m->ends);
+}
+
+static thr_status postman_init(postman *m, thr_err *err)
+{
+  size_t n = (size_t)m->f->n_nodes;
+  if (!(m->component = thr_calloc(n, sizeof *m->component))) return thr_nomem(err);
+  thr_status st = thr_frame_components(m->f, m->component, &m->n_components, err);
+  if (st) return st;
+  size_t k = (size_t)m->n_components;
+  m->start = thr_calloc(k + 2, sizeof *m->start);
+  m->node = thr_calloc(n, sizeof *m->node);
+  m->local = thr_calloc(n, sizeof *m->local);
+  m->passes = thr_calloc((size_t)m->f->n_edges, sizeof *m->passes);
+  m->ends = thr_calloc(k, sizeof *m->ends);
+  m->certificate = thr_calloc(k, sizeof *m->certificate);
+  if (!m->start || !m->node || !m->local || !m->passes || !m->ends || !m->certificate) return thr_nomem(err);
+  for (int e = 0; e < m->f->n_edges; e++)
+    m->passes[e] = m->o->cover;
+  for (size_t v = 0; v < n; v++)
+    m->start[m->component[v] + 2]++;
+  for (size_t i = 1; i <= k; i++)
+    m->start[i + 1] += m->start[i];
+  for (int v = 0; v < m->f->n_nodes; v++) {
+    int *next = &m->start[m->component[v] + 1];
+    m->node[*next] = v;
+    ++*next;
+  }
+  for (int i = 0; i < m->n_components; i++)
+    for (int j = m->start[i]; j < m->start[i + 1]; j++)
+      m->local[m->node[j]] = j - m->start[i];
+  return THR_OK;
+}
+
+static thr_status copy_request(const postman *m, thr_plan *plan, thr_err *err)
+{
+  thr_status st = thr_frame_copy(&plan->frame, m->f, err);
+  if (st) return st;
+  size_t n = (size_t)m->f->n_nodes;
+  plan->options = *m->o;
+  plan->options.end_node = NULL;
+  if (!m->o->end_node) return THR_OK;
+  if (!(plan->options.end_node = thr_calloc(n, sizeof *plan->options.end_node))) return thr_nomem(err);
+  memcpy(plan->options.end_node, m->o->end_node, n * sizeof *plan->options.end_node);
+  return THR_OK;
+}
+
+/* Cords from passes and ends; then metrics, and the proof as far as the checker follows it. */
+static thr_status assemble(postman *m, thr_plan *plan, thr_err *err)
+{
+  thr_status st = copy_request(m, plan, err);
+  if (st) return st;
+  if (!(plan->cord = thr_calloc((size_t)m->n_components, sizeof *plan->cord))) return thr_nomem(err);
+  plan->n_cords = m->n_components;
+  st = thr_tour_cords(&plan->frame, &plan->options, m->component, m->n_components, m->passes, (const int(*)[2])m->ends, plan->cord, err);
+  if (st) return st;
+  if ((st = thr_plan_measure(&plan->frame, plan->options.cover, plan->cord, plan->n_cords, &plan->metrics, err))) return st;
+  thr_length_proof *proof = &plan->proof;
+  proof->present = true;
+  proof->certificate = m->certificate;
+  proof->n_certificates = m->n_components;
+  m->certificate = NULL;
+  thr_err found = {0};
+  st = thr_check_length_proof(&plan->frame, &plan->options, plan->cord, plan->n_cords, proof->certificate, proof->n_certificates,
+                              &proof->optimal, &proof->lower_bound, &found);
+  if (st == THR_EVIOLATED) return thr_fail(err, THR_ESOLVER, "the plan does not pass its own check: %s", found.text);
+  if (st) return thr_fail(err, st, "%s", found.text);
+  proof->gap = (plan->metrics.length - proof->lower_bound) / plan->metrics.length;
+  return THR_OK;
+}
+
+thr_status thr_postman_plan(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan, thr_err *err)
+{
+  postman m = {.f = f, .o = o, .limits = limits};
+  *plan = (thr_plan){0};
+  bool stopped = false;
+  thr_status st = postman_init(&m, err);
+  for (int k = 0; k < m.n_components && !st; k++) {
+    thr_err local = {0};
+    st = solve_component(&m, k, &local);
+    if (st == THR_ELIMIT) {
+      stopped = true; /* the other components still get their (quick) best */
+      st = THR_OK;
+    }
+    if (st) thr_fail(err, st, "%s", local.text);
+  }
+  if (!st) st = assemble(&m, plan, err);
+  if (!st && stopped && !plan->proof.optimal)
+    st = thr_fail(err, THR_ELIMIT, "stopped by the limit: the cord is within %.3g %% of the shortest", 100 * plan->proof.gap);
+  if (st && st != THR_ELIMIT) thr_plan_destroy(plan);
+  postman_destroy(&m);
+  return st;
+}

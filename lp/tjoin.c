@@ -1,0 +1,393 @@
+/* The cutting-plane loop: solve, separate, round to a join, turn the dual into an exact certificate. */
+#include "lp/tjoin.h"
+#include "graph/disjoint.h"
+#include "lp/lp.h"
+#include "lp/oddcut.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+__extension__ typedef __int128 wide; /* sums of cut values times weights pass 64 bits on hostile inputs */
+
+typedef struct {
+  const thr_tjoin_problem *p;
+  const thr_limits *limits;
+  thr_oddcut_graph graph;
+  thr_oddcut_pool pool;
+  thr_lp *lp;
+  double unit;          /* costs of the linear programme = weights / unit, so that they are about 1 */
+  double *cost, *x, *reduced_cost, *key; /* [n_edges] */
+  double *dual;         /* [pool.count at the last solve] */
+  int64_t *value;       /* the same, rounded to integers that load no edge too much */
+  int solved;           /* rows at the last solve */
+  int *order, *parent;  /* [n_edges], [n_nodes] scratch of the rounding */
+  bool *tree_join;      /* [n_edges] */
+  bool *leaf_used;      /* [n_leaves] */
+  wide *slack;          /* [n_edges] */
+  thr_tjoin best;
+} solver;
+
+static thr_status solver_init(solver *s, const thr_tjoin_problem *p, const thr_limits *limits, thr_err *err)
+{
+  size_t n = (size_t)p->n_nodes, m = (size_t)p->n_edges;
+  *s = (solver){.p = p, .limits = limits};
+  thr_status st = thr_oddcut_graph_init(&s->graph, p, err);
+  if (st) return st;
+  s->cost = thr_calloc(m, sizeof *s->cost);
+  s->x = thr_calloc(m, sizeof *s->x);
+  s->reduced_cost = thr_calloc(m, sizeof *s->reduced_cost);
+  s->key = thr_calloc(m, sizeof *s->key);
+  s->order = thr_calloc(m, sizeof *s->order);
+  s->parent = thr_calloc(n, sizeof *s->parent);
+  s->tree_join = thr_calloc(m, sizeof *s->tree_join);
+  s->leaf_used = thr_calloc((size_t)p->n_leaves, sizeof *s->leaf_used);
+  s->slack = thr_calloc(m, sizeof *s->slack);
+  s->best.in_join = thr_calloc(m, sizeof *s->best.in_join);
+  s->best.length = INT64_MAX;
+  if (!s->cost || !s->x || !s->reduced_cost || !s->key || !s->order || !s->parent || !s->tree_join || !s->leaf_used || !s->slack || !s->best.in_join)
+    return thr_nomem(err);
+  double sum = 0;
+  for (size_t e = 0; e < m; e++)
+    sum += (double)p->weight[e];
+  s->unit = sum > 0 ? sum / (double)m : 1;
+  for (size_t e = 0; e < m; e++)
+    s->cost[e] = s->reduced_cost[e] = (double)p->weight[e] / s->unit;
+  return thr_lp_create(&s->lp, p->n_edges, s->cost, NULL, err);
+}
+
+static void solver_destroy(solver *s)
+{
+  thr_lp_destroy(s->lp);
+  thr_oddcut_pool_destroy(&s->pool);
+  thr_oddcut_graph_destroy(&s->graph);
+  free(s->cost);
+  free(s->x);
+  free(s->reduced_cost);
+  free(s->key);
+  free(s->dual);
+  free(s->value);
+  free(s->order);
+  free(s->parent);
+  free(s->tree_join);
+  free(s->leaf_used);
+  free(s->slack);
+}
+
+void thr_tjoin_destroy(thr_tjoin *t)
+{
+  for (int i = 0; i < t->n_cuts; i++)
+    free(t->cut[i].node);
+  free(t->cut);
+  free(t->in_join);
+  *t = (thr_tjoin){0};
+}
+
+/* ---- rounding: the T-join of a spanning tree that prefers edges of large x ---- */
+
+static const double *sort_key; /* qsort has no user pointer; like GLPK, not for threads */
+
+static int by_key(const void *pa, const void *pb)
+{
+  int a = *(const int *)pa, b = *(const int *)pb;
+  if (sort_key[a] != sort_key[b]) return sort_key[a] < sort_key[b] ? -1 : 1;
+  return (a > b) - (a < b);
+}
+
+/* Marks in s->tree_join the edges of a spanning tree, cheapest keys first (a leaf joined to a leaf stays apart). */
+static void spanning_tree(solver *s)
+{
+  const thr_tjoin_problem *p = s->p;
+  int first_leaf = p->n_nodes - p->n_leaves;
+  for (int e = 0; e < p->n_edges; e++) {
+    s->order[e] = e;
+    s->tree_join[e] = false;
+  }
+  sort_key = s->key;
+  qsort(s->order, (size_t)p->n_edges, sizeof *s->order, by_key);
+  memset(s->leaf_used, 0, (size_t)p->n_leaves * sizeof *s->leaf_used);
+  for (int v = 0; v < p->n_nodes; v++)
+    s->parent[v] = v;
+  for (int i = 0; i < p->n_edges; i++) {
+    int e = s->order[i], a = p->edge[e][0], b = p->edge[e][1];
+    if ((a >= first_leaf && s->leaf_used[a - first_leaf]) || (b >= first_leaf && s->leaf_used[b - first_leaf])) continue;
+    if (a >= first_leaf) s->leaf_used[a - first_leaf] = true;
+    if (b >= first_leaf) s->leaf_used[b - first_leaf] = true;
+    s->tree_join[e] = thr_disjoint_join(s->parent, p->edge[e][0], p->edge[e][1]);
+  }
+}
+
+/* Keeps of the tree the edges that separate an odd number of odd nodes: the only T-join in it. Leaves inwards. */
+static thr_status prune_tree(solver *s, thr_err *err)
+{
+  const thr_tjoin_problem *p = s->p;
+  size_t n = (size_t)p->n_nodes;
+  int *degree = thr_calloc(n, sizeof *degree), *stack = thr_calloc(n, sizeof *stack), top = 0;
+  bool *odd = thr_calloc(n, sizeof *odd), *done = thr_calloc((size_t)p->n_edges, sizeof *done);
+  thr_status st = degree && stack && odd && done ? THR_OK : thr_nomem(err);
+  if (st) goto done;
+  memcpy(odd, p->odd, n * sizeof *odd);
+  for (int e = 0; e < p->n_edges; e++)
+    for (int i = 0; s->tree_join[e] && i < 2; i++)
+      degree[p->edge[e][i]]++;
+  for (int v = 0; v < p->n_nodes; v++)
+    if (degree[v] == 1) stack[top++] = v;
+  while (top) {
+    int v = stack[--top];
+    for (int k = s->graph.first[v]; k < s->graph.first[v + 1]; k++) {
+      int e = s->graph.incident[k];
+      if (!s->tree_join[e] || done[e]) continue;
+      int w = p->edge[e][0] == v ? p->edge[e][1] : p->edge[e][0];
+      done[e] = true;
+      if (odd[v])
+        odd[w] = !odd[w];
+      else
+        s->tree_join[e] = false;
+      if (--degree[w] == 1) stack[top++] = w;
+      break;
+    }
+  }
+done:
+  free(degree);
+  free(stack);
+  free(odd);
+  free(done);
+  return st;
+}
+
+/* Rounds the point x (all 0 at the start) to a join and keeps it if it is the best so far. */
+static thr_status round_to_join(solver *s, thr_err *err)
+{
+  const thr_tjoin_problem *p = s->p;
+  for (int e = 0; e < p->n_edges; e++)
+    s->key[e] = s->cost[e] * (1 - fmin(s->x[e], 1));
+  spanning_tree(s);
+  thr_status st = prune_tree(s, err);
+  if (st) return st;
+  int64_t length = 0;
+  for (int e = 0; e < p->n_edges; e++)
+    if (s->tree_join[e]) length += p->weight[e];
+  if (length < s->best.length) {
+    s->best.length = length;
+    memcpy(s->best.in_join, s->tree_join, (size_t)p->n_edges * sizeof *s->tree_join);
+  }
+  return THR_OK;
+}
+
+/* ---- the dual as integers ---- */
+
+/* value = dual in units of 1/denominator of a weight, rounded down; then whatever still overloads an edge is taken back
+ * from the cuts over it, and what slack is left is given out again. Fills s->value, returns their sum. */
+static int64_t integer_dual(solver *s)
+{
+  const thr_tjoin_problem *p = s->p;
+  for (int e = 0; e < p->n_edges; e++)
+    s->slack[e] = (wide)p->weight[e] * THR_DUAL_DENOMINATOR;
+  for (int i = 0; i < s->solved; i++) {
+    double y = s->dual[i] * s->unit * THR_DUAL_DENOMINATOR;
+    s->value[i] = y > 1 ? (int64_t)fmin(y, 4e18) : 0;
+    for (int k = 0; k < s->pool.cut[i].n_edges; k++)
+      s->slack[s->pool.cut[i].edge[k]] -= s->value[i];
+  }
+  wide sum = 0;
+  for (int pass = 0; pass < 2; pass++) /* first take back, then give out */
+    for (int i = 0; i < s->solved; i++) {
+      const struct thr_oddcut *c = &s->pool.cut[i];
+      wide least = s->slack[c->edge[0]];
+      for (int k = 1; k < c->n_edges; k++)
+        if (s->slack[c->edge[k]] < least) least = s->slack[c->edge[k]];
+      if (pass == 0 ? least >= 0 : least <= 0 || s->value[i] == 0) continue;
+      if (least < -(wide)s->value[i]) least = -(wide)s->value[i];
+      s->value[i] += (int64_t)least;
+      for (int k = 0; k < c->n_edges; k++)
+        s->slack[c->edge[k]] -= least;
+    }
+  for (int i = 0; i < s->solved; i++)
+    sum += s->value[i];
+  return (int64_t)sum;
+}
+
+static thr_status store_cuts(solver *s, int64_t sum, thr_err *err)
+{
+  thr_tjoin *best = &s->best;
+  for (int i = 0; i < best->n_cuts; i++)
+    free(best->cut[i].node);
+  free(best->cut);
+  best->n_cuts = 0;
+  best->cut = thr_calloc((size_t)s->solved, sizeof *best->cut);
+  if (!best->cut) return thr_nomem(err);
+  for (int i = 0; i < s->solved; i++) {
+    const struct thr_oddcut *c = &s->pool.cut[i];
+    if (s->value[i] == 0) continue;
+    thr_cut *to = &best->cut[best->n_cuts];
+    *to = (thr_cut){c->n_nodes, thr_calloc((size_t)c->n_nodes, sizeof *to->node), s->value[i]};
+    if (!to->node) return thr_nomem(err);
+    best->n_cuts++;
+    memcpy(to->node, c->node, (size_t)c->n_nodes * sizeof *to->node);
+  }
+  best->sum = sum;
+  return THR_OK;
+}
+
+/* Turns the dual of the last solve into a certificate and keeps it if its bound is the best; sets best.optimal. */
+static thr_status certify(solver *s, thr_err *err)
+{
+  int64_t sum = integer_dual(s);
+  thr_status st = THR_OK;
+  if (sum > s->best.sum || s->best.n_cuts == 0) st = store_cuts(s, sum, err);
+  s->best.optimal = (wide)s->best.sum > ((wide)s->best.length - 1) * THR_DUAL_DENOMINATOR;
+  return st;
+}
+
+/* ---- the loop ---- */
+
+static thr_status add_new_rows(solver *s, thr_err *err)
+{
+  thr_status st = THR_OK;
+  for (int i = thr_lp_rows(s->lp); i < s->pool.count && !st; i++)
+    st = thr_lp_add_row(s->lp, s->pool.cut[i].n_edges, s->pool.cut[i].edge, NULL, 1, err);
+  return st;
+}
+
+static thr_status solve_rows(solver *s, bool exact, thr_lp_outcome *outcome, thr_err *err)
+{
+  thr_status st = add_new_rows(s, err);
+  if (st) return st;
+  size_t rows = (size_t)s->pool.count;
+  double *dual = thr_realloc(s->dual, rows, sizeof *dual);
+  if (!dual) return thr_nomem(err);
+  s->dual = dual;
+  int64_t *value = thr_realloc(s->value, rows, sizeof *value);
+  if (!value) return thr_nomem(err);
+  s->value = value;
+  st = exact ? thr_lp_solve_exact(s->lp, s->limits, outcome, err) : thr_lp_solve(s->lp, s->limits, outcome, err);
+  if (st || *outcome == THR_LP_STOPPED) return st;
+  if (*outcome != THR_LP_OPTIMAL) return thr_fail(err, THR_ESOLVER, "GLPK found no optimum of an odd-cut relaxation, which always has one");
+  s->solved = s->pool.count;
+  thr_lp_primal(s->lp, s->x);
+  thr_lp_dual(s->lp, s->dual);
+  memcpy(s->reduced_cost, s->cost, (size_t)s->p->n_edges * sizeof *s->cost);
+  for (int i = 0; i < s->solved; i++)
+    for (int k = 0; s->dual[i] != 0 && k < s->pool.cut[i].n_edges; k++)
+      s->reduced_cost[s->pool.cut[i].edge[k]] -= s->dual[i];
+  return THR_OK;
+}
+
+/* Cuts that the point x violates: moats round the odd components of the support; failing that, of the support of larger
+ * values; failing that, exactly. */
+static thr_status separate(solver *s, thr_err *err)
+{
+  static const double threshold[] = {1e-6, 0.2, 0.35, 0.51, 0.7};
+  int before = s->pool.count;
+  thr_status st = THR_OK;
+  for (size_t i = 0; i < sizeof threshold / sizeof *threshold && !st && s->pool.count == before; i++)
+    st = thr_oddcut_moats(&s->graph, s->x, threshold[i], s->reduced_cost, &s->pool, err);
+  if (!st && s->pool.count == before) st = thr_oddcut_exact(&s->graph, s->x, &s->pool, err);
+  return st;
+}
+
+/* Drops rows whose slack has been basic for a while, so that the linear programme stays small. */
+static thr_status drop_idle(solver *s, thr_err *err)
+{
+  enum { PATIENCE = 6 };
+  bool *drop = thr_calloc((size_t)s->solved, sizeof *drop);
+  if (!drop) return thr_nomem(err);
+  bool any = false;
+  for (int i = 0; i < s->solved; i++) {
+    struct thr_oddcut *c = &s->pool.cut[i];
+    c->idle = thr_lp_row_basic(s->lp, i) ? c->idle + 1 : 0;
+    any |= drop[i] = c->idle > PATIENCE;
+  }
+  thr_status st = THR_OK;
+  if (any && !(st = thr_lp_drop_rows(s->lp, drop, err))) thr_oddcut_pool_drop(&s->pool, drop);
+  free(drop);
+  return st;
+}
+
+static void report(const solver *s, const char *what)
+{
+  if (!s->limits->progress) return;
+  double denominator = THR_DUAL_DENOMINATOR;
+  s->limits->progress(s->limits->user, what, (double)s->best.length, (double)s->best.sum / denominator);
+}
+
+/* The relaxation has no violated cut left: its bound is the optimum, only the join is not found yet because x is a fractional
+ * point of the optimal face (ties). Slightly different costs make the point integral; the proof stays with the true ones. */
+static thr_status break_ties(solver *s, double strength, thr_lp_outcome *outcome, thr_err *err)
+{
+  double *tilted = thr_calloc((size_t)s->p->n_edges, sizeof *tilted);
+  if (!tilted) return thr_nomem(err);
+  uint64_t state = 12345;
+  for (int e = 0; e < s->p->n_edges; e++) {
+    state = state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+    tilted[e] = s->cost[e] + strength * (double)(state >> 11) / 9007199254740992.0;
+  }
+  double *true_cost = s->cost;
+  thr_status st = thr_lp_set_costs(s->lp, tilted, err);
+  s->cost = tilted;
+  for (int round = 0; round < 200 && !st && !s->best.optimal; round++) {
+    int before = s->pool.count;
+    if ((st = solve_rows(s, false, outcome, err)) || *outcome == THR_LP_STOPPED) break;
+    if ((st = round_to_join(s, err))) break;
+    s->best.optimal = (wide)s->best.sum > ((wide)s->best.length - 1) * THR_DUAL_DENOMINATOR;
+    if ((st = separate(s, err)) || s->pool.count == before) break;
+  }
+  s->cost = true_cost;
+  free(tilted);
+  return st ? st : thr_lp_set_costs(s->lp, s->cost, err);
+}
+
+/* When separation finds nothing and the certificate does not close: sharpen the dual exactly, then break ties. */
+static thr_status finish(solver *s, int attempt, thr_lp_outcome *outcome, thr_err *err)
+{
+  thr_status st = solve_rows(s, true, outcome, err);
+  if (st || *outcome == THR_LP_STOPPED) return st;
+  if ((st = certify(s, err)) || s->best.optimal) return st;
+  return break_ties(s, 1e-3 / (double)(1 + attempt * attempt), outcome, err);
+}
+
+static thr_status run(solver *s, thr_err *err)
+{
+  enum { ATTEMPTS = 12 };
+  thr_lp_outcome outcome = THR_LP_OPTIMAL;
+  thr_status st = round_to_join(s, err);
+  if (!st) st = thr_oddcut_moats(&s->graph, NULL, 0, s->reduced_cost, &s->pool, err);
+  for (int attempt = 0; !st && attempt < ATTEMPTS;) {
+    s->best.rounds++;
+    if ((st = solve_rows(s, false, &outcome, err))) break;
+    if (outcome == THR_LP_STOPPED) return thr_fail(err, THR_ELIMIT, "stopped before the shortest cord was proved");
+    if ((st = round_to_join(s, err))) break;
+    if ((st = certify(s, err))) break;
+    report(s, "odd cuts");
+    if (s->best.optimal) return THR_OK;
+    if ((st = drop_idle(s, err))) break;
+    int before = s->pool.count;
+    if ((st = separate(s, err))) break;
+    if (s->pool.count > before) continue;
+    if ((st = finish(s, attempt++, &outcome, err)) || s->best.optimal) break;
+    if (outcome == THR_LP_STOPPED) return thr_fail(err, THR_ELIMIT, "stopped before the shortest cord was proved");
+  }
+  if (st || s->best.optimal) return st;
+  return thr_fail(err, THR_ESOLVER, "the odd-cut bound and the best join do not meet; please report this framework");
+}
+
+thr_status thr_tjoin_solve(const thr_tjoin_problem *p, const thr_limits *limits, thr_tjoin *out, thr_err *err)
+{
+  solver s;
+  *out = (thr_tjoin){0};
+  int n_odd = 0;
+  for (int v = 0; v < p->n_nodes; v++)
+    n_odd += p->odd[v];
+  if (n_odd == 0) { /* the empty join needs no proof */
+    out->in_join = thr_calloc((size_t)p->n_edges, sizeof *out->in_join);
+    out->optimal = true;
+    return out->in_join ? THR_OK : thr_nomem(err);
+  }
+  thr_status st = solver_init(&s, p, limits, err);
+  if (!st) st = run(&s, err);
+  s.best.rows = s.pool.count;
+  solver_destroy(&s);
+  if (st && st != THR_ELIMIT) thr_tjoin_destroy(&s.best);
+  *out = s.best;
+  return st;
+}
