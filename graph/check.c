@@ -270,7 +270,7 @@ static thr_status sum_verdicts(certificate_check *k, const int *passes, const th
   *optimal = true;
   *extra = 0;
   for (int i = 0; i < n; i++) {
-    verdict_t verdict;
+    verdict_t verdict = {0};
     if (certificate[i].component != i)
       return thr_fail(err, THR_EVIOLATED, "certificate %d is for component %d; expected one per component in order", i,
                       certificate[i].component);

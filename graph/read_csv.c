@@ -168,14 +168,6 @@ static bool all_words(const csv *t)
   return true;
 }
 
-static bool all_numbers(const csv *t)
-{
-  double x;
-  for (int i = 0; i < t->n_fields; i++)
-    if (!number_at(t, i, &x)) return false;
-  return true;
-}
-
 /* ---- rows ---- */
 
 /* Tables that went through floating point call node 7 "7.0". */
@@ -290,7 +282,7 @@ static thr_status guess_columns(csv *t)
 {
   int n = t->n_fields;
   if (t->expected == EDGE_TABLE ? n >= 2 : t->expected == ANY_TABLE && n == 2) return begin_edges(t);
-  if (t->expected == ANY_TABLE && n == 6 && all_numbers(t)) {
+  if (t->expected == ANY_TABLE && n == 6) {
     t->c = no_columns(t, LINE_ROWS, false);
     for (int i = 0; i < 6; i++)
       t->c.xyz[i] = i;
@@ -314,9 +306,10 @@ static thr_status learn(csv *t, bool *used)
   bool nodes_open = t->c.kind == NODE_ROWS, fresh = t->c.kind == NO_ROWS;
   *used = false;
   if (t->c.kind == EDGE_ROWS) return THR_OK;
-  if (t->expected != EDGE_TABLE && coordinate_header(t)) {
+  if (t->expected != EDGE_TABLE && (fresh || nodes_open) && coordinate_header(t)) {
     *used = true;
-    return THR_OK;
+    if (t->c.kind == NODE_ROWS || (t->expected == ANY_TABLE && fresh)) return THR_OK;
+    return thr_scan_fail(&t->scan, t->err, "columns x1 to z2 make a table of their own; take them out of the table of nodes");
   }
   if ((fresh || nodes_open) && t->n_fields >= 2 && all_words(t)) {
     if (t->expected == NODE_TABLE)

@@ -135,11 +135,11 @@ static thr_status read_comment(obj *o, thr_span line)
   thr_span word;
   if (thr_span_starts(line, "# units: ")) {
     line = thr_span_trim((thr_span){line.s + 9, line.n - 9});
-    char units[sizeof o->d->units];
+    char units[sizeof o->d->units] = {0};
     if (line.n == 0 || line.n >= sizeof units) return THR_OK;
     memcpy(units, line.s, line.n);
-    units[line.n] = '\0';
     thr_draft_set_units(o->d, units);
+    return THR_OK;
   }
   if (!thr_span_starts(line, "# feet: ")) return THR_OK;
   line = (thr_span){line.s + 8, line.n - 8};

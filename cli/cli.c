@@ -1,0 +1,331 @@
+/* Messages, options, reading and writing for all subcommands. */
+#define _POSIX_C_SOURCE 200809L
+#include "cli/cli.h"
+#include "diagram/overview.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+bool cli_quiet, cli_verbose;
+
+/* ---- messages ---- */
+
+void cli_note(const char *format, ...)
+{
+  if (cli_quiet) return;
+  va_list args;
+  va_start(args, format);
+  fputs("thread: ", stderr);
+  vfprintf(stderr, format, args);
+  fputc('\n', stderr);
+  va_end(args);
+}
+
+void cli_error(const char *format, ...)
+{
+  va_list args;
+  va_start(args, format);
+  cli_progress_end();
+  fputs("thread: ", stderr);
+  vfprintf(stderr, format, args);
+  fputc('\n', stderr);
+  va_end(args);
+}
+
+int cli_fail(const thr_err *err)
+{
+  cli_error("%s", err->text);
+  switch (err->code) {
+  case THR_OK: return EXIT_OK;
+  case THR_EVIOLATED: /* only `check` calls this a violation; elsewhere the plan is simply no good input */
+  case THR_EIO:
+  case THR_EINPUT: return EXIT_INPUT;
+  case THR_EINFEASIBLE: return EXIT_INFEASIBLE;
+  case THR_ELIMIT: return EXIT_LIMIT;
+  default: return EXIT_INTERNAL;
+  }
+}
+
+int cli_usage(const char *command, const char *format, ...)
+{
+  va_list args;
+  va_start(args, format);
+  fputs("thread: ", stderr);
+  vfprintf(stderr, format, args);
+  fprintf(stderr, "; see `thread %s --help`\n", command);
+  va_end(args);
+  return EXIT_USAGE;
+}
+
+/* ---- options ---- */
+
+int cli_next_option(int argc, char **argv, const char *command, const char *letters, const struct option *table, const char *help,
+                    int *done)
+{
+  *done = -1;
+  opterr = 0;
+  for (;;) {
+    int was = optind, o = getopt_long(argc, argv, letters, table, NULL);
+    switch (o) {
+    case 'h':
+      fputs(help, stdout);
+      *done = EXIT_OK;
+      return -1;
+    case 'q': cli_quiet = true; break;
+    case 'v': cli_verbose = true; break;
+    case ':': *done = cli_usage(command, "%s needs a value", argv[was]); return -1;
+    case '?': *done = cli_usage(command, "there is no option %s, or it takes no value", argv[was]); return -1;
+    default: return o;
+    }
+  }
+}
+
+bool cli_double(const char *command, const char *option, const char *text, double low, double high, double *out)
+{
+  char *end;
+  errno = 0;
+  double x = strtod(text, &end);
+  if (end != text && *end == '\0' && isfinite(x) && x >= low && x <= high) {
+    *out = x;
+    return true;
+  }
+  cli_usage(command, "%s %s: expected a number from %g to %g", option, text, low, high);
+  return false;
+}
+
+bool cli_int(const char *command, const char *option, const char *text, int low, int high, int *out)
+{
+  double x;
+  if (!cli_double(command, option, text, low, high, &x)) return false;
+  *out = (int)x;
+  if (*out == x) return true;
+  cli_usage(command, "%s %s: expected a whole number", option, text);
+  return false;
+}
+
+/* ---- frameworks ---- */
+
+cli_frame_args cli_frame_args_default(void)
+{
+  return (cli_frame_args){thr_read_options_default(), NULL};
+}
+
+bool cli_frame_option(cli_frame_args *a, const char *command, int option, const char *value, bool *ok)
+{
+  *ok = true;
+  switch (option) {
+  case OPTION_EDGES: a->read.edges_path = value; return true;
+  case OPTION_UNITS: a->read.units = value; return true;
+  case OPTION_FEET: a->feet = value; return true;
+  case OPTION_WELD: *ok = cli_double(command, "--weld", value, 0, 1e300, &a->read.weld); return true;
+  default: return false;
+  }
+}
+
+static void note_count(int n, const char *one, const char *many, const char *what)
+{
+  if (n) cli_note("note: %d %s %s", n, n == 1 ? one : many, what);
+}
+
+static void note_report(const thr_read_report *r, const char *pair)
+{
+  if (pair[0]) cli_note("note: read together with %s", pair);
+  note_count(r->welded_nodes, "node", "nodes", "merged into another within the weld tolerance");
+  note_count(r->zero_length_edges, "edge of zero length", "edges of zero length", "dropped");
+  note_count(r->duplicate_edges, "edge that was there already", "edges that were there already", "dropped");
+  note_count(r->isolated_nodes, "node without an edge", "nodes without an edge", "dropped");
+  if (r->skipped_records)
+    cli_note("note: %d %s not used (the first is %s)", r->skipped_records, r->skipped_records == 1 ? "record" : "records", r->skipped_kind);
+}
+
+/* Disconnected frameworks are planned part by part; the user must hear it. */
+static int note_components(const thr_frame *f, thr_err *err)
+{
+  int count, *component = thr_calloc((size_t)f->n_nodes, sizeof *component);
+  if (!component) return thr_nomem(err);
+  thr_status st = thr_frame_components(f, component, &count, err);
+  if (!st && count > 1) cli_note("note: the framework is in %d separate pieces; each gets its own cord", count);
+  free(component);
+  return st;
+}
+
+int cli_read_frame(const char *path, const cli_frame_args *a, thr_frame *f)
+{
+  thr_err err = {0};
+  thr_read_report report = {0};
+  char pair[1024];
+  if (thr_frame_read(f, &report, path, &a->read, pair, sizeof pair, &err)) return cli_fail(&err);
+  note_report(&report, pair);
+  if (note_components(f, &err)) {
+    thr_frame_destroy(f);
+    return cli_fail(&err);
+  }
+  if (a->feet && strcmp(a->feet, "lowest") == 0) {
+    thr_frame_feet_lowest(f);
+  } else if (a->feet) {
+    memset(f->foot, 0, (size_t)f->n_nodes * sizeof *f->foot);
+    if (!cli_mark_nodes(f, a->feet, "--feet", f->foot)) {
+      thr_frame_destroy(f);
+      return EXIT_INPUT;
+    }
+  }
+  return EXIT_OK;
+}
+
+bool cli_mark_nodes(const thr_frame *f, const char *list, const char *option, bool *mark)
+{
+  thr_err err = {0};
+  thr_text text = {0};
+  struct stat s;
+  if (stat(list, &s) == 0 && S_ISREG(s.st_mode)) {
+    if (thr_text_read(&text, list, &err)) {
+      cli_fail(&err);
+      return false;
+    }
+  } else {
+    thr_text_append(&text, list);
+  }
+  bool ok = true, some = false;
+  for (char *save = NULL, *name = text.data ? strtok_r(text.data, ", \t\r\n;", &save) : NULL; name && ok;
+       name = strtok_r(NULL, ", \t\r\n;", &save)) {
+    int v = thr_frame_find(f, name);
+    if (v < 0) {
+      cli_error("%s: there is no file and no node called %s; the first node is %s", option, name, f->name[0]);
+      ok = false;
+    } else {
+      mark[v] = some = true;
+    }
+  }
+  if (ok && !some) {
+    cli_error("%s %s: names no node", option, list);
+    ok = false;
+  }
+  thr_text_destroy(&text);
+  return ok;
+}
+
+int cli_read_plan(const char *path, thr_plan *p)
+{
+  thr_err err = {0};
+  return thr_plan_read(p, path, &err) ? cli_fail(&err) : EXIT_OK;
+}
+
+/* ---- files ---- */
+
+void cli_stem(const char *path, char *out, size_t size)
+{
+  const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+  const char *dot = strrchr(name, '.');
+  int n = dot && dot > name ? (int)(dot - name) : (int)strlen(name);
+  if (strcmp(path, "-") == 0 || n == 0)
+    snprintf(out, size, "frame");
+  else
+    snprintf(out, size, "%.*s", n, name);
+}
+
+int cli_in_folder(const char *folder, const char *file, char *out, size_t size)
+{
+  char part[1024];
+  size_t n = strlen(folder);
+  if (n + strlen(file) + 2 > size || n >= sizeof part) {
+    cli_error("%.60s..: the path is too long", folder);
+    return EXIT_INPUT;
+  }
+  for (size_t i = 1; i <= n; i++) { /* like mkdir -p */
+    if (folder[i] != '/' && folder[i] != '\0') continue;
+    snprintf(part, sizeof part, "%.*s", (int)i, folder);
+    struct stat s;
+    if (mkdir(part, 0777) == 0 || (stat(part, &s) == 0 && S_ISDIR(s.st_mode))) continue;
+    cli_error("%s: cannot make this folder: %s", part, strerror(errno));
+    return EXIT_INPUT;
+  }
+  snprintf(out, size, "%s%s%s", folder, n && folder[n - 1] == '/' ? "" : "/", file);
+  return EXIT_OK;
+}
+
+int cli_write(thr_text *t, const char *path)
+{
+  thr_err err = {0};
+  thr_status st = thr_text_write(t, path, &err);
+  thr_text_destroy(t);
+  return st ? cli_fail(&err) : EXIT_OK;
+}
+
+int cli_draw_overview(const thr_plan *p, const char *path, double pitch_mm)
+{
+  thr_err err = {0};
+  thr_text svg = {0};
+  thr_overview_options o = thr_overview_options_default();
+  o.pitch_mm = pitch_mm;
+  if (thr_overview_svg(p, &o, &svg, &err)) {
+    thr_text_destroy(&svg);
+    return cli_fail(&err);
+  }
+  return cli_write(&svg, path);
+}
+
+/* ---- long computations ---- */
+
+static volatile sig_atomic_t interrupted;
+static bool progress_shown;
+
+static void on_interrupt(int signal)
+{
+  (void)signal;
+  if (interrupted) _exit(130); /* asked twice: do not wait for the plan */
+  interrupted = 1;
+}
+
+static void show_progress(void *user, const char *what, double best, double bound)
+{
+  double *last = user, now = thr_clock();
+  if (now - *last < 0.1) return;
+  *last = now;
+  fprintf(stderr, "\r\033[Kthread: %s: extra cord within %.3g %% of the least", what, best > 0 ? 100 * (best - bound) / best : 0);
+  fflush(stderr);
+  progress_shown = true;
+}
+
+static void log_progress(void *user, const char *what, double best, double bound)
+{
+  (void)user;
+  cli_note("%s: best join %.0f, bound %.1f (integer weights)", what, best, bound);
+}
+
+thr_limits cli_limits(double seconds)
+{
+  static double last;
+  thr_limits l = {.interrupted = &interrupted, .user = &last};
+  struct sigaction act = {.sa_handler = on_interrupt};
+  sigaction(SIGINT, &act, NULL);
+  if (seconds > 0) l.deadline = thr_clock() + seconds;
+  if (cli_verbose)
+    l.progress = log_progress;
+  else if (!cli_quiet && isatty(STDERR_FILENO))
+    l.progress = show_progress;
+  return l;
+}
+
+void cli_progress_end(void)
+{
+  if (progress_shown) fputs("\r\033[K", stderr);
+  progress_shown = false;
+}
+
+/* ---- tables ---- */
+
+double cli_degrees(double radians)
+{
+  return radians * (180 / 3.14159265358979323846);
+}
+
+const char *cli_plural(int n, const char *one, const char *many)
+{
+  return n == 1 ? one : many;
+}

@@ -1,0 +1,116 @@
+/* What the subcommands share. cli/ is the only folder that prints or exits. */
+#ifndef THR_CLI_H
+#define THR_CLI_H
+
+#include "graph/limits.h"
+#include "graph/plan.h"
+#include "graph/read.h"
+
+#include <getopt.h>
+
+/* Documented in the man page; scripts rely on them. */
+enum {
+  EXIT_OK = 0,
+  EXIT_VIOLATION = 1,
+  EXIT_USAGE = 2,
+  EXIT_INPUT = 3,
+  EXIT_INFEASIBLE = 4,
+  EXIT_LIMIT = 5,
+  EXIT_INTERNAL = 70
+};
+
+int cmd_plan(int argc, char **argv);
+int cmd_check(int argc, char **argv);
+int cmd_eval(int argc, char **argv);
+int cmd_compare(int argc, char **argv);
+int cmd_draw(int argc, char **argv);
+int cmd_info(int argc, char **argv);
+int cmd_make(int argc, char **argv);
+
+/* ---- messages ---- */
+
+extern bool cli_quiet, cli_verbose; /* -q: no notes; -v: what the solver does */
+
+/* "thread: .." on stderr, one line. */
+void cli_note(const char *format, ...) THR_PRINTF(1, 2); /* not with --quiet */
+void cli_error(const char *format, ...) THR_PRINTF(1, 2);
+
+/* Prints err and returns the exit code that belongs to its status. */
+int cli_fail(const thr_err *err);
+
+/* Prints the message and a pointer to `thread COMMAND --help`; returns EXIT_USAGE. */
+int cli_usage(const char *command, const char *format, ...) THR_PRINTF(2, 3);
+
+/* ---- options: getopt_long with a table per subcommand ---- */
+
+enum { OPTION_LONG_ONLY = 256 }; /* first value for options without a letter */
+
+/* -h, -q and -v, in every table and every letter string. */
+#define CLI_COMMON_LETTERS "hqv"
+#define CLI_COMMON_OPTIONS {"help", no_argument, NULL, 'h'}, {"quiet", no_argument, NULL, 'q'}, {"verbose", no_argument, NULL, 'v'}
+
+/* Next option: its value, or -1 at the end. -h prints help and sets *done to EXIT_OK; a bad option prints why and
+ * sets *done to EXIT_USAGE; *done < 0 means go on. -q and -v are taken here. */
+int cli_next_option(int argc, char **argv, const char *command, const char *letters, const struct option *table, const char *help,
+                    int *done);
+
+/* Numbers in options, checked against a range: false prints why (a usage error). */
+bool cli_double(const char *command, const char *option, const char *text, double low, double high, double *out);
+bool cli_int(const char *command, const char *option, const char *text, int low, int high, int *out);
+
+/* ---- frameworks and plans ---- */
+
+/* --edges, --weld, --units, --feet: how to read FRAME. */
+typedef struct {
+  thr_read_options read;
+  const char *feet; /* NULL: as the file says; "lowest", a file's name, or node names with commas */
+} cli_frame_args;
+
+#define CLI_FRAME_OPTIONS                                                                                                          \
+  {"edges", required_argument, NULL, OPTION_EDGES}, {"weld", required_argument, NULL, OPTION_WELD},                                \
+      {"units", required_argument, NULL, OPTION_UNITS}, {"feet", required_argument, NULL, OPTION_FEET}
+enum { OPTION_EDGES = OPTION_LONG_ONLY, OPTION_WELD, OPTION_UNITS, OPTION_FEET, OPTION_FREE };
+#define CLI_FRAME_HELP                                                                                                             \
+  "      --feet lowest|FILE|NAME,..  where cord ends may come out (default: as the file says)\n"                                  \
+  "      --edges FILE     second file of a CSV pair: FRAME holds the nodes, FILE the edges\n"                                      \
+  "      --weld TOL       merge nodes closer than TOL (default: 1e-6 of the bounding box)\n"                                       \
+  "      --units NAME     what one unit of the coordinates is called (default: as the file says, or mm)\n"
+
+cli_frame_args cli_frame_args_default(void);
+/* Takes one of the options above; false if it is none of them. *ok false: its value was bad (printed). */
+bool cli_frame_option(cli_frame_args *a, const char *command, int option, const char *value, bool *ok);
+
+/* Reads, says on stderr what was merged, dropped or odd, and sets the feet. Returns EXIT_OK or prints and returns the code. */
+int cli_read_frame(const char *path, const cli_frame_args *a, thr_frame *f);
+
+/* Marks the nodes in a list of names or a file of names; false prints why. */
+bool cli_mark_nodes(const thr_frame *f, const char *list, const char *option, bool *mark);
+
+int cli_read_plan(const char *path, thr_plan *p);
+
+/* File name of a path without folder and extension ("frame" for "-"). */
+void cli_stem(const char *path, char *out, size_t size);
+
+/* folder/file; makes the folder if needed. Returns EXIT_OK or prints and returns the code. */
+int cli_in_folder(const char *folder, const char *file, char *out, size_t size);
+
+/* Writes and destroys the text; prints and returns the code on failure. */
+int cli_write(thr_text *t, const char *path);
+
+/* ---- long computations ---- */
+
+/* Limits with a deadline (0 = none), Ctrl-C and, on a terminal, a progress line on stderr. */
+thr_limits cli_limits(double seconds);
+void cli_progress_end(void); /* wipes the progress line */
+
+/* ---- tables ---- */
+
+double cli_degrees(double radians);
+
+/* "n word" or "n words". */
+const char *cli_plural(int n, const char *one, const char *many);
+
+/* Draws the overview of a plan to path. Shared by plan and draw. */
+int cli_draw_overview(const thr_plan *p, const char *path, double pitch_mm);
+
+#endif

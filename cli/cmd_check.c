@@ -1,0 +1,93 @@
+/* thread check: is everything that a plan says true? */
+#include "cli/cli.h"
+#include "graph/check.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const char help[] =
+    "thread check PLAN.. [--json]: verify coverage, ends, metrics and the proof of optimality; no solver is used\n\n"
+    "Examples:\n"
+    "  thread check plan.json\n"
+    "  thread plan dome.obj -o - | thread check -\n\n"
+    "Options:\n"
+    "      --json           one JSON line per plan\n"
+    "  -q, --quiet          print nothing for plans that hold       -h, --help\n\n"
+    "Exit codes: 0 all plans hold, 1 a violation (printed with its place), 2 usage, 3 not a plan\n";
+
+enum { OPTION_JSON = OPTION_FREE };
+static const struct option table[] = {CLI_COMMON_OPTIONS, {"json", no_argument, NULL, OPTION_JSON}, {NULL, 0, NULL, 0}};
+
+static void put_verdict(thr_text *t, const char *path, const thr_plan *p)
+{
+  const thr_metrics *m = &p->metrics;
+  const char *units = p->frame.units;
+  int cuts = 0;
+  for (int i = 0; i < p->proof.n_certificates; i++)
+    cuts += p->proof.certificate[i].n_cuts;
+  thr_text_printf(t, "%s: %d %s, %d passes, every edge covered, length %.6f %s: ", path, p->n_cords, cli_plural(p->n_cords, "cord", "cords"),
+                  m->passes, m->length, units);
+  if (!p->proof.present)
+    thr_text_append(t, "no claim of optimality\n");
+  else if (p->proof.optimal)
+    thr_text_printf(t, "optimal, certificate verified (%d %s)\n", cuts, cli_plural(cuts, "odd cut", "odd cuts"));
+  else
+    thr_text_printf(t, "lower bound %.6f verified, gap %.3g %%\n", p->proof.lower_bound, 100 * p->proof.gap);
+}
+
+static void put_json(thr_text *t, const char *path, const thr_plan *p, const thr_err *err)
+{
+  thr_text_append(t, "{\"plan\": ");
+  thr_text_json_string(t, path);
+  if (err->code) {
+    thr_text_append(t, ", \"ok\": false, \"violation\": ");
+    thr_text_json_string(t, err->text);
+  } else {
+    thr_text_append(t, ", \"ok\": true, \"length\": ");
+    thr_text_double(t, p->metrics.length);
+    if (p->proof.present) {
+      thr_text_printf(t, ", \"status\": \"%s\", \"lower_bound\": ", p->proof.optimal ? "optimal" : "bound");
+      thr_text_double(t, p->proof.lower_bound);
+      thr_text_append(t, ", \"gap\": ");
+      thr_text_double(t, p->proof.gap);
+    }
+  }
+  thr_text_append(t, "}\n");
+}
+
+static int check_one(const char *path, bool json)
+{
+  thr_plan p;
+  thr_text t = {0};
+  thr_err err = {0}, found = {0};
+  const char *name = strcmp(path, "-") == 0 ? "stdin" : path;
+  thr_status st = thr_plan_read(&p, path, &err);
+  if (!st && (st = thr_check_plan(&p, &found))) thr_fail(&err, st, "%s: %s", name, found.text);
+  int code = st == THR_OK ? EXIT_OK : EXIT_VIOLATION;
+  if (st && st != THR_EVIOLATED)
+    code = cli_fail(&err);
+  else if (json)
+    put_json(&t, name, &p, &err);
+  else if (st)
+    cli_error("%s", err.text);
+  else if (!cli_quiet)
+    put_verdict(&t, name, &p);
+  thr_plan_destroy(&p);
+  int written = cli_write(&t, "-");
+  return code ? code : written;
+}
+
+int cmd_check(int argc, char **argv)
+{
+  int done, o, code = EXIT_OK;
+  bool json = false;
+  while ((o = cli_next_option(argc, argv, "check", ":" CLI_COMMON_LETTERS, table, help, &done)) != -1)
+    if (o == OPTION_JSON) json = true;
+  if (done >= 0) return done;
+  if (optind == argc) return cli_usage("check", "which plan?");
+  for (; optind < argc; optind++) {
+    int one = check_one(argv[optind], json);
+    if (one > code) code = one;
+  }
+  return code;
+}

@@ -1,0 +1,60 @@
+/* thread: plans how cord is threaded through bead structures. This file only finds the subcommand. */
+#include "cli/cli.h"
+#include "graph/cuttree.h"
+#include "lp/lp.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const struct {
+  const char *name, *summary;
+  int (*run)(int argc, char **argv);
+} command[] = {
+    {"plan", "find the best threading of a framework, prove it, draw it", cmd_plan},
+    {"check", "verify every claim of a plan, without any solver", cmd_check},
+    {"eval", "pull force and tension along each cord", cmd_eval},
+    {"compare", "plans side by side", cmd_compare},
+    {"draw", "diagrams for the hand", cmd_draw},
+    {"info", "what a framework is made of", cmd_info},
+    {"make", "example frameworks", cmd_make},
+};
+enum { N_COMMANDS = sizeof command / sizeof *command };
+
+static void help(FILE *to)
+{
+  fputs("thread plans how cord is threaded through bead structures.\n\n"
+        "Examples:\n"
+        "  thread make dome --size 7 -o dome.json        a 7 x 7 dome to try things on\n"
+        "  thread plan dome.json                         shortest cord: plan and diagrams in dome/\n"
+        "  thread check dome/plan.json                   verify the plan and its proof\n"
+        "  thread eval dome/plan.json --mu 0.3           how hard to pull\n\n"
+        "Commands:\n",
+        to);
+  for (int i = 0; i < N_COMMANDS; i++)
+    fprintf(to, "  %-9s %s\n", command[i].name, command[i].summary);
+  fputs("\n`thread COMMAND --help` says more; `man thread` says all.\n", to);
+}
+
+static int version(void)
+{
+  printf("thread %s (GLPK %s, igraph %s)\n", THR_VERSION, thr_glpk_version(), thr_igraph_version());
+  return EXIT_OK;
+}
+
+int main(int argc, char **argv)
+{
+  if (argc < 2) {
+    help(stderr);
+    return EXIT_USAGE;
+  }
+  const char *name = argv[1];
+  if (strcmp(name, "--version") == 0) return version();
+  if (strcmp(name, "-h") == 0 || strcmp(name, "--help") == 0 || strcmp(name, "help") == 0) {
+    help(stdout);
+    return EXIT_OK;
+  }
+  for (int i = 0; i < N_COMMANDS; i++)
+    if (strcmp(name, command[i].name) == 0) return command[i].run(argc - 1, argv + 1);
+  cli_error("there is no command %s; `thread --help` lists them", name);
+  return EXIT_USAGE;
+}
