@@ -1,43 +1,207 @@
 # thread: build, test and install. `make help` lists the targets.
 VERSION := 0.1.0
+
+# Choices, as `make BUILD=asan` or in the environment
 BUILD ?= release
+# release | debug | asan (address + undefined behaviour) | cov (gcov) | fuzz (clang); into $(OUT)/$(BUILD)
+OUT ?= build
+# everything made goes below this folder
 PREFIX ?= /usr/local
-DIR := build/$(BUILD)
+DESTDIR ?=
+FUZZ_SECONDS ?= 10
+# seconds per fuzz target
+WERROR ?= $(filter true 1,$(CI))
+# not empty and not 0: warnings are errors
+V ?=
+# V=1 shows the commands
 
-CC ?= gcc
-PACKAGES := igraph jansson
-CPPFLAGS := -I. -DTHR_VERSION='"$(VERSION)"' $(shell pkg-config --cflags $(PACKAGES) 2>/dev/null)
+# What the demo runs; DEMO_OUT holds plan.json and the drawing
+DEMO_OUT = $(OUT)/demo
+DEMO = plan data/dome7.json --objective length -o $(DEMO_OUT)/plan.json --draw $(DEMO_OUT)
+
+# Debian 12 packages
+BUILD_PACKAGES := build-essential pkg-config libglpk-dev libigraph-dev libjansson-dev
+TEST_PACKAGES := check clang clang-format libclang-rt-14-dev librsvg2-bin libxml2-utils
+LINT_PACKAGES := clang-format clang-tidy cppcheck
+COVERAGE_PACKAGES := check gcovr
+
+ifeq ($(origin CC),default)
+CC := gcc
+endif
+FUZZ_CC ?= clang
+CLANG_FORMAT ?= clang-format
+
+# Asked for once and only when a recipe needs it: on a bare machine `make demo` installs pkg-config and the libraries first.
+PKG_CFLAGS = $(eval PKG_CFLAGS := $$(shell pkg-config --cflags igraph jansson))$(PKG_CFLAGS)
+PKG_LIBS = $(eval PKG_LIBS := $$(shell pkg-config --libs igraph jansson))$(PKG_LIBS)
+CHECK_CFLAGS = $(eval CHECK_CFLAGS := $$(shell pkg-config --cflags check))$(CHECK_CFLAGS)
+CHECK_LIBS = $(eval CHECK_LIBS := $$(shell pkg-config --libs check))$(CHECK_LIBS)
+
 WARN := -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes -Wvla
-# no fused multiply-add: the same digits on every machine
-CFLAGS_release := -O2
-CFLAGS_debug := -O0 -g
-CFLAGS_asan := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
-CFLAGS := -std=c11 $(WARN) -ffp-contract=off $(CFLAGS_$(BUILD)) $(if $(CI),-Werror)
-LDLIBS := $(shell pkg-config --libs $(PACKAGES) 2>/dev/null) -lglpk -lm
+SANITIZE := -g -fno-sanitize-recover=all -fno-omit-frame-pointer
+MODE_release := -O2
+MODE_debug := -O0 -g
+MODE_asan := -O1 -fsanitize=address,undefined $(SANITIZE)
+MODE_cov := -O0 -g --coverage
+MODE_fuzz := -O1 -fsanitize=fuzzer-no-link,address,undefined $(SANITIZE)
+ifeq ($(MODE_$(BUILD)),)
+$(error BUILD=$(BUILD) is not one of release debug asan cov fuzz)
+endif
+# -ffp-contract=off: no fused multiply-add, so the same digits on every machine
+THR_CFLAGS = -std=c11 $(WARN) -ffp-contract=off $(MODE_$(BUILD)) $(CFLAGS)
+THR_CPPFLAGS = -I. -DTHR_VERSION='"$(VERSION)"' $(PKG_CFLAGS) $(CPPFLAGS)
+THR_LIBS = $(PKG_LIBS) -lglpk -lm $(LDLIBS)
+COMPILER = $(if $(filter fuzz,$(BUILD)),$(FUZZ_CC),$(CC))
+STRICT = $(if $(filter-out 0,$(WERROR)),$(if $(filter fuzz,$(BUILD)),,-Werror))
 
-MODULES := graph lp eval diagram
-SOURCES := $(foreach m,$(MODULES),$(wildcard $(m)/*.c))
+DIR := $(OUT)/$(BUILD)
+MODULES := graph lp symmetry tortuosity eval diagram
+SOURCES := $(wildcard $(addsuffix /*.c,$(MODULES)))
 OBJECTS := $(SOURCES:%.c=$(DIR)/%.o)
 CLI_OBJECTS := $(patsubst %.c,$(DIR)/%.o,$(wildcard cli/*.c))
 LIBRARY := $(DIR)/libthread.a
 PROGRAM := $(DIR)/thread
+# tests/*.c is shared by all test programs; each file of tests/unit and tests/property is a program
+TEST_SUPPORT := $(patsubst %.c,$(DIR)/%.o,$(wildcard tests/*.c))
+TEST_PROGRAMS := $(patsubst %.c,$(DIR)/%,$(wildcard tests/unit/*.c tests/property/*.c))
+FUZZ_PROGRAMS := $(patsubst %.c,$(DIR)/%,$(wildcard tests/fuzz/fuzz_*.c))
+C_FILES = $(wildcard $(foreach d,$(MODULES) cli tests tests/unit tests/property tests/fuzz,$(d)/*.c $(d)/*.h))
+
+Q := $(if $(V),,@)
+# `make -jN` given: share its jobs; not given: one per processor
+JOBS = $$(case "$$MAKEFLAGS" in *-j*) ;; *) echo -j"$$(nproc)" ;; esac)
+quote = '$(subst ','\'',$(1))'
 
 .DEFAULT_GOAL := all
-all: $(PROGRAM)
+.DELETE_ON_ERROR:
+.SECONDARY:
+.SUFFIXES:
+
+all: $(if $(CLI_OBJECTS),$(PROGRAM),$(LIBRARY)) ## build the program (BUILD=release|debug|asan|cov)
+
+demo: ## install what is missing, build, plan a dome, check the plan
+	+@tools/install-packages.sh $(BUILD_PACKAGES)
+	+@$(MAKE) --no-print-directory $(JOBS) BUILD=release all
+	@mkdir -p $(DEMO_OUT)
+	$(OUT)/release/thread $(DEMO)
+	$(OUT)/release/thread check $(DEMO_OUT)/plan.json
+	@echo; echo "plan:    $(DEMO_OUT)/plan.json"
+	@for f in $(DEMO_OUT)/*.svg $(DEMO_OUT)/*.pdf $(DEMO_OUT)/*.html; do if [ -e "$$f" ]; then echo "drawing: $$f"; fi; done
+
+test: ## install what is missing, build, run everything; ends with "N passed, N failed" (ONLY=word runs the matching ones)
+	+@tools/install-packages.sh $(BUILD_PACKAGES) $(TEST_PACKAGES) || { echo "0 passed, 1 failed"; exit 1; }
+	+@MAKE="$(MAKE)" OUT="$(OUT)" FUZZ_SECONDS="$(FUZZ_SECONDS)" ONLY="$(ONLY)" CLANG_FORMAT="$(CLANG_FORMAT)" tests/run.sh
+
+fuzz: ## fuzz every reader for FUZZ_SECONDS, keeping what is found in $(OUT)/fuzz/found
+	+@tools/install-packages.sh $(BUILD_PACKAGES) $(TEST_PACKAGES)
+	+@MAKE="$(MAKE)" OUT="$(OUT)" FUZZ_SECONDS="$(FUZZ_SECONDS)" FUZZ_SEED=0 ONLY="$(ONLY)" tests/run.sh fuzz
+
+asan: ## build the program with the address and undefined-behaviour sanitizers
+	+@$(MAKE) --no-print-directory $(JOBS) BUILD=asan all
+
+layers: ## who may include whom
+	@tests/layers.sh
+
+lint: format-check layers ## clang-format, layers, clang-tidy, cppcheck
+	+@tools/install-packages.sh $(BUILD_PACKAGES) $(LINT_PACKAGES)
+	+@$(MAKE) --no-print-directory tidy cppcheck
+
+format-check:
+	+@tools/install-packages.sh clang-format
+	@$(CLANG_FORMAT) --dry-run -Werror $(C_FILES)
+
+tidy:
+	@printf '%s\n' $(filter %.c,$(filter-out tests/%,$(C_FILES))) | xargs -P "$$(nproc)" -n 4 sh -c \
+	  'clang-tidy --quiet --warnings-as-errors="*" "$$@" -- -std=c11 $(THR_CPPFLAGS) 2>$(OUT)/tidy.$$$$ || { cat $(OUT)/tidy.$$$$; exit 1; }' tidy
+	@rm -f $(OUT)/tidy.*
+
+cppcheck:
+	@cppcheck --quiet --std=c11 --enable=warning,performance,portability --inline-suppr --error-exitcode=1 \
+	  --suppress=missingIncludeSystem -I. -DTHR_VERSION='"$(VERSION)"' $(filter %.c,$(filter-out tests/%,$(C_FILES)))
+
+format: ## rewrite the sources with clang-format
+	+@tools/install-packages.sh clang-format
+	@$(CLANG_FORMAT) -i $(C_FILES)
+
+bench: ## run bench/*.sh with the release build
+	+@$(MAKE) --no-print-directory $(JOBS) BUILD=release all
+	@for b in bench/*.sh; do THREAD="$(OUT)/release/thread" "$$b" || exit; done
+
+coverage: ## lines and branches reached by the unit and property tests
+	+@tools/install-packages.sh $(BUILD_PACKAGES) $(COVERAGE_PACKAGES)
+	@rm -rf $(OUT)/cov
+	+@$(MAKE) --no-print-directory $(JOBS) BUILD=cov test-programs
+	@for t in $(patsubst $(DIR)/%,$(OUT)/cov/%,$(TEST_PROGRAMS)); do CK_TIMEOUT_MULTIPLIER=10 "$$t" | tail -n 1; done
+	@gcovr --root . --exclude tests --object-directory $(OUT)/cov
+
+deps: ## install the packages that building needs (apt, as root or with sudo)
+	+@tools/install-packages.sh $(BUILD_PACKAGES)
+
+test-deps: ## install the packages that building, testing and linting need
+	+@tools/install-packages.sh $(BUILD_PACKAGES) $(TEST_PACKAGES) $(LINT_PACKAGES)
+
+install: all docs/thread.1 ## install program and man page under $(DESTDIR)$(PREFIX)
+	install -D -m 755 $(PROGRAM) "$(DESTDIR)$(PREFIX)/bin/thread"
+	install -D -m 644 docs/thread.1 "$(DESTDIR)$(PREFIX)/share/man/man1/thread.1"
+
+uninstall: ## remove what `make install` installed
+	rm -f "$(DESTDIR)$(PREFIX)/bin/thread" "$(DESTDIR)$(PREFIX)/share/man/man1/thread.1"
+
+clean: ## remove everything made
+	rm -rf $(OUT)
+
+help: ## this list
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-10s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
+
+test-programs: $(TEST_PROGRAMS)
+fuzz-programs: $(FUZZ_PROGRAMS)
+list-tests:
+	@printf '%s\n' $(patsubst $(DIR)/tests/%,%,$(TEST_PROGRAMS))
+list-fuzz:
+	@printf '%s\n' $(patsubst $(DIR)/tests/%,%,$(FUZZ_PROGRAMS))
+list-c:
+	@printf '%s\n' $(C_FILES)
 
 $(PROGRAM): $(CLI_OBJECTS) $(LIBRARY)
-	$(CC) $(CFLAGS) -o $@ $^ $(LDLIBS)
+	@echo "  LINK  $@"
+	$(Q)$(COMPILER) $(THR_CFLAGS) $(LDFLAGS) -o $@ $^ $(THR_LIBS)
 
-$(LIBRARY): $(OBJECTS)
-	rm -f $@
-	ar rcs $@ $^
+$(LIBRARY): $(OBJECTS) $(DIR)/objects.list
+	@echo "  AR    $@"
+	$(Q)rm -f $@
+	$(Q)ar rcs $@ $(OBJECTS)
 
-$(DIR)/%.o: %.c
+$(DIR)/%.o: %.c $(DIR)/flags.list
 	@mkdir -p $(@D)
-	$(CC) $(CPPFLAGS) $(CFLAGS) -MMD -MP -c -o $@ $<
+	@echo "  CC    $@"
+	$(Q)$(COMPILER) $(THR_CPPFLAGS) $(THR_CFLAGS) $(STRICT) -MMD -MP -c -o $@ $<
 
-clean:
-	rm -rf build
+$(TEST_PROGRAMS:%=%.o) $(TEST_SUPPORT): private THR_CPPFLAGS += $(CHECK_CFLAGS)
+$(TEST_PROGRAMS): $(DIR)/%: $(DIR)/%.o $(TEST_SUPPORT) $(LIBRARY)
+	@echo "  LINK  $@"
+	$(Q)$(COMPILER) $(THR_CFLAGS) $(LDFLAGS) -o $@ $^ $(CHECK_LIBS) $(THR_LIBS)
 
-.PHONY: all clean
--include $(wildcard $(DIR)/*/*.d)
+$(FUZZ_PROGRAMS): $(DIR)/%: $(DIR)/%.o $(LIBRARY)
+	@echo "  LINK  $@"
+	$(Q)$(COMPILER) $(THR_CFLAGS) -fsanitize=fuzzer $(LDFLAGS) -o $@ $^ $(THR_LIBS)
+
+# Two lists, rewritten only when they change: other flags recompile everything, a source that is gone leaves the library.
+$(DIR)/flags.list: $(OUT)/packages.ok FORCE
+	@mkdir -p $(@D)
+	@printf '%s\n' $(call quote,$(COMPILER) $(THR_CPPFLAGS) $(THR_CFLAGS)) | cmp -s - $@ || \
+	 printf '%s\n' $(call quote,$(COMPILER) $(THR_CPPFLAGS) $(THR_CFLAGS)) > $@
+$(DIR)/objects.list: FORCE
+	@mkdir -p $(@D)
+	@echo "$(OBJECTS)" | cmp -s - $@ || echo "$(OBJECTS)" > $@
+
+$(OUT)/packages.ok:
+	@command -v $(CC) >/dev/null && pkg-config --exists igraph jansson 2>/dev/null && \
+	  echo '#include <glpk.h>' | $(CC) -E -x c - >/dev/null 2>&1 || \
+	  { echo 'thread: a compiler or a library is missing: run `make deps` (or `make demo`), or install: $(BUILD_PACKAGES)' >&2; exit 1; }
+	@mkdir -p $(@D)
+	@touch $@
+
+FORCE:
+.PHONY: all demo test fuzz asan layers lint format-check tidy cppcheck format bench coverage deps test-deps install uninstall clean help
+.PHONY: test-programs fuzz-programs list-tests list-fuzz list-c FORCE
+-include $(wildcard $(DIR)/*/*.d $(DIR)/*/*/*.d)

@@ -202,10 +202,14 @@ thr_status thr_lp_set_costs(thr_lp *lp, const double *cost, thr_err *err)
 
 /* ---- solving ---- */
 
+/* Pivots between two looks at the clock and the interrupt flag. Counted, not timed: where a slice ends changes the path that
+ * the method takes, and the same input must give the same plan on a slow machine as on a fast one. */
+enum { SLICE = 2000 };
+
 typedef struct {
   glp_prob *problem;
   bool exact;
-  int milliseconds, code;
+  int code;
 } solve_call;
 
 static void do_solve(void *argument)
@@ -215,7 +219,7 @@ static void do_solve(void *argument)
   glp_init_smcp(&options);
   options.msg_lev = GLP_MSG_OFF;
   options.meth = GLP_DUALP; /* after new rows the basis stays dual feasible; it falls back to primal if not */
-  options.tm_lim = c->milliseconds;
+  options.it_lim = SLICE;
   options.tol_dj = 1e-9; /* the duals become certificates: GLPK's 1e-7 is too coarse to close them */
   c->code = c->exact ? glp_exact(c->problem, &options) : glp_simplex(c->problem, &options);
 }
@@ -237,21 +241,17 @@ static thr_lp_outcome outcome_of(glp_prob *problem)
 
 static thr_status solve(thr_lp *lp, bool exact, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)
 {
-  /* Short slices, because an interrupt can only be seen between them; a slice keeps its basis. The exact method factorizes
-   * in rational arithmetic at each start, so its slices must be long. */
-  const double slice = exact ? 20 : 0.25;
   *outcome = THR_LP_STOPPED;
   thr_status st = check_alive(lp, err);
   for (int restarts = 0; !st;) {
-    double seconds = thr_limits_left(limits, slice);
-    if (seconds <= 0) return THR_OK;
-    solve_call c = {lp->problem, exact, 1 + (int)(1000 * seconds), 0};
+    if (thr_limits_stop(limits)) return THR_OK;
+    solve_call c = {lp->problem, exact, 0};
     if ((st = guarded(do_solve, &c, err))) return st;
     if (c.code == 0 && outcome_of(lp->problem) != THR_LP_STOPPED) {
       *outcome = outcome_of(lp->problem);
       return THR_OK;
     }
-    if (c.code == GLP_ETMLIM) continue;
+    if (c.code == GLP_EITLIM) continue;
     if (restarts++) return thr_fail(err, THR_ESOLVER, "GLPK's simplex method failed (code %d)", c.code);
     st = guarded(do_reset_basis, lp->problem, err); /* a singular basis is refused, not repaired */
   }
