@@ -58,12 +58,20 @@ int cli_usage(const char *command, const char *format, ...)
   va_start(args, format);
   fputs("thread: ", stderr);
   vfprintf(stderr, format, args);
-  fprintf(stderr, "; see `thread %s --help`\n", command);
+  fprintf(stderr, " (see `thread %s --help`)\n", command);
   va_end(args);
   return EXIT_USAGE;
 }
 
 /* ---- options ---- */
+
+/* What the user typed: getopt has moved operands behind the options, so the culprit is the word before optind, or inside it. */
+static int bad_option(char **argv, const char *command, const char *problem)
+{
+  const char *word = argv[optind - 1];
+  if (strncmp(word, "--", 2) == 0) return cli_usage(command, "%s %s", word, problem);
+  return cli_usage(command, "-%c %s", optopt, problem);
+}
 
 int cli_next_option(int argc, char **argv, const char *command, const char *letters, const struct option *table, const char *help,
                     int *done)
@@ -71,7 +79,7 @@ int cli_next_option(int argc, char **argv, const char *command, const char *lett
   *done = -1;
   opterr = 0;
   for (;;) {
-    int was = optind, o = getopt_long(argc, argv, letters, table, NULL);
+    int o = getopt_long(argc, argv, letters, table, NULL);
     switch (o) {
     case 'h':
       fputs(help, stdout);
@@ -79,8 +87,8 @@ int cli_next_option(int argc, char **argv, const char *command, const char *lett
       return -1;
     case 'q': cli_quiet = true; break;
     case 'v': cli_verbose = true; break;
-    case ':': *done = cli_usage(command, "%s needs a value", argv[was]); return -1;
-    case '?': *done = cli_usage(command, "there is no option %s, or it takes no value", argv[was]); return -1;
+    case ':': *done = bad_option(argv, command, "needs a value"); return -1;
+    case '?': *done = bad_option(argv, command, "is not an option here, or takes no value"); return -1;
     default: return o;
     }
   }

@@ -155,8 +155,9 @@ static void put_summary(thr_text *t, const thr_plan *p, const thr_capstan *pull)
                   cli_plural(p->n_cords, "piece", "pieces"), p->options.cover, cli_plural(p->options.cover, "pass", "passes"),
                   thr_ends_name(p->options.ends));
   put_cords(t, p, pull);
-  thr_text_printf(t, "\nlength   %.6f %s = %.6f once over every interface%s + %.6f twice (%.1f %%)\n", m->length, p->frame.units,
-                  m->base_length, p->options.cover > 1 ? " as often as asked" : "", m->overlap, 100 * m->overlap / m->base_length);
+  thr_text_printf(t, "\nlength   %.6f %s = %.6f for %d %s over every edge + %.6f overlap (%.1f %%)\n", m->length, p->frame.units,
+                  m->base_length, p->options.cover, cli_plural(p->options.cover, "pass", "passes"), m->overlap,
+                  100 * m->overlap / m->base_length);
   thr_text_append(t, "         ");
   put_status(t, p);
   thr_text_printf(t, "pull     with both ends pulled, times the tension that must reach the slackest point (mu = %g)\n", p->options.mu);

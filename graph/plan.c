@@ -127,7 +127,8 @@ thr_status thr_plan_measure(const thr_frame *f, int cover, const thr_cord *cord,
   for (int i = 0; i < n_cords; i++)
     measure_cord(f, &cord[i], passes, m);
   m->base_length = cover * thr_frame_total_length(f);
-  m->overlap = m->length - m->base_length;
+  for (int e = 0; e < f->n_edges; e++) /* not a difference of two sums: exactly 0 without overlap */
+    m->overlap += (passes[e] - cover) * f->length[e];
   free(passes);
   return THR_OK;
 }

@@ -1,0 +1,64 @@
+/* Where the nodes of a framework go on paper. Several candidates are made and measured; the one with the fewest
+ * faults is drawn. A layout keeps the handedness of the framework seen from outside, so that "turn left" on paper
+ * is "turn left" in the hand. */
+#ifndef THR_LAYOUT_H
+#define THR_LAYOUT_H
+
+#include "graph/frame.h"
+
+typedef enum {
+  THR_LAYOUT_PLAN,       /* x to the right, y up the page, +z towards the viewer */
+  THR_LAYOUT_UNROLLED_Z, /* azimuthal-equidistant about the vertical: the crown in the middle, rings around it */
+  THR_LAYOUT_FRONT,      /* x to the right, z up, seen from -y */
+  THR_LAYOUT_SIDE,       /* y to the right, z up, seen from +x */
+  THR_LAYOUT_PLANE,      /* at right angles onto the best-fit plane */
+  THR_LAYOUT_UNROLLED_X, /* azimuthal-equidistant about the x axis: the +x end in the middle */
+  THR_LAYOUT_UNROLLED_Y, /* the same about the y axis */
+  THR_LAYOUT_DRAWN,      /* made by a drawing algorithm: only the adjacency is true (see thr_layout_adopt) */
+  THR_LAYOUT_KINDS
+} thr_layout_kind;
+
+/* xy is owned; {0} is valid and empty. */
+typedef struct {
+  int n_nodes;
+  double (*xy)[2]; /* [n_nodes] units of the framework (THR_LAYOUT_DRAWN: any), +y up the page */
+  thr_layout_kind kind;
+  long crossings; /* pairs of edges that cross, touch or lie on each other on paper (see thr_layout_measure) */
+  bool capped;    /* counting was cut short: there are at least this many crossings */
+  int squeezed;   /* edges shorter than a fifth of the median: no room for a bead */
+  double median;  /* median edge length on paper, in units of xy */
+  double ratio;   /* shortest edge on paper over median, 0 .. 1; 0 when the median is 0 */
+} thr_layout;
+
+/* Makes and measures one candidate other than THR_LAYOUT_DRAWN. THR_EINPUT if the frame has no such view (a flat
+ * frame has nothing to unroll). */
+thr_status thr_layout_make(thr_layout *l, const thr_frame *f, thr_layout_kind kind, thr_err *err) THR_MUST_CHECK;
+
+/* Takes over coordinates made elsewhere (igraph's Kamada-Kawai, a file): copies xy[f->n_nodes], measures, kind =
+ * THR_LAYOUT_DRAWN. Coordinates must be finite (THR_EINPUT). */
+thr_status thr_layout_adopt(thr_layout *l, const thr_frame *f, const double (*xy)[2], thr_err *err) THR_MUST_CHECK;
+
+/* Fills crossings, capped, squeezed, median and ratio from xy. Two edges without a common node count as crossing when
+ * they come nearer than 2 % of the median; two edges at a node when they leave it within 1 degree of each other.
+ * Hash grid: O(m + pairs that are near); stops after 20 million pairs (capped). */
+thr_status thr_layout_measure(thr_layout *l, const thr_frame *f, thr_err *err) THR_MUST_CHECK;
+
+/* The layout to draw, by crossings + squeezed, then ratio. The plan view is taken as soon as it has no crossing and a
+ * ratio of at least 0.5; of nearly equal candidates (ratio within a quarter) the earlier kind wins. extra[n_extra] are
+ * further measured candidates (NULL and 0 for none), only used if they are better; the best is copied. */
+thr_status thr_layout_choose(thr_layout *best, const thr_frame *f, const thr_layout *extra, int n_extra,
+                             thr_err *err) THR_MUST_CHECK;
+
+/* Is one candidate clearly better than another? The order of thr_layout_choose. */
+bool thr_layout_better(const thr_layout *a, const thr_layout *b);
+
+thr_status thr_layout_copy(thr_layout *to, const thr_layout *from, thr_err *err) THR_MUST_CHECK;
+void thr_layout_destroy(thr_layout *l);
+
+const char *thr_layout_name(thr_layout_kind kind);  /* "plan", "unrolled", "front", .. */
+const char *thr_layout_words(thr_layout_kind kind); /* for the reader of a diagram: "seen from outside (from above)", .. */
+
+/* Are distances on paper those of the framework, up to the foreshortening of a projection? */
+bool thr_layout_to_scale(thr_layout_kind kind);
+
+#endif

@@ -1,0 +1,24 @@
+/* The overview page: one SVG picture of all cords of a plan, to be followed with a finger from start to end. */
+#ifndef THR_OVERVIEW_H
+#define THR_OVERVIEW_H
+
+#include "diagram/layout.h"
+#include "graph/plan.h"
+
+typedef struct {
+  const char *title;        /* NULL or "": "Cord A: 84 beads, 86 passes"; borrowed */
+  double pitch_mm;          /* mm on paper for the median edge, 2 .. 200; 0 = automatic: 24 if the sheet stays within A0 */
+  const thr_layout *layout; /* NULL: thr_layout_choose; borrowed */
+} thr_overview_options;
+
+thr_overview_options thr_overview_options_default(void);
+
+/* Appends the picture to svg. Its size is physical (mm); no text is under 7 pt. Elements: <g id="cord-A"> holds the
+ * passes, <g id="A-17"> is pass 17 (counted from 1), "bead-12" is edge 12 (counted from 0), "n-A-17" a pass's number.
+ * A cord's id is used if it is capital letters only, else the id that its index would have.
+ * The same plan and options give the same bytes. THR_EINPUT with the cord and pass for cords that name edges out of
+ * range or whose passes do not meet, and for a pitch or layout that does not fit. O(n log n + pairs of cords that share
+ * an edge). svg is unchanged on failure. */
+thr_status thr_overview_svg(const thr_plan *p, const thr_overview_options *o, thr_text *svg, thr_err *err) THR_MUST_CHECK;
+
+#endif

@@ -1,0 +1,116 @@
+/* The overview picture before it is written: everything in mm on paper, x to the right, y down, the nodes' bounding box at
+ * the origin. Private to diagram/. Built in steps, each in its own file: paper and beads (scene.c), the S and E marks
+ * (marks.c), lanes (lanes.c), strands (strands.c), numbers, arrows and names (labels.c). */
+#ifndef THR_SCENE_H
+#define THR_SCENE_H
+
+#include "diagram/boxes.h"
+#include "diagram/layout.h"
+#include "diagram/palette.h"
+#include "diagram/places.h"
+#include "graph/plan.h"
+
+/* Sizes in the picture, all in mm. */
+typedef struct {
+  double pitch;  /* median edge */
+  double lane;   /* between neighbouring lanes of a bead, at most */
+  double cord;   /* line width */
+  double casing; /* white on each side of it */
+  double bead;   /* width of a bead with one lane */
+  double gap;    /* between a node and its beads, at least */
+  double arrow;  /* length */
+  double text;   /* font size of numbers and names, >= 2.5 (7 pt = 2.47) */
+} thr_sizes;
+
+typedef struct {
+  int cord;              /* index in the plan */
+  int number;            /* 1 .. n_passes of the cord */
+  int half;              /* half-edge */
+  int lane;              /* 0 .. on its edge, towards the edge's normal (-dy, dx) */
+  double from[2], to[2]; /* the straight part, in the lane */
+  double turn[2][2];     /* Bezier control points of the curve that leads to from; the first pass's starts at its mark */
+  bool numbered;
+  double pill[2];    /* centre of the number, if numbered */
+  double arrow[2];   /* its middle */
+  double arrow_size; /* its length; 0 = no room */
+} thr_scene_pass;
+
+/* Where a cord starts (S, a disc) or ends (E, a square). */
+typedef struct {
+  int node;
+  double at[2], radius;
+  double angle; /* direction from the node, rad; the node itself (at) when alone is false */
+  bool beside;  /* beside the node, else on it */
+  char text[16];
+} thr_mark;
+
+typedef struct {
+  const thr_plan *plan;
+  const thr_frame *frame;
+  const thr_layout *layout;
+  thr_sizes size;
+  thr_places places;
+  double scale;         /* mm per unit of the layout */
+  double origin[2];     /* what of the layout lies at (0, 0): least x, greatest y */
+  double width, height; /* of the nodes' bounding box */
+  double (*at)[2];      /* [n_nodes] */
+  double *angle;        /* [2 * n_edges] direction in which a half-edge leaves its node, rad in (-pi, pi] */
+  int *around;          /* [2 * n_edges] as frame->half, but by ascending angle within a node */
+  int *rank;            /* [2 * n_edges] place of a half-edge among those at its node: around[first[v] + rank[h]] = h */
+  double *gap;          /* [2 * n_edges] from the node to the bead's end at the half-edge's tail */
+  double *lane;         /* [n_edges] between neighbouring lanes */
+  double *bead;         /* [n_edges] width */
+  int n_passes;
+  thr_scene_pass *pass;      /* [n_passes] of all cords in order */
+  int *first_pass;           /* [n_cords + 1] */
+  int *first_on, *on;        /* passes on edge e by lane: on[first_on[e] .. first_on[e + 1] - 1] */
+  double (*last_turn)[2][2]; /* [n_cords] control points of the curve from the last pass to the E mark */
+  thr_mark (*mark)[2];       /* [n_cords] S and E */
+  char (*id)[12];            /* [n_cords] for elements: capital letters only */
+  int number_step;           /* every so many passes has a number */
+  int dropped;               /* numbers for which there was no room */
+  bool *named;               /* [n_nodes] is there room for the name? */
+  double (*name_at)[2];      /* [n_nodes] its middle, if named */
+  thr_box extent;            /* of everything above */
+  thr_boxes boxes;
+} thr_scene;
+
+/* Everything up to the labels. layout and plan are borrowed and must outlive the scene. */
+thr_status thr_scene_build(thr_scene *s, const thr_plan *p, const thr_layout *l, double pitch_mm, thr_err *err) THR_MUST_CHECK;
+void thr_scene_destroy(thr_scene *s);
+
+/* Colour of pass i: of its cord, or of its twenty passes when there is one cord only. */
+thr_colour thr_scene_colour(const thr_scene *s, int i);
+enum { THR_COLOUR_PASSES = 20 };
+
+/* Dash pattern of cord c (see thr_palette_dash). */
+const double *thr_scene_dash(const thr_scene *s, int c);
+
+/* The steps of thr_scene_build, in order. */
+thr_status thr_scene_place_marks(thr_scene *s, thr_err *err) THR_MUST_CHECK;
+thr_status thr_scene_order_lanes(thr_scene *s, thr_err *err) THR_MUST_CHECK;
+void thr_scene_lay_strands(thr_scene *s);
+thr_status thr_scene_place_labels(thr_scene *s, thr_err *err) THR_MUST_CHECK;
+
+/* Unit vector along half-edge h on paper; (1, 0) if it has no length there. */
+void thr_scene_direction(const thr_scene *s, int h, double d[2]);
+double thr_scene_edge_length(const thr_scene *s, int e);
+
+/* Angle in [0, 2 pi) by which one turns, with rising angle, from direction a to direction b. */
+double thr_scene_sweep(double a, double b);
+
+/* Is pass i followed by pass i + 1 of the same cord? */
+bool thr_scene_continues(const thr_scene *s, int i);
+
+/* Number of characters (code points) of a text, and its estimated width in mm. */
+int thr_scene_characters(const char *text);
+double thr_scene_text_width(const char *text, double font_size);
+
+/* Size of the pill behind a number, mm. */
+double thr_scene_pill_width(const thr_scene *s, const char *text);
+double thr_scene_pill_height(const thr_scene *s);
+
+/* The text of a pass's number: "17", or "A17" when there are several cords. */
+void thr_scene_number(const thr_scene *s, int pass, char text[32]);
+
+#endif

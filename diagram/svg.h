@@ -1,0 +1,23 @@
+/* Small pieces of SVG: numbers, text, paths. Private to diagram/. */
+#ifndef THR_SVG_H
+#define THR_SVG_H
+
+#include "graph/text.h"
+
+/* Rounded to the two decimals that are printed, and never -0. */
+double thr_svg_round(double value);
+
+/* XML text of any bytes: what is not valid UTF-8 or not allowed in XML becomes U+FFFD or a space. */
+void thr_svg_escape(thr_text *t, const char *s);
+
+/* <text> at the baseline point; attributes is put in as it is ("" for none), e.g. " text-anchor=\"middle\"". */
+void thr_svg_text(thr_text *t, double x, double y, double size, const char *attributes, const char *s);
+
+void thr_svg_move(thr_text *t, const double at[2]);
+void thr_svg_line(thr_text *t, const double at[2]);
+void thr_svg_curve(thr_text *t, const double a[2], const double b[2], const double at[2]);
+
+/* A length in the frame's units with about four digits: "2413 mm", "12.35 m". */
+void thr_svg_length(double value, const char *units, char text[64]);
+
+#endif

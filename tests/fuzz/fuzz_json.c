@@ -1,0 +1,8 @@
+/* Fuzzes the JSON reader, all dialects. */
+#include "fuzz.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+  fuzz_one(data, size, THR_FORMAT_JSON);
+  return 0;
+}

@@ -1,0 +1,349 @@
+/* Drafts, welding and the framework: small cases with known answers, and every allocation failing once. */
+#include "graph/frame.h"
+
+#include <check.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void node(thr_draft *d, double x, double y, double z)
+{
+  ck_assert_int_eq(thr_draft_add_node(d, (double[3]){x, y, z}, NULL, false, NULL), THR_OK);
+}
+
+static void edge(thr_draft *d, int a, int b)
+{
+  ck_assert_int_eq(thr_draft_add_edge(d, a, b, 0, NULL), THR_OK);
+}
+
+static thr_frame build(thr_draft *d, double tolerance, thr_read_report *r)
+{
+  thr_frame f;
+  thr_err err = {0};
+  ck_assert_msg(thr_draft_build(d, tolerance, &f, r, &err) == THR_OK, "%s", err.text);
+  thr_draft_destroy(d);
+  return f;
+}
+
+/* The path graph of n nodes along x. */
+static thr_frame path_frame(int n)
+{
+  thr_draft d = {0};
+  thr_read_report r = {0};
+  for (int v = 0; v < n; v++)
+    node(&d, v, 0, 0);
+  for (int v = 1; v < n; v++)
+    edge(&d, v - 1, v);
+  return build(&d, -1, &r);
+}
+
+static thr_frame ring_frame(int n)
+{
+  thr_draft d = {0};
+  thr_read_report r = {0};
+  for (int v = 0; v < n; v++)
+    node(&d, cos(v), sin(v), v);
+  for (int v = 0; v < n; v++)
+    edge(&d, v, (v + 1) % n);
+  return build(&d, -1, &r);
+}
+
+START_TEST(welds_the_lowest_index)
+{
+  thr_draft d = {0};
+  thr_read_report r = {0};
+  node(&d, 0, 0, 0);
+  node(&d, 6, 0, 0);
+  ck_assert_int_eq(thr_draft_add_node(&d, (double[3]){6.000000000000001, 0, 0}, "late", true, NULL), THR_OK);
+  node(&d, 6, 8, 0);
+  node(&d, 1, 1, 1); /* no edge */
+  edge(&d, 0, 1);
+  edge(&d, 2, 3);
+  edge(&d, 1, 0); /* again, the other way */
+  edge(&d, 1, 2); /* nothing left of it */
+  thr_frame f = build(&d, -1, &r);
+  ck_assert_int_eq(f.n_nodes, 3);
+  ck_assert_int_eq(f.n_edges, 2);
+  ck_assert_int_eq(r.welded_nodes, 1);
+  ck_assert_int_eq(r.isolated_nodes, 1);
+  ck_assert_int_eq(r.duplicate_edges, 1);
+  ck_assert_int_eq(r.zero_length_edges, 1);
+  ck_assert_int_eq(r.nodes_read, 5);
+  ck_assert_int_eq(r.edges_read, 4);
+  ck_assert_double_eq_tol(r.weld_tolerance, 1e-6 * sqrt(36 + 64 + 1), 1e-12);
+  ck_assert_str_eq(f.name[1], "1");
+  ck_assert(f.foot[1] && !f.foot[0]);
+  ck_assert_double_eq(f.xyz[1][0], 6.0);
+  ck_assert_double_eq(f.length[1], 8.0);
+  ck_assert_double_eq(thr_frame_total_length(&f), 14.0);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(welds_chains_and_respects_the_tolerance)
+{
+  for (int wide = 0; wide < 2; wide++) {
+    thr_draft d = {0};
+    thr_read_report r = {0};
+    for (int v = 0; v < 5; v++)
+      node(&d, 0.1 * v, 0, 0);
+    node(&d, 10, 0, 0);
+    edge(&d, 4, 5);
+    edge(&d, 0, 4);
+    thr_frame f = build(&d, wide ? 0.11 : 0.09, &r);
+    ck_assert_int_eq(r.welded_nodes, wide ? 4 : 0);
+    ck_assert_int_eq(f.n_edges, wide ? 1 : 2);
+    ck_assert_double_eq_tol(f.length[0], wide ? 10 : 9.6, 1e-12);
+    thr_frame_destroy(&f);
+  }
+}
+END_TEST
+
+START_TEST(zero_tolerance_welds_equal_points_only)
+{
+  thr_draft d = {0};
+  thr_read_report r = {0};
+  node(&d, 0, 0, 0);
+  node(&d, 1, 0, 0);
+  node(&d, 1, 0, 0);
+  node(&d, nextafter(1, 2), 1, 0);
+  edge(&d, 0, 1);
+  edge(&d, 2, 3);
+  thr_frame f = build(&d, 0, &r);
+  ck_assert_int_eq(f.n_nodes, 3);
+  ck_assert_int_eq(thr_degree(&f, 1), 2);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(keeps_own_lengths)
+{
+  thr_draft d = {0};
+  thr_read_report r = {0};
+  node(&d, 0, 0, 0);
+  node(&d, 1, 0, 0);
+  node(&d, 2, 0, 0);
+  ck_assert_int_eq(thr_draft_add_edge(&d, 0, 1, 2.5, NULL), THR_OK);
+  edge(&d, 1, 2);
+  thr_frame f = build(&d, -1, &r);
+  ck_assert(f.own_lengths);
+  ck_assert_double_eq(f.length[0], 2.5);
+  ck_assert_double_eq(f.length[1], 1.0);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(refuses_bad_drafts)
+{
+  thr_draft d = {0};
+  thr_read_report r = {0};
+  thr_frame f;
+  thr_err err = {0};
+  ck_assert_int_eq(thr_draft_add_node(&d, (double[3]){0, NAN, 0}, NULL, false, NULL), THR_EINPUT);
+  ck_assert_int_eq(thr_draft_add_node(&d, (double[3]){0, 0, INFINITY}, NULL, false, NULL), THR_EINPUT);
+  ck_assert_int_eq(thr_draft_build(&d, -1, &f, &r, &err), THR_EINPUT);
+  ck_assert_ptr_nonnull(strstr(err.text, "no edge"));
+  node(&d, 0, 0, 0);
+  ck_assert_int_eq(thr_draft_add_edge(&d, 0, 1, 0, NULL), THR_EINPUT);
+  ck_assert_int_eq(thr_draft_add_edge(&d, -1, 0, 0, NULL), THR_EINPUT);
+  node(&d, 1, 0, 0);
+  edge(&d, 0, 0);
+  ck_assert_int_eq(thr_draft_build(&d, -1, &f, &r, NULL), THR_EINPUT); /* only a loop */
+  ck_assert_int_eq(thr_draft_add_edge(&d, 0, 1, -2, NULL), THR_OK);
+  ck_assert_int_eq(thr_draft_build(&d, -1, &f, &r, NULL), THR_EINPUT); /* a negative length */
+  ck_assert_int_eq(f.n_nodes, 0);
+  thr_draft_destroy(&d);
+}
+END_TEST
+
+START_TEST(half_edges_leave_and_arrive)
+{
+  thr_frame f = ring_frame(7);
+  for (int v = 0; v < f.n_nodes; v++) {
+    ck_assert_int_eq(thr_degree(&f, v), 2);
+    for (int i = f.first[v]; i < f.first[v + 1]; i++) {
+      int h = f.half[i];
+      ck_assert_int_eq(thr_tail(&f, h), v);
+      ck_assert_int_eq(thr_head(&f, h ^ 1), v);
+      ck_assert_int_eq(thr_frame_edge_between(&f, v, thr_head(&f, h)), h >> 1);
+    }
+  }
+  ck_assert_int_eq(thr_frame_edge_between(&f, 0, 3), -1);
+  ck_assert_int_eq(thr_frame_find(&f, "6"), 6);
+  ck_assert_int_eq(thr_frame_find(&f, "7"), -1);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(finds_the_lowest_feet)
+{
+  thr_frame f = ring_frame(5); /* z = 0 .. 4 */
+  f.foot[3] = true;
+  f.xyz[1][2] = 1e-9;
+  thr_frame_feet_lowest(&f);
+  for (int v = 0; v < 5; v++)
+    ck_assert_int_eq(f.foot[v], v < 2);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(hash_tells_frames_apart)
+{
+  thr_frame f = path_frame(4), g = {0};
+  ck_assert_int_eq(thr_frame_copy(&g, &f, NULL), THR_OK);
+  uint64_t hash = thr_frame_hash(&f);
+  ck_assert(thr_frame_hash(&g) == hash);
+  g.foot[2] = true;
+  ck_assert(thr_frame_hash(&g) != hash);
+  g.foot[2] = false;
+  g.length[0] = nextafter(g.length[0], 2);
+  ck_assert(thr_frame_hash(&g) != hash);
+  g.length[0] = f.length[0];
+  ck_assert(thr_frame_hash(&g) == hash);
+  thr_frame_destroy(&f);
+  thr_frame_destroy(&g);
+}
+END_TEST
+
+/* Two triangles joined by an edge, and a separate path of two edges. */
+START_TEST(components_and_bridges)
+{
+  static const int pair[][2] = {{0, 1}, {1, 2}, {2, 0}, {2, 3}, {3, 4}, {4, 5}, {5, 3}, {6, 7}, {7, 8}};
+  thr_draft d = {0};
+  thr_read_report r = {0};
+  for (int v = 0; v < 9; v++)
+    node(&d, v, v * v, 0);
+  for (int e = 0; e < 9; e++)
+    edge(&d, pair[e][0], pair[e][1]);
+  thr_frame f = build(&d, -1, &r);
+  int component[9], count;
+  bool bridge[9];
+  ck_assert_int_eq(thr_frame_components(&f, component, &count, NULL), THR_OK);
+  ck_assert_int_eq(count, 2);
+  for (int v = 0; v < 9; v++)
+    ck_assert_int_eq(component[v], v >= 6);
+  ck_assert_int_eq(thr_frame_bridges(&f, bridge, NULL), THR_OK);
+  for (int e = 0; e < 9; e++)
+    ck_assert_int_eq(bridge[e], e == 3 || e >= 7);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* Independent oracle for random graphs: an edge is a bridge if there is one component more without it. */
+START_TEST(bridges_agree_with_deletion)
+{
+  srand(5);
+  for (int round = 0; round < 200; round++) {
+    thr_draft d = {0};
+    thr_read_report r = {0};
+    for (int v = 0; v < 8; v++)
+      node(&d, v, v * v, v * v * v);
+    for (int e = 0; e < 9; e++) {
+      int a = rand() % 8;
+      edge(&d, a, (a + 1 + rand() % 7) % 8);
+    }
+    thr_frame f, g;
+    ck_assert_int_eq(thr_draft_build(&d, -1, &f, &r, NULL), THR_OK);
+    int component[8], whole, parts;
+    bool bridge[9];
+    ck_assert_int_eq(thr_frame_components(&f, component, &whole, NULL), THR_OK);
+    ck_assert_int_eq(thr_frame_bridges(&f, bridge, NULL), THR_OK);
+    for (int e = 0; e < f.n_edges && f.n_edges > 1; e++) {
+      thr_draft without = {0};
+      for (int v = 0; v < f.n_nodes; v++)
+        node(&without, f.xyz[v][0], f.xyz[v][1], f.xyz[v][2]);
+      for (int k = 0; k < f.n_edges; k++)
+        if (k != e) edge(&without, f.edge[k][0], f.edge[k][1]);
+      r = (thr_read_report){0};
+      ck_assert_int_eq(thr_draft_build(&without, -1, &g, &r, NULL), THR_OK);
+      ck_assert_int_eq(thr_frame_components(&g, component, &parts, NULL), THR_OK);
+      ck_assert_int_eq(bridge[e], parts + r.isolated_nodes > whole);
+      thr_draft_destroy(&without);
+      thr_frame_destroy(&g);
+    }
+    thr_draft_destroy(&d);
+    thr_frame_destroy(&f);
+  }
+}
+END_TEST
+
+START_TEST(a_long_path_does_not_exhaust_the_stack)
+{
+  int n = 300000, count;
+  thr_frame f = path_frame(n);
+  bool *bridge = calloc((size_t)n, sizeof *bridge);
+  int *component = calloc((size_t)n, sizeof *component);
+  ck_assert_int_eq(thr_frame_bridges(&f, bridge, NULL), THR_OK);
+  ck_assert_int_eq(thr_frame_components(&f, component, &count, NULL), THR_OK);
+  ck_assert_int_eq(count, 1);
+  for (int e = 0; e < f.n_edges; e++)
+    ck_assert(bridge[e]);
+  ck_assert_double_eq(thr_frame_total_length(&f), n - 1);
+  free(bridge);
+  free(component);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+static thr_status everything(thr_err *err)
+{
+  thr_draft d = {0};
+  thr_frame f = {0}, g = {0};
+  thr_read_report r = {0};
+  int component[4], count;
+  bool bridge[4];
+  thr_status st = THR_OK;
+  for (int v = 0; v < 4 && !st; v++)
+    st = thr_draft_add_node(&d, (double[3]){v, v * v, 0}, v ? "name" : NULL, false, err);
+  for (int v = 0; v < 4 && !st; v++)
+    st = thr_draft_add_edge(&d, v, (v + 1) % 4, 0, err);
+  if (!st) st = thr_draft_build(&d, -1, &f, &r, err);
+  if (!st) st = thr_frame_copy(&g, &f, err);
+  if (!st) st = thr_frame_components(&f, component, &count, err);
+  if (!st) st = thr_frame_bridges(&f, bridge, err);
+  thr_draft_destroy(&d);
+  thr_frame_destroy(&f);
+  thr_frame_destroy(&g);
+  return st;
+}
+
+START_TEST(every_allocation_may_fail)
+{
+  thr_status st = THR_ENOMEM;
+  int k = 0;
+  while (st == THR_ENOMEM) {
+    thr_err err = {0};
+    ck_assert_int_lt(++k, 1000);
+    thr_alloc_fail_at(k);
+    st = everything(&err);
+    thr_alloc_fail_at(0);
+    ck_assert_int_eq(err.code, st);
+  }
+  ck_assert_int_eq(st, THR_OK);
+  ck_assert_int_gt(k, 15);
+}
+END_TEST
+
+int main(void)
+{
+  Suite *suite = suite_create("frame");
+  TCase *t = tcase_create("frame");
+  tcase_add_test(t, welds_the_lowest_index);
+  tcase_add_test(t, welds_chains_and_respects_the_tolerance);
+  tcase_add_test(t, zero_tolerance_welds_equal_points_only);
+  tcase_add_test(t, keeps_own_lengths);
+  tcase_add_test(t, refuses_bad_drafts);
+  tcase_add_test(t, half_edges_leave_and_arrive);
+  tcase_add_test(t, finds_the_lowest_feet);
+  tcase_add_test(t, hash_tells_frames_apart);
+  tcase_add_test(t, components_and_bridges);
+  tcase_add_test(t, bridges_agree_with_deletion);
+  tcase_add_test(t, a_long_path_does_not_exhaust_the_stack);
+  tcase_add_test(t, every_allocation_may_fail);
+  suite_add_tcase(suite, t);
+  SRunner *runner = srunner_create(suite);
+  srunner_run_all(runner, CK_NORMAL);
+  int failed = srunner_ntests_failed(runner);
+  srunner_free(runner);
+  return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+}

@@ -1,0 +1,616 @@
+/* Readers and writers: every dialect with a known answer, the stored frameworks' totals, error texts, round trips, and
+ * every allocation failing once. */
+#include "graph/read.h"
+
+#include <check.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double SQRT2 = 1.41421356237309504880;
+
+/* Reads a text that must be good. */
+static thr_frame read_text(const char *text, thr_format format, thr_read_report *r)
+{
+  thr_draft d = {0};
+  thr_frame f = {0};
+  thr_err err = {0};
+  *r = (thr_read_report){0};
+  ck_assert_msg(thr_draft_parse(&d, r, text, strlen(text), "text", format, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_draft_build(&d, -1, &f, r, &err) == THR_OK, "%s", err.text);
+  thr_draft_destroy(&d);
+  return f;
+}
+
+/* Reads a text and checks counts and total length; feet is their names, separated by blanks. */
+static void check_text(const char *text, thr_format format, int n_nodes, int n_edges, double total, const char *feet)
+{
+  thr_read_report r;
+  thr_frame f = read_text(text, format, &r);
+  char found[200] = "";
+  ck_assert_int_eq(f.n_nodes, n_nodes);
+  ck_assert_int_eq(f.n_edges, n_edges);
+  ck_assert_double_eq_tol(thr_frame_total_length(&f), total, 1e-9);
+  for (int v = 0; v < f.n_nodes; v++)
+    if (f.foot[v]) {
+      size_t n = strlen(found);
+      snprintf(found + n, sizeof found - n, "%s%s", n ? " " : "", f.name[v]);
+    }
+  ck_assert_str_eq(found, feet);
+  thr_frame_destroy(&f);
+}
+
+static void check_error(const char *text, thr_format format, const char *message)
+{
+  thr_draft d = {0};
+  thr_read_report r = {0};
+  thr_err err = {0};
+  ck_assert_int_eq(thr_draft_parse(&d, &r, text, strlen(text), "f", format, &err), THR_EINPUT);
+  ck_assert_str_eq(err.text, message);
+  ck_assert(d.node == NULL && d.edge == NULL && d.n_nodes == 0);
+}
+
+/* ---- CSV ---- */
+
+START_TEST(csv_shapes)
+{
+  thr_format csv = THR_FORMAT_CSV;
+  check_text("0,0,0,1,0,0\n1,0,0,1,1,0\n", csv, 3, 2, 2, "");
+  check_text("\xef\xbb\xbf# note\r\nX1,Y1,Z1,X2,Y2,Z2,Length\r\n0,0,0,1,0,0,\r\n\r\n1,0,0,1,1,0,2.5\r\n", csv, 3, 2, 3.5, "");
+  check_text("id,x1,y1,x2,y2\n7,0,0,3,4\n", csv, 2, 1, 5, "");
+  check_text("0;0;0;1,5;0;0\n", csv, 2, 1, 1.5, "");
+  check_text("0\t0\t0\t1,5\t0\t-2e0\n", csv, 2, 1, 2.5, "");
+  check_text("  0 0 0   1 0 0\n1 0 0\t1 1 0\n", csv, 3, 2, 2, "");
+  check_text("0,0,0,1,0,0\r1,0,0,1,1,0\r", csv, 3, 2, 2, ""); /* as old Macs end lines */
+  check_text("0,0,0\n1,0,0\n1,1,0\n0,1\n1,2\n2,0\n", csv, 3, 3, 2 + SQRT2, "");
+  check_text("x,y,z\n0,0,0\n1,0,0\n0,1\n", csv, 2, 1, 1, "");
+  check_text("0,0,0,,,\n1,0,0,,,\n0,1,,,,\n,,,,,\n", csv, 2, 1, 1, ""); /* padded by a spreadsheet */
+  check_text("x,y\n0,0\n1,1\na,b,length\n0,1,1.75\n", csv, 2, 1, 1.75, "");
+  check_text("A1,0,0,0\n\"A2\", 1 ,0,0\nA1,\"A2\"\n", csv, 2, 1, 1, "");
+  check_text("Knoten;x;y;z;is_support\nu;0;0;0;1\nv;1,5;0;0;false\nq;source;target\n1;u;v\n", csv, 2, 1, 1.5, "u");
+  check_text("id,x,y,z,foot\n1.0,0,0,0,yes\n2.0,0,0,2,\n\na,b\n1,2\n", csv, 2, 1, 2, "1");
+}
+END_TEST
+
+START_TEST(csv_first_edge_is_not_taken_for_a_header)
+{
+  check_text("a,0,0,0\nb,1,0,0\nc,1,1,0\na,b\nb,c\n", THR_FORMAT_CSV, 3, 2, 2, "");
+  check_text("a,0,0,0\nb,1,0,0\nc,1,1,0\nfrom,to\nb,c\n", THR_FORMAT_CSV, 2, 1, 1, "");
+}
+END_TEST
+
+START_TEST(csv_errors)
+{
+  thr_format csv = THR_FORMAT_CSV;
+  check_error("", csv, "f:1: the table has no rows");
+  check_error("# only\n", csv, "f:1: the table has no rows");
+  check_error("0,0,zero,1,1,1\n", csv, "f:1: 'zero' in column 3 is not a finite number; give z as a decimal number");
+  check_error("0,0,0,1,1,1\n\n0,0,0,1,1e999,1\n", csv,
+              "f:3: '1e999' in column 5 is not a finite number; give y as a decimal number");
+  check_error("0,0,0,1,1,1\n0,0,0,1\n", csv,
+              "f:2: 4 fields where the rows before have 6; complete the row or put a header before it");
+  check_error("0,0,0,1,1,nan\n", csv, "f:1: 'nan' in column 6 is not a finite number; give z as a decimal number");
+  check_error("0,0,0,1,1,0x10\n", csv, "f:1: '0x10' in column 6 is not a finite number; give z as a decimal number");
+  check_error("1,2,3,4,5\n", csv,
+              "f:1: a row of 5 fields without a header; an edge is x1,y1,z1,x2,y2,z2, a node x,y,z or id,x,y,z");
+  check_error("x,y,z\n0,0,0\n", csv, "f: nodes but no edges; add rows that name two nodes, or give the table of edges too");
+  check_error("a,b\n0,1\n", csv, "f: edges but no columns x and y before them; give the table of nodes too");
+  check_error("0,0,0\n1,0,0\n0,1\n0,2\n", csv, "f:4: there is no node '2'; the nodes are called '0' to '1'");
+  check_error("0,0,0\n1,0,0\n0,1\n2,0,0\n", csv, "f:4: 3 fields where the rows before have 2; nodes come before edges");
+  check_error("id,x,y\n1,0,0\n1,1,0\na,b\n", csv, "f: two nodes are called '1' (number 1 and number 2); give each its own name");
+  check_error("id,x,y\n1,0,\n", csv, "f:2: no y coordinate in column 3; give a number");
+  check_error("x,y\n0,0\n1,0\na,b,length\n0,1,0\n", csv,
+              "f:5: length '0' is not a positive number; leave it empty for the distance of the two nodes");
+  check_error("id,x,y,foot\n1,0,0,maybe\n", csv, "f:2: 'maybe' in column 4 does not say whether this is a foot; use 1 or 0");
+  check_error("\"0,0,0,1,1,1\n", csv, "f:1: a quote is not closed; close it on the same line");
+  check_error("id,x,y\nFu\xdf,0,0\n", csv, "f:2: the node's name is not UTF-8; save the file as UTF-8 text");
+  check_error("x1,y1,x2,y2\n0,0,1,1\nx,y,z\n0,0,0\n", csv,
+              "f:3: 'x' in column 1 is not a finite number; give x as a decimal number");
+}
+END_TEST
+
+START_TEST(csv_nul_byte)
+{
+  static const char text[] = "0,0,0,1,0,0\n0,0\0,0\n";
+  thr_draft d = {0};
+  thr_read_report r = {0};
+  thr_err err = {0};
+  ck_assert_int_eq(thr_csv_parse(&d, &r, text, sizeof text - 1, "f", &err), THR_EINPUT);
+  ck_assert_str_eq(err.text, "f:2: a NUL byte, so this is not plain text; save the file as UTF-8 text");
+}
+END_TEST
+
+static thr_status parse_pair(const char *nodes, const char *edges, thr_draft *d, thr_err *err)
+{
+  thr_text n = {0}, e = {0};
+  thr_text_append(&n, nodes);
+  thr_text_append(&e, edges);
+  thr_status st = thr_csv_parse_pair(d, &n, "nodes", &e, "edges", err);
+  thr_text_destroy(&n);
+  thr_text_destroy(&e);
+  return st;
+}
+
+START_TEST(csv_pairs)
+{
+  thr_draft d = {0};
+  thr_err err = {0};
+  ck_assert_int_eq(parse_pair("1,0,0,0\n2,0,0,9\n", "1,2,0.5\n", &d, &err), THR_OK); /* only a header makes 0.5 a length */
+  ck_assert_int_eq(d.n_edges, 1);
+  ck_assert_double_eq(d.edge[0].length, 0);
+  thr_draft_destroy(&d);
+  ck_assert_int_eq(parse_pair("name,X,Y,is_grounded\np,0,0,1\nq,0,1,0\n", "a;b;length\np;q;0,5\n", &d, &err), THR_OK);
+  ck_assert(d.node[0].foot && !d.node[1].foot);
+  ck_assert_double_eq(d.edge[0].length, 0.5);
+  thr_draft_destroy(&d);
+
+  ck_assert_int_eq(parse_pair("id,x,y,z\n1,0,0,0\n", "a,b\n1,2\n", &d, &err), THR_EINPUT);
+  ck_assert_str_eq(err.text, "edges:2: there is no node '2'; the nodes are called '1' to '1'");
+  err = (thr_err){0};
+  ck_assert_int_eq(parse_pair("a,b\n1,2\n", "id,x,y\n", &d, &err), THR_EINPUT);
+  ck_assert_str_eq(err.text, "nodes:1: the header names no columns x and y; name the columns id,x,y,z");
+  err = (thr_err){0};
+  ck_assert_int_eq(parse_pair("id,x,y,z\n", "a,b\n1,2\n", &d, &err), THR_EINPUT);
+  ck_assert_str_eq(err.text, "nodes: no row with a node's coordinates");
+  err = (thr_err){0};
+  ck_assert_int_eq(parse_pair("x1,y1,x2,y2\n0,0,1,1\n", "a,b\n1,2\n", &d, &err), THR_EINPUT);
+  ck_assert_ptr_null(d.node);
+}
+END_TEST
+
+/* ---- OBJ ---- */
+
+START_TEST(obj_records)
+{
+  thr_format obj = THR_FORMAT_OBJ;
+  check_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2 3\n", obj, 3, 2, 2, "");
+  check_text("o a\nv 0 0 0 1 0.5 0.5\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nf 1/1/1 2//1 3/1 4\n", obj, 4, 4, 4, "");
+  check_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nl -1 \\\n -3 \\\r\n2\n", obj, 3, 2, SQRT2 + 1, "");
+  check_text("v 0 0 0\nv 1 0 0\nl 1 2 # and no more 7\n# feet: 2 1 of them\n", obj, 2, 1, 1, "1 2");
+  check_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 1 1 1\nf 1 2 3\nf 2 3 4\n", obj, 4, 5, 3 + 2 * SQRT2, "");
+  check_text("# feet: see drawing\n# C:\\\nv 0 0 0\nv 1 0 0\nf 1 2\n", obj, 2, 1, 1, "");
+}
+END_TEST
+
+START_TEST(obj_rhino_curves)
+{
+  thr_read_report r;
+  thr_frame f = read_text("v 0 0 0\nv 1 0 0\nv 1 1 0\ncstype bspline\ndeg 1\ncurv 0 2 1 2 \\\n3\nparm u 0 0 1 2 2\nend\n"
+                          "deg 3\ncurv 0 1 1 2 3 1\nend\nxyz 4\n",
+                          THR_FORMAT_OBJ, &r);
+  ck_assert_int_eq(f.n_edges, 2);
+  ck_assert_int_eq(r.skipped_records, 2);
+  ck_assert_str_eq(r.skipped_kind, "curv");
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(obj_shared_sides_are_no_duplicates)
+{
+  thr_read_report r;
+  thr_frame f = read_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\nl 1 2\n", THR_FORMAT_OBJ, &r);
+  ck_assert_int_eq(f.n_edges, 5);
+  ck_assert_int_eq(r.duplicate_edges, 1); /* the line repeats a side */
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(obj_errors)
+{
+  thr_format obj = THR_FORMAT_OBJ;
+  check_error("v 0 0 0\nv 1 1 1\n", obj, "f: no l, f or degree-1 curv record; export lines or polylines");
+  check_error("v 0 0\n", obj, "f:1: v has 2 numbers; it needs x, y and z");
+  check_error("v 0 inf 0\n", obj, "f:1: 'inf' is not a finite number; give y as a decimal number");
+  check_error("v 0 0 0\nl 1 2\n", obj, "f:2: vertex 2 does not exist; 1 are defined so far, and the first is 1");
+  check_error("v 0 0 0\nl 1 0\n", obj, "f:2: vertex 0 does not exist; 1 are defined so far, and the first is 1");
+  check_error("v 0 0 0\n\nl 1 \\\n -99999999999999999999\n", obj,
+              "f:3: vertex -99999999999999999999 does not exist; 1 are defined so far, and the first is 1");
+  check_error("v 0 0 0\nl 1 a\n", obj, "f:2: 'a' is not a vertex number");
+  check_error("v 0 0 0\nl 1\n", obj, "f:2: a line, curve or face needs at least two vertices, this one has 1");
+  check_error("# feet: 9\nv 0 0 0\nv 1 0 0\nl 1 2\n", obj, "f:1: foot 9 does not exist; the vertices are 1 to 2");
+  check_error("cstype bspline\ndeg 1\ncurv 0\n", obj, "f:3: curv has no start and end parameter");
+}
+END_TEST
+
+/* ---- JSON ---- */
+
+START_TEST(json_dialects)
+{
+  thr_format json = THR_FORMAT_JSON;
+  check_text("{\"format\":\"thread-frame\",\"version\":1,\"nodes\":[[0,0,0],[1,0,0],[1,1]],\"edges\":[[0,1],[1,2]],"
+             "\"lengths\":[1.5,2],\"feet\":[2],\"names\":[\"a\",\"b\",\"c\"]}",
+             json, 3, 2, 3.5, "c");
+  check_text("{\"format\":\"thread-plan\",\"framework\":{\"nodes\":[[0,0],[1,0]],\"edges\":[[0,1]],\"feet\":[0]},"
+             "\"cords\":[{\"nodes\":[0,1],\"edges\":[0]}]}",
+             json, 2, 1, 1, "0");
+  check_text(
+      "{\"dtype\":\"compas.datastructures/Network\",\"data\":{\"default_node_attributes\":{\"x\":0,\"y\":0,\"z\":0,"
+      "\"is_support\":true},\"node\":{\"10\":{\"x\":1},\"9\":{\"is_support\":false}},\"edge\":{\"9\":{\"10\":{}},\"10\":{}}}}",
+      json, 2, 1, 1, "10");
+  check_text("{\"dtype\":\"compas.datastructures/Graph\",\"data\":{\"node\":{\"'a'\":{\"x\":0,\"y\":0,\"is_anchor\":1},"
+             "\"(0, 1)\":{\"x\":1,\"y\":0}},\"edge\":{\"'a'\":{\"(0, 1)\":{}}}},\"guid\":\"0\"}",
+             json, 2, 1, 1, "a");
+  check_text("{\"node\":{\"0\":{\"x\":0,\"y\":0},\"1\":{\"x\":1,\"y\":0}},\"adjacency\":{\"0\":{\"1\":null},\"1\":{\"0\":null}}}",
+             json, 2, 1, 1, "");
+  check_text("[7,{\"deep\":{\"dtype\":\"compas.datastructures/Mesh\",\"value\":{\"dva\":{\"x\":0,\"y\":0},\"vertex\":{\"0\":{},"
+             "\"1\":{\"x\":1},\"2\":{\"x\":1,\"y\":1}},\"face\":{\"0\":[0,1,2]}}}}]",
+             json, 3, 3, 2 + SQRT2, "");
+  check_text("{\"vertices\":[[0,0,0],[1,0,0],[0,1,0]],\"faces\":[[0,1,2]]}", json, 3, 3, 2 + SQRT2, "");
+  check_text("[[[0,0,0],[6.000000000000001,0,0]],[[6,0,0],[6,8,0]]]", json, 3, 2, 14, "");
+  check_text("[{\"dtype\":\"compas.geometry/Line\",\"data\":{\"start\":[0,0,0],\"end\":[1,0,0]}},"
+             "{\"dtype\":\"compas.geometry/Polyline\",\"data\":{\"points\":[[1,0,0],[2,0,0],[2,1,0]]}}]",
+             json, 4, 3, 3, "");
+  check_text("{\"nodes\":[{\"id\":\"a\",\"pos\":[0,0]},{\"id\":[1,2],\"x\":3,\"y\":4}],"
+             "\"links\":[{\"source\":\"a\",\"target\":[1,2],\"length\":6}]}",
+             json, 2, 1, 6, "");
+}
+END_TEST
+
+START_TEST(json_units_and_grounded_nodes)
+{
+  thr_read_report r;
+  thr_frame f = read_text("{\"unit\":\"millimeter\",\"node_list\":[{\"point\":{\"X\":0,\"Y\":0,\"Z\":1.5},\"node_id\":0,"
+                          "\"is_grounded\":1},{\"point\":{\"X\":1,\"Y\":0,\"Z\":1.5},\"node_id\":7}],"
+                          "\"element_list\":[{\"end_node_ids\":[0,7]}]}",
+                          THR_FORMAT_JSON, &r);
+  ck_assert_str_eq(f.units, "mm");
+  ck_assert_str_eq(f.name[1], "7");
+  ck_assert(f.foot[0] && !f.foot[1]);
+  thr_frame_destroy(&f);
+  f = read_text("{\"unit\":\"meter\",\"nodes\":[{\"point\":[0,0,0],\"node_ind\":3},{\"point\":[0,0,1],\"node_ind\":9}],"
+                "\"elements\":[{\"end_node_inds\":[3,9]}],\"supports\":[{\"node_ind\":9}]}",
+                THR_FORMAT_JSON, &r);
+  ck_assert_str_eq(f.units, "m");
+  ck_assert(!f.foot[0] && f.foot[1]);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(json_takes_the_first_framework)
+{
+  thr_read_report r;
+  thr_frame f =
+      read_text("[{\"nodes\":[[0,0],[1,0]],\"edges\":[[0,1]]},{\"nodes\":[[0,0],[2,0]],\"edges\":[[0,1]]}]", THR_FORMAT_JSON, &r);
+  ck_assert_double_eq(f.length[0], 1);
+  ck_assert_int_eq(r.skipped_records, 1);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(json_errors)
+{
+  thr_format json = THR_FORMAT_JSON;
+  check_error("{}", json, "f: no framework in this JSON; docs/formats.md shows the forms that are read");
+  check_error("{\"data\":{\"node\":{\"21\":{\"x\":\"a\",\"y\":0}},\"edge\":{}}}", json,
+              "f: data.node[\"21\"].x: not a number; give a decimal number");
+  check_error("{\"node\":{\"a\":{\"y\":0}},\"edge\":{}}", json, "f: node.a.x: missing; give a number");
+  check_error("{\"node\":{\"a\":{\"x\":0,\"y\":0}},\"edge\":{\"a\":{\"b\":{}}}}", json, "f: edge.a.b: there is no node 'b'");
+  check_error("{\"vertex\":{\"0\":{\"x\":0,\"y\":0}},\"face\":[[0,1]]}", json, "f: face[0][1]: there is no node '1'");
+  check_error("{\"nodes\":[[0,0],[1,1]],\"edges\":[[0,2]]}", json,
+              "f: edges[0][1]: there is no node 2; the 2 nodes count from 0");
+  check_error("{\"nodes\":[[0,0],[1,1]],\"edges\":[[0]]}", json, "f: edges[0]: not an edge; give two node numbers");
+  check_error("{\"nodes\":[[0,0],[1,1]],\"edges\":[[0,1.5]]}", json, "f: edges[0][1]: not a node number; count nodes from 0");
+  check_error("{\"nodes\":[[0,0],[1,1]],\"edges\":[[0,1]],\"lengths\":[0]}", json,
+              "f: lengths[0]: a length that is not positive; leave it out for the distance of the two nodes");
+  check_error("{\"nodes\":[[0,0],[1,1]],\"edges\":[[0,1]],\"lengths\":[]}", json, "f: lengths: not one length for each edge");
+  check_error("{\"nodes\":[[0,0],[1,1]],\"edges\":[[0,1]],\"feet\":[2]}", json,
+              "f: feet[0]: there is no node 2; the 2 nodes count from 0");
+  check_error("{\"nodes\":[[0],[1,1]],\"edges\":[[0,1]]}", json, "f: nodes[0][1]: missing; give a number");
+  check_error("{\"format\":\"thread-frame\",\"version\":2,\"nodes\":[],\"edges\":[]}", json,
+              "f: document: written by a newer version of this program; this one reads version 1");
+  check_error("{\"node_list\":[{\"point\":[0,0]}],\"element_list\":[{}]}", json,
+              "f: element_list[0].end_node_ids: not two node numbers");
+  check_error("{\"nodes\":[{\"x\":0,\"y\":0}],\"links\":[{\"source\":0}]}", json, "f: links[0].target: missing; name a node");
+}
+END_TEST
+
+START_TEST(json_syntax_and_depth)
+{
+  thr_draft d = {0};
+  thr_read_report r = {0};
+  thr_err err = {0};
+  ck_assert_int_eq(thr_draft_parse(&d, &r, "{\n \"nodes\":", 11, "f", THR_FORMAT_JSON, &err), THR_EINPUT);
+  ck_assert_ptr_nonnull(strstr(err.text, "f:2:"));
+  size_t n = 100000;
+  char *deep = malloc(n);
+  memset(deep, '[', n);
+  err = (thr_err){0};
+  ck_assert_int_eq(thr_draft_parse(&d, &r, deep, n, "f", THR_FORMAT_AUTO, &err), THR_EINPUT);
+  ck_assert_ptr_nonnull(strstr(err.text, "depth"));
+  free(deep);
+}
+END_TEST
+
+/* ---- which format ---- */
+
+START_TEST(formats_by_name_and_content)
+{
+  ck_assert_int_eq(thr_format_of_path("a.CSV"), THR_FORMAT_CSV);
+  ck_assert_int_eq(thr_format_of_path("a/b.c.obj"), THR_FORMAT_OBJ);
+  ck_assert_int_eq(thr_format_of_path("a.tsv"), THR_FORMAT_CSV);
+  ck_assert_int_eq(thr_format_of_path("a.json"), THR_FORMAT_JSON);
+  ck_assert_int_eq(thr_format_of_path("-"), THR_FORMAT_JSON);
+  ck_assert_int_eq(thr_format_of_path("obj"), THR_FORMAT_JSON);
+  check_text("# c\n v 0 0 0\nv 1 0 0\nl 1 2\n", THR_FORMAT_AUTO, 2, 1, 1, "");
+  check_text("# c\n0 0 0 1 0 0\n", THR_FORMAT_AUTO, 2, 1, 1, "");
+  check_text("\xef\xbb\xbf \n{\"nodes\":[[0,0],[1,0]],\"edges\":[[0,1]]}", THR_FORMAT_AUTO, 2, 1, 1, "");
+}
+END_TEST
+
+/* ---- files ---- */
+
+static thr_frame read_file(const char *path)
+{
+  thr_frame f;
+  thr_read_report r;
+  thr_err err = {0};
+  thr_read_options o = thr_read_options_default();
+  ck_assert_msg(thr_frame_read(&f, &r, path, &o, NULL, 0, &err) == THR_OK, "%s", err.text);
+  ck_assert_int_eq(r.welded_nodes + r.duplicate_edges + r.zero_length_edges + r.isolated_nodes + r.skipped_records, 0);
+  return f;
+}
+
+static const struct {
+  const char *path;
+  int nodes, edges, feet, components;
+  double total;
+  const char *units;
+} stored[] = {
+    {"data/dome7.json", 49, 84, 4, 1, 1745.842535, "mm"},
+    {"data/assembly-instances/C_shape.json", 77, 199, 7, 1, 7851.928555, "mm"},
+    {"data/assembly-instances/fandisk.json", 226, 452, 28, 1, 11010.359575, "mm"},
+    {"data/assembly-instances/klein_bottle_trail.json", 64, 99, 6, 6, 2833.997814, "mm"},
+    {"data/assembly-instances/robarch_tree_S.json", 36, 45, 9, 1, 2129.407386, "mm"},
+    {"data/assembly-instances/semi_sphere.json", 40, 87, 10, 1, 3741.537529, "mm"},
+    {"data/assembly-instances/topopt-100_S1_03-14-2019_w_layer.json", 88, 132, 20, 1, 5445.403642, "mm"},
+    {"data/assembly-instances/voronoi_S1_03-14-2019_w_layer.json", 162, 306, 14, 1, 11409.703646, "mm"},
+    {"data/conmech/four-frame.json", 5, 4, 2, 1, 0.076569, "m"},
+    {"data/conmech/tower_3D.json", 10, 24, 4, 1, 230.390729, "m"},
+    {"data/jax_fdm/barrel.obj", 441, 840, 0, 1, 1310.629036, "mm"},
+    {"data/jax_fdm/creased_shell.json", 193, 324, 0, 1, 578.912155, "mm"},
+    {"data/jax_fdm/liew_dome.json", 613, 1800, 36, 1, 1504.361809, "mm"},
+    {"data/jax_fdm/monkey_saddle.json", 13, 18, 0, 1, 101.213636, "mm"},
+    {"data/jax_fdm/olympia-nodes.csv", 102, 166, 0, 1, 415.455217, "mm"},
+    {"data/jax_fdm/olympia-edges.csv", 102, 166, 0, 1, 415.455217, "mm"},
+};
+
+START_TEST(stored_frameworks)
+{
+  thr_frame f = read_file(stored[_i].path);
+  int feet = 0, count, *component = calloc((size_t)f.n_nodes, sizeof *component);
+  for (int v = 0; v < f.n_nodes; v++)
+    feet += f.foot[v];
+  ck_assert_int_eq(thr_frame_components(&f, component, &count, NULL), THR_OK);
+  free(component);
+  ck_assert_int_eq(f.n_nodes, stored[_i].nodes);
+  ck_assert_int_eq(f.n_edges, stored[_i].edges);
+  ck_assert_int_eq(feet, stored[_i].feet);
+  ck_assert_int_eq(count, stored[_i].components);
+  ck_assert_double_eq_tol(thr_frame_total_length(&f), stored[_i].total, 1e-6);
+  ck_assert_str_eq(f.units, stored[_i].units);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* JSON keeps everything, OBJ all but the names, CSV the edges. */
+START_TEST(round_trips)
+{
+  thr_frame f = read_file(stored[_i].path);
+  for (int format = THR_FORMAT_CSV; format <= THR_FORMAT_JSON; format++) {
+    thr_text text = {0};
+    thr_read_report r;
+    thr_frame_write(&f, (thr_format)format, &text);
+    thr_frame g = read_text(text.data, (thr_format)format, &r);
+    ck_assert_int_eq(g.n_nodes, f.n_nodes);
+    ck_assert_int_eq(g.n_edges, f.n_edges);
+    ck_assert(memcmp(g.length, f.length, (size_t)f.n_edges * sizeof *f.length) == 0);
+    if (format != THR_FORMAT_CSV) {
+      ck_assert(thr_frame_hash(&g) == thr_frame_hash(&f));
+      ck_assert_str_eq(g.units, f.units);
+    }
+    for (int v = 0; format == THR_FORMAT_JSON && v < f.n_nodes; v++)
+      ck_assert_str_eq(g.name[v], f.name[v]);
+    thr_frame_destroy(&g);
+    thr_text_destroy(&text);
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(numeric_keys_are_indices)
+{
+  thr_frame f = read_file("data/jax_fdm/liew_dome.json");
+  for (int v = 0; v < f.n_nodes; v++)
+    ck_assert_int_eq(atoi(f.name[v]), v);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(pairs_find_each_other)
+{
+  thr_frame f;
+  thr_read_report r;
+  thr_read_options o = thr_read_options_default();
+  char pair[100];
+  ck_assert_int_eq(thr_frame_read(&f, &r, "data/jax_fdm/olympia-nodes.csv", &o, pair, sizeof pair, NULL), THR_OK);
+  ck_assert_str_eq(pair, "data/jax_fdm/olympia-edges.csv");
+  uint64_t hash = thr_frame_hash(&f);
+  thr_frame_destroy(&f);
+  ck_assert_int_eq(thr_frame_read(&f, &r, "data/jax_fdm/olympia-edges.csv", &o, pair, sizeof pair, NULL), THR_OK);
+  ck_assert_str_eq(pair, "data/jax_fdm/olympia-nodes.csv");
+  ck_assert(thr_frame_hash(&f) == hash);
+  thr_frame_destroy(&f);
+  o.edges_path = "data/jax_fdm/olympia-edges.csv";
+  ck_assert_int_eq(thr_frame_read(&f, &r, "data/jax_fdm/olympia-nodes.csv", &o, pair, sizeof pair, NULL), THR_OK);
+  ck_assert_str_eq(pair, "");
+  ck_assert(thr_frame_hash(&f) == hash);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(options_override)
+{
+  thr_frame f;
+  thr_read_report r;
+  thr_err err = {0};
+  thr_read_options o = thr_read_options_default();
+  o.units = "inches";
+  o.weld = 25;
+  ck_assert_int_eq(thr_frame_read(&f, &r, "data/dome7.json", &o, NULL, 0, &err), THR_EINPUT); /* all nodes become one */
+  ck_assert_ptr_nonnull(strstr(err.text, "data/dome7.json: every edge has zero length"));
+  ck_assert_int_eq(r.welded_nodes, 0);
+  o.weld = 1;
+  ck_assert_int_eq(thr_frame_read(&f, &r, "data/dome7.json", &o, NULL, 0, NULL), THR_OK);
+  ck_assert_str_eq(f.units, "in");
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(file_errors)
+{
+  static const struct {
+    const char *path, *text;
+    thr_status status;
+  } bad[] = {{"data/none.json", "data/none.json: cannot open", THR_EIO},
+             {"data", "data: cannot read", THR_EIO},
+             {"roof.DXF", "roof.DXF: dxf files are not read", THR_EINPUT},
+             {"data/README.md", "data/README.md:1: ", THR_EINPUT},
+             {"tests/unit/files/alone-nodes.csv", "tests/unit/files/alone-nodes.csv: nodes but no edges", THR_EINPUT}};
+  for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+    thr_frame f;
+    thr_read_report r;
+    thr_err err = {0};
+    thr_read_options o = thr_read_options_default();
+    ck_assert_int_eq(thr_frame_read(&f, &r, bad[i].path, &o, NULL, 0, &err), bad[i].status);
+    ck_assert_msg(strncmp(err.text, bad[i].text, strlen(bad[i].text)) == 0, "%s", err.text);
+    ck_assert_int_eq(f.n_nodes, 0);
+  }
+}
+END_TEST
+
+/* ---- hostile input: one clear answer in linear time; Check's limit of 4 s catches the rest ---- */
+
+START_TEST(long_inputs)
+{
+  thr_text t = {0};
+  thr_read_report r;
+  thr_text_append(&t, "v 0 0 0\nv 1 0 0\nl 1 \\\n");
+  for (int i = 0; i < 200000; i++)
+    thr_text_append(&t, "2 1 \\\n");
+  thr_frame f = read_text(t.data, THR_FORMAT_OBJ, &r);
+  ck_assert_int_eq(f.n_edges, 1);
+  thr_frame_destroy(&f);
+  thr_text_destroy(&t);
+
+  for (int i = 0; i < 100000; i++)
+    thr_text_printf(&t, "%d,0,0,%d,0,0\n", i, i + 1);
+  f = read_text(t.data, THR_FORMAT_CSV, &r);
+  ck_assert_int_eq(f.n_nodes, 100001);
+  thr_frame_destroy(&f);
+  thr_text_destroy(&t);
+
+  for (int i = 0; i < 1000000; i++)
+    thr_text_append(&t, "0,");
+  check_error(t.data, THR_FORMAT_CSV,
+              "f:1: a row of 64 fields without a header; an edge is x1,y1,z1,x2,y2,z2, a node x,y,z or id,x,y,z");
+  thr_text_destroy(&t);
+}
+END_TEST
+
+/* ---- memory ---- */
+
+/* Reads, writes and reads again. */
+static thr_status there_and_back(const char *path, thr_err *err)
+{
+  thr_frame f;
+  thr_read_report r;
+  thr_read_options o = thr_read_options_default();
+  char pair[100];
+  thr_status st = thr_frame_read(&f, &r, path, &o, pair, sizeof pair, err);
+  ck_assert(st == THR_OK || f.n_nodes == 0);
+  thr_text text = {0};
+  if (!st) thr_frame_write(&f, thr_format_of_path(path), &text);
+  if (!st && text.failed) st = thr_fail(err, THR_ENOMEM, "writing");
+  thr_text_destroy(&text);
+  thr_frame_destroy(&f);
+  return st;
+}
+
+static const char *const small_files[] = {"tests/fuzz/corpus/csv/six-columns.csv",
+                                          "tests/fuzz/corpus/csv/sections.csv",
+                                          "tests/fuzz/corpus/csv/named.csv",
+                                          "tests/unit/files/pair-nodes.csv",
+                                          "tests/unit/files/pair-edges.csv",
+                                          "tests/fuzz/corpus/obj/mesh.obj",
+                                          "tests/fuzz/corpus/obj/own.obj",
+                                          "tests/fuzz/corpus/obj/rhino.obj",
+                                          "tests/fuzz/corpus/json/own.json",
+                                          "tests/fuzz/corpus/json/plan.json",
+                                          "tests/fuzz/corpus/json/compas-network.json",
+                                          "tests/fuzz/corpus/json/compas-repr.json",
+                                          "tests/fuzz/corpus/json/compas-mesh.json",
+                                          "tests/fuzz/corpus/json/compas-adjacency.json",
+                                          "tests/fuzz/corpus/json/assembly.json",
+                                          "tests/fuzz/corpus/json/conmech.json",
+                                          "tests/fuzz/corpus/json/node-link.json",
+                                          "tests/fuzz/corpus/json/vertices-faces.json",
+                                          "tests/fuzz/corpus/json/lines.json",
+                                          "tests/fuzz/corpus/json/compas-lines.json"};
+
+START_TEST(every_allocation_may_fail)
+{
+  thr_status st = THR_ENOMEM;
+  int k = 0;
+  while (st == THR_ENOMEM) {
+    thr_err err = {0};
+    ck_assert_int_lt(++k, 10000);
+    thr_alloc_fail_at(k);
+    st = there_and_back(small_files[_i], &err);
+    thr_alloc_fail_at(0);
+    ck_assert_msg(err.code == st, "%s", err.text);
+  }
+  ck_assert_int_eq(st, THR_OK);
+  ck_assert_int_gt(k, 10);
+}
+END_TEST
+
+static void add_tests(TCase *t)
+{
+  tcase_add_test(t, csv_shapes);
+  tcase_add_test(t, csv_first_edge_is_not_taken_for_a_header);
+  tcase_add_test(t, csv_errors);
+  tcase_add_test(t, csv_nul_byte);
+  tcase_add_test(t, csv_pairs);
+  tcase_add_test(t, obj_records);
+  tcase_add_test(t, obj_rhino_curves);
+  tcase_add_test(t, obj_shared_sides_are_no_duplicates);
+  tcase_add_test(t, obj_errors);
+  tcase_add_test(t, json_dialects);
+  tcase_add_test(t, json_units_and_grounded_nodes);
+  tcase_add_test(t, json_takes_the_first_framework);
+  tcase_add_test(t, json_errors);
+  tcase_add_test(t, json_syntax_and_depth);
+  tcase_add_test(t, formats_by_name_and_content);
+  tcase_add_loop_test(t, stored_frameworks, 0, sizeof stored / sizeof *stored);
+  tcase_add_loop_test(t, round_trips, 0, sizeof stored / sizeof *stored);
+  tcase_add_test(t, numeric_keys_are_indices);
+  tcase_add_test(t, pairs_find_each_other);
+  tcase_add_test(t, options_override);
+  tcase_add_test(t, file_errors);
+  tcase_add_test(t, long_inputs);
+  tcase_add_loop_test(t, every_allocation_may_fail, 0, sizeof small_files / sizeof *small_files);
+}
+
+int main(void)
+{
+  Suite *suite = suite_create("read");
+  TCase *t = tcase_create("read");
+  add_tests(t);
+  suite_add_tcase(suite, t);
+  SRunner *runner = srunner_create(suite);
+  srunner_run_all(runner, CK_NORMAL);
+  int failed = srunner_ntests_failed(runner);
+  srunner_free(runner);
+  return failed ? EXIT_FAILURE : EXIT_SUCCESS;
+}
