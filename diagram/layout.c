@@ -11,8 +11,8 @@ static const double FLAT = 50;              /* a sphere this many diagonals in r
 
 const char *thr_layout_name(thr_layout_kind kind)
 {
-  static const char *const name[THR_LAYOUT_KINDS] = {"plan",  "unrolled",   "front",      "side",
-                                                     "plane", "unrolled-x", "unrolled-y", "drawn"};
+  static const char *const name[THR_LAYOUT_KINDS] = {"plan",       "unrolled",   "front",  "side", "plane",
+                                                     "unrolled-x", "unrolled-y", "spread", "drawn"};
   return (unsigned)kind < THR_LAYOUT_KINDS ? name[kind] : "?";
 }
 
@@ -29,6 +29,8 @@ const char *thr_layout_words(thr_layout_kind kind)
       "stretched.",
       "Unrolled about the y axis, seen from outside (from the +y end, which is in the middle); distances around it are "
       "stretched.",
+      "Closed shell, opened at the face opposite the middle and spread flat, seen from outside; beads far out look longer than "
+      "they are.",
       "Schematic: which bead joins which is true, lengths and angles are not."};
   return (unsigned)kind < THR_LAYOUT_KINDS ? words[kind] : "";
 }
@@ -54,9 +56,34 @@ thr_status thr_layout_copy(thr_layout *to, const thr_layout *from, thr_err *err)
   return THR_OK;
 }
 
+bool thr_layout_better(const thr_layout *a, const thr_layout *b)
+{
+  long faults_a = a->crossings + a->squeezed, faults_b = b->crossings + b->squeezed;
+  if (a->capped != b->capped) return b->capped;
+  if (faults_a != faults_b) return faults_a < faults_b;
+  return a->ratio > 1.25 * b->ratio;
+}
+
+/* Replaces *best by *l when that is better; the loser is freed. */
+static void keep_better(thr_layout *best, thr_layout *l)
+{
+  if (!best->xy || thr_layout_better(l, best)) {
+    thr_layout t = *best;
+    *best = *l;
+    *l = t;
+  }
+  thr_layout_destroy(l);
+}
+
 static double dot(const double a[3], const double b[3])
 {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void cross_product(const double a[3], const double b[3], double c[3])
+{
+  for (int i = 0; i < 3; i++)
+    c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
 static void mean_point(const thr_frame *f, double mean[3])
@@ -134,8 +161,7 @@ static void project_plane(thr_layout *l, const thr_frame *f)
   double size = sqrt(dot(up, up));
   for (int i = 0; i < 3; i++)
     up[i] /= size;
-  for (int i = 0; i < 3; i++)
-    right[i] = up[(i + 1) % 3] * n[(i + 2) % 3] - up[(i + 2) % 3] * n[(i + 1) % 3];
+  cross_product(up, n, right);
   project(l, f, right, up);
 }
 
@@ -193,6 +219,7 @@ static bool fit_sphere(const thr_frame *f, double centre[3])
 /* A node in cylinder coordinates about the axis, and its polar angle from the crown seen from the sphere's centre. */
 typedef struct {
   double theta, rho, height;
+  double x, y; /* unit direction on paper; 0 on the axis */
   int node;
 } polar;
 
@@ -250,35 +277,157 @@ static double mean_length(const thr_frame *f)
   return sum / f->n_edges;
 }
 
-/* Azimuthal-equidistant about the axis (0 = x, 1 = y, 2 = z), seen from its positive end. */
+/* Nodes in polar coordinates about the axis, sorted from the crown, and the mean meridian through them. */
+typedef struct {
+  int n, n_stations;
+  polar *node;
+  station *station;
+  double mean_length; /* of edges */
+} meridian;
+
+static thr_status make_meridian(meridian *m, const thr_frame *f, int axis, thr_err *err)
+{
+  int right = (axis + 1) % 3, up = (axis + 2) % 3;
+  double centre[3], radius = 0;
+  if (!fit_sphere(f, centre)) {
+    if (axis != 2) return thr_fail(err, THR_EINPUT, "the framework is flat: there is nothing to unroll");
+    /* seen from far below, the polar angle of a flat frame is its distance from the middle */
+    mean_point(f, centre);
+    centre[2] -= 2 * FLAT * thr_frame_diagonal(f);
+  }
+  m->n = f->n_nodes;
+  m->node = thr_calloc((size_t)m->n, sizeof *m->node);
+  m->station = thr_calloc((size_t)m->n, sizeof *m->station);
+  if (!m->node || !m->station) return thr_nomem(err);
+  for (int v = 0; v < m->n; v++) {
+    double x = f->xyz[v][right] - centre[right], y = f->xyz[v][up] - centre[up], z = f->xyz[v][axis] - centre[axis];
+    double rho = hypot(x, y);
+    m->node[v] = (polar){atan2(rho, z), rho, z, rho > 0 ? x / rho : 0, rho > 0 ? y / rho : 0, v};
+    radius += hypot(rho, z) / m->n;
+  }
+  qsort(m->node, (size_t)m->n, sizeof *m->node, by_theta);
+  m->mean_length = mean_length(f);
+  m->n_stations = mean_meridian(m->node, m->n, 0.5 * m->mean_length / (radius > 0 ? radius : 1), m->station);
+  return THR_OK;
+}
+
+/* Lays the nodes at their arc lengths, all but a node at the crown itself pushed outwards by opening. */
+static void lay_rings(thr_layout *l, const meridian *m, double opening)
+{
+  int at = 0;
+  for (int i = 0; i < m->n; i++) {
+    const polar *p = &m->node[i];
+    double r = arc_at(m->station, m->n_stations, p->theta, &at);
+    if (r > 0.1 * m->mean_length) r += opening;
+    l->xy[p->node][0] = r * p->x;
+    l->xy[p->node][1] = r * p->y;
+  }
+}
+
+/* Azimuthal-equidistant about the axis (0 = x, 1 = y, 2 = z), seen from its positive end. Paper directions keep the frame
+ * right-handed: x-y for z, y-z for x, z-x for y. Where many meridians meet at the crown its rings are opened up. */
 static thr_status unroll(thr_layout *l, const thr_frame *f, int axis, thr_err *err)
 {
-  /* paper directions that keep the frame right-handed: plan for z, y-z for x, z-x for y */
-  int right = (axis + 1) % 3, up = (axis + 2) % 3, n = f->n_nodes;
-  double centre[3];
-  if (!fit_sphere(f, centre)) return thr_fail(err, THR_EINPUT, "the framework is flat: there is nothing to unroll");
-  polar *p = thr_calloc((size_t)n, sizeof *p);
-  station *s = thr_calloc((size_t)n, sizeof *s);
-  thr_status st = p && s ? THR_OK : thr_nomem(err);
-  if (st) goto done;
-  double radius = 0;
-  for (int v = 0; v < n; v++) {
-    double x = f->xyz[v][right] - centre[right], y = f->xyz[v][up] - centre[up], z = f->xyz[v][axis] - centre[axis];
-    p[v] = (polar){atan2(hypot(x, y), z), hypot(x, y), z, v};
-    radius += hypot(hypot(x, y), z) / n;
-    l->xy[v][0] = x;
-    l->xy[v][1] = y;
+  static const double opening[] = {0, 1, 2, 3};
+  meridian m = {0};
+  thr_layout best = {0}, now = {0};
+  thr_status st = make_meridian(&m, f, axis, err);
+  for (int i = 0; i < 4 && !st; i++) {
+    lay_rings(l, &m, opening[i] * m.mean_length);
+    st = thr_layout_measure(l, f, err);
+    if (!st) st = thr_layout_copy(&now, l, err);
+    if (!st) keep_better(&best, &now);
   }
-  qsort(p, (size_t)n, sizeof *p, by_theta);
-  int count = mean_meridian(p, n, 0.5 * mean_length(f) / (radius > 0 ? radius : 1), s), at = 0;
-  for (int i = 0; i < n; i++) {
-    double *xy = l->xy[p[i].node], stretch = p[i].rho > 0 ? arc_at(s, count, p[i].theta, &at) / p[i].rho : 0;
-    xy[0] *= stretch;
-    xy[1] *= stretch;
+  if (!st) memcpy(l->xy, best.xy, (size_t)f->n_nodes * sizeof *l->xy);
+  thr_layout_destroy(&best);
+  free(m.node);
+  free(m.station);
+  return st;
+}
+
+/* ---- spreading a closed shell ---- */
+
+static const double PI = 3.14159265358979323846;
+
+/* Cosine of the angle between direction d and the nearest node, all seen from the sphere's centre. */
+static double nearest_node(const double (*unit)[3], int n, const double d[3])
+{
+  double most = -1;
+  for (int v = 0; v < n; v++)
+    most = fmax(most, dot(unit[v], d));
+  return most;
+}
+
+/* Direction i of n on a Fibonacci lattice, from the lowest up: evenly spread over the sphere (Gonzalez 2010). */
+static void lattice(int i, int n, double d[3])
+{
+  double z = (2.0 * i + 1) / n - 1, r = sqrt(1 - z * z), turn = i * PI * (3 - sqrt(5));
+  d[0] = r * cos(turn);
+  d[1] = r * sin(turn);
+  d[2] = z;
+}
+
+/* Middle of the widest empty cap, the lowest of nearly equal ones: where the shell is opened. */
+static void find_opening(const double (*unit)[3], int n, double best[3])
+{
+  int tries = n < 5000 ? 4000 : n < 50000 ? 400 : 60;
+  double least = 2, d[3];
+  for (int pass = 0; pass < 2; pass++)
+    for (int i = 0; i < tries; i++) {
+      lattice(i, tries, d);
+      double angle = PI - acos(fmax(-1, fmin(1, nearest_node(unit, n, d)))); /* small = far from all nodes */
+      if (pass == 0) least = fmin(least, angle);
+      if (pass == 1 && PI - angle >= 0.93 * (PI - least)) {
+        memcpy(best, d, sizeof d);
+        return;
+      }
+    }
+}
+
+/* Stereographic projection from the middle of an opening. Of a polyhedron inscribed in a sphere its edges do not cross:
+ * seen from a point beyond one face only, it is a Schlegel diagram. tame < 1 draws the rim in: r = tan(tame * theta / 2). */
+static void lay_spread(thr_layout *l, const double (*unit)[3], const double opening[3], double tame)
+{
+  const double axis[3] = {-opening[0], -opening[1], -opening[2]}, top[3] = {0, fabs(axis[2]) > 0.7, fabs(axis[2]) <= 0.7};
+  double up[3], along = dot(top, axis), size = 0, right[3];
+  for (int i = 0; i < 3; i++)
+    up[i] = top[i] - along * axis[i];
+  size = sqrt(dot(up, up));
+  for (int i = 0; i < 3; i++)
+    up[i] /= size;
+  cross_product(up, axis, right);
+  for (int v = 0; v < l->n_nodes; v++) {
+    double x = dot(unit[v], right), y = dot(unit[v], up), rho = hypot(x, y);
+    double r = tan(0.5 * tame * fmin(atan2(rho, dot(unit[v], axis)), 0.995 * PI)) / tame;
+    l->xy[v][0] = rho > 0 ? r * x / rho : 0;
+    l->xy[v][1] = rho > 0 ? r * y / rho : 0;
   }
-done:
-  free(p);
-  free(s);
+}
+
+static thr_status spread(thr_layout *l, const thr_frame *f, thr_err *err)
+{
+  static const double tame[] = {0.7, 0.8, 0.9, 0.95, 1};
+  double centre[3], opening[3] = {0, 0, -1};
+  thr_layout best = {0}, now = {0};
+  thr_status st = THR_OK;
+  if (!fit_sphere(f, centre)) return thr_fail(err, THR_EINPUT, "the framework is flat: there is nothing to spread");
+  double(*unit)[3] = thr_calloc((size_t)f->n_nodes, sizeof *unit);
+  if (!unit) return thr_nomem(err);
+  for (int v = 0; v < f->n_nodes; v++) {
+    double d[3] = {f->xyz[v][0] - centre[0], f->xyz[v][1] - centre[1], f->xyz[v][2] - centre[2]}, size = sqrt(dot(d, d));
+    for (int i = 0; i < 3; i++)
+      unit[v][i] = size > 0 ? d[i] / size : 0;
+  }
+  find_opening((const double(*)[3])unit, f->n_nodes, opening);
+  for (int i = 0; i < 5 && !st; i++) {
+    lay_spread(l, (const double(*)[3])unit, opening, tame[i]);
+    st = thr_layout_measure(l, f, err);
+    if (!st) st = thr_layout_copy(&now, l, err);
+    if (!st) keep_better(&best, &now);
+  }
+  if (!st) memcpy(l->xy, best.xy, (size_t)f->n_nodes * sizeof *l->xy);
+  thr_layout_destroy(&best);
+  free(unit);
   return st;
 }
 
@@ -295,6 +444,7 @@ static thr_status place(thr_layout *l, const thr_frame *f, thr_err *err)
   case THR_LAYOUT_UNROLLED_X: return unroll(l, f, 0, err);
   case THR_LAYOUT_UNROLLED_Y: return unroll(l, f, 1, err);
   case THR_LAYOUT_UNROLLED_Z: return unroll(l, f, 2, err);
+  case THR_LAYOUT_SPREAD: return spread(l, f, err);
   default: return thr_fail(err, THR_EINPUT, "layout kind %d cannot be made from coordinates", (int)l->kind);
   }
 }
@@ -328,25 +478,6 @@ thr_status thr_layout_adopt(thr_layout *out, const thr_frame *f, const double (*
   if (st) thr_layout_destroy(&l);
   *out = l;
   return st;
-}
-
-bool thr_layout_better(const thr_layout *a, const thr_layout *b)
-{
-  long faults_a = a->crossings + a->squeezed, faults_b = b->crossings + b->squeezed;
-  if (a->capped != b->capped) return b->capped;
-  if (faults_a != faults_b) return faults_a < faults_b;
-  return a->ratio > 1.25 * b->ratio;
-}
-
-/* Replaces *best by *l when that is better; the loser is freed. */
-static void keep_better(thr_layout *best, thr_layout *l)
-{
-  if (!best->xy || thr_layout_better(l, best)) {
-    thr_layout t = *best;
-    *best = *l;
-    *l = t;
-  }
-  thr_layout_destroy(l);
 }
 
 thr_status thr_layout_choose(thr_layout *out, const thr_frame *f, const thr_layout *extra, int n_extra, thr_err *err)

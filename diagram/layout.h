@@ -14,6 +14,7 @@ typedef enum {
   THR_LAYOUT_PLANE,      /* at right angles onto the best-fit plane */
   THR_LAYOUT_UNROLLED_X, /* azimuthal-equidistant about the x axis: the +x end in the middle */
   THR_LAYOUT_UNROLLED_Y, /* the same about the y axis */
+  THR_LAYOUT_SPREAD,     /* a closed shell opened at the face opposite the middle and spread flat (stereographic) */
   THR_LAYOUT_DRAWN,      /* made by a drawing algorithm: only the adjacency is true (see thr_layout_adopt) */
   THR_LAYOUT_KINDS
 } thr_layout_kind;

@@ -155,12 +155,10 @@ done:
   return st;
 }
 
-/* Rounds the point x (all 0 at the start) to a join and keeps it if it is the best so far. */
-static thr_status round_to_join(solver *s, thr_err *err)
+/* Keeps the T-join of the spanning tree under s->key if it is the best so far. */
+static thr_status try_tree(solver *s, thr_err *err)
 {
   const thr_tjoin_problem *p = s->p;
-  for (int e = 0; e < p->n_edges; e++)
-    s->key[e] = s->cost[e] * (1 - fmin(s->x[e], 1));
   spanning_tree(s);
   thr_status st = prune_tree(s, err);
   if (st) return st;
@@ -174,11 +172,24 @@ static thr_status round_to_join(solver *s, thr_err *err)
   return THR_OK;
 }
 
+/* Two roundings: of the point x (all 0 at the start), and of the dual, whose tight edges hold every shortest join. */
+static thr_status round_to_join(solver *s, thr_err *err)
+{
+  int m = s->p->n_edges;
+  for (int e = 0; e < m; e++)
+    s->key[e] = s->cost[e] * (1 - fmin(s->x[e], 1));
+  thr_status st = try_tree(s, err);
+  for (int e = 0; e < m; e++)
+    s->key[e] = fmax(s->reduced_cost[e], 0) + 1e-6 * s->key[e];
+  return st ? st : try_tree(s, err);
+}
+
 /* ---- the dual as integers ---- */
 
 /* value = dual in units of 1/denominator of a weight, rounded down; then whatever still overloads an edge is taken back
- * from the cuts over it, and what slack is left is given out again. Fills s->value, returns their sum. */
-static int64_t integer_dual(solver *s)
+ * from the cuts over it, and what slack is left is given out again: to cuts in use, or with greedy to any cut in turn.
+ * Fills s->value, returns their sum. */
+static int64_t integer_dual(solver *s, bool greedy)
 {
   const thr_tjoin_problem *p = s->p;
   for (int e = 0; e < p->n_edges; e++)
@@ -196,7 +207,7 @@ static int64_t integer_dual(solver *s)
       wide least = s->slack[c->edge[0]];
       for (int k = 1; k < c->n_edges; k++)
         if (s->slack[c->edge[k]] < least) least = s->slack[c->edge[k]];
-      if (pass == 0 ? least >= 0 : least <= 0 || s->value[i] == 0) continue;
+      if (pass == 0 ? least >= 0 : least <= 0 || (s->value[i] == 0 && !greedy)) continue;
       if (least < -(wide)s->value[i]) least = -(wide)s->value[i];
       s->value[i] += (int64_t)least;
       for (int k = 0; k < c->n_edges; k++)
@@ -230,9 +241,9 @@ static thr_status store_cuts(solver *s, int64_t sum, thr_err *err)
 }
 
 /* Turns the dual of the last solve into a certificate and keeps it if its bound is the best; sets best.optimal. */
-static thr_status certify(solver *s, thr_err *err)
+static thr_status certify(solver *s, bool greedy, thr_err *err)
 {
-  int64_t sum = integer_dual(s);
+  int64_t sum = integer_dual(s, greedy);
   thr_status st = THR_OK;
   if (sum > s->best.sum || s->best.n_cuts == 0) st = store_cuts(s, sum, err);
   s->best.optimal = (wide)s->best.sum > ((wide)s->best.length - 1) * THR_DUAL_DENOMINATOR;
@@ -249,10 +260,9 @@ static thr_status add_new_rows(solver *s, thr_err *err)
   return st;
 }
 
-static thr_status solve_rows(solver *s, bool exact, thr_lp_outcome *outcome, thr_err *err)
+/* Makes room for the multipliers of all cuts and sets them to 0. */
+static thr_status reserve_duals(solver *s, thr_err *err)
 {
-  thr_status st = add_new_rows(s, err);
-  if (st) return st;
   size_t rows = (size_t)s->pool.count;
   double *dual = thr_realloc(s->dual, rows, sizeof *dual);
   if (!dual) return thr_nomem(err);
@@ -260,16 +270,30 @@ static thr_status solve_rows(solver *s, bool exact, thr_lp_outcome *outcome, thr
   int64_t *value = thr_realloc(s->value, rows, sizeof *value);
   if (!value) return thr_nomem(err);
   s->value = value;
-  st = exact ? thr_lp_solve_exact(s->lp, s->limits, outcome, err) : thr_lp_solve(s->lp, s->limits, outcome, err);
-  if (st || *outcome == THR_LP_STOPPED) return st;
-  if (*outcome != THR_LP_OPTIMAL) return thr_fail(err, THR_ESOLVER, "GLPK found no optimum of an odd-cut relaxation, which always has one");
+  memset(s->dual, 0, rows * sizeof *s->dual);
   s->solved = s->pool.count;
-  thr_lp_primal(s->lp, s->x);
+  return THR_OK;
+}
+
+static void read_duals(solver *s)
+{
   thr_lp_dual(s->lp, s->dual);
   memcpy(s->reduced_cost, s->cost, (size_t)s->p->n_edges * sizeof *s->cost);
   for (int i = 0; i < s->solved; i++)
     for (int k = 0; s->dual[i] != 0 && k < s->pool.cut[i].n_edges; k++)
       s->reduced_cost[s->pool.cut[i].edge[k]] -= s->dual[i];
+}
+
+static thr_status solve_rows(solver *s, bool exact, thr_lp_outcome *outcome, thr_err *err)
+{
+  thr_status st = add_new_rows(s, err);
+  if (!st) st = reserve_duals(s, err);
+  if (!st) st = (exact ? thr_lp_solve_exact : thr_lp_solve)(s->lp, s->limits, outcome, err);
+  if (st) return st;
+  if (*outcome == THR_LP_INFEASIBLE || *outcome == THR_LP_UNBOUNDED)
+    return thr_fail(err, THR_ESOLVER, "GLPK found no optimum of an odd-cut relaxation, which always has one");
+  thr_lp_primal(s->lp, s->x);
+  read_duals(s);
   return THR_OK;
 }
 
@@ -342,29 +366,38 @@ static thr_status finish(solver *s, int attempt, thr_lp_outcome *outcome, thr_er
 {
   thr_status st = solve_rows(s, true, outcome, err);
   if (st || *outcome == THR_LP_STOPPED) return st;
-  if ((st = certify(s, err)) || s->best.optimal) return st;
+  if ((st = certify(s, false, err)) || s->best.optimal) return st;
   return break_ties(s, 1e-3 / (double)(1 + attempt * attempt), outcome, err);
+}
+
+/* Balls round the odd nodes, and what they prove before any linear programme is solved. */
+static thr_status start(solver *s, thr_err *err)
+{
+  thr_status st = thr_oddcut_moats(&s->graph, NULL, 0, s->reduced_cost, &s->pool, err);
+  if (!st) st = reserve_duals(s, err);
+  if (!st) st = round_to_join(s, err);
+  return st ? st : certify(s, true, err);
 }
 
 static thr_status run(solver *s, thr_err *err)
 {
   enum { ATTEMPTS = 12 };
   thr_lp_outcome outcome = THR_LP_OPTIMAL;
-  thr_status st = round_to_join(s, err);
-  if (!st) st = thr_oddcut_moats(&s->graph, NULL, 0, s->reduced_cost, &s->pool, err);
+  thr_status st = start(s, err);
   for (int attempt = 0; !st && attempt < ATTEMPTS;) {
     s->best.rounds++;
     if ((st = solve_rows(s, false, &outcome, err))) break;
-    if (outcome == THR_LP_STOPPED) return thr_fail(err, THR_ELIMIT, "stopped before the shortest cord was proved");
     if ((st = round_to_join(s, err))) break;
-    if ((st = certify(s, err))) break;
+    if ((st = certify(s, false, err))) break; /* also of an unfinished solve: any multipliers can be made valid */
     report(s, "odd cuts");
     if (s->best.optimal) return THR_OK;
-    if ((st = drop_idle(s, err))) break;
-    int before = s->pool.count;
-    if ((st = separate(s, err))) break;
-    if (s->pool.count > before) continue;
-    if ((st = finish(s, attempt++, &outcome, err)) || s->best.optimal) break;
+    if (outcome == THR_LP_OPTIMAL) {
+      if ((st = drop_idle(s, err))) break;
+      int before = s->pool.count;
+      if ((st = separate(s, err))) break;
+      if (s->pool.count > before) continue;
+      if ((st = finish(s, attempt++, &outcome, err)) || s->best.optimal) break;
+    }
     if (outcome == THR_LP_STOPPED) return thr_fail(err, THR_ELIMIT, "stopped before the shortest cord was proved");
   }
   if (st || s->best.optimal) return st;
