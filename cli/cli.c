@@ -149,7 +149,8 @@ static void note_report(const thr_read_report *r, const char *pair)
   note_count(r->duplicate_edges, "edge that was there already", "edges that were there already", "dropped");
   note_count(r->isolated_nodes, "node without an edge", "nodes without an edge", "dropped");
   if (r->skipped_records)
-    cli_note("note: %d %s not used (the first is %s)", r->skipped_records, r->skipped_records == 1 ? "record" : "records", r->skipped_kind);
+    cli_note("note: %d %s not used (the first is %s)", r->skipped_records, r->skipped_records == 1 ? "record" : "records",
+             r->skipped_kind);
 }
 
 /* Disconnected frameworks are planned part by part; the user must hear it. */

@@ -9,15 +9,7 @@
 #include <getopt.h>
 
 /* Documented in the man page; scripts rely on them. */
-enum {
-  EXIT_OK = 0,
-  EXIT_VIOLATION = 1,
-  EXIT_USAGE = 2,
-  EXIT_INPUT = 3,
-  EXIT_INFEASIBLE = 4,
-  EXIT_LIMIT = 5,
-  EXIT_INTERNAL = 70
-};
+enum { EXIT_OK = 0, EXIT_VIOLATION = 1, EXIT_USAGE = 2, EXIT_INPUT = 3, EXIT_INFEASIBLE = 4, EXIT_LIMIT = 5, EXIT_INTERNAL = 70 };
 
 int cmd_plan(int argc, char **argv);
 int cmd_check(int argc, char **argv);
@@ -47,7 +39,11 @@ enum { OPTION_LONG_ONLY = 256 }; /* first value for options without a letter */
 
 /* -h, -q and -v, in every table and every letter string. */
 #define CLI_COMMON_LETTERS "hqv"
-#define CLI_COMMON_OPTIONS {"help", no_argument, NULL, 'h'}, {"quiet", no_argument, NULL, 'q'}, {"verbose", no_argument, NULL, 'v'}
+#define CLI_COMMON_OPTIONS                                                                                                       \
+  {"help", no_argument, NULL, 'h'}, {"quiet", no_argument, NULL, 'q'},                                                           \
+  {                                                                                                                              \
+    "verbose", no_argument, NULL, 'v'                                                                                            \
+  }
 
 /* Next option: its value, or -1 at the end. -h prints help and sets *done to EXIT_OK; a bad option prints why and
  * sets *done to EXIT_USAGE; *done < 0 means go on. -q and -v are taken here. */
@@ -66,14 +62,17 @@ typedef struct {
   const char *feet; /* NULL: as the file says; "lowest", a file's name, or node names with commas */
 } cli_frame_args;
 
-#define CLI_FRAME_OPTIONS                                                                                                          \
-  {"edges", required_argument, NULL, OPTION_EDGES}, {"weld", required_argument, NULL, OPTION_WELD},                                \
-      {"units", required_argument, NULL, OPTION_UNITS}, {"feet", required_argument, NULL, OPTION_FEET}
+#define CLI_FRAME_OPTIONS                                                                                                        \
+  {"edges", required_argument, NULL, OPTION_EDGES}, {"weld", required_argument, NULL, OPTION_WELD},                              \
+      {"units", required_argument, NULL, OPTION_UNITS},                                                                          \
+  {                                                                                                                              \
+    "feet", required_argument, NULL, OPTION_FEET                                                                                 \
+  }
 enum { OPTION_EDGES = OPTION_LONG_ONLY, OPTION_WELD, OPTION_UNITS, OPTION_FEET, OPTION_FREE };
-#define CLI_FRAME_HELP                                                                                                             \
-  "      --feet lowest|FILE|NAME,..  where cord ends may come out (default: as the file says)\n"                                  \
-  "      --edges FILE     second file of a CSV pair: FRAME holds the nodes, FILE the edges\n"                                      \
-  "      --weld TOL       merge nodes closer than TOL (default: 1e-6 of the bounding box)\n"                                       \
+#define CLI_FRAME_HELP                                                                                                           \
+  "      --feet lowest|FILE|NAME,..  where cord ends may come out (default: as the file says)\n"                                 \
+  "      --edges FILE     second file of a CSV pair: FRAME holds the nodes, FILE the edges\n"                                    \
+  "      --weld TOL       merge nodes closer than TOL (default: 1e-6 of the bounding box)\n"                                     \
   "      --units NAME     what one unit of the coordinates is called (default: as the file says, or mm)\n"
 
 cli_frame_args cli_frame_args_default(void);

@@ -25,8 +25,8 @@ static void put_verdict(thr_text *t, const char *path, const thr_plan *p)
   int cuts = 0;
   for (int i = 0; i < p->proof.n_certificates; i++)
     cuts += p->proof.certificate[i].n_cuts;
-  thr_text_printf(t, "%s: %d %s, %d passes, every edge covered, length %.6f %s: ", path, p->n_cords, cli_plural(p->n_cords, "cord", "cords"),
-                  m->passes, m->length, units);
+  thr_text_printf(t, "%s: %d %s, %d passes, every edge covered, length %.6f %s: ", path, p->n_cords,
+                  cli_plural(p->n_cords, "cord", "cords"), m->passes, m->length, units);
   if (!p->proof.present)
     thr_text_append(t, "no claim of optimality\n");
   else if (p->proof.optimal)

@@ -7,12 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char help[] =
-    "thread compare PLAN.. [options]: plans side by side; * marks the best of each row\n\n"
-    "Examples:\n"
-    "  thread compare closed.json feet.json --mu 0.3\n\n"
-    "Options:\n" PULL_HELP "      --json           as JSON\n"
-    "  -h, --help\n";
+static const char help[] = "thread compare PLAN.. [options]: plans side by side; * marks the best of each row\n\n"
+                           "Examples:\n"
+                           "  thread compare closed.json feet.json --mu 0.3\n\n"
+                           "Options:\n" PULL_HELP "      --json           as JSON\n"
+                           "  -h, --help\n";
 
 static const struct option table[] = {CLI_COMMON_OPTIONS, PULL_OPTIONS, {NULL, 0, NULL, 0}};
 
@@ -23,18 +22,54 @@ typedef struct {
 } entry;
 
 /* The rows: a value per plan, less is better. Rows that say what a plan is, not how good, mark nothing. */
-static double cords(const entry *e) { return e->plan.n_cords; }
-static double passes(const entry *e) { return e->plan.metrics.passes; }
-static double length(const entry *e) { return e->plan.metrics.length; }
-static double overlap(const entry *e) { return e->plan.metrics.overlap; }
-static double overlap_percent(const entry *e) { return 100 * e->plan.metrics.overlap / e->plan.metrics.base_length; }
-static double gap_percent(const entry *e) { return e->plan.proof.present ? 100 * e->plan.proof.gap : NAN; }
-static double turning(const entry *e) { return cli_degrees(e->plan.metrics.turning); }
-static double max_turning(const entry *e) { return cli_degrees(e->plan.metrics.max_turning); }
-static double worst_turn(const entry *e) { return cli_degrees(e->plan.metrics.worst_turn); }
-static double u_turns(const entry *e) { return e->plan.metrics.u_turns; }
-static double largest(const entry *e) { return e->pull.largest; }
-static double total(const entry *e) { return e->pull.total; }
+static double cords(const entry *e)
+{
+  return e->plan.n_cords;
+}
+static double passes(const entry *e)
+{
+  return e->plan.metrics.passes;
+}
+static double length(const entry *e)
+{
+  return e->plan.metrics.length;
+}
+static double overlap(const entry *e)
+{
+  return e->plan.metrics.overlap;
+}
+static double overlap_percent(const entry *e)
+{
+  return 100 * e->plan.metrics.overlap / e->plan.metrics.base_length;
+}
+static double gap_percent(const entry *e)
+{
+  return e->plan.proof.present ? 100 * e->plan.proof.gap : NAN;
+}
+static double turning(const entry *e)
+{
+  return cli_degrees(e->plan.metrics.turning);
+}
+static double max_turning(const entry *e)
+{
+  return cli_degrees(e->plan.metrics.max_turning);
+}
+static double worst_turn(const entry *e)
+{
+  return cli_degrees(e->plan.metrics.worst_turn);
+}
+static double u_turns(const entry *e)
+{
+  return e->plan.metrics.u_turns;
+}
+static double largest(const entry *e)
+{
+  return e->pull.largest;
+}
+static double total(const entry *e)
+{
+  return e->pull.total;
+}
 
 static const struct {
   const char *label, *key;

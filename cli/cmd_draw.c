@@ -5,15 +5,14 @@
 #include <string.h>
 #include <sys/stat.h>
 
-static const char help[] =
-    "thread draw PLAN [options]: the overview picture\n\n"
-    "Examples:\n"
-    "  thread draw plan.json -o overview.svg\n"
-    "  thread draw plan.json -o diagrams/            overview.svg in that folder\n\n"
-    "Options:\n"
-    "  -T, --type svg       kind of diagram (default, and the only one yet)\n"
-    "      --pitch MM       millimetres on paper per bead (default: 24, less for large frameworks)\n"
-    "  -o, --output FILE|DIR   (default: overview.svg; - = stdout)       -h, --help\n";
+static const char help[] = "thread draw PLAN [options]: the overview picture\n\n"
+                           "Examples:\n"
+                           "  thread draw plan.json -o overview.svg\n"
+                           "  thread draw plan.json -o diagrams/            overview.svg in that folder\n\n"
+                           "Options:\n"
+                           "  -T, --type svg       kind of diagram (default, and the only one yet)\n"
+                           "      --pitch MM       millimetres on paper per bead (default: 24, less for large frameworks)\n"
+                           "  -o, --output FILE|DIR   (default: overview.svg; - = stdout)       -h, --help\n";
 
 enum { OPTION_PITCH = OPTION_FREE };
 static const struct option table[] = {CLI_COMMON_OPTIONS,

@@ -1,6 +1,7 @@
 /* thread eval: how hard must one pull? */
 #include "cli/pull.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 
 static const char help[] =
@@ -11,10 +12,12 @@ static const char help[] =
     "Options:\n" PULL_HELP "      --tension        print the tension in every pass\n"
     "      --json           as JSON, tension included\n"
     "  -h, --help\n\n"
-    "The closed form takes the cord through the middle of every bead. A cord thinner than the bore cuts corners and needs less.\n";
+    "The closed form takes the cord through the middle of every bead. A cord thinner than the bore cuts corners and needs "
+    "less.\n";
 
 enum { OPTION_TENSION = OPTION_PULL_FREE };
-static const struct option table[] = {CLI_COMMON_OPTIONS, PULL_OPTIONS, {"tension", no_argument, NULL, OPTION_TENSION}, {NULL, 0, NULL, 0}};
+static const struct option table[] = {
+    CLI_COMMON_OPTIONS, PULL_OPTIONS, {"tension", no_argument, NULL, OPTION_TENSION}, {NULL, 0, NULL, 0}};
 
 static void put_tension(thr_text *t, const thr_plan *p, const thr_capstan *r)
 {
@@ -29,8 +32,10 @@ static void put_tension(thr_text *t, const thr_plan *p, const thr_capstan *r)
 
 static void put_text(thr_text *t, const thr_plan *p, const pull_args *a, double mu, const thr_capstan *r, bool tension)
 {
-  thr_text_printf(t, "capstan law, mu = %g, seating tension %g N, pulled at: %s\n\n", mu, a->capstan.seating, pull_name(a->capstan.pull));
-  thr_text_printf(t, "%-5s %12s %14s %14s %10s  %s\n", "cord", "turning", "pull (N)", "other end (N)", "loss", "slackest at pass");
+  thr_text_printf(t, "capstan law, mu = %g, seating tension %g N, pulled at: %s\n\n", mu, a->capstan.seating,
+                  pull_name(a->capstan.pull));
+  thr_text_printf(t, "%-5s %12s %14s %14s %10s  %s\n", "cord", "turning", "pull (N)", "other end (N)", "loss",
+                  "slackest at pass");
   for (int i = 0; i < r->n_cords; i++) {
     const thr_capstan_cord *c = &r->cord[i];
     thr_text_printf(t, "%-5s %8.1f deg %14.6g ", p->cord[i].id, cli_degrees(c->turning), c->force);
@@ -52,7 +57,7 @@ static void put_number(thr_text *t, const char *before, double value)
 
 static void put_json(thr_text *t, const thr_plan *p, const pull_args *a, double mu, const thr_capstan *r)
 {
-  thr_text_append(t, "{\"method\": \"capstan\"");
+  thr_text_printf(t, "{\"framework\": \"%016" PRIx64 "\", \"method\": \"capstan\"", thr_frame_hash(&p->frame));
   put_number(t, ", \"mu\": ", mu);
   put_number(t, ", \"seating\": ", a->capstan.seating);
   thr_text_printf(t, ", \"pull\": \"%s\"", pull_name(a->capstan.pull));
@@ -88,7 +93,8 @@ int cmd_eval(int argc, char **argv)
     }
   }
   if (done >= 0) return done;
-  if (optind + 1 != argc) return cli_usage("eval", optind == argc ? "which plan?" : "one plan at a time; `thread compare` takes several");
+  if (optind + 1 != argc)
+    return cli_usage("eval", optind == argc ? "which plan?" : "one plan at a time; `thread compare` takes several");
   thr_plan p;
   thr_capstan r;
   int code = cli_read_plan(argv[optind], &p);

@@ -5,18 +5,17 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static const char help[] =
-    "thread info FRAME [options]: nodes, edges, degrees, odd nodes, pieces, bridges, feet\n\n"
-    "Examples:\n"
-    "  thread info dome.obj --feet lowest\n"
-    "  thread info nodes.csv --edges edges.csv --json\n"
-    "  thread info plan.json                         the framework inside a plan\n\n"
-    "Options:\n" CLI_FRAME_HELP
-    "      --json           as JSON\n"
-    "  -q, --quiet          no notes on what was merged or dropped       -h, --help\n";
+static const char help[] = "thread info FRAME [options]: nodes, edges, degrees, odd nodes, pieces, bridges, feet\n\n"
+                           "Examples:\n"
+                           "  thread info dome.obj --feet lowest\n"
+                           "  thread info nodes.csv --edges edges.csv --json\n"
+                           "  thread info plan.json                         the framework inside a plan\n\n"
+                           "Options:\n" CLI_FRAME_HELP "      --json           as JSON\n"
+                           "  -q, --quiet          no notes on what was merged or dropped       -h, --help\n";
 
 enum { OPTION_JSON = OPTION_FREE, MOST_DEGREES = 64 };
-static const struct option table[] = {CLI_COMMON_OPTIONS, CLI_FRAME_OPTIONS, {"json", no_argument, NULL, OPTION_JSON}, {NULL, 0, NULL, 0}};
+static const struct option table[] = {
+    CLI_COMMON_OPTIONS, CLI_FRAME_OPTIONS, {"json", no_argument, NULL, OPTION_JSON}, {NULL, 0, NULL, 0}};
 
 typedef struct {
   int degree[MOST_DEGREES + 1]; /* nodes of each degree; the last counts all higher ones too */
@@ -57,8 +56,8 @@ static void put_text(thr_text *t, const thr_frame *f, const facts *a)
   thr_text_printf(t, "\nodd nodes   %d%s\n", a->odd, a->odd ? "" : " (one closed cord needs no overlap)");
   thr_text_printf(t, "pieces      %d\nbridges     %d%s\nfeet        %d\n", a->components, a->bridges,
                   a->bridges ? " (a closed cord passes each twice)" : "", a->feet);
-  thr_text_printf(t, "length      %.6f %s in all, edges from %.6g to %.6g%s\n", thr_frame_total_length(f), f->units, a->shortest, a->longest,
-                  f->own_lengths ? " (given by the file)" : "");
+  thr_text_printf(t, "length      %.6f %s in all, edges from %.6g to %.6g%s\n", thr_frame_total_length(f), f->units, a->shortest,
+                  a->longest, f->own_lengths ? " (given by the file)" : "");
   thr_text_printf(t, "size        %.6g %s (diagonal of the bounding box)\n", thr_frame_diagonal(f), f->units);
   thr_text_printf(t, "hash        %016" PRIx64 "\n", thr_frame_hash(f));
 }
@@ -72,13 +71,15 @@ static void put_json(thr_text *t, const thr_frame *f, const facts *a)
       thr_text_printf(t, "%s\"%d\": %d", some ? ", " : "", d, a->degree[d]);
       some = true;
     }
-  thr_text_printf(t, "}, \"odd_nodes\": %d, \"components\": %d, \"bridges\": %d, \"feet\": %d, \"units\": ", a->odd, a->components, a->bridges,
-                  a->feet);
+  thr_text_printf(t, "}, \"odd_nodes\": %d, \"components\": %d, \"bridges\": %d, \"feet\": %d, \"units\": ", a->odd,
+                  a->components, a->bridges, a->feet);
   thr_text_json_string(t, f->units);
   const struct {
     const char *key;
     double value;
-  } number[] = {{"length", thr_frame_total_length(f)}, {"shortest_edge", a->shortest}, {"longest_edge", a->longest},
+  } number[] = {{"length", thr_frame_total_length(f)},
+                {"shortest_edge", a->shortest},
+                {"longest_edge", a->longest},
                 {"diagonal", thr_frame_diagonal(f)}};
   for (size_t i = 0; i < sizeof number / sizeof *number; i++) {
     thr_text_printf(t, ", \"%s\": ", number[i].key);

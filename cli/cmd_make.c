@@ -5,23 +5,22 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char help[] =
-    "thread make SHAPE [options]: an example framework\n\n"
-    "Examples:\n"
-    "  thread make dome --size 7 -o dome.json        7 x 7 nodes, feet at the four corners\n"
-    "  thread make tube --size 12 --rings 7 -o tube.obj\n\n"
-    "Shapes (what --size counts):\n"
-    "  dome       square grid, domed, a foot at each corner (nodes per side)\n"
-    "  geodesic   geodesic dome standing on its rim (frequency)\n"
-    "  sphere     closed geodesic sphere (frequency)\n"
-    "  tube       square grid rolled up, standing on its first ring (nodes around)\n"
-    "  honeycomb  hexagonal grid, domed (rings of hexagons)\n\n"
-    "Options:\n"
-    "      --size N         see above\n"
-    "      --rings N        tube: rings along the axis\n"
-    "      --pitch MM       distance between neighbours in mm\n"
-    "      --rise R         dome, honeycomb: height over half span\n"
-    "  -o, --output FILE    .json, .obj or .csv (default: JSON on stdout)       -h, --help\n";
+static const char help[] = "thread make SHAPE [options]: an example framework\n\n"
+                           "Examples:\n"
+                           "  thread make dome --size 7 -o dome.json        7 x 7 nodes, feet at the four corners\n"
+                           "  thread make tube --size 12 --rings 7 -o tube.obj\n\n"
+                           "Shapes (what --size counts):\n"
+                           "  dome       square grid, domed, a foot at each corner (nodes per side)\n"
+                           "  geodesic   geodesic dome standing on its rim (frequency)\n"
+                           "  sphere     closed geodesic sphere (frequency)\n"
+                           "  tube       square grid rolled up, standing on its first ring (nodes around)\n"
+                           "  honeycomb  hexagonal grid, domed (rings of hexagons)\n\n"
+                           "Options:\n"
+                           "      --size N         see above\n"
+                           "      --rings N        tube: rings along the axis\n"
+                           "      --pitch MM       distance between neighbours in mm\n"
+                           "      --rise R         dome, honeycomb: height over half span\n"
+                           "  -o, --output FILE    .json, .obj or .csv (default: JSON on stdout)       -h, --help\n";
 
 enum { OPTION_SIZE = OPTION_FREE, OPTION_RINGS, OPTION_PITCH, OPTION_RISE };
 static const struct option table[] = {CLI_COMMON_OPTIONS,

@@ -33,7 +33,16 @@ static const char help[] =
     "  -q, --quiet          errors only       -v, --verbose  what the solver does       -h, --help\n\n"
     "Exit codes: 0 proved shortest, 2 usage, 3 bad input, 4 infeasible, 5 stopped by a limit (plan written), 70 internal\n";
 
-enum { OPTION_OBJECTIVE = OPTION_FREE, OPTION_ENDS, OPTION_COVER, OPTION_JOINT, OPTION_MU, OPTION_TIME, OPTION_DRAW, OPTION_JSON };
+enum {
+  OPTION_OBJECTIVE = OPTION_FREE,
+  OPTION_ENDS,
+  OPTION_COVER,
+  OPTION_JOINT,
+  OPTION_MU,
+  OPTION_TIME,
+  OPTION_DRAW,
+  OPTION_JSON
+};
 
 static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       CLI_FRAME_OPTIONS,
@@ -160,21 +169,24 @@ static void put_summary(thr_text *t, const thr_plan *p, const thr_capstan *pull)
                   100 * m->overlap / m->base_length);
   thr_text_append(t, "         ");
   put_status(t, p);
-  thr_text_printf(t, "pull     with both ends pulled, times the tension that must reach the slackest point (mu = %g)\n", p->options.mu);
+  thr_text_printf(t, "pull     with both ends pulled, times the tension that must reach the slackest point (mu = %g)\n",
+                  p->options.mu);
 }
 
 static void put_json_summary(thr_text *t, const thr_plan *p, const thr_capstan *pull)
 {
   const thr_metrics *m = &p->metrics;
-  thr_text_printf(t, "{\"framework\": \"%016" PRIx64 "\", \"nodes\": %d, \"edges\": %d, \"cords\": %d, ", thr_frame_hash(&p->frame),
-                  p->frame.n_nodes, p->frame.n_edges, p->n_cords);
+  thr_text_printf(t, "{\"framework\": \"%016" PRIx64 "\", \"nodes\": %d, \"edges\": %d, \"cords\": %d, ",
+                  thr_frame_hash(&p->frame), p->frame.n_nodes, p->frame.n_edges, p->n_cords);
   thr_text_append(t, "\"units\": ");
   thr_text_json_string(t, p->frame.units);
   const struct {
     const char *key;
     double value;
-  } number[] = {{"length", m->length}, {"base_length", m->base_length}, {"overlap", m->overlap}, {"lower_bound", p->proof.lower_bound},
-                {"gap", p->proof.gap}, {"turning", m->turning}, {"max_turning", m->max_turning}, {"mu", p->options.mu}};
+  } number[] = {{"length", m->length},           {"base_length", m->base_length},
+                {"overlap", m->overlap},         {"lower_bound", p->proof.lower_bound},
+                {"gap", p->proof.gap},           {"turning", m->turning},
+                {"max_turning", m->max_turning}, {"mu", p->options.mu}};
   for (size_t i = 0; i < sizeof number / sizeof *number; i++) {
     thr_text_printf(t, ", \"%s\": ", number[i].key);
     thr_text_double(t, number[i].value);

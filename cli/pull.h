@@ -5,15 +5,24 @@
 #include "cli/cli.h"
 #include "eval/capstan.h"
 
-enum { OPTION_PULL_MU = OPTION_FREE, OPTION_PULL_SEATING, OPTION_PULL_END, OPTION_PULL_METHOD, OPTION_PULL_JSON, OPTION_PULL_FREE };
-#define PULL_OPTIONS                                                                                                               \
-  {"mu", required_argument, NULL, OPTION_PULL_MU}, {"seating", required_argument, NULL, OPTION_PULL_SEATING},                      \
-      {"pull", required_argument, NULL, OPTION_PULL_END}, {"method", required_argument, NULL, OPTION_PULL_METHOD},                  \
-      {"json", no_argument, NULL, OPTION_PULL_JSON}
-#define PULL_HELP                                                                                                                  \
-  "      --mu MU          friction coefficient cord on bead (default: the plan's)\n"                                               \
-  "      --seating N      tension in newton that must reach the slackest point (default: 1)\n"                                     \
-  "      --pull start|end|both   which end of each cord is pulled (default: both)\n"                                               \
+enum {
+  OPTION_PULL_MU = OPTION_FREE,
+  OPTION_PULL_SEATING,
+  OPTION_PULL_END,
+  OPTION_PULL_METHOD,
+  OPTION_PULL_JSON,
+  OPTION_PULL_FREE
+};
+#define PULL_OPTIONS                                                                                                             \
+  {"mu", required_argument, NULL, OPTION_PULL_MU}, {"seating", required_argument, NULL, OPTION_PULL_SEATING},                    \
+      {"pull", required_argument, NULL, OPTION_PULL_END}, {"method", required_argument, NULL, OPTION_PULL_METHOD},               \
+  {                                                                                                                              \
+    "json", no_argument, NULL, OPTION_PULL_JSON                                                                                  \
+  }
+#define PULL_HELP                                                                                                                \
+  "      --mu MU          friction coefficient cord on bead (default: the plan's)\n"                                             \
+  "      --seating N      tension in newton that must reach the slackest point (default: 1)\n"                                   \
+  "      --pull start|end|both   which end of each cord is pulled (default: both)\n"                                             \
   "      --method capstan closed form, force = seating tension x exp(mu x turning) (default, and the only one yet)\n"
 
 typedef struct {

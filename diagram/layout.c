@@ -371,13 +371,13 @@ static void lattice(int i, int n, double d[3])
 static void find_opening(const double (*unit)[3], int n, double best[3])
 {
   int tries = n < 5000 ? 4000 : n < 50000 ? 400 : 60;
-  double least = 2, d[3];
+  double widest = 0, d[3];
   for (int pass = 0; pass < 2; pass++)
     for (int i = 0; i < tries; i++) {
       lattice(i, tries, d);
-      double angle = PI - acos(fmax(-1, fmin(1, nearest_node(unit, n, d)))); /* small = far from all nodes */
-      if (pass == 0) least = fmin(least, angle);
-      if (pass == 1 && PI - angle >= 0.93 * (PI - least)) {
+      double cap = acos(fmax(-1, fmin(1, nearest_node(unit, n, d))));
+      if (pass == 0) widest = fmax(widest, cap);
+      if (pass == 1 && cap >= 0.93 * widest) {
         memcpy(best, d, sizeof d);
         return;
       }

@@ -35,7 +35,8 @@ static int slackest_pass(const thr_frame *f, const thr_cord *c, thr_pull pull, d
   return later ? i + 1 : i;
 }
 
-static thr_status eval_cord(const thr_frame *f, const thr_cord *c, const thr_capstan_options *o, thr_capstan_cord *out, thr_err *err)
+static thr_status eval_cord(const thr_frame *f, const thr_cord *c, const thr_capstan_options *o, thr_capstan_cord *out,
+                            thr_err *err)
 {
   out->turning = thr_cord_turning(f, c, false);
   out->slackest = slackest_pass(f, c, o->pull, out->turning);
@@ -60,7 +61,8 @@ static thr_status eval_cord(const thr_frame *f, const thr_cord *c, const thr_cap
   return THR_OK;
 }
 
-thr_status thr_capstan_eval(const thr_frame *f, const thr_cord *cord, int n_cords, const thr_capstan_options *o, thr_capstan *out, thr_err *err)
+thr_status thr_capstan_eval(const thr_frame *f, const thr_cord *cord, int n_cords, const thr_capstan_options *o, thr_capstan *out,
+                            thr_err *err)
 {
   thr_capstan result = {0};
   *out = result;

@@ -24,8 +24,8 @@ static thr_status check_walk(const thr_frame *f, const thr_cord *c, thr_err *err
                       thr_head(f, c->half[i]), i + 2, thr_tail(f, c->half[i + 1]));
   bool meets = thr_cord_start(f, c) == thr_cord_end(f, c);
   if (c->closed != meets)
-    return thr_fail(err, THR_EVIOLATED, "cord %s: said to be %s, but runs from node %d to node %d", c->id, c->closed ? "closed" : "open",
-                    thr_cord_start(f, c), thr_cord_end(f, c));
+    return thr_fail(err, THR_EVIOLATED, "cord %s: said to be %s, but runs from node %d to node %d", c->id,
+                    c->closed ? "closed" : "open", thr_cord_start(f, c), thr_cord_end(f, c));
   return THR_OK;
 }
 
@@ -36,12 +36,13 @@ static thr_status check_ends(const thr_frame *f, const thr_plan_options *o, cons
   int end[2] = {thr_cord_start(f, c), thr_cord_end(f, c)};
   for (int i = 0; i < 2; i++)
     if (!thr_plan_end_allowed(f, o, end[i]))
-      return thr_fail(err, THR_EVIOLATED, "cord %s: %s at node %d, where no cord end is allowed", c->id, i ? "ends" : "starts", end[i]);
+      return thr_fail(err, THR_EVIOLATED, "cord %s: %s at node %d, where no cord end is allowed", c->id, i ? "ends" : "starts",
+                      end[i]);
   return THR_OK;
 }
 
-static thr_status check_cords(const thr_frame *f, const thr_plan_options *o, const int *component, const thr_cord *cord, int n_cords,
-                              int *passes, thr_err *err)
+static thr_status check_cords(const thr_frame *f, const thr_plan_options *o, const int *component, const thr_cord *cord,
+                              int n_cords, int *passes, thr_err *err)
 {
   thr_status st;
   for (int i = 0; i < n_cords; i++) {
@@ -56,8 +57,8 @@ static thr_status check_cords(const thr_frame *f, const thr_plan_options *o, con
   }
   for (int e = 0; e < f->n_edges; e++)
     if (passes[e] < o->cover)
-      return thr_fail(err, THR_EVIOLATED, "edge %d (nodes %d and %d): %d of %d passes", e, f->edge[e][0], f->edge[e][1], passes[e],
-                      o->cover);
+      return thr_fail(err, THR_EVIOLATED, "edge %d (nodes %d and %d): %d of %d passes", e, f->edge[e][0], f->edge[e][1],
+                      passes[e], o->cover);
   return THR_OK;
 }
 
@@ -79,13 +80,13 @@ typedef struct {
   const thr_frame *f;
   const thr_plan_options *o;
   const int *component;
-  int *start, *node;  /* nodes of component k: node[start[k] .. start[k + 1] - 1] */
+  int *start, *node; /* nodes of component k: node[start[k] .. start[k + 1] - 1] */
   const thr_certificate *c;
-  wide *load;         /* [n_edges] */
-  wide *slot_load;    /* [2 * n_nodes] see load_set */
-  wide slot_base[2];  /* sum of the values of the sets that hold slot i */
-  wide between;       /* load of the edge between the slots */
-  bool *member;       /* [n_nodes + 2] */
+  wide *load;        /* [n_edges] */
+  wide *slot_load;   /* [2 * n_nodes] see load_set */
+  wide slot_base[2]; /* sum of the values of the sets that hold slot i */
+  wide between;      /* load of the edge between the slots */
+  bool *member;      /* [n_nodes + 2] */
 } certificate_check;
 
 static bool is_odd(const certificate_check *k, int v)
@@ -100,19 +101,21 @@ static thr_status check_set(certificate_check *k, int i, thr_err *err)
   const thr_cut *cut = &c->cut[i];
   bool odd = false;
   if (cut->value < 0)
-    return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: multiplier %" PRId64 " is negative", c->component, i,
-                    cut->value);
+    return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: multiplier %" PRId64 " is negative", c->component,
+                    i, cut->value);
   for (int j = 0; j < cut->n_nodes; j++) {
     int v = cut->node[j];
     if (j > 0 && v <= cut->node[j - 1])
-      return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: nodes are not ascending at %d", c->component, i, v);
+      return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: nodes are not ascending at %d", c->component, i,
+                      v);
     if (v < k->f->n_nodes && k->component[v] != c->component)
       return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: node %d is in component %d", c->component, i, v,
                       k->component[v]);
     odd ^= is_odd(k, v);
   }
   if (!odd)
-    return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: holds an even number of odd nodes", c->component, i);
+    return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: holds an even number of odd nodes", c->component,
+                    i);
   return THR_OK;
 }
 
@@ -141,21 +144,21 @@ static void load_set(certificate_check *k, const thr_cut *cut)
 
 static thr_status overloaded(const certificate_check *k, const char *what, int at, thr_err *err)
 {
-  return thr_fail(err, THR_EVIOLATED, "certificate of component %d: the cuts over %s %d add up to more than its weight", k->c->component,
-                  what, at);
+  return thr_fail(err, THR_EVIOLATED, "certificate of component %d: the cuts over %s %d add up to more than its weight",
+                  k->c->component, what, at);
 }
 
 /* Each edge of the component exactly once: by its first node. */
-#define FOR_EDGES(k, e)                                                                                                           \
-  for (int at_ = (k)->start[(k)->c->component]; at_ < (k)->start[(k)->c->component + 1]; at_++)                                    \
-    for (int i_ = (k)->f->first[(k)->node[at_]], e; i_ < (k)->f->first[(k)->node[at_] + 1]; i_++)                                  \
+#define FOR_EDGES(k, e)                                                                                                          \
+  for (int at_ = (k)->start[(k)->c->component]; at_ < (k)->start[(k)->c->component + 1]; at_++)                                  \
+    for (int i_ = (k)->f->first[(k)->node[at_]], e; i_ < (k)->f->first[(k)->node[at_] + 1]; i_++)                                \
       if ((k)->f->half[i_] % 2 == 0 && (e = (k)->f->half[i_] / 2, true))
 
 static thr_status check_loads(const certificate_check *k, thr_err *err)
 {
   const thr_certificate *c = k->c;
   FOR_EDGES(k, e)
-    if (k->load[e] > (wide)thr_certificate_weight(k->f, c, e) * c->denominator) return overloaded(k, "edge", e, err);
+  if (k->load[e] > (wide)thr_certificate_weight(k->f, c, e) * c->denominator) return overloaded(k, "edge", e, err);
   for (int j = k->start[c->component]; j < k->start[c->component + 1]; j++) {
     int v = k->node[j];
     if (!thr_plan_end_allowed(k->f, k->o, v)) continue;
@@ -163,7 +166,8 @@ static thr_status check_loads(const certificate_check *k, thr_err *err)
       if (k->slot_base[i] + k->slot_load[2 * v + i] > (wide)c->slot_cost * c->denominator)
         return overloaded(k, "the slot edge at node", v, err);
   }
-  if (k->between > 2 * (wide)c->slot_cost * c->denominator) return overloaded(k, "the edge between the slots of component", c->component, err);
+  if (k->between > 2 * (wide)c->slot_cost * c->denominator)
+    return overloaded(k, "the edge between the slots of component", c->component, err);
   return THR_OK;
 }
 
@@ -181,18 +185,19 @@ static thr_status judge(const certificate_check *k, wide sum, const int *passes,
   const thr_certificate *c = k->c;
   wide join = 0, slots = (wide)c->n_slots * c->slot_cost;
   double rounding = 0, total = 0;
-  FOR_EDGES(k, e) {
+  FOR_EDGES(k, e)
+  {
     int64_t w = thr_certificate_weight(k->f, c, e);
     join += (wide)w * (passes[e] - k->o->cover);
     rounding += fabs(k->f->length[e] - (double)w / c->scale);
     total += k->f->length[e];
   }
   if (sum != c->sum)
-    return thr_fail(err, THR_EVIOLATED, "certificate of component %d: the multipliers do not add up to the stated sum %" PRId64, c->component,
-                    c->sum);
+    return thr_fail(err, THR_EVIOLATED, "certificate of component %d: the multipliers do not add up to the stated sum %" PRId64,
+                    c->component, c->sum);
   if (join != c->join)
-    return thr_fail(err, THR_EVIOLATED, "certificate of component %d: the extra passes do not weigh the stated %" PRId64, c->component,
-                    c->join);
+    return thr_fail(err, THR_EVIOLATED, "certificate of component %d: the extra passes do not weigh the stated %" PRId64,
+                    c->component, c->join);
   /* One cord is a T-join of weight join + slots, and weights are integers: nothing fits between the bound and the next one. */
   double bound = (double)(sum - slots * c->denominator) / (double)c->denominator / c->scale - rounding;
   verdict->extra_bound = bound > 0 ? bound : 0;
@@ -206,8 +211,8 @@ static thr_status check_numbers(const certificate_check *k, thr_err *err)
   if (!(c->scale > 0) || c->denominator < 1)
     return thr_fail(err, THR_EVIOLATED, "certificate of component %d: scale and denominator must be positive", c->component);
   FOR_EDGES(k, e)
-    if (!(k->f->length[e] * c->scale < 1e18))
-      return thr_fail(err, THR_EVIOLATED, "certificate of component %d: scale is too large for edge %d", c->component, e);
+  if (!(k->f->length[e] * c->scale < 1e18))
+    return thr_fail(err, THR_EVIOLATED, "certificate of component %d: scale is too large for edge %d", c->component, e);
   if (c->n_slots != (k->o->ends == THR_ENDS_CLOSED ? 0 : 2))
     return thr_fail(err, THR_EVIOLATED, "certificate of component %d: %d slots do not fit ends %s", c->component, c->n_slots,
                     thr_ends_name(k->o->ends));
@@ -240,7 +245,8 @@ static void certificate_check_destroy(certificate_check *k)
   free(k->member);
 }
 
-static thr_status certificate_check_init(certificate_check *k, const thr_frame *f, const thr_plan_options *o, const int *component, thr_err *err)
+static thr_status certificate_check_init(certificate_check *k, const thr_frame *f, const thr_plan_options *o,
+                                         const int *component, thr_err *err)
 {
   size_t n = (size_t)f->n_nodes;
   *k = (certificate_check){.f = f, .o = o, .component = component};
@@ -299,8 +305,8 @@ thr_status thr_check_length_proof(const thr_frame *f, const thr_plan_options *o,
   if ((st = thr_frame_components(f, component, &n_components, err))) goto done;
   if ((st = check_cords(f, o, component, cord, n_cords, passes, err))) goto done;
   if (n_cords != n_components || n_certificates != n_components) {
-    st = thr_fail(err, THR_EVIOLATED, "%d cords and %d certificates for %d components; expected one of each per component", n_cords,
-                  n_certificates, n_components);
+    st = thr_fail(err, THR_EVIOLATED, "%d cords and %d certificates for %d components; expected one of each per component",
+                  n_cords, n_certificates, n_components);
     goto done;
   }
   if ((st = certificate_check_init(&k, f, o, component, err))) goto done;
@@ -346,15 +352,15 @@ static thr_status check_claim(const thr_plan *p, thr_err *err)
   bool optimal;
   double lower_bound;
   const thr_length_proof *claim = &p->proof;
-  thr_status st = thr_check_length_proof(&p->frame, &p->options, p->cord, p->n_cords, claim->certificate, claim->n_certificates, &optimal,
-                                         &lower_bound, err);
+  thr_status st = thr_check_length_proof(&p->frame, &p->options, p->cord, p->n_cords, claim->certificate, claim->n_certificates,
+                                         &optimal, &lower_bound, err);
   if (st) return st;
   if (claim->optimal && !optimal)
     return thr_fail(err, THR_EVIOLATED, "proof.length: says optimal, but the certificate only proves %.12g of %.12g", lower_bound,
                     p->metrics.length);
   if (claim->lower_bound > lower_bound && !close_to(claim->lower_bound, lower_bound))
-    return thr_fail(err, THR_EVIOLATED, "proof.length.lower_bound: stated %.12g, but the certificate proves %.12g", claim->lower_bound,
-                    lower_bound);
+    return thr_fail(err, THR_EVIOLATED, "proof.length.lower_bound: stated %.12g, but the certificate proves %.12g",
+                    claim->lower_bound, lower_bound);
   if (!close_to(claim->gap, (p->metrics.length - claim->lower_bound) / p->metrics.length))
     return thr_fail(err, THR_EVIOLATED, "proof.length.gap: stated %.12g, but length and lower bound give %.12g", claim->gap,
                     (p->metrics.length - claim->lower_bound) / p->metrics.length);

@@ -7,7 +7,8 @@
 /* Graph with n nodes and m undirected edges of capacity >= 0; it should be connected. tree[0 .. n-2] receives the tree's
  * edges and flow[0 .. n-2] the minimum cut that each stands for: removing the tree edge leaves the cut's two sides.
  * n - 1 maximum flows. THR_ESOLVER if igraph fails. */
-thr_status thr_cut_tree(int n, int m, const int (*edge)[2], const double *capacity, int (*tree)[2], double *flow, thr_err *err) THR_MUST_CHECK;
+thr_status thr_cut_tree(int n, int m, const int (*edge)[2], const double *capacity, int (*tree)[2], double *flow,
+                        thr_err *err) THR_MUST_CHECK;
 
 const char *thr_igraph_version(void);
 

@@ -7,6 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Lengths outside these bounds are nonsense in any unit, and their sums and quotients would overflow. */
+static const double SHORTEST = 1e-100, LONGEST = 1e100;
+
 /* ---- drafts ---- */
 
 thr_status thr_draft_add_node(thr_draft *d, const double xyz[3], const char *name, bool foot, thr_err *err)
@@ -179,7 +182,8 @@ static thr_status fill_nodes(thr_frame *f, const thr_draft *d, const int *parent
   return THR_OK;
 }
 
-static thr_status fill_edges(thr_frame *f, const thr_draft *d, const int *parent, const int *index, const bool *keep, thr_err *err)
+static thr_status fill_edges(thr_frame *f, const thr_draft *d, const int *parent, const int *index, const bool *keep,
+                             thr_err *err)
 {
   int n = 0;
   for (int e = 0; e < d->n_edges; e++) {
@@ -187,9 +191,9 @@ static thr_status fill_edges(thr_frame *f, const thr_draft *d, const int *parent
     int a = index[parent[d->edge[e].a]], b = index[parent[d->edge[e].b]];
     double given = d->edge[e].length, euclidean = distance(f->xyz[a], f->xyz[b]);
     double length = given != 0 ? given : euclidean;
-    if (!(length > 0) || !isfinite(length))
-      return thr_fail(err, THR_EINPUT, "edge %d (%s to %s) has length %g; lengths must be positive and finite", e, f->name[a],
-                      f->name[b], length);
+    if (!(length > SHORTEST && length < LONGEST))
+      return thr_fail(err, THR_EINPUT, "edge %d (%s to %s) has length %g; lengths must lie between %g and %g", e, f->name[a],
+                      f->name[b], length, SHORTEST, LONGEST);
     if (given != 0) f->own_lengths = true;
     f->edge[n][0] = a;
     f->edge[n][1] = b;

@@ -9,20 +9,29 @@
  * h ^ 1 is the same edge the other way. All arrays are owned; {0} is valid and empty. */
 typedef struct {
   int n_nodes, n_edges;
-  double (*xyz)[3];  /* [n_nodes] coordinates in units */
-  int (*edge)[2];    /* [n_edges] the two nodes; never equal, no pair twice */
-  double *length;    /* [n_edges] cord used by one pass, in units, > 0 */
-  bool *foot;        /* [n_nodes] may a cord end come out here (--ends feet)? */
-  char **name;       /* [n_nodes] what the file calls the node: an OBJ vertex number, a COMPAS key, .. */
-  char units[16];    /* "mm" unless the file or the user says otherwise */
-  bool own_lengths;  /* lengths were given, not Euclidean */
-  int *first;        /* [n_nodes + 1] half-edges leaving v: half[first[v] .. first[v + 1] - 1], by ascending edge */
-  int *half;         /* [2 * n_edges] */
+  double (*xyz)[3]; /* [n_nodes] coordinates in units */
+  int (*edge)[2];   /* [n_edges] the two nodes; never equal, no pair twice */
+  double *length;   /* [n_edges] cord used by one pass, in units, > 0 */
+  bool *foot;       /* [n_nodes] may a cord end come out here (--ends feet)? */
+  char **name;      /* [n_nodes] what the file calls the node: an OBJ vertex number, a COMPAS key, .. */
+  char units[16];   /* "mm" unless the file or the user says otherwise */
+  bool own_lengths; /* lengths were given, not Euclidean */
+  int *first;       /* [n_nodes + 1] half-edges leaving v: half[first[v] .. first[v + 1] - 1], by ascending edge */
+  int *half;        /* [2 * n_edges] */
 } thr_frame;
 
-static inline int thr_tail(const thr_frame *f, int h) { return f->edge[h >> 1][h & 1]; }
-static inline int thr_head(const thr_frame *f, int h) { return f->edge[h >> 1][1 - (h & 1)]; }
-static inline int thr_degree(const thr_frame *f, int v) { return f->first[v + 1] - f->first[v]; }
+static inline int thr_tail(const thr_frame *f, int h)
+{
+  return f->edge[h >> 1][h & 1];
+}
+static inline int thr_head(const thr_frame *f, int h)
+{
+  return f->edge[h >> 1][1 - (h & 1)];
+}
+static inline int thr_degree(const thr_frame *f, int v)
+{
+  return f->first[v + 1] - f->first[v];
+}
 
 /* What a reader collects before welding: nodes in file order, edges as node indices. Fill it with the two add
  * functions below, then call thr_draft_build. {0} is valid and empty. */
@@ -32,11 +41,11 @@ typedef struct {
     double xyz[3];
     char *name; /* owned; NULL means the index in decimal */
     bool foot;
-  } *node;
+  } * node;
   struct thr_draft_edge {
     int a, b;
     double length; /* 0 = Euclidean */
-  } *edge;
+  } * edge;
   char units[16]; /* "" = not said */
 } thr_draft;
 
@@ -48,21 +57,22 @@ void thr_draft_destroy(thr_draft *d);
 
 /* What was done to the file's data, and what is odd about it. */
 typedef struct {
-  double weld_tolerance;  /* in units */
+  double weld_tolerance; /* in units */
   int nodes_read, edges_read;
-  int welded_nodes;       /* merged into an earlier node */
-  int duplicate_edges;    /* dropped */
-  int zero_length_edges;  /* dropped: both ends weld to one node */
-  int isolated_nodes;     /* dropped: no edge */
-  int skipped_records;    /* records of the file that the reader knows but does not use (set by the reader) */
-  char skipped_kind[32];  /* the first such record's keyword */
+  int welded_nodes;      /* merged into an earlier node */
+  int duplicate_edges;   /* dropped */
+  int zero_length_edges; /* dropped: both ends weld to one node */
+  int isolated_nodes;    /* dropped: no edge */
+  int skipped_records;   /* records of the file that the reader knows but does not use (set by the reader) */
+  char skipped_kind[32]; /* the first such record's keyword */
 } thr_read_report;
 
 /* Welds nodes closer than tolerance (< 0: 1e-6 of the bounding box's diagonal), drops zero-length and duplicate
  * edges and isolated nodes, and fills frame and report (nodes_read .. isolated_nodes). The lowest file index of a
  * welded group gives coordinates and name; any member's foot makes it a foot. Nodes and edges keep file order.
  * THR_EINPUT if no edge is left or an own length is not positive and finite. O(n log n). The draft is unchanged. */
-thr_status thr_draft_build(const thr_draft *d, double tolerance, thr_frame *frame, thr_read_report *report, thr_err *err) THR_MUST_CHECK;
+thr_status thr_draft_build(const thr_draft *d, double tolerance, thr_frame *frame, thr_read_report *report,
+                           thr_err *err) THR_MUST_CHECK;
 
 void thr_frame_destroy(thr_frame *f);
 thr_status thr_frame_copy(thr_frame *to, const thr_frame *from, thr_err *err) THR_MUST_CHECK;

@@ -10,7 +10,8 @@ static thr_status failed(igraph_error_t code, thr_err *err)
   return thr_fail(err, THR_ESOLVER, "igraph: %s", igraph_strerror(code));
 }
 
-static igraph_error_t cut_tree(const igraph_vector_int_t *ends, int n, const igraph_vector_t *capacity, int (*tree)[2], double *flow)
+static igraph_error_t cut_tree(const igraph_vector_int_t *ends, int n, const igraph_vector_t *capacity, int (*tree)[2],
+                               double *flow)
 {
   igraph_t g, t;
   igraph_vector_t flows;

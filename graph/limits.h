@@ -7,8 +7,8 @@
 
 /* {0}: no limit, no interrupt, silent. */
 typedef struct {
-  double deadline;                           /* thr_clock() at which to stop; 0 = none */
-  const volatile sig_atomic_t *interrupted;  /* set by a signal handler, or NULL */
+  double deadline;                          /* thr_clock() at which to stop; 0 = none */
+  const volatile sig_atomic_t *interrupted; /* set by a signal handler, or NULL */
   /* called now and then with what is being done and the best value and proven bound so far (same unit) */
   void (*progress)(void *user, const char *what, double best, double bound);
   void *user;

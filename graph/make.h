@@ -8,11 +8,11 @@ typedef enum { THR_MAKE_DOME, THR_MAKE_GEODESIC, THR_MAKE_TUBE, THR_MAKE_SPHERE,
 
 typedef struct {
   thr_shape shape;
-  int size;      /* dome: nodes per side (>= 2); geodesic, sphere: frequency (>= 1); tube: nodes around (>= 3);
-                    honeycomb: rings of hexagons (>= 1) */
-  int rings;     /* tube: rings of nodes along the axis (>= 2) */
-  double pitch;  /* mm between neighbouring nodes (dome: in plan; others: nominal), > 0 */
-  double rise;   /* dome, honeycomb: height of the crown over the feet as a fraction of the half span, >= 0 */
+  int size;     /* dome: nodes per side (>= 2); geodesic, sphere: frequency (>= 1); tube: nodes around (>= 3);
+                   honeycomb: rings of hexagons (>= 1) */
+  int rings;    /* tube: rings of nodes along the axis (>= 2) */
+  double pitch; /* mm between neighbouring nodes (dome: in plan; others: nominal), > 0 */
+  double rise;  /* dome, honeycomb: height of the crown over the feet as a fraction of the half span, >= 0 */
 } thr_make_options;
 
 thr_make_options thr_make_options_default(thr_shape shape);

@@ -12,7 +12,8 @@ static void add_copy(thr_multigraph *g, int *n, int half, int a, int b)
   g->tail[(*n)++] = b;
 }
 
-thr_status thr_multigraph_init(thr_multigraph *g, const thr_frame *f, const int *passes, const int (*end)[2], int n_ends, thr_err *err)
+thr_status thr_multigraph_init(thr_multigraph *g, const thr_frame *f, const int *passes, const int (*end)[2], int n_ends,
+                               thr_err *err)
 {
   *g = (thr_multigraph){0};
   int64_t copies = n_ends;

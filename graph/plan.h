@@ -10,7 +10,7 @@ typedef enum { THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET, THR_ENDS_NODES } th
 
 /* What the user asked for; echoed in the plan so that it can be made again. */
 typedef struct {
-  int cover;         /* every edge gets at least this many passes, 1 .. 100 */
+  int cover; /* every edge gets at least this many passes, 1 .. 100 */
   thr_ends ends;
   bool *end_node;    /* [n_nodes] THR_ENDS_NODES only: where ends may be; owned, else NULL */
   double mu;         /* friction coefficient cord on bead, used for the summary's pull factor */
@@ -19,11 +19,11 @@ typedef struct {
 
 /* A cord: consecutive half-edges; half[i] arrives where half[i + 1] leaves. A closed cord also ends where it starts. */
 typedef struct {
-  char id[12];      /* "A", "B", .. "Z", "AA", .. */
-  int component;    /* of the framework, numbered by lowest node */
-  bool closed;      /* both ends at one node */
-  int n_passes;     /* >= 1 */
-  int *half;        /* [n_passes] owned */
+  char id[12];   /* "A", "B", .. "Z", "AA", .. */
+  int component; /* of the framework, numbered by lowest node */
+  bool closed;   /* both ends at one node */
+  int n_passes;  /* >= 1 */
+  int *half;     /* [n_passes] owned */
 } thr_cord;
 
 /* One odd cut: the edges leaving a node set that holds an odd number of odd nodes. value is its dual multiplier in
@@ -45,39 +45,39 @@ typedef struct {
   int64_t denominator; /* > 0 */
   int n_slots;         /* 0 (closed) or 2 */
   int64_t slot_cost;
-  int64_t join;        /* weight of the extra passes of the plan, without slots */
-  int64_t sum;         /* of the cuts' values */
+  int64_t join; /* weight of the extra passes of the plan, without slots */
+  int64_t sum;  /* of the cuts' values */
   int n_cuts;
-  thr_cut *cut;        /* owned */
+  thr_cut *cut; /* owned */
 } thr_certificate;
 
 typedef struct {
   bool present;
-  bool optimal;         /* proved: the checker agrees, or it says violation */
-  double lower_bound;   /* no plan with these options is shorter, in units of length */
-  double gap;           /* (length - lower_bound) / length */
+  bool optimal;       /* proved: the checker agrees, or it says violation */
+  double lower_bound; /* no plan with these options is shorter, in units of length */
+  double gap;         /* (length - lower_bound) / length */
   int n_certificates;
   thr_certificate *certificate; /* one per component; owned */
 } thr_length_proof;
 
 typedef struct {
-  double length;        /* of all cords, in units */
-  double base_length;   /* cover * sum of edge lengths */
-  double overlap;       /* length - base_length */
-  int passes;           /* of all cords */
-  int most_passes;      /* on one edge */
-  double turning;       /* sum of turning angles over all cords, rad; a closed cord counts the turn at its ends' node */
-  double max_turning;   /* of the cord that turns most, rad */
-  double worst_turn;    /* sharpest single turn, rad */
-  int u_turns;          /* turns from an edge back into the same edge */
+  double length;      /* of all cords, in units */
+  double base_length; /* cover * sum of edge lengths */
+  double overlap;     /* length - base_length */
+  int passes;         /* of all cords */
+  int most_passes;    /* on one edge */
+  double turning;     /* sum of turning angles over all cords, rad; a closed cord counts the turn at its ends' node */
+  double max_turning; /* of the cord that turns most, rad */
+  double worst_turn;  /* sharpest single turn, rad */
+  int u_turns;        /* turns from an edge back into the same edge */
 } thr_metrics;
 
 typedef struct {
   thr_frame frame;
   thr_plan_options options;
-  char *generator;      /* versions of program and libraries, one line; owned */
+  char *generator; /* versions of program and libraries, one line; owned */
   int n_cords;
-  thr_cord *cord;       /* owned */
+  thr_cord *cord; /* owned */
   thr_metrics metrics;
   thr_length_proof proof;
 } thr_plan;
@@ -103,7 +103,8 @@ double thr_turn_angle(const thr_frame *f, int in, int out);
 double thr_cord_turning(const thr_frame *f, const thr_cord *c, bool with_closure);
 
 /* Computes metrics from frame, options.cover and cords alone. */
-thr_status thr_plan_measure(const thr_frame *f, int cover, const thr_cord *cord, int n_cords, thr_metrics *m, thr_err *err) THR_MUST_CHECK;
+thr_status thr_plan_measure(const thr_frame *f, int cover, const thr_cord *cord, int n_cords, thr_metrics *m,
+                            thr_err *err) THR_MUST_CHECK;
 
 /* JSON of a plan; and back. Errors are "name: place: what": THR_EINPUT for what is not a plan at all, THR_EVIOLATED for
  * cords, metrics and proofs that contradict the framework (a pass whose edge does not join its two nodes). */

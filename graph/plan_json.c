@@ -133,7 +133,8 @@ static void put_certificate(thr_text *t, const thr_certificate *c)
 {
   thr_text_printf(t, "{\"component\": %d, ", c->component);
   put_key_double(t, "scale", c->scale, ", ");
-  thr_text_printf(t, "\"denominator\": %" PRId64 ", \"slots\": %d, \"slot_cost\": %" PRId64 ", \"join\": %" PRId64
+  thr_text_printf(t,
+                  "\"denominator\": %" PRId64 ", \"slots\": %d, \"slot_cost\": %" PRId64 ", \"join\": %" PRId64
                   ", \"sum\": %" PRId64 ",\n    \"cuts\": [",
                   c->denominator, c->n_slots, c->slot_cost, c->join, c->sum);
   for (int k = 0; k < c->n_cuts; k++) {
@@ -258,8 +259,7 @@ static thr_status read_edges(const reader *r, const thr_json *o, thr_draft *d)
   const thr_json *edges, *lengths = thr_json_get(o, "lengths");
   thr_status st = need(r, o, "edges", THR_JSON_ARRAY, &edges);
   if (st) return st;
-  if (lengths && thr_json_size(lengths) != thr_json_size(edges))
-    return bad(r, "framework.lengths", "not one length per edge");
+  if (lengths && thr_json_size(lengths) != thr_json_size(edges)) return bad(r, "framework.lengths", "not one length per edge");
   for (int e = 0; e < thr_json_size(edges); e++) {
     int end[2] = {0, 0};
     double length = 0;
@@ -455,8 +455,7 @@ static thr_status read_document(reader *r, const thr_json *doc, thr_plan *p)
 {
   const char *format = thr_json_string(thr_json_get(doc, "format"));
   int version;
-  if (!format || strcmp(format, "thread-plan") != 0)
-    return bad(r, "format", "not a thread plan; make one with `thread plan`");
+  if (!format || strcmp(format, "thread-plan") != 0) return bad(r, "format", "not a thread plan; make one with `thread plan`");
   thr_status st = get_int(r, doc, "version", 1, 1, &version);
   if (st) return st;
   const char *generator = thr_json_string(thr_json_get(doc, "generator"));

@@ -31,9 +31,12 @@ thr_status thr_csv_parse_pair(thr_draft *draft, const thr_text *nodes, const cha
                               const char *edges_name, thr_err *err) THR_MUST_CHECK;
 
 /* The formats one by one (same contract as thr_draft_parse). */
-thr_status thr_csv_parse(thr_draft *d, thr_read_report *r, const char *text, size_t n, const char *name, thr_err *err) THR_MUST_CHECK;
-thr_status thr_obj_parse(thr_draft *d, thr_read_report *r, const char *text, size_t n, const char *name, thr_err *err) THR_MUST_CHECK;
-thr_status thr_json_frame_parse(thr_draft *d, thr_read_report *r, const char *text, size_t n, const char *name, thr_err *err) THR_MUST_CHECK;
+thr_status thr_csv_parse(thr_draft *d, thr_read_report *r, const char *text, size_t n, const char *name,
+                         thr_err *err) THR_MUST_CHECK;
+thr_status thr_obj_parse(thr_draft *d, thr_read_report *r, const char *text, size_t n, const char *name,
+                         thr_err *err) THR_MUST_CHECK;
+thr_status thr_json_frame_parse(thr_draft *d, thr_read_report *r, const char *text, size_t n, const char *name,
+                                thr_err *err) THR_MUST_CHECK;
 
 /* Appends the framework in a format (JSON: our own frame; OBJ: v + two-vertex l records, feet as a comment line
  * "# feet: .." that thr_obj_parse reads back; CSV: six columns per edge). */

@@ -75,8 +75,8 @@ static thr_status cut_cords(const thr_frame *f, const thr_plan_options *o, const
   return st;
 }
 
-thr_status thr_tour_cords(const thr_frame *f, const thr_plan_options *o, const int *component, int n_components, const int *passes,
-                          const int (*ends)[2], thr_cord *cord, thr_err *err)
+thr_status thr_tour_cords(const thr_frame *f, const thr_plan_options *o, const int *component, int n_components,
+                          const int *passes, const int (*ends)[2], thr_cord *cord, thr_err *err)
 {
   thr_status st;
   thr_multigraph g = {0};

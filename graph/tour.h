@@ -9,7 +9,7 @@
  * end node that the options allow (a foot rather than another) where the turn that closing leaves out is sharpest.
  * cord[n_components] is filled; each half array is allocated for the caller, none on failure. THR_EINPUT if passes and
  * ends leave a node with an odd number of both. Near-linear in passes. */
-thr_status thr_tour_cords(const thr_frame *f, const thr_plan_options *o, const int *component, int n_components, const int *passes,
-                          const int (*ends)[2], thr_cord *cord, thr_err *err) THR_MUST_CHECK;
+thr_status thr_tour_cords(const thr_frame *f, const thr_plan_options *o, const int *component, int n_components,
+                          const int *passes, const int (*ends)[2], thr_cord *cord, thr_err *err) THR_MUST_CHECK;
 
 #endif

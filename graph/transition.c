@@ -95,9 +95,9 @@ void thr_transition_trace(const int *mate, int start, int *out, int *count)
 /* ---- joining ---- */
 
 typedef struct {
-  double extra;     /* price of the new pairs less that of the old */
-  int a, c;         /* one dart of each pair; a < c */
-  bool cross;       /* new pairs (a d)(b c) instead of (a c)(b d), where b = mate of a and d = mate of c */
+  double extra; /* price of the new pairs less that of the old */
+  int a, c;     /* one dart of each pair; a < c */
+  bool cross;   /* new pairs (a d)(b c) instead of (a c)(b d), where b = mate of a and d = mate of c */
 } exchange;
 
 typedef struct {
@@ -137,7 +137,8 @@ static void label_circuits(const thr_multigraph *g, const int *mate, int *circui
 }
 
 /* Exchanges between different circuits at node v: all of them at a small node; at a large one each pair with the next. */
-static thr_status collect(const thr_frame *f, const thr_multigraph *g, const int *mate, const int *circuit, int v, exchanges *x, thr_err *err)
+static thr_status collect(const thr_frame *f, const thr_multigraph *g, const int *mate, const int *circuit, int v, exchanges *x,
+                          thr_err *err)
 {
   int n = g->first[v + 1] - g->first[v];
   const int *dart = g->dart + g->first[v];

@@ -223,7 +223,7 @@ typedef struct {
   double *radius;   /* [n] by root: how far its ball may grow */
   int *order;       /* [n] nodes as settled */
   int settled;
-  reached *heap;    /* [2 * n_edges + n] */
+  reached *heap; /* [2 * n_edges + n] */
 } voronoi;
 
 static void grow_balls(const thr_oddcut_graph *g, const double *reduced_cost, int *parent, voronoi *z)
@@ -270,8 +270,8 @@ static void bound_radii(const thr_tjoin_problem *p, const double *reduced_cost, 
 }
 
 /* For one owner, nodes come in order of distance: each prefix that ends before a farther node is a ball. */
-static thr_status add_balls(const thr_oddcut_graph *g, const voronoi *z, const int *start, const int *by_owner, thr_oddcut_pool *pool,
-                            thr_err *err)
+static thr_status add_balls(const thr_oddcut_graph *g, const voronoi *z, const int *start, const int *by_owner,
+                            thr_oddcut_pool *pool, thr_err *err)
 {
   thr_status st = THR_OK;
   int *prefix = thr_calloc((size_t)g->p->n_nodes, sizeof *prefix);
@@ -328,7 +328,8 @@ thr_status thr_oddcut_moats(const thr_oddcut_graph *g, const double *x, double t
   const thr_tjoin_problem *p = g->p;
   size_t n = (size_t)p->n_nodes;
   voronoi z = {0};
-  int *parent = thr_calloc(n, sizeof *parent), *start = thr_calloc(n + 2, sizeof *start), *by_owner = thr_calloc(n, sizeof *by_owner);
+  int *parent = thr_calloc(n, sizeof *parent), *start = thr_calloc(n + 2, sizeof *start),
+      *by_owner = thr_calloc(n, sizeof *by_owner);
   thr_status st = parent && start && by_owner ? voronoi_init(&z, p, err) : thr_nomem(err);
   if (st) goto done;
   components(p, x, threshold, parent);
@@ -362,8 +363,8 @@ typedef struct {
   double *capacity;
   int (*tree)[2];
   double *flow;
-  int *parent;     /* disjoint sets over the tree without one edge */
-  bool *side;      /* [n] */
+  int *parent; /* disjoint sets over the tree without one edge */
+  bool *side;  /* [n] */
 } shrunk;
 
 static void shrunk_destroy(shrunk *s)
@@ -379,15 +380,18 @@ static void shrunk_destroy(shrunk *s)
 static thr_status shrunk_init(shrunk *s, int n, int m, thr_err *err)
 {
   size_t nodes = (size_t)n, edges = (size_t)m;
-  *s = (shrunk){.edge = thr_calloc(edges, sizeof *s->edge), .capacity = thr_calloc(edges, sizeof *s->capacity),
-                .tree = thr_calloc(nodes, sizeof *s->tree), .flow = thr_calloc(nodes, sizeof *s->flow),
-                .parent = thr_calloc(nodes, sizeof *s->parent), .side = thr_calloc(nodes, sizeof *s->side)};
+  *s = (shrunk){.edge = thr_calloc(edges, sizeof *s->edge),
+                .capacity = thr_calloc(edges, sizeof *s->capacity),
+                .tree = thr_calloc(nodes, sizeof *s->tree),
+                .flow = thr_calloc(nodes, sizeof *s->flow),
+                .parent = thr_calloc(nodes, sizeof *s->parent),
+                .side = thr_calloc(nodes, sizeof *s->side)};
   return s->edge && s->capacity && s->tree && s->flow && s->parent && s->side ? THR_OK : thr_nomem(err);
 }
 
 /* Adds the side of tree edge i, in framework nodes: those whose shrunk node is still joined to tree[i][0]. */
-static thr_status add_side(const thr_oddcut_graph *g, const shrunk *s, int i, const int *node, const int *shrunk_of, int n, int *list,
-                           thr_oddcut_pool *pool, thr_err *err)
+static thr_status add_side(const thr_oddcut_graph *g, const shrunk *s, int i, const int *node, const int *shrunk_of, int n,
+                           int *list, thr_oddcut_pool *pool, thr_err *err)
 {
   for (int v = 0; v < s->n; v++)
     s->parent[v] = v;
@@ -400,8 +404,8 @@ static thr_status add_side(const thr_oddcut_graph *g, const shrunk *s, int i, co
 }
 
 /* node[0 .. n-1] is one component of the support; block[v] its contracted group; shrunk_of and list are scratch. */
-static thr_status separate_component(const thr_oddcut_graph *g, const double *x, const int *node, int n, int *block, int *shrunk_of,
-                                     int *list, thr_oddcut_pool *pool, thr_err *err)
+static thr_status separate_component(const thr_oddcut_graph *g, const double *x, const int *node, int n, int *block,
+                                     int *shrunk_of, int *list, thr_oddcut_pool *pool, thr_err *err)
 {
   const thr_tjoin_problem *p = g->p;
   shrunk s;
@@ -435,7 +439,8 @@ thr_status thr_oddcut_exact(const thr_oddcut_graph *g, const double *x, thr_oddc
   const thr_tjoin_problem *p = g->p;
   size_t n = (size_t)p->n_nodes;
   thr_status st = THR_OK;
-  int *parent = thr_calloc(n, sizeof *parent), *block = thr_calloc(n, sizeof *block), *shrunk_of = thr_calloc(n, sizeof *shrunk_of);
+  int *parent = thr_calloc(n, sizeof *parent), *block = thr_calloc(n, sizeof *block),
+      *shrunk_of = thr_calloc(n, sizeof *shrunk_of);
   int *list = thr_calloc(n, sizeof *list), *start = thr_calloc(n + 2, sizeof *start), *node = thr_calloc(n, sizeof *node);
   if (!parent || !block || !shrunk_of || !list || !start || !node) {
     st = thr_nomem(err);

@@ -22,8 +22,8 @@ typedef struct {
     int *node; /* the smaller side, ascending */
     int *edge; /* the edges that cross */
     int idle;  /* consecutive rounds with a basic slack */
-  } *cut;
-  uint64_t *seen;        /* open-addressed set of names */
+  } * cut;
+  uint64_t *seen; /* open-addressed set of names */
   int seen_size, seen_used;
 } thr_oddcut_pool;
 

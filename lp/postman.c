@@ -18,11 +18,11 @@ typedef struct {
   const thr_plan_options *o;
   const thr_limits *limits;
   int n_components;
-  int *component;       /* [n_nodes] */
-  int *start, *node;    /* nodes of component k: node[start[k] .. start[k + 1] - 1] */
-  int *local;           /* [n_nodes] position within the component */
-  int *passes;          /* [n_edges] result */
-  int (*ends)[2];       /* [n_components] result */
+  int *component;               /* [n_nodes] */
+  int *start, *node;            /* nodes of component k: node[start[k] .. start[k + 1] - 1] */
+  int *local;                   /* [n_nodes] position within the component */
+  int *passes;                  /* [n_edges] result */
+  int (*ends)[2];               /* [n_components] result */
   thr_certificate *certificate; /* [n_components] result */
 } postman;
 
@@ -32,8 +32,8 @@ typedef struct {
   int (*edge)[2];
   int64_t *weight;
   bool *odd;
-  int *frame_edge;  /* [n_own] */
-  int *end_node;    /* [n_edges - n_own] framework node that a slot edge leads to, -1 for the edge between slots */
+  int *frame_edge; /* [n_own] */
+  int *end_node;   /* [n_edges - n_own] framework node that a slot edge leads to, -1 for the edge between slots */
 } instance;
 
 static void instance_destroy(instance *in)
@@ -165,8 +165,10 @@ static thr_status instance_init(const postman *m, int k, instance *in, thr_certi
   }
   in->n_own = degrees / 2;
   if (n_end_nodes == 0)
-    return thr_fail(err, THR_EINFEASIBLE, "component %d (the one with node %s) has no node where a cord may end; add a foot there, or use "
-                    "--ends closed", k, f->name[m->node[m->start[k]]]);
+    return thr_fail(err, THR_EINFEASIBLE,
+                    "component %d (the one with node %s) has no node where a cord may end; add a foot there, or use "
+                    "--ends closed",
+                    k, f->name[m->node[m->start[k]]]);
   thr_status st = instance_allocate(in, c->n_slots, n_end_nodes, err);
   if (st) return st;
   fill_own_edges(m, k, in);
@@ -293,7 +295,8 @@ static thr_status assemble(postman *m, thr_plan *plan, thr_err *err)
   if (st) return st;
   if (!(plan->cord = thr_calloc((size_t)m->n_components, sizeof *plan->cord))) return thr_nomem(err);
   plan->n_cords = m->n_components;
-  st = thr_tour_cords(&plan->frame, &plan->options, m->component, m->n_components, m->passes, (const int(*)[2])m->ends, plan->cord, err);
+  st = thr_tour_cords(&plan->frame, &plan->options, m->component, m->n_components, m->passes, (const int(*)[2])m->ends,
+                      plan->cord, err);
   if (st) return st;
   if ((st = thr_plan_measure(&plan->frame, plan->options.cover, plan->cord, plan->n_cords, &plan->metrics, err))) return st;
   thr_length_proof *proof = &plan->proof;

@@ -16,15 +16,15 @@ typedef struct {
   thr_oddcut_graph graph;
   thr_oddcut_pool pool;
   thr_lp *lp;
-  double unit;          /* costs of the linear programme = weights / unit, so that they are about 1 */
+  double unit;                           /* costs of the linear programme = weights / unit, so that they are about 1 */
   double *cost, *x, *reduced_cost, *key; /* [n_edges] */
-  double *dual;         /* [pool.count at the last solve] */
-  int64_t *value;       /* the same, rounded to integers that load no edge too much */
-  int solved;           /* rows at the last solve */
-  int *order, *parent;  /* [n_edges], [n_nodes] scratch of the rounding */
-  bool *tree_join;      /* [n_edges] */
-  bool *leaf_used;      /* [n_leaves] */
-  wide *slack;          /* [n_edges] */
+  double *dual;                          /* [pool.count at the last solve] */
+  int64_t *value;                        /* the same, rounded to integers that load no edge too much */
+  int solved;                            /* rows at the last solve */
+  int *order, *parent;                   /* [n_edges], [n_nodes] scratch of the rounding */
+  bool *tree_join;                       /* [n_edges] */
+  bool *leaf_used;                       /* [n_leaves] */
+  wide *slack;                           /* [n_edges] */
   thr_tjoin best;
 } solver;
 
@@ -45,7 +45,8 @@ static thr_status solver_init(solver *s, const thr_tjoin_problem *p, const thr_l
   s->slack = thr_calloc(m, sizeof *s->slack);
   s->best.in_join = thr_calloc(m, sizeof *s->best.in_join);
   s->best.length = INT64_MAX;
-  if (!s->cost || !s->x || !s->reduced_cost || !s->key || !s->order || !s->parent || !s->tree_join || !s->leaf_used || !s->slack || !s->best.in_join)
+  if (!s->cost || !s->x || !s->reduced_cost || !s->key || !s->order || !s->parent || !s->tree_join || !s->leaf_used ||
+      !s->slack || !s->best.in_join)
     return thr_nomem(err);
   double sum = 0;
   for (size_t e = 0; e < m; e++)

@@ -18,12 +18,12 @@ typedef struct {
 enum { THR_DUAL_DENOMINATOR = 1 << 16 }; /* of the cuts' values */
 
 typedef struct {
-  bool *in_join;   /* [n_edges] owned: a T-join, the best found */
-  int64_t length;  /* its weight */
+  bool *in_join;  /* [n_edges] owned: a T-join, the best found */
+  int64_t length; /* its weight */
   int n_cuts;
-  thr_cut *cut;    /* owned: odd cuts whose values / THR_DUAL_DENOMINATOR load no edge beyond its weight */
-  int64_t sum;     /* of the values: sum / THR_DUAL_DENOMINATOR is a lower bound on the weight of every T-join */
-  bool optimal;    /* sum > (length - 1) * THR_DUAL_DENOMINATOR: weights being integers, none is lighter */
+  thr_cut *cut;     /* owned: odd cuts whose values / THR_DUAL_DENOMINATOR load no edge beyond its weight */
+  int64_t sum;      /* of the values: sum / THR_DUAL_DENOMINATOR is a lower bound on the weight of every T-join */
+  bool optimal;     /* sum > (length - 1) * THR_DUAL_DENOMINATOR: weights being integers, none is lighter */
   int rounds, rows; /* of the cutting-plane method, for --verbose */
 } thr_tjoin;
 
