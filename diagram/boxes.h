@@ -8,7 +8,15 @@ typedef struct {
   double x0, y0, x1, y1; /* mm, x0 <= x1, y0 <= y1 */
 } thr_box;
 
-enum { THR_BOX_BEAD = 1, THR_BOX_CORD = 2, THR_BOX_ARROW = 4, THR_BOX_MARK = 8, THR_BOX_NUMBER = 16, THR_BOX_NAME = 32 };
+enum {
+  THR_BOX_BEAD = 1,
+  THR_BOX_CORD = 2,
+  THR_BOX_ARROW = 4,
+  THR_BOX_MARK = 8,
+  THR_BOX_NUMBER = 16,
+  THR_BOX_NAME = 32,
+  THR_BOX_FOOT = 64
+};
 
 typedef struct {
   thr_box bounds;

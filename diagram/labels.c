@@ -105,18 +105,33 @@ static thr_status place_numbers(thr_scene *s, thr_err *err)
 
 /* ---- names of nodes ---- */
 
-/* Tells the boxes where the strands run, so that names keep off them. */
+/* Point at t of the Bezier curve from a by b and c to d. */
+static void curve_at(const double a[2], const double b[2], const double c[2], const double d[2], double t, double at[2])
+{
+  double u = 1 - t;
+  for (int k = 0; k < 2; k++)
+    at[k] = u * u * u * a[k] + 3 * u * u * t * b[k] + 3 * u * t * t * c[k] + t * t * t * d[k];
+}
+
+/* Tells the boxes where the strands run through nodes and where the feet are, so that names keep off them. */
 static thr_status box_strands(thr_scene *s, thr_err *err)
 {
   thr_status st = THR_OK;
+  double at[2], half = 0.5 * s->size.cord + s->size.casing;
   for (int i = 0; i < s->n_passes && !st; i++) {
     const thr_scene_pass *p = &s->pass[i];
-    /* middle of the Bezier curve before the pass; the start of a first pass is its mark */
     const double *start = p->number > 1 ? p[-1].to : s->mark[p->cord][0].at;
-    double x = (start[0] + 3 * p->turn[0][0] + 3 * p->turn[1][0] + p->from[0]) / 8;
-    double y = (start[1] + 3 * p->turn[0][1] + 3 * p->turn[1][1] + p->from[1]) / 8;
-    st = thr_boxes_add(&s->boxes, thr_box_around(x, y, s->size.cord, s->size.cord), THR_BOX_CORD, err);
+    for (int k = 1; k < 6 && !st; k++) {
+      curve_at(start, p->turn[0], p->turn[1], p->from, k / 6.0, at);
+      st = thr_boxes_add(&s->boxes, thr_box_around(at[0], at[1], half, half), THR_BOX_CORD, err);
+      if (st || thr_scene_continues(s, i)) continue;
+      curve_at(p->to, s->last_turn[p->cord][0], s->last_turn[p->cord][1], s->mark[p->cord][1].at, k / 6.0, at);
+      st = thr_boxes_add(&s->boxes, thr_box_around(at[0], at[1], half, half), THR_BOX_CORD, err);
+    }
   }
+  for (int v = 0; v < s->frame->n_nodes && !st; v++)
+    if (s->frame->foot && s->frame->foot[v])
+      st = thr_boxes_add(&s->boxes, thr_box_around(s->at[v][0], s->at[v][1], s->size.foot, s->size.foot), THR_BOX_FOOT, err);
   return st;
 }
 
@@ -132,8 +147,8 @@ static thr_status place_name(thr_scene *s, int v, thr_err *err)
     int h = s->around[first + i], g = s->around[first + (i + 1) % degree];
     double wide = degree > 1 ? thr_scene_sweep(s->angle[h], s->angle[g]) : 6.28, off = s->angle[h] + 0.5 * wide;
     double c = cos(off), w = sin(off);
-    for (int k = 0; k < 3; k++) {
-      double d = (0.16 + 0.1 * k) * s->size.pitch + fmin(half_width / fmax(fabs(c), 1e-9), half_height / fmax(fabs(w), 1e-9));
+    for (int k = 0; k < 4; k++) {
+      double d = (0.14 + 0.08 * k) * s->size.pitch + fmin(half_width / fmax(fabs(c), 1e-9), half_height / fmax(fabs(w), 1e-9));
       thr_box box = thr_box_around(s->at[v][0] + d * c, s->at[v][1] + d * w, half_width, half_height);
       if (d > 0.6 * s->size.pitch + half_width || thr_boxes_overlap(&s->boxes, box, ~0) > 0) continue;
       s->named[v] = true;

@@ -384,9 +384,38 @@ static void find_opening(const double (*unit)[3], int n, double best[3])
     }
 }
 
-/* Stereographic projection from the middle of an opening. Of a polyhedron inscribed in a sphere its edges do not cross:
- * seen from a point beyond one face only, it is a Schlegel diagram. tame < 1 draws the rim in: r = tan(tame * theta / 2). */
-static void lay_spread(thr_layout *l, const double (*unit)[3], const double opening[3], double tame)
+/* Moves a direction to the middle of its empty cap: a pattern search that maximizes the angle to the nearest node. */
+static double centre_opening(const double (*unit)[3], int n, double d[3])
+{
+  double best = nearest_node(unit, n, d), step = 0.1;
+  for (int i = 0; i < 60; i++) {
+    bool moved = false;
+    for (int k = 0; k < 6; k++) {
+      double to[3] = {d[0], d[1], d[2]};
+      to[k / 2] += k % 2 ? step : -step;
+      double size = sqrt(dot(to, to));
+      for (int j = 0; j < 3; j++)
+        to[j] /= size;
+      double near = nearest_node(unit, n, to);
+      if (near >= best) continue;
+      best = near;
+      memcpy(d, to, sizeof to);
+      moved = true;
+    }
+    if (!moved) step /= 2;
+  }
+  return best;
+}
+
+/* One way to flatten the sphere: the polar angle theta, measured from the point opposite the opening, goes to radius
+ * sin(tame * theta) / (height + cos(tame * theta)). */
+typedef struct {
+  double tame;   /* 1; less draws the rim in, for shells with a wide hole */
+  double height; /* of the eye over the sphere's centre towards the opening; 1 = on the sphere: stereographic */
+} flattening;
+
+/* Of a polyhedron inscribed in a sphere, seen from an eye beyond one face only, the edges do not cross (Schlegel). */
+static void lay_spread(thr_layout *l, const double (*unit)[3], const double opening[3], flattening how)
 {
   const double axis[3] = {-opening[0], -opening[1], -opening[2]}, top[3] = {0, fabs(axis[2]) > 0.7, fabs(axis[2]) <= 0.7};
   double up[3], along = dot(top, axis), size = 0, right[3];
@@ -398,7 +427,7 @@ static void lay_spread(thr_layout *l, const double (*unit)[3], const double open
   cross_product(up, axis, right);
   for (int v = 0; v < l->n_nodes; v++) {
     double x = dot(unit[v], right), y = dot(unit[v], up), rho = hypot(x, y);
-    double r = tan(0.5 * tame * fmin(atan2(rho, dot(unit[v], axis)), 0.995 * PI)) / tame;
+    double theta = how.tame * atan2(rho, dot(unit[v], axis)), r = sin(theta) / fmax(how.height + cos(theta), 1e-4);
     l->xy[v][0] = rho > 0 ? r * x / rho : 0;
     l->xy[v][1] = rho > 0 ? r * y / rho : 0;
   }
@@ -406,7 +435,8 @@ static void lay_spread(thr_layout *l, const double (*unit)[3], const double open
 
 static thr_status spread(thr_layout *l, const thr_frame *f, thr_err *err)
 {
-  static const double tame[] = {0.7, 0.8, 0.9, 0.95, 1};
+  /* the eye on the sphere, or a part of the way down to the nearest nodes */
+  static const double tame[] = {0.7, 0.8, 0.9, 1, 1, 1, 1}, sunk[] = {0, 0, 0, 0, 0.1, 0.25, 0.5};
   double centre[3], opening[3] = {0, 0, -1};
   thr_layout best = {0}, now = {0};
   thr_status st = THR_OK;
@@ -419,8 +449,10 @@ static thr_status spread(thr_layout *l, const thr_frame *f, thr_err *err)
       unit[v][i] = size > 0 ? d[i] / size : 0;
   }
   find_opening((const double(*)[3])unit, f->n_nodes, opening);
-  for (int i = 0; i < 5 && !st; i++) {
-    lay_spread(l, (const double(*)[3])unit, opening, tame[i]);
+  double edge = centre_opening((const double(*)[3])unit, f->n_nodes, opening);
+  for (int i = 0; i < 7 && !st; i++) {
+    flattening how = {tame[i], 1 - sunk[i] * (1 - edge)};
+    lay_spread(l, (const double(*)[3])unit, opening, how);
     st = thr_layout_measure(l, f, err);
     if (!st) st = thr_layout_copy(&now, l, err);
     if (!st) keep_better(&best, &now);

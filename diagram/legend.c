@@ -122,7 +122,7 @@ void thr_legend_pill(const thr_scene *s, const char *number, const char *colour,
 
 void thr_legend_foot_pad(const thr_scene *s, double x, double y, thr_text *t)
 {
-  double half = fmax(0.17 * s->size.pitch, 0.6);
+  double half = s->size.foot;
   thr_text_printf(t, "<rect class=\"foot\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/>\n", thr_svg_round(x - half),
                   thr_svg_round(y - half), 2 * half, 2 * half);
 }
@@ -133,7 +133,7 @@ static double write_scale_bar(const thr_scene *s, double x, double y, double wid
   char length[64], line[160];
   double most = 50 / s->scale, unit = pow(10, floor(log10(most)));
   double value = most >= 5 * unit ? 5 * unit : most >= 2 * unit ? 2 * unit : unit, bar = value * s->scale;
-  if (s->layout->kind == THR_LAYOUT_DRAWN || !(bar > 1 && bar < 60)) return y;
+  if (s->layout->kind >= THR_LAYOUT_SPREAD || !(bar > 1 && bar < 60)) return y;
   thr_text_printf(t, "<g id=\"scale\"><path class=\"bar\" d=\"M%.2f %.2fv-2.00M%.2f %.2fh%.2fM%.2f %.2fv-2.00\"/>\n", x, y, x,
                   y - 1, bar, x + bar, y);
   if (value >= 1e6 || value < 1e-3)
@@ -141,7 +141,8 @@ static double write_scale_bar(const thr_scene *s, double x, double y, double wid
   else
     snprintf(length, sizeof length, "%.*f", value < 1 ? (int)ceil(-log10(value) - 1e-9) : 0, value);
   snprintf(line, sizeof line, "%s %.15s%s", length, s->frame->units,
-           thr_layout_to_scale(s->layout->kind) ? " in the plane of the paper" : " from the middle outwards");
+           thr_layout_to_scale(s->layout->kind) ? " of the framework, as seen here"
+                                                : " of the framework, from the middle outwards");
   y = wrap(line, TEXT_SIZE, "", x + bar + 3, y, width - bar - 3, t) - 1.45 * TEXT_SIZE;
   thr_text_append(t, "</g>\n");
   return y + ROW + 2;

@@ -179,6 +179,7 @@ static void choose_sizes(thr_scene *s)
   s->size.casing = fmin(0.025 * u, 0.8);
   s->size.bead = 0.28 * u;
   s->size.gap = 0.15 * u;
+  s->size.foot = fmax(0.16 * u, 0.5);
   s->size.arrow = fmin(0.14 * u, 5);
   s->size.text = u > 28 ? 3 : 2.5;
 }
@@ -197,7 +198,7 @@ static thr_status place_nodes(thr_scene *s, double pitch_mm, thr_err *err)
   double unit = l->median > 1e-9 * extent ? l->median : extent / sqrt(s->frame->n_edges);
   if (!(unit > 0)) unit = 1;
   /* a layout with many short edges gets a larger sheet, so that these have room too */
-  double wanted = l->ratio < 0.6 ? AUTO_PITCH * 1.25 : AUTO_PITCH;
+  double wanted = AUTO_PITCH * fmax(1, fmin(1.4, 0.6 / fmax(l->ratio, 0.01)));
   s->size.pitch = pitch_mm > 0 ? pitch_mm : fmin(wanted, extent > 0 ? MAX_SHEET * unit / extent : wanted);
   s->scale = s->size.pitch / unit;
   s->width = (high[0] - low[0]) * s->scale;

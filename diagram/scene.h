@@ -19,6 +19,7 @@ typedef struct {
   double bead;   /* width of a bead with one lane */
   double gap;    /* between a node and its beads, at least */
   double arrow;  /* length */
+  double foot;   /* half the side of a foot's pad */
   double text;   /* font size of numbers and names, >= 2.5 (7 pt = 2.47) */
 } thr_sizes;
 

@@ -68,7 +68,7 @@ static thr_status check_cords(const thr_frame *f, const thr_plan_options *o, con
 typedef struct {
   bool optimal;       /* the component's extra passes are a shortest join */
   double extra_bound; /* no plan has less extra cord in this component, in units of length */
-} verdict_t;
+} verdict;
 
 int64_t thr_certificate_weight(const thr_frame *f, const thr_certificate *c, int e)
 {
@@ -80,7 +80,8 @@ typedef struct {
   const thr_frame *f;
   const thr_plan_options *o;
   const int *component;
-  int *start, *node; /* nodes of component k: node[start[k] .. start[k + 1] - 1] */
+  int *start, *node;      /* nodes of component k: node[start[k] .. start[k + 1] - 1] */
+  int *edge_start, *edge; /* its edges likewise */
   const thr_certificate *c;
   wide *load;        /* [n_edges] */
   wide *slot_load;   /* [2 * n_nodes] see load_set */
@@ -148,17 +149,13 @@ static thr_status overloaded(const certificate_check *k, const char *what, int a
                   k->c->component, what, at);
 }
 
-/* Each edge of the component exactly once: by its first node. */
-#define FOR_EDGES(k, e)                                                                                                          \
-  for (int at_ = (k)->start[(k)->c->component]; at_ < (k)->start[(k)->c->component + 1]; at_++)                                  \
-    for (int i_ = (k)->f->first[(k)->node[at_]], e; i_ < (k)->f->first[(k)->node[at_] + 1]; i_++)                                \
-      if ((k)->f->half[i_] % 2 == 0 && (e = (k)->f->half[i_] / 2, true))
-
 static thr_status check_loads(const certificate_check *k, thr_err *err)
 {
   const thr_certificate *c = k->c;
-  FOR_EDGES(k, e)
-  if (k->load[e] > (wide)thr_certificate_weight(k->f, c, e) * c->denominator) return overloaded(k, "edge", e, err);
+  for (int j = k->edge_start[c->component]; j < k->edge_start[c->component + 1]; j++) {
+    int e = k->edge[j];
+    if (k->load[e] > (wide)thr_certificate_weight(k->f, c, e) * c->denominator) return overloaded(k, "edge", e, err);
+  }
   for (int j = k->start[c->component]; j < k->start[c->component + 1]; j++) {
     int v = k->node[j];
     if (!thr_plan_end_allowed(k->f, k->o, v)) continue;
@@ -173,20 +170,22 @@ static thr_status check_loads(const certificate_check *k, thr_err *err)
 
 static void clear(certificate_check *k)
 {
-  FOR_EDGES(k, e) k->load[e] = 0;
-  for (int j = k->start[k->c->component]; j < k->start[k->c->component + 1]; j++)
-    k->slot_load[2 * k->node[j]] = k->slot_load[2 * k->node[j] + 1] = 0;
+  int c = k->c->component;
+  for (int j = k->edge_start[c]; j < k->edge_start[c + 1]; j++)
+    k->load[k->edge[j]] = 0;
+  for (int j = k->start[c]; j < k->start[c + 1]; j++)
+    k->slot_load[2 * (size_t)k->node[j]] = k->slot_load[2 * (size_t)k->node[j] + 1] = 0;
   k->slot_base[0] = k->slot_base[1] = k->between = 0;
 }
 
 /* Compares the stated sums with the true ones, and says what they prove. */
-static thr_status judge(const certificate_check *k, wide sum, const int *passes, verdict_t *verdict, thr_err *err)
+static thr_status judge(const certificate_check *k, wide sum, const int *passes, verdict *out, thr_err *err)
 {
   const thr_certificate *c = k->c;
   wide join = 0, slots = (wide)c->n_slots * c->slot_cost;
   double rounding = 0, total = 0;
-  FOR_EDGES(k, e)
-  {
+  for (int j = k->edge_start[c->component]; j < k->edge_start[c->component + 1]; j++) {
+    int e = k->edge[j];
     int64_t w = thr_certificate_weight(k->f, c, e);
     join += (wide)w * (passes[e] - k->o->cover);
     rounding += fabs(k->f->length[e] - (double)w / c->scale);
@@ -200,8 +199,8 @@ static thr_status judge(const certificate_check *k, wide sum, const int *passes,
                     c->component, c->join);
   /* One cord is a T-join of weight join + slots, and weights are integers: nothing fits between the bound and the next one. */
   double bound = (double)(sum - slots * c->denominator) / (double)c->denominator / c->scale - rounding;
-  verdict->extra_bound = bound > 0 ? bound : 0;
-  verdict->optimal = join == 0 || (sum > (join + slots - 1) * c->denominator && rounding <= 1e-9 * total);
+  out->extra_bound = bound > 0 ? bound : 0;
+  out->optimal = join == 0 || (sum > (join + slots - 1) * c->denominator && rounding <= 1e-9 * total);
   return THR_OK;
 }
 
@@ -210,16 +209,18 @@ static thr_status check_numbers(const certificate_check *k, thr_err *err)
   const thr_certificate *c = k->c;
   if (!(c->scale > 0) || c->denominator < 1)
     return thr_fail(err, THR_EVIOLATED, "certificate of component %d: scale and denominator must be positive", c->component);
-  FOR_EDGES(k, e)
-  if (!(k->f->length[e] * c->scale < 1e18))
-    return thr_fail(err, THR_EVIOLATED, "certificate of component %d: scale is too large for edge %d", c->component, e);
+  for (int j = k->edge_start[c->component]; j < k->edge_start[c->component + 1]; j++) {
+    int e = k->edge[j];
+    if (!(k->f->length[e] * c->scale < 1e18))
+      return thr_fail(err, THR_EVIOLATED, "certificate of component %d: scale is too large for edge %d", c->component, e);
+  }
   if (c->n_slots != (k->o->ends == THR_ENDS_CLOSED ? 0 : 2))
     return thr_fail(err, THR_EVIOLATED, "certificate of component %d: %d slots do not fit ends %s", c->component, c->n_slots,
                     thr_ends_name(k->o->ends));
   return THR_OK;
 }
 
-static thr_status run_certificate(certificate_check *k, const int *passes, verdict_t *verdict, thr_err *err)
+static thr_status run_certificate(certificate_check *k, const int *passes, verdict *out, thr_err *err)
 {
   const thr_certificate *c = k->c;
   wide sum = 0;
@@ -231,7 +232,7 @@ static thr_status run_certificate(certificate_check *k, const int *passes, verdi
     sum += c->cut[i].value;
   }
   if (!st) st = check_loads(k, err);
-  if (!st) st = judge(k, sum, passes, verdict, err);
+  if (!st) st = judge(k, sum, passes, out, err);
   clear(k);
   return st;
 }
@@ -240,31 +241,49 @@ static void certificate_check_destroy(certificate_check *k)
 {
   free(k->start);
   free(k->node);
+  free(k->edge_start);
+  free(k->edge);
   free(k->load);
   free(k->slot_load);
   free(k->member);
+  *k = (certificate_check){0};
+}
+
+/* Groups nodes and edges by component: counting sort, shifted by one place so that filling leaves the starts right. */
+static void group(certificate_check *k)
+{
+  const thr_frame *f = k->f;
+  for (int v = 0; v < f->n_nodes; v++)
+    k->start[k->component[v] + 2]++;
+  for (int e = 0; e < f->n_edges; e++)
+    k->edge_start[k->component[f->edge[e][0]] + 2]++;
+  for (int i = 1; i <= f->n_nodes; i++) {
+    k->start[i + 1] += k->start[i];
+    k->edge_start[i + 1] += k->edge_start[i];
+  }
+  for (int v = 0; v < f->n_nodes; v++)
+    k->node[k->start[k->component[v] + 1]++] = v;
+  for (int e = 0; e < f->n_edges; e++)
+    k->edge[k->edge_start[k->component[f->edge[e][0]] + 1]++] = e;
 }
 
 static thr_status certificate_check_init(certificate_check *k, const thr_frame *f, const thr_plan_options *o,
                                          const int *component, thr_err *err)
 {
-  size_t n = (size_t)f->n_nodes;
+  size_t n = (size_t)f->n_nodes, m = (size_t)f->n_edges;
   *k = (certificate_check){.f = f, .o = o, .component = component};
   k->start = thr_calloc(n + 2, sizeof *k->start);
   k->node = thr_calloc(n, sizeof *k->node);
-  k->load = thr_calloc((size_t)f->n_edges, sizeof *k->load);
+  k->edge_start = thr_calloc(n + 2, sizeof *k->edge_start);
+  k->edge = thr_calloc(m, sizeof *k->edge);
+  k->load = thr_calloc(m, sizeof *k->load);
   k->slot_load = thr_calloc(2 * n, sizeof *k->slot_load);
   k->member = thr_calloc(n + 2, sizeof *k->member);
-  if (!k->start || !k->node || !k->load || !k->slot_load || !k->member) {
+  if (!k->start || !k->node || !k->edge_start || !k->edge || !k->load || !k->slot_load || !k->member) {
     certificate_check_destroy(k);
     return thr_nomem(err);
   }
-  for (size_t v = 0; v < n; v++)
-    k->start[component[v] + 2]++;
-  for (size_t i = 1; i <= n; i++)
-    k->start[i + 1] += k->start[i];
-  for (int v = 0; v < f->n_nodes; v++)
-    k->node[k->start[component[v] + 1]++] = v;
+  group(k);
   return THR_OK;
 }
 
@@ -276,15 +295,15 @@ static thr_status sum_verdicts(certificate_check *k, const int *passes, const th
   *optimal = true;
   *extra = 0;
   for (int i = 0; i < n; i++) {
-    verdict_t verdict = {0};
+    verdict v = {0};
     if (certificate[i].component != i)
       return thr_fail(err, THR_EVIOLATED, "certificate %d is for component %d; expected one per component in order", i,
                       certificate[i].component);
     k->c = &certificate[i];
-    thr_status st = run_certificate(k, passes, &verdict, err);
+    thr_status st = run_certificate(k, passes, &v, err);
     if (st) return st;
-    *optimal &= verdict.optimal;
-    *extra += verdict.extra_bound;
+    *optimal &= v.optimal;
+    *extra += v.extra_bound;
   }
   return THR_OK;
 }
@@ -349,8 +368,8 @@ static thr_status check_metrics(const thr_plan *p, thr_err *err)
 
 static thr_status check_claim(const thr_plan *p, thr_err *err)
 {
-  bool optimal;
-  double lower_bound;
+  bool optimal = false;
+  double lower_bound = 0;
   const thr_length_proof *claim = &p->proof;
   thr_status st = thr_check_length_proof(&p->frame, &p->options, p->cord, p->n_cords, claim->certificate, claim->n_certificates,
                                          &optimal, &lower_bound, err);

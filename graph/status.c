@@ -23,11 +23,6 @@ thr_status thr_fail(thr_err *err, thr_status code, const char *format, ...)
   return code;
 }
 
-thr_status thr_nomem(thr_err *err)
-{
-  return thr_fail(err, THR_ENOMEM, "out of memory");
-}
-
 void thr_alloc_fail_at(long k)
 {
   fail_at = k;

@@ -32,8 +32,12 @@ typedef struct {
 /* Records code and a formatted one-line text in err (if not NULL and still empty); returns code. */
 thr_status thr_fail(thr_err *err, thr_status code, const char *format, ...) THR_PRINTF(3, 4);
 
-/* Returns THR_ENOMEM with a standard text. */
-thr_status thr_nomem(thr_err *err);
+/* Returns THR_ENOMEM with a standard text. Inline, so that analysers see that it never returns THR_OK. */
+static inline thr_status thr_nomem(thr_err *err)
+{
+  thr_fail(err, THR_ENOMEM, "out of memory");
+  return THR_ENOMEM;
+}
 
 /* Zeroed array of n elements of size bytes; NULL when memory runs out (never for n = 0). free() releases it. */
 void *thr_calloc(size_t n, size_t size) THR_MUST_CHECK;
