@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "cli/cli.h"
 #include "diagram/overview.h"
+#include "graph/check.h"
 
 #include <errno.h>
 #include <math.h>
@@ -129,7 +130,11 @@ bool cli_frame_option(cli_frame_args *a, const char *command, int option, const 
   *ok = true;
   switch (option) {
   case OPTION_EDGES: a->read.edges_path = value; return true;
-  case OPTION_UNITS: a->read.units = value; return true;
+  case OPTION_UNITS:
+    *ok = strlen(value) < sizeof((thr_frame *)0)->units;
+    if (!*ok) cli_usage(command, "--units %s: at most %d letters", value, (int)sizeof((thr_frame *)0)->units - 1);
+    a->read.units = value;
+    return true;
   case OPTION_FEET: a->feet = value; return true;
   case OPTION_WELD: *ok = cli_double(command, "--weld", value, 0, 1e300, &a->read.weld); return true;
   default: return false;
@@ -141,9 +146,8 @@ static void note_count(int n, const char *one, const char *many, const char *wha
   if (n) cli_note("note: %d %s %s", n, n == 1 ? one : many, what);
 }
 
-static void note_report(const thr_read_report *r, const char *pair)
+static void note_report(const thr_read_report *r)
 {
-  if (pair[0]) cli_note("note: read together with %s", pair);
   note_count(r->welded_nodes, "node", "nodes", "merged into another within the weld tolerance");
   note_count(r->zero_length_edges, "edge of zero length", "edges of zero length", "dropped");
   note_count(r->duplicate_edges, "edge that was there already", "edges that were there already", "dropped");
@@ -168,9 +172,11 @@ int cli_read_frame(const char *path, const cli_frame_args *a, thr_frame *f)
 {
   thr_err err = {0};
   thr_read_report report = {0};
-  char pair[1024];
-  if (thr_frame_read(f, &report, path, &a->read, pair, sizeof pair, &err)) return cli_fail(&err);
-  note_report(&report, pair);
+  char pair[1024] = "";
+  thr_status st = thr_frame_read(f, &report, path, &a->read, pair, sizeof pair, &err);
+  if (pair[0]) cli_note("note: read together with %s", pair); /* before an error that may name that file */
+  if (st) return cli_fail(&err);
+  note_report(&report);
   if (note_components(f, &err)) {
     thr_frame_destroy(f);
     return cli_fail(&err);
@@ -187,11 +193,28 @@ int cli_read_frame(const char *path, const cli_frame_args *a, thr_frame *f)
   return EXIT_OK;
 }
 
+static bool mark_node(const thr_frame *f, const char *name, const char *option, bool *mark)
+{
+  int v = thr_frame_find(f, name);
+  if (v < 0) {
+    cli_error("%s: there is no file and no node called %s; the first node is %s", option, name, f->name[0]);
+    return false;
+  }
+  for (int w = v + 1; w < f->n_nodes; w++)
+    if (strcmp(f->name[w], name) == 0) {
+      cli_error("%s: two nodes are called %s; names in the file must differ", option, name);
+      return false;
+    }
+  mark[v] = true;
+  return true;
+}
+
 bool cli_mark_nodes(const thr_frame *f, const char *list, const char *option, bool *mark)
 {
   thr_err err = {0};
   thr_text text = {0};
   struct stat s;
+  if (thr_frame_find(f, list) >= 0) return mark_node(f, list, option, mark); /* "(0, 1)" is one COMPAS key */
   if (stat(list, &s) == 0 && S_ISREG(s.st_mode)) {
     if (thr_text_read(&text, list, &err)) {
       cli_fail(&err);
@@ -203,13 +226,8 @@ bool cli_mark_nodes(const thr_frame *f, const char *list, const char *option, bo
   bool ok = true, some = false;
   for (char *save = NULL, *name = text.data ? strtok_r(text.data, ", \t\r\n;", &save) : NULL; name && ok;
        name = strtok_r(NULL, ", \t\r\n;", &save)) {
-    int v = thr_frame_find(f, name);
-    if (v < 0) {
-      cli_error("%s: there is no file and no node called %s; the first node is %s", option, name, f->name[0]);
-      ok = false;
-    } else {
-      mark[v] = some = true;
-    }
+    ok = mark_node(f, name, option, mark);
+    some = true;
   }
   if (ok && !some) {
     cli_error("%s %s: names no node", option, list);
@@ -221,8 +239,10 @@ bool cli_mark_nodes(const thr_frame *f, const char *list, const char *option, bo
 
 int cli_read_plan(const char *path, thr_plan *p)
 {
-  thr_err err = {0};
-  return thr_plan_read(p, path, &err) ? cli_fail(&err) : EXIT_OK;
+  thr_err err = {0}, found = {0};
+  if (thr_plan_read(p, path, &err)) return cli_fail(&err);
+  if (thr_check_plan(p, &found)) cli_note("warning: %s does not hold: %s", path, found.text);
+  return EXIT_OK;
 }
 
 /* ---- files ---- */
@@ -251,7 +271,7 @@ int cli_in_folder(const char *folder, const char *file, char *out, size_t size)
     snprintf(part, sizeof part, "%.*s", (int)i, folder);
     struct stat s;
     if (mkdir(part, 0777) == 0 || (stat(part, &s) == 0 && S_ISDIR(s.st_mode))) continue;
-    cli_error("%s: cannot make this folder: %s", part, strerror(errno));
+    cli_error("%s: cannot make this folder (%s); say where to write with -o or --draw", part, strerror(errno));
     return EXIT_INPUT;
   }
   snprintf(out, size, "%s%s%s", folder, n && folder[n - 1] == '/' ? "" : "/", file);

@@ -82,9 +82,10 @@ bool cli_frame_option(cli_frame_args *a, const char *command, int option, const 
 /* Reads, says on stderr what was merged, dropped or odd, and sets the feet. Returns EXIT_OK or prints and returns the code. */
 int cli_read_frame(const char *path, const cli_frame_args *a, thr_frame *f);
 
-/* Marks the nodes in a list of names or a file of names; false prints why. */
+/* Marks one node by its name, the nodes in a list of names, or those in a file of names; false prints why. */
 bool cli_mark_nodes(const thr_frame *f, const char *list, const char *option, bool *mark);
 
+/* Reads a plan; one that does not hold is still read, with a warning. Returns EXIT_OK or prints and returns the code. */
 int cli_read_plan(const char *path, thr_plan *p);
 
 /* File name of a path without folder and extension ("frame" for "-"). */

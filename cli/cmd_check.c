@@ -40,7 +40,7 @@ static void put_json(thr_text *t, const char *path, const thr_plan *p, const thr
   thr_text_append(t, "{\"plan\": ");
   thr_text_json_string(t, path);
   if (err->code) {
-    thr_text_append(t, ", \"ok\": false, \"violation\": ");
+    thr_text_printf(t, ", \"ok\": false, \"%s\": ", err->code == THR_EVIOLATED ? "violation" : "error");
     thr_text_json_string(t, err->text);
   } else {
     thr_text_append(t, ", \"ok\": true, \"length\": ");
@@ -64,10 +64,11 @@ static int check_one(const char *path, bool json)
   thr_status st = thr_plan_read(&p, path, &err);
   if (!st && (st = thr_check_plan(&p, &found))) thr_fail(&err, st, "%s: %s", name, found.text);
   int code = st == THR_OK ? EXIT_OK : EXIT_VIOLATION;
-  if (st && st != THR_EVIOLATED)
-    code = cli_fail(&err);
-  else if (json)
+  if (st && st != THR_EVIOLATED) code = cli_fail(&err);
+  if (json)
     put_json(&t, name, &p, &err);
+  else if (code > EXIT_VIOLATION)
+    ; /* said already */
   else if (st)
     cli_error("%s", err.text);
   else if (!cli_quiet)

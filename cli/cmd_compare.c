@@ -83,8 +83,8 @@ static const struct {
     {"overlap", "overlap", overlap, true, 3},
     {"overlap %", "overlap_percent", overlap_percent, true, 2},
     {"gap to the proven bound %", "gap_percent", gap_percent, false, -2},
-    {"turning, deg", "turning_deg", turning, true, 1},
-    {"largest turning of a cord, deg", "max_turning_deg", max_turning, true, 1},
+    {"turning with closing turns, deg", "turning_deg", turning, true, 1},
+    {"the same, largest cord, deg", "max_turning_deg", max_turning, true, 1},
     {"sharpest turn, deg", "worst_turn_deg", worst_turn, true, 1},
     {"U-turns", "u_turns", u_turns, true, -1},
     {"largest pull, N", "largest_pull", largest, true, -2},
@@ -120,8 +120,8 @@ static void put_text(thr_text *t, const entry *e, int n, const pull_args *a)
 {
   thr_text_printf(t, "%-31s", "");
   for (int i = 0; i < n; i++) {
-    size_t length_of = strlen(e[i].path);
-    thr_text_printf(t, " %16s ", length_of > 16 ? e[i].path + length_of - 16 : e[i].path);
+    size_t letters = strlen(e[i].path);
+    thr_text_printf(t, letters > 16 ? " ..%s " : " %16s ", letters > 16 ? e[i].path + letters - 14 : e[i].path);
   }
   thr_text_printf(t, "\n%-31s", "ends");
   for (int i = 0; i < n; i++)

@@ -40,6 +40,9 @@ int cmd_draw(int argc, char **argv)
     if (option == 'o') output = optarg;
   }
   if (done >= 0) return done;
+  const char *dot = strrchr(output, '.');
+  if (dot && (strcmp(dot, ".pdf") == 0 || strcmp(dot, ".png") == 0 || strcmp(dot, ".html") == 0))
+    return cli_usage("draw", "%s: this version draws svg only", output);
   if (optind + 1 != argc) return cli_usage("draw", optind == argc ? "which plan?" : "one plan at a time");
   thr_plan p;
   int code = cli_read_plan(argv[optind], &p);

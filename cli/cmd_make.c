@@ -47,10 +47,22 @@ typedef struct {
 
 static bool apply(const arguments *a, thr_make_options *o)
 {
-  if (a->size && !cli_int("make", "--size", a->size, 1, 100000, &o->size)) return false;
-  if (a->rings && !cli_int("make", "--rings", a->rings, 1, 100000, &o->rings)) return false;
+  bool has_rise = o->shape == THR_MAKE_DOME || o->shape == THR_MAKE_HONEYCOMB;
+  if ((a->rings && o->shape != THR_MAKE_TUBE) || (a->rise && !has_rise)) {
+    cli_usage("make", "a %s has no %s", shape_name[o->shape], a->rings && o->shape != THR_MAKE_TUBE ? "--rings" : "--rise");
+    return false;
+  }
+  if (a->size && !cli_int("make", "--size", a->size, 1, 1000000, &o->size)) return false;
+  if (a->rings && !cli_int("make", "--rings", a->rings, 1, 1000000, &o->rings)) return false;
   if (a->pitch && !cli_double("make", "--pitch", a->pitch, 1e-6, 1e9, &o->pitch)) return false;
   return !a->rise || cli_double("make", "--rise", a->rise, 0, 100, &o->rise);
+}
+
+/* JSON on stdout and for names without an ending; nothing is written in a format that its name does not say. */
+static bool known_ending(const char *output)
+{
+  const char *slash = strrchr(output, '/'), *dot = strrchr(slash ? slash : output, '.');
+  return !dot || strcmp(dot, ".json") == 0 || thr_format_of_path(output) != THR_FORMAT_JSON;
 }
 
 static int make(const thr_make_options *o, const char *output)
@@ -83,9 +95,12 @@ int cmd_make(int argc, char **argv)
     }
   }
   if (done >= 0) return done;
-  if (optind + 1 != argc) return cli_usage("make", optind == argc ? "which shape?" : "one shape at a time");
+  if (optind + 1 != argc)
+    return cli_usage("make", optind == argc ? "which shape? dome, geodesic, sphere, tube or honeycomb" : "one shape at a time");
   int shape = find_shape(argv[optind]);
-  if (shape < 0) return cli_usage("make", "there is no shape %s", argv[optind]);
+  if (shape < 0)
+    return cli_usage("make", "there is no shape %s; there are dome, geodesic, sphere, tube and honeycomb", argv[optind]);
+  if (!known_ending(a.output)) return cli_usage("make", "%s: the ending must be .json, .obj or .csv", a.output);
   thr_make_options o = thr_make_options_default((thr_shape)shape);
   return apply(&a, &o) ? make(&o, a.output) : EXIT_USAGE;
 }

@@ -28,9 +28,9 @@ static const char help[] =
     "      --mu MU          friction coefficient for the pull factor in the summary (default: 0.2)\n"
     "      --time-limit S   stop after S seconds with the best plan so far and its gap (default: none)\n"
     "  -o, --output FILE    write the plan here (- = stdout), and no diagrams unless --draw\n"
-    "      --draw DIR       write the diagrams into this folder\n"
+    "      --draw DIR       write the diagrams into this folder, and without -o the plan too\n"
     "      --json           summary as JSON on stdout\n"
-    "  -q, --quiet          errors only       -v, --verbose  what the solver does       -h, --help\n\n"
+    "  -q, --quiet          no notes and no summary       -v, --verbose  what the solver does       -h, --help\n\n"
     "Exit codes: 0 proved shortest, 2 usage, 3 bad input, 4 infeasible, 5 stopped by a limit (plan written), 70 internal\n";
 
 enum {
@@ -160,9 +160,9 @@ static void put_cords(thr_text *t, const thr_plan *p, const thr_capstan *pull)
 static void put_summary(thr_text *t, const thr_plan *p, const thr_capstan *pull)
 {
   const thr_metrics *m = &p->metrics;
-  thr_text_printf(t, "%d nodes, %d edges, %d %s; %d %s per edge; ends: %s\n\n", p->frame.n_nodes, p->frame.n_edges, p->n_cords,
-                  cli_plural(p->n_cords, "piece", "pieces"), p->options.cover, cli_plural(p->options.cover, "pass", "passes"),
-                  thr_ends_name(p->options.ends));
+  thr_text_printf(t, "%d nodes, %d %s, %d %s; %d %s per edge; ends: %s\n\n", p->frame.n_nodes, p->frame.n_edges,
+                  cli_plural(p->frame.n_edges, "edge", "edges"), p->n_cords, cli_plural(p->n_cords, "piece", "pieces"),
+                  p->options.cover, cli_plural(p->options.cover, "pass", "passes"), thr_ends_name(p->options.ends));
   put_cords(t, p, pull);
   thr_text_printf(t, "\nlength   %.6f %s = %.6f for %d %s over every edge + %.6f overlap (%.1f %%)\n", m->length, p->frame.units,
                   m->base_length, p->options.cover, cli_plural(p->options.cover, "pass", "passes"), m->overlap,
@@ -238,7 +238,7 @@ static int write_outputs(const arguments *a, const thr_plan *p)
   if (!code) code = write_plan(p, plan_path);
   if (!code && folder) code = cli_draw_overview(p, svg_path, 0);
   bool to_stdout = strcmp(plan_path, "-") == 0;
-  if (code || to_stdout) return code;
+  if (code || to_stdout || (cli_quiet && !a->json)) return code;
   if ((code = print_summary(a, p)) || a->json) return code;
   printf("plan     %s\n", plan_path);
   if (folder) printf("drawing  %s\n", svg_path);

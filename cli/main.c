@@ -49,6 +49,12 @@ int main(int argc, char **argv)
   }
   const char *name = argv[1];
   if (strcmp(name, "--version") == 0) return version();
+  if (strcmp(name, "help") == 0 && argc > 2) { /* `thread help plan` */
+    argv[1] = argv[2];
+    argv[2] = (char[]){"--help"};
+    argc = 3;
+    name = argv[1];
+  }
   if (strcmp(name, "-h") == 0 || strcmp(name, "--help") == 0 || strcmp(name, "help") == 0) {
     help(stdout);
     return EXIT_OK;

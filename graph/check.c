@@ -8,10 +8,10 @@
 
 __extension__ typedef __int128 wide; /* sums of hostile 64-bit multipliers cannot overflow it */
 
-/* Lengths are sums of doubles, taken in an order of the plan's own. */
-static bool close_to(double a, double b)
+/* Lengths and angles are sums of doubles, taken in an order of the plan's own: equal up to 1e-9 of what they are parts of. */
+static bool close_to(double a, double b, double whole)
 {
-  return fabs(a - b) <= 1e-9 * (1 + fabs(a) + fabs(b));
+  return fabs(a - b) <= 1e-9 * whole;
 }
 
 /* ---- cords ---- */
@@ -182,13 +182,15 @@ static void clear(certificate_check *k)
 static thr_status judge(const certificate_check *k, wide sum, const int *passes, verdict *out, thr_err *err)
 {
   const thr_certificate *c = k->c;
+  bool extra = false; /* by passes: a scale may round their weights to nothing */
   wide join = 0, slots = (wide)c->n_slots * c->slot_cost;
   double rounding = 0, total = 0;
   for (int j = k->edge_start[c->component]; j < k->edge_start[c->component + 1]; j++) {
     int e = k->edge[j];
     int64_t w = thr_certificate_weight(k->f, c, e);
     join += (wide)w * (passes[e] - k->o->cover);
-    rounding += fabs(k->f->length[e] - (double)w / c->scale);
+    extra |= passes[e] > k->o->cover;
+    rounding += fabs(k->f->length[e] - (double)w / c->scale) * fmax(1, passes[e] - k->o->cover);
     total += k->f->length[e];
   }
   if (sum != c->sum)
@@ -200,7 +202,7 @@ static thr_status judge(const certificate_check *k, wide sum, const int *passes,
   /* One cord is a T-join of weight join + slots, and weights are integers: nothing fits between the bound and the next one. */
   double bound = (double)(sum - slots * c->denominator) / (double)c->denominator / c->scale - rounding;
   out->extra_bound = bound > 0 ? bound : 0;
-  out->optimal = join == 0 || (sum > (join + slots - 1) * c->denominator && rounding <= 1e-9 * total);
+  out->optimal = !extra || (sum > (join + slots - 1) * c->denominator && rounding <= 1e-9 * total);
   return THR_OK;
 }
 
@@ -343,9 +345,9 @@ done:
 
 /* ---- the whole plan ---- */
 
-static thr_status metric(const char *name, double stated, double found, thr_err *err)
+static thr_status metric(const char *name, double stated, double found, double whole, thr_err *err)
 {
-  if (close_to(stated, found)) return THR_OK;
+  if (close_to(stated, found, whole)) return THR_OK;
   return thr_fail(err, THR_EVIOLATED, "metrics.%s: stated %.12g, but the cords give %.12g", name, stated, found);
 }
 
@@ -355,15 +357,15 @@ static thr_status check_metrics(const thr_plan *p, thr_err *err)
   const thr_metrics *s = &p->metrics;
   thr_status st = thr_plan_measure(&p->frame, p->options.cover, p->cord, p->n_cords, &m, err);
   if (st) return st;
-  if ((st = metric("length", s->length, m.length, err))) return st;
-  if ((st = metric("base_length", s->base_length, m.base_length, err))) return st;
-  if ((st = metric("overlap", s->overlap, m.overlap, err))) return st;
-  if ((st = metric("passes", s->passes, m.passes, err))) return st;
-  if ((st = metric("most_passes", s->most_passes, m.most_passes, err))) return st;
-  if ((st = metric("turning", s->turning, m.turning, err))) return st;
-  if ((st = metric("max_turning", s->max_turning, m.max_turning, err))) return st;
-  if ((st = metric("worst_turn", s->worst_turn, m.worst_turn, err))) return st;
-  return metric("u_turns", s->u_turns, m.u_turns, err);
+  if ((st = metric("length", s->length, m.length, m.length, err))) return st;
+  if ((st = metric("base_length", s->base_length, m.base_length, m.length, err))) return st;
+  if ((st = metric("overlap", s->overlap, m.overlap, m.length, err))) return st;
+  if ((st = metric("passes", s->passes, m.passes, 0, err))) return st;
+  if ((st = metric("most_passes", s->most_passes, m.most_passes, 0, err))) return st;
+  if ((st = metric("turning", s->turning, m.turning, 1 + m.turning, err))) return st;
+  if ((st = metric("max_turning", s->max_turning, m.max_turning, 1 + m.turning, err))) return st;
+  if ((st = metric("worst_turn", s->worst_turn, m.worst_turn, 1 + m.turning, err))) return st;
+  return metric("u_turns", s->u_turns, m.u_turns, 0, err);
 }
 
 static thr_status check_claim(const thr_plan *p, thr_err *err)
@@ -377,10 +379,10 @@ static thr_status check_claim(const thr_plan *p, thr_err *err)
   if (claim->optimal && !optimal)
     return thr_fail(err, THR_EVIOLATED, "proof.length: says optimal, but the certificate only proves %.12g of %.12g", lower_bound,
                     p->metrics.length);
-  if (claim->lower_bound > lower_bound && !close_to(claim->lower_bound, lower_bound))
+  if (claim->lower_bound > lower_bound && !close_to(claim->lower_bound, lower_bound, p->metrics.length))
     return thr_fail(err, THR_EVIOLATED, "proof.length.lower_bound: stated %.12g, but the certificate proves %.12g",
                     claim->lower_bound, lower_bound);
-  if (!close_to(claim->gap, (p->metrics.length - claim->lower_bound) / p->metrics.length))
+  if (!close_to(claim->gap, (p->metrics.length - claim->lower_bound) / p->metrics.length, 1))
     return thr_fail(err, THR_EVIOLATED, "proof.length.gap: stated %.12g, but length and lower bound give %.12g", claim->gap,
                     (p->metrics.length - claim->lower_bound) / p->metrics.length);
   return THR_OK;

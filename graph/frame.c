@@ -12,6 +12,43 @@ static const double SHORTEST = 1e-100, LONGEST = 1e100;
 
 /* ---- drafts ---- */
 
+/* Bytes of the UTF-8 character at s, 0 if it is none (RFC 3629, overlong forms and surrogates excluded as far as their first
+ * two bytes show). */
+static int utf8_length(const unsigned char *s)
+{
+  int n = s[0] < 0x80                   ? 1
+          : s[0] >= 0xc2 && s[0] < 0xe0 ? 2
+          : s[0] >= 0xe0 && s[0] < 0xf0 ? 3
+          : s[0] >= 0xf0 && s[0] < 0xf5 ? 4
+                                        : 0;
+  if ((s[0] == 0xe0 && s[1] < 0xa0) || (s[0] == 0xed && s[1] > 0x9f) || (s[0] == 0xf0 && s[1] < 0x90) ||
+      (s[0] == 0xf4 && s[1] > 0x8f))
+    return 0;
+  for (int i = 1; i < n; i++)
+    if (s[i] < 0x80 || s[i] > 0xbf) return 0;
+  return n;
+}
+
+/* Copy of a name that every output can carry: control characters become spaces, bytes that are no UTF-8 are taken as Latin-1. */
+static char *clean_name(const char *name)
+{
+  char *copy = thr_calloc(2 * strlen(name) + 1, 1), *to = copy;
+  for (const unsigned char *s = (const unsigned char *)name; copy && *s;) {
+    int n = utf8_length(s);
+    if (n == 0) {
+      *to++ = (char)(0xc0 | *s >> 6);
+      *to++ = (char)(0x80 | (*s++ & 0x3f));
+    } else if (*s < 32 || *s == 127) {
+      *to++ = ' ';
+      s++;
+    } else {
+      for (; n > 0; n--)
+        *to++ = (char)*s++;
+    }
+  }
+  return copy;
+}
+
 thr_status thr_draft_add_node(thr_draft *d, const double xyz[3], const char *name, bool foot, thr_err *err)
 {
   if (!isfinite(xyz[0]) || !isfinite(xyz[1]) || !isfinite(xyz[2]))
@@ -19,7 +56,7 @@ thr_status thr_draft_add_node(thr_draft *d, const double xyz[3], const char *nam
   thr_status st = thr_grow(&d->node, d->n_nodes, &d->nodes_capacity, sizeof *d->node, err);
   if (st) return st;
   char *copy = NULL;
-  if (name && !(copy = thr_strdup(name))) return thr_nomem(err);
+  if (name && !(copy = clean_name(name))) return thr_nomem(err);
   d->node[d->n_nodes++] = (struct thr_draft_node){{xyz[0], xyz[1], xyz[2]}, copy, foot};
   return THR_OK;
 }
@@ -231,7 +268,8 @@ thr_status thr_draft_build(const thr_draft *d, double tolerance, thr_frame *fram
       index[parent[d->edge[e].a]] = index[parent[d->edge[e].b]] = 1;
     }
   if (n_edges == 0) {
-    st = thr_fail(err, THR_EINPUT, "every edge has zero length within the weld tolerance %g; use a smaller --weld", tolerance);
+    st = thr_fail(err, THR_EINPUT,
+                  "every edge joins a node to itself or to one within the weld tolerance %g; use a smaller --weld", tolerance);
     goto done;
   }
   for (int v = 0; v < d->n_nodes; v++) {

@@ -49,7 +49,8 @@ typedef struct {
   char units[16]; /* "" = not said */
 } thr_draft;
 
-/* Appends a node; name may be NULL and is copied. Coordinates must be finite (THR_EINPUT otherwise). */
+/* Appends a node; name may be NULL and is copied, control characters as spaces and what is no UTF-8 as Latin-1. Coordinates must
+ * be finite (THR_EINPUT otherwise). */
 thr_status thr_draft_add_node(thr_draft *d, const double xyz[3], const char *name, bool foot, thr_err *err) THR_MUST_CHECK;
 /* Appends an edge between node indices that exist already (THR_EINPUT otherwise). length 0 = Euclidean. */
 thr_status thr_draft_add_edge(thr_draft *d, int a, int b, double length, thr_err *err) THR_MUST_CHECK;

@@ -22,8 +22,9 @@ thr_status thr_json_parse(thr_json **doc, const char *text, size_t n, const char
     text += 3;
     n -= 3;
   }
+  if (!text || strspn(text, " \t\r\n") >= n) return thr_fail(err, THR_EINPUT, "%s: the file is empty", name);
   json_error_t at;
-  json_t *value = json_loadb(text ? text : "", n, JSON_REJECT_DUPLICATES, &at);
+  json_t *value = json_loadb(text, n, JSON_REJECT_DUPLICATES, &at);
   if (!value)
     return thr_fail(err, THR_EINPUT, "%s:%d:%d: not valid JSON: %s", name, at.line > 0 ? at.line : 1,
                     at.column > 0 ? at.column : 1, at.text);

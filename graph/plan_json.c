@@ -274,6 +274,16 @@ static thr_status read_edges(const reader *r, const thr_json *o, thr_draft *d)
   return THR_OK;
 }
 
+static thr_status read_hash(const reader *r, const thr_json *o, const thr_frame *f)
+{
+  char hash[20];
+  const char *stated = thr_json_string(thr_json_get(o, "hash"));
+  snprintf(hash, sizeof hash, "%016" PRIx64, thr_frame_hash(f));
+  if (stated && strcmp(stated, hash) == 0) return THR_OK;
+  return thr_fail(r->err, THR_EVIOLATED, "%s: framework.hash: the framework is not the one that was planned (its hash is %s)",
+                  r->name, hash);
+}
+
 static thr_status read_frame(const reader *r, const thr_json *doc, thr_frame *f)
 {
   const thr_json *o;
@@ -288,10 +298,20 @@ static thr_status read_frame(const reader *r, const thr_json *doc, thr_frame *f)
   if ((st = thr_draft_build(&d, 0, f, &report, r->err))) goto done;
   if (f->n_nodes != d.n_nodes || f->n_edges != d.n_edges)
     st = bad(r, "framework", "has coincident nodes, isolated nodes, or an edge twice");
+  else
+    st = read_hash(r, o, f);
 done:
   if (st) thr_frame_destroy(f);
   thr_draft_destroy(&d);
   return st;
+}
+
+/* A plan for another objective or joint may hold, but not by the rules that this version checks. */
+static thr_status only_known(const reader *r, const thr_json *o, const char *key, const char *known)
+{
+  const char *value = thr_json_string(thr_json_get(o, key));
+  if (value && strcmp(value, known) == 0) return THR_OK;
+  return thr_fail(r->err, r->code, "%s: options.%s: this version knows %s only", r->name, key, known);
 }
 
 static thr_status read_options(const reader *r, const thr_json *doc, const thr_frame *f, thr_plan_options *o)
@@ -300,8 +320,11 @@ static thr_status read_options(const reader *r, const thr_json *doc, const thr_f
   thr_status st = need(r, doc, "options", THR_JSON_OBJECT, &v);
   if (st) return st;
   *o = thr_plan_options_default();
+  if ((st = only_known(r, v, "objective", "length"))) return st;
+  if ((st = only_known(r, v, "joint", "solid"))) return st;
   if ((st = get_int(r, v, "cover", 1, 100, &o->cover))) return st;
   if ((st = get_double(r, v, "mu", &o->mu))) return st;
+  if (o->mu < 0) return bad(r, "options.mu", "a friction coefficient is 0 or more");
   if ((st = get_double(r, v, "time_limit", &o->time_limit))) return st;
   const char *ends = thr_json_string(thr_json_get(v, "ends"));
   int kind = THR_ENDS_CLOSED;
@@ -456,8 +479,9 @@ static thr_status read_document(reader *r, const thr_json *doc, thr_plan *p)
   const char *format = thr_json_string(thr_json_get(doc, "format"));
   int version;
   if (!format || strcmp(format, "thread-plan") != 0) return bad(r, "format", "not a thread plan; make one with `thread plan`");
-  thr_status st = get_int(r, doc, "version", 1, 1, &version);
+  thr_status st = get_int(r, doc, "version", 1, INT32_MAX, &version);
   if (st) return st;
+  if (version != 1) return bad(r, "version", "written by another version of thread; this one reads version 1");
   const char *generator = thr_json_string(thr_json_get(doc, "generator"));
   if (!(p->generator = thr_strdup(generator ? generator : ""))) return thr_nomem(r->err);
   if ((st = read_frame(r, doc, &p->frame))) return st;

@@ -208,7 +208,7 @@ enum { SLICE = 2000 };
 
 typedef struct {
   glp_prob *problem;
-  bool exact;
+  bool exact, primal;
   int code;
 } solve_call;
 
@@ -218,7 +218,7 @@ static void do_solve(void *argument)
   glp_smcp options;
   glp_init_smcp(&options);
   options.msg_lev = GLP_MSG_OFF;
-  options.meth = GLP_DUALP; /* after new rows the basis stays dual feasible; it falls back to primal if not */
+  options.meth = c->primal ? GLP_PRIMAL : GLP_DUALP; /* after new rows the basis stays dual feasible */
   options.it_lim = SLICE;
   options.tol_dj = 1e-9; /* the duals become certificates: GLPK's 1e-7 is too coarse to close them */
   c->code = c->exact ? glp_exact(c->problem, &options) : glp_simplex(c->problem, &options);
@@ -245,7 +245,7 @@ static thr_status solve(thr_lp *lp, bool exact, const thr_limits *limits, thr_lp
   thr_status st = check_alive(lp, err);
   for (int restarts = 0; !st;) {
     if (thr_limits_stop(limits)) return THR_OK;
-    solve_call c = {lp->problem, exact, 0};
+    solve_call c = {lp->problem, exact, restarts > 0, 0};
     if ((st = guarded(do_solve, &c, err))) return st;
     if (c.code == 0 && outcome_of(lp->problem) != THR_LP_STOPPED) {
       *outcome = outcome_of(lp->problem);
@@ -253,7 +253,8 @@ static thr_status solve(thr_lp *lp, bool exact, const thr_limits *limits, thr_lp
     }
     if (c.code == GLP_EITLIM) continue;
     if (restarts++) return thr_fail(err, THR_ESOLVER, "GLPK's simplex method failed (code %d)", c.code);
-    st = guarded(do_reset_basis, lp->problem, err); /* a singular basis is refused, not repaired */
+    /* A singular basis is refused, not repaired; and the dual method calls an unbounded problem undecided. */
+    st = guarded(do_reset_basis, lp->problem, err);
   }
   return st;
 }

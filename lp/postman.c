@@ -9,9 +9,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Sum of the integer weights of a component: 2^44 leaves each length exact to about 1e-13 of the sum, and the sum
- * of all dual values in 64 bits. */
-#define WEIGHT_SUM 17592186044416.0
+/* Sum of the integer weights of a component with n edges: at least 2^44, and 2^30 an edge, so that all roundings together stay
+ * below 1e-9 of the sum; at most 2^49, so that sums of multipliers fit 64 bits. */
+static double weight_sum(int n)
+{
+  return fmin(fmax(17592186044416.0, 1073741824.0 * n), 562949953421312.0);
+}
 
 typedef struct {
   const thr_frame *f;
@@ -63,7 +66,7 @@ static double choose_scale(const thr_frame *f, const instance *in)
   double sum = 0;
   for (int i = 0; i < in->n_own; i++)
     sum += f->length[in->frame_edge[i]];
-  double scale = WEIGHT_SUM / sum;
+  double finest = weight_sum(in->n_own) / sum, scale = finest;
   int64_t divisor = 0;
   for (int i = 0; i < in->n_own; i++)
     divisor = gcd(divisor, (int64_t)nearbyint(f->length[in->frame_edge[i]] * scale));
@@ -72,7 +75,7 @@ static double choose_scale(const thr_frame *f, const instance *in)
   if (divisor > 1)
     for (int i = 0; i < in->n_own; i++) {
       double length = f->length[in->frame_edge[i]];
-      if (fabs(length - nearbyint(length * scale) / scale) > 1e-13 * sum) return WEIGHT_SUM / sum;
+      if (fabs(length - nearbyint(length * scale) / scale) > 1e-13 * sum) return finest;
     }
   return scale;
 }
@@ -166,9 +169,9 @@ static thr_status instance_init(const postman *m, int k, instance *in, thr_certi
   in->n_own = degrees / 2;
   if (n_end_nodes == 0)
     return thr_fail(err, THR_EINFEASIBLE,
-                    "component %d (the one with node %s) has no node where a cord may end; add a foot there, or use "
-                    "--ends closed",
-                    k, f->name[m->node[m->start[k]]]);
+                    "piece %d (the one with node %s) has no node where a cord may end; name one with --feet (try --feet lowest) "
+                    "or --ends, or use --ends closed",
+                    k + 1, f->name[m->node[m->start[k]]]);
   thr_status st = instance_allocate(in, c->n_slots, n_end_nodes, err);
   if (st) return st;
   fill_own_edges(m, k, in);
@@ -329,8 +332,9 @@ thr_status thr_postman_plan(const thr_frame *f, const thr_plan_options *o, const
     if (st) thr_fail(err, st, "%s", local.text);
   }
   if (!st) st = assemble(&m, plan, err);
-  if (!st && stopped && !plan->proof.optimal)
-    st = thr_fail(err, THR_ELIMIT, "stopped by the limit: the cord is within %.3g %% of the shortest", 100 * plan->proof.gap);
+  if (!st && !plan->proof.optimal)
+    st = thr_fail(err, THR_ELIMIT, "%s: the cord is proved to be within %.3g %% of the shortest",
+                  stopped ? "stopped early" : "too many edges to round their lengths finely enough", 100 * plan->proof.gap);
   if (st && st != THR_ELIMIT) thr_plan_destroy(plan);
   postman_destroy(&m);
   return st;

@@ -18,6 +18,7 @@ typedef struct {
   thr_lp *lp;
   double unit;                           /* costs of the linear programme = weights / unit, so that they are about 1 */
   double *cost, *x, *reduced_cost, *key; /* [n_edges] */
+  double *whole;        /* [n_edges] the weights themselves: GLPK's exact method rounds costs that are no integers */
   double *dual;                          /* [pool.count at the last solve] */
   int64_t *value;                        /* the same, rounded to integers that load no edge too much */
   int solved;                            /* rows at the last solve */
@@ -35,6 +36,7 @@ static thr_status solver_init(solver *s, const thr_tjoin_problem *p, const thr_l
   thr_status st = thr_oddcut_graph_init(&s->graph, p, err);
   if (st) return st;
   s->cost = thr_calloc(m, sizeof *s->cost);
+  s->whole = thr_calloc(m, sizeof *s->whole);
   s->x = thr_calloc(m, sizeof *s->x);
   s->reduced_cost = thr_calloc(m, sizeof *s->reduced_cost);
   s->key = thr_calloc(m, sizeof *s->key);
@@ -45,12 +47,12 @@ static thr_status solver_init(solver *s, const thr_tjoin_problem *p, const thr_l
   s->slack = thr_calloc(m, sizeof *s->slack);
   s->best.in_join = thr_calloc(m, sizeof *s->best.in_join);
   s->best.length = INT64_MAX;
-  if (!s->cost || !s->x || !s->reduced_cost || !s->key || !s->order || !s->parent || !s->tree_join || !s->leaf_used ||
+  if (!s->cost || !s->whole || !s->x || !s->reduced_cost || !s->key || !s->order || !s->parent || !s->tree_join || !s->leaf_used ||
       !s->slack || !s->best.in_join)
     return thr_nomem(err);
   double sum = 0;
   for (size_t e = 0; e < m; e++)
-    sum += (double)p->weight[e];
+    sum += s->whole[e] = (double)p->weight[e];
   s->unit = sum > 0 ? sum / (double)m : 1;
   for (size_t e = 0; e < m; e++)
     s->cost[e] = s->reduced_cost[e] = (double)p->weight[e] / s->unit;
@@ -63,6 +65,7 @@ static void solver_destroy(solver *s)
   thr_oddcut_pool_destroy(&s->pool);
   thr_oddcut_graph_destroy(&s->graph);
   free(s->cost);
+  free(s->whole);
   free(s->x);
   free(s->reduced_cost);
   free(s->key);
@@ -276,9 +279,12 @@ static thr_status reserve_duals(solver *s, thr_err *err)
   return THR_OK;
 }
 
-static void read_duals(solver *s)
+/* cost_unit: what a cost of 1 in the last solve is worth in costs of s->cost. */
+static void read_duals(solver *s, double cost_unit)
 {
   thr_lp_dual(s->lp, s->dual);
+  for (int i = 0; i < s->solved; i++)
+    s->dual[i] *= cost_unit;
   memcpy(s->reduced_cost, s->cost, (size_t)s->p->n_edges * sizeof *s->cost);
   for (int i = 0; i < s->solved; i++)
     for (int k = 0; s->dual[i] != 0 && k < s->pool.cut[i].n_edges; k++)
@@ -289,13 +295,14 @@ static thr_status solve_rows(solver *s, bool exact, thr_lp_outcome *outcome, thr
 {
   thr_status st = add_new_rows(s, err);
   if (!st) st = reserve_duals(s, err);
+  if (!st && exact) st = thr_lp_set_costs(s->lp, s->whole, err);
   if (!st) st = (exact ? thr_lp_solve_exact : thr_lp_solve)(s->lp, s->limits, outcome, err);
   if (st) return st;
   if (*outcome == THR_LP_INFEASIBLE || *outcome == THR_LP_UNBOUNDED)
     return thr_fail(err, THR_ESOLVER, "GLPK found no optimum of an odd-cut relaxation, which always has one");
   thr_lp_primal(s->lp, s->x);
-  read_duals(s);
-  return THR_OK;
+  read_duals(s, exact ? 1 / s->unit : 1);
+  return exact ? thr_lp_set_costs(s->lp, s->cost, err) : THR_OK;
 }
 
 /* Cuts that the point x violates: moats round the odd components of the support; failing that, of the support of larger
@@ -367,6 +374,7 @@ static thr_status finish(solver *s, int attempt, thr_lp_outcome *outcome, thr_er
 {
   thr_status st = solve_rows(s, true, outcome, err);
   if (st || *outcome == THR_LP_STOPPED) return st;
+  if ((st = round_to_join(s, err))) return st; /* joins that differ by one unit look alike to the inexact method */
   if ((st = certify(s, false, err)) || s->best.optimal) return st;
   return break_ties(s, 1e-3 / (double)(1 + attempt * attempt), outcome, err);
 }

@@ -9,13 +9,13 @@
 typedef struct {
   int n_nodes, n_edges;
   const int (*edge)[2];
-  const int64_t *weight; /* [n_edges] >= 0, sum at most 2^50 */
+  const int64_t *weight; /* [n_edges] >= 0, sum at most 2^49 */
   const bool *odd;       /* [n_nodes] is the node in T? Their number must be even */
   int n_leaves;          /* the last so many nodes get degree 1 in every join that out may hold: an optimal join must have
                             it by its weights already, the joins found on the way are built so */
 } thr_tjoin_problem;
 
-enum { THR_DUAL_DENOMINATOR = 1 << 16 }; /* of the cuts' values */
+enum { THR_DUAL_DENOMINATOR = 1 << 12 }; /* of the cuts' values */
 
 typedef struct {
   bool *in_join;  /* [n_edges] owned: a T-join, the best found */
