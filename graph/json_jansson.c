@@ -22,7 +22,10 @@ thr_status thr_json_parse(thr_json **doc, const char *text, size_t n, const char
     text += 3;
     n -= 3;
   }
-  if (!text || strspn(text, " \t\r\n") >= n) return thr_fail(err, THR_EINPUT, "%s: the file is empty", name);
+  size_t blank = 0; /* the text need not end in NUL */
+  while (blank < n && strchr(" \t\r\n", text[blank]) && text[blank])
+    blank++;
+  if (blank == n) return thr_fail(err, THR_EINPUT, "%s:1: the file is empty", name);
   json_error_t at;
   json_t *value = json_loadb(text, n, JSON_REJECT_DUPLICATES, &at);
   if (!value)

@@ -52,7 +52,7 @@ job() {
   format)
     "$MAKE" -s format-check >"$log.all" 2>&1 || code=$?
     sed -n 's/^\([^:]*\):.*code should be clang-formatted.*/\1/p' "$log.all" | sort | uniq -c >"$log"
-    if [ -s "$log" ]; then echo 'lines to change, by file: run `make format`' >>"$log"; else cat "$log.all" >"$log"; fi
+    if [ -s "$log" ]; then echo 'lines to change, by file; "make format" does it' >>"$log"; else cat "$log.all" >"$log"; fi
     ;;
   asan/* | release/*)
     export CK_TIMEOUT_MULTIPLIER=3
@@ -109,7 +109,10 @@ give_up() { # NAME: a job that cannot run
 build() { # BUILD GOAL..: true if everything was made
   local build=$1
   shift
-  if "$MAKE" --no-print-directory -k "${jobs[@]}" BUILD="$build" "$@" >"$RESULTS/build-$build.txt" 2>&1; then return 0; fi
+  if "$MAKE" --no-print-directory -k "${jobs[@]}" BUILD="$build" "$@" >"$RESULTS/build-$build.txt" 2>&1; then
+    ! grep -q 'warning:' "$RESULTS/build-$build.txt" || sed 's/^/      | /' "$RESULTS/build-$build.txt"
+    return 0
+  fi
   echo "FAIL  build $build"
   sed 's/^/      | /' "$RESULTS/build-$build.txt"
   return 1
