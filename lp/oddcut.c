@@ -416,8 +416,11 @@ static thr_status separate_component(const thr_oddcut_graph *g, const double *x,
     shrunk_of[node[i]] = shrunk_of[root];
     degrees += g->first[node[i] + 1] - g->first[node[i]];
   }
-  if (ids < 2) return THR_OK;
-  thr_status st = shrunk_init(&s, ids, degrees, err);
+  /* The component itself, crossed by nothing: moats miss it where a tight edge of x = 0 leaves it. */
+  if (n > 0) memcpy(list, node, (size_t)n * sizeof *list);
+  thr_status st = thr_oddcut_add(g, pool, list, n, err); /* ignores an even one */
+  if (st || ids < 2) return st;
+  st = shrunk_init(&s, ids, degrees, err);
   s.n = ids;
   for (int i = 0; i < n && !st; i++)
     for (int k = g->first[node[i]]; k < g->first[node[i] + 1]; k++) {

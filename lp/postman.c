@@ -9,11 +9,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Sum of the integer weights of a component with n edges: at least 2^44, and 2^30 an edge, so that all roundings together stay
- * below 1e-9 of the sum; at most 2^49, so that sums of multipliers fit 64 bits. */
+/* Sum of the integer weights of a component with n edges: 2^44 to 2^45, and at least 2^30 an edge, so that all roundings together
+ * stay below 1e-9 of the sum; at most 2^49, so that sums of multipliers fit 64 bits. */
 static double weight_sum(int n)
 {
-  return fmin(fmax(17592186044416.0, 1073741824.0 * n), 562949953421312.0);
+  return fmin(fmax(35184372088832.0, 2147483648.0 * n), 562949953421312.0);
 }
 
 typedef struct {
@@ -49,34 +49,39 @@ static void instance_destroy(instance *in)
   *in = (instance){0};
 }
 
-static int64_t gcd(int64_t a, int64_t b)
+/* Greatest length that all lengths are whole multiples of, as far as Euclid's algorithm can tell; remainders far below the
+ * shortest length count as none. */
+static double common_measure(const thr_frame *f, const instance *in)
 {
-  while (b) {
-    int64_t r = a % b;
-    a = b;
-    b = r;
-  }
-  return a;
+  double measure = f->length[in->frame_edge[0]], shortest = measure;
+  for (int i = 1; i < in->n_own; i++)
+    shortest = fmin(shortest, f->length[in->frame_edge[i]]);
+  for (int i = 1; i < in->n_own; i++)
+    for (double a = f->length[in->frame_edge[i]], b = measure; b > 0;) {
+      double r = fmod(a, b);
+      if (r < 1e-6 * shortest || b - r < 1e-6 * shortest) r = 0;
+      measure = a = b;
+      b = r;
+    }
+  return measure;
 }
 
-/* A scale under which lengths round to integers: if the rounded weights have a common divisor that is no accident of
- * rounding (all beads equal: the normal case), divide by it, which makes ties exact and multipliers small. */
+/* A scale under which lengths round to integers. If the lengths have a common measure (all beads equal: the normal case; or
+ * whole millimetres), it is the unit: then ties are exact and weights small. Otherwise a power of 2 that gives the weights
+ * their sum: powers of 2 keep exact what is exact. */
 static double choose_scale(const thr_frame *f, const instance *in)
 {
-  double sum = 0;
-  for (int i = 0; i < in->n_own; i++)
+  double sum = 0, units = 0, measure = common_measure(f, in), most = weight_sum(in->n_own);
+  for (int i = 0; i < in->n_own; i++) {
     sum += f->length[in->frame_edge[i]];
-  double finest = weight_sum(in->n_own) / sum, scale = finest;
-  int64_t divisor = 0;
-  for (int i = 0; i < in->n_own; i++)
-    divisor = gcd(divisor, (int64_t)nearbyint(f->length[in->frame_edge[i]] * scale));
-  if (divisor > 1) scale /= (double)divisor;
-  /* Dividing by a length close to the divisor is off by its rounding error; only an exact fit may be used. */
-  if (divisor > 1)
-    for (int i = 0; i < in->n_own; i++) {
-      double length = f->length[in->frame_edge[i]];
-      if (fabs(length - nearbyint(length * scale) / scale) > 1e-13 * sum) return finest;
-    }
+    units += nearbyint(f->length[in->frame_edge[i]] / measure);
+  }
+  double finest = exp2(floor(log2(most / sum))), scale = units / sum;
+  if (units > most) return finest;
+  for (int i = 0; i < in->n_own; i++) {
+    double length = f->length[in->frame_edge[i]];
+    if (fabs(length - nearbyint(length * scale) / scale) > 1e-12 * length) return finest;
+  }
   return scale;
 }
 
@@ -186,6 +191,7 @@ static thr_status instance_init(const postman *m, int k, instance *in, thr_certi
     in->odd[m->local[m->node[j]]] = m->o->cover * thr_degree(f, m->node[j]) % 2 != 0;
   return THR_OK;
 }
+
 /* Reads passes, ends and certificate of component k off the join. */
 static void take_result(postman *m, int k, const instance *in, thr_tjoin *t)
 {

@@ -18,14 +18,14 @@ typedef struct {
   thr_lp *lp;
   double unit;                           /* costs of the linear programme = weights / unit, so that they are about 1 */
   double *cost, *x, *reduced_cost, *key; /* [n_edges] */
-  double *whole;        /* [n_edges] the weights themselves: GLPK's exact method rounds costs that are no integers */
-  double *dual;                          /* [pool.count at the last solve] */
-  int64_t *value;                        /* the same, rounded to integers that load no edge too much */
-  int solved;                            /* rows at the last solve */
-  int *order, *parent;                   /* [n_edges], [n_nodes] scratch of the rounding */
-  bool *tree_join;                       /* [n_edges] */
-  bool *leaf_used;                       /* [n_leaves] */
-  wide *slack;                           /* [n_edges] */
+  double *whole;       /* [n_edges] the weights themselves: GLPK's exact method rounds costs that are no integers */
+  double *dual;        /* [pool.count at the last solve] */
+  int64_t *value;      /* the same, rounded to integers that load no edge too much */
+  int solved;          /* rows at the last solve */
+  int *order, *parent; /* [n_edges], [n_nodes] scratch of the rounding */
+  bool *tree_join;     /* [n_edges] */
+  bool *leaf_used;     /* [n_leaves] */
+  wide *slack;         /* [n_edges] */
   thr_tjoin best;
 } solver;
 
@@ -47,8 +47,8 @@ static thr_status solver_init(solver *s, const thr_tjoin_problem *p, const thr_l
   s->slack = thr_calloc(m, sizeof *s->slack);
   s->best.in_join = thr_calloc(m, sizeof *s->best.in_join);
   s->best.length = INT64_MAX;
-  if (!s->cost || !s->whole || !s->x || !s->reduced_cost || !s->key || !s->order || !s->parent || !s->tree_join || !s->leaf_used ||
-      !s->slack || !s->best.in_join)
+  if (!s->cost || !s->whole || !s->x || !s->reduced_cost || !s->key || !s->order || !s->parent || !s->tree_join ||
+      !s->leaf_used || !s->slack || !s->best.in_join)
     return thr_nomem(err);
   double sum = 0;
   for (size_t e = 0; e < m; e++)
@@ -369,13 +369,26 @@ static thr_status break_ties(solver *s, double strength, thr_lp_outcome *outcome
   return st ? st : thr_lp_set_costs(s->lp, s->cost, err);
 }
 
+/* The inexact method cannot tell joins apart whose weights differ by a unit, and so may stop at a point that looks
+ * integral: the exact one goes on from there, with cuts of its own, until none is violated. */
+static thr_status solve_exactly(solver *s, thr_lp_outcome *outcome, thr_err *err)
+{
+  for (int before = -1; before < s->pool.count;) {
+    before = s->pool.count;
+    thr_status st = solve_rows(s, true, outcome, err);
+    if (st || *outcome == THR_LP_STOPPED) return st;
+    if ((st = round_to_join(s, err))) return st;
+    if ((st = certify(s, false, err)) || s->best.optimal) return st;
+    if ((st = separate(s, err))) return st;
+  }
+  return THR_OK;
+}
+
 /* When separation finds nothing and the certificate does not close: sharpen the dual exactly, then break ties. */
 static thr_status finish(solver *s, int attempt, thr_lp_outcome *outcome, thr_err *err)
 {
-  thr_status st = solve_rows(s, true, outcome, err);
-  if (st || *outcome == THR_LP_STOPPED) return st;
-  if ((st = round_to_join(s, err))) return st; /* joins that differ by one unit look alike to the inexact method */
-  if ((st = certify(s, false, err)) || s->best.optimal) return st;
+  thr_status st = solve_exactly(s, outcome, err);
+  if (st || *outcome == THR_LP_STOPPED || s->best.optimal) return st;
   return break_ties(s, 1e-3 / (double)(1 + attempt * attempt), outcome, err);
 }
 
