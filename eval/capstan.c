@@ -51,12 +51,12 @@ static thr_status eval_cord(const thr_frame *f, const thr_cord *c, const thr_cap
     to += thr_turn_angle(f, c->half[i], c->half[i + 1]);
     out->tension[i + 1] = o->seating * exp(o->mu * to);
   }
-  if (o->mu * fmax(from, to) > 700)
+  double at_start = out->tension[0], at_end = out->tension[c->n_passes - 1];
+  if (o->mu * fmax(from, to) > 700 || !isfinite(at_start) || !isfinite(at_end))
     return thr_fail(
         err, THR_EINPUT,
         "cord %s: mu * turning = %.0f is past what a number can hold (700); use a smaller mu, or a plan with more cords", c->id,
         o->mu * fmax(from, to));
-  double at_start = out->tension[0], at_end = out->tension[c->n_passes - 1];
   out->force = o->pull == THR_PULL_START ? at_start : o->pull == THR_PULL_END ? at_end : fmax(at_start, at_end);
   out->other_force = o->pull == THR_PULL_BOTH ? fmin(at_start, at_end) : 0;
   out->loss = 1 - o->seating / out->force;

@@ -269,7 +269,8 @@ thr_status thr_draft_build(const thr_draft *d, double tolerance, thr_frame *fram
     }
   if (n_edges == 0) {
     st = thr_fail(err, THR_EINPUT,
-                  "every edge joins a node to itself or to one within the weld tolerance %g; use a smaller --weld", tolerance);
+                  "every edge has zero length: its ends are one node, or within the weld tolerance %g; use a smaller --weld",
+                  tolerance);
     goto done;
   }
   for (int v = 0; v < d->n_nodes; v++) {

@@ -1,0 +1,339 @@
+/* The checker against forged plans: each claim, altered once, is caught and named. Random alterations are in
+ * tests/property/test_mutations.c. */
+#include "tests/support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+  thr_frame frame;
+  thr_plan plan;
+} fixture;
+
+static fixture fixture_make(thr_frame f, thr_ends ends)
+{
+  fixture x = {f, plan_simple(&f, ends, 1)};
+  return x;
+}
+
+static void fixture_destroy(fixture *x)
+{
+  thr_plan_destroy(&x->plan);
+  thr_frame_destroy(&x->frame);
+}
+
+/* Both in memory and after a round trip through JSON. */
+static void assert_violated(const thr_plan *p, const char *word)
+{
+  thr_err err = {0};
+  ck_assert_msg(thr_check_plan(p, &err) == THR_EVIOLATED, "%s", word);
+  assert_one_line(&err, word);
+  err = (thr_err){0};
+  ck_assert_int_eq(judge_plan(p, &err), THR_EVIOLATED);
+  assert_one_line(&err, NULL);
+}
+
+static void assert_holds(const thr_plan *p)
+{
+  thr_err err = {0};
+  ck_assert_msg(thr_check_plan(p, &err) == THR_OK, "%s", err.text);
+}
+
+/* A plan that is sound but longer than need be: the closed cord first goes along its first edge and back. */
+static void add_detour(thr_plan *p)
+{
+  thr_cord *c = &p->cord[0];
+  int *half = calloc((size_t)c->n_passes + 2, sizeof *half);
+  ck_assert(half != NULL);
+  half[0] = c->half[0], half[1] = c->half[0] ^ 1;
+  memcpy(half + 2, c->half, (size_t)c->n_passes * sizeof *half);
+  free(c->half);
+  c->half = half;
+  c->n_passes += 2;
+  ck_assert_int_eq(thr_plan_measure(&p->frame, p->options.cover, p->cord, p->n_cords, &p->metrics, NULL), THR_OK);
+  p->proof.certificate[0].join += 2 * thr_certificate_weight(&p->frame, &p->proof.certificate[0], half[0] / 2);
+}
+
+static void drop_cuts(thr_certificate *c)
+{
+  for (int i = 0; i < c->n_cuts; i++)
+    free(c->cut[i].node);
+  c->n_cuts = 0;
+  c->sum = 0;
+}
+
+START_TEST(longer_plan_keeps_its_bound_and_loses_optimal)
+{
+  fixture x = fixture_make(solid_make(CUBE), THR_ENDS_CLOSED);
+  thr_plan *p = &x.plan;
+  add_detour(p);
+  assert_violated(p, "proof.length");
+  p->proof.optimal = false;
+  assert_violated(p, "gap");
+  p->proof.lower_bound = 16;
+  p->proof.gap = 2.0 / 18;
+  assert_holds(p);
+  p->proof.lower_bound = 15; /* less than proved may be claimed */
+  p->proof.gap = 3.0 / 18;
+  assert_holds(p);
+  p->proof.lower_bound = 16.001;
+  p->proof.gap = 1.999 / 18;
+  assert_violated(p, "lower_bound");
+  p->proof.lower_bound = 18;
+  p->proof.gap = 0;
+  assert_violated(p, "lower_bound");
+  fixture_destroy(&x);
+}
+END_TEST
+
+/* Weights that round to nothing make every join weigh nothing: that must not pass for a proof. */
+START_TEST(scale_that_rounds_all_away_proves_nothing)
+{
+  static const double scale[] = {1e-300, 1e-30, 0.49};
+  for (size_t i = 0; i < sizeof scale / sizeof *scale; i++) {
+    fixture x = fixture_make(solid_make(CUBE), THR_ENDS_CLOSED);
+    thr_plan *p = &x.plan;
+    add_detour(p);
+    drop_cuts(&p->proof.certificate[0]);
+    p->proof.certificate[0].scale = scale[i];
+    p->proof.certificate[0].join = 0;
+    p->proof.lower_bound = p->metrics.length;
+    p->proof.gap = 0;
+    assert_violated(p, "proof.length");
+    fixture_destroy(&x);
+  }
+}
+END_TEST
+
+START_TEST(no_extra_pass_needs_no_proof)
+{
+  fixture x = fixture_make(solid_make(OCTAHEDRON), THR_ENDS_CLOSED);
+  drop_cuts(&x.plan.proof.certificate[0]);
+  assert_holds(&x.plan);
+  fixture_destroy(&x);
+}
+END_TEST
+
+START_TEST(forged_cords)
+{
+  fixture x = fixture_make(solid_make(CUBE), THR_ENDS_ANY);
+  thr_plan *p = &x.plan;
+  thr_cord *c = &p->cord[0], kept = *c;
+  c->closed = true;
+  assert_violated(p, "cord A");
+  *c = kept;
+  c->component = 1;
+  assert_violated(p, "component 1");
+  *c = kept;
+  memcpy(c->id, "B", 2);
+  assert_violated(p, "called B");
+  *c = kept;
+  c->n_passes--; /* the last pass is the only one over its edge, or the cord ends elsewhere than it says */
+  assert_violated(p, NULL);
+  *c = kept;
+  c->half++, c->n_passes--;
+  assert_violated(p, NULL);
+  *c = kept;
+  c->half[0] ^= 1;
+  assert_violated(p, "pass 1");
+  c->half[0] ^= 1;
+  assert_holds(p);
+  fixture_destroy(&x);
+}
+END_TEST
+
+START_TEST(forged_ends)
+{
+  fixture x = fixture_make(solid_make(CUBE), THR_ENDS_ANY);
+  thr_plan *p = &x.plan;
+  bool end_node[8] = {false};
+  p->options.ends = THR_ENDS_CLOSED;
+  assert_violated(p, "closed");
+  p->options.ends = THR_ENDS_FEET; /* no foot at all */
+  assert_violated(p, "no cord end is allowed");
+  p->options.ends = THR_ENDS_NODES;
+  p->options.end_node = end_node;
+  end_node[thr_cord_start(&p->frame, p->cord)] = true;
+  assert_violated(p, "ends at node");
+  end_node[thr_cord_end(&p->frame, p->cord)] = true;
+  assert_holds(p);
+  p->options.end_node = NULL;
+  fixture_destroy(&x);
+}
+END_TEST
+
+START_TEST(forged_cover)
+{
+  fixture x = fixture_make(solid_make(CUBE), THR_ENDS_CLOSED);
+  x.plan.options.cover = 2;
+  assert_violated(&x.plan, "1 of 2 passes");
+  fixture_destroy(&x);
+}
+END_TEST
+
+START_TEST(forged_counts)
+{
+  fixture x = fixture_make(triangles_make(3), THR_ENDS_CLOSED);
+  thr_plan *p = &x.plan;
+  p->n_cords = 2;
+  assert_violated(p, "edge 6");
+  p->n_cords = 3;
+  p->proof.n_certificates = 2;
+  assert_violated(p, "2 certificates");
+  p->proof.n_certificates = 3;
+  p->proof.certificate[1].component = 2;
+  assert_violated(p, "certificate 1");
+  p->proof.certificate[1].component = 1;
+  p->cord[2].component = 1;
+  assert_violated(p, "cord C");
+  p->cord[2].component = 2;
+  assert_holds(p);
+  fixture_destroy(&x);
+}
+END_TEST
+
+/* One cut more that overloads nothing but breaks one rule; values of 1 keep it small. */
+START_TEST(forged_cuts)
+{
+  fixture x = fixture_make(triangles_make(2), THR_ENDS_ANY);
+  thr_plan *p = &x.plan;
+  thr_certificate *c = &p->proof.certificate[0];
+  static const struct {
+    int n, node[3];
+    int64_t value;
+    const char *word;
+  } forged[] = {{1, {0}, 1, "even number of odd nodes"},
+                {2, {6, 3}, 1, "ascending"},
+                {2, {3, 6}, 1, "node 3 is in component 1"},
+                {1, {6}, -1, "negative"},
+                {2, {6, 7}, 0, "even number"},
+                {2, {6, 6}, 1, "ascending"}};
+  for (size_t i = 0; i < sizeof forged / sizeof *forged; i++) {
+    int node[3];
+    memcpy(node, forged[i].node, sizeof node);
+    thr_cut cut[1] = {{forged[i].n, node, forged[i].value}}, *old = c->cut;
+    int n = c->n_cuts;
+    c->cut = cut;
+    c->n_cuts = 1;
+    assert_violated(p, i == 1 ? NULL : forged[i].word);
+    c->cut = old;
+    c->n_cuts = n;
+  }
+  assert_holds(p);
+  fixture_destroy(&x);
+}
+END_TEST
+
+/* Slots are odd, so {slot} is a cut of value up to slot_cost; more of it overloads. */
+START_TEST(forged_slots)
+{
+  fixture x = fixture_make(solid_make(CUBE), THR_ENDS_ANY);
+  thr_plan *p = &x.plan;
+  thr_certificate *c = &p->proof.certificate[0], kept = *c;
+  c->n_slots = 0;
+  assert_violated(p, NULL);
+  *c = kept;
+  c->slot_cost--;
+  assert_violated(p, "slot");
+  *c = kept;
+  c->slot_cost++;
+  assert_violated(p, "optimal");
+  *c = kept;
+  c->slot_cost = INT64_C(1) << 60;
+  assert_violated(p, "optimal");
+  *c = kept;
+  assert_holds(p);
+  fixture_destroy(&x);
+}
+END_TEST
+
+START_TEST(forged_numbers)
+{
+  fixture x = fixture_make(solid_make(CUBE), THR_ENDS_CLOSED);
+  thr_plan *p = &x.plan;
+  thr_certificate *c = &p->proof.certificate[0], kept = *c;
+  static const double scale[] = {0, -1, 1e300, 2, 0.5};
+  for (size_t i = 0; i < sizeof scale / sizeof *scale; i++) {
+    c->scale = i < 3 ? scale[i] : kept.scale * scale[i];
+    assert_violated(p, i < 4 ? "component 0" : NULL); /* lengths of 1 may still weigh 1: then the rounding shows */
+  }
+  *c = kept;
+  c->denominator *= 2;
+  assert_violated(p, "optimal");
+  *c = kept;
+  c->denominator /= 2;
+  assert_violated(p, "add up to more");
+  *c = kept;
+  c->sum++;
+  assert_violated(p, "sum");
+  *c = kept;
+  c->join--;
+  assert_violated(p, "weigh");
+  *c = kept;
+  c->cut[0].value++;
+  assert_violated(p, "component 0");
+  c->cut[0].value = INT64_MAX;
+  assert_violated(p, "add up to more");
+  *c = kept;
+  fixture_destroy(&x);
+}
+END_TEST
+
+START_TEST(each_metric_counts)
+{
+  fixture x = fixture_make(solid_make(CUBE), THR_ENDS_CLOSED);
+  thr_plan *p = &x.plan;
+  thr_metrics kept = p->metrics, *m = &p->metrics;
+  double *real[] = {&m->length, &m->base_length, &m->overlap, &m->turning, &m->max_turning, &m->worst_turn};
+  static const char *const real_name[] = {"length", "base_length", "overlap", "turning", "max_turning", "worst_turn"};
+  for (int i = 0; i < 6; i++)
+    for (int k = 0; k < 4; k++) {
+      *m = kept;
+      *real[i] = k == 0 ? 0 : k == 1 ? -*real[i] : *real[i] * (1 + (k == 2 ? 1e-6 : -1e-6));
+      assert_violated(p, real_name[i]);
+    }
+  int *whole[] = {&m->passes, &m->most_passes, &m->u_turns};
+  static const char *const whole_name[] = {"passes", "most_passes", "u_turns"};
+  for (int i = 0; i < 3; i++)
+    for (int k = -1; k < 2; k += 2) {
+      *m = kept;
+      *whole[i] += k;
+      if (*whole[i] < 0) continue;
+      assert_violated(p, whole_name[i]);
+    }
+  *m = kept;
+  p->proof.gap = 1e-6;
+  assert_violated(p, "gap");
+  fixture_destroy(&x);
+}
+END_TEST
+
+START_TEST(weight_is_rounded_length)
+{
+  thr_frame f = path_make(3);
+  f.length[0] = 1.26;
+  thr_certificate c = {.scale = 10};
+  ck_assert_int_eq(thr_certificate_weight(&f, &c, 0), 13);
+  ck_assert_int_eq(thr_certificate_weight(&f, &c, 1), 10);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+int main(void)
+{
+  Suite *s = suite_create("checker");
+  ADD_TEST(s, 10, longer_plan_keeps_its_bound_and_loses_optimal);
+  ADD_TEST(s, 10, scale_that_rounds_all_away_proves_nothing);
+  ADD_TEST(s, 10, no_extra_pass_needs_no_proof);
+  ADD_TEST(s, 10, forged_cords);
+  ADD_TEST(s, 10, forged_ends);
+  ADD_TEST(s, 10, forged_cover);
+  ADD_TEST(s, 10, forged_counts);
+  ADD_TEST(s, 10, forged_cuts);
+  ADD_TEST(s, 10, forged_slots);
+  ADD_TEST(s, 10, forged_numbers);
+  ADD_TEST(s, 10, each_metric_counts);
+  ADD_TEST(s, 10, weight_is_rounded_length);
+  return run_suite(s);
+}

@@ -1,0 +1,238 @@
+/* The floor: status and error text, checked allocation, growing text, JSON reading. */
+#define _POSIX_C_SOURCE 200809L
+#include "tests/support.h"
+#include "graph/json.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* ---- status ---- */
+
+START_TEST(first_failure_wins)
+{
+  thr_err err = {0};
+  ck_assert_int_eq(thr_fail(&err, THR_EINPUT, "line %d", 7), THR_EINPUT);
+  ck_assert_int_eq(thr_fail(&err, THR_EIO, "later"), THR_EIO);
+  ck_assert_int_eq(err.code, THR_EINPUT);
+  ck_assert_str_eq(err.text, "line 7");
+  ck_assert_int_eq(thr_fail(NULL, THR_ESOLVER, "nobody listens"), THR_ESOLVER);
+}
+END_TEST
+
+START_TEST(error_text_is_one_bounded_line)
+{
+  thr_err err = {0};
+  char *name = calloc(2000, 1);
+  ck_assert(name != NULL);
+  memset(name, 'x', 1999);
+  name[3] = '\n', name[4] = '\t';
+  ck_assert_int_eq(thr_fail(&err, THR_EINPUT, "%s", name), THR_EINPUT);
+  ck_assert_uint_eq(strlen(err.text), sizeof err.text - 1);
+  assert_one_line(&err, "xxx  x");
+  free(name);
+}
+END_TEST
+
+START_TEST(allocation_fails_where_told)
+{
+  thr_alloc_fail_at(2);
+  void *a = thr_calloc(3, 4), *b = thr_calloc(3, 4), *c = thr_realloc(a, 5, 4);
+  thr_alloc_fail_at(0);
+  ck_assert(a && !b && !c); /* realloc left a valid */
+  ck_assert_int_eq(((char *)a)[11], 0);
+  free(a);
+  void *none = thr_calloc(0, 8);
+  ck_assert(none != NULL);
+  free(none);
+  ck_assert(thr_calloc(SIZE_MAX / 4, 8) == NULL); /* no overflow of the product */
+}
+END_TEST
+
+START_TEST(grow_doubles_and_keeps_on_failure)
+{
+  int *list = NULL, capacity = 0;
+  for (int i = 0; i < 1000; i++) {
+    ck_assert_int_eq(thr_grow(&list, i, &capacity, sizeof *list, NULL), THR_OK);
+    list[i] = i;
+  }
+  ck_assert_int_eq(capacity, 1024);
+  thr_err err = {0};
+  thr_alloc_fail_at(1);
+  ck_assert_int_eq(thr_grow(&list, 1024, &capacity, sizeof *list, &err), THR_ENOMEM);
+  thr_alloc_fail_at(0);
+  ck_assert(list[999] == 999 && capacity == 1024);
+  assert_one_line(&err, "memory");
+  free(list);
+}
+END_TEST
+
+/* ---- text ---- */
+
+START_TEST(doubles_are_short_and_read_back)
+{
+  static const struct {
+    double value;
+    const char *digits;
+  } known[] = {{0.1, "0.1"}, {-0.0, "0"}, {1e21, "1e+21"}, {1.0 / 3, "0.3333333333333333"}, {5e-324, "4.94065645841247e-324"},
+               {12, "12"}};
+  for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+    thr_text t = {0};
+    thr_text_double(&t, known[i].value);
+    ck_assert_str_eq(t.data, known[i].digits);
+    thr_text_destroy(&t);
+  }
+  rng r = rng_make(1);
+  for (int i = 0; i < 20000; i++) {
+    double x = ldexp(rng_unit(&r) - 0.5, rng_between(&r, -1000, 1000));
+    thr_text t = {0};
+    thr_text_double(&t, x);
+    ck_assert(strtod(t.data, NULL) == x);
+    thr_text_destroy(&t);
+  }
+}
+END_TEST
+
+START_TEST(strings_are_escaped)
+{
+  thr_text t = {0};
+  thr_text_json_string(&t, "a\"b\\c\n\x7f\xc3\xa4");
+  ck_assert_str_eq(t.data, "\"a\\\"b\\\\c\\u000a\\u007f\xc3\xa4\"");
+  thr_text_destroy(&t);
+  thr_text_xml(&t, "<a & 'b' \"c\">\x01");
+  ck_assert_str_eq(t.data, "&lt;a &amp; &apos;b&apos; &quot;c&quot;&gt; ");
+  thr_text_destroy(&t);
+}
+END_TEST
+
+START_TEST(failed_append_is_remembered)
+{
+  thr_text t = {0};
+  thr_err err = {0};
+  thr_text_append(&t, "kept");
+  thr_alloc_fail_at(1);
+  for (int i = 0; i < 100; i++)
+    thr_text_printf(&t, "%d and more text than fits", i);
+  thr_alloc_fail_at(0);
+  ck_assert(t.failed);
+  thr_text_append(&t, "too late");
+  ck_assert(!strstr(t.data, "too late"));
+  ck_assert_int_eq(thr_text_write(&t, "-", &err), THR_ENOMEM);
+  thr_text_destroy(&t);
+}
+END_TEST
+
+START_TEST(files_are_replaced_whole)
+{
+  char folder[] = "/tmp/thread-test-XXXXXX", path[64];
+  ck_assert(mkdtemp(folder) != NULL);
+  snprintf(path, sizeof path, "%s/a.txt", folder);
+  thr_text t = {0}, back = {0};
+  thr_err err = {0};
+  thr_text_append_bytes(&t, "one\0two", 7);
+  ck_assert_int_eq(thr_text_write(&t, path, NULL), THR_OK);
+  thr_text_append(&t, " three");
+  ck_assert_int_eq(thr_text_write(&t, path, NULL), THR_OK);
+  ck_assert_int_eq(thr_text_read(&back, path, NULL), THR_OK);
+  ck_assert_uint_eq(back.length, 13);
+  ck_assert(memcmp(back.data, "one\0two three", 13) == 0);
+  thr_text_destroy(&back);
+  unlink(path);
+  ck_assert_int_eq(thr_text_write(&t, folder, &err), THR_EIO);
+  assert_one_line(&err, folder);
+  err = (thr_err){0};
+  ck_assert_int_eq(rmdir(folder), 0); /* nothing temporary was left */
+  ck_assert_int_eq(thr_text_write(&t, path, &err), THR_EIO);
+  assert_one_line(&err, path);
+  err = (thr_err){0};
+  ck_assert_int_eq(thr_text_read(&back, path, &err), THR_EIO);
+  assert_one_line(&err, path);
+  ck_assert(back.data == NULL);
+  thr_text_destroy(&t);
+}
+END_TEST
+
+/* ---- JSON ---- */
+
+static thr_json *parse(const char *text)
+{
+  thr_json *doc;
+  thr_err err = {0};
+  ck_assert_msg(thr_json_parse(&doc, text, strlen(text), "file", &err) == THR_OK, "%s", err.text);
+  return doc;
+}
+
+START_TEST(json_values_are_read)
+{
+  thr_json *doc = parse("\xef\xbb\xbf{\"z\": [1, 2.0, 2.5, \"x\", true, null], \"a\": 9223372036854775807}");
+  const thr_json *list = thr_json_get(doc, "z"), *value;
+  int64_t whole;
+  double x;
+  ck_assert_int_eq(thr_json_size(list), 6);
+  ck_assert(thr_json_int(thr_json_at(list, 1), &whole) && whole == 2);
+  ck_assert(!thr_json_int(thr_json_at(list, 2), &whole));
+  ck_assert(thr_json_number(thr_json_at(list, 2), &x) && x == 2.5);
+  ck_assert_str_eq(thr_json_string(thr_json_at(list, 3)), "x");
+  ck_assert(thr_json_true(thr_json_at(list, 4)) && !thr_json_true(thr_json_at(list, 5)));
+  ck_assert(thr_json_int(thr_json_get(doc, "a"), &whole) && whole == INT64_MAX);
+  void *iter = NULL;
+  const char *key;
+  ck_assert(thr_json_next(doc, &iter, &key, &value) && strcmp(key, "z") == 0); /* file order */
+  ck_assert(thr_json_next(doc, &iter, &key, &value) && strcmp(key, "a") == 0);
+  ck_assert(!thr_json_next(doc, &iter, &key, &value));
+  thr_json_destroy(doc);
+}
+END_TEST
+
+START_TEST(json_absent_is_harmless)
+{
+  int64_t whole;
+  double x;
+  ck_assert(thr_json_get(NULL, "a") == NULL && thr_json_at(NULL, 0) == NULL && thr_json_string(NULL) == NULL);
+  ck_assert(!thr_json_int(NULL, &whole) && !thr_json_number(NULL, &x) && !thr_json_true(NULL));
+  ck_assert(thr_json_typeof(NULL) == THR_JSON_NULL && thr_json_size(NULL) == 0);
+  thr_json *doc = parse("[1]");
+  ck_assert(thr_json_get(doc, "a") == NULL && thr_json_at(doc, 1) == NULL && thr_json_at(doc, -1) == NULL);
+  thr_json_destroy(doc);
+  thr_json_destroy(NULL);
+}
+END_TEST
+
+START_TEST(json_errors_name_the_place)
+{
+  static const char *const wrong[] = {"{\"a\": 1,\n \"a\": 2}", "[1,\n2", "[1] x", "", "{\"a\": 1e999}", "\xff",
+                                      "[99999999999999999999]"};
+  for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+    thr_json *doc;
+    thr_err err = {0};
+    ck_assert_int_eq(thr_json_parse(&doc, wrong[i], strlen(wrong[i]), "file.json", &err), THR_EINPUT);
+    assert_one_line(&err, i < 2 ? "file.json:2:" : "file.json:1:");
+    ck_assert(doc == NULL);
+  }
+  char *deep = calloc(10001, 1);
+  thr_json *doc;
+  ck_assert(deep != NULL);
+  memset(deep, '[', 10000);
+  ck_assert_int_eq(thr_json_parse(&doc, deep, 10000, "deep", NULL), THR_EINPUT);
+  free(deep);
+}
+END_TEST
+
+int main(void)
+{
+  Suite *s = suite_create("floor");
+  ADD_TEST(s, 10, first_failure_wins);
+  ADD_TEST(s, 10, error_text_is_one_bounded_line);
+  ADD_TEST(s, 10, allocation_fails_where_told);
+  ADD_TEST(s, 10, grow_doubles_and_keeps_on_failure);
+  ADD_TEST(s, 10, doubles_are_short_and_read_back);
+  ADD_TEST(s, 10, strings_are_escaped);
+  ADD_TEST(s, 10, failed_append_is_remembered);
+  ADD_TEST(s, 10, files_are_replaced_whole);
+  ADD_TEST(s, 10, json_values_are_read);
+  ADD_TEST(s, 10, json_absent_is_harmless);
+  ADD_TEST(s, 10, json_errors_name_the_place);
+  return run_suite(s);
+}

@@ -1,0 +1,300 @@
+/* T-joins and the shortest cord: known answers, data files, limits. */
+#include "tests/support.h"
+#include "lp/tjoin.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- known answers ---- */
+
+static const struct {
+  solid which;
+  int nodes, edges;
+  double closed, open;
+} solids[] = {{TETRAHEDRON, 4, 6, 8, 7},
+              {CUBE, 8, 12, 16, 15},
+              {OCTAHEDRON, 6, 12, 12, 12},
+              {DODECAHEDRON, 20, 30, 40, 39},
+              {ICOSAHEDRON, 12, 30, 36, 35}};
+
+START_TEST(platonic_solids)
+{
+  thr_frame f = solid_make(solids[_i].which);
+  ck_assert_int_eq(f.n_nodes, solids[_i].nodes);
+  ck_assert_int_eq(f.n_edges, solids[_i].edges);
+  thr_plan closed = plan_simple(&f, THR_ENDS_CLOSED, 1), open = plan_simple(&f, THR_ENDS_ANY, 1),
+           twice = plan_simple(&f, THR_ENDS_ANY, 2);
+  ck_assert_double_eq_tol(closed.metrics.length, solids[_i].closed, 1e-9);
+  ck_assert_double_eq_tol(open.metrics.length, solids[_i].open, 1e-9);
+  ck_assert_double_eq_tol(twice.metrics.length, 2 * solids[_i].edges, 1e-9);
+  ck_assert(closed.proof.optimal && open.proof.optimal && twice.proof.optimal);
+  assert_plan_sound(&closed);
+  assert_plan_sound(&open);
+  assert_plan_sound(&twice);
+  thr_plan_destroy(&closed);
+  thr_plan_destroy(&open);
+  thr_plan_destroy(&twice);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+static void assert_length(const char *path, double base, double length)
+{
+  thr_frame f = frame_load(path, NULL);
+  thr_plan p = plan_simple(&f, THR_ENDS_CLOSED, 1);
+  ck_assert_double_eq_tol(p.metrics.base_length, base, 1e-6 * base);
+  ck_assert_double_eq_tol(p.metrics.length, length, 1e-6 * length);
+  ck_assert(p.proof.optimal);
+  assert_plan_sound(&p);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+
+START_TEST(lengths_of_real_frameworks)
+{
+  assert_length("data/jax_fdm/liew_dome.json", 1504.362, 1568.966);
+  assert_length("data/assembly-instances/C_shape.json", 7851.928556, 8626.087785);
+}
+END_TEST
+
+START_TEST(trees_need_every_edge_twice)
+{
+  rng r = rng_make((uint64_t)_i + 1);
+  thr_frame f = random_frame(&r, rng_between(&r, 2, 40), 0, (length_kind)(_i % LENGTH_KINDS));
+  thr_plan p = plan_simple(&f, THR_ENDS_CLOSED, 1);
+  ck_assert_double_eq_tol(p.metrics.length, 2 * thr_frame_total_length(&f), 1e-9 * p.metrics.length);
+  ck_assert_int_eq(p.metrics.most_passes, 2);
+  assert_plan_sound(&p);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* A grid's odd nodes are the border's; for w = h = 2 k + 2, two neighbours at a time: k pairs a side. */
+START_TEST(grids_pair_their_border)
+{
+  for (int k = 1; k < 9; k++) {
+    thr_frame f = grid_make(2 * k + 2, 2 * k + 2);
+    thr_plan p = plan_simple(&f, THR_ENDS_CLOSED, 1);
+    ck_assert_double_eq_tol(p.metrics.overlap, 4 * k, 1e-9);
+    ck_assert(p.proof.optimal);
+    thr_plan_destroy(&p);
+    thr_frame_destroy(&f);
+  }
+}
+END_TEST
+
+START_TEST(one_edge)
+{
+  static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET};
+  static const double length[] = {2, 1, 2};
+  thr_frame f = path_make(2);
+  for (int i = 0; i < 3; i++) {
+    thr_plan p = plan_simple(&f, ends[i], 1);
+    ck_assert_double_eq(p.metrics.length, length[i]);
+    assert_plan_sound(&p);
+    thr_plan_destroy(&p);
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(the_most_passes)
+{
+  thr_frame f = solid_make(CUBE);
+  thr_plan p = plan_simple(&f, THR_ENDS_CLOSED, 99), q = plan_simple(&f, THR_ENDS_CLOSED, 100);
+  ck_assert_double_eq_tol(p.metrics.length, 99 * 12 + 4, 1e-6);
+  ck_assert_double_eq_tol(q.metrics.length, 100 * 12, 1e-6);
+  assert_plan_sound(&p);
+  assert_plan_sound(&q);
+  thr_plan_destroy(&p);
+  thr_plan_destroy(&q);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(lengths_of_very_different_size)
+{
+  rng r = rng_make((uint64_t)_i + 1);
+  thr_frame f = random_frame(&r, 12, 6, LENGTHS_RANDOM);
+  for (int e = 0; e < f.n_edges; e++)
+    f.length[e] = pow(10, rng_between(&r, -6, 6)) * (1 + rng_unit(&r));
+  thr_plan p = plan_simple(&f, THR_ENDS_CLOSED, 1);
+  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  double base = thr_frame_total_length(&f);
+  ck_assert_double_eq_tol(p.metrics.length, base + least_extra_by_matching(&f, &o), 1e-9 * base);
+  assert_plan_sound(&p);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(no_end_allowed_is_infeasible)
+{
+  thr_frame f = triangles_make(3);
+  f.foot[4] = false; /* the only foot of the second triangle */
+  thr_plan_options o = options_for(THR_ENDS_FEET, 1);
+  thr_plan p;
+  thr_limits none = {0};
+  thr_err err = {0};
+  ck_assert_int_eq(thr_postman_plan(&f, &o, &none, &p, &err), THR_EINFEASIBLE);
+  assert_one_line(&err, "piece 2");
+  ck_assert(p.cord == NULL && p.frame.xyz == NULL);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* ---- limits ---- */
+
+/* A framework on which the cutting planes need many rounds. */
+static thr_frame hard_frame(void)
+{
+  rng r = rng_make(77);
+  return random_frame(&r, 300, 300, LENGTHS_RANDOM);
+}
+
+static void assert_stopped_well(const thr_frame *f, const thr_plan_options *o, const thr_limits *l, double best)
+{
+  thr_plan p;
+  thr_err err = {0};
+  thr_status st = thr_postman_plan(f, o, l, &p, &err);
+  ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", err.text);
+  if (st) assert_one_line(&err, "stopped early");
+  ck_assert_int_eq(st == THR_OK, p.proof.optimal);
+  ck_assert_int_eq(verdict_by_sums(&p), p.proof.optimal ? 2 : 1);
+  ck_assert(p.metrics.length > best * (1 - 1e-9) && p.proof.lower_bound < best * (1 + 1e-9));
+  ck_assert(p.proof.gap >= 0 && p.proof.gap < 0.6);
+  assert_plan_sound(&p);
+  thr_plan_destroy(&p);
+}
+
+START_TEST(passed_deadline_leaves_a_valid_plan)
+{
+  static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET};
+  thr_frame f = hard_frame();
+  thr_plan_options o = options_for(ends[_i], 1);
+  thr_plan best = plan_make(&f, &o);
+  volatile sig_atomic_t pressed = 1;
+  assert_stopped_well(&f, &o, &(thr_limits){.deadline = thr_clock() - 10}, best.metrics.length);
+  assert_stopped_well(&f, &o, &(thr_limits){.interrupted = &pressed}, best.metrics.length);
+  for (int ms = 1; ms < 40; ms += 3)
+    assert_stopped_well(&f, &o, &(thr_limits){.deadline = thr_clock() + ms / 1000.0}, best.metrics.length);
+  thr_plan_destroy(&best);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+typedef struct {
+  volatile sig_atomic_t pressed;
+  int calls, stop_after;
+  double best, bound;
+} watcher;
+
+static void watch(void *user, const char *what, double best, double bound)
+{
+  watcher *w = user;
+  ck_assert(what != NULL && best >= bound);
+  ck_assert(w->calls == 0 || (best <= w->best && bound >= w->bound));
+  w->best = best;
+  w->bound = bound;
+  if (++w->calls == w->stop_after) w->pressed = 1;
+}
+
+START_TEST(interrupt_between_rounds_leaves_a_valid_plan)
+{
+  thr_frame f = hard_frame();
+  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_plan best = plan_make(&f, &o);
+  watcher w = {.stop_after = _i + 1};
+  assert_stopped_well(&f, &o, &(thr_limits){.interrupted = &w.pressed, .progress = watch, .user = &w}, best.metrics.length);
+  ck_assert_int_gt(w.calls, 0);
+  thr_plan_destroy(&best);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(stopped_before_any_proof_with_many_components)
+{
+  thr_frame f = triangles_make(50);
+  thr_plan_options o = options_for(THR_ENDS_FEET, 1);
+  volatile sig_atomic_t pressed = 1;
+  assert_stopped_well(&f, &o, &(thr_limits){.interrupted = &pressed}, 150);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* ---- T-joins themselves ---- */
+
+/* The lightest subset of edges whose odd nodes are odd[], by trying all; and the solver's, with its cuts added up. */
+START_TEST(joins_match_all_subsets)
+{
+  rng r = rng_make((uint64_t)_i + 5);
+  int n = rng_between(&r, 2, 8), m = n - 1 + rng_below(&r, 7), edge[16][2];
+  int64_t weight[16], least = INT64_MAX;
+  bool odd[8] = {false};
+  uint32_t wanted = 0;
+  for (int e = 0; e < m; e++) {
+    edge[e][1] = e < n - 1 ? e + 1 : rng_below(&r, n);
+    edge[e][0] = e < n - 1 ? rng_below(&r, e + 1) : (edge[e][1] + rng_between(&r, 1, n - 1)) % n; /* parallel ones too */
+    weight[e] = _i % 3 ? rng_below(&r, 5) : rng_below(&r, 1000000000);
+  }
+  for (int k = rng_below(&r, n); k > 0; k--) {
+    int a = rng_below(&r, n), b = (a + rng_between(&r, 1, n - 1)) % n;
+    odd[a] = !odd[a], odd[b] = !odd[b];
+  }
+  for (int v = 0; v < n; v++)
+    wanted |= (uint32_t)odd[v] << v;
+  for (uint32_t s = 0; s < UINT32_C(1) << m; s++) {
+    int64_t sum = 0;
+    uint32_t left = wanted;
+    for (int e = 0; e < m; e++)
+      if (s >> e & 1) sum += weight[e], left ^= UINT32_C(1) << edge[e][0] ^ UINT32_C(1) << edge[e][1];
+    if (left == 0 && sum < least) least = sum;
+  }
+  thr_tjoin_problem p = {.n_nodes = n, .n_edges = m, .edge = (const int(*)[2])edge, .weight = weight, .odd = odd};
+  thr_tjoin t;
+  thr_err err = {0};
+  thr_limits none = {0};
+  ck_assert_msg(thr_tjoin_solve(&p, &none, &t, &err) == THR_OK, "%s", err.text);
+  int64_t length = 0, sum = 0, load[16] = {0};
+  for (int e = 0; e < m; e++)
+    if (t.in_join[e]) length += weight[e], wanted ^= UINT32_C(1) << edge[e][0] ^ UINT32_C(1) << edge[e][1];
+  for (int i = 0; i < t.n_cuts; i++) {
+    uint32_t side = 0;
+    int odds = 0;
+    for (int k = 0; k < t.cut[i].n_nodes; k++)
+      side |= UINT32_C(1) << t.cut[i].node[k], odds += odd[t.cut[i].node[k]];
+    ck_assert(odds % 2 == 1 && t.cut[i].value >= 0);
+    sum += t.cut[i].value;
+    for (int e = 0; e < m; e++)
+      if ((side >> edge[e][0] ^ side >> edge[e][1]) & 1) load[e] += t.cut[i].value;
+  }
+  for (int e = 0; e < m; e++)
+    ck_assert_int_le(load[e], weight[e] * THR_DUAL_DENOMINATOR);
+  ck_assert_uint_eq(wanted, 0);
+  ck_assert_int_eq(length, least);
+  ck_assert_int_eq(t.length, least);
+  ck_assert_int_eq(t.sum, sum);
+  ck_assert(t.optimal && sum > (least - 1) * THR_DUAL_DENOMINATOR);
+  thr_tjoin_destroy(&t);
+}
+END_TEST
+
+int main(void)
+{
+  Suite *s = suite_create("shortest cord");
+  ADD_LOOP(s, 10, platonic_solids, 0, 5);
+  ADD_TEST(s, 20, lengths_of_real_frameworks);
+  ADD_LOOP(s, 10, trees_need_every_edge_twice, 0, 12);
+  ADD_TEST(s, 20, grids_pair_their_border);
+  ADD_TEST(s, 10, one_edge);
+  ADD_TEST(s, 20, the_most_passes);
+  ADD_LOOP(s, 10, lengths_of_very_different_size, 0, 20);
+  ADD_TEST(s, 10, no_end_allowed_is_infeasible);
+  ADD_LOOP(s, 30, passed_deadline_leaves_a_valid_plan, 0, 3);
+  ADD_LOOP(s, 30, interrupt_between_rounds_leaves_a_valid_plan, 0, 6);
+  ADD_TEST(s, 10, stopped_before_any_proof_with_many_components);
+  ADD_LOOP(s, 10, joins_match_all_subsets, 0, 300);
+  return run_suite(s);
+}

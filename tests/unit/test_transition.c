@@ -1,0 +1,403 @@
+/* Multigraph, pairing, joining, tracing, and the cords made of them. */
+#include "tests/support.h"
+#include "graph/multigraph.h"
+#include "graph/tour.h"
+#include "graph/transition.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double PI = 3.14159265358979323846;
+
+/* ---- a multigraph and its pairing ---- */
+
+typedef struct {
+  thr_multigraph g;
+  int *mate;
+} threading;
+
+static int *constant(int n, int value)
+{
+  int *a = calloc((size_t)n, sizeof *a);
+  ck_assert(a != NULL);
+  for (int i = 0; i < n; i++)
+    a[i] = value;
+  return a;
+}
+
+static threading thread_make(const thr_frame *f, const int *passes, const int (*end)[2], int n_ends)
+{
+  threading t;
+  thr_err err = {0};
+  ck_assert_int_eq(thr_multigraph_init(&t.g, f, passes, end, n_ends, &err), THR_OK);
+  t.mate = constant(t.g.n_darts, -1);
+  ck_assert_msg(thr_transition_pair(f, &t.g, t.mate, &err) == THR_OK, "%s", err.text);
+  return t;
+}
+
+static void thread_destroy(threading *t)
+{
+  thr_multigraph_destroy(&t->g);
+  free(t->mate);
+}
+
+static void assert_pairing(const threading *t)
+{
+  for (int d = 0; d < t->g.n_darts; d++) {
+    int m = t->mate[d];
+    ck_assert(m >= 0 && m < t->g.n_darts && m != d);
+    ck_assert_int_eq(t->mate[m], d);
+    ck_assert_int_eq(t->g.tail[m], t->g.tail[d]);
+  }
+}
+
+static double price_at(const thr_frame *f, const threading *t, int v)
+{
+  double sum = 0;
+  for (int i = t->g.first[v]; i < t->g.first[v + 1]; i++)
+    sum += thr_transition_price(f, &t->g, t->g.dart[i], t->mate[t->g.dart[i]]) / 2;
+  return sum;
+}
+
+static int count_u_turns(const threading *t)
+{
+  int n = 0;
+  for (int d = 0; d < t->g.n_darts; d++)
+    n += t->mate[d] > d && t->g.half[d] == t->g.half[t->mate[d]];
+  return n;
+}
+
+static int count_circuits(const threading *t)
+{
+  int *out = constant(t->g.n_darts, 0), *seen = constant(t->g.n_darts, 0), circuits = 0, n;
+  for (int d = 0; d < t->g.n_darts; d++) {
+    if (seen[d]) continue;
+    circuits++;
+    thr_transition_trace(t->mate, d, out, &n);
+    for (int i = 0; i < n; i++)
+      seen[out[i]] = seen[out[i] ^ 1] = 1;
+  }
+  free(out);
+  free(seen);
+  return circuits;
+}
+
+/* ---- oracles ---- */
+
+/* Cheapest perfect matching of n darts, by trying all; angle by acos of normalized vectors, not by the program's atan2. */
+static double angle(const thr_frame *f, int a, int b)
+{
+  double u[3], w[3], uw = 0, uu = 0, ww = 0;
+  for (int i = 0; i < 3; i++) {
+    u[i] = f->xyz[f->edge[a / 2][a % 2]][i] - f->xyz[f->edge[a / 2][1 - a % 2]][i]; /* towards the node: against dart a */
+    w[i] = f->xyz[f->edge[b / 2][1 - b % 2]][i] - f->xyz[f->edge[b / 2][b % 2]][i];
+    uw += u[i] * w[i], uu += u[i] * u[i], ww += w[i] * w[i];
+  }
+  return acos(fmax(-1, fmin(1, uw / sqrt(uu * ww))));
+}
+
+static double own_price(const thr_frame *f, const thr_multigraph *g, int a, int b)
+{
+  double price = g->half[a] == g->half[b] ? THR_U_TURN_PRICE : 0;
+  return g->half[a] < 0 || g->half[b] < 0 ? price : price + angle(f, g->half[a], g->half[b]);
+}
+
+static double cheapest(const thr_frame *f, const thr_multigraph *g, int *dart, int n)
+{
+  if (n == 0) return 0;
+  double best = INFINITY;
+  for (int j = 1; j < n; j++) {
+    int kept = dart[j];
+    dart[j] = dart[1];
+    dart[1] = kept;
+    best = fmin(best, own_price(f, g, dart[0], kept) + cheapest(f, g, dart + 2, n - 2));
+    dart[1] = dart[j];
+    dart[j] = kept;
+  }
+  return best;
+}
+
+/* Passes that make every degree even: cover plus the edges of a spanning tree as needed. Leaves the two nodes of end odd. */
+static int *even_passes(rng *r, const thr_frame *f, int cover, const int *end)
+{
+  int *passes = constant(f->n_edges, cover), *odd = constant(f->n_nodes, 0);
+  for (int e = 0; e < f->n_edges; e++)
+    passes[e] += 2 * (rng_below(r, 8) == 0);
+  for (int v = 0; v < f->n_nodes; v++)
+    odd[v] = cover * thr_degree(f, v) % 2;
+  if (end) odd[end[0]] ^= 1, odd[end[1]] ^= 1;
+  for (int v = f->n_nodes - 1; v > 0; v--) /* random_frame joins v to a lower node by edge v - 1 */
+    if (odd[v]) {
+      passes[v - 1]++;
+      odd[v] = 0;
+      odd[f->edge[v - 1][0]] ^= 1;
+    }
+  ck_assert_int_eq(odd[0], 0);
+  free(odd);
+  return passes;
+}
+
+/* ---- tests ---- */
+
+START_TEST(multigraph_holds_every_pass)
+{
+  rng r = rng_make((uint64_t)_i + 1);
+  thr_frame f = random_frame(&r, 9, 8, LENGTHS_EUCLID);
+  int end[1][2] = {{2, 5}}, *passes = even_passes(&r, &f, 2, NULL), *copies = constant(f.n_edges, 0);
+  thr_multigraph g;
+  ck_assert_int_eq(thr_multigraph_init(&g, &f, passes, (const int(*)[2])end, 1, NULL), THR_OK);
+  for (int d = 0; d < g.n_darts; d++) {
+    if (g.half[d] < 0) {
+      ck_assert(g.tail[d] == end[0][d % 2]);
+      continue;
+    }
+    ck_assert_int_eq(g.half[d ^ 1], g.half[d] ^ 1);
+    ck_assert_int_eq(g.tail[d], f.edge[g.half[d] / 2][g.half[d] % 2]);
+    copies[g.half[d] / 2]++;
+  }
+  for (int e = 0; e < f.n_edges; e++)
+    ck_assert_int_eq(copies[e], 2 * passes[e]);
+  for (int v = 0; v < f.n_nodes; v++)
+    for (int i = g.first[v]; i < g.first[v + 1]; i++)
+      ck_assert(g.tail[g.dart[i]] == v && (i == g.first[v] || g.dart[i] > g.dart[i - 1]));
+  ck_assert_int_eq(g.first[f.n_nodes], g.n_darts);
+  thr_multigraph_destroy(&g);
+  thr_frame_destroy(&f);
+  free(passes);
+  free(copies);
+}
+END_TEST
+
+START_TEST(multigraph_refuses_too_many_passes)
+{
+  thr_frame f = ring_make(3);
+  int *passes = constant(3, 1 << 30);
+  thr_multigraph g;
+  thr_err err = {0};
+  ck_assert_int_eq(thr_multigraph_init(&g, &f, passes, NULL, 0, &err), THR_EINPUT);
+  assert_one_line(&err, "--cover");
+  ck_assert(g.half == NULL);
+  free(passes);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(small_nodes_are_paired_at_least_price)
+{
+  rng r = rng_make((uint64_t)_i + 100);
+  thr_frame f = random_frame(&r, rng_between(&r, 4, 9), rng_below(&r, 12), LENGTHS_EUCLID);
+  int end[1][2] = {{0, f.n_nodes - 1}}, *passes = even_passes(&r, &f, rng_between(&r, 1, 2), end[0]);
+  threading t = thread_make(&f, passes, (const int(*)[2])end, 1);
+  assert_pairing(&t);
+  for (int v = 0; v < f.n_nodes; v++) {
+    int n = t.g.first[v + 1] - t.g.first[v];
+    if (n > 10) continue;
+    ck_assert_double_eq_tol(price_at(&f, &t, v), cheapest(&f, &t.g, t.g.dart + t.g.first[v], n), 1e-6);
+  }
+  thread_destroy(&t);
+  thr_frame_destroy(&f);
+  free(passes);
+}
+END_TEST
+
+START_TEST(odd_nodes_are_refused)
+{
+  thr_frame f = star_make(3);
+  int *passes = constant(3, 1), mate[6];
+  thr_multigraph g;
+  thr_err err = {0};
+  ck_assert_int_eq(thr_multigraph_init(&g, &f, passes, NULL, 0, NULL), THR_OK);
+  ck_assert_int_eq(thr_transition_pair(&f, &g, mate, &err), THR_EINPUT);
+  assert_one_line(&err, "node 0");
+  thr_multigraph_destroy(&g);
+  free(passes);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(join_leaves_one_circuit_and_no_new_u_turn)
+{
+  rng r = rng_make((uint64_t)_i + 300);
+  thr_frame f = random_frame(&r, rng_between(&r, 3, 30), rng_below(&r, 40), LENGTHS_EUCLID);
+  int *passes = even_passes(&r, &f, rng_between(&r, 1, 3), NULL);
+  threading t = thread_make(&f, passes, NULL, 0);
+  int before = count_u_turns(&t);
+  ck_assert_int_eq(thr_transition_join(&f, &t.g, t.mate, NULL), THR_OK);
+  assert_pairing(&t);
+  ck_assert_int_eq(count_circuits(&t), 1);
+  ck_assert_int_le(count_u_turns(&t), before);
+  thread_destroy(&t);
+  thr_frame_destroy(&f);
+  free(passes);
+}
+END_TEST
+
+START_TEST(octahedron_pairs_straight_then_joins)
+{
+  thr_frame f = solid_make(OCTAHEDRON);
+  int *passes = constant(12, 1);
+  threading t = thread_make(&f, passes, NULL, 0);
+  double turning = 0;
+  for (int v = 0; v < 6; v++)
+    turning += price_at(&f, &t, v);
+  ck_assert_double_eq_tol(turning, 6 * PI, 1e-9); /* 1080 degrees in three squares */
+  ck_assert_int_eq(count_circuits(&t), 3);
+  ck_assert_int_eq(thr_transition_join(&f, &t.g, t.mate, NULL), THR_OK);
+  ck_assert_int_eq(count_circuits(&t), 1);
+  thread_destroy(&t);
+  thr_frame_destroy(&f);
+  free(passes);
+}
+END_TEST
+
+/* ---- cords ---- */
+
+static void assert_uses_all(const thr_frame *f, const int *passes, const thr_cord *cord, int n)
+{
+  int *left = constant(f->n_edges, 0);
+  memcpy(left, passes, (size_t)f->n_edges * sizeof *left);
+  for (int i = 0; i < n; i++)
+    for (int k = 0; k < cord[i].n_passes; k++) {
+      left[cord[i].half[k] / 2]--;
+      if (k) ck_assert_int_eq(thr_head(f, cord[i].half[k - 1]), thr_tail(f, cord[i].half[k]));
+    }
+  for (int e = 0; e < f->n_edges; e++)
+    ck_assert_int_eq(left[e], 0);
+  free(left);
+}
+
+START_TEST(open_cord_runs_from_end_to_end)
+{
+  rng r = rng_make((uint64_t)_i + 700);
+  thr_frame f = random_frame(&r, rng_between(&r, 2, 20), rng_below(&r, 20), LENGTHS_EUCLID);
+  int end[1][2] = {{rng_below(&r, f.n_nodes), 0}};
+  while ((end[0][1] = rng_below(&r, f.n_nodes)) == end[0][0])
+    ;
+  int *passes = even_passes(&r, &f, 1, end[0]), *component = constant(f.n_nodes, 0);
+  thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+  thr_cord cord;
+  ck_assert_int_eq(thr_tour_cords(&f, &o, component, 1, passes, (const int(*)[2])end, &cord, NULL), THR_OK);
+  ck_assert(!cord.closed && thr_cord_start(&f, &cord) == end[0][0] && thr_cord_end(&f, &cord) == end[0][1]);
+  assert_uses_all(&f, passes, &cord, 1);
+  free(cord.half);
+  free(passes);
+  free(component);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(closed_cord_starts_where_told_or_at_a_foot)
+{
+  rng r = rng_make((uint64_t)_i + 900);
+  thr_frame f = random_frame(&r, rng_between(&r, 3, 20), rng_below(&r, 20), LENGTHS_EUCLID);
+  int *passes = even_passes(&r, &f, 1, NULL), *component = constant(f.n_nodes, 0), v = rng_below(&r, f.n_nodes);
+  int at[1][2] = {{v, v}}, anywhere[1][2] = {{-1, -1}};
+  thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+  thr_cord cord;
+  ck_assert_int_eq(thr_tour_cords(&f, &o, component, 1, passes, (const int(*)[2])at, &cord, NULL), THR_OK);
+  ck_assert(cord.closed && thr_cord_start(&f, &cord) == v && thr_cord_end(&f, &cord) == v);
+  assert_uses_all(&f, passes, &cord, 1);
+  free(cord.half);
+  ck_assert_int_eq(thr_tour_cords(&f, &o, component, 1, passes, (const int(*)[2])anywhere, &cord, NULL), THR_OK);
+  ck_assert(cord.closed && f.foot[thr_cord_start(&f, &cord)]);
+  assert_uses_all(&f, passes, &cord, 1);
+  free(cord.half);
+  free(passes);
+  free(component);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(odd_passes_are_refused)
+{
+  thr_frame f = path_make(3);
+  int passes[2] = {1, 1}, component[3] = {0}, ends[1][2] = {{-1, -1}};
+  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_cord cord;
+  thr_err err = {0};
+  ck_assert_int_eq(thr_tour_cords(&f, &o, component, 1, passes, (const int(*)[2])ends, &cord, &err), THR_EINPUT);
+  ck_assert(cord.half == NULL);
+  assert_one_line(&err, "node 0");
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* ---- large nodes, many components: these only have to finish, and be right ---- */
+
+START_TEST(star_of_3000_spokes)
+{
+  thr_frame f = star_make(3000);
+  thr_plan p = plan_simple(&f, THR_ENDS_CLOSED, 1);
+  ck_assert_double_eq_tol(p.metrics.length, 6000, 1e-6);
+  ck_assert_int_eq(p.metrics.u_turns, 3000);
+  assert_plan_sound(&p);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(wheel_of_2000_spokes)
+{
+  thr_frame f = wheel_make(2000);
+  int *passes = constant(f.n_edges, 2), component[2001] = {0}, ends[1][2] = {{-1, -1}};
+  thr_plan_options o = options_for(THR_ENDS_CLOSED, 2);
+  thr_cord cord;
+  thr_metrics m;
+  ck_assert_int_eq(thr_tour_cords(&f, &o, component, 1, passes, (const int(*)[2])ends, &cord, NULL), THR_OK);
+  assert_uses_all(&f, passes, &cord, 1);
+  ck_assert_int_eq(thr_plan_measure(&f, 2, &cord, 1, &m, NULL), THR_OK);
+  ck_assert_int_eq(m.u_turns, 0);
+  free(cord.half);
+  free(passes);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(hub_whose_darts_all_pair_badly_is_joined_fast)
+{
+  thr_frame f = star_make(20000);
+  int *passes = constant(f.n_edges, 2);
+  threading t = thread_make(&f, passes, NULL, 0);
+  ck_assert_int_eq(thr_transition_join(&f, &t.g, t.mate, NULL), THR_OK);
+  ck_assert_int_eq(count_circuits(&t), 1);
+  thread_destroy(&t);
+  free(passes);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(two_thousand_components)
+{
+  static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET};
+  thr_frame f = triangles_make(2000);
+  for (size_t i = 0; i < 3; i++) {
+    thr_plan p = plan_simple(&f, ends[i], 1);
+    ck_assert_int_eq(p.n_cords, 2000);
+    ck_assert_double_eq_tol(p.metrics.length, 6000, 1e-6);
+    ck_assert_str_eq(p.cord[26].id, "AA");
+    assert_plan_sound(&p);
+    thr_plan_destroy(&p);
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+int main(void)
+{
+  Suite *s = suite_create("transition and tour");
+  ADD_LOOP(s, 10, multigraph_holds_every_pass, 0, 10);
+  ADD_TEST(s, 10, multigraph_refuses_too_many_passes);
+  ADD_LOOP(s, 10, small_nodes_are_paired_at_least_price, 0, 100);
+  ADD_TEST(s, 10, odd_nodes_are_refused);
+  ADD_LOOP(s, 10, join_leaves_one_circuit_and_no_new_u_turn, 0, 100);
+  ADD_TEST(s, 10, octahedron_pairs_straight_then_joins);
+  ADD_LOOP(s, 10, open_cord_runs_from_end_to_end, 0, 50);
+  ADD_LOOP(s, 10, closed_cord_starts_where_told_or_at_a_foot, 0, 50);
+  ADD_TEST(s, 10, odd_passes_are_refused);
+  ADD_TEST(s, 20, star_of_3000_spokes);
+  ADD_TEST(s, 20, wheel_of_2000_spokes);
+  ADD_TEST(s, 20, hub_whose_darts_all_pair_badly_is_joined_fast);
+  ADD_TEST(s, 20, two_thousand_components);
+  return run_suite(s);
+}
