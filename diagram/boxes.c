@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { MAX_CELLS_ACROSS = 512 };
+enum { MAX_CELLS_ACROSS = 512, MAX_LOOKS = 2000 };
 
 thr_box thr_box_around(double x, double y, double half_width, double half_height)
 {
@@ -74,9 +74,9 @@ thr_status thr_boxes_add(thr_boxes *b, thr_box box, int kind, thr_err *err)
   return THR_OK;
 }
 
-double thr_boxes_overlap(thr_boxes *b, thr_box box, int kinds)
+double thr_boxes_overlap(thr_boxes *b, thr_box box, int kinds, double enough)
 {
-  int span[4];
+  int span[4], looks = 0;
   double area = 0;
   b->question++;
   cells_of(b, &box, span);
@@ -84,10 +84,12 @@ double thr_boxes_overlap(thr_boxes *b, thr_box box, int kinds)
     for (int c = span[0]; c <= span[1]; c++)
       for (int i = b->head[r * b->columns + c]; i >= 0; i = b->link[i].next) {
         struct thr_boxes_item *it = &b->item[b->link[i].item];
+        if (++looks > MAX_LOOKS) return area + (box.x1 - box.x0) * (box.y1 - box.y0);
         if (!(it->kind & kinds) || it->asked == b->question) continue;
         it->asked = b->question;
         double w = fmin(it->box.x1, box.x1) - fmax(it->box.x0, box.x0), h = fmin(it->box.y1, box.y1) - fmax(it->box.y0, box.y0);
         if (w > 0 && h > 0) area += w * h;
+        if (area >= enough) return area;
       }
   return area;
 }

@@ -40,8 +40,9 @@ thr_status thr_boxes_init(thr_boxes *b, thr_box bounds, double cell, thr_err *er
 thr_status thr_boxes_add(thr_boxes *b, thr_box box, int kind, thr_err *err) THR_MUST_CHECK;
 void thr_boxes_destroy(thr_boxes *b);
 
-/* Area in mm^2 that box shares with the boxes of the kinds (a sum of THR_BOX_..), overlaps counted each time. */
-double thr_boxes_overlap(thr_boxes *b, thr_box box, int kinds);
+/* Area in mm^2 that box shares with the boxes of the kinds (a sum of THR_BOX_..), overlaps counted each time. Stops once
+ * it is enough (> 0). A place so crowded that 2000 boxes were met counts as taken. */
+double thr_boxes_overlap(thr_boxes *b, thr_box box, int kinds, double enough);
 
 thr_box thr_box_around(double x, double y, double half_width, double half_height);
 void thr_box_extend(thr_box *b, thr_box other);

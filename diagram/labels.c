@@ -6,6 +6,8 @@
 enum { MAX_PLACES = 10 };
 static const double NUMBER_AT[MAX_PLACES] = {0.30, 0.22, 0.38, 0.46, 0.14, 0.54, 0.62, 0.70, 0.80, 0.90};
 static const double ARROW_AT[MAX_PLACES] = {0.68, 0.76, 0.60, 0.84, 0.52, 0.92, 0.44, 0.30, 0.20, 0.10};
+static const double MUCH = 1e6; /* cost of a number on another, over that of one on arrows */
+static const double SEEN = 0.2; /* mm: smaller arrows are not drawn */
 static const int STEPS[] = {1, 5, 10, 20, 50, 100, 200, 500, 1000};
 enum { N_STEPS = sizeof STEPS / sizeof STEPS[0] };
 
@@ -48,6 +50,21 @@ static int importance(const thr_scene *s, int i)
   return number % (10 * s->number_step) == 0 ? 1 : number % (5 * s->number_step) == 0 ? 2 : 3;
 }
 
+/* Moves a number that must be there off the pass to the nearest free place around it, if there is one. */
+static void move_aside(thr_scene *s, int i)
+{
+  thr_scene_pass *p = &s->pass[i];
+  for (int ring = 1; ring <= 4; ring++)
+    for (int k = 0; k < 12; k++) {
+      double turn = k * 0.5235987755982988, reach = 0.6 * ring * thr_scene_pill_height(s);
+      double at[2] = {p->pill[0] + 1.5 * reach * cos(turn), p->pill[1] + reach * sin(turn)};
+      if (thr_boxes_overlap(&s->boxes, pill_box(s, i, at), THR_BOX_MARK | THR_BOX_NUMBER, 1e-9) > 0) continue;
+      p->pill[0] = at[0];
+      p->pill[1] = at[1];
+      return;
+    }
+}
+
 /* Puts the number of pass i in the first place that is free, preferring one that hides no arrow. must: put it in the
  * least bad place if none is free. */
 static thr_status place_number(thr_scene *s, int i, bool must, thr_err *err)
@@ -57,14 +74,15 @@ static thr_status place_number(thr_scene *s, int i, bool must, thr_err *err)
   for (int k = 0; k < MAX_PLACES && least > 0; k++) {
     along(p, NUMBER_AT[k], at);
     thr_box box = pill_box(s, i, at);
-    double taken = thr_boxes_overlap(&s->boxes, box, THR_BOX_MARK | THR_BOX_NUMBER);
-    double cost = 1000 * taken + thr_boxes_overlap(&s->boxes, box, THR_BOX_ARROW);
+    double taken = thr_boxes_overlap(&s->boxes, box, THR_BOX_MARK | THR_BOX_NUMBER, must ? HUGE_VAL : 1e-9);
+    double cost = (taken > 0 ? MUCH + 1000 * taken : 0) + thr_boxes_overlap(&s->boxes, box, THR_BOX_ARROW, least);
     if (cost >= least || (taken > 0 && !must)) continue;
     least = cost;
     p->pill[0] = at[0];
     p->pill[1] = at[1];
     p->numbered = true;
   }
+  if (must && least >= MUCH) move_aside(s, i);
   if (!p->numbered) s->dropped++;
   return p->numbered ? thr_boxes_add(&s->boxes, pill_box(s, i, p->pill), THR_BOX_NUMBER, err) : THR_OK;
 }
@@ -75,10 +93,11 @@ static void place_arrow(thr_scene *s, int i)
   thr_scene_pass *p = &s->pass[i];
   double least = HUGE_VAL, at[2], length = hypot(p->to[0] - p->from[0], p->to[1] - p->from[1]);
   p->arrow_size = fmin(s->size.arrow, 0.8 * length);
-  if (p->arrow_size < 0.4 * s->size.arrow) p->arrow_size = 0;
+  if (p->arrow_size < 0.4 * s->size.arrow || p->arrow_size < SEEN) p->arrow_size = 0;
+  if (p->arrow_size == 0) return;
   for (int k = 0; k < MAX_PLACES && least > 0; k++) {
     along(p, ARROW_AT[k], at);
-    double hidden = thr_boxes_overlap(&s->boxes, arrow_box(at, 0.9 * p->arrow_size), THR_BOX_MARK | THR_BOX_NUMBER);
+    double hidden = thr_boxes_overlap(&s->boxes, arrow_box(at, 0.9 * p->arrow_size), THR_BOX_MARK | THR_BOX_NUMBER, least);
     if (hidden >= least) continue;
     least = hidden;
     p->arrow[0] = at[0];
@@ -91,7 +110,7 @@ static thr_status place_numbers(thr_scene *s, thr_err *err)
   thr_status st = THR_OK;
   double at[2];
   s->number_step = choose_step(s->size.pitch);
-  for (int i = 0; i < s->n_passes && !st; i++) {
+  for (int i = 0; i < s->n_passes && s->size.arrow >= SEEN && !st; i++) {
     along(&s->pass[i], ARROW_AT[0], at);
     st = thr_boxes_add(&s->boxes, arrow_box(at, s->size.arrow), THR_BOX_ARROW, err);
   }
@@ -113,21 +132,30 @@ static void curve_at(const double a[2], const double b[2], const double c[2], co
     at[k] = u * u * u * a[k] + 3 * u * u * t * b[k] + 3 * u * t * t * c[k] + t * t * t * d[k];
 }
 
+/* Boxes along a curve through a node, as dense as the line is wide. */
+static thr_status box_curve(thr_scene *s, const double a[2], const double b[2], const double c[2], const double d[2],
+                            thr_err *err)
+{
+  thr_status st = THR_OK;
+  double at[2], half = 0.5 * s->size.cord + s->size.casing;
+  int n = 2 + (int)fmin(hypot(d[0] - a[0], d[1] - a[1]) / half, 30);
+  for (int k = 1; k < n && !st; k++) {
+    curve_at(a, b, c, d, (double)k / n, at);
+    st = thr_boxes_add(&s->boxes, thr_box_around(at[0], at[1], half, half), THR_BOX_CORD, err);
+  }
+  return st;
+}
+
 /* Tells the boxes where the strands run through nodes and where the feet are, so that names keep off them. */
 static thr_status box_strands(thr_scene *s, thr_err *err)
 {
   thr_status st = THR_OK;
-  double at[2], half = 0.5 * s->size.cord + s->size.casing;
   for (int i = 0; i < s->n_passes && !st; i++) {
     const thr_scene_pass *p = &s->pass[i];
-    const double *start = p->number > 1 ? p[-1].to : s->mark[p->cord][0].at;
-    for (int k = 1; k < 6 && !st; k++) {
-      curve_at(start, p->turn[0], p->turn[1], p->from, k / 6.0, at);
-      st = thr_boxes_add(&s->boxes, thr_box_around(at[0], at[1], half, half), THR_BOX_CORD, err);
-      if (st || thr_scene_continues(s, i)) continue;
-      curve_at(p->to, s->last_turn[p->cord][0], s->last_turn[p->cord][1], s->mark[p->cord][1].at, k / 6.0, at);
-      st = thr_boxes_add(&s->boxes, thr_box_around(at[0], at[1], half, half), THR_BOX_CORD, err);
-    }
+    const thr_mark *m = s->mark[p->cord];
+    double(*last)[2] = s->last_turn[p->cord];
+    st = box_curve(s, p->number > 1 ? p[-1].to : m[0].at, p->turn[0], p->turn[1], p->from, err);
+    if (!st && !thr_scene_continues(s, i)) st = box_curve(s, p->to, last[0], last[1], m[1].at, err);
   }
   for (int v = 0; v < s->frame->n_nodes && !st; v++)
     if (s->frame->foot && s->frame->foot[v])
@@ -150,7 +178,7 @@ static thr_status place_name(thr_scene *s, int v, thr_err *err)
     for (int k = 0; k < 4; k++) {
       double d = (0.14 + 0.08 * k) * s->size.pitch + fmin(half_width / fmax(fabs(c), 1e-9), half_height / fmax(fabs(w), 1e-9));
       thr_box box = thr_box_around(s->at[v][0] + d * c, s->at[v][1] + d * w, half_width, half_height);
-      if (d > 0.6 * s->size.pitch + half_width || thr_boxes_overlap(&s->boxes, box, ~0) > 0) continue;
+      if (d > 0.6 * s->size.pitch + half_width || thr_boxes_overlap(&s->boxes, box, ~0, 1e-9) > 0) continue;
       s->named[v] = true;
       s->name_at[v][0] = s->at[v][0] + d * c;
       s->name_at[v][1] = s->at[v][1] + d * w;

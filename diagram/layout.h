@@ -41,12 +41,13 @@ thr_status thr_layout_adopt(thr_layout *l, const thr_frame *f, const double (*xy
 
 /* Fills crossings, capped, squeezed, median and ratio from xy. Two edges without a common node count as crossing when
  * they come nearer than 2 % of the median; two edges at a node when they leave it within 1 degree of each other.
- * Hash grid: O(m + pairs that are near); stops after 20 million pairs (capped). */
+ * Hash grid: O(m + pairs that are near); stops after 5 million pairs (capped). */
 thr_status thr_layout_measure(thr_layout *l, const thr_frame *f, thr_err *err) THR_MUST_CHECK;
 
-/* The layout to draw, by crossings + squeezed, then ratio. The plan view is taken as soon as it has no crossing and a
- * ratio of at least 0.5; of nearly equal candidates (ratio within a quarter) the earlier kind wins. extra[n_extra] are
- * further measured candidates (NULL and 0 for none), only used if they are better; the best is copied. */
+/* The layout to draw, by crossings + squeezed, then ratio; of nearly equal candidates (ratio within a quarter) the
+ * earlier kind wins, so a plan view with no crossing and a ratio of 0.8 or more is always taken, and one of 0.5 unless
+ * unrolling opens up a rim that it shows foreshortened. extra[n_extra] are further measured candidates (NULL and 0 for
+ * none), only used if they are better; the best is copied. */
 thr_status thr_layout_choose(thr_layout *best, const thr_frame *f, const thr_layout *extra, int n_extra,
                              thr_err *err) THR_MUST_CHECK;
 

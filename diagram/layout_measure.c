@@ -11,7 +11,7 @@
 static const double NEAR = 0.02;
 static const double NEAR_ANGLE = 0.017; /* rad, 1 degree */
 static const double SQUEEZED = 0.2;
-enum { MAX_PAIRS = 20000000 };
+enum { MAX_PAIRS = 5000000 };
 
 typedef struct {
   const thr_frame *f;

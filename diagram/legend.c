@@ -30,7 +30,7 @@ static double wrap(const char *words, double size, const char *attributes, doubl
   while (*words) {
     n = 0;
     int last_space = -1;
-    while (words[n] && n < fits) {
+    while (n < fits && words[n]) {
       if (words[n] == ' ') last_space = n;
       n++;
     }
@@ -94,7 +94,7 @@ double thr_legend_heading(const thr_scene *s, const char *title, double x, doubl
   else
     snprintf(numbers, sizeof numbers, "Every %dth pass is numbered, and each cord's first and last", s->number_step);
   if (s->dropped)
-    snprintf(line, sizeof line, "%s, but %d where there is no room.", numbers, s->dropped);
+    snprintf(line, sizeof line, "%s, except %d where there is no room.", numbers, s->dropped);
   else
     snprintf(line, sizeof line, "%s.", numbers);
   return wrap(line, TEXT_SIZE, "", x, y, width, t);
@@ -248,7 +248,8 @@ static double write_rows(const thr_scene *s, double x, double y, double width, i
   double column = SWATCH + 0.58 * TEXT_SIZE * widest + 6;
   int columns = (int)fmax(1, floor((width + 6) / column)), rows = (n + columns - 1) / columns;
   for (int i = 0; i < n; i++) {
-    double left = x + i / rows * column, base = y + i % rows * ROW;
+    int at = i / rows; /* rows run down, then across */
+    double left = x + at * column, base = y + i % rows * ROW;
     if (single)
       ranges_of_colour(s, i, line);
     else

@@ -26,8 +26,8 @@ static void judge(thr_scene *s, const thr_mark *m, double angle, double distance
   double r = m->radius, x = o[0] + distance * cos(angle), y = o[1] + distance * sin(angle);
   double disc = 4 * r * r;
   double cost = penalty + distance / s->size.pitch;
-  cost += 100 * thr_boxes_overlap(&s->boxes, thr_box_around(x, y, r + 0.4, r + 0.4), THR_BOX_MARK) / disc;
-  cost += 2 * thr_boxes_overlap(&s->boxes, thr_box_around(x, y, 0.8 * r, 0.8 * r), THR_BOX_BEAD) / disc;
+  cost += 100 * thr_boxes_overlap(&s->boxes, thr_box_around(x, y, r + 0.4, r + 0.4), THR_BOX_MARK, HUGE_VAL) / disc;
+  cost += 2 * thr_boxes_overlap(&s->boxes, thr_box_around(x, y, 0.8 * r, 0.8 * r), THR_BOX_BEAD, HUGE_VAL) / disc;
   if (cost < best->cost - 1e-9) *best = (candidate){{x, y}, angle, cost, distance > 0};
 }
 
@@ -73,7 +73,8 @@ static thr_status place_mark(thr_scene *s, thr_mark *m, int half, thr_err *err)
   m->at[1] = best.at[1];
   m->angle = atan2(sin(best.angle), cos(best.angle));
   m->beside = best.beside;
-  return thr_boxes_add(&s->boxes, thr_box_around(m->at[0], m->at[1], m->radius, m->radius), THR_BOX_MARK, err);
+  double reach = m->radius + 0.5; /* its outline too */
+  return thr_boxes_add(&s->boxes, thr_box_around(m->at[0], m->at[1], reach, reach), THR_BOX_MARK, err);
 }
 
 thr_status thr_scene_place_marks(thr_scene *s, thr_err *err)

@@ -16,6 +16,12 @@ thr_overview_options thr_overview_options_default(void)
   return (thr_overview_options){.title = NULL, .pitch_mm = 0, .layout = NULL};
 }
 
+/* Are the letters and numbers of places wanted on all four sides? */
+static bool both_sides(const thr_places *p)
+{
+  return p->n_columns > 10 || p->n_rows > 10;
+}
+
 static void write_feet(const thr_scene *s, thr_text *t)
 {
   thr_text_append(t, "<g id=\"feet\">\n");
@@ -127,27 +133,37 @@ static void write_numbers(const thr_scene *s, thr_text *t)
   thr_text_append(t, "</g>\n");
 }
 
-/* Letters below and numbers left of a grid-like picture, none nearer than 5 mm to the one before; else names of nodes. */
-static void write_places(const thr_scene *s, thr_text *t)
+/* Letters below and numbers left of a grid-like picture, of a large one above and right too; none nearer than 5 mm to the
+ * one before. */
+static void write_grid(const thr_scene *s, thr_text *t)
 {
   const thr_places *p = &s->places;
   double last = -HUGE_VAL, size = fmax(s->size.text, 3);
-  thr_text_append(t, "<g id=\"places\" class=\"place\">\n");
+  bool both = both_sides(p);
   for (int c = 0; c < p->n_columns; c++) {
     double x = (p->x[c] - s->origin[0]) * s->scale;
     if (x < last + 5) continue;
     thr_svg_text(t, last = x, s->extent.y1 + 1.6 * size, size, " class=\"middle\"", p->letter[c]);
+    if (both) thr_svg_text(t, x, s->extent.y0 - 0.9 * size, size, " class=\"middle\"", p->letter[c]);
   }
   last = HUGE_VAL;
   for (int r = 0; r < p->n_rows; r++) {
     double y = (s->origin[1] - p->y[r]) * s->scale;
     if (y > last - 5) continue;
-    thr_svg_text(t, s->extent.x0 - 4, (last = y) + 0.36 * size, size, " class=\"middle\"", p->number[r]);
+    last = y;
+    thr_svg_text(t, s->extent.x0 - 4, y + 0.36 * size, size, " class=\"middle\"", p->number[r]);
+    if (both) thr_svg_text(t, s->extent.x1 + 4, y + 0.36 * size, size, " class=\"middle\"", p->number[r]);
   }
+}
+
+static void write_places(const thr_scene *s, thr_text *t)
+{
+  thr_text_append(t, "<g id=\"places\" class=\"place\">\n");
+  write_grid(s, t);
   for (int v = 0; v < s->frame->n_nodes; v++) {
     char name[48];
     if (!s->named[v]) continue;
-    thr_places_name(p, s->frame, v, name);
+    thr_places_name(&s->places, s->frame, v, name);
     thr_svg_text(t, s->name_at[v][0], s->name_at[v][1] + 0.36 * s->size.text, s->size.text, " class=\"middle\"", name);
   }
   thr_text_append(t, "</g>\n");
@@ -186,10 +202,11 @@ static thr_status write_sheet(const thr_scene *s, const char *given, thr_text *s
 {
   thr_text body = {0};
   char title[160];
-  double room = s->places.n_columns ? PLACE_ROOM : 0, bottom;
-  double drawn = s->extent.x1 - s->extent.x0 + room, width = fmax(drawn, THR_LEGEND_WIDTH);
+  double room = s->places.n_columns ? PLACE_ROOM : 0, other = both_sides(&s->places) ? PLACE_ROOM : 0, bottom;
+  double drawn = s->extent.x1 - s->extent.x0 + room + other, width = fmax(drawn, THR_LEGEND_WIDTH);
   thr_legend_title(s, given, title);
   double y = thr_legend_heading(s, title, MARGIN, MARGIN, width, &body);
+  y += other;
   write_drawing(s, MARGIN + 0.5 * (width - drawn) + room - s->extent.x0, y - s->extent.y0, &body);
   y += s->extent.y1 - s->extent.y0 + room;
   thr_status st = thr_legend_foot(s, MARGIN, y + 2, width, &body, &bottom, err);

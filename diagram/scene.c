@@ -7,8 +7,8 @@
 #include <string.h>
 
 static const double PI = 3.14159265358979323846;
-static const double AUTO_PITCH = 24, MAX_SHEET = 1140; /* mm; A0 is 1189 long, less margins */
-static const double SHORT = 0.36;                      /* at most this share of an edge is left free at each end */
+static const double AUTO_PITCH = 24, MAX_WIDTH = 1130, MAX_HEIGHT = 1070; /* mm; A0 is 1189 long, less margins and text */
+static const double SHORT = 0.36; /* at most this share of an edge is left free at each end */
 
 int thr_scene_characters(const char *text)
 {
@@ -199,7 +199,9 @@ static thr_status place_nodes(thr_scene *s, double pitch_mm, thr_err *err)
   if (!(unit > 0)) unit = 1;
   /* a layout with many short edges gets a larger sheet, so that these have room too */
   double wanted = AUTO_PITCH * fmax(1, fmin(1.4, 0.6 / fmax(l->ratio, 0.01)));
-  s->size.pitch = pitch_mm > 0 ? pitch_mm : fmin(wanted, extent > 0 ? MAX_SHEET * unit / extent : wanted);
+  wanted *= fmax(1, fmin(1.5, 0.8 + 0.17 * s->n_passes / s->frame->n_edges)); /* and so does one with many lanes */
+  double relative = fmax((high[0] - low[0]) / MAX_WIDTH, (high[1] - low[1]) / MAX_HEIGHT) / unit;
+  s->size.pitch = pitch_mm > 0 ? pitch_mm : fmin(wanted, relative > 0 ? 1 / relative : wanted);
   s->scale = s->size.pitch / unit;
   s->width = (high[0] - low[0]) * s->scale;
   s->height = (high[1] - low[1]) * s->scale;
@@ -260,7 +262,7 @@ static void size_beads(thr_scene *s)
     int n = s->first_on[e + 1] - s->first_on[e];
     double room = fmin(0.62 * s->size.pitch, fmax(0.6 * thr_scene_edge_length(s, e), 0.2 * s->size.pitch));
     s->lane[e] = n > 1 ? fmin(s->size.lane, room / (n - 1)) : s->size.lane;
-    double wide = (n > 1 ? (n - 1) * s->lane[e] : 0) + 0.17 * s->size.pitch;
+    double wide = (n > 1 ? (n - 1) * s->lane[e] : 0) + 0.2 * s->size.pitch;
     s->bead[e] = fmax(wide, fmin(s->size.bead, fmax(0.55 * thr_scene_edge_length(s, e), 0.17 * s->size.pitch)));
   }
 }
@@ -287,7 +289,7 @@ static void size_gaps(thr_scene *s)
         gap = fmax(gap, 0.95 * clearance(s, h, s->around[first + (i + 1) % degree]));
         gap = fmax(gap, 0.95 * clearance(s, h, s->around[first + (i + degree - 1) % degree]));
       }
-      s->gap[h] = fmin(gap, SHORT * thr_scene_edge_length(s, h >> 1));
+      s->gap[h] = fmin(fmin(gap, s->size.pitch), SHORT * thr_scene_edge_length(s, h >> 1));
     }
   }
 }

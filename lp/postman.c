@@ -326,21 +326,20 @@ thr_status thr_postman_plan(const thr_frame *f, const thr_plan_options *o, const
 {
   postman m = {.f = f, .o = o, .limits = limits};
   *plan = (thr_plan){0};
-  bool stopped = false;
+  thr_err unproved = {0}; /* why the first unproved component is not proved */
   thr_status st = postman_init(&m, err);
   for (int k = 0; k < m.n_components && !st; k++) {
     thr_err local = {0};
     st = solve_component(&m, k, &local);
-    if (st == THR_ELIMIT) {
-      stopped = true; /* the other components still get their (quick) best */
-      st = THR_OK;
-    }
-    if (st) thr_fail(err, st, "%s", local.text);
+    if (st && st != THR_ELIMIT) thr_fail(err, st, "%s", local.text);
+    if (st != THR_ELIMIT) continue;
+    thr_fail(&unproved, st, "%s", local.text);
+    st = THR_OK; /* the other components still get their (quick) best */
   }
   if (!st) st = assemble(&m, plan, err);
   if (!st && !plan->proof.optimal)
     st = thr_fail(err, THR_ELIMIT, "%s: the cord is proved to be within %.3g %% of the shortest",
-                  stopped ? "stopped early" : "too many edges to round their lengths finely enough", 100 * plan->proof.gap);
+                  unproved.code ? unproved.text : "too many edges to round their lengths finely enough", 100 * plan->proof.gap);
   if (st && st != THR_ELIMIT) thr_plan_destroy(plan);
   postman_destroy(&m);
   return st;

@@ -420,10 +420,10 @@ static thr_status run(solver *s, thr_err *err)
       if (s->pool.count > before) continue;
       if ((st = finish(s, attempt++, &outcome, err)) || s->best.optimal) break;
     }
-    if (outcome == THR_LP_STOPPED) return thr_fail(err, THR_ELIMIT, "stopped before the shortest cord was proved");
+    if (outcome == THR_LP_STOPPED) return thr_fail(err, THR_ELIMIT, "stopped early");
   }
   if (st || s->best.optimal) return st;
-  return thr_fail(err, THR_ESOLVER, "the odd-cut bound and the best join do not meet; please report this framework");
+  return thr_fail(err, THR_ELIMIT, "the odd-cut bound and the best join do not meet; please report this framework");
 }
 
 thr_status thr_tjoin_solve(const thr_tjoin_problem *p, const thr_limits *limits, thr_tjoin *out, thr_err *err)

@@ -27,8 +27,8 @@ typedef struct {
   int rounds, rows; /* of the cutting-plane method, for --verbose */
 } thr_tjoin;
 
-/* THR_OK: optimal and certified in exact integer arithmetic. THR_ELIMIT: the limits stopped it, out holds the best
- * join and the bound so far (both valid). THR_ESOLVER: GLPK failed, or no certificate was reached; out is empty. */
+/* THR_OK: optimal and certified in exact integer arithmetic. THR_ELIMIT: the limits stopped it, or bound and join do not meet;
+ * out holds the best of both so far (each valid by itself). THR_ESOLVER: GLPK or igraph failed; out is empty. */
 thr_status thr_tjoin_solve(const thr_tjoin_problem *p, const thr_limits *limits, thr_tjoin *out, thr_err *err) THR_MUST_CHECK;
 void thr_tjoin_destroy(thr_tjoin *t);
 

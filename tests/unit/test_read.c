@@ -99,7 +99,7 @@ START_TEST(csv_errors)
   check_error("0,0,0\n1,0,0\n0,1\n0,2\n", csv, "f:4: there is no node '2'; the nodes are called '0' to '1'");
   check_error("0,0,0\n1,0,0\n0,1\n2,0,0\n", csv, "f:4: 3 fields where the rows before have 2; nodes come before edges");
   check_error("id,x,y\n1,0,0\n1,1,0\na,b\n", csv, "f: two nodes are called '1' (number 1 and number 2); give each its own name");
-  check_error("id,x,y\n1,0,\n", csv, "f:2: no y coordinate in column 3; give a number");
+  check_error("id,x,y\n1,,0\n", csv, "f:2: no x coordinate in column 2; give a number");
   check_error("x,y\n0,0\n1,0\na,b,length\n0,1,0\n", csv,
               "f:5: length '0' is not a positive number; leave it empty for the distance of the two nodes");
   check_error("id,x,y,foot\n1,0,0,maybe\n", csv, "f:2: 'maybe' in column 4 does not say whether this is a foot; use 1 or 0");
@@ -150,6 +150,9 @@ START_TEST(csv_pairs)
   err = (thr_err){0};
   ck_assert_int_eq(parse_pair("a,b\n1,2\n", "id,x,y\n", &d, &err), THR_EINPUT);
   ck_assert_str_eq(err.text, "nodes:1: the header names no columns x and y; name the columns id,x,y,z");
+  err = (thr_err){0};
+  ck_assert_int_eq(parse_pair("id,x,y\n1,0,\n", "a,b\n1,2\n", &d, &err), THR_EINPUT);
+  ck_assert_str_eq(err.text, "nodes:2: no y coordinate in column 3; give a number");
   err = (thr_err){0};
   ck_assert_int_eq(parse_pair("id,x,y,z\n", "a,b\n1,2\n", &d, &err), THR_EINPUT);
   ck_assert_str_eq(err.text, "nodes: no row with a node's coordinates");
@@ -475,7 +478,7 @@ START_TEST(file_errors)
   } bad[] = {{"data/none.json", "data/none.json: cannot open", THR_EIO},
              {"data", "data: cannot read", THR_EIO},
              {"roof.DXF", "roof.DXF: dxf files are not read", THR_EINPUT},
-             {"data/README.md", "data/README.md:1: ", THR_EINPUT},
+             {"LICENSE", "LICENSE: edges but no columns x and y", THR_EINPUT},
              {"tests/unit/files/alone-nodes.csv", "tests/unit/files/alone-nodes.csv: nodes but no edges", THR_EINPUT}};
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
     thr_frame f;
