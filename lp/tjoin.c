@@ -18,14 +18,15 @@ typedef struct {
   thr_lp *lp;
   double unit;                           /* costs of the linear programme = weights / unit, so that they are about 1 */
   double *cost, *x, *reduced_cost, *key; /* [n_edges] */
-  double *whole;       /* [n_edges] the weights themselves: GLPK's exact method rounds costs that are no integers */
-  double *dual;        /* [pool.count at the last solve] */
-  int64_t *value;      /* the same, rounded to integers that load no edge too much */
-  int solved;          /* rows at the last solve */
-  int *order, *parent; /* [n_edges], [n_nodes] scratch of the rounding */
-  bool *tree_join;     /* [n_edges] */
-  bool *leaf_used;     /* [n_leaves] */
-  wide *slack;         /* [n_edges] */
+  double *whole;        /* [n_edges] the weights themselves: GLPK's exact method rounds costs that are no integers */
+  double *dual;         /* [pool.count at the last solve] */
+  int64_t *value;       /* the same, rounded to integers that load no edge too much */
+  int solved;           /* rows at the last solve */
+  double bound_at_drop; /* objective when rows were last dropped */
+  int *order, *parent;  /* [n_edges], [n_nodes] scratch of the rounding */
+  bool *tree_join;      /* [n_edges] */
+  bool *leaf_used;      /* [n_leaves] */
+  wide *slack;          /* [n_edges] */
   thr_tjoin best;
 } solver;
 
@@ -318,20 +319,24 @@ static thr_status separate(solver *s, thr_err *err)
   return st;
 }
 
-/* Drops rows whose slack has been basic for a while, so that the linear programme stays small. */
+/* Drops rows whose slack has been basic for a while, so that the linear programme stays small. Only after the bound has
+ * risen: where it stands still (ties), the same rows would come back for ever. */
 static thr_status drop_idle(solver *s, thr_err *err)
 {
   enum { PATIENCE = 6 };
   bool *drop = thr_calloc((size_t)s->solved, sizeof *drop);
   if (!drop) return thr_nomem(err);
-  bool any = false;
+  bool any = false, risen = thr_lp_objective(s->lp) > s->bound_at_drop * (1 + 1e-9);
   for (int i = 0; i < s->solved; i++) {
     struct thr_oddcut *c = &s->pool.cut[i];
     c->idle = thr_lp_row_basic(s->lp, i) ? c->idle + 1 : 0;
-    any |= drop[i] = c->idle > PATIENCE;
+    any |= drop[i] = risen && c->idle > PATIENCE;
   }
   thr_status st = THR_OK;
-  if (any && !(st = thr_lp_drop_rows(s->lp, drop, err))) thr_oddcut_pool_drop(&s->pool, drop);
+  if (any && !(st = thr_lp_drop_rows(s->lp, drop, err))) {
+    thr_oddcut_pool_drop(&s->pool, drop);
+    s->bound_at_drop = thr_lp_objective(s->lp);
+  }
   free(drop);
   return st;
 }
