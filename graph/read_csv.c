@@ -260,7 +260,7 @@ static thr_status add_edge(csv *t)
 
 static thr_status add_line(csv *t)
 {
-  double a[3], b[3], length;
+  double a[3], b[3], length = 0;
   thr_status st = read_coordinates(t, t->c.xyz, a);
   if (!st) st = read_coordinates(t, t->c.xyz + 3, b);
   if (!st) st = read_length(t, &length);
@@ -341,6 +341,7 @@ static thr_status add_row(csv *t)
 static thr_status read_table(csv *t, const char *text, size_t n, const char *name, thr_csv_content *content)
 {
   bool more = true, used;
+  *content = THR_CSV_WHOLE;
   thr_status st = thr_scan_start(&t->scan, text, n, name, t->err);
   while (!st && !(st = next_row(t, &more)) && more) {
     if ((st = learn(t, &used))) break;

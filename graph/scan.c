@@ -12,7 +12,8 @@
 
 thr_status thr_scan_start(thr_scan *s, const char *text, size_t n, const char *name, thr_err *err)
 {
-  *s = (thr_scan){name, text ? text : "", (text ? text : "") + n, 1, 1};
+  if (!text) text = ""; /* an empty file's */
+  *s = (thr_scan){name, text, text + n, 1, 1};
   const char *nul = memchr(s->at, '\0', n);
   if (nul) {
     for (const char *c = s->at; c < nul; c++)

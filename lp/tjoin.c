@@ -348,32 +348,6 @@ static void report(const solver *s, const char *what)
   s->limits->progress(s->limits->user, what, (double)s->best.length, (double)s->best.sum / denominator);
 }
 
-/* The relaxation has no violated cut left: its bound is the optimum, only the join is not found yet because x is a fractional
- * point of the optimal face (ties). Slightly different costs make the point integral; the proof stays with the true ones. */
-static thr_status break_ties(solver *s, double strength, thr_lp_outcome *outcome, thr_err *err)
-{
-  double *tilted = thr_calloc((size_t)s->p->n_edges, sizeof *tilted);
-  if (!tilted) return thr_nomem(err);
-  uint64_t state = 12345;
-  for (int e = 0; e < s->p->n_edges; e++) {
-    state = state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
-    tilted[e] = s->cost[e] + strength * (double)(state >> 11) / 9007199254740992.0;
-  }
-  double *true_cost = s->cost;
-  thr_status st = thr_lp_set_costs(s->lp, tilted, err);
-  s->cost = tilted;
-  for (int round = 0; round < 200 && !st && !s->best.optimal; round++) {
-    int before = s->pool.count;
-    if ((st = solve_rows(s, false, outcome, err)) || *outcome == THR_LP_STOPPED) break;
-    if ((st = round_to_join(s, err))) break;
-    s->best.optimal = (wide)s->best.sum > ((wide)s->best.length - 1) * THR_DUAL_DENOMINATOR;
-    if ((st = separate(s, err)) || s->pool.count == before) break;
-  }
-  s->cost = true_cost;
-  free(tilted);
-  return st ? st : thr_lp_set_costs(s->lp, s->cost, err);
-}
-
 /* The inexact method cannot tell joins apart whose weights differ by a unit, and so may stop at a point that looks
  * integral: the exact one goes on from there, with cuts of its own, until none is violated. */
 static thr_status solve_exactly(solver *s, thr_lp_outcome *outcome, thr_err *err)
@@ -389,14 +363,6 @@ static thr_status solve_exactly(solver *s, thr_lp_outcome *outcome, thr_err *err
   return THR_OK;
 }
 
-/* When separation finds nothing and the certificate does not close: sharpen the dual exactly, then break ties. */
-static thr_status finish(solver *s, int attempt, thr_lp_outcome *outcome, thr_err *err)
-{
-  thr_status st = solve_exactly(s, outcome, err);
-  if (st || *outcome == THR_LP_STOPPED || s->best.optimal) return st;
-  return break_ties(s, 1e-3 / (double)(1 + attempt * attempt), outcome, err);
-}
-
 /* Balls round the odd nodes, and what they prove before any linear programme is solved. */
 static thr_status start(solver *s, thr_err *err)
 {
@@ -406,28 +372,32 @@ static thr_status start(solver *s, thr_err *err)
   return st ? st : certify(s, true, err);
 }
 
+/* Until bound and join meet, separation finds nothing, or the limits stop it. */
+static thr_status solve_inexactly(solver *s, thr_lp_outcome *outcome, thr_err *err)
+{
+  for (int before = -1; before < s->pool.count;) {
+    s->best.rounds++;
+    thr_status st = solve_rows(s, false, outcome, err);
+    if (st) return st;
+    if ((st = round_to_join(s, err))) return st;
+    if ((st = certify(s, false, err))) return st; /* also of an unfinished solve: any multipliers can be made valid */
+    report(s, "odd cuts");
+    if (s->best.optimal || *outcome == THR_LP_STOPPED) return THR_OK;
+    if ((st = drop_idle(s, err))) return st;
+    before = s->pool.count;
+    if ((st = separate(s, err))) return st;
+  }
+  return THR_OK;
+}
+
 static thr_status run(solver *s, thr_err *err)
 {
-  enum { ATTEMPTS = 12 };
   thr_lp_outcome outcome = THR_LP_OPTIMAL;
   thr_status st = start(s, err);
-  for (int attempt = 0; !st && attempt < ATTEMPTS;) {
-    s->best.rounds++;
-    if ((st = solve_rows(s, false, &outcome, err))) break;
-    if ((st = round_to_join(s, err))) break;
-    if ((st = certify(s, false, err))) break; /* also of an unfinished solve: any multipliers can be made valid */
-    report(s, "odd cuts");
-    if (s->best.optimal) return THR_OK;
-    if (outcome == THR_LP_OPTIMAL) {
-      if ((st = drop_idle(s, err))) break;
-      int before = s->pool.count;
-      if ((st = separate(s, err))) break;
-      if (s->pool.count > before) continue;
-      if ((st = finish(s, attempt++, &outcome, err)) || s->best.optimal) break;
-    }
-    if (outcome == THR_LP_STOPPED) return thr_fail(err, THR_ELIMIT, "stopped early");
-  }
+  if (!st && !s->best.optimal) st = solve_inexactly(s, &outcome, err);
+  if (!st && !s->best.optimal && outcome == THR_LP_OPTIMAL) st = solve_exactly(s, &outcome, err);
   if (st || s->best.optimal) return st;
+  if (outcome == THR_LP_STOPPED) return thr_fail(err, THR_ELIMIT, "stopped early");
   return thr_fail(err, THR_ELIMIT, "the odd-cut bound and the best join do not meet; please report this framework");
 }
 
