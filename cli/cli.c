@@ -241,7 +241,9 @@ int cli_read_plan(const char *path, thr_plan *p)
 {
   thr_err err = {0}, found = {0};
   if (thr_plan_read(p, path, &err)) return cli_fail(&err);
-  if (thr_check_plan(p, &found)) cli_note("warning: %s does not hold: %s", path, found.text);
+  thr_status st = thr_check_plan(p, &found);
+  if (st)
+    cli_error(st == THR_EVIOLATED ? "warning: %s does not hold: %s" : "warning: %s could not be checked: %s", path, found.text);
   return EXIT_OK;
 }
 
@@ -262,6 +264,10 @@ int cli_in_folder(const char *folder, const char *file, char *out, size_t size)
 {
   char part[1024];
   size_t n = strlen(folder);
+  if (n == 0) {
+    cli_error("an empty name is no folder");
+    return EXIT_USAGE;
+  }
   if (n + strlen(file) + 2 > size || n >= sizeof part) {
     cli_error("%.60s..: the path is too long", folder);
     return EXIT_INPUT;
@@ -333,6 +339,7 @@ thr_limits cli_limits(double seconds)
   thr_limits l = {.interrupted = &interrupted, .user = &last};
   struct sigaction act = {.sa_handler = on_interrupt};
   sigaction(SIGINT, &act, NULL);
+  sigaction(SIGTERM, &act, NULL); /* what timeout and batch systems send */
   if (seconds > 0) l.deadline = thr_clock() + seconds;
   if (cli_verbose)
     l.progress = log_progress;

@@ -97,6 +97,7 @@ static int parse(int argc, char **argv, arguments *a)
   if (done >= 0) return done;
   if (optind + 1 != argc) return cli_usage("plan", optind == argc ? "which framework?" : "one framework at a time");
   a->path = argv[optind];
+  if ((a->output && !*a->output) || (a->draw && !*a->draw)) return cli_usage("plan", "an empty name is no place to write to");
   if (a->json && a->output && strcmp(a->output, "-") == 0) return cli_usage("plan", "--json and -o - both want stdout");
   return -1;
 }
@@ -226,14 +227,11 @@ static int write_plan(const thr_plan *p, const char *path)
 /* Plan and diagrams where the options say; where they say nothing, in a folder named after the framework. */
 static int write_outputs(const arguments *a, const thr_plan *p)
 {
-  char stem[256], plan_path[1200], svg_path[1200];
+  char stem[256], in_folder[1200], svg_path[1200];
+  const char *plan_path = a->output ? a->output : in_folder;
   cli_stem(a->path, stem, sizeof stem);
   const char *folder = a->draw ? a->draw : a->output ? NULL : stem;
-  int code = EXIT_OK;
-  if (a->output)
-    snprintf(plan_path, sizeof plan_path, "%s", a->output);
-  else
-    code = cli_in_folder(folder, "plan.json", plan_path, sizeof plan_path);
+  int code = a->output ? EXIT_OK : cli_in_folder(folder, "plan.json", in_folder, sizeof in_folder);
   if (!code && folder) code = cli_in_folder(folder, "overview.svg", svg_path, sizeof svg_path);
   if (!code) code = write_plan(p, plan_path);
   if (!code && folder) code = cli_draw_overview(p, svg_path, 0);

@@ -41,7 +41,7 @@ static int version(void)
   return EXIT_OK;
 }
 
-int main(int argc, char **argv)
+static int dispatch(int argc, char **argv)
 {
   if (argc < 2) {
     help(stderr);
@@ -63,4 +63,12 @@ int main(int argc, char **argv)
     if (strcmp(name, command[i].name) == 0) return command[i].run(argc - 1, argv + 1);
   cli_error("there is no command %s; `thread --help` lists them", name);
   return EXIT_USAGE;
+}
+
+int main(int argc, char **argv)
+{
+  int code = dispatch(argc, argv);
+  if (fflush(stdout) == 0 && !ferror(stdout)) return code;
+  cli_error("cannot write to stdout");
+  return code ? code : EXIT_INPUT;
 }

@@ -1,4 +1,5 @@
-/* The checker. Nothing here trusts what a plan says about itself; nothing here comes from the code that made it. */
+/* The checker. Nothing here trusts what a plan says about itself. With the code that makes plans it shares the framework, the
+ * readers, and the one line that defines the weights (thr_certificate_weight). */
 #include "graph/check.h"
 
 #include <inttypes.h>
@@ -182,7 +183,7 @@ static void clear(certificate_check *k)
 static thr_status judge(const certificate_check *k, wide sum, const int *passes, verdict *out, thr_err *err)
 {
   const thr_certificate *c = k->c;
-  bool extra = false; /* by passes: a scale may round their weights to nothing */
+  bool extra = false, weightless = false; /* a scale may round what passes cost to nothing */
   wide join = 0, slots = (wide)c->n_slots * c->slot_cost;
   double rounding = 0, total = 0;
   for (int j = k->edge_start[c->component]; j < k->edge_start[c->component + 1]; j++) {
@@ -190,6 +191,7 @@ static thr_status judge(const certificate_check *k, wide sum, const int *passes,
     int64_t w = thr_certificate_weight(k->f, c, e);
     join += (wide)w * (passes[e] - k->o->cover);
     extra |= passes[e] > k->o->cover;
+    weightless |= passes[e] > k->o->cover && w == 0;
     rounding += fabs(k->f->length[e] - (double)w / c->scale) * fmax(1, passes[e] - k->o->cover);
     total += k->f->length[e];
   }
@@ -202,7 +204,7 @@ static thr_status judge(const certificate_check *k, wide sum, const int *passes,
   /* One cord is a T-join of weight join + slots, and weights are integers: nothing fits between the bound and the next one. */
   double bound = (double)(sum - slots * c->denominator) / (double)c->denominator / c->scale - rounding;
   out->extra_bound = bound > 0 ? bound : 0;
-  out->optimal = !extra || (sum > (join + slots - 1) * c->denominator && rounding <= 1e-9 * total);
+  out->optimal = !extra || (!weightless && sum > (join + slots - 1) * c->denominator && rounding <= 1e-9 * total);
   return THR_OK;
 }
 
@@ -351,12 +353,57 @@ static thr_status metric(const char *name, double stated, double found, double w
   return thr_fail(err, THR_EVIOLATED, "metrics.%s: stated %.12g, but the cords give %.12g", name, stated, found);
 }
 
-static thr_status check_metrics(const thr_plan *p, thr_err *err)
+/* Angle between two directions by Kahan's formula on unit vectors: another way than the one that made the plan. */
+static double angle_between(const thr_frame *f, int in, int out)
 {
-  thr_metrics m;
+  double unit[2][3], sum = 0, difference = 0;
+  for (int k = 0; k < 2; k++) {
+    int h = k ? out : in;
+    const double *from = f->xyz[thr_tail(f, h)], *to = f->xyz[thr_head(f, h)];
+    double size = hypot(hypot(to[0] - from[0], to[1] - from[1]), to[2] - from[2]);
+    for (int i = 0; i < 3; i++)
+      unit[k][i] = (to[i] - from[i]) / size;
+  }
+  for (int i = 0; i < 3; i++) {
+    sum += (unit[0][i] + unit[1][i]) * (unit[0][i] + unit[1][i]);
+    difference += (unit[0][i] - unit[1][i]) * (unit[0][i] - unit[1][i]);
+  }
+  return 2 * atan2(sqrt(difference), sqrt(sum));
+}
+
+/* Metrics from the cords alone; passes[n_edges] as check_cords counted them. */
+static thr_metrics recompute(const thr_plan *p, const int *passes)
+{
+  const thr_frame *f = &p->frame;
+  thr_metrics m = {0};
+  for (int e = 0; e < f->n_edges; e++) {
+    m.base_length += f->length[e] * p->options.cover;
+    m.overlap += f->length[e] * (passes[e] - p->options.cover);
+    m.length += f->length[e] * passes[e];
+    m.passes += passes[e];
+    if (passes[e] > m.most_passes) m.most_passes = passes[e];
+  }
+  for (int i = 0; i < p->n_cords; i++) {
+    const thr_cord *c = &p->cord[i];
+    double turning = 0;
+    for (int k = c->closed ? 0 : 1; k < c->n_passes; k++) {
+      int in = c->half[k ? k - 1 : c->n_passes - 1], out = c->half[k];
+      double angle = angle_between(f, in, out);
+      turning += angle;
+      m.worst_turn = fmax(m.worst_turn, angle);
+      m.u_turns += in >> 1 == out >> 1;
+    }
+    m.turning += turning;
+    m.max_turning = fmax(m.max_turning, turning);
+  }
+  return m;
+}
+
+static thr_status check_metrics(const thr_plan *p, const int *passes, thr_err *err)
+{
+  thr_metrics m = recompute(p, passes);
   const thr_metrics *s = &p->metrics;
-  thr_status st = thr_plan_measure(&p->frame, p->options.cover, p->cord, p->n_cords, &m, err);
-  if (st) return st;
+  thr_status st;
   if ((st = metric("length", s->length, m.length, m.length, err))) return st;
   if ((st = metric("base_length", s->base_length, m.base_length, m.length, err))) return st;
   if ((st = metric("overlap", s->overlap, m.overlap, m.length, err))) return st;
@@ -379,6 +426,9 @@ static thr_status check_claim(const thr_plan *p, thr_err *err)
   if (claim->optimal && !optimal)
     return thr_fail(err, THR_EVIOLATED, "proof.length: says optimal, but the certificate only proves %.12g of %.12g", lower_bound,
                     p->metrics.length);
+  if (claim->optimal && !close_to(claim->lower_bound, p->metrics.length, p->metrics.length))
+    return thr_fail(err, THR_EVIOLATED, "proof.length: says optimal, but its lower bound %.12g is not the length %.12g",
+                    claim->lower_bound, p->metrics.length);
   if (claim->lower_bound > lower_bound && !close_to(claim->lower_bound, lower_bound, p->metrics.length))
     return thr_fail(err, THR_EVIOLATED, "proof.length.lower_bound: stated %.12g, but the certificate proves %.12g",
                     claim->lower_bound, lower_bound);
@@ -412,7 +462,7 @@ thr_status thr_check_plan(const thr_plan *p, thr_err *err)
   if ((st = thr_frame_components(&p->frame, component, &n_components, err))) goto done;
   if ((st = check_names(p, err))) goto done;
   if ((st = check_cords(&p->frame, &p->options, component, p->cord, p->n_cords, passes, err))) goto done;
-  if ((st = check_metrics(p, err))) goto done;
+  if ((st = check_metrics(p, passes, err))) goto done;
   if (p->proof.present) st = check_claim(p, err);
 done:
   free(component);

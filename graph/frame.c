@@ -12,47 +12,20 @@ static const double SHORTEST = 1e-100, LONGEST = 1e100;
 
 /* ---- drafts ---- */
 
-/* Bytes of the UTF-8 character at s, 0 if it is none (RFC 3629, overlong forms and surrogates excluded as far as their first
- * two bytes show). */
-static int utf8_length(const unsigned char *s)
-{
-  int n = s[0] < 0x80                   ? 1
-          : s[0] >= 0xc2 && s[0] < 0xe0 ? 2
-          : s[0] >= 0xe0 && s[0] < 0xf0 ? 3
-          : s[0] >= 0xf0 && s[0] < 0xf5 ? 4
-                                        : 0;
-  if ((s[0] == 0xe0 && s[1] < 0xa0) || (s[0] == 0xed && s[1] > 0x9f) || (s[0] == 0xf0 && s[1] < 0x90) ||
-      (s[0] == 0xf4 && s[1] > 0x8f))
-    return 0;
-  for (int i = 1; i < n; i++)
-    if (s[i] < 0x80 || s[i] > 0xbf) return 0;
-  return n;
-}
-
-/* Copy of a name that every output can carry: control characters become spaces, bytes that are no UTF-8 are taken as Latin-1. */
+/* Copy of a name that every output can carry: control characters become spaces. Readers see to it that it is UTF-8. */
 static char *clean_name(const char *name)
 {
-  char *copy = thr_calloc(2 * strlen(name) + 1, 1), *to = copy;
-  for (const unsigned char *s = (const unsigned char *)name; copy && *s;) {
-    int n = utf8_length(s);
-    if (n == 0) {
-      *to++ = (char)(0xc0 | *s >> 6);
-      *to++ = (char)(0x80 | (*s++ & 0x3f));
-    } else if (*s < 32 || *s == 127) {
-      *to++ = ' ';
-      s++;
-    } else {
-      for (; n > 0; n--)
-        *to++ = (char)*s++;
-    }
-  }
+  char *copy = thr_strdup(name);
+  for (char *c = copy; c && *c; c++)
+    if ((unsigned char)*c < 32 || *c == 127) *c = ' ';
   return copy;
 }
 
 thr_status thr_draft_add_node(thr_draft *d, const double xyz[3], const char *name, bool foot, thr_err *err)
 {
-  if (!isfinite(xyz[0]) || !isfinite(xyz[1]) || !isfinite(xyz[2]))
-    return thr_fail(err, THR_EINPUT, "node %d has a coordinate that is not a finite number", d->n_nodes);
+  for (int i = 0; i < 3; i++)
+    if (!(fabs(xyz[i]) < LONGEST))
+      return thr_fail(err, THR_EINPUT, "node %d has a coordinate that is not a finite number below %g", d->n_nodes, LONGEST);
   thr_status st = thr_grow(&d->node, d->n_nodes, &d->nodes_capacity, sizeof *d->node, err);
   if (st) return st;
   char *copy = NULL;
@@ -136,6 +109,30 @@ static double diagonal_of(const double (*xyz)[3], int n, size_t stride)
     }
   }
   return distance(low, high);
+}
+
+static int ascending(const void *pa, const void *pb)
+{
+  double a = *(const double *)pa, b = *(const double *)pb;
+  return (a > b) - (a < b);
+}
+
+/* 1e-6 of the bounding box's diagonal, but no more than a thousandth of the median edge: one stray node far away must not
+ * weld everything else together. */
+static thr_status default_tolerance(const thr_draft *d, double *tolerance, thr_err *err)
+{
+  double *length = thr_calloc((size_t)d->n_edges, sizeof *length);
+  if (!length) return thr_nomem(err);
+  int n = 0;
+  for (int e = 0; e < d->n_edges; e++) {
+    double apart = distance(d->node[d->edge[e].a].xyz, d->node[d->edge[e].b].xyz);
+    if (apart > 0) length[n++] = apart;
+  }
+  qsort(length, (size_t)n, sizeof *length, ascending);
+  *tolerance = 1e-6 * diagonal_of((const double(*)[3])d->node[0].xyz, d->n_nodes, sizeof *d->node);
+  if (n > 0) *tolerance = fmin(*tolerance, 1e-3 * length[n / 2]);
+  free(length);
+  return THR_OK;
 }
 
 /* ---- from draft to framework ---- */
@@ -228,6 +225,7 @@ static thr_status fill_edges(thr_frame *f, const thr_draft *d, const int *parent
     int a = index[parent[d->edge[e].a]], b = index[parent[d->edge[e].b]];
     double given = d->edge[e].length, euclidean = distance(f->xyz[a], f->xyz[b]);
     double length = given != 0 ? given : euclidean;
+    if (!(euclidean > SHORTEST)) length = euclidean; /* without a direction there are no angles */
     if (!(length > SHORTEST && length < LONGEST))
       return thr_fail(err, THR_EINPUT, "edge %d (%s to %s) has length %g; lengths must lie between %g and %g", e, f->name[a],
                       f->name[b], length, SHORTEST, LONGEST);
@@ -247,10 +245,10 @@ thr_status thr_draft_build(const thr_draft *d, double tolerance, thr_frame *fram
   r.nodes_read = d->n_nodes;
   r.edges_read = d->n_edges;
   if (d->n_edges == 0) return thr_fail(err, THR_EINPUT, "no edge found; a framework needs at least one edge between two nodes");
-  if (tolerance < 0) tolerance = 1e-6 * diagonal_of((const double(*)[3])d->node[0].xyz, d->n_nodes, sizeof *d->node);
+  thr_status st = THR_OK;
+  if (tolerance < 0 && (st = default_tolerance(d, &tolerance, err))) return st;
   r.weld_tolerance = tolerance;
 
-  thr_status st;
   int *parent = thr_calloc((size_t)d->n_nodes, sizeof *parent);
   int *index = thr_calloc((size_t)d->n_nodes, sizeof *index);
   bool *keep = thr_calloc((size_t)d->n_edges, sizeof *keep);

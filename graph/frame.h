@@ -49,8 +49,8 @@ typedef struct {
   char units[16]; /* "" = not said */
 } thr_draft;
 
-/* Appends a node; name may be NULL and is copied, control characters as spaces and what is no UTF-8 as Latin-1. Coordinates must
- * be finite (THR_EINPUT otherwise). */
+/* Appends a node; name (UTF-8) may be NULL and is copied, control characters as spaces. Coordinates must be finite and
+ * below 1e100 (THR_EINPUT otherwise). */
 thr_status thr_draft_add_node(thr_draft *d, const double xyz[3], const char *name, bool foot, thr_err *err) THR_MUST_CHECK;
 /* Appends an edge between node indices that exist already (THR_EINPUT otherwise). length 0 = Euclidean. */
 thr_status thr_draft_add_edge(thr_draft *d, int a, int b, double length, thr_err *err) THR_MUST_CHECK;
@@ -68,9 +68,9 @@ typedef struct {
   char skipped_kind[32]; /* the first such record's keyword */
 } thr_read_report;
 
-/* Welds nodes closer than tolerance (< 0: 1e-6 of the bounding box's diagonal), drops zero-length and duplicate
- * edges and isolated nodes, and fills frame and report (nodes_read .. isolated_nodes). The lowest file index of a
- * welded group gives coordinates and name; any member's foot makes it a foot. Nodes and edges keep file order.
+/* Welds nodes closer than tolerance (< 0: 1e-6 of the bounding box's diagonal, at most a thousandth of the median edge), drops
+ * zero-length and duplicate edges and isolated nodes, and fills frame and report (nodes_read .. isolated_nodes). The lowest file
+ * index of a welded group gives coordinates and name; any member's foot makes it a foot. Nodes and edges keep file order.
  * THR_EINPUT if no edge is left or an own length is not positive and finite. O(n log n). The draft is unchanged. */
 thr_status thr_draft_build(const thr_draft *d, double tolerance, thr_frame *frame, thr_read_report *report,
                            thr_err *err) THR_MUST_CHECK;

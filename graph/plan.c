@@ -76,10 +76,16 @@ double thr_cord_length(const thr_frame *f, const thr_cord *c)
   return sum;
 }
 
+/* Direction of a half-edge with its largest component scaled to 1: products neither overflow nor vanish. */
 static void direction(const thr_frame *f, int h, double d[3])
 {
-  for (int i = 0; i < 3; i++)
+  double largest = 0;
+  for (int i = 0; i < 3; i++) {
     d[i] = f->xyz[thr_head(f, h)][i] - f->xyz[thr_tail(f, h)][i];
+    largest = fmax(largest, fabs(d[i]));
+  }
+  for (int i = 0; i < 3; i++)
+    d[i] /= largest;
 }
 
 double thr_turn_angle(const thr_frame *f, int in, int out)

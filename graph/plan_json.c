@@ -227,6 +227,22 @@ static thr_status index_at(const reader *r, const thr_json *list, int i, int lim
   return THR_OK;
 }
 
+/* A member that this version does not know may be a claim that nobody checked. known ends with NULL. */
+static thr_status only_members(const reader *r, const thr_json *o, const char *place, const char *const *known)
+{
+  void *iter = NULL;
+  const char *key;
+  const thr_json *value;
+  while (thr_json_next(o, &iter, &key, &value)) {
+    int i = 0;
+    while (known[i] && strcmp(known[i], key) != 0)
+      i++;
+    if (!known[i])
+      return thr_fail(r->err, THR_EVIOLATED, "%s: %s.%s: this version does not know it and cannot check it", r->name, place, key);
+  }
+  return THR_OK;
+}
+
 static thr_status read_nodes(const reader *r, const thr_json *o, thr_draft *d)
 {
   const thr_json *nodes, *names = thr_json_get(o, "names");
@@ -320,6 +336,8 @@ static thr_status read_options(const reader *r, const thr_json *doc, const thr_f
   thr_status st = need(r, doc, "options", THR_JSON_OBJECT, &v);
   if (st) return st;
   *o = thr_plan_options_default();
+  static const char *const known[] = {"objective", "joint", "cover", "ends", "end_nodes", "time_limit", "mu", NULL};
+  if ((st = only_members(r, v, "options", known))) return st;
   if ((st = only_known(r, v, "objective", "length"))) return st;
   if ((st = only_known(r, v, "joint", "solid"))) return st;
   if ((st = get_int(r, v, "cover", 1, 100, &o->cover))) return st;
@@ -404,7 +422,10 @@ static thr_status read_cords(const reader *r, const thr_json *doc, thr_plan *p)
 static thr_status read_metrics(const reader *r, const thr_json *doc, thr_metrics *m)
 {
   const thr_json *v;
+  static const char *const known[] = {"length",  "base_length", "overlap",    "passes",  "most_passes",
+                                      "turning", "max_turning", "worst_turn", "u_turns", NULL};
   thr_status st = need(r, doc, "metrics", THR_JSON_OBJECT, &v);
+  if (!st) st = only_members(r, v, "metrics", known);
   if (st) return st;
   if ((st = get_double(r, v, "length", &m->length))) return st;
   if ((st = get_double(r, v, "base_length", &m->base_length))) return st;
@@ -454,7 +475,11 @@ static thr_status read_certificate(const reader *r, const thr_json *v, const thr
 static thr_status read_proof(const reader *r, const thr_json *doc, const thr_frame *f, thr_length_proof *proof)
 {
   const thr_json *all, *list;
+  static const char *const claims[] = {"length", NULL};
+  static const char *const known[] = {"status", "lower_bound", "gap", "method", "certificate", NULL};
   thr_status st = need(r, doc, "proof", THR_JSON_OBJECT, &all);
+  if (!st) st = only_members(r, all, "proof", claims);
+  if (!st) st = only_members(r, thr_json_get(all, "length"), "proof.length", known);
   if (st) return st;
   const thr_json *v = thr_json_get(all, "length");
   if (!v) return THR_OK;

@@ -1,8 +1,9 @@
 /* Growing text, number formatting, whole-file input and atomic output. */
-#define _POSIX_C_SOURCE 200809L
+#define _XOPEN_SOURCE 700
 #include "graph/text.h"
 
 #include <errno.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -112,16 +113,46 @@ static thr_status write_stdout(const thr_text *t, thr_err *err)
   return fflush(stdout) == 0 ? THR_OK : write_failed("stdout", err);
 }
 
-/* mkstemp makes the file private; give it the mode that a plain fopen would have given. */
-static int open_temporary(char *name)
+static bool write_all(FILE *f, const thr_text *t)
 {
-  int fd = mkstemp(name);
-  if (fd >= 0) {
-    mode_t mask = umask(0);
-    umask(mask);
-    fchmod(fd, 0666 & ~mask);
+  bool ok = t->length == 0 || fwrite(t->data, 1, t->length, f) == t->length;
+  return fclose(f) == 0 && ok;
+}
+
+/* A new file beside path, which then takes path's place; mode is what path is to have. */
+static thr_status replace_file(const thr_text *t, const char *path, mode_t mode, thr_err *err)
+{
+  static const char name[] = ".thread-XXXXXX"; /* short: the folder may allow no longer name than path's */
+  const char *slash = strrchr(path, '/');
+  size_t folder = slash ? (size_t)(slash - path) + 1 : 0;
+  char *temporary = thr_calloc(folder + sizeof name, 1);
+  if (!temporary) return thr_nomem(err);
+  memcpy(temporary, path, folder);
+  memcpy(temporary + folder, name, sizeof name);
+  thr_status st = THR_OK;
+  int fd = mkstemp(temporary);
+  FILE *f = fd >= 0 && fchmod(fd, mode) == 0 ? fdopen(fd, "wb") : NULL;
+  if (!f || !write_all(f, t) || rename(temporary, path) != 0) {
+    st = write_failed(path, err);
+    if (!f && fd >= 0) close(fd);
+    if (fd >= 0) unlink(temporary);
   }
-  return fd;
+  free(temporary);
+  return st;
+}
+
+/* The same with the signals held back that would leave the temporary file behind. */
+static thr_status replace_undisturbed(const thr_text *t, const char *path, mode_t mode, thr_err *err)
+{
+  sigset_t held, before;
+  sigemptyset(&held);
+  const int signals[] = {SIGINT, SIGTERM, SIGHUP, SIGXFSZ};
+  for (size_t i = 0; i < sizeof signals / sizeof *signals; i++)
+    sigaddset(&held, signals[i]);
+  sigprocmask(SIG_BLOCK, &held, &before);
+  thr_status st = replace_file(t, path, mode, err);
+  sigprocmask(SIG_SETMASK, &before, NULL);
+  return st;
 }
 
 thr_status thr_text_write(const thr_text *t, const char *path, thr_err *err)
@@ -129,36 +160,22 @@ thr_status thr_text_write(const thr_text *t, const char *path, thr_err *err)
   if (t->failed) return thr_nomem(err);
   if (strcmp(path, "-") == 0) return write_stdout(t, err);
   struct stat target;
-  if (stat(path, &target) == 0 && S_ISDIR(target.st_mode))
-    return thr_fail(err, THR_EIO, "%s: is a folder; give the name of a file", path);
-
-  /* A device or pipe (/dev/stdout, /dev/null) must be written through, not replaced. */
-  bool replace = stat(path, &target) != 0 || S_ISREG(target.st_mode);
-  size_t n = strlen(path) + sizeof ".XXXXXX";
-  char *temporary = thr_calloc(n, 1);
-  if (!temporary) return thr_nomem(err);
-  snprintf(temporary, n, "%s%s", path, replace ? ".XXXXXX" : "");
-  thr_status st = THR_OK;
-  FILE *f = NULL;
-  if (replace) {
-    int fd = open_temporary(temporary);
-    f = fd >= 0 ? fdopen(fd, "wb") : NULL;
-  } else {
-    f = fopen(path, "wb");
+  bool exists = stat(path, &target) == 0;
+  if (exists && S_ISDIR(target.st_mode)) return thr_fail(err, THR_EIO, "%s: is a folder; give the name of a file", path);
+  if (exists && !S_ISREG(target.st_mode)) { /* a device or pipe (/dev/stdout) must be written through, not replaced */
+    FILE *f = fopen(path, "wb");
+    return f && write_all(f, t) ? THR_OK : write_failed(path, err);
   }
-  if (!f) {
-    st = write_failed(path, err);
-    goto done;
+  if (!exists) {
+    mode_t mask = umask(0);
+    umask(mask);
+    return replace_undisturbed(t, path, 0666 & ~mask, err);
   }
-  bool ok = t->length == 0 || fwrite(t->data, 1, t->length, f) == t->length;
-  if (fclose(f) != 0) ok = false;
-  if (ok && replace) ok = rename(temporary, path) == 0;
-  if (!ok) {
-    st = write_failed(path, err);
-    if (replace) unlink(temporary);
-  }
-done:
-  free(temporary);
+  if (access(path, W_OK) != 0) return write_failed(path, err); /* rename would not ask */
+  char *real = realpath(path, NULL);                           /* a link stays a link */
+  if (!real) return write_failed(path, err);
+  thr_status st = replace_undisturbed(t, real, target.st_mode & 07777, err);
+  free(real);
   return st;
 }
 

@@ -204,7 +204,7 @@ thr_status thr_lp_set_costs(thr_lp *lp, const double *cost, thr_err *err)
 
 /* Pivots between two looks at the clock and the interrupt flag. Counted, not timed: where a slice ends changes the path that
  * the method takes, and the same input must give the same plan on a slow machine as on a fast one. */
-enum { SLICE = 2000 };
+enum { SLICE = 500 };
 
 typedef struct {
   glp_prob *problem;

@@ -393,10 +393,14 @@ static thr_status solve_inexactly(solver *s, thr_lp_outcome *outcome, thr_err *e
 static thr_status run(solver *s, thr_err *err)
 {
   thr_lp_outcome outcome = THR_LP_OPTIMAL;
+  thr_err failure = {0};
   thr_status st = start(s, err);
-  if (!st && !s->best.optimal) st = solve_inexactly(s, &outcome, err);
-  if (!st && !s->best.optimal && outcome == THR_LP_OPTIMAL) st = solve_exactly(s, &outcome, err);
   if (st || s->best.optimal) return st;
+  st = solve_inexactly(s, &outcome, &failure);
+  if (!st && !s->best.optimal && outcome == THR_LP_OPTIMAL) st = solve_exactly(s, &outcome, &failure);
+  if (st == THR_ENOMEM) return thr_nomem(err);
+  if (s->best.optimal) return THR_OK;
+  if (st) return thr_fail(err, THR_ELIMIT, "%s", failure.text); /* join and bound stay good whatever a library does */
   if (outcome == THR_LP_STOPPED) return thr_fail(err, THR_ELIMIT, "stopped early");
   return thr_fail(err, THR_ELIMIT, "the odd-cut bound and the best join do not meet; please report this framework");
 }

@@ -9,7 +9,7 @@
 typedef struct {
   int n_nodes, n_edges;
   const int (*edge)[2];
-  const int64_t *weight; /* [n_edges] >= 0, sum at most 2^49 */
+  const int64_t *weight; /* [n_edges] >= 0, sum at most 2^51 */
   const bool *odd;       /* [n_nodes] is the node in T? Their number must be even */
   int n_leaves;          /* the last so many nodes get degree 1 in every join that out may hold: an optimal join must have
                             it by its weights already, the joins found on the way are built so */
@@ -27,8 +27,8 @@ typedef struct {
   int rounds, rows; /* of the cutting-plane method, for --verbose */
 } thr_tjoin;
 
-/* THR_OK: optimal and certified in exact integer arithmetic. THR_ELIMIT: the limits stopped it, or bound and join do not meet;
- * out holds the best of both so far (each valid by itself). THR_ESOLVER: GLPK or igraph failed; out is empty. */
+/* THR_OK: optimal and certified in exact integer arithmetic. THR_ELIMIT: the limits or a failing library stopped it, or bound and
+ * join do not meet; out holds the best of both so far (each valid by itself). Otherwise out is empty. */
 thr_status thr_tjoin_solve(const thr_tjoin_problem *p, const thr_limits *limits, thr_tjoin *out, thr_err *err) THR_MUST_CHECK;
 void thr_tjoin_destroy(thr_tjoin *t);
 

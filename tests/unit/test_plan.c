@@ -156,7 +156,7 @@ START_TEST(nonsense_is_refused_with_its_place)
       {"cords", "\"edges\": [0,", "\"edges\": [1,", THR_EVIOLATED, "pass 1"},
       {"cords", "\"edges\": [0,", "\"edges\": [0.5,", THR_EVIOLATED, "cords[0].edges[0]"},
       {"metrics", "\"passes\": 3", "\"passes\": -3", THR_EVIOLATED, "passes"},
-      {"metrics", "\"turning\"", "\"burning\"", THR_EVIOLATED, "turning"},
+      {"metrics", "\"turning\"", "\"burning\"", THR_EVIOLATED, "burning"},
       {"proof", "\"optimal\"", "\"perhaps\"", THR_EVIOLATED, "status"},
       {"proof", "\"denominator\": ", "\"denominator\": -", THR_EVIOLATED, "denominator"},
   };
