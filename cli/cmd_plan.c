@@ -230,16 +230,17 @@ static int write_outputs(const arguments *a, const thr_plan *p)
   char stem[256], in_folder[1200], svg_path[1200];
   const char *plan_path = a->output ? a->output : in_folder;
   cli_stem(a->path, stem, sizeof stem);
-  const char *folder = a->draw ? a->draw : a->output ? NULL : stem;
+  const char *folder = a->draw ? a->draw : stem;
+  bool draw = a->draw || !a->output;
   int code = a->output ? EXIT_OK : cli_in_folder(folder, "plan.json", in_folder, sizeof in_folder);
-  if (!code && folder) code = cli_in_folder(folder, "overview.svg", svg_path, sizeof svg_path);
+  if (!code && draw) code = cli_in_folder(folder, "overview.svg", svg_path, sizeof svg_path);
   if (!code) code = write_plan(p, plan_path);
-  if (!code && folder) code = cli_draw_overview(p, svg_path, 0);
+  if (!code && draw) code = cli_draw_overview(p, svg_path, 0);
   bool to_stdout = strcmp(plan_path, "-") == 0;
   if (code || to_stdout || (cli_quiet && !a->json)) return code;
   if ((code = print_summary(a, p)) || a->json) return code;
   printf("plan     %s\n", plan_path);
-  if (folder) printf("drawing  %s\n", svg_path);
+  if (draw) printf("drawing  %s\n", svg_path);
   return EXIT_OK;
 }
 

@@ -2,6 +2,7 @@
 #include "graph/plan.h"
 #include "graph/json.h"
 
+#include <assert.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -249,6 +250,7 @@ static thr_status read_nodes(const reader *r, const thr_json *o, thr_draft *d)
   thr_status st = need(r, o, "nodes", THR_JSON_ARRAY, &nodes);
   if (st) return st;
   int n = thr_json_size(nodes);
+  if (n == 0) return bad(r, "framework.nodes", "empty");
   if (names && (thr_json_typeof(names) != THR_JSON_ARRAY || thr_json_size(names) != n))
     return bad(r, "framework.names", "not one name per node");
   for (int v = 0; v < n; v++) {
@@ -262,6 +264,7 @@ static thr_status read_nodes(const reader *r, const thr_json *o, thr_draft *d)
     if (names && !name) return thr_fail(r->err, THR_EINPUT, "%s: framework.names[%d]: not text", r->name, v);
     if ((st = thr_draft_add_node(d, x, name, false, r->err))) return st;
   }
+  assert(d->node);
   const thr_json *feet = thr_json_get(o, "feet");
   for (int i = 0, v = 0; i < thr_json_size(feet); i++) {
     if ((st = index_at(r, feet, i, n, "framework.feet", &v))) return st;

@@ -158,6 +158,7 @@ static void edge_header(csv *t)
     break;
   }
   t->c.length = COLUMN(t, "length");
+  if (t->c.length == t->c.ends[0] || t->c.length == t->c.ends[1]) t->c.length = -1;
 }
 
 static bool all_words(const csv *t)

@@ -252,7 +252,7 @@ static thr_status read_feet(reader *r, const where *up, const thr_json *feet)
   if (feet && !is_array(feet)) return bad(r, &list, "not a list of node numbers");
   for (int i = 0; i < thr_json_size(feet); i++) {
     where here = {&list, NULL, i};
-    int v;
+    int v = 0;
     thr_status st = read_index(r, &here, thr_json_at(feet, i), r->d->n_nodes, &v);
     if (st) return st;
     r->d->node[v].foot = true;

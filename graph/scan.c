@@ -12,8 +12,9 @@
 
 thr_status thr_scan_start(thr_scan *s, const char *text, size_t n, const char *name, thr_err *err)
 {
-  if (!text) text = ""; /* an empty file's */
-  *s = (thr_scan){name, text, text + n, 1, 1};
+  *s = (thr_scan){name, text, text, 1, 1};
+  if (n == 0) return THR_OK; /* an empty file's text is NULL */
+  s->end += n;
   const char *nul = memchr(s->at, '\0', n);
   if (nul) {
     for (const char *c = s->at; c < nul; c++)

@@ -197,6 +197,7 @@ static void take_result(postman *m, int k, const instance *in, thr_tjoin *t)
 {
   thr_certificate *c = &m->certificate[k];
   int n_ends = 0;
+  assert(t->in_join);
   m->ends[k][0] = m->ends[k][1] = -1;
   for (int i = 0; i < in->n_edges; i++) {
     if (!t->in_join[i]) continue;

@@ -40,7 +40,7 @@ static void check_frame(const thr_frame *f, const thr_read_report *r)
   MUST(r->edges_read == f->n_edges + r->duplicate_edges + r->zero_length_edges);
 }
 
-/* Writes, reads and compares: JSON keeps all, OBJ all but names and own lengths, CSV the edges. */
+/* Writes, reads and compares: JSON keeps all, OBJ all but names, CSV the edges. */
 static void check_round_trip(const thr_frame *f, thr_format format)
 {
   thr_text text = {0};
@@ -52,8 +52,8 @@ static void check_round_trip(const thr_frame *f, thr_format format)
   MUST(thr_draft_parse(&d, &r, text.data, text.length, "again", format, NULL) == THR_OK);
   MUST(thr_draft_build(&d, -1, &g, &r, NULL) == THR_OK);
   MUST(g.n_nodes == f->n_nodes && g.n_edges == f->n_edges);
-  if (format == THR_FORMAT_JSON || (format == THR_FORMAT_OBJ && !f->own_lengths)) MUST(thr_frame_hash(&g) == thr_frame_hash(f));
-  if (format != THR_FORMAT_OBJ) MUST(memcmp(g.length, f->length, (size_t)f->n_edges * sizeof *f->length) == 0);
+  if (format != THR_FORMAT_CSV) MUST(thr_frame_hash(&g) == thr_frame_hash(f));
+  MUST(memcmp(g.length, f->length, (size_t)f->n_edges * sizeof *f->length) == 0);
   if (format == THR_FORMAT_JSON) {
     MUST(strcmp(f->units, g.units) == 0);
     for (int v = 0; v < f->n_nodes; v++)
@@ -72,7 +72,7 @@ static void check_draft(thr_status st, thr_draft *d, thr_read_report *r, const t
   if (st == THR_OK && thr_draft_build(d, -1, &f, r, NULL) == THR_OK) {
     check_frame(&f, r);
     check_round_trip(&f, THR_FORMAT_JSON);
-    check_round_trip(&f, THR_FORMAT_OBJ);
+    if (!f.own_lengths) check_round_trip(&f, THR_FORMAT_OBJ); /* which has none, and the nodes may be too far apart without */
     check_round_trip(&f, THR_FORMAT_CSV);
   }
   thr_frame_destroy(&f);
