@@ -68,7 +68,8 @@ static int dispatch(int argc, char **argv)
 int main(int argc, char **argv)
 {
   int code = dispatch(argc, argv);
-  if (fflush(stdout) == 0 && !ferror(stdout)) return code;
+  bool written = fflush(stdout) == 0 && !ferror(stdout);
+  if (code || written) return code;
   cli_error("cannot write to stdout");
-  return code ? code : EXIT_INPUT;
+  return EXIT_INPUT;
 }

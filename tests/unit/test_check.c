@@ -106,6 +106,52 @@ START_TEST(scale_that_rounds_all_away_proves_nothing)
 }
 END_TEST
 
+/* A ring with a chord that costs next to nothing: passed to and fro it weighs nothing under a coarse scale, and each pass
+ * rounds once more. Neither may pass for a proof. */
+START_TEST(passes_without_weight_prove_nothing)
+{
+  static const double xyz[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  static const int edge[5][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 2}};
+  static const double length[5] = {2.5, 2.5, 2.5, 2.5, 9e-9};
+  fixture x = fixture_make(frame_make(4, xyz, 5, edge, length, NULL), THR_ENDS_CLOSED);
+  thr_plan *p = &x.plan;
+  thr_certificate *c = &p->proof.certificate[0];
+  assert_holds(p);
+  drop_cuts(c);
+  c->scale = 2;
+  c->join = 0;
+  assert_violated(p, "optimal");
+  fixture_destroy(&x);
+}
+END_TEST
+
+START_TEST(an_optimal_plan_is_its_own_bound)
+{
+  fixture x = fixture_make(solid_make(CUBE), THR_ENDS_CLOSED);
+  x.plan.proof.lower_bound = 0;
+  x.plan.proof.gap = 1;
+  assert_violated(&x.plan, "lower bound");
+  fixture_destroy(&x);
+}
+END_TEST
+
+/* Cross products of tiny or huge sides would vanish or overflow. */
+START_TEST(angles_do_not_depend_on_size)
+{
+  static const double size[] = {1e-90, 1, 1e90};
+  for (size_t i = 0; i < sizeof size / sizeof *size; i++) {
+    double a = size[i], xyz[4][3] = {{0, 0, 0}, {a, 0, 0}, {a, a, 0}, {0, a, 0}};
+    static const int edge[4][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+    fixture x = fixture_make(frame_make(4, (const double(*)[3])xyz, 4, edge, NULL, NULL), THR_ENDS_CLOSED);
+    ck_assert_double_eq_tol(x.plan.metrics.turning, 6.283185307179586, 1e-12);
+    assert_holds(&x.plan);
+    x.plan.metrics.turning = x.plan.metrics.max_turning = 0;
+    assert_violated(&x.plan, "turning");
+    fixture_destroy(&x);
+  }
+}
+END_TEST
+
 START_TEST(no_extra_pass_needs_no_proof)
 {
   fixture x = fixture_make(solid_make(OCTAHEDRON), THR_ENDS_CLOSED);
@@ -325,6 +371,9 @@ int main(void)
   Suite *s = suite_create("checker");
   ADD_TEST(s, 10, longer_plan_keeps_its_bound_and_loses_optimal);
   ADD_TEST(s, 10, scale_that_rounds_all_away_proves_nothing);
+  ADD_TEST(s, 10, passes_without_weight_prove_nothing);
+  ADD_TEST(s, 10, an_optimal_plan_is_its_own_bound);
+  ADD_TEST(s, 10, angles_do_not_depend_on_size);
   ADD_TEST(s, 10, no_extra_pass_needs_no_proof);
   ADD_TEST(s, 10, forged_cords);
   ADD_TEST(s, 10, forged_ends);
