@@ -71,7 +71,8 @@ typedef struct {
 /* Welds nodes closer than tolerance (< 0: 1e-6 of the bounding box's diagonal, at most a thousandth of the median edge), drops
  * zero-length and duplicate edges and isolated nodes, and fills frame and report (nodes_read .. isolated_nodes). The lowest file
  * index of a welded group gives coordinates and name; any member's foot makes it a foot. Nodes and edges keep file order.
- * THR_EINPUT if no edge is left or an own length is not positive and finite. O(n log n). The draft is unchanged. */
+ * THR_EINPUT if no edge is left or a length is out of range. The draft is unchanged. O(n log n) as long as few nodes lie within
+ * the tolerance of each other along one fixed skew direction; quadratic in those. */
 thr_status thr_draft_build(const thr_draft *d, double tolerance, thr_frame *frame, thr_read_report *report,
                            thr_err *err) THR_MUST_CHECK;
 
