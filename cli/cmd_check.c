@@ -22,9 +22,7 @@ static void put_verdict(thr_text *t, const char *path, const thr_plan *p)
 {
   const thr_metrics *m = &p->metrics;
   const char *units = p->frame.units;
-  int cuts = 0;
-  for (int i = 0; i < p->proof.n_certificates; i++)
-    cuts += p->proof.certificate[i].n_cuts;
+  int cuts = thr_length_proof_cuts(&p->proof);
   thr_text_printf(t, "%s: %d %s, %d passes, every edge covered, length %.6f %s: ", path, p->n_cords,
                   cli_plural(p->n_cords, "cord", "cords"), m->passes, m->length, units);
   if (!p->proof.present)

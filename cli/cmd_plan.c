@@ -121,9 +121,7 @@ static int resolve_ends(const arguments *a, const thr_frame *f, thr_plan_options
 
 static void put_status(thr_text *t, const thr_plan *p)
 {
-  int cuts = 0;
-  for (int i = 0; i < p->proof.n_certificates; i++)
-    cuts += p->proof.certificate[i].n_cuts;
+  int cuts = thr_length_proof_cuts(&p->proof);
   if (p->proof.optimal)
     thr_text_printf(t, "optimal: no threading with these options uses less cord (certificate: %d %s, verified)\n", cuts,
                     cli_plural(cuts, "odd cut", "odd cuts"));

@@ -312,36 +312,60 @@ static thr_status sum_verdicts(certificate_check *k, const int *passes, const th
   return THR_OK;
 }
 
+/* Cords and their components, worked out once for everything that is checked. */
+typedef struct {
+  int n_components;
+  int *component; /* [n_nodes] */
+  int *passes;    /* [n_edges] */
+} walked;
+
+static void walked_destroy(walked *w)
+{
+  free(w->component);
+  free(w->passes);
+  *w = (walked){0};
+}
+
+/* Checks the cords on the way. On failure w is empty. */
+static thr_status walked_init(walked *w, const thr_frame *f, const thr_plan_options *o, const thr_cord *cord, int n_cords,
+                              thr_err *err)
+{
+  *w = (walked){.component = thr_calloc((size_t)f->n_nodes, sizeof *w->component),
+                .passes = thr_calloc((size_t)f->n_edges, sizeof *w->passes)};
+  thr_status st = w->component && w->passes ? THR_OK : thr_nomem(err);
+  if (!st) st = thr_frame_components(f, w->component, &w->n_components, err);
+  if (!st) st = check_cords(f, o, w->component, cord, n_cords, w->passes, err);
+  if (st) walked_destroy(w);
+  return st;
+}
+
+static thr_status check_proof(const thr_frame *f, const thr_plan_options *o, const walked *w, const thr_cord *cord, int n_cords,
+                              const thr_certificate *certificate, int n_certificates, bool *optimal, double *lower_bound,
+                              thr_err *err)
+{
+  certificate_check k;
+  double extra = 0, length = 0;
+  if (n_cords != w->n_components || n_certificates != w->n_components)
+    return thr_fail(err, THR_EVIOLATED, "%d cords and %d certificates for %d components; expected one of each per component",
+                    n_cords, n_certificates, w->n_components);
+  thr_status st = certificate_check_init(&k, f, o, w->component, err);
+  if (!st) st = sum_verdicts(&k, w->passes, certificate, n_certificates, optimal, &extra, err);
+  certificate_check_destroy(&k);
+  if (st) return st;
+  for (int i = 0; i < n_cords; i++)
+    length += thr_cord_length(f, &cord[i]);
+  *lower_bound = *optimal ? length : fmin(length, o->cover * thr_frame_total_length(f) + extra);
+  return THR_OK;
+}
+
 thr_status thr_check_length_proof(const thr_frame *f, const thr_plan_options *o, const thr_cord *cord, int n_cords,
                                   const thr_certificate *certificate, int n_certificates, bool *optimal, double *lower_bound,
                                   thr_err *err)
 {
-  thr_status st;
-  int n_components;
-  double extra;
-  certificate_check k = {0};
-  int *component = thr_calloc((size_t)f->n_nodes, sizeof *component), *passes = thr_calloc((size_t)f->n_edges, sizeof *passes);
-  if (!component || !passes) {
-    st = thr_nomem(err);
-    goto done;
-  }
-  if ((st = thr_frame_components(f, component, &n_components, err))) goto done;
-  if ((st = check_cords(f, o, component, cord, n_cords, passes, err))) goto done;
-  if (n_cords != n_components || n_certificates != n_components) {
-    st = thr_fail(err, THR_EVIOLATED, "%d cords and %d certificates for %d components; expected one of each per component",
-                  n_cords, n_certificates, n_components);
-    goto done;
-  }
-  if ((st = certificate_check_init(&k, f, o, component, err))) goto done;
-  if ((st = sum_verdicts(&k, passes, certificate, n_certificates, optimal, &extra, err))) goto done;
-  double length = 0;
-  for (int i = 0; i < n_cords; i++)
-    length += thr_cord_length(f, &cord[i]);
-  *lower_bound = *optimal ? length : fmin(length, o->cover * thr_frame_total_length(f) + extra);
-done:
-  certificate_check_destroy(&k);
-  free(component);
-  free(passes);
+  walked w;
+  thr_status st = walked_init(&w, f, o, cord, n_cords, err);
+  if (!st) st = check_proof(f, o, &w, cord, n_cords, certificate, n_certificates, optimal, lower_bound, err);
+  walked_destroy(&w);
   return st;
 }
 
@@ -415,13 +439,13 @@ static thr_status check_metrics(const thr_plan *p, const int *passes, thr_err *e
   return metric("u_turns", s->u_turns, m.u_turns, 0, err);
 }
 
-static thr_status check_claim(const thr_plan *p, thr_err *err)
+static thr_status check_claim(const thr_plan *p, const walked *w, thr_err *err)
 {
   bool optimal = false;
   double lower_bound = 0;
   const thr_length_proof *claim = &p->proof;
-  thr_status st = thr_check_length_proof(&p->frame, &p->options, p->cord, p->n_cords, claim->certificate, claim->n_certificates,
-                                         &optimal, &lower_bound, err);
+  thr_status st = check_proof(&p->frame, &p->options, w, p->cord, p->n_cords, claim->certificate, claim->n_certificates, &optimal,
+                              &lower_bound, err);
   if (st) return st;
   if (claim->optimal && !optimal)
     return thr_fail(err, THR_EVIOLATED, "proof.length: says optimal, but the certificate only proves %.12g of %.12g", lower_bound,
@@ -451,21 +475,12 @@ static thr_status check_names(const thr_plan *p, thr_err *err)
 
 thr_status thr_check_plan(const thr_plan *p, thr_err *err)
 {
-  thr_status st;
-  int n_components;
-  int *component = thr_calloc((size_t)p->frame.n_nodes, sizeof *component);
-  int *passes = thr_calloc((size_t)p->frame.n_edges, sizeof *passes);
-  if (!component || !passes) {
-    st = thr_nomem(err);
-    goto done;
-  }
-  if ((st = thr_frame_components(&p->frame, component, &n_components, err))) goto done;
-  if ((st = check_names(p, err))) goto done;
-  if ((st = check_cords(&p->frame, &p->options, component, p->cord, p->n_cords, passes, err))) goto done;
-  if ((st = check_metrics(p, passes, err))) goto done;
-  if (p->proof.present) st = check_claim(p, err);
-done:
-  free(component);
-  free(passes);
+  walked w;
+  thr_status st = check_names(p, err);
+  if (st) return st;
+  if ((st = walked_init(&w, &p->frame, &p->options, p->cord, p->n_cords, err))) return st;
+  st = check_metrics(p, w.passes, err);
+  if (!st && p->proof.present) st = check_claim(p, &w, err);
+  walked_destroy(&w);
   return st;
 }

@@ -345,6 +345,16 @@ int thr_frame_find(const thr_frame *f, const char *name)
   return -1;
 }
 
+bool thr_frame_names_are_indices(const thr_frame *f)
+{
+  char digits[16];
+  for (int v = 0; v < f->n_nodes; v++) {
+    snprintf(digits, sizeof digits, "%d", v);
+    if (strcmp(digits, f->name[v]) != 0) return false;
+  }
+  return true;
+}
+
 int thr_frame_edge_between(const thr_frame *f, int a, int b)
 {
   for (int i = f->first[a]; i < f->first[a + 1]; i++)

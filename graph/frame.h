@@ -82,6 +82,9 @@ thr_status thr_frame_copy(thr_frame *to, const thr_frame *from, thr_err *err) TH
 /* Index of the node with this name, or -1. O(n). */
 int thr_frame_find(const thr_frame *f, const char *name);
 
+/* Is every node called by its index, as readers call nodes without a name? Then writers leave the names out. */
+bool thr_frame_names_are_indices(const thr_frame *f);
+
 /* Edge between two nodes, or -1. O(degree). */
 int thr_frame_edge_between(const thr_frame *f, int a, int b);
 

@@ -43,6 +43,14 @@ void thr_cord_id(int i, char id[12])
   id[n] = '\0';
 }
 
+int thr_length_proof_cuts(const thr_length_proof *proof)
+{
+  int cuts = 0;
+  for (int i = 0; i < proof->n_certificates; i++)
+    cuts += proof->certificate[i].n_cuts;
+  return cuts;
+}
+
 const char *thr_ends_name(thr_ends e)
 {
   static const char *const name[] = {"closed", "any", "feet", "nodes"};

@@ -87,6 +87,8 @@ void thr_plan_destroy(thr_plan *p);
 void thr_cord_id(int i, char id[12]); /* 0 -> "A", 25 -> "Z", 26 -> "AA" */
 void thr_certificate_destroy(thr_certificate *c);
 
+int thr_length_proof_cuts(const thr_length_proof *proof); /* odd cuts of all its certificates */
+
 const char *thr_ends_name(thr_ends e); /* "closed", "any", "feet", "nodes" */
 bool thr_plan_end_allowed(const thr_frame *f, const thr_plan_options *o, int v);
 

@@ -38,16 +38,6 @@ static void put_marked(thr_text *t, const bool *mark, int n)
   thr_text_append(t, "]");
 }
 
-static bool names_are_indices(const thr_frame *f)
-{
-  char digits[16];
-  for (int v = 0; v < f->n_nodes; v++) {
-    snprintf(digits, sizeof digits, "%d", v);
-    if (strcmp(digits, f->name[v]) != 0) return false;
-  }
-  return true;
-}
-
 static void put_frame(thr_text *t, const thr_frame *f)
 {
   thr_text_append(t, "\"framework\": {\n  \"units\": ");
@@ -71,7 +61,7 @@ static void put_frame(thr_text *t, const thr_frame *f)
     }
     thr_text_append(t, "],\n");
   }
-  if (!names_are_indices(f)) {
+  if (!thr_frame_names_are_indices(f)) {
     thr_text_append(t, "  \"names\": [");
     for (int v = 0; v < f->n_nodes; v++) {
       if (v) thr_text_append(t, ",");

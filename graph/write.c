@@ -19,17 +19,6 @@ static bool has_feet(const thr_frame *f)
   return false;
 }
 
-/* Readers call a node without a name by its number. */
-static bool has_names(const thr_frame *f)
-{
-  for (int v = 0; v < f->n_nodes; v++) {
-    char digits[16];
-    snprintf(digits, sizeof digits, "%d", v);
-    if (strcmp(digits, f->name[v]) != 0) return true;
-  }
-  return false;
-}
-
 /* Numbers of the feet, counted from base. */
 static void write_feet(const thr_frame *f, int base, const char *separator, thr_text *out)
 {
@@ -65,7 +54,7 @@ static void write_json(const thr_frame *f, thr_text *out)
     write_feet(f, 0, ", ", out);
     thr_text_append(out, "]");
   }
-  if (has_names(f)) {
+  if (!thr_frame_names_are_indices(f)) {
     thr_text_append(out, ",\n\"names\": [");
     for (int v = 0; v < f->n_nodes; v++) {
       thr_text_append(out, v ? ",\n" : "\n");

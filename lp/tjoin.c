@@ -376,7 +376,6 @@ static thr_status start(solver *s, thr_err *err)
 static thr_status solve_inexactly(solver *s, thr_lp_outcome *outcome, thr_err *err)
 {
   for (int before = -1; before < s->pool.count;) {
-    s->best.rounds++;
     thr_status st = solve_rows(s, false, outcome, err);
     if (st) return st;
     if ((st = round_to_join(s, err))) return st;
@@ -419,7 +418,6 @@ thr_status thr_tjoin_solve(const thr_tjoin_problem *p, const thr_limits *limits,
   }
   thr_status st = solver_init(&s, p, limits, err);
   if (!st) st = run(&s, err);
-  s.best.rows = s.pool.count;
   solver_destroy(&s);
   if (st && st != THR_ELIMIT) thr_tjoin_destroy(&s.best);
   *out = s.best;

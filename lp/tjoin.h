@@ -21,10 +21,9 @@ typedef struct {
   bool *in_join;  /* [n_edges] owned: a T-join, the best found */
   int64_t length; /* its weight */
   int n_cuts;
-  thr_cut *cut;     /* owned: odd cuts whose values / THR_DUAL_DENOMINATOR load no edge beyond its weight */
-  int64_t sum;      /* of the values: sum / THR_DUAL_DENOMINATOR is a lower bound on the weight of every T-join */
-  bool optimal;     /* sum > (length - 1) * THR_DUAL_DENOMINATOR: weights being integers, none is lighter */
-  int rounds, rows; /* of the cutting-plane method, for --verbose */
+  thr_cut *cut; /* owned: odd cuts whose values / THR_DUAL_DENOMINATOR load no edge beyond its weight */
+  int64_t sum;  /* of the values: sum / THR_DUAL_DENOMINATOR is a lower bound on the weight of every T-join */
+  bool optimal; /* sum > (length - 1) * THR_DUAL_DENOMINATOR: weights being integers, none is lighter */
 } thr_tjoin;
 
 /* THR_OK: optimal and certified in exact integer arithmetic. THR_ELIMIT: the limits or a failing library stopped it, or bound and

@@ -172,7 +172,7 @@ self_test() {
   expect ok graph/a.c '/* printf(1); #include "lp/lp.h"\n#include "lp/lp.h"\n */\nint f(void) { return snprintf(0, 0, "exit(1) stderr"); } // puts(1)\n'
   expect ok graph/a.c 'void thr_exit(int); void f(int at_exit) { thr_exit(at_exit); my_printf(1); }\n'
   expect ok graph/a.h '/* head */\n#ifndef THR_A_H\n#define THR_A_H\n#endif\n'
-  expect ok docs/a.md 'cord/work/length, https://example.org/work/x, <b>/home/</b>\n'
+  expect ok docs/a.md 'cord/wo''rk/length, https://example.org/wo''rk/x, <b>/home/</b>\n'
 
   [ "$failed" -eq 0 ] && echo "layers: self-test ok, $n trees"
   return "$failed"
