@@ -20,7 +20,7 @@ DEMO_OUT = $(OUT)/demo
 DEMO = plan data/dome7.json --objective length -o $(DEMO_OUT)/plan.json --draw $(DEMO_OUT)
 
 # Debian 12 packages
-BUILD_PACKAGES := build-essential pkg-config libglpk-dev libigraph-dev libjansson-dev
+BUILD_PACKAGES := build-essential pkg-config libglpk-dev libigraph-dev libjansson-dev libbullet-dev
 TEST_PACKAGES := check clang clang-format libclang-rt-14-dev librsvg2-bin libxml2-utils
 LINT_PACKAGES := clang-format clang-tidy cppcheck
 COVERAGE_PACKAGES := check gcovr
@@ -28,12 +28,17 @@ COVERAGE_PACKAGES := check gcovr
 ifeq ($(origin CC),default)
 CC := gcc
 endif
+ifeq ($(origin CXX),default)
+CXX := g++
+endif
 FUZZ_CC ?= clang
+FUZZ_CXX ?= clang++
 CLANG_FORMAT ?= clang-format
 
 # Asked for once and only when a recipe needs it: on a bare machine `make demo` installs pkg-config and the libraries first.
 PKG_CFLAGS = $(eval PKG_CFLAGS := $$(shell pkg-config --cflags igraph jansson))$(PKG_CFLAGS)
-PKG_LIBS = $(eval PKG_LIBS := $$(shell pkg-config --libs igraph jansson))$(PKG_LIBS)
+PKG_LIBS = $(eval PKG_LIBS := $$(shell pkg-config --libs igraph jansson bullet-float64))$(PKG_LIBS)
+BULLET_CFLAGS = $(eval BULLET_CFLAGS := $$(patsubst -I%,-isystem %,$$(shell pkg-config --cflags bullet-float64)))$(BULLET_CFLAGS)
 CHECK_CFLAGS = $(eval CHECK_CFLAGS := $$(shell pkg-config --cflags check))$(CHECK_CFLAGS)
 CHECK_LIBS = $(eval CHECK_LIBS := $$(shell pkg-config --libs check))$(CHECK_LIBS)
 
@@ -49,15 +54,19 @@ $(error BUILD=$(BUILD) is not one of release debug asan cov fuzz)
 endif
 # -ffp-contract=off: no fused multiply-add, so the same digits on every machine
 THR_CFLAGS = -std=c11 $(WARN) -ffp-contract=off $(MODE_$(BUILD)) $(CFLAGS)
+THR_CXXFLAGS = -std=c++17 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -fno-exceptions -fno-rtti -ffp-contract=off $(MODE_$(BUILD)) $(CXXFLAGS)
 THR_CPPFLAGS = -I. -DTHR_VERSION='"$(VERSION)"' $(PKG_CFLAGS) $(CPPFLAGS)
 THR_LIBS = $(PKG_LIBS) -lglpk -lm $(LDLIBS)
 COMPILER = $(if $(filter fuzz,$(BUILD)),$(FUZZ_CC),$(CC))
+# compiles the C++ shim and links everything, since the shim needs the C++ runtime
+COMPILER_CXX = $(if $(filter fuzz,$(BUILD)),$(FUZZ_CXX),$(CXX))
+LINK = $(COMPILER_CXX) $(MODE_$(BUILD)) $(CFLAGS) $(LDFLAGS)
 STRICT = $(if $(filter-out 0,$(WERROR)),$(if $(filter fuzz,$(BUILD)),,-Werror))
 
 DIR := $(OUT)/$(BUILD)
 MODULES := graph lp symmetry tortuosity eval diagram
-SOURCES := $(wildcard $(addsuffix /*.c,$(MODULES)))
-OBJECTS := $(SOURCES:%.c=$(DIR)/%.o)
+SOURCES := $(wildcard $(addsuffix /*.c,$(MODULES))) $(wildcard $(addsuffix /*.cpp,$(MODULES)))
+OBJECTS := $(addsuffix .o,$(basename $(SOURCES:%=$(DIR)/%)))
 CLI_OBJECTS := $(patsubst %.c,$(DIR)/%.o,$(wildcard cli/*.c))
 LIBRARY := $(DIR)/libthread.a
 PROGRAM := $(DIR)/thread
@@ -65,7 +74,9 @@ PROGRAM := $(DIR)/thread
 TEST_SUPPORT := $(patsubst %.c,$(DIR)/%.o,$(wildcard tests/*.c))
 TEST_PROGRAMS := $(patsubst %.c,$(DIR)/%,$(wildcard tests/unit/*.c tests/property/*.c))
 FUZZ_PROGRAMS := $(patsubst %.c,$(DIR)/%,$(wildcard tests/fuzz/fuzz_*.c))
-C_FILES = $(wildcard $(foreach d,$(MODULES) cli tests tests/unit tests/property tests/fuzz,$(d)/*.c $(d)/*.h))
+VALIDATE := $(DIR)/validate
+VALIDATE_OBJECTS := $(patsubst %.c,$(DIR)/%.o,$(wildcard tests/validate/*.c))
+C_FILES = $(wildcard $(foreach d,$(MODULES) cli tests tests/unit tests/property tests/fuzz tests/validate,$(d)/*.c $(d)/*.h))
 
 Q := $(if $(V),,@)
 # `make -jN` given: share its jobs; not given: one per processor
@@ -128,6 +139,11 @@ bench: ## run bench/*.sh with the release build
 	+@$(MAKE) --no-print-directory $(JOBS) BUILD=release all
 	@for b in bench/*.sh; do THREAD="$(OUT)/release/thread" "$$b" || exit; done
 
+validate: ## measure the pull force against theory (a few minutes), write docs/validation.md
+	+@tools/install-packages.sh $(BUILD_PACKAGES)
+	+@$(MAKE) --no-print-directory $(JOBS) BUILD=release $(OUT)/release/validate
+	@$(OUT)/release/validate docs/validation.md
+
 coverage: ## lines and branches reached by the unit and property tests
 	+@tools/install-packages.sh $(BUILD_PACKAGES) $(COVERAGE_PACKAGES)
 	@rm -rf $(OUT)/cov
@@ -165,7 +181,11 @@ list-c:
 
 $(PROGRAM): $(CLI_OBJECTS) $(LIBRARY)
 	@echo "  LINK  $@"
-	$(Q)$(COMPILER) $(THR_CFLAGS) $(LDFLAGS) -o $@ $^ $(THR_LIBS)
+	$(Q)$(LINK) -o $@ $^ $(THR_LIBS)
+
+$(VALIDATE): $(VALIDATE_OBJECTS) $(LIBRARY)
+	@echo "  LINK  $@"
+	$(Q)$(LINK) -o $@ $^ $(THR_LIBS)
 
 $(LIBRARY): $(OBJECTS) $(DIR)/objects.list
 	@echo "  AR    $@"
@@ -177,32 +197,37 @@ $(DIR)/%.o: %.c $(DIR)/flags.list
 	@echo "  CC    $@"
 	$(Q)$(COMPILER) $(THR_CPPFLAGS) $(THR_CFLAGS) $(STRICT) -MMD -MP -c -o $@ $<
 
+$(DIR)/%.o: %.cpp $(DIR)/flags.list
+	@mkdir -p $(@D)
+	@echo "  CXX   $@"
+	$(Q)$(COMPILER_CXX) -I. $(BULLET_CFLAGS) $(CPPFLAGS) $(THR_CXXFLAGS) $(STRICT) -MMD -MP -c -o $@ $<
+
 $(TEST_PROGRAMS:%=%.o) $(TEST_SUPPORT): private THR_CPPFLAGS += $(CHECK_CFLAGS)
 $(TEST_PROGRAMS): $(DIR)/%: $(DIR)/%.o $(TEST_SUPPORT) $(LIBRARY)
 	@echo "  LINK  $@"
-	$(Q)$(COMPILER) $(THR_CFLAGS) $(LDFLAGS) -o $@ $^ $(CHECK_LIBS) $(THR_LIBS)
+	$(Q)$(LINK) -o $@ $^ $(CHECK_LIBS) $(THR_LIBS)
 
 $(FUZZ_PROGRAMS): $(DIR)/%: $(DIR)/%.o $(LIBRARY)
 	@echo "  LINK  $@"
-	$(Q)$(COMPILER) $(THR_CFLAGS) -fsanitize=fuzzer $(LDFLAGS) -o $@ $^ $(THR_LIBS)
+	$(Q)$(LINK) -fsanitize=fuzzer -o $@ $^ $(THR_LIBS)
 
 # Two lists, rewritten only when they change: other flags recompile everything, a source that is gone leaves the library.
 $(DIR)/flags.list: $(OUT)/packages.ok FORCE
 	@mkdir -p $(@D)
-	@printf '%s\n' $(call quote,$(COMPILER) $(THR_CPPFLAGS) $(THR_CFLAGS)) | cmp -s - $@ || \
-	 printf '%s\n' $(call quote,$(COMPILER) $(THR_CPPFLAGS) $(THR_CFLAGS)) > $@
+	@printf '%s\n' $(call quote,$(COMPILER) $(THR_CPPFLAGS) $(THR_CFLAGS) $(COMPILER_CXX) $(BULLET_CFLAGS) $(THR_CXXFLAGS)) | cmp -s - $@ || \
+	 printf '%s\n' $(call quote,$(COMPILER) $(THR_CPPFLAGS) $(THR_CFLAGS) $(COMPILER_CXX) $(BULLET_CFLAGS) $(THR_CXXFLAGS)) > $@
 $(DIR)/objects.list: FORCE
 	@mkdir -p $(@D)
 	@echo "$(OBJECTS)" | cmp -s - $@ || echo "$(OBJECTS)" > $@
 
 $(OUT)/packages.ok:
-	@command -v $(CC) >/dev/null && pkg-config --exists igraph jansson 2>/dev/null && \
+	@command -v $(CC) >/dev/null && command -v $(CXX) >/dev/null && pkg-config --exists igraph jansson bullet-float64 2>/dev/null && \
 	  echo '#include <glpk.h>' | $(CC) -E -x c - >/dev/null 2>&1 || \
 	  { echo 'thread: a compiler or a library is missing: run `make deps` (or `make demo`), or install: $(BUILD_PACKAGES)' >&2; exit 1; }
 	@mkdir -p $(@D)
 	@touch $@
 
 FORCE:
-.PHONY: all demo test fuzz asan layers lint format-check tidy cppcheck format bench coverage deps test-deps install uninstall clean help
+.PHONY: all demo test fuzz asan layers lint format-check tidy cppcheck format bench validate coverage deps test-deps install uninstall clean help
 .PHONY: test-programs fuzz-programs list-tests list-fuzz list-c FORCE
 -include $(wildcard $(DIR)/*/*.d $(DIR)/*/*/*.d)

@@ -292,12 +292,13 @@ int cli_write(thr_text *t, const char *path)
   return st ? cli_fail(&err) : EXIT_OK;
 }
 
-int cli_draw_overview(const thr_plan *p, const char *path, double pitch_mm)
+int cli_draw_overview(const thr_plan *p, const char *path, double pitch_mm, bool tension)
 {
   thr_err err = {0};
   thr_text svg = {0};
   thr_overview_options o = thr_overview_options_default();
   o.pitch_mm = pitch_mm;
+  o.colour = tension ? THR_COLOUR_TENSION : THR_COLOUR_CORD;
   if (thr_overview_svg(p, &o, &svg, &err)) {
     thr_text_destroy(&svg);
     return cli_fail(&err);
@@ -310,21 +311,65 @@ int cli_draw_overview(const thr_plan *p, const char *path, double pitch_mm)
 static volatile sig_atomic_t interrupted;
 static bool progress_shown;
 
+/* Asked twice: do not wait for the result. `timeout` sends its signal to the process and to its group: that is once. */
 static void on_interrupt(int signal)
 {
+  static double first;
+  double now = thr_clock();
   (void)signal;
-  if (interrupted) _exit(130); /* asked twice: do not wait for the plan */
+  if (interrupted && now - first > 0.3) _exit(130);
+  if (!interrupted) first = now;
   interrupted = 1;
+}
+
+/* When something was shown last, and since when what is being done. */
+typedef struct {
+  double shown, began;
+  char what[48];
+  double done;
+} watch;
+
+static bool is_time_to_show(watch *w)
+{
+  double now = thr_clock();
+  if (now - w->shown < 0.1) return false;
+  w->shown = now;
+  progress_shown = true;
+  return true;
 }
 
 static void show_progress(void *user, const char *what, double best, double bound)
 {
-  double *last = user, now = thr_clock();
-  if (now - *last < 0.1) return;
-  *last = now;
+  if (!is_time_to_show(user)) return;
   fprintf(stderr, "\r\033[Kthread: %s: extra cord within %.3g %% of the least", what, best > 0 ? 100 * (best - bound) / best : 0);
   fflush(stderr);
-  progress_shown = true;
+}
+
+/* The time left is what the part that is done took, for the rest. */
+static void show_advance(void *user, const char *what, double done)
+{
+  enum { WIDE = 24 };
+  watch *w = user;
+  double now = thr_clock();
+  if (strncmp(w->what, what, sizeof w->what - 1) != 0 || done < w->done) {
+    snprintf(w->what, sizeof w->what, "%s", what);
+    w->began = now;
+  }
+  w->done = done;
+  if (!is_time_to_show(w)) return;
+  char bar[WIDE + 1], left[48] = "";
+  for (int i = 0; i < WIDE; i++)
+    bar[i] = i < (int)(WIDE * done) ? '#' : '.';
+  bar[WIDE] = '\0';
+  double seconds = done > 0 ? (now - w->began) * (1 - done) / done : 0;
+  if (done > 0.02 && now - w->began > 1) {
+    if (seconds < 90)
+      snprintf(left, sizeof left, ", %.0f s left", ceil(seconds));
+    else
+      snprintf(left, sizeof left, ", %.0f min left", ceil(seconds / 60));
+  }
+  fprintf(stderr, "\r\033[Kthread: %.40s [%s] %.0f %%%s", what, bar, floor(100 * done), left);
+  fflush(stderr);
 }
 
 static void log_progress(void *user, const char *what, double best, double bound)
@@ -335,8 +380,9 @@ static void log_progress(void *user, const char *what, double best, double bound
 
 thr_limits cli_limits(double seconds)
 {
-  static double last;
-  thr_limits l = {.interrupted = &interrupted, .user = &last};
+  static watch seen;
+  thr_limits l = {.interrupted = &interrupted, .user = &seen};
+  seen = (watch){0};
   struct sigaction act = {.sa_handler = on_interrupt};
   sigaction(SIGINT, &act, NULL);
   sigaction(SIGTERM, &act, NULL); /* what timeout and batch systems send */
@@ -345,6 +391,7 @@ thr_limits cli_limits(double seconds)
     l.progress = log_progress;
   else if (!cli_quiet && isatty(STDERR_FILENO))
     l.progress = show_progress;
+  if (!cli_quiet && isatty(STDERR_FILENO)) l.advance = show_advance;
   return l;
 }
 

@@ -99,7 +99,7 @@ int cli_write(thr_text *t, const char *path);
 
 /* ---- long computations ---- */
 
-/* Limits with a deadline (0 = none), Ctrl-C and, on a terminal, a progress line on stderr. */
+/* Limits with a deadline (0 = none), Ctrl-C and, on a terminal, a progress line on stderr with the time left. */
 thr_limits cli_limits(double seconds);
 void cli_progress_end(void); /* wipes the progress line */
 
@@ -111,6 +111,6 @@ double cli_degrees(double radians);
 const char *cli_plural(int n, const char *one, const char *many);
 
 /* Draws the overview of a plan to path. Shared by plan and draw. */
-int cli_draw_overview(const thr_plan *p, const char *path, double pitch_mm);
+int cli_draw_overview(const thr_plan *p, const char *path, double pitch_mm, bool tension);
 
 #endif

@@ -1,5 +1,7 @@
-/* thread compare: plans side by side, the best of each row marked. */
+/* thread compare: plans of one framework side by side, ranked by how hard they are to pull. */
 #include "cli/pull.h"
+#include "cli/ranking.h"
+#include "eval/workers.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -7,19 +9,37 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char help[] = "thread compare PLAN.. [options]: plans side by side; * marks the best of each row\n\n"
-                           "Examples:\n"
-                           "  thread compare closed.json feet.json --mu 0.3\n\n"
-                           "Options:\n" PULL_HELP "      --json           as JSON\n"
-                           "  -h, --help\n";
+static const char help[] =
+    "thread compare PLAN.. [options]: plans of one framework side by side; * marks the best of each row\n\n"
+    "Examples:\n"
+    "  thread compare closed.json feet.json --mu 0.3           ranked by pull, joints measured in simulation\n"
+    "  thread compare closed.json feet.json --method capstan   the same by the closed form, at once\n"
+    "  thread compare data/dome7-*.json --method all           closed form, joints, structure: do they agree?\n\n"
+    "Options:\n"
+    "      --method joint|capstan|structure|all\n"
+    "                       what to rank by (default: joint); the closed form is always shown beside it\n" PULL_HELP
+    "      --json           as JSON\n"
+    "  -q, --quiet          no notes and no progress       -h, --help\n\n"
+    "A difference within the measured error is a tie. The simulation of the structure runs twice for each plan, the second time "
+    "with half\n"
+    "the time step and twice the iterations, all from one pull; only what both runs tell apart is no tie.\n";
 
 static const struct option table[] = {CLI_COMMON_OPTIONS, PULL_OPTIONS, {NULL, 0, NULL, 0}};
+
+enum { CAPSTAN, JOINT, HOLDING, SIMULATION, N_RANKINGS };
 
 typedef struct {
   const char *path;
   thr_plan plan;
-  thr_capstan pull;
+  thr_eval eval[THR_N_METHODS];
+  double index[2]; /* of the simulation at the settings given, and finer; NAN = none */
 } entry;
+
+/* Is method i part of this comparison? */
+static bool wanted(const pull_args *a, thr_method i)
+{
+  return i == THR_CAPSTAN || a->method == (int)i || a->method == PULL_ALL_METHODS;
+}
 
 /* The rows: a value per plan, less is better. Rows that say what a plan is, not how good, mark nothing. */
 static double cords(const entry *e)
@@ -62,33 +82,85 @@ static double u_turns(const entry *e)
 {
   return e->plan.metrics.u_turns;
 }
-static double largest(const entry *e)
+static bool known(const entry *e, thr_method method)
 {
-  return e->pull.largest;
+  return e->eval[method].record.present && e->eval[method].complete;
 }
-static double total(const entry *e)
+static double largest_of(const entry *e, thr_method method)
 {
-  return e->pull.total;
+  return known(e, method) ? e->eval[method].record.largest : NAN;
+}
+static double total_of(const entry *e, thr_method method)
+{
+  return known(e, method) ? e->eval[method].record.total : NAN;
+}
+static double closed_largest(const entry *e)
+{
+  return largest_of(e, THR_CAPSTAN);
+}
+static double closed_total(const entry *e)
+{
+  return total_of(e, THR_CAPSTAN);
+}
+static double joint_largest(const entry *e)
+{
+  return largest_of(e, THR_JOINT);
+}
+static double joint_total(const entry *e)
+{
+  return total_of(e, THR_JOINT);
+}
+static double joint_error(const entry *e)
+{
+  return known(e, THR_JOINT) ? pull_percent(e->eval[THR_JOINT].error) : NAN;
+}
+static double taut_turning(const entry *e)
+{
+  const thr_evaluation *r = &e->eval[THR_JOINT].record;
+  double sum = 0;
+  for (int i = 0; i < r->n_cords; i++)
+    sum += r->cord[i].taut_turning;
+  return known(e, THR_JOINT) ? cli_degrees(sum) : NAN;
+}
+static double holding(const entry *e)
+{
+  return largest_of(e, THR_STRUCTURE);
+}
+static double settle_index(const entry *e)
+{
+  return e->index[0];
+}
+static double settle_index_fine(const entry *e)
+{
+  return e->index[1];
 }
 
 static const struct {
   const char *label, *key;
   double (*value)(const entry *);
   bool rate;
-  int decimals; /* -1: whole number, -2: six significant digits */
+  int decimals;      /* -1: whole number, -k: k significant digits */
+  thr_method method; /* that must be wanted */
 } row[] = {
-    {"cords", "cords", cords, false, -1},
-    {"passes", "passes", passes, true, -1},
-    {"length", "length", length, true, 3},
-    {"overlap", "overlap", overlap, true, 3},
-    {"overlap %", "overlap_percent", overlap_percent, true, 2},
-    {"gap to the proven bound %", "gap_percent", gap_percent, false, -2},
-    {"turning with closing turns, deg", "turning_deg", turning, true, 1},
-    {"the same, largest cord, deg", "max_turning_deg", max_turning, true, 1},
-    {"sharpest turn, deg", "worst_turn_deg", worst_turn, true, 1},
-    {"U-turns", "u_turns", u_turns, true, -1},
-    {"largest pull, N", "largest_pull", largest, true, -2},
-    {"all pulls together, N", "total_pull", total, true, -2},
+    {"cords", "cords", cords, false, -1, THR_CAPSTAN},
+    {"passes", "passes", passes, true, -1, THR_CAPSTAN},
+    {"length", "length", length, true, 3, THR_CAPSTAN},
+    {"overlap", "overlap", overlap, true, 3, THR_CAPSTAN},
+    {"overlap %", "overlap_percent", overlap_percent, true, 2, THR_CAPSTAN},
+    {"gap to the proven bound %", "gap_percent", gap_percent, false, -6, THR_CAPSTAN},
+    {"turning with closing turns, deg", "turning_deg", turning, true, 1, THR_CAPSTAN},
+    {"the same, largest cord, deg", "max_turning_deg", max_turning, true, 1, THR_CAPSTAN},
+    {"sharpest turn, deg", "worst_turn_deg", worst_turn, true, 1, THR_CAPSTAN},
+    {"U-turns", "u_turns", u_turns, true, -1, THR_CAPSTAN},
+    {"largest pull, closed form, N", "largest_pull", closed_largest, true, -6, THR_CAPSTAN},
+    {"all pulls together, N", "total_pull", closed_total, true, -6, THR_CAPSTAN},
+    {"turning of the tight cords, deg", "taut_turning_deg", taut_turning, true, 1, THR_JOINT},
+    {"largest pull, simulated, N", "joint_pull", joint_largest, true, -4, THR_JOINT},
+    {"its error, +- %", "joint_error_percent", joint_error, false, -3, THR_JOINT},
+    {"all pulls together, N", "joint_total", joint_total, true, -4, THR_JOINT},
+    {"holding pull of the structure, N", "holding_pull", holding, true, -6, THR_STRUCTURE},
+    {"simulation: index, no newtons", "ranking_index", settle_index, false, -3, THR_STRUCTURE},
+    {"the same, finer steps", "ranking_index_fine", settle_index_fine, false, -3, THR_STRUCTURE},
 };
 enum { N_ROWS = sizeof row / sizeof *row };
 
@@ -109,79 +181,319 @@ static void put_cell(thr_text *t, int r, double value, bool best)
     snprintf(cell, sizeof cell, "-");
   else if (row[r].decimals == -1)
     snprintf(cell, sizeof cell, "%.0f", value);
-  else if (row[r].decimals == -2)
-    snprintf(cell, sizeof cell, "%.6g", value);
+  else if (row[r].decimals < 0)
+    snprintf(cell, sizeof cell, "%.*g", -row[r].decimals, value);
   else
     snprintf(cell, sizeof cell, "%.*f", row[r].decimals, value);
   thr_text_printf(t, " %16s%s", cell, best ? "*" : " ");
 }
 
-static void put_text(thr_text *t, const entry *e, int n, const pull_args *a)
+/* ---- rankings ---- */
+
+/* Fills value and interval of plan i; leaves it unknown if it is. */
+static void rank_plan(ranking *r, int by, const entry *e, int i)
 {
-  thr_text_printf(t, "%-31s", "");
+  const thr_holding *h = &e->eval[THR_STRUCTURE].holding;
+  double rough = settle_index(e), fine = settle_index_fine(e);
+  switch (by) {
+  case CAPSTAN:
+    r->value[i] = closed_largest(e);
+    r->low[i] = r->value[i] * (1 - 1e-6);
+    r->high[i] = r->value[i] * (1 + 1e-6);
+    break;
+  case JOINT:
+    r->value[i] = joint_largest(e);
+    r->low[i] = r->value[i] * exp(-e->eval[THR_JOINT].error);
+    r->high[i] = r->value[i] * exp(e->eval[THR_JOINT].error);
+    break;
+  case HOLDING:
+    r->value[i] = r->low[i] = holding(e);
+    r->high[i] = h->lower == 0 ? 0 : h->upper > 0 ? h->upper : INFINITY;
+    break;
+  default:
+    r->value[i] = isnan(fine) ? NAN : rough;
+    r->low[i] = fmin(rough, fine);
+    r->high[i] = fmax(rough, fine);
+  }
+}
+
+static bool simulated(const entry *e, int n)
+{
+  for (int i = 0; i < n; i++)
+    if (!isnan(e[i].index[0])) return true;
+  return false;
+}
+
+/* Those of the wanted methods, one after the other; *count of them. */
+static thr_status make_rankings(const pull_args *a, const entry *e, int n, ranking *r, int *count, thr_err *err)
+{
+  static const ranking kind[N_RANKINGS] = {
+      [CAPSTAN] = {.title = "seating pull, closed form", .key = "capstan", .unit = " N"},
+      [JOINT] = {.title = "seating pull, joints measured in simulation", .key = "joint", .unit = " N", .error = true},
+      [HOLDING] = {.title = "holding pull of the structure, proved below .. above", .key = "holding", .unit = " N"},
+      [SIMULATION] = {.title = "simulation of the structure, an index without unit", .key = "simulation", .unit = ""}};
+  static const thr_method method[N_RANKINGS] = {THR_CAPSTAN, THR_JOINT, THR_STRUCTURE, THR_STRUCTURE};
+  bool all = a->method == PULL_ALL_METHODS;
+  *count = 0;
+  for (int by = 0; by < N_RANKINGS; by++) {
+    if (!all && a->method != (int)method[by]) continue;
+    if (by == SIMULATION && !simulated(e, n)) continue;
+    r[*count] = kind[by];
+    thr_status st = ranking_init(&r[*count], n, err);
+    if (st) return st;
+    for (int i = 0; i < n; i++)
+      rank_plan(&r[*count], by, &e[i], i);
+    ranking_make(&r[(*count)++]);
+  }
+  return THR_OK;
+}
+
+/* The first two rankings that contradict each other, and about which plans; false if they all agree. */
+static bool find_disagreement(const ranking *r, int count, int which[2], int pair[2])
+{
+  for (which[0] = 0; which[0] < count; which[0]++)
+    for (which[1] = which[0] + 1; which[1] < count; which[1]++)
+      if (ranking_disagree(&r[which[0]], &r[which[1]], pair)) return true;
+  return false;
+}
+
+static void put_agreement(const ranking *r, int count, const char *const *name, thr_text *t)
+{
+  int which[2], pair[2];
+  if (count < 2) return;
+  if (find_disagreement(r, count, which, pair))
+    thr_text_printf(t, "the rankings disagree: %s needs less than %s by %s, more by %s\n", name[pair[0]], name[pair[1]],
+                    r[which[0]].key, r[which[1]].key);
+  else
+    thr_text_append(t, "the rankings agree, ties aside\n");
+}
+
+/* ---- output ---- */
+
+static void put_head(thr_text *t, const entry *e, int n)
+{
+  thr_text_printf(t, "%-32s", "");
   for (int i = 0; i < n; i++) {
     size_t letters = strlen(e[i].path);
     thr_text_printf(t, letters > 16 ? " ..%s " : " %16s ", letters > 16 ? e[i].path + letters - 14 : e[i].path);
   }
-  thr_text_printf(t, "\n%-31s", "ends");
+  thr_text_printf(t, "\n%-32s", "ends");
   for (int i = 0; i < n; i++)
     thr_text_printf(t, " %16s ", thr_ends_name(e[i].plan.options.ends));
-  for (int r = 0; r < N_ROWS; r++) {
-    thr_text_printf(t, "\n%-31s", row[r].label);
-    for (int i = 0; i < n; i++)
-      put_cell(t, r, row[r].value(&e[i]), is_best(e, n, r, i));
-  }
-  thr_text_printf(t, "\n\n* best of the row. Pull: capstan law, seating tension %g N, pulled at: %s, mu = ", a->capstan.seating,
-                  pull_name(a->capstan.pull));
-  if (a->mu_given)
-    thr_text_printf(t, "%g\n", a->capstan.mu);
-  else
-    thr_text_append(t, "each plan's own\n");
 }
 
-static void put_json(thr_text *t, const entry *e, int n)
+static bool same_physics(const thr_physics *a, const thr_physics *b)
 {
-  thr_text_append(t, "[");
+  for (int i = 0; i < thr_physics_n_fields; i++)
+    if (thr_physics_get(a, &thr_physics_fields[i]) != thr_physics_get(b, &thr_physics_fields[i])) return false;
+  return true;
+}
+
+static void put_text(thr_text *t, const pull_args *a, const entry *e, int n, const ranking *r, int count, const char *const *name)
+{
+  const thr_physics *first = &e[0].eval[THR_CAPSTAN].record.physics;
+  bool same = true;
+  put_head(t, e, n);
+  for (int k = 0; k < N_ROWS; k++) {
+    if (!wanted(a, row[k].method)) continue;
+    thr_text_printf(t, "\n%-32s", row[k].label);
+    for (int i = 0; i < n; i++)
+      put_cell(t, k, row[k].value(&e[i]), is_best(e, n, k, i));
+  }
+  for (int i = 1; i < n; i++)
+    same = same && same_physics(first, &e[i].eval[THR_CAPSTAN].record.physics);
+  thr_text_printf(t, "\n\n* best of the row. Pull: seating tension %g N, pulled at: %s, mu = ", first->seating, a->pull);
+  if (same)
+    thr_text_printf(t, "%g\n", first->mu);
+  else
+    thr_text_append(t, "each plan's own\n");
+  if (n < 2) return;
+  thr_text_append(t, "\n");
+  for (int k = 0; k < count; k++)
+    ranking_put_text(&r[k], name, t);
+  put_agreement(r, count, name, t);
+}
+
+static void put_json(thr_text *t, const pull_args *a, const entry *e, int n, const ranking *r, int count, const char *const *name)
+{
+  int which[2], pair[2];
+  thr_text_append(t, "{\"plans\": [");
   for (int i = 0; i < n; i++) {
     thr_text_append(t, i ? ",\n {\"plan\": " : "\n {\"plan\": ");
     thr_text_json_string(t, e[i].path);
-    thr_text_printf(t, ", \"framework\": \"%016" PRIx64 "\", \"ends\": \"%s\"", thr_frame_hash(&e[i].plan.frame),
+    thr_text_printf(t, ", \"framework\": \"%016" PRIx64 "\", \"ends\": \"%s\", \"physics\": ", thr_frame_hash(&e[i].plan.frame),
                     thr_ends_name(e[i].plan.options.ends));
-    for (int r = 0; r < N_ROWS; r++) {
-      double value = row[r].value(&e[i]);
-      thr_text_printf(t, ", \"%s\": ", row[r].key);
+    thr_physics_write(&e[i].eval[THR_CAPSTAN].record.physics, t);
+    for (int k = 0; k < N_ROWS; k++) {
+      double value = row[k].value(&e[i]);
+      if (!wanted(a, row[k].method)) continue;
+      thr_text_printf(t, ", \"%s\": ", row[k].key);
       if (isnan(value))
         thr_text_append(t, "null");
       else
         thr_text_double(t, value);
     }
     thr_text_append(t, ", \"best\": [");
-    for (int r = 0, some = 0; r < N_ROWS; r++)
-      if (is_best(e, n, r, i)) thr_text_printf(t, "%s\"%s\"", some++ ? ", " : "", row[r].key);
+    for (int k = 0, some = 0; k < N_ROWS; k++)
+      if (is_best(e, n, k, i)) thr_text_printf(t, "%s\"%s\"", some++ ? ", " : "", row[k].key);
     thr_text_append(t, "]}");
   }
-  thr_text_append(t, "\n]\n");
+  thr_text_append(t, "\n],\n\"rankings\": [");
+  for (int k = 0; k < count; k++) {
+    thr_text_append(t, k ? ",\n " : "\n ");
+    ranking_put_json(&r[k], name, t);
+  }
+  thr_text_printf(t, "\n],\n\"agree\": %s}\n", find_disagreement(r, count, which, pair) ? "false" : "true");
 }
 
-static int read_entries(const pull_args *a, char **path, int n, entry *e)
+/* ---- work ---- */
+
+/* Pulls compare only on one framework and at one friction. */
+static int read_entries(char **path, int n, entry *e)
 {
   for (int i = 0; i < n; i++) {
     e[i].path = path[i];
+    e[i].index[0] = e[i].index[1] = NAN;
     int code = cli_read_plan(path[i], &e[i].plan);
-    if (!code) code = pull_eval(a, path[i], &e[i].plan, &e[i].pull);
     if (code) return code;
-    if (i > 0 && thr_frame_hash(&e[i].plan.frame) != thr_frame_hash(&e[0].plan.frame))
-      cli_note("note: %s is for another framework than %s", path[i], path[0]);
+    if (i == 0 || thr_frame_hash(&e[i].plan.frame) == thr_frame_hash(&e[0].plan.frame)) continue;
+    cli_error("%s is for another framework than %s: pulls can be compared on one framework only", path[i], path[0]);
+    return EXIT_INPUT;
   }
   return EXIT_OK;
+}
+
+/* Every method for every plan, until one fails or is stopped. */
+static int evaluate(const pull_args *a, entry *e, int n)
+{
+  pull_args plain = *a;
+  plain.options.dynamics = false; /* the simulation follows, when the common start is known */
+  for (int method = 0; method < THR_N_METHODS; method++)
+    for (int i = 0; i < n && wanted(a, (thr_method)method); i++) {
+      int code = pull_eval(&plain, e[i].path, &e[i].plan, (thr_method)method, &e[i].eval[method]);
+      if (code) return code;
+      if (i > 0 && method == 0 && !same_physics(&e[i].eval[0].record.physics, &e[0].eval[0].record.physics))
+        cli_note("note: %s has its own cord and beads, other than %s: give --mu and the like to compare like with like",
+                 e[i].path, e[0].path);
+    }
+  return EXIT_OK;
+}
+
+typedef struct {
+  const pull_args *args;
+  const entry *e;
+  double start;
+  const thr_limits *limits;
+} simulation;
+
+/* Job 2 i simulates plan i, job 2 i + 1 the same at finer settings; the result is a double, NAN if it never came to rest. */
+static thr_status settle_plan(void *user, int job, void *result, thr_err *err)
+{
+  const simulation *s = user;
+  const entry *e = &s->e[job / 2];
+  const thr_evaluation *r = &e->eval[THR_STRUCTURE].record;
+  const thr_settle_options o = {.start = s->start,
+                                .time_step = s->args->options.time_step * (job & 1 ? 0.5 : 1),
+                                .iterations = s->args->options.iterations * (job & 1 ? 2 : 1),
+                                .seed = s->args->options.seed};
+  thr_beads b = {0};
+  thr_settle out = {0};
+  double **tension = thr_calloc((size_t)r->n_cords, sizeof *tension);
+  thr_status st = tension ? thr_beads_make(&e->plan.frame, &r->physics, &b, err) : thr_nomem(err);
+  for (int i = 0; i < r->n_cords && !st; i++) { /* of a pull of 1 */
+    if (!(tension[i] = thr_calloc((size_t)r->cord[i].n_passes, sizeof **tension))) st = thr_nomem(err);
+    for (int k = 0; k < r->cord[i].n_passes && !st; k++)
+      tension[i][k] = r->cord[i].tension[k] / r->cord[i].force;
+  }
+  if (!st)
+    st = thr_settle_run(&b, &e->plan.frame, e->plan.cord, r->n_cords, (const double *const *)tension, &r->physics, &o, s->limits,
+                        &out, err);
+  bool known = out.status == THR_SETTLE_FELL || out.status == THR_SETTLE_HELD;
+  *(double *)result = !st && known ? out.index : NAN;
+  thr_settle_destroy(&out);
+  for (int i = 0; i < r->n_cords && tension; i++)
+    free(tension[i]);
+  free(tension);
+  thr_beads_destroy(&b);
+  return st;
+}
+
+static thr_status run_simulations(const pull_args *a, entry *e, int n, double start, thr_err *err)
+{
+  const thr_limits limits = cli_limits(0);
+  const thr_limits quiet = {.interrupted = limits.interrupted}; /* in a child: only the parent draws the bar */
+  simulation s = {a, e, start, &quiet};
+  const thr_work work = {
+      .n_jobs = 2 * n, .result_size = sizeof(double), .run = settle_plan, .user = &s, .what = "simulating structures"};
+  double *index = thr_calloc(2 * (size_t)n, sizeof *index);
+  bool *finished = thr_calloc(2 * (size_t)n, sizeof *finished);
+  thr_status st =
+      index && finished ? thr_workers_run(&work, a->options.processes, &limits, index, finished, err) : thr_nomem(err);
+  for (int i = 0; i < 2 * n && index && finished; i++)
+    if (finished[i]) e[i / 2].index[i & 1] = index[i];
+  free(index);
+  free(finished);
+  cli_progress_end();
+  return st;
+}
+
+/* All from one pull, each twice; not where a plan stands by itself, since then there is no pull to let off. */
+static int settle(const pull_args *a, entry *e, int n)
+{
+  thr_err err = {0};
+  double start = 0;
+  for (int i = 0; i < n; i++) {
+    const thr_evaluation *r = &e[i].eval[THR_STRUCTURE].record;
+    if (!(r->largest > 0)) return EXIT_OK;
+    start = fmax(start, 3 * r->largest);
+  }
+  if (a->options.start > 0) start = a->options.start;
+  if (e[0].plan.frame.n_nodes > thr_settle_largest) {
+    cli_note("note: no simulation of the structure: it has more than %d beads", thr_settle_largest);
+    return EXIT_OK;
+  }
+  thr_status st = run_simulations(a, e, n, start, &err);
+  return st == THR_ELIMIT ? EXIT_LIMIT : st ? cli_fail(&err) : EXIT_OK;
+}
+
+static int print(const pull_args *a, const entry *e, int n)
+{
+  thr_err err = {0};
+  thr_text t = {0};
+  ranking r[N_RANKINGS] = {{0}};
+  int count = 0;
+  const char **name = thr_calloc((size_t)n, sizeof *name);
+  thr_status st = name ? make_rankings(a, e, n, r, &count, &err) : thr_nomem(&err);
+  if (!st) {
+    for (int i = 0; i < n; i++)
+      name[i] = e[i].path;
+    (a->json ? put_json : put_text)(&t, a, e, n, r, count, name);
+  }
+  for (int i = 0; i < N_RANKINGS; i++)
+    ranking_destroy(&r[i]);
+  free(name);
+  return st ? cli_fail(&err) : cli_write(&t, "-");
+}
+
+static int compare(const pull_args *a, char **path, int n, entry *e)
+{
+  int code = read_entries(path, n, e);
+  if (!code) code = evaluate(a, e, n);
+  if (!code && wanted(a, THR_STRUCTURE) && a->options.dynamics) code = settle(a, e, n);
+  if (code && code != EXIT_LIMIT) return code;
+  int printed = print(a, e, n);
+  if (code == EXIT_LIMIT) cli_error("stopped: what is - above is not known");
+  return printed ? printed : code;
 }
 
 int cmd_compare(int argc, char **argv)
 {
   int done, option;
   bool ok;
-  pull_args a = pull_args_default();
-  while ((option = cli_next_option(argc, argv, "compare", ":" CLI_COMMON_LETTERS, table, help, &done)) != -1)
+  pull_args a;
+  pull_args_init(&a, THR_JOINT);
+  while ((option = cli_physics_option(&a.physics, argc, argv, "compare", ":" CLI_COMMON_LETTERS PULL_LETTERS, table, help,
+                                      &done)) != -1)
     if (pull_option(&a, "compare", option, optarg, &ok) && !ok) return EXIT_USAGE;
   if (done >= 0) return done;
   int n = argc - optind;
@@ -191,18 +503,11 @@ int cmd_compare(int argc, char **argv)
     cli_error("out of memory");
     return EXIT_INTERNAL;
   }
-  int code = read_entries(&a, argv + optind, n, e);
-  if (!code) {
-    thr_text t = {0};
-    if (a.json)
-      put_json(&t, e, n);
-    else
-      put_text(&t, e, n, &a);
-    code = cli_write(&t, "-");
-  }
+  int code = compare(&a, argv + optind, n, e);
   for (int i = 0; i < n; i++) {
     thr_plan_destroy(&e[i].plan);
-    thr_capstan_destroy(&e[i].pull);
+    for (int k = 0; k < THR_N_METHODS; k++)
+      thr_eval_destroy(&e[i].eval[k]);
   }
   free(e);
   return code;

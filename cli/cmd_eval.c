@@ -1,28 +1,251 @@
 /* thread eval: how hard must one pull? */
 #include "cli/pull.h"
+#include "diagram/still.h"
+#include "diagram/tension.h"
+#include "eval/drag.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 static const char help[] =
     "thread eval PLAN [options]: pull force, friction loss and tension along each cord\n\n"
     "Examples:\n"
-    "  thread eval plan.json --mu 0.3 --seating 5    newtons at the pulled ends so that 5 N reaches every bead\n"
-    "  thread eval plan.json --pull start --tension  tension in every pass\n\n"
-    "Options:\n" PULL_HELP "      --tension        print the tension in every pass\n"
-    "      --json           as JSON, tension included\n"
-    "  -h, --help\n\n"
-    "The closed form takes the cord through the middle of every bead. A cord thinner than the bore cuts corners and needs "
-    "less.\n";
+    "  thread eval plan.json --mu 0.3 --seating 5         newtons at the pulled ends so that 5 N reaches every bead\n"
+    "  thread eval plan.json --method joint               joints measured in simulation\n"
+    "  thread eval plan.json --method structure --still still.svg   least pull at which the whole can stand\n"
+    "  thread eval plan.json -o plan.json --plot tension.svg        keep it in the plan; draw it\n\n"
+    "Options:\n"
+    "      --method capstan|joint|structure\n"
+    "                       capstan: closed form, force = seating tension x exp(mu x turning) (default)\n"
+    "                       joint: each joint's friction measured in simulation, along the path the tight cord takes\n"
+    "                       structure: least pull at which the rigid beads have any equilibrium, and which fails "
+    "first\n" PULL_HELP "      --tension        print the tension in every pass\n"
+    "  -o, --output FILE    write the plan with this evaluation in it (- = stdout)\n"
+    "      --plot FILE      write a plot of the tension along each cord, as SVG\n"
+    "      --still FILE     structure: write a picture of the beads before and after the fall, as SVG\n"
+    "      --json           everything as JSON\n"
+    "  -q, --quiet          no notes and no progress       -h, --help\n\n"
+    "Pull is the force at the pulled ends of a cord at which its slackest pass has the seating tension (capstan, joint), or at "
+    "which\n"
+    "the structure can just stand (structure). These are different things. The closed form takes the cord through the middle of "
+    "every\n"
+    "bead; a cord thinner than the bore cuts corners, turns less and needs less: method joint knows.\n";
 
-enum { OPTION_TENSION = OPTION_PULL_FREE };
-static const struct option table[] = {
-    CLI_COMMON_OPTIONS, PULL_OPTIONS, {"tension", no_argument, NULL, OPTION_TENSION}, {NULL, 0, NULL, 0}};
+enum { OPTION_TENSION = OPTION_PULL_FREE, OPTION_PLOT, OPTION_STILL };
+static const struct option table[] = {CLI_COMMON_OPTIONS,
+                                      PULL_OPTIONS,
+                                      {"tension", no_argument, NULL, OPTION_TENSION},
+                                      {"output", required_argument, NULL, 'o'},
+                                      {"plot", required_argument, NULL, OPTION_PLOT},
+                                      {"still", required_argument, NULL, OPTION_STILL},
+                                      {NULL, 0, NULL, 0}};
 
-static void put_tension(thr_text *t, const thr_plan *p, const thr_capstan *r)
+typedef struct {
+  pull_args pull;
+  bool tension;
+  const char *path, *output, *plot, *still;
+} arguments;
+
+static int parse(int argc, char **argv, arguments *a)
+{
+  int done, option;
+  bool ok;
+  *a = (arguments){0};
+  pull_args_init(&a->pull, THR_CAPSTAN);
+  while ((option = cli_physics_option(&a->pull.physics, argc, argv, "eval", ":" CLI_COMMON_LETTERS PULL_LETTERS "o:", table, help,
+                                      &done)) != -1) {
+    if (pull_option(&a->pull, "eval", option, optarg, &ok)) {
+      if (!ok) return EXIT_USAGE;
+      continue;
+    }
+    switch (option) {
+    case OPTION_TENSION: a->tension = true; break;
+    case 'o': a->output = optarg; break;
+    case OPTION_PLOT: a->plot = optarg; break;
+    case OPTION_STILL: a->still = optarg; break;
+    }
+    if (optarg && !*optarg) return cli_usage("eval", "an empty name is no place to write to");
+  }
+  if (done >= 0) return done;
+  if (optind + 1 != argc)
+    return cli_usage("eval", optind == argc ? "which plan?" : "one plan at a time; `thread compare` takes several");
+  a->path = argv[optind];
+  const char *const out[] = {a->output, a->plot, a->still};
+  int to_stdout = a->pull.json;
+  for (int i = 0; i < 3; i++)
+    to_stdout += out[i] && strcmp(out[i], "-") == 0;
+  if (to_stdout > 1) return cli_usage("eval", "only one of --json, -o -, --plot - and --still - can have stdout");
+  if (a->still && a->pull.method != THR_STRUCTURE) return cli_usage("eval", "--still needs --method structure");
+  if (a->still && !a->pull.options.dynamics) return cli_usage("eval", "--still shows a simulation; take --no-dynamics away");
+  return -1;
+}
+
+/* ---- text ---- */
+
+static const char *method_words(const thr_evaluation *r)
+{
+  switch (r->method) {
+  case THR_JOINT: return "joints measured in simulation, composed along the path of the tight cord";
+  case THR_STRUCTURE: return "structure: least pull at which rigid beads can stand (limit analysis)";
+  default:
+    return r->law == THR_LAW_MITRE ? "mitred beads, closed form; --method joint measures joints in simulation"
+                                   : "capstan law, closed form; --method joint measures joints in simulation";
+  }
+}
+
+static void put_heading(thr_text *t, const thr_evaluation *r, const char *pulled)
+{
+  const thr_physics *p = &r->physics;
+  thr_text_printf(t, "%s\nmu = %g (band %g to %g), ", method_words(r), p->mu, p->mu_low, p->mu_high);
+  if (r->method == THR_STRUCTURE) {
+    thr_text_printf(t, "bead on bead %g, foot on ground %g, ", p->mu_bead, p->mu_ground);
+    if (p->bead_mass > 0)
+      thr_text_printf(t, "beads of %g g, ", p->bead_mass);
+    else
+      thr_text_printf(t, "density %g g/cm3, ", p->density);
+  } else {
+    thr_text_printf(t, "seating tension %g N, ", p->seating);
+  }
+  if (r->method == THR_JOINT) thr_text_printf(t, "cord %.4g mm in bores of %.4g mm, ", p->cord_diameter, p->bore);
+  thr_text_printf(t, "pulled at: %s\n\n", pulled);
+}
+
+/* Measured numbers get fewer digits. */
+static int digits(thr_method method)
+{
+  return method == THR_JOINT ? 4 : 6;
+}
+
+static void put_cell(thr_text *t, int width, int n_digits, double value, bool there)
+{
+  char cell[40] = "-";
+  if (there) snprintf(cell, sizeof cell, "%.*g", n_digits, value);
+  thr_text_printf(t, " %*s", width, cell);
+}
+
+static void put_cord(thr_text *t, const char *id, const thr_eval_cord *c, thr_method method)
+{
+  thr_text_printf(t, "%-5s %8.1f deg", id, cli_degrees(c->turning));
+  if (method == THR_JOINT) thr_text_printf(t, " %8.1f deg", cli_degrees(c->taut_turning));
+  put_cell(t, 12, digits(method), c->force, true);
+  put_cell(t, 13, digits(method), c->other_force, c->pull == THR_PULL_BOTH);
+  thr_text_printf(t, " %7.2f %% %10.4g J", 100 * c->loss, c->work);
+  if (method == THR_JOINT) thr_text_printf(t, " %6.2f %%", pull_percent(c->error));
+  thr_text_printf(t, "  %d of %d\n", c->slackest + 1, c->n_passes);
+}
+
+static void put_cords(thr_text *t, const thr_plan *p, const thr_evaluation *r)
+{
+  bool joint = r->method == THR_JOINT;
+  thr_text_printf(t, "%-5s %12s%s %12s %13s %9s %12s%s  %s\n", "cord", "turning", joint ? "    when tight" : "", "pull (N)",
+                  "other end (N)", "loss", "work per m", joint ? "   error +-" : "", "slackest pass");
+  for (int i = 0; i < r->n_cords; i++) {
+    if (r->cord[i].known)
+      put_cord(t, p->cord[i].id, &r->cord[i], r->method);
+    else
+      thr_text_printf(t, "%-5s not known: stopped before\n", p->cord[i].id);
+  }
+}
+
+/* The largest pull over the band of mu; an end of it may be past what a number can hold, or hold nothing at any pull. */
+static void put_band(thr_text *t, const thr_evaluation *r, const double band[2])
+{
+  const thr_physics *p = &r->physics;
+  bool holds = r->method == THR_STRUCTURE;
+  if (isnan(band[0]) || isnan(band[1]) || p->mu_low == p->mu_high) return;
+  thr_text_printf(t, "between mu %g and %g (%s):", p->mu_low, p->mu_high, holds ? "limit analysis" : "closed form");
+  for (int i = 0; i < 2; i++) {
+    if (i) thr_text_append(t, " ..");
+    if (isfinite(band[i]))
+      thr_text_printf(t, " %.4g", band[i]);
+    else
+      thr_text_append(t, holds ? " no pull holds" : " over 1e300");
+  }
+  thr_text_append(t, " N\n");
+}
+
+static void put_sums(thr_text *t, const thr_plan *p, const thr_eval *e)
+{
+  const thr_evaluation *r = &p->evaluation;
+  thr_text_printf(t, "\nlargest pull %.*g N, all pulls together %.*g N", digits(r->method), r->largest, digits(r->method),
+                  r->total);
+  if (e->error > 0) thr_text_printf(t, ", error of each at most %.2g %%", pull_percent(e->error));
+  thr_text_append(t, "\n");
+  put_band(t, r, e->band);
+  if (!e->complete) {
+    thr_text_append(t, "stopped; not known: ");
+    pull_unknown_cords(p, r, t);
+    thr_text_append(t, "; the pulls above are those of the other cords\n");
+  }
+}
+
+static int turns_of(const thr_plan *p)
+{
+  int n = 0;
+  for (int i = 0; i < p->n_cords; i++)
+    n += p->cord[i].n_passes - 1;
+  return n;
+}
+
+static void put_joint(thr_text *t, const thr_plan *p, const thr_eval *e)
+{
+  if (e->refused)
+    thr_text_printf(t, "%d of %d turns %s sharper than %.0f degrees, where the simulation is not valid: closed form used there\n",
+                    e->refused, turns_of(p), e->refused == 1 ? "is" : "are", cli_degrees(thr_drag_largest_turn));
+  thr_text_printf(t, "joints: %d measured, %d from the cache; between measured angles the exponent is right within %.2g %%\n",
+                  e->joints_measured, e->joints_cached, 100 * e->interpolation);
+  if (e->joints_unsettled)
+    thr_text_printf(t, "%d %s not slide steadily: the error above counts it\n", e->joints_unsettled,
+                    cli_plural(e->joints_unsettled, "joint did", "joints did"));
+}
+
+static void put_settle(thr_text *t, const thr_plan *p, const thr_settle *s)
+{
+  if (s->status == THR_SETTLE_TOO_LARGE) {
+    thr_text_printf(t, "simulation     left out: more than %d beads\n", thr_settle_largest);
+    return;
+  }
+  if (s->status == THR_SETTLE_NEVER_SETTLED) {
+    thr_text_append(t, "simulation     never came to rest under the pull at its start; try a larger --start\n");
+    return;
+  }
+  if (s->status == THR_SETTLE_FELL && s->first_bead >= 0)
+    thr_text_printf(t, "simulation     bead %s moves first; widest gap %.3g mm before, %.3g mm after\n",
+                    p->frame.name[s->first_bead], s->gap_before, s->gap_after);
+  else
+    thr_text_printf(t, "simulation     stands until the pull is gone; widest gap %.3g mm\n", s->gap_before);
+  thr_text_printf(t,
+                  "ranking index  %.3g of the pull at its start; only its order among plans that begin at one --start means\n"
+                  "               anything: no newtons (friction contacts creep)\n",
+                  s->index);
+}
+
+static void put_structure(thr_text *t, const thr_plan *p, const thr_eval *e)
+{
+  const thr_holding *h = &e->holding;
+  if (!h->present) return;
+  if (h->lower > 0)
+    thr_text_printf(t, "\nholding pull   below %.6g N nothing can hold it (proved, residual %.1g)", h->lower, h->residual);
+  else
+    thr_text_append(t, "\nholding pull   0 N: it stands by itself");
+  if (h->upper > 0 && isfinite(h->upper)) thr_text_printf(t, "; at %.6g N an equilibrium exists", h->upper);
+  thr_text_append(t, "\n");
+  if (h->first_bead >= 0)
+    thr_text_printf(t, "just below     bead %s moves fastest (collapse mechanism)\n", p->frame.name[h->first_bead]);
+  if (e->settle.present)
+    put_settle(t, p, &e->settle);
+  else if (p->frame.n_nodes > thr_settle_largest)
+    thr_text_printf(t, "simulation     left out: more than %d beads\n", thr_settle_largest);
+}
+
+static void put_tension(thr_text *t, const thr_plan *p, const thr_evaluation *r)
 {
   for (int i = 0; i < p->n_cords; i++) {
     const thr_cord *c = &p->cord[i];
+    if (!r->cord[i].known) continue;
     thr_text_printf(t, "\n%-5s %6s  %-12s %-12s %12s\n", "cord", "pass", "from", "to", "tension (N)");
     for (int k = 0; k < c->n_passes; k++)
       thr_text_printf(t, "%-5s %6d  %-12s %-12s %12.6g\n", c->id, k + 1, p->frame.name[thr_tail(&p->frame, c->half[k])],
@@ -30,85 +253,176 @@ static void put_tension(thr_text *t, const thr_plan *p, const thr_capstan *r)
   }
 }
 
-static void put_text(thr_text *t, const thr_plan *p, const pull_args *a, double mu, const thr_capstan *r, bool tension)
+static void put_text(thr_text *t, const arguments *a, const thr_plan *p, const thr_eval *e)
 {
-  thr_text_printf(t, "capstan law, mu = %g, seating tension %g N, pulled at: %s\n\n", mu, a->capstan.seating,
-                  pull_name(a->capstan.pull));
-  thr_text_printf(t, "%-5s %12s %14s %14s %10s  %s\n", "cord", "turning", "pull (N)", "other end (N)", "loss",
-                  "slackest at pass");
-  for (int i = 0; i < r->n_cords; i++) {
-    const thr_capstan_cord *c = &r->cord[i];
-    thr_text_printf(t, "%-5s %8.1f deg %14.6g ", p->cord[i].id, cli_degrees(c->turning), c->force);
-    if (c->other_force > 0)
-      thr_text_printf(t, "%14.6g", c->other_force);
-    else
-      thr_text_printf(t, "%14s", "-");
-    thr_text_printf(t, " %8.2f %%  %d of %d\n", 100 * c->loss, c->slackest + 1, p->cord[i].n_passes);
-  }
-  thr_text_printf(t, "\nlargest pull %.6g N, all pulls together %.6g N\n", r->largest, r->total);
-  if (tension) put_tension(t, p, r);
+  const thr_evaluation *r = &p->evaluation;
+  put_heading(t, r, a->pull.pull);
+  put_cords(t, p, r);
+  put_sums(t, p, e);
+  if (r->method == THR_JOINT) put_joint(t, p, e);
+  if (r->method == THR_STRUCTURE) put_structure(t, p, e);
+  if (a->tension) put_tension(t, p, r);
 }
 
+/* ---- JSON ---- */
+
+/* What is not finite is null. */
 static void put_number(thr_text *t, const char *before, double value)
 {
   thr_text_append(t, before);
-  thr_text_double(t, value);
+  if (isfinite(value))
+    thr_text_double(t, value);
+  else
+    thr_text_append(t, "null");
 }
 
-static void put_json(thr_text *t, const thr_plan *p, const pull_args *a, double mu, const thr_capstan *r)
+static void put_bead(thr_text *t, const char *before, const thr_frame *f, int bead)
 {
-  thr_text_printf(t, "{\"framework\": \"%016" PRIx64 "\", \"method\": \"capstan\"", thr_frame_hash(&p->frame));
-  put_number(t, ", \"mu\": ", mu);
-  put_number(t, ", \"seating\": ", a->capstan.seating);
-  thr_text_printf(t, ", \"pull\": \"%s\"", pull_name(a->capstan.pull));
-  put_number(t, ", \"largest\": ", r->largest);
-  put_number(t, ", \"total\": ", r->total);
-  thr_text_append(t, ", \"cords\": [");
-  for (int i = 0; i < r->n_cords; i++) {
-    const thr_capstan_cord *c = &r->cord[i];
-    thr_text_append(t, i ? ",\n  {\"id\": " : "\n  {\"id\": ");
-    thr_text_json_string(t, p->cord[i].id);
-    put_number(t, ", \"turning\": ", c->turning);
-    put_number(t, ", \"force\": ", c->force);
-    put_number(t, ", \"other_force\": ", c->other_force);
-    put_number(t, ", \"loss\": ", c->loss);
-    thr_text_printf(t, ", \"slackest_pass\": %d, \"tension\": [", c->slackest + 1);
-    for (int k = 0; k < p->cord[i].n_passes; k++)
-      put_number(t, k ? ", " : "", c->tension[k]);
-    thr_text_append(t, "]}");
+  thr_text_append(t, before);
+  if (bead >= 0)
+    thr_text_json_string(t, f->name[bead]);
+  else
+    thr_text_append(t, "null");
+}
+
+static void put_json_structure(thr_text *t, const thr_frame *f, const thr_eval *e)
+{
+  static const char *const status[] = {"fell", "held", "never settled", "too large"};
+  const thr_holding *h = &e->holding;
+  const thr_settle *s = &e->settle;
+  put_number(t, ",\n \"holding\": {\"lower\": ", h->lower);
+  put_number(t, ", \"upper\": ", h->upper);
+  put_number(t, ", \"residual\": ", h->residual);
+  put_bead(t, ", \"first_bead\": ", f, h->first_bead);
+  thr_text_append(t, "}");
+  if (!s->present) return;
+  thr_text_printf(t, ",\n \"simulation\": {\"status\": \"%s\"", status[s->status]);
+  put_number(t, ", \"ranking_index\": ", s->index);
+  put_bead(t, ", \"first_bead\": ", f, s->first_bead);
+  put_number(t, ", \"gap_before_mm\": ", s->gap_before);
+  put_number(t, ", \"gap_after_mm\": ", s->gap_after);
+  put_number(t, ", \"drift_mm\": ", s->drift);
+  thr_text_append(t, "}");
+}
+
+static void put_json(thr_text *t, const thr_plan *p, const thr_eval *e)
+{
+  thr_text_printf(t, "{\"framework\": \"%016" PRIx64 "\", \"complete\": %s, ", thr_frame_hash(&p->frame),
+                  e->complete ? "true" : "false");
+  thr_evaluation_write(&p->evaluation, t);
+  put_number(t, " \"band\": [", e->band[0]);
+  put_number(t, ", ", e->band[1]);
+  put_number(t, "], \"error\": ", e->error);
+  thr_text_printf(t, ", \"refused\": %d", e->refused);
+  if (p->evaluation.method == THR_JOINT) {
+    thr_text_printf(t, ",\n \"joints\": {\"measured\": %d, \"cached\": %d, \"unsettled\": %d", e->joints_measured,
+                    e->joints_cached, e->joints_unsettled);
+    put_number(t, ", \"interpolation\": ", e->interpolation);
+    thr_text_append(t, "}");
   }
-  thr_text_append(t, "\n]}\n");
+  if (e->holding.present) put_json_structure(t, &p->frame, e);
+  thr_text_append(t, "}\n");
+}
+
+/* ---- outputs ---- */
+
+static int write_plot(const thr_plan *p, const char *path)
+{
+  thr_err err = {0};
+  thr_text svg = {0};
+  thr_tension_options o = thr_tension_options_default();
+  return thr_tension_svg(p, &o, &svg, &err) ? cli_fail(&err) : cli_write(&svg, path);
+}
+
+/* Poses come in m and with the ground at 0; the picture wants units of the framework. */
+static thr_status draw_still(const thr_plan *p, const thr_settle *s, thr_text *svg, thr_err *err)
+{
+  double mm = 1;
+  size_t n = (size_t)s->n_beads;
+  double(*pose)[7] = thr_calloc(2 * n, sizeof *pose);
+  thr_status st = pose ? thr_units_in_mm(p->frame.units, &mm, err) : thr_nomem(err);
+  for (size_t v = 0; v < 2 * n && !st; v++) {
+    memcpy(pose[v], v < n ? s->before[v] : s->after[v - n], sizeof *pose);
+    for (int k = 0; k < 3; k++)
+      pose[v][k] *= 1000 / mm;
+  }
+  char note[160];
+  snprintf(note, sizeof note, "%s",
+           s->status == THR_SETTLE_FELL ? "Before: under the pull at the start. After: the pull let off until it fell."
+                                        : "It stands until the pull is gone.");
+  const thr_still still = {.title = "The structure in simulation",
+                           .note = note,
+                           .width = p->evaluation.physics.bead_diameter / mm,
+                           .before = (const double(*)[7])pose,
+                           .after = (const double(*)[7])(pose ? pose + n : NULL),
+                           .first_bead = s->first_bead,
+                           .gap_before = s->gap_before,
+                           .gap_after = s->gap_after};
+  if (!st) st = thr_still_svg(&p->frame, &still, svg, err);
+  free(pose);
+  return st;
+}
+
+static int write_still(const thr_plan *p, const thr_settle *s, const char *path)
+{
+  thr_err err = {0};
+  thr_text svg = {0};
+  if (!s->present || !s->before || !s->after || s->status == THR_SETTLE_TOO_LARGE || s->status == THR_SETTLE_NEVER_SETTLED) {
+    cli_error("%s: nothing to draw: %s", path,
+              s->present && s->status == THR_SETTLE_NEVER_SETTLED ? "the simulation never came to rest; try a larger --start"
+                                                                  : "there was no simulation");
+    return EXIT_INPUT;
+  }
+  return draw_still(p, s, &svg, &err) ? cli_fail(&err) : cli_write(&svg, path);
+}
+
+static int write_outputs(const arguments *a, const thr_plan *p, const thr_eval *e)
+{
+  thr_text t = {0};
+  int code = EXIT_OK;
+  if (a->output) {
+    thr_plan_write(p, &t);
+    code = cli_write(&t, a->output);
+  }
+  if (!code && a->plot) code = write_plot(p, a->plot);
+  if (!code && a->still) code = write_still(p, &e->settle, a->still);
+  const char *const out[] = {a->output, a->plot, a->still};
+  for (int i = 0; i < 3; i++)
+    if (out[i] && strcmp(out[i], "-") == 0) return code;
+  if (a->pull.json)
+    put_json(&t, p, e);
+  else
+    put_text(&t, a, p, e);
+  int printed = cli_write(&t, "-");
+  return code ? code : printed;
+}
+
+static bool any_known(const thr_evaluation *e)
+{
+  for (int i = 0; i < e->n_cords; i++)
+    if (e->cord[i].known) return true;
+  return false;
 }
 
 int cmd_eval(int argc, char **argv)
 {
-  int done, option;
-  bool tension = false, ok;
-  pull_args a = pull_args_default();
-  while ((option = cli_next_option(argc, argv, "eval", ":" CLI_COMMON_LETTERS, table, help, &done)) != -1) {
-    if (pull_option(&a, "eval", option, optarg, &ok)) {
-      if (!ok) return EXIT_USAGE;
-    } else if (option == OPTION_TENSION) {
-      tension = true;
-    }
-  }
-  if (done >= 0) return done;
-  if (optind + 1 != argc)
-    return cli_usage("eval", optind == argc ? "which plan?" : "one plan at a time; `thread compare` takes several");
+  arguments a;
   thr_plan p;
-  thr_capstan r;
-  int code = cli_read_plan(argv[optind], &p);
-  if (code) return code;
-  if ((code = pull_eval(&a, argv[optind], &p, &r)) == EXIT_OK) {
-    thr_text t = {0};
-    double mu = a.mu_given ? a.capstan.mu : p.options.mu;
-    if (a.json)
-      put_json(&t, &p, &a, mu, &r);
-    else
-      put_text(&t, &p, &a, mu, &r, tension);
-    code = cli_write(&t, "-");
-    thr_capstan_destroy(&r);
+  thr_eval e;
+  int code = parse(argc, argv, &a);
+  if (code >= 0) return code;
+  if ((code = cli_read_plan(a.path, &p))) return code;
+  code = pull_eval(&a.pull, a.path, &p, (thr_method)a.pull.method, &e);
+  bool known = (code == EXIT_OK || code == EXIT_LIMIT) && any_known(&e.record);
+  if (known) { /* the plan takes the record over, so that one thing is written, drawn and printed */
+    thr_evaluation_destroy(&p.evaluation);
+    p.evaluation = e.record;
+    e.record = (thr_evaluation){0};
+    int written = write_outputs(&a, &p, &e);
+    if (written) code = written;
   }
+  if (code == EXIT_LIMIT) cli_error(known ? "stopped: only a part is known" : "stopped before any cord was known");
+  thr_eval_destroy(&e);
   thr_plan_destroy(&p);
   return code;
 }

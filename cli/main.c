@@ -1,5 +1,6 @@
 /* thread: plans how cord is threaded through bead structures. This file only finds the subcommand. */
 #include "cli/cli.h"
+#include "eval/world.h"
 #include "graph/cuttree.h"
 #include "lp/lp.h"
 
@@ -12,8 +13,8 @@ static const struct {
 } command[] = {
     {"plan", "find the best threading of a framework, prove it, draw it", cmd_plan},
     {"check", "verify every claim of a plan, without any solver", cmd_check},
-    {"eval", "pull force and tension along each cord", cmd_eval},
-    {"compare", "plans side by side", cmd_compare},
+    {"eval", "how hard to pull: closed form, simulated joints, whole structure", cmd_eval},
+    {"compare", "plans side by side, ranked by pull", cmd_compare},
     {"draw", "diagrams for the hand", cmd_draw},
     {"info", "what a framework is made of", cmd_info},
     {"make", "example frameworks", cmd_make},
@@ -27,7 +28,7 @@ static void help(FILE *to)
         "  thread make dome --size 7 -o dome.json        a 7 x 7 dome to try things on\n"
         "  thread plan dome.json                         shortest cord: plan and diagrams in dome/\n"
         "  thread check dome/plan.json                   verify the plan and its proof\n"
-        "  thread eval dome/plan.json --mu 0.3           how hard to pull\n\n"
+        "  thread eval dome/plan.json --method joint     how hard to pull, measured in simulation\n\n"
         "Commands:\n",
         to);
   for (int i = 0; i < N_COMMANDS; i++)
@@ -37,7 +38,9 @@ static void help(FILE *to)
 
 static int version(void)
 {
-  printf("thread %s (GLPK %s, igraph %s)\n", THR_VERSION, thr_glpk_version(), thr_igraph_version());
+  int bullet = thr_bullet_version();
+  printf("thread %s (GLPK %s, igraph %s, Bullet %d.%d)\n", THR_VERSION, thr_glpk_version(), thr_igraph_version(), bullet / 100,
+         bullet % 100);
   return EXIT_OK;
 }
 

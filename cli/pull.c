@@ -1,57 +1,202 @@
-/* Options of the pull force. */
+/* Options of the methods that measure the pull, and running them. */
+#define _POSIX_C_SOURCE 200809L
 #include "cli/pull.h"
 
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
-static const char *const name[] = {"start", "end", "both"}; /* as thr_pull */
-
-const char *pull_name(thr_pull pull)
+/* As the XDG base directory specification says: relative folders do not count. */
+static void default_cache(char cache[1024])
 {
-  return name[pull];
+  const char *xdg = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
+  int n = 0;
+  if (xdg && *xdg == '/')
+    n = snprintf(cache, 1024, "%s/thread", xdg);
+  else if (home && *home == '/')
+    n = snprintf(cache, 1024, "%s/.cache/thread", home);
+  if (n <= 0 || n >= 1024) cache[0] = '\0';
 }
 
-pull_args pull_args_default(void)
+void pull_args_init(pull_args *a, thr_method method)
 {
-  return (pull_args){thr_capstan_options_default(), false, false};
+  *a = (pull_args){.options = thr_eval_options_default(), .method = method, .pull = "both"};
+  long processors = sysconf(_SC_NPROCESSORS_ONLN);
+  a->options.processes = processors > 1 ? processors < 1024 ? (int)processors : 1024 : 1;
+  default_cache(a->cache);
 }
 
-static bool parse_pull(const char *command, const char *value, thr_pull *pull)
+static bool pull_by_name(const char *value, size_t n, thr_pull *pull)
 {
-  for (int i = 0; i < 3; i++)
-    if (strcmp(value, name[i]) == 0) {
-      *pull = (thr_pull)i;
-      return true;
-    }
-  cli_usage(command, "--pull %s: expected start, end or both", value);
+  for (int i = 0; i < THR_N_PULLS; i++) {
+    const char *name = thr_pull_name((thr_pull)i);
+    if (strlen(name) != n || strncmp(value, name, n) != 0) continue;
+    *pull = (thr_pull)i;
+    return true;
+  }
   return false;
+}
+
+/* The list A=start,B=end: item by item. False at its end; *ok false if the item is no such thing. */
+static bool next_pull(const char **list, char id[12], thr_pull *pull, bool *ok)
+{
+  if (!**list) return false;
+  size_t n = strcspn(*list, ","), letters = strcspn(*list, "=,");
+  *ok = letters > 0 && letters < 12 && letters < n && pull_by_name(*list + letters + 1, n - letters - 1, pull);
+  snprintf(id, 12, "%.*s", *ok ? (int)letters : 0, *list);
+  *list += n;
+  *list += **list == ',';
+  return true;
+}
+
+static bool check_pull(const char *command, const char *value)
+{
+  thr_pull pull;
+  char id[12];
+  bool ok = pull_by_name(value, strlen(value), &pull);
+  if (!ok && strchr(value, '=')) {
+    const char *list = value;
+    for (ok = true; ok && next_pull(&list, id, &pull, &ok);) {
+    }
+  }
+  if (!ok) cli_usage(command, "--pull %s: expected start, end or both, or a list like A=start,B=both", value);
+  return ok;
+}
+
+static bool choose(const char *command, const char *option, const char *value, const char *(*name)(int), int n, int *out)
+{
+  char known[80] = "";
+  for (*out = 0; *out < n; ++*out)
+    if (strcmp(value, name(*out)) == 0) return true;
+  for (int i = 0; i < n; i++) {
+    size_t length = strlen(known);
+    snprintf(known + length, sizeof known - length, "%s%s", i == 0 ? "" : i == n - 1 ? " or " : ", ", name(i));
+  }
+  cli_usage(command, "%s %s: expected %s", option, value, known);
+  return false;
+}
+
+static const char *method_name(int i)
+{
+  return i < THR_N_METHODS ? thr_method_name((thr_method)i) : "all";
+}
+
+static const char *law_name(int i)
+{
+  return thr_law_name((thr_law)i);
 }
 
 bool pull_option(pull_args *a, const char *command, int option, const char *value, bool *ok)
 {
+  thr_eval_options *o = &a->options;
+  double seed;
+  int law, methods = strcmp(command, "compare") == 0 ? PULL_ALL_METHODS + 1 : THR_N_METHODS;
   *ok = true;
   switch (option) {
-  case OPTION_PULL_MU:
-    a->mu_given = true;
-    *ok = cli_double(command, "--mu", value, 0, 100, &a->capstan.mu);
+  case OPTION_PULL_METHOD: *ok = choose(command, "--method", value, method_name, methods, &a->method); return true;
+  case OPTION_PULL_LAW:
+    *ok = choose(command, "--law", value, law_name, THR_N_LAWS, &law);
+    if (*ok) o->law = (thr_law)law;
     return true;
-  case OPTION_PULL_SEATING: *ok = cli_double(command, "--seating", value, 1e-9, 1e9, &a->capstan.seating); return true;
-  case OPTION_PULL_END: *ok = parse_pull(command, value, &a->capstan.pull); return true;
-  case OPTION_PULL_METHOD:
-    *ok = strcmp(value, "capstan") == 0;
-    if (!*ok) cli_usage(command, "--method %s: this version knows capstan only", value);
+  case OPTION_PULL_END:
+    *ok = check_pull(command, value);
+    a->pull = value;
     return true;
+  case OPTION_PULL_SEED:
+    *ok = cli_double(command, "--seed", value, 0, 9007199254740992.0, &seed); /* what JSON can hold */
+    if (*ok && seed != floor(seed)) {
+      cli_usage(command, "--seed %s: expected a whole number", value);
+      *ok = false;
+    }
+    if (*ok) o->seed = (uint64_t)seed;
+    return true;
+  case OPTION_PULL_TIME_STEP: *ok = cli_double(command, "--time-step", value, 0.01, 10, &o->time_step); return true;
+  case OPTION_PULL_ITERATIONS: *ok = cli_double(command, "--iterations", value, 0.1, 100, &o->iterations); return true;
+  case OPTION_PULL_START: *ok = cli_double(command, "--start", value, 1e-9, 1e12, &o->start); return true;
+  case 'j': *ok = cli_int(command, "--processes", value, 1, 1024, &o->processes); return true;
+  case OPTION_PULL_CACHE:
+    if (!(*ok = *value != '\0')) cli_usage(command, "--cache: an empty name is no folder; --no-cache does without");
+    o->cache = value;
+    return true;
+  case OPTION_PULL_NO_CACHE: a->no_cache = true; return true;
+  case OPTION_PULL_NO_DYNAMICS: o->dynamics = false; return true;
   case OPTION_PULL_JSON: a->json = true; return true;
   default: return false;
   }
 }
 
-int pull_eval(const pull_args *a, const char *path, const thr_plan *p, thr_capstan *out)
+/* The pull of each cord of a plan; *out is owned by the caller, NULL if all are pulled alike. */
+static int resolve_pulls(const pull_args *a, const char *path, const thr_plan *p, thr_eval_options *o, thr_pull **out)
+{
+  const char *list = a->pull;
+  char id[12];
+  thr_pull pull = THR_PULL_BOTH;
+  bool ok;
+  *out = NULL;
+  if (pull_by_name(list, strlen(list), &o->pull)) return EXIT_OK;
+  if (!(*out = thr_calloc((size_t)p->n_cords, sizeof **out))) {
+    cli_error("out of memory");
+    return EXIT_INTERNAL;
+  }
+  for (int i = 0; i < p->n_cords; i++)
+    (*out)[i] = THR_PULL_BOTH;
+  while (next_pull(&list, id, &pull, &ok)) {
+    int i = 0;
+    while (i < p->n_cords && strcmp(p->cord[i].id, id) != 0)
+      i++;
+    if (i == p->n_cords) {
+      cli_error("--pull %s: %s has no cord %s; the last of its cords is %s", a->pull, path, id, p->cord[p->n_cords - 1].id);
+      return EXIT_INPUT;
+    }
+    (*out)[i] = pull;
+  }
+  o->cord_pull = *out;
+  return EXIT_OK;
+}
+
+int pull_eval(const pull_args *a, const char *path, const thr_plan *p, thr_method method, thr_eval *out)
 {
   thr_err err = {0}, found = {0};
-  thr_capstan_options o = a->capstan;
-  if (!a->mu_given) o.mu = p->options.mu;
-  thr_status st = thr_capstan_eval(&p->frame, p->cord, p->n_cords, &o, out, &found);
-  if (!st) return EXIT_OK;
+  thr_eval_options o = a->options;
+  thr_pull *pulls = NULL;
+  *out = (thr_eval){0};
+  o.physics = p->options.physics;
+  if (!o.cache && a->cache[0]) o.cache = a->cache;
+  if (a->no_cache) o.cache = NULL;
+  int code = cli_physics_apply(&a->physics, &o.physics);
+  if (!code) code = resolve_pulls(a, path, p, &o, &pulls);
+  if (code) {
+    free(pulls);
+    return code;
+  }
+  thr_limits limits = cli_limits(0);
+  thr_status st = thr_eval_plan(&p->frame, p->cord, p->n_cords, method, &o, &limits, out, &found);
+  free(pulls);
+  cli_progress_end();
+  if (st == THR_ELIMIT) return EXIT_LIMIT;
+  if (!st) {
+    if (out->cache_failed) cli_note("note: measured joints could not be kept in %s; --cache names another folder", o.cache);
+    return EXIT_OK;
+  }
   thr_fail(&err, st, "%s: %s", path, found.text);
   return cli_fail(&err);
+}
+
+double pull_percent(double error)
+{
+  return 100 * expm1(error);
+}
+
+void pull_unknown_cords(const thr_plan *p, const thr_evaluation *e, thr_text *t)
+{
+  enum { MOST = 12 };
+  int n = 0;
+  for (int i = 0; i < e->n_cords; i++) {
+    if (e->cord[i].known) continue;
+    if (n < MOST) thr_text_printf(t, "%s%s", n ? ", " : "", p->cord[i].id);
+    n++;
+  }
+  if (n > MOST) thr_text_printf(t, " and %d more", n - MOST);
 }

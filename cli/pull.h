@@ -1,41 +1,74 @@
-/* The options of the closed-form pull force, shared by eval and compare. */
+/* The options of the methods that measure the pull, and running them: shared by eval, compare and plan. */
 #ifndef THR_PULL_H
 #define THR_PULL_H
 
-#include "cli/cli.h"
-#include "eval/capstan.h"
+#include "cli/physics.h"
+#include "eval/eval.h"
 
 enum {
-  OPTION_PULL_MU = OPTION_FREE,
-  OPTION_PULL_SEATING,
+  OPTION_PULL_METHOD = OPTION_FREE,
+  OPTION_PULL_LAW,
   OPTION_PULL_END,
-  OPTION_PULL_METHOD,
+  OPTION_PULL_SEED,
+  OPTION_PULL_TIME_STEP,
+  OPTION_PULL_ITERATIONS,
+  OPTION_PULL_CACHE,
+  OPTION_PULL_NO_CACHE,
+  OPTION_PULL_NO_DYNAMICS,
+  OPTION_PULL_START,
   OPTION_PULL_JSON,
   OPTION_PULL_FREE
 };
+#define PULL_LETTERS "j:"
+#define PULL_RUN_OPTIONS                                                                                                         \
+  {"processes", required_argument, NULL, 'j'}, {"cache", required_argument, NULL, OPTION_PULL_CACHE},                            \
+  {                                                                                                                              \
+    "no-cache", no_argument, NULL, OPTION_PULL_NO_CACHE                                                                          \
+  }
 #define PULL_OPTIONS                                                                                                             \
-  {"mu", required_argument, NULL, OPTION_PULL_MU}, {"seating", required_argument, NULL, OPTION_PULL_SEATING},                    \
-      {"pull", required_argument, NULL, OPTION_PULL_END}, {"method", required_argument, NULL, OPTION_PULL_METHOD},               \
+  PULL_RUN_OPTIONS, {"method", required_argument, NULL, OPTION_PULL_METHOD}, {"law", required_argument, NULL, OPTION_PULL_LAW},  \
+      {"pull", required_argument, NULL, OPTION_PULL_END}, {"seed", required_argument, NULL, OPTION_PULL_SEED},                   \
+      {"time-step", required_argument, NULL, OPTION_PULL_TIME_STEP},                                                             \
+      {"iterations", required_argument, NULL, OPTION_PULL_ITERATIONS},                                                           \
+      {"no-dynamics", no_argument, NULL, OPTION_PULL_NO_DYNAMICS}, {"start", required_argument, NULL, OPTION_PULL_START},        \
   {                                                                                                                              \
     "json", no_argument, NULL, OPTION_PULL_JSON                                                                                  \
   }
+#define PULL_RUN_HELP                                                                                                            \
+  "  -j, --processes N    simulations at a time (default: one per processor); changes no result\n"                               \
+  "      --cache DIR      keep measured joints here (default: $XDG_CACHE_HOME/thread or ~/.cache/thread);  --no-cache\n"
 #define PULL_HELP                                                                                                                \
-  "      --mu MU          friction coefficient cord on bead (default: the plan's)\n"                                             \
-  "      --seating N      tension in newton that must reach the slackest point (default: 1)\n"                                   \
-  "      --pull start|end|both   which end of each cord is pulled (default: both)\n"                                             \
-  "      --method capstan closed form, force = seating tension x exp(mu x turning) (default, and the only one yet)\n"
+  "      --law capstan|mitre   of method capstan: exp(mu x turning), or the mitred bead of the thesis (default: capstan)\n"      \
+  "      --pull start|end|both   which end of each cord is pulled (default: both); or A=start,B=end for single cords\n"          \
+  "      --seed N         of a simulation's small initial disorder (default: 0)\n"                                               \
+  "      --time-step X --iterations X   factors on the simulation's validated settings (default: 1)\n"                           \
+  "      --start N        structure: pull in newton at which the simulation begins (default: 3 x the holding pull)\n"            \
+  "      --no-dynamics    structure: limit analysis only, no simulation\n" PULL_RUN_HELP
+
+enum { PULL_ALL_METHODS = THR_N_METHODS };
 
 typedef struct {
-  thr_capstan_options capstan;
-  bool mu_given; /* else each plan's own mu */
-  bool json;
+  cli_physics physics;
+  thr_eval_options options; /* physics and pulls are set for each plan */
+  int method;               /* thr_method, or PULL_ALL_METHODS */
+  const char *pull;         /* as given */
+  bool json, no_cache;
+  char cache[1024]; /* where options.cache points unless given */
 } pull_args;
 
-pull_args pull_args_default(void);
+/* Points into itself: fill it where it stays. */
+void pull_args_init(pull_args *a, thr_method method);
 /* Takes one of the options above; false if it is none of them. *ok false: its value was bad (printed). */
 bool pull_option(pull_args *a, const char *command, int option, const char *value, bool *ok);
-/* Evaluates a plan; prints and returns the exit code on failure. */
-int pull_eval(const pull_args *a, const char *path, const thr_plan *p, thr_capstan *out);
-const char *pull_name(thr_pull pull);
+
+/* Evaluates a plan by one method with a progress bar and Ctrl-C; path is for messages. Returns EXIT_OK; EXIT_LIMIT after a stop,
+ * with out holding what is known; or prints and returns the code. */
+int pull_eval(const pull_args *a, const char *path, const thr_plan *p, thr_method method, thr_eval *out);
+
+/* A relative error from an exponent's, in percent. */
+double pull_percent(double error);
+
+/* "A, C, D and 4 more": the cords that are not known. */
+void pull_unknown_cords(const thr_plan *p, const thr_evaluation *e, thr_text *t);
 
 #endif

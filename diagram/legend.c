@@ -2,6 +2,7 @@
 #include "diagram/legend.h"
 
 #include "diagram/svg.h"
+#include "diagram/tension.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -19,33 +20,6 @@ void thr_legend_title(const thr_scene *s, const char *given, char title[160])
     snprintf(title, 160, "Cord %s: %d beads, %d passes", s->id[0], s->frame->n_edges, s->n_passes);
   else
     snprintf(title, 160, "%d cords: %d beads, %d passes", n, s->frame->n_edges, s->n_passes);
-}
-
-/* Appends words as lines of at most width mm; returns the y of the next line. */
-static double wrap(const char *words, double size, const char *attributes, double x, double y, double width, thr_text *t)
-{
-  char line[512];
-  int n = 0, fits = (int)(width / (0.58 * size));
-  if (fits > 500) fits = 500;
-  while (*words) {
-    n = 0;
-    int last_space = -1;
-    while (n < fits && words[n]) {
-      if (words[n] == ' ') last_space = n;
-      n++;
-    }
-    if (words[n] && words[n] != ' ' && last_space > 0) n = last_space;
-    /* never cut a character in two */
-    while (n > 1 && ((unsigned char)words[n] & 0xC0) == 0x80)
-      n--;
-    snprintf(line, sizeof line, "%.*s", n, words);
-    thr_svg_text(t, x, y, size, attributes, line);
-    y += 1.45 * size;
-    words += n;
-    while (*words == ' ')
-      words++;
-  }
-  return y;
 }
 
 /* "1 cord", "2 cords" */
@@ -66,13 +40,13 @@ static double write_view(const thr_scene *s, double x, double y, double width, t
 {
   char line[512];
   const thr_layout *l = s->layout;
-  y = wrap(thr_layout_words(l->kind), TEXT_SIZE, " font-weight=\"bold\"", x, y, width, t);
+  y = thr_svg_wrap(t, x, y, TEXT_SIZE, width, " font-weight=\"bold\"", thr_layout_words(l->kind));
   if (!l->crossings && !l->capped) return y;
   snprintf(
       line, sizeof line,
       "In this layout %s%ld pair%s of beads cross or touch that do not in space: at these places follow the arrows and numbers.",
       l->capped ? "more than " : "", l->crossings, plural(l->crossings == 1 ? 1 : 2));
-  return wrap(line, TEXT_SIZE, " fill=\"#A03000\"", x, y, width, t);
+  return thr_svg_wrap(t, x, y, TEXT_SIZE, width, " fill=\"#A03000\"", line);
 }
 
 double thr_legend_heading(const thr_scene *s, const char *title, double x, double y, double width, thr_text *t)
@@ -83,11 +57,11 @@ double thr_legend_heading(const thr_scene *s, const char *title, double x, doubl
   for (int c = 0; c < s->plan->n_cords; c++)
     total += thr_cord_length(f, &s->plan->cord[c]);
   thr_svg_length(total, f->units, length);
-  y = wrap(title, TITLE_SIZE, " font-weight=\"bold\"", x, y + TITLE_SIZE, width, t);
+  y = thr_svg_wrap(t, x, y + TITLE_SIZE, TITLE_SIZE, width, " font-weight=\"bold\"", title);
   int feet = count_feet(f);
   snprintf(line, sizeof line, "%d nodes, %d beads (edges), %d %s; %d cord%s, %d passes, %s of cord.", f->n_nodes, f->n_edges,
            feet, feet == 1 ? "foot" : "feet", s->plan->n_cords, plural(s->plan->n_cords), s->n_passes, length);
-  y = wrap(line, TEXT_SIZE, "", x, y, width, t);
+  y = thr_svg_wrap(t, x, y, TEXT_SIZE, width, "", line);
   y = write_view(s, x, y, width, t);
   if (s->number_step == 1)
     snprintf(numbers, sizeof numbers, "Every pass is numbered");
@@ -97,7 +71,7 @@ double thr_legend_heading(const thr_scene *s, const char *title, double x, doubl
     snprintf(line, sizeof line, "%s, except %d where there is no room.", numbers, s->dropped);
   else
     snprintf(line, sizeof line, "%s.", numbers);
-  return wrap(line, TEXT_SIZE, "", x, y, width, t);
+  return thr_svg_wrap(t, x, y, TEXT_SIZE, width, "", line);
 }
 
 void thr_legend_mark(const thr_scene *s, const thr_mark *m, bool end, const char *ring, double x, double y, thr_text *t)
@@ -143,7 +117,7 @@ static double write_scale_bar(const thr_scene *s, double x, double y, double wid
   snprintf(line, sizeof line, "%s %.15s%s", length, s->frame->units,
            thr_layout_to_scale(s->layout->kind) ? " of the framework, as seen here"
                                                 : " of the framework, from the middle outwards");
-  y = wrap(line, TEXT_SIZE, "", x + bar + 3, y, width - bar - 3, t) - 1.45 * TEXT_SIZE;
+  y = thr_svg_wrap(t, x + bar + 3, y, TEXT_SIZE, width - bar - 3, "", line) - 1.45 * TEXT_SIZE;
   thr_text_append(t, "</g>\n");
   return y + ROW + 2;
 }
@@ -152,8 +126,9 @@ static double write_scale_bar(const thr_scene *s, double x, double y, double wid
 static double write_key(const thr_scene *s, double x, double y, thr_text *t)
 {
   thr_mark m = s->mark[0][0];
-  const char *colour = s->n_passes ? thr_scene_colour(s, 0).hex : "#000";
-  const char *ring = s->plan->n_cords > 1 ? colour : "#111";
+  char colour[8] = "#000";
+  if (s->n_passes) thr_scene_colour(s, 0, colour);
+  const char *ring = s->plan->n_cords > 1 && !s->tension ? colour : "#111";
   double line = y + 0.36 * TEXT_SIZE;
   thr_legend_mark(s, &m, false, ring, x + m.radius, y, t);
   thr_svg_text(t, x += 2 * m.radius + 1.5, line, TEXT_SIZE, "", "start");
@@ -229,6 +204,35 @@ static void describe_cord(const thr_scene *s, int c, int *seen, char line[256])
            beads, plural(beads), length, where);
 }
 
+/* The scale of the colours of tension, with its method in words. */
+static double write_tension_scale(const thr_scene *s, double x, double y, double width, thr_text *t)
+{
+  enum { STEPS = 48, TICKS = 10 };
+  const double *range = s->tension_range, wide = 96, high = 4;
+  bool even = !(range[0] > 0 && range[1] > range[0]);
+  char line[320], hex[8];
+  double tick[TICKS];
+  snprintf(line, sizeof line, "Colour: tension in newton, on a logarithmic scale, by method %s (%s); mu = %g.",
+           thr_method_name(s->tension->method), thr_tension_method_words(s->tension), s->tension->physics.mu);
+  y = thr_svg_wrap(t, x, y, TEXT_SIZE, width, "", line);
+  y -= 0.5 * TEXT_SIZE;
+  thr_text_append(t, "<g id=\"tension-scale\" shape-rendering=\"crispEdges\">\n");
+  for (int i = 0; i < STEPS; i++) {
+    thr_tension_colour(range, even ? range[0] : range[0] * pow(range[1] / range[0], (i + 0.5) / STEPS), hex);
+    thr_text_printf(t, "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"%s\"/>\n", x + wide / STEPS * i, y,
+                    wide / STEPS, high, hex);
+  }
+  thr_text_append(t, "</g>\n");
+  int n = thr_svg_ticks(range[0], range[1], !even, TICKS, tick);
+  for (int i = 0; i < n; i++) {
+    double at = thr_svg_round(x + (even ? 0.5 : log(tick[i] / range[0]) / log(range[1] / range[0])) * wide);
+    thr_text_printf(t, "<path class=\"bar\" d=\"M%.2f %.2fv1.20\"/>\n", at, y + high);
+    snprintf(line, sizeof line, "%.10g", tick[i]);
+    thr_svg_text(t, at, y + high + 1.8 + TEXT_SIZE, TEXT_SIZE, " class=\"middle\"", line);
+  }
+  return y + high + 2 * ROW + 1;
+}
+
 /* The rows of the legend in columns that fit the width; row i's text is made by describing cord or colour i. */
 static double write_rows(const thr_scene *s, double x, double y, double width, int *seen, thr_text *t)
 {
@@ -254,7 +258,8 @@ static double write_rows(const thr_scene *s, double x, double y, double width, i
       ranges_of_colour(s, i, line);
     else
       describe_cord(s, i, seen, line);
-    write_swatch(s, s->id[single ? 0 : i], thr_palette(i).hex, thr_scene_dash(s, single ? 0 : i), left, base - 1.1, t);
+    write_swatch(s, s->id[single ? 0 : i], s->tension ? "#555" : thr_palette(i).hex, thr_scene_dash(s, single ? 0 : i), left,
+                 base - 1.1, t);
     thr_svg_text(t, left + SWATCH, base, TEXT_SIZE, "", line);
   }
   return y + rows * ROW;
@@ -273,9 +278,10 @@ thr_status thr_legend_foot(const thr_scene *s, double x, double y, double width,
     y += 2;
     if (s->plan->n_cords == 1) {
       describe_cord(s, 0, seen, line);
-      y = wrap(line, TEXT_SIZE, "", x, y, width, t) + 0.6;
+      y = thr_svg_wrap(t, x, y, TEXT_SIZE, width, "", line) + 0.6;
     }
-    y = write_rows(s, x, y, width, seen, t);
+    if (s->tension) y = write_tension_scale(s, x, y + 1, width, t);
+    if (!s->tension || s->plan->n_cords > 1) y = write_rows(s, x, y, width, seen, t);
   }
   thr_text_append(t, "</g>\n");
   free(seen);

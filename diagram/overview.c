@@ -4,16 +4,17 @@
 #include "diagram/legend.h"
 #include "diagram/scene.h"
 #include "diagram/svg.h"
+#include "diagram/tension.h"
 
 #include <math.h>
-#include <stdlib.h>
+#include <stdio.h>
 
 static const double MARGIN = 10, PLACE_ROOM = 9; /* mm around the sheet; for the letters and numbers of places */
 static const double PI = 3.14159265358979323846;
 
 thr_overview_options thr_overview_options_default(void)
 {
-  return (thr_overview_options){.title = NULL, .pitch_mm = 0, .layout = NULL};
+  return (thr_overview_options){.title = NULL, .pitch_mm = 0, .layout = NULL, .colour = THR_COLOUR_CORD};
 }
 
 /* Are the letters and numbers of places wanted on all four sides? */
@@ -77,8 +78,8 @@ static void write_strand(const thr_scene *s, int i, thr_text *t)
 static void write_pass(const thr_scene *s, int i, thr_text *t)
 {
   const thr_scene_pass *p = &s->pass[i];
-  const char *colour = thr_scene_colour(s, i).hex;
-  char from[48], to[48];
+  char from[48], to[48], colour[8];
+  thr_scene_colour(s, i, colour);
   thr_places_name(&s->places, s->frame, thr_tail(s->frame, p->half), from);
   thr_places_name(&s->places, s->frame, thr_head(s->frame, p->half), to);
   thr_text_printf(t, "<g id=\"%s-%d\" stroke=\"%s\" fill=\"%s\"><title>%s %d: ", s->id[p->cord], p->number, colour, colour,
@@ -113,21 +114,22 @@ static void write_marks(const thr_scene *s, thr_text *t)
   for (int c = 0; c < s->plan->n_cords; c++)
     for (int end = 0; end < 2; end++) {
       const thr_mark *m = &s->mark[c][end];
-      thr_legend_mark(s, m, end, s->plan->n_cords > 1 ? thr_palette(c).hex : "#111", m->at[0], m->at[1], t);
+      thr_legend_mark(s, m, end, s->plan->n_cords > 1 && !s->tension ? thr_palette(c).hex : "#111", m->at[0], m->at[1], t);
     }
   thr_text_append(t, "</g>\n");
 }
 
 static void write_numbers(const thr_scene *s, thr_text *t)
 {
-  char number[32];
+  char number[32], colour[8];
   thr_text_append(t, "<g id=\"numbers\">\n");
   for (int i = 0; i < s->n_passes; i++) {
     const thr_scene_pass *p = &s->pass[i];
     if (!p->numbered) continue;
     thr_scene_number(s, i, number);
+    thr_scene_colour(s, i, colour);
     thr_text_printf(t, "<g id=\"n-%s-%d\">", s->id[p->cord], p->number);
-    thr_legend_pill(s, number, thr_scene_colour(s, i).hex, p->pill[0], p->pill[1], t);
+    thr_legend_pill(s, number, colour, p->pill[0], p->pill[1], t);
     thr_text_append(t, "</g>\n");
   }
   thr_text_append(t, "</g>\n");
@@ -201,7 +203,7 @@ static void write_drawing(const thr_scene *s, double x, double y, thr_text *t)
 static thr_status write_sheet(const thr_scene *s, const char *given, thr_text *svg, thr_err *err)
 {
   thr_text body = {0};
-  char title[160];
+  char title[160], description[512];
   double room = s->places.n_columns ? PLACE_ROOM : 0, other = both_sides(&s->places) ? PLACE_ROOM : 0, bottom;
   double drawn = s->extent.x1 - s->extent.x0 + room + other, width = fmax(drawn, THR_LEGEND_WIDTH);
   thr_legend_title(s, given, title);
@@ -212,16 +214,10 @@ static thr_status write_sheet(const thr_scene *s, const char *given, thr_text *s
   thr_status st = thr_legend_foot(s, MARGIN, y + 2, width, &body, &bottom, err);
   if (st) goto done;
   double w = width + 2 * MARGIN, h = bottom + MARGIN;
-  thr_text_printf(svg,
-                  "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"thread\" "
-                  "width=\"%.2fmm\" height=\"%.2fmm\" viewBox=\"0 0 %.2f %.2f\" role=\"img\" aria-labelledby=\"title "
-                  "desc\">\n<title id=\"title\">",
-                  w, h, w, h);
-  thr_svg_escape(svg, title);
-  thr_text_append(
-      svg, "</title>\n<desc id=\"desc\">Overview of a threading plan. Each group cord-ID holds the passes of a cord in order. ");
-  thr_svg_escape(svg, thr_layout_words(s->layout->kind));
-  thr_text_append(svg, "</desc>\n");
+  snprintf(description, sizeof description,
+           "Overview of a threading plan. Each group cord-ID holds the passes of a cord in order. %s",
+           thr_layout_words(s->layout->kind));
+  thr_svg_open(svg, w, h, title, description);
   write_style(s, svg);
   thr_text_printf(svg, "<rect width=\"%.2f\" height=\"%.2f\" fill=\"#fff\"/>\n", w, h);
   if (body.data) thr_text_append_bytes(svg, body.data, body.length);
@@ -243,8 +239,13 @@ thr_status thr_overview_svg(const thr_plan *p, const thr_overview_options *o, th
   if (o->layout && o->layout->n_nodes != p->frame.n_nodes)
     return thr_fail(err, THR_EINPUT, "the layout has %d nodes, the framework %d", o->layout->n_nodes, p->frame.n_nodes);
   if (!p->n_cords) return thr_fail(err, THR_EINPUT, "the plan has no cord to draw");
+  if (o->colour == THR_COLOUR_TENSION && (st = thr_tension_usable(p, err))) return st;
   if (!o->layout) st = thr_layout_choose(&own, &p->frame, NULL, 0, err);
   if (!st) st = thr_scene_build(&s, p, o->layout ? o->layout : &own, o->pitch_mm, err);
+  if (!st && o->colour == THR_COLOUR_TENSION) {
+    s.tension = &p->evaluation;
+    thr_evaluation_range(s.tension, s.tension_range);
+  }
   if (!st) st = write_sheet(&s, o->title, &out, err);
   if (!st) thr_text_append_bytes(svg, out.data, out.length);
   if (!st && svg->failed) st = thr_nomem(err);

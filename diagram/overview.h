@@ -5,10 +5,13 @@
 #include "diagram/layout.h"
 #include "graph/plan.h"
 
+typedef enum { THR_COLOUR_CORD, THR_COLOUR_TENSION } thr_overview_colour;
+
 typedef struct {
-  const char *title;        /* NULL or "": "Cord A: 84 beads, 86 passes"; borrowed */
-  double pitch_mm;          /* mm on paper for the median edge, 2 .. 200; 0 = automatic: 24 if the sheet stays within A0 */
-  const thr_layout *layout; /* NULL: thr_layout_choose; borrowed */
+  const char *title;          /* NULL or "": "Cord A: 84 beads, 86 passes"; borrowed */
+  double pitch_mm;            /* mm on paper for the median edge, 2 .. 200; 0 = automatic: 24 if the sheet stays within A0 */
+  const thr_layout *layout;   /* NULL: thr_layout_choose; borrowed */
+  thr_overview_colour colour; /* what tells passes apart; tension needs the plan's evaluation */
 } thr_overview_options;
 
 thr_overview_options thr_overview_options_default(void);
@@ -17,8 +20,8 @@ thr_overview_options thr_overview_options_default(void);
  * passes, <g id="A-17"> is pass 17 (counted from 1), "bead-12" is edge 12 (counted from 0), "n-A-17" a pass's number.
  * A cord's id is used if it is capital letters only, else the id that its index would have.
  * The same plan and options give the same bytes. THR_EINPUT with the cord and pass for cords that name edges out of
- * range or whose passes do not meet, and for a pitch or layout that does not fit. O(n log n + pairs of cords that share
- * an edge). svg is unchanged on failure. */
+ * range or whose passes do not meet, for a pitch or layout that does not fit, and for colours of tension without an evaluation.
+ * O(n log n + pairs of cords that share an edge). svg is unchanged on failure. */
 thr_status thr_overview_svg(const thr_plan *p, const thr_overview_options *o, thr_text *svg, thr_err *err) THR_MUST_CHECK;
 
 #endif

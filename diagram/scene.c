@@ -45,9 +45,15 @@ double thr_scene_sweep(double a, double b)
   return d < 0 ? d + 2 * PI : d;
 }
 
-thr_colour thr_scene_colour(const thr_scene *s, int i)
+void thr_scene_colour(const thr_scene *s, int i, char hex[8])
 {
-  return thr_palette(s->plan->n_cords > 1 ? s->pass[i].cord : (s->pass[i].number - 1) / THR_COLOUR_PASSES);
+  const thr_scene_pass *p = &s->pass[i];
+  const thr_eval_cord *known = s->tension && s->tension->cord[p->cord].known ? &s->tension->cord[p->cord] : NULL;
+  if (known)
+    thr_tension_colour(s->tension_range, known->tension[p->number - 1], hex);
+  else
+    snprintf(hex, 8, "%s",
+             s->tension ? "#999999" : thr_palette(s->plan->n_cords > 1 ? p->cord : (p->number - 1) / THR_COLOUR_PASSES).hex);
 }
 
 const double *thr_scene_dash(const thr_scene *s, int c)

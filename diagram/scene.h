@@ -49,6 +49,8 @@ typedef struct {
   const thr_plan *plan;
   const thr_frame *frame;
   const thr_layout *layout;
+  const thr_evaluation *tension; /* colours show it over tension_range; NULL: colours tell the cords apart */
+  double tension_range[2];       /* N */
   thr_sizes size;
   thr_places places;
   double scale;         /* mm per unit of the layout */
@@ -80,8 +82,9 @@ typedef struct {
 thr_status thr_scene_build(thr_scene *s, const thr_plan *p, const thr_layout *l, double pitch_mm, thr_err *err) THR_MUST_CHECK;
 void thr_scene_destroy(thr_scene *s);
 
-/* Colour of pass i: of its cord, or of its twenty passes when there is one cord only. */
-thr_colour thr_scene_colour(const thr_scene *s, int i);
+/* Colour of pass i as "#rrggbb": of its cord, of its twenty passes when there is one cord only, or of its tension (grey if not
+ * known). */
+void thr_scene_colour(const thr_scene *s, int i, char hex[8]);
 enum { THR_COLOUR_PASSES = 20 };
 
 /* Dash pattern of cord c (see thr_palette_dash). */

@@ -1,6 +1,6 @@
 /* The checker. Nothing here trusts what a plan says about itself. With the code that makes plans it shares the framework, the
  * readers, and the one line that defines the weights (thr_certificate_weight). */
-#include "graph/check.h"
+#include "graph/check_parts.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -9,10 +9,26 @@
 
 __extension__ typedef __int128 wide; /* sums of hostile 64-bit multipliers cannot overflow it */
 
-/* Lengths and angles are sums of doubles, taken in an order of the plan's own: equal up to 1e-9 of what they are parts of. */
-static bool close_to(double a, double b, double whole)
+bool thr_check_close(double a, double b, double whole)
 {
   return fabs(a - b) <= 1e-9 * whole;
+}
+
+double thr_check_angle(const thr_frame *f, int in, int out)
+{
+  double unit[2][3], sum = 0, difference = 0;
+  for (int k = 0; k < 2; k++) {
+    int h = k ? out : in;
+    const double *from = f->xyz[thr_tail(f, h)], *to = f->xyz[thr_head(f, h)];
+    double size = hypot(hypot(to[0] - from[0], to[1] - from[1]), to[2] - from[2]);
+    for (int i = 0; i < 3; i++)
+      unit[k][i] = (to[i] - from[i]) / size;
+  }
+  for (int i = 0; i < 3; i++) {
+    sum += (unit[0][i] + unit[1][i]) * (unit[0][i] + unit[1][i]);
+    difference += (unit[0][i] - unit[1][i]) * (unit[0][i] - unit[1][i]);
+  }
+  return 2 * atan2(sqrt(difference), sqrt(sum));
 }
 
 /* ---- cords ---- */
@@ -373,26 +389,8 @@ thr_status thr_check_length_proof(const thr_frame *f, const thr_plan_options *o,
 
 static thr_status metric(const char *name, double stated, double found, double whole, thr_err *err)
 {
-  if (close_to(stated, found, whole)) return THR_OK;
+  if (thr_check_close(stated, found, whole)) return THR_OK;
   return thr_fail(err, THR_EVIOLATED, "metrics.%s: stated %.12g, but the cords give %.12g", name, stated, found);
-}
-
-/* Angle between two directions by Kahan's formula on unit vectors: another way than the one that made the plan. */
-static double angle_between(const thr_frame *f, int in, int out)
-{
-  double unit[2][3], sum = 0, difference = 0;
-  for (int k = 0; k < 2; k++) {
-    int h = k ? out : in;
-    const double *from = f->xyz[thr_tail(f, h)], *to = f->xyz[thr_head(f, h)];
-    double size = hypot(hypot(to[0] - from[0], to[1] - from[1]), to[2] - from[2]);
-    for (int i = 0; i < 3; i++)
-      unit[k][i] = (to[i] - from[i]) / size;
-  }
-  for (int i = 0; i < 3; i++) {
-    sum += (unit[0][i] + unit[1][i]) * (unit[0][i] + unit[1][i]);
-    difference += (unit[0][i] - unit[1][i]) * (unit[0][i] - unit[1][i]);
-  }
-  return 2 * atan2(sqrt(difference), sqrt(sum));
 }
 
 /* Metrics from the cords alone; passes[n_edges] as check_cords counted them. */
@@ -412,7 +410,7 @@ static thr_metrics recompute(const thr_plan *p, const int *passes)
     double turning = 0;
     for (int k = c->closed ? 0 : 1; k < c->n_passes; k++) {
       int in = c->half[k ? k - 1 : c->n_passes - 1], out = c->half[k];
-      double angle = angle_between(f, in, out);
+      double angle = thr_check_angle(f, in, out);
       turning += angle;
       m.worst_turn = fmax(m.worst_turn, angle);
       m.u_turns += in >> 1 == out >> 1;
@@ -450,13 +448,13 @@ static thr_status check_claim(const thr_plan *p, const walked *w, thr_err *err)
   if (claim->optimal && !optimal)
     return thr_fail(err, THR_EVIOLATED, "proof.length: says optimal, but the certificate only proves %.12g of %.12g", lower_bound,
                     p->metrics.length);
-  if (claim->optimal && !close_to(claim->lower_bound, p->metrics.length, p->metrics.length))
+  if (claim->optimal && !thr_check_close(claim->lower_bound, p->metrics.length, p->metrics.length))
     return thr_fail(err, THR_EVIOLATED, "proof.length: says optimal, but its lower bound %.12g is not the length %.12g",
                     claim->lower_bound, p->metrics.length);
-  if (claim->lower_bound > lower_bound && !close_to(claim->lower_bound, lower_bound, p->metrics.length))
+  if (claim->lower_bound > lower_bound && !thr_check_close(claim->lower_bound, lower_bound, p->metrics.length))
     return thr_fail(err, THR_EVIOLATED, "proof.length.lower_bound: stated %.12g, but the certificate proves %.12g",
                     claim->lower_bound, lower_bound);
-  if (!close_to(claim->gap, (p->metrics.length - claim->lower_bound) / p->metrics.length, 1))
+  if (!thr_check_close(claim->gap, (p->metrics.length - claim->lower_bound) / p->metrics.length, 1))
     return thr_fail(err, THR_EVIOLATED, "proof.length.gap: stated %.12g, but length and lower bound give %.12g", claim->gap,
                     (p->metrics.length - claim->lower_bound) / p->metrics.length);
   return THR_OK;
@@ -481,6 +479,7 @@ thr_status thr_check_plan(const thr_plan *p, thr_err *err)
   if ((st = walked_init(&w, &p->frame, &p->options, p->cord, p->n_cords, err))) return st;
   st = check_metrics(p, w.passes, err);
   if (!st && p->proof.present) st = check_claim(p, &w, err);
+  if (!st && p->evaluation.present) st = thr_check_evaluation(p, err);
   walked_destroy(&w);
   return st;
 }

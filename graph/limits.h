@@ -11,6 +11,8 @@ typedef struct {
   const volatile sig_atomic_t *interrupted; /* set by a signal handler, or NULL */
   /* called now and then with what is being done and the best value and proven bound so far (same unit) */
   void (*progress)(void *user, const char *what, double best, double bound);
+  /* called by work whose amount is known beforehand, with the part that is done: 0 .. 1 */
+  void (*advance)(void *user, const char *what, double done);
   void *user;
 } thr_limits;
 

@@ -7,7 +7,7 @@
 
 thr_plan_options thr_plan_options_default(void)
 {
-  return (thr_plan_options){.cover = 1, .ends = THR_ENDS_CLOSED, .end_node = NULL, .mu = 0.2, .time_limit = 0};
+  return (thr_plan_options){.cover = 1, .ends = THR_ENDS_CLOSED, .physics = thr_physics_default()};
 }
 
 void thr_certificate_destroy(thr_certificate *c)
@@ -26,6 +26,7 @@ void thr_plan_destroy(thr_plan *p)
   for (int i = 0; i < p->proof.n_certificates; i++)
     thr_certificate_destroy(&p->proof.certificate[i]);
   free(p->proof.certificate);
+  thr_evaluation_destroy(&p->evaluation);
   free(p->options.end_node);
   free(p->generator);
   thr_frame_destroy(&p->frame);

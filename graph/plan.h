@@ -3,8 +3,7 @@
 #ifndef THR_PLAN_H
 #define THR_PLAN_H
 
-#include "graph/frame.h"
-#include "graph/text.h"
+#include "graph/evaluation.h"
 
 typedef enum { THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET, THR_ENDS_NODES } thr_ends;
 
@@ -12,9 +11,9 @@ typedef enum { THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET, THR_ENDS_NODES } th
 typedef struct {
   int cover; /* every edge gets at least this many passes, 1 .. 100 */
   thr_ends ends;
-  bool *end_node;    /* [n_nodes] THR_ENDS_NODES only: where ends may be; owned, else NULL */
-  double mu;         /* friction coefficient cord on bead, used for the summary's pull factor */
-  double time_limit; /* s, 0 = none */
+  bool *end_node;      /* [n_nodes] THR_ENDS_NODES only: where ends may be; owned, else NULL */
+  thr_physics physics; /* of cord and beads, as asked: what eval starts from */
+  double time_limit;   /* s, 0 = none */
 } thr_plan_options;
 
 /* A cord: consecutive half-edges; half[i] arrives where half[i + 1] leaves. A closed cord also ends where it starts. */
@@ -79,6 +78,7 @@ typedef struct {
   int n_cords;
   thr_cord *cord; /* owned */
   thr_metrics metrics;
+  thr_evaluation evaluation; /* of `thread eval`, if present */
   thr_length_proof proof;
 } thr_plan;
 

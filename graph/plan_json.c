@@ -84,8 +84,10 @@ static void put_options(thr_text *t, const thr_plan *p)
     put_marked(t, o->end_node, p->frame.n_nodes);
     thr_text_append(t, ", ");
   }
-  put_key_double(t, "time_limit", o->time_limit, ", ");
-  put_key_double(t, "mu", o->mu, "},\n");
+  put_key_double(t, "time_limit", o->time_limit, ",");
+  thr_text_append(t, "\n  \"physics\": ");
+  thr_physics_write(&o->physics, t);
+  thr_text_append(t, "},\n");
 }
 
 static void put_cords(thr_text *t, const thr_plan *p)
@@ -161,6 +163,7 @@ void thr_plan_write(const thr_plan *p, thr_text *t)
   put_options(t, p);
   put_cords(t, p);
   put_metrics(t, &p->metrics);
+  if (p->evaluation.present) thr_evaluation_write(&p->evaluation, t);
   put_proof(t, &p->proof);
 }
 
@@ -325,17 +328,18 @@ static thr_status only_known(const reader *r, const thr_json *o, const char *key
 
 static thr_status read_options(const reader *r, const thr_json *doc, const thr_frame *f, thr_plan_options *o)
 {
+  char place[256];
   const thr_json *v;
   thr_status st = need(r, doc, "options", THR_JSON_OBJECT, &v);
   if (st) return st;
   *o = thr_plan_options_default();
-  static const char *const known[] = {"objective", "joint", "cover", "ends", "end_nodes", "time_limit", "mu", NULL};
+  static const char *const known[] = {"objective", "joint", "cover", "ends", "end_nodes", "time_limit", "physics", NULL};
   if ((st = only_members(r, v, "options", known))) return st;
   if ((st = only_known(r, v, "objective", "length"))) return st;
   if ((st = only_known(r, v, "joint", "solid"))) return st;
   if ((st = get_int(r, v, "cover", 1, 100, &o->cover))) return st;
-  if ((st = get_double(r, v, "mu", &o->mu))) return st;
-  if (o->mu < 0) return bad(r, "options.mu", "a friction coefficient is 0 or more");
+  snprintf(place, sizeof place, "%.200s: options.physics", r->name);
+  if ((st = thr_physics_from_json(&o->physics, thr_json_get(v, "physics"), place, r->err))) return st;
   if ((st = get_double(r, v, "time_limit", &o->time_limit))) return st;
   const char *ends = thr_json_string(thr_json_get(v, "ends"));
   int kind = THR_ENDS_CLOSED;
@@ -431,6 +435,26 @@ static thr_status read_metrics(const reader *r, const thr_json *doc, thr_metrics
   return get_int(r, v, "u_turns", 0, INT32_MAX, &m->u_turns);
 }
 
+/* One record per cord, one tension per pass: then code that reads them needs no other look. */
+static thr_status read_evaluation(const reader *r, const thr_json *doc, thr_plan *p)
+{
+  char place[256];
+  const thr_json *v = thr_json_get(doc, "evaluation");
+  if (!v) return THR_OK;
+  snprintf(place, sizeof place, "%.200s: evaluation", r->name);
+  thr_evaluation *e = &p->evaluation;
+  thr_status st = thr_evaluation_from_json(e, v, place, r->err);
+  if (st) return st;
+  if (e->n_cords != p->n_cords) return bad(r, "evaluation.cords", "not one per cord of the plan");
+  for (int i = 0; i < e->n_cords; i++) {
+    if (e->cord[i].known && e->cord[i].n_passes != p->cord[i].n_passes)
+      return thr_fail(r->err, r->code, "%s: evaluation.cords[%d].tension: not one per pass of the cord (%d)", r->name, i,
+                      p->cord[i].n_passes);
+    e->cord[i].n_passes = p->cord[i].n_passes;
+  }
+  return THR_OK;
+}
+
 static thr_status read_cut(const reader *r, const thr_json *v, int limit, thr_cut *cut)
 {
   const thr_json *nodes;
@@ -507,6 +531,7 @@ static thr_status read_document(reader *r, const thr_json *doc, thr_plan *p)
   r->code = THR_EVIOLATED;
   if ((st = read_cords(r, doc, p))) return st;
   if ((st = read_metrics(r, doc, &p->metrics))) return st;
+  if ((st = read_evaluation(r, doc, p))) return st;
   return read_proof(r, doc, &p->frame, &p->proof);
 }
 

@@ -8,7 +8,13 @@
 
 typedef struct thr_lp thr_lp;
 
-typedef enum { THR_LP_OPTIMAL, THR_LP_INFEASIBLE, THR_LP_UNBOUNDED, THR_LP_STOPPED } thr_lp_outcome;
+typedef enum {
+  THR_LP_OPTIMAL,
+  THR_LP_INFEASIBLE,
+  THR_LP_UNBOUNDED,
+  THR_LP_STOPPED,  /* by the limits */
+  THR_LP_UNDECIDED /* interior point method only (lp/interior.h) */
+} thr_lp_outcome;
 
 /* n columns with costs, 0 <= x (upper NULL) or 0 <= x <= upper. Release with thr_lp_destroy (NULL ok). */
 thr_status thr_lp_create(thr_lp **lp, int n_columns, const double *cost, const double *upper, thr_err *err) THR_MUST_CHECK;
@@ -18,6 +24,12 @@ void thr_lp_destroy(thr_lp *lp);
  * next solve starts from the last one. */
 thr_status thr_lp_add_row(thr_lp *lp, int n, const int *column, const double *value, double lower, thr_err *err) THR_MUST_CHECK;
 
+/* A programme in one go: min cost x, A x = rhs, x >= 0 (free[j]: x[j] unbounded both ways; free NULL = none). A by columns:
+ * start[n_columns + 1], row[], value[]; no row twice in a column. Release with thr_lp_destroy. */
+thr_status thr_lp_create_equations(thr_lp **lp, int n_rows, const double *rhs, int n_columns, const double *cost,
+                                   const bool *free, const int *start, const int *row, const double *value,
+                                   thr_err *err) THR_MUST_CHECK;
+
 /* Is the row's slack basic, so that the row can go without spoiling the basis? */
 bool thr_lp_row_basic(const thr_lp *lp, int row);
 
@@ -25,6 +37,9 @@ bool thr_lp_row_basic(const thr_lp *lp, int row);
 thr_status thr_lp_drop_rows(thr_lp *lp, const bool *drop, thr_err *err) THR_MUST_CHECK;
 
 int thr_lp_rows(const thr_lp *lp);
+
+/* lower <= x[column] <= upper (INFINITY = none). The basis is kept. */
+thr_status thr_lp_set_bounds(thr_lp *lp, int column, double lower, double upper, thr_err *err) THR_MUST_CHECK;
 thr_status thr_lp_set_costs(thr_lp *lp, const double *cost, thr_err *err) THR_MUST_CHECK;
 
 /* Dual simplex from the last basis; THR_LP_STOPPED when the limits say so (the basis is kept, solving may go on).
@@ -34,7 +49,12 @@ thr_status thr_lp_solve(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *ou
 /* Exact rational simplex from the optimal basis of the last solve (glp_exact). */
 thr_status thr_lp_solve_exact(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err) THR_MUST_CHECK;
 
-/* Of the last solve: column values x[n_columns], row multipliers dual[n_rows] (>= 0 for a minimum), the minimum. */
+/* Branch and bound with every column a whole number, from the optimum of the last thr_lp_solve. For small programmes. Then
+ * thr_lp_primal and thr_lp_objective give the integer optimum, and thr_lp_dual nothing of use. */
+thr_status thr_lp_solve_integer(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err) THR_MUST_CHECK;
+
+/* Of the last solve: column values x[n_columns], row multipliers dual[n_rows] (>= 0 for rows with a lower bound, of any sign for
+ * equations), the minimum. */
 void thr_lp_primal(const thr_lp *lp, double *x);
 void thr_lp_dual(const thr_lp *lp, double *dual);
 double thr_lp_objective(const thr_lp *lp);

@@ -4,6 +4,7 @@
 #include "lp/lp.h"
 
 #include <glpk.h>
+#include <math.h>
 #include <setjmp.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,6 +12,7 @@
 struct thr_lp {
   glp_prob *problem;
   int generation;
+  bool integer; /* the last solve was by branch and bound, whose results GLPK keeps apart */
 };
 
 static int generation;
@@ -113,6 +115,64 @@ void thr_lp_destroy(thr_lp *lp)
 }
 
 typedef struct {
+  thr_lp *lp;
+  int n_rows, n_columns;
+  const double *rhs, *cost, *value;
+  const bool *free;
+  const int *start, *row;
+  int *index;    /* of one column, 1-based */
+  double *entry; /* of one column, 1-based */
+} equations_call;
+
+static void do_create_equations(void *argument)
+{
+  equations_call *c = argument;
+  glp_prob *p = c->lp->problem = glp_create_prob();
+  glp_set_obj_dir(p, GLP_MIN);
+  if (c->n_rows > 0) glp_add_rows(p, c->n_rows);
+  if (c->n_columns > 0) glp_add_cols(p, c->n_columns);
+  for (int i = 0; i < c->n_rows; i++)
+    glp_set_row_bnds(p, i + 1, GLP_FX, c->rhs[i], c->rhs[i]);
+  for (int j = 0; j < c->n_columns; j++) {
+    int n = c->start[j + 1] - c->start[j];
+    for (int k = 0; k < n; k++) {
+      c->index[k + 1] = c->row[c->start[j] + k] + 1;
+      c->entry[k + 1] = c->value[c->start[j] + k];
+    }
+    glp_set_obj_coef(p, j + 1, c->cost[j]);
+    glp_set_col_bnds(p, j + 1, c->free && c->free[j] ? GLP_FR : GLP_LO, 0, 0);
+    glp_set_mat_col(p, j + 1, n, c->index, c->entry);
+  }
+  glp_std_basis(p);
+}
+
+thr_status thr_lp_create_equations(thr_lp **lp, int n_rows, const double *rhs, int n_columns, const double *cost,
+                                   const bool *free_columns, const int *start, const int *row, const double *value, thr_err *err)
+{
+  *lp = NULL;
+  thr_lp *made = thr_calloc(1, sizeof *made);
+  equations_call c = {made, n_rows, n_columns, rhs, cost, value, free_columns, start, row, NULL, NULL};
+  int longest = 0;
+  for (int j = 0; j < n_columns; j++)
+    if (start[j + 1] - start[j] > longest) longest = start[j + 1] - start[j];
+  c.index = thr_calloc((size_t)longest + 1, sizeof *c.index);
+  c.entry = thr_calloc((size_t)longest + 1, sizeof *c.entry);
+  thr_status st = made && c.index && c.entry ? THR_OK : thr_nomem(err);
+  if (!st) {
+    made->generation = generation;
+    st = guarded(do_create_equations, &c, err);
+  }
+  free(c.index);
+  free(c.entry);
+  if (st) {
+    free(made);
+    return st;
+  }
+  *lp = made;
+  return THR_OK;
+}
+
+typedef struct {
   glp_prob *problem;
   int n, *index; /* both arrays are 1-based, as GLPK wants them */
   double *value, lower;
@@ -183,6 +243,26 @@ int thr_lp_rows(const thr_lp *lp)
 
 typedef struct {
   glp_prob *problem;
+  int column;
+  double lower, upper;
+} bounds_call;
+
+static void do_set_bounds(void *argument)
+{
+  bounds_call *c = argument;
+  int kind = isinf(c->upper) ? GLP_LO : c->lower < c->upper ? GLP_DB : GLP_FX;
+  glp_set_col_bnds(c->problem, c->column + 1, kind, c->lower, isinf(c->upper) ? 0 : c->upper);
+}
+
+thr_status thr_lp_set_bounds(thr_lp *lp, int column, double lower, double upper, thr_err *err)
+{
+  thr_status st = check_alive(lp, err);
+  bounds_call c = {lp->problem, column, lower, upper};
+  return st ? st : guarded(do_set_bounds, &c, err);
+}
+
+typedef struct {
+  glp_prob *problem;
   const double *cost;
 } cost_call;
 
@@ -243,6 +323,7 @@ static thr_status solve(thr_lp *lp, bool exact, const thr_limits *limits, thr_lp
 {
   *outcome = THR_LP_STOPPED;
   thr_status st = check_alive(lp, err);
+  lp->integer = false;
   for (int restarts = 0; !st;) {
     if (thr_limits_stop(limits)) return THR_OK;
     solve_call c = {lp->problem, exact, restarts > 0, 0};
@@ -269,10 +350,47 @@ thr_status thr_lp_solve_exact(thr_lp *lp, const thr_limits *limits, thr_lp_outco
   return solve(lp, true, limits, outcome, err);
 }
 
+static void watch_tree(glp_tree *tree, void *limits)
+{
+  if (thr_limits_stop(limits)) glp_ios_terminate(tree);
+}
+
+typedef struct {
+  glp_prob *problem;
+  const thr_limits *limits;
+  int code;
+} integer_call;
+
+static void do_integer(void *argument)
+{
+  integer_call *c = argument;
+  glp_iocp options;
+  glp_init_iocp(&options);
+  options.msg_lev = GLP_MSG_OFF;
+  options.cb_func = watch_tree;
+  options.cb_info = (void *)c->limits;
+  for (int j = 1; j <= glp_get_num_cols(c->problem); j++)
+    glp_set_col_kind(c->problem, j, GLP_IV);
+  c->code = glp_intopt(c->problem, &options);
+}
+
+thr_status thr_lp_solve_integer(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)
+{
+  *outcome = THR_LP_STOPPED;
+  thr_status st = check_alive(lp, err);
+  integer_call c = {lp->problem, limits, 0};
+  if (!st) st = guarded(do_integer, &c, err);
+  if (st || c.code == GLP_ESTOP) return st;
+  if (c.code) return thr_fail(err, THR_ESOLVER, "GLPK's branch and bound failed (code %d)", c.code);
+  lp->integer = true;
+  *outcome = glp_mip_status(lp->problem) == GLP_OPT ? THR_LP_OPTIMAL : THR_LP_INFEASIBLE;
+  return THR_OK;
+}
+
 void thr_lp_primal(const thr_lp *lp, double *x)
 {
   for (int j = 1; j <= glp_get_num_cols(lp->problem); j++)
-    x[j - 1] = glp_get_col_prim(lp->problem, j);
+    x[j - 1] = lp->integer ? glp_mip_col_val(lp->problem, j) : glp_get_col_prim(lp->problem, j);
 }
 
 void thr_lp_dual(const thr_lp *lp, double *dual)
@@ -283,7 +401,7 @@ void thr_lp_dual(const thr_lp *lp, double *dual)
 
 double thr_lp_objective(const thr_lp *lp)
 {
-  return glp_get_obj_val(lp->problem);
+  return lp->integer ? glp_mip_obj_val(lp->problem) : glp_get_obj_val(lp->problem);
 }
 
 const char *thr_glpk_version(void)

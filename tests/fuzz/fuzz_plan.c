@@ -1,6 +1,6 @@
 /* Fuzzes the reader of plans and the checker: what parses is checked without a crash, and is written and read again as the
  * same bytes with the same verdict. What the checker lets through is evaluated as well. */
-#include "eval/capstan.h"
+#include "eval/eval.h"
 #include "graph/check.h"
 
 #include <stdio.h>
@@ -49,13 +49,14 @@ static void must_survive(const thr_plan *p, thr_status verdict)
 
 static void must_pull(const thr_plan *p)
 {
-  thr_capstan c;
-  thr_capstan_options o = thr_capstan_options_default();
-  thr_status st = thr_capstan_eval(&p->frame, p->cord, p->n_cords, &o, &c, NULL);
+  thr_eval e;
+  thr_limits none = {0};
+  thr_eval_options o = thr_eval_options_default();
+  thr_status st = thr_eval_plan(&p->frame, p->cord, p->n_cords, THR_CAPSTAN, &o, &none, &e, NULL);
   MUST(st == THR_OK || st == THR_EINPUT);
-  for (int i = 0; i < c.n_cords; i++)
-    MUST(c.cord[i].force >= o.seating);
-  thr_capstan_destroy(&c);
+  for (int i = 0; i < e.record.n_cords; i++)
+    MUST(e.record.cord[i].force >= o.physics.seating);
+  thr_eval_destroy(&e);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

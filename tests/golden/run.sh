@@ -15,7 +15,7 @@ work=$(mktemp -d) || exit 2
 trap 'rm -rf "$work"' EXIT
 mkdir "$work/bin"
 ln -s "$program" "$work/bin/thread"
-export PATH=$work/bin:$PATH LC_ALL=C TERM=dumb
+export PATH=$work/bin:$PATH LC_ALL=C TERM=dumb XDG_CACHE_HOME=$work/cache
 unset COLUMNS NO_COLOR CLICOLOR_FORCE MAKEFLAGS MAKELEVEL
 passed=0 failed=0
 

@@ -1,7 +1,7 @@
 /* Contract of the linear programming interface, and of the cut tree. */
 #include "tests/support.h"
 #include "graph/cuttree.h"
-#include "lp/lp.h"
+#include "lp/interior.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -177,6 +177,162 @@ START_TEST(random_covers_are_dual_pairs)
 }
 END_TEST
 
+/* ---- equations ---- */
+
+/* x + y = 4, y + z + w = 3, z - w = 1 and w of any sign: z = 1 + w, y = 2 - 2w, x = 2 + 2w. The cost x + 2y + 3z + 4w = 9 + 5w
+ * falls to w = -1, where x and z are 0. */
+START_TEST(equations_with_a_free_column)
+{
+  static const double rhs[] = {4, 3, 1}, cost[] = {1, 2, 3, 4}, value[] = {1, 1, 1, 1, 1, 1, -1}, x[] = {0, 4, 0, -1};
+  static const int start[] = {0, 1, 3, 5, 7}, row[] = {0, 0, 1, 1, 2, 1, 2};
+  thr_lp *lp;
+  thr_err err = {0};
+  ck_assert_msg(
+      thr_lp_create_equations(&lp, 3, rhs, 4, cost, (const bool[]){false, false, false, true}, start, row, value, &err) == THR_OK,
+      "%s", err.text);
+  ck_assert_int_eq(thr_lp_rows(lp), 3);
+  for (int exact = 0; exact < 2; exact++) {
+    double dual[3], sum = 0;
+    assert_outcome(lp, exact, THR_LP_OPTIMAL);
+    assert_solution(lp, 4, x, 0, NULL, 4);
+    thr_lp_dual(lp, dual);
+    for (int j = 0; j < 4; j++) {
+      double reduced = cost[j];
+      for (int k = start[j]; k < start[j + 1]; k++)
+        reduced -= value[k] * dual[row[k]];
+      ck_assert(j < 3 ? reduced > -1e-9 : fabs(reduced) < 1e-9);
+    }
+    for (int i = 0; i < 3; i++)
+      sum += rhs[i] * dual[i];
+    ck_assert_double_eq_tol(sum, 4, 1e-9);
+  }
+  thr_lp_destroy(lp);
+}
+END_TEST
+
+START_TEST(equations_without_a_solution)
+{
+  thr_lp *lp;
+  const double rhs[] = {1, 2}, cost[] = {1}, value[] = {1, 1};
+  ck_assert_int_eq(thr_lp_create_equations(&lp, 2, rhs, 1, cost, NULL, (const int[]){0, 2}, (const int[]){0, 1}, value, NULL),
+                   THR_OK);
+  assert_outcome(lp, false, THR_LP_INFEASIBLE);
+  thr_lp_destroy(lp);
+  thr_err err = {0}; /* one row twice in a column */
+  ck_assert_int_eq(thr_lp_create_equations(&lp, 2, rhs, 1, cost, NULL, (const int[]){0, 2}, (const int[]){1, 1}, value, &err),
+                   THR_ESOLVER);
+  assert_one_line(&err, "GLPK");
+  ck_assert(lp == NULL);
+}
+END_TEST
+
+/* ---- interior point ---- */
+
+typedef struct {
+  int m, n, start[401], row[800];
+  double rhs[64], cost[400], value[800], x[400], dual[64];
+} programme;
+
+static thr_interior interior(programme *p, const thr_limits *limits)
+{
+  const thr_equations e = {{p->m, p->n, p->start, p->row, p->value}, p->rhs, p->cost};
+  thr_interior found = {.x = p->x, .dual = p->dual};
+  thr_err err = {0};
+  ck_assert_msg(thr_interior_solve(&e, limits, &found, &err) == THR_OK, "%s", err.text);
+  return found;
+}
+
+/* Residuals and gap in sums of our own; returns the objective. */
+static double assert_optimal(const programme *p)
+{
+  double left[64], primal = 0, dual = 0;
+  memcpy(left, p->rhs, sizeof left);
+  for (int j = 0; j < p->n; j++) {
+    double reduced = p->cost[j];
+    for (int k = p->start[j]; k < p->start[j + 1]; k++) {
+      left[p->row[k]] -= p->value[k] * p->x[j];
+      reduced -= p->value[k] * p->dual[p->row[k]];
+    }
+    primal += p->cost[j] * p->x[j];
+    ck_assert(p->x[j] >= 0 && reduced > -1e-6);
+  }
+  for (int i = 0; i < p->m; i++) {
+    ck_assert_double_eq_tol(left[i], 0, 1e-6);
+    dual += p->rhs[i] * p->dual[i];
+  }
+  ck_assert_double_eq_tol(primal, dual, 1e-6 * (1 + fabs(primal)));
+  return primal;
+}
+
+/* Made from a solution: x and reduced costs of which one of each pair is 0. */
+START_TEST(interior_finds_the_optimum_it_was_made_from)
+{
+  rng r = rng_make((uint64_t)_i + 1);
+  programme p = {.m = rng_between(&r, 3, 30), .n = 100};
+  double wanted = 0, dual[64];
+  for (int i = 0; i < p.m; i++)
+    dual[i] = 2 * rng_unit(&r) - 1;
+  for (int j = 0; j < p.n; j++) {
+    p.start[j + 1] = 2 * (j + 1);
+    p.row[2 * j] = rng_below(&r, p.m);
+    p.row[2 * j + 1] = (p.row[2 * j] + 1 + rng_below(&r, p.m - 1)) % p.m;
+    double x = rng_below(&r, 3) ? 0 : 3 * rng_unit(&r), reduced = x > 0 ? 0 : rng_unit(&r);
+    p.cost[j] = reduced;
+    for (int k = 2 * j; k < 2 * j + 2; k++) {
+      p.value[k] = 2 * rng_unit(&r) - 1;
+      p.rhs[p.row[k]] += p.value[k] * x;
+      p.cost[j] += p.value[k] * dual[p.row[k]];
+    }
+    wanted += p.cost[j] * x;
+  }
+  thr_interior found = interior(&p, &no_limit);
+  ck_assert_msg(found.outcome == THR_LP_OPTIMAL, "error %g after %d", found.error, found.iterations);
+  ck_assert_double_eq_tol(assert_optimal(&p), wanted, 1e-6 * (1 + fabs(wanted)));
+}
+END_TEST
+
+/* A unit of flow through layers of nodes, all equations, of which one depends on the others: the shortest way, layer by layer. */
+START_TEST(interior_finds_the_shortest_way)
+{
+  enum { LAYERS = 12, WIDTH = 5 };
+  rng r = rng_make((uint64_t)_i + 1);
+  programme p = {.m = LAYERS * WIDTH};
+  double way[LAYERS * WIDTH];
+  for (int v = 0; v < p.m; v++)
+    way[v] = v == 0 ? 0 : INFINITY;
+  for (int a = 0; a + WIDTH < p.m; a++)
+    for (int b = (a / WIDTH + 1) * WIDTH; b < (a / WIDTH + 2) * WIDTH; b++, p.n++) {
+      p.cost[p.n] = rng_unit(&r);
+      p.start[p.n + 1] = p.start[p.n] + 2;
+      p.row[2 * p.n] = a;
+      p.row[2 * p.n + 1] = b;
+      p.value[2 * p.n] = 1;
+      p.value[2 * p.n + 1] = -1;
+      way[b] = fmin(way[b], way[a] + p.cost[p.n]);
+    }
+  p.rhs[0] = 1;
+  p.rhs[p.m - 1] = -1;
+  thr_interior found = interior(&p, &no_limit);
+  ck_assert_msg(found.outcome == THR_LP_OPTIMAL, "error %g after %d", found.error, found.iterations);
+  ck_assert_double_eq_tol(assert_optimal(&p), way[p.m - 1], 1e-6);
+}
+END_TEST
+
+START_TEST(interior_gives_up_and_stops)
+{
+  programme none = {.m = 2, .n = 1, .start = {0, 2}, .row = {0, 1}, .value = {1, 1}, .rhs = {1, 2}, .cost = {1}};
+  ck_assert_int_eq(interior(&none, &no_limit).outcome, THR_LP_UNDECIDED);
+  programme unbounded = {.m = 1, .n = 2, .start = {0, 1, 2}, .row = {0, 0}, .value = {1, -1}, .rhs = {1}, .cost = {-2, 1}};
+  ck_assert_int_eq(interior(&unbounded, &no_limit).outcome, THR_LP_UNDECIDED);
+  volatile sig_atomic_t pressed = 1;
+  thr_limits interrupt = {.interrupted = &pressed};
+  programme easy = {.m = 1, .n = 2, .start = {0, 1, 2}, .row = {0, 0}, .value = {1, 1}, .rhs = {1}, .cost = {2, 1}};
+  ck_assert_int_eq(interior(&easy, &interrupt).outcome, THR_LP_STOPPED);
+  ck_assert_int_eq(interior(&easy, &no_limit).outcome, THR_LP_OPTIMAL);
+  ck_assert_double_eq_tol(assert_optimal(&easy), 1, 1e-7);
+}
+END_TEST
+
 /* ---- cut tree ---- */
 
 static double cut_value(const thr_frame *f, const double *capacity, uint32_t side)
@@ -254,6 +410,11 @@ int main(void)
   ADD_TEST(s, 10, limits_stop_and_solving_goes_on);
   ADD_TEST(s, 10, abort_becomes_a_status);
   ADD_LOOP(s, 10, random_covers_are_dual_pairs, 0, 40);
+  ADD_TEST(s, 10, equations_with_a_free_column);
+  ADD_TEST(s, 10, equations_without_a_solution);
+  ADD_LOOP(s, 10, interior_finds_the_optimum_it_was_made_from, 0, 40);
+  ADD_LOOP(s, 10, interior_finds_the_shortest_way, 0, 20);
+  ADD_TEST(s, 10, interior_gives_up_and_stops);
   ADD_LOOP(s, 20, cut_tree_holds_all_minimum_cuts, 0, 60);
   ADD_TEST(s, 10, cut_tree_of_nonsense_is_a_status);
   ADD_TEST(s, 10, libraries_tell_their_versions);

@@ -1,7 +1,7 @@
-/* Every allocation failing once, from the file to the pull force: each time a clean THR_ENOMEM, and nothing leaks (the
- * sanitizer build looks). Allocations inside GLPK, igraph and jansson are their own. */
+/* Every allocation failing once, from the file to the pull force and back from plan.json: each time a clean THR_ENOMEM, and
+ * nothing leaks (the sanitizer build looks). Allocations inside GLPK, igraph and jansson are their own. */
 #include "tests/support.h"
-#include "eval/capstan.h"
+#include "eval/eval.h"
 #include "graph/read.h"
 
 #include <stdlib.h>
@@ -11,7 +11,7 @@ typedef struct {
   thr_frame frame;
   thr_plan plan, back;
   thr_text text;
-  thr_capstan pull;
+  thr_eval pull;
 } work;
 
 static void work_destroy(work *w)
@@ -20,7 +20,7 @@ static void work_destroy(work *w)
   thr_plan_destroy(&w->plan);
   thr_plan_destroy(&w->back);
   thr_text_destroy(&w->text);
-  thr_capstan_destroy(&w->pull);
+  thr_eval_destroy(&w->pull);
 }
 
 static thr_status run(work *w, const char *path, thr_ends ends, thr_err *err)
@@ -29,17 +29,20 @@ static thr_status run(work *w, const char *path, thr_ends ends, thr_err *err)
   thr_read_options read = thr_read_options_default();
   thr_limits none = {0};
   thr_plan_options o = options_for(ends, 1);
-  thr_capstan_options pull = thr_capstan_options_default();
+  thr_eval_options pull = thr_eval_options_default();
   thr_status st = thr_frame_read(&w->frame, &report, path, &read, NULL, 0, err);
   if (st) return st;
   bool end_node[64] = {true, true};
   if (ends == THR_ENDS_NODES) o.end_node = end_node;
   if ((st = thr_postman_plan(&w->frame, &o, &none, &w->plan, err))) return st;
+  st = thr_eval_plan(&w->plan.frame, w->plan.cord, w->plan.n_cords, THR_CAPSTAN, &pull, &none, &w->pull, err);
+  if (st) return st;
+  w->plan.evaluation = w->pull.record;
+  w->pull.record = (thr_evaluation){0};
   thr_plan_write(&w->plan, &w->text);
   if (w->text.failed) return thr_nomem(err);
   if ((st = thr_plan_parse(&w->back, w->text.data, w->text.length, "plan", err))) return st;
-  if ((st = thr_check_plan(&w->back, err))) return st;
-  return thr_capstan_eval(&w->back.frame, w->back.cord, w->back.n_cords, &pull, &w->pull, err);
+  return thr_check_plan(&w->back, err);
 }
 
 /* Does a failure leave the output of the step that failed empty? */
@@ -48,8 +51,9 @@ static void assert_empty_after_failure(const work *w)
   if (!w->plan.cord)
     ck_assert(!w->plan.frame.xyz && !w->plan.generator && !w->plan.proof.certificate && !w->plan.options.end_node);
   if (!w->back.cord)
-    ck_assert(!w->back.frame.xyz && !w->back.generator && !w->back.proof.certificate && !w->back.options.end_node);
-  if (!w->pull.cord) ck_assert_int_eq(w->pull.n_cords, 0);
+    ck_assert(!w->back.frame.xyz && !w->back.generator && !w->back.proof.certificate && !w->back.options.end_node &&
+              !w->back.evaluation.cord);
+  if (!w->pull.record.cord) ck_assert_int_eq(w->pull.record.n_cords, 0);
 }
 
 static const struct {

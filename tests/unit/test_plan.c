@@ -90,7 +90,7 @@ START_TEST(everything_survives_json)
   thr_plan_options o = options_for(THR_ENDS_NODES, 3);
   bool end_node[8] = {false, true, true, false, false, false, true, false};
   o.end_node = end_node;
-  o.mu = 1.0 / 3;
+  o.physics.mu = 1.0 / 3;
   o.time_limit = 2.5e9;
   thr_plan p = plan_make(&f, &o);
   assert_plan_sound(&p);
@@ -99,7 +99,7 @@ START_TEST(everything_survives_json)
   ck_assert_str_eq(q.frame.name[3], f.name[3]);
   ck_assert_str_eq(q.frame.units, "inch");
   ck_assert(thr_frame_hash(&q.frame) == thr_frame_hash(&f) && q.frame.own_lengths == f.own_lengths);
-  ck_assert(q.options.mu == o.mu && q.options.time_limit == o.time_limit && q.options.cover == 3);
+  ck_assert(q.options.physics.mu == o.physics.mu && q.options.time_limit == o.time_limit && q.options.cover == 3);
   ck_assert(memcmp(q.options.end_node, end_node, sizeof end_node) == 0);
   ck_assert(memcmp(&q.metrics, &p.metrics, sizeof q.metrics) == 0);
   ck_assert(q.proof.optimal && q.proof.lower_bound == p.proof.lower_bound &&

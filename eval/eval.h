@@ -1,0 +1,52 @@
+/* How hard must one pull? Three methods behind one interface (docs/method.md, "Pull force").
+ * Seating pull = force at the pulled ends such that the slackest point of every cord holds the seating tension (capstan, joint).
+ * Holding pull = least pull at which the closed structure has any equilibrium (structure). They are different things. */
+#ifndef THR_EVAL_H
+#define THR_EVAL_H
+
+#include "eval/holding.h"
+#include "eval/profile.h"
+#include "eval/settle.h"
+
+typedef struct {
+  thr_physics physics;       /* as asked; the methods resolve it against the framework */
+  thr_pull pull;             /* of every cord .. */
+  const thr_pull *cord_pull; /* .. or [n_cords] of each; borrowed, may be NULL */
+  thr_law law;               /* method capstan only */
+  uint64_t seed;
+  double time_step;  /* factor on the validated time step, 1; 0.5 halves it */
+  double iterations; /* factor on the validated iterations, 1 */
+  int processes;     /* that measure joints at a time, >= 1; results do not depend on it */
+  const char *cache; /* folder of measured joints; NULL = none; borrowed */
+  double start;      /* N, method structure: pull at which Bullet's structure settles; 0 = 3 x its holding pull. Plans are ranked
+                        at one common start */
+  bool dynamics;     /* method structure: confirm by Bullet (true) or limit analysis only */
+} thr_eval_options;
+
+thr_eval_options thr_eval_options_default(void);
+
+/* What a method measured beside the record. */
+typedef struct {
+  thr_evaluation record;
+  double error;   /* largest cord error (thr_eval_cord) */
+  double band[2]; /* largest force at mu_low and mu_high by the closed form over taut_turning: never a simulation. Method
+                     structure: by limit analysis, INFINITY if nothing holds, NAN above 100 beads */
+  int refused;    /* turns, over all cords */
+  bool complete;  /* every cord known */
+  int joints_measured, joints_cached, joints_unsettled; /* method joint */
+  bool cache_failed;                                    /* method joint: some joint could not be written to the cache folder */
+  double
+      interpolation;   /* method joint: largest relative error of an interpolated exponent, as seen at measured angles left out */
+  thr_holding holding; /* method structure */
+  thr_settle settle;   /* method structure */
+} thr_eval;
+
+/* Contract of each method: THR_EINPUT for absurd physics or an overflow (one line that says what to change); THR_ELIMIT when
+ * stopped, with out holding what is complete; same plan, options and seed give the same bits whatever the number of processes.
+ * largest, total, tension do not fall when mu grows; tension[slackest] is the least of a cord, and for capstan and joint it is
+ * the seating tension. Release with thr_eval_destroy (also after THR_ELIMIT). */
+thr_status thr_eval_plan(const thr_frame *f, const thr_cord *cord, int n_cords, thr_method method, const thr_eval_options *o,
+                         const thr_limits *limits, thr_eval *out, thr_err *err) THR_MUST_CHECK;
+void thr_eval_destroy(thr_eval *e);
+
+#endif

@@ -1,0 +1,87 @@
+/* Rigid bodies in Bullet, behind a C interface that names no Bullet type. bullet.cpp is the only file that knows the library:
+ * double precision, a fresh world per run, fixed steps, no wall clock, no exception crosses. */
+#ifndef THR_WORLD_H
+#define THR_WORLD_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#include "graph/status.h"
+
+typedef struct thr_world thr_world;
+
+typedef struct {
+  double time_step; /* s */
+  int iterations;   /* of sequential impulse */
+  double gravity[3];
+  bool cached_friction;  /* two cached friction directions per contact: structures creep less */
+  double erp, erp2, cfm; /* error reduction and constraint force mixing; negative = Bullet's default */
+  double slop;           /* allowed penetration (linear slop) */
+  bool split_impulse;
+  bool warm_start; /* of contacts; Bullet starts links from nothing */
+} thr_world_options;
+
+thr_status thr_world_create(thr_world **w, const thr_world_options *o, thr_err *err) THR_MUST_CHECK;
+void thr_world_destroy(thr_world *w);
+
+/* A body of one or more convex hulls. points: all hulls' corners one after the other in the body's own frame (origin = mass
+ * centre), n_points[h] of each. mass 0 = static. inertia: principal moments in the body frame, NULL = from the hulls' bounding
+ * boxes. pose: position and quaternion (x y z w). anchor: keep friction anchors. group/mask: collision filter bits. *body
+ * receives its index. */
+typedef struct {
+  int n_hulls;
+  const int *n_points;
+  const double (*points)[3];
+  double mass;
+  const double *inertia; /* [3] or NULL */
+  double pose[7];
+  double friction; /* combined friction is the product of the two bodies' */
+  double margin;   /* collision margin of the hulls */
+  bool anchor;
+  int group, mask;
+} thr_world_hulls;
+thr_status thr_world_add_hulls(thr_world *w, const thr_world_hulls *h, int *body, thr_err *err) THR_MUST_CHECK;
+
+/* A body of one or more boxes that meets only other such bodies, and there only boxes of the same tag: what is to touch is known
+ * beforehand, and arms that cross inside a joint do not. half: half sides; place: position and quaternion of each box in the
+ * body's frame (origin = mass centre). The rest as above. */
+typedef struct {
+  int n_boxes;
+  const double (*half)[3];
+  const double (*place)[7];
+  const int *tag; /* [n_boxes] >= 0 */
+  double mass;
+  double inertia[3];
+  double pose[7];
+  double friction;
+  bool anchor;
+} thr_world_boxes;
+thr_status thr_world_add_boxes(thr_world *w, const thr_world_boxes *b, int *body, thr_err *err) THR_MUST_CHECK;
+
+/* A sphere that does not rotate (angular factor 0). */
+thr_status thr_world_add_sphere(thr_world *w, double radius, double mass, const double at[3], double friction, int group,
+                                int mask, int *body, thr_err *err) THR_MUST_CHECK;
+
+/* Keeps the distance of two bodies' origins: one row, along the line between them. *link receives its index. */
+thr_status thr_world_add_link(thr_world *w, int a, int b, double length, int *link, thr_err *err) THR_MUST_CHECK;
+double thr_world_link_force(const thr_world *w, int link); /* N in the last step, > 0 = tension */
+
+/* Applied in the next step only. */
+void thr_world_force(thr_world *w, int body, const double force[3]);
+void thr_world_force_at(thr_world *w, int body, const double force[3], const double at[3]); /* at: world coordinates */
+thr_status thr_world_step(thr_world *w, thr_err *err) THR_MUST_CHECK;
+
+void thr_world_position(const thr_world *w, int body, double at[3]);
+void thr_world_pose(const thr_world *w, int body, double pose[7]);
+void thr_world_velocity(const thr_world *w, int body, double linear[3], double angular[3]);
+void thr_world_set_velocity(thr_world *w, int body, const double linear[3], const double angular[3]);
+void thr_world_set_damping(thr_world *w, int body, double linear, double angular);
+
+int thr_bullet_version(void); /* 324 */
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

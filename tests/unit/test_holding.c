@@ -1,0 +1,605 @@
+/* Holding pull: closed forms of cantilever and friction, a plain programme solved by simplex, the mechanism checked as a
+ * mechanism. */
+#include "tests/support.h"
+#include "eval/eval.h"
+#include "lp/lp.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double PI = 3.14159265358979323846;
+static const thr_limits no_limit;
+
+typedef struct {
+  thr_frame frame;
+  thr_physics physics;
+  thr_beads beads;
+  double (*wrench)[6];
+} model;
+
+static thr_physics physics_of(double width, double mu)
+{
+  return (thr_physics){.mu = 0.2,
+                       .mu_bead = mu,
+                       .mu_ground = 0.5,
+                       .cord_diameter = width / 20,
+                       .bore = width / 10,
+                       .bead_diameter = width,
+                       .density = 1,
+                       .bead_mass = 10,
+                       .seating = 1,
+                       .gravity = 10};
+}
+
+/* Takes the frame over. Every cord has tension 1 throughout. */
+static model model_make(thr_frame frame, thr_physics physics, const bool *fixed, const thr_cord *cord, int n_cords)
+{
+  model m = {.frame = frame, .physics = physics};
+  thr_err err = {0};
+  ck_assert_msg(thr_beads_make(&m.frame, &physics, &m.beads, &err) == THR_OK, "%s", err.text);
+  if (fixed) thr_beads_clamp(&m.beads, fixed);
+  double one[256];
+  const double **tension = calloc((size_t)n_cords, sizeof *tension);
+  m.wrench = calloc((size_t)frame.n_nodes, sizeof *m.wrench);
+  ck_assert(tension && m.wrench);
+  for (int k = 0; k < 256; k++)
+    one[k] = 1;
+  for (int i = 0; i < n_cords; i++) {
+    ck_assert(cord[i].n_passes <= 256);
+    tension[i] = one;
+  }
+  thr_beads_cord_wrench(&m.beads, &m.frame, cord, n_cords, tension, m.wrench);
+  free(tension);
+  return m;
+}
+
+static void model_destroy(model *m)
+{
+  free(m->wrench);
+  thr_beads_destroy(&m->beads);
+  thr_frame_destroy(&m->frame);
+}
+
+static thr_holding hold(const model *m)
+{
+  thr_holding h;
+  thr_err err = {0};
+  thr_status st = thr_holding_pull(&m->beads, &m->frame, &m->physics, (const double(*)[6])m->wrench, true, &no_limit, &h, &err);
+  ck_assert_msg(st == THR_OK, "%s", err.text);
+  ck_assert(h.present);
+  return h;
+}
+
+/* n beads in a row with spacing h, turned about the vertical by azimuth, one cord through all, bead 0 held. */
+static model cantilever(int n, double h, double width, double mu, double azimuth)
+{
+  double(*xyz)[3] = calloc((size_t)n, sizeof *xyz);
+  int(*edge)[2] = calloc((size_t)n, sizeof *edge), *half = calloc((size_t)n, sizeof *half);
+  bool *fixed = calloc((size_t)n, sizeof *fixed);
+  ck_assert(xyz && edge && half && fixed);
+  for (int i = 0; i < n; i++) {
+    xyz[i][0] = i * h * cos(azimuth);
+    xyz[i][1] = i * h * sin(azimuth);
+    edge[i][0] = i;
+    edge[i][1] = i + 1;
+    half[i] = 2 * i;
+  }
+  fixed[0] = true;
+  thr_cord cord = {.id = "A", .n_passes = n - 1, .half = half};
+  thr_frame f = frame_make(n, (const double(*)[3])xyz, n - 1, (const int(*)[2])edge, NULL, NULL);
+  model m = model_make(f, physics_of(width, mu), fixed, &cord, 1);
+  free(xyz);
+  free(edge);
+  free(half);
+  free(fixed);
+  return m;
+}
+
+/* ---- closed forms ---- */
+
+/* The part beyond the held bead turns about the lower edge of its first face, half a width below the cord. Inner beads weigh in
+ * at their nodes, the last one, a lone arm, in the middle of it. */
+static double overturning(int n, double h, double width, double weight)
+{
+  double moment = weight * ((n - 1) * h - 0.25 * h - 0.5 * h);
+  for (int i = 1; i < n - 1; i++)
+    moment += weight * (i * h - 0.5 * h);
+  return moment / (0.5 * width);
+}
+
+START_TEST(cantilever_is_held_by_its_cord)
+{
+  static const int beads[] = {2, 3, 5, 10, 20};
+  for (size_t i = 0; i < sizeof beads / sizeof *beads; i++)
+    for (double width = 4; width < 17; width *= 2) {
+      int n = beads[i];
+      model m = cantilever(n, 20, width, 2, 0.3);
+      thr_holding h = hold(&m);
+      double exact = overturning(n, 20, width, 0.1);
+      ck_assert_double_eq_tol(h.lower, exact, 1e-6 * exact);
+      ck_assert_double_eq_tol(h.upper, exact, 1e-6 * exact);
+      ck_assert_int_eq(h.first_bead, n - 1); /* the tip is fastest */
+      thr_holding_destroy(&h);
+      model_destroy(&m);
+    }
+}
+END_TEST
+
+/* Thesis, Fig. 12: with the length and weight of what hangs out given, the number of beads does not matter, the width does:
+ * weight x length / width, as of a uniform beam. */
+START_TEST(cantilever_scales_as_in_the_thesis)
+{
+  const double length = 600, mass = 0.6;
+  for (int n = 5; n <= 40; n *= 2)
+    for (double width = 5; width < 15; width += 4) {
+      double h = length / (n - 1.5);
+      model m = cantilever(n, h, width, 2, 0);
+      for (int v = 0; v < n; v++)
+        m.beads.mass[v] = mass * h / length * (v == n - 1 ? 0.5 : 1);
+      thr_holding pull = hold(&m);
+      double exact = mass * m.physics.gravity * length / width;
+      ck_assert_double_eq_tol(pull.lower, exact, 1e-6 * exact);
+      ck_assert_double_eq_tol(pull.upper, exact, 1e-6 * exact);
+      thr_holding_destroy(&pull);
+      model_destroy(&m);
+    }
+}
+END_TEST
+
+/* One bead hangs by friction alone: pull x mu = weight. */
+START_TEST(friction_carries_a_bead)
+{
+  for (int turn = 0; turn < 7; turn++) {
+    double mu = 0.1 + 0.02 * turn;
+    model m = cantilever(2, 20, 10, mu, turn * 0.41);
+    thr_holding h = hold(&m);
+    double exact = 0.1 / mu;
+    ck_assert(h.lower <= exact * (1 + 1e-7) && h.upper >= exact * (1 - 1e-7));
+    ck_assert_double_eq_tol(h.upper, h.lower / cos(PI / 8), 1e-6 * exact);
+    ck_assert_int_eq(h.first_bead, 1);
+    thr_holding_destroy(&h);
+    model_destroy(&m);
+  }
+}
+END_TEST
+
+START_TEST(what_stands_needs_no_pull)
+{
+  const double xyz[4][3] = {{0, 0, 0}, {0, 0, 30}, {0, 0, 55}, {0, 0, 90}};
+  thr_frame f = frame_make(4, xyz, 3, (const int[3][2]){{0, 1}, {2, 1}, {2, 3}}, NULL, (const int[]){0, -1});
+  thr_cord cord = {.id = "A", .n_passes = 3, .half = (int[]){0, 3, 4}};
+  model m = model_make(f, physics_of(8, 0.3), NULL, &cord, 1);
+  thr_holding h = hold(&m);
+  ck_assert_double_eq(h.lower, 0);
+  ck_assert_double_eq_tol(h.upper, 0, 1e-7);
+  ck_assert_int_eq(h.first_bead, -1);
+  thr_holding_destroy(&h);
+  model_destroy(&m);
+}
+END_TEST
+
+/* ---- what no pull holds ---- */
+
+static void assert_hopeless(model *m, const char *node)
+{
+  thr_err err = {0};
+  thr_holding h;
+  char word[40];
+  snprintf(word, sizeof word, "node %s ", node);
+  ck_assert_int_eq(thr_holding_pull(&m->beads, &m->frame, &m->physics, (const double(*)[6])m->wrench, true, &no_limit, &h, &err),
+                   THR_EINFEASIBLE);
+  assert_one_line(&err, word);
+  ck_assert(!h.present && h.velocity == NULL);
+  model_destroy(m);
+}
+
+START_TEST(hopeless_structures_name_a_bead)
+{
+  model smooth = cantilever(2, 20, 10, 0, 0.2);
+  assert_hopeless(&smooth, "1");
+  /* the cord ends before the last bead */
+  const double xyz[3][3] = {{0, 0, 0}, {20, 0, 0}, {40, 0, 0}};
+  thr_frame f = frame_make(3, xyz, 2, (const int[2][2]){{0, 1}, {1, 2}}, NULL, NULL);
+  thr_cord cord = {.id = "A", .n_passes = 1, .half = (int[]){0}};
+  model loose = model_make(f, physics_of(8, 0.4), (const bool[]){true, false, false}, &cord, 1);
+  assert_hopeless(&loose, "2");
+}
+END_TEST
+
+START_TEST(stops_when_told)
+{
+  volatile sig_atomic_t pressed = 1;
+  thr_limits limits = {.interrupted = &pressed};
+  model m = cantilever(5, 20, 8, 1, 0);
+  thr_err err = {0};
+  thr_holding h;
+  ck_assert_int_eq(thr_holding_pull(&m.beads, &m.frame, &m.physics, (const double(*)[6])m.wrench, true, &limits, &h, &err),
+                   THR_ELIMIT);
+  assert_one_line(&err, "stopped");
+  ck_assert(!h.present && h.velocity == NULL);
+  model_destroy(&m);
+}
+END_TEST
+
+START_TEST(memory_may_run_out_anywhere)
+{
+  model m = cantilever(3, 20, 8, 1, 0);
+  thr_status st = THR_ENOMEM;
+  int failed = 0;
+  while (st == THR_ENOMEM) {
+    thr_holding h;
+    thr_err err = {0};
+    thr_alloc_fail_at(failed + 1);
+    st = thr_holding_pull(&m.beads, &m.frame, &m.physics, (const double(*)[6])m.wrench, true, &no_limit, &h, &err);
+    thr_alloc_fail_at(0);
+    if (st) {
+      failed++;
+      assert_one_line(&err, "memory");
+      ck_assert(!h.present && h.velocity == NULL);
+    }
+    thr_holding_destroy(&h);
+  }
+  ck_assert_int_eq(st, THR_OK);
+  ck_assert_int_gt(failed, 30);
+  model_destroy(&m);
+}
+END_TEST
+
+/* ---- random structures ---- */
+
+/* A random framework over the ground, drawn together by a cord along each edge; some have a bead held instead of feet. */
+static model random_model(uint64_t seed, int most_beads)
+{
+  rng r = rng_make(seed);
+  int n = rng_between(&r, 3, most_beads);
+  thr_frame f = random_frame(&r, n, n, LENGTHS_EUCLID);
+  for (int v = 0; v < n; v++)
+    for (int k = 0; k < 3; k++)
+      f.xyz[v][k] = k == 2 && f.foot[v] ? 0 : (k == 2 ? 30 : 100) * rng_unit(&r);
+  thr_cord *cord = calloc((size_t)f.n_edges, sizeof *cord);
+  int *half = calloc((size_t)f.n_edges, sizeof *half);
+  bool *fixed = calloc((size_t)n, sizeof *fixed);
+  ck_assert(cord && half && fixed);
+  for (int e = 0; e < f.n_edges; e++) {
+    half[e] = 2 * e;
+    cord[e] = (thr_cord){.id = "A", .n_passes = 1, .half = &half[e]};
+  }
+  fixed[0] = true;
+  model m = model_make(f, physics_of(6, 0.6), seed % 3 ? NULL : fixed, cord, f.n_edges);
+  free(cord);
+  free(half);
+  free(fixed);
+  return m;
+}
+
+static void cross(const double a[3], const double b[3], double out[3])
+{
+  for (int k = 0; k < 3; k++)
+    out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+}
+
+static void velocity_at(const model *m, const thr_holding *h, int bead, const double at[3], double out[3])
+{
+  double lever[3];
+  for (int k = 0; k < 3; k++)
+    lever[k] = at[k] - m->beads.mass_centre[bead][k];
+  cross(h->velocity[bead] + 3, lever, out);
+  for (int k = 0; k < 3; k++)
+    out[k] += h->velocity[bead][k];
+}
+
+/* Contacts open at least mu times as fast as they slide (true cones), by more than rounding nowhere less. */
+static void assert_opens(const double apart[3], const double normal[3], double mu)
+{
+  double open = 0, all = 0;
+  for (int k = 0; k < 3; k++)
+    open += apart[k] * normal[k];
+  for (int k = 0; k < 3; k++)
+    all += pow(apart[k] - open * normal[k], 2);
+  ck_assert_msg(open >= mu * sqrt(all) - 1e-9, "opens with %g, slides with %g", open, sqrt(all));
+}
+
+/* The proof: a mechanism of the true friction cones in which the weights' power is lower x what the cords resist per newton. */
+static void assert_proved(const model *m, const thr_holding *h)
+{
+  const thr_beads *b = &m->beads;
+  double weights = 0, cords = 0;
+  for (int e = 0; e < b->n_faces; e++)
+    for (int i = 0; i < 4; i++) {
+      double one[3], other[3];
+      velocity_at(m, h, m->frame.edge[e][1], b->corner[e][i], one);
+      velocity_at(m, h, m->frame.edge[e][0], b->corner[e][i], other);
+      for (int k = 0; k < 3; k++)
+        one[k] -= other[k];
+      assert_opens(one, b->axis[e], m->physics.mu_bead);
+    }
+  for (int j = 0; j < b->n_feet; j++)
+    for (int i = 0; i < 4; i++) {
+      double one[3];
+      velocity_at(m, h, b->foot[j], b->foot_point[j][i], one);
+      assert_opens(one, (const double[]){0, 0, 1}, m->physics.mu_ground);
+    }
+  for (int v = 0; v < b->n_beads; v++) {
+    weights -= b->mass[v] * m->physics.gravity * h->velocity[v][2];
+    for (int k = 0; k < 6; k++) {
+      cords -= m->wrench[v][k] * h->velocity[v][k];
+      if (b->fixed[v]) ck_assert_double_eq(h->velocity[v][k], 0);
+    }
+  }
+  ck_assert_double_eq_tol(weights, h->lower * cords, 1e-9 * weights);
+}
+
+START_TEST(bounds_are_proved_and_close)
+{
+  model m = random_model((uint64_t)_i + 1, 12);
+  thr_holding h;
+  thr_err err = {0};
+  thr_status st = thr_holding_pull(&m.beads, &m.frame, &m.physics, (const double(*)[6])m.wrench, true, &no_limit, &h, &err);
+  if (st == THR_OK) {
+    ck_assert(h.lower <= h.upper * (1 + 1e-6) + 1e-9);
+    ck_assert_msg(h.gap <= 1e-6, "gap %g", h.gap);
+    ck_assert(h.residual < 1e-12 && (h.imbalance < 1e-5 || isinf(h.upper)));
+    ck_assert((h.lower > 0) == (h.first_bead >= 0));
+    if (h.lower > 0) assert_proved(&m, &h);
+    thr_holding_destroy(&h);
+  } else {
+    ck_assert_msg(st == THR_EINFEASIBLE, "%s", err.text);
+  }
+  model_destroy(&m);
+}
+END_TEST
+
+/* ---- a plain programme, by simplex ---- */
+
+typedef struct {
+  double value[4096 * 12], cost[4096], rhs[128];
+  int row[4096 * 12], start[4097], n;
+} plain;
+
+static void push(plain *p, const model *m, int bead, const double force[3], const double at[3], double sign)
+{
+  double lever[3], moment[3];
+  if (bead < 0 || m->beads.fixed[bead]) return;
+  for (int k = 0; k < 3; k++)
+    lever[k] = at[k] - m->beads.mass_centre[bead][k];
+  cross(lever, force, moment);
+  for (int k = 0; k < 6; k++) {
+    p->row[p->start[p->n + 1]] = 6 * bead + k;
+    p->value[p->start[p->n + 1]++] = sign * (k < 3 ? force[k] : 100 * moment[k - 3]);
+  }
+}
+
+/* Rays of a pyramid of eight edges whose first edge lies along the normal's product with its smallest axis. */
+static void add_point(plain *p, const model *m, int bead, int other, const double at[3], const double normal[3], double mu)
+{
+  double axis[3] = {0}, u[3], v[3];
+  int least = 0;
+  for (int k = 1; k < 3; k++)
+    if (fabs(normal[k]) < fabs(normal[least])) least = k;
+  axis[least] = 1;
+  cross(normal, axis, u);
+  double norm = hypot(hypot(u[0], u[1]), u[2]);
+  for (int k = 0; k < 3; k++)
+    u[k] /= norm;
+  cross(normal, u, v);
+  for (int e = 0; e < 8; e++, p->n++) {
+    double force[3];
+    for (int k = 0; k < 3; k++)
+      force[k] = normal[k] + mu * (cos(e * PI / 4) * u[k] + sin(e * PI / 4) * v[k]);
+    p->start[p->n + 1] = p->start[p->n];
+    push(p, m, bead, force, at, 1);
+    push(p, m, other, force, at, -1);
+  }
+}
+
+/* All columns at once, the pull in one column; INFINITY if infeasible. */
+static double by_simplex(const model *m)
+{
+  const thr_beads *b = &m->beads;
+  plain *p = calloc(1, sizeof *p);
+  ck_assert(p != NULL && 6 * b->n_beads <= 128);
+  for (int e = 0; e < b->n_faces; e++)
+    for (int i = 0; i < 4; i++)
+      add_point(p, m, m->frame.edge[e][1], m->frame.edge[e][0], b->corner[e][i], b->axis[e], m->physics.mu_bead);
+  for (int j = 0; j < b->n_feet; j++)
+    for (int i = 0; i < 4; i++)
+      add_point(p, m, b->foot[j], -1, b->foot_point[j][i], (const double[]){0, 0, 1}, m->physics.mu_ground);
+  p->start[p->n + 1] = p->start[p->n];
+  for (int v = 0; v < b->n_beads; v++)
+    for (int k = 0; k < 6 && !b->fixed[v]; k++) {
+      p->row[p->start[p->n + 1]] = 6 * v + k;
+      p->value[p->start[p->n + 1]++] = m->wrench[v][k] * (k < 3 ? 1 : 100);
+      if (k == 2) p->rhs[6 * v + k] = b->mass[v] * m->physics.gravity;
+    }
+  p->cost[p->n++] = 1;
+  ck_assert(p->n < 4096);
+  thr_lp *lp;
+  thr_lp_outcome outcome;
+  thr_err err = {0};
+  ck_assert_msg(thr_lp_create_equations(&lp, 6 * b->n_beads, p->rhs, p->n, p->cost, NULL, p->start, p->row, p->value, &err) ==
+                    THR_OK,
+                "%s", err.text);
+  ck_assert_msg(thr_lp_solve(lp, &no_limit, &outcome, &err) == THR_OK, "%s", err.text);
+  double pull = outcome == THR_LP_OPTIMAL ? thr_lp_objective(lp) : INFINITY;
+  thr_lp_destroy(lp);
+  free(p);
+  return pull;
+}
+
+START_TEST(equals_a_plain_programme_by_simplex)
+{
+  model m = random_model((uint64_t)_i + 1, 8);
+  double upper = by_simplex(&m), mu_bead = m.physics.mu_bead, mu_ground = m.physics.mu_ground;
+  m.physics.mu_bead /= cos(PI / 8);
+  m.physics.mu_ground /= cos(PI / 8);
+  double lower = by_simplex(&m);
+  m.physics.mu_bead = mu_bead;
+  m.physics.mu_ground = mu_ground;
+  thr_holding h;
+  thr_err err = {0};
+  thr_status st = thr_holding_pull(&m.beads, &m.frame, &m.physics, (const double(*)[6])m.wrench, true, &no_limit, &h, &err);
+  if (isinf(lower)) {
+    ck_assert_msg(st == THR_EINFEASIBLE, "lower %g N", h.lower);
+  } else {
+    ck_assert_msg(st == THR_OK, "%s", err.text);
+    ck_assert_double_eq_tol(h.lower, lower, 1e-6 * lower + 1e-8);
+    if (isfinite(upper)) ck_assert_double_eq_tol(h.upper, upper, 1e-6 * upper + 1e-8);
+    if (isinf(upper)) ck_assert(isinf(h.upper));
+    thr_holding_destroy(&h);
+  }
+  model_destroy(&m);
+}
+END_TEST
+
+/* ---- symmetries ---- */
+
+START_TEST(twice_the_weight_needs_twice_the_pull)
+{
+  model m = cantilever(6, 20, 8, 0.5, 0.7);
+  thr_holding once = hold(&m);
+  for (int v = 0; v < m.beads.n_beads; v++)
+    m.beads.mass[v] *= 2;
+  thr_holding twice = hold(&m);
+  ck_assert_double_eq_tol(twice.lower, 2 * once.lower, 1e-6 * twice.lower);
+  thr_holding_destroy(&once);
+  thr_holding_destroy(&twice);
+  model_destroy(&m);
+}
+END_TEST
+
+static model dome_part(const thr_plan *p, double side)
+{
+  thr_frame f;
+  ck_assert_int_eq(thr_frame_copy(&f, &p->frame, NULL), THR_OK);
+  for (int v = 0; v < f.n_nodes; v++)
+    f.xyz[v][0] *= side;
+  return model_make(f, physics_of(7, 0.25), NULL, p->cord, p->n_cords);
+}
+
+START_TEST(mirrored_plans_pull_alike)
+{
+  static const char *const plans[] = {"data/dome7-lines.json", "data/dome7-stairs.json", "data/dome7-snake.json"};
+  for (int i = 0; i < 3; i++) {
+    thr_plan p;
+    thr_err err = {0};
+    ck_assert_msg(thr_plan_read(&p, plans[i], &err) == THR_OK, "%s", err.text);
+    model m = dome_part(&p, 1), mirrored = dome_part(&p, -1);
+    thr_holding a = hold(&m), b = hold(&mirrored);
+    ck_assert(a.lower > 0);
+    ck_assert_double_eq_tol(a.lower, b.lower, 2e-6 * a.lower);
+    assert_proved(&m, &a);
+    assert_proved(&mirrored, &b);
+    thr_holding_destroy(&a);
+    thr_holding_destroy(&b);
+    model_destroy(&m);
+    model_destroy(&mirrored);
+    thr_plan_destroy(&p);
+  }
+}
+END_TEST
+
+START_TEST(same_bits_again)
+{
+  model m = cantilever(9, 13, 6, 0.4, 1);
+  thr_holding a = hold(&m), b = hold(&m);
+  ck_assert(memcmp(&a.lower, &b.lower, sizeof a.lower) == 0 && memcmp(&a.upper, &b.upper, sizeof a.upper) == 0);
+  ck_assert(memcmp(a.velocity, b.velocity, (size_t)m.beads.n_beads * sizeof *a.velocity) == 0);
+  thr_holding_destroy(&a);
+  thr_holding_destroy(&b);
+  model_destroy(&m);
+}
+END_TEST
+
+/* ---- method structure ---- */
+
+static thr_eval eval_file(const char *path, double mu, double density)
+{
+  thr_plan p;
+  thr_eval e;
+  thr_err err = {0};
+  thr_eval_options o = thr_eval_options_default();
+  o.dynamics = false;
+  o.physics.mu = mu;
+  o.physics.density = density;
+  ck_assert_msg(thr_plan_read(&p, path, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_eval_plan(&p.frame, p.cord, p.n_cords, THR_STRUCTURE, &o, &no_limit, &e, &err) == THR_OK, "%s", err.text);
+  for (int i = 0; i < p.n_cords; i++) { /* the capstan law between neighbouring passes, the pull at the harder end */
+    const thr_eval_cord *c = &e.record.cord[i];
+    ck_assert(c->known && c->n_passes == p.cord[i].n_passes);
+    ck_assert_double_eq_tol(c->force, e.holding.lower, 1e-12);
+    ck_assert_double_eq_tol(fmax(c->tension[0], c->tension[c->n_passes - 1]), c->force, 1e-9);
+    ck_assert_double_eq_tol(c->loss, 1 - c->tension[c->slackest] / c->force, 1e-12);
+    for (int k = 0; k + 1 < c->n_passes; k++) {
+      double turn = mu * thr_turn_angle(&p.frame, p.cord[i].half[k], p.cord[i].half[k + 1]);
+      double ratio = k < c->slackest ? c->tension[k] / c->tension[k + 1] : c->tension[k + 1] / c->tension[k];
+      ck_assert_double_eq_tol(ratio, exp(turn), 1e-9 * ratio);
+    }
+  }
+  ck_assert(e.complete && e.holding.gap < 1e-6 && e.holding.upper >= e.holding.lower && !e.settle.present);
+  thr_plan_destroy(&p);
+  return e;
+}
+
+START_TEST(straight_lines_pull_least)
+{
+  static const char *const plans[] = {"data/dome7-lines.json", "data/dome7-stairs.json", "data/dome7-snake.json"};
+  double before = 0;
+  for (int i = 0; i < 3; i++) {
+    thr_eval e = eval_file(plans[i], 0.2, 1), heavy = eval_file(plans[i], 0.2, 2);
+    thr_eval low = eval_file(plans[i], 0.1, 1), high = eval_file(plans[i], 0.3, 1);
+    ck_assert_msg(e.record.largest > 1.2 * before, "%s: %g N", plans[i], e.record.largest);
+    before = e.record.largest;
+    ck_assert_double_eq_tol(heavy.record.largest, 2 * e.record.largest, 2e-6 * heavy.record.largest);
+    ck_assert_double_eq(e.band[0], low.record.largest);
+    ck_assert_double_eq(e.band[1], high.record.largest);
+    thr_eval_destroy(&e);
+    thr_eval_destroy(&heavy);
+    thr_eval_destroy(&low);
+    thr_eval_destroy(&high);
+  }
+}
+END_TEST
+
+START_TEST(what_stands_has_no_forces)
+{
+  const double xyz[3][3] = {{0, 0, 0}, {0, 0, 30}, {0, 0, 60}};
+  thr_frame f = frame_make(3, xyz, 2, (const int[2][2]){{0, 1}, {1, 2}}, NULL, (const int[]){0, -1});
+  thr_plan p = plan_simple(&f, THR_ENDS_ANY, 1);
+  thr_eval_options o = thr_eval_options_default();
+  thr_eval e;
+  thr_err err = {0};
+  ck_assert_msg(thr_eval_plan(&f, p.cord, p.n_cords, THR_STRUCTURE, &o, &no_limit, &e, &err) == THR_OK, "%s", err.text);
+  ck_assert(e.record.largest == 0 && e.record.total == 0 && e.record.cord[0].loss == 0 && e.record.cord[0].tension[1] == 0);
+  ck_assert(e.holding.first_bead == -1 && !e.settle.present);
+  thr_eval_destroy(&e);
+  volatile sig_atomic_t pressed = 1;
+  thr_limits interrupt = {.interrupted = &pressed};
+  ck_assert_int_eq(thr_eval_plan(&f, p.cord, p.n_cords, THR_STRUCTURE, &o, &interrupt, &e, &err), THR_ELIMIT);
+  ck_assert(!e.complete && !e.record.cord[0].known && e.record.cord[0].tension == NULL && !e.holding.present);
+  thr_eval_destroy(&e);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+int main(void)
+{
+  Suite *s = suite_create("holding pull");
+  ADD_TEST(s, 20, cantilever_is_held_by_its_cord);
+  ADD_TEST(s, 20, cantilever_scales_as_in_the_thesis);
+  ADD_TEST(s, 10, friction_carries_a_bead);
+  ADD_TEST(s, 10, what_stands_needs_no_pull);
+  ADD_TEST(s, 10, hopeless_structures_name_a_bead);
+  ADD_TEST(s, 10, stops_when_told);
+  ADD_TEST(s, 20, memory_may_run_out_anywhere);
+  ADD_LOOP(s, 20, bounds_are_proved_and_close, 0, 60);
+  ADD_LOOP(s, 20, equals_a_plain_programme_by_simplex, 0, 40);
+  ADD_TEST(s, 10, twice_the_weight_needs_twice_the_pull);
+  ADD_TEST(s, 30, mirrored_plans_pull_alike);
+  ADD_TEST(s, 10, same_bits_again);
+  ADD_TEST(s, 60, straight_lines_pull_least);
+  ADD_TEST(s, 20, what_stands_has_no_forces);
+  return run_suite(s);
+}

@@ -1,0 +1,448 @@
+/* The tension plot, the overview coloured by tension, and the still picture: heights against tensions, order against depth,
+ * rotated poses against a rotated framework. */
+#include "diagram/overview.h"
+#include "diagram/still.h"
+#include "diagram/tension.h"
+#include "tests/support.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- plans with tensions ---- */
+
+static thr_plan path_plan(int n_passes, int n_cords)
+{
+  thr_plan p = {.frame = path_make(n_passes + 1), .n_cords = n_cords, .cord = thr_calloc((size_t)n_cords, sizeof(thr_cord))};
+  thr_evaluation *e = &p.evaluation;
+  *e = (thr_evaluation){.present = true, .method = THR_JOINT, .physics = thr_physics_default(), .n_cords = n_cords};
+  e->cord = thr_calloc((size_t)n_cords, sizeof *e->cord);
+  ck_assert(p.cord && e->cord);
+  for (int c = 0; c < n_cords; c++) {
+    thr_cord_id(c, p.cord[c].id);
+    p.cord[c].n_passes = n_passes;
+    p.cord[c].half = thr_calloc((size_t)n_passes, sizeof(int));
+    e->cord[c] = (thr_eval_cord){.known = true, .pull = THR_PULL_START, .n_passes = n_passes, .slackest = n_passes - 1};
+    e->cord[c].tension = thr_calloc((size_t)n_passes, sizeof(double));
+    ck_assert(p.cord[c].half && e->cord[c].tension);
+    for (int k = 0; k < n_passes; k++)
+      p.cord[c].half[k] = 2 * k;
+  }
+  return p;
+}
+
+/* Tension falls from pull to 1 by equal factors, pulled at the start. */
+static void fill(thr_plan *p, int c, double pull)
+{
+  thr_eval_cord *r = &p->evaluation.cord[c];
+  for (int k = 0; k < r->n_passes; k++)
+    r->tension[k] = pow(pull, 1 - k / (double)(r->n_passes - 1));
+  r->force = pull;
+  r->loss = 1 - 1 / pull;
+  thr_evaluation_sum(&p->evaluation);
+}
+
+static thr_text plot(const thr_plan *p)
+{
+  thr_text svg = {0};
+  thr_err err = {0};
+  thr_tension_options o = thr_tension_options_default();
+  ck_assert_msg(thr_tension_svg(p, &o, &svg, &err) == THR_OK, "%s", err.text);
+  return svg;
+}
+
+/* Text of at least 7 pt everywhere. */
+static void assert_legible(const char *svg)
+{
+  int n = 0;
+  for (const char *s = strstr(svg, "font-size=\""); s; s = strstr(s + 1, "font-size=\"")) {
+    ck_assert_double_ge(atof(s + 11), 7 * 25.4 / 72);
+    n++;
+  }
+  ck_assert_int_gt(n, 3);
+}
+
+/* Heights of a cord's steps, from the path's M and V commands; returns their number. */
+static int heights(const char *svg, const char *id, double *y)
+{
+  char group[40];
+  snprintf(group, sizeof group, "<g id=\"cord-%s\">", id);
+  const char *s = strstr(svg, group);
+  ck_assert_ptr_nonnull(s);
+  s = strstr(s, " d=\"M") + 5;
+  double x;
+  int n = 0;
+  ck_assert_int_eq(sscanf(s, "%lf %lf", &x, &y[n++]), 2);
+  for (; *s != '"'; s++)
+    if (*s == 'V') y[n++] = atof(s + 1);
+  return n;
+}
+
+START_TEST(steps_are_as_high_as_the_logarithm)
+{
+  thr_plan p = path_plan(12, 2);
+  double y[16];
+  fill(&p, 0, 1000);
+  fill(&p, 1, 50);
+  thr_text svg = plot(&p);
+  assert_legible(svg.data);
+  for (int c = 0; c < 2; c++) {
+    const thr_eval_cord *r = &p.evaluation.cord[c];
+    ck_assert_int_eq(heights(svg.data, c ? "B" : "A", y), 12);
+    double mm_per_log = (y[11] - y[0]) / log(r->tension[0] / r->tension[11]);
+    for (int k = 0; k < 12; k++)
+      ck_assert_double_eq_tol(y[11] - y[k], mm_per_log * log(r->tension[k] / r->tension[11]), 0.011);
+  }
+  ck_assert_ptr_nonnull(strstr(svg.data, ">1000<"));
+  ck_assert_ptr_nonnull(strstr(svg.data, "logarithmic"));
+  thr_text_destroy(&svg);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+START_TEST(small_ratios_are_drawn_from_zero)
+{
+  thr_plan p = path_plan(5, 1);
+  double y[8], x, top, width, height;
+  fill(&p, 0, 8);
+  thr_text svg = plot(&p);
+  ck_assert_int_eq(heights(svg.data, "A", y), 5);
+  const char *box = strstr(svg.data, "<rect class=\"axis\"");
+  ck_assert_int_eq(
+      sscanf(box, "<rect class=\"axis\" x=\"%lf\" y=\"%lf\" width=\"%lf\" height=\"%lf\"", &x, &top, &width, &height), 4);
+  for (int k = 0; k < 5; k++)
+    ck_assert_double_eq_tol((top + height - y[k]) / (top + height - y[4]), p.evaluation.cord[0].tension[k], 0.02);
+  ck_assert_ptr_null(strstr(svg.data, "logarithmic"));
+  thr_text_destroy(&svg);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+/* Every cord up to the limit has its group; beyond it the strongest do and a note tells the rest. */
+START_TEST(many_cords)
+{
+  static const int counts[] = {1, 6, 7, 48, 70};
+  for (int i = 0; i < 5; i++) {
+    int n = counts[i], found = 0;
+    thr_plan p = path_plan(3, n);
+    for (int c = 0; c < n; c++)
+      fill(&p, c, 2 + (c * 37) % 71);
+    p.evaluation.cord[n - 1].known = n == 1;
+    thr_text svg = plot(&p), again = plot(&p);
+    assert_same_text(&svg, &again);
+    assert_legible(svg.data);
+    int known = n == 1 ? 1 : n - 1;
+    for (int c = 0; c < n; c++) {
+      char id[12], group[40];
+      int stronger = 0;
+      thr_cord_id(c, id);
+      snprintf(group, sizeof group, "<g id=\"cord-%s\">", id);
+      for (int k = 0; k < n; k++)
+        stronger += p.evaluation.cord[k].known && p.evaluation.cord[k].force > p.evaluation.cord[c].force;
+      bool shown = strstr(svg.data, group) != NULL;
+      ck_assert_int_eq(shown, p.evaluation.cord[c].known && stronger < THR_TENSION_PANELS);
+      found += shown;
+    }
+    ck_assert_int_eq(found, known < THR_TENSION_PANELS ? known : THR_TENSION_PANELS);
+    ck_assert_int_eq(strstr(svg.data, "largest pull, of") != NULL, known > THR_TENSION_PANELS);
+    ck_assert_int_eq(strstr(svg.data, "are not known") != NULL, n > 1);
+    thr_text_destroy(&svg);
+    thr_text_destroy(&again);
+    thr_plan_destroy(&p);
+  }
+}
+END_TEST
+
+START_TEST(extreme_tensions)
+{
+  static const double pulls[] = {1, 1 + 1e-12, 1e12, 1e290};
+  for (int i = 0; i < 4; i++) {
+    thr_plan p = path_plan(4, 1);
+    fill(&p, 0, pulls[i]);
+    snprintf(p.cord[0].id, sizeof p.cord[0].id, "<&\"");
+    snprintf(p.frame.units, sizeof p.frame.units, "<m>");
+    thr_text svg = plot(&p);
+    ck_assert_ptr_null(strstr(svg.data, "nan"));
+    ck_assert_ptr_null(strstr(svg.data, "inf"));
+    ck_assert_ptr_null(strstr(svg.data, "<m>"));
+    ck_assert_ptr_nonnull(strstr(svg.data, "&lt;&amp;&quot;"));
+    thr_text_destroy(&svg);
+    thr_plan_destroy(&p);
+  }
+}
+END_TEST
+
+START_TEST(without_a_usable_evaluation)
+{
+  thr_plan p = path_plan(4, 2);
+  thr_text svg = {0};
+  thr_tension_options o = thr_tension_options_default();
+  thr_overview_options colours = thr_overview_options_default();
+  colours.colour = THR_COLOUR_TENSION;
+  fill(&p, 0, 3);
+  fill(&p, 1, 4);
+  for (int i = 0; i < 4; i++) {
+    static const char *const word[] = {"thread eval", "2 cords|1 cords", "passes", "stopped"};
+    thr_evaluation keep = p.evaluation;
+    thr_err err = {0}, again = {0};
+    if (i == 0) p.evaluation.present = false;
+    if (i == 1) p.evaluation.n_cords = 1;
+    if (i == 2) p.evaluation.cord[1].n_passes = 3;
+    if (i == 3) p.evaluation.cord[0].known = p.evaluation.cord[1].known = false;
+    ck_assert_int_eq(thr_tension_svg(&p, &o, &svg, &err), THR_EINPUT);
+    ck_assert_int_eq(thr_overview_svg(&p, &colours, &svg, &again), THR_EINPUT);
+    assert_one_line(&err, i == 1 ? "evaluate it again" : word[i]);
+    ck_assert_str_eq(err.text, again.text);
+    p.evaluation = keep;
+    p.evaluation.cord[1].n_passes = 4;
+  }
+  ck_assert_int_eq((int)svg.length, 0);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+/* ---- overview ---- */
+
+static const char *pass_colour(const char *svg, const char *pass)
+{
+  char key[64];
+  snprintf(key, sizeof key, "<g id=\"%s\" stroke=\"", pass);
+  const char *s = strstr(svg, key);
+  ck_assert_ptr_nonnull(s);
+  return s + strlen(key);
+}
+
+START_TEST(overview_shows_tension)
+{
+  thr_frame f = grid_make(3, 2);
+  thr_plan p = plan_simple(&f, THR_ENDS_CLOSED, 1);
+  thr_evaluation *e = &p.evaluation;
+  *e = (thr_evaluation){.present = true, .physics = thr_physics_default(), .n_cords = 1, .cord = thr_calloc(1, sizeof *e->cord)};
+  ck_assert_ptr_nonnull(e->cord);
+  int n = p.cord[0].n_passes;
+  e->cord[0] = (thr_eval_cord){.known = true, .n_passes = n, .tension = thr_calloc((size_t)n, sizeof(double))};
+  ck_assert_ptr_nonnull(e->cord[0].tension);
+  for (int k = 0; k < n; k++)
+    e->cord[0].tension[k] = 1 + k;
+  thr_text plain = {0}, svg = {0};
+  thr_overview_options o = thr_overview_options_default();
+  ck_assert_int_eq(thr_overview_svg(&p, &o, &plain, NULL), THR_OK);
+  o.colour = THR_COLOUR_TENSION;
+  ck_assert_int_eq(thr_overview_svg(&p, &o, &svg, NULL), THR_OK);
+  const double range[2] = {1, n};
+  for (int k = 0; k < n; k++) {
+    char hex[8], id[16];
+    thr_tension_colour(range, 1 + k, hex);
+    snprintf(id, sizeof id, "A-%d", k + 1);
+    ck_assert_int_eq(strncmp(pass_colour(svg.data, id), hex, 7), 0);
+    const char *lane = strstr(pass_colour(plain.data, id), "class=\"cord\""),
+               *same = strstr(pass_colour(svg.data, id), "class=\"cord\"");
+    ck_assert_int_eq(strncmp(lane, same, strcspn(lane, ">")), 0); /* nothing moves */
+  }
+  ck_assert_ptr_nonnull(strstr(svg.data, "id=\"tension-scale\""));
+  ck_assert_ptr_null(strstr(plain.data, "id=\"tension-scale\""));
+  assert_legible(svg.data);
+  thr_text_destroy(&svg);
+  thr_text_destroy(&plain);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* ---- still picture ---- */
+
+static thr_text still_of(const thr_frame *f, const double (*pose)[7], int first)
+{
+  thr_text svg = {0};
+  thr_err err = {0};
+  const thr_still s = {.width = 0.3, .ground = -0.15, .before = pose, .after = pose, .first_bead = first, .gap_after = 1.5};
+  ck_assert_msg(thr_still_svg(f, &s, &svg, &err) == THR_OK, "%s", err.text);
+  return svg;
+}
+
+static void rest_poses(const thr_frame *f, double (*pose)[7])
+{
+  for (int v = 0; v < f->n_nodes; v++) {
+    memset(pose[v], 0, sizeof *pose);
+    memcpy(pose[v], f->xyz[v], sizeof f->xyz[v]);
+    pose[v][6] = 1;
+  }
+}
+
+static int count(const char *s, const char *what)
+{
+  int n = 0;
+  for (s = strstr(s, what); s; s = strstr(s + 1, what))
+    n++;
+  return n;
+}
+
+/* Two halves of one edge: of each box two sides face the eye, and of the two ends in the middle exactly one. */
+START_TEST(only_faces_that_can_be_seen)
+{
+  static const double ends[][2][3] = {
+      {{0, 0, 0}, {1, 0.3, 0.2}}, {{0, 0, 0}, {-1, 0.4, 0.1}}, {{1, 2, 3}, {1.1, 2.9, 2.4}}, {{0, 0, 0}, {0.2, 0.1, 1}}};
+  for (int i = 0; i < 4; i++) {
+    thr_frame f = frame_make(2, ends[i], 1, (const int[][2]){{0, 1}}, NULL, NULL);
+    double pose[2][7];
+    rest_poses(&f, pose);
+    thr_text svg = still_of(&f, (const double(*)[7])pose, -1);
+    ck_assert_int_eq(count(svg.data, "<path fill="), 2 * 5);
+    thr_text_destroy(&svg);
+    thr_frame_destroy(&f);
+  }
+}
+END_TEST
+
+/* All numbers of a text that stand in paths, to compare two pictures. */
+static int path_numbers(const char *svg, double *out, int most)
+{
+  int n = 0;
+  for (const char *s = strstr(svg, " d=\"M"); s; s = strstr(s, " d=\"M"))
+    for (s += 4; *s != '"';) {
+      char *end;
+      double x = strtod(s, &end);
+      if (end == s) {
+        s++;
+        continue;
+      }
+      ck_assert_int_lt(n, most);
+      out[n++] = x;
+      s = end;
+    }
+  return n;
+}
+
+/* A quarter turn about the vertical, once in the poses and once in the framework: arms are level either way. */
+START_TEST(poses_turn_beads)
+{
+  enum { MOST = 8192 };
+  rng r = rng_make(4);
+  thr_frame f = random_frame(&r, 7, 3, LENGTHS_EUCLID), g = {0};
+  ck_assert_int_eq(thr_frame_copy(&g, &f, NULL), THR_OK);
+  double pose[7][7], rest[7][7], *a = thr_calloc(MOST, sizeof *a), *b = thr_calloc(MOST, sizeof *b);
+  ck_assert(a && b);
+  for (int v = 0; v < 7; v++) {
+    g.xyz[v][0] = -f.xyz[v][1];
+    g.xyz[v][1] = f.xyz[v][0];
+  }
+  rest_poses(&g, rest);
+  memcpy(pose, rest, sizeof pose);
+  for (int v = 0; v < 7; v++)
+    pose[v][5] = pose[v][6] = sqrt(0.5);
+  thr_text turned = still_of(&f, (const double(*)[7])pose, 3), straight = still_of(&g, (const double(*)[7])rest, 3);
+  int n = path_numbers(turned.data, a, MOST);
+  ck_assert_int_eq(path_numbers(straight.data, b, MOST), n);
+  ck_assert_int_gt(n, 200);
+  for (int i = 0; i < n; i++)
+    ck_assert_double_eq_tol(a[i], b[i], 0.015);
+  thr_text_destroy(&turned);
+  thr_text_destroy(&straight);
+  free(a);
+  free(b);
+  thr_frame_destroy(&f);
+  thr_frame_destroy(&g);
+}
+END_TEST
+
+/* Two bars, one in front of the other as seen from the eye (its direction: the plot's own faces tell by who is painted last when
+ * they change places). */
+START_TEST(the_nearer_is_painted_last)
+{
+  static const double xyz[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, -3, 0}, {1, -3, 0}};
+  thr_frame f = frame_make(4, xyz, 2, (const int[][2]){{0, 1}, {2, 3}}, NULL, NULL);
+  double pose[4][7];
+  for (int swapped = 0; swapped < 2; swapped++) {
+    rest_poses(&f, pose);
+    for (int v = 0; v < 4 && swapped; v++)
+      pose[v][1] = v < 2 ? -3 : 0;
+    thr_text svg = still_of(&f, (const double(*)[7])pose, 2); /* bead 2 is in another colour */
+    const char *last = strstr(svg.data, "<g id=\"after\"");
+    char colour[4][8] = {"", "", "", ""};
+    for (const char *s = strstr(last, "<path fill=\""); s; s = strstr(s + 1, "<path fill=\"")) {
+      memmove(colour[0], colour[1], sizeof colour[0] * 3);
+      memcpy(colour[3], s + 12, 7);
+    }
+    /* the eye stands at negative y: the last faces are those of the bar at y = -3, bead 2's red among them unless it is behind */
+    int red = 0;
+    for (int i = 0; i < 4; i++) {
+      unsigned r, g, b;
+      ck_assert_int_eq(sscanf(colour[i], "#%2x%2x%2x", &r, &g, &b), 3);
+      red += r > 2 * b + 40 && g < r / 2 + 10;
+    }
+    ck_assert_int_eq(red > 0, !swapped);
+    thr_text_destroy(&svg);
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(still_refuses_nonsense)
+{
+  thr_frame f = path_make(3);
+  double pose[3][7];
+  rest_poses(&f, pose);
+  thr_still s = {.width = 0.3, .before = (const double(*)[7])pose, .after = (const double(*)[7])pose, .first_bead = -1};
+  thr_text svg = {0};
+  for (int i = 0; i < 4; i++) {
+    thr_still bad = s;
+    thr_err err = {0};
+    if (i == 0) bad.width = 0;
+    if (i == 1) bad.width = NAN;
+    if (i == 2) bad.first_bead = 3;
+    if (i == 3) pose[1][4] = INFINITY;
+    ck_assert_int_eq(thr_still_svg(&f, &bad, &svg, &err), THR_EINPUT);
+    assert_one_line(&err, i < 2 ? "wide" : "bead");
+  }
+  ck_assert_int_eq((int)svg.length, 0);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(allocations_may_fail)
+{
+  thr_plan p = path_plan(5, 9);
+  double pose[6][7];
+  rest_poses(&p.frame, pose);
+  const thr_still still = {.width = 0.3, .before = (const double(*)[7])pose, .after = (const double(*)[7])pose, .first_bead = 1};
+  thr_tension_options o = thr_tension_options_default();
+  for (int c = 0; c < 9; c++)
+    fill(&p, c, 2 + c);
+  for (int picture = 0; picture < 2; picture++) {
+    thr_status st = THR_ENOMEM;
+    long k = 0;
+    while (st) {
+      thr_text svg = {0};
+      thr_err err = {0};
+      thr_alloc_fail_at(++k);
+      st = picture ? thr_still_svg(&p.frame, &still, &svg, &err) : thr_tension_svg(&p, &o, &svg, &err);
+      thr_alloc_fail_at(0);
+      if (st) {
+        ck_assert_int_eq(st, THR_ENOMEM);
+        assert_one_line(&err, "memory");
+      }
+      thr_text_destroy(&svg);
+    }
+    ck_assert_int_gt(k, 4);
+  }
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+int main(void)
+{
+  Suite *s = suite_create("pictures");
+  ADD_TEST(s, 10, steps_are_as_high_as_the_logarithm);
+  ADD_TEST(s, 10, small_ratios_are_drawn_from_zero);
+  ADD_TEST(s, 20, many_cords);
+  ADD_TEST(s, 10, extreme_tensions);
+  ADD_TEST(s, 10, without_a_usable_evaluation);
+  ADD_TEST(s, 10, overview_shows_tension);
+  ADD_TEST(s, 10, only_faces_that_can_be_seen);
+  ADD_TEST(s, 10, poses_turn_beads);
+  ADD_TEST(s, 10, the_nearer_is_painted_last);
+  ADD_TEST(s, 10, still_refuses_nonsense);
+  ADD_TEST(s, 20, allocations_may_fail);
+  return run_suite(s);
+}

@@ -1,0 +1,138 @@
+/* The thesis's Fig. 12: a row of beads held out from a wall by one straight cord. */
+#include "eval/holding.h"
+#include "eval/settle.h"
+#include "tests/validate/validate.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static const double LENGTH = 400; /* mm, from the first interface to the tip */
+
+typedef struct {
+  thr_frame frame;
+  thr_cord cord;
+  thr_beads beads;
+  thr_physics physics;
+} cantilever;
+
+static void destroy(cantilever *c)
+{
+  free(c->cord.half);
+  thr_beads_destroy(&c->beads);
+  thr_frame_destroy(&c->frame);
+}
+
+/* n loose beads; of any width the row weighs the same. */
+static thr_status make(cantilever *c, int n, double width, thr_err *err)
+{
+  thr_draft d = {0};
+  thr_read_report read;
+  double step = LENGTH / (n - 0.5);
+  bool *clamped = thr_calloc((size_t)n + 1, sizeof *clamped);
+  *c = (cantilever){.cord = {.id = "A", .n_passes = n, .half = thr_calloc((size_t)n, sizeof(int))}};
+  thr_status st = clamped && c->cord.half ? THR_OK : thr_nomem(err);
+  for (int i = 0; i <= n && !st; i++)
+    st = thr_draft_add_node(&d, (double[3]){i * step, 0, 1000}, NULL, false, err);
+  for (int i = 0; i < n && !st; i++) {
+    st = thr_draft_add_edge(&d, i, i + 1, 0, err);
+    c->cord.half[i] = 2 * i;
+  }
+  if (!st) st = thr_draft_build(&d, 0, &c->frame, &read, err);
+  thr_physics asked = thr_physics_default();
+  asked.cord_diameter = 1;
+  asked.bore = 2;
+  asked.bead_diameter = width;
+  asked.density = 400 / (width * width - acos(-1) / 4 * 4);
+  if (!st) st = thr_physics_resolve(&asked, &c->frame, &c->physics, err);
+  if (!st) st = thr_beads_make(&c->frame, &c->physics, &c->beads, err);
+  if (!st) {
+    clamped[0] = true;
+    thr_beads_clamp(&c->beads, clamped);
+  }
+  free(clamped);
+  thr_draft_destroy(&d);
+  if (st) destroy(c);
+  return st;
+}
+
+/* Moments about the lower edge of the interface at the wall. */
+static double statics(const cantilever *c)
+{
+  double moment = 0;
+  for (int i = 1; i < c->beads.n_beads; i++)
+    moment += c->beads.mass[i] * c->physics.gravity * (c->beads.mass_centre[i][0] - c->beads.middle[0][0]);
+  return moment / (c->beads.width / 2);
+}
+
+typedef struct {
+  double statics, lower, upper, index;
+  int status;
+} pulls;
+
+static thr_status measure(const cantilever *c, double start, pulls *out, thr_err *err)
+{
+  int n = c->cord.n_passes;
+  double *tension = thr_calloc((size_t)n, sizeof *tension);
+  double(*wrench)[6] = thr_calloc((size_t)n + 1, sizeof *wrench);
+  const double *profile[1] = {tension};
+  thr_holding h = {0};
+  thr_settle s = {0};
+  thr_limits none = {0};
+  thr_status st = tension && wrench ? THR_OK : thr_nomem(err);
+  for (int i = 0; i < n && !st; i++)
+    tension[i] = 1;
+  if (!st) {
+    thr_beads_cord_wrench(&c->beads, &c->frame, &c->cord, 1, profile, wrench);
+    st = thr_holding_pull(&c->beads, &c->frame, &c->physics, (const double(*)[6])wrench, true, &none, &h, err);
+  }
+  thr_settle_options o = {.start = start > 0 ? start : 2 * h.lower, .time_step = 1, .iterations = 1, .seed = 1};
+  if (!st) st = thr_settle_run(&c->beads, &c->frame, &c->cord, 1, profile, &c->physics, &o, &none, &s, err);
+  *out = (pulls){statics(c), h.lower, h.upper, s.index, s.status};
+  thr_holding_destroy(&h);
+  thr_settle_destroy(&s);
+  free(tension);
+  free(wrench);
+  return st;
+}
+
+static thr_status one(int n, double width, double start, pulls *out, thr_err *err)
+{
+  cantilever c;
+  thr_status st = make(&c, n, width, err);
+  if (st) return st;
+  st = measure(&c, start, out, err);
+  destroy(&c);
+  return st;
+}
+
+thr_status validate_cantilever(report *r, thr_err *err)
+{
+  static const struct {
+    int n;
+    double width;
+  } v[] = {{5, 20}, {10, 20}, {20, 20}, {10, 14}, {10, 28}};
+  enum { N = sizeof v / sizeof *v };
+  pulls found[N];
+  thr_status st = THR_OK;
+  for (int i = 0; i < N && !st; i++)
+    st = one(v[i].n, v[i].width, i ? 2 * found[0].statics : 0, &found[i], err);
+  if (st) return st;
+  report_section(r, "The thesis's Fig. 12: cantilever",
+                 "A row of beads of the same total weight, held by one straight cord. The needed tension must not depend on the "
+                 "number of beads, "
+                 "and go as 1 / width. Newtons: limit analysis against moments about the lower edge at the wall. Bullet's falls: "
+                 "only ratios between "
+                 "runs with the same start are judged.");
+  for (int i = 0; i < N; i++) {
+    char what[80];
+    snprintf(what, sizeof what, "%d beads %g mm wide: holding pull, N", v[i].n, v[i].width);
+    report_relative(r, what, found[i].statics, found[i].lower, 1e-6);
+  }
+  report_relative(r, "statics: 20 beads / 5 beads", 1, found[2].statics / found[0].statics, 0.02);
+  report_relative(r, "statics: 14 mm / 28 mm", 2, found[3].statics / found[4].statics, 1e-6);
+  report_relative(r, "Bullet: 10 beads / 5 beads", 1, found[1].index / found[0].index, 0.15);
+  report_relative(r, "Bullet: 20 beads / 5 beads", 1, found[2].index / found[0].index, 0.15);
+  report_relative(r, "Bullet: 14 mm / 28 mm", 2, found[3].index / found[4].index, 0.15);
+  return THR_OK;
+}
