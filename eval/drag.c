@@ -240,7 +240,7 @@ static void set_protocol(run *r)
   double pull = r->most / (protocol.density * protocol.speed * protocol.speed);
   double steps = fmax(LEAST_STEPS, fmax(sqrt(pull / protocol.shake), d->mu * pull * r->spacing / protocol.sway));
   r->block = (long)fmax(PHASES, ceil(steps / d->time_step));
-  r->settle = (long)ceil(protocol.settle * (1 + d->n_turns) / r->spacing);
+  r->settle = (long)ceil(protocol.settle * (d->settle > 0 ? d->settle : 1) * (1 + d->n_turns) / r->spacing);
   r->blocks = 2 * (long)ceil(protocol.average / r->spacing / 2);
   r->travel = (double)(r->settle + r->blocks) * r->spacing;
 }
@@ -530,9 +530,6 @@ static thr_status simulate(run *r, const thr_limits *limits, thr_drag_result *ou
       if (done % LIMIT_STEPS == 0) s = advance(r, done, limits, err);
       if (b < -r->settle / 4) damp(r);
       if (s == THR_OK) s = step(r, err);
-#ifdef TRACE
-      TRACE(r, done, (r->settle + r->blocks) * r->block);
-#endif
       if (s != THR_OK || b < 0) continue;
       block[b].hold += tension(r, 0);
       block[b].drag += tension(r, r->spheres - 1 - MARGIN_LINKS - LINKS_MEASURED);

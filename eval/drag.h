@@ -19,6 +19,7 @@ typedef struct {
   uint64_t seed;
   double time_step, iterations, spacing; /* factors on the protocol's, 1 */
   int sides;                             /* of the polygonal bore; 0 = the protocol's */
+  double settle;                         /* factor on the travel before averaging; 0 = 1 */
 } thr_drag;
 
 /* Out of range: a turn above thr_drag_largest_turn, mu above 1, bore below 1.01, bore cos(turn / 2) below 0.7 (deeply wedged), a

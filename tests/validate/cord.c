@@ -61,8 +61,10 @@ static thr_status find_turning(const drag_case *c, turning *out, thr_err *err)
 
 static drag_case make(int kind)
 {
-  drag_case c = {.n = MOST_TURNS,
-                 .drag = {.segment = SEGMENT, .bore = BORE, .mu = 0.1, .seed = 1, .time_step = 1, .iterations = 1, .spacing = 1}};
+  drag_case c = {
+      .n = MOST_TURNS,
+      .drag = {
+          .segment = SEGMENT, .bore = BORE, .mu = 0.1, .seed = 1, .time_step = 1, .iterations = 1, .spacing = 1, .settle = 2}};
   uint64_t state = 12345;
   for (int i = 0; i < c.n; i++) {
     state = state * 6364136223846793005u + 1442695040888963407u;
@@ -72,7 +74,7 @@ static drag_case make(int kind)
     case 1: c.turn[i] = 30 * degree, c.twist[i] = i ? 180 * degree : 0; break;
     case 2: c.turn[i] = 30 * degree, c.twist[i] = 20 * degree; break; /* helix */
     case 3: c.turn[i] = 60 * degree, c.twist[i] = 45 * degree; break;
-    default: c.turn[i] = (30 + 50 * unit) * degree, c.twist[i] = 360 * degree * fmod(unit * 97, 1); break;
+    default: c.turn[i] = (30 + 50 * unit) * degree, c.twist[i] = (120 + 120 * fmod(unit * 97, 1)) * degree; break;
     }
   }
   return c;
@@ -103,7 +105,7 @@ thr_status validate_cord(report *r, thr_err *err)
     if (found[i].status == THR_DRAG_SETTLED)
       report_relative(r, what, exp(c[i].drag.mu * t[i].taut), found[i].ratio, 0.15);
     else
-      report_shown(r, what, found[i].ratio, "not settled");
+      report_shown(r, what, exp(c[i].drag.mu * t[i].taut), found[i].ratio, "not settled");
   }
   return THR_OK;
 }

@@ -52,7 +52,8 @@ void report_holds(report *r, const char *what, const char *expected, const char 
   row(r, what, expected, found, "", "", holds);
 }
 
-void report_shown(report *r, const char *what, double found, const char *why)
+void report_shown(report *r, const char *what, double expected, double found, const char *why)
 {
-  thr_text_printf(&r->text, "| %s | | %.5g | | %s | shown |\n", what, found, why);
+  thr_text_printf(&r->text, "| %s | %.5g | %.5g | %+.3f %% | %s | shown |\n", what, expected, found, 100 * (found / expected - 1),
+                  why);
 }

@@ -19,6 +19,6 @@ void report_at_least(report *r, const char *what, double found, double limit);
 /* A yes or no: e.g. an order of plans, or a refusal. found is what was seen, in words. */
 void report_holds(report *r, const char *what, const char *expected, const char *found, bool holds);
 /* A number that is shown but not judged, with the reason. */
-void report_shown(report *r, const char *what, double found, const char *why);
+void report_shown(report *r, const char *what, double expected, double found, const char *why);
 
 #endif
