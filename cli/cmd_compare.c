@@ -1,5 +1,5 @@
 /* thread compare: plans of one framework side by side, ranked by how hard they are to pull. */
-#include "cli/pull.h"
+#include "cli/compare_rows.h"
 #include "cli/ranking.h"
 #include "eval/workers.h"
 
@@ -17,175 +17,27 @@ static const char help[] =
     "  thread compare data/dome7-*.json --method all           closed form, joints, structure: do they agree?\n\n"
     "Options:\n"
     "      --method joint|capstan|structure|all\n"
-    "                       what to rank by (default: joint); the closed form is always shown beside it\n" PULL_HELP
-    "      --json           as JSON\n"
-    "  -q, --quiet          no notes and no progress       -h, --help\n\n"
-    "A difference within the measured error is a tie. The simulation of the structure runs twice for each plan, the second time "
-    "with half\n"
-    "the time step and twice the iterations, all from one pull; only what both runs tell apart is no tie.\n";
+    "                       what to rank by (default: joint); the closed form is always shown beside it\n" PULL_HELP(
+        "largest holding pull of the plans") "      --json           as JSON\n"
+                                             "  -q, --quiet          no notes and no progress       -h, --help\n\n"
+                                             "A difference within the measured error is a tie. The simulation of the structure "
+                                             "runs twice for each plan, the second time "
+                                             "with half\n"
+                                             "the time step and twice the iterations, all from one pull; only what both runs "
+                                             "tell apart is no tie. It takes minutes;\n"
+                                             "--no-dynamics is fast. How far its index spreads over seeds is not counted: try a "
+                                             "few --seed before you rely on it.\n";
 
 static const struct option table[] = {CLI_COMMON_OPTIONS, PULL_OPTIONS, {NULL, 0, NULL, 0}};
 
 enum { CAPSTAN, JOINT, HOLDING, SIMULATION, N_RANKINGS };
 
-typedef struct {
-  const char *path;
-  thr_plan plan;
-  thr_eval eval[THR_N_METHODS];
-  double index[2]; /* of the simulation at the settings given, and finer; NAN = none */
-} entry;
+typedef compare_entry entry;
 
 /* Is method i part of this comparison? */
 static bool wanted(const pull_args *a, thr_method i)
 {
   return i == THR_CAPSTAN || a->method == (int)i || a->method == PULL_ALL_METHODS;
-}
-
-/* The rows: a value per plan, less is better. Rows that say what a plan is, not how good, mark nothing. */
-static double cords(const entry *e)
-{
-  return e->plan.n_cords;
-}
-static double passes(const entry *e)
-{
-  return e->plan.metrics.passes;
-}
-static double length(const entry *e)
-{
-  return e->plan.metrics.length;
-}
-static double overlap(const entry *e)
-{
-  return e->plan.metrics.overlap;
-}
-static double overlap_percent(const entry *e)
-{
-  return 100 * e->plan.metrics.overlap / e->plan.metrics.base_length;
-}
-static double gap_percent(const entry *e)
-{
-  return e->plan.proof.present ? 100 * e->plan.proof.gap : NAN;
-}
-static double turning(const entry *e)
-{
-  return cli_degrees(e->plan.metrics.turning);
-}
-static double max_turning(const entry *e)
-{
-  return cli_degrees(e->plan.metrics.max_turning);
-}
-static double worst_turn(const entry *e)
-{
-  return cli_degrees(e->plan.metrics.worst_turn);
-}
-static double u_turns(const entry *e)
-{
-  return e->plan.metrics.u_turns;
-}
-static bool known(const entry *e, thr_method method)
-{
-  return e->eval[method].record.present && e->eval[method].complete;
-}
-static double largest_of(const entry *e, thr_method method)
-{
-  return known(e, method) ? e->eval[method].record.largest : NAN;
-}
-static double total_of(const entry *e, thr_method method)
-{
-  return known(e, method) ? e->eval[method].record.total : NAN;
-}
-static double closed_largest(const entry *e)
-{
-  return largest_of(e, THR_CAPSTAN);
-}
-static double closed_total(const entry *e)
-{
-  return total_of(e, THR_CAPSTAN);
-}
-static double joint_largest(const entry *e)
-{
-  return largest_of(e, THR_JOINT);
-}
-static double joint_total(const entry *e)
-{
-  return total_of(e, THR_JOINT);
-}
-static double joint_error(const entry *e)
-{
-  return known(e, THR_JOINT) ? pull_percent(e->eval[THR_JOINT].error) : NAN;
-}
-static double taut_turning(const entry *e)
-{
-  const thr_evaluation *r = &e->eval[THR_JOINT].record;
-  double sum = 0;
-  for (int i = 0; i < r->n_cords; i++)
-    sum += r->cord[i].taut_turning;
-  return known(e, THR_JOINT) ? cli_degrees(sum) : NAN;
-}
-static double holding(const entry *e)
-{
-  return largest_of(e, THR_STRUCTURE);
-}
-static double settle_index(const entry *e)
-{
-  return e->index[0];
-}
-static double settle_index_fine(const entry *e)
-{
-  return e->index[1];
-}
-
-static const struct {
-  const char *label, *key;
-  double (*value)(const entry *);
-  bool rate;
-  int decimals;      /* -1: whole number, -k: k significant digits */
-  thr_method method; /* that must be wanted */
-} row[] = {
-    {"cords", "cords", cords, false, -1, THR_CAPSTAN},
-    {"passes", "passes", passes, true, -1, THR_CAPSTAN},
-    {"length", "length", length, true, 3, THR_CAPSTAN},
-    {"overlap", "overlap", overlap, true, 3, THR_CAPSTAN},
-    {"overlap %", "overlap_percent", overlap_percent, true, 2, THR_CAPSTAN},
-    {"gap to the proven bound %", "gap_percent", gap_percent, false, -6, THR_CAPSTAN},
-    {"turning with closing turns, deg", "turning_deg", turning, true, 1, THR_CAPSTAN},
-    {"the same, largest cord, deg", "max_turning_deg", max_turning, true, 1, THR_CAPSTAN},
-    {"sharpest turn, deg", "worst_turn_deg", worst_turn, true, 1, THR_CAPSTAN},
-    {"U-turns", "u_turns", u_turns, true, -1, THR_CAPSTAN},
-    {"largest pull, closed form, N", "largest_pull", closed_largest, true, -6, THR_CAPSTAN},
-    {"all pulls together, N", "total_pull", closed_total, true, -6, THR_CAPSTAN},
-    {"turning of the tight cords, deg", "taut_turning_deg", taut_turning, true, 1, THR_JOINT},
-    {"largest pull, simulated, N", "joint_pull", joint_largest, true, -4, THR_JOINT},
-    {"its error, +- %", "joint_error_percent", joint_error, false, -3, THR_JOINT},
-    {"all pulls together, N", "joint_total", joint_total, true, -4, THR_JOINT},
-    {"holding pull of the structure, N", "holding_pull", holding, true, -6, THR_STRUCTURE},
-    {"simulation: index, no newtons", "ranking_index", settle_index, false, -3, THR_STRUCTURE},
-    {"the same, finer steps", "ranking_index_fine", settle_index_fine, false, -3, THR_STRUCTURE},
-};
-enum { N_ROWS = sizeof row / sizeof *row };
-
-/* Within a millionth is a tie: both are marked. */
-static bool is_best(const entry *e, int n, int r, int i)
-{
-  double mine = row[r].value(&e[i]);
-  if (!row[r].rate || n < 2 || isnan(mine)) return false;
-  for (int k = 0; k < n; k++)
-    if (row[r].value(&e[k]) < mine - 1e-6 * fabs(mine)) return false;
-  return true;
-}
-
-static void put_cell(thr_text *t, int r, double value, bool best)
-{
-  char cell[40];
-  if (isnan(value))
-    snprintf(cell, sizeof cell, "-");
-  else if (row[r].decimals == -1)
-    snprintf(cell, sizeof cell, "%.0f", value);
-  else if (row[r].decimals < 0)
-    snprintf(cell, sizeof cell, "%.*g", -row[r].decimals, value);
-  else
-    snprintf(cell, sizeof cell, "%.*f", row[r].decimals, value);
-  thr_text_printf(t, " %16s%s", cell, best ? "*" : " ");
 }
 
 /* ---- rankings ---- */
@@ -194,21 +46,21 @@ static void put_cell(thr_text *t, int r, double value, bool best)
 static void rank_plan(ranking *r, int by, const entry *e, int i)
 {
   const thr_holding *h = &e->eval[THR_STRUCTURE].holding;
-  double rough = settle_index(e), fine = settle_index_fine(e);
+  double rough = e->index[0], fine = e->index[1];
   switch (by) {
   case CAPSTAN:
-    r->value[i] = closed_largest(e);
+    r->value[i] = compare_largest(e, THR_CAPSTAN);
     r->low[i] = r->value[i] * (1 - 1e-6);
     r->high[i] = r->value[i] * (1 + 1e-6);
     break;
   case JOINT:
-    r->value[i] = joint_largest(e);
+    r->value[i] = compare_largest(e, THR_JOINT);
     r->low[i] = r->value[i] * exp(-e->eval[THR_JOINT].error);
-    r->high[i] = r->value[i] * exp(e->eval[THR_JOINT].error);
+    r->high[i] = e->eval[THR_JOINT].refused ? INFINITY : r->value[i] * exp(e->eval[THR_JOINT].error);
     break;
   case HOLDING:
-    r->value[i] = r->low[i] = holding(e);
-    r->high[i] = h->lower == 0 ? 0 : h->upper > 0 ? h->upper : INFINITY;
+    r->value[i] = r->low[i] = compare_largest(e, THR_STRUCTURE);
+    r->high[i] = h->upper >= h->lower ? h->upper : INFINITY;
     break;
   default:
     r->value[i] = isnan(fine) ? NAN : rough;
@@ -229,9 +81,18 @@ static thr_status make_rankings(const pull_args *a, const entry *e, int n, ranki
 {
   static const ranking kind[N_RANKINGS] = {
       [CAPSTAN] = {.title = "seating pull, closed form", .key = "capstan", .unit = " N"},
-      [JOINT] = {.title = "seating pull, joints measured in simulation", .key = "joint", .unit = " N", .error = true},
-      [HOLDING] = {.title = "holding pull of the structure, proved below .. above", .key = "holding", .unit = " N"},
-      [SIMULATION] = {.title = "simulation of the structure, an index without unit", .key = "simulation", .unit = ""}};
+      [JOINT] = {.title = "seating pull, joints measured in simulation",
+                 .key = "joint",
+                 .unit = " N",
+                 .error = true,
+                 .open = "some turns by closed form, their error is not known"},
+      [HOLDING] = {.title = "holding pull of the structure (below the first force nothing holds it, at the second it can stand)",
+                   .key = "holding",
+                   .unit = " N"},
+      [SIMULATION] = {
+          .title = "simulation of the structure, an index without unit (coarse .. fine; its spread over seeds is not counted)",
+          .key = "simulation",
+          .unit = ""}};
   static const thr_method method[N_RANKINGS] = {THR_CAPSTAN, THR_JOINT, THR_STRUCTURE, THR_STRUCTURE};
   bool all = a->method == PULL_ALL_METHODS;
   *count = 0;
@@ -294,11 +155,11 @@ static void put_text(thr_text *t, const pull_args *a, const entry *e, int n, con
   const thr_physics *first = &e[0].eval[THR_CAPSTAN].record.physics;
   bool same = true;
   put_head(t, e, n);
-  for (int k = 0; k < N_ROWS; k++) {
-    if (!wanted(a, row[k].method)) continue;
-    thr_text_printf(t, "\n%-32s", row[k].label);
+  for (int k = 0; k < compare_n_rows; k++) {
+    if (!wanted(a, compare_rows[k].method)) continue;
+    thr_text_printf(t, "\n%-32s", compare_rows[k].label);
     for (int i = 0; i < n; i++)
-      put_cell(t, k, row[k].value(&e[i]), is_best(e, n, k, i));
+      compare_put_cell(t, &compare_rows[k], compare_rows[k].value(&e[i]), compare_is_best(e, n, &compare_rows[k], i));
   }
   for (int i = 1; i < n; i++)
     same = same && same_physics(first, &e[i].eval[THR_CAPSTAN].record.physics);
@@ -324,18 +185,18 @@ static void put_json(thr_text *t, const pull_args *a, const entry *e, int n, con
     thr_text_printf(t, ", \"framework\": \"%016" PRIx64 "\", \"ends\": \"%s\", \"physics\": ", thr_frame_hash(&e[i].plan.frame),
                     thr_ends_name(e[i].plan.options.ends));
     thr_physics_write(&e[i].eval[THR_CAPSTAN].record.physics, t);
-    for (int k = 0; k < N_ROWS; k++) {
-      double value = row[k].value(&e[i]);
-      if (!wanted(a, row[k].method)) continue;
-      thr_text_printf(t, ", \"%s\": ", row[k].key);
+    for (int k = 0; k < compare_n_rows; k++) {
+      double value = compare_rows[k].value(&e[i]);
+      if (!wanted(a, compare_rows[k].method)) continue;
+      thr_text_printf(t, ", \"%s\": ", compare_rows[k].key);
       if (isnan(value))
         thr_text_append(t, "null");
       else
         thr_text_double(t, value);
     }
     thr_text_append(t, ", \"best\": [");
-    for (int k = 0, some = 0; k < N_ROWS; k++)
-      if (is_best(e, n, k, i)) thr_text_printf(t, "%s\"%s\"", some++ ? ", " : "", row[k].key);
+    for (int k = 0, some = 0; k < compare_n_rows; k++)
+      if (compare_is_best(e, n, &compare_rows[k], i)) thr_text_printf(t, "%s\"%s\"", some++ ? ", " : "", compare_rows[k].key);
     thr_text_append(t, "]}");
   }
   thr_text_append(t, "\n],\n\"rankings\": [");
@@ -363,34 +224,38 @@ static int read_entries(char **path, int n, entry *e)
   return EXIT_OK;
 }
 
-/* Every method for every plan, until one fails or is stopped. */
+/* Every method for every plan. One that fails for a plan leaves it unknown, its message printed; but nothing compares if not even
+ * the closed form is known, or if the user has stopped it. */
 static int evaluate(const pull_args *a, entry *e, int n)
 {
   pull_args plain = *a;
+  int worst = EXIT_OK;
   plain.options.dynamics = false; /* the simulation follows, when the common start is known */
   for (int method = 0; method < THR_N_METHODS; method++)
     for (int i = 0; i < n && wanted(a, (thr_method)method); i++) {
       int code = pull_eval(&plain, e[i].path, &e[i].plan, (thr_method)method, &e[i].eval[method]);
-      if (code) return code;
-      if (i > 0 && method == 0 && !same_physics(&e[i].eval[0].record.physics, &e[0].eval[0].record.physics))
+      if (code == EXIT_LIMIT || (code && method == THR_CAPSTAN)) return code;
+      if (!worst) worst = code;
+      if (i > 0 && method == THR_CAPSTAN && !same_physics(&e[i].eval[0].record.physics, &e[0].eval[0].record.physics))
         cli_note("note: %s has its own cord and beads, other than %s: give --mu and the like to compare like with like",
                  e[i].path, e[0].path);
     }
-  return EXIT_OK;
+  return worst;
 }
 
 typedef struct {
   const pull_args *args;
   const entry *e;
+  const int *plan; /* which are simulated */
   double start;
   const thr_limits *limits;
 } simulation;
 
-/* Job 2 i simulates plan i, job 2 i + 1 the same at finer settings; the result is a double, NAN if it never came to rest. */
+/* Job 2 k simulates plan[k], job 2 k + 1 the same at finer settings; the result is a double, NAN if it never came to rest. */
 static thr_status settle_plan(void *user, int job, void *result, thr_err *err)
 {
   const simulation *s = user;
-  const entry *e = &s->e[job / 2];
+  const entry *e = &s->e[s->plan[job / 2]];
   const thr_evaluation *r = &e->eval[THR_STRUCTURE].record;
   const thr_settle_options o = {.start = s->start,
                                 .time_step = s->args->options.time_step * (job & 1 ? 0.5 : 1),
@@ -418,11 +283,11 @@ static thr_status settle_plan(void *user, int job, void *result, thr_err *err)
   return st;
 }
 
-static thr_status run_simulations(const pull_args *a, entry *e, int n, double start, thr_err *err)
+static thr_status run_simulations(const pull_args *a, entry *e, const int *plan, int n, double start, thr_err *err)
 {
   const thr_limits limits = cli_limits(0);
   const thr_limits quiet = {.interrupted = limits.interrupted}; /* in a child: only the parent draws the bar */
-  simulation s = {a, e, start, &quiet};
+  simulation s = {a, e, plan, start, &quiet};
   const thr_work work = {
       .n_jobs = 2 * n, .result_size = sizeof(double), .run = settle_plan, .user = &s, .what = "simulating structures"};
   double *index = thr_calloc(2 * (size_t)n, sizeof *index);
@@ -430,29 +295,34 @@ static thr_status run_simulations(const pull_args *a, entry *e, int n, double st
   thr_status st =
       index && finished ? thr_workers_run(&work, a->options.processes, &limits, index, finished, err) : thr_nomem(err);
   for (int i = 0; i < 2 * n && index && finished; i++)
-    if (finished[i]) e[i / 2].index[i & 1] = index[i];
+    if (finished[i]) e[plan[i / 2]].index[i & 1] = index[i];
   free(index);
   free(finished);
   cli_progress_end();
   return st;
 }
 
-/* All from one pull, each twice; not where a plan stands by itself, since then there is no pull to let off. */
+/* All from one pull, each twice; not where no pull is needed, since then there is none to let off. */
 static int settle(const pull_args *a, entry *e, int n)
 {
   thr_err err = {0};
   double start = 0;
-  for (int i = 0; i < n; i++) {
-    const thr_evaluation *r = &e[i].eval[THR_STRUCTURE].record;
-    if (!(r->largest > 0)) return EXIT_OK;
-    start = fmax(start, 3 * r->largest);
+  int count = 0, *plan = thr_calloc((size_t)n, sizeof *plan);
+  thr_status st = plan ? THR_OK : thr_nomem(&err);
+  bool large = e[0].plan.frame.n_nodes > thr_settle_largest;
+  if (large) cli_note("note: no simulation of the structure: it has more than %d beads", thr_settle_largest);
+  for (int i = 0; i < n && plan && !large; i++) {
+    double pull = compare_largest(&e[i], THR_STRUCTURE);
+    if (pull > 0) plan[count++] = i;
+    if (pull > 0) start = fmax(start, 3 * pull);
+    if (pull <= 0) cli_note("note: %s is not simulated: it needs no pull, so that there is none to let off", e[i].path);
   }
   if (a->options.start > 0) start = a->options.start;
-  if (e[0].plan.frame.n_nodes > thr_settle_largest) {
-    cli_note("note: no simulation of the structure: it has more than %d beads", thr_settle_largest);
-    return EXIT_OK;
-  }
-  thr_status st = run_simulations(a, e, n, start, &err);
+  if (count > 0) st = run_simulations(a, e, plan, count, start, &err);
+  for (int k = 0; k < count && !st; k++)
+    if (isnan(e[plan[k]].index[0]) || isnan(e[plan[k]].index[1]))
+      cli_note("note: the simulation of %s never came to rest; `thread eval --method structure` says more", e[plan[k]].path);
+  free(plan);
   return st == THR_ELIMIT ? EXIT_LIMIT : st ? cli_fail(&err) : EXIT_OK;
 }
 
@@ -478,9 +348,13 @@ static int print(const pull_args *a, const entry *e, int n)
 static int compare(const pull_args *a, char **path, int n, entry *e)
 {
   int code = read_entries(path, n, e);
-  if (!code) code = evaluate(a, e, n);
-  if (!code && wanted(a, THR_STRUCTURE) && a->options.dynamics) code = settle(a, e, n);
-  if (code && code != EXIT_LIMIT) return code;
+  if (code) return code;
+  code = evaluate(a, e, n);
+  if (code && code != EXIT_LIMIT && !e[n - 1].eval[THR_CAPSTAN].record.present) return code;
+  if (code != EXIT_LIMIT && wanted(a, THR_STRUCTURE) && a->options.dynamics) {
+    int settled = settle(a, e, n);
+    if (!code || settled == EXIT_LIMIT) code = settled;
+  }
   int printed = print(a, e, n);
   if (code == EXIT_LIMIT) cli_error("stopped: what is - above is not known");
   return printed ? printed : code;
@@ -498,12 +372,14 @@ int cmd_compare(int argc, char **argv)
   if (done >= 0) return done;
   int n = argc - optind;
   if (n < 1) return cli_usage("compare", "which plans?");
+  int code = pull_check(&a, "compare");
+  if (code) return code;
   entry *e = thr_calloc((size_t)n, sizeof *e);
   if (!e) {
     cli_error("out of memory");
     return EXIT_INTERNAL;
   }
-  int code = compare(&a, argv + optind, n, e);
+  code = compare(&a, argv + optind, n, e);
   for (int i = 0; i < n; i++) {
     thr_plan_destroy(&e[i].plan);
     for (int k = 0; k < THR_N_METHODS; k++)

@@ -22,17 +22,20 @@ static const char help[] =
     "                       capstan: closed form, force = seating tension x exp(mu x turning) (default)\n"
     "                       joint: each joint's friction measured in simulation, along the path the tight cord takes\n"
     "                       structure: least pull at which the rigid beads have any equilibrium, and which fails "
-    "first\n" PULL_HELP "      --tension        print the tension in every pass\n"
-    "  -o, --output FILE    write the plan with this evaluation in it (- = stdout)\n"
-    "      --plot FILE      write a plot of the tension along each cord, as SVG\n"
-    "      --still FILE     structure: write a picture of the beads before and after the fall, as SVG\n"
-    "      --json           everything as JSON\n"
-    "  -q, --quiet          no notes and no progress       -h, --help\n\n"
-    "Pull is the force at the pulled ends of a cord at which its slackest pass has the seating tension (capstan, joint), or at "
-    "which\n"
-    "the structure can just stand (structure). These are different things. The closed form takes the cord through the middle of "
-    "every\n"
-    "bead; a cord thinner than the bore cuts corners, turns less and needs less: method joint knows.\n";
+    "first\n" PULL_HELP(
+        "holding pull") "      --tension        print the tension in every pass\n"
+                        "  -o, --output FILE    write the plan with this evaluation in it (- = stdout)\n"
+                        "      --plot FILE      write a plot of the tension along each cord, as SVG\n"
+                        "      --still FILE     structure: write a picture of the beads before and after the fall, as SVG\n"
+                        "      --json           everything as JSON\n"
+                        "  -q, --quiet          no notes and no progress       -h, --help\n\n"
+                        "Pull is the force at the pulled ends of a cord at which its slackest pass has the seating tension "
+                        "(capstan, joint), or at "
+                        "which\n"
+                        "the structure can just stand (structure). These are different things. The closed form takes the cord "
+                        "through the middle of "
+                        "every\n"
+                        "bead; a cord thinner than the bore cuts corners, turns less and needs less: method joint knows.\n";
 
 enum { OPTION_TENSION = OPTION_PULL_FREE, OPTION_PLOT, OPTION_STILL };
 static const struct option table[] = {CLI_COMMON_OPTIONS,
@@ -78,6 +81,7 @@ static int parse(int argc, char **argv, arguments *a)
   for (int i = 0; i < 3; i++)
     to_stdout += out[i] && strcmp(out[i], "-") == 0;
   if (to_stdout > 1) return cli_usage("eval", "only one of --json, -o -, --plot - and --still - can have stdout");
+  if (pull_check(&a->pull, "eval")) return EXIT_USAGE;
   if (a->still && a->pull.method != THR_STRUCTURE) return cli_usage("eval", "--still needs --method structure");
   if (a->still && !a->pull.options.dynamics) return cli_usage("eval", "--still shows a simulation; take --no-dynamics away");
   return -1;
@@ -85,10 +89,12 @@ static int parse(int argc, char **argv, arguments *a)
 
 /* ---- text ---- */
 
-static const char *method_words(const thr_evaluation *r)
+static const char *method_words(const thr_evaluation *r, bool refused)
 {
   switch (r->method) {
-  case THR_JOINT: return "joints measured in simulation, composed along the path of the tight cord";
+  case THR_JOINT:
+    return refused ? "joints measured in simulation, some turns by closed form, composed along the path of the tight cord"
+                   : "joints measured in simulation, composed along the path of the tight cord";
   case THR_STRUCTURE: return "structure: least pull at which rigid beads can stand (limit analysis)";
   default:
     return r->law == THR_LAW_MITRE ? "mitred beads, closed form; --method joint measures joints in simulation"
@@ -96,10 +102,10 @@ static const char *method_words(const thr_evaluation *r)
   }
 }
 
-static void put_heading(thr_text *t, const thr_evaluation *r, const char *pulled)
+static void put_heading(thr_text *t, const thr_evaluation *r, bool refused, const char *pulled)
 {
   const thr_physics *p = &r->physics;
-  thr_text_printf(t, "%s\nmu = %g (band %g to %g), ", method_words(r), p->mu, p->mu_low, p->mu_high);
+  thr_text_printf(t, "%s\nmu = %g (band %g to %g), ", method_words(r, refused), p->mu, p->mu_low, p->mu_high);
   if (r->method == THR_STRUCTURE) {
     thr_text_printf(t, "bead on bead %g, foot on ground %g, ", p->mu_bead, p->mu_ground);
     if (p->bead_mass > 0)
@@ -126,14 +132,32 @@ static void put_cell(thr_text *t, int width, int n_digits, double value, bool th
   thr_text_printf(t, " %*s", width, cell);
 }
 
+/* What would round to all of it is not all of it. */
+static void put_loss(thr_text *t, double loss)
+{
+  if (loss >= 0.99995 && loss < 1)
+    thr_text_append(t, "  >99.99 %");
+  else
+    thr_text_printf(t, " %7.2f %%", 100 * loss);
+}
+
+/* The error of the turns that were measured; if there are others, the pull's is more. */
+static void put_error(thr_text *t, const thr_eval_cord *c)
+{
+  char cell[40];
+  snprintf(cell, sizeof cell, "%s%.2f", c->refused > 0 ? ">" : "", pull_percent(c->error));
+  thr_text_printf(t, " %6s %%", cell);
+}
+
 static void put_cord(thr_text *t, const char *id, const thr_eval_cord *c, thr_method method)
 {
   thr_text_printf(t, "%-5s %8.1f deg", id, cli_degrees(c->turning));
   if (method == THR_JOINT) thr_text_printf(t, " %8.1f deg", cli_degrees(c->taut_turning));
   put_cell(t, 12, digits(method), c->force, true);
   put_cell(t, 13, digits(method), c->other_force, c->pull == THR_PULL_BOTH);
-  thr_text_printf(t, " %7.2f %% %10.4g J", 100 * c->loss, c->work);
-  if (method == THR_JOINT) thr_text_printf(t, " %6.2f %%", pull_percent(c->error));
+  put_loss(t, c->loss);
+  thr_text_printf(t, " %10.4g J", c->work);
+  if (method == THR_JOINT) put_error(t, c);
   thr_text_printf(t, "  %d of %d\n", c->slackest + 1, c->n_passes);
 }
 
@@ -150,21 +174,32 @@ static void put_cords(thr_text *t, const thr_plan *p, const thr_evaluation *r)
   }
 }
 
+static void put_band_end(thr_text *t, const thr_evaluation *r, double end, bool unit)
+{
+  bool mitre = r->method == THR_CAPSTAN && r->law == THR_LAW_MITRE;
+  if (isfinite(end))
+    thr_text_printf(t, unit ? " %.4g N" : " %.4g", end);
+  else if (isnan(end))
+    thr_text_append(t, " not decided");
+  else
+    thr_text_append(t, r->method == THR_STRUCTURE ? " no pull holds" : mitre ? " no pull, by the mitre law" : " over 1e300 N");
+}
+
 /* The largest pull over the band of mu; an end of it may be past what a number can hold, or hold nothing at any pull. */
 static void put_band(thr_text *t, const thr_evaluation *r, const double band[2])
 {
   const thr_physics *p = &r->physics;
-  bool holds = r->method == THR_STRUCTURE;
-  if (isnan(band[0]) || isnan(band[1]) || p->mu_low == p->mu_high) return;
-  thr_text_printf(t, "between mu %g and %g (%s):", p->mu_low, p->mu_high, holds ? "limit analysis" : "closed form");
-  for (int i = 0; i < 2; i++) {
-    if (i) thr_text_append(t, " ..");
-    if (isfinite(band[i]))
-      thr_text_printf(t, " %.4g", band[i]);
-    else
-      thr_text_append(t, holds ? " no pull holds" : " over 1e300");
+  if (p->mu_low == p->mu_high) return;
+  thr_text_printf(t, "between mu %g and %g (%s):", p->mu_low, p->mu_high,
+                  r->method == THR_STRUCTURE ? "limit analysis" : "closed form");
+  if (isnan(band[0]) && isnan(band[1])) {
+    thr_text_append(t, " not known\n");
+    return;
   }
-  thr_text_append(t, " N\n");
+  put_band_end(t, r, band[0], !isfinite(band[1]));
+  thr_text_append(t, " ..");
+  put_band_end(t, r, band[1], true);
+  thr_text_append(t, "\n");
 }
 
 static void put_sums(thr_text *t, const thr_plan *p, const thr_eval *e)
@@ -172,7 +207,10 @@ static void put_sums(thr_text *t, const thr_plan *p, const thr_eval *e)
   const thr_evaluation *r = &p->evaluation;
   thr_text_printf(t, "\nlargest pull %.*g N, all pulls together %.*g N", digits(r->method), r->largest, digits(r->method),
                   r->total);
-  if (e->error > 0) thr_text_printf(t, ", error of each at most %.2g %%", pull_percent(e->error));
+  if (e->refused)
+    thr_text_printf(t, ", error at least %.2f %%", pull_percent(e->error));
+  else if (e->error > 0)
+    thr_text_printf(t, ", error of each at most %.2f %%", pull_percent(e->error));
   thr_text_append(t, "\n");
   put_band(t, r, e->band);
   if (!e->complete) {
@@ -190,16 +228,22 @@ static int turns_of(const thr_plan *p)
   return n;
 }
 
+static void put_reason(thr_text *t, int n, const char *why)
+{
+  if (n) thr_text_printf(t, "  %d: %s\n", n, why);
+}
+
 static void put_joint(thr_text *t, const thr_plan *p, const thr_eval *e)
 {
-  if (e->refused)
-    thr_text_printf(t, "%d of %d turns %s sharper than %.0f degrees, where the simulation is not valid: closed form used there\n",
-                    e->refused, turns_of(p), e->refused == 1 ? "is" : "are", cli_degrees(thr_drag_largest_turn));
-  thr_text_printf(t, "joints: %d measured, %d from the cache; between measured angles the exponent is right within %.2g %%\n",
-                  e->joints_measured, e->joints_cached, 100 * e->interpolation);
-  if (e->joints_unsettled)
-    thr_text_printf(t, "%d %s not slide steadily: the error above counts it\n", e->joints_unsettled,
-                    cli_plural(e->joints_unsettled, "joint did", "joints did"));
+  char sharp[80];
+  snprintf(sharp, sizeof sharp, "sharper than %.0f degrees, the sharpest that was validated", cli_degrees(thr_drag_largest_turn));
+  if (e->refused) thr_text_printf(t, "%d of %d turns by closed form, whose error is not known:\n", e->refused, turns_of(p));
+  put_reason(t, e->refused_sharp, sharp);
+  put_reason(t, e->refused_unsettled, "the cord did not slide steadily; try a smaller --time-step or more --iterations");
+  put_reason(t, e->refused_outside, "out of the simulation's range; try a wider --bore or a smaller --mu");
+  if (e->interpolation > 0)
+    thr_text_printf(t, "measured angles, left out one by one, are predicted by their neighbours within %.2g %% of the exponent\n",
+                    100 * e->interpolation);
 }
 
 static void put_settle(thr_text *t, const thr_plan *p, const thr_settle *s)
@@ -209,7 +253,9 @@ static void put_settle(thr_text *t, const thr_plan *p, const thr_settle *s)
     return;
   }
   if (s->status == THR_SETTLE_NEVER_SETTLED) {
-    thr_text_append(t, "simulation     never came to rest under the pull at its start; try a larger --start\n");
+    thr_text_append(t,
+                    "simulation     never came to rest under the pull at its start: nothing is known of the fall. Try a smaller\n"
+                    "               --start, or a smaller --time-step with more --iterations\n");
     return;
   }
   if (s->status == THR_SETTLE_FELL && s->first_bead >= 0)
@@ -223,22 +269,34 @@ static void put_settle(thr_text *t, const thr_plan *p, const thr_settle *s)
                   s->index);
 }
 
-static void put_structure(thr_text *t, const thr_plan *p, const thr_eval *e)
+/* By itself only if an equilibrium without any pull was found. */
+static void put_holding(thr_text *t, const thr_holding *h)
+{
+  if (h->lower > 0)
+    thr_text_printf(t, "\nholding pull   below %.6g N nothing can hold it (proved, residual %.1g)", h->lower, h->residual);
+  else if (h->upper == 0)
+    thr_text_append(t, "\nholding pull   0 N: it stands by itself");
+  else
+    thr_text_append(t, "\nholding pull   it may stand by itself: not excluded, not shown");
+  if (h->upper > 0 && isfinite(h->upper)) thr_text_printf(t, "; at %.6g N an equilibrium exists", h->upper);
+  if (!isfinite(h->upper)) thr_text_append(t, "; no equilibrium was found at any pull");
+  thr_text_append(t, "\n");
+}
+
+static void put_structure(thr_text *t, const arguments *a, const thr_plan *p, const thr_eval *e, bool stopped)
 {
   const thr_holding *h = &e->holding;
   if (!h->present) return;
-  if (h->lower > 0)
-    thr_text_printf(t, "\nholding pull   below %.6g N nothing can hold it (proved, residual %.1g)", h->lower, h->residual);
-  else
-    thr_text_append(t, "\nholding pull   0 N: it stands by itself");
-  if (h->upper > 0 && isfinite(h->upper)) thr_text_printf(t, "; at %.6g N an equilibrium exists", h->upper);
-  thr_text_append(t, "\n");
+  put_holding(t, h);
   if (h->first_bead >= 0)
     thr_text_printf(t, "just below     bead %s moves fastest (collapse mechanism)\n", p->frame.name[h->first_bead]);
+  if (!a->pull.options.dynamics) return;
   if (e->settle.present)
     put_settle(t, p, &e->settle);
   else if (p->frame.n_nodes > thr_settle_largest)
     thr_text_printf(t, "simulation     left out: more than %d beads\n", thr_settle_largest);
+  else if (stopped)
+    thr_text_append(t, "simulation     stopped: not known\n");
 }
 
 static void put_tension(thr_text *t, const thr_plan *p, const thr_evaluation *r)
@@ -253,14 +311,14 @@ static void put_tension(thr_text *t, const thr_plan *p, const thr_evaluation *r)
   }
 }
 
-static void put_text(thr_text *t, const arguments *a, const thr_plan *p, const thr_eval *e)
+static void put_text(thr_text *t, const arguments *a, const thr_plan *p, const thr_eval *e, bool stopped)
 {
   const thr_evaluation *r = &p->evaluation;
-  put_heading(t, r, a->pull.pull);
+  put_heading(t, r, e->refused > 0, a->pull.pull);
   put_cords(t, p, r);
   put_sums(t, p, e);
   if (r->method == THR_JOINT) put_joint(t, p, e);
-  if (r->method == THR_STRUCTURE) put_structure(t, p, e);
+  if (r->method == THR_STRUCTURE) put_structure(t, a, p, e, stopped);
   if (a->tension) put_tension(t, p, r);
 }
 
@@ -305,18 +363,19 @@ static void put_json_structure(thr_text *t, const thr_frame *f, const thr_eval *
   thr_text_append(t, "}");
 }
 
-static void put_json(thr_text *t, const thr_plan *p, const thr_eval *e)
+static void put_json(thr_text *t, const thr_plan *p, const thr_eval *e, bool stopped)
 {
   thr_text_printf(t, "{\"framework\": \"%016" PRIx64 "\", \"complete\": %s, ", thr_frame_hash(&p->frame),
-                  e->complete ? "true" : "false");
+                  e->complete && !stopped ? "true" : "false");
   thr_evaluation_write(&p->evaluation, t);
   put_number(t, " \"band\": [", e->band[0]);
   put_number(t, ", ", e->band[1]);
   put_number(t, "], \"error\": ", e->error);
   thr_text_printf(t, ", \"refused\": %d", e->refused);
   if (p->evaluation.method == THR_JOINT) {
-    thr_text_printf(t, ",\n \"joints\": {\"measured\": %d, \"cached\": %d, \"unsettled\": %d", e->joints_measured,
-                    e->joints_cached, e->joints_unsettled);
+    thr_text_printf(t, ", \"refused_sharp\": %d, \"refused_unsettled\": %d, \"refused_outside\": %d", e->refused_sharp,
+                    e->refused_unsettled, e->refused_outside);
+    thr_text_printf(t, ",\n \"joints\": {\"unsettled\": %d", e->joints_unsettled);
     put_number(t, ", \"interpolation\": ", e->interpolation);
     thr_text_append(t, "}");
   }
@@ -363,20 +422,24 @@ static thr_status draw_still(const thr_plan *p, const thr_settle *s, thr_text *s
   return st;
 }
 
-static int write_still(const thr_plan *p, const thr_settle *s, const char *path)
+static int write_still(const thr_plan *p, const thr_settle *s, bool stopped, const char *path)
 {
   thr_err err = {0};
   thr_text svg = {0};
+  if (stopped && !s->present) {
+    cli_error("%s: not written: stopped before the simulation was done", path);
+    return EXIT_OK; /* what stopped it has a code of its own */
+  }
   if (!s->present || !s->before || !s->after || s->status == THR_SETTLE_TOO_LARGE || s->status == THR_SETTLE_NEVER_SETTLED) {
     cli_error("%s: nothing to draw: %s", path,
-              s->present && s->status == THR_SETTLE_NEVER_SETTLED ? "the simulation never came to rest; try a larger --start"
+              s->present && s->status == THR_SETTLE_NEVER_SETTLED ? "the simulation never came to rest"
                                                                   : "there was no simulation");
     return EXIT_INPUT;
   }
   return draw_still(p, s, &svg, &err) ? cli_fail(&err) : cli_write(&svg, path);
 }
 
-static int write_outputs(const arguments *a, const thr_plan *p, const thr_eval *e)
+static int write_outputs(const arguments *a, const thr_plan *p, const thr_eval *e, bool stopped)
 {
   thr_text t = {0};
   int code = EXIT_OK;
@@ -385,14 +448,14 @@ static int write_outputs(const arguments *a, const thr_plan *p, const thr_eval *
     code = cli_write(&t, a->output);
   }
   if (!code && a->plot) code = write_plot(p, a->plot);
-  if (!code && a->still) code = write_still(p, &e->settle, a->still);
+  if (!code && a->still) code = write_still(p, &e->settle, stopped, a->still);
   const char *const out[] = {a->output, a->plot, a->still};
   for (int i = 0; i < 3; i++)
     if (out[i] && strcmp(out[i], "-") == 0) return code;
   if (a->pull.json)
-    put_json(&t, p, e);
+    put_json(&t, p, e, stopped);
   else
-    put_text(&t, a, p, e);
+    put_text(&t, a, p, e, stopped);
   int printed = cli_write(&t, "-");
   return code ? code : printed;
 }
@@ -418,8 +481,11 @@ int cmd_eval(int argc, char **argv)
     thr_evaluation_destroy(&p.evaluation);
     p.evaluation = e.record;
     e.record = (thr_evaluation){0};
-    int written = write_outputs(&a, &p, &e);
+    int written = write_outputs(&a, &p, &e, code == EXIT_LIMIT);
     if (written) code = written;
+    if (p.evaluation.method == THR_JOINT && code == EXIT_OK) /* on stderr: results do not depend on it */
+      cli_note("note: %d %s measured, %d from the cache", e.joints_measured, cli_plural(e.joints_measured, "joint", "joints"),
+               e.joints_cached);
   }
   if (code == EXIT_LIMIT) cli_error(known ? "stopped: only a part is known" : "stopped before any cord was known");
   thr_eval_destroy(&e);

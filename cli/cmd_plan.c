@@ -256,8 +256,12 @@ static int put_objective(thr_text *t, const arguments *a, const struct objective
     thr_text_double(t, e.record.largest);
     thr_text_append(t, ", \"error\": ");
     thr_text_double(t, e.error);
+    thr_text_printf(t, ", \"refused\": %d", e.refused);
   } else if (code == EXIT_OK) {
-    thr_text_printf(t, "%12.4g N (+-%.2g %%)%s", e.record.largest, pull_percent(e.error), closing);
+    thr_text_printf(t, e.refused ? "%12.4g N (error at least %.3g %%" : "%12.4g N (+-%.3g %%", e.record.largest,
+                    pull_percent(e.error));
+    if (e.refused) thr_text_printf(t, ": %d %s by closed form", e.refused, cli_plural(e.refused, "turn", "turns"));
+    thr_text_printf(t, ")%s", closing);
   } else {
     thr_text_printf(t, a->json ? "null" : "%14s", "not known");
   }

@@ -39,16 +39,29 @@ static bool pull_by_name(const char *value, size_t n, thr_pull *pull)
   return false;
 }
 
-/* The list A=start,B=end: item by item. False at its end; *ok false if the item is no such thing. */
+/* The list A=start,B=end: item by item. False at its end; *ok false if the item is no such thing or ends the list
+ * with a comma. */
 static bool next_pull(const char **list, char id[12], thr_pull *pull, bool *ok)
 {
   if (!**list) return false;
   size_t n = strcspn(*list, ","), letters = strcspn(*list, "=,");
   *ok = letters > 0 && letters < 12 && letters < n && pull_by_name(*list + letters + 1, n - letters - 1, pull);
+  if ((*list)[n] == ',' && !(*list)[n + 1]) *ok = false;
   snprintf(id, 12, "%.*s", *ok ? (int)letters : 0, *list);
   *list += n;
   *list += **list == ',';
   return true;
+}
+
+/* Is the cord that the list names last before `end` named earlier too? */
+static bool named_twice(const char *value, const char *end, const char id[12])
+{
+  thr_pull pull;
+  char other[12];
+  bool ok;
+  for (const char *list = value; next_pull(&list, other, &pull, &ok) && list != end;)
+    if (strcmp(other, id) == 0) return true;
+  return false;
 }
 
 static bool check_pull(const char *command, const char *value)
@@ -59,6 +72,9 @@ static bool check_pull(const char *command, const char *value)
   if (!ok && strchr(value, '=')) {
     const char *list = value;
     for (ok = true; ok && next_pull(&list, id, &pull, &ok);) {
+      if (!ok || !named_twice(value, list, id)) continue;
+      cli_usage(command, "--pull %s: cord %s is there twice", value, id);
+      return false;
     }
   }
   if (!ok) cli_usage(command, "--pull %s: expected start, end or both, or a list like A=start,B=both", value);
@@ -127,6 +143,19 @@ bool pull_option(pull_args *a, const char *command, int option, const char *valu
   }
 }
 
+/* What would be ignored is refused. Compare shows the closed form whatever the method. */
+int pull_check(const pull_args *a, const char *command)
+{
+  bool one = a->method != PULL_ALL_METHODS, structure = a->method == THR_STRUCTURE || !one;
+  bool closed = a->method == THR_CAPSTAN || strcmp(command, "compare") == 0;
+  if (a->options.law != THR_LAW_CAPSTAN && !closed) return cli_usage(command, "--law is for --method capstan");
+  if (a->options.start > 0 && !structure) return cli_usage(command, "--start needs --method structure");
+  if (!a->options.dynamics && !structure) return cli_usage(command, "--no-dynamics needs --method structure");
+  if (a->options.start > 0 && !a->options.dynamics)
+    return cli_usage(command, "--start is of the simulation that --no-dynamics leaves out");
+  return EXIT_OK;
+}
+
 /* The pull of each cord of a plan; *out is owned by the caller, NULL if all are pulled alike. */
 static int resolve_pulls(const pull_args *a, const char *path, const thr_plan *p, thr_eval_options *o, thr_pull **out)
 {
@@ -156,6 +185,27 @@ static int resolve_pulls(const pull_args *a, const char *path, const thr_plan *p
   return EXIT_OK;
 }
 
+/* Sizes that were not said follow from the edges: a very short one makes every cord thin. Once is enough. */
+static void note_thin_cord(const thr_frame *f, const thr_physics *asked, const thr_physics *resolved)
+{
+  static bool said;
+  double mm = 1, shortest = INFINITY;
+  int edge = 0;
+  if (said || asked->cord_diameter > 0 || thr_units_in_mm(f->units, &mm, NULL)) return;
+  for (int e = 0; e < f->n_edges; e++) {
+    const double *a = f->xyz[f->edge[e][0]], *b = f->xyz[f->edge[e][1]];
+    double length = mm * hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
+    if (length < shortest) {
+      shortest = length;
+      edge = e;
+    }
+  }
+  if (fabs(resolved->cord_diameter - shortest / 4) > 1e-9 * shortest) return;
+  said = true;
+  cli_note("note: the cord is taken to be %.3g mm thick, as the edge from %s to %s is only %.3g mm long; --cord-diameter says it",
+           resolved->cord_diameter, f->name[f->edge[edge][0]], f->name[f->edge[edge][1]], shortest);
+}
+
 int pull_eval(const pull_args *a, const char *path, const thr_plan *p, thr_method method, thr_eval *out)
 {
   thr_err err = {0}, found = {0};
@@ -175,8 +225,14 @@ int pull_eval(const pull_args *a, const char *path, const thr_plan *p, thr_metho
   thr_status st = thr_eval_plan(&p->frame, p->cord, p->n_cords, method, &o, &limits, out, &found);
   free(pulls);
   cli_progress_end();
-  if (st == THR_ELIMIT) return EXIT_LIMIT;
+  if (st == THR_ELIMIT) {
+    int kept = o.cache && !out->cache_failed ? out->joints_measured : 0;
+    if (method == THR_JOINT)
+      cli_note("note: %s: %d %s kept in the cache for the next run", path, kept, cli_plural(kept, "joint is", "joints are"));
+    return EXIT_LIMIT;
+  }
   if (!st) {
+    if (method != THR_CAPSTAN) note_thin_cord(&p->frame, &o.physics, &out->record.physics);
     if (out->cache_failed) cli_note("note: measured joints could not be kept in %s; --cache names another folder", o.cache);
     return EXIT_OK;
   }

@@ -37,12 +37,13 @@ enum {
 #define PULL_RUN_HELP                                                                                                            \
   "  -j, --processes N    simulations at a time (default: one per processor); changes no result\n"                               \
   "      --cache DIR      keep measured joints here (default: $XDG_CACHE_HOME/thread or ~/.cache/thread);  --no-cache\n"
-#define PULL_HELP                                                                                                                \
+#define PULL_HELP(START)                                                                                                         \
   "      --law capstan|mitre   of method capstan: exp(mu x turning), or the mitred bead of the thesis (default: capstan)\n"      \
   "      --pull start|end|both   which end of each cord is pulled (default: both); or A=start,B=end for single cords\n"          \
-  "      --seed N         of a simulation's small initial disorder (default: 0)\n"                                               \
-  "      --time-step X --iterations X   factors on the simulation's validated settings (default: 1)\n"                           \
-  "      --start N        structure: pull in newton at which the simulation begins (default: 3 x the holding pull)\n"            \
+  "      --seed N         of a simulation's small initial disorder, 0 to 2^53 (default: 0)\n"                                    \
+  "      --time-step X    factor on the simulation's validated time step, 0.01 to 10 (default: 1)\n"                             \
+  "      --iterations X   factor on its validated iterations, 0.1 to 100 (default: 1)\n"                                         \
+  "      --start N        structure: pull in newton at which the simulation begins (default: 3 x the " START ")\n"               \
   "      --no-dynamics    structure: limit analysis only, no simulation\n" PULL_RUN_HELP
 
 enum { PULL_ALL_METHODS = THR_N_METHODS };
@@ -60,6 +61,9 @@ typedef struct {
 void pull_args_init(pull_args *a, thr_method method);
 /* Takes one of the options above; false if it is none of them. *ok false: its value was bad (printed). */
 bool pull_option(pull_args *a, const char *command, int option, const char *value, bool *ok);
+
+/* Does what was asked make sense together? EXIT_OK, or prints and returns the code. */
+int pull_check(const pull_args *a, const char *command);
 
 /* Evaluates a plan by one method with a progress bar and Ctrl-C; path is for messages. Returns EXIT_OK; EXIT_LIMIT after a stop,
  * with out holding what is known; or prints and returns the code. */

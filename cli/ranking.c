@@ -33,6 +33,20 @@ void ranking_destroy(ranking *r)
   *r = (ranking){0};
 }
 
+/* A rank ends where every interval so far lies below every interval to come. */
+static void join_ties(ranking *r)
+{
+  double above = INFINITY; /* the lowest end of the intervals to come */
+  for (int k = r->n_ranked - 1; k > 0; k--) {
+    above = fmin(above, r->low[r->order[k]]);
+    r->rank[r->order[k]] = 1;
+    for (int i = 0; i < k; i++)
+      if (r->high[r->order[i]] >= above) r->rank[r->order[k]] = 0; /* a tie */
+  }
+  for (int k = 0; k < r->n_ranked; k++)
+    r->rank[r->order[k]] = k == 0 || r->rank[r->order[k]] ? k + 1 : r->rank[r->order[k - 1]];
+}
+
 void ranking_make(ranking *r)
 {
   r->n_ranked = 0;
@@ -44,18 +58,19 @@ void ranking_make(ranking *r)
       r->order[k] = r->order[k - 1];
     r->order[k] = i;
   }
-  for (int k = 0; k < r->n_ranked; k++) {
-    bool tie = k > 0 && r->low[r->order[k]] <= r->high[r->order[k - 1]];
-    r->rank[r->order[k]] = tie ? r->rank[r->order[k - 1]] : k + 1;
-  }
+  join_ties(r);
 }
 
+/* +-0.4 %, or from .. to. */
 static void put_interval(const ranking *r, int i, thr_text *t)
 {
-  if (r->error && r->value[i] > 0)
-    thr_text_printf(t, " (+-%.2g %%)", 100 * (r->high[i] / r->value[i] - 1));
-  else if (!r->error && r->high[i] > r->low[i] * (1 + 1e-5) && isfinite(r->high[i]))
-    thr_text_printf(t, " (%.4g .. %.4g%s)", r->low[i], r->high[i], r->unit);
+  double low = r->low[i], high = r->high[i];
+  if (!isfinite(high))
+    thr_text_printf(t, " (at least %.4g%s%s%s)", low, r->unit, r->open ? ": " : "", r->open ? r->open : "");
+  else if (r->error && r->value[i] > 0)
+    thr_text_printf(t, " (+-%.3g %%)", 100 * (high / r->value[i] - 1));
+  else if (!r->error && high > low * (1 + 1e-5))
+    thr_text_printf(t, " (%.4g .. %.4g%s)", low, high, r->unit);
 }
 
 void ranking_put_text(const ranking *r, const char *const *name, thr_text *t)
@@ -69,7 +84,7 @@ void ranking_put_text(const ranking *r, const char *const *name, thr_text *t)
     thr_text_printf(t, "  %d. %-*s %.4g%s", r->rank[i], widest, name[i], r->value[i], r->unit);
     put_interval(r, i, t);
     if (k > 0)
-      thr_text_append(t, r->rank[i] == r->rank[r->order[k - 1]] ? "  tie with the one before" : "  more, beyond the error");
+      thr_text_append(t, r->rank[i] == r->rank[r->order[k - 1]] ? "  tie, within the error" : "  more, beyond the error");
     thr_text_append(t, "\n");
   }
   for (int i = 0; i < r->n; i++)
@@ -100,12 +115,16 @@ void ranking_put_json(const ranking *r, const char *const *name, thr_text *t)
   thr_text_append(t, "]}");
 }
 
+static bool surely_less(const ranking *r, int i, int k)
+{
+  return r->rank[i] && r->rank[k] && r->high[i] < r->low[k];
+}
+
 bool ranking_disagree(const ranking *a, const ranking *b, int pair[2])
 {
   for (int i = 0; i < a->n; i++)
     for (int k = 0; k < a->n; k++) {
-      bool all = a->rank[i] && a->rank[k] && b->rank[i] && b->rank[k];
-      if (!all || a->rank[i] >= a->rank[k] || b->rank[i] <= b->rank[k]) continue;
+      if (!surely_less(a, i, k) || !surely_less(b, k, i)) continue;
       pair[0] = i;
       pair[1] = k;
       return true;

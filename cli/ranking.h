@@ -4,17 +4,18 @@
 
 #include "graph/text.h"
 
-/* Least first. Neighbours whose intervals meet are a tie and share a rank. Filled by ranking_make from value, low and high. */
+/* Least first. Plans whose intervals overlap, or are joined by others that do, are a tie and share a rank: between plans of
+ * different rank no interval reaches across. Filled by ranking_make from value, low and high. */
 typedef struct {
-  const char *title; /* "simulated seating pull" */
-  const char *key;   /* in JSON: "joint" */
-  const char *unit;  /* " N", or "" for a bare number */
-  bool error;        /* print the interval as +- percent, else as from .. to */
-  int n;
-  double *value, *low, *high; /* [n] of plan i; NAN = not known, not ranked; owned */
-  int n_ranked;
-  int *order; /* [n_ranked] plans; owned */
-  int *rank;  /* [n] 1, 2, .. of plan i, 0 = not ranked; owned */
+  const char *title;          /* "simulated seating pull" */
+  const char *key;            /* in JSON: "joint" */
+  const char *unit;           /* " N", or "" for a bare number */
+  const char *open;           /* what to say of a plan without an upper end; NULL = nothing */
+  bool error;                 /* print the interval as +- percent, else as from .. to */
+  int n, n_ranked;            /* plans, and how many of them have a rank */
+  double *value, *low, *high; /* [n] of plan i; value NAN = not known, not ranked; high INFINITY = no upper end; owned */
+  int *order;                 /* [n_ranked] plans; owned */
+  int *rank;                  /* [n] 1, 2, .. of plan i, 0 = not ranked; owned */
 } ranking;
 
 /* Room for n plans, none known. */
@@ -22,11 +23,11 @@ thr_status ranking_init(ranking *r, int n, thr_err *err) THR_MUST_CHECK;
 void ranking_destroy(ranking *r);
 void ranking_make(ranking *r);
 
-/* "1. lines.json  12.3 N (+-0.4 %)" .. and what each is to the one before. */
+/* "1. lines.json  12.3 N (+-0.4 %)" .. and whether each is more than those before. */
 void ranking_put_text(const ranking *r, const char *const *name, thr_text *t);
 void ranking_put_json(const ranking *r, const char *const *name, thr_text *t);
 
-/* A pair of plans that the two put in opposite orders, ties aside; false if there is none. */
+/* A pair of plans that the two put in opposite orders, beyond what their intervals allow; false if there is none. */
 bool ranking_disagree(const ranking *a, const ranking *b, int pair[2]);
 
 #endif

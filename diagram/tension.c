@@ -34,10 +34,20 @@ thr_tension_options thr_tension_options_default(void)
   return (thr_tension_options){.title = NULL, .passes = false};
 }
 
+static int refused_turns(const thr_evaluation *e)
+{
+  int n = 0;
+  for (int c = 0; c < e->n_cords; c++)
+    n += e->cord[c].refused;
+  return n;
+}
+
 const char *thr_tension_method_words(const thr_evaluation *e)
 {
   switch (e->method) {
-  case THR_JOINT: return "joints measured in simulation, composed along the taut path";
+  case THR_JOINT:
+    return refused_turns(e) > 0 ? "joints measured in simulation, some turns by closed form, composed along the taut path"
+                                : "joints measured in simulation, composed along the taut path";
   case THR_STRUCTURE: return "limit analysis: the least pull at which the structure can stand";
   default: return e->law == THR_LAW_MITRE ? "closed form: mitred beads" : "closed form: capstan law";
   }
@@ -337,7 +347,11 @@ static double write_heading(const plot *s, const char *title, thr_text *t)
   thr_svg_force(e->largest, largest);
   thr_svg_force(e->total, total);
   snprintf(line, sizeof line, "Largest pull %s, all pulled ends together %s", largest, total);
-  if (error > 0) snprintf(line + strlen(line), sizeof line - strlen(line), ", each within %.2g %%", 100 * expm1(error));
+  if (refused_turns(e) > 0)
+    snprintf(line + strlen(line), sizeof line - strlen(line), ", error at least %.3g %%: %d of the turns by closed form",
+             100 * expm1(error), refused_turns(e));
+  else if (error > 0)
+    snprintf(line + strlen(line), sizeof line - strlen(line), ", each within %.3g %%", 100 * expm1(error));
   snprintf(line + strlen(line), sizeof line - strlen(line), ".");
   y = thr_svg_wrap(t, MARGIN, y, TEXT_SIZE, WIDTH, "", line);
   line[0] = '\0';

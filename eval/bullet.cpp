@@ -188,10 +188,10 @@ static thr_status add_body(thr_world *w, btRigidBody::btRigidBodyConstructionInf
   return THR_OK;
 }
 
-static thr_status hull_of(thr_world *w, const double (*points)[3], int n, double margin, thr_err *err)
+static thr_status hull_of(thr_world *w, const double (*points)[3], int n, thr_err *err)
 {
   btConvexHullShape *hull = make<btConvexHullShape>();
-  thr_status s = keep_shape(w, hull, margin, err);
+  thr_status s = keep_shape(w, hull, 0, err);
   if (s != THR_OK) return s;
   for (int i = 0; i < n; i++)
     hull->addPoint(vector_of(points[i]), false);
@@ -206,12 +206,12 @@ static thr_status shape_of(thr_world *w, const thr_world_hulls *h, thr_err *err)
   const double(*points)[3] = h->points;
   thr_status s = THR_OK;
   for (int i = 0; s == THR_OK && i < h->n_hulls; i++) {
-    s = hull_of(w, points, h->n_points[i], h->margin, err);
+    s = hull_of(w, points, h->n_points[i], err);
     points += h->n_points[i];
   }
   if (s != THR_OK || h->n_hulls == 1) return s;
   btCompoundShape *compound = make<btCompoundShape>(true, h->n_hulls);
-  s = keep_shape(w, compound, h->margin, err);
+  s = keep_shape(w, compound, 0, err);
   for (int i = 0; s == THR_OK && i < h->n_hulls; i++)
     compound->addChildShape(btTransform::getIdentity(), w->shape[first + i]);
   return s;
@@ -225,18 +225,11 @@ thr_status thr_world_add_hulls(thr_world *w, const thr_world_hulls *h, int *body
   if (s != THR_OK) return s;
   btCollisionShape *shape = w->shape[w->n_shapes - 1];
   btVector3 inertia(0, 0, 0);
-  if (h->mass > 0 && h->inertia)
-    inertia = vector_of(h->inertia);
-  else if (h->mass > 0)
-    shape->calculateLocalInertia(h->mass, inertia);
+  if (h->mass > 0) shape->calculateLocalInertia(h->mass, inertia);
   btRigidBody::btRigidBodyConstructionInfo info(h->mass, nullptr, shape, inertia);
   info.m_startWorldTransform = btTransform(btQuaternion(h->pose[3], h->pose[4], h->pose[5], h->pose[6]), vector_of(h->pose));
   info.m_friction = h->friction;
-  s = add_body(w, info, h->group, h->mask, body, err);
-  if (s != THR_OK) return s;
-  btRigidBody *b = w->body[*body];
-  if (h->anchor) b->setCollisionFlags(b->getCollisionFlags() | btCollisionObject::CF_HAS_FRICTION_ANCHOR);
-  return THR_OK;
+  return add_body(w, info, h->group, h->mask, body, err);
 }
 
 static btTransform transform_of(const double pose[7])

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double PI = 3.14159265358979323846;
+#define PI 3.14159265358979323846
 
 #ifndef PROTOCOL
 #define PROTOCOL static const
@@ -23,17 +23,17 @@ static const double PI = 3.14159265358979323846;
  * 0.4, not at 0.7), and friction that could turn a sphere's velocity round within a step shakes it sideways (mu tension spacing
  * step / (mass speed): diverges from 2). */
 PROTOCOL struct {
-  double spacing, density, speed;       /* of the spheres; mass per length; of the drag */
-  double shake, sway;                   /* limits of the two products above */
-  double polygon;                       /* largest error of the exponent by the polygon: spacing shrinks for it */
-  int iterations;                       /* of sequential impulse */
-  double erp, damping, disorder;        /* error reduction; x chain length: rate while settling; first offsets */
-  double settle, average, lead;         /* travel before and while averaging; straight cord left at either end */
-  double wall, segment, end_mass;       /* thickness; length between turns; of the sphere that is dragged */
-  int sides, wedge_sides;               /* of the bore; where the cord wedges */
-  double drift, scatter;                /* of a settled result, at most */
-  double least_bore, most_mu, most_log; /* range; of the expected ratio's logarithm .. */
-  double least_fit;                     /* .. and of bore cos(turn / 2), below 1 where the cord wedges */
+  double spacing, density, speed; /* of the spheres; mass per length; of the drag */
+  double shake, sway;             /* limits of the two products above */
+  double polygon;                 /* largest error of the exponent by the polygon: spacing shrinks for it */
+  int iterations;                 /* of sequential impulse */
+  double erp, damping, disorder;  /* error reduction; x chain length: rate while settling; first offsets */
+  double settle, average, lead;   /* travel before and while averaging; straight cord left at either end */
+  double wall, segment, end_mass; /* thickness; length between turns; of the sphere that is dragged */
+  int sides, wedge_sides;         /* of the bore; where the cord wedges */
+  double drift, scatter;          /* of a settled result, at most */
+  double most_mu, most_log;       /* range; of the expected ratio's logarithm .. */
+  double least_fit;               /* .. and of bore cos(turn / 2), below 1 where the cord wedges */
 } protocol = {.spacing = 0.2,
               .density = 5e-3,
               .speed = 1,
@@ -54,12 +54,12 @@ PROTOCOL struct {
               .wedge_sides = 64,
               .drift = 5e-3,
               .scatter = 2.5e-3,
-              .least_bore = 1.01,
               .most_mu = 1,
               .most_log = 4,
               .least_fit = 0.7};
 
-const double thr_drag_largest_turn = 150 * 3.14159265358979323846 / 180;
+const double thr_drag_largest_turn = 150 * PI / 180;
+const double thr_drag_least_bore = 1.01, thr_drag_largest_bore = 1e3;
 
 static const double PULL_MARGIN = 1.1, WEDGE_DOUBT = 0.1;
 
@@ -173,8 +173,9 @@ static thr_status check(const thr_drag *d, thr_err *err)
     if (!(d->turn[i] >= 0 && d->turn[i] <= PI) || (d->twist && !isfinite(d->twist[i])))
       return thr_fail(err, THR_EINPUT, "drag: turn %d must be between 0 and pi and its twist finite", i + 1);
   if (!(d->mu >= 0 && d->mu <= DBL_MAX)) return thr_fail(err, THR_EINPUT, "drag: mu is %g; give one of 0 or more", d->mu);
-  if (!(d->bore > 1 && d->bore <= 1e3))
-    return thr_fail(err, THR_EINPUT, "drag: the bore is %g cords wide; give one above 1 and up to 1000", d->bore);
+  if (!(d->bore > 1 && d->bore <= thr_drag_largest_bore))
+    return thr_fail(err, THR_EINPUT, "drag: the bore is %g cords wide; give one above 1 and up to %g", d->bore,
+                    thr_drag_largest_bore);
   if (!(d->segment >= 0 && d->segment <= 1e3))
     return thr_fail(err, THR_EINPUT, "drag: a channel of %g cord radii; give 0 to 1000", d->segment);
   const double factor[] = {d->time_step, d->iterations, d->spacing};
@@ -190,7 +191,7 @@ static thr_status check(const thr_drag *d, thr_err *err)
 static bool in_range(const thr_drag *d)
 {
   double most = largest_turn(d), segment = d->segment > 0 ? d->segment : protocol.segment;
-  return most <= thr_drag_largest_turn && d->bore >= protocol.least_bore && d->mu <= protocol.most_mu &&
+  return most <= thr_drag_largest_turn && d->bore >= thr_drag_least_bore && d->mu <= protocol.most_mu &&
          d->bore * cos(most / 2) >= protocol.least_fit && expected_log(d) <= protocol.most_log &&
          (d->n_turns == 1 || d->bore * tan(most / 2) < segment / 2);
 }

@@ -35,8 +35,8 @@ typedef struct {
   double steps;   /* taken */
 } thr_drag_result;
 
-/* Largest single turn that the protocol was validated for, rad. */
-extern const double thr_drag_largest_turn;
+/* What the protocol was validated for: the largest single turn, rad; bore diameter / cord diameter. */
+extern const double thr_drag_largest_turn, thr_drag_least_bore, thr_drag_largest_bore;
 
 /* Largest turn, rad, that a cord takes in one line of contact in a bore of so many cord diameters: 2 acos(1 / bore). The opening
  * of a mitred round bore is an ellipse whose end is as round as the cord there; in sharper turns the cord wedges between two

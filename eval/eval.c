@@ -77,14 +77,14 @@ thr_status thr_eval_plan(const thr_frame *f, const thr_cord *cord, int n_cords, 
   static thr_status (*const run[THR_N_METHODS])(const thr_frame *, const thr_cord *, const thr_eval_options *, const thr_limits *,
                                                 thr_eval *, thr_err *) = {
       [THR_CAPSTAN] = thr_capstan_method, [THR_JOINT] = thr_joint_method, [THR_STRUCTURE] = thr_structure_method};
-  thr_eval e = {0};
-  *out = e;
+  thr_eval e = {.interpolation = NAN};
+  *out = (thr_eval){0};
   thr_status st = prepare(f, cord, n_cords, method, o, &e.record, err);
   if (!st) st = run[method](f, cord, o, limits, &e, err);
-  if (!st || st == THR_ELIMIT) {
-    thr_status summed = sum_up(&e, st ? NULL : err);
-    if (summed) st = summed;
-  }
+  if (!st)
+    st = sum_up(&e, err);
+  else if (st == THR_ELIMIT)
+    (void)sum_up(&e, NULL); /* what is complete stays, whatever it adds up to */
   if (st && st != THR_ELIMIT) thr_eval_destroy(&e);
   *out = e;
   return st;

@@ -28,23 +28,28 @@ thr_eval_options thr_eval_options_default(void);
 /* What a method measured beside the record. */
 typedef struct {
   thr_evaluation record;
-  double error;   /* largest cord error (thr_eval_cord) */
-  double band[2]; /* largest force at mu_low and mu_high by the closed form over taut_turning: never a simulation. Method
-                     structure: by limit analysis, INFINITY if nothing holds, NAN above 100 beads */
-  int refused;    /* turns, over all cords */
-  bool complete;  /* every cord known */
-  int joints_measured, joints_cached, joints_unsettled; /* method joint */
-  bool cache_failed;                                    /* method joint: some joint could not be written to the cache folder */
-  double
-      interpolation;   /* method joint: largest relative error of an interpolated exponent, as seen at measured angles left out */
-  thr_holding holding; /* method structure */
-  thr_settle settle;   /* method structure */
+  double error;          /* largest cord error (thr_eval_cord); with refused turns that of the other turns only: at least that */
+  double band[2];        /* largest force of the known cords at mu_low and mu_high by the closed form over taut_turning: never a
+                            simulation. Method structure: by limit analysis, INFINITY if nothing holds, NAN above 100 beads */
+  int refused;           /* turns of the known cords that took the closed form, each for the first reason that holds of it: */
+  int refused_sharp;     /* .. beyond the sharpest turn that was validated */
+  int refused_outside;   /* .. a joint it needs is out of range: wedged too deeply as the bore is narrow, or mu is too large */
+  int refused_unsettled; /* .. a joint it needs did not slide steadily */
+  bool complete;         /* every cord known */
+  int joints_measured, joints_cached; /* method joint */
+  int joints_unsettled; /* method joint: that did not slide steadily. Turns that need one are refused; where only the judging of
+                           interpolation needs it, the error counts it */
+  bool cache_failed;    /* method joint: some joint could not be written to the cache folder */
+  double interpolation; /* method joint: estimate of the largest relative error of an interpolated exponent, as seen at measured
+                           angles left out; NAN if none could be left out, and without friction */
+  thr_holding holding;  /* method structure */
+  thr_settle settle;    /* method structure */
 } thr_eval;
 
 /* Contract of each method: THR_EINPUT for absurd physics or an overflow (one line that says what to change); THR_ELIMIT when
- * stopped, with out holding what is complete; same plan, options and seed give the same bits whatever the number of processes.
- * largest, total, tension do not fall when mu grows; tension[slackest] is the least of a cord, and for capstan and joint it is
- * the seating tension. Release with thr_eval_destroy (also after THR_ELIMIT). */
+ * stopped, with out holding what is complete (total may be INFINITY then); same plan, options and seed give the same bits
+ * whatever the number of processes. largest, total, tension do not fall when mu grows; tension[slackest] is the least of a cord,
+ * and for capstan and joint it is the seating tension. Release with thr_eval_destroy (also after THR_ELIMIT). */
 thr_status thr_eval_plan(const thr_frame *f, const thr_cord *cord, int n_cords, thr_method method, const thr_eval_options *o,
                          const thr_limits *limits, thr_eval *out, thr_err *err) THR_MUST_CHECK;
 void thr_eval_destroy(thr_eval *e);

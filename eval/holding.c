@@ -1,7 +1,11 @@
 /* Limit analysis of rigid blocks as a linear programme, solved by an interior point method: the equilibrium of a bead involves
  * its neighbours only, so that the factors stay sparse. The one long column, the pull, is split into a copy per bead, tied along
  * a spanning forest. What the solver says is not believed: its dual values are made an exactly feasible mechanism here, whose
- * power balance is the bound. */
+ * power balance is the bound.
+ *
+ * Tensions may span more powers of ten than a double has digits. Two things are true whatever they span, and keep the numbers
+ * tame: equilibrium with some tensions taken smaller is equilibrium (the cords press a face together with what they draw its
+ * beads together; more of both changes nothing else), and a mechanism in which some beads move as one is a mechanism. */
 #include "eval/holding.h"
 
 #include "graph/disjoint.h"
@@ -13,23 +17,35 @@
 
 enum { EDGES = 8, CORNERS = 4 };
 static const double PI = 3.14159265358979323846;
+#define WIDEN (1 / cos(PI / EDGES)) /* puts the pyramids round the cones */
+/* Tensions are capped at so many times the least one, until the bound closes: further apart, the solver loses the small ones. */
+enum { CAPS = 5 };
+static const double cap[CAPS] = {1e4, 1e6, 1e8, 1e10, 1e12};
+/* A bound has closed if it is that near to a pull that holds, relative, and no contact closes faster. */
+static const double CLOSE = 1e-6, STILL = 1e-12;
 
 typedef struct {
   int bead, other; /* pushed along the rays of the friction pyramid; pushed back, -1 = the ground */
   double at[3], ray[EDGES][3];
 } contact;
 
-/* Forces are counted in weights of a mean bead, lengths in `length`, the pull in `pull`: numbers near 1 for the solver. */
+/* Bodies are beads, or sets of beads that move as one. Forces are counted in weights of a mean bead, lengths in `length`, the
+ * pull in `pull`: numbers near 1 for the solver. */
 typedef struct {
   const thr_beads *b;
   const thr_frame *f;
   const thr_physics *physics;
-  const double (*wrench)[6];
+  const double *press;         /* [n_faces] */
+  double most;                 /* press above it is taken for it .. */
+  bool merged;                 /* .. and the beads on either side for one body */
   double weight, length, pull; /* N, m, N */
-  int n_contacts, n_rows, n_ties;
+  int n_bodies, n_contacts, n_rows, n_ties;
   contact *contact;
-  int *row;      /* [n_beads] first of a bead's six rows, -1 = held in place */
-  int (*tie)[2]; /* [n_ties] beads whose copies of the pull are equal */
+  int *body;           /* [n_beads] */
+  double (*origin)[3]; /* [n_bodies] where moments are taken about, m */
+  double (*wrench)[6]; /* [n_bodies] of the cords at a pull of 1 */
+  int *row;            /* [n_bodies] first of a body's six rows, -1 = held in place */
+  int (*tie)[2];       /* [n_ties] bodies whose copies of the pull are equal */
 } structure;
 
 typedef struct {
@@ -59,6 +75,12 @@ static void cross(const double a[3], const double b[3], double out[3])
 
 /* ---- the structure ---- */
 
+/* Is the face within a body? */
+static bool inside(const structure *s, int face)
+{
+  return s->body[s->f->edge[face][0]] == s->body[s->f->edge[face][1]];
+}
+
 static void add_contact(structure *s, int bead, int other, const double at[3], const double normal[3], double mu)
 {
   contact *c = &s->contact[s->n_contacts++];
@@ -86,7 +108,7 @@ static void set_contacts(structure *s, double widen)
   const double up[3] = {0, 0, 1};
   s->n_contacts = 0;
   for (int e = 0; e < b->n_faces; e++)
-    for (int i = 0; i < CORNERS; i++)
+    for (int i = 0; i < CORNERS && !inside(s, e); i++)
       add_contact(s, s->f->edge[e][1], s->f->edge[e][0], b->corner[e][i], b->axis[e], widen * s->physics->mu_bead);
   for (int k = 0; k < b->n_feet; k++)
     for (int i = 0; i < CORNERS; i++)
@@ -97,51 +119,100 @@ static void set_units(structure *s)
 {
   const thr_beads *b = s->b;
   double mass = 0, square = 0;
-  int n = 0;
+  int n = 0, bodies = 0;
   for (int v = 0; v < b->n_beads; v++)
     if (!b->fixed[v]) mass += b->mass[v], n++;
   s->weight = n && mass * s->physics->gravity > 0 ? mass * s->physics->gravity / n : 1;
   s->length = b->width;
-  for (int v = 0; v < b->n_beads; v++)
-    if (!b->fixed[v])
+  for (int v = 0; v < s->n_bodies; v++)
+    if (s->row[v] >= 0) {
       square += dot(s->wrench[v], s->wrench[v]) + dot(s->wrench[v] + 3, s->wrench[v] + 3) / (s->length * s->length);
-  s->pull = square > 0 ? s->weight / sqrt(square / n) : s->weight;
+      bodies++;
+    }
+  s->pull = square > 0 ? s->weight / sqrt(square / bodies) : s->weight;
 }
 
-static thr_status set_ties(structure *s, thr_err *err)
+/* Numbers the bodies by their lowest beads. parent[n_beads]: scratch. */
+static void set_bodies(structure *s, int *parent)
 {
-  int n = s->b->n_beads, *parent = thr_calloc((size_t)n, sizeof *parent);
-  if (!parent) return thr_nomem(err);
-  for (int v = 0; v < n; v++)
+  const thr_beads *b = s->b;
+  for (int v = 0; v < b->n_beads; v++)
     parent[v] = v;
+  for (int e = 0; e < b->n_faces && s->merged; e++)
+    if (s->press[e] > s->most) thr_disjoint_join(parent, s->f->edge[e][0], s->f->edge[e][1]);
+  for (int v = 0; v < b->n_beads; v++) {
+    int root = thr_disjoint_find(parent, v);
+    if (root == v) memcpy(s->origin[s->n_bodies], b->mass_centre[v], sizeof *s->origin);
+    s->body[v] = root == v ? s->n_bodies++ : s->body[root];
+    if (b->fixed[v]) s->row[s->body[v]] = -1;
+  }
+  for (int v = 0; v < s->n_bodies; v++)
+    if (s->row[v] == 0) s->row[v] = s->n_rows, s->n_rows += 6;
+}
+
+/* The cords draw the two beads of a face together. */
+static void set_wrenches(structure *s)
+{
   for (int e = 0; e < s->b->n_faces; e++)
-    if (thr_disjoint_join(parent, s->f->edge[e][0], s->f->edge[e][1])) memcpy(s->tie[s->n_ties++], s->f->edge[e], sizeof *s->tie);
-  for (int v = 1; v < n; v++)
+    for (int side = 0; side < 2 && !inside(s, e); side++) {
+      int v = s->body[s->f->edge[e][side]];
+      double size = (side ? -1 : 1) * fmin(s->press[e], s->most), lever[3], moment[3];
+      for (int k = 0; k < 3; k++)
+        lever[k] = s->b->middle[e][k] - s->origin[v][k];
+      cross(lever, s->b->axis[e], moment);
+      for (int k = 0; k < 3; k++) {
+        s->wrench[v][k] += size * s->b->axis[e][k];
+        s->wrench[v][k + 3] += size * moment[k];
+      }
+    }
+}
+
+static void set_ties(structure *s, int *parent)
+{
+  for (int v = 0; v < s->n_bodies; v++)
+    parent[v] = v;
+  for (int e = 0; e < s->b->n_faces; e++) {
+    int a = s->body[s->f->edge[e][0]], b = s->body[s->f->edge[e][1]];
+    if (thr_disjoint_join(parent, a, b)) s->tie[s->n_ties][0] = a, s->tie[s->n_ties++][1] = b;
+  }
+  for (int v = 1; v < s->n_bodies; v++)
     if (thr_disjoint_join(parent, 0, v)) s->tie[s->n_ties][0] = 0, s->tie[s->n_ties++][1] = v;
-  free(parent);
-  return THR_OK;
 }
 
 static void structure_destroy(structure *s)
 {
   free(s->contact);
+  free(s->body);
+  free(s->origin);
+  free(s->wrench);
   free(s->row);
   free(s->tie);
 }
 
-static thr_status structure_make(structure *s, thr_err *err)
+/* From s->b, f, physics, press, most and merged. */
+static thr_status structure_make(structure *s, double widen, thr_err *err)
 {
   const thr_beads *b = s->b;
+  size_t n = (size_t)b->n_beads;
+  int *parent = thr_calloc(n, sizeof *parent);
   s->contact = thr_calloc((size_t)(b->n_faces + b->n_feet) * CORNERS, sizeof *s->contact);
-  s->row = thr_calloc((size_t)b->n_beads, sizeof *s->row);
-  s->tie = thr_calloc((size_t)b->n_beads, sizeof *s->tie);
-  if (!s->contact || !s->row || !s->tie) return thr_nomem(err);
-  for (int v = 0; v < b->n_beads; v++) {
-    s->row[v] = b->fixed[v] ? -1 : s->n_rows;
-    if (!b->fixed[v]) s->n_rows += 6;
+  s->body = thr_calloc(n, sizeof *s->body);
+  s->origin = thr_calloc(n, sizeof *s->origin);
+  s->wrench = thr_calloc(n, sizeof *s->wrench);
+  s->row = thr_calloc(n, sizeof *s->row);
+  s->tie = thr_calloc(n, sizeof *s->tie);
+  bool all = parent && s->contact && s->body && s->origin && s->wrench && s->row && s->tie;
+  if (all) {
+    set_bodies(s, parent);
+    set_wrenches(s);
+    set_units(s);
+    set_ties(s, parent);
+    set_contacts(s, widen);
   }
-  set_units(s);
-  return set_ties(s, err);
+  free(parent);
+  if (all) return THR_OK;
+  structure_destroy(s);
+  return thr_nomem(err);
 }
 
 /* ---- the programme ---- */
@@ -173,15 +244,16 @@ static void column(programme *p, double cost)
 /* A force of one weight along ray at the contact. */
 static void contact_entries(const structure *s, programme *p, const contact *c, int bead, const double ray[3], double sign)
 {
-  if (bead < 0 || s->row[bead] < 0) return;
+  int body = bead < 0 ? -1 : s->body[bead];
+  if (body < 0 || s->row[body] < 0) return;
   double lever[3], moment[3];
   for (int k = 0; k < 3; k++)
-    lever[k] = (c->at[k] - s->b->mass_centre[bead][k]) / s->length;
+    lever[k] = (c->at[k] - s->origin[body][k]) / s->length;
   cross(lever, ray, moment);
   for (int k = 0; k < 3; k++)
-    entry(p, s->row[bead] + k, sign * ray[k]);
+    entry(p, s->row[body] + k, sign * ray[k]);
   for (int k = 0; k < 3; k++)
-    entry(p, s->row[bead] + 3 + k, sign * moment[k]);
+    entry(p, s->row[body] + 3 + k, sign * moment[k]);
 }
 
 static void contact_columns(const structure *s, programme *p)
@@ -200,7 +272,7 @@ static void contact_columns(const structure *s, programme *p)
 static void pull_columns(const structure *s, programme *p, double cost)
 {
   double unit = s->pull / s->weight;
-  for (int v = 0; v < s->b->n_beads; v++, p->n_columns++) {
+  for (int v = 0; v < s->n_bodies; v++, p->n_columns++) {
     column(p, v == 0 ? cost : 0);
     for (int k = 0; k < 6 && s->row[v] >= 0; k++)
       entry(p, s->row[v] + k, unit * s->wrench[v][k] / (k < 3 ? 1 : s->length));
@@ -218,9 +290,24 @@ static void hand_columns(const structure *s, programme *p)
   }
 }
 
+/* What carries a bead's weight. */
+static void weigh(const structure *s, int bead, double *rhs)
+{
+  int body = s->body[bead], row = s->row[body];
+  if (row < 0) return;
+  const double force = s->b->mass[bead] * s->physics->gravity / s->weight, up[3] = {0, 0, force};
+  double lever[3], moment[3];
+  for (int k = 0; k < 3; k++)
+    lever[k] = (s->b->mass_centre[bead][k] - s->origin[body][k]) / s->length;
+  cross(lever, up, moment);
+  rhs[row + 2] += force;
+  for (int k = 0; k < 3; k++)
+    rhs[row + 3 + k] += moment[k];
+}
+
 static thr_status programme_make(const structure *s, bool hands, programme *p, thr_err *err)
 {
-  size_t n = (size_t)s->b->n_beads, rays = (size_t)s->n_contacts * EDGES;
+  size_t n = (size_t)s->n_bodies, rays = (size_t)s->n_contacts * EDGES;
   size_t columns = rays + n + (hands ? 2 * (size_t)s->n_rows : 0);
   size_t entries = 12 * rays + 6 * n + 2 * (size_t)s->n_ties + 2 * (size_t)s->n_rows;
   *p = (programme){0};
@@ -234,7 +321,7 @@ static thr_status programme_make(const structure *s, bool hands, programme *p, t
     return thr_nomem(err);
   }
   for (int v = 0; v < s->b->n_beads; v++)
-    if (s->row[v] >= 0) p->rhs[s->row[v] + 2] = s->b->mass[v] * s->physics->gravity / s->weight;
+    weigh(s, v, p->rhs);
   contact_columns(s, p);
   pull_columns(s, p, hands ? 0 : 1);
   if (hands) hand_columns(s, p);
@@ -331,7 +418,7 @@ static void flight(const structure *s, double (*velocity)[6])
     if (b->fixed[v]) memcpy(from, b->centre[v], sizeof from);
   for (int v = 0; v < b->n_beads; v++)
     for (int k = 0; k < 3; k++)
-      velocity[v][k] = b->fixed[v] ? 0 : (b->centre[v][k] - from[k]) / b->size;
+      velocity[v][k] = s->row[s->body[v]] < 0 ? 0 : (s->origin[s->body[v]][k] - from[k]) / b->size;
 }
 
 static void scale(const structure *s, double (*velocity)[6], double factor)
@@ -346,21 +433,35 @@ static double translation(const double velocity[6])
   return sqrt(dot(velocity, velocity));
 }
 
-static double largest_translation(const structure *s, const double (*velocity)[6])
+static double largest_translation(const thr_beads *b, const double (*velocity)[6])
 {
   double largest = 0;
-  for (int v = 0; v < s->b->n_beads; v++)
+  for (int v = 0; v < b->n_beads; v++)
     largest = fmax(largest, translation(velocity[v]));
   return largest;
 }
 
 /* The lowest bead among the fastest: those that symmetry makes equal differ by what the solver leaves open. */
-static int fastest(const structure *s, const double (*velocity)[6])
+static int fastest(const thr_beads *b, const double (*velocity)[6])
 {
-  double largest = largest_translation(s, velocity);
-  for (int v = 0; v < s->b->n_beads; v++)
+  double largest = largest_translation(b, velocity);
+  for (int v = 0; v < b->n_beads; v++)
     if (largest > 0 && translation(velocity[v]) >= 0.99 * largest) return v;
   return -1;
+}
+
+static void move_with_body(const structure *s, int bead, const double *dual, double velocity[6])
+{
+  int body = s->body[bead], row = s->row[body];
+  double lever[3], turn[3];
+  if (row < 0) return;
+  for (int k = 0; k < 6; k++)
+    velocity[k] = -dual[row + k] / (k < 3 ? 1 : s->length);
+  for (int k = 0; k < 3; k++)
+    lever[k] = s->b->mass_centre[bead][k] - s->origin[body][k];
+  cross(velocity + 3, lever, turn);
+  for (int k = 0; k < 3; k++)
+    velocity[k] += turn[k];
 }
 
 /* Dual values as velocities, scaled to a largest translation of 1. Contacts that would close are opened by a little flight. */
@@ -369,12 +470,11 @@ static thr_status mechanism(const structure *s, const double *dual, double (*vel
   double(*apart)[6] = thr_calloc((size_t)s->b->n_beads, sizeof *apart);
   if (!apart) return thr_nomem(err);
   for (int v = 0; v < s->b->n_beads; v++)
-    for (int k = 0; k < 6 && s->row[v] >= 0; k++)
-      velocity[v][k] = -dual[s->row[v] + k] / (k < 3 ? 1 : s->length);
+    move_with_body(s, v, dual, velocity[v]);
   flight(s, apart);
   double margin = least_opening(s, (const double(*)[6])apart);
   for (int round = 0; round < 3; round++) { /* rounding again, far smaller each time */
-    double largest = largest_translation(s, (const double(*)[6])velocity);
+    double largest = largest_translation(s->b, (const double(*)[6])velocity);
     if (largest > 0) scale(s, velocity, 1 / largest);
     double opening = least_opening(s, (const double(*)[6])velocity);
     if (opening >= 0 || !(margin > 0)) break;
@@ -386,23 +486,43 @@ static thr_status mechanism(const structure *s, const double *dual, double (*vel
   return THR_OK;
 }
 
-/* Power of the weights, W, and of the cords per newton of pull, W/N. */
-static void powers(const structure *s, const double (*velocity)[6], double *gravity, double *cords)
+/* How fast the beads of a face part at its middle, where the cords press. */
+static double parting(const structure *s, const double (*velocity)[6], int face)
 {
-  *gravity = *cords = 0;
+  double one[3], other[3], sum = 0;
+  if (inside(s, face)) return 0;
+  point_velocity(s, s->f->edge[face][1], velocity, s->b->middle[face], one);
+  point_velocity(s, s->f->edge[face][0], velocity, s->b->middle[face], other);
+  for (int k = 0; k < 3; k++)
+    sum += s->b->axis[face][k] * (one[k] - other[k]);
+  return sum;
+}
+
+/* Powers: weights, W; the same if all went straight down; cords' resistance per newton of pull, W/N, by their true tensions. */
+typedef struct {
+  double falling, most, resistance;
+} powers;
+
+static powers balance(const structure *s, const double (*velocity)[6])
+{
+  powers p = {0};
   for (int v = 0; v < s->b->n_beads; v++) {
-    *gravity -= s->b->mass[v] * s->physics->gravity * velocity[v][2];
-    for (int k = 0; k < 6; k++)
-      *cords += s->wrench[v][k] * velocity[v][k];
+    double weight = s->b->mass[v] * s->physics->gravity;
+    p.falling -= weight * velocity[v][2];
+    p.most += weight * translation(velocity[v]);
   }
+  for (int e = 0; e < s->b->n_faces; e++)
+    p.resistance += s->press[e] * parting(s, velocity, e);
+  return p;
 }
 
 /* ---- the pull ---- */
 
 typedef struct {
   double pull;  /* N: the programme's optimum; INFINITY if its equilibrium is none */
-  double lower; /* N: proved by velocity */
-  double residual, imbalance;
+  double lower; /* N: proved by velocity; INFINITY if the cords do not resist it */
+  double gap;   /* relative, between the two */
+  double residual;
   double (*velocity)[6]; /* owned */
 } answer;
 
@@ -412,115 +532,165 @@ static void answer_destroy(answer *a)
   *a = (answer){0};
 }
 
-/* Weak duality, in our own sums: the pull at which the cords' power makes up for the weights'. */
+/* Weak duality, in our own sums: the pull at which the cords' resistance makes up for the weights. */
 static void certify(const structure *s, answer *a)
 {
   const double(*velocity)[6] = (const double(*)[6])a->velocity;
-  double gravity, cords, weight = 0;
-  powers(s, velocity, &gravity, &cords);
-  for (int v = 0; v < s->b->n_beads; v++)
-    weight += s->b->mass[v] * s->physics->gravity * translation(velocity[v]);
+  powers p = balance(s, velocity);
   a->residual = fmax(0, -least_opening(s, velocity));
-  bool falls = gravity > 1e-9 * weight; /* less is rounding: it stands by itself */
-  a->lower = !falls ? 0 : cords < 0 ? gravity / -cords : INFINITY;
+  bool falls = p.falling > 1e-9 * p.most; /* less is rounding: it stands by itself */
+  a->lower = !falls ? 0 : p.resistance > 0 ? p.falling / p.resistance : INFINITY;
+  double apart = fabs(a->pull - a->lower);
+  a->gap = isfinite(apart) ? apart / (a->pull + 1e-3 * s->pull) : 1;
 }
 
-static double gap(const answer *a)
-{
-  return a->pull > a->lower ? isfinite(a->pull) ? (a->pull - a->lower) / a->pull : 1 : 0;
-}
-
+/* The least pull (if wanted) at which the solver found an equilibrium, and a mechanism with its bound. */
 static thr_status solve_pull(const structure *s, const thr_limits *limits, answer *a, thr_err *err)
 {
   solution o;
-  *a = (answer){0};
-  thr_status st = solve(s, false, limits, &o, err);
-  if (st) return st;
   a->velocity = thr_calloc((size_t)s->b->n_beads, sizeof *a->velocity);
-  st = a->velocity ? mechanism(s, o.dual, a->velocity, err) : thr_nomem(err);
+  if (!a->velocity) return thr_nomem(err);
+  thr_status st = solve(s, false, limits, &o, err);
+  if (!st) st = mechanism(s, o.dual, a->velocity, err);
   if (!st) {
-    certify(s, a);
-    a->imbalance = o.imbalance;
-    a->pull = o.imbalance < 1e-5 ? fmax(0, o.objective) * s->pull : INFINITY;
+    if (!s->merged) a->pull = o.imbalance < 1e-5 ? fmax(0, o.objective) * s->pull : INFINITY;
     if (a->pull < 1e-9 * s->pull) a->pull = 0;
+    certify(s, a);
   }
   solution_destroy(&o);
   if (st) answer_destroy(a);
   return st;
 }
 
-static thr_status hopeless(const structure *s, const double (*velocity)[6], thr_err *err)
+/* What all programmes of one structure have in common. */
+typedef struct {
+  const thr_beads *b;
+  const thr_frame *f;
+  const thr_physics *physics;
+  const double *press;
+  const thr_limits *limits;
+  double least, largest; /* press of any face that is pressed */
+} task;
+
+static structure part(const task *t, double most, bool merged)
 {
-  int v = fastest(s, velocity);
-  return thr_fail(err, THR_EINFEASIBLE,
-                  "no pull holds the structure: the bead at node %s gives way however hard the cords are pulled; more friction "
-                  "(mu_bead, mu_ground), other feet or a cord that presses this bead against its neighbours may help",
-                  v < 0 ? "?" : s->f->name[v]);
+  return (structure){.b = t->b, .f = t->f, .physics = t->physics, .press = t->press, .most = most, .merged = merged};
 }
 
-/* Does any bead need hands, however hard the cords are pulled? */
-static thr_status check_feasible(const structure *s, const thr_limits *limits, double (*velocity)[6], thr_err *err)
+/* One programme: replaces the mechanism in a, if there was one. Merged, its pull is about a->pull. */
+static thr_status pull_of(const task *t, double most, bool merged, double widen, answer *a, thr_err *err)
 {
-  solution o;
-  thr_status st = solve(s, true, limits, &o, err);
+  structure s = part(t, most, merged);
+  thr_status st = structure_make(&s, widen, err);
   if (st) return st;
-  if (o.objective > 1e-5 && o.imbalance < 1e-5) {
-    st = mechanism(s, o.dual, velocity, err);
-    if (!st) st = hopeless(s, (const double(*)[6])velocity, err);
-  }
-  solution_destroy(&o);
+  if (merged) s.pull = a->pull;
+  free(a->velocity);
+  a->velocity = NULL;
+  st = solve_pull(&s, t->limits, a, err);
+  structure_destroy(&s);
   return st;
 }
 
-static thr_status lower_pull(structure *s, const thr_limits *limits, thr_holding *h, thr_err *err)
+static bool closed(const answer *a)
 {
-  answer a;
-  set_contacts(s, 1 / cos(PI / EDGES));
-  thr_status st = solve_pull(s, limits, &a, err);
-  if (!st && !isfinite(a.lower))
-    st = hopeless(s, (const double(*)[6])a.velocity, err);
-  else if (!st && !isfinite(a.pull))
-    st = check_feasible(s, limits, a.velocity, err);
+  return a->gap < CLOSE && a->residual < STILL;
+}
+
+/* Is this proof that no pull holds it: nothing closes, no cord is drawn out, the weights go down? */
+static bool gives_way(const structure *s, const double (*velocity)[6])
+{
+  powers p = balance(s, velocity);
+  if (!(least_opening(s, velocity) >= -STILL) || !(p.falling > 1e-6 * p.most)) return false;
+  for (int e = 0; e < s->b->n_faces; e++)
+    if (s->press[e] > 0 && parting(s, velocity, e) > 1e-6 * p.falling / p.most) return false;
+  return true;
+}
+
+/* THR_EINFEASIBLE with a proof that no pull holds the structure. However little the cords press a face with friction, a large
+ * pull makes its beads one: what then gives way, without cords, gives way at any pull, and nothing else does. */
+static thr_status check_feasible(const task *t, thr_err *err)
+{
+  bool friction = t->physics->mu_bead > 0;
+  structure s = part(t, friction ? 0 : INFINITY, friction);
+  solution o = {0};
+  double(*velocity)[6] = thr_calloc((size_t)t->b->n_beads, sizeof *velocity);
+  if (!velocity) return thr_nomem(err);
+  thr_status st = structure_make(&s, WIDEN, err);
   if (st) {
-    answer_destroy(&a);
+    free(velocity);
     return st;
   }
-  h->lower = a.lower;
-  h->gap = gap(&a);
-  h->residual = a.residual;
-  h->first_bead = a.lower > 0 ? fastest(s, (const double(*)[6])a.velocity) : -1;
-  h->velocity = a.velocity;
-  return THR_OK;
+  if (s.n_rows > 0) st = solve(&s, true, t->limits, &o, err);
+  if (!st && s.n_rows > 0) st = mechanism(&s, o.dual, velocity, err);
+  if (!st && gives_way(&s, (const double(*)[6])velocity)) {
+    int v = fastest(t->b, (const double(*)[6])velocity);
+    st = thr_fail(err, THR_EINFEASIBLE,
+                  "no pull holds the structure: the bead at node %s gives way however hard the cords are pulled; more friction "
+                  "(mu_bead, mu_ground), other feet or a cord that presses this bead against its neighbours may help",
+                  v < 0 ? "?" : t->f->name[v]);
+  }
+  solution_destroy(&o);
+  structure_destroy(&s);
+  free(velocity);
+  return st;
 }
 
-static thr_status upper_pull(structure *s, const thr_limits *limits, thr_holding *h, thr_err *err)
+/* With the first cap on the tensions at which the bound closes. *most: that cap. */
+static thr_status lower_pull(const task *t, double *most, answer *a, thr_err *err)
 {
-  answer a;
-  set_contacts(s, 1);
-  thr_status st = solve_pull(s, limits, &a, err);
-  if (st) return st;
-  h->upper = a.pull;
-  h->imbalance = a.imbalance;
-  answer_destroy(&a);
-  return THR_OK;
+  for (int i = 0; i < CAPS; i++) {
+    *most = t->least * cap[i];
+    bool capped = t->largest > *most;
+    thr_status st = pull_of(t, *most, false, WIDEN, a, err);
+    if (!st && capped && !closed(a) && a->pull > 0 && isfinite(a->pull)) st = pull_of(t, *most, true, WIDEN, a, err);
+    if (st || closed(a)) return st;
+    if (i == 0 && (st = check_feasible(t, err))) return st;
+    if (!capped) break;
+  }
+  return thr_fail(
+      err, THR_ESOLVER,
+      "the holding pull is not decided: the solver's numbers do not suffice (tensions along the cords span a factor of "
+      "%.0e); a smaller --mu or more cords, each with less turning, may help",
+      t->least > 0 ? t->largest / t->least : 1);
 }
 
-thr_status thr_holding_pull(const thr_beads *b, const thr_frame *f, const thr_physics *physics, const double (*wrench)[6],
+void thr_holding_press(const thr_cord *cord, int n_cords, const double *const *tension, double *press)
+{
+  for (int i = 0; i < n_cords; i++)
+    for (int k = 0; k < cord[i].n_passes; k++)
+      press[cord[i].half[k] >> 1] += tension[i][k];
+}
+
+static thr_status hold(const task *t, bool want_upper, thr_holding *h, thr_err *err)
+{
+  answer a = {0}, above = {0};
+  double most;
+  thr_status st = lower_pull(t, &most, &a, err);
+  if (!st && want_upper) st = pull_of(t, most, false, 1, &above, err);
+  if (!st) {
+    h->present = true;
+    h->lower = a.lower;
+    h->upper = above.pull;
+    h->residual = a.residual;
+    h->first_bead = a.lower > 0 ? fastest(t->b, (const double(*)[6])a.velocity) : -1;
+    h->velocity = a.velocity;
+    a.velocity = NULL;
+  }
+  answer_destroy(&a);
+  answer_destroy(&above);
+  return st;
+}
+
+thr_status thr_holding_pull(const thr_beads *b, const thr_frame *f, const thr_physics *physics, const double *press,
                             bool want_upper, const thr_limits *limits, thr_holding *out, thr_err *err)
 {
-  thr_holding h = {.present = true};
-  structure s = {.b = b, .f = f, .physics = physics, .wrench = wrench};
-  *out = (thr_holding){0};
-  thr_status st = structure_make(&s, err);
-  if (!st) st = lower_pull(&s, limits, &h, err);
-  if (!st && want_upper) st = upper_pull(&s, limits, &h, err);
-  structure_destroy(&s);
-  if (st) {
-    thr_holding_destroy(&h);
-    return st;
+  task t = {.b = b, .f = f, .physics = physics, .press = press, .limits = limits, .least = INFINITY};
+  for (int e = 0; e < b->n_faces; e++) {
+    if (press[e] > 0) t.least = fmin(t.least, press[e]);
+    t.largest = fmax(t.largest, press[e]);
   }
-  *out = h;
-  return THR_OK;
+  *out = (thr_holding){0};
+  return hold(&t, want_upper, out, err);
 }
 
 void thr_holding_destroy(thr_holding *h)

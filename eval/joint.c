@@ -5,10 +5,13 @@
 #include "eval/workers.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-const double thr_joint_step = 3.14159265358979323846 / 24;
+#define PI 3.14159265358979323846
+
+const double thr_joint_step = PI / 24;
 
 static const double STRAIGHT = 1e-6; /* rad: a turn that costs nothing */
 static const double ON_GRID = 1e-9;  /* rad: closer to a measured angle is that angle */
@@ -29,6 +32,9 @@ typedef struct {
   double *gap; /* [n - 1] error of the rate interpolated half-way to the next joint */
   double mu;
 } table;
+
+/* Whether a turn has been measured, or why the closed form stands in. */
+typedef enum { MEASURED, UNSETTLED, OUTSIDE, SHARP } verdict;
 
 /* Where an angle lies in the table: between joints i and i + 1, part of the way; or exactly at i if part is 0. part < 0: below
  * the first. */
@@ -168,10 +174,10 @@ static bool left_out(const table *t, int i, double *miss)
 static void table_finish(const work *w, thr_eval *out)
 {
   table *t = w->table;
-  double largest_miss = 0, largest_rate = 0;
+  double largest_miss = -1, largest_rate = 0;
   for (int i = 0; i < t->n; i++) {
     joint *j = &t->at[i];
-    if (j->known && j->result.status != THR_DRAG_SETTLED) out->joints_unsettled++;
+    if (j->known && j->result.status == THR_DRAG_UNSETTLED) out->joints_unsettled++;
     if (!settled(j)) continue;
     j->rate = log(j->result.ratio) / j->turn;
     thr_drag d = drag_of(w, i);
@@ -182,36 +188,35 @@ static void table_finish(const work *w, thr_eval *out)
     double here, next;
     if (!settled(&t->at[i]) || !settled(&t->at[i + 1])) continue;
     bool has_here = left_out(t, i, &here), has_next = left_out(t, i + 1, &next);
+    t->gap[i] = fmax(has_here ? fabs(here) : 0, has_next ? fabs(next) : 0);
     if (has_here || has_next)
-      t->gap[i] = fmax(has_here ? fabs(here) : 0, has_next ? fabs(next) : 0);
+      largest_miss = fmax(largest_miss, t->gap[i]);
     else
       t->gap[i] = fabs(t->at[i + 1].rate - t->at[i].rate); /* the third did not settle */
-    largest_miss = fmax(largest_miss, t->gap[i]);
   }
-  if (largest_rate > 0) out->interpolation = largest_miss / largest_rate;
+  bool judged = largest_miss >= 0 && largest_rate > 0 && t->mu > 0;
+  out->interpolation = judged ? largest_miss / largest_rate : NAN;
 }
 
-/* Bore and mu are judged at every angle alike: if no joint is in range, they are not. */
-static thr_status check_range(const table *t, const thr_drag *d, thr_err *err)
+static verdict worse(verdict a, verdict b)
 {
-  int known = 0, outside = 0;
-  for (int i = 0; i < t->n; i++) {
-    known += t->at[i].known;
-    outside += t->at[i].known && t->at[i].result.status == THR_DRAG_OUT_OF_RANGE;
-  }
-  if (known == 0 || outside < known) return THR_OK;
-  return thr_fail(err, THR_EINPUT,
-                  "bore / cord diameter = %.4g with mu = %.4g is outside what the simulation was validated for; use --method "
-                  "capstan, a smaller --mu, or a --bore nearer to twice --cord-diameter",
-                  d->bore, d->mu);
+  return a > b ? a : b;
 }
 
-/* Exponent per rad at an angle, and its error. False if the table cannot tell. */
-static bool rate_at(const table *t, double turn, double *rate, double *error)
+static verdict verdict_of(const joint *j)
+{
+  if (settled(j)) return MEASURED;
+  return j->result.status == THR_DRAG_OUT_OF_RANGE ? OUTSIDE : UNSETTLED;
+}
+
+/* Exponent per rad at an angle, and its error, if the table can tell. */
+static verdict rate_at(const table *t, double turn, double *rate, double *error)
 {
   place p = locate(t, turn);
-  if (p.i < 0 || !settled(&t->at[p.i]) || (p.part != 0 && !settled(&t->at[p.i + 1]))) return false;
+  if (p.i < 0) return SHARP;
   const joint *a = &t->at[p.i], *b = p.part != 0 ? a + 1 : a;
+  verdict v = worse(verdict_of(a), verdict_of(b));
+  if (v != MEASURED) return v;
   *rate = a->rate;
   *error = a->error;
   if (p.part > 0) {
@@ -219,23 +224,24 @@ static bool rate_at(const table *t, double turn, double *rate, double *error)
     *error += p.part * (b->error - a->error) + 4 * p.part * (1 - p.part) * t->gap[p.i];
   } else if (p.part < 0)
     *error += -p.part * fabs(b->rate - a->rate);
-  return true;
+  return MEASURED;
 }
 
-/* Exponent of one turn and its error. False if the table cannot tell: the closed form stands in, without an error of its own. */
-static bool exponent_of(const table *t, double nominal, double taut, double *exponent, double *error)
+/* Exponent of one turn and its error. If the table cannot tell, the closed form stands in, without an error of its own. */
+static verdict exponent_of(const table *t, double nominal, double taut, double *exponent, double *error)
 {
   double rate, doubt, taut_rate, taut_doubt;
   *exponent = *error = 0;
-  if (taut < STRAIGHT) return true;
-  if (!rate_at(t, nominal, &rate, &doubt) || !rate_at(t, taut, &taut_rate, &taut_doubt)) {
+  if (taut < STRAIGHT) return MEASURED;
+  verdict v = worse(rate_at(t, nominal, &rate, &doubt), rate_at(t, taut, &taut_rate, &taut_doubt));
+  if (v != MEASURED) {
     *exponent = t->mu * taut;
-    return false;
+    return v;
   }
   *exponent = fmax(0, rate * taut);
   *error =
       (doubt + fabs(rate - taut_rate)) * taut + fmax(0, -rate * taut); /* friction never helps: a ratio below 1 is an error */
-  return true;
+  return MEASURED;
 }
 
 /* Is every joint known that these angles need? */
@@ -262,22 +268,30 @@ static double error_from_slackest(const thr_eval_cord *c, const double *error)
   return fmax(side[0], side[1]);
 }
 
-static thr_status fill_cord(thr_eval_cord *c, const thr_frame *f, const thr_cord *cord, const table *t, const double *taut,
-                            double seating, thr_err *err)
+/* Leaves the cord's record as it is if some joint of it is not known. Adds its refused turns to out, its others to *measured. */
+static thr_status fill_cord(thr_eval *out, thr_eval_cord *c, const thr_frame *f, const thr_cord *cord, const table *t,
+                            const double *taut, int *measured, thr_err *err)
 {
+  int count[SHARP + 1] = {0};
   if (!cord_measured(t, f, cord, taut)) return THR_OK;
   double *exponent = thr_calloc((size_t)cord->n_passes, sizeof *exponent);
   double *error = thr_calloc((size_t)cord->n_passes, sizeof *error);
   thr_status st = exponent && error ? THR_OK : thr_nomem(err);
   for (int k = 0; k + 1 < cord->n_passes && !st; k++) {
     double nominal = thr_turn_angle(f, cord->half[k], cord->half[k + 1]);
-    if (!exponent_of(t, nominal, taut[k], &exponent[k], &error[k])) c->refused++;
+    verdict v = exponent_of(t, nominal, taut[k], &exponent[k], &error[k]);
+    count[v] += taut[k] >= STRAIGHT;
     c->turning += nominal;
     c->taut_turning += taut[k];
   }
-  if (!st) st = thr_profile_cord(c, cord->id, cord->n_passes, exponent, c->pull, seating, err);
+  if (!st) st = thr_profile_cord(c, cord->id, cord->n_passes, exponent, c->pull, out->record.physics.seating, err);
   if (!st) c->error = error_from_slackest(c, error);
   c->known = !st;
+  c->refused = count[SHARP] + count[OUTSIDE] + count[UNSETTLED];
+  out->refused_sharp += count[SHARP];
+  out->refused_outside += count[OUTSIDE];
+  out->refused_unsettled += count[UNSETTLED];
+  *measured += count[MEASURED];
   free(exponent);
   free(error);
   return st;
@@ -300,25 +314,41 @@ static thr_status raise_to_closed_form(const thr_cord *cord, thr_pull pull, cons
   return THR_OK;
 }
 
+/* No turn was measured: because none costs anything, or because all were refused. */
+static thr_status check_any_measured(const thr_eval *e, const thr_drag *d, double largest_turn, thr_err *err)
+{
+  int sharp = e->refused_sharp, outside = e->refused_outside, unsettled = e->refused_unsettled;
+  char why[3][120] = {{0}};
+  if (sharp + outside + unsettled == 0) return THR_OK;
+  if (sharp) snprintf(why[0], sizeof why[0], "; %d sharper than %.0f degrees", sharp, largest_turn * (180 / PI));
+  if (outside)
+    snprintf(why[1], sizeof why[1], "; %d out of range at bore / cord diameter = %.4g and mu = %.4g", outside, d->bore, d->mu);
+  if (unsettled) snprintf(why[2], sizeof why[2], "; %d where the cord does not slide steadily", unsettled);
+  return thr_fail(err, THR_EINPUT, "no turn could be measured%s%s%s; use %s%s%s--method capstan", why[0], why[1], why[2],
+                  outside ? "a wider --bore, " : "", unsettled ? "a finer --time-step, " : "",
+                  outside || unsettled ? "a smaller --mu, or " : "");
+}
+
 static thr_status compose(const thr_frame *f, const thr_cord *cord, const thr_eval_options *o, const thr_limits *limits, work *w,
                           double *const *taut, thr_eval *out, thr_err *err)
 {
   const thr_physics *physics = &out->record.physics;
   thr_err stop = {0};
+  int measured = 0;
   for (int i = 0; i < out->record.n_cords; i++)
     ask_for_cord(w->table, f, &cord[i], taut[i]);
   thr_status stopped = measure_joints(w, o, limits, out, &stop), st = THR_OK;
   if (stopped && stopped != THR_ELIMIT) return thr_fail(err, stopped, "%s", stop.text);
   table_finish(w, out);
-  st = check_range(w->table, &w->drag, err);
   for (int i = 0; i < out->record.n_cords && !st; i++) {
     thr_eval_cord *c = &out->record.cord[i];
-    const double seating = physics->seating;
-    st = fill_cord(c, f, &cord[i], w->table, taut[i], seating, err);
-    if (!st) st = raise_to_closed_form(&cord[i], c->pull, taut[i], physics->mu_low, seating, &out->band[0], err);
-    if (!st) st = raise_to_closed_form(&cord[i], c->pull, taut[i], physics->mu_high, seating, &out->band[1], err);
+    st = fill_cord(out, c, f, &cord[i], w->table, taut[i], &measured, err);
+    if (st || !c->known) continue;
+    st = raise_to_closed_form(&cord[i], c->pull, taut[i], physics->mu_low, physics->seating, &out->band[0], err);
+    if (!st) st = raise_to_closed_form(&cord[i], c->pull, taut[i], physics->mu_high, physics->seating, &out->band[1], err);
   }
   if (!st && stopped) return thr_fail(err, stopped, "%s", stop.text);
+  if (!st && measured == 0) st = check_any_measured(out, &w->drag, w->source->largest_turn, err);
   return st;
 }
 
@@ -343,6 +373,17 @@ static double quantized(double x)
   return rint(x * QUANTA) / QUANTA;
 }
 
+static thr_status check_bore(const thr_joint_source *source, double ratio, const thr_physics *physics, thr_err *err)
+{
+  if (ratio >= source->least_bore && ratio <= source->largest_bore) return THR_OK;
+  return thr_fail(
+      err, THR_EINPUT,
+      "--bore, %.8g mm, is %.8g times --cord-diameter, %.8g mm; the simulation was validated for %g to %g times; use a "
+      "%s --bore, or --method capstan",
+      physics->bore, physics->bore / physics->cord_diameter, physics->cord_diameter, source->least_bore, source->largest_bore,
+      ratio < source->least_bore ? "wider" : "narrower");
+}
+
 thr_status thr_joint_compose(const thr_frame *f, const thr_cord *cord, const thr_eval_options *o, const thr_limits *limits,
                              const thr_joint_source *source, thr_eval *out, thr_err *err)
 {
@@ -357,8 +398,10 @@ thr_status thr_joint_compose(const thr_frame *f, const thr_cord *cord, const thr
                       .time_step = o->time_step,
                       .iterations = o->iterations,
                       .spacing = 1};
+  thr_status st = check_bore(source, w.drag.bore, physics, err);
+  if (st) return st;
   double **taut = thr_calloc((size_t)n_cords, sizeof *taut);
-  thr_status st = taut ? taut_turns(f, cord, n_cords, physics, limits, taut, err) : thr_nomem(err);
+  st = taut ? taut_turns(f, cord, n_cords, physics, limits, taut, err) : thr_nomem(err);
   if (!st) st = table_make(&t, source->largest_turn, physics->mu, err);
   if (!st && !(w.job = thr_calloc((size_t)t.n, sizeof *w.job))) st = thr_nomem(err);
   if (!st) st = compose(f, cord, o, limits, &w, taut, out, err);
@@ -373,6 +416,10 @@ thr_status thr_joint_compose(const thr_frame *f, const thr_cord *cord, const thr
 thr_status thr_joint_method(const thr_frame *f, const thr_cord *cord, const thr_eval_options *o, const thr_limits *limits,
                             thr_eval *out, thr_err *err)
 {
-  const thr_joint_source bullet = {.measure = thr_drag_measure, .error = thr_drag_error, .largest_turn = thr_drag_largest_turn};
+  const thr_joint_source bullet = {.measure = thr_drag_measure,
+                                   .error = thr_drag_error,
+                                   .largest_turn = thr_drag_largest_turn,
+                                   .least_bore = thr_drag_least_bore,
+                                   .largest_bore = thr_drag_largest_bore};
   return thr_joint_compose(f, cord, o, limits, &bullet, out, err);
 }

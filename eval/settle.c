@@ -28,7 +28,10 @@ static const double MOVED = 0.02;           /* .. and this far from there falls 
 static const double AFTER_TIME = 3;         /* from there to the picture of the fall .. */
 static const double AFTER_MOVED = 0.5;      /* .. or when a bead has moved so many edges */
 static const double TILT_LENGTH = 0.35;     /* of an edge: over which a cord between two holes out of line leans */
+static const double FIRM = 5;
 static const int STEPS_PER_REPORT = 20;
+static const double FINER = 0.5; /* factor on time step and iterations when nothing came to rest: shorter steps help more .. */
+static const int ATTEMPTS = 3;   /* .. in all */
 
 typedef struct {
   double at[3], turn[3][3];
@@ -43,6 +46,7 @@ typedef struct {
   double dt;
   long steps, all;   /* taken; if nothing falls */
   double pull;       /* on the cords' ends */
+  double firmest;    /* force on a face above which more changes nothing */
   double *tension;   /* [n_faces] sum over the passes for a pull of 1 */
   int *body;         /* [n_beads] in the world */
   placed *now;       /* [n_beads] */
@@ -263,15 +267,26 @@ static thr_status depth(const model *m, int *out, thr_err *err)
   return THR_OK;
 }
 
-static thr_status build(model *m, const thr_physics *physics, const thr_settle_options *o, thr_err *err)
+/* Pressed by FIRM times what lets a face carry the moment of one support's share of the beads at the far end of the structure.
+ * Cords wound round many bends are a thousand times tighter at their ends, which only makes the contacts there creep. */
+static double firmest_of(const model *m, int far)
+{
+  int supports = m->b->n_feet;
+  for (int v = 0; v < m->b->n_beads; v++)
+    supports += m->b->fixed[v];
+  return FIRM * m->b->n_beads / fmax(supports, 1) * fmax(far, 1) / (0.5 * m->b->width / m->unit);
+}
+
+static thr_status build(model *m, const thr_physics *physics, const thr_settle_options *o, double finer, thr_err *err)
 {
   int iterations;
   thr_status s = depth(m, &iterations, err);
   if (s != THR_OK) return s;
+  m->firmest = firmest_of(m, iterations);
   iterations *= ITERATIONS_PER_BEAD;
   if (iterations < LEAST_ITERATIONS) iterations = LEAST_ITERATIONS;
   thr_world_options w = {.time_step = m->dt,
-                         .iterations = (int)ceil(o->iterations * iterations),
+                         .iterations = (int)ceil(o->iterations * finer * iterations),
                          .gravity = {0, 0, physics->gravity > 0 ? -1 : 0},
                          .cached_friction = true,
                          .erp = -1,
@@ -315,7 +330,7 @@ static void pull_cords(model *m)
       line[k] = to[k] - from[k] + 0.5 * TILT_LENGTH * (axis[0][k] + axis[1][k]);
       at[k] = 0.5 * (from[k] + to[k]);
     }
-    double size = m->pull * m->tension[e] / fmax(sqrt(dot(line, line)), 1e-9);
+    double size = fmin(m->pull * m->tension[e], m->firmest) / fmax(sqrt(dot(line, line)), 1e-9);
     for (int k = 0; k < 3; k++) {
       line[k] *= size;
       back[k] = -line[k];
@@ -427,9 +442,9 @@ static thr_status settle(model *m, thr_settle *out, thr_err *err)
   return THR_OK;
 }
 
-static thr_status let_off(model *m, double ramp_time, double start, thr_settle *out, thr_err *err)
+static thr_status let_off(model *m, double start, thr_settle *out, thr_err *err)
 {
-  long ramp = steps_of(m, ramp_time), rest = steps_of(m, REST_TIME);
+  long ramp = steps_of(m, RAMP_TIME), rest = steps_of(m, REST_TIME);
   for (long i = 1; i <= ramp + rest; i++) {
     int bead;
     double part = i <= ramp ? pow(REST_PULL, (double)i / (double)ramp) : 0;
@@ -456,16 +471,37 @@ static thr_status fall(model *m, thr_err *err)
   return THR_OK;
 }
 
-static thr_status run(model *m, const thr_settle_options *o, double start, thr_settle *out, thr_err *err)
+/* In a fresh world, whose time step and iterations are the options' times finer. */
+static thr_status attempt(model *m, const thr_physics *physics, const thr_settle_options *o, double finer, double start,
+                          thr_settle *out, thr_err *err)
 {
-  double ramp_time = (o->ramp > 0 ? o->ramp : 1) * RAMP_TIME;
-  m->all = steps_of(m, SETTLE_TIME + ramp_time + REST_TIME + AFTER_TIME);
+  m->dt = TIME_STEP * o->time_step * finer;
+  m->steps = 0;
+  thr_status s = build(m, physics, o, finer, err);
+  if (s != THR_OK) return s;
+  m->all = steps_of(m, SETTLE_TIME + RAMP_TIME + REST_TIME + AFTER_TIME);
   m->pull = start;
-  thr_status s = settle(m, out, err);
-  if (s == THR_OK && out->status == THR_SETTLE_HELD) s = let_off(m, ramp_time, start, out, err);
+  s = settle(m, out, err);
+  if (s == THR_OK && out->status == THR_SETTLE_HELD) s = let_off(m, start, out, err);
   if (s == THR_OK && out->status != THR_SETTLE_HELD) s = fall(m, err);
   out->gap_after = 1e3 * m->unit * widest_gap(m);
   take_poses(m, out->after);
+  return s;
+}
+
+static thr_status run(model *m, const thr_physics *physics, const thr_settle_options *o, double start, thr_settle *out,
+                      thr_err *err)
+{
+  thr_status s = THR_OK;
+  double finer = 1;
+  out->status = THR_SETTLE_NEVER_SETTLED;
+  for (int i = 0; s == THR_OK && i < ATTEMPTS && out->status == THR_SETTLE_NEVER_SETTLED; i++) {
+    thr_world_destroy(m->world);
+    m->world = NULL;
+    s = attempt(m, physics, o, finer, start, out, err);
+    out->finer = finer;
+    finer *= FINER;
+  }
   return s;
 }
 
@@ -484,7 +520,6 @@ static thr_status check(const thr_settle_options *o, thr_err *err)
     return thr_fail(err, THR_EINPUT, "structure: time step factor %g: give 0.001 to 10", o->time_step);
   if (!(o->iterations >= 0.01 && o->iterations <= 1000))
     return thr_fail(err, THR_EINPUT, "structure: iterations factor %g: give 0.01 to 1000", o->iterations);
-  if (!(o->ramp >= 0 && o->ramp <= 1000)) return thr_fail(err, THR_EINPUT, "structure: ramp factor %g: give 0 to 1000", o->ramp);
   return THR_OK;
 }
 
@@ -499,17 +534,17 @@ thr_status thr_settle_run(const thr_beads *b, const thr_frame *f, const thr_cord
   if (b->n_beads > thr_settle_largest) return THR_OK;
   size_t n = (size_t)b->n_beads;
   double mass = mean_mass(b), gravity = physics->gravity > 0 ? physics->gravity : 9.81;
-  model m = {.b = b, .f = f, .limits = limits, .unit = mean_edge(b, f), .dt = TIME_STEP * o->time_step};
+  model m = {.b = b, .f = f, .limits = limits, .unit = mean_edge(b, f)};
   m.tension = thr_calloc((size_t)b->n_faces, sizeof *m.tension);
   m.body = thr_calloc(n, sizeof *m.body);
   m.now = thr_calloc(n, sizeof *m.now);
   m.home = thr_calloc(n, sizeof *m.home);
   out->before = thr_calloc(n, sizeof *out->before);
   out->after = thr_calloc(n, sizeof *out->after);
-  s = m.tension && m.body && m.now && m.home && out->before && out->after ? build(&m, physics, o, err) : thr_nomem(err);
+  s = m.tension && m.body && m.now && m.home && out->before && out->after ? THR_OK : thr_nomem(err);
   if (s == THR_OK) {
     sum_tension(&m, cord, n_cords, tension);
-    s = run(&m, o, o->start / (mass * gravity), out, err);
+    s = run(&m, physics, o, o->start / (mass * gravity), out, err);
   }
   thr_world_destroy(m.world);
   free(m.tension);

@@ -11,7 +11,6 @@
 
 typedef struct {
   double start;                 /* N: pull at which the structure settles; the same for plans that are to be ranked */
-  double ramp;                  /* factor on the time in which the pull is let off, 0 = 1 */
   double time_step, iterations; /* factors on the protocol's, 1 */
   uint64_t seed;
 } thr_settle_options;
@@ -25,17 +24,22 @@ typedef struct {
   int first_bead;               /* that moved; -1 if none */
   double gap_before, gap_after; /* mm, widest gap between two adjacent faces, settled and at the end */
   double drift;                 /* mm, largest movement while settling */
+  double finer;                 /* factor on the options' time step and iterations with which this was found: 1, 1/2 or 1/4 */
   int n_beads;
   double (*before)[7], (*after)[7]; /* [n_beads] position of the node (m, as thr_beads.centre) and rotation from the drawn
                                        position as a quaternion (x y z w) of each bead, settled and after the fall; owned */
 } thr_settle;
 
-/* Settles for 2, then divides the pull by 1,000 over 15 x ramp (and takes off the rest) in units of the time sqrt(mean edge /
+/* Settles for 2, then divides the pull by 1,000 over 15 (and takes off the rest) in units of the time sqrt(mean edge /
  * gravity): structures and their scale models behave alike. HELD: stands without any pull. NEVER_SETTLED: a bead moved by a
- * twentieth of the mean edge under the start; index is then 0. FELL: a bead moved by a fiftieth from where it had settled (index
- * 0: only when no pull was left). Same input and seed, same bits on one machine. n beads of depth d (edges from a support): O(n
- * d) a step, 3,000 to 15,000 steps: 49 beads about 5 s, 196 about 40 s. THR_EINPUT for a start that is not positive or factors
- * out of range, THR_ELIMIT when stopped, both with out empty. n_beads above thr_settle_largest: status TOO_LARGE, nothing else.
+ * twentieth of the mean edge under the start, also with the time step and iterations halved and halved again; index is then 0.
+ * Then a larger start helps only if start was below what limit analysis asks for; else a smaller one (contacts creep under firm
+ * pulls) or a finer time_step may. A face is pressed by at most five times what one support's share of the weight can ask of it.
+ * FELL: a bead moved by a fiftieth from where it had settled (index 0: only when no pull was left). Same input and seed, same
+ * bits on one machine. n beads of depth d (edges from a support): O(n d) a step, 3,000 to 15,000 steps, more
+ * with time_step below 1 or after failed attempts: 49 beads about 5 s, 100 about 10 s. THR_EINPUT for a start that is not
+ * positive or factors out of range, THR_ELIMIT when stopped, both with out empty. n_beads above thr_settle_largest: status
+ * TOO_LARGE, nothing else.
  */
 extern const int thr_settle_largest;
 thr_status thr_settle_run(const thr_beads *b, const thr_frame *f, const thr_cord *cord, int n_cords, const double *const *tension,

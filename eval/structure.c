@@ -54,36 +54,43 @@ static thr_status profiles(const thr_frame *f, const thr_cord *cord, double mu, 
 static thr_status hold(const thr_frame *f, const thr_cord *cord, const thr_beads *b, double mu, bool want_upper,
                        const thr_limits *limits, thr_evaluation *r, const double **tension, thr_holding *out, thr_err *err)
 {
-  double(*wrench)[6] = thr_calloc((size_t)b->n_beads, sizeof *wrench);
-  thr_status st = wrench ? profiles(f, cord, mu, r, tension, err) : thr_nomem(err);
+  double *press = thr_calloc((size_t)b->n_faces, sizeof *press);
+  thr_status st = press ? profiles(f, cord, mu, r, tension, err) : thr_nomem(err);
   if (!st) {
-    thr_beads_cord_wrench(b, f, cord, r->n_cords, tension, wrench);
-    st = thr_holding_pull(b, f, &r->physics, (const double(*)[6])wrench, want_upper, limits, out, err);
+    thr_holding_press(cord, r->n_cords, tension, press);
+    st = thr_holding_pull(b, f, &r->physics, press, want_upper, limits, out, err);
   }
-  free(wrench);
+  free(press);
   return st;
+}
+
+/* One end of the band: unknown where tensions span more than numbers can hold, or than the solver can. */
+static thr_status band_end(const thr_frame *f, const thr_cord *cord, const thr_beads *b, double mu, const thr_limits *limits,
+                           thr_evaluation *r, const double **tension, double *out, thr_err *err)
+{
+  thr_err why = {0};
+  thr_holding h = {0};
+  thr_status st = hold(f, cord, b, mu, false, limits, r, tension, &h, &why);
+  *out = st == THR_OK ? h.lower : st == THR_EINFEASIBLE ? INFINITY : NAN;
+  thr_holding_destroy(&h);
+  if (st == THR_OK || st == THR_EINFEASIBLE || st == THR_EINPUT || st == THR_ESOLVER) return THR_OK;
+  return thr_fail(err, st, "%s", why.text);
 }
 
 /* Holding pull at both ends of the band of mu, on a copy of the record's cords. */
 static thr_status band(const thr_frame *f, const thr_cord *cord, const thr_beads *b, const thr_limits *limits,
-                       const thr_evaluation *r, const double **tension, double out[2], thr_err *err)
+                       const thr_evaluation *r, double out[2], thr_err *err)
 {
   thr_evaluation copy = *r;
-  const double mu[2] = {r->physics.mu_low, r->physics.mu_high};
-  if (!(copy.cord = thr_calloc((size_t)r->n_cords, sizeof *copy.cord))) return thr_nomem(err);
-  for (int i = 0; i < r->n_cords; i++)
+  const double mu[2] = {r->physics.mu_low, r->physics.mu_high}, **tension = thr_calloc((size_t)r->n_cords, sizeof *tension);
+  copy.cord = thr_calloc((size_t)r->n_cords, sizeof *copy.cord);
+  thr_status st = tension && copy.cord ? THR_OK : thr_nomem(err);
+  for (int i = 0; i < r->n_cords && !st; i++)
     copy.cord[i] = (thr_eval_cord){.pull = r->cord[i].pull, .n_passes = r->cord[i].n_passes};
-  thr_status st = THR_OK;
-  for (int i = 0; i < 2 && !st; i++) {
-    thr_err why = {0};
-    thr_holding h = {0};
-    st = hold(f, cord, b, mu[i], false, limits, &copy, tension, &h, &why);
-    out[i] = st == THR_EINFEASIBLE ? INFINITY : h.lower;
-    if (st == THR_EINFEASIBLE) st = THR_OK;
-    if (st && err) *err = why;
-    thr_holding_destroy(&h);
-  }
-  thr_evaluation_destroy(&copy);
+  for (int i = 0; i < 2 && !st; i++)
+    st = band_end(f, cord, b, mu[i], limits, &copy, tension, &out[i], err);
+  free(tension);
+  if (copy.cord) thr_evaluation_destroy(&copy);
   return st;
 }
 
@@ -127,7 +134,7 @@ static thr_status run(const thr_frame *f, const thr_cord *cord, const thr_beads 
     const thr_settle_options settle = {.start = start, .time_step = o->time_step, .iterations = o->iterations, .seed = o->seed};
     st = thr_settle_run(b, f, cord, r->n_cords, tension, &r->physics, &settle, limits, &out->settle, err);
   }
-  if (!st && b->n_beads <= BAND_LARGEST) st = band(f, cord, b, limits, r, tension, out->band, err);
+  if (!st && b->n_beads <= BAND_LARGEST) st = band(f, cord, b, limits, r, out->band, err);
   fill_record(r, out->holding.lower);
   return st;
 }

@@ -26,19 +26,16 @@ thr_status thr_world_create(thr_world **w, const thr_world_options *o, thr_err *
 void thr_world_destroy(thr_world *w);
 
 /* A body of one or more convex hulls. points: all hulls' corners one after the other in the body's own frame (origin = mass
- * centre), n_points[h] of each. mass 0 = static. inertia: principal moments in the body frame, NULL = from the hulls' bounding
- * boxes. pose: position and quaternion (x y z w). anchor: keep friction anchors. group/mask: collision filter bits. *body
- * receives its index. */
+ * centre), n_points[h] of each. mass 0 = static; moments of inertia from the hulls' bounding
+ * boxes; no collision margin. pose: position and quaternion (x y z w). group/mask: collision filter bits. *body receives its
+ * index. */
 typedef struct {
   int n_hulls;
   const int *n_points;
   const double (*points)[3];
   double mass;
-  const double *inertia; /* [3] or NULL */
   double pose[7];
   double friction; /* combined friction is the product of the two bodies' */
-  double margin;   /* collision margin of the hulls */
-  bool anchor;
   int group, mask;
 } thr_world_hulls;
 thr_status thr_world_add_hulls(thr_world *w, const thr_world_hulls *h, int *body, thr_err *err) THR_MUST_CHECK;
@@ -55,7 +52,7 @@ typedef struct {
   double inertia[3];
   double pose[7];
   double friction;
-  bool anchor;
+  bool anchor; /* keep friction anchors */
 } thr_world_boxes;
 thr_status thr_world_add_boxes(thr_world *w, const thr_world_boxes *b, int *body, thr_err *err) THR_MUST_CHECK;
 

@@ -23,9 +23,9 @@ typedef struct {
   double other_force;  /* N at the other end with both pulled, else 0 */
   double loss;         /* friction loss 1 - tension[slackest] / force */
   double work;         /* J per metre of cord drawn out at every pulled end: force (+ other_force) x 1 m */
-  double error;        /* the force is right within a factor exp(+-error); 0 for closed forms */
+  double error;        /* the force is right within a factor exp(+-error) but for what refused turns add; 0 for closed forms */
   int slackest;        /* pass with the least tension, counted from 0 */
-  int refused;         /* turns outside the simulation's validated range: the closed form stands in for them */
+  int refused;         /* turns not measured (too sharp, out of range, unsteady): the closed form stands in for them */
   double *tension;     /* [n_passes] N; owned */
 } thr_eval_cord;
 

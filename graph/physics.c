@@ -16,9 +16,11 @@ const thr_physics_field thr_physics_fields[] = {
     [MU_HIGH] = {FIELD(mu_high), 0, 3, false, "", "upper end of the band of mu (0: one and a half mu)"},
     [MU_BEAD] = {FIELD(mu_bead), 0, 2, false, "", "friction coefficient, bead on bead"},
     [MU_GROUND] = {FIELD(mu_ground), 0, 2, false, "", "friction coefficient, foot on ground"},
-    [CORD_DIAMETER] = {FIELD(cord_diameter), 0, 1e9, false, "mm", "thickness of the cord (0: 1/20 of the median edge)"},
+    [CORD_DIAMETER] = {FIELD(cord_diameter), 0, 1e9, false, "mm",
+                       "thickness of the cord (0: 1/20 of the median edge, at most 1/4 of the shortest)"},
     [BORE] = {FIELD(bore), 0, 1e9, false, "mm", "inner diameter of the channels (0: twice the cord)"},
-    [BEAD_DIAMETER] = {FIELD(bead_diameter), 0, 1e9, false, "mm", "width of a bead's arm (0: 0.35 of the median edge)"},
+    [BEAD_DIAMETER] = {FIELD(bead_diameter), 0, 1e9, false, "mm",
+                       "width of a bead's arm (0: 0.35 of the median edge, at least 1.5 bores)"},
     [DENSITY] = {FIELD(density), 0, 25, false, "g/cm3", "density of the beads' material"},
     [BEAD_MASS] = {FIELD(bead_mass), 0, 1e9, false, "g", "mass of every bead (0: density x volume)"},
     [SEATING] = {FIELD(seating), 0, 1e9, true, "N", "tension that must reach the slackest point of every cord"},
@@ -161,8 +163,10 @@ static thr_status only_fields(const thr_json *object, thr_err *err)
   while (thr_json_next(object, &iter, &key, &value)) {
     bool text = strcmp(key, "preset") == 0 || strcmp(key, "note") == 0;
     const thr_physics_field *field = thr_physics_find(key);
-    if (!text && !(field && strcmp(field->key, key) == 0))
-      return thr_fail(err, THR_EINPUT, "%.60s: no such quantity; `thread eval --help` lists them (with _ for - here)", key);
+    if (!text && field && strcmp(field->key, key) != 0)
+      return thr_fail(err, THR_EINPUT, "%.60s: no such quantity; did you mean %s?", key, field->key);
+    if (!text && !field)
+      return thr_fail(err, THR_EINPUT, "%.60s: no such quantity; `thread eval --help` lists them (here with _ for -)", key);
     if (text && !thr_json_string(value)) return thr_fail(err, THR_EINPUT, "%s: not text", key);
   }
   return THR_OK;

@@ -1,4 +1,4 @@
-/* Finding odd cuts that a fractional point violates, and keeping them. Internal to lp/. */
+/* Finding odd cuts that a fractional point violates, and keeping them. Internal to lp/ and tortuosity/. */
 #ifndef THR_ODDCUT_H
 #define THR_ODDCUT_H
 

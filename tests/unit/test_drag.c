@@ -176,7 +176,7 @@ START_TEST(what_was_not_validated_is_not_measured)
   d.mu = 1.01;
   ck_assert_int_eq(measure(&d).status, THR_DRAG_OUT_OF_RANGE);
   d = joint(&turn, 0.2);
-  d.bore = 1.001;
+  d.bore = thr_drag_least_bore - 1e-9;
   ck_assert_int_eq(measure(&d).status, THR_DRAG_OUT_OF_RANGE);
   turn = 110 * DEGREE; /* deeply wedged */
   d.bore = 1.1;
@@ -187,6 +187,19 @@ START_TEST(what_was_not_validated_is_not_measured)
   thr_drag_result r = measure(&d);
   ck_assert_int_eq(r.status, THR_DRAG_OUT_OF_RANGE);
   ck_assert(r.ratio == 0 && r.steps == 0);
+}
+END_TEST
+
+/* Ten times the validated step: the chain shakes. A number is there all the same, but it says that it is none. */
+START_TEST(steps_too_long_never_settle)
+{
+  double turn = 90 * DEGREE;
+  thr_drag d = joint(&turn, 0.2);
+  ck_assert_int_eq(measure(&d).status, THR_DRAG_SETTLED);
+  d.time_step = 10;
+  thr_drag_result r = measure(&d);
+  ck_assert_int_eq(r.status, THR_DRAG_UNSETTLED);
+  ck_assert(r.ratio > 0 && r.steps > 0);
 }
 END_TEST
 
@@ -262,6 +275,7 @@ int main(void)
   ADD_TEST(s, 60, tight_bores_wedge);
   ADD_TEST(s, 10, nonsense_is_refused);
   ADD_TEST(s, 10, what_was_not_validated_is_not_measured);
+  ADD_TEST(s, 30, steps_too_long_never_settle);
   ADD_TEST(s, 20, tells_how_far_it_is_and_stops);
   ADD_TEST(s, 30, no_memory_is_reported);
   ADD_TEST(s, 10, protocol_names_its_numbers);

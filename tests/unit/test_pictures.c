@@ -173,6 +173,48 @@ START_TEST(extreme_tensions)
 }
 END_TEST
 
+/* Lines of the heading may break anywhere between words. */
+static bool says(const char *svg, const char *words)
+{
+  thr_text flat = {0};
+  for (const char *s = svg; *s; s++) {
+    if (*s == '<')
+      s += strcspn(s, ">");
+    else
+      thr_text_append_bytes(&flat, *s == '\n' ? " " : s, 1);
+    if (!*s) break;
+  }
+  char *to = flat.data;
+  for (const char *s = flat.data; *s; s++)
+    if (*s != ' ' || s[1] != ' ') *to++ = *s;
+  *to = '\0';
+  bool there = strstr(flat.data, words) != NULL;
+  thr_text_destroy(&flat);
+  return there;
+}
+
+/* A turn by closed form takes the upper end off the error, in the words about the method too. */
+START_TEST(turns_by_closed_form_are_said)
+{
+  thr_plan p = path_plan(4, 2);
+  fill(&p, 0, 8);
+  fill(&p, 1, 3);
+  p.evaluation.cord[1].error = log(1.25);
+  thr_text svg = plot(&p);
+  ck_assert(says(svg.data, "each within 25 %"));
+  ck_assert(!says(svg.data, "closed form"));
+  thr_text_destroy(&svg);
+  p.evaluation.cord[0].refused = 2;
+  p.evaluation.cord[1].refused = 1;
+  svg = plot(&p);
+  ck_assert(says(svg.data, "error at least 25 %: 3 of the turns by closed form"));
+  ck_assert(says(svg.data, "some turns by closed form"));
+  ck_assert(!says(svg.data, "within"));
+  thr_text_destroy(&svg);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
 START_TEST(without_a_usable_evaluation)
 {
   thr_plan p = path_plan(4, 2);
@@ -437,6 +479,7 @@ int main(void)
   ADD_TEST(s, 10, small_ratios_are_drawn_from_zero);
   ADD_TEST(s, 20, many_cords);
   ADD_TEST(s, 10, extreme_tensions);
+  ADD_TEST(s, 10, turns_by_closed_form_are_said);
   ADD_TEST(s, 10, without_a_usable_evaluation);
   ADD_TEST(s, 10, overview_shows_tension);
   ADD_TEST(s, 10, only_faces_that_can_be_seen);

@@ -74,17 +74,17 @@ static thr_status measure(const cantilever *c, double start, pulls *out, thr_err
 {
   int n = c->cord.n_passes;
   double *tension = thr_calloc((size_t)n, sizeof *tension);
-  double(*wrench)[6] = thr_calloc((size_t)n + 1, sizeof *wrench);
+  double *press = thr_calloc((size_t)n, sizeof *press);
   const double *profile[1] = {tension};
   thr_holding h = {0};
   thr_settle s = {0};
   thr_limits none = {0};
-  thr_status st = tension && wrench ? THR_OK : thr_nomem(err);
+  thr_status st = tension && press ? THR_OK : thr_nomem(err);
   for (int i = 0; i < n && !st; i++)
     tension[i] = 1;
   if (!st) {
-    thr_beads_cord_wrench(&c->beads, &c->frame, &c->cord, 1, profile, wrench);
-    st = thr_holding_pull(&c->beads, &c->frame, &c->physics, (const double(*)[6])wrench, true, &none, &h, err);
+    thr_holding_press(&c->cord, 1, profile, press);
+    st = thr_holding_pull(&c->beads, &c->frame, &c->physics, press, true, &none, &h, err);
   }
   thr_settle_options o = {.start = start > 0 ? start : 2 * h.lower, .time_step = 1, .iterations = 1, .seed = 1};
   if (!st) st = thr_settle_run(&c->beads, &c->frame, &c->cord, 1, profile, &c->physics, &o, &none, &s, err);
@@ -92,7 +92,7 @@ static thr_status measure(const cantilever *c, double start, pulls *out, thr_err
   thr_holding_destroy(&h);
   thr_settle_destroy(&s);
   free(tension);
-  free(wrench);
+  free(press);
   return st;
 }
 

@@ -1,0 +1,34 @@
+/* The table of `thread compare`: a row per value, a column per plan. */
+#ifndef THR_COMPARE_ROWS_H
+#define THR_COMPARE_ROWS_H
+
+#include "cli/pull.h"
+
+typedef struct {
+  const char *path;
+  thr_plan plan;
+  thr_eval eval[THR_N_METHODS]; /* record.present only where the method ran and did not fail */
+  double index[2];              /* of the simulation at the settings given, and finer; NAN = none */
+} compare_entry;
+
+typedef struct {
+  const char *label, *key;
+  double (*value)(const compare_entry *); /* NAN = not known */
+  bool rate;                              /* less is better; rows that say what a plan is, not how good, mark nothing */
+  int decimals;                           /* -1: whole number, -k: k significant digits */
+  thr_method method;                      /* that must be wanted */
+} compare_row;
+
+extern const compare_row compare_rows[];
+extern const int compare_n_rows;
+
+/* Largest pull by a method, N; NAN if a cord is not known. */
+double compare_largest(const compare_entry *e, thr_method method);
+
+/* Is row r of plan i the best of n? Within a millionth is a tie: both are. */
+bool compare_is_best(const compare_entry *e, int n, const compare_row *r, int i);
+
+/* A space, 16 columns, and the mark of the best. */
+void compare_put_cell(thr_text *t, const compare_row *r, double value, bool best);
+
+#endif

@@ -1,0 +1,404 @@
+/* Lagrangean bounds on turning, in integers. */
+#include "graph/turning_proof.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+__extension__ typedef __int128 wide; /* see check_sizes */
+
+/* ---- memory ---- */
+
+static void destroy_sets(thr_turning_set *set, int n)
+{
+  for (int i = 0; set && i < n; i++)
+    free(set[i].member);
+  free(set);
+}
+
+void thr_turning_dual_destroy(thr_turning_dual *d)
+{
+  free(d->potential);
+  free(d->ends);
+  destroy_sets(d->odd, d->n_odd);
+  destroy_sets(d->group, d->n_groups);
+  for (int i = 0; d->partition && i < d->n_partitions; i++)
+    free(d->partition[i].block);
+  free(d->partition);
+  *d = (thr_turning_dual){0};
+}
+
+void thr_turning_proof_destroy(thr_turning_proof *p)
+{
+  for (int i = 0; p->dual && i < p->n_duals; i++)
+    thr_turning_dual_destroy(&p->dual[i]);
+  free(p->dual);
+  free(p->node);
+  *p = (thr_turning_proof){0};
+}
+
+/* ---- the bound of one leaf ---- */
+
+typedef struct {
+  const thr_turning_columns *c;
+  const thr_turning_dual *d;
+  wide *reduced; /* [n_columns] price less what the multipliers take */
+  bool *member;  /* [2 * n_edges + n_components] all false between sets */
+  wide constant;
+} leaf;
+
+static thr_status check_set(const char *what, int i, const thr_turning_set *s, int limit, thr_err *err)
+{
+  if (s->value < 0) return thr_fail(err, THR_EVIOLATED, "turning proof: %s %d: multiplier is negative", what, i);
+  if (s->n < 1) return thr_fail(err, THR_EVIOLATED, "turning proof: %s %d: empty", what, i);
+  for (int j = 0; j < s->n; j++)
+    if (s->member[j] < 0 || s->member[j] >= limit || (j > 0 && s->member[j] <= s->member[j - 1]))
+      return thr_fail(err, THR_EVIOLATED, "turning proof: %s %d: member %d is out of range or out of order", what, i,
+                      s->member[j]);
+  return THR_OK;
+}
+
+/* Equations: every half-edge's, and the ends of every component. */
+static void take_potentials(leaf *k)
+{
+  const thr_turning_columns *c = k->c;
+  for (int j = 0; j < c->n_columns; j++) {
+    int a = c->half[j][0], b = c->half[j][1];
+    wide sum = k->d->potential[a];
+    if (b >= 0) sum += k->d->potential[b];
+    if (j >= c->first_end && j < c->first_back) sum += k->d->ends[c->component[thr_tail(c->f, a)]];
+    k->reduced[j] = (wide)c->weight[j] + (j >= c->first_extra && j < c->first_end ? sum : -sum);
+  }
+  for (int h = 0; h < 2 * c->f->n_edges; h++)
+    k->constant += (wide)c->task->cover * k->d->potential[h];
+  for (int i = 0; c->task->end_allowed && i < c->n_components; i++)
+    k->constant += 2 * (wide)c->task->cords * k->d->ends[i];
+}
+
+/* Takes value off the turns at half-edge h that leave the marked set. */
+static void take_turns(leaf *k, int h, bool by_edge, int64_t value)
+{
+  const thr_frame *f = k->c->f;
+  int v = thr_tail(f, h);
+  for (int i = f->first[v]; i < f->first[v + 1]; i++) {
+    int g = f->half[i];
+    if (g != h && !k->member[by_edge ? g >> 1 : g]) k->reduced[thr_turning_column(k->c, h, g)] -= value;
+  }
+}
+
+static void take_odd(leaf *k, const thr_turning_set *s)
+{
+  const thr_turning_columns *c = k->c;
+  int darts = 2 * c->f->n_edges;
+  for (int j = 0; j < s->n; j++) {
+    int h = s->member[j];
+    if (h >= darts) {
+      for (int e = c->first_end; e < c->first_back; e++)
+        if (c->component[thr_tail(c->f, c->half[e][0])] == h - darts && !k->member[c->half[e][0]]) k->reduced[e] -= s->value;
+      continue;
+    }
+    take_turns(k, h, false, s->value);
+    if (!k->member[h ^ 1]) k->reduced[c->first_extra + (h >> 1)] -= s->value;
+    if (c->end_column[h] >= 0 && !k->member[darts + c->component[thr_tail(c->f, h)]]) k->reduced[c->end_column[h]] -= s->value;
+  }
+  k->constant += s->value;
+}
+
+static thr_status run_odd(leaf *k, int i, thr_err *err)
+{
+  const thr_turning_set *s = &k->d->odd[i];
+  int darts = 2 * k->c->f->n_edges, sum = 0;
+  thr_status st = check_set("odd set", i, s, darts + k->c->n_components, err);
+  if (st) return st;
+  for (int j = 0; j < s->n; j++)
+    sum += s->member[j] < darts ? k->c->task->cover % 2 : 0;
+  if (sum % 2 == 0) return thr_fail(err, THR_EVIOLATED, "turning proof: odd set %d: the passes and ends in it may be even", i);
+  for (int j = 0; j < s->n; j++)
+    k->member[s->member[j]] = true;
+  take_odd(k, s);
+  for (int j = 0; j < s->n; j++)
+    k->member[s->member[j]] = false;
+  return THR_OK;
+}
+
+/* Must every plan of the task connect the group with the rest, or put ends in it? */
+static thr_status check_group(const leaf *k, int i, const thr_turning_set *s, thr_err *err)
+{
+  const thr_turning_columns *c = k->c;
+  if (c->task->end_allowed) return THR_OK; /* a cord through the group has two ends */
+  if (c->task->cords > 1) return thr_fail(err, THR_EVIOLATED, "turning proof: group %d: several closed cords need not meet", i);
+  int own = c->component[c->f->edge[s->member[0]][0]], edges = 0;
+  for (int j = 0; j < s->n; j++)
+    if (c->component[c->f->edge[s->member[j]][0]] != own)
+      return thr_fail(err, THR_EVIOLATED, "turning proof: group %d: edges of two components", i);
+  for (int e = 0; e < c->f->n_edges; e++)
+    edges += c->component[c->f->edge[e][0]] == own;
+  if (edges == s->n) return thr_fail(err, THR_EVIOLATED, "turning proof: group %d: a whole component", i);
+  return THR_OK;
+}
+
+static thr_status run_group(leaf *k, int i, thr_err *err)
+{
+  const thr_turning_set *s = &k->d->group[i];
+  thr_status st = check_set("group", i, s, k->c->f->n_edges, err);
+  if (!st) st = check_group(k, i, s, err);
+  if (st) return st;
+  for (int j = 0; j < s->n; j++)
+    k->member[s->member[j]] = true;
+  for (int j = 0; j < s->n; j++)
+    for (int side = 0; side < 2; side++) {
+      int h = 2 * s->member[j] + side;
+      take_turns(k, h, true, s->value);
+      if (k->c->end_column[h] >= 0) k->reduced[k->c->end_column[h]] -= s->value;
+    }
+  for (int j = 0; j < s->n; j++)
+    k->member[s->member[j]] = false;
+  k->constant += 2 * (wide)s->value;
+  return THR_OK;
+}
+
+int thr_turning_blocks_at(const thr_turning_columns *c, const int *block, int v, int *odd, bool *even)
+{
+  const thr_frame *f = c->f;
+  const int *half = f->half + f->first[v];
+  int d = thr_degree(f, v), blocks = 0;
+  if (odd) *odd = 0;
+  for (int i = 0; i < d; i++) {
+    int same = 0, first = i;
+    for (int k = 0; k < d; k++) {
+      if (block[half[k] >> 1] != block[half[i] >> 1]) continue;
+      same++;
+      if (k < first) first = k;
+    }
+    if (even) even[i] = c->task->cover % 2 == 0 || same % 2 == 0;
+    if (first < i) continue;
+    blocks++;
+    if (odd) *odd += c->task->cover % 2 && same % 2;
+  }
+  return blocks;
+}
+
+/* value * (b - 1) / (b * parts), rounded up: what is taken too much only lowers the bound. */
+static int64_t share_of(int64_t value, int b, int parts)
+{
+  wide whole = (wide)value * (b - 1), by = (wide)b * parts;
+  return (int64_t)((whole + by - 1) / by);
+}
+
+static void take_partition(leaf *k, const thr_turning_partition *p, bool *even)
+{
+  const thr_turning_columns *c = k->c;
+  const thr_frame *f = c->f;
+  for (int v = 0; v < f->n_nodes; v++) {
+    const int *half = f->half + f->first[v];
+    int odd, b = thr_turning_blocks_at(c, p->block, v, &odd, even);
+    if (b < 2) continue;
+    int64_t share = share_of(p->value, b, 1), part = share_of(p->value, b, 2);
+    for (int i = 0; i < thr_degree(f, v); i++) {
+      for (int j = i + 1; j < thr_degree(f, v); j++)
+        if (p->block[half[i] >> 1] != p->block[half[j] >> 1]) k->reduced[thr_turning_column(c, half[i], half[j])] -= share;
+      if (even[i]) k->reduced[c->first_extra + (half[i] >> 1)] -= part;
+    }
+    k->constant -= (wide)part * odd;
+  }
+}
+
+/* Number of blocks, or -1: a number out of range or not in use, or a block in two components. home is scratch, [n_edges]. */
+static int count_blocks(const thr_turning_columns *c, const int *block, int *home)
+{
+  int m = c->f->n_edges, blocks = 0;
+  for (int e = 0; e < m; e++)
+    home[e] = -1;
+  for (int e = 0; e < m; e++) {
+    int b = block[e], own = c->component[c->f->edge[e][0]];
+    if (b < 0 || b >= m || (home[b] >= 0 && home[b] != own)) return -1;
+    home[b] = own;
+    if (b >= blocks) blocks = b + 1;
+  }
+  for (int b = 0; b < blocks; b++)
+    if (home[b] < 0) return -1;
+  return blocks;
+}
+
+static thr_status run_partition(leaf *k, int i, thr_err *err)
+{
+  const thr_turning_columns *c = k->c;
+  const thr_turning_partition *p = &k->d->partition[i];
+  if (p->value < 0) return thr_fail(err, THR_EVIOLATED, "turning proof: partition %d: multiplier is negative", i);
+  if (c->task->end_allowed || c->task->cords > 1)
+    return thr_fail(err, THR_EVIOLATED, "turning proof: partition %d: holds for one closed cord per component only", i);
+  int *home = thr_calloc((size_t)c->f->n_edges, sizeof *home);
+  bool *even = thr_calloc((size_t)c->f->n_edges, sizeof *even);
+  thr_status st = home && even ? THR_OK : thr_nomem(err);
+  int blocks = st ? 0 : count_blocks(c, p->block, home);
+  if (blocks < 0) st = thr_fail(err, THR_EVIOLATED, "turning proof: partition %d: bad block numbers", i);
+  if (!st) {
+    take_partition(k, p, even);
+    k->constant += (wide)p->value * (blocks - c->n_components);
+  }
+  free(home);
+  free(even);
+  return st;
+}
+
+/* n / 2^THR_LENGTH_BITS, rounded down. */
+static wide shifted_down(wide n)
+{
+  wide one = (wide)1 << THR_LENGTH_BITS;
+  return n / one - (n % one < 0);
+}
+
+/* Least value over the box. With multipliers below 2^58 and sets below 2^62 together, reduced prices stay below 2^63, and nothing
+ * here comes near 2^127. */
+static int64_t least_over_box(const leaf *k, const int *low, const int *high)
+{
+  const thr_turning_columns *c = k->c;
+  int64_t length = c->extra_limit < 0 ? 0 : k->d->length;
+  wide total = k->constant - shifted_down((wide)length * c->extra_limit) - (length > 0);
+  for (int j = 0; j < c->n_columns; j++) {
+    if (low[j] > high[j]) return INT64_MAX;
+    wide reduced = k->reduced[j];
+    if (j >= c->first_extra && j < c->first_end && length > 0)
+      reduced += shifted_down((wide)length * c->length[j - c->first_extra]);
+    total += reduced * (reduced < 0 ? high[j] : low[j]);
+  }
+  return total > INT64_MAX ? INT64_MAX : total < INT64_MIN ? INT64_MIN : (int64_t)total;
+}
+
+/* Nothing that overflows sums. */
+static thr_status check_sizes(const thr_turning_columns *c, const thr_turning_dual *d, thr_err *err)
+{
+  const int64_t most = (int64_t)1 << 58;
+  bool ok = d->length >= 0 && d->length <= most;
+  wide sets = 0;
+  for (int h = 0; h < 2 * c->f->n_edges; h++)
+    ok &= d->potential[h] >= -most && d->potential[h] <= most;
+  for (int i = 0; i < c->n_components; i++)
+    ok &= d->ends[i] >= -most && d->ends[i] <= most;
+  for (int i = 0; i < d->n_odd; i++)
+    sets += d->odd[i].value;
+  for (int i = 0; i < d->n_groups; i++)
+    sets += d->group[i].value;
+  for (int i = 0; i < d->n_partitions; i++)
+    sets += d->partition[i].value;
+  if (ok && sets <= 8 * (wide)most) return THR_OK;
+  return thr_fail(err, THR_EVIOLATED, "turning proof: a multiplier is too large, or that of the length negative");
+}
+
+thr_status thr_turning_dual_bound(const thr_turning_columns *c, const thr_turning_dual *d, const int *low, const int *high,
+                                  int64_t *bound, thr_err *err)
+{
+  leaf k = {.c = c, .d = d};
+  *bound = INT64_MIN;
+  k.reduced = thr_calloc((size_t)c->n_columns, sizeof *k.reduced);
+  k.member = thr_calloc(2 * (size_t)c->f->n_edges + (size_t)c->n_components, sizeof *k.member);
+  thr_status st = k.reduced && k.member ? THR_OK : thr_nomem(err);
+  if (!st) st = check_sizes(c, d, err);
+  if (!st) take_potentials(&k);
+  for (int i = 0; i < d->n_odd && !st; i++)
+    st = run_odd(&k, i, err);
+  for (int i = 0; i < d->n_groups && !st; i++)
+    st = run_group(&k, i, err);
+  for (int i = 0; i < d->n_partitions && !st; i++)
+    st = run_partition(&k, i, err);
+  if (!st) *bound = least_over_box(&k, low, high);
+  free(k.reduced);
+  free(k.member);
+  return st;
+}
+
+/* ---- the tree ---- */
+
+/* Column of a branch, or -1. */
+static int branch_column(const thr_turning_columns *c, const thr_turning_node *n)
+{
+  int a = n->a, b = n->b, darts = 2 * c->f->n_edges;
+  if (a < 0 || a >= darts || b >= darts) return -1;
+  if (b < 0) return b == -1 ? c->end_column[a] : -1;
+  if (b == (a ^ 1)) return c->first_extra + (a >> 1);
+  for (int j = c->first_back; a == b && j < c->n_columns; j++)
+    if (c->half[j][0] == a) return j;
+  if (a == b) return -1;
+  return thr_tail(c->f, a) == thr_tail(c->f, b) ? thr_turning_column(c, a, b) : -1;
+}
+
+/* parent[i] of every node; every node but the root is the child of exactly one before it, so walking up ends. */
+static thr_status link_tree(const thr_turning_columns *c, const thr_turning_proof *p, int *parent, thr_err *err)
+{
+  for (int i = 0; i < p->n_nodes; i++)
+    parent[i] = -1;
+  for (int i = 0; i < p->n_nodes; i++) {
+    const thr_turning_node *n = &p->node[i];
+    int child[2] = {n->low, n->high};
+    if (i > 0 && parent[i] < 0) return thr_fail(err, THR_EVIOLATED, "turning proof: node %d hangs nowhere in the tree", i);
+    if (n->low == 0 && n->high == 0) {
+      if (n->dual < 0 || n->dual >= p->n_duals)
+        return thr_fail(err, THR_EVIOLATED, "turning proof: node %d: no multipliers %d", i, n->dual);
+      continue;
+    }
+    if (branch_column(c, n) < 0) return thr_fail(err, THR_EVIOLATED, "turning proof: node %d branches on nothing", i);
+    for (int k = 0; k < 2; k++) {
+      if (child[k] <= i || child[k] >= p->n_nodes || parent[child[k]] >= 0)
+        return thr_fail(err, THR_EVIOLATED, "turning proof: node %d: bad child %d", i, child[k]);
+      parent[child[k]] = i;
+    }
+  }
+  return THR_OK;
+}
+
+/* Narrows the box by the branches above node i; or, with restore, widens it again. */
+static void walk_up(const thr_turning_columns *c, const thr_turning_proof *p, const int *parent, int i, bool restore, int *low,
+                    int *high)
+{
+  for (int above = parent[i]; above >= 0; i = above, above = parent[i]) {
+    const thr_turning_node *n = &p->node[above];
+    int j = branch_column(c, n);
+    if (restore) {
+      low[j] = 0;
+      high[j] = thr_turning_most(c, j);
+    } else if (n->low == i) {
+      if (n->value < high[j]) high[j] = n->value;
+    } else if (n->value >= low[j]) {
+      low[j] = n->value < INT_MAX ? n->value + 1 : INT_MAX;
+    }
+  }
+}
+
+static thr_status check_dual_shape(const thr_turning_proof *p, thr_err *err)
+{
+  if (p->n_nodes < 1) return thr_fail(err, THR_EVIOLATED, "turning proof: no tree");
+  for (int i = 0; i < p->n_duals; i++)
+    if (!p->dual[i].potential || !p->dual[i].ends) return thr_fail(err, THR_EVIOLATED, "turning proof: no multipliers");
+  return THR_OK;
+}
+
+thr_status thr_turning_proof_check(const thr_frame *f, const thr_turning_task *task, const thr_turning_proof *p, double *bound,
+                                   thr_err *err)
+{
+  thr_turning_columns c;
+  int64_t least = INT64_MAX;
+  *bound = 0;
+  thr_status st = thr_turning_columns_init(&c, f, task, err);
+  if (st) return st;
+  int *parent = thr_calloc((size_t)p->n_nodes, sizeof *parent);
+  int *low = thr_calloc((size_t)c.n_columns, sizeof *low), *high = thr_calloc((size_t)c.n_columns, sizeof *high);
+  st = parent && low && high ? check_dual_shape(p, err) : thr_nomem(err);
+  if (!st) st = link_tree(&c, p, parent, err);
+  for (int j = 0; j < c.n_columns && !st; j++)
+    high[j] = thr_turning_most(&c, j);
+  for (int i = 0; i < p->n_nodes && !st; i++) {
+    int64_t here;
+    if (p->node[i].low) continue;
+    walk_up(&c, p, parent, i, false, low, high);
+    st = thr_turning_dual_bound(&c, &p->dual[p->node[i].dual], low, high, &here, err);
+    walk_up(&c, p, parent, i, true, low, high);
+    if (!st && here < least) least = here;
+  }
+  if (!st && least > 0) *bound = ldexp((double)least, -THR_TURNING_BITS);
+  free(parent);
+  free(low);
+  free(high);
+  thr_turning_columns_destroy(&c);
+  return st;
+}

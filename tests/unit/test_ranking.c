@@ -1,0 +1,117 @@
+/* Rankings: ties are what the intervals allow, and no more. */
+#include "cli/ranking.c"
+#include "tests/support.h"
+
+enum { MOST = 7 };
+
+static ranking ranking_of(int n, const double (*interval)[3])
+{
+  ranking r = {.title = "nothing", .key = "nothing", .unit = " N"};
+  ck_assert_int_eq(ranking_init(&r, n, NULL), THR_OK);
+  for (int i = 0; i < n; i++) {
+    r.low[i] = interval[i][0];
+    r.value[i] = interval[i][1];
+    r.high[i] = interval[i][2];
+  }
+  ranking_make(&r);
+  return r;
+}
+
+static bool overlap(const ranking *r, int i, int k)
+{
+  return r->low[i] <= r->high[k] && r->low[k] <= r->high[i];
+}
+
+/* An interval that reaches past its neighbour ties with what it reaches, and all between. */
+START_TEST(a_wide_interval_ties_with_all_it_reaches)
+{
+  const double interval[4][3] = {{60.6, 100, 165}, {148.5, 150, 151.5}, {153.5, 155, 156.5}, {170, 171, 172}};
+  const int rank[4] = {1, 1, 1, 4};
+  ranking r = ranking_of(4, interval);
+  for (int i = 0; i < 4; i++)
+    ck_assert_int_eq(r.rank[i], rank[i]);
+  ranking_destroy(&r);
+}
+END_TEST
+
+/* No upper end: all that follow tie. No value: no rank. */
+START_TEST(open_ends_and_unknown_plans)
+{
+  const double interval[4][3] = {{9, 10, INFINITY}, {NAN, NAN, NAN}, {49, 50, 51}, {1, 2, 3}};
+  const int rank[4] = {2, 0, 2, 1};
+  ranking r = ranking_of(4, interval);
+  thr_text t = {0};
+  const char *const name[4] = {"a", "b", "c", "d"};
+  ck_assert_int_eq(r.n_ranked, 3);
+  for (int i = 0; i < 4; i++)
+    ck_assert_int_eq(r.rank[i], rank[i]);
+  r.open = "why not";
+  ranking_put_text(&r, name, &t);
+  ck_assert_ptr_nonnull(strstr(t.data, "2. a 10 N (at least 9 N: why not)  more, beyond the error\n"));
+  ck_assert_ptr_nonnull(strstr(t.data, "2. c 50 N (49 .. 51 N)  tie, within the error\n"));
+  ck_assert_ptr_nonnull(strstr(t.data, "-  b not known\n"));
+  thr_text_destroy(&t);
+  ranking_put_json(&r, name, &t);
+  ck_assert_ptr_nonnull(strstr(t.data, "{\"plan\": \"a\", \"value\": 10, \"low\": 9, \"high\": null, \"rank\": 2}"));
+  thr_text_destroy(&t);
+  ranking_destroy(&r);
+}
+END_TEST
+
+/* Plans share a rank exactly if a chain of overlapping intervals connects them; the oracle joins them pair by pair. */
+START_TEST(ranks_are_chains_of_overlaps)
+{
+  rng g = rng_make(7);
+  double interval[MOST][3];
+  for (int trial = 0; trial < 300; trial++) {
+    int n = 1 + rng_below(&g, MOST), group[MOST];
+    for (int i = 0; i < n; i++) {
+      interval[i][1] = 1 + rng_below(&g, 30);
+      interval[i][0] = interval[i][1] - rng_below(&g, 4);
+      interval[i][2] = interval[i][1] + (rng_below(&g, 8) == 0 ? INFINITY : (double)rng_below(&g, 4));
+      group[i] = i;
+    }
+    ranking r = ranking_of(n, (const double(*)[3])interval);
+    for (int i = 0; i < n; i++)
+      for (int k = 0; k < n; k++) {
+        int from = group[k], to = group[i];
+        if (!overlap(&r, i, k)) continue;
+        for (int j = 0; j < n; j++)
+          if (group[j] == from) group[j] = to;
+      }
+    for (int i = 0; i < n; i++)
+      for (int k = 0; k < n; k++) {
+        ck_assert_int_eq(r.rank[i] == r.rank[k], group[i] == group[k]);
+        if (r.rank[i] < r.rank[k]) ck_assert(r.high[i] < r.low[k]);
+      }
+    ranking_destroy(&r);
+  }
+}
+END_TEST
+
+/* Contradiction needs intervals apart in both, in opposite orders. */
+START_TEST(only_sure_orders_contradict)
+{
+  int pair[2];
+  const double apart[2][3] = {{1, 2, 3}, {4, 5, 6}}, other_way[2][3] = {{4, 5, 6}, {1, 2, 3}},
+               near[2][3] = {{3, 5, 6}, {1, 2, 3}};
+  ranking a = ranking_of(2, apart), b = ranking_of(2, other_way), c = ranking_of(2, near);
+  ck_assert(ranking_disagree(&a, &b, pair));
+  ck_assert(pair[0] == 0 && pair[1] == 1);
+  ck_assert(!ranking_disagree(&a, &c, pair));
+  ck_assert(!ranking_disagree(&a, &a, pair));
+  ranking_destroy(&a);
+  ranking_destroy(&b);
+  ranking_destroy(&c);
+}
+END_TEST
+
+int main(void)
+{
+  Suite *s = suite_create("ranking");
+  ADD_TEST(s, 10, a_wide_interval_ties_with_all_it_reaches);
+  ADD_TEST(s, 10, open_ends_and_unknown_plans);
+  ADD_TEST(s, 10, ranks_are_chains_of_overlaps);
+  ADD_TEST(s, 10, only_sure_orders_contradict);
+  return run_suite(s);
+}

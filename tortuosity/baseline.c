@@ -1,0 +1,195 @@
+/* Fleury (1883) and Hierholzer (1873) on the multigraph of passes. */
+#include "tortuosity/baseline.h"
+#include "tortuosity/extra.h"
+#include "tortuosity/join.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+  thr_join *j;
+  bool *used;  /* [n_darts] both darts of a pass that is walked */
+  int *walk;   /* [n_darts / 2 + 1] darts in order */
+  int *stack;  /* [n_darts / 2 + 1] */
+  int *cursor; /* [n_nodes] first dart at a node that may be unused */
+  int *stamp;  /* [n_nodes] */
+  int *queue;  /* [n_nodes] */
+  int searches;
+} walker;
+
+static void walker_destroy(walker *w)
+{
+  free(w->used);
+  free(w->walk);
+  free(w->stack);
+  free(w->cursor);
+  free(w->stamp);
+  free(w->queue);
+}
+
+static thr_status walker_init(walker *w, thr_join *j, thr_err *err)
+{
+  size_t d = (size_t)j->g.n_darts, n = (size_t)j->g.n_nodes;
+  *w = (walker){.j = j};
+  w->used = thr_calloc(d, sizeof *w->used);
+  w->walk = thr_calloc(d / 2 + 1, sizeof *w->walk);
+  w->stack = thr_calloc(d / 2 + 1, sizeof *w->stack);
+  w->cursor = thr_calloc(n, sizeof *w->cursor);
+  w->stamp = thr_calloc(n, sizeof *w->stamp);
+  w->queue = thr_calloc(n, sizeof *w->queue);
+  if (!w->used || !w->walk || !w->stack || !w->cursor || !w->stamp || !w->queue) return thr_nomem(err);
+  for (size_t v = 0; v < n; v++)
+    w->cursor[v] = j->g.first[v];
+  return THR_OK;
+}
+
+static int head_of(const walker *w, int d)
+{
+  return w->j->g.tail[d ^ 1];
+}
+
+/* An unused dart that leaves v, or -1. */
+static int unused_at(walker *w, int v)
+{
+  const thr_multigraph *g = &w->j->g;
+  while (w->cursor[v] < g->first[v + 1] && w->used[g->dart[w->cursor[v]]])
+    w->cursor[v]++;
+  return w->cursor[v] < g->first[v + 1] ? g->dart[w->cursor[v]] : -1;
+}
+
+static int hierholzer(walker *w, int start)
+{
+  int top = 0, n = 0;
+  w->used[start] = w->used[start ^ 1] = true;
+  w->stack[top++] = start;
+  while (top) {
+    int d = unused_at(w, head_of(w, w->stack[top - 1]));
+    if (d < 0) {
+      w->walk[n++] = w->stack[--top];
+      continue;
+    }
+    w->used[d] = w->used[d ^ 1] = true;
+    w->stack[top++] = d;
+  }
+  for (int i = 0; i < n / 2; i++) {
+    int swap = w->walk[i];
+    w->walk[i] = w->walk[n - 1 - i];
+    w->walk[n - 1 - i] = swap;
+  }
+  return n;
+}
+
+/* Can v be reached from the head of dart d over unused passes other than d's? */
+static bool leads_back(walker *w, int d, int v)
+{
+  const thr_multigraph *g = &w->j->g;
+  int head = 0, tail = 0, now = ++w->searches;
+  w->stamp[head_of(w, d)] = now;
+  w->queue[tail++] = head_of(w, d);
+  while (head < tail) {
+    int u = w->queue[head++];
+    if (u == v) return true;
+    for (int i = g->first[u]; i < g->first[u + 1]; i++) {
+      int e = g->dart[i], to = head_of(w, e);
+      if (w->used[e] || (e | 1) == (d | 1) || w->stamp[to] == now) continue;
+      w->stamp[to] = now;
+      w->queue[tail++] = to;
+    }
+  }
+  return false;
+}
+
+/* The straightest way on from the arrival d: the first in order of price that is no bridge. Each look takes the next price up. */
+static int straightest(walker *w, int d)
+{
+  const thr_multigraph *g = &w->j->g;
+  int v = head_of(w, d), least = -1, left = 0;
+  double floor_price = -1;
+  int floor_dart = -1;
+  for (int i = g->first[v]; i < g->first[v + 1]; i++)
+    left += !w->used[g->dart[i]];
+  for (;;) {
+    double best = INFINITY;
+    int at = -1;
+    for (int i = g->first[v]; i < g->first[v + 1]; i++) {
+      int e = g->dart[i];
+      if (w->used[e]) continue;
+      double price = thr_join_price(w->j, d ^ 1, e);
+      bool later = price > floor_price || (price == floor_price && e > floor_dart);
+      if (later && price < best) best = price, at = e;
+    }
+    if (at < 0) return least; /* all are bridges: the straightest */
+    if (left == 1 || leads_back(w, at, v)) return at;
+    if (least < 0) least = at;
+    floor_price = best;
+    floor_dart = at;
+  }
+}
+
+static int fleury(walker *w, int start)
+{
+  int n = 0;
+  for (int d = start; d >= 0; d = straightest(w, d)) {
+    w->used[d] = w->used[d ^ 1] = true;
+    w->walk[n++] = d;
+  }
+  return n;
+}
+
+/* Pairs along the walk; at end nodes nothing is paired. */
+static void take_pairs(walker *w, int n)
+{
+  thr_join *j = w->j;
+  for (int i = 0; i < n; i++) {
+    int arriving = w->walk[i] ^ 1, leaving = w->walk[(i + 1) % n];
+    if (j->g.tail[arriving] >= j->c->f->n_nodes) continue;
+    j->mate[arriving] = leaving;
+    j->mate[leaving] = arriving;
+  }
+}
+
+static thr_status walk_all(thr_join *j, thr_baseline_kind kind, thr_err *err)
+{
+  walker w;
+  thr_status st = walker_init(&w, j, err);
+  for (int k = 0; k < j->c->n_components && !st; k++) {
+    int v = j->c->f->n_nodes + k, start = 0;
+    if (j->c->task->end_allowed)
+      start = j->g.dart[j->g.first[v]];
+    else
+      while (j->c->component[j->g.tail[start]] != k)
+        start++;
+    take_pairs(&w, kind == THR_BASELINE_FLEURY ? fleury(&w, start) : hierholzer(&w, start));
+  }
+  walker_destroy(&w);
+  return st;
+}
+
+thr_status thr_baseline_tour(const thr_frame *f, const thr_least_options *o, thr_baseline_kind kind, const thr_limits *limits,
+                             thr_least *out, thr_err *err)
+{
+  thr_least made = {0};
+  thr_turning_columns c = {0};
+  thr_join j = {0};
+  *out = (thr_least){0};
+  if (o->cords > 1) return thr_fail(err, THR_EINPUT, "the classical tours make one cord per piece; leave --cords out");
+  int *passes = thr_calloc((size_t)f->n_edges, sizeof *passes), *ends = thr_calloc((size_t)f->n_nodes, sizeof *ends);
+  thr_status st = passes && ends ? thr_least_task(f, o, &made, err) : thr_nomem(err);
+  if (!st) st = thr_turning_columns_init(&c, f, &made.task, err);
+  if (!st) st = thr_extra_passes(&c, f->length, NULL, false, limits, passes, ends, err);
+  if (!st) st = thr_join_init(&j, &c, passes, made.end_allowed ? ends : NULL, err);
+  if (!st) st = walk_all(&j, kind, err);
+  if (!st) st = thr_least_cords(f, &j, &made, err);
+  if (!st) {
+    made.shortest = made.length;
+    *out = made;
+    made = (thr_least){0};
+  }
+  thr_least_destroy(&made);
+  thr_join_destroy(&j);
+  thr_turning_columns_destroy(&c);
+  free(passes);
+  free(ends);
+  return st;
+}

@@ -1,0 +1,361 @@
+/* Best bound first; every node keeps the multipliers that prove its bound. */
+#include "tortuosity/branch.h"
+#include "tortuosity/cycles.h"
+#include "tortuosity/extra.h"
+#include "tortuosity/improve.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double integral = 1e-6; /* what counts as a whole number */
+
+thr_status thr_branch_init(thr_branch *b, const thr_turning_columns *c, int most_nodes, const thr_limits *limits, thr_err *err)
+{
+  size_t n = (size_t)c->f->n_nodes, m = (size_t)c->f->n_edges;
+  *b = (thr_branch){.c = c, .limits = limits, .most_nodes = most_nodes, .best_price = INT64_MAX};
+  b->passes = thr_calloc(m, sizeof *b->passes);
+  b->ends = thr_calloc(n, sizeof *b->ends);
+  b->whole = thr_calloc((size_t)c->n_columns, sizeof *b->whole);
+  b->weight = thr_calloc(m, sizeof *b->weight);
+  b->end_weight = thr_calloc(n, sizeof *b->end_weight);
+  if (b->passes && b->ends && b->whole && b->weight && b->end_weight) return THR_OK;
+  thr_branch_destroy(b);
+  return thr_nomem(err);
+}
+
+void thr_branch_destroy(thr_branch *b)
+{
+  for (int i = 0; i < b->n_duals; i++)
+    thr_turning_dual_destroy(&b->dual[i]);
+  free(b->dual);
+  free(b->node);
+  free(b->passes);
+  free(b->ends);
+  free(b->whole);
+  free(b->weight);
+  free(b->end_weight);
+  if (b->found) thr_join_destroy(&b->best);
+  if (b->relax.c) thr_relax_destroy(&b->relax);
+  *b = (thr_branch){0};
+}
+
+int64_t thr_branch_tolerance(const thr_branch *b)
+{
+  double u_turn = thr_turn_cost_of(b->c->task->cost, 3.14159265358979323846);
+  return (int64_t)ldexp(1e-9 * u_turn * b->best_passes, THR_TURNING_BITS);
+}
+
+/* ---- plans ---- */
+
+static bool within_limits(const thr_turning_columns *c, const int *passes)
+{
+  const thr_turning_task *t = c->task;
+  for (int e = 0; e < c->f->n_edges; e++)
+    if (passes[e] > t->most_passes) return false;
+  return t->extra_limit < 0 || thr_extra_length(c, passes) <= t->extra_limit + 1e-9 * thr_frame_total_length(c->f);
+}
+
+/* Takes over a joined multigraph if it is the best so far; releases it otherwise. */
+static void keep_better(thr_branch *b, thr_join *j, const int *passes)
+{
+  bool forbidden = j->price >= thr_join_forbidden;
+  int64_t price = forbidden ? INT64_MAX : (int64_t)nearbyint(ldexp(j->price, THR_TURNING_BITS));
+  for (int e = 0; e < b->c->f->n_edges && !forbidden; e++)
+    price += (passes[e] - b->c->task->cover) * b->c->weight[b->c->first_extra + e];
+  if (price >= b->best_price) {
+    thr_join_destroy(j);
+    return;
+  }
+  if (b->found) thr_join_destroy(&b->best);
+  b->best = *j;
+  b->found = true;
+  b->best_price = price;
+  b->best_passes = 0;
+  for (int e = 0; e < b->c->f->n_edges; e++)
+    b->best_passes += passes[e];
+}
+
+thr_status thr_branch_try(thr_branch *b, const int *passes, const int *ends, thr_err *err)
+{
+  thr_join j;
+  if (!within_limits(b->c, passes)) return THR_OK;
+  thr_status st = thr_join_init(&j, b->c, passes, ends, err);
+  if (st) return st;
+  st = thr_join_greedy(&j, err);
+  if (!st) st = thr_improve(&j, b->limits, err);
+  if (st)
+    thr_join_destroy(&j);
+  else
+    keep_better(b, &j, passes);
+  return st;
+}
+
+/* A point of whole numbers: its own pairs if they hang together; in any case the greedy for its passes and ends. */
+static thr_status try_whole(thr_branch *b, thr_err *err)
+{
+  const thr_turning_columns *c = b->c;
+  thr_join j;
+  bool single;
+  for (int k = 0; k < c->n_columns; k++)
+    b->whole[k] = (int)nearbyint(b->relax.x[k]);
+  memset(b->ends, 0, (size_t)c->f->n_nodes * sizeof *b->ends);
+  for (int e = 0; e < c->f->n_edges; e++)
+    b->passes[e] = c->task->cover + b->whole[c->first_extra + e];
+  for (int k = c->first_end; k < c->first_back; k++)
+    b->ends[thr_tail(c->f, c->half[k][0])] += b->whole[k];
+  thr_status st = thr_branch_try(b, b->passes, b->ends, err);
+  if (st || !within_limits(c, b->passes)) return st;
+  if ((st = thr_join_init(&j, c, b->passes, b->ends, err))) return st;
+  st = thr_join_columns(&j, b->whole, &single, err);
+  if (!st && single)
+    keep_better(b, &j, b->passes);
+  else
+    thr_join_destroy(&j);
+  return st;
+}
+
+/* The join of least weight where what the point uses is nearly free. */
+static thr_status try_rounded(thr_branch *b, thr_err *err)
+{
+  const thr_turning_columns *c = b->c;
+  uint64_t name = 1;
+  for (int e = 0; e < c->f->n_edges; e++) {
+    double z = b->relax.x[c->first_extra + e];
+    b->weight[e] = c->f->length[e] * (1.001 - fmin(1, z));
+    name = (name ^ (uint64_t)(z * 4 + 0.5)) * UINT64_C(0x9e3779b97f4a7c15);
+  }
+  for (int v = 0; v < c->f->n_nodes; v++)
+    b->end_weight[v] = 1;
+  for (int k = c->first_end; k < c->first_back; k++) {
+    b->end_weight[thr_tail(c->f, c->half[k][0])] -= fmin(1, b->relax.x[k]) / 2;
+    name = (name ^ (uint64_t)(b->relax.x[k] * 4 + 0.5)) * UINT64_C(0x9e3779b97f4a7c15);
+  }
+  if (name == b->tried) return THR_OK;
+  b->tried = name;
+  thr_status st = thr_extra_passes(c, b->weight, b->end_weight, false, b->limits, b->passes, b->ends, err);
+  return st ? st : thr_branch_try(b, b->passes, b->ends, err);
+}
+
+static double fraction(double x)
+{
+  return fabs(x - nearbyint(x));
+}
+
+/* Column to branch on: extras first, then ends, then the rest; the one nearest a half. -1: the point is whole. */
+static int most_fractional(const thr_branch *b)
+{
+  const thr_turning_columns *c = b->c;
+  const int range[4][2] = {
+      {c->first_extra, c->first_end}, {c->first_end, c->first_back}, {0, c->first_extra}, {c->first_back, c->n_columns}};
+  for (int r = 0; r < 4; r++) {
+    int best = -1;
+    double most = integral;
+    for (int k = range[r][0]; k < range[r][1]; k++)
+      if (fraction(b->relax.x[k]) > most + 1e-9) {
+        most = fraction(b->relax.x[k]);
+        best = k;
+      }
+    if (best >= 0) return best;
+  }
+  return -1;
+}
+
+/* ---- nodes ---- */
+
+static thr_status new_node(thr_branch *b, thr_branch_node node, int *index, thr_err *err)
+{
+  thr_status st = thr_grow(&b->node, b->n_nodes, &b->nodes_capacity, sizeof *b->node, err);
+  if (st) return st;
+  *index = b->n_nodes;
+  b->node[b->n_nodes++] = node;
+  return THR_OK;
+}
+
+/* Puts the bounds of a node's branches on the relaxation. */
+static thr_status enter(thr_branch *b, int i, thr_err *err)
+{
+  const thr_turning_columns *c = b->c;
+  thr_status st = THR_OK;
+  int *low = thr_calloc((size_t)c->n_columns, sizeof *low), *high = b->whole;
+  if (!low) return thr_nomem(err);
+  for (int k = 0; k < c->n_columns; k++)
+    high[k] = thr_turning_most(c, k);
+  for (; b->node[i].parent >= 0; i = b->node[i].parent) {
+    const thr_branch_node *n = &b->node[i];
+    if (n->high && n->value + 1 > low[n->column]) low[n->column] = n->value + 1;
+    if (!n->high && n->value < high[n->column]) high[n->column] = n->value;
+  }
+  for (int k = 0; k < c->n_columns && !st; k++)
+    st = thr_relax_set(&b->relax, k, low[k], high[k], err);
+  free(low);
+  return st;
+}
+
+/* Takes multipliers over, for node i if they prove more than it has. */
+static thr_status keep_dual(thr_branch *b, int i, thr_turning_dual d, const int *low, const int *high, thr_err *err)
+{
+  int64_t bound;
+  thr_status st = thr_turning_dual_bound(b->c, &d, low, high, &bound, err);
+  if (!st && (b->node[i].dual < 0 || bound > b->node[i].bound)) {
+    st = thr_grow(&b->dual, b->n_duals, &b->duals_capacity, sizeof *b->dual, err);
+    if (!st) {
+      b->node[i].bound = bound;
+      b->node[i].dual = b->n_duals;
+      b->dual[b->n_duals++] = d;
+      return THR_OK;
+    }
+  }
+  thr_turning_dual_destroy(&d);
+  return st;
+}
+
+/* The multipliers of the last solve. */
+static thr_status certify(thr_branch *b, int i, thr_err *err)
+{
+  thr_turning_dual d;
+  thr_status st = thr_relax_dual(&b->relax, &d, err);
+  return st ? st : keep_dual(b, i, d, b->relax.low, b->relax.high, err);
+}
+
+/* A first bound for the root where the first linear programme may take longer than there is time. */
+static thr_status first_bound(thr_branch *b, int root, thr_err *err)
+{
+  enum { LARGE = 1000 };
+  thr_turning_dual d;
+  thr_limits no_deadline = *b->limits; /* it takes a hundredth of a second, and without it there may be no bound at all */
+  no_deadline.deadline = 0;
+  if (b->c->f->n_edges < LARGE) return THR_OK;
+  thr_status st = thr_relax_nodes(b->c, &no_deadline, &d, err);
+  return st ? st : keep_dual(b, root, d, b->relax.low, b->relax.high, err);
+}
+
+static bool closed(const thr_branch *b, int i)
+{
+  return b->node[i].bound >= b->best_price - thr_branch_tolerance(b);
+}
+
+static void report(const thr_branch *b)
+{
+  if (!b->limits->progress) return;
+  int64_t least = INT64_MAX;
+  for (int i = 0; i < b->n_nodes; i++)
+    if (b->node[i].open && b->node[i].bound < least) least = b->node[i].bound;
+  b->limits->progress(b->limits->user, "turning", ldexp((double)b->best_price, -THR_TURNING_BITS),
+                      least == INT64_MAX ? 0 : ldexp((double)least, -THR_TURNING_BITS));
+}
+
+/* Rounds of rows until none is violated, the bound is good enough, or rounds stop paying. */
+static thr_status solve_node(thr_branch *b, int i, thr_err *err)
+{
+  enum { PATIENCE = 12 };
+  double risen = -INFINITY;
+  int idle = 0;
+  for (int added = 1; added;) {
+    thr_status st = thr_relax_solve(&b->relax, b->limits, err);
+    if (st) return st;
+    b->rounds++;
+    bool whole = b->relax.solved && b->relax.artificial < integral && most_fractional(b) < 0;
+    if ((st = whole ? try_whole(b, err) : b->relax.solved ? try_rounded(b, err) : THR_OK)) return st;
+    double target = ldexp((double)(b->best_price - thr_branch_tolerance(b)), -THR_TURNING_BITS);
+    if (!b->relax.solved) b->stopped = true;
+    if (b->relax.objective >= target || b->stopped) break;
+    idle = b->relax.objective > risen + 1e-3 * (target - risen) ? 0 : idle + 1;
+    if (idle == 0) risen = b->relax.objective;
+    if (idle > PATIENCE && !whole) break;
+    if ((st = thr_relax_separate(&b->relax, b->limits, &added, err))) return st;
+    b->stopped |= thr_limits_stop(b->limits);
+  }
+  return certify(b, i, err);
+}
+
+static thr_status split(thr_branch *b, int i, thr_err *err)
+{
+  int k = most_fractional(b), child[2];
+  if (k < 0) return THR_OK;
+  if (b->n_nodes + 2 > b->most_nodes) {
+    b->stopped = true;
+    return THR_OK;
+  }
+  int value = (int)floor(b->relax.x[k]);
+  for (int side = 0; side < 2; side++) {
+    thr_branch_node n = {.parent = i,
+                         .depth = b->node[i].depth + 1,
+                         .column = k,
+                         .value = value,
+                         .high = side == 1,
+                         .bound = b->node[i].bound,
+                         .dual = b->node[i].dual,
+                         .open = true};
+    thr_status st = new_node(b, n, &child[side], err);
+    if (st) return st;
+  }
+  b->node[i].low_child = child[0];
+  b->node[i].high_child = child[1];
+  b->node[i].branched = k;
+  b->node[i].branch_value = value;
+  return THR_OK;
+}
+
+/* The open node of least bound, the deepest of equals; -1 if every open node is closed by its bound. */
+static int next_node(const thr_branch *b)
+{
+  int best = -1;
+  for (int i = 0; i < b->n_nodes; i++) {
+    const thr_branch_node *n = &b->node[i];
+    if (!n->open || (n->dual >= 0 && closed(b, i))) continue;
+    if (best < 0 || n->bound < b->node[best].bound || (n->bound == b->node[best].bound && n->depth > b->node[best].depth))
+      best = i;
+  }
+  return best;
+}
+
+thr_status thr_branch_run(thr_branch *b, thr_err *err)
+{
+  int root = 0;
+  double penalty =
+      10 + (b->found ? ldexp((double)b->best_price, -THR_TURNING_BITS) : 10.0 * b->c->task->cover * b->c->f->n_edges);
+  thr_status st = thr_relax_init(&b->relax, b->c, penalty, err);
+  if (!st) st = new_node(b, (thr_branch_node){.parent = -1, .bound = INT64_MIN, .dual = -1, .open = true}, &root, err);
+  if (!st) st = first_bound(b, root, err);
+  for (int i; !st && !b->stopped && (i = next_node(b)) >= 0;) {
+    st = enter(b, i, err);
+    if (!st) st = solve_node(b, i, err);
+    if (st) break;
+    report(b);
+    if (b->stopped) break;
+    b->node[i].open = false;
+    if (i == root && b->found && !closed(b, i)) st = thr_cycles_improve(b, (int)fmin(2000, 1e6 / b->c->f->n_edges), err);
+    if (!st && !closed(b, i)) st = split(b, i, err);
+  }
+  return st;
+}
+
+thr_status thr_branch_proof(thr_branch *b, thr_turning_proof *p, thr_err *err)
+{
+  *p = (thr_turning_proof){.n_nodes = b->n_nodes};
+  p->node = thr_calloc((size_t)b->n_nodes, sizeof *p->node);
+  p->dual = thr_calloc((size_t)b->n_duals, sizeof *p->dual);
+  int *moved = thr_calloc((size_t)b->n_duals, sizeof *moved);
+  thr_status st = p->node && p->dual && moved ? THR_OK : thr_nomem(err);
+  for (int i = 0; i < b->n_nodes && !st; i++) {
+    const thr_branch_node *n = &b->node[i];
+    thr_turning_node *to = &p->node[i];
+    *to = (thr_turning_node){.low = n->low_child, .high = n->high_child, .dual = -1};
+    if (n->low_child) {
+      to->a = b->c->half[n->branched][0];
+      to->b = b->c->half[n->branched][1];
+      to->value = n->branch_value;
+      continue;
+    }
+    if (!moved[n->dual]) {
+      p->dual[p->n_duals] = b->dual[n->dual];
+      b->dual[n->dual] = (thr_turning_dual){0};
+      moved[n->dual] = ++p->n_duals;
+    }
+    to->dual = moved[n->dual] - 1;
+  }
+  free(moved);
+  if (st) thr_turning_proof_destroy(p);
+  return st;
+}

@@ -1,0 +1,55 @@
+/* Branch and cut over the turning relaxation. Internal to tortuosity/. */
+#ifndef THR_BRANCH_H
+#define THR_BRANCH_H
+
+#include "tortuosity/join.h"
+#include "tortuosity/relax.h"
+
+typedef struct {
+  int parent, depth;
+  int column, value; /* how this node differs from its parent: column <= value, or >= value + 1 if high */
+  bool high;
+  int low_child, high_child; /* 0 = none */
+  int branched;              /* column that the children differ in */
+  int branch_value;
+  int64_t bound; /* of its own multipliers, or of its parent's */
+  int dual;      /* index of the multipliers that prove it, -1 = none */
+  bool open;     /* still to be solved */
+} thr_branch_node;
+
+typedef struct {
+  const thr_turning_columns *c;
+  const thr_limits *limits;
+  thr_relax relax;
+  int n_nodes, nodes_capacity, most_nodes;
+  thr_branch_node *node;
+  int n_duals, duals_capacity;
+  thr_turning_dual *dual;
+  bool found;
+  thr_join best;      /* if found */
+  int64_t best_price; /* in units of 2^-THR_TURNING_BITS, with the price of the extra cord; INT64_MAX = none */
+  int best_passes;
+  uint64_t tried;             /* name of the rounding tried last */
+  int *passes, *ends, *whole; /* scratch */
+  double *weight, *end_weight;
+  int rounds;
+  bool stopped; /* by limits or size */
+} thr_branch;
+
+thr_status thr_branch_init(thr_branch *b, const thr_turning_columns *c, int most_nodes, const thr_limits *limits,
+                           thr_err *err) THR_MUST_CHECK;
+void thr_branch_destroy(thr_branch *b);
+
+/* Cords for these passes and ends, kept if they are the best so far. */
+thr_status thr_branch_try(thr_branch *b, const int *passes, const int *ends, thr_err *err) THR_MUST_CHECK;
+
+/* Until the tree is closed, or stopped. */
+thr_status thr_branch_run(thr_branch *b, thr_err *err) THR_MUST_CHECK;
+
+/* The tree with the multipliers of its leaves, which are moved. */
+thr_status thr_branch_proof(thr_branch *b, thr_turning_proof *p, thr_err *err) THR_MUST_CHECK;
+
+/* How far bound and price may be apart and still count as equal. */
+int64_t thr_branch_tolerance(const thr_branch *b);
+
+#endif

@@ -1,0 +1,140 @@
+/* The equations of the turning relaxation, all together and node by node. */
+#include "tortuosity/relax.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct {
+  int n, *start, *row;
+  double *value, *cost, *rhs;
+} matrix;
+
+static void put(matrix *m, int row, double value)
+{
+  m->row[m->n] = row;
+  m->value[m->n++] = value;
+}
+
+static void fill_matrix(const thr_relax *r, double penalty, matrix *m)
+{
+  const thr_turning_columns *c = r->c;
+  int darts = 2 * c->f->n_edges, j = 0;
+  for (; j < c->n_columns; j++) {
+    int a = c->half[j][0], b = c->half[j][1];
+    bool extra = j >= c->first_extra && j < c->first_end;
+    m->start[j] = m->n;
+    m->cost[j] = ldexp((double)c->weight[j], -THR_TURNING_BITS);
+    put(m, a, a == b ? 2 : extra ? -1 : 1);
+    if (b >= 0 && a != b) put(m, b, extra ? -1 : 1);
+    if (b < 0) put(m, darts + c->component[thr_tail(c->f, a)], 1);
+  }
+  for (int i = 0; i < r->n_equations; i++)
+    for (int sign = -1; sign <= 1; sign += 2) {
+      m->start[j] = m->n;
+      m->cost[j++] = penalty;
+      put(m, i, sign);
+    }
+  m->start[j] = m->n; /* helps every row that is added later */
+  m->cost[j++] = penalty;
+  m->start[j] = m->n;
+  for (int h = 0; h < darts; h++)
+    m->rhs[h] = c->task->cover;
+  for (int i = darts; i < r->n_equations; i++)
+    m->rhs[i] = 2 * c->task->cords;
+}
+
+static void matrix_destroy(matrix *m)
+{
+  free(m->start);
+  free(m->row);
+  free(m->value);
+  free(m->cost);
+  free(m->rhs);
+}
+
+static thr_status matrix_init(matrix *m, const thr_relax *r, double penalty, thr_err *err)
+{
+  size_t n = (size_t)r->n_all, entries = 3 * (size_t)r->c->n_columns + 2 * (size_t)r->n_equations;
+  *m = (matrix){0};
+  m->start = thr_calloc(n + 1, sizeof *m->start);
+  m->row = thr_calloc(entries, sizeof *m->row);
+  m->value = thr_calloc(entries, sizeof *m->value);
+  m->cost = thr_calloc(n, sizeof *m->cost);
+  m->rhs = thr_calloc((size_t)r->n_equations, sizeof *m->rhs);
+  if (!m->start || !m->row || !m->value || !m->cost || !m->rhs) {
+    matrix_destroy(m);
+    return thr_nomem(err);
+  }
+  fill_matrix(r, penalty, m);
+  return THR_OK;
+}
+
+thr_status thr_relax_create(thr_relax *r, double penalty, thr_err *err)
+{
+  matrix m;
+  thr_status st = matrix_init(&m, r, penalty, err);
+  if (st) return st;
+  st = thr_lp_create_equations(&r->lp, r->n_equations, m.rhs, r->n_all, m.cost, NULL, m.start, m.row, m.value, err);
+  matrix_destroy(&m);
+  return st;
+}
+
+/* One node by itself: what its turns cost at least if each of its edges is passed as often as it likes, but no less than the
+ * cover. potential[] of its half-edges: multipliers >= 0. */
+static thr_status solve_one_node(const thr_turning_columns *c, int v, const thr_limits *limits, int *column, double *cost,
+                                 double *dual, int64_t *potential, thr_err *err)
+{
+  const thr_frame *f = c->f;
+  const int *half = f->half + f->first[v];
+  int d = thr_degree(f, v), turns = d * (d - 1) / 2;
+  thr_lp *lp;
+  thr_lp_outcome outcome = THR_LP_OPTIMAL;
+  for (int j = 0; j < turns; j++)
+    cost[j] = ldexp((double)c->weight[c->pair_first[v] + j], -THR_TURNING_BITS);
+  thr_status st = thr_lp_create(&lp, turns, cost, NULL, err);
+  for (int i = 0; i < d && !st; i++) {
+    int n = 0;
+    for (int k = 0; k < d; k++)
+      if (k != i) column[n++] = thr_turning_column(c, half[i], half[k]) - c->pair_first[v];
+    st = thr_lp_add_row(lp, n, column, NULL, c->task->cover, err);
+  }
+  if (!st) st = thr_lp_solve(lp, limits, &outcome, err);
+  if (!st && outcome == THR_LP_OPTIMAL) {
+    thr_lp_dual(lp, dual);
+    for (int i = 0; i < d; i++)
+      potential[half[i]] = (int64_t)floor(ldexp(fmax(0, fmin(1e4, dual[i])), THR_TURNING_BITS));
+  }
+  thr_lp_destroy(lp);
+  return st;
+}
+
+/* An end takes the place of half a turn: what that saves at most is owed to every end. */
+static void charge_ends(const thr_turning_columns *c, thr_turning_dual *d)
+{
+  for (int j = c->first_end; j < c->first_back; j++) {
+    int h = c->half[j][0], k = c->component[thr_tail(c->f, h)];
+    if (-d->potential[h] < d->ends[k]) d->ends[k] = -d->potential[h];
+  }
+}
+
+thr_status thr_relax_nodes(const thr_turning_columns *c, const thr_limits *limits, thr_turning_dual *d, thr_err *err)
+{
+  const thr_frame *f = c->f;
+  size_t most = 1;
+  *d = (thr_turning_dual){0};
+  for (int v = 0; v < f->n_nodes; v++)
+    if ((size_t)thr_degree(f, v) > most) most = (size_t)thr_degree(f, v);
+  int *column = thr_calloc(most, sizeof *column);
+  double *cost = thr_calloc(most * most, sizeof *cost), *dual = thr_calloc(most, sizeof *dual);
+  d->potential = thr_calloc(2 * (size_t)f->n_edges, sizeof *d->potential);
+  d->ends = thr_calloc((size_t)c->n_components, sizeof *d->ends);
+  thr_status st = column && cost && dual && d->potential && d->ends ? THR_OK : thr_nomem(err);
+  for (int v = 0; v < f->n_nodes && !st; v++)
+    if (thr_degree(f, v) > 1) st = solve_one_node(c, v, limits, column, cost, dual, d->potential, err);
+  if (!st) charge_ends(c, d);
+  free(column);
+  free(cost);
+  free(dual);
+  if (st) thr_turning_dual_destroy(d);
+  return st;
+}

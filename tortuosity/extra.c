@@ -1,0 +1,177 @@
+/* T-joins with slots for the cord ends, component by component. */
+#include "tortuosity/extra.h"
+#include "lp/tjoin.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stdlib.h>
+
+double thr_extra_length(const thr_turning_columns *c, const int *passes)
+{
+  double sum = 0;
+  for (int e = 0; e < c->f->n_edges; e++)
+    sum += (passes[e] - c->task->cover) * c->f->length[e];
+  return sum;
+}
+
+/* The T-join problem of one component: its edges, then edges from slots to end nodes, then edges between slots. */
+typedef struct {
+  const thr_turning_columns *c;
+  int k, n_nodes, n_own, n_edges, n_slots;
+  int *local, *node; /* [frame nodes] position in the component; [n_nodes] frame node */
+  int (*edge)[2];
+  int64_t *weight;
+  int *what; /* [n_edges] frame edge, or frame node of an end, or -1 */
+  bool *odd;
+} instance;
+
+static void instance_destroy(instance *in)
+{
+  free(in->local);
+  free(in->node);
+  free(in->edge);
+  free(in->weight);
+  free(in->what);
+  free(in->odd);
+}
+
+static thr_status instance_init(instance *in, const thr_turning_columns *c, int k, bool given, thr_err *err)
+{
+  const thr_frame *f = c->f;
+  size_t n = (size_t)f->n_nodes;
+  int allowed = 0;
+  *in = (instance){.c = c, .k = k, .n_slots = c->task->end_allowed && !given ? 2 * c->task->cords : 0};
+  in->local = thr_calloc(n, sizeof *in->local);
+  in->node = thr_calloc(n, sizeof *in->node);
+  if (!in->local || !in->node) return thr_nomem(err);
+  for (int v = 0; v < f->n_nodes; v++) {
+    if (c->component[v] != k) continue;
+    allowed += c->task->end_allowed && c->task->end_allowed[v];
+    in->local[v] = in->n_nodes;
+    in->node[in->n_nodes++] = v;
+  }
+  if (in->n_slots && !allowed)
+    return thr_fail(
+        err, THR_EINFEASIBLE,
+        "piece %d (the one with node %s) has no node where a cord may end; name one with --feet (try --feet lowest) or "
+        "--ends, or use --ends closed",
+        k + 1, f->name[in->node[0]]);
+  for (int e = 0; e < f->n_edges; e++)
+    in->n_own += c->component[f->edge[e][0]] == k;
+  size_t edges = (size_t)in->n_own + (size_t)in->n_slots * ((size_t)allowed + (size_t)in->n_slots);
+  if (edges > (1u << 20)) return thr_fail(err, THR_EINPUT, "too many cords for so many nodes where they may end");
+  in->edge = thr_calloc(edges, sizeof *in->edge);
+  in->weight = thr_calloc(edges, sizeof *in->weight);
+  in->what = thr_calloc(edges, sizeof *in->what);
+  in->odd = thr_calloc((size_t)in->n_nodes + (size_t)in->n_slots, sizeof *in->odd);
+  return in->edge && in->weight && in->what && in->odd ? THR_OK : thr_nomem(err);
+}
+
+static void add_edge(instance *in, int a, int b, int64_t weight, int what)
+{
+  in->edge[in->n_edges][0] = a;
+  in->edge[in->n_edges][1] = b;
+  in->weight[in->n_edges] = weight;
+  in->what[in->n_edges++] = what;
+}
+
+/* Weights add up to a power of 2 such that the slots' edges, each dearer than all of them, stay within what lp/tjoin.h takes. */
+static void fill(instance *in, const double *weight, const double *end_weight, const int *ends)
+{
+  const thr_frame *f = in->c->f;
+  assert(in->edge && in->weight && in->what && in->odd);
+  const double whole = exp2(fmin(44, floor(50 - log2(2 + 2.0 * in->n_slots * (in->n_nodes + in->n_slots)))));
+  double sum = 0, most = 0;
+  for (int e = 0; e < f->n_edges; e++)
+    if (in->c->component[f->edge[e][0]] == in->k) sum += weight[e];
+  for (int i = 0; end_weight && i < in->n_nodes; i++)
+    most = fmax(most, end_weight[in->node[i]]);
+  for (int e = 0; e < f->n_edges; e++)
+    if (in->c->component[f->edge[e][0]] == in->k)
+      add_edge(in, in->local[f->edge[e][0]], in->local[f->edge[e][1]], sum > 0 ? (int64_t)nearbyint(weight[e] / sum * whole) : 0,
+               e);
+  int64_t slot = (int64_t)whole + 1;
+  for (int s = 0; s < in->n_slots; s++) {
+    for (int i = 0; i < in->n_nodes; i++)
+      if (in->c->task->end_allowed[in->node[i]])
+        add_edge(in, i, in->n_nodes + s, slot + (end_weight && most > 0 ? (int64_t)(end_weight[in->node[i]] / most * 64) : 0),
+                 in->node[i]);
+    for (int t = s + 1; t < in->n_slots; t++)
+      add_edge(in, in->n_nodes + s, in->n_nodes + t, 2 * slot, -1);
+    in->odd[in->n_nodes + s] = true;
+  }
+  for (int i = 0; i < in->n_nodes; i++)
+    in->odd[i] = (in->c->task->cover * thr_degree(f, in->node[i]) + (in->n_slots ? 0 : ends[in->node[i]])) % 2 != 0;
+}
+
+/* Both ends of a cord that comes out where it went in: at the allowed node of least weight. */
+static int closing_node(const instance *in, const double *end_weight)
+{
+  int best = -1;
+  for (int i = 0; i < in->n_nodes; i++) {
+    int v = in->node[i];
+    if (in->c->task->end_allowed[v] && (best < 0 || (end_weight && end_weight[v] < end_weight[best]))) best = v;
+  }
+  return best;
+}
+
+static thr_status solve_component(const thr_turning_columns *c, int k, const double *weight, const double *end_weight, bool given,
+                                  const thr_limits *limits, int *passes, int *ends, thr_err *err)
+{
+  instance in;
+  thr_tjoin t = {0};
+  thr_err local = {0};
+  thr_status st = instance_init(&in, c, k, given, err);
+  if (!st) {
+    fill(&in, weight, end_weight, ends);
+    thr_tjoin_problem p = {in.n_nodes + in.n_slots, in.n_edges, (const int(*)[2])in.edge, in.weight, in.odd, in.n_slots};
+    st = thr_tjoin_solve(&p, limits, &t, &local);
+    if (st && st != THR_ELIMIT) thr_fail(err, st, "%s", local.text);
+    if (st == THR_ELIMIT) st = THR_OK; /* a join is a join */
+  }
+  for (int i = 0; !st && i < in.n_edges; i++) {
+    if (!t.in_join[i]) continue;
+    if (i < in.n_own)
+      passes[in.what[i]]++;
+    else if (in.what[i] >= 0)
+      ends[in.what[i]]++;
+    else
+      ends[closing_node(&in, end_weight)] += 2;
+  }
+  thr_tjoin_destroy(&t);
+  instance_destroy(&in);
+  return st;
+}
+
+thr_status thr_extra_passes(const thr_turning_columns *c, const double *weight, const double *end_weight, bool given,
+                            const thr_limits *limits, int *passes, int *ends, thr_err *err)
+{
+  thr_status st = THR_OK;
+  thr_limits quiet = *limits; /* the join's best and bound are not those of the turning */
+  quiet.progress = NULL;
+  for (int e = 0; e < c->f->n_edges; e++)
+    passes[e] = c->task->cover;
+  for (int v = 0; v < c->f->n_nodes && !given; v++)
+    ends[v] = 0;
+  for (int k = 0; k < c->n_components && !st; k++)
+    st = solve_component(c, k, weight, end_weight, given, &quiet, passes, ends, err);
+  return st;
+}
+
+void thr_extra_spread_ends(const thr_turning_columns *c, int *ends)
+{
+  const thr_frame *f = c->f;
+  for (int v = 0; v < f->n_nodes; v++)
+    ends[v] = 0;
+  for (int k = 0; k < c->n_components && c->task->end_allowed; k++)
+    for (int i = 0; i < 2 * c->task->cords; i++) {
+      int best = -1;
+      for (int v = 0; v < f->n_nodes; v++) {
+        int own = c->task->cover * thr_degree(f, v) + ends[v];
+        if (c->component[v] != k || !c->task->end_allowed[v]) continue;
+        int than = best < 0 ? 0 : c->task->cover * thr_degree(f, best) + ends[best];
+        if (best < 0 || ends[v] - own % 2 < ends[best] - than % 2) best = v;
+      }
+      if (best >= 0) ends[best]++;
+    }
+}

@@ -1,0 +1,271 @@
+/* Bouchet's greedy on a multigraph of passes. */
+#include "graph/disjoint.h"
+#include "tortuosity/join.h"
+#include "tortuosity/pairing.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+  double regret;
+  int node;
+} ranked;
+
+typedef struct {
+  thr_join *j;
+  int *link;  /* [n_darts] dart at the other end of the chain of passes that starts with this one; pairs made are inside chains */
+  int *stamp; /* [n_nodes] search that saw the node last */
+  int *class; /* [n_nodes] port whose search reached it */
+  int *queue; /* [n_nodes] */
+  bool *done; /* [n_nodes] paired */
+  int searches; /* so far */
+  ranked *order;
+  int most;      /* darts at a node */
+  double *price; /* [most * most] at the node at hand */
+  int *pair;     /* [most] of the node at hand, by position */
+  int *port;     /* [most] disjoint sets: what hangs together without the node */
+  int *trial;    /* [2 * most] scratch */
+} greedy;
+
+static void greedy_destroy(greedy *s)
+{
+  free(s->link);
+  free(s->stamp);
+  free(s->class);
+  free(s->queue);
+  free(s->done);
+  free(s->order);
+  free(s->price);
+  free(s->pair);
+  free(s->port);
+  free(s->trial);
+}
+
+static thr_status greedy_init(greedy *s, thr_join *j, thr_err *err)
+{
+  const thr_multigraph *g = &j->g;
+  size_t n = (size_t)g->n_nodes;
+  *s = (greedy){.j = j};
+  for (int v = 0; v < j->c->f->n_nodes; v++)
+    if (g->first[v + 1] - g->first[v] > s->most) s->most = g->first[v + 1] - g->first[v];
+  if (s->most > 20000) {
+    thr_fail(err, THR_EINPUT, "a node with %d passes is too large to pair", s->most);
+    return THR_EINPUT;
+  }
+  size_t k = (size_t)s->most;
+  s->link = thr_calloc((size_t)g->n_darts, sizeof *s->link);
+  s->stamp = thr_calloc(n, sizeof *s->stamp);
+  s->class = thr_calloc(n, sizeof *s->class);
+  s->queue = thr_calloc(n, sizeof *s->queue);
+  s->done = thr_calloc(n, sizeof *s->done);
+  s->order = thr_calloc(n, sizeof *s->order);
+  s->price = thr_calloc(k * k, sizeof *s->price);
+  s->pair = thr_calloc(k, sizeof *s->pair);
+  s->port = thr_calloc(k, sizeof *s->port);
+  s->trial = thr_calloc(2 * k, sizeof *s->trial);
+  if (!s->link || !s->stamp || !s->class || !s->queue || !s->done || !s->order || !s->price || !s->pair || !s->port || !s->trial)
+    return thr_nomem(err);
+  for (int d = 0; d < g->n_darts; d++)
+    s->link[d] = d ^ 1;
+  return THR_OK;
+}
+
+static void fill_prices(greedy *s, const int *dart, int n)
+{
+  for (int i = 0; i < n; i++)
+    for (int k = 0; k < n; k++)
+      s->price[i * n + k] = i == k ? thr_join_forbidden : thr_join_price(s->j, dart[i], dart[k]);
+}
+
+/* Price of the best exchange of pairs (a, b) and (c, d); *cross says which. */
+static double exchange_price(const double *price, int n, int a, int b, int c, int d, bool *cross)
+{
+  double straight = price[a * n + c] + price[b * n + d], crossed = price[a * n + d] + price[b * n + c];
+  *cross = crossed < straight;
+  return fmin(straight, crossed) - price[a * n + b] - price[c * n + d];
+}
+
+/* What the cheapest other pairing costs more, as far as one exchange goes (all of them at a node of 4). */
+static double regret(const double *price, int n, const int *pair)
+{
+  double least = INFINITY;
+  bool cross;
+  for (int a = 0; a < n; a++)
+    for (int c = a + 1; c < n; c++)
+      if (pair[a] > a && pair[c] > c) least = fmin(least, exchange_price(price, n, a, pair[a], c, pair[c], &cross));
+  return least;
+}
+
+static int by_regret(const void *pa, const void *pb)
+{
+  const ranked *a = pa, *b = pb;
+  if (a->regret != b->regret) return a->regret > b->regret ? -1 : 1;
+  return (a->node > b->node) - (a->node < b->node);
+}
+
+/* The best pairing of every node into mate, and the nodes by decreasing regret. */
+static thr_status rank_nodes(greedy *s, thr_err *err)
+{
+  const thr_multigraph *g = &s->j->g;
+  thr_status st = THR_OK;
+  for (int v = 0; v < s->j->c->f->n_nodes && !st; v++) {
+    const int *dart = g->dart + g->first[v];
+    int n = g->first[v + 1] - g->first[v];
+    fill_prices(s, dart, n);
+    st = thr_pairing_best(n, s->price, s->pair, err);
+    s->order[v] = (ranked){st ? 0 : regret(s->price, n, s->pair), v};
+    for (int i = 0; i < n && !st; i++)
+      s->j->mate[dart[i]] = dart[s->pair[i]];
+  }
+  if (!st) qsort(s->order, (size_t)s->j->c->f->n_nodes, sizeof *s->order, by_regret);
+  return st;
+}
+
+/* Joins in port[] the darts of v that hang together without v: a search from all of them at once, over chains, until they are one
+ * or nothing is left to see. */
+static void find_ports(greedy *s, int v, const int *dart, int n)
+{
+  const thr_multigraph *g = &s->j->g;
+  int left = n, head = 0, tail = 0, now = ++s->searches;
+  s->stamp[v] = now;
+  for (int i = 0; i < n; i++)
+    s->port[i] = i;
+  for (int i = 0; i < n; i++) {
+    int far = s->link[dart[i]], w = g->tail[far];
+    if (w == v) {
+      int k = 0;
+      while (dart[k] != far)
+        k++;
+      left -= thr_disjoint_join(s->port, i, k);
+    } else if (s->stamp[w] == now) {
+      left -= thr_disjoint_join(s->port, i, s->class[w]);
+    } else {
+      s->stamp[w] = now;
+      s->class[w] = i;
+      s->queue[tail++] = w;
+    }
+  }
+  while (head < tail && left > 1) {
+    int u = s->queue[head++];
+    for (int i = g->first[u]; i < g->first[u + 1]; i++) {
+      int w = g->tail[s->link[g->dart[i]]];
+      if (w == v) continue;
+      if (s->stamp[w] == now) {
+        left -= thr_disjoint_join(s->port, s->class[u], s -> class[w]);
+      } else {
+        s->stamp[w] = now;
+        s->class[w] = s->class[u];
+        s->queue[tail++] = w;
+      }
+    }
+  }
+}
+
+/* Components of the darts under ports and pairs, as disjoint sets in trial. */
+static int join_pairs(greedy *s, int n, const int *pair)
+{
+  int left = 0;
+  for (int i = 0; i < n; i++)
+    s->trial[i] = thr_disjoint_find(s->port, i);
+  for (int i = 0; i < n; i++)
+    left += s->trial[i] == i;
+  for (int i = 0; i < n; i++)
+    if (pair[i] > i) left -= thr_disjoint_join(s->trial, i, pair[i]);
+  return left;
+}
+
+static void set_pair(int *mate, int a, int b)
+{
+  mate[a] = b;
+  mate[b] = a;
+}
+
+/* All pairings of the darts that are free in pair (-1), cheapest connected one into best. */
+static void try_pairings(greedy *s, int n, int *pair, double price, double *least, int *best)
+{
+  int i = 0;
+  if (price >= *least) return;
+  while (i < n && pair[i] >= 0)
+    i++;
+  if (i == n) {
+    if (join_pairs(s, n, pair) > 1) return;
+    *least = price;
+    memcpy(best, pair, (size_t)n * sizeof *best);
+    return;
+  }
+  for (int k = i + 1; k < n; k++) {
+    if (pair[k] >= 0) continue;
+    set_pair(pair, i, k);
+    try_pairings(s, n, pair, price + s->price[i * n + k], least, best);
+    pair[i] = pair[k] = -1;
+  }
+}
+
+/* Exchanges pairs of different components, cheapest first, until the darts are one. */
+static void exchange_until_one(greedy *s, int n)
+{
+  while (join_pairs(s, n, s->pair) > 1) {
+    int best_a = -1, best_c = -1;
+    bool cross, best_cross = false;
+    double least = INFINITY;
+    for (int a = 0; a < n; a++)
+      for (int c = a + 1; c < n; c++) {
+        if (s->pair[a] < a || s->pair[c] < c || thr_disjoint_find(s->trial, a) == thr_disjoint_find(s->trial, c)) continue;
+        double extra = exchange_price(s->price, n, a, s->pair[a], c, s->pair[c], &cross);
+        if (extra < least) least = extra, best_a = a, best_c = c, best_cross = cross;
+      }
+    if (best_a < 0) return;
+    int b = s->pair[best_a], d = s->pair[best_c];
+    set_pair(s->pair, best_a, best_cross ? d : best_c);
+    set_pair(s->pair, b, best_cross ? best_c : d);
+  }
+}
+
+/* Gives node v the cheapest pairing that keeps everything connected, and joins the chains that it pairs. */
+static void settle_node(greedy *s, int v)
+{
+  enum { ENUMERATED = 8 };
+  const thr_multigraph *g = &s->j->g;
+  const int *dart = g->dart + g->first[v];
+  int n = g->first[v + 1] - g->first[v];
+  int position[ENUMERATED];
+  fill_prices(s, dart, n);
+  for (int i = 0; i < n; i++) {
+    int k = 0;
+    while (dart[k] != s->j->mate[dart[i]])
+      k++;
+    s->pair[i] = k;
+  }
+  find_ports(s, v, dart, n);
+  if (join_pairs(s, n, s->pair) > 1) {
+    if (n <= ENUMERATED) {
+      double least = INFINITY;
+      for (int i = 0; i < n; i++)
+        position[i] = -1;
+      try_pairings(s, n, position, 0, &least, s->pair);
+    } else {
+      exchange_until_one(s, n);
+    }
+  }
+  for (int i = 0; i < n; i++) {
+    int a = dart[i], b = dart[s->pair[i]];
+    s->j->mate[a] = b;
+    if (s->pair[i] < i) continue;
+    int p = s->link[a], q = s->link[b];
+    s->link[p] = q;
+    s->link[q] = p;
+  }
+}
+
+thr_status thr_join_greedy(thr_join *j, thr_err *err)
+{
+  greedy s;
+  thr_status st = greedy_init(&s, j, err);
+  if (!st) st = rank_nodes(&s, err);
+  for (int i = 0; i < j->c->f->n_nodes && !st; i++)
+    settle_node(&s, s.order[i].node);
+  greedy_destroy(&s);
+  if (!st) thr_join_measure(j);
+  return st;
+}

@@ -1,0 +1,221 @@
+/* Exchanges on a tour: reversals, and cuts that are joined elsewhere (2- and 3-opt on transitions). */
+#include "tortuosity/improve.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double enough = 1e-9; /* smaller savings are rounding */
+
+/* The circuit of one component, as transitions: number i arrives by in[i] and leaves by out[i] (both darts leave its node). Cord
+ * ends are paired at their node in the order of the cords, so that open cords make one circuit too; those pairs are never
+ * exchanged. */
+typedef struct {
+  thr_join *j;
+  int n;
+  int *in, *out;
+  int *at;       /* [n_darts] transition that the dart is part of */
+  int *ring;     /* [n_darts] mate, with pairs at the end nodes */
+  bool *visited; /* [n_darts] */
+} tour;
+
+static void tour_destroy(tour *t)
+{
+  free(t->in);
+  free(t->out);
+  free(t->at);
+  free(t->ring);
+  free(t->visited);
+}
+
+static thr_status tour_init(tour *t, thr_join *j, thr_err *err)
+{
+  size_t n = (size_t)j->g.n_darts;
+  *t = (tour){.j = j};
+  t->in = thr_calloc(n, sizeof *t->in);
+  t->out = thr_calloc(n, sizeof *t->out);
+  t->at = thr_calloc(n, sizeof *t->at);
+  t->ring = thr_calloc(n, sizeof *t->ring);
+  t->visited = thr_calloc(n, sizeof *t->visited);
+  return t->in && t->out && t->at && t->ring && t->visited ? THR_OK : thr_nomem(err);
+}
+
+/* Pairs the ends of cord after cord at their node: the far end of one with the near end of the next. */
+static void close_ring(tour *t)
+{
+  const thr_join *j = t->j;
+  const thr_multigraph *g = &j->g;
+  memcpy(t->ring, j->mate, (size_t)g->n_darts * sizeof *t->ring);
+  for (int v = j->c->f->n_nodes; v < g->n_nodes; v++) {
+    int first = -1, far = -1;
+    for (int i = g->first[v]; i < g->first[v + 1]; i++) {
+      int near = g->dart[i], d = near;
+      if (t->ring[near] >= 0 || near == far) continue;
+      while (j->mate[d ^ 1] >= 0)
+        d = j->mate[d ^ 1];
+      if (first < 0)
+        first = near;
+      else
+        t->ring[far] = near, t->ring[near] = far;
+      far = d ^ 1;
+    }
+    if (first >= 0) t->ring[far] = first, t->ring[first] = far;
+  }
+}
+
+static void walk(tour *t, int start)
+{
+  t->n = 0;
+  for (int d = start; !t->visited[d]; d = t->ring[d ^ 1]) {
+    t->visited[d] = t->visited[d ^ 1] = true;
+    t->in[t->n] = d ^ 1;
+    t->out[t->n] = t->ring[d ^ 1];
+    t->at[t->in[t->n]] = t->at[t->out[t->n]] = t->n;
+    t->n++;
+  }
+}
+
+static int node_of(const tour *t, int i)
+{
+  return t->j->g.tail[t->in[i]];
+}
+
+static double pair_price(const tour *t, int i)
+{
+  return thr_join_price(t->j, t->in[i], t->out[i]);
+}
+
+/* Replaces two pairs; what they were is known from mate. */
+static void exchange(tour *t, int a, int b, int c, int d)
+{
+  int *mate = t->j->mate;
+  mate[a] = b;
+  mate[b] = a;
+  mate[c] = d;
+  mate[d] = c;
+}
+
+/* The next transition after i at the same node, in the order of the node's darts; each transition once. */
+static int transitions_at(const tour *t, int v, int *list)
+{
+  const thr_multigraph *g = &t->j->g;
+  int n = 0;
+  for (int k = g->first[v]; k < g->first[v + 1]; k++) {
+    int d = g->dart[k];
+    if (t->in[t->at[d]] == d) list[n++] = t->at[d];
+  }
+  return n;
+}
+
+/* Runs the part between two transitions of one node the other way round where that saves. true: the tour has changed. */
+static bool reverse_part(tour *t, int i, int k)
+{
+  double old = pair_price(t, i) + pair_price(t, k);
+  double now = thr_join_price(t->j, t->in[i], t->in[k]) + thr_join_price(t->j, t->out[i], t->out[k]);
+  if (now >= old - enough) return false;
+  exchange(t, t->in[i], t->in[k], t->out[i], t->out[k]);
+  return true;
+}
+
+typedef struct {
+  double extra;
+  int a, b, c, d; /* pairs to make */
+} joint;
+
+static void consider(const tour *t, int a, int b, int c, int d, double old, joint *best)
+{
+  double extra = thr_join_price(t->j, a, b) + thr_join_price(t->j, c, d) - old;
+  if (extra < best->extra - 1e-12) *best = (joint){extra, a, b, c, d};
+}
+
+/* The cheapest way to join the part i < .. < k, once cut off, to the rest again, at any node. The cut itself does not count. */
+static joint cheapest_joint(const tour *t, int i, int k, double most, int *list)
+{
+  joint best = {.extra = most};
+  for (int x = i + 1; x < k; x++) {
+    int v = node_of(t, x), n;
+    if (v >= t->j->c->f->n_nodes) continue;
+    n = transitions_at(t, v, list);
+    for (int y = 0; y < n; y++) {
+      int z = list[y];
+      if (z >= i && z <= k) continue;
+      double old = pair_price(t, x) + pair_price(t, z);
+      consider(t, t->in[x], t->in[z], t->out[x], t->out[z], old, &best);
+      consider(t, t->in[x], t->out[z], t->out[x], t->in[z], old, &best);
+    }
+  }
+  return best;
+}
+
+/* Cuts the part between two transitions of one node off where that saves more than joining it again costs. */
+static bool cut_and_join(tour *t, int i, int k, int *list)
+{
+  if (i > k) {
+    int larger = i;
+    i = k;
+    k = larger;
+  }
+  double old = pair_price(t, i) + pair_price(t, k);
+  double now = thr_join_price(t->j, t->in[i], t->out[k]) + thr_join_price(t->j, t->in[k], t->out[i]);
+  if (now >= old - enough) return false;
+  joint best = cheapest_joint(t, i, k, old - now - enough, list);
+  if (best.extra >= old - now - enough) return false;
+  exchange(t, t->in[i], t->out[k], t->in[k], t->out[i]);
+  exchange(t, best.a, best.b, best.c, best.d);
+  return true;
+}
+
+/* One improvement anywhere at node v. */
+static bool improve_node(tour *t, int v, int *here, int *list)
+{
+  int n = transitions_at(t, v, here);
+  for (int i = 0; i < n; i++)
+    for (int k = i + 1; k < n; k++)
+      if (reverse_part(t, here[i], here[k])) return true;
+  for (int i = 0; i < n; i++)
+    for (int k = i + 1; k < n; k++)
+      if (cut_and_join(t, here[i], here[k], list)) return true;
+  return false;
+}
+
+/* Improves the circuit through dart start until a whole pass over its nodes changes nothing. */
+static void improve_circuit(tour *t, int component, int start, const thr_limits *limits, int *here, int *list)
+{
+  const thr_turning_columns *c = t->j->c;
+  bool changed = true;
+  while (changed && !thr_limits_stop(limits)) {
+    changed = false;
+    for (int v = 0; v < c->f->n_nodes && !thr_limits_stop(limits); v++) {
+      if (c->component[v] != component) continue;
+      while (improve_node(t, v, here, list)) {
+        changed = true;
+        close_ring(t);
+        memset(t->visited, 0, (size_t)t->j->g.n_darts * sizeof *t->visited);
+        walk(t, start);
+      }
+    }
+  }
+}
+
+thr_status thr_improve(thr_join *j, const thr_limits *limits, thr_err *err)
+{
+  tour t;
+  const thr_multigraph *g = &j->g;
+  int *here = thr_calloc((size_t)g->n_darts, sizeof *here), *list = thr_calloc((size_t)g->n_darts, sizeof *list);
+  thr_status st = tour_init(&t, j, err);
+  if (!st && (!here || !list)) st = thr_nomem(err);
+  for (int k = 0; k < j->c->n_components && !st; k++) {
+    int start = 0;
+    while (start < g->n_darts && (g->tail[start] >= j->c->f->n_nodes || j->c->component[g->tail[start]] != k))
+      start++;
+    close_ring(&t);
+    memset(t.visited, 0, (size_t)g->n_darts * sizeof *t.visited);
+    walk(&t, start);
+    improve_circuit(&t, k, start, limits, here, list);
+  }
+  tour_destroy(&t);
+  free(here);
+  free(list);
+  if (!st) thr_join_measure(j);
+  return st;
+}

@@ -1,0 +1,149 @@
+/* From options to a task, a first plan, the search, and the result with its checked proof. */
+#include "tortuosity/least.h"
+#include "tortuosity/branch.h"
+#include "tortuosity/extra.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+thr_least_options thr_least_options_default(void)
+{
+  return (thr_least_options){.cover = 1, .ends = THR_ENDS_CLOSED, .length_slack = -1, .most_nodes = 1000};
+}
+
+void thr_least_destroy(thr_least *l)
+{
+  for (int i = 0; l->cord && i < l->n_cords; i++)
+    free(l->cord[i].half);
+  free(l->cord);
+  free(l->end_allowed);
+  thr_turning_proof_destroy(&l->proof);
+  *l = (thr_least){0};
+}
+
+thr_status thr_least_task(const thr_frame *f, const thr_least_options *o, thr_least *out, thr_err *err)
+{
+  enum { MOST_PASSES = 100000 }; /* prices in units of 2^-THR_TURNING_BITS must add up in 64 bits */
+  int cords = o->cords ? o->cords : 1;
+  if (o->cover > MOST_PASSES / f->n_edges)
+    return thr_fail(err, THR_EINPUT, "%d passes of %d edges are more than the %d that the search for the least turning takes",
+                    o->cover, f->n_edges, MOST_PASSES);
+  if (o->ends == THR_ENDS_CLOSED && cords > 1)
+    return thr_fail(err, THR_EINPUT, "several closed cords in one piece are not supported; give them ends (--ends feet or any)");
+  if (o->ends != THR_ENDS_CLOSED) {
+    thr_plan_options plan = {.ends = o->ends, .end_node = (bool *)o->end_node};
+    if (!(out->end_allowed = thr_calloc((size_t)f->n_nodes, sizeof *out->end_allowed))) return thr_nomem(err);
+    for (int v = 0; v < f->n_nodes; v++)
+      out->end_allowed[v] = thr_plan_end_allowed(f, &plan, v);
+  }
+  out->task = (thr_turning_task){.cover = o->cover,
+                                 .most_passes = o->most_passes ? o->most_passes : 4 * o->cover + 4,
+                                 .cords = cords,
+                                 .end_allowed = out->end_allowed,
+                                 .cost = o->cost,
+                                 .price_per_length = o->price_per_length,
+                                 .extra_limit = -1};
+  return THR_OK;
+}
+
+/* The shortest extra passes, and from their length the limit that the slack allows. */
+static thr_status find_shortest(const thr_frame *f, const thr_least_options *o, const thr_limits *limits, thr_least *out,
+                                int *passes, int *ends, thr_err *err)
+{
+  thr_turning_columns c;
+  thr_status st = thr_turning_columns_init(&c, f, &out->task, err);
+  if (st) return st;
+  st = thr_extra_passes(&c, f->length, NULL, false, limits, passes, ends, err);
+  double extra = st ? 0 : thr_extra_length(&c, passes), base = o->cover * thr_frame_total_length(f);
+  thr_turning_columns_destroy(&c);
+  out->shortest = base + extra;
+  if (o->length_slack >= 0) out->task.extra_limit = extra + o->length_slack * out->shortest;
+  return st;
+}
+
+/* First plans: the shortest passes, and those for ends far apart. */
+static thr_status first_plans(thr_branch *b, int *passes, int *ends, thr_err *err)
+{
+  thr_status st = thr_branch_try(b, passes, ends, err);
+  if (st || !b->c->task->end_allowed) return st;
+  thr_extra_spread_ends(b->c, ends);
+  st = thr_extra_passes(b->c, b->c->f->length, NULL, true, b->limits, passes, ends, err);
+  return st ? st : thr_branch_try(b, passes, ends, err);
+}
+
+static void measure(const thr_frame *f, thr_least *out)
+{
+  out->price = out->turning = out->length = 0;
+  for (int i = 0; i < out->n_cords; i++) {
+    const thr_cord *c = &out->cord[i];
+    int turns = c->n_passes - (out->end_allowed != NULL);
+    out->length += thr_cord_length(f, c);
+    for (int k = 0; k < turns; k++) {
+      int next = c->half[(k + 1) % c->n_passes];
+      out->turning += thr_turn_price(f, THR_TURN_ANGLE, c->half[k], next);
+      out->price += thr_turn_price(f, out->task.cost, c->half[k], next);
+    }
+  }
+  out->price += out->task.price_per_length * (out->length - out->task.cover * thr_frame_total_length(f));
+}
+
+thr_status thr_least_cords(const thr_frame *f, const thr_join *j, thr_least *out, thr_err *err)
+{
+  int n = j->c->n_components * out->task.cords;
+  if (!(out->cord = thr_calloc((size_t)n, sizeof *out->cord))) return thr_nomem(err);
+  thr_status st = thr_join_cords(j, out->cord, n, err);
+  if (st) return st;
+  out->n_cords = n;
+  measure(f, out);
+  return THR_OK;
+}
+
+static thr_status finish(const thr_frame *f, thr_branch *b, thr_least *out, thr_err *err)
+{
+  int64_t tolerance = thr_branch_tolerance(b);
+  thr_status st = thr_least_cords(f, &b->best, out, err);
+  if (st) return st;
+  out->rounds = b->rounds;
+  if ((st = thr_branch_proof(b, &out->proof, err))) return st;
+  thr_err found = {0};
+  st = thr_turning_proof_check(f, &out->task, &out->proof, &out->bound, &found);
+  if (st == THR_EVIOLATED) return thr_fail(err, THR_ESOLVER, "the proof does not pass its own check: %s", found.text);
+  if (st) return thr_fail(err, st, "%s", found.text);
+  out->optimal = out->bound >= out->price - ldexp((double)tolerance, -THR_TURNING_BITS) * 2;
+  return THR_OK;
+}
+
+thr_status thr_least_turning(const thr_frame *f, const thr_least_options *o, const thr_limits *limits, thr_least *out,
+                             thr_err *err)
+{
+  thr_least made = {0};
+  thr_turning_columns c = {0};
+  thr_branch b = {0};
+  *out = (thr_least){0};
+  int *passes = thr_calloc((size_t)f->n_edges, sizeof *passes), *ends = thr_calloc((size_t)f->n_nodes, sizeof *ends);
+  thr_status st = passes && ends ? thr_least_task(f, o, &made, err) : thr_nomem(err);
+  if (!st) st = find_shortest(f, o, limits, &made, passes, ends, err);
+  if (!st) st = thr_turning_columns_init(&c, f, &made.task, err);
+  if (!st) st = thr_branch_init(&b, &c, o->most_nodes, limits, err);
+  if (!st) st = first_plans(&b, passes, ends, err);
+  if (!st) st = thr_branch_run(&b, err);
+  if (!st && !b.found)
+    st =
+        thr_fail(err, THR_EINFEASIBLE, "no plan with at most %d passes of every edge was found; allow more passes or more length",
+                 made.task.most_passes);
+  if (!st) st = finish(f, &b, &made, err);
+  if (!st) {
+    *out = made;
+    made = (thr_least){0};
+    if (!out->optimal)
+      st = thr_fail(err, THR_ELIMIT, "%s: the turning is proved to be within %.3g %% of the least",
+                    b.stopped ? "stopped early" : "rounding left a gap", 100 * (out->price - out->bound) / out->price);
+  }
+  thr_least_destroy(&made);
+  thr_branch_destroy(&b);
+  thr_turning_columns_destroy(&c);
+  free(passes);
+  free(ends);
+  return st;
+}

@@ -1,0 +1,20 @@
+/* The largest turning of any cord: what the hand feels with several cords, each pulled at both ends. */
+#ifndef THR_MAXTURN_H
+#define THR_MAXTURN_H
+
+#include "tortuosity/least.h"
+
+typedef struct {
+  double largest; /* price of the turns of the cord that turns most */
+  double bound;   /* no plan of the task has less: the proved least of all cords, shared out evenly */
+} thr_max_turning;
+
+/* Evens out the turning of the open cords in plan by exchanges: tails and heads of two cords that meet at a node, parts cut off
+ * one cord and joined to another, parts run the other way round, ends moved to the other pass at their node. Every exchange
+ * lowers the sum of the 8th powers of the cords' prices, so the largest counts most. Passes and ends per node stay. Prices,
+ * turning and cords of plan change; its proof (of the sum) still holds, its claim of optimality (of the sum) may not. Stops when
+ * no exchange helps, or by the limits (no error). Closed cords: one per component, nothing to exchange. */
+thr_status thr_max_turning_improve(const thr_frame *f, const thr_limits *limits, thr_least *plan, thr_max_turning *out,
+                                   thr_err *err) THR_MUST_CHECK;
+
+#endif

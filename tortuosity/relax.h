@@ -1,0 +1,84 @@
+/* The linear programme over the columns of graph/turning_proof.h, with its odd and group rows added as a point violates them. */
+#ifndef THR_RELAX_H
+#define THR_RELAX_H
+
+#include "graph/turning_proof.h"
+#include "lp/lp.h"
+#include "lp/oddcut.h"
+
+/* A group row: the edges of the group and the columns that cross it. */
+typedef struct {
+  uint64_t name;
+  int n_edges, n_columns;
+  int *edge; /* ascending */
+  int *column;
+} thr_relax_group;
+
+typedef enum { THR_RELAX_ODD, THR_RELAX_GROUP, THR_RELAX_PARTITION } thr_relax_kind;
+
+/* A row: which list it is in, and where. */
+typedef struct {
+  thr_relax_kind kind;
+  int index;
+} thr_relax_cut;
+
+/* A partition row. */
+typedef struct {
+  uint64_t name;
+  int *block; /* [n_edges] */
+  int n_columns, *column;
+  double *value; /* [n_columns] */
+  double lower;
+} thr_relax_partition;
+
+typedef struct {
+  const thr_turning_columns *c;
+  thr_lp *lp;
+  int n_equations; /* rows of half-edges, of ends, of the length limit */
+  int n_all;       /* columns with the artificial ones, which keep every branch feasible at a price */
+  double *x;       /* [n_all] of the last solve */
+  double *dual;    /* [rows at the last solve] */
+  double objective;
+  double artificial;         /* sum of the artificial columns */
+  bool solved;               /* x is an optimum of the present rows */
+  int *low, *high;           /* [n_columns] bounds in force */
+  thr_tjoin_problem problem; /* the graph whose nodes are half-edges and ends, whose edges are columns */
+  thr_oddcut_graph graph;
+  thr_oddcut_pool pool;
+  int n_groups, groups_capacity;
+  thr_relax_group *group;
+  int n_partitions, partitions_capacity;
+  thr_relax_partition *partition;
+  int n_cuts, cuts_capacity;
+  thr_relax_cut *cut; /* rows after the equations */
+  double *reduced;
+} thr_relax;
+
+/* penalty: price of one unit of an artificial column, more than any plan costs. */
+thr_status thr_relax_init(thr_relax *r, const thr_turning_columns *c, double penalty, thr_err *err) THR_MUST_CHECK;
+void thr_relax_destroy(thr_relax *r);
+
+/* Puts bounds on a column, for the next solve. */
+thr_status thr_relax_set(thr_relax *r, int column, int low, int high, thr_err *err) THR_MUST_CHECK;
+
+/* Solves with the present rows; fills x, dual, objective. solved is false if the limits stopped it (x and dual are usable). */
+thr_status thr_relax_solve(thr_relax *r, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
+
+/* Adds rows that x violates; *added = 0 if there are none (exact separation). */
+thr_status thr_relax_separate(thr_relax *r, const thr_limits *limits, int *added, thr_err *err) THR_MUST_CHECK;
+
+/* The multipliers of the last solve as integers. Release with thr_turning_dual_destroy. */
+thr_status thr_relax_dual(const thr_relax *r, thr_turning_dual *d, thr_err *err) THR_MUST_CHECK;
+
+/* The linear programme of the equations alone, in tortuosity/equations.c. */
+thr_status thr_relax_create(thr_relax *r, double penalty, thr_err *err) THR_MUST_CHECK;
+
+/* Multipliers of the equations from one small programme per node, as if extra passes had only one end: a first bound where the
+ * simplex method may not finish the whole programme. Release with thr_turning_dual_destroy. */
+thr_status thr_relax_nodes(const thr_turning_columns *c, const thr_limits *limits, thr_turning_dual *d,
+                           thr_err *err) THR_MUST_CHECK;
+
+/* Adds the row of a partition (block as in graph/turning_proof.h, copied) if x violates it and it is new. */
+thr_status thr_relax_add_partition(thr_relax *r, const int *block, int n_blocks, bool *used, thr_err *err) THR_MUST_CHECK;
+
+#endif
