@@ -253,9 +253,9 @@ static void put_settle(thr_text *t, const thr_plan *p, const thr_settle *s)
     return;
   }
   if (s->status == THR_SETTLE_NEVER_SETTLED) {
-    thr_text_append(t,
-                    "simulation     never came to rest under the pull at its start: nothing is known of the fall. Try a smaller\n"
-                    "               --start, or a smaller --time-step with more --iterations\n");
+    thr_text_append(t, "simulation     never came to rest under the pull at its start: nothing is known of the fall (nor with\n"
+                       "               time step and iterations halved twice). Try a smaller --start, or a smaller --time-step\n"
+                       "               with more --iterations\n");
     return;
   }
   if (s->status == THR_SETTLE_FELL && s->first_bead >= 0)
@@ -263,6 +263,8 @@ static void put_settle(thr_text *t, const thr_plan *p, const thr_settle *s)
                     p->frame.name[s->first_bead], s->gap_before, s->gap_after);
   else
     thr_text_printf(t, "simulation     stands until the pull is gone; widest gap %.3g mm\n", s->gap_before);
+  if (s->finer < 1)
+    thr_text_printf(t, "               it came to rest only with time step and iterations times %g: weaker evidence\n", s->finer);
   thr_text_printf(t,
                   "ranking index  %.3g of the pull at its start; only its order among plans that begin at one --start means\n"
                   "               anything: no newtons (friction contacts creep)\n",
@@ -360,6 +362,7 @@ static void put_json_structure(thr_text *t, const thr_frame *f, const thr_eval *
   put_number(t, ", \"gap_before_mm\": ", s->gap_before);
   put_number(t, ", \"gap_after_mm\": ", s->gap_after);
   put_number(t, ", \"drift_mm\": ", s->drift);
+  put_number(t, ", \"finer\": ", s->finer);
   thr_text_append(t, "}");
 }
 

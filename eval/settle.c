@@ -28,7 +28,6 @@ static const double MOVED = 0.02;           /* .. and this far from there falls 
 static const double AFTER_TIME = 3;         /* from there to the picture of the fall .. */
 static const double AFTER_MOVED = 0.5;      /* .. or when a bead has moved so many edges */
 static const double TILT_LENGTH = 0.35;     /* of an edge: over which a cord between two holes out of line leans */
-static const double FIRM = 5;
 static const int STEPS_PER_REPORT = 20;
 static const double FINER = 0.5; /* factor on time step and iterations when nothing came to rest: shorter steps help more .. */
 static const int ATTEMPTS = 3;   /* .. in all */
@@ -46,7 +45,6 @@ typedef struct {
   double dt;
   long steps, all;   /* taken; if nothing falls */
   double pull;       /* on the cords' ends */
-  double firmest;    /* force on a face above which more changes nothing */
   double *tension;   /* [n_faces] sum over the passes for a pull of 1 */
   int *body;         /* [n_beads] in the world */
   placed *now;       /* [n_beads] */
@@ -267,22 +265,11 @@ static thr_status depth(const model *m, int *out, thr_err *err)
   return THR_OK;
 }
 
-/* Pressed by FIRM times what lets a face carry the moment of one support's share of the beads at the far end of the structure.
- * Cords wound round many bends are a thousand times tighter at their ends, which only makes the contacts there creep. */
-static double firmest_of(const model *m, int far)
-{
-  int supports = m->b->n_feet;
-  for (int v = 0; v < m->b->n_beads; v++)
-    supports += m->b->fixed[v];
-  return FIRM * m->b->n_beads / fmax(supports, 1) * fmax(far, 1) / (0.5 * m->b->width / m->unit);
-}
-
 static thr_status build(model *m, const thr_physics *physics, const thr_settle_options *o, double finer, thr_err *err)
 {
   int iterations;
   thr_status s = depth(m, &iterations, err);
   if (s != THR_OK) return s;
-  m->firmest = firmest_of(m, iterations);
   iterations *= ITERATIONS_PER_BEAD;
   if (iterations < LEAST_ITERATIONS) iterations = LEAST_ITERATIONS;
   thr_world_options w = {.time_step = m->dt,
@@ -330,7 +317,7 @@ static void pull_cords(model *m)
       line[k] = to[k] - from[k] + 0.5 * TILT_LENGTH * (axis[0][k] + axis[1][k]);
       at[k] = 0.5 * (from[k] + to[k]);
     }
-    double size = fmin(m->pull * m->tension[e], m->firmest) / fmax(sqrt(dot(line, line)), 1e-9);
+    double size = m->pull * m->tension[e] / fmax(sqrt(dot(line, line)), 1e-9);
     for (int k = 0; k < 3; k++) {
       line[k] *= size;
       back[k] = -line[k];

@@ -34,11 +34,10 @@ typedef struct {
  * gravity): structures and their scale models behave alike. HELD: stands without any pull. NEVER_SETTLED: a bead moved by a
  * twentieth of the mean edge under the start, also with the time step and iterations halved and halved again; index is then 0.
  * Then a larger start helps only if start was below what limit analysis asks for; else a smaller one (contacts creep under firm
- * pulls) or a finer time_step may. A face is pressed by at most five times what one support's share of the weight can ask of it.
- * FELL: a bead moved by a fiftieth from where it had settled (index 0: only when no pull was left). Same input and seed, same
- * bits on one machine. n beads of depth d (edges from a support): O(n d) a step, 3,000 to 15,000 steps, more
- * with time_step below 1 or after failed attempts: 49 beads about 5 s, 100 about 10 s. THR_EINPUT for a start that is not
- * positive or factors out of range, THR_ELIMIT when stopped, both with out empty. n_beads above thr_settle_largest: status
+ * pulls) or a finer time_step may. FELL: a bead moved by a fiftieth from where it had settled (index 0: only when no pull was
+ * left). Same input and seed, same bits on one machine. n beads of depth d (edges from a support): O(n d) a step, 3,000 to 15,000
+ * steps, more with time_step below 1 or after failed attempts: 49 beads about 5 s, 100 about 10 s. THR_EINPUT for a start that is
+ * not positive or factors out of range, THR_ELIMIT when stopped, both with out empty. n_beads above thr_settle_largest: status
  * TOO_LARGE, nothing else.
  */
 extern const int thr_settle_largest;
