@@ -21,8 +21,9 @@ static const double PI = 3.14159265358979323846;
 /* Tensions are capped at so many times the least one, until the bound closes: further apart, the solver loses the small ones. */
 enum { CAPS = 5 };
 static const double cap[CAPS] = {1e4, 1e6, 1e8, 1e10, 1e12};
-/* A bound has closed if it is that near to a pull that holds, relative, and no contact closes faster. */
-static const double CLOSE = 1e-6, STILL = 1e-12;
+/* A bound has closed if it is that near to a pull that holds, relative, and no contact closes faster. Where none does, by
+ * rounding, the best of those that are near is taken. */
+static const double CLOSE = 1e-6, NEAR = 1e-3, STILL = 1e-12;
 
 typedef struct {
   int bead, other; /* pushed along the rays of the friction pyramid; pushed back, -1 = the ground */
@@ -591,9 +592,19 @@ static thr_status pull_of(const task *t, double most, bool merged, double widen,
   return st;
 }
 
-static bool closed(const answer *a)
+static bool closed(const answer *a, double within)
 {
-  return a->gap < CLOSE && a->residual < STILL;
+  return a->gap < within && a->residual < STILL;
+}
+
+/* Moves a to best if it is near and its bound the higher one. */
+static void keep_better(answer *a, double most, answer *best, double *best_most)
+{
+  if (!closed(a, NEAR) || (best->velocity && a->lower <= best->lower)) return;
+  answer_destroy(best);
+  *best = *a;
+  *best_most = most;
+  a->velocity = NULL;
 }
 
 /* Is this proof that no pull holds it: nothing closes, no cord is drawn out, the weights go down? */
@@ -635,23 +646,44 @@ static thr_status check_feasible(const task *t, thr_err *err)
   return st;
 }
 
+/* At one cap; merged too if the bound does not close otherwise. */
+static thr_status lower_at(const task *t, double most, answer *a, answer *best, double *best_most, thr_err *err)
+{
+  thr_status st = pull_of(t, most, false, WIDEN, a, err);
+  if (st || closed(a, CLOSE)) return st;
+  keep_better(a, most, best, best_most);
+  if (t->largest <= most || !(a->pull > 0) || !isfinite(a->pull)) return THR_OK;
+  st = pull_of(t, most, true, WIDEN, a, err);
+  if (!st && !closed(a, CLOSE)) keep_better(a, most, best, best_most);
+  return st;
+}
+
 /* With the first cap on the tensions at which the bound closes. *most: that cap. */
 static thr_status lower_pull(const task *t, double *most, answer *a, thr_err *err)
 {
+  answer best = {0};
+  double best_most = 0;
+  thr_status st = THR_OK;
   for (int i = 0; i < CAPS; i++) {
     *most = t->least * cap[i];
-    bool capped = t->largest > *most;
-    thr_status st = pull_of(t, *most, false, WIDEN, a, err);
-    if (!st && capped && !closed(a) && a->pull > 0 && isfinite(a->pull)) st = pull_of(t, *most, true, WIDEN, a, err);
-    if (st || closed(a)) return st;
-    if (i == 0 && (st = check_feasible(t, err))) return st;
-    if (!capped) break;
+    st = lower_at(t, *most, a, &best, &best_most, err);
+    if (st || (a->velocity && closed(a, CLOSE))) goto done;
+    if (i == 0 && !best.velocity && (st = check_feasible(t, err))) goto done;
+    if (t->largest <= *most) break;
   }
-  return thr_fail(
-      err, THR_ESOLVER,
-      "the holding pull is not decided: the solver's numbers do not suffice (tensions along the cords span a factor of "
-      "%.0e); a smaller --mu or more cords, each with less turning, may help",
-      t->least > 0 ? t->largest / t->least : 1);
+  if (best.velocity) {
+    answer_destroy(a);
+    *a = best;
+    *most = best_most;
+    return THR_OK;
+  }
+  st = thr_fail(err, THR_ESOLVER,
+                "the holding pull is not decided: the solver's numbers do not suffice (tensions along the cords span a factor of "
+                "%.0e); a smaller --mu or more cords, each with less turning, may help",
+                t->least > 0 ? t->largest / t->least : 1);
+done:
+  answer_destroy(&best);
+  return st;
 }
 
 void thr_holding_press(const thr_cord *cord, int n_cords, const double *const *tension, double *press)

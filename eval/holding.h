@@ -9,7 +9,7 @@
 typedef struct {
   bool present;
   double lower; /* N: below it no equilibrium exists (friction pyramids round the cones), proved by the power balance of the
-                   mechanism `velocity`, and within 1e-6 of the least such pull; 0 if none is needed */
+                   mechanism `velocity`, and within a thousandth of the least such pull; 0 if none is needed */
   double upper; /* N: at it an equilibrium exists (pyramids inside the cones), 0 if not computed, INFINITY if none was found. The
                    structure stands by itself if this is 0 too */
   int first_bead; /* that moves fastest in the collapse mechanism just below lower; -1 if lower is 0 */

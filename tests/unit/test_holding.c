@@ -1,7 +1,9 @@
 /* Holding pull: closed forms of cantilever and friction, a plain programme solved by simplex, the mechanism checked as a
  * mechanism. */
 #include "tests/support.h"
+#include "tests/threadings.h"
 #include "eval/eval.h"
+#include "graph/make.h"
 #include "lp/lp.h"
 
 #include <math.h>
@@ -643,6 +645,30 @@ START_TEST(rough_cords_are_never_hopeless)
 }
 END_TEST
 
+/* Large enough that rounding leaves a gap between bound and equilibrium: the bound is then given, not withheld. */
+START_TEST(large_domes_are_decided)
+{
+  enum { SIDE = 20 };
+  thr_draft draft = {0};
+  thr_frame dome;
+  thr_read_report report;
+  thr_make_options make = thr_make_options_default(THR_MAKE_DOME);
+  make.size = SIDE;
+  ck_assert_int_eq(thr_make(&draft, &make, NULL), THR_OK);
+  ck_assert_int_eq(thr_draft_build(&draft, -1, &dome, &report, NULL), THR_OK);
+  thr_plan p = threading_make(&dome, SIDE, (threading)_i);
+  thr_eval e;
+  thr_err err;
+  ck_assert_msg(eval_at(&p, 0.2, 0.2, &e, &err) == THR_OK, "%s", err.text);
+  ck_assert(e.holding.lower > 0 && e.holding.residual < 1e-12);
+  ck_assert(e.holding.upper > e.holding.lower && e.holding.upper < 1.1 * e.holding.lower);
+  thr_eval_destroy(&e);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&dome);
+  thr_draft_destroy(&draft);
+}
+END_TEST
+
 /* A cord to and fro: at the rough end of the band its tensions span more than a number can hold. The answer stays. */
 START_TEST(too_rough_is_unknown)
 {
@@ -704,6 +730,7 @@ int main(void)
   ADD_TEST(s, 10, same_bits_again);
   ADD_TEST(s, 60, straight_lines_pull_least);
   ADD_LOOP(s, 60, rough_cords_are_never_hopeless, 0, 3);
+  ADD_LOOP(s, 60, large_domes_are_decided, THREAD_LINES, THREAD_SNAKE);
   ADD_TEST(s, 20, too_rough_is_unknown);
   ADD_TEST(s, 20, what_stands_has_no_forces);
   return run_suite(s);
