@@ -11,6 +11,7 @@
 #include "graph/disjoint.h"
 #include "lp/interior.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -700,6 +701,7 @@ static thr_status hold(const task *t, bool want_upper, thr_holding *h, thr_err *
   thr_status st = lower_pull(t, &most, &a, err);
   if (!st && want_upper) st = pull_of(t, most, false, 1, &above, err);
   if (!st) {
+    assert(a.velocity);
     h->present = true;
     h->lower = a.lower;
     h->upper = above.pull;
