@@ -189,10 +189,7 @@ static void put_json(thr_text *t, const pull_args *a, const entry *e, int n, con
       double value = compare_rows[k].value(&e[i]);
       if (!wanted(a, compare_rows[k].method)) continue;
       thr_text_printf(t, ", \"%s\": ", compare_rows[k].key);
-      if (isnan(value))
-        thr_text_append(t, "null");
-      else
-        thr_text_double(t, value);
+      thr_text_json_number(t, value);
     }
     thr_text_append(t, ", \"best\": [");
     for (int k = 0, some = 0; k < compare_n_rows; k++)

@@ -330,10 +330,7 @@ static void put_text(thr_text *t, const arguments *a, const thr_plan *p, const t
 static void put_number(thr_text *t, const char *before, double value)
 {
   thr_text_append(t, before);
-  if (isfinite(value))
-    thr_text_double(t, value);
-  else
-    thr_text_append(t, "null");
+  thr_text_json_number(t, value);
 }
 
 static void put_bead(thr_text *t, const char *before, const thr_frame *f, int bead)

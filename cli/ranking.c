@@ -94,10 +94,7 @@ void ranking_put_text(const ranking *r, const char *const *name, thr_text *t)
 static void put_number(thr_text *t, const char *before, double value)
 {
   thr_text_append(t, before);
-  if (isfinite(value))
-    thr_text_double(t, value);
-  else
-    thr_text_append(t, "null");
+  thr_text_json_number(t, value);
 }
 
 void ranking_put_json(const ranking *r, const char *const *name, thr_text *t)

@@ -2,6 +2,7 @@
 #include "diagram/still.h"
 
 #include "diagram/svg.h"
+#include "graph/vector.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -28,11 +29,6 @@ typedef struct {
   double scale;           /* mm per unit */
   face *face;             /* [5 * 2 * n_edges] room for one panel */
 } view;
-
-static double dot(const double a[3], const double b[3])
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 static void cross(const double a[3], const double b[3], double out[3])
 {
@@ -76,7 +72,7 @@ static void arm_corners(const view *w, int h, double axis[3], double side[2][3],
   const double *from = w->f->xyz[thr_tail(w->f, h)], *to = w->f->xyz[thr_head(w->f, h)], width = w->still->width;
   for (int k = 0; k < 3; k++)
     axis[k] = to[k] - from[k];
-  double length = sqrt(dot(axis, axis));
+  double length = sqrt(thr_dot(axis, axis));
   for (int k = 0; k < 3; k++)
     axis[k] = length > 0 ? axis[k] / length : k == 0;
   double level = hypot(axis[0], axis[1]);
@@ -93,7 +89,7 @@ static void arm_corners(const view *w, int h, double axis[3], double side[2][3],
 
 static void shade(const int colour[3], const double normal[3], char hex[8])
 {
-  double light = 0.58 + 0.42 * fmax(0, dot(normal, LIGHT));
+  double light = 0.58 + 0.42 * fmax(0, thr_dot(normal, LIGHT));
   snprintf(hex, 8, "#%02x%02x%02x", (unsigned)(colour[0] * light), (unsigned)(colour[1] * light), (unsigned)(colour[2] * light));
 }
 
@@ -102,7 +98,7 @@ static int add_face(view *w, int n, const double pose[7], const double corner[4]
 {
   double turned[3];
   turn(pose, normal, turned);
-  if (dot(turned, w->eye) <= 0) return n;
+  if (thr_dot(turned, w->eye) <= 0) return n;
   face *a = &w->face[n];
   *a = (face){.order = n};
   for (int i = 0; i < 4; i++) {
@@ -110,9 +106,9 @@ static int add_face(view *w, int n, const double pose[7], const double corner[4]
     turn(pose, corner[i], at);
     for (int k = 0; k < 3; k++)
       at[k] += pose[k];
-    a->depth += 0.25 * dot(at, w->eye);
-    a->at[i][0] = dot(at, w->right);
-    a->at[i][1] = dot(at, w->up);
+    a->depth += 0.25 * thr_dot(at, w->eye);
+    a->at[i][0] = thr_dot(at, w->right);
+    a->at[i][1] = thr_dot(at, w->up);
   }
   shade(colour, turned, a->hex);
   return n + 1;
@@ -173,8 +169,8 @@ static void ground_corners(const view *w, double at[4][2])
   double room = 2 * w->still->width;
   for (int i = 0; i < 4; i++) {
     double p[3] = {i == 0 || i == 3 ? low[0] - room : high[0] + room, i < 2 ? low[1] - room : high[1] + room, w->still->ground};
-    at[i][0] = dot(p, w->right);
-    at[i][1] = dot(p, w->up);
+    at[i][0] = thr_dot(p, w->right);
+    at[i][1] = thr_dot(p, w->up);
   }
 }
 

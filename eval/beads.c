@@ -1,14 +1,10 @@
 /* Geometry of rigid beads: faces, masses, feet, and what cords do to them. */
 #include "eval/beads.h"
+#include "graph/vector.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static double dot(const double a[3], const double b[3])
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 static void cross(const double a[3], const double b[3], double out[3])
 {
@@ -90,7 +86,7 @@ static thr_status place_face(thr_beads *b, const thr_frame *f, int e, thr_err *e
     b->axis[e][k] = to[k] - from[k];
     b->middle[e][k] = 0.5 * (from[k] + to[k]);
   }
-  double length = sqrt(dot(b->axis[e], b->axis[e]));
+  double length = sqrt(thr_dot(b->axis[e], b->axis[e]));
   if (!(length > 0))
     return thr_fail(err, THR_EINPUT, "edge between nodes %s and %s has no length in space: a bead needs an arm there",
                     f->name[f->edge[e][0]], f->name[f->edge[e][1]]);
@@ -115,7 +111,7 @@ static void weigh(thr_beads *b, const thr_frame *f, const thr_physics *physics, 
     double arm[3], length = 0;
     for (int k = 0; k < 3; k++)
       arm[k] = b->middle[f->half[i] >> 1][k] - b->centre[v][k];
-    length = sqrt(dot(arm, arm));
+    length = sqrt(thr_dot(arm, arm));
     double shared = fmin(0.5 * b->width, length), part = length - (1 - share) * shared;
     double lever = 0.5 * (length * length - (1 - share) * shared * shared) / length; /* m of the first moment per m of arm */
     volume += section_area * part;

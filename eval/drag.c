@@ -4,6 +4,7 @@
  */
 #include "eval/drag.h"
 #include "eval/world.h"
+#include "graph/vector.h"
 
 #include <float.h>
 #include <math.h>
@@ -84,17 +85,12 @@ static void along(const double from[3], double t, const double d[3], double out[
     out[k] = from[k] + t * d[k];
 }
 
-static double dot(const double a[3], const double b[3])
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 static double between(const double a[3], const double b[3], double unit[3])
 {
   double n = 0;
   for (int k = 0; k < 3; k++)
     unit[k] = b[k] - a[k];
-  n = sqrt(dot(unit, unit));
+  n = sqrt(thr_dot(unit, unit));
   for (int k = 0; k < 3; k++)
     unit[k] = n > 0 ? unit[k] / n : 0;
   return n;
@@ -103,7 +99,7 @@ static double between(const double a[3], const double b[3], double unit[3])
 static double angle(const double a[3], const double b[3])
 {
   double c[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  return atan2(sqrt(dot(c, c)), dot(a, b));
+  return atan2(sqrt(thr_dot(c, c)), thr_dot(a, b));
 }
 
 /* Quaternions x y z w. */

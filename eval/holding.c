@@ -10,6 +10,7 @@
 
 #include "graph/disjoint.h"
 #include "lp/interior.h"
+#include "graph/vector.h"
 
 #include <assert.h>
 #include <math.h>
@@ -64,11 +65,6 @@ typedef struct {
   double *dual;     /* rows */
 } solution;
 
-static double dot(const double *a, const double *b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 static void cross(const double a[3], const double b[3], double out[3])
 {
   for (int k = 0; k < 3; k++)
@@ -92,7 +88,7 @@ static void add_contact(structure *s, int bead, int other, const double at[3], c
     if (fabs(normal[i]) < fabs(normal[k])) k = i;
   least[k] = 1;
   cross(normal, least, tangent[0]);
-  double norm = sqrt(dot(tangent[0], tangent[0]));
+  double norm = sqrt(thr_dot(tangent[0], tangent[0]));
   for (int i = 0; i < 3; i++)
     tangent[0][i] /= norm;
   cross(normal, tangent[0], tangent[1]);
@@ -128,7 +124,7 @@ static void set_units(structure *s)
   s->length = b->width;
   for (int v = 0; v < s->n_bodies; v++)
     if (s->row[v] >= 0) {
-      square += dot(s->wrench[v], s->wrench[v]) + dot(s->wrench[v] + 3, s->wrench[v] + 3) / (s->length * s->length);
+      square += thr_dot(s->wrench[v], s->wrench[v]) + thr_dot(s->wrench[v] + 3, s->wrench[v] + 3) / (s->length * s->length);
       bodies++;
     }
   s->pull = square > 0 ? s->weight / sqrt(square / bodies) : s->weight;
@@ -401,7 +397,7 @@ static double least_opening(const structure *s, const double (*velocity)[6])
         apart[k] -= back[k];
     }
     for (int e = 0; e < EDGES; e++)
-      least = fmin(least, dot(c->ray[e], apart));
+      least = fmin(least, thr_dot(c->ray[e], apart));
   }
   return least;
 }
@@ -432,7 +428,7 @@ static void scale(const structure *s, double (*velocity)[6], double factor)
 
 static double translation(const double velocity[6])
 {
-  return sqrt(dot(velocity, velocity));
+  return sqrt(thr_dot(velocity, velocity));
 }
 
 static double largest_translation(const thr_beads *b, const double (*velocity)[6])

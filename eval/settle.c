@@ -4,6 +4,7 @@
  * numbers, and a time of 1 is what a bead takes to fall half an edge. */
 #include "eval/settle.h"
 #include "eval/world.h"
+#include "graph/vector.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -51,15 +52,10 @@ typedef struct {
   double (*home)[3]; /* [n_beads] node when settled */
 } model;
 
-static double dot(const double a[3], const double b[3])
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 static double distance(const double a[3], const double b[3])
 {
   double d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-  return sqrt(dot(d, d));
+  return sqrt(thr_dot(d, d));
 }
 
 /* SplitMix64: even in [-1, 1). */
@@ -106,7 +102,7 @@ static void matrix_of(const double q[4], double m[3][3])
 static void turned(const placed *p, const double v[3], double out[3])
 {
   for (int k = 0; k < 3; k++)
-    out[k] = dot(p->turn[k], v);
+    out[k] = thr_dot(p->turn[k], v);
 }
 
 /* Where a point of the framework, in m, is now if it moves with a bead. */
@@ -317,7 +313,7 @@ static void pull_cords(model *m)
       line[k] = to[k] - from[k] + 0.5 * TILT_LENGTH * (axis[0][k] + axis[1][k]);
       at[k] = 0.5 * (from[k] + to[k]);
     }
-    double size = m->pull * m->tension[e] / fmax(sqrt(dot(line, line)), 1e-9);
+    double size = m->pull * m->tension[e] / fmax(sqrt(thr_dot(line, line)), 1e-9);
     for (int k = 0; k < 3; k++) {
       line[k] *= size;
       back[k] = -line[k];
@@ -378,7 +374,7 @@ static double widest_gap(const model *m)
       double from[3], to[3];
       carried(m, a, m->b->corner[e][i], from);
       carried(m, b, m->b->corner[e][i], to);
-      widest = fmax(widest, dot(to, axis) - dot(from, axis));
+      widest = fmax(widest, thr_dot(to, axis) - thr_dot(from, axis));
     }
   }
   return widest;

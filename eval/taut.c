@@ -4,6 +4,7 @@
  * Gauss-Seidel over the openings settles a straight run of n of them in n^2 sweeps; Newton steps with a barrier take the same few
  * dozen for 20 nodes and for 7,000. */
 #include "eval/taut.h"
+#include "graph/vector.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -49,11 +50,6 @@ typedef struct {
   block *block;                /* [n + 1] */
 } path;
 
-static double dot(const double a[3], const double b[3])
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 static double slack(const double z[2])
 {
   return (1 - z[0] * z[0] - z[1] * z[1]) / 2;
@@ -65,7 +61,7 @@ static double scale_to_unit(double a[3])
   if (largest == 0) return 0;
   for (int k = 0; k < 3; k++)
     a[k] /= largest;
-  double norm = sqrt(dot(a, a));
+  double norm = sqrt(thr_dot(a, a));
   for (int k = 0; k < 3; k++)
     a[k] /= norm;
   return norm * largest;
@@ -108,7 +104,7 @@ static void open_to(const opening *o, double radius, double turn, double axis[2]
   if (o->cosine == 0) return;
   double half = (1 + radius - radius * fmin(1, o->cosine / cos(turn / 2))) / o->cosine;
   if (half * o->sine > REACH * o->short_edge) half = REACH * o->short_edge / o->sine;
-  double now = sqrt(dot(axis[0], axis[0]));
+  double now = sqrt(thr_dot(axis[0], axis[0]));
   for (int k = 0; k < 3; k++)
     axis[0][k] *= half / now;
 }
@@ -185,7 +181,7 @@ static void measure_pieces(const path *p, const double (*z)[2], piece *out)
 /* Second derivative of a piece's length along x at its one end and y at the other. */
 static double bend(const piece *e, const double x[3], const double y[3])
 {
-  return (dot(x, y) - dot(x, e->unit) * dot(y, e->unit)) / e->length;
+  return (thr_dot(x, y) - thr_dot(x, e->unit) * thr_dot(y, e->unit)) / e->length;
 }
 
 static void turn_basis(path *p, int i)
@@ -200,8 +196,8 @@ static void turn_basis(path *p, int i)
   }
   for (int k = 0; k < 2; k++) {
     b->gradient[k] = 0;
-    if (i > 0) b->gradient[k] += dot(b->axis[k], p->piece[i - 1].unit);
-    if (i < p->n) b->gradient[k] -= dot(b->axis[k], p->piece[i].unit);
+    if (i > 0) b->gradient[k] += thr_dot(b->axis[k], p->piece[i - 1].unit);
+    if (i < p->n) b->gradient[k] -= thr_dot(b->axis[k], p->piece[i].unit);
   }
 }
 
@@ -369,7 +365,7 @@ static thr_status solve(path *p, const char *id, thr_err *err)
 static double turn_between(const double a[3], const double b[3])
 {
   double cross[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  return atan2(sqrt(dot(cross, cross)), dot(a, b));
+  return atan2(sqrt(thr_dot(cross, cross)), thr_dot(a, b));
 }
 
 /* Openings and path in turns, until the turns stay: turn holds the nominal ones at first. */

@@ -147,16 +147,8 @@ static thr_status bad(const reader *r, const char *key, const char *what)
 /* known ends with NULL. */
 static thr_status only_members(const reader *r, const thr_json *o, const char *const *known)
 {
-  void *iter = NULL;
-  const char *key;
-  const thr_json *value;
-  while (thr_json_next(o, &iter, &key, &value)) {
-    int i = 0;
-    while (known[i] && strcmp(known[i], key) != 0)
-      i++;
-    if (!known[i]) return bad(r, key, "this version does not know it and cannot check it");
-  }
-  return THR_OK;
+  const char *key = thr_json_unknown(o, known);
+  return key ? bad(r, key, "this version does not know it and cannot check it") : THR_OK;
 }
 
 static thr_status get_double(const reader *r, const thr_json *o, const char *key, double *out)

@@ -27,4 +27,7 @@ bool thr_json_true(const thr_json *v);                                 /* true, 
 /* Iterates an object in file order: start with *iter = NULL; false at the end. */
 bool thr_json_next(const thr_json *object, void **iter, const char **key, const thr_json **value);
 
+/* First member of an object that is not in known (which ends with NULL), or NULL. */
+const char *thr_json_unknown(const thr_json *object, const char *const *known);
+
 #endif

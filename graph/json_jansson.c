@@ -113,3 +113,17 @@ bool thr_json_next(const thr_json *object, void **iter, const char **key, const 
   *value = wrap(json_object_iter_value(*iter));
   return true;
 }
+
+const char *thr_json_unknown(const thr_json *object, const char *const *known)
+{
+  void *iter = NULL;
+  const char *key;
+  const thr_json *value;
+  while (thr_json_next(object, &iter, &key, &value)) {
+    int i = 0;
+    while (known[i] && strcmp(known[i], key) != 0)
+      i++;
+    if (!known[i]) return key;
+  }
+  return NULL;
+}

@@ -224,17 +224,9 @@ static thr_status index_at(const reader *r, const thr_json *list, int i, int lim
 /* A member that this version does not know may be a claim that nobody checked. known ends with NULL. */
 static thr_status only_members(const reader *r, const thr_json *o, const char *place, const char *const *known)
 {
-  void *iter = NULL;
-  const char *key;
-  const thr_json *value;
-  while (thr_json_next(o, &iter, &key, &value)) {
-    int i = 0;
-    while (known[i] && strcmp(known[i], key) != 0)
-      i++;
-    if (!known[i])
-      return thr_fail(r->err, THR_EVIOLATED, "%s: %s.%s: this version does not know it and cannot check it", r->name, place, key);
-  }
-  return THR_OK;
+  const char *key = thr_json_unknown(o, known);
+  if (!key) return THR_OK;
+  return thr_fail(r->err, THR_EVIOLATED, "%s: %s.%s: this version does not know it and cannot check it", r->name, place, key);
 }
 
 static thr_status read_nodes(const reader *r, const thr_json *o, thr_draft *d)

@@ -2,6 +2,7 @@
 #define _XOPEN_SOURCE 700
 #include "graph/text.h"
 
+#include <math.h>
 #include <errno.h>
 #include <signal.h>
 #include <stdarg.h>
@@ -65,6 +66,14 @@ void thr_text_double(thr_text *t, double value)
     if (strtod(digits, NULL) == value) break;
   }
   thr_text_append(t, digits);
+}
+
+void thr_text_json_number(thr_text *t, double value)
+{
+  if (isfinite(value))
+    thr_text_double(t, value);
+  else
+    thr_text_append(t, "null");
 }
 
 void thr_text_json_string(thr_text *t, const char *s)

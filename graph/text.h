@@ -19,6 +19,9 @@ void thr_text_append_bytes(thr_text *t, const char *s, size_t n);
 /* Shortest decimal that reads back as the same double; "-0" is written as 0. Finite numbers only. */
 void thr_text_double(thr_text *t, double value);
 
+/* The same as JSON, which has no word for what is not finite: null. */
+void thr_text_json_number(thr_text *t, double value);
+
 /* JSON string with quotes and escapes; bytes >= 0x20 are passed through as UTF-8. */
 void thr_text_json_string(thr_text *t, const char *s);
 
