@@ -7,7 +7,8 @@
 
 thr_plan_options thr_plan_options_default(void)
 {
-  return (thr_plan_options){.cover = 1, .ends = THR_ENDS_CLOSED, .physics = thr_physics_default()};
+  return (thr_plan_options){
+      .cover = 1, .cords = 1, .turning = {.length_slack = -1}, .ends = THR_ENDS_CLOSED, .physics = thr_physics_default()};
 }
 
 void thr_certificate_destroy(thr_certificate *c)
@@ -26,6 +27,7 @@ void thr_plan_destroy(thr_plan *p)
   for (int i = 0; i < p->proof.n_certificates; i++)
     thr_certificate_destroy(&p->proof.certificate[i]);
   free(p->proof.certificate);
+  thr_turning_proof_destroy(&p->turning.tree);
   thr_evaluation_destroy(&p->evaluation);
   free(p->options.end_node);
   free(p->generator);
@@ -50,6 +52,18 @@ int thr_length_proof_cuts(const thr_length_proof *proof)
   for (int i = 0; i < proof->n_certificates; i++)
     cuts += proof->certificate[i].n_cuts;
   return cuts;
+}
+
+const char *thr_objective_name(thr_objective o)
+{
+  static const char *const name[] = {"length", "tortuosity"};
+  return name[o];
+}
+
+const char *thr_tour_name(thr_tour t)
+{
+  static const char *const name[] = {"least", "fleury", "hierholzer"};
+  return name[t];
 }
 
 const char *thr_ends_name(thr_ends e)
@@ -117,16 +131,40 @@ double thr_cord_turning(const thr_frame *f, const thr_cord *c, bool with_closure
   return sum;
 }
 
-static void measure_cord(const thr_frame *f, const thr_cord *c, int *passes, thr_metrics *m)
+int thr_cord_turns(const thr_plan_options *o, const thr_cord *c)
 {
-  double turning = thr_cord_turning(f, c, true);
+  return o->ends == THR_ENDS_CLOSED ? c->n_passes : c->n_passes - 1;
+}
+
+int thr_plan_turns_over(const thr_plan *p, double angle)
+{
+  int n = 0;
+  for (int i = 0; i < p->n_cords; i++) {
+    const thr_cord *c = &p->cord[i];
+    for (int k = 0; k < thr_cord_turns(&p->options, c); k++)
+      n += thr_turn_angle(&p->frame, c->half[k], c->half[(k + 1) % c->n_passes]) > angle + 1e-9;
+  }
+  return n;
+}
+
+double thr_cord_price(const thr_frame *f, const thr_plan_options *o, const thr_cord *c)
+{
+  double sum = 0;
+  for (int k = 0; k < thr_cord_turns(o, c); k++)
+    sum += thr_turn_price(f, o->turning.cost, c->half[k], c->half[(k + 1) % c->n_passes]);
+  return sum;
+}
+
+static void measure_cord(const thr_frame *f, const thr_plan_options *o, const thr_cord *c, int *passes, thr_metrics *m)
+{
+  double turning = thr_cord_turning(f, c, o->ends == THR_ENDS_CLOSED);
   m->length += thr_cord_length(f, c);
   m->passes += c->n_passes;
   m->turning += turning;
   if (turning > m->max_turning) m->max_turning = turning;
-  for (int i = 0; i < c->n_passes; i++) {
+  for (int i = 0; i < c->n_passes; i++)
     if (++passes[c->half[i] >> 1] > m->most_passes) m->most_passes = passes[c->half[i] >> 1];
-    if (i + 1 == c->n_passes && !c->closed) break;
+  for (int i = 0; i < thr_cord_turns(o, c); i++) {
     int next = c->half[(i + 1) % c->n_passes];
     double angle = thr_turn_angle(f, c->half[i], next);
     if (angle > m->worst_turn) m->worst_turn = angle;
@@ -134,16 +172,17 @@ static void measure_cord(const thr_frame *f, const thr_cord *c, int *passes, thr
   }
 }
 
-thr_status thr_plan_measure(const thr_frame *f, int cover, const thr_cord *cord, int n_cords, thr_metrics *m, thr_err *err)
+thr_status thr_plan_measure(const thr_frame *f, const thr_plan_options *o, const thr_cord *cord, int n_cords, thr_metrics *m,
+                            thr_err *err)
 {
   *m = (thr_metrics){0};
   int *passes = thr_calloc((size_t)f->n_edges, sizeof *passes);
   if (!passes) return thr_nomem(err);
   for (int i = 0; i < n_cords; i++)
-    measure_cord(f, &cord[i], passes, m);
-  m->base_length = cover * thr_frame_total_length(f);
+    measure_cord(f, o, &cord[i], passes, m);
+  m->base_length = o->cover * thr_frame_total_length(f);
   for (int e = 0; e < f->n_edges; e++) /* not a difference of two sums: exactly 0 without overlap */
-    m->overlap += (passes[e] - cover) * f->length[e];
+    m->overlap += (passes[e] - o->cover) * f->length[e];
   free(passes);
   return THR_OK;
 }

@@ -4,12 +4,35 @@
 #define THR_PLAN_H
 
 #include "graph/evaluation.h"
+#include "graph/turning_proof.h"
 
 typedef enum { THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET, THR_ENDS_NODES } thr_ends;
 
+typedef enum { THR_LENGTH, THR_TORTUOSITY, THR_N_OBJECTIVES } thr_objective;
+
+/* How the cords of a plan for the least turning are found. */
+typedef enum {
+  THR_TOUR_LEAST,  /* extra passes, ends and pairings chosen together */
+  THR_TOUR_FLEURY, /* the classical tours through the shortest passes, to compare with */
+  THR_TOUR_HIERHOLZER,
+  THR_N_TOURS
+} thr_tour;
+
+/* What is asked for beside THR_TORTUOSITY. */
+typedef struct {
+  thr_turn_cost cost;
+  double length_slack; /* cord allowed above the shortest, as a part of it; < 0 = any length */
+  bool largest;        /* minimize the turning of the cord that turns most, not of all together */
+  thr_tour tour;
+  bool ignore_pairings; /* of the classical tours: edges in their order instead of the cheapest pairing of every node */
+} thr_turning_options;
+
 /* What the user asked for; echoed in the plan so that it can be made again. */
 typedef struct {
-  int cover; /* every edge gets at least this many passes, 1 .. 100 */
+  thr_objective objective;
+  int cover;                   /* every edge gets at least this many passes, 1 .. 100 */
+  int cords;                   /* in every component, 1 .. 1000; THR_LENGTH: 1 */
+  thr_turning_options turning; /* THR_TORTUOSITY only */
   thr_ends ends;
   bool *end_node;      /* [n_nodes] THR_ENDS_NODES only: where ends may be; owned, else NULL */
   thr_physics physics; /* of cord and beads, as asked: what eval starts from */
@@ -34,15 +57,15 @@ typedef struct {
 } thr_cut;
 
 /* Proof of a lower bound on the extra cord of one component (Edmonds & Johnson 1973): a packing of odd cuts.
- * Edge e weighs w_e = round(length_e * scale). With ends allowed at nodes F there are two more odd nodes, the slots
- * n_nodes and n_nodes + 1, each joined to every node of F in the component by an edge of weight slot_cost, and to
- * each other by one of 2 * slot_cost: a set of passes that leaves one open cord is then a T-join of that graph.
+ * Edge e weighs w_e = round(length_e * scale). With ends allowed at nodes F there are two more odd nodes per cord, the slots
+ * n_nodes, n_nodes + 1, .., each joined to every node of F in the component by an edge of weight slot_cost, and to
+ * each other by edges of 2 * slot_cost: a set of passes that leaves so many open cords is then a T-join of that graph.
  * If the cuts' values load no edge beyond w_e * denominator, no join is shorter than sum(value) / denominator. */
 typedef struct {
   int component;
   double scale;        /* integer weight per unit of length, > 0 */
   int64_t denominator; /* > 0 */
-  int n_slots;         /* 0 (closed) or 2 */
+  int n_slots;         /* 0 (closed) or 2 * options.cords */
   int64_t slot_cost;
   int64_t join; /* weight of the extra passes of the plan, without slots */
   int64_t sum;  /* of the cuts' values */
@@ -59,13 +82,30 @@ typedef struct {
   thr_certificate *certificate; /* one per component; owned */
 } thr_length_proof;
 
+/* What is proved about the turning of a plan for THR_TORTUOSITY: of no plan with the same options, U-turns at nodes with one edge
+ * only, at most most_passes over any edge and no more cord than length_limit are all turns together cheaper than lower_bound. */
+typedef struct {
+  bool present;
+  bool optimal;         /* proved: the checker agrees, or it says violation */
+  double price;         /* of all turns, as options.turning.cost prices them; THR_TURN_ANGLE: = metrics.turning */
+  double lower_bound;   /* what the tree proves */
+  double gap;           /* (price - lower_bound) / price, 0 if price is 0 */
+  double pairing_bound; /* sum over the nodes of the cheapest pairing of the passes and ends there, each node on its own */
+  double largest;       /* price of the cord that turns most */
+  double largest_bound; /* no plan of the same kind has less: lower_bound shared out evenly */
+  bool largest_optimal;
+  int most_passes;
+  double length_limit; /* in units; < 0 = none */
+  thr_turning_proof tree;
+} thr_turning_claim;
+
 typedef struct {
   double length;      /* of all cords, in units */
   double base_length; /* cover * sum of edge lengths */
   double overlap;     /* length - base_length */
   int passes;         /* of all cords */
   int most_passes;    /* on one edge */
-  double turning;     /* sum of turning angles over all cords, rad; a closed cord counts the turn at its ends' node */
+  double turning;     /* sum of turning angles over all cords, rad; with THR_ENDS_CLOSED also the turn where a cord closes */
   double max_turning; /* of the cord that turns most, rad */
   double worst_turn;  /* sharpest single turn, rad */
   int u_turns;        /* turns from an edge back into the same edge */
@@ -80,7 +120,12 @@ typedef struct {
   thr_metrics metrics;
   thr_evaluation evaluation; /* of `thread eval`, if present */
   thr_length_proof proof;
+  thr_turning_claim turning;
 } thr_plan;
+
+/* "length", "tortuosity"; "least", "fleury", "hierholzer". */
+const char *thr_objective_name(thr_objective o);
+const char *thr_tour_name(thr_tour t);
 
 thr_plan_options thr_plan_options_default(void);
 void thr_plan_destroy(thr_plan *p);
@@ -104,8 +149,18 @@ double thr_turn_angle(const thr_frame *f, int in, int out);
 /* Sum of the turning angles inside a cord, rad; with_closure adds the turn between a closed cord's last and first pass. */
 double thr_cord_turning(const thr_frame *f, const thr_cord *c, bool with_closure);
 
-/* Computes metrics from frame, options.cover and cords alone. */
-thr_status thr_plan_measure(const thr_frame *f, int cover, const thr_cord *cord, int n_cords, thr_metrics *m,
+/* Turns of a cord that count: with THR_ENDS_CLOSED as many as passes (the last one closes it), else one less. Turn k goes from
+ * pass k to pass k + 1 (or 0). */
+int thr_cord_turns(const thr_plan_options *o, const thr_cord *c);
+
+/* Turns of all cords that are sharper than angle (rad, by more than 1e-9). */
+int thr_plan_turns_over(const thr_plan *p, double angle);
+
+/* Price of the turns of a cord. */
+double thr_cord_price(const thr_frame *f, const thr_plan_options *o, const thr_cord *c);
+
+/* Computes metrics from frame, options (cover, ends) and cords alone. */
+thr_status thr_plan_measure(const thr_frame *f, const thr_plan_options *o, const thr_cord *cord, int n_cords, thr_metrics *m,
                             thr_err *err) THR_MUST_CHECK;
 
 /* JSON of a plan; and back. Errors are "name: place: what": THR_EINPUT for what is not a plan at all, THR_EVIOLATED for

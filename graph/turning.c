@@ -1,5 +1,5 @@
 /* Prices of turns, and the columns of the turning model. */
-#include "graph/turning_proof.h"
+#include "graph/plan.h"
 
 #include <limits.h>
 #include <math.h>
@@ -27,6 +27,12 @@ double thr_turn_cost_of(thr_turn_cost cost, double angle)
 double thr_turn_price(const thr_frame *f, thr_turn_cost cost, int in, int out)
 {
   return thr_turn_cost_of(cost, in == (out ^ 1) ? pi : thr_turn_angle(f, in, out));
+}
+
+double thr_turning_extra_limit(const thr_frame *f, int cover, double length_limit)
+{
+  if (length_limit < 0) return -1;
+  return fmax(0, length_limit - cover * thr_frame_total_length(f)) + 1e-11 * length_limit;
 }
 
 /* ---- columns ---- */

@@ -47,7 +47,7 @@ static void put_dual(thr_text *t, const thr_turning_dual *d, const thr_frame *f,
   thr_text_append(t, "]}");
 }
 
-void thr_turning_proof_write(const thr_turning_proof *p, const thr_frame *f, int n_components, thr_text *t)
+void thr_turning_proof_write(const thr_turning_proof *p, const thr_frame *f, thr_text *t)
 {
   thr_text_append(t, "{\"tree\": [");
   for (int i = 0; i < p->n_nodes; i++) {
@@ -62,7 +62,7 @@ void thr_turning_proof_write(const thr_turning_proof *p, const thr_frame *f, int
   thr_text_append(t, "],\n   \"multipliers\": [");
   for (int i = 0; i < p->n_duals; i++) {
     thr_text_append(t, i ? ",\n    " : "\n    ");
-    put_dual(t, &p->dual[i], f, n_components);
+    put_dual(t, &p->dual[i], f, p->n_components);
   }
   thr_text_append(t, "]}");
 }
@@ -210,11 +210,11 @@ static thr_status read_node(const reader *r, const thr_json *v, thr_turning_node
   return st;
 }
 
-thr_status thr_turning_proof_from_json(thr_turning_proof *p, const thr_frame *f, int n_components, const thr_json *v,
-                                       const char *place, thr_err *err)
+thr_status thr_turning_proof_from_json(thr_turning_proof *p, const thr_frame *f, const thr_json *v, const char *place,
+                                       thr_err *err)
 {
   static const char *const known[] = {"tree", "multipliers", NULL};
-  const reader r = {place, f, n_components, err};
+  reader r = {place, f, 0, err};
   const thr_json *tree, *duals;
   *p = (thr_turning_proof){0};
   thr_status st = only_members(&r, v, known);
@@ -222,6 +222,7 @@ thr_status thr_turning_proof_from_json(thr_turning_proof *p, const thr_frame *f,
   if (!st) st = get_array(&r, v, "multipliers", &duals);
   if (st) return st;
   int n_nodes = thr_json_size(tree), n_duals = thr_json_size(duals);
+  p->n_components = r.n_components = thr_json_size(thr_json_get(thr_json_at(duals, 0), "ends"));
   p->node = thr_calloc((size_t)n_nodes, sizeof *p->node);
   p->dual = thr_calloc((size_t)n_duals, sizeof *p->dual);
   st = p->node && p->dual ? THR_OK : thr_nomem(err);

@@ -365,8 +365,11 @@ static void walk_up(const thr_turning_columns *c, const thr_turning_proof *p, co
   }
 }
 
-static thr_status check_dual_shape(const thr_turning_proof *p, thr_err *err)
+static thr_status check_dual_shape(const thr_turning_columns *c, const thr_turning_proof *p, thr_err *err)
 {
+  if (p->n_components != c->n_components)
+    return thr_fail(err, THR_EVIOLATED, "turning proof: multipliers for the ends of %d components; the framework has %d",
+                    p->n_components, c->n_components);
   if (p->n_nodes < 1) return thr_fail(err, THR_EVIOLATED, "turning proof: no tree");
   for (int i = 0; i < p->n_duals; i++)
     if (!p->dual[i].potential || !p->dual[i].ends) return thr_fail(err, THR_EVIOLATED, "turning proof: no multipliers");
@@ -383,7 +386,7 @@ thr_status thr_turning_proof_check(const thr_frame *f, const thr_turning_task *t
   if (st) return st;
   int *parent = thr_calloc((size_t)p->n_nodes, sizeof *parent);
   int *low = thr_calloc((size_t)c.n_columns, sizeof *low), *high = thr_calloc((size_t)c.n_columns, sizeof *high);
-  st = parent && low && high ? check_dual_shape(p, err) : thr_nomem(err);
+  st = parent && low && high ? check_dual_shape(&c, p, err) : thr_nomem(err);
   if (!st) st = link_tree(&c, p, parent, err);
   for (int j = 0; j < c.n_columns && !st; j++)
     high[j] = thr_turning_most(&c, j);

@@ -20,14 +20,16 @@
 #ifndef THR_TURNING_PROOF_H
 #define THR_TURNING_PROOF_H
 
+#include "graph/frame.h"
 #include "graph/json.h"
-#include "graph/plan.h"
 
 typedef enum {
   THR_TURN_ANGLE, /* rad, 0 = straight on */
   THR_TURN_SINE,  /* sin(angle / 2), the thesis's Fig. 13 */
   THR_TURN_STEP   /* 1 for a turn of 90 degrees or more (to 1e-6 rad), else 0 */
 } thr_turn_cost;
+
+enum { THR_N_TURN_COSTS = THR_TURN_STEP + 1 };
 
 const char *thr_turn_cost_name(thr_turn_cost cost); /* "angle", "sine", "step" */
 double thr_turn_cost_of(thr_turn_cost cost, double angle);
@@ -45,6 +47,10 @@ typedef struct {
   double price_per_length; /* of extra cord, in the turns' price per unit of length, >= 0 */
   double extra_limit;      /* of all extra cord, in units of length; < 0 = none */
 } thr_turning_task;
+
+/* extra_limit for a limit on the length of all cords (< 0 = none): a little more than the difference, so that no rounding shuts
+ * out a plan of just that length. */
+double thr_turning_extra_limit(const thr_frame *f, int cover, double length_limit);
 
 /* The columns of the model, numbered turns, extras, ends, backs. */
 typedef struct {
@@ -114,9 +120,9 @@ typedef struct {
 } thr_turning_node;
 
 typedef struct {
-  int n_nodes, n_duals;
+  int n_nodes, n_duals, n_components;
   thr_turning_node *node; /* owned; node[0] is the root */
-  thr_turning_dual *dual; /* owned */
+  thr_turning_dual *dual; /* owned; ends [n_components] */
 } thr_turning_proof;
 
 void thr_turning_proof_destroy(thr_turning_proof *p);
@@ -134,8 +140,8 @@ thr_status thr_turning_proof_check(const thr_frame *f, const thr_turning_task *t
 
 /* JSON of a proof, one object; and back, strictly: unknown, missing or mistyped members and indices that the framework does not
  * have are THR_EVIOLATED, "place: what". Whether it proves anything is for thr_turning_proof_check. */
-void thr_turning_proof_write(const thr_turning_proof *p, const thr_frame *f, int n_components, thr_text *t);
-thr_status thr_turning_proof_from_json(thr_turning_proof *p, const thr_frame *f, int n_components, const thr_json *v,
-                                       const char *place, thr_err *err) THR_MUST_CHECK;
+void thr_turning_proof_write(const thr_turning_proof *p, const thr_frame *f, thr_text *t);
+thr_status thr_turning_proof_from_json(thr_turning_proof *p, const thr_frame *f, const thr_json *v, const char *place,
+                                       thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -308,7 +308,7 @@ static thr_status assemble(postman *m, thr_plan *plan, thr_err *err)
   st = thr_tour_cords(&plan->frame, &plan->options, m->component, m->n_components, m->passes, (const int(*)[2])m->ends,
                       plan->cord, err);
   if (st) return st;
-  if ((st = thr_plan_measure(&plan->frame, plan->options.cover, plan->cord, plan->n_cords, &plan->metrics, err))) return st;
+  if ((st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err))) return st;
   thr_length_proof *proof = &plan->proof;
   proof->present = true;
   proof->certificate = m->certificate;

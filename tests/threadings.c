@@ -80,6 +80,6 @@ thr_plan threading_make(const thr_frame *dome, int n, threading kind)
   else
     add_snake(&p, n, node);
   free(node);
-  ck_assert_int_eq(thr_plan_measure(&p.frame, 1, p.cord, p.n_cords, &p.metrics, NULL), THR_OK);
+  ck_assert_int_eq(thr_plan_measure(&p.frame, &p.options, p.cord, p.n_cords, &p.metrics, NULL), THR_OK);
   return p;
 }

@@ -333,7 +333,7 @@ thr_status thr_branch_run(thr_branch *b, thr_err *err)
 
 thr_status thr_branch_proof(thr_branch *b, thr_turning_proof *p, thr_err *err)
 {
-  *p = (thr_turning_proof){.n_nodes = b->n_nodes};
+  *p = (thr_turning_proof){.n_nodes = b->n_nodes, .n_components = b->c->n_components};
   p->node = thr_calloc((size_t)b->n_nodes, sizeof *p->node);
   p->dual = thr_calloc((size_t)b->n_duals, sizeof *p->dual);
   int *moved = thr_calloc((size_t)b->n_duals, sizeof *moved);

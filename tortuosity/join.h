@@ -3,7 +3,7 @@
 #define THR_JOIN_H
 
 #include "graph/multigraph.h"
-#include "graph/turning_proof.h"
+#include "graph/plan.h"
 
 /* Multigraph of the passes; cord ends are virtual edges to one more node per component, n_nodes + k, which is never paired.
  * Closed cords have none. mate as in graph/transition.h, -1 at the end nodes. */

@@ -58,7 +58,8 @@ static thr_status find_shortest(const thr_frame *f, const thr_least_options *o, 
   double extra = st ? 0 : thr_extra_length(&c, passes), base = o->cover * thr_frame_total_length(f);
   thr_turning_columns_destroy(&c);
   out->shortest = base + extra;
-  if (o->length_slack >= 0) out->task.extra_limit = extra + o->length_slack * out->shortest;
+  out->length_limit = o->length_slack < 0 ? -1 : out->shortest * (1 + o->length_slack);
+  out->task.extra_limit = thr_turning_extra_limit(f, o->cover, out->length_limit);
   return st;
 }
 

@@ -3,7 +3,7 @@
 #define THR_LEAST_H
 
 #include "graph/limits.h"
-#include "graph/turning_proof.h"
+#include "graph/plan.h"
 #include "tortuosity/join.h"
 
 typedef struct {
@@ -28,6 +28,7 @@ typedef struct {
   double price;   /* of all turns and extra cord; where a cord has both ends at one node, nothing turns there (closed: it does) */
   double turning; /* rad, whatever the cost */
   double length, shortest; /* of these cords; of the shortest ones for the same options */
+  double length_limit;     /* what the proof is restricted to; < 0 = none */
   double bound;            /* no plan of the task has a lower price: what the check of the proof says */
   bool optimal;            /* price and bound agree within 1e-9 of a U-turn per pass */
   thr_turning_proof proof;

@@ -393,7 +393,7 @@ static void add_detour(rng *r, thr_plan *p)
   free(c->half);
   c->half = half;
   c->n_passes += 2;
-  ck_assert_int_eq(thr_plan_measure(&p->frame, p->options.cover, p->cord, p->n_cords, &p->metrics, NULL), THR_OK);
+  ck_assert_int_eq(thr_plan_measure(&p->frame, &p->options, p->cord, p->n_cords, &p->metrics, NULL), THR_OK);
 }
 
 START_TEST(a_longer_cord_is_never_proved)

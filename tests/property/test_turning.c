@@ -608,10 +608,10 @@ static void assert_round_trip(const thr_frame *f, const thr_least *l)
   thr_err err = {0};
   thr_turning_proof p;
   double bound;
-  thr_turning_proof_write(&l->proof, f, 1, &text);
+  thr_turning_proof_write(&l->proof, f, &text);
   ck_assert_int_eq(thr_json_parse(&doc, text.data, text.length, "proof", &err), THR_OK);
-  ck_assert_msg(thr_turning_proof_from_json(&p, f, 1, doc, "proof", &err) == THR_OK, "%s", err.text);
-  thr_turning_proof_write(&p, f, 1, &again);
+  ck_assert_msg(thr_turning_proof_from_json(&p, f, doc, "proof", &err) == THR_OK, "%s", err.text);
+  thr_turning_proof_write(&p, f, &again);
   assert_same_text(&text, &again);
   ck_assert_int_eq(thr_turning_proof_check(f, &l->task, &p, &bound, &err), THR_OK);
   ck_assert_double_eq(bound, l->bound);
@@ -759,7 +759,7 @@ START_TEST(false_json_is_refused)
   thr_turning_proof p;
   ck_assert_int_eq(thr_json_parse(&doc, false_json[_i], strlen(false_json[_i]), "proof", NULL), THR_OK);
   thr_err err = {0};
-  ck_assert_int_eq(thr_turning_proof_from_json(&p, &f, 1, doc, "proof", &err), THR_EVIOLATED);
+  ck_assert_int_eq(thr_turning_proof_from_json(&p, &f, doc, "proof", &err), THR_EVIOLATED);
   assert_one_line(&err, "proof");
   ck_assert_ptr_null(p.node);
   thr_json_destroy(doc);

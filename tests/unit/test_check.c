@@ -51,7 +51,7 @@ static void add_detour(thr_plan *p)
   free(c->half);
   c->half = half;
   c->n_passes += 2;
-  ck_assert_int_eq(thr_plan_measure(&p->frame, p->options.cover, p->cord, p->n_cords, &p->metrics, NULL), THR_OK);
+  ck_assert_int_eq(thr_plan_measure(&p->frame, &p->options, p->cord, p->n_cords, &p->metrics, NULL), THR_OK);
   p->proof.certificate[0].join += 2 * thr_certificate_weight(&p->frame, &p->proof.certificate[0], half[0] / 2);
 }
 

@@ -346,7 +346,7 @@ START_TEST(wheel_of_2000_spokes)
   thr_metrics m;
   ck_assert_int_eq(thr_tour_cords(&f, &o, component, 1, passes, (const int(*)[2])ends, &cord, NULL), THR_OK);
   assert_uses_all(&f, passes, &cord, 1);
-  ck_assert_int_eq(thr_plan_measure(&f, 2, &cord, 1, &m, NULL), THR_OK);
+  ck_assert_int_eq(thr_plan_measure(&f, &o, &cord, 1, &m, NULL), THR_OK);
   ck_assert_int_eq(m.u_turns, 0);
   free(cord.half);
   free(passes);

@@ -1,173 +1,11 @@
-/* plan.json, written and read. docs/plan-format.md is the schema; both sides of each field stand next to each other. */
+/* plan.json, read: docs/plan-format.md is the schema. Every accessor fails with "file: place: what". */
 #include "graph/plan.h"
-#include "graph/json.h"
 
 #include <assert.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* ---- writing ---- */
-
-static void put_key_double(thr_text *t, const char *key, double value, const char *after)
-{
-  thr_text_printf(t, "\"%s\": ", key);
-  thr_text_double(t, value);
-  thr_text_append(t, after);
-}
-
-/* Appends "[a, b, ..]" from n ints read by the caller's stride. */
-static void put_ints(thr_text *t, const int *value, int n)
-{
-  thr_text_append(t, "[");
-  for (int i = 0; i < n; i++)
-    thr_text_printf(t, i ? ",%d" : "%d", value[i]);
-  thr_text_append(t, "]");
-}
-
-static void put_marked(thr_text *t, const bool *mark, int n)
-{
-  bool some = false;
-  thr_text_append(t, "[");
-  for (int v = 0; v < n; v++)
-    if (mark[v]) {
-      thr_text_printf(t, some ? ",%d" : "%d", v);
-      some = true;
-    }
-  thr_text_append(t, "]");
-}
-
-static void put_frame(thr_text *t, const thr_frame *f)
-{
-  thr_text_append(t, "\"framework\": {\n  \"units\": ");
-  thr_text_json_string(t, f->units);
-  thr_text_printf(t, ",\n  \"hash\": \"%016" PRIx64 "\",\n  \"nodes\": [", thr_frame_hash(f));
-  for (int v = 0; v < f->n_nodes; v++)
-    for (int i = 0; i < 3; i++) {
-      thr_text_append(t, i ? "," : v ? ",\n    [" : "\n    [");
-      thr_text_double(t, f->xyz[v][i]);
-      if (i == 2) thr_text_append(t, "]");
-    }
-  thr_text_append(t, "\n  ],\n  \"edges\": [");
-  for (int e = 0; e < f->n_edges; e++)
-    thr_text_printf(t, "%s[%d,%d]", e == 0 ? "" : e % 12 ? "," : ",\n    ", f->edge[e][0], f->edge[e][1]);
-  thr_text_append(t, "],\n");
-  if (f->own_lengths) {
-    thr_text_append(t, "  \"lengths\": [");
-    for (int e = 0; e < f->n_edges; e++) {
-      if (e) thr_text_append(t, ",");
-      thr_text_double(t, f->length[e]);
-    }
-    thr_text_append(t, "],\n");
-  }
-  if (!thr_frame_names_are_indices(f)) {
-    thr_text_append(t, "  \"names\": [");
-    for (int v = 0; v < f->n_nodes; v++) {
-      if (v) thr_text_append(t, ",");
-      thr_text_json_string(t, f->name[v]);
-    }
-    thr_text_append(t, "],\n");
-  }
-  thr_text_append(t, "  \"feet\": ");
-  put_marked(t, f->foot, f->n_nodes);
-  thr_text_append(t, "\n},\n");
-}
-
-static void put_options(thr_text *t, const thr_plan *p)
-{
-  const thr_plan_options *o = &p->options;
-  thr_text_printf(t, "\"options\": {\"objective\": \"length\", \"joint\": \"solid\", \"cover\": %d, \"ends\": \"%s\", ", o->cover,
-                  thr_ends_name(o->ends));
-  if (o->ends == THR_ENDS_NODES) {
-    thr_text_append(t, "\"end_nodes\": ");
-    put_marked(t, o->end_node, p->frame.n_nodes);
-    thr_text_append(t, ", ");
-  }
-  put_key_double(t, "time_limit", o->time_limit, ",");
-  thr_text_append(t, "\n  \"physics\": ");
-  thr_physics_write(&o->physics, t);
-  thr_text_append(t, "},\n");
-}
-
-static void put_cords(thr_text *t, const thr_plan *p)
-{
-  thr_text_append(t, "\"cords\": [");
-  for (int i = 0; i < p->n_cords; i++) {
-    const thr_cord *c = &p->cord[i];
-    thr_text_append(t, i ? ",\n  {\"id\": " : "\n  {\"id\": ");
-    thr_text_json_string(t, c->id);
-    thr_text_printf(t, ", \"component\": %d, \"closed\": %s,\n   \"nodes\": [%d", c->component, c->closed ? "true" : "false",
-                    thr_cord_start(&p->frame, c));
-    for (int k = 0; k < c->n_passes; k++)
-      thr_text_printf(t, ",%d", thr_head(&p->frame, c->half[k]));
-    thr_text_append(t, "],\n   \"edges\": [");
-    for (int k = 0; k < c->n_passes; k++)
-      thr_text_printf(t, k ? ",%d" : "%d", c->half[k] >> 1);
-    thr_text_append(t, "]}");
-  }
-  thr_text_append(t, "\n],\n");
-}
-
-static void put_metrics(thr_text *t, const thr_metrics *m)
-{
-  thr_text_append(t, "\"metrics\": {");
-  put_key_double(t, "length", m->length, ", ");
-  put_key_double(t, "base_length", m->base_length, ", ");
-  put_key_double(t, "overlap", m->overlap, ", ");
-  thr_text_printf(t, "\"passes\": %d, \"most_passes\": %d,\n  ", m->passes, m->most_passes);
-  put_key_double(t, "turning", m->turning, ", ");
-  put_key_double(t, "max_turning", m->max_turning, ", ");
-  put_key_double(t, "worst_turn", m->worst_turn, ", ");
-  thr_text_printf(t, "\"u_turns\": %d},\n", m->u_turns);
-}
-
-static void put_certificate(thr_text *t, const thr_certificate *c)
-{
-  thr_text_printf(t, "{\"component\": %d, ", c->component);
-  put_key_double(t, "scale", c->scale, ", ");
-  thr_text_printf(t,
-                  "\"denominator\": %" PRId64 ", \"slots\": %d, \"slot_cost\": %" PRId64 ", \"join\": %" PRId64
-                  ", \"sum\": %" PRId64 ",\n    \"cuts\": [",
-                  c->denominator, c->n_slots, c->slot_cost, c->join, c->sum);
-  for (int k = 0; k < c->n_cuts; k++) {
-    thr_text_printf(t, "%s      {\"value\": %" PRId64 ", \"nodes\": ", k ? ",\n" : "\n", c->cut[k].value);
-    put_ints(t, c->cut[k].node, c->cut[k].n_nodes);
-    thr_text_append(t, "}");
-  }
-  thr_text_append(t, "]}");
-}
-
-static void put_proof(thr_text *t, const thr_length_proof *proof)
-{
-  thr_text_append(t, "\"proof\": {");
-  if (proof->present) {
-    thr_text_printf(t, "\"length\": {\"status\": \"%s\", ", proof->optimal ? "optimal" : "bound");
-    put_key_double(t, "lower_bound", proof->lower_bound, ", ");
-    put_key_double(t, "gap", proof->gap, ",\n  \"method\": \"odd-cut packing (Edmonds & Johnson 1973)\",\n  \"certificate\": [");
-    for (int i = 0; i < proof->n_certificates; i++) {
-      thr_text_append(t, i ? ",\n    " : "\n    ");
-      put_certificate(t, &proof->certificate[i]);
-    }
-    thr_text_append(t, "\n  ]}");
-  }
-  thr_text_append(t, "}\n}\n");
-}
-
-void thr_plan_write(const thr_plan *p, thr_text *t)
-{
-  thr_text_append(t, "{\n\"format\": \"thread-plan\",\n\"version\": 1,\n\"generator\": ");
-  thr_text_json_string(t, p->generator ? p->generator : "");
-  thr_text_append(t, ",\n");
-  put_frame(t, &p->frame);
-  put_options(t, p);
-  put_cords(t, p);
-  put_metrics(t, &p->metrics);
-  if (p->evaluation.present) thr_evaluation_write(&p->evaluation, t);
-  put_proof(t, &p->proof);
-}
-
-/* ---- reading: every accessor below fails with "file: place: what" ---- */
 
 typedef struct {
   const char *name; /* of the file, for messages */
@@ -310,12 +148,98 @@ done:
   return st;
 }
 
-/* A plan for another objective or joint may hold, but not by the rules that this version checks. */
-static thr_status only_known(const reader *r, const thr_json *o, const char *key, const char *known)
+/* Text that is one of n names; *out is its number. */
+static thr_status get_name(const reader *r, const thr_json *o, const char *place, const char *key, int n,
+                           const char *(*name)(int), int *out)
 {
+  char known[80] = "";
   const char *value = thr_json_string(thr_json_get(o, key));
-  if (value && strcmp(value, known) == 0) return THR_OK;
-  return thr_fail(r->err, r->code, "%s: options.%s: this version knows %s only", r->name, key, known);
+  for (*out = 0; *out < n; ++*out) {
+    if (value && strcmp(value, name(*out)) == 0) return THR_OK;
+    size_t length = strlen(known);
+    snprintf(known + length, sizeof known - length, "%s%s", *out ? ", " : "", name(*out));
+  }
+  *out = 0;
+  return thr_fail(r->err, r->code, "%s: %s.%s: this version knows %s only", r->name, place, key, known);
+}
+
+static const char *objective_name(int i)
+{
+  return thr_objective_name((thr_objective)i);
+}
+static const char *ends_name(int i)
+{
+  return thr_ends_name((thr_ends)i);
+}
+static const char *cost_name(int i)
+{
+  return thr_turn_cost_name((thr_turn_cost)i);
+}
+static const char *tour_name(int i)
+{
+  return thr_tour_name((thr_tour)i);
+}
+static const char *joint_name(int i)
+{
+  return i == 0 ? "solid" : NULL;
+}
+static const char *aim_name(int i)
+{
+  return i ? "max-turning" : "turning";
+}
+static const char *pairings_name(int i)
+{
+  return i ? "ignore" : "keep";
+}
+static const char *status_name(int i)
+{
+  return i ? "optimal" : "bound";
+}
+
+/* A number >= 0, or null, which is -1. */
+static thr_status get_or_null(const reader *r, const thr_json *o, const char *key, double *out)
+{
+  const thr_json *v = thr_json_get(o, key);
+  *out = -1;
+  if (v && thr_json_typeof(v) == THR_JSON_NULL) return THR_OK;
+  thr_status st = get_double(r, o, key, out);
+  return !st && *out < 0 ? bad(r, key, "negative") : st;
+}
+
+static thr_status read_turning_options(const reader *r, const thr_json *o, thr_turning_options *t)
+{
+  static const char *const known[] = {"cost", "length_slack", "minimize", "tour", "pairings", NULL};
+  const thr_json *v;
+  int cost, aim, tour, pairings;
+  thr_status st = need(r, o, "turning", THR_JSON_OBJECT, &v);
+  if (!st) st = only_members(r, v, "options.turning", known);
+  if (!st) st = get_name(r, v, "options.turning", "cost", THR_N_TURN_COSTS, cost_name, &cost);
+  if (!st) st = get_or_null(r, v, "length_slack", &t->length_slack);
+  if (!st) st = get_name(r, v, "options.turning", "minimize", 2, aim_name, &aim);
+  if (!st) st = get_name(r, v, "options.turning", "tour", THR_N_TOURS, tour_name, &tour);
+  if (!st) st = get_name(r, v, "options.turning", "pairings", 2, pairings_name, &pairings);
+  if (st) return st;
+  t->cost = (thr_turn_cost)cost;
+  t->largest = aim == 1;
+  t->tour = (thr_tour)tour;
+  t->ignore_pairings = pairings == 1;
+  return THR_OK;
+}
+
+/* Which options there are depends on the objective. */
+static thr_status read_objective(const reader *r, const thr_json *v, thr_plan_options *o)
+{
+  static const char *const known[] = {"objective", "joint",      "cover",   "cords",   "ends",
+                                      "end_nodes", "time_limit", "physics", "turning", NULL};
+  static const char *const for_length[] = {"objective", "joint",      "cover",   "cords", "ends",
+                                           "end_nodes", "time_limit", "physics", NULL};
+  int objective, joint;
+  thr_status st = get_name(r, v, "options", "objective", THR_N_OBJECTIVES, objective_name, &objective);
+  if (!st) st = only_members(r, v, "options", objective == THR_TORTUOSITY ? known : for_length);
+  if (!st) st = get_name(r, v, "options", "joint", 1, joint_name, &joint);
+  if (!st && objective == THR_TORTUOSITY) st = read_turning_options(r, v, &o->turning);
+  if (!st) o->objective = (thr_objective)objective;
+  return st;
 }
 
 static thr_status read_options(const reader *r, const thr_json *doc, const thr_frame *f, thr_plan_options *o)
@@ -325,19 +249,14 @@ static thr_status read_options(const reader *r, const thr_json *doc, const thr_f
   thr_status st = need(r, doc, "options", THR_JSON_OBJECT, &v);
   if (st) return st;
   *o = thr_plan_options_default();
-  static const char *const known[] = {"objective", "joint", "cover", "ends", "end_nodes", "time_limit", "physics", NULL};
-  if ((st = only_members(r, v, "options", known))) return st;
-  if ((st = only_known(r, v, "objective", "length"))) return st;
-  if ((st = only_known(r, v, "joint", "solid"))) return st;
+  if ((st = read_objective(r, v, o))) return st;
   if ((st = get_int(r, v, "cover", 1, 100, &o->cover))) return st;
+  if ((st = get_int(r, v, "cords", 1, 1000, &o->cords))) return st;
   snprintf(place, sizeof place, "%.200s: options.physics", r->name);
   if ((st = thr_physics_from_json(&o->physics, thr_json_get(v, "physics"), place, r->err))) return st;
   if ((st = get_double(r, v, "time_limit", &o->time_limit))) return st;
-  const char *ends = thr_json_string(thr_json_get(v, "ends"));
-  int kind = THR_ENDS_CLOSED;
-  while (kind <= THR_ENDS_NODES && (!ends || strcmp(ends, thr_ends_name((thr_ends)kind)) != 0))
-    kind++;
-  if (kind > THR_ENDS_NODES) return bad(r, "options.ends", "expected closed, any, feet or nodes");
+  int kind;
+  if ((st = get_name(r, v, "options", "ends", THR_ENDS_NODES + 1, ends_name, &kind))) return st;
   o->ends = (thr_ends)kind;
   if (o->ends != THR_ENDS_NODES) return THR_OK;
   const thr_json *list;
@@ -468,7 +387,7 @@ static thr_status read_certificate(const reader *r, const thr_json *v, const thr
   if (st) return st;
   if ((st = get_double(r, v, "scale", &c->scale))) return st;
   if ((st = get_int64(r, v, "denominator", 1, INT64_C(1) << 40, &c->denominator))) return st;
-  if ((st = get_int(r, v, "slots", 0, 2, &c->n_slots))) return st;
+  if ((st = get_int(r, v, "slots", 0, 2000, &c->n_slots))) return st;
   if ((st = get_int64(r, v, "slot_cost", 0, INT64_C(1) << 60, &c->slot_cost))) return st;
   if ((st = get_int64(r, v, "join", 0, INT64_C(1) << 60, &c->join))) return st;
   if ((st = get_int64(r, v, "sum", 0, INT64_MAX, &c->sum))) return st;
@@ -481,31 +400,76 @@ static thr_status read_certificate(const reader *r, const thr_json *v, const thr
   return THR_OK;
 }
 
-static thr_status read_proof(const reader *r, const thr_json *doc, const thr_frame *f, thr_length_proof *proof)
+static thr_status get_status(const reader *r, const thr_json *v, const char *place, bool *optimal)
 {
-  const thr_json *all, *list;
-  static const char *const claims[] = {"length", NULL};
+  int status;
+  thr_status st = get_name(r, v, place, "status", 2, status_name, &status);
+  *optimal = status == 1;
+  return st;
+}
+
+static thr_status read_length_proof(const reader *r, const thr_json *v, const thr_frame *f, thr_length_proof *proof)
+{
   static const char *const known[] = {"status", "lower_bound", "gap", "method", "certificate", NULL};
-  thr_status st = need(r, doc, "proof", THR_JSON_OBJECT, &all);
-  if (!st) st = only_members(r, all, "proof", claims);
-  if (!st) st = only_members(r, thr_json_get(all, "length"), "proof.length", known);
+  const thr_json *list;
+  thr_status st = only_members(r, v, "proof.length", known);
+  if (!st) st = get_status(r, v, "proof.length", &proof->optimal);
+  if (!st) st = get_double(r, v, "lower_bound", &proof->lower_bound);
+  if (!st) st = get_double(r, v, "gap", &proof->gap);
+  if (!st) st = need(r, v, "certificate", THR_JSON_ARRAY, &list);
   if (st) return st;
-  const thr_json *v = thr_json_get(all, "length");
-  if (!v) return THR_OK;
-  proof->present = true;
-  const char *status = thr_json_string(thr_json_get(v, "status"));
-  if (!status || (strcmp(status, "optimal") != 0 && strcmp(status, "bound") != 0))
-    return bad(r, "proof.length.status", "expected optimal or bound");
-  proof->optimal = strcmp(status, "optimal") == 0;
-  if ((st = get_double(r, v, "lower_bound", &proof->lower_bound))) return st;
-  if ((st = get_double(r, v, "gap", &proof->gap))) return st;
-  if ((st = need(r, v, "certificate", THR_JSON_ARRAY, &list))) return st;
   int n = thr_json_size(list);
   if (!(proof->certificate = thr_calloc((size_t)n, sizeof *proof->certificate))) return thr_nomem(r->err);
   proof->n_certificates = n;
+  proof->present = true;
   for (int i = 0; i < n; i++)
     if ((st = read_certificate(r, thr_json_at(list, i), f, &proof->certificate[i]))) return st;
   return THR_OK;
+}
+
+static thr_status read_largest(const reader *r, const thr_json *o, thr_turning_claim *c)
+{
+  static const char *const known[] = {"status", "price", "lower_bound", NULL};
+  const thr_json *v;
+  thr_status st = need(r, o, "largest", THR_JSON_OBJECT, &v);
+  if (!st) st = only_members(r, v, "proof.turning.largest", known);
+  if (!st) st = get_status(r, v, "proof.turning.largest", &c->largest_optimal);
+  if (!st) st = get_double(r, v, "price", &c->largest);
+  if (!st) st = get_double(r, v, "lower_bound", &c->largest_bound);
+  return st;
+}
+
+static thr_status read_turning_claim(const reader *r, const thr_json *v, const thr_frame *f, thr_turning_claim *c)
+{
+  static const char *const known[] = {"status",       "price",  "lower_bound", "gap", "pairing_bound", "largest", "most_passes",
+                                      "length_limit", "method", "proof",       NULL};
+  char place[256];
+  thr_status st = only_members(r, v, "proof.turning", known);
+  if (!st) st = get_status(r, v, "proof.turning", &c->optimal);
+  if (!st) st = get_double(r, v, "price", &c->price);
+  if (!st) st = get_double(r, v, "lower_bound", &c->lower_bound);
+  if (!st) st = get_double(r, v, "gap", &c->gap);
+  if (!st) st = get_double(r, v, "pairing_bound", &c->pairing_bound);
+  if (!st) st = read_largest(r, v, c);
+  if (!st) st = get_int(r, v, "most_passes", 1, INT32_MAX, &c->most_passes);
+  if (!st) st = get_or_null(r, v, "length_limit", &c->length_limit);
+  if (st) return st;
+  snprintf(place, sizeof place, "%.200s: proof.turning.proof", r->name);
+  c->present = true;
+  return thr_turning_proof_from_json(&c->tree, f, thr_json_get(v, "proof"), place, r->err);
+}
+
+/* A proof says that nothing with the plan's options is better: one of turning goes with the objective that asks for it. */
+static thr_status read_proofs(const reader *r, const thr_json *doc, thr_plan *p)
+{
+  static const char *const of_length[] = {"length", NULL}, *const of_turning[] = {"length", "turning", NULL};
+  const thr_json *all;
+  thr_status st = need(r, doc, "proof", THR_JSON_OBJECT, &all);
+  if (!st) st = only_members(r, all, "proof", p->options.objective == THR_TORTUOSITY ? of_turning : of_length);
+  const thr_json *length = thr_json_get(all, "length"), *turning = thr_json_get(all, "turning");
+  if (!st && length) st = read_length_proof(r, length, &p->frame, &p->proof);
+  if (!st && turning) st = read_turning_claim(r, turning, &p->frame, &p->turning);
+  return st;
 }
 
 static thr_status read_document(reader *r, const thr_json *doc, thr_plan *p)
@@ -524,7 +488,7 @@ static thr_status read_document(reader *r, const thr_json *doc, thr_plan *p)
   if ((st = read_cords(r, doc, p))) return st;
   if ((st = read_metrics(r, doc, &p->metrics))) return st;
   if ((st = read_evaluation(r, doc, p))) return st;
-  return read_proof(r, doc, &p->frame, &p->proof);
+  return read_proofs(r, doc, p);
 }
 
 thr_status thr_plan_parse(thr_plan *p, const char *text, size_t n, const char *name, thr_err *err)
