@@ -20,7 +20,7 @@ DEMO_OUT = $(OUT)/demo
 DEMO = plan data/dome7.json --objective length -o $(DEMO_OUT)/plan.json --draw $(DEMO_OUT)
 
 # Debian 12 packages
-BUILD_PACKAGES := build-essential pkg-config libglpk-dev libigraph-dev libjansson-dev libbullet-dev
+BUILD_PACKAGES := build-essential pkg-config libglpk-dev libigraph-dev libnauty2-dev libjansson-dev libbullet-dev
 TEST_PACKAGES := check clang clang-format libclang-rt-14-dev librsvg2-bin libxml2-utils
 LINT_PACKAGES := clang-format clang-tidy cppcheck
 COVERAGE_PACKAGES := check gcovr
@@ -36,8 +36,8 @@ FUZZ_CXX ?= clang++
 CLANG_FORMAT ?= clang-format
 
 # Asked for once and only when a recipe needs it: on a bare machine `make demo` installs pkg-config and the libraries first.
-PKG_CFLAGS = $(eval PKG_CFLAGS := $$(shell pkg-config --cflags igraph jansson))$(PKG_CFLAGS)
-PKG_LIBS = $(eval PKG_LIBS := $$(shell pkg-config --libs igraph jansson bullet-float64))$(PKG_LIBS)
+PKG_CFLAGS = $(eval PKG_CFLAGS := $$(shell pkg-config --cflags igraph nauty jansson))$(PKG_CFLAGS)
+PKG_LIBS = $(eval PKG_LIBS := $$(shell pkg-config --libs igraph nauty jansson bullet-float64))$(PKG_LIBS)
 BULLET_CFLAGS = $(eval BULLET_CFLAGS := $$(patsubst -I%,-isystem %,$$(shell pkg-config --cflags bullet-float64)))$(BULLET_CFLAGS)
 CHECK_CFLAGS = $(eval CHECK_CFLAGS := $$(shell pkg-config --cflags check))$(CHECK_CFLAGS)
 CHECK_LIBS = $(eval CHECK_LIBS := $$(shell pkg-config --libs check))$(CHECK_LIBS)
@@ -221,7 +221,7 @@ $(DIR)/objects.list: FORCE
 	@echo "$(OBJECTS)" | cmp -s - $@ || echo "$(OBJECTS)" > $@
 
 $(OUT)/packages.ok:
-	@command -v $(CC) >/dev/null && command -v $(CXX) >/dev/null && pkg-config --exists igraph jansson bullet-float64 2>/dev/null && \
+	@command -v $(CC) >/dev/null && command -v $(CXX) >/dev/null && pkg-config --exists igraph nauty jansson bullet-float64 2>/dev/null && \
 	  echo '#include <glpk.h>' | $(CC) -E -x c - >/dev/null 2>&1 || \
 	  { echo 'thread: a compiler or a library is missing: run `make deps` (or `make demo`), or install: $(BUILD_PACKAGES)' >&2; exit 1; }
 	@mkdir -p $(@D)

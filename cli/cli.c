@@ -1,7 +1,8 @@
 /* Messages, options, reading and writing for all subcommands. */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/cli.h"
-#include "diagram/overview.h"
+#include "cli/copies.h"
+#include "diagram/steps.h"
 #include "graph/check.h"
 
 #include <errno.h>
@@ -115,6 +116,19 @@ bool cli_int(const char *command, const char *option, const char *text, int low,
   *out = (int)x;
   if (*out == x) return true;
   cli_usage(command, "%s %s: expected a whole number", option, text);
+  return false;
+}
+
+bool cli_choose(const char *command, const char *option, const char *value, const char *(*name)(int), int n, int *out)
+{
+  char known[80] = "";
+  for (*out = 0; *out < n; ++*out)
+    if (strcmp(value, name(*out)) == 0) return true;
+  for (int i = 0; i < n; i++) {
+    size_t length = strlen(known);
+    snprintf(known + length, sizeof known - length, "%s%s", i == 0 ? "" : i == n - 1 ? " or " : ", ", name(i));
+  }
+  cli_usage(command, "%s %s: expected %s", option, value, known);
   return false;
 }
 
@@ -237,6 +251,21 @@ bool cli_mark_nodes(const thr_frame *f, const char *list, const char *option, bo
   return ok;
 }
 
+int cli_resolve_ends(const char *ends, const thr_frame *f, thr_plan_options *o)
+{
+  for (int kind = THR_ENDS_CLOSED; kind < THR_ENDS_NODES; kind++)
+    if (strcmp(ends, thr_ends_name((thr_ends)kind)) == 0) {
+      o->ends = (thr_ends)kind;
+      return EXIT_OK;
+    }
+  o->ends = THR_ENDS_NODES;
+  if (!(o->end_node = thr_calloc((size_t)f->n_nodes, sizeof *o->end_node))) {
+    cli_error("out of memory");
+    return EXIT_INTERNAL;
+  }
+  return cli_mark_nodes(f, ends, "--ends", o->end_node) ? EXIT_OK : EXIT_INPUT;
+}
+
 int cli_read_plan(const char *path, thr_plan *p)
 {
   thr_err err = {0}, found = {0};
@@ -292,18 +321,38 @@ int cli_write(thr_text *t, const char *path)
   return st ? cli_fail(&err) : EXIT_OK;
 }
 
-int cli_draw_overview(const thr_plan *p, const char *path, double pitch_mm, bool tension)
+/* Writes what was drawn, unless that failed. */
+static int write_drawn(thr_text *t, const char *path, const thr_err *err)
+{
+  if (err->code == THR_OK) return cli_write(t, path);
+  thr_text_destroy(t);
+  return cli_fail(err);
+}
+
+int cli_draw_overview(const thr_plan *p, const char *path, double pitch_mm, thr_overview_colour colour)
 {
   thr_err err = {0};
   thr_text svg = {0};
+  cli_copies copies;
   thr_overview_options o = thr_overview_options_default();
   o.pitch_mm = pitch_mm;
-  o.colour = tension ? THR_COLOUR_TENSION : THR_COLOUR_CORD;
-  if (thr_overview_svg(p, &o, &svg, &err)) {
-    thr_text_destroy(&svg);
-    return cli_fail(&err);
-  }
-  return cli_write(&svg, path);
+  o.colour = colour;
+  thr_status st = cli_copies_describe(p, &copies, &err);
+  o.motion = copies.motion;
+  if (!st) st = thr_overview_svg(p, &o, &svg, &err);
+  cli_copies_destroy(&copies);
+  return write_drawn(&svg, path, &err);
+}
+
+int cli_draw_steps(const thr_plan *p, const char *path)
+{
+  thr_err err = {0};
+  thr_text text = {0};
+  cli_copies copies;
+  thr_status st = cli_copies_describe(p, &copies, &err);
+  if (!st) st = thr_steps_text(p, copies.motion, &text, &err);
+  cli_copies_destroy(&copies);
+  return write_drawn(&text, path, &err);
 }
 
 /* ---- long computations ---- */
@@ -338,10 +387,23 @@ static bool is_time_to_show(watch *w)
   return true;
 }
 
+/* The search for the least turning reports prices of turns, all others the weight of extra cord. */
+static bool is_turning(const char *what)
+{
+  return strcmp(what, "turning") == 0;
+}
+
+/* Percent; no price and no weight is below 0, whatever is proved yet. */
+static double progress_gap(double best, double bound)
+{
+  return best > 0 ? 100 * (best - fmax(bound, 0)) / best : 0;
+}
+
 static void show_progress(void *user, const char *what, double best, double bound)
 {
   if (!is_time_to_show(user)) return;
-  fprintf(stderr, "\r\033[Kthread: %s: extra cord within %.3g %% of the least", what, best > 0 ? 100 * (best - bound) / best : 0);
+  fprintf(stderr, "\r\033[Kthread: %s%s within %.3g %% of the least", what, is_turning(what) ? "" : ": extra cord",
+          progress_gap(best, bound));
   fflush(stderr);
 }
 
@@ -375,7 +437,10 @@ static void show_advance(void *user, const char *what, double done)
 static void log_progress(void *user, const char *what, double best, double bound)
 {
   (void)user;
-  cli_note("%s: best join %.0f, bound %.1f (integer weights)", what, best, bound);
+  if (is_turning(what)) /* in rad, or as --turn-cost prices them */
+    cli_note("turning: price of all turns %.9g, at least %.9g, gap %.3g %%", best, fmax(bound, 0), progress_gap(best, bound));
+  else
+    cli_note("%s: best join %.0f, bound %.1f (integer weights)", what, best, bound);
 }
 
 thr_limits cli_limits(double seconds)

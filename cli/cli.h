@@ -2,6 +2,7 @@
 #ifndef THR_CLI_H
 #define THR_CLI_H
 
+#include "diagram/overview.h"
 #include "graph/limits.h"
 #include "graph/plan.h"
 #include "graph/read.h"
@@ -12,6 +13,7 @@
 enum { EXIT_OK = 0, EXIT_VIOLATION = 1, EXIT_USAGE = 2, EXIT_INPUT = 3, EXIT_INFEASIBLE = 4, EXIT_LIMIT = 5, EXIT_INTERNAL = 70 };
 
 int cmd_plan(int argc, char **argv);
+int cmd_symmetries(int argc, char **argv);
 int cmd_check(int argc, char **argv);
 int cmd_eval(int argc, char **argv);
 int cmd_compare(int argc, char **argv);
@@ -54,6 +56,9 @@ int cli_next_option(int argc, char **argv, const char *command, const char *lett
 bool cli_double(const char *command, const char *option, const char *text, double low, double high, double *out);
 bool cli_int(const char *command, const char *option, const char *text, int low, int high, int *out);
 
+/* One of n words, name(0) .. name(n - 1); false prints which there are. */
+bool cli_choose(const char *command, const char *option, const char *value, const char *(*name)(int), int n, int *out);
+
 /* ---- frameworks and plans ---- */
 
 /* --edges, --weld, --units, --feet: how to read FRAME. */
@@ -85,6 +90,10 @@ int cli_read_frame(const char *path, const cli_frame_args *a, thr_frame *f);
 /* Marks one node by its name, the nodes in a list of names, or those in a file of names; false prints why. */
 bool cli_mark_nodes(const thr_frame *f, const char *list, const char *option, bool *mark);
 
+/* --ends closed, any, feet, or nodes as above: sets o->ends and, for nodes, o->end_node, which the caller frees. Returns EXIT_OK
+ * or prints and returns the code. */
+int cli_resolve_ends(const char *ends, const thr_frame *f, thr_plan_options *o);
+
 /* Reads a plan; one that does not hold is still read, with a warning. Returns EXIT_OK or prints and returns the code. */
 int cli_read_plan(const char *path, thr_plan *p);
 
@@ -111,6 +120,9 @@ double cli_degrees(double radians);
 const char *cli_plural(int n, const char *one, const char *many);
 
 /* Draws the overview of a plan to path. Shared by plan and draw. */
-int cli_draw_overview(const thr_plan *p, const char *path, double pitch_mm, bool tension);
+int cli_draw_overview(const thr_plan *p, const char *path, double pitch_mm, thr_overview_colour colour);
+
+/* Writes the steps of a plan in words to path. Shared by plan and draw. */
+int cli_draw_steps(const thr_plan *p, const char *path);
 
 #endif

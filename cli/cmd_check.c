@@ -18,6 +18,31 @@ static const char help[] =
 enum { OPTION_JSON = OPTION_FREE };
 static const struct option table[] = {CLI_COMMON_OPTIONS, {"json", no_argument, NULL, OPTION_JSON}, {NULL, 0, NULL, 0}};
 
+/* Of a plan for the least turning, whether its length is the shortest or not: that is another claim. */
+static void put_turning(thr_text *t, const thr_plan *p)
+{
+  const thr_turning_claim *c = &p->turning;
+  int branchings = c->tree.n_nodes / 2;
+  const char *cost = thr_turn_cost_name(p->options.turning.cost);
+  bool angles = p->options.turning.cost == THR_TURN_ANGLE;
+  if (p->options.objective != THR_TORTUOSITY) return;
+  thr_text_printf(t, "; turning %.3f deg: ", cli_degrees(p->metrics.turning));
+  if (!c->present) {
+    thr_text_append(t, "no claim of optimality");
+    return;
+  }
+  if (!angles) thr_text_printf(t, "price %.9g (%s), ", c->price, cost);
+  if (c->optimal)
+    thr_text_append(t, "optimal, proof verified");
+  else
+    thr_text_printf(t, "lower bound %.*f verified, gap %.3g %%", angles ? 3 : 6,
+                    angles ? cli_degrees(c->lower_bound) : c->lower_bound, 100 * c->gap);
+  thr_text_printf(t, " (%d %s", branchings, cli_plural(branchings, "branching", "branchings"));
+  if (c->length_limit >= 0) thr_text_printf(t, "; among plans of at most %.6f %s", c->length_limit, p->frame.units);
+  thr_text_append(t, ")");
+  if (c->largest_optimal && p->n_cords > 1) thr_text_append(t, "; largest cord: bound attained");
+}
+
 static void put_verdict(thr_text *t, const char *path, const thr_plan *p)
 {
   const thr_metrics *m = &p->metrics;
@@ -26,11 +51,31 @@ static void put_verdict(thr_text *t, const char *path, const thr_plan *p)
   thr_text_printf(t, "%s: %d %s, %d passes, every edge covered, length %.6f %s: ", path, p->n_cords,
                   cli_plural(p->n_cords, "cord", "cords"), m->passes, m->length, units);
   if (!p->proof.present)
-    thr_text_append(t, "no claim of optimality\n");
+    thr_text_append(t, "no claim of optimality");
   else if (p->proof.optimal)
-    thr_text_printf(t, "optimal, certificate verified (%d %s)\n", cuts, cli_plural(cuts, "odd cut", "odd cuts"));
+    thr_text_printf(t, "optimal, certificate verified (%d %s)", cuts, cli_plural(cuts, "odd cut", "odd cuts"));
   else
-    thr_text_printf(t, "lower bound %.6f verified, gap %.3g %%\n", p->proof.lower_bound, 100 * p->proof.gap);
+    thr_text_printf(t, "lower bound %.6f verified, gap %.3g %%", p->proof.lower_bound, 100 * p->proof.gap);
+  put_turning(t, p);
+  thr_text_append(t, "\n");
+}
+
+static void put_number(thr_text *t, const char *key, double value)
+{
+  thr_text_printf(t, ", \"%s\": ", key);
+  thr_text_double(t, value);
+}
+
+static void put_turning_json(thr_text *t, const thr_plan *p)
+{
+  const thr_turning_claim *c = &p->turning;
+  put_number(t, "turning", p->metrics.turning);
+  if (!c->present) return;
+  thr_text_printf(t, ", \"turning_status\": \"%s\"", c->optimal ? "optimal" : "bound");
+  put_number(t, "price", c->price);
+  put_number(t, "price_lower_bound", c->lower_bound);
+  put_number(t, "turning_gap", c->gap);
+  if (c->length_limit >= 0) put_number(t, "length_limit", c->length_limit);
 }
 
 static void put_json(thr_text *t, const char *path, const thr_plan *p, const thr_err *err)
@@ -49,6 +94,7 @@ static void put_json(thr_text *t, const char *path, const thr_plan *p, const thr
       thr_text_append(t, ", \"gap\": ");
       thr_text_double(t, p->proof.gap);
     }
+    if (p->options.objective == THR_TORTUOSITY) put_turning_json(t, p);
   }
   thr_text_append(t, "}\n");
 }

@@ -138,6 +138,9 @@ static void put_head(thr_text *t, const entry *e, int n)
     size_t letters = strlen(e[i].path);
     thr_text_printf(t, letters > 16 ? " ..%s " : " %16s ", letters > 16 ? e[i].path + letters - 14 : e[i].path);
   }
+  thr_text_printf(t, "\n%-32s", "objective");
+  for (int i = 0; i < n; i++)
+    thr_text_printf(t, " %16s ", thr_objective_name(e[i].plan.options.objective));
   thr_text_printf(t, "\n%-32s", "ends");
   for (int i = 0; i < n; i++)
     thr_text_printf(t, " %16s ", thr_ends_name(e[i].plan.options.ends));
@@ -156,7 +159,7 @@ static void put_text(thr_text *t, const pull_args *a, const entry *e, int n, con
   bool same = true;
   put_head(t, e, n);
   for (int k = 0; k < compare_n_rows; k++) {
-    if (!wanted(a, compare_rows[k].method)) continue;
+    if (!wanted(a, compare_rows[k].method) || !compare_is_shown(e, n, &compare_rows[k])) continue;
     thr_text_printf(t, "\n%-32s", compare_rows[k].label);
     for (int i = 0; i < n; i++)
       compare_put_cell(t, &compare_rows[k], compare_rows[k].value(&e[i]), compare_is_best(e, n, &compare_rows[k], i));
@@ -182,7 +185,8 @@ static void put_json(thr_text *t, const pull_args *a, const entry *e, int n, con
   for (int i = 0; i < n; i++) {
     thr_text_append(t, i ? ",\n {\"plan\": " : "\n {\"plan\": ");
     thr_text_json_string(t, e[i].path);
-    thr_text_printf(t, ", \"framework\": \"%016" PRIx64 "\", \"ends\": \"%s\", \"physics\": ", thr_frame_hash(&e[i].plan.frame),
+    thr_text_printf(t, ", \"framework\": \"%016" PRIx64 "\", \"objective\": \"%s\", \"ends\": \"%s\", \"physics\": ",
+                    thr_frame_hash(&e[i].plan.frame), thr_objective_name(e[i].plan.options.objective),
                     thr_ends_name(e[i].plan.options.ends));
     thr_physics_write(&e[i].eval[THR_CAPSTAN].record.physics, t);
     for (int k = 0; k < compare_n_rows; k++) {

@@ -1,40 +1,56 @@
 /* thread plan: framework in, plan and diagrams out. */
-#include "cli/pull.h"
+#include "cli/plan_summary.h"
+#include "cli/symmetry_args.h"
+#include "cli/symmetry_table.h"
 #include "graph/cuttree.h"
 #include "lp/lp.h"
 #include "lp/postman.h"
 
-#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 static const char help[] =
-    "thread plan FRAME [options]: the shortest cord that passes every interface, proved\n\n"
+    "thread plan FRAME [options]: plan how cord is threaded: shortest, turning least, or symmetric, proved\n\n"
     "Examples:\n"
     "  thread plan dome.obj                          plan.json and overview.svg in the folder dome/\n"
     "  thread plan dome.obj --ends feet --feet lowest   an open cord with its ends at the lowest nodes\n"
     "  thread plan dome.obj --cover 2 -o plan.json   two passes per interface; the plan only\n"
+    "  thread plan dome.obj --objective tortuosity   the cord that turns least: it pulls most easily\n"
+    "  thread plan dome.obj --objective tortuosity --length-slack 5% --frontier   with at most 5 % more cord; the trade-off\n"
+    "  thread plan dome.obj --objective tortuosity --cords 4 --ends any --minimize max-turning   four cords, each easy to pull\n"
+    "  thread plan dome.obj --objective symmetry     a short path to learn, and its mirrored and turned copies\n"
     "  thread make dome | thread plan - -o - | thread check -\n\n"
-    "Options:\n"
-    "      --objective length   what to minimize (default: length)\n"
-    "      --compare-objectives   pull force of this plan beside those of the other objectives, joints measured in simulation\n"
+    "What is planned:\n"
+    "      --objective length|tortuosity|symmetry   what to minimize: cord, how much it turns, or what is to be learned\n"
+    "                       (default: length)\n"
     "      --ends closed    both cord ends at one node (default)\n"
-    "      --ends any       an open cord, its ends wherever that makes it shortest\n"
+    "      --ends any       an open cord, its ends wherever that is best\n"
     "      --ends feet      ends only at feet;  --ends FILE|NAME,..: only at these nodes\n"
     "      --cover N        at least N passes over every interface (default: 1)\n"
-    "      --joint solid    node beads are rigid pieces with channels (default, and the only one yet)\n" CLI_FRAME_HELP
-        PULL_RUN_HELP "      --time-limit S   stop after S seconds with the best plan so far and its gap (default: none)\n"
+    "      --joint solid    node beads are rigid pieces with channels (default, and the only one yet)\n"
+    "      --time-limit S   stop after S seconds with the best plan so far and its gap, 0 = never (default: 0 with\n"
+    "                       --objective length, else 20). The plans that the summary of --objective tortuosity holds it "
+    "against\n"
+    "                       may take what is left of S and a quarter of S more; --frontier and --compare-objectives: S once "
+    "more\n"
+    "\n" TURNING_HELP "\nSymmetry (with --objective symmetry; thread symmetries --help says more):\n"
+    "      --group ID|NAME   --geometric TOL   --prefer overlap,steps,paths,turning\n"
+    "\nFramework:\n" CLI_FRAME_HELP "\nOutput:\n"
     "  -o, --output FILE    write the plan here (- = stdout), and no diagrams unless --draw\n"
     "      --draw DIR       write the diagrams into this folder, and without -o the plan too\n"
     "      --json           summary as JSON on stdout\n"
+    "      --compare-objectives   pull force of this plan beside those of the other objectives, joints measured in "
+    "simulation\n" PULL_RUN_HELP
     "  -q, --quiet          no notes and no summary       -v, --verbose  what the solver does       -h, --help\n\n"
-    "Exit codes: 0 proved shortest, 2 usage, 3 bad input, 4 infeasible, 5 stopped by a limit (plan written), 70 internal\n\n"
+    "Exit codes: 0 proved (or a classical tour), 2 usage, 3 bad input, 4 infeasible, 5 not proved within the limits (plan "
+    "written),\n"
+    "70 internal\n\n"
     "What is said of cord and beads is stored in the plan; thread eval begins with it.\n";
 
 enum {
-  OPTION_OBJECTIVE = OPTION_PULL_FREE,
+  OPTION_OBJECTIVE = OPTION_SYMMETRY_FREE,
   OPTION_COMPARE,
   OPTION_ENDS,
   OPTION_COVER,
@@ -47,6 +63,8 @@ enum {
 static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       CLI_FRAME_OPTIONS,
                                       PULL_RUN_OPTIONS,
+                                      TURNING_OPTIONS,
+                                      SYMMETRY_OPTIONS,
                                       {"compare-objectives", no_argument, NULL, OPTION_COMPARE},
                                       {"objective", required_argument, NULL, OPTION_OBJECTIVE},
                                       {"ends", required_argument, NULL, OPTION_ENDS},
@@ -58,34 +76,78 @@ static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       {"json", no_argument, NULL, OPTION_JSON},
                                       {NULL, 0, NULL, 0}};
 
+/* ---- objectives ---- */
+
+/* A symmetric plan with as many cords in every piece, if there is one. */
+static thr_status find_seed(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *seed, thr_err *err)
+{
+  thr_symmetries s;
+  thr_plan_options so = *o;
+  thr_err why = {0};
+  thr_limits share = *limits;
+  double now = thr_clock();
+  if (share.deadline > 0) share.deadline = now + 0.25 * fmax(0, share.deadline - now);
+  so.symmetry = thr_plan_options_default().symmetry;
+  thr_status st = thr_symmetries_find(f, &so, &share, &s, &why);
+  int row = st && st != THR_ELIMIT ? -1 : thr_symmetries_even(&s, o->cords);
+  if (row >= 0) st = thr_symmetries_plan(&s, row, f, &so, &share, seed, &why);
+  thr_symmetries_destroy(&s);
+  return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* what else fails leaves no seed */
+}
+
+/* Symmetric cords turn alike: where they are as many as asked for, the one that turns most may be at its bound at once. */
+static thr_status plan_tortuosity(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
+                                  thr_err *err)
+{
+  thr_plan seed = {0};
+  thr_status st = THR_OK;
+  *plan = (thr_plan){0};
+  if (o->turning.largest && o->cords > 1) st = find_seed(f, o, limits, &seed, err);
+  if (!st) st = thr_tortuosity_plan_from(f, o, seed.n_cords ? &seed : NULL, limits, plan, err);
+  thr_plan_destroy(&seed);
+  return st;
+}
+
+static thr_status plan_symmetry(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
+                                thr_err *err)
+{
+  return thr_symmetry_plan(f, o, limits, NULL, plan, err);
+}
+
 /* What can be minimized: a further objective adds its function here. */
 static const struct objective {
   const char *name;
+  thr_objective id;
+  double time_limit; /* s, unless the user says otherwise */
   thr_status (*plan)(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *out, thr_err *err);
-} objectives[] = {{"length", thr_postman_plan}, {"symmetry", NULL}, {"tortuosity", NULL}};
+} objectives[] = {{"length", THR_LENGTH, 0, thr_postman_plan},
+                  {"symmetry", THR_SYMMETRY, 20, plan_symmetry},
+                  {"tortuosity", THR_TORTUOSITY, 20, plan_tortuosity}};
 enum { N_OBJECTIVES = sizeof objectives / sizeof *objectives };
 
 typedef struct {
   cli_frame_args frame;
   pull_args pull;
+  turning_args turning;
+  symmetry_args symmetry;
   thr_plan_options plan;
+  double time_limit; /* s, < 0 = as the objective has it */
   const struct objective *objective;
   const char *path, *ends, *output, *draw;
   bool json, compare;
 } arguments;
 
+static const char *objective_name(int i)
+{
+  return objectives[i].name;
+}
+
 static int find_objective(const char *name, const struct objective **out)
 {
-  char known[80] = "";
-  for (int i = 0; i < N_OBJECTIVES; i++) {
-    size_t n = strlen(known);
-    if (!objectives[i].plan) continue;
-    snprintf(known + n, sizeof known - n, "%s%s", n ? ", " : "", objectives[i].name);
-    if (strcmp(name, objectives[i].name) != 0) continue;
-    *out = &objectives[i];
-    return -1;
-  }
-  return cli_usage("plan", "--objective %s: this version knows %s only", name, known);
+  int i;
+  if (!cli_choose("plan", "--objective", name, objective_name, N_OBJECTIVES, &i)) return EXIT_USAGE;
+  *out = &objectives[i];
+  return -1;
 }
 
 static int only_word(const char *option, const char *value, const char *word)
@@ -98,12 +160,18 @@ static int parse(int argc, char **argv, arguments *a)
 {
   int done, o;
   bool ok = true;
-  *a = (arguments){
-      .frame = cli_frame_args_default(), .plan = thr_plan_options_default(), .objective = &objectives[0], .ends = "closed"};
+  *a = (arguments){.frame = cli_frame_args_default(),
+                   .turning = turning_args_default(),
+                   .symmetry = symmetry_args_default(),
+                   .plan = thr_plan_options_default(),
+                   .time_limit = -1,
+                   .objective = &objectives[0],
+                   .ends = "closed"};
   pull_args_init(&a->pull, THR_JOINT);
   while ((o = cli_physics_option(&a->pull.physics, argc, argv, "plan", ":" CLI_COMMON_LETTERS PULL_LETTERS "o:", table, help,
                                  &done)) != -1) {
-    if (cli_frame_option(&a->frame, "plan", o, optarg, &ok) || pull_option(&a->pull, "plan", o, optarg, &ok)) {
+    if (cli_frame_option(&a->frame, "plan", o, optarg, &ok) || pull_option(&a->pull, "plan", o, optarg, &ok) ||
+        turning_option(&a->turning, o, optarg, &ok) || symmetry_option(&a->symmetry, "plan", o, optarg, &ok)) {
       if (!ok) return EXIT_USAGE;
       continue;
     }
@@ -113,7 +181,7 @@ static int parse(int argc, char **argv, arguments *a)
     case OPTION_JOINT: done = only_word("--joint", optarg, "solid"); break;
     case OPTION_ENDS: a->ends = optarg; break;
     case OPTION_COVER: ok = cli_int("plan", "--cover", optarg, 1, 100, &a->plan.cover); break;
-    case OPTION_TIME: ok = cli_double("plan", "--time-limit", optarg, 0, 1e9, &a->plan.time_limit); break;
+    case OPTION_TIME: ok = cli_double("plan", "--time-limit", optarg, 0, 1e9, &a->time_limit); break;
     case OPTION_DRAW: a->draw = optarg; break;
     case OPTION_JSON: a->json = true; break;
     case 'o': a->output = optarg; break;
@@ -125,24 +193,20 @@ static int parse(int argc, char **argv, arguments *a)
   if (optind + 1 != argc) return cli_usage("plan", optind == argc ? "which framework?" : "one framework at a time");
   a->path = argv[optind];
   if ((a->output && !*a->output) || (a->draw && !*a->draw)) return cli_usage("plan", "an empty name is no place to write to");
-  if ((a->json || a->compare) && a->output && strcmp(a->output, "-") == 0)
-    return cli_usage("plan", "%s and -o - both want stdout", a->json ? "--json" : "--compare-objectives");
-  return -1;
+  const char *wordy = a->json ? "--json" : a->compare ? "--compare-objectives" : a->turning.frontier ? "--frontier" : NULL;
+  if (wordy && a->output && strcmp(a->output, "-") == 0) return cli_usage("plan", "%s and -o - both want stdout", wordy);
+  if (a->symmetry.given && a->objective->id != THR_SYMMETRY)
+    return cli_usage("plan", "%s needs --objective symmetry", a->symmetry.given);
+  return turning_args_check(&a->turning, a->objective->id);
 }
 
-static int resolve_ends(const arguments *a, const thr_frame *f, thr_plan_options *o)
+/* What is asked of an objective: what is about turning or symmetry concerns only one of them. */
+static void ask(const arguments *a, const struct objective *objective, thr_plan_options *o)
 {
-  for (int kind = THR_ENDS_CLOSED; kind < THR_ENDS_NODES; kind++)
-    if (strcmp(a->ends, thr_ends_name((thr_ends)kind)) == 0) {
-      o->ends = (thr_ends)kind;
-      return EXIT_OK;
-    }
-  o->ends = THR_ENDS_NODES;
-  if (!(o->end_node = thr_calloc((size_t)f->n_nodes, sizeof *o->end_node))) {
-    cli_error("out of memory");
-    return EXIT_INTERNAL;
-  }
-  return cli_mark_nodes(f, a->ends, "--ends", o->end_node) ? EXIT_OK : EXIT_INPUT;
+  o->objective = objective->id;
+  o->time_limit = a->time_limit < 0 ? objective->time_limit : a->time_limit;
+  turning_args_apply(&a->turning, objective->id, o);
+  o->symmetry = objective->id == THR_SYMMETRY ? a->symmetry.options : symmetry_args_default().options;
 }
 
 /* What was said of cord and beads must fit the framework; if nothing was, a framework of any size will do. */
@@ -153,92 +217,6 @@ static int apply_physics(const arguments *a, const thr_frame *f, thr_plan_option
   int code = cli_physics_apply(&a->pull.physics, &o->physics);
   if (code || a->pull.physics.n == 0) return code;
   return thr_physics_resolve(&o->physics, f, &resolved, &err) ? cli_fail(&err) : EXIT_OK;
-}
-
-/* ---- summary ---- */
-
-static void put_status(thr_text *t, const thr_plan *p)
-{
-  int cuts = thr_length_proof_cuts(&p->proof);
-  if (p->proof.optimal)
-    thr_text_printf(t, "optimal: no threading with these options uses less cord (certificate: %d %s, verified)\n", cuts,
-                    cli_plural(cuts, "odd cut", "odd cuts"));
-  else
-    thr_text_printf(t, "not proved optimal: at least %.6f %s is needed, gap %.3g %%\n", p->proof.lower_bound, p->frame.units,
-                    100 * p->proof.gap);
-}
-
-static void put_pull(thr_text *t, double force)
-{
-  thr_text_printf(t, force < 1e6 ? "%10.1f x" : "%10.1e x", force);
-}
-
-/* Is that why the pull is not known? */
-static bool overflows(const thr_plan *p, const thr_cord *c)
-{
-  return p->options.physics.mu * thr_cord_turning(&p->frame, c, false) > 2 * 690;
-}
-
-static void put_cords(thr_text *t, const thr_plan *p, const thr_evaluation *pull)
-{
-  enum { MOST = 12 };
-  thr_text_printf(t, "%-5s %7s %14s %10s %8s %12s  %s\n", "cord", "passes", "length", "turning", "U-turns", "pull", "ends");
-  for (int i = 0; i < p->n_cords && i < MOST; i++) {
-    const thr_cord *c = &p->cord[i];
-    int u_turns = 0;
-    for (int k = 0; k + 1 < c->n_passes; k++)
-      u_turns += c->half[k + 1] == (c->half[k] ^ 1);
-    thr_text_printf(t, "%-5s %7d %14.3f %6.0f deg %8d ", c->id, c->n_passes, thr_cord_length(&p->frame, c),
-                    cli_degrees(pull ? pull->cord[i].turning : thr_cord_turning(&p->frame, c, false)), u_turns);
-    if (pull)
-      put_pull(t, pull->cord[i].force);
-    else
-      thr_text_printf(t, "%12s", overflows(p, c) ? "> 1e300 x" : "-");
-    const char *from = p->frame.name[thr_cord_start(&p->frame, c)], *to = p->frame.name[thr_cord_end(&p->frame, c)];
-    thr_text_printf(t, c->closed ? "  both at %s\n" : "  %s and %s\n", from, to);
-  }
-  if (p->n_cords > MOST) thr_text_printf(t, "..    and %d more\n", p->n_cords - MOST);
-}
-
-static void put_summary(thr_text *t, const thr_plan *p, const thr_evaluation *pull)
-{
-  const thr_metrics *m = &p->metrics;
-  thr_text_printf(t, "%d nodes, %d %s, %d %s; %d %s per edge; ends: %s\n\n", p->frame.n_nodes, p->frame.n_edges,
-                  cli_plural(p->frame.n_edges, "edge", "edges"), p->n_cords, cli_plural(p->n_cords, "piece", "pieces"),
-                  p->options.cover, cli_plural(p->options.cover, "pass", "passes"), thr_ends_name(p->options.ends));
-  put_cords(t, p, pull);
-  thr_text_printf(t, "\nlength   %.6f %s = %.6f for %d %s over every edge + %.6f overlap (%.1f %%)\n", m->length, p->frame.units,
-                  m->base_length, p->options.cover, cli_plural(p->options.cover, "pass", "passes"), m->overlap,
-                  100 * m->overlap / m->base_length);
-  thr_text_append(t, "         ");
-  put_status(t, p);
-  thr_text_printf(t, "pull     with both ends pulled, times the tension that must reach the slackest point (mu = %g)\n",
-                  p->options.physics.mu);
-}
-
-static void put_json_summary(thr_text *t, const thr_plan *p, const thr_evaluation *pull)
-{
-  const thr_metrics *m = &p->metrics;
-  thr_text_printf(t, "{\"framework\": \"%016" PRIx64 "\", \"nodes\": %d, \"edges\": %d, \"cords\": %d, ",
-                  thr_frame_hash(&p->frame), p->frame.n_nodes, p->frame.n_edges, p->n_cords);
-  thr_text_append(t, "\"units\": ");
-  thr_text_json_string(t, p->frame.units);
-  const struct {
-    const char *key;
-    double value;
-  } number[] = {{"length", m->length},           {"base_length", m->base_length},
-                {"overlap", m->overlap},         {"lower_bound", p->proof.lower_bound},
-                {"gap", p->proof.gap},           {"turning", m->turning},
-                {"max_turning", m->max_turning}, {"mu", p->options.physics.mu}};
-  for (size_t i = 0; i < sizeof number / sizeof *number; i++) {
-    thr_text_printf(t, ", \"%s\": ", number[i].key);
-    thr_text_double(t, number[i].value);
-  }
-  thr_text_printf(t, ", \"status\": \"%s\", \"pull_factor\": ", p->proof.optimal ? "optimal" : "bound");
-  if (pull)
-    thr_text_double(t, pull->largest);
-  else
-    thr_text_append(t, "null");
 }
 
 /* ---- the other objectives ---- */
@@ -262,6 +240,10 @@ static int put_objective(thr_text *t, const arguments *a, const struct objective
                     pull_percent(e.error));
     if (e.refused) thr_text_printf(t, ": %d %s by closed form", e.refused, cli_plural(e.refused, "turn", "turns"));
     thr_text_printf(t, ")%s", closing);
+    if (objective->id == THR_SYMMETRY)
+      thr_text_printf(t, "   %d %s", p->n_cords, cli_plural(p->n_cords, "cord", "cords"));
+    else if (a->turning.cords > p->options.cords)
+      thr_text_append(t, "   one cord in each piece");
   } else {
     thr_text_printf(t, a->json ? "null" : "%14s", "not known");
   }
@@ -275,8 +257,10 @@ static int plan_and_put(thr_text *t, const arguments *a, const struct objective 
   thr_err err = {0};
   thr_plan other = {0};
   if (objective == a->objective) return put_objective(t, a, objective, p);
-  thr_limits limits = cli_limits(p->options.time_limit);
-  thr_status st = objective->plan(&p->frame, &p->options, &limits, &other, &err);
+  thr_plan_options o = p->options;
+  ask(a, objective, &o);
+  thr_limits limits = cli_limits(o.time_limit);
+  thr_status st = objective->plan(&p->frame, &o, &limits, &other, &err);
   cli_progress_end();
   int code = st && st != THR_ELIMIT ? cli_fail(&err) : put_objective(t, a, objective, &other);
   thr_plan_destroy(&other);
@@ -291,33 +275,61 @@ static int put_comparison(thr_text *t, const arguments *a, const thr_plan *p)
   for (int i = 0; i < N_OBJECTIVES; i++) {
     const struct objective *objective = &objectives[i];
     if (i && a->json) thr_text_append(t, ", ");
-    if (objective->plan) {
-      int done = plan_and_put(t, a, objective, p);
-      if (!code) code = done;
-    } else {
-      thr_text_printf(t, a->json ? "{\"objective\": \"%s\", \"pull\": null}" : "  %-12s  not in this version\n", objective->name);
-    }
+    int done = plan_and_put(t, a, objective, p);
+    if (!code) code = done;
   }
   if (a->json) thr_text_append(t, "]");
   return code;
 }
 
-static int print_summary(const arguments *a, const thr_plan *p)
+/* What was planned. */
+typedef struct {
+  thr_plan plan;
+  thr_symmetries table; /* THR_SYMMETRY only */
+  double start;         /* thr_clock() */
+} planned;
+
+/* What a plan of the least turning is held against may take a quarter longer than the plan, counted from its start. */
+static int put_turning(thr_text *t, const arguments *a, const planned *x)
+{
+  turning_rivals r = {0};
+  double limit = x->plan.options.time_limit;
+  int code = turning_rivals_make(&x->plan, a->turning.frontier, limit > 0 ? x->start + 1.25 * limit : 0, &r);
+  (a->json ? plan_put_json : plan_put_summary)(t, &x->plan, &r);
+  turning_rivals_destroy(&r);
+  return code;
+}
+
+static void put_symmetry(thr_text *t, const arguments *a, const planned *x)
+{
+  enum { ROWS = 8 };
+  const thr_plan *p = &x->plan;
+  if (a->json) {
+    plan_put_json(t, p, NULL);
+    thr_text_append(t, ", \"symmetries\": {");
+    symmetry_put_table_json(t, &p->options, &x->table);
+    thr_text_append(t, "}");
+  } else {
+    symmetry_put_head(t, &p->frame, &p->options, &x->table);
+    symmetry_put_table(t, &p->options, &x->table, ROWS);
+    thr_text_append(t, "\n");
+    plan_put_summary(t, p, NULL);
+  }
+}
+
+static int print_summary(const arguments *a, const planned *x)
 {
   thr_text t = {0};
   int code = EXIT_OK;
-  thr_eval pull;
-  thr_limits none = {0};
-  thr_eval_options o = thr_eval_options_default();
-  o.physics = p->options.physics;
-  o.physics.seating = 1;
-  bool known = thr_eval_plan(&p->frame, p->cord, p->n_cords, THR_CAPSTAN, &o, &none, &pull, NULL) == THR_OK;
-  if (a->json)
-    put_json_summary(&t, p, known ? &pull.record : NULL);
-  else
-    put_summary(&t, p, known ? &pull.record : NULL);
-  thr_eval_destroy(&pull);
-  if (a->compare) code = put_comparison(&t, a, p);
+  switch (x->plan.options.objective) {
+  case THR_TORTUOSITY: code = put_turning(&t, a, x); break;
+  case THR_SYMMETRY: put_symmetry(&t, a, x); break;
+  default: (a->json ? plan_put_json : plan_put_summary)(&t, &x->plan, NULL);
+  }
+  if (a->compare) {
+    int done = put_comparison(&t, a, &x->plan);
+    if (!code) code = done;
+  }
   if (a->json) thr_text_append(&t, "}\n");
   int written = cli_write(&t, "-");
   return code ? code : written;
@@ -333,8 +345,9 @@ static int write_plan(const thr_plan *p, const char *path)
 }
 
 /* Plan and diagrams where the options say; where they say nothing, in a folder named after the framework. */
-static int write_outputs(const arguments *a, const thr_plan *p)
+static int write_outputs(const arguments *a, const planned *x)
 {
+  const thr_plan *p = &x->plan;
   char stem[256], in_folder[1200], svg_path[1200];
   const char *plan_path = a->output ? a->output : in_folder;
   cli_stem(a->path, stem, sizeof stem);
@@ -343,39 +356,44 @@ static int write_outputs(const arguments *a, const thr_plan *p)
   int code = a->output ? EXIT_OK : cli_in_folder(folder, "plan.json", in_folder, sizeof in_folder);
   if (!code && draw) code = cli_in_folder(folder, "overview.svg", svg_path, sizeof svg_path);
   if (!code) code = write_plan(p, plan_path);
-  if (!code && draw) code = cli_draw_overview(p, svg_path, 0, false);
+  if (!code && draw) code = cli_draw_overview(p, svg_path, 0, THR_COLOUR_CORD);
   bool to_stdout = strcmp(plan_path, "-") == 0;
   if (code || to_stdout || (cli_quiet && !a->json)) return code;
-  code = print_summary(a, p);
+  code = print_summary(a, x);
   if (a->json) return code;
-  printf("%splan     %s\n", a->compare ? "\n" : "", plan_path);
+  printf("%splan     %s\n", a->compare || p->options.objective == THR_TORTUOSITY ? "\n" : "", plan_path);
   if (draw) printf("drawing  %s\n", svg_path);
   return code;
+}
+
+static thr_status make_plan(const arguments *a, const thr_frame *f, const thr_plan_options *o, planned *x, thr_err *err)
+{
+  char versions[160];
+  thr_limits limits = cli_limits(o->time_limit);
+  thr_status st = o->objective == THR_SYMMETRY ? thr_symmetry_plan(f, o, &limits, &x->table, &x->plan, err)
+                                               : a->objective->plan(f, o, &limits, &x->plan, err);
+  cli_progress_end();
+  snprintf(versions, sizeof versions, "thread %s, GLPK %s, igraph %s", THR_VERSION, thr_glpk_version(), thr_igraph_version());
+  x->plan.generator = thr_strdup(versions);
+  return st;
 }
 
 static int plan_frame(const arguments *a, const thr_frame *f)
 {
   thr_err err = {0};
-  thr_plan plan = {0};
+  planned x = {.start = thr_clock()};
   thr_plan_options o = a->plan;
+  ask(a, a->objective, &o);
   int code = apply_physics(a, f, &o);
-  if (!code) code = resolve_ends(a, f, &o);
+  if (!code) code = cli_resolve_ends(a->ends, f, &o);
   if (code == EXIT_OK) {
-    thr_limits limits = cli_limits(o.time_limit);
-    thr_status st = a->objective->plan(f, &o, &limits, &plan, &err);
-    cli_progress_end();
-    if (st && st != THR_ELIMIT) {
-      code = cli_fail(&err);
-    } else {
-      char versions[160];
-      snprintf(versions, sizeof versions, "thread %s, GLPK %s, igraph %s", THR_VERSION, thr_glpk_version(), thr_igraph_version());
-      plan.generator = thr_strdup(versions);
-      code = write_outputs(a, &plan);
-      if (code == EXIT_OK && st == THR_ELIMIT) code = cli_fail(&err);
-    }
+    thr_status st = make_plan(a, f, &o, &x, &err);
+    if (st == THR_OK || (st == THR_ELIMIT && x.plan.n_cords > 0)) code = write_outputs(a, &x);
+    if (code == EXIT_OK && st) code = cli_fail(&err);
   }
   free(o.end_node);
-  thr_plan_destroy(&plan);
+  thr_plan_destroy(&x.plan);
+  thr_symmetries_destroy(&x.table);
   return code;
 }
 

@@ -13,10 +13,11 @@ typedef struct {
 
 typedef struct {
   const char *label, *key;
-  double (*value)(const compare_entry *); /* NAN = not known */
+  double (*value)(const compare_entry *); /* NAN = not known, INFINITY = beyond 1e300 */
   bool rate;                              /* less is better; rows that say what a plan is, not how good, mark nothing */
   int decimals;                           /* -1: whole number, -k: k significant digits */
   thr_method method;                      /* that must be wanted */
+  bool optional;                          /* left out of the text where no plan has it */
 } compare_row;
 
 extern const compare_row compare_rows[];
@@ -27,6 +28,9 @@ double compare_largest(const compare_entry *e, thr_method method);
 
 /* Is row r of plan i the best of n? Within a millionth is a tie: both are. */
 bool compare_is_best(const compare_entry *e, int n, const compare_row *r, int i);
+
+/* Is row r in the text for n plans? */
+bool compare_is_shown(const compare_entry *e, int n, const compare_row *r);
 
 /* A space, 16 columns, and the mark of the best. */
 void compare_put_cell(thr_text *t, const compare_row *r, double value, bool best);

@@ -12,6 +12,7 @@ static const struct {
   int (*run)(int argc, char **argv);
 } command[] = {
     {"plan", "find the best threading of a framework, prove it, draw it", cmd_plan},
+    {"symmetries", "groups of symmetries, and the best symmetric threading under each", cmd_symmetries},
     {"check", "verify every claim of a plan, without any solver", cmd_check},
     {"eval", "how hard to pull: closed form, simulated joints, whole structure", cmd_eval},
     {"compare", "plans side by side, ranked by pull", cmd_compare},
@@ -32,7 +33,7 @@ static void help(FILE *to)
         "Commands:\n",
         to);
   for (int i = 0; i < N_COMMANDS; i++)
-    fprintf(to, "  %-9s %s\n", command[i].name, command[i].summary);
+    fprintf(to, "  %-10s %s\n", command[i].name, command[i].summary);
   fputs("\n`thread COMMAND --help` says more; `man thread` says all.\n", to);
 }
 

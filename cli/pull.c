@@ -81,19 +81,6 @@ static bool check_pull(const char *command, const char *value)
   return ok;
 }
 
-static bool choose(const char *command, const char *option, const char *value, const char *(*name)(int), int n, int *out)
-{
-  char known[80] = "";
-  for (*out = 0; *out < n; ++*out)
-    if (strcmp(value, name(*out)) == 0) return true;
-  for (int i = 0; i < n; i++) {
-    size_t length = strlen(known);
-    snprintf(known + length, sizeof known - length, "%s%s", i == 0 ? "" : i == n - 1 ? " or " : ", ", name(i));
-  }
-  cli_usage(command, "%s %s: expected %s", option, value, known);
-  return false;
-}
-
 static const char *method_name(int i)
 {
   return i < THR_N_METHODS ? thr_method_name((thr_method)i) : "all";
@@ -111,9 +98,9 @@ bool pull_option(pull_args *a, const char *command, int option, const char *valu
   int law, methods = strcmp(command, "compare") == 0 ? PULL_ALL_METHODS + 1 : THR_N_METHODS;
   *ok = true;
   switch (option) {
-  case OPTION_PULL_METHOD: *ok = choose(command, "--method", value, method_name, methods, &a->method); return true;
+  case OPTION_PULL_METHOD: *ok = cli_choose(command, "--method", value, method_name, methods, &a->method); return true;
   case OPTION_PULL_LAW:
-    *ok = choose(command, "--law", value, law_name, THR_N_LAWS, &law);
+    *ok = cli_choose(command, "--law", value, law_name, THR_N_LAWS, &law);
     if (*ok) o->law = (thr_law)law;
     return true;
   case OPTION_PULL_END:

@@ -15,7 +15,8 @@ enum {
   THR_BOX_MARK = 8,
   THR_BOX_NUMBER = 16,
   THR_BOX_NAME = 32,
-  THR_BOX_FOOT = 64
+  THR_BOX_FOOT = 64,
+  THR_BOX_TURN = 128
 };
 
 typedef struct {

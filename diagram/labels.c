@@ -9,6 +9,7 @@ static const double ARROW_AT[MAX_PLACES] = {0.68, 0.76, 0.60, 0.84, 0.52, 0.92, 
 static const double MUCH = 1e6; /* cost of a number on another, over that of one on arrows */
 static const double SEEN = 0.2; /* mm: smaller arrows are not drawn */
 static const int STEPS[] = {1, 5, 10, 20, 50, 100, 200, 500, 1000};
+enum { COPY_ARROWS = 4 }; /* a copy has an arrow on every so many passes, on the first one too */
 enum { N_STEPS = sizeof STEPS / sizeof STEPS[0] };
 
 static void along(const thr_scene_pass *p, double t, double at[2])
@@ -41,10 +42,11 @@ static int choose_step(double pitch)
   return STEPS[i];
 }
 
-/* First and last passes of a cord matter most, then round numbers. */
+/* First and last passes of a cord matter most, then round numbers; of a copy none. */
 static int importance(const thr_scene *s, int i)
 {
   int number = s->pass[i].number;
+  if (thr_scene_is_copy(s, s->pass[i].cord)) return -1;
   if (number == 1 || !thr_scene_continues(s, i)) return 0;
   if (number % s->number_step) return -1;
   return number % (10 * s->number_step) == 0 ? 1 : number % (5 * s->number_step) == 0 ? 2 : 3;
@@ -87,13 +89,19 @@ static thr_status place_number(thr_scene *s, int i, bool must, thr_err *err)
   return p->numbered ? thr_boxes_add(&s->boxes, pill_box(s, i, p->pill), THR_BOX_NUMBER, err) : THR_OK;
 }
 
+static bool wants_arrow(const thr_scene *s, int i)
+{
+  const thr_scene_pass *p = &s->pass[i];
+  return !thr_scene_is_copy(s, p->cord) || (p->number - 1) % COPY_ARROWS == 0;
+}
+
 /* Puts every arrow where neither a number nor a mark hides it. */
 static void place_arrow(thr_scene *s, int i)
 {
   thr_scene_pass *p = &s->pass[i];
   double least = HUGE_VAL, at[2], length = hypot(p->to[0] - p->from[0], p->to[1] - p->from[1]);
   p->arrow_size = fmin(s->size.arrow, 0.8 * length);
-  if (p->arrow_size < 0.4 * s->size.arrow || p->arrow_size < SEEN) p->arrow_size = 0;
+  if (p->arrow_size < 0.4 * s->size.arrow || p->arrow_size < SEEN || !wants_arrow(s, i)) p->arrow_size = 0;
   if (p->arrow_size == 0) return;
   for (int k = 0; k < MAX_PLACES && least > 0; k++) {
     along(p, ARROW_AT[k], at);
@@ -112,7 +120,7 @@ static thr_status place_numbers(thr_scene *s, thr_err *err)
   s->number_step = choose_step(s->size.pitch);
   for (int i = 0; i < s->n_passes && s->size.arrow >= SEEN && !st; i++) {
     along(&s->pass[i], ARROW_AT[0], at);
-    st = thr_boxes_add(&s->boxes, arrow_box(at, s->size.arrow), THR_BOX_ARROW, err);
+    if (wants_arrow(s, i)) st = thr_boxes_add(&s->boxes, arrow_box(at, s->size.arrow), THR_BOX_ARROW, err);
   }
   for (int level = 0; level < 4; level++)
     for (int i = 0; i < s->n_passes && !st; i++)
@@ -124,14 +132,6 @@ static thr_status place_numbers(thr_scene *s, thr_err *err)
 
 /* ---- names of nodes ---- */
 
-/* Point at t of the Bezier curve from a by b and c to d. */
-static void curve_at(const double a[2], const double b[2], const double c[2], const double d[2], double t, double at[2])
-{
-  double u = 1 - t;
-  for (int k = 0; k < 2; k++)
-    at[k] = u * u * u * a[k] + 3 * u * u * t * b[k] + 3 * u * t * t * c[k] + t * t * t * d[k];
-}
-
 /* Boxes along a curve through a node, as dense as the line is wide. */
 static thr_status box_curve(thr_scene *s, const double a[2], const double b[2], const double c[2], const double d[2],
                             thr_err *err)
@@ -140,7 +140,7 @@ static thr_status box_curve(thr_scene *s, const double a[2], const double b[2], 
   double at[2], half = 0.5 * s->size.cord + s->size.casing;
   int n = 2 + (int)fmin(hypot(d[0] - a[0], d[1] - a[1]) / half, 30);
   for (int k = 1; k < n && !st; k++) {
-    curve_at(a, b, c, d, (double)k / n, at);
+    thr_scene_curve_at(a, b, c, d, (double)k / n, at);
     st = thr_boxes_add(&s->boxes, thr_box_around(at[0], at[1], half, half), THR_BOX_CORD, err);
   }
   return st;

@@ -222,3 +222,33 @@ done:
   *out = best;
   return st;
 }
+
+/* ---- around a node ---- */
+
+typedef struct {
+  double angle;
+  int half;
+} spoke;
+
+static int by_angle(const void *a, const void *b)
+{
+  const spoke *p = a, *q = b;
+  if (p->angle != q->angle) return p->angle < q->angle ? -1 : 1;
+  return p->half - q->half;
+}
+
+thr_status thr_layout_around(const thr_frame *f, const double *angle, int *around, thr_err *err)
+{
+  spoke *k = thr_calloc((size_t)f->n_edges * 2, sizeof *k);
+  if (!k) return thr_nomem(err);
+  for (int v = 0; v < f->n_nodes; v++) {
+    int first = f->first[v], degree = thr_degree(f, v);
+    for (int i = 0; i < degree; i++)
+      k[i] = (spoke){angle[f->half[first + i]], f->half[first + i]};
+    qsort(k, (size_t)degree, sizeof *k, by_angle);
+    for (int i = 0; i < degree; i++)
+      around[first + i] = k[i].half;
+  }
+  free(k);
+  return THR_OK;
+}

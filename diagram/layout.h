@@ -60,6 +60,9 @@ void thr_layout_destroy(thr_layout *l);
 const char *thr_layout_name(thr_layout_kind kind);  /* "plan", "unrolled", "front", .. */
 const char *thr_layout_words(thr_layout_kind kind); /* for the reader of a diagram: "seen from outside (from above)", .. */
 
+/* Half-edges as frame->half, but by ascending angle[2 * n_edges] (rad, in (-pi, pi]) within a node, in around[2 * n_edges]. */
+thr_status thr_layout_around(const thr_frame *f, const double *angle, int *around, thr_err *err) THR_MUST_CHECK;
+
 /* Are distances on paper those of the framework, up to the foreshortening of a projection? */
 bool thr_layout_to_scale(thr_layout_kind kind);
 

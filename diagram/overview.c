@@ -14,7 +14,13 @@ static const double PI = 3.14159265358979323846;
 
 thr_overview_options thr_overview_options_default(void)
 {
-  return (thr_overview_options){.title = NULL, .pitch_mm = 0, .layout = NULL, .colour = THR_COLOUR_CORD};
+  return (thr_overview_options){.title = NULL, .pitch_mm = 0, .layout = NULL, .colour = THR_COLOUR_CORD, .motion = NULL};
+}
+
+const char *thr_overview_colour_name(thr_overview_colour c)
+{
+  static const char *const name[] = {"cord", "tension", "turning"};
+  return name[c];
 }
 
 /* Are the letters and numbers of places wanted on all four sides? */
@@ -63,16 +69,54 @@ static void write_arrow(const thr_scene_pass *p, thr_text *t)
   thr_text_append(t, "z\"/>");
 }
 
-/* Path data of a pass: the curve through the node before it and its lane, and for a last pass the way to the E mark. */
-static void write_strand(const thr_scene *s, int i, thr_text *t)
+/* Path data of a pass in two parts: the curve through the node before it and its lane up to a point, and .. */
+static void write_first_part(const thr_scene *s, int i, const double to[2], thr_text *t)
 {
   const thr_scene_pass *p = &s->pass[i];
   thr_svg_move(t, p->number > 1 ? p[-1].to : s->mark[p->cord][0].at);
   thr_svg_curve(t, p->turn[0], p->turn[1], p->from);
+  thr_svg_line(t, to);
+}
+
+/* .. the rest of its lane, and for a last pass the way to the E mark. */
+static void write_second_part(const thr_scene *s, int i, thr_text *t)
+{
+  const thr_scene_pass *p = &s->pass[i];
   thr_svg_line(t, p->to);
   if (thr_scene_continues(s, i)) return;
   const double(*last)[2] = (const double(*)[2])s->last_turn[p->cord];
   thr_svg_curve(t, last[0], last[1], s->mark[p->cord][1].at);
+}
+
+static void write_strand(const thr_scene *s, int i, thr_text *t)
+{
+  write_first_part(s, i, s->pass[i].from, t);
+  write_second_part(s, i, t);
+}
+
+static void open_turn(double angle, thr_text *t)
+{
+  char colour[8];
+  thr_turning_colour(angle, colour);
+  thr_text_printf(t, "<path class=\"turn\" stroke=\"%s\" d=\"", colour);
+}
+
+/* The inside of a pass, up to the middle of its lane in the colour of the turn before it, then of the turn after it. */
+static void write_turns(const thr_scene *s, int i, thr_text *t)
+{
+  const thr_scene_pass *p = &s->pass[i];
+  double middle[2] = {0.5 * (p->from[0] + p->to[0]), 0.5 * (p->from[1] + p->to[1])}, after = thr_scene_turn_after(s, i);
+  if (p->turned >= 0) {
+    open_turn(p->turned, t);
+    write_first_part(s, i, middle, t);
+    thr_text_append(t, "\"/>");
+  }
+  if (after >= 0) {
+    open_turn(after, t);
+    thr_svg_move(t, middle);
+    write_second_part(s, i, t);
+    thr_text_append(t, "\"/>");
+  }
 }
 
 static void write_pass(const thr_scene *s, int i, thr_text *t)
@@ -94,18 +138,36 @@ static void write_pass(const thr_scene *s, int i, thr_text *t)
   thr_text_append(t, " d=\"");
   write_strand(s, i, t);
   thr_text_append(t, "\"/>");
+  if (s->turning) write_turns(s, i, t);
   write_arrow(p, t);
   thr_text_append(t, "</g>\n");
 }
 
+/* Copies first, so that they cover no unique path. */
 static void write_cords(const thr_scene *s, thr_text *t)
 {
-  for (int c = 0; c < s->plan->n_cords; c++) {
-    thr_text_printf(t, "<g id=\"cord-%s\">\n", s->id[c]);
-    for (int i = s->first_pass[c]; i < s->first_pass[c + 1]; i++)
-      write_pass(s, i, t);
+  for (int own = 0; own < 2; own++)
+    for (int c = 0; c < s->plan->n_cords; c++) {
+      bool copy = thr_scene_is_copy(s, c);
+      if (copy == own) continue;
+      thr_text_printf(t, "<g id=\"cord-%s\"%s>\n", s->id[c], copy ? " class=\"copy\"" : "");
+      for (int i = s->first_pass[c]; i < s->first_pass[c + 1]; i++)
+        write_pass(s, i, t);
+      thr_text_append(t, "</g>\n");
+    }
+}
+
+static void write_sharp_turns(const thr_scene *s, thr_text *t)
+{
+  thr_text_append(t, "<g id=\"sharp-turns\">\n");
+  for (int i = 0; i < s->n_passes; i++) {
+    const thr_scene_pass *p = &s->pass[i];
+    if (!p->sharp) continue;
+    thr_text_printf(t, "<g id=\"t-%s-%d\">", s->id[p->cord], p->number);
+    thr_legend_sharp(s, p->sharp_at[0], p->sharp_at[1], t);
     thr_text_append(t, "</g>\n");
   }
+  thr_text_append(t, "</g>\n");
 }
 
 static void write_marks(const thr_scene *s, thr_text *t)
@@ -114,7 +176,8 @@ static void write_marks(const thr_scene *s, thr_text *t)
   for (int c = 0; c < s->plan->n_cords; c++)
     for (int end = 0; end < 2; end++) {
       const thr_mark *m = &s->mark[c][end];
-      thr_legend_mark(s, m, end, s->plan->n_cords > 1 && !s->tension ? thr_palette(c).hex : "#111", m->at[0], m->at[1], t);
+      const char *ring = s->plan->n_cords > 1 && !s->tension ? thr_scene_cord_colour(s, c) : "#111";
+      thr_legend_mark(s, m, end, thr_scene_is_copy(s, c), ring, m->at[0], m->at[1], t);
     }
   thr_text_append(t, "</g>\n");
 }
@@ -179,11 +242,22 @@ static void write_style(const thr_scene *s, thr_text *t)
   thr_text_printf(t, ".thread .bead{fill:#f3f1ea;stroke:#bdb8a8;stroke-width:%.2f}\n", thin);
   thr_text_printf(t, ".thread .foot{fill:#e3d6b8;stroke:#8f7c4f;stroke-width:%.2f}\n", thin);
   thr_text_printf(t, ".thread .casing{fill:none;stroke:#fff;stroke-width:%.2f;stroke-linejoin:round}\n", w + 2 * c);
-  thr_text_printf(t, ".thread .cord{fill:none;stroke-width:%.2f;stroke-linejoin:round}\n", w);
-  thr_text_append(t, ".thread .cord:not([stroke-dasharray]){stroke-linecap:round}\n");
+  thr_text_printf(t, ".thread .cord{fill:none;stroke-width:%.2f;stroke-linejoin:round}\n", s->turning ? w + c : w);
+  if (s->turning) /* the cord's own colour is a paler border; a round end would cover the colour of the turn before */
+    thr_text_printf(t,
+                    ".thread .cord{stroke-opacity:0.55}.thread "
+                    ".turn{fill:none;stroke-width:%.2f;stroke-linejoin:round;stroke-linecap:round}\n",
+                    w);
+  else
+    thr_text_append(t, ".thread .cord:not([stroke-dasharray]){stroke-linecap:round}\n");
   thr_text_printf(t, ".thread .arrow{stroke:#fff;stroke-width:%.2f;stroke-linejoin:round;paint-order:stroke}\n", c);
-  thr_text_printf(t, ".thread .pill{fill:#fff;stroke-width:%.2f}.thread .mark{fill:#111;stroke-width:0.80}\n",
-                  fmin(0.45, fmax(w, 0.25)));
+  if (s->copy) /* after the rules that it changes */
+    thr_text_printf(t, ".thread .copy .cord{stroke-width:%.2f}.thread .copy .casing{stroke-width:%.2f}\n", 0.7 * w,
+                    0.7 * w + 2 * c);
+  thr_text_printf(
+      t, ".thread .pill{fill:#fff;stroke-width:%.2f}.thread .mark{fill:#111;stroke-width:0.80}.thread .mark.pale{fill:#fff}\n",
+      fmin(0.45, fmax(w, 0.25)));
+  thr_text_printf(t, ".thread .sharp{fill:#111;stroke:#fff;stroke-width:%.2f}\n", 0.5 * c);
   thr_text_append(t, ".thread .bar{fill:none;stroke:#222;stroke-width:0.40}\n</style>\n");
 }
 
@@ -193,6 +267,7 @@ static void write_drawing(const thr_scene *s, double x, double y, thr_text *t)
   write_feet(s, t);
   write_beads(s, t);
   write_cords(s, t);
+  if (s->turning) write_sharp_turns(s, t);
   write_marks(s, t);
   write_places(s, t);
   write_numbers(s, t);
@@ -241,11 +316,13 @@ thr_status thr_overview_svg(const thr_plan *p, const thr_overview_options *o, th
   if (!p->n_cords) return thr_fail(err, THR_EINPUT, "the plan has no cord to draw");
   if (o->colour == THR_COLOUR_TENSION && (st = thr_tension_usable(p, err))) return st;
   if (!o->layout) st = thr_layout_choose(&own, &p->frame, NULL, 0, err);
-  if (!st) st = thr_scene_build(&s, p, o->layout ? o->layout : &own, o->pitch_mm, err);
+  if (!st) st = thr_scene_build(&s, p, o->layout ? o->layout : &own, o->pitch_mm, o->colour == THR_COLOUR_CORD, err);
+  if (!st) s.motion = o->motion;
   if (!st && o->colour == THR_COLOUR_TENSION) {
     s.tension = &p->evaluation;
     thr_evaluation_range(s.tension, s.tension_range);
   }
+  if (!st && o->colour == THR_COLOUR_TURNING) st = thr_scene_find_turns(&s, err);
   if (!st) st = write_sheet(&s, o->title, &out, err);
   if (!st) thr_text_append_bytes(svg, out.data, out.length);
   if (!st && svg->failed) st = thr_nomem(err);

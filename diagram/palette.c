@@ -1,12 +1,15 @@
 #include "diagram/palette.h"
 
+#include <math.h>
 #include <stddef.h>
+#include <stdio.h>
 
 thr_colour thr_palette(int i)
 {
   /* neighbours in this order differ most: vermillion and orange are kept apart */
-  static const thr_colour colour[THR_COLOURS] = {{"#0072B2", "blue"}, {"#D55E00", "vermillion"}, {"#009E73", "green"},
-                                                 {"#CC79A7", "pink"}, {"#56B4E9", "sky blue"},   {"#E69F00", "orange"}};
+  static const thr_colour colour[THR_COLOURS] = {{"#0072B2", "#91C4EE", "blue"},     {"#D55E00", "#E9AF91", "vermillion"},
+                                                 {"#009E73", "#8BCFB1", "green"},    {"#CC79A7", "#E5A9C8", "pink"},
+                                                 {"#56B4E9", "#9EDAFF", "sky blue"}, {"#E69F00", "#EFCB96", "orange"}};
   return colour[i % THR_COLOURS];
 }
 
@@ -15,4 +18,25 @@ const double *thr_palette_dash(int i)
   static const double dash[THR_DASHES - 1][5] = {{3, 1, 0}, {1, 1, 0}, {4, 1, 1, 1, 0}};
   i %= THR_DASHES;
   return i ? dash[i - 1] : NULL;
+}
+
+/* sRGB of linear light, 0 .. 255. */
+static unsigned from_light(double light)
+{
+  double value = light <= 0.0031308 ? 12.92 * light : 1.055 * pow(light, 1 / 2.4) - 0.055;
+  return (unsigned)nearbyint(255 * fmin(fmax(value, 0), 1));
+}
+
+void thr_turning_colour(double angle, char hex[8])
+{
+  static const double pale[3] = {0.94, 0.0100, -0.0173}, dark[3] = {0.27, 0.0700, -0.1212}; /* lightness, a, b */
+  double part = fmin(fmax(angle / 3.14159265358979323846, 0), 1), at[3], cone[3];
+  for (int i = 0; i < 3; i++)
+    at[i] = pale[i] + part * (dark[i] - pale[i]);
+  cone[0] = pow(at[0] + 0.3963377774 * at[1] + 0.2158037573 * at[2], 3);
+  cone[1] = pow(at[0] - 0.1055613458 * at[1] - 0.0638541728 * at[2], 3);
+  cone[2] = pow(at[0] - 0.0894841775 * at[1] - 1.2914855480 * at[2], 3);
+  snprintf(hex, 8, "#%02x%02x%02x", from_light(4.0767416621 * cone[0] - 3.3077115913 * cone[1] + 0.2309699292 * cone[2]),
+           from_light(-1.2684380046 * cone[0] + 2.6097574011 * cone[1] - 0.3413193965 * cone[2]),
+           from_light(-0.0041960863 * cone[0] - 0.7034186147 * cone[1] + 1.7076147010 * cone[2]));
 }

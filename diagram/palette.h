@@ -1,5 +1,6 @@
 /* Colours of cords: Okabe & Ito 2008 without yellow (too pale on paper) and black (text), told apart by colour-blind
- * readers; a dash pattern for every further six cords. */
+ * readers; a dash pattern for every further six cords. Copies of a cord have its hue, paler than any strong colour and darker
+ * than a bead, so that lightness alone tells them apart. Colours of turns: a ramp whose lightness alone tells the order. */
 #ifndef THR_PALETTE_H
 #define THR_PALETTE_H
 
@@ -7,6 +8,7 @@ enum { THR_COLOURS = 6, THR_DASHES = 4 };
 
 typedef struct {
   const char *hex;  /* "#0072B2" */
+  const char *pale; /* the same hue for copies: "#91C4EE" */
   const char *name; /* "blue" */
 } thr_colour;
 
@@ -15,5 +17,9 @@ thr_colour thr_palette(int i);
 
 /* Dash pattern number i: on, off lengths in cord widths, 0-terminated; NULL for 0, the full line. Repeats. */
 const double *thr_palette_dash(int i);
+
+/* Colour of a turn by angle rad as "#rrggbb": equal steps in the Oklab space (B. Ottosson, 2020) from pale lilac for straight on
+ * to dark violet, a hue that no cord has, for pi. */
+void thr_turning_colour(double angle, char hex[8]);
 
 #endif

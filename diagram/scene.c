@@ -45,20 +45,41 @@ double thr_scene_sweep(double a, double b)
   return d < 0 ? d + 2 * PI : d;
 }
 
+bool thr_scene_is_copy(const thr_scene *s, int c)
+{
+  return s->copy && s->copy[c].of != c;
+}
+
+int thr_scene_hue(const thr_scene *s, int c)
+{
+  return s->copy ? s->copy[c].path : c;
+}
+
+const char *thr_scene_cord_colour(const thr_scene *s, int c)
+{
+  thr_colour colour = thr_palette(thr_scene_hue(s, c));
+  return thr_scene_is_copy(s, c) ? colour.pale : colour.hex;
+}
+
 void thr_scene_colour(const thr_scene *s, int i, char hex[8])
 {
   const thr_scene_pass *p = &s->pass[i];
   const thr_eval_cord *known = s->tension && s->tension->cord[p->cord].known ? &s->tension->cord[p->cord] : NULL;
   if (known)
     thr_tension_colour(s->tension_range, known->tension[p->number - 1], hex);
+  else if (s->tension)
+    snprintf(hex, 8, "#999999");
+  else if (s->turning && s->plan->n_cords == 1)
+    snprintf(hex, 8, "#666666");
   else
     snprintf(hex, 8, "%s",
-             s->tension ? "#999999" : thr_palette(s->plan->n_cords > 1 ? p->cord : (p->number - 1) / THR_COLOUR_PASSES).hex);
+             s->plan->n_cords > 1 ? thr_scene_cord_colour(s, p->cord) : thr_palette((p->number - 1) / THR_COLOUR_PASSES).hex);
 }
 
 const double *thr_scene_dash(const thr_scene *s, int c)
 {
-  return s->plan->n_cords > THR_COLOURS ? thr_palette_dash(c / THR_COLOURS) : NULL;
+  int hues = s->copy ? thr_copies_paths(s->copy, s->plan->n_cords) : s->plan->n_cords;
+  return hues > THR_COLOURS ? thr_palette_dash(thr_scene_hue(s, c) / THR_COLOURS) : NULL;
 }
 
 bool thr_scene_continues(const thr_scene *s, int i)
@@ -84,6 +105,7 @@ void thr_scene_destroy(thr_scene *s)
 {
   thr_places_destroy(&s->places);
   thr_boxes_destroy(&s->boxes);
+  free(s->copy);
   free(s->at);
   free(s->angle);
   free(s->around);
@@ -128,8 +150,7 @@ static thr_status allocate(thr_scene *s, thr_err *err)
              : thr_nomem(err);
 }
 
-/* Half-edges in range and consecutive passes that meet; counts passes. */
-static thr_status check_cords(const thr_plan *p, int *n_passes, thr_err *err)
+thr_status thr_scene_check_cords(const thr_plan *p, int *n_passes, thr_err *err)
 {
   const thr_frame *f = &p->frame;
   long total = 0;
@@ -149,6 +170,20 @@ static thr_status check_cords(const thr_plan *p, int *n_passes, thr_err *err)
   if (total > 100000000) return thr_fail(err, THR_EINPUT, "%ld passes are too many to draw", total);
   *n_passes = (int)total;
   return THR_OK;
+}
+
+/* Which cords are copies, if any is. */
+static thr_status find_copies(thr_scene *s, thr_err *err)
+{
+  int n = s->plan->n_cords;
+  thr_copy *copy = thr_calloc((size_t)n, sizeof *copy);
+  if (!copy) return thr_nomem(err);
+  thr_status st = thr_copies_find(s->plan, copy, err);
+  if (!st && thr_copies_paths(copy, n) < n)
+    s->copy = copy;
+  else
+    free(copy);
+  return st;
 }
 
 /* Flattens the cords into passes and sorts these by edge; within an edge by pass. */
@@ -224,41 +259,20 @@ static thr_status place_nodes(thr_scene *s, double pitch_mm, thr_err *err)
   return THR_OK;
 }
 
-typedef struct {
-  double angle;
-  int half;
-} spoke;
-
-static int by_angle(const void *a, const void *b)
-{
-  const spoke *p = a, *q = b;
-  if (p->angle != q->angle) return p->angle < q->angle ? -1 : 1;
-  return p->half - q->half;
-}
-
 /* Sorts the half-edges around every node. */
 static thr_status sort_around(thr_scene *s, thr_err *err)
 {
   const thr_frame *f = s->frame;
-  spoke *k = thr_calloc((size_t)f->n_edges * 2, sizeof *k);
-  if (!k) return thr_nomem(err);
   for (int h = 0; h < 2 * f->n_edges; h++) {
     double d[2];
     thr_scene_direction(s, h, d);
     s->angle[h] = atan2(d[1], d[0]);
   }
-  for (int v = 0; v < f->n_nodes; v++) {
-    int first = f->first[v], degree = thr_degree(f, v);
-    for (int i = 0; i < degree; i++)
-      k[i] = (spoke){s->angle[f->half[first + i]], f->half[first + i]};
-    qsort(k, (size_t)degree, sizeof *k, by_angle);
-    for (int i = 0; i < degree; i++) {
-      s->around[first + i] = k[i].half;
-      s->rank[k[i].half] = i;
-    }
-  }
-  free(k);
-  return THR_OK;
+  thr_status st = thr_layout_around(f, s->angle, s->around, err);
+  for (int v = 0; v < f->n_nodes && !st; v++)
+    for (int i = 0; i < thr_degree(f, v); i++)
+      s->rank[s->around[f->first[v] + i]] = i;
+  return st;
 }
 
 /* Widths: lanes get closer where there are many or the edge is short. */
@@ -318,11 +332,12 @@ static thr_status box_beads(thr_scene *s, thr_err *err)
   return st;
 }
 
-thr_status thr_scene_build(thr_scene *s, const thr_plan *p, const thr_layout *l, double pitch_mm, thr_err *err)
+thr_status thr_scene_build(thr_scene *s, const thr_plan *p, const thr_layout *l, double pitch_mm, bool pale_copies, thr_err *err)
 {
   *s = (thr_scene){.plan = p, .frame = &p->frame, .layout = l};
-  thr_status st = check_cords(p, &s->n_passes, err);
+  thr_status st = thr_scene_check_cords(p, &s->n_passes, err);
   if (!st) st = allocate(s, err);
+  if (!st && pale_copies) st = find_copies(s, err);
   if (st) goto done;
   collect_passes(s);
   if ((st = place_nodes(s, pitch_mm, err))) goto done;

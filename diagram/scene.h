@@ -1,10 +1,11 @@
 /* The overview picture before it is written: everything in mm on paper, x to the right, y down, the nodes' bounding box at
  * the origin. Private to diagram/. Built in steps, each in its own file: paper and beads (scene.c), the S and E marks
- * (marks.c), lanes (lanes.c), strands (strands.c), numbers, arrows and names (labels.c). */
+ * (marks.c), lanes (lanes.c), strands (strands.c), numbers, arrows and names (labels.c); if wanted, turns (turns.c). */
 #ifndef THR_SCENE_H
 #define THR_SCENE_H
 
 #include "diagram/boxes.h"
+#include "diagram/copies.h"
 #include "diagram/layout.h"
 #include "diagram/palette.h"
 #include "diagram/places.h"
@@ -34,6 +35,9 @@ typedef struct {
   double pill[2];    /* centre of the number, if numbered */
   double arrow[2];   /* its middle */
   double arrow_size; /* its length; 0 = no room */
+  double turned;     /* if turning is shown: angle of the turn to this pass, rad; a first pass's closes the cord; -1 = none */
+  bool sharp;        /* is that turn marked as a sharp one? */
+  double sharp_at[2];
 } thr_scene_pass;
 
 /* Where a cord starts (S, a disc) or ends (E, a square). */
@@ -51,6 +55,9 @@ typedef struct {
   const thr_layout *layout;
   const thr_evaluation *tension; /* colours show it over tension_range; NULL: colours tell the cords apart */
   double tension_range[2];       /* N */
+  bool turning;                  /* turns have colours of their own along the cords */
+  thr_copy *copy;                /* [n_cords] if copies are drawn pale and there are any, else NULL */
+  const char *const *motion;     /* [n_cords] what moves a unique path to a copy (see thr_copies_words), or NULL */
   thr_sizes size;
   thr_places places;
   double scale;         /* mm per unit of the layout */
@@ -78,12 +85,24 @@ typedef struct {
   thr_boxes boxes;
 } thr_scene;
 
-/* Everything up to the labels. layout and plan are borrowed and must outlive the scene. */
-thr_status thr_scene_build(thr_scene *s, const thr_plan *p, const thr_layout *l, double pitch_mm, thr_err *err) THR_MUST_CHECK;
+/* Everything up to the labels, copies of cords pale and without numbers if wanted. layout and plan are borrowed and must outlive
+ * the scene. */
+thr_status thr_scene_build(thr_scene *s, const thr_plan *p, const thr_layout *l, double pitch_mm, bool pale_copies,
+                           thr_err *err) THR_MUST_CHECK;
 void thr_scene_destroy(thr_scene *s);
 
-/* Colour of pass i as "#rrggbb": of its cord, of its twenty passes when there is one cord only, or of its tension (grey if not
- * known). */
+/* THR_EINPUT for half-edges out of range and consecutive passes that do not meet; counts the passes of all cords. */
+thr_status thr_scene_check_cords(const thr_plan *p, int *n_passes, thr_err *err) THR_MUST_CHECK;
+
+/* Is cord c drawn as a copy? Which of the hues has it: those of unique paths and copies are alike. */
+bool thr_scene_is_copy(const thr_scene *s, int c);
+int thr_scene_hue(const thr_scene *s, int c);
+
+/* Its colour as "#rrggbb", where colours tell the cords apart. */
+const char *thr_scene_cord_colour(const thr_scene *s, int c);
+
+/* Colour of pass i as "#rrggbb": of its cord; when there is one cord only, of its twenty passes, or grey if turning is shown. Or
+ * of its tension (grey if not known). */
 void thr_scene_colour(const thr_scene *s, int i, char hex[8]);
 enum { THR_COLOUR_PASSES = 20 };
 
@@ -95,6 +114,19 @@ thr_status thr_scene_place_marks(thr_scene *s, thr_err *err) THR_MUST_CHECK;
 thr_status thr_scene_order_lanes(thr_scene *s, thr_err *err) THR_MUST_CHECK;
 void thr_scene_lay_strands(thr_scene *s);
 thr_status thr_scene_place_labels(thr_scene *s, thr_err *err) THR_MUST_CHECK;
+
+/* After these, to show turning: finds the turns' angles, and places for the signs of those sharper than THR_SCENE_SHARP. */
+thr_status thr_scene_find_turns(thr_scene *s, thr_err *err) THR_MUST_CHECK;
+static const double THR_SCENE_SHARP = 1.57079632679489661923; /* rad */
+
+/* Angle of the turn from pass i to the next, rad; that of a closed cord's last pass closes it. -1 = none. */
+double thr_scene_turn_after(const thr_scene *s, int i);
+
+/* Half the diagonal of the sign of a sharp turn, mm. */
+double thr_scene_sharp_size(const thr_scene *s);
+
+/* Point at t of the Bezier curve from a by b and c to d. */
+void thr_scene_curve_at(const double a[2], const double b[2], const double c[2], const double d[2], double t, double at[2]);
 
 /* Unit vector along half-edge h on paper; (1, 0) if it has no length there. */
 void thr_scene_direction(const thr_scene *s, int h, double d[2]);

@@ -3,6 +3,13 @@
 
 #include <math.h>
 
+void thr_scene_curve_at(const double a[2], const double b[2], const double c[2], const double d[2], double t, double at[2])
+{
+  double u = 1 - t;
+  for (int k = 0; k < 2; k++)
+    at[k] = u * u * u * a[k] + 3 * u * u * t * b[k] + 3 * u * t * t * c[k] + t * t * t * d[k];
+}
+
 /* End of the lane of pass i at its start or its end, and there the unit direction of travel. */
 static void lane_end(const thr_scene *s, int i, bool end, double at[2])
 {

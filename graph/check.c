@@ -58,6 +58,16 @@ static thr_status check_ends(const thr_frame *f, const thr_plan_options *o, cons
   return THR_OK;
 }
 
+static thr_status check_cover(const thr_frame *f, const thr_plan_options *o, const int *passes, thr_err *err)
+{
+  for (int e = 0; e < f->n_edges; e++)
+    if (passes[e] < o->cover)
+      return thr_fail(err, THR_EVIOLATED, "edge %d (nodes %d and %d): %d of %d passes", e, f->edge[e][0], f->edge[e][1],
+                      passes[e], o->cover);
+  return THR_OK;
+}
+
+/* Counts the passes that the cords make. */
 static thr_status check_cords(const thr_frame *f, const thr_plan_options *o, const int *component, const thr_cord *cord,
                               int n_cords, int *passes, thr_err *err)
 {
@@ -72,11 +82,7 @@ static thr_status check_cords(const thr_frame *f, const thr_plan_options *o, con
     for (int k = 0; k < c->n_passes; k++)
       passes[c->half[k] >> 1]++;
   }
-  for (int e = 0; e < f->n_edges; e++)
-    if (passes[e] < o->cover)
-      return thr_fail(err, THR_EVIOLATED, "edge %d (nodes %d and %d): %d of %d passes", e, f->edge[e][0], f->edge[e][1],
-                      passes[e], o->cover);
-  return THR_OK;
+  return check_cover(f, o, passes, err);
 }
 
 /* ---- one certificate ---- */
@@ -100,11 +106,10 @@ typedef struct {
   int *start, *node;      /* nodes of component k: node[start[k] .. start[k + 1] - 1] */
   int *edge_start, *edge; /* its edges likewise */
   const thr_certificate *c;
-  wide *load;        /* [n_edges] */
-  wide *slot_load;   /* [2 * n_nodes] see load_set */
-  wide slot_base[2]; /* sum of the values of the sets that hold slot i */
-  wide between;      /* load of the edge between the slots */
-  bool *member;      /* [n_nodes + 2] */
+  wide *load;      /* [n_edges] */
+  wide *held;      /* [n_nodes + 2 * cords] sum of the values of the sets that hold a node or slot */
+  wide *held_both; /* [n_nodes + 2 * cords] of those that hold one slot as well, see check_slot */
+  bool *member;    /* [n_nodes + 2 * cords] */
 } certificate_check;
 
 static bool is_odd(const certificate_check *k, int v)
@@ -137,25 +142,19 @@ static thr_status check_set(certificate_check *k, int i, thr_err *err)
   return THR_OK;
 }
 
-/* Adds the multiplier of a cut to the edges that leave its set. The edge between slot i and node v is loaded by the sets that
- * hold exactly one of them: slot_base[i] counts all sets with the slot, slot_load corrects it for those with v. */
+/* Adds the multiplier of a cut to the edges of the framework that leave its set, and to what its members count for check_slot. */
 static void load_set(certificate_check *k, const thr_cut *cut)
 {
   int n = k->f->n_nodes;
-  for (int j = 0; j < cut->n_nodes; j++)
-    k->member[cut->node[j]] = true;
   for (int j = 0; j < cut->n_nodes; j++) {
+    k->member[cut->node[j]] = true;
+    k->held[cut->node[j]] += cut->value;
+  }
+  for (int j = 0; j < cut->n_nodes && cut->node[j] < n; j++) {
     int v = cut->node[j];
-    if (v >= n) {
-      k->slot_base[v - n] += cut->value;
-      continue;
-    }
     for (int i = k->f->first[v]; i < k->f->first[v + 1]; i++)
       if (!k->member[thr_head(k->f, k->f->half[i])]) k->load[k->f->half[i] >> 1] += cut->value;
-    for (int i = 0; i < k->c->n_slots; i++)
-      k->slot_load[2 * v + i] += k->member[n + i] ? -cut->value : cut->value;
   }
-  if (k->member[n] != k->member[n + 1]) k->between += cut->value;
   for (int j = 0; j < cut->n_nodes; j++)
     k->member[cut->node[j]] = false;
 }
@@ -166,23 +165,57 @@ static thr_status overloaded(const certificate_check *k, const char *what, int a
                   k->c->component, what, at);
 }
 
-static thr_status check_loads(const certificate_check *k, thr_err *err)
+static bool holds_slot(const thr_cut *cut, int slot)
+{
+  int j = cut->n_nodes; /* slots come last */
+  while (j > 0 && cut->node[j - 1] > slot)
+    j--;
+  return j > 0 && cut->node[j - 1] == slot;
+}
+
+/* The edge between a slot and a node (or another slot) is loaded by the sets that hold one of them: all that hold the one and all
+ * that hold the other, less twice those that hold both. */
+static thr_status check_slot(certificate_check *k, int slot, thr_err *err)
 {
   const thr_certificate *c = k->c;
+  const thr_frame *f = k->f;
+  const wide most = (wide)c->slot_cost * c->denominator;
+  thr_status st = THR_OK;
+  for (int pass = 0; pass < 2; pass++) { /* the second one clears */
+    for (int i = 0; i < c->n_cuts && k->held[slot] > 0; i++) {
+      const thr_cut *cut = &c->cut[i];
+      if (!holds_slot(cut, slot)) continue;
+      for (int j = 0; j < cut->n_nodes; j++)
+        k->held_both[cut->node[j]] += pass ? -cut->value : cut->value;
+    }
+    if (pass) break;
+    for (int j = k->start[c->component]; j < k->start[c->component + 1] && !st; j++) {
+      int v = k->node[j];
+      if (thr_plan_end_allowed(f, k->o, v) && k->held[slot] + k->held[v] - 2 * k->held_both[v] > most)
+        st = overloaded(k, "the slot edge at node", v, err);
+    }
+    for (int other = f->n_nodes; other < f->n_nodes + c->n_slots && !st; other++)
+      if (other != slot && k->held[slot] + k->held[other] - 2 * k->held_both[other] > 2 * most)
+        st = overloaded(k, "an edge between the slots of component", c->component, err);
+  }
+  return st;
+}
+
+static thr_status check_loads(certificate_check *k, thr_err *err)
+{
+  const thr_certificate *c = k->c;
+  thr_status st = THR_OK;
+  bool idle = false; /* has a slot that no set of positive value holds been checked? They are all alike */
   for (int j = k->edge_start[c->component]; j < k->edge_start[c->component + 1]; j++) {
     int e = k->edge[j];
     if (k->load[e] > (wide)thr_certificate_weight(k->f, c, e) * c->denominator) return overloaded(k, "edge", e, err);
   }
-  for (int j = k->start[c->component]; j < k->start[c->component + 1]; j++) {
-    int v = k->node[j];
-    if (!thr_plan_end_allowed(k->f, k->o, v)) continue;
-    for (int i = 0; i < c->n_slots; i++)
-      if (k->slot_base[i] + k->slot_load[2 * v + i] > (wide)c->slot_cost * c->denominator)
-        return overloaded(k, "the slot edge at node", v, err);
+  for (int slot = k->f->n_nodes; slot < k->f->n_nodes + c->n_slots && !st; slot++) {
+    if (k->held[slot] == 0 && idle) continue;
+    idle |= k->held[slot] == 0;
+    st = check_slot(k, slot, err);
   }
-  if (k->between > 2 * (wide)c->slot_cost * c->denominator)
-    return overloaded(k, "the edge between the slots of component", c->component, err);
-  return THR_OK;
+  return st;
 }
 
 static void clear(certificate_check *k)
@@ -191,8 +224,8 @@ static void clear(certificate_check *k)
   for (int j = k->edge_start[c]; j < k->edge_start[c + 1]; j++)
     k->load[k->edge[j]] = 0;
   for (int j = k->start[c]; j < k->start[c + 1]; j++)
-    k->slot_load[2 * (size_t)k->node[j]] = k->slot_load[2 * (size_t)k->node[j] + 1] = 0;
-  k->slot_base[0] = k->slot_base[1] = k->between = 0;
+    k->held[k->node[j]] = 0;
+  memset(k->held + k->f->n_nodes, 0, 2 * (size_t)k->o->cords * sizeof *k->held);
 }
 
 /* Compares the stated sums with the true ones, and says what they prove. */
@@ -217,8 +250,9 @@ static thr_status judge(const certificate_check *k, wide sum, const int *passes,
   if (join != c->join)
     return thr_fail(err, THR_EVIOLATED, "certificate of component %d: the extra passes do not weigh the stated %" PRId64,
                     c->component, c->join);
-  /* One cord is a T-join of weight join + slots, and weights are integers: nothing fits between the bound and the next one. */
-  double bound = (double)(sum - slots * c->denominator) / (double)c->denominator / c->scale - rounding;
+  /* Cords are a T-join of weight join + slots, and weights are integers: nothing fits between the bound and the next one. */
+  wide least = (sum + c->denominator - 1) / c->denominator - slots;
+  double bound = (double)least / c->scale - rounding;
   out->extra_bound = bound > 0 ? bound : 0;
   out->optimal = !extra || (!weightless && sum > (join + slots - 1) * c->denominator && rounding <= 1e-9 * total);
   return THR_OK;
@@ -234,9 +268,9 @@ static thr_status check_numbers(const certificate_check *k, thr_err *err)
     if (!(k->f->length[e] * c->scale < 1e18))
       return thr_fail(err, THR_EVIOLATED, "certificate of component %d: scale is too large for edge %d", c->component, e);
   }
-  if (c->n_slots != (k->o->ends == THR_ENDS_CLOSED ? 0 : 2))
-    return thr_fail(err, THR_EVIOLATED, "certificate of component %d: %d slots do not fit ends %s", c->component, c->n_slots,
-                    thr_ends_name(k->o->ends));
+  if (c->n_slots != (k->o->ends == THR_ENDS_CLOSED ? 0 : 2 * k->o->cords))
+    return thr_fail(err, THR_EVIOLATED, "certificate of component %d: %d slots do not fit ends %s and %d %s", c->component,
+                    c->n_slots, thr_ends_name(k->o->ends), k->o->cords, k->o->cords == 1 ? "cord" : "cords");
   return THR_OK;
 }
 
@@ -264,7 +298,8 @@ static void certificate_check_destroy(certificate_check *k)
   free(k->edge_start);
   free(k->edge);
   free(k->load);
-  free(k->slot_load);
+  free(k->held);
+  free(k->held_both);
   free(k->member);
   *k = (certificate_check){0};
 }
@@ -290,16 +325,17 @@ static void group(certificate_check *k)
 static thr_status certificate_check_init(certificate_check *k, const thr_frame *f, const thr_plan_options *o,
                                          const int *component, thr_err *err)
 {
-  size_t n = (size_t)f->n_nodes, m = (size_t)f->n_edges;
+  size_t n = (size_t)f->n_nodes, m = (size_t)f->n_edges, all = n + 2 * (size_t)o->cords;
   *k = (certificate_check){.f = f, .o = o, .component = component};
   k->start = thr_calloc(n + 2, sizeof *k->start);
   k->node = thr_calloc(n, sizeof *k->node);
   k->edge_start = thr_calloc(n + 2, sizeof *k->edge_start);
   k->edge = thr_calloc(m, sizeof *k->edge);
   k->load = thr_calloc(m, sizeof *k->load);
-  k->slot_load = thr_calloc(2 * n, sizeof *k->slot_load);
-  k->member = thr_calloc(n + 2, sizeof *k->member);
-  if (!k->start || !k->node || !k->edge_start || !k->edge || !k->load || !k->slot_load || !k->member) {
+  k->held = thr_calloc(all, sizeof *k->held);
+  k->held_both = thr_calloc(all, sizeof *k->held_both);
+  k->member = thr_calloc(all, sizeof *k->member);
+  if (!k->start || !k->node || !k->edge_start || !k->edge || !k->load || !k->held || !k->held_both || !k->member) {
     certificate_check_destroy(k);
     return thr_nomem(err);
   }
@@ -342,34 +378,69 @@ static void walked_destroy(walked *w)
   *w = (walked){0};
 }
 
-/* Checks the cords on the way. On failure w is empty. */
-static thr_status walked_init(walked *w, const thr_frame *f, const thr_plan_options *o, const thr_cord *cord, int n_cords,
-                              thr_err *err)
+/* Without passes yet. On failure w is empty. */
+static thr_status walked_init(walked *w, const thr_frame *f, thr_err *err)
 {
   *w = (walked){.component = thr_calloc((size_t)f->n_nodes, sizeof *w->component),
                 .passes = thr_calloc((size_t)f->n_edges, sizeof *w->passes)};
   thr_status st = w->component && w->passes ? THR_OK : thr_nomem(err);
   if (!st) st = thr_frame_components(f, w->component, &w->n_components, err);
+  if (st) walked_destroy(w);
+  return st;
+}
+
+/* The same from cords, which are checked on the way. */
+static thr_status walked_from_cords(walked *w, const thr_frame *f, const thr_plan_options *o, const thr_cord *cord, int n_cords,
+                                    thr_err *err)
+{
+  thr_status st = walked_init(w, f, err);
   if (!st) st = check_cords(f, o, w->component, cord, n_cords, w->passes, err);
   if (st) walked_destroy(w);
   return st;
 }
 
-static thr_status check_proof(const thr_frame *f, const thr_plan_options *o, const walked *w, const thr_cord *cord, int n_cords,
+/* As many cords in every component as the options say; of a symmetric plan, in the one that has most. */
+static thr_status check_cord_count(const walked *w, const thr_plan_options *o, const thr_cord *cord, int n_cords, thr_err *err)
+{
+  int *count = thr_calloc((size_t)w->n_components, sizeof *count);
+  thr_status st = count ? THR_OK : thr_nomem(err);
+  for (int i = 0; i < n_cords && !st; i++)
+    count[cord[i].component]++;
+  int first = 0, end = w->n_components;
+  for (int k = 0; k < w->n_components && !st && o->objective == THR_SYMMETRY; k++) {
+    if (count[k] > count[first]) first = k;
+    end = first + 1;
+  }
+  for (int k = first; k < end && !st; k++)
+    if (count[k] != o->cords)
+      st = thr_fail(err, THR_EVIOLATED, "component %d: has %d %s; the plan's options say %d", k, count[k],
+                    count[k] == 1 ? "cord" : "cords", o->cords);
+  free(count);
+  return st;
+}
+
+static double length_of(const thr_frame *f, const int *passes)
+{
+  double sum = 0;
+  for (int e = 0; e < f->n_edges; e++)
+    sum += passes[e] * f->length[e];
+  return sum;
+}
+
+/* Verifies the certificates for passes that were checked already and have this length. */
+static thr_status check_proof(const thr_frame *f, const thr_plan_options *o, const walked *w, double length,
                               const thr_certificate *certificate, int n_certificates, bool *optimal, double *lower_bound,
                               thr_err *err)
 {
   certificate_check k;
-  double extra = 0, length = 0;
-  if (n_cords != w->n_components || n_certificates != w->n_components)
-    return thr_fail(err, THR_EVIOLATED, "%d cords and %d certificates for %d components; expected one of each per component",
-                    n_cords, n_certificates, w->n_components);
+  double extra = 0;
+  if (n_certificates != w->n_components)
+    return thr_fail(err, THR_EVIOLATED, "%d certificates for %d components; expected one per component", n_certificates,
+                    w->n_components);
   thr_status st = certificate_check_init(&k, f, o, w->component, err);
   if (!st) st = sum_verdicts(&k, w->passes, certificate, n_certificates, optimal, &extra, err);
   certificate_check_destroy(&k);
   if (st) return st;
-  for (int i = 0; i < n_cords; i++)
-    length += thr_cord_length(f, &cord[i]);
   *lower_bound = *optimal ? length : fmin(length, o->cover * thr_frame_total_length(f) + extra);
   return THR_OK;
 }
@@ -379,8 +450,44 @@ thr_status thr_check_length_proof(const thr_frame *f, const thr_plan_options *o,
                                   thr_err *err)
 {
   walked w;
-  thr_status st = walked_init(&w, f, o, cord, n_cords, err);
-  if (!st) st = check_proof(f, o, &w, cord, n_cords, certificate, n_certificates, optimal, lower_bound, err);
+  double length = 0;
+  thr_status st = walked_from_cords(&w, f, o, cord, n_cords, err);
+  if (!st) st = check_cord_count(&w, o, cord, n_cords, err);
+  for (int i = 0; i < n_cords && !st; i++)
+    length += thr_cord_length(f, &cord[i]);
+  if (!st) st = check_proof(f, o, &w, length, certificate, n_certificates, optimal, lower_bound, err);
+  walked_destroy(&w);
+  return st;
+}
+
+/* Passes that cords can run through: every edge covered, and where they are odd in number a cord may end. */
+static thr_status check_passes(const thr_frame *f, const thr_plan_options *o, const walked *w, thr_err *err)
+{
+  int most = o->ends == THR_ENDS_CLOSED ? 0 : 2 * o->cords;
+  thr_status st = check_cover(f, o, w->passes, err);
+  int *odd = thr_calloc((size_t)w->n_components, sizeof *odd);
+  if (!st && !odd) st = thr_nomem(err);
+  for (int v = 0; v < f->n_nodes && !st; v++) {
+    int sum = 0;
+    for (int i = f->first[v]; i < f->first[v + 1]; i++)
+      sum += w->passes[f->half[i] >> 1];
+    if (sum % 2 && (!thr_plan_end_allowed(f, o, v) || ++odd[w->component[v]] > most))
+      st = thr_fail(err, THR_EVIOLATED, "node %d: %d passes, an odd number, but no cord can end there", v, sum);
+  }
+  free(odd);
+  return st;
+}
+
+thr_status thr_check_length_of_passes(const thr_frame *f, const thr_plan_options *o, const int *passes,
+                                      const thr_certificate *certificate, int n_certificates, bool *optimal, double *lower_bound,
+                                      thr_err *err)
+{
+  walked w;
+  thr_status st = walked_init(&w, f, err);
+  if (st) return st;
+  memcpy(w.passes, passes, (size_t)f->n_edges * sizeof *passes);
+  st = check_passes(f, o, &w, err);
+  if (!st) st = check_proof(f, o, &w, length_of(f, w.passes), certificate, n_certificates, optimal, lower_bound, err);
   walked_destroy(&w);
   return st;
 }
@@ -408,7 +515,7 @@ static thr_metrics recompute(const thr_plan *p, const int *passes)
   for (int i = 0; i < p->n_cords; i++) {
     const thr_cord *c = &p->cord[i];
     double turning = 0;
-    for (int k = c->closed ? 0 : 1; k < c->n_passes; k++) {
+    for (int k = p->options.ends == THR_ENDS_CLOSED ? 0 : 1; k < c->n_passes; k++) {
       int in = c->half[k ? k - 1 : c->n_passes - 1], out = c->half[k];
       double angle = thr_check_angle(f, in, out);
       turning += angle;
@@ -437,14 +544,16 @@ static thr_status check_metrics(const thr_plan *p, const int *passes, thr_err *e
   return metric("u_turns", s->u_turns, m.u_turns, 0, err);
 }
 
-static thr_status check_claim(const thr_plan *p, const walked *w, thr_err *err)
+/* *proved: no cords with these options are shorter. */
+static thr_status check_claim(const thr_plan *p, const walked *w, double *proved, thr_err *err)
 {
   bool optimal = false;
   double lower_bound = 0;
   const thr_length_proof *claim = &p->proof;
-  thr_status st = check_proof(&p->frame, &p->options, w, p->cord, p->n_cords, claim->certificate, claim->n_certificates, &optimal,
-                              &lower_bound, err);
+  thr_status st = check_proof(&p->frame, &p->options, w, length_of(&p->frame, w->passes), claim->certificate,
+                              claim->n_certificates, &optimal, &lower_bound, err);
   if (st) return st;
+  *proved = lower_bound;
   if (claim->optimal && !optimal)
     return thr_fail(err, THR_EVIOLATED, "proof.length: says optimal, but the certificate only proves %.12g of %.12g", lower_bound,
                     p->metrics.length);
@@ -474,11 +583,15 @@ static thr_status check_names(const thr_plan *p, thr_err *err)
 thr_status thr_check_plan(const thr_plan *p, thr_err *err)
 {
   walked w;
+  double least_length = 0;
   thr_status st = check_names(p, err);
   if (st) return st;
-  if ((st = walked_init(&w, &p->frame, &p->options, p->cord, p->n_cords, err))) return st;
-  st = check_metrics(p, w.passes, err);
-  if (!st && p->proof.present) st = check_claim(p, &w, err);
+  if ((st = walked_from_cords(&w, &p->frame, &p->options, p->cord, p->n_cords, err))) return st;
+  if (p->proof.present || p->options.objective != THR_LENGTH) st = check_cord_count(&w, &p->options, p->cord, p->n_cords, err);
+  if (!st) st = check_metrics(p, w.passes, err);
+  if (!st && p->symmetry.present) st = thr_check_symmetry(p, err);
+  if (!st && p->proof.present) st = check_claim(p, &w, &least_length, err);
+  if (!st && p->turning.present) st = thr_check_turning_claim(p, least_length, err);
   if (!st && p->evaluation.present) st = thr_check_evaluation(p, err);
   walked_destroy(&w);
   return st;

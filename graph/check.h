@@ -10,10 +10,23 @@ int64_t thr_certificate_weight(const thr_frame *f, const thr_certificate *c, int
 /* Verifies all certificates, one per component, in exact integers: sets odd and inside the component, multipliers >= 0, no
  * edge overloaded, sum and join as stated. Gives the lower bound on the plan's length: the length itself if every
  * component is optimal. *optimal and *lower_bound are what a plan may claim. THR_EVIOLATED with the place and the
- * numbers. O(sum of the degrees of the cuts' nodes). */
+ * numbers. O(sum of the degrees of the cuts' nodes + (slots in use + 1) * (size of the sets + nodes)). */
 thr_status thr_check_length_proof(const thr_frame *f, const thr_plan_options *o, const thr_cord *cord, int n_cords,
                                   const thr_certificate *certificate, int n_certificates, bool *optimal, double *lower_bound,
                                   thr_err *err) THR_MUST_CHECK;
+
+/* What the tree of a claim proves about these cords (which must cover the framework as the options say): fills found but for its
+ * tree. Of the claim only tree, most_passes and length_limit are read. Optimal: the bound meets the price within the rounding of
+ * the sum. THR_EVIOLATED: the tree proves nothing, or the cords are not of the kind that the proof is about. O(leaves * columns),
+ * and up to a million steps per node for the pairing bound. */
+thr_status thr_check_turning(const thr_frame *f, const thr_plan_options *o, const thr_cord *cord, int n_cords,
+                             const thr_turning_claim *claim, thr_turning_claim *found, thr_err *err) THR_MUST_CHECK;
+
+/* The same for passes[n_edges] that no cords run through yet, *lower_bound then being one on their length. THR_EVIOLATED also
+ * where cords cannot run so: too few passes of an edge, an odd number at a node where no cord can end. */
+thr_status thr_check_length_of_passes(const thr_frame *f, const thr_plan_options *o, const int *passes,
+                                      const thr_certificate *certificate, int n_certificates, bool *optimal, double *lower_bound,
+                                      thr_err *err) THR_MUST_CHECK;
 
 /* Verifies the whole plan. THR_OK, or THR_EVIOLATED with the first violation: cord, pass, nodes or certificate, cut, edge. */
 thr_status thr_check_plan(const thr_plan *p, thr_err *err) THR_MUST_CHECK;

@@ -7,8 +7,12 @@
 
 thr_plan_options thr_plan_options_default(void)
 {
-  return (thr_plan_options){
+  thr_plan_options o = {
       .cover = 1, .cords = 1, .turning = {.length_slack = -1}, .ends = THR_ENDS_CLOSED, .physics = thr_physics_default()};
+  o.symmetry.geometric = -1;
+  for (int i = 0; i < THR_N_AIMS; i++)
+    o.symmetry.prefer[i] = (thr_aim)i;
+  return o;
 }
 
 void thr_certificate_destroy(thr_certificate *c)
@@ -17,6 +21,15 @@ void thr_certificate_destroy(thr_certificate *c)
     free(c->cut[i].node);
   free(c->cut);
   *c = (thr_certificate){0};
+}
+
+void thr_symmetry_record_destroy(thr_symmetry_record *r)
+{
+  free(r->generator);
+  free(r->image);
+  free(r->unique);
+  free(r->element);
+  *r = (thr_symmetry_record){0};
 }
 
 void thr_plan_destroy(thr_plan *p)
@@ -28,11 +41,25 @@ void thr_plan_destroy(thr_plan *p)
     thr_certificate_destroy(&p->proof.certificate[i]);
   free(p->proof.certificate);
   thr_turning_proof_destroy(&p->turning.tree);
+  thr_symmetry_record_destroy(&p->symmetry);
   thr_evaluation_destroy(&p->evaluation);
   free(p->options.end_node);
   free(p->generator);
   thr_frame_destroy(&p->frame);
   *p = (thr_plan){0};
+}
+
+thr_status thr_plan_request(thr_plan *p, const thr_frame *f, const thr_plan_options *o, thr_err *err)
+{
+  thr_status st = thr_frame_copy(&p->frame, f, err);
+  if (st) return st;
+  size_t n = (size_t)f->n_nodes;
+  p->options = *o;
+  p->options.end_node = NULL;
+  if (!o->end_node) return THR_OK;
+  if (!(p->options.end_node = thr_calloc(n, sizeof *p->options.end_node))) return thr_nomem(err);
+  memcpy(p->options.end_node, o->end_node, n * sizeof *p->options.end_node);
+  return THR_OK;
 }
 
 void thr_cord_id(int i, char id[12])
@@ -56,7 +83,7 @@ int thr_length_proof_cuts(const thr_length_proof *proof)
 
 const char *thr_objective_name(thr_objective o)
 {
-  static const char *const name[] = {"length", "tortuosity"};
+  static const char *const name[] = {"length", "tortuosity", "symmetry"};
   return name[o];
 }
 
@@ -64,6 +91,12 @@ const char *thr_tour_name(thr_tour t)
 {
   static const char *const name[] = {"least", "fleury", "hierholzer"};
   return name[t];
+}
+
+const char *thr_aim_name(thr_aim a)
+{
+  static const char *const name[] = {"overlap", "steps", "paths", "turning"};
+  return name[a];
 }
 
 const char *thr_ends_name(thr_ends e)
@@ -136,13 +169,18 @@ int thr_cord_turns(const thr_plan_options *o, const thr_cord *c)
   return o->ends == THR_ENDS_CLOSED ? c->n_passes : c->n_passes - 1;
 }
 
+bool thr_turn_over(double turn, double angle)
+{
+  return turn > angle + 1e-9;
+}
+
 int thr_plan_turns_over(const thr_plan *p, double angle)
 {
   int n = 0;
   for (int i = 0; i < p->n_cords; i++) {
     const thr_cord *c = &p->cord[i];
     for (int k = 0; k < thr_cord_turns(&p->options, c); k++)
-      n += thr_turn_angle(&p->frame, c->half[k], c->half[(k + 1) % c->n_passes]) > angle + 1e-9;
+      n += thr_turn_over(thr_turn_angle(&p->frame, c->half[k], c->half[(k + 1) % c->n_passes]), angle);
   }
   return n;
 }

@@ -8,7 +8,7 @@
 
 typedef enum { THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET, THR_ENDS_NODES } thr_ends;
 
-typedef enum { THR_LENGTH, THR_TORTUOSITY, THR_N_OBJECTIVES } thr_objective;
+typedef enum { THR_LENGTH, THR_TORTUOSITY, THR_SYMMETRY, THR_N_OBJECTIVES } thr_objective;
 
 /* How the cords of a plan for the least turning are found. */
 typedef enum {
@@ -27,12 +27,23 @@ typedef struct {
   bool ignore_pairings; /* of the classical tours: edges in their order instead of the cheapest pairing of every node */
 } thr_turning_options;
 
+/* What a symmetric plan can have little of. */
+typedef enum { THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_PATHS, THR_AIM_TURNING, THR_N_AIMS } thr_aim;
+
+/* What is asked for beside THR_SYMMETRY. */
+typedef struct {
+  char group[16];             /* row of `thread symmetries` or name of a point group; "" = the default choice */
+  double geometric;           /* isometries within this tolerance only; < 0 = any automorphism */
+  thr_aim prefer[THR_N_AIMS]; /* what is minimized first, second, .. */
+} thr_symmetry_options;
+
 /* What the user asked for; echoed in the plan so that it can be made again. */
 typedef struct {
   thr_objective objective;
-  int cover;                   /* every edge gets at least this many passes, 1 .. 100 */
-  int cords;                   /* in every component, 1 .. 1000; THR_LENGTH: 1 */
-  thr_turning_options turning; /* THR_TORTUOSITY only */
+  int cover;                     /* every edge gets at least this many passes, 1 .. 100 */
+  int cords;                     /* in every component, 1 .. 1000; THR_LENGTH: 1; THR_SYMMETRY: the most in any, as it came out */
+  thr_turning_options turning;   /* THR_TORTUOSITY only */
+  thr_symmetry_options symmetry; /* THR_SYMMETRY only */
   thr_ends ends;
   bool *end_node;      /* [n_nodes] THR_ENDS_NODES only: where ends may be; owned, else NULL */
   thr_physics physics; /* of cord and beads, as asked: what eval starts from */
@@ -65,7 +76,7 @@ typedef struct {
   int component;
   double scale;        /* integer weight per unit of length, > 0 */
   int64_t denominator; /* > 0 */
-  int n_slots;         /* 0 (closed) or 2 * options.cords */
+  int n_slots;         /* 0 (closed) or 2 * options.cords; a plan may have fewer cords: its other slots are joined in pairs */
   int64_t slot_cost;
   int64_t join; /* weight of the extra passes of the plan, without slots */
   int64_t sum;  /* of the cuts' values */
@@ -99,6 +110,26 @@ typedef struct {
   thr_turning_proof tree;
 } thr_turning_claim;
 
+/* How the cords of a plan for THR_SYMMETRY are copies of a few unique paths under a group of automorphisms. Cords are compared by
+ * the nodes that they run through: of two alike one is a copy of the other, by the identity if need be. */
+typedef struct {
+  bool present;
+  int order;        /* of the group, 1 .. 1024 */
+  char name[16];    /* its point group (Schoenflies), or "" if it is a group of the graph only */
+  int n_generators; /* of the group, as images of the nodes */
+  int *generator;   /* [n_generators * n_nodes] owned */
+  int n_images;     /* elements that map unique paths to copies; image 0 is the identity */
+  int *image;       /* [n_images * n_nodes] owned */
+  int *unique;      /* [n_cords] the cord that this one is a copy of; itself for a unique path; owned */
+  int *element;     /* [n_cords] image that maps that one to this, perhaps reversed, and a closed one perhaps from another start;
+                       owned */
+  double steps;     /* learned: passes of each unique path over the number of ways (from another start, reversed) in which it is
+                       its own image under the group */
+  int unique_paths; /* number of different values of unique */
+} thr_symmetry_record;
+
+void thr_symmetry_record_destroy(thr_symmetry_record *r);
+
 typedef struct {
   double length;      /* of all cords, in units */
   double base_length; /* cover * sum of edge lengths */
@@ -118,17 +149,22 @@ typedef struct {
   int n_cords;
   thr_cord *cord; /* owned */
   thr_metrics metrics;
-  thr_evaluation evaluation; /* of `thread eval`, if present */
+  thr_symmetry_record symmetry; /* present with THR_SYMMETRY */
+  thr_evaluation evaluation;    /* of `thread eval`, if present */
   thr_length_proof proof;
   thr_turning_claim turning;
 } thr_plan;
 
-/* "length", "tortuosity"; "least", "fleury", "hierholzer". */
+/* "length", "tortuosity", "symmetry"; "least", "fleury", "hierholzer"; "overlap", "steps", "paths", "turning". */
 const char *thr_objective_name(thr_objective o);
 const char *thr_tour_name(thr_tour t);
+const char *thr_aim_name(thr_aim a);
 
 thr_plan_options thr_plan_options_default(void);
 void thr_plan_destroy(thr_plan *p);
+
+/* Copies framework and options into an empty plan. */
+thr_status thr_plan_request(thr_plan *p, const thr_frame *f, const thr_plan_options *o, thr_err *err) THR_MUST_CHECK;
 void thr_cord_id(int i, char id[12]); /* 0 -> "A", 25 -> "Z", 26 -> "AA" */
 void thr_certificate_destroy(thr_certificate *c);
 
@@ -153,7 +189,10 @@ double thr_cord_turning(const thr_frame *f, const thr_cord *c, bool with_closure
  * pass k to pass k + 1 (or 0). */
 int thr_cord_turns(const thr_plan_options *o, const thr_cord *c);
 
-/* Turns of all cords that are sharper than angle (rad, by more than 1e-9). */
+/* Is a turn sharper than angle (both in rad), by more than 1e-9? */
+bool thr_turn_over(double turn, double angle);
+
+/* Turns of all cords that are sharper than angle (rad). */
 int thr_plan_turns_over(const thr_plan *p, double angle);
 
 /* Price of the turns of a cord. */

@@ -32,6 +32,13 @@ static thr_status get_double(const reader *r, const thr_json *o, const char *key
   return bad(r, key, "missing or not a finite number");
 }
 
+/* A bound, a price or a part: never negative. */
+static thr_status get_amount(const reader *r, const thr_json *o, const char *key, double *out)
+{
+  thr_status st = get_double(r, o, key, out);
+  return !st && *out < 0 ? bad(r, key, "negative") : st;
+}
+
 static thr_status get_int64(const reader *r, const thr_json *o, const char *key, int64_t low, int64_t high, int64_t *out)
 {
   if (thr_json_int(thr_json_get(o, key), out) && *out >= low && *out <= high) return THR_OK;
@@ -149,11 +156,11 @@ done:
 }
 
 /* Text that is one of n names; *out is its number. */
-static thr_status get_name(const reader *r, const thr_json *o, const char *place, const char *key, int n,
-                           const char *(*name)(int), int *out)
+static thr_status name_of(const reader *r, const thr_json *v, const char *place, const char *key, int n, const char *(*name)(int),
+                          int *out)
 {
   char known[80] = "";
-  const char *value = thr_json_string(thr_json_get(o, key));
+  const char *value = thr_json_string(v);
   for (*out = 0; *out < n; ++*out) {
     if (value && strcmp(value, name(*out)) == 0) return THR_OK;
     size_t length = strlen(known);
@@ -161,6 +168,12 @@ static thr_status get_name(const reader *r, const thr_json *o, const char *place
   }
   *out = 0;
   return thr_fail(r->err, r->code, "%s: %s.%s: this version knows %s only", r->name, place, key, known);
+}
+
+static thr_status get_name(const reader *r, const thr_json *o, const char *place, const char *key, int n,
+                           const char *(*name)(int), int *out)
+{
+  return name_of(r, thr_json_get(o, key), place, key, n, name, out);
 }
 
 static const char *objective_name(int i)
@@ -178,6 +191,10 @@ static const char *cost_name(int i)
 static const char *tour_name(int i)
 {
   return thr_tour_name((thr_tour)i);
+}
+static const char *prefer_name(int i)
+{
+  return thr_aim_name((thr_aim)i);
 }
 static const char *joint_name(int i)
 {
@@ -202,8 +219,7 @@ static thr_status get_or_null(const reader *r, const thr_json *o, const char *ke
   const thr_json *v = thr_json_get(o, key);
   *out = -1;
   if (v && thr_json_typeof(v) == THR_JSON_NULL) return THR_OK;
-  thr_status st = get_double(r, o, key, out);
-  return !st && *out < 0 ? bad(r, key, "negative") : st;
+  return get_amount(r, o, key, out);
 }
 
 static thr_status read_turning_options(const reader *r, const thr_json *o, thr_turning_options *t)
@@ -226,20 +242,52 @@ static thr_status read_turning_options(const reader *r, const thr_json *o, thr_t
   return THR_OK;
 }
 
+/* Every aim once. */
+static thr_status read_prefer(const reader *r, const thr_json *o, thr_aim prefer[THR_N_AIMS])
+{
+  bool named[THR_N_AIMS] = {false};
+  const thr_json *list;
+  thr_status st = need(r, o, "prefer", THR_JSON_ARRAY, &list);
+  if (!st && thr_json_size(list) != THR_N_AIMS) return bad(r, "options.symmetry.prefer", "not four aims");
+  for (int i = 0, aim = 0; i < THR_N_AIMS && !st; i++) {
+    st = name_of(r, thr_json_at(list, i), "options.symmetry", "prefer", THR_N_AIMS, prefer_name, &aim);
+    if (!st && named[aim]) return bad(r, "options.symmetry.prefer", "names one aim twice");
+    named[aim] = true;
+    prefer[i] = (thr_aim)aim;
+  }
+  return st;
+}
+
+static thr_status read_symmetry_options(const reader *r, const thr_json *o, thr_symmetry_options *s)
+{
+  static const char *const known[] = {"group", "geometric", "prefer", NULL};
+  const thr_json *v, *group;
+  thr_status st = need(r, o, "symmetry", THR_JSON_OBJECT, &v);
+  if (!st) st = only_members(r, v, "options.symmetry", known);
+  if (st) return st;
+  group = thr_json_get(v, "group");
+  const char *name = thr_json_string(group);
+  if (!group || (!name && thr_json_typeof(group) != THR_JSON_NULL) || (name && (!*name || strlen(name) >= sizeof s->group)))
+    return bad(r, "options.symmetry.group", "neither null nor a text of 1 to 15 bytes");
+  snprintf(s->group, sizeof s->group, "%s", name ? name : "");
+  if ((st = get_or_null(r, v, "geometric", &s->geometric))) return st;
+  return read_prefer(r, v, s->prefer);
+}
+
 /* Which options there are depends on the objective. */
 static thr_status read_objective(const reader *r, const thr_json *v, thr_plan_options *o)
 {
-  static const char *const known[] = {"objective", "joint",      "cover",   "cords",   "ends",
-                                      "end_nodes", "time_limit", "physics", "turning", NULL};
-  static const char *const for_length[] = {"objective", "joint",      "cover",   "cords", "ends",
-                                           "end_nodes", "time_limit", "physics", NULL};
+  static const char *const own[THR_N_OBJECTIVES] = {NULL, "turning", "symmetry"};
+  const char *known[] = {"objective", "joint", "cover", "cords", "ends", "end_nodes", "time_limit", "physics", NULL, NULL};
   int objective, joint;
   thr_status st = get_name(r, v, "options", "objective", THR_N_OBJECTIVES, objective_name, &objective);
-  if (!st) st = only_members(r, v, "options", objective == THR_TORTUOSITY ? known : for_length);
-  if (!st) st = get_name(r, v, "options", "joint", 1, joint_name, &joint);
-  if (!st && objective == THR_TORTUOSITY) st = read_turning_options(r, v, &o->turning);
-  if (!st) o->objective = (thr_objective)objective;
-  return st;
+  if (st) return st;
+  known[sizeof known / sizeof *known - 2] = own[objective];
+  if ((st = only_members(r, v, "options", known))) return st;
+  if ((st = get_name(r, v, "options", "joint", 1, joint_name, &joint))) return st;
+  o->objective = (thr_objective)objective;
+  if (objective == THR_TORTUOSITY) return read_turning_options(r, v, &o->turning);
+  return objective == THR_SYMMETRY ? read_symmetry_options(r, v, &o->symmetry) : THR_OK;
 }
 
 static thr_status read_options(const reader *r, const thr_json *doc, const thr_frame *f, thr_plan_options *o)
@@ -325,6 +373,70 @@ static thr_status read_cords(const reader *r, const thr_json *doc, thr_plan *p)
   for (int i = 0; i < n; i++)
     if ((st = read_cord(r, thr_json_at(list, i), &p->frame, i, &p->cord[i]))) return st;
   return THR_OK;
+}
+
+/* A list of images of all nodes, one list of indices each. */
+static thr_status read_images(const reader *r, const thr_json *o, const char *key, int n_nodes, int **image, int *count)
+{
+  const thr_json *list;
+  char place[48];
+  thr_status st = need(r, o, key, THR_JSON_ARRAY, &list);
+  if (st) return st;
+  int n = thr_json_size(list);
+  snprintf(place, sizeof place, "symmetry.%s", key);
+  for (int i = 0; i < n; i++)
+    if (thr_json_size(thr_json_at(list, i)) != n_nodes)
+      return thr_fail(r->err, r->code, "%s: %s[%d]: not one image per node", r->name, place, i);
+  if (!(*image = thr_calloc((size_t)n * (size_t)n_nodes, sizeof **image))) return thr_nomem(r->err);
+  *count = n;
+  for (int i = 0; i < n; i++) {
+    snprintf(place, sizeof place, "symmetry.%s[%d]", key, i);
+    for (int v = 0; v < n_nodes; v++)
+      if ((st = index_at(r, thr_json_at(list, i), v, n_nodes, place, &(*image)[(size_t)i * (size_t)n_nodes + (size_t)v])))
+        return st;
+  }
+  return THR_OK;
+}
+
+static thr_status read_copies(const reader *r, const thr_json *o, const thr_plan *p, thr_symmetry_record *s)
+{
+  static const char *const known[] = {"of", "image", NULL};
+  const thr_json *list;
+  thr_status st = need(r, o, "cords", THR_JSON_ARRAY, &list);
+  if (st) return st;
+  if (thr_json_size(list) != p->n_cords) return bad(r, "symmetry.cords", "not one per cord of the plan");
+  s->unique = thr_calloc((size_t)p->n_cords, sizeof *s->unique);
+  s->element = thr_calloc((size_t)p->n_cords, sizeof *s->element);
+  if (!s->unique || !s->element) return thr_nomem(r->err);
+  for (int i = 0; i < p->n_cords && !st; i++) {
+    const thr_json *v = thr_json_at(list, i);
+    st = only_members(r, v, "symmetry.cords", known);
+    if (!st) st = get_int(r, v, "of", 0, p->n_cords - 1, &s->unique[i]);
+    if (!st) st = get_int(r, v, "image", 0, s->n_images - 1, &s->element[i]);
+  }
+  return st;
+}
+
+/* There with the objective that asks for it, and nowhere else. */
+static thr_status read_symmetry(const reader *r, const thr_json *doc, const thr_plan *p, thr_symmetry_record *s)
+{
+  static const char *const known[] = {"order", "name", "generators", "images", "cords", "steps", "unique_paths", NULL};
+  const thr_json *v = thr_json_get(doc, "symmetry"), *name;
+  if (p->options.objective != THR_SYMMETRY) return v ? bad(r, "symmetry", "only plans with this objective have it") : THR_OK;
+  thr_status st = need(r, doc, "symmetry", THR_JSON_OBJECT, &v);
+  if (!st) st = only_members(r, v, "symmetry", known);
+  if (!st) st = get_int(r, v, "order", 1, 1024, &s->order);
+  if (!st) st = need(r, v, "name", THR_JSON_STRING, &name);
+  if (st) return st;
+  if (strlen(thr_json_string(name)) >= sizeof s->name) return bad(r, "symmetry.name", "longer than 15 bytes");
+  snprintf(s->name, sizeof s->name, "%s", thr_json_string(name));
+  s->present = true;
+  st = read_images(r, v, "generators", p->frame.n_nodes, &s->generator, &s->n_generators);
+  if (!st) st = read_images(r, v, "images", p->frame.n_nodes, &s->image, &s->n_images);
+  if (!st) st = read_copies(r, v, p, s);
+  if (!st) st = get_double(r, v, "steps", &s->steps);
+  if (!st) st = get_int(r, v, "unique_paths", 1, p->n_cords, &s->unique_paths);
+  return st;
 }
 
 static thr_status read_metrics(const reader *r, const thr_json *doc, thr_metrics *m)
@@ -414,8 +526,8 @@ static thr_status read_length_proof(const reader *r, const thr_json *v, const th
   const thr_json *list;
   thr_status st = only_members(r, v, "proof.length", known);
   if (!st) st = get_status(r, v, "proof.length", &proof->optimal);
-  if (!st) st = get_double(r, v, "lower_bound", &proof->lower_bound);
-  if (!st) st = get_double(r, v, "gap", &proof->gap);
+  if (!st) st = get_amount(r, v, "lower_bound", &proof->lower_bound);
+  if (!st) st = get_amount(r, v, "gap", &proof->gap);
   if (!st) st = need(r, v, "certificate", THR_JSON_ARRAY, &list);
   if (st) return st;
   int n = thr_json_size(list);
@@ -434,8 +546,8 @@ static thr_status read_largest(const reader *r, const thr_json *o, thr_turning_c
   thr_status st = need(r, o, "largest", THR_JSON_OBJECT, &v);
   if (!st) st = only_members(r, v, "proof.turning.largest", known);
   if (!st) st = get_status(r, v, "proof.turning.largest", &c->largest_optimal);
-  if (!st) st = get_double(r, v, "price", &c->largest);
-  if (!st) st = get_double(r, v, "lower_bound", &c->largest_bound);
+  if (!st) st = get_amount(r, v, "price", &c->largest);
+  if (!st) st = get_amount(r, v, "lower_bound", &c->largest_bound);
   return st;
 }
 
@@ -446,10 +558,10 @@ static thr_status read_turning_claim(const reader *r, const thr_json *v, const t
   char place[256];
   thr_status st = only_members(r, v, "proof.turning", known);
   if (!st) st = get_status(r, v, "proof.turning", &c->optimal);
-  if (!st) st = get_double(r, v, "price", &c->price);
-  if (!st) st = get_double(r, v, "lower_bound", &c->lower_bound);
-  if (!st) st = get_double(r, v, "gap", &c->gap);
-  if (!st) st = get_double(r, v, "pairing_bound", &c->pairing_bound);
+  if (!st) st = get_amount(r, v, "price", &c->price);
+  if (!st) st = get_amount(r, v, "lower_bound", &c->lower_bound);
+  if (!st) st = get_amount(r, v, "gap", &c->gap);
+  if (!st) st = get_amount(r, v, "pairing_bound", &c->pairing_bound);
   if (!st) st = read_largest(r, v, c);
   if (!st) st = get_int(r, v, "most_passes", 1, INT32_MAX, &c->most_passes);
   if (!st) st = get_or_null(r, v, "length_limit", &c->length_limit);
@@ -486,6 +598,7 @@ static thr_status read_document(reader *r, const thr_json *doc, thr_plan *p)
   if ((st = read_options(r, doc, &p->frame, &p->options))) return st;
   r->code = THR_EVIOLATED;
   if ((st = read_cords(r, doc, p))) return st;
+  if ((st = read_symmetry(r, doc, p, &p->symmetry))) return st;
   if ((st = read_metrics(r, doc, &p->metrics))) return st;
   if ((st = read_evaluation(r, doc, p))) return st;
   return read_proofs(r, doc, p);

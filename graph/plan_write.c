@@ -84,6 +84,21 @@ static void put_turning_options(thr_text *t, const thr_turning_options *o)
                   o->largest ? "max-turning" : "turning", thr_tour_name(o->tour), o->ignore_pairings ? "ignore" : "keep");
 }
 
+static void put_symmetry_options(thr_text *t, const thr_symmetry_options *o)
+{
+  thr_text_append(t, "\"symmetry\": {\"group\": ");
+  if (o->group[0])
+    thr_text_json_string(t, o->group);
+  else
+    thr_text_append(t, "null");
+  thr_text_append(t, ", \"geometric\": ");
+  put_or_null(t, o->geometric);
+  thr_text_append(t, ", \"prefer\": [");
+  for (int i = 0; i < THR_N_AIMS; i++)
+    thr_text_printf(t, i ? ", \"%s\"" : "\"%s\"", thr_aim_name(o->prefer[i]));
+  thr_text_append(t, "]},\n  ");
+}
+
 static void put_options(thr_text *t, const thr_plan *p)
 {
   const thr_plan_options *o = &p->options;
@@ -96,6 +111,7 @@ static void put_options(thr_text *t, const thr_plan *p)
     thr_text_append(t, ", ");
   }
   if (o->objective == THR_TORTUOSITY) put_turning_options(t, &o->turning);
+  if (o->objective == THR_SYMMETRY) put_symmetry_options(t, &o->symmetry);
   put_key_double(t, "time_limit", o->time_limit, ",");
   thr_text_append(t, "\n  \"physics\": ");
   thr_physics_write(&o->physics, t);
@@ -119,6 +135,32 @@ static void put_cords(thr_text *t, const thr_plan *p)
     thr_text_append(t, "]}");
   }
   thr_text_append(t, "\n],\n");
+}
+
+static void put_images(thr_text *t, const char *key, const int *image, int n, int n_nodes)
+{
+  thr_text_printf(t, "\"%s\": [", key);
+  for (int i = 0; i < n; i++) {
+    thr_text_append(t, i ? ",\n    " : "\n    ");
+    put_ints(t, image + (size_t)i * (size_t)n_nodes, n_nodes);
+  }
+  thr_text_append(t, "],\n  ");
+}
+
+static void put_symmetry(thr_text *t, const thr_plan *p)
+{
+  const thr_symmetry_record *r = &p->symmetry;
+  thr_text_printf(t, "\"symmetry\": {\"order\": %d, \"name\": ", r->order);
+  thr_text_json_string(t, r->name);
+  thr_text_append(t, ",\n  ");
+  put_images(t, "generators", r->generator, r->n_generators, p->frame.n_nodes);
+  put_images(t, "images", r->image, r->n_images, p->frame.n_nodes);
+  thr_text_append(t, "\"cords\": [");
+  for (int i = 0; i < p->n_cords; i++)
+    thr_text_printf(t, "%s{\"of\": %d, \"image\": %d}", i == 0 ? "" : i % 4 ? ", " : ",\n    ", r->unique[i], r->element[i]);
+  thr_text_append(t, "],\n  ");
+  put_key_double(t, "steps", r->steps, ", ");
+  thr_text_printf(t, "\"unique_paths\": %d},\n", r->unique_paths);
 }
 
 static void put_metrics(thr_text *t, const thr_metrics *m)
@@ -203,6 +245,7 @@ void thr_plan_write(const thr_plan *p, thr_text *t)
   put_frame(t, &p->frame);
   put_options(t, p);
   put_cords(t, p);
+  if (p->symmetry.present) put_symmetry(t, p);
   put_metrics(t, &p->metrics);
   if (p->evaluation.present) thr_evaluation_write(&p->evaluation, t);
   put_proofs(t, p);

@@ -29,6 +29,11 @@ double thr_turn_price(const thr_frame *f, thr_turn_cost cost, int in, int out)
   return thr_turn_cost_of(cost, in == (out ^ 1) ? pi : thr_turn_angle(f, in, out));
 }
 
+int thr_turning_most_passes(int cover)
+{
+  return 4 * cover + 4;
+}
+
 double thr_turning_extra_limit(const thr_frame *f, int cover, double length_limit)
 {
   if (length_limit < 0) return -1;
@@ -98,7 +103,7 @@ static void fill_lengths(thr_turning_columns *c)
   for (int e = 0; e < c->f->n_edges; e++)
     c->length[e] = (int64_t)floor(ldexp(c->f->length[e] / longest, THR_LENGTH_BITS));
   double limit = ceil(ldexp(c->task->extra_limit / longest, THR_LENGTH_BITS)) + 1;
-  c->extra_limit = c->task->extra_limit < 0 ? -1 : (int64_t)fmin(limit, 4e18);
+  c->extra_limit = c->task->extra_limit < 0 || limit > 4e18 ? -1 : (int64_t)limit; /* so far above that it limits nothing */
 }
 
 /* Numbers the columns. Turns are counted in 64 bits: a node of 100,000 edges has 5e9 of them. */

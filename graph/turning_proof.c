@@ -204,10 +204,10 @@ static void take_partition(leaf *k, const thr_turning_partition *p, bool *even)
   }
 }
 
-/* Number of blocks, or -1: a number out of range or not in use, or a block in two components. home is scratch, [n_edges]. */
-static int count_blocks(const thr_turning_columns *c, const int *block, int *home)
+int thr_turning_connections(const thr_turning_columns *c, const int *block, int *scratch)
 {
-  int m = c->f->n_edges, blocks = 0;
+  int m = c->f->n_edges, blocks = 0, connections = 0;
+  int *home = scratch, *own_blocks = scratch + m; /* component of a block; blocks of a component */
   for (int e = 0; e < m; e++)
     home[e] = -1;
   for (int e = 0; e < m; e++) {
@@ -218,7 +218,10 @@ static int count_blocks(const thr_turning_columns *c, const int *block, int *hom
   }
   for (int b = 0; b < blocks; b++)
     if (home[b] < 0) return -1;
-  return blocks;
+  memset(own_blocks, 0, (size_t)c->n_components * sizeof *own_blocks);
+  for (int b = 0; b < blocks; b++)
+    connections += ++own_blocks[home[b]] > c->task->cords;
+  return connections;
 }
 
 static thr_status run_partition(leaf *k, int i, thr_err *err)
@@ -226,18 +229,17 @@ static thr_status run_partition(leaf *k, int i, thr_err *err)
   const thr_turning_columns *c = k->c;
   const thr_turning_partition *p = &k->d->partition[i];
   if (p->value < 0) return thr_fail(err, THR_EVIOLATED, "turning proof: partition %d: multiplier is negative", i);
-  if (c->task->end_allowed || c->task->cords > 1)
-    return thr_fail(err, THR_EVIOLATED, "turning proof: partition %d: holds for one closed cord per component only", i);
-  int *home = thr_calloc((size_t)c->f->n_edges, sizeof *home);
+  if (c->task->end_allowed) return thr_fail(err, THR_EVIOLATED, "turning proof: partition %d: holds for closed cords only", i);
+  int *scratch = thr_calloc((size_t)c->f->n_edges + (size_t)c->n_components, sizeof *scratch);
   bool *even = thr_calloc((size_t)c->f->n_edges, sizeof *even);
-  thr_status st = home && even ? THR_OK : thr_nomem(err);
-  int blocks = st ? 0 : count_blocks(c, p->block, home);
-  if (blocks < 0) st = thr_fail(err, THR_EVIOLATED, "turning proof: partition %d: bad block numbers", i);
+  thr_status st = scratch && even ? THR_OK : thr_nomem(err);
+  int connections = st ? 0 : thr_turning_connections(c, p->block, scratch);
+  if (connections < 0) st = thr_fail(err, THR_EVIOLATED, "turning proof: partition %d: bad block numbers", i);
   if (!st) {
     take_partition(k, p, even);
-    k->constant += (wide)p->value * (blocks - c->n_components);
+    k->constant += (wide)p->value * connections;
   }
-  free(home);
+  free(scratch);
   free(even);
   return st;
 }

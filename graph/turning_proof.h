@@ -11,12 +11,16 @@
  * every plan, the least value of  cost x + multipliers (right side - left side)  over the box of the columns' limits is a lower
  * bound: no condition on the multipliers but their sign. The inequalities are
  *   odd set U of half-edges, cover * |U| odd: at least one turn, extra pass or end leaves it. U may hold the ends of a component;
- *   group S of edges, connected to the rest: turns that leave S + ends in S >= 2 (one closed cord per component, or open cords);
- *   partition of the edges into blocks (one closed cord per component): at a node where b blocks meet, t turns between blocks
+ *   group S of edges, connected to the rest: turns that leave S + ends in S >= 2 (one closed cord per component, or open cords;
+ * not several closed cords, of which one may be all that is in S);
+ *   partition of the edges into blocks (closed cords, any number): at a node where b blocks meet, t turns between blocks
  * connect at most (b - 1) / b * (t + half the number of blocks with an odd number of passes there) of them, because a block with
- * an even number has 2 turns to others or none. Summed over the nodes that is at least blocks - components. Passes of a block
- * with an even number of edges at the node (times cover) are odd only if it has an extra pass there; the limit on the extra
- * length. A tree of bounds on single columns turns this into an exact method: the proved bound is the least over its leaves. */
+ * an even number has 2 turns to others or none. Passes of a block with an even number of edges at the node (times cover) are odd
+ * only if it has an extra pass there. A closed cord connects all blocks that it passes, and the cords of a component pass all of
+ * its blocks, so with k cords the blocks of a component fall into at most k connected parts: the sum over all nodes is at least
+ * the sum over the components of max(0, blocks - k);
+ *   the limit on the extra length.
+ * A tree of bounds on single columns turns this into an exact method: the proved bound is the least over its leaves. */
 #ifndef THR_TURNING_PROOF_H
 #define THR_TURNING_PROOF_H
 
@@ -47,6 +51,9 @@ typedef struct {
   double price_per_length; /* of extra cord, in the turns' price per unit of length, >= 0 */
   double extra_limit;      /* of all extra cord, in units of length; < 0 = none */
 } thr_turning_task;
+
+/* Passes over any edge up to which the least turning is looked for, and proved: 4 * cover + 4. */
+int thr_turning_most_passes(int cover);
 
 /* extra_limit for a limit on the length of all cords (< 0 = none): a little more than the difference, so that no rounding shuts
  * out a plan of just that length. */
@@ -97,6 +104,11 @@ typedef struct {
 /* At node v: how many blocks meet. odd (may be NULL) receives how many of them have an odd number of passes there as long as none
  * is extra; even[i] (may be NULL) whether the i-th half-edge of v is in a block with an even number. O(degree^2). */
 int thr_turning_blocks_at(const thr_turning_columns *c, const int *block, int v, int *odd, bool *even);
+
+/* Connections between the blocks that closed cords make at least: the sum over the components of max(0, blocks - cords).
+ * -1: a block number is out of range or not in use, or a block lies in two components. scratch: [n_edges + n_components].
+ * O(edges). */
+int thr_turning_connections(const thr_turning_columns *c, const int *block, int *scratch);
 
 /* Multipliers at a leaf; units of 2^-THR_TURNING_BITS. All arrays are owned. */
 typedef struct {

@@ -34,6 +34,12 @@ thr_status thr_lp_create_equations(thr_lp **lp, int n_rows, const double *rhs, i
 /* Is the row's slack basic, so that the row can go without spoiling the basis? */
 bool thr_lp_row_basic(const thr_lp *lp, int row);
 
+bool thr_lp_column_basic(const thr_lp *lp, int column);
+
+/* Starts the next solve from this basis, by the primal method: for a basis that is feasible but not optimal. As many rows' slacks
+ * and columns as there are rows must be basic; what is not stands at its lower bound. A singular basis costs time only. */
+thr_status thr_lp_set_basis(thr_lp *lp, const bool *row_basic, const bool *column_basic, thr_err *err) THR_MUST_CHECK;
+
 /* Removes the rows marked in drop[n_rows]; the others keep their order. */
 thr_status thr_lp_drop_rows(thr_lp *lp, const bool *drop, thr_err *err) THR_MUST_CHECK;
 
@@ -43,8 +49,8 @@ int thr_lp_rows(const thr_lp *lp);
 thr_status thr_lp_set_bounds(thr_lp *lp, int column, double lower, double upper, thr_err *err) THR_MUST_CHECK;
 thr_status thr_lp_set_costs(thr_lp *lp, const double *cost, thr_err *err) THR_MUST_CHECK;
 
-/* Dual simplex from the last basis; THR_LP_STOPPED when the limits say so (the basis is kept, solving may go on).
- * THR_ESOLVER if GLPK aborts or gives up; the lp is then only good for thr_lp_destroy. */
+/* Dual simplex from the last basis (primal from one that was set); THR_LP_STOPPED when the limits say so (the basis is kept,
+ * solving may go on). THR_ESOLVER if GLPK aborts or gives up; the lp is then only good for thr_lp_destroy. */
 thr_status thr_lp_solve(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err) THR_MUST_CHECK;
 
 /* Exact rational simplex from the optimal basis of the last solve (glp_exact). */

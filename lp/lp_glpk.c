@@ -12,6 +12,7 @@
 struct thr_lp {
   glp_prob *problem;
   int generation;
+  bool primal;  /* the next solve starts from a basis that was set */
   bool integer; /* the last solve was by branch and bound, whose results GLPK keeps apart */
 };
 
@@ -236,6 +237,33 @@ bool thr_lp_row_basic(const thr_lp *lp, int row)
   return glp_get_row_stat(lp->problem, row + 1) == GLP_BS;
 }
 
+bool thr_lp_column_basic(const thr_lp *lp, int column)
+{
+  return glp_get_col_stat(lp->problem, column + 1) == GLP_BS;
+}
+
+typedef struct {
+  glp_prob *problem;
+  const bool *row, *column;
+} basis_call;
+
+static void do_set_basis(void *argument)
+{
+  basis_call *c = argument;
+  for (int i = 1; i <= glp_get_num_rows(c->problem); i++)
+    glp_set_row_stat(c->problem, i, c->row[i - 1] ? GLP_BS : GLP_NL);
+  for (int j = 1; j <= glp_get_num_cols(c->problem); j++)
+    glp_set_col_stat(c->problem, j, c->column[j - 1] ? GLP_BS : GLP_NL);
+}
+
+thr_status thr_lp_set_basis(thr_lp *lp, const bool *row_basic, const bool *column_basic, thr_err *err)
+{
+  thr_status st = check_alive(lp, err);
+  basis_call c = {lp->problem, row_basic, column_basic};
+  lp->primal = true;
+  return st ? st : guarded(do_set_basis, &c, err);
+}
+
 int thr_lp_rows(const thr_lp *lp)
 {
   return glp_get_num_rows(lp->problem);
@@ -326,10 +354,11 @@ static thr_status solve(thr_lp *lp, bool exact, const thr_limits *limits, thr_lp
   lp->integer = false;
   for (int restarts = 0; !st;) {
     if (thr_limits_stop(limits)) return THR_OK;
-    solve_call c = {lp->problem, exact, restarts > 0, 0};
+    solve_call c = {lp->problem, exact, lp->primal || restarts > 0, 0};
     if ((st = guarded(do_solve, &c, err))) return st;
     if (c.code == 0 && outcome_of(lp->problem) != THR_LP_STOPPED) {
       *outcome = outcome_of(lp->problem);
+      lp->primal = false;
       return THR_OK;
     }
     if (c.code == GLP_EITLIM) continue;

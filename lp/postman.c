@@ -1,8 +1,8 @@
-/* Framework -> T-join problem per component -> multiplicities and ends -> cords -> plan. */
+/* Framework -> T-join problem per component -> multiplicities -> ends -> cords -> plan. */
 #include "lp/postman.h"
 #include "graph/check.h"
 #include "graph/tour.h"
-#include "lp/tjoin.h"
+#include "lp/endjoin.h"
 
 #include <assert.h>
 #include <math.h>
@@ -25,18 +25,17 @@ typedef struct {
   int *start, *node;            /* nodes of component k: node[start[k] .. start[k + 1] - 1] */
   int *local;                   /* [n_nodes] position within the component */
   int *passes;                  /* [n_edges] result */
-  int (*ends)[2];               /* [n_components] result */
   thr_certificate *certificate; /* [n_components] result */
 } postman;
 
 /* The T-join problem of one component; its edges are the component's, then the slots'. */
 typedef struct {
   int n_nodes, n_edges, n_own; /* n_own: edges of the framework */
+  int n_slots;                 /* last of the nodes: 0 or 2 */
   int (*edge)[2];
   int64_t *weight;
   bool *odd;
   int *frame_edge; /* [n_own] */
-  int *end_node;   /* [n_edges - n_own] framework node that a slot edge leads to, -1 for the edge between slots */
 } instance;
 
 static void instance_destroy(instance *in)
@@ -45,7 +44,6 @@ static void instance_destroy(instance *in)
   free(in->weight);
   free(in->odd);
   free(in->frame_edge);
-  free(in->end_node);
   *in = (instance){0};
 }
 
@@ -85,17 +83,15 @@ static double choose_scale(const thr_frame *f, const instance *in)
   return scale;
 }
 
-static thr_status instance_allocate(instance *in, int n_slots, int n_end_nodes, thr_err *err)
+static thr_status instance_allocate(instance *in, int n_end_nodes, thr_err *err)
 {
-  int n_slot_edges = n_slots ? 1 + n_slots * n_end_nodes : 0;
-  in->n_edges = in->n_own + n_slot_edges;
-  in->n_nodes += n_slots;
+  in->n_edges = in->n_own + (in->n_slots ? 1 + in->n_slots * n_end_nodes : 0);
+  in->n_nodes += in->n_slots;
   in->edge = thr_calloc((size_t)in->n_edges, sizeof *in->edge);
   in->weight = thr_calloc((size_t)in->n_edges, sizeof *in->weight);
   in->odd = thr_calloc((size_t)in->n_nodes, sizeof *in->odd);
   in->frame_edge = thr_calloc((size_t)in->n_own, sizeof *in->frame_edge);
-  in->end_node = thr_calloc((size_t)n_slot_edges, sizeof *in->end_node);
-  return in->edge && in->weight && in->odd && in->frame_edge && in->end_node ? THR_OK : thr_nomem(err);
+  return in->edge && in->weight && in->odd && in->frame_edge ? THR_OK : thr_nomem(err);
 }
 
 /* No two nodes of the component are further apart than twice this: the longest path from its first node in a
@@ -125,8 +121,8 @@ static thr_status radius(const postman *m, int k, instance *in, int64_t *longest
   return st;
 }
 
-/* Two more odd nodes, the slots, stand for the cord's ends (docs/method.md). A path over a slot costs 2 * slot_cost, more than
- * any path inside the component, so in a shortest join each slot has one edge. */
+/* Two more odd nodes, the slots, stand for the ends of one cord (docs/method.md). A path over a slot costs 2 * slot_cost, more
+ * than any path inside the component, so in a shortest join each slot has one edge. */
 static void add_slots(const postman *m, int k, instance *in, int64_t slot_cost)
 {
   int slot = in->n_nodes - 2, n = in->n_own;
@@ -136,14 +132,12 @@ static void add_slots(const postman *m, int k, instance *in, int64_t slot_cost)
     for (int i = 0; i < 2; i++) {
       in->edge[n][0] = j - m->start[k];
       in->edge[n][1] = slot + i;
-      in->weight[n] = slot_cost;
-      in->end_node[n++ - in->n_own] = m->node[j];
+      in->weight[n++] = slot_cost;
     }
   }
   in->edge[n][0] = slot;
   in->edge[n][1] = slot + 1;
   in->weight[n] = 2 * slot_cost;
-  in->end_node[n - in->n_own] = -1;
 }
 
 static void fill_own_edges(const postman *m, int k, instance *in)
@@ -165,8 +159,9 @@ static thr_status instance_init(const postman *m, int k, instance *in, thr_certi
   int degrees = 0, n_end_nodes = 0;
   c->component = k;
   c->denominator = THR_DUAL_DENOMINATOR;
-  c->n_slots = m->o->ends == THR_ENDS_CLOSED ? 0 : 2;
+  c->n_slots = m->o->ends == THR_ENDS_CLOSED ? 0 : 2 * m->o->cords;
   in->n_nodes = m->start[k + 1] - m->start[k];
+  in->n_slots = c->n_slots == 2 ? 2 : 0;
   for (int j = m->start[k]; j < m->start[k + 1]; j++) {
     degrees += thr_degree(f, m->node[j]);
     n_end_nodes += thr_plan_end_allowed(f, m->o, m->node[j]);
@@ -177,7 +172,7 @@ static thr_status instance_init(const postman *m, int k, instance *in, thr_certi
                     "piece %d (the one with node %s) has no node where a cord may end; name one with --feet (try --feet lowest) "
                     "or --ends, or use --ends closed",
                     k + 1, f->name[m->node[m->start[k]]]);
-  thr_status st = instance_allocate(in, c->n_slots, n_end_nodes, err);
+  thr_status st = instance_allocate(in, n_end_nodes, err);
   if (st) return st;
   fill_own_edges(m, k, in);
   c->scale = choose_scale(f, in);
@@ -185,35 +180,24 @@ static thr_status instance_init(const postman *m, int k, instance *in, thr_certi
     in->weight[i] = thr_certificate_weight(f, c, in->frame_edge[i]);
   if (c->n_slots) {
     if ((st = radius(m, k, in, &c->slot_cost, err))) return st;
-    add_slots(m, k, in, ++c->slot_cost);
+    c->slot_cost++;
+    if (in->n_slots) add_slots(m, k, in, c->slot_cost);
   }
   for (int j = m->start[k]; j < m->start[k + 1]; j++)
     in->odd[m->local[m->node[j]]] = m->o->cover * thr_degree(f, m->node[j]) % 2 != 0;
   return THR_OK;
 }
 
-/* Reads passes, ends and certificate of component k off the join. */
+/* Reads passes and certificate of component k off the join. */
 static void take_result(postman *m, int k, const instance *in, thr_tjoin *t)
 {
   thr_certificate *c = &m->certificate[k];
-  int n_ends = 0;
   assert(t->in_join);
-  m->ends[k][0] = m->ends[k][1] = -1;
-  for (int i = 0; i < in->n_edges; i++) {
-    if (!t->in_join[i]) continue;
-    if (i < in->n_own) {
+  for (int i = 0; i < in->n_own; i++)
+    if (t->in_join[i]) {
       m->passes[in->frame_edge[i]]++;
       c->join += in->weight[i];
-    } else if (in->end_node[i - in->n_own] >= 0) {
-      assert(n_ends < 2);
-      m->ends[k][n_ends++] = in->end_node[i - in->n_own];
     }
-  }
-  if (m->ends[k][0] > m->ends[k][1]) {
-    int larger = m->ends[k][0];
-    m->ends[k][0] = m->ends[k][1];
-    m->ends[k][1] = larger;
-  }
   c->sum = t->sum;
   c->n_cuts = t->n_cuts;
   c->cut = t->cut;
@@ -221,9 +205,48 @@ static void take_result(postman *m, int k, const instance *in, thr_tjoin *t)
   t->n_cuts = 0;
   for (int i = 0; i < c->n_cuts; i++)
     for (int j = 0; j < c->cut[i].n_nodes; j++) {
-      int v = c->cut[i].node[j], own = in->n_nodes - c->n_slots; /* nodes ascend within a component: still sorted */
+      int v = c->cut[i].node[j], own = in->n_nodes - in->n_slots; /* nodes ascend within a component: still sorted */
       c->cut[i].node[j] = v < own ? m->node[m->start[k] + v] : m->f->n_nodes + v - own;
     }
+}
+
+/* The cuts of each slot alone, as in->n_nodes and on: they make up for a price of an end that is half a weight less than the
+ * slots' cost. */
+static thr_status add_slot_cuts(const instance *in, int n_slots, int64_t value, thr_tjoin *t, thr_err *err)
+{
+  thr_cut *all = thr_realloc(t->cut, (size_t)(t->n_cuts + n_slots), sizeof *all);
+  if (!all) return thr_nomem(err);
+  t->cut = all;
+  for (int i = 0; i < n_slots; i++) {
+    thr_cut *c = &t->cut[t->n_cuts];
+    *c = (thr_cut){1, thr_calloc(1, sizeof *c->node), value};
+    if (!c->node) return thr_nomem(err);
+    c->node[0] = in->n_nodes + i;
+    t->n_cuts++;
+    t->sum += value;
+  }
+  return THR_OK;
+}
+
+/* The ends of several cords: slots for all of them would make the linear programme large, and one like the other. */
+static thr_status solve_with_ends(postman *m, int k, const instance *in, thr_tjoin *t, thr_err *err)
+{
+  thr_certificate *c = &m->certificate[k];
+  thr_endjoin j = {0};
+  bool *end_allowed = thr_calloc((size_t)in->n_nodes, sizeof *end_allowed);
+  if (!end_allowed) return thr_nomem(err);
+  for (int i = 0; i < in->n_nodes; i++)
+    end_allowed[i] = thr_plan_end_allowed(m->f, m->o, m->node[m->start[k] + i]);
+  thr_endjoin_problem p = {
+      {in->n_nodes, in->n_edges, (const int(*)[2])in->edge, in->weight, in->odd, 0}, end_allowed, c->n_slots, c->slot_cost};
+  thr_status st = thr_endjoin_solve(&p, m->limits, &j, err), added = THR_OK;
+  free(end_allowed);
+  if (st && st != THR_ELIMIT) return st;
+  *t = (thr_tjoin){.in_join = j.in_join, .n_cuts = j.n_cuts, .cut = j.cut, .sum = j.sum};
+  c->denominator = 2 * THR_DUAL_DENOMINATOR;
+  c->slot_cost = (j.price + 1) / 2;
+  if (j.price % 2) added = add_slot_cuts(in, c->n_slots, THR_DUAL_DENOMINATOR, t, err);
+  return added ? added : st;
 }
 
 static thr_status solve_component(postman *m, int k, thr_err *err)
@@ -231,8 +254,10 @@ static thr_status solve_component(postman *m, int k, thr_err *err)
   instance in = {0};
   thr_tjoin t = {0};
   thr_status st = instance_init(m, k, &in, &m->certificate[k], err);
-  if (!st) {
-    thr_tjoin_problem p = {in.n_nodes, in.n_edges, (const int(*)[2])in.edge, in.weight, in.odd, m->certificate[k].n_slots};
+  if (!st && m->certificate[k].n_slots > 2) {
+    st = solve_with_ends(m, k, &in, &t, err);
+  } else if (!st) {
+    thr_tjoin_problem p = {in.n_nodes, in.n_edges, (const int(*)[2])in.edge, in.weight, in.odd, in.n_slots};
     st = thr_tjoin_solve(&p, m->limits, &t, err);
   }
   if (!st || st == THR_ELIMIT) take_result(m, k, &in, &t);
@@ -251,7 +276,6 @@ static void postman_destroy(postman *m)
   free(m->node);
   free(m->local);
   free(m->passes);
-  free(m->ends);
 }
 
 static thr_status postman_init(postman *m, thr_err *err)
@@ -265,9 +289,8 @@ static thr_status postman_init(postman *m, thr_err *err)
   m->node = thr_calloc(n, sizeof *m->node);
   m->local = thr_calloc(n, sizeof *m->local);
   m->passes = thr_calloc((size_t)m->f->n_edges, sizeof *m->passes);
-  m->ends = thr_calloc(k, sizeof *m->ends);
   m->certificate = thr_calloc(k, sizeof *m->certificate);
-  if (!m->start || !m->node || !m->local || !m->passes || !m->ends || !m->certificate) return thr_nomem(err);
+  if (!m->start || !m->node || !m->local || !m->passes || !m->certificate) return thr_nomem(err);
   for (int e = 0; e < m->f->n_edges; e++)
     m->passes[e] = m->o->cover;
   for (size_t v = 0; v < n; v++)
@@ -285,48 +308,31 @@ static thr_status postman_init(postman *m, thr_err *err)
   return THR_OK;
 }
 
-static thr_status copy_request(const postman *m, thr_plan *plan, thr_err *err)
+/* What the checker says of a certificate, in the words of a solver that made it. */
+static thr_status own_check(thr_status st, const thr_err *found, thr_err *err)
 {
-  thr_status st = thr_frame_copy(&plan->frame, m->f, err);
-  if (st) return st;
-  size_t n = (size_t)m->f->n_nodes;
-  plan->options = *m->o;
-  plan->options.end_node = NULL;
-  if (!m->o->end_node) return THR_OK;
-  if (!(plan->options.end_node = thr_calloc(n, sizeof *plan->options.end_node))) return thr_nomem(err);
-  memcpy(plan->options.end_node, m->o->end_node, n * sizeof *plan->options.end_node);
-  return THR_OK;
+  if (st == THR_EVIOLATED) return thr_fail(err, THR_ESOLVER, "the plan does not pass its own check: %s", found->text);
+  return st ? thr_fail(err, st, "%s", found->text) : THR_OK;
 }
 
-/* Cords from passes and ends; then metrics, and the proof as far as the checker follows it. */
-static thr_status assemble(postman *m, thr_plan *plan, thr_err *err)
+static thr_status judge(postman *m, thr_shortest *out, thr_err *err)
 {
-  thr_status st = copy_request(m, plan, err);
-  if (st) return st;
-  if (!(plan->cord = thr_calloc((size_t)m->n_components, sizeof *plan->cord))) return thr_nomem(err);
-  plan->n_cords = m->n_components;
-  st = thr_tour_cords(&plan->frame, &plan->options, m->component, m->n_components, m->passes, (const int(*)[2])m->ends,
-                      plan->cord, err);
-  if (st) return st;
-  if ((st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err))) return st;
-  thr_length_proof *proof = &plan->proof;
-  proof->present = true;
-  proof->certificate = m->certificate;
-  proof->n_certificates = m->n_components;
-  m->certificate = NULL;
   thr_err found = {0};
-  st = thr_check_length_proof(&plan->frame, &plan->options, plan->cord, plan->n_cords, proof->certificate, proof->n_certificates,
-                              &proof->optimal, &proof->lower_bound, &found);
-  if (st == THR_EVIOLATED) return thr_fail(err, THR_ESOLVER, "the plan does not pass its own check: %s", found.text);
-  if (st) return thr_fail(err, st, "%s", found.text);
-  proof->gap = (plan->metrics.length - proof->lower_bound) / plan->metrics.length;
-  return THR_OK;
+  *out = (thr_shortest){.passes = m->passes, .n_certificates = m->n_components, .certificate = m->certificate};
+  m->passes = NULL;
+  m->certificate = NULL;
+  for (int e = 0; e < m->f->n_edges; e++)
+    out->length += out->passes[e] * m->f->length[e];
+  return own_check(thr_check_length_of_passes(m->f, m->o, out->passes, out->certificate, out->n_certificates, &out->optimal,
+                                              &out->lower_bound, &found),
+                   &found, err);
 }
 
-thr_status thr_postman_plan(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan, thr_err *err)
+thr_status thr_postman_shortest(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_shortest *out,
+                                thr_err *err)
 {
   postman m = {.f = f, .o = o, .limits = limits};
-  *plan = (thr_plan){0};
+  *out = (thr_shortest){0};
   thr_err unproved = {0}; /* why the first unproved component is not proved */
   thr_status st = postman_init(&m, err);
   for (int k = 0; k < m.n_components && !st; k++) {
@@ -337,11 +343,128 @@ thr_status thr_postman_plan(const thr_frame *f, const thr_plan_options *o, const
     thr_fail(&unproved, st, "%s", local.text);
     st = THR_OK; /* the other components still get their (quick) best */
   }
-  if (!st) st = assemble(&m, plan, err);
-  if (!st && !plan->proof.optimal)
+  if (!st) st = judge(&m, out, err);
+  if (!st && !out->optimal)
     st = thr_fail(err, THR_ELIMIT, "%s: the cord is proved to be within %.3g %% of the shortest",
-                  unproved.code ? unproved.text : "too many edges to round their lengths finely enough", 100 * plan->proof.gap);
-  if (st && st != THR_ELIMIT) thr_plan_destroy(plan);
+                  unproved.code ? unproved.text : "too many edges to round their lengths finely enough",
+                  100 * (out->length - out->lower_bound) / out->length);
+  if (st && st != THR_ELIMIT) thr_shortest_destroy(out);
   postman_destroy(&m);
+  return st;
+}
+
+void thr_shortest_destroy(thr_shortest *s)
+{
+  for (int k = 0; s->certificate && k < s->n_certificates; k++)
+    thr_certificate_destroy(&s->certificate[k]);
+  free(s->certificate);
+  free(s->passes);
+  *s = (thr_shortest){0};
+}
+
+/* ---- proof of cords ---- */
+
+/* The certificates' joins: what these cords weigh beyond the cover. */
+static thr_status weigh_joins(const thr_frame *f, const thr_plan_options *o, const thr_cord *cord, int n_cords, thr_shortest *s,
+                              thr_err *err)
+{
+  int n_components, *component = thr_calloc((size_t)f->n_nodes, sizeof *component);
+  thr_status st = component ? thr_frame_components(f, component, &n_components, err) : thr_nomem(err);
+  for (int k = 0; k < s->n_certificates; k++)
+    s->certificate[k].join = 0;
+  for (int e = 0; e < f->n_edges && !st; e++) {
+    thr_certificate *c = &s->certificate[component[f->edge[e][0]]];
+    c->join -= o->cover * thr_certificate_weight(f, c, e);
+  }
+  for (int i = 0; i < n_cords && !st; i++)
+    for (int k = 0; k < cord[i].n_passes; k++) {
+      thr_certificate *c = &s->certificate[cord[i].component];
+      c->join += thr_certificate_weight(f, c, cord[i].half[k] >> 1);
+    }
+  free(component);
+  return st;
+}
+
+thr_status thr_postman_prove(const thr_frame *f, const thr_plan_options *o, const thr_cord *cord, int n_cords, thr_shortest *s,
+                             thr_length_proof *proof, thr_err *err)
+{
+  thr_err found = {0};
+  double length = 0;
+  *proof = (thr_length_proof){.present = true};
+  thr_status st = weigh_joins(f, o, cord, n_cords, s, err);
+  if (st) return st;
+  proof->certificate = s->certificate;
+  proof->n_certificates = s->n_certificates;
+  s->certificate = NULL;
+  s->n_certificates = 0;
+  for (int i = 0; i < n_cords; i++)
+    length += thr_cord_length(f, &cord[i]);
+  st = own_check(thr_check_length_proof(f, o, cord, n_cords, proof->certificate, proof->n_certificates, &proof->optimal,
+                                        &proof->lower_bound, &found),
+                 &found, err);
+  proof->gap = (length - proof->lower_bound) / length;
+  return st;
+}
+
+/* ---- one cord per component ---- */
+
+/* Where the passes leave an odd number: the two ends of each component's cord, else -1 and -1. */
+static void find_ends(const thr_frame *f, const int *component, int n_components, const int *passes, int (*ends)[2])
+{
+  for (int k = 0; k < n_components; k++)
+    ends[k][0] = ends[k][1] = -1;
+  for (int v = 0; v < f->n_nodes; v++) {
+    int sum = 0, *end = ends[component[v]];
+    for (int i = f->first[v]; i < f->first[v + 1]; i++)
+      sum += passes[f->half[i] >> 1];
+    if (sum % 2) end[end[0] >= 0] = v;
+  }
+}
+
+thr_status thr_postman_cords(const thr_frame *f, const thr_plan_options *o, const int *passes, thr_cord **cord, int *n_cords,
+                             thr_err *err)
+{
+  int n_components = 0, *component = thr_calloc((size_t)f->n_nodes, sizeof *component), (*ends)[2] = NULL;
+  *cord = NULL;
+  *n_cords = 0;
+  thr_status st = component ? thr_frame_components(f, component, &n_components, err) : thr_nomem(err);
+  if (!st && !(ends = thr_calloc((size_t)n_components, sizeof *ends))) st = thr_nomem(err);
+  if (!st && !(*cord = thr_calloc((size_t)n_components, sizeof **cord))) st = thr_nomem(err);
+  if (!st) {
+    find_ends(f, component, n_components, passes, ends);
+    st = thr_tour_cords(f, o, component, n_components, passes, (const int(*)[2])ends, *cord, err);
+  }
+  if (!st) {
+    *n_cords = n_components;
+  } else {
+    free(*cord);
+    *cord = NULL;
+  }
+  free(component);
+  free(ends);
+  return st;
+}
+
+/* Cords through the passes; then metrics, and the proof as far as the checker follows it. */
+static thr_status assemble(const thr_frame *f, const thr_plan_options *o, thr_shortest *s, thr_plan *plan, thr_err *err)
+{
+  thr_status st = thr_plan_request(plan, f, o, err);
+  if (!st) st = thr_postman_cords(&plan->frame, &plan->options, s->passes, &plan->cord, &plan->n_cords, err);
+  if (!st) st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
+  if (!st) st = thr_postman_prove(&plan->frame, &plan->options, plan->cord, plan->n_cords, s, &plan->proof, err);
+  return st;
+}
+
+thr_status thr_postman_plan(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan, thr_err *err)
+{
+  thr_shortest s = {0};
+  thr_err local = {0};
+  *plan = (thr_plan){0};
+  if (o->cords > 1) return thr_fail(err, THR_EINPUT, "--cords above 1 needs --objective tortuosity in this version");
+  thr_status proved = thr_postman_shortest(f, o, limits, &s, &local), st = THR_OK;
+  if (!proved || proved == THR_ELIMIT) st = assemble(f, o, &s, plan, err);
+  if (!st && proved) st = thr_fail(err, proved, "%s", local.text);
+  if (st && st != THR_ELIMIT) thr_plan_destroy(plan);
+  thr_shortest_destroy(&s);
   return st;
 }

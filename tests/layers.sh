@@ -21,6 +21,8 @@ cli:cli graph lp symmetry tortuosity eval diagram'
 owners='igraph.h:graph/igraph.c
 jansson.h:graph/json_jansson.c
 glpk.h:lp/lp_glpk.c
+nau*.h:symmetry/nauty.c
+traces.h:symmetry/nauty.c
 *bt[A-Z]*.h:eval/bullet.cpp'
 
 # C++, in the file that shims a C++ library
@@ -165,6 +167,8 @@ self_test() {
   expect graph/a.c:1 graph/a.c '#include <igraph.h>\n'
   expect graph/frame.c:1 graph/frame.c '#include <jansson.h>\n'
   expect cli/main.c:1 cli/main.c '#include <glpk.h>\n'
+  expect symmetry/group.c:1 symmetry/group.c '#include <traces.h>\n'
+  expect symmetry/group.c:1 symmetry/group.c '#include <nauty/nausparse.h>\n'
   expect eval/a.cpp:1 eval/a.cpp '#include <btBulletDynamicsCommon.h>\n'
   expect eval/a.c:1 eval/a.c '#include <BulletDynamics/btBox.h>\n'
   expect eval/a.c:1 eval/a.c '#include <new>\n'
@@ -183,6 +187,7 @@ self_test() {
   expect tools/a.sh:1 tools/a.sh "curl http://deb.deb""ian.org/x\n"
   expect ok graph/igraph.c '#include <igraph.h>\n#include <stdio.h>\n#include "graph/frame.h"\n'
   expect ok lp/lp_glpk.c '#include "graph/frame.h"\n#include "lp/lp.h"\n#include <glpk.h>\n'
+  expect ok symmetry/nauty.c '#include "graph/frame.h"\n#include <traces.h>\n'
   expect ok eval/bullet.cpp '#include <BulletDynamics/btBox.h>\n#include <btBulletDynamicsCommon.h>\n#include <new>\n'
   expect ok eval/workers.c '#include <sys/wait.h>\nvoid f(void) { _exit(1); }\n'
   expect ok graph/text.c 'void f(void) { fwrite("", 1, 0, stdout); }\n'

@@ -391,6 +391,108 @@ thr_plan plan_simple(const thr_frame *f, thr_ends ends, int cover)
   return plan_make(f, &o);
 }
 
+static bool allowed(const thr_frame *f, const thr_plan_options *o, int v)
+{
+  if (o->ends == THR_ENDS_FEET) return f->foot[v];
+  if (o->ends == THR_ENDS_NODES) return o->end_node[v];
+  return true;
+}
+
+/* One closed walk (Hierholzer) over passes and links: from odd node v a link leads to link[v], which is -1 elsewhere. walk
+ * receives half-edges, and -1 for a link; left and link are used up. Returns how many. */
+static int euler_walk(const thr_frame *f, int *left, int *link, int start, int room, int *walk)
+{
+  int *node = calloc((size_t)room + 1, sizeof *node), *came = calloc((size_t)room + 1, sizeof *came), top = 0, n = 0;
+  ck_assert(node && came);
+  node[0] = start;
+  while (top >= 0) {
+    int v = node[top], next = link[v], h = -1;
+    if (next >= 0) {
+      link[v] = link[next] = -1;
+    } else {
+      for (int i = f->first[v]; i < f->first[v + 1] && next < 0; i++)
+        if (left[f->half[i] / 2] > 0) h = f->half[i], next = thr_head(f, h);
+      if (next >= 0) left[h / 2]--;
+    }
+    if (next < 0) {
+      if (top > 0) walk[n++] = came[top] < 0 ? -1 : came[top] ^ 1; /* the walk comes out backwards */
+      top--;
+      continue;
+    }
+    ck_assert_int_lt(top, room);
+    node[++top] = next;
+    came[top] = h;
+  }
+  free(node);
+  free(came);
+  return n;
+}
+
+static void add_piece(thr_plan *p, const int *half, int n)
+{
+  thr_cord *c = &p->cord[p->n_cords];
+  ck_assert_int_gt(n, 0);
+  *c = (thr_cord){.n_passes = n, .half = calloc((size_t)n, sizeof *c->half)};
+  ck_assert(c->half != NULL);
+  memcpy(c->half, half, (size_t)n * sizeof *half);
+  c->closed = thr_cord_start(&p->frame, c) == thr_cord_end(&p->frame, c);
+  thr_cord_id(p->n_cords++, c->id);
+}
+
+/* Cuts the walk at its links and, as long as more pieces are wanted, at the first places where an end may be. */
+static void cut_walk(thr_plan *p, const int *walk, int n, int n_links)
+{
+  int more = p->options.cords - (n_links ? n_links : 1), from = 0;
+  for (int i = 0; i < n; i++) {
+    bool link = i + 1 < n && walk[i + 1] < 0, last = i + 1 == n;
+    if (walk[i] < 0) {
+      from = i + 1;
+    } else if (link || last || (more > 0 && allowed(&p->frame, &p->options, thr_head(&p->frame, walk[i])))) {
+      more -= !link && !last;
+      add_piece(p, walk + from, i + 1 - from);
+      from = i + 1;
+    }
+  }
+}
+
+thr_plan plan_of_cords(const thr_frame *f, const thr_plan_options *o)
+{
+  thr_plan p = {0};
+  thr_shortest s;
+  thr_err err = {0};
+  int n_links = 0, room = 0, start = -1, *link = calloc((size_t)f->n_nodes, sizeof *link);
+  ck_assert_msg(thr_postman_shortest(f, o, &(thr_limits){0}, &s, &err) == THR_OK, "%s", err.text);
+  ck_assert(link && thr_plan_request(&p, f, o, NULL) == THR_OK);
+  for (int e = 0; e < f->n_edges; e++)
+    room += s.passes[e];
+  for (int v = 0, odd = -1; v < f->n_nodes; v++) {
+    int sum = 0;
+    for (int i = f->first[v]; i < f->first[v + 1]; i++)
+      sum += s.passes[f->half[i] / 2];
+    link[v] = -1;
+    if (start < 0 && allowed(f, o, v)) start = v;
+    if (sum % 2 == 0) continue;
+    if (odd >= 0)
+      link[v] = odd, link[odd] = v, n_links++, odd = -1;
+    else
+      odd = v;
+    start = v;
+  }
+  int *walk = calloc((size_t)(room + n_links) + 1, sizeof *walk), *left = calloc((size_t)f->n_edges, sizeof *left);
+  p.cord = calloc((size_t)o->cords, sizeof *p.cord);
+  ck_assert(walk && left && p.cord);
+  memcpy(left, s.passes, (size_t)f->n_edges * sizeof *left);
+  cut_walk(&p, walk, euler_walk(f, left, link, start, room + n_links, walk), n_links);
+  ck_assert_int_eq(p.n_cords, o->cords);
+  ck_assert_int_eq(thr_plan_measure(&p.frame, &p.options, p.cord, p.n_cords, &p.metrics, NULL), THR_OK);
+  ck_assert_msg(thr_postman_prove(&p.frame, &p.options, p.cord, p.n_cords, &s, &p.proof, &err) == THR_OK, "%s", err.text);
+  thr_shortest_destroy(&s);
+  free(walk);
+  free(left);
+  free(link);
+  return p;
+}
+
 thr_text plan_text(const thr_plan *p)
 {
   thr_text t = {0};
@@ -449,13 +551,6 @@ thr_status judge_plan(const thr_plan *p, thr_err *err)
 
 /* ---- oracles ---- */
 
-static bool allowed(const thr_frame *f, const thr_plan_options *o, int v)
-{
-  if (o->ends == THR_ENDS_FEET) return f->foot[v];
-  if (o->ends == THR_ENDS_NODES) return o->end_node[v];
-  return true;
-}
-
 /* Bit v: does node v have an odd number of passes when every edge has cover? */
 static uint64_t odd_mask(const thr_frame *f, int cover)
 {
@@ -465,7 +560,13 @@ static uint64_t odd_mask(const thr_frame *f, int cover)
   return odd;
 }
 
-/* May a cord end so that exactly the nodes of this set are left odd? */
+/* Ends of cords in a component. */
+static int ends_of(const thr_plan_options *o)
+{
+  return o->ends == THR_ENDS_CLOSED ? 0 : 2 * o->cords;
+}
+
+/* May cords end so that exactly the nodes of this set are left odd? */
 static bool ends_fit(const thr_frame *f, const thr_plan_options *o, uint64_t odd)
 {
   int n = 0;
@@ -476,7 +577,7 @@ static bool ends_fit(const thr_frame *f, const thr_plan_options *o, uint64_t odd
     if (!allowed(f, o, v)) return false;
     n++;
   }
-  return any && (n == 0 || (n == 2 && o->ends != THR_ENDS_CLOSED));
+  return any && n <= ends_of(o);
 }
 
 double least_extra_by_subsets(const thr_frame *f, const thr_plan_options *o)
@@ -515,8 +616,8 @@ static double *distances(const thr_frame *f)
   return d;
 }
 
-/* least[s] = least total distance of pairing the odd nodes of subset s where `free` of them (0, 1 or 2) may instead run to an
- * end of the cord: end[i] = distance of odd node i to the nearest allowed end. */
+/* least[s] = least total distance of pairing the odd nodes of subset s where free_ends of them may instead run to an
+ * end of a cord: end[i] = distance of odd node i to the nearest allowed end. */
 static double pair_subsets(const double *d, int n, const int *odd, int k, const double *end, int free_ends)
 {
   double *least = calloc((size_t)(free_ends + 1) << k, sizeof *least);
@@ -552,7 +653,7 @@ double least_extra_by_matching(const thr_frame *f, const thr_plan_options *o)
     for (int v = 0; v < n; v++)
       if (allowed(f, o, v)) end[i] = fmin(end[i], d[odd[i] * n + v]);
   }
-  double best = pair_subsets(d, n, odd, k, end, o->ends == THR_ENDS_CLOSED ? 0 : 2);
+  double best = pair_subsets(d, n, odd, k, end, ends_of(o));
   free(d);
   return best;
 }
@@ -566,7 +667,7 @@ int forced_u_turns(const thr_plan *p)
     const thr_cord *c = &p->cord[i];
     for (int k = 0; k < c->n_passes; k++)
       passes[c->half[k] / 2]++;
-    if (c->closed) continue; /* the measure counts the turn where it closes */
+    if (p->options.ends == THR_ENDS_CLOSED) continue; /* the measure counts the turn where it closes */
     ends[f->edge[c->half[0] / 2][c->half[0] % 2]]++;
     ends[f->edge[c->half[c->n_passes - 1] / 2][1 - c->half[c->n_passes - 1] % 2]]++;
   }
@@ -631,12 +732,14 @@ static int verdict_of(const thr_plan *p, const thr_certificate *c, const int *co
     rounding += fabs(f->length[e] - (double)w / c->scale) * fmax(1, passes[e] - p->options.cover);
     total += f->length[e];
   }
-  if (c->n_slots != (p->options.ends == THR_ENDS_CLOSED ? 0 : 2)) return 0;
+  if (c->n_slots != ends_of(&p->options)) return 0;
   for (int i = 0; i < c->n_slots; i++)
     for (int v = 0; v < n; v++)
       if (component[v] == c->component && allowed(f, &p->options, v) && load_between(c, v, n + i) > (big)c->slot_cost * d)
         return 0;
-  if (c->n_slots && load_between(c, n, n + 1) > 2 * (big)c->slot_cost * d) return 0;
+  for (int i = 0; i < c->n_slots; i++)
+    for (int j = i + 1; j < c->n_slots; j++)
+      if (load_between(c, n + i, n + j) > 2 * (big)c->slot_cost * d) return 0;
   if (sum != c->sum || join != c->join) return 0;
   /* multiplied out: sum / d is more than what the join and the slots weigh, less 1 */
   return !more || (sum > (join + (big)c->n_slots * c->slot_cost - 1) * d && rounding <= 1e-9 * total) ? 2 : 1;

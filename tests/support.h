@@ -68,6 +68,11 @@ thr_frame shuffled_frame(rng *r, const thr_frame *f, int *to);
 thr_plan_options options_for(thr_ends ends, int cover);
 thr_plan plan_make(const thr_frame *f, const thr_plan_options *o);
 thr_plan plan_simple(const thr_frame *f, thr_ends ends, int cover);
+
+/* Plan of o->cords cords through the shortest passes of a connected framework with ends; the proof is the postman's. Its cords
+ * are a walk's pieces, cut where an end may be: fails if there are too few such places. */
+thr_plan plan_of_cords(const thr_frame *f, const thr_plan_options *o);
+
 thr_text plan_text(const thr_plan *p);
 thr_plan plan_from(const char *text);
 
@@ -84,7 +89,7 @@ thr_status judge_plan(const thr_plan *p, thr_err *err);
 
 /* ---- oracles ---- */
 
-/* Least length of extra passes with which a cord covers the component of node 0 and ends as o allows, by trying every
+/* Least length of extra passes with which o's cords cover the component of node 0 and end as o allows, by trying every
  * subset of edges (at most 20). INFINITY if no end is allowed. */
 double least_extra_by_subsets(const thr_frame *f, const thr_plan_options *o);
 

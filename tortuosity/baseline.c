@@ -2,6 +2,7 @@
 #include "tortuosity/baseline.h"
 #include "tortuosity/extra.h"
 #include "tortuosity/join.h"
+#include "tortuosity/pairing.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -9,17 +10,19 @@
 
 typedef struct {
   thr_join *j;
-  bool *used;  /* [n_darts] both darts of a pass that is walked */
-  int *walk;   /* [n_darts / 2 + 1] darts in order */
-  int *stack;  /* [n_darts / 2 + 1] */
-  int *cursor; /* [n_nodes] first dart at a node that may be unused */
-  int *stamp;  /* [n_nodes] */
-  int *queue;  /* [n_nodes] */
+  int *partner; /* [n_darts] in the cheapest pairing of its node; NULL if pairings are ignored */
+  bool *used;   /* [n_darts] both darts of a pass that is walked */
+  int *walk;    /* [n_darts / 2 + 1] darts in order */
+  int *stack;   /* [n_darts / 2 + 1] */
+  int *cursor;  /* [n_nodes] first dart at a node that may be unused */
+  int *stamp;   /* [n_nodes] */
+  int *queue;   /* [n_nodes] */
   int searches;
 } walker;
 
 static void walker_destroy(walker *w)
 {
+  free(w->partner);
   free(w->used);
   free(w->walk);
   free(w->stack);
@@ -58,13 +61,20 @@ static int unused_at(walker *w, int v)
   return w->cursor[v] < g->first[v + 1] ? g->dart[w->cursor[v]] : -1;
 }
 
+/* What Hierholzer walks after dart d, or -1. */
+static int next_in_circuit(walker *w, int d)
+{
+  int partner = w->partner ? w->partner[d ^ 1] : -1;
+  return partner >= 0 && !w->used[partner] ? partner : unused_at(w, head_of(w, d));
+}
+
 static int hierholzer(walker *w, int start)
 {
   int top = 0, n = 0;
   w->used[start] = w->used[start ^ 1] = true;
   w->stack[top++] = start;
   while (top) {
-    int d = unused_at(w, head_of(w, w->stack[top - 1]));
+    int d = next_in_circuit(w, w->stack[top - 1]);
     if (d < 0) {
       w->walk[n++] = w->stack[--top];
       continue;
@@ -100,37 +110,39 @@ static bool leads_back(walker *w, int d, int v)
   return false;
 }
 
-/* The straightest way on from the arrival d: the first in order of price that is no bridge. Each look takes the next price up. */
-static int straightest(walker *w, int d)
+/* How early Fleury tries dart e after dart d. */
+static double rank_of(const walker *w, int d, int e)
+{
+  if (!w->partner) return 0;
+  return e == w->partner[d ^ 1] ? -1 : thr_join_price(w->j, d ^ 1, e);
+}
+
+/* What Fleury walks after dart d, or -1: the first by rank, then in order, that is no bridge. No two of what is left at a node
+ * are bridges, so two looks do. */
+static int next_but_bridges(walker *w, int d)
 {
   const thr_multigraph *g = &w->j->g;
-  int v = head_of(w, d), least = -1, left = 0;
-  double floor_price = -1;
-  int floor_dart = -1;
-  for (int i = g->first[v]; i < g->first[v + 1]; i++)
-    left += !w->used[g->dart[i]];
-  for (;;) {
+  int v = head_of(w, d), bridge = -1, at = -1, left;
+  do {
     double best = INFINITY;
-    int at = -1;
+    bridge = at;
+    at = -1;
+    left = 0;
     for (int i = g->first[v]; i < g->first[v + 1]; i++) {
       int e = g->dart[i];
       if (w->used[e]) continue;
-      double price = thr_join_price(w->j, d ^ 1, e);
-      bool later = price > floor_price || (price == floor_price && e > floor_dart);
-      if (later && price < best) best = price, at = e;
+      left++;
+      double rank = rank_of(w, d, e);
+      if (e != bridge && rank < best) best = rank, at = e;
     }
-    if (at < 0) return least; /* all are bridges: the straightest */
-    if (left == 1 || leads_back(w, at, v)) return at;
-    if (least < 0) least = at;
-    floor_price = best;
-    floor_dart = at;
-  }
+  } while (left > 1 && bridge < 0 && !leads_back(w, at, v));
+  return at;
 }
 
 static int fleury(walker *w, int start)
 {
   int n = 0;
-  for (int d = start; d >= 0; d = straightest(w, d)) {
+  for (int d = start; d >= 0; d = next_but_bridges(w, d)) {
     w->used[d] = w->used[d ^ 1] = true;
     w->walk[n++] = d;
   }
@@ -149,10 +161,37 @@ static void take_pairs(walker *w, int n)
   }
 }
 
-static thr_status walk_all(thr_join *j, thr_baseline_kind kind, thr_err *err)
+/* The cheapest pairing of the passes and ends at every node, and of the two ends of a cord. */
+static thr_status pair_nodes(walker *w, thr_err *err)
+{
+  const thr_multigraph *g = &w->j->g;
+  int most = 0;
+  for (int v = 0; v < g->n_nodes; v++)
+    if (g->first[v + 1] - g->first[v] > most) most = g->first[v + 1] - g->first[v];
+  double *price = thr_calloc((size_t)most * (size_t)most, sizeof *price);
+  int *mate = thr_calloc((size_t)most, sizeof *mate);
+  w->partner = thr_calloc((size_t)g->n_darts, sizeof *w->partner);
+  thr_status st = price && mate && w->partner ? THR_OK : thr_nomem(err);
+  for (int v = 0; v < g->n_nodes && !st; v++) {
+    const int *dart = g->dart + g->first[v];
+    int n = g->first[v + 1] - g->first[v];
+    for (int i = 0; i < n; i++)
+      for (int k = 0; k < n; k++)
+        price[i * n + k] = i == k ? 0 : thr_join_price(w->j, dart[i], dart[k]);
+    st = thr_pairing_best(n, price, mate, err);
+    for (int i = 0; i < n && !st; i++)
+      w->partner[dart[i]] = dart[mate[i]];
+  }
+  free(price);
+  free(mate);
+  return st;
+}
+
+static thr_status walk_all(thr_join *j, thr_tour tour, bool ignore_pairings, thr_err *err)
 {
   walker w;
   thr_status st = walker_init(&w, j, err);
+  if (!st && !ignore_pairings) st = pair_nodes(&w, err);
   for (int k = 0; k < j->c->n_components && !st; k++) {
     int v = j->c->f->n_nodes + k, start = 0;
     if (j->c->task->end_allowed)
@@ -160,26 +199,28 @@ static thr_status walk_all(thr_join *j, thr_baseline_kind kind, thr_err *err)
     else
       while (j->c->component[j->g.tail[start]] != k)
         start++;
-    take_pairs(&w, kind == THR_BASELINE_FLEURY ? fleury(&w, start) : hierholzer(&w, start));
+    take_pairs(&w, tour == THR_TOUR_FLEURY ? fleury(&w, start) : hierholzer(&w, start));
   }
   walker_destroy(&w);
   return st;
 }
 
-thr_status thr_baseline_tour(const thr_frame *f, const thr_least_options *o, thr_baseline_kind kind, const thr_limits *limits,
-                             thr_least *out, thr_err *err)
+thr_status thr_baseline_tour(const thr_frame *f, const thr_least_options *o, thr_tour tour, bool ignore_pairings,
+                             const thr_limits *limits, thr_least *out, thr_err *err)
 {
   thr_least made = {0};
   thr_turning_columns c = {0};
   thr_join j = {0};
   *out = (thr_least){0};
+  if (tour != THR_TOUR_FLEURY && tour != THR_TOUR_HIERHOLZER)
+    return thr_fail(err, THR_EINPUT, "the least turning is no classical tour; name fleury or hierholzer");
   if (o->cords > 1) return thr_fail(err, THR_EINPUT, "the classical tours make one cord per piece; leave --cords out");
   int *passes = thr_calloc((size_t)f->n_edges, sizeof *passes), *ends = thr_calloc((size_t)f->n_nodes, sizeof *ends);
   thr_status st = passes && ends ? thr_least_task(f, o, &made, err) : thr_nomem(err);
   if (!st) st = thr_turning_columns_init(&c, f, &made.task, err);
   if (!st) st = thr_extra_passes(&c, f->length, NULL, false, limits, passes, ends, err);
   if (!st) st = thr_join_init(&j, &c, passes, made.end_allowed ? ends : NULL, err);
-  if (!st) st = walk_all(&j, kind, err);
+  if (!st) st = walk_all(&j, tour, ignore_pairings, err);
   if (!st) st = thr_least_cords(f, &j, &made, err);
   if (!st) {
     made.shortest = made.length;

@@ -1,9 +1,11 @@
 /* Best bound first; every node keeps the multipliers that prove its bound. */
 #include "tortuosity/branch.h"
+#include "tortuosity/circuits.h"
 #include "tortuosity/cycles.h"
 #include "tortuosity/extra.h"
 #include "tortuosity/improve.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +15,9 @@ static const double integral = 1e-6; /* what counts as a whole number */
 thr_status thr_branch_init(thr_branch *b, const thr_turning_columns *c, int most_nodes, const thr_limits *limits, thr_err *err)
 {
   size_t n = (size_t)c->f->n_nodes, m = (size_t)c->f->n_edges;
-  *b = (thr_branch){.c = c, .limits = limits, .most_nodes = most_nodes, .best_price = INT64_MAX};
+  const int room = 50 + 1000000 / c->f->n_edges; /* every leaf of the proof has two multipliers per edge */
+  *b = (thr_branch){.c = c, .limits = limits, .most_nodes = most_nodes < room ? most_nodes : room, .best_price = INT64_MAX};
+  b->several = !c->task->end_allowed && c->task->cords > 1;
   b->passes = thr_calloc(m, sizeof *b->passes);
   b->ends = thr_calloc(n, sizeof *b->ends);
   b->whole = thr_calloc((size_t)c->n_columns, sizeof *b->whole);
@@ -53,7 +57,7 @@ static bool within_limits(const thr_turning_columns *c, const int *passes)
   const thr_turning_task *t = c->task;
   for (int e = 0; e < c->f->n_edges; e++)
     if (passes[e] > t->most_passes) return false;
-  return t->extra_limit < 0 || thr_extra_length(c, passes) <= t->extra_limit + 1e-9 * thr_frame_total_length(c->f);
+  return t->extra_limit < 0 || thr_extra_length(c, passes) <= t->extra_limit;
 }
 
 /* Takes over a joined multigraph if it is the best so far; releases it otherwise. */
@@ -76,13 +80,63 @@ static void keep_better(thr_branch *b, thr_join *j, const int *passes)
     b->best_passes += passes[e];
 }
 
+/* Several closed cords in a component, from the greedy's circuits: one, or up to so many more. */
+static thr_status try_circuits(thr_branch *b, const int *passes, int apart, thr_err *err)
+{
+  thr_join j;
+  bool found = false;
+  thr_status st = thr_join_init(&j, b->c, passes, NULL, err);
+  if (st) return st;
+  st = thr_join_greedy(&j, apart, err);
+  if (!st) st = thr_circuits_make(&j, b->limits, &found, err);
+  if (found)
+    keep_better(b, &j, passes);
+  else
+    thr_join_destroy(&j);
+  return st;
+}
+
+/* The greedy's circuits, and what is missing to the number asked for through passes of its own. */
+static thr_status try_added(thr_branch *b, const int *passes, thr_err *err)
+{
+  thr_join j, more = {0};
+  bool found = false;
+  int *all = thr_calloc((size_t)b->c->f->n_edges, sizeof *all);
+  if (!all) return thr_nomem(err);
+  thr_status st = thr_join_init(&j, b->c, passes, NULL, err);
+  if (!st) {
+    st = thr_join_greedy(&j, b->c->task->cords - 1, err);
+    if (!st) st = thr_circuits_add(&j, &more, all, &found, err);
+    thr_join_destroy(&j);
+  }
+  found = found && !st && within_limits(b->c, all);
+  if (found) st = thr_circuits_make(&more, b->limits, &found, err);
+  if (found)
+    keep_better(b, &more, all);
+  else
+    thr_join_destroy(&more);
+  free(all);
+  return st;
+}
+
+/* Closed cords, several in a component. */
+static thr_status try_several(thr_branch *b, const int *passes, thr_err *err)
+{
+  const int apart[] = {0, b->c->task->cords - 1, INT_MAX};
+  thr_status st = THR_OK;
+  for (int i = 0; i < 3 && !st; i++)
+    st = try_circuits(b, passes, apart[i], err);
+  return st ? st : try_added(b, passes, err);
+}
+
 thr_status thr_branch_try(thr_branch *b, const int *passes, const int *ends, thr_err *err)
 {
   thr_join j;
   if (!within_limits(b->c, passes)) return THR_OK;
+  if (b->several) return try_several(b, passes, err);
   thr_status st = thr_join_init(&j, b->c, passes, ends, err);
   if (st) return st;
-  st = thr_join_greedy(&j, err);
+  st = thr_join_greedy(&j, 0, err);
   if (!st) st = thr_improve(&j, b->limits, err);
   if (st)
     thr_join_destroy(&j);
@@ -91,12 +145,29 @@ thr_status thr_branch_try(thr_branch *b, const int *passes, const int *ends, thr
   return st;
 }
 
+thr_status thr_branch_try_cords(thr_branch *b, const thr_cord *cord, int n_cords, thr_err *err)
+{
+  thr_join j;
+  memset(b->passes, 0, (size_t)b->c->f->n_edges * sizeof *b->passes);
+  for (int i = 0; i < n_cords; i++)
+    for (int k = 0; k < cord[i].n_passes; k++)
+      b->passes[cord[i].half[k] >> 1]++;
+  if (!within_limits(b->c, b->passes)) return THR_OK;
+  thr_status st = thr_join_from_cords(&j, b->c, cord, n_cords, err);
+  if (!st) st = thr_improve(&j, b->limits, err);
+  if (st)
+    thr_join_destroy(&j);
+  else
+    keep_better(b, &j, b->passes);
+  return st;
+}
+
 /* A point of whole numbers: its own pairs if they hang together; in any case the greedy for its passes and ends. */
 static thr_status try_whole(thr_branch *b, thr_err *err)
 {
   const thr_turning_columns *c = b->c;
   thr_join j;
-  bool single;
+  bool single; /* or as many circuits as asked for */
   for (int k = 0; k < c->n_columns; k++)
     b->whole[k] = (int)nearbyint(b->relax.x[k]);
   memset(b->ends, 0, (size_t)c->f->n_nodes * sizeof *b->ends);
@@ -108,6 +179,7 @@ static thr_status try_whole(thr_branch *b, thr_err *err)
   if (st || !within_limits(c, b->passes)) return st;
   if ((st = thr_join_init(&j, c, b->passes, b->ends, err))) return st;
   st = thr_join_columns(&j, b->whole, &single, err);
+  if (!st && b->several) st = thr_circuits_make(&j, b->limits, &single, err);
   if (!st && single)
     keep_better(b, &j, b->passes);
   else
@@ -133,7 +205,7 @@ static thr_status try_rounded(thr_branch *b, thr_err *err)
   }
   if (name == b->tried) return THR_OK;
   b->tried = name;
-  thr_status st = thr_extra_passes(c, b->weight, b->end_weight, false, b->limits, b->passes, b->ends, err);
+  thr_status st = thr_extra_roughly(c, b->weight, b->end_weight, b->limits, b->passes, b->ends, err);
   return st ? st : thr_branch_try(b, b->passes, b->ends, err);
 }
 
@@ -331,21 +403,52 @@ thr_status thr_branch_run(thr_branch *b, thr_err *err)
   return st;
 }
 
+/* What the proof is to prove: what closes the search, or what all leaves prove but a thousandth of the gap, for which very many
+ * leaves may be left out where the bound hardly rises. */
+static int64_t worth_proving(const thr_branch *b)
+{
+  int64_t target = b->found ? b->best_price - thr_branch_tolerance(b) : INT64_MAX, least = target;
+  for (int i = 0; i < b->n_nodes; i++)
+    if (!b->node[i].low_child && b->node[i].bound < least) least = b->node[i].bound;
+  return least - (b->found ? (target - least) / 1000 : 0);
+}
+
+/* place[i]: number of node i in the proof, -1 = not needed, because a node above it proves enough. */
+static int place_nodes(const thr_branch *b, int64_t enough, int *place)
+{
+  int n = 0;
+  for (int i = 0; i < b->n_nodes; i++) {
+    int above = b->node[i].parent;
+    bool needed = above < 0 || (place[above] >= 0 && b->node[above].bound < enough);
+    place[i] = needed ? n++ : -1;
+  }
+  return n;
+}
+
+static thr_turning_node proof_node(const thr_branch *b, const thr_branch_node *n, const int *place)
+{
+  return (thr_turning_node){.low = place[n->low_child],
+                            .high = place[n->high_child],
+                            .a = b->c->half[n->branched][0],
+                            .b = b->c->half[n->branched][1],
+                            .value = n->branch_value,
+                            .dual = -1};
+}
+
 thr_status thr_branch_proof(thr_branch *b, thr_turning_proof *p, thr_err *err)
 {
-  *p = (thr_turning_proof){.n_nodes = b->n_nodes, .n_components = b->c->n_components};
+  *p = (thr_turning_proof){.n_components = b->c->n_components};
   p->node = thr_calloc((size_t)b->n_nodes, sizeof *p->node);
   p->dual = thr_calloc((size_t)b->n_duals, sizeof *p->dual);
-  int *moved = thr_calloc((size_t)b->n_duals, sizeof *moved);
-  thr_status st = p->node && p->dual && moved ? THR_OK : thr_nomem(err);
+  int *moved = thr_calloc((size_t)b->n_duals, sizeof *moved), *place = thr_calloc((size_t)b->n_nodes, sizeof *place);
+  thr_status st = p->node && p->dual && moved && place ? THR_OK : thr_nomem(err);
+  int64_t enough = worth_proving(b);
+  if (!st) p->n_nodes = place_nodes(b, enough, place);
   for (int i = 0; i < b->n_nodes && !st; i++) {
     const thr_branch_node *n = &b->node[i];
-    thr_turning_node *to = &p->node[i];
-    *to = (thr_turning_node){.low = n->low_child, .high = n->high_child, .dual = -1};
-    if (n->low_child) {
-      to->a = b->c->half[n->branched][0];
-      to->b = b->c->half[n->branched][1];
-      to->value = n->branch_value;
+    if (place[i] < 0) continue;
+    if (n->low_child && n->bound < enough) {
+      p->node[place[i]] = proof_node(b, n, place);
       continue;
     }
     if (!moved[n->dual]) {
@@ -353,9 +456,10 @@ thr_status thr_branch_proof(thr_branch *b, thr_turning_proof *p, thr_err *err)
       b->dual[n->dual] = (thr_turning_dual){0};
       moved[n->dual] = ++p->n_duals;
     }
-    to->dual = moved[n->dual] - 1;
+    p->node[place[i]] = (thr_turning_node){.dual = moved[n->dual] - 1};
   }
   free(moved);
+  free(place);
   if (st) thr_turning_proof_destroy(p);
   return st;
 }

@@ -25,6 +25,7 @@ typedef struct {
   thr_branch_node *node;
   int n_duals, duals_capacity;
   thr_turning_dual *dual;
+  bool several; /* closed cords in a component */
   bool found;
   thr_join best;      /* if found */
   int64_t best_price; /* in units of 2^-THR_TURNING_BITS, with the price of the extra cord; INT64_MAX = none */
@@ -42,6 +43,9 @@ void thr_branch_destroy(thr_branch *b);
 
 /* Cords for these passes and ends, kept if they are the best so far. */
 thr_status thr_branch_try(thr_branch *b, const int *passes, const int *ends, thr_err *err) THR_MUST_CHECK;
+
+/* The cords of a plan, improved by exchanges; the same. */
+thr_status thr_branch_try_cords(thr_branch *b, const thr_cord *cord, int n_cords, thr_err *err) THR_MUST_CHECK;
 
 /* Until the tree is closed, or stopped. */
 thr_status thr_branch_run(thr_branch *b, thr_err *err) THR_MUST_CHECK;

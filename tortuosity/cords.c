@@ -82,6 +82,7 @@ thr_status thr_join_cords(const thr_join *j, thr_cord *cord, int n_cords, thr_er
     for (int d = 0; d < g->n_darts && !st && !c->task->end_allowed; d++)
       if (c->component[g->tail[d]] == k) st = cord_from(j, d, walked, walk, cord, n_cords, &made, err);
   }
+  if (!st && made < n_cords) st = thr_fail(err, THR_ESOLVER, "%d cords, fewer than the %d asked for", made, n_cords);
   for (int d = 0; d < g->n_darts && !st; d++)
     if (!walked[d]) st = thr_fail(err, THR_ESOLVER, "passes that no cord holds");
   free(walked);

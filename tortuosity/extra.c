@@ -84,12 +84,14 @@ static void fill(instance *in, const double *weight, const double *end_weight, c
   double sum = 0, most = 0;
   for (int e = 0; e < f->n_edges; e++)
     if (in->c->component[f->edge[e][0]] == in->k) sum += weight[e];
+  const double scale = sum > 0 ? exp2(floor(log2(whole / sum))) : 0; /* powers of 2 keep ties */
   for (int i = 0; end_weight && i < in->n_nodes; i++)
     most = fmax(most, end_weight[in->node[i]]);
-  for (int e = 0; e < f->n_edges; e++)
-    if (in->c->component[f->edge[e][0]] == in->k)
-      add_edge(in, in->local[f->edge[e][0]], in->local[f->edge[e][1]], sum > 0 ? (int64_t)nearbyint(weight[e] / sum * whole) : 0,
-               e);
+  for (int i = 0; i < in->n_nodes; i++)
+    for (int k = f->first[in->node[i]]; k < f->first[in->node[i] + 1]; k++) {
+      int h = f->half[k];
+      if (h % 2 == 0) add_edge(in, i, in->local[thr_head(f, h)], (int64_t)nearbyint(weight[h >> 1] * scale), h >> 1);
+    }
   int64_t slot = (int64_t)whole + 1;
   for (int s = 0; s < in->n_slots; s++) {
     for (int i = 0; i < in->n_nodes; i++)
@@ -115,17 +117,37 @@ static int closing_node(const instance *in, const double *end_weight)
   return best;
 }
 
+/* Stops the search for a join when it has gone on for long enough: counted in linear programmes, so the same everywhere. */
+typedef struct {
+  const thr_limits *outer;
+  int rounds;
+  volatile sig_atomic_t enough;
+} watch;
+
+static void look(void *user, const char *what, double best, double bound)
+{
+  enum { ENOUGH = 25 };
+  watch *w = user;
+  (void)what;
+  bool near = best - bound <= 1e-3 * best, interrupted = w->outer->interrupted && *w->outer->interrupted;
+  if (++w->rounds >= ENOUGH || near || interrupted) w->enough = 1;
+}
+
 static thr_status solve_component(const thr_turning_columns *c, int k, const double *weight, const double *end_weight, bool given,
-                                  const thr_limits *limits, int *passes, int *ends, thr_err *err)
+                                  bool roughly, const thr_limits *limits, int *passes, int *ends, thr_err *err)
 {
   instance in;
   thr_tjoin t = {0};
   thr_err local = {0};
+  watch w = {.outer = limits};
+  thr_limits inner = *limits; /* quiet: the join's best and bound are not those of the turning */
+  inner.progress = NULL;
+  if (roughly) inner = (thr_limits){.deadline = limits->deadline, .interrupted = &w.enough, .progress = look, .user = &w};
   thr_status st = instance_init(&in, c, k, given, err);
   if (!st) {
     fill(&in, weight, end_weight, ends);
     thr_tjoin_problem p = {in.n_nodes + in.n_slots, in.n_edges, (const int(*)[2])in.edge, in.weight, in.odd, in.n_slots};
-    st = thr_tjoin_solve(&p, limits, &t, &local);
+    st = thr_tjoin_solve(&p, &inner, &t, &local);
     if (st && st != THR_ELIMIT) thr_fail(err, st, "%s", local.text);
     if (st == THR_ELIMIT) st = THR_OK; /* a join is a join */
   }
@@ -143,19 +165,29 @@ static thr_status solve_component(const thr_turning_columns *c, int k, const dou
   return st;
 }
 
-thr_status thr_extra_passes(const thr_turning_columns *c, const double *weight, const double *end_weight, bool given,
-                            const thr_limits *limits, int *passes, int *ends, thr_err *err)
+static thr_status solve_components(const thr_turning_columns *c, const double *weight, const double *end_weight, bool given,
+                                   bool roughly, const thr_limits *limits, int *passes, int *ends, thr_err *err)
 {
   thr_status st = THR_OK;
-  thr_limits quiet = *limits; /* the join's best and bound are not those of the turning */
-  quiet.progress = NULL;
   for (int e = 0; e < c->f->n_edges; e++)
     passes[e] = c->task->cover;
   for (int v = 0; v < c->f->n_nodes && !given; v++)
     ends[v] = 0;
   for (int k = 0; k < c->n_components && !st; k++)
-    st = solve_component(c, k, weight, end_weight, given, &quiet, passes, ends, err);
+    st = solve_component(c, k, weight, end_weight, given, roughly, limits, passes, ends, err);
   return st;
+}
+
+thr_status thr_extra_passes(const thr_turning_columns *c, const double *weight, const double *end_weight, bool given,
+                            const thr_limits *limits, int *passes, int *ends, thr_err *err)
+{
+  return solve_components(c, weight, end_weight, given, false, limits, passes, ends, err);
+}
+
+thr_status thr_extra_roughly(const thr_turning_columns *c, const double *weight, const double *end_weight,
+                             const thr_limits *limits, int *passes, int *ends, thr_err *err)
+{
+  return solve_components(c, weight, end_weight, false, true, limits, passes, ends, err);
 }
 
 void thr_extra_spread_ends(const thr_turning_columns *c, int *ends)

@@ -12,6 +12,10 @@
 thr_status thr_extra_passes(const thr_turning_columns *c, const double *weight, const double *end_weight, bool given,
                             const thr_limits *limits, int *passes, int *ends, thr_err *err) THR_MUST_CHECK;
 
+/* The same with a join that need not be the shortest, from the first rounds of its linear programme. */
+thr_status thr_extra_roughly(const thr_turning_columns *c, const double *weight, const double *end_weight,
+                             const thr_limits *limits, int *passes, int *ends, thr_err *err) THR_MUST_CHECK;
+
 /* 2 cords ends in every component, as far apart as may be: first one at every allowed node where passes are odd, then one more at
  * each of those with fewest. */
 void thr_extra_spread_ends(const thr_turning_columns *c, int *ends);

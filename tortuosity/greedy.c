@@ -18,7 +18,7 @@ typedef struct {
   int *stamp; /* [n_nodes] search that saw the node last */
   int *class; /* [n_nodes] port whose search reached it */
   int *queue; /* [n_nodes] */
-  bool *done; /* [n_nodes] paired */
+  int *spare; /* [n_components] pieces that the component may still fall into */
   int searches; /* so far */
   ranked *order;
   int most;      /* darts at a node */
@@ -34,7 +34,7 @@ static void greedy_destroy(greedy *s)
   free(s->stamp);
   free(s->class);
   free(s->queue);
-  free(s->done);
+  free(s->spare);
   free(s->order);
   free(s->price);
   free(s->pair);
@@ -42,7 +42,7 @@ static void greedy_destroy(greedy *s)
   free(s->trial);
 }
 
-static thr_status greedy_init(greedy *s, thr_join *j, thr_err *err)
+static thr_status greedy_init(greedy *s, thr_join *j, int apart, thr_err *err)
 {
   const thr_multigraph *g = &j->g;
   size_t n = (size_t)g->n_nodes;
@@ -58,14 +58,16 @@ static thr_status greedy_init(greedy *s, thr_join *j, thr_err *err)
   s->stamp = thr_calloc(n, sizeof *s->stamp);
   s->class = thr_calloc(n, sizeof *s->class);
   s->queue = thr_calloc(n, sizeof *s->queue);
-  s->done = thr_calloc(n, sizeof *s->done);
+  s->spare = thr_calloc((size_t)j->c->n_components, sizeof *s->spare);
   s->order = thr_calloc(n, sizeof *s->order);
   s->price = thr_calloc(k * k, sizeof *s->price);
   s->pair = thr_calloc(k, sizeof *s->pair);
   s->port = thr_calloc(k, sizeof *s->port);
   s->trial = thr_calloc(2 * k, sizeof *s->trial);
-  if (!s->link || !s->stamp || !s->class || !s->queue || !s->done || !s->order || !s->price || !s->pair || !s->port || !s->trial)
+  if (!s->link || !s->stamp || !s->class || !s->queue || !s->spare || !s->order || !s->price || !s->pair || !s->port || !s->trial)
     return thr_nomem(err);
+  for (int i = 0; i < j->c->n_components; i++)
+    s->spare[i] = apart;
   for (int d = 0; d < g->n_darts; d++)
     s->link[d] = d ^ 1;
   return THR_OK;
@@ -181,15 +183,15 @@ static void set_pair(int *mate, int a, int b)
   mate[b] = a;
 }
 
-/* All pairings of the darts that are free in pair (-1), cheapest connected one into best. */
-static void try_pairings(greedy *s, int n, int *pair, double price, double *least, int *best)
+/* All pairings of the darts that are free in pair (-1), the cheapest of those that leave few enough pieces into best. */
+static void try_pairings(greedy *s, int n, int pieces, int *pair, double price, double *least, int *best)
 {
   int i = 0;
   if (price >= *least) return;
   while (i < n && pair[i] >= 0)
     i++;
   if (i == n) {
-    if (join_pairs(s, n, pair) > 1) return;
+    if (join_pairs(s, n, pair) > pieces) return;
     *least = price;
     memcpy(best, pair, (size_t)n * sizeof *best);
     return;
@@ -197,15 +199,15 @@ static void try_pairings(greedy *s, int n, int *pair, double price, double *leas
   for (int k = i + 1; k < n; k++) {
     if (pair[k] >= 0) continue;
     set_pair(pair, i, k);
-    try_pairings(s, n, pair, price + s->price[i * n + k], least, best);
+    try_pairings(s, n, pieces, pair, price + s->price[i * n + k], least, best);
     pair[i] = pair[k] = -1;
   }
 }
 
-/* Exchanges pairs of different components, cheapest first, until the darts are one. */
-static void exchange_until_one(greedy *s, int n)
+/* Exchanges pairs of different pieces, cheapest first, until there are few enough. */
+static void exchange_until_few(greedy *s, int n, int pieces)
 {
-  while (join_pairs(s, n, s->pair) > 1) {
+  while (join_pairs(s, n, s->pair) > pieces) {
     int best_a = -1, best_c = -1;
     bool cross, best_cross = false;
     double least = INFINITY;
@@ -222,7 +224,7 @@ static void exchange_until_one(greedy *s, int n)
   }
 }
 
-/* Gives node v the cheapest pairing that keeps everything connected, and joins the chains that it pairs. */
+/* Gives node v the cheapest pairing that keeps enough connected, and joins the chains that it pairs. */
 static void settle_node(greedy *s, int v)
 {
   enum { ENUMERATED = 8 };
@@ -238,16 +240,18 @@ static void settle_node(greedy *s, int v)
     s->pair[i] = k;
   }
   find_ports(s, v, dart, n);
-  if (join_pairs(s, n, s->pair) > 1) {
+  int *spare = &s->spare[s->j->c->component[v]], most = *spare < n ? *spare + 1 : n;
+  if (join_pairs(s, n, s->pair) > most) {
     if (n <= ENUMERATED) {
       double least = INFINITY;
       for (int i = 0; i < n; i++)
         position[i] = -1;
-      try_pairings(s, n, position, 0, &least, s->pair);
+      try_pairings(s, n, most, position, 0, &least, s->pair);
     } else {
-      exchange_until_one(s, n);
+      exchange_until_few(s, n, most);
     }
   }
+  *spare -= join_pairs(s, n, s->pair) - 1;
   for (int i = 0; i < n; i++) {
     int a = dart[i], b = dart[s->pair[i]];
     s->j->mate[a] = b;
@@ -258,10 +262,10 @@ static void settle_node(greedy *s, int v)
   }
 }
 
-thr_status thr_join_greedy(thr_join *j, thr_err *err)
+thr_status thr_join_greedy(thr_join *j, int apart, thr_err *err)
 {
   greedy s;
-  thr_status st = greedy_init(&s, j, err);
+  thr_status st = greedy_init(&s, j, apart, err);
   if (!st) st = rank_nodes(&s, err);
   for (int i = 0; i < j->c->f->n_nodes && !st; i++)
     settle_node(&s, s.order[i].node);

@@ -32,18 +32,18 @@ void thr_join_measure(thr_join *j);
 
 /* Bouchet's greedy (Math. Programming 38, 1987): nodes by decreasing regret (how much more than its best pairing a node's next
  * costs) take the cheapest pairing that keeps the partly split graph connected. Exact for these passes and ends if no node has
- * more than 4 passes and ends; else nodes of up to 8 take the cheapest of all their pairings, larger ones the cheapest exchanges.
- * Connected components of passes: one circuit each, or all open cords. A connectivity test looks at few edges as a rule,
- * at all of them at worst. */
-thr_status thr_join_greedy(thr_join *j, thr_err *err) THR_MUST_CHECK;
+ * more than 4 passes and ends (apart = 0); else nodes of up to 8 take the cheapest of all their pairings, larger ones the
+ * cheapest exchanges. A component becomes one circuit, or open cords alone; and at most apart circuits more. A connectivity test
+ * looks at few edges as a rule, at all of them at worst. */
+thr_status thr_join_greedy(thr_join *j, int apart, thr_err *err) THR_MUST_CHECK;
 
 /* Pairs as the columns say (x[j] times column j, whole numbers that fit the passes and ends), and joins circuits over equal
  * passes at no price. *single: whether that left one circuit per component, or open cords alone. */
 thr_status thr_join_columns(thr_join *j, const int *x, bool *single, thr_err *err) THR_MUST_CHECK;
 
 /* Cords of a joined multigraph, each half array allocated for the caller: component by component, open ones from the lower
- * of their end nodes; a closed one starts where its turn is sharpest. cord has room for n_cords; THR_ESOLVER if there are more.
- */
+ * of their end nodes; a closed one starts where its turn is sharpest. cord has room for n_cords; THR_ESOLVER if there are more or
+ * fewer. */
 thr_status thr_join_cords(const thr_join *j, thr_cord *cord, int n_cords, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -9,7 +9,7 @@
 
 thr_least_options thr_least_options_default(void)
 {
-  return (thr_least_options){.cover = 1, .ends = THR_ENDS_CLOSED, .length_slack = -1, .most_nodes = 1000};
+  return (thr_least_options){.cover = 1, .ends = THR_ENDS_CLOSED, .length_slack = -1, .most_nodes = 10000};
 }
 
 void thr_least_destroy(thr_least *l)
@@ -29,8 +29,6 @@ thr_status thr_least_task(const thr_frame *f, const thr_least_options *o, thr_le
   if (o->cover > MOST_PASSES / f->n_edges)
     return thr_fail(err, THR_EINPUT, "%d passes of %d edges are more than the %d that the search for the least turning takes",
                     o->cover, f->n_edges, MOST_PASSES);
-  if (o->ends == THR_ENDS_CLOSED && cords > 1)
-    return thr_fail(err, THR_EINPUT, "several closed cords in one piece are not supported; give them ends (--ends feet or any)");
   if (o->ends != THR_ENDS_CLOSED) {
     thr_plan_options plan = {.ends = o->ends, .end_node = (bool *)o->end_node};
     if (!(out->end_allowed = thr_calloc((size_t)f->n_nodes, sizeof *out->end_allowed))) return thr_nomem(err);
@@ -38,7 +36,7 @@ thr_status thr_least_task(const thr_frame *f, const thr_least_options *o, thr_le
       out->end_allowed[v] = thr_plan_end_allowed(f, &plan, v);
   }
   out->task = (thr_turning_task){.cover = o->cover,
-                                 .most_passes = o->most_passes ? o->most_passes : 4 * o->cover + 4,
+                                 .most_passes = o->most_passes ? o->most_passes : thr_turning_most_passes(o->cover),
                                  .cords = cords,
                                  .end_allowed = out->end_allowed,
                                  .cost = o->cost,
@@ -63,10 +61,25 @@ static thr_status find_shortest(const thr_frame *f, const thr_least_options *o, 
   return st;
 }
 
-/* First plans: the shortest passes, and those for ends far apart. */
-static thr_status first_plans(thr_branch *b, int *passes, int *ends, thr_err *err)
+/* Where the shortest passes do not hold as many closed cords: the same even number over all edges, which holds many. */
+static thr_status even_passes(thr_branch *b, int *passes, int *ends, thr_err *err)
+{
+  const thr_turning_task *t = b->c->task;
+  thr_status st = THR_OK;
+  for (int n = t->cover + t->cover % 2; n <= t->most_passes && !b->found && !st; n += 2) {
+    for (int e = 0; e < b->c->f->n_edges; e++)
+      passes[e] = n;
+    st = thr_branch_try(b, passes, ends, err);
+  }
+  return st;
+}
+
+/* First plans: the shortest passes, the plan to begin with, and those for ends far apart. */
+static thr_status first_plans(thr_branch *b, const thr_least_options *o, int *passes, int *ends, thr_err *err)
 {
   thr_status st = thr_branch_try(b, passes, ends, err);
+  if (!st && o->start) st = thr_branch_try_cords(b, o->start, o->n_start, err);
+  if (!st && b->several) st = even_passes(b, passes, ends, err);
   if (st || !b->c->task->end_allowed) return st;
   thr_extra_spread_ends(b->c, ends);
   st = thr_extra_passes(b->c, b->c->f->length, NULL, true, b->limits, passes, ends, err);
@@ -115,6 +128,27 @@ static thr_status finish(const thr_frame *f, thr_branch *b, thr_least *out, thr_
   return THR_OK;
 }
 
+/* The search may have missed one: no claim that there is none. */
+static thr_status not_found(const thr_branch *b, thr_err *err)
+{
+  const thr_turning_task *t = b->c->task;
+  if (b->several)
+    thr_fail(err, THR_EINFEASIBLE,
+             "no plan with %d closed cords in every piece and at most %d passes of every edge was found; "
+             "ask for fewer cords, or allow more passes or more length",
+             t->cords, t->most_passes);
+  else
+    thr_fail(err, THR_EINFEASIBLE, "no plan with at most %d passes of every edge was found; allow more passes or more length",
+             t->most_passes);
+  return THR_EINFEASIBLE;
+}
+
+static const char *why_open(const thr_branch *b)
+{
+  if (b->stopped) return "stopped early";
+  return b->several ? "what it costs to have no fewer cords is not part of the bound" : "rounding left a gap";
+}
+
 thr_status thr_least_turning(const thr_frame *f, const thr_least_options *o, const thr_limits *limits, thr_least *out,
                              thr_err *err)
 {
@@ -127,19 +161,16 @@ thr_status thr_least_turning(const thr_frame *f, const thr_least_options *o, con
   if (!st) st = find_shortest(f, o, limits, &made, passes, ends, err);
   if (!st) st = thr_turning_columns_init(&c, f, &made.task, err);
   if (!st) st = thr_branch_init(&b, &c, o->most_nodes, limits, err);
-  if (!st) st = first_plans(&b, passes, ends, err);
+  if (!st) st = first_plans(&b, o, passes, ends, err);
   if (!st) st = thr_branch_run(&b, err);
-  if (!st && !b.found)
-    st =
-        thr_fail(err, THR_EINFEASIBLE, "no plan with at most %d passes of every edge was found; allow more passes or more length",
-                 made.task.most_passes);
+  if (!st && !b.found) st = not_found(&b, err);
   if (!st) st = finish(f, &b, &made, err);
   if (!st) {
     *out = made;
     made = (thr_least){0};
     if (!out->optimal)
-      st = thr_fail(err, THR_ELIMIT, "%s: the turning is proved to be within %.3g %% of the least",
-                    b.stopped ? "stopped early" : "rounding left a gap", 100 * (out->price - out->bound) / out->price);
+      st = thr_fail(err, THR_ELIMIT, "%s: the turning is proved to be within %.3g %% of the least", why_open(&b),
+                    100 * (out->price - out->bound) / out->price);
   }
   thr_least_destroy(&made);
   thr_branch_destroy(&b);

@@ -10,12 +10,14 @@ typedef struct {
   int cover;
   thr_ends ends;
   const bool *end_node; /* [n_nodes] THR_ENDS_NODES only; borrowed */
-  int cords;            /* in every component; 0 = 1. More than one needs open ends */
+  int cords;            /* in every component, exactly; 0 = 1 */
   int most_passes;      /* of an edge; 0 = 4 * cover + 4 */
   thr_turn_cost cost;
   double length_slack;     /* extra cord allowed above the shortest, as a part of its length; < 0 = any length */
   double price_per_length; /* of extra cord, in the turns' price per unit of length */
-  int most_nodes;          /* of the branching tree; 1 = the root only */
+  const thr_cord *start;   /* [n_start] a plan of the task to begin with; borrowed, NULL = none */
+  int n_start;
+  int most_nodes; /* of the branching tree; 1 = the root only */
 } thr_least_options;
 
 thr_least_options thr_least_options_default(void);
@@ -36,7 +38,8 @@ typedef struct {
 } thr_least;
 
 /* THR_OK: optimal. THR_ELIMIT: the limits or the size of the tree stopped it; out holds the best plan, its bound and the proof of
- * that. THR_EINFEASIBLE: no node for an end, or no plan within most_passes. Otherwise out is empty. */
+ * that. THR_EINFEASIBLE: no node for an end, or no plan within most_passes and
+ * length found (with several closed cords that proves nothing). Otherwise out is empty. */
 thr_status thr_least_turning(const thr_frame *f, const thr_least_options *o, const thr_limits *limits, thr_least *out,
                              thr_err *err) THR_MUST_CHECK;
 void thr_least_destroy(thr_least *l);

@@ -1,5 +1,8 @@
 /* Exchanges between cords. */
 #include "tortuosity/maxturn.h"
+#include "tortuosity/circuits.h"
+#include "tortuosity/extra.h"
+#include "tortuosity/improve.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -20,7 +23,10 @@ typedef struct {
   place *place;  /* in order along the cords */
   int *at;       /* [n_darts] place that the dart is part of, -1 at end nodes */
   double *total; /* [n_cords] */
-  double scale;  /* largest total at the start */
+  double scale;  /* a total that counts as 1 */
+  bool closed;
+  int n_transitions; /* of all cords */
+  uint64_t state;    /* of the random numbers */
 } cords;
 
 static void cords_destroy(cords *s)
@@ -31,44 +37,53 @@ static void cords_destroy(cords *s)
   free(s->total);
 }
 
-static thr_status cords_init(cords *s, thr_join *j, int n_cords, thr_err *err)
+static thr_status cords_init(cords *s, thr_join *j, double scale, thr_err *err)
 {
-  size_t darts = (size_t)j->g.n_darts, n = (size_t)n_cords;
-  *s = (cords){.j = j, .n_cords = n_cords};
+  const thr_turning_columns *c = j->c;
+  size_t darts = (size_t)j->g.n_darts, n = (size_t)(c->task->cords * c->n_components);
+  *s = (cords){.j = j, .n_cords = (int)n, .scale = scale, .closed = !c->task->end_allowed, .state = 1};
   s->first = thr_calloc(n + 1, sizeof *s->first);
   s->place = thr_calloc(darts, sizeof *s->place);
   s->at = thr_calloc(darts, sizeof *s->at);
   s->total = thr_calloc(n, sizeof *s->total);
+  s->n_transitions = j->g.first[c->f->n_nodes] / 2;
   return s->first && s->place && s->at && s->total ? THR_OK : thr_nomem(err);
 }
 
-static void follow(cords *s, int cord, int d)
+static void follow(cords *s, int cord, int start)
 {
   const thr_join *j = s->j;
   double sum = 0;
+  int d = start;
   s->first[cord] = s->n_places;
   for (; j->mate[d ^ 1] >= 0; d = j->mate[d ^ 1]) {
     place *p = &s->place[s->n_places];
     *p = (place){cord, s->n_places - s->first[cord], d ^ 1, j->mate[d ^ 1], sum, thr_join_price(j, d ^ 1, j->mate[d ^ 1])};
     s->at[p->in] = s->at[p->out] = s->n_places++;
     sum += p->price;
+    if (p->out == start) break;
   }
-  s->at[d ^ 1] = -2; /* the far end: this cord is followed */
+  if (j->mate[d ^ 1] < 0) s->at[d ^ 1] = -2; /* the far end: this cord is followed */
   s->total[cord] = sum;
 }
 
-/* All places from the pairs. */
-static void follow_all(cords *s)
+/* All places from the pairs. false: there are circuits that are no cords, or not as many cords. */
+static bool follow_all(cords *s)
 {
   const thr_multigraph *g = &s->j->g;
   int cord = 0;
   s->n_places = 0;
   for (int d = 0; d < g->n_darts; d++)
     s->at[d] = -1;
-  for (int v = s->j->c->f->n_nodes; v < g->n_nodes; v++)
-    for (int i = g->first[v]; i < g->first[v + 1]; i++)
-      if (s->at[g->dart[i]] != -2) follow(s, cord++, g->dart[i]);
+  for (int d = 0; d < g->n_darts && s->closed; d++) {
+    if (s->at[d] >= 0) continue;
+    if (cord == s->n_cords) return false;
+    follow(s, cord++, d);
+  }
+  for (int i = g->first[s->j->c->f->n_nodes]; i < g->first[g->n_nodes]; i++)
+    if (s->at[g->dart[i]] != -2) follow(s, cord++, g->dart[i]);
   s->first[cord] = s->n_places;
+  return cord == s->n_cords && s->n_places == s->n_transitions;
 }
 
 static double power(const cords *s, double total)
@@ -157,7 +172,7 @@ static bool exchange_at(cords *s, int v)
       const place *p = &s->place[s->at[g->dart[i]]], *q = &s->place[s->at[g->dart[k]]];
       if (p == q || p->in != g->dart[i] || q->in != g->dart[k]) continue;
       if (p->cord != q->cord) {
-        if (change_tails(s, p, q)) return true;
+        if (!s->closed && change_tails(s, p, q)) return true;
         continue;
       }
       if (p->index > q->index) {
@@ -199,23 +214,14 @@ static uint64_t next_random(uint64_t *state)
   return z ^ z >> 31;
 }
 
-/* Some changes of tails at random, whatever they cost. */
-static void kick(cords *s, uint64_t *state)
+static int random_below(uint64_t *state, int n)
 {
-  enum { KICKS = 4, TRIES = 50 };
-  const thr_multigraph *g = &s->j->g;
-  for (int done = 0, tries = 0; done < KICKS && s->n_places > 0 && tries < TRIES; tries++) {
-    const place *p = &s->place[next_random(state) % (uint64_t)s->n_places];
-    int v = g->tail[p->in], n = g->first[v + 1] - g->first[v];
-    const place *q = &s->place[s->at[g->dart[g->first[v] + (int)(next_random(state) % (uint64_t)n)]]];
-    if (p->cord == q->cord) continue;
-    if (thr_join_price(s->j, p->in, q->out) + thr_join_price(s->j, q->in, p->out) >= thr_join_forbidden) continue;
-    int q_in = q->in, p_out = p->out;
-    pair(s, p->in, q->out);
-    pair(s, q_in, p_out);
-    follow_all(s);
-    done++;
-  }
+  return (int)(next_random(state) % (uint64_t)n);
+}
+
+static double random_unit(uint64_t *state)
+{
+  return ldexp((double)(next_random(state) >> 11), -53);
 }
 
 static double sum_of_powers(const cords *s)
@@ -226,35 +232,281 @@ static double sum_of_powers(const cords *s)
   return sum;
 }
 
-/* Kicks, and exchanges from there; what is worse is taken back. Counted, not timed, so that the same input gives the same cords.
- */
-static thr_status search(cords *s, const thr_limits *limits, double bound, thr_err *err)
+/* ---- annealing ---- */
+
+/* Pairs that a trial has broken up. */
+typedef struct {
+  int n, pair[4][2];
+} trail;
+
+static void take_back(cords *s, const trail *t)
 {
-  size_t darts = (size_t)s->j->g.n_darts;
-  int rounds = (int)fmax(200, fmin(4000, 2e6 / (double)darts));
-  uint64_t state = 1;
-  int *best = thr_calloc(darts, sizeof *best);
-  if (!best) return thr_nomem(err);
-  exchange_all(s, limits);
-  memcpy(best, s->j->mate, darts * sizeof *best);
-  double least = sum_of_powers(s);
-  for (int i = 0; i < rounds && s->n_cords > 1 && !thr_limits_stop(limits); i++) {
-    if (largest_of(s->total, s->n_cords) <= bound * (1 + 1e-9)) break;
-    kick(s, &state);
-    exchange_all(s, limits);
-    double now = sum_of_powers(s);
-    if (now < least * (1 - 1e-12)) {
+  for (int i = t->n - 1; i >= 0; i--)
+    pair(s, t->pair[i][0], t->pair[i][1]);
+}
+
+/* Pairs the darts of two places anew: arriving with leaving, or arriving with arriving (crossed). */
+static bool exchange(cords *s, trail *t, const place *p, const place *q, bool crossed)
+{
+  int c = crossed ? q->in : q->out, d = crossed ? q->out : q->in;
+  if (thr_join_price(s->j, p->in, c) + thr_join_price(s->j, p->out, d) >= thr_join_forbidden) return false;
+  t->pair[t->n][0] = p->in;
+  t->pair[t->n++][1] = p->out;
+  t->pair[t->n][0] = q->in;
+  t->pair[t->n++][1] = q->out;
+  pair(s, p->in, c);
+  pair(s, p->out, d);
+  return true;
+}
+
+/* A place at the same node as place i, or -1. */
+static int other_at_node(cords *s, int i)
+{
+  const thr_multigraph *g = &s->j->g;
+  int v = g->tail[s->place[i].in], n = g->first[v + 1] - g->first[v];
+  int k = s->at[g->dart[g->first[v] + random_below(&s->state, n)]];
+  return k == i ? -1 : k;
+}
+
+/* Two cords joined into one circuit are cut apart again somewhere else, and a part that an exchange cuts off one cord is joined
+ * to another cord or elsewhere. false: nothing found. */
+static bool put_right(cords *s, trail *t, const place *p, const place *q)
+{
+  enum { TRIES = 8 };
+  bool joined = p->cord != q->cord;
+  for (int tries = 0; tries < TRIES; tries++) {
+    int from = p->index, to = q->index, cord = p->cord, i, k;
+    if (joined) cord = random_below(&s->state, 2) ? p->cord : q->cord, from = -1, to = s->first[cord + 1] - s->first[cord];
+    if (to - from < 2) return false;
+    i = s->first[cord] + from + 1 + random_below(&s->state, to - from - 1);
+    k = other_at_node(s, i);
+    const place *m = &s->place[i], *z = k < 0 ? NULL : &s->place[k];
+    if (!z || m == p || m == q || z == p || z == q) continue;
+    if (joined ? z->cord != p->cord && z->cord != q->cord : z->cord == cord && z->index > from && z->index < to) continue;
+    if (exchange(s, t, m, z, joined ? m->cord != z->cord && random_below(&s->state, 2) : random_below(&s->state, 2))) return true;
+  }
+  return false;
+}
+
+/* A change at random that keeps the number of cords, if *t is not empty and follow_all says so. */
+static void propose(cords *s, trail *t)
+{
+  int i = random_below(&s->state, s->n_places), k = other_at_node(s, i);
+  t->n = 0;
+  if (k < 0) return;
+  const place *p = &s->place[i], *q = &s->place[k];
+  if (p->cord == q->cord && p->index > q->index) {
+    const place *later = p;
+    p = q;
+    q = later;
+  }
+  bool crossed = random_below(&s->state, 2);
+  if (!exchange(s, t, p, q, crossed)) return;
+  bool same = p->cord == q->cord;
+  if (same ? crossed : !s->closed) return;
+  if (put_right(s, t, p, q)) return;
+  take_back(s, t);
+  t->n = 0;
+}
+
+/* Takes changes at random that make the norm of the totals less, or with falling probability more. Keeps the best in mate. */
+static void anneal(cords *s, const thr_limits *limits, int steps, double bound, int *best)
+{
+  static const double hot = 0.05, cold = 0.002; /* of the norm */
+  size_t bytes = (size_t)s->j->g.n_darts * sizeof *best;
+  double now = sum_of_powers(s), least = now;
+  memcpy(best, s->j->mate, bytes);
+  for (int i = 0; i < steps && s->n_places > 1; i++) {
+    trail t;
+    if (i % 64 == 0 && (thr_limits_stop(limits) || largest_of(s->total, s->n_cords) <= bound * (1 + 1e-9))) break;
+    double heat = hot * pow(cold / hot, (double)i / steps);
+    propose(s, &t);
+    if (t.n == 0) continue;
+    bool whole = follow_all(s);
+    double next = whole ? sum_of_powers(s) : (double)INFINITY;
+    if (next <= now || random_unit(&s->state) < exp(-log(next / now) / POWER / heat)) {
+      now = next;
+      if (now >= least * (1 - 1e-12)) continue;
       least = now;
-      memcpy(best, s->j->mate, darts * sizeof *best);
+      memcpy(best, s->j->mate, bytes);
     } else {
-      memcpy(s->j->mate, best, darts * sizeof *best);
+      take_back(s, &t);
       follow_all(s);
     }
   }
-  memcpy(s->j->mate, best, darts * sizeof *best);
+  memcpy(s->j->mate, best, bytes);
   follow_all(s);
+}
+
+/* ---- starts ---- */
+
+typedef struct {
+  const thr_turning_columns *c;
+  const thr_limits *limits;
+  double bound, scale;
+  thr_join best;
+  double value; /* of best: the sum of the powers */
+  int *passes, *ends;
+  double *weight;
+  uint64_t state;
+} search;
+
+/* Exchanges and annealing from j, which becomes the best or is released. */
+static thr_status improve_from(search *x, thr_join *j, int steps, thr_err *err)
+{
+  cords s;
+  int *best = thr_calloc((size_t)j->g.n_darts, sizeof *best);
+  thr_status st = cords_init(&s, j, x->scale, err);
+  if (!st && !best) st = thr_nomem(err);
+  if (!st && follow_all(&s)) {
+    s.state = next_random(&x->state);
+    exchange_all(&s, x->limits);
+    anneal(&s, x->limits, s.n_cords > 1 ? steps : 0, x->bound, best);
+    exchange_all(&s, x->limits);
+    double value = sum_of_powers(&s);
+    if (value < x->value * (1 - 1e-12)) {
+      thr_join_destroy(&x->best);
+      x->best = *j;
+      *j = (thr_join){0};
+      x->value = value;
+    }
+  }
+  cords_destroy(&s);
   free(best);
-  return THR_OK;
+  thr_join_destroy(j);
+  return st;
+}
+
+/* The ends of the best cords; one of them moves to another node where it may be, or two to the same one. */
+static void move_ends(search *x)
+{
+  const thr_turning_columns *c = x->c;
+  const thr_multigraph *g = &x->best.g;
+  int n = c->f->n_nodes, virtual_darts = g->n_darts - g->first[n], to = -1, moves = 1 + random_below(&x->state, 2);
+  memset(x->ends, 0, (size_t)n * sizeof *x->ends);
+  for (int d = 0; d < g->n_darts; d += 2)
+    if (g->half[d] < 0) x->ends[g->tail[d]]++;
+  for (int i = 0; i < moves; i++) {
+    int end = g->tail[g->dart[g->first[n] + random_below(&x->state, virtual_darts)] ^ 1];
+    while (to < 0 || !c->task->end_allowed[to] || (i == 0 && c->component[to] != c->component[end]))
+      to = random_below(&x->state, n);
+    if (x->ends[end] == 0 || c->component[to] != c->component[end]) continue;
+    x->ends[end]--;
+    x->ends[to]++;
+  }
+}
+
+/* Ends far apart, over all nodes where they may be or, if that is allowed, over the feet alone: often a symmetric choice. */
+static void spread_ends(search *x, bool at_feet)
+{
+  const thr_frame *f = x->c->f;
+  thr_turning_task task = *x->c->task;
+  thr_turning_columns c = *x->c; /* with the other task, nothing more */
+  int total = 0;
+  for (int v = 0; v < f->n_nodes; v++)
+    at_feet &= !f->foot[v] || task.end_allowed[v];
+  if (at_feet) task.end_allowed = f->foot;
+  c.task = &task;
+  thr_extra_spread_ends(&c, x->ends);
+  for (int v = 0; v < f->n_nodes; v++)
+    total += x->ends[v];
+  if (total < 2 * task.cords * c.n_components) thr_extra_spread_ends(x->c, x->ends); /* a component without feet */
+}
+
+/* Cords for these passes and ends, to start from. */
+static thr_status make_cords(const search *x, thr_join *j, bool *found, thr_err *err)
+{
+  const thr_turning_task *t = x->c->task;
+  thr_status st = thr_join_init(j, x->c, x->passes, t->end_allowed ? x->ends : NULL, err);
+  *found = false;
+  if (st) return st;
+  st = thr_join_greedy(j, t->end_allowed ? 0 : t->cords - 1, err);
+  if (!st) st = t->end_allowed ? thr_improve(j, x->limits, err) : thr_circuits_make(j, x->limits, found, err);
+  *found = !st && (t->end_allowed || *found) && j->price < thr_join_forbidden;
+  return st;
+}
+
+/* New cords for x->ends, over the shortest passes or nearly. */
+static thr_status try_passes(search *x, bool shortest, int steps, thr_err *err)
+{
+  const thr_turning_columns *c = x->c;
+  const thr_turning_task *t = c->task;
+  thr_join j;
+  bool found;
+  for (int e = 0; e < c->f->n_edges; e++)
+    x->weight[e] = c->f->length[e] * (shortest ? 1 : 1 + random_unit(&x->state));
+  thr_status st = thr_extra_passes(c, x->weight, NULL, t->end_allowed != NULL, x->limits, x->passes, x->ends, err);
+  if (st) return st;
+  for (int e = 0; e < c->f->n_edges; e++)
+    if (x->passes[e] > t->most_passes) return THR_OK;
+  if (t->extra_limit >= 0 && thr_extra_length(c, x->passes) > t->extra_limit) return THR_OK;
+  st = make_cords(x, &j, &found, err);
+  if (found) return improve_from(x, &j, steps, err);
+  thr_join_destroy(&j);
+  return st;
+}
+
+static bool finished(const search *x, const cords *s)
+{
+  return thr_limits_stop(x->limits) || largest_of(s->total, s->n_cords) <= x->bound * (1 + 1e-9);
+}
+
+/* Is there nothing left to try? */
+static thr_status is_finished(const search *x, bool *done, thr_err *err)
+{
+  cords s;
+  thr_join j = x->best; /* only followed */
+  thr_status st = cords_init(&s, &j, x->scale, err);
+  if (!st) follow_all(&s);
+  *done = st || s.n_cords == 1 || finished(x, &s);
+  cords_destroy(&s);
+  return st;
+}
+
+/* Copies the best, to go on from it. */
+static thr_status copy_best(const search *x, thr_join *j, thr_err *err)
+{
+  thr_cord *cord = NULL;
+  int n = x->c->task->cords * x->c->n_components;
+  *j = (thr_join){0};
+  if (!(cord = thr_calloc((size_t)n, sizeof *cord))) return thr_nomem(err);
+  thr_status st = thr_join_cords(&x->best, cord, n, err);
+  if (!st) st = thr_join_from_cords(j, x->c, cord, n, err);
+  for (int i = 0; i < n; i++)
+    free(cord[i].half);
+  free(cord);
+  return st;
+}
+
+/* From the plan itself; from other ends; and from the best of all these once more. Counted, not timed, so that the same input
+ * gives the same cords. */
+static thr_status run(search *x, thr_err *err)
+{
+  enum { ROUNDS = 48, LAST = 2 };
+  const thr_turning_columns *c = x->c;
+  double darts = x->best.g.n_darts;
+  int steps = (int)fmax(2000, fmin(1000 * darts, 4e7 / darts));
+  bool done;
+  thr_join j;
+  thr_status st = copy_best(x, &j, err);
+  if (!st) st = improve_from(x, &j, steps, err);
+  if (!st) st = is_finished(x, &done, err);
+  for (int i = 0; i < ROUNDS && !st && !done; i++) {
+    if (c->task->end_allowed) {
+      if (i < 2)
+        spread_ends(x, i == 0);
+      else
+        move_ends(x);
+    }
+    st = try_passes(x, i % 2 == 0 || i < 2, steps / ROUNDS * 2, err);
+    if (!st) st = is_finished(x, &done, err);
+  }
+  for (int i = 0; i < LAST && !st && !done; i++) {
+    st = copy_best(x, &j, err);
+    if (!st) st = improve_from(x, &j, steps, err);
+    if (!st) st = is_finished(x, &done, err);
+  }
+  return st;
 }
 
 /* The cords of j take the place of the plan's. */
@@ -270,42 +522,64 @@ static thr_status take_cords(const thr_frame *f, const thr_join *j, thr_least *p
     free(plan->cord[i].half);
   free(plan->cord);
   plan->cord = made.cord;
+  plan->length = made.length;
   plan->price = made.price;
   plan->turning = made.turning;
   plan->optimal &= made.price <= plan->bound + 1e-7;
   return THR_OK;
 }
 
+static double price_of(const thr_frame *f, const thr_least *plan, const thr_cord *cord)
+{
+  double price = 0;
+  for (int k = 0; k < cord->n_passes - (plan->end_allowed != NULL); k++)
+    price += thr_turn_price(f, plan->task.cost, cord->half[k], cord->half[(k + 1) % cord->n_passes]);
+  return price;
+}
+
+static double largest_price(const thr_frame *f, const thr_least *plan)
+{
+  double largest = 0;
+  for (int i = 0; i < plan->n_cords; i++)
+    largest = fmax(largest, price_of(f, plan, &plan->cord[i]));
+  return largest;
+}
+
+static thr_status search_init(search *x, const thr_turning_columns *c, const thr_limits *limits, const thr_least *plan,
+                              double largest, double bound, thr_err *err)
+{
+  size_t m = (size_t)c->f->n_edges;
+  *x = (search){.c = c, .limits = limits, .bound = bound, .scale = fmax(1e-9, largest), .value = INFINITY, .state = 1};
+  x->passes = thr_calloc(m, sizeof *x->passes);
+  x->weight = thr_calloc(m, sizeof *x->weight);
+  x->ends = thr_calloc((size_t)c->f->n_nodes, sizeof *x->ends);
+  if (!x->passes || !x->weight || !x->ends) return thr_nomem(err);
+  return thr_join_from_cords(&x->best, c, plan->cord, plan->n_cords, err);
+}
+
+static void search_destroy(search *x)
+{
+  thr_join_destroy(&x->best);
+  free(x->passes);
+  free(x->weight);
+  free(x->ends);
+}
+
 thr_status thr_max_turning_improve(const thr_frame *f, const thr_limits *limits, thr_least *plan, thr_max_turning *out,
                                    thr_err *err)
 {
   thr_turning_columns c = {0};
-  thr_join j = {0};
-  cords s = {0};
+  search x = {0};
   *out = (thr_max_turning){.bound = plan->bound / plan->n_cords};
   thr_status st = thr_turning_columns_init(&c, f, &plan->task, err);
-  if (!st) st = thr_join_from_cords(&j, &c, plan->cord, plan->n_cords, err);
-  if (!st && plan->end_allowed) {
-    st = cords_init(&s, &j, plan->n_cords, err);
-    if (!st) {
-      follow_all(&s);
-      s.scale = fmax(1e-9, largest_of(s.total, s.n_cords));
-      st = search(&s, limits, out->bound, err);
-    }
-    if (!st) {
-      thr_join_measure(&j);
-      st = take_cords(f, &j, plan, err);
-    }
+  if (!st) st = search_init(&x, &c, limits, plan, largest_price(f, plan), out->bound, err);
+  if (!st) st = run(&x, err);
+  if (!st) {
+    thr_join_measure(&x.best);
+    st = take_cords(f, &x.best, plan, err);
   }
-  for (int i = 0; i < plan->n_cords && !st; i++) {
-    const thr_cord *cord = &plan->cord[i];
-    double price = 0;
-    for (int k = 0; k < cord->n_passes - (plan->end_allowed != NULL); k++)
-      price += thr_turn_price(f, plan->task.cost, cord->half[k], cord->half[(k + 1) % cord->n_passes]);
-    out->largest = fmax(out->largest, price);
-  }
-  cords_destroy(&s);
-  thr_join_destroy(&j);
+  if (!st) out->largest = largest_price(f, plan);
+  search_destroy(&x);
   thr_turning_columns_destroy(&c);
   return st;
 }

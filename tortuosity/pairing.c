@@ -27,6 +27,22 @@ static int lowest(unsigned s)
   return i;
 }
 
+static int size_of(unsigned s)
+{
+  int n = 0;
+  for (; s; s &= s - 1)
+    n++;
+  return n;
+}
+
+/* Is subset s left when lowest points are paired off, one after the other, with any others? Then all points below its lowest are
+ * gone, and with each of them at most one more. */
+static bool is_left(int n, unsigned s, int low)
+{
+  int gone = n - size_of(s);
+  return gone % 2 == 0 && gone <= 2 * low;
+}
+
 /* best[s] = least price of pairing the points of subset s; choice[s] = partner of its lowest. */
 static thr_status pair_by_subsets(int n, const double *price, int *mate, thr_err *err)
 {
@@ -36,7 +52,8 @@ static thr_status pair_by_subsets(int n, const double *price, int *mate, thr_err
   thr_status st = best && choice ? THR_OK : thr_nomem(err);
   for (unsigned s = 1; s <= all && !st; s++) {
     int i = lowest(s);
-    best[s] = INFINITY; /* stays so for subsets of odd size */
+    if (!is_left(n, s, i)) continue;
+    best[s] = INFINITY;
     for (int j = i + 1; j < n; j++) {
       if (!(s >> j & 1u)) continue;
       double total = price[i * n + j] + best[s & ~(1u << i | 1u << j)];
@@ -123,12 +140,14 @@ static thr_status pair_programme(int n, const double *price, thr_lp **lp, thr_er
   return st;
 }
 
-thr_status thr_pairing_integer(int n, const double *price, const thr_limits *limits, int *mate, thr_err *err)
+thr_status thr_pairing_integer(int n, const double *price, const thr_limits *limits, int *mate, thr_pairing_relaxed *relaxed,
+                               thr_err *err)
 {
   thr_lp *lp = NULL;
   thr_lp_outcome outcome = THR_LP_OPTIMAL;
   bool whole = true;
   if (n % 2) return thr_fail(err, THR_EINPUT, "%d passes and ends at a node cannot be paired", n);
+  if (relaxed) *relaxed = (thr_pairing_relaxed){0, true};
   if (n == 0) return THR_OK;
   double *x = thr_calloc((size_t)n * (size_t)(n - 1) / 2, sizeof *x);
   thr_status st = x ? pair_programme(n, price, &lp, err) : thr_nomem(err);
@@ -136,6 +155,7 @@ thr_status thr_pairing_integer(int n, const double *price, const thr_limits *lim
   if (!st) thr_lp_primal(lp, x);
   for (int j = 0; j < n * (n - 1) / 2 && !st; j++)
     whole &= fabs(x[j] - nearbyint(x[j])) < 1e-6;
+  if (!st && relaxed) *relaxed = (thr_pairing_relaxed){thr_lp_objective(lp), whole};
   if (!st && outcome == THR_LP_OPTIMAL && !whole) {
     st = thr_lp_solve_integer(lp, limits, &outcome, err);
     if (!st) thr_lp_primal(lp, x);

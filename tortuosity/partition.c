@@ -22,6 +22,7 @@ typedef struct {
   ranked *order;    /* [n_nodes] */
   int *parent;      /* [n_edges] blocks */
   int *block;       /* [n_edges] their numbers */
+  int *scratch;     /* [n_edges + n_components] */
   int (*pair)[2];   /* edges that the chosen pairings join, node by node */
   int *pair_first;  /* [n_nodes + 1] */
 } splitter;
@@ -34,6 +35,7 @@ static void splitter_destroy(splitter *s)
   free(s->order);
   free(s->parent);
   free(s->block);
+  free(s->scratch);
   free(s->pair);
   free(s->pair_first);
 }
@@ -62,10 +64,11 @@ static thr_status splitter_init(splitter *s, thr_relax *r, thr_err *err)
   s->order = thr_calloc(n, sizeof *s->order);
   s->parent = thr_calloc(m, sizeof *s->parent);
   s->block = thr_calloc(m, sizeof *s->block);
+  s->scratch = thr_calloc(m + (size_t)r->c->n_components, sizeof *s->scratch);
   s->pair = thr_calloc(all, sizeof *s->pair);
   s->pair_first = thr_calloc(n + 1, sizeof *s->pair_first);
-  return s->price && s->half && s->mate && s->order && s->parent && s->block && s->pair && s->pair_first ? THR_OK
-                                                                                                         : thr_nomem(err);
+  bool ok = s->price && s->half && s->mate && s->order && s->parent && s->block && s->scratch && s->pair && s->pair_first;
+  return ok ? THR_OK : thr_nomem(err);
 }
 
 /* What the cheapest exchange of two pairs costs. */
@@ -117,15 +120,16 @@ static int by_regret(const void *pa, const void *pb)
   return (a->node > b->node) - (a->node < b->node);
 }
 
-/* Numbers the blocks and offers them as a row. false in *more when they are as few as the components. */
+/* Numbers the blocks and offers them as a row. false in *more when so few need not be connected. */
 static thr_status offer(splitter *s, int *added, bool *more, thr_err *err)
 {
   int m = s->r->c->f->n_edges, n = 0;
   bool used = false;
   for (int e = 0; e < m; e++)
     s->block[e] = thr_disjoint_find(s->parent, e) == e ? n++ : s->block[thr_disjoint_find(s->parent, e)];
-  *more = n > s->r->c->n_components;
-  thr_status st = *more ? thr_relax_add_partition(s->r, s->block, n, &used, err) : THR_OK;
+  int connections = thr_turning_connections(s->r->c, s->block, s->scratch);
+  *more = connections > 0;
+  thr_status st = *more ? thr_relax_add_partition(s->r, s->block, connections, &used, err) : THR_OK;
   *added += !st && used;
   return st;
 }

@@ -81,6 +81,7 @@ thr_status thr_relax_init(thr_relax *r, const thr_turning_columns *c, double pen
     r->high[j] = thr_turning_most(c, j);
     if (j >= c->first_extra) st = thr_lp_set_bounds(r->lp, j, 0, r->high[j], err); /* turns are bounded by their equations */
   }
+  if (!st) st = thr_relax_crash(r, err);
   if (!st) st = init_graph(r, err);
   if (!st) st = add_node_sets(r, err);
   if (st) thr_relax_destroy(r);
@@ -288,12 +289,10 @@ static thr_status fill_partition(thr_relax_partition *p, const double *by_column
   return THR_OK;
 }
 
-/* Coefficients of the row; lower is its right side. even is scratch. */
-static void weigh_partition(const thr_turning_columns *c, const int *block, int n_blocks, double *by_column, bool *even,
-                            double *lower)
+/* Coefficients of the row; lower is its right side, given as the connections to make. even is scratch. */
+static void weigh_partition(const thr_turning_columns *c, const int *block, double *by_column, bool *even, double *lower)
 {
   const thr_frame *f = c->f;
-  *lower = n_blocks - c->n_components;
   for (int v = 0; v < f->n_nodes; v++) {
     const int *half = f->half + f->first[v];
     int odd, b = thr_turning_blocks_at(c, block, v, &odd, even);
@@ -308,11 +307,11 @@ static void weigh_partition(const thr_turning_columns *c, const int *block, int 
   }
 }
 
-thr_status thr_relax_add_partition(thr_relax *r, const int *block, int n_blocks, bool *used, thr_err *err)
+thr_status thr_relax_add_partition(thr_relax *r, const int *block, int connections, bool *used, thr_err *err)
 {
   const thr_turning_columns *c = r->c;
   size_t m = (size_t)c->f->n_edges;
-  thr_relax_partition p = {.name = 1};
+  thr_relax_partition p = {.name = 1, .lower = connections};
   double sum = 0;
   *used = false;
   for (size_t e = 0; e < m; e++)
@@ -323,7 +322,7 @@ thr_status thr_relax_add_partition(thr_relax *r, const int *block, int n_blocks,
   bool *even = thr_calloc(m, sizeof *even);
   thr_status st = by_column && even ? THR_OK : thr_nomem(err);
   if (!st) {
-    weigh_partition(c, block, n_blocks, by_column, even, &p.lower);
+    weigh_partition(c, block, by_column, even, &p.lower);
     for (int j = 0; j < c->n_columns; j++)
       sum += by_column[j] * r->x[j];
   }
@@ -373,8 +372,11 @@ static void reduce_costs(thr_relax *r)
 thr_status thr_relax_solve(thr_relax *r, const thr_limits *limits, thr_err *err)
 {
   thr_lp_outcome outcome;
-  thr_status st = r->n_cuts == 0 ? add_odd_rows(r, 0, err) : THR_OK;
-  if (!st) st = thr_lp_solve(r->lp, limits, &outcome, err);
+  thr_status st = thr_lp_solve(r->lp, limits, &outcome, err);
+  if (!st && r->n_cuts == 0 && outcome == THR_LP_OPTIMAL) { /* the first basis is not feasible for the first odd sets */
+    st = add_odd_rows(r, 0, err);
+    if (!st) st = thr_lp_solve(r->lp, limits, &outcome, err);
+  }
   if (st) return st;
   if (outcome == THR_LP_INFEASIBLE || outcome == THR_LP_UNBOUNDED)
     return thr_fail(err, THR_ESOLVER, "GLPK found no optimum of a turning relaxation, which always has one");
@@ -400,7 +402,7 @@ thr_status thr_relax_separate(thr_relax *r, const thr_limits *limits, int *added
   *added = 0;
   thr_status st = connected ? thr_groups_support(&groups, tolerance, added, err) : THR_OK;
   if (!st) st = separate_odd(r, false, added, err);
-  if (!st && !*added && !t->end_allowed && t->cords == 1) st = thr_partitions_separate(r, added, err);
+  if (!st && !*added && !t->end_allowed) st = thr_partitions_separate(r, added, err);
   for (double threshold = 0.2; connected && !st && !*added && threshold < 1; threshold += 0.25)
     st = thr_groups_support(&groups, threshold, added, err);
   if (!st && !*added && connected && !thr_limits_stop(limits)) st = thr_groups_flow(&groups, added, err);

@@ -73,12 +73,17 @@ thr_status thr_relax_dual(const thr_relax *r, thr_turning_dual *d, thr_err *err)
 /* The linear programme of the equations alone, in tortuosity/equations.c. */
 thr_status thr_relax_create(thr_relax *r, double penalty, thr_err *err) THR_MUST_CHECK;
 
+/* Starts the simplex method where every node by itself has its cheapest turns, without extra passes and ends: most of what the
+ * slack basis would need as many pivots for as there are rows. */
+thr_status thr_relax_crash(thr_relax *r, thr_err *err) THR_MUST_CHECK;
+
 /* Multipliers of the equations from one small programme per node, as if extra passes had only one end: a first bound where the
  * simplex method may not finish the whole programme. Release with thr_turning_dual_destroy. */
 thr_status thr_relax_nodes(const thr_turning_columns *c, const thr_limits *limits, thr_turning_dual *d,
                            thr_err *err) THR_MUST_CHECK;
 
-/* Adds the row of a partition (block as in graph/turning_proof.h, copied) if x violates it and it is new. */
-thr_status thr_relax_add_partition(thr_relax *r, const int *block, int n_blocks, bool *used, thr_err *err) THR_MUST_CHECK;
+/* Adds the row of a partition (block as in graph/turning_proof.h, copied, which needs so many connections) if x violates it and
+ * it is new. */
+thr_status thr_relax_add_partition(thr_relax *r, const int *block, int connections, bool *used, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -32,6 +32,16 @@ static void must_be_sound(const thr_plan *p)
   }
 }
 
+/* What is proved of the turning, whoever made up the multipliers, is less than the cords' own. */
+static void must_bound(const thr_plan *p)
+{
+  const thr_turning_claim *c = &p->turning;
+  double rounding = 1e-6 * (1 + c->price);
+  if (!c->present) return;
+  MUST(c->lower_bound <= c->price + rounding && c->pairing_bound <= c->price + rounding);
+  MUST(c->largest_bound <= c->largest + rounding);
+}
+
 static void must_survive(const thr_plan *p, thr_status verdict)
 {
   thr_text once = {0}, twice = {0};
@@ -70,7 +80,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     st = thr_check_plan(&p, &err);
     MUST(st == THR_OK || (st == THR_EVIOLATED && one_line(&err)));
     must_survive(&p, st);
-    if (st == THR_OK) must_pull(&p);
+    if (st == THR_OK) {
+      must_bound(&p);
+      must_pull(&p);
+    }
   }
   thr_plan_destroy(&p);
   return 0;

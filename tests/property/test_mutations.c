@@ -379,6 +379,65 @@ START_TEST(any_number_and_set_of_a_certificate)
 }
 END_TEST
 
+/* ---- certificates with the slots of several cords ---- */
+
+/* Sets that no solver would make: of slots alone, and of slots with the nodes round them, each of value 1. */
+static void replace_cuts(rng *r, thr_plan *p, thr_certificate *c)
+{
+  enum { CUTS = 6 };
+  thr_certificate kept = *c;
+  int n = p->frame.n_nodes + c->n_slots;
+  thr_cut cut[CUTS];
+  c->cut = cut;
+  c->n_cuts = CUTS;
+  c->sum = 0;
+  for (int i = 0; i < CUTS; i++) {
+    cut[i] = (thr_cut){.node = calloc((size_t)n, sizeof(int)), .value = rng_between(r, 1, 3)};
+    ck_assert(cut[i].node != NULL);
+    for (int k = rng_between(r, 1, 6); k > 0; k--)
+      toggle(&cut[i], rng_below(r, 3) ? rng_between(r, p->frame.n_nodes, n - 1) : rng_below(r, n));
+    c->sum += cut[i].value;
+  }
+  c->denominator = rng_between(r, 1, 4);
+  for (c->slot_cost = 0; c->slot_cost < 24; c->slot_cost++) /* small enough for the loads to matter */
+    compare_verdicts(p, "replacing all sets");
+  for (int i = 0; i < CUTS; i++)
+    free(cut[i].node);
+  *c = kept;
+}
+
+START_TEST(any_number_and_set_with_several_cords)
+{
+  static const thr_ends ends[] = {THR_ENDS_ANY, THR_ENDS_FEET};
+  rng r = rng_make((uint64_t)_i);
+  int which = 11 + _i % 5; /* the random ones */
+  thr_frame f = _i % 7 ? example(which) : solid_make(CUBE);
+  thr_plan_options o = options_for(_i % 7 ? ends[_i % 2] : THR_ENDS_ANY, 1);
+  o.cords = 2 + _i % 3;
+  thr_plan p = plan_of_cords(&f, &o);
+  assert_plan_sound(&p);
+  compare_verdicts(&p, "nothing");
+  thr_certificate *c = &p.proof.certificate[0];
+  ck_assert_int_eq(c->n_slots, 2 * o.cords);
+  alter_values(&r, &p, c);
+  alter_sets(&r, &p, c);
+  alter_numbers(&r, &p, c);
+  for (int i = 0; i < 20; i++)
+    replace_cuts(&r, &p, c);
+  c->n_slots -= 2;
+  assert_plan_caught(&p, "two slots less");
+  c->n_slots += 2;
+  p.options.cords++;
+  assert_plan_caught(&p, "a cord less than the options say");
+  p.options.cords -= 2;
+  assert_plan_caught(&p, "a cord more than the options say");
+  p.options.cords++;
+  assert_plan_sound(&p);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* ---- plans that are longer than need be ---- */
 
 /* Goes once more there and back over a random edge of the cord. */
@@ -441,6 +500,7 @@ int main(void)
   ADD_LOOP(s, 60, any_word_about_a_cord, 0, 3 * FRAMES);
   ADD_LOOP(s, 60, any_metric_and_claim, 0, 3 * FRAMES);
   ADD_LOOP(s, 60, any_number_and_set_of_a_certificate, 0, 3 * FRAMES);
+  ADD_LOOP(s, 60, any_number_and_set_with_several_cords, 0, 28);
   ADD_LOOP(s, 60, a_longer_cord_is_never_proved, 0, 3 * FRAMES);
   return run_suite(s);
 }

@@ -76,6 +76,122 @@ START_TEST(oracles_agree)
 }
 END_TEST
 
+/* ---- several cords in a component ---- */
+
+static void compare_cords(rng *r, const thr_frame *f, double (*oracle)(const thr_frame *, const thr_plan_options *))
+{
+  bool end_node[64] = {false};
+  for (int k = rng_between(r, 1, 9); k > 0; k--)
+    end_node[rng_below(r, f->n_nodes)] = true;
+  for (int i = 0; i < 4; i++)
+    for (int cords = 1; cords <= 4; cords++) {
+      thr_plan_options o = options_for(all_ends[i], rng_between(r, 1, 3));
+      double base = o.cover * thr_frame_total_length(f), bound;
+      bool optimal;
+      thr_shortest s;
+      thr_err err = {0};
+      o.cords = cords;
+      if (all_ends[i] == THR_ENDS_NODES) o.end_node = end_node;
+      ck_assert_msg(thr_postman_shortest(f, &o, &(thr_limits){0}, &s, &err) == THR_OK && s.optimal, "%s", err.text);
+      ck_assert_double_eq_tol(s.length, base + oracle(f, &o), 1e-9 * base);
+      ck_assert_double_eq(s.lower_bound, s.length);
+      s.passes[0]++; /* an odd number at both its nodes: too many ends, or the certificate does not fit */
+      ck_assert_int_eq(thr_check_length_of_passes(f, &o, s.passes, s.certificate, s.n_certificates, &optimal, &bound, NULL),
+                       THR_EVIOLATED);
+      s.passes[0] = 0;
+      ck_assert_int_eq(thr_check_length_of_passes(f, &o, s.passes, s.certificate, s.n_certificates, &optimal, &bound, NULL),
+                       THR_EVIOLATED);
+      thr_shortest_destroy(&s);
+    }
+}
+
+START_TEST(cords_of_small_ones_match_all_subsets)
+{
+  rng r = rng_make((uint64_t)_i + 7000);
+  for (int k = 0; k < 8; k++) {
+    int n = rng_between(&r, 2, 9);
+    thr_frame f = random_frame(&r, n, rng_below(&r, 14 - n), (length_kind)(k % LENGTH_KINDS));
+    compare_cords(&r, &f, least_extra_by_subsets);
+    thr_frame_destroy(&f);
+  }
+}
+END_TEST
+
+START_TEST(cords_of_medium_ones_match_a_matching)
+{
+  rng r = rng_make((uint64_t)_i + 8000);
+  for (int k = 0; k < 5; k++) {
+    int n = rng_between(&r, 10, 60);
+    thr_frame f = random_frame_few_odd(&r, n, rng_below(&r, 2 * n), (length_kind)(k % LENGTH_KINDS), 14);
+    compare_cords(&r, &f, least_extra_by_matching);
+    thr_frame_destroy(&f);
+  }
+}
+END_TEST
+
+/* Free ends of a framework with 2 q odd nodes: q cords and more need no extra pass, however many they are. */
+START_TEST(enough_cords_need_no_extra_pass)
+{
+  static const int many[] = {0, 1, 5, 50};
+  rng r = rng_make((uint64_t)_i + 9000);
+  thr_frame f = random_frame(&r, rng_between(&r, 4, 20), rng_below(&r, 20), (length_kind)(_i % LENGTH_KINDS));
+  int odd = 0;
+  for (int v = 0; v < f.n_nodes; v++)
+    odd += thr_degree(&f, v) % 2;
+  for (int i = 0; i < 4 && odd > 0; i++) {
+    thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+    thr_shortest s;
+    o.cords = odd / 2 + many[i];
+    ck_assert_int_eq(thr_postman_shortest(&f, &o, &(thr_limits){0}, &s, NULL), THR_OK);
+    for (int e = 0; e < f.n_edges; e++)
+      ck_assert_int_eq(s.passes[e], 1);
+    thr_shortest_destroy(&s);
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* Goes there and back over the first edge of the first cord once more. */
+static void add_detour(thr_plan *p)
+{
+  thr_cord *c = &p->cord[0];
+  int *half = calloc((size_t)c->n_passes + 2, sizeof *half);
+  ck_assert(half != NULL);
+  half[0] = c->half[0], half[1] = c->half[0] ^ 1;
+  memcpy(half + 2, c->half, (size_t)c->n_passes * sizeof *half);
+  free(c->half);
+  c->half = half;
+  c->n_passes += 2;
+}
+
+/* A plan that is longer than need be gets the shortest length as its bound: with equal beads to the last digit. */
+START_TEST(a_longer_plan_is_bounded_by_the_shortest)
+{
+  rng r = rng_make((uint64_t)_i + 10000);
+  int n = rng_between(&r, 3, 9);
+  thr_frame f = random_frame(&r, n, rng_below(&r, 14 - n), LENGTHS_EQUAL);
+  double bead = f.length[0];
+  for (int cords = 0; cords <= 3; cords++) {
+    thr_plan_options o = options_for(cords ? THR_ENDS_ANY : THR_ENDS_CLOSED, 1);
+    o.cords = cords > 1 && f.n_edges > 3 ? cords : 1;
+    thr_plan p = cords ? plan_of_cords(&f, &o) : plan_make(&f, &o);
+    thr_shortest s = {.certificate = p.proof.certificate, .n_certificates = 1};
+    double least = o.cover * thr_frame_total_length(&f) + least_extra_by_subsets(&f, &o);
+    thr_err err = {0};
+    add_detour(&p);
+    p.proof = (thr_length_proof){0};
+    ck_assert_int_eq(thr_plan_measure(&p.frame, &p.options, p.cord, p.n_cords, &p.metrics, NULL), THR_OK);
+    ck_assert_msg(thr_postman_prove(&p.frame, &p.options, p.cord, p.n_cords, &s, &p.proof, &err) == THR_OK, "%s", err.text);
+    ck_assert(!p.proof.optimal && s.certificate == NULL);
+    ck_assert_double_eq_tol(p.metrics.length, least + 2 * bead, 1e-12 * least);
+    ck_assert_double_eq_tol(p.proof.lower_bound, least, 1e-12 * least);
+    assert_plan_sound(&p);
+    thr_plan_destroy(&p);
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* No oracle but the certificate. Seeds 77 and 111 once sent the cutting planes round in circles. */
 START_TEST(larger_ones_are_proved)
 {
@@ -253,6 +369,10 @@ int main(void)
   ADD_LOOP(s, 60, small_ones_match_all_subsets, 0, 50);
   ADD_LOOP(s, 60, medium_ones_match_a_matching, 0, 25);
   ADD_LOOP(s, 30, oracles_agree, 0, 5);
+  ADD_LOOP(s, 60, cords_of_small_ones_match_all_subsets, 0, 25);
+  ADD_LOOP(s, 60, cords_of_medium_ones_match_a_matching, 0, 12);
+  ADD_LOOP(s, 30, enough_cords_need_no_extra_pass, 0, 25);
+  ADD_LOOP(s, 30, a_longer_plan_is_bounded_by_the_shortest, 0, 60);
   ADD_LOOP(s, 30, larger_ones_are_proved, 72, 112);
   ADD_LOOP(s, 20, names_and_order_do_not_matter, 0, 40);
   ADD_LOOP(s, 20, place_does_not_matter_and_size_scales, 0, 40);

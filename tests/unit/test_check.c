@@ -225,6 +225,9 @@ START_TEST(forged_counts)
   p->n_cords = 2;
   assert_violated(p, "edge 6");
   p->n_cords = 3;
+  p->options.cords = 2;
+  assert_violated(p, "component 0: has 1 cord; the plan's options say 2");
+  p->options.cords = 1;
   p->proof.n_certificates = 2;
   assert_violated(p, "2 certificates");
   p->proof.n_certificates = 3;
@@ -355,6 +358,59 @@ START_TEST(each_metric_counts)
 }
 END_TEST
 
+/* Without a proof of length only a plan for the least turning has to have as many cords as asked for. */
+START_TEST(cords_without_a_proof)
+{
+  fixture x = fixture_make(triangles_make(2), THR_ENDS_ANY);
+  thr_plan *p = &x.plan;
+  p->proof.present = false;
+  p->options.cords = 3;
+  assert_holds(p);
+  p->options.objective = THR_TORTUOSITY;
+  assert_violated(p, "component 0: has 1 cord; the plan's options say 3");
+  fixture_destroy(&x);
+}
+END_TEST
+
+/* Only where closed cords are asked for does a cord turn where it closes. */
+START_TEST(the_turn_where_a_cord_closes)
+{
+  fixture x = fixture_make(ring_make(6), THR_ENDS_CLOSED), y = fixture_make(ring_make(6), THR_ENDS_ANY);
+  ck_assert(x.plan.cord[0].closed && y.plan.cord[0].closed);
+  ck_assert_double_eq_tol(x.plan.metrics.turning, 6.283185307179586, 1e-12);
+  ck_assert_double_eq_tol(y.plan.metrics.turning, 6.283185307179586 * 5 / 6, 1e-12);
+  assert_holds(&x.plan);
+  assert_holds(&y.plan);
+  x.plan.metrics.turning = x.plan.metrics.max_turning = y.plan.metrics.turning;
+  assert_violated(&x.plan, "turning");
+  fixture_destroy(&x);
+  fixture_destroy(&y);
+}
+END_TEST
+
+/* Passes that no cords can run through are no plan's, whatever is proved about shorter ones. */
+START_TEST(passes_without_cords)
+{
+  thr_frame f = grid_make(4, 4);
+  thr_plan_options o = options_for(THR_ENDS_FEET, 1);
+  thr_shortest s;
+  thr_err err = {0};
+  bool optimal;
+  double bound;
+  o.cords = 2;
+  ck_assert_int_eq(thr_postman_shortest(&f, &o, &(thr_limits){0}, &s, NULL), THR_OK);
+  s.passes[3]++;
+  ck_assert_int_eq(thr_check_length_of_passes(&f, &o, s.passes, s.certificate, 1, &optimal, &bound, &err), THR_EVIOLATED);
+  assert_one_line(&err, "no cord can end there");
+  s.passes[3] = 0;
+  err = (thr_err){0};
+  ck_assert_int_eq(thr_check_length_of_passes(&f, &o, s.passes, s.certificate, 1, &optimal, &bound, &err), THR_EVIOLATED);
+  assert_one_line(&err, "0 of 1 passes");
+  thr_shortest_destroy(&s);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 START_TEST(weight_is_rounded_length)
 {
   thr_frame f = path_make(3);
@@ -383,6 +439,9 @@ int main(void)
   ADD_TEST(s, 10, forged_slots);
   ADD_TEST(s, 10, forged_numbers);
   ADD_TEST(s, 10, each_metric_counts);
+  ADD_TEST(s, 10, cords_without_a_proof);
+  ADD_TEST(s, 10, the_turn_where_a_cord_closes);
+  ADD_TEST(s, 10, passes_without_cords);
   ADD_TEST(s, 10, weight_is_rounded_length);
   return run_suite(s);
 }

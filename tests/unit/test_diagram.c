@@ -35,13 +35,19 @@ static thr_plan shape_plan(thr_shape shape, int size, int rings, thr_ends ends, 
   return p;
 }
 
-static thr_text picture(const thr_plan *p)
+static thr_text coloured_picture(const thr_plan *p, thr_overview_colour colour)
 {
   thr_text svg = {0};
   thr_err err = {0};
   thr_overview_options o = thr_overview_options_default();
+  o.colour = colour;
   ck_assert_msg(thr_overview_svg(p, &o, &svg, &err) == THR_OK, "%s", err.text);
   return svg;
+}
+
+static thr_text picture(const thr_plan *p)
+{
+  return coloured_picture(p, THR_COLOUR_CORD);
 }
 
 /* Cuts every cord into pieces of at most n passes, so that there are many cords, named A, B, .. */
@@ -64,6 +70,16 @@ static void cut_cords(thr_plan *p, int n)
   free(p->cord);
   p->cord = cut;
   p->n_cords = count;
+}
+
+/* Is there an edge whose ends are one point? It turns nowhere. */
+static bool has_point_edges(const thr_frame *f)
+{
+  for (int e = 0; e < f->n_edges; e++) {
+    const double *a = f->xyz[f->edge[e][0]], *b = f->xyz[f->edge[e][1]];
+    if (a[0] == b[0] && a[1] == b[1] && a[2] == b[2]) return true;
+  }
+  return false;
 }
 
 /* ---- reading the SVG ---- */
@@ -236,6 +252,56 @@ static void assert_legend_true(const thr_plan *p, const char *svg)
   }
 }
 
+/* Signs of sharp turns cover neither each other nor a number. */
+static void assert_signs_apart(const char *svg)
+{
+  enum { MOST = 2000 };
+  static double sign[MOST][3];
+  const char *from, *to;
+  int n = 0;
+  find_group(svg, "sharp-turns", &from, &to);
+  for (const char *s = strstr(from, "class=\"sharp\""); s && s < to; s = strstr(s + 1, "class=\"sharp\"")) {
+    double x, top, half;
+    ck_assert_int_lt(n, MOST);
+    ck_assert_int_eq(sscanf(s, "class=\"sharp\" d=\"M%lf %lfl%lf", &x, &top, &half), 3);
+    sign[n][0] = x, sign[n][1] = top + half, sign[n++][2] = half;
+  }
+  for (int i = 0; i < n; i++) {
+    for (int j = 0; j < i; j++)
+      ck_assert_double_ge(fmax(fabs(sign[i][0] - sign[j][0]), fabs(sign[i][1] - sign[j][1])), 2 * sign[i][2] - 0.03);
+    find_group(svg, "numbers", &from, &to);
+    to = strstr(from, "<g id=\"legend\"");
+    for (const char *s = strstr(from, "class=\"pill\""); s && s < to; s = strstr(s + 1, "class=\"pill\"")) {
+      double wide = 0.5 * attribute(s, "width"), high = 0.5 * attribute(s, "height"), reach = sign[i][2] - 0.03;
+      ck_assert(fabs(attribute(s, "x") + wide - sign[i][0]) >= wide + reach ||
+                fabs(attribute(s, "y") + high - sign[i][1]) >= high + reach);
+    }
+  }
+}
+
+/* With turning shown: every inner pass has two coloured pieces, an end without a turn one. */
+static void assert_turning_sound(const thr_plan *p)
+{
+  thr_text svg = coloured_picture(p, THR_COLOUR_TURNING), again = coloured_picture(p, THR_COLOUR_TURNING);
+  assert_same_text(&svg, &again);
+  ck_assert(well_formed(svg.data));
+  ck_assert_ptr_null(strstr(svg.data, "nan"));
+  ck_assert_ptr_null(strstr(svg.data, "inf"));
+  ck_assert_ptr_null(strstr(svg.data, "-0.00"));
+  assert_ids(p, svg.data);
+  assert_text_legible(svg.data);
+  assert_signs_apart(svg.data);
+  int pieces = 0, turns = 0;
+  const char *legend = strstr(svg.data, "<g id=\"legend\"");
+  for (const char *s = strstr(svg.data, "class=\"turn\""); s && s < legend; s = strstr(s + 1, "class=\"turn\""))
+    pieces++;
+  for (int c = 0; c < p->n_cords; c++)
+    turns += p->options.ends == THR_ENDS_CLOSED ? p->cord[c].n_passes : p->cord[c].n_passes - 1;
+  ck_assert_int_eq(pieces, 2 * turns);
+  thr_text_destroy(&svg);
+  thr_text_destroy(&again);
+}
+
 static void assert_picture_sound(const thr_plan *p)
 {
   thr_text svg = picture(p), again = picture(p);
@@ -249,6 +315,7 @@ static void assert_picture_sound(const thr_plan *p)
   assert_legend_true(p, svg.data);
   thr_text_destroy(&svg);
   thr_text_destroy(&again);
+  if (!has_point_edges(&p->frame)) assert_turning_sound(p);
 }
 
 /* ---- overview ---- */
@@ -288,6 +355,7 @@ START_TEST(many_cords_are_told_apart)
 {
   thr_plan p = shape_plan(THR_MAKE_DOME, 7, 0, THR_ENDS_CLOSED, 1);
   cut_cords(&p, 5);
+  p.options.ends = THR_ENDS_ANY;
   ck_assert_int_gt(p.n_cords, 12);
   assert_picture_sound(&p);
   thr_text svg = picture(&p);
@@ -416,6 +484,7 @@ START_TEST(every_allocation_may_fail)
   thr_plan p = shape_plan(THR_MAKE_TUBE, 3, 2, THR_ENDS_CLOSED, 1);
   thr_overview_options o = thr_overview_options_default();
   thr_status st = THR_ENOMEM;
+  o.colour = _i ? THR_COLOUR_TURNING : THR_COLOUR_CORD;
   for (long k = 1; st != THR_OK; k++) {
     thr_text svg = {0};
     ck_assert_int_lt((int)k, 5000);
@@ -602,7 +671,7 @@ int main(void)
   ADD_TEST(s, 20, numbers_thin_out_with_the_pitch);
   ADD_TEST(s, 30, a_large_dome_stays_within_a0);
   ADD_TEST(s, 20, broken_plans_are_refused);
-  ADD_TEST(s, 60, every_allocation_may_fail);
+  ADD_LOOP(s, 60, every_allocation_may_fail, 0, 2);
   ADD_TEST(s, 30, crossings_agree_with_all_pairs);
   ADD_LOOP(s, 20, shapes_find_a_layout_without_crossings, 0, 6);
   ADD_TEST(s, 20, layouts_show_the_outside);

@@ -85,6 +85,24 @@ START_TEST(costs_and_upper_bounds_count)
 }
 END_TEST
 
+/* A feasible basis, one that is not, a singular one and one of the wrong size: all lead to the optimum. */
+START_TEST(any_basis_may_be_set)
+{
+  static const bool row[4][2] = {{false, false}, {true, true}, {false, false}, {false, false}};
+  static const bool column[4][3] = {{true, false, true}, {false, false, false}, {true, true, true}, {true, false, false}};
+  for (int i = 0; i < 4; i++) {
+    thr_lp *lp = tiny();
+    if (i == 2) ck_assert_int_eq(thr_lp_add_row(lp, 2, (const int[]){0, 1}, NULL, 3, NULL), THR_OK); /* row 0 again */
+    const bool rows[3] = {row[i][0], row[i][1], false};
+    ck_assert_int_eq(thr_lp_set_basis(lp, rows, column[i], NULL), THR_OK);
+    assert_outcome(lp, false, THR_LP_OPTIMAL);
+    ck_assert_double_eq_tol(thr_lp_objective(lp), 8, 1e-9);
+    ck_assert(thr_lp_column_basic(lp, 0) && thr_lp_column_basic(lp, 1) && !thr_lp_column_basic(lp, 2));
+    thr_lp_destroy(lp);
+  }
+}
+END_TEST
+
 START_TEST(infeasible_and_unbounded_are_outcomes)
 {
   thr_lp *lp;
@@ -406,6 +424,7 @@ int main(void)
   ADD_TEST(s, 10, optimum_and_duals_are_known);
   ADD_TEST(s, 10, rows_are_added_and_dropped);
   ADD_TEST(s, 10, costs_and_upper_bounds_count);
+  ADD_TEST(s, 10, any_basis_may_be_set);
   ADD_TEST(s, 10, infeasible_and_unbounded_are_outcomes);
   ADD_TEST(s, 10, limits_stop_and_solving_goes_on);
   ADD_TEST(s, 10, abort_becomes_a_status);

@@ -1,6 +1,7 @@
-/* The tension plot, the overview coloured by tension, and the still picture: heights against tensions, order against depth,
- * rotated poses against a rotated framework. */
+/* The tension plot, the overview coloured by tension and by turning, and the still picture: heights against tensions, lightness
+ * against angles, order against depth, rotated poses against a rotated framework. */
 #include "diagram/overview.h"
+#include "diagram/palette.h"
 #include "diagram/still.h"
 #include "diagram/tension.h"
 #include "tests/support.h"
@@ -9,6 +10,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#define DEGREE "\xC2\xB0"
+
+static const double PI = 3.14159265358979323846;
 
 /* ---- plans with tensions ---- */
 
@@ -246,6 +251,14 @@ END_TEST
 
 /* ---- overview ---- */
 
+static int count(const char *s, const char *what)
+{
+  int n = 0;
+  for (s = strstr(s, what); s; s = strstr(s + 1, what))
+    n++;
+  return n;
+}
+
 static const char *pass_colour(const char *svg, const char *pass)
 {
   char key[64];
@@ -292,6 +305,266 @@ START_TEST(overview_shows_tension)
 }
 END_TEST
 
+/* ---- overview: turning ---- */
+
+/* Linear light of a colour "#rrggbb". */
+static void light_of(const char *hex, double light[3])
+{
+  unsigned value[3];
+  ck_assert_int_eq(sscanf(hex, "#%2x%2x%2x", &value[0], &value[1], &value[2]), 3);
+  for (int i = 0; i < 3; i++)
+    light[i] = value[i] <= 10 ? value[i] / 255. / 12.92 : pow((value[i] / 255. + 0.055) / 1.055, 2.4);
+}
+
+/* Oklab by way of CIE XYZ, as its author defines it. */
+static void oklab_of(const char *hex, double lab[3])
+{
+  static const double xyz_of[3][3] = {
+      {0.4124564, 0.3575761, 0.1804375}, {0.2126729, 0.7151522, 0.0721750}, {0.0193339, 0.1191920, 0.9503041}};
+  static const double cone_of[3][3] = {{0.8189330101, 0.3618667424, -0.1288597137},
+                                       {0.0329845436, 0.9293118715, 0.0361456387},
+                                       {0.0482003018, 0.2643662691, 0.6338517070}};
+  static const double lab_of[3][3] = {{0.2104542553, 0.7936177850, -0.0040720468},
+                                      {1.9779984951, -2.4285922050, 0.4505937099},
+                                      {0.0259040371, 0.7827717662, -0.8086757660}};
+  double light[3], xyz[3], cone[3];
+  light_of(hex, light);
+  for (int i = 0; i < 3; i++)
+    xyz[i] = xyz_of[i][0] * light[0] + xyz_of[i][1] * light[1] + xyz_of[i][2] * light[2];
+  for (int i = 0; i < 3; i++)
+    cone[i] = cbrt(cone_of[i][0] * xyz[0] + cone_of[i][1] * xyz[1] + cone_of[i][2] * xyz[2]);
+  for (int i = 0; i < 3; i++)
+    lab[i] = lab_of[i][0] * cone[0] + lab_of[i][1] * cone[1] + lab_of[i][2] * cone[2];
+}
+
+/* CIE lightness, 0 .. 100, of a luminance 0 .. 1. */
+static double lightness(double luminance)
+{
+  return 116 * cbrt(luminance) - 16;
+}
+
+/* Lightness as readers with normal vision, without red and without green cones see it (Vienot, Brettel, Mollon 1999). */
+static void lightness_seen(const char *hex, double seen[3])
+{
+  static const double sight[3][2] = {{0.2126729, 0.7151522}, {0.11238, 0.88762}, {0.29275, 0.70725}};
+  double light[3];
+  light_of(hex, light);
+  seen[0] = lightness(sight[0][0] * light[0] + sight[0][1] * light[1] + 0.0721750 * light[2]);
+  for (int i = 1; i < 3; i++) { /* red and green fall together; blue stays */
+    double both = sight[i][0] * light[0] + sight[i][1] * light[1], rest = (i == 1 ? 0.00401 : -0.02234) * (light[0] - light[1]);
+    seen[i] = lightness((sight[0][0] + sight[0][1]) * both + 0.0721750 * (rest + light[2]));
+  }
+}
+
+START_TEST(turns_have_even_colours)
+{
+  double first[3], last[3], lab[3], seen[3], before[3] = {101, 101, 101};
+  char hex[8];
+  thr_turning_colour(0, hex);
+  oklab_of(hex, first);
+  thr_turning_colour(PI, hex);
+  oklab_of(hex, last);
+  ck_assert_double_gt(first[0] - last[0], 0.6);
+  for (int degrees = 0; degrees <= 180; degrees += 5) {
+    thr_turning_colour(degrees * PI / 180, hex);
+    oklab_of(hex, lab);
+    for (int i = 0; i < 3; i++)
+      ck_assert_double_eq_tol(lab[i], first[i] + (last[i] - first[i]) * degrees / 180, 0.006);
+    if (degrees % 30) continue;
+    lightness_seen(hex, seen);
+    for (int i = 0; i < 3; i++) {
+      ck_assert_double_gt(before[i] - seen[i], 8);
+      before[i] = seen[i];
+    }
+  }
+  char more[8], less[8];
+  thr_turning_colour(PI, hex);
+  thr_turning_colour(4, more);
+  ck_assert_str_eq(hex, more);
+  thr_turning_colour(0, hex);
+  thr_turning_colour(-1, less);
+  ck_assert_str_eq(hex, less);
+}
+END_TEST
+
+/* A cord along unit edges in the plane that turns by these degrees, left and right. */
+static thr_plan bent_plan(int n_turns, const int *degrees)
+{
+  double xyz[16][3] = {{0}}, heading = 0;
+  int edge[16][2];
+  for (int k = 0; k <= n_turns; k++) {
+    if (k) heading += (k % 2 ? 1 : -1) * degrees[k - 1] * PI / 180;
+    xyz[k + 1][0] = xyz[k][0] + cos(heading);
+    xyz[k + 1][1] = xyz[k][1] + sin(heading);
+    edge[k][0] = k;
+    edge[k][1] = k + 1;
+  }
+  thr_plan p = {.n_cords = 1, .cord = thr_calloc(1, sizeof(thr_cord)), .options = thr_plan_options_default()};
+  ck_assert_ptr_nonnull(p.cord);
+  p.frame = frame_make(n_turns + 2, (const double(*)[3])xyz, n_turns + 1, (const int(*)[2])edge, NULL, NULL);
+  p.options.ends = THR_ENDS_ANY;
+  p.cord[0] = (thr_cord){.id = "A", .n_passes = n_turns + 1, .half = thr_calloc((size_t)n_turns + 1, sizeof(int))};
+  ck_assert_ptr_nonnull(p.cord[0].half);
+  for (int k = 0; k <= n_turns; k++)
+    p.cord[0].half[k] = 2 * k;
+  return p;
+}
+
+/* The angle in degrees that a colour stands for, from its lightness. */
+static double angle_of_colour(const char *hex)
+{
+  double first[3], last[3], lab[3];
+  char end[8];
+  thr_turning_colour(0, end);
+  oklab_of(end, first);
+  thr_turning_colour(PI, end);
+  oklab_of(end, last);
+  oklab_of(hex, lab);
+  return 180 * (first[0] - lab[0]) / (first[0] - last[0]);
+}
+
+static thr_text overview(const thr_plan *p, thr_overview_colour colour)
+{
+  thr_text svg = {0};
+  thr_err err = {0};
+  thr_overview_options o = thr_overview_options_default();
+  o.colour = colour;
+  ck_assert_msg(thr_overview_svg(p, &o, &svg, &err) == THR_OK, "%s", err.text);
+  return svg;
+}
+
+/* Angles of the coloured pieces of a pass (at most 2) and their path data; returns their number. */
+static int pieces_of(const char *svg, const char *pass, double angle[2], char data[2][200])
+{
+  int n = 0;
+  const char *s = pass_colour(svg, pass), *end = strstr(s, "</g>");
+  for (s = strstr(s, "class=\"turn\""); s && s < end; s = strstr(s + 1, "class=\"turn\""), n++) {
+    ck_assert_int_lt(n, 2);
+    angle[n] = angle_of_colour(strstr(s, "stroke=\"") + 8);
+    ck_assert_int_eq(sscanf(s, "class=\"turn\" stroke=\"%*[^\"]\" d=\"%199[^\"]", data[n]), 1);
+  }
+  return n;
+}
+
+/* Both halves of every turn have its colour and meet; together they are the pass as it is drawn by cord. */
+START_TEST(overview_shows_turning)
+{
+  static const int degrees[] = {0, 30, 60, 90, 91, 120, 150, 17};
+  enum { TURNS = sizeof degrees / sizeof *degrees };
+  thr_plan p = bent_plan(TURNS, degrees);
+  thr_text svg = overview(&p, THR_COLOUR_TURNING), plain = overview(&p, THR_COLOUR_CORD);
+  for (int k = 0; k <= TURNS; k++) {
+    char id[24], sharp[24], data[2][200], lane[300];
+    double angle[2], start[2], end[2];
+    snprintf(id, sizeof id, "A-%d", k + 1);
+    int n = pieces_of(svg.data, id, angle, data), inner = k > 0 && k < TURNS;
+    ck_assert_int_eq(n, 1 + inner);
+    if (k > 0) ck_assert_double_eq_tol(angle[0], degrees[k - 1], 1.5);
+    if (k < TURNS) ck_assert_double_eq_tol(angle[inner], degrees[k], 1.5);
+    snprintf(sharp, sizeof sharp, "\"t-A-%d\"", k + 1);
+    ck_assert_int_eq(strstr(svg.data, sharp) != NULL, k > 0 && degrees[k - 1] > 90);
+    ck_assert_int_eq(sscanf(strstr(pass_colour(plain.data, id), "class=\"cord\""), "class=\"cord\" d=\"%299[^\"]", lane), 1);
+    if (!inner) continue;
+    ck_assert_int_eq(strncmp(lane, data[0], strcspn(data[0], "L")), 0); /* the curve */
+    ck_assert_str_eq(strrchr(lane, 'L'), strrchr(data[1], 'L'));        /* the end of the lane */
+    ck_assert_int_eq(sscanf(strrchr(data[0], 'L'), "L%lf %lf", &start[0], &start[1]), 2);
+    ck_assert_int_eq(sscanf(data[1], "M%lf %lf", &end[0], &end[1]), 2);
+    ck_assert_double_eq_tol(hypot(start[0] - end[0], start[1] - end[1]), 0, 1e-9);
+  }
+  ck_assert_ptr_null(strstr(plain.data, "class=\"turn\""));
+  ck_assert_ptr_null(strstr(plain.data, "turning-scale"));
+  ck_assert_ptr_nonnull(strstr(svg.data, "id=\"turning-scale\""));
+  for (int tick = 0; tick <= 180; tick += 30) {
+    char label[32];
+    snprintf(label, sizeof label, ">%d</text>", tick);
+    ck_assert_ptr_nonnull(strstr(strstr(svg.data, "id=\"turning-scale\""), label));
+  }
+  ck_assert(says(svg.data, "turn between two beads"));
+  ck_assert(says(svg.data, "558" DEGREE " of turning, sharpest turn 150" DEGREE ", 4 over 60" DEGREE ", 3 over 90" DEGREE));
+  assert_legible(svg.data);
+  thr_text_destroy(&svg);
+  thr_text_destroy(&plain);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+/* Rings: the turn that closes the cord counts with closed ends only, and then colours both ends. */
+START_TEST(closing_turns)
+{
+  static const struct {
+    int corners;
+    thr_ends ends;
+    const char *words;
+  } table[] = {
+      {3, THR_ENDS_CLOSED, "360" DEGREE " of turning, sharpest turn 120" DEGREE ", 3 over 60" DEGREE ", 3 over 90" DEGREE},
+      {3, THR_ENDS_ANY, "240" DEGREE " of turning, sharpest turn 120" DEGREE ", 2 over 60" DEGREE ", 2 over 90" DEGREE},
+      {4, THR_ENDS_CLOSED, "360" DEGREE " of turning, sharpest turn 90" DEGREE ", 4 over 60" DEGREE ", 0 over 90" DEGREE},
+      {6, THR_ENDS_CLOSED, "360" DEGREE " of turning, sharpest turn 60" DEGREE ", 0 over 60" DEGREE ", 0 over 90" DEGREE}};
+  int n = table[_i].corners;
+  bool closed = table[_i].ends == THR_ENDS_CLOSED;
+  thr_frame f = ring_make(n);
+  thr_plan p = plan_simple(&f, THR_ENDS_CLOSED, 1);
+  ck_assert_int_eq(p.cord[0].n_passes, n);
+  p.options.ends = table[_i].ends;
+  thr_text svg = overview(&p, THR_COLOUR_TURNING);
+  ck_assert_msg(says(svg.data, table[_i].words), "%s", table[_i].words);
+  for (int k = 1; k <= n; k++) {
+    char id[24], data[2][200];
+    double angle[2];
+    snprintf(id, sizeof id, "A-%d", k);
+    int pieces = pieces_of(svg.data, id, angle, data);
+    ck_assert_int_eq(pieces, closed || (k > 1 && k < n) ? 2 : 1);
+    for (int i = 0; i < pieces; i++)
+      ck_assert_double_eq_tol(angle[i], 360. / n, 1.5);
+  }
+  ck_assert_ptr_null(strstr(svg.data, "id=\"t-A-1\""));
+  ck_assert_int_eq(strstr(svg.data, "id=\"t-A-2\"") != NULL, n == 3);
+  ck_assert_int_eq(strstr(svg.data, "id=\"t-A-3\"") != NULL, n == 3);
+  /* the turn that closes a cord is between its two ends: no curve to put a sign on */
+  ck_assert_int_eq(strstr(svg.data, ">over 90" DEGREE " (not all)<") != NULL, n == 3 && closed);
+  ck_assert_int_eq(strstr(svg.data, ">over 90" DEGREE "<") != NULL, n == 3 && !closed);
+  thr_text_destroy(&svg);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* Every cord keeps its colour beside those of its turns, and has its own sum; the sum of all is the plan's. */
+START_TEST(turning_of_several_cords)
+{
+  enum { CORDS = 3 };
+  thr_frame f = triangles_make(CORDS);
+  thr_plan p = plan_simple(&f, THR_ENDS_CLOSED, 1);
+  thr_err err = {0};
+  ck_assert_int_eq(p.n_cords, CORDS);
+  p.options.ends = THR_ENDS_ANY;
+  p.cord[1].n_passes = 2; /* turns once only */
+  p.cord[1].closed = false;
+  thr_text svg = overview(&p, THR_COLOUR_TURNING);
+  for (int c = 0; c < CORDS; c++) {
+    char id[24], number[24];
+    snprintf(id, sizeof id, "%s-1", p.cord[c].id);
+    snprintf(number, sizeof number, "n-%s-1", p.cord[c].id);
+    ck_assert_int_eq(strncmp(pass_colour(svg.data, id), thr_palette(c).hex, 7), 0);
+    const char *pill = strstr(svg.data, number);
+    ck_assert_int_eq(strncmp(strstr(pill, "stroke=\"") + 8, thr_palette(c).hex, 7), 0);
+  }
+  thr_metrics m;
+  ck_assert_int_eq(thr_plan_measure(&p.frame, &p.options, p.cord, CORDS, &m, &err), THR_OK);
+  ck_assert_double_eq_tol(m.turning * 180 / PI, 600, 1e-9);
+  ck_assert(
+      says(svg.data, "All cords: 600" DEGREE " of turning, sharpest turn 120" DEGREE ", 5 over 60" DEGREE ", 5 over 90" DEGREE));
+  ck_assert_int_eq(
+      count(svg.data, ">240" DEGREE " of turning, sharpest turn 120" DEGREE ", 2 over 60" DEGREE ", 2 over 90" DEGREE "<"), 2);
+  ck_assert_int_eq(
+      count(svg.data, ">120" DEGREE " of turning, sharpest turn 120" DEGREE ", 1 over 60" DEGREE ", 1 over 90" DEGREE "<"), 1);
+  assert_legible(svg.data);
+  thr_text_destroy(&svg);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* ---- still picture ---- */
 
 static thr_text still_of(const thr_frame *f, const double (*pose)[7], int first)
@@ -310,14 +583,6 @@ static void rest_poses(const thr_frame *f, double (*pose)[7])
     memcpy(pose[v], f->xyz[v], sizeof f->xyz[v]);
     pose[v][6] = 1;
   }
-}
-
-static int count(const char *s, const char *what)
-{
-  int n = 0;
-  for (s = strstr(s, what); s; s = strstr(s + 1, what))
-    n++;
-  return n;
 }
 
 /* Two halves of one edge: of each box two sides face the eye, and of the two ends in the middle exactly one. */
@@ -482,6 +747,10 @@ int main(void)
   ADD_TEST(s, 10, turns_by_closed_form_are_said);
   ADD_TEST(s, 10, without_a_usable_evaluation);
   ADD_TEST(s, 10, overview_shows_tension);
+  ADD_TEST(s, 10, turns_have_even_colours);
+  ADD_TEST(s, 10, overview_shows_turning);
+  ADD_LOOP(s, 10, closing_turns, 0, 4);
+  ADD_TEST(s, 10, turning_of_several_cords);
   ADD_TEST(s, 10, only_faces_that_can_be_seen);
   ADD_TEST(s, 10, poses_turn_beads);
   ADD_TEST(s, 10, the_nearer_is_painted_last);

@@ -145,6 +145,61 @@ START_TEST(no_end_allowed_is_infeasible)
 }
 END_TEST
 
+START_TEST(a_plan_for_the_length_has_one_cord_a_piece)
+{
+  thr_frame f = solid_make(CUBE);
+  thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+  thr_plan p;
+  thr_err err = {0};
+  o.cords = 2;
+  ck_assert_int_eq(thr_postman_plan(&f, &o, &(thr_limits){0}, &p, &err), THR_EINPUT);
+  assert_one_line(&err, "--objective tortuosity");
+  ck_assert(p.cord == NULL && p.frame.xyz == NULL);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* A cube has 8 odd nodes; 2 K of them may be left to the ends of K cords, and each pair of the others costs an edge. */
+START_TEST(cords_of_a_cube)
+{
+  thr_frame f = solid_make(CUBE);
+  for (int cords = 1; cords <= 6; cords++) {
+    thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+    o.cords = cords;
+    thr_plan p = plan_of_cords(&f, &o);
+    ck_assert_double_eq_tol(p.metrics.length, 12 + (cords < 4 ? 4 - cords : 0), 1e-12);
+    ck_assert(p.proof.optimal);
+    ck_assert_double_eq_tol(p.proof.lower_bound, p.metrics.length, 1e-12);
+    ck_assert_int_eq(p.proof.certificate[0].n_slots, 2 * cords);
+    assert_plan_sound(&p);
+    thr_plan_destroy(&p);
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* Prices that are no whole weight (equal beads), a search between prices, and no price at all. */
+START_TEST(every_allocation_for_several_cords_fails_once)
+{
+  rng r = rng_make(5);
+  thr_frame f = _i == 0 ? solid_make(CUBE) : random_frame(&r, 30, 30, _i == 1 ? LENGTHS_RANDOM : LENGTHS_EQUAL);
+  thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+  thr_status st = THR_ENOMEM;
+  o.cords = 2 + _i;
+  for (long k = 1; st; k++) {
+    thr_shortest s;
+    thr_err err = {0};
+    thr_alloc_fail_at(k);
+    st = thr_postman_shortest(&f, &o, &(thr_limits){0}, &s, &err);
+    thr_alloc_fail_at(0);
+    ck_assert_msg(st == THR_OK || st == THR_ENOMEM, "allocation %ld: status %d, %s", k, (int)st, err.text);
+    ck_assert(st ? !s.passes && !s.certificate : s.optimal);
+    thr_shortest_destroy(&s);
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* ---- limits ---- */
 
 /* A framework on which the cutting planes need many rounds. */
@@ -200,6 +255,26 @@ static void watch(void *user, const char *what, double best, double bound)
   w->bound = bound;
   if (++w->calls == w->stop_after) w->pressed = 1;
 }
+
+START_TEST(passed_deadline_leaves_valid_passes)
+{
+  thr_frame f = hard_frame();
+  thr_plan_options o = options_for(_i % 2 ? THR_ENDS_ANY : THR_ENDS_FEET, 1);
+  thr_shortest best, s;
+  o.cords = 2 + 3 * _i;
+  ck_assert_int_eq(thr_postman_shortest(&f, &o, &(thr_limits){0}, &best, NULL), THR_OK);
+  for (int ms = -1; ms < 200; ms = ms < 0 ? 1 : 2 * ms) {
+    thr_err err = {0};
+    thr_status st = thr_postman_shortest(&f, &o, &(thr_limits){.deadline = thr_clock() + ms / 1000.0}, &s, &err);
+    ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", err.text);
+    ck_assert_int_eq(st == THR_OK, s.optimal);
+    ck_assert(s.length >= best.length * (1 - 1e-9) && s.lower_bound <= best.length * (1 + 1e-9));
+    thr_shortest_destroy(&s);
+  }
+  thr_shortest_destroy(&best);
+  thr_frame_destroy(&f);
+}
+END_TEST
 
 START_TEST(interrupt_between_rounds_leaves_a_valid_plan)
 {
@@ -291,8 +366,12 @@ int main(void)
   ADD_TEST(s, 10, one_edge);
   ADD_TEST(s, 20, the_most_passes);
   ADD_LOOP(s, 10, lengths_of_very_different_size, 0, 20);
+  ADD_TEST(s, 10, a_plan_for_the_length_has_one_cord_a_piece);
+  ADD_TEST(s, 10, cords_of_a_cube);
+  ADD_LOOP(s, 60, every_allocation_for_several_cords_fails_once, 0, 3);
   ADD_TEST(s, 10, no_end_allowed_is_infeasible);
   ADD_LOOP(s, 30, passed_deadline_leaves_a_valid_plan, 0, 3);
+  ADD_LOOP(s, 60, passed_deadline_leaves_valid_passes, 0, 4);
   ADD_LOOP(s, 30, interrupt_between_rounds_leaves_a_valid_plan, 0, 6);
   ADD_TEST(s, 10, stopped_before_any_proof_with_many_components);
   ADD_LOOP(s, 10, joins_match_all_subsets, 0, 300);

@@ -32,7 +32,7 @@ START_TEST(turning_on_a_flat_grid)
 {
   enum { N = 5 };
   thr_frame flat = grid_make(N, N);
-  const double quarters[N_THREADINGS] = {0, 0, 4 * (N - 1) + 2}; /* snake: and at both corners; stairs: below */
+  const double quarters[N_THREADINGS] = {0, 0, 4 * (N - 1) + 1}; /* snake: and from rows to columns; stairs: below */
   for (int kind = 0; kind < N_THREADINGS; kind++) {
     thr_plan p = threading_make(&flat, N, (threading)kind);
     double expected = quarters[kind];

@@ -1,0 +1,13 @@
+/* What `thread plan` says of a plan: its cords, their length, turning and pull. */
+#ifndef THR_CLI_PLAN_SUMMARY_H
+#define THR_CLI_PLAN_SUMMARY_H
+
+#include "cli/turning_summary.h"
+
+/* r: for a plan of the least turning, what it is held against; NULL for others. */
+void plan_put_summary(thr_text *t, const thr_plan *p, const turning_rivals *r);
+
+/* The same as members of an object that is left open. */
+void plan_put_json(thr_text *t, const thr_plan *p, const turning_rivals *r);
+
+#endif

@@ -1,0 +1,24 @@
+/* The table of groups, and how the cords of a symmetric plan are copies of each other. */
+#ifndef THR_CLI_SYMMETRY_TABLE_H
+#define THR_CLI_SYMMETRY_TABLE_H
+
+#include "cli/cli.h"
+#include "symmetry/symmetry.h"
+
+/* "8 automorphisms, ..": the group, its orbits, and what was not listed. */
+void symmetry_put_head(thr_text *t, const thr_frame *f, const thr_plan_options *o, const thr_symmetries *s);
+
+/* At most `most` rows, those before and behind the chosen one if there are more (with --group, only the rows that were asked
+ * for), and why it was chosen. */
+void symmetry_put_table(thr_text *t, const thr_plan_options *o, const thr_symmetries *s, int most);
+
+/* "A: unique, 9 learned steps; B, C, D: copies of A by C4, C2, C4^3", and the learned steps of all. */
+void symmetry_put_paths(thr_text *t, const thr_plan *p);
+
+/* The table as members of an object that is left open, the first without a comma before it. */
+void symmetry_put_table_json(thr_text *t, const thr_plan_options *o, const thr_symmetries *s);
+
+/* Group and paths of a plan as members of an object, each with a comma before it. */
+void symmetry_put_json(thr_text *t, const thr_plan *p);
+
+#endif

@@ -1,0 +1,55 @@
+/* The options of `thread plan` that say what turns least, and how it is found. */
+#ifndef THR_CLI_TURNING_ARGS_H
+#define THR_CLI_TURNING_ARGS_H
+
+#include "cli/pull.h"
+
+enum {
+  OPTION_TURNING_CORDS = OPTION_PULL_FREE,
+  OPTION_TURNING_SLACK,
+  OPTION_TURNING_MINIMIZE,
+  OPTION_TURNING_COST,
+  OPTION_TURNING_TOUR,
+  OPTION_TURNING_PAIRINGS,
+  OPTION_TURNING_FRONTIER,
+  OPTION_TURNING_FREE
+};
+#define TURNING_OPTIONS                                                                                                          \
+  {"cords", required_argument, NULL, OPTION_TURNING_CORDS}, {"length-slack", required_argument, NULL, OPTION_TURNING_SLACK},     \
+      {"minimize", required_argument, NULL, OPTION_TURNING_MINIMIZE},                                                            \
+      {"turn-cost", required_argument, NULL, OPTION_TURNING_COST}, {"tour", required_argument, NULL, OPTION_TURNING_TOUR},       \
+      {"pairings", required_argument, NULL, OPTION_TURNING_PAIRINGS},                                                            \
+  {                                                                                                                              \
+    "frontier", optional_argument, NULL, OPTION_TURNING_FRONTIER                                                                 \
+  }
+#define TURNING_HELP                                                                                                             \
+  "Least turning (with --objective tortuosity):\n"                                                                               \
+  "      --cords K        K cords in every piece, 1 to 1000 (default: 1)\n"  \
+  "      --length-slack P%   at most P % more cord than the shortest; 0 = the least turning among the shortest (default: any)\n" \
+  "      --minimize turning|max-turning   of all cords together, or of the cord that turns most (default: turning)\n"            \
+  "      --turn-cost angle|sine|step   price of a turn: its angle, the sine of half of it, or 1 from 90 degrees on (default: "   \
+  "angle)\n"                                                                                                                     \
+  "      --tour least|fleury|hierholzer   the least turning (default), or a classical tour through the shortest passes\n"        \
+  "      --pairings keep|ignore   of a classical tour: keep to the cheapest pairing at every node, or not (default: keep)\n"     \
+  "      --frontier[=N]   also the trade-off between length and turning, at up to N lengths, 2 to 1000 (default: 9)\n"
+
+typedef struct {
+  int cords;
+  thr_turning_options options;
+  int frontier;      /* points, 0 = none */
+  const char *given; /* the first of these options, but for --cords; NULL = none */
+  bool pairings;     /* --pairings was given */
+} turning_args;
+
+turning_args turning_args_default(void);
+
+/* Takes one of the options above; false if it is none of them. *ok false: its value was bad (printed). */
+bool turning_option(turning_args *a, int option, const char *value, bool *ok);
+
+/* Does what was asked make sense together, and with the objective? -1, or prints and returns the code. */
+int turning_args_check(const turning_args *a, thr_objective objective);
+
+/* What was asked, for a plan of this objective. One that takes no such options gets the defaults. */
+void turning_args_apply(const turning_args *a, thr_objective objective, thr_plan_options *o);
+
+#endif

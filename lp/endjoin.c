@@ -1,0 +1,329 @@
+/* The search for the price of an end, on T-joins with a hub. */
+#include "lp/endjoin.h"
+
+#include <assert.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A join at a price. Weights are doubled, so that the price at which two ends more pay is an integer. */
+typedef struct {
+  int64_t price, weight; /* of the join without its hub edges */
+  int n_ends;
+  bool no_hub; /* found without the hub: the cuts need not respect the price */
+  thr_tjoin t; /* in_join [n_edges] of the graph with the hub */
+} point;
+
+typedef struct {
+  const thr_endjoin_problem *p;
+  const thr_limits *limits;
+  int hub, n_edges; /* edges of the graph, then one to the hub from every node where ends are allowed */
+  int (*edge)[2];
+  int64_t *weight;
+  bool *odd;
+  point few, many; /* optimal at their prices with at most, or more than, n_ends; 0 = none yet */
+} search;
+
+static void search_destroy(search *s)
+{
+  free(s->edge);
+  free(s->weight);
+  free(s->odd);
+  thr_tjoin_destroy(&s->few.t);
+  thr_tjoin_destroy(&s->many.t);
+}
+
+static thr_status search_init(search *s, thr_err *err)
+{
+  const thr_tjoin_problem *g = &s->p->graph;
+  s->hub = g->n_nodes;
+  s->n_edges = g->n_edges;
+  for (int v = 0; v < g->n_nodes; v++)
+    s->n_edges += s->p->end_allowed[v];
+  s->edge = thr_calloc((size_t)s->n_edges, sizeof *s->edge);
+  s->weight = thr_calloc((size_t)s->n_edges, sizeof *s->weight);
+  s->odd = thr_calloc((size_t)g->n_nodes + 1, sizeof *s->odd);
+  if (!s->edge || !s->weight || !s->odd) return thr_nomem(err);
+  memcpy(s->odd, g->odd, (size_t)g->n_nodes * sizeof *s->odd);
+  memcpy(s->edge, g->edge, (size_t)g->n_edges * sizeof *s->edge);
+  for (int e = 0; e < g->n_edges; e++)
+    s->weight[e] = 2 * g->weight[e];
+  for (int v = 0, e = g->n_edges; v < g->n_nodes; v++) {
+    if (!s->p->end_allowed[v]) continue;
+    s->edge[e][0] = v;
+    s->edge[e++][1] = s->hub;
+  }
+  return THR_OK;
+}
+
+static void weigh(const search *s, point *at)
+{
+  for (int e = 0; e < s->n_edges; e++) {
+    if (!at->t.in_join[e]) continue;
+    if (e < s->p->graph.n_edges)
+      at->weight += s->weight[e];
+    else
+      at->n_ends++;
+  }
+}
+
+static thr_status solve_at(search *s, int64_t price, point *at, thr_err *err)
+{
+  *at = (point){.price = price};
+  for (int e = s->p->graph.n_edges; e < s->n_edges; e++)
+    s->weight[e] = price;
+  thr_tjoin_problem p = {s->hub + 1, s->n_edges, (const int(*)[2])s->edge, s->weight, s->odd, 0};
+  thr_status st = thr_tjoin_solve(&p, s->limits, &at->t, err);
+  if (!st || st == THR_ELIMIT) weigh(s, at);
+  return st;
+}
+
+/* Without ends, at a price at which none pays. */
+static thr_status solve_closed(search *s, point *at, thr_err *err)
+{
+  int m = s->p->graph.n_edges;
+  *at = (point){.price = 2 * s->p->far, .no_hub = true};
+  thr_tjoin_problem p = {s->hub, m, (const int(*)[2])s->edge, s->weight, s->odd, 0};
+  thr_status st = thr_tjoin_solve(&p, s->limits, &at->t, err);
+  if (st && st != THR_ELIMIT) return st;
+  bool *all = thr_realloc(at->t.in_join, (size_t)s->n_edges, sizeof *all);
+  if (!all) {
+    thr_tjoin_destroy(&at->t);
+    return thr_nomem(err);
+  }
+  memset(all + m, 0, (size_t)(s->n_edges - m) * sizeof *all);
+  at->t.in_join = all;
+  weigh(s, at);
+  return st;
+}
+
+static void replace(point *old, point *by)
+{
+  thr_tjoin_destroy(&old->t);
+  *old = *by;
+  *by = (point){0};
+}
+
+static bool optimal_at(const point *at, const point *other)
+{
+  return at->weight + other->price * at->n_ends == other->weight + other->price * other->n_ends;
+}
+
+/* Raises the price of too many ends and lowers that of few until they are 1 apart, or equal; each keeps being optimal at its
+ * price. The price to try is the slope between the two, where a convex function has a corner if there is one. *same: the point
+ * whose cuts prove both, if their prices are equal. */
+static thr_status close_in(search *s, const point **same, thr_err *err)
+{
+  point *few = &s->few, *many = &s->many;
+  *same = NULL;
+  while (few->price - many->price > 1) {
+    point at;
+    int64_t price = (few->weight - many->weight) / (many->n_ends - few->n_ends);
+    if (price >= few->price) price = few->price - 1;
+    if (price <= many->price) price = many->price + 1;
+    thr_status st = solve_at(s, price, &at, err);
+    if (st) {
+      thr_tjoin_destroy(&at.t);
+      return st;
+    }
+    point *side = at.n_ends <= s->p->n_ends ? few : many, *other = side == few ? many : few;
+    bool meet = optimal_at(other, &at);
+    replace(side, &at);
+    if (!meet) continue;
+    other->price = side->price;
+    *same = side;
+    return THR_OK;
+  }
+  return THR_OK;
+}
+
+/* ---- from few ends to as many as allowed ---- */
+
+/* The edges that only one of the two joins has: an even number at every node. */
+typedef struct {
+  int *first, *incident, *next; /* those at v: incident[first[v] .. first[v + 1] - 1]; the next one to look at */
+  bool *used;                   /* [n_edges] also those that both or none have */
+  int n_trails, n_steps;
+  int *start, *step; /* trail i, from the hub back to it: edges step[start[i] .. start[i + 1] - 1] */
+  int64_t *change;   /* [n_trails] of the weight, if few takes over the trail */
+} difference;
+
+static void difference_destroy(difference *d)
+{
+  free(d->first);
+  free(d->incident);
+  free(d->next);
+  free(d->used);
+  free(d->start);
+  free(d->step);
+  free(d->change);
+}
+
+static thr_status difference_init(difference *d, const search *s, thr_err *err)
+{
+  size_t n = (size_t)s->hub + 1, m = (size_t)s->n_edges;
+  *d = (difference){.first = thr_calloc(n + 2, sizeof *d->first),
+                    .incident = thr_calloc(2 * m, sizeof *d->incident),
+                    .next = thr_calloc(n, sizeof *d->next),
+                    .used = thr_calloc(m, sizeof *d->used),
+                    .start = thr_calloc(n + 1, sizeof *d->start),
+                    .step = thr_calloc(m, sizeof *d->step),
+                    .change = thr_calloc(n, sizeof *d->change)};
+  if (!d->first || !d->incident || !d->next || !d->used || !d->start || !d->step || !d->change) return thr_nomem(err);
+  for (size_t e = 0; e < m; e++) {
+    d->used[e] = s->few.t.in_join[e] == s->many.t.in_join[e];
+    for (int i = 0; i < 2 && !d->used[e]; i++)
+      d->first[s->edge[e][i] + 2]++;
+  }
+  for (size_t v = 1; v <= n; v++)
+    d->first[v + 1] += d->first[v];
+  for (int e = 0; e < s->n_edges; e++)
+    for (int i = 0; i < 2 && !d->used[e]; i++)
+      d->incident[d->first[s->edge[e][i] + 1]++] = e;
+  memcpy(d->next, d->first, n * sizeof *d->next);
+  return THR_OK;
+}
+
+static int unused_edge(difference *d, int v)
+{
+  while (d->next[v] < d->first[v + 1] && d->used[d->incident[d->next[v]]])
+    d->next[v]++;
+  return d->next[v] < d->first[v + 1] ? d->incident[d->next[v]] : -1;
+}
+
+/* The trails through the hub that give few two ends more. */
+static void find_trails(difference *d, const search *s)
+{
+  for (int e; (e = unused_edge(d, s->hub)) >= 0;) {
+    int v = s->hub, more = 0, begin = d->n_steps;
+    int64_t change = 0;
+    do {
+      assert(e >= 0);
+      int sign = s->few.t.in_join[e] ? -1 : 1;
+      d->used[e] = true;
+      d->step[d->n_steps++] = e;
+      if (e < s->p->graph.n_edges)
+        change += sign * s->weight[e];
+      else
+        more += sign;
+      v = s->edge[e][0] == v ? s->edge[e][1] : s->edge[e][0];
+      e = unused_edge(d, v);
+    } while (v != s->hub);
+    if (more == 2) {
+      d->change[d->n_trails++] = change;
+      d->start[d->n_trails] = d->n_steps;
+    } else {
+      d->n_steps = begin;
+    }
+  }
+}
+
+/* few takes over as many trails as it may, those first that save most: as both joins are optimal at prices at most 1 apart, a
+ * trail saves the one price twice or the other. *last: whether one of the others was needed, too. */
+static thr_status take_over(search *s, bool *last, thr_err *err)
+{
+  difference d;
+  thr_status st = difference_init(&d, s, err);
+  *last = false;
+  if (!st) find_trails(&d, s);
+  for (int round = 0; round < 2 && !st; round++)
+    for (int i = 0; i < d.n_trails && s->few.n_ends < s->p->n_ends; i++) {
+      bool dear = d.change[i] > -2 * s->few.price;
+      if (dear != (round == 1)) continue;
+      for (int k = d.start[i]; k < d.start[i + 1]; k++)
+        s->few.t.in_join[d.step[k]] = !s->few.t.in_join[d.step[k]];
+      s->few.n_ends += 2;
+      *last |= dear;
+    }
+  difference_destroy(&d);
+  return st;
+}
+
+/* ---- the result ---- */
+
+/* The sets on the side without the hub. */
+static thr_status turn_cuts(const search *s, thr_endjoin *out, thr_err *err)
+{
+  for (int i = 0; i < out->n_cuts; i++) {
+    thr_cut *c = &out->cut[i];
+    if (c->n_nodes == 0 || c->node[c->n_nodes - 1] != s->hub) continue; /* it would be the last */
+    int *rest = thr_calloc((size_t)s->hub, sizeof *rest), n = 0;
+    if (!rest) return thr_nomem(err);
+    for (int v = 0, k = 0; v < s->hub; v++) {
+      if (c->node[k] == v)
+        k++;
+      else
+        rest[n++] = v;
+    }
+    free(c->node);
+    *c = (thr_cut){n, rest, c->value};
+  }
+  return THR_OK;
+}
+
+static thr_status take(search *s, point *join, point *proof, thr_endjoin *out, thr_err *err)
+{
+  *out = (thr_endjoin){
+      .in_join = join->t.in_join, .price = proof->price, .n_cuts = proof->t.n_cuts, .cut = proof->t.cut, .sum = proof->t.sum};
+  join->t.in_join = NULL;
+  proof->t.cut = NULL;
+  proof->t.n_cuts = 0;
+  thr_status st = turn_cuts(s, out, err);
+  if (st) thr_endjoin_destroy(out);
+  return st;
+}
+
+static double bound(const search *s, const point *at)
+{
+  return (double)at->t.sum - (double)at->price * s->p->n_ends * THR_DUAL_DENOMINATOR;
+}
+
+/* Stopped: the join with few ends, and the best bound so far. */
+static thr_status take_best(search *s, thr_endjoin *out, thr_err *err)
+{
+  bool better = !s->few.no_hub && bound(s, &s->few) > bound(s, &s->many);
+  return take(s, &s->few, better ? &s->few : &s->many, out, err);
+}
+
+static thr_status run(search *s, thr_endjoin *out, thr_err *err)
+{
+  thr_err stopped = {0};
+  const point *same = NULL;
+  bool last = false;
+  thr_status st = solve_at(s, 0, &s->many, &stopped), limit = st;
+  if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", stopped.text);
+  if (s->many.n_ends <= s->p->n_ends) {
+    st = take(s, &s->many, &s->many, out, err);
+    return !st && limit ? thr_fail(err, limit, "%s", stopped.text) : st;
+  }
+  st = solve_closed(s, &s->few, &stopped);
+  if (!st && !limit) st = close_in(s, &same, &stopped);
+  if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", stopped.text);
+  if (st || limit) {
+    st = take_best(s, out, err);
+    return st ? st : thr_fail(err, THR_ELIMIT, "%s", stopped.text);
+  }
+  if ((st = take_over(s, &last, err))) return st;
+  bool by_many = same ? same == &s->many : last;
+  return take(s, &s->few, by_many ? &s->many : &s->few, out, err);
+}
+
+thr_status thr_endjoin_solve(const thr_endjoin_problem *p, const thr_limits *limits, thr_endjoin *out, thr_err *err)
+{
+  thr_limits quiet = *limits; /* bounds at a price are none on the join */
+  quiet.progress = NULL;
+  search s = {.p = p, .limits = &quiet};
+  *out = (thr_endjoin){0};
+  thr_status st = search_init(&s, err);
+  if (!st) st = run(&s, out, err);
+  search_destroy(&s);
+  return st;
+}
+
+void thr_endjoin_destroy(thr_endjoin *j)
+{
+  for (int i = 0; i < j->n_cuts; i++)
+    free(j->cut[i].node);
+  free(j->cut);
+  free(j->in_join);
+  *j = (thr_endjoin){0};
+}

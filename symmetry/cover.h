@@ -1,0 +1,40 @@
+/* The best symmetric cover for one group: how many orbits of each type (MATHS: orbits as integer columns). */
+#ifndef THR_COVER_H
+#define THR_COVER_H
+
+#include "symmetry/quotient.h"
+
+typedef struct {
+  int cover;
+  thr_ends ends; /* closed: every cord is closed. any: open or closed cords. feet, nodes: every cord is open, its ends there */
+  const bool *end_node;       /* [n_nodes] THR_ENDS_NODES only; borrowed. Must be invariant under G (THR_EINPUT) */
+  thr_aim prefer[THR_N_AIMS]; /* what is minimized first, second, .. */
+} thr_cover_options;
+
+/* value[aim]: overlap in units of length; learned steps (passes of the unique paths, a folded path's half, a folded edge as 1/2);
+ * unique paths (orbits of cords); turning in rad of all cords. bound[aim]: no symmetric cover is better in that, with the aims
+ * before it at their values. */
+typedef struct {
+  int *copies; /* [q->n_copies] orbits of each type; owned */
+  int *pairs;  /* [q->n_pairs] owned */
+  int *ends;   /* [q->n_darts] dart orbits that are cord ends; owned */
+  double value[THR_N_AIMS], bound[THR_N_AIMS];
+  bool optimal; /* solved to the end in all aims, by GLPK's word and to 4e-6 of an aim's largest cost */
+} thr_cover;
+
+/* Lexicographic integer programme over the orbits, by branch and cut: dart balance, cover, odd sets of dart types (Edmonds &
+ * Johnson 1973: every column meets at most two equations, so they nearly close the gap), and rows added when a solution's
+ * quotient falls apart into more trails than its terminals need or, where every cord is open, has more folds than ends can be led
+ * to. At most 2 * cover + 2 orbits of one copy type; U-turns only at nodes with one edge, like any turn at the price of their
+ * angle. THR_OK or THR_ELIMIT (out holds the best found, with bounds; if there is none yet, out is empty); THR_EINFEASIBLE: no
+ * symmetric cover with these ends (said why, if it is a node); otherwise out is empty. */
+thr_status thr_cover_find(const thr_quotient *q, const thr_cover_options *o, const thr_limits *limits, thr_cover *out,
+                          thr_err *err) THR_MUST_CHECK;
+void thr_cover_destroy(thr_cover *c);
+
+/* The cords of a cover: copies and pairs made concrete, orbit by orbit, and traced. record: which cord is a copy of which, and
+ * the element that maps it there (graph/plan.h). cord is allocated, [*n_cords], owned by the caller. */
+thr_status thr_cover_cords(const thr_quotient *q, const thr_cover_options *o, const thr_cover *c, thr_cord **cord, int *n_cords,
+                           thr_symmetry_record *record, thr_err *err) THR_MUST_CHECK;
+
+#endif

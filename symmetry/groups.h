@@ -1,0 +1,10 @@
+/* Which groups of automorphisms are offered for a framework. Internal to symmetry/. */
+#ifndef THR_SYMMETRY_GROUPS_H
+#define THR_SYMMETRY_GROUPS_H
+
+#include "symmetry/symmetry.h"
+
+/* Fills the groups of the table and its rows, without threadings. On failure the table can still be destroyed. */
+thr_status thr_symmetry_groups(const thr_frame *f, const thr_plan_options *o, thr_symmetries *t, thr_err *err) THR_MUST_CHECK;
+
+#endif

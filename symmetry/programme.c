@@ -1,0 +1,484 @@
+/* Columns, costs and connected sets of a symmetric cover. */
+#include "symmetry/programme.h"
+#include "graph/disjoint.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- columns ---- */
+
+static bool end_allowed(const thr_programme *p, int v)
+{
+  switch (p->o->ends) {
+  case THR_ENDS_CLOSED: return false;
+  case THR_ENDS_ANY: return true;
+  case THR_ENDS_FEET: return p->q->f->foot[v];
+  default: return p->o->end_node && p->o->end_node[v];
+  }
+}
+
+static thr_status find_node_orbits(thr_programme *p, thr_err *err)
+{
+  const thr_quotient *q = p->q;
+  int n = q->f->n_nodes;
+  for (int v = 0; v < n; v++)
+    p->node_orbit[v] = v;
+  for (int i = 0; i < q->h->order; i++) {
+    const int *to = &q->group->image[(size_t)q->h->element[i] * (size_t)n];
+    for (int v = 0; v < n; v++)
+      if (to[v] < p->node_orbit[v]) p->node_orbit[v] = to[v];
+  }
+  for (int v = 0; v < n; v++)
+    if (end_allowed(p, v) != end_allowed(p, p->node_orbit[v]))
+      return thr_fail(err, THR_EINPUT, "the group moves node %s, where cords may end, to node %s, where they may not",
+                      q->f->name[end_allowed(p, v) ? v : p->node_orbit[v]], q->f->name[end_allowed(p, v) ? p->node_orbit[v] : v]);
+  return THR_OK;
+}
+
+static void fill_copies(thr_programme *p)
+{
+  const thr_quotient *q = p->q;
+  for (int c = 0; c < q->n_copies; c++) {
+    const thr_copy_type *t = &q->copy[c];
+    bool alone = (c == 0 || q->copy[c - 1].edge != t->edge) && (c + 1 == q->n_copies || q->copy[c + 1].edge != t->edge);
+    p->least[c] = alone ? (p->o->cover + t->passes - 1) / t->passes : 0;
+    p->most[c] = 2 * p->o->cover + 2;
+    p->join[c][0] = t->dart[0];
+    p->join[c][1] = t->fold ? q->n_darts : t->dart[1];
+    p->cost[THR_AIM_OVERLAP][c] = t->passes * q->orbit_length[t->edge_orbit];
+    p->cost[THR_AIM_STEPS][c] = t->fold ? 0.5 : 1;
+    p->cost[THR_AIM_PATHS][c] = t->fold ? 0.5 : 0;
+  }
+}
+
+static void fill_pairs(thr_programme *p)
+{
+  const thr_quotient *q = p->q;
+  for (int y = 0; y < q->n_pairs; y++) {
+    const thr_pair_type *t = &q->pair[y];
+    int j = p->first_pair + y;
+    p->most[j] = -1;
+    p->join[j][0] = t->dart[0];
+    p->join[j][1] = t->self ? q->n_darts : t->dart[1];
+    p->cost[THR_AIM_PATHS][j] = t->self ? 0.5 : 0;
+    p->cost[THR_AIM_TURNING][j] = t->turns * t->angle;
+  }
+}
+
+static void fill_darts(thr_programme *p)
+{
+  const thr_quotient *q = p->q;
+  for (int d = 0; d < q->n_darts; d++) {
+    int t = p->first_end + d, z = p->first_circle + d;
+    p->most[t] = end_allowed(p, thr_tail(q->f, q->dart[d].half)) ? -1 : 0;
+    p->most[z] = !p->open;
+    p->join[t][0] = p->join[z][0] = p->join[z][1] = d;
+    p->join[t][1] = q->n_darts;
+    p->cost[THR_AIM_PATHS][t] = 0.5;
+    p->cost[THR_AIM_PATHS][z] = 1;
+  }
+}
+
+static void list_pairs(thr_programme *p)
+{
+  const thr_quotient *q = p->q;
+  for (int pass = 0; pass < 2; pass++) {
+    for (int y = 0; y < q->n_pairs; y++)
+      for (int i = 0; i < (q->pair[y].dart[0] == q->pair[y].dart[1] ? 1 : 2); i++) {
+        int d = q->pair[y].dart[i];
+        if (pass == 0)
+          p->first[d + 2]++;
+        else
+          p->incident[p->first[d + 1]++] = y;
+      }
+    for (int d = 1; pass == 0 && d <= q->n_darts; d++)
+      p->first[d + 1] += p->first[d];
+  }
+}
+
+static thr_status allocate(thr_programme *p, thr_err *err)
+{
+  size_t n = (size_t)p->n;
+  p->least = thr_calloc(n, sizeof *p->least);
+  p->most = thr_calloc(n, sizeof *p->most);
+  p->join = thr_calloc(n, sizeof *p->join);
+  p->first = thr_calloc((size_t)p->q->n_darts + 2, sizeof *p->first);
+  p->incident = thr_calloc(2 * (size_t)p->q->n_pairs, sizeof *p->incident);
+  p->node_orbit = thr_calloc((size_t)p->q->f->n_nodes, sizeof *p->node_orbit);
+  bool all = p->least && p->most && p->join && p->first && p->incident && p->node_orbit;
+  for (int a = 0; a < THR_N_AIMS; a++)
+    all = (p->cost[a] = thr_calloc(n, sizeof *p->cost[a])) && all;
+  return all ? THR_OK : thr_nomem(err);
+}
+
+/* Largest number that all costs are multiples of, up to rounding; 0 if it is not worth having. */
+static double common_unit(const double *cost, int n, double scale)
+{
+  double unit = 0;
+  for (int j = 0; j < n; j++) {
+    double a = cost[j], b = unit;
+    while (b > 1e-4 * scale) {
+      double rest = fabs(a - b * nearbyint(a / b));
+      a = b;
+      b = rest < 1e-10 * scale ? 0 : rest;
+    }
+    if (b > 0) return 0;
+    unit = a;
+  }
+  return unit;
+}
+
+thr_status thr_programme_init(thr_programme *p, const thr_quotient *q, const thr_cover_options *o, thr_err *err)
+{
+  *p = (thr_programme){.q = q, .o = o, .open = o->ends == THR_ENDS_FEET || o->ends == THR_ENDS_NODES};
+  p->first_pair = q->n_copies;
+  p->first_end = p->first_pair + q->n_pairs;
+  p->first_circle = p->first_end + q->n_darts;
+  p->n = p->first_circle + q->n_darts;
+  thr_status st = allocate(p, err);
+  if (!st) st = find_node_orbits(p, err);
+  if (st) {
+    thr_programme_destroy(p);
+    return st;
+  }
+  fill_copies(p);
+  fill_pairs(p);
+  fill_darts(p);
+  list_pairs(p);
+  p->constant[THR_AIM_OVERLAP] = -o->cover * thr_frame_total_length(q->f);
+  for (int a = 0; a < THR_N_AIMS; a++) {
+    for (int j = 0; j < p->n; j++)
+      p->scale[a] = fmax(p->scale[a], p->cost[a][j]);
+    if (p->scale[a] == 0) p->scale[a] = 1;
+    p->unit[a] = a == THR_AIM_PATHS ? 1 : common_unit(p->cost[a], p->n, p->scale[a]); /* terminals come in twos */
+  }
+  return THR_OK;
+}
+
+void thr_programme_destroy(thr_programme *p)
+{
+  free(p->least);
+  free(p->most);
+  free(p->join);
+  free(p->first);
+  free(p->incident);
+  free(p->node_orbit);
+  for (int a = 0; a < THR_N_AIMS; a++)
+    free(p->cost[a]);
+  *p = (thr_programme){0};
+}
+
+bool thr_programme_terminal(const thr_programme *p, int column)
+{
+  return p->join[column][1] == p->q->n_darts;
+}
+
+/* ---- connected sets ---- */
+
+thr_status thr_programme_parts_init(thr_programme_parts *s, const thr_programme *p, thr_err *err)
+{
+  size_t n = (size_t)p->q->n_darts;
+  s->root = thr_calloc(n, sizeof *s->root);
+  s->terminals = thr_calloc(n, sizeof *s->terminals);
+  s->ends = thr_calloc(n, sizeof *s->ends);
+  s->copies = thr_calloc(n, sizeof *s->copies);
+  return s->root && s->terminals && s->ends && s->copies ? THR_OK : thr_nomem(err);
+}
+
+void thr_programme_parts_destroy(thr_programme_parts *s)
+{
+  free(s->root);
+  free(s->terminals);
+  free(s->ends);
+  free(s->copies);
+  *s = (thr_programme_parts){0};
+}
+
+void thr_programme_parts_find(thr_programme_parts *s, const thr_programme *p, const int *value)
+{
+  int n = p->q->n_darts;
+  for (int d = 0; d < n; d++) {
+    s->root[d] = d;
+    s->terminals[d] = s->ends[d] = s->copies[d] = 0;
+  }
+  for (int j = 0; j < p->first_end; j++)
+    if (value[j] > 0 && !thr_programme_terminal(p, j)) thr_disjoint_join(s->root, p->join[j][0], p->join[j][1]);
+  for (int j = 0; j < p->first_circle; j++) {
+    int root = thr_disjoint_find(s->root, p->join[j][0]);
+    if (thr_programme_terminal(p, j)) s->terminals[root] += value[j];
+    if (j >= p->first_end) s->ends[root] += value[j];
+    if (j < p->first_pair) s->copies[root] += value[j];
+  }
+  for (int d = n - 1; d >= 0; d--) { /* a root comes before the rest of its set */
+    int root = thr_disjoint_find(s->root, d);
+    s->root[d] = s->copies[root] > 0 ? root : -1;
+  }
+}
+
+/* ---- folds and ends ---- */
+
+static const double least_flow = 1e-6;
+
+/* Flows from folds to ends. Nodes: 2 * d the copies' side of dart type d, 2 * d + 1 the turns' side. */
+typedef struct {
+  int n, m;
+  int (*edge)[2];
+  double *capacity, *flow;        /* [m] flow from edge[e][0] to edge[e][1] */
+  double *supply, *demand, *used; /* [n] left; of copies at a dart type */
+  int *first, *incident;          /* as in lp/oddcut.h */
+  int *queue, *arrived;           /* [n] edge by which a node was reached, -1 = not, m = a source */
+} network;
+
+static thr_status network_init(network *w, const thr_programme *p, thr_err *err)
+{
+  int darts = p->q->n_darts;
+  size_t n = 2 * (size_t)darts, m = (size_t)p->first_end + (size_t)darts;
+  w->n = 2 * darts;
+  w->edge = thr_calloc(m, sizeof *w->edge);
+  w->capacity = thr_calloc(m, sizeof *w->capacity);
+  w->flow = thr_calloc(m, sizeof *w->flow);
+  w->supply = thr_calloc(n, sizeof *w->supply);
+  w->demand = thr_calloc(n, sizeof *w->demand);
+  w->used = thr_calloc(n, sizeof *w->used);
+  w->first = thr_calloc(n + 2, sizeof *w->first);
+  w->incident = thr_calloc(2 * m, sizeof *w->incident);
+  w->queue = thr_calloc(n, sizeof *w->queue);
+  w->arrived = thr_calloc(n, sizeof *w->arrived);
+  bool all =
+      w->edge && w->capacity && w->flow && w->supply && w->demand && w->used && w->first && w->incident && w->queue && w->arrived;
+  return all ? THR_OK : thr_nomem(err);
+}
+
+static void network_destroy(network *w)
+{
+  free(w->edge);
+  free(w->capacity);
+  free(w->flow);
+  free(w->supply);
+  free(w->demand);
+  free(w->used);
+  free(w->first);
+  free(w->incident);
+  free(w->queue);
+  free(w->arrived);
+}
+
+static void network_fill(network *w, const thr_programme *p, const double *value)
+{
+  for (int j = 0; j < p->first_circle; j++) {
+    int side = j >= p->first_pair, a = 2 * p->join[j][0] + side;
+    if (value[j] < least_flow) continue;
+    if (j >= p->first_end)
+      w->demand[a] += value[j];
+    else if (thr_programme_terminal(p, j))
+      w->supply[a] += value[j];
+    else {
+      w->edge[w->m][0] = a;
+      w->edge[w->m][1] = 2 * p->join[j][1] + side;
+      w->capacity[w->m++] = value[j];
+    }
+    if (side) continue;
+    for (int i = 0; i < 2; i++) /* each copy leads over to the turns */
+      if (p->join[j][i] < p->q->n_darts) w->used[p->join[j][i]] += value[j];
+  }
+  for (int d = 0; d < p->q->n_darts; d++)
+    if (w->used[d] > 0) {
+      w->edge[w->m][0] = 2 * d;
+      w->edge[w->m][1] = 2 * d + 1;
+      w->capacity[w->m++] = w->used[d];
+    }
+  for (int e = 0; e < w->m; e++)
+    for (int i = 0; i < 2; i++)
+      w->first[w->edge[e][i] + 2]++;
+  for (int v = 1; v <= w->n; v++)
+    w->first[v + 1] += w->first[v];
+  for (int e = 0; e < w->m; e++)
+    for (int i = 0; i < 2; i++)
+      w->incident[w->first[w->edge[e][i] + 1]++] = e;
+}
+
+static double room(const network *w, int e, int from)
+{
+  return w->edge[e][0] == from ? w->capacity[e] - w->flow[e] : w->capacity[e] + w->flow[e];
+}
+
+/* As much as fits along the path on which v was reached. */
+static void push(network *w, int v)
+{
+  double amount = w->demand[v];
+  int source = v;
+  while (w->arrived[source] < w->m) {
+    int e = w->arrived[source], from = w->edge[e][w->edge[e][1] == source ? 0 : 1];
+    amount = fmin(amount, room(w, e, from));
+    source = from;
+  }
+  amount = fmin(amount, w->supply[source]);
+  w->supply[source] -= amount;
+  w->demand[v] -= amount;
+  while (w->arrived[v] < w->m) {
+    int e = w->arrived[v], forward = w->edge[e][1] == v;
+    w->flow[e] += forward ? amount : -amount;
+    v = w->edge[e][!forward];
+  }
+}
+
+/* More flow along a shortest path (Edmonds & Karp 1972); false if there is none, then arrived marks what the folds left over
+ * reach. */
+static bool augment(network *w)
+{
+  int head = 0, tail = 0;
+  for (int v = 0; v < w->n; v++) {
+    w->arrived[v] = w->supply[v] >= least_flow ? w->m : -1;
+    if (w->arrived[v] >= 0) w->queue[tail++] = v;
+  }
+  while (head < tail) {
+    int v = w->queue[head++];
+    if (w->demand[v] >= least_flow) {
+      push(w, v);
+      return true;
+    }
+    for (int k = w->first[v]; k < w->first[v + 1]; k++) {
+      int e = w->incident[k], to = w->edge[e][w->edge[e][0] == v];
+      if (w->arrived[to] >= 0 || room(w, e, v) < least_flow) continue;
+      w->arrived[to] = e;
+      w->queue[tail++] = to;
+    }
+  }
+  return false;
+}
+
+thr_status thr_programme_folds(const thr_programme *p, const double *value, bool *copy_side, bool *pair_side, bool *found,
+                               thr_err *err)
+{
+  network w = {0};
+  thr_status st = network_init(&w, p, err);
+  *found = false;
+  if (!st) {
+    network_fill(&w, p, value);
+    while (augment(&w))
+      continue;
+    for (int d = 0; d < p->q->n_darts; d++) {
+      *found = *found || w.supply[2 * d] >= least_flow || w.supply[2 * d + 1] >= least_flow;
+      copy_side[d] = w.arrived[2 * d] >= 0;
+      pair_side[d] = w.arrived[2 * d + 1] >= 0;
+    }
+  }
+  network_destroy(&w);
+  return st;
+}
+
+/* ---- worth ---- */
+
+thr_status thr_programme_value(const thr_programme *p, const int *value, double worth[THR_N_AIMS], bool *valid, thr_err *err)
+{
+  size_t n = (size_t)p->q->n_darts;
+  thr_programme_parts s = {0};
+  bool *copy_side = thr_calloc(n, sizeof *copy_side), *pair_side = thr_calloc(n, sizeof *pair_side), unmatched = false;
+  double *x = thr_calloc((size_t)p->n, sizeof *x);
+  thr_status st = copy_side && pair_side && x ? thr_programme_parts_init(&s, p, err) : thr_nomem(err);
+  for (int a = 0; a < THR_N_AIMS; a++) {
+    worth[a] = p->constant[a];
+    for (int j = 0; j < p->first_circle; j++)
+      worth[a] += p->cost[a][j] * value[j];
+  }
+  *valid = true;
+  if (!st) {
+    thr_programme_parts_find(&s, p, value);
+    for (int d = 0; d < p->q->n_darts; d++) {
+      if (s.root[d] != d) continue;
+      if (s.terminals[d] == 0) worth[THR_AIM_PATHS]++;
+      if (p->open && s.ends[d] == 0) *valid = false;
+    }
+  }
+  for (int j = 0; j < p->n && !st; j++)
+    x[j] = value[j];
+  if (!st && p->open) st = thr_programme_folds(p, x, copy_side, pair_side, &unmatched, err);
+  *valid = *valid && !unmatched;
+  thr_programme_parts_destroy(&s);
+  free(copy_side);
+  free(pair_side);
+  free(x);
+  return st;
+}
+
+/* ---- mending ---- */
+
+/* An exchange at a node: of the columns out[] one less, of the columns in[] one more. */
+typedef struct {
+  int out[2], in[2];
+  double turning; /* more than before */
+} exchange;
+
+/* Cheapest pair column of two different orbits between dart types a and b, -1 = none. */
+static int pair_between(const thr_programme *p, int a, int b, bool self)
+{
+  int best = -1;
+  for (int k = p->first[a]; k < p->first[a + 1]; k++) {
+    const thr_pair_type *t = &p->q->pair[p->incident[k]];
+    int j = p->first_pair + p->incident[k];
+    if (t->self != self || t->dart[0] + t->dart[1] != a + b || (t->dart[0] != a && t->dart[1] != a)) continue;
+    if (best < 0 || p->cost[THR_AIM_TURNING][j] < p->cost[THR_AIM_TURNING][best]) best = j;
+  }
+  return best;
+}
+
+static void try_exchange(const thr_programme *p, int out0, int out1, int in0, int in1, exchange *best)
+{
+  if (in0 < 0 || in1 < 0) return;
+  const double *cost = p->cost[THR_AIM_TURNING];
+  double turning = cost[in0] + cost[in1] - cost[out0] - cost[out1];
+  if (best->out[0] < 0 || turning < best->turning) *best = (exchange){{out0, out1}, {in0, in1}, turning};
+}
+
+/* The pair column j within a set, with dart types a and b, against everything that dart type c of another set does. */
+static void try_partner(const thr_programme *p, const int *value, int j, int a, int b, int c, exchange *best)
+{
+  int with = pair_between(p, a, c, false), end = p->first_end + c;
+  if (with < 0) return;
+  for (int k = p->first[c]; k < p->first[c + 1]; k++) {
+    int y = p->incident[k];
+    const thr_pair_type *t = &p->q->pair[y];
+    if (value[p->first_pair + y] <= 0) continue;
+    int in = t->self ? pair_between(p, b, b, true) : pair_between(p, b, t->dart[0] + t->dart[1] - c, false);
+    try_exchange(p, j, p->first_pair + y, with, in, best);
+  }
+  if (value[end] > 0 && p->most[p->first_end + b]) try_exchange(p, j, end, with, p->first_end + b, best);
+}
+
+static exchange find_exchange(const thr_programme *p, const thr_programme_parts *s, const int *value)
+{
+  exchange best = {{-1, -1}, {-1, -1}, 0};
+  for (int y = 0; y < p->q->n_pairs; y++) {
+    const thr_pair_type *t = &p->q->pair[y];
+    int root = s->root[t->dart[0]];
+    if (value[p->first_pair + y] <= 0 || t->self || (p->open ? s->ends[root] : s->terminals[root]) > 0) continue;
+    for (int i = 0; i < 2; i++) {
+      int a = t->dart[i], b = t->dart[1 - i];
+      for (int k = p->first[a]; k < p->first[a + 1]; k++) {
+        const thr_pair_type *r = &p->q->pair[p->incident[k]];
+        int c = r->dart[0] + r->dart[1] - a;
+        if (!r->self && s->root[c] >= 0 && s->root[c] != root) try_partner(p, value, p->first_pair + y, a, b, c, &best);
+      }
+    }
+  }
+  return best;
+}
+
+thr_status thr_programme_mend(const thr_programme *p, int *value, thr_err *err)
+{
+  thr_programme_parts s = {0};
+  thr_status st = thr_programme_parts_init(&s, p, err);
+  /* Between two sets with folds but no ends an exchange may leave two such sets: hence the limit. */
+  for (int left = p->q->n_darts; left > 0 && !st; left--) {
+    thr_programme_parts_find(&s, p, value);
+    exchange x = find_exchange(p, &s, value);
+    if (x.out[0] < 0) break;
+    for (int i = 0; i < 2; i++) {
+      value[x.out[i]]--;
+      value[x.in[i]]++;
+    }
+  }
+  thr_programme_parts_destroy(&s);
+  return st;
+}

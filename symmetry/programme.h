@@ -1,0 +1,54 @@
+/* The columns of the integer programme of symmetry/cover.h, what they cost, and what a whole solution is worth. Internal. */
+#ifndef THR_PROGRAMME_H
+#define THR_PROGRAMME_H
+
+#include "symmetry/cover.h"
+
+/* Columns: copy types, pair types, ends by dart type, circles by dart type. A circle column is 1 at one dart type of each
+ * connected set of types that no trail ends in. The columns are also the edges of a graph whose nodes are the dart types and one
+ * more, the root: a column with a terminal (end, folded edge, self pair) leads to the root. */
+typedef struct {
+  const thr_quotient *q;
+  const thr_cover_options *o;
+  int n, first_pair, first_end, first_circle;
+  bool open;                /* every cord is open */
+  int *least, *most;        /* [n] bounds; most < 0: no bound but the equations */
+  int (*join)[2];           /* [n] nodes of the graph; circles: their dart type twice */
+  double *cost[THR_N_AIMS]; /* [n] */
+  double constant[THR_N_AIMS];
+  double scale[THR_N_AIMS]; /* largest cost */
+  double unit[THR_N_AIMS];  /* what every cover's worth is a multiple of, but for the constant; 0 = not known */
+  int *first, *incident;    /* pair types at dart type d: incident[first[d] .. first[d + 1] - 1], those within one type once */
+  int *node_orbit;          /* [n_nodes] lowest node */
+} thr_programme;
+
+thr_status thr_programme_init(thr_programme *p, const thr_quotient *q, const thr_cover_options *o, thr_err *err) THR_MUST_CHECK;
+void thr_programme_destroy(thr_programme *p);
+
+bool thr_programme_terminal(const thr_programme *p, int column); /* does a trail end here, in an end or a fold? */
+
+/* Connected sets of dart types in a whole solution: root[d] is the lowest of its set, -1 = unused; by root the terminals, among
+ * them the ends, and the orbits of copies. Arrays: [n_darts]. */
+typedef struct {
+  int *root, *terminals, *ends, *copies;
+} thr_programme_parts;
+
+thr_status thr_programme_parts_init(thr_programme_parts *s, const thr_programme *p, thr_err *err) THR_MUST_CHECK;
+void thr_programme_parts_find(thr_programme_parts *s, const thr_programme *p, const int *value);
+void thr_programme_parts_destroy(thr_programme_parts *s);
+
+/* Of any point that keeps the equations: a set of dart types whose folds outnumber its ends and what leaves it, marked in
+ * side[n_darts] (a minimum cut between folds and ends); *found = false if there is none. Copies and turns have sides of their own
+ * at a dart type, so that a trail alternates. copy_side, pair_side: [n_darts]. */
+thr_status thr_programme_folds(const thr_programme *p, const double *value, bool *copy_side, bool *pair_side, bool *found,
+                               thr_err *err) THR_MUST_CHECK;
+
+/* Worth of a whole solution by aim, circles counted from the connected sets; valid: can it be made concrete? */
+thr_status thr_programme_value(const thr_programme *p, const int *value, double worth[THR_N_AIMS], bool *valid,
+                               thr_err *err) THR_MUST_CHECK;
+
+/* Joins connected sets by exchanging the partners of two turns at one node, cheapest turning first, as long as a set has no
+ * terminal (open: no end). */
+thr_status thr_programme_mend(const thr_programme *p, int *value, thr_err *err) THR_MUST_CHECK;
+
+#endif

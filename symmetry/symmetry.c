@@ -1,0 +1,303 @@
+/* Options -> groups -> the best symmetric threading of each -> one of them -> plan. */
+#include "symmetry/symmetry.h"
+#include "graph/check.h"
+#include "lp/postman.h"
+#include "symmetry/groups.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+const double thr_symmetry_slack = 0.10;
+
+enum { MOST_TYPES = 200000 }; /* of a quotient: what a linear programme can hold */
+
+/* ---- the best threading under one group ---- */
+
+static void release_cords(thr_cord *cord, int n)
+{
+  for (int i = 0; cord && i < n; i++)
+    free(cord[i].half);
+  free(cord);
+}
+
+static thr_status count_copies(thr_symmetry_row *row, thr_err *err)
+{
+  int *copies = thr_calloc((size_t)row->n_cords, sizeof *copies);
+  if (!copies) return thr_nomem(err);
+  for (int i = 0; i < row->n_cords; i++)
+    copies[row->record.unique[i]]++;
+  row->least_copies = row->n_cords;
+  for (int i = 0; i < row->n_cords; i++) {
+    if (copies[i] == 0) continue;
+    if (copies[i] < row->least_copies) row->least_copies = copies[i];
+    if (copies[i] > row->most_copies) row->most_copies = copies[i];
+  }
+  free(copies);
+  return THR_OK;
+}
+
+static thr_status take_cover(const thr_quotient *q, const thr_cover_options *co, const thr_plan_options *o, const thr_cover *c,
+                             thr_symmetry_row *row, thr_err *err)
+{
+  memcpy(row->value, c->value, sizeof row->value);
+  memcpy(row->bound, c->bound, sizeof row->bound);
+  if (!c->copies) return THR_OK; /* out of time before there was any */
+  thr_status st = thr_cover_cords(q, co, c, &row->cord, &row->n_cords, &row->record, err);
+  if (st) return st;
+  snprintf(row->record.name, sizeof row->record.name, "%s", row->name);
+  st = count_copies(row, err);
+  return st ? st : thr_plan_measure(q->f, o, row->cord, row->n_cords, &row->metrics, err);
+}
+
+/* What a row can do without a threading is to say why; all else is a failure. */
+static bool is_said(thr_status st)
+{
+  return st == THR_ELIMIT || st == THR_EINFEASIBLE || st == THR_EINPUT || st == THR_ESOLVER;
+}
+
+static thr_status solve(const thr_frame *f, const thr_plan_options *o, const thr_symmetries *t, const thr_limits *limits,
+                        thr_symmetry_row *row, thr_err *err)
+{
+  thr_quotient q = {0};
+  thr_cover c = {0};
+  thr_cover_options co = {.cover = o->cover, .ends = o->ends, .end_node = o->end_node};
+  memcpy(co.prefer, o->symmetry.prefer, sizeof co.prefer);
+  thr_status st = thr_quotient_init(&q, f, &t->group[row->group].all, &row->elements, MOST_TYPES, &row->why);
+  if (!st) {
+    st = thr_cover_find(&q, &co, limits, &c, &row->why);
+    if (!st || st == THR_ELIMIT) {
+      thr_status made = take_cover(&q, &co, o, &c, row, &row->why);
+      if (made) st = made;
+    }
+  }
+  thr_cover_destroy(&c);
+  thr_quotient_destroy(&q);
+  return st && !is_said(st) ? thr_fail(err, st, "%s", row->why.text) : THR_OK;
+}
+
+/* ---- which rows, and the choice ---- */
+
+static bool is_asked_for(const thr_symmetries *t, int row, const char *group)
+{
+  char number[16];
+  snprintf(number, sizeof number, "%d", row + 1);
+  return !*group || strcmp(number, group) == 0 || strcmp(t->row[row].name, group) == 0;
+}
+
+static thr_status check_asked(const thr_symmetries *t, const char *group, int *asked, thr_err *err)
+{
+  *asked = 0;
+  for (int i = 0; i < t->n; i++)
+    *asked += is_asked_for(t, i, group);
+  if (*asked) return THR_OK;
+  return thr_fail(err, THR_EINPUT, "there is no group %s: they are numbered 1 to %d, and `thread symmetries` lists their names",
+                  group, t->n);
+}
+
+/* 1 % of a millionth is rounding. */
+static int compare(double a, double b)
+{
+  double least = 1e-8 * fmax(1, fmax(fabs(a), fabs(b)));
+  return a < b - least ? -1 : a > b + least;
+}
+
+/* By learned steps (not if none is within the slack), cord, number of cords, turning. */
+static bool is_better(const thr_symmetry_row *a, const thr_symmetry_row *b, bool within)
+{
+  int by = within ? compare(a->record.steps, b->record.steps) : 0;
+  if (!by) by = compare(a->metrics.overlap, b->metrics.overlap);
+  if (!by && !within) by = compare(a->record.steps, b->record.steps);
+  if (!by) by = (a->n_cords > b->n_cords) - (a->n_cords < b->n_cords);
+  if (!by) by = compare(a->metrics.turning, b->metrics.turning);
+  return by < 0;
+}
+
+static void choose(thr_symmetries *t)
+{
+  t->chosen = -1;
+  for (int pass = 0; pass < 2 && t->chosen < 0; pass++) {
+    t->within = pass == 0;
+    for (int i = 0; i < t->n; i++) {
+      const thr_symmetry_row *row = &t->row[i];
+      bool within = compare(row->metrics.length, t->shortest * (1 + thr_symmetry_slack)) <= 0;
+      if (row->n_cords == 0 || (t->within && !within)) continue;
+      if (t->chosen < 0 || is_better(row, &t->row[t->chosen], t->within)) t->chosen = i;
+    }
+  }
+}
+
+/* ---- all rows ---- */
+
+static thr_limits share_of_time(const thr_limits *l, double part)
+{
+  thr_limits share = *l;
+  double now = thr_clock();
+  if (l->deadline > 0) share.deadline = now + part * fmax(0, l->deadline - now);
+  return share;
+}
+
+/* With one cord per component. */
+static thr_status find_shortest(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_symmetries *t,
+                                thr_err *err)
+{
+  thr_shortest s;
+  thr_err why = {0};
+  thr_plan_options one = *o;
+  const thr_limits share = share_of_time(limits, 0.25);
+  one.cords = 1;
+  thr_status st = thr_postman_shortest(f, &one, &share, &s, &why);
+  if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", why.text);
+  t->shortest = s.length;
+  t->shortest_optimal = s.optimal;
+  thr_shortest_destroy(&s);
+  return THR_OK;
+}
+
+static thr_status solve_rows(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_symmetries *t,
+                             thr_err *err)
+{
+  int asked, done = 0;
+  thr_status st = check_asked(t, o->symmetry.group, &asked, err);
+  for (int i = 0; i < t->n && !st; i++) {
+    if (!is_asked_for(t, i, o->symmetry.group)) continue;
+    if (limits->advance) limits->advance(limits->user, "threading under each group", (double)done / asked);
+    const thr_limits share = share_of_time(limits, 1.0 / (asked - done++));
+    st = solve(f, o, t, &share, &t->row[i], err);
+  }
+  return st;
+}
+
+/* What was asked for and could not be had. */
+static thr_status verdict(const thr_symmetries *t, const char *group, thr_err *err)
+{
+  int unsolved = 0, asked = 0;
+  const thr_symmetry_row *none = NULL;
+  for (int i = 0; i < t->n; i++) {
+    thr_status why = t->row[i].why.code;
+    if (!is_asked_for(t, i, group)) continue;
+    asked++;
+    unsolved += why == THR_ELIMIT || why == THR_ESOLVER;
+    if (why) none = &t->row[i];
+  }
+  if (none && t->chosen < 0 && !unsolved) return thr_fail(err, none->why.code, "%s", none->why.text);
+  if (!unsolved) return THR_OK;
+  return thr_fail(err, THR_ELIMIT, "%d of %d %s not solved to the end in time", unsolved, asked,
+                  asked == 1 ? "group was" : "groups were");
+}
+
+thr_status thr_symmetries_find(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_symmetries *out,
+                               thr_err *err)
+{
+  *out = (thr_symmetries){.chosen = -1};
+  thr_status st = find_shortest(f, o, limits, out, err);
+  if (!st) st = thr_symmetry_groups(f, o, out, err);
+  if (!st) st = solve_rows(f, o, limits, out, err);
+  if (!st) {
+    choose(out);
+    st = verdict(out, o->symmetry.group, err);
+  }
+  if (st && st != THR_ELIMIT) thr_symmetries_destroy(out);
+  return st;
+}
+
+void thr_symmetries_destroy(thr_symmetries *t)
+{
+  for (int i = 0; i < t->n; i++) {
+    thr_subgroup_destroy(&t->row[i].elements);
+    release_cords(t->row[i].cord, t->row[i].n_cords);
+    thr_symmetry_record_destroy(&t->row[i].record);
+  }
+  for (int k = 0; k < t->n_groups; k++) {
+    thr_group_destroy(&t->group[k].all);
+    free(t->group[k].isometry);
+  }
+  free(t->row);
+  free(t->group);
+  *t = (thr_symmetries){.chosen = -1};
+}
+
+/* ---- plans ---- */
+
+/* Cords in the component that has most, and in the one that has least. */
+static void count_cords(const thr_symmetry_row *row, int *least, int *most)
+{
+  int n = 0;
+  *most = 0;
+  *least = row->n_cords;
+  for (int i = 0; i < row->n_cords; i++) { /* components are numbered without gaps, and all have cords */
+    if (row->cord[i].component >= n) n = row->cord[i].component + 1;
+  }
+  for (int k = 0; k < n; k++) {
+    int count = 0;
+    for (int i = 0; i < row->n_cords; i++)
+      count += row->cord[i].component == k;
+    if (count > *most) *most = count;
+    if (count < *least) *least = count;
+  }
+}
+
+static thr_status prove(thr_plan *plan, const thr_limits *limits, thr_err *err)
+{
+  thr_shortest s = {0};
+  thr_err why = {0};
+  thr_status st = thr_postman_shortest(&plan->frame, &plan->options, limits, &s, &why);
+  if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", why.text);
+  st = thr_postman_prove(&plan->frame, &plan->options, plan->cord, plan->n_cords, &s, &plan->proof, err);
+  thr_shortest_destroy(&s);
+  return st;
+}
+
+thr_status thr_symmetries_plan(thr_symmetries *t, int row, const thr_frame *f, const thr_plan_options *o,
+                               const thr_limits *limits, thr_plan *plan, thr_err *err)
+{
+  enum { MOST_CORDS = 1000 }; /* that a plan may have in a component */
+  thr_symmetry_row *r = &t->row[row];
+  thr_plan_options with = *o;
+  int least;
+  *plan = (thr_plan){0};
+  with.objective = THR_SYMMETRY;
+  count_cords(r, &least, &with.cords);
+  if (with.cords > MOST_CORDS)
+    return thr_fail(err, THR_EINFEASIBLE, "group %d makes %d cords in one piece, more than %d", row + 1, with.cords, MOST_CORDS);
+  thr_status st = thr_plan_request(plan, f, &with, err);
+  if (!st) {
+    plan->cord = r->cord;
+    plan->n_cords = r->n_cords;
+    plan->metrics = r->metrics;
+    plan->symmetry = r->record;
+    r->cord = NULL;
+    r->record = (thr_symmetry_record){.order = r->record.order, .steps = r->record.steps, .unique_paths = r->record.unique_paths};
+    st = prove(plan, limits, err);
+  }
+  if (!st && r->why.code) st = thr_fail(err, r->why.code, "%s", r->why.text);
+  if (st && st != THR_ELIMIT) thr_plan_destroy(plan);
+  return st;
+}
+
+thr_status thr_symmetry_plan(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_symmetries *table,
+                             thr_plan *plan, thr_err *err)
+{
+  thr_symmetries t;
+  thr_err early = {0}, own = {0};
+  *plan = (thr_plan){0};
+  thr_status found = thr_symmetries_find(f, o, limits, &t, &early), st = found;
+  if (t.chosen >= 0) st = thr_symmetries_plan(&t, t.chosen, f, o, limits, plan, &own);
+  if (st == THR_OK) st = found;
+  if (!table || (st && st != THR_ELIMIT)) thr_symmetries_destroy(&t);
+  if (table) *table = t;
+  return st ? thr_fail(err, st, "%s", found ? early.text : own.text) : THR_OK;
+}
+
+int thr_symmetries_even(const thr_symmetries *t, int cords)
+{
+  int best = -1, least, most;
+  for (int i = 0; i < t->n; i++) {
+    if (t->row[i].n_cords == 0 || !t->row[i].cord) continue;
+    count_cords(&t->row[i], &least, &most);
+    if (least != cords || most != cords) continue;
+    if (best < 0 || t->row[i].metrics.max_turning < t->row[best].metrics.max_turning) best = i;
+  }
+  return best;
+}

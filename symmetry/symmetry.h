@@ -1,0 +1,85 @@
+/* The objective "symmetry": learn a few paths, repeat them (thesis, chapter 5; docs/method.md). Which groups of automorphisms a
+ * framework has, the best symmetric threading under each, and the choice among them. */
+#ifndef THR_SYMMETRY_H
+#define THR_SYMMETRY_H
+
+#include "symmetry/cover.h"
+#include "symmetry/isometry.h"
+
+enum {
+  THR_SYMMETRY_CLASSES = 100, /* of subgroups; a group with more is too large to be listed */
+  THR_SYMMETRY_EXTRA = 16,    /* subgroups of a group that is too large, beside those that are isometries */
+  THR_SYMMETRY_EXTRA_ORDER = 64
+};
+extern const double thr_symmetry_near;  /* 0.05: residual up to which an automorphism is called a mirror, a rotation, .. */
+extern const double thr_symmetry_slack; /* 0.10: cord that the default choice may use above the shortest, as a part of it */
+
+/* One class of conjugate groups, and the best symmetric threading under one of them. */
+typedef struct {
+  int order;
+  int conjugates;              /* groups in its class; 0 = not known */
+  int group;                   /* its elements are those of this group of the table */
+  thr_subgroup elements;       /* owned */
+  char name[16];               /* point group (Schoenflies), or "" if some element is no isometry within thr_symmetry_near */
+  int kinds[THR_ISO_NONE + 1]; /* elements of each kind */
+  double residual;             /* of the element that is farthest from an isometry (symmetry/isometry.h) */
+  /* THR_OK: best, proved. THR_ELIMIT: not proved, or none found in time (then n_cords = 0). THR_EINFEASIBLE, THR_EINPUT,
+   * THR_ESOLVER: none, said why. code 0 and n_cords = 0: not asked for. */
+  thr_err why;
+  double value[THR_N_AIMS], bound[THR_N_AIMS]; /* as in thr_cover */
+  int n_cords;
+  int least_copies, most_copies; /* cords of a unique path, itself among them: the fewest and the most */
+  thr_cord *cord;                /* [n_cords] owned; NULL once a plan has taken them */
+  thr_symmetry_record record;    /* owned */
+  thr_metrics metrics;
+} thr_symmetry_row;
+
+/* A listed group that rows are subgroups of. */
+typedef struct {
+  thr_group all;
+  thr_isometry *isometry; /* [all.order] owned */
+} thr_symmetry_group;
+
+typedef struct {
+  double mantissa; /* order of the group that the rows are taken from: mantissa * 10^exponent, exact below 10^15 */
+  int exponent;
+  int node_orbits, edge_orbits; /* under it */
+  bool listed;                  /* the rows are all its subgroups up to conjugacy */
+  char note[256];               /* if not: what the rows are */
+  int n_groups;
+  thr_symmetry_group *group; /* [n_groups] owned */
+  int n;
+  thr_symmetry_row *row; /* [n] by descending order; users count them from 1; owned */
+  double shortest;       /* cord that the shortest plan with one cord per component and these ends needs, units */
+  bool shortest_optimal; /* false: the shortest that was found in time */
+  int chosen;            /* row, -1 = none has a threading */
+  bool within;           /* it needs at most thr_symmetry_slack more than shortest */
+} thr_symmetries;
+
+/* Groups and threadings for the options' cover, ends and symmetry. Every group is one of automorphisms that keep feet and allowed
+ * end nodes. All automorphisms by nauty; if they are more than THR_GROUP_CAP, or have too many subgroups, the isometries within
+ * thr_symmetry_near and small groups of one or two of nauty's generators. options.symmetry.geometric: only isometries.
+ * options.symmetry.group: only the rows of that number or name are solved, and the best of them is chosen. Otherwise the default
+ * choice: least learned steps among the rows with at most thr_symmetry_slack more cord than the shortest plan, or if there is
+ * none the least cord; ties by overlap, cords, turning, number. Each row gets an equal share of the time that is left, the
+ * largest group first. THR_OK: every row that was asked for is solved. THR_ELIMIT: some are not (their row says so); out holds
+ * the rest. THR_EINPUT: no row of that number or name. THR_EINFEASIBLE: no threading with these ends. Otherwise out is empty. */
+thr_status thr_symmetries_find(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_symmetries *out,
+                               thr_err *err) THR_MUST_CHECK;
+void thr_symmetries_destroy(thr_symmetries *t);
+
+/* The plan of a row that has cords, which it takes out of the table: with its record, metrics and the proof of length for as many
+ * cords in every component as the component with most has. THR_OK or THR_ELIMIT (the row is not proved best for its group);
+ * otherwise the plan is empty. */
+thr_status thr_symmetries_plan(thr_symmetries *t, int row, const thr_frame *f, const thr_plan_options *o,
+                               const thr_limits *limits, thr_plan *plan, thr_err *err) THR_MUST_CHECK;
+
+/* Both: the plan of the chosen row; table (NULL = not wanted) receives the table, without that row's cords. THR_ELIMIT also if
+ * not every row was solved, so that another might be chosen; with an empty plan if no row has a threading yet. */
+thr_status thr_symmetry_plan(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_symmetries *table,
+                             thr_plan *plan, thr_err *err) THR_MUST_CHECK;
+
+/* The row with exactly `cords` cords in every component whose cord that turns most turns least; -1 = none. */
+int thr_symmetries_even(const thr_symmetries *t, int cords);
+
+#endif

@@ -1,0 +1,15 @@
+/* Frameworks whose symmetries are known, and a look at permutations that shares no code with the program. */
+#ifndef THR_TEST_SYMMETRIC_H
+#define THR_TEST_SYMMETRIC_H
+
+#include "tests/support.h"
+#include "graph/make.h"
+
+thr_frame shape_make(thr_shape shape, int size, int rings); /* as `thread make` does */
+thr_frame truncated_icosahedron(void);                      /* 60 nodes of degree 3, no feet */
+thr_frame no_feet(thr_frame f);                             /* the same framework, whose feet it takes away */
+
+/* Does the permutation keep edges, feet and, where given, the colours of edges? */
+bool keeps_frame(const thr_frame *f, const int *edge_colour, const int *image);
+
+#endif

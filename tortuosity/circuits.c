@@ -1,0 +1,366 @@
+/* Exchanges between and within the circuits of closed cords. */
+#include "tortuosity/circuits.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double enough = 1e-9; /* smaller savings are rounding */
+
+/* All circuits as transitions: number i arrives by in[i] and leaves by out[i] (both darts leave its node). */
+typedef struct {
+  thr_join *j;
+  const thr_limits *limits;
+  int n;
+  int *in, *out, *circuit; /* [n_darts / 2] */
+  int *at;                 /* [n_darts] transition that the dart is part of */
+  int *count;              /* [n_components] circuits */
+  int *here, *list;        /* [n_darts] scratch */
+  uint64_t state;          /* of the random numbers */
+} circuits;
+
+/* Two transitions of one node and how to pair their darts anew. */
+typedef struct {
+  double extra; /* what that costs more */
+  int change;   /* circuits more */
+  int made[4];  /* pairs to make: made[0] with made[1], made[2] with made[3] */
+  int old[4];   /* pairs before, in the same way */
+} exchange;
+
+static void circuits_destroy(circuits *s)
+{
+  free(s->in);
+  free(s->out);
+  free(s->circuit);
+  free(s->at);
+  free(s->count);
+  free(s->here);
+  free(s->list);
+}
+
+static thr_status circuits_init(circuits *s, thr_join *j, const thr_limits *limits, thr_err *err)
+{
+  size_t n = (size_t)j->g.n_darts;
+  *s = (circuits){.j = j, .limits = limits, .state = 1};
+  s->in = thr_calloc(n / 2, sizeof *s->in);
+  s->out = thr_calloc(n / 2, sizeof *s->out);
+  s->circuit = thr_calloc(n / 2, sizeof *s->circuit);
+  s->at = thr_calloc(n, sizeof *s->at);
+  s->count = thr_calloc((size_t)j->c->n_components, sizeof *s->count);
+  s->here = thr_calloc(n, sizeof *s->here);
+  s->list = thr_calloc(n, sizeof *s->list);
+  return s->in && s->out && s->circuit && s->at && s->count && s->here && s->list ? THR_OK : thr_nomem(err);
+}
+
+/* Walks all circuits. The same pairs give the same numbers. */
+static void follow(circuits *s)
+{
+  const thr_multigraph *g = &s->j->g;
+  int circuit = 0;
+  s->n = 0;
+  for (int d = 0; d < g->n_darts; d++)
+    s->at[d] = -1;
+  memset(s->count, 0, (size_t)s->j->c->n_components * sizeof *s->count);
+  for (int start = 0; start < g->n_darts; start++) {
+    if (s->at[start] >= 0) continue;
+    for (int d = start; s->at[d ^ 1] < 0; d = s->j->mate[d ^ 1]) {
+      s->in[s->n] = d ^ 1;
+      s->out[s->n] = s->j->mate[d ^ 1];
+      s->circuit[s->n] = circuit;
+      s->at[s->in[s->n]] = s->at[s->out[s->n]] = s->n;
+      s->n++;
+    }
+    s->count[s->j->c->component[g->tail[start]]]++;
+    circuit++;
+  }
+}
+
+/* The transitions at node v, each once. */
+static int transitions_at(const circuits *s, int v, int *list)
+{
+  const thr_multigraph *g = &s->j->g;
+  int n = 0;
+  for (int k = g->first[v]; k < g->first[v + 1]; k++)
+    if (s->in[s->at[g->dart[k]]] == g->dart[k]) list[n++] = s->at[g->dart[k]];
+  return n;
+}
+
+/* Either of the two ways to pair the darts of two transitions anew. crossed: arriving with arriving, which runs a part of one
+ * circuit the other way round; not crossed cuts one circuit in two. Two circuits become one either way. */
+static exchange exchange_of(const circuits *s, int i, int k, bool crossed)
+{
+  int a = s->in[i], b = crossed ? s->in[k] : s->out[k], c = s->out[i], d = crossed ? s->out[k] : s->in[k];
+  double old = thr_join_price(s->j, s->in[i], s->out[i]) + thr_join_price(s->j, s->in[k], s->out[k]);
+  int change = s->circuit[i] != s->circuit[k] ? -1 : crossed ? 0 : 1;
+  double now = thr_join_price(s->j, a, b) + thr_join_price(s->j, c, d);
+  return (exchange){now - old, change, {a, b, c, d}, {s->in[i], s->out[i], s->in[k], s->out[k]}};
+}
+
+static void set_pairs(circuits *s, const int *pair)
+{
+  for (int i = 0; i < 4; i++)
+    s->j->mate[pair[i]] = pair[i ^ 1];
+  follow(s);
+}
+
+/* The cheapest exchange in a component that changes the number of its circuits so; extra is infinite if there is none. */
+static exchange cheapest(const circuits *s, int component, int change)
+{
+  const thr_turning_columns *c = s->j->c;
+  exchange best = {.extra = INFINITY};
+  for (int v = 0; v < c->f->n_nodes; v++) {
+    if (c->component[v] != component) continue;
+    int n = transitions_at(s, v, s->list);
+    for (int i = 0; i < n; i++)
+      for (int k = i + 1; k < n; k++)
+        for (int crossed = 0; crossed < 2; crossed++) {
+          exchange x = exchange_of(s, s->list[i], s->list[k], crossed);
+          if (x.change == change && x.extra < best.extra - 1e-12) best = x;
+        }
+  }
+  return best;
+}
+
+static uint64_t next_random(uint64_t *state)
+{
+  uint64_t z = *state += UINT64_C(0x9e3779b97f4a7c15);
+  z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
+  z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
+  return z ^ z >> 31;
+}
+
+/* An allowed exchange anywhere in the component. */
+static void exchange_any(circuits *s, int component)
+{
+  enum { TRIES = 20 };
+  for (int k = 0; k < TRIES; k++) {
+    int i = (int)(next_random(&s->state) % (uint64_t)s->n), v = s->j->g.tail[s->in[i]];
+    if (s->j->c->component[v] != component) continue;
+    int n = transitions_at(s, v, s->list), other = s->list[next_random(&s->state) % (uint64_t)n];
+    if (other == i) continue;
+    exchange x = exchange_of(s, i, other, next_random(&s->state) % 2);
+    if (x.extra >= thr_join_forbidden / 2) continue;
+    set_pairs(s, x.made);
+    return;
+  }
+}
+
+/* Until the component has so many circuits. */
+static bool reach(circuits *s, int component)
+{
+  enum { SHAKES = 100 };
+  for (int shakes = 0;;) {
+    int change = s->j->c->task->cords - s->count[component];
+    if (change == 0) return true;
+    exchange x = cheapest(s, component, change > 0 ? 1 : -1);
+    if (x.extra < thr_join_forbidden / 2) {
+      set_pairs(s, x.made);
+      continue;
+    }
+    if (shakes++ == SHAKES || thr_limits_stop(s->limits)) return false;
+    exchange_any(s, component);
+  }
+}
+
+/* One exchange at node v that saves and keeps the number, or one that saves with one anywhere that puts the number right. */
+static bool improve_at(circuits *s, int v)
+{
+  int component = s->j->c->component[v], n = transitions_at(s, v, s->here);
+  for (int i = 0; i < n; i++)
+    for (int k = i + 1; k < n; k++)
+      for (int crossed = 0; crossed < 2; crossed++) {
+        exchange x = exchange_of(s, s->here[i], s->here[k], crossed);
+        if (x.extra >= -enough) continue;
+        set_pairs(s, x.made);
+        if (x.change == 0) return true;
+        exchange y = cheapest(s, component, -x.change);
+        if (x.extra + y.extra < -enough) {
+          set_pairs(s, y.made);
+          return true;
+        }
+        set_pairs(s, x.old);
+      }
+  return false;
+}
+
+static void improve(circuits *s)
+{
+  const thr_frame *f = s->j->c->f;
+  for (bool changed = true; changed && !thr_limits_stop(s->limits);) {
+    changed = false;
+    for (int v = 0; v < f->n_nodes; v++)
+      while (!thr_limits_stop(s->limits) && improve_at(s, v))
+        changed = true;
+  }
+}
+
+thr_status thr_circuits_make(thr_join *j, const thr_limits *limits, bool *found, thr_err *err)
+{
+  circuits s;
+  thr_status st = circuits_init(&s, j, limits, err);
+  *found = !st;
+  if (!st) follow(&s);
+  for (int k = 0; k < j->c->n_components && *found; k++)
+    *found = reach(&s, k);
+  if (*found) improve(&s);
+  if (!st) thr_join_measure(j);
+  circuits_destroy(&s);
+  return st;
+}
+
+/* ---- further cords ---- */
+
+typedef struct {
+  const thr_turning_columns *c;
+  thr_cord *cord; /* [n_cords] owned */
+  int n_cords, made;
+  int *passes;
+  int *by, *stamp, *queue; /* [2 * n_edges] search over half-edges */
+  int searches;
+  int *walk, n_walk; /* [2 * n_edges] the walk found last */
+} adder;
+
+static void adder_destroy(adder *s)
+{
+  for (int i = 0; s->cord && i < s->n_cords; i++)
+    free(s->cord[i].half);
+  free(s->cord);
+  free(s->by);
+  free(s->stamp);
+  free(s->queue);
+  free(s->walk);
+}
+
+static thr_status adder_init(adder *s, const thr_join *j, int *passes, int n_cords, thr_err *err)
+{
+  size_t darts = 2 * (size_t)j->c->f->n_edges;
+  *s = (adder){.c = j->c, .n_cords = n_cords, .passes = passes};
+  s->cord = thr_calloc((size_t)n_cords, sizeof *s->cord);
+  s->by = thr_calloc(darts, sizeof *s->by);
+  s->stamp = thr_calloc(darts, sizeof *s->stamp);
+  s->queue = thr_calloc(darts, sizeof *s->queue);
+  s->walk = thr_calloc(darts, sizeof *s->walk);
+  return s->cord && s->by && s->stamp && s->queue && s->walk ? THR_OK : thr_nomem(err);
+}
+
+/* Breadth-first over half-edges from h until it comes back into h; U-turns at nodes with one edge only. */
+static void find_walk(adder *s, int h)
+{
+  const thr_frame *f = s->c->f;
+  int head = 0, tail = 0, now = ++s->searches;
+  s->n_walk = 0;
+  s->queue[tail++] = h;
+  while (head < tail && s->stamp[h] != now) {
+    int in = s->queue[head++], v = thr_head(f, in);
+    for (int i = f->first[v]; i < f->first[v + 1]; i++) {
+      int out = f->half[i];
+      if (s->stamp[out] == now || (out == (in ^ 1) && thr_degree(f, v) > 1)) continue;
+      s->stamp[out] = now;
+      s->by[out] = in;
+      if (out != h) s->queue[tail++] = out;
+    }
+  }
+  if (s->stamp[h] != now) return;
+  int at = h;
+  do {
+    s->walk[s->n_walk++] = at;
+    at = s->by[at];
+  } while (at != h);
+  for (int i = 0, k = s->n_walk - 1; i < k; i++, k--) {
+    int swap = s->walk[i];
+    s->walk[i] = s->walk[k];
+    s->walk[k] = swap;
+  }
+}
+
+/* Price of the walk found last; infinite if it needs more passes than allowed. */
+static double walk_price(const adder *s)
+{
+  const thr_turning_task *t = s->c->task;
+  double price = 0;
+  bool room = s->n_walk > 0;
+  for (int i = 0; i < s->n_walk; i++) {
+    int h = s->walk[i], e = h >> 1;
+    price += thr_turn_price(s->c->f, t->cost, h, s->walk[(i + 1) % s->n_walk]) + t->price_per_length * s->c->f->length[e];
+    room &= ++s->passes[e] <= t->most_passes;
+  }
+  for (int i = 0; i < s->n_walk; i++)
+    s->passes[s->walk[i] >> 1]--;
+  return room ? price : (double)INFINITY;
+}
+
+/* One more closed cord in the component. */
+static thr_status add_walk(adder *s, int component, bool *found, thr_err *err)
+{
+  const thr_frame *f = s->c->f;
+  double least = INFINITY;
+  int best = -1;
+  for (int h = 0; h < 2 * f->n_edges; h += 2) {
+    if (s->c->component[thr_tail(f, h)] != component) continue;
+    find_walk(s, h);
+    double price = walk_price(s);
+    if (price < least - 1e-12) least = price, best = h;
+  }
+  *found = best >= 0;
+  if (best < 0) return THR_OK;
+  find_walk(s, best);
+  thr_cord *c = &s->cord[s->made];
+  if (!(c->half = thr_calloc((size_t)s->n_walk, sizeof *c->half))) return thr_nomem(err);
+  memcpy(c->half, s->walk, (size_t)s->n_walk * sizeof *c->half);
+  c->n_passes = s->n_walk;
+  s->made++;
+  for (int i = 0; i < s->n_walk; i++)
+    s->passes[s->walk[i] >> 1]++;
+  return THR_OK;
+}
+
+/* The circuit through the transitions from first on. */
+static thr_status copy_circuit(adder *s, const circuits *from, int first, int n, thr_err *err)
+{
+  thr_cord *c = &s->cord[s->made];
+  if (!(c->half = thr_calloc((size_t)n, sizeof *c->half))) return thr_nomem(err);
+  for (int i = 0; i < n; i++) {
+    c->half[i] = from->j->g.half[from->out[first + i]];
+    s->passes[c->half[i] >> 1]++;
+  }
+  c->n_passes = n;
+  s->made++;
+  return THR_OK;
+}
+
+static thr_status copy_circuits(adder *s, const circuits *from, thr_err *err)
+{
+  thr_status st = THR_OK;
+  memset(s->passes, 0, (size_t)s->c->f->n_edges * sizeof *s->passes);
+  for (int first = 0, next; first < from->n && !st; first = next) {
+    for (next = first; next < from->n && from->circuit[next] == from->circuit[first];)
+      next++;
+    st = copy_circuit(s, from, first, next - first, err);
+  }
+  return st;
+}
+
+thr_status thr_circuits_add(const thr_join *j, thr_join *out, int *passes, bool *found, thr_err *err)
+{
+  const thr_turning_columns *c = j->c;
+  int cords = c->task->cords;
+  circuits from;
+  adder s = {0};
+  thr_join same = *j; /* follow() does not change it */
+  thr_limits none = {0};
+  *out = (thr_join){0};
+  thr_status st = circuits_init(&from, &same, &none, err);
+  if (!st) follow(&from);
+  *found = !st;
+  for (int k = 0; k < c->n_components && !st; k++)
+    *found &= from.count[k] <= cords;
+  if (*found) st = adder_init(&s, j, passes, cords * c->n_components, err);
+  if (!st && *found) st = copy_circuits(&s, &from, err);
+  for (int k = 0; k < c->n_components && !st && *found; k++)
+    for (; from.count[k] < cords && !st && *found; from.count[k]++)
+      st = add_walk(&s, k, found, err);
+  if (!st && *found) st = thr_join_from_cords(out, c, s.cord, s.n_cords, err);
+  circuits_destroy(&from);
+  adder_destroy(&s);
+  return st;
+}

@@ -1,0 +1,324 @@
+/* Options -> the search's task -> cords -> plan with its claims; and the trade-off between length and turning. */
+#include "tortuosity/tortuosity.h"
+#include "graph/check.h"
+#include "lp/postman.h"
+#include "tortuosity/baseline.h"
+#include "tortuosity/maxturn.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static thr_least_options search_options(const thr_plan_options *o)
+{
+  thr_least_options lo = thr_least_options_default();
+  lo.cover = o->cover;
+  lo.ends = o->ends;
+  lo.end_node = o->end_node;
+  lo.cords = o->cords;
+  lo.cost = o->turning.cost;
+  lo.length_slack = o->turning.length_slack;
+  return lo;
+}
+
+/* The limits with only a part of the time that is left. */
+static thr_limits share_of_time(const thr_limits *l, double part)
+{
+  thr_limits share = *l;
+  if (l->deadline > 0) {
+    double now = thr_clock();
+    share.deadline = now + part * fmax(0, l->deadline - now);
+  }
+  return share;
+}
+
+/* ---- cords ---- */
+
+/* Among cords that turn no more, shorter ones: the search once more with a price on length that is far below any turn's. What
+ * is proved of the turning stays; that no shorter cords turn as little is not proved. */
+static thr_status shorten(const thr_frame *f, const thr_least_options *lo, const thr_limits *limits, thr_least *l, thr_err *err)
+{
+  const double small = 1e-6; /* price of a mean edge's length; a U-turn costs 1 or more */
+  thr_least_options with_length = *lo;
+  thr_least other;
+  if (!l->optimal || l->length <= l->shortest * (1 + 1e-9)) return THR_OK;
+  with_length.price_per_length = small * f->n_edges / thr_frame_total_length(f);
+  thr_err unused = {0};
+  thr_status st = thr_least_turning(f, &with_length, limits, &other, &unused);
+  if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", unused.text);
+  double price = other.price - with_length.price_per_length * (other.length - lo->cover * thr_frame_total_length(f));
+  if (price <= l->price + 1e-9 && other.length < l->length * (1 - 1e-9)) {
+    thr_cord *cord = l->cord;
+    l->cord = other.cord;
+    other.cord = cord;
+    l->length = other.length;
+    l->turning = other.turning;
+  }
+  thr_least_destroy(&other);
+  return THR_OK;
+}
+
+/* The least turning and, with time left, the shorter of those that turn equally little. */
+static thr_status find_least(const thr_frame *f, const thr_least_options *lo, const thr_limits *limits, thr_least *l,
+                             thr_err *err)
+{
+  thr_status found = thr_least_turning(f, lo, limits, l, err);
+  if (found) return found;
+  thr_status st = shorten(f, lo, limits, l, err);
+  if (st) thr_least_destroy(l);
+  return st;
+}
+
+/* ---- a second start for the cord that turns most ---- */
+
+/* Are they cords of the task: as many in every component as l has, over passes and ends that it allows? */
+static thr_status seed_fits(const thr_frame *f, const thr_least *l, const thr_plan *seed, bool *fits, thr_err *err)
+{
+  int *count = thr_calloc((size_t)f->n_nodes, sizeof *count); /* cords of a component: l's less the seed's */
+  double length = 0;
+  *fits = seed->n_cords == l->n_cords && seed->frame.n_nodes == f->n_nodes && seed->options.cover == l->task.cover &&
+          seed->metrics.most_passes <= l->task.most_passes;
+  if (!count) return thr_nomem(err);
+  for (int i = 0; i < l->n_cords && *fits; i++) {
+    const thr_cord *c = &seed->cord[i];
+    count[l->cord[i].component]++;
+    count[c->component]--;
+    length += thr_cord_length(f, c);
+    *fits = l->end_allowed ? l->end_allowed[thr_cord_start(f, c)] && l->end_allowed[thr_cord_end(f, c)] : c->closed;
+    for (int k = 0; k + 1 < c->n_passes && *fits; k++) /* the search never turns back where it need not */
+      *fits = c->half[k + 1] != (c->half[k] ^ 1) || thr_degree(f, thr_head(f, c->half[k])) == 1;
+  }
+  for (int v = 0; v < f->n_nodes && *fits; v++)
+    *fits = count[v] == 0;
+  *fits &= l->length_limit < 0 || length <= l->length_limit * (1 + 1e-12);
+  free(count);
+  return THR_OK;
+}
+
+static thr_status copy_cords(const thr_cord *from, int n, thr_cord **to, thr_err *err)
+{
+  if (!(*to = thr_calloc((size_t)n, sizeof **to))) return thr_nomem(err);
+  for (int i = 0; i < n; i++) {
+    (*to)[i] = from[i];
+    if (!((*to)[i].half = thr_calloc((size_t)from[i].n_passes, sizeof *from[i].half))) return thr_nomem(err);
+    memcpy((*to)[i].half, from[i].half, (size_t)from[i].n_passes * sizeof *from[i].half);
+  }
+  return THR_OK;
+}
+
+static void release_cords(thr_cord *cord, int n)
+{
+  for (int i = 0; cord && i < n; i++)
+    free(cord[i].half);
+  free(cord);
+}
+
+/* The better of what comes of l's own cords and of the seed's, which is tried first. */
+static thr_status even_out(const thr_frame *f, const thr_plan *seed, const thr_limits *limits, thr_least *l, thr_err *err)
+{
+  bool fits = false;
+  thr_max_turning own = {.largest = INFINITY}, other = own;
+  thr_least from = *l; /* with the seed's cords; all else stays l's */
+  from.cord = NULL;
+  thr_status st = seed ? seed_fits(f, l, seed, &fits, err) : THR_OK;
+  if (!st && fits) {
+    const thr_limits share = share_of_time(limits, 0.5);
+    st = copy_cords(seed->cord, seed->n_cords, &from.cord, err);
+    if (!st) st = thr_max_turning_improve(f, &share, &from, &other, err);
+  }
+  if (!st && !(other.largest <= other.bound * (1 + 1e-9))) st = thr_max_turning_improve(f, limits, l, &own, err);
+  if (!st && other.largest < own.largest) {
+    thr_cord *cord = l->cord;
+    *l = from;
+    from.cord = cord;
+  }
+  release_cords(from.cord, l->n_cords);
+  return st;
+}
+
+/* Begins with the cords of the shortest plan where that has as many. */
+static thr_status find_from_shortest(const thr_frame *f, const thr_plan_options *o, const int *passes, const thr_limits *limits,
+                                     thr_least *l, thr_err *err)
+{
+  thr_least_options lo = search_options(o);
+  thr_cord *cord = NULL;
+  thr_status st = THR_OK;
+  if (o->cords == 1) st = thr_postman_cords(f, o, passes, &cord, &lo.n_start, err);
+  lo.start = cord;
+  if (!st) st = find_least(f, &lo, limits, l, err);
+  release_cords(cord, lo.n_start);
+  return st;
+}
+
+static thr_status find_cords(const thr_frame *f, const thr_plan_options *o, const int *passes, const thr_plan *seed,
+                             const thr_limits *limits, thr_least *l, thr_err *err)
+{
+  const thr_least_options lo = search_options(o);
+  if (o->turning.tour != THR_TOUR_LEAST)
+    return thr_baseline_tour(f, &lo, o->turning.tour, o->turning.ignore_pairings, limits, l, err);
+  if (!o->turning.largest) return find_from_shortest(f, o, passes, limits, l, err);
+  const thr_limits first = share_of_time(limits, 0.6);
+  thr_status st = find_from_shortest(f, o, passes, &first, l, err);
+  if (st && st != THR_ELIMIT) return st;
+  st = even_out(f, seed, limits, l, err);
+  if (st) thr_least_destroy(l);
+  return st;
+}
+
+/* ---- claims ---- */
+
+/* Moves the tree of the search into the plan, with what the checker says of it. */
+static thr_status claim_turning(thr_plan *plan, thr_least *l, thr_err *err)
+{
+  thr_turning_claim claim = {.most_passes = l->task.most_passes, .length_limit = l->length_limit, .tree = l->proof};
+  thr_err found = {0};
+  l->proof = (thr_turning_proof){0};
+  thr_status st = thr_check_turning(&plan->frame, &plan->options, plan->cord, plan->n_cords, &claim, &plan->turning, &found);
+  plan->turning.tree = claim.tree;
+  if (st == THR_EVIOLATED) return thr_fail(err, THR_ESOLVER, "the plan does not pass its own check: %s", found.text);
+  return st ? thr_fail(err, st, "%s", found.text) : THR_OK;
+}
+
+/* Takes cords and proof of l, and the certificates of s. */
+static thr_status assemble(const thr_frame *f, const thr_plan_options *o, thr_least *l, thr_shortest *s, thr_plan *plan,
+                           thr_err *err)
+{
+  thr_status st = thr_plan_request(plan, f, o, err);
+  if (st) return st;
+  plan->cord = l->cord;
+  plan->n_cords = l->n_cords;
+  l->cord = NULL;
+  st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
+  if (!st) st = thr_postman_prove(&plan->frame, &plan->options, plan->cord, plan->n_cords, s, &plan->proof, err);
+  if (!st && o->turning.tour == THR_TOUR_LEAST) st = claim_turning(plan, l, err);
+  return st;
+}
+
+/* What was to be minimized, and how far the proof got. */
+static thr_status verdict(const thr_plan *p, thr_err *err)
+{
+  const thr_turning_claim *c = &p->turning;
+  if (!c->present) return THR_OK;
+  if (p->options.turning.largest && !c->largest_optimal)
+    return thr_fail(err, THR_ELIMIT, "the largest turning of a cord is proved to be within %.3g %% of the least",
+                    100 * (c->largest - c->largest_bound) / c->largest);
+  if (!p->options.turning.largest && !c->optimal)
+    return thr_fail(err, THR_ELIMIT, "stopped early: the turning is proved to be within %.3g %% of the least", 100 * c->gap);
+  return THR_OK;
+}
+
+thr_status thr_tortuosity_plan_from(const thr_frame *f, const thr_plan_options *o, const thr_plan *seed, const thr_limits *limits,
+                                    thr_plan *plan, thr_err *err)
+{
+  thr_shortest shortest = {0};
+  thr_least l = {0};
+  thr_err unproved = {0}; /* of the search's steps; the plan's own verdict is what counts */
+  *plan = (thr_plan){0};
+  thr_status st = thr_postman_shortest(f, o, limits, &shortest, &unproved);
+  if (!st || st == THR_ELIMIT) st = find_cords(f, o, shortest.passes, seed, limits, &l, &unproved);
+  if (st && st != THR_ELIMIT)
+    st = thr_fail(err, st, "%s", unproved.text);
+  else
+    st = assemble(f, o, &l, &shortest, plan, err);
+  if (!st) st = verdict(plan, err);
+  if (st && st != THR_ELIMIT) thr_plan_destroy(plan);
+  thr_least_destroy(&l);
+  thr_shortest_destroy(&shortest);
+  return st;
+}
+
+thr_status thr_tortuosity_plan(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
+                               thr_err *err)
+{
+  return thr_tortuosity_plan_from(f, o, NULL, limits, plan, err);
+}
+
+/* ---- the trade-off ---- */
+
+void thr_frontier_destroy(thr_frontier *f)
+{
+  free(f->point);
+  *f = (thr_frontier){0};
+}
+
+typedef struct {
+  const thr_frame *f;
+  const thr_plan_options *o;
+  thr_limits limits;
+  int left; /* searches that the time is for */
+  double shortest;
+  thr_frontier *out;
+} sweep;
+
+static double largest_turning(const thr_frame *f, const thr_plan_options *o, const thr_least *l)
+{
+  double largest = 0;
+  for (int i = 0; i < l->n_cords; i++)
+    largest = fmax(largest, thr_cord_turning(f, &l->cord[i], o->ends == THR_ENDS_CLOSED));
+  return largest;
+}
+
+/* The least turning with that much more cord than the shortest (< 0: any length), as one more point. */
+static thr_status add_point(sweep *s, double slack, thr_err *err)
+{
+  thr_least l = {0};
+  thr_least_options lo = search_options(s->o);
+  const thr_limits share = share_of_time(&s->limits, 1.0 / s->left--);
+  thr_err unused = {0};
+  lo.length_slack = slack;
+  thr_status st = find_least(s->f, &lo, &share, &l, &unused);
+  if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", unused.text);
+  s->shortest = l.shortest;
+  s->out->point[s->out->n++] = (thr_frontier_point){.length = l.length,
+                                                    .overlap = l.length - s->o->cover * thr_frame_total_length(s->f),
+                                                    .price = l.price,
+                                                    .lower_bound = fmin(l.price, l.bound),
+                                                    .optimal = l.optimal,
+                                                    .turning = l.turning,
+                                                    .max_turning = largest_turning(s->f, s->o, &l)};
+  thr_least_destroy(&l);
+  return THR_OK;
+}
+
+static int by_length(const void *a, const void *b)
+{
+  const thr_frontier_point *x = a, *y = b;
+  if (x->length != y->length) return x->length < y->length ? -1 : 1;
+  return (x->price > y->price) - (x->price < y->price);
+}
+
+/* Leaves the points that turn less than every shorter one. */
+static void drop_dominated(thr_frontier *out)
+{
+  int kept = 0;
+  qsort(out->point, (size_t)out->n, sizeof *out->point, by_length);
+  for (int i = 0; i < out->n; i++) {
+    const thr_frontier_point *last = &out->point[kept - 1], *p = &out->point[i];
+    if (kept > 0 && p->price >= last->price - 1e-9) continue;
+    if (kept > 0 && p->length <= last->length * (1 + 1e-9)) kept--; /* as long but for the rounding of the sums */
+    out->point[kept++] = *p;
+  }
+  out->n = kept;
+}
+
+thr_status thr_tortuosity_frontier(const thr_frame *f, const thr_plan_options *o, int most, const thr_limits *limits,
+                                   thr_frontier *out, thr_err *err)
+{
+  sweep s = {.f = f, .o = o, .limits = *limits, .left = most, .out = out};
+  *out = (thr_frontier){0};
+  if (most < 2) return thr_fail(err, THR_EINPUT, "a trade-off has at least 2 points");
+  if (!(out->point = thr_calloc((size_t)most, sizeof *out->point))) return thr_nomem(err);
+  thr_status st = add_point(&s, 0, err);
+  if (!st) st = add_point(&s, -1, err);
+  double longest = st ? 0 : out->point[1].length;
+  for (int i = 1; i + 1 < most && !st && longest > s.shortest * (1 + 1e-9); i++)
+    st = add_point(&s, (longest / s.shortest - 1) * i / (most - 1), err);
+  if (st) {
+    thr_frontier_destroy(out);
+    return st;
+  }
+  drop_dominated(out);
+  for (int i = 0; i < out->n; i++)
+    if (!out->point[i].optimal) return thr_fail(err, THR_ELIMIT, "stopped early: point %d of the trade-off is not proved", i + 1);
+  return THR_OK;
+}
