@@ -43,6 +43,14 @@ static void put_turning(thr_text *t, const thr_plan *p)
   if (c->largest_optimal && p->n_cords > 1) thr_text_append(t, "; largest cord: bound attained");
 }
 
+static void put_symmetry(thr_text *t, const thr_plan *p)
+{
+  const thr_symmetry_record *s = &p->symmetry;
+  if (!s->present) return;
+  thr_text_printf(t, "; group %s%sof order %d, %d unique %s, %g learned steps, verified", s->name, s->name[0] ? " " : "",
+                  s->order, s->unique_paths, cli_plural(s->unique_paths, "path", "paths"), s->steps);
+}
+
 static void put_verdict(thr_text *t, const char *path, const thr_plan *p)
 {
   const thr_metrics *m = &p->metrics;
@@ -57,6 +65,7 @@ static void put_verdict(thr_text *t, const char *path, const thr_plan *p)
   else
     thr_text_printf(t, "lower bound %.6f verified, gap %.3g %%", p->proof.lower_bound, 100 * p->proof.gap);
   put_turning(t, p);
+  put_symmetry(t, p);
   thr_text_append(t, "\n");
 }
 
@@ -78,6 +87,13 @@ static void put_turning_json(thr_text *t, const thr_plan *p)
   if (c->length_limit >= 0) put_number(t, "length_limit", c->length_limit);
 }
 
+static void put_symmetry_json(thr_text *t, const thr_symmetry_record *s)
+{
+  put_number(t, "group_order", s->order);
+  put_number(t, "unique_paths", s->unique_paths);
+  put_number(t, "learned_steps", s->steps);
+}
+
 static void put_json(thr_text *t, const char *path, const thr_plan *p, const thr_err *err)
 {
   thr_text_append(t, "{\"plan\": ");
@@ -95,6 +111,7 @@ static void put_json(thr_text *t, const char *path, const thr_plan *p, const thr
       thr_text_double(t, p->proof.gap);
     }
     if (p->options.objective == THR_TORTUOSITY) put_turning_json(t, p);
+    if (p->symmetry.present) put_symmetry_json(t, &p->symmetry);
   }
   thr_text_append(t, "}\n");
 }

@@ -5,6 +5,7 @@
 #include "graph/cuttree.h"
 #include "lp/lp.h"
 #include "lp/postman.h"
+#include "symmetry/automorphisms.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -14,7 +15,7 @@
 static const char help[] =
     "thread plan FRAME [options]: plan how cord is threaded: shortest, turning least, or symmetric, proved\n\n"
     "Examples:\n"
-    "  thread plan dome.obj                          plan.json and overview.svg in the folder dome/\n"
+    "  thread plan dome.obj                          plan.json, overview.svg, steps.txt in the folder dome/\n"
     "  thread plan dome.obj --ends feet --feet lowest   an open cord with its ends at the lowest nodes\n"
     "  thread plan dome.obj --cover 2 -o plan.json   two passes per interface; the plan only\n"
     "  thread plan dome.obj --objective tortuosity   the cord that turns least: it pulls most easily\n"
@@ -348,21 +349,23 @@ static int write_plan(const thr_plan *p, const char *path)
 static int write_outputs(const arguments *a, const planned *x)
 {
   const thr_plan *p = &x->plan;
-  char stem[256], in_folder[1200], svg_path[1200];
+  char stem[256], in_folder[1200], svg_path[1200], steps_path[1200];
   const char *plan_path = a->output ? a->output : in_folder;
   cli_stem(a->path, stem, sizeof stem);
   const char *folder = a->draw ? a->draw : stem;
   bool draw = a->draw || !a->output;
   int code = a->output ? EXIT_OK : cli_in_folder(folder, "plan.json", in_folder, sizeof in_folder);
   if (!code && draw) code = cli_in_folder(folder, "overview.svg", svg_path, sizeof svg_path);
+  if (!code && draw) code = cli_in_folder(folder, "steps.txt", steps_path, sizeof steps_path);
   if (!code) code = write_plan(p, plan_path);
   if (!code && draw) code = cli_draw_overview(p, svg_path, 0, THR_COLOUR_CORD);
+  if (!code && draw) code = cli_draw_steps(p, steps_path);
   bool to_stdout = strcmp(plan_path, "-") == 0;
   if (code || to_stdout || (cli_quiet && !a->json)) return code;
   code = print_summary(a, x);
   if (a->json) return code;
   printf("%splan     %s\n", a->compare || p->options.objective == THR_TORTUOSITY ? "\n" : "", plan_path);
-  if (draw) printf("drawing  %s\n", svg_path);
+  if (draw) printf("drawing  %s\nsteps    %s\n", svg_path, steps_path);
   return code;
 }
 
@@ -373,7 +376,8 @@ static thr_status make_plan(const arguments *a, const thr_frame *f, const thr_pl
   thr_status st = o->objective == THR_SYMMETRY ? thr_symmetry_plan(f, o, &limits, &x->table, &x->plan, err)
                                                : a->objective->plan(f, o, &limits, &x->plan, err);
   cli_progress_end();
-  snprintf(versions, sizeof versions, "thread %s, GLPK %s, igraph %s", THR_VERSION, thr_glpk_version(), thr_igraph_version());
+  snprintf(versions, sizeof versions, "thread %s, GLPK %s, igraph %s, nauty %s", THR_VERSION, thr_glpk_version(),
+           thr_igraph_version(), thr_nauty_version());
   x->plan.generator = thr_strdup(versions);
   return st;
 }

@@ -3,6 +3,7 @@
 #include "eval/world.h"
 #include "graph/cuttree.h"
 #include "lp/lp.h"
+#include "symmetry/automorphisms.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -40,8 +41,8 @@ static void help(FILE *to)
 static int version(void)
 {
   int bullet = thr_bullet_version();
-  printf("thread %s (GLPK %s, igraph %s, Bullet %d.%d)\n", THR_VERSION, thr_glpk_version(), thr_igraph_version(), bullet / 100,
-         bullet % 100);
+  printf("thread %s (GLPK %s, igraph %s, nauty %s, Bullet %d.%d)\n", THR_VERSION, thr_glpk_version(), thr_igraph_version(),
+         thr_nauty_version(), bullet / 100, bullet % 100);
   return EXIT_OK;
 }
 

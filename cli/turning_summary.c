@@ -171,7 +171,8 @@ static int make_frontier(const thr_plan *p, int points, thr_frontier *out)
   const thr_limits limits = cli_limits(p->options.time_limit);
   thr_status st = thr_tortuosity_frontier(&p->frame, &p->options, points, &limits, out, &err);
   cli_progress_end();
-  return st && st != THR_ELIMIT ? cli_fail(&err) : EXIT_OK;
+  if (st == THR_EINFEASIBLE) cli_note("no frontier: %s", err.text);
+  return st && st != THR_ELIMIT && st != THR_EINFEASIBLE ? cli_fail(&err) : EXIT_OK;
 }
 
 int turning_rivals_make(const thr_plan *p, int frontier, double deadline, turning_rivals *out)
@@ -222,13 +223,25 @@ static void put_proof(thr_text *t, const thr_turning_proof *tree)
                   cli_plural(tree->n_duals, "multiplier set", "multiplier sets"));
 }
 
+/* What a limit on the length is measured from, where that is more than the length proof needs: the shortest passes may not hold
+ * so many cords. */
+static void put_shortest(thr_text *t, const thr_plan *p)
+{
+  double shortest = p->turning.length_limit / (1 + p->options.turning.length_slack), least = p->proof.lower_bound;
+  if (p->turning.length_limit < 0 || shortest <= least * (1 + 1e-9)) return;
+  thr_text_printf(t, "         shortest found for %s: %.6f %s, %.2f %% above the least length that is proved\n",
+                  p->options.cords > 1 ? "so many cords" : "one cord", shortest, p->frame.units, 100 * (shortest / least - 1));
+}
+
 static void put_restriction(thr_text *t, const thr_plan *p)
 {
   const thr_turning_claim *c = &p->turning;
   thr_text_printf(t, "         among threadings with at most %d %s over an edge", c->most_passes,
                   cli_plural(c->most_passes, "pass", "passes"));
   if (c->length_limit >= 0) thr_text_printf(t, ", cord up to %.6f %s", c->length_limit, p->frame.units);
-  thr_text_append(t, " and U-turns only at beads with one interface\n         these passes, paired at every node on its own: ");
+  thr_text_append(t, " and U-turns only at beads with one interface\n");
+  put_shortest(t, p);
+  thr_text_append(t, "         these passes, paired at every node on its own: ");
   put_price(t, p, c->pairing_bound);
   thr_text_append(t, "; that may be several loops\n");
 }
@@ -402,9 +415,9 @@ void turning_put_frontier(thr_text *t, const thr_plan *p, const turning_rivals *
     else
       thr_text_printf(t, " %13.6g %13.6g", q->price, q->lower_bound);
     thr_text_printf(t, " %7.3g %% %9.1f deg %12s%s\n",
-                    q->optimal || q->price <= 0 ? 0 : 100 * fmax(0, 1 - q->lower_bound / q->price), cli_degrees(q->max_turning),
-                    turning_factor(turning_capstan(p->options.physics.mu, q->max_turning), factor), q->optimal ? "" : "  *");
-    proved &= q->optimal;
+                    !q->open || q->price <= 0 ? 0 : 100 * fmax(0, 1 - q->lower_bound / q->price), cli_degrees(q->max_turning),
+                    turning_factor(turning_capstan(p->options.physics.mu, q->max_turning), factor), q->open ? "  *" : "");
+    proved &= !q->open;
   }
   if (!proved) thr_text_append(t, "* not proved optimal: of that length, or less, none turns less than the lower bound\n");
 }
@@ -476,7 +489,7 @@ static void put_frontier_json(thr_text *t, const thr_plan *p, const thr_frontier
     put_bound_json(t, p, q->lower_bound);
     put_number(t, "max_turning", q->max_turning);
     put_number(t, "max_capstan", turning_capstan(p->options.physics.mu, q->max_turning));
-    thr_text_printf(t, ", \"turning_status\": \"%s\"}", q->optimal ? "optimal" : "bound");
+    thr_text_printf(t, ", \"turning_status\": \"%s\"}", q->open ? "bound" : "optimal");
   }
   thr_text_append(t, "]");
 }

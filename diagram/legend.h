@@ -15,7 +15,7 @@ thr_status thr_legend_foot(const thr_scene *s, double x, double y, double width,
                            thr_err *err) THR_MUST_CHECK;
 
 /* Width that the longest line wants, mm. */
-enum { THR_LEGEND_WIDTH = 150 };
+enum { THR_LEGEND_WIDTH = 165 };
 
 /* The mark of a cord's start or end (pale: of a copy), and a number's pill: drawn alike in the picture and in the key. */
 void thr_legend_mark(const thr_scene *s, const thr_mark *m, bool end, bool pale, const char *ring, double x, double y,

@@ -7,9 +7,9 @@
 thr_colour thr_palette(int i)
 {
   /* neighbours in this order differ most: vermillion and orange are kept apart */
-  static const thr_colour colour[THR_COLOURS] = {{"#0072B2", "#91C4EE", "blue"},     {"#D55E00", "#E9AF91", "vermillion"},
-                                                 {"#009E73", "#8BCFB1", "green"},    {"#CC79A7", "#E5A9C8", "pink"},
-                                                 {"#56B4E9", "#9EDAFF", "sky blue"}, {"#E69F00", "#EFCB96", "orange"}};
+  static const thr_colour colour[THR_COLOURS] = {{"#0072B2", "#9ECDF5", "blue"},     {"#D55E00", "#F1B99E", "vermillion"},
+                                                 {"#009E73", "#99D7BC", "green"},    {"#CC79A7", "#ECB4D1", "pink"},
+                                                 {"#56B4E9", "#A5DDFF", "sky blue"}, {"#E69F00", "#F1CE9D", "orange"}};
   return colour[i % THR_COLOURS];
 }
 

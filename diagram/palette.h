@@ -8,7 +8,7 @@ enum { THR_COLOURS = 6, THR_DASHES = 4 };
 
 typedef struct {
   const char *hex;  /* "#0072B2" */
-  const char *pale; /* the same hue for copies: "#91C4EE" */
+  const char *pale; /* the same hue for copies: "#9ECDF5" */
   const char *name; /* "blue" */
 } thr_colour;
 

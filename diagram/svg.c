@@ -61,11 +61,12 @@ double thr_svg_wrap(thr_text *t, double x, double y, double size, double width, 
 {
   char line[512];
   int n = 0, fits = (int)(width / (0.58 * size));
-  if (fits > 500) fits = 500;
   while (*words) {
     n = 0;
-    int last_space = -1;
-    while (n < fits && words[n]) {
+    int last_space = -1, wide = 0; /* in characters */
+    while (n < 500 && words[n]) {
+      wide += ((unsigned char)words[n] & 0xC0) != 0x80;
+      if (wide > fits && n) break;
       if (words[n] == ' ') last_space = n;
       n++;
     }

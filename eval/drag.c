@@ -4,6 +4,7 @@
  */
 #include "eval/drag.h"
 #include "eval/world.h"
+#include "graph/random.h"
 #include "graph/vector.h"
 
 #include <float.h>
@@ -318,15 +319,6 @@ static thr_status add_channel(run *r, const joint *j, int side, thr_err *err)
 
 /* ---- the chain ---- */
 
-static double uniform(uint64_t *state) /* in [-1, 1): splitmix64 (Steele, Lea & Flood 2014) */
-{
-  uint64_t z = (*state += 0x9E3779B97F4A7C15u);
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-  z ^= z >> 31;
-  return (double)(z >> 11) * 0x1p-52 - 1;
-}
-
 /* Where the chain starts: straight from via point to via point, with arcs of the cord's radius. Both are measured in links: an
  * arc holds angle / (2 asin(spacing / 2)) of them, since links are its chords. */
 typedef struct {
@@ -404,13 +396,13 @@ static thr_status add_chain(run *r, bool *fits, thr_err *err)
   piece *p = thr_calloc((size_t)r->d->n_turns + 1, sizeof *p);
   if (!p) return thr_nomem(err);
   *fits = make_path(r, p, &links) && links < MOST_SPHERES;
-  double phase = 0.5 + 0.5 * uniform(&seed);
+  double phase = 0.5 + 0.5 * thr_random_disorder(&seed);
   int count = *fits ? (int)floor(links - phase) : -1;
   thr_status s = THR_OK;
   for (int k = count; s == THR_OK && k >= 0; k--) {
     path_at(r, p, links - phase - k, at, d);
     for (int i = 0; k && i < 3; i++)
-      at[i] += protocol.disorder * uniform(&seed);
+      at[i] += protocol.disorder * thr_random_disorder(&seed);
     s = add_sphere(r, at, d, k == 0, err);
   }
   free(p);

@@ -4,6 +4,7 @@
  * numbers, and a time of 1 is what a bead takes to fall half an edge. */
 #include "eval/settle.h"
 #include "eval/world.h"
+#include "graph/random.h"
 #include "graph/vector.h"
 
 #include <math.h>
@@ -56,16 +57,6 @@ static double distance(const double a[3], const double b[3])
 {
   double d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
   return sqrt(thr_dot(d, d));
-}
-
-/* SplitMix64: even in [-1, 1). */
-static double disorder(uint64_t *state)
-{
-  uint64_t z = *state += 0x9e3779b97f4a7c15U;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9U;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
-  z ^= z >> 31;
-  return (double)(z >> 11) * 0x1p-52 - 1;
 }
 
 /* Rotation matrix whose columns are the three axes, as a quaternion (x y z w). */
@@ -210,7 +201,7 @@ static thr_status add_bead(model *m, int v, const thr_physics *physics, double m
                           .friction = sqrt(fmax(physics->mu_bead, 1e-9)),
                           .anchor = true};
   for (int k = 0; k < 3; k++)
-    body.pose[k] = m->b->mass_centre[v][k] / m->unit + (mass > 0 ? DISORDER * disorder(random) : 0);
+    body.pose[k] = m->b->mass_centre[v][k] / m->unit + (mass > 0 ? DISORDER * thr_random_disorder(random) : 0);
   return thr_world_add_boxes(m->world, &body, &m->body[v], err);
 }
 

@@ -2,6 +2,7 @@
 #include "lp/oddcut.h"
 #include "graph/cuttree.h"
 #include "graph/disjoint.h"
+#include "graph/random.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -10,14 +11,6 @@
 static const double tolerance = 1e-6; /* on x, far below the 1/2 and 1/3 that vertices of these polyhedra show */
 
 /* ---- graph ---- */
-
-static uint64_t splitmix(uint64_t *state)
-{
-  uint64_t z = *state += UINT64_C(0x9e3779b97f4a7c15);
-  z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
-  z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
-  return z ^ z >> 31;
-}
 
 thr_status thr_oddcut_graph_init(thr_oddcut_graph *g, const thr_tjoin_problem *p, thr_err *err)
 {
@@ -41,7 +34,7 @@ thr_status thr_oddcut_graph_init(thr_oddcut_graph *g, const thr_tjoin_problem *p
     for (int i = 0; i < 2; i++)
       g->incident[g->first[p->edge[e][i] + 1]++] = e;
   for (size_t v = 0; v < n; v++)
-    g->all ^= g->key[v] = splitmix(&state);
+    g->all ^= g->key[v] = thr_random(&state);
   return THR_OK;
 }
 

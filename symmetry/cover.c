@@ -1,12 +1,11 @@
 /* The best symmetric cover, one aim after the other. */
 #include "symmetry/cover.h"
+#include "symmetry/contraction.h"
 #include "symmetry/relaxation.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const double tolerance = 4e-6; /* on worths, in parts of the largest cost: several times that of the relaxation's rows */
 
 void thr_cover_destroy(thr_cover *c)
 {
@@ -19,21 +18,30 @@ void thr_cover_destroy(thr_cover *c)
 typedef struct {
   const thr_programme *p;
   const thr_limits *limits;
-  thr_relaxation r;
+  thr_relaxation r; /* made when it is needed */
+  int kept;         /* so many aims, the first ones, have rows in r that keep them */
   bool found;
   int *best;  /* [p->n] the best so far, if found */
   int *other; /* [p->n] scratch */
   double worth[THR_N_AIMS], bound[THR_N_AIMS];
 } search;
 
-/* -1 or 1 if a is better or worse than b in the first aim in which they differ. */
-static int compare(const thr_programme *p, const double *a, const double *b)
+static void search_destroy(search *s)
 {
-  for (int k = 0; k < THR_N_AIMS; k++) {
-    thr_aim aim = p->o->prefer[k];
-    if (fabs(a[aim] - b[aim]) > tolerance * p->scale[aim]) return a[aim] < b[aim] ? -1 : 1;
-  }
-  return 0;
+  thr_relaxation_destroy(&s->r);
+  free(s->best);
+  free(s->other);
+}
+
+static thr_status search_init(search *s, const thr_programme *p, const thr_limits *limits, thr_err *err)
+{
+  *s = (search){.p = p, .limits = limits};
+  s->best = thr_calloc((size_t)p->n, sizeof *s->best);
+  s->other = thr_calloc((size_t)p->n, sizeof *s->other);
+  if (s->best && s->other) return THR_OK;
+  search_destroy(s);
+  *s = (search){0};
+  return thr_nomem(err);
 }
 
 /* Keeps s->other if it can be made concrete and is better than the best so far. */
@@ -42,7 +50,7 @@ static thr_status offer(search *s, thr_err *err)
   double worth[THR_N_AIMS];
   bool valid;
   thr_status st = thr_programme_value(s->p, s->other, worth, &valid, err);
-  if (st || !valid || (s->found && compare(s->p, worth, s->worth) >= 0)) return st;
+  if (st || !valid || (s->found && thr_programme_compare(s->p, worth, s->worth) >= 0)) return st;
   memcpy(s->best, s->other, (size_t)s->p->n * sizeof *s->best);
   memcpy(s->worth, worth, sizeof worth);
   s->found = true;
@@ -62,7 +70,7 @@ static thr_status consider(search *s, thr_err *err)
 /* Is the best so far as good as this bound? */
 static bool beaten(const search *s, thr_aim aim, double bound)
 {
-  return s->found && s->worth[aim] <= bound + tolerance * s->p->scale[aim];
+  return s->found && s->worth[aim] <= bound + thr_programme_tolerance(s->p, aim);
 }
 
 /* A node of the search tree: its parent's with other bounds on one column. */
@@ -156,19 +164,33 @@ static thr_status solve_node(search *s, thr_aim aim, bool root, bool *open, thr_
     if (root) s->bound[aim] = fmax(s->bound[aim], r->objective);
     if (r->whole) st = consider(s, err);
     if (!st && beaten(s, aim, r->objective)) return THR_OK;
-    if (!st) st = thr_relaxation_separate(r, &added, err);
+    if (!st) st = thr_relaxation_separate(r, s->limits, &added, err);
     if (st) return st;
   }
   *open = !r->whole;
   return THR_OK;
 }
 
+/* The relaxation for the aim of that number, with the aims before it kept. */
+static thr_status prepare(search *s, int number, thr_err *err)
+{
+  const thr_aim *prefer = s->p->o->prefer;
+  thr_status st = s->r.p ? THR_OK : thr_relaxation_init(&s->r, s->p, s->limits, err);
+  for (; s->kept < number && !st; s->kept++) {
+    st = thr_relaxation_aim(&s->r, prefer[s->kept], err);
+    if (!st) st = thr_relaxation_fix(&s->r, s->worth[prefer[s->kept]], err);
+  }
+  return st ? st : thr_relaxation_aim(&s->r, prefer[number], err);
+}
+
 /* Minimizes one aim by branch and cut, best bound first. THR_ELIMIT: stopped; the bounds on columns are as before in any case. */
-static thr_status minimize(search *s, thr_aim aim, thr_err *err)
+static thr_status minimize(search *s, int number, thr_err *err)
 {
   tree t = {0};
   bool open;
-  thr_status st = thr_relaxation_aim(&s->r, aim, err);
+  thr_aim aim = s->p->o->prefer[number];
+  if (beaten(s, aim, s->bound[aim])) return THR_OK;
+  thr_status st = prepare(s, number, err);
   if (!st) st = add_node(&t, (node){-1, -1, 0, 0, s->bound[aim]}, err);
   for (int next; !st && (next = take(s, &t, aim)) >= 0;) {
     s->bound[aim] = fmax(s->bound[aim], t.node[next].bound);
@@ -225,14 +247,82 @@ static thr_status hand_over(const search *s, thr_cover *out, thr_err *err)
   return THR_OK;
 }
 
-static thr_status search_aims(search *s, thr_cover *out, thr_err *err)
+/* The first so many aims, one after the other. */
+static thr_status search_aims(search *s, int n, thr_err *err)
 {
-  const thr_cover_options *o = s->p->o;
   thr_status st = THR_OK;
-  for (int k = 0; k < THR_N_AIMS && !st; k++) {
-    st = minimize(s, o->prefer[k], err);
-    if (!st && k + 1 < THR_N_AIMS) st = thr_relaxation_fix(&s->r, s->worth[o->prefer[k]], err);
+  for (int k = 0; k < n && !st; k++)
+    st = minimize(s, k, err);
+  return st;
+}
+
+/* Keeps a lifted solution, mended and improved. */
+static thr_status offer_lifted(search *s, thr_err *err)
+{
+  thr_status st = thr_programme_mend(s->p, s->other, err);
+  if (!st) st = thr_programme_open(s->p, s->other, err);
+  if (!st) st = thr_programme_improve(s->p, s->limits, s->other, err);
+  return st ? st : offer(s, err);
+}
+
+/* A cover that needs no programme. */
+static thr_status start(search *s, thr_err *err)
+{
+  thr_contraction c;
+  bool found = false;
+  int failed = 0;
+  thr_status st = thr_contraction_init(&c, s->p, true, err);
+  if (st) return st;
+  int *small = thr_calloc((size_t)c.p.n, sizeof *small);
+  st = small ? thr_contraction_start(&c, small, &found, err) : thr_nomem(err);
+  if (!st && found) st = thr_contraction_lift(&c, small, s->other, &failed, err);
+  if (!st && found && !failed) st = offer_lifted(s, err);
+  free(small);
+  thr_contraction_destroy(&c);
+  return st;
+}
+
+/* Bounds of the contracted programme: with the aims before at the same values. */
+static void take_bounds(search *s, const search *small, int n)
+{
+  for (int k = 0; k < n; k++) {
+    thr_aim aim = s->p->o->prefer[k];
+    s->bound[aim] = fmax(s->bound[aim], small->bound[aim]);
+    if (!beaten(s, aim, s->bound[aim])) break;
   }
+}
+
+/* The aims before turning in the contracted programme, whose cells are left as they are where its solution cannot be lifted. */
+static thr_status search_contracted(search *s, thr_err *err)
+{
+  thr_contraction c;
+  int n = 0, failed = 1;
+  while (s->p->o->prefer[n] != THR_AIM_TURNING)
+    n++;
+  thr_status st = thr_contraction_init(&c, s->p, false, err);
+  if (st) return st;
+  while (failed > 0 && !st) {
+    search small;
+    st = search_init(&small, &c.p, s->limits, err);
+    if (st) break;
+    thr_status searched = search_aims(&small, n, err);
+    if (searched && searched != THR_ELIMIT) st = searched;
+    failed = 0;
+    if (!st && small.found) st = thr_contraction_lift(&c, small.best, s->other, &failed, err);
+    if (!st && small.found && !failed) st = offer_lifted(s, err);
+    if (!st && !failed) take_bounds(s, &small, n);
+    search_destroy(&small);
+    if (!st && failed) st = thr_contraction_make(&c, err);
+  }
+  thr_contraction_destroy(&c);
+  return st;
+}
+
+static thr_status search_all(search *s, thr_cover *out, thr_err *err)
+{
+  thr_status st = start(s, err);
+  if (!st) st = search_contracted(s, err);
+  if (!st) st = search_aims(s, THR_N_AIMS, err);
   if (st && st != THR_ELIMIT) return st;
   if (!s->found) return thr_fail(err, THR_ELIMIT, "the time was too short to find a symmetric cover");
   out->optimal = !st;
@@ -245,20 +335,14 @@ thr_status thr_cover_find(const thr_quotient *q, const thr_cover_options *o, con
 {
   thr_programme p = {0};
   thr_cover c = {0};
-  search s = {.p = &p, .limits = limits};
+  search s = {0};
   *out = (thr_cover){0};
   thr_status st = thr_programme_init(&p, q, o, err);
   if (!st) st = check_ends(&p, err);
-  if (!st) {
-    s.best = thr_calloc((size_t)p.n, sizeof *s.best);
-    s.other = thr_calloc((size_t)p.n, sizeof *s.other);
-    st = s.best && s.other ? thr_relaxation_init(&s.r, &p, err) : thr_nomem(err);
-  }
-  if (!st) st = search_aims(&s, &c, err);
-  thr_relaxation_destroy(&s.r);
+  if (!st) st = search_init(&s, &p, limits, err);
+  if (!st) st = search_all(&s, &c, err);
+  search_destroy(&s);
   thr_programme_destroy(&p);
-  free(s.best);
-  free(s.other);
   if (st && st != THR_ELIMIT) thr_cover_destroy(&c);
   *out = c;
   return st;

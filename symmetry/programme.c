@@ -58,7 +58,8 @@ static void fill_pairs(thr_programme *p)
   for (int y = 0; y < q->n_pairs; y++) {
     const thr_pair_type *t = &q->pair[y];
     int j = p->first_pair + y;
-    p->most[j] = -1;
+    bool u_turn = t->half[0] == t->half[1];
+    p->most[j] = u_turn && end_allowed(p, thr_tail(q->f, t->half[0])) ? 0 : -1;
     p->join[j][0] = t->dart[0];
     p->join[j][1] = t->self ? q->n_darts : t->dart[1];
     p->cost[THR_AIM_PATHS][j] = t->self ? 0.5 : 0;
@@ -370,6 +371,22 @@ thr_status thr_programme_folds(const thr_programme *p, const double *value, bool
 
 /* ---- worth ---- */
 
+static const double worth_tolerance = 4e-6; /* in parts of the largest cost: several times that of the relaxation's rows */
+
+double thr_programme_tolerance(const thr_programme *p, thr_aim aim)
+{
+  return worth_tolerance * p->scale[aim];
+}
+
+int thr_programme_compare(const thr_programme *p, const double *a, const double *b)
+{
+  for (int k = 0; k < THR_N_AIMS; k++) {
+    thr_aim aim = p->o->prefer[k];
+    if (fabs(a[aim] - b[aim]) > thr_programme_tolerance(p, aim)) return a[aim] < b[aim] ? -1 : 1;
+  }
+  return 0;
+}
+
 thr_status thr_programme_value(const thr_programme *p, const int *value, double worth[THR_N_AIMS], bool *valid, thr_err *err)
 {
   size_t n = (size_t)p->q->n_darts;
@@ -399,86 +416,5 @@ thr_status thr_programme_value(const thr_programme *p, const int *value, double 
   free(copy_side);
   free(pair_side);
   free(x);
-  return st;
-}
-
-/* ---- mending ---- */
-
-/* An exchange at a node: of the columns out[] one less, of the columns in[] one more. */
-typedef struct {
-  int out[2], in[2];
-  double turning; /* more than before */
-} exchange;
-
-/* Cheapest pair column of two different orbits between dart types a and b, -1 = none. */
-static int pair_between(const thr_programme *p, int a, int b, bool self)
-{
-  int best = -1;
-  for (int k = p->first[a]; k < p->first[a + 1]; k++) {
-    const thr_pair_type *t = &p->q->pair[p->incident[k]];
-    int j = p->first_pair + p->incident[k];
-    if (t->self != self || t->dart[0] + t->dart[1] != a + b || (t->dart[0] != a && t->dart[1] != a)) continue;
-    if (best < 0 || p->cost[THR_AIM_TURNING][j] < p->cost[THR_AIM_TURNING][best]) best = j;
-  }
-  return best;
-}
-
-static void try_exchange(const thr_programme *p, int out0, int out1, int in0, int in1, exchange *best)
-{
-  if (in0 < 0 || in1 < 0) return;
-  const double *cost = p->cost[THR_AIM_TURNING];
-  double turning = cost[in0] + cost[in1] - cost[out0] - cost[out1];
-  if (best->out[0] < 0 || turning < best->turning) *best = (exchange){{out0, out1}, {in0, in1}, turning};
-}
-
-/* The pair column j within a set, with dart types a and b, against everything that dart type c of another set does. */
-static void try_partner(const thr_programme *p, const int *value, int j, int a, int b, int c, exchange *best)
-{
-  int with = pair_between(p, a, c, false), end = p->first_end + c;
-  if (with < 0) return;
-  for (int k = p->first[c]; k < p->first[c + 1]; k++) {
-    int y = p->incident[k];
-    const thr_pair_type *t = &p->q->pair[y];
-    if (value[p->first_pair + y] <= 0) continue;
-    int in = t->self ? pair_between(p, b, b, true) : pair_between(p, b, t->dart[0] + t->dart[1] - c, false);
-    try_exchange(p, j, p->first_pair + y, with, in, best);
-  }
-  if (value[end] > 0 && p->most[p->first_end + b]) try_exchange(p, j, end, with, p->first_end + b, best);
-}
-
-static exchange find_exchange(const thr_programme *p, const thr_programme_parts *s, const int *value)
-{
-  exchange best = {{-1, -1}, {-1, -1}, 0};
-  for (int y = 0; y < p->q->n_pairs; y++) {
-    const thr_pair_type *t = &p->q->pair[y];
-    int root = s->root[t->dart[0]];
-    if (value[p->first_pair + y] <= 0 || t->self || (p->open ? s->ends[root] : s->terminals[root]) > 0) continue;
-    for (int i = 0; i < 2; i++) {
-      int a = t->dart[i], b = t->dart[1 - i];
-      for (int k = p->first[a]; k < p->first[a + 1]; k++) {
-        const thr_pair_type *r = &p->q->pair[p->incident[k]];
-        int c = r->dart[0] + r->dart[1] - a;
-        if (!r->self && s->root[c] >= 0 && s->root[c] != root) try_partner(p, value, p->first_pair + y, a, b, c, &best);
-      }
-    }
-  }
-  return best;
-}
-
-thr_status thr_programme_mend(const thr_programme *p, int *value, thr_err *err)
-{
-  thr_programme_parts s = {0};
-  thr_status st = thr_programme_parts_init(&s, p, err);
-  /* Between two sets with folds but no ends an exchange may leave two such sets: hence the limit. */
-  for (int left = p->q->n_darts; left > 0 && !st; left--) {
-    thr_programme_parts_find(&s, p, value);
-    exchange x = find_exchange(p, &s, value);
-    if (x.out[0] < 0) break;
-    for (int i = 0; i < 2; i++) {
-      value[x.out[i]]--;
-      value[x.in[i]]++;
-    }
-  }
-  thr_programme_parts_destroy(&s);
   return st;
 }

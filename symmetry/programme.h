@@ -47,8 +47,21 @@ thr_status thr_programme_folds(const thr_programme *p, const double *value, bool
 thr_status thr_programme_value(const thr_programme *p, const int *value, double worth[THR_N_AIMS], bool *valid,
                                thr_err *err) THR_MUST_CHECK;
 
-/* Joins connected sets by exchanging the partners of two turns at one node, cheapest turning first, as long as a set has no
- * terminal (open: no end). */
+/* What two worths in an aim may differ by without being different. */
+double thr_programme_tolerance(const thr_programme *p, thr_aim aim);
+
+/* -1 or 1 if worth a is better or worse than b in the first aim in which they differ. */
+int thr_programme_compare(const thr_programme *p, const double *a, const double *b);
+
+/* In symmetry/exchange.c: the partners of two turns at one node are exchanged, or those of a turn and of an end or fold. */
+
+/* Joins connected sets by exchanges, cheapest turning first, as long as a set has no terminal (open: no end). */
 thr_status thr_programme_mend(const thr_programme *p, int *value, thr_err *err) THR_MUST_CHECK;
+
+/* Where every cord is open: two ends instead of a turn, in every set without ends that has a node where ends may be. */
+thr_status thr_programme_open(const thr_programme *p, int *value, thr_err *err) THR_MUST_CHECK;
+
+/* Exchanges that make a valid solution better in the aims' order, until there is none or the limits stop it. */
+thr_status thr_programme_improve(const thr_programme *p, const thr_limits *limits, int *value, thr_err *err) THR_MUST_CHECK;
 
 #endif

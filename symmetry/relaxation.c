@@ -219,7 +219,7 @@ static double gather_odd(thr_relaxation *r, const struct thr_oddcut *cut)
 }
 
 /* Rows for the sets from first on that x violates; the others are forgotten. */
-static thr_status add_odd_rows(thr_relaxation *r, int first, int *added, thr_err *err)
+static thr_status add_odd_rows(thr_relaxation *r, const thr_limits *limits, int first, int *added, thr_err *err)
 {
   thr_status st = THR_OK;
   int before = *added;
@@ -227,7 +227,8 @@ static thr_status add_odd_rows(thr_relaxation *r, int first, int *added, thr_err
   if (!drop) return thr_nomem(err);
   for (int i = first; i < r->pool.count && !st; i++) {
     int rows = *added;
-    st = add_if_violated(r, gather_odd(r, &r->pool.cut[i]), added, err);
+    if (thr_limits_stop(limits)) st = THR_ELIMIT;
+    if (!st) st = add_if_violated(r, gather_odd(r, &r->pool.cut[i]), added, err);
     drop[i] = *added == rows;
   }
   if (*added - before < r->pool.count - first) thr_oddcut_pool_drop(&r->pool, drop);
@@ -236,7 +237,7 @@ static thr_status add_odd_rows(thr_relaxation *r, int first, int *added, thr_err
 }
 
 /* The first sets: balls round the nodes, as far as their turns join their dart types, with odd numbers of darts. */
-static thr_status add_first_sets(thr_relaxation *r, thr_err *err)
+static thr_status add_first_sets(thr_relaxation *r, const thr_limits *limits, thr_err *err)
 {
   int added = 0;
   for (int k = 0; k < r->problem.n_edges; k++) {
@@ -247,10 +248,10 @@ static thr_status add_first_sets(thr_relaxation *r, thr_err *err)
   for (int j = 0; j < r->p->n; j++) /* every odd set is violated */
     r->x[j] = r->p->least[j];
   thr_status st = thr_oddcut_moats(&r->graph, r->weight, 0.5, r->metric, &r->pool, err);
-  return st ? st : add_odd_rows(r, 0, &added, err);
+  return st ? st : add_odd_rows(r, limits, 0, &added, err);
 }
 
-static thr_status separate_odd(thr_relaxation *r, int *added, thr_err *err)
+static thr_status separate_odd(thr_relaxation *r, const thr_limits *limits, int *added, thr_err *err)
 {
   static const double threshold[] = {1e-6, 0.3, 0.51};
   thr_status st = THR_OK;
@@ -259,12 +260,12 @@ static thr_status separate_odd(thr_relaxation *r, int *added, thr_err *err)
   for (size_t i = 0; i < sizeof threshold / sizeof *threshold && !*added && !st; i++) {
     int before = r->pool.count;
     st = thr_oddcut_moats(&r->graph, r->weight, threshold[i], r->metric, &r->pool, err);
-    if (!st) st = add_odd_rows(r, before, added, err);
+    if (!st) st = add_odd_rows(r, limits, before, added, err);
   }
   if (!st && !*added && r->problem.n_nodes <= MOST_EXACT) {
     int before = r->pool.count;
     st = thr_oddcut_exact(&r->graph, r->weight, &r->pool, err);
-    if (!st) st = add_odd_rows(r, before, added, err);
+    if (!st) st = add_odd_rows(r, limits, before, added, err);
   }
   return st;
 }
@@ -363,11 +364,11 @@ static thr_status separate_folds(thr_relaxation *r, int *added, thr_err *err)
   return st;
 }
 
-thr_status thr_relaxation_separate(thr_relaxation *r, int *added, thr_err *err)
+thr_status thr_relaxation_separate(thr_relaxation *r, const thr_limits *limits, int *added, thr_err *err)
 {
   thr_status st = THR_OK;
   *added = 0;
-  if (!r->whole) st = separate_odd(r, added, err);
+  if (!r->whole) st = separate_odd(r, limits, added, err);
   if (!st && !*added && (r->circles || r->p->open)) st = separate_connected(r, added, err);
   if (!st && !*added && r->p->open) st = separate_folds(r, added, err);
   return st;
@@ -375,7 +376,7 @@ thr_status thr_relaxation_separate(thr_relaxation *r, int *added, thr_err *err)
 
 /* ---- all ---- */
 
-thr_status thr_relaxation_init(thr_relaxation *r, const thr_programme *p, thr_err *err)
+thr_status thr_relaxation_init(thr_relaxation *r, const thr_programme *p, const thr_limits *limits, thr_err *err)
 {
   *r = (thr_relaxation){.p = p};
   r->x = thr_calloc((size_t)p->n, sizeof *r->x);
@@ -386,7 +387,7 @@ thr_status thr_relaxation_init(thr_relaxation *r, const thr_programme *p, thr_er
   if (!st) st = create_equations(r, err);
   if (!st) st = add_cover_rows(r, err);
   if (!st) st = init_graph(r, err);
-  if (!st) st = add_first_sets(r, err);
+  if (!st) st = add_first_sets(r, limits, err);
   if (st) thr_relaxation_destroy(r);
   return st;
 }

@@ -26,7 +26,8 @@ typedef struct {
   double *sum;    /* [p->n] scratch: coefficients of a row */
 } thr_relaxation;
 
-thr_status thr_relaxation_init(thr_relaxation *r, const thr_programme *p, thr_err *err) THR_MUST_CHECK;
+/* THR_ELIMIT: stopped; r is empty. */
+thr_status thr_relaxation_init(thr_relaxation *r, const thr_programme *p, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
 void thr_relaxation_destroy(thr_relaxation *r);
 
 /* What is minimized from now on. */
@@ -43,8 +44,8 @@ thr_status thr_relaxation_solve(thr_relaxation *r, const thr_limits *limits, thr
                                 thr_err *err) THR_MUST_CHECK;
 
 /* Adds rows that x violates: odd sets, connected sets, sets with too many folds. They hold for every cover,
- * whatever the bounds in force. *added = 0 if there are none. */
-thr_status thr_relaxation_separate(thr_relaxation *r, int *added, thr_err *err) THR_MUST_CHECK;
+ * whatever the bounds in force. *added = 0 if there are none. THR_ELIMIT: stopped. */
+thr_status thr_relaxation_separate(thr_relaxation *r, const thr_limits *limits, int *added, thr_err *err) THR_MUST_CHECK;
 
 /* The column to branch on where x is not whole: copies of edges with several types, other copies, ends, turns; of these the most
  * undecided. */

@@ -72,6 +72,7 @@ static thr_status solve(const thr_frame *f, const thr_plan_options *o, const thr
       if (made) st = made;
     }
   }
+  if (st) thr_fail(&row->why, st, "stopped early"); /* if no one said why */
   thr_cover_destroy(&c);
   thr_quotient_destroy(&q);
   return st && !is_said(st) ? thr_fail(err, st, "%s", row->why.text) : THR_OK;

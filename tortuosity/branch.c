@@ -16,7 +16,11 @@ thr_status thr_branch_init(thr_branch *b, const thr_turning_columns *c, int most
 {
   size_t n = (size_t)c->f->n_nodes, m = (size_t)c->f->n_edges;
   const int room = 50 + 1000000 / c->f->n_edges; /* every leaf of the proof has two multipliers per edge */
-  *b = (thr_branch){.c = c, .limits = limits, .most_nodes = most_nodes < room ? most_nodes : room, .best_price = INT64_MAX};
+  *b = (thr_branch){.c = c,
+                    .limits = limits,
+                    .most_nodes = most_nodes < room ? most_nodes : room,
+                    .best_price = INT64_MAX,
+                    .best_length = INFINITY};
   b->several = !c->task->end_allowed && c->task->cords > 1;
   b->passes = thr_calloc(m, sizeof *b->passes);
   b->ends = thr_calloc(n, sizeof *b->ends);
@@ -67,7 +71,9 @@ static void keep_better(thr_branch *b, thr_join *j, const int *passes)
   int64_t price = forbidden ? INT64_MAX : (int64_t)nearbyint(ldexp(j->price, THR_TURNING_BITS));
   for (int e = 0; e < b->c->f->n_edges && !forbidden; e++)
     price += (passes[e] - b->c->task->cover) * b->c->weight[b->c->first_extra + e];
-  if (price >= b->best_price) {
+  double length = thr_extra_length(b->c, passes);
+  bool by_length = b->shortest && fabs(length - b->best_length) > 1e-9 * (1 + length);
+  if (forbidden || (by_length ? length > b->best_length : price >= b->best_price)) {
     thr_join_destroy(j);
     return;
   }
@@ -75,24 +81,32 @@ static void keep_better(thr_branch *b, thr_join *j, const int *passes)
   b->best = *j;
   b->found = true;
   b->best_price = price;
+  b->best_length = length;
   b->best_passes = 0;
   for (int e = 0; e < b->c->f->n_edges; e++)
     b->best_passes += passes[e];
 }
 
+thr_status thr_branch_try_circuits(thr_branch *b, thr_join *j, const int *passes, thr_err *err)
+{
+  bool found = within_limits(b->c, passes);
+  thr_status st = found ? thr_circuits_make(j, b->limits, &found, err) : THR_OK;
+  if (!st && found)
+    keep_better(b, j, passes);
+  else
+    thr_join_destroy(j);
+  return st;
+}
+
 /* Several closed cords in a component, from the greedy's circuits: one, or up to so many more. */
-static thr_status try_circuits(thr_branch *b, const int *passes, int apart, thr_err *err)
+static thr_status try_greedy(thr_branch *b, const int *passes, int apart, thr_err *err)
 {
   thr_join j;
-  bool found = false;
   thr_status st = thr_join_init(&j, b->c, passes, NULL, err);
   if (st) return st;
   st = thr_join_greedy(&j, apart, err);
-  if (!st) st = thr_circuits_make(&j, b->limits, &found, err);
-  if (found)
-    keep_better(b, &j, passes);
-  else
-    thr_join_destroy(&j);
+  if (!st) return thr_branch_try_circuits(b, &j, passes, err);
+  thr_join_destroy(&j);
   return st;
 }
 
@@ -109,12 +123,7 @@ static thr_status try_added(thr_branch *b, const int *passes, thr_err *err)
     if (!st) st = thr_circuits_add(&j, &more, all, &found, err);
     thr_join_destroy(&j);
   }
-  found = found && !st && within_limits(b->c, all);
-  if (found) st = thr_circuits_make(&more, b->limits, &found, err);
-  if (found)
-    keep_better(b, &more, all);
-  else
-    thr_join_destroy(&more);
+  if (!st && found) st = thr_branch_try_circuits(b, &more, all, err);
   free(all);
   return st;
 }
@@ -125,7 +134,7 @@ static thr_status try_several(thr_branch *b, const int *passes, thr_err *err)
   const int apart[] = {0, b->c->task->cords - 1, INT_MAX};
   thr_status st = THR_OK;
   for (int i = 0; i < 3 && !st; i++)
-    st = try_circuits(b, passes, apart[i], err);
+    st = try_greedy(b, passes, apart[i], err);
   return st ? st : try_added(b, passes, err);
 }
 
@@ -147,13 +156,14 @@ thr_status thr_branch_try(thr_branch *b, const int *passes, const int *ends, thr
 
 thr_status thr_branch_try_cords(thr_branch *b, const thr_cord *cord, int n_cords, thr_err *err)
 {
-  thr_join j;
+  thr_join j = {0};
   memset(b->passes, 0, (size_t)b->c->f->n_edges * sizeof *b->passes);
   for (int i = 0; i < n_cords; i++)
     for (int k = 0; k < cord[i].n_passes; k++)
       b->passes[cord[i].half[k] >> 1]++;
   if (!within_limits(b->c, b->passes)) return THR_OK;
   thr_status st = thr_join_from_cords(&j, b->c, cord, n_cords, err);
+  if (!st && b->several) return thr_branch_try_circuits(b, &j, b->passes, err);
   if (!st) st = thr_improve(&j, b->limits, err);
   if (st)
     thr_join_destroy(&j);

@@ -25,11 +25,13 @@ typedef struct {
   thr_branch_node *node;
   int n_duals, duals_capacity;
   thr_turning_dual *dual;
-  bool several; /* closed cords in a component */
+  bool several;  /* closed cords in a component */
+  bool shortest; /* of two plans the shorter one is the better, whatever it turns */
   bool found;
   thr_join best;      /* if found */
   int64_t best_price; /* in units of 2^-THR_TURNING_BITS, with the price of the extra cord; INT64_MAX = none */
   int best_passes;
+  double best_length;         /* of the extra passes */
   uint64_t tried;             /* name of the rounding tried last */
   int *passes, *ends, *whole; /* scratch */
   double *weight, *end_weight;
@@ -43,6 +45,9 @@ void thr_branch_destroy(thr_branch *b);
 
 /* Cords for these passes and ends, kept if they are the best so far. */
 thr_status thr_branch_try(thr_branch *b, const int *passes, const int *ends, thr_err *err) THR_MUST_CHECK;
+
+/* Circuits as many as may be (closed cords, several in a component) as those that are asked for; the same. Takes j over. */
+thr_status thr_branch_try_circuits(thr_branch *b, thr_join *j, const int *passes, thr_err *err) THR_MUST_CHECK;
 
 /* The cords of a plan, improved by exchanges; the same. */
 thr_status thr_branch_try_cords(thr_branch *b, const thr_cord *cord, int n_cords, thr_err *err) THR_MUST_CHECK;

@@ -1,5 +1,7 @@
 /* Exchanges between and within the circuits of closed cords. */
 #include "tortuosity/circuits.h"
+#include "graph/random.h"
+#include "tortuosity/walks.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -121,24 +123,16 @@ static exchange cheapest(const circuits *s, int component, int change)
   return best;
 }
 
-static uint64_t next_random(uint64_t *state)
-{
-  uint64_t z = *state += UINT64_C(0x9e3779b97f4a7c15);
-  z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
-  z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
-  return z ^ z >> 31;
-}
-
 /* An allowed exchange anywhere in the component. */
 static void exchange_any(circuits *s, int component)
 {
   enum { TRIES = 20 };
   for (int k = 0; k < TRIES; k++) {
-    int i = (int)(next_random(&s->state) % (uint64_t)s->n), v = s->j->g.tail[s->in[i]];
+    int i = (int)(thr_random(&s->state) % (uint64_t)s->n), v = s->j->g.tail[s->in[i]];
     if (s->j->c->component[v] != component) continue;
-    int n = transitions_at(s, v, s->list), other = s->list[next_random(&s->state) % (uint64_t)n];
+    int n = transitions_at(s, v, s->list), other = s->list[thr_random(&s->state) % (uint64_t)n];
     if (other == i) continue;
-    exchange x = exchange_of(s, i, other, next_random(&s->state) % 2);
+    exchange x = exchange_of(s, i, other, thr_random(&s->state) % 2);
     if (x.extra >= thr_join_forbidden / 2) continue;
     set_pairs(s, x.made);
     return;
@@ -215,9 +209,7 @@ typedef struct {
   thr_cord *cord; /* [n_cords] owned */
   int n_cords, made;
   int *passes;
-  int *by, *stamp, *queue; /* [2 * n_edges] search over half-edges */
-  int searches;
-  int *walk, n_walk; /* [2 * n_edges] the walk found last */
+  thr_walks walks;
 } adder;
 
 static void adder_destroy(adder *s)
@@ -225,68 +217,41 @@ static void adder_destroy(adder *s)
   for (int i = 0; s->cord && i < s->n_cords; i++)
     free(s->cord[i].half);
   free(s->cord);
-  free(s->by);
-  free(s->stamp);
-  free(s->queue);
-  free(s->walk);
+  thr_walks_destroy(&s->walks);
 }
 
-static thr_status adder_init(adder *s, const thr_join *j, int *passes, int n_cords, thr_err *err)
+static thr_status adder_init(adder *s, const thr_turning_columns *c, int *passes, int n_cords, thr_err *err)
 {
-  size_t darts = 2 * (size_t)j->c->f->n_edges;
-  *s = (adder){.c = j->c, .n_cords = n_cords, .passes = passes};
+  *s = (adder){.c = c, .n_cords = n_cords, .passes = passes};
   s->cord = thr_calloc((size_t)n_cords, sizeof *s->cord);
-  s->by = thr_calloc(darts, sizeof *s->by);
-  s->stamp = thr_calloc(darts, sizeof *s->stamp);
-  s->queue = thr_calloc(darts, sizeof *s->queue);
-  s->walk = thr_calloc(darts, sizeof *s->walk);
-  return s->cord && s->by && s->stamp && s->queue && s->walk ? THR_OK : thr_nomem(err);
-}
-
-/* Breadth-first over half-edges from h until it comes back into h; U-turns at nodes with one edge only. */
-static void find_walk(adder *s, int h)
-{
-  const thr_frame *f = s->c->f;
-  int head = 0, tail = 0, now = ++s->searches;
-  s->n_walk = 0;
-  s->queue[tail++] = h;
-  while (head < tail && s->stamp[h] != now) {
-    int in = s->queue[head++], v = thr_head(f, in);
-    for (int i = f->first[v]; i < f->first[v + 1]; i++) {
-      int out = f->half[i];
-      if (s->stamp[out] == now || (out == (in ^ 1) && thr_degree(f, v) > 1)) continue;
-      s->stamp[out] = now;
-      s->by[out] = in;
-      if (out != h) s->queue[tail++] = out;
-    }
-  }
-  if (s->stamp[h] != now) return;
-  int at = h;
-  do {
-    s->walk[s->n_walk++] = at;
-    at = s->by[at];
-  } while (at != h);
-  for (int i = 0, k = s->n_walk - 1; i < k; i++, k--) {
-    int swap = s->walk[i];
-    s->walk[i] = s->walk[k];
-    s->walk[k] = swap;
-  }
+  return s->cord ? thr_walks_init(&s->walks, c, err) : thr_nomem(err);
 }
 
 /* Price of the walk found last; infinite if it needs more passes than allowed. */
 static double walk_price(const adder *s)
 {
   const thr_turning_task *t = s->c->task;
+  const thr_walks *w = &s->walks;
   double price = 0;
-  bool room = s->n_walk > 0;
-  for (int i = 0; i < s->n_walk; i++) {
-    int h = s->walk[i], e = h >> 1;
-    price += thr_turn_price(s->c->f, t->cost, h, s->walk[(i + 1) % s->n_walk]) + t->price_per_length * s->c->f->length[e];
-    room &= ++s->passes[e] <= t->most_passes;
+  if (!thr_walks_add(w, s->passes)) return INFINITY;
+  for (int i = 0; i < w->n; i++) {
+    int h = w->half[i];
+    price += thr_turn_price(s->c->f, t->cost, h, w->half[(i + 1) % w->n]) + t->price_per_length * s->c->f->length[h >> 1];
+    s->passes[h >> 1]--;
   }
-  for (int i = 0; i < s->n_walk; i++)
-    s->passes[s->walk[i] >> 1]--;
-  return room ? price : (double)INFINITY;
+  return price;
+}
+
+/* The walk found last as a cord; its passes are counted already. */
+static thr_status take_walk(adder *s, thr_err *err)
+{
+  thr_cord *c = &s->cord[s->made];
+  const thr_walks *w = &s->walks;
+  if (!(c->half = thr_calloc((size_t)w->n, sizeof *c->half))) return thr_nomem(err);
+  memcpy(c->half, w->half, (size_t)w->n * sizeof *c->half);
+  c->n_passes = w->n;
+  s->made++;
+  return THR_OK;
 }
 
 /* One more closed cord in the component. */
@@ -297,21 +262,15 @@ static thr_status add_walk(adder *s, int component, bool *found, thr_err *err)
   int best = -1;
   for (int h = 0; h < 2 * f->n_edges; h += 2) {
     if (s->c->component[thr_tail(f, h)] != component) continue;
-    find_walk(s, h);
+    thr_walks_closed(&s->walks, h);
     double price = walk_price(s);
     if (price < least - 1e-12) least = price, best = h;
   }
   *found = best >= 0;
   if (best < 0) return THR_OK;
-  find_walk(s, best);
-  thr_cord *c = &s->cord[s->made];
-  if (!(c->half = thr_calloc((size_t)s->n_walk, sizeof *c->half))) return thr_nomem(err);
-  memcpy(c->half, s->walk, (size_t)s->n_walk * sizeof *c->half);
-  c->n_passes = s->n_walk;
-  s->made++;
-  for (int i = 0; i < s->n_walk; i++)
-    s->passes[s->walk[i] >> 1]++;
-  return THR_OK;
+  thr_walks_closed(&s->walks, best);
+  *found = thr_walks_add(&s->walks, s->passes);
+  return *found ? take_walk(s, err) : THR_OK;
 }
 
 /* The circuit through the transitions from first on. */
@@ -354,13 +313,40 @@ thr_status thr_circuits_add(const thr_join *j, thr_join *out, int *passes, bool 
   *found = !st;
   for (int k = 0; k < c->n_components && !st; k++)
     *found &= from.count[k] <= cords;
-  if (*found) st = adder_init(&s, j, passes, cords * c->n_components, err);
+  if (*found) st = adder_init(&s, c, passes, cords * c->n_components, err);
   if (!st && *found) st = copy_circuits(&s, &from, err);
   for (int k = 0; k < c->n_components && !st && *found; k++)
     for (; from.count[k] < cords && !st && *found; from.count[k]++)
       st = add_walk(&s, k, found, err);
   if (!st && *found) st = thr_join_from_cords(out, c, s.cord, s.n_cords, err);
   circuits_destroy(&from);
+  adder_destroy(&s);
+  return st;
+}
+
+/* A closed walk through each edge that too few go over yet, beginning with number first. Stops where one has no room. */
+static thr_status cover_edges(adder *s, int first, bool *found, thr_err *err)
+{
+  const int m = s->c->f->n_edges, cover = s->c->task->cover;
+  memset(s->passes, 0, (size_t)m * sizeof *s->passes);
+  for (int i = 0; i < m; i++)
+    while (s->passes[(first + i) % m] < cover) {
+      thr_walks_closed(&s->walks, 2 * ((first + i) % m));
+      if (!(*found = thr_walks_add(&s->walks, s->passes))) return THR_OK;
+      thr_status st = take_walk(s, err);
+      if (st) return st;
+    }
+  return THR_OK;
+}
+
+thr_status thr_circuits_cover(const thr_turning_columns *c, int first, thr_join *out, int *passes, bool *found, thr_err *err)
+{
+  adder s;
+  *out = (thr_join){0};
+  *found = true;
+  thr_status st = adder_init(&s, c, passes, c->f->n_edges * c->task->cover, err);
+  if (!st) st = cover_edges(&s, first, found, err);
+  if (!st && *found) st = thr_join_from_cords(out, c, s.cord, s.made, err);
   adder_destroy(&s);
   return st;
 }

@@ -1,6 +1,7 @@
 /* T-joins with slots for the cord ends, component by component. */
 #include "tortuosity/extra.h"
 #include "lp/tjoin.h"
+#include "tortuosity/walks.h"
 
 #include <assert.h>
 #include <math.h>
@@ -165,6 +166,64 @@ static thr_status solve_component(const thr_turning_columns *c, int k, const dou
   return st;
 }
 
+/* ---- ends that the passes hold ---- */
+
+/* Passes at node v less the cord ends there. */
+static int room_at(const thr_frame *f, int v, const int *passes, const int *ends)
+{
+  int room = -ends[v];
+  for (int i = f->first[v]; i < f->first[v + 1]; i++)
+    room += passes[f->half[i] >> 1];
+  return room;
+}
+
+/* Moves two ends at a time, so that every node stays even, from where there are more than passes to the node with most room.
+ * Returns how many have none; they are left out. */
+static int move_ends(const thr_turning_columns *c, int k, const int *passes, int *ends)
+{
+  const thr_frame *f = c->f;
+  int homeless = 0;
+  for (int v = 0; v < f->n_nodes; v++) {
+    if (c->component[v] != k || !c->task->end_allowed[v]) continue;
+    int over = -room_at(f, v, passes, ends);
+    for (; over > 0; over -= 2) {
+      int best = -1, most = 1;
+      for (int u = 0; u < f->n_nodes; u++) {
+        if (c->component[u] != k || !c->task->end_allowed[u]) continue;
+        int room = room_at(f, u, passes, ends);
+        if (room > most) most = room, best = u;
+      }
+      ends[v] -= 2;
+      if (best >= 0)
+        ends[best] += 2;
+      else
+        homeless += 2;
+    }
+  }
+  return homeless;
+}
+
+/* No more ends at a node than passes: others have room, or there are more passes, along the shortest walk between nodes where
+ * cords may end. Where none is left within most_passes there are ends too many, which no pairing holds. */
+static thr_status fit_ends(const thr_turning_columns *c, int k, int *passes, int *ends, thr_err *err)
+{
+  int homeless = move_ends(c, k, passes, ends), last = -1;
+  if (homeless == 0) return THR_OK;
+  thr_walks w;
+  thr_status st = thr_walks_init(&w, c, err);
+  for (; homeless > 0 && !st; homeless -= 2) {
+    thr_walks_open(&w, k, passes);
+    if (!thr_walks_add(&w, passes)) break;
+    ends[thr_tail(c->f, w.half[0])]++;
+    ends[thr_head(c->f, w.half[w.n - 1])]++;
+  }
+  for (int v = 0; v < c->f->n_nodes && homeless > 0; v++)
+    if (c->component[v] == k && c->task->end_allowed[v]) last = v;
+  if (last >= 0) ends[last] += homeless;
+  thr_walks_destroy(&w);
+  return st;
+}
+
 static thr_status solve_components(const thr_turning_columns *c, const double *weight, const double *end_weight, bool given,
                                    bool roughly, const thr_limits *limits, int *passes, int *ends, thr_err *err)
 {
@@ -175,6 +234,8 @@ static thr_status solve_components(const thr_turning_columns *c, const double *w
     ends[v] = 0;
   for (int k = 0; k < c->n_components && !st; k++)
     st = solve_component(c, k, weight, end_weight, given, roughly, limits, passes, ends, err);
+  for (int k = 0; k < c->n_components && !st && c->task->end_allowed; k++)
+    st = fit_ends(c, k, passes, ends, err);
   return st;
 }
 

@@ -2,8 +2,8 @@
 #include "tortuosity/least.h"
 #include "tortuosity/branch.h"
 #include "tortuosity/extra.h"
+#include "tortuosity/several.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -45,41 +45,68 @@ thr_status thr_least_task(const thr_frame *f, const thr_least_options *o, thr_le
   return THR_OK;
 }
 
-/* The shortest extra passes, and from their length the limit that the slack allows. */
+/* A plan that the search begins with. */
+typedef struct {
+  int n;
+  thr_cord *cord; /* [n] owned */
+} first_cords;
+
+/* ---- the shortest plan, from which the slack is measured ---- */
+
+/* Cords of the best plan of a search, as a plan to begin with. */
+static thr_status take_start(const thr_branch *b, first_cords *start, thr_err *err)
+{
+  int n = b->c->n_components * b->c->task->cords;
+  if (!(start->cord = thr_calloc((size_t)n, sizeof *start->cord))) return thr_nomem(err);
+  start->n = n;
+  return thr_join_cords(&b->best, start->cord, n, err);
+}
+
+/* Several closed cords: the shortest passes if they hold them, or the shortest of all plans that the search begins with. */
+static thr_status find_several(const thr_turning_columns *c, const thr_limits *limits, const int *passes, first_cords *start,
+                               double *extra, thr_err *err)
+{
+  thr_branch b;
+  thr_status st = thr_branch_init(&b, c, 1, limits, err);
+  if (st) return st;
+  b.shortest = true;
+  st = thr_branch_try(&b, passes, NULL, err);
+  if (!st && !b.found) st = thr_several_plans(&b, err);
+  if (!st && b.found) {
+    *extra = b.best_length;
+    st = take_start(&b, start, err);
+  }
+  thr_branch_destroy(&b);
+  return st;
+}
+
+/* The shortest extra passes, and from the length of a plan with them, or nearly, the limit that the slack allows. */
 static thr_status find_shortest(const thr_frame *f, const thr_least_options *o, const thr_limits *limits, thr_least *out,
-                                int *passes, int *ends, thr_err *err)
+                                int *passes, int *ends, first_cords *start, thr_err *err)
 {
   thr_turning_columns c;
   thr_status st = thr_turning_columns_init(&c, f, &out->task, err);
   if (st) return st;
   st = thr_extra_passes(&c, f->length, NULL, false, limits, passes, ends, err);
-  double extra = st ? 0 : thr_extra_length(&c, passes), base = o->cover * thr_frame_total_length(f);
+  double extra = st ? 0 : thr_extra_length(&c, passes), base = o->cover * thr_frame_total_length(f), given = 0;
+  if (!st && !out->end_allowed && out->task.cords > 1) st = find_several(&c, limits, passes, start, &extra, err);
   thr_turning_columns_destroy(&c);
-  out->shortest = base + extra;
+  for (int i = 0; i < o->n_start; i++)
+    given += thr_cord_length(f, &o->start[i]);
+  out->shortest = o->n_start > 0 && given < (base + extra) * (1 - 1e-9) ? given : base + extra;
   out->length_limit = o->length_slack < 0 ? -1 : out->shortest * (1 + o->length_slack);
   out->task.extra_limit = thr_turning_extra_limit(f, o->cover, out->length_limit);
   return st;
 }
 
-/* Where the shortest passes do not hold as many closed cords: the same even number over all edges, which holds many. */
-static thr_status even_passes(thr_branch *b, int *passes, int *ends, thr_err *err)
-{
-  const thr_turning_task *t = b->c->task;
-  thr_status st = THR_OK;
-  for (int n = t->cover + t->cover % 2; n <= t->most_passes && !b->found && !st; n += 2) {
-    for (int e = 0; e < b->c->f->n_edges; e++)
-      passes[e] = n;
-    st = thr_branch_try(b, passes, ends, err);
-  }
-  return st;
-}
-
 /* First plans: the shortest passes, the plan to begin with, and those for ends far apart. */
-static thr_status first_plans(thr_branch *b, const thr_least_options *o, int *passes, int *ends, thr_err *err)
+static thr_status first_plans(thr_branch *b, const thr_least_options *o, const first_cords *start, int *passes, int *ends,
+                              thr_err *err)
 {
   thr_status st = thr_branch_try(b, passes, ends, err);
   if (!st && o->start) st = thr_branch_try_cords(b, o->start, o->n_start, err);
-  if (!st && b->several) st = even_passes(b, passes, ends, err);
+  if (!st && start->n) st = thr_branch_try_cords(b, start->cord, start->n, err);
+  if (!st && b->several) st = thr_several_plans(b, err);
   if (st || !b->c->task->end_allowed) return st;
   thr_extra_spread_ends(b->c, ends);
   st = thr_extra_passes(b->c, b->c->f->length, NULL, true, b->limits, passes, ends, err);
@@ -113,9 +140,24 @@ thr_status thr_least_cords(const thr_frame *f, const thr_join *j, thr_least *out
   return THR_OK;
 }
 
+static const char *why_open(const thr_branch *b)
+{
+  if (b->stopped) return "stopped early";
+  return b->several ? "what it costs to have no fewer cords is not part of the bound" : "rounding left a gap";
+}
+
+void thr_least_judge(thr_least *l, const char *why)
+{
+  double passes = 0;
+  for (int i = 0; i < l->n_cords; i++)
+    passes += l->cord[i].n_passes;
+  /* twice what thr_branch_tolerance allows, for the roundings of the proof */
+  l->optimal = l->bound >= l->price - 2e-9 * thr_turn_cost_of(l->task.cost, 3.14159265358979323846) * passes;
+  l->open = l->optimal ? NULL : why;
+}
+
 static thr_status finish(const thr_frame *f, thr_branch *b, thr_least *out, thr_err *err)
 {
-  int64_t tolerance = thr_branch_tolerance(b);
   thr_status st = thr_least_cords(f, &b->best, out, err);
   if (st) return st;
   out->rounds = b->rounds;
@@ -124,7 +166,7 @@ static thr_status finish(const thr_frame *f, thr_branch *b, thr_least *out, thr_
   st = thr_turning_proof_check(f, &out->task, &out->proof, &out->bound, &found);
   if (st == THR_EVIOLATED) return thr_fail(err, THR_ESOLVER, "the proof does not pass its own check: %s", found.text);
   if (st) return thr_fail(err, st, "%s", found.text);
-  out->optimal = out->bound >= out->price - ldexp((double)tolerance, -THR_TURNING_BITS) * 2;
+  thr_least_judge(out, why_open(b));
   return THR_OK;
 }
 
@@ -143,25 +185,19 @@ static thr_status not_found(const thr_branch *b, thr_err *err)
   return THR_EINFEASIBLE;
 }
 
-static const char *why_open(const thr_branch *b)
-{
-  if (b->stopped) return "stopped early";
-  return b->several ? "what it costs to have no fewer cords is not part of the bound" : "rounding left a gap";
-}
-
-thr_status thr_least_turning(const thr_frame *f, const thr_least_options *o, const thr_limits *limits, thr_least *out,
-                             thr_err *err)
+static thr_status search(const thr_frame *f, const thr_least_options *o, const thr_limits *limits, thr_least *out, thr_err *err)
 {
   thr_least made = {0};
   thr_turning_columns c = {0};
   thr_branch b = {0};
+  first_cords start = {0};
   *out = (thr_least){0};
   int *passes = thr_calloc((size_t)f->n_edges, sizeof *passes), *ends = thr_calloc((size_t)f->n_nodes, sizeof *ends);
   thr_status st = passes && ends ? thr_least_task(f, o, &made, err) : thr_nomem(err);
-  if (!st) st = find_shortest(f, o, limits, &made, passes, ends, err);
+  if (!st) st = find_shortest(f, o, limits, &made, passes, ends, &start, err);
   if (!st) st = thr_turning_columns_init(&c, f, &made.task, err);
   if (!st) st = thr_branch_init(&b, &c, o->most_nodes, limits, err);
-  if (!st) st = first_plans(&b, o, passes, ends, err);
+  if (!st) st = first_plans(&b, o, &start, passes, ends, err);
   if (!st) st = thr_branch_run(&b, err);
   if (!st && !b.found) st = not_found(&b, err);
   if (!st) st = finish(f, &b, &made, err);
@@ -169,13 +205,34 @@ thr_status thr_least_turning(const thr_frame *f, const thr_least_options *o, con
     *out = made;
     made = (thr_least){0};
     if (!out->optimal)
-      st = thr_fail(err, THR_ELIMIT, "%s: the turning is proved to be within %.3g %% of the least", why_open(&b),
+      st = thr_fail(err, THR_ELIMIT, "%s: the turning is proved to be within %.3g %% of the least", out->open,
                     100 * (out->price - out->bound) / out->price);
   }
   thr_least_destroy(&made);
   thr_branch_destroy(&b);
   thr_turning_columns_destroy(&c);
+  for (int i = 0; i < start.n; i++)
+    free(start.cord[i].half);
+  free(start.cord);
   free(passes);
   free(ends);
   return st;
+}
+
+/* Once more where the plan found is shorter than the one that its slack was measured from. */
+thr_status thr_least_turning(const thr_frame *f, const thr_least_options *o, const thr_limits *limits, thr_least *out,
+                             thr_err *err)
+{
+  thr_err found = {0};
+  thr_status st = search(f, o, limits, out, &found);
+  while ((!st || st == THR_ELIMIT) && o->length_slack >= 0 && out->length < out->shortest * (1 - 1e-9)) {
+    thr_least_options again = *o;
+    thr_least longer = *out;
+    again.start = longer.cord;
+    again.n_start = longer.n_cords;
+    found = (thr_err){0};
+    st = search(f, &again, limits, out, &found);
+    thr_least_destroy(&longer);
+  }
+  return st ? thr_fail(err, st, "%s", found.text) : THR_OK;
 }

@@ -13,7 +13,7 @@ typedef struct {
   int cords;            /* in every component, exactly; 0 = 1 */
   int most_passes;      /* of an edge; 0 = 4 * cover + 4 */
   thr_turn_cost cost;
-  double length_slack;     /* extra cord allowed above the shortest, as a part of its length; < 0 = any length */
+  double length_slack;     /* extra cord allowed above the shortest plan found, as a part of its length; < 0 = any length */
   double price_per_length; /* of extra cord, in the turns' price per unit of length */
   const thr_cord *start;   /* [n_start] a plan of the task to begin with; borrowed, NULL = none */
   int n_start;
@@ -29,10 +29,12 @@ typedef struct {
   thr_cord *cord; /* [n_cords] owned */
   double price;   /* of all turns and extra cord; where a cord has both ends at one node, nothing turns there (closed: it does) */
   double turning; /* rad, whatever the cost */
-  double length, shortest; /* of these cords; of the shortest ones for the same options */
+  double length, shortest; /* of these cords; of the shortest plan found for the same options. The shortest passes may not hold so
+                              many cords: then those that a search without a limit finds count (docs/method.md) */
   double length_limit;     /* what the proof is restricted to; < 0 = none */
   double bound;            /* no plan of the task has a lower price: what the check of the proof says */
   bool optimal;            /* price and bound agree within 1e-9 of a U-turn per pass */
+  const char *open;        /* why it is not proved; static text, NULL if optimal */
   thr_turning_proof proof;
   int rounds; /* linear programmes solved */
 } thr_least;
@@ -48,5 +50,8 @@ void thr_least_destroy(thr_least *l);
  * multigraph. */
 thr_status thr_least_task(const thr_frame *f, const thr_least_options *o, thr_least *out, thr_err *err) THR_MUST_CHECK;
 thr_status thr_least_cords(const thr_frame *f, const thr_join *j, thr_least *out, thr_err *err) THR_MUST_CHECK;
+
+/* Sets optimal from price and bound, and open: why, if it is not. */
+void thr_least_judge(thr_least *l, const char *why);
 
 #endif

@@ -1,5 +1,6 @@
 /* Exchanges between cords. */
 #include "tortuosity/maxturn.h"
+#include "graph/random.h"
 #include "tortuosity/circuits.h"
 #include "tortuosity/extra.h"
 #include "tortuosity/improve.h"
@@ -206,22 +207,14 @@ static double largest_of(const double *total, int n)
   return largest;
 }
 
-static uint64_t next_random(uint64_t *state)
-{
-  uint64_t z = *state += UINT64_C(0x9e3779b97f4a7c15);
-  z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
-  z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
-  return z ^ z >> 31;
-}
-
 static int random_below(uint64_t *state, int n)
 {
-  return (int)(next_random(state) % (uint64_t)n);
+  return (int)(thr_random(state) % (uint64_t)n);
 }
 
 static double random_unit(uint64_t *state)
 {
-  return ldexp((double)(next_random(state) >> 11), -53);
+  return ldexp((double)(thr_random(state) >> 11), -53);
 }
 
 static double sum_of_powers(const cords *s)
@@ -359,7 +352,7 @@ static thr_status improve_from(search *x, thr_join *j, int steps, thr_err *err)
   thr_status st = cords_init(&s, j, x->scale, err);
   if (!st && !best) st = thr_nomem(err);
   if (!st && follow_all(&s)) {
-    s.state = next_random(&x->state);
+    s.state = thr_random(&x->state);
     exchange_all(&s, x->limits);
     anneal(&s, x->limits, s.n_cords > 1 ? steps : 0, x->bound, best);
     exchange_all(&s, x->limits);
@@ -525,7 +518,7 @@ static thr_status take_cords(const thr_frame *f, const thr_join *j, thr_least *p
   plan->length = made.length;
   plan->price = made.price;
   plan->turning = made.turning;
-  plan->optimal &= made.price <= plan->bound + 1e-7;
+  thr_least_judge(plan, plan->open ? plan->open : "cords that turn most evenly may turn more together");
   return THR_OK;
 }
 

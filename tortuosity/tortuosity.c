@@ -45,7 +45,8 @@ static thr_status shorten(const thr_frame *f, const thr_least_options *lo, const
   with_length.price_per_length = small * f->n_edges / thr_frame_total_length(f);
   thr_err unused = {0};
   thr_status st = thr_least_turning(f, &with_length, limits, &other, &unused);
-  if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", unused.text);
+  if (st == THR_ENOMEM) return thr_fail(err, st, "%s", unused.text);
+  if (st && st != THR_ELIMIT) return THR_OK; /* what is proved stands without it */
   double price = other.price - with_length.price_per_length * (other.length - lo->cover * thr_frame_total_length(f));
   if (price <= l->price + 1e-9 && other.length < l->length * (1 - 1e-9)) {
     thr_cord *cord = l->cord;
@@ -195,7 +196,7 @@ static thr_status assemble(const thr_frame *f, const thr_plan_options *o, thr_le
 }
 
 /* What was to be minimized, and how far the proof got. */
-static thr_status verdict(const thr_plan *p, thr_err *err)
+static thr_status verdict(const thr_plan *p, const thr_least *l, thr_err *err)
 {
   const thr_turning_claim *c = &p->turning;
   if (!c->present) return THR_OK;
@@ -203,7 +204,7 @@ static thr_status verdict(const thr_plan *p, thr_err *err)
     return thr_fail(err, THR_ELIMIT, "the largest turning of a cord is proved to be within %.3g %% of the least",
                     100 * (c->largest - c->largest_bound) / c->largest);
   if (!p->options.turning.largest && !c->optimal)
-    return thr_fail(err, THR_ELIMIT, "stopped early: the turning is proved to be within %.3g %% of the least", 100 * c->gap);
+    return thr_fail(err, THR_ELIMIT, "%s: the turning is proved to be within %.3g %% of the least", l->open, 100 * c->gap);
   return THR_OK;
 }
 
@@ -220,7 +221,7 @@ thr_status thr_tortuosity_plan_from(const thr_frame *f, const thr_plan_options *
     st = thr_fail(err, st, "%s", unproved.text);
   else
     st = assemble(f, o, &l, &shortest, plan, err);
-  if (!st) st = verdict(plan, err);
+  if (!st) st = verdict(plan, &l, err);
   if (st && st != THR_ELIMIT) thr_plan_destroy(plan);
   thr_least_destroy(&l);
   thr_shortest_destroy(&shortest);
@@ -258,7 +259,7 @@ static double largest_turning(const thr_frame *f, const thr_plan_options *o, con
   return largest;
 }
 
-/* The least turning with that much more cord than the shortest (< 0: any length), as one more point. */
+/* The least turning with that much more cord than the shortest (< 0: any length), as one more point if there is a plan. */
 static thr_status add_point(sweep *s, double slack, thr_err *err)
 {
   thr_least l = {0};
@@ -267,13 +268,14 @@ static thr_status add_point(sweep *s, double slack, thr_err *err)
   thr_err unused = {0};
   lo.length_slack = slack;
   thr_status st = find_least(s->f, &lo, &share, &l, &unused);
+  if (st == THR_EINFEASIBLE) return THR_OK;
   if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", unused.text);
   s->shortest = l.shortest;
   s->out->point[s->out->n++] = (thr_frontier_point){.length = l.length,
                                                     .overlap = l.length - s->o->cover * thr_frame_total_length(s->f),
                                                     .price = l.price,
                                                     .lower_bound = fmin(l.price, l.bound),
-                                                    .optimal = l.optimal,
+                                                    .open = l.open,
                                                     .turning = l.turning,
                                                     .max_turning = largest_turning(s->f, s->o, &l)};
   thr_least_destroy(&l);
@@ -310,15 +312,17 @@ thr_status thr_tortuosity_frontier(const thr_frame *f, const thr_plan_options *o
   if (!(out->point = thr_calloc((size_t)most, sizeof *out->point))) return thr_nomem(err);
   thr_status st = add_point(&s, 0, err);
   if (!st) st = add_point(&s, -1, err);
-  double longest = st ? 0 : out->point[1].length;
+  double longest = st || out->n == 0 ? 0 : out->point[out->n - 1].length;
   for (int i = 1; i + 1 < most && !st && longest > s.shortest * (1 + 1e-9); i++)
     st = add_point(&s, (longest / s.shortest - 1) * i / (most - 1), err);
+  if (!st && out->n == 0) st = thr_fail(err, THR_EINFEASIBLE, "no plan was found for any point of the trade-off");
   if (st) {
     thr_frontier_destroy(out);
     return st;
   }
   drop_dominated(out);
   for (int i = 0; i < out->n; i++)
-    if (!out->point[i].optimal) return thr_fail(err, THR_ELIMIT, "stopped early: point %d of the trade-off is not proved", i + 1);
+    if (out->point[i].open)
+      return thr_fail(err, THR_ELIMIT, "%s: point %d of the trade-off is not proved", out->point[i].open, i + 1);
   return THR_OK;
 }

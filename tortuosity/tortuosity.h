@@ -9,7 +9,7 @@
 /* Makes a plan as options.turning says: extra passes, ends and pairings chosen together, or a classical tour to compare with
  * (which claims nothing about its turning). Among plans that turn equally little it takes a short one if it finds it. The plan
  * holds the proof of length (graph/plan.h, thr_length_proof) as well; with a length slack the limit is that part above
- * the shortest. Both claims are what graph/check.c says, never what the solver hopes.
+ * the shortest plan found for so many cords. Both claims are what graph/check.c says, never what the solver hopes.
  * THR_OK: what was to be minimized is proved optimal, or the tour is a classical one. THR_ELIMIT: the plan is valid and holds its
  * bound and gap. THR_EINFEASIBLE: no node for a cord end in a component (named), or no plan within the limits on passes and
  * length. THR_EINPUT: options that do not go together (said). Otherwise the plan is empty. */
@@ -23,9 +23,9 @@ thr_status thr_tortuosity_plan_from(const thr_frame *f, const thr_plan_options *
 
 /* A plan of the trade-off between length and turning: nothing that is no longer turns less than lower_bound. */
 typedef struct {
-  double length, overlap;    /* units */
-  double price, lower_bound; /* of all turns */
-  bool optimal;
+  double length, overlap;      /* units */
+  double price, lower_bound;   /* of all turns */
+  const char *open;            /* why it is not proved; static text, NULL if it is */
   double turning, max_turning; /* rad */
 } thr_frontier_point;
 
@@ -36,7 +36,8 @@ typedef struct {
 
 /* From the least turning among the shortest to the least turning of any length, with at most `most` points (>= 2), whose limits
  * on the length are evenly spaced between the two. Each point gets an equal share of the time. Where the frontier has few points
- * (beads of equal length) all of them may be found. THR_ELIMIT: some are not proved. Release with thr_frontier_destroy. */
+ * (beads of equal length) all of them may be found; a limit that no plan is found for is left out. THR_ELIMIT: some are not
+ * proved. Release with thr_frontier_destroy. */
 thr_status thr_tortuosity_frontier(const thr_frame *f, const thr_plan_options *o, int most, const thr_limits *limits,
                                    thr_frontier *out, thr_err *err) THR_MUST_CHECK;
 void thr_frontier_destroy(thr_frontier *f);

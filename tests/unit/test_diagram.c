@@ -1,6 +1,8 @@
 /* Diagrams: layouts measured and chosen, and the overview picture read back from its SVG text. */
 #include "diagram/overview.h"
+#include "diagram/palette.h"
 #include "graph/make.h"
+#include "symmetry/symmetry.h"
 #include "tests/support.h"
 
 #include <check.h>
@@ -237,7 +239,7 @@ static void assert_legend_true(const thr_plan *p, const char *svg)
     int swatches = 0;
     snprintf(key, sizeof key, "cord-%s", p->cord[c].id);
     find_group(svg, key, &from, &to);
-    snprintf(key, sizeof key, "class=\"swatch\" data-for=\"%s\" stroke=\"", p->cord[c].id);
+    snprintf(key, sizeof key, "data-for=\"%s\" stroke=\"", p->cord[c].id);
     for (const char *s = strstr(svg, key); s; s = strstr(s + 1, key), swatches++) {
       snprintf(colour, sizeof colour, "%.7s", s + strlen(key));
       const char *used = strstr(from, colour);
@@ -319,6 +321,118 @@ static void assert_picture_sound(const thr_plan *p)
 }
 
 /* ---- overview ---- */
+
+static thr_plan symmetric_dome(const char *group)
+{
+  thr_frame f = shape_make(THR_MAKE_DOME, 6, 0);
+  thr_plan p = {0};
+  thr_limits none = {0};
+  thr_plan_options o = options_for(THR_ENDS_FEET, 1);
+  o.objective = THR_SYMMETRY;
+  snprintf(o.symmetry.group, sizeof o.symmetry.group, "%s", group);
+  ck_assert_int_eq(thr_symmetry_plan(&f, &o, &none, NULL, &p, NULL), THR_OK);
+  thr_frame_destroy(&f);
+  return p;
+}
+
+static bool has_id(const char *svg, const char *prefix, const char *cord, int pass)
+{
+  char key[64];
+  snprintf(key, sizeof key, " id=\"%s%s-%d\"", prefix, cord, pass);
+  return strstr(svg, key) != NULL;
+}
+
+/* Unique paths have hues in their order, a number on every pass and cover their copies, which are pale, without numbers and with
+ * few arrows. */
+START_TEST(copies_are_pale)
+{
+  thr_plan p = symmetric_dome(_i ? "C4" : "");
+  const int *unique = p.symmetry.unique;
+  thr_text svg = picture(&p);
+  const char *end_of_copies = strstr(svg.data, "class=\"copy\""), *first_path = NULL;
+  assert_picture_sound(&p);
+  int paths = 0, hue[64] = {0};
+  ck_assert_int_lt(p.symmetry.unique_paths, p.n_cords);
+  ck_assert_int_le(p.n_cords, 64);
+  for (int c = 0; c < p.n_cords; c++) {
+    char id[40];
+    const char *from, *to, *pale = thr_palette(unique[c] == c ? paths : hue[unique[c]]).pale;
+    int arrows = 0, n = p.cord[c].n_passes;
+    if (unique[c] == c) hue[c] = paths++;
+    const char *strong = thr_palette(hue[unique[c]]).hex;
+    snprintf(id, sizeof id, "cord-%s", p.cord[c].id);
+    find_group(svg.data, id, &from, &to);
+    bool copy = unique[c] != c;
+    ck_assert_int_eq(strstr(from, "class=\"copy\"") == from + strlen("<g id=\"\" ") + strlen(id), copy);
+    const char *stroke = strstr(from, " stroke=\"") + 9;
+    ck_assert_int_eq(strncmp(stroke, copy ? pale : strong, 7), 0);
+    for (const char *s = strstr(from, "class=\"arrow\""); s && s < to; s = strstr(s + 1, "class=\"arrow\""))
+      arrows++;
+    ck_assert_int_eq(arrows, copy ? (n + 3) / 4 : n);
+    for (int k = 1; k <= n; k++)
+      ck_assert_int_eq(has_id(svg.data, "n-", p.cord[c].id, k), !copy);
+    if (copy && from > end_of_copies) end_of_copies = from;
+    if (!copy && (!first_path || from < first_path)) first_path = from;
+  }
+  ck_assert(first_path > end_of_copies);
+  assert_pills_apart(svg.data);
+  thr_text_destroy(&svg);
+  svg = coloured_picture(&p, THR_COLOUR_TURNING);
+  ck_assert_ptr_null(strstr(svg.data, "class=\"copy\""));
+  ck_assert(has_id(svg.data, "n-", p.cord[p.n_cords - 1].id, 1));
+  thr_text_destroy(&svg);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+/* The legend has a line per copy, with the words that are given for it; of very many copies a part. */
+START_TEST(the_legend_says_how_paths_repeat)
+{
+  thr_plan p = symmetric_dome("C4");
+  const char *motion[8] = {NULL, "turned by a quarter", "<turned> & back", NULL};
+  thr_text svg = {0};
+  thr_overview_options o = thr_overview_options_default();
+  ck_assert_int_eq(p.n_cords, 4);
+  ck_assert_int_eq(thr_overview_svg(&p, &o, &svg, NULL), THR_OK);
+  ck_assert_ptr_nonnull(strstr(svg.data, ">4 cords, 1 path to learn: 60 beads, 68 passes<"));
+  ck_assert_ptr_nonnull(strstr(svg.data, ">Cord B: repeat A from foot "));
+  ck_assert_ptr_null(strstr(svg.data, "no motion"));
+  thr_text_destroy(&svg);
+  o.motion = motion;
+  ck_assert_int_eq(thr_overview_svg(&p, &o, &svg, NULL), THR_OK);
+  ck_assert(well_formed(svg.data));
+  ck_assert_ptr_nonnull(strstr(svg.data, ", turned by a quarter<"));
+  ck_assert_ptr_nonnull(strstr(svg.data, ", &lt;turned&gt; &amp; back<"));
+  ck_assert_ptr_nonnull(strstr(svg.data, ", renumbered by the framework"));
+  thr_text_destroy(&svg);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+START_TEST(not_every_copy_has_a_line)
+{
+  thr_frame f = triangles_make(80);
+  thr_plan p = plan_simple(&f, THR_ENDS_CLOSED, 1);
+  thr_symmetry_record *r = &p.symmetry;
+  size_t n = (size_t)f.n_nodes, cords = (size_t)p.n_cords;
+  *r = (thr_symmetry_record){.present = true, .order = 80, .n_images = 80, .unique_paths = 1};
+  r->image = calloc(80 * n, sizeof(int));
+  r->unique = calloc(cords, sizeof(int));
+  r->element = calloc(cords, sizeof(int));
+  ck_assert(r->image && r->unique && r->element);
+  for (int c = 0; c < 80; c++) { /* image c moves every triangle on by c */
+    r->element[c] = c;
+    for (int v = 0; v < f.n_nodes; v++)
+      r->image[c * f.n_nodes + v] = (v + 3 * c) % f.n_nodes;
+  }
+  thr_text svg = picture(&p);
+  ck_assert_ptr_nonnull(strstr(svg.data, ">and 31 more copies of A<"));
+  ck_assert_ptr_nonnull(strstr(svg.data, ">Cord B: repeat A from"));
+  thr_text_destroy(&svg);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
 
 START_TEST(a_dome_has_every_pass_numbered_once)
 {
@@ -481,10 +595,10 @@ END_TEST
 
 START_TEST(every_allocation_may_fail)
 {
-  thr_plan p = shape_plan(THR_MAKE_TUBE, 3, 2, THR_ENDS_CLOSED, 1);
+  thr_plan p = _i == 2 ? symmetric_dome("C4") : shape_plan(THR_MAKE_TUBE, 3, 2, THR_ENDS_CLOSED, 1);
   thr_overview_options o = thr_overview_options_default();
   thr_status st = THR_ENOMEM;
-  o.colour = _i ? THR_COLOUR_TURNING : THR_COLOUR_CORD;
+  o.colour = _i == 1 ? THR_COLOUR_TURNING : THR_COLOUR_CORD;
   for (long k = 1; st != THR_OK; k++) {
     thr_text svg = {0};
     ck_assert_int_lt((int)k, 5000);
@@ -666,12 +780,15 @@ int main(void)
   ADD_LOOP(s, 20, a_dome_has_every_pass_numbered_once, 0, 3);
   ADD_LOOP(s, 30, many_shapes_are_drawn_soundly, 0, 7);
   ADD_TEST(s, 20, many_cords_are_told_apart);
+  ADD_LOOP(s, 20, copies_are_pale, 0, 2);
+  ADD_TEST(s, 20, the_legend_says_how_paths_repeat);
+  ADD_TEST(s, 20, not_every_copy_has_a_line);
   ADD_TEST(s, 60, odd_frameworks_do_not_crash);
   ADD_TEST(s, 20, hostile_names_stay_text);
   ADD_TEST(s, 20, numbers_thin_out_with_the_pitch);
   ADD_TEST(s, 30, a_large_dome_stays_within_a0);
   ADD_TEST(s, 20, broken_plans_are_refused);
-  ADD_LOOP(s, 60, every_allocation_may_fail, 0, 2);
+  ADD_LOOP(s, 60, every_allocation_may_fail, 0, 3);
   ADD_TEST(s, 30, crossings_agree_with_all_pairs);
   ADD_LOOP(s, 20, shapes_find_a_layout_without_crossings, 0, 6);
   ADD_TEST(s, 20, layouts_show_the_outside);

@@ -387,6 +387,28 @@ START_TEST(turns_have_even_colours)
 }
 END_TEST
 
+/* Copies have their cord's hue, are lighter than any cord and darker than a bead, for every reader. */
+START_TEST(pale_colours_stand_between_cords_and_beads)
+{
+  double bead[3], strong[3], pale[3], lab[3], paler[3];
+  lightness_seen("#f3f1ea", bead);
+  for (int i = 0; i < THR_COLOURS; i++) {
+    oklab_of(thr_palette(i).hex, lab);
+    oklab_of(thr_palette(i).pale, paler);
+    ck_assert_double_lt(fabs(sin(atan2(lab[2], lab[1]) - atan2(paler[2], paler[1]))), 0.03);
+    ck_assert_double_lt(hypot(paler[1], paler[2]), 0.75 * hypot(lab[1], lab[2]));
+    lightness_seen(thr_palette(i).pale, pale);
+    for (int k = 0; k < 3; k++)
+      ck_assert_double_gt(bead[k] - pale[k], 7);
+    for (int j = 0; j < THR_COLOURS; j++) {
+      lightness_seen(thr_palette(j).hex, strong);
+      for (int k = 0; k < 3; k++)
+        ck_assert_double_gt(pale[k] - strong[k], i == j ? 8 : 3);
+    }
+  }
+}
+END_TEST
+
 /* A cord along unit edges in the plane that turns by these degrees, left and right. */
 static thr_plan bent_plan(int n_turns, const int *degrees)
 {
@@ -748,6 +770,7 @@ int main(void)
   ADD_TEST(s, 10, without_a_usable_evaluation);
   ADD_TEST(s, 10, overview_shows_tension);
   ADD_TEST(s, 10, turns_have_even_colours);
+  ADD_TEST(s, 10, pale_colours_stand_between_cords_and_beads);
   ADD_TEST(s, 10, overview_shows_turning);
   ADD_LOOP(s, 10, closing_turns, 0, 4);
   ADD_TEST(s, 10, turning_of_several_cords);

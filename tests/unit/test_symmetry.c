@@ -172,11 +172,13 @@ START_TEST(plans_pass_the_checker)
         for (int v = 0; v < f.n_nodes; v++)
           feet += f.foot[v];
         if (feet || ends != THR_ENDS_FEET) {
-          const thr_limits limits = {.deadline = thr_clock() + 20};
-          ck_assert_msg(thr_symmetry_plan(&f, &o, &limits, &t, &p, &err) == THR_OK, "%s", err.text);
+          const thr_limits limits = {.deadline = thr_clock() + 4}; /* what is not proved by then must be sound all the same */
+          thr_status st = thr_symmetry_plan(&f, &o, &limits, &t, &p, &err);
+          ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", err.text);
           check_choice(&t);
           ck_assert(p.symmetry.present && p.symmetry.order == t.row[t.chosen].order);
-          ck_assert_msg(thr_check_plan(&p, &err) == THR_OK, "%s", err.text);
+          thr_err found = {0};
+          ck_assert_msg(thr_check_plan(&p, &found) == THR_OK, "%s", found.text);
           thr_plan_destroy(&p);
           thr_symmetries_destroy(&t);
         }

@@ -1,0 +1,194 @@
+/* The objective "tortuosity" as a whole: what the length slack is measured from, the trade-off, and what is said of a plan that
+ * is not proved. */
+#include "tests/support.h"
+#include "tortuosity/least.h"
+#include "tortuosity/tortuosity.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double pi = 3.14159265358979323846;
+
+/* A bar 0-1-2 with a leg 1-3. */
+static thr_frame tee_make(void)
+{
+  static const double xyz[][3] = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 1, 0}};
+  static const int edge[][2] = {{0, 1}, {1, 2}, {1, 3}};
+  return frame_make(4, xyz, 3, edge, NULL, NULL);
+}
+
+/* ---- the shortest plan with so many open cords ---- */
+
+typedef struct {
+  const thr_frame *f;
+  const bool *end_allowed;
+  int cords, most_passes;
+  int passes[16];
+  double best;
+} oracle;
+
+/* So many passes hold 2 * cords ends if every node has a number of ends between what it needs (for parity, and as partners of an
+ * edge with more passes than all others there) and its passes: then every node can be paired without U-turns, and cords that meet
+ * can be joined or not as one likes. */
+static bool holds_cords(const oracle *o)
+{
+  int least = 0, most = 0;
+  for (int v = 0; v < o->f->n_nodes; v++) {
+    int sum = 0, largest = 0;
+    for (int i = o->f->first[v]; i < o->f->first[v + 1]; i++) {
+      int p = o->passes[o->f->half[i] >> 1];
+      sum += p;
+      largest = p > largest ? p : largest;
+    }
+    int need = thr_degree(o->f, v) > 1 && 2 * largest > sum ? 2 * largest - sum : sum % 2;
+    if (need > 0 && !o->end_allowed[v]) return false;
+    if (!o->end_allowed[v]) continue;
+    least += need;
+    most += sum;
+  }
+  return least <= 2 * o->cords && 2 * o->cords <= most;
+}
+
+static void try_passes(oracle *o, int e, double length)
+{
+  if (length >= o->best) return;
+  if (e == o->f->n_edges) {
+    if (holds_cords(o)) o->best = length;
+    return;
+  }
+  for (o->passes[e] = 1; o->passes[e] <= o->most_passes; o->passes[e]++)
+    try_passes(o, e + 1, length + o->passes[e] * o->f->length[e]);
+}
+
+/* Few nodes where cords may end and many cords: often more ends than the shortest passes hold. */
+START_TEST(slack_is_measured_from_the_shortest_open_cords)
+{
+  rng r = rng_make((uint64_t)_i + 1);
+  int equal = 0, asked = 0;
+  for (int k = 0; k < 12; k++) {
+    int n = rng_between(&r, 2, 5);
+    thr_frame f = random_frame(&r, n, rng_below(&r, 3), k % 2 ? LENGTHS_EUCLID : LENGTHS_EQUAL);
+    thr_least_options o = thr_least_options_default();
+    thr_limits limits = {0};
+    thr_least l;
+    thr_err err = {0};
+    bool end[8] = {false};
+    for (int i = rng_between(&r, 1, 2); i > 0; i--)
+      end[rng_below(&r, n)] = true;
+    o.ends = THR_ENDS_NODES;
+    o.end_node = end;
+    o.cords = rng_between(&r, 1, 4);
+    o.length_slack = 0;
+    oracle best = {.f = &f, .end_allowed = end, .cords = o.cords, .most_passes = 8, .best = INFINITY};
+    try_passes(&best, 0, 0);
+    thr_status st = thr_least_turning(&f, &o, &limits, &l, &err);
+    if (st == THR_EINFEASIBLE) {
+      ck_assert_msg(isinf(best.best), "%s, but %g is possible", err.text, best.best);
+    } else {
+      ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", err.text);
+      ck_assert_double_ge(l.shortest, best.best * (1 - 1e-9));
+      ck_assert_double_ge(l.length, best.best * (1 - 1e-9));
+      ck_assert_double_le(l.length, l.shortest * (1 + 1e-9));
+      asked++;
+      equal += l.shortest <= best.best * (1 + 1e-9);
+    }
+    thr_least_destroy(&l);
+    thr_frame_destroy(&f);
+  }
+  ck_assert_int_ge(10 * equal, 9 * asked);
+}
+END_TEST
+
+/* ---- whole plans ---- */
+
+static thr_status make_plan(const thr_frame *f, int cords, double slack, thr_plan *p, thr_err *err)
+{
+  thr_plan_options o = thr_plan_options_default();
+  const thr_limits limits = {0};
+  o.objective = THR_TORTUOSITY;
+  o.ends = THR_ENDS_CLOSED;
+  o.cords = cords;
+  o.turning.length_slack = slack;
+  return thr_tortuosity_plan(f, &o, &limits, p, err);
+}
+
+/* By hand: along the bar and back, and from one of its ends to the leg's and back. */
+START_TEST(the_reason_why_it_is_not_proved)
+{
+  thr_frame f = tee_make();
+  thr_plan p;
+  thr_err err = {0};
+  ck_assert_int_eq(make_plan(&f, 2, -1, &p, &err), THR_ELIMIT);
+  assert_one_line(&err, "what it costs to have no fewer cords is not part of the bound");
+  ck_assert_double_eq_tol(p.metrics.turning, 5 * pi, 1e-6);
+  ck_assert_double_eq_tol(p.metrics.length, 8, 1e-9);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* The shortest passes round a ring hold one closed cord: two are twice as long, and then nothing is allowed above that. */
+START_TEST(more_cords_than_the_shortest_passes_hold)
+{
+  thr_frame f = ring_make(3);
+  thr_plan p;
+  thr_err err = {0};
+  ck_assert_int_eq(make_plan(&f, 2, 0, &p, &err), THR_OK);
+  ck_assert_double_eq_tol(p.metrics.length, 6, 1e-9);
+  ck_assert_double_eq_tol(p.turning.length_limit, 6, 1e-9);
+  ck_assert_double_eq_tol(p.metrics.turning, 4 * pi, 1e-6);
+  ck_assert_int_eq(thr_check_plan(&p, NULL), THR_OK);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* ---- the trade-off ---- */
+
+static thr_status sweep(const thr_frame *f, int cords, thr_frontier *out, thr_err *err)
+{
+  thr_plan_options o = thr_plan_options_default();
+  const thr_limits limits = {0};
+  o.objective = THR_TORTUOSITY;
+  o.ends = THR_ENDS_CLOSED;
+  o.cords = cords;
+  return thr_tortuosity_frontier(f, &o, 4, &limits, out, err);
+}
+
+START_TEST(trade_off_begins_at_the_shortest_plan)
+{
+  thr_frame f = tee_make();
+  thr_frontier out;
+  thr_err err = {0};
+  ck_assert_int_eq(sweep(&f, 2, &out, &err), THR_ELIMIT);
+  assert_one_line(&err, "no fewer cords");
+  ck_assert_int_eq(out.n, 1); /* the shortest turns least */
+  ck_assert_double_eq_tol(out.point[0].length, 8, 1e-9);
+  ck_assert_ptr_nonnull(out.point[0].open);
+  thr_frontier_destroy(&out);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(trade_off_without_any_plan)
+{
+  thr_frame f = ring_make(3);
+  thr_frontier out;
+  thr_err err = {0};
+  ck_assert_int_eq(sweep(&f, 9, &out, &err), THR_EINFEASIBLE); /* 8 passes over an edge */
+  assert_one_line(&err, "no plan was found");
+  ck_assert_ptr_null(out.point);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+int main(void)
+{
+  Suite *s = suite_create("tortuosity");
+  ADD_LOOP(s, 60, slack_is_measured_from_the_shortest_open_cords, 0, 8);
+  ADD_TEST(s, 20, the_reason_why_it_is_not_proved);
+  ADD_TEST(s, 20, more_cords_than_the_shortest_passes_hold);
+  ADD_TEST(s, 20, trade_off_begins_at_the_shortest_plan);
+  ADD_TEST(s, 20, trade_off_without_any_plan);
+  return run_suite(s);
+}
