@@ -45,9 +45,8 @@ static const char help[] =
     "      --compare-objectives   pull force of this plan beside those of the other objectives, joints measured in "
     "simulation\n" PULL_RUN_HELP
     "  -q, --quiet          no notes and no summary       -v, --verbose  what the solver does       -h, --help\n\n"
-    "Exit codes: 0 proved (or a classical tour), 2 usage, 3 bad input, 4 infeasible, 5 not proved within the limits (plan "
-    "written),\n"
-    "70 internal\n\n"
+    "Exit codes: 0 proved (or a classical tour), 2 usage, 3 bad input, 4 infeasible or none found, 5 not proved within "
+    "the limits\n(plan written), 70 internal\n\n"
     "What is said of cord and beads is stored in the plan; thread eval begins with it.\n";
 
 enum {

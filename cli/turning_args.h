@@ -24,7 +24,7 @@ enum {
   }
 #define TURNING_HELP                                                                                                             \
   "Least turning (with --objective tortuosity):\n"                                                                               \
-  "      --cords K        K cords in every piece, 1 to 1000 (default: 1)\n"  \
+  "      --cords K        K cords in every piece, 1 to 1000 (default: 1)\n"                                                      \
   "      --length-slack P%   at most P % more cord than the shortest; 0 = the least turning among the shortest (default: any)\n" \
   "      --minimize turning|max-turning   of all cords together, or of the cord that turns most (default: turning)\n"            \
   "      --turn-cost angle|sine|step   price of a turn: its angle, the sine of half of it, or 1 from 90 degrees on (default: "   \

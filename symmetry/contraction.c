@@ -277,31 +277,43 @@ static int by_cost(const void *a, const void *b)
   return x->column - y->column;
 }
 
-/* The least copies; where an edge's orbit has several types, those that cover it with least overlap, without folds if possible.
- */
-static void take_least(const thr_programme *p, int *small)
+/* Orbits of a copy type by which it covers its edge alone, and the passes beyond the cover. */
+static int needed(const thr_programme *p, int copy, int *over)
+{
+  int passes = p->q->copy[copy].passes, n = (p->o->cover + passes - 1) / passes;
+  *over = n * passes - p->o->cover;
+  return n;
+}
+
+/* One copy type for every edge orbit: that with least overlap, without folds if possible, or else the freest, once or twice. */
+static void take_least(const thr_programme *p, thr_contraction_kind kind, int *small)
 {
   const thr_quotient *q = p->q;
   for (int k = 0, end; k < q->n_copies; k = end) {
-    int best = k;
+    int best = k, over, least;
+    needed(p, k, &least);
     for (end = k; end < q->n_copies && q->copy[end].edge == q->copy[k].edge; end++) {
-      int over = -p->o->cover % q->copy[end].passes, than = -p->o->cover % q->copy[best].passes;
-      over += over < 0 ? q->copy[end].passes : 0;
-      than += than < 0 ? q->copy[best].passes : 0;
-      if (over < than || (over == than && q->copy[best].fold && !q->copy[end].fold)) best = end;
+      needed(p, end, &over);
+      bool cheaper = over < least || (over == least && q->copy[best].fold && !q->copy[end].fold);
+      if (kind == THR_CONTRACTION_LEAST ? !cheaper : q->copy[end].passes <= q->copy[best].passes) continue;
+      best = end;
+      least = over;
     }
-    small[best] = (p->o->cover + q->copy[best].passes - 1) / q->copy[best].passes;
+    small[best] = needed(p, best, &over) * (kind == THR_CONTRACTION_TWICE ? 2 : 1);
   }
 }
 
-/* The columns of a forest of least overlap, terminals first: tree[n]; node n_darts is the root of all terminals. */
-static int find_forest(const thr_programme *p, candidate *list, int *parent, int *tree)
+/* The columns of a forest of least overlap, terminals first, folds among them or not: tree[n]; node n_darts is the root of all
+ * terminals. */
+static int find_forest(const thr_programme *p, bool folds, candidate *list, int *parent, int *tree)
 {
   int n = 0, in_tree = 0;
   for (int d = 0; d <= p->q->n_darts; d++)
     parent[d] = d;
   for (int j = 0; j < p->first_circle; j++) {
-    if (p->most[j] != 0 && p->join[j][0] != p->join[j][1]) list[n++] = (candidate){p->cost[THR_AIM_OVERLAP][j], j};
+    bool fold = thr_programme_terminal(p, j) && j < p->first_end;
+    if (p->most[j] != 0 && p->join[j][0] != p->join[j][1] && (folds || !fold))
+      list[n++] = (candidate){p->cost[THR_AIM_OVERLAP][j], j};
   }
   if (n > 0) qsort(list, (size_t)n, sizeof *list, by_cost);
   for (int i = 0; i < n; i++)
@@ -337,7 +349,7 @@ static bool make_even(const thr_programme *p, int *tree, int n, bool *odd, int *
   return true;
 }
 
-thr_status thr_contraction_start(const thr_contraction *c, int *small, bool *found, thr_err *err)
+thr_status thr_contraction_start(const thr_contraction *c, thr_contraction_kind kind, int *small, bool *found, thr_err *err)
 {
   const thr_programme *p = &c->p;
   size_t n = (size_t)p->q->n_darts + 1;
@@ -347,11 +359,11 @@ thr_status thr_contraction_start(const thr_contraction *c, int *small, bool *fou
   thr_status st = list && parent && tree && degree && odd ? THR_OK : thr_nomem(err);
   if (!st) {
     memset(small, 0, (size_t)p->n * sizeof *small);
-    take_least(p, small);
+    take_least(p, kind, small);
     for (int k = 0; k < p->first_pair; k++)
       for (int i = 0; i < 2; i++)
         odd[p->join[k][i]] ^= small[k] % 2;
-    int columns = find_forest(p, list, parent, tree);
+    int columns = find_forest(p, kind == THR_CONTRACTION_LEAST, list, parent, tree);
     *found = make_even(p, tree, columns, odd, degree, small);
   }
   free(list);

@@ -29,8 +29,12 @@ thr_status thr_contraction_make(thr_contraction *c, thr_err *err) THR_MUST_CHECK
  * as they are from now on, and the contraction is to be made anew. */
 thr_status thr_contraction_lift(thr_contraction *c, const int *small, int *value, int *kept, thr_err *err) THR_MUST_CHECK;
 
-/* Of a contraction of all cells: the least copies, made even along a tree of cheap ones and terminals (small[p.n], without the
+/* Copies that a start has: the least; those with trivial stabilizers, which can be paired best; those twice. */
+typedef enum { THR_CONTRACTION_LEAST, THR_CONTRACTION_FREE, THR_CONTRACTION_TWICE, THR_CONTRACTION_KINDS } thr_contraction_kind;
+
+/* Of a contraction of all cells: such copies, made even along a tree of cheap ones and terminals (small[p.n], without the
  * turns, which lifting finds). Not the best, and its sets may lack ends; *found = false if there is none of this kind. */
-thr_status thr_contraction_start(const thr_contraction *c, int *small, bool *found, thr_err *err) THR_MUST_CHECK;
+thr_status thr_contraction_start(const thr_contraction *c, thr_contraction_kind kind, int *small, bool *found,
+                                 thr_err *err) THR_MUST_CHECK;
 
 #endif

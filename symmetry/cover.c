@@ -265,18 +265,22 @@ static thr_status offer_lifted(search *s, thr_err *err)
   return st ? st : offer(s, err);
 }
 
-/* A cover that needs no programme. */
+/* A cover that needs no programme, the first of three kinds that there is. */
 static thr_status start(search *s, thr_err *err)
 {
   thr_contraction c;
-  bool found = false;
-  int failed = 0;
   thr_status st = thr_contraction_init(&c, s->p, true, err);
   if (st) return st;
   int *small = thr_calloc((size_t)c.p.n, sizeof *small);
-  st = small ? thr_contraction_start(&c, small, &found, err) : thr_nomem(err);
-  if (!st && found) st = thr_contraction_lift(&c, small, s->other, &failed, err);
-  if (!st && found && !failed) st = offer_lifted(s, err);
+  if (!small) st = thr_nomem(err);
+  for (int kind = 0; kind < THR_CONTRACTION_KINDS && !s->found && !st; kind++) {
+    bool found;
+    int failed = 0;
+    st = thr_contraction_start(&c, (thr_contraction_kind)kind, small, &found, err);
+    if (!st && found) st = thr_contraction_lift(&c, small, s->other, &failed, err);
+    if (!st && found && !failed) st = offer_lifted(s, err);
+    memset(c.keep, 0, (size_t)s->p->q->n_darts * sizeof *c.keep);
+  }
   free(small);
   thr_contraction_destroy(&c);
   return st;
@@ -295,15 +299,18 @@ static void take_bounds(search *s, const search *small, int n)
 /* The aims before turning in the contracted programme, whose cells are left as they are where its solution cannot be lifted. */
 static thr_status search_contracted(search *s, thr_err *err)
 {
+  static const double part = 0.7; /* of the time: the rest is for lifting and for turning */
   thr_contraction c;
+  thr_limits limits = *s->limits;
   int n = 0, failed = 1;
+  if (limits.deadline > 0) limits.deadline -= (1 - part) * thr_limits_left(&limits, INFINITY);
   while (s->p->o->prefer[n] != THR_AIM_TURNING)
     n++;
   thr_status st = thr_contraction_init(&c, s->p, false, err);
   if (st) return st;
   while (failed > 0 && !st) {
     search small;
-    st = search_init(&small, &c.p, s->limits, err);
+    st = search_init(&small, &c.p, &limits, err);
     if (st) break;
     thr_status searched = search_aims(&small, n, err);
     if (searched && searched != THR_ELIMIT) st = searched;

@@ -10,7 +10,7 @@ static const double fraction = 1e-5;  /* less is whole */
 static const double slack = 1e-7;     /* of an aim that is kept, in parts of its largest cost */
 
 /* Nodes of a graph in which odd sets are looked for exactly; beyond, a cut tree takes longer than branching. */
-enum { MOST_EXACT = 1500 };
+enum { MOST_EXACT = 4000 };
 
 /* ---- rows ---- */
 

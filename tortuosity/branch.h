@@ -46,7 +46,8 @@ void thr_branch_destroy(thr_branch *b);
 /* Cords for these passes and ends, kept if they are the best so far. */
 thr_status thr_branch_try(thr_branch *b, const int *passes, const int *ends, thr_err *err) THR_MUST_CHECK;
 
-/* Circuits as many as may be (closed cords, several in a component) as those that are asked for; the same. Takes j over. */
+/* Several closed cords in a component: circuits j, cut apart and joined until they are as many as asked for; the same. j is taken
+ * over or released. */
 thr_status thr_branch_try_circuits(thr_branch *b, thr_join *j, const int *passes, thr_err *err) THR_MUST_CHECK;
 
 /* The cords of a plan, improved by exchanges; the same. */

@@ -3,6 +3,7 @@
 #include "graph/random.h"
 #include "tortuosity/walks.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -130,7 +131,9 @@ static void exchange_any(circuits *s, int component)
   for (int k = 0; k < TRIES; k++) {
     int i = (int)(thr_random(&s->state) % (uint64_t)s->n), v = s->j->g.tail[s->in[i]];
     if (s->j->c->component[v] != component) continue;
-    int n = transitions_at(s, v, s->list), other = s->list[thr_random(&s->state) % (uint64_t)n];
+    int n = transitions_at(s, v, s->list);
+    assert(n > 0); /* i is one of them */
+    int other = s->list[thr_random(&s->state) % (uint64_t)n];
     if (other == i) continue;
     exchange x = exchange_of(s, i, other, thr_random(&s->state) % 2);
     if (x.extra >= thr_join_forbidden / 2) continue;

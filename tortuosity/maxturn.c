@@ -41,7 +41,7 @@ static void cords_destroy(cords *s)
 static thr_status cords_init(cords *s, thr_join *j, double scale, thr_err *err)
 {
   const thr_turning_columns *c = j->c;
-  size_t darts = (size_t)j->g.n_darts, n = (size_t)(c->task->cords * c->n_components);
+  size_t darts = (size_t)j->g.n_darts, n = (size_t)c->task->cords * (size_t)c->n_components;
   *s = (cords){.j = j, .n_cords = (int)n, .scale = scale, .closed = !c->task->end_allowed, .state = 1};
   s->first = thr_calloc(n + 1, sizeof *s->first);
   s->place = thr_calloc(darts, sizeof *s->place);

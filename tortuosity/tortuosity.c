@@ -168,16 +168,17 @@ static thr_status find_cords(const thr_frame *f, const thr_plan_options *o, cons
 
 /* ---- claims ---- */
 
-/* Moves the tree of the search into the plan, with what the checker says of it. */
-static thr_status claim_turning(thr_plan *plan, thr_least *l, thr_err *err)
+/* What the checker says of cords and the proof of l, which found then holds. */
+static thr_status judge(const thr_frame *f, const thr_plan_options *o, const thr_cord *cord, int n_cords, thr_least *l,
+                        thr_turning_claim *found, thr_err *err)
 {
   thr_turning_claim claim = {.most_passes = l->task.most_passes, .length_limit = l->length_limit, .tree = l->proof};
-  thr_err found = {0};
+  thr_err text = {0};
   l->proof = (thr_turning_proof){0};
-  thr_status st = thr_check_turning(&plan->frame, &plan->options, plan->cord, plan->n_cords, &claim, &plan->turning, &found);
-  plan->turning.tree = claim.tree;
-  if (st == THR_EVIOLATED) return thr_fail(err, THR_ESOLVER, "the plan does not pass its own check: %s", found.text);
-  return st ? thr_fail(err, st, "%s", found.text) : THR_OK;
+  thr_status st = thr_check_turning(f, o, cord, n_cords, &claim, found, &text);
+  found->tree = claim.tree;
+  if (st == THR_EVIOLATED) return thr_fail(err, THR_ESOLVER, "the plan does not pass its own check: %s", text.text);
+  return st ? thr_fail(err, st, "%s", text.text) : THR_OK;
 }
 
 /* Takes cords and proof of l, and the certificates of s. */
@@ -191,8 +192,15 @@ static thr_status assemble(const thr_frame *f, const thr_plan_options *o, thr_le
   l->cord = NULL;
   st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
   if (!st) st = thr_postman_prove(&plan->frame, &plan->options, plan->cord, plan->n_cords, s, &plan->proof, err);
-  if (!st && o->turning.tour == THR_TOUR_LEAST) st = claim_turning(plan, l, err);
+  if (!st && o->turning.tour == THR_TOUR_LEAST)
+    st = judge(&plan->frame, &plan->options, plan->cord, plan->n_cords, l, &plan->turning, err);
   return st;
+}
+
+/* The search's own reason; none if it only just believes that it is proved, and the checker does not. */
+static const char *why_open(const thr_least *l)
+{
+  return l->open ? l->open : "rounding left a gap";
 }
 
 /* What was to be minimized, and how far the proof got. */
@@ -204,7 +212,7 @@ static thr_status verdict(const thr_plan *p, const thr_least *l, thr_err *err)
     return thr_fail(err, THR_ELIMIT, "the largest turning of a cord is proved to be within %.3g %% of the least",
                     100 * (c->largest - c->largest_bound) / c->largest);
   if (!p->options.turning.largest && !c->optimal)
-    return thr_fail(err, THR_ELIMIT, "%s: the turning is proved to be within %.3g %% of the least", l->open, 100 * c->gap);
+    return thr_fail(err, THR_ELIMIT, "%s: the turning is proved to be within %.3g %% of the least", why_open(l), 100 * c->gap);
   return THR_OK;
 }
 
@@ -271,15 +279,19 @@ static thr_status add_point(sweep *s, double slack, thr_err *err)
   if (st == THR_EINFEASIBLE) return THR_OK;
   if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", unused.text);
   s->shortest = l.shortest;
-  s->out->point[s->out->n++] = (thr_frontier_point){.length = l.length,
-                                                    .overlap = l.length - s->o->cover * thr_frame_total_length(s->f),
-                                                    .price = l.price,
-                                                    .lower_bound = fmin(l.price, l.bound),
-                                                    .open = l.open,
-                                                    .turning = l.turning,
-                                                    .max_turning = largest_turning(s->f, s->o, &l)};
+  thr_turning_claim found;
+  st = judge(s->f, s->o, l.cord, l.n_cords, &l, &found, err);
+  if (!st)
+    s->out->point[s->out->n++] = (thr_frontier_point){.length = l.length,
+                                                      .overlap = l.length - s->o->cover * thr_frame_total_length(s->f),
+                                                      .price = found.price,
+                                                      .lower_bound = found.lower_bound,
+                                                      .open = found.optimal ? NULL : why_open(&l),
+                                                      .turning = l.turning,
+                                                      .max_turning = largest_turning(s->f, s->o, &l)};
+  thr_turning_proof_destroy(&found.tree);
   thr_least_destroy(&l);
-  return THR_OK;
+  return st;
 }
 
 static int by_length(const void *a, const void *b)

@@ -129,8 +129,16 @@ static void assert_cords(const thr_frame *f, const thr_least *l)
 }
 
 typedef struct {
-  int asked, found, least, optimal, possible;
+  int asked, found, least, optimal, possible, limited, shortest;
 } tally;
+
+/* Is no plan shorter than the one that the slack is measured from? */
+static bool is_shortest(const thr_frame *f, const thr_least *l)
+{
+  thr_turning_task t = l->task;
+  t.extra_limit = (l->shortest - t.cover * thr_frame_total_length(f)) * (1 - 1e-6) - 1e-6;
+  return t.extra_limit < 0 || isinf(least_by_enumeration(f, &t, INFINITY));
+}
 
 /* Never below the least of all, never a bound above it, never a false claim; how often it is all that can be had is counted. */
 static void compare(const thr_frame *f, const thr_least_options *o, tally *t)
@@ -158,6 +166,8 @@ static void compare(const thr_frame *f, const thr_least_options *o, tally *t)
   t->possible++;
   t->least += l.price <= least + 1e-6;
   t->optimal += l.optimal;
+  t->limited += o->length_slack >= 0;
+  t->shortest += o->length_slack >= 0 && is_shortest(f, &l);
   thr_least_destroy(&l);
 }
 
@@ -186,6 +196,7 @@ START_TEST(several_closed_cords_are_least)
   }
   ck_assert_int_eq(t.found, t.possible); /* though passes and length are tight here */
   ck_assert_int_ge(10 * t.least, 9 * t.found);
+  ck_assert_int_eq(t.shortest, t.limited);
   ck_assert_int_gt(t.optimal, 0);
 }
 END_TEST

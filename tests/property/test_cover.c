@@ -57,6 +57,7 @@ typedef struct {
   int image[48][MOST_NODES], product[48][48];
   int n_orbits, first_edge[MOST_ORBITS], size[MOST_ORBITS];
   double orbit_length[MOST_ORBITS];
+  double angle[2 * MOST_ORBITS][2 * MOST_ORBITS]; /* from half-edge to half-edge that leave one node */
   int n_kinds;
   kind kind[MOST_TYPES];
   /* one choice of copies */
@@ -131,6 +132,10 @@ static void exhaustive_init(exhaustive *x, const thr_frame *f, const thr_group *
       for (int p = 0; p < h->order; p++)
         if (g->product[h->element[i] * g->order + h->element[k]] == h->element[p]) x->product[i][k] = p;
   }
+  ck_assert_int_le(f->n_edges, MOST_ORBITS);
+  for (int a = 0; a < 2 * f->n_edges; a++)
+    for (int b = 0; b < 2 * f->n_edges; b++)
+      if (thr_tail(f, a) == thr_tail(f, b)) x->angle[a][b] = thr_turn_angle(f, a ^ 1, b);
   for (int e = 0; e < f->n_edges; e++) {
     if (done[e]) continue;
     int orbit = x->n_orbits++;
@@ -169,7 +174,7 @@ static void weigh(exhaustive *x, double overlap, double steps)
   for (int d = 0; d < 2 * x->n_copies; d++)
     if (x->partner[d] > d) {
       join(cord, d / 2, x->partner[d] / 2);
-      worth[THR_AIM_TURNING] += thr_turn_angle(x->f, x->half[d] ^ 1, x->half[x->partner[d]]);
+      worth[THR_AIM_TURNING] += x->angle[x->half[d]][x->half[x->partner[d]]];
     }
   for (int d = 0; d < 2 * x->n_copies; d++)
     if (x->partner[d] == -2) open[root_of(cord, d / 2)] = true;

@@ -23,6 +23,7 @@ typedef struct {
   const thr_frame *f;
   const bool *end_allowed;
   int cords, most_passes;
+  bool crowds; /* a node holds any number of ends */
   int passes[16];
   double best;
 } oracle;
@@ -46,7 +47,7 @@ static bool holds_cords(const oracle *o)
     least += need;
     most += sum;
   }
-  return least <= 2 * o->cords && 2 * o->cords <= most;
+  return least <= 2 * o->cords && (o->crowds || 2 * o->cords <= most);
 }
 
 static void try_passes(oracle *o, int e, double length)
@@ -64,7 +65,7 @@ static void try_passes(oracle *o, int e, double length)
 START_TEST(slack_is_measured_from_the_shortest_open_cords)
 {
   rng r = rng_make((uint64_t)_i + 1);
-  int equal = 0, asked = 0;
+  int equal = 0, asked = 0, crowded = 0;
   for (int k = 0; k < 12; k++) {
     int n = rng_between(&r, 2, 5);
     thr_frame f = random_frame(&r, n, rng_below(&r, 3), k % 2 ? LENGTHS_EUCLID : LENGTHS_EQUAL);
@@ -80,7 +81,11 @@ START_TEST(slack_is_measured_from_the_shortest_open_cords)
     o.cords = rng_between(&r, 1, 4);
     o.length_slack = 0;
     oracle best = {.f = &f, .end_allowed = end, .cords = o.cords, .most_passes = 8, .best = INFINITY};
+    oracle crowds = best;
+    crowds.crowds = true;
     try_passes(&best, 0, 0);
+    try_passes(&crowds, 0, 0);
+    crowded += crowds.best < best.best;
     thr_status st = thr_least_turning(&f, &o, &limits, &l, &err);
     if (st == THR_EINFEASIBLE) {
       ck_assert_msg(isinf(best.best), "%s, but %g is possible", err.text, best.best);
@@ -96,6 +101,7 @@ START_TEST(slack_is_measured_from_the_shortest_open_cords)
     thr_frame_destroy(&f);
   }
   ck_assert_int_ge(10 * equal, 9 * asked);
+  ck_assert_int_gt(crowded, 0);
 }
 END_TEST
 
@@ -182,6 +188,34 @@ START_TEST(trade_off_without_any_plan)
 }
 END_TEST
 
+/* More open cords than the one node for their ends holds; a second closed cord; the trade-off. */
+START_TEST(running_out_of_memory_leaves_nothing)
+{
+  thr_frame f = path_make(2);
+  static const bool end[] = {true, false};
+  thr_least_options o = thr_least_options_default();
+  thr_limits limits = {0};
+  thr_status st = THR_ENOMEM;
+  o.length_slack = 0;
+  o.cords = 2 + (_i == 0);
+  o.ends = _i == 0 ? THR_ENDS_NODES : THR_ENDS_CLOSED;
+  o.end_node = end;
+  for (long k = 1; st == THR_ENOMEM; k++) {
+    thr_least l = {0};
+    thr_frontier out = {0};
+    thr_err err = {0};
+    thr_alloc_fail_at(k);
+    st = _i < 2 ? thr_least_turning(&f, &o, &limits, &l, &err) : sweep(&f, 2, &out, &err);
+    thr_alloc_fail_at(0);
+    ck_assert_msg(st == THR_OK || st == THR_ELIMIT || st == THR_ENOMEM, "allocation %ld: %d %s", k, (int)st, err.text);
+    ck_assert(st != THR_ENOMEM || (!l.cord && !out.point));
+    thr_least_destroy(&l);
+    thr_frontier_destroy(&out);
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 int main(void)
 {
   Suite *s = suite_create("tortuosity");
@@ -190,5 +224,6 @@ int main(void)
   ADD_TEST(s, 20, more_cords_than_the_shortest_passes_hold);
   ADD_TEST(s, 20, trade_off_begins_at_the_shortest_plan);
   ADD_TEST(s, 20, trade_off_without_any_plan);
+  ADD_LOOP(s, 60, running_out_of_memory_leaves_nothing, 0, 3);
   return run_suite(s);
 }
