@@ -334,7 +334,8 @@ static thr_status search_all(search *s, thr_cover *out, thr_err *err)
   if (!s->found) return thr_fail(err, THR_ELIMIT, "the time was too short to find a symmetric cover");
   out->optimal = !st;
   thr_status given = hand_over(s, out, err);
-  return given ? given : st;
+  if (given || !st) return given;
+  return thr_fail(err, THR_ELIMIT, "the time was too short to prove that no symmetric cover is better");
 }
 
 thr_status thr_cover_find(const thr_quotient *q, const thr_cover_options *o, const thr_limits *limits, thr_cover *out,

@@ -209,7 +209,11 @@ START_TEST(refusals)
   err = (thr_err){0};
   ck_assert_int_eq(thr_cover_find(&q, &o, &past, &c, &err), THR_ELIMIT);
   assert_one_line(&err, "time");
-  ck_assert_ptr_null(c.copies);
+  ck_assert_ptr_nonnull(c.copies); /* one that needs no search, with bounds that need none */
+  ck_assert(!c.optimal);
+  for (int a = 0; a < THR_N_AIMS; a++)
+    ck_assert_double_le(c.bound[a], c.value[a]);
+  thr_cover_destroy(&c);
   thr_quotient_destroy(&q);
   thr_subgroup_destroy(&h);
   thr_subgroup_destroy(&all);
