@@ -322,9 +322,9 @@ int cli_write(thr_text *t, const char *path)
 }
 
 /* Writes what was drawn, unless that failed. */
-static int write_drawn(thr_text *t, const char *path, const thr_err *err)
+static int write_drawn(thr_status st, thr_text *t, const char *path, const thr_err *err)
 {
-  if (err->code == THR_OK) return cli_write(t, path);
+  if (st == THR_OK) return cli_write(t, path);
   thr_text_destroy(t);
   return cli_fail(err);
 }
@@ -341,7 +341,7 @@ int cli_draw_overview(const thr_plan *p, const char *path, double pitch_mm, thr_
   o.motion = copies.motion;
   if (!st) st = thr_overview_svg(p, &o, &svg, &err);
   cli_copies_destroy(&copies);
-  return write_drawn(&svg, path, &err);
+  return write_drawn(st, &svg, path, &err);
 }
 
 int cli_draw_steps(const thr_plan *p, const char *path)
@@ -352,7 +352,7 @@ int cli_draw_steps(const thr_plan *p, const char *path)
   thr_status st = cli_copies_describe(p, &copies, &err);
   if (!st) st = thr_steps_text(p, copies.motion, &text, &err);
   cli_copies_destroy(&copies);
-  return write_drawn(&text, path, &err);
+  return write_drawn(st, &text, path, &err);
 }
 
 /* ---- long computations ---- */

@@ -255,7 +255,8 @@ static thr_status turn_cuts(const search *s, thr_endjoin *out, thr_err *err)
         rest[n++] = v;
     }
     free(c->node);
-    *c = (thr_cut){n, rest, c->value};
+    c->node = rest;
+    c->n_nodes = n;
   }
   return THR_OK;
 }

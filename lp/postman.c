@@ -214,7 +214,7 @@ static void take_result(postman *m, int k, const instance *in, thr_tjoin *t)
  * slots' cost. */
 static thr_status add_slot_cuts(const instance *in, int n_slots, int64_t value, thr_tjoin *t, thr_err *err)
 {
-  thr_cut *all = thr_realloc(t->cut, (size_t)(t->n_cuts + n_slots), sizeof *all);
+  thr_cut *all = thr_realloc(t->cut, (size_t)t->n_cuts + (size_t)n_slots, sizeof *all);
   if (!all) return thr_nomem(err);
   t->cut = all;
   for (int i = 0; i < n_slots; i++) {

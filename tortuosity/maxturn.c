@@ -479,7 +479,7 @@ static thr_status run(search *x, thr_err *err)
   const thr_turning_columns *c = x->c;
   double darts = x->best.g.n_darts;
   int steps = (int)fmax(2000, fmin(1000 * darts, 4e7 / darts));
-  bool done;
+  bool done = false;
   thr_join j;
   thr_status st = copy_best(x, &j, err);
   if (!st) st = improve_from(x, &j, steps, err);
