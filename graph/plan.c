@@ -32,11 +32,16 @@ void thr_symmetry_record_destroy(thr_symmetry_record *r)
   *r = (thr_symmetry_record){0};
 }
 
+void thr_cords_destroy(thr_cord *cord, int n)
+{
+  for (int i = 0; cord && i < n; i++)
+    free(cord[i].half);
+  free(cord);
+}
+
 void thr_plan_destroy(thr_plan *p)
 {
-  for (int i = 0; i < p->n_cords; i++)
-    free(p->cord[i].half);
-  free(p->cord);
+  thr_cords_destroy(p->cord, p->n_cords);
   for (int i = 0; i < p->proof.n_certificates; i++)
     thr_certificate_destroy(&p->proof.certificate[i]);
   free(p->proof.certificate);

@@ -162,6 +162,7 @@ const char *thr_aim_name(thr_aim a);
 
 thr_plan_options thr_plan_options_default(void);
 void thr_plan_destroy(thr_plan *p);
+void thr_cords_destroy(thr_cord *cord, int n); /* cord[n] and their half arrays; NULL ok */
 
 /* Copies framework and options into an empty plan. */
 thr_status thr_plan_request(thr_plan *p, const thr_frame *f, const thr_plan_options *o, thr_err *err) THR_MUST_CHECK;

@@ -15,13 +15,6 @@ enum { MOST_TYPES = 200000 }; /* of a quotient: what a linear programme can hold
 
 /* ---- the best threading under one group ---- */
 
-static void release_cords(thr_cord *cord, int n)
-{
-  for (int i = 0; cord && i < n; i++)
-    free(cord[i].half);
-  free(cord);
-}
-
 static thr_status count_copies(thr_symmetry_row *row, thr_err *err)
 {
   int *copies = thr_calloc((size_t)row->n_cords, sizeof *copies);
@@ -207,7 +200,7 @@ void thr_symmetries_destroy(thr_symmetries *t)
 {
   for (int i = 0; i < t->n; i++) {
     thr_subgroup_destroy(&t->row[i].elements);
-    release_cords(t->row[i].cord, t->row[i].n_cords);
+    thr_cords_destroy(t->row[i].cord, t->row[i].n_cords);
     thr_symmetry_record_destroy(&t->row[i].record);
   }
   for (int k = 0; k < t->n_groups; k++) {

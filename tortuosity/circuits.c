@@ -217,9 +217,7 @@ typedef struct {
 
 static void adder_destroy(adder *s)
 {
-  for (int i = 0; s->cord && i < s->n_cords; i++)
-    free(s->cord[i].half);
-  free(s->cord);
+  thr_cords_destroy(s->cord, s->n_cords);
   thr_walks_destroy(&s->walks);
 }
 

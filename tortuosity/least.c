@@ -14,9 +14,7 @@ thr_least_options thr_least_options_default(void)
 
 void thr_least_destroy(thr_least *l)
 {
-  for (int i = 0; l->cord && i < l->n_cords; i++)
-    free(l->cord[i].half);
-  free(l->cord);
+  thr_cords_destroy(l->cord, l->n_cords);
   free(l->end_allowed);
   thr_turning_proof_destroy(&l->proof);
   *l = (thr_least){0};
@@ -211,9 +209,7 @@ static thr_status search(const thr_frame *f, const thr_least_options *o, const t
   thr_least_destroy(&made);
   thr_branch_destroy(&b);
   thr_turning_columns_destroy(&c);
-  for (int i = 0; i < start.n; i++)
-    free(start.cord[i].half);
-  free(start.cord);
+  thr_cords_destroy(start.cord, start.n);
   free(passes);
   free(ends);
   return st;

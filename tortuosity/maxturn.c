@@ -465,9 +465,7 @@ static thr_status copy_best(const search *x, thr_join *j, thr_err *err)
   if (!(cord = thr_calloc((size_t)n, sizeof *cord))) return thr_nomem(err);
   thr_status st = thr_join_cords(&x->best, cord, n, err);
   if (!st) st = thr_join_from_cords(j, x->c, cord, n, err);
-  for (int i = 0; i < n; i++)
-    free(cord[i].half);
-  free(cord);
+  thr_cords_destroy(cord, n);
   return st;
 }
 
@@ -511,9 +509,7 @@ static thr_status take_cords(const thr_frame *f, const thr_join *j, thr_least *p
     free(made.cord);
     return st;
   }
-  for (int i = 0; i < plan->n_cords; i++)
-    free(plan->cord[i].half);
-  free(plan->cord);
+  thr_cords_destroy(plan->cord, plan->n_cords);
   plan->cord = made.cord;
   plan->length = made.length;
   plan->price = made.price;

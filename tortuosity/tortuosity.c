@@ -107,13 +107,6 @@ static thr_status copy_cords(const thr_cord *from, int n, thr_cord **to, thr_err
   return THR_OK;
 }
 
-static void release_cords(thr_cord *cord, int n)
-{
-  for (int i = 0; cord && i < n; i++)
-    free(cord[i].half);
-  free(cord);
-}
-
 /* The better of what comes of l's own cords and of the seed's, which is tried first. */
 static thr_status even_out(const thr_frame *f, const thr_plan *seed, const thr_limits *limits, thr_least *l, thr_err *err)
 {
@@ -133,7 +126,7 @@ static thr_status even_out(const thr_frame *f, const thr_plan *seed, const thr_l
     *l = from;
     from.cord = cord;
   }
-  release_cords(from.cord, l->n_cords);
+  thr_cords_destroy(from.cord, l->n_cords);
   return st;
 }
 
@@ -147,7 +140,7 @@ static thr_status find_from_shortest(const thr_frame *f, const thr_plan_options 
   if (o->cords == 1) st = thr_postman_cords(f, o, passes, &cord, &lo.n_start, err);
   lo.start = cord;
   if (!st) st = find_least(f, &lo, limits, l, err);
-  release_cords(cord, lo.n_start);
+  thr_cords_destroy(cord, lo.n_start);
   return st;
 }
 

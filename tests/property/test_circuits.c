@@ -1,5 +1,5 @@
 /* Several closed cords in every component against enumeration over all pairings of all passes. */
-#include "tests/support.h"
+#include "tests/symmetric.h"
 #include "graph/make.h"
 #include "tortuosity/maxturn.h"
 
@@ -297,23 +297,10 @@ START_TEST(too_many_cords_are_refused)
 }
 END_TEST
 
-static thr_frame dome_make(int size)
-{
-  thr_draft d = {0};
-  thr_frame f;
-  thr_read_report report;
-  thr_make_options o = thr_make_options_default(THR_MAKE_DOME);
-  o.size = size;
-  ck_assert_int_eq(thr_make(&d, &o, NULL), THR_OK);
-  ck_assert_int_eq(thr_draft_build(&d, -1, &f, &report, NULL), THR_OK);
-  thr_draft_destroy(&d);
-  return f;
-}
-
 /* Proved at the root; evened out they are as many, and no cord turns less than its share of the bound. */
 START_TEST(domes_are_proved_and_evened_out)
 {
-  thr_frame f = dome_make(8);
+  thr_frame f = shape_make(THR_MAKE_DOME, 8, 0);
   thr_least l = solve(&f, _i, true);
   thr_limits limits = {0};
   thr_max_turning m;

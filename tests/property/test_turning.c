@@ -1,5 +1,5 @@
 /* The least turning of random small frameworks against enumeration, its proof under alteration, and what must not change. */
-#include "tests/support.h"
+#include "tests/symmetric.h"
 #include "graph/make.h"
 #include "tortuosity/extra.h"
 #include "tortuosity/improve.h"
@@ -314,19 +314,6 @@ START_TEST(larger_grids_are_proved)
 }
 END_TEST
 
-static thr_frame dome_make(int size)
-{
-  thr_draft d = {0};
-  thr_frame f;
-  thr_read_report report;
-  thr_make_options o = thr_make_options_default(THR_MAKE_DOME);
-  o.size = size;
-  ck_assert_int_eq(thr_make(&d, &o, NULL), THR_OK);
-  ck_assert_int_eq(thr_draft_build(&d, -1, &f, &report, NULL), THR_OK);
-  thr_draft_destroy(&d);
-  return f;
-}
-
 /* ---- the greedy for given passes ---- */
 
 /* Number of circuits that the pairs make, following them dart by dart. */
@@ -436,7 +423,7 @@ static thr_max_turning even_out(const thr_frame *f, thr_least *l)
 
 START_TEST(cords_of_a_dome_turn_alike)
 {
-  thr_frame f = dome_make(6);
+  thr_frame f = shape_make(THR_MAKE_DOME, 6, 0);
   thr_least_options o = thr_least_options_default();
   o.ends = THR_ENDS_FEET;
   o.cords = _i;
@@ -525,7 +512,7 @@ END_TEST
 /* More than a thousand edges get a bound before anything is solved; without time it is all there is. */
 START_TEST(large_frames_have_a_bound_without_time)
 {
-  thr_frame f = dome_make(25);
+  thr_frame f = shape_make(THR_MAKE_DOME, 25, 0);
   thr_least_options o = thr_least_options_default();
   o.ends = _i ? THR_ENDS_FEET : THR_ENDS_CLOSED;
   thr_least l, full = solve(&f, &o, true);

@@ -3,7 +3,7 @@
 #include "diagram/palette.h"
 #include "graph/make.h"
 #include "symmetry/symmetry.h"
-#include "tests/support.h"
+#include "tests/symmetric.h"
 
 #include <check.h>
 #include <math.h>
@@ -14,20 +14,6 @@
 enum { MAX_FOUND = 20000 };
 
 /* ---- frameworks and pictures ---- */
-
-static thr_frame shape_make(thr_shape shape, int size, int rings)
-{
-  thr_make_options o = thr_make_options_default(shape);
-  thr_draft d = {0};
-  thr_frame f = {0};
-  thr_read_report r;
-  o.size = size;
-  o.rings = rings;
-  ck_assert_int_eq(thr_make(&d, &o, NULL), THR_OK);
-  ck_assert_int_eq(thr_draft_build(&d, -1, &f, &r, NULL), THR_OK);
-  thr_draft_destroy(&d);
-  return f;
-}
 
 static thr_plan shape_plan(thr_shape shape, int size, int rings, thr_ends ends, int cover)
 {

@@ -6,7 +6,7 @@
 #include "graph/make.h"
 #include "graph/vector.h"
 #include "symmetry/symmetry.h"
-#include "tests/support.h"
+#include "tests/symmetric.h"
 
 #include <check.h>
 #include <ctype.h>
@@ -19,20 +19,6 @@ static const double PI = 3.14159265358979323846;
 enum { MOST_LINE = 4000 };
 
 /* ---- plans ---- */
-
-static thr_frame shape_make(thr_shape shape, int size, int rings)
-{
-  thr_make_options o = thr_make_options_default(shape);
-  thr_draft d = {0};
-  thr_frame f = {0};
-  thr_read_report r;
-  o.size = size;
-  o.rings = rings;
-  ck_assert_int_eq(thr_make(&d, &o, NULL), THR_OK);
-  ck_assert_int_eq(thr_draft_build(&d, -1, &f, &r, NULL), THR_OK);
-  thr_draft_destroy(&d);
-  return f;
-}
 
 /* Takes the framework. */
 static thr_plan plan_of(thr_frame f, thr_ends ends, int cover)
