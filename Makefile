@@ -20,8 +20,11 @@ DEMO_OUT = $(OUT)/demo
 DEMO = plan data/dome7.json --objective length -o $(DEMO_OUT)/plan.json --draw $(DEMO_OUT)
 
 # Debian 12 packages
-BUILD_PACKAGES := build-essential pkg-config libglpk-dev libigraph-dev libnauty2-dev libjansson-dev libbullet-dev
+BUILD_PACKAGES := build-essential pkg-config libglpk-dev libigraph-dev libnauty2-dev libjansson-dev libbullet-dev \
+	libsuitesparse-dev
 TEST_PACKAGES := check clang clang-format libclang-rt-14-dev librsvg2-bin libxml2-utils
+# npm from elsewhere than Debian serves as well
+VIEWER_PACKAGES = chromium $(if $(shell command -v npm),,nodejs npm)
 LINT_PACKAGES := clang-format clang-tidy cppcheck
 COVERAGE_PACKAGES := check gcovr
 
@@ -39,6 +42,8 @@ CLANG_FORMAT ?= clang-format
 PKG_CFLAGS = $(eval PKG_CFLAGS := $$(shell pkg-config --cflags igraph nauty jansson))$(PKG_CFLAGS)
 PKG_LIBS = $(eval PKG_LIBS := $$(shell pkg-config --libs igraph nauty jansson bullet-float64))$(PKG_LIBS)
 BULLET_CFLAGS = $(eval BULLET_CFLAGS := $$(patsubst -I%,-isystem %,$$(shell pkg-config --cflags bullet-float64)))$(BULLET_CFLAGS)
+# no pkg-config file in Debian 12
+SPQR_CFLAGS ?= -isystem /usr/include/suitesparse
 CHECK_CFLAGS = $(eval CHECK_CFLAGS := $$(shell pkg-config --cflags check))$(CHECK_CFLAGS)
 CHECK_LIBS = $(eval CHECK_LIBS := $$(shell pkg-config --libs check))$(CHECK_LIBS)
 
@@ -56,7 +61,7 @@ endif
 THR_CFLAGS = -std=c11 $(WARN) -ffp-contract=off $(MODE_$(BUILD)) $(CFLAGS)
 THR_CXXFLAGS = -std=c++17 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -fno-exceptions -fno-rtti -ffp-contract=off $(MODE_$(BUILD)) $(CXXFLAGS)
 THR_CPPFLAGS = -I. -DTHR_VERSION='"$(VERSION)"' $(PKG_CFLAGS) $(CPPFLAGS)
-THR_LIBS = $(PKG_LIBS) -lglpk -lm $(LDLIBS)
+THR_LIBS = $(PKG_LIBS) -lglpk -lspqr -lcholmod -lm $(LDLIBS)
 COMPILER = $(if $(filter fuzz,$(BUILD)),$(FUZZ_CC),$(CC))
 # compiles the C++ shim and links everything, since the shim needs the C++ runtime
 COMPILER_CXX = $(if $(filter fuzz,$(BUILD)),$(FUZZ_CXX),$(CXX))
@@ -65,7 +70,7 @@ STRICT = $(if $(filter-out 0,$(WERROR)),$(if $(filter fuzz,$(BUILD)),,-Werror))
 
 DIR := $(OUT)/$(BUILD)
 MODULES := graph lp symmetry tortuosity eval diagram
-SOURCES := $(wildcard $(addsuffix /*.c,$(MODULES))) $(wildcard $(addsuffix /*.cpp,$(MODULES)))
+SOURCES := $(wildcard $(addsuffix /*.c,$(MODULES))) $(wildcard $(addsuffix /*.cpp,$(MODULES))) diagram/viewer_page.S
 OBJECTS := $(addsuffix .o,$(basename $(SOURCES:%=$(DIR)/%)))
 CLI_OBJECTS := $(patsubst %.c,$(DIR)/%.o,$(wildcard cli/*.c))
 LIBRARY := $(DIR)/libthread.a
@@ -101,7 +106,8 @@ demo: ## install what is missing, build, plan a dome, check the plan
 
 test: ## install what is missing, build, run everything; ends with "N passed, N failed" (ONLY=word runs the matching ones)
 	+@tools/install-packages.sh $(BUILD_PACKAGES) $(TEST_PACKAGES) || { echo "0 passed, 1 failed"; exit 1; }
-	+@MAKE="$(MAKE)" OUT="$(OUT)" FUZZ_SECONDS="$(FUZZ_SECONDS)" ONLY="$(ONLY)" CLANG_FORMAT="$(CLANG_FORMAT)" tests/run.sh
+	+@MAKE="$(MAKE)" OUT="$(OUT)" FUZZ_SECONDS="$(FUZZ_SECONDS)" ONLY="$(ONLY)" CLANG_FORMAT="$(CLANG_FORMAT)" \
+	  VIEWER_PACKAGES="$(VIEWER_PACKAGES)" tests/run.sh
 
 fuzz: ## fuzz every reader for FUZZ_SECONDS, keeping what is found in build/fuzz/found
 	+@tools/install-packages.sh $(BUILD_PACKAGES) $(TEST_PACKAGES)
@@ -134,6 +140,11 @@ cppcheck:
 format: ## rewrite the sources with clang-format
 	+@tools/install-packages.sh clang-format
 	@$(CLANG_FORMAT) -i $(C_FILES)
+
+viewer: ## rebuild diagram/viewer_page.html from viewer/ (needs npm)
+	@mkdir -p $(OUT)
+	@viewer/build.sh $(OUT)/viewer > $(OUT)/viewer_page.html
+	@mv $(OUT)/viewer_page.html diagram/viewer_page.html
 
 bench: ## run bench/*.sh with the release build
 	+@$(MAKE) --no-print-directory $(JOBS) BUILD=release all
@@ -202,6 +213,13 @@ $(DIR)/%.o: %.cpp $(DIR)/flags.list
 	@echo "  CXX   $@"
 	$(Q)$(COMPILER_CXX) -I. $(BULLET_CFLAGS) $(CPPFLAGS) $(THR_CXXFLAGS) $(STRICT) -MMD -MP -c -o $@ $<
 
+# the viewer's page, as it lies built in the tree, becomes bytes of the program
+$(DIR)/%.o: %.S %.html $(DIR)/flags.list
+	@mkdir -p $(@D)
+	@echo "  AS    $@"
+	$(Q)$(COMPILER) $(MODE_$(BUILD)) $(CFLAGS) -c -o $@ $<
+
+$(DIR)/eval/spqr.o: private THR_CPPFLAGS += $(SPQR_CFLAGS)
 $(TEST_PROGRAMS:%=%.o) $(TEST_SUPPORT): private THR_CPPFLAGS += $(CHECK_CFLAGS)
 $(TEST_PROGRAMS): $(DIR)/%: $(DIR)/%.o $(TEST_SUPPORT) $(LIBRARY)
 	@echo "  LINK  $@"
@@ -228,6 +246,6 @@ $(OUT)/packages.ok:
 	@touch $@
 
 FORCE:
-.PHONY: all demo test fuzz asan layers lint format-check tidy cppcheck format bench validate coverage deps test-deps install uninstall clean help
+.PHONY: all demo test fuzz asan layers lint format-check tidy cppcheck format viewer bench validate coverage deps test-deps install uninstall clean help
 .PHONY: test-programs fuzz-programs list-tests list-fuzz list-c FORCE
 -include $(wildcard $(DIR)/*/*.d $(DIR)/*/*/*.d)

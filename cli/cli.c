@@ -2,7 +2,6 @@
 #define _POSIX_C_SOURCE 200809L
 #include "cli/cli.h"
 #include "cli/copies.h"
-#include "diagram/steps.h"
 #include "graph/check.h"
 
 #include <errno.h>
@@ -321,38 +320,11 @@ int cli_write(thr_text *t, const char *path)
   return st ? cli_fail(&err) : EXIT_OK;
 }
 
-/* Writes what was drawn, unless that failed. */
-static int write_drawn(thr_status st, thr_text *t, const char *path, const thr_err *err)
+int cli_write_drawn(thr_status st, thr_text *t, const char *path, const thr_err *err)
 {
   if (st == THR_OK) return cli_write(t, path);
   thr_text_destroy(t);
   return cli_fail(err);
-}
-
-int cli_draw_overview(const thr_plan *p, const char *path, double pitch_mm, thr_overview_colour colour)
-{
-  thr_err err = {0};
-  thr_text svg = {0};
-  cli_copies copies;
-  thr_overview_options o = thr_overview_options_default();
-  o.pitch_mm = pitch_mm;
-  o.colour = colour;
-  thr_status st = cli_copies_describe(p, &copies, &err);
-  o.motion = copies.motion;
-  if (!st) st = thr_overview_svg(p, &o, &svg, &err);
-  cli_copies_destroy(&copies);
-  return write_drawn(st, &svg, path, &err);
-}
-
-int cli_draw_steps(const thr_plan *p, const char *path)
-{
-  thr_err err = {0};
-  thr_text text = {0};
-  cli_copies copies;
-  thr_status st = cli_copies_describe(p, &copies, &err);
-  if (!st) st = thr_steps_text(p, copies.motion, &text, &err);
-  cli_copies_destroy(&copies);
-  return write_drawn(st, &text, path, &err);
 }
 
 /* ---- long computations ---- */

@@ -106,6 +106,9 @@ int cli_in_folder(const char *folder, const char *file, char *out, size_t size);
 /* Writes and destroys the text; prints and returns the code on failure. */
 int cli_write(thr_text *t, const char *path);
 
+/* The same for what was drawn, unless that failed with st: then err is printed. */
+int cli_write_drawn(thr_status st, thr_text *t, const char *path, const thr_err *err);
+
 /* ---- long computations ---- */
 
 /* Limits with a deadline (0 = none), Ctrl-C and, on a terminal, a progress line on stderr with the time left. */
@@ -118,11 +121,5 @@ double cli_degrees(double radians);
 
 /* "n word" or "n words". */
 const char *cli_plural(int n, const char *one, const char *many);
-
-/* Draws the overview of a plan to path. Shared by plan and draw. */
-int cli_draw_overview(const thr_plan *p, const char *path, double pitch_mm, thr_overview_colour colour);
-
-/* Writes the steps of a plan in words to path. Shared by plan and draw. */
-int cli_draw_steps(const thr_plan *p, const char *path);
 
 #endif

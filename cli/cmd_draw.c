@@ -1,23 +1,33 @@
 /* thread draw: diagrams of a plan. */
-#include "cli/cli.h"
+#include "cli/drawings.h"
 
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 
-static const char help[] = "thread draw PLAN [options]: the overview picture, or the steps in words\n\n"
+static const char help[] = "thread draw PLAN [options]: pictures, steps, tables and lines of a plan\n\n"
                            "Examples:\n"
                            "  thread draw plan.json -o overview.svg\n"
                            "  thread draw plan.json -o diagrams/            overview.svg in that folder\n"
+                           "  thread draw plan.json -T all -o diagrams/     all documents there\n"
                            "  thread draw plan.json -T steps                steps.txt: row by row, to be ticked off\n"
                            "  thread draw plan.json --color tension         after `thread eval plan.json -o plan.json`\n"
                            "  thread draw plan.json --color turning         the sharper a turn the darker\n\n"
                            "Options:\n"
-                           "  -T, --type svg|steps   the overview (default), or text: each path to learn once, then its copies\n"
-                           "      --color cord|tension|turning   what colours tell apart: cords (default), how tight each\n"
-                           "                       pass is, or how sharply the cord turns between two beads\n"
+                           "  -T, --type TYPE      what to make (default: svg)\n"
+                           "                       svg         overview.svg, the picture of all cords\n"
+                           "                       steps       steps.txt: each path to learn once, then its copies\n"
+                           "                       html        viewer.html: step by step in space, in any browser\n"
+                           "                       steps.csv   a row per pass: from, to, turn, cord used and left\n"
+                           "                       cords.csv   the cut list: a row per cord, with tails and allowances\n"
+                           "                       beads.csv   the bead schedule: a row per edge and node, bores, kinds\n"
+                           "                       obj, gltf   cords.obj, cords.gltf: cords as lines for CAD and Blender\n"
+                           "                       all         all of these, into a folder\n"
+                           "      --color cord|tension|turning   what colours of the overview tell apart: cords (default), how\n"
+                           "                       tight each pass is, or how sharply the cord turns between two beads\n"
                            "      --pitch MM       millimetres on paper per bead (default: 24, less for large frameworks)\n"
-                           "  -o, --output FILE|DIR   (default: overview.svg or steps.txt; - = stdout)   -h, --help\n";
+                           "  -o, --output FILE|DIR   (default: its usual name in the current folder; - = stdout)\n"
+                           "  -h, --help\n";
 
 enum { OPTION_PITCH = OPTION_FREE, OPTION_COLOR };
 static const struct option table[] = {CLI_COMMON_OPTIONS,
@@ -39,43 +49,61 @@ static const char *color_name(int c)
   return thr_overview_colour_name((thr_overview_colour)c);
 }
 
-typedef enum { TYPE_SVG, TYPE_STEPS, N_TYPES } diagram_type;
-
 static const char *type_name(int t)
 {
-  static const char *const name[] = {"svg", "steps"};
-  return name[t];
+  return t < drawings_count() ? drawings_type(t) : "all";
+}
+
+/* Is output called like a document of another type, or of one that is not made? */
+static bool is_misnamed(const char *output, int type)
+{
+  const char *dot = strrchr(output, '.'), *own = strrchr(drawings_file(type), '.');
+  if (!dot || strcmp(dot, own) == 0) return false;
+  bool other = strcmp(dot, ".pdf") == 0 || strcmp(dot, ".png") == 0;
+  for (int i = 0; i < drawings_count() && !other; i++)
+    other = strcmp(dot, strrchr(drawings_file(i), '.')) == 0;
+  return other;
+}
+
+/* One document to output, a file, a folder or NULL. */
+static int draw_one(const thr_plan *p, int type, const char *output, double pitch, thr_overview_colour color)
+{
+  char inside[1200];
+  int code = EXIT_OK;
+  if (!output) output = drawings_file(type);
+  if (is_folder(output)) {
+    code = cli_in_folder(output, drawings_file(type), inside, sizeof inside);
+    output = inside;
+  }
+  return code ? code : drawings_write(p, type, output, pitch, color);
 }
 
 int cmd_draw(int argc, char **argv)
 {
   int done, option;
   double pitch = 0;
-  int color = THR_COLOUR_CORD, type = TYPE_SVG;
+  int color = THR_COLOUR_CORD, type = 0;
   const char *output = NULL;
-  char inside[1200];
   while ((option = cli_next_option(argc, argv, "draw", ":" CLI_COMMON_LETTERS "T:o:", table, help, &done)) != -1) {
-    if (option == 'T' && !cli_choose("draw", "--type", optarg, type_name, N_TYPES, &type)) return EXIT_USAGE;
+    if (option == 'T' && !cli_choose("draw", "--type", optarg, type_name, drawings_count() + 1, &type)) return EXIT_USAGE;
     if (option == OPTION_PITCH && !cli_double("draw", "--pitch", optarg, 2, 200, &pitch)) return EXIT_USAGE;
     if (option == OPTION_COLOR && !cli_choose("draw", "--color", optarg, color_name, THR_N_COLOURS, &color)) return EXIT_USAGE;
     if (option == 'o') output = optarg;
   }
   if (done >= 0) return done;
-  const char *usual = type == TYPE_STEPS ? "steps.txt" : "overview.svg";
-  if (!output) output = usual;
-  const char *dot = strrchr(output, '.');
-  if (dot && (strcmp(dot, ".pdf") == 0 || strcmp(dot, ".png") == 0 || strcmp(dot, ".html") == 0))
-    return cli_usage("draw", "%s: this version draws svg and text only", output);
+  bool all = type == drawings_count();
+  if (output && !*output) return cli_usage("draw", "an empty name is no place to write to");
+  if (all && output && strcmp(output, "-") == 0) return cli_usage("draw", "--type all makes several files: -o names a folder");
+  if (!all && output && is_misnamed(output, type))
+    return cli_usage("draw", "%s: --type %s makes %s; say which type", output, type_name(type), drawings_file(type));
   if (optind + 1 != argc) return cli_usage("draw", optind == argc ? "which plan?" : "one plan at a time");
   thr_plan p;
   int code = cli_read_plan(argv[optind], &p);
   if (code) return code;
-  if (is_folder(output)) {
-    code = cli_in_folder(output, usual, inside, sizeof inside);
-    output = inside;
-  }
-  if (!code)
-    code = type == TYPE_STEPS ? cli_draw_steps(&p, output) : cli_draw_overview(&p, output, pitch, (thr_overview_colour)color);
+  if (all)
+    code = drawings_write_all(&p, output ? output : ".", pitch, (thr_overview_colour)color);
+  else
+    code = draw_one(&p, type, output, pitch, (thr_overview_colour)color);
   thr_plan_destroy(&p);
   return code;
 }

@@ -1,11 +1,13 @@
 /* thread plan: framework in, plan and diagrams out. */
+#include "cli/cords_args.h"
+#include "cli/drawings.h"
 #include "cli/plan_summary.h"
-#include "cli/symmetry_args.h"
 #include "cli/symmetry_table.h"
 #include "graph/cuttree.h"
+#include "lp/cords.h"
 #include "lp/lp.h"
-#include "lp/postman.h"
 #include "symmetry/automorphisms.h"
+#include "tortuosity/tube.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -16,60 +18,38 @@ static const char help[] =
     "thread plan FRAME [options]: plan how cord is threaded: shortest, turning least, or symmetric, proved\n\n"
     "Examples:\n"
     "  thread plan dome.obj                          plan.json, overview.svg, steps.txt in the folder dome/\n"
-    "  thread plan dome.obj --ends feet --feet lowest   an open cord with its ends at the lowest nodes\n"
     "  thread plan dome.obj --cover 2 -o plan.json   two passes per interface; the plan only\n"
+    "  thread plan dome.obj --cords 4 --ends feet --feet lowest --balance   four cords of much the same length\n"
+    "  thread plan dome.obj --max-length 900 --ends any   as few cords as that takes\n"
     "  thread plan dome.obj --objective tortuosity   the cord that turns least: it pulls most easily\n"
-    "  thread plan dome.obj --objective tortuosity --length-slack 5% --frontier   with at most 5 % more cord; the trade-off\n"
-    "  thread plan dome.obj --objective tortuosity --cords 4 --ends any --minimize max-turning   four cords, each easy to pull\n"
     "  thread plan dome.obj --objective symmetry     a short path to learn, and its mirrored and turned copies\n"
     "  thread make dome | thread plan - -o - | thread check -\n\n"
     "What is planned:\n"
     "      --objective length|tortuosity|symmetry   what to minimize: cord, how much it turns, or what is to be learned\n"
-    "                       (default: length)\n"
-    "      --ends closed    both cord ends at one node (default)\n"
-    "      --ends any       an open cord, its ends wherever that is best\n"
-    "      --ends feet      ends only at feet;  --ends FILE|NAME,..: only at these nodes\n"
-    "      --cover N        at least N passes over every interface (default: 1)\n"
-    "      --joint solid    node beads are rigid pieces with channels (default, and the only one yet)\n"
-    "      --time-limit S   stop after S seconds with the best plan so far and its gap, 0 = never (default: 0 with\n"
-    "                       --objective length, else 20). The plans that the summary of --objective tortuosity holds it "
-    "against\n"
-    "                       may take what is left of S and a quarter of S more; --frontier and --compare-objectives: S once "
-    "more\n"
+    "                       (default: length)\n" CORDS_HELP
+    "      --time-limit S   stop after S seconds with the best plan so far and its gap, 0 = never (default: 0; other\n"
+    "                       objectives and tube joints: 20). --frontier and --compare-objectives: S once more\n"
     "\n" TURNING_HELP "\nSymmetry (with --objective symmetry; thread symmetries --help says more):\n"
     "      --group ID|NAME   --geometric TOL   --prefer overlap,steps,paths,turning\n"
     "\nFramework:\n" CLI_FRAME_HELP "\nOutput:\n"
     "  -o, --output FILE    write the plan here (- = stdout), and no diagrams unless --draw\n"
     "      --draw DIR       write the diagrams into this folder, and without -o the plan too\n"
     "      --json           summary as JSON on stdout\n"
-    "      --compare-objectives   pull force of this plan beside those of the other objectives, joints measured in "
-    "simulation\n" PULL_RUN_HELP
+    "      --compare-objectives   pull of this plan beside those for the other objectives, joints simulated\n" PULL_RUN_HELP
     "  -q, --quiet          no notes and no summary       -v, --verbose  what the solver does       -h, --help\n\n"
-    "Exit codes: 0 proved (or a classical tour), 2 usage, 3 bad input, 4 infeasible or none found, 5 not proved within "
-    "the limits\n(plan written), 70 internal\n\n"
-    "What is said of cord and beads is stored in the plan; thread eval begins with it.\n";
+    "Exit codes: 0 proved (or a classical tour), 2 usage, 3 bad input, 4 infeasible or none found, 5 not proved (plan\n"
+    "written), 70 internal. What is said of cord and beads is stored in the plan; thread eval begins with it.\n";
 
-enum {
-  OPTION_OBJECTIVE = OPTION_SYMMETRY_FREE,
-  OPTION_COMPARE,
-  OPTION_ENDS,
-  OPTION_COVER,
-  OPTION_JOINT,
-  OPTION_TIME,
-  OPTION_DRAW,
-  OPTION_JSON
-};
+enum { OPTION_OBJECTIVE = OPTION_CORDS_FREE, OPTION_COMPARE, OPTION_TIME, OPTION_DRAW, OPTION_JSON };
 
 static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       CLI_FRAME_OPTIONS,
                                       PULL_RUN_OPTIONS,
                                       TURNING_OPTIONS,
                                       SYMMETRY_OPTIONS,
+                                      CORDS_OPTIONS,
                                       {"compare-objectives", no_argument, NULL, OPTION_COMPARE},
                                       {"objective", required_argument, NULL, OPTION_OBJECTIVE},
-                                      {"ends", required_argument, NULL, OPTION_ENDS},
-                                      {"cover", required_argument, NULL, OPTION_COVER},
-                                      {"joint", required_argument, NULL, OPTION_JOINT},
                                       {"time-limit", required_argument, NULL, OPTION_TIME},
                                       {"output", required_argument, NULL, 'o'},
                                       {"draw", required_argument, NULL, OPTION_DRAW},
@@ -114,13 +94,20 @@ static thr_status plan_symmetry(const thr_frame *f, const thr_plan_options *o, c
   return thr_symmetry_plan(f, o, limits, NULL, plan, err);
 }
 
+static thr_status plan_length(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
+                              thr_err *err)
+{
+  if (o->joint == THR_JOINT_TUBE) return thr_tube_plan(f, o, limits, plan, err);
+  return thr_cords_plan(f, o, limits, plan, NULL, err);
+}
+
 /* What can be minimized: a further objective adds its function here. */
 static const struct objective {
   const char *name;
   thr_objective id;
   double time_limit; /* s, unless the user says otherwise */
   thr_status (*plan)(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *out, thr_err *err);
-} objectives[] = {{"length", THR_LENGTH, 0, thr_postman_plan},
+} objectives[] = {{"length", THR_LENGTH, 0, plan_length},
                   {"symmetry", THR_SYMMETRY, 20, plan_symmetry},
                   {"tortuosity", THR_TORTUOSITY, 20, plan_tortuosity}};
 enum { N_OBJECTIVES = sizeof objectives / sizeof *objectives };
@@ -130,10 +117,10 @@ typedef struct {
   pull_args pull;
   turning_args turning;
   symmetry_args symmetry;
-  thr_plan_options plan;
+  cords_args cords;
   double time_limit; /* s, < 0 = as the objective has it */
   const struct objective *objective;
-  const char *path, *ends, *output, *draw;
+  const char *path, *output, *draw;
   bool json, compare;
 } arguments;
 
@@ -150,12 +137,6 @@ static int find_objective(const char *name, const struct objective **out)
   return -1;
 }
 
-static int only_word(const char *option, const char *value, const char *word)
-{
-  if (strcmp(value, word) == 0) return -1;
-  return cli_usage("plan", "%s %s: this version knows %s only", option, value, word);
-}
-
 static int parse(int argc, char **argv, arguments *a)
 {
   int done, o;
@@ -163,24 +144,21 @@ static int parse(int argc, char **argv, arguments *a)
   *a = (arguments){.frame = cli_frame_args_default(),
                    .turning = turning_args_default(),
                    .symmetry = symmetry_args_default(),
-                   .plan = thr_plan_options_default(),
+                   .cords = cords_args_default(),
                    .time_limit = -1,
-                   .objective = &objectives[0],
-                   .ends = "closed"};
+                   .objective = &objectives[0]};
   pull_args_init(&a->pull, THR_JOINT);
   while ((o = cli_physics_option(&a->pull.physics, argc, argv, "plan", ":" CLI_COMMON_LETTERS PULL_LETTERS "o:", table, help,
                                  &done)) != -1) {
     if (cli_frame_option(&a->frame, "plan", o, optarg, &ok) || pull_option(&a->pull, "plan", o, optarg, &ok) ||
-        turning_option(&a->turning, o, optarg, &ok) || symmetry_option(&a->symmetry, "plan", o, optarg, &ok)) {
+        turning_option(&a->turning, o, optarg, &ok) || symmetry_option(&a->symmetry, "plan", o, optarg, &ok) ||
+        cords_option(&a->cords, o, optarg, &ok)) {
       if (!ok) return EXIT_USAGE;
       continue;
     }
     switch (o) {
     case OPTION_OBJECTIVE: done = find_objective(optarg, &a->objective); break;
     case OPTION_COMPARE: a->compare = true; break;
-    case OPTION_JOINT: done = only_word("--joint", optarg, "solid"); break;
-    case OPTION_ENDS: a->ends = optarg; break;
-    case OPTION_COVER: ok = cli_int("plan", "--cover", optarg, 1, 100, &a->plan.cover); break;
     case OPTION_TIME: ok = cli_double("plan", "--time-limit", optarg, 0, 1e9, &a->time_limit); break;
     case OPTION_DRAW: a->draw = optarg; break;
     case OPTION_JSON: a->json = true; break;
@@ -197,14 +175,16 @@ static int parse(int argc, char **argv, arguments *a)
   if (wordy && a->output && strcmp(a->output, "-") == 0) return cli_usage("plan", "%s and -o - both want stdout", wordy);
   if (a->symmetry.given && a->objective->id != THR_SYMMETRY)
     return cli_usage("plan", "%s needs --objective symmetry", a->symmetry.given);
-  return turning_args_check(&a->turning, a->objective->id);
+  int code = turning_args_check(&a->turning, a->objective->id);
+  return code < 0 ? cords_args_check(&a->cords, &a->turning, a->objective->id) : code;
 }
 
 /* What is asked of an objective: what is about turning or symmetry concerns only one of them. */
 static void ask(const arguments *a, const struct objective *objective, thr_plan_options *o)
 {
   o->objective = objective->id;
-  o->time_limit = a->time_limit < 0 ? objective->time_limit : a->time_limit;
+  double usual = a->cords.joint == THR_JOINT_TUBE ? objectives[N_OBJECTIVES - 1].time_limit : objective->time_limit;
+  o->time_limit = a->time_limit < 0 ? usual : a->time_limit;
   turning_args_apply(&a->turning, objective->id, o);
   o->symmetry = objective->id == THR_SYMMETRY ? a->symmetry.options : symmetry_args_default().options;
 }
@@ -240,10 +220,7 @@ static int put_objective(thr_text *t, const arguments *a, const struct objective
                     pull_percent(e.error));
     if (e.refused) thr_text_printf(t, ": %d %s by closed form", e.refused, cli_plural(e.refused, "turn", "turns"));
     thr_text_printf(t, ")%s", closing);
-    if (objective->id == THR_SYMMETRY)
-      thr_text_printf(t, "   %d %s", p->n_cords, cli_plural(p->n_cords, "cord", "cords"));
-    else if (a->turning.cords > p->options.cords)
-      thr_text_append(t, "   one cord in each piece");
+    if (objective->id == THR_SYMMETRY) thr_text_printf(t, "   %d %s", p->n_cords, cli_plural(p->n_cords, "cord", "cords"));
   } else {
     thr_text_printf(t, a->json ? "null" : "%14s", "not known");
   }
@@ -252,11 +229,23 @@ static int put_objective(thr_text *t, const arguments *a, const struct objective
   return code;
 }
 
+/* An objective that cannot do what this plan was asked for. */
+static int put_refused(thr_text *t, const arguments *a, const struct objective *objective)
+{
+  const char *option = cords_args_refused(&a->cords, objective->id, true);
+  if (a->json)
+    thr_text_printf(t, "{\"objective\": \"%s\", \"pull\": null}", objective->name);
+  else
+    thr_text_printf(t, "  %-12s%14s   not with %s\n", objective->name, "-", option);
+  return EXIT_OK;
+}
+
 static int plan_and_put(thr_text *t, const arguments *a, const struct objective *objective, const thr_plan *p)
 {
   thr_err err = {0};
   thr_plan other = {0};
   if (objective == a->objective) return put_objective(t, a, objective, p);
+  if (cords_args_refused(&a->cords, objective->id, true)) return put_refused(t, a, objective);
   thr_plan_options o = p->options;
   ask(a, objective, &o);
   thr_limits limits = cli_limits(o.time_limit);
@@ -286,6 +275,7 @@ static int put_comparison(thr_text *t, const arguments *a, const thr_plan *p)
 typedef struct {
   thr_plan plan;
   thr_symmetries table; /* THR_SYMMETRY only */
+  thr_cords_word word;  /* THR_LENGTH only */
   double start;         /* thr_clock() */
 } planned;
 
@@ -295,7 +285,7 @@ static int put_turning(thr_text *t, const arguments *a, const planned *x)
   turning_rivals r = {0};
   double limit = x->plan.options.time_limit;
   int code = turning_rivals_make(&x->plan, a->turning.frontier, limit > 0 ? x->start + 1.25 * limit : 0, &r);
-  (a->json ? plan_put_json : plan_put_summary)(t, &x->plan, &r);
+  (a->json ? plan_put_json : plan_put_summary)(t, &x->plan, &r, x->word);
   turning_rivals_destroy(&r);
   return code;
 }
@@ -305,7 +295,7 @@ static void put_symmetry(thr_text *t, const arguments *a, const planned *x)
   enum { ROWS = 8 };
   const thr_plan *p = &x->plan;
   if (a->json) {
-    plan_put_json(t, p, NULL);
+    plan_put_json(t, p, NULL, x->word);
     thr_text_append(t, ", \"symmetries\": {");
     symmetry_put_table_json(t, &p->options, &x->table);
     thr_text_append(t, "}");
@@ -313,7 +303,7 @@ static void put_symmetry(thr_text *t, const arguments *a, const planned *x)
     symmetry_put_head(t, &p->frame, &p->options, &x->table);
     symmetry_put_table(t, &p->options, &x->table, ROWS);
     thr_text_append(t, "\n");
-    plan_put_summary(t, p, NULL);
+    plan_put_summary(t, p, NULL, x->word);
   }
 }
 
@@ -324,7 +314,7 @@ static int print_summary(const arguments *a, const planned *x)
   switch (x->plan.options.objective) {
   case THR_TORTUOSITY: code = put_turning(&t, a, x); break;
   case THR_SYMMETRY: put_symmetry(&t, a, x); break;
-  default: (a->json ? plan_put_json : plan_put_summary)(&t, &x->plan, NULL);
+  default: (a->json ? plan_put_json : plan_put_summary)(&t, &x->plan, NULL, x->word);
   }
   if (a->compare) {
     int done = put_comparison(&t, a, &x->plan);
@@ -348,23 +338,22 @@ static int write_plan(const thr_plan *p, const char *path)
 static int write_outputs(const arguments *a, const planned *x)
 {
   const thr_plan *p = &x->plan;
-  char stem[256], in_folder[1200], svg_path[1200], steps_path[1200];
+  char stem[256], in_folder[1200];
   const char *plan_path = a->output ? a->output : in_folder;
   cli_stem(a->path, stem, sizeof stem);
   const char *folder = a->draw ? a->draw : stem;
   bool draw = a->draw || !a->output;
   int code = a->output ? EXIT_OK : cli_in_folder(folder, "plan.json", in_folder, sizeof in_folder);
-  if (!code && draw) code = cli_in_folder(folder, "overview.svg", svg_path, sizeof svg_path);
-  if (!code && draw) code = cli_in_folder(folder, "steps.txt", steps_path, sizeof steps_path);
   if (!code) code = write_plan(p, plan_path);
-  if (!code && draw) code = cli_draw_overview(p, svg_path, 0, THR_COLOUR_CORD);
-  if (!code && draw) code = cli_draw_steps(p, steps_path);
+  if (!code && draw) code = drawings_write_all(p, folder, 0, THR_COLOUR_CORD);
   bool to_stdout = strcmp(plan_path, "-") == 0;
   if (code || to_stdout || (cli_quiet && !a->json)) return code;
   code = print_summary(a, x);
   if (a->json) return code;
   printf("%splan     %s\n", a->compare || p->options.objective == THR_TORTUOSITY ? "\n" : "", plan_path);
-  if (draw) printf("drawing  %s\nsteps    %s\n", svg_path, steps_path);
+  if (draw) printf("drawn    in %s:", folder);
+  for (int i = 0; draw && i < drawings_count(); i++)
+    printf(" %s%s", drawings_file(i), i + 1 < drawings_count() ? "" : "\n");
   return code;
 }
 
@@ -372,8 +361,13 @@ static thr_status make_plan(const arguments *a, const thr_frame *f, const thr_pl
 {
   char versions[160];
   thr_limits limits = cli_limits(o->time_limit);
-  thr_status st = o->objective == THR_SYMMETRY ? thr_symmetry_plan(f, o, &limits, &x->table, &x->plan, err)
-                                               : a->objective->plan(f, o, &limits, &x->plan, err);
+  thr_status st;
+  if (o->objective == THR_SYMMETRY)
+    st = thr_symmetry_plan(f, o, &limits, &x->table, &x->plan, err);
+  else if (o->objective == THR_LENGTH && o->joint == THR_JOINT_SOLID)
+    st = thr_cords_plan(f, o, &limits, &x->plan, &x->word, err);
+  else
+    st = a->objective->plan(f, o, &limits, &x->plan, err);
   cli_progress_end();
   snprintf(versions, sizeof versions, "thread %s, GLPK %s, igraph %s, nauty %s", THR_VERSION, thr_glpk_version(),
            thr_igraph_version(), thr_nauty_version());
@@ -385,16 +379,17 @@ static int plan_frame(const arguments *a, const thr_frame *f)
 {
   thr_err err = {0};
   planned x = {.start = thr_clock()};
-  thr_plan_options o = a->plan;
+  thr_plan_options o = thr_plan_options_default();
   ask(a, a->objective, &o);
   int code = apply_physics(a, f, &o);
-  if (!code) code = cli_resolve_ends(a->ends, f, &o);
+  if (!code) code = cords_args_apply(&a->cords, f, &o);
   if (code == EXIT_OK) {
     thr_status st = make_plan(a, f, &o, &x, &err);
     if (st == THR_OK || (st == THR_ELIMIT && x.plan.n_cords > 0)) code = write_outputs(a, &x);
     if (code == EXIT_OK && st) code = cli_fail(&err);
   }
   free(o.end_node);
+  free(o.end_count);
   thr_plan_destroy(&x.plan);
   thr_symmetries_destroy(&x.table);
   return code;

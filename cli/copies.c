@@ -27,18 +27,26 @@ static const char *across(const double axis[3])
   return fabs(axis[1]) > EXACTLY ? " front to back" : "";
 }
 
-/* "turned by 90 degrees clockwise (seen from above)". The axis points upwards, x to the right or y to the back. */
+/* From where an axis is seen that points upwards, to the right or to the back; "" if no short words say it. */
+static const char *seen_from(const double axis[3])
+{
+  if (fabs(axis[2]) > UPRIGHT) return " from above";
+  if (fabs(axis[0]) > EXACTLY) return " from the right";
+  return fabs(axis[1]) > EXACTLY ? " from behind" : "";
+}
+
+/* "turned by 90 degrees clockwise from above". The axis points upwards, x to the right or y to the back. */
 static void say_turn(const thr_isometry *o, char words[72])
 {
   double angle = fabs(o->angle) * 180 / 3.14159265358979323846;
-  const char *way = o->angle > 0 ? " counter-clockwise" : " clockwise";
+  const char *way = o->angle > 0 ? "counter-clockwise" : "clockwise", *from = seen_from(o->axis);
   bool half = angle > 180 - 1e-6;
   if (half && fabs(o->axis[2]) < LEVEL)
     snprintf(words, 72, "turned over%s", about(o->axis));
   else if (half)
     snprintf(words, 72, "turned by 180 degrees%s", about(o->axis));
-  else if (fabs(o->axis[2]) > UPRIGHT)
-    snprintf(words, 72, "turned by %.4g degrees%s from above", angle, way);
+  else if (*from)
+    snprintf(words, 72, "turned by %.4g degrees %s%s", angle, way, from);
   else
     snprintf(words, 72, "turned by %.4g degrees%s", angle, about(o->axis));
 }

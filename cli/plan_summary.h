@@ -3,11 +3,12 @@
 #define THR_CLI_PLAN_SUMMARY_H
 
 #include "cli/turning_summary.h"
+#include "lp/cords.h"
 
-/* r: for a plan of the least turning, what it is held against; NULL for others. */
-void plan_put_summary(thr_text *t, const thr_plan *p, const turning_rivals *r);
+/* r: for a plan of the least turning, what it is held against; NULL for others. word: what is known beyond what is verified. */
+void plan_put_summary(thr_text *t, const thr_plan *p, const turning_rivals *r, thr_cords_word word);
 
 /* The same as members of an object that is left open. */
-void plan_put_json(thr_text *t, const thr_plan *p, const turning_rivals *r);
+void plan_put_json(thr_text *t, const thr_plan *p, const turning_rivals *r, thr_cords_word word);
 
 #endif

@@ -19,7 +19,9 @@ static bool parse_prefer(const char *command, const char *value, thr_aim prefer[
 {
   bool taken[THR_N_AIMS] = {false};
   int n = 0;
-  for (const char *word = value, *end; *word; word = *end ? end + 1 : end) {
+  const char *word = value, *end = value;
+  if (!*value) cli_usage(command, "--prefer: what counts first?");
+  for (bool more = *value; more; more = *end, word = end + 1) {
     char name[16];
     int aim;
     end = word + strcspn(word, ",");
@@ -32,7 +34,6 @@ static bool parse_prefer(const char *command, const char *value, thr_aim prefer[
     taken[aim] = true;
     prefer[n++] = (thr_aim)aim;
   }
-  if (n == 0) cli_usage(command, "--prefer: what counts first?");
   for (int aim = 0; aim < THR_N_AIMS && n; aim++)
     if (!taken[aim]) prefer[n++] = (thr_aim)aim;
   return n > 0;

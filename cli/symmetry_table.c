@@ -11,12 +11,13 @@
 /* ---- words ---- */
 
 /* "8", "1.2e+40". */
-static void put_order(thr_text *t, const thr_symmetries *s)
+static void put_order(thr_text *t, double mantissa, int exponent)
 {
-  if (s->exponent == 0 && s->mantissa < 1e15)
-    thr_text_printf(t, "%.0f", s->mantissa);
+  double digits = floor(log10(mantissa));
+  if (exponent == 0 && mantissa < 1e15)
+    thr_text_printf(t, "%.0f", mantissa);
   else
-    thr_text_printf(t, "%.3ge+%d", s->mantissa, s->exponent);
+    thr_text_printf(t, "%.3ge+%d", mantissa / pow(10, digits), exponent + (int)digits);
 }
 
 /* "identity, 3 rotations, 4 mirrors". */
@@ -74,17 +75,22 @@ static const char *proved(const thr_plan_options *o, const thr_symmetry_row *row
 
 void symmetry_put_head(thr_text *t, const thr_frame *f, const thr_plan_options *o, const thr_symmetries *s)
 {
-  bool shape = o->symmetry.geometric >= 0, one = s->exponent == 0 && s->mantissa == 1;
-  put_order(t, s);
+  bool shape = o->symmetry.geometric >= 0;
+  double kept = shape ? s->keep_lengths[0] : s->mantissa;
+  int exponent = shape ? (int)s->keep_lengths[1] : s->exponent;
+  const char *automorphisms = exponent == 0 && kept == 1 ? "automorphism" : "automorphisms";
   if (shape)
-    thr_text_printf(t, " %s within %g, from the coordinates", one ? "isometry" : "isometries", o->symmetry.geometric);
-  else
-    thr_text_printf(t, " %s by nauty %s", one ? "automorphism" : "automorphisms", thr_nauty_version());
+    thr_text_printf(t, "%.0f %s within %g, of ", s->mantissa, s->mantissa == 1 ? "isometry" : "isometries",
+                    o->symmetry.geometric);
+  put_order(t, kept, exponent);
+  thr_text_printf(t, " %s by nauty %s%s", automorphisms, thr_nauty_version(), shape ? " that keep edge lengths" : "");
   thr_text_printf(t, "; %d %s of %d nodes, %d of %d edges; %d %s of groups%s\n", s->node_orbits,
                   cli_plural(s->node_orbits, "orbit", "orbits"), f->n_nodes, s->edge_orbits, f->n_edges, s->n,
                   cli_plural(s->n, "class", "classes"), s->listed ? "" : ", not all:");
   if (!s->listed) thr_text_printf(t, "%s\n", s->note);
-  double base = o->cover * thr_frame_total_length(f);
+  double base = 0;
+  for (int e = 0; e < f->n_edges; e++)
+    base += thr_plan_cover(f, o, e) * f->length[e];
   thr_text_printf(t, "ends: %s; %d %s per edge; the shortest plan with one cord in each piece has %.1f %% overlap%s\n\n",
                   thr_ends_name(o->ends), o->cover, cli_plural(o->cover, "pass", "passes"), 100 * (s->shortest - base) / base,
                   s->shortest_optimal ? "" : " (not proved)");
@@ -266,12 +272,16 @@ static void put_row_json(thr_text *t, const thr_plan_options *o, const thr_symme
 void symmetry_put_table_json(thr_text *t, const thr_plan_options *o, const thr_symmetries *s)
 {
   thr_text_append(t, "\"order\": ");
-  put_order(t, s);
+  put_order(t, s->mantissa, s->exponent);
   thr_text_printf(t, ", \"node_orbits\": %d, \"edge_orbits\": %d, \"listed\": %s, \"note\": ", s->node_orbits, s->edge_orbits,
                   s->listed ? "true" : "false");
   thr_text_json_string(t, s->note);
   thr_text_append(t, ", \"geometric\": ");
   thr_text_json_number(t, o->symmetry.geometric >= 0 ? o->symmetry.geometric : NAN);
+  if (o->symmetry.geometric >= 0) {
+    thr_text_append(t, ", \"length_keeping\": ");
+    put_order(t, s->keep_lengths[0], (int)s->keep_lengths[1]);
+  }
   put_number(t, "mu", o->physics.mu);
   put_number(t, "shortest", s->shortest);
   thr_text_printf(t, ", \"shortest_status\": \"%s\", \"chosen\": ", s->shortest_optimal ? "optimal" : "bound");

@@ -9,7 +9,7 @@ enum { FRONTIER_POINTS = 9, FRONTIER_MOST = 1000 };
 turning_args turning_args_default(void)
 {
   const thr_plan_options usual = thr_plan_options_default();
-  return (turning_args){.cords = usual.cords, .options = usual.turning};
+  return (turning_args){.options = usual.turning};
 }
 
 static const char *cost_name(int i)
@@ -51,7 +51,6 @@ bool turning_option(turning_args *a, int option, const char *value, bool *ok)
   const char *name = NULL;
   int i = 0;
   switch (option) {
-  case OPTION_TURNING_CORDS: *ok = cli_int("plan", "--cords", value, 1, 1000, &a->cords); return true;
   case OPTION_TURNING_SLACK:
     *ok = slack(value, &o->length_slack);
     name = "--length-slack";
@@ -93,12 +92,9 @@ int turning_args_check(const turning_args *a, thr_objective objective)
 {
   const thr_turning_options *o = &a->options;
   if (objective != THR_TORTUOSITY && a->given) return cli_usage("plan", "%s needs --objective tortuosity", a->given);
-  if (objective != THR_TORTUOSITY && a->cords > 1)
-    return cli_usage("plan", "--cords %d needs --objective tortuosity; the shortest plan has one cord in each piece", a->cords);
   if (o->tour == THR_TOUR_LEAST)
     return a->pairings ? cli_usage("plan", "--pairings is for --tour fleury and --tour hierholzer") : -1;
   const char *tour = thr_tour_name(o->tour);
-  if (a->cords > 1) return cli_usage("plan", "--tour %s makes one cord in each piece, not --cords %d", tour, a->cords);
   if (o->length_slack > 0) return cli_usage("plan", "--tour %s takes the shortest passes: no --length-slack but 0", tour);
   if (o->largest) return cli_usage("plan", "--tour %s minimizes nothing: no --minimize max-turning", tour);
   if (a->frontier) return cli_usage("plan", "--tour %s minimizes nothing: no --frontier", tour);
@@ -108,7 +104,5 @@ int turning_args_check(const turning_args *a, thr_objective objective)
 void turning_args_apply(const turning_args *a, thr_objective objective, thr_plan_options *o)
 {
   const turning_args usual = turning_args_default();
-  const turning_args *from = objective == THR_TORTUOSITY ? a : &usual;
-  o->cords = from->cords;
-  o->turning = from->options;
+  o->turning = objective == THR_TORTUOSITY ? a->options : usual.options;
 }

@@ -5,8 +5,7 @@
 #include "cli/pull.h"
 
 enum {
-  OPTION_TURNING_CORDS = OPTION_PULL_FREE,
-  OPTION_TURNING_SLACK,
+  OPTION_TURNING_SLACK = OPTION_PULL_FREE,
   OPTION_TURNING_MINIMIZE,
   OPTION_TURNING_COST,
   OPTION_TURNING_TOUR,
@@ -15,7 +14,7 @@ enum {
   OPTION_TURNING_FREE
 };
 #define TURNING_OPTIONS                                                                                                          \
-  {"cords", required_argument, NULL, OPTION_TURNING_CORDS}, {"length-slack", required_argument, NULL, OPTION_TURNING_SLACK},     \
+  {"length-slack", required_argument, NULL, OPTION_TURNING_SLACK},                                                               \
       {"minimize", required_argument, NULL, OPTION_TURNING_MINIMIZE},                                                            \
       {"turn-cost", required_argument, NULL, OPTION_TURNING_COST}, {"tour", required_argument, NULL, OPTION_TURNING_TOUR},       \
       {"pairings", required_argument, NULL, OPTION_TURNING_PAIRINGS},                                                            \
@@ -24,7 +23,6 @@ enum {
   }
 #define TURNING_HELP                                                                                                             \
   "Least turning (with --objective tortuosity):\n"                                                                               \
-  "      --cords K        K cords in every piece, 1 to 1000 (default: 1)\n"                                                      \
   "      --length-slack P%   at most P % more cord than the shortest; 0 = the least turning among the shortest (default: any)\n" \
   "      --minimize turning|max-turning   of all cords together, or of the cord that turns most (default: turning)\n"            \
   "      --turn-cost angle|sine|step   price of a turn: its angle, the sine of half of it, or 1 from 90 degrees on (default: "   \
@@ -34,10 +32,9 @@ enum {
   "      --frontier[=N]   also the trade-off between length and turning, at up to N lengths, 2 to 1000 (default: 9)\n"
 
 typedef struct {
-  int cords;
   thr_turning_options options;
   int frontier;      /* points, 0 = none */
-  const char *given; /* the first of these options, but for --cords; NULL = none */
+  const char *given; /* the first of these options; NULL = none */
   bool pairings;     /* --pairings was given */
 } turning_args;
 

@@ -2,6 +2,7 @@
 #include "cli/turning_summary.h"
 #include "eval/eval.h"
 #include "lp/postman.h"
+#include "tortuosity/tube.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -141,13 +142,16 @@ static int close_rival(turning_rival *r, thr_status st)
 static int make_length(const thr_plan *p, const thr_limits *limits, turning_rival *r)
 {
   thr_plan_options o = p->options;
-  if (o.cords > 1) {
+  bool tube = o.joint == THR_JOINT_TUBE;
+  if (o.cords > 1 && !tube) {
     thr_fail(&r->why, THR_EINPUT, "it makes one cord in each piece, not %d", o.cords);
     return EXIT_OK;
   }
   o.objective = THR_LENGTH;
   o.turning = thr_plan_options_default().turning;
-  return close_rival(r, thr_postman_plan(&p->frame, &o, limits, &r->plan, &r->why));
+  if (!tube) return close_rival(r, thr_postman_plan(&p->frame, &o, limits, &r->plan, &r->why));
+  o.cords_least = o.cords;
+  return close_rival(r, thr_tube_plan(&p->frame, &o, limits, &r->plan, &r->why));
 }
 
 static bool is_tour(const thr_plan *p)

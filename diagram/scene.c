@@ -187,6 +187,15 @@ static thr_status find_copies(thr_scene *s, thr_err *err)
 }
 
 /* Flattens the cords into passes and sorts these by edge; within an edge by pass. */
+void thr_scene_cord_id(const thr_plan *p, int c, char id[12])
+{
+  size_t letters = strspn(p->cord[c].id, "ABCDEFGHIJKLMNOPQRSTUVWXYZ");
+  if (letters && !p->cord[c].id[letters])
+    snprintf(id, 12, "%.11s", p->cord[c].id);
+  else
+    thr_cord_id(c, id);
+}
+
 static void collect_passes(thr_scene *s)
 {
   int n = 0;
@@ -197,11 +206,7 @@ static void collect_passes(thr_scene *s)
       s->pass[n++] = (thr_scene_pass){.cord = c, .number = i + 1, .half = cord->half[i]};
       s->first_on[(cord->half[i] >> 1) + 2]++;
     }
-    size_t letters = strspn(cord->id, "ABCDEFGHIJKLMNOPQRSTUVWXYZ");
-    if (letters && !cord->id[letters])
-      snprintf(s->id[c], 12, "%.11s", cord->id);
-    else
-      thr_cord_id(c, s->id[c]);
+    thr_scene_cord_id(s->plan, c, s->id[c]);
   }
   s->first_pass[s->plan->n_cords] = n;
   for (int e = 0; e < s->frame->n_edges; e++)

@@ -94,6 +94,9 @@ void thr_scene_destroy(thr_scene *s);
 /* THR_EINPUT for half-edges out of range and consecutive passes that do not meet; counts the passes of all cords. */
 thr_status thr_scene_check_cords(const thr_plan *p, int *n_passes, thr_err *err) THR_MUST_CHECK;
 
+/* What elements and objects of a cord are called by: its id if it is capital letters only, else the id that its index has. */
+void thr_scene_cord_id(const thr_plan *p, int c, char id[12]);
+
 /* Is cord c drawn as a copy? Which of the hues has it: those of unique paths and copies are alike. */
 bool thr_scene_is_copy(const thr_scene *s, int c);
 int thr_scene_hue(const thr_scene *s, int c);

@@ -4,9 +4,6 @@
 
 #include "graph/plan.h"
 
-/* Turns of less are "straight on". */
-static const double THR_STEPS_STRAIGHT = 0.26179938779914943654; /* rad, 15 degrees */
-
 /* Appends UTF-8 text of at most 100 columns. Places are called as in the overview, "left" and "right" are as seen there, that is
  * from outside; both are left out where the overview shows beads that cross. A path is a heading, a line "start at PLACE", rows
  *   [ ]   7-12  turn left 90 degrees to B7, straight on to C7 D7 E7 (second pass)

@@ -11,6 +11,41 @@ bool thr_check_close(double a, double b, double whole);
 /* Turning angle by Kahan's formula on unit vectors, rad: another way than the one that made the plan. */
 double thr_check_angle(const thr_frame *f, int in, int out);
 
+/* Components and passes, worked out once for everything that is checked. */
+typedef struct {
+  int n_components;
+  int *component; /* [n_nodes] owned */
+  int *passes;    /* [n_edges] owned */
+} thr_check_walked;
+
+/* Cord ends at allowed nodes, their number at each being free? */
+static inline bool thr_check_ends_free(const thr_plan_options *o)
+{
+  return o->ends != THR_ENDS_CLOSED && o->ends != THR_ENDS_COUNTS;
+}
+
+/* What a certificate proves about its component. */
+typedef struct {
+  bool optimal;    /* the passes are the shortest for at most options.cords cords */
+  double extra;    /* no such cords have less extra cord, in units */
+  double rounding; /* of lengths to weights, in units: taken off every bound */
+} thr_check_verdict;
+
+/* Verifies the certificates, which must be one per component in order, for passes that were checked already:
+ * verdict[w->n_components]. O(nodes + edges, and for each node in a list of the cuts its edges, or sqrt(edges) if that is less,
+ * times log(cuts)). */
+thr_status thr_check_certificates(const thr_frame *f, const thr_plan_options *o, const thr_check_walked *w,
+                                  const thr_certificate *certificate, int n, thr_check_verdict *verdict,
+                                  thr_err *err) THR_MUST_CHECK;
+
+/* Least extra cord of that component, in units, with so many cord ends, by a certificate with this verdict. */
+double thr_check_extra(const thr_certificate *c, const thr_check_verdict *v, int64_t ends);
+
+/* What can be claimed of several cords that were checked already: fills found. verdict NULL: no certificates. */
+thr_status thr_check_several(const thr_frame *f, const thr_plan_options *o, const thr_check_walked *w, const thr_cord *cord,
+                             int n_cords, const thr_certificate *certificate, const thr_check_verdict *verdict,
+                             thr_cords_claim *found, thr_err *err) THR_MUST_CHECK;
+
 /* Verifies the plan's claim about its turning, which must be present, with cords and length proof that were checked already.
  * least_length: what the latter proves. */
 thr_status thr_check_turning_claim(const thr_plan *p, double least_length, thr_err *err) THR_MUST_CHECK;

@@ -115,26 +115,93 @@ static thr_status list_elements(elements *g, const thr_symmetry_record *r, int n
   return THR_OK;
 }
 
-/* Order of the point group of that Schoenflies name; 0 if there is none. */
-static int order_of_name(const char *name)
+/* What all isomorphic groups have in common. */
+typedef struct {
+  int order;
+  int longest;     /* order of the element of greatest order */
+  int involutions; /* elements of order 2 */
+} census;
+
+/* Least k > 0 such that the k-th power of a permutation that is an element of the group is the identity. */
+static int order_of_element(const int *image, int n)
+{
+  int order = 1;
+  for (int v = 0; v < n; v++) {
+    int length = 1, w = image[v], multiple = order;
+    for (; w > v; w = image[w])
+      length++;
+    if (w < v) continue; /* counted at its lowest node */
+    while (multiple % length)
+      multiple += order;
+    order = multiple;
+  }
+  return order;
+}
+
+static census take_census(const elements *g)
+{
+  census c = {.order = g->order};
+  for (int i = 0; i < g->order; i++) {
+    int order = order_of_element(element(g, i), g->n);
+    if (order > c.longest) c.longest = order;
+    c.involutions += order == 2;
+  }
+  return c;
+}
+
+/* Turns by parts of 1 / n; the same with half turns or mirrors that reverse them; and either with an element of order 2 that
+ * commutes with all. */
+static census cyclic(int n)
+{
+  return (census){n, n, n % 2 == 0};
+}
+
+static census dihedral(int n)
+{
+  return (census){2 * n, n > 1 ? n : 2, n + (n % 2 == 0)};
+}
+
+static census doubled(census c)
+{
+  return (census){2 * c.order, c.longest % 2 ? 2 * c.longest : c.longest, 2 * c.involutions + 1};
+}
+
+/* Of the point group of that Schoenflies name; order 0 if there is none. */
+static census census_of_name(const char *name)
 {
   static const struct {
     const char *name;
-    int order;
-  } single[] = {{"Cs", 2}, {"Ci", 2}, {"T", 12}, {"Td", 24}, {"Th", 24}, {"O", 24}, {"Oh", 48}, {"I", 60}, {"Ih", 120}};
+    census census;
+  } single[] = {{"Cs", {2, 2, 1}}, {"Ci", {2, 2, 1}},   {"T", {12, 3, 3}},  {"Td", {24, 4, 9}},   {"Th", {24, 6, 7}},
+                {"O", {24, 4, 9}}, {"Oh", {48, 6, 19}}, {"I", {60, 5, 15}}, {"Ih", {120, 10, 31}}};
+  const census none = {0};
   for (size_t i = 0; i < sizeof single / sizeof *single; i++)
-    if (strcmp(name, single[i].name) == 0) return single[i].order;
+    if (strcmp(name, single[i].name) == 0) return single[i].census;
   char *end;
   bool number = name[0] && name[1] >= '1' && name[1] <= '9';
-  long n = number ? strtol(name + 1, &end, 10) : 0;
-  if (n < 1 || n > MOST_ELEMENTS) return 0;
+  long long_n = number ? strtol(name + 1, &end, 10) : 0;
+  if (long_n < 1 || long_n > MOST_ELEMENTS) return none;
+  int n = (int)long_n;
   bool plain = !*end, v = strcmp(end, "v") == 0, h = strcmp(end, "h") == 0, d = strcmp(end, "d") == 0;
   switch (name[0]) {
-  case 'S': return plain && n % 2 == 0 ? (int)n : 0;
-  case 'C': return plain ? (int)n : v || h ? 2 * (int)n : 0;
-  case 'D': return plain ? 2 * (int)n : d || h ? 4 * (int)n : 0;
-  default: return 0;
+  case 'S': return plain && n % 2 == 0 ? cyclic(n) : none;
+  case 'C': return plain ? cyclic(n) : v ? dihedral(n) : h ? doubled(cyclic(n)) : none;
+  case 'D': return plain ? dihedral(n) : h ? doubled(dihedral(n)) : d ? dihedral(2 * n) : none;
+  default: return none;
   }
+}
+
+static thr_status check_name(const elements *g, const char *name, thr_err *err)
+{
+  census stated = census_of_name(name), found = take_census(g);
+  if (!*name) return THR_OK;
+  if (stated.order != found.order)
+    return thr_fail(err, THR_EVIOLATED, "symmetry.name: \"%s\" is not the name of a point group of order %d", name, found.order);
+  if (stated.longest != found.longest || stated.involutions != found.involutions)
+    return thr_fail(err, THR_EVIOLATED,
+                    "symmetry.name: \"%s\" has %d elements of order 2 and one of order %d; the group has %d, and one of order %d",
+                    name, stated.involutions, stated.longest, found.involutions, found.longest);
+  return THR_OK;
 }
 
 static thr_status check_group(elements *g, const thr_plan *p, thr_err *err)
@@ -150,8 +217,7 @@ static thr_status check_group(elements *g, const thr_plan *p, thr_err *err)
     if (number < 0) st = thr_fail(err, THR_EVIOLATED, "symmetry.images[%d]: not an element of the group", i);
     if (i == 0 && number > 0) st = thr_fail(err, THR_EVIOLATED, "symmetry.images[0]: not the identity");
   }
-  if (!st && r->name[0] && order_of_name(r->name) != r->order)
-    st = thr_fail(err, THR_EVIOLATED, "symmetry.name: \"%s\" is not the name of a point group of order %d", r->name, r->order);
+  if (!st) st = check_name(g, r->name, err);
   return st;
 }
 

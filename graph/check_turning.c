@@ -209,9 +209,12 @@ static thr_status judge_tree(const walked *w, const thr_turning_claim *claim, th
   /* the cords are among the plans that the proof is about, or a limit just below them would prove what it likes */
   double limit = claim->length_limit < 0 ? -1 : fmax(claim->length_limit, length);
   const thr_turning_task task = {.cover = w->o->cover,
+                                 .capacity = w->o->capacity,
+                                 .tube = w->o->joint == THR_JOINT_TUBE,
                                  .most_passes = claim->most_passes,
                                  .cords = w->o->cords,
                                  .end_allowed = w->o->ends == THR_ENDS_CLOSED ? NULL : w->end_allowed,
+                                 .end_count = w->o->ends == THR_ENDS_COUNTS ? w->o->end_count : NULL,
                                  .cost = w->o->turning.cost,
                                  .extra_limit = thr_turning_extra_limit(w->f, w->o->cover, limit)};
   thr_status st = thr_turning_proof_check(w->f, &task, &claim->tree, &bound, err);
@@ -232,9 +235,10 @@ thr_status thr_check_turning(const thr_frame *f, const thr_plan_options *o, cons
 {
   walked w;
   *found = (thr_turning_claim){.present = true, .most_passes = claim->most_passes, .length_limit = claim->length_limit};
-  if (claim->most_passes < thr_turning_most_passes(o->cover))
+  int least_most = thr_turning_most_passes(f, o->cover);
+  if (claim->most_passes < least_most)
     return thr_fail(err, THR_EVIOLATED, "proof.turning.most_passes: %d; a proof is about plans with up to %d passes over an edge",
-                    claim->most_passes, thr_turning_most_passes(o->cover));
+                    claim->most_passes, least_most);
   thr_status st = walked_init(&w, f, o, cord, n_cords, err);
   if (!st) st = judge_cords(&w, found, err);
   if (!st) st = judge_tree(&w, claim, found, err);

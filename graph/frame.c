@@ -41,7 +41,19 @@ thr_status thr_draft_add_edge(thr_draft *d, int a, int b, double length, thr_err
     return thr_fail(err, THR_EINPUT, "edge %d names node %d, but there are %d nodes", d->n_edges, worst, d->n_nodes);
   thr_status st = thr_grow(&d->edge, d->n_edges, &d->edges_capacity, sizeof *d->edge, err);
   if (st) return st;
-  d->edge[d->n_edges++] = (struct thr_draft_edge){a, b, length};
+  d->edge[d->n_edges++] = (struct thr_draft_edge){.a = a, .b = b, .length = length};
+  return THR_OK;
+}
+
+thr_status thr_draft_edge_passes(thr_draft *d, int cover, int capacity, thr_err *err)
+{
+  int e = d->n_edges - 1;
+  if (cover < 0 || cover > 100)
+    return thr_fail(err, THR_EINPUT, "edge %d needs %d passes; a cover lies between 1 and 100", e, cover);
+  if (capacity < 0 || capacity > 100 || (capacity > 0 && capacity < cover))
+    return thr_fail(err, THR_EINPUT, "edge %d has room for %d passes; a capacity lies between the cover and 100", e, capacity);
+  d->edge[e].cover = cover;
+  d->edge[e].capacity = capacity;
   return THR_OK;
 }
 
@@ -59,6 +71,7 @@ void thr_draft_destroy(thr_draft *d)
 
 typedef struct {
   double along; /* projection on a fixed unit direction */
+  const double *xyz;
   int node;
 } projected;
 
@@ -66,6 +79,8 @@ static int by_projection(const void *pa, const void *pb)
 {
   const projected *a = pa, *b = pb;
   if (a->along != b->along) return a->along < b->along ? -1 : 1;
+  for (int i = 0; i < 3; i++)
+    if (a->xyz[i] != b->xyz[i]) return a->xyz[i] < b->xyz[i] ? -1 : 1;
   return (a->node > b->node) - (a->node < b->node);
 }
 
@@ -83,14 +98,15 @@ static thr_status weld(const thr_draft *d, double tolerance, int *parent, thr_er
   for (int v = 0; v < n; v++) {
     const double *x = d->node[v].xyz;
     parent[v] = v;
-    p[v] = (projected){0.6324 * x[0] + 0.5477 * x[1] + 0.5478 * x[2], v}; /* length 0.99999: never above 1 */
+    p[v] = (projected){0.6324 * x[0] + 0.5477 * x[1] + 0.5478 * x[2], x, v}; /* length 0.99999: never above 1 */
   }
   qsort(p, (size_t)n, sizeof *p, by_projection);
   for (int i = 0; i < n; i++)
     for (int j = i - 1; j >= 0 && !(p[i].along - p[j].along > tolerance); j--) {
-      double apart = distance(d->node[p[i].node].xyz, d->node[p[j].node].xyz);
+      double apart = distance(p[i].xyz, p[j].xyz);
       if (apart <= tolerance) thr_disjoint_join(parent, p[i].node, p[j].node);
-      if (apart == 0) break; /* what is close to this node was compared with its twin already */
+      if (apart == 0) break;     /* what is close to this node was compared with its twin already */
+      if (tolerance == 0) break; /* twins are neighbours */
     }
   for (int v = 0; v < n; v++)
     parent[v] = thr_disjoint_find(parent, v);
@@ -187,6 +203,15 @@ static thr_status allocate(thr_frame *f, int n_nodes, int n_edges, thr_err *err)
   return f->xyz && f->foot && f->name && f->edge && f->length && f->first && f->half ? THR_OK : thr_nomem(err);
 }
 
+/* Room for covers or capacities, which most frameworks do not have. */
+static thr_status allocate_passes(thr_frame *f, bool covers, bool capacities, thr_err *err)
+{
+  size_t m = (size_t)f->n_edges;
+  if (covers && !(f->cover = thr_calloc(m, sizeof *f->cover))) return thr_nomem(err);
+  if (capacities && !(f->capacity = thr_calloc(m, sizeof *f->capacity))) return thr_nomem(err);
+  return THR_OK;
+}
+
 static void fill_adjacency(thr_frame *f)
 {
   for (int h = 0; h < 2 * f->n_edges; h++)
@@ -237,6 +262,23 @@ static thr_status fill_edges(thr_frame *f, const thr_draft *d, const int *parent
   return THR_OK;
 }
 
+static thr_status fill_passes(thr_frame *f, const thr_draft *d, const bool *keep, thr_err *err)
+{
+  bool covers = false, capacities = false;
+  for (int e = 0; e < d->n_edges; e++) {
+    covers |= keep[e] && d->edge[e].cover > 0;
+    capacities |= keep[e] && d->edge[e].capacity > 0;
+  }
+  thr_status st = allocate_passes(f, covers, capacities, err);
+  for (int e = 0, n = 0; e < d->n_edges && !st; e++) {
+    if (!keep[e]) continue;
+    if (covers) f->cover[n] = d->edge[e].cover > 0 ? d->edge[e].cover : 1;
+    if (capacities) f->capacity[n] = d->edge[e].capacity;
+    n++;
+  }
+  return st;
+}
+
 thr_status thr_draft_build(const thr_draft *d, double tolerance, thr_frame *frame, thr_read_report *report, thr_err *err)
 {
   thr_frame f = {0};
@@ -285,6 +327,7 @@ thr_status thr_draft_build(const thr_draft *d, double tolerance, thr_frame *fram
   if ((st = allocate(&f, n_nodes, n_edges, err))) goto done;
   if ((st = fill_nodes(&f, d, parent, index, err))) goto done;
   if ((st = fill_edges(&f, d, parent, index, keep, err))) goto done;
+  if ((st = fill_passes(&f, d, keep, err))) goto done;
   snprintf(f.units, sizeof f.units, "%s", d->units[0] ? d->units : "mm");
   fill_adjacency(&f);
   *report = r;
@@ -305,6 +348,8 @@ void thr_frame_destroy(thr_frame *f)
     free(f->name[v]);
   free(f->name);
   free(f->xyz);
+  free(f->cover);
+  free(f->capacity);
   free(f->foot);
   free(f->edge);
   free(f->length);
@@ -317,10 +362,13 @@ thr_status thr_frame_copy(thr_frame *to, const thr_frame *from, thr_err *err)
 {
   thr_frame f = {0};
   thr_status st = allocate(&f, from->n_nodes, from->n_edges, err);
+  if (!st) st = allocate_passes(&f, from->cover, from->capacity, err);
   if (st) goto done;
   size_t n = (size_t)from->n_nodes, m = (size_t)from->n_edges;
   memcpy(f.xyz, from->xyz, n * sizeof *f.xyz);
   memcpy(f.foot, from->foot, n * sizeof *f.foot);
+  if (f.cover) memcpy(f.cover, from->cover, m * sizeof *f.cover);
+  if (f.capacity) memcpy(f.capacity, from->capacity, m * sizeof *f.capacity);
   memcpy(f.edge, from->edge, m * sizeof *f.edge);
   memcpy(f.length, from->length, m * sizeof *f.length);
   memcpy(f.first, from->first, (n + 1) * sizeof *f.first);
@@ -400,7 +448,10 @@ uint64_t thr_frame_hash(const thr_frame *f)
   hash = fnv(hash, f->xyz, (size_t)f->n_nodes * sizeof *f->xyz);
   hash = fnv(hash, f->edge, (size_t)f->n_edges * sizeof *f->edge);
   hash = fnv(hash, f->length, (size_t)f->n_edges * sizeof *f->length);
-  return fnv(hash, f->foot, (size_t)f->n_nodes * sizeof *f->foot);
+  hash = fnv(hash, f->foot, (size_t)f->n_nodes * sizeof *f->foot);
+  if (f->cover) hash = fnv(hash, f->cover, (size_t)f->n_edges * sizeof *f->cover);
+  if (f->capacity) hash = fnv(fnv(hash, "capacity", 8), f->capacity, (size_t)f->n_edges * sizeof *f->capacity);
+  return hash;
 }
 
 thr_status thr_frame_components(const thr_frame *f, int *component, int *count, thr_err *err)

@@ -12,6 +12,8 @@ typedef struct {
   double (*xyz)[3]; /* [n_nodes] coordinates in units */
   int (*edge)[2];   /* [n_edges] the two nodes; never equal, no pair twice */
   double *length;   /* [n_edges] cord used by one pass, in units, > 0 */
+  int *cover;       /* [n_edges] passes that the edge needs at least, >= 1; NULL = 1 each */
+  int *capacity;    /* [n_edges] passes that fit through the edge, 0 = no limit; NULL = no limits */
   bool *foot;       /* [n_nodes] may a cord end come out here (--ends feet)? */
   char **name;      /* [n_nodes] what the file calls the node: an OBJ vertex number, a COMPAS key, .. */
   char units[16];   /* "mm" unless the file or the user says otherwise */
@@ -45,6 +47,8 @@ typedef struct {
   struct thr_draft_edge {
     int a, b;
     double length; /* 0 = Euclidean */
+    int cover;     /* 0 = not said */
+    int capacity;  /* 0 = no limit */
   } * edge;
   char units[16]; /* "" = not said */
 } thr_draft;
@@ -54,6 +58,9 @@ typedef struct {
 thr_status thr_draft_add_node(thr_draft *d, const double xyz[3], const char *name, bool foot, thr_err *err) THR_MUST_CHECK;
 /* Appends an edge between node indices that exist already (THR_EINPUT otherwise). length 0 = Euclidean. */
 thr_status thr_draft_add_edge(thr_draft *d, int a, int b, double length, thr_err *err) THR_MUST_CHECK;
+/* Of the edge added last: passes that it needs (1 .. 100, 0 = not said) and that fit through it (cover .. 100, 0 = no limit).
+ * THR_EINPUT otherwise. */
+thr_status thr_draft_edge_passes(thr_draft *d, int cover, int capacity, thr_err *err) THR_MUST_CHECK;
 void thr_draft_destroy(thr_draft *d);
 
 /* What was done to the file's data, and what is odd about it. */
@@ -70,7 +77,8 @@ typedef struct {
 
 /* Welds nodes closer than tolerance (< 0: 1e-6 of the bounding box's diagonal, at most a thousandth of the median edge), drops
  * zero-length and duplicate edges and isolated nodes, and fills frame and report (nodes_read .. isolated_nodes). The lowest file
- * index of a welded group gives coordinates and name; any member's foot makes it a foot. Nodes and edges keep file order.
+ * index of a welded group gives coordinates and name; any member's foot makes it a foot. Of edges that fall together the first
+ * one counts. Nodes and edges keep file order.
  * THR_EINPUT if no edge is left or a length is out of range. The draft is unchanged. O(n log n) as long as few nodes lie within
  * the tolerance of each other along one fixed skew direction; quadratic in those. */
 thr_status thr_draft_build(const thr_draft *d, double tolerance, thr_frame *frame, thr_read_report *report,
@@ -94,7 +102,8 @@ void thr_frame_feet_lowest(thr_frame *f);
 double thr_frame_total_length(const thr_frame *f);
 double thr_frame_diagonal(const thr_frame *f); /* of the bounding box, in units */
 
-/* 64-bit FNV-1a over counts, coordinates, edges, lengths and feet: names a framework in outputs. Not for security. */
+/* 64-bit FNV-1a over counts, coordinates, edges, lengths, feet and, if there are any, covers and capacities: names a framework in
+ * outputs. Not for security. */
 uint64_t thr_frame_hash(const thr_frame *f);
 
 /* Component number of every node (0, 1, .. by lowest node) in component[n_nodes]; *count receives how many. */

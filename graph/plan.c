@@ -1,14 +1,19 @@
 /* Plans: names, ends, turning angles, metrics. */
 #include "graph/plan.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 thr_plan_options thr_plan_options_default(void)
 {
-  thr_plan_options o = {
-      .cover = 1, .cords = 1, .turning = {.length_slack = -1}, .ends = THR_ENDS_CLOSED, .physics = thr_physics_default()};
+  thr_plan_options o = {.cover = 1,
+                        .cords = 1,
+                        .cords_least = 1,
+                        .turning = {.length_slack = -1},
+                        .ends = THR_ENDS_CLOSED,
+                        .physics = thr_physics_default()};
   o.symmetry.geometric = -1;
   for (int i = 0; i < THR_N_AIMS; i++)
     o.symmetry.prefer[i] = (thr_aim)i;
@@ -45,10 +50,12 @@ void thr_plan_destroy(thr_plan *p)
   for (int i = 0; i < p->proof.n_certificates; i++)
     thr_certificate_destroy(&p->proof.certificate[i]);
   free(p->proof.certificate);
+  thr_turning_proof_destroy(&p->proof.tied);
   thr_turning_proof_destroy(&p->turning.tree);
   thr_symmetry_record_destroy(&p->symmetry);
   thr_evaluation_destroy(&p->evaluation);
   free(p->options.end_node);
+  free(p->options.end_count);
   free(p->generator);
   thr_frame_destroy(&p->frame);
   *p = (thr_plan){0};
@@ -61,9 +68,15 @@ thr_status thr_plan_request(thr_plan *p, const thr_frame *f, const thr_plan_opti
   size_t n = (size_t)f->n_nodes;
   p->options = *o;
   p->options.end_node = NULL;
-  if (!o->end_node) return THR_OK;
-  if (!(p->options.end_node = thr_calloc(n, sizeof *p->options.end_node))) return thr_nomem(err);
-  memcpy(p->options.end_node, o->end_node, n * sizeof *p->options.end_node);
+  p->options.end_count = NULL;
+  if (o->end_node) {
+    if (!(p->options.end_node = thr_calloc(n, sizeof *p->options.end_node))) return thr_nomem(err);
+    memcpy(p->options.end_node, o->end_node, n * sizeof *p->options.end_node);
+  }
+  if (o->end_count) {
+    if (!(p->options.end_count = thr_calloc(n, sizeof *p->options.end_count))) return thr_nomem(err);
+    memcpy(p->options.end_count, o->end_count, n * sizeof *p->options.end_count);
+  }
   return THR_OK;
 }
 
@@ -83,6 +96,8 @@ int thr_length_proof_cuts(const thr_length_proof *proof)
   int cuts = 0;
   for (int i = 0; i < proof->n_certificates; i++)
     cuts += proof->certificate[i].n_cuts;
+  for (int i = 0; i < proof->tied.n_duals; i++)
+    cuts += proof->tied.dual[i].n_odd + proof->tied.dual[i].n_junctions;
   return cuts;
 }
 
@@ -106,8 +121,24 @@ const char *thr_aim_name(thr_aim a)
 
 const char *thr_ends_name(thr_ends e)
 {
-  static const char *const name[] = {"closed", "any", "feet", "nodes"};
+  static const char *const name[] = {"closed", "any", "feet", "nodes", "counts"};
   return name[e];
+}
+
+const char *thr_joint_name(thr_joint j)
+{
+  return j == THR_JOINT_TUBE ? "tube" : "solid";
+}
+
+int thr_plan_cover(const thr_frame *f, const thr_plan_options *o, int e)
+{
+  return f->cover && f->cover[e] > o->cover ? f->cover[e] : o->cover;
+}
+
+int thr_plan_capacity(const thr_frame *f, const thr_plan_options *o, int e)
+{
+  int own = f->capacity && f->capacity[e] > 0 ? f->capacity[e] : INT_MAX;
+  return o->capacity > 0 && o->capacity < own ? o->capacity : own;
 }
 
 bool thr_plan_end_allowed(const thr_frame *f, const thr_plan_options *o, int v)
@@ -115,6 +146,7 @@ bool thr_plan_end_allowed(const thr_frame *f, const thr_plan_options *o, int v)
   switch (o->ends) {
   case THR_ENDS_FEET: return f->foot[v];
   case THR_ENDS_NODES: return o->end_node[v];
+  case THR_ENDS_COUNTS: return o->end_count[v] > 0;
   default: return true;
   }
 }
@@ -223,9 +255,11 @@ thr_status thr_plan_measure(const thr_frame *f, const thr_plan_options *o, const
   if (!passes) return thr_nomem(err);
   for (int i = 0; i < n_cords; i++)
     measure_cord(f, o, &cord[i], passes, m);
-  m->base_length = o->cover * thr_frame_total_length(f);
-  for (int e = 0; e < f->n_edges; e++) /* not a difference of two sums: exactly 0 without overlap */
-    m->overlap += (passes[e] - o->cover) * f->length[e];
+  for (int e = 0; e < f->n_edges; e++) {
+    int cover = thr_plan_cover(f, o, e);
+    m->base_length += cover * f->length[e];
+    m->overlap += (passes[e] - cover) * f->length[e]; /* not a difference of two sums: exactly 0 without overlap */
+  }
   free(passes);
   return THR_OK;
 }

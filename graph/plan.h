@@ -6,7 +6,13 @@
 #include "graph/evaluation.h"
 #include "graph/turning_proof.h"
 
-typedef enum { THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET, THR_ENDS_NODES } thr_ends;
+/* THR_ENDS_COUNTS: at every node exactly so many cord ends. */
+typedef enum { THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET, THR_ENDS_NODES, THR_ENDS_COUNTS } thr_ends;
+
+/* Solid: a node bead is one rigid piece, any pairing locks it. Tube: only edges are beads, and the cord itself ties them
+ * together: at every node the graph of the edges there and of the turns between them is connected, and no cord turns back into
+ * its edge (Demaine, Kirkpatrick & Lin 2024). */
+typedef enum { THR_JOINT_SOLID, THR_JOINT_TUBE } thr_joint;
 
 typedef enum { THR_LENGTH, THR_TORTUOSITY, THR_SYMMETRY, THR_N_OBJECTIVES } thr_objective;
 
@@ -37,17 +43,33 @@ typedef struct {
   thr_aim prefer[THR_N_AIMS]; /* what is minimized first, second, .. */
 } thr_symmetry_options;
 
+/* Which engine finds the shortest passes (lp/engine.h). */
+typedef enum {
+  THR_ENGINE_AUTO,    /* matching, unless the weights add up to more than it takes */
+  THR_ENGINE_LP,      /* odd cuts, GLPK */
+  THR_ENGINE_MATCHING /* weights add up to 2^50 at most */
+} thr_engine;
+
 /* What the user asked for; echoed in the plan so that it can be made again. */
 typedef struct {
   thr_objective objective;
-  int cover;                     /* every edge gets at least this many passes, 1 .. 100 */
-  int cords;                     /* in every component, 1 .. 1000; THR_LENGTH: 1; THR_SYMMETRY: the most in any, as it came out */
-  thr_turning_options turning;   /* THR_TORTUOSITY only */
+  thr_joint joint;
+  int cover;                   /* every edge gets at least this many passes, 1 .. 100; the framework may ask for more (cover) */
+  int capacity;                /* at most so many passes of any edge, 0 = no limit; the framework may allow fewer (capacity) */
+  int cords;                   /* at most so many in every component, 1 .. 1000; THR_SYMMETRY: the most in any, as it came out */
+  int cords_least;             /* at least so many; = cords: exactly */
+  double max_length;           /* no cord is longer, in units; 0 = no limit */
+  bool balance;                /* THR_LENGTH: minimize the longest cord, then the length of all */
+  thr_turning_options turning; /* THR_TORTUOSITY only */
   thr_symmetry_options symmetry; /* THR_SYMMETRY only */
   thr_ends ends;
   bool *end_node;      /* [n_nodes] THR_ENDS_NODES only: where ends may be; owned, else NULL */
+  int *end_count;      /* [n_nodes] THR_ENDS_COUNTS only: how many ends there are, their sum in every component even and at most
+                          2 * cords; owned, else NULL */
   thr_physics physics; /* of cord and beads, as asked: what eval starts from */
   double time_limit;   /* s, 0 = none */
+  thr_engine engine;   /* not recorded: it changes no length */
+  bool confirm;        /* THR_LENGTH: GLPK is asked, too; not recorded */
 } thr_plan_options;
 
 /* A cord: consecutive half-edges; half[i] arrives where half[i + 1] leaves. A closed cord also ends where it starts. */
@@ -59,27 +81,29 @@ typedef struct {
   int *half;     /* [n_passes] owned */
 } thr_cord;
 
-/* One odd cut: the edges leaving a node set that holds an odd number of odd nodes. value is its dual multiplier in
- * units of 1/denominator. Nodes >= n_nodes of the framework are slots (see thr_certificate). */
+/* One odd cut: the edges leaving a node set that holds an odd number of odd nodes. The cuts of a certificate form a forest: a
+ * cut's set is its own nodes and the sets of its children, all disjoint. Sets of different trees may overlap in any way.
+ * So nested sets take no more room than the largest of them. */
 typedef struct {
+  int parent; /* a later cut, the one right around this one; -1 = none */
   int n_nodes;
-  int *node;     /* ascending; owned */
-  int64_t value; /* >= 0 */
+  int *node;     /* those in no child, ascending; owned */
+  int64_t value; /* >= 0: its dual multiplier in units of 1/denominator */
 } thr_cut;
 
 /* Proof of a lower bound on the extra cord of one component (Edmonds & Johnson 1973): a packing of odd cuts.
- * Edge e weighs w_e = round(length_e * scale). With ends allowed at nodes F there are two more odd nodes per cord, the slots
- * n_nodes, n_nodes + 1, .., each joined to every node of F in the component by an edge of weight slot_cost, and to
- * each other by edges of 2 * slot_cost: a set of passes that leaves so many open cords is then a T-join of that graph.
- * If the cuts' values load no edge beyond w_e * denominator, no join is shorter than sum(value) / denominator. */
+ * Edge e weighs w_e = round(length_e * scale). A node is odd if the passes that its edges need, with THR_ENDS_COUNTS and its cord
+ * ends, are odd in number. The values of the sets that an edge leaves add up to at most w_e * denominator, if the edge has room
+ * for an extra pass at all; those of the sets that hold a node where cord ends are allowed, to at most end_price. Then for
+ * every j no extra passes that leave j cord ends weigh less than (sum - j * end_price) / denominator: every set is left by an
+ * extra pass, or holds a cord end. */
 typedef struct {
   int component;
   double scale;        /* integer weight per unit of length, > 0 */
   int64_t denominator; /* > 0 */
-  int n_slots;         /* 0 (closed) or 2 * options.cords; a plan may have fewer cords: its other slots are joined in pairs */
-  int64_t slot_cost;
-  int64_t join; /* weight of the extra passes of the plan, without slots */
-  int64_t sum;  /* of the cuts' values */
+  int64_t end_price;   /* >= 0, in units of 1/denominator; 0 with THR_ENDS_CLOSED and THR_ENDS_COUNTS */
+  int64_t join;        /* weight of the extra passes of the plan */
+  int64_t sum;         /* of the cuts' values */
   int n_cuts;
   thr_cut *cut; /* owned */
 } thr_certificate;
@@ -89,9 +113,22 @@ typedef struct {
   bool optimal;       /* proved: the checker agrees, or it says violation */
   double lower_bound; /* no plan with these options is shorter, in units of length */
   double gap;         /* (length - lower_bound) / length */
+  int confirmed;   /* of the shortest passes: programmes on their cuts in which GLPK's exact method found the same weight, and */
+  int unconfirmed; /* those it was not asked about, or did not finish in time. A solver's word: not written */
   int n_certificates;
   thr_certificate *certificate; /* one per component; owned */
+  thr_turning_proof tied;       /* THR_JOINT_TUBE, instead of certificates: the proof of thr_tied_task (graph/junction.h) */
 } thr_length_proof;
+
+/* What is proved about several cords, of plans with the same options. */
+typedef struct {
+  bool present;
+  double longest;       /* length of the longest cord, in units */
+  double longest_bound; /* no plan has a shorter longest cord */
+  bool longest_optimal; /* proved: the checker agrees, or it says violation */
+  int fewest;           /* no plan has fewer cords in all, none being longer than options.max_length; 0 = not claimed */
+  bool fewest_optimal;  /* this one has no more */
+} thr_cords_claim;
 
 /* What is proved about the turning of a plan for THR_TORTUOSITY: of no plan with the same options, U-turns at nodes with one edge
  * only, at most most_passes over any edge and no more cord than length_limit are all turns together cheaper than lower_bound. */
@@ -132,7 +169,7 @@ void thr_symmetry_record_destroy(thr_symmetry_record *r);
 
 typedef struct {
   double length;      /* of all cords, in units */
-  double base_length; /* cover * sum of edge lengths */
+  double base_length; /* of the passes that the edges need, in units */
   double overlap;     /* length - base_length */
   int passes;         /* of all cords */
   int most_passes;    /* on one edge */
@@ -152,6 +189,7 @@ typedef struct {
   thr_symmetry_record symmetry; /* present with THR_SYMMETRY */
   thr_evaluation evaluation;    /* of `thread eval`, if present */
   thr_length_proof proof;
+  thr_cords_claim cords_claim;
   thr_turning_claim turning;
 } thr_plan;
 
@@ -169,10 +207,15 @@ thr_status thr_plan_request(thr_plan *p, const thr_frame *f, const thr_plan_opti
 void thr_cord_id(int i, char id[12]); /* 0 -> "A", 25 -> "Z", 26 -> "AA" */
 void thr_certificate_destroy(thr_certificate *c);
 
-int thr_length_proof_cuts(const thr_length_proof *proof); /* odd cuts of all its certificates */
+int thr_length_proof_cuts(const thr_length_proof *proof); /* odd cuts, or odd sets and junctions, that it puts a multiplier on */
 
-const char *thr_ends_name(thr_ends e); /* "closed", "any", "feet", "nodes" */
+const char *thr_ends_name(thr_ends e);   /* "closed", "any", "feet", "nodes", "counts" */
+const char *thr_joint_name(thr_joint j); /* "solid", "tube" */
 bool thr_plan_end_allowed(const thr_frame *f, const thr_plan_options *o, int v);
+
+/* Passes that edge e needs, and the most that it may have (INT_MAX: no limit): what options and framework say together. */
+int thr_plan_cover(const thr_frame *f, const thr_plan_options *o, int e);
+int thr_plan_capacity(const thr_frame *f, const thr_plan_options *o, int e);
 
 /* First and last node of a cord (equal for a closed one). */
 int thr_cord_start(const thr_frame *f, const thr_cord *c);

@@ -40,6 +40,18 @@ static void put_marked(thr_text *t, const bool *mark, int n)
   thr_text_append(t, "]");
 }
 
+/* Covers or capacities; a capacity of 0 is none. */
+static void put_passes(thr_text *t, const char *key, const int *passes, int n)
+{
+  thr_text_printf(t, "  \"%s\": [", key);
+  for (int e = 0; e < n; e++)
+    if (passes[e] > 0)
+      thr_text_printf(t, e ? ",%d" : "%d", passes[e]);
+    else
+      thr_text_append(t, e ? ",null" : "null");
+  thr_text_append(t, "],\n");
+}
+
 static void put_frame(thr_text *t, const thr_frame *f)
 {
   thr_text_append(t, "\"framework\": {\n  \"units\": ");
@@ -63,6 +75,8 @@ static void put_frame(thr_text *t, const thr_frame *f)
     }
     thr_text_append(t, "],\n");
   }
+  if (f->cover) put_passes(t, "covers", f->cover, f->n_edges);
+  if (f->capacity) put_passes(t, "capacities", f->capacity, f->n_edges);
   if (!thr_frame_names_are_indices(f)) {
     thr_text_append(t, "  \"names\": [");
     for (int v = 0; v < f->n_nodes; v++) {
@@ -99,17 +113,40 @@ static void put_symmetry_options(thr_text *t, const thr_symmetry_options *o)
   thr_text_append(t, "]},\n  ");
 }
 
-static void put_options(thr_text *t, const thr_plan *p)
+/* Where cord ends may be, or how many there are. */
+static void put_ends(thr_text *t, const thr_plan *p)
 {
   const thr_plan_options *o = &p->options;
-  thr_text_printf(t,
-                  "\"options\": {\"objective\": \"%s\", \"joint\": \"solid\", \"cover\": %d, \"cords\": %d, \"ends\": \"%s\", ",
-                  thr_objective_name(o->objective), o->cover, o->cords, thr_ends_name(o->ends));
+  thr_text_printf(t, "\"ends\": \"%s\", ", thr_ends_name(o->ends));
   if (o->ends == THR_ENDS_NODES) {
     thr_text_append(t, "\"end_nodes\": ");
     put_marked(t, o->end_node, p->frame.n_nodes);
     thr_text_append(t, ", ");
   }
+  if (o->ends != THR_ENDS_COUNTS) return;
+  const char *before = "";
+  thr_text_append(t, "\"end_counts\": [");
+  for (int v = 0; v < p->frame.n_nodes; v++) {
+    if (o->end_count[v] == 0) continue;
+    thr_text_printf(t, "%s[%d,%d]", before, v, o->end_count[v]);
+    before = ",";
+  }
+  thr_text_append(t, "], ");
+}
+
+static void put_options(thr_text *t, const thr_plan *p)
+{
+  const thr_plan_options *o = &p->options;
+  thr_text_printf(t, "\"options\": {\"objective\": \"%s\", \"joint\": \"%s\", \"cover\": %d, ", thr_objective_name(o->objective),
+                  thr_joint_name(o->joint), o->cover);
+  if (o->capacity > 0) thr_text_printf(t, "\"capacity\": %d, ", o->capacity);
+  if (o->cords_least == o->cords)
+    thr_text_printf(t, "\"cords\": %d, ", o->cords);
+  else
+    thr_text_printf(t, "\"cords\": {\"least\": %d, \"most\": %d}, ", o->cords_least, o->cords);
+  if (o->max_length > 0) put_key_double(t, "max_length", o->max_length, ", ");
+  if (o->balance) thr_text_append(t, "\"balance\": true, ");
+  put_ends(t, p);
   if (o->objective == THR_TORTUOSITY) put_turning_options(t, &o->turning);
   if (o->objective == THR_SYMMETRY) put_symmetry_options(t, &o->symmetry);
   put_key_double(t, "time_limit", o->time_limit, ",");
@@ -180,13 +217,13 @@ static void put_certificate(thr_text *t, const thr_certificate *c)
 {
   thr_text_printf(t, "{\"component\": %d, ", c->component);
   put_key_double(t, "scale", c->scale, ", ");
-  thr_text_printf(t,
-                  "\"denominator\": %" PRId64 ", \"slots\": %d, \"slot_cost\": %" PRId64 ", \"join\": %" PRId64
-                  ", \"sum\": %" PRId64 ",\n    \"cuts\": [",
-                  c->denominator, c->n_slots, c->slot_cost, c->join, c->sum);
+  thr_text_printf(t, "\"denominator\": %" PRId64 ", \"end_price\": %" PRId64 ", \"join\": %" PRId64 ", \"sum\": %" PRId64,
+                  c->denominator, c->end_price, c->join, c->sum);
+  thr_text_append(t, ",\n    \"cuts\": [");
   for (int k = 0; k < c->n_cuts; k++) {
     thr_text_printf(t, "%s      {\"value\": %" PRId64 ", \"nodes\": ", k ? ",\n" : "\n", c->cut[k].value);
     put_ints(t, c->cut[k].node, c->cut[k].n_nodes);
+    if (c->cut[k].parent >= 0) thr_text_printf(t, ", \"parent\": %d", c->cut[k].parent);
     thr_text_append(t, "}");
   }
   thr_text_append(t, "]}");
@@ -197,11 +234,19 @@ static const char *status_name(bool optimal)
   return optimal ? "optimal" : "bound";
 }
 
-static void put_length_proof(thr_text *t, const thr_length_proof *proof)
+static void put_length_proof(thr_text *t, const thr_plan *p)
 {
+  const thr_length_proof *proof = &p->proof;
   thr_text_printf(t, "\"length\": {\"status\": \"%s\", ", status_name(proof->optimal));
   put_key_double(t, "lower_bound", proof->lower_bound, ", ");
-  put_key_double(t, "gap", proof->gap, ",\n  \"method\": \"odd-cut packing (Edmonds & Johnson 1973)\",\n  \"certificate\": [");
+  put_key_double(t, "gap", proof->gap, ",\n  \"method\": ");
+  if (p->options.joint == THR_JOINT_TUBE) {
+    thr_text_append(t, "\"multipliers of odd sets and junctions over a tree of branchings\",\n  \"proof\": ");
+    thr_turning_proof_write(&proof->tied, &p->frame, t);
+    thr_text_append(t, "}");
+    return;
+  }
+  thr_text_append(t, "\"odd-cut packing (Edmonds & Johnson 1973)\",\n  \"certificate\": [");
   for (int i = 0; i < proof->n_certificates; i++) {
     thr_text_append(t, i ? ",\n    " : "\n    ");
     put_certificate(t, &proof->certificate[i]);
@@ -228,11 +273,24 @@ static void put_turning_proof(thr_text *t, const thr_plan *p)
   thr_text_append(t, "}");
 }
 
+static void put_cords_claim(thr_text *t, const thr_cords_claim *c)
+{
+  thr_text_append(t, "\"cords\": {\"longest\": {");
+  thr_text_printf(t, "\"status\": \"%s\", ", status_name(c->longest_optimal));
+  put_key_double(t, "length", c->longest, ", ");
+  put_key_double(t, "lower_bound", c->longest_bound, "}");
+  if (c->fewest > 0)
+    thr_text_printf(t, ", \"fewest\": {\"status\": \"%s\", \"lower_bound\": %d}", status_name(c->fewest_optimal), c->fewest);
+  thr_text_append(t, "}");
+}
+
 static void put_proofs(thr_text *t, const thr_plan *p)
 {
   thr_text_append(t, "\"proof\": {");
-  if (p->proof.present) put_length_proof(t, &p->proof);
-  if (p->proof.present && p->turning.present) thr_text_append(t, ",\n  ");
+  if (p->proof.present) put_length_proof(t, p);
+  if (p->proof.present && p->cords_claim.present) thr_text_append(t, ",\n  ");
+  if (p->cords_claim.present) put_cords_claim(t, &p->cords_claim);
+  if ((p->proof.present || p->cords_claim.present) && p->turning.present) thr_text_append(t, ",\n  ");
   if (p->turning.present) put_turning_proof(t, p);
   thr_text_append(t, "}\n}\n");
 }

@@ -3,6 +3,7 @@
 #define THR_READ_H
 
 #include "graph/frame.h"
+#include "graph/json.h"
 
 typedef enum { THR_FORMAT_AUTO, THR_FORMAT_CSV, THR_FORMAT_OBJ, THR_FORMAT_JSON } thr_format;
 
@@ -38,9 +39,16 @@ thr_status thr_obj_parse(thr_draft *d, thr_read_report *r, const char *text, siz
 thr_status thr_json_frame_parse(thr_draft *d, thr_read_report *r, const char *text, size_t n, const char *name,
                                 thr_err *err) THR_MUST_CHECK;
 
+/* What a JSON document says of the edge added last: cover and capacity, NULL or null = nothing. THR_EINPUT: why not, without the
+ * place. */
+thr_status thr_json_edge_passes(thr_draft *d, const thr_json *cover, const thr_json *capacity, thr_err *err) THR_MUST_CHECK;
+
 /* Appends the framework in a format (JSON: our own frame; OBJ: v + two-vertex l records, feet as a comment line
  * "# feet: .." that thr_obj_parse reads back; CSV: six columns per edge). */
 void thr_frame_write(const thr_frame *f, thr_format format, thr_text *out);
+
+/* Of an OBJ file the comments on units and feet and the v records: vertex v + 1 is node v. */
+void thr_obj_write_nodes(const thr_frame *f, thr_text *out);
 
 /* By the path's extension; THR_FORMAT_JSON for "-" and unknown ones. */
 thr_format thr_format_of_path(const char *path);

@@ -15,7 +15,7 @@ typedef struct {
   row_kind kind;
   bool header;
   int width; /* fields in the row that this was learnt from */
-  int id, xyz[6], foot, ends[2], length;
+  int id, xyz[6], foot, ends[2], length, cover, capacity;
 } columns;
 
 typedef struct {
@@ -119,7 +119,15 @@ static int column(const csv *t, const char *const *names)
 
 static columns no_columns(const csv *t, row_kind kind, bool header)
 {
-  return (columns){kind, header, t->n_fields, -1, {-1, -1, -1, -1, -1, -1}, -1, {0, 1}, -1};
+  return (columns){kind, header, t->n_fields, -1, {-1, -1, -1, -1, -1, -1}, -1, {0, 1}, -1, -1, -1};
+}
+
+/* What a header may say of edges beside their ends. */
+static void find_edge_columns(const csv *t, columns *c)
+{
+  c->length = COLUMN(t, "length");
+  c->cover = COLUMN(t, "cover");
+  c->capacity = COLUMN(t, "capacity");
 }
 
 /* Is this row a header that names coordinates? Then it says where they are. */
@@ -129,7 +137,7 @@ static bool coordinate_header(csv *t)
   const char *const six[] = {"x1", "y1", "z1", "x2", "y2", "z2"};
   for (int i = 0; i < 6; i++)
     c.xyz[i] = COLUMN(t, six[i]);
-  c.length = COLUMN(t, "length");
+  find_edge_columns(t, &c);
   if (c.xyz[0] < 0 || c.xyz[1] < 0 || c.xyz[3] < 0 || c.xyz[4] < 0) {
     c = no_columns(t, NODE_ROWS, true);
     c.xyz[0] = COLUMN(t, "x");
@@ -157,8 +165,10 @@ static void edge_header(csv *t)
     t->c.ends[1] = b;
     break;
   }
-  t->c.length = COLUMN(t, "length");
-  if (t->c.length == t->c.ends[0] || t->c.length == t->c.ends[1]) t->c.length = -1;
+  find_edge_columns(t, &t->c);
+  int *const named[] = {&t->c.length, &t->c.cover, &t->c.capacity};
+  for (int i = 0; i < 3; i++)
+    if (*named[i] == t->c.ends[0] || *named[i] == t->c.ends[1]) *named[i] = -1;
 }
 
 static bool all_words(const csv *t)
@@ -222,6 +232,31 @@ static thr_status read_length(const csv *t, double *length)
                        thr_span_width(f), f.s);
 }
 
+/* A whole number from 1; 0 if the field is empty. */
+static thr_status read_count(const csv *t, int at, const char *what, int *count)
+{
+  thr_span f = field_at(t, at);
+  *count = 0;
+  if (f.n == 0 || (thr_span_int(plain_name(f), count) && *count >= 1)) return THR_OK;
+  return thr_scan_fail(&t->scan, t->err, "%s '%.*s' is not a whole number from 1 on; leave it empty if there is none", what,
+                       thr_span_width(f), f.s);
+}
+
+/* Adds an edge with what its row says beside the ends. */
+static thr_status finish_edge(csv *t, int a, int b)
+{
+  double length;
+  int cover, capacity;
+  thr_err local = {0};
+  thr_status st = read_length(t, &length);
+  if (!st) st = read_count(t, t->c.cover, "cover", &cover);
+  if (!st) st = read_count(t, t->c.capacity, "capacity", &capacity);
+  if (!st) st = thr_draft_add_edge(t->d, a, b, length, t->err);
+  if (st) return st;
+  st = thr_draft_edge_passes(t->d, cover, capacity, &local);
+  return st ? thr_scan_fail(&t->scan, t->err, "%s", local.text) : THR_OK;
+}
+
 static thr_status add_node(csv *t)
 {
   double xyz[3];
@@ -247,7 +282,6 @@ static thr_status add_node(csv *t)
 static thr_status add_edge(csv *t)
 {
   int end[2];
-  double length;
   for (int i = 0; i < 2; i++) {
     thr_span id = plain_name(field_at(t, t->c.ends[i]));
     end[i] = thr_names_find(&t->names, id);
@@ -255,19 +289,17 @@ static thr_status add_edge(csv *t)
       return thr_scan_fail(&t->scan, t->err, "there is no node '%.*s'; the nodes are called '%.40s' to '%.40s'",
                            thr_span_width(id), id.s, t->d->node[0].name, t->d->node[t->d->n_nodes - 1].name);
   }
-  thr_status st = read_length(t, &length);
-  return st ? st : thr_draft_add_edge(t->d, end[0], end[1], length, t->err);
+  return finish_edge(t, end[0], end[1]);
 }
 
 static thr_status add_line(csv *t)
 {
-  double a[3], b[3], length = 0;
+  double a[3], b[3];
   thr_status st = read_coordinates(t, t->c.xyz, a);
   if (!st) st = read_coordinates(t, t->c.xyz + 3, b);
-  if (!st) st = read_length(t, &length);
   if (!st) st = thr_draft_add_node(t->d, a, NULL, false, t->err);
   if (!st) st = thr_draft_add_node(t->d, b, NULL, false, t->err);
-  return st ? st : thr_draft_add_edge(t->d, t->d->n_nodes - 2, t->d->n_nodes - 1, length, t->err);
+  return st ? st : finish_edge(t, t->d->n_nodes - 2, t->d->n_nodes - 1);
 }
 
 /* ---- what kind of row ---- */

@@ -104,6 +104,30 @@ static thr_status read_length(reader *r, const where *at, const thr_json *v, dou
   return st || *length > 0 ? st : bad(r, at, "a length that is not positive; leave it out for the distance of the two nodes");
 }
 
+static thr_status count_of(const thr_json *v, const char *what, int *count, thr_err *err)
+{
+  int64_t wide = 0;
+  if (thr_json_typeof(v) != THR_JSON_NULL && (!thr_json_int(v, &wide) || wide < 0 || wide > 100))
+    return thr_fail(err, THR_EINPUT, "a %s that is not a whole number up to 100", what);
+  *count = (int)wide;
+  return THR_OK;
+}
+
+thr_status thr_json_edge_passes(thr_draft *d, const thr_json *cover, const thr_json *capacity, thr_err *err)
+{
+  int least = 0, most = 0;
+  thr_status st = count_of(cover, "cover", &least, err);
+  if (!st) st = count_of(capacity, "capacity", &most, err);
+  return st ? st : thr_draft_edge_passes(d, least, most, err);
+}
+
+static thr_status read_passes(reader *r, const where *at, const thr_json *cover, const thr_json *capacity)
+{
+  thr_err why = {0};
+  thr_status st = thr_json_edge_passes(r->d, cover, capacity, &why);
+  return st ? bad(r, at, why.text) : THR_OK;
+}
+
 /* Index into n things. */
 static thr_status read_index(reader *r, const where *at, const thr_json *v, int n, int *index)
 {
@@ -222,12 +246,25 @@ static thr_status read_own_nodes(reader *r, const where *at, const thr_json *nod
   return THR_OK;
 }
 
-static thr_status read_own_edges(reader *r, const where *up, const char *key, const thr_json *edges, const thr_json *lengths)
+/* The member of o that says something of every edge, if there is one. */
+static thr_status edge_list(reader *r, const where *up, const thr_json *o, const char *key, int n_edges, const thr_json **list)
 {
+  where here = {up, key, 0};
+  *list = thr_json_get(o, key);
+  if (!*list || (is_array(*list) && thr_json_size(*list) == n_edges)) return THR_OK;
+  return bad(r, &here, "not one for each edge");
+}
+
+static thr_status read_own_edges(reader *r, const where *up, const thr_json *o)
+{
+  const char *key;
+  const thr_json *edges = MEMBER(o, &key, "edges", "lines"), *lengths, *covers, *capacities;
   where list = {up, key, 0}, length_list = {up, "lengths", 0};
   if (edges && !is_array(edges)) return bad(r, &list, "not a list of node pairs");
-  if (lengths && (!is_array(lengths) || thr_json_size(lengths) != thr_json_size(edges)))
-    return bad(r, &length_list, "not one length for each edge");
+  thr_status listed = edge_list(r, up, o, "lengths", thr_json_size(edges), &lengths);
+  if (!listed) listed = edge_list(r, up, o, "covers", thr_json_size(edges), &covers);
+  if (!listed) listed = edge_list(r, up, o, "capacities", thr_json_size(edges), &capacities);
+  if (listed) return listed;
   for (int e = 0; e < thr_json_size(edges); e++) {
     where here = {&list, NULL, e}, length_here = {&length_list, NULL, e};
     const thr_json *pair = thr_json_at(edges, e);
@@ -241,6 +278,7 @@ static thr_status read_own_edges(reader *r, const where *up, const char *key, co
     }
     if (!st) st = read_length(r, &length_here, thr_json_at(lengths, e), &length);
     if (!st) st = thr_draft_add_edge(r->d, end[0], end[1], length, r->err);
+    if (!st) st = read_passes(r, &here, thr_json_at(covers, e), thr_json_at(capacities, e));
     if (st) return st;
   }
   return THR_OK;
@@ -262,8 +300,8 @@ static thr_status read_feet(reader *r, const where *up, const thr_json *feet)
 
 static thr_status read_own(reader *r, const where *at, const thr_json *o)
 {
-  const char *node_key, *edge_key, *units = thr_json_string(thr_json_get(o, "units"));
-  const thr_json *nodes = MEMBER(o, &node_key, "nodes", "vertices"), *edges = MEMBER(o, &edge_key, "edges", "lines");
+  const char *node_key, *units = thr_json_string(thr_json_get(o, "units"));
+  const thr_json *nodes = MEMBER(o, &node_key, "nodes", "vertices");
   const thr_json *faces = thr_json_get(o, "faces");
   double version;
   where node_list = {at, node_key, 0}, face_list = {at, "faces", 0};
@@ -272,7 +310,7 @@ static thr_status read_own(reader *r, const where *at, const thr_json *o)
   if (!is_array(nodes)) return bad(r, &node_list, "not a list of points [x, y, z]");
   if (units) thr_draft_set_units(r->d, units);
   thr_status st = read_own_nodes(r, &node_list, nodes, thr_json_get(o, "names"));
-  if (!st) st = read_own_edges(r, at, edge_key, edges, thr_json_get(o, "lengths"));
+  if (!st) st = read_own_edges(r, at, o);
   for (int i = 0; i < thr_json_size(faces) && !st; i++) {
     where here = {&face_list, NULL, i};
     st = read_polygon(r, &here, thr_json_at(faces, i));
@@ -540,7 +578,8 @@ static thr_status read_link(reader *r, const where *at, const thr_json *link)
   thr_status st = read_reference(r, &source, thr_json_get(link, "source"), &a);
   if (!st) st = read_reference(r, &target, thr_json_get(link, "target"), &b);
   if (!st) st = read_length(r, &length_here, thr_json_get(link, "length"), &length);
-  return st ? st : thr_draft_add_edge(r->d, a, b, length, r->err);
+  if (!st) st = thr_draft_add_edge(r->d, a, b, length, r->err);
+  return st ? st : read_passes(r, at, thr_json_get(link, "cover"), thr_json_get(link, "capacity"));
 }
 
 static thr_status read_node_link(reader *r, const where *at, const thr_json *o)

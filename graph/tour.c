@@ -23,6 +23,11 @@ static int best_start(const thr_frame *f, const thr_plan_options *o, const int *
   return best;
 }
 
+int thr_tour_start(const thr_frame *f, const thr_plan_options *o, const int *half, int n)
+{
+  return best_start(f, o, half, n, -1);
+}
+
 /* Makes a cord of the circuit through dart start; if the circuit is open, start is its virtual dart back to the cord's
  * first node, and is left out. walk[] is scratch for a whole circuit. */
 static thr_status cut_cord(const thr_frame *f, const thr_plan_options *o, const thr_multigraph *g, const int *mate, int start,

@@ -12,4 +12,7 @@
 thr_status thr_tour_cords(const thr_frame *f, const thr_plan_options *o, const int *component, int n_components,
                           const int *passes, const int (*ends)[2], thr_cord *cord, thr_err *err) THR_MUST_CHECK;
 
+/* The pass from which the closed circuit half[0 .. n-1] had best start as a cord, as above. */
+int thr_tour_start(const thr_frame *f, const thr_plan_options *o, const int *half, int n);
+
 #endif

@@ -29,15 +29,32 @@ double thr_turn_price(const thr_frame *f, thr_turn_cost cost, int in, int out)
   return thr_turn_cost_of(cost, in == (out ^ 1) ? pi : thr_turn_angle(f, in, out));
 }
 
-int thr_turning_most_passes(int cover)
+int thr_turning_cover(const thr_frame *f, int cover, int e)
 {
-  return 4 * cover + 4;
+  const thr_plan_options o = {.cover = cover};
+  return thr_plan_cover(f, &o, e);
+}
+
+double thr_turning_base_length(const thr_frame *f, int cover)
+{
+  double sum = 0;
+  for (int e = 0; e < f->n_edges; e++)
+    sum += thr_turning_cover(f, cover, e) * f->length[e];
+  return sum;
+}
+
+int thr_turning_most_passes(const thr_frame *f, int cover)
+{
+  int most = cover;
+  for (int e = 0; e < f->n_edges; e++)
+    if (thr_turning_cover(f, cover, e) > most) most = thr_turning_cover(f, cover, e);
+  return 4 * most + 4;
 }
 
 double thr_turning_extra_limit(const thr_frame *f, int cover, double length_limit)
 {
   if (length_limit < 0) return -1;
-  return fmax(0, length_limit - cover * thr_frame_total_length(f)) + 1e-11 * length_limit;
+  return fmax(0, length_limit - thr_turning_base_length(f, cover)) + 1e-11 * length_limit;
 }
 
 /* ---- columns ---- */
@@ -58,13 +75,21 @@ int thr_turning_column(const thr_turning_columns *c, int a, int b)
   return c->pair_first[v] + i * (2 * d - i - 1) / 2 + (j - i - 1);
 }
 
+bool thr_turning_open(const thr_turning_columns *c, int component)
+{
+  for (int v = 0; v < c->f->n_nodes; v++)
+    if (c->component[v] == component && c->supply[c->end_group[v]][1] > 0) return true;
+  return false;
+}
+
 int thr_turning_most(const thr_turning_columns *c, int column)
 {
-  const thr_turning_task *t = c->task;
-  if (column < c->first_extra) return t->most_passes;
-  if (column < c->first_end) return t->most_passes - t->cover;
-  if (column < c->first_back) return t->cords > t->most_passes / 2 ? t->most_passes : 2 * t->cords;
-  return t->most_passes / 2;
+  int a = c->half[column][0] >> 1, b = c->half[column][1] >> 1; /* edges; b < 0 of an end */
+  if (column < c->first_extra) return c->most[a] < c->most[b] ? c->most[a] : c->most[b];
+  if (column < c->first_end) return c->most[a] - c->cover[a];
+  if (column >= c->first_back) return c->most[a] / 2;
+  int ends = c->supply[c->end_group[thr_tail(c->f, c->half[column][0])]][1];
+  return ends < c->most[a] ? ends : c->most[a];
 }
 
 static void set_column(thr_turning_columns *c, int column, int a, int b, double price)
@@ -83,13 +108,14 @@ static void fill_columns(thr_turning_columns *c)
     for (int i = f->first[v]; i < f->first[v + 1]; i++) {
       int a = f->half[i];
       for (int j = i + 1; j < f->first[v + 1]; j++)
-        set_column(c, thr_turning_column(c, a, f->half[j]), a, f->half[j], thr_turn_price(f, t->cost, a ^ 1, f->half[j]));
+        set_column(c, thr_turning_column(c, a, f->half[j]), a, f->half[j],
+                   t->free_turns ? 0 : thr_turn_price(f, t->cost, a ^ 1, f->half[j]));
       c->end_column[a] = -1;
       if (t->end_allowed && t->end_allowed[v]) {
         c->end_column[a] = end;
         set_column(c, end++, a, -1, 0);
       }
-      if (thr_degree(f, v) == 1) set_column(c, back++, a, a, thr_turn_cost_of(t->cost, pi));
+      if (thr_degree(f, v) == 1 && !t->tube) set_column(c, back++, a, a, thr_turn_cost_of(t->cost, pi));
     }
   for (int e = 0; e < f->n_edges; e++)
     set_column(c, c->first_extra + e, 2 * e, 2 * e + 1, t->price_per_length * f->length[e]);
@@ -120,7 +146,7 @@ static thr_status count_columns(thr_turning_columns *c, thr_err *err)
       return thr_fail(err, THR_EINPUT, "more than %d possible turns at the nodes; node %s alone has %d edges", INT_MAX / 8,
                       f->name[v], d);
     ends += c->task->end_allowed && c->task->end_allowed[v] ? d : 0;
-    backs += d == 1;
+    backs += d == 1 && !c->task->tube;
     for (int i = 0; i < d; i++)
       c->position[f->half[f->first[v] + i]] = i;
   }
@@ -137,8 +163,39 @@ static thr_status check_task(const thr_turning_task *t, thr_err *err)
     return thr_fail(err, THR_EINPUT,
                     "cover %d, at most %d passes, %d cords: need 1 <= cover <= passes <= 1000000, 1 <= cords <= 1000000",
                     t->cover, t->most_passes, t->cords);
+  if (t->cords_least < 0 || t->cords_least > t->cords || t->capacity < 0)
+    return thr_fail(err, THR_EINPUT, "at least %d cords of at most %d, %d passes at most", t->cords_least, t->cords, t->capacity);
   if (!(t->price_per_length >= 0) || !isfinite(t->price_per_length) || !(t->extra_limit < INFINITY))
     return thr_fail(err, THR_EINPUT, "the price per length must be 0 or more, and finite");
+  return THR_OK;
+}
+
+/* Passes of every edge, and ends of every equation. */
+static thr_status fill_limits(thr_turning_columns *c, thr_err *err)
+{
+  const thr_frame *f = c->f;
+  const thr_turning_task *t = c->task;
+  const thr_plan_options o = {.cover = t->cover, .capacity = t->capacity};
+  c->n_ends = t->end_count ? f->n_nodes : c->n_components;
+  c->supply = thr_calloc((size_t)c->n_ends, sizeof *c->supply);
+  if (!c->supply) return thr_nomem(err);
+  for (int e = 0; e < f->n_edges; e++) {
+    int capacity = thr_plan_capacity(f, &o, e);
+    c->cover[e] = thr_plan_cover(f, &o, e);
+    c->most[e] = capacity < t->most_passes ? capacity : t->most_passes;
+    if (c->cover[e] > c->most[e])
+      return thr_fail(err, capacity < c->cover[e] ? THR_EINFEASIBLE : THR_EINPUT,
+                      "edge %s-%s needs %d passes, but has room for %d", f->name[f->edge[e][0]], f->name[f->edge[e][1]],
+                      c->cover[e], c->most[e]);
+  }
+  for (int v = 0; v < f->n_nodes; v++) {
+    c->end_group[v] = t->end_count ? v : c->component[v];
+    if (t->end_count) c->supply[v][0] = c->supply[v][1] = t->end_count[v];
+  }
+  for (int k = 0; k < c->n_ends && t->end_allowed && !t->end_count; k++) {
+    c->supply[k][0] = 2 * (t->cords_least ? t->cords_least : t->cords);
+    c->supply[k][1] = 2 * t->cords;
+  }
   return THR_OK;
 }
 
@@ -152,9 +209,15 @@ thr_status thr_turning_columns_init(thr_turning_columns *c, const thr_frame *f, 
   c->pair_first = thr_calloc(n, sizeof *c->pair_first);
   c->position = thr_calloc(2 * m, sizeof *c->position);
   c->end_column = thr_calloc(2 * m, sizeof *c->end_column);
+  c->end_group = thr_calloc(n, sizeof *c->end_group);
+  c->cover = thr_calloc(m, sizeof *c->cover);
+  c->most = thr_calloc(m, sizeof *c->most);
   c->length = thr_calloc(m, sizeof *c->length);
-  st = c->component && c->pair_first && c->position && c->end_column && c->length ? THR_OK : thr_nomem(err);
+  st = c->component && c->pair_first && c->position && c->end_column && c->end_group && c->cover && c->most && c->length
+           ? THR_OK
+           : thr_nomem(err);
   if (!st) st = thr_frame_components(f, c->component, &c->n_components, err);
+  if (!st) st = fill_limits(c, err);
   if (!st) st = count_columns(c, err);
   if (!st) {
     c->half = thr_calloc((size_t)c->n_columns, sizeof *c->half);
@@ -179,6 +242,10 @@ void thr_turning_columns_destroy(thr_turning_columns *c)
   free(c->pair_first);
   free(c->position);
   free(c->end_column);
+  free(c->end_group);
+  free(c->cover);
+  free(c->most);
+  free(c->supply);
   free(c->half);
   free(c->weight);
   free(c->length);

@@ -28,12 +28,25 @@ static void put_sets(thr_text *t, const char *key, const thr_turning_set *set, i
   thr_text_append(t, "]");
 }
 
-static void put_dual(thr_text *t, const thr_turning_dual *d, const thr_frame *f, int n_components)
+static void put_junctions(thr_text *t, const thr_turning_dual *d, const thr_frame *f)
+{
+  thr_text_append(t, ",\n     \"junctions\": [");
+  for (int i = 0; i < d->n_junctions; i++) {
+    const thr_turning_junction *p = &d->junction[i];
+    thr_text_printf(t, "%s      {\"value\": %" PRId64 ", \"node\": %d, \"blocks\": [", i ? ",\n" : "\n", p->value, p->node);
+    for (int k = 0; k < thr_degree(f, p->node); k++)
+      thr_text_printf(t, k ? ",%d" : "%d", p->block[k]);
+    thr_text_append(t, "]}");
+  }
+  thr_text_append(t, "]");
+}
+
+static void put_dual(thr_text *t, const thr_turning_dual *d, const thr_frame *f, int n_ends)
 {
   thr_text_append(t, "{\"potentials\": ");
   put_multipliers(t, d->potential, 2 * f->n_edges);
   thr_text_append(t, ",\n     \"ends\": ");
-  put_multipliers(t, d->ends, n_components);
+  put_multipliers(t, d->ends, n_ends);
   thr_text_printf(t, ", \"length\": %" PRId64, d->length);
   put_sets(t, "odd_sets", d->odd, d->n_odd);
   put_sets(t, "groups", d->group, d->n_groups);
@@ -44,7 +57,9 @@ static void put_dual(thr_text *t, const thr_turning_dual *d, const thr_frame *f,
       thr_text_printf(t, e ? ",%d" : "%d", d->partition[i].block[e]);
     thr_text_append(t, "]}");
   }
-  thr_text_append(t, "]}");
+  thr_text_append(t, "]");
+  if (d->n_junctions) put_junctions(t, d, f);
+  thr_text_append(t, "}");
 }
 
 void thr_turning_proof_write(const thr_turning_proof *p, const thr_frame *f, thr_text *t)
@@ -62,7 +77,7 @@ void thr_turning_proof_write(const thr_turning_proof *p, const thr_frame *f, thr
   thr_text_append(t, "],\n   \"multipliers\": [");
   for (int i = 0; i < p->n_duals; i++) {
     thr_text_append(t, i ? ",\n    " : "\n    ");
-    put_dual(t, &p->dual[i], f, p->n_components);
+    put_dual(t, &p->dual[i], f, p->n_ends);
   }
   thr_text_append(t, "]}");
 }
@@ -72,7 +87,7 @@ void thr_turning_proof_write(const thr_turning_proof *p, const thr_frame *f, thr
 typedef struct {
   const char *place;
   const thr_frame *f;
-  int n_components;
+  int n_ends;
   thr_err *err;
 } reader;
 
@@ -178,17 +193,56 @@ static thr_status read_partitions(const reader *r, const thr_json *o, thr_turnin
   return st;
 }
 
+static thr_status read_junction(const reader *r, const thr_json *v, thr_turning_junction *p)
+{
+  static const char *const known[] = {"value", "node", "blocks", NULL};
+  const thr_json *list = NULL;
+  int64_t node = 0;
+  thr_status st = only_members(r, v, known);
+  if (!st) st = get_int(r, thr_json_get(v, "value"), "value", 0, INT64_MAX, &p->value);
+  if (!st) st = get_int(r, thr_json_get(v, "node"), "node", 0, r->f->n_nodes - 1, &node);
+  if (!st) st = get_array(r, v, "blocks", &list);
+  if (st) return st;
+  p->node = (int)node;
+  int d = thr_degree(r->f, p->node);
+  if (thr_json_size(list) != d) return bad(r, "blocks", "not one per edge of the node");
+  if (!(p->block = thr_calloc((size_t)d, sizeof *p->block))) return thr_nomem(r->err);
+  for (int k = 0; k < d && !st; k++) {
+    int64_t block = 0;
+    st = get_int(r, thr_json_at(list, k), "blocks", 0, d - 1, &block);
+    p->block[k] = (int)block;
+  }
+  return st;
+}
+
+/* Plans with tube joints only. */
+static thr_status read_junctions(const reader *r, const thr_json *o, thr_turning_dual *d)
+{
+  const thr_json *list;
+  if (!thr_json_get(o, "junctions")) return THR_OK;
+  thr_status st = get_array(r, o, "junctions", &list);
+  if (st) return st;
+  int n = thr_json_size(list);
+  if (!(d->junction = thr_calloc((size_t)n, sizeof *d->junction))) return thr_nomem(r->err);
+  d->n_junctions = n;
+  for (int i = 0; i < n && !st; i++)
+    st = read_junction(r, thr_json_at(list, i), &d->junction[i]);
+  return st;
+}
+
 static thr_status read_dual(const reader *r, const thr_json *v, thr_turning_dual *d)
 {
-  static const char *const known[] = {"potentials", "ends", "length", "odd_sets", "groups", "partitions", NULL};
+  static const char *const known[] = {"potentials", "ends", "length", "odd_sets", "groups", "partitions", "junctions", NULL},
+                           *const solid[] = {"potentials", "ends", "length", "odd_sets", "groups", "partitions", NULL};
   int m = r->f->n_edges;
-  thr_status st = only_members(r, v, known);
+  thr_status st = only_members(r, v, thr_json_get(v, "junctions") ? known : solid);
   if (!st) st = read_multipliers(r, v, "potentials", 2 * m, &d->potential);
-  if (!st) st = read_multipliers(r, v, "ends", r->n_components, &d->ends);
+  if (!st) st = read_multipliers(r, v, "ends", r->n_ends, &d->ends);
   if (!st) st = get_int(r, thr_json_get(v, "length"), "length", 0, INT64_MAX, &d->length);
-  if (!st) st = read_sets(r, v, "odd_sets", 2 * m + r->n_components, &d->n_odd, &d->odd);
+  if (!st) st = read_sets(r, v, "odd_sets", 2 * m + r->n_ends, &d->n_odd, &d->odd);
   if (!st) st = read_sets(r, v, "groups", m, &d->n_groups, &d->group);
   if (!st) st = read_partitions(r, v, d);
+  if (!st) st = read_junctions(r, v, d);
   return st;
 }
 
@@ -222,7 +276,7 @@ thr_status thr_turning_proof_from_json(thr_turning_proof *p, const thr_frame *f,
   if (!st) st = get_array(&r, v, "multipliers", &duals);
   if (st) return st;
   int n_nodes = thr_json_size(tree), n_duals = thr_json_size(duals);
-  p->n_components = r.n_components = thr_json_size(thr_json_get(thr_json_at(duals, 0), "ends"));
+  p->n_ends = r.n_ends = thr_json_size(thr_json_get(thr_json_at(duals, 0), "ends"));
   p->node = thr_calloc((size_t)n_nodes, sizeof *p->node);
   p->dual = thr_calloc((size_t)n_duals, sizeof *p->dual);
   st = p->node && p->dual ? THR_OK : thr_nomem(err);

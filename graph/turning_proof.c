@@ -26,6 +26,9 @@ void thr_turning_dual_destroy(thr_turning_dual *d)
   for (int i = 0; d->partition && i < d->n_partitions; i++)
     free(d->partition[i].block);
   free(d->partition);
+  for (int i = 0; d->junction && i < d->n_junctions; i++)
+    free(d->junction[i].block);
+  free(d->junction);
   *d = (thr_turning_dual){0};
 }
 
@@ -44,7 +47,7 @@ typedef struct {
   const thr_turning_columns *c;
   const thr_turning_dual *d;
   wide *reduced; /* [n_columns] price less what the multipliers take */
-  bool *member;  /* [2 * n_edges + n_components] all false between sets */
+  bool *member;  /* [2 * n_edges + n_ends] all false between sets */
   wide constant;
 } leaf;
 
@@ -67,13 +70,13 @@ static void take_potentials(leaf *k)
     int a = c->half[j][0], b = c->half[j][1];
     wide sum = k->d->potential[a];
     if (b >= 0) sum += k->d->potential[b];
-    if (j >= c->first_end && j < c->first_back) sum += k->d->ends[c->component[thr_tail(c->f, a)]];
+    if (j >= c->first_end && j < c->first_back) sum += k->d->ends[c->end_group[thr_tail(c->f, a)]];
     k->reduced[j] = (wide)c->weight[j] + (j >= c->first_extra && j < c->first_end ? sum : -sum);
   }
   for (int h = 0; h < 2 * c->f->n_edges; h++)
-    k->constant += (wide)c->task->cover * k->d->potential[h];
-  for (int i = 0; c->task->end_allowed && i < c->n_components; i++)
-    k->constant += 2 * (wide)c->task->cords * k->d->ends[i];
+    k->constant += (wide)c->cover[h >> 1] * k->d->potential[h];
+  for (int i = 0; i < c->n_ends; i++)
+    k->constant += (wide)c->supply[i][k->d->ends[i] < 0] * k->d->ends[i];
 }
 
 /* Takes value off the turns at half-edge h that leave the marked set. */
@@ -95,12 +98,12 @@ static void take_odd(leaf *k, const thr_turning_set *s)
     int h = s->member[j];
     if (h >= darts) {
       for (int e = c->first_end; e < c->first_back; e++)
-        if (c->component[thr_tail(c->f, c->half[e][0])] == h - darts && !k->member[c->half[e][0]]) k->reduced[e] -= s->value;
+        if (c->end_group[thr_tail(c->f, c->half[e][0])] == h - darts && !k->member[c->half[e][0]]) k->reduced[e] -= s->value;
       continue;
     }
     take_turns(k, h, false, s->value);
     if (!k->member[h ^ 1]) k->reduced[c->first_extra + (h >> 1)] -= s->value;
-    if (c->end_column[h] >= 0 && !k->member[darts + c->component[thr_tail(c->f, h)]]) k->reduced[c->end_column[h]] -= s->value;
+    if (c->end_column[h] >= 0 && !k->member[darts + c->end_group[thr_tail(c->f, h)]]) k->reduced[c->end_column[h]] -= s->value;
   }
   k->constant += s->value;
 }
@@ -109,10 +112,10 @@ static thr_status run_odd(leaf *k, int i, thr_err *err)
 {
   const thr_turning_set *s = &k->d->odd[i];
   int darts = 2 * k->c->f->n_edges, sum = 0;
-  thr_status st = check_set("odd set", i, s, darts + k->c->n_components, err);
+  thr_status st = check_set("odd set", i, s, darts + k->c->n_ends, err);
   if (st) return st;
   for (int j = 0; j < s->n; j++)
-    sum += s->member[j] < darts ? k->c->task->cover % 2 : 0;
+    sum += s->member[j] < darts ? k->c->cover[s->member[j] >> 1] % 2 : k->c->supply[s->member[j] - darts][0] % 2;
   if (sum % 2 == 0) return thr_fail(err, THR_EVIOLATED, "turning proof: odd set %d: the passes and ends in it may be even", i);
   for (int j = 0; j < s->n; j++)
     k->member[s->member[j]] = true;
@@ -126,7 +129,7 @@ static thr_status run_odd(leaf *k, int i, thr_err *err)
 static thr_status check_group(const leaf *k, int i, const thr_turning_set *s, thr_err *err)
 {
   const thr_turning_columns *c = k->c;
-  if (c->task->end_allowed) return THR_OK; /* a cord through the group has two ends */
+  if (thr_turning_open(c, c->component[c->f->edge[s->member[0]][0]])) return THR_OK; /* a cord through it has two ends */
   if (c->task->cords > 1) return thr_fail(err, THR_EVIOLATED, "turning proof: group %d: several closed cords need not meet", i);
   int own = c->component[c->f->edge[s->member[0]][0]], edges = 0;
   for (int j = 0; j < s->n; j++)
@@ -165,16 +168,16 @@ int thr_turning_blocks_at(const thr_turning_columns *c, const int *block, int v,
   int d = thr_degree(f, v), blocks = 0;
   if (odd) *odd = 0;
   for (int i = 0; i < d; i++) {
-    int same = 0, first = i;
+    int first = i, passes = 0;
     for (int k = 0; k < d; k++) {
       if (block[half[k] >> 1] != block[half[i] >> 1]) continue;
-      same++;
+      passes += c->cover[half[k] >> 1] % 2;
       if (k < first) first = k;
     }
-    if (even) even[i] = c->task->cover % 2 == 0 || same % 2 == 0;
+    if (even) even[i] = passes % 2 == 0;
     if (first < i) continue;
     blocks++;
-    if (odd) *odd += c->task->cover % 2 && same % 2;
+    if (odd) *odd += passes % 2;
   }
   return blocks;
 }
@@ -244,6 +247,36 @@ static thr_status run_partition(leaf *k, int i, thr_err *err)
   return st;
 }
 
+static thr_status run_junction(leaf *k, int i, thr_err *err)
+{
+  const thr_turning_columns *c = k->c;
+  const thr_frame *f = c->f;
+  const thr_turning_junction *p = &k->d->junction[i];
+  if (p->value < 0) return thr_fail(err, THR_EVIOLATED, "turning proof: junction %d: multiplier is negative", i);
+  if (!c->task->tube) return thr_fail(err, THR_EVIOLATED, "turning proof: junction %d: only tube joints are tied", i);
+  if (p->node < 0 || p->node >= f->n_nodes)
+    return thr_fail(err, THR_EVIOLATED, "turning proof: junction %d: no node %d", i, p->node);
+  const int *half = f->half + f->first[p->node];
+  int d = thr_degree(f, p->node), blocks = 0, used = 0;
+  bool *seen = thr_calloc((size_t)d, sizeof *seen), ok = true;
+  if (!seen) return thr_nomem(err);
+  for (int a = 0; a < d && ok; a++) {
+    int b = p->block[a];
+    ok = b >= 0 && b < d;
+    if (!ok) break;
+    used += !seen[b];
+    seen[b] = true;
+    if (b >= blocks) blocks = b + 1;
+  }
+  free(seen);
+  if (!ok || used < blocks) return thr_fail(err, THR_EVIOLATED, "turning proof: junction %d: bad block numbers", i);
+  for (int a = 0; a < d; a++)
+    for (int b = a + 1; b < d; b++)
+      if (p->block[a] != p->block[b]) k->reduced[thr_turning_column(c, half[a], half[b])] -= p->value;
+  k->constant += (wide)p->value * (blocks - 1);
+  return THR_OK;
+}
+
 /* n / 2^THR_LENGTH_BITS, rounded down. */
 static wide shifted_down(wide n)
 {
@@ -276,7 +309,7 @@ static thr_status check_sizes(const thr_turning_columns *c, const thr_turning_du
   wide sets = 0;
   for (int h = 0; h < 2 * c->f->n_edges; h++)
     ok &= d->potential[h] >= -most && d->potential[h] <= most;
-  for (int i = 0; i < c->n_components; i++)
+  for (int i = 0; i < c->n_ends; i++)
     ok &= d->ends[i] >= -most && d->ends[i] <= most;
   for (int i = 0; i < d->n_odd; i++)
     sets += d->odd[i].value;
@@ -284,6 +317,8 @@ static thr_status check_sizes(const thr_turning_columns *c, const thr_turning_du
     sets += d->group[i].value;
   for (int i = 0; i < d->n_partitions; i++)
     sets += d->partition[i].value;
+  for (int i = 0; i < d->n_junctions; i++)
+    sets += d->junction[i].value;
   if (ok && sets <= 8 * (wide)most) return THR_OK;
   return thr_fail(err, THR_EVIOLATED, "turning proof: a multiplier is too large, or that of the length negative");
 }
@@ -294,7 +329,7 @@ thr_status thr_turning_dual_bound(const thr_turning_columns *c, const thr_turnin
   leaf k = {.c = c, .d = d};
   *bound = INT64_MIN;
   k.reduced = thr_calloc((size_t)c->n_columns, sizeof *k.reduced);
-  k.member = thr_calloc(2 * (size_t)c->f->n_edges + (size_t)c->n_components, sizeof *k.member);
+  k.member = thr_calloc(2 * (size_t)c->f->n_edges + (size_t)c->n_ends, sizeof *k.member);
   thr_status st = k.reduced && k.member ? THR_OK : thr_nomem(err);
   if (!st) st = check_sizes(c, d, err);
   if (!st) take_potentials(&k);
@@ -304,6 +339,8 @@ thr_status thr_turning_dual_bound(const thr_turning_columns *c, const thr_turnin
     st = run_group(&k, i, err);
   for (int i = 0; i < d->n_partitions && !st; i++)
     st = run_partition(&k, i, err);
+  for (int i = 0; i < d->n_junctions && !st; i++)
+    st = run_junction(&k, i, err);
   if (!st) *bound = least_over_box(&k, low, high);
   free(k.reduced);
   free(k.member);
@@ -369,9 +406,8 @@ static void walk_up(const thr_turning_columns *c, const thr_turning_proof *p, co
 
 static thr_status check_dual_shape(const thr_turning_columns *c, const thr_turning_proof *p, thr_err *err)
 {
-  if (p->n_components != c->n_components)
-    return thr_fail(err, THR_EVIOLATED, "turning proof: multipliers for the ends of %d components; the framework has %d",
-                    p->n_components, c->n_components);
+  if (p->n_ends != c->n_ends)
+    return thr_fail(err, THR_EVIOLATED, "turning proof: multipliers for %d sums of ends, but there are %d", p->n_ends, c->n_ends);
   if (p->n_nodes < 1) return thr_fail(err, THR_EVIOLATED, "turning proof: no tree");
   for (int i = 0; i < p->n_duals; i++)
     if (!p->dual[i].potential || !p->dual[i].ends) return thr_fail(err, THR_EVIOLATED, "turning proof: no multipliers");

@@ -7,19 +7,20 @@
  *   end    h      cord ends that arrive at h's node over h's edge                                  cost: none
  *   back   h      U-turns at a node with one edge (nowhere else are they allowed)                  cost: the price of a U-turn
  * with, for each half-edge h:  sum of turns at h + 2 back(h) + end(h) = cover + extra(h/2),  and sum of ends = 2 cords in every
- * component (none if the cords are closed). Whatever multipliers one puts on such equations, and on inequalities that hold for
- * every plan, the least value of  cost x + multipliers (right side - left side)  over the box of the columns' limits is a lower
- * bound: no condition on the multipliers but their sign. The inequalities are
- *   odd set U of half-edges, cover * |U| odd: at least one turn, extra pass or end leaves it. U may hold the ends of a component;
- *   group S of edges, connected to the rest: turns that leave S + ends in S >= 2 (one closed cord per component, or open cords;
- * not several closed cords, of which one may be all that is in S);
- *   partition of the edges into blocks (closed cords, any number): at a node where b blocks meet, t turns between blocks
- * connect at most (b - 1) / b * (t + half the number of blocks with an odd number of passes there) of them, because a block with
- * an even number has 2 turns to others or none. Passes of a block with an even number of edges at the node (times cover) are odd
- * only if it has an extra pass there. A closed cord connects all blocks that it passes, and the cords of a component pass all of
- * its blocks, so with k cords the blocks of a component fall into at most k connected parts: the sum over all nodes is at least
- * the sum over the components of max(0, blocks - k);
+ * component (none if the cords are closed), or from 2 cords_least to 2 cords, or at every node as many as are asked for. Whatever
+ * multipliers one puts on such equations, and on inequalities that hold for every plan, the least value of  cost x + multipliers
+ * (right side - left side)  over the box of the columns' limits is a lower bound: no condition on the multipliers but their sign.
+ * The inequalities are odd set U of half-edges, cover * |U| odd: at least one turn, extra pass or end leaves it. U may hold the
+ * ends of a component; group S of edges, connected to the rest: turns that leave S + ends in S >= 2 (one closed cord per
+ * component, or open cords; not several closed cords, of which one may be all that is in S); partition of the edges into blocks
+ * (closed cords, any number): at a node where b blocks meet, t turns between blocks connect at most (b - 1) / b * (t + half the
+ * number of blocks with an odd number of passes there) of them, because a block with an even number has 2 turns to others or
+ * none. Passes of a block with an even number of edges at the node (times cover) are odd only if it has an extra pass there. A
+ * closed cord connects all blocks that it passes, and the cords of a component pass all of its blocks, so with k cords the blocks
+ * of a component fall into at most k connected parts: the sum over all nodes is at least the sum over the components of max(0,
+ * blocks - k); junction (tube joints only): the edges at a node in b blocks: at least b - 1 turns go between different blocks;
  *   the limit on the extra length.
+ * With tube joints nothing turns back, and nothing but the passes need cost: then this is the proof of least length.
  * A tree of bounds on single columns turns this into an exact method: the proved bound is the least over its leaves. */
 #ifndef THR_TURNING_PROOF_H
 #define THR_TURNING_PROOF_H
@@ -43,17 +44,28 @@ double thr_turn_price(const thr_frame *f, thr_turn_cost cost, int in, int out);
 
 /* What the least turning is asked among. */
 typedef struct {
-  int cover;               /* passes of every edge at least, >= 1 */
-  int most_passes;         /* of any edge, >= cover */
+  int cover;               /* passes of every edge at least, >= 1; the framework may ask for more */
+  int capacity;            /* of any edge, 0 = no limit; the framework may allow fewer */
+  int most_passes;         /* of any edge, >= every cover: what the search, and the proof, is restricted to */
   int cords;               /* in every component, >= 1 */
+  int cords_least;         /* open cords only: at least so many; 0 = exactly cords */
   const bool *end_allowed; /* [n_nodes] borrowed; NULL = closed cords */
+  const int *end_count;    /* [n_nodes] borrowed; exactly so many ends at every node, end_allowed where not 0; NULL = not said */
+  bool tube;               /* tube joints: the turns tie the edges at every node (graph/junction.h), none goes back */
+  bool free_turns;         /* turns cost nothing: price_per_length alone counts */
   thr_turn_cost cost;
   double price_per_length; /* of extra cord, in the turns' price per unit of length, >= 0 */
   double extra_limit;      /* of all extra cord, in units of length; < 0 = none */
 } thr_turning_task;
 
-/* Passes over any edge up to which the least turning is looked for, and proved: 4 * cover + 4. */
-int thr_turning_most_passes(int cover);
+/* Passes of edge e at least, when every edge has cover: the framework may ask for more. */
+int thr_turning_cover(const thr_frame *f, int cover, int e);
+
+/* The length of all passes that must be. */
+double thr_turning_base_length(const thr_frame *f, int cover);
+
+/* Passes over any edge up to which the least turning is looked for, and proved: 4 * the largest cover + 4. */
+int thr_turning_most_passes(const thr_frame *f, int cover);
 
 /* extra_limit for a limit on the length of all cords (< 0 = none): a little more than the difference, so that no rounding shuts
  * out a plan of just that length. */
@@ -64,9 +76,14 @@ typedef struct {
   const thr_frame *f;
   const thr_turning_task *task;
   int n_components;
-  int *component;  /* [n_nodes] */
-  int *pair_first; /* [n_nodes] column of the first turn at a node */
-  int *position;   /* [2 * n_edges] of a half-edge among those of its node */
+  int *component;   /* [n_nodes] */
+  int *cover;       /* [n_edges] passes at least */
+  int *most;        /* [n_edges] and at most, >= cover */
+  int n_ends;       /* equations of the ends: one per component, or per node if they are counted there */
+  int *end_group;   /* [n_nodes] the one that a node's ends are in */
+  int (*supply)[2]; /* [n_ends] their least and largest number, both even or equal; 0, 0 for closed cords */
+  int *pair_first;  /* [n_nodes] column of the first turn at a node */
+  int *position;    /* [2 * n_edges] of a half-edge among those of its node */
   int first_extra, first_end, first_back, n_columns;
   int (*half)[2];      /* [n_columns] turn: a, b; extra: both half-edges; end: h, -1; back: h, h */
   int *end_column;     /* [2 * n_edges] or -1 */
@@ -85,15 +102,25 @@ void thr_turning_columns_destroy(thr_turning_columns *c);
 /* Column of the turn between two half-edges that leave one node (a != b). */
 int thr_turning_column(const thr_turning_columns *c, int a, int b);
 
+/* Has a component cord ends? O(nodes). */
+bool thr_turning_open(const thr_turning_columns *c, int component);
+
 /* Largest value that a column takes in any plan. */
 int thr_turning_most(const thr_turning_columns *c, int column);
 
 /* A set with its multiplier, in units of 2^-THR_TURNING_BITS. */
 typedef struct {
   int n;
-  int *member;   /* ascending; owned. Odd sets: half-edges, and 2 * n_edges + k for the ends of component k. Groups: edges */
+  int *member;   /* ascending; owned. Odd sets: half-edges, and 2 * n_edges + k for the ends of equation k. Groups: edges */
   int64_t value; /* >= 0 */
 } thr_turning_set;
+
+/* Blocks of the edges at a node, with the multiplier of their junction. */
+typedef struct {
+  int node;
+  int *block; /* [degree] of the node's half-edges in their order: 0 .. blocks - 1, each in use; owned */
+  int64_t value;
+} thr_turning_junction;
 
 /* A partition with its multiplier. */
 typedef struct {
@@ -113,12 +140,13 @@ int thr_turning_connections(const thr_turning_columns *c, const int *block, int 
 /* Multipliers at a leaf; units of 2^-THR_TURNING_BITS. All arrays are owned. */
 typedef struct {
   int64_t *potential; /* [2 * n_edges] of the half-edges' equations, any sign */
-  int64_t *ends;      /* [n_components] of the equations of the cord ends, any sign */
+  int64_t *ends;      /* [n_ends] of the equations of the cord ends, any sign */
   int64_t
       length; /* of the limit on the extra length, >= 0; per unit of length of the columns' lengths, times 2^THR_LENGTH_BITS */
-  int n_odd, n_groups, n_partitions;
+  int n_odd, n_groups, n_partitions, n_junctions;
   thr_turning_set *odd, *group;
   thr_turning_partition *partition;
+  thr_turning_junction *junction;
 } thr_turning_dual;
 
 void thr_turning_dual_destroy(thr_turning_dual *d);
@@ -132,9 +160,9 @@ typedef struct {
 } thr_turning_node;
 
 typedef struct {
-  int n_nodes, n_duals, n_components;
+  int n_nodes, n_duals, n_ends;
   thr_turning_node *node; /* owned; node[0] is the root */
-  thr_turning_dual *dual; /* owned; ends [n_components] */
+  thr_turning_dual *dual; /* owned; ends [n_ends] */
 } thr_turning_proof;
 
 void thr_turning_proof_destroy(thr_turning_proof *p);

@@ -30,6 +30,15 @@ static void write_feet(const thr_frame *f, int base, const char *separator, thr_
   }
 }
 
+static void write_passes(const char *key, const int *passes, int n, thr_text *out)
+{
+  for (int e = 0; passes && e < n; e++) {
+    if (e == 0) thr_text_printf(out, ",\n\"%s\": [", key);
+    thr_text_printf(out, e ? ", %d" : "%d", passes[e]);
+    if (e + 1 == n) thr_text_append(out, "]");
+  }
+}
+
 static void write_json(const thr_frame *f, thr_text *out)
 {
   thr_text_append(out, "{\n\"format\": \"thread-frame\",\n\"version\": 1,\n\"units\": ");
@@ -49,6 +58,8 @@ static void write_json(const thr_frame *f, thr_text *out)
     thr_text_double(out, f->length[e]);
     if (e + 1 == f->n_edges) thr_text_append(out, "\n]");
   }
+  write_passes("covers", f->cover, f->n_edges, out);
+  write_passes("capacities", f->capacity, f->n_edges, out);
   if (has_feet(f)) {
     thr_text_append(out, ",\n\"feet\": [");
     write_feet(f, 0, ", ", out);
@@ -65,9 +76,12 @@ static void write_json(const thr_frame *f, thr_text *out)
   thr_text_append(out, "\n}\n");
 }
 
-static void write_obj(const thr_frame *f, thr_text *out)
+void thr_obj_write_nodes(const thr_frame *f, thr_text *out)
 {
-  thr_text_printf(out, "# thread framework: %d nodes, %d edges\n# units: %s\n", f->n_nodes, f->n_edges, f->units);
+  thr_text_append(out, "# units: ");
+  for (const char *c = f->units; *c; c++) /* a line break would end the comment */
+    thr_text_append_bytes(out, (unsigned char)*c < 32 ? " " : c, 1);
+  thr_text_append(out, "\n");
   if (has_feet(f)) {
     thr_text_append(out, "# feet: ");
     write_feet(f, 1, " ", out);
@@ -78,13 +92,20 @@ static void write_obj(const thr_frame *f, thr_text *out)
     write_point(f->xyz[v], " ", out);
     thr_text_append(out, "\n");
   }
+}
+
+static void write_obj(const thr_frame *f, thr_text *out)
+{
+  thr_text_printf(out, "# thread framework: %d nodes, %d edges\n", f->n_nodes, f->n_edges);
+  thr_obj_write_nodes(f, out);
   for (int e = 0; e < f->n_edges; e++) /* Blender reads a longer l as one edge */
     thr_text_printf(out, "l %d %d\n", f->edge[e][0] + 1, f->edge[e][1] + 1);
 }
 
 static void write_csv(const thr_frame *f, thr_text *out)
 {
-  thr_text_printf(out, "x1,y1,z1,x2,y2,z2%s\n", f->own_lengths ? ",length" : "");
+  thr_text_printf(out, "x1,y1,z1,x2,y2,z2%s%s%s\n", f->own_lengths ? ",length" : "", f->cover ? ",cover" : "",
+                  f->capacity ? ",capacity" : "");
   for (int e = 0; e < f->n_edges; e++) {
     write_point(f->xyz[f->edge[e][0]], ",", out);
     thr_text_append(out, ",");
@@ -93,6 +114,9 @@ static void write_csv(const thr_frame *f, thr_text *out)
       thr_text_append(out, ",");
       thr_text_double(out, f->length[e]);
     }
+    if (f->cover) thr_text_printf(out, ",%d", f->cover[e]);
+    if (f->capacity) thr_text_append(out, ",");
+    if (f->capacity && f->capacity[e]) thr_text_printf(out, "%d", f->capacity[e]);
     thr_text_append(out, "\n");
   }
 }

@@ -1,5 +1,7 @@
 /* The search for the price of an end, on T-joins with a hub. */
 #include "lp/endjoin.h"
+#include "graph/disjoint.h"
+#include "lp/cuts.h"
 
 #include <assert.h>
 #include <stdlib.h>
@@ -16,7 +18,9 @@ typedef struct {
 typedef struct {
   const thr_endjoin_problem *p;
   const thr_limits *limits;
-  int hub, n_edges; /* edges of the graph, then one to the hub from every node where ends are allowed */
+  int hub, n_edges;  /* edges of the graph, then one to the hub from every node where ends are allowed */
+  int n_pieces;      /* of the graph without the hub */
+  int *end_of_piece; /* [n_pieces] one of its edges to the hub */
   int (*edge)[2];
   int64_t *weight;
   bool *odd;
@@ -28,8 +32,30 @@ static void search_destroy(search *s)
   free(s->edge);
   free(s->weight);
   free(s->odd);
+  free(s->end_of_piece);
   thr_tjoin_destroy(&s->few.t);
   thr_tjoin_destroy(&s->many.t);
+}
+
+/* In every piece one edge to the hub. */
+static thr_status find_pieces(search *s, thr_err *err)
+{
+  int n = s->p->graph.n_nodes, *parent = thr_calloc((size_t)n, sizeof *parent);
+  bool *seen = thr_calloc((size_t)n, sizeof *seen);
+  s->end_of_piece = thr_calloc((size_t)n, sizeof *s->end_of_piece);
+  thr_status st = parent && seen && s->end_of_piece ? THR_OK : thr_nomem(err);
+  for (int v = 0; v < n && !st; v++)
+    parent[v] = v;
+  for (int e = 0; e < s->p->graph.n_edges && !st; e++)
+    thr_disjoint_join(parent, s->edge[e][0], s->edge[e][1]);
+  for (int e = s->p->graph.n_edges; e < s->n_edges && !st; e++) {
+    int piece = thr_disjoint_find(parent, s->edge[e][0]);
+    if (!seen[piece]) s->end_of_piece[s->n_pieces++] = e;
+    seen[piece] = true;
+  }
+  free(parent);
+  free(seen);
+  return st;
 }
 
 static thr_status search_init(search *s, thr_err *err)
@@ -52,7 +78,7 @@ static thr_status search_init(search *s, thr_err *err)
     s->edge[e][0] = v;
     s->edge[e++][1] = s->hub;
   }
-  return THR_OK;
+  return find_pieces(s, err);
 }
 
 static void weigh(const search *s, point *at)
@@ -72,28 +98,43 @@ static thr_status solve_at(search *s, int64_t price, point *at, thr_err *err)
   for (int e = s->p->graph.n_edges; e < s->n_edges; e++)
     s->weight[e] = price;
   thr_tjoin_problem p = {s->hub + 1, s->n_edges, (const int(*)[2])s->edge, s->weight, s->odd, 0};
-  thr_status st = thr_tjoin_solve(&p, s->limits, &at->t, err);
+  thr_status st = thr_tjoin_shrunk(&p, s->p->engine, s->limits, &at->t, err);
   if (!st || st == THR_ELIMIT) weigh(s, at);
   return st;
 }
 
-/* Without ends, at a price at which none pays. */
-static thr_status solve_closed(search *s, point *at, thr_err *err)
+/* A join with the fewest ends: as if a cord could end in every piece of the graph at its first node for it only. Of a connected
+ * graph it is the lightest closed one. */
+static thr_status solve_fewest(search *s, point *at, thr_err *err)
 {
-  int m = s->p->graph.n_edges;
+  int m = s->p->graph.n_edges, n_pieces = s->n_pieces, (*edge)[2] = thr_calloc((size_t)(m + n_pieces), sizeof *edge);
+  int64_t *weight = thr_calloc((size_t)(m + n_pieces), sizeof *weight);
   *at = (point){.price = 2 * s->p->far, .no_hub = true};
-  thr_tjoin_problem p = {s->hub, m, (const int(*)[2])s->edge, s->weight, s->odd, 0};
-  thr_status st = thr_tjoin_solve(&p, s->limits, &at->t, err);
-  if (st && st != THR_ELIMIT) return st;
-  bool *all = thr_realloc(at->t.in_join, (size_t)s->n_edges, sizeof *all);
-  if (!all) {
-    thr_tjoin_destroy(&at->t);
-    return thr_nomem(err);
+  thr_status st = edge && weight ? THR_OK : thr_nomem(err), limit = THR_OK;
+  if (!st) {
+    memcpy(edge, s->edge, (size_t)m * sizeof *edge);
+    memcpy(weight, s->weight, (size_t)m * sizeof *weight);
+    for (int i = 0; i < n_pieces; i++)
+      memcpy(edge[m + i], s->edge[s->end_of_piece[i]], sizeof *edge);
+    thr_tjoin_problem p = {s->hub + 1, m + n_pieces, (const int(*)[2])edge, weight, s->odd, 0};
+    limit = thr_tjoin_shrunk(&p, s->p->engine, s->limits, &at->t, err);
+    if (limit && limit != THR_ELIMIT) st = limit;
   }
-  memset(all + m, 0, (size_t)(s->n_edges - m) * sizeof *all);
+  free(edge);
+  free(weight);
+  bool *all = st ? NULL : thr_calloc((size_t)s->n_edges, sizeof *all);
+  if (!st && !all) st = thr_nomem(err);
+  if (st) {
+    thr_tjoin_destroy(&at->t);
+    return st;
+  }
+  memcpy(all, at->t.in_join, (size_t)m * sizeof *all);
+  for (int i = 0; i < n_pieces; i++)
+    all[s->end_of_piece[i]] = at->t.in_join[m + i];
+  free(at->t.in_join);
   at->t.in_join = all;
   weigh(s, at);
-  return st;
+  return limit;
 }
 
 static void replace(point *old, point *by)
@@ -240,37 +281,48 @@ static thr_status take_over(search *s, bool *last, thr_err *err)
 
 /* ---- the result ---- */
 
-/* The sets on the side without the hub. */
-static thr_status turn_cuts(const search *s, thr_endjoin *out, thr_err *err)
+/* Sets of the graph alone, and the price that they ask for. */
+static thr_status finish(const thr_endjoin_problem *p, thr_cuts *cuts, thr_endjoin *out, thr_err *err)
 {
-  for (int i = 0; i < out->n_cuts; i++) {
-    thr_cut *c = &out->cut[i];
-    if (c->n_nodes == 0 || c->node[c->n_nodes - 1] != s->hub) continue; /* it would be the last */
-    int *rest = thr_calloc((size_t)s->hub, sizeof *rest), n = 0;
-    if (!rest) return thr_nomem(err);
-    for (int v = 0, k = 0; v < s->hub; v++) {
-      if (c->node[k] == v)
-        k++;
-      else
-        rest[n++] = v;
-    }
-    free(c->node);
-    c->node = rest;
-    c->n_nodes = n;
-  }
-  return THR_OK;
+  int64_t *held = thr_calloc((size_t)cuts->n_nodes, sizeof *held);
+  thr_status st = held ? thr_cuts_avoid_last(cuts, err) : thr_nomem(err);
+  if (!st) st = thr_cuts_nest(cuts, err);
+  if (!st) st = thr_cuts_held(cuts, held, err);
+  for (int v = 0; v < p->graph.n_nodes && !st; v++)
+    if (p->end_allowed[v] && held[v] > out->end_price) out->end_price = held[v];
+  for (int i = 0; i < cuts->n && !st; i++)
+    out->sum += cuts->cut[i].value;
+  free(held);
+  return st;
+}
+
+/* Moves the cuts of t into out, which holds the join already. */
+static thr_status take_cuts(const thr_endjoin_problem *p, int n_nodes, thr_tjoin *t, thr_endjoin *out, thr_err *err)
+{
+  thr_cuts cuts = {t->n_cuts, n_nodes, t->cut};
+  t->cut = NULL;
+  t->n_cuts = 0;
+  thr_status st = finish(p, &cuts, out, err);
+  out->cut = cuts.cut;
+  out->n_cuts = cuts.n;
+  if (st) thr_endjoin_destroy(out);
+  return st;
+}
+
+/* Of a join that is optimal at its price. */
+static thr_status confirm(search *s, const point *at, thr_err *err)
+{
+  for (int e = s->p->graph.n_edges; e < s->n_edges; e++)
+    s->weight[e] = at->price;
+  thr_tjoin_problem p = {s->hub + 1, s->n_edges, (const int(*)[2])s->edge, s->weight, s->odd, 0};
+  return at->no_hub ? THR_OK : thr_tjoin_confirm_soon(&p, &at->t, s->limits, s->p->count, err);
 }
 
 static thr_status take(search *s, point *join, point *proof, thr_endjoin *out, thr_err *err)
 {
-  *out = (thr_endjoin){
-      .in_join = join->t.in_join, .price = proof->price, .n_cuts = proof->t.n_cuts, .cut = proof->t.cut, .sum = proof->t.sum};
+  *out = (thr_endjoin){.in_join = join->t.in_join};
   join->t.in_join = NULL;
-  proof->t.cut = NULL;
-  proof->t.n_cuts = 0;
-  thr_status st = turn_cuts(s, out, err);
-  if (st) thr_endjoin_destroy(out);
-  return st;
+  return take_cuts(s->p, s->hub + 1, &proof->t, out, err);
 }
 
 static double bound(const search *s, const point *at)
@@ -285,6 +337,18 @@ static thr_status take_best(search *s, thr_endjoin *out, thr_err *err)
   return take(s, &s->few, better ? &s->few : &s->many, out, err);
 }
 
+/* Of the joins with the fewest ends the lightest: at a price at which two more never pay. */
+static thr_status solve_few(search *s, thr_err *err)
+{
+  thr_status st = solve_fewest(s, &s->few, err);
+  if (st || s->n_pieces == 1) return st;
+  point at;
+  st = solve_at(s, 2 * s->p->far, &at, err);
+  if (!st) replace(&s->few, &at);
+  thr_tjoin_destroy(&at.t);
+  return st;
+}
+
 static thr_status run(search *s, thr_endjoin *out, thr_err *err)
 {
   thr_err stopped = {0};
@@ -293,29 +357,108 @@ static thr_status run(search *s, thr_endjoin *out, thr_err *err)
   thr_status st = solve_at(s, 0, &s->many, &stopped), limit = st;
   if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", stopped.text);
   if (s->many.n_ends <= s->p->n_ends) {
-    st = take(s, &s->many, &s->many, out, err);
+    st = limit ? THR_OK : confirm(s, &s->many, err);
+    if (!st) st = take(s, &s->many, &s->many, out, err);
     return !st && limit ? thr_fail(err, limit, "%s", stopped.text) : st;
   }
-  st = solve_closed(s, &s->few, &stopped);
+  st = solve_few(s, &stopped);
   if (!st && !limit) st = close_in(s, &same, &stopped);
   if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", stopped.text);
   if (st || limit) {
     st = take_best(s, out, err);
     return st ? st : thr_fail(err, THR_ELIMIT, "%s", stopped.text);
   }
+  bool before = same == &s->many; /* whose join is as it was found */
+  if ((st = confirm(s, before ? &s->many : &s->few, err))) return st;
   if ((st = take_over(s, &last, err))) return st;
-  bool by_many = same ? same == &s->many : last;
+  bool by_many = same ? before : last;
   return take(s, &s->few, by_many ? &s->many : &s->few, out, err);
+}
+
+/* ---- two ends ---- */
+
+/* The cuts of a join with two leaves a and b, the last nodes, as cuts with a hub, both being the same. The leaves are alike, so
+ * every set with only one of them can be had once with each, at half the value; and then {a} and {b} alone at these values load
+ * no edge more. These two need not be kept: as cuts with a price they say nothing. */
+static thr_status join_leaves(thr_cuts *c, thr_err *err)
+{
+  const int a = c->n_nodes - 2, b = a + 1;
+  int *leaves = thr_calloc((size_t)c->n, sizeof *leaves); /* 1 = holds a, 2 = holds b */
+  bool *drop = thr_calloc((size_t)c->n, sizeof *drop);
+  thr_status st = leaves && drop ? THR_OK : thr_nomem(err);
+  for (int i = 0; i < c->n && !st; i++) {
+    const thr_cut *cut = &c->cut[i];
+    for (int j = cut->n_nodes - 1; j >= 0 && cut->node[j] >= a; j--)
+      leaves[i] |= cut->node[j] == a ? 1 : 2;
+    if (cut->parent >= 0) leaves[cut->parent] |= leaves[i];
+    drop[i] = leaves[i] == 1 || leaves[i] == 2;
+  }
+  if (!st) st = thr_cuts_drop(c, drop, err);
+  for (int i = 0; i < c->n && !st; i++) {
+    thr_cut *cut = &c->cut[i];
+    cut->value *= 2;
+    if (cut->n_nodes > 0 && cut->node[cut->n_nodes - 1] == b) cut->n_nodes--;
+  }
+  c->n_nodes = b;
+  free(leaves);
+  free(drop);
+  return st;
+}
+
+/* s has the graph and its hub edges: a copy of these for the other leaf, and one between the two. */
+static thr_status solve_two(search *s, thr_endjoin *out, thr_err *err)
+{
+  const thr_tjoin_problem *g = &s->p->graph;
+  int n = g->n_nodes, m = s->n_edges, all = 2 * m - g->n_edges + 1, (*edge)[2] = thr_calloc((size_t)all, sizeof *edge);
+  int64_t *weight = thr_calloc((size_t)all, sizeof *weight);
+  bool *odd = thr_calloc((size_t)n + 2, sizeof *odd);
+  thr_tjoin t = {0};
+  thr_status st = edge && weight && odd ? THR_OK : thr_nomem(err), limit = THR_OK;
+  if (!st) {
+    memcpy(odd, g->odd, (size_t)n * sizeof *odd);
+    odd[n] = odd[n + 1] = true;
+    for (int e = 0; e < all - 1; e++) {
+      memcpy(edge[e], s->edge[e < m ? e : e - m + g->n_edges], sizeof *edge);
+      edge[e][1] += e >= m;
+      weight[e] = e < g->n_edges ? g->weight[e] : s->p->far;
+    }
+    edge[all - 1][0] = n, edge[all - 1][1] = n + 1;
+    weight[all - 1] = 2 * s->p->far;
+    thr_tjoin_problem p = {n + 2, all, (const int(*)[2])edge, weight, odd, 2};
+    limit = thr_tjoin_shrunk(&p, s->p->engine, s->limits, &t, err);
+    if (limit == THR_ELIMIT) { /* whose quick joins need not respect the leaves */
+      thr_tjoin_destroy(&t);
+      limit = thr_tjoin_solve(&p, s->limits, &t, err);
+    }
+    if (limit && limit != THR_ELIMIT) st = limit;
+    if (!st && !limit) st = thr_tjoin_confirm_soon(&p, &t, s->limits, s->p->count, err);
+  }
+  if (!st) {
+    thr_cuts cuts = {t.n_cuts, n + 2, t.cut};
+    st = join_leaves(&cuts, err);
+    t.n_cuts = cuts.n;
+    *out = (thr_endjoin){.in_join = t.in_join};
+    t.in_join = NULL;
+    if (!st) st = take_cuts(s->p, n + 1, &t, out, err);
+    if (st) thr_endjoin_destroy(out);
+  }
+  thr_tjoin_destroy(&t);
+  free(edge);
+  free(weight);
+  free(odd);
+  return st ? st : limit;
 }
 
 thr_status thr_endjoin_solve(const thr_endjoin_problem *p, const thr_limits *limits, thr_endjoin *out, thr_err *err)
 {
   thr_limits quiet = *limits; /* bounds at a price are none on the join */
   quiet.progress = NULL;
-  search s = {.p = p, .limits = &quiet};
+  search s = {.p = p, .limits = limits};
   *out = (thr_endjoin){0};
   thr_status st = search_init(&s, err);
-  if (!st) st = run(&s, out, err);
+  bool two = p->n_ends == 2 && s.n_pieces == 1;
+  if (!two) s.limits = &quiet;
+  if (!st) st = two ? solve_two(&s, out, err) : run(&s, out, err);
   search_destroy(&s);
   return st;
 }

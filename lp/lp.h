@@ -66,6 +66,11 @@ void thr_lp_primal(const thr_lp *lp, double *x);
 void thr_lp_dual(const thr_lp *lp, double *dual);
 double thr_lp_objective(const thr_lp *lp);
 
+/* *bound: no point that keeps the rows and bounds, and whose columns without an upper bound are at most `most`, costs less. That
+ * is what the row multipliers of the last thr_lp_solve prove, also if it was stopped (Lagrange; a multiplier of the wrong sign
+ * counts as 0). O(entries). */
+thr_status thr_lp_proved(const thr_lp *lp, double most, double *bound, thr_err *err) THR_MUST_CHECK;
+
 const char *thr_glpk_version(void);
 
 #endif

@@ -317,6 +317,7 @@ enum { SLICE = 500 };
 typedef struct {
   glp_prob *problem;
   bool exact, primal;
+  double left; /* seconds: a slice of a large problem may take longer than there is */
   int code;
 } solve_call;
 
@@ -328,6 +329,7 @@ static void do_solve(void *argument)
   options.msg_lev = GLP_MSG_OFF;
   options.meth = c->primal ? GLP_PRIMAL : GLP_DUALP; /* after new rows the basis stays dual feasible */
   options.it_lim = SLICE;
+  if (c->left < 1e6) options.tm_lim = 1 + (int)(1000 * c->left);
   options.tol_dj = 1e-9; /* the duals become certificates: GLPK's 1e-7 is too coarse to close them */
   c->code = c->exact ? glp_exact(c->problem, &options) : glp_simplex(c->problem, &options);
 }
@@ -354,14 +356,14 @@ static thr_status solve(thr_lp *lp, bool exact, const thr_limits *limits, thr_lp
   lp->integer = false;
   for (int restarts = 0; !st;) {
     if (thr_limits_stop(limits)) return THR_OK;
-    solve_call c = {lp->problem, exact, lp->primal || restarts > 0, 0};
+    solve_call c = {lp->problem, exact, lp->primal || restarts > 0, thr_limits_left(limits, INFINITY), 0};
     if ((st = guarded(do_solve, &c, err))) return st;
     if (c.code == 0 && outcome_of(lp->problem) != THR_LP_STOPPED) {
       *outcome = outcome_of(lp->problem);
       lp->primal = false;
       return THR_OK;
     }
-    if (c.code == GLP_EITLIM) continue;
+    if (c.code == GLP_EITLIM || c.code == GLP_ETMLIM) continue;
     if (restarts++) return thr_fail(err, THR_ESOLVER, "GLPK's simplex method failed (code %d)", c.code);
     /* A singular basis is refused, not repaired; and the dual method calls an unbounded problem undecided. */
     st = guarded(do_reset_basis, lp->problem, err);
@@ -431,6 +433,42 @@ void thr_lp_dual(const thr_lp *lp, double *dual)
 double thr_lp_objective(const thr_lp *lp)
 {
   return lp->integer ? glp_mip_obj_val(lp->problem) : glp_get_obj_val(lp->problem);
+}
+
+/* Multiplier of row i, 0 if the row's bound would not carry it; *bound: the bound that it does. */
+static double carried(glp_prob *p, int i, double *bound)
+{
+  double dual = glp_get_row_dual(p, i);
+  int kind = glp_get_row_type(p, i); /* rows here: equations and lower bounds */
+  *bound = glp_get_row_lb(p, i);
+  return kind == GLP_FX || (kind == GLP_LO && dual > 0) ? dual : 0;
+}
+
+thr_status thr_lp_proved(const thr_lp *lp, double most, double *bound, thr_err *err)
+{
+  glp_prob *p = lp->problem;
+  int n = glp_get_num_cols(p), *index = thr_calloc((size_t)n + 1, sizeof *index);
+  double *value = thr_calloc((size_t)n + 1, sizeof *value), *reduced = thr_calloc((size_t)n + 1, sizeof *reduced), sum = 0;
+  thr_status st = index && value && reduced ? THR_OK : thr_nomem(err);
+  for (int j = 1; j <= n && !st; j++)
+    reduced[j] = glp_get_obj_coef(p, j);
+  for (int i = 1; i <= glp_get_num_rows(p) && !st; i++) {
+    double lower, dual = carried(p, i, &lower);
+    int entries = dual != 0 ? glp_get_mat_row(p, i, index, value) : 0;
+    if (dual != 0) sum += dual * lower;
+    for (int k = 1; k <= entries; k++)
+      reduced[index[k]] -= dual * value[k];
+  }
+  for (int j = 1; j <= n && !st; j++) {
+    int kind = glp_get_col_type(p, j); /* columns: lower bounds, some with upper ones or fixed */
+    double upper = kind == GLP_LO ? most : kind == GLP_FX ? glp_get_col_lb(p, j) : glp_get_col_ub(p, j);
+    sum += reduced[j] * (reduced[j] > 0 ? glp_get_col_lb(p, j) : upper);
+  }
+  if (!st) *bound = sum;
+  free(index);
+  free(value);
+  free(reduced);
+  return st;
 }
 
 const char *thr_glpk_version(void)

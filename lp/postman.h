@@ -4,9 +4,10 @@
 
 #include "graph/limits.h"
 #include "graph/plan.h"
+#include "lp/engine.h"
 
-/* Passes of the shortest cords that cover a framework, options.cords of them in every component, before anything runs through
- * them. */
+/* Passes of the shortest cords that cover a framework, at most options.cords of them in every component, before anything runs
+ * through them. */
 typedef struct {
   int *passes; /* [n_edges] owned; only where a cord may end are they odd in number */
   int n_certificates;
@@ -14,11 +15,12 @@ typedef struct {
   double length;                /* of these passes, in units */
   double lower_bound;           /* of the passes of any such cords */
   bool optimal;                 /* these are the shortest */
+  thr_confirmations confirmed;  /* if the options ask for them */
 } thr_shortest;
 
 /* What optimal and lower_bound say is what graph/check.c verifies, never what the solver hopes. THR_OK: optimal. THR_ELIMIT: out
- * is valid and holds its bound. THR_EINFEASIBLE: a component has no node where a cord end is allowed (named). Otherwise out is
- * empty. */
+ * is valid and holds its bound. THR_EINFEASIBLE: a component has no node where a cord end is allowed, or given ends that are no
+ * cords', or an edge has no room (named). Otherwise out is empty. */
 thr_status thr_postman_shortest(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_shortest *out,
                                 thr_err *err) THR_MUST_CHECK;
 void thr_shortest_destroy(thr_shortest *s);

@@ -1,6 +1,7 @@
 /* The cutting-plane loop: solve, separate, round to a join, turn the dual into an exact certificate. */
 #include "lp/tjoin.h"
 #include "graph/disjoint.h"
+#include "lp/cuts.h"
 #include "lp/lp.h"
 #include "lp/oddcut.h"
 
@@ -236,7 +237,7 @@ static thr_status store_cuts(solver *s, int64_t sum, thr_err *err)
     const struct thr_oddcut *c = &s->pool.cut[i];
     if (s->value[i] == 0) continue;
     thr_cut *to = &best->cut[best->n_cuts];
-    *to = (thr_cut){c->n_nodes, thr_calloc((size_t)c->n_nodes, sizeof *to->node), s->value[i]};
+    *to = (thr_cut){-1, c->n_nodes, thr_calloc((size_t)c->n_nodes, sizeof *to->node), s->value[i]};
     if (!to->node) return thr_nomem(err);
     best->n_cuts++;
     memcpy(to->node, c->node, (size_t)c->n_nodes * sizeof *to->node);
@@ -418,6 +419,11 @@ thr_status thr_tjoin_solve(const thr_tjoin_problem *p, const thr_limits *limits,
   }
   thr_status st = solver_init(&s, p, limits, err);
   if (!st) st = run(&s, err);
+  if (!st || st == THR_ELIMIT) {
+    thr_cuts forest = {s.best.n_cuts, p->n_nodes, s.best.cut};
+    if (thr_cuts_nest(&forest, err)) st = THR_ENOMEM;
+    s.best.cut = forest.cut;
+  }
   solver_destroy(&s);
   if (st && st != THR_ELIMIT) thr_tjoin_destroy(&s.best);
   *out = s.best;

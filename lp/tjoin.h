@@ -21,7 +21,7 @@ typedef struct {
   bool *in_join;  /* [n_edges] owned: a T-join, the best found */
   int64_t length; /* its weight */
   int n_cuts;
-  thr_cut *cut; /* owned: odd cuts whose values / THR_DUAL_DENOMINATOR load no edge beyond its weight */
+  thr_cut *cut; /* owned forest: odd cuts whose values / THR_DUAL_DENOMINATOR load no edge beyond its weight */
   int64_t sum;  /* of the values: sum / THR_DUAL_DENOMINATOR is a lower bound on the weight of every T-join */
   bool optimal; /* sum > (length - 1) * THR_DUAL_DENOMINATOR: weights being integers, none is lighter */
 } thr_tjoin;

@@ -1,8 +1,7 @@
-/* Cells of dart types: made, solved roughly, and undone. */
+/* Cells of dart types: made and undone. */
 #include "symmetry/contraction.h"
 #include "graph/disjoint.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -20,7 +19,7 @@ static void find_cells(thr_contraction *c, int *count, bool *loop)
   for (int d = 0; d < q->n_darts; d++)
     c->root[d] = d;
   for (int y = 0; y < q->n_pairs; y++)
-    thr_disjoint_join(c->root, q->pair[y].dart[0], q->pair[y].dart[1]);
+    if (allowed(c->whole, y)) thr_disjoint_join(c->root, q->pair[y].dart[0], q->pair[y].dart[1]);
   for (int d = 0; d < q->n_darts; d++)
     count[c->root[d] = thr_disjoint_find(c->root, d)]++;
   for (int y = 0; y < q->n_pairs; y++)
@@ -37,7 +36,8 @@ thr_status thr_contraction_init(thr_contraction *c, const thr_programme *whole, 
   c->root = thr_calloc(n, sizeof *c->root);
   c->keep = thr_calloc(n, sizeof *c->keep);
   c->becomes = thr_calloc(n, sizeof *c->becomes);
-  thr_status st = count && loop && c->root && c->keep && c->becomes ? THR_OK : thr_nomem(err);
+  c->pair = thr_calloc((size_t)whole->q->n_pairs, sizeof *c->pair);
+  thr_status st = count && loop && c->root && c->keep && c->becomes && c->pair ? THR_OK : thr_nomem(err);
   if (!st) {
     find_cells(c, count, loop);
     for (int d = 0; d < whole->q->n_darts; d++)
@@ -65,24 +65,26 @@ void thr_contraction_destroy(thr_contraction *c)
   free(c->root);
   free(c->keep);
   free(c->becomes);
+  free(c->pair);
   *c = (thr_contraction){0};
 }
 
-/* Of a contracted cell one turn and one self pair at most, marked in done[2 * type + self]. */
-static void contract_pairs(thr_contraction *c, bool *done)
+/* Of a contracted cell one turn and one self pair at most; made[2 * type + self] is 1 more than its number, 0 = none yet. */
+static void contract_pairs(thr_contraction *c, int *made)
 {
   const thr_quotient *q = c->whole->q;
   for (int y = 0; y < q->n_pairs; y++) {
-    thr_pair_type made = q->pair[y];
-    int root = c->root[made.dart[0]];
+    int root = c->root[q->pair[y].dart[0]], *known = &made[2 * root + q->pair[y].self];
+    c->pair[y] = c->q.n_pairs;
     if (!c->keep[root]) {
-      bool *known = &done[2 * root + made.self];
-      if (*known || !allowed(c->whole, y)) continue;
-      *known = true;
+      c->pair[y] = allowed(c->whole, y) ? (*known ? *known - 1 : c->q.n_pairs) : -1;
+      if (c->pair[y] < c->q.n_pairs) continue;
+      *known = c->q.n_pairs + 1;
     }
+    thr_pair_type *t = &c->q.pair[c->q.n_pairs++];
+    *t = q->pair[y];
     for (int i = 0; i < 2; i++)
-      made.dart[i] = c->becomes[c->keep[root] ? made.dart[i] : root];
-    c->q.pair[c->q.n_pairs++] = made;
+      t->dart[i] = c->becomes[c->keep[root] ? t->dart[i] : root];
   }
 }
 
@@ -95,8 +97,8 @@ thr_status thr_contraction_make(thr_contraction *c, thr_err *err)
   c->q.copy = thr_calloc((size_t)q->n_copies, sizeof *c->q.copy);
   c->q.dart = thr_calloc((size_t)q->n_darts, sizeof *c->q.dart);
   c->q.pair = thr_calloc((size_t)q->n_pairs, sizeof *c->q.pair);
-  bool *done = thr_calloc(2 * (size_t)q->n_darts, sizeof *done);
-  thr_status st = c->q.copy && c->q.dart && c->q.pair && done ? THR_OK : thr_nomem(err);
+  int *made = thr_calloc(2 * (size_t)q->n_darts, sizeof *made);
+  thr_status st = c->q.copy && c->q.dart && c->q.pair && made ? THR_OK : thr_nomem(err);
   for (int d = 0; d < q->n_darts && !st; d++) {
     c->becomes[d] = c->keep[c->root[d]] || c->root[d] == d ? c->q.n_darts : c->becomes[c->root[d]];
     if (c->becomes[d] == c->q.n_darts) c->q.dart[c->q.n_darts++] = q->dart[d];
@@ -106,9 +108,13 @@ thr_status thr_contraction_make(thr_contraction *c, thr_err *err)
     for (int i = 0; i < (q->copy[k].fold ? 1 : 2); i++)
       c->q.copy[k].dart[i] = c->becomes[q->copy[k].dart[i]];
   }
-  if (!st) contract_pairs(c, done);
-  free(done);
-  return st ? st : thr_programme_init(&c->p, &c->q, c->whole->o, err);
+  if (!st) contract_pairs(c, made);
+  free(made);
+  if (!st) st = thr_programme_init(&c->p, &c->q, c->whole->o, err);
+  if (st) return st;
+  memcpy(c->p.least, c->whole->least, (size_t)q->n_copies * sizeof *c->p.least); /* turns that are gone ruled some out */
+  memcpy(c->p.most, c->whole->most, (size_t)q->n_copies * sizeof *c->p.most);
+  return THR_OK;
 }
 
 /* ---- lifting ---- */
@@ -155,15 +161,6 @@ static bool take_terminals(cell *x, bool self, int count)
   return true;
 }
 
-static bool turns_into_itself(const thr_programme *p, int d)
-{
-  for (int k = p->first[d]; k < p->first[d + 1]; k++) {
-    const thr_pair_type *t = &p->q->pair[p->incident[k]];
-    if (!t->self && t->dart[0] == t->dart[1] && p->most[p->first_pair + p->incident[k]] != 0) return true;
-  }
-  return false;
-}
-
 /* Can the rest be paired: does no type without a turn to itself have more than the others together? */
 static bool can_go_on(const cell *x)
 {
@@ -171,7 +168,7 @@ static bool can_go_on(const cell *x)
   for (int i = 0; i < x->n; i++)
     sum += x->left[x->type[i]];
   for (int i = 0; i < x->n; i++)
-    if (2 * x->left[x->type[i]] > sum && !turns_into_itself(x->c->whole, x->type[i])) return false;
+    if (2 * x->left[x->type[i]] > sum && !thr_programme_loop(x->c->whole, x->type[i])) return false;
   return sum % 2 == 0;
 }
 
@@ -210,23 +207,25 @@ static bool lift_cell(cell *x, const int *small)
   return true;
 }
 
-/* A cell that is left as it is has its turns already, in the order of its types' turns. */
+/* A cell that is left as it is has its turns already. */
 static void copy_kept(const thr_contraction *c, const int *small, int *value)
 {
   const thr_quotient *q = c->whole->q;
-  int next = 0;
-  for (int y = 0; y < q->n_pairs; y++) {
-    int d = q->pair[y].dart[0];
-    if (!c->keep[c->root[d]]) continue;
-    const thr_quotient *s = &c->q;
-    while (s->pair[next].half[0] != q->pair[y].half[0] || s->pair[next].half[1] != q->pair[y].half[1] ||
-           s->pair[next].dart[0] != c->becomes[d] || s->pair[next].self != q->pair[y].self ||
-           s->pair[next].dart[1] != c->becomes[q->pair[y].dart[1]])
-      next++;
-    value[c->whole->first_pair + y] = small[c->p.first_pair + next++];
-  }
+  for (int y = 0; y < q->n_pairs; y++)
+    if (c->keep[c->root[q->pair[y].dart[0]]]) value[c->whole->first_pair + y] = small[c->p.first_pair + c->pair[y]];
   for (int d = 0; d < q->n_darts; d++)
     if (c->keep[c->root[d]]) value[c->whole->first_end + d] = small[c->p.first_end + c->becomes[d]];
+}
+
+void thr_contraction_lower(const thr_contraction *c, const int *value, int *small)
+{
+  const thr_quotient *q = c->whole->q;
+  memset(small, 0, (size_t)c->p.n * sizeof *small);
+  memcpy(small, value, (size_t)q->n_copies * sizeof *small);
+  for (int y = 0; y < q->n_pairs; y++)
+    if (c->pair[y] >= 0) small[c->p.first_pair + c->pair[y]] += value[c->whole->first_pair + y];
+  for (int d = 0; d < q->n_darts; d++)
+    small[c->p.first_end + c->becomes[d]] += value[c->whole->first_end + d];
 }
 
 thr_status thr_contraction_lift(thr_contraction *c, const int *small, int *value, int *kept, thr_err *err)
@@ -260,116 +259,5 @@ thr_status thr_contraction_lift(thr_contraction *c, const int *small, int *value
   free(x.left);
   free(first);
   free(type);
-  return st;
-}
-
-/* ---- a start ---- */
-
-typedef struct {
-  double cost;
-  int column;
-} candidate;
-
-static int by_cost(const void *a, const void *b)
-{
-  const candidate *x = a, *y = b;
-  if (x->cost < y->cost || x->cost > y->cost) return x->cost < y->cost ? -1 : 1;
-  return x->column - y->column;
-}
-
-/* Orbits of a copy type by which it covers its edge alone, and the passes beyond the cover. */
-static int needed(const thr_programme *p, int copy, int *over)
-{
-  int passes = p->q->copy[copy].passes, n = (p->o->cover + passes - 1) / passes;
-  *over = n * passes - p->o->cover;
-  return n;
-}
-
-/* One copy type for every edge orbit: that with least overlap, without folds if possible, or else the freest, once or twice. */
-static void take_least(const thr_programme *p, thr_contraction_kind kind, int *small)
-{
-  const thr_quotient *q = p->q;
-  for (int k = 0, end; k < q->n_copies; k = end) {
-    int best = k, over, least;
-    needed(p, k, &least);
-    for (end = k; end < q->n_copies && q->copy[end].edge == q->copy[k].edge; end++) {
-      needed(p, end, &over);
-      bool cheaper = over < least || (over == least && q->copy[best].fold && !q->copy[end].fold);
-      if (kind == THR_CONTRACTION_LEAST ? !cheaper : q->copy[end].passes <= q->copy[best].passes) continue;
-      best = end;
-      least = over;
-    }
-    small[best] = needed(p, best, &over) * (kind == THR_CONTRACTION_TWICE ? 2 : 1);
-  }
-}
-
-/* The columns of a forest of least overlap, terminals first, folds among them or not: tree[n]; node n_darts is the root of all
- * terminals. */
-static int find_forest(const thr_programme *p, bool folds, candidate *list, int *parent, int *tree)
-{
-  int n = 0, in_tree = 0;
-  for (int d = 0; d <= p->q->n_darts; d++)
-    parent[d] = d;
-  for (int j = 0; j < p->first_circle; j++) {
-    bool fold = thr_programme_terminal(p, j) && j < p->first_end;
-    if (p->most[j] != 0 && p->join[j][0] != p->join[j][1] && (folds || !fold))
-      list[n++] = (candidate){p->cost[THR_AIM_OVERLAP][j], j};
-  }
-  if (n > 0) qsort(list, (size_t)n, sizeof *list, by_cost);
-  for (int i = 0; i < n; i++)
-    if (thr_disjoint_join(parent, p->join[list[i].column][0], p->join[list[i].column][1])) tree[in_tree++] = list[i].column;
-  return in_tree;
-}
-
-/* Takes leaf after leaf off the forest: an odd leaf's column is used once more. False if a tree has an odd sum and no terminal.
- */
-static bool make_even(const thr_programme *p, int *tree, int n, bool *odd, int *degree, int *small)
-{
-  int terminals = p->q->n_darts;
-  for (int i = 0; i < n; i++)
-    for (int s = 0; s < 2; s++)
-      degree[p->join[tree[i]][s]]++;
-  for (int before = n + 1, left = n; left < before;) {
-    before = left;
-    for (int i = 0; i < n; i++)
-      for (int s = 0; s < 2 && tree[i] >= 0; s++) {
-        int leaf = p->join[tree[i]][s], other = p->join[tree[i]][1 - s];
-        if (degree[leaf] != 1 || leaf == terminals) continue;
-        small[tree[i]] += odd[leaf];
-        odd[other] ^= odd[leaf];
-        odd[leaf] = false;
-        degree[leaf]--;
-        degree[other]--;
-        tree[i] = -1;
-        left--;
-      }
-  }
-  for (int d = 0; d < terminals; d++)
-    if (odd[d]) return false;
-  return true;
-}
-
-thr_status thr_contraction_start(const thr_contraction *c, thr_contraction_kind kind, int *small, bool *found, thr_err *err)
-{
-  const thr_programme *p = &c->p;
-  size_t n = (size_t)p->q->n_darts + 1;
-  candidate *list = thr_calloc((size_t)p->n, sizeof *list);
-  int *parent = thr_calloc(n, sizeof *parent), *tree = thr_calloc(n, sizeof *tree), *degree = thr_calloc(n, sizeof *degree);
-  bool *odd = thr_calloc(n, sizeof *odd);
-  thr_status st = list && parent && tree && degree && odd ? THR_OK : thr_nomem(err);
-  if (!st) {
-    memset(small, 0, (size_t)p->n * sizeof *small);
-    take_least(p, kind, small);
-    for (int k = 0; k < p->first_pair; k++)
-      for (int i = 0; i < 2; i++)
-        odd[p->join[k][i]] ^= small[k] % 2;
-    int columns = find_forest(p, kind == THR_CONTRACTION_LEAST, list, parent, tree);
-    *found = make_even(p, tree, columns, odd, degree, small);
-  }
-  free(list);
-  free(parent);
-  free(tree);
-  free(degree);
-  free(odd);
   return st;
 }

@@ -13,6 +13,7 @@ typedef struct {
   int *root;                  /* [n_darts] lowest dart type of its cell */
   bool *keep;                 /* [n_darts] by lowest type: the cell is left as it is */
   int *becomes;               /* [n_darts] dart type of q */
+  int *pair;                  /* [n_pairs] pair type of q, -1 = none, for it is not allowed */
   thr_quotient q;             /* with arrays of its own for copy, dart and pair, whose stabilizers are borrowed */
   thr_programme p;            /* over q */
 } thr_contraction;
@@ -29,12 +30,28 @@ thr_status thr_contraction_make(thr_contraction *c, thr_err *err) THR_MUST_CHECK
  * as they are from now on, and the contraction is to be made anew. */
 thr_status thr_contraction_lift(thr_contraction *c, const int *small, int *value, int *kept, thr_err *err) THR_MUST_CHECK;
 
-/* Copies that a start has: the least; those with trivial stabilizers, which can be paired best; those twice. */
-typedef enum { THR_CONTRACTION_LEAST, THR_CONTRACTION_FREE, THR_CONTRACTION_TWICE, THR_CONTRACTION_KINDS } thr_contraction_kind;
+/* The other way round: what a solution of the whole programme (value[whole->n]) is in p, small[p.n]. Circles: 0. */
+void thr_contraction_lower(const thr_contraction *c, const int *value, int *small);
 
-/* Of a contraction of all cells: such copies, made even along a tree of cheap ones and terminals (small[p.n], without the
- * turns, which lifting finds). Not the best, and its sets may lack ends; *found = false if there is none of this kind. */
-thr_status thr_contraction_start(const thr_contraction *c, thr_contraction_kind kind, int *small, bool *found,
+/* What a start has: copies of least overlap, folds and all; the same without folds; the freest copies, so often that each dart
+ * orbit has another of its type. */
+typedef enum { THR_CONTRACTION_LEAST, THR_CONTRACTION_PLAIN, THR_CONTRACTION_TWICE } thr_contraction_kind;
+
+/* In symmetry/start.c. Of a contraction of all cells: such copies, of types that are not barred[p.first_pair], the first two
+ * kinds made even by a least T-join over copies and terminals, and led on along least ways where they outnumber the others of
+ * their cell (small[p.n], without the turns, which lifting finds). Of least overlap where every edge orbit has one copy type and
+ * nothing is to be led on, but not always the best, and its sets may lack ends; *found = false if there is none of this kind. The
+ * last kind can always be lifted, and always be joined into one set for every component. */
+thr_status thr_contraction_start(const thr_contraction *c, thr_contraction_kind kind, const bool *barred,
+                                 const thr_limits *limits, int *small, bool *found, thr_err *err) THR_MUST_CHECK;
+
+/* What overlap and an aim with few values are added up with, so that it decides between equal overlaps: the aim's weight. */
+double thr_contraction_tie(const thr_contraction *c, thr_aim aim);
+
+/* As above. No cover has less overlap or, if tie is another aim, no less overlap + thr_contraction_tie * that aim: what is
+ * certain of every edge orbit and the proved value of the least T-join, in which edge orbits with several copy types cost
+ * nothing. */
+thr_status thr_contraction_bound(const thr_contraction *c, thr_aim tie, const thr_limits *limits, double *bound,
                                  thr_err *err) THR_MUST_CHECK;
 
 #endif

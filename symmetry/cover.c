@@ -1,7 +1,9 @@
 /* The best symmetric cover, one aim after the other. */
 #include "symmetry/cover.h"
+#include "symmetry/bounds.h"
 #include "symmetry/contraction.h"
-#include "symmetry/relaxation.h"
+#include "symmetry/search.h"
+#include "symmetry/turning_bound.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -13,201 +15,6 @@ void thr_cover_destroy(thr_cover *c)
   free(c->pairs);
   free(c->ends);
   *c = (thr_cover){0};
-}
-
-typedef struct {
-  const thr_programme *p;
-  const thr_limits *limits;
-  thr_relaxation r; /* made when it is needed */
-  int kept;         /* so many aims, the first ones, have rows in r that keep them */
-  bool found;
-  int *best;  /* [p->n] the best so far, if found */
-  int *other; /* [p->n] scratch */
-  double worth[THR_N_AIMS], bound[THR_N_AIMS];
-} search;
-
-static void search_destroy(search *s)
-{
-  thr_relaxation_destroy(&s->r);
-  free(s->best);
-  free(s->other);
-}
-
-static thr_status search_init(search *s, const thr_programme *p, const thr_limits *limits, thr_err *err)
-{
-  *s = (search){.p = p, .limits = limits};
-  s->best = thr_calloc((size_t)p->n, sizeof *s->best);
-  s->other = thr_calloc((size_t)p->n, sizeof *s->other);
-  if (s->best && s->other) return THR_OK;
-  search_destroy(s);
-  *s = (search){0};
-  return thr_nomem(err);
-}
-
-/* Keeps s->other if it can be made concrete and is better than the best so far. */
-static thr_status offer(search *s, thr_err *err)
-{
-  double worth[THR_N_AIMS];
-  bool valid;
-  thr_status st = thr_programme_value(s->p, s->other, worth, &valid, err);
-  if (st || !valid || (s->found && thr_programme_compare(s->p, worth, s->worth) >= 0)) return st;
-  memcpy(s->best, s->other, (size_t)s->p->n * sizeof *s->best);
-  memcpy(s->worth, worth, sizeof worth);
-  s->found = true;
-  return THR_OK;
-}
-
-/* Offers the whole point of the relaxation, as it is and mended. */
-static thr_status consider(search *s, thr_err *err)
-{
-  for (int j = 0; j < s->p->n; j++)
-    s->other[j] = (int)lround(s->r.x[j]);
-  thr_status st = offer(s, err);
-  if (!st) st = thr_programme_mend(s->p, s->other, err);
-  return st ? st : offer(s, err);
-}
-
-/* Is the best so far as good as this bound? */
-static bool beaten(const search *s, thr_aim aim, double bound)
-{
-  return s->found && s->worth[aim] <= bound + thr_programme_tolerance(s->p, aim);
-}
-
-/* A node of the search tree: its parent's with other bounds on one column. */
-typedef struct {
-  int parent, column; /* the root: -1 */
-  double low, high, bound;
-} node;
-
-typedef struct {
-  node *node;
-  int n, capacity;
-  int *open; /* nodes still to be solved */
-  int n_open, open_capacity;
-  int at;     /* node whose bounds are in force */
-  int *chain; /* scratch */
-  int chain_capacity;
-} tree;
-
-static void tree_destroy(tree *t)
-{
-  free(t->node);
-  free(t->open);
-  free(t->chain);
-}
-
-static thr_status add_node(tree *t, node made, thr_err *err)
-{
-  thr_status st = thr_grow(&t->node, t->n, &t->capacity, sizeof *t->node, err);
-  if (!st) st = thr_grow(&t->open, t->n_open, &t->open_capacity, sizeof *t->open, err);
-  if (!st) st = thr_grow(&t->chain, t->n, &t->chain_capacity, sizeof *t->chain, err); /* no path is longer */
-  if (st) return st;
-  t->open[t->n_open++] = t->n;
-  t->node[t->n++] = made;
-  return THR_OK;
-}
-
-/* Puts the bounds of a node in force. */
-static thr_status move_to(search *s, tree *t, int to, thr_err *err)
-{
-  thr_status st = THR_OK;
-  int n = 0;
-  for (int k = t->at; k > 0 && !st; k = t->node[k].parent) {
-    int j = t->node[k].column, most = s->p->most[j];
-    st = thr_relaxation_bound(&s->r, j, s->p->least[j], most < 0 ? (double)INFINITY : most, err);
-  }
-  for (int k = to; k > 0; k = t->node[k].parent)
-    t->chain[n++] = k;
-  while (n > 0 && !st) {
-    const node *b = &t->node[t->chain[--n]];
-    st = thr_relaxation_bound(&s->r, b->column, b->low, b->high, err);
-  }
-  t->at = to;
-  return st;
-}
-
-/* Two nodes instead of the present one; the one that is nearer to x comes first, the lower one if both are. */
-static thr_status split(search *s, tree *t, thr_err *err)
-{
-  const thr_relaxation *r = &s->r;
-  int j = thr_relaxation_branch(r), at = t->at;
-  double whole = floor(r->x[j]);
-  node lower = {at, j, r->low[j], whole, r->objective}, upper = {at, j, whole + 1, r->high[j], r->objective};
-  bool up = r->x[j] - whole > 0.5 + 1e-6;
-  thr_status st = add_node(t, up ? lower : upper, err);
-  return st ? st : add_node(t, up ? upper : lower, err);
-}
-
-/* Takes the open node of least bound, the latest of several; -1: none is better than the best so far. */
-static int take(const search *s, tree *t, thr_aim aim)
-{
-  int best = -1;
-  for (int i = 0; i < t->n_open; i++)
-    if (best < 0 || t->node[t->open[i]].bound <= t->node[t->open[best]].bound + 1e-9 * s->p->scale[aim]) best = i;
-  if (best < 0 || beaten(s, aim, t->node[t->open[best]].bound)) return -1;
-  int taken = t->open[best];
-  memmove(&t->open[best], &t->open[best + 1], (size_t)(--t->n_open - best) * sizeof *t->open);
-  return taken;
-}
-
-/* Solves a node with all rows that its optima violate. *open: it is to be branched on. THR_ELIMIT: stopped. */
-static thr_status solve_node(search *s, thr_aim aim, bool root, bool *open, thr_err *err)
-{
-  thr_relaxation *r = &s->r;
-  *open = false;
-  for (int added = 1; added > 0;) {
-    thr_lp_outcome outcome;
-    thr_status st = thr_relaxation_solve(r, s->limits, &outcome, err);
-    if (st) return st;
-    if (outcome == THR_LP_STOPPED) return THR_ELIMIT;
-    if (outcome != THR_LP_OPTIMAL) return THR_OK;
-    if (root) s->bound[aim] = fmax(s->bound[aim], r->objective);
-    if (r->whole) st = consider(s, err);
-    if (!st && beaten(s, aim, r->objective)) return THR_OK;
-    if (!st) st = thr_relaxation_separate(r, s->limits, &added, err);
-    if (st) return st;
-  }
-  *open = !r->whole;
-  return THR_OK;
-}
-
-/* The relaxation for the aim of that number, with the aims before it kept. */
-static thr_status prepare(search *s, int number, thr_err *err)
-{
-  const thr_aim *prefer = s->p->o->prefer;
-  thr_status st = s->r.p ? THR_OK : thr_relaxation_init(&s->r, s->p, s->limits, err);
-  for (; s->kept < number && !st; s->kept++) {
-    st = thr_relaxation_aim(&s->r, prefer[s->kept], err);
-    if (!st) st = thr_relaxation_fix(&s->r, s->worth[prefer[s->kept]], err);
-  }
-  return st ? st : thr_relaxation_aim(&s->r, prefer[number], err);
-}
-
-/* Minimizes one aim by branch and cut, best bound first. THR_ELIMIT: stopped; the bounds on columns are as before in any case. */
-static thr_status minimize(search *s, int number, thr_err *err)
-{
-  tree t = {0};
-  bool open;
-  thr_aim aim = s->p->o->prefer[number];
-  if (beaten(s, aim, s->bound[aim])) return THR_OK;
-  thr_status st = prepare(s, number, err);
-  if (!st) st = add_node(&t, (node){-1, -1, 0, 0, s->bound[aim]}, err);
-  for (int next; !st && (next = take(s, &t, aim)) >= 0;) {
-    s->bound[aim] = fmax(s->bound[aim], t.node[next].bound);
-    st = move_to(s, &t, next, err);
-    if (!st) st = solve_node(s, aim, next == 0, &open, err);
-    if (!st && open) st = split(s, &t, err);
-  }
-  if (!st && !s->found)
-    st = thr_fail(err, THR_EINFEASIBLE, "no threading with ends %s is symmetric under this group of order %d",
-                  thr_ends_name(s->p->o->ends), s->p->q->h->order);
-  if (!st) s->bound[aim] = s->worth[aim];
-  if (!st || st == THR_ELIMIT) {
-    thr_status moved = move_to(s, &t, 0, err);
-    if (moved) st = moved;
-  }
-  tree_destroy(&t);
-  return st;
 }
 
 /* A component of the framework without a node where its cords may end. */
@@ -231,9 +38,13 @@ static thr_status check_ends(const thr_programme *p, thr_err *err)
   return st;
 }
 
-static thr_status hand_over(const search *s, thr_cover *out, thr_err *err)
+static thr_status hand_over(thr_search *s, thr_cover *out, thr_err *err)
 {
   const thr_quotient *q = s->p->q;
+  double quick;
+  thr_status st = thr_turning_quick_bound(s->p, s->worth, &quick, err);
+  if (st) return st;
+  s->bound[THR_AIM_TURNING] = fmax(s->bound[THR_AIM_TURNING], quick);
   memcpy(out->value, s->worth, sizeof out->value);
   for (int a = 0; a < THR_N_AIMS; a++)
     out->bound[a] = fmin(s->bound[a], s->worth[a]); /* a later aim may win by rounding in an earlier one */
@@ -247,89 +58,250 @@ static thr_status hand_over(const search *s, thr_cover *out, thr_err *err)
   return THR_OK;
 }
 
-/* The first so many aims, one after the other. */
-static thr_status search_aims(search *s, int n, thr_err *err)
-{
-  thr_status st = THR_OK;
-  for (int k = 0; k < n && !st; k++)
-    st = minimize(s, k, err);
-  return st;
-}
-
-/* Keeps a lifted solution, mended and improved. */
-static thr_status offer_lifted(search *s, thr_err *err)
+/* Keeps a lifted solution, mended. */
+static thr_status offer_joined(thr_search *s, thr_err *err)
 {
   thr_status st = thr_programme_mend(s->p, s->other, err);
   if (!st) st = thr_programme_open(s->p, s->other, err);
-  if (!st) st = thr_programme_improve(s->p, s->limits, s->other, err);
-  return st ? st : offer(s, err);
+  return st ? st : thr_search_offer(s, err);
 }
 
-/* A cover that needs no programme, the first of three kinds that there is. */
-static thr_status start(search *s, thr_err *err)
+/* Limits that leave so much of the time that is left. */
+static thr_limits part_of_time(const thr_search *s, double part)
 {
+  thr_limits limits = *s->limits;
+  if (limits.deadline > 0) limits.deadline -= (1 - part) * thr_limits_left(&limits, INFINITY);
+  return limits;
+}
+
+/* The best so far with its turns as cheap as they can be and joined again, and then by exchanges that leave it whole. */
+static thr_status offer_improved(thr_search *s, thr_err *err)
+{
+  const thr_limits limits = part_of_time(s, 0.5);
+  memcpy(s->other, s->best, (size_t)s->p->n * sizeof *s->best);
+  thr_status st = thr_programme_straighten(s->p, &limits, s->other, err);
+  if (!st) st = offer_joined(s, err);
+  memcpy(s->other, s->best, (size_t)s->p->n * sizeof *s->best);
+  if (!st) st = thr_programme_improve(s->p, &limits, s->other, err);
+  return st ? st : thr_search_offer(s, err);
+}
+
+static thr_status try_start(thr_search *s, thr_contraction *c, thr_contraction_kind kind, const bool *barred, int *small,
+                            thr_err *err)
+{
+  bool made;
+  int failed = 0;
+  s->valid = s->lifted = false;
+  thr_status st = thr_contraction_start(c, kind, barred, s->limits, small, &made, err);
+  if (!st && made) st = thr_contraction_lift(c, small, s->other, &failed, err);
+  s->lifted = !st && made && !failed;
+  if (s->lifted) st = offer_joined(s, err);
+  memset(c->keep, 0, (size_t)s->p->q->n_darts * sizeof *c->keep);
+  return st;
+}
+
+static bool is_freest(const thr_programme *p, int copy)
+{
+  const thr_copy_type *t = p->q->copy;
+  for (int k = copy - 1; k >= 0 && t[k].edge == t[copy].edge; k--)
+    if (p->most[k] != 0 && t[k].passes > t[copy].passes) return false;
+  for (int k = copy + 1; k < p->q->n_copies && t[k].edge == t[copy].edge; k++)
+    if (p->most[k] != 0 && t[k].passes > t[copy].passes) return false;
+  return true;
+}
+
+/* Bars the copies in sets of s->other that need an end and have none, the freest excepted; if there are none of them, or all is
+ * asked for, all but the freest. *more: are any barred that were not? */
+static thr_status bar(thr_search *s, bool all, bool *barred, bool *more, thr_err *err)
+{
+  const thr_programme *p = s->p;
+  thr_programme_parts parts = {0};
+  thr_status st = thr_programme_parts_init(&parts, p, err);
+  if (!st) thr_programme_parts_find(&parts, p, s->other);
+  *more = false;
+  for (int every = all; every < 2 && !*more && !st; every++)
+    for (int k = 0; k < p->first_pair; k++) {
+      int root = parts.root[p->join[k][0]];
+      bool lacks = every || (s->other[k] > 0 && root >= 0 && parts.ends[root] == 0);
+      if (!lacks || barred[k] || p->most[k] == 0 || is_freest(p, k)) continue;
+      barred[k] = *more = true;
+    }
+  thr_programme_parts_destroy(&parts);
+  return st;
+}
+
+/* Covers that need no programme: with the least copies; where cords would be closed that may not be, with freer ones there; and
+ * if need be, which serves always, with the freest twice. The best is improved. */
+static thr_status start(thr_search *s, thr_err *err)
+{
+  const thr_programme *p = s->p;
   thr_contraction c;
-  thr_status st = thr_contraction_init(&c, s->p, true, err);
+  thr_status st = thr_contraction_init(&c, p, true, err);
   if (st) return st;
   int *small = thr_calloc((size_t)c.p.n, sizeof *small);
-  if (!small) st = thr_nomem(err);
-  for (int kind = 0; kind < THR_CONTRACTION_KINDS && !s->found && !st; kind++) {
-    bool found;
-    int failed = 0;
-    st = thr_contraction_start(&c, (thr_contraction_kind)kind, small, &found, err);
-    if (!st && found) st = thr_contraction_lift(&c, small, s->other, &failed, err);
-    if (!st && found && !failed) st = offer_lifted(s, err);
-    memset(c.keep, 0, (size_t)s->p->q->n_darts * sizeof *c.keep);
+  bool *barred = thr_calloc((size_t)p->first_pair, sizeof *barred);
+  st = small && barred ? try_start(s, &c, THR_CONTRACTION_LEAST, barred, small, err) : thr_nomem(err);
+  for (bool more = !s->found || (p->open && !thr_search_beaten(s, THR_AIM_OVERLAP, s->bound[THR_AIM_OVERLAP])); more && !st;) {
+    st = try_start(s, &c, THR_CONTRACTION_PLAIN, barred, small, err);
+    more = !s->valid;
+    if (!st && more) st = bar(s, !s->lifted, barred, &more, err);
   }
+  if (!s->found && !st) st = try_start(s, &c, THR_CONTRACTION_TWICE, barred, small, err);
+  if (s->found && !st && !p->o->quick) st = offer_improved(s, err);
   free(small);
+  free(barred);
   thr_contraction_destroy(&c);
   return st;
 }
 
+/* What is known of overlap and paths without a cover. */
+static thr_status bound_first(thr_search *s, thr_err *err)
+{
+  thr_status st = thr_bounds_overlap(s->p, s->limits, &s->bound[THR_AIM_OVERLAP], err);
+  return st ? st : thr_bounds_paths(s->p, &s->bound[THR_AIM_PATHS], err);
+}
+
+/* Steps and paths, where overlap is first and least for certain: it may not grow for them. */
+static thr_status bound_ties(thr_search *s, thr_err *err)
+{
+  static const thr_aim tie[] = {THR_AIM_STEPS, THR_AIM_PATHS};
+  thr_status st = THR_OK;
+  if (s->p->o->prefer[0] != THR_AIM_OVERLAP || !thr_search_beaten(s, THR_AIM_OVERLAP, s->bound[THR_AIM_OVERLAP])) return THR_OK;
+  for (size_t k = 0; k < sizeof tie / sizeof *tie && !st; k++)
+    if (!thr_search_beaten(s, tie[k], s->bound[tie[k]]))
+      st = thr_bounds_tie(s->p, tie[k], s->worth[THR_AIM_OVERLAP], s->limits, &s->bound[tie[k]], err);
+  return st;
+}
+
 /* Bounds of the contracted programme: with the aims before at the same values. */
-static void take_bounds(search *s, const search *small, int n)
+static void take_bounds(thr_search *s, const thr_search *small, int n)
 {
   for (int k = 0; k < n; k++) {
     thr_aim aim = s->p->o->prefer[k];
     s->bound[aim] = fmax(s->bound[aim], small->bound[aim]);
-    if (!beaten(s, aim, s->bound[aim])) break;
+    if (!thr_search_beaten(s, aim, s->bound[aim])) break;
   }
 }
 
+/* What the best so far turns at least, with the aims before turning as they are, in half the time that is left. small: a search
+ * of the contraction, whose programme goes on if it keeps no aim lower than that. */
+static thr_status bound_turning(thr_search *s, const thr_contraction *c, thr_search *small, thr_err *err)
+{
+  const thr_limits limits = part_of_time(s, 0.5);
+  thr_relaxation own = {0};
+  bool fits = true;
+  for (int k = 0; k < small->kept; k++) {
+    thr_aim aim = s->p->o->prefer[k];
+    fits = fits && s->worth[aim] <= small->worth[aim] + thr_programme_tolerance(s->p, aim);
+  }
+  thr_status st = thr_turning_bound(c, fits ? &small->r : &own, fits ? small->kept : 0, s->best, s->worth, &limits,
+                                    &s->bound[THR_AIM_TURNING], err);
+  thr_relaxation_destroy(&own);
+  return st == THR_ELIMIT ? THR_OK : st;
+}
+
+/* What is known of the whole programme: the best cover, and bounds, which hold for the contracted one, too. */
+static thr_status begin_with(thr_search *small, const thr_search *s, const thr_contraction *c, thr_err *err)
+{
+  bool same = true; /* are the aims before at their least for certain? */
+  for (int k = 0; k < THR_N_AIMS && same && s->p->o->prefer[k] != THR_AIM_TURNING; k++) {
+    thr_aim aim = s->p->o->prefer[k];
+    small->bound[aim] = s->bound[aim];
+    same = thr_search_beaten(s, aim, s->bound[aim]);
+  }
+  if (!s->found) return THR_OK;
+  thr_contraction_lower(c, s->best, small->other);
+  return thr_search_offer(small, err);
+}
+
+/* How many aims come before turning; a quick search leaves out what comes after steps, and paths. */
+static int aims_before_turning(const thr_cover_options *o)
+{
+  int all = 0, quick = 0;
+  for (; o->prefer[all] != THR_AIM_TURNING; all++)
+    if (o->prefer[all] != THR_AIM_PATHS) quick = all + 1;
+  return o->quick ? quick : all;
+}
+
 /* The aims before turning in the contracted programme, whose cells are left as they are where its solution cannot be lifted. */
-static thr_status search_contracted(search *s, thr_err *err)
+static thr_status search_contracted(thr_search *s, thr_err *err)
 {
   static const double part = 0.7; /* of the time: the rest is for lifting and for turning */
   thr_contraction c;
   thr_limits limits = *s->limits;
-  int n = 0, failed = 1;
+  const bool quick = s->p->o->quick;
+  int n = aims_before_turning(s->p->o), failed = 1;
   if (limits.deadline > 0) limits.deadline -= (1 - part) * thr_limits_left(&limits, INFINITY);
-  while (s->p->o->prefer[n] != THR_AIM_TURNING)
-    n++;
   thr_status st = thr_contraction_init(&c, s->p, false, err);
   if (st) return st;
   while (failed > 0 && !st) {
-    search small;
-    st = search_init(&small, &c.p, &limits, err);
+    thr_search small;
+    st = thr_search_init(&small, &c.p, &limits, err);
     if (st) break;
-    thr_status searched = search_aims(&small, n, err);
+    st = begin_with(&small, s, &c, err);
+    small.extra = c.p.q->n_darts; /* for the bound on turning */
+    thr_status searched = st ? st : thr_search_aims(&small, n, err);
     if (searched && searched != THR_ELIMIT) st = searched;
     failed = 0;
     if (!st && small.found) st = thr_contraction_lift(&c, small.best, s->other, &failed, err);
-    if (!st && small.found && !failed) st = offer_lifted(s, err);
+    if (!st && small.found && !failed) st = offer_joined(s, err);
     if (!st && !failed) take_bounds(s, &small, n);
-    search_destroy(&small);
+    if (!st && !failed && s->found && !quick) st = bound_turning(s, &c, &small, err);
+    if (!st && s->found && !failed && !quick) st = offer_improved(s, err);
+    thr_search_destroy(&small);
     if (!st && failed) st = thr_contraction_make(&c, err);
   }
   thr_contraction_destroy(&c);
   return st;
 }
 
-static thr_status search_all(search *s, thr_cover *out, thr_err *err)
+/* All aims in the whole programme. If that ends early with a cover that the bound on turning does not hold for, it gets one. */
+static thr_status search_whole(thr_search *s, thr_err *err)
 {
-  thr_status st = start(s, err);
+  static const double part = 0.8;
+  const thr_limits *all = s->limits, most = part_of_time(s, part);
+  thr_contraction c;
+  thr_search none = {0};
+  int n = aims_before_turning(s->p->o);
+  s->limits = &most;
+  thr_status st = thr_search_aims(s, n, err);
+  s->limits = all;
+  if (!st) return thr_search_aims(s, THR_N_AIMS, err);
+  if (st != THR_ELIMIT || !s->found || s->bound[THR_AIM_TURNING] > 0) return st;
+  thr_status made = thr_contraction_init(&c, s->p, false, err);
+  if (made) return made;
+  made = bound_turning(s, &c, &none, err);
+  thr_relaxation_destroy(&none.r);
+  thr_contraction_destroy(&c);
+  return made ? made : st;
+}
+
+/* What was found and proved before, or a first cover. */
+static thr_status begin(thr_search *s, const thr_cover *known, thr_err *err)
+{
+  const thr_quotient *q = s->p->q;
+  thr_status st = THR_OK;
+  if (!known->copies) {
+    st = bound_first(s, err);
+    if (!st) st = start(s, err);
+    return !st && s->found ? bound_ties(s, err) : st;
+  }
+  memcpy(s->bound, known->bound, sizeof s->bound);
+  memcpy(s->other, known->copies, (size_t)q->n_copies * sizeof *s->other);
+  if (q->n_pairs > 0) memcpy(s->other + s->p->first_pair, known->pairs, (size_t)q->n_pairs * sizeof *s->other);
+  memcpy(s->other + s->p->first_end, known->ends, (size_t)q->n_darts * sizeof *s->other);
+  st = thr_search_offer(s, err);
+  return !st && s->found && !s->p->o->quick ? offer_improved(s, err) : st;
+}
+
+static thr_status search_all(thr_search *s, const thr_cover *known, thr_cover *out, thr_err *err)
+{
+  thr_status st = begin(s, known, err);
   if (!st) st = search_contracted(s, err);
-  if (!st) st = search_aims(s, THR_N_AIMS, err);
+  if (!st && s->p->o->quick && s->found)
+    st = THR_ELIMIT;
+  else if (!st)
+    st = search_whole(s, err);
   if (st && st != THR_ELIMIT) return st;
   if (!s->found) return thr_fail(err, THR_ELIMIT, "the time was too short to find a symmetric cover");
   out->optimal = !st;
@@ -338,20 +310,27 @@ static thr_status search_all(search *s, thr_cover *out, thr_err *err)
   return thr_fail(err, THR_ELIMIT, "the time was too short to prove that no symmetric cover is better");
 }
 
-thr_status thr_cover_find(const thr_quotient *q, const thr_cover_options *o, const thr_limits *limits, thr_cover *out,
-                          thr_err *err)
+thr_status thr_cover_improve(const thr_quotient *q, const thr_cover_options *o, const thr_limits *limits, thr_cover *known,
+                             thr_err *err)
 {
   thr_programme p = {0};
   thr_cover c = {0};
-  search s = {0};
-  *out = (thr_cover){0};
+  thr_search s = {0};
   thr_status st = thr_programme_init(&p, q, o, err);
   if (!st) st = check_ends(&p, err);
-  if (!st) st = search_init(&s, &p, limits, err);
-  if (!st) st = search_all(&s, &c, err);
-  search_destroy(&s);
+  if (!st) st = thr_search_init(&s, &p, limits, err);
+  if (!st) st = search_all(&s, known, &c, err);
+  thr_search_destroy(&s);
   thr_programme_destroy(&p);
   if (st && st != THR_ELIMIT) thr_cover_destroy(&c);
-  *out = c;
+  thr_cover_destroy(known);
+  *known = c;
   return st;
+}
+
+thr_status thr_cover_find(const thr_quotient *q, const thr_cover_options *o, const thr_limits *limits, thr_cover *out,
+                          thr_err *err)
+{
+  *out = (thr_cover){0};
+  return thr_cover_improve(q, o, limits, out, err);
 }

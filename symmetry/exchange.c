@@ -190,6 +190,41 @@ thr_status thr_programme_open(const thr_programme *p, int *value, thr_err *err)
 
 /* ---- improving ---- */
 
+static bool take(visitor *v, const exchange *x, thr_err *err, thr_status *st)
+{
+  (void)err;
+  (void)st;
+  if (x->turning >= -thr_programme_tolerance(v->p, THR_AIM_TURNING)) return true;
+  apply(x, 1, v->value);
+  v->better = true;
+  return false;
+}
+
+/* The cheapest of several turns between two types. */
+static void take_cheapest(const thr_programme *p, int *value)
+{
+  for (int y = 0; y < p->q->n_pairs; y++) {
+    const thr_pair_type *t = &p->q->pair[y];
+    int from = p->first_pair + y, to = pair_between(p, t->dart[0], t->dart[1], t->self), moved = value[from];
+    if (moved == 0 || to < 0) continue;
+    value[from] = 0;
+    value[to] += moved;
+  }
+}
+
+thr_status thr_programme_straighten(const thr_programme *p, const thr_limits *limits, int *value, thr_err *err)
+{
+  visitor v = {.visit = take, .p = p, .value = value, .better = true};
+  thr_status st = THR_OK;
+  take_cheapest(p, value);
+  while (v.better && !st) {
+    v.better = false;
+    for (int y = 0; y < p->q->n_pairs && !st && !thr_limits_stop(limits); y++)
+      if (value[p->first_pair + y] > 0) st = visit_turn(&v, y, err);
+  }
+  return st;
+}
+
 static bool improve(visitor *v, const exchange *x, thr_err *err, thr_status *st)
 {
   double worth[THR_N_AIMS];
@@ -212,13 +247,7 @@ thr_status thr_programme_improve(const thr_programme *p, const thr_limits *limit
 {
   visitor v = {.visit = improve, .p = p, .value = value, .limits = limits, .better = true};
   bool valid;
-  for (int y = 0; y < p->q->n_pairs; y++) { /* the cheapest of several turns between two types */
-    const thr_pair_type *t = &p->q->pair[y];
-    int from = p->first_pair + y, to = pair_between(p, t->dart[0], t->dart[1], t->self), moved = value[from];
-    if (moved == 0 || to < 0) continue;
-    value[from] = 0;
-    value[to] += moved;
-  }
+  take_cheapest(p, value);
   thr_status st = thr_programme_value(p, value, v.worth, &valid, err);
   while (v.better && !st && valid) {
     v.better = false;

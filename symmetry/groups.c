@@ -118,7 +118,7 @@ static thr_status count_orbits(offer *x, const int *generator, int n_generators,
     for (int v = 0; v < f->n_nodes; v++)
       x->t->node_orbits -= thr_disjoint_join(node, v, to[v]);
     for (int e = 0; e < f->n_edges; e++)
-      x->t->edge_orbits -= thr_disjoint_join(edge, e, thr_frame_edge_between(f, to[f->edge[e][0]], to[f->edge[e][1]]));
+      x->t->edge_orbits -= thr_disjoint_join(edge, e, thr_edge_joining(f, to[f->edge[e][0]], to[f->edge[e][1]]));
   }
   thr_status st = node && edge ? THR_OK : thr_nomem(err);
   free(node);
@@ -128,8 +128,15 @@ static thr_status count_orbits(offer *x, const int *generator, int n_generators,
 
 /* ---- isometries ---- */
 
-static bool keeps_ends(const offer *x, const int *image)
+/* Does it keep where cords may end, and what edges need and may have? */
+static bool keeps_request(const offer *x, const int *image)
 {
+  for (int e = 0; e < x->f->n_edges; e++) {
+    int to = thr_edge_joining(x->f, image[x->f->edge[e][0]], image[x->f->edge[e][1]]);
+    if (thr_plan_cover(x->f, x->o, e) != thr_plan_cover(x->f, x->o, to) ||
+        thr_plan_capacity(x->f, x->o, e) != thr_plan_capacity(x->f, x->o, to))
+      return false;
+  }
   for (int v = 0; x->o->ends == THR_ENDS_NODES && v < x->f->n_nodes; v++)
     if (x->o->end_node[v] != x->o->end_node[image[v]]) return false;
   return true;
@@ -162,7 +169,7 @@ static thr_status generate(const offer *x, const int *image, int count, thr_grou
   thr_status st = thr_group_generate(n, generator, 0, THR_GROUP_CAP, g, err);
   for (int i = 0; i < count && !st; i++) {
     const int *row = &image[(size_t)i * (size_t)n];
-    if (!keeps_ends(x, row) || has_element(g, row)) continue;
+    if (!keeps_request(x, row) || has_element(g, row)) continue;
     memcpy(&generator[(size_t)used++ * (size_t)n], row, (size_t)n * sizeof *row);
     thr_group_destroy(g);
     st = thr_group_generate(n, generator, used, THR_GROUP_CAP, g, err);
@@ -172,12 +179,12 @@ static thr_status generate(const offer *x, const int *image, int count, thr_grou
 }
 
 /* The isometries as one more group of the table; only the identity if they are too many. */
-static thr_status add_isometries(offer *x, double tolerance, bool *all, thr_err *err)
+static thr_status add_isometries(offer *x, const thr_automorphism_options *colours, double tolerance, bool *all, thr_err *err)
 {
   thr_err why = {0};
   thr_group g = {0};
   int *image = NULL, count = 0;
-  thr_status st = thr_isometries_find(x->f, tolerance, THR_GROUP_CAP, &image, &count, &why);
+  thr_status st = thr_isometries_find(x->f, colours, tolerance, THR_GROUP_CAP, &image, &count, &why);
   if (!st) st = generate(x, image, count, &g, &why);
   free(image);
   *all = !st;
@@ -188,12 +195,91 @@ static thr_status add_isometries(offer *x, double tolerance, bool *all, thr_err 
   return st ? st : add_group(x, &g, err);
 }
 
+/* Those among all automorphisms of a, which are no more than can be listed, as one more group of the table. */
+static thr_status add_listed_isometries(offer *x, const thr_automorphisms *a, double tolerance, thr_err *err)
+{
+  thr_group listed, g = {0};
+  int *image = NULL, count = 0;
+  thr_status st = thr_group_generate(a->n, a->generator, a->n_generators, THR_GROUP_CAP, &listed, err);
+  if (!st) st = thr_isometries_among(x->f, listed.image, listed.order, tolerance, &image, &count, err);
+  if (!st) st = generate(x, image, count, &g, err);
+  free(image);
+  thr_group_destroy(&listed);
+  return st ? st : add_group(x, &g, err);
+}
+
+/* The group that isometries make, among the automorphisms that keep the lengths of edges. */
+static thr_status add_shape(offer *x, const thr_automorphisms *a, const int *edge_colour, bool *all, thr_err *err)
+{
+  double tolerance = x->o->symmetry.geometric;
+  const thr_automorphism_options colours = {a->orbit, edge_colour};
+  x->t->keep_lengths[0] = a->mantissa;
+  x->t->keep_lengths[1] = a->exponent;
+  *all = true;
+  if (a->exponent == 0 && a->mantissa <= THR_GROUP_CAP) return add_listed_isometries(x, a, tolerance, err);
+  return add_isometries(x, &colours, tolerance, all, err);
+}
+
+/* Which nodes an automorphism may not mix up, beside feet and others. */
+static void colour_ends(const offer *x, int *colour)
+{
+  for (int v = 0; v < x->f->n_nodes; v++)
+    colour[v] = x->o->ends == THR_ENDS_NODES && x->o->end_node[v];
+}
+
+typedef struct {
+  int length, cover, capacity, edge; /* length: a colour */
+} edge_kind;
+
+static int by_kind(const void *a, const void *b)
+{
+  const edge_kind *p = a, *q = b;
+  const int x[] = {p->length, p->cover, p->capacity}, y[] = {q->length, q->cover, q->capacity};
+  for (int i = 0; i < 3; i++)
+    if (x[i] != y[i]) return x[i] < y[i] ? -1 : 1;
+  return 0;
+}
+
+/* Splits colours of edges by what the edges need and may have. */
+static thr_status colour_passes(const offer *x, int *colour, thr_err *err)
+{
+  int n = x->f->n_edges;
+  edge_kind *kind = thr_calloc((size_t)n, sizeof *kind);
+  if (!kind) return thr_nomem(err);
+  for (int e = 0; e < n; e++)
+    kind[e] = (edge_kind){colour[e], thr_plan_cover(x->f, x->o, e), thr_plan_capacity(x->f, x->o, e), e};
+  qsort(kind, (size_t)n, sizeof *kind, by_kind);
+  for (int i = 0, made = 0; i < n; i++) {
+    if (i > 0 && by_kind(&kind[i - 1], &kind[i])) made++;
+    colour[kind[i].edge] = made;
+  }
+  free(kind);
+  return THR_OK;
+}
+
+static thr_status find_shape(offer *x, bool *all, thr_err *err)
+{
+  int *edge = thr_calloc((size_t)x->f->n_edges, sizeof *edge), *node = thr_calloc((size_t)x->f->n_nodes, sizeof *node);
+  thr_automorphisms a = {0};
+  thr_status st = edge && node ? thr_length_colours(x->f, x->o->symmetry.geometric, edge, err) : thr_nomem(err);
+  if (!st) {
+    colour_ends(x, node);
+    st = colour_passes(x, edge, err);
+  }
+  if (!st) st = thr_automorphisms_find(x->f, &(thr_automorphism_options){node, edge}, &a, err);
+  if (!st) st = add_shape(x, &a, edge, all, err);
+  thr_automorphisms_destroy(&a);
+  free(edge);
+  free(node);
+  return st;
+}
+
 static thr_status offer_isometries(offer *x, thr_err *err)
 {
   thr_symmetries *t = x->t;
   bool all, complete = true;
   double tolerance = x->o->symmetry.geometric;
-  thr_status st = add_isometries(x, tolerance, &all, err);
+  thr_status st = find_shape(x, &all, err);
   if (!st) st = add_classes(x, true, &complete, err);
   if (st) return st;
   t->mantissa = t->group[0].all.order;
@@ -258,7 +344,8 @@ static thr_status offer_some(offer *x, const thr_automorphisms *a, thr_err *err)
   thr_symmetries *t = x->t;
   bool all, complete = true;
   int first = t->n_groups;
-  thr_status st = add_isometries(x, thr_symmetry_near, &all, err);
+  const thr_automorphism_options orbits = {.node_colour = a->orbit};
+  thr_status st = add_isometries(x, &orbits, thr_symmetry_near, &all, err);
   if (!st) st = add_classes(x, true, &complete, err);
   if (st) return st;
   int isometries = t->group[first].all.order, most = t->n + THR_SYMMETRY_EXTRA;
@@ -279,13 +366,14 @@ static thr_status offer_automorphisms(offer *x, thr_err *err)
   thr_symmetries *t = x->t;
   thr_automorphisms a;
   thr_group g = {0};
-  int *colour = thr_calloc((size_t)x->f->n_nodes, sizeof *colour);
-  if (!colour) return thr_nomem(err);
-  for (int v = 0; x->o->ends == THR_ENDS_NODES && v < x->f->n_nodes; v++)
-    colour[v] = x->o->end_node[v];
-  const thr_automorphism_options ao = {.node_colour = colour};
-  thr_status st = thr_automorphisms_find(x->f, &ao, &a, err);
-  free(colour);
+  int *node = thr_calloc((size_t)x->f->n_nodes, sizeof *node), *edge = thr_calloc((size_t)x->f->n_edges, sizeof *edge);
+  thr_status st = node && edge ? colour_passes(x, edge, err) : thr_nomem(err);
+  if (!st) {
+    colour_ends(x, node);
+    st = thr_automorphisms_find(x->f, &(thr_automorphism_options){node, edge}, &a, err);
+  }
+  free(node);
+  free(edge);
   if (st) return st;
   t->mantissa = a.mantissa;
   t->exponent = a.exponent;

@@ -14,20 +14,24 @@ enum {
   ROUNDS = 8, /* of matching and refining: two or three suffice unless nodes crowd */
   TRIES = 4   /* motions that send every node near another but match otherwise, for each isometry allowed */
 };
+/* Nodes moved and nodes near them: about a second. A count and not a time, so that the result is always the same. */
+static const int64_t MOST_WORK = INT64_C(1) << 28;
 
-/* A node as it may be mistaken for others: by kind (degree and foot) and distance from the centroid. */
+/* A node as it may be mistaken for others: by kind (colour, degree and foot) and distance from the centroid. */
 typedef struct {
-  int kind, node;
+  int64_t kind;
+  int node;
   double radius;
 } likeness;
 
 typedef struct {
   const thr_frame *f;
+  const thr_automorphism_options *colours;
   double tolerance; /* in parts of size, of every node */
   double centroid[3], size;
   double (*x)[3];               /* [n_nodes] from the centroid, in parts of size */
   double *radius, most;         /* [n_nodes] and the largest */
-  int *kind;                    /* [n_nodes] */
+  int64_t *kind;                /* [n_nodes] */
   likeness *like;               /* [n_nodes] by kind and radius */
   int first, second;            /* reference nodes; second < 0: all on a line */
   double loose;                 /* how far a motion from two references may be off at any node */
@@ -36,6 +40,7 @@ typedef struct {
   bool *hit;                    /* [n_nodes] */
   int *found, count, capacity;  /* [count * n_nodes] */
   int tried;                    /* motions that sent every node near another, as none before */
+  int64_t work;                 /* see MOST_WORK */
 } search;
 
 static int by_likeness(const void *a, const void *b)
@@ -47,7 +52,7 @@ static int by_likeness(const void *a, const void *b)
 }
 
 /* Index of the first entry of like that is not below this kind and radius. */
-static int lower(const search *s, int kind, double radius)
+static int lower(const search *s, int64_t kind, double radius)
 {
   likeness key = {kind, -1, radius};
   int low = 0, high = s->f->n_nodes;
@@ -157,7 +162,8 @@ static thr_status search_init(search *s, thr_err *err)
       s->x[v][i] = (f->xyz[v][i] - s->centroid[i]) / s->size;
     s->radius[v] = sqrt(thr_dot(s->x[v], s->x[v]));
     s->most = fmax(s->most, s->radius[v]);
-    s->kind[v] = 2 * thr_degree(f, v) + f->foot[v];
+    int64_t colour = s->colours->node_colour ? s->colours->node_colour[v] : 0;
+    s->kind[v] = colour * (INT64_C(1) << 32) + 2 * (int64_t)thr_degree(f, v) + f->foot[v];
     s->like[v] = (likeness){s->kind[v], v, s->radius[v]};
   }
   qsort(s->like, n, sizeof *s->like, by_likeness);
@@ -179,7 +185,7 @@ static void search_destroy(search *s)
 }
 
 /* The node of this kind nearest to x within loose; -1: none. */
-static int nearest(const search *s, const double x[3], int kind)
+static int nearest(search *s, const double x[3], int64_t kind)
 {
   int low[3], high[3], best = -1;
   double least = s->loose * s->loose;
@@ -190,6 +196,7 @@ static int nearest(const search *s, const double x[3], int kind)
   for (int i = low[0]; i <= high[0]; i++)
     for (int j = low[1]; j <= high[1]; j++) {
       const int *row = &s->cell_first[(i * s->side + j) * s->side];
+      s->work += row[high[2] + 1] - row[low[2]];
       for (int k = row[low[2]]; k < row[high[2] + 1]; k++) { /* cells of a row stand together */
         int v = s->cell[k];
         if (s->kind[v] != kind) continue;
@@ -203,14 +210,21 @@ static int nearest(const search *s, const double x[3], int kind)
 }
 
 /* Where q moves every node, into image; false: some node to none. */
-static bool match(const search *s, double q[3][3], int *image)
+static bool match(search *s, double q[3][3], int *image)
 {
   for (int v = 0; v < s->f->n_nodes; v++) {
     double moved[3] = {thr_dot(q[0], s->x[v]), thr_dot(q[1], s->x[v]), thr_dot(q[2], s->x[v])};
+    s->work++;
     image[v] = nearest(s, moved, s->kind[v]);
     if (image[v] < 0) return false;
   }
   return true;
+}
+
+int thr_edge_joining(const thr_frame *f, int a, int b)
+{
+  bool fewer = thr_degree(f, a) <= thr_degree(f, b);
+  return thr_frame_edge_between(f, fewer ? a : b, fewer ? b : a);
 }
 
 static bool is_automorphism(const search *s)
@@ -222,9 +236,8 @@ static bool is_automorphism(const search *s)
     s->hit[s->image[v]] = true;
   }
   for (int e = 0; e < f->n_edges; e++) {
-    int a = s->image[f->edge[e][0]], b = s->image[f->edge[e][1]];
-    bool fewer = thr_degree(f, a) <= thr_degree(f, b);
-    if (thr_frame_edge_between(f, fewer ? a : b, fewer ? b : a) < 0) return false;
+    int to = thr_edge_joining(f, s->image[f->edge[e][0]], s->image[f->edge[e][1]]);
+    if (to < 0 || (s->colours->edge_colour && s->colours->edge_colour[to] != s->colours->edge_colour[e])) return false;
   }
   return true;
 }
@@ -247,14 +260,18 @@ static thr_status keep(search *s, int cap, thr_err *err)
   return st;
 }
 
+static thr_status too_many(const search *s, thr_err *err)
+{
+  return thr_fail(err, THR_ELIMIT, "tolerance %g is too large for nodes so near to each other: too many motions fit",
+                  s->tolerance);
+}
+
 /* Refines the motion until its matching is an isometry, or stays the same without being one. */
 static thr_status try_motion(search *s, double q[3][3], int cap, thr_err *err)
 {
   size_t row = (size_t)s->f->n_nodes * sizeof *s->image;
   if (!match(s, q, s->image) || is_known(s)) return THR_OK;
-  if (s->tried++ / TRIES > cap + 256)
-    return thr_fail(err, THR_ELIMIT, "tolerance %g is too large for nodes so near to each other: too many motions fit",
-                    s->tolerance);
+  if (s->tried++ / TRIES > cap + 256) return too_many(s, err);
   for (int round = 0; round < ROUNDS; round++) {
     thr_motion m;
     thr_procrustes(s->f, s->image, &m);
@@ -321,15 +338,18 @@ static thr_status try_all(search *s, int cap, thr_err *err)
   for (int i = first; i < first_end && !st; i++)
     for (int j = second; j < second_end && !st; j++) {
       const double *c = s->x[s->like[i].node], *d = s->x[s->like[j].node];
+      if (s->work++ > MOST_WORK) return too_many(s, err);
       if (fabs(distance(a, b) - distance(c, d)) > 2 * s->tolerance || !base_of(c, d, to)) continue;
       st = try_bases(s, from, to, cap, err);
     }
   return st;
 }
 
-thr_status thr_isometries_find(const thr_frame *f, double tolerance, int cap, int **out, int *count, thr_err *err)
+thr_status thr_isometries_find(const thr_frame *f, const thr_automorphism_options *colours, double tolerance, int cap, int **out,
+                               int *count, thr_err *err)
 {
-  search s = {.f = f, .tolerance = tolerance + ROUNDING};
+  const thr_automorphism_options none = {0};
+  search s = {.f = f, .colours = colours ? colours : &none, .tolerance = tolerance + ROUNDING};
   *out = NULL;
   *count = 0;
   thr_status st = search_init(&s, err);
@@ -343,4 +363,53 @@ thr_status thr_isometries_find(const thr_frame *f, double tolerance, int cap, in
   *out = s.found;
   *count = s.count;
   return st;
+}
+
+/* ---- the isometries among listed automorphisms ---- */
+
+thr_status thr_isometries_among(const thr_frame *f, const int *image, int n, double tolerance, int **out, int *count,
+                                thr_err *err)
+{
+  size_t row = (size_t)f->n_nodes;
+  *count = 0;
+  *out = thr_calloc((size_t)n * row, sizeof **out);
+  if (!*out) return thr_nomem(err);
+  for (int i = 0; i < n; i++) {
+    thr_motion m;
+    thr_procrustes(f, image + (size_t)i * row, &m);
+    if (m.farthest <= tolerance + ROUNDING) memcpy(*out + (size_t)(*count)++ * row, image + (size_t)i * row, row * sizeof *image);
+  }
+  return THR_OK;
+}
+
+/* ---- edge lengths ---- */
+
+typedef struct {
+  double length;
+  int edge;
+} measured;
+
+static int by_length(const void *a, const void *b)
+{
+  const measured *p = a, *q = b;
+  if (p->length != q->length) return p->length < q->length ? -1 : 1;
+  return (p->edge > q->edge) - (p->edge < q->edge);
+}
+
+thr_status thr_length_colours(const thr_frame *f, double tolerance, int *colour, thr_err *err)
+{
+  measured *m = thr_calloc((size_t)f->n_edges, sizeof *m);
+  double centroid[3], size;
+  if (!m) return thr_nomem(err);
+  thr_frame_extent(f, centroid, &size);
+  for (int e = 0; e < f->n_edges; e++)
+    m[e] = (measured){f->length[e], e};
+  qsort(m, (size_t)f->n_edges, sizeof *m, by_length);
+  double step = 2 * (tolerance + 2 * ROUNDING) * size; /* an isometry moves either end by the tolerance at most */
+  for (int i = 0, last = 0; i < f->n_edges; i++) {
+    last += i > 0 && m[i].length - m[i - 1].length > step;
+    colour[m[i].edge] = last;
+  }
+  free(m);
+  return THR_OK;
 }

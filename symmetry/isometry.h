@@ -2,7 +2,7 @@
 #ifndef THR_ISOMETRY_H
 #define THR_ISOMETRY_H
 
-#include "graph/frame.h"
+#include "symmetry/automorphisms.h"
 
 typedef enum {
   THR_ISO_IDENTITY,
@@ -31,12 +31,27 @@ typedef struct {
  * are then 0. image: [n_nodes], a permutation. O(n) and its cycles. */
 void thr_isometry_of(const thr_frame *f, const int *image, double tolerance, thr_isometry *out);
 
-/* Every automorphism that is an isometry within tolerance (as residual, of every node's distance as a part of the framework's
- * size), found from the coordinates alone, without nauty: at most cap. Rows of images in out (owned by the caller, [*count *
- * n_nodes]), the identity first, then lexicographic. Feet go to feet. Where nodes lie nearer to each other than the tolerance,
- * only the nearest matching of each motion is found; and within a tolerance above rounding the rows need not make a group. The
- * framework has an edge. THR_ELIMIT: more than cap, or far more motions fit than that. O(n) per motion tried. */
-thr_status thr_isometries_find(const thr_frame *f, double tolerance, int cap, int **out, int *count, thr_err *err) THR_MUST_CHECK;
+/* Edge between nodes a and b; -1: none. O(the smaller of their degrees): images of a hub's edges are looked up in no time. */
+int thr_edge_joining(const thr_frame *f, int a, int b);
+
+/* Every automorphism that is an isometry within tolerance (of every node's distance from its image, as a part of the framework's
+ * size: the root mean square distance of the nodes from their centroid), found from the coordinates: at most cap. Rows of images
+ * in out (owned by the caller, [*count * n_nodes]), the identity first, then lexicographic. Feet go to feet, nodes and edges to
+ * those of their colour (colours NULL = all alike). Where nodes lie nearer to each other than the tolerance, only the nearest
+ * matching of each motion is found; and within a tolerance above rounding the rows need not make a group. The framework has an
+ * edge. THR_ELIMIT: more than cap, or far more motions fit than that. O(n) per motion tried, about a second at most. */
+thr_status thr_isometries_find(const thr_frame *f, const thr_automorphism_options *colours, double tolerance, int cap, int **out,
+                               int *count, thr_err *err) THR_MUST_CHECK;
+
+/* Those of n automorphisms (rows of images) that are isometries within tolerance, as above, in their order. O(n * n_nodes). */
+thr_status thr_isometries_among(const thr_frame *f, const int *image, int n, double tolerance, int **out, int *count,
+                                thr_err *err) THR_MUST_CHECK;
+
+/* Colours of edges, 0, 1, .. by ascending length, that no isometry within tolerance mixes up: it changes a distance by 2 *
+ * tolerance * size at most, so lengths that differ by no more have one colour, and so have those linked by others in between.
+ * Lengths are those of the cord, which a file may give otherwise than the coordinates; then only isometries that keep them so
+ * keep the colours. colour: [n_edges]. O(m log m). */
+thr_status thr_length_colours(const thr_frame *f, double tolerance, int *colour, thr_err *err) THR_MUST_CHECK;
 
 /* What kind of point group a set of named elements is, Schoenflies: "C1", "Cs", "Ci", "C4", "C4v", "C4h", "D4", "D4d", "D4h",
  * "S4", "T", "Td", "Th", "O", "Oh", "I", "Ih"; "" if some element is no isometry (topological only) or they are no group.

@@ -2,13 +2,14 @@
 #include "symmetry/programme.h"
 #include "graph/disjoint.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* ---- columns ---- */
 
-static bool end_allowed(const thr_programme *p, int v)
+bool thr_programme_end_allowed(const thr_programme *p, int v)
 {
   switch (p->o->ends) {
   case THR_ENDS_CLOSED: return false;
@@ -30,9 +31,26 @@ static thr_status find_node_orbits(thr_programme *p, thr_err *err)
       if (to[v] < p->node_orbit[v]) p->node_orbit[v] = to[v];
   }
   for (int v = 0; v < n; v++)
-    if (end_allowed(p, v) != end_allowed(p, p->node_orbit[v]))
+    if (thr_programme_end_allowed(p, v) != thr_programme_end_allowed(p, p->node_orbit[v]))
       return thr_fail(err, THR_EINPUT, "the group moves node %s, where cords may end, to node %s, where they may not",
-                      q->f->name[end_allowed(p, v) ? v : p->node_orbit[v]], q->f->name[end_allowed(p, v) ? p->node_orbit[v] : v]);
+                      q->f->name[thr_programme_end_allowed(p, v) ? v : p->node_orbit[v]],
+                      q->f->name[thr_programme_end_allowed(p, v) ? p->node_orbit[v] : v]);
+  return THR_OK;
+}
+
+/* What the edges of an orbit need and may have, which is the same for all. */
+static thr_status find_passes(thr_programme *p, thr_err *err)
+{
+  const thr_quotient *q = p->q;
+  for (int e = 0; e < q->f->n_edges; e++) {
+    int orbit = q->edge_orbit[e], cover = p->o->edge_cover ? p->o->edge_cover[e] : p->o->cover;
+    int capacity = p->o->edge_capacity ? p->o->edge_capacity[e] : INT_MAX;
+    bool first = p->cover[orbit] == 0;
+    if (!first && (p->cover[orbit] != cover || p->capacity[orbit] != capacity))
+      return thr_fail(err, THR_EINPUT, "the group moves edge %d to one that needs, or may have, other passes", e);
+    p->cover[orbit] = cover;
+    p->capacity[orbit] = capacity;
+  }
   return THR_OK;
 }
 
@@ -41,9 +59,8 @@ static void fill_copies(thr_programme *p)
   const thr_quotient *q = p->q;
   for (int c = 0; c < q->n_copies; c++) {
     const thr_copy_type *t = &q->copy[c];
-    bool alone = (c == 0 || q->copy[c - 1].edge != t->edge) && (c + 1 == q->n_copies || q->copy[c + 1].edge != t->edge);
-    p->least[c] = alone ? (p->o->cover + t->passes - 1) / t->passes : 0;
-    p->most[c] = 2 * p->o->cover + 2;
+    int most = 2 * p->cover[t->edge_orbit] + 2, fit = p->capacity[t->edge_orbit] / t->passes;
+    p->most[c] = fit < most ? fit : most;
     p->join[c][0] = t->dart[0];
     p->join[c][1] = t->fold ? q->n_darts : t->dart[1];
     p->cost[THR_AIM_OVERLAP][c] = t->passes * q->orbit_length[t->edge_orbit];
@@ -59,7 +76,7 @@ static void fill_pairs(thr_programme *p)
     const thr_pair_type *t = &q->pair[y];
     int j = p->first_pair + y;
     bool u_turn = t->half[0] == t->half[1];
-    p->most[j] = u_turn && end_allowed(p, thr_tail(q->f, t->half[0])) ? 0 : -1;
+    p->most[j] = u_turn && thr_programme_end_allowed(p, thr_tail(q->f, t->half[0])) ? 0 : -1;
     p->join[j][0] = t->dart[0];
     p->join[j][1] = t->self ? q->n_darts : t->dart[1];
     p->cost[THR_AIM_PATHS][j] = t->self ? 0.5 : 0;
@@ -72,7 +89,7 @@ static void fill_darts(thr_programme *p)
   const thr_quotient *q = p->q;
   for (int d = 0; d < q->n_darts; d++) {
     int t = p->first_end + d, z = p->first_circle + d;
-    p->most[t] = end_allowed(p, thr_tail(q->f, q->dart[d].half)) ? -1 : 0;
+    p->most[t] = thr_programme_end_allowed(p, thr_tail(q->f, q->dart[d].half)) ? -1 : 0;
     p->most[z] = !p->open;
     p->join[t][0] = p->join[z][0] = p->join[z][1] = d;
     p->join[t][1] = q->n_darts;
@@ -101,13 +118,15 @@ static void list_pairs(thr_programme *p)
 static thr_status allocate(thr_programme *p, thr_err *err)
 {
   size_t n = (size_t)p->n;
+  p->cover = thr_calloc((size_t)p->q->n_edge_orbits, sizeof *p->cover);
+  p->capacity = thr_calloc((size_t)p->q->n_edge_orbits, sizeof *p->capacity);
   p->least = thr_calloc(n, sizeof *p->least);
   p->most = thr_calloc(n, sizeof *p->most);
   p->join = thr_calloc(n, sizeof *p->join);
   p->first = thr_calloc((size_t)p->q->n_darts + 2, sizeof *p->first);
   p->incident = thr_calloc(2 * (size_t)p->q->n_pairs, sizeof *p->incident);
   p->node_orbit = thr_calloc((size_t)p->q->f->n_nodes, sizeof *p->node_orbit);
-  bool all = p->least && p->most && p->join && p->first && p->incident && p->node_orbit;
+  bool all = p->cover && p->capacity && p->least && p->most && p->join && p->first && p->incident && p->node_orbit;
   for (int a = 0; a < THR_N_AIMS; a++)
     all = (p->cost[a] = thr_calloc(n, sizeof *p->cost[a])) && all;
   return all ? THR_OK : thr_nomem(err);
@@ -139,15 +158,20 @@ thr_status thr_programme_init(thr_programme *p, const thr_quotient *q, const thr
   p->n = p->first_circle + q->n_darts;
   thr_status st = allocate(p, err);
   if (!st) st = find_node_orbits(p, err);
+  if (!st) st = find_passes(p, err);
+  if (!st) {
+    fill_copies(p);
+    fill_pairs(p);
+    fill_darts(p);
+    list_pairs(p);
+    st = thr_programme_rule_out(p, err);
+  }
   if (st) {
     thr_programme_destroy(p);
     return st;
   }
-  fill_copies(p);
-  fill_pairs(p);
-  fill_darts(p);
-  list_pairs(p);
-  p->constant[THR_AIM_OVERLAP] = -o->cover * thr_frame_total_length(q->f);
+  for (int i = 0; i < q->n_edge_orbits; i++)
+    p->constant[THR_AIM_OVERLAP] -= p->cover[i] * q->orbit_length[i];
   for (int a = 0; a < THR_N_AIMS; a++) {
     for (int j = 0; j < p->n; j++)
       p->scale[a] = fmax(p->scale[a], p->cost[a][j]);
@@ -159,6 +183,8 @@ thr_status thr_programme_init(thr_programme *p, const thr_quotient *q, const thr
 
 void thr_programme_destroy(thr_programme *p)
 {
+  free(p->cover);
+  free(p->capacity);
   free(p->least);
   free(p->most);
   free(p->join);
@@ -173,6 +199,15 @@ void thr_programme_destroy(thr_programme *p)
 bool thr_programme_terminal(const thr_programme *p, int column)
 {
   return p->join[column][1] == p->q->n_darts;
+}
+
+bool thr_programme_loop(const thr_programme *p, int dart)
+{
+  for (int k = p->first[dart]; k < p->first[dart + 1]; k++) {
+    const thr_pair_type *t = &p->q->pair[p->incident[k]];
+    if (!t->self && t->dart[0] == t->dart[1] && p->most[p->first_pair + p->incident[k]] != 0) return true;
+  }
+  return false;
 }
 
 /* ---- connected sets ---- */
@@ -378,6 +413,12 @@ double thr_programme_tolerance(const thr_programme *p, thr_aim aim)
   return worth_tolerance * p->scale[aim];
 }
 
+double thr_programme_round(const thr_programme *p, thr_aim aim, double worth)
+{
+  double unit = p->unit[aim], constant = p->constant[aim];
+  return unit > 0 ? unit * ceil((worth - constant) / unit - 1e-4) + constant : worth;
+}
+
 int thr_programme_compare(const thr_programme *p, const double *a, const double *b)
 {
   for (int k = 0; k < THR_N_AIMS; k++) {
@@ -385,6 +426,20 @@ int thr_programme_compare(const thr_programme *p, const double *a, const double 
     if (fabs(a[aim] - b[aim]) > thr_programme_tolerance(p, aim)) return a[aim] < b[aim] ? -1 : 1;
   }
   return 0;
+}
+
+/* Has no edge more passes than its capacity? */
+static bool fits_capacity(const thr_programme *p, const int *value)
+{
+  const thr_quotient *q = p->q;
+  bool fits = true;
+  for (int c = 0, end; c < q->n_copies; c = end) {
+    long passes = 0;
+    for (end = c; end < q->n_copies && q->copy[end].edge == q->copy[c].edge; end++)
+      passes += (long)value[end] * q->copy[end].passes;
+    fits = fits && passes <= p->capacity[q->copy[c].edge_orbit];
+  }
+  return fits;
 }
 
 thr_status thr_programme_value(const thr_programme *p, const int *value, double worth[THR_N_AIMS], bool *valid, thr_err *err)
@@ -399,7 +454,7 @@ thr_status thr_programme_value(const thr_programme *p, const int *value, double 
     for (int j = 0; j < p->first_circle; j++)
       worth[a] += p->cost[a][j] * value[j];
   }
-  *valid = true;
+  *valid = fits_capacity(p, value);
   if (!st) {
     thr_programme_parts_find(&s, p, value);
     for (int d = 0; d < p->q->n_darts; d++) {

@@ -12,6 +12,7 @@ typedef struct {
   const thr_cover_options *o;
   int n, first_pair, first_end, first_circle;
   bool open;                /* every cord is open */
+  int *cover, *capacity;    /* [n_edge_orbits] passes that an edge needs at least, and may have at most (INT_MAX: any number) */
   int *least, *most;        /* [n] bounds; most < 0: no bound but the equations */
   int (*join)[2];           /* [n] nodes of the graph; circles: their dart type twice */
   double *cost[THR_N_AIMS]; /* [n] */
@@ -25,7 +26,17 @@ typedef struct {
 thr_status thr_programme_init(thr_programme *p, const thr_quotient *q, const thr_cover_options *o, thr_err *err) THR_MUST_CHECK;
 void thr_programme_destroy(thr_programme *p);
 
+/* In symmetry/ruled_out.c, the last step of thr_programme_init: most[] = 0 for copies that come to where they can neither turn
+ * nor end, and for those exchanged by elements that move no node of their component, without which no cover has more overlap;
+ * least[] for copy types that are alone in their edge orbit then. THR_EINFEASIBLE: an edge has no copy type left that fits its
+ * capacity. O(types * longest chain + order * nodes). */
+thr_status thr_programme_rule_out(thr_programme *p, thr_err *err) THR_MUST_CHECK;
+
+bool thr_programme_end_allowed(const thr_programme *p, int node);
+
 bool thr_programme_terminal(const thr_programme *p, int column); /* does a trail end here, in an end or a fold? */
+
+bool thr_programme_loop(const thr_programme *p, int dart); /* may two orbits of this dart type turn into each other? */
 
 /* Connected sets of dart types in a whole solution: root[d] is the lowest of its set, -1 = unused; by root the terminals, among
  * them the ends, and the orbits of copies. Arrays: [n_darts]. */
@@ -43,17 +54,23 @@ void thr_programme_parts_destroy(thr_programme_parts *s);
 thr_status thr_programme_folds(const thr_programme *p, const double *value, bool *copy_side, bool *pair_side, bool *found,
                                thr_err *err) THR_MUST_CHECK;
 
-/* Worth of a whole solution by aim, circles counted from the connected sets; valid: can it be made concrete? */
+/* Worth of a whole solution by aim, circles counted from the connected sets; valid: can it be made concrete, within capacity? */
 thr_status thr_programme_value(const thr_programme *p, const int *value, double worth[THR_N_AIMS], bool *valid,
                                thr_err *err) THR_MUST_CHECK;
 
 /* What two worths in an aim may differ by without being different. */
 double thr_programme_tolerance(const thr_programme *p, thr_aim aim);
 
+/* The least that a cover can be worth if it is worth this or more. */
+double thr_programme_round(const thr_programme *p, thr_aim aim, double worth);
+
 /* -1 or 1 if worth a is better or worse than b in the first aim in which they differ. */
 int thr_programme_compare(const thr_programme *p, const double *a, const double *b);
 
 /* In symmetry/exchange.c: the partners of two turns at one node are exchanged, or those of a turn and of an end or fold. */
+
+/* Exchanges that save turning, whatever they do to the connected sets, until there is none or the limits stop it. */
+thr_status thr_programme_straighten(const thr_programme *p, const thr_limits *limits, int *value, thr_err *err) THR_MUST_CHECK;
 
 /* Joins connected sets by exchanges, cheapest turning first, as long as a set has no terminal (open: no end). */
 thr_status thr_programme_mend(const thr_programme *p, int *value, thr_err *err) THR_MUST_CHECK;

@@ -1,5 +1,6 @@
 /* Orbits of copies, darts and turns under a group. */
 #include "symmetry/quotient.h"
+#include "symmetry/isometry.h"
 
 #include <assert.h>
 #include <stdlib.h>
@@ -50,7 +51,7 @@ static bool full(const build *b)
 
 static int half_between(const thr_frame *f, int from, int to)
 {
-  int e = thr_frame_edge_between(f, from, to);
+  int e = thr_edge_joining(f, from, to);
   return e < 0 ? -1 : 2 * e + (f->edge[e][1] == from);
 }
 

@@ -1,6 +1,7 @@
 /* Rows and separation of the programme of a symmetric cover. */
 #include "symmetry/relaxation.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,14 +15,12 @@ enum { MOST_EXACT = 4000 };
 
 /* ---- rows ---- */
 
-/* Adds the row r->sum * x >= lower and clears r->sum. */
-static thr_status add_row(thr_relaxation *r, double lower, thr_err *err)
+thr_status thr_relaxation_add_row(thr_relaxation *r, double lower, thr_err *err)
 {
-  size_t n = (size_t)r->p->n;
-  int count = 0, *column = thr_calloc(n, sizeof *column);
-  double *value = thr_calloc(n, sizeof *value);
+  int n = r->p->n + r->extra, count = 0, *column = thr_calloc((size_t)n, sizeof *column);
+  double *value = thr_calloc((size_t)n, sizeof *value);
   thr_status st = column && value ? THR_OK : thr_nomem(err);
-  for (int j = 0; j < r->p->n && !st; j++)
+  for (int j = 0; j < n && !st; j++)
     if (r->sum[j] != 0) {
       column[count] = j;
       value[count++] = r->sum[j];
@@ -48,7 +47,7 @@ static thr_status add_if_violated(thr_relaxation *r, double lower, int *added, t
 {
   if (!violated(r, lower)) return THR_OK;
   ++*added;
-  return add_row(r, lower, err);
+  return thr_relaxation_add_row(r, lower, err);
 }
 
 /* Dart types' equations: copies = turns + ends. */
@@ -56,7 +55,8 @@ static thr_status create_equations(thr_relaxation *r, thr_err *err)
 {
   const thr_programme *p = r->p;
   int darts = p->q->n_darts, n = 0;
-  int *start = thr_calloc((size_t)p->n + 1, sizeof *start), *row = thr_calloc(2 * (size_t)p->n, sizeof *row);
+  int columns = p->n + r->extra, *start = thr_calloc((size_t)columns + 1, sizeof *start),
+      *row = thr_calloc(2 * (size_t)p->n, sizeof *row);
   double *value = thr_calloc(2 * (size_t)p->n, sizeof *value), *rhs = thr_calloc((size_t)darts, sizeof *rhs);
   thr_status st = start && row && value && rhs ? THR_OK : thr_nomem(err);
   for (int j = 0; j < p->n && !st; j++) {
@@ -73,7 +73,9 @@ static thr_status create_equations(thr_relaxation *r, thr_err *err)
     }
     start[j + 1] = n;
   }
-  if (!st) st = thr_lp_create_equations(&r->lp, darts, rhs, p->n, r->sum, NULL, start, row, value, err);
+  for (int j = p->n; j < columns && !st; j++)
+    start[j + 1] = n;
+  if (!st) st = thr_lp_create_equations(&r->lp, darts, rhs, columns, r->sum, NULL, start, row, value, err);
   free(start);
   free(row);
   free(value);
@@ -95,14 +97,18 @@ static int end_of_orbit(const thr_quotient *q, int first)
 static thr_status add_cover_rows(thr_relaxation *r, thr_err *err)
 {
   const thr_quotient *q = r->p->q;
-  int cover = r->p->o->cover;
   thr_status st = THR_OK;
   for (int c = 0, end; c < q->n_copies && !st; c = end) {
     end = end_of_orbit(q, c);
+    int cover = r->p->cover[q->copy[c].edge_orbit], capacity = r->p->capacity[q->copy[c].edge_orbit];
     if (end == c + 1) continue; /* a bound instead */
     for (int k = c; k < end; k++)
       r->sum[k] = q->copy[k].passes < cover ? q->copy[k].passes : cover;
-    st = add_row(r, cover, err);
+    st = thr_relaxation_add_row(r, cover, err);
+    if (st || capacity == INT_MAX) continue;
+    for (int k = c; k < end; k++)
+      r->sum[k] = -q->copy[k].passes;
+    st = thr_relaxation_add_row(r, -capacity, err);
   }
   return st;
 }
@@ -151,8 +157,9 @@ static void fill_graph(thr_relaxation *r, int (*edge)[2], bool *odd)
   for (int c = 0, end; c < q->n_copies; c = end) {
     end = end_of_orbit(q, c);
     int split = only_odd(q, c, end);
+    if (split >= 0 && p->least[split] > 0) split = -1; /* the others are ruled out: it has a bound instead */
     for (int k = c; k < end; k++) {
-      int a = p->join[k][0], b = p->join[k][1], shift = k == split ? p->o->cover : p->least[k];
+      int a = p->join[k][0], b = p->join[k][1], shift = k == split ? p->cover[q->copy[k].edge_orbit] : p->least[k];
       if (a == b) continue;
       if (k == split) {
         int middle = r->problem.n_nodes++;
@@ -192,7 +199,7 @@ static double weigh(const thr_relaxation *r, int edge)
   if (!r->surplus[edge]) return fmax(0, r->x[j] - r->p->least[j]);
   for (int c = start_of_orbit(q, j), end = end_of_orbit(q, c); c < end; c++)
     sum += q->copy[c].passes * r->x[c];
-  return fmax(0, sum - r->p->o->cover);
+  return fmax(0, sum - r->p->cover[q->copy[j].edge_orbit]);
 }
 
 /* Adds what an edge of the graph stands for to r->sum; returns what it is over. */
@@ -206,7 +213,7 @@ static double add_weight(thr_relaxation *r, int edge)
   }
   for (int c = start_of_orbit(q, j), end = end_of_orbit(q, c); c < end; c++)
     r->sum[c] += q->copy[c].passes;
-  return r->p->o->cover;
+  return r->p->cover[q->copy[j].edge_orbit];
 }
 
 /* The row of an odd set: the surplus that crosses is at least 1. */
@@ -378,9 +385,14 @@ thr_status thr_relaxation_separate(thr_relaxation *r, const thr_limits *limits, 
 
 thr_status thr_relaxation_init(thr_relaxation *r, const thr_programme *p, const thr_limits *limits, thr_err *err)
 {
-  *r = (thr_relaxation){.p = p};
-  r->x = thr_calloc((size_t)p->n, sizeof *r->x);
-  r->sum = thr_calloc((size_t)p->n, sizeof *r->sum);
+  return thr_relaxation_init_extra(r, p, 0, limits, err);
+}
+
+thr_status thr_relaxation_init_extra(thr_relaxation *r, const thr_programme *p, int extra, const thr_limits *limits, thr_err *err)
+{
+  *r = (thr_relaxation){.p = p, .extra = extra};
+  r->x = thr_calloc((size_t)(p->n + extra), sizeof *r->x);
+  r->sum = thr_calloc((size_t)(p->n + extra), sizeof *r->sum);
   r->low = thr_calloc((size_t)p->n, sizeof *r->low);
   r->high = thr_calloc((size_t)p->n, sizeof *r->high);
   thr_status st = r->x && r->sum && r->low && r->high ? THR_OK : thr_nomem(err);
@@ -413,7 +425,7 @@ void thr_relaxation_destroy(thr_relaxation *r)
 thr_status thr_relaxation_aim(thr_relaxation *r, thr_aim aim, thr_err *err)
 {
   const thr_programme *p = r->p;
-  double *cost = thr_calloc((size_t)p->n, sizeof *cost);
+  double *cost = thr_calloc((size_t)(p->n + r->extra), sizeof *cost);
   if (!cost) return thr_nomem(err);
   for (int j = 0; j < p->n; j++)
     cost[j] = p->cost[aim][j] / p->scale[aim];
@@ -430,7 +442,7 @@ thr_status thr_relaxation_fix(thr_relaxation *r, double value, thr_err *err)
   double scale = p->scale[r->aim];
   for (int j = 0; j < p->n; j++)
     r->sum[j] = -p->cost[r->aim][j] / scale;
-  return add_row(r, -(value - p->constant[r->aim]) / scale - slack, err);
+  return thr_relaxation_add_row(r, -(value - p->constant[r->aim]) / scale - slack, err);
 }
 
 thr_status thr_relaxation_bound(thr_relaxation *r, int column, double low, double high, thr_err *err)
@@ -446,10 +458,7 @@ thr_status thr_relaxation_solve(thr_relaxation *r, const thr_limits *limits, thr
   thr_status st = thr_lp_solve(r->lp, limits, outcome, err);
   if (st || *outcome != THR_LP_OPTIMAL) return st;
   thr_lp_primal(r->lp, r->x);
-  r->objective = thr_lp_objective(r->lp) * p->scale[r->aim];
-  double unit = p->unit[r->aim];
-  if (unit > 0) r->objective = unit * ceil(r->objective / unit - 1e-4);
-  r->objective += p->constant[r->aim];
+  r->objective = thr_programme_round(p, r->aim, thr_lp_objective(r->lp) * p->scale[r->aim] + p->constant[r->aim]);
   r->whole = true;
   for (int j = 0; j < p->n && r->whole; j++)
     r->whole = fabs(r->x[j] - nearbyint(r->x[j])) < fraction;

@@ -8,11 +8,12 @@
 
 typedef struct {
   const thr_programme *p;
+  int extra; /* columns after those of p, >= 0, in no row as yet and at no cost */
   thr_lp *lp;
   thr_aim aim;        /* minimized at present */
   bool circles;       /* circles count from now on: paths are, or were, minimized */
   double *low, *high; /* [p->n] bounds in force */
-  double *x;          /* [p->n] of the last solve */
+  double *x;          /* [p->n + extra] of the last solve */
   double objective;   /* of the last solve, in the aim's unit, with its constant; rounded up to what a cover can have */
   bool whole;         /* is x integral? */
   /* odd sets */
@@ -23,12 +24,19 @@ typedef struct {
   double *metric; /* [problem.n_edges] overlap that it costs, in parts of the largest */
   bool *surplus;  /* [problem.n_edges] or rather for the surplus of its edge orbit over the cover? */
   double *weight; /* [problem.n_edges] scratch */
-  double *sum;    /* [p->n] scratch: coefficients of a row */
+  double *sum;    /* [p->n + extra] all 0: for the coefficients of a row */
 } thr_relaxation;
 
 /* THR_ELIMIT: stopped; r is empty. */
 thr_status thr_relaxation_init(thr_relaxation *r, const thr_programme *p, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
 void thr_relaxation_destroy(thr_relaxation *r);
+
+/* The same with extra columns (symmetry/turning_bound.h). */
+thr_status thr_relaxation_init_extra(thr_relaxation *r, const thr_programme *p, int extra, const thr_limits *limits,
+                                     thr_err *err) THR_MUST_CHECK;
+
+/* Adds the row r->sum * x >= lower and clears r->sum. */
+thr_status thr_relaxation_add_row(thr_relaxation *r, double lower, thr_err *err) THR_MUST_CHECK;
 
 /* What is minimized from now on. */
 thr_status thr_relaxation_aim(thr_relaxation *r, thr_aim aim, thr_err *err) THR_MUST_CHECK;

@@ -3,6 +3,7 @@
 #include "graph/check.h"
 #include "lp/postman.h"
 #include "symmetry/groups.h"
+#include "symmetry/solve.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -11,81 +12,14 @@
 
 const double thr_symmetry_slack = 0.10;
 
-enum { MOST_TYPES = 200000 }; /* of a quotient: what a linear programme can hold */
-
-/* ---- the best threading under one group ---- */
-
-static thr_status count_copies(thr_symmetry_row *row, thr_err *err)
-{
-  int *copies = thr_calloc((size_t)row->n_cords, sizeof *copies);
-  if (!copies) return thr_nomem(err);
-  for (int i = 0; i < row->n_cords; i++)
-    copies[row->record.unique[i]]++;
-  row->least_copies = row->n_cords;
-  for (int i = 0; i < row->n_cords; i++) {
-    if (copies[i] == 0) continue;
-    if (copies[i] < row->least_copies) row->least_copies = copies[i];
-    if (copies[i] > row->most_copies) row->most_copies = copies[i];
-  }
-  free(copies);
-  return THR_OK;
-}
-
-static thr_status take_cover(const thr_quotient *q, const thr_cover_options *co, const thr_plan_options *o, const thr_cover *c,
-                             thr_symmetry_row *row, thr_err *err)
-{
-  memcpy(row->value, c->value, sizeof row->value);
-  memcpy(row->bound, c->bound, sizeof row->bound);
-  if (!c->copies) return THR_OK; /* out of time before there was any */
-  thr_status st = thr_cover_cords(q, co, c, &row->cord, &row->n_cords, &row->record, err);
-  if (st) return st;
-  snprintf(row->record.name, sizeof row->record.name, "%s", row->name);
-  st = count_copies(row, err);
-  return st ? st : thr_plan_measure(q->f, o, row->cord, row->n_cords, &row->metrics, err);
-}
-
-/* What a row can do without a threading is to say why; all else is a failure. */
-static bool is_said(thr_status st)
-{
-  return st == THR_ELIMIT || st == THR_EINFEASIBLE || st == THR_EINPUT || st == THR_ESOLVER;
-}
-
-static thr_status solve(const thr_frame *f, const thr_plan_options *o, const thr_symmetries *t, const thr_limits *limits,
-                        thr_symmetry_row *row, thr_err *err)
-{
-  thr_quotient q = {0};
-  thr_cover c = {0};
-  thr_cover_options co = {.cover = o->cover, .ends = o->ends, .end_node = o->end_node};
-  memcpy(co.prefer, o->symmetry.prefer, sizeof co.prefer);
-  thr_status st = thr_quotient_init(&q, f, &t->group[row->group].all, &row->elements, MOST_TYPES, &row->why);
-  if (!st) {
-    st = thr_cover_find(&q, &co, limits, &c, &row->why);
-    if (!st || st == THR_ELIMIT) {
-      thr_status made = take_cover(&q, &co, o, &c, row, &row->why);
-      if (made) st = made;
-    }
-  }
-  if (st) thr_fail(&row->why, st, "stopped early"); /* if no one said why */
-  thr_cover_destroy(&c);
-  thr_quotient_destroy(&q);
-  return st && !is_said(st) ? thr_fail(err, st, "%s", row->why.text) : THR_OK;
-}
+enum { MOST_CORDS = 1000 }; /* that a plan may have in a component */
 
 /* ---- which rows, and the choice ---- */
 
-static bool is_asked_for(const thr_symmetries *t, int row, const char *group)
+static thr_status check_asked(const thr_symmetries *t, const char *group, thr_err *err)
 {
-  char number[16];
-  snprintf(number, sizeof number, "%d", row + 1);
-  return !*group || strcmp(number, group) == 0 || strcmp(t->row[row].name, group) == 0;
-}
-
-static thr_status check_asked(const thr_symmetries *t, const char *group, int *asked, thr_err *err)
-{
-  *asked = 0;
   for (int i = 0; i < t->n; i++)
-    *asked += is_asked_for(t, i, group);
-  if (*asked) return THR_OK;
+    if (thr_symmetry_asked(t, i, group)) return THR_OK;
   return thr_fail(err, THR_EINPUT, "there is no group %s: they are numbered 1 to %d, and `thread symmetries` lists their names",
                   group, t->n);
 }
@@ -124,24 +58,20 @@ static void choose(thr_symmetries *t)
 
 /* ---- all rows ---- */
 
-static thr_limits share_of_time(const thr_limits *l, double part)
-{
-  thr_limits share = *l;
-  double now = thr_clock();
-  if (l->deadline > 0) share.deadline = now + part * fmax(0, l->deadline - now);
-  return share;
-}
-
-/* With one cord per component. */
+/* With one cord per component, if that can be. */
 static thr_status find_shortest(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_symmetries *t,
                                 thr_err *err)
 {
   thr_shortest s;
   thr_err why = {0};
-  thr_plan_options one = *o;
-  const thr_limits share = share_of_time(limits, 0.25);
-  one.cords = 1;
-  thr_status st = thr_postman_shortest(f, &one, &share, &s, &why);
+  thr_plan_options few = *o;
+  const thr_limits share = thr_symmetry_share(limits, 0.25);
+  few.cords = 1;
+  thr_status st = thr_postman_shortest(f, &few, &share, &s, &why);
+  if (st == THR_EINFEASIBLE && o->ends != THR_ENDS_CLOSED) { /* capacities may ask for more cords */
+    few.cords = MOST_CORDS;
+    st = thr_postman_shortest(f, &few, &share, &s, &why);
+  }
   if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", why.text);
   t->shortest = s.length;
   t->shortest_optimal = s.optimal;
@@ -149,45 +79,48 @@ static thr_status find_shortest(const thr_frame *f, const thr_plan_options *o, c
   return THR_OK;
 }
 
-static thr_status solve_rows(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_symmetries *t,
-                             thr_err *err)
-{
-  int asked, done = 0;
-  thr_status st = check_asked(t, o->symmetry.group, &asked, err);
-  for (int i = 0; i < t->n && !st; i++) {
-    if (!is_asked_for(t, i, o->symmetry.group)) continue;
-    if (limits->advance) limits->advance(limits->user, "threading under each group", (double)done / asked);
-    const thr_limits share = share_of_time(limits, 1.0 / (asked - done++));
-    st = solve(f, o, t, &share, &t->row[i], err);
-  }
-  return st;
-}
-
 /* What was asked for and could not be had. */
 static thr_status verdict(const thr_symmetries *t, const char *group, thr_err *err)
 {
-  int unsolved = 0, asked = 0;
+  int unsolved = 0, loose = 0, asked = 0;
   const thr_symmetry_row *none = NULL;
   for (int i = 0; i < t->n; i++) {
     thr_status why = t->row[i].why.code;
-    if (!is_asked_for(t, i, group)) continue;
+    if (!thr_symmetry_asked(t, i, group)) continue;
     asked++;
     unsolved += why == THR_ELIMIT || why == THR_ESOLVER;
+    loose += t->row[i].solved && why == THR_ELIMIT;
     if (why) none = &t->row[i];
   }
   if (none && t->chosen < 0 && !unsolved) return thr_fail(err, none->why.code, "%s", none->why.text);
   if (!unsolved) return THR_OK;
-  return thr_fail(err, THR_ELIMIT, "%d of %d %s not solved to the end in time", unsolved, asked,
+  if (loose == unsolved)
+    return thr_fail(err, THR_ELIMIT, "%d of %d %s solved, but not proved: %s", loose, asked,
+                    asked == 1 ? "group is" : "groups are", none->why.text);
+  return thr_fail(err, THR_ELIMIT, "%d of %d %s not solved to the end in time", unsolved - loose, asked,
                   asked == 1 ? "group was" : "groups were");
+}
+
+/* What a symmetric threading cannot be asked for. */
+static thr_status check_request(const thr_plan_options *o, thr_err *err)
+{
+  const char *what = o->joint == THR_JOINT_TUBE   ? "tube joints"
+                     : o->max_length > 0          ? "a largest length of the cords"
+                     : o->balance                 ? "cords of balanced length"
+                     : o->ends == THR_ENDS_COUNTS ? "a number of cord ends for each node"
+                                                  : NULL;
+  return what ? thr_fail(err, THR_EINPUT, "symmetric threadings do not know %s", what) : THR_OK;
 }
 
 thr_status thr_symmetries_find(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_symmetries *out,
                                thr_err *err)
 {
   *out = (thr_symmetries){.chosen = -1};
-  thr_status st = find_shortest(f, o, limits, out, err);
+  thr_status st = check_request(o, err);
+  if (!st) st = find_shortest(f, o, limits, out, err);
   if (!st) st = thr_symmetry_groups(f, o, out, err);
-  if (!st) st = solve_rows(f, o, limits, out, err);
+  if (!st) st = check_asked(out, o->symmetry.group, err);
+  if (!st) st = thr_symmetry_solve(f, o, limits, out, err);
   if (!st) {
     choose(out);
     st = verdict(out, o->symmetry.group, err);
@@ -246,7 +179,6 @@ static thr_status prove(thr_plan *plan, const thr_limits *limits, thr_err *err)
 thr_status thr_symmetries_plan(thr_symmetries *t, int row, const thr_frame *f, const thr_plan_options *o,
                                const thr_limits *limits, thr_plan *plan, thr_err *err)
 {
-  enum { MOST_CORDS = 1000 }; /* that a plan may have in a component */
   thr_symmetry_row *r = &t->row[row];
   thr_plan_options with = *o;
   int least;

@@ -26,7 +26,9 @@ typedef struct {
   /* THR_OK: best, proved. THR_ELIMIT: not proved, or none found in time (then n_cords = 0). THR_EINFEASIBLE, THR_EINPUT,
    * THR_ESOLVER: none, said why. code 0 and n_cords = 0: not asked for. */
   thr_err why;
-  double value[THR_N_AIMS], bound[THR_N_AIMS]; /* as in thr_cover */
+  bool solved;                                 /* the programme was, to the end: if not THR_OK, it proves less than the best */
+  double value[THR_N_AIMS], bound[THR_N_AIMS]; /* what the plan has; no threading under the group, as plans count, has less with
+                                                  the aims before it at these values (symmetry/claims.h) */
   int n_cords;
   int least_copies, most_copies; /* cords of a unique path, itself among them: the fewest and the most */
   thr_cord *cord;                /* [n_cords] owned; NULL once a plan has taken them */
@@ -44,13 +46,16 @@ typedef struct {
   double mantissa; /* order of the group that the rows are taken from: mantissa * 10^exponent, exact below 10^15 */
   int exponent;
   int node_orbits, edge_orbits; /* under it */
-  bool listed;                  /* the rows are all its subgroups up to conjugacy */
-  char note[256];               /* if not: what the rows are */
+  double keep_lengths[2]; /* with options.symmetry.geometric: mantissa and exponent of the order of the group of automorphisms
+                             that keep edge lengths within it, of which the isometries are a part */
+  bool listed;            /* the rows are all its subgroups up to conjugacy */
+  char note[256];         /* if not: what the rows are */
   int n_groups;
   thr_symmetry_group *group; /* [n_groups] owned */
   int n;
   thr_symmetry_row *row; /* [n] by descending order; users count them from 1; owned */
-  double shortest;       /* cord that the shortest plan with one cord per component and these ends needs, units */
+  double shortest;       /* cord that the shortest plan with one cord per component (or as many as capacities ask
+                             for) and these ends needs, units */
   bool shortest_optimal; /* false: the shortest that was found in time */
   int chosen;            /* row, -1 = none has a threading */
   bool within;           /* it needs at most thr_symmetry_slack more than shortest */
@@ -58,12 +63,14 @@ typedef struct {
 
 /* Groups and threadings for the options' cover, ends and symmetry. Every group is one of automorphisms that keep feet and allowed
  * end nodes. All automorphisms by nauty; if they are more than THR_GROUP_CAP, or have too many subgroups, the isometries within
- * thr_symmetry_near and small groups of one or two of nauty's generators. options.symmetry.geometric: only isometries.
+ * thr_symmetry_near and small groups of one or two of nauty's generators. options.symmetry.geometric: only what
+ * isometries within it make, among the automorphisms that keep edge lengths (thr_length_colours).
  * options.symmetry.group: only the rows of that number or name are solved, and the best of them is chosen. Otherwise the default
  * choice: least learned steps among the rows with at most thr_symmetry_slack more cord than the shortest plan, or if there is
- * none the least cord; ties by overlap, cords, turning, number. Each row gets an equal share of the time that is left, the
- * largest group first. THR_OK: every row that was asked for is solved. THR_ELIMIT: some are not (their row says so); out holds
- * the rest. THR_EINPUT: no row of that number or name. THR_EINFEASIBLE: no threading with these ends. Otherwise out is empty. */
+ * none the least cord; ties by overlap, cords, turning, number. Time is shared as symmetry/solve.h says. THR_OK: every row that
+ * was asked for is solved. THR_ELIMIT: some are not (their row says so); out holds the rest. THR_EINPUT: no row of that number or
+ * name, or tube joints, a largest length, balance or numbers of ends are asked for. THR_EINFEASIBLE: no threading with these
+ * ends. Otherwise out is empty. */
 thr_status thr_symmetries_find(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_symmetries *out,
                                thr_err *err) THR_MUST_CHECK;
 void thr_symmetries_destroy(thr_symmetries *t);

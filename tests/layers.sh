@@ -23,7 +23,9 @@ jansson.h:graph/json_jansson.c
 glpk.h:lp/lp_glpk.c
 nau*.h:symmetry/nauty.c
 traces.h:symmetry/nauty.c
-*bt[A-Z]*.h:eval/bullet.cpp'
+*bt[A-Z]*.h:eval/bullet.cpp
+SuiteSparse*.h:eval/spqr.c
+cholmod*.h:eval/spqr.c'
 
 # C++, in the file that shims a C++ library
 cpp_headers='new utility cmath cstdlib cstring vector'
@@ -169,6 +171,7 @@ self_test() {
   expect cli/main.c:1 cli/main.c '#include <glpk.h>\n'
   expect symmetry/group.c:1 symmetry/group.c '#include <traces.h>\n'
   expect symmetry/group.c:1 symmetry/group.c '#include <nauty/nausparse.h>\n'
+  expect eval/a.c:1 eval/a.c '#include <SuiteSparseQR_C.h>\n'
   expect eval/a.cpp:1 eval/a.cpp '#include <btBulletDynamicsCommon.h>\n'
   expect eval/a.c:1 eval/a.c '#include <BulletDynamics/btBox.h>\n'
   expect eval/a.c:1 eval/a.c '#include <new>\n'

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs the whole suite and closes with the line "N passed, N failed". Started by `make test`, which sets
-# MAKE, OUT (where things are built), FUZZ_SECONDS and ONLY (run the jobs whose name contains this word).
+# MAKE, OUT (where things are built), FUZZ_SECONDS, VIEWER_PACKAGES and ONLY (run the jobs whose name contains this word).
 # `tests/run.sh fuzz` (make fuzz): the fuzz targets only, keeping what they find. tests/README.md tells more.
 set -u
 cd "$(dirname "$0")/.." || exit 1
@@ -20,7 +20,7 @@ count_check() { # sums Check's closing lines; a program that ends badly after th
     END { passed = checks - bad; if ((code != 0 && bad == 0) || checks == 0) bad++; print passed + 0, bad + 0 }' "$1"
 }
 
-count_golden() { # the closing line of tests/golden/run.sh
+count_golden() { # the closing line of tests/golden/run.sh and tests/viewer/run.sh
   awk -v code="$2" '
     /^[0-9]+ passed, [0-9]+ failed$/ { passed = $1; failed = $3; seen = 1 }
     END { if (!seen || (code != 0 && failed == 0)) failed++; print passed + 0, failed + 0 }' "$1"
@@ -62,6 +62,9 @@ job() {
     *) timeout 900 "$OUT/$build/tests/$rest" >"$log" 2>&1 </dev/null || code=$? ;;
     esac
     ;;
+  viewer/page) viewer/build.sh "$OUT/viewer" 2>"$log" | cmp - diagram/viewer_page.html >>"$log" 2>&1 ||
+    { code=1 && echo 'diagram/viewer_page.html is not what viewer/ gives; "make viewer" builds it' >>"$log"; } ;;
+  viewer/browser) tests/viewer/run.sh "$OUT/release/thread" "$OUT/viewer-test" >"$log" 2>&1 || code=$? ;;
   fuzz/*)
     fuzz "$name" "$log" || code=$?
     note=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
@@ -70,7 +73,7 @@ job() {
   esac
   end=$(date +%s%N)
   case $name in
-  */golden/*) counts=$(count_golden "$log" "$code") ;;
+  */golden/* | viewer/browser) counts=$(count_golden "$log" "$code") ;;
   asan/* | release/*) counts=$(count_check "$log" "$code") ;;
   *) if [ "$code" -eq 0 ]; then counts='1 0'; else counts='0 1'; fi ;;
   esac
@@ -163,6 +166,20 @@ fi
     give_up "$variant/golden"
   fi
 done
+
+# The viewer last: it needs npm and a browser.
+if [ -z "$only_fuzz" ]; then
+  names=()
+  for name in viewer/page viewer/browser; do wanted "$name" && names+=("$name"); done
+  # shellcheck disable=SC2086 # one word per package
+  if [ ${#names[@]} -eq 0 ]; then
+    :
+  elif tools/install-packages.sh ${VIEWER_PACKAGES:-} && build release all; then
+    queue+=("${names[@]}")
+  else
+    give_up viewer
+  fi
+fi
 
 [ ${#queue[@]} -eq 0 ] || printf '%s\n' "${queue[@]}" | xargs -P "$(nproc)" -I{} tests/run.sh --job {}
 

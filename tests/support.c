@@ -395,6 +395,7 @@ static bool allowed(const thr_frame *f, const thr_plan_options *o, int v)
 {
   if (o->ends == THR_ENDS_FEET) return f->foot[v];
   if (o->ends == THR_ENDS_NODES) return o->end_node[v];
+  if (o->ends == THR_ENDS_COUNTS) return o->end_count[v] > 0;
   return true;
 }
 
@@ -484,6 +485,7 @@ thr_plan plan_of_cords(const thr_frame *f, const thr_plan_options *o)
   memcpy(left, s.passes, (size_t)f->n_edges * sizeof *left);
   cut_walk(&p, walk, euler_walk(f, left, link, start, room + n_links, walk), n_links);
   ck_assert_int_eq(p.n_cords, o->cords);
+  p.options.cords_least = o->cords;
   ck_assert_int_eq(thr_plan_measure(&p.frame, &p.options, p.cord, p.n_cords, &p.metrics, NULL), THR_OK);
   ck_assert_msg(thr_postman_prove(&p.frame, &p.options, p.cord, p.n_cords, &s, &p.proof, &err) == THR_OK, "%s", err.text);
   thr_shortest_destroy(&s);
@@ -551,19 +553,32 @@ thr_status judge_plan(const thr_plan *p, thr_err *err)
 
 /* ---- oracles ---- */
 
-/* Bit v: does node v have an odd number of passes when every edge has cover? */
-static uint64_t odd_mask(const thr_frame *f, int cover)
+/* Passes that an edge needs, and may it have more? */
+static int needed(const thr_frame *f, const thr_plan_options *o, int e)
 {
-  uint64_t odd = 0;
-  for (int e = 0; e < f->n_edges; e++)
-    if (cover % 2) odd ^= UINT64_C(1) << f->edge[e][0] ^ UINT64_C(1) << f->edge[e][1];
-  return odd;
+  int own = f->cover ? f->cover[e] : 1;
+  return own > o->cover ? own : o->cover;
 }
 
-/* Ends of cords in a component. */
+static bool roomy(const thr_frame *f, const thr_plan_options *o, int e)
+{
+  int n = needed(f, o, e), own = f->capacity ? f->capacity[e] : 0;
+  return (o->capacity == 0 || o->capacity > n) && (own == 0 || own > n);
+}
+
+/* Is the number of passes at v that its edges need, together with the ends that it is to have, odd? */
+static bool odd_need(const thr_frame *f, const thr_plan_options *o, int v)
+{
+  int sum = o->ends == THR_ENDS_COUNTS ? o->end_count[v] : 0;
+  for (int e = 0; e < f->n_edges; e++)
+    if (f->edge[e][0] == v || f->edge[e][1] == v) sum += needed(f, o, e);
+  return sum % 2;
+}
+
+/* Ends of cords in a component, as many as may be anywhere. */
 static int ends_of(const thr_plan_options *o)
 {
-  return o->ends == THR_ENDS_CLOSED ? 0 : 2 * o->cords;
+  return o->ends == THR_ENDS_CLOSED || o->ends == THR_ENDS_COUNTS ? 0 : 2 * o->cords;
 }
 
 /* May cords end so that exactly the nodes of this set are left odd? */
@@ -584,12 +599,15 @@ double least_extra_by_subsets(const thr_frame *f, const thr_plan_options *o)
 {
   ck_assert(f->n_nodes <= 64 && f->n_edges <= 20);
   double best = INFINITY;
+  uint64_t odd_before = 0;
+  for (int v = 0; v < f->n_nodes; v++)
+    odd_before |= (uint64_t)odd_need(f, o, v) << v;
   for (uint32_t s = 0; s < UINT32_C(1) << f->n_edges; s++) {
-    uint64_t odd = odd_mask(f, o->cover);
+    uint64_t odd = odd_before;
     double length = 0;
     for (int e = 0; e < f->n_edges; e++)
       if (s >> e & 1) {
-        length += f->length[e];
+        length += roomy(f, o, e) ? f->length[e] : INFINITY;
         odd ^= UINT64_C(1) << f->edge[e][0] ^ UINT64_C(1) << f->edge[e][1];
       }
     if (length < best && ends_fit(f, o, odd)) best = length;
@@ -597,8 +615,8 @@ double least_extra_by_subsets(const thr_frame *f, const thr_plan_options *o)
   return best;
 }
 
-/* Floyd and Warshall; [n * n], freed by the caller. */
-static double *distances(const thr_frame *f)
+/* Floyd and Warshall, over edges with room; [n * n], freed by the caller. */
+static double *distances(const thr_frame *f, const thr_plan_options *o)
 {
   int n = f->n_nodes;
   double *d = calloc((size_t)(n * n), sizeof *d);
@@ -607,7 +625,7 @@ static double *distances(const thr_frame *f)
     d[i] = i % n == i / n ? 0 : INFINITY;
   for (int e = 0; e < f->n_edges; e++) {
     int a = f->edge[e][0], b = f->edge[e][1];
-    d[a * n + b] = d[b * n + a] = fmin(d[a * n + b], f->length[e]);
+    if (roomy(f, o, e)) d[a * n + b] = d[b * n + a] = fmin(d[a * n + b], f->length[e]);
   }
   for (int k = 0; k < n; k++)
     for (int i = 0; i < n; i++)
@@ -642,9 +660,9 @@ static double pair_subsets(const double *d, int n, const int *odd, int k, const 
 double least_extra_by_matching(const thr_frame *f, const thr_plan_options *o)
 {
   int odd[18], k = 0, n = f->n_nodes;
-  double end[18], *d = distances(f);
+  double end[18], *d = distances(f, o);
   for (int v = 0; v < n; v++)
-    if (o->cover * thr_degree(f, v) % 2) {
+    if (odd_need(f, o, v)) {
       ck_assert_int_lt(k, 18);
       odd[k++] = v;
     }
@@ -689,60 +707,75 @@ int forced_u_turns(const thr_plan *p)
 
 __extension__ typedef __int128 big;
 
-static bool holds(const thr_cut *c, int v)
+/* Which sets hold which node, set after set, written out: [n_cuts * n_nodes], freed by the caller. NULL if the cuts are no forest
+ * of sets. */
+static bool *written_out(const thr_certificate *c, int n)
 {
-  for (int i = 0; i < c->n_nodes; i++)
-    if (c->node[i] == v) return true;
-  return false;
-}
-
-/* Load of the edge between any two of nodes and slots. */
-static big load_between(const thr_certificate *c, int a, int b)
-{
-  big load = 0;
+  bool *in = calloc((size_t)c->n_cuts * (size_t)n + 1, sizeof *in), good = true;
+  ck_assert(in != NULL);
   for (int i = 0; i < c->n_cuts; i++)
-    if (holds(&c->cut[i], a) != holds(&c->cut[i], b)) load += c->cut[i].value;
-  return load;
+    good &= c->cut[i].parent == -1 || (c->cut[i].parent > i && c->cut[i].parent < c->n_cuts);
+  for (int i = 0; i < c->n_cuts && good; i++)
+    for (int j = 0; j < c->cut[i].n_nodes; j++) {
+      good &= j == 0 || c->cut[i].node[j - 1] < c->cut[i].node[j];
+      for (int k = i; k >= 0; k = c->cut[k].parent) {
+        bool *at = &in[k * n + c->cut[i].node[j]];
+        good &= !*at;
+        *at = true;
+      }
+    }
+  if (good) return in;
+  free(in);
+  return NULL;
 }
 
-static int verdict_of(const thr_plan *p, const thr_certificate *c, const int *component, const int *passes)
+static int verdict_of_sets(const thr_plan *p, const thr_certificate *c, const bool *in, const int *component, const int *passes)
 {
   const thr_frame *f = &p->frame;
+  const thr_plan_options *o = &p->options;
   int n = f->n_nodes;
   bool more = false;
   big sum = 0, join = 0, d = c->denominator;
   double rounding = 0, total = 0;
   for (int i = 0; i < c->n_cuts; i++) {
     int odd = 0;
-    for (int j = 0; j < c->cut[i].n_nodes; j++) {
-      int v = c->cut[i].node[j];
-      if (v < n && component[v] != c->component) return 0;
-      if (j && v <= c->cut[i].node[j - 1]) return 0;
-      odd += v >= n ? 1 : p->options.cover * thr_degree(f, v);
+    for (int v = 0; v < n; v++) {
+      if (in[i * n + v] && component[v] != c->component) return 0;
+      odd += in[i * n + v] && odd_need(f, o, v);
     }
     if (odd % 2 == 0 || c->cut[i].value < 0) return 0;
     sum += c->cut[i].value;
   }
   for (int e = 0; e < f->n_edges; e++) {
     if (component[f->edge[e][0]] != c->component) continue;
-    big w = (big)nearbyint(f->length[e] * c->scale);
-    if (load_between(c, f->edge[e][0], f->edge[e][1]) > w * d) return 0;
-    join += w * (passes[e] - p->options.cover);
-    more |= passes[e] > p->options.cover;
-    rounding += fabs(f->length[e] - (double)w / c->scale) * fmax(1, passes[e] - p->options.cover);
+    big w = (big)nearbyint(f->length[e] * c->scale), load = 0;
+    int extra = passes[e] - needed(f, o, e);
+    for (int i = 0; i < c->n_cuts; i++)
+      if (in[i * n + f->edge[e][0]] != in[i * n + f->edge[e][1]]) load += c->cut[i].value;
+    if (roomy(f, o, e) && load > w * d) return 0;
+    join += w * extra;
+    more |= extra > 0;
+    rounding += fabs(f->length[e] - (double)w / c->scale) * fmax(1, extra);
     total += f->length[e];
   }
-  if (c->n_slots != ends_of(&p->options)) return 0;
-  for (int i = 0; i < c->n_slots; i++)
-    for (int v = 0; v < n; v++)
-      if (component[v] == c->component && allowed(f, &p->options, v) && load_between(c, v, n + i) > (big)c->slot_cost * d)
-        return 0;
-  for (int i = 0; i < c->n_slots; i++)
-    for (int j = i + 1; j < c->n_slots; j++)
-      if (load_between(c, n + i, n + j) > 2 * (big)c->slot_cost * d) return 0;
+  if (c->end_price < 0 || (ends_of(o) == 0 && c->end_price != 0)) return 0;
+  for (int v = 0; v < n && ends_of(o) > 0; v++) {
+    big held = 0;
+    for (int i = 0; i < c->n_cuts; i++)
+      if (in[i * n + v]) held += c->cut[i].value;
+    if (component[v] == c->component && allowed(f, o, v) && held > c->end_price) return 0;
+  }
   if (sum != c->sum || join != c->join) return 0;
-  /* multiplied out: sum / d is more than what the join and the slots weigh, less 1 */
-  return !more || (sum > (join + (big)c->n_slots * c->slot_cost - 1) * d && rounding <= 1e-9 * total) ? 2 : 1;
+  /* multiplied out: sum / d is more than what the join weighs and the ends cost, less 1 */
+  return !more || (sum - (big)ends_of(o) * c->end_price > (join - 1) * d && rounding <= 1e-9 * total) ? 2 : 1;
+}
+
+static int verdict_of(const thr_plan *p, const thr_certificate *c, const int *component, const int *passes)
+{
+  bool *in = written_out(c, p->frame.n_nodes);
+  int verdict = in ? verdict_of_sets(p, c, in, component, passes) : 0;
+  free(in);
+  return verdict;
 }
 
 int verdict_by_sums(const thr_plan *p)

@@ -25,6 +25,21 @@ thr_frame no_feet(thr_frame f)
   return f;
 }
 
+thr_frame box_make(double a, double b, double c, double shear)
+{
+  thr_frame cube = solid_make(CUBE);
+  double xyz[8][3], side[3] = {a, b, c};
+  for (int v = 0; v < 8; v++)
+    for (int i = 0; i < 3; i++) {
+      xyz[v][i] = 0;
+      for (int j = 0; j < 3; j++)
+        xyz[v][i] += side[j] * (i == j ? 1 : shear) * (cube.xyz[v][j] > 0);
+    }
+  thr_frame f = frame_make(8, (const double(*)[3])xyz, cube.n_edges, (const int(*)[2])cube.edge, NULL, NULL);
+  thr_frame_destroy(&cube);
+  return no_feet(f);
+}
+
 thr_frame truncated_icosahedron(void)
 {
   thr_frame small = solid_make(ICOSAHEDRON);

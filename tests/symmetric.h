@@ -7,7 +7,9 @@
 
 thr_frame shape_make(thr_shape shape, int size, int rings); /* as `thread make` does */
 thr_frame truncated_icosahedron(void);                      /* 60 nodes of degree 3, no feet */
-thr_frame no_feet(thr_frame f);                             /* the same framework, whose feet it takes away */
+/* A cube with edges of these lengths along the axes, each axis sheared by as much along the others; no feet. */
+thr_frame box_make(double a, double b, double c, double shear);
+thr_frame no_feet(thr_frame f); /* the same framework, whose feet it takes away */
 
 /* Does the permutation keep edges, feet and, where given, the colours of edges? */
 bool keeps_frame(const thr_frame *f, const int *edge_colour, const int *image);

@@ -1,9 +1,6 @@
 /* Best bound first; every node keeps the multipliers that prove its bound. */
 #include "tortuosity/branch.h"
-#include "tortuosity/circuits.h"
 #include "tortuosity/cycles.h"
-#include "tortuosity/extra.h"
-#include "tortuosity/improve.h"
 
 #include <limits.h>
 #include <math.h>
@@ -48,175 +45,20 @@ void thr_branch_destroy(thr_branch *b)
   *b = (thr_branch){0};
 }
 
+/* Price of all passes that must be. */
+static double base_price(const thr_turning_columns *c)
+{
+  double sum = 0;
+  for (int e = 0; e < c->f->n_edges; e++)
+    sum += c->cover[e] * (double)c->weight[c->first_extra + e];
+  return sum;
+}
+
 int64_t thr_branch_tolerance(const thr_branch *b)
 {
   double u_turn = thr_turn_cost_of(b->c->task->cost, 3.14159265358979323846);
+  if (b->c->task->free_turns) return (int64_t)(0.3e-9 * ((double)b->best_price + base_price(b->c)));
   return (int64_t)ldexp(1e-9 * u_turn * b->best_passes, THR_TURNING_BITS);
-}
-
-/* ---- plans ---- */
-
-static bool within_limits(const thr_turning_columns *c, const int *passes)
-{
-  const thr_turning_task *t = c->task;
-  for (int e = 0; e < c->f->n_edges; e++)
-    if (passes[e] > t->most_passes) return false;
-  return t->extra_limit < 0 || thr_extra_length(c, passes) <= t->extra_limit;
-}
-
-/* Takes over a joined multigraph if it is the best so far; releases it otherwise. */
-static void keep_better(thr_branch *b, thr_join *j, const int *passes)
-{
-  bool forbidden = j->price >= thr_join_forbidden;
-  int64_t price = forbidden ? INT64_MAX : (int64_t)nearbyint(ldexp(j->price, THR_TURNING_BITS));
-  for (int e = 0; e < b->c->f->n_edges && !forbidden; e++)
-    price += (passes[e] - b->c->task->cover) * b->c->weight[b->c->first_extra + e];
-  double length = thr_extra_length(b->c, passes);
-  bool by_length = b->shortest && fabs(length - b->best_length) > 1e-9 * (1 + length);
-  if (forbidden || (by_length ? length > b->best_length : price >= b->best_price)) {
-    thr_join_destroy(j);
-    return;
-  }
-  if (b->found) thr_join_destroy(&b->best);
-  b->best = *j;
-  b->found = true;
-  b->best_price = price;
-  b->best_length = length;
-  b->best_passes = 0;
-  for (int e = 0; e < b->c->f->n_edges; e++)
-    b->best_passes += passes[e];
-}
-
-thr_status thr_branch_try_circuits(thr_branch *b, thr_join *j, const int *passes, thr_err *err)
-{
-  bool found = within_limits(b->c, passes);
-  thr_status st = found ? thr_circuits_make(j, b->limits, &found, err) : THR_OK;
-  if (!st && found)
-    keep_better(b, j, passes);
-  else
-    thr_join_destroy(j);
-  return st;
-}
-
-/* Several closed cords in a component, from the greedy's circuits: one, or up to so many more. */
-static thr_status try_greedy(thr_branch *b, const int *passes, int apart, thr_err *err)
-{
-  thr_join j;
-  thr_status st = thr_join_init(&j, b->c, passes, NULL, err);
-  if (st) return st;
-  st = thr_join_greedy(&j, apart, err);
-  if (!st) return thr_branch_try_circuits(b, &j, passes, err);
-  thr_join_destroy(&j);
-  return st;
-}
-
-/* The greedy's circuits, and what is missing to the number asked for through passes of its own. */
-static thr_status try_added(thr_branch *b, const int *passes, thr_err *err)
-{
-  thr_join j, more = {0};
-  bool found = false;
-  int *all = thr_calloc((size_t)b->c->f->n_edges, sizeof *all);
-  if (!all) return thr_nomem(err);
-  thr_status st = thr_join_init(&j, b->c, passes, NULL, err);
-  if (!st) {
-    st = thr_join_greedy(&j, b->c->task->cords - 1, err);
-    if (!st) st = thr_circuits_add(&j, &more, all, &found, err);
-    thr_join_destroy(&j);
-  }
-  if (!st && found) st = thr_branch_try_circuits(b, &more, all, err);
-  free(all);
-  return st;
-}
-
-/* Closed cords, several in a component. */
-static thr_status try_several(thr_branch *b, const int *passes, thr_err *err)
-{
-  const int apart[] = {0, b->c->task->cords - 1, INT_MAX};
-  thr_status st = THR_OK;
-  for (int i = 0; i < 3 && !st; i++)
-    st = try_greedy(b, passes, apart[i], err);
-  return st ? st : try_added(b, passes, err);
-}
-
-thr_status thr_branch_try(thr_branch *b, const int *passes, const int *ends, thr_err *err)
-{
-  thr_join j;
-  if (!within_limits(b->c, passes)) return THR_OK;
-  if (b->several) return try_several(b, passes, err);
-  thr_status st = thr_join_init(&j, b->c, passes, ends, err);
-  if (st) return st;
-  st = thr_join_greedy(&j, 0, err);
-  if (!st) st = thr_improve(&j, b->limits, err);
-  if (st)
-    thr_join_destroy(&j);
-  else
-    keep_better(b, &j, passes);
-  return st;
-}
-
-thr_status thr_branch_try_cords(thr_branch *b, const thr_cord *cord, int n_cords, thr_err *err)
-{
-  thr_join j = {0};
-  memset(b->passes, 0, (size_t)b->c->f->n_edges * sizeof *b->passes);
-  for (int i = 0; i < n_cords; i++)
-    for (int k = 0; k < cord[i].n_passes; k++)
-      b->passes[cord[i].half[k] >> 1]++;
-  if (!within_limits(b->c, b->passes)) return THR_OK;
-  thr_status st = thr_join_from_cords(&j, b->c, cord, n_cords, err);
-  if (!st && b->several) return thr_branch_try_circuits(b, &j, b->passes, err);
-  if (!st) st = thr_improve(&j, b->limits, err);
-  if (st)
-    thr_join_destroy(&j);
-  else
-    keep_better(b, &j, b->passes);
-  return st;
-}
-
-/* A point of whole numbers: its own pairs if they hang together; in any case the greedy for its passes and ends. */
-static thr_status try_whole(thr_branch *b, thr_err *err)
-{
-  const thr_turning_columns *c = b->c;
-  thr_join j;
-  bool single; /* or as many circuits as asked for */
-  for (int k = 0; k < c->n_columns; k++)
-    b->whole[k] = (int)nearbyint(b->relax.x[k]);
-  memset(b->ends, 0, (size_t)c->f->n_nodes * sizeof *b->ends);
-  for (int e = 0; e < c->f->n_edges; e++)
-    b->passes[e] = c->task->cover + b->whole[c->first_extra + e];
-  for (int k = c->first_end; k < c->first_back; k++)
-    b->ends[thr_tail(c->f, c->half[k][0])] += b->whole[k];
-  thr_status st = thr_branch_try(b, b->passes, b->ends, err);
-  if (st || !within_limits(c, b->passes)) return st;
-  if ((st = thr_join_init(&j, c, b->passes, b->ends, err))) return st;
-  st = thr_join_columns(&j, b->whole, &single, err);
-  if (!st && b->several) st = thr_circuits_make(&j, b->limits, &single, err);
-  if (!st && single)
-    keep_better(b, &j, b->passes);
-  else
-    thr_join_destroy(&j);
-  return st;
-}
-
-/* The join of least weight where what the point uses is nearly free. */
-static thr_status try_rounded(thr_branch *b, thr_err *err)
-{
-  const thr_turning_columns *c = b->c;
-  uint64_t name = 1;
-  for (int e = 0; e < c->f->n_edges; e++) {
-    double z = b->relax.x[c->first_extra + e];
-    b->weight[e] = c->f->length[e] * (1.001 - fmin(1, z));
-    name = (name ^ (uint64_t)(z * 4 + 0.5)) * UINT64_C(0x9e3779b97f4a7c15);
-  }
-  for (int v = 0; v < c->f->n_nodes; v++)
-    b->end_weight[v] = 1;
-  for (int k = c->first_end; k < c->first_back; k++) {
-    b->end_weight[thr_tail(c->f, c->half[k][0])] -= fmin(1, b->relax.x[k]) / 2;
-    name = (name ^ (uint64_t)(b->relax.x[k] * 4 + 0.5)) * UINT64_C(0x9e3779b97f4a7c15);
-  }
-  if (name == b->tried) return THR_OK;
-  b->tried = name;
-  thr_status st = thr_extra_roughly(c, b->weight, b->end_weight, b->limits, b->passes, b->ends, err);
-  return st ? st : thr_branch_try(b, b->passes, b->ends, err);
 }
 
 static double fraction(double x)
@@ -307,7 +149,7 @@ static thr_status first_bound(thr_branch *b, int root, thr_err *err)
   thr_turning_dual d;
   thr_limits no_deadline = *b->limits; /* it takes a hundredth of a second, and without it there may be no bound at all */
   no_deadline.deadline = 0;
-  if (b->c->f->n_edges < LARGE) return THR_OK;
+  if (b->c->task->free_turns || (b->c->f->n_edges < LARGE && !b->c->task->tube)) return THR_OK;
   thr_status st = thr_relax_nodes(b->c, &no_deadline, &d, err);
   return st ? st : keep_dual(b, root, d, b->relax.low, b->relax.high, err);
 }
@@ -338,7 +180,7 @@ static thr_status solve_node(thr_branch *b, int i, thr_err *err)
     if (st) return st;
     b->rounds++;
     bool whole = b->relax.solved && b->relax.artificial < integral && most_fractional(b) < 0;
-    if ((st = whole ? try_whole(b, err) : b->relax.solved ? try_rounded(b, err) : THR_OK)) return st;
+    if ((st = whole ? thr_branch_try_whole(b, err) : b->relax.solved ? thr_branch_try_rounded(b, err) : THR_OK)) return st;
     double target = ldexp((double)(b->best_price - thr_branch_tolerance(b)), -THR_TURNING_BITS);
     if (!b->relax.solved) b->stopped = true;
     if (b->relax.objective >= target || b->stopped) break;
@@ -392,12 +234,19 @@ static int next_node(const thr_branch *b)
   return best;
 }
 
+static double covers(const thr_turning_columns *c)
+{
+  double sum = 0;
+  for (int e = 0; e < c->f->n_edges; e++)
+    sum += c->cover[e];
+  return sum;
+}
+
 thr_status thr_branch_run(thr_branch *b, thr_err *err)
 {
   int root = 0;
-  double penalty =
-      10 + (b->found ? ldexp((double)b->best_price, -THR_TURNING_BITS) : 10.0 * b->c->task->cover * b->c->f->n_edges);
-  thr_status st = thr_relax_init(&b->relax, b->c, penalty, err);
+  double penalty = 10 + (b->found ? ldexp((double)b->best_price, -THR_TURNING_BITS) : 10 * covers(b->c));
+  thr_status st = thr_relax_init(&b->relax, b->c, b->projected, penalty, err);
   if (!st) st = new_node(b, (thr_branch_node){.parent = -1, .bound = INT64_MIN, .dual = -1, .open = true}, &root, err);
   if (!st) st = first_bound(b, root, err);
   for (int i; !st && !b->stopped && (i = next_node(b)) >= 0;) {
@@ -407,7 +256,8 @@ thr_status thr_branch_run(thr_branch *b, thr_err *err)
     report(b);
     if (b->stopped) break;
     b->node[i].open = false;
-    if (i == root && b->found && !closed(b, i)) st = thr_cycles_improve(b, (int)fmin(2000, 1e6 / b->c->f->n_edges), err);
+    if (i == root && b->found && !b->c->task->tube && !closed(b, i))
+      st = thr_cycles_improve(b, (int)fmin(2000, 1e6 / b->c->f->n_edges), err);
     if (!st && !closed(b, i)) st = split(b, i, err);
   }
   return st;
@@ -447,7 +297,7 @@ static thr_turning_node proof_node(const thr_branch *b, const thr_branch_node *n
 
 thr_status thr_branch_proof(thr_branch *b, thr_turning_proof *p, thr_err *err)
 {
-  *p = (thr_turning_proof){.n_components = b->c->n_components};
+  *p = (thr_turning_proof){.n_ends = b->c->n_ends};
   p->node = thr_calloc((size_t)b->n_nodes, sizeof *p->node);
   p->dual = thr_calloc((size_t)b->n_duals, sizeof *p->dual);
   int *moved = thr_calloc((size_t)b->n_duals, sizeof *moved), *place = thr_calloc((size_t)b->n_nodes, sizeof *place);

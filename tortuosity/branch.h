@@ -25,8 +25,9 @@ typedef struct {
   thr_branch_node *node;
   int n_duals, duals_capacity;
   thr_turning_dual *dual;
-  bool several;  /* closed cords in a component */
-  bool shortest; /* of two plans the shorter one is the better, whatever it turns */
+  bool several;   /* closed cords in a component */
+  bool projected; /* the relaxation has no turns */
+  bool shortest;  /* of two plans the shorter one is the better, whatever it turns */
   bool found;
   thr_join best;      /* if found */
   int64_t best_price; /* in units of 2^-THR_TURNING_BITS, with the price of the extra cord; INT64_MAX = none */
@@ -52,6 +53,11 @@ thr_status thr_branch_try_circuits(thr_branch *b, thr_join *j, const int *passes
 
 /* The cords of a plan, improved by exchanges; the same. */
 thr_status thr_branch_try_cords(thr_branch *b, const thr_cord *cord, int n_cords, thr_err *err) THR_MUST_CHECK;
+
+/* The plan of a point of whole numbers, if it hangs together; and, of any point, that of the extra passes and ends nearest to it
+ * that a T-join or walks make. */
+thr_status thr_branch_try_whole(thr_branch *b, thr_err *err) THR_MUST_CHECK;
+thr_status thr_branch_try_rounded(thr_branch *b, thr_err *err) THR_MUST_CHECK;
 
 /* Until the tree is closed, or stopped. */
 thr_status thr_branch_run(thr_branch *b, thr_err *err) THR_MUST_CHECK;

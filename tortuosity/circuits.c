@@ -328,10 +328,10 @@ thr_status thr_circuits_add(const thr_join *j, thr_join *out, int *passes, bool 
 /* A closed walk through each edge that too few go over yet, beginning with number first. Stops where one has no room. */
 static thr_status cover_edges(adder *s, int first, bool *found, thr_err *err)
 {
-  const int m = s->c->f->n_edges, cover = s->c->task->cover;
+  const int m = s->c->f->n_edges, *cover = s->c->cover;
   memset(s->passes, 0, (size_t)m * sizeof *s->passes);
   for (int i = 0; i < m; i++)
-    while (s->passes[(first + i) % m] < cover) {
+    while (s->passes[(first + i) % m] < cover[(first + i) % m]) {
       thr_walks_closed(&s->walks, 2 * ((first + i) % m));
       if (!(*found = thr_walks_add(&s->walks, s->passes))) return THR_OK;
       thr_status st = take_walk(s, err);
@@ -343,9 +343,12 @@ static thr_status cover_edges(adder *s, int first, bool *found, thr_err *err)
 thr_status thr_circuits_cover(const thr_turning_columns *c, int first, thr_join *out, int *passes, bool *found, thr_err *err)
 {
   adder s;
+  int most = 0;
   *out = (thr_join){0};
   *found = true;
-  thr_status st = adder_init(&s, c, passes, c->f->n_edges * c->task->cover, err);
+  for (int e = 0; e < c->f->n_edges; e++)
+    most += c->cover[e];
+  thr_status st = adder_init(&s, c, passes, most, err);
   if (!st) st = cover_edges(&s, first, found, err);
   if (!st && *found) st = thr_join_from_cords(out, c, s.cord, s.made, err);
   adder_destroy(&s);

@@ -79,7 +79,7 @@ thr_status thr_join_cords(const thr_join *j, thr_cord *cord, int n_cords, thr_er
     int v = c->f->n_nodes + k;
     for (int i = g->first[v]; i < g->first[v + 1] && !st; i++)
       st = cord_from(j, g->dart[i], walked, walk, cord, n_cords, &made, err);
-    for (int d = 0; d < g->n_darts && !st && !c->task->end_allowed; d++)
+    for (int d = 0; d < g->n_darts && !st && !thr_join_open(j, k); d++)
       if (c->component[g->tail[d]] == k) st = cord_from(j, d, walked, walk, cord, n_cords, &made, err);
   }
   if (!st && made < n_cords) st = thr_fail(err, THR_ESOLVER, "%d cords, fewer than the %d asked for", made, n_cords);

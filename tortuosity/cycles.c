@@ -82,7 +82,7 @@ thr_status thr_cycles_improve(thr_branch *b, int most_tries, thr_err *err)
     find_cycle(&s, f, e);
     memcpy(s.trial, s.passes, (size_t)f->n_edges * sizeof *s.trial);
     for (int i = 0; i < s.n_cycle; i++)
-      s.trial[s.cycle[i]] += s.passes[s.cycle[i]] > b->c->task->cover ? -1 : 1;
+      s.trial[s.cycle[i]] += s.passes[s.cycle[i]] > b->c->cover[s.cycle[i]] ? -1 : 1;
     unchanged++;
     if (s.n_cycle == 0) continue;
     tries++;

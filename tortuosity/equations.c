@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct {
   int n, *start, *row;
@@ -26,7 +27,7 @@ static void fill_matrix(const thr_relax *r, double penalty, matrix *m)
     m->cost[j] = ldexp((double)c->weight[j], -THR_TURNING_BITS);
     put(m, a, a == b ? 2 : extra ? -1 : 1);
     if (b >= 0 && a != b) put(m, b, extra ? -1 : 1);
-    if (b < 0) put(m, darts + c->component[thr_tail(c->f, a)], 1);
+    if (b < 0) put(m, darts + c->end_group[thr_tail(c->f, a)], 1);
   }
   for (int i = 0; i < r->n_equations; i++)
     for (int sign = -1; sign <= 1; sign += 2) {
@@ -38,9 +39,9 @@ static void fill_matrix(const thr_relax *r, double penalty, matrix *m)
   m->cost[j++] = penalty;
   m->start[j] = m->n;
   for (int h = 0; h < darts; h++)
-    m->rhs[h] = c->task->cover;
+    m->rhs[h] = c->cover[h >> 1];
   for (int i = darts; i < r->n_equations; i++)
-    m->rhs[i] = 2 * c->task->cords;
+    m->rhs[i] = c->supply[i - darts][0];
 }
 
 static void matrix_destroy(matrix *m)
@@ -79,30 +80,90 @@ thr_status thr_relax_create(thr_relax *r, double penalty, thr_err *err)
   return st;
 }
 
-/* One node by itself: what its turns cost at least if each of its edges is passed as often as it likes, but no less than the
- * cover. potential[] of its half-edges: multipliers >= 0. */
-static thr_status solve_one_node(const thr_turning_columns *c, int v, const thr_limits *limits, int *column, double *cost,
-                                 double *dual, int64_t *potential, thr_err *err)
+/* Scratch for nodes one by one. */
+typedef struct {
+  const thr_turning_columns *c;
+  int *column, *block;      /* [most degree ^ 2], [most degree] */
+  double *cost, *x;         /* [most degree ^ 2] */
+  double *dual;             /* [rows] */
+  int n_junctions, *blocks; /* rows of the node's junctions, and their blocks one after the other */
+  thr_turning_dual *d;
+  int kept; /* capacity of d's junctions */
+} node_solver;
+
+enum { MOST_ROUNDS = 40 };
+
+/* Rows that tie the node where its turns do not. */
+static thr_status tie_node(node_solver *s, thr_lp *lp, int v, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)
 {
+  const int d = thr_degree(s->c->f, v);
+  thr_status st = THR_OK;
+  s->n_junctions = 0;
+  for (int blocks = 2; blocks > 1 && !st && *outcome == THR_LP_OPTIMAL && s->n_junctions < MOST_ROUNDS;) {
+    int n = 0;
+    thr_lp_primal(lp, s->x);
+    for (int i = 0, j = 0; i < d; i++)
+      for (int k = i + 1; k < d; k++)
+        s->cost[i * d + k] = s->x[j++]; /* the turns in their order */
+    st = thr_junction_worst(d, s->cost, s->block, &blocks, err);
+    if (st || blocks < 2) break;
+    for (int i = 0, j = 0; i < d; i++)
+      for (int k = i + 1; k < d; k++, j++)
+        if (s->block[i] != s->block[k]) s->column[n++] = j;
+    memcpy(s->blocks + s->n_junctions++ * d, s->block, (size_t)d * sizeof *s->block);
+    st = thr_lp_add_row(lp, n, s->column, NULL, blocks - 1, err);
+    if (!st) st = thr_lp_solve(lp, limits, outcome, err);
+  }
+  return st;
+}
+
+static int64_t multiplier(double dual)
+{
+  return (int64_t)floor(ldexp(fmax(0, fmin(1e4, dual)), THR_TURNING_BITS));
+}
+
+static thr_status keep_junction(node_solver *s, int v, const int *block, int64_t value, thr_err *err)
+{
+  size_t d = (size_t)thr_degree(s->c->f, v);
+  if (value == 0) return THR_OK;
+  thr_status st = thr_grow(&s->d->junction, s->d->n_junctions, &s->kept, sizeof *s->d->junction, err);
+  if (st) return st;
+  thr_turning_junction *to = &s->d->junction[s->d->n_junctions];
+  *to = (thr_turning_junction){v, thr_calloc(d, sizeof *to->block), value};
+  if (!to->block) return thr_nomem(err);
+  memcpy(to->block, block, d * sizeof *block);
+  s->d->n_junctions++;
+  return THR_OK;
+}
+
+/* One node by itself: what its turns cost at least if each of its edges is passed as often as it likes, but no less than the
+ * cover; with tube joints, if they tie it. Multipliers >= 0 of its half-edges, and of its junctions. */
+static thr_status solve_one_node(node_solver *s, int v, const thr_limits *limits, thr_err *err)
+{
+  const thr_turning_columns *c = s->c;
   const thr_frame *f = c->f;
   const int *half = f->half + f->first[v];
   int d = thr_degree(f, v), turns = d * (d - 1) / 2;
   thr_lp *lp;
   thr_lp_outcome outcome = THR_LP_OPTIMAL;
   for (int j = 0; j < turns; j++)
-    cost[j] = ldexp((double)c->weight[c->pair_first[v] + j], -THR_TURNING_BITS);
-  thr_status st = thr_lp_create(&lp, turns, cost, NULL, err);
+    s->cost[j] = ldexp((double)c->weight[c->pair_first[v] + j], -THR_TURNING_BITS);
+  thr_status st = thr_lp_create(&lp, turns, s->cost, NULL, err);
   for (int i = 0; i < d && !st; i++) {
     int n = 0;
     for (int k = 0; k < d; k++)
-      if (k != i) column[n++] = thr_turning_column(c, half[i], half[k]) - c->pair_first[v];
-    st = thr_lp_add_row(lp, n, column, NULL, c->task->cover, err);
+      if (k != i) s->column[n++] = thr_turning_column(c, half[i], half[k]) - c->pair_first[v];
+    st = thr_lp_add_row(lp, n, s->column, NULL, c->cover[half[i] >> 1], err);
   }
+  s->n_junctions = 0;
   if (!st) st = thr_lp_solve(lp, limits, &outcome, err);
+  if (!st && c->task->tube) st = tie_node(s, lp, v, limits, &outcome, err);
   if (!st && outcome == THR_LP_OPTIMAL) {
-    thr_lp_dual(lp, dual);
+    thr_lp_dual(lp, s->dual);
     for (int i = 0; i < d; i++)
-      potential[half[i]] = (int64_t)floor(ldexp(fmax(0, fmin(1e4, dual[i])), THR_TURNING_BITS));
+      s->d->potential[half[i]] = multiplier(s->dual[i]);
+    for (int i = 0; i < s->n_junctions && !st; i++)
+      st = keep_junction(s, v, s->blocks + i * d, multiplier(s->dual[d + i]), err);
   }
   thr_lp_destroy(lp);
   return st;
@@ -112,29 +173,49 @@ static thr_status solve_one_node(const thr_turning_columns *c, int v, const thr_
 static void charge_ends(const thr_turning_columns *c, thr_turning_dual *d)
 {
   for (int j = c->first_end; j < c->first_back; j++) {
-    int h = c->half[j][0], k = c->component[thr_tail(c->f, h)];
+    int h = c->half[j][0], k = c->end_group[thr_tail(c->f, h)];
     if (-d->potential[h] < d->ends[k]) d->ends[k] = -d->potential[h];
   }
+}
+
+static void node_solver_destroy(node_solver *s)
+{
+  free(s->column);
+  free(s->block);
+  free(s->cost);
+  free(s->x);
+  free(s->dual);
+  free(s->blocks);
+}
+
+static thr_status node_solver_init(node_solver *s, const thr_turning_columns *c, thr_turning_dual *d, thr_err *err)
+{
+  size_t most = 1;
+  for (int v = 0; v < c->f->n_nodes; v++)
+    if ((size_t)thr_degree(c->f, v) > most) most = (size_t)thr_degree(c->f, v);
+  *s = (node_solver){.c = c, .d = d};
+  s->column = thr_calloc(most * most, sizeof *s->column);
+  s->block = thr_calloc(most, sizeof *s->block);
+  s->cost = thr_calloc(most * most, sizeof *s->cost);
+  s->x = thr_calloc(most * most, sizeof *s->x);
+  s->dual = thr_calloc(most + MOST_ROUNDS, sizeof *s->dual);
+  s->blocks = thr_calloc(most * MOST_ROUNDS, sizeof *s->blocks);
+  return s->column && s->block && s->cost && s->x && s->dual && s->blocks ? THR_OK : thr_nomem(err);
 }
 
 thr_status thr_relax_nodes(const thr_turning_columns *c, const thr_limits *limits, thr_turning_dual *d, thr_err *err)
 {
   const thr_frame *f = c->f;
-  size_t most = 1;
+  node_solver s;
   *d = (thr_turning_dual){0};
-  for (int v = 0; v < f->n_nodes; v++)
-    if ((size_t)thr_degree(f, v) > most) most = (size_t)thr_degree(f, v);
-  int *column = thr_calloc(most, sizeof *column);
-  double *cost = thr_calloc(most * most, sizeof *cost), *dual = thr_calloc(most, sizeof *dual);
+  thr_status st = node_solver_init(&s, c, d, err);
   d->potential = thr_calloc(2 * (size_t)f->n_edges, sizeof *d->potential);
-  d->ends = thr_calloc((size_t)c->n_components, sizeof *d->ends);
-  thr_status st = column && cost && dual && d->potential && d->ends ? THR_OK : thr_nomem(err);
+  d->ends = thr_calloc((size_t)c->n_ends, sizeof *d->ends);
+  if (!st && (!d->potential || !d->ends)) st = thr_nomem(err);
   for (int v = 0; v < f->n_nodes && !st; v++)
-    if (thr_degree(f, v) > 1) st = solve_one_node(c, v, limits, column, cost, dual, d->potential, err);
+    if (thr_degree(f, v) > 1) st = solve_one_node(&s, v, limits, err);
   if (!st) charge_ends(c, d);
-  free(column);
-  free(cost);
-  free(dual);
+  node_solver_destroy(&s);
   if (st) thr_turning_dual_destroy(d);
   return st;
 }
@@ -197,7 +278,7 @@ static thr_status crash_node(crash *k, int v, const thr_limits *limits, thr_err 
   }
   k->m.start[n] = k->m.n;
   for (int i = 0; i < d; i++)
-    k->m.rhs[i] = c->task->cover;
+    k->m.rhs[i] = c->cover[half[i] >> 1];
   thr_status st = thr_lp_create_equations(&lp, d, k->m.rhs, n, k->m.cost, NULL, k->m.start, k->m.row, k->m.value, err);
   if (!st) st = thr_lp_solve(lp, limits, &outcome, err);
   for (int i = 0; i < d && !st; i++)
@@ -216,9 +297,12 @@ thr_status thr_relax_crash(thr_relax *r, thr_err *err)
   crash k;
   thr_status st = crash_init(&k, r, err);
   for (int v = 0; v < c->f->n_nodes && !st; v++)
-    if (thr_degree(c->f, v) > 0) st = crash_node(&k, v, &none, err);
+    if (thr_degree(c->f, v) == 1 && c->task->tube)
+      k.column_basic[c->end_column[c->f->half[c->f->first[v]]]] = true; /* all that can be there */
+    else if (thr_degree(c->f, v) > 0)
+      st = crash_node(&k, v, &none, err);
   for (int i = darts; !st && i < thr_lp_rows(r->lp); i++)
-    if (i < darts + c->n_components && c->task->end_allowed)
+    if (i < darts + c->n_ends && c->task->end_allowed)
       k.column_basic[c->n_columns + 2 * i + 1] = true; /* no ends yet: the artificial column makes up for them */
     else
       k.row_basic[i] = true;

@@ -11,7 +11,7 @@ double thr_extra_length(const thr_turning_columns *c, const int *passes)
 {
   double sum = 0;
   for (int e = 0; e < c->f->n_edges; e++)
-    sum += (passes[e] - c->task->cover) * c->f->length[e];
+    sum += (passes[e] - c->cover[e]) * c->f->length[e];
   return sum;
 }
 
@@ -76,6 +76,15 @@ static void add_edge(instance *in, int a, int b, int64_t weight, int what)
   in->what[in->n_edges++] = what;
 }
 
+/* Passes that the edges at node v need. */
+static int covers_at(const thr_turning_columns *c, int v)
+{
+  int sum = 0;
+  for (int i = c->f->first[v]; i < c->f->first[v + 1]; i++)
+    sum += c->cover[c->f->half[i] >> 1];
+  return sum;
+}
+
 /* Weights add up to a power of 2 such that the slots' edges, each dearer than all of them, stay within what lp/tjoin.h takes. */
 static void fill(instance *in, const double *weight, const double *end_weight, const int *ends)
 {
@@ -83,15 +92,23 @@ static void fill(instance *in, const double *weight, const double *end_weight, c
   assert(in->edge && in->weight && in->what && in->odd);
   const double whole = exp2(fmin(44, floor(50 - log2(2 + 2.0 * in->n_slots * (in->n_nodes + in->n_slots)))));
   double sum = 0, most = 0;
-  for (int e = 0; e < f->n_edges; e++)
-    if (in->c->component[f->edge[e][0]] == in->k) sum += weight[e];
+  int full = 0; /* edges with no room for an extra pass: each dearer than all others together */
+  for (int e = 0; e < f->n_edges; e++) {
+    if (in->c->component[f->edge[e][0]] != in->k) continue;
+    full += in->c->most[e] == in->c->cover[e];
+    if (in->c->most[e] > in->c->cover[e]) sum += weight[e];
+  }
+  const double dear = sum;
+  sum += full * dear;
   const double scale = sum > 0 ? exp2(floor(log2(whole / sum))) : 0; /* powers of 2 keep ties */
   for (int i = 0; end_weight && i < in->n_nodes; i++)
     most = fmax(most, end_weight[in->node[i]]);
   for (int i = 0; i < in->n_nodes; i++)
     for (int k = f->first[in->node[i]]; k < f->first[in->node[i] + 1]; k++) {
       int h = f->half[k];
-      if (h % 2 == 0) add_edge(in, i, in->local[thr_head(f, h)], (int64_t)nearbyint(weight[h >> 1] * scale), h >> 1);
+      if (h % 2 == 0)
+        add_edge(in, i, in->local[thr_head(f, h)],
+                 (int64_t)nearbyint((in->c->most[h >> 1] > in->c->cover[h >> 1] ? weight[h >> 1] : dear) * scale), h >> 1);
     }
   int64_t slot = (int64_t)whole + 1;
   for (int s = 0; s < in->n_slots; s++) {
@@ -104,7 +121,7 @@ static void fill(instance *in, const double *weight, const double *end_weight, c
     in->odd[in->n_nodes + s] = true;
   }
   for (int i = 0; i < in->n_nodes; i++)
-    in->odd[i] = (in->c->task->cover * thr_degree(f, in->node[i]) + (in->n_slots ? 0 : ends[in->node[i]])) % 2 != 0;
+    in->odd[i] = (covers_at(in->c, in->node[i]) + (in->n_slots ? 0 : ends[in->node[i]])) % 2 != 0;
 }
 
 /* Both ends of a cord that comes out where it went in: at the allowed node of least weight. */
@@ -229,12 +246,14 @@ static thr_status solve_components(const thr_turning_columns *c, const double *w
 {
   thr_status st = THR_OK;
   for (int e = 0; e < c->f->n_edges; e++)
-    passes[e] = c->task->cover;
-  for (int v = 0; v < c->f->n_nodes && !given; v++)
-    ends[v] = 0;
+    passes[e] = c->cover[e];
+  const int *count = c->task->end_count;
+  given |= count != NULL;
+  for (int v = 0; v < c->f->n_nodes && (!given || count); v++)
+    ends[v] = count ? count[v] : 0;
   for (int k = 0; k < c->n_components && !st; k++)
     st = solve_component(c, k, weight, end_weight, given, roughly, limits, passes, ends, err);
-  for (int k = 0; k < c->n_components && !st && c->task->end_allowed; k++)
+  for (int k = 0; k < c->n_components && !st && c->task->end_allowed && !count; k++)
     st = fit_ends(c, k, passes, ends, err);
   return st;
 }
@@ -260,9 +279,9 @@ void thr_extra_spread_ends(const thr_turning_columns *c, int *ends)
     for (int i = 0; i < 2 * c->task->cords; i++) {
       int best = -1;
       for (int v = 0; v < f->n_nodes; v++) {
-        int own = c->task->cover * thr_degree(f, v) + ends[v];
+        int own = covers_at(c, v) + ends[v];
         if (c->component[v] != k || !c->task->end_allowed[v]) continue;
-        int than = best < 0 ? 0 : c->task->cover * thr_degree(f, best) + ends[best];
+        int than = best < 0 ? 0 : covers_at(c, best) + ends[best];
         if (best < 0 || ends[v] - own % 2 < ends[best] - than % 2) best = v;
       }
       if (best >= 0) ends[best]++;

@@ -202,7 +202,7 @@ thr_status thr_groups_flow(const thr_groups_call *g, int *added, thr_err *err)
   for (int k = 0; k < w.m && !st; k += 2)
     if (w.capacity[k] >= 2 - tolerance) merge(&w, w.to[k], w.to[k + 1]);
   for (int k = 0; k < c->n_components && !st; k++)
-    root[k] = c->task->end_allowed ? m + k : -1;
+    root[k] = thr_turning_open(c, k) ? m + k : -1;
   for (int e = 0; e < m && !st && *added < ENOUGH; e++) {
     int k = c->component[c->f->edge[e][0]];
     if (root[k] < 0) root[k] = e;

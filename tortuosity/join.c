@@ -68,6 +68,21 @@ thr_status thr_join_init(thr_join *j, const thr_turning_columns *c, const int *p
   return THR_OK;
 }
 
+bool thr_join_open(const thr_join *j, int component)
+{
+  const int *first = j->g.first + j->c->f->n_nodes + component;
+  return first[1] > first[0];
+}
+
+int thr_join_count(const thr_join *j)
+{
+  const int *first = j->g.first + j->c->f->n_nodes;
+  int n = 0;
+  for (int k = 0; k < j->c->n_components; k++)
+    n += thr_join_open(j, k) ? (first[k + 1] - first[k]) / 2 : j->c->task->end_allowed ? 1 : j->c->task->cords;
+  return n;
+}
+
 void thr_join_destroy(thr_join *j)
 {
   thr_multigraph_destroy(&j->g);
@@ -159,14 +174,15 @@ static void join_equal_passes(thr_join *j, const int *circuit, int *parent)
 static bool all_joined(const thr_join *j, const int *circuit, int *parent)
 {
   const thr_turning_columns *c = j->c;
-  bool open = c->task->end_allowed != NULL, joined = true;
-  int *root = parent + j->g.n_darts; /* the entries of the end nodes are free if there are none */
-  for (int k = 0; k < c->n_components && !open; k++)
-    root[k] = -1;
+  bool joined = true;
+  int *root = parent + j->g.n_darts; /* the entries of end nodes without ends are free */
+  for (int k = 0; k < c->n_components; k++)
+    if (!thr_join_open(j, k)) root[k] = -1;
   for (int d = 0; d < j->g.n_darts; d++) {
     int k = j->g.tail[d] < c->f->n_nodes ? c->component[j->g.tail[d]] : -1;
     if (k < 0) continue;
     int own = thr_disjoint_find(parent, circuit[d]);
+    bool open = thr_join_open(j, k);
     if (!open && root[k] < 0) root[k] = own;
     joined &= own == (open ? thr_disjoint_find(parent, j->g.n_darts + k) : root[k]);
   }

@@ -22,6 +22,12 @@ thr_status thr_join_from_cords(thr_join *j, const thr_turning_columns *c, const 
                                thr_err *err) THR_MUST_CHECK;
 void thr_join_destroy(thr_join *j);
 
+/* Has a component cord ends? */
+bool thr_join_open(const thr_join *j, int component);
+
+/* How many cords joined pairs make: by the ends, or as many closed ones as the task asks for. */
+int thr_join_count(const thr_join *j);
+
 /* Price of pairing two darts of one node: of the turn; 0 with a cord end; forbidden for a U-turn at a node with other edges, and
  * for two cord ends, which would leave a cord without a pass. */
 static const double thr_join_forbidden = 1e9;

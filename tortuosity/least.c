@@ -3,6 +3,7 @@
 #include "tortuosity/branch.h"
 #include "tortuosity/extra.h"
 #include "tortuosity/several.h"
+#include "tortuosity/tie.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -28,13 +29,16 @@ thr_status thr_least_task(const thr_frame *f, const thr_least_options *o, thr_le
     return thr_fail(err, THR_EINPUT, "%d passes of %d edges are more than the %d that the search for the least turning takes",
                     o->cover, f->n_edges, MOST_PASSES);
   if (o->ends != THR_ENDS_CLOSED) {
-    thr_plan_options plan = {.ends = o->ends, .end_node = (bool *)o->end_node};
+    thr_plan_options plan = {.ends = o->ends, .end_node = (bool *)o->end_node, .end_count = (int *)o->end_count};
     if (!(out->end_allowed = thr_calloc((size_t)f->n_nodes, sizeof *out->end_allowed))) return thr_nomem(err);
     for (int v = 0; v < f->n_nodes; v++)
       out->end_allowed[v] = thr_plan_end_allowed(f, &plan, v);
   }
   out->task = (thr_turning_task){.cover = o->cover,
-                                 .most_passes = o->most_passes ? o->most_passes : thr_turning_most_passes(o->cover),
+                                 .capacity = o->capacity,
+                                 .tube = o->tube,
+                                 .end_count = o->ends == THR_ENDS_COUNTS ? o->end_count : NULL,
+                                 .most_passes = o->most_passes ? o->most_passes : thr_turning_most_passes(f, o->cover),
                                  .cords = cords,
                                  .end_allowed = out->end_allowed,
                                  .cost = o->cost,
@@ -54,7 +58,7 @@ typedef struct {
 /* Cords of the best plan of a search, as a plan to begin with. */
 static thr_status take_start(const thr_branch *b, first_cords *start, thr_err *err)
 {
-  int n = b->c->n_components * b->c->task->cords;
+  int n = thr_join_count(&b->best);
   if (!(start->cord = thr_calloc((size_t)n, sizeof *start->cord))) return thr_nomem(err);
   start->n = n;
   return thr_join_cords(&b->best, start->cord, n, err);
@@ -78,6 +82,22 @@ static thr_status find_several(const thr_turning_columns *c, const thr_limits *l
   return st;
 }
 
+/* Passes and ends of the cords to begin with. */
+static thr_status tied_passes(const thr_turning_columns *c, const thr_least_options *o, int *passes, int *ends, thr_err *err)
+{
+  thr_status st = thr_tie_possible(c, err);
+  memset(passes, 0, (size_t)c->f->n_edges * sizeof *passes);
+  memset(ends, 0, (size_t)c->f->n_nodes * sizeof *ends);
+  for (int i = 0; i < o->n_start; i++) {
+    for (int k = 0; k < o->start[i].n_passes; k++)
+      passes[o->start[i].half[k] >> 1]++;
+    if (!c->task->end_allowed) continue;
+    ends[thr_cord_start(c->f, &o->start[i])]++;
+    ends[thr_cord_end(c->f, &o->start[i])]++;
+  }
+  return st;
+}
+
 /* The shortest extra passes, and from the length of a plan with them, or nearly, the limit that the slack allows. */
 static thr_status find_shortest(const thr_frame *f, const thr_least_options *o, const thr_limits *limits, thr_least *out,
                                 int *passes, int *ends, first_cords *start, thr_err *err)
@@ -85,9 +105,12 @@ static thr_status find_shortest(const thr_frame *f, const thr_least_options *o, 
   thr_turning_columns c;
   thr_status st = thr_turning_columns_init(&c, f, &out->task, err);
   if (st) return st;
-  st = thr_extra_passes(&c, f->length, NULL, false, limits, passes, ends, err);
-  double extra = st ? 0 : thr_extra_length(&c, passes), base = o->cover * thr_frame_total_length(f), given = 0;
-  if (!st && !out->end_allowed && out->task.cords > 1) st = find_several(&c, limits, passes, start, &extra, err);
+  if (o->tube)
+    st = tied_passes(&c, o, passes, ends, err);
+  else
+    st = thr_extra_passes(&c, f->length, NULL, false, limits, passes, ends, err);
+  double extra = st ? 0 : thr_extra_length(&c, passes), base = thr_turning_base_length(f, o->cover), given = 0;
+  if (!st && !o->tube && !out->end_allowed && out->task.cords > 1) st = find_several(&c, limits, passes, start, &extra, err);
   thr_turning_columns_destroy(&c);
   for (int i = 0; i < o->n_start; i++)
     given += thr_cord_length(f, &o->start[i]);
@@ -101,11 +124,13 @@ static thr_status find_shortest(const thr_frame *f, const thr_least_options *o, 
 static thr_status first_plans(thr_branch *b, const thr_least_options *o, const first_cords *start, int *passes, int *ends,
                               thr_err *err)
 {
-  thr_status st = thr_branch_try(b, passes, ends, err);
+  thr_status st = THR_OK;
+  if (o->tube && b->c->task->extra_limit != 0) st = thr_tie_improve(b->c, b->limits, passes, ends, err);
+  if (!st) st = thr_branch_try(b, passes, ends, err);
   if (!st && o->start) st = thr_branch_try_cords(b, o->start, o->n_start, err);
   if (!st && start->n) st = thr_branch_try_cords(b, start->cord, start->n, err);
   if (!st && b->several) st = thr_several_plans(b, err);
-  if (st || !b->c->task->end_allowed) return st;
+  if (st || !b->c->task->end_allowed || o->tube || b->c->task->end_count) return st;
   thr_extra_spread_ends(b->c, ends);
   st = thr_extra_passes(b->c, b->c->f->length, NULL, true, b->limits, passes, ends, err);
   return st ? st : thr_branch_try(b, passes, ends, err);
@@ -124,12 +149,12 @@ static void measure(const thr_frame *f, thr_least *out)
       out->price += thr_turn_price(f, out->task.cost, c->half[k], next);
     }
   }
-  out->price += out->task.price_per_length * (out->length - out->task.cover * thr_frame_total_length(f));
+  out->price += out->task.price_per_length * (out->length - thr_turning_base_length(f, out->task.cover));
 }
 
 thr_status thr_least_cords(const thr_frame *f, const thr_join *j, thr_least *out, thr_err *err)
 {
-  int n = j->c->n_components * out->task.cords;
+  int n = thr_join_count(j);
   if (!(out->cord = thr_calloc((size_t)n, sizeof *out->cord))) return thr_nomem(err);
   thr_status st = thr_join_cords(j, out->cord, n, err);
   if (st) return st;
@@ -223,12 +248,13 @@ thr_status thr_least_turning(const thr_frame *f, const thr_least_options *o, con
   thr_status st = search(f, o, limits, out, &found);
   while ((!st || st == THR_ELIMIT) && o->length_slack >= 0 && out->length < out->shortest * (1 - 1e-9)) {
     thr_least_options again = *o;
-    thr_least longer = *out;
-    again.start = longer.cord;
-    again.n_start = longer.n_cords;
+    thr_least shorter = {0};
+    again.start = out->cord;
+    again.n_start = out->n_cords;
     found = (thr_err){0};
-    st = search(f, &again, limits, out, &found);
-    thr_least_destroy(&longer);
+    st = search(f, &again, limits, &shorter, &found);
+    thr_least_destroy(out);
+    *out = shorter;
   }
   return st ? thr_fail(err, st, "%s", found.text) : THR_OK;
 }

@@ -7,10 +7,12 @@
 #include "tortuosity/join.h"
 
 typedef struct {
-  int cover;
+  int cover, capacity; /* as in thr_plan_options */
+  bool tube;           /* tube joints; then start must be set */
   thr_ends ends;
   const bool *end_node; /* [n_nodes] THR_ENDS_NODES only; borrowed */
-  int cords;            /* in every component, exactly; 0 = 1 */
+  const int *end_count; /* [n_nodes] THR_ENDS_COUNTS only; borrowed */
+  int cords;            /* in every component, exactly, unless the ends are counted; 0 = 1 */
   int most_passes;      /* of an edge; 0 = 4 * cover + 4 */
   thr_turn_cost cost;
   double length_slack;     /* extra cord allowed above the shortest plan found, as a part of its length; < 0 = any length */

@@ -431,7 +431,7 @@ static thr_status try_passes(search *x, bool shortest, int steps, thr_err *err)
   thr_status st = thr_extra_passes(c, x->weight, NULL, t->end_allowed != NULL, x->limits, x->passes, x->ends, err);
   if (st) return st;
   for (int e = 0; e < c->f->n_edges; e++)
-    if (x->passes[e] > t->most_passes) return THR_OK;
+    if (x->passes[e] > x->c->most[e]) return THR_OK;
   if (t->extra_limit >= 0 && thr_extra_length(c, x->passes) > t->extra_limit) return THR_OK;
   st = make_cords(x, &j, &found, err);
   if (found) return improve_from(x, &j, steps, err);

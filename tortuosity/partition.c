@@ -42,7 +42,7 @@ static void splitter_destroy(splitter *s)
 
 static int passes_of(const thr_relax *r, int half)
 {
-  return r->c->task->cover + (int)nearbyint(r->x[r->c->first_extra + (half >> 1)]);
+  return r->c->cover[half >> 1] + (int)nearbyint(r->x[r->c->first_extra + (half >> 1)]);
 }
 
 static thr_status splitter_init(splitter *s, thr_relax *r, thr_err *err)

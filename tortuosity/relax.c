@@ -3,6 +3,7 @@
 #include "graph/disjoint.h"
 #include "tortuosity/groups.h"
 #include "tortuosity/partition.h"
+#include "tortuosity/project.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -36,17 +37,19 @@ static thr_status add_length_row(thr_relax *r, thr_err *err)
 static thr_status init_graph(thr_relax *r, thr_err *err)
 {
   const thr_turning_columns *c = r->c;
-  int darts = 2 * c->f->n_edges, n = darts + c->n_components, m = c->first_back;
+  int darts = 2 * c->f->n_edges, n = darts + c->n_ends, m = c->first_back;
   int(*edge)[2] = thr_calloc((size_t)m, sizeof *edge);
   bool *odd = thr_calloc((size_t)n, sizeof *odd);
   r->problem = (thr_tjoin_problem){.n_nodes = n, .n_edges = m, .edge = (const int(*)[2])edge, .odd = odd};
   if (!edge || !odd) return thr_nomem(err);
   for (int j = 0; j < m; j++) {
     edge[j][0] = c->half[j][0];
-    edge[j][1] = c->half[j][1] >= 0 ? c->half[j][1] : darts + c->component[thr_tail(c->f, c->half[j][0])];
+    edge[j][1] = c->half[j][1] >= 0 ? c->half[j][1] : darts + c->end_group[thr_tail(c->f, c->half[j][0])];
   }
   for (int h = 0; h < darts; h++)
-    odd[h] = c->task->cover % 2;
+    r->any_odd |= odd[h] = c->cover[h >> 1] % 2;
+  for (int k = 0; k < c->n_ends; k++)
+    r->any_odd |= odd[darts + k] = c->supply[k][0] % 2;
   return thr_oddcut_graph_init(&r->graph, &r->problem, err);
 }
 
@@ -65,25 +68,31 @@ static thr_status add_node_sets(thr_relax *r, thr_err *err)
   return st;
 }
 
-thr_status thr_relax_init(thr_relax *r, const thr_turning_columns *c, double penalty, thr_err *err)
+static int lp_column(const thr_relax *r, int column)
+{
+  return r->projected ? column - r->c->first_extra : column;
+}
+
+thr_status thr_relax_init(thr_relax *r, const thr_turning_columns *c, bool projected, double penalty, thr_err *err)
 {
   size_t n = (size_t)c->n_columns;
-  *r = (thr_relax){.c = c, .n_equations = 2 * c->f->n_edges + (c->task->end_allowed ? c->n_components : 0)};
+  *r = (thr_relax){.c = c, .projected = projected};
+  if (!projected) r->n_equations = 2 * c->f->n_edges + (c->task->end_allowed ? c->n_ends : 0);
   r->n_all = c->n_columns + 2 * r->n_equations + 1;
   r->x = thr_calloc((size_t)r->n_all, sizeof *r->x);
   r->low = thr_calloc(n, sizeof *r->low);
   r->high = thr_calloc(n, sizeof *r->high);
   r->reduced = thr_calloc(n, sizeof *r->reduced);
   thr_status st = r->x && r->low && r->high && r->reduced ? THR_OK : thr_nomem(err);
-  if (!st) st = thr_relax_create(r, penalty, err);
+  if (!st) st = projected ? thr_project_create(r, penalty, err) : thr_relax_create(r, penalty, err);
   if (!st && c->extra_limit >= 0) st = add_length_row(r, err);
   for (int j = 0; j < c->n_columns && !st; j++) {
     r->high[j] = thr_turning_most(c, j);
-    if (j >= c->first_extra) st = thr_lp_set_bounds(r->lp, j, 0, r->high[j], err); /* turns are bounded by their equations */
+    if (j >= c->first_extra) st = thr_lp_set_bounds(r->lp, lp_column(r, j), 0, r->high[j], err); /* turns: by their equations */
   }
-  if (!st) st = thr_relax_crash(r, err);
-  if (!st) st = init_graph(r, err);
-  if (!st) st = add_node_sets(r, err);
+  if (!st && !projected) st = thr_relax_crash(r, err);
+  if (!st) st = projected ? thr_project_graph(r, err) : init_graph(r, err);
+  if (!st && !projected) st = add_node_sets(r, err);
   if (st) thr_relax_destroy(r);
   return st;
 }
@@ -101,6 +110,12 @@ static void destroy_partition(thr_relax_partition *p)
   free(p->value);
 }
 
+static void destroy_junction(thr_relax_junction *j)
+{
+  free(j->block);
+  free(j->column);
+}
+
 void thr_relax_destroy(thr_relax *r)
 {
   thr_lp_destroy(r->lp);
@@ -108,6 +123,9 @@ void thr_relax_destroy(thr_relax *r)
     destroy_group(&r->group[i]);
   for (int i = 0; i < r->n_partitions; i++)
     destroy_partition(&r->partition[i]);
+  for (int i = 0; i < r->n_junctions; i++)
+    destroy_junction(&r->junction[i]);
+  free(r->junction);
   free(r->partition);
   free(r->group);
   free(r->cut);
@@ -129,7 +147,7 @@ thr_status thr_relax_set(thr_relax *r, int column, int low, int high, thr_err *e
   bool unbounded = column < r->c->first_extra && high == thr_turning_most(r->c, column);
   r->low[column] = low;
   r->high[column] = high;
-  return thr_lp_set_bounds(r->lp, column, low, unbounded ? (double)INFINITY : high, err);
+  return thr_lp_set_bounds(r->lp, lp_column(r, column), low, unbounded ? (double)INFINITY : high, err);
 }
 
 /* ---- rows ---- */
@@ -190,7 +208,7 @@ static thr_status separate_odd(thr_relax *r, bool exact, int *added, thr_err *er
   static const double threshold[] = {1e-6, 0.2, 0.35, 0.51, 0.7};
   int before = r->pool.count;
   thr_status st = THR_OK;
-  if (r->c->task->cover % 2 == 0) return THR_OK; /* all sets are even */
+  if (!r->any_odd) return THR_OK; /* all sets are even */
   if (exact) st = thr_oddcut_exact(&r->graph, r->x, &r->pool, err);
   for (size_t i = 0; i < sizeof threshold / sizeof *threshold && !exact && !st && r->pool.count == before; i++) {
     st = thr_oddcut_moats(&r->graph, r->x, threshold[i], r->reduced, &r->pool, err);
@@ -343,6 +361,35 @@ thr_status thr_relax_add_partition(thr_relax *r, const int *block, int connectio
   return st;
 }
 
+/* ---- junctions ---- */
+
+thr_status thr_relax_add_junction(thr_relax *r, int v, const int *block, int n, bool *used, thr_err *err)
+{
+  const thr_turning_columns *c = r->c;
+  const int *half = c->f->half + c->f->first[v], d = thr_degree(c->f, v);
+  size_t turns = (size_t)d * (size_t)(d - 1) / 2;
+  thr_relax_junction j = {.node = v, .n_blocks = n};
+  j.block = thr_calloc((size_t)d, sizeof *j.block);
+  j.column = thr_calloc(turns, sizeof *j.column);
+  thr_status st = j.block && j.column ? THR_OK : thr_nomem(err);
+  *used = false;
+  for (int a = 0; a < d && !st; a++) {
+    j.block[a] = block[a];
+    for (int b = a + 1; b < d; b++)
+      if (block[a] != block[b]) j.column[j.n_columns++] = thr_turning_column(c, half[a], half[b]);
+  }
+  if (!st && sum_over(r->x, j.n_columns, j.column) < n - 1 - tolerance) {
+    st = thr_grow(&r->junction, r->n_junctions, &r->junctions_capacity, sizeof *r->junction, err);
+    if (!st) st = add_row(r, j.n_columns, j.column, NULL, n - 1, (thr_relax_cut){THR_RELAX_JUNCTION, r->n_junctions}, err);
+    *used = !st;
+  }
+  if (*used)
+    r->junction[r->n_junctions++] = j;
+  else
+    destroy_junction(&j);
+  return st;
+}
+
 /* ---- solving ---- */
 
 static void reduce_costs(thr_relax *r)
@@ -351,7 +398,7 @@ static void reduce_costs(thr_relax *r)
   int darts = 2 * c->f->n_edges;
   for (int j = 0; j < c->first_back; j++) {
     int a = c->half[j][0], b = c->half[j][1];
-    double sum = r->dual[a] + (b >= 0 ? r->dual[b] : r->dual[darts + c->component[thr_tail(c->f, a)]]);
+    double sum = r->dual[a] + (b >= 0 ? r->dual[b] : r->dual[darts + c->end_group[thr_tail(c->f, a)]]);
     r->reduced[j] = ldexp((double)c->weight[j], -THR_TURNING_BITS) + (j >= c->first_extra && j < c->first_end ? sum : -sum);
   }
   for (int i = 0; i < r->n_cuts; i++) {
@@ -361,6 +408,7 @@ static void reduce_costs(thr_relax *r)
     const double *value = NULL;
     switch (r->cut[i].kind) {
     case THR_RELAX_ODD: n = r->pool.cut[k].n_edges, column = r->pool.cut[k].edge; break;
+    case THR_RELAX_JUNCTION: n = r->junction[k].n_columns, column = r->junction[k].column; break;
     case THR_RELAX_GROUP: n = r->group[k].n_columns, column = r->group[k].column; break;
     default: n = r->partition[k].n_columns, column = r->partition[k].column, value = r->partition[k].value; break;
     }
@@ -373,7 +421,8 @@ thr_status thr_relax_solve(thr_relax *r, const thr_limits *limits, thr_err *err)
 {
   thr_lp_outcome outcome;
   thr_status st = thr_lp_solve(r->lp, limits, &outcome, err);
-  if (!st && r->n_cuts == 0 && outcome == THR_LP_OPTIMAL) { /* the first basis is not feasible for the first odd sets */
+  if (!st && !r->projected && r->n_cuts == 0 &&
+      outcome == THR_LP_OPTIMAL) { /* the first basis is not feasible for the first odd sets */
     st = add_odd_rows(r, 0, err);
     if (!st) st = thr_lp_solve(r->lp, limits, &outcome, err);
   }
@@ -384,12 +433,13 @@ thr_status thr_relax_solve(thr_relax *r, const thr_limits *limits, thr_err *err)
   if (!dual) return thr_nomem(err);
   r->dual = dual;
   r->solved = outcome == THR_LP_OPTIMAL;
-  thr_lp_primal(r->lp, r->x);
+  thr_lp_primal(r->lp, r->projected ? r->x + r->c->first_extra : r->x);
   thr_lp_dual(r->lp, r->dual);
   r->objective = thr_lp_objective(r->lp);
   r->artificial = 0;
   for (int j = r->c->n_columns; j < r->n_all; j++)
     r->artificial += r->x[j];
+  if (r->projected) return thr_project_reduce(r, err);
   reduce_costs(r);
   return THR_OK;
 }
@@ -400,76 +450,15 @@ thr_status thr_relax_separate(thr_relax *r, const thr_limits *limits, int *added
   bool connected = t->end_allowed || t->cords == 1;
   thr_groups_call groups = {r->c, r->x, add_group, r};
   *added = 0;
-  thr_status st = connected ? thr_groups_support(&groups, tolerance, added, err) : THR_OK;
+  if (r->projected) return thr_project_separate(r, limits, added, err);
+  thr_status st = t->tube ? thr_junctions_separate(r, added, err) : THR_OK;
+  if (!st && connected && !t->tube) st = thr_groups_support(&groups, tolerance, added, err); /* tied nodes connect all */
   if (!st) st = separate_odd(r, false, added, err);
-  if (!st && !*added && !t->end_allowed) st = thr_partitions_separate(r, added, err);
+  connected &= !t->tube;
+  if (!st && !*added && !t->end_allowed && !t->tube) st = thr_partitions_separate(r, added, err);
   for (double threshold = 0.2; connected && !st && !*added && threshold < 1; threshold += 0.25)
     st = thr_groups_support(&groups, threshold, added, err);
   if (!st && !*added && connected && !thr_limits_stop(limits)) st = thr_groups_flow(&groups, added, err);
   if (!st && !*added && !thr_limits_stop(limits)) st = separate_odd(r, true, added, err);
-  return st;
-}
-
-/* ---- multipliers ---- */
-
-static int64_t whole(double value)
-{
-  return (int64_t)nearbyint(ldexp(fmax(-1e4, fmin(1e4, value)), THR_TURNING_BITS));
-}
-
-static thr_status copy_set(thr_turning_set *to, int n, const int *member, int64_t value, thr_err *err)
-{
-  *to = (thr_turning_set){n, thr_calloc((size_t)n, sizeof *to->member), value};
-  if (!to->member) return thr_nomem(err);
-  memcpy(to->member, member, (size_t)n * sizeof *member);
-  return THR_OK;
-}
-
-static thr_status copy_blocks(const thr_relax *r, thr_turning_partition *to, const int *block, int64_t value, thr_err *err)
-{
-  size_t m = (size_t)r->c->f->n_edges;
-  *to = (thr_turning_partition){thr_calloc(m, sizeof *to->block), value};
-  if (!to->block) return thr_nomem(err);
-  memcpy(to->block, block, m * sizeof *block);
-  return THR_OK;
-}
-
-static thr_status copy_cuts(const thr_relax *r, thr_turning_dual *d, thr_err *err)
-{
-  thr_status st = THR_OK;
-  for (int i = 0; i < r->n_cuts && !st; i++) {
-    int64_t value = whole(r->dual[r->n_equations + i]);
-    int k = r->cut[i].index;
-    if (value <= 0) continue;
-    if (r->cut[i].kind == THR_RELAX_PARTITION)
-      st = copy_blocks(r, &d->partition[d->n_partitions++], r->partition[k].block, value, err);
-    else if (r->cut[i].kind == THR_RELAX_ODD)
-      st = copy_set(&d->odd[d->n_odd++], r->pool.cut[k].n_nodes, r->pool.cut[k].node, value, err);
-    else
-      st = copy_set(&d->group[d->n_groups++], r->group[k].n_edges, r->group[k].edge, value, err);
-  }
-  return st;
-}
-
-thr_status thr_relax_dual(const thr_relax *r, thr_turning_dual *d, thr_err *err)
-{
-  const thr_turning_columns *c = r->c;
-  int darts = 2 * c->f->n_edges, used[3] = {0};
-  *d = (thr_turning_dual){0};
-  for (int i = 0; i < r->n_cuts; i++)
-    used[r->cut[i].kind] += whole(r->dual[r->n_equations + i]) > 0;
-  d->potential = thr_calloc((size_t)darts, sizeof *d->potential);
-  d->ends = thr_calloc((size_t)c->n_components, sizeof *d->ends);
-  d->odd = thr_calloc((size_t)used[0], sizeof *d->odd);
-  d->group = thr_calloc((size_t)used[1], sizeof *d->group);
-  d->partition = thr_calloc((size_t)used[2], sizeof *d->partition);
-  thr_status st = d->potential && d->ends && d->odd && d->group && d->partition ? THR_OK : thr_nomem(err);
-  for (int h = 0; h < darts && !st; h++)
-    d->potential[h] = whole(r->dual[h]);
-  for (int i = 0; c->task->end_allowed && i < c->n_components && !st; i++)
-    d->ends[i] = whole(r->dual[darts + i]);
-  if (!st && c->extra_limit >= 0) d->length = whole(fmax(0, r->dual[r->n_equations - 1]));
-  if (!st) st = copy_cuts(r, d, err);
-  if (st) thr_turning_dual_destroy(d);
   return st;
 }

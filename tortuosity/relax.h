@@ -1,4 +1,5 @@
-/* The linear programme over the columns of graph/turning_proof.h, with its odd and group rows added as a point violates them. */
+/* The linear programme over the columns of graph/turning_proof.h, with its odd, group, partition and junction rows added as a
+ * point violates them. Where turns cost nothing the columns of the turns may be left out (tortuosity/project.h). */
 #ifndef THR_RELAX_H
 #define THR_RELAX_H
 
@@ -14,7 +15,17 @@ typedef struct {
   int *column;
 } thr_relax_group;
 
-typedef enum { THR_RELAX_ODD, THR_RELAX_GROUP, THR_RELAX_PARTITION } thr_relax_kind;
+typedef enum {
+  THR_RELAX_ODD,
+  THR_RELAX_GROUP,
+  THR_RELAX_PARTITION,
+  THR_RELAX_JUNCTION,
+  THR_RELAX_SUM,  /* without turns: of node number index; .. */
+  THR_RELAX_SIDE, /* of half-edge index and the others of its node */
+  THR_RELAX_USE,  /* of half-edge index alone */
+  THR_RELAX_LEAST,
+  THR_RELAX_MOST /* ends of equation index */
+} thr_relax_kind;
 
 /* A row: which list it is in, and where. */
 typedef struct {
@@ -31,15 +42,23 @@ typedef struct {
   double lower;
 } thr_relax_partition;
 
+/* A junction row. */
+typedef struct {
+  int node, n_blocks, n_columns;
+  int *block, *column; /* [degree], [n_columns] */
+} thr_relax_junction;
+
 typedef struct {
   const thr_turning_columns *c;
   thr_lp *lp;
+  bool projected;  /* the programme has no turns: its columns begin with the extra passes */
   int n_equations; /* rows of half-edges, of ends, of the length limit */
   int n_all;       /* columns with the artificial ones, which keep every branch feasible at a price */
   double *x;       /* [n_all] of the last solve */
   double *dual;    /* [rows at the last solve] */
   double objective;
   double artificial;         /* sum of the artificial columns */
+  bool any_odd;              /* is there an odd set at all? */
   bool solved;               /* x is an optimum of the present rows */
   int *low, *high;           /* [n_columns] bounds in force */
   thr_tjoin_problem problem; /* the graph whose nodes are half-edges and ends, whose edges are columns */
@@ -49,13 +68,17 @@ typedef struct {
   thr_relax_group *group;
   int n_partitions, partitions_capacity;
   thr_relax_partition *partition;
+  int n_junctions, junctions_capacity;
+  thr_relax_junction *junction;
   int n_cuts, cuts_capacity;
   thr_relax_cut *cut; /* rows after the equations */
   double *reduced;
 } thr_relax;
 
-/* penalty: price of one unit of an artificial column, more than any plan costs. */
-thr_status thr_relax_init(thr_relax *r, const thr_turning_columns *c, double penalty, thr_err *err) THR_MUST_CHECK;
+/* penalty: price of one unit of an artificial column, more than any plan costs. projected: without turns, which must be free, and
+ * with tube joints. */
+thr_status thr_relax_init(thr_relax *r, const thr_turning_columns *c, bool projected, double penalty,
+                          thr_err *err) THR_MUST_CHECK;
 void thr_relax_destroy(thr_relax *r);
 
 /* Puts bounds on a column, for the next solve. */
@@ -81,6 +104,17 @@ thr_status thr_relax_crash(thr_relax *r, thr_err *err) THR_MUST_CHECK;
  * simplex method may not finish the whole programme. Release with thr_turning_dual_destroy. */
 thr_status thr_relax_nodes(const thr_turning_columns *c, const thr_limits *limits, thr_turning_dual *d,
                            thr_err *err) THR_MUST_CHECK;
+
+/* Adds the row of a node's blocks (copied; n of them, 0 .. n - 1) if x violates it. */
+thr_status thr_relax_add_junction(thr_relax *r, int v, const int *block, int n, bool *used, thr_err *err) THR_MUST_CHECK;
+
+/* Of the divisions of d edges into blocks the one with the fewest turns between blocks for its number of them: between[i * d +
+ * k], i < k, turns between edges i and k. block[d] and *n_blocks receive it; *n_blocks is 0 if none is violated. For up to 7
+ * edges all divisions, 877 at most; for more those into parts that hang together. */
+thr_status thr_junction_worst(int d, const double *between, int *block, int *n_blocks, thr_err *err) THR_MUST_CHECK;
+
+/* Junction rows that x violates, in tortuosity/junctions.c: the worst of every node. *added grows. */
+thr_status thr_junctions_separate(thr_relax *r, int *added, thr_err *err) THR_MUST_CHECK;
 
 /* Adds the row of a partition (block as in graph/turning_proof.h, copied, which needs so many connections) if x violates it and
  * it is new. */

@@ -11,7 +11,7 @@ static thr_status even_passes(thr_branch *b, int *passes, thr_err *err)
   thr_status st = THR_OK;
   for (int n = t->cover + t->cover % 2; n <= t->most_passes && !b->found && !st; n += 2) {
     for (int e = 0; e < b->c->f->n_edges; e++)
-      passes[e] = n;
+      passes[e] = n > b->c->cover[e] ? n : b->c->cover[e] + b->c->cover[e] % 2;
     st = thr_branch_try(b, passes, NULL, err);
   }
   return st;
@@ -61,15 +61,15 @@ static bool all_even(const thr_frame *f, const int *passes)
 static thr_status try_all_passes(thr_branch *b, int *passes, thr_err *err)
 {
   enum { TINY = 8, EXTRA = 3 };
-  const int m = b->c->f->n_edges, cover = b->c->task->cover;
+  const int m = b->c->f->n_edges, *cover = b->c->cover;
   thr_status st = THR_OK;
   if (m > TINY) return THR_OK;
   for (int e = 0; e < m; e++)
-    passes[e] = cover;
+    passes[e] = cover[e];
   for (int e = 0; e < m && !st && !thr_limits_stop(b->limits);) {
     if (all_even(b->c->f, passes)) st = thr_branch_try(b, passes, NULL, err);
-    for (e = 0; e < m && ++passes[e] > cover + EXTRA; e++)
-      passes[e] = cover;
+    for (e = 0; e < m && ++passes[e] > cover[e] + EXTRA; e++)
+      passes[e] = cover[e];
   }
   return st;
 }

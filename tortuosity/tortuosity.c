@@ -4,6 +4,7 @@
 #include "lp/postman.h"
 #include "tortuosity/baseline.h"
 #include "tortuosity/maxturn.h"
+#include "tortuosity/tube.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -13,8 +14,11 @@ static thr_least_options search_options(const thr_plan_options *o)
 {
   thr_least_options lo = thr_least_options_default();
   lo.cover = o->cover;
+  lo.capacity = o->capacity;
+  lo.tube = o->joint == THR_JOINT_TUBE;
   lo.ends = o->ends;
   lo.end_node = o->end_node;
+  lo.end_count = o->end_count;
   lo.cords = o->cords;
   lo.cost = o->turning.cost;
   lo.length_slack = o->turning.length_slack;
@@ -47,7 +51,7 @@ static thr_status shorten(const thr_frame *f, const thr_least_options *lo, const
   thr_status st = thr_least_turning(f, &with_length, limits, &other, &unused);
   if (st == THR_ENOMEM) return thr_fail(err, st, "%s", unused.text);
   if (st && st != THR_ELIMIT) return THR_OK; /* what is proved stands without it */
-  double price = other.price - with_length.price_per_length * (other.length - lo->cover * thr_frame_total_length(f));
+  double price = other.price - with_length.price_per_length * (other.length - thr_turning_base_length(f, lo->cover));
   if (price <= l->price + 1e-9 && other.length < l->length * (1 - 1e-9)) {
     thr_cord *cord = l->cord;
     l->cord = other.cord;
@@ -130,29 +134,63 @@ static thr_status even_out(const thr_frame *f, const thr_plan *seed, const thr_l
   return st;
 }
 
+/* The shortest passes of solid joints, or the shortest cords of tube joints; the other is empty. */
+typedef struct {
+  thr_shortest solid;
+  thr_tube tube;
+} shortest_plan;
+
+static void shortest_destroy(shortest_plan *s)
+{
+  thr_shortest_destroy(&s->solid);
+  thr_tube_destroy(&s->tube);
+}
+
+static thr_status find_shortest(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, shortest_plan *s,
+                                thr_err *err)
+{
+  const thr_limits share = share_of_time(limits, 0.3);
+  *s = (shortest_plan){0};
+  if (o->joint == THR_JOINT_TUBE) return thr_tube_shortest(f, o, &share, &s->tube, err);
+  return thr_postman_shortest(f, o, limits, &s->solid, err);
+}
+
+/* From the shortest tied cords, which may need more passes than are looked at otherwise. */
+static void begin_with(const thr_frame *f, const thr_tube *t, thr_least_options *lo)
+{
+  int most = thr_turning_most_passes(f, lo->cover);
+  lo->start = t->cord;
+  lo->n_start = t->n_cords;
+  lo->most_passes = t->most_passes > most ? t->most_passes : most;
+}
+
 /* Begins with the cords of the shortest plan where that has as many. */
-static thr_status find_from_shortest(const thr_frame *f, const thr_plan_options *o, const int *passes, const thr_limits *limits,
-                                     thr_least *l, thr_err *err)
+static thr_status find_from_shortest(const thr_frame *f, const thr_plan_options *o, const shortest_plan *s,
+                                     const thr_limits *limits, thr_least *l, thr_err *err)
 {
   thr_least_options lo = search_options(o);
   thr_cord *cord = NULL;
   thr_status st = THR_OK;
-  if (o->cords == 1) st = thr_postman_cords(f, o, passes, &cord, &lo.n_start, err);
+  if (lo.tube) {
+    begin_with(f, &s->tube, &lo);
+    return find_least(f, &lo, limits, l, err);
+  }
+  if (o->cords == 1 && o->ends != THR_ENDS_COUNTS) st = thr_postman_cords(f, o, s->solid.passes, &cord, &lo.n_start, err);
   lo.start = cord;
   if (!st) st = find_least(f, &lo, limits, l, err);
   thr_cords_destroy(cord, lo.n_start);
   return st;
 }
 
-static thr_status find_cords(const thr_frame *f, const thr_plan_options *o, const int *passes, const thr_plan *seed,
+static thr_status find_cords(const thr_frame *f, const thr_plan_options *o, const shortest_plan *s, const thr_plan *seed,
                              const thr_limits *limits, thr_least *l, thr_err *err)
 {
   const thr_least_options lo = search_options(o);
   if (o->turning.tour != THR_TOUR_LEAST)
     return thr_baseline_tour(f, &lo, o->turning.tour, o->turning.ignore_pairings, limits, l, err);
-  if (!o->turning.largest) return find_from_shortest(f, o, passes, limits, l, err);
+  if (!o->turning.largest) return find_from_shortest(f, o, s, limits, l, err);
   const thr_limits first = share_of_time(limits, 0.6);
-  thr_status st = find_from_shortest(f, o, passes, &first, l, err);
+  thr_status st = find_from_shortest(f, o, s, &first, l, err);
   if (st && st != THR_ELIMIT) return st;
   st = even_out(f, seed, limits, l, err);
   if (st) thr_least_destroy(l);
@@ -174,8 +212,8 @@ static thr_status judge(const thr_frame *f, const thr_plan_options *o, const thr
   return st ? thr_fail(err, st, "%s", text.text) : THR_OK;
 }
 
-/* Takes cords and proof of l, and the certificates of s. */
-static thr_status assemble(const thr_frame *f, const thr_plan_options *o, thr_least *l, thr_shortest *s, thr_plan *plan,
+/* Takes cords and proof of l, and the certificates or the proof of s. */
+static thr_status assemble(const thr_frame *f, const thr_plan_options *o, thr_least *l, shortest_plan *s, thr_plan *plan,
                            thr_err *err)
 {
   thr_status st = thr_plan_request(plan, f, o, err);
@@ -184,7 +222,10 @@ static thr_status assemble(const thr_frame *f, const thr_plan_options *o, thr_le
   plan->n_cords = l->n_cords;
   l->cord = NULL;
   st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
-  if (!st) st = thr_postman_prove(&plan->frame, &plan->options, plan->cord, plan->n_cords, s, &plan->proof, err);
+  if (!st && o->joint == THR_JOINT_TUBE)
+    thr_tube_prove(&s->tube, plan->metrics.length, &plan->proof);
+  else if (!st)
+    st = thr_postman_prove(&plan->frame, &plan->options, plan->cord, plan->n_cords, &s->solid, &plan->proof, err);
   if (!st && o->turning.tour == THR_TOUR_LEAST)
     st = judge(&plan->frame, &plan->options, plan->cord, plan->n_cords, l, &plan->turning, err);
   return st;
@@ -209,15 +250,31 @@ static thr_status verdict(const thr_plan *p, const thr_least *l, thr_err *err)
   return THR_OK;
 }
 
+/* What the exchanges between cords cannot do. */
+static thr_status go_together(const thr_plan_options *o, thr_err *err)
+{
+  if (o->turning.largest && o->joint == THR_JOINT_TUBE)
+    return thr_fail(err, THR_EINPUT,
+                    "tube joints: the turning of all cords together can be made least, not that of the one that "
+                    "turns most");
+  if (o->turning.largest && o->ends == THR_ENDS_COUNTS)
+    return thr_fail(err, THR_EINPUT,
+                    "with given numbers of ends the turning of all cords together can be made least, not that "
+                    "of the one that turns most");
+  return THR_OK;
+}
+
 thr_status thr_tortuosity_plan_from(const thr_frame *f, const thr_plan_options *o, const thr_plan *seed, const thr_limits *limits,
                                     thr_plan *plan, thr_err *err)
 {
-  thr_shortest shortest = {0};
+  shortest_plan shortest = {0};
   thr_least l = {0};
   thr_err unproved = {0}; /* of the search's steps; the plan's own verdict is what counts */
   *plan = (thr_plan){0};
-  thr_status st = thr_postman_shortest(f, o, limits, &shortest, &unproved);
-  if (!st || st == THR_ELIMIT) st = find_cords(f, o, shortest.passes, seed, limits, &l, &unproved);
+  thr_status st = go_together(o, err);
+  if (st) return st;
+  st = find_shortest(f, o, limits, &shortest, &unproved);
+  if (!st || st == THR_ELIMIT) st = find_cords(f, o, &shortest, seed, limits, &l, &unproved);
   if (st && st != THR_ELIMIT)
     st = thr_fail(err, st, "%s", unproved.text);
   else
@@ -225,7 +282,7 @@ thr_status thr_tortuosity_plan_from(const thr_frame *f, const thr_plan_options *
   if (!st) st = verdict(plan, &l, err);
   if (st && st != THR_ELIMIT) thr_plan_destroy(plan);
   thr_least_destroy(&l);
-  thr_shortest_destroy(&shortest);
+  shortest_destroy(&shortest);
   return st;
 }
 
@@ -249,6 +306,7 @@ typedef struct {
   thr_limits limits;
   int left; /* searches that the time is for */
   double shortest;
+  shortest_plan start; /* with tube joints */
   thr_frontier *out;
 } sweep;
 
@@ -268,6 +326,7 @@ static thr_status add_point(sweep *s, double slack, thr_err *err)
   const thr_limits share = share_of_time(&s->limits, 1.0 / s->left--);
   thr_err unused = {0};
   lo.length_slack = slack;
+  begin_with(s->f, &s->start.tube, &lo);
   thr_status st = find_least(s->f, &lo, &share, &l, &unused);
   if (st == THR_EINFEASIBLE) return THR_OK;
   if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", unused.text);
@@ -276,7 +335,7 @@ static thr_status add_point(sweep *s, double slack, thr_err *err)
   st = judge(s->f, s->o, l.cord, l.n_cords, &l, &found, err);
   if (!st)
     s->out->point[s->out->n++] = (thr_frontier_point){.length = l.length,
-                                                      .overlap = l.length - s->o->cover * thr_frame_total_length(s->f),
+                                                      .overlap = l.length - thr_turning_base_length(s->f, s->o->cover),
                                                       .price = found.price,
                                                       .lower_bound = found.lower_bound,
                                                       .open = found.optimal ? NULL : why_open(&l),
@@ -315,11 +374,15 @@ thr_status thr_tortuosity_frontier(const thr_frame *f, const thr_plan_options *o
   *out = (thr_frontier){0};
   if (most < 2) return thr_fail(err, THR_EINPUT, "a trade-off has at least 2 points");
   if (!(out->point = thr_calloc((size_t)most, sizeof *out->point))) return thr_nomem(err);
-  thr_status st = add_point(&s, 0, err);
+  thr_err unproved = {0};
+  thr_status st = o->joint == THR_JOINT_TUBE ? find_shortest(f, o, limits, &s.start, &unproved) : THR_OK;
+  if (st && st != THR_ELIMIT) thr_fail(err, st, "%s", unproved.text);
+  if (!st || st == THR_ELIMIT) st = add_point(&s, 0, err);
   if (!st) st = add_point(&s, -1, err);
   double longest = st || out->n == 0 ? 0 : out->point[out->n - 1].length;
   for (int i = 1; i + 1 < most && !st && longest > s.shortest * (1 + 1e-9); i++)
     st = add_point(&s, (longest / s.shortest - 1) * i / (most - 1), err);
+  shortest_destroy(&s.start);
   if (!st && out->n == 0) st = thr_fail(err, THR_EINFEASIBLE, "no plan was found for any point of the trade-off");
   if (st) {
     thr_frontier_destroy(out);

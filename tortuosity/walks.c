@@ -104,6 +104,7 @@ void thr_walks_open(thr_walks *w, int component, const int *passes)
 {
   const thr_frame *f = w->c->f;
   const thr_turning_task *t = w->c->task;
+  const int *most = w->c->most;
   int best = -1;
   w->n = w->head = w->n_queued = 0;
   for (int h = 0; h < 2 * f->n_edges; h++) {
@@ -111,7 +112,7 @@ void thr_walks_open(thr_walks *w, int component, const int *passes)
     w->stamp[h] = 0;
   }
   for (int h = 0; h < 2 * f->n_edges; h++)
-    if (w->c->component[thr_tail(f, h)] == component && t->end_allowed[thr_tail(f, h)] && passes[h >> 1] < t->most_passes)
+    if (w->c->component[thr_tail(f, h)] == component && t->end_allowed[thr_tail(f, h)] && passes[h >> 1] < most[h >> 1])
       reach(w, h, -1, 0);
   while (w->n_queued > 0) {
     int in = next_queued(w), v = thr_head(f, in);
@@ -121,7 +122,7 @@ void thr_walks_open(thr_walks *w, int component, const int *passes)
     }
     for (int i = f->first[v]; i < f->first[v + 1]; i++) {
       int out = f->half[i];
-      if (passes[out >> 1] < t->most_passes && (!turns_back(f, in, out) || absorbs(f, passes, in)))
+      if (passes[out >> 1] < most[out >> 1] && (!turns_back(f, in, out) || absorbs(f, passes, in)))
         reach(w, out, in, w->length[in]);
     }
   }
@@ -132,7 +133,7 @@ bool thr_walks_add(const thr_walks *w, int *passes)
 {
   bool room = w->n > 0;
   for (int i = 0; i < w->n; i++)
-    room &= ++passes[w->half[i] >> 1] <= w->c->task->most_passes;
+    room &= ++passes[w->half[i] >> 1] <= w->c->most[w->half[i] >> 1];
   for (int i = 0; i < w->n && !room; i++)
     passes[w->half[i] >> 1]--;
   return room;

@@ -1,8 +1,10 @@
 /* Symmetric covers against exhaustive search and against published figures. */
 #include "graph/make.h"
 #include "symmetry/automorphisms.h"
+#include "symmetry/claims.h"
 #include "symmetry/cover.h"
 #include "symmetry/isometry.h"
+#include "symmetry/turning_bound.h"
 #include "tests/support.h"
 
 #include <math.h>
@@ -70,6 +72,8 @@ typedef struct {
   long leaves;
   bool found;
   double best[THR_N_AIMS];
+  double turning; /* least of those with the other aims at best, as a plan counts it: with ends anywhere, less the sharpest turn
+                     of every closed cord */
 } exhaustive;
 
 static int half_image(const exhaustive *x, int g, int h)
@@ -166,6 +170,7 @@ static void join(int *parent, int a, int b)
 static void weigh(exhaustive *x, double overlap, double steps)
 {
   int cord[MOST_COPIES], unique[MOST_COPIES];
+  double left_out = 0, sharpest[MOST_COPIES] = {0};
   bool open[MOST_COPIES] = {false}, counted[MOST_COPIES] = {false}, used[MOST_COPIES] = {false};
   double worth[THR_N_AIMS] = {overlap, steps, 0, 0};
   x->leaves++;
@@ -188,11 +193,23 @@ static void weigh(exhaustive *x, double overlap, double steps)
     used[root_of(unique, root_of(cord, c))] = true;
   for (int c = 0; c < x->n_copies; c++)
     worth[THR_AIM_PATHS] += used[c] && !counted[c];
+  for (int d = 0; d < 2 * x->n_copies; d++)
+    if (x->partner[d] > d) {
+      double *most = &sharpest[root_of(cord, d / 2)];
+      *most = fmax(*most, x->angle[x->half[d]][x->half[x->partner[d]]]);
+    }
+  for (int c = 0; c < x->n_copies && x->o->ends == THR_ENDS_ANY; c++)
+    if (cord[c] == c && !open[c]) left_out += sharpest[c];
+  bool equal = x->found;
+  for (int a = 0; a < THR_AIM_TURNING && equal; a++)
+    equal = fabs(worth[a] - x->best[a]) < 1e-6;
+  if (equal) x->turning = fmin(x->turning, worth[THR_AIM_TURNING] - left_out);
   for (int a = 0; a < THR_N_AIMS && x->found; a++) {
     if (worth[a] < x->best[a] - 1e-6) break;
     if (worth[a] > x->best[a] + 1e-6) return;
   }
   memcpy(x->best, worth, sizeof worth);
+  if (!equal) x->turning = worth[THR_AIM_TURNING] - left_out;
   x->found = true;
 }
 
@@ -287,6 +304,7 @@ static bool turns_round(const exhaustive *x, const kind *k)
 /* Passes over an edge that are tried. */
 static int most_passes(const exhaustive *x)
 {
+  if (x->o->edge_capacity) return x->o->edge_capacity[0];
   return x->o->cover + (x->n_orbits <= 3 && x->n_kinds <= 10 ? 6 : 2);
 }
 
@@ -361,6 +379,12 @@ static const example examples[] = {
 };
 enum { EXAMPLES = sizeof examples / sizeof *examples };
 
+typedef struct {
+  int compared, beyond; /* covers */
+  int bounds, near;     /* bounds on turning; within 1 % of the optimum */
+  int repeats, exact;   /* where cords may run alike; otherwise, claims of the least turning itself */
+} tally;
+
 /* Most passes of a cover over one edge. */
 static int passes_of(const thr_quotient *q, const thr_cover *c)
 {
@@ -373,8 +397,118 @@ static int passes_of(const thr_quotient *q, const thr_cover *c)
   return most;
 }
 
+/* The bounds on turning by themselves, from the best cover on: whole, and stopped after some microseconds. */
+static void check_turning_bounds(const thr_quotient *q, const thr_cover_options *o, const thr_cover *c, bool all, tally *n)
+{
+  thr_programme p;
+  thr_contraction k;
+  double best = c->value[THR_AIM_TURNING], quick;
+  ck_assert_int_eq(thr_programme_init(&p, q, o, NULL), THR_OK);
+  ck_assert_int_eq(thr_contraction_init(&k, &p, all, NULL), THR_OK);
+  int *cover = thr_calloc((size_t)p.n, sizeof *cover);
+  ck_assert_ptr_nonnull(cover);
+  memcpy(cover, c->copies, (size_t)q->n_copies * sizeof *cover);
+  if (q->n_pairs > 0) memcpy(cover + p.first_pair, c->pairs, (size_t)q->n_pairs * sizeof *cover);
+  memcpy(cover + p.first_end, c->ends, (size_t)q->n_darts * sizeof *cover);
+  ck_assert_int_eq(thr_turning_quick_bound(&p, c->value, &quick, NULL), THR_OK);
+  ck_assert_double_le(quick, best + 1e-6 * (1 + best));
+  for (int micro = 10; micro <= 100000; micro *= 10) {
+    thr_limits limits = {.deadline = micro < 100000 ? thr_clock() + 1e-6 * micro : 0};
+    thr_relaxation r = {0};
+    double bound = 0;
+    thr_status st = thr_turning_bound(&k, &r, 0, cover, c->value, &limits, &bound, NULL);
+    ck_assert(st == THR_OK || (st == THR_ELIMIT && limits.deadline > 0));
+    ck_assert_msg(bound <= best + 1e-6 * (1 + best), "bound %g after %d microseconds, optimum %g", bound, micro, best);
+    if (st == THR_OK) ck_assert_msg(all || bound >= quick - 1e-4, "bound %g, at once %g, optimum %g", bound, quick, best);
+    if (limits.deadline == 0) n->bounds++;
+    if (limits.deadline == 0 && bound > 0.99 * best - 1e-6) n->near++;
+    thr_relaxation_destroy(&r);
+  }
+  free(cover);
+  thr_contraction_destroy(&k);
+  thr_programme_destroy(&p);
+}
+
+/* Searches stopped after some microseconds: what they find and say must leave room for the best cover. */
+static void check_stopped(const thr_quotient *q, const thr_cover_options *o, const double *best)
+{
+  for (int micro = 20; micro < 20000; micro *= 3) {
+    thr_limits limits = {.deadline = thr_clock() + 1e-6 * micro};
+    thr_cover c;
+    thr_status st = thr_cover_find(q, o, &limits, &c, NULL);
+    bool fits = c.copies;
+    ck_assert(st == THR_OK || st == THR_ELIMIT);
+    for (int k = 0; k < THR_N_AIMS && fits; k++) {
+      thr_aim a = o->prefer[k];
+      ck_assert_msg(c.bound[a] <= best[a] + 1e-4, "%s: bound %g after %d microseconds, best %g", thr_aim_name(a), c.bound[a],
+                    micro, best[a]);
+      fits = best[a] <= c.value[a] + 1e-4; /* a bound is for the aims before at most at their values */
+    }
+    thr_cover_destroy(&c);
+  }
+}
+
+/* Is this cover's threading, as a plan counts it, at least what is claimed of all that have no more in the aims before? */
+static void check_claim(const thr_quotient *q, const thr_cover_options *o, const thr_cover *c, const thr_claims *claims,
+                        const double has[THR_N_AIMS])
+{
+  thr_plan_options plan = options_for(o->ends, o->cover);
+  thr_cord *cord;
+  int n;
+  thr_symmetry_record record;
+  thr_metrics m;
+  ck_assert_int_eq(thr_cover_cords(q, o, c, &cord, &n, &record, NULL), THR_OK);
+  ck_assert_int_eq(thr_plan_measure(q->f, &plan, cord, n, &m, NULL), THR_OK);
+  const double counted[] = {m.overlap, record.steps, record.unique_paths, m.turning};
+  for (int k = 0; k < THR_N_AIMS; k++) {
+    thr_aim a = o->prefer[k];
+    ck_assert_msg(counted[a] >= claims->least[a] - 1e-5, "ends %s, cover %d, order %d: %s %g, claimed at least %g",
+                  thr_ends_name(o->ends), o->cover, q->h->order, thr_aim_name(a), counted[a], claims->least[a]);
+    if (has && counted[a] > has[a] + 1e-6) break;
+  }
+  thr_cords_destroy(cord, n);
+  thr_symmetry_record_destroy(&record);
+}
+
+/* What is claimed of the best cover c: against its own threading, those that other aims make, and the best for half the passes
+ * threaded twice, whose cords all run alike. */
+static void check_claims(const thr_quotient *q, const thr_cover_options *o, const thr_cover *c, double turning, tally *n)
+{
+  static const thr_aim orders[][THR_N_AIMS] = {{THR_AIM_OVERLAP, THR_AIM_TURNING, THR_AIM_PATHS, THR_AIM_STEPS},
+                                               {THR_AIM_OVERLAP, THR_AIM_PATHS, THR_AIM_STEPS, THR_AIM_TURNING},
+                                               {THR_AIM_STEPS, THR_AIM_OVERLAP, THR_AIM_PATHS, THR_AIM_TURNING}};
+  thr_claims claims;
+  ck_assert_int_eq(thr_claims_make(q, o, c, &claims, NULL), THR_OK);
+  check_claim(q, o, c, &claims, NULL);
+  ck_assert_msg(claims.least[THR_AIM_TURNING] <= turning + 1e-5, "ends %s, cover %d, order %d: at least %g claimed, there is %g",
+                thr_ends_name(o->ends), o->cover, q->h->order, claims.least[THR_AIM_TURNING], turning);
+  n->repeats += claims.repeats;
+  n->exact += !claims.repeats && claims.least[THR_AIM_TURNING] > turning - 1e-4;
+  for (int k = 0; k < 4; k++) {
+    const thr_limits limits = {.deadline = thr_clock() + 0.2};
+    thr_cover_options other = *o;
+    thr_cover d;
+    if (k == 3 && o->cover != 2) continue;
+    if (k == 3)
+      other.cover = 1;
+    else
+      memcpy(other.prefer, orders[k], sizeof other.prefer);
+    thr_status st = thr_cover_find(q, &other, &limits, &d, NULL);
+    ck_assert(st == THR_OK || st == THR_ELIMIT);
+    for (int i = 0; k == 3 && d.copies && i < q->n_copies; i++)
+      d.copies[i] *= 2;
+    for (int i = 0; k == 3 && d.copies && i < q->n_pairs; i++)
+      d.pairs[i] *= 2;
+    for (int i = 0; k == 3 && d.copies && i < q->n_darts; i++)
+      d.ends[i] *= 2;
+    const double has[] = {c->value[THR_AIM_OVERLAP], c->value[THR_AIM_STEPS], c->value[THR_AIM_PATHS], INFINITY};
+    if (d.copies) check_claim(q, o, &d, &claims, has);
+    thr_cover_destroy(&d);
+  }
+}
+
 static void compare_with_exhaustion(const example *t, const thr_frame *f, const thr_group *g, const thr_subgroup *h,
-                                    const thr_cover_options *o, int *compared, int *beyond)
+                                    const thr_cover_options *o, tally *n)
 {
   static exhaustive x;
   thr_quotient q;
@@ -385,18 +519,26 @@ static void compare_with_exhaustion(const example *t, const thr_frame *f, const 
   ck_assert_int_eq(thr_quotient_init(&q, f, g, h, 10000, NULL), THR_OK);
   thr_limits limits = {.deadline = thr_clock() + 20};
   thr_status st = thr_cover_find(&q, o, &limits, &c, &err);
+  ck_assert(st || !o->edge_capacity || passes_of(&q, &c) <= most_passes(&x));
   if (!st && passes_of(&q, &c) > most_passes(&x)) { /* beyond what was tried */
     ck_assert(!x.found || c.value[THR_AIM_OVERLAP] < x.best[THR_AIM_OVERLAP] + 1e-6);
-    ++*beyond;
+    n->beyond++;
     goto done;
   }
-  ck_assert_msg(st == (x.found ? THR_OK : THR_EINFEASIBLE), "%s, order %d, ends %s, cover %d: status %d (%s), found %d", t->name,
-                h->order, thr_ends_name(o->ends), o->cover, st, err.text, x.found);
+  ck_assert_msg(st == (x.found ? THR_OK : THR_EINFEASIBLE),
+                "%s, order %d, ends %s, cover %d, capacity %d: status %d (%s), found %d", t->name, h->order,
+                thr_ends_name(o->ends), o->cover, o->edge_capacity ? o->edge_capacity[0] : 0, st, err.text, x.found);
   for (int a = 0; a < THR_N_AIMS && !st; a++)
     ck_assert_msg(fabs(c.value[a] - x.best[a]) < 1e-4 && fabs(c.bound[a] - c.value[a]) < 1e-4,
                   "%s, order %d, ends %s, cover %d: %s %g, bound %g, by exhaustion %g", t->name, h->order, thr_ends_name(o->ends),
                   o->cover, thr_aim_name((thr_aim)a), c.value[a], c.bound[a], x.best[a]);
-  ++*compared;
+  if (!st) {
+    check_turning_bounds(&q, o, &c, false, n);
+    check_turning_bounds(&q, o, &c, true, n);
+    check_stopped(&q, o, x.best);
+    check_claims(&q, o, &c, x.turning, n);
+  }
+  n->compared++;
 done:
   thr_cover_destroy(&c);
   thr_quotient_destroy(&q);
@@ -405,7 +547,7 @@ done:
 START_TEST(covers_match_exhaustion)
 {
   const example *t = &examples[_i];
-  int compared = 0, beyond = 0;
+  tally n = {0};
   for (int ends = THR_ENDS_CLOSED; ends <= THR_ENDS_FEET; ends++) {
     static const int nowhere = -1;
     thr_frame f = frame_from(t->n, t->m, t->edge, ends == THR_ENDS_FEET ? t->feet : &nowhere);
@@ -414,15 +556,82 @@ START_TEST(covers_match_exhaustion)
     ck_assert_int_eq(thr_subgroup_classes_find(&g, 1000, &classes, NULL), THR_OK);
     for (int k = 0; k < classes.n; k++)
       for (int cover = 1; cover <= 2; cover++) {
-        thr_cover_options o = {cover, (thr_ends)ends, NULL, {THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_PATHS, THR_AIM_TURNING}};
-        if (classes.subgroup[k].order <= 48) compare_with_exhaustion(t, &f, &g, &classes.subgroup[k], &o, &compared, &beyond);
+        thr_cover_options o = {cover, (thr_ends)ends, NULL, {THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_PATHS, THR_AIM_TURNING},
+                               NULL,  NULL,           false};
+        if (classes.subgroup[k].order <= 48) compare_with_exhaustion(t, &f, &g, &classes.subgroup[k], &o, &n);
       }
     thr_subgroup_classes_destroy(&classes);
     thr_group_destroy(&g);
     thr_frame_destroy(&f);
   }
-  ck_assert_int_ge(compared, 10);
-  ck_assert_int_le(beyond, 40);
+  ck_assert_int_ge(n.compared, 10);
+  ck_assert_int_le(n.beyond, 40);
+  ck_assert_int_ge(2 * n.near, n.bounds); /* of no use otherwise */
+  ck_assert_int_ge(4 * n.exact, n.compared - n.repeats);
+}
+END_TEST
+
+/* Capacities, and edges that need more passes than others: the same comparison. */
+START_TEST(capacities_match_exhaustion)
+{
+  const example *t = &examples[_i];
+  tally n = {0};
+  for (int ends = THR_ENDS_CLOSED; ends <= THR_ENDS_FEET; ends++) {
+    static const int nowhere = -1;
+    int needed[MOST_ORBITS], capacity[MOST_ORBITS];
+    thr_frame f = frame_from(t->n, t->m, t->edge, ends == THR_ENDS_FEET ? t->feet : &nowhere);
+    thr_group g = automorphisms_by_hand(&f);
+    thr_subgroup_classes classes;
+    ck_assert_int_eq(thr_subgroup_classes_find(&g, 1000, &classes, NULL), THR_OK);
+    for (int k = 0; k < classes.n; k++)
+      for (int most = 1; most <= 3; most++) {
+        thr_cover_options o = {1,      (thr_ends)ends, NULL, {THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_PATHS, THR_AIM_TURNING},
+                               needed, capacity,       false};
+        for (int e = 0; e < f.n_edges; e++) {
+          needed[e] = 1;
+          capacity[e] = most;
+        }
+        if (classes.subgroup[k].order <= 48) compare_with_exhaustion(t, &f, &g, &classes.subgroup[k], &o, &n);
+      }
+    thr_subgroup_classes_destroy(&classes);
+    thr_group_destroy(&g);
+    thr_frame_destroy(&f);
+  }
+  ck_assert_int_ge(n.compared, 10);
+  ck_assert_int_eq(n.beyond, 0);
+}
+END_TEST
+
+/* Every other edge of a square twice, under all groups that keep those edges. */
+START_TEST(covers_by_edge)
+{
+  thr_frame f = frame_from(4, 4, (const int[][2]){{0, 1}, {1, 2}, {2, 3}, {3, 0}}, &(int){-1});
+  thr_group g = automorphisms_by_hand(&f);
+  thr_subgroup_classes classes;
+  int needed[] = {2, 1, 2, 1}, capacity[] = {2, 3, 2, 3}, asked = 0;
+  ck_assert_int_eq(thr_subgroup_classes_find(&g, 1000, &classes, NULL), THR_OK);
+  for (int k = 0; k < classes.n; k++) {
+    thr_cover_options o = {1,      THR_ENDS_CLOSED, NULL, {THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_PATHS, THR_AIM_TURNING},
+                           needed, capacity,        false};
+    const thr_limits limits = {.deadline = thr_clock() + 20};
+    thr_quotient q;
+    thr_cover c;
+    thr_err err;
+    ck_assert_int_eq(thr_quotient_init(&q, &f, &g, &classes.subgroup[k], 10000, NULL), THR_OK);
+    bool keeps = q.edge_orbit[0] != q.edge_orbit[1] && q.edge_orbit[0] != q.edge_orbit[3] && q.edge_orbit[2] != q.edge_orbit[1] &&
+                 q.edge_orbit[2] != q.edge_orbit[3];
+    thr_status st = thr_cover_find(&q, &o, &limits, &c, &err);
+    /* closed cords go round the square: as often over every edge */
+    ck_assert_msg(st == (keeps ? THR_OK : THR_EINPUT), "status %d, %s", st, err.text);
+    if (!st) ck_assert_double_eq_tol(c.value[THR_AIM_OVERLAP], f.length[1] + f.length[3], 1e-6);
+    asked += !st;
+    thr_cover_destroy(&c);
+    thr_quotient_destroy(&q);
+  }
+  ck_assert_int_ge(asked, 3);
+  thr_subgroup_classes_destroy(&classes);
+  thr_group_destroy(&g);
+  thr_frame_destroy(&f);
 }
 END_TEST
 
@@ -520,7 +729,8 @@ static void expect(thr_frame f, const row *list, int n)
       thr_point_group_name(element, h->order, name);
       free(element);
       if (h->order != list[i].order || (list[i].group && strcmp(name, list[i].group) != 0)) continue;
-      thr_cover_options o = {list[i].cover, list[i].ends, NULL, {THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_PATHS, THR_AIM_TURNING}};
+      thr_cover_options o = {list[i].cover, list[i].ends, NULL, {THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_PATHS, THR_AIM_TURNING},
+                             NULL,          NULL,         false};
       thr_limits limits = {.deadline = thr_clock() + 60};
       thr_quotient q;
       thr_cover c;
@@ -574,7 +784,8 @@ START_TEST(trivial_group_is_route_inspection)
   for (int i = 0; i < 60; i++) {
     thr_frame f = random_frame(&r, rng_between(&r, 4, 16), rng_between(&r, 0, 14), (length_kind)(i % LENGTH_KINDS));
     thr_plan_options plan = options_for(THR_ENDS_CLOSED, 1 + i % 2);
-    thr_cover_options o = {plan.cover, THR_ENDS_CLOSED, NULL, {THR_AIM_OVERLAP, THR_AIM_PATHS, THR_AIM_STEPS, THR_AIM_TURNING}};
+    thr_cover_options o = {
+        plan.cover, THR_ENDS_CLOSED, NULL, {THR_AIM_OVERLAP, THR_AIM_PATHS, THR_AIM_STEPS, THR_AIM_TURNING}, NULL, NULL, false};
     thr_limits limits = {.deadline = thr_clock() + 2};
     thr_group g;
     thr_quotient q;
@@ -601,6 +812,8 @@ int main(void)
 {
   Suite *s = suite_create("cover");
   ADD_LOOP(s, 120, covers_match_exhaustion, 0, EXAMPLES);
+  ADD_LOOP(s, 120, capacities_match_exhaustion, 0, EXAMPLES);
+  ADD_TEST(s, 20, covers_by_edge);
   ADD_TEST(s, 60, domes);
   ADD_TEST(s, 60, solids);
   ADD_TEST(s, 120, large_sphere);

@@ -305,7 +305,7 @@ static void toggle(thr_cut *cut, int v)
 
 static void alter_sets(rng *r, thr_plan *p, thr_certificate *c)
 {
-  int n = p->frame.n_nodes + c->n_slots;
+  int n = p->frame.n_nodes;
   for (int i = 0; i<c->n_cuts; i += c->n_cuts> 30 ? 5 : 1) {
     int *node = calloc((size_t)n, sizeof *node), *kept = c->cut[i].node, n_kept = c->cut[i].n_nodes;
     ck_assert(node != NULL);
@@ -338,6 +338,19 @@ static int64_t weigh_join(const thr_plan *p, const thr_certificate *c)
   return join;
 }
 
+/* Puts cuts under other parents: any, even where none can be. */
+static void alter_parents(rng *r, thr_plan *p, thr_certificate *c)
+{
+  for (int i = 0; i<c->n_cuts; i += c->n_cuts> 30 ? 5 : 1) {
+    int kept = c->cut[i].parent;
+    for (int k = 0; k < 8; k++) {
+      c->cut[i].parent = rng_between(r, -2, c->n_cuts);
+      compare_verdicts(p, "altering a parent");
+    }
+    c->cut[i].parent = kept;
+  }
+}
+
 static void alter_numbers(rng *r, thr_plan *p, thr_certificate *c)
 {
   thr_certificate kept = *c;
@@ -351,14 +364,14 @@ static void alter_numbers(rng *r, thr_plan *p, thr_certificate *c)
   }
   const int64_t step[] = {1, -1, 1000, -1000, INT64_C(1) << 39};
   for (size_t i = 0; i < sizeof step / sizeof *step; i++) {
-    int64_t *number[] = {&c->denominator, &c->slot_cost, &c->join, &c->sum};
+    int64_t *number[] = {&c->denominator, &c->end_price, &c->join, &c->sum};
     for (int k = 0; k < 4; k++) {
       if (*number[k] + step[i] < (k == 0)) continue;
       *number[k] += step[i];
       if (k >= 2)
         assert_plan_caught(p, k == 2 ? "altering the join" : "altering the sum");
       else
-        compare_verdicts(p, k ? "altering the slot cost" : "altering the denominator");
+        compare_verdicts(p, k ? "altering the end price" : "altering the denominator");
       *c = kept;
     }
   }
@@ -372,6 +385,7 @@ START_TEST(any_number_and_set_of_a_certificate)
   for (int k = 0; k < p.proof.n_certificates; k++) {
     alter_values(&r, &p, &p.proof.certificate[k]);
     alter_sets(&r, &p, &p.proof.certificate[k]);
+    alter_parents(&r, &p, &p.proof.certificate[k]);
     alter_numbers(&r, &p, &p.proof.certificate[k]);
   }
   assert_plan_sound(&p);
@@ -379,27 +393,28 @@ START_TEST(any_number_and_set_of_a_certificate)
 }
 END_TEST
 
-/* ---- certificates with the slots of several cords ---- */
+/* ---- certificates of several cords ---- */
 
-/* Sets that no solver would make: of slots alone, and of slots with the nodes round them, each of value 1. */
+/* Sets that no solver would make, in trees at random. */
 static void replace_cuts(rng *r, thr_plan *p, thr_certificate *c)
 {
   enum { CUTS = 6 };
   thr_certificate kept = *c;
-  int n = p->frame.n_nodes + c->n_slots;
+  int n = p->frame.n_nodes;
   thr_cut cut[CUTS];
   c->cut = cut;
   c->n_cuts = CUTS;
   c->sum = 0;
   for (int i = 0; i < CUTS; i++) {
-    cut[i] = (thr_cut){.node = calloc((size_t)n, sizeof(int)), .value = rng_between(r, 1, 3)};
+    int up = rng_between(r, i, CUTS - 1);
+    cut[i] = (thr_cut){.parent = up > i ? up : -1, .node = calloc((size_t)n, sizeof(int)), .value = rng_between(r, 1, 3)};
     ck_assert(cut[i].node != NULL);
     for (int k = rng_between(r, 1, 6); k > 0; k--)
-      toggle(&cut[i], rng_below(r, 3) ? rng_between(r, p->frame.n_nodes, n - 1) : rng_below(r, n));
+      toggle(&cut[i], rng_below(r, n));
     c->sum += cut[i].value;
   }
   c->denominator = rng_between(r, 1, 4);
-  for (c->slot_cost = 0; c->slot_cost < 24; c->slot_cost++) /* small enough for the loads to matter */
+  for (c->end_price = 0; c->end_price < 24; c->end_price++) /* small enough for the loads to matter */
     compare_verdicts(p, "replacing all sets");
   for (int i = 0; i < CUTS; i++)
     free(cut[i].node);
@@ -418,20 +433,17 @@ START_TEST(any_number_and_set_with_several_cords)
   assert_plan_sound(&p);
   compare_verdicts(&p, "nothing");
   thr_certificate *c = &p.proof.certificate[0];
-  ck_assert_int_eq(c->n_slots, 2 * o.cords);
   alter_values(&r, &p, c);
   alter_sets(&r, &p, c);
+  alter_parents(&r, &p, c);
   alter_numbers(&r, &p, c);
   for (int i = 0; i < 20; i++)
     replace_cuts(&r, &p, c);
-  c->n_slots -= 2;
-  assert_plan_caught(&p, "two slots less");
-  c->n_slots += 2;
-  p.options.cords++;
+  p.options.cords++, p.options.cords_least++;
   assert_plan_caught(&p, "a cord less than the options say");
-  p.options.cords -= 2;
+  p.options.cords -= 2, p.options.cords_least -= 2;
   assert_plan_caught(&p, "a cord more than the options say");
-  p.options.cords++;
+  p.options.cords++, p.options.cords_least++;
   assert_plan_sound(&p);
   thr_plan_destroy(&p);
   thr_frame_destroy(&f);

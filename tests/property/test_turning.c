@@ -23,7 +23,8 @@ typedef struct {
 typedef struct {
   const thr_frame *f;
   thr_turn_cost cost;
-  int cords; /* 0 = closed */
+  int cords;        /* 0 = closed */
+  const int *count; /* [n_nodes] ends, or NULL */
   int passes[MOST_EDGES], ends[2 * MOST_EDGES];
   int n_options[MOST_NODES];
   node_option *option[MOST_NODES];
@@ -116,10 +117,20 @@ static void try_passes_and_ends(oracle *o)
   combine(o, 0, 0, chosen);
 }
 
+static bool as_counted(const oracle *o)
+{
+  int at[MOST_NODES] = {0};
+  for (int h = 0; h < 2 * o->f->n_edges; h++)
+    at[thr_tail(o->f, h)] += o->ends[h];
+  for (int v = 0; v < o->f->n_nodes && o->count; v++)
+    if (at[v] != o->count[v]) return false;
+  return true;
+}
+
 static void try_ends(oracle *o, const bool *allowed, int h, int left)
 {
   if (left == 0) {
-    try_passes_and_ends(o);
+    if (as_counted(o)) try_passes_and_ends(o);
     return;
   }
   if (h == 2 * o->f->n_edges) return;
@@ -132,23 +143,34 @@ static void try_ends(oracle *o, const bool *allowed, int h, int left)
   o->ends[h] = 0;
 }
 
+/* Ends in all, or -1 if there are not so many at some node. */
+static int ends_in_all(const thr_frame *f, const thr_turning_task *t)
+{
+  int sum = 0;
+  for (int v = 0; v < f->n_nodes && t->end_count; v++)
+    sum += t->end_count[v];
+  return t->end_count ? sum : t->end_allowed ? 2 * t->cords : 0;
+}
+
 static void try_passes(oracle *o, const thr_turning_task *t, double extra, int e)
 {
   if (t->extra_limit >= 0 && extra > t->extra_limit * (1 + 1e-9) + 1e-9) return;
   if (e == o->f->n_edges) {
-    try_ends(o, t->end_allowed, 0, t->end_allowed ? 2 * t->cords : 0);
+    try_ends(o, t->end_allowed, 0, ends_in_all(o->f, t));
     return;
   }
-  for (int m = t->cover; m <= t->most_passes; m++) {
+  const thr_plan_options limits = {.cover = t->cover, .capacity = t->capacity};
+  int cover = thr_plan_cover(o->f, &limits, e), most = thr_plan_capacity(o->f, &limits, e);
+  for (int m = cover; m <= t->most_passes && m <= most; m++) {
     o->passes[e] = m;
-    try_passes(o, t, extra + (m - t->cover) * o->f->length[e], e + 1);
+    try_passes(o, t, extra + (m - cover) * o->f->length[e], e + 1);
   }
 }
 
 /* The least price below most, or most. */
 static double least_by_enumeration(const thr_frame *f, const thr_turning_task *t, double most)
 {
-  oracle o = {.f = f, .cost = t->cost, .cords = t->end_allowed ? t->cords : 0, .best = most};
+  oracle o = {.f = f, .cost = t->cost, .cords = t->end_allowed ? t->cords : 0, .count = t->end_count, .best = most};
   ck_assert_int_le(f->n_edges, MOST_EDGES);
   ck_assert_int_le(f->n_nodes, MOST_NODES);
   for (int v = 0; v < f->n_nodes; v++)
@@ -244,6 +266,45 @@ START_TEST(least_is_least_of_all_with_more_cover)
     int n = rng_between(&r, 3, 5), extra = rng_between(&r, 0, 6 - n);
     thr_frame f = random_frame(&r, n, extra, LENGTHS_EUCLID);
     compare(&r, &f, rng_between(&r, 2, 3), 1, rng_below(&r, 3) == 0 ? rng_between(&r, 2, 3) : 1);
+    thr_frame_destroy(&f);
+  }
+}
+END_TEST
+
+/* Covers and capacities of single edges, given numbers of ends. */
+START_TEST(least_is_least_of_all_with_limits_of_edges)
+{
+  rng r = rng_make((uint64_t)_i + 4000);
+  for (int k = 0; k < 12; k++) {
+    int n = rng_between(&r, 3, 5), count[5] = {0};
+    thr_frame f = random_frame(&r, n, rng_between(&r, 0, 6 - n), LENGTHS_EUCLID);
+    thr_least_options o = thr_least_options_default();
+    f.cover = calloc((size_t)f.n_edges, sizeof *f.cover);
+    f.capacity = calloc((size_t)f.n_edges, sizeof *f.capacity);
+    for (int e = 0; e < f.n_edges; e++) {
+      f.cover[e] = rng_between(&r, 1, 2);
+      f.capacity[e] = rng_below(&r, 3) ? 0 : rng_between(&r, 2, 3);
+    }
+    o.most_passes = 3;
+    o.cords = rng_between(&r, 1, 2);
+    o.ends = rng_below(&r, 3) ? THR_ENDS_COUNTS : THR_ENDS_CLOSED;
+    if (o.ends == THR_ENDS_CLOSED) o.cords = 1;
+    for (int i = 0; i < 2 * o.cords; i++)
+      count[rng_below(&r, n)]++;
+    o.end_count = count;
+    thr_least l;
+    thr_err err = {0};
+    thr_limits limits = {0};
+    thr_status st = thr_least_turning(&f, &o, &limits, &l, &err);
+    if (!st) {
+      assert_cords(&f, &l);
+      ck_assert_double_eq_tol(l.price, least_by_enumeration(&f, &l.task, l.price + 1e-3), 1e-6);
+      ck_assert_double_le(l.bound, l.price + 1e-9);
+    } else {
+      ck_assert_msg(st == THR_EINFEASIBLE || st == THR_ELIMIT, "%s", err.text);
+    }
+    if (st == THR_ELIMIT) ck_assert_double_le(l.bound, least_by_enumeration(&f, &l.task, l.price + 1e-3) + 1e-6);
+    thr_least_destroy(&l);
     thr_frame_destroy(&f);
   }
 }
@@ -750,6 +811,7 @@ int main(void)
   ADD_TEST(s, 20, known_answers);
   ADD_LOOP(s, 60, least_is_least_of_all, 0, 12);
   ADD_LOOP(s, 60, least_is_least_of_all_with_more_cover, 0, 8);
+  ADD_LOOP(s, 60, least_is_least_of_all_with_limits_of_edges, 0, 20);
   ADD_LOOP(s, 60, least_is_least_of_all_at_a_node_of_six, 0, 6);
   ADD_TEST(s, 20, larger_grids_are_proved);
   ADD_LOOP(s, 20, shuffled_frames_have_the_same_least, 0, 15);

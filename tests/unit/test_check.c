@@ -225,8 +225,12 @@ START_TEST(forged_counts)
   p->n_cords = 2;
   assert_violated(p, "edge 6");
   p->n_cords = 3;
-  p->options.cords = 2;
+  p->options.cords = p->options.cords_least = 2;
   assert_violated(p, "component 0: has 1 cord; the plan's options say 2");
+  p->options.cords = 3;
+  assert_violated(p, "component 0: has 1 cord; the plan's options say 2 to 3");
+  p->options.cords_least = 1;
+  assert_holds(p); /* closed cords, no extra pass */
   p->options.cords = 1;
   p->proof.n_certificates = 2;
   assert_violated(p, "2 certificates");
@@ -242,58 +246,132 @@ START_TEST(forged_counts)
 }
 END_TEST
 
-/* One cut more that overloads nothing but breaks one rule; values of 1 keep it small. */
+/* One cut alone that overloads nothing but breaks one rule; values of 1 keep it small. */
 START_TEST(forged_cuts)
 {
-  fixture x = fixture_make(triangles_make(2), THR_ENDS_ANY);
+  fixture x = fixture_make(solid_make(CUBE), THR_ENDS_ANY);
   thr_plan *p = &x.plan;
   thr_certificate *c = &p->proof.certificate[0];
   static const struct {
     int n, node[3];
     int64_t value;
     const char *word;
-  } forged[] = {{1, {0}, 1, "even number of odd nodes"},
-                {2, {6, 3}, 1, "ascending"},
-                {2, {3, 6}, 1, "node 3 is in component 1"},
-                {1, {6}, -1, "negative"},
-                {2, {6, 7}, 0, "even number"},
-                {2, {6, 6}, 1, "ascending"}};
+  } forged[] = {{0, {0}, 1, "even number of odd nodes"},
+                {2, {0, 1}, 1, "even number of odd nodes"},
+                {3, {0, 2, 1}, 1, "ascending"},
+                {3, {0, 1, 1}, 1, "ascending"},
+                {1, {6}, -1, "negative"}};
   for (size_t i = 0; i < sizeof forged / sizeof *forged; i++) {
     int node[3];
     memcpy(node, forged[i].node, sizeof node);
-    thr_cut cut[1] = {{forged[i].n, node, forged[i].value}}, *old = c->cut;
-    int n = c->n_cuts;
+    thr_cut cut[1] = {{-1, forged[i].n, node, forged[i].value}};
+    thr_certificate kept = *c;
     c->cut = cut;
     c->n_cuts = 1;
-    assert_violated(p, i == 1 ? NULL : forged[i].word);
-    c->cut = old;
-    c->n_cuts = n;
+    assert_violated(p, forged[i].word);
+    *c = kept;
   }
   assert_holds(p);
   fixture_destroy(&x);
 }
 END_TEST
 
-/* Slots are odd, so {slot} is a cut of value up to slot_cost; more of it overloads. */
-START_TEST(forged_slots)
+START_TEST(cuts_of_another_component)
 {
-  fixture x = fixture_make(solid_make(CUBE), THR_ENDS_ANY);
+  fixture x = fixture_make(triangles_make(2), THR_ENDS_ANY);
+  int node[1] = {3};
+  thr_cut cut[1] = {{-1, 1, node, 1}};
+  thr_certificate *c = &x.plan.proof.certificate[0], kept = *c;
+  c->cut = cut;
+  c->n_cuts = 1;
+  assert_violated(&x.plan, "node 3 is in component 1");
+  *c = kept;
+  assert_holds(&x.plan);
+  fixture_destroy(&x);
+}
+END_TEST
+
+/* {0} in {0, 1, 3}, and {5}: on a cube, where every node is odd and 0-1, 0-3 are edges. */
+START_TEST(forged_trees)
+{
+  fixture x = fixture_make(solid_make(CUBE), THR_ENDS_CLOSED);
   thr_plan *p = &x.plan;
   thr_certificate *c = &p->proof.certificate[0], kept = *c;
-  c->n_slots = 0;
+  int a[] = {0}, b[] = {1, 3}, d[] = {5}, e[] = {0, 1, 3};
+  thr_cut cut[3] = {{1, 1, a, 1}, {-1, 2, b, 1}, {-1, 1, d, 1}};
+  c->cut = cut;
+  c->n_cuts = 3;
+  c->sum = 3;
+  assert_violated(p, "optimal"); /* they hold, and prove little */
+  cut[0].parent = 0;
+  assert_violated(p, "parent");
+  cut[0].parent = 3;
+  assert_violated(p, "parent");
+  cut[0].parent = -2;
+  assert_violated(p, "parent");
+  cut[0].parent = 1;
+  cut[2].parent = 1; /* before it: a circle would need one such */
+  assert_violated(p, "parent");
+  cut[2].parent = -1;
+  cut[0].parent = 2; /* {0} in {0, 5} */
+  assert_violated(p, "even");
+  cut[1].node = e, cut[1].n_nodes = 3;
+  cut[0].parent = 1; /* 0 is in the child and in the parent's own nodes */
   assert_violated(p, NULL);
-  *c = kept;
-  c->slot_cost--;
-  assert_violated(p, "slot");
-  *c = kept;
-  c->slot_cost++;
-  assert_violated(p, "optimal");
-  *c = kept;
-  c->slot_cost = INT64_C(1) << 60;
-  assert_violated(p, "optimal");
+  cut[2] = (thr_cut){-1, 3, e, 1};
+  int f[] = {0, 1};
+  cut[1] = (thr_cut){2, 2, f, 1};
+  cut[0].parent = 2;
+  assert_violated(p, NULL);
   *c = kept;
   assert_holds(p);
   fixture_destroy(&x);
+}
+END_TEST
+
+/* A node twice in a tree of odd sets. */
+START_TEST(nodes_twice_in_a_tree)
+{
+  fixture x = fixture_make(solid_make(CUBE), THR_ENDS_CLOSED);
+  thr_certificate *c = &x.plan.proof.certificate[0], kept = *c;
+  int a[] = {0}, b[] = {0, 1}, d[] = {0, 1};
+  thr_cut cut[2] = {{1, 1, a, 1}, {-1, 2, b, 1}}, three[3] = {{2, 1, a, 0}, {2, 1, a, 0}, {-1, 1, d, 0}};
+  c->cut = cut;
+  c->n_cuts = 2;
+  c->sum = 2;
+  assert_violated(&x.plan, "node 0 is in cut 0, too");
+  c->cut = three;
+  c->n_cuts = 3;
+  assert_violated(&x.plan, "node 0 is in cut");
+  *c = kept;
+  assert_holds(&x.plan);
+  fixture_destroy(&x);
+}
+END_TEST
+
+/* Of a price that is too low the sets round an end are too many, of one too high they prove too little. */
+START_TEST(forged_end_price)
+{
+  fixture x = fixture_make(solid_make(CUBE), THR_ENDS_ANY), closed = fixture_make(solid_make(CUBE), THR_ENDS_CLOSED);
+  thr_certificate *c = &x.plan.proof.certificate[0];
+  int64_t kept = c->end_price;
+  ck_assert_int_gt(kept, 0);
+  c->end_price--;
+  assert_violated(&x.plan, "end price");
+  c->end_price = 0;
+  assert_violated(&x.plan, "end price");
+  c->end_price = -1;
+  assert_violated(&x.plan, "end");
+  c->end_price = kept + c->denominator;
+  assert_violated(&x.plan, "optimal");
+  c->end_price = INT64_MAX;
+  assert_violated(&x.plan, "optimal");
+  c->end_price = kept;
+  assert_holds(&x.plan);
+  closed.plan.proof.certificate[0].end_price = 1;
+  assert_violated(&closed.plan, "end price");
+  fixture_destroy(&x);
+  fixture_destroy(&closed);
 }
 END_TEST
 
@@ -411,6 +489,46 @@ START_TEST(passes_without_cords)
 }
 END_TEST
 
+/* A path there and back needs every edge twice: the sets {0}, {0, 1}, {0, 1, 2}, .. prove it, each round the one before. They are
+ * checked and stored in about linear time and space. */
+START_TEST(many_nested_sets)
+{
+  enum { N = 20001 };
+  thr_frame f = path_make(N);
+  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_plan p = {0};
+  ck_assert_int_eq(thr_plan_request(&p, &f, &o, NULL), THR_OK);
+  p.n_cords = 1;
+  p.cord = calloc(1, sizeof *p.cord);
+  *p.cord = (thr_cord){.id = "A", .closed = true, .n_passes = 2 * (N - 1), .half = calloc(2 * (N - 1), sizeof(int))};
+  for (int e = 0; e < N - 1; e++) {
+    p.cord->half[e] = 2 * e;
+    p.cord->half[2 * (N - 1) - 1 - e] = 2 * e + 1;
+  }
+  ck_assert_int_eq(thr_plan_measure(&f, &o, p.cord, 1, &p.metrics, NULL), THR_OK);
+  p.proof = (thr_length_proof){.present = true,
+                               .optimal = true,
+                               .lower_bound = p.metrics.length,
+                               .n_certificates = 1,
+                               .certificate = calloc(1, sizeof(thr_certificate))};
+  thr_certificate *c = p.proof.certificate;
+  *c = (thr_certificate){
+      .scale = 1, .denominator = 1, .join = N - 1, .sum = N - 1, .n_cuts = N - 1, .cut = calloc(N - 1, sizeof(thr_cut))};
+  for (int i = 0; i < N - 1; i++) {
+    c->cut[i] = (thr_cut){i + 1 < N - 1 ? i + 1 : -1, 1, calloc(1, sizeof(int)), 1};
+    c->cut[i].node[0] = i;
+  }
+  assert_plan_sound(&p);
+  thr_text t = plan_text(&p);
+  ck_assert_uint_lt(t.length, 200 * N);
+  c->cut[N / 2].value++, c->sum++;
+  assert_violated(&p, "edge 10000"); /* the one that this set leaves */
+  thr_text_destroy(&t);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 START_TEST(weight_is_rounded_length)
 {
   thr_frame f = path_make(3);
@@ -436,12 +554,16 @@ int main(void)
   ADD_TEST(s, 10, forged_cover);
   ADD_TEST(s, 10, forged_counts);
   ADD_TEST(s, 10, forged_cuts);
-  ADD_TEST(s, 10, forged_slots);
+  ADD_TEST(s, 10, cuts_of_another_component);
+  ADD_TEST(s, 10, forged_trees);
+  ADD_TEST(s, 10, nodes_twice_in_a_tree);
+  ADD_TEST(s, 10, forged_end_price);
   ADD_TEST(s, 10, forged_numbers);
   ADD_TEST(s, 10, each_metric_counts);
   ADD_TEST(s, 10, cords_without_a_proof);
   ADD_TEST(s, 10, the_turn_where_a_cord_closes);
   ADD_TEST(s, 10, passes_without_cords);
+  ADD_TEST(s, 60, many_nested_sets);
   ADD_TEST(s, 10, weight_is_rounded_length);
   return run_suite(s);
 }

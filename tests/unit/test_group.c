@@ -5,6 +5,7 @@
 #include "graph/automorphism_count.h"
 #include "symmetry/automorphisms.h"
 #include "symmetry/group.h"
+#include "symmetry/isometry.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -245,6 +246,33 @@ START_TEST(node_and_edge_colours)
     edge[e] = 9; /* no colours at all */
   ck_assert_double_eq(order_checked(&cube, NULL, edge), 48);
   thr_frame_destroy(&cube);
+}
+END_TEST
+
+static void expect_length_order(double a, double b, double c, double shear, double tolerance, int colours, double order)
+{
+  thr_frame f = box_make(a, b, c, shear);
+  int colour[12], most = 0;
+  ck_assert_int_eq(thr_length_colours(&f, tolerance, colour, NULL), THR_OK);
+  for (int e = 0; e < 12; e++)
+    if (colour[e] > most) most = colour[e];
+  ck_assert_int_eq(most + 1, colours);
+  ck_assert_double_eq(order_checked(&f, NULL, colour), order);
+  thr_frame_destroy(&f);
+}
+
+/* Boxes: what keeps three, two or one edge length. Sheared along its diagonal a cube has fewer isometries, but equal edges. */
+START_TEST(edge_lengths_are_colours)
+{
+  expect_length_order(1, 1, 1, 0, 0, 1, 48);
+  expect_length_order(1, 1, 2, 0, 0.01, 2, 16);
+  expect_length_order(3, 1, 2, 0, 0.01, 3, 8);
+  expect_length_order(3, 1, 2, 0, 0, 3, 8);
+  expect_length_order(1, 1, 1, 0.2, 0, 1, 48);
+  /* 1, 1.1, 1.2 about a size of 0.95: one after the other within 2 * 0.06 of it, the first and the last only by the second */
+  expect_length_order(1, 1.1, 1.2, 0, 0.06, 1, 48);
+  expect_length_order(1, 1.1, 1.2, 0, 0.05, 3, 8);
+  expect_length_order(1, 1.1, 1.3, 0, 0.06, 2, 16);
 }
 END_TEST
 
@@ -665,6 +693,7 @@ int main(void)
   ADD_TEST(s, 60, all_permutations_of_small_frames);
   ADD_TEST(s, 20, renumbering);
   ADD_TEST(s, 20, node_and_edge_colours);
+  ADD_TEST(s, 20, edge_lengths_are_colours);
   ADD_TEST(s, 30, too_many_generators_are_refused);
 #ifndef __SANITIZE_ADDRESS__ /* whose shadow memory is beyond every limit */
   ADD_TEST(s, 60, nauty_without_memory);

@@ -4,6 +4,7 @@
 #include "symmetry/automorphisms.h"
 #include "symmetry/group.h"
 #include "symmetry/isometry.h"
+#include "symmetry/procrustes.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -435,7 +436,7 @@ static void assert_geometric_part(const thr_frame *f, double tolerance)
   int *found, count, kept = 0;
   thr_err err = {0};
   named_group n = name_elements(f, tolerance);
-  ck_assert_msg(thr_isometries_find(f, tolerance, THR_GROUP_CAP, &found, &count, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_isometries_find(f, NULL, tolerance, THR_GROUP_CAP, &found, &count, &err) == THR_OK, "%s", err.text);
   for (int k = 0; k < n.g.order; k++) {
     const int *image = &n.g.image[k * f->n_nodes];
     if (n.element[k].kind == THR_ISO_NONE) continue;
@@ -443,6 +444,10 @@ static void assert_geometric_part(const thr_frame *f, double tolerance)
     ck_assert(memcmp(&found[kept++ * f->n_nodes], image, (size_t)f->n_nodes * sizeof *image) == 0);
   }
   ck_assert_int_eq(kept, count);
+  int *among, listed;
+  ck_assert_int_eq(thr_isometries_among(f, n.g.image, n.g.order, tolerance, &among, &listed, NULL), THR_OK);
+  ck_assert(listed == count && memcmp(among, found, (size_t)count * (size_t)f->n_nodes * sizeof *found) == 0);
+  free(among);
   free(found);
   named_group_destroy(&n);
 }
@@ -467,9 +472,9 @@ START_TEST(isometries_within_tolerance)
   for (int k = 0; k < SAMPLES; k++) {
     thr_frame f = sample_frame(k), g = noisy(&r, &f, 1e-4 * thr_frame_diagonal(&f) / 3);
     int *found, *tight, count, few, *loose, many;
-    ck_assert_int_eq(thr_isometries_find(&f, 1e-6, THR_GROUP_CAP, &found, &count, NULL), THR_OK);
-    ck_assert_int_eq(thr_isometries_find(&g, 1e-6, THR_GROUP_CAP, &tight, &few, NULL), THR_OK);
-    ck_assert_int_eq(thr_isometries_find(&g, 1e-2, THR_GROUP_CAP, &loose, &many, NULL), THR_OK);
+    ck_assert_int_eq(thr_isometries_find(&f, NULL, 1e-6, THR_GROUP_CAP, &found, &count, NULL), THR_OK);
+    ck_assert_int_eq(thr_isometries_find(&g, NULL, 1e-6, THR_GROUP_CAP, &tight, &few, NULL), THR_OK);
+    ck_assert_int_eq(thr_isometries_find(&g, NULL, 1e-2, THR_GROUP_CAP, &loose, &many, NULL), THR_OK);
     ck_assert_int_eq(few, 1);
     ck_assert_int_eq(many, count);
     ck_assert(memcmp(loose, found, (size_t)count * (size_t)f.n_nodes * sizeof *found) == 0);
@@ -479,6 +484,55 @@ START_TEST(isometries_within_tolerance)
     thr_frame_destroy(&f);
     thr_frame_destroy(&g);
   }
+}
+END_TEST
+
+/* Are edges of one colour if, and only if, lengths lead from one to the other in steps that are small enough? */
+static void assert_linked(const thr_frame *f, const int *colour, double step)
+{
+  for (int a = 0; a < f->n_edges; a++)
+    for (int b = 0; b < f->n_edges; b++) {
+      double low = fmin(f->length[a], f->length[b]), high = fmax(f->length[a], f->length[b]), next = low;
+      do { /* as far as one step leads */
+        low = next;
+        for (int e = 0; e < f->n_edges; e++)
+          if (f->length[e] <= low + step) next = fmax(next, f->length[e]);
+      } while (next > low);
+      ck_assert_int_eq(colour[a] == colour[b], next >= high);
+    }
+}
+
+/* Every automorphism that takes all nodes as near as this keeps the colours of lengths, whatever the noise. */
+START_TEST(colours_of_lengths_lose_no_isometry)
+{
+  rng r = rng_make(33);
+  int kept = 0, lost = 0;
+  for (int k = 0; k < 12 * SAMPLES; k++) {
+    double tolerance = pow(10, -1 - 2 * rng_unit(&r)), centroid[3], size;
+    thr_frame f = sample_frame(k % SAMPLES), g = noisy(&r, &f, tolerance * rng_unit(&r) * thr_frame_diagonal(&f) / 4);
+    int *colour = calloc((size_t)g.n_edges, sizeof *colour);
+    ck_assert(colour != NULL);
+    named_group n = name_elements(&f, 1e-6);
+    thr_frame_extent(&g, centroid, &size);
+    ck_assert_int_eq(thr_length_colours(&g, tolerance, colour, NULL), THR_OK);
+    if (g.n_edges < 60) assert_linked(&g, colour, 2 * tolerance * size);
+    for (int i = 0; i < n.g.order; i++) {
+      const int *image = &n.g.image[i * g.n_nodes];
+      thr_motion m;
+      thr_procrustes(&g, image, &m);
+      if (m.farthest <= tolerance) {
+        ck_assert(keeps_frame(&g, colour, image));
+        kept += i > 0;
+      } else {
+        lost++;
+      }
+    }
+    free(colour);
+    named_group_destroy(&n);
+    thr_frame_destroy(&f);
+    thr_frame_destroy(&g);
+  }
+  ck_assert(kept > 100 && lost > 100);
 }
 END_TEST
 
@@ -526,7 +580,7 @@ START_TEST(isometries_by_all_permutations)
     for (int v = 0; v < n; v++)
       image[v] = v;
     try_permutations(&f, image, 0, &count);
-    ck_assert_int_eq(thr_isometries_find(&f, 1e-6, 100, &found, &by_search, NULL), THR_OK);
+    ck_assert_int_eq(thr_isometries_find(&f, NULL, 1e-6, 100, &found, &by_search, NULL), THR_OK);
     ck_assert_int_eq(by_search, count);
     for (int k = 0; k < by_search; k++)
       ck_assert(keeps_frame(&f, NULL, &found[k * n]));
@@ -543,10 +597,10 @@ START_TEST(more_isometries_than_the_cap)
   thr_frame f = no_feet(solid_make(CUBE));
   int *found, count;
   thr_err err = {0};
-  ck_assert_int_eq(thr_isometries_find(&f, 1e-6, 47, &found, &count, &err), THR_ELIMIT);
+  ck_assert_int_eq(thr_isometries_find(&f, NULL, 1e-6, 47, &found, &count, &err), THR_ELIMIT);
   assert_one_line(&err, "47");
   ck_assert(!found && count == 0);
-  ck_assert_int_eq(thr_isometries_find(&f, 1e-6, 48, &found, &count, NULL), THR_OK);
+  ck_assert_int_eq(thr_isometries_find(&f, NULL, 1e-6, 48, &found, &count, NULL), THR_OK);
   ck_assert_int_eq(count, 48);
   free(found);
   thr_frame_destroy(&f);
@@ -562,7 +616,7 @@ START_TEST(every_allocation_fails_once)
     int *found, count;
     thr_err err = {0};
     thr_alloc_fail_at(++k);
-    st = thr_isometries_find(&f, 1e-6, THR_GROUP_CAP, &found, &count, &err);
+    st = thr_isometries_find(&f, NULL, 1e-6, THR_GROUP_CAP, &found, &count, &err);
     thr_alloc_fail_at(0);
     if (st)
       ck_assert_msg(st == THR_ENOMEM && !found && count == 0, "allocation %ld: status %d, %s", k, (int)st, err.text);
@@ -590,6 +644,7 @@ int main(void)
   ADD_TEST(s, 20, exchanged_neighbours);
   ADD_TEST(s, 60, isometries_are_the_geometric_part);
   ADD_TEST(s, 60, isometries_within_tolerance);
+  ADD_TEST(s, 60, colours_of_lengths_lose_no_isometry);
   ADD_TEST(s, 60, isometries_by_all_permutations);
   ADD_TEST(s, 20, more_isometries_than_the_cap);
   ADD_TEST(s, 20, every_allocation_fails_once);

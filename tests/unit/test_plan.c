@@ -143,7 +143,7 @@ START_TEST(nonsense_is_refused_with_its_place)
       {"framework", "\"hash\": \"", "\"hash\": \"0", THR_EVIOLATED, "hash"},
       {"framework", "[1,0,0]", "[1,0,1]", THR_EVIOLATED, "hash"},
       {"options", "\"length\"", "\"beauty\"", THR_EINPUT, "objective"},
-      {"options", "\"solid\"", "\"tube\"", THR_EINPUT, "joint"},
+      {"options", "\"solid\"", "\"wood\"", THR_EINPUT, "joint"},
       {"options", "\"mu\": ", "\"mu\": -", THR_EINPUT, "mu"},
       {"options", "\"cover\": 1", "\"cover\": 0", THR_EINPUT, "cover"},
       {"options", "\"cover\": 1", "\"cover\": 101", THR_EINPUT, "cover"},

@@ -51,6 +51,38 @@ static void check_error(const char *text, thr_format format, const char *message
   ck_assert(d.node == NULL && d.edge == NULL && d.n_nodes == 0);
 }
 
+/* Covers and capacities of a text's edges as "cover/capacity ..", "" if the frame has neither. */
+static void check_passes(const char *text, thr_format format, const char *passes)
+{
+  thr_read_report r;
+  thr_frame f = read_text(text, format, &r);
+  char found[200] = "";
+  for (int e = 0; (f.cover || f.capacity) && e < f.n_edges; e++) {
+    size_t n = strlen(found);
+    snprintf(found + n, sizeof found - n, "%s%d/%d", n ? " " : "", f.cover ? f.cover[e] : -1, f.capacity ? f.capacity[e] : -1);
+  }
+  ck_assert_str_eq(found, passes);
+  thr_frame_destroy(&f);
+}
+
+START_TEST(passes_of_edges)
+{
+  thr_format csv = THR_FORMAT_CSV, json = THR_FORMAT_JSON;
+  check_passes("0,0,0,1,0,0\n1,0,0,1,1,0\n", csv, "");
+  check_passes("x1,y1,z1,x2,y2,z2,cover,capacity\n0,0,0,1,0,0,2,\n1,0,0,1,1,0,,3\n", csv, "2/0 1/3");
+  check_passes("id,x,y\na,0,0\nb,1,0\nu,v,Cover\na,b,4\n", csv, "4/-1");
+  check_passes("{\"nodes\":[[0,0],[1,0],[1,1]],\"edges\":[[0,1],[1,2]],\"capacities\":[null,2]}", json, "-1/0 -1/2");
+  check_passes("{\"nodes\":[[0,0],[1,0],[1,1]],\"edges\":[[0,1],[1,2],[1,0]],\"covers\":[2,1,5]}", json, "2/-1 1/-1");
+  check_passes("{\"nodes\":[{\"id\":0,\"pos\":[0,0]},{\"id\":1,\"pos\":[1,0]}],"
+               "\"links\":[{\"source\":0,\"target\":1,\"cover\":2,\"capacity\":2}]}",
+               json, "2/2");
+  check_error("x1,y1,x2,y2,cover\n0,0,1,0,0\n", csv,
+              "f:2: cover '0' is not a whole number from 1 on; leave it empty if there is none");
+  check_error("x1,y1,x2,y2,cover,capacity\n0,0,1,0,3,2\n", csv,
+              "f:2: edge 0 has room for 2 passes; a capacity lies between the cover and 100");
+}
+END_TEST
+
 /* ---- CSV ---- */
 
 START_TEST(csv_shapes)
@@ -296,7 +328,12 @@ START_TEST(json_errors)
   check_error("{\"nodes\":[[0,0],[1,1]],\"edges\":[[0,1.5]]}", json, "f: edges[0][1]: not a node number; count nodes from 0");
   check_error("{\"nodes\":[[0,0],[1,1]],\"edges\":[[0,1]],\"lengths\":[0]}", json,
               "f: lengths[0]: a length that is not positive; leave it out for the distance of the two nodes");
-  check_error("{\"nodes\":[[0,0],[1,1]],\"edges\":[[0,1]],\"lengths\":[]}", json, "f: lengths: not one length for each edge");
+  check_error("{\"nodes\":[[0,0],[1,1]],\"edges\":[[0,1]],\"lengths\":[]}", json, "f: lengths: not one for each edge");
+  check_error("{\"nodes\":[[0,0],[1,1]],\"edges\":[[0,1]],\"covers\":[2,2]}", json, "f: covers: not one for each edge");
+  check_error("{\"nodes\":[[0,0],[1,1]],\"edges\":[[0,1]],\"covers\":[1.5]}", json,
+              "f: edges[0]: a cover that is not a whole number up to 100");
+  check_error("{\"nodes\":[[0,0],[1,1]],\"edges\":[[0,1]],\"covers\":[3],\"capacities\":[2]}", json,
+              "f: edges[0]: edge 0 has room for 2 passes; a capacity lies between the cover and 100");
   check_error("{\"nodes\":[[0,0],[1,1]],\"edges\":[[0,1]],\"feet\":[2]}", json,
               "f: feet[0]: there is no node 2; the 2 nodes count from 0");
   check_error("{\"nodes\":[[0],[1,1]],\"edges\":[[0,1]]}", json, "f: nodes[0][1]: missing; give a number");
@@ -376,6 +413,7 @@ static const struct {
     {"data/jax_fdm/monkey_saddle.json", 13, 18, 0, 1, 101.213636, "mm"},
     {"data/jax_fdm/olympia-nodes.csv", 102, 166, 0, 1, 415.455217, "mm"},
     {"data/jax_fdm/olympia-edges.csv", 102, 166, 0, 1, 415.455217, "mm"},
+    {"tests/fuzz/corpus/json/passes.json", 4, 4, 2, 1, 81.364246, "mm"},
 };
 
 START_TEST(stored_frameworks)
@@ -408,9 +446,14 @@ START_TEST(round_trips)
     ck_assert_int_eq(g.n_nodes, f.n_nodes);
     ck_assert_int_eq(g.n_edges, f.n_edges);
     ck_assert(memcmp(g.length, f.length, (size_t)f.n_edges * sizeof *f.length) == 0);
-    if (format != THR_FORMAT_CSV) {
+    if (format == THR_FORMAT_JSON || (format == THR_FORMAT_OBJ && !f.cover)) {
       ck_assert(thr_frame_hash(&g) == thr_frame_hash(&f));
       ck_assert_str_eq(g.units, f.units);
+    }
+    size_t bytes = (size_t)f.n_edges * sizeof *f.cover;
+    if (format != THR_FORMAT_OBJ) {
+      ck_assert(!g.cover == !f.cover && !g.capacity == !f.capacity);
+      ck_assert(!f.cover || (memcmp(g.cover, f.cover, bytes) == 0 && memcmp(g.capacity, f.capacity, bytes) == 0));
     }
     for (int v = 0; format == THR_FORMAT_JSON && v < f.n_nodes; v++)
       ck_assert_str_eq(g.name[v], f.name[v]);
@@ -543,12 +586,14 @@ static thr_status there_and_back(const char *path, thr_err *err)
 static const char *const small_files[] = {"tests/fuzz/corpus/csv/six-columns.csv",
                                           "tests/fuzz/corpus/csv/sections.csv",
                                           "tests/fuzz/corpus/csv/named.csv",
+                                          "tests/fuzz/corpus/csv/passes.csv",
                                           "tests/unit/files/pair-nodes.csv",
                                           "tests/unit/files/pair-edges.csv",
                                           "tests/fuzz/corpus/obj/mesh.obj",
                                           "tests/fuzz/corpus/obj/own.obj",
                                           "tests/fuzz/corpus/obj/rhino.obj",
                                           "tests/fuzz/corpus/json/own.json",
+                                          "tests/fuzz/corpus/json/passes.json",
                                           "tests/fuzz/corpus/json/plan.json",
                                           "tests/fuzz/corpus/json/compas-network.json",
                                           "tests/fuzz/corpus/json/compas-repr.json",
@@ -580,6 +625,7 @@ END_TEST
 
 static void add_tests(TCase *t)
 {
+  tcase_add_test(t, passes_of_edges);
   tcase_add_test(t, csv_shapes);
   tcase_add_test(t, csv_first_edge_is_not_taken_for_a_header);
   tcase_add_test(t, csv_errors);

@@ -6,7 +6,7 @@
 #include "graph/make.h"
 #include "graph/vector.h"
 #include "symmetry/symmetry.h"
-#include "tests/symmetric.h"
+#include "tests/plans.h"
 
 #include <check.h>
 #include <ctype.h>
@@ -19,49 +19,6 @@ static const double PI = 3.14159265358979323846;
 enum { MOST_LINE = 4000 };
 
 /* ---- plans ---- */
-
-/* Takes the framework. */
-static thr_plan plan_of(thr_frame f, thr_ends ends, int cover)
-{
-  thr_plan p = plan_simple(&f, ends, cover);
-  thr_frame_destroy(&f);
-  return p;
-}
-
-/* Takes the framework. group "" = the default choice. */
-static thr_plan symmetric_plan(thr_frame f, thr_ends ends, int cover, const char *group)
-{
-  thr_plan p = {0};
-  thr_err err = {0};
-  thr_limits none = {0};
-  thr_plan_options o = options_for(ends, cover);
-  o.objective = THR_SYMMETRY;
-  snprintf(o.symmetry.group, sizeof o.symmetry.group, "%s", group);
-  ck_assert_msg(thr_symmetry_plan(&f, &o, &none, NULL, &p, &err) == THR_OK, "%s", err.text);
-  thr_frame_destroy(&f);
-  return p;
-}
-
-/* Where a plan comes from; some have a cord that is not copied by a motion. */
-static thr_plan plan_number(int i)
-{
-  switch (i) {
-  case 0: return plan_of(shape_make(THR_MAKE_DOME, 7, 0), THR_ENDS_FEET, 1);
-  case 1: return plan_of(shape_make(THR_MAKE_TUBE, 9, 4), THR_ENDS_CLOSED, 1);
-  case 2: return plan_of(shape_make(THR_MAKE_SPHERE, 3, 0), THR_ENDS_CLOSED, 1);
-  case 3: return plan_of(shape_make(THR_MAKE_HONEYCOMB, 3, 0), THR_ENDS_ANY, 2);
-  case 4: return plan_of(solid_make(DODECAHEDRON), THR_ENDS_CLOSED, 3);
-  case 5: return plan_of(triangles_make(3), THR_ENDS_CLOSED, 1);
-  case 6: return symmetric_plan(shape_make(THR_MAKE_DOME, 6, 0), THR_ENDS_FEET, 1, "");
-  case 7: return symmetric_plan(shape_make(THR_MAKE_DOME, 6, 0), THR_ENDS_FEET, 1, "C4");
-  case 8: return symmetric_plan(shape_make(THR_MAKE_TUBE, 8, 4), THR_ENDS_ANY, 1, "");
-  case 9: return symmetric_plan(solid_make(CUBE), THR_ENDS_CLOSED, 1, "");
-  case 10: return symmetric_plan(solid_make(ICOSAHEDRON), THR_ENDS_ANY, 1, "");
-  case 11: return symmetric_plan(shape_make(THR_MAKE_DOME, 5, 0), THR_ENDS_CLOSED, 2, "");
-  default: return symmetric_plan(solid_make(ICOSAHEDRON), THR_ENDS_CLOSED, 1, "");
-  }
-}
-enum { N_PLANS = 13 };
 
 /* Words for every copy, but every so many without a motion. */
 static const char **words_for(const thr_plan *p, int every)

@@ -22,7 +22,11 @@ static thr_symmetries table_of(const thr_frame *f, const thr_plan_options *o)
 {
   thr_symmetries t;
   thr_err err = {0};
-  ck_assert_msg(thr_symmetries_find(f, o, &no_limits, &t, &err) == THR_OK, "%s", err.text);
+  thr_status st = thr_symmetries_find(f, o, &no_limits, &t, &err);
+  bool solved = st == THR_OK || st == THR_ELIMIT; /* the latter where plans count less than the programme */
+  for (int i = 0; i < t.n && st == THR_ELIMIT; i++)
+    solved = solved && (t.row[i].why.code == THR_OK || (t.row[i].why.code == THR_ELIMIT && t.row[i].solved));
+  ck_assert_msg(solved, "%s", err.text);
   return t;
 }
 
@@ -242,6 +246,34 @@ START_TEST(noise)
 }
 END_TEST
 
+static void expect_shape(thr_frame f, const char *name, double isometries, double keep_lengths)
+{
+  thr_plan_options o = asked(THR_ENDS_CLOSED, 1);
+  o.symmetry.geometric = 1e-3;
+  thr_symmetries t = table_of(&f, &o);
+  ck_assert(t.listed && t.mantissa == isometries && t.keep_lengths[0] == keep_lengths && t.keep_lengths[1] == 0);
+  ck_assert_str_eq(t.row[0].name, name);
+  ck_assert_int_eq(t.row[0].order, (int)isometries);
+  for (int i = 0; i < t.n; i++)
+    check_row(&f, &t, &t.row[i]);
+  thr_symmetries_destroy(&t);
+  thr_frame_destroy(&f);
+}
+
+/* All of these have the graph of a cube, 48 automorphisms. */
+START_TEST(shapes_of_the_cube)
+{
+  expect_shape(box_make(1, 1, 1, 0), "Oh", 48, 48);
+  expect_shape(box_make(1, 1, 2, 0), "D4h", 16, 16);
+  expect_shape(box_make(1, 2, 3, 0), "D2h", 8, 8);
+  expect_shape(box_make(1, 1, 1, 0.2), "D3d", 12, 48); /* equal edges, but a longer diagonal */
+  thr_frame f = box_make(1, 1, 1, 0);
+  for (int e = 0; e < f.n_edges; e++) /* the cord runs zigzag where the picture is straight */
+    if (f.xyz[f.edge[e][0]][2] != f.xyz[f.edge[e][1]][2]) f.length[e] = 2;
+  expect_shape(f, "D4h", 16, 16);
+}
+END_TEST
+
 /* Only what keeps the allowed end nodes: a mirror of the dome if they are one corner, by either way to the group. */
 START_TEST(end_nodes_are_kept)
 {
@@ -282,6 +314,64 @@ START_TEST(huge_groups)
   ck_assert_msg(thr_check_plan(&p, &err) == THR_OK, "%s", err.text);
   thr_plan_destroy(&p);
   thr_symmetries_destroy(&t);
+  o.symmetry.geometric = 1e-6; /* more keep the lengths than can be listed: looked for by coordinates */
+  t = table_of(&f, &o);
+  ck_assert(t.mantissa == 16 && t.listed && t.keep_lengths[0] == 40320);
+  thr_symmetries_destroy(&t);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* A square with mirrors across its edges: one closed cord, which cannot be opened at a corner without its image. It does not turn
+ * where its ends come out, though the programme counts that turn; so nothing above half of what it says is proved. */
+START_TEST(closed_cords_do_not_turn_where_they_end)
+{
+  const double xyz[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  const int edge[4][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+  thr_frame f = no_feet(frame_make(4, xyz, 4, edge, NULL, NULL));
+  thr_plan_options o = asked(THR_ENDS_ANY, 1);
+  thr_symmetries t;
+  ck_assert_int_eq(thr_symmetries_find(&f, &o, &no_limits, &t, NULL), THR_ELIMIT);
+  const thr_symmetry_row *row = row_of(&t, "C2v", 1);
+  double quarter = acos(0);
+  ck_assert(row->n_cords == 1 && row->cord[0].closed && row->why.code == THR_ELIMIT);
+  ck_assert_double_eq_tol(row->metrics.turning, 3 * quarter, 1e-9);
+  ck_assert_double_eq_tol(row->bound[THR_AIM_TURNING], 2 * quarter, 1e-6);
+  thr_symmetries_destroy(&t);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* There and back over a path: learned one way. Less than each orbit of edges once is impossible. */
+START_TEST(there_and_back_is_learned_once)
+{
+  thr_frame f = no_feet(path_make(5));
+  thr_plan_options o = asked(THR_ENDS_CLOSED, 1);
+  thr_symmetries t = table_of(&f, &o);
+  ck_assert_int_eq(t.n, 2);
+  for (int i = 0; i < 2; i++) {
+    ck_assert_double_eq(t.row[i].record.steps, i ? 4 : 2);
+    ck_assert_double_eq_tol(t.row[i].bound[THR_AIM_STEPS], i ? 4 : 2, 1e-6);
+  }
+  thr_symmetries_destroy(&t);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(what_it_does_not_know)
+{
+  thr_frame f = no_feet(path_make(4));
+  thr_plan_options plain = asked(THR_ENDS_CLOSED, 1), o[4] = {plain, plain, plain, plain};
+  o[0].joint = THR_JOINT_TUBE;
+  o[1].max_length = 100;
+  o[2].balance = true;
+  o[3].ends = THR_ENDS_COUNTS;
+  for (int i = 0; i < 4; i++) {
+    thr_symmetries t;
+    thr_err err = {0};
+    ck_assert_int_eq(thr_symmetries_find(&f, &o[i], &no_limits, &t, &err), THR_EINPUT);
+    ck_assert(strstr(err.text, "do not know") && t.n == 0);
+  }
   thr_frame_destroy(&f);
 }
 END_TEST
@@ -347,7 +437,8 @@ START_TEST(seeds_for_the_largest_turning)
   int row = thr_symmetries_even(&t, 8);
   ck_assert_int_eq(row, 0);
   ck_assert_int_eq(thr_symmetries_even(&t, 5), -1);
-  ck_assert_int_eq(thr_symmetries_plan(&t, row, &f, &o, &no_limits, &seed, &err), THR_OK);
+  thr_status taken = thr_symmetries_plan(&t, row, &f, &o, &no_limits, &seed, &err);
+  ck_assert(taken == THR_OK || taken == THR_ELIMIT);
   ck_assert_int_eq(thr_symmetries_even(&t, 8), -1); /* its cords are taken */
   turning.objective = THR_TORTUOSITY;
   turning.turning.largest = true;
@@ -394,7 +485,7 @@ static void fail_each(const thr_frame *f, const thr_plan_options *o)
 
 START_TEST(every_allocation_fails_once)
 {
-  thr_frame f = no_feet(ring_make(4)), star = no_feet(star_make(7));
+  thr_frame f = no_feet(path_make(4)), star = no_feet(star_make(7));
   thr_plan_options o = asked(THR_ENDS_ANY, 1);
   fail_each(&f, &o);
   o.symmetry.geometric = 1e-6;
@@ -416,8 +507,12 @@ int main(void)
   ADD_TEST(s, 120, plans_pass_the_checker);
   ADD_TEST(s, 20, groups_by_number_and_name);
   ADD_TEST(s, 20, noise);
+  ADD_TEST(s, 60, shapes_of_the_cube);
   ADD_TEST(s, 20, end_nodes_are_kept);
   ADD_TEST(s, 60, huge_groups);
+  ADD_TEST(s, 20, closed_cords_do_not_turn_where_they_end);
+  ADD_TEST(s, 20, there_and_back_is_learned_once);
+  ADD_TEST(s, 20, what_it_does_not_know);
   ADD_TEST(s, 60, too_many_isometries);
   ADD_TEST(s, 20, no_time);
   ADD_TEST(s, 20, no_node_for_an_end);

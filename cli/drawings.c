@@ -1,0 +1,93 @@
+#include "cli/drawings.h"
+
+#include "cli/copies.h"
+#include "diagram/polylines.h"
+#include "diagram/steps.h"
+#include "diagram/tables.h"
+#include "diagram/viewer.h"
+
+typedef enum { OVERVIEW, STEPS, VIEWER, STEPS_TABLE, CORDS_TABLE, BEADS_TABLE, OBJ, GLTF, N_DOCUMENTS } document;
+
+static const struct {
+  const char *type, *file;
+} documents[N_DOCUMENTS] = {
+    [OVERVIEW] = {"svg", "overview.svg"},
+    [STEPS] = {"steps", "steps.txt"},
+    [VIEWER] = {"html", "viewer.html"},
+    [STEPS_TABLE] = {"steps.csv", "steps.csv"},
+    [CORDS_TABLE] = {"cords.csv", "cords.csv"},
+    [BEADS_TABLE] = {"beads.csv", "beads.csv"},
+    [OBJ] = {"obj", "cords.obj"},
+    [GLTF] = {"gltf", "cords.gltf"},
+};
+
+int drawings_count(void)
+{
+  return N_DOCUMENTS;
+}
+
+const char *drawings_type(int i)
+{
+  return documents[i].type;
+}
+
+const char *drawings_file(int i)
+{
+  return documents[i].file;
+}
+
+typedef thr_status with_motion(const thr_plan *p, const char *const *motion, thr_text *t, thr_err *err);
+
+/* A document that says what moves a path to its copies. */
+static thr_status describe(const thr_plan *p, with_motion *document_of, thr_text *t, thr_err *err)
+{
+  cli_copies copies;
+  thr_status st = cli_copies_describe(p, &copies, err);
+  if (!st) st = document_of(p, copies.motion, t, err);
+  cli_copies_destroy(&copies);
+  return st;
+}
+
+static int write_overview(const thr_plan *p, const char *path, double pitch_mm, thr_overview_colour colour)
+{
+  thr_err err = {0};
+  thr_text svg = {0};
+  cli_copies copies;
+  thr_overview_options o = thr_overview_options_default();
+  o.pitch_mm = pitch_mm;
+  o.colour = colour;
+  thr_status st = cli_copies_describe(p, &copies, &err);
+  o.motion = copies.motion;
+  if (!st) st = thr_overview_svg(p, &o, &svg, &err);
+  cli_copies_destroy(&copies);
+  return cli_write_drawn(st, &svg, path, &err);
+}
+
+int drawings_write(const thr_plan *p, int i, const char *path, double pitch_mm, thr_overview_colour colour)
+{
+  thr_err err = {0};
+  thr_text t = {0};
+  thr_status st;
+  switch ((document)i) {
+  case OVERVIEW: return write_overview(p, path, pitch_mm, colour);
+  case STEPS: st = describe(p, thr_steps_text, &t, &err); break;
+  case VIEWER: st = describe(p, thr_viewer_html, &t, &err); break;
+  case STEPS_TABLE: st = thr_table_steps(p, &t, &err); break;
+  case CORDS_TABLE: st = describe(p, thr_table_cords, &t, &err); break;
+  case BEADS_TABLE: st = thr_table_beads(p, &t, &err); break;
+  case OBJ: st = thr_polylines_obj(p, &t, &err); break;
+  default: st = thr_polylines_gltf(p, &t, &err);
+  }
+  return cli_write_drawn(st, &t, path, &err);
+}
+
+int drawings_write_all(const thr_plan *p, const char *folder, double pitch_mm, thr_overview_colour colour)
+{
+  int code = EXIT_OK;
+  for (int i = 0; i < N_DOCUMENTS && !code; i++) {
+    char path[1200];
+    code = cli_in_folder(folder, documents[i].file, path, sizeof path);
+    if (!code) code = drawings_write(p, i, path, pitch_mm, colour);
+  }
+  return code;
+}

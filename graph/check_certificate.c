@@ -1,0 +1,365 @@
+/* Certificates: odd cuts, added up over trees of nested sets. */
+#include "graph/check_parts.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+
+__extension__ typedef __int128 wide; /* sums of hostile 64-bit multipliers cannot overflow it */
+
+int64_t thr_certificate_weight(const thr_frame *f, const thr_certificate *c, int e)
+{
+  return (int64_t)nearbyint(f->length[e] * c->scale);
+}
+
+/* Work space over the framework; shared, held and own are clear between certificates. */
+typedef struct {
+  const thr_frame *f;
+  const thr_plan_options *o;
+  const thr_check_walked *w;
+  int *start, *node;      /* nodes of component k: node[start[k] .. start[k + 1] - 1] */
+  int *edge_start, *edge; /* its edges likewise */
+  bool *odd;              /* [n_nodes] */
+  int *far_start, *far;   /* at v, the other ends of its edges to nodes with more edges: at most sqrt(2 * n_edges) of them */
+  int *far_edge;          /* those edges */
+  wide *held;             /* [n_nodes] sum of the values of the sets that hold a node */
+  wide *shared;           /* [n_edges] sum of the values of the sets that hold both ends */
+  int *own;               /* [n_nodes] cut of the present tree whose own node this is, else -1 */
+} workspace;
+
+/* The cuts of one certificate as a forest. Arrays of n_cuts. */
+typedef struct {
+  const thr_certificate *c;
+  int *first, *next; /* at a root, first cut of its tree; next one of the same tree; -1 = none */
+  int *root, *size;  /* last cut of its tree; cuts below it and itself */
+  int *heavy, *head; /* child with the largest size, or -1; uppermost cut from which heavy children lead here */
+  wide *depth;       /* sum of the values from the root to here */
+  bool *odd;         /* is the number of odd nodes in the set? */
+} forest;
+
+static void forest_destroy(forest *t)
+{
+  free(t->first);
+  free(t->next);
+  free(t->root);
+  free(t->size);
+  free(t->heavy);
+  free(t->head);
+  free(t->depth);
+  free(t->odd);
+}
+
+static thr_status forest_init(forest *t, const thr_certificate *c, thr_err *err)
+{
+  size_t n = (size_t)c->n_cuts;
+  *t = (forest){.c = c};
+  t->first = thr_calloc(n, sizeof *t->first);
+  t->next = thr_calloc(n, sizeof *t->next);
+  t->root = thr_calloc(n, sizeof *t->root);
+  t->size = thr_calloc(n, sizeof *t->size);
+  t->heavy = thr_calloc(n, sizeof *t->heavy);
+  t->head = thr_calloc(n, sizeof *t->head);
+  t->depth = thr_calloc(n, sizeof *t->depth);
+  t->odd = thr_calloc(n, sizeof *t->odd);
+  if (!t->first || !t->next || !t->root || !t->size || !t->heavy || !t->head || !t->depth || !t->odd) return thr_nomem(err);
+  for (int i = 0; i < c->n_cuts; i++)
+    t->first[i] = t->next[i] = t->heavy[i] = -1;
+  return THR_OK;
+}
+
+static thr_status check_cut(const workspace *k, const thr_certificate *c, int i, thr_err *err)
+{
+  const thr_cut *cut = &c->cut[i];
+  if (cut->value < 0)
+    return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: multiplier %" PRId64 " is negative", c->component,
+                    i, cut->value);
+  if (cut->parent != -1 && (cut->parent <= i || cut->parent >= c->n_cuts))
+    return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: its parent %d is not a later cut", c->component, i,
+                    cut->parent);
+  for (int j = 0; j < cut->n_nodes; j++) {
+    int v = cut->node[j];
+    if (j > 0 && v <= cut->node[j - 1])
+      return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: nodes are not ascending at %d", c->component, i,
+                      v);
+    if (k->w->component[v] != c->component)
+      return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: node %d is in component %d", c->component, i, v,
+                      k->w->component[v]);
+  }
+  return THR_OK;
+}
+
+/* Children come before their parents: sizes and parities go up, roots, depths and heavy paths down. */
+static thr_status forest_fill(forest *t, const workspace *k, thr_err *err)
+{
+  const thr_certificate *c = t->c;
+  for (int i = 0; i < c->n_cuts; i++) {
+    thr_status st = check_cut(k, c, i, err);
+    if (st) return st;
+    int p = c->cut[i].parent;
+    for (int j = 0; j < c->cut[i].n_nodes; j++)
+      t->odd[i] ^= k->odd[c->cut[i].node[j]];
+    if (!t->odd[i])
+      return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: holds an even number of odd nodes", c->component,
+                      i);
+    t->size[i]++;
+    if (p < 0) continue;
+    t->odd[p] ^= true;
+    t->size[p] += t->size[i];
+    if (t->heavy[p] < 0 || t->size[i] > t->size[t->heavy[p]]) t->heavy[p] = i;
+  }
+  for (int i = c->n_cuts - 1; i >= 0; i--) {
+    int p = c->cut[i].parent, root = p < 0 ? i : t->root[p];
+    t->depth[i] = c->cut[i].value + (p < 0 ? 0 : t->depth[p]);
+    t->head[i] = p >= 0 && t->heavy[p] == i ? t->head[p] : i;
+    t->root[i] = root;
+    t->next[i] = t->first[root];
+    t->first[root] = i;
+  }
+  return THR_OK;
+}
+
+/* Lowest cut round both. Of two heavy paths the one that starts earlier in the list does not hold it. */
+static int common_cut(const forest *t, int a, int b)
+{
+  while (t->head[a] != t->head[b]) {
+    if (t->head[a] < t->head[b])
+      a = t->c->cut[t->head[a]].parent;
+    else
+      b = t->c->cut[t->head[b]].parent;
+  }
+  return a > b ? a : b;
+}
+
+static thr_status mark_tree(workspace *k, const forest *t, int root, thr_err *err)
+{
+  for (int i = t->first[root]; i >= 0; i = t->next[i])
+    for (int j = 0; j < t->c->cut[i].n_nodes; j++) {
+      int v = t->c->cut[i].node[j];
+      if (k->own[v] >= 0)
+        return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: node %d is in cut %d, too, which is not inside",
+                        t->c->component, i, v, k->own[v]);
+      k->own[v] = i;
+    }
+  return THR_OK;
+}
+
+/* Adds the values of a tree's cuts to the nodes in their sets, and to the edges inside them: both ends of an edge are in the sets
+ * round the lowest one that holds them. A node may be in many trees, so edges are looked at from the end with fewer of them. */
+static void load_tree(workspace *k, const forest *t, int root)
+{
+  for (int i = t->first[root]; i >= 0; i = t->next[i])
+    for (int j = 0; j < t->c->cut[i].n_nodes; j++) {
+      int v = t->c->cut[i].node[j];
+      k->held[v] += t->depth[i];
+      for (int x = k->far_start[v]; x < k->far_start[v + 1]; x++) {
+        int other = k->own[k->far[x]];
+        if (other >= 0) k->shared[k->far_edge[x]] += t->depth[common_cut(t, i, other)];
+      }
+    }
+  for (int i = t->first[root]; i >= 0; i = t->next[i])
+    for (int j = 0; j < t->c->cut[i].n_nodes; j++)
+      k->own[t->c->cut[i].node[j]] = -1;
+}
+
+static thr_status check_loads(const workspace *k, const thr_certificate *c, thr_err *err)
+{
+  for (int j = k->edge_start[c->component]; j < k->edge_start[c->component + 1]; j++) {
+    int e = k->edge[j];
+    bool room = thr_plan_capacity(k->f, k->o, e) > thr_plan_cover(k->f, k->o, e);
+    wide load = k->held[k->f->edge[e][0]] + k->held[k->f->edge[e][1]] - 2 * k->shared[e];
+    if (room && load > (wide)thr_certificate_weight(k->f, c, e) * c->denominator)
+      return thr_fail(err, THR_EVIOLATED, "certificate of component %d: the cuts over edge %d add up to more than its weight",
+                      c->component, e);
+  }
+  if (!thr_check_ends_free(k->o)) return THR_OK;
+  for (int j = k->start[c->component]; j < k->start[c->component + 1]; j++) {
+    int v = k->node[j];
+    if (thr_plan_end_allowed(k->f, k->o, v) && k->held[v] > c->end_price)
+      return thr_fail(err, THR_EVIOLATED, "certificate of component %d: the cuts round node %d add up to more than the end price",
+                      c->component, v);
+  }
+  return THR_OK;
+}
+
+static void clear(workspace *k, int component)
+{
+  for (int j = k->edge_start[component]; j < k->edge_start[component + 1]; j++)
+    k->shared[k->edge[j]] = 0;
+  for (int j = k->start[component]; j < k->start[component + 1]; j++) {
+    k->held[k->node[j]] = 0;
+    k->own[k->node[j]] = -1;
+  }
+}
+
+/* Least weight of extra passes that leave so many ends; weights are integers, and nothing fits between the bound and the next. */
+static wide least_weight(const thr_certificate *c, int64_t ends)
+{
+  wide proved = c->sum - (wide)ends * c->end_price;
+  return proved > 0 ? (proved + c->denominator - 1) / c->denominator : 0;
+}
+
+double thr_check_extra(const thr_certificate *c, const thr_check_verdict *v, int64_t ends)
+{
+  return fmax(0, (double)least_weight(c, ends) / c->scale - v->rounding);
+}
+
+/* Compares the stated sums with the true ones, and says what they prove. */
+static thr_status judge(const workspace *k, const thr_certificate *c, wide sum, thr_check_verdict *out, thr_err *err)
+{
+  bool extra = false, weightless = false; /* a scale may round what passes cost to nothing */
+  wide join = 0;
+  double total = 0;
+  *out = (thr_check_verdict){0};
+  for (int j = k->edge_start[c->component]; j < k->edge_start[c->component + 1]; j++) {
+    int e = k->edge[j], more = k->w->passes[e] - thr_plan_cover(k->f, k->o, e);
+    int64_t w = thr_certificate_weight(k->f, c, e);
+    join += (wide)w * more;
+    extra |= more > 0;
+    weightless |= more > 0 && w == 0;
+    out->rounding += fabs(k->f->length[e] - (double)w / c->scale) * fmax(1, more);
+    total += k->f->length[e];
+  }
+  if (sum != c->sum)
+    return thr_fail(err, THR_EVIOLATED, "certificate of component %d: the multipliers do not add up to the stated sum %" PRId64,
+                    c->component, c->sum);
+  if (join != c->join)
+    return thr_fail(err, THR_EVIOLATED, "certificate of component %d: the extra passes do not weigh the stated %" PRId64,
+                    c->component, c->join);
+  int64_t ends = thr_check_ends_free(k->o) ? 2 * (int64_t)k->o->cords : 0;
+  out->extra = thr_check_extra(c, out, ends);
+  out->optimal = !extra || (!weightless && least_weight(c, ends) >= join && out->rounding <= 1e-9 * total);
+  return THR_OK;
+}
+
+static thr_status check_numbers(const workspace *k, const thr_certificate *c, thr_err *err)
+{
+  if (!(c->scale > 0) || c->denominator < 1)
+    return thr_fail(err, THR_EVIOLATED, "certificate of component %d: scale and denominator must be positive", c->component);
+  for (int j = k->edge_start[c->component]; j < k->edge_start[c->component + 1]; j++) {
+    int e = k->edge[j];
+    if (!(k->f->length[e] * c->scale < 1e18))
+      return thr_fail(err, THR_EVIOLATED, "certificate of component %d: scale is too large for edge %d", c->component, e);
+  }
+  if (c->end_price < 0 || (c->end_price > 0 && !thr_check_ends_free(k->o)))
+    return thr_fail(err, THR_EVIOLATED, "certificate of component %d: an end price of %" PRId64 " does not fit ends %s",
+                    c->component, c->end_price, thr_ends_name(k->o->ends));
+  return THR_OK;
+}
+
+static thr_status run_certificate(workspace *k, const thr_certificate *c, thr_check_verdict *out, thr_err *err)
+{
+  forest t;
+  wide sum = 0;
+  thr_status st = check_numbers(k, c, err);
+  if (st) return st;
+  st = forest_init(&t, c, err);
+  if (!st) st = forest_fill(&t, k, err);
+  for (int i = 0; i < c->n_cuts && !st; i++) {
+    sum += c->cut[i].value;
+    if (t.root[i] != i) continue;
+    st = mark_tree(k, &t, i, err);
+    if (!st) load_tree(k, &t, i);
+  }
+  if (!st) st = check_loads(k, c, err);
+  if (!st) st = judge(k, c, sum, out, err);
+  clear(k, c->component);
+  forest_destroy(&t);
+  return st;
+}
+
+static void workspace_destroy(workspace *k)
+{
+  free(k->start);
+  free(k->node);
+  free(k->edge_start);
+  free(k->edge);
+  free(k->odd);
+  free(k->far_start);
+  free(k->far);
+  free(k->far_edge);
+  free(k->held);
+  free(k->shared);
+  free(k->own);
+}
+
+/* Groups nodes and edges by component: counting sort, shifted by one place so that filling leaves the starts right. */
+static void group(workspace *k)
+{
+  const thr_frame *f = k->f;
+  const int *component = k->w->component;
+  for (int v = 0; v < f->n_nodes; v++)
+    k->start[component[v] + 2]++;
+  for (int e = 0; e < f->n_edges; e++)
+    k->edge_start[component[f->edge[e][0]] + 2]++;
+  for (int i = 1; i <= f->n_nodes; i++) {
+    k->start[i + 1] += k->start[i];
+    k->edge_start[i + 1] += k->edge_start[i];
+  }
+  for (int v = 0; v < f->n_nodes; v++)
+    k->node[k->start[component[v] + 1]++] = v;
+  for (int e = 0; e < f->n_edges; e++)
+    k->edge[k->edge_start[component[f->edge[e][0]] + 1]++] = e;
+}
+
+/* Every edge at its end with fewer edges. */
+static void point(workspace *k)
+{
+  const thr_frame *f = k->f;
+  for (int v = 0, n = 0; v < f->n_nodes; v++) {
+    for (int i = f->first[v]; i < f->first[v + 1]; i++) {
+      int other = thr_head(f, f->half[i]), more = thr_degree(f, other) - thr_degree(f, v);
+      if (more < 0 || (more == 0 && other < v)) continue;
+      k->far[n] = other;
+      k->far_edge[n++] = f->half[i] >> 1;
+    }
+    k->far_start[v + 1] = n;
+  }
+}
+
+static thr_status workspace_init(workspace *k, const thr_frame *f, const thr_plan_options *o, const thr_check_walked *w,
+                                 thr_err *err)
+{
+  size_t n = (size_t)f->n_nodes, m = (size_t)f->n_edges;
+  *k = (workspace){.f = f, .o = o, .w = w};
+  k->start = thr_calloc(n + 2, sizeof *k->start);
+  k->node = thr_calloc(n, sizeof *k->node);
+  k->edge_start = thr_calloc(n + 2, sizeof *k->edge_start);
+  k->edge = thr_calloc(m, sizeof *k->edge);
+  k->odd = thr_calloc(n, sizeof *k->odd);
+  k->far_start = thr_calloc(n + 1, sizeof *k->far_start);
+  k->far = thr_calloc(m, sizeof *k->far);
+  k->far_edge = thr_calloc(m, sizeof *k->far_edge);
+  k->held = thr_calloc(n, sizeof *k->held);
+  k->shared = thr_calloc(m, sizeof *k->shared);
+  k->own = thr_calloc(n, sizeof *k->own);
+  if (!k->start || !k->node || !k->edge_start || !k->edge || !k->odd || !k->own) return thr_nomem(err);
+  if (!k->far_start || !k->far || !k->far_edge || !k->held || !k->shared) return thr_nomem(err);
+  group(k);
+  point(k);
+  for (int v = 0; v < f->n_nodes; v++) {
+    k->own[v] = -1;
+    k->odd[v] = o->ends == THR_ENDS_COUNTS && o->end_count[v] % 2;
+  }
+  for (int e = 0; e < f->n_edges; e++)
+    for (int i = 0; i < 2; i++)
+      k->odd[f->edge[e][i]] ^= thr_plan_cover(f, o, e) % 2;
+  return THR_OK;
+}
+
+thr_status thr_check_certificates(const thr_frame *f, const thr_plan_options *o, const thr_check_walked *w,
+                                  const thr_certificate *certificate, int n, thr_check_verdict *verdict, thr_err *err)
+{
+  workspace k;
+  if (n != w->n_components)
+    return thr_fail(err, THR_EVIOLATED, "%d certificates for %d components; expected one per component", n, w->n_components);
+  thr_status st = workspace_init(&k, f, o, w, err);
+  for (int i = 0; i < n && !st; i++) {
+    if (certificate[i].component != i)
+      st = thr_fail(err, THR_EVIOLATED, "certificate %d is for component %d; expected one per component in order", i,
+                    certificate[i].component);
+    else
+      st = run_certificate(&k, &certificate[i], &verdict[i], err);
+  }
+  workspace_destroy(&k);
+  return st;
+}

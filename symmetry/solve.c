@@ -1,0 +1,201 @@
+/* Rows of the table: covers, the threadings made from them, and what is proved of those. */
+#include "symmetry/solve.h"
+#include "symmetry/claims.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_TYPES = 200000 }; /* of a quotient: what a linear programme can hold */
+
+/* What is known while the rows are solved. */
+typedef struct {
+  const thr_frame *f;
+  const thr_plan_options *o;
+  thr_symmetries *t;
+  thr_cover_options how;
+  int *edge_cover, *edge_capacity; /* [n_edges] */
+  double base;                     /* cord that the edges need, units */
+  thr_cover *cover;                /* [t->n] so far */
+} solver;
+
+static void solver_destroy(solver *s)
+{
+  for (int i = 0; i < s->t->n && s->cover; i++)
+    thr_cover_destroy(&s->cover[i]);
+  free(s->cover);
+  free(s->edge_cover);
+  free(s->edge_capacity);
+}
+
+static thr_status solver_init(solver *s, const thr_frame *f, const thr_plan_options *o, thr_symmetries *t, thr_err *err)
+{
+  *s = (solver){.f = f, .o = o, .t = t, .how = {.cover = o->cover, .ends = o->ends, .end_node = o->end_node}};
+  memcpy(s->how.prefer, o->symmetry.prefer, sizeof s->how.prefer);
+  s->edge_cover = thr_calloc((size_t)f->n_edges, sizeof *s->edge_cover);
+  s->edge_capacity = thr_calloc((size_t)f->n_edges, sizeof *s->edge_capacity);
+  s->cover = thr_calloc((size_t)t->n, sizeof *s->cover);
+  if (!s->edge_cover || !s->edge_capacity || !s->cover) {
+    solver_destroy(s);
+    return thr_nomem(err);
+  }
+  for (int e = 0; e < f->n_edges; e++) {
+    s->edge_cover[e] = thr_plan_cover(f, o, e);
+    s->edge_capacity[e] = thr_plan_capacity(f, o, e);
+    s->base += s->edge_cover[e] * f->length[e];
+  }
+  s->how.edge_cover = s->edge_cover;
+  s->how.edge_capacity = s->edge_capacity;
+  return THR_OK;
+}
+
+/* ---- one row ---- */
+
+static thr_status count_copies(thr_symmetry_row *row, thr_err *err)
+{
+  int *copies = thr_calloc((size_t)row->n_cords, sizeof *copies);
+  if (!copies) return thr_nomem(err);
+  for (int i = 0; i < row->n_cords; i++)
+    copies[row->record.unique[i]]++;
+  row->least_copies = row->n_cords;
+  for (int i = 0; i < row->n_cords; i++) {
+    if (copies[i] == 0) continue;
+    if (copies[i] < row->least_copies) row->least_copies = copies[i];
+    if (copies[i] > row->most_copies) row->most_copies = copies[i];
+  }
+  free(copies);
+  return THR_OK;
+}
+
+/* What the plan has, and what is proved of that. */
+static thr_status restate(const thr_quotient *q, const thr_cover_options *o, const thr_cover *c, thr_symmetry_row *row,
+                          thr_err *err)
+{
+  thr_claims claims;
+  bool weaker = false;
+  thr_status st = thr_claims_make(q, o, c, &claims, err);
+  if (st) return st;
+  row->value[THR_AIM_STEPS] = row->record.steps;
+  row->value[THR_AIM_PATHS] = row->record.unique_paths;
+  row->value[THR_AIM_TURNING] = row->metrics.turning;
+  for (int a = 0; a < THR_N_AIMS; a++) {
+    double rounding = 1e-6 * fmax(1, fabs(row->value[a])) + fmax(0, c->value[a] - c->bound[a]);
+    weaker = weaker || row->value[a] > claims.least[a] + rounding;
+    row->bound[a] = fmin(claims.least[a], row->value[a]); /* but for rounding it is no more */
+  }
+  if (!weaker || !c->optimal) return THR_OK;
+  return thr_fail(err, THR_ELIMIT, "%s",
+                  claims.repeats ? "cords may run alike, which the search tells apart and a plan does not"
+                                 : "a plan does not count the turn where a closed cord comes out, the search does");
+}
+
+static thr_status take_cover(const solver *s, const thr_quotient *q, const thr_cover *c, thr_symmetry_row *row, thr_err *err)
+{
+  memcpy(row->value, c->value, sizeof row->value);
+  memcpy(row->bound, c->bound, sizeof row->bound);
+  row->solved = c->optimal;
+  if (!c->copies) return THR_OK; /* out of time before there was any */
+  thr_status st = thr_cover_cords(q, &s->how, c, &row->cord, &row->n_cords, &row->record, err);
+  if (st) return st;
+  snprintf(row->record.name, sizeof row->record.name, "%s", row->name);
+  st = count_copies(row, err);
+  if (!st) st = thr_plan_measure(q->f, s->o, row->cord, row->n_cords, &row->metrics, err);
+  return st ? st : restate(q, &s->how, c, row, err);
+}
+
+/* What a row can do without a threading is to say why; all else is a failure. */
+static bool is_said(thr_status st)
+{
+  return st == THR_ELIMIT || st == THR_EINFEASIBLE || st == THR_EINPUT || st == THR_ESOLVER;
+}
+
+/* Goes on with the row's cover; the last time it becomes the row's threading. */
+static thr_status solve(solver *s, int i, bool quick, const thr_limits *limits, thr_err *err)
+{
+  thr_symmetry_row *row = &s->t->row[i];
+  thr_quotient q = {0};
+  row->why = (thr_err){0};
+  s->how.quick = quick;
+  thr_status st = thr_quotient_init(&q, s->f, &s->t->group[row->group].all, &row->elements, MOST_TYPES, &row->why);
+  if (!st) {
+    st = thr_cover_improve(&q, &s->how, limits, &s->cover[i], &row->why);
+    if (!quick && (!st || st == THR_ELIMIT)) {
+      thr_status made = take_cover(s, &q, &s->cover[i], row, &row->why);
+      if (made) st = made;
+    }
+  }
+  if (st) thr_fail(&row->why, st, "stopped early"); /* if no one said why */
+  if (!quick) thr_cover_destroy(&s->cover[i]);
+  thr_quotient_destroy(&q);
+  return st && !is_said(st) ? thr_fail(err, st, "%s", row->why.text) : THR_OK;
+}
+
+/* ---- whose turn it is ---- */
+
+thr_limits thr_symmetry_share(const thr_limits *l, double part)
+{
+  thr_limits share = *l;
+  double now = thr_clock();
+  if (l->deadline > 0) share.deadline = now + part * fmax(0, l->deadline - now);
+  return share;
+}
+
+bool thr_symmetry_asked(const thr_symmetries *t, int row, const char *group)
+{
+  char number[16];
+  snprintf(number, sizeof number, "%d", row + 1);
+  return !*group || strcmp(number, group) == 0 || strcmp(t->row[row].name, group) == 0;
+}
+
+/* Is there, for all that is known, a better default choice under this group than the best so far? */
+static bool may_be_chosen(const solver *s, int row)
+{
+  double limit = s->t->shortest * (1 + thr_symmetry_slack) - s->base, steps = INFINITY, overlap = INFINITY;
+  const thr_cover *c = s->cover;
+  for (int i = 0; i < s->t->n; i++) {
+    if (!c[i].copies) continue;
+    overlap = fmin(overlap, c[i].value[THR_AIM_OVERLAP]);
+    if (c[i].value[THR_AIM_OVERLAP] <= limit) steps = fmin(steps, c[i].value[THR_AIM_STEPS]);
+  }
+  if (!c[row].copies) return true;
+  if (isinf(steps)) return c[row].bound[THR_AIM_OVERLAP] < overlap - 1e-9 * s->base;
+  return c[row].bound[THR_AIM_OVERLAP] <= limit && c[row].bound[THR_AIM_STEPS] < steps - 1e-9;
+}
+
+typedef enum { FIRST, CHOICE, PROOFS, N_ROUNDS } turn;
+
+static bool has_turn(const solver *s, turn r, int row)
+{
+  bool ended = s->t->row[row].why.code && s->t->row[row].why.code != THR_ELIMIT;
+  return thr_symmetry_asked(s->t, row, s->o->symmetry.group) && !ended && (r != CHOICE || may_be_chosen(s, row));
+}
+
+static thr_status solve_round(solver *s, turn r, const thr_limits *limits, thr_err *err)
+{
+  static const double part[N_ROUNDS] = {0.5, 0.7, 1}; /* of the time that is left */
+  const thr_limits all = thr_symmetry_share(limits, part[r]);
+  int n = 0, done = 0;
+  thr_status st = THR_OK;
+  for (int i = 0; i < s->t->n; i++)
+    n += has_turn(s, r, i);
+  for (int i = 0; i < s->t->n && !st && done < n; i++) {
+    if (!has_turn(s, r, i)) continue;
+    if (limits->advance) limits->advance(limits->user, "threading under each group", (r + (double)done / n) / N_ROUNDS);
+    const thr_limits share = thr_symmetry_share(&all, 1.0 / (n - done++));
+    st = solve(s, i, r != PROOFS, &share, err);
+  }
+  return st;
+}
+
+thr_status thr_symmetry_solve(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_symmetries *t,
+                              thr_err *err)
+{
+  solver s;
+  thr_status st = solver_init(&s, f, o, t, err);
+  if (st) return st;
+  for (int r = limits->deadline > 0 ? FIRST : PROOFS; r < N_ROUNDS && !st; r++)
+    st = solve_round(&s, (turn)r, limits, err);
+  solver_destroy(&s);
+  return st;
+}

@@ -1,0 +1,18 @@
+/* The best threading under each group of the table, and who gets how much of the time. Internal to symmetry/. */
+#ifndef THR_SYMMETRY_SOLVE_H
+#define THR_SYMMETRY_SOLVE_H
+
+#include "symmetry/symmetry.h"
+
+/* Fills the rows that are asked for. With a deadline: first all rows, overlap and learned steps only; then, likewise, those that
+ * may yet become the default choice; then what is left goes to all proofs, in equal shares. */
+thr_status thr_symmetry_solve(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_symmetries *t,
+                              thr_err *err) THR_MUST_CHECK;
+
+/* group: as in thr_symmetry_options. */
+bool thr_symmetry_asked(const thr_symmetries *t, int row, const char *group);
+
+/* Limits that leave this part of the time that is left. */
+thr_limits thr_symmetry_share(const thr_limits *l, double part);
+
+#endif

@@ -1,0 +1,492 @@
+/* The shortest cords for tube joints against all passes and all turns of small frameworks, and against published values. */
+#include "tests/support.h"
+#include "graph/junction.h"
+#include "tortuosity/tortuosity.h"
+#include "tortuosity/tube.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MORE = 3, MOST_EDGES = 8, MOST_NODES = 8, MOST_ENDS = 6, MOST_DEGREE = 6 };
+
+/* ---- what it costs to tie a node: all turns there ---- */
+
+typedef struct {
+  int d; /* edges; point d stands for the cord ends */
+  int left[MOST_DEGREE + 1];
+  double price[MOST_DEGREE][MOST_DEGREE];
+  unsigned link[MOST_DEGREE + 1];
+  double least;
+} knot;
+
+static bool connected(int d, const unsigned *link)
+{
+  unsigned seen = 1, next = 1;
+  while (next) {
+    int i = 0;
+    while (!(next >> i & 1u))
+      i++;
+    next &= ~(1u << i);
+    next |= link[i] & ~seen;
+    seen |= link[i];
+  }
+  return seen == (1u << d) - 1;
+}
+
+/* Numbers of turns between points a and b and all later pairs, of which none is of a point with itself. */
+static void all_turns(knot *k, int a, int b, double price)
+{
+  if (b > k->d) {
+    if (k->left[a] > 0) return;
+    a++;
+    b = a + 1;
+  }
+  if (price >= k->least) return;
+  if (a == k->d) {
+    if (k->left[a] == 0 && connected(k->d, k->link)) k->least = price;
+    return;
+  }
+  bool end = b == k->d;
+  int most = k->left[a] < k->left[b] ? k->left[a] : k->left[b];
+  for (int n = 0; n <= most; n++) {
+    unsigned before[2] = {k->link[a], k->link[b]};
+    if (n > 0 && !end) {
+      k->link[a] |= 1u << b;
+      k->link[b] |= 1u << a;
+    }
+    k->left[a] -= n;
+    k->left[b] -= n;
+    all_turns(k, a, b + 1, price + (end ? 0 : n * k->price[a][b]));
+    k->left[a] += n;
+    k->left[b] += n;
+    k->link[a] = before[0];
+    k->link[b] = before[1];
+  }
+}
+
+typedef struct {
+  const thr_frame *f;
+  const thr_plan_options *o;
+  double *known[MOST_NODES]; /* price of tying a node by extra passes and ends; < 0: not yet looked at */
+  int passes[MOST_EDGES], component[MOST_NODES], n_components;
+  bool turns; /* least price of the turns, not least length */
+  double most_length, best;
+} oracle;
+
+static double tie(oracle *w, int v, int ends)
+{
+  const thr_frame *f = w->f;
+  knot k = {.d = thr_degree(f, v), .least = INFINITY};
+  int name = ends;
+  for (int i = 0; i < k.d; i++) {
+    int h = f->half[f->first[v] + i];
+    k.left[i] = w->passes[h >> 1];
+    name = name * (MORE + 1) + w->passes[h >> 1] - thr_plan_cover(f, w->o, h >> 1);
+    for (int j = i + 1; j < k.d && w->turns; j++)
+      k.price[i][j] = thr_turn_cost_of(w->o->turning.cost, thr_turn_angle(f, h ^ 1, f->half[f->first[v] + j]));
+  }
+  k.left[k.d] = ends;
+  double *known = &w->known[v][name];
+  if (*known >= 0) return *known;
+  all_turns(&k, 0, 1, 0);
+  return *known = k.least;
+}
+
+/* Least price of all turns for these passes: of every component by the number of its ends. */
+static double price_of_passes(oracle *w)
+{
+  enum { MOST = MOST_NODES * MOST_ENDS };
+  const thr_plan_options *o = w->o;
+  double total = 0;
+  for (int c = 0; c < w->n_components; c++) {
+    double by_ends[MOST + 1] = {0}, least = INFINITY;
+    for (int z = 1; z <= MOST; z++)
+      by_ends[z] = INFINITY;
+    for (int v = 0; v < w->f->n_nodes; v++) {
+      if (w->component[v] != c) continue;
+      int fewest = 0, most = thr_plan_end_allowed(w->f, o, v) ? MOST_ENDS : 0;
+      double next[MOST + 1];
+      if (o->ends == THR_ENDS_COUNTS) fewest = most = o->end_count[v];
+      for (int z = 0; z <= MOST; z++)
+        next[z] = INFINITY;
+      for (int z = fewest; z <= most; z++)
+        for (int sum = 0; sum + z <= MOST; sum++)
+          if (by_ends[sum] < INFINITY) next[sum + z] = fmin(next[sum + z], by_ends[sum] + tie(w, v, z));
+      memcpy(by_ends, next, sizeof by_ends);
+    }
+    for (int z = 0; z <= MOST; z++) {
+      bool fits = z % 2 == 0 && z >= 2 * o->cords_least && z <= 2 * o->cords;
+      if (o->ends == THR_ENDS_CLOSED) fits = z == 0;
+      if (fits || o->ends == THR_ENDS_COUNTS) least = fmin(least, by_ends[z]);
+    }
+    total += least;
+  }
+  return total;
+}
+
+static void try_passes(oracle *w, int e, double length)
+{
+  if (length > w->most_length * (1 + 1e-9) || (!w->turns && length >= w->best - 1e-9)) return;
+  if (e == w->f->n_edges) {
+    double price = price_of_passes(w);
+    if (isfinite(price)) w->best = fmin(w->best, w->turns ? price : length);
+    return;
+  }
+  int cover = thr_plan_cover(w->f, w->o, e), most = thr_plan_capacity(w->f, w->o, e);
+  for (int m = cover; m <= cover + MORE && m <= most; m++) {
+    w->passes[e] = m;
+    try_passes(w, e + 1, length + m * w->f->length[e]);
+  }
+}
+
+/* The least length, or price of turns within a length, with at most MORE extra passes of every edge; INFINITY if there is none.
+ */
+static double least_by_enumeration(const thr_frame *f, const thr_plan_options *o, bool turns, double most_length)
+{
+  oracle w = {.f = f, .o = o, .turns = turns, .most_length = most_length, .best = INFINITY};
+  ck_assert(f->n_edges <= MOST_EDGES && f->n_nodes <= MOST_NODES);
+  ck_assert_int_eq(thr_frame_components(f, w.component, &w.n_components, NULL), THR_OK);
+  for (int v = 0; v < f->n_nodes; v++) {
+    ck_assert_int_le(thr_degree(f, v), MOST_DEGREE);
+    size_t names = (size_t)(MOST_ENDS + 1) << 2 * thr_degree(f, v);
+    w.known[v] = calloc(names, sizeof *w.known[v]);
+    for (size_t i = 0; i < names; i++)
+      w.known[v][i] = -1;
+  }
+  try_passes(&w, 0, 0);
+  for (int v = 0; v < f->n_nodes; v++)
+    free(w.known[v]);
+  return w.best;
+}
+
+/* ---- small frameworks ---- */
+
+static bool small_degrees(const thr_frame *f, int most)
+{
+  for (int v = 0; v < f->n_nodes; v++)
+    if (thr_degree(f, v) > most) return false;
+  return true;
+}
+
+typedef struct {
+  int solved, infeasible, open;
+} tally;
+
+static void compare(const thr_frame *f, const thr_plan_options *o, tally *t)
+{
+  const thr_limits none = {0};
+  thr_plan p;
+  thr_err err = {0};
+  double least = least_by_enumeration(f, o, false, INFINITY);
+  thr_status st = thr_tube_plan(f, o, &none, &p, &err);
+  if (st == THR_EINFEASIBLE) {
+    ck_assert_msg(isinf(least), "%s; but there is one of length %g", err.text, least);
+    t->infeasible++;
+    return;
+  }
+  ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", err.text);
+  assert_plan_sound(&p);
+  ck_assert_double_le(p.metrics.length, least * (1 + 1e-9));
+  if (p.metrics.most_passes <= o->cover + MORE && isfinite(least)) {
+    ck_assert_double_le(p.proof.lower_bound, least * (1 + 1e-9));
+    if (st == THR_OK) ck_assert_double_ge(p.metrics.length, least * (1 - 1e-9));
+  }
+  t->solved += st == THR_OK;
+  t->open += st == THR_ELIMIT;
+  thr_plan_destroy(&p);
+}
+
+/* The least turning of any length, or among the shortest. */
+static void compare_turning(const thr_frame *f, thr_plan_options *o, tally *t)
+{
+  const thr_limits none = {0};
+  thr_plan p;
+  thr_err err = {0};
+  o->objective = THR_TORTUOSITY;
+  o->cords_least = o->cords;
+  double shortest = least_by_enumeration(f, o, false, INFINITY);
+  double least = least_by_enumeration(f, o, true, o->turning.length_slack < 0 ? INFINITY : shortest);
+  thr_status st = thr_tortuosity_plan(f, o, &none, &p, &err);
+  if (st == THR_EINFEASIBLE) {
+    ck_assert_msg(isinf(least), "%s; but there is one of price %g", err.text, least);
+    t->infeasible++;
+    return;
+  }
+  ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", err.text);
+  assert_plan_sound(&p);
+  bool within = p.metrics.most_passes <= o->cover + MORE && isfinite(least);
+  if (st == THR_OK && isfinite(least)) ck_assert_double_le(p.turning.price, least + 1e-6);
+  if (within) ck_assert_double_le(p.turning.lower_bound, least + 1e-6);
+  if (within && st == THR_OK) ck_assert_double_ge(p.turning.price, least - 1e-6);
+  t->solved += st == THR_OK;
+  t->open += st == THR_ELIMIT;
+  thr_plan_destroy(&p);
+}
+
+/* Options at random: ends, cords, capacity, covers of single edges. */
+static void random_options(rng *r, thr_frame *f, thr_plan_options *o)
+{
+  static const thr_ends kind[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET, THR_ENDS_COUNTS};
+  *o = options_for(kind[rng_below(r, 4)], rng_between(r, 1, 2));
+  o->joint = THR_JOINT_TUBE;
+  o->cords = rng_between(r, 1, 3);
+  o->cords_least = o->ends == THR_ENDS_CLOSED ? 1 : rng_between(r, 1, o->cords);
+  if (rng_below(r, 4) == 0) o->capacity = o->cover + rng_between(r, 1, 3);
+  if (rng_below(r, 3) == 0) {
+    f->cover = calloc((size_t)f->n_edges, sizeof *f->cover);
+    f->capacity = calloc((size_t)f->n_edges, sizeof *f->capacity);
+    for (int e = 0; e < f->n_edges; e++) {
+      f->cover[e] = e > 0 && rng_below(r, 4) ? 1 : 2;
+      f->capacity[e] = e > 0 && rng_below(r, 3) ? 0 : rng_between(r, 2, 4);
+    }
+  }
+  if (o->ends != THR_ENDS_COUNTS) return;
+  o->cords_least = 1;
+  o->end_count = calloc((size_t)f->n_nodes, sizeof *o->end_count);
+  for (int i = 2 * rng_between(r, 1, o->cords); i > 0; i--)
+    o->end_count[rng_below(r, f->n_nodes)]++;
+}
+
+START_TEST(shortest_by_enumeration)
+{
+  enum { EACH = 150 };
+  rng r = rng_make(900 + (uint64_t)_i);
+  tally t = {0};
+  for (int i = 0; i < EACH; i++) {
+    int n = rng_between(&r, 3, 5);
+    thr_frame f = random_frame(&r, n, rng_between(&r, 1, 7 - n + 1), (length_kind)rng_below(&r, LENGTH_KINDS));
+    thr_plan_options o = {0};
+    if (f.n_edges <= 7 && small_degrees(&f, 4)) {
+      random_options(&r, &f, &o);
+      compare(&f, &o, &t);
+      free(o.end_count);
+    }
+    thr_frame_destroy(&f);
+  }
+  ck_assert_int_gt(t.solved, EACH / 8);
+  ck_assert_int_le(t.open, (t.solved + t.open) / 50);
+}
+END_TEST
+
+START_TEST(least_turning_by_enumeration)
+{
+  enum { EACH = 40 };
+  rng r = rng_make(1700 + (uint64_t)_i);
+  tally t = {0};
+  for (int i = 0; i < EACH; i++) {
+    thr_frame f = random_frame(&r, rng_between(&r, 3, 4), rng_between(&r, 1, 3), (length_kind)rng_below(&r, LENGTH_KINDS));
+    thr_plan_options o = {0};
+    random_options(&r, &f, &o);
+    if (o.ends == THR_ENDS_CLOSED || o.ends == THR_ENDS_COUNTS) o.cords = 1;
+    for (int v = 0; v < f.n_nodes && o.ends == THR_ENDS_COUNTS; v++) /* two ends */
+      o.end_count[v] = v == 0 || v == _i % (f.n_nodes - 1) + 1;
+    o.turning.cost = (thr_turn_cost)rng_below(&r, THR_N_TURN_COSTS);
+    o.turning.length_slack = rng_below(&r, 2) - 1;
+    compare_turning(&f, &o, &t);
+    free(o.end_count);
+    thr_frame_destroy(&f);
+  }
+  ck_assert_int_gt(t.solved, EACH / 8);
+  ck_assert_int_le(t.open, 1 + t.solved / 10);
+}
+END_TEST
+
+/* ---- published and hand-made values ---- */
+
+static thr_plan shortest(const thr_frame *f, thr_ends ends, int cover)
+{
+  const thr_limits none = {0};
+  thr_plan_options o = options_for(ends, cover);
+  thr_plan p;
+  thr_err err = {0};
+  o.joint = THR_JOINT_TUBE;
+  thr_status st = thr_tube_plan(f, &o, &none, &p, &err);
+  ck_assert_msg(st == THR_OK, "%s", err.text);
+  assert_plan_sound(&p);
+  return p;
+}
+
+/* Graph Threading of the solids: two passes of a third of the edges where three meet, half more where four do. */
+START_TEST(solids)
+{
+  static const double ratio[] = {4.0 / 3, 4.0 / 3, 1.5, 4.0 / 3, 1.6};
+  for (int s = TETRAHEDRON; s <= ICOSAHEDRON; s++) {
+    thr_frame f = solid_make((solid)s);
+    thr_plan p = shortest(&f, THR_ENDS_CLOSED, 1);
+    ck_assert_double_eq_tol(p.metrics.length, ratio[s] * f.n_edges, 1e-9);
+    thr_plan_destroy(&p);
+    thr_frame_destroy(&f);
+  }
+}
+END_TEST
+
+/* With three edges at every node tying is covering: the same length as Route Inspection. */
+START_TEST(cubic_is_route_inspection)
+{
+  rng r = rng_make(31);
+  for (int s = 0; s < 3; s++) {
+    thr_frame f = solid_make(s == 0 ? TETRAHEDRON : s == 1 ? CUBE : DODECAHEDRON);
+    for (int e = 0; e < f.n_edges; e++)
+      f.length[e] = 1 + rng_unit(&r);
+    f.own_lengths = true;
+    thr_plan p = shortest(&f, THR_ENDS_CLOSED, 1), around = plan_simple(&f, THR_ENDS_CLOSED, 1);
+    ck_assert_double_eq_tol(p.metrics.length, around.metrics.length, 1e-9);
+    thr_plan_destroy(&p);
+    thr_plan_destroy(&around);
+    thr_frame_destroy(&f);
+  }
+}
+END_TEST
+
+START_TEST(ring_and_path)
+{
+  thr_frame ring = ring_make(5), path = path_make(4);
+  thr_plan p = shortest(&ring, THR_ENDS_CLOSED, 1), q = shortest(&path, THR_ENDS_ANY, 1);
+  ck_assert_double_eq_tol(p.metrics.length, 5, 1e-9);
+  ck_assert_double_eq_tol(q.metrics.length, thr_frame_total_length(&path), 1e-9);
+  thr_plan_destroy(&p);
+  thr_plan_destroy(&q);
+  thr_frame_destroy(&ring);
+  thr_frame_destroy(&path);
+}
+END_TEST
+
+START_TEST(what_cannot_be_tied_is_named)
+{
+  const thr_limits none = {0};
+  thr_frame f = star_make(3);
+  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_plan p;
+  thr_err err = {0};
+  o.joint = THR_JOINT_TUBE;
+  ck_assert_int_eq(thr_tube_plan(&f, &o, &none, &p, &err), THR_EINFEASIBLE);
+  assert_one_line(&err, f.name[1]);
+  o.ends = THR_ENDS_ANY; /* three ends at the leaves, two of one cord */
+  err = (thr_err){0};
+  ck_assert_int_eq(thr_tube_plan(&f, &o, &none, &p, &err), THR_EINFEASIBLE);
+  assert_one_line(&err, "--cords");
+  o.cords = 2;
+  ck_assert_int_eq(thr_tube_plan(&f, &o, &none, &p, &err), THR_OK);
+  ck_assert_double_eq_tol(p.metrics.length, 4, 1e-9); /* one spoke twice */
+  ck_assert_int_eq(p.n_cords, 2);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+  f = solid_make(CUBE);
+  o = options_for(THR_ENDS_CLOSED, 1);
+  o.joint = THR_JOINT_TUBE;
+  o.capacity = 1; /* three passes at a node, but four tie it */
+  err = (thr_err){0};
+  ck_assert_int_eq(thr_tube_plan(&f, &o, &none, &p, &err), THR_EINFEASIBLE);
+  assert_one_line(&err, "room for 3 passes");
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* ---- lies ---- */
+
+/* An altered multiplier proves less, or nothing; never more than the truth. */
+START_TEST(altered_proofs_prove_no_more)
+{
+  rng r = rng_make(77);
+  thr_frame f = solid_make(OCTAHEDRON);
+  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  o.joint = THR_JOINT_TUBE;
+  thr_plan p = shortest(&f, THR_ENDS_CLOSED, 1);
+  for (int i = 0; i < 300; i++) {
+    thr_text text = plan_text(&p);
+    thr_plan q = plan_from(text.data);
+    thr_turning_dual *d = &q.proof.tied.dual[rng_below(&r, q.proof.tied.n_duals)];
+    double least = 0;
+    int64_t by = rng_between(&r, -8, 8) * ((int64_t)1 << 42);
+    switch (rng_below(&r, 4)) {
+    case 0: d->potential[rng_below(&r, 2 * f.n_edges)] += by; break;
+    case 1:
+      if (d->n_junctions) d->junction[rng_below(&r, d->n_junctions)].value += by;
+      break;
+    case 2:
+      if (d->n_junctions) d->junction[rng_below(&r, d->n_junctions)].block[rng_below(&r, 4)] = rng_between(&r, -1, 4);
+      break;
+    default:
+      if (d->n_junctions) d->junction[rng_below(&r, d->n_junctions)].node = rng_between(&r, -1, f.n_nodes);
+      break;
+    }
+    thr_status st = thr_tied_least(&f, &o, &q.proof.tied, &least, NULL);
+    ck_assert(st == THR_EVIOLATED || (st == THR_OK && least <= p.metrics.length * (1 + 1e-9)));
+    thr_plan_destroy(&q);
+    thr_text_destroy(&text);
+  }
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(false_claims_are_refused)
+{
+  thr_frame f = solid_make(OCTAHEDRON);
+  thr_plan p = shortest(&f, THR_ENDS_CLOSED, 1);
+  thr_err err = {0};
+  p.proof.optimal = false;
+  p.proof.lower_bound *= 1.1;
+  ck_assert_int_eq(judge_plan(&p, NULL), THR_EVIOLATED);
+  p.proof.lower_bound = p.metrics.length;
+  p.proof.optimal = true;
+  ck_assert_int_eq(judge_plan(&p, NULL), THR_OK);
+  p.options.joint = THR_JOINT_SOLID; /* whose proof has certificates */
+  ck_assert_int_eq(judge_plan(&p, NULL), THR_EVIOLATED);
+  p.options.joint = THR_JOINT_TUBE;
+  thr_turning_dual *d = &p.proof.tied.dual[0];
+  ck_assert_int_gt(d->n_junctions, 0);
+  d->junction[0].value /= 2;
+  ck_assert_int_eq(judge_plan(&p, &err), THR_EVIOLATED);
+  assert_one_line(&err, "says optimal");
+  d->junction[0].value *= -2;
+  ck_assert_int_eq(judge_plan(&p, NULL), THR_EVIOLATED);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* ---- memory ---- */
+
+START_TEST(every_allocation_fails_once)
+{
+  const thr_limits none = {0};
+  thr_frame f = solid_make(TETRAHEDRON);
+  thr_plan_options o = options_for(_i % 2 ? THR_ENDS_ANY : THR_ENDS_CLOSED, 1);
+  thr_status st = THR_ENOMEM;
+  long k = 0;
+  o.joint = THR_JOINT_TUBE;
+  o.objective = _i < 2 ? THR_LENGTH : THR_TORTUOSITY;
+  f.length[0] = 1.5; /* nothing to choose from would be too simple */
+  f.own_lengths = true;
+  while (st) {
+    thr_plan p = {0};
+    thr_err err = {0};
+    thr_alloc_fail_at(++k);
+    st = o.objective == THR_LENGTH ? thr_tube_plan(&f, &o, &none, &p, &err) : thr_tortuosity_plan(&f, &o, &none, &p, &err);
+    thr_alloc_fail_at(0);
+    ck_assert_msg(!st || st == THR_ENOMEM, "allocation %ld: status %d, %s", k, (int)st, err.text);
+    ck_assert(!st || (!p.cord && !p.proof.tied.node));
+    thr_plan_destroy(&p);
+    ck_assert_int_lt(k, 100000);
+  }
+  ck_assert_int_gt(k, 60);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+int main(void)
+{
+  Suite *s = suite_create("tube");
+  ADD_LOOP(s, 60, every_allocation_fails_once, 0, 4);
+  ADD_LOOP(s, 120, shortest_by_enumeration, 0, 20);
+  ADD_LOOP(s, 120, least_turning_by_enumeration, 0, 10);
+  ADD_TEST(s, 20, solids);
+  ADD_TEST(s, 20, cubic_is_route_inspection);
+  ADD_TEST(s, 5, ring_and_path);
+  ADD_TEST(s, 5, what_cannot_be_tied_is_named);
+  ADD_TEST(s, 20, altered_proofs_prove_no_more);
+  ADD_TEST(s, 20, false_claims_are_refused);
+  return run_suite(s);
+}

@@ -1,0 +1,325 @@
+/* The cords as lines: OBJ read back by the reader of frameworks and record by record, glTF decoded byte by byte. */
+#include "diagram/palette.h"
+#include "diagram/polylines.h"
+#include "graph/json.h"
+#include "graph/read.h"
+#include "tests/plans.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef thr_status writer(const thr_plan *p, thr_text *out, thr_err *err);
+static writer *const writers[] = {thr_polylines_obj, thr_polylines_gltf};
+enum { N_WRITERS = 2 };
+
+static thr_text text_of(const thr_plan *p, writer *write)
+{
+  thr_text t = {0}, again = {0};
+  thr_err err = {0};
+  ck_assert_msg(write(p, &t, &err) == THR_OK, "%s", err.text);
+  ck_assert_int_eq(write(p, &again, &err), THR_OK);
+  assert_same_text(&t, &again);
+  thr_text_destroy(&again);
+  return t;
+}
+
+/* ---- OBJ ---- */
+
+START_TEST(obj_is_read_back)
+{
+  thr_plan p = plan_number(_i);
+  thr_text t = text_of(&p, thr_polylines_obj);
+  thr_draft d = {0};
+  thr_read_report report = {0};
+  thr_frame f = {0};
+  thr_err err = {0};
+  ck_assert_msg(thr_obj_parse(&d, &report, t.data, t.length, "cords.obj", &err) == THR_OK, "%s", err.text);
+  ck_assert_int_eq(thr_draft_build(&d, 0, &f, &report, &err), THR_OK);
+  ck_assert_int_eq(report.edges_read, p.metrics.passes);
+  ck_assert_int_eq(f.n_nodes, p.frame.n_nodes);
+  ck_assert_int_eq(f.n_edges, p.frame.n_edges);
+  ck_assert_str_eq(f.units, p.frame.units);
+  ck_assert_mem_eq(f.xyz, p.frame.xyz, (size_t)f.n_nodes * sizeof *f.xyz);
+  ck_assert_mem_eq(f.foot, p.frame.foot, (size_t)f.n_nodes * sizeof *f.foot);
+  for (int e = 0; e < f.n_edges; e++)
+    ck_assert_int_ge(thr_frame_edge_between(&p.frame, f.edge[e][0], f.edge[e][1]), 0);
+  thr_draft_destroy(&d);
+  thr_frame_destroy(&f);
+  thr_text_destroy(&t);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+/* One object per cord, one record of two vertices per pass, in order. */
+START_TEST(obj_has_the_passes_in_order)
+{
+  thr_plan p = plan_number(_i);
+  thr_text t = text_of(&p, thr_polylines_obj);
+  int c = -1, k = 0, a, b, used;
+  for (const char *line = t.data; *line; line = strchr(line, '\n') + 1) {
+    char name[16];
+    if (sscanf(line, "o cord-%15s", name) == 1) {
+      if (c >= 0) ck_assert_int_eq(k, p.cord[c].n_passes);
+      ck_assert_str_eq(name, p.cord[++c].id);
+      k = 0;
+    } else if (*line == 'l') {
+      ck_assert_int_eq(sscanf(line, "l %d %d%n", &a, &b, &used), 2);
+      ck_assert_int_eq(line[used], '\n');
+      ck_assert_int_lt(k, p.cord[c].n_passes);
+      ck_assert_int_eq(a - 1, thr_tail(&p.frame, p.cord[c].half[k]));
+      ck_assert_int_eq(b - 1, thr_head(&p.frame, p.cord[c].half[k++]));
+    } else
+      ck_assert(*line == 'v' || *line == '#');
+  }
+  ck_assert_int_eq(c, p.n_cords - 1);
+  ck_assert_int_eq(k, p.cord[c].n_passes);
+  thr_text_destroy(&t);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+/* ---- glTF ---- */
+
+static const thr_json *member(const thr_json *doc, const char *list, int i, const char *key)
+{
+  const thr_json *v = thr_json_get(thr_json_at(thr_json_get(doc, list), i), key);
+  ck_assert_msg(v != NULL, "%s[%d].%s", list, i, key);
+  return v;
+}
+
+static int integer(const thr_json *v)
+{
+  int64_t i;
+  ck_assert(thr_json_int(v, &i));
+  return (int)i;
+}
+
+static double number(const thr_json *v)
+{
+  double x;
+  ck_assert(thr_json_number(v, &x));
+  return x;
+}
+
+/* RFC 4648, one letter at a time. */
+static unsigned char *decode(const char *s, size_t *n)
+{
+  static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  unsigned char *bytes = malloc(strlen(s) + 1);
+  unsigned bits = 0;
+  int held = 0;
+  ck_assert(bytes && strlen(s) % 4 == 0);
+  *n = 0;
+  for (; *s && *s != '='; s++) {
+    const char *at = strchr(letters, *s);
+    ck_assert_ptr_nonnull(at);
+    bits = bits << 6 | (unsigned)(at - letters);
+    held += 6;
+    if (held < 8) continue;
+    held -= 8;
+    bytes[(*n)++] = (unsigned char)(bits >> held & 255);
+  }
+  return bytes;
+}
+
+static double float_at(const unsigned char *b)
+{
+  uint32_t bits = (uint32_t)b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24;
+  float value;
+  memcpy(&value, &bits, sizeof value);
+  return (double)value;
+}
+
+static int node_of(const thr_plan *p, int c, int k)
+{
+  return k < p->cord[c].n_passes ? thr_tail(&p->frame, p->cord[c].half[k]) : thr_head(&p->frame, p->cord[c].half[k - 1]);
+}
+
+/* The strip of cord c, wherever the document says that it lies; marks its bytes. */
+static void assert_strip(const thr_json *doc, const thr_plan *p, int c, double metres, const unsigned char *data, bool *taken)
+{
+  const thr_json *primitive = thr_json_at(member(doc, "meshes", integer(member(doc, "nodes", c, "mesh")), "primitives"), 0);
+  int accessor = integer(thr_json_get(thr_json_get(primitive, "attributes"), "POSITION"));
+  int view = integer(member(doc, "accessors", accessor, "bufferView")),
+      count = integer(member(doc, "accessors", accessor, "count"));
+  int offset = integer(member(doc, "bufferViews", view, "byteOffset"));
+  double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+  ck_assert_int_eq(integer(thr_json_get(primitive, "mode")), 3);
+  ck_assert_int_eq(count, p->cord[c].n_passes + 1);
+  ck_assert_str_eq(thr_json_string(member(doc, "accessors", accessor, "type")), "VEC3");
+  ck_assert_int_eq(integer(member(doc, "accessors", accessor, "componentType")), 5126);
+  ck_assert_int_eq(integer(member(doc, "bufferViews", view, "byteLength")), 12 * count);
+  ck_assert_int_eq(offset % 4, 0);
+  for (int i = 0; i < 12 * count; i++) {
+    ck_assert(!taken[offset + i]);
+    taken[offset + i] = true;
+  }
+  for (int k = 0; k < count; k++) {
+    const double *node = p->frame.xyz[node_of(p, c, k)];
+    const double want[3] = {node[0], node[2], -node[1]};
+    for (int i = 0; i < 3; i++) {
+      double got = float_at(data + offset + 12 * k + 4 * i);
+      ck_assert_double_eq_tol(got, metres * want[i], fabs(metres * want[i]) * 1e-7 + 1e-12);
+      low[i] = fmin(low[i], got);
+      high[i] = fmax(high[i], got);
+    }
+  }
+  for (int i = 0; i < 3; i++) {
+    ck_assert_double_eq(low[i], (double)(float)number(thr_json_at(member(doc, "accessors", accessor, "min"), i)));
+    ck_assert_double_eq(high[i], (double)(float)number(thr_json_at(member(doc, "accessors", accessor, "max"), i)));
+  }
+}
+
+/* Linear light back to "#rrggbb". */
+static void assert_colour(const thr_json *doc, int c, const char *hex)
+{
+  const thr_json *primitive = thr_json_at(member(doc, "meshes", c, "primitives"), 0);
+  int material = integer(thr_json_get(primitive, "material"));
+  const thr_json *factor = thr_json_get(member(doc, "materials", material, "pbrMetallicRoughness"), "baseColorFactor");
+  char text[8] = "#";
+  for (int i = 0; i < 3; i++) {
+    double light = number(thr_json_at(factor, i));
+    double value = light <= 0.0031308 ? 12.92 * light : 1.055 * pow(light, 1 / 2.4) - 0.055;
+    snprintf(text + 1 + 2 * i, 3, "%02X", (unsigned)lround(255 * value) & 255);
+  }
+  ck_assert_str_eq(text, hex);
+}
+
+START_TEST(gltf_runs_through_the_nodes)
+{
+  static const char prefix[] = "data:application/octet-stream;base64,";
+  thr_plan p = plan_number(_i);
+  bool metre = _i % 2;
+  snprintf(p.frame.units, sizeof p.frame.units, metre ? "m" : "mm");
+  thr_text t = text_of(&p, thr_polylines_gltf);
+  thr_json *doc;
+  size_t n;
+  ck_assert_int_eq(thr_json_parse(&doc, t.data, t.length, "gltf", NULL), THR_OK);
+  ck_assert_str_eq(thr_json_string(thr_json_get(thr_json_get(doc, "asset"), "version")), "2.0");
+  const char *uri = thr_json_string(member(doc, "buffers", 0, "uri"));
+  ck_assert_int_eq(strncmp(uri, prefix, strlen(prefix)), 0);
+  unsigned char *data = decode(uri + strlen(prefix), &n);
+  bool *taken = calloc(n, sizeof *taken);
+  ck_assert_ptr_nonnull(taken);
+  ck_assert_int_eq(integer(member(doc, "buffers", 0, "byteLength")), (int)n);
+  ck_assert_int_eq(thr_json_size(member(doc, "scenes", 0, "nodes")), p.n_cords);
+  for (int c = 0; c < p.n_cords; c++) {
+    char name[32];
+    snprintf(name, sizeof name, "cord-%s", p.cord[c].id);
+    ck_assert_int_eq(integer(thr_json_at(member(doc, "scenes", 0, "nodes"), c)), c);
+    ck_assert_str_eq(thr_json_string(member(doc, "nodes", c, "name")), name);
+    assert_strip(doc, &p, c, metre ? 1 : 0.001, data, taken);
+  }
+  for (size_t i = 0; i < n; i++)
+    ck_assert(taken[i]);
+  free(taken);
+  free(data);
+  thr_json_destroy(doc);
+  thr_text_destroy(&t);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+/* Of a symmetric plan a path is strong and its copies are pale, in the path's hue; of others every cord has its own. */
+START_TEST(colours_are_the_palettes)
+{
+  thr_plan p = plan_number(_i ? 7 : 13);
+  thr_text t = text_of(&p, thr_polylines_gltf);
+  thr_json *doc;
+  ck_assert_int_eq(p.symmetry.present, _i);
+  ck_assert_int_eq(thr_json_parse(&doc, t.data, t.length, "gltf", NULL), THR_OK);
+  for (int c = 0; c < p.n_cords; c++)
+    if (_i)
+      assert_colour(doc, c, p.symmetry.unique[c] == c ? thr_palette(0).hex : thr_palette(0).pale);
+    else
+      assert_colour(doc, c, thr_palette(c).hex);
+  ck_assert_int_eq(p.symmetry.unique_paths, _i); /* one path: one hue */
+  thr_json_destroy(doc);
+  thr_text_destroy(&t);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+/* Units are the user's words. */
+START_TEST(units_break_no_line)
+{
+  thr_plan p = plan_number(0);
+  snprintf(p.frame.units, sizeof p.frame.units, "\"\nv 1 2 3");
+  thr_text obj = text_of(&p, thr_polylines_obj), gltf = text_of(&p, thr_polylines_gltf);
+  thr_json *doc;
+  ck_assert_ptr_null(strstr(obj.data, "\nv 1 2 3"));
+  ck_assert_int_eq(thr_json_parse(&doc, gltf.data, gltf.length, "gltf", NULL), THR_OK);
+  const thr_json *extras = thr_json_get(thr_json_get(doc, "asset"), "extras");
+  ck_assert_str_eq(thr_json_string(thr_json_get(extras, "unit")), p.frame.units);
+  ck_assert_double_eq(number(thr_json_get(extras, "metres_per_unit")), 0.001);
+  thr_json_destroy(doc);
+  thr_text_destroy(&obj);
+  thr_text_destroy(&gltf);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+START_TEST(broken_plans_are_refused)
+{
+  for (int w = 0; w < N_WRITERS; w++) {
+    thr_plan p = plan_number(0);
+    thr_text t = {0};
+    thr_err err = {0};
+    int half = p.cord[0].half[2], n = p.n_cords;
+    p.cord[0].half[2] = 1000;
+    ck_assert_int_eq(writers[w](&p, &t, &err), THR_EINPUT);
+    assert_one_line(&err, "edge 500");
+    p.cord[0].half[2] = half;
+    p.n_cords = 0;
+    err = (thr_err){0};
+    ck_assert_int_eq(writers[w](&p, &t, &err), THR_EINPUT);
+    assert_one_line(&err, "no cord");
+    p.n_cords = n;
+    for (int v = 0; v < p.frame.n_nodes; v++)
+      p.frame.xyz[v][2] += 1e50;
+    err = (thr_err){0};
+    ck_assert_int_eq(writers[w](&p, &t, &err), w ? THR_EINPUT : THR_OK);
+    if (w) assert_one_line(&err, "too far");
+    ck_assert(!w || t.length == 0);
+    thr_text_destroy(&t);
+    thr_plan_destroy(&p);
+  }
+}
+END_TEST
+
+START_TEST(every_allocation_may_fail)
+{
+  thr_plan p = plan_number(7);
+  thr_status st = THR_ENOMEM;
+  for (long k = 1; st; k++) {
+    thr_text t = {0};
+    thr_err err = {0};
+    thr_alloc_fail_at(k);
+    st = writers[_i](&p, &t, &err);
+    thr_alloc_fail_at(0);
+    if (st) {
+      ck_assert_int_eq(st, THR_ENOMEM);
+      ck_assert_uint_eq(t.length, 0);
+      assert_one_line(&err, "memory");
+    }
+    thr_text_destroy(&t);
+    ck_assert_int_lt(k, 1000);
+  }
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+int main(void)
+{
+  Suite *s = suite_create("polylines");
+  ADD_LOOP(s, 30, obj_is_read_back, 0, N_PLANS);
+  ADD_LOOP(s, 30, obj_has_the_passes_in_order, 0, N_PLANS);
+  ADD_LOOP(s, 30, gltf_runs_through_the_nodes, 0, N_PLANS);
+  ADD_LOOP(s, 20, colours_are_the_palettes, 0, 2);
+  ADD_TEST(s, 20, units_break_no_line);
+  ADD_TEST(s, 20, broken_plans_are_refused);
+  ADD_LOOP(s, 20, every_allocation_may_fail, 0, N_WRITERS);
+  return run_suite(s);
+}

@@ -1,0 +1,549 @@
+/* Tables of a plan, read back and worked out again from its JSON and coordinates. */
+#include "diagram/tables.h"
+#include "graph/json.h"
+#include "tests/plans.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double PI = 3.14159265358979323846;
+
+/* ---- CSV ---- */
+
+enum { MOST_FIELDS = 20 };
+
+/* Rows of fields, the first one their names. */
+typedef struct {
+  int n_rows, n_columns;
+  char *bytes;
+  char *(*field)[MOST_FIELDS];
+} csv;
+
+/* Strict: every row of as many fields, quotes where needed only, line feeds, one at the end. */
+static csv csv_read(const thr_text *t)
+{
+  csv c = {.bytes = malloc(t->length + 1), .field = calloc(t->length + 1, sizeof *c.field)};
+  ck_assert(c.bytes && c.field && t->length > 0 && t->data[t->length - 1] == '\n');
+  char *to = c.bytes;
+  for (const char *s = t->data; *s; c.n_rows++) {
+    int n = 0;
+    do {
+      ck_assert_int_lt(n, MOST_FIELDS);
+      if (n) s++;
+      c.field[c.n_rows][n++] = to;
+      bool quoted = *s == '"', needed = false;
+      if (quoted) s++;
+      while (quoted ? *s != '"' || s[1] == '"' : *s != ',' && *s != '\n') {
+        ck_assert(*s && (quoted || *s != '"'));
+        needed |= strchr(",\"\r\n", *s) != NULL;
+        if (quoted && *s == '"') s++;
+        *to++ = *s++;
+      }
+      if (quoted) s++;
+      ck_assert(quoted == needed);
+      *to++ = '\0';
+    } while (*s == ',');
+    ck_assert_int_eq(*s++, '\n');
+    if (c.n_rows == 0) c.n_columns = n;
+    ck_assert_int_eq(n, c.n_columns);
+  }
+  return c;
+}
+
+static void csv_destroy(csv *c)
+{
+  free(c->bytes);
+  free(c->field);
+}
+
+static const char *at(const csv *c, int row, const char *column)
+{
+  for (int k = 0; k < c->n_columns; k++)
+    if (strcmp(c->field[0][k], column) == 0) return c->field[row][k];
+  ck_abort_msg("no column %s", column);
+}
+
+static double number(const csv *c, int row, const char *column)
+{
+  char *end;
+  const char *s = at(c, row, column);
+  double value = strtod(s, &end);
+  ck_assert_msg(*s && !*end, "%s: %s is no number", column, s);
+  return value;
+}
+
+static int integer(const csv *c, int row, const char *column)
+{
+  return (int)number(c, row, column);
+}
+
+static void assert_says(const csv *c, int row, const char *column, const char *word)
+{
+  ck_assert_msg(strcmp(at(c, row, column), word) == 0, "row %d: %s is %s, not %s", row, column, at(c, row, column), word);
+}
+
+typedef enum { STEPS, CORDS, BEADS, N_TABLES } kind;
+
+static thr_status make(const thr_plan *p, kind k, const char *const *motion, thr_text *t, thr_err *err)
+{
+  if (k == STEPS) return thr_table_steps(p, t, err);
+  return k == CORDS ? thr_table_cords(p, motion, t, err) : thr_table_beads(p, t, err);
+}
+
+static csv table_of(const thr_plan *p, kind k, const char *const *motion)
+{
+  thr_text t = {0}, again = {0};
+  thr_err err = {0};
+  ck_assert_msg(make(p, k, motion, &t, &err) == THR_OK, "%s", err.text);
+  ck_assert_int_eq(make(p, k, motion, &again, &err), THR_OK);
+  assert_same_text(&t, &again);
+  csv c = csv_read(&t);
+  thr_text_destroy(&t);
+  thr_text_destroy(&again);
+  return c;
+}
+
+/* ---- the plan as its JSON has it ---- */
+
+typedef struct {
+  thr_text text;
+  thr_json *doc;
+} json_plan;
+
+static json_plan json_of(const thr_plan *p)
+{
+  json_plan j = {.text = plan_text(p)};
+  ck_assert_int_eq(thr_json_parse(&j.doc, j.text.data, j.text.length, "plan", NULL), THR_OK);
+  return j;
+}
+
+static void json_destroy(json_plan *j)
+{
+  thr_json_destroy(j->doc);
+  thr_text_destroy(&j->text);
+}
+
+static const thr_json *cord_of(const json_plan *j, const char *id)
+{
+  const thr_json *cords = thr_json_get(j->doc, "cords");
+  for (int c = 0; c < thr_json_size(cords); c++)
+    if (strcmp(thr_json_string(thr_json_get(thr_json_at(cords, c), "id")), id) == 0) return thr_json_at(cords, c);
+  ck_abort_msg("no cord %s", id);
+}
+
+static int item(const thr_json *cord, const char *key, int k)
+{
+  int64_t i;
+  ck_assert(thr_json_int(thr_json_at(thr_json_get(cord, key), k), &i));
+  return (int)i;
+}
+
+static void vector(const json_plan *j, int a, int b, double d[3])
+{
+  const thr_json *nodes = thr_json_get(thr_json_get(j->doc, "framework"), "nodes");
+  for (int i = 0; i < 3; i++) {
+    double from, to;
+    ck_assert(thr_json_number(thr_json_at(thr_json_at(nodes, a), i), &from));
+    ck_assert(thr_json_number(thr_json_at(thr_json_at(nodes, b), i), &to));
+    d[i] = to - from;
+  }
+}
+
+static double distance(const json_plan *j, int a, int b)
+{
+  double d[3];
+  vector(j, a, b, d);
+  return sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+}
+
+/* Degrees between going from a to b and going from b to c. */
+static double bend(const json_plan *j, int a, int b, int c)
+{
+  double u[3], v[3];
+  vector(j, a, b, u);
+  vector(j, b, c, v);
+  double cosine = (u[0] * v[0] + u[1] * v[1] + u[2] * v[2]) / distance(j, a, b) / distance(j, b, c);
+  return acos(fmin(1, fmax(-1, cosine))) * 180 / PI;
+}
+
+static double length_of(const json_plan *j, const thr_json *cord)
+{
+  double sum = 0;
+  for (int k = 1; k < thr_json_size(thr_json_get(cord, "nodes")); k++)
+    sum += distance(j, item(cord, "nodes", k - 1), item(cord, "nodes", k));
+  return sum;
+}
+
+/* Degrees; closed cords with the turn that closes them. */
+static double turning_of(const json_plan *j, const thr_json *cord, bool closing)
+{
+  int n = thr_json_size(thr_json_get(cord, "nodes"));
+  double sum = 0;
+  for (int k = 2; k < n; k++)
+    sum += bend(j, item(cord, "nodes", k - 2), item(cord, "nodes", k - 1), item(cord, "nodes", k));
+  return closing ? sum + bend(j, item(cord, "nodes", n - 2), item(cord, "nodes", 0), item(cord, "nodes", 1)) : sum;
+}
+
+/* ---- steps ---- */
+
+/* A row against the cord of the JSON: where it runs, how far, how it turns. */
+static void assert_step(const csv *c, int row, const json_plan *j, bool flat)
+{
+  const thr_json *cord = cord_of(j, at(c, row, "cord"));
+  int k = integer(c, row, "step") - 1, from = item(cord, "nodes", k), to = item(cord, "nodes", k + 1);
+  double length = length_of(j, cord), used = number(c, row, "used");
+  ck_assert_int_eq(integer(c, row, "edge"), item(cord, "edges", k));
+  ck_assert_int_eq(integer(c, row, "from_node"), from);
+  ck_assert_int_eq(integer(c, row, "to_node"), to);
+  ck_assert_double_eq_tol(number(c, row, "length"), distance(j, from, to), 1e-6);
+  ck_assert_double_eq_tol(number(c, row, "left"), length - used, 1e-6 * length);
+  if (k == 0) {
+    ck_assert_double_eq_tol(used, distance(j, from, to), 1e-6);
+    assert_says(c, row, "turn", "start");
+    assert_says(c, row, "degrees", "");
+    return;
+  }
+  assert_says(c, row - 1, "cord", at(c, row, "cord"));
+  assert_says(c, row, "from", at(c, row - 1, "to"));
+  ck_assert_int_eq(integer(c, row - 1, "step"), k);
+  ck_assert_double_eq_tol(used - number(c, row - 1, "used"), distance(j, from, to), 1e-6 * length);
+  int before = item(cord, "nodes", k - 1);
+  double degrees = bend(j, before, from, to), in[3], out[3];
+  ck_assert_double_eq_tol(number(c, row, "degrees"), degrees, 0.0051);
+  ck_assert_int_eq(strcmp(at(c, row, "turn"), "back") == 0, before == to);
+  if (fabs(degrees - 15) > 1e-6) ck_assert_int_eq(strcmp(at(c, row, "turn"), "straight on") == 0, degrees < 15);
+  vector(j, before, from, in);
+  vector(j, from, to, out);
+  if (flat && degrees > 15 && degrees < 165) assert_says(c, row, "turn", in[0] * out[1] - in[1] * out[0] > 0 ? "left" : "right");
+}
+
+/* Visits and their words, by going through the rows once more; places are the same for the same node, and for no other. */
+static void assert_visits(const csv *c, const thr_plan *p)
+{
+  int *visits = calloc((size_t)p->frame.n_edges, sizeof *visits), *from = calloc((size_t)p->frame.n_edges, sizeof *from);
+  const char **label = calloc((size_t)p->frame.n_nodes, sizeof *label);
+  ck_assert(visits && from && label);
+  for (int row = 1; row < c->n_rows; row++) {
+    int e = integer(c, row, "edge"), a = integer(c, row, "from_node");
+    ck_assert_int_eq(integer(c, row, "visit"), ++visits[e]);
+    assert_says(c, row, "how", visits[e] == 1 ? "pick up" : from[e] == a ? "pass through" : "pass back through");
+    from[e] = a;
+    if (!label[a]) label[a] = at(c, row, "from");
+    assert_says(c, row, "from", label[a]);
+  }
+  for (int v = 0; v < p->frame.n_nodes; v++)
+    for (int w = 0; w < v; w++)
+      ck_assert(!label[v] || !label[w] || strcmp(label[v], label[w]) != 0);
+  free(visits);
+  free(from);
+  free(label);
+}
+
+/* A copy's step is the image of its path's, by the record of the symmetry: the same edge, one way round or the other. */
+static void assert_copies(const csv *c, const thr_plan *p)
+{
+  for (int row = 1; row < c->n_rows; row++) {
+    int own = 0, path = 0;
+    while (strcmp(p->cord[own].id, at(c, row, "cord")) != 0)
+      own++;
+    while (strcmp(p->cord[path].id, at(c, row, "path")) != 0)
+      path++;
+    const thr_symmetry_record *r = &p->symmetry;
+    ck_assert_int_eq(path, r->present ? r->unique[own] : own);
+    if (path == own) ck_assert_int_eq(integer(c, row, "path_step"), integer(c, row, "step"));
+    if (path == own) continue;
+    const int *image = r->image + (size_t)r->element[own] * (size_t)p->frame.n_nodes;
+    int h = p->cord[path].half[integer(c, row, "path_step") - 1];
+    int a = image[thr_tail(&p->frame, h)], b = image[thr_head(&p->frame, h)];
+    int from = integer(c, row, "from_node"), to = integer(c, row, "to_node");
+    ck_assert((a == from && b == to) || (a == to && b == from));
+  }
+}
+
+START_TEST(steps_are_the_plan)
+{
+  thr_plan p = plan_number(_i);
+  json_plan j = json_of(&p);
+  csv c = table_of(&p, STEPS, NULL);
+  ck_assert_int_eq(c.n_rows - 1, p.metrics.passes);
+  for (int row = 1; row < c.n_rows; row++)
+    assert_step(&c, row, &j, false);
+  assert_visits(&c, &p);
+  assert_copies(&c, &p);
+  csv_destroy(&c);
+  json_destroy(&j);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+START_TEST(left_is_left_on_flat_ground)
+{
+  thr_frame f = grid_make(5, 4);
+  thr_plan p = plan_simple(&f, THR_ENDS_CLOSED, 2);
+  json_plan j = json_of(&p);
+  csv c = table_of(&p, STEPS, NULL);
+  for (int row = 1; row < c.n_rows; row++)
+    assert_step(&c, row, &j, true);
+  csv_destroy(&c);
+  json_destroy(&j);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* ---- cords ---- */
+
+START_TEST(cords_are_cut_long_enough)
+{
+  thr_plan p = plan_number(_i);
+  p.options.physics.cord_diameter = 0.125;
+  p.options.physics.bore = 0.5; /* four cords wide: no bead of these plans needs more */
+  json_plan j = json_of(&p);
+  csv c = table_of(&p, CORDS, NULL);
+  ck_assert_int_eq(c.n_rows - 1, p.n_cords);
+  for (int row = 1; row < c.n_rows; row++) {
+    const thr_json *cord = cord_of(&j, at(&c, row, "cord"));
+    bool closing = p.options.ends == THR_ENDS_CLOSED;
+    double length = length_of(&j, cord), turning = turning_of(&j, cord, closing);
+    double cut = number(&c, row, "length") + number(&c, row, "tails") + number(&c, row, "knots") + number(&c, row, "turns");
+    ck_assert_double_eq_tol(number(&c, row, "length"), length, 1e-6 * length);
+    ck_assert_double_eq_tol(number(&c, row, "turning_degrees"), turning, 0.01);
+    ck_assert_double_eq_tol(number(&c, row, "tails"), 2 * 150, 1e-9);
+    ck_assert_double_eq_tol(number(&c, row, "knots"), 2 * 16.4 * 0.125, 1e-9);
+    ck_assert_double_eq_tol(number(&c, row, "turns"), (0.5 - 0.125) / 2 * turning * PI / 180, 1e-6 * turning + 1e-12);
+    ck_assert_double_eq_tol(number(&c, row, "cut"), cut, 1e-6 * cut);
+    ck_assert_int_eq(integer(&c, row, "passes"), thr_json_size(thr_json_get(cord, "edges")));
+    assert_says(&c, row, "closed", thr_json_true(thr_json_get(cord, "closed")) ? "yes" : "no");
+    assert_says(&c, row, "path", p.symmetry.present ? p.cord[p.symmetry.unique[row - 1]].id : p.cord[row - 1].id);
+    if (thr_json_true(thr_json_get(cord, "closed"))) assert_says(&c, row, "end", at(&c, row, "start"));
+  }
+  csv_destroy(&c);
+  json_destroy(&j);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+/* Says what moves a path to its copies, commas and all; of a path nothing. */
+START_TEST(repetitions_are_said)
+{
+  thr_plan p = plan_number(7);
+  const char **motion = calloc((size_t)p.n_cords, sizeof *motion);
+  ck_assert_ptr_nonnull(motion);
+  for (int c = 0; c < p.n_cords; c++)
+    motion[c] = "turned, \"so to speak\"";
+  csv c = table_of(&p, CORDS, motion);
+  int copies = 0;
+  for (int row = 1; row < c.n_rows; row++) {
+    bool copy = p.symmetry.unique[row - 1] != row - 1;
+    const char *words = at(&c, row, "repeated");
+    ck_assert_int_eq(strncmp(words, motion[row - 1], strlen(motion[row - 1])) == 0, copy);
+    if (!copy) ck_assert_int_eq(*words, '\0');
+    copies += copy;
+  }
+  ck_assert_int_gt(copies, 0);
+  free(motion);
+  csv_destroy(&c);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+/* A metre is a thousand millimetres, and of what is no unit nobody knows how long a tail is. */
+START_TEST(sizes_follow_the_units)
+{
+  thr_frame f = shape_make(THR_MAKE_DOME, 5, 0);
+  thr_plan mm = plan_simple(&f, THR_ENDS_FEET, 1), m = plan_simple(&f, THR_ENDS_FEET, 1),
+           cubits = plan_simple(&f, THR_ENDS_FEET, 1);
+  mm.options.physics.cord_diameter = m.options.physics.cord_diameter = 1.5;
+  snprintf(m.frame.units, sizeof m.frame.units, "m");
+  snprintf(cubits.frame.units, sizeof cubits.frame.units, "cu,bi\nts");
+  csv a = table_of(&mm, CORDS, NULL), b = table_of(&m, CORDS, NULL), c = table_of(&cubits, CORDS, NULL),
+      d = table_of(&cubits, BEADS, NULL);
+  static const char *const known[] = {"tails", "knots", "turns"};
+  for (int i = 0; i < 3; i++) {
+    ck_assert_double_eq_tol(number(&a, 1, known[i]) / 1000, number(&b, 1, known[i]), 1e-8);
+    assert_says(&c, 1, known[i], "");
+  }
+  assert_says(&c, 1, "cut", "");
+  assert_says(&c, 1, "unit", "cu,bi\nts");
+  for (int row = 1; row < d.n_rows; row++) {
+    assert_says(&d, row, "bore_mm", "");
+    ck_assert_double_ge(number(&d, row, "bore_cords"), 1);
+  }
+  csv_destroy(&a);
+  csv_destroy(&b);
+  csv_destroy(&c);
+  csv_destroy(&d);
+  thr_plan_destroy(&mm);
+  thr_plan_destroy(&m);
+  thr_plan_destroy(&cubits);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* ---- beads ---- */
+
+/* Passes over an edge, or of cords at a node, in the JSON. */
+static int count_in(const json_plan *j, const char *key, int number)
+{
+  const thr_json *cords = thr_json_get(j->doc, "cords");
+  int n = 0;
+  for (int c = 0; c < thr_json_size(cords); c++) {
+    const thr_json *cord = thr_json_at(cords, c), *list = thr_json_get(cord, key);
+    bool skip = strcmp(key, "nodes") == 0 && thr_json_true(thr_json_get(cord, "closed")); /* its end is its start */
+    for (int k = skip; k < thr_json_size(list); k++)
+      n += item(cord, key, k) == number;
+  }
+  return n;
+}
+
+static void assert_bore(const csv *c, int row, int passes, double cord)
+{
+  static const double best[] = {1, 2, 2.1548, 2.4143, 2.7014, 3, 3};
+  double cords = number(c, row, "bore_cords"), mm = number(c, row, "bore_mm");
+  ck_assert_int_le(passes, 7);
+  ck_assert_double_eq_tol(cords, best[passes - 1], 1e-4);
+  ck_assert(mm >= cords * cord - 1e-5 && mm < cords * cord + 0.01);
+}
+
+START_TEST(beads_are_the_framework)
+{
+  thr_plan p = plan_number(_i);
+  thr_physics sizes;
+  json_plan j = json_of(&p);
+  csv c = table_of(&p, BEADS, NULL);
+  const thr_frame *f = &p.frame;
+  ck_assert_int_eq(thr_physics_resolve(&p.options.physics, f, &sizes, NULL), THR_OK);
+  ck_assert_int_eq(c.n_rows - 1, f->n_edges + f->n_nodes);
+  for (int row = 1; row < c.n_rows; row++) {
+    int i = row - 1 < f->n_edges ? row - 1 : row - 1 - f->n_edges, most = 0;
+    ck_assert_int_eq(integer(&c, row, "number"), i);
+    assert_says(&c, row, "bead", row - 1 < f->n_edges ? "edge" : "node");
+    if (row - 1 < f->n_edges) {
+      ck_assert_int_eq(integer(&c, row, "passes"), count_in(&j, "edges", i));
+      ck_assert_double_eq_tol(number(&c, row, "length"), distance(&j, f->edge[i][0], f->edge[i][1]), 1e-6);
+      ck_assert_int_eq(integer(&c, row, "from_degree"), thr_degree(f, f->edge[i][0]));
+      ck_assert_int_eq(integer(&c, row, "to_degree"), thr_degree(f, f->edge[i][1]));
+      assert_says(&c, row, "to_foot", f->foot[f->edge[i][1]] ? "yes" : "no");
+      assert_bore(&c, row, count_in(&j, "edges", i), sizes.cord_diameter);
+      continue;
+    }
+    double arms = 0;
+    for (int e = 0; e < f->n_edges; e++) {
+      if (f->edge[e][0] != i && f->edge[e][1] != i) continue;
+      arms += distance(&j, f->edge[e][0], f->edge[e][1]) / 2;
+      if (count_in(&j, "edges", e) > most) most = count_in(&j, "edges", e);
+    }
+    ck_assert_int_eq(integer(&c, row, "passes"), count_in(&j, "nodes", i));
+    ck_assert_double_eq_tol(number(&c, row, "length"), arms, 1e-6);
+    assert_says(&c, row, "from_foot", f->foot[i] ? "yes" : "no");
+    assert_bore(&c, row, most, sizes.cord_diameter);
+  }
+  csv_destroy(&c);
+  json_destroy(&j);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+START_TEST(tube_joints_have_no_node_beads)
+{
+  thr_frame f = grid_make(3, 3);
+  thr_plan p = plan_simple(&f, THR_ENDS_CLOSED, 2);
+  p.options.joint = THR_JOINT_TUBE;
+  csv c = table_of(&p, BEADS, NULL);
+  ck_assert_int_eq(c.n_rows - 1, f.n_edges);
+  csv_destroy(&c);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* ---- what can go wrong ---- */
+
+START_TEST(names_are_quoted)
+{
+  thr_frame f = ring_make(5);
+  static const char *const name[] = {"a,b", "say \"x\"", "plain", "\"", "line\nbreak"};
+  static const char *const label[] = {"a,b", "say_\"x\"", "plain", "\"", "line_break"};
+  for (int v = 0; v < 5; v++) {
+    free(f.name[v]);
+    f.name[v] = thr_strdup(name[v]);
+  }
+  thr_plan p = plan_simple(&f, THR_ENDS_CLOSED, 1);
+  csv c = table_of(&p, STEPS, NULL);
+  ck_assert_int_eq(c.n_rows, 6);
+  for (int row = 1; row < c.n_rows; row++)
+    assert_says(&c, row, "from", label[integer(&c, row, "from_node")]);
+  csv_destroy(&c);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(broken_plans_are_refused)
+{
+  for (int k = 0; k < N_TABLES; k++) {
+    thr_plan p = plan_number(0);
+    thr_text t = {0};
+    thr_err err = {0};
+    int half = p.cord[0].half[2], n = p.n_cords;
+    p.cord[0].half[2] = 1000;
+    ck_assert_int_eq(make(&p, (kind)k, NULL, &t, &err), THR_EINPUT);
+    assert_one_line(&err, "edge 500");
+    p.cord[0].half[2] = half;
+    p.n_cords = 0;
+    err = (thr_err){0};
+    ck_assert_int_eq(make(&p, (kind)k, NULL, &t, &err), THR_EINPUT);
+    assert_one_line(&err, "no cord");
+    p.n_cords = n;
+    p.options.physics.cord_diameter = 3;
+    p.options.physics.bore = 2;
+    err = (thr_err){0};
+    ck_assert_uint_eq(t.length, 0);
+    ck_assert_int_eq(make(&p, (kind)k, NULL, &t, &err), k == STEPS ? THR_OK : THR_EINPUT);
+    if (k != STEPS) assert_one_line(&err, "bore");
+    ck_assert_int_eq(t.length > 0, k == STEPS);
+    thr_text_destroy(&t);
+    thr_plan_destroy(&p);
+  }
+}
+END_TEST
+
+START_TEST(every_allocation_may_fail)
+{
+  thr_plan p = plan_number(0);
+  thr_status st = THR_ENOMEM;
+  for (long k = 1; st; k++) {
+    thr_text t = {0};
+    thr_err err = {0};
+    thr_alloc_fail_at(k);
+    st = make(&p, (kind)_i, NULL, &t, &err);
+    thr_alloc_fail_at(0);
+    if (st) {
+      ck_assert_int_eq(st, THR_ENOMEM);
+      ck_assert_uint_eq(t.length, 0);
+      assert_one_line(&err, "memory");
+    }
+    thr_text_destroy(&t);
+    ck_assert_int_lt(k, 100000);
+  }
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+int main(void)
+{
+  Suite *s = suite_create("tables");
+  ADD_LOOP(s, 30, steps_are_the_plan, 0, N_PLANS);
+  ADD_TEST(s, 20, left_is_left_on_flat_ground);
+  ADD_LOOP(s, 30, cords_are_cut_long_enough, 0, N_PLANS);
+  ADD_TEST(s, 20, repetitions_are_said);
+  ADD_TEST(s, 20, sizes_follow_the_units);
+  ADD_LOOP(s, 30, beads_are_the_framework, 0, N_PLANS);
+  ADD_TEST(s, 20, tube_joints_have_no_node_beads);
+  ADD_TEST(s, 20, names_are_quoted);
+  ADD_TEST(s, 20, broken_plans_are_refused);
+  ADD_LOOP(s, 60, every_allocation_may_fail, 0, N_TABLES);
+  return run_suite(s);
+}

@@ -1,0 +1,96 @@
+// The plan as the page holds it (diagram/viewer.c writes it), unrolled into steps: one per pass, unique paths before their
+// copies.
+
+// 32-bit FNV-1a over integers: tells one plan of a framework from another.
+function hash(numbers) {
+  let h = 0x811c9dc5;
+  for (const n of numbers) {
+    for (let shift = 0; shift < 32; shift += 8) h = Math.imul(h ^ ((n >>> shift) & 255), 0x01000193) >>> 0;
+  }
+  return h.toString(16).padStart(8, '0');
+}
+
+// Cords in the order of threading: a unique path, then its copies, then the next path.
+function orderOf(cords) {
+  const copies = cords.map(() => []);
+  cords.forEach((cord, c) => cord.of !== c && copies[cord.of].push(c));
+  return cords.flatMap((cord, c) => (cord.of === c ? [c, ...copies[c]] : []));
+}
+
+export function readPlan(text) {
+  const plan = JSON.parse(text);
+  const held = new Int32Array(plan.edges.length), last = new Int32Array(plan.edges.length).fill(-1);
+  const steps = [];
+  plan.order = orderOf(plan.cords);
+  plan.tail = (h) => plan.edges[h >> 1][h & 1];
+  plan.head = (h) => plan.edges[h >> 1][1 - (h & 1)];
+  for (const c of plan.order) {
+    const cord = plan.cords[c];
+    let used = 0;
+    cord.first = steps.length;
+    cord.half.forEach((half, k) => {
+      const edge = half >> 1;
+      used += plan.lengths[edge];
+      steps.push({cord: c, k, half, edge, visit: ++held[edge], back: last[edge] === (half ^ 1), used});
+      last[edge] = half;
+    });
+    cord.total = used;
+  }
+  plan.steps = steps;
+  plan.most = held.reduce((a, b) => Math.max(a, b), 1);
+  plan.key = `thread-viewer:${plan.frame}:${hash(plan.cords.flatMap((cord) => [cord.half.length, ...cord.half]))}`;
+  return plan;
+}
+
+export const plural = (n, word) => `${n} ${word}${n === 1 ? '' : word.endsWith('s') ? 'es' : 's'}`;
+
+// "1234 mm", with about four digits.
+export function lengthText(value, units) {
+  const digits = value >= 1000 ? 0 : value >= 100 ? 1 : value >= 10 ? 2 : 3;
+  return `${value.toFixed(digits)} ${units}`;
+}
+
+export function forceText(newton) {
+  return `${newton >= 1e6 ? newton.toExponential(2) : newton >= 100 ? newton.toFixed(0) : newton.toPrecision(3)} N`;
+}
+
+// What to do in a step, for its pass: "turn left 90 degrees to C4, pick up bead 12".
+export function instruction(plan, step) {
+  const cord = plan.cords[step.cord], from = plan.places[plan.tail(step.half)], to = plan.places[plan.head(step.half)];
+  const way = step.k === 0 ? `start at ${from}, go to ${to}` : `${cord.turns[step.k]} to ${to}`;
+  if (step.visit === 1) return `${way}: pick up bead ${step.edge}`;
+  return `${way}: pass ${step.back ? 'back ' : ''}through bead ${step.edge} (${plan.nth[step.visit - 1]} pass)`;
+}
+
+// How far along, after a step.
+export function progress(plan, step) {
+  const cord = plan.cords[step.cord], left = cord.total - step.used;
+  const end = step.k + 1 === cord.half.length;
+  const length = `cord used ${lengthText(step.used, plan.units)}`;
+  if (end) return `${length}; the needle comes out at ${plan.places[plan.head(step.half)]}`;
+  return `${length}, left ${lengthText(Math.max(left, 0), plan.units)}`;
+}
+
+// Steps done after the pass called "17" (of all) or "B17" (of a cord); NaN if there is none.
+export function findPass(plan, text) {
+  const parts = /^\s*([A-Za-z]*)\s*([0-9]+)\s*$/.exec(text);
+  if (!parts) return NaN;
+  const number = Number(parts[2]);
+  if (!parts[1]) return number <= plan.steps.length ? number : NaN;
+  const cord = plan.cords.find((one) => one.id.toUpperCase() === parts[1].toUpperCase());
+  return cord && number >= 1 && number <= cord.half.length ? cord.first + number : NaN;
+}
+
+// Bead (edge) called "12" or by its two places, "A1 B1"; -1 if there is none.
+export function findBead(plan, text) {
+  const words = text.trim().split(/[\s,;–]+/).filter(Boolean);
+  if (words.length === 1 && /^[0-9]+$/.test(words[0])) return Number(words[0]) < plan.edges.length ? Number(words[0]) : -1;
+  if (words.length !== 2) return -1;
+  const [a, b] = words.map((word) => plan.labels.findIndex((label) => label.toUpperCase() === word.toUpperCase()));
+  return plan.edges.findIndex((edge) => a >= 0 && b >= 0 && edge.includes(a) && edge.includes(b));
+}
+
+// Steps done after each pass through a bead.
+export function passesThrough(plan, bead) {
+  return plan.steps.flatMap((step, i) => (step.edge === bead ? [i + 1] : []));
+}

@@ -1,0 +1,308 @@
+// The picture in space: beads, cords, feet, the camera. Draws only when something changed.
+import {
+  AmbientLight, BufferAttribute, BufferGeometry, Color, ConeGeometry, CylinderGeometry, DirectionalLight, Fog, InstancedMesh,
+  LatheGeometry, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, Quaternion, Raycaster, Scene,
+  Sphere, SphereGeometry, Vector2, Vector3, WebGLRenderer,
+} from 'three';
+import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
+import {across, centreLine, frames, lanes, sizesOf, tubes} from './strands.js';
+
+// Coarser shapes for more beads or passes, so that the picture moves fluently.
+const detailOf = (count) => (count < 700 ? 0 : count < 6000 ? 1 : 2);
+
+export class Stage {
+  constructor(plan, canvas, onView) {
+    this.plan = plan;
+    this.canvas = canvas;
+    this.onView = onView;
+    this.nodes = plan.nodes.map((p) => new Vector3(...p));
+    this.sizes = sizesOf(plan, this.nodes);
+    this.frame = frames(plan, this.nodes);
+    this.lane = lanes(plan, this.nodes, this.sizes, this.frame);
+    this.renderer = new WebGLRenderer({canvas, antialias: true});
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
+    this.scene = new Scene();
+    this.scene.fog = new Fog(0xffffff); // the far side of a shell is paler
+    this.camera = new PerspectiveCamera(38, 1, 0.1, 100);
+    this.camera.up.set(0, 0, 1);
+    this.scene.add(this.camera, new AmbientLight(0xffffff, 1.9));
+    const lamp = new DirectionalLight(0xffffff, 1.7);
+    lamp.position.set(-0.5, 0.8, 1);
+    this.camera.add(lamp);
+    this.addBeads();
+    this.addFeet();
+    this.addCords();
+    this.addNeedle();
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.addEventListener('change', () => this.request());
+    this.resize();
+    this.reset();
+    new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
+    canvas.addEventListener('webglcontextrestored', () => this.request());
+  }
+
+  addBeads() {
+    const {plan, sizes} = this, count = plan.edges.length, at = new Matrix4(), turn = new Quaternion(), up = new Vector3(0, 1, 0);
+    // a barrel of length and radius 1, closed by caps that are half round on a bead of usual length
+    const cap = Math.min(0.3, (0.7 * sizes.radius) / (0.56 * sizes.pitch)), outline = [];
+    const detail = detailOf(count), rings = [5, 2, 2][detail];
+    for (let i = 0; i <= rings; i++) {
+      const angle = (0.5 * Math.PI * i) / rings;
+      outline.push(new Vector2(Math.sin(angle), -0.5 + cap * (1 - Math.cos(angle))));
+    }
+    const shape = new LatheGeometry([...outline, ...outline.map((p) => new Vector2(p.x, -p.y)).reverse()], [16, 8, 6][detail]);
+    this.beads = new InstancedMesh(shape, new MeshLambertMaterial(), count);
+    this.beadMatrix = plan.edges.map(([a, b], e) => {
+      const radius = Math.min(sizes.radius, 0.28 * sizes.lengths[e]), length = sizes.lengths[e] - 2 * sizes.gap[e];
+      turn.setFromUnitVectors(up, this.frame[e].axis);
+      const middle = this.nodes[a].clone().lerp(this.nodes[b], 0.5);
+      return {middle, turn: turn.clone(), scale: new Vector3(radius, Math.max(length, 0.4 * radius), radius)};
+    });
+    this.beadMatrix.forEach((m, e) => this.beads.setMatrixAt(e, at.compose(m.middle, m.turn, m.scale)));
+    this.beads.setColorAt(0, new Color());
+    this.scene.add(this.beads);
+  }
+
+  addFeet() {
+    const {plan, sizes} = this, at = new Matrix4();
+    if (!plan.feet.length) return;
+    const pad = new CylinderGeometry(1.5 * sizes.radius, 2.1 * sizes.radius, 1.2 * sizes.radius, 20).rotateX(Math.PI / 2);
+    this.feet = new InstancedMesh(pad, new MeshLambertMaterial(), plan.feet.length);
+    plan.feet.forEach((v, i) => {
+      const p = this.nodes[v];
+      this.feet.setMatrixAt(i, at.makeTranslation(p.x, p.y, p.z - 1.6 * sizes.radius));
+    });
+    this.scene.add(this.feet);
+  }
+
+  addCords() {
+    const {plan, sizes, lane} = this, detail = detailOf(plan.steps.length);
+    const material = new MeshBasicMaterial({vertexColors: true}); // no shading: exactly the colours of the captions
+    this.cords = plan.cords.map((cord) => {
+      const lines = cord.half.map((_, k) => centreLine(plan, this.nodes, sizes, lane, cord.first + k, [10, 5, 3][detail]));
+      const tube = tubes(lines, sizes.cord, [7, 4, 4][detail]), geometry = new BufferGeometry();
+      geometry.setAttribute('position', new BufferAttribute(tube.position, 3));
+      geometry.setAttribute('normal', new BufferAttribute(tube.normal, 3));
+      geometry.setAttribute('color', new BufferAttribute(new Float32Array(tube.position.length), 3));
+      geometry.setIndex(new BufferAttribute(tube.index, 1));
+      const mesh = new Mesh(geometry, material);
+      mesh.frustumCulled = false;
+      this.scene.add(mesh);
+      return {mesh, tube, painted: ''};
+    });
+  }
+
+  // The pass under way: thicker, with an arrow; and a ball where the needle is.
+  addNeedle() {
+    this.needleMaterial = new MeshBasicMaterial({fog: false});
+    this.current = new Mesh(new BufferGeometry(), this.needleMaterial);
+    this.arrow = new Mesh(new ConeGeometry(3.4 * this.sizes.cord, 9 * this.sizes.cord, 18), this.needleMaterial);
+    this.ball = new Mesh(new SphereGeometry(2.1 * this.sizes.cord, 18, 12), this.needleMaterial);
+    for (const mesh of [this.current, this.arrow, this.ball]) {
+      mesh.frustumCulled = false;
+      this.scene.add(mesh);
+    }
+  }
+
+  // Colours of the page: bare, held, now, next, foot, paper as CSS colours.
+  setTheme(colours) {
+    this.theme = Object.fromEntries(Object.entries(colours).map(([name, css]) => [name, new Color(css)]));
+    this.renderer.setClearColor(this.theme.paper);
+    this.scene.fog.color.copy(this.theme.paper);
+    if (this.feet) this.feet.material.color.copy(this.theme.foot);
+    this.request();
+  }
+
+  paint(c, colours) {
+    const {mesh, tube} = this.cords[c], key = colours.join();
+    if (this.cords[c].painted === key) return;
+    this.cords[c].painted = key;
+    const attribute = mesh.geometry.getAttribute('color'), colour = new Color();
+    let vertex = 0;
+    tube.vertexEnd.forEach((end, k) => {
+      colour.set(colours[k % colours.length]);
+      for (; vertex < end; vertex++) attribute.setXYZ(vertex, colour.r, colour.g, colour.b);
+    });
+    attribute.needsUpdate = true;
+  }
+
+  // Shows the plan with so many steps done. colours(c): of a cord's passes; hidden: set of cords; current: colour of the pass.
+  show(done, colours, hidden, current) {
+    const {plan} = this, held = new Uint8Array(plan.edges.length);
+    for (let i = 0; i < done; i++) held[plan.steps[i].edge] = 1;
+    const now = done ? plan.steps[done - 1].edge : -1, next = done < plan.steps.length ? plan.steps[done].edge : -1;
+    for (let e = 0; e < held.length; e++) {
+      const look = e === now ? 'now' : e === next ? 'next' : held[e] ? 'held' : 'bare';
+      this.beads.setColorAt(e, this.theme[look]);
+    }
+    this.beads.instanceColor.needsUpdate = true;
+    this.swell(now);
+    this.cords.forEach(({mesh, tube}, c) => {
+      const passes = Math.min(Math.max(done - plan.cords[c].first, 0), plan.cords[c].half.length);
+      mesh.visible = passes > 0 && !hidden.has(c);
+      mesh.geometry.setDrawRange(0, passes ? tube.indexEnd[passes - 1] : 0);
+      if (mesh.visible) this.paint(c, colours(c));
+    });
+    this.showNeedle(done, current, hidden);
+    this.request();
+    return {now, next};
+  }
+
+  // The bead in hand is a little thicker.
+  swell(bead) {
+    const at = new Matrix4(), set = (e, factor) => {
+      const {middle, turn, scale} = this.beadMatrix[e];
+      this.beads.setMatrixAt(e, at.compose(middle, turn, new Vector3(scale.x * factor, scale.y, scale.z * factor)));
+    };
+    if (this.swollen >= 0) set(this.swollen, 1);
+    if (bead >= 0) set(bead, 1.12);
+    this.swollen = bead;
+    this.beads.instanceMatrix.needsUpdate = true;
+  }
+
+  showNeedle(done, colour, hidden) {
+    const {plan, sizes} = this, visible = done > 0 && !hidden.has(plan.steps[done - 1].cord);
+    for (const mesh of [this.current, this.arrow, this.ball]) mesh.visible = visible;
+    if (!visible) return;
+    const i = done - 1, {from, to, along} = this.lane[i], line = centreLine(plan, this.nodes, sizes, this.lane, i, 12);
+    const tube = tubes([line], 1.7 * sizes.cord, 10), geometry = new BufferGeometry();
+    geometry.setAttribute('position', new BufferAttribute(tube.position, 3));
+    geometry.setAttribute('normal', new BufferAttribute(tube.normal, 3));
+    geometry.setIndex(new BufferAttribute(tube.index, 1));
+    this.current.geometry.dispose();
+    this.current.geometry = geometry;
+    this.arrow.position.copy(from).lerp(to, 0.68);
+    this.arrow.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), along);
+    this.ball.position.copy(line[line.length - 1]);
+    this.needleMaterial.color.set(colour);
+  }
+
+  // ---- the camera ----
+
+  reset() {
+    const sphere = new Sphere().setFromPoints(this.nodes), size = new Vector3(), low = new Vector3(Infinity, Infinity, Infinity);
+    const high = low.clone().negate();
+    for (const p of this.nodes) low.min(p), high.max(p);
+    size.subVectors(high, low);
+    const flat = size.z < 0.1 * Math.hypot(size.x, size.y), view = flat ? new Vector3(0, -0.35, 1) : new Vector3(0.45, -1, 0.75);
+    this.middle = sphere.center;
+    this.radius = sphere.radius;
+    const {target, far} = this.showAll(view.normalize());
+    this.camera.near = Math.min(0.01 * far, 0.2 * this.sizes.pitch);
+    this.camera.far = 6 * far + 4 * sphere.radius;
+    this.camera.updateProjectionMatrix();
+    this.controls.minDistance = 0.8 * this.sizes.pitch;
+    this.controls.maxDistance = 5 * far;
+    this.controls.target.copy(target);
+    this.camera.position.copy(target).addScaledVector(view, far);
+    this.controls.update();
+    this.request();
+  }
+
+  // Target and distance at which all nodes fill the picture, looking against the unit vector view.
+  showAll(view) {
+    const right = across(view, new Vector3(-view.y, view.x, 0)), up = new Vector3().crossVectors(view, right);
+    const high = 0.9 * Math.tan((this.camera.fov * Math.PI) / 360), wide = high * this.camera.aspect;
+    const room = 2 * this.sizes.radius;
+    const arms = this.nodes.map((node) => node.clone().sub(this.middle));
+    const centre = (axis) => {
+      const along = arms.map((arm) => arm.dot(axis));
+      return (along.reduce((a, b) => Math.max(a, b)) + along.reduce((a, b) => Math.min(a, b))) / 2;
+    };
+    const shift = right.clone().multiplyScalar(centre(right)).addScaledVector(up, centre(up));
+    const far = arms.reduce((most, arm) => {
+      arm.sub(shift);
+      const need = Math.max((Math.abs(arm.dot(right)) + room) / wide, (Math.abs(arm.dot(up)) + room) / high);
+      return Math.max(most, need + arm.dot(view));
+    }, this.sizes.pitch);
+    return {target: this.middle.clone().add(shift), far};
+  }
+
+  turn(right, up) {
+    const {camera, controls} = this, arm = camera.position.clone().sub(controls.target), z = new Vector3(0, 0, 1);
+    arm.applyAxisAngle(z, right);
+    const tilt = arm.angleTo(z), wanted = Math.min(Math.max(tilt - up, 0.02), Math.PI - 0.02);
+    const axis = new Vector3().crossVectors(z, arm);
+    if (axis.lengthSq() > 0) arm.applyAxisAngle(axis.normalize(), wanted - tilt);
+    camera.position.copy(controls.target).add(arm);
+    controls.update();
+  }
+
+  move(right, up) {
+    const {camera, controls} = this, reach = 0.1 * camera.position.distanceTo(controls.target);
+    const by = new Vector3(right * reach, up * reach, 0).applyQuaternion(camera.quaternion);
+    camera.position.add(by);
+    controls.target.add(by);
+    controls.update();
+  }
+
+  zoom(factor) {
+    const {camera, controls} = this, arm = camera.position.clone().sub(controls.target);
+    const length = Math.min(Math.max(arm.length() * factor, controls.minDistance), controls.maxDistance);
+    camera.position.copy(controls.target).add(arm.setLength(length));
+    controls.update();
+  }
+
+  // Looks at a bead from outside, near enough to see its neighbours.
+  face(bead, still) {
+    const {camera, controls, sizes} = this, {middle} = this.beadMatrix[bead], {out} = this.frame[bead];
+    const far = Math.min(9 * sizes.pitch, 2.5 * this.radius + 3 * sizes.pitch), view = out.clone();
+    if (Math.abs(view.z) > 0.97) view.y -= 0.3; // from straight above the picture would spin
+    const goal = middle.clone().addScaledVector(view.normalize(), far);
+    cancelAnimationFrame(this.flight);
+    if (still) {
+      camera.position.copy(goal);
+      controls.target.copy(middle);
+      controls.update();
+      return;
+    }
+    const arm = camera.position.clone().sub(controls.target), target = controls.target.clone(), begun = performance.now();
+    const goalArm = goal.sub(middle), length = arm.length();
+    const fly = (time) => {
+      const t = Math.min(1, (time - begun) / 350), s = t * t * (3 - 2 * t);
+      controls.target.lerpVectors(target, middle, s);
+      const way = arm.clone().normalize().lerp(goalArm.clone().normalize(), s);
+      if (way.lengthSq() < 1e-4) way.copy(across(arm.clone().normalize(), new Vector3(0, 0, 1)));
+      camera.position.copy(controls.target).addScaledVector(way.normalize(), length + (goalArm.length() - length) * s);
+      controls.update();
+      if (t < 1) this.flight = requestAnimationFrame(fly);
+    };
+    this.flight = requestAnimationFrame(fly);
+  }
+
+  // Where a point is in the picture, in CSS pixels; depth > 1: behind the viewer.
+  project(point) {
+    const p = point.clone().project(this.camera), {clientWidth, clientHeight} = this.canvas;
+    return {x: ((p.x + 1) / 2) * clientWidth, y: ((1 - p.y) / 2) * clientHeight, depth: p.z};
+  }
+
+  // The bead under a point of the canvas (CSS pixels), or -1.
+  pick(x, y) {
+    const {clientWidth, clientHeight} = this.canvas, ray = new Raycaster();
+    ray.setFromCamera(new Vector2((2 * x) / clientWidth - 1, 1 - (2 * y) / clientHeight), this.camera);
+    const hit = ray.intersectObject(this.beads)[0];
+    return hit ? hit.instanceId : -1;
+  }
+
+  resize() {
+    const {clientWidth, clientHeight} = this.canvas.parentElement;
+    if (!clientWidth || !clientHeight) return;
+    this.renderer.setSize(clientWidth, clientHeight, false);
+    this.camera.aspect = clientWidth / clientHeight;
+    this.camera.updateProjectionMatrix();
+    this.request();
+  }
+
+  request() {
+    if (this.waiting) return;
+    this.waiting = true;
+    requestAnimationFrame(() => {
+      this.waiting = false;
+      const far = this.camera.position.distanceTo(this.middle);
+      this.scene.fog.near = far;
+      this.scene.fog.far = far + 2.2 * this.radius;
+      this.renderer.render(this.scene, this.camera);
+      this.onView();
+    });
+  }
+}
