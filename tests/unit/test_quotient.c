@@ -192,7 +192,10 @@ START_TEST(refusals)
 
   q = quotient_of(&f, &g, &h);
   bool end_node[8] = {true};
-  thr_cover_options o = {1, THR_ENDS_NODES, end_node, {THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_PATHS, THR_AIM_TURNING}};
+  thr_cover_options o = {.cover = 1,
+                         .ends = THR_ENDS_NODES,
+                         .end_node = end_node,
+                         .prefer = {THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_PATHS, THR_AIM_TURNING}};
   thr_limits none = {0};
   err = (thr_err){0};
   ck_assert_int_eq(thr_cover_find(&q, &o, &none, &c, &err), THR_EINPUT); /* the group moves the end to another node */
@@ -230,7 +233,8 @@ START_TEST(every_allocation_fails_once)
   thr_frame f = grid_make(3, 3);
   thr_group g = whole_group(&f);
   thr_subgroup h = everything(&g);
-  thr_cover_options o = {1, THR_ENDS_FEET, NULL, {THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_PATHS, THR_AIM_TURNING}};
+  thr_cover_options o = {
+      .cover = 1, .ends = THR_ENDS_FEET, .prefer = {THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_PATHS, THR_AIM_TURNING}};
   thr_limits none = {0};
   thr_status st = THR_ENOMEM;
   for (long k = 1; st; k++) {
