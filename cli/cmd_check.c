@@ -51,6 +51,23 @@ static void put_symmetry(thr_text *t, const thr_plan *p)
                   s->order, s->unique_paths, cli_plural(s->unique_paths, "path", "paths"), s->steps);
 }
 
+/* What was verified of several cords, where the plan asked for it. */
+static void put_cords(thr_text *t, const thr_plan *p)
+{
+  const thr_cords_claim *c = &p->cords_claim;
+  if (c->present && p->options.balance) {
+    thr_text_printf(t, "; longest cord %.6f %s: ", c->longest, p->frame.units);
+    if (c->longest_optimal)
+      thr_text_append(t, "optimal, verified");
+    else
+      thr_text_printf(t, "lower bound %.6f verified, gap %.3g %%", c->longest_bound,
+                      100 * (c->longest - c->longest_bound) / c->longest);
+  }
+  if (c->present && c->fewest > 0)
+    thr_text_printf(t, c->fewest_optimal ? "; no fewer than %d cords, verified" : "; at least %d cords, verified", c->fewest);
+  if (p->options.joint == THR_JOINT_TUBE) thr_text_append(t, "; every joint tied");
+}
+
 static void put_verdict(thr_text *t, const char *path, const thr_plan *p)
 {
   const thr_metrics *m = &p->metrics;
@@ -64,6 +81,7 @@ static void put_verdict(thr_text *t, const char *path, const thr_plan *p)
     thr_text_printf(t, "optimal, certificate verified (%d %s)", cuts, cli_plural(cuts, "odd cut", "odd cuts"));
   else
     thr_text_printf(t, "lower bound %.6f verified, gap %.3g %%", p->proof.lower_bound, 100 * p->proof.gap);
+  put_cords(t, p);
   put_turning(t, p);
   put_symmetry(t, p);
   thr_text_append(t, "\n");
@@ -85,6 +103,15 @@ static void put_turning_json(thr_text *t, const thr_plan *p)
   put_number(t, "price_lower_bound", c->lower_bound);
   put_number(t, "turning_gap", c->gap);
   if (c->length_limit >= 0) put_number(t, "length_limit", c->length_limit);
+}
+
+static void put_cords_json(thr_text *t, const thr_plan *p)
+{
+  const thr_cords_claim *c = &p->cords_claim;
+  if (!c->present) return;
+  put_number(t, "longest", c->longest);
+  put_number(t, "longest_lower_bound", c->longest_bound);
+  if (c->fewest > 0) put_number(t, "fewest_cords", c->fewest);
 }
 
 static void put_symmetry_json(thr_text *t, const thr_symmetry_record *s)
@@ -110,6 +137,7 @@ static void put_json(thr_text *t, const char *path, const thr_plan *p, const thr
       thr_text_append(t, ", \"gap\": ");
       thr_text_double(t, p->proof.gap);
     }
+    put_cords_json(t, p);
     if (p->options.objective == THR_TORTUOSITY) put_turning_json(t, p);
     if (p->symmetry.present) put_symmetry_json(t, &p->symmetry);
   }
