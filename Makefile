@@ -219,7 +219,7 @@ $(DIR)/%.o: %.S %.html $(DIR)/flags.list
 	@echo "  AS    $@"
 	$(Q)$(COMPILER) $(MODE_$(BUILD)) $(CFLAGS) -c -o $@ $<
 
-$(DIR)/eval/spqr.o: private THR_CPPFLAGS += $(SPQR_CFLAGS)
+$(DIR)/eval/spqr.o $(OUT)/tidy/eval/spqr.ok: private THR_CPPFLAGS += $(SPQR_CFLAGS)
 $(TEST_PROGRAMS:%=%.o) $(TEST_SUPPORT): private THR_CPPFLAGS += $(CHECK_CFLAGS)
 $(TEST_PROGRAMS): $(DIR)/%: $(DIR)/%.o $(TEST_SUPPORT) $(LIBRARY)
 	@echo "  LINK  $@"

@@ -66,10 +66,11 @@ static thr_status rank_of(const thr_frame *f, const velocities *s, int *rank, bo
 {
   matrix a;
   int coarse = 0;
+  *rank = 0;
   thr_status st = matrix_make(&a, f, s, err);
   if (!st) st = thr_rank(f->n_edges, a.n_columns, a.start, a.row, a.value, ROUNDING, rank, err);
   if (!st) st = thr_rank(f->n_edges, a.n_columns, a.start, a.row, a.value, DOUBT, &coarse, err);
-  *unclear |= coarse != *rank;
+  *unclear |= !st && coarse != *rank;
   matrix_destroy(&a);
   return st;
 }

@@ -107,8 +107,8 @@ static thr_status solve_at(search *s, int64_t price, point *at, thr_err *err)
  * graph it is the lightest closed one. */
 static thr_status solve_fewest(search *s, point *at, thr_err *err)
 {
-  int m = s->p->graph.n_edges, n_pieces = s->n_pieces, (*edge)[2] = thr_calloc((size_t)(m + n_pieces), sizeof *edge);
-  int64_t *weight = thr_calloc((size_t)(m + n_pieces), sizeof *weight);
+  int m = s->p->graph.n_edges, n_pieces = s->n_pieces, (*edge)[2] = thr_calloc((size_t)m + (size_t)n_pieces, sizeof *edge);
+  int64_t *weight = thr_calloc((size_t)m + (size_t)n_pieces, sizeof *weight);
   *at = (point){.price = 2 * s->p->far, .no_hub = true};
   thr_status st = edge && weight ? THR_OK : thr_nomem(err), limit = THR_OK;
   if (!st) {

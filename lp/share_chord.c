@@ -43,8 +43,8 @@ static thr_status split(thr_ways *x, const thr_share *s, int i, const chord *c, 
   for (int v = end; x->over[v] >= 0; v = thr_tail(f, x->over[v]))
     n++;
   thr_trail *old = &w->walk[i];
-  thr_trail one = {section + n, thr_calloc((size_t)(section + n), sizeof *one.half), 0, true};
-  thr_trail two = {old->n - section + n, thr_calloc((size_t)(old->n - section + n), sizeof *two.half), 0, true};
+  thr_trail one = {section + n, thr_calloc((size_t)section + (size_t)n, sizeof *one.half), 0, true};
+  thr_trail two = {old->n - section + n, thr_calloc((size_t)(old->n - section) + (size_t)n, sizeof *two.half), 0, true};
   if (!one.half || !two.half) {
     free(one.half);
     free(two.half);
@@ -70,14 +70,14 @@ static thr_status dissolve(const thr_share *s, int i, int n, int *passes, thr_tr
   const thr_frame *f = s->f;
   const thr_trail *x = &w->walk[i];
   int size = x->n;
-  *made = w->n_trails + size - 1 <= n;
+  *made = size > 1 && w->n_trails + size - 1 <= n;
   for (int k = 0; k < size && *made; k++) {
     int e = x->half[k] >> 1;
     *made = 2 * f->length[e] < x->length * (1 - 1e-9) && thr_plan_capacity(f, s->o, e) > passes[e];
   }
   if (!*made) return THR_OK;
   thr_status st = THR_OK;
-  for (int k = 0; k < size && !st; k++) {
+  for (int k = 1; k < size && !st; k++) {
     int *half = thr_calloc(2, sizeof *half), h = w->walk[i].half[k];
     if (!half) return thr_nomem(err);
     half[0] = h;
@@ -86,8 +86,11 @@ static thr_status dissolve(const thr_share *s, int i, int n, int *passes, thr_tr
     st = thr_trails_add(w, f, (thr_trail){2, half, 0, true}, err);
   }
   if (st) return st;
-  free(w->walk[i].half);
-  w->walk[i] = w->walk[--w->n_trails];
+  thr_trail *first = &w->walk[i]; /* keeps its first pass */
+  first->half[1] = first->half[0] ^ 1;
+  first->n = 2;
+  first->length = thr_trail_length(f, first->half, first->n);
+  passes[first->half[0] >> 1]++;
   return THR_OK;
 }
 

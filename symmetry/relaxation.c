@@ -391,8 +391,8 @@ thr_status thr_relaxation_init(thr_relaxation *r, const thr_programme *p, const 
 thr_status thr_relaxation_init_extra(thr_relaxation *r, const thr_programme *p, int extra, const thr_limits *limits, thr_err *err)
 {
   *r = (thr_relaxation){.p = p, .extra = extra};
-  r->x = thr_calloc((size_t)(p->n + extra), sizeof *r->x);
-  r->sum = thr_calloc((size_t)(p->n + extra), sizeof *r->sum);
+  r->x = thr_calloc((size_t)p->n + (size_t)extra, sizeof *r->x);
+  r->sum = thr_calloc((size_t)p->n + (size_t)extra, sizeof *r->sum);
   r->low = thr_calloc((size_t)p->n, sizeof *r->low);
   r->high = thr_calloc((size_t)p->n, sizeof *r->high);
   thr_status st = r->x && r->sum && r->low && r->high ? THR_OK : thr_nomem(err);
@@ -425,7 +425,7 @@ void thr_relaxation_destroy(thr_relaxation *r)
 thr_status thr_relaxation_aim(thr_relaxation *r, thr_aim aim, thr_err *err)
 {
   const thr_programme *p = r->p;
-  double *cost = thr_calloc((size_t)(p->n + r->extra), sizeof *cost);
+  double *cost = thr_calloc((size_t)p->n + (size_t)r->extra, sizeof *cost);
   if (!cost) return thr_nomem(err);
   for (int j = 0; j < p->n; j++)
     cost[j] = p->cost[aim][j] / p->scale[aim];

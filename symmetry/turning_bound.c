@@ -209,7 +209,7 @@ static thr_status set_costs(master *m, thr_err *err)
 {
   const thr_programme *small = &m->c->p;
   double scale = m->c->whole->scale[THR_AIM_TURNING];
-  double *cost = thr_calloc((size_t)(small->n + m->r->extra), sizeof *cost);
+  double *cost = thr_calloc((size_t)small->n + (size_t)m->r->extra, sizeof *cost);
   if (!cost) return thr_nomem(err);
   for (int y = 0; y < small->q->n_pairs; y++)
     cost[small->first_pair + y] = small->cost[THR_AIM_TURNING][small->first_pair + y] / scale;
@@ -476,7 +476,7 @@ static thr_status add_first_cuts(master *m, const int *cover, const int *first, 
 {
   const thr_contraction *c = m->c;
   int before, added = 0;
-  double *x = thr_calloc((size_t)(c->p.n + m->r->extra), sizeof *x);
+  double *x = thr_calloc((size_t)c->p.n + (size_t)m->r->extra, sizeof *x);
   bool *cut = thr_calloc((size_t)m->r->extra, sizeof *cut);
   thr_status st = x && cut ? add_quick_cuts(m, first, copy, err) : thr_nomem(err);
   before = thr_lp_rows(m->r->lp);
