@@ -1,5 +1,6 @@
 /* Frameworks whose symmetries are known. */
 #include "tests/symmetric.h"
+#include "symmetry/automorphisms.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -85,4 +86,29 @@ bool keeps_frame(const thr_frame *f, const int *edge_colour, const int *image)
   }
   free(hit);
   return good;
+}
+
+setting setting_make(int most, thr_frame f)
+{
+  setting s = {.f = f};
+  thr_automorphism_options plain = {0};
+  thr_automorphisms a;
+  ck_assert_int_eq(thr_automorphisms_find(&f, &plain, &a, NULL), THR_OK);
+  ck_assert_int_eq(thr_group_generate(a.n, a.generator, a.n_generators, THR_GROUP_CAP, &s.g, NULL), THR_OK);
+  ck_assert_int_eq(thr_subgroup_classes_find(&s.g, most, &s.classes, NULL), THR_OK);
+  thr_automorphisms_destroy(&a);
+  return s;
+}
+
+void setting_destroy(setting *s)
+{
+  thr_subgroup_classes_destroy(&s->classes);
+  thr_group_destroy(&s->g);
+  thr_frame_destroy(&s->f);
+}
+
+thr_cover_options cover_options(thr_ends ends, int cover)
+{
+  return (thr_cover_options){
+      .cover = cover, .ends = ends, .prefer = {THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_PATHS, THR_AIM_TURNING}};
 }

@@ -4,6 +4,8 @@
 
 #include "tests/support.h"
 #include "graph/make.h"
+#include "symmetry/cover.h"
+#include "symmetry/group.h"
 
 thr_frame shape_make(thr_shape shape, int size, int rings); /* as `thread make` does */
 thr_frame truncated_icosahedron(void);                      /* 60 nodes of degree 3, no feet */
@@ -13,5 +15,18 @@ thr_frame no_feet(thr_frame f); /* the same framework, whose feet it takes away 
 
 /* Does the permutation keep edges, feet and, where given, the colours of edges? */
 bool keeps_frame(const thr_frame *f, const int *edge_colour, const int *image);
+
+/* A framework with its whole group and that group's classes of subgroups. */
+typedef struct {
+  thr_frame f;
+  thr_group g;
+  thr_subgroup_classes classes;
+} setting;
+
+setting setting_make(int most, thr_frame f); /* at most so many classes; takes f over */
+void setting_destroy(setting *s);
+
+/* Aims in their usual order. */
+thr_cover_options cover_options(thr_ends ends, int cover);
 
 #endif

@@ -13,37 +13,6 @@ static const thr_limits none;
 
 /* ---- one framework under one group ---- */
 
-typedef struct {
-  thr_frame f;
-  thr_group g;
-  thr_subgroup_classes h;
-} subject;
-
-static subject subject_of(thr_frame f)
-{
-  subject s = {.f = f};
-  thr_automorphism_options plain = {0};
-  thr_automorphisms a;
-  ck_assert_int_eq(thr_automorphisms_find(&f, &plain, &a, NULL), THR_OK);
-  ck_assert_int_eq(thr_group_generate(f.n_nodes, a.generator, a.n_generators, THR_GROUP_CAP, &s.g, NULL), THR_OK);
-  ck_assert_int_eq(thr_subgroup_classes_find(&s.g, 40, &s.h, NULL), THR_OK);
-  thr_automorphisms_destroy(&a);
-  return s;
-}
-
-static void subject_destroy(subject *s)
-{
-  thr_subgroup_classes_destroy(&s->h);
-  thr_group_destroy(&s->g);
-  thr_frame_destroy(&s->f);
-}
-
-static thr_cover_options options(thr_ends ends, int cover)
-{
-  return (thr_cover_options){
-      .cover = cover, .ends = ends, .prefer = {THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_PATHS, THR_AIM_TURNING}};
-}
-
 /* The programme of one row, its contraction of all cells, room for solutions. */
 typedef struct {
   thr_quotient q;
@@ -53,9 +22,9 @@ typedef struct {
   bool *barred;
 } task;
 
-static void task_init(task *t, const subject *s, int row, const thr_cover_options *o)
+static void task_init(task *t, const setting *s, int row, const thr_cover_options *o)
 {
-  ck_assert_int_eq(thr_quotient_init(&t->q, &s->f, &s->g, &s->h.subgroup[row], 100000, NULL), THR_OK);
+  ck_assert_int_eq(thr_quotient_init(&t->q, &s->f, &s->g, &s->classes.subgroup[row], 100000, NULL), THR_OK);
   ck_assert_int_eq(thr_programme_init(&t->p, &t->q, o, NULL), THR_OK);
   ck_assert_int_eq(thr_contraction_init(&t->c, &t->p, true, NULL), THR_OK);
   t->small = thr_calloc((size_t)t->c.p.n, sizeof(int));
@@ -222,9 +191,9 @@ static bool start(task *t, thr_contraction_kind kind)
 START_TEST(starts_are_covers)
 {
   static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET};
-  subject s = subject_of(shape(_i));
-  for (int run = 0; run < 6 * s.h.n; run++) {
-    const thr_cover_options o = options(ends[run % 3], 1 + run / 3 % 2);
+  setting s = setting_make(40, shape(_i));
+  for (int run = 0; run < 6 * s.classes.n; run++) {
+    const thr_cover_options o = cover_options(ends[run % 3], 1 + run / 3 % 2);
     task t;
     double bound = -INFINITY;
     bool valid = false;
@@ -245,7 +214,7 @@ START_TEST(starts_are_covers)
     ck_assert_msg(valid, "shape %d, run %d: the last start cannot be made concrete", _i, run);
     task_destroy(&t);
   }
-  subject_destroy(&s);
+  setting_destroy(&s);
 }
 END_TEST
 
@@ -255,20 +224,20 @@ START_TEST(starts_are_least_joins)
   static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET};
   rng r = rng_make(500 + (uint64_t)_i);
   for (int run = 0; run < 30; run++) {
-    subject s = subject_of(random_frame(&r, rng_between(&r, 3, 8), 6, (length_kind)(run % LENGTH_KINDS)));
-    const thr_cover_options o = options(ends[_i], 1 + run % 2);
+    setting s = setting_make(40, random_frame(&r, rng_between(&r, 3, 8), 6, (length_kind)(run % LENGTH_KINDS)));
+    const thr_cover_options o = cover_options(ends[_i], 1 + run % 2);
     thr_plan_options by_hand = options_for(ends[_i], o.cover);
     by_hand.cords = 8; /* no more ends than nodes are of use */
     task t;
     double least = least_extra_by_subsets(&s.f, &by_hand), bound = -INFINITY;
-    task_init(&t, &s, s.h.n - 1, &o);
+    task_init(&t, &s, s.classes.n - 1, &o);
     ck_assert_int_eq(t.q.h->order, 1);
     ck_assert(start(&t, THR_CONTRACTION_LEAST));
     ck_assert_double_eq_tol(assert_solves(&t, &o), least, 1e-9);
     ck_assert_int_eq(thr_bounds_overlap(&t.p, &none, &bound, NULL), THR_OK);
     ck_assert_double_eq_tol(bound, least, 1e-6);
     task_destroy(&t);
-    subject_destroy(&s);
+    setting_destroy(&s);
   }
 }
 END_TEST
@@ -279,10 +248,10 @@ START_TEST(ties)
 {
   static const double xyz[6][3] = {{0, 0, 0}, {9, 0, 0}, {4, 8, 0}, {0, 0, 2}, {9, 0, 2}, {4, 8, 2}};
   static const int edge[9][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}};
-  subject s = subject_of(frame_make(6, xyz, 9, edge, NULL, NULL));
-  const thr_cover_options o = options(THR_ENDS_CLOSED, 1);
+  setting s = setting_make(40, frame_make(6, xyz, 9, edge, NULL, NULL));
+  const thr_cover_options o = cover_options(THR_ENDS_CLOSED, 1);
   task t;
-  task_init(&t, &s, s.h.n - 1, &o);
+  task_init(&t, &s, s.classes.n - 1, &o);
   double overlap = 0, steps = 0, paths = 0;
   ck_assert_int_eq(thr_bounds_overlap(&t.p, &none, &overlap, NULL), THR_OK);
   ck_assert_double_eq_tol(overlap, 6, 1e-9);
@@ -291,28 +260,28 @@ START_TEST(ties)
   ck_assert_int_eq(thr_bounds_paths(&t.p, &paths, NULL), THR_OK);
   ck_assert_double_eq_tol(paths, 1, 1e-9);
   task_destroy(&t);
-  subject_destroy(&s);
+  setting_destroy(&s);
 
-  s = subject_of(triangles_make(3)); /* three paths, or one under a group that exchanges the triangles */
-  for (int row = 0; row < s.h.n; row += s.h.n - 1) {
+  s = setting_make(40, triangles_make(3)); /* three paths, or one under a group that exchanges the triangles */
+  for (int row = 0; row < s.classes.n; row += s.classes.n - 1) {
     task_init(&t, &s, row, &o);
     paths = 0;
     ck_assert_int_eq(thr_bounds_paths(&t.p, &paths, NULL), THR_OK);
     ck_assert_double_eq_tol(paths, row == 0 ? 1 : 3, 1e-9);
     task_destroy(&t);
   }
-  subject_destroy(&s);
+  setting_destroy(&s);
 }
 END_TEST
 
 /* Two crooked turns in a cross become two straight ones. */
 START_TEST(cross_is_straightened)
 {
-  subject s = subject_of(star_make(4));
-  const thr_cover_options o = options(THR_ENDS_ANY, 1);
+  setting s = setting_make(40, star_make(4));
+  const thr_cover_options o = cover_options(THR_ENDS_ANY, 1);
   task t;
   bool valid;
-  task_init(&t, &s, s.h.n - 1, &o);
+  task_init(&t, &s, s.classes.n - 1, &o);
   for (int j = 0; j < t.q.n_copies; j++)
     t.value[j] = 1;
   for (int y = 0, turns = 0; y < t.q.n_pairs && turns < 2; y++) {
@@ -334,7 +303,7 @@ START_TEST(cross_is_straightened)
   ck_assert(valid);
   ck_assert_double_eq_tol(turning_of(&t), 0, 1e-9);
   task_destroy(&t);
-  subject_destroy(&s);
+  setting_destroy(&s);
 }
 END_TEST
 

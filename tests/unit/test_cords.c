@@ -48,37 +48,6 @@ static thr_frame frame_number(int i)
 }
 enum { N_FRAMES = 14 };
 
-typedef struct {
-  thr_frame f;
-  thr_group g;
-  thr_subgroup_classes classes;
-} setting;
-
-static setting setting_make(thr_frame f)
-{
-  setting s = {.f = f};
-  thr_automorphism_options o = {0};
-  thr_automorphisms a;
-  ck_assert_int_eq(thr_automorphisms_find(&f, &o, &a, NULL), THR_OK);
-  ck_assert_int_eq(thr_group_generate(a.n, a.generator, a.n_generators, THR_GROUP_CAP, &s.g, NULL), THR_OK);
-  ck_assert_int_eq(thr_subgroup_classes_find(&s.g, 1000, &s.classes, NULL), THR_OK);
-  thr_automorphisms_destroy(&a);
-  return s;
-}
-
-static void setting_destroy(setting *s)
-{
-  thr_subgroup_classes_destroy(&s->classes);
-  thr_group_destroy(&s->g);
-  thr_frame_destroy(&s->f);
-}
-
-static thr_cover_options cover_options(thr_ends ends, int cover)
-{
-  return (thr_cover_options){
-      .cover = cover, .ends = ends, .prefer = {THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_PATHS, THR_AIM_TURNING}};
-}
-
 /* A plan of the cords, whose arrays it takes over. */
 static thr_plan plan_of(const thr_frame *f, const thr_cover_options *c, thr_cord *cord, int n_cords, thr_symmetry_record *r)
 {
@@ -197,7 +166,7 @@ static bool try_group(const setting *s, int k, const thr_cover_options *o)
 static int try_frame(thr_frame f, thr_ends ends, int cover)
 {
   int made = 0;
-  setting s = setting_make(f);
+  setting s = setting_make(1000, f);
   thr_cover_options o = cover_options(ends, cover);
   for (int k = 0; k < s.classes.n; k++)
     made += try_group(&s, k, &o);
@@ -234,7 +203,7 @@ END_TEST
 /* The best cover of a framework under its whole group. */
 static thr_plan whole_group_plan(thr_frame frame, thr_ends ends, int cover)
 {
-  setting s = setting_make(frame);
+  setting s = setting_make(1000, frame);
   thr_cover_options o = cover_options(ends, cover);
   thr_limits none = {0};
   thr_err err = {0};
@@ -275,7 +244,7 @@ END_TEST
 /* Counts that are no cover, and closed cords where ends are asked for. */
 START_TEST(wrong_covers_are_refused)
 {
-  setting s = setting_make(grid_make(4, 4));
+  setting s = setting_make(1000, grid_make(4, 4));
   thr_cover_options closed = cover_options(THR_ENDS_CLOSED, 1), feet = cover_options(THR_ENDS_FEET, 1);
   thr_limits none = {0};
   for (int k = 0; k < s.classes.n; k++) {
@@ -307,7 +276,7 @@ END_TEST
 
 START_TEST(every_failed_allocation_is_reported)
 {
-  setting s = setting_make(frame_number(_i));
+  setting s = setting_make(1000, frame_number(_i));
   thr_cover_options o = cover_options(s.f.foot[0] ? THR_ENDS_FEET : THR_ENDS_CLOSED, 1);
   thr_limits none = {0};
   thr_quotient q;
