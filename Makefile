@@ -21,8 +21,8 @@ DEMO = plan data/dome7.json --objective length -o $(DEMO_OUT)/plan.json --draw $
 
 # Debian 12 packages
 BUILD_PACKAGES := build-essential pkg-config libglpk-dev libigraph-dev libnauty2-dev libjansson-dev libbullet-dev \
-	libsuitesparse-dev
-TEST_PACKAGES := check clang clang-format libclang-rt-14-dev librsvg2-bin libxml2-utils
+	libsuitesparse-dev librsvg2-dev libcairo2-dev fonts-dejavu-core
+TEST_PACKAGES := check clang clang-format libclang-rt-14-dev librsvg2-bin libxml2-utils poppler-utils
 # npm from elsewhere than Debian serves as well
 VIEWER_PACKAGES = chromium $(if $(shell command -v npm),,nodejs npm)
 LINT_PACKAGES := clang-format clang-tidy cppcheck
@@ -40,8 +40,10 @@ CLANG_FORMAT ?= clang-format
 
 # Asked for once and only when a recipe needs it: on a bare machine `make demo` installs pkg-config and the libraries first.
 PKG_CFLAGS = $(eval PKG_CFLAGS := $$(shell pkg-config --cflags igraph nauty jansson))$(PKG_CFLAGS)
-PKG_LIBS = $(eval PKG_LIBS := $$(shell pkg-config --libs igraph nauty jansson bullet-float64))$(PKG_LIBS)
+PKG_LIBS = $(eval PKG_LIBS := $$(shell pkg-config --libs igraph nauty jansson bullet-float64 librsvg-2.0 cairo-pdf))$(PKG_LIBS)
 BULLET_CFLAGS = $(eval BULLET_CFLAGS := $$(patsubst -I%,-isystem %,$$(shell pkg-config --cflags bullet-float64)))$(BULLET_CFLAGS)
+# the cflags of one file only, paper.c
+RSVG_CFLAGS = $(eval RSVG_CFLAGS := $$(patsubst -I%,-isystem %,$$(shell pkg-config --cflags librsvg-2.0 cairo-pdf)))$(RSVG_CFLAGS)
 # no pkg-config file in Debian 12
 SPQR_CFLAGS ?= -isystem /usr/include/suitesparse
 CHECK_CFLAGS = $(eval CHECK_CFLAGS := $$(shell pkg-config --cflags check))$(CHECK_CFLAGS)
@@ -220,6 +222,7 @@ $(DIR)/%.o: %.S %.html $(DIR)/flags.list
 	$(Q)$(COMPILER) $(MODE_$(BUILD)) $(CFLAGS) -c -o $@ $<
 
 $(DIR)/eval/spqr.o $(OUT)/tidy/eval/spqr.ok: private THR_CPPFLAGS += $(SPQR_CFLAGS)
+$(DIR)/diagram/paper.o $(OUT)/tidy/diagram/paper.ok: private THR_CPPFLAGS += $(RSVG_CFLAGS)
 $(TEST_PROGRAMS:%=%.o) $(TEST_SUPPORT): private THR_CPPFLAGS += $(CHECK_CFLAGS)
 $(TEST_PROGRAMS): $(DIR)/%: $(DIR)/%.o $(TEST_SUPPORT) $(LIBRARY)
 	@echo "  LINK  $@"
@@ -239,7 +242,7 @@ $(DIR)/objects.list: FORCE
 	@echo "$(OBJECTS)" | cmp -s - $@ || echo "$(OBJECTS)" > $@
 
 $(OUT)/packages.ok:
-	@command -v $(CC) >/dev/null && command -v $(CXX) >/dev/null && pkg-config --exists igraph nauty jansson bullet-float64 2>/dev/null && \
+	@command -v $(CC) >/dev/null && command -v $(CXX) >/dev/null && pkg-config --exists igraph nauty jansson bullet-float64 librsvg-2.0 cairo-pdf 2>/dev/null && \
 	  echo '#include <glpk.h>' | $(CC) -E -x c - >/dev/null 2>&1 || \
 	  { echo 'thread: a compiler or a library is missing: run `make deps` (or `make demo`), or install: $(BUILD_PACKAGES)' >&2; exit 1; }
 	@mkdir -p $(@D)

@@ -131,7 +131,7 @@ static double match_candidates(const thr_tjoin_problem *p, const char *folder, t
   thr_limits limits = {0};
   if (thr_network_init(&net, p, err)) return -1;
   int64_t *reach = need(calloc((size_t)net.n_odd + 1, sizeof *reach));
-  thr_status st = thr_candidates_find(&net, &pairs, reach, err);
+  thr_status st = thr_candidates_find(&net, &limits, &pairs, reach, err);
   if (!st && folder) write_list(folder, "pairs", net.n_odd, pairs.count, (const int(*)[2])pairs.end, pairs.weight, NULL);
   double start = cpu();
   thr_matching_problem q = {net.n_odd, pairs.count, (const int(*)[2])pairs.end, pairs.weight};

@@ -33,7 +33,8 @@ for edges in $sizes; do
         function show(text, own,    part) {
           split(text, part, " ")
           if (part[1] == "-") printf " %10s %6s", ">limit", "-"
-          else printf " %10s %6.1f", part[1], (own > 0 ? part[1] / own : 0)
+          else if (part[1] < 0.0005 || own < 0.00005) printf " %10s %6s", part[1], "-" # too short to be measured
+          else printf " %10s %6.1f", part[1], part[1] / own
           return part[2]
         }
         BEGIN {

@@ -449,3 +449,9 @@ const char *cli_plural(int n, const char *one, const char *many)
 {
   return n == 1 ? one : many;
 }
+
+const char *cli_cuts_word(const thr_plan *p, int n)
+{
+  bool tube = p->options.joint == THR_JOINT_TUBE;
+  return cli_plural(n, tube ? "odd set or junction" : "odd cut", tube ? "odd sets and junctions" : "odd cuts");
+}

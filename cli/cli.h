@@ -122,4 +122,7 @@ double cli_degrees(double radians);
 /* "n word" or "n words". */
 const char *cli_plural(int n, const char *one, const char *many);
 
+/* What the n multipliers of the plan's proof of length stand on: "odd cut", "odd cuts", "odd sets and junctions". */
+const char *cli_cuts_word(const thr_plan *p, int n);
+
 #endif

@@ -78,7 +78,7 @@ static void put_verdict(thr_text *t, const char *path, const thr_plan *p)
   if (!p->proof.present)
     thr_text_append(t, "no claim of optimality");
   else if (p->proof.optimal)
-    thr_text_printf(t, "optimal, certificate verified (%d %s)", cuts, cli_plural(cuts, "odd cut", "odd cuts"));
+    thr_text_printf(t, "optimal, certificate verified (%d %s)", cuts, cli_cuts_word(p, cuts));
   else
     thr_text_printf(t, "lower bound %.6f verified, gap %.3g %%", p->proof.lower_bound, 100 * p->proof.gap);
   put_cords(t, p);

@@ -5,35 +5,39 @@
 #include <string.h>
 #include <sys/stat.h>
 
-static const char help[] = "thread draw PLAN [options]: pictures, steps, tables and lines of a plan\n\n"
-                           "Examples:\n"
-                           "  thread draw plan.json -o overview.svg\n"
-                           "  thread draw plan.json -o diagrams/            overview.svg in that folder\n"
-                           "  thread draw plan.json -T all -o diagrams/     all documents there\n"
-                           "  thread draw plan.json -T steps                steps.txt: row by row, to be ticked off\n"
-                           "  thread draw plan.json --color tension         after `thread eval plan.json -o plan.json`\n"
-                           "  thread draw plan.json --color turning         the sharper a turn the darker\n\n"
-                           "Options:\n"
-                           "  -T, --type TYPE      what to make (default: svg)\n"
-                           "                       svg         overview.svg, the picture of all cords\n"
-                           "                       steps       steps.txt: each path to learn once, then its copies\n"
-                           "                       html        viewer.html: step by step in space, in any browser\n"
-                           "                       steps.csv   a row per pass: from, to, turn, cord used and left\n"
-                           "                       cords.csv   the cut list: a row per cord, with tails and allowances\n"
-                           "                       beads.csv   the bead schedule: a row per edge and node, bores, kinds\n"
-                           "                       obj, gltf   cords.obj, cords.gltf: cords as lines for CAD and Blender\n"
-                           "                       all         all of these, into a folder\n"
-                           "      --color cord|tension|turning   what colours of the overview tell apart: cords (default), how\n"
-                           "                       tight each pass is, or how sharply the cord turns between two beads\n"
-                           "      --pitch MM       millimetres on paper per bead (default: 24, less for large frameworks)\n"
-                           "  -o, --output FILE|DIR   (default: its usual name in the current folder; - = stdout)\n"
-                           "  -h, --help\n";
+static const char help[] =
+    "thread draw PLAN [options]: pictures, steps, tables and lines of a plan\n\n"
+    "Examples:\n"
+    "  thread draw plan.json -o overview.svg\n"
+    "  thread draw plan.json -o diagrams/            overview.svg in that folder\n"
+    "  thread draw plan.json -T all -o diagrams/     all documents there\n"
+    "  thread draw plan.json -T pdf                  sheets.pdf: step by step on paper, with pictures\n"
+    "  thread draw plan.json -T steps                steps.txt: row by row, to be ticked off\n"
+    "  thread draw plan.json --color tension         after `thread eval plan.json -o plan.json`\n"
+    "  thread draw plan.json --color turning         the sharper a turn the darker\n\n"
+    "Options:\n"
+    "  -T, --type TYPE      what to make (default: svg)\n"
+    "                       svg         overview.svg, the picture of all cords\n"
+    "                       pdf         sheets.pdf: what to prepare, each step with its picture, what to do last\n"
+    "                       steps       steps.txt: each path to learn once, then its copies\n"
+    "                       html        viewer.html: step by step in space, in any browser\n"
+    "                       steps.csv   a row per pass: from, to, turn, cord used and left\n"
+    "                       cords.csv   the cut list: a row per cord, with tails and allowances\n"
+    "                       beads.csv   the bead schedule: a row per edge and node, bores, kinds\n"
+    "                       obj, gltf   cords.obj, cords.gltf: cords as lines for CAD and Blender\n"
+    "                       all         all of these, into a folder\n"
+    "      --color cord|tension|turning   what colours of the overview tell apart: cords (default), how\n"
+    "                       tight each pass is, or how sharply the cord turns between two beads\n"
+    "      --pitch MM       millimetres on paper per bead (default: 24, less for large frameworks)\n" DRAWINGS_HELP
+    "  -o, --output FILE|DIR   (default: its usual name in the current folder; - = stdout)\n"
+    "  -h, --help\n";
 
 enum { OPTION_PITCH = OPTION_FREE, OPTION_COLOR };
 static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       {"type", required_argument, NULL, 'T'},
                                       {"pitch", required_argument, NULL, OPTION_PITCH},
                                       {"color", required_argument, NULL, OPTION_COLOR},
+                                      DRAWINGS_OPTIONS,
                                       {"output", required_argument, NULL, 'o'},
                                       {NULL, 0, NULL, 0}};
 
@@ -59,14 +63,14 @@ static bool is_misnamed(const char *output, int type)
 {
   const char *dot = strrchr(output, '.'), *own = strrchr(drawings_file(type), '.');
   if (!dot || strcmp(dot, own) == 0) return false;
-  bool other = strcmp(dot, ".pdf") == 0 || strcmp(dot, ".png") == 0;
+  bool other = strcmp(dot, ".png") == 0;
   for (int i = 0; i < drawings_count() && !other; i++)
     other = strcmp(dot, strrchr(drawings_file(i), '.')) == 0;
   return other;
 }
 
 /* One document to output, a file, a folder or NULL. */
-static int draw_one(const thr_plan *p, int type, const char *output, double pitch, thr_overview_colour color)
+static int draw_one(const thr_plan *p, int type, const char *output, const drawings_args *a)
 {
   char inside[1200];
   int code = EXIT_OK;
@@ -75,22 +79,25 @@ static int draw_one(const thr_plan *p, int type, const char *output, double pitc
     code = cli_in_folder(output, drawings_file(type), inside, sizeof inside);
     output = inside;
   }
-  return code ? code : drawings_write(p, type, output, pitch, color);
+  return code ? code : drawings_write(p, type, output, a);
 }
 
 int cmd_draw(int argc, char **argv)
 {
   int done, option;
-  double pitch = 0;
+  drawings_args a = {0};
   int color = THR_COLOUR_CORD, type = 0;
   const char *output = NULL;
   while ((option = cli_next_option(argc, argv, "draw", ":" CLI_COMMON_LETTERS "T:o:", table, help, &done)) != -1) {
     if (option == 'T' && !cli_choose("draw", "--type", optarg, type_name, drawings_count() + 1, &type)) return EXIT_USAGE;
-    if (option == OPTION_PITCH && !cli_double("draw", "--pitch", optarg, 2, 200, &pitch)) return EXIT_USAGE;
+    bool ok = true;
+    if (drawings_option(&a, "draw", option, optarg, &ok) && !ok) return EXIT_USAGE;
+    if (option == OPTION_PITCH && !cli_double("draw", "--pitch", optarg, 2, 200, &a.pitch_mm)) return EXIT_USAGE;
     if (option == OPTION_COLOR && !cli_choose("draw", "--color", optarg, color_name, THR_N_COLOURS, &color)) return EXIT_USAGE;
     if (option == 'o') output = optarg;
   }
   if (done >= 0) return done;
+  a.colour = (thr_overview_colour)color;
   bool all = type == drawings_count();
   if (output && !*output) return cli_usage("draw", "an empty name is no place to write to");
   if (all && output && strcmp(output, "-") == 0) return cli_usage("draw", "--type all makes several files: -o names a folder");
@@ -101,9 +108,9 @@ int cmd_draw(int argc, char **argv)
   int code = cli_read_plan(argv[optind], &p);
   if (code) return code;
   if (all)
-    code = drawings_write_all(&p, output ? output : ".", pitch, (thr_overview_colour)color);
+    code = drawings_write_all(&p, output ? output : ".", &a);
   else
-    code = draw_one(&p, type, output, pitch, (thr_overview_colour)color);
+    code = draw_one(&p, type, output, &a);
   thr_plan_destroy(&p);
   return code;
 }

@@ -4,17 +4,19 @@
 #include "cli/plan_summary.h"
 #include "cli/symmetry_table.h"
 #include "graph/cuttree.h"
+#include "graph/junction.h"
 #include "lp/cords.h"
 #include "lp/lp.h"
 #include "symmetry/automorphisms.h"
 #include "tortuosity/tube.h"
+#include "tortuosity/tube_cords.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const char help[] =
+static const char help_requests[] =
     "thread plan FRAME [options]: plan how cord is threaded: shortest, turning least, or symmetric, proved\n\n"
     "Examples:\n"
     "  thread plan dome.obj                          plan.json, overview.svg, steps.txt in the folder dome/\n"
@@ -29,16 +31,26 @@ static const char help[] =
     "                       (default: length)\n" CORDS_HELP
     "      --time-limit S   stop after S seconds with the best plan so far and its gap, 0 = never (default: 0; other\n"
     "                       objectives and tube joints: 20). --frontier and --compare-objectives: S once more\n"
-    "\n" TURNING_HELP "\nSymmetry (with --objective symmetry; thread symmetries --help says more):\n"
+    "\n" TURNING_HELP;
+static const char help_rest[] =
+    "\nSymmetry (with --objective symmetry; thread symmetries --help says more):\n"
     "      --group ID|NAME   --geometric TOL   --prefer overlap,steps,paths,turning\n"
     "\nFramework:\n" CLI_FRAME_HELP "\nOutput:\n"
     "  -o, --output FILE    write the plan here (- = stdout), and no diagrams unless --draw\n"
-    "      --draw DIR       write the diagrams into this folder, and without -o the plan too\n"
+    "      --draw DIR       write the diagrams into this folder, and without -o the plan too\n" DRAWINGS_HELP
     "      --json           summary as JSON on stdout\n"
     "      --compare-objectives   pull of this plan beside those for the other objectives, joints simulated\n" PULL_RUN_HELP
     "  -q, --quiet          no notes and no summary       -v, --verbose  what the solver does       -h, --help\n\n"
     "Exit codes: 0 proved (or a classical tour), 2 usage, 3 bad input, 4 infeasible or none found, 5 not proved (plan\n"
     "written), 70 internal. What is said of cord and beads is stored in the plan; thread eval begins with it.\n";
+
+/* One text: as one literal it would be longer than C promises to take. */
+static const char *help(void)
+{
+  static char text[sizeof help_requests + sizeof help_rest];
+  snprintf(text, sizeof text, "%s%s", help_requests, help_rest);
+  return text;
+}
 
 enum { OPTION_OBJECTIVE = OPTION_CORDS_FREE, OPTION_COMPARE, OPTION_TIME, OPTION_DRAW, OPTION_JSON };
 
@@ -53,6 +65,7 @@ static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       {"time-limit", required_argument, NULL, OPTION_TIME},
                                       {"output", required_argument, NULL, 'o'},
                                       {"draw", required_argument, NULL, OPTION_DRAW},
+                                      DRAWINGS_OPTIONS,
                                       {"json", no_argument, NULL, OPTION_JSON},
                                       {NULL, 0, NULL, 0}};
 
@@ -75,29 +88,62 @@ static thr_status find_seed(const thr_frame *f, const thr_plan_options *o, const
   return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* what else fails leaves no seed */
 }
 
-/* Symmetric cords turn alike: where they are as many as asked for, the one that turns most may be at its bound at once. */
+/* Symmetric cords turn alike: where they are as many as asked for, the one that turns most may be at its bound at once. They keep
+ * to no given numbers of ends. */
 static thr_status plan_tortuosity(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
                                   thr_err *err)
 {
   thr_plan seed = {0};
   thr_status st = THR_OK;
   *plan = (thr_plan){0};
-  if (o->turning.largest && o->cords > 1) st = find_seed(f, o, limits, &seed, err);
+  if (o->turning.largest && o->cords > 1 && o->ends != THR_ENDS_COUNTS) st = find_seed(f, o, limits, &seed, err);
   if (!st) st = thr_tortuosity_plan_from(f, o, seed.n_cords ? &seed : NULL, limits, plan, err);
   thr_plan_destroy(&seed);
   return st;
 }
 
+/* What the length of a plan with tube joints is proved against. Closed cords are as long as one in every piece. */
+static thr_status prove_tied(thr_plan *plan, const thr_limits *limits, thr_err *err)
+{
+  thr_tube t;
+  thr_plan_options o = plan->options;
+  thr_err why = {0};
+  if (o.ends == THR_ENDS_CLOSED) o.cords = 1;
+  thr_status st = thr_tube_shortest(&plan->frame, &o, limits, &t, &why);
+  if (st == THR_OK || st == THR_ELIMIT)
+    st = thr_tied_least(&plan->frame, &plan->options, &t.proof, &t.bound, err);
+  else
+    st = thr_fail(err, st, "%s", why.text);
+  if (!st) thr_tube_prove(&t, plan->metrics.length, &plan->proof);
+  thr_tube_destroy(&t);
+  return st;
+}
+
+/* rows: the table, as for thr_symmetry_plan. With tube joints the last part of the time is for the proof of length. */
+static thr_status plan_symmetric(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_symmetries *rows,
+                                 thr_plan *plan, thr_err *err)
+{
+  static const double part = 0.15;
+  thr_limits most = *limits;
+  thr_err unproved = {0};
+  if (o->joint == THR_JOINT_SOLID) return thr_symmetry_plan(f, o, limits, rows, plan, err);
+  if (most.deadline > 0) most.deadline -= part * thr_limits_left(limits, INFINITY);
+  thr_status found = thr_symmetry_plan(f, o, &most, rows, plan, &unproved);
+  thr_status st = plan->n_cords > 0 ? prove_tied(plan, limits, err) : THR_OK;
+  if (st) thr_plan_destroy(plan);
+  return st || !found ? st : thr_fail(err, found, "%s", unproved.text);
+}
+
 static thr_status plan_symmetry(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
                                 thr_err *err)
 {
-  return thr_symmetry_plan(f, o, limits, NULL, plan, err);
+  return plan_symmetric(f, o, limits, NULL, plan, err);
 }
 
 static thr_status plan_length(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
                               thr_err *err)
 {
-  if (o->joint == THR_JOINT_TUBE) return thr_tube_plan(f, o, limits, plan, err);
+  if (o->joint == THR_JOINT_TUBE) return thr_tube_cords_plan(f, o, limits, plan, NULL, err);
   return thr_cords_plan(f, o, limits, plan, NULL, err);
 }
 
@@ -121,6 +167,7 @@ typedef struct {
   double time_limit; /* s, < 0 = as the objective has it */
   const struct objective *objective;
   const char *path, *output, *draw;
+  drawings_args drawings;
   bool json, compare;
 } arguments;
 
@@ -148,11 +195,11 @@ static int parse(int argc, char **argv, arguments *a)
                    .time_limit = -1,
                    .objective = &objectives[0]};
   pull_args_init(&a->pull, THR_JOINT);
-  while ((o = cli_physics_option(&a->pull.physics, argc, argv, "plan", ":" CLI_COMMON_LETTERS PULL_LETTERS "o:", table, help,
+  while ((o = cli_physics_option(&a->pull.physics, argc, argv, "plan", ":" CLI_COMMON_LETTERS PULL_LETTERS "o:", table, help(),
                                  &done)) != -1) {
     if (cli_frame_option(&a->frame, "plan", o, optarg, &ok) || pull_option(&a->pull, "plan", o, optarg, &ok) ||
         turning_option(&a->turning, o, optarg, &ok) || symmetry_option(&a->symmetry, "plan", o, optarg, &ok) ||
-        cords_option(&a->cords, o, optarg, &ok)) {
+        cords_option(&a->cords, o, optarg, &ok) || drawings_option(&a->drawings, "plan", o, optarg, &ok)) {
       if (!ok) return EXIT_USAGE;
       continue;
     }
@@ -345,7 +392,7 @@ static int write_outputs(const arguments *a, const planned *x)
   bool draw = a->draw || !a->output;
   int code = a->output ? EXIT_OK : cli_in_folder(folder, "plan.json", in_folder, sizeof in_folder);
   if (!code) code = write_plan(p, plan_path);
-  if (!code && draw) code = drawings_write_all(p, folder, 0, THR_COLOUR_CORD);
+  if (!code && draw) code = drawings_write_all(p, folder, &a->drawings);
   bool to_stdout = strcmp(plan_path, "-") == 0;
   if (code || to_stdout || (cli_quiet && !a->json)) return code;
   code = print_summary(a, x);
@@ -363,9 +410,9 @@ static thr_status make_plan(const arguments *a, const thr_frame *f, const thr_pl
   thr_limits limits = cli_limits(o->time_limit);
   thr_status st;
   if (o->objective == THR_SYMMETRY)
-    st = thr_symmetry_plan(f, o, &limits, &x->table, &x->plan, err);
-  else if (o->objective == THR_LENGTH && o->joint == THR_JOINT_SOLID)
-    st = thr_cords_plan(f, o, &limits, &x->plan, &x->word, err);
+    st = plan_symmetric(f, o, &limits, &x->table, &x->plan, err);
+  else if (o->objective == THR_LENGTH)
+    st = (o->joint == THR_JOINT_TUBE ? thr_tube_cords_plan : thr_cords_plan)(f, o, &limits, &x->plan, &x->word, err);
   else
     st = a->objective->plan(f, o, &limits, &x->plan, err);
   cli_progress_end();

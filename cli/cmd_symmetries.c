@@ -16,7 +16,9 @@ static const char help[] =
     "  thread plan dome.obj --objective symmetry --group 3   the plan of row 3\n\n"
     "Options:\n"
     "      --ends closed|any|feet|FILE|NAME,..   where cord ends may be, as for thread plan (default: closed)\n"
-    "      --cover N        at least N passes over every interface (default: 1)\n" SYMMETRY_HELP
+    "      --cover N        at least N passes over every interface (default: 1)\n"
+    "      --capacity N     at most N passes through any edge (default: what the framework file says, or any number)\n"
+    "      --joint solid|tube   tube: only edges are beads, and cords tie them at every node (default: solid)\n" SYMMETRY_HELP
     "      --mu X           friction, for the capstan factor (default: 0.2)\n"
     "      --time-limit S   for all groups together, 0 = no limit (default: 20)\n"
     "      --json           as JSON\n" CLI_FRAME_HELP
@@ -24,13 +26,15 @@ static const char help[] =
     "* marks the default choice of thread plan --objective symmetry. A step is a pass of a unique path: what is to be learned.\n"
     "Exit codes: 0 every row proved, 2 usage, 3 bad input, 4 infeasible, 5 some rows not proved in time (table printed)\n";
 
-enum { OPTION_ENDS = OPTION_SYMMETRY_FREE, OPTION_COVER, OPTION_MU, OPTION_TIME, OPTION_JSON };
+enum { OPTION_ENDS = OPTION_SYMMETRY_FREE, OPTION_COVER, OPTION_CAPACITY, OPTION_JOINT, OPTION_MU, OPTION_TIME, OPTION_JSON };
 
 static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       CLI_FRAME_OPTIONS,
                                       SYMMETRY_OPTIONS,
                                       {"ends", required_argument, NULL, OPTION_ENDS},
                                       {"cover", required_argument, NULL, OPTION_COVER},
+                                      {"capacity", required_argument, NULL, OPTION_CAPACITY},
+                                      {"joint", required_argument, NULL, OPTION_JOINT},
                                       {"mu", required_argument, NULL, OPTION_MU},
                                       {"time-limit", required_argument, NULL, OPTION_TIME},
                                       {"json", no_argument, NULL, OPTION_JSON},
@@ -43,6 +47,19 @@ typedef struct {
   const char *path, *ends;
   bool json;
 } arguments;
+
+static const char *joint_name(int i)
+{
+  return thr_joint_name((thr_joint)i);
+}
+
+static bool parse_joint(const char *value, thr_joint *joint)
+{
+  int i = 0;
+  bool ok = cli_choose("symmetries", "--joint", value, joint_name, 2, &i);
+  *joint = (thr_joint)i;
+  return ok;
+}
 
 static int parse(int argc, char **argv, arguments *a)
 {
@@ -60,6 +77,8 @@ static int parse(int argc, char **argv, arguments *a)
       switch (o) {
       case OPTION_ENDS: a->ends = optarg; break;
       case OPTION_COVER: ok = cli_int("symmetries", "--cover", optarg, 1, 100, &a->plan.cover); break;
+      case OPTION_CAPACITY: ok = cli_int("symmetries", "--capacity", optarg, 1, 1000, &a->plan.capacity); break;
+      case OPTION_JOINT: ok = parse_joint(optarg, &a->plan.joint); break;
       case OPTION_MU: ok = cli_double("symmetries", "--mu", optarg, 0, 10, &a->plan.physics.mu); break;
       case OPTION_TIME: ok = cli_double("symmetries", "--time-limit", optarg, 0, 1e9, &a->plan.time_limit); break;
       case OPTION_JSON: a->json = true; break;
@@ -69,6 +88,8 @@ static int parse(int argc, char **argv, arguments *a)
   }
   if (done >= 0) return done;
   if (optind + 1 != argc) return cli_usage("symmetries", optind == argc ? "which framework?" : "one framework at a time");
+  if (a->plan.capacity > 0 && a->plan.capacity < a->plan.cover)
+    return cli_usage("symmetries", "--capacity %d leaves no room for --cover %d", a->plan.capacity, a->plan.cover);
   a->path = argv[optind];
   a->plan.symmetry = a->symmetry.options;
   return -1;
@@ -81,7 +102,8 @@ static int print(const arguments *a, const thr_frame *f, const thr_symmetries *s
     thr_text_printf(&t, "{\"framework\": \"%016" PRIx64 "\", \"nodes\": %d, \"edges\": %d, \"units\": ", thr_frame_hash(f),
                     f->n_nodes, f->n_edges);
     thr_text_json_string(&t, f->units);
-    thr_text_printf(&t, ", \"ends\": \"%s\", \"cover\": %d, ", thr_ends_name(a->plan.ends), a->plan.cover);
+    thr_text_printf(&t, ", \"ends\": \"%s\", \"cover\": %d, \"joint\": \"%s\", ", thr_ends_name(a->plan.ends), a->plan.cover,
+                    thr_joint_name(a->plan.joint));
     symmetry_put_table_json(&t, &a->plan, s);
     thr_text_append(&t, "}\n");
   } else {

@@ -1,7 +1,6 @@
 /* Options about cords: how many, how long, where they end, and what fits through a bead. */
 #include "cli/cords_args.h"
 #include "graph/bore.h"
-#include "lp/engine.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -25,6 +24,11 @@ static const char *joint_name(int i)
 static const char *engine_name(int i)
 {
   return thr_engine_name((thr_engine)i);
+}
+
+static const char *confirm_name(int i)
+{
+  return thr_confirm_name((thr_confirm)i);
 }
 
 static bool cords_number(const char *text, int n, int *out)
@@ -81,6 +85,10 @@ bool cords_option(cords_args *a, int option, const char *value, bool *ok)
     *ok = cli_choose("plan", "--engine", value, engine_name, 3, &i);
     if (*ok) a->engine = (thr_engine)i;
     return true;
+  case OPTION_CORDS_CONFIRM:
+    *ok = cli_choose("plan", "--confirm", value, confirm_name, 3, &i);
+    if (*ok) a->confirm = (thr_confirm)i;
+    return true;
   case OPTION_CORDS_ENDS: a->ends = value; return true;
   default: return false;
   }
@@ -88,21 +96,21 @@ bool cords_option(cords_args *a, int option, const char *value, bool *ok)
 
 const char *cords_args_refused(const cords_args *a, thr_objective objective, bool rival)
 {
-  if (objective == THR_LENGTH)
-    return a->joint == THR_JOINT_TUBE && (a->max_length > 0 || a->balance) ? "--joint tube with --max-length or --balance" : NULL;
+  if (objective == THR_LENGTH) return NULL;
   if (a->max_length > 0) return "--max-length";
   if (a->balance) return "--balance";
   if (a->automatic) return "--cords auto";
   if (a->least != a->most) return "a range of --cords";
   if (objective == THR_TORTUOSITY) return NULL;
-  if (a->most > 1 && !rival) return "--cords";
-  return a->joint == THR_JOINT_TUBE ? "--joint tube" : NULL;
+  return a->most > 1 && !rival ? "--cords" : NULL;
 }
 
 int cords_args_check(const cords_args *a, const turning_args *turning, thr_objective objective)
 {
   const char *refused = cords_args_refused(a, objective, false), *tour = thr_tour_name(turning->options.tour);
   if (refused) return cli_usage("plan", "%s: not with --objective %s", refused, thr_objective_name(objective));
+  if (a->confirm == THR_CONFIRM_ALWAYS && (objective != THR_LENGTH || a->joint == THR_JOINT_TUBE))
+    return cli_usage("plan", "--confirm always: of shortest passes only, with --objective length and --joint solid");
   if (a->balance && a->most < 2) return cli_usage("plan", "--balance needs several --cords");
   if (a->balance && (a->max_length > 0 || a->automatic))
     return cli_usage("plan", "--balance makes the longest cord as short as can be: no --%s with it",
@@ -219,7 +227,7 @@ int cords_args_apply(const cords_args *a, const thr_frame *f, thr_plan_options *
   o->capacity = a->capacity;
   o->joint = a->joint;
   o->engine = a->engine;
-  o->confirm = o->objective == THR_LENGTH && o->joint == THR_JOINT_SOLID;
+  o->confirm = a->confirm;
   o->max_length = a->max_length;
   o->balance = a->balance;
   int code = apply_bore(o);

@@ -14,13 +14,14 @@ enum {
   OPTION_CORDS_JOINT,
   OPTION_CORDS_ENDS,
   OPTION_CORDS_ENGINE,
+  OPTION_CORDS_CONFIRM,
   OPTION_CORDS_FREE
 };
 #define CORDS_OPTIONS                                                                                                            \
   {"cords", required_argument, NULL, OPTION_CORDS}, {"max-length", required_argument, NULL, OPTION_CORDS_MAX_LENGTH},            \
       {"balance", no_argument, NULL, OPTION_CORDS_BALANCE}, {"cover", required_argument, NULL, OPTION_CORDS_COVER},              \
       {"capacity", required_argument, NULL, OPTION_CORDS_CAPACITY}, {"joint", required_argument, NULL, OPTION_CORDS_JOINT},      \
-      {"engine", required_argument, NULL, OPTION_CORDS_ENGINE},                                                                  \
+      {"engine", required_argument, NULL, OPTION_CORDS_ENGINE}, {"confirm", required_argument, NULL, OPTION_CORDS_CONFIRM},      \
   {                                                                                                                              \
     "ends", required_argument, NULL, OPTION_CORDS_ENDS                                                                           \
   }
@@ -33,6 +34,7 @@ enum {
   "      --cover N        at least N passes over every interface (default: 1)\n"                                                 \
   "      --capacity N     at most N; --bore and --cord-diameter together: as many as fit\n"                                      \
   "      --engine auto|lp|matching   what finds the shortest passes (default: auto)\n"                                           \
+  "      --confirm auto|always|never  does GLPK find the same length, exactly? auto: asked for a second at most\n"               \
   "      --joint solid|tube   node beads are rigid pieces (default), or the cord ties the edges together at every node\n"
 
 typedef struct {
@@ -44,6 +46,7 @@ typedef struct {
   bool balance;
   thr_joint joint;
   thr_engine engine;
+  thr_confirm confirm;
 } cords_args;
 
 cords_args cords_args_default(void);

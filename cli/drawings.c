@@ -2,16 +2,18 @@
 
 #include "cli/copies.h"
 #include "diagram/polylines.h"
+#include "diagram/sheets.h"
 #include "diagram/steps.h"
 #include "diagram/tables.h"
 #include "diagram/viewer.h"
 
-typedef enum { OVERVIEW, STEPS, VIEWER, STEPS_TABLE, CORDS_TABLE, BEADS_TABLE, OBJ, GLTF, N_DOCUMENTS } document;
+typedef enum { OVERVIEW, SHEETS, STEPS, VIEWER, STEPS_TABLE, CORDS_TABLE, BEADS_TABLE, OBJ, GLTF, N_DOCUMENTS } document;
 
 static const struct {
   const char *type, *file;
 } documents[N_DOCUMENTS] = {
     [OVERVIEW] = {"svg", "overview.svg"},
+    [SHEETS] = {"pdf", "sheets.pdf"},
     [STEPS] = {"steps", "steps.txt"},
     [VIEWER] = {"html", "viewer.html"},
     [STEPS_TABLE] = {"steps.csv", "steps.csv"},
@@ -48,14 +50,14 @@ static thr_status describe(const thr_plan *p, with_motion *document_of, thr_text
   return st;
 }
 
-static int write_overview(const thr_plan *p, const char *path, double pitch_mm, thr_overview_colour colour)
+static int write_overview(const thr_plan *p, const char *path, const drawings_args *a)
 {
   thr_err err = {0};
   thr_text svg = {0};
   cli_copies copies;
   thr_overview_options o = thr_overview_options_default();
-  o.pitch_mm = pitch_mm;
-  o.colour = colour;
+  o.pitch_mm = a->pitch_mm;
+  o.colour = a->colour;
   thr_status st = cli_copies_describe(p, &copies, &err);
   o.motion = copies.motion;
   if (!st) st = thr_overview_svg(p, &o, &svg, &err);
@@ -63,13 +65,61 @@ static int write_overview(const thr_plan *p, const char *path, double pitch_mm, 
   return cli_write_drawn(st, &svg, path, &err);
 }
 
-int drawings_write(const thr_plan *p, int i, const char *path, double pitch_mm, thr_overview_colour colour)
+/* Says how many pages there will be before it draws them. An interrupt that has ended the planning does not end this. */
+static int write_sheets(const thr_plan *p, const char *path, const drawings_args *a)
+{
+  thr_err err = {0};
+  thr_text pdf = {0};
+  thr_sheets *sheets = NULL;
+  cli_copies copies;
+  thr_sheets_options o = thr_sheets_options_default();
+  thr_limits limits = cli_limits(0);
+  if (thr_limits_stop(&limits)) limits.interrupted = NULL;
+  o.page = (thr_page_size)a->page;
+  o.middle = a->middle;
+  thr_status st = cli_copies_describe(p, &copies, &err);
+  o.motion = copies.motion;
+  if (!st) st = thr_sheets_make(&sheets, p, &o, &err);
+  if (!st) {
+    int n = thr_sheets_pages(sheets);
+    cli_note("%s: %d %s", documents[SHEETS].file, n, cli_plural(n, "page", "pages"));
+    st = thr_sheets_pdf(sheets, &limits, &pdf, &err);
+    cli_progress_end();
+  }
+  thr_sheets_destroy(sheets);
+  cli_copies_destroy(&copies);
+  return cli_write_drawn(st, &pdf, path, &err);
+}
+
+static const char *page_name(int i)
+{
+  return thr_page_name((thr_page_size)i);
+}
+
+static const char *from_name(int i)
+{
+  static const char *const name[] = {"end", "middle"};
+  return name[i];
+}
+
+bool drawings_option(drawings_args *a, const char *command, int option, const char *value, bool *ok)
+{
+  int from = a->middle;
+  if (option != OPTION_PAGE && option != OPTION_FROM) return false;
+  *ok = option == OPTION_PAGE ? cli_choose(command, "--page", value, page_name, THR_N_PAGES, &a->page)
+                              : cli_choose(command, "--from", value, from_name, 2, &from);
+  a->middle = from;
+  return true;
+}
+
+int drawings_write(const thr_plan *p, int i, const char *path, const drawings_args *a)
 {
   thr_err err = {0};
   thr_text t = {0};
   thr_status st;
   switch ((document)i) {
-  case OVERVIEW: return write_overview(p, path, pitch_mm, colour);
+  case OVERVIEW: return write_overview(p, path, a);
+  case SHEETS: return write_sheets(p, path, a);
   case STEPS: st = describe(p, thr_steps_text, &t, &err); break;
   case VIEWER: st = describe(p, thr_viewer_html, &t, &err); break;
   case STEPS_TABLE: st = thr_table_steps(p, &t, &err); break;
@@ -81,13 +131,13 @@ int drawings_write(const thr_plan *p, int i, const char *path, double pitch_mm, 
   return cli_write_drawn(st, &t, path, &err);
 }
 
-int drawings_write_all(const thr_plan *p, const char *folder, double pitch_mm, thr_overview_colour colour)
+int drawings_write_all(const thr_plan *p, const char *folder, const drawings_args *a)
 {
   int code = EXIT_OK;
   for (int i = 0; i < N_DOCUMENTS && !code; i++) {
     char path[1200];
     code = cli_in_folder(folder, documents[i].file, path, sizeof path);
-    if (!code) code = drawings_write(p, i, path, pitch_mm, colour);
+    if (!code) code = drawings_write(p, i, path, a);
   }
   return code;
 }

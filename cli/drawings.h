@@ -8,11 +8,33 @@ int drawings_count(void);
 const char *drawings_type(int i); /* as --type names it: "svg", "steps.csv" */
 const char *drawings_file(int i); /* usual file name: "overview.svg" */
 
-/* Writes document i of the plan to path ("-" = stdout); pitch and colour are the overview's. Returns EXIT_OK or prints and
- * returns the code. */
-int drawings_write(const thr_plan *p, int i, const char *path, double pitch_mm, thr_overview_colour colour);
+/* How documents are drawn. */
+typedef struct {
+  double pitch_mm;            /* of the overview; 0 = automatic */
+  thr_overview_colour colour; /* of the overview */
+  int page;                   /* of the step sheets: thr_page_size */
+  bool middle;                /* cords are threaded from their middle, in the step sheets */
+} drawings_args;
+
+/* --page, --from: of the step sheets. */
+#define DRAWINGS_OPTIONS                                                                                                         \
+  {"page", required_argument, NULL, OPTION_PAGE},                                                                                \
+  {                                                                                                                              \
+    "from", required_argument, NULL, OPTION_FROM                                                                                 \
+  }
+enum { OPTION_PAGE = 2000, OPTION_FROM }; /* beyond the options that commands number on from each other */
+#define DRAWINGS_HELP                                                                                                            \
+  "      --page a4|letter     paper of the step sheets (default: a4)\n"                                                          \
+  "      --from end|middle    the step sheets thread each cord from its end with one needle (default), or those of\n"            \
+  "                           24 passes and more from their middle with two\n"
+
+/* Takes one of the options above; false if it is none of them. *ok false: its value was bad (printed). */
+bool drawings_option(drawings_args *a, const char *command, int option, const char *value, bool *ok);
+
+/* Writes document i of the plan to path ("-" = stdout). Returns EXIT_OK or prints and returns the code. */
+int drawings_write(const thr_plan *p, int i, const char *path, const drawings_args *a);
 
 /* Writes all of them into folder, which is made if needed, under their usual names; stops at the first that fails. */
-int drawings_write_all(const thr_plan *p, const char *folder, double pitch_mm, thr_overview_colour colour);
+int drawings_write_all(const thr_plan *p, const char *folder, const drawings_args *a);
 
 #endif

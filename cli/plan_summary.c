@@ -130,9 +130,12 @@ static void put_certificate(thr_text *t, const thr_plan *p)
 {
   const thr_length_proof *proof = &p->proof;
   int cuts = thr_length_proof_cuts(proof);
-  bool tube = p->options.joint == THR_JOINT_TUBE, agreed = proof->confirmed > 0 && proof->unconfirmed == 0;
-  thr_text_printf(t, "(certificate: %d %s, verified%s)", cuts,
-                  tube ? "odd sets and junctions" : cli_plural(cuts, "odd cut", "odd cuts"), agreed ? "; GLPK agrees" : "");
+  bool agreed = proof->confirmed > 0 && proof->unconfirmed == 0;
+  bool missed = proof->unconfirmed > 0 && p->options.confirm == THR_CONFIRM_ALWAYS;
+  thr_text_printf(t, "(certificate: %d %s, verified%s)", cuts, cli_cuts_word(p, cuts),
+                  agreed   ? "; GLPK agrees"
+                  : missed ? "; GLPK did not finish"
+                           : "");
 }
 
 static void put_length_status(thr_text *t, const thr_plan *p, thr_cords_word word)

@@ -75,6 +75,35 @@ void thr_guide_ordinal(int n, char word[16])
     snprintf(word, 16, "%d%s", n, end[last]);
 }
 
+/* ---- beads ---- */
+
+const char *thr_deed_words(thr_deed d)
+{
+  static const char *const words[] = {"pick up", "pass through", "pass back through"};
+  return words[d];
+}
+
+thr_status thr_held_make(thr_held *h, int n_edges, thr_err *err)
+{
+  *h = (thr_held){.cords = thr_calloc((size_t)n_edges, sizeof *h->cords), .last = thr_calloc((size_t)n_edges, sizeof *h->last)};
+  return h->cords && h->last ? THR_OK : thr_nomem(err);
+}
+
+void thr_held_destroy(thr_held *h)
+{
+  free(h->cords);
+  free(h->last);
+  *h = (thr_held){0};
+}
+
+thr_deed thr_held_pass(thr_held *h, int half)
+{
+  int e = half >> 1, before = h->last[e];
+  h->last[e] = half;
+  if (h->cords[e]++ == 0) return THR_PICK_UP;
+  return before == half ? THR_PASS_THROUGH : THR_PASS_BACK;
+}
+
 /* ---- sides ---- */
 
 /* Unit vector along half-edge h in space; false if it has no length. */
@@ -103,22 +132,24 @@ static void add_corner(const thr_frame *f, int h, int g, double sweep, double no
 /* From how edges follow each other around the nodes on paper: which way faces the viewer there. */
 static thr_status find_outward(thr_guide *g, thr_err *err)
 {
-  const thr_frame *f = g->f;
+  const thr_frame *f = g->f, *paper = thr_layout_paper(&g->layout, f);
   double *angle = thr_calloc(2 * (size_t)f->n_edges, sizeof *angle);
   int *around = thr_calloc(2 * (size_t)f->n_edges, sizeof *around);
   thr_status st = angle && around ? THR_OK : thr_nomem(err);
   for (int h = 0; h < 2 * f->n_edges && !st; h++) {
-    const double *a = g->layout.xy[thr_tail(f, h)], *b = g->layout.xy[thr_head(f, h)];
+    const double *a = g->layout.xy[thr_tail(paper, h)], *b = g->layout.xy[thr_head(paper, h)];
     angle[h] = atan2(b[1] - a[1], b[0] - a[0]);
   }
-  if (!st) st = thr_layout_around(f, angle, around, err);
-  for (int v = 0; v < f->n_nodes && !st; v++) {
-    int degree = thr_degree(f, v), *at = around + f->first[v];
-    double *normal = g->outward[v];
+  if (!st) st = thr_layout_around(paper, angle, around, err);
+  for (int p = 0; p < paper->n_nodes && !st; p++) {
+    int degree = thr_degree(paper, p), *at = around + paper->first[p];
     for (int i = 0; i < degree; i++) {
       int next = at[(i + 1) % degree];
-      add_corner(f, at[i], next, thr_scene_sweep(angle[at[i]], angle[next]), normal);
+      add_corner(f, at[i], next, thr_scene_sweep(angle[at[i]], angle[next]), g->outward[thr_layout_node(&g->layout, p)]);
     }
+  }
+  for (int v = 0; v < f->n_nodes && !st; v++) {
+    double *normal = g->outward[v];
     double length = sqrt(thr_dot(normal, normal));
     for (int i = 0; i < 3; i++)
       normal[i] = length > 1e-6 ? normal[i] / length : 0;

@@ -43,6 +43,27 @@ thr_way thr_guide_way(const thr_guide *g, int in, int out);
 /* Appends "straight on", "turn left 90 degrees", "over the curve 24 degrees", "turn back". */
 void thr_guide_say(const thr_guide *g, int in, int out, thr_text *t);
 
+/* What a pass does with the bead of its edge. */
+typedef enum {
+  THR_PICK_UP,      /* no cord has been in it yet */
+  THR_PASS_THROUGH, /* the way that the cord in it went that came last */
+  THR_PASS_BACK     /* against that one */
+} thr_deed;
+
+const char *thr_deed_words(thr_deed d); /* "pick up", "pass through", "pass back through" */
+
+/* What the beads hold so far. {0} is valid and empty. */
+typedef struct {
+  int *cords; /* [n_edges] */
+  int *last;  /* [n_edges] half-edge of the latest pass, if cords > 0 */
+} thr_held;
+
+thr_status thr_held_make(thr_held *h, int n_edges, thr_err *err) THR_MUST_CHECK;
+void thr_held_destroy(thr_held *h);
+
+/* Takes the needle over a half-edge. */
+thr_deed thr_held_pass(thr_held *h, int half);
+
 /* "second", "third", "4th", "21st" */
 void thr_guide_ordinal(int n, char word[16]);
 

@@ -6,8 +6,10 @@
 enum { MAX_PLACES = 10 };
 static const double NUMBER_AT[MAX_PLACES] = {0.30, 0.22, 0.38, 0.46, 0.14, 0.54, 0.62, 0.70, 0.80, 0.90};
 static const double ARROW_AT[MAX_PLACES] = {0.68, 0.76, 0.60, 0.84, 0.52, 0.92, 0.44, 0.30, 0.20, 0.10};
-static const double MUCH = 1e6; /* cost of a number on another, over that of one on arrows */
-static const double SEEN = 0.2; /* mm: smaller arrows are not drawn */
+enum { TAKEN = THR_BOX_MARK | THR_BOX_NUMBER | THR_BOX_NAME }; /* what a number may not cover, and what would hide an arrow */
+static const double CAPTION = 1.4;                             /* size of captions, over that of numbers */
+static const double MUCH = 1e6;                                /* cost of a number on another, over that of one on arrows */
+static const double SEEN = 0.2;                                /* mm: smaller arrows are not drawn */
 static const int STEPS[] = {1, 5, 10, 20, 50, 100, 200, 500, 1000};
 enum { COPY_ARROWS = 4 }; /* a copy has an arrow on every so many passes, on the first one too */
 enum { N_STEPS = sizeof STEPS / sizeof STEPS[0] };
@@ -60,7 +62,7 @@ static void move_aside(thr_scene *s, int i)
     for (int k = 0; k < 12; k++) {
       double turn = k * 0.5235987755982988, reach = 0.6 * ring * thr_scene_pill_height(s);
       double at[2] = {p->pill[0] + 1.5 * reach * cos(turn), p->pill[1] + reach * sin(turn)};
-      if (thr_boxes_overlap(&s->boxes, pill_box(s, i, at), THR_BOX_MARK | THR_BOX_NUMBER, 1e-9) > 0) continue;
+      if (thr_boxes_overlap(&s->boxes, pill_box(s, i, at), TAKEN, 1e-9) > 0) continue;
       p->pill[0] = at[0];
       p->pill[1] = at[1];
       return;
@@ -76,7 +78,7 @@ static thr_status place_number(thr_scene *s, int i, bool must, thr_err *err)
   for (int k = 0; k < MAX_PLACES && least > 0; k++) {
     along(p, NUMBER_AT[k], at);
     thr_box box = pill_box(s, i, at);
-    double taken = thr_boxes_overlap(&s->boxes, box, THR_BOX_MARK | THR_BOX_NUMBER, must ? HUGE_VAL : 1e-9);
+    double taken = thr_boxes_overlap(&s->boxes, box, TAKEN, must ? HUGE_VAL : 1e-9);
     double cost = (taken > 0 ? MUCH + 1000 * taken : 0) + thr_boxes_overlap(&s->boxes, box, THR_BOX_ARROW, least);
     if (cost >= least || (taken > 0 && !must)) continue;
     least = cost;
@@ -105,7 +107,7 @@ static void place_arrow(thr_scene *s, int i)
   if (p->arrow_size == 0) return;
   for (int k = 0; k < MAX_PLACES && least > 0; k++) {
     along(p, ARROW_AT[k], at);
-    double hidden = thr_boxes_overlap(&s->boxes, arrow_box(at, 0.9 * p->arrow_size), THR_BOX_MARK | THR_BOX_NUMBER, least);
+    double hidden = thr_boxes_overlap(&s->boxes, arrow_box(at, 0.9 * p->arrow_size), TAKEN, least);
     if (hidden >= least) continue;
     least = hidden;
     p->arrow[0] = at[0];
@@ -132,50 +134,19 @@ static thr_status place_numbers(thr_scene *s, thr_err *err)
 
 /* ---- names of nodes ---- */
 
-/* Boxes along a curve through a node, as dense as the line is wide. */
-static thr_status box_curve(thr_scene *s, const double a[2], const double b[2], const double c[2], const double d[2],
-                            thr_err *err)
+/* Looks for room for the name at point v between its beads: at a share of the way from each to the next, at so many distances. */
+static thr_status place_name(thr_scene *s, int v, double share, int distances, thr_err *err)
 {
-  thr_status st = THR_OK;
-  double at[2], half = 0.5 * s->size.cord + s->size.casing;
-  int n = 2 + (int)fmin(hypot(d[0] - a[0], d[1] - a[1]) / half, 30);
-  for (int k = 1; k < n && !st; k++) {
-    thr_scene_curve_at(a, b, c, d, (double)k / n, at);
-    st = thr_boxes_add(&s->boxes, thr_box_around(at[0], at[1], half, half), THR_BOX_CORD, err);
-  }
-  return st;
-}
-
-/* Tells the boxes where the strands run through nodes and where the feet are, so that names keep off them. */
-static thr_status box_strands(thr_scene *s, thr_err *err)
-{
-  thr_status st = THR_OK;
-  for (int i = 0; i < s->n_passes && !st; i++) {
-    const thr_scene_pass *p = &s->pass[i];
-    const thr_mark *m = s->mark[p->cord];
-    double(*last)[2] = s->last_turn[p->cord];
-    st = box_curve(s, p->number > 1 ? p[-1].to : m[0].at, p->turn[0], p->turn[1], p->from, err);
-    if (!st && !thr_scene_continues(s, i)) st = box_curve(s, p->to, last[0], last[1], m[1].at, err);
-  }
-  for (int v = 0; v < s->frame->n_nodes && !st; v++)
-    if (s->frame->foot && s->frame->foot[v])
-      st = thr_boxes_add(&s->boxes, thr_box_around(s->at[v][0], s->at[v][1], s->size.foot, s->size.foot), THR_BOX_FOOT, err);
-  return st;
-}
-
-/* Looks for room for the name of node v in the middle of each sector between its beads. */
-static thr_status place_name(thr_scene *s, int v, thr_err *err)
-{
-  const thr_frame *f = s->frame;
+  const thr_frame *f = s->paper;
   char name[48];
-  thr_places_name(&s->places, f, v, name);
+  thr_scene_place_name(s, v, name);
   double half_width = 0.5 * thr_scene_text_width(name, s->size.text), half_height = 0.42 * s->size.text;
   int first = f->first[v], degree = thr_degree(f, v);
   for (int i = 0; i < degree; i++) {
     int h = s->around[first + i], g = s->around[first + (i + 1) % degree];
-    double wide = degree > 1 ? thr_scene_sweep(s->angle[h], s->angle[g]) : 6.28, off = s->angle[h] + 0.5 * wide;
+    double wide = degree > 1 ? thr_scene_sweep(s->angle[h], s->angle[g]) : 6.28, off = s->angle[h] + share * wide;
     double c = cos(off), w = sin(off);
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < distances; k++) {
       double d = (0.14 + 0.08 * k) * s->size.pitch + fmin(half_width / fmax(fabs(c), 1e-9), half_height / fmax(fabs(w), 1e-9));
       thr_box box = thr_box_around(s->at[v][0] + d * c, s->at[v][1] + d * w, half_width, half_height);
       if (d > 0.6 * s->size.pitch + half_width || thr_boxes_overlap(&s->boxes, box, ~0, 1e-9) > 0) continue;
@@ -186,6 +157,20 @@ static thr_status place_name(thr_scene *s, int v, thr_err *err)
     }
   }
   return THR_OK;
+}
+
+/* Names near the middle between two beads first; then where there is any room. */
+static thr_status place_names(thr_scene *s, thr_err *err)
+{
+  static const double share[] = {0.5, 0.5, 0.35, 0.65, 0.2, 0.8};
+  thr_status st = s->layout->node ? THR_OK : thr_scene_box_strands(s, err);
+  for (int k = 0; k < 6; k++)
+    for (int v = 0; v < s->layout->n_points && !st; v++)
+      if (s->twin[v] < 0 && !s->named[v]) st = place_name(s, v, share[k], k ? 9 : 4, err);
+  s->nameless = 0;
+  for (int v = 0; v < s->layout->n_nodes; v++)
+    s->nameless += !s->named[v];
+  return st;
 }
 
 static void measure_extent(thr_scene *s)
@@ -200,14 +185,33 @@ static void measure_extent(thr_scene *s)
   s->extent.y1 += edge;
 }
 
+const char *thr_scene_caption(const thr_scene *s, int panel)
+{
+  static const char *const words[3][2] = {
+      {"from the +x end", "from the -x end"}, {"from the +y end", "from the -y end"}, {"from above", "from below"}};
+  return words[s->layout->axis][panel];
+}
+
+/* Over each panel, above everything else. */
+static thr_status place_captions(thr_scene *s, thr_err *err)
+{
+  thr_status st = THR_OK;
+  double top = s->extent.y0 - 2 * s->size.text;
+  for (int panel = 0; panel < 2 && !st; panel++) {
+    s->caption[panel][0] = (s->layout->middle[panel][0] - s->origin[0]) * s->scale;
+    s->caption[panel][1] = top;
+    double half_width = 0.5 * thr_scene_text_width(thr_scene_caption(s, panel), CAPTION * s->size.text);
+    st = thr_boxes_add(&s->boxes, thr_box_around(s->caption[panel][0], top, half_width, CAPTION * s->size.text), THR_BOX_NAME,
+                       err);
+  }
+  measure_extent(s);
+  return st;
+}
+
 thr_status thr_scene_place_labels(thr_scene *s, thr_err *err)
 {
   thr_status st = place_numbers(s, err);
-  if (!st && !s->places.n_columns && s->size.pitch >= 8) {
-    st = box_strands(s, err);
-    for (int v = 0; v < s->frame->n_nodes && !st; v++)
-      st = place_name(s, v, err);
-  }
+  if (!st && !s->places.n_columns && s->size.pitch >= THR_SCENE_NAMED) st = place_names(s, err);
   if (!st) measure_extent(s);
-  return st;
+  return !st && s->layout->node ? place_captions(s, err) : st;
 }

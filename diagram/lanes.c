@@ -15,10 +15,11 @@ typedef struct {
   double a, b;
 } chord;
 
-/* Strands by node: joint i is pass i -> i + 1, or the end E of a cord for its last pass; start c is the S of cord c. */
+/* Strands by point: joint i is what pass i goes on to, the next pass or a mark; joint -1 - i is the mark that pass i comes from.
+ */
 typedef struct {
-  int *first; /* [n_nodes + 1] into joint */
-  int *joint; /* pass index, or -1 - c for the start of cord c */
+  int *first; /* [points + 1] into joint */
+  int *joint;
 } joints;
 
 /* ---- first order: look along the cords ---- */
@@ -33,14 +34,13 @@ static int moving_half(const thr_scene *s, walker w)
   return w.step > 0 ? s->pass[w.pass].half : s->pass[w.pass].half ^ 1;
 }
 
-/* Angle at which the walker leaves the node ahead, and the half-edge it leaves by (-1: the cord ends there). */
+/* Angle at which the walker leaves the point ahead, and the half-edge it leaves by (-1: to a mark). */
 static double leave(const thr_scene *s, walker w, int *out)
 {
-  const thr_scene_pass *p = &s->pass[w.pass];
-  bool more = w.step > 0 ? thr_scene_continues(s, w.pass) : p->number > 1;
-  if (!more) {
+  const thr_mark *m = w.step > 0 ? thr_scene_mark_after(s, w.pass) : thr_scene_mark_before(s, w.pass);
+  if (m) {
     *out = -1;
-    return s->mark[p->cord][w.step > 0].angle;
+    return m->angle;
   }
   *out = moving_half(s, (walker){w.pass + w.step, w.step});
   return s->angle[*out];
@@ -117,23 +117,23 @@ static double port(const thr_scene *s, int i, bool end)
 /* Place on the rim of a mark: after the half-edge whose angle comes before it. */
 static double mark_port(const thr_scene *s, const thr_mark *m)
 {
-  const thr_frame *f = s->frame;
-  int first = f->first[m->node], rank = 0;
-  for (int i = 0; i < thr_degree(f, m->node); i++)
+  const thr_frame *f = s->paper;
+  int first = f->first[m->point], rank = 0;
+  for (int i = 0; i < thr_degree(f, m->point); i++)
     if (s->angle[s->around[first + i]] <= m->angle) rank = i + 1;
   return rank - 1 + 0.99 + 0.0001 * m->angle;
 }
 
 static chord chord_of(const thr_scene *s, int joint)
 {
-  if (joint < 0) return (chord){mark_port(s, &s->mark[-1 - joint][0]), port(s, s->first_pass[-1 - joint], false)};
-  double to = thr_scene_continues(s, joint) ? port(s, joint + 1, false) : mark_port(s, &s->mark[s->pass[joint].cord][1]);
-  return (chord){port(s, joint, true), to};
+  if (joint < 0) return (chord){mark_port(s, thr_scene_mark_before(s, -1 - joint)), port(s, -1 - joint, false)};
+  const thr_mark *m = thr_scene_mark_after(s, joint);
+  return (chord){port(s, joint, true), m ? mark_port(s, m) : port(s, joint + 1, false)};
 }
 
-static int joint_node(const thr_scene *s, int joint)
+static int joint_point(const thr_scene *s, int joint)
 {
-  return joint < 0 ? s->mark[-1 - joint][0].node : thr_head(s->frame, s->pass[joint].half);
+  return joint < 0 ? thr_tail(s->paper, s->pass[-1 - joint].half) : thr_head(s->paper, s->pass[joint].half);
 }
 
 static bool between(double x, chord c)
@@ -141,7 +141,7 @@ static bool between(double x, chord c)
   return x > fmin(c.a, c.b) && x < fmax(c.a, c.b);
 }
 
-/* Crossings of the chords at a node, each pair once. */
+/* Crossings of the chords at a point, each pair once. */
 static int crossings_at(const thr_scene *s, const joints *at, int v)
 {
   chord c[MAX_CHORDS];
@@ -157,7 +157,7 @@ static int crossings_at(const thr_scene *s, const joints *at, int v)
 
 static int crossings_of_edge(const thr_scene *s, const joints *at, int e)
 {
-  return crossings_at(s, at, s->frame->edge[e][0]) + crossings_at(s, at, s->frame->edge[e][1]);
+  return crossings_at(s, at, s->paper->edge[e][0]) + crossings_at(s, at, s->paper->edge[e][1]);
 }
 
 static void swap_lanes(thr_scene *s, int i, int j)
@@ -190,19 +190,25 @@ static bool improve_edge(thr_scene *s, const joints *at, int e)
   return better;
 }
 
-/* Lists the joints of every node by counting. */
+/* Is there a joint of this number? */
+static bool is_joint(const thr_scene *s, int joint)
+{
+  return joint >= 0 || thr_scene_mark_before(s, -1 - joint);
+}
+
+/* Lists the joints of every point by counting. */
 static thr_status collect_joints(const thr_scene *s, joints *at, thr_err *err)
 {
-  int n = s->frame->n_nodes, cords = s->plan->n_cords;
+  int n = s->paper->n_nodes;
   at->first = thr_calloc((size_t)n + 2, sizeof *at->first);
-  at->joint = thr_calloc((size_t)s->n_passes + (size_t)cords, sizeof *at->joint);
+  at->joint = thr_calloc((size_t)s->n_passes + (size_t)s->plan->n_cords + (size_t)s->n_seams, sizeof *at->joint);
   if (!at->first || !at->joint) return thr_nomem(err);
-  for (int i = -cords; i < s->n_passes; i++)
-    at->first[joint_node(s, i) + 2]++;
+  for (int i = -s->n_passes; i < s->n_passes; i++)
+    if (is_joint(s, i)) at->first[joint_point(s, i) + 2]++;
   for (int v = 0; v < n; v++)
     at->first[v + 2] += at->first[v + 1];
-  for (int i = -cords; i < s->n_passes; i++)
-    at->joint[at->first[joint_node(s, i) + 1]++] = i;
+  for (int i = -s->n_passes; i < s->n_passes; i++)
+    if (is_joint(s, i)) at->joint[at->first[joint_point(s, i) + 1]++] = i;
   return THR_OK;
 }
 

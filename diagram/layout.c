@@ -2,6 +2,7 @@
 #include "diagram/layout.h"
 
 #include "diagram/layout_parts.h"
+#include "graph/drawing.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -9,11 +10,12 @@
 
 static const double MAX_COORDINATE = 1e100; /* squares must stay finite */
 static const double CLEARLY = 1.25;         /* so much larger a ratio shows */
+static const double LEGIBLE = 0.5;          /* ratio of a picture that needs no second panel */
 
 const char *thr_layout_name(thr_layout_kind kind)
 {
-  static const char *const name[THR_LAYOUT_KINDS] = {"plan",       "unrolled",   "front",  "side", "plane",
-                                                     "unrolled-x", "unrolled-y", "spread", "drawn"};
+  static const char *const name[THR_LAYOUT_KINDS] = {"plan",       "unrolled",   "front",  "side",   "plane",
+                                                     "unrolled-x", "unrolled-y", "spread", "panels", "drawn"};
   return (unsigned)kind < THR_LAYOUT_KINDS ? name[kind] : "?";
 }
 
@@ -32,6 +34,8 @@ const char *thr_layout_words(thr_layout_kind kind)
       "stretched.",
       "Spread flat from the middle outwards, like a shell opened on the far side, seen from outside; beads far out look longer "
       "than they are.",
+      "Two halves of a closed shell, both seen from outside: turn the shell half round about the page's vertical to get from one "
+      "to the other. Places on their rims are on both.",
       "Schematic: which bead joins which is true, lengths and angles are not."};
   return (unsigned)kind < THR_LAYOUT_KINDS ? words[kind] : "";
 }
@@ -44,16 +48,45 @@ bool thr_layout_to_scale(thr_layout_kind kind)
 void thr_layout_destroy(thr_layout *l)
 {
   free(l->xy);
+  free(l->node);
+  thr_frame_destroy(&l->paper);
   *l = (thr_layout){0};
 }
 
 thr_status thr_layout_copy(thr_layout *to, const thr_layout *from, thr_err *err)
 {
   thr_layout l = *from;
-  l.xy = thr_calloc((size_t)from->n_nodes, sizeof *l.xy);
-  if (!l.xy) return thr_nomem(err);
-  if (from->n_nodes) memcpy(l.xy, from->xy, (size_t)from->n_nodes * sizeof *l.xy);
+  size_t n = (size_t)from->n_points;
+  thr_status st = THR_OK;
+  l.paper = (thr_frame){0};
+  l.xy = thr_calloc(n, sizeof *l.xy);
+  l.node = from->node ? thr_calloc(n, sizeof *l.node) : NULL;
+  if (!l.xy || (from->node && !l.node)) st = thr_nomem(err);
+  if (!st && from->node)
+    st = thr_layout_join(&l.paper, from->n_points, from->paper.n_edges, (const int(*)[2])from->paper.edge, err);
+  if (st) {
+    thr_layout_destroy(&l);
+    return st;
+  }
+  if (n) memcpy(l.xy, from->xy, n * sizeof *l.xy);
+  if (l.node) memcpy(l.node, from->node, n * sizeof *l.node);
   *to = l;
+  return THR_OK;
+}
+
+thr_status thr_layout_join(thr_frame *paper, int n_points, int n_edges, const int (*edge)[2], thr_err *err)
+{
+  thr_frame p = {.n_nodes = n_points, .n_edges = n_edges};
+  p.edge = thr_calloc((size_t)p.n_edges, sizeof *p.edge);
+  p.first = thr_calloc((size_t)n_points + 1, sizeof *p.first);
+  p.half = thr_calloc(2 * (size_t)p.n_edges, sizeof *p.half);
+  if (!p.edge || !p.first || !p.half) {
+    thr_frame_destroy(&p);
+    return thr_nomem(err);
+  }
+  memcpy(p.edge, edge, (size_t)p.n_edges * sizeof *p.edge);
+  thr_frame_index(&p);
+  *paper = p;
   return THR_OK;
 }
 
@@ -166,11 +199,13 @@ static thr_status place(thr_layout *l, const thr_frame *f, thr_err *err)
 
 thr_status thr_layout_make(thr_layout *out, const thr_frame *f, thr_layout_kind kind, thr_err *err)
 {
-  thr_layout l = {.n_nodes = f->n_nodes, .kind = kind};
+  thr_layout l = {.n_nodes = f->n_nodes, .n_points = f->n_nodes, .kind = kind};
+  *out = (thr_layout){0};
   for (int v = 0; v < f->n_nodes; v++)
     for (int i = 0; i < 3; i++)
       if (!(fabs(f->xyz[v][i]) < MAX_COORDINATE))
         return thr_fail(err, THR_EINPUT, "node %d lies at %g: too far to be drawn", v, f->xyz[v][i]);
+  if (kind == THR_LAYOUT_PANELS) return thr_layout_panels(out, f, err);
   l.xy = thr_calloc((size_t)f->n_nodes, sizeof *l.xy);
   if (!l.xy) return thr_nomem(err);
   thr_status st = place(&l, f, err);
@@ -182,7 +217,7 @@ thr_status thr_layout_make(thr_layout *out, const thr_frame *f, thr_layout_kind 
 
 thr_status thr_layout_adopt(thr_layout *out, const thr_frame *f, const double (*xy)[2], thr_err *err)
 {
-  thr_layout l = {.n_nodes = f->n_nodes, .kind = THR_LAYOUT_DRAWN};
+  thr_layout l = {.n_nodes = f->n_nodes, .n_points = f->n_nodes, .kind = THR_LAYOUT_DRAWN};
   for (int v = 0; v < f->n_nodes; v++)
     if (!(fabs(xy[v][0]) < MAX_COORDINATE && fabs(xy[v][1]) < MAX_COORDINATE))
       return thr_fail(err, THR_EINPUT, "node %d of the layout has no finite place on paper", v);
@@ -195,12 +230,33 @@ thr_status thr_layout_adopt(thr_layout *out, const thr_frame *f, const double (*
   return st;
 }
 
+/* Is a single picture good enough that two panels would only be a nuisance? */
+static bool legible(const thr_layout *l)
+{
+  return !l->crossings && !l->squeezed && l->ratio >= LEGIBLE;
+}
+
+/* Replaces *best by what the drawing algorithm makes of it, or of its own circle, if that is better. */
+static thr_status try_drawing(thr_layout *best, const thr_frame *f, bool circle, thr_err *err)
+{
+  thr_layout l = {0};
+  double(*xy)[2] = thr_calloc((size_t)f->n_nodes, sizeof *xy);
+  if (!xy) return thr_nomem(err);
+  memcpy(xy, best->xy, (size_t)f->n_nodes * sizeof *xy);
+  thr_status st = thr_kamada_kawai(f->n_nodes, f->n_edges, (const int(*)[2])f->edge, f->length, circle, xy, err);
+  if (!st) st = thr_layout_adopt(&l, f, (const double(*)[2])xy, err);
+  if (!st) thr_layout_keep_better(best, &l);
+  free(xy);
+  return st;
+}
+
 thr_status thr_layout_choose(thr_layout *out, const thr_frame *f, const thr_layout *extra, int n_extra, thr_err *err)
 {
   thr_layout best = {0}, l = {0};
   thr_status st = THR_OK;
   for (int kind = THR_LAYOUT_PLAN; kind < THR_LAYOUT_DRAWN; kind++) {
     thr_err flat = {0};
+    if (kind == THR_LAYOUT_PANELS && legible(&best)) break;
     st = thr_layout_make(&l, f, (thr_layout_kind)kind, kind == THR_LAYOUT_PLAN ? err : &flat);
     if (st == THR_EINPUT && kind != THR_LAYOUT_PLAN) continue;
     if (st) {
@@ -210,7 +266,10 @@ thr_status thr_layout_choose(thr_layout *out, const thr_frame *f, const thr_layo
     thr_layout_keep_better(&best, &l);
     if (kind == THR_LAYOUT_PLAN && best.crossings == 0 && best.ratio >= 1 / CLEARLY) break;
   }
-  st = THR_OK;
+  bool tangled = best.crossings && f->n_nodes <= THR_LAYOUT_DRAWN_NODES;
+  st = tangled ? try_drawing(&best, f, false, err) : THR_OK;
+  if (tangled && !st) st = try_drawing(&best, f, true, err);
+  if (st) goto done;
   for (int i = 0; i < n_extra; i++) {
     if (!thr_layout_better(&extra[i], &best)) continue;
     st = thr_layout_copy(&l, &extra[i], err);

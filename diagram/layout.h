@@ -6,6 +6,9 @@
 
 #include "graph/frame.h"
 
+enum { THR_LAYOUT_DRAWN_NODES = 1000 };
+static const double THR_LAYOUT_OPEN = 1; /* rad, seen from the middle: half the angle of the widest opening of a closed shell */
+
 typedef enum {
   THR_LAYOUT_PLAN,       /* x to the right, y up the page, +z towards the viewer */
   THR_LAYOUT_UNROLLED_Z, /* azimuthal-equidistant about the vertical: the crown in the middle, rings around it */
@@ -15,14 +18,22 @@ typedef enum {
   THR_LAYOUT_UNROLLED_X, /* azimuthal-equidistant about the x axis: the +x end in the middle */
   THR_LAYOUT_UNROLLED_Y, /* the same about the y axis */
   THR_LAYOUT_SPREAD,     /* a closed shell opened at the face opposite the middle and spread flat (stereographic) */
+  THR_LAYOUT_PANELS,     /* a closed shell cut near its equator: both halves azimuthal-equidistant, side by side */
   THR_LAYOUT_DRAWN,      /* made by a drawing algorithm: only the adjacency is true (see thr_layout_adopt) */
   THR_LAYOUT_KINDS
 } thr_layout_kind;
 
-/* xy is owned; {0} is valid and empty. */
+/* Arrays are owned; {0} is valid and empty. With two panels, a node on the seam between them has a point on each, so that every
+ * edge lies in one panel; a cord that goes on from one panel to the other does so between the two points of a node. */
 typedef struct {
   int n_nodes;
-  double (*xy)[2]; /* [n_nodes] units of the framework (THR_LAYOUT_DRAWN: any), +y up the page */
+  int n_points;    /* on paper: n_nodes, and the second points of nodes that have two */
+  double (*xy)[2]; /* [n_points] units of the framework (THR_LAYOUT_DRAWN: any), +y up the page; point v < n_nodes shows node v */
+  int *node;       /* [n_points] which node a point shows; NULL: no node has two */
+  thr_frame paper; /* with node, the edges of the framework, joining points: n_nodes (= n_points), n_edges, edge, first and half
+                      are filled, the rest is empty */
+  int axis;        /* of two panels: they are seen from the positive end of the x (0), y (1) or z axis and from the other */
+  double middle[2][2]; /* and these are their middles, the left one's first */
   thr_layout_kind kind;
   long crossings; /* pairs of edges that cross, touch or lie on each other on paper (see thr_layout_measure) */
   bool capped;    /* counting was cut short: there are at least this many crossings */
@@ -31,8 +42,20 @@ typedef struct {
   double ratio;   /* shortest edge on paper over median, 0 .. 1; 0 when the median is 0 */
 } thr_layout;
 
+/* What edges join on paper: the framework's nodes, or the layout's points. Either is a frame to ask for ends and half-edges; of a
+ * layout's points no more is known. */
+static inline const thr_frame *thr_layout_paper(const thr_layout *l, const thr_frame *f)
+{
+  return l->node ? &l->paper : f;
+}
+
+static inline int thr_layout_node(const thr_layout *l, int point)
+{
+  return l->node ? l->node[point] : point;
+}
+
 /* Makes and measures one candidate other than THR_LAYOUT_DRAWN. THR_EINPUT if the frame has no such view (a flat
- * frame has nothing to unroll). */
+ * frame has nothing to unroll, one with an opening as wide as THR_LAYOUT_OPEN no two halves). */
 thr_status thr_layout_make(thr_layout *l, const thr_frame *f, thr_layout_kind kind, thr_err *err) THR_MUST_CHECK;
 
 /* Takes over coordinates made elsewhere (igraph's Kamada-Kawai, a file): copies xy[f->n_nodes], measures, kind =
@@ -46,8 +69,10 @@ thr_status thr_layout_measure(thr_layout *l, const thr_frame *f, thr_err *err) T
 
 /* The layout to draw, by crossings + squeezed, then ratio; of nearly equal candidates (ratio within a quarter) the
  * earlier kind wins, so a plan view with no crossing and a ratio of 0.8 or more is always taken, and one of 0.5 unless
- * unrolling opens up a rim that it shows foreshortened. extra[n_extra] are further measured candidates (NULL and 0 for
- * none), only used if they are better; the best is copied. */
+ * unrolling opens up a rim that it shows foreshortened. Two panels are only considered when every single picture has faults or a
+ * ratio under 0.5; a drawing by the algorithm of Kamada & Kawai (graph/drawing.h), for up to THR_LAYOUT_DRAWN_NODES nodes, only
+ * when all others have faults. extra[n_extra] are further measured candidates (NULL and 0 for none), only used if they are
+ * better; the best is copied. */
 thr_status thr_layout_choose(thr_layout *best, const thr_frame *f, const thr_layout *extra, int n_extra,
                              thr_err *err) THR_MUST_CHECK;
 
@@ -60,8 +85,8 @@ void thr_layout_destroy(thr_layout *l);
 const char *thr_layout_name(thr_layout_kind kind);  /* "plan", "unrolled", "front", .. */
 const char *thr_layout_words(thr_layout_kind kind); /* for the reader of a diagram: "seen from outside (from above)", .. */
 
-/* Half-edges as frame->half, but by ascending angle[2 * n_edges] (rad, in (-pi, pi]) within a node, in around[2 * n_edges]. */
-thr_status thr_layout_around(const thr_frame *f, const double *angle, int *around, thr_err *err) THR_MUST_CHECK;
+/* Half-edges as paper->half, but by ascending angle[2 * n_edges] (rad, in (-pi, pi]) within a node, in around[2 * n_edges]. */
+thr_status thr_layout_around(const thr_frame *paper, const double *angle, int *around, thr_err *err) THR_MUST_CHECK;
 
 /* Are distances on paper those of the framework, up to the foreshortening of a projection? */
 bool thr_layout_to_scale(thr_layout_kind kind);

@@ -14,7 +14,7 @@ static const double SQUEEZED = 0.2;
 enum { MAX_PAIRS = 5000000 };
 
 typedef struct {
-  const thr_frame *f;
+  const thr_frame *f; /* the paper */
   const double (*xy)[2];
   double near;         /* distance that counts as touching, in units of xy */
   double low[2], cell; /* the grid's corner and cell width */
@@ -29,9 +29,9 @@ static int ascending(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-static double edge_length(const thr_layout *l, const thr_frame *f, int e)
+static double edge_length(const thr_layout *l, const thr_frame *paper, int e)
 {
-  const double *a = l->xy[f->edge[e][0]], *b = l->xy[f->edge[e][1]];
+  const double *a = l->xy[paper->edge[e][0]], *b = l->xy[paper->edge[e][1]];
   return hypot(b[0] - a[0], b[1] - a[1]);
 }
 
@@ -194,8 +194,9 @@ static void count_crossings(const grid *g, int *seen, thr_layout *l)
   }
 }
 
-thr_status thr_layout_measure(thr_layout *l, const thr_frame *f, thr_err *err)
+thr_status thr_layout_measure(thr_layout *l, const thr_frame *frame, thr_err *err)
 {
+  const thr_frame *f = thr_layout_paper(l, frame);
   double mean = 0;
   int *seen = NULL;
   thr_status st = measure_lengths(l, f, &mean, err);

@@ -103,8 +103,7 @@ static void lay_spread(thr_layout *l, const double (*unit)[3], const double open
   }
 }
 
-/* Directions of the nodes from the centre of the sphere. */
-static thr_status unit_vectors(const thr_frame *f, double (**unit)[3], thr_err *err)
+thr_status thr_layout_directions(const thr_frame *f, double (**unit)[3], thr_err *err)
 {
   double centre[3];
   if (!thr_layout_fit_sphere(f, centre)) return thr_fail(err, THR_EINPUT, "the framework is flat: there is nothing to spread");
@@ -116,6 +115,12 @@ static thr_status unit_vectors(const thr_frame *f, double (**unit)[3], thr_err *
       (*unit)[v][i] = size > 0 ? d[i] / size : 0;
   }
   return THR_OK;
+}
+
+double thr_layout_opening(const double (*unit)[3], int n, double middle[3])
+{
+  find_opening(unit, n, middle);
+  return acos(fmax(-1, fmin(1, centre_opening(unit, n, middle))));
 }
 
 /* How well a sheet is used: the median edge over the farthest node. */
@@ -133,11 +138,9 @@ thr_status thr_layout_spread(thr_layout *l, const thr_frame *f, thr_err *err)
   static const double squeeze[] = {0.01, 0.5, 1, 2, 4, 8}, rim[] = {0, 1.2, 1.5, 2.1, 2.5, 3.2};
   double opening[3] = {0, 0, -1}, (*unit)[3] = NULL, best_use = 0;
   thr_layout best = {0};
-  thr_status st = unit_vectors(f, &unit, err);
+  thr_status st = thr_layout_directions(f, &unit, err);
   if (st || !unit) return st;
-  find_opening((const double(*)[3])unit, f->n_nodes, opening);
-  double edge = centre_opening((const double(*)[3])unit, f->n_nodes, opening);
-  double rim_from = -cos(1.2 * acos(fmax(-1, fmin(1, edge))));
+  double rim_from = -cos(1.2 * thr_layout_opening((const double(*)[3])unit, f->n_nodes, opening));
   int n = f->n_edges > 20000 ? 6 : 36;
   for (int i = 0; i < n && !st; i++) {
     lay_spread(l, (const double(*)[3])unit, opening, (flattening){squeeze[i % 6], rim[i / 6], rim_from});

@@ -1,6 +1,7 @@
 /* Heading and legend of the overview. Widths of text are estimated for a wide face, so that lines never run out. */
 #include "diagram/legend.h"
 
+#include "diagram/draw.h"
 #include "diagram/svg.h"
 #include "diagram/tension.h"
 
@@ -52,6 +53,20 @@ static double write_view(const thr_scene *s, double x, double y, double width, t
   char line[512];
   const thr_layout *l = s->layout;
   y = thr_svg_wrap(t, x, y, TEXT_SIZE, width, " font-weight=\"bold\"", thr_layout_words(l->kind));
+  if (s->n_seams && !thr_scene_labels_seams(s))
+    y = thr_svg_wrap(t, x, y, TEXT_SIZE, width, "",
+                     "At a place on the rim the cord may go on in the other half, at the place of the same name.");
+  if (thr_scene_labels_seams(s)) {
+    snprintf(
+        line, sizeof line,
+        "\"to 17\" where the cord leaves a half and \"from 16\" where it comes out on the other: at places of the same name.");
+    y = thr_svg_wrap(t, x, y, TEXT_SIZE, width, "", line);
+  }
+  if (s->unlabelled) {
+    snprintf(line, sizeof line, "%d such place%s without a label for want of room: look for the number of the next pass.",
+             s->unlabelled, s->unlabelled == 1 ? " is" : "s are");
+    y = thr_svg_wrap(t, x, y, TEXT_SIZE, width, "", line);
+  }
   if (!l->crossings && !l->capped) return y;
   snprintf(
       line, sizeof line,
@@ -84,36 +99,14 @@ double thr_legend_heading(const thr_scene *s, const char *title, double x, doubl
     snprintf(line, sizeof line, "%s, except %d where there is no room.%s", numbers, s->dropped, pale);
   else
     snprintf(line, sizeof line, "%s.%s", numbers, pale);
+  y = thr_svg_wrap(t, x, y, TEXT_SIZE, width, "", line);
+  if (!s->places.n_columns && s->size.pitch < THR_SCENE_NAMED)
+    return thr_svg_wrap(t, x, y, TEXT_SIZE, width, "",
+                        s->layout->node ? "Only places on the rims have names at this scale."
+                                        : "Places have no names at this scale.");
+  if (!s->nameless) return y;
+  snprintf(line, sizeof line, "%d place%s no name for want of room.", s->nameless, s->nameless == 1 ? " has" : "s have");
   return thr_svg_wrap(t, x, y, TEXT_SIZE, width, "", line);
-}
-
-void thr_legend_mark(const thr_scene *s, const thr_mark *m, bool end, bool pale, const char *ring, double x, double y,
-                     thr_text *t)
-{
-  double r = m->radius, size = thr_scene_characters(m->text) > 1 ? s->size.text : fmax(s->size.text, 1.35 * r);
-  const char *class = pale ? "mark pale" : "mark";
-  if (end)
-    thr_text_printf(t, "<rect class=\"%s\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" stroke=\"%s\"/>", class,
-                    thr_svg_round(x - 0.92 * r), thr_svg_round(y - 0.92 * r), 1.84 * r, 1.84 * r, ring);
-  else
-    thr_text_printf(t, "<circle class=\"%s\" cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\" stroke=\"%s\"/>", class, thr_svg_round(x),
-                    thr_svg_round(y), r, ring);
-  thr_svg_text(t, x, y + 0.36 * size, size, pale ? " class=\"middle\"" : " class=\"middle light\" font-weight=\"bold\"", m->text);
-}
-
-void thr_legend_pill(const thr_scene *s, const char *number, const char *colour, double x, double y, thr_text *t)
-{
-  double w = thr_scene_pill_width(s, number), h = thr_scene_pill_height(s);
-  thr_text_printf(t, "<rect class=\"pill\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" rx=\"%.2f\" stroke=\"%s\"/>",
-                  thr_svg_round(x - 0.5 * w), thr_svg_round(y - 0.5 * h), w, h, 0.5 * h, colour);
-  thr_svg_text(t, x, y + 0.36 * s->size.text, s->size.text, " class=\"middle\"", number);
-}
-
-void thr_legend_foot_pad(const thr_scene *s, double x, double y, thr_text *t)
-{
-  double half = s->size.foot;
-  thr_text_printf(t, "<rect class=\"foot\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/>\n", thr_svg_round(x - half),
-                  thr_svg_round(y - half), 2 * half, 2 * half);
 }
 
 /* A round length whose bar is 20 to 50 mm on paper. */
@@ -122,7 +115,7 @@ static double write_scale_bar(const thr_scene *s, double x, double y, double wid
   char length[64], line[160];
   double most = 50 / s->scale, unit = pow(10, floor(log10(most)));
   double value = most >= 5 * unit ? 5 * unit : most >= 2 * unit ? 2 * unit : unit, bar = value * s->scale;
-  if (s->layout->kind >= THR_LAYOUT_SPREAD || !(bar > 1 && bar < 60)) return y;
+  if (s->layout->kind == THR_LAYOUT_SPREAD || s->layout->kind == THR_LAYOUT_DRAWN || !(bar > 1 && bar < 60)) return y;
   thr_text_printf(t, "<g id=\"scale\"><path class=\"bar\" d=\"M%.2f %.2fv-2.00M%.2f %.2fh%.2fM%.2f %.2fv-2.00\"/>\n", x, y, x,
                   y - 1, bar, x + bar, y);
   if (value >= 1e6 || value < 1e-3)
@@ -145,14 +138,14 @@ static double write_key(const thr_scene *s, double x, double y, thr_text *t)
   if (s->n_passes) thr_scene_colour(s, 0, colour);
   const char *ring = s->plan->n_cords > 1 && !s->tension ? colour : "#111";
   double line = y + 0.36 * TEXT_SIZE;
-  thr_legend_mark(s, &m, false, false, ring, x + m.radius, y, t);
+  thr_draw_mark(s, &m, false, false, ring, x + m.radius, y, t);
   thr_svg_text(t, x += 2 * m.radius + 1.5, line, TEXT_SIZE, "", "start");
   x += 16;
   m = s->mark[0][1];
-  thr_legend_mark(s, &m, true, false, ring, x, y, t);
+  thr_draw_mark(s, &m, true, false, ring, x, y, t);
   thr_svg_text(t, x += m.radius + 1.5, line, TEXT_SIZE, "", "end");
   x += 14;
-  thr_legend_pill(s, s->plan->n_cords > 1 ? "A1" : "1", colour, x, y, t);
+  thr_draw_pill(s, s->plan->n_cords > 1 ? "A1" : "1", colour, x, y, t);
   thr_svg_text(t, x += 5, line, TEXT_SIZE, "", "number of a pass");
   x += 38;
   thr_text_printf(t, "<rect class=\"bead\" x=\"%.2f\" y=\"%.2f\" width=\"9.00\" height=\"4.00\" rx=\"1.20\"/>\n", x - 4, y - 2);
@@ -163,20 +156,11 @@ static double write_key(const thr_scene *s, double x, double y, thr_text *t)
   return y + ROW + 2;
 }
 
-void thr_legend_dash(const thr_scene *s, const double *dash, thr_text *t)
-{
-  if (!dash) return;
-  thr_text_append(t, " stroke-linecap=\"butt\" stroke-dasharray=\"");
-  for (int i = 0; dash[i] > 0; i++)
-    thr_text_printf(t, "%s%.2f", i ? " " : "", dash[i] * s->size.cord);
-  thr_text_append(t, "\"");
-}
-
 static void write_swatch(const thr_scene *s, int c, const char *colour, double x, double y, thr_text *t)
 {
   thr_text_printf(t, "<g class=\"swatch%s\" data-for=\"%s\" stroke=\"%s\" fill=\"%s\"><path class=\"cord\" d=\"M%.2f %.2fh%.2f\"",
                   thr_scene_is_copy(s, c) ? " copy" : "", s->id[c], colour, colour, x, y, SWATCH - 3);
-  thr_legend_dash(s, thr_scene_dash(s, c), t);
+  thr_draw_dash(s, thr_scene_dash(s, c), t);
   thr_text_append(t, "/>");
   if (s->turning) {
     char straight[8];
@@ -309,13 +293,6 @@ static double write_tension_scale(const thr_scene *s, double x, double y, double
   return write_ramp(s, &r, x, y - 0.5 * TEXT_SIZE, t);
 }
 
-void thr_legend_sharp(const thr_scene *s, double x, double y, thr_text *t)
-{
-  double half = thr_scene_sharp_size(s);
-  thr_text_printf(t, "<path class=\"sharp\" d=\"M%.2f %.2fl%.2f %.2fl%.2f %.2fl%.2f %.2fz\"/>", thr_svg_round(x),
-                  thr_svg_round(y - half), half, half, -half, half, -half, -half);
-}
-
 /* The sign of a sharp turn with its meaning, if there is one. */
 static void write_sharp_key(const thr_scene *s, double x, double y, thr_text *t)
 {
@@ -325,7 +302,7 @@ static void write_sharp_key(const thr_scene *s, double x, double y, thr_text *t)
     sharp += thr_turn_over(s->pass[i].turned, THR_SCENE_SHARP);
   }
   if (!marked) return;
-  thr_legend_sharp(s, x, y, t);
+  thr_draw_sharp(s, x, y, t);
   thr_svg_text(t, x + thr_scene_sharp_size(s) + 1.5, y + 0.36 * TEXT_SIZE, TEXT_SIZE, "",
                marked < sharp ? "over 90" DEGREE " (not all)" : "over 90" DEGREE);
 }

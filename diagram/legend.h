@@ -17,18 +17,4 @@ thr_status thr_legend_foot(const thr_scene *s, double x, double y, double width,
 /* Width that the longest line wants, mm. */
 enum { THR_LEGEND_WIDTH = 165 };
 
-/* The mark of a cord's start or end (pale: of a copy), and a number's pill: drawn alike in the picture and in the key. */
-void thr_legend_mark(const thr_scene *s, const thr_mark *m, bool end, bool pale, const char *ring, double x, double y,
-                     thr_text *t);
-void thr_legend_pill(const thr_scene *s, const char *number, const char *colour, double x, double y, thr_text *t);
-
-/* The sign of a sharp turn. */
-void thr_legend_sharp(const thr_scene *s, double x, double y, thr_text *t);
-
-/* Appends the attribute that dashes a cord's line; nothing for a full line (NULL). */
-void thr_legend_dash(const thr_scene *s, const double *dash, thr_text *t);
-
-/* The pad under a node that is a foot. */
-void thr_legend_foot_pad(const thr_scene *s, double x, double y, thr_text *t);
-
 #endif

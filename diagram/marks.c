@@ -22,7 +22,7 @@ static double mark_radius(const thr_scene *s, const char *text)
 /* Keeps the cheaper of best and a place at a distance and direction from the node. */
 static void judge(thr_scene *s, const thr_mark *m, double angle, double distance, double penalty, candidate *best)
 {
-  const double *o = s->at[m->node];
+  const double *o = s->at[m->point];
   double r = m->radius, x = o[0] + distance * cos(angle), y = o[1] + distance * sin(angle);
   double disc = 4 * r * r;
   double cost = penalty + distance / s->size.pitch;
@@ -34,8 +34,8 @@ static void judge(thr_scene *s, const thr_mark *m, double angle, double distance
 /* Tries the sector that begins at half-edge around[first + i] of the mark's node. */
 static void judge_sector(thr_scene *s, const thr_mark *m, int i, double penalty, candidate *best)
 {
-  const thr_frame *f = s->frame;
-  int first = f->first[m->node], degree = thr_degree(f, m->node);
+  const thr_frame *f = s->paper;
+  int first = f->first[m->point], degree = thr_degree(f, m->point);
   int h = s->around[first + i], g = s->around[first + (i + 1) % degree];
   double wide = degree > 1 ? thr_scene_sweep(s->angle[h], s->angle[g]) : 2 * PI;
   if (degree > 1 && wide < 0.2) return;
@@ -59,9 +59,9 @@ static int steps_away(int i, int r, int degree)
 
 static thr_status place_mark(thr_scene *s, thr_mark *m, int half, thr_err *err)
 {
-  int degree = thr_degree(s->frame, m->node), rank = s->rank[half];
-  candidate best = {{s->at[m->node][0], s->at[m->node][1]}, 0, HUGE_VAL, false};
-  m->radius = mark_radius(s, m->text);
+  int degree = thr_degree(s->paper, m->point), rank = s->rank[half];
+  candidate best = {{s->at[m->point][0], s->at[m->point][1]}, 0, HUGE_VAL, false};
+  m->radius = m->half[0] = m->half[1] = mark_radius(s, m->text);
   int n = degree < MAX_SECTORS ? degree : MAX_SECTORS;
   for (int k = 0; k < n; k++) {
     /* rank, rank - 1, rank + 1, ..: the nearest sectors first */
@@ -85,8 +85,8 @@ thr_status thr_scene_place_marks(thr_scene *s, thr_err *err)
     int last = cord->half[cord->n_passes - 1];
     const char *id = s->plan->n_cords > 1 ? s->id[c] : "";
     thr_mark *m = s->mark[c];
-    m[0].node = thr_tail(s->frame, cord->half[0]);
-    m[1].node = thr_head(s->frame, last);
+    m[0].point = thr_tail(s->paper, cord->half[0]);
+    m[1].point = thr_head(s->paper, last);
     snprintf(m[0].text, sizeof m[0].text, "S%s", id);
     snprintf(m[1].text, sizeof m[1].text, "E%s", id);
     st = place_mark(s, &m[0], cord->half[0], err);

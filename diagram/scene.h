@@ -1,6 +1,7 @@
 /* The overview picture before it is written: everything in mm on paper, x to the right, y down, the nodes' bounding box at
  * the origin. Private to diagram/. Built in steps, each in its own file: paper and beads (scene.c), the S and E marks
- * (marks.c), lanes (lanes.c), strands (strands.c), numbers, arrows and names (labels.c); if wanted, turns (turns.c). */
+ * (marks.c), seams between
+ * panels (seams.c), lanes (lanes.c), strands (strands.c), numbers, arrows and names (labels.c); if wanted, turns (turns.c). */
 #ifndef THR_SCENE_H
 #define THR_SCENE_H
 
@@ -30,29 +31,33 @@ typedef struct {
   int half;              /* half-edge */
   int lane;              /* 0 .. on its edge, towards the edge's normal (-dy, dx) */
   double from[2], to[2]; /* the straight part, in the lane */
-  double turn[2][2];     /* Bezier control points of the curve that leads to from; the first pass's starts at its mark */
+  int seam;              /* number of the seam between the pass before and this one, -1 = none: they meet on paper */
+  double turn[2][2];     /* Bezier control points of the curve that leads to from, out of the pass before or of a mark */
+  double leave[2][2];    /* and of the curve from to to a mark, if the cord does not go on from there on paper */
   bool numbered;
   double pill[2];    /* centre of the number, if numbered */
   double arrow[2];   /* its middle */
-  double arrow_size; /* its length; 0 = no room */
+  double arrow_size; /* its length; 0 = no room; < 0: it points against the pass */
   double turned;     /* if turning is shown: angle of the turn to this pass, rad; a first pass's closes the cord; -1 = none */
   bool sharp;        /* is that turn marked as a sharp one? */
   double sharp_at[2];
 } thr_scene_pass;
 
-/* Where a cord starts (S, a disc) or ends (E, a square). */
+/* Where a cord starts (S, a disc) or ends (E, a square), or goes over to the other panel ("to 17") or comes from there. */
 typedef struct {
-  int node;
+  int point;
   double at[2], radius;
-  double angle; /* direction from the node, rad; the node itself (at) when alone is false */
-  bool beside;  /* beside the node, else on it */
-  char text[16];
+  double half[2]; /* half its width and height */
+  double angle;   /* direction from the point, rad; the point itself (at) when beside is false */
+  bool beside;    /* beside the point, else on it */
+  char text[24];
 } thr_mark;
 
 typedef struct {
   const thr_plan *plan;
   const thr_frame *frame;
   const thr_layout *layout;
+  const thr_frame *paper;        /* what the beads join on paper (see thr_layout_paper) */
   const thr_evaluation *tension; /* colours show it over tension_range; NULL: colours tell the cords apart */
   double tension_range[2];       /* N */
   bool turning;                  /* turns have colours of their own along the cords */
@@ -63,25 +68,31 @@ typedef struct {
   double scale;         /* mm per unit of the layout */
   double origin[2];     /* what of the layout lies at (0, 0): least x, greatest y */
   double width, height; /* of the nodes' bounding box */
-  double (*at)[2];      /* [n_nodes] */
-  double *angle;        /* [2 * n_edges] direction in which a half-edge leaves its node, rad in (-pi, pi] */
-  int *around;          /* [2 * n_edges] as frame->half, but by ascending angle within a node */
-  int *rank;            /* [2 * n_edges] place of a half-edge among those at its node: around[first[v] + rank[h]] = h */
-  double *gap;          /* [2 * n_edges] from the node to the bead's end at the half-edge's tail */
+  double (*at)[2];      /* [points of the layout] */
+  int *twin;            /* [points] the other point of its node, -1 = none */
+  double *angle;        /* [2 * n_edges] direction in which a half-edge leaves its point, rad in (-pi, pi] */
+  int *around;          /* [2 * n_edges] as paper->half, but by ascending angle within a point */
+  int *rank;            /* [2 * n_edges] place of a half-edge among those at its point: around[first[p] + rank[h]] = h */
+  double *gap;          /* [2 * n_edges] from the point to the bead's end at the half-edge's tail */
   double *lane;         /* [n_edges] between neighbouring lanes */
   double *bead;         /* [n_edges] width */
   int n_passes;
-  thr_scene_pass *pass;      /* [n_passes] of all cords in order */
-  int *first_pass;           /* [n_cords + 1] */
-  int *first_on, *on;        /* passes on edge e by lane: on[first_on[e] .. first_on[e + 1] - 1] */
-  double (*last_turn)[2][2]; /* [n_cords] control points of the curve from the last pass to the E mark */
-  thr_mark (*mark)[2];       /* [n_cords] S and E */
-  char (*id)[12];            /* [n_cords] for elements: capital letters only */
-  int number_step;           /* every so many passes has a number */
-  int dropped;               /* numbers for which there was no room */
-  bool *named;               /* [n_nodes] is there room for the name? */
-  double (*name_at)[2];      /* [n_nodes] its middle, if named */
-  thr_box extent;            /* of everything above */
+  thr_scene_pass *pass; /* [n_passes] of all cords in order */
+  int *first_pass;      /* [n_cords + 1] */
+  int *first_on, *on;   /* passes on edge e by lane: on[first_on[e] .. first_on[e + 1] - 1] */
+  thr_mark (*mark)[2];  /* [n_cords] S and E */
+  int n_seams;
+  thr_mark (*seam)[2];  /* [n_seams] where a cord leaves a panel, and where it comes out on the other one; by pass */
+  bool *seam_labelled;  /* [n_seams] was there room to say so in both places? */
+  int unlabelled;       /* seams without */
+  char (*id)[12];       /* [n_cords] for elements: capital letters only */
+  int number_step;      /* every so many passes has a number */
+  int dropped;          /* numbers for which there was no room */
+  bool *named;          /* [points] is there room for the node's name? A node with two points is named at both or at neither */
+  int nameless;         /* nodes without a name for want of room; 0 if none is to be named */
+  double (*name_at)[2]; /* [points] its middle, if named */
+  double caption[2][2]; /* of two panels: middle of what is written over each */
+  thr_box extent;       /* of everything above */
   thr_boxes boxes;
 } thr_scene;
 
@@ -109,14 +120,22 @@ const char *thr_scene_cord_colour(const thr_scene *s, int c);
 void thr_scene_colour(const thr_scene *s, int i, char hex[8]);
 enum { THR_COLOUR_PASSES = 20 };
 
+/* Smallest pitch at which places that are not in a grid are named, mm. */
+static const double THR_SCENE_NAMED = 8;
+
 /* Dash pattern of cord c (see thr_palette_dash). */
 const double *thr_scene_dash(const thr_scene *s, int c);
 
 /* The steps of thr_scene_build, in order. */
 thr_status thr_scene_place_marks(thr_scene *s, thr_err *err) THR_MUST_CHECK;
+thr_status thr_scene_place_seams(thr_scene *s, thr_err *err) THR_MUST_CHECK;
 thr_status thr_scene_order_lanes(thr_scene *s, thr_err *err) THR_MUST_CHECK;
 void thr_scene_lay_strands(thr_scene *s);
+thr_status thr_scene_name_seams(thr_scene *s, thr_err *err) THR_MUST_CHECK;
 thr_status thr_scene_place_labels(thr_scene *s, thr_err *err) THR_MUST_CHECK;
+
+/* Tells the boxes where the strands run through nodes and where the feet are, so that names keep off them. */
+thr_status thr_scene_box_strands(thr_scene *s, thr_err *err) THR_MUST_CHECK;
 
 /* After these, to show turning: finds the turns' angles, and places for the signs of those sharper than THR_SCENE_SHARP. */
 thr_status thr_scene_find_turns(thr_scene *s, thr_err *err) THR_MUST_CHECK;
@@ -140,6 +159,23 @@ double thr_scene_sweep(double a, double b);
 
 /* Is pass i followed by pass i + 1 of the same cord? */
 bool thr_scene_continues(const thr_scene *s, int i);
+
+/* The mark that pass i comes from, or NULL: it comes from the pass before. The mark that it goes to, or NULL: to the next pass.
+ */
+const thr_mark *thr_scene_mark_before(const thr_scene *s, int i);
+const thr_mark *thr_scene_mark_after(const thr_scene *s, int i);
+
+/* Where the curve starts that leads to pass i: the end of the pass before, or a mark. */
+const double *thr_scene_turn_start(const thr_scene *s, int i);
+
+/* Are cords labelled where they go over to the other panel? Not at a small scale, where only the places on the rims are named. */
+bool thr_scene_labels_seams(const thr_scene *s);
+
+/* What is written over panel 0 or 1: "from above". */
+const char *thr_scene_caption(const thr_scene *s, int panel);
+
+/* The name of the place that a point of the layout shows. */
+void thr_scene_place_name(const thr_scene *s, int point, char name[48]);
 
 /* Number of characters (code points) of a text, and its estimated width in mm. */
 int thr_scene_characters(const char *text);

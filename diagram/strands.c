@@ -14,7 +14,7 @@ void thr_scene_curve_at(const double a[2], const double b[2], const double c[2],
 static void lane_end(const thr_scene *s, int i, bool end, double at[2])
 {
   const thr_scene_pass *p = &s->pass[i];
-  const thr_frame *f = s->frame;
+  const thr_frame *f = s->paper;
   int e = p->half >> 1, n = s->first_on[e + 1] - s->first_on[e], tail = end ? p->half ^ 1 : p->half;
   double d[2], out[2], offset = (p->lane - 0.5 * (n - 1)) * s->lane[e];
   const double *o = s->at[thr_tail(f, tail)];
@@ -58,7 +58,7 @@ static void bend(const double p[2], const double d[2], const double q[2], const 
 /* The curve between a mark and a lane: leaves the mark towards the node, or along the lane if it sits on the node. */
 static void stub(const thr_scene *s, const thr_mark *m, const double lane[2], const double into[2], double turn[2][2])
 {
-  const double *o = s->at[m->node];
+  const double *o = s->at[m->point];
   double length = hypot(lane[0] - m->at[0], lane[1] - m->at[1]);
   for (int k = 0; k < 2; k++) {
     turn[0][k] = m->beside ? m->at[k] + 0.6 * (o[k] - m->at[k]) : m->at[k];
@@ -71,8 +71,9 @@ static void lay_turn(thr_scene *s, int i)
   thr_scene_pass *p = &s->pass[i];
   double d[2], g[2];
   thr_scene_direction(s, p->half, g);
-  if (p->number == 1) {
-    stub(s, &s->mark[p->cord][0], p->from, g, p->turn);
+  const thr_mark *m = thr_scene_mark_before(s, i);
+  if (m) {
+    stub(s, m, p->from, g, p->turn);
     return;
   }
   thr_scene_direction(s, p[-1].half, d);
@@ -88,13 +89,43 @@ void thr_scene_lay_strands(thr_scene *s)
   for (int i = 0; i < s->n_passes; i++) {
     thr_scene_pass *p = &s->pass[i];
     lay_turn(s, i);
-    if (thr_scene_continues(s, i)) continue;
+    const thr_mark *m = thr_scene_mark_after(s, i);
+    if (!m) continue;
     double back[2], turn[2][2];
     thr_scene_direction(s, p->half ^ 1, back);
-    stub(s, &s->mark[p->cord][1], p->to, back, turn);
+    stub(s, m, p->to, back, turn);
     for (int k = 0; k < 2; k++) {
-      s->last_turn[p->cord][0][k] = turn[1][k];
-      s->last_turn[p->cord][1][k] = turn[0][k];
+      p->leave[0][k] = turn[1][k];
+      p->leave[1][k] = turn[0][k];
     }
   }
+}
+
+/* Boxes along a curve through a node, as dense as the line is wide. */
+static thr_status box_curve(thr_scene *s, const double a[2], const double b[2], const double c[2], const double d[2],
+                            thr_err *err)
+{
+  thr_status st = THR_OK;
+  double at[2], half = 0.5 * s->size.cord + s->size.casing;
+  int n = 2 + (int)fmin(hypot(d[0] - a[0], d[1] - a[1]) / half, 30);
+  for (int k = 1; k < n && !st; k++) {
+    thr_scene_curve_at(a, b, c, d, (double)k / n, at);
+    st = thr_boxes_add(&s->boxes, thr_box_around(at[0], at[1], half, half), THR_BOX_CORD, err);
+  }
+  return st;
+}
+
+thr_status thr_scene_box_strands(thr_scene *s, thr_err *err)
+{
+  thr_status st = THR_OK;
+  for (int i = 0; i < s->n_passes && !st; i++) {
+    const thr_scene_pass *p = &s->pass[i];
+    const thr_mark *m = thr_scene_mark_after(s, i);
+    st = box_curve(s, thr_scene_turn_start(s, i), p->turn[0], p->turn[1], p->from, err);
+    if (!st && m) st = box_curve(s, p->to, p->leave[0], p->leave[1], m->at, err);
+  }
+  for (int v = 0; v < s->layout->n_points && !st; v++)
+    if (s->frame->foot && s->frame->foot[thr_layout_node(s->layout, v)])
+      st = thr_boxes_add(&s->boxes, thr_box_around(s->at[v][0], s->at[v][1], s->size.foot, s->size.foot), THR_BOX_FOOT, err);
+  return st;
 }

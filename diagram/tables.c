@@ -3,11 +3,9 @@
 #include "diagram/copies.h"
 #include "diagram/guide.h"
 #include "diagram/kinds.h"
-#include "diagram/scene.h"
-#include "graph/bore.h"
+#include "diagram/supplies.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,12 +16,8 @@ typedef struct {
   const thr_plan *plan;
   const thr_frame *f;
   thr_guide guide;
-  thr_copy *copy;    /* [n_cords] */
-  int *passes;       /* [n_edges] */
-  double mm;         /* per unit; 0 = sizes in mm are not known */
-  double cord;       /* mm, diameter; > 0 if mm is */
-  double bore;       /* mm, of the plan */
-  double *narrowest; /* [most passes of an edge + 1] bore for so many, in cord diameters; 0 = not asked for yet */
+  thr_supplies supplies;
+  thr_copy *copy; /* [n_cords] */
   thr_text *out;
 } table;
 
@@ -70,44 +64,13 @@ static void put_unit(table *t)
 
 /* ---- what they share ---- */
 
-/* Cord and bores as the plan was evaluated, else as asked for or worked out. Where nothing was said of them, a framework whose
- * size is not known, or is no bead's, leaves them open. */
-static thr_status find_sizes(table *t, thr_err *err)
-{
-  const thr_plan *p = t->plan;
-  const thr_physics *asked = &p->options.physics;
-  thr_physics sizes = p->evaluation.physics;
-  double mm;
-  if (thr_units_in_mm(t->f->units, &mm, NULL)) return THR_OK;
-  if (!p->evaluation.present) {
-    thr_err why = {0};
-    bool said = asked->cord_diameter > 0 || asked->bore > 0 || asked->bead_diameter > 0;
-    thr_status st = thr_physics_resolve(asked, t->f, &sizes, &why);
-    if (st) return st == THR_EINPUT && !said ? THR_OK : thr_fail(err, st, "%s", why.text);
-  }
-  t->mm = mm;
-  t->cord = sizes.cord_diameter;
-  t->bore = sizes.bore;
-  return THR_OK;
-}
-
 static thr_status table_make(table *t, const thr_plan *p, thr_text *out, thr_err *err)
 {
-  int n, most = 0;
   *t = (table){.plan = p, .f = &p->frame, .out = out};
-  thr_status st = thr_scene_check_cords(p, &n, err);
-  if (!st && !p->n_cords) st = thr_fail(err, THR_EINPUT, "the plan has no cord to thread");
+  thr_status st = thr_supplies_make(&t->supplies, p, err);
   if (st) return st;
   t->copy = thr_calloc((size_t)p->n_cords, sizeof *t->copy);
-  t->passes = thr_calloc((size_t)t->f->n_edges, sizeof *t->passes);
-  if (!t->copy || !t->passes) return thr_nomem(err);
-  for (int c = 0; c < p->n_cords; c++)
-    for (int k = 0; k < p->cord[c].n_passes; k++)
-      t->passes[p->cord[c].half[k] >> 1]++;
-  for (int e = 0; e < t->f->n_edges; e++)
-    if (t->passes[e] > most) most = t->passes[e];
-  t->narrowest = thr_calloc((size_t)most + 1, sizeof *t->narrowest);
-  if (!t->narrowest) return thr_nomem(err);
+  if (!t->copy) return thr_nomem(err);
   st = thr_copies_find(p, t->copy, err);
   return st ? st : thr_guide_make(&t->guide, t->f, err);
 }
@@ -119,18 +82,9 @@ static thr_status table_close(table *t, thr_status st, thr_text *out, thr_err *e
   if (!st && (t->out->failed || out->failed)) st = thr_nomem(err);
   thr_text_destroy(t->out);
   thr_guide_destroy(&t->guide);
+  thr_supplies_destroy(&t->supplies);
   free(t->copy);
-  free(t->passes);
-  free(t->narrowest);
   return st;
-}
-
-/* In cord diameters, for the passes of edge e. */
-static double bore_of(table *t, int e)
-{
-  double *bore = &t->narrowest[t->passes[e]];
-  if (*bore == 0 && t->passes[e]) *bore = thr_bore_for(t->passes[e]);
-  return *bore;
 }
 
 static const char *place(const table *t, int v)
@@ -155,19 +109,16 @@ static int path_step(const table *t, int c, int k)
   return (how->backward ? how->start - k + n : how->start + k) % n + 1;
 }
 
-/* visits[e]: passes of edge e so far; last[e]: half-edge of the latest. */
-static void put_step(table *t, int c, int k, double *used, double length, int *visits, int *last)
+static void put_step(table *t, int c, int k, double *used, double length, thr_held *held)
 {
   const thr_cord *cord = &t->plan->cord[c];
   int h = cord->half[k], e = h >> 1, from = thr_tail(t->f, h), to = thr_head(t->f, h);
-  const char *how = !visits[e] ? "pick up" : last[e] == h ? "pass through" : "pass back through";
   put_text(t, cord->id);
   put_int(t, k + 1);
   put_text(t, place(t, from));
   put_text(t, place(t, to));
-  put_text(t, how);
-  put_int(t, ++visits[e]);
-  last[e] = h;
+  put_text(t, thr_deed_words(thr_held_pass(held, h)));
+  put_int(t, held->cords[e]);
   if (k) {
     put_text(t, way_name(thr_guide_way(&t->guide, cord->half[k - 1], h)));
     put_angle(t, thr_turn_angle(t->f, cord->half[k - 1], h));
@@ -190,54 +141,38 @@ thr_status thr_table_steps(const thr_plan *p, thr_text *out, thr_err *err)
   table t;
   thr_text text = {0};
   thr_status st = table_make(&t, p, &text, err);
-  int *visits = st ? NULL : thr_calloc((size_t)p->frame.n_edges, sizeof *visits);
-  int *last = st ? NULL : thr_calloc((size_t)p->frame.n_edges, sizeof *last);
-  if (!st && (!visits || !last)) st = thr_nomem(err);
+  thr_held held = {0};
+  if (!st) st = thr_held_make(&held, p->frame.n_edges, err);
   thr_text_append(&text,
                   "cord,step,from,to,how,visit,turn,degrees,length,used,left,path,path_step,edge,from_node,to_node,unit\n");
   for (int path = 0; path < p->n_cords && !st; path++)
     for (int c = path; c < p->n_cords && t.copy[path].of == path; c++) {
       double used = 0, length = thr_cord_length(t.f, &p->cord[c]);
       for (int k = 0; k < p->cord[c].n_passes && t.copy[c].of == path; k++)
-        put_step(&t, c, k, &used, length, visits, last);
+        put_step(&t, c, k, &used, length, &held);
     }
-  free(visits);
-  free(last);
+  thr_held_destroy(&held);
   return table_close(&t, st, out, err);
 }
 
 /* ---- cords.csv ---- */
 
-/* Cord that turns take at most beside the way through the middles, mm. */
-static double in_turns(table *t, const thr_cord *c)
-{
-  double sum = 0;
-  int turns = thr_cord_turns(&t->plan->options, c);
-  for (int k = 0; k < turns; k++) {
-    int in = c->half[k], out = c->half[(k + 1) % c->n_passes];
-    double bore = fmax(t->bore, t->cord * fmax(bore_of(t, in >> 1), bore_of(t, out >> 1)));
-    sum += (bore - t->cord) / 2 * thr_turn_angle(t->f, in, out);
-  }
-  return sum;
-}
-
 static void put_cord(table *t, int c, const char *const *motion)
 {
   const thr_cord *cord = &t->plan->cord[c];
-  double length = thr_cord_length(t->f, cord), tails = 2 * THR_TABLE_TAIL, knots = 2 * THR_TABLE_KNOT * t->cord;
+  thr_cut_length cut = thr_supplies_cut(&t->supplies, c);
   char words[192];
   put_text(t, cord->id);
   put_yes(t, cord->closed);
   put_text(t, place(t, thr_cord_start(t->f, cord)));
   put_text(t, place(t, thr_cord_end(t->f, cord)));
   put_int(t, cord->n_passes);
-  put_number(t, length);
-  if (t->mm > 0) {
-    double turns = in_turns(t, cord);
-    put_number(t, tails / t->mm);
-    put_number(t, knots / t->mm);
-    put_number(t, turns / t->mm);
-    put_number(t, length + (tails + knots + turns) / t->mm);
+  put_number(t, cut.length);
+  if (t->supplies.mm > 0) {
+    put_number(t, cut.tails);
+    put_number(t, cut.knots);
+    put_number(t, cut.turns);
+    put_number(t, cut.cut);
   } else
     thr_text_append(t->out, ",,,,");
   put_angle(t, thr_cord_turning(t->f, cord, t->plan->options.ends == THR_ENDS_CLOSED));
@@ -252,7 +187,7 @@ thr_status thr_table_cords(const thr_plan *p, const char *const *motion, thr_tex
   table t;
   thr_text text = {0};
   thr_status st = table_make(&t, p, &text, err);
-  if (!st) st = find_sizes(&t, err);
+  if (!st) st = thr_supplies_find_sizes(&t.supplies, err);
   thr_text_append(&text, "cord,closed,start,end,passes,length,tails,knots,turns,cut,turning_degrees,path,repeated,unit\n");
   for (int c = 0; c < p->n_cords && !st; c++)
     put_cord(&t, c, motion);
@@ -261,12 +196,11 @@ thr_status thr_table_cords(const thr_plan *p, const char *const *motion, thr_tex
 
 /* ---- beads.csv ---- */
 
-/* Rounded up: a hundredth of a mm too narrow is too narrow. */
 static void put_bore(table *t, double cords)
 {
   put_number(t, cords);
-  if (t->mm > 0)
-    put_number(t, ceil(cords * t->cord * 100 - 1e-6) / 100);
+  if (t->supplies.mm > 0)
+    put_number(t, thr_supplies_bore_mm(&t->supplies, cords));
   else
     thr_text_append(t->out, ",");
 }
@@ -280,8 +214,8 @@ static void put_edge(table *t, int e, int kind)
   for (int i = 0; i < 2; i++)
     put_text(t, place(t, end[i]));
   put_number(t, t->f->length[e]);
-  put_int(t, t->passes[e]);
-  put_bore(t, bore_of(t, e));
+  put_int(t, t->supplies.passes[e]);
+  put_bore(t, thr_supplies_bore(&t->supplies, e));
   for (int i = 0; i < 2; i++)
     put_int(t, thr_degree(t->f, end[i]));
   for (int i = 0; i < 2; i++)
@@ -292,11 +226,9 @@ static void put_edge(table *t, int e, int kind)
 /* visits: of cords that run through it, start or end in it. */
 static void put_node(table *t, int v, int kind, int visits)
 {
-  double length = 0, bore = 0;
-  for (int i = t->f->first[v]; i < t->f->first[v + 1]; i++) {
+  double length = 0;
+  for (int i = t->f->first[v]; i < t->f->first[v + 1]; i++)
     length += t->f->length[t->f->half[i] >> 1] / 2;
-    bore = fmax(bore, bore_of(t, t->f->half[i] >> 1));
-  }
   thr_text_append(t->out, "node,");
   put_int(t, v);
   put_int(t, kind);
@@ -304,7 +236,7 @@ static void put_node(table *t, int v, int kind, int visits)
   put_text(t, "");
   put_number(t, length);
   put_int(t, visits);
-  put_bore(t, bore);
+  put_bore(t, thr_supplies_node_bore(&t->supplies, v));
   put_int(t, thr_degree(t->f, v));
   put_text(t, "");
   put_yes(t, t->f->foot[v]);
@@ -312,30 +244,19 @@ static void put_node(table *t, int v, int kind, int visits)
   put_unit(t);
 }
 
-/* visits[n_nodes], all 0. */
-static void count_visits(const thr_plan *p, int *visits)
-{
-  for (int c = 0; c < p->n_cords; c++) {
-    const thr_cord *cord = &p->cord[c];
-    for (int k = 0; k < cord->n_passes; k++)
-      visits[thr_tail(&p->frame, cord->half[k])]++;
-    if (!cord->closed) visits[thr_cord_end(&p->frame, cord)]++;
-  }
-}
-
 thr_status thr_table_beads(const thr_plan *p, thr_text *out, thr_err *err)
 {
   table t;
   thr_text text = {0};
   thr_status st = table_make(&t, p, &text, err);
-  if (!st) st = find_sizes(&t, err);
+  if (!st) st = thr_supplies_find_sizes(&t.supplies, err);
   int n = p->frame.n_nodes;
   int *edge_kind = st ? NULL : thr_calloc((size_t)p->frame.n_edges, sizeof *edge_kind);
   int *node_kind = st ? NULL : thr_calloc((size_t)n, sizeof *node_kind);
   int *visits = st ? NULL : thr_calloc((size_t)n, sizeof *visits);
   if (!st && (!edge_kind || !node_kind || !visits)) st = thr_nomem(err);
   if (!st) st = thr_kinds_find(t.f, edge_kind, node_kind, err);
-  if (!st) count_visits(p, visits);
+  if (!st) thr_supplies_visits(p, visits);
   thr_text_append(&text,
                   "bead,number,kind,from,to,length,passes,bore_cords,bore_mm,from_degree,to_degree,from_foot,to_foot,unit\n");
   for (int e = 0; e < p->frame.n_edges && !st; e++)

@@ -12,16 +12,7 @@
  * O(n log n). */
 thr_status thr_table_steps(const thr_plan *p, thr_text *out, thr_err *err) THR_MUST_CHECK;
 
-/* What is cut off beside the way through the middles of the beads. At each of a cord's two ends (a closed cord has them too) a
- * tail to hold and pull it by: six inches are what bead weavers leave to tie and weave in. And a knot: a tight overhand knot
- * takes up at least 16.4 diameters of cord (V. Katritch et al., "Geometry and physics of knots", Nature 384, 1996: 16.33 for the
- * ideal trefoil, later computed as 16.37). In turns: beside other cords it may lie at the outer wall of its bores all along, and
- * a line at a distance r beside another one is longer by r times the angle by which both turn, exactly: (bore - cord) / 2 each.
- */
-static const double THR_TABLE_TAIL = 150;  /* mm */
-static const double THR_TABLE_KNOT = 16.4; /* cord diameters */
-
-/* A row per cord: the cut list. motion: as in thr_overview_options. O(n log n). */
+/* A row per cord: the cut list, with allowances as in diagram/supplies.h. motion: as in thr_overview_options. O(n log n). */
 thr_status thr_table_cords(const thr_plan *p, const char *const *motion, thr_text *out, thr_err *err) THR_MUST_CHECK;
 
 /* A row per edge and, for solid joints, then a row per node: the bead schedule. Kinds as in diagram/kinds.h, bores as in

@@ -33,7 +33,7 @@ static thr_status place_sign(thr_scene *s, int i, thr_err *err)
   thr_scene_pass *p = &s->pass[i];
   double half = thr_scene_sharp_size(s);
   for (int k = 0; k < MAX_PLACES; k++) {
-    thr_scene_curve_at(p[-1].to, p->turn[0], p->turn[1], p->from, SHARP_AT[k], p->sharp_at);
+    thr_scene_curve_at(thr_scene_turn_start(s, i), p->turn[0], p->turn[1], p->from, SHARP_AT[k], p->sharp_at);
     thr_box box = thr_box_around(p->sharp_at[0], p->sharp_at[1], half, half);
     if (thr_boxes_overlap(&s->boxes, box, THR_BOX_MARK | THR_BOX_NUMBER | THR_BOX_NAME | THR_BOX_TURN, 1e-9) > 0) continue;
     p->sharp = true;

@@ -168,7 +168,7 @@ static thr_status walked_from_cords(thr_check_walked *w, const thr_frame *f, con
 }
 
 /* As many cords in every component as the options say; of a symmetric plan, in the one that has most. A claim about turning is
- * one about exactly so many. */
+ * one about exactly so many, or as many as the given ends make. */
 static thr_status check_cord_count(const thr_check_walked *w, const thr_plan_options *o, const thr_cord *cord, int n_cords,
                                    thr_err *err)
 {
@@ -176,7 +176,8 @@ static thr_status check_cord_count(const thr_check_walked *w, const thr_plan_opt
   thr_status st = count ? THR_OK : thr_nomem(err);
   for (int i = 0; i < n_cords && !st; i++)
     count[cord[i].component]++;
-  int first = 0, end = w->n_components, least = o->objective == THR_LENGTH ? o->cords_least : o->cords;
+  bool range = o->objective == THR_LENGTH || (o->objective == THR_TORTUOSITY && o->ends == THR_ENDS_COUNTS);
+  int first = 0, end = w->n_components, least = range ? o->cords_least : o->cords;
   for (int k = 0; k < w->n_components && !st && o->objective == THR_SYMMETRY; k++) {
     if (count[k] > count[first]) first = k;
     end = first + 1;
@@ -271,8 +272,20 @@ thr_status thr_check_cords(const thr_frame *f, const thr_plan_options *o, const 
   thr_status st = walked_from_cords(&w, f, o, cord, n_cords, err);
   if (!st) st = check_cord_count(&w, o, cord, n_cords, err);
   if (!st && certificate) st = judge_certificates(f, o, &w, certificate, n_certificates, &verdict, err);
-  if (!st) st = thr_check_several(f, o, &w, cord, n_cords, certificate, verdict, found, err);
+  if (!st) st = thr_check_several(f, o, &w, cord, n_cords, certificate, verdict, NULL, found, err);
   free(verdict);
+  walked_destroy(&w);
+  return st;
+}
+
+thr_status thr_check_tied_cords(const thr_frame *f, const thr_plan_options *o, const thr_cord *cord, int n_cords,
+                                const thr_turning_proof *tied, thr_cords_claim *found, thr_err *err)
+{
+  thr_check_walked w;
+  *found = (thr_cords_claim){0};
+  thr_status st = walked_from_cords(&w, f, o, cord, n_cords, err);
+  if (!st) st = check_cord_count(&w, o, cord, n_cords, err);
+  if (!st) st = thr_check_several(f, o, &w, cord, n_cords, NULL, NULL, tied, found, err);
   walked_destroy(&w);
   return st;
 }
@@ -398,7 +411,9 @@ static thr_status check_cords_claim(const thr_plan *p, const thr_check_walked *w
 {
   const thr_cords_claim *claim = &p->cords_claim;
   thr_cords_claim found;
-  thr_status st = thr_check_several(&p->frame, &p->options, w, p->cord, p->n_cords, p->proof.certificate, verdict, &found, err);
+  const thr_turning_proof *tied = p->options.joint == THR_JOINT_TUBE && p->proof.present ? &p->proof.tied : NULL;
+  thr_status st =
+      thr_check_several(&p->frame, &p->options, w, p->cord, p->n_cords, p->proof.certificate, verdict, tied, &found, err);
   if (st) return st;
   const double whole = found.longest;
   if (!thr_check_close(claim->longest, found.longest, whole))
@@ -428,8 +443,6 @@ static thr_status check_claims(const thr_plan *p, const thr_check_walked *w, dou
   if (p->proof.present && (p->options.joint == THR_JOINT_TUBE) != (p->proof.tied.n_nodes > 0))
     return thr_fail(err, THR_EVIOLATED, "proof.length: has a %s, but the plan's joints are %s",
                     p->proof.tied.n_nodes > 0 ? "proof" : "certificate", thr_joint_name(p->options.joint));
-  if (p->cords_claim.present && p->options.joint == THR_JOINT_TUBE)
-    return thr_fail(err, THR_EVIOLATED, "proof.cords: nothing can be claimed of several cords with tube joints");
   if (p->proof.present && p->options.joint == THR_JOINT_SOLID)
     st = judge_certificates(&p->frame, &p->options, w, p->proof.certificate, p->proof.n_certificates, &verdict, err);
   if (!st && p->proof.present) st = check_length_claim(p, w, verdict, proved, err);

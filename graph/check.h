@@ -24,6 +24,10 @@ thr_status thr_check_cords(const thr_frame *f, const thr_plan_options *o, const 
                            const thr_certificate *certificate, int n_certificates, thr_cords_claim *found,
                            thr_err *err) THR_MUST_CHECK;
 
+/* The same with tube joints, by their proof of length (graph/junction.h). */
+thr_status thr_check_tied_cords(const thr_frame *f, const thr_plan_options *o, const thr_cord *cord, int n_cords,
+                                const thr_turning_proof *tied, thr_cords_claim *found, thr_err *err) THR_MUST_CHECK;
+
 /* What the tree of a claim proves about these cords (which must cover the framework as the options say): fills found but for its
  * tree. Of the claim only tree, most_passes and length_limit are read. Optimal: the bound meets the price within the rounding of
  * the sum. THR_EVIOLATED: the tree proves nothing, or the cords are not of the kind that the proof is about. O(leaves * columns),

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-__extension__ typedef __int128 wide; /* sums of hostile 64-bit multipliers cannot overflow it */
+typedef thr_wide wide;
 
 int64_t thr_certificate_weight(const thr_frame *f, const thr_certificate *c, int e)
 {
@@ -25,6 +25,8 @@ typedef struct {
   wide *held;             /* [n_nodes] sum of the values of the sets that hold a node */
   wide *shared;           /* [n_edges] sum of the values of the sets that hold both ends */
   int *own;               /* [n_nodes] cut of the present tree whose own node this is, else -1 */
+  int64_t *price;         /* [n_nodes] of a place for a cord end there */
+  int *loop;              /* [n_edges] in the order of edge: thr_prices_loops; NULL = not known yet */
 } workspace;
 
 /* The cuts of one certificate as a forest. Arrays of n_cuts. */
@@ -161,13 +163,57 @@ static void load_tree(workspace *k, const forest *t, int root)
       k->own[t->c->cut[i].node[j]] = -1;
 }
 
+/* Edge number j of all, by component. */
+static thr_priced priced(const workspace *k, const thr_certificate *c, int j)
+{
+  int e = k->edge[j];
+  bool closed = k->o->ends == THR_ENDS_CLOSED;
+  wide of = closed ? (c->n_prices ? c->place_price[0] : 0) : (wide)k->price[k->f->edge[e][0]] + k->price[k->f->edge[e][1]];
+  return thr_prices_edge(k->f, k->o, e, (wide)thr_certificate_weight(k->f, c, e) * c->denominator, of, k->loop ? k->loop[j] : 2);
+}
+
+/* Prices at nodes, the parity of nodes at these prices, and what all that adds to the bound. */
+static thr_status apply_prices(workspace *k, const thr_certificate *c, wide *places, thr_err *err)
+{
+  const thr_frame *f = k->f;
+  const thr_plan_options *o = k->o;
+  int first = k->start[c->component], n = k->start[c->component + 1] - first;
+  *places = 0;
+  if (c->n_prices == 0) return THR_OK;
+  if (c->n_prices != thr_prices_number(o, n))
+    return thr_fail(err, THR_EVIOLATED, "certificate of component %d: %d place prices; expected %d", c->component, c->n_prices,
+                    thr_prices_number(o, n));
+  for (int i = 0; i < c->n_prices; i++)
+    if (c->place_price[i] < 0)
+      return thr_fail(err, THR_EVIOLATED, "certificate of component %d: place price %" PRId64 " is negative", c->component,
+                      c->place_price[i]);
+  for (int i = 0; i < n && o->ends != THR_ENDS_CLOSED; i++) {
+    int v = k->node[first + i];
+    if (thr_plan_end_allowed(f, o, v)) k->price[v] = c->place_price[o->ends == THR_ENDS_COUNTS ? i : 0];
+    if (o->ends == THR_ENDS_COUNTS) *places += (wide)k->price[v] * o->end_count[v];
+  }
+  if (o->ends != THR_ENDS_COUNTS) *places = 2 * (wide)o->cords_least * c->place_price[0];
+  for (int j = k->edge_start[c->component]; j < k->edge_start[c->component + 1]; j++) {
+    const int *end = f->edge[k->edge[j]];
+    thr_priced p = priced(k, c, j);
+    if (p.room && p.endless)
+      return thr_fail(err, THR_EVIOLATED, "certificate of component %d: place prices make edge %d cheaper the more it is passed",
+                      c->component, k->edge[j]);
+    bool odd = p.room && p.odd < p.even;
+    *places += (odd ? p.odd : p.even) - p.held;
+    k->odd[end[0]] ^= odd;
+    k->odd[end[1]] ^= odd;
+  }
+  return THR_OK;
+}
+
 static thr_status check_loads(const workspace *k, const thr_certificate *c, thr_err *err)
 {
   for (int j = k->edge_start[c->component]; j < k->edge_start[c->component + 1]; j++) {
     int e = k->edge[j];
-    bool room = thr_plan_capacity(k->f, k->o, e) > thr_plan_cover(k->f, k->o, e);
     wide load = k->held[k->f->edge[e][0]] + k->held[k->f->edge[e][1]] - 2 * k->shared[e];
-    if (room && load > (wide)thr_certificate_weight(k->f, c, e) * c->denominator)
+    thr_priced p = priced(k, c, j);
+    if (p.room && load > (p.odd > p.even ? p.odd - p.even : p.even - p.odd))
       return thr_fail(err, THR_EVIOLATED, "certificate of component %d: the cuts over edge %d add up to more than its weight",
                       c->component, e);
   }
@@ -188,28 +234,30 @@ static void clear(workspace *k, int component)
   for (int j = k->start[component]; j < k->start[component + 1]; j++) {
     k->held[k->node[j]] = 0;
     k->own[k->node[j]] = -1;
+    k->price[k->node[j]] = 0;
   }
 }
 
 /* Least weight of extra passes that leave so many ends; weights are integers, and nothing fits between the bound and the next. */
-static wide least_weight(const thr_certificate *c, int64_t ends)
+static wide least_weight(const thr_certificate *c, wide places, int64_t ends)
 {
-  wide proved = c->sum - (wide)ends * c->end_price;
+  wide proved = c->sum + places - (wide)ends * c->end_price;
   return proved > 0 ? (proved + c->denominator - 1) / c->denominator : 0;
 }
 
 double thr_check_extra(const thr_certificate *c, const thr_check_verdict *v, int64_t ends)
 {
-  return fmax(0, (double)least_weight(c, ends) / c->scale - v->rounding);
+  return fmax(0, (double)least_weight(c, v->places, ends) / c->scale - v->rounding);
 }
 
 /* Compares the stated sums with the true ones, and says what they prove. */
-static thr_status judge(const workspace *k, const thr_certificate *c, wide sum, thr_check_verdict *out, thr_err *err)
+static thr_status judge(const workspace *k, const thr_certificate *c, wide sum, wide places, thr_check_verdict *out,
+                        thr_err *err)
 {
   bool extra = false, weightless = false; /* a scale may round what passes cost to nothing */
   wide join = 0;
   double total = 0;
-  *out = (thr_check_verdict){0};
+  *out = (thr_check_verdict){.places = places};
   for (int j = k->edge_start[c->component]; j < k->edge_start[c->component + 1]; j++) {
     int e = k->edge[j], more = k->w->passes[e] - thr_plan_cover(k->f, k->o, e);
     int64_t w = thr_certificate_weight(k->f, c, e);
@@ -227,7 +275,7 @@ static thr_status judge(const workspace *k, const thr_certificate *c, wide sum, 
                     c->component, c->join);
   int64_t ends = thr_check_ends_free(k->o) ? 2 * (int64_t)k->o->cords : 0;
   out->extra = thr_check_extra(c, out, ends);
-  out->optimal = !extra || (!weightless && least_weight(c, ends) >= join && out->rounding <= 1e-9 * total);
+  out->optimal = !extra || (!weightless && least_weight(c, places, ends) >= join && out->rounding <= 1e-9 * total);
   return THR_OK;
 }
 
@@ -246,13 +294,22 @@ static thr_status check_numbers(const workspace *k, const thr_certificate *c, th
   return THR_OK;
 }
 
+/* All edges' at once, when the first certificate needs them. */
+static thr_status find_loops(workspace *k, thr_err *err)
+{
+  if (k->loop) return THR_OK;
+  if (!(k->loop = thr_calloc((size_t)k->f->n_edges, sizeof *k->loop))) return thr_nomem(err);
+  return thr_prices_loops(k->f, k->edge, k->f->n_edges, k->loop, err);
+}
+
 static thr_status run_certificate(workspace *k, const thr_certificate *c, thr_check_verdict *out, thr_err *err)
 {
-  forest t;
-  wide sum = 0;
+  forest t = {0};
+  wide sum = 0, places = 0;
   thr_status st = check_numbers(k, c, err);
-  if (st) return st;
-  st = forest_init(&t, c, err);
+  if (!st && c->n_prices > 0 && k->o->ends == THR_ENDS_CLOSED) st = find_loops(k, err);
+  if (!st) st = apply_prices(k, c, &places, err);
+  if (!st) st = forest_init(&t, c, err);
   if (!st) st = forest_fill(&t, k, err);
   for (int i = 0; i < c->n_cuts && !st; i++) {
     sum += c->cut[i].value;
@@ -261,7 +318,7 @@ static thr_status run_certificate(workspace *k, const thr_certificate *c, thr_ch
     if (!st) load_tree(k, &t, i);
   }
   if (!st) st = check_loads(k, c, err);
-  if (!st) st = judge(k, c, sum, out, err);
+  if (!st) st = judge(k, c, sum, places, out, err);
   clear(k, c->component);
   forest_destroy(&t);
   return st;
@@ -280,6 +337,8 @@ static void workspace_destroy(workspace *k)
   free(k->held);
   free(k->shared);
   free(k->own);
+  free(k->price);
+  free(k->loop);
 }
 
 /* Groups nodes and edges by component: counting sort, shifted by one place so that filling leaves the starts right. */
@@ -332,7 +391,8 @@ static thr_status workspace_init(workspace *k, const thr_frame *f, const thr_pla
   k->held = thr_calloc(n, sizeof *k->held);
   k->shared = thr_calloc(m, sizeof *k->shared);
   k->own = thr_calloc(n, sizeof *k->own);
-  if (!k->start || !k->node || !k->edge_start || !k->edge || !k->odd || !k->own) return thr_nomem(err);
+  k->price = thr_calloc(n, sizeof *k->price);
+  if (!k->start || !k->node || !k->edge_start || !k->edge || !k->odd || !k->own || !k->price) return thr_nomem(err);
   if (!k->far_start || !k->far || !k->far_edge || !k->held || !k->shared) return thr_nomem(err);
   group(k);
   point(k);

@@ -1,5 +1,6 @@
 /* Claims about several cords: how short the longest can be, and how few they can be. */
 #include "graph/check_parts.h"
+#include "graph/junction.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -175,12 +176,58 @@ static double least_length(const thr_plan_options *o, const part *p, int cords, 
   return thr_check_ends_free(o) ? fmax(any, p->base + thr_check_extra(c, v, 2 * (int64_t)cords)) : any;
 }
 
+/* ---- tube joints: the proof is one of all components together ---- */
+
+/* No cords, from least to most in every component, are shorter together. */
+static thr_status tied_length(const thr_frame *f, const thr_plan_options *o, const thr_turning_proof *tied, int least, int most,
+                              double *length, thr_err *err)
+{
+  thr_plan_options other = *o;
+  other.cords_least = least;
+  other.cords = most;
+  return thr_tied_least(f, &other, tied, length, err);
+}
+
+/* fewest: a lower bound on the cords of one component with free ends, raised as far as the proof goes. Multipliers prove for n
+ * cords a bound that is linear in n, a tree of them the least of several: what it leaves above n * max_length is concave, so the
+ * numbers ruled out have no gaps. */
+static thr_status rule_out(const thr_frame *f, const thr_plan_options *o, const thr_turning_proof *tied, int *fewest,
+                           thr_err *err)
+{
+  thr_status st = THR_OK;
+  int high = o->cords; /* is not ruled out, or nothing is known of more */
+  for (int n = *fewest; !st && *fewest < high; n = (*fewest + high) / 2) {
+    double length;
+    st = tied_length(f, o, tied, n, n, &length, err);
+    if (!st && length > n * o->max_length * (1 + 1e-9))
+      *fewest = n + 1;
+    else
+      high = n;
+  }
+  return st;
+}
+
+static thr_status check_tied(const thr_frame *f, const thr_plan_options *o, const thr_turning_proof *tied, const part *parts,
+                             int n_parts, double *bound, thr_cords_claim *found, thr_err *err)
+{
+  double length;
+  int64_t most = 0;
+  thr_status st = tied_length(f, o, tied, o->cords_least, o->cords, &length, err);
+  for (int c = 0; c < n_parts; c++)
+    most += parts[c].most;
+  *bound = fmax(*bound, length / (double)most);
+  if (st || o->max_length <= 0) return st;
+  double cords = ceil(length / o->max_length * (1 - 1e-9));
+  if (cords > found->fewest) found->fewest = cords < (double)most ? (int)cords : (int)most;
+  return n_parts == 1 && thr_check_ends_free(o) ? rule_out(f, o, tied, &found->fewest, err) : THR_OK;
+}
+
 thr_status thr_check_several(const thr_frame *f, const thr_plan_options *o, const thr_check_walked *w, const thr_cord *cord,
                              int n_cords, const thr_certificate *certificate, const thr_check_verdict *verdict,
-                             thr_cords_claim *found, thr_err *err)
+                             const thr_turning_proof *tied, thr_cords_claim *found, thr_err *err)
 {
   part *parts;
-  double bound = 0;
+  double bound = 0, unit = thr_plan_unit(f); /* cords have whole numbers of it */
   *found = (thr_cords_claim){.present = true};
   thr_status st = parts_of(f, o, w, &parts, err);
   if (st) return st;
@@ -196,9 +243,12 @@ thr_status thr_check_several(const thr_frame *f, const thr_plan_options *o, cons
       least++;
     found->fewest += least;
   }
+  if (tied) st = check_tied(f, o, tied, parts, w->n_components, &bound, found, err);
   free(parts);
+  if (st) return st;
   if (!(o->max_length > 0 && o->cords_least < o->cords)) found->fewest = 0;
   st = detour(f, o, bound, &bound, err);
+  if (unit > 0) bound = unit * ceil(bound / unit * (1 - 2e-9));
   found->longest_optimal = thr_check_close(found->longest, bound, found->longest);
   found->longest_bound = fmin(found->longest, bound);
   found->fewest_optimal = found->fewest == n_cords;

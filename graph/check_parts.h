@@ -3,6 +3,7 @@
 #define THR_CHECK_PARTS_H
 
 #include "graph/check.h"
+#include "graph/prices.h"
 
 /* Lengths, angles and forces are sums of doubles, taken in an order of the plan's own: equal up to 1e-9 of what they are parts
  * of. */
@@ -29,6 +30,7 @@ typedef struct {
   bool optimal;    /* the passes are the shortest for at most options.cords cords */
   double extra;    /* no such cords have less extra cord, in units */
   double rounding; /* of lengths to weights, in units: taken off every bound */
+  thr_wide places; /* what the prices of places add to the cuts' values */
 } thr_check_verdict;
 
 /* Verifies the certificates, which must be one per component in order, for passes that were checked already:
@@ -41,14 +43,24 @@ thr_status thr_check_certificates(const thr_frame *f, const thr_plan_options *o,
 /* Least extra cord of that component, in units, with so many cord ends, by a certificate with this verdict. */
 double thr_check_extra(const thr_certificate *c, const thr_check_verdict *v, int64_t ends);
 
-/* What can be claimed of several cords that were checked already: fills found. verdict NULL: no certificates. */
+/* What can be claimed of several cords that were checked already: fills found. verdict NULL: no certificates; tied: the proof
+ * of tube joints, or NULL. */
 thr_status thr_check_several(const thr_frame *f, const thr_plan_options *o, const thr_check_walked *w, const thr_cord *cord,
                              int n_cords, const thr_certificate *certificate, const thr_check_verdict *verdict,
-                             thr_cords_claim *found, thr_err *err) THR_MUST_CHECK;
+                             const thr_turning_proof *tied, thr_cords_claim *found, thr_err *err) THR_MUST_CHECK;
 
 /* Verifies the plan's claim about its turning, which must be present, with cords and length proof that were checked already.
  * least_length: what the latter proves. */
 thr_status thr_check_turning_claim(const thr_plan *p, double least_length, thr_err *err) THR_MUST_CHECK;
+
+/* The elements of a symmetric plan's group as images of the nodes. */
+typedef struct {
+  int n, order; /* nodes; elements, the identity first */
+  int *image;   /* [order * n] owned */
+} thr_check_elements;
+
+/* Verifies what the record says of the group itself: generators, images, order and name. On failure out is empty. */
+thr_status thr_check_group(const thr_plan *p, thr_check_elements *out, thr_err *err) THR_MUST_CHECK;
 
 /* Verifies the plan's record of its symmetry, which must be present, with cords that were checked already. */
 thr_status thr_check_symmetry(const thr_plan *p, thr_err *err) THR_MUST_CHECK;

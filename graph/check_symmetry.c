@@ -1,230 +1,14 @@
-/* The checker's part for symmetry: that the group is one of automorphisms, has the order stated and permutes the cords, and that
- * every cord is the copy that it is said to be. Cords are compared by the nodes that they come to. */
+/* The checker's part for symmetry: that the group (graph/check_group.c) permutes the cords, and that every cord is the copy that
+ * it is said to be. Cords are compared by the nodes that they come to. */
 #include "graph/check_parts.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_ELEMENTS = 1024 };
-
-/* ---- single permutations ---- */
-
-/* Is the row a permutation that keeps edges, feet and where cords may end? hit: [n_nodes] all false, and again after it. */
-static thr_status check_automorphism(const thr_plan *p, const int *image, const char *what, int number, bool *hit, thr_err *err)
-{
-  const thr_frame *f = &p->frame;
-  const thr_plan_options *o = &p->options;
-  bool bijective = true;
-  for (int v = 0; v < f->n_nodes && bijective; v++) {
-    bijective = image[v] >= 0 && image[v] < f->n_nodes && !hit[image[v]];
-    if (bijective) hit[image[v]] = true;
-  }
-  for (int v = 0; v < f->n_nodes; v++)
-    hit[v] = false;
-  if (!bijective) return thr_fail(err, THR_EVIOLATED, "symmetry.%s[%d]: not a permutation of the nodes", what, number);
-  for (int v = 0; v < f->n_nodes; v++) {
-    if (f->foot[v] != f->foot[image[v]])
-      return thr_fail(err, THR_EVIOLATED, "symmetry.%s[%d]: takes node %d to %d, but only one of them is a foot", what, number, v,
-                      image[v]);
-    if (thr_plan_end_allowed(f, o, v) != thr_plan_end_allowed(f, o, image[v]))
-      return thr_fail(err, THR_EVIOLATED, "symmetry.%s[%d]: takes node %d to %d, but a cord may end at only one of them", what,
-                      number, v, image[v]);
-  }
-  for (int e = 0; e < f->n_edges; e++) {
-    int a = image[f->edge[e][0]], b = image[f->edge[e][1]];
-    if (thr_frame_edge_between(f, a, b) < 0)
-      return thr_fail(err, THR_EVIOLATED, "symmetry.%s[%d]: takes edge %d to nodes %d and %d, which no edge joins", what, number,
-                      e, a, b);
-  }
-  return THR_OK;
-}
-
-static thr_status check_automorphisms(const thr_plan *p, const int *image, int n, const char *what, thr_err *err)
-{
-  size_t n_nodes = (size_t)p->frame.n_nodes;
-  bool *hit = thr_calloc(n_nodes, sizeof *hit);
-  thr_status st = hit ? THR_OK : thr_nomem(err);
-  for (int i = 0; i < n && !st; i++)
-    st = check_automorphism(p, image + (size_t)i * n_nodes, what, i, hit, err);
-  free(hit);
-  return st;
-}
-
-/* ---- the group ---- */
-
-/* Its elements as they are found, the identity first, and a table to find them again. */
-typedef struct {
-  int n, order, capacity; /* nodes; elements */
-  int *image;             /* [capacity * n] */
-  int slot[4 * MOST_ELEMENTS];
-} elements;
-
-static const int *element(const elements *g, int i)
-{
-  return g->image + (size_t)i * (size_t)g->n;
-}
-
-/* Place of an element's number, which is -1 if it is new. */
-static int *find(elements *g, const int *image)
-{
-  uint32_t hash = 2166136261u;
-  for (int v = 0; v < g->n; v++)
-    hash = (hash ^ (uint32_t)image[v]) * 16777619u;
-  uint32_t i = (hash ^ hash >> 15) % (4 * MOST_ELEMENTS);
-  while (g->slot[i] >= 0 && memcmp(element(g, g->slot[i]), image, (size_t)g->n * sizeof *image) != 0)
-    i = (i + 1) % (4 * MOST_ELEMENTS);
-  return &g->slot[i];
-}
-
-/* Room for one more element than there are, but no more than needed in the end. */
-static thr_status make_room(elements *g, int most, thr_err *err)
-{
-  if (g->order < g->capacity) return THR_OK;
-  int wanted = 2 * g->capacity + 1 < most ? 2 * g->capacity + 1 : most;
-  int *image = thr_realloc(g->image, (size_t)wanted * (size_t)g->n, sizeof *image);
-  if (!image) return thr_nomem(err);
-  g->image = image;
-  g->capacity = wanted;
-  return THR_OK;
-}
-
-/* All products of the generators, one more than the stated order at most. */
-static thr_status list_elements(elements *g, const thr_symmetry_record *r, int n_nodes, thr_err *err)
-{
-  g->n = n_nodes;
-  memset(g->slot, -1, sizeof g->slot);
-  thr_status st = make_room(g, r->order + 1, err);
-  if (st) return st;
-  for (int v = 0; v < n_nodes; v++)
-    g->image[v] = v;
-  *find(g, g->image) = g->order++;
-  for (int i = 0; i < g->order; i++)
-    for (int k = 0; k < r->n_generators; k++) {
-      if ((st = make_room(g, r->order + 1, err))) return st;
-      int *last = g->image + (size_t)g->order * (size_t)n_nodes;
-      for (int v = 0; v < n_nodes; v++)
-        last[v] = element(g, i)[r->generator[(size_t)k * (size_t)n_nodes + (size_t)v]];
-      int *number = find(g, last);
-      if (*number < 0) *number = g->order++;
-      if (g->order > r->order)
-        return thr_fail(err, THR_EVIOLATED, "symmetry.order: stated %d, but the generators make more elements", r->order);
-    }
-  if (g->order < r->order)
-    return thr_fail(err, THR_EVIOLATED, "symmetry.order: stated %d, but the generators make only %d elements", r->order,
-                    g->order);
-  return THR_OK;
-}
-
-/* What all isomorphic groups have in common. */
-typedef struct {
-  int order;
-  int longest;     /* order of the element of greatest order */
-  int involutions; /* elements of order 2 */
-} census;
-
-/* Least k > 0 such that the k-th power of a permutation that is an element of the group is the identity. */
-static int order_of_element(const int *image, int n)
-{
-  int order = 1;
-  for (int v = 0; v < n; v++) {
-    int length = 1, w = image[v], multiple = order;
-    for (; w > v; w = image[w])
-      length++;
-    if (w < v) continue; /* counted at its lowest node */
-    while (multiple % length)
-      multiple += order;
-    order = multiple;
-  }
-  return order;
-}
-
-static census take_census(const elements *g)
-{
-  census c = {.order = g->order};
-  for (int i = 0; i < g->order; i++) {
-    int order = order_of_element(element(g, i), g->n);
-    if (order > c.longest) c.longest = order;
-    c.involutions += order == 2;
-  }
-  return c;
-}
-
-/* Turns by parts of 1 / n; the same with half turns or mirrors that reverse them; and either with an element of order 2 that
- * commutes with all. */
-static census cyclic(int n)
-{
-  return (census){n, n, n % 2 == 0};
-}
-
-static census dihedral(int n)
-{
-  return (census){2 * n, n > 1 ? n : 2, n + (n % 2 == 0)};
-}
-
-static census doubled(census c)
-{
-  return (census){2 * c.order, c.longest % 2 ? 2 * c.longest : c.longest, 2 * c.involutions + 1};
-}
-
-/* Of the point group of that Schoenflies name; order 0 if there is none. */
-static census census_of_name(const char *name)
-{
-  static const struct {
-    const char *name;
-    census census;
-  } single[] = {{"Cs", {2, 2, 1}}, {"Ci", {2, 2, 1}},   {"T", {12, 3, 3}},  {"Td", {24, 4, 9}},   {"Th", {24, 6, 7}},
-                {"O", {24, 4, 9}}, {"Oh", {48, 6, 19}}, {"I", {60, 5, 15}}, {"Ih", {120, 10, 31}}};
-  const census none = {0};
-  for (size_t i = 0; i < sizeof single / sizeof *single; i++)
-    if (strcmp(name, single[i].name) == 0) return single[i].census;
-  char *end;
-  bool number = name[0] && name[1] >= '1' && name[1] <= '9';
-  long long_n = number ? strtol(name + 1, &end, 10) : 0;
-  if (long_n < 1 || long_n > MOST_ELEMENTS) return none;
-  int n = (int)long_n;
-  bool plain = !*end, v = strcmp(end, "v") == 0, h = strcmp(end, "h") == 0, d = strcmp(end, "d") == 0;
-  switch (name[0]) {
-  case 'S': return plain && n % 2 == 0 ? cyclic(n) : none;
-  case 'C': return plain ? cyclic(n) : v ? dihedral(n) : h ? doubled(cyclic(n)) : none;
-  case 'D': return plain ? dihedral(n) : h ? doubled(dihedral(n)) : d ? dihedral(2 * n) : none;
-  default: return none;
-  }
-}
-
-static thr_status check_name(const elements *g, const char *name, thr_err *err)
-{
-  census stated = census_of_name(name), found = take_census(g);
-  if (!*name) return THR_OK;
-  if (stated.order != found.order)
-    return thr_fail(err, THR_EVIOLATED, "symmetry.name: \"%s\" is not the name of a point group of order %d", name, found.order);
-  if (stated.longest != found.longest || stated.involutions != found.involutions)
-    return thr_fail(err, THR_EVIOLATED,
-                    "symmetry.name: \"%s\" has %d elements of order 2 and one of order %d; the group has %d, and one of order %d",
-                    name, stated.involutions, stated.longest, found.involutions, found.longest);
-  return THR_OK;
-}
-
-static thr_status check_group(elements *g, const thr_plan *p, thr_err *err)
-{
-  const thr_symmetry_record *r = &p->symmetry;
-  if (r->order < 1 || r->order > MOST_ELEMENTS)
-    return thr_fail(err, THR_EVIOLATED, "symmetry.order: %d; expected 1 to %d", r->order, MOST_ELEMENTS);
-  thr_status st = check_automorphisms(p, r->generator, r->n_generators, "generators", err);
-  if (!st) st = check_automorphisms(p, r->image, r->n_images, "images", err);
-  if (!st) st = list_elements(g, r, p->frame.n_nodes, err);
-  for (int i = 0; i < r->n_images && !st; i++) {
-    int number = *find(g, r->image + (size_t)i * (size_t)g->n);
-    if (number < 0) st = thr_fail(err, THR_EVIOLATED, "symmetry.images[%d]: not an element of the group", i);
-    if (i == 0 && number > 0) st = thr_fail(err, THR_EVIOLATED, "symmetry.images[0]: not the identity");
-  }
-  if (!st) st = check_name(g, r->name, err);
-  return st;
-}
-
 /* ---- cords as sequences of nodes ---- */
 
 /* The node sequence of a cord, or of an image of it, in its normal form: the lexicographically least of those that start at its
- * other end or, of a closed one, anywhere, either way round. Of a closed cord the node where it ends is left out. */
+ * other end or, of one that runs round, anywhere, either way round. Of the latter the node where it ends is left out. */
 typedef struct {
   const int *node;
   int n, cord;
@@ -309,11 +93,17 @@ static void paths_destroy(paths *s)
   free(s->start);
 }
 
+/* Does it matter where the cord starts? Not for a closed one, unless its joints are to be tied and its ends tie nothing. */
+static bool runs_round(const thr_plan *p, const thr_cord *c)
+{
+  return c->closed && (p->options.joint == THR_JOINT_SOLID || p->options.ends == THR_ENDS_CLOSED);
+}
+
 static thr_status paths_init(paths *s, const thr_plan *p, thr_err *err)
 {
   size_t n = (size_t)p->n_cords, all = 0, longest = 0;
   for (int i = 0; i < p->n_cords; i++) {
-    size_t nodes = (size_t)p->cord[i].n_passes + !p->cord[i].closed;
+    size_t nodes = (size_t)p->cord[i].n_passes + !runs_round(p, &p->cord[i]);
     all += nodes;
     if (nodes > longest) longest = nodes;
   }
@@ -336,13 +126,14 @@ static void fill_paths(paths *s)
   const thr_plan *p = s->p;
   for (int i = 0, next = 0; i < p->n_cords; i++) {
     const thr_cord *c = &p->cord[i];
-    int n = c->n_passes + !c->closed, *run = s->run + next;
+    bool closed = runs_round(p, c);
+    int n = c->n_passes + !closed, *run = s->run + next;
     for (int k = 0; k < n; k++)
       run[k] = k < c->n_passes ? thr_tail(&p->frame, c->half[k]) : thr_cord_end(&p->frame, c);
-    normalize(run, n, c->closed, s->form[0] + next);
+    normalize(run, n, closed, s->form[0] + next);
     s->start[i] = next;
-    s->cord[i] = (path){s->form[0] + next, n, i, c->closed};
-    s->moved[i] = (path){s->form[1] + next, n, i, c->closed};
+    s->cord[i] = (path){s->form[0] + next, n, i, closed};
+    s->moved[i] = (path){s->form[1] + next, n, i, closed};
     s->sorted[i] = s->cord[i];
     next += n;
   }
@@ -434,9 +225,14 @@ static int ways_to_read(paths *s, const path *c)
   return c->n / period_of(c->node, c->n, s->scratch) * (1 + backward);
 }
 
+static const int *element(const thr_check_elements *g, int i)
+{
+  return g->image + (size_t)i * (size_t)g->n;
+}
+
 /* Passes of unique path u over the number of ways in which the group maps it to itself: as many elements as fix all its nodes do
  * so in the same way. No other unique path may be an image. */
-static thr_status add_steps(paths *s, const elements *g, int u, double *steps, thr_err *err)
+static thr_status add_steps(paths *s, const thr_check_elements *g, int u, double *steps, thr_err *err)
 {
   const thr_symmetry_record *r = &s->p->symmetry;
   int mapped = 0, fixed = 0;
@@ -463,7 +259,7 @@ static thr_status add_steps(paths *s, const elements *g, int u, double *steps, t
   return THR_OK;
 }
 
-static thr_status check_copies(paths *s, const elements *g, thr_err *err)
+static thr_status check_copies(paths *s, const thr_check_elements *g, thr_err *err)
 {
   const thr_symmetry_record *r = &s->p->symmetry;
   int unique_paths = 0;
@@ -490,16 +286,14 @@ thr_status thr_check_symmetry(const thr_plan *p, thr_err *err)
 {
   const thr_symmetry_record *r = &p->symmetry;
   paths s = {0};
-  elements *g = thr_calloc(1, sizeof *g);
-  if (!g) return thr_nomem(err);
-  thr_status st = check_group(g, p, err);
+  thr_check_elements g = {0};
+  thr_status st = thr_check_group(p, &g, err);
   if (!st) st = paths_init(&s, p, err);
   if (!st) fill_paths(&s);
   for (int k = 0; k < r->n_generators && !st; k++)
     st = check_permuted(&s, r->generator + (size_t)k * (size_t)p->frame.n_nodes, k, err);
-  if (!st) st = check_copies(&s, g, err);
+  if (!st) st = check_copies(&s, &g, err);
   paths_destroy(&s);
-  free(g->image);
-  free(g);
+  free(g.image);
   return st;
 }

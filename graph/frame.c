@@ -212,7 +212,7 @@ static thr_status allocate_passes(thr_frame *f, bool covers, bool capacities, th
   return THR_OK;
 }
 
-static void fill_adjacency(thr_frame *f)
+void thr_frame_index(thr_frame *f)
 {
   for (int h = 0; h < 2 * f->n_edges; h++)
     f->first[thr_tail(f, h) + 1]++;
@@ -329,7 +329,7 @@ thr_status thr_draft_build(const thr_draft *d, double tolerance, thr_frame *fram
   if ((st = fill_edges(&f, d, parent, index, keep, err))) goto done;
   if ((st = fill_passes(&f, d, keep, err))) goto done;
   snprintf(f.units, sizeof f.units, "%s", d->units[0] ? d->units : "mm");
-  fill_adjacency(&f);
+  thr_frame_index(&f);
   *report = r;
 done:
   if (st) thr_frame_destroy(&f);

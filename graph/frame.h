@@ -87,6 +87,9 @@ thr_status thr_draft_build(const thr_draft *d, double tolerance, thr_frame *fram
 void thr_frame_destroy(thr_frame *f);
 thr_status thr_frame_copy(thr_frame *to, const thr_frame *from, thr_err *err) THR_MUST_CHECK;
 
+/* Fills first and half, which are allocated and zero, from the edges. O(n + m). */
+void thr_frame_index(thr_frame *f);
+
 /* Index of the node with this name, or -1. O(n). */
 int thr_frame_find(const thr_frame *f, const char *name);
 

@@ -2,6 +2,7 @@
  * No routine of igraph that uses GLPK may be called here: it would replace the hooks that lp/lp_glpk.c sets. */
 #include "graph/automorphism_count.h"
 #include "graph/cuttree.h"
+#include "graph/drawing.h"
 
 #include <igraph.h>
 
@@ -96,6 +97,46 @@ no_ends:
   igraph_free(info.group_size);
   if (code) return failed(code, err);
   return *digits ? THR_OK : thr_nomem(err);
+}
+
+static igraph_error_t kamada_kawai(const igraph_t *g, const igraph_vector_t *length, bool circle, double (*xy)[2])
+{
+  igraph_matrix_t at;
+  igraph_integer_t n = igraph_vcount(g);
+  igraph_error_t code = igraph_matrix_init(&at, n, 2);
+  if (code) return code;
+  for (igraph_integer_t v = 0; v < n; v++)
+    for (int k = 0; k < 2; k++)
+      MATRIX(at, v, k) = xy[v][k];
+  code = igraph_layout_kamada_kawai(g, &at, !circle, 50 * n, 0, (double)n, length, NULL, NULL, NULL, NULL);
+  for (igraph_integer_t v = 0; v < n && !code; v++)
+    for (int k = 0; k < 2; k++)
+      xy[v][k] = MATRIX(at, v, k);
+  igraph_matrix_destroy(&at);
+  return code;
+}
+
+thr_status thr_kamada_kawai(int n, int m, const int (*edge)[2], const double *length, bool circle, double (*xy)[2], thr_err *err)
+{
+  igraph_error_handler_t *old = igraph_set_error_handler(igraph_error_handler_ignore);
+  igraph_vector_int_t ends;
+  igraph_vector_t lengths;
+  igraph_t g;
+  igraph_error_t code = list_ends(&ends, m, edge);
+  if (code) goto no_ends;
+  if ((code = igraph_create(&g, &ends, n, IGRAPH_UNDIRECTED))) goto no_graph;
+  if ((code = igraph_vector_init(&lengths, m))) goto no_lengths;
+  for (int e = 0; e < m; e++)
+    VECTOR(lengths)[e] = length[e];
+  code = kamada_kawai(&g, &lengths, circle, xy);
+  igraph_vector_destroy(&lengths);
+no_lengths:
+  igraph_destroy(&g);
+no_graph:
+  igraph_vector_int_destroy(&ends);
+no_ends:
+  igraph_set_error_handler(old);
+  return code ? failed(code, err) : THR_OK;
 }
 
 const char *thr_igraph_version(void)

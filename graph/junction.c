@@ -28,7 +28,8 @@ thr_status thr_junction_tied(const thr_frame *f, const thr_cord *cord, int n_cor
 
 void thr_tied_task(const thr_frame *f, const thr_plan_options *o, bool *end_allowed, thr_turning_task *task)
 {
-  int cover = 1, degree = 1;
+  bool closed = o->ends == THR_ENDS_CLOSED;
+  int cover = 1, degree = 1, cords = closed ? 1 : o->cords;
   double longest = 0;
   for (int e = 0; e < f->n_edges; e++) {
     longest = fmax(longest, f->length[e]);
@@ -40,10 +41,12 @@ void thr_tied_task(const thr_frame *f, const thr_plan_options *o, bool *end_allo
   }
   *task = (thr_turning_task){.cover = o->cover,
                              .capacity = o->capacity,
-                             .most_passes = 2 * (cover + degree + 2 * o->cords) + 1,
-                             .cords = o->cords,
-                             .cords_least = o->objective == THR_LENGTH ? o->cords_least : o->cords,
-                             .end_allowed = o->ends == THR_ENDS_CLOSED ? NULL : end_allowed,
+                             .most_passes = 2 * (cover + degree + 2 * cords) + 1,
+                             .cords = cords,
+                             .cords_least = closed                       ? 1
+                                            : o->objective == THR_LENGTH ? o->cords_least
+                                                                         : o->cords,
+                             .end_allowed = closed ? NULL : end_allowed,
                              .end_count = o->ends == THR_ENDS_COUNTS ? o->end_count : NULL,
                              .tube = true,
                              .free_turns = true,

@@ -6,6 +6,8 @@
 #include "graph/plan.h"
 
 /* What the proof of least length is about, and how it prices length. end_allowed[n_nodes] is filled, and borrowed by task.
+ * Closed cords: one per component, whatever their number, for several that tie the nodes make one of the same length where two
+ * pass one edge and are exchanged behind it.
  * most_passes: no shortest plan needs more. Of more passes than covers in one direction along a stretch of edges, two that come
  * from different edges or ends and part again could be joined there and back, which saves the stretch twice; so all come from one
  * node where so many may start, or go to one. */

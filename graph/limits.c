@@ -13,7 +13,7 @@ double thr_clock(void)
 
 double thr_limits_left(const thr_limits *l, double most)
 {
-  if (l->interrupted && *l->interrupted) return 0;
+  if ((l->interrupted && *l->interrupted) || (l->work && *l->work <= 0)) return 0;
   if (l->deadline == 0) return most;
   double left = l->deadline - thr_clock();
   return left < 0 ? 0 : left < most ? left : most;

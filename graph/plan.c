@@ -25,6 +25,7 @@ void thr_certificate_destroy(thr_certificate *c)
   for (int i = 0; i < c->n_cuts; i++)
     free(c->cut[i].node);
   free(c->cut);
+  free(c->place_price);
   *c = (thr_certificate){0};
 }
 
@@ -130,6 +131,18 @@ const char *thr_joint_name(thr_joint j)
   return j == THR_JOINT_TUBE ? "tube" : "solid";
 }
 
+const char *thr_engine_name(thr_engine e)
+{
+  static const char *const name[] = {[THR_ENGINE_AUTO] = "auto", [THR_ENGINE_LP] = "lp", [THR_ENGINE_MATCHING] = "matching"};
+  return name[e];
+}
+
+const char *thr_confirm_name(thr_confirm c)
+{
+  static const char *const name[] = {[THR_CONFIRM_AUTO] = "auto", [THR_CONFIRM_ALWAYS] = "always", [THR_CONFIRM_NEVER] = "never"};
+  return name[c];
+}
+
 int thr_plan_cover(const thr_frame *f, const thr_plan_options *o, int e)
 {
   return f->cover && f->cover[e] > o->cover ? f->cover[e] : o->cover;
@@ -139,6 +152,33 @@ int thr_plan_capacity(const thr_frame *f, const thr_plan_options *o, int e)
 {
   int own = f->capacity && f->capacity[e] > 0 ? f->capacity[e] : INT_MAX;
   return o->capacity > 0 && o->capacity < own ? o->capacity : own;
+}
+
+/* Euclid's algorithm on lengths with rounding. */
+static double common_step(double a, double b, double rounding)
+{
+  while (b > rounding) {
+    double rest = fmod(a, b);
+    a = b;
+    b = rest > b - rounding ? 0 : rest;
+  }
+  return a;
+}
+
+double thr_plan_unit(const thr_frame *f)
+{
+  enum { STEPS_MOST = 1000 };
+  double longest = 0, unit = 0;
+  for (int e = 0; e < f->n_edges; e++)
+    longest = fmax(longest, f->length[e]);
+  for (int e = 0; e < f->n_edges; e++) {
+    unit = common_step(fmax(unit, f->length[e]), fmin(unit, f->length[e]), 1e-12 * longest);
+    if (unit * STEPS_MOST < longest) return 0;
+  }
+  if (unit > 0) unit = longest / round(longest / unit);
+  for (int e = 0; e < f->n_edges; e++)
+    if (fabs(f->length[e] - unit * round(f->length[e] / unit)) > 1e-10 * f->length[e]) return 0;
+  return unit;
 }
 
 bool thr_plan_end_allowed(const thr_frame *f, const thr_plan_options *o, int v)

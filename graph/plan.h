@@ -45,10 +45,17 @@ typedef struct {
 
 /* Which engine finds the shortest passes (lp/engine.h). */
 typedef enum {
-  THR_ENGINE_AUTO,    /* matching, unless the weights add up to more than it takes */
-  THR_ENGINE_LP,      /* odd cuts, GLPK */
-  THR_ENGINE_MATCHING /* weights add up to 2^50 at most */
+  THR_ENGINE_AUTO, /* matching, unless the weights are more than it takes */
+  THR_ENGINE_LP,   /* odd cuts, GLPK */
+  THR_ENGINE_MATCHING
 } thr_engine;
+
+/* Whether GLPK's exact method is asked for the same minimum, too. */
+typedef enum {
+  THR_CONFIRM_AUTO,   /* of problems of moderate size, for a second at most (lp/engine.h) */
+  THR_CONFIRM_ALWAYS, /* whatever it takes, within the time limit */
+  THR_CONFIRM_NEVER
+} thr_confirm;
 
 /* What the user asked for; echoed in the plan so that it can be made again. */
 typedef struct {
@@ -68,8 +75,8 @@ typedef struct {
                           2 * cords; owned, else NULL */
   thr_physics physics; /* of cord and beads, as asked: what eval starts from */
   double time_limit;   /* s, 0 = none */
-  thr_engine engine;   /* not recorded: it changes no length */
-  bool confirm;        /* THR_LENGTH: GLPK is asked, too; not recorded */
+  thr_engine engine;   /* changes no length */
+  thr_confirm confirm; /* THR_LENGTH with THR_JOINT_SOLID only */
 } thr_plan_options;
 
 /* A cord: consecutive half-edges; half[i] arrives where half[i + 1] leaves. A closed cord also ends where it starts. */
@@ -102,6 +109,8 @@ typedef struct {
   double scale;        /* integer weight per unit of length, > 0 */
   int64_t denominator; /* > 0 */
   int64_t end_price;   /* >= 0, in units of 1/denominator; 0 with THR_ENDS_CLOSED and THR_ENDS_COUNTS */
+  int n_prices;         /* 0 unless as many cords as asked for may need more passes than a join has (graph/prices.h) */
+  int64_t *place_price; /* >= 0, in units of 1/denominator; owned */
   int64_t join;        /* weight of the extra passes of the plan */
   int64_t sum;         /* of the cuts' values */
   int n_cuts;
@@ -158,8 +167,8 @@ typedef struct {
   int n_images;     /* elements that map unique paths to copies; image 0 is the identity */
   int *image;       /* [n_images * n_nodes] owned */
   int *unique;      /* [n_cords] the cord that this one is a copy of; itself for a unique path; owned */
-  int *element;     /* [n_cords] image that maps that one to this, perhaps reversed, and a closed one perhaps from another start;
-                       owned */
+  int *element;     /* [n_cords] image that maps that one to this, perhaps reversed, and a closed one perhaps from another start
+                       (not with tube joints and ends: where it ends it ties nothing); owned */
   double steps;     /* learned: passes of each unique path over the number of ways (from another start, reversed) in which it is
                        its own image under the group */
   int unique_paths; /* number of different values of unique */
@@ -209,8 +218,14 @@ void thr_certificate_destroy(thr_certificate *c);
 
 int thr_length_proof_cuts(const thr_length_proof *proof); /* odd cuts, or odd sets and junctions, that it puts a multiplier on */
 
-const char *thr_ends_name(thr_ends e);   /* "closed", "any", "feet", "nodes", "counts" */
-const char *thr_joint_name(thr_joint j); /* "solid", "tube" */
+const char *thr_ends_name(thr_ends e);       /* "closed", "any", "feet", "nodes", "counts" */
+const char *thr_joint_name(thr_joint j);     /* "solid", "tube" */
+const char *thr_engine_name(thr_engine e);   /* "auto", "lp", "matching" */
+const char *thr_confirm_name(thr_confirm c); /* "auto", "always", "never" */
+
+/* The longest step that every edge is a whole number of, as is every cord then, within 1e-10 of it; 0: none of a thousandth of
+ * the longest edge or more. O(edges). */
+double thr_plan_unit(const thr_frame *f);
 bool thr_plan_end_allowed(const thr_frame *f, const thr_plan_options *o, int v);
 
 /* Passes that edge e needs, and the most that it may have (INT_MAX: no limit): what options and framework say together. */

@@ -28,6 +28,14 @@ static const char *joint_name(int i)
 {
   return thr_joint_name((thr_joint)i);
 }
+static const char *engine_name(int i)
+{
+  return thr_engine_name((thr_engine)i);
+}
+static const char *confirm_name(int i)
+{
+  return thr_confirm_name((thr_confirm)i);
+}
 static const char *aim_name(int i)
 {
   return i ? "max-turning" : "turning";
@@ -92,9 +100,9 @@ static thr_status read_symmetry_options(const thr_field_reader *r, const thr_jso
 /* Which options there are depends on the objective. */
 static thr_status read_objective(const thr_field_reader *r, const thr_json *v, thr_plan_options *o)
 {
-  static const char *const own[THR_N_OBJECTIVES] = {NULL, "turning", "symmetry"};
-  const char *known[] = {"objective", "joint",     "cover",      "capacity",   "cords",   "max_length", "balance",
-                         "ends",      "end_nodes", "end_counts", "time_limit", "physics", NULL,         NULL};
+  static const char *const own[THR_N_OBJECTIVES] = {"confirm", "turning", "symmetry"};
+  const char *known[] = {"objective", "joint",      "cover",      "capacity", "cords",  "max_length", "balance", "ends",
+                         "end_nodes", "end_counts", "time_limit", "physics",  "engine", NULL,         NULL};
   int objective, joint;
   thr_status st = thr_field_name(r, v, "options", "objective", THR_N_OBJECTIVES, objective_name, &objective);
   if (st) return st;
@@ -136,6 +144,18 @@ static thr_status read_limits(const thr_field_reader *r, const thr_json *v, thr_
   }
   if (!st && balance && thr_json_typeof(balance) != THR_JSON_BOOL) st = thr_field_bad(r, "options.balance", "not true or false");
   if (!st && balance) o->balance = thr_json_true(balance);
+  return st;
+}
+
+/* How it was found. What is not there was left to the program. */
+static thr_status read_means(const thr_field_reader *r, const thr_json *v, thr_plan_options *o)
+{
+  int engine = THR_ENGINE_AUTO, confirm = THR_CONFIRM_AUTO;
+  thr_status st = thr_field_double(r, v, "time_limit", &o->time_limit);
+  if (!st && thr_json_get(v, "engine")) st = thr_field_name(r, v, "options", "engine", 3, engine_name, &engine);
+  if (!st && thr_json_get(v, "confirm")) st = thr_field_name(r, v, "options", "confirm", 3, confirm_name, &confirm);
+  o->engine = (thr_engine)engine;
+  o->confirm = (thr_confirm)confirm;
   return st;
 }
 
@@ -185,7 +205,7 @@ thr_status thr_plan_read_options(const thr_field_reader *r, const thr_json *doc,
   if ((st = read_limits(r, v, o))) return st;
   snprintf(place, sizeof place, "%.200s: options.physics", r->name);
   if ((st = thr_physics_from_json(&o->physics, thr_json_get(v, "physics"), place, r->err))) return st;
-  if ((st = thr_field_double(r, v, "time_limit", &o->time_limit))) return st;
+  if ((st = read_means(r, v, o))) return st;
   if ((st = thr_field_name(r, v, "options", "ends", THR_ENDS_COUNTS + 1, ends_name, &kind))) return st;
   o->ends = (thr_ends)kind;
   if (o->ends == THR_ENDS_NODES) return read_end_nodes(r, v, f, &o->end_node);

@@ -27,9 +27,23 @@ static thr_status read_cut(const thr_field_reader *r, const thr_json *v, int i, 
   return THR_OK;
 }
 
+static thr_status read_prices(const thr_field_reader *r, const thr_json *v, thr_certificate *c)
+{
+  const thr_json *list;
+  thr_status st = thr_field_need(r, v, "place_prices", THR_JSON_ARRAY, &list);
+  if (st) return st;
+  int n = thr_json_size(list);
+  if (!(c->place_price = thr_calloc((size_t)n, sizeof *c->place_price))) return thr_nomem(r->err);
+  c->n_prices = n;
+  for (int i = 0; i < n; i++)
+    if (!thr_json_int(thr_json_at(list, i), &c->place_price[i])) /* the checker says what a negative one means */
+      return thr_field_bad(r, "proof.length.certificate: place_prices", "not all are integers");
+  return THR_OK;
+}
+
 static thr_status read_certificate(const thr_field_reader *r, const thr_json *v, const thr_frame *f, thr_certificate *c)
 {
-  static const char *const known[] = {"component", "scale", "denominator", "end_price", "join", "sum", "cuts", NULL};
+  static const char *const known[] = {"component", "scale", "denominator", "end_price", "join", "sum", "cuts", "place_prices", NULL};
   const thr_json *cuts;
   thr_status st = thr_field_only(r, v, "proof.length.certificate", known);
   if (!st) st = thr_field_int(r, v, "component", 0, f->n_nodes - 1, &c->component);
@@ -38,6 +52,7 @@ static thr_status read_certificate(const thr_field_reader *r, const thr_json *v,
   if (!st) st = thr_field_int64(r, v, "end_price", 0, INT64_MAX, &c->end_price);
   if (!st) st = thr_field_int64(r, v, "join", 0, INT64_C(1) << 60, &c->join);
   if (!st) st = thr_field_int64(r, v, "sum", 0, INT64_MAX, &c->sum);
+  if (!st && thr_json_get(v, "place_prices")) st = read_prices(r, v, c);
   if (!st) st = thr_field_need(r, v, "cuts", THR_JSON_ARRAY, &cuts);
   if (st) return st;
   int n = thr_json_size(cuts);

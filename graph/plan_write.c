@@ -149,6 +149,9 @@ static void put_options(thr_text *t, const thr_plan *p)
   put_ends(t, p);
   if (o->objective == THR_TORTUOSITY) put_turning_options(t, &o->turning);
   if (o->objective == THR_SYMMETRY) put_symmetry_options(t, &o->symmetry);
+  if (o->engine != THR_ENGINE_AUTO) thr_text_printf(t, "\"engine\": \"%s\", ", thr_engine_name(o->engine));
+  if (o->objective == THR_LENGTH && o->confirm != THR_CONFIRM_AUTO)
+    thr_text_printf(t, "\"confirm\": \"%s\", ", thr_confirm_name(o->confirm));
   put_key_double(t, "time_limit", o->time_limit, ",");
   thr_text_append(t, "\n  \"physics\": ");
   thr_physics_write(&o->physics, t);
@@ -219,6 +222,8 @@ static void put_certificate(thr_text *t, const thr_certificate *c)
   put_key_double(t, "scale", c->scale, ", ");
   thr_text_printf(t, "\"denominator\": %" PRId64 ", \"end_price\": %" PRId64 ", \"join\": %" PRId64 ", \"sum\": %" PRId64,
                   c->denominator, c->end_price, c->join, c->sum);
+  for (int i = 0; i < c->n_prices; i++)
+    thr_text_printf(t, "%s%" PRId64 "%s", i ? ", " : ", \"place_prices\": [", c->place_price[i], i + 1 < c->n_prices ? "" : "]");
   thr_text_append(t, ",\n    \"cuts\": [");
   for (int k = 0; k < c->n_cuts; k++) {
     thr_text_printf(t, "%s      {\"value\": %" PRId64 ", \"nodes\": ", k ? ",\n" : "\n", c->cut[k].value);

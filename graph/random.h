@@ -14,6 +14,18 @@ static inline uint64_t thr_random(uint64_t *state)
   return z ^ z >> 31;
 }
 
+/* One of 0 .. n - 1, n > 0. */
+static inline int thr_random_below(uint64_t *state, int n)
+{
+  return (int)(thr_random(state) % (uint64_t)n);
+}
+
+/* Even in [0, 1). */
+static inline double thr_random_unit(uint64_t *state)
+{
+  return (double)(thr_random(state) >> 11) * 0x1p-53;
+}
+
 /* Even in [-1, 1). */
 static inline double thr_random_disorder(uint64_t *state)
 {

@@ -155,7 +155,12 @@ thr_status thr_balance_walks(const thr_share *s, thr_trails *w, double goal, con
   b.steps = STEPS_LEAST + STEPS_PER_PASS * all;
   b.first = thr_calloc(n, sizeof *b.first);
   ranked *order = thr_calloc((size_t)w->n_trails, sizeof *order);
+  thr_knots ties = {0};
   thr_status st = b.first && order ? THR_OK : thr_nomem(err);
+  if (!st && s->o->joint == THR_JOINT_TUBE) {
+    st = thr_knots_init(&ties, s->f, w, err);
+    b.ties = &ties;
+  }
   if (!st) {
     memset(b.first, 0xff, n * sizeof *b.first);
     st = search(&b, order, err);
@@ -163,5 +168,6 @@ thr_status thr_balance_walks(const thr_share *s, thr_trails *w, double goal, con
   free(b.first);
   free(b.merged);
   free(order);
+  thr_knots_destroy(&ties);
   return st;
 }

@@ -4,12 +4,14 @@
 #define THR_BALANCE_H
 
 #include "lp/share.h"
+#include "lp/knots.h"
 
 /* One component's cords on the way; all arrays are owned by whoever fills it. */
 typedef struct {
   const thr_share *s;
   const thr_limits *limits;
   thr_trails *w;   /* cyclic with THR_ENDS_CLOSED, else open */
+  thr_knots *ties; /* tube joints: of these walks, which every change leaves tied; else NULL */
   int *passes;     /* [n_edges] of these walks */
   double goal;     /* shorter than this the longest need not be */
   uint64_t random; /* state */
@@ -20,8 +22,8 @@ typedef struct {
 } thr_balance;
 
 /* Exchanges until no walk is longer than goal, none helps, or the limits stop it. passes[n_edges] are those of all components and
- * change where cords take detours. Work in proportion to passes, at most some hundred times as much. The same input gives the
- * same walks. Failure (THR_ENOMEM) leaves valid walks. */
+ * change where cords take detours. With tube joints the walks tie all nodes of the component before and after. Work in proportion
+ * to passes, at most some hundred times as much. The same input gives the same walks. Failure (THR_ENOMEM) leaves valid walks. */
 thr_status thr_balance_walks(const thr_share *s, thr_trails *w, double goal, const thr_limits *limits, int *passes,
                              thr_err *err) THR_MUST_CHECK;
 
@@ -57,7 +59,7 @@ thr_status thr_balance_shuffle(thr_balance *b, int p, thr_err *err) THR_MUST_CHE
 /* Walk p gives a section to walk q, which gets there over extra passes, if that leaves both shorter than below. */
 thr_status thr_balance_detour(thr_balance *b, int p, int q, double below, bool *made, thr_err *err) THR_MUST_CHECK;
 
-/* Drops the passes of a walk that nothing needs: turns back, and ends that can be drawn in. */
+/* Drops the passes of a walk that nothing needs: turns back, and ends that can be drawn in; what is tied stays so. */
 void thr_balance_prune(thr_balance *b, int p);
 
 #endif

@@ -20,11 +20,6 @@ typedef struct {
   bool back, backwards;
 } detour;
 
-static void offer(detour *best, detour x)
-{
-  if (x.longer < best->longer) *best = x;
-}
-
 static int way_to(const thr_frame *f, const thr_ways *x, int goal, int *half)
 {
   int n = 0;
@@ -45,6 +40,59 @@ static int leave_at(const thr_frame *f, const thr_ways *x, int goal, const thr_t
   return at;
 }
 
+/* Pass number at of a walk; -1: before or after an open one. */
+static int pass_at(const thr_trail *w, int at)
+{
+  if (at >= 0 && at < w->n) return w->half[at];
+  return w->cyclic ? w->half[at < 0 ? w->n - 1 : 0] : -1;
+}
+
+/* The turns that go and come; those inside the way, which only come, are left out. */
+static thr_knots_change change_of(const thr_balance *b, const thr_ways *x, int p, int q, const detour *d)
+{
+  thr_knots_change c = {.n = 0};
+  const thr_trail *v = &b->w->walk[p], *w = &b->w->walk[q];
+  int at = d->back ? leave_at(b->s->f, x, d->goal, w) : w->n, before = pass_at(w, at - 1), after = pass_at(w, at);
+  int in = d->backwards ? v->half[d->end - 1] ^ 1 : v->half[d->from];
+  int out = d->backwards ? v->half[d->from] ^ 1 : v->half[d->end - 1];
+  thr_knots_note(&c, pass_at(v, d->from - 1), v->half[d->from], -1);
+  thr_knots_note(&c, v->half[d->end - 1], pass_at(v, d->end), -1);
+  thr_knots_note(&c, pass_at(v, d->from - 1), pass_at(v, d->end), 1);
+  if (d->back) thr_knots_note(&c, before, after, -1);
+  int last = x->over[d->goal], first = last; /* of the way */
+  for (int h = last; h >= 0; h = x->over[thr_tail(b->s->f, h)])
+    first = h;
+  thr_knots_note(&c, before, last < 0 ? in : first, 1);
+  thr_knots_note(&c, last, in, 1);
+  if (!d->back) return c;
+  thr_knots_note(&c, out, last < 0 ? after : last ^ 1, 1);
+  if (last >= 0) thr_knots_note(&c, first ^ 1, after, 1);
+  return c;
+}
+
+static void offer(thr_balance *b, const thr_ways *x, int p, int q, detour d, detour *best)
+{
+  if (d.longer >= best->longer) return;
+  if (b->ties) {
+    thr_knots_change c = change_of(b, x, p, q, &d);
+    b->steps -= c.n;
+    if (!thr_knots_allow(b->ties, &c)) return;
+  }
+  *best = d;
+}
+
+/* After it was offered. The way counts there and, if d says so, back. */
+static void make_turns(thr_balance *b, const thr_ways *x, int p, int q, const detour *d)
+{
+  thr_knots_change c = change_of(b, x, p, q, d);
+  thr_knots_make(b->ties, &c);
+  for (int h = x->over[d->goal]; h >= 0; h = x->over[thr_tail(b->s->f, h)]) {
+    c.n = 0;
+    thr_knots_note(&c, x->over[thr_tail(b->s->f, h)], h, d->back ? 2 : 1);
+    thr_knots_make(b->ties, &c);
+  }
+}
+
 static thr_status make(thr_balance *b, const thr_ways *x, int p, int q, const detour *d, thr_err *err)
 {
   const thr_frame *f = b->s->f;
@@ -52,6 +100,7 @@ static thr_status make(thr_balance *b, const thr_ways *x, int p, int q, const de
   int section = d->end - d->from, n = 0, at = d->back ? leave_at(f, x, d->goal, w) : w->n;
   int *half = thr_calloc((size_t)(w->n + section) + 2 * (size_t)f->n_nodes, sizeof *half);
   if (!half) return thr_nomem(err);
+  if (b->ties) make_turns(b, x, p, q, d);
   memcpy(half, w->half, (size_t)at * sizeof *half);
   n = at;
   int way = way_to(f, x, d->goal, half + n);
@@ -99,7 +148,8 @@ static thr_status find_sections(thr_balance *b, thr_ways *x, int p, int q, detou
     for (int i = next[j], seen = 0; i >= 0 && seen < THR_MOST_VISITS; i = next[i], seen++) {
       double part = sum[j] - sum[i];
       if (j - i < v->n)
-        offer(best, (detour){fmax(v->length - part, w->length + part + 2 * x->far[node]), i, j, 0, node, true, false});
+        offer(b, x, p, q, (detour){fmax(v->length - part, w->length + part + 2 * x->far[node]), i, j, 0, node, true, false},
+              best);
     }
   }
   for (int j = 0; j <= v->n && !st; j++)
@@ -123,8 +173,8 @@ static thr_status find_tails(thr_balance *b, thr_ways *x, int p, int q, detour *
     int node = thr_trail_node(f, v, i);
     part += f->length[v->half[i] >> 1];
     if (!thr_plan_end_allowed(f, b->s->o, node)) continue;
-    offer(best, (detour){fmax(v->length - part, w->length + part + x->far[node]), i, v->n, 0, node, false, false});
-    offer(best, (detour){fmax(v->length - part, w->length + part + x->far[last]), i, v->n, 0, last, false, true});
+    offer(b, x, p, q, (detour){fmax(v->length - part, w->length + part + x->far[node]), i, v->n, 0, node, false, false}, best);
+    offer(b, x, p, q, (detour){fmax(v->length - part, w->length + part + x->far[last]), i, v->n, 0, last, false, true}, best);
   }
   return st;
 }
@@ -174,11 +224,23 @@ static void drop_turns_back(thr_balance *b, thr_trail *w)
   }
 }
 
+/* Does what is tied hold without the last pass of a walk? Then it is gone from the ties. */
+static bool untie_last(thr_balance *b, const thr_trail *w)
+{
+  thr_knots_change c = {.n = 0};
+  if (!b->ties) return true;
+  thr_knots_note(&c, w->half[w->n - 2], w->half[w->n - 1], -1);
+  if (!thr_knots_allow(b->ties, &c)) return false;
+  thr_knots_make(b->ties, &c);
+  return true;
+}
+
 /* Ends that are free are drawn in. */
 static void drop_tail(thr_balance *b, thr_trail *w)
 {
   const thr_frame *f = b->s->f;
-  while (w->n > 1 && spare(b, w->half[w->n - 1] >> 1, 1) && thr_plan_end_allowed(f, b->s->o, thr_trail_node(f, w, w->n - 1))) {
+  while (w->n > 1 && spare(b, w->half[w->n - 1] >> 1, 1) && thr_plan_end_allowed(f, b->s->o, thr_trail_node(f, w, w->n - 1)) &&
+         untie_last(b, w)) {
     b->passes[w->half[w->n - 1] >> 1]--;
     w->n--;
   }

@@ -48,29 +48,166 @@ static thr_status measure(const thr_balance *b, const thr_trail *w, measured *m,
   return THR_OK;
 }
 
-static void offer(thr_exchange *best, thr_exchange_kind kind, double longer, int i, int j, int k)
+/* ---- what an exchange does ---- */
+
+/* Two walks in a row: position at of all is position at of one, or at - n of the other. */
+typedef struct {
+  const int *one, *other;
+  int n, n_other;
+  bool cyclic;
+} row;
+
+/* Positions from .. end - 1 of a row, perhaps backwards. */
+typedef struct {
+  int from, end;
+  bool backwards;
+} piece;
+
+enum { MOST_PIECES = 10 };
+
+typedef struct {
+  piece list[MOST_PIECES];
+  int n, first; /* the first walk afterwards is list[0 .. first - 1] */
+} pieces;
+
+static void put(pieces *x, int from, int end, bool backwards)
 {
-  if (longer < best->longer) *best = (thr_exchange){kind, longer, i, j, k};
+  if (end > from) x->list[x->n++] = (piece){from, end, backwards};
+}
+
+/* Cuts at the end of the one walk, so that no piece is of both. */
+static void put_cut(pieces *x, const row *r, int from, int end)
+{
+  int cut = from < r->n && r->n < end ? r->n : end;
+  put(x, from, cut, false);
+  put(x, cut, end, false);
+}
+
+/* The two walks in a row as x->k says, the first part of them x->i passes long. */
+static void put_joined(pieces *out, const row *r, const thr_exchange *x)
+{
+  const piece part[2] = {{0, r->n, x->k & 1}, {r->n, r->n + r->n_other, x->k & 2}};
+  for (int i = 0, done = 0; i < 2; done += part[i].end - part[i].from, i++) {
+    int from = part[i].from, end = part[i].end, before = x->i - done;
+    if (before < 0) before = 0;
+    if (before > end - from) before = end - from;
+    int cut = part[i].backwards ? end - before : from + before;
+    put(out, part[i].backwards ? cut : from, part[i].backwards ? end : cut, part[i].backwards);
+    if (done < x->i && x->i <= done + end - from) out->first = out->n;
+    put(out, part[i].backwards ? from : cut, part[i].backwards ? cut : end, part[i].backwards);
+  }
+}
+
+static pieces pieces_of(const row *r, const thr_exchange *x)
+{
+  pieces out = {.n = 0};
+  int i = x->i, j = x->j, k = x->k, n = r->n, all = r->n + r->n_other;
+  switch (x->kind) {
+  case THR_EXCHANGE_TAILS:
+    put(&out, 0, i, false);
+    put(&out, n + j, all, false);
+    out.first = out.n;
+    put(&out, n, n + j, false);
+    put(&out, i, n, false);
+    break;
+  case THR_EXCHANGE_CROSS:
+    put(&out, 0, i, false);
+    put(&out, n, n + j, true);
+    out.first = out.n;
+    put(&out, i, n, true);
+    put(&out, n + j, all, false);
+    break;
+  case THR_EXCHANGE_GIVE:
+    put(&out, 0, i, false);
+    put(&out, j, n, false);
+    out.first = out.n;
+    put(&out, n, n + k, false);
+    put(&out, i, j, false);
+    put(&out, n + k, all, false);
+    break;
+  case THR_EXCHANGE_JOIN: put_joined(&out, r, x); break;
+  default:
+    put_cut(&out, r, i, j);
+    out.first = out.n;
+    put_cut(&out, r, 0, i);
+    put_cut(&out, r, j, all);
+  }
+  return out;
+}
+
+static int half_at(const row *r, int at)
+{
+  return at < r->n ? r->one[at] : r->other[at - r->n];
+}
+
+static int first_half(const row *r, const piece *p)
+{
+  return p->backwards ? half_at(r, p->end - 1) ^ 1 : half_at(r, p->from);
+}
+
+static int last_half(const row *r, const piece *p)
+{
+  return p->backwards ? half_at(r, p->from) ^ 1 : half_at(r, p->end - 1);
+}
+
+/* Turns where the pieces were cut, and where they meet now. */
+static thr_knots_change change_of(const row *r, const pieces *x)
+{
+  thr_knots_change c = {.n = 0};
+  int all = r->n + r->n_other;
+  for (int i = 0; i < x->n; i++) {
+    int from = x->list[i].from;
+    if (from != 0 && from != r->n)
+      thr_knots_note(&c, half_at(r, from - 1), half_at(r, from), -1);
+    else if (r->cyclic)
+      thr_knots_note(&c, half_at(r, from ? all - 1 : r->n - 1), half_at(r, from), -1);
+  }
+  for (int i = 0; i < x->n; i++) {
+    bool start = i == 0 || i == x->first;
+    int before = !start ? i - 1 : i == 0 ? x->first - 1 : x->n - 1;
+    if (!start || r->cyclic) thr_knots_note(&c, last_half(r, &x->list[before]), first_half(r, &x->list[i]), 1);
+  }
+  return c;
+}
+
+/* The better of two, if the joints allow it. */
+static void offer(thr_balance *b, const row *r, thr_exchange x, thr_exchange *best)
+{
+  if (x.longer >= best->longer) return;
+  if (b->ties) {
+    pieces list = pieces_of(r, &x);
+    thr_knots_change c = change_of(r, &list);
+    b->steps -= c.n;
+    if (!thr_knots_allow(b->ties, &c)) return;
+  }
+  *best = x;
 }
 
 /* ---- open walks: tails, sections, common ends ---- */
 
+static row row_of(const measured *p, const measured *q)
+{
+  return (row){p->w->half, q->w->half, p->w->n, q->w->n, false};
+}
+
 /* TAILS: p[0, i) q[j, ..) and q[0, j) p[i, ..). CROSS: p[0, i) and q[0, j) backwards, p[i, ..) backwards and q[j, ..). */
-static void offer_tails(const measured *p, int i, const measured *q, int j, thr_exchange *best)
+static void offer_tails(thr_balance *b, const measured *p, int i, const measured *q, int j, thr_exchange *best)
 {
   int np = p->w->n, nq = q->w->n;
+  row r = row_of(p, q);
   double all = p->sum[np] + q->sum[nq], tails = p->sum[i] + q->sum[nq] - q->sum[j], cross = p->sum[i] + q->sum[j];
-  if (i + nq - j > 0 && j + np - i > 0) offer(best, THR_EXCHANGE_TAILS, fmax(tails, all - tails), i, j, 0);
-  if (i + j > 0 && np - i + nq - j > 0) offer(best, THR_EXCHANGE_CROSS, fmax(cross, all - cross), i, j, 0);
+  if (i + nq - j > 0 && j + np - i > 0) offer(b, &r, (thr_exchange){THR_EXCHANGE_TAILS, fmax(tails, all - tails), i, j, 0}, best);
+  if (i + j > 0 && np - i + nq - j > 0) offer(b, &r, (thr_exchange){THR_EXCHANGE_CROSS, fmax(cross, all - cross), i, j, 0}, best);
 }
 
 /* GIVE: the closed section p[i, j) goes into q before its position k. */
-static void offer_sections(const measured *p, int j, const measured *q, int k, thr_exchange *best)
+static void offer_sections(thr_balance *b, const measured *p, int j, const measured *q, int k, thr_exchange *best)
 {
+  row r = row_of(p, q);
   double all = p->sum[p->w->n] + q->sum[q->w->n];
   for (int i = p->next[j], seen = 0; i >= 0 && seen < THR_MOST_VISITS; i = p->next[i], seen++) {
     double left = p->sum[p->w->n] - (p->sum[j] - p->sum[i]);
-    if (j - i < p->w->n) offer(best, THR_EXCHANGE_GIVE, fmax(left, all - left), i, j, k);
+    if (j - i < p->w->n) offer(b, &r, (thr_exchange){THR_EXCHANGE_GIVE, fmax(left, all - left), i, j, k}, best);
   }
 }
 
@@ -84,9 +221,10 @@ static int in_row(const measured *p, const measured *q, int k, int at, const mea
 }
 
 /* JOIN: two walks with an end at one node become one there, which is cut where ends are allowed, at i. */
-static void offer_joins(const thr_balance *b, const measured *p, const measured *q, thr_exchange *best)
+static void offer_joins(thr_balance *b, const measured *p, const measured *q, thr_exchange *best)
 {
   const thr_frame *f = b->s->f;
+  row r = row_of(p, q);
   int np = p->w->n, nq = q->w->n;
   for (int k = 0; k < 4; k++) {
     if (thr_trail_node(f, p->w, k & 1 ? 0 : np) != thr_trail_node(f, q->w, k & 2 ? nq : 0)) continue;
@@ -97,7 +235,7 @@ static void offer_joins(const thr_balance *b, const measured *p, const measured 
       if (!thr_plan_end_allowed(f, b->s->o, thr_trail_node(f, which->w, i))) continue;
       double part = (which == p ? k & 1 : k & 2) ? which->sum[which->w->n] - which->sum[i] : which->sum[i];
       if (which == q) part += p->sum[np];
-      offer(best, THR_EXCHANGE_JOIN, fmax(part, all - part), at, 0, k);
+      offer(b, &r, (thr_exchange){THR_EXCHANGE_JOIN, fmax(part, all - part), at, 0, k}, best);
     }
   }
 }
@@ -110,13 +248,13 @@ static void find_open(thr_balance *b, const measured *p, const measured *q, thr_
   for (int i = 0; i <= p->w->n; i++) {
     at_q[i] = b->first[thr_trail_node(f, p->w, i)];
     for (int j = at_q[i], seen = 0; j >= 0 && seen < THR_MOST_VISITS; j = q->next[j], seen++)
-      offer_tails(p, i, q, j, best);
+      offer_tails(b, p, i, q, j, best);
   }
   mark(b, q, true);
   mark(b, p, false);
   mark(b, p, true);
   for (int j = 1; j <= p->w->n; j++)
-    if (at_q[j] >= 0) offer_sections(p, j, q, at_q[j], best);
+    if (at_q[j] >= 0) offer_sections(b, p, j, q, at_q[j], best);
   if (b->s->o->ends != THR_ENDS_COUNTS) offer_joins(b, p, q, best);
 }
 
@@ -151,12 +289,13 @@ static thr_status find_cyclic(thr_balance *b, const measured *p, const measured 
   measured m;
   thr_status st = measure(b, &all, &m, err);
   if (st) return st;
+  row r = {b->merged, b->merged + np, np, nq, true};
   mark(b, &m, false);
   mark(b, &m, true);
   for (j = 1; j < all.n; j++)
     for (int seen = 0, e = m.next[j]; e >= 0 && seen < THR_MOST_VISITS; e = m.next[e], seen++) {
       double part = m.sum[j] - m.sum[e];
-      offer(best, THR_EXCHANGE_SECTION, fmax(part, m.sum[all.n] - part), e, j, 0);
+      offer(b, &r, (thr_exchange){THR_EXCHANGE_SECTION, fmax(part, m.sum[all.n] - part), e, j, 0}, best);
     }
   measured_destroy(&m);
   return THR_OK;
@@ -193,71 +332,54 @@ thr_status thr_balance_find(thr_balance *b, int p, int q, thr_exchange *best, th
 
 /* ---- making it ---- */
 
-static void append(int *half, int *n, const int *from, int count, bool backwards)
+static void append(const row *r, const piece *p, int *half, int *n)
 {
-  if (count) memcpy(half + *n, from, (size_t)count * sizeof *half);
-  if (backwards) thr_trail_reverse(half + *n, count);
-  *n += count;
-}
-
-/* p and q in a row as k says. */
-static void append_row(int *half, int *n, const thr_trail *p, const thr_trail *q, int k)
-{
-  append(half, n, p->half, p->n, k & 1);
-  append(half, n, q->half, q->n, k & 2);
+  for (int i = p->from; i < p->end; i++)
+    half[*n + i - p->from] = half_at(r, i);
+  if (p->backwards) thr_trail_reverse(half + *n, p->end - p->from);
+  *n += p->end - p->from;
 }
 
 thr_status thr_balance_make(thr_balance *b, int p, int q, const thr_exchange *x, thr_err *err)
 {
   thr_trail *v = &b->w->walk[p], *w = &b->w->walk[q];
-  int n = 0, np = 0, all = v->n + w->n, i = x->i, j = x->j;
-  int *half = thr_calloc((size_t)all, sizeof *half), *new_p = NULL, *new_q = NULL;
-  if (!half) return thr_nomem(err);
-  switch (x->kind) {
-  case THR_EXCHANGE_TAILS:
-    append(half, &n, v->half, i, false);
-    append(half, &n, w->half + j, w->n - j, false);
-    np = n;
-    append(half, &n, w->half, j, false);
-    append(half, &n, v->half + i, v->n - i, false);
-    break;
-  case THR_EXCHANGE_CROSS:
-    append(half, &n, v->half, i, false);
-    append(half, &n, w->half, j, true);
-    np = n;
-    append(half, &n, v->half + i, v->n - i, true);
-    append(half, &n, w->half + j, w->n - j, false);
-    break;
-  case THR_EXCHANGE_GIVE:
-    append(half, &n, v->half, i, false);
-    append(half, &n, v->half + j, v->n - j, false);
-    np = n;
-    append(half, &n, w->half, x->k, false);
-    append(half, &n, v->half + i, j - i, false);
-    append(half, &n, w->half + x->k, w->n - x->k, false);
-    break;
-  case THR_EXCHANGE_JOIN:
-    append_row(half, &n, v, w, x->k);
-    np = i;
-    break;
-  default:
-    append(half, &n, b->merged + i, j - i, false);
-    np = n;
-    append(half, &n, b->merged, i, false);
-    append(half, &n, b->merged + j, all - j, false);
+  row r = {v->half, w->half, v->n, w->n, v->cyclic};
+  if (v->cyclic) r = (row){b->merged, b->merged + v->n, v->n, w->n, true};
+  pieces list = pieces_of(&r, x);
+  int size[2] = {0, 0}, n[2] = {0, 0};
+  for (int i = 0; i < list.n; i++)
+    size[i >= list.first] += list.list[i].end - list.list[i].from;
+  int *half[2] = {thr_calloc((size_t)size[0], sizeof **half), thr_calloc((size_t)size[1], sizeof **half)};
+  if (!half[0] || !half[1]) {
+    free(half[0]);
+    free(half[1]);
+    return thr_nomem(err);
   }
-  if ((new_p = thr_calloc((size_t)np, sizeof *new_p)) && (new_q = thr_calloc((size_t)(all - np), sizeof *new_q))) {
-    memcpy(new_p, half, (size_t)np * sizeof *half);
-    memcpy(new_q, half + np, (size_t)(all - np) * sizeof *half);
-    free(v->half);
-    free(w->half);
-    *v = (thr_trail){np, new_p, thr_trail_length(b->s->f, new_p, np), v->cyclic};
-    *w = (thr_trail){all - np, new_q, thr_trail_length(b->s->f, new_q, all - np), w->cyclic};
+  for (int i = 0; i < list.n; i++)
+    append(&r, &list.list[i], half[i >= list.first], &n[i >= list.first]);
+  thr_knots_change c = change_of(&r, &list);
+  if (b->ties) thr_knots_make(b->ties, &c);
+  free(v->half);
+  free(w->half);
+  *v = (thr_trail){n[0], half[0], thr_trail_length(b->s->f, half[0], n[0]), v->cyclic};
+  *w = (thr_trail){n[1], half[1], thr_trail_length(b->s->f, half[1], n[1]), w->cyclic};
+  return THR_OK;
+}
+
+/* The closed section i .. j - 1 of x the other way round. */
+static void turn_round(thr_balance *b, thr_trail *x, int i, int j)
+{
+  thr_knots_change c = {.n = 0};
+  int before = i > 0 ? x->half[i - 1] : x->cyclic ? x->half[x->n - 1] : -1;
+  if (b->ties && j - i < x->n) {
+    thr_knots_note(&c, before, x->half[i], -1);
+    thr_knots_note(&c, x->half[j - 1], x->half[j], -1);
+    thr_knots_note(&c, before, x->half[j - 1] ^ 1, 1);
+    thr_knots_note(&c, x->half[i] ^ 1, x->half[j], 1);
+    if (!thr_knots_allow(b->ties, &c)) return;
+    thr_knots_make(b->ties, &c);
   }
-  free(half);
-  if (new_q) return THR_OK;
-  free(new_p);
-  return thr_nomem(err);
+  thr_trail_reverse(x->half + i, j - i);
 }
 
 thr_status thr_balance_shuffle(thr_balance *b, int p, thr_err *err)
@@ -273,7 +395,7 @@ thr_status thr_balance_shuffle(thr_balance *b, int p, thr_err *err)
     mark(b, &m, true);
     int j = (int)(thr_random(&b->random) % (uint64_t)x->n), i = m.next[j];
     measured_destroy(&m);
-    if (i >= 0 && (thr_random(&b->random) & 3)) thr_trail_reverse(x->half + i, j - i);
+    if (i >= 0 && (thr_random(&b->random) & 3)) turn_round(b, x, i, j);
   }
   return THR_OK;
 }

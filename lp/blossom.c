@@ -6,8 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define WEIGHT_MOST (INT64_C(1) << 50)
-
 /* ---- the state ---- */
 
 static void state_destroy(thr_matching_state *s)
@@ -32,8 +30,8 @@ static thr_status check_problem(const thr_matching_problem *p, thr_err *err)
     const int *end = p->edge[e];
     if (end[0] < 0 || end[0] >= p->n_nodes || end[1] < 0 || end[1] >= p->n_nodes || end[0] == end[1])
       return thr_fail(err, THR_EINPUT, "pair %d joins nodes %d and %d of %d", e, end[0], end[1], p->n_nodes);
-    if (p->weight[e] < 0 || p->weight[e] > WEIGHT_MOST)
-      return thr_fail(err, THR_EINPUT, "pair %d has a weight that is not in 0 .. 2^50", e);
+    if (p->weight[e] < 0 || p->weight[e] > THR_MATCHING_WEIGHT_MOST)
+      return thr_fail(err, THR_EINPUT, "pair %d has a weight that is not in 0 .. 2^53", e);
   }
   return THR_OK;
 }

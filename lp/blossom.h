@@ -8,11 +8,13 @@
 #include "graph/limits.h"
 #include "graph/status.h"
 
+#define THR_MATCHING_WEIGHT_MOST (INT64_C(1) << 53)
+
 /* All arrays are borrowed. Parallel edges are allowed, loops are not. */
 typedef struct {
   int n_nodes, n_edges;
   const int (*edge)[2];
-  const int64_t *weight; /* [n_edges] 0 .. 2^50 */
+  const int64_t *weight; /* [n_edges] 0 .. THR_MATCHING_WEIGHT_MOST */
 } thr_matching_problem;
 
 typedef struct thr_matching_state thr_matching_state;

@@ -198,15 +198,19 @@ static thr_status add_rest(near_search *s, const thr_pairs *more, thr_err *err)
 }
 
 /* The pairs of `more`, and those of odd places with those near them, once each. */
-static thr_status merge_near(const thr_network *net, const thr_pairs *more, thr_pairs *pairs, int64_t *reach, thr_err *err)
+static thr_status merge_near(const thr_network *net, const thr_limits *limits, const thr_pairs *more, thr_pairs *pairs,
+                             int64_t *reach, thr_err *err)
 {
+  enum { SEARCHES_BETWEEN_LIMITS = 1 << 10 };
   near_search s = {.net = net,
                    .near = thr_calloc((size_t)net->n_places, sizeof *s.near),
                    .touched = thr_calloc((size_t)net->n_places, sizeof *s.touched),
                    .first = thr_calloc((size_t)net->n_odd + 1, sizeof *s.first)};
   thr_status st = s.near && s.touched && s.first ? THR_OK : thr_nomem(err);
-  for (int i = 0; i < net->n_odd && !st; i++)
-    st = find_near(&s, i, reach, err);
+  for (int i = 0; i < net->n_odd && !st; i++) {
+    bool stop = i % SEARCHES_BETWEEN_LIMITS == 0 && thr_limits_stop(limits);
+    st = stop ? thr_fail(err, THR_ELIMIT, "stopped early, before all pairs were found") : find_near(&s, i, reach, err);
+  }
   if (!st) st = add_rest(&s, more, err);
   free(s.near);
   free(s.touched);
@@ -305,14 +309,17 @@ done:
   return st;
 }
 
-thr_status thr_candidates_find(const thr_network *net, thr_pairs *pairs, int64_t *reach, thr_err *err)
+thr_status thr_candidates_find(const thr_network *net, const thr_limits *limits, thr_pairs *pairs, int64_t *reach, thr_err *err)
 {
   thr_pairs wide = {0};
   *pairs = (thr_pairs){0};
   thr_status st = add_neighbours(net, &wide, err);
   if (!st) st = add_fallback(&wide, net->n_odd, err);
-  if (!st) st = merge_near(net, &wide, pairs, reach, err);
-  thr_pairs_destroy(&wide);
+  if (!st) st = merge_near(net, limits, &wide, pairs, reach, err);
   if (st) thr_pairs_destroy(pairs);
+  if (st == THR_ELIMIT)
+    *pairs = wide;
+  else
+    thr_pairs_destroy(&wide);
   return st;
 }

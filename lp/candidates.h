@@ -37,7 +37,9 @@ void thr_flood_destroy(thr_flood *f);
 
 /* Candidates to begin with: of every odd place the nearest others; those whose Voronoi cells touch; and pairs along a lightest
  * spanning tree of these, which make a perfect matching (on a connected graph). reach[n_odd] receives how far the nearest of each
- * go, in halves of a weight (INT64_MAX: there are few). Near-linear. */
-thr_status thr_candidates_find(const thr_network *net, thr_pairs *pairs, int64_t *reach, thr_err *err) THR_MUST_CHECK;
+ * go, in halves of a weight (INT64_MAX: there are few). THR_ELIMIT: pairs holds those whose cells touch and those along the tree,
+ * and so the nearest of every odd place. Near-linear. */
+thr_status thr_candidates_find(const thr_network *net, const thr_limits *limits, thr_pairs *pairs, int64_t *reach,
+                               thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -2,8 +2,9 @@
 #include "lp/cords.h"
 #include "graph/check.h"
 #include "lp/balance.h"
-#include "lp/postman.h"
+#include "lp/postman_parts.h"
 #include "lp/share_exact.h"
+#include "lp/share_prices.h"
 #include "lp/ways.h"
 
 #include <limits.h>
@@ -20,6 +21,7 @@ typedef struct {
   thr_trails *trails; /* [n_components] results */
   int *wanted;        /* [n_components] cords to be made of a component now; 0 = none */
   int *passes;        /* [n_edges] */
+  int64_t *price;     /* [n_nodes] of places for ends, where they took further passes */
   bool least;         /* the passes are the shortest that hold the cords */
   bool certain;       /* the longest cord is as short as can be: the solver's word */
 } several;
@@ -32,6 +34,7 @@ static void several_destroy(several *x)
   free(x->component);
   free(x->wanted);
   free(x->passes);
+  free(x->price);
 }
 
 static thr_status several_init(several *x, thr_err *err)
@@ -43,9 +46,10 @@ static thr_status several_init(several *x, thr_err *err)
   x->trails = thr_calloc(n, sizeof *x->trails);
   x->wanted = thr_calloc(n, sizeof *x->wanted);
   x->passes = thr_calloc((size_t)x->f->n_edges, sizeof *x->passes);
+  x->price = thr_calloc((size_t)x->f->n_nodes, sizeof *x->price);
   x->share = (thr_share){x->f, x->o, x->component};
   x->least = x->certain = true;
-  return x->trails && x->wanted && x->passes ? THR_OK : thr_nomem(err);
+  return x->trails && x->wanted && x->passes && x->price ? THR_OK : thr_nomem(err);
 }
 
 static int component_of(const several *x, int e)
@@ -141,7 +145,7 @@ static thr_status make_places(several *x, int k, const thr_certificate *c, thr_e
 {
   bool changed;
   thr_err why = {0};
-  thr_status st = thr_share_places(&x->share, k, x->wanted[k], c, x->limits, x->passes, &changed, &why);
+  thr_status st = thr_share_places(&x->share, k, x->wanted[k], c, x->limits, x->passes, x->price, &changed, &why);
   return st ? thr_fail(err, st == THR_ELIMIT ? THR_EINFEASIBLE : st, "%s", why.text) : THR_OK;
 }
 
@@ -211,14 +215,6 @@ static void choose_numbers(several *x)
   }
 }
 
-static double longest_in(const thr_trails *w)
-{
-  double most = 0;
-  for (int i = 0; i < w->n_trails; i++)
-    most = fmax(most, w->walk[i].length);
-  return most;
-}
-
 /* ---- no cord longer than a limit ---- */
 
 /* More and more cords: what is left to do. */
@@ -241,24 +237,22 @@ static bool within(double length, double limit)
   return length <= limit * (1 + 1e-12);
 }
 
-/* An edge that no cord within the limit can pass, coming from where it may end and going where it may end? */
-static thr_status check_reach(const several *x, thr_err *err)
+thr_status thr_cords_reach(const thr_frame *f, const thr_plan_options *o, thr_err *err)
 {
   thr_ways w;
-  const thr_frame *f = x->f;
-  bool closed = x->o->ends == THR_ENDS_CLOSED;
-  double limit = x->o->max_length;
+  bool closed = o->ends == THR_ENDS_CLOSED;
+  double limit = o->max_length;
   thr_status st = thr_ways_init(&w, f, err);
   for (int v = 0; v < f->n_nodes && !st && !closed; v++)
-    if (thr_plan_end_allowed(f, x->o, v)) st = thr_ways_start(&w, v, err);
-  if (!st) st = thr_ways_spread(&w, x->o, NULL, 0, INFINITY, NULL, err);
+    if (thr_plan_end_allowed(f, o, v)) st = thr_ways_start(&w, v, err);
+  if (!st) st = thr_ways_spread(&w, o, NULL, 0, INFINITY, NULL, err);
   for (int e = 0; e < f->n_edges && !st; e++) {
     const int *end = f->edge[e];
     if (closed && within(2 * f->length[e], limit)) continue;
     if (closed) { /* there, and the shortest way back */
       thr_ways_clear(&w);
       st = thr_ways_start(&w, end[0], err);
-      if (!st) st = thr_ways_spread(&w, x->o, NULL, 0, f->length[e], NULL, err);
+      if (!st) st = thr_ways_spread(&w, o, NULL, 0, f->length[e], NULL, err);
       if (st) break;
     }
     double least = (closed ? 0 : w.far[end[0]]) + f->length[e] + w.far[end[1]];
@@ -296,7 +290,7 @@ static thr_status try_number(growing *g, int n, int *left, thr_err *err)
   st = share_out(x, s.certificate, true, x->o->max_length, err);
   *left = 0;
   for (int k = 0; k < x->n_components && !st; k++) {
-    if (x->wanted[k]) g->done[k] = within(longest_in(&x->trails[k]), x->o->max_length);
+    if (x->wanted[k]) g->done[k] = within(thr_trails_longest(&x->trails[k]), x->o->max_length);
     *left += !g->done[k];
   }
   thr_shortest_destroy(&s);
@@ -310,7 +304,7 @@ static thr_status none_found(const growing *g, int most, thr_err *err)
   while (g->done[k])
     k++;
   const char *cords = most == 1 ? "cord" : "cords", *units = x->f->units;
-  double length = x->o->max_length, found = longest_in(&x->trails[k]);
+  double length = x->o->max_length, found = thr_trails_longest(&x->trails[k]);
   if (x->trails[k].n_trails == 0)
     return thr_fail(err, THR_EINFEASIBLE, "the piece with node %s needs %g %s of cord: %d %s of at most %g %s are too few",
                     node_of(x, k), g->length[k], units, most, cords, length, units);
@@ -334,7 +328,7 @@ static thr_status grow(several *x, thr_shortest *best, thr_err *err)
     if (least < n) n = least > x->o->cords_least ? (int)least : x->o->cords_least;
   }
   if (!st && x->o->ends == THR_ENDS_COUNTS) n = x->o->cords;
-  if (!st) st = check_reach(x, err);
+  if (!st) st = thr_cords_reach(x->f, x->o, err);
   for (int tried = 0, step = 1; !st && left && n <= x->o->cords; n += step) { /* larger steps where many numbers are too small */
     st = try_number(&g, n, &left, err);
     if (++tried > IN_SINGLE_STEPS && n < x->o->cords) step = 2 * step < x->o->cords - n ? 2 * step : x->o->cords - n;
@@ -371,8 +365,7 @@ static thr_status make(several *x, thr_shortest *s, thr_err *err)
   return share_out(x, s->certificate, x->o->balance, 0, err);
 }
 
-/* Is what was asked to be least proved to be? Else the text says how far it may be off. */
-static thr_status judge(const thr_plan *plan, const thr_err *unproved, thr_err *err)
+thr_status thr_cords_judge(const thr_plan *plan, const thr_err *unproved, thr_err *err)
 {
   const thr_plan_options *o = &plan->options;
   const thr_cords_claim *c = &plan->cords_claim;
@@ -387,12 +380,30 @@ static thr_status judge(const thr_plan *plan, const thr_err *unproved, thr_err *
                   100 * plan->proof.gap);
 }
 
-static thr_status prove(thr_plan *plan, thr_shortest *s, thr_err *err)
+/* Where the cords need more passes than a join has, what proves more of that. */
+static thr_status prove_places(const several *x, thr_plan *plan, thr_err *err)
+{
+  const thr_frame *f = &plan->frame;
+  thr_length_proof *proof = &plan->proof;
+  thr_err found = {0};
+  thr_status st = THR_OK;
+  if (proof->optimal) return THR_OK;
+  for (int k = 0; k < proof->n_certificates && !st; k++)
+    st = thr_share_prices(&x->share, k, x->price, x->limits, &proof->certificate[k], err);
+  if (st) return st;
+  st = thr_check_length_proof(f, &plan->options, plan->cord, plan->n_cords, proof->certificate, proof->n_certificates,
+                              &proof->optimal, &proof->lower_bound, &found);
+  proof->gap = (plan->metrics.length - proof->lower_bound) / plan->metrics.length;
+  return thr_postman_own_check(st, &found, err);
+}
+
+static thr_status prove(const several *x, thr_plan *plan, thr_shortest *s, thr_err *err)
 {
   const thr_frame *f = &plan->frame;
   const thr_plan_options *o = &plan->options;
   thr_status st = thr_plan_measure(f, o, plan->cord, plan->n_cords, &plan->metrics, err);
   if (!st) st = thr_postman_prove(f, o, plan->cord, plan->n_cords, s, &plan->proof, err);
+  if (!st) st = prove_places(x, plan, err);
   if (!st)
     st = thr_check_cords(f, o, plan->cord, plan->n_cords, plan->proof.certificate, plan->proof.n_certificates, &plan->cords_claim,
                          err);
@@ -417,12 +428,12 @@ thr_status thr_cords_plan(const thr_frame *f, const thr_plan_options *o, const t
   if (!st) st = several_init(&x, err);
   if (!st) st = make(&x, &s, err);
   if (!st) st = take_cords(&x, plan, err);
-  if (!st) st = prove(plan, &s, err);
+  if (!st) st = prove(&x, plan, &s, err);
   if (word) *word = (thr_cords_word){x.least, x.certain && o->balance};
   if (st)
     thr_plan_destroy(plan);
   else
-    st = judge(plan, &why, err);
+    st = thr_cords_judge(plan, &why, err);
   several_destroy(&x);
   thr_shortest_destroy(&s);
   return st;

@@ -20,4 +20,14 @@ typedef struct {
 thr_status thr_cords_plan(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
                           thr_cords_word *word, thr_err *err) THR_MUST_CHECK;
 
+/* ---- shared with tube joints (tortuosity/tube_cords.c) ---- */
+
+/* THR_EINFEASIBLE, said: an edge that no cord within options.max_length can pass, coming from where it may end and going where it
+ * may end. */
+thr_status thr_cords_reach(const thr_frame *f, const thr_plan_options *o, thr_err *err) THR_MUST_CHECK;
+
+/* Is what was asked to be least proved to be, by the plan's claims? Else THR_ELIMIT, and how far it may be off; unproved: what is
+ * to be said before that, if anything. */
+thr_status thr_cords_judge(const thr_plan *plan, const thr_err *unproved, thr_err *err) THR_MUST_CHECK;
+
 #endif

@@ -4,6 +4,7 @@
 #include "lp/cuts.h"
 
 #include <assert.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -149,19 +150,32 @@ static bool optimal_at(const point *at, const point *other)
   return at->weight + other->price * at->n_ends == other->weight + other->price * other->n_ends;
 }
 
-/* Raises the price of too many ends and lowers that of few until they are 1 apart, or equal; each keeps being optimal at its
- * price. The price to try is the slope between the two, where a convex function has a corner if there is one. *same: the point
- * whose cuts prove both, if their prices are equal. */
+/* The price to try next: the slope between the two points, where a convex function has a corner if there is one. As long as there
+ * are many ends too many, and matching them over the hub is slow: where the number would be right if its logarithm fell evenly.
+ */
+static int64_t next_price(const search *s, int round)
+{
+  enum { GUESSES = 12 };
+  const point *few = &s->few, *many = &s->many;
+  int64_t price = (few->weight - many->weight) / (many->n_ends - few->n_ends);
+  if (round < GUESSES && many->n_ends > 2 * s->p->n_ends) {
+    double low = log(few->n_ends + 1.0), high = log(many->n_ends + 1.0);
+    double part = (log(s->p->n_ends + 1.0) - low) / (high - low);
+    int64_t guess = few->price - (int64_t)(part * (double)(few->price - many->price));
+    if (guess > price) price = guess;
+  }
+  return price >= few->price ? few->price - 1 : price <= many->price ? many->price + 1 : price;
+}
+
+/* Raises the price of too many ends and lowers that of few until they are 1 apart, or equal, or few has as many as allowed; each
+ * keeps being optimal at its price. *same: the point whose cuts prove the number allowed, if one does. */
 static thr_status close_in(search *s, const point **same, thr_err *err)
 {
   point *few = &s->few, *many = &s->many;
   *same = NULL;
-  while (few->price - many->price > 1) {
+  for (int round = 0; few->n_ends < s->p->n_ends && few->price - many->price > 1; round++) {
     point at;
-    int64_t price = (few->weight - many->weight) / (many->n_ends - few->n_ends);
-    if (price >= few->price) price = few->price - 1;
-    if (price <= many->price) price = many->price + 1;
-    thr_status st = solve_at(s, price, &at, err);
+    thr_status st = solve_at(s, next_price(s, round), &at, err);
     if (st) {
       thr_tjoin_destroy(&at.t);
       return st;
@@ -174,6 +188,7 @@ static thr_status close_in(search *s, const point **same, thr_err *err)
     *same = side;
     return THR_OK;
   }
+  if (few->n_ends == s->p->n_ends) *same = few;
   return THR_OK;
 }
 
@@ -315,7 +330,7 @@ static thr_status confirm(search *s, const point *at, thr_err *err)
   for (int e = s->p->graph.n_edges; e < s->n_edges; e++)
     s->weight[e] = at->price;
   thr_tjoin_problem p = {s->hub + 1, s->n_edges, (const int(*)[2])s->edge, s->weight, s->odd, 0};
-  return at->no_hub ? THR_OK : thr_tjoin_confirm_soon(&p, &at->t, s->limits, s->p->count, err);
+  return at->no_hub ? THR_OK : thr_tjoin_confirm_counted(&p, &at->t, s->limits, s->p->count, err);
 }
 
 static thr_status take(search *s, point *join, point *proof, thr_endjoin *out, thr_err *err)
@@ -337,11 +352,25 @@ static thr_status take_best(search *s, thr_endjoin *out, thr_err *err)
   return take(s, &s->few, better ? &s->few : &s->many, out, err);
 }
 
+/* The lightest join without ends is optimal at the price that its cuts ask: the values of the sets round a node. */
+static thr_status lower_closed_price(search *s, thr_err *err)
+{
+  int64_t *held = thr_calloc((size_t)s->hub + 1, sizeof *held), most = 0;
+  const thr_cuts cuts = {s->few.t.n_cuts, s->hub + 1, s->few.t.cut};
+  thr_status st = held ? thr_cuts_held(&cuts, held, err) : thr_nomem(err);
+  for (int v = 0; v < s->hub && !st; v++)
+    if (s->p->end_allowed[v] && held[v] > most) most = held[v];
+  free(held);
+  if (!st && most / THR_DUAL_DENOMINATOR + 1 < s->few.price) s->few.price = most / THR_DUAL_DENOMINATOR + 1;
+  return st;
+}
+
 /* Of the joins with the fewest ends the lightest: at a price at which two more never pay. */
 static thr_status solve_few(search *s, thr_err *err)
 {
   thr_status st = solve_fewest(s, &s->few, err);
-  if (st || s->n_pieces == 1) return st;
+  if (st) return st;
+  if (s->n_pieces == 1) return lower_closed_price(s, err);
   point at;
   st = solve_at(s, 2 * s->p->far, &at, err);
   if (!st) replace(&s->few, &at);
@@ -370,7 +399,7 @@ static thr_status run(search *s, thr_endjoin *out, thr_err *err)
   }
   bool before = same == &s->many; /* whose join is as it was found */
   if ((st = confirm(s, before ? &s->many : &s->few, err))) return st;
-  if ((st = take_over(s, &last, err))) return st;
+  if (s->few.n_ends < s->p->n_ends && (st = take_over(s, &last, err))) return st;
   bool by_many = same ? before : last;
   return take(s, &s->few, by_many ? &s->many : &s->few, out, err);
 }
@@ -431,7 +460,7 @@ static thr_status solve_two(search *s, thr_endjoin *out, thr_err *err)
       limit = thr_tjoin_solve(&p, s->limits, &t, err);
     }
     if (limit && limit != THR_ELIMIT) st = limit;
-    if (!st && !limit) st = thr_tjoin_confirm_soon(&p, &t, s->limits, s->p->count, err);
+    if (!st && !limit) st = thr_tjoin_confirm_counted(&p, &t, s->limits, s->p->count, err);
   }
   if (!st) {
     thr_cuts cuts = {t.n_cuts, n + 2, t.cut};

@@ -5,24 +5,17 @@
 
 #include <stdlib.h>
 
-const char *thr_engine_name(thr_engine e)
-{
-  static const char *const name[] = {[THR_ENGINE_AUTO] = "auto", [THR_ENGINE_LP] = "lp", [THR_ENGINE_MATCHING] = "matching"};
-  return name[e];
-}
-
 static thr_status solve(const thr_tjoin_problem *p, thr_engine engine, const thr_limits *limits, thr_tjoin *out, thr_err *err)
 {
   return engine == THR_ENGINE_LP ? thr_tjoin_solve(p, limits, out, err) : thr_moat_solve(p, limits, out, err);
 }
 
-static thr_engine choose(const thr_tjoin_problem *p, thr_engine engine)
+static thr_status choose(const thr_tjoin_problem *p, thr_engine *engine, thr_err *err)
 {
-  int64_t sum = 0;
-  if (engine != THR_ENGINE_AUTO) return engine;
-  for (int e = 0; e < p->n_edges; e++)
-    sum += p->weight[e];
-  return sum > THR_MOAT_WEIGHTS_MOST ? THR_ENGINE_LP : THR_ENGINE_MATCHING;
+  bool fits = true;
+  thr_status st = *engine == THR_ENGINE_AUTO ? thr_moat_fits(p, &fits, err) : THR_OK;
+  if (*engine == THR_ENGINE_AUTO) *engine = fits ? THR_ENGINE_MATCHING : THR_ENGINE_LP;
+  return st;
 }
 
 /* Does the matching gain by shrinking? Nodes of degree 1 and 2 cost it little more than shrinking them does. */
@@ -47,8 +40,8 @@ thr_status thr_tjoin_shrunk(const thr_tjoin_problem *p, thr_engine engine, const
   thr_err stopped = {0};
   bool worth = true;
   *out = (thr_tjoin){0};
-  engine = choose(p, engine);
-  thr_status st = engine == THR_ENGINE_LP ? THR_OK : many_are_small(p, &worth, err), solved;
+  thr_status st = choose(p, &engine, err), solved;
+  if (!st && engine != THR_ENGINE_LP) st = many_are_small(p, &worth, err);
   if (st || !worth) return st ? st : solve(p, engine, limits, out, err);
   if ((st = thr_shrinking_init(&s, p, err))) return st;
   solved = solve(&s.reduced, engine, limits, &small, &stopped);

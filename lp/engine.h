@@ -4,10 +4,8 @@
 
 #include "lp/tjoin.h"
 
-const char *thr_engine_name(thr_engine e); /* "auto", "lp", "matching" */
-
-/* As thr_tjoin_solve, by either engine: THR_ENGINE_LP is lp/tjoin.h, THR_ENGINE_MATCHING lp/moat.h (weights that add up to more
- * than 2^50: THR_EINPUT). The problem is shrunk before (lp/shrink.h) where that pays: always for the linear
+/* As thr_tjoin_solve, by either engine: THR_ENGINE_LP is lp/tjoin.h, THR_ENGINE_MATCHING lp/moat.h (weights that do not
+ * fit: THR_EINPUT). The problem is shrunk before (lp/shrink.h) where that pays: always for the linear
  * programme, for the matching if it loses many nodes. */
 thr_status thr_tjoin_shrunk(const thr_tjoin_problem *p, thr_engine engine, const thr_limits *limits, thr_tjoin *out,
                             thr_err *err) THR_MUST_CHECK;
@@ -25,13 +23,13 @@ enum { THR_CONFIRM_EDGES = 10000 }; /* problems up to this size are confirmed in
 thr_status thr_tjoin_confirm(const thr_tjoin_problem *p, const thr_tjoin *t, const thr_limits *limits, thr_confirmation *out,
                              thr_err *err) THR_MUST_CHECK;
 
-/* The same within a second, of problems up to THR_CONFIRM_EDGES. */
 typedef struct {
+  bool always;            /* whatever the size; else within a second, of problems up to THR_CONFIRM_EDGES */
   int confirmed, skipped; /* T-joins */
 } thr_confirmations;
 
-/* Counts in *count; NULL: nothing is done. */
-thr_status thr_tjoin_confirm_soon(const thr_tjoin_problem *p, const thr_tjoin *t, const thr_limits *limits,
-                                  thr_confirmations *count, thr_err *err) THR_MUST_CHECK;
+/* The same as *count says, and counted there; NULL: nothing is done. */
+thr_status thr_tjoin_confirm_counted(const thr_tjoin_problem *p, const thr_tjoin *t, const thr_limits *limits,
+                                     thr_confirmations *count, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -6,6 +6,7 @@
 #include "graph/limits.h"
 #include "graph/status.h"
 
+/* The work of limits counts pivots, each as the number of rows and columns of its programme: some 10 million a second. */
 typedef struct thr_lp thr_lp;
 
 typedef enum {

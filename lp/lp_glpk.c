@@ -349,6 +349,12 @@ static thr_lp_outcome outcome_of(glp_prob *problem)
   }
 }
 
+/* Takes pivots from the work that is left: they cost about as much as there are rows and columns. */
+static void spend(const thr_limits *limits, glp_prob *p, int pivots)
+{
+  if (limits->work) *limits->work -= (double)pivots * (glp_get_num_rows(p) + glp_get_num_cols(p));
+}
+
 static thr_status solve(thr_lp *lp, bool exact, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)
 {
   *outcome = THR_LP_STOPPED;
@@ -357,7 +363,9 @@ static thr_status solve(thr_lp *lp, bool exact, const thr_limits *limits, thr_lp
   for (int restarts = 0; !st;) {
     if (thr_limits_stop(limits)) return THR_OK;
     solve_call c = {lp->problem, exact, lp->primal || restarts > 0, thr_limits_left(limits, INFINITY), 0};
+    int before = glp_get_it_cnt(lp->problem);
     if ((st = guarded(do_solve, &c, err))) return st;
+    spend(limits, lp->problem, glp_get_it_cnt(lp->problem) - before);
     if (c.code == 0 && outcome_of(lp->problem) != THR_LP_STOPPED) {
       *outcome = outcome_of(lp->problem);
       lp->primal = false;
@@ -381,16 +389,22 @@ thr_status thr_lp_solve_exact(thr_lp *lp, const thr_limits *limits, thr_lp_outco
   return solve(lp, true, limits, outcome, err);
 }
 
-static void watch_tree(glp_tree *tree, void *limits)
-{
-  if (thr_limits_stop(limits)) glp_ios_terminate(tree);
-}
-
 typedef struct {
   glp_prob *problem;
   const thr_limits *limits;
+  int pivots; /* made when last looked at */
   int code;
 } integer_call;
+
+/* At every step of the tree, which counts as a pivot too. */
+static void watch_tree(glp_tree *tree, void *call)
+{
+  integer_call *c = call;
+  int pivots = glp_get_it_cnt(c->problem);
+  spend(c->limits, c->problem, 1 + pivots - c->pivots);
+  c->pivots = pivots;
+  if (thr_limits_stop(c->limits)) glp_ios_terminate(tree);
+}
 
 static void do_integer(void *argument)
 {
@@ -399,7 +413,7 @@ static void do_integer(void *argument)
   glp_init_iocp(&options);
   options.msg_lev = GLP_MSG_OFF;
   options.cb_func = watch_tree;
-  options.cb_info = (void *)c->limits;
+  options.cb_info = c;
   for (int j = 1; j <= glp_get_num_cols(c->problem); j++)
     glp_set_col_kind(c->problem, j, GLP_IV);
   c->code = glp_intopt(c->problem, &options);
@@ -409,7 +423,8 @@ thr_status thr_lp_solve_integer(thr_lp *lp, const thr_limits *limits, thr_lp_out
 {
   *outcome = THR_LP_STOPPED;
   thr_status st = check_alive(lp, err);
-  integer_call c = {lp->problem, limits, 0};
+  integer_call c = {lp->problem, limits, 0, 0};
+  if (!st) c.pivots = glp_get_it_cnt(lp->problem);
   if (!st) st = guarded(do_integer, &c, err);
   if (st || c.code == GLP_ESTOP) return st;
   if (c.code) return thr_fail(err, THR_ESOLVER, "GLPK's branch and bound failed (code %d)", c.code);

@@ -14,6 +14,7 @@ typedef struct {
   thr_hubs hubs;
   uint64_t random;
   thr_matching matching;
+  int matched; /* pairs that it knows */
   thr_nest nest;
   thr_flood flood;
   bool *raised;   /* [n_odd] had a negative dual */
@@ -40,16 +41,21 @@ static thr_status solver_init(solver *s, const thr_tjoin_problem *p, thr_err *er
   s->start = thr_calloc((size_t)s->net.n_odd, sizeof *s->start);
   if (!s->raised || !s->start) return thr_nomem(err);
   if (s->net.n_odd == 0) return THR_OK;
-  st = thr_candidates_find(&s->net, &s->pairs, s->start, err);
+  st = thr_candidates_find(&s->net, s->limits, &s->pairs, s->start, err);
   if (!st) st = thr_hubs_find(&s->net, &s->hubs, err);
   return st ? st : thr_hubs_pairs(&s->hubs, s->start, &s->random, &s->pairs, err);
 }
 
 /* ---- pricing ---- */
 
+/* Some new pairs are taken in faster than all are matched anew; many, above all between equals, are not. */
 static thr_status match(solver *s, thr_err *err)
 {
+  enum { ODD_PER_NEW_PAIR = 20 };
   thr_matching_problem p = {s->net.n_odd, s->pairs.count, (const int(*)[2])s->pairs.end, s->pairs.weight};
+  int added = s->pairs.count - s->matched;
+  s->matched = s->pairs.count;
+  if (added <= s->net.n_odd / ODD_PER_NEW_PAIR) return thr_matching_again(&p, s->limits, &s->matching, err);
   thr_matching_destroy(&s->matching);
   return thr_matching_solve(&p, s->limits, &s->matching, err);
 }
@@ -281,12 +287,25 @@ static thr_status take_quick_result(solver *s, thr_tjoin *out, thr_err *err)
   return THR_OK;
 }
 
+thr_status thr_moat_fits(const thr_tjoin_problem *p, bool *fits, thr_err *err)
+{
+  double sum = 0, most = (double)THR_MOAT_WEIGHTS_MOST;
+  thr_status st = THR_OK;
+  *fits = true;
+  for (int e = 0; e < p->n_edges; e++) {
+    sum += (double)p->weight[e];
+    *fits &= p->weight[e] <= THR_MOAT_WEIGHTS_MOST;
+  }
+  if (*fits && sum > most) st = thr_network_tree_weight(p, &sum, err);
+  *fits &= sum <= most;
+  return st;
+}
+
 static thr_status check_weights(const thr_tjoin_problem *p, thr_err *err)
 {
-  int64_t sum = 0;
-  for (int e = 0; e < p->n_edges; e++)
-    sum += p->weight[e];
-  return sum <= THR_MOAT_WEIGHTS_MOST ? THR_OK : thr_fail(err, THR_EINPUT, "weights are too large for exact sums of 64 bits");
+  bool fits;
+  thr_status st = thr_moat_fits(p, &fits, err);
+  return st || fits ? st : thr_fail(err, THR_EINPUT, "weights are too large for exact sums of 64 bits");
 }
 
 thr_status thr_moat_solve(const thr_tjoin_problem *p, const thr_limits *limits, thr_tjoin *out, thr_err *err)
@@ -296,7 +315,7 @@ thr_status thr_moat_solve(const thr_tjoin_problem *p, const thr_limits *limits, 
   *out = (thr_tjoin){0};
   thr_status st = check_weights(p, err), limit = THR_OK;
   if (!st && !(out->in_join = thr_calloc((size_t)p->n_edges, sizeof *out->in_join))) st = thr_nomem(err);
-  if (!st) st = solver_init(&s, p, err);
+  if (!st) st = solver_init(&s, p, &stopped);
   if (!st && s.net.n_odd) st = solve_rounds(&s, &stopped);
   if (!st) {
     st = take_result(&s, out, err);

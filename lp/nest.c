@@ -126,16 +126,6 @@ int64_t thr_nest_shared_depth(const thr_nest *nest, int i, int j)
   return s < 0 ? 0 : nest->outer[s] + nest->width[s];
 }
 
-int thr_nest_set_at(const thr_nest *nest, int i, int64_t depth)
-{
-  int s = i;
-  while (depth <= nest->outer[s]) {
-    int far = nest->jump[s];
-    s = far >= 0 && depth <= nest->outer[far] ? far : nest->parent[s];
-  }
-  return s;
-}
-
 void thr_nest_depths(const thr_nest *nest, int64_t *start)
 {
   for (int i = 0; i < nest->n_odd; i++)
@@ -193,13 +183,24 @@ static void cutter_destroy(cutter *c)
   free(c->waiting);
 }
 
+/* The set of odd place i's in whose moat, or at whose inner edge, depth > 0 lies. O(log n_sets). */
+static int set_at(const thr_nest *nest, int i, int64_t depth)
+{
+  int s = i;
+  while (depth <= nest->outer[s]) {
+    int far = nest->jump[s];
+    s = far >= 0 && depth <= nest->outer[far] ? far : nest->parent[s];
+  }
+  return s;
+}
+
 /* Places by set, in the order in which the flood came; nodes by place, ascending. */
 static void sort_places(cutter *c)
 {
   const thr_flood *f = c->f;
   for (int k = 0; k < f->n_reached; k++) {
     int v = f->order[k];
-    c->set[v] = thr_nest_set_at(c->nest, f->root[v], f->depth[v]);
+    c->set[v] = set_at(c->nest, f->root[v], f->depth[v]);
     c->first[c->set[v] + 2]++;
   }
   for (int s = 1; s <= c->nest->n_sets; s++)

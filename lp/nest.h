@@ -30,9 +30,6 @@ void thr_nest_destroy(thr_nest *nest);
 /* Depth of the innermost set that holds both odd places, inside its moat; 0 if there is none. O(log n_sets). */
 int64_t thr_nest_shared_depth(const thr_nest *nest, int i, int j);
 
-/* The set of odd place i's in whose moat, or at whose inner edge, depth > 0 lies. O(log n_sets). */
-int thr_nest_set_at(const thr_nest *nest, int i, int64_t depth);
-
 /* start[n_odd]: depth of every odd place. */
 void thr_nest_depths(const thr_nest *nest, int64_t *start);
 

@@ -3,6 +3,7 @@
 #include "graph/disjoint.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 /* Numbers the places by their lowest node. */
 static void number_places(thr_network *net, int *parent)
@@ -109,31 +110,50 @@ static int by_weight(const void *pa, const void *pb)
   return (a->edge > b->edge) - (a->edge < b->edge);
 }
 
-static thr_status find_forest(const thr_tjoin_problem *p, bool any_weight, const bool *in_join, forest *f, thr_err *err)
+/* A lightest spanning forest, of all edges or of those of weight 0. *edge is allocated, *n of them. */
+static thr_status find_forest(const thr_tjoin_problem *p, bool any_weight, int **edge, int *n, thr_err *err)
 {
-  int *parent = thr_calloc((size_t)p->n_nodes, sizeof *parent), n = 0;
+  int *parent = thr_calloc((size_t)p->n_nodes, sizeof *parent), count = 0;
   weighed *list = thr_calloc((size_t)p->n_edges, sizeof *list);
-  thr_status st = parent && list ? THR_OK : thr_nomem(err);
-  for (int v = 0; v < p->n_nodes && !st; v++) {
+  *n = 0;
+  *edge = thr_calloc((size_t)p->n_nodes, sizeof **edge);
+  thr_status st = parent && list && *edge ? THR_OK : thr_nomem(err);
+  for (int v = 0; v < p->n_nodes && !st; v++)
     parent[v] = v;
-    f->wrong[v] = p->odd[v];
-  }
-  for (int e = 0; e < p->n_edges && !st; e++) {
-    if (in_join[e]) f->wrong[p->edge[e][0]] ^= true, f->wrong[p->edge[e][1]] ^= true;
-    if (any_weight || p->weight[e] == 0) list[n++] = (weighed){p->weight[e], e};
-  }
-  if (!st) qsort(list, (size_t)n, sizeof *list, by_weight);
-  for (int k = 0; k < n && !st; k++) {
+  for (int e = 0; e < p->n_edges && !st; e++)
+    if (any_weight || p->weight[e] == 0) list[count++] = (weighed){p->weight[e], e};
+  if (!st) qsort(list, (size_t)count, sizeof *list, by_weight);
+  for (int k = 0; k < count && !st; k++) {
     const int *end = p->edge[list[k].edge];
-    if (!thr_disjoint_join(parent, end[0], end[1])) continue;
-    for (int i = 0; i < 2; i++) {
-      f->degree[end[i]]++;
-      f->across[end[i]] ^= list[k].edge;
-    }
+    if (thr_disjoint_join(parent, end[0], end[1])) (*edge)[(*n)++] = list[k].edge;
   }
   free(parent);
   free(list);
   return st;
+}
+
+thr_status thr_network_tree_weight(const thr_tjoin_problem *p, double *weight, thr_err *err)
+{
+  int *edge, n;
+  *weight = 0;
+  thr_status st = find_forest(p, true, &edge, &n, err);
+  for (int k = 0; k < n && !st; k++)
+    *weight += (double)p->weight[edge[k]];
+  free(edge);
+  return st;
+}
+
+static void stand(const thr_tjoin_problem *p, const bool *in_join, const int *edge, int n, forest *f)
+{
+  memcpy(f->wrong, p->odd, (size_t)p->n_nodes * sizeof *f->wrong);
+  for (int e = 0; e < p->n_edges; e++)
+    if (in_join[e]) f->wrong[p->edge[e][0]] ^= true, f->wrong[p->edge[e][1]] ^= true;
+  for (int k = 0; k < n; k++)
+    for (int i = 0; i < 2; i++) {
+      int v = p->edge[edge[k]][i];
+      f->degree[v]++;
+      f->across[v] ^= edge[k];
+    }
 }
 
 static void pass_on(const thr_tjoin_problem *p, bool *in_join, forest *f)
@@ -160,9 +180,14 @@ thr_status thr_network_mend(const thr_network *net, bool any_weight, bool *in_jo
               .stack = thr_calloc(n, sizeof *f.stack),
               .across = thr_calloc(n, sizeof *f.across),
               .wrong = thr_calloc(n, sizeof *f.wrong)};
+  int *edge = NULL, n_edges = 0;
   thr_status st = f.degree && f.stack && f.across && f.wrong ? THR_OK : thr_nomem(err);
-  if (!st) st = find_forest(net->p, any_weight, in_join, &f, err);
-  if (!st) pass_on(net->p, in_join, &f);
+  if (!st) st = find_forest(net->p, any_weight, &edge, &n_edges, err);
+  if (!st) {
+    stand(net->p, in_join, edge, n_edges, &f);
+    pass_on(net->p, in_join, &f);
+  }
+  free(edge);
   free(f.degree);
   free(f.stack);
   free(f.across);

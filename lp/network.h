@@ -30,6 +30,9 @@ void thr_network_destroy(thr_network *net);
  * every place has its parity already; with any_weight along a lightest spanning tree. O(nodes + edges log edges). */
 thr_status thr_network_mend(const thr_network *net, bool any_weight, bool *in_join, thr_err *err) THR_MUST_CHECK;
 
+/* Of a lightest spanning tree: there is a T-join that weighs no more, and no two nodes are farther apart. O(edges log edges). */
+thr_status thr_network_tree_weight(const thr_tjoin_problem *p, double *weight, thr_err *err) THR_MUST_CHECK;
+
 /* ---- a queue for Dijkstra's method ---- */
 
 typedef struct {

@@ -37,7 +37,9 @@ typedef struct {
 /* Where confirmations are counted, if they are asked for. */
 static thr_confirmations *counter(postman *m)
 {
-  return m->o->confirm ? &m->confirmed : NULL;
+  m->confirmed.always = m->o->confirm == THR_CONFIRM_ALWAYS;
+  bool asked = m->o->confirm != THR_CONFIRM_NEVER && m->o->objective == THR_LENGTH && m->o->joint == THR_JOINT_SOLID;
+  return asked ? &m->confirmed : NULL;
 }
 
 /* Cord ends at allowed nodes, their number at each being free? */
@@ -204,7 +206,7 @@ static thr_status solve_closed(postman *m, int d, const instance *in, thr_certif
   thr_tjoin t;
   thr_tjoin_problem p = {in->n_nodes, in->n_edges, (const int(*)[2])in->edge, in->weight, in->odd, 0};
   thr_status st = thr_tjoin_shrunk(&p, m->o->engine, m->limits, &t, err), taken = THR_OK;
-  if (!st) st = thr_tjoin_confirm_soon(&p, &t, m->limits, counter(m), err);
+  if (!st) st = thr_tjoin_confirm_counted(&p, &t, m->limits, counter(m), err);
   if (!st || st == THR_ELIMIT) {
     take_join(m, in, t.in_join, c);
     taken = take_cuts(m, d, &t.cut, &t.n_cuts, c->denominator / THR_DUAL_DENOMINATOR, c, err);

@@ -31,13 +31,24 @@ static double split_price(const thr_frame *f, const thr_trail *x, int from, int 
          turn_at(f, x, from) - turn_at(f, x, end);
 }
 
-static void offer(section *best, double score, int walk, int from, int end)
+static thr_knots_change change_of(const thr_trail *x, int from, int end)
 {
-  if (score < best->score - 1e-9) *best = (section){score, walk, from, end};
+  thr_knots_change c = {.n = 0};
+  thr_knots_note(&c, before(x, from), x->half[from], -1);
+  thr_knots_note(&c, x->half[end - 1], x->half[end], -1);
+  thr_knots_note(&c, before(x, from), x->half[end], 1);
+  thr_knots_note(&c, x->half[end - 1], x->half[from], 1);
+  return c;
+}
+
+static bool stays_tied(thr_knots *ties, const thr_trail *x, int from, int end)
+{
+  thr_knots_change c = change_of(x, from, end);
+  return thr_knots_allow(ties, &c);
 }
 
 /* The section to split off: that which adds least turning, or, of walk number only, that which is nearest to half of it. */
-static thr_status best_section(const thr_share *s, const thr_trails *w, int only, section *best, thr_err *err)
+static thr_status best_section(const thr_share *s, const thr_trails *w, thr_knots *ties, int only, section *best, thr_err *err)
 {
   thr_trail_visits x;
   *best = (section){INFINITY, -1, 0, 0};
@@ -51,7 +62,8 @@ static thr_status best_section(const thr_share *s, const thr_trails *w, int only
     if (only >= 0 && x.walk[j] != only) continue;
     for (int i = x.next[j], seen = 0; i >= 0 && x.walk[i] == x.walk[j] && seen < MOST_VISITS; i = x.next[i], seen++) {
       double score = only >= 0 ? fabs(sum[j] - sum[i] - y->length / 2) : split_price(s->f, y, x.at[i], x.at[j]);
-      offer(best, score, x.walk[j], x.at[i], x.at[j]);
+      if (score < best->score - 1e-9 && (!ties || stays_tied(ties, y, x.at[i], x.at[j])))
+        *best = (section){score, x.walk[j], x.at[i], x.at[j]};
     }
   }
   thr_trail_visits_destroy(&x);
@@ -60,7 +72,7 @@ static thr_status best_section(const thr_share *s, const thr_trails *w, int only
 }
 
 /* The longest walk first that has a node twice. */
-static thr_status best_half(const thr_share *s, const thr_trails *w, section *best, thr_err *err)
+static thr_status best_half(const thr_share *s, const thr_trails *w, thr_knots *ties, section *best, thr_err *err)
 {
   thr_status st = THR_OK;
   bool *tried = thr_calloc((size_t)w->n_trails, sizeof *tried);
@@ -71,19 +83,23 @@ static thr_status best_half(const thr_share *s, const thr_trails *w, section *be
     for (int i = 0; i < w->n_trails; i++)
       if (!tried[i] && (longest < 0 || w->walk[i].length > w->walk[longest].length)) longest = i;
     tried[longest] = true;
-    st = best_section(s, w, longest, best, err);
+    st = best_section(s, w, ties, longest, best, err);
   }
   free(tried);
   return st;
 }
 
-static thr_status split_to(const thr_share *s, int n, bool even, thr_trails *w, thr_err *err)
+thr_status thr_share_split(const thr_share *s, int n, bool even, thr_knots *ties, thr_trails *w, thr_err *err)
 {
   thr_status st = THR_OK;
   while (w->n_trails < n && !st) {
     section best;
-    st = even ? best_half(s, w, &best, err) : best_section(s, w, -1, &best, err);
+    st = even ? best_half(s, w, ties, &best, err) : best_section(s, w, ties, -1, &best, err);
     if (!st && best.walk < 0) break;
+    if (!st && ties) {
+      thr_knots_change c = change_of(&w->walk[best.walk], best.from, best.end);
+      thr_knots_make(ties, &c);
+    }
     if (!st) st = thr_trails_take_section(w, s->f, best.walk, best.from, best.end, err);
   }
   return st;
@@ -221,7 +237,7 @@ thr_status thr_share_merge(const thr_share *s, int n, thr_trails *w, thr_err *er
 thr_status thr_share_circuits(const thr_share *s, int n, bool even, thr_trails *w, bool *enough, thr_err *err)
 {
   thr_trails many;
-  thr_status st = split_to(s, n, even, w, err);
+  thr_status st = thr_share_split(s, n, even, NULL, w, err);
   *enough = w->n_trails >= n;
   if (st || *enough) return st;
   if ((st = short_circuits(s, w, &many, err))) return st;

@@ -8,7 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_COLUMNS = 100, MOST_SECONDS = 2 };
+enum { MOST_COLUMNS = 100 };
+
+static const double most_work = 2e7; /* of linear programmes: about two seconds */
 
 /* Columns of cord c, from c * (2 * n_edges + 2 * n_nodes) on: passes of its edges, whether it passes them, half of what passes
  * its nodes, its ends there. */
@@ -307,23 +309,16 @@ static thr_status take(programme *p, thr_trails *w, int *passes, thr_err *err)
   return st;
 }
 
-static double longest(const thr_trails *w)
-{
-  double most = 0;
-  for (int i = 0; i < w->n_trails; i++)
-    most = fmax(most, w->walk[i].length);
-  return most;
-}
-
 thr_status thr_share_exact(const thr_share *s, int k, double goal, const thr_limits *limits, thr_trails *w, int *passes,
                            bool *certain, thr_err *err)
 {
   const double less = 2e-5; /* part that a better one is shorter at least: above GLPK's tolerances */
   programme p = {.s = s, .k = k, .n_cords = w->n_trails};
   thr_limits share = *limits;
+  double work = most_work;
   *certain = false;
   share.progress = NULL;
-  share.deadline = thr_clock() + thr_limits_left(limits, MOST_SECONDS);
+  share.work = &work;
   thr_status st = find_component(&p, err);
   if (!st && columns(&p) <= MOST_COLUMNS) {
     size_t n = (size_t)columns(&p);
@@ -331,14 +326,14 @@ thr_status thr_share_exact(const thr_share *s, int k, double goal, const thr_lim
     p.value = thr_calloc(n, sizeof *p.value);
     p.x = thr_calloc(n, sizeof *p.x);
     if (!p.column || !p.value || !p.x) st = thr_nomem(err);
-    while (!st && longest(w) > goal) {
+    while (!st && thr_trails_longest(w) > goal) {
       thr_lp_outcome outcome;
-      double before = longest(w);
+      double before = thr_trails_longest(w);
       st = solve(&p, before * (1 - less), &share, &outcome, err);
       *certain = !st && outcome == THR_LP_INFEASIBLE;
       if (st || outcome != THR_LP_OPTIMAL) break;
       st = take(&p, w, passes, err);
-      if (!st && longest(w) >= before) break; /* tolerances */
+      if (!st && thr_trails_longest(w) >= before) break; /* tolerances */
     }
   }
   programme_destroy(&p);

@@ -22,6 +22,14 @@ double thr_trail_length(const thr_frame *f, const int *half, int n)
   return sum;
 }
 
+double thr_trails_longest(const thr_trails *w)
+{
+  double most = 0;
+  for (int i = 0; i < w->n_trails; i++)
+    most = w->walk[i].length > most ? w->walk[i].length : most;
+  return most;
+}
+
 thr_status thr_trails_add(thr_trails *w, const thr_frame *f, thr_trail walk, thr_err *err)
 {
   thr_status st = thr_grow(&w->walk, w->n_trails, &w->capacity, sizeof *w->walk, err);

@@ -32,6 +32,9 @@ void thr_trails_count(const thr_trails *w, int *passes);
 
 double thr_trail_length(const thr_frame *f, const int *half, int n);
 
+/* Of the longest walk; 0 if there are none. */
+double thr_trails_longest(const thr_trails *w);
+
 /* The node before pass number at; with at = n, after the last one. */
 int thr_trail_node(const thr_frame *f, const thr_trail *w, int at);
 

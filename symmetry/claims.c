@@ -130,7 +130,7 @@ static thr_status bound_turning(const thr_programme *p, const thr_cover *c, bool
     thr_status st = thr_turning_quick_bound(p, any, bound, err);
     if (st) return st;
   }
-  if (p->o->ends == THR_ENDS_ANY) *bound = fmax(0, *bound - most_closed(p, c, paths && !repeats) * most_left_out(p));
+  if (p->o->ends == THR_ENDS_ANY && !p->open) *bound = fmax(0, *bound - most_closed(p, c, paths && !repeats) * most_left_out(p));
   return THR_OK;
 }
 

@@ -88,6 +88,20 @@ static void contract_pairs(thr_contraction *c, int *made)
   }
 }
 
+/* The ties of the whole programme, as far as turns are kept. */
+static thr_status contract_ties(thr_contraction *c, thr_err *err)
+{
+  const thr_quotient *q = c->whole->q;
+  bool *keep = thr_calloc((size_t)q->n_pairs, sizeof *keep);
+  c->p.ties = thr_calloc(1, sizeof *c->p.ties);
+  thr_status st = keep && c->p.ties ? THR_OK : thr_nomem(err);
+  for (int y = 0; y < q->n_pairs && !st; y++)
+    keep[y] = c->keep[c->root[q->pair[y].dart[0]]];
+  if (!st) st = thr_ties_contract(c->p.ties, c->whole->ties, q->n_pairs, &c->q, c->p.node_orbit, c->pair, keep, err);
+  free(keep);
+  return st;
+}
+
 thr_status thr_contraction_make(thr_contraction *c, thr_err *err)
 {
   const thr_quotient *q = c->whole->q;
@@ -111,153 +125,9 @@ thr_status thr_contraction_make(thr_contraction *c, thr_err *err)
   if (!st) contract_pairs(c, made);
   free(made);
   if (!st) st = thr_programme_init(&c->p, &c->q, c->whole->o, err);
+  if (!st && c->whole->ties) st = contract_ties(c, err);
   if (st) return st;
   memcpy(c->p.least, c->whole->least, (size_t)q->n_copies * sizeof *c->p.least); /* turns that are gone ruled some out */
   memcpy(c->p.most, c->whole->most, (size_t)q->n_copies * sizeof *c->p.most);
   return THR_OK;
-}
-
-/* ---- lifting ---- */
-
-/* Dart orbits of one cell that are still to be led on. */
-typedef struct {
-  const thr_contraction *c;
-  int *value; /* of the whole programme */
-  int *left;  /* [n_darts] */
-  int n, *type;
-} cell;
-
-static int most_left(const cell *x)
-{
-  int best = -1;
-  for (int i = 0; i < x->n; i++)
-    if (x->left[x->type[i]] > 0 && (best < 0 || x->left[x->type[i]] > x->left[best])) best = x->type[i];
-  return best;
-}
-
-/* Column that ends one of the trails of type d: cord end or self pair; -1 = none. */
-static int terminal_of(const thr_programme *p, int d, bool self)
-{
-  if (!self) return p->most[p->first_end + d] != 0 ? p->first_end + d : -1;
-  for (int k = p->first[d]; k < p->first[d + 1]; k++)
-    if (p->q->pair[p->incident[k]].self) return p->first_pair + p->incident[k];
-  return -1;
-}
-
-/* So many ends or self pairs, always where most is left. */
-static bool take_terminals(cell *x, bool self, int count)
-{
-  const thr_programme *p = x->c->whole;
-  for (; count > 0; count--) {
-    int best = -1;
-    for (int i = 0; i < x->n; i++) {
-      int d = x->type[i];
-      if (x->left[d] > 0 && terminal_of(p, d, self) >= 0 && (best < 0 || x->left[d] > x->left[best])) best = d;
-    }
-    if (best < 0) return false;
-    x->value[terminal_of(p, best, self)]++;
-    x->left[best]--;
-  }
-  return true;
-}
-
-/* Can the rest be paired: does no type without a turn to itself have more than the others together? */
-static bool can_go_on(const cell *x)
-{
-  int sum = 0;
-  for (int i = 0; i < x->n; i++)
-    sum += x->left[x->type[i]];
-  for (int i = 0; i < x->n; i++)
-    if (2 * x->left[x->type[i]] > sum && !thr_programme_loop(x->c->whole, x->type[i])) return false;
-  return sum % 2 == 0;
-}
-
-/* The type with most left gets the cheapest partner after which the rest can be paired. */
-static bool pair_one(cell *x, int a)
-{
-  const thr_programme *p = x->c->whole;
-  const double *cost = p->cost[THR_AIM_TURNING];
-  int best = -1;
-  for (int k = p->first[a]; k < p->first[a + 1]; k++) {
-    const thr_pair_type *t = &p->q->pair[p->incident[k]];
-    int j = p->first_pair + p->incident[k], b = t->dart[0] + t->dart[1] - a;
-    if (t->self || p->most[j] == 0 || x->left[b] < 1 + (a == b) || (best >= 0 && cost[j] >= cost[best])) continue;
-    x->left[a]--;
-    x->left[b]--;
-    if (can_go_on(x)) best = j;
-    x->left[a]++;
-    x->left[b]++;
-  }
-  if (best < 0) return false;
-  x->value[best]++;
-  x->left[p->join[best][0]]--;
-  x->left[p->join[best][1]]--;
-  return true;
-}
-
-static bool lift_cell(cell *x, const int *small)
-{
-  const thr_programme *p = &x->c->p;
-  int d = x->c->becomes[x->type[0]];
-  for (int k = p->first[d]; k < p->first[d + 1]; k++)
-    if (p->q->pair[p->incident[k]].self && !take_terminals(x, true, small[p->first_pair + p->incident[k]])) return false;
-  if (!take_terminals(x, false, small[p->first_end + d]) || !can_go_on(x)) return false;
-  for (int a; (a = most_left(x)) >= 0;)
-    if (!pair_one(x, a)) return false;
-  return true;
-}
-
-/* A cell that is left as it is has its turns already. */
-static void copy_kept(const thr_contraction *c, const int *small, int *value)
-{
-  const thr_quotient *q = c->whole->q;
-  for (int y = 0; y < q->n_pairs; y++)
-    if (c->keep[c->root[q->pair[y].dart[0]]]) value[c->whole->first_pair + y] = small[c->p.first_pair + c->pair[y]];
-  for (int d = 0; d < q->n_darts; d++)
-    if (c->keep[c->root[d]]) value[c->whole->first_end + d] = small[c->p.first_end + c->becomes[d]];
-}
-
-void thr_contraction_lower(const thr_contraction *c, const int *value, int *small)
-{
-  const thr_quotient *q = c->whole->q;
-  memset(small, 0, (size_t)c->p.n * sizeof *small);
-  memcpy(small, value, (size_t)q->n_copies * sizeof *small);
-  for (int y = 0; y < q->n_pairs; y++)
-    if (c->pair[y] >= 0) small[c->p.first_pair + c->pair[y]] += value[c->whole->first_pair + y];
-  for (int d = 0; d < q->n_darts; d++)
-    small[c->p.first_end + c->becomes[d]] += value[c->whole->first_end + d];
-}
-
-thr_status thr_contraction_lift(thr_contraction *c, const int *small, int *value, int *kept, thr_err *err)
-{
-  const thr_quotient *q = c->whole->q;
-  size_t n = (size_t)q->n_darts;
-  cell x = {c, value, thr_calloc(n, sizeof *x.left), 0, NULL};
-  int *first = thr_calloc(n + 2, sizeof *first), *type = thr_calloc(n, sizeof *type);
-  thr_status st = x.left && first && type ? THR_OK : thr_nomem(err);
-  *kept = 0;
-  memset(value, 0, (size_t)c->whole->n * sizeof *value);
-  for (int k = 0; k < q->n_copies && !st; k++) {
-    value[k] = small[k];
-    for (int i = 0; i < (q->copy[k].fold ? 1 : 2); i++)
-      x.left[q->copy[k].dart[i]] += small[k];
-  }
-  for (int d = 0; d < q->n_darts && !st; d++)
-    first[c->root[d] + 2]++;
-  for (int d = 1; d < q->n_darts && !st; d++)
-    first[d + 1] += first[d];
-  for (int d = 0; d < q->n_darts && !st; d++)
-    type[first[c->root[d] + 1]++] = d;
-  for (int d = 0; d < q->n_darts && !st; d++) {
-    x.type = type + first[d];
-    x.n = first[d + 1] - first[d];
-    if (c->keep[d] || x.n == 0 || lift_cell(&x, small)) continue;
-    c->keep[d] = true;
-    ++*kept;
-  }
-  if (!st && *kept == 0) copy_kept(c, small, value);
-  free(x.left);
-  free(first);
-  free(type);
-  return st;
 }

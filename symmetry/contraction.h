@@ -26,8 +26,9 @@ void thr_contraction_destroy(thr_contraction *c);
 /* Makes q and p anew from keep. */
 thr_status thr_contraction_make(thr_contraction *c, thr_err *err) THR_MUST_CHECK;
 
-/* A solution of p with turns, cheap ones first: value[whole->n]. *kept > 0: in so many cells no turns can be found; they are left
- * as they are from now on, and the contraction is to be made anew. */
+/* In symmetry/lift.c. A solution of p with turns, cheap ones first, but with tube joints first those that tie: value[whole->n].
+ * *kept > 0: in so many cells no turns can be found, or none that tie their nodes; they are left as they are from now on, and the
+ * contraction is to be made anew. */
 thr_status thr_contraction_lift(thr_contraction *c, const int *small, int *value, int *kept, thr_err *err) THR_MUST_CHECK;
 
 /* The other way round: what a solution of the whole programme (value[whole->n]) is in p, small[p.n]. Circles: 0. */
@@ -44,6 +45,12 @@ typedef enum { THR_CONTRACTION_LEAST, THR_CONTRACTION_PLAIN, THR_CONTRACTION_TWI
  * last kind can always be lifted, and always be joined into one set for every component. */
 thr_status thr_contraction_start(const thr_contraction *c, thr_contraction_kind kind, const bool *barred,
                                  const thr_limits *limits, int *small, bool *found, thr_err *err) THR_MUST_CHECK;
+
+/* In symmetry/fasten.c. For tube joints: more copies, two of a type where that keeps numbers even, until every node has turns
+ * enough to be tied; of stars that are failed[whole->ties->n], or NULL, one more turn than they have. As cheap as goes copy by
+ * copy; copies that are barred excepted. *found = false if capacities leave no such copies. O(copies^2). */
+thr_status thr_contraction_fasten(const thr_contraction *c, const bool *barred, const bool *failed, int *small, bool *found,
+                                  thr_err *err) THR_MUST_CHECK;
 
 /* What overlap and an aim with few values are added up with, so that it decides between equal overlaps: the aim's weight. */
 double thr_contraction_tie(const thr_contraction *c, thr_aim aim);

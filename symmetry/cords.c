@@ -9,12 +9,13 @@
 typedef struct {
   int *half;
   int n_passes, component, of, element;
-  bool closed;
+  bool closed, round; /* round: it does not matter where it starts */
 } traced;
 
 typedef struct {
   thr_strands s;
   const thr_frame *f;
+  bool tied_ends;       /* with tube joints: where a cord ends it ties nothing */
   const int *component; /* [n_nodes] */
   bool *walked;         /* [darts] of the cords so far */
   int *walk, *scratch;  /* [darts] the leaving darts of the cord at hand */
@@ -42,13 +43,13 @@ static bool matches(const tracer *t, const traced *a, int x, const traced *b, in
   return true;
 }
 
-/* In how many ways x maps cord a to b as a path in the framework: forward or reversed, a closed one from any start. Stops
+/* In how many ways x maps cord a to b as a path in the framework: forward or reversed, one that runs round from any start. Stops
  * counting at `enough`. */
 static int ways(const tracer *t, const traced *a, int x, const traced *b, int enough)
 {
   int n = a->n_passes, found = 0;
-  if (n != b->n_passes || a->closed != b->closed) return 0;
-  if (!a->closed) return matches(t, a, x, b, 0, false) + matches(t, a, x, b, n - 1, true);
+  if (n != b->n_passes || a->round != b->round) return 0;
+  if (!a->round) return matches(t, a, x, b, 0, false) + matches(t, a, x, b, n - 1, true);
   for (int shift = 0; shift < n && found < enough; shift++)
     found += matches(t, a, x, b, shift, false) + matches(t, a, x, b, shift, true);
   return found;
@@ -128,6 +129,7 @@ static thr_status add_cord(tracer *t, const int *walk, int n, int x, thr_err *er
     c.half[i] = thr_strands_half(&t->s, d);
   }
   c.closed = thr_tail(t->f, c.half[0]) == thr_head(t->f, c.half[n - 1]);
+  c.round = c.closed && !t->tied_ends;
   c.component = t->component[thr_tail(t->f, c.half[0])];
   t->cord[t->n_cords++] = c;
   return THR_OK;
@@ -323,14 +325,14 @@ static thr_status make_cords(tracer *t, const int *place, thr_cord **cord, thr_e
 thr_status thr_cover_cords(const thr_quotient *q, const thr_cover_options *o, const thr_cover *c, thr_cord **cord, int *n_cords,
                            thr_symmetry_record *record, thr_err *err)
 {
-  bool all_open = o->ends == THR_ENDS_FEET || o->ends == THR_ENDS_NODES;
   int n_components, *place = NULL, *component = thr_calloc((size_t)q->f->n_nodes, sizeof *component);
   tracer t = {0};
   *cord = NULL;
   *n_cords = 0;
   *record = (thr_symmetry_record){0};
   thr_status st = component ? thr_frame_components(q->f, component, &n_components, err) : thr_nomem(err);
-  if (!st) st = tracer_init(&t, q, c, all_open, component, err);
+  if (!st) st = tracer_init(&t, q, c, thr_cover_all_open(o), component, err);
+  t.tied_ends = o->tube && o->ends != THR_ENDS_CLOSED;
   if (!st) st = trace_all(&t, err);
   if (!st) st = order_cords(&t, n_components, &place, err);
   if (!st) st = make_record(&t, place, record, err);

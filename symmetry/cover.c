@@ -17,6 +17,11 @@ void thr_cover_destroy(thr_cover *c)
   *c = (thr_cover){0};
 }
 
+bool thr_cover_all_open(const thr_cover_options *o)
+{
+  return o->ends == THR_ENDS_FEET || o->ends == THR_ENDS_NODES || (o->ends == THR_ENDS_ANY && o->tube);
+}
+
 /* A component of the framework without a node where its cords may end. */
 static thr_status check_ends(const thr_programme *p, thr_err *err)
 {
@@ -86,6 +91,27 @@ static thr_status offer_improved(thr_search *s, thr_err *err)
   return st ? st : thr_search_offer(s, err);
 }
 
+/* Lifts a start with tube joints, for which it gets more copies where need be; *failed as thr_contraction_lift has it. */
+static thr_status lift_tied(thr_search *s, thr_contraction *c, const bool *barred, int *small, int *failed, thr_err *err)
+{
+  enum { ROUNDS = 8 };
+  const thr_ties *ties = s->p->ties;
+  bool *loose = thr_calloc((size_t)ties->n, sizeof *loose), enough = true;
+  thr_status st = loose ? thr_contraction_fasten(c, barred, NULL, small, &enough, err) : thr_nomem(err);
+  *failed = 1;
+  for (int round = 0; round < ROUNDS && enough && *failed && !st; round++) {
+    memset(c->keep, 0, (size_t)s->p->q->n_darts * sizeof *c->keep);
+    if (round > 0) st = thr_contraction_fasten(c, barred, loose, small, &enough, err);
+    if (!st && enough) st = thr_contraction_lift(c, small, s->other, failed, err);
+    for (int i = 0; i < ties->n && !st; i++)
+      loose[i] = false;
+    for (int d = 0; d < s->p->q->n_darts && !st; d++)
+      if (c->keep[d] && ties->star[d] >= 0) loose[ties->star[d]] = true;
+  }
+  free(loose);
+  return st;
+}
+
 static thr_status try_start(thr_search *s, thr_contraction *c, thr_contraction_kind kind, const bool *barred, int *small,
                             thr_err *err)
 {
@@ -93,7 +119,10 @@ static thr_status try_start(thr_search *s, thr_contraction *c, thr_contraction_k
   int failed = 0;
   s->valid = s->lifted = false;
   thr_status st = thr_contraction_start(c, kind, barred, s->limits, small, &made, err);
-  if (!st && made) st = thr_contraction_lift(c, small, s->other, &failed, err);
+  if (!st && made && s->p->ties)
+    st = lift_tied(s, c, barred, small, &failed, err);
+  else if (!st && made)
+    st = thr_contraction_lift(c, small, s->other, &failed, err);
   s->lifted = !st && made && !failed;
   if (s->lifted) st = offer_joined(s, err);
   memset(c->keep, 0, (size_t)s->p->q->n_darts * sizeof *c->keep);
@@ -318,6 +347,7 @@ thr_status thr_cover_improve(const thr_quotient *q, const thr_cover_options *o, 
   thr_search s = {0};
   thr_status st = thr_programme_init(&p, q, o, err);
   if (!st) st = check_ends(&p, err);
+  if (!st && o->tube) st = thr_programme_tie(&p, err);
   if (!st) st = thr_search_init(&s, &p, limits, err);
   if (!st) st = search_all(&s, known, &c, err);
   thr_search_destroy(&s);

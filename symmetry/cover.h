@@ -11,8 +11,13 @@ typedef struct {
   thr_aim prefer[THR_N_AIMS]; /* what is minimized first, second, .. */
   const int *edge_cover;      /* [n_edges] instead of cover; NULL = all alike; borrowed */
   const int *edge_capacity;   /* [n_edges] passes that an edge may have at most, INT_MAX = any number; NULL = any; borrowed */
+  bool tube;                  /* tube joints: the turns tie the edges at every node (graph/junction.h), none goes back */
   bool quick;                 /* overlap and steps only, as far as they come before turning: the rest is as it comes */
 } thr_cover_options;
+
+/* Is every cord open? With tube joints also if ends may be anywhere: where a closed cord comes out it ties nothing, so that its
+ * ends are ends like others, which the group maps to ends. */
+bool thr_cover_all_open(const thr_cover_options *o);
 
 /* value[aim]: overlap in units of length; learned steps (passes of the unique paths, a folded path's half, a folded edge as 1/2);
  * unique paths (orbits of cords); turning in rad of all cords. bound[aim]: no symmetric cover is better in that, with the aims
@@ -32,10 +37,12 @@ typedef struct {
  * before that a cover is made without any programme, copies made even by a least T-join (symmetry/start.c), and every one is
  * improved by exchanges, so that a search that is stopped has one. The T-join and that of the framework without symmetry prove
  * overlap where they are as long (symmetry/bounds.h). Odd sets are looked for exactly among at most 4,000 dart types, beyond that
- * by balls only. At most 2 * cover + 2 orbits of one copy type; U-turns, at the price of their angle, only at nodes with one edge
- * where no cord may end. An element that moves no node of a component maps its cords to themselves. THR_OK or THR_ELIMIT (out
- * holds the best found, with bounds; if there is none yet, out is empty); THR_EINFEASIBLE: a component has no node where a cord
- * may end (named), or there is none within the capacities; otherwise out is empty. */
+ * by balls only. At most 2 * cover + 2 orbits of one copy type, with tube joints 2 * (d - 1) more for the d tubes at either end;
+ * U-turns, at the price of their angle, only at nodes with one edge where no cord may end, and never with tube joints. Those add
+ * the rows of symmetry/relaxation.h that every node is tied, and GLPK's branch and bound at the root. An element that moves no
+ * node of a component maps its cords to themselves. THR_OK or THR_ELIMIT (out holds the best found, with bounds; if there is none
+ * yet, out is empty); THR_EINFEASIBLE: a component has no node where a cord may end (named), or there is none within the
+ * capacities; otherwise out is empty. */
 thr_status thr_cover_find(const thr_quotient *q, const thr_cover_options *o, const thr_limits *limits, thr_cover *out,
                           thr_err *err) THR_MUST_CHECK;
 void thr_cover_destroy(thr_cover *c);

@@ -32,9 +32,16 @@ static void apply(const exchange *x, int sign, int *value)
   }
 }
 
-static bool possible(const exchange *x, const int *value)
+/* Enough of what is taken out; and where joints are tied, the node stays so if it was. parent: [p->ties->most] scratch. */
+static bool possible(const thr_programme *p, const exchange *x, int *value, int *parent)
 {
-  return value[x->out[0]] > 0 && value[x->out[1]] > (x->out[0] == x->out[1]);
+  if (value[x->out[0]] <= 0 || value[x->out[1]] <= (x->out[0] == x->out[1])) return false;
+  int star = p->ties ? p->ties->star[x->type[0]] : -1;
+  if (star < 0 || !thr_ties_tied(p->ties, star, value + p->first_pair, parent)) return true;
+  apply(x, 1, value);
+  bool tied = thr_ties_tied(p->ties, star, value + p->first_pair, parent);
+  apply(x, -1, value);
+  return tied;
 }
 
 /* What visits the exchanges; false = no more of this turn. */
@@ -42,6 +49,7 @@ typedef struct visitor {
   bool (*visit)(struct visitor *v, const exchange *x, thr_err *err, thr_status *st);
   const thr_programme *p;
   int *value;
+  int *parent; /* as for possible() */
   thr_programme_parts parts;
   /* mending */
   exchange *list;
@@ -52,12 +60,18 @@ typedef struct visitor {
   bool better;
 } visitor;
 
+static thr_status visitor_init(visitor *v, thr_err *err)
+{
+  v->parent = thr_calloc(v->p->ties ? (size_t)v->p->ties->most : 0, sizeof *v->parent);
+  return v->parent ? THR_OK : thr_nomem(err);
+}
+
 static bool offer(visitor *v, int out0, int out1, int in0, int in1, int a, int c, thr_err *err, thr_status *st)
 {
   const double *cost = v->p->cost[THR_AIM_TURNING];
   if (in0 < 0 || in1 < 0) return true;
   exchange x = {{out0, out1}, {in0, in1}, {a, c}, cost[in0] + cost[in1] - cost[out0] - cost[out1]};
-  return !possible(&x, v->value) || v->visit(v, &x, err, st);
+  return !possible(v->p, &x, v->value, v->parent) || v->visit(v, &x, err, st);
 }
 
 /* The pair column j with dart types a and b, against everything that dart type c does. */
@@ -128,7 +142,7 @@ static void join_sets(visitor *v, const exchange *x)
 {
   thr_programme_parts *s = &v->parts;
   int a = thr_disjoint_find(s->root, x->type[0]), b = thr_disjoint_find(s->root, x->type[1]);
-  if (a == b || !possible(x, v->value) || (!in_need(v, a) && !in_need(v, b))) return;
+  if (a == b || !possible(v->p, x, v->value, v->parent) || (!in_need(v, a) && !in_need(v, b))) return;
   int terminals = s->terminals[a] + s->terminals[b], ends = s->ends[a] + s->ends[b];
   apply(x, 1, v->value);
   thr_disjoint_join(s->root, a, b);
@@ -150,7 +164,8 @@ static int count_in_need(const visitor *v)
 thr_status thr_programme_mend(const thr_programme *p, int *value, thr_err *err)
 {
   visitor v = {.visit = collect, .p = p, .value = value};
-  thr_status st = thr_programme_parts_init(&v.parts, p, err);
+  thr_status st = visitor_init(&v, err);
+  if (!st) st = thr_programme_parts_init(&v.parts, p, err);
   for (int before = -1; !st;) {
     thr_programme_parts_find(&v.parts, p, value);
     int now = count_in_need(&v);
@@ -167,24 +182,32 @@ thr_status thr_programme_mend(const thr_programme *p, int *value, thr_err *err)
   }
   thr_programme_parts_destroy(&v.parts);
   free(v.list);
+  free(v.parent);
   return st;
 }
 
 thr_status thr_programme_open(const thr_programme *p, int *value, thr_err *err)
 {
-  thr_programme_parts s = {0};
-  thr_status st = thr_programme_parts_init(&s, p, err);
-  if (!st) thr_programme_parts_find(&s, p, value);
+  visitor v = {.p = p, .value = value};
+  thr_programme_parts *s = &v.parts;
+  thr_status st = visitor_init(&v, err);
+  if (!st) st = thr_programme_parts_init(s, p, err);
+  if (!st) thr_programme_parts_find(s, p, value);
   for (int y = 0; y < p->q->n_pairs && p->open && !st; y++) {
     const int *d = p->q->pair[y].dart;
-    int root = s.root[d[0]], end[2] = {p->first_end + d[0], p->first_end + d[1]};
-    if (value[p->first_pair + y] == 0 || p->q->pair[y].self || s.ends[root] > 0 || p->most[end[0]] == 0) continue;
+    int root = s->root[d[0]], star = p->ties ? p->ties->star[d[0]] : -1, end[2] = {p->first_end + d[0], p->first_end + d[1]};
+    if (value[p->first_pair + y] == 0 || p->q->pair[y].self || s->ends[root] > 0 || p->most[end[0]] == 0) continue;
     value[p->first_pair + y]--;
+    if (star >= 0 && !thr_ties_tied(p->ties, star, value + p->first_pair, v.parent)) {
+      value[p->first_pair + y]++;
+      continue;
+    }
     value[end[0]]++;
     value[end[1]]++;
-    s.ends[root] += 2;
+    s->ends[root] += 2;
   }
-  thr_programme_parts_destroy(&s);
+  thr_programme_parts_destroy(s);
+  free(v.parent);
   return st;
 }
 
@@ -200,28 +223,35 @@ static bool take(visitor *v, const exchange *x, thr_err *err, thr_status *st)
   return false;
 }
 
-/* The cheapest of several turns between two types. */
-static void take_cheapest(const thr_programme *p, int *value)
+/* Of several turns between two types the cheapest, unless they tie what it does not. */
+static void take_cheapest(visitor *v)
 {
+  const thr_programme *p = v->p;
   for (int y = 0; y < p->q->n_pairs; y++) {
     const thr_pair_type *t = &p->q->pair[y];
-    int from = p->first_pair + y, to = pair_between(p, t->dart[0], t->dart[1], t->self), moved = value[from];
-    if (moved == 0 || to < 0) continue;
-    value[from] = 0;
-    value[to] += moved;
+    int from = p->first_pair + y, to = pair_between(p, t->dart[0], t->dart[1], t->self), moved = v->value[from];
+    int star = p->ties ? p->ties->star[t->dart[0]] : -1;
+    if (moved == 0 || to < 0 || to == from) continue;
+    bool tied = star >= 0 && thr_ties_tied(p->ties, star, v->value + p->first_pair, v->parent);
+    v->value[from] = 0;
+    v->value[to] += moved;
+    if (!tied || thr_ties_tied(p->ties, star, v->value + p->first_pair, v->parent)) continue;
+    v->value[from] = moved;
+    v->value[to] -= moved;
   }
 }
 
 thr_status thr_programme_straighten(const thr_programme *p, const thr_limits *limits, int *value, thr_err *err)
 {
   visitor v = {.visit = take, .p = p, .value = value, .better = true};
-  thr_status st = THR_OK;
-  take_cheapest(p, value);
+  thr_status st = visitor_init(&v, err);
+  if (!st) take_cheapest(&v);
   while (v.better && !st) {
     v.better = false;
     for (int y = 0; y < p->q->n_pairs && !st && !thr_limits_stop(limits); y++)
       if (value[p->first_pair + y] > 0) st = visit_turn(&v, y, err);
   }
+  free(v.parent);
   return st;
 }
 
@@ -246,13 +276,15 @@ static bool improve(visitor *v, const exchange *x, thr_err *err, thr_status *st)
 thr_status thr_programme_improve(const thr_programme *p, const thr_limits *limits, int *value, thr_err *err)
 {
   visitor v = {.visit = improve, .p = p, .value = value, .limits = limits, .better = true};
-  bool valid;
-  take_cheapest(p, value);
-  thr_status st = thr_programme_value(p, value, v.worth, &valid, err);
+  bool valid = true;
+  thr_status st = visitor_init(&v, err);
+  if (!st) take_cheapest(&v);
+  if (!st) st = thr_programme_value(p, value, v.worth, &valid, err);
   while (v.better && !st && valid) {
     v.better = false;
     for (int y = 0; y < p->q->n_pairs && !st && !thr_limits_stop(limits); y++)
       if (value[p->first_pair + y] > 0) st = visit_turn(&v, y, err);
   }
+  free(v.parent);
   return st;
 }

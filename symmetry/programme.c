@@ -60,6 +60,8 @@ static void fill_copies(thr_programme *p)
   for (int c = 0; c < q->n_copies; c++) {
     const thr_copy_type *t = &q->copy[c];
     int most = 2 * p->cover[t->edge_orbit] + 2, fit = p->capacity[t->edge_orbit] / t->passes;
+    for (int i = 0; i < 2 && p->o->tube; i++) /* one less than its tubes: so many kinds of turns can tie a node */
+      most += 2 * (thr_degree(q->f, q->f->edge[t->edge][i]) - 1);
     p->most[c] = fit < most ? fit : most;
     p->join[c][0] = t->dart[0];
     p->join[c][1] = t->fold ? q->n_darts : t->dart[1];
@@ -76,7 +78,7 @@ static void fill_pairs(thr_programme *p)
     const thr_pair_type *t = &q->pair[y];
     int j = p->first_pair + y;
     bool u_turn = t->half[0] == t->half[1];
-    p->most[j] = u_turn && thr_programme_end_allowed(p, thr_tail(q->f, t->half[0])) ? 0 : -1;
+    p->most[j] = u_turn && (p->o->tube || thr_programme_end_allowed(p, thr_tail(q->f, t->half[0]))) ? 0 : -1;
     p->join[j][0] = t->dart[0];
     p->join[j][1] = t->self ? q->n_darts : t->dart[1];
     p->cost[THR_AIM_PATHS][j] = t->self ? 0.5 : 0;
@@ -151,7 +153,7 @@ static double common_unit(const double *cost, int n, double scale)
 
 thr_status thr_programme_init(thr_programme *p, const thr_quotient *q, const thr_cover_options *o, thr_err *err)
 {
-  *p = (thr_programme){.q = q, .o = o, .open = o->ends == THR_ENDS_FEET || o->ends == THR_ENDS_NODES};
+  *p = (thr_programme){.q = q, .o = o, .open = thr_cover_all_open(o)};
   p->first_pair = q->n_copies;
   p->first_end = p->first_pair + q->n_pairs;
   p->first_circle = p->first_end + q->n_darts;
@@ -191,9 +193,17 @@ void thr_programme_destroy(thr_programme *p)
   free(p->first);
   free(p->incident);
   free(p->node_orbit);
+  if (p->ties) thr_ties_destroy(p->ties);
+  free(p->ties);
   for (int a = 0; a < THR_N_AIMS; a++)
     free(p->cost[a]);
   *p = (thr_programme){0};
+}
+
+thr_status thr_programme_tie(thr_programme *p, thr_err *err)
+{
+  p->ties = thr_calloc(1, sizeof *p->ties);
+  return p->ties ? thr_ties_init(p->ties, p->q, p->node_orbit, err) : thr_nomem(err);
 }
 
 bool thr_programme_terminal(const thr_programme *p, int column)
@@ -252,158 +262,6 @@ void thr_programme_parts_find(thr_programme_parts *s, const thr_programme *p, co
   }
 }
 
-/* ---- folds and ends ---- */
-
-static const double least_flow = 1e-6;
-
-/* Flows from folds to ends. Nodes: 2 * d the copies' side of dart type d, 2 * d + 1 the turns' side. */
-typedef struct {
-  int n, m;
-  int (*edge)[2];
-  double *capacity, *flow;        /* [m] flow from edge[e][0] to edge[e][1] */
-  double *supply, *demand, *used; /* [n] left; of copies at a dart type */
-  int *first, *incident;          /* as in lp/oddcut.h */
-  int *queue, *arrived;           /* [n] edge by which a node was reached, -1 = not, m = a source */
-} network;
-
-static thr_status network_init(network *w, const thr_programme *p, thr_err *err)
-{
-  int darts = p->q->n_darts;
-  size_t n = 2 * (size_t)darts, m = (size_t)p->first_end + (size_t)darts;
-  w->n = 2 * darts;
-  w->edge = thr_calloc(m, sizeof *w->edge);
-  w->capacity = thr_calloc(m, sizeof *w->capacity);
-  w->flow = thr_calloc(m, sizeof *w->flow);
-  w->supply = thr_calloc(n, sizeof *w->supply);
-  w->demand = thr_calloc(n, sizeof *w->demand);
-  w->used = thr_calloc(n, sizeof *w->used);
-  w->first = thr_calloc(n + 2, sizeof *w->first);
-  w->incident = thr_calloc(2 * m, sizeof *w->incident);
-  w->queue = thr_calloc(n, sizeof *w->queue);
-  w->arrived = thr_calloc(n, sizeof *w->arrived);
-  bool all =
-      w->edge && w->capacity && w->flow && w->supply && w->demand && w->used && w->first && w->incident && w->queue && w->arrived;
-  return all ? THR_OK : thr_nomem(err);
-}
-
-static void network_destroy(network *w)
-{
-  free(w->edge);
-  free(w->capacity);
-  free(w->flow);
-  free(w->supply);
-  free(w->demand);
-  free(w->used);
-  free(w->first);
-  free(w->incident);
-  free(w->queue);
-  free(w->arrived);
-}
-
-static void network_fill(network *w, const thr_programme *p, const double *value)
-{
-  for (int j = 0; j < p->first_circle; j++) {
-    int side = j >= p->first_pair, a = 2 * p->join[j][0] + side;
-    if (value[j] < least_flow) continue;
-    if (j >= p->first_end)
-      w->demand[a] += value[j];
-    else if (thr_programme_terminal(p, j))
-      w->supply[a] += value[j];
-    else {
-      w->edge[w->m][0] = a;
-      w->edge[w->m][1] = 2 * p->join[j][1] + side;
-      w->capacity[w->m++] = value[j];
-    }
-    if (side) continue;
-    for (int i = 0; i < 2; i++) /* each copy leads over to the turns */
-      if (p->join[j][i] < p->q->n_darts) w->used[p->join[j][i]] += value[j];
-  }
-  for (int d = 0; d < p->q->n_darts; d++)
-    if (w->used[d] > 0) {
-      w->edge[w->m][0] = 2 * d;
-      w->edge[w->m][1] = 2 * d + 1;
-      w->capacity[w->m++] = w->used[d];
-    }
-  for (int e = 0; e < w->m; e++)
-    for (int i = 0; i < 2; i++)
-      w->first[w->edge[e][i] + 2]++;
-  for (int v = 1; v <= w->n; v++)
-    w->first[v + 1] += w->first[v];
-  for (int e = 0; e < w->m; e++)
-    for (int i = 0; i < 2; i++)
-      w->incident[w->first[w->edge[e][i] + 1]++] = e;
-}
-
-static double room(const network *w, int e, int from)
-{
-  return w->edge[e][0] == from ? w->capacity[e] - w->flow[e] : w->capacity[e] + w->flow[e];
-}
-
-/* As much as fits along the path on which v was reached. */
-static void push(network *w, int v)
-{
-  double amount = w->demand[v];
-  int source = v;
-  while (w->arrived[source] < w->m) {
-    int e = w->arrived[source], from = w->edge[e][w->edge[e][1] == source ? 0 : 1];
-    amount = fmin(amount, room(w, e, from));
-    source = from;
-  }
-  amount = fmin(amount, w->supply[source]);
-  w->supply[source] -= amount;
-  w->demand[v] -= amount;
-  while (w->arrived[v] < w->m) {
-    int e = w->arrived[v], forward = w->edge[e][1] == v;
-    w->flow[e] += forward ? amount : -amount;
-    v = w->edge[e][!forward];
-  }
-}
-
-/* More flow along a shortest path (Edmonds & Karp 1972); false if there is none, then arrived marks what the folds left over
- * reach. */
-static bool augment(network *w)
-{
-  int head = 0, tail = 0;
-  for (int v = 0; v < w->n; v++) {
-    w->arrived[v] = w->supply[v] >= least_flow ? w->m : -1;
-    if (w->arrived[v] >= 0) w->queue[tail++] = v;
-  }
-  while (head < tail) {
-    int v = w->queue[head++];
-    if (w->demand[v] >= least_flow) {
-      push(w, v);
-      return true;
-    }
-    for (int k = w->first[v]; k < w->first[v + 1]; k++) {
-      int e = w->incident[k], to = w->edge[e][w->edge[e][0] == v];
-      if (w->arrived[to] >= 0 || room(w, e, v) < least_flow) continue;
-      w->arrived[to] = e;
-      w->queue[tail++] = to;
-    }
-  }
-  return false;
-}
-
-thr_status thr_programme_folds(const thr_programme *p, const double *value, bool *copy_side, bool *pair_side, bool *found,
-                               thr_err *err)
-{
-  network w = {0};
-  thr_status st = network_init(&w, p, err);
-  *found = false;
-  if (!st) {
-    network_fill(&w, p, value);
-    while (augment(&w))
-      continue;
-    for (int d = 0; d < p->q->n_darts; d++) {
-      *found = *found || w.supply[2 * d] >= least_flow || w.supply[2 * d + 1] >= least_flow;
-      copy_side[d] = w.arrived[2 * d] >= 0;
-      pair_side[d] = w.arrived[2 * d + 1] >= 0;
-    }
-  }
-  network_destroy(&w);
-  return st;
-}
-
 /* ---- worth ---- */
 
 static const double worth_tolerance = 4e-6; /* in parts of the largest cost: several times that of the relaxation's rows */
@@ -442,6 +300,17 @@ static bool fits_capacity(const thr_programme *p, const int *value)
   return fits;
 }
 
+/* Clears *valid if not every node is tied. */
+static thr_status all_tied(const thr_programme *p, const int *value, bool *valid, thr_err *err)
+{
+  int *parent = thr_calloc((size_t)p->ties->most, sizeof *parent);
+  if (!parent) return thr_nomem(err);
+  for (int i = 0; i < p->ties->n && *valid; i++)
+    *valid = thr_ties_tied(p->ties, i, value + p->first_pair, parent);
+  free(parent);
+  return THR_OK;
+}
+
 thr_status thr_programme_value(const thr_programme *p, const int *value, double worth[THR_N_AIMS], bool *valid, thr_err *err)
 {
   size_t n = (size_t)p->q->n_darts;
@@ -455,6 +324,7 @@ thr_status thr_programme_value(const thr_programme *p, const int *value, double 
       worth[a] += p->cost[a][j] * value[j];
   }
   *valid = fits_capacity(p, value);
+  if (!st && p->ties) st = all_tied(p, value, valid, err);
   if (!st) {
     thr_programme_parts_find(&s, p, value);
     for (int d = 0; d < p->q->n_darts; d++) {

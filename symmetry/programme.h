@@ -3,6 +3,7 @@
 #define THR_PROGRAMME_H
 
 #include "symmetry/cover.h"
+#include "symmetry/ties.h"
 
 /* Columns: copy types, pair types, ends by dart type, circles by dart type. A circle column is 1 at one dart type of each
  * connected set of types that no trail ends in. The columns are also the edges of a graph whose nodes are the dart types and one
@@ -21,10 +22,15 @@ typedef struct {
   double unit[THR_N_AIMS];  /* what every cover's worth is a multiple of, but for the constant; 0 = not known */
   int *first, *incident;    /* pair types at dart type d: incident[first[d] .. first[d + 1] - 1], those within one type once */
   int *node_orbit;          /* [n_nodes] lowest node */
+  thr_ties *ties;           /* that a solution has to have; NULL = none; owned */
 } thr_programme;
 
 thr_status thr_programme_init(thr_programme *p, const thr_quotient *q, const thr_cover_options *o, thr_err *err) THR_MUST_CHECK;
 void thr_programme_destroy(thr_programme *p);
+
+/* Every node is to be tied from now on, where o->tube asks for it of the whole programme; p without ties is what is left of the
+ * conditions then, and its bounds hold. */
+thr_status thr_programme_tie(thr_programme *p, thr_err *err) THR_MUST_CHECK;
 
 /* In symmetry/ruled_out.c, the last step of thr_programme_init: most[] = 0 for copies that come to where they can neither turn
  * nor end, and for those exchanged by elements that move no node of their component, without which no cover has more overlap;
@@ -48,13 +54,14 @@ thr_status thr_programme_parts_init(thr_programme_parts *s, const thr_programme 
 void thr_programme_parts_find(thr_programme_parts *s, const thr_programme *p, const int *value);
 void thr_programme_parts_destroy(thr_programme_parts *s);
 
-/* Of any point that keeps the equations: a set of dart types whose folds outnumber its ends and what leaves it, marked in
- * side[n_darts] (a minimum cut between folds and ends); *found = false if there is none. Copies and turns have sides of their own
- * at a dart type, so that a trail alternates. copy_side, pair_side: [n_darts]. */
+/* In symmetry/folds.c. Of any point that keeps the equations: a set of dart types whose folds outnumber its ends and what leaves
+ * it, marked in side[n_darts] (a minimum cut between folds and ends); *found = false if there is none. Copies and turns have
+ * sides of their own at a dart type, so that a trail alternates. copy_side, pair_side: [n_darts]. */
 thr_status thr_programme_folds(const thr_programme *p, const double *value, bool *copy_side, bool *pair_side, bool *found,
                                thr_err *err) THR_MUST_CHECK;
 
-/* Worth of a whole solution by aim, circles counted from the connected sets; valid: can it be made concrete, within capacity? */
+/* Worth of a whole solution by aim, circles counted from the connected sets; valid: can it be made concrete, within capacity,
+ * with all ties? */
 thr_status thr_programme_value(const thr_programme *p, const int *value, double worth[THR_N_AIMS], bool *valid,
                                thr_err *err) THR_MUST_CHECK;
 

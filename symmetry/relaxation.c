@@ -43,7 +43,7 @@ static bool violated(thr_relaxation *r, double lower)
   return yes;
 }
 
-static thr_status add_if_violated(thr_relaxation *r, double lower, int *added, thr_err *err)
+thr_status thr_relaxation_add_violated(thr_relaxation *r, double lower, int *added, thr_err *err)
 {
   if (!violated(r, lower)) return THR_OK;
   ++*added;
@@ -235,7 +235,7 @@ static thr_status add_odd_rows(thr_relaxation *r, const thr_limits *limits, int 
   for (int i = first; i < r->pool.count && !st; i++) {
     int rows = *added;
     if (thr_limits_stop(limits)) st = THR_ELIMIT;
-    if (!st) st = add_if_violated(r, gather_odd(r, &r->pool.cut[i]), added, err);
+    if (!st) st = thr_relaxation_add_violated(r, gather_odd(r, &r->pool.cut[i]), added, err);
     drop[i] = *added == rows;
   }
   if (*added - before < r->pool.count - first) thr_oddcut_pool_drop(&r->pool, drop);
@@ -303,7 +303,7 @@ static thr_status add_connected(thr_relaxation *r, const bool *inside, int c, in
     for (int k = start_of_orbit(q, c), end = end_of_orbit(q, k); k < end && !weak; k++)
       if (!inside[q->copy[k].dart[0]] && (q->copy[k].fold || !inside[q->copy[k].dart[1]])) r->sum[k] += 2;
     if (weak) r->sum[c] -= 2.0 / p->most[c];
-    thr_status st = add_if_violated(r, weak ? 0 : 2, added, err);
+    thr_status st = thr_relaxation_add_violated(r, weak ? 0 : 2, added, err);
     if (st) return st;
   }
   return THR_OK;
@@ -337,7 +337,7 @@ static thr_status separate_connected(thr_relaxation *r, int *added, thr_err *err
     st = add_connected(r, inside, copy[root], added, err);
     if (!st && p->open) {
       gather_leaving(r, inside, -1);
-      st = add_if_violated(r, 0, added, err);
+      st = thr_relaxation_add_violated(r, 0, added, err);
     }
   }
   thr_programme_parts_destroy(&s);
@@ -365,7 +365,7 @@ static thr_status separate_folds(thr_relaxation *r, int *added, thr_err *err)
     for (int i = 0; i < 2 && j < p->first_pair; i++)
       if (p->join[j][i] < p->q->n_darts) r->sum[j] += copy_side[p->join[j][i]] != pair_side[p->join[j][i]];
   }
-  if (found && !st) st = add_if_violated(r, 0, added, err);
+  if (found && !st) st = thr_relaxation_add_violated(r, 0, added, err);
   free(copy_side);
   free(pair_side);
   return st;
@@ -376,6 +376,7 @@ thr_status thr_relaxation_separate(thr_relaxation *r, const thr_limits *limits, 
   thr_status st = THR_OK;
   *added = 0;
   if (!r->whole) st = separate_odd(r, limits, added, err);
+  if (!st && r->p->ties) st = thr_relaxation_tie(r, added, err);
   if (!st && !*added && (r->circles || r->p->open)) st = separate_connected(r, added, err);
   if (!st && !*added && r->p->open) st = separate_folds(r, added, err);
   return st;
@@ -398,6 +399,7 @@ thr_status thr_relaxation_init_extra(thr_relaxation *r, const thr_programme *p, 
   thr_status st = r->x && r->sum && r->low && r->high ? THR_OK : thr_nomem(err);
   if (!st) st = create_equations(r, err);
   if (!st) st = add_cover_rows(r, err);
+  if (!st && p->ties) st = thr_relaxation_tie_first(r, err);
   if (!st) st = init_graph(r, err);
   if (!st) st = add_first_sets(r, limits, err);
   if (st) thr_relaxation_destroy(r);
@@ -452,10 +454,11 @@ thr_status thr_relaxation_bound(thr_relaxation *r, int column, double low, doubl
   return thr_lp_set_bounds(r->lp, column, low, high, err);
 }
 
-thr_status thr_relaxation_solve(thr_relaxation *r, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)
+thr_status thr_relaxation_solve(thr_relaxation *r, bool integer, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)
 {
   const thr_programme *p = r->p;
   thr_status st = thr_lp_solve(r->lp, limits, outcome, err);
+  if (!st && *outcome == THR_LP_OPTIMAL && integer) st = thr_lp_solve_integer(r->lp, limits, outcome, err);
   if (st || *outcome != THR_LP_OPTIMAL) return st;
   thr_lp_primal(r->lp, r->x);
   r->objective = thr_programme_round(p, r->aim, thr_lp_objective(r->lp) * p->scale[r->aim] + p->constant[r->aim]);

@@ -38,6 +38,15 @@ thr_status thr_relaxation_init_extra(thr_relaxation *r, const thr_programme *p, 
 /* Adds the row r->sum * x >= lower and clears r->sum. */
 thr_status thr_relaxation_add_row(thr_relaxation *r, double lower, thr_err *err) THR_MUST_CHECK;
 
+/* The same if x violates it, counted in *added; else r->sum is cleared. */
+thr_status thr_relaxation_add_violated(thr_relaxation *r, double lower, int *added, thr_err *err) THR_MUST_CHECK;
+
+/* In symmetry/tie_rows.c, for tube joints. Between the b blocks of any partition of the tubes at a node there are b - 1 turns: at
+ * first between all tubes; then for the blocks that turns join with more than some value of x, and where there are few tubes for
+ * any two blocks. */
+thr_status thr_relaxation_tie_first(thr_relaxation *r, thr_err *err) THR_MUST_CHECK;
+thr_status thr_relaxation_tie(thr_relaxation *r, int *added, thr_err *err) THR_MUST_CHECK;
+
 /* What is minimized from now on. */
 thr_status thr_relaxation_aim(thr_relaxation *r, thr_aim aim, thr_err *err) THR_MUST_CHECK;
 
@@ -47,11 +56,11 @@ thr_status thr_relaxation_fix(thr_relaxation *r, double value, thr_err *err) THR
 /* Bounds on a column from now on. */
 thr_status thr_relaxation_bound(thr_relaxation *r, int column, double low, double high, thr_err *err) THR_MUST_CHECK;
 
-/* Solves with the present rows and bounds. */
-thr_status thr_relaxation_solve(thr_relaxation *r, const thr_limits *limits, thr_lp_outcome *outcome,
+/* Solves with the present rows and bounds; integer: with whole columns only, by GLPK's own branch and bound. */
+thr_status thr_relaxation_solve(thr_relaxation *r, bool integer, const thr_limits *limits, thr_lp_outcome *outcome,
                                 thr_err *err) THR_MUST_CHECK;
 
-/* Adds rows that x violates: odd sets, connected sets, sets with too many folds. They hold for every cover,
+/* Adds rows that x violates: odd sets, ties, connected sets, sets with too many folds. They hold for every cover,
  * whatever the bounds in force. *added = 0 if there are none. THR_ELIMIT: stopped. */
 thr_status thr_relaxation_separate(thr_relaxation *r, const thr_limits *limits, int *added, thr_err *err) THR_MUST_CHECK;
 

@@ -101,9 +101,21 @@ static thr_status require(thr_programme *p, thr_err *err)
   return THR_OK;
 }
 
+/* With tube joints a cord cannot turn back at a node with one tube. */
+static thr_status check_leaves(const thr_programme *p, thr_err *err)
+{
+  const thr_frame *f = p->q->f;
+  for (int v = 0; v < f->n_nodes && p->o->tube; v++)
+    if (thr_degree(f, v) == 1 && !thr_programme_end_allowed(p, v))
+      return thr_fail(err, THR_EINFEASIBLE,
+                      "node %s has one edge and no cord may end there: it would turn back, which ties nothing", f->name[v]);
+  return THR_OK;
+}
+
 thr_status thr_programme_rule_out(thr_programme *p, thr_err *err)
 {
-  thr_status st = rule_out_exchanged(p, err);
+  thr_status st = check_leaves(p, err);
+  if (!st) st = rule_out_exchanged(p, err);
   if (!st) st = rule_out_stuck(p, err);
   return st ? st : require(p, err);
 }

@@ -139,14 +139,15 @@ static int take(const thr_search *s, tree *t, thr_aim aim)
   return taken;
 }
 
-/* Solves a node with all rows that its optima violate. *open: it is to be branched on. THR_ELIMIT: stopped. */
-static thr_status solve_node(thr_search *s, thr_aim aim, bool root, bool *open, thr_err *err)
+/* Solves a node with all rows that its optima violate, integer: its whole ones. *open: it is to be branched on. THR_ELIMIT:
+ * stopped. */
+static thr_status solve_node(thr_search *s, thr_aim aim, bool root, bool integer, bool *open, thr_err *err)
 {
   thr_relaxation *r = &s->r;
   *open = false;
   for (int added = 1; added > 0;) {
     thr_lp_outcome outcome;
-    thr_status st = thr_relaxation_solve(r, s->limits, &outcome, err);
+    thr_status st = thr_relaxation_solve(r, integer, s->limits, &outcome, err);
     if (st) return st;
     if (outcome == THR_LP_STOPPED) return THR_ELIMIT;
     if (outcome != THR_LP_OPTIMAL) return THR_OK;
@@ -158,6 +159,19 @@ static thr_status solve_node(thr_search *s, thr_aim aim, bool root, bool *open, 
   }
   *open = !r->whole;
   return THR_OK;
+}
+
+/* The root once more, by GLPK, in half the time that is left: where ties leave many equally good points, its branching finds
+ * whole ones sooner. */
+static thr_status solve_whole(thr_search *s, thr_aim aim, bool *open, thr_err *err)
+{
+  const thr_limits *all = s->limits;
+  thr_limits half = *all;
+  if (half.deadline > 0) half.deadline -= 0.5 * thr_limits_left(&half, INFINITY);
+  s->limits = &half;
+  thr_status st = solve_node(s, aim, true, true, open, err);
+  s->limits = all;
+  return st == THR_ELIMIT ? solve_node(s, aim, true, false, open, err) : st;
 }
 
 /* The relaxation for the aim of that number, with the aims before it kept. */
@@ -184,12 +198,13 @@ static thr_status minimize(thr_search *s, int number, thr_err *err)
   for (int next; !st && (next = take(s, &t, aim)) >= 0;) {
     s->bound[aim] = fmax(s->bound[aim], t.node[next].bound);
     st = move_to(s, &t, next, err);
-    if (!st) st = solve_node(s, aim, next == 0, &open, err);
+    if (!st) st = solve_node(s, aim, next == 0, false, &open, err);
+    if (!st && open && next == 0 && s->p->ties) st = solve_whole(s, aim, &open, err);
     if (!st && open) st = split(s, &t, err);
   }
   if (!st && !s->found)
-    st = thr_fail(err, THR_EINFEASIBLE, "no threading with ends %s is symmetric under this group of order %d",
-                  thr_ends_name(s->p->o->ends), s->p->q->h->order);
+    st = thr_fail(err, THR_EINFEASIBLE, "no threading with ends %s%s is symmetric under this group of order %d",
+                  thr_ends_name(s->p->o->ends), s->p->o->tube ? " that ties every joint" : "", s->p->q->h->order);
   if (!st) s->bound[aim] = s->worth[aim];
   if (!st || st == THR_ELIMIT) {
     thr_status moved = move_to(s, &t, 0, err);

@@ -32,6 +32,7 @@ static void solver_destroy(solver *s)
 static thr_status solver_init(solver *s, const thr_frame *f, const thr_plan_options *o, thr_symmetries *t, thr_err *err)
 {
   *s = (solver){.f = f, .o = o, .t = t, .how = {.cover = o->cover, .ends = o->ends, .end_node = o->end_node}};
+  s->how.tube = o->joint == THR_JOINT_TUBE;
   memcpy(s->how.prefer, o->symmetry.prefer, sizeof s->how.prefer);
   s->edge_cover = thr_calloc((size_t)f->n_edges, sizeof *s->edge_cover);
   s->edge_capacity = thr_calloc((size_t)f->n_edges, sizeof *s->edge_capacity);
@@ -129,6 +130,44 @@ static thr_status solve(solver *s, int i, bool quick, const thr_limits *limits, 
   if (!quick) thr_cover_destroy(&s->cover[i]);
   thr_quotient_destroy(&q);
   return st && !is_said(st) ? thr_fail(err, st, "%s", row->why.text) : THR_OK;
+}
+
+/* ---- the shortest of all ---- */
+
+thr_status thr_symmetry_shortest_tied(const thr_frame *f, const thr_plan_options *o, bool few, const thr_limits *limits,
+                                      double *length, bool *optimal, thr_err *err)
+{
+  static const thr_aim cords_first[] = {THR_AIM_PATHS, THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_TURNING};
+  thr_symmetries none = {0};
+  int identity = 0;
+  const thr_subgroup alone = {1, &identity};
+  thr_group g = {0};
+  thr_quotient q = {0};
+  thr_cover c = {0};
+  thr_err why = {0};
+  solver s;
+  thr_status st = solver_init(&s, f, o, &none, err);
+  if (st) return st;
+  s.how.quick = true;
+  if (few) memcpy(s.how.prefer, cords_first, sizeof cords_first);
+  st = thr_group_generate(f->n_nodes, NULL, 0, 1, &g, err);
+  if (!st) st = thr_quotient_init(&q, f, &g, &alone, MOST_TYPES, err);
+  if (!st) st = thr_cover_find(&q, &s.how, limits, &c, &why);
+  *optimal = false;
+  *length = s.base;
+  if (!st || st == THR_ELIMIT) {
+    double value = c.value[THR_AIM_OVERLAP], bound = c.bound[THR_AIM_OVERLAP];
+    *optimal = c.copies && value <= bound + 1e-6 * s.base && (!few || c.value[THR_AIM_PATHS] <= c.bound[THR_AIM_PATHS]);
+    *length += c.copies ? fmax(0, value) : 0;
+    st = THR_OK;
+  } else {
+    thr_fail(err, st, "%s", why.text);
+  }
+  thr_cover_destroy(&c);
+  thr_quotient_destroy(&q);
+  thr_group_destroy(&g);
+  solver_destroy(&s);
+  return st;
 }
 
 /* ---- whose turn it is ---- */

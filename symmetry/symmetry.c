@@ -66,6 +66,8 @@ static thr_status find_shortest(const thr_frame *f, const thr_plan_options *o, c
   thr_err why = {0};
   thr_plan_options few = *o;
   const thr_limits share = thr_symmetry_share(limits, 0.25);
+  if (o->joint == THR_JOINT_TUBE)
+    return thr_symmetry_shortest_tied(f, o, o->ends != THR_ENDS_CLOSED, &share, &t->shortest, &t->shortest_optimal, err);
   few.cords = 1;
   thr_status st = thr_postman_shortest(f, &few, &share, &s, &why);
   if (st == THR_EINFEASIBLE && o->ends != THR_ENDS_CLOSED) { /* capacities may ask for more cords */
@@ -104,8 +106,7 @@ static thr_status verdict(const thr_symmetries *t, const char *group, thr_err *e
 /* What a symmetric threading cannot be asked for. */
 static thr_status check_request(const thr_plan_options *o, thr_err *err)
 {
-  const char *what = o->joint == THR_JOINT_TUBE   ? "tube joints"
-                     : o->max_length > 0          ? "a largest length of the cords"
+  const char *what = o->max_length > 0            ? "a largest length of the cords"
                      : o->balance                 ? "cords of balanced length"
                      : o->ends == THR_ENDS_COUNTS ? "a number of cord ends for each node"
                                                   : NULL;
@@ -195,7 +196,7 @@ thr_status thr_symmetries_plan(thr_symmetries *t, int row, const thr_frame *f, c
     plan->symmetry = r->record;
     r->cord = NULL;
     r->record = (thr_symmetry_record){.order = r->record.order, .steps = r->record.steps, .unique_paths = r->record.unique_paths};
-    st = prove(plan, limits, err);
+    if (o->joint == THR_JOINT_SOLID) st = prove(plan, limits, err);
   }
   if (!st && r->why.code) st = thr_fail(err, r->why.code, "%s", r->why.text);
   if (st && st != THR_ELIMIT) thr_plan_destroy(plan);

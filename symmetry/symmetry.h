@@ -54,8 +54,8 @@ typedef struct {
   thr_symmetry_group *group; /* [n_groups] owned */
   int n;
   thr_symmetry_row *row; /* [n] by descending order; users count them from 1; owned */
-  double shortest;       /* cord that the shortest plan with one cord per component (or as many as capacities ask
-                             for) and these ends needs, units */
+  double shortest;       /* cord that the shortest plan with one cord per component (or as many as capacities, or with tube
+                             joints anything, ask for) and these ends needs, units */
   bool shortest_optimal; /* false: the shortest that was found in time */
   int chosen;            /* row, -1 = none has a threading */
   bool within;           /* it needs at most thr_symmetry_slack more than shortest */
@@ -69,15 +69,15 @@ typedef struct {
  * choice: least learned steps among the rows with at most thr_symmetry_slack more cord than the shortest plan, or if there is
  * none the least cord; ties by overlap, cords, turning, number. Time is shared as symmetry/solve.h says. THR_OK: every row that
  * was asked for is solved. THR_ELIMIT: some are not (their row says so); out holds the rest. THR_EINPUT: no row of that number or
- * name, or tube joints, a largest length, balance or numbers of ends are asked for. THR_EINFEASIBLE: no threading with these
+ * name, or a largest length, balance or numbers of ends are asked for. THR_EINFEASIBLE: no threading with these
  * ends. Otherwise out is empty. */
 thr_status thr_symmetries_find(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_symmetries *out,
                                thr_err *err) THR_MUST_CHECK;
 void thr_symmetries_destroy(thr_symmetries *t);
 
-/* The plan of a row that has cords, which it takes out of the table: with its record, metrics and the proof of length for as many
- * cords in every component as the component with most has. THR_OK or THR_ELIMIT (the row is not proved best for its group);
- * otherwise the plan is empty. */
+/* The plan of a row that has cords, which it takes out of the table: with its record, metrics and, with solid beads, the proof of
+ * length for as many cords in every component as the component with most has (with tube joints it is the caller's to add). THR_OK
+ * or THR_ELIMIT (the row is not proved best for its group); otherwise the plan is empty. */
 thr_status thr_symmetries_plan(thr_symmetries *t, int row, const thr_frame *f, const thr_plan_options *o,
                                const thr_limits *limits, thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 

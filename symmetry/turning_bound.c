@@ -416,7 +416,7 @@ static thr_status raise_bound(master *m, const int *first, const int *copy, cons
   for (int added = 1; added > 0;) {
     thr_lp_outcome outcome;
     double value;
-    thr_status st = thr_relaxation_solve(m->r, limits, &outcome, err);
+    thr_status st = thr_relaxation_solve(m->r, false, limits, &outcome, err);
     if (!st && outcome != THR_LP_OPTIMAL && outcome != THR_LP_STOPPED) return THR_OK; /* rounding: the known cover fits */
     if (!st) st = thr_lp_proved(m->r->lp, m->most, &value, err);
     if (st) return st;

@@ -25,7 +25,9 @@ nau*.h:symmetry/nauty.c
 traces.h:symmetry/nauty.c
 *bt[A-Z]*.h:eval/bullet.cpp
 SuiteSparse*.h:eval/spqr.c
-cholmod*.h:eval/spqr.c'
+cholmod*.h:eval/spqr.c
+cairo*.h:diagram/paper.c
+librsvg/*.h:diagram/paper.c'
 
 # C++, in the file that shims a C++ library
 cpp_headers='new utility cmath cstdlib cstring vector'

@@ -272,6 +272,23 @@ thr_frame triangles_make(int n)
   return sketch_finish(&s, NULL);
 }
 
+thr_frame side_by_side(const thr_frame *a, const thr_frame *b)
+{
+  const thr_frame *part[] = {a, b};
+  sketch s = sketch_make(a->n_nodes + b->n_nodes, a->n_edges + b->n_edges);
+  for (int k = 0; k < 2; k++) {
+    int first = s.n;
+    for (int v = 0; v < part[k]->n_nodes; v++) {
+      const double *x = part[k]->xyz[v];
+      put_node(&s, x[0] + 1000 * k, x[1] + 1000 * k, x[2] + 1000 * k);
+      if (part[k]->foot[v]) put_foot(&s, first + v);
+    }
+    for (int e = 0; e < part[k]->n_edges; e++)
+      put_edge(&s, first + part[k]->edge[e][0], first + part[k]->edge[e][1]);
+  }
+  return sketch_finish(&s, NULL);
+}
+
 static bool joined(const sketch *s, int a, int b)
 {
   for (int e = 0; e < s->m; e++)
@@ -795,4 +812,23 @@ int verdict_by_sums(const thr_plan *p)
   free(passes);
   free(component);
   return verdict;
+}
+
+void assert_allocations_may_fail(thr_status (*make)(const void *user, thr_text *t, thr_err *err), const void *user, long most)
+{
+  thr_status st = THR_ENOMEM;
+  for (long k = 1; st; k++) {
+    thr_text t = {0};
+    thr_err err = {0};
+    thr_alloc_fail_at(k);
+    st = make(user, &t, &err);
+    thr_alloc_fail_at(0);
+    if (st) {
+      ck_assert_int_eq(st, THR_ENOMEM);
+      ck_assert_uint_eq(t.length, 0);
+      assert_one_line(&err, "memory");
+    }
+    thr_text_destroy(&t);
+    ck_assert_int_lt(k, most);
+  }
 }

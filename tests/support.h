@@ -54,6 +54,9 @@ thr_frame triangles_make(int n);   /* n separate unit triangles, each with one f
 typedef enum { LENGTHS_EUCLID, LENGTHS_EQUAL, LENGTHS_SMALL_INTEGERS, LENGTHS_RANDOM, LENGTHS_SURDS } length_kind;
 enum { LENGTH_KINDS = 5 };
 
+/* Both, far apart, as pieces of one framework: the nodes of a come first. Lengths are Euclidean. */
+thr_frame side_by_side(const thr_frame *a, const thr_frame *b);
+
 /* Connected: a random tree of n nodes and up to extra further edges; feet at random, at least one. */
 thr_frame random_frame(rng *r, int n, int extra, length_kind kind);
 
@@ -101,5 +104,11 @@ int forced_u_turns(const thr_plan *p);
 
 /* The verdict on the certificates in plain sums over edges: 0 = does not hold, 1 = a bound, 2 = proves the shortest cord. */
 int verdict_by_sums(const thr_plan *p);
+
+/* ---- memory ---- */
+
+/* Calls make with each of its allocations failing once, fewer than most. It fails for want of memory then and leaves no text; in
+ * the end it succeeds. */
+void assert_allocations_may_fail(thr_status (*make)(const void *user, thr_text *t, thr_err *err), const void *user, long most);
 
 #endif

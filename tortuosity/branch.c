@@ -1,6 +1,8 @@
 /* Best bound first; every node keeps the multipliers that prove its bound. */
 #include "tortuosity/branch.h"
+#include "tortuosity/ascent.h"
 #include "tortuosity/cycles.h"
+#include "tortuosity/tie.h"
 
 #include <limits.h>
 #include <math.h>
@@ -142,6 +144,36 @@ static thr_status certify(thr_branch *b, int i, thr_err *err)
   return st ? st : keep_dual(b, i, d, b->relax.low, b->relax.high, err);
 }
 
+static bool closed(const thr_branch *b, int i)
+{
+  return b->node[i].bound >= b->best_price - thr_branch_tolerance(b);
+}
+
+/* Limits with a part of the time that is left. */
+static thr_limits part_of(const thr_limits *l, double part)
+{
+  thr_limits some = *l;
+  if (l->deadline > 0) some.deadline = l->deadline - (1 - part) * thr_limits_left(l, INFINITY);
+  return some;
+}
+
+/* Tube joints: the bound of the ascent, and from the mean of its solutions passes to begin with. */
+static thr_status climb(thr_branch *b, int root, thr_err *err)
+{
+  const thr_limits some = part_of(b->limits, 0.4);
+  double target = b->found ? ldexp((double)b->best_price, -THR_TURNING_BITS) : INFINITY;
+  thr_turning_dual d = {0};
+  bool found = false;
+  double *mean = thr_calloc((size_t)b->c->n_columns, sizeof *mean);
+  thr_status st = mean ? thr_ascent_run(b->c, target, b->limits, &d, mean, err) : thr_nomem(err);
+  if (!st) st = keep_dual(b, root, d, b->relax.low, b->relax.high, err);
+  if (!st && !closed(b, root)) st = thr_tie_round(b->c, mean, b->passes, b->ends, &found, err);
+  if (!st && found) st = thr_tie_improve(b->c, &some, b->passes, b->ends, err);
+  if (!st && found) st = thr_branch_try(b, b->passes, b->ends, err);
+  free(mean);
+  return st;
+}
+
 /* A first bound for the root where the first linear programme may take longer than there is time. */
 static thr_status first_bound(thr_branch *b, int root, thr_err *err)
 {
@@ -149,14 +181,11 @@ static thr_status first_bound(thr_branch *b, int root, thr_err *err)
   thr_turning_dual d;
   thr_limits no_deadline = *b->limits; /* it takes a hundredth of a second, and without it there may be no bound at all */
   no_deadline.deadline = 0;
-  if (b->c->task->free_turns || (b->c->f->n_edges < LARGE && !b->c->task->tube)) return THR_OK;
+  if (b->c->task->free_turns) return THR_OK;
+  if (b->c->task->tube) return climb(b, root, err);
+  if (b->c->f->n_edges < LARGE) return THR_OK;
   thr_status st = thr_relax_nodes(b->c, &no_deadline, &d, err);
   return st ? st : keep_dual(b, root, d, b->relax.low, b->relax.high, err);
-}
-
-static bool closed(const thr_branch *b, int i)
-{
-  return b->node[i].bound >= b->best_price - thr_branch_tolerance(b);
 }
 
 static void report(const thr_branch *b)
@@ -170,13 +199,13 @@ static void report(const thr_branch *b)
 }
 
 /* Rounds of rows until none is violated, the bound is good enough, or rounds stop paying. */
-static thr_status solve_node(thr_branch *b, int i, thr_err *err)
+static thr_status solve_node(thr_branch *b, int i, const thr_limits *limits, thr_err *err)
 {
   enum { PATIENCE = 12 };
   double risen = -INFINITY;
   int idle = 0;
   for (int added = 1; added;) {
-    thr_status st = thr_relax_solve(&b->relax, b->limits, err);
+    thr_status st = thr_relax_solve(&b->relax, limits, err);
     if (st) return st;
     b->rounds++;
     bool whole = b->relax.solved && b->relax.artificial < integral && most_fractional(b) < 0;
@@ -187,10 +216,26 @@ static thr_status solve_node(thr_branch *b, int i, thr_err *err)
     idle = b->relax.objective > risen + 1e-3 * (target - risen) ? 0 : idle + 1;
     if (idle == 0) risen = b->relax.objective;
     if (idle > PATIENCE && !whole) break;
-    if ((st = thr_relax_separate(&b->relax, b->limits, &added, err))) return st;
-    b->stopped |= thr_limits_stop(b->limits);
+    if ((st = thr_relax_separate(&b->relax, limits, &added, err))) return st;
+    b->stopped |= thr_limits_stop(limits);
   }
   return certify(b, i, err);
+}
+
+/* Tube joints: the relaxation of a large framework is not solved in the time that there is, and hardly better than the ascent; of
+ * any it says little of where good plans are. So some rows, then annealing, then the rest of the rows. */
+static thr_status solve_tied_root(thr_branch *b, int i, thr_err *err)
+{
+  enum { ROUNDS = 3, LARGE = 5000 };
+  bool large = b->c->first_extra > LARGE, unsolved = large;
+  thr_limits some = part_of(b->limits, 0.4);
+  thr_status st = large ? THR_OK : solve_node(b, i, &some, err);
+  unsolved |= b->stopped;
+  if (st || closed(b, i)) return st;
+  some = part_of(b->limits, large ? 0.9 : 0.6);
+  if (b->found) st = thr_branch_anneal(b, &some, ROUNDS, err);
+  b->stopped = thr_limits_stop(b->limits);
+  return st || !unsolved || b->stopped || closed(b, i) ? st : solve_node(b, i, b->limits, err);
 }
 
 static thr_status split(thr_branch *b, int i, thr_err *err)
@@ -245,13 +290,14 @@ static double covers(const thr_turning_columns *c)
 thr_status thr_branch_run(thr_branch *b, thr_err *err)
 {
   int root = 0;
+  bool tied = b->c->task->tube && !b->c->task->free_turns;
   double penalty = 10 + (b->found ? ldexp((double)b->best_price, -THR_TURNING_BITS) : 10 * covers(b->c));
   thr_status st = thr_relax_init(&b->relax, b->c, b->projected, penalty, err);
   if (!st) st = new_node(b, (thr_branch_node){.parent = -1, .bound = INT64_MIN, .dual = -1, .open = true}, &root, err);
   if (!st) st = first_bound(b, root, err);
   for (int i; !st && !b->stopped && (i = next_node(b)) >= 0;) {
     st = enter(b, i, err);
-    if (!st) st = solve_node(b, i, err);
+    if (!st) st = i == root && tied ? solve_tied_root(b, i, err) : solve_node(b, i, b->limits, err);
     if (st) break;
     report(b);
     if (b->stopped) break;

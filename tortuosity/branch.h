@@ -59,6 +59,12 @@ thr_status thr_branch_try_cords(thr_branch *b, const thr_cord *cord, int n_cords
 thr_status thr_branch_try_whole(thr_branch *b, thr_err *err) THR_MUST_CHECK;
 thr_status thr_branch_try_rounded(thr_branch *b, thr_err *err) THR_MUST_CHECK;
 
+/* Passes and ends of the best plan, which must have been found. */
+void thr_branch_best(const thr_branch *b, int *passes, int *ends);
+
+/* Tube joints: from the best plan by annealing (tortuosity/tie.h), kept if that turns less. */
+thr_status thr_branch_anneal(thr_branch *b, const thr_limits *limits, int rounds, thr_err *err) THR_MUST_CHECK;
+
 /* Until the tree is closed, or stopped. */
 thr_status thr_branch_run(thr_branch *b, thr_err *err) THR_MUST_CHECK;
 

@@ -160,6 +160,26 @@ thr_status thr_branch_try_cords(thr_branch *b, const thr_cord *cord, int n_cords
   return st;
 }
 
+void thr_branch_best(const thr_branch *b, int *passes, int *ends)
+{
+  const thr_frame *f = b->c->f;
+  const thr_multigraph *g = &b->best.g;
+  memset(passes, 0, (size_t)f->n_edges * sizeof *passes);
+  memset(ends, 0, (size_t)f->n_nodes * sizeof *ends);
+  for (int d = 0; d < g->n_darts; d += 2)
+    if (g->half[d] >= 0)
+      passes[g->half[d] >> 1]++;
+    else
+      ends[g->tail[d]]++;
+}
+
+thr_status thr_branch_anneal(thr_branch *b, const thr_limits *limits, int rounds, thr_err *err)
+{
+  thr_branch_best(b, b->passes, b->ends);
+  thr_status st = thr_tie_anneal(b->c, limits, rounds, b->passes, b->ends, err);
+  return st ? st : thr_branch_try(b, b->passes, b->ends, err);
+}
+
 static thr_status round_tied(thr_branch *b, thr_err *err)
 {
   bool found;

@@ -19,6 +19,7 @@ typedef struct {
   int *at;                 /* [n_darts] transition that the dart is part of */
   int *count;              /* [n_components] circuits */
   int *here, *list;        /* [n_darts] scratch */
+  int *parent;             /* [n_edges] scratch */
   uint64_t state;          /* of the random numbers */
 } circuits;
 
@@ -39,6 +40,7 @@ static void circuits_destroy(circuits *s)
   free(s->count);
   free(s->here);
   free(s->list);
+  free(s->parent);
 }
 
 static thr_status circuits_init(circuits *s, thr_join *j, const thr_limits *limits, thr_err *err)
@@ -52,7 +54,9 @@ static thr_status circuits_init(circuits *s, thr_join *j, const thr_limits *limi
   s->count = thr_calloc((size_t)j->c->n_components, sizeof *s->count);
   s->here = thr_calloc(n, sizeof *s->here);
   s->list = thr_calloc(n, sizeof *s->list);
-  return s->in && s->out && s->circuit && s->at && s->count && s->here && s->list ? THR_OK : thr_nomem(err);
+  s->parent = thr_calloc((size_t)j->c->f->n_edges, sizeof *s->parent);
+  bool all = s->in && s->out && s->circuit && s->at && s->count && s->here && s->list && s->parent;
+  return all ? THR_OK : thr_nomem(err);
 }
 
 /* Walks all circuits. The same pairs give the same numbers. */
@@ -99,11 +103,27 @@ static exchange exchange_of(const circuits *s, int i, int k, bool crossed)
   return (exchange){now - old, change, {a, b, c, d}, {s->in[i], s->out[i], s->in[k], s->out[k]}};
 }
 
-static void set_pairs(circuits *s, const int *pair)
+static void set_pairs(const circuits *s, const int *pair)
 {
   for (int i = 0; i < 4; i++)
     s->j->mate[pair[i]] = pair[i ^ 1];
+}
+
+static void make(circuits *s, const int *pair)
+{
+  set_pairs(s, pair);
   follow(s);
+}
+
+/* Is it one that may be made: with tube joints, does its node stay tied? */
+static bool allowed(const circuits *s, const exchange *x)
+{
+  if (x->extra >= thr_join_forbidden / 2) return false;
+  if (!s->j->c->task->tube) return true;
+  set_pairs(s, x->made);
+  bool tied = thr_join_tied(s->j, s->j->g.tail[x->made[0]], s->parent);
+  set_pairs(s, x->old);
+  return tied;
 }
 
 /* The cheapest exchange in a component that changes the number of its circuits so; extra is infinite if there is none. */
@@ -118,7 +138,7 @@ static exchange cheapest(const circuits *s, int component, int change)
       for (int k = i + 1; k < n; k++)
         for (int crossed = 0; crossed < 2; crossed++) {
           exchange x = exchange_of(s, s->list[i], s->list[k], crossed);
-          if (x.change == change && x.extra < best.extra - 1e-12) best = x;
+          if (x.change == change && x.extra < best.extra - 1e-12 && allowed(s, &x)) best = x;
         }
   }
   return best;
@@ -136,8 +156,8 @@ static void exchange_any(circuits *s, int component)
     int other = s->list[thr_random(&s->state) % (uint64_t)n];
     if (other == i) continue;
     exchange x = exchange_of(s, i, other, thr_random(&s->state) % 2);
-    if (x.extra >= thr_join_forbidden / 2) continue;
-    set_pairs(s, x.made);
+    if (!allowed(s, &x)) continue;
+    make(s, x.made);
     return;
   }
 }
@@ -150,8 +170,8 @@ static bool reach(circuits *s, int component)
     int change = s->j->c->task->cords - s->count[component];
     if (change == 0) return true;
     exchange x = cheapest(s, component, change > 0 ? 1 : -1);
-    if (x.extra < thr_join_forbidden / 2) {
-      set_pairs(s, x.made);
+    if (isfinite(x.extra)) {
+      make(s, x.made);
       continue;
     }
     if (shakes++ == SHAKES || thr_limits_stop(s->limits)) return false;
@@ -167,15 +187,15 @@ static bool improve_at(circuits *s, int v)
     for (int k = i + 1; k < n; k++)
       for (int crossed = 0; crossed < 2; crossed++) {
         exchange x = exchange_of(s, s->here[i], s->here[k], crossed);
-        if (x.extra >= -enough) continue;
-        set_pairs(s, x.made);
+        if (x.extra >= -enough || !allowed(s, &x)) continue;
+        make(s, x.made);
         if (x.change == 0) return true;
         exchange y = cheapest(s, component, -x.change);
         if (x.extra + y.extra < -enough) {
-          set_pairs(s, y.made);
+          make(s, y.made);
           return true;
         }
-        set_pairs(s, x.old);
+        make(s, x.old);
       }
   return false;
 }

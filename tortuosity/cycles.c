@@ -34,19 +34,6 @@ static thr_status searcher_init(searcher *s, const thr_frame *f, thr_err *err)
   return s->passes && s->ends && s->trial && s->by && s->queue && s->cycle ? THR_OK : thr_nomem(err);
 }
 
-static void read_best(searcher *s, const thr_branch *b)
-{
-  const thr_frame *f = b->c->f;
-  const thr_multigraph *g = &b->best.g;
-  memset(s->passes, 0, (size_t)f->n_edges * sizeof *s->passes);
-  memset(s->ends, 0, (size_t)f->n_nodes * sizeof *s->ends);
-  for (int d = 0; d < g->n_darts; d += 2)
-    if (g->half[d] >= 0)
-      s->passes[g->half[d] >> 1]++;
-    else
-      s->ends[g->tail[d]]++;
-}
-
 /* Breadth-first from one end of edge e to the other without it. No cycle through a bridge: n_cycle = 0. */
 static void find_cycle(searcher *s, const thr_frame *f, int e)
 {
@@ -76,7 +63,7 @@ thr_status thr_cycles_improve(thr_branch *b, int most_tries, thr_err *err)
   searcher s;
   int tries = 0, unchanged = 0;
   thr_status st = searcher_init(&s, f, err);
-  if (!st) read_best(&s, b);
+  if (!st) thr_branch_best(b, s.passes, s.ends);
   for (int e = 0; !st && unchanged < f->n_edges && tries < most_tries && !thr_limits_stop(b->limits); e = (e + 1) % f->n_edges) {
     int64_t before = b->best_price;
     find_cycle(&s, f, e);
@@ -89,7 +76,7 @@ thr_status thr_cycles_improve(thr_branch *b, int most_tries, thr_err *err)
     st = thr_branch_try(b, s.trial, s.ends, err);
     if (b->best_price >= before) continue;
     unchanged = 0;
-    read_best(&s, b);
+    thr_branch_best(b, s.passes, s.ends);
   }
   searcher_destroy(&s);
   return st;

@@ -83,61 +83,19 @@ thr_status thr_relax_create(thr_relax *r, double penalty, thr_err *err)
 /* Scratch for nodes one by one. */
 typedef struct {
   const thr_turning_columns *c;
-  int *column, *block;      /* [most degree ^ 2], [most degree] */
-  double *cost, *x;         /* [most degree ^ 2] */
-  double *dual;             /* [rows] */
-  int n_junctions, *blocks; /* rows of the node's junctions, and their blocks one after the other */
+  int *column;  /* [most degree] */
+  double *cost; /* [most degree ^ 2] */
+  double *dual; /* [most degree] */
   thr_turning_dual *d;
-  int kept; /* capacity of d's junctions */
 } node_solver;
-
-enum { MOST_ROUNDS = 40 };
-
-/* Rows that tie the node where its turns do not. */
-static thr_status tie_node(node_solver *s, thr_lp *lp, int v, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)
-{
-  const int d = thr_degree(s->c->f, v);
-  thr_status st = THR_OK;
-  s->n_junctions = 0;
-  for (int blocks = 2; blocks > 1 && !st && *outcome == THR_LP_OPTIMAL && s->n_junctions < MOST_ROUNDS;) {
-    int n = 0;
-    thr_lp_primal(lp, s->x);
-    for (int i = 0, j = 0; i < d; i++)
-      for (int k = i + 1; k < d; k++)
-        s->cost[i * d + k] = s->x[j++]; /* the turns in their order */
-    st = thr_junction_worst(d, s->cost, s->block, &blocks, err);
-    if (st || blocks < 2) break;
-    for (int i = 0, j = 0; i < d; i++)
-      for (int k = i + 1; k < d; k++, j++)
-        if (s->block[i] != s->block[k]) s->column[n++] = j;
-    memcpy(s->blocks + s->n_junctions++ * d, s->block, (size_t)d * sizeof *s->block);
-    st = thr_lp_add_row(lp, n, s->column, NULL, blocks - 1, err);
-    if (!st) st = thr_lp_solve(lp, limits, outcome, err);
-  }
-  return st;
-}
 
 static int64_t multiplier(double dual)
 {
   return (int64_t)floor(ldexp(fmax(0, fmin(1e4, dual)), THR_TURNING_BITS));
 }
 
-static thr_status keep_junction(node_solver *s, int v, const int *block, int64_t value, thr_err *err)
-{
-  size_t d = (size_t)thr_degree(s->c->f, v);
-  if (value == 0) return THR_OK;
-  thr_status st = thr_grow(&s->d->junction, s->d->n_junctions, &s->kept, sizeof *s->d->junction, err);
-  if (st) return st;
-  thr_turning_junction *to = &s->d->junction[s->d->n_junctions];
-  *to = (thr_turning_junction){v, thr_calloc(d, sizeof *to->block), value};
-  if (!to->block) return thr_nomem(err);
-  memcpy(to->block, block, d * sizeof *block);
-  s->d->n_junctions++;
-  return THR_OK;
-}
-
 /* One node by itself: what its turns cost at least if each of its edges is passed as often as it likes, but no less than the
- * cover; with tube joints, if they tie it. Multipliers >= 0 of its half-edges, and of its junctions. */
+ * cover. Multipliers >= 0 of its half-edges. */
 static thr_status solve_one_node(node_solver *s, int v, const thr_limits *limits, thr_err *err)
 {
   const thr_turning_columns *c = s->c;
@@ -155,15 +113,11 @@ static thr_status solve_one_node(node_solver *s, int v, const thr_limits *limits
       if (k != i) s->column[n++] = thr_turning_column(c, half[i], half[k]) - c->pair_first[v];
     st = thr_lp_add_row(lp, n, s->column, NULL, c->cover[half[i] >> 1], err);
   }
-  s->n_junctions = 0;
   if (!st) st = thr_lp_solve(lp, limits, &outcome, err);
-  if (!st && c->task->tube) st = tie_node(s, lp, v, limits, &outcome, err);
   if (!st && outcome == THR_LP_OPTIMAL) {
     thr_lp_dual(lp, s->dual);
     for (int i = 0; i < d; i++)
       s->d->potential[half[i]] = multiplier(s->dual[i]);
-    for (int i = 0; i < s->n_junctions && !st; i++)
-      st = keep_junction(s, v, s->blocks + i * d, multiplier(s->dual[d + i]), err);
   }
   thr_lp_destroy(lp);
   return st;
@@ -181,11 +135,8 @@ static void charge_ends(const thr_turning_columns *c, thr_turning_dual *d)
 static void node_solver_destroy(node_solver *s)
 {
   free(s->column);
-  free(s->block);
   free(s->cost);
-  free(s->x);
   free(s->dual);
-  free(s->blocks);
 }
 
 static thr_status node_solver_init(node_solver *s, const thr_turning_columns *c, thr_turning_dual *d, thr_err *err)
@@ -194,13 +145,10 @@ static thr_status node_solver_init(node_solver *s, const thr_turning_columns *c,
   for (int v = 0; v < c->f->n_nodes; v++)
     if ((size_t)thr_degree(c->f, v) > most) most = (size_t)thr_degree(c->f, v);
   *s = (node_solver){.c = c, .d = d};
-  s->column = thr_calloc(most * most, sizeof *s->column);
-  s->block = thr_calloc(most, sizeof *s->block);
+  s->column = thr_calloc(most, sizeof *s->column);
   s->cost = thr_calloc(most * most, sizeof *s->cost);
-  s->x = thr_calloc(most * most, sizeof *s->x);
-  s->dual = thr_calloc(most + MOST_ROUNDS, sizeof *s->dual);
-  s->blocks = thr_calloc(most * MOST_ROUNDS, sizeof *s->blocks);
-  return s->column && s->block && s->cost && s->x && s->dual && s->blocks ? THR_OK : thr_nomem(err);
+  s->dual = thr_calloc(most, sizeof *s->dual);
+  return s->column && s->cost && s->dual ? THR_OK : thr_nomem(err);
 }
 
 thr_status thr_relax_nodes(const thr_turning_columns *c, const thr_limits *limits, thr_turning_dual *d, thr_err *err)

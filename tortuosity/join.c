@@ -1,6 +1,7 @@
 /* The multigraph of passes, and pairs as a point or cords say. */
 #include "tortuosity/join.h"
 #include "graph/disjoint.h"
+#include "tortuosity/tie.h"
 
 #include <limits.h>
 #include <math.h>
@@ -227,6 +228,36 @@ thr_status thr_join_columns(thr_join *j, const int *x, bool *single, thr_err *er
   free(circuit);
   free(parent);
   return st;
+}
+
+/* ---- tied ---- */
+
+thr_status thr_join_tie(thr_join *j, const thr_turning_columns *c, const int *passes, const int *ends, bool *found, thr_err *err)
+{
+  bool single;
+  int *x = thr_calloc((size_t)c->n_columns, sizeof *x);
+  *j = (thr_join){0};
+  thr_status st = x ? thr_tie_pair(c, passes, ends, x, found, err) : thr_nomem(err);
+  if (!st && *found) st = thr_join_init(j, c, passes, ends, err);
+  if (!st && *found) st = thr_join_columns(j, x, &single, err);
+  if (st) thr_join_destroy(j);
+  free(x);
+  return st;
+}
+
+bool thr_join_tied(const thr_join *j, int v, int *parent)
+{
+  const thr_turning_columns *c = j->c;
+  const thr_multigraph *g = &j->g;
+  int d = thr_degree(c->f, v), apart = d - 1;
+  for (int i = 0; i < d; i++)
+    parent[i] = i;
+  for (int i = g->first[v]; i < g->first[v + 1] && apart > 0; i++) {
+    int a = g->dart[i], b = j->mate[a];
+    if (b > a && g->half[a] >= 0 && g->half[b] >= 0)
+      apart -= thr_disjoint_join(parent, c->position[g->half[a]], c->position[g->half[b]]);
+  }
+  return apart == 0;
 }
 
 /* ---- from cords ---- */

@@ -47,6 +47,14 @@ thr_status thr_join_greedy(thr_join *j, int apart, thr_err *err) THR_MUST_CHECK;
  * passes at no price. *single: whether that left one circuit per component, or open cords alone. */
 thr_status thr_join_columns(thr_join *j, const int *x, bool *single, thr_err *err) THR_MUST_CHECK;
 
+/* Tube joints: pairs that tie every node (tortuosity/tie.h), for passes and ends (NULL = closed cords) as in thr_join_init. The
+ * circuits are as many as it happens. *found is false, and j empty, if a node cannot be tied. */
+thr_status thr_join_tie(thr_join *j, const thr_turning_columns *c, const int *passes, const int *ends, bool *found,
+                        thr_err *err) THR_MUST_CHECK;
+
+/* Do the pairs at node v tie its edges (graph/junction.h)? parent[degree of v] is scratch. */
+bool thr_join_tied(const thr_join *j, int v, int *parent);
+
 /* Cords of a joined multigraph, each half array allocated for the caller: component by component, open ones from the lower
  * of their end nodes; a closed one starts where its turn is sharpest. cord has room for n_cords; THR_ESOLVER if there are more or
  * fewer. */

@@ -62,7 +62,10 @@ static void judge_parts(star *s, double threshold)
   judge(s, n, crossing);
 }
 
-thr_status thr_junction_worst(int d, const double *between, int *block, int *n_blocks, thr_err *err)
+/* Of the divisions of d edges into blocks the one with the fewest turns between blocks for its number of them: between[i * d +
+ * k], i < k, turns between edges i and k. block[d] and *n_blocks receive it; *n_blocks is 0 if none is violated. For up to 7
+ * edges all divisions, 877 at most; for more those into parts that hang together. */
+static thr_status find_worst(int d, const double *between, int *block, int *n_blocks, thr_err *err)
 {
   static const double threshold[] = {1e-6, 0.2, 0.35, 0.51, 0.7, 0.99, INFINITY}; /* the last: single edges */
   star s = {.d = d, .between = between, .worst = block, .violation = 1e-6};
@@ -94,7 +97,7 @@ thr_status thr_junctions_separate(thr_relax *r, int *added, thr_err *err)
     for (int i = 0; i < d; i++)
       for (int k = i + 1; k < d; k++)
         between[i * d + k] = r->x[thr_turning_column(c, f->half[f->first[v] + i], f->half[f->first[v] + k])];
-    if (d > 1) st = thr_junction_worst(d, between, block, &blocks, err);
+    if (d > 1) st = find_worst(d, between, block, &blocks, err);
     if (!st && blocks > 1) st = thr_relax_add_junction(r, v, block, blocks, &used, err);
     *added += used;
   }

@@ -98,6 +98,18 @@ static thr_status tied_passes(const thr_turning_columns *c, const thr_least_opti
   return st;
 }
 
+/* Are there passes for all ends? The shortest may leave a node with fewer than it is to have ends. */
+static bool ends_fit(const thr_frame *f, const int *passes, const int *ends)
+{
+  for (int v = 0; v < f->n_nodes; v++) {
+    int room = -ends[v];
+    for (int i = f->first[v]; i < f->first[v + 1]; i++)
+      room += passes[f->half[i] >> 1];
+    if (room < 0) return false;
+  }
+  return true;
+}
+
 /* The shortest extra passes, and from the length of a plan with them, or nearly, the limit that the slack allows. */
 static thr_status find_shortest(const thr_frame *f, const thr_least_options *o, const thr_limits *limits, thr_least *out,
                                 int *passes, int *ends, first_cords *start, thr_err *err)
@@ -110,11 +122,14 @@ static thr_status find_shortest(const thr_frame *f, const thr_least_options *o, 
   else
     st = thr_extra_passes(&c, f->length, NULL, false, limits, passes, ends, err);
   double extra = st ? 0 : thr_extra_length(&c, passes), base = thr_turning_base_length(f, o->cover), given = 0;
-  if (!st && !o->tube && !out->end_allowed && out->task.cords > 1) st = find_several(&c, limits, passes, start, &extra, err);
+  bool several = !out->end_allowed && out->task.cords > 1;
+  bool counts = o->n_start > 0 && (!several || o->n_start == out->task.cords * c.n_components);
+  if (!st && several) st = find_several(&c, limits, passes, start, &extra, err);
   thr_turning_columns_destroy(&c);
   for (int i = 0; i < o->n_start; i++)
     given += thr_cord_length(f, &o->start[i]);
-  out->shortest = o->n_start > 0 && given < (base + extra) * (1 - 1e-9) ? given : base + extra;
+  counts &= given < (base + extra) * (1 - 1e-9) || !ends_fit(f, passes, ends);
+  out->shortest = counts ? given : base + extra;
   out->length_limit = o->length_slack < 0 ? -1 : out->shortest * (1 + o->length_slack);
   out->task.extra_limit = thr_turning_extra_limit(f, o->cover, out->length_limit);
   return st;
@@ -124,9 +139,7 @@ static thr_status find_shortest(const thr_frame *f, const thr_least_options *o, 
 static thr_status first_plans(thr_branch *b, const thr_least_options *o, const first_cords *start, int *passes, int *ends,
                               thr_err *err)
 {
-  thr_status st = THR_OK;
-  if (o->tube && b->c->task->extra_limit != 0) st = thr_tie_improve(b->c, b->limits, passes, ends, err);
-  if (!st) st = thr_branch_try(b, passes, ends, err);
+  thr_status st = thr_branch_try(b, passes, ends, err);
   if (!st && o->start) st = thr_branch_try_cords(b, o->start, o->n_start, err);
   if (!st && start->n) st = thr_branch_try_cords(b, start->cord, start->n, err);
   if (!st && b->several) st = thr_several_plans(b, err);

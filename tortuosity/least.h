@@ -8,7 +8,7 @@
 
 typedef struct {
   int cover, capacity; /* as in thr_plan_options */
-  bool tube;           /* tube joints; then start must be set */
+  bool tube;           /* tube joints; then start must be set, closed cords of any number */
   thr_ends ends;
   const bool *end_node; /* [n_nodes] THR_ENDS_NODES only; borrowed */
   const int *end_count; /* [n_nodes] THR_ENDS_COUNTS only; borrowed */

@@ -231,11 +231,6 @@ thr_status thr_project_separate(thr_relax *r, const thr_limits *limits, int *add
 
 /* ---- multipliers ---- */
 
-static int64_t whole(double value)
-{
-  return (int64_t)nearbyint(ldexp(fmax(0, fmin(1e4, value)), THR_TURNING_BITS));
-}
-
 /* The junction of half-edge h with all others of its node, or of all single ones (h < 0). */
 static thr_status add_junction(const thr_turning_columns *c, thr_turning_dual *d, int v, int h, int64_t value, thr_err *err)
 {
@@ -300,7 +295,7 @@ thr_status thr_project_dual(const thr_relax *r, thr_turning_dual *d, thr_err *er
   d->junction = thr_calloc((size_t)r->n_cuts, sizeof *d->junction);
   thr_status st = d->potential && d->ends && d->odd && d->junction ? THR_OK : thr_nomem(err);
   for (int i = 0; i < r->n_cuts && !st; i++)
-    if (whole(r->dual[i]) > 0) st = add_multiplier(r, d, r->cut[i], whole(r->dual[i]), err);
+    if (thr_relax_whole(r->dual[i]) > 0) st = add_multiplier(r, d, r->cut[i], thr_relax_whole(r->dual[i]), err);
   if (st) thr_turning_dual_destroy(d);
   return st;
 }

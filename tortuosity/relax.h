@@ -93,6 +93,9 @@ thr_status thr_relax_separate(thr_relax *r, const thr_limits *limits, int *added
 /* The multipliers of the last solve as integers. Release with thr_turning_dual_destroy. */
 thr_status thr_relax_dual(const thr_relax *r, thr_turning_dual *d, thr_err *err) THR_MUST_CHECK;
 
+/* A multiplier in units of 2^-THR_TURNING_BITS; far below -1e4 or above 1e4 it would be useless. */
+int64_t thr_relax_whole(double value);
+
 /* The linear programme of the equations alone, in tortuosity/equations.c. */
 thr_status thr_relax_create(thr_relax *r, double penalty, thr_err *err) THR_MUST_CHECK;
 
@@ -107,11 +110,6 @@ thr_status thr_relax_nodes(const thr_turning_columns *c, const thr_limits *limit
 
 /* Adds the row of a node's blocks (copied; n of them, 0 .. n - 1) if x violates it. */
 thr_status thr_relax_add_junction(thr_relax *r, int v, const int *block, int n, bool *used, thr_err *err) THR_MUST_CHECK;
-
-/* Of the divisions of d edges into blocks the one with the fewest turns between blocks for its number of them: between[i * d +
- * k], i < k, turns between edges i and k. block[d] and *n_blocks receive it; *n_blocks is 0 if none is violated. For up to 7
- * edges all divisions, 877 at most; for more those into parts that hang together. */
-thr_status thr_junction_worst(int d, const double *between, int *block, int *n_blocks, thr_err *err) THR_MUST_CHECK;
 
 /* Junction rows that x violates, in tortuosity/junctions.c: the worst of every node. *added grows. */
 thr_status thr_junctions_separate(thr_relax *r, int *added, thr_err *err) THR_MUST_CHECK;

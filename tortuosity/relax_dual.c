@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int64_t whole(double value)
+int64_t thr_relax_whole(double value)
 {
   return (int64_t)nearbyint(ldexp(fmax(-1e4, fmin(1e4, value)), THR_TURNING_BITS));
 }
@@ -41,7 +41,7 @@ static thr_status copy_cuts(const thr_relax *r, thr_turning_dual *d, thr_err *er
 {
   thr_status st = THR_OK;
   for (int i = 0; i < r->n_cuts && !st; i++) {
-    int64_t value = whole(r->dual[r->n_equations + i]);
+    int64_t value = thr_relax_whole(r->dual[r->n_equations + i]);
     int k = r->cut[i].index;
     if (value <= 0) continue;
     if (r->cut[i].kind == THR_RELAX_JUNCTION)
@@ -63,7 +63,7 @@ thr_status thr_relax_dual(const thr_relax *r, thr_turning_dual *d, thr_err *err)
   *d = (thr_turning_dual){0};
   if (r->projected) return thr_project_dual(r, d, err);
   for (int i = 0; i < r->n_cuts; i++)
-    used[r->cut[i].kind] += whole(r->dual[r->n_equations + i]) > 0;
+    used[r->cut[i].kind] += thr_relax_whole(r->dual[r->n_equations + i]) > 0;
   d->potential = thr_calloc((size_t)darts, sizeof *d->potential);
   d->ends = thr_calloc((size_t)c->n_ends, sizeof *d->ends);
   d->odd = thr_calloc((size_t)used[THR_RELAX_ODD], sizeof *d->odd);
@@ -72,10 +72,10 @@ thr_status thr_relax_dual(const thr_relax *r, thr_turning_dual *d, thr_err *err)
   d->junction = thr_calloc((size_t)used[THR_RELAX_JUNCTION], sizeof *d->junction);
   thr_status st = d->potential && d->ends && d->odd && d->group && d->partition && d->junction ? THR_OK : thr_nomem(err);
   for (int h = 0; h < darts && !st; h++)
-    d->potential[h] = whole(r->dual[h]);
+    d->potential[h] = thr_relax_whole(r->dual[h]);
   for (int i = 0; c->task->end_allowed && i < c->n_ends && !st; i++)
-    d->ends[i] = whole(r->dual[darts + i]);
-  if (!st && c->extra_limit >= 0) d->length = whole(fmax(0, r->dual[r->n_equations - 1]));
+    d->ends[i] = thr_relax_whole(r->dual[darts + i]);
+  if (!st && c->extra_limit >= 0) d->length = thr_relax_whole(fmax(0, r->dual[r->n_equations - 1]));
   if (!st) st = copy_cuts(r, d, err);
   if (st) thr_turning_dual_destroy(d);
   return st;

@@ -1,6 +1,7 @@
 /* Covers by short circuits, and all passes of tiny frameworks. */
 #include "tortuosity/several.h"
 #include "tortuosity/circuits.h"
+#include "tortuosity/tie.h"
 
 #include <stdlib.h>
 
@@ -34,6 +35,20 @@ static thr_status try_cover(thr_branch *b, int first, int *passes, thr_err *err)
   if (!st) return thr_branch_try_circuits(b, &few, all, err);
   thr_join_destroy(&few);
   return st;
+}
+
+/* Tube joints: nodes that few passes tie stay tied by whatever further cords run through them. */
+static thr_status try_tied(thr_branch *b, int *passes, thr_err *err)
+{
+  const thr_turning_columns *c = b->c;
+  thr_join few, j = {0};
+  bool found;
+  thr_status st = thr_tie_round(c, NULL, passes, b->ends, &found, err);
+  if (!st && found) st = thr_join_tie(&few, c, passes, NULL, &found, err);
+  if (st || !found) return st;
+  st = thr_circuits_add(&few, &j, b->passes, &found, err);
+  thr_join_destroy(&few);
+  return st || !found ? st : thr_branch_try_circuits(b, &j, b->passes, err);
 }
 
 static thr_status try_covers(thr_branch *b, int *passes, thr_err *err)
@@ -78,7 +93,7 @@ thr_status thr_several_plans(thr_branch *b, thr_err *err)
 {
   int *passes = thr_calloc((size_t)b->c->f->n_edges, sizeof *passes);
   if (!passes) return thr_nomem(err);
-  thr_status st = try_covers(b, passes, err);
+  thr_status st = b->c->task->tube ? try_tied(b, passes, err) : try_covers(b, passes, err);
   if (!st) st = even_passes(b, passes, err);
   if (!st) st = try_all_passes(b, passes, err);
   free(passes);

@@ -1,9 +1,7 @@
 /* Turns that tie the nodes. */
 #include "tortuosity/tie.h"
 #include "graph/disjoint.h"
-#include "tortuosity/pairing.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -92,33 +90,7 @@ static thr_status count_ends(const thr_turning_columns *c, const int *ends, bool
   return THR_OK;
 }
 
-/* ---- one node ---- */
-
-enum { END = -1, EXACT = 10 }; /* largest node that begins with its cheapest pairing */
-
-static const double forbidden = 1e6;
-
-void thr_knot_destroy(thr_knot *k)
-{
-  free(k->half);
-  free(k->edge);
-  free(k->mate);
-  free(k->parent);
-  free(k->price);
-}
-
-thr_status thr_knot_init(thr_knot *k, const thr_turning_columns *c, int n, thr_err *err)
-{
-  *k = (thr_knot){.c = c, .most = n};
-  if (n > 5000) return thr_fail(err, THR_EINPUT, "a node with %d passes is too large to tie", n);
-  size_t most = (size_t)n;
-  k->half = thr_calloc(most, sizeof *k->half);
-  k->edge = thr_calloc(most, sizeof *k->edge);
-  k->mate = thr_calloc(most, sizeof *k->mate);
-  k->parent = thr_calloc(most, sizeof *k->parent);
-  k->price = thr_calloc(most * most, sizeof *k->price);
-  return k->half && k->edge && k->mate && k->parent && k->price ? THR_OK : thr_nomem(err);
-}
+/* ---- all nodes ---- */
 
 static int count_knot(const thr_turning_columns *c, int v, const int *passes, const int *ends)
 {
@@ -129,125 +101,15 @@ static int count_knot(const thr_turning_columns *c, int v, const int *passes, co
   return n;
 }
 
-static double price_between(const thr_knot *k, int g, int h)
-{
-  if (g == h) return forbidden;
-  return g == END || h == END ? 0 : thr_turn_price(k->c->f, k->c->task->cost, g ^ 1, h);
-}
-
-static void fill_knot(thr_knot *k, int v, const int *passes, int ends)
-{
-  const thr_frame *f = k->c->f;
-  k->n = 0;
-  for (int i = f->first[v]; i < f->first[v + 1]; i++)
-    for (int p = passes[f->half[i] >> 1]; p > 0; p--) {
-      k->edge[k->n] = i - f->first[v];
-      k->half[k->n++] = f->half[i];
-    }
-  for (; ends > 0; ends--)
-    k->half[k->n++] = END;
-  for (int a = 0; a < k->n; a++)
-    for (int b = 0; b < k->n; b++) {
-      double *row = k->price + a * k->n;
-      if (a > 0 && k->half[a] == k->half[a - 1])
-        row[b] = row[b - k->n]; /* passes of one edge are alike */
-      else
-        row[b] = b > 0 && k->half[b] == k->half[b - 1] ? row[b - 1] : price_between(k, k->half[a], k->half[b]);
-    }
-}
-
-/* Does the pair turn, rather than end? */
-static bool turns(const thr_knot *k, int a)
-{
-  return k->half[a] != END && k->half[k->mate[a]] != END;
-}
-
-/* Disjoint sets of the edges under all pairs but those of a and b (-1: none left out); how many of d edges. */
-static int parts(thr_knot *k, int d, int a, int b)
-{
-  int left = d;
-  for (int i = 0; i < d; i++)
-    k->parent[i] = i;
-  for (int i = 0; i < k->n; i++) {
-    if (k->mate[i] < i || !turns(k, i) || i == a || i == b || k->mate[i] == a || k->mate[i] == b) continue;
-    left -= thr_disjoint_join(k->parent, k->edge[i], k->edge[k->mate[i]]);
-  }
-  return left;
-}
-
-static void set_pair(thr_knot *k, int a, int b)
-{
-  k->mate[a] = b;
-  k->mate[b] = a;
-}
-
-static double price_of(const thr_knot *k, int a, int b)
-{
-  return k->price[a * k->n + b];
-}
-
-/* Parts of the node's edges if pairs (a, mate) and (c, mate) became (a, c) and the mates. */
-static int parts_after(thr_knot *k, int d, int a, int c)
-{
-  int b = k->mate[a], e = k->mate[c], left = parts(k, d, a, c);
-  if (k->half[a] != END && k->half[c] != END) left -= thr_disjoint_join(k->parent, k->edge[a], k->edge[c]);
-  if (k->half[b] != END && k->half[e] != END) left -= thr_disjoint_join(k->parent, k->edge[b], k->edge[e]);
-  return left;
-}
-
-/* The cheapest exchange of two pairs that leaves fewer parts, or, if there is one part only, leaves it and saves. */
-static bool exchange(thr_knot *k, int d, int now)
-{
-  double least = now > 1 ? forbidden : -1e-9;
-  int best_a = -1, best_c = -1;
-  for (int a = 0; a < k->n; a++) {
-    int b = k->mate[a];
-    for (int c = a + 1; c < k->n; c++) { /* (a c) and the mates: of both ways to exchange, as a and c run over all */
-      int e = k->mate[c];
-      if (c == b || b < a) continue;
-      double extra = price_of(k, a, c) + price_of(k, b, e) - price_of(k, a, b) - price_of(k, c, e);
-      if (extra >= least) continue;
-      int after = parts_after(k, d, a, c);
-      if (now > 1 ? after >= now : after > 1) continue;
-      least = extra;
-      best_a = a;
-      best_c = c;
-    }
-  }
-  if (best_a < 0) return false;
-  int b = k->mate[best_a], e = k->mate[best_c];
-  set_pair(k, best_a, best_c);
-  set_pair(k, b, e);
-  return true;
-}
-
-thr_status thr_knot_tie(thr_knot *k, int v, const int *passes, const int *ends, bool *tied, thr_err *err)
-{
-  int d = thr_degree(k->c->f, v);
-  *tied = thr_tie_need(k->c, v, passes, ends) == 0 && count_knot(k->c, v, passes, ends) <= k->most;
-  if (!*tied) return THR_OK;
-  fill_knot(k, v, passes, ends ? ends[v] : 0);
-  thr_status st = k->n <= EXACT ? thr_pairing_best(k->n, k->price, k->mate, err) : THR_OK;
-  if (st) return st;
-  for (int a = 0; a < k->n / 2 && k->n > EXACT; a++)
-    set_pair(k, a, a + k->n / 2); /* no edge has more than half of all */
-  int now = parts(k, d, -1, -1);
-  while (d > 1 && exchange(k, d, now))
-    now = parts(k, d, -1, -1);
-  k->turning = thr_pairing_price(k->n, k->price, k->mate);
-  *tied = (d == 1 || now == 1) && k->turning < forbidden;
-  return THR_OK;
-}
-
 static void count_turns(const thr_knot *k, int *x)
 {
-  for (int a = 0; a < k->n; a++) {
-    int b = k->mate[a], g = k->half[a], h = k->half[b];
-    if (b < a) continue;
-    if (h == END)
-      x[k->c->end_column[g]]++;
+  const int *half = k->c->f->half + k->c->f->first[k->at];
+  for (int i = 0; i < k->n; i++) {
+    int a = k->pair[i].a, b = k->pair[i].b;
+    if (a == k->d || b == k->d)
+      x[k->c->end_column[half[a == k->d ? b : a]]]++;
     else
-      x[thr_turning_column(k->c, g, h)]++;
+      x[thr_turning_column(k->c, half[a], half[b])]++;
   }
 }
 
@@ -267,8 +129,8 @@ thr_status thr_tie_pair(const thr_turning_columns *c, const int *passes, const i
   memset(x + c->first_end, 0, (size_t)(c->n_columns - c->first_end) * sizeof *x);
   st = thr_knot_init(&k, c, most, err);
   for (int v = 0; v < f->n_nodes && !st && *found; v++) {
-    st = thr_knot_tie(&k, v, passes, ends, found, err);
-    if (!st && *found) count_turns(&k, x);
+    *found = thr_knot_tie(&k, v, passes, ends);
+    if (*found) count_turns(&k, x);
   }
   thr_knot_destroy(&k);
   return st;

@@ -1,6 +1,8 @@
 /* Options -> the search's task -> cords -> plan with its claims; and the trade-off between length and turning. */
 #include "tortuosity/tortuosity.h"
 #include "graph/check.h"
+#include "graph/junction.h"
+#include "lp/cords.h"
 #include "lp/postman.h"
 #include "tortuosity/baseline.h"
 #include "tortuosity/maxturn.h"
@@ -76,28 +78,33 @@ static thr_status find_least(const thr_frame *f, const thr_least_options *lo, co
 
 /* ---- a second start for the cord that turns most ---- */
 
-/* Are they cords of the task: as many in every component as l has, over passes and ends that it allows? */
+/* Are they cords of the task: as many in every component as l has, over passes and ends that it allows? Given numbers of ends no
+ * other objective's plan keeps to. */
 static thr_status seed_fits(const thr_frame *f, const thr_least *l, const thr_plan *seed, bool *fits, thr_err *err)
 {
   int *count = thr_calloc((size_t)f->n_nodes, sizeof *count); /* cords of a component: l's less the seed's */
+  bool *tied = thr_calloc((size_t)f->n_nodes, sizeof *tied), open = l->end_allowed != NULL;
+  thr_status st = count && tied ? THR_OK : thr_nomem(err);
   double length = 0;
-  *fits = seed->n_cords == l->n_cords && seed->frame.n_nodes == f->n_nodes && seed->options.cover == l->task.cover &&
-          seed->metrics.most_passes <= l->task.most_passes;
-  if (!count) return thr_nomem(err);
-  for (int i = 0; i < l->n_cords && *fits; i++) {
+  *fits = !l->task.end_count && seed->n_cords == l->n_cords && seed->frame.n_nodes == f->n_nodes &&
+          seed->options.cover == l->task.cover && seed->metrics.most_passes <= l->task.most_passes;
+  if (!st && *fits) st = thr_junction_tied(f, seed->cord, seed->n_cords, !open, tied, err);
+  *fits &= !st;
+  for (int i = 0; *fits && i < l->n_cords; i++) {
     const thr_cord *c = &seed->cord[i];
     count[l->cord[i].component]++;
     count[c->component]--;
     length += thr_cord_length(f, c);
-    *fits = l->end_allowed ? l->end_allowed[thr_cord_start(f, c)] && l->end_allowed[thr_cord_end(f, c)] : c->closed;
+    *fits = open ? l->end_allowed[thr_cord_start(f, c)] && l->end_allowed[thr_cord_end(f, c)] : c->closed;
     for (int k = 0; k + 1 < c->n_passes && *fits; k++) /* the search never turns back where it need not */
-      *fits = c->half[k + 1] != (c->half[k] ^ 1) || thr_degree(f, thr_head(f, c->half[k])) == 1;
+      *fits = c->half[k + 1] != (c->half[k] ^ 1) || (thr_degree(f, thr_head(f, c->half[k])) == 1 && !l->task.tube);
   }
   for (int v = 0; v < f->n_nodes && *fits; v++)
-    *fits = count[v] == 0;
+    *fits = count[v] == 0 && (tied[v] || !l->task.tube);
   *fits &= l->length_limit < 0 || length <= l->length_limit * (1 + 1e-12);
   free(count);
-  return THR_OK;
+  free(tied);
+  return st;
 }
 
 static thr_status copy_cords(const thr_cord *from, int n, thr_cord **to, thr_err *err)
@@ -151,7 +158,12 @@ static thr_status find_shortest(const thr_frame *f, const thr_plan_options *o, c
 {
   const thr_limits share = share_of_time(limits, 0.3);
   *s = (shortest_plan){0};
-  if (o->joint == THR_JOINT_TUBE) return thr_tube_shortest(f, o, &share, &s->tube, err);
+  thr_plan_options any = *o;
+  if (o->ends == THR_ENDS_CLOSED) { /* no closed cords are shorter than one, which the search cuts up */
+    any.objective = THR_LENGTH;
+    any.cords_least = 1;
+  }
+  if (o->joint == THR_JOINT_TUBE) return thr_tube_shortest(f, &any, &share, &s->tube, err);
   return thr_postman_shortest(f, o, limits, &s->solid, err);
 }
 
@@ -164,21 +176,45 @@ static void begin_with(const thr_frame *f, const thr_tube *t, thr_least_options 
   lo->most_passes = t->most_passes > most ? t->most_passes : most;
 }
 
+/* Cords of a plan for the least length, where the shortest passes alone may not hold them: as many ends as given, as many closed
+ * cords as asked for that tie the nodes. None if there is no such plan: the search may find what that did not. */
+static thr_status cords_by_length(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_cord **cord,
+                                  int *n, thr_err *err)
+{
+  thr_plan_options length = *o;
+  const thr_limits share = share_of_time(limits, 0.2);
+  thr_err why = {0};
+  thr_plan p = {0};
+  bool tube = o->joint == THR_JOINT_TUBE;
+  length.objective = THR_LENGTH;
+  thr_status st = tube ? thr_tube_plan(f, &length, &share, &p, &why) : thr_cords_plan(f, &length, &share, &p, NULL, &why);
+  *cord = p.cord;
+  *n = p.n_cords;
+  p.cord = NULL;
+  p.n_cords = 0;
+  thr_plan_destroy(&p);
+  return st == THR_ENOMEM ? thr_nomem(err) : THR_OK;
+}
+
 /* Begins with the cords of the shortest plan where that has as many. */
 static thr_status find_from_shortest(const thr_frame *f, const thr_plan_options *o, const shortest_plan *s,
                                      const thr_limits *limits, thr_least *l, thr_err *err)
 {
   thr_least_options lo = search_options(o);
   thr_cord *cord = NULL;
+  int n = 0;
   thr_status st = THR_OK;
-  if (lo.tube) {
-    begin_with(f, &s->tube, &lo);
-    return find_least(f, &lo, limits, l, err);
+  if (lo.tube ? o->ends == THR_ENDS_CLOSED && o->cords > 1 : o->ends == THR_ENDS_COUNTS)
+    st = cords_by_length(f, o, limits, &cord, &n, err);
+  else if (!lo.tube && o->cords == 1)
+    st = thr_postman_cords(f, o, s->solid.passes, &cord, &n, err);
+  if (lo.tube) begin_with(f, &s->tube, &lo);
+  if (n > 0) {
+    lo.start = cord;
+    lo.n_start = n;
   }
-  if (o->cords == 1 && o->ends != THR_ENDS_COUNTS) st = thr_postman_cords(f, o, s->solid.passes, &cord, &lo.n_start, err);
-  lo.start = cord;
   if (!st) st = find_least(f, &lo, limits, l, err);
-  thr_cords_destroy(cord, lo.n_start);
+  thr_cords_destroy(cord, n);
   return st;
 }
 
@@ -250,20 +286,6 @@ static thr_status verdict(const thr_plan *p, const thr_least *l, thr_err *err)
   return THR_OK;
 }
 
-/* What the exchanges between cords cannot do. */
-static thr_status go_together(const thr_plan_options *o, thr_err *err)
-{
-  if (o->turning.largest && o->joint == THR_JOINT_TUBE)
-    return thr_fail(err, THR_EINPUT,
-                    "tube joints: the turning of all cords together can be made least, not that of the one that "
-                    "turns most");
-  if (o->turning.largest && o->ends == THR_ENDS_COUNTS)
-    return thr_fail(err, THR_EINPUT,
-                    "with given numbers of ends the turning of all cords together can be made least, not that "
-                    "of the one that turns most");
-  return THR_OK;
-}
-
 thr_status thr_tortuosity_plan_from(const thr_frame *f, const thr_plan_options *o, const thr_plan *seed, const thr_limits *limits,
                                     thr_plan *plan, thr_err *err)
 {
@@ -271,9 +293,7 @@ thr_status thr_tortuosity_plan_from(const thr_frame *f, const thr_plan_options *
   thr_least l = {0};
   thr_err unproved = {0}; /* of the search's steps; the plan's own verdict is what counts */
   *plan = (thr_plan){0};
-  thr_status st = go_together(o, err);
-  if (st) return st;
-  st = find_shortest(f, o, limits, &shortest, &unproved);
+  thr_status st = find_shortest(f, o, limits, &shortest, &unproved);
   if (!st || st == THR_ELIMIT) st = find_cords(f, o, &shortest, seed, limits, &l, &unproved);
   if (st && st != THR_ELIMIT)
     st = thr_fail(err, st, "%s", unproved.text);

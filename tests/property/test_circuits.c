@@ -201,23 +201,6 @@ START_TEST(several_closed_cords_are_least)
 }
 END_TEST
 
-/* Two frames side by side: one component of each. */
-static thr_frame side_by_side(const thr_frame *a, const thr_frame *b)
-{
-  double xyz[16][3];
-  int edge[32][2], n = 0, m = 0;
-  const thr_frame *part[] = {a, b};
-  for (int k = 0; k < 2; k++) {
-    for (int e = 0; e < part[k]->n_edges; e++, m++)
-      for (int side = 0; side < 2; side++)
-        edge[m][side] = n + part[k]->edge[e][side];
-    for (int v = 0; v < part[k]->n_nodes; v++, n++)
-      for (int i = 0; i < 3; i++)
-        xyz[n][i] = part[k]->xyz[v][i] + 1000 * k;
-  }
-  return frame_make(n, (const double(*)[3])xyz, m, (const int(*)[2])edge, NULL, NULL);
-}
-
 /* The cords of every component are its own: one may have fewer circuits in its cheapest pairings than are asked for, the other
  * more. */
 START_TEST(every_component_has_its_cords)

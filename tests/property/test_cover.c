@@ -1,11 +1,12 @@
 /* Symmetric covers against exhaustive search and against published figures. */
+#include "graph/junction.h"
 #include "graph/make.h"
 #include "symmetry/automorphisms.h"
 #include "symmetry/claims.h"
 #include "symmetry/cover.h"
 #include "symmetry/isometry.h"
 #include "symmetry/turning_bound.h"
-#include "tests/support.h"
+#include "tests/symmetric.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -166,6 +167,21 @@ static void join(int *parent, int a, int b)
   parent[root_of(parent, a)] = root_of(parent, b);
 }
 
+/* Do the turns connect the half-edges of every node? */
+static bool is_tied(const exhaustive *x)
+{
+  int tube[2 * MOST_ORBITS];
+  for (int h = 0; h < 2 * x->f->n_edges; h++)
+    tube[h] = h;
+  for (int d = 0; d < 2 * x->n_copies; d++)
+    if (x->partner[d] > d && root_of(tube, x->half[d]) != root_of(tube, x->half[x->partner[d]]))
+      join(tube, x->half[d], x->half[x->partner[d]]);
+  for (int a = 0; a < 2 * x->f->n_edges; a++)
+    for (int b = 0; b < a; b++)
+      if (thr_tail(x->f, a) == thr_tail(x->f, b) && root_of(tube, a) != root_of(tube, b)) return false;
+  return true;
+}
+
 /* Everything has a partner: which cords are there, and which are copies of each other? */
 static void weigh(exhaustive *x, double overlap, double steps)
 {
@@ -174,6 +190,7 @@ static void weigh(exhaustive *x, double overlap, double steps)
   bool open[MOST_COPIES] = {false}, counted[MOST_COPIES] = {false}, used[MOST_COPIES] = {false};
   double worth[THR_N_AIMS] = {overlap, steps, 0, 0};
   x->leaves++;
+  if (x->o->tube && !is_tied(x)) return;
   for (int c = 0; c < x->n_copies; c++)
     cord[c] = unique[c] = c;
   for (int d = 0; d < 2 * x->n_copies; d++)
@@ -184,7 +201,7 @@ static void weigh(exhaustive *x, double overlap, double steps)
   for (int d = 0; d < 2 * x->n_copies; d++)
     if (x->partner[d] == -2) open[root_of(cord, d / 2)] = true;
   for (int c = 0; c < x->n_copies; c++) {
-    bool all_open = x->o->ends == THR_ENDS_FEET || x->o->ends == THR_ENDS_NODES;
+    bool all_open = x->o->ends == THR_ENDS_FEET || (x->o->tube && x->o->ends == THR_ENDS_ANY);
     if (all_open && !open[root_of(cord, c)]) return;
     for (int g = 0; g < x->order; g++)
       join(unique, root_of(cord, c), root_of(cord, x->copy_image[g][c]));
@@ -245,7 +262,7 @@ static void choose_partners(exhaustive *x, double overlap, double steps)
   for (int b = end ? -2 : 0; b < 2 * x->n_copies; b++) {
     if (b == -1 || b == a) continue;
     if (b >= 0 && (x->partner[b] != -1 || thr_tail(f, x->half[b]) != v)) continue;
-    if (b >= 0 && (x->half[b] == x->half[a]) != (thr_degree(f, v) == 1 && !end)) continue;
+    if (b >= 0 && (x->half[b] == x->half[a]) != (thr_degree(f, v) == 1 && !end && !x->o->tube)) continue;
     if (pair_all(x, a, b)) choose_partners(x, overlap, steps);
     memcpy(x->partner, before, sizeof before);
   }
@@ -335,6 +352,18 @@ static void list_choices(const exhaustive *x, int k, choice *now, const int *pas
   }
 }
 
+/* Has every node passes enough to be tied? */
+static bool may_tie(const exhaustive *x)
+{
+  for (int v = 0; v < x->f->n_nodes; v++) {
+    int passes = 0;
+    for (int d = 0; d < 2 * x->n_copies; d++)
+      passes += thr_tail(x->f, x->half[d]) == v;
+    if (passes < 2 * (thr_degree(x->f, v) - 1)) return false;
+  }
+  return true;
+}
+
 /* Best cover by exhaustion; false if that takes too long. */
 static bool exhaust(exhaustive *x)
 {
@@ -345,6 +374,7 @@ static bool exhaust(exhaustive *x)
   for (int i = 0; i < n && x->leaves <= LEAVES; i++) {
     if (x->found && (list[i].overlap > x->best[0] + 1e-6 || list[i].steps > x->best[1] + 1e-6)) break;
     make_copies(x, list[i].number);
+    if (x->o->tube && !may_tie(x)) continue;
     for (int d = 0; d < 2 * x->n_copies; d++)
       x->partner[d] = -1;
     choose_partners(x, list[i].overlap, list[i].steps);
@@ -507,6 +537,21 @@ static void check_claims(const thr_quotient *q, const thr_cover_options *o, cons
   }
 }
 
+/* The cover's cords, by the checker's own look at junctions. */
+static void check_ties(const thr_quotient *q, const thr_cover_options *o, const thr_cover *c)
+{
+  thr_cord *cord;
+  int n;
+  thr_symmetry_record record;
+  bool tied[MOST_NODES];
+  ck_assert_int_eq(thr_cover_cords(q, o, c, &cord, &n, &record, NULL), THR_OK);
+  ck_assert_int_eq(thr_junction_tied(q->f, cord, n, o->ends == THR_ENDS_CLOSED, tied, NULL), THR_OK);
+  for (int v = 0; v < q->f->n_nodes; v++)
+    ck_assert_msg(tied[v], "ends %s, order %d: node %d", thr_ends_name(o->ends), q->h->order, v);
+  thr_cords_destroy(cord, n);
+  thr_symmetry_record_destroy(&record);
+}
+
 static void compare_with_exhaustion(const example *t, const thr_frame *f, const thr_group *g, const thr_subgroup *h,
                                     const thr_cover_options *o, tally *n)
 {
@@ -530,8 +575,10 @@ static void compare_with_exhaustion(const example *t, const thr_frame *f, const 
                 thr_ends_name(o->ends), o->cover, o->edge_capacity ? o->edge_capacity[0] : 0, st, err.text, x.found);
   for (int a = 0; a < THR_N_AIMS && !st; a++)
     ck_assert_msg(fabs(c.value[a] - x.best[a]) < 1e-4 && fabs(c.bound[a] - c.value[a]) < 1e-4,
-                  "%s, order %d, ends %s, cover %d: %s %g, bound %g, by exhaustion %g", t->name, h->order, thr_ends_name(o->ends),
-                  o->cover, thr_aim_name((thr_aim)a), c.value[a], c.bound[a], x.best[a]);
+                  "%s, order %d, ends %s, cover %d%s: %s %g, bound %g, by exhaustion %g", t->name, h->order,
+                  thr_ends_name(o->ends), o->cover, o->tube ? ", tied" : "", thr_aim_name((thr_aim)a), c.value[a], c.bound[a],
+                  x.best[a]);
+  if (!st && o->tube) check_ties(&q, o, &c);
   if (!st) {
     check_turning_bounds(&q, o, &c, false, n);
     check_turning_bounds(&q, o, &c, true, n);
@@ -556,8 +603,7 @@ START_TEST(covers_match_exhaustion)
     ck_assert_int_eq(thr_subgroup_classes_find(&g, 1000, &classes, NULL), THR_OK);
     for (int k = 0; k < classes.n; k++)
       for (int cover = 1; cover <= 2; cover++) {
-        thr_cover_options o = {cover, (thr_ends)ends, NULL, {THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_PATHS, THR_AIM_TURNING},
-                               NULL,  NULL,           false};
+        thr_cover_options o = cover_options((thr_ends)ends, cover);
         if (classes.subgroup[k].order <= 48) compare_with_exhaustion(t, &f, &g, &classes.subgroup[k], &o, &n);
       }
     thr_subgroup_classes_destroy(&classes);
@@ -568,6 +614,35 @@ START_TEST(covers_match_exhaustion)
   ck_assert_int_le(n.beyond, 40);
   ck_assert_int_ge(2 * n.near, n.bounds); /* of no use otherwise */
   ck_assert_int_ge(4 * n.exact, n.compared - n.repeats);
+}
+END_TEST
+
+/* Tube joints, with and without a limit on passes: the same comparison. */
+START_TEST(tied_covers_match_exhaustion)
+{
+  const example *t = &examples[_i];
+  tally n = {0};
+  for (int ends = THR_ENDS_CLOSED; ends <= THR_ENDS_FEET; ends++) {
+    static const int nowhere = -1;
+    int capacity[MOST_ORBITS];
+    thr_frame f = frame_from(t->n, t->m, t->edge, ends == THR_ENDS_FEET ? t->feet : &nowhere);
+    thr_group g = automorphisms_by_hand(&f);
+    thr_subgroup_classes classes;
+    ck_assert_int_eq(thr_subgroup_classes_find(&g, 1000, &classes, NULL), THR_OK);
+    for (int k = 0; k < classes.n; k++)
+      for (int most = 2; most <= 4; most += 2) {
+        thr_cover_options o = cover_options((thr_ends)ends, 1);
+        o.tube = true;
+        if (most == 2) o.edge_capacity = capacity;
+        for (int e = 0; e < f.n_edges; e++)
+          capacity[e] = most;
+        if (classes.subgroup[k].order <= 48) compare_with_exhaustion(t, &f, &g, &classes.subgroup[k], &o, &n);
+      }
+    thr_subgroup_classes_destroy(&classes);
+    thr_group_destroy(&g);
+    thr_frame_destroy(&f);
+  }
+  ck_assert_int_ge(n.compared, 10);
 }
 END_TEST
 
@@ -585,8 +660,9 @@ START_TEST(capacities_match_exhaustion)
     ck_assert_int_eq(thr_subgroup_classes_find(&g, 1000, &classes, NULL), THR_OK);
     for (int k = 0; k < classes.n; k++)
       for (int most = 1; most <= 3; most++) {
-        thr_cover_options o = {1,      (thr_ends)ends, NULL, {THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_PATHS, THR_AIM_TURNING},
-                               needed, capacity,       false};
+        thr_cover_options o = cover_options((thr_ends)ends, 1);
+        o.edge_cover = needed;
+        o.edge_capacity = capacity;
         for (int e = 0; e < f.n_edges; e++) {
           needed[e] = 1;
           capacity[e] = most;
@@ -611,8 +687,9 @@ START_TEST(covers_by_edge)
   int needed[] = {2, 1, 2, 1}, capacity[] = {2, 3, 2, 3}, asked = 0;
   ck_assert_int_eq(thr_subgroup_classes_find(&g, 1000, &classes, NULL), THR_OK);
   for (int k = 0; k < classes.n; k++) {
-    thr_cover_options o = {1,      THR_ENDS_CLOSED, NULL, {THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_PATHS, THR_AIM_TURNING},
-                           needed, capacity,        false};
+    thr_cover_options o = cover_options(THR_ENDS_CLOSED, 1);
+    o.edge_cover = needed;
+    o.edge_capacity = capacity;
     const thr_limits limits = {.deadline = thr_clock() + 20};
     thr_quotient q;
     thr_cover c;
@@ -671,34 +748,6 @@ static thr_frame diagonal_tube(int n, int rings)
   return f;
 }
 
-/* The icosahedron with its corners cut off: a node on each half-edge, a third along. */
-static thr_frame truncated_icosahedron(void)
-{
-  thr_frame whole = solid_make(ICOSAHEDRON), f;
-  thr_draft d = {0};
-  thr_read_report report;
-  for (int h = 0; h < 2 * whole.n_edges; h++) {
-    const double *a = whole.xyz[thr_tail(&whole, h)], *b = whole.xyz[thr_head(&whole, h)];
-    double xyz[3];
-    for (int i = 0; i < 3; i++)
-      xyz[i] = (2 * a[i] + b[i]) / 3;
-    ck_assert_int_eq(thr_draft_add_node(&d, xyz, NULL, false, NULL), THR_OK);
-  }
-  for (int h = 0; h < 2 * whole.n_edges; h++) {
-    if (h % 2 == 0) ck_assert_int_eq(thr_draft_add_edge(&d, h, h + 1, 0, NULL), THR_OK);
-    for (int k = 0; k < h; k++)
-      if (thr_tail(&whole, h) == thr_tail(&whole, k) &&
-          thr_frame_edge_between(&whole, thr_head(&whole, h), thr_head(&whole, k)) >= 0)
-        ck_assert_int_eq(thr_draft_add_edge(&d, h, k, 0, NULL), THR_OK);
-  }
-  ck_assert_int_eq(thr_draft_build(&d, -1, &f, &report, NULL), THR_OK);
-  ck_assert_int_eq(f.n_nodes, 60);
-  ck_assert_int_eq(f.n_edges, 90);
-  thr_draft_destroy(&d);
-  thr_frame_destroy(&whole);
-  return f;
-}
-
 typedef struct {
   int order;
   const char *group; /* NULL: any of that order */
@@ -729,8 +778,7 @@ static void expect(thr_frame f, const row *list, int n)
       thr_point_group_name(element, h->order, name);
       free(element);
       if (h->order != list[i].order || (list[i].group && strcmp(name, list[i].group) != 0)) continue;
-      thr_cover_options o = {list[i].cover, list[i].ends, NULL, {THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_PATHS, THR_AIM_TURNING},
-                             NULL,          NULL,         false};
+      thr_cover_options o = cover_options(list[i].ends, list[i].cover);
       thr_limits limits = {.deadline = thr_clock() + 60};
       thr_quotient q;
       thr_cover c;
@@ -785,7 +833,7 @@ START_TEST(trivial_group_is_route_inspection)
     thr_frame f = random_frame(&r, rng_between(&r, 4, 16), rng_between(&r, 0, 14), (length_kind)(i % LENGTH_KINDS));
     thr_plan_options plan = options_for(THR_ENDS_CLOSED, 1 + i % 2);
     thr_cover_options o = {
-        plan.cover, THR_ENDS_CLOSED, NULL, {THR_AIM_OVERLAP, THR_AIM_PATHS, THR_AIM_STEPS, THR_AIM_TURNING}, NULL, NULL, false};
+        .cover = plan.cover, .ends = THR_ENDS_CLOSED, .prefer = {THR_AIM_OVERLAP, THR_AIM_PATHS, THR_AIM_STEPS, THR_AIM_TURNING}};
     thr_limits limits = {.deadline = thr_clock() + 2};
     thr_group g;
     thr_quotient q;
@@ -813,6 +861,7 @@ int main(void)
   Suite *s = suite_create("cover");
   ADD_LOOP(s, 120, covers_match_exhaustion, 0, EXAMPLES);
   ADD_LOOP(s, 120, capacities_match_exhaustion, 0, EXAMPLES);
+  ADD_LOOP(s, 240, tied_covers_match_exhaustion, 0, EXAMPLES);
   ADD_TEST(s, 20, covers_by_edge);
   ADD_TEST(s, 60, domes);
   ADD_TEST(s, 60, solids);

@@ -355,9 +355,10 @@ END_TEST
 
 START_TEST(too_large_weights_are_refused_or_go_to_the_other_engine)
 {
-  graph g = graph_make(2);
-  add(&g, 0, 1, THR_MOAT_WEIGHTS_MOST);
-  add(&g, 0, 1, 5);
+  graph g = graph_make(3);
+  add(&g, 0, 1, _i ? THR_MOAT_WEIGHTS_MOST + 1 : THR_MOAT_WEIGHTS_MOST); /* too large by itself, or with the other one */
+  add(&g, 1, 2, _i ? 5 : THR_MOAT_WEIGHTS_MOST);
+  add(&g, 2, 0, _i ? 5 : THR_MOAT_WEIGHTS_MOST);
   g.odd[0] = g.odd[1] = true;
   thr_tjoin_problem p = problem_of(&g);
   thr_tjoin t;
@@ -366,9 +367,29 @@ START_TEST(too_large_weights_are_refused_or_go_to_the_other_engine)
   ck_assert_ptr_null(t.in_join);
   assert_one_line(&err, "large");
   ck_assert_int_eq(thr_tjoin_shrunk(&p, THR_ENGINE_AUTO, &no_limit, &t, NULL), THR_OK);
-  assert_optimal(&g, &t, 5);
+  assert_optimal(&g, &t, _i ? 10 : THR_MOAT_WEIGHTS_MOST);
   thr_tjoin_destroy(&t);
   graph_destroy(&g);
+}
+END_TEST
+
+/* All weights together are more than a spanning tree may be. */
+START_TEST(large_weights_with_a_light_tree_are_matched)
+{
+  rng r = rng_make(5000);
+  int tried = 0;
+  for (int k = 0; k < 400; k++) {
+    graph g = draw_graph(&r, 6, (shape_kind)(k % SHAPES), WEIGHTS_SMALL);
+    int64_t sum = 0;
+    for (int e = 0; e < g.m; e++)
+      sum += g.weight[e] *= THR_MOAT_WEIGHTS_MOST >> 6; /* seven of nine at most fit in 64 */
+    if (g.m <= 17 && g.n <= 8 && sum > THR_MOAT_WEIGHTS_MOST && sum <= 2 * THR_MOAT_WEIGHTS_MOST) {
+      assert_all_ways(&g, least_by_subsets(&g));
+      tried++;
+    }
+    graph_destroy(&g);
+  }
+  ck_assert_int_ge(tried, 20);
 }
 END_TEST
 
@@ -402,7 +423,8 @@ int main(void)
   ADD_LOOP(s, 30, same_input_gives_the_same_join, 0, 24);
   ADD_TEST(s, 30, a_stopped_one_is_valid);
   ADD_LOOP(s, 60, every_allocation_fails_once, 0, 12);
-  ADD_TEST(s, 30, too_large_weights_are_refused_or_go_to_the_other_engine);
+  ADD_LOOP(s, 30, too_large_weights_are_refused_or_go_to_the_other_engine, 0, 2);
+  ADD_TEST(s, 30, large_weights_with_a_light_tree_are_matched);
   ADD_LOOP(s, 60, glpk_confirms_what_is_optimal_and_nothing_else, 0, 8);
   return run_suite(s);
 }

@@ -1,5 +1,5 @@
 /* The shortest cords for tube joints against all passes and all turns of small frameworks, and against published values. */
-#include "tests/support.h"
+#include "tests/ties.h"
 #include "graph/junction.h"
 #include "tortuosity/tortuosity.h"
 #include "tortuosity/tube.h"
@@ -8,62 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MORE = 3, MOST_EDGES = 8, MOST_NODES = 8, MOST_ENDS = 6, MOST_DEGREE = 6 };
-
-/* ---- what it costs to tie a node: all turns there ---- */
-
-typedef struct {
-  int d; /* edges; point d stands for the cord ends */
-  int left[MOST_DEGREE + 1];
-  double price[MOST_DEGREE][MOST_DEGREE];
-  unsigned link[MOST_DEGREE + 1];
-  double least;
-} knot;
-
-static bool connected(int d, const unsigned *link)
-{
-  unsigned seen = 1, next = 1;
-  while (next) {
-    int i = 0;
-    while (!(next >> i & 1u))
-      i++;
-    next &= ~(1u << i);
-    next |= link[i] & ~seen;
-    seen |= link[i];
-  }
-  return seen == (1u << d) - 1;
-}
-
-/* Numbers of turns between points a and b and all later pairs, of which none is of a point with itself. */
-static void all_turns(knot *k, int a, int b, double price)
-{
-  if (b > k->d) {
-    if (k->left[a] > 0) return;
-    a++;
-    b = a + 1;
-  }
-  if (price >= k->least) return;
-  if (a == k->d) {
-    if (k->left[a] == 0 && connected(k->d, k->link)) k->least = price;
-    return;
-  }
-  bool end = b == k->d;
-  int most = k->left[a] < k->left[b] ? k->left[a] : k->left[b];
-  for (int n = 0; n <= most; n++) {
-    unsigned before[2] = {k->link[a], k->link[b]};
-    if (n > 0 && !end) {
-      k->link[a] |= 1u << b;
-      k->link[b] |= 1u << a;
-    }
-    k->left[a] -= n;
-    k->left[b] -= n;
-    all_turns(k, a, b + 1, price + (end ? 0 : n * k->price[a][b]));
-    k->left[a] += n;
-    k->left[b] += n;
-    k->link[a] = before[0];
-    k->link[b] = before[1];
-  }
-}
+enum { MORE = 3, MOST_EDGES = 8, MOST_NODES = 8, MOST_ENDS = 6, MOST_DEGREE = MOST_TIED };
 
 typedef struct {
   const thr_frame *f;
@@ -77,7 +22,7 @@ typedef struct {
 static double tie(oracle *w, int v, int ends)
 {
   const thr_frame *f = w->f;
-  knot k = {.d = thr_degree(f, v), .least = INFINITY};
+  tied_star k = {.d = thr_degree(f, v)};
   int name = ends;
   for (int i = 0; i < k.d; i++) {
     int h = f->half[f->first[v] + i];
@@ -89,8 +34,7 @@ static double tie(oracle *w, int v, int ends)
   k.left[k.d] = ends;
   double *known = &w->known[v][name];
   if (*known >= 0) return *known;
-  all_turns(&k, 0, 1, 0);
-  return *known = k.least;
+  return *known = least_by_all_turns(&k);
 }
 
 /* Least price of all turns for these passes: of every component by the number of its ends. */

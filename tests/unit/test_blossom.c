@@ -79,7 +79,7 @@ END_TEST
 START_TEST(largest_weights)
 {
   static instance g = {.n_nodes = 6};
-  int64_t most = INT64_C(1) << 50;
+  int64_t most = THR_MATCHING_WEIGHT_MOST;
   for (int v = 0; v < 6; v++)
     join(&g, v, v % 3 == 2 ? v - 2 : v + 1, most);
   join(&g, 2, 5, most);
@@ -110,7 +110,7 @@ START_TEST(no_perfect_matching)
   assert_fails(&g, THR_EINFEASIBLE, "perfect matching"); /* an odd number */
   g.n_nodes = 4;
   assert_fails(&g, THR_EINFEASIBLE, "perfect matching"); /* node 3 is alone */
-  join(&g, 1, 3, INT64_C(1) << 50);
+  join(&g, 1, 3, THR_MATCHING_WEIGHT_MOST);
   assert_fails(&g, THR_EINFEASIBLE, "perfect matching"); /* a star */
   g = (instance){.n_nodes = 6};
   for (int v = 0; v < 6; v++)
@@ -124,7 +124,7 @@ START_TEST(input_out_of_range)
   static const struct {
     int u, v;
     int64_t weight;
-  } bad[] = {{0, 2, 1}, {-1, 1, 1}, {1, 1, 1}, {0, 1, -1}, {0, 1, (INT64_C(1) << 50) + 1}};
+  } bad[] = {{0, 2, 1}, {-1, 1, 1}, {1, 1, 1}, {0, 1, -1}, {0, 1, THR_MATCHING_WEIGHT_MOST + 1}};
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
     static instance g;
     g = (instance){.n_nodes = 2};
@@ -140,7 +140,7 @@ START_TEST(sums_too_large)
 {
   static instance g = {.n_nodes = 4000};
   for (int v = 0; v < g.n_nodes; v += 2)
-    join(&g, v, v + 1, INT64_C(1) << 50);
+    join(&g, v, v + 1, THR_MATCHING_WEIGHT_MOST);
   assert_fails(&g, THR_EINPUT, "too large");
 }
 END_TEST

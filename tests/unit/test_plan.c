@@ -217,10 +217,34 @@ START_TEST(missing_file_is_named)
 }
 END_TEST
 
+START_TEST(common_unit_of_lengths)
+{
+  static const struct {
+    double length[4], unit;
+  } known[] = {
+      {{1, 1, 1, 1}, 1},
+      {{20, 25, 45, 5}, 5},
+      {{0.3, 0.1 + 0.2, 0.7, 0.1}, 0.1}, /* in floating point */
+      {{1. / 3, 1. / 7, 2. / 3, 5. / 7}, 1. / 21},
+      {{1e9, 1.5e9, 2e9, 1e9}, 0.5e9},
+      {{1, 1, 1.4142135623730951, 1}, 0},
+      {{1, 1, 1, 1 + 1e-8}, 0},
+      {{1, 2, 3, 3.0001}, 0}, /* a unit too small to tell */
+  };
+  for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+    thr_frame f = ring_make(4);
+    memcpy(f.length, known[i].length, sizeof known[i].length);
+    ck_assert_double_le(fabs(thr_plan_unit(&f) - known[i].unit), 1e-12 * known[i].unit);
+    thr_frame_destroy(&f);
+  }
+}
+END_TEST
+
 int main(void)
 {
   Suite *s = suite_create("plan");
   ADD_TEST(s, 10, cord_ids_count_like_columns);
+  ADD_TEST(s, 10, common_unit_of_lengths);
   ADD_TEST(s, 10, turn_angles_have_closed_forms);
   ADD_TEST(s, 10, ring_is_measured);
   ADD_TEST(s, 10, path_there_and_back_is_measured);

@@ -289,25 +289,22 @@ START_TEST(broken_plans_are_refused)
 }
 END_TEST
 
+typedef struct {
+  thr_plan plan;
+  writer *write;
+} wanted;
+
+static thr_status write_wanted(const void *user, thr_text *t, thr_err *err)
+{
+  const wanted *w = user;
+  return w->write(&w->plan, t, err);
+}
+
 START_TEST(every_allocation_may_fail)
 {
-  thr_plan p = plan_number(7);
-  thr_status st = THR_ENOMEM;
-  for (long k = 1; st; k++) {
-    thr_text t = {0};
-    thr_err err = {0};
-    thr_alloc_fail_at(k);
-    st = writers[_i](&p, &t, &err);
-    thr_alloc_fail_at(0);
-    if (st) {
-      ck_assert_int_eq(st, THR_ENOMEM);
-      ck_assert_uint_eq(t.length, 0);
-      assert_one_line(&err, "memory");
-    }
-    thr_text_destroy(&t);
-    ck_assert_int_lt(k, 1000);
-  }
-  thr_plan_destroy(&p);
+  wanted w = {plan_number(7), writers[_i]};
+  assert_allocations_may_fail(write_wanted, &w, 1000);
+  thr_plan_destroy(&w.plan);
 }
 END_TEST
 

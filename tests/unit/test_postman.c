@@ -1,5 +1,6 @@
 /* T-joins and the shortest cord: known answers, data files, limits. */
 #include "tests/support.h"
+#include "graph/make.h"
 #include "lp/tjoin.h"
 
 #include <math.h>
@@ -367,6 +368,56 @@ START_TEST(joins_match_all_subsets)
 }
 END_TEST
 
+/* A cord end may be at each of thousands of nodes: pairs over outside are too many to list. */
+START_TEST(ends_anywhere_in_a_large_framework)
+{
+  thr_make_options make = thr_make_options_default(THR_MAKE_HONEYCOMB);
+  make.size = 22;
+  thr_draft draft = {0};
+  thr_frame f;
+  thr_read_report report;
+  ck_assert_int_eq(thr_make(&draft, &make, NULL), THR_OK);
+  ck_assert_int_eq(thr_draft_build(&draft, -1, &f, &report, NULL), THR_OK);
+  rng r = rng_make(6);
+  for (int e = 0; e < f.n_edges; e++)
+    f.length[e] = 10 + 20 * rng_unit(&r);
+  double closed = INFINITY;
+  for (int cords = 0; cords <= 3; cords++) { /* 0: a closed one */
+    thr_plan_options o = options_for(cords ? THR_ENDS_ANY : THR_ENDS_CLOSED, 1);
+    thr_shortest s;
+    thr_err err = {0};
+    o.confirm = THR_CONFIRM_NEVER;
+    o.cords = o.cords_least = cords ? cords : 1;
+    ck_assert_msg(thr_postman_shortest(&f, &o, &(thr_limits){0}, &s, &err) == THR_OK, "%s", err.text);
+    ck_assert(s.optimal);
+    ck_assert_double_lt(s.length, closed);
+    ck_assert(s.confirmed.confirmed == 0 && s.confirmed.skipped == 0);
+    closed = s.length;
+    thr_shortest_destroy(&s);
+  }
+  thr_frame_destroy(&f);
+  thr_draft_destroy(&draft);
+}
+END_TEST
+
+/* More edges than are confirmed without being asked. */
+START_TEST(confirmation_as_asked)
+{
+  thr_frame f = grid_make(72, 72);
+  ck_assert_int_gt(f.n_edges, THR_CONFIRM_EDGES);
+  for (thr_confirm c = THR_CONFIRM_AUTO; c <= THR_CONFIRM_NEVER; c++) {
+    thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+    thr_shortest s;
+    o.confirm = c;
+    ck_assert_int_eq(thr_postman_shortest(&f, &o, &(thr_limits){0}, &s, NULL), THR_OK);
+    ck_assert_int_eq(s.confirmed.confirmed, c == THR_CONFIRM_ALWAYS);
+    ck_assert_int_eq(s.confirmed.skipped, c == THR_CONFIRM_AUTO);
+    thr_shortest_destroy(&s);
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 int main(void)
 {
   Suite *s = suite_create("shortest cord");
@@ -385,6 +436,8 @@ int main(void)
   ADD_LOOP(s, 60, passed_deadline_leaves_valid_passes, 0, 4);
   ADD_LOOP(s, 30, interrupt_between_rounds_leaves_a_valid_plan, 0, 6);
   ADD_TEST(s, 10, stopped_before_any_proof_with_many_components);
+  ADD_TEST(s, 60, ends_anywhere_in_a_large_framework);
+  ADD_TEST(s, 60, confirmation_as_asked);
   ADD_LOOP(s, 10, joins_match_all_subsets, 0, 300);
   return run_suite(s);
 }

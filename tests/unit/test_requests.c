@@ -51,6 +51,7 @@ START_TEST(everything_asked_for_survives_json)
   o.capacity = 3;
   o.cords_least = 2, o.cords = 5;
   o.max_length = 12.5, o.balance = true, o.joint = THR_JOINT_TUBE;
+  o.engine = THR_ENGINE_LP, o.confirm = THR_CONFIRM_NEVER;
   thr_plan p, q;
   const int walk[] = {0, 1, 2};
   const int *const node[] = {walk};
@@ -63,6 +64,7 @@ START_TEST(everything_asked_for_survives_json)
   ck_assert(q.options.ends == THR_ENDS_COUNTS && memcmp(q.options.end_count, end_count, sizeof end_count) == 0);
   ck_assert(q.options.capacity == 3 && q.options.cords_least == 2 && q.options.cords == 5 && q.options.balance);
   ck_assert(q.options.max_length == 12.5 && q.options.joint == THR_JOINT_TUBE);
+  ck_assert(q.options.engine == THR_ENGINE_LP && q.options.confirm == THR_CONFIRM_NEVER);
   ck_assert(q.cords_claim.present && q.cords_claim.longest == 2 && q.cords_claim.longest_bound == 1.5);
   ck_assert(q.cords_claim.longest_optimal && q.cords_claim.fewest == 7 && q.cords_claim.fewest_optimal);
   thr_text again = plan_text(&q);
@@ -113,6 +115,10 @@ START_TEST(nonsense_is_refused)
       {"\"cover\": 1", "\"cover\": 1, \"max_length\": 0", "max_length"},
       {"\"cover\": 1", "\"cover\": 1, \"max_length\": -1", "max_length"},
       {"\"cover\": 1", "\"cover\": 1, \"balance\": 1", "balance"},
+      {"\"cover\": 1", "\"cover\": 1, \"engine\": \"magic\"", "engine"},
+      {"\"cover\": 1", "\"cover\": 1, \"engine\": null", "engine"},
+      {"\"cover\": 1", "\"cover\": 1, \"confirm\": true", "confirm"},
+      {"\"cover\": 1", "\"cover\": 1, \"confirm\": \"sometimes\"", "confirm"},
       {"\"closed\"", "\"counts\"", "end_counts"},
       {"\"ends\": \"closed\"", "\"ends\": \"counts\", \"end_counts\": [[0]]", "end_counts"},
       {"\"ends\": \"closed\"", "\"ends\": \"counts\", \"end_counts\": [[8,1]]", "end_counts"},
@@ -297,6 +303,19 @@ START_TEST(a_claim_about_one_cord)
 }
 END_TEST
 
+/* 7 edges of one length in two cords: one has 4 of them. */
+START_TEST(a_bound_in_whole_edges)
+{
+  thr_plan p = two_squares(2);
+  ck_assert_double_eq_tol(p.cords_claim.longest_bound, 4, 1e-9);
+  ck_assert(p.cords_claim.longest >= 4);
+  assert_plan_sound(&p);
+  p.cords_claim.longest_bound = 4.001;
+  assert_violated(&p, "lower_bound");
+  thr_plan_destroy(&p);
+}
+END_TEST
+
 /* 7 units in cords of at most 4: two at least; of at most 3: three. */
 START_TEST(a_claim_about_the_fewest)
 {
@@ -317,7 +336,7 @@ START_TEST(a_claim_about_the_fewest)
     ck_assert_int_eq(thr_check_cords(&p.frame, &p.options, p.cord, n, p.proof.certificate, 1, &p.cords_claim, &err), THR_OK);
     ck_assert_int_eq(p.cords_claim.fewest, least < n ? least : n);
     ck_assert_int_eq(p.cords_claim.fewest_optimal, p.cords_claim.fewest == n);
-    ck_assert_double_eq_tol(p.cords_claim.longest_bound, 7.0 / 5, 1e-9);
+    ck_assert_double_eq_tol(p.cords_claim.longest_bound, 2, 1e-9);
     assert_plan_sound(&p);
     p.cords_claim.fewest++;
     assert_violated(&p, "fewest");
@@ -376,6 +395,7 @@ int main(void)
   ADD_TEST(s, 10, cords_that_are_too_long);
   ADD_TEST(s, 10, tube_joints);
   ADD_TEST(s, 10, a_claim_about_one_cord);
+  ADD_TEST(s, 10, a_bound_in_whole_edges);
   ADD_TEST(s, 10, a_claim_about_the_fewest);
   ADD_TEST(s, 10, the_longest_forced_detour);
   ADD_TEST(s, 10, every_allocation_of_the_check_fails_once);

@@ -1,0 +1,87 @@
+/* The pieces of the picture that the legend shows, too, and the style of all. */
+#include "diagram/draw.h"
+
+#include "diagram/svg.h"
+
+#include <math.h>
+
+void thr_draw_mark(const thr_scene *s, const thr_mark *m, bool end, bool pale, const char *ring, double x, double y, thr_text *t)
+{
+  double r = m->radius, size = thr_scene_characters(m->text) > 1 ? s->size.text : fmax(s->size.text, 1.35 * r);
+  const char *class = pale ? "mark pale" : "mark";
+  if (end)
+    thr_text_printf(t, "<rect class=\"%s\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" stroke=\"%s\"/>", class,
+                    thr_svg_round(x - 0.92 * r), thr_svg_round(y - 0.92 * r), 1.84 * r, 1.84 * r, ring);
+  else
+    thr_text_printf(t, "<circle class=\"%s\" cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\" stroke=\"%s\"/>", class, thr_svg_round(x),
+                    thr_svg_round(y), r, ring);
+  thr_svg_text(t, x, y + 0.36 * size, size, pale ? " class=\"middle\"" : " class=\"middle light\" font-weight=\"bold\"", m->text);
+}
+
+void thr_draw_pill(const thr_scene *s, const char *number, const char *colour, double x, double y, thr_text *t)
+{
+  double w = thr_scene_pill_width(s, number), h = thr_scene_pill_height(s);
+  thr_text_printf(t, "<rect class=\"pill\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" rx=\"%.2f\" stroke=\"%s\"/>",
+                  thr_svg_round(x - 0.5 * w), thr_svg_round(y - 0.5 * h), w, h, 0.5 * h, colour);
+  thr_svg_text(t, x, y + 0.36 * s->size.text, s->size.text, " class=\"middle\"", number);
+}
+
+void thr_draw_seam(const thr_scene *s, const thr_mark *m, const char *colour, thr_text *t)
+{
+  double w = 2 * m->half[0], h = 2 * m->half[1];
+  thr_text_printf(t, "<rect class=\"tag\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" stroke=\"%s\"/>",
+                  thr_svg_round(m->at[0] - 0.5 * w), thr_svg_round(m->at[1] - 0.5 * h), w, h, colour);
+  thr_svg_text(t, m->at[0], m->at[1] + 0.36 * s->size.text, s->size.text, " class=\"middle\"", m->text);
+}
+
+void thr_draw_foot_pad(const thr_scene *s, double x, double y, thr_text *t)
+{
+  double half = s->size.foot;
+  thr_text_printf(t, "<rect class=\"foot\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/>\n", thr_svg_round(x - half),
+                  thr_svg_round(y - half), 2 * half, 2 * half);
+}
+
+void thr_draw_sharp(const thr_scene *s, double x, double y, thr_text *t)
+{
+  double half = thr_scene_sharp_size(s);
+  thr_text_printf(t, "<path class=\"sharp\" d=\"M%.2f %.2fl%.2f %.2fl%.2f %.2fl%.2f %.2fz\"/>", thr_svg_round(x),
+                  thr_svg_round(y - half), half, half, -half, half, -half, -half);
+}
+
+void thr_draw_dash(const thr_scene *s, const double *dash, thr_text *t)
+{
+  if (!dash) return;
+  thr_text_append(t, " stroke-linecap=\"butt\" stroke-dasharray=\"");
+  for (int i = 0; dash[i] > 0; i++)
+    thr_text_printf(t, "%s%.2f", i ? " " : "", dash[i] * s->size.cord);
+  thr_text_append(t, "\"");
+}
+
+void thr_draw_css(const thr_scene *s, thr_text *t)
+{
+  double w = s->size.cord, c = s->size.casing, thin = fmin(0.2, 0.02 * s->size.pitch);
+  thr_text_append(t, "<style>\n.thread text{stroke:none;fill:#222;font-family:'DejaVu Sans',Verdana,sans-serif}\n");
+  thr_text_append(t, ".thread .middle{text-anchor:middle}.thread text.light{fill:#fff}.thread .place text{fill:#555}\n");
+  thr_text_printf(t, ".thread .bead{fill:#f3f1ea;stroke:#bdb8a8;stroke-width:%.2f}\n", thin);
+  thr_text_printf(t, ".thread .foot{fill:#e3d6b8;stroke:#8f7c4f;stroke-width:%.2f}\n", thin);
+  thr_text_printf(t, ".thread .casing{fill:none;stroke:#fff;stroke-width:%.2f;stroke-linejoin:round}\n", w + 2 * c);
+  thr_text_printf(t, ".thread .cord{fill:none;stroke-width:%.2f;stroke-linejoin:round}\n", s->turning ? w + c : w);
+  if (s->turning) /* the cord's own colour is a paler border; a round end would cover the colour of the turn before */
+    thr_text_printf(t,
+                    ".thread .cord{stroke-opacity:0.55}.thread "
+                    ".turn{fill:none;stroke-width:%.2f;stroke-linejoin:round;stroke-linecap:round}\n",
+                    w);
+  else
+    thr_text_append(t, ".thread .cord:not([stroke-dasharray]){stroke-linecap:round}\n");
+  thr_text_printf(t, ".thread .arrow{stroke:#fff;stroke-width:%.2f;stroke-linejoin:round;paint-order:stroke}\n", c);
+  if (s->copy) /* after the rules that it changes */
+    thr_text_printf(t, ".thread .copy .cord{stroke-width:%.2f}.thread .copy .casing{stroke-width:%.2f}\n", 0.7 * w,
+                    0.7 * w + 2 * c);
+  thr_text_printf(
+      t, ".thread .pill{fill:#fff;stroke-width:%.2f}.thread .mark{fill:#111;stroke-width:0.80}.thread .mark.pale{fill:#fff}\n",
+      fmin(0.45, fmax(w, 0.25)));
+  if (s->layout->node)
+    thr_text_append(t, ".thread .tag{fill:#fff;stroke-width:0.45}.thread .place text.seam{fill:#111;font-weight:bold}\n");
+  thr_text_printf(t, ".thread .sharp{fill:#111;stroke:#fff;stroke-width:%.2f}\n", 0.5 * c);
+  thr_text_append(t, ".thread .bar{fill:none;stroke:#222;stroke-width:0.40}\n</style>\n");
+}

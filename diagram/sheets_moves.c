@@ -1,0 +1,164 @@
+/* The order of threading, and its rows in words. */
+#include "diagram/palette.h"
+#include "diagram/sheets_parts.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Pass at whose start the way along the cord is nearest to half of it; 0 for a cord that is not worth a fold. */
+static int middle_of(const thr_frame *f, const thr_cord *c)
+{
+  if (c->n_passes < THR_SHEETS_FOLD) return 0;
+  double half = thr_cord_length(f, c) / 2, along = 0, least = HUGE_VAL;
+  int best = 0;
+  for (int k = 1; k < c->n_passes; k++) {
+    along += f->length[c->half[k - 1] >> 1];
+    if (fabs(along - half) >= least) break;
+    least = fabs(along - half);
+    best = k;
+  }
+  return best;
+}
+
+static void add_move(thr_sheets *s, thr_held *held, thr_needle needle, int c, int k, double *used)
+{
+  int h = s->plan->cord[c].half[k] ^ (needle == THR_NEEDLE_LEFT), e = h >> 1;
+  *used += s->f->length[e];
+  if (!held->cords[e]) s->threaded[e] = s->n_moves;
+  thr_deed deed = thr_held_pass(held, h);
+  s->move[s->n_moves++] = (thr_move){.cord = c, .pass = k, .half = h, .deed = deed, .needle = needle, .used = *used};
+}
+
+static void add_cord(thr_sheets *s, thr_held *held, int c)
+{
+  const thr_cord *cord = &s->plan->cord[c];
+  int fold = s->fold[c] = s->o.middle ? middle_of(s->f, cord) : 0;
+  double used = 0, other = 0;
+  s->first_move[c] = s->n_moves;
+  for (int k = fold; k < cord->n_passes; k++)
+    add_move(s, held, fold ? THR_NEEDLE_RIGHT : THR_NEEDLE_ONLY, c, k, &used);
+  for (int k = fold - 1; k >= 0; k--)
+    add_move(s, held, THR_NEEDLE_LEFT, c, k, &other);
+}
+
+/* first_pass and moved: from the moves. */
+static void index_moves(thr_sheets *s)
+{
+  int first = 0;
+  for (int c = 0; c < s->plan->n_cords; c++) {
+    int n = s->plan->cord[c].n_passes;
+    s->first_pass[c] = first;
+    for (int i = s->first_move[c]; i < s->first_move[c] + n; i++)
+      s->moved[first + s->move[i].pass] = i;
+    first += n;
+  }
+}
+
+thr_status thr_sheets_plan_moves(thr_sheets *s, thr_err *err)
+{
+  int n = s->plan->n_cords, passes = 0;
+  for (int c = 0; c < n; c++)
+    passes += s->plan->cord[c].n_passes;
+  thr_held held = {0};
+  s->move = thr_calloc((size_t)passes, sizeof *s->move);
+  s->moved = thr_calloc((size_t)passes, sizeof *s->moved);
+  s->first_move = thr_calloc((size_t)n, sizeof *s->first_move);
+  s->first_pass = thr_calloc((size_t)n, sizeof *s->first_pass);
+  s->fold = thr_calloc((size_t)n, sizeof *s->fold);
+  s->threaded = thr_calloc((size_t)s->f->n_edges, sizeof *s->threaded);
+  thr_status st = s->move && s->moved && s->first_move && s->first_pass && s->fold && s->threaded
+                      ? thr_held_make(&held, s->f->n_edges, err)
+                      : thr_nomem(err);
+  if (st) goto done;
+  for (int e = 0; e < s->f->n_edges; e++)
+    s->threaded[e] = passes;
+  for (int path = 0; path < n; path++) {
+    if (s->copy[path].of != path) continue;
+    add_cord(s, &held, path);
+    for (int c = 0; c < n; c++)
+      if (c != path && s->copy[c].of == path) add_cord(s, &held, c);
+  }
+  index_moves(s);
+done:
+  thr_held_destroy(&held);
+  return st;
+}
+
+void thr_sheets_cord_words(const thr_sheets *s, int c, char words[96])
+{
+  static const char *const dash[THR_DASHES] = {"", ", dashed", ", dotted", ", dash-dotted"};
+  int n = s->plan->n_cords, hue = s->copy[c].path;
+  if (n == 1)
+    snprintf(words, 96, "Cord %s", s->plan->cord[c].id);
+  else
+    snprintf(words, 96, "Cord %s (%s%s%s)", s->plan->cord[c].id, s->copy[c].of == c ? "" : "pale ", thr_palette(hue).name,
+             dash[hue / THR_COLOURS % THR_DASHES]);
+}
+
+/* ---- rows ---- */
+
+static const char *place_of(const thr_sheets *s, int v)
+{
+  return s->guide.label[v];
+}
+
+/* Does move i follow on the move before it, of the same needle? */
+static bool follows(const thr_sheets *s, int i)
+{
+  return i > 0 && s->move[i].cord == s->move[i - 1].cord && s->move[i].needle == s->move[i - 1].needle;
+}
+
+static bool goes_straight(const thr_sheets *s, int i)
+{
+  return follows(s, i) && thr_guide_way(&s->guide, s->move[i - 1].half, s->move[i].half) == THR_WAY_STRAIGHT;
+}
+
+/* " (kind 3)", " (kinds 3 x 4, 5, 3)": of the beads that the moves from first to before end pick up. */
+static void put_kinds(const thr_sheets *s, int first, int end, thr_text *words)
+{
+  int distinct = 0;
+  for (int i = first; i < end; i++)
+    distinct += s->edge_kind[s->move[i].half >> 1] != s->edge_kind[s->move[first].half >> 1];
+  thr_text_append(words, distinct ? " (kinds" : " (kind");
+  for (int i = first, next; i < end; i = next) {
+    int kind = s->edge_kind[s->move[i].half >> 1];
+    for (next = i + 1; next < end && s->edge_kind[s->move[next].half >> 1] == kind;)
+      next++;
+    thr_text_printf(words, "%s %d", i > first ? "," : "", kind);
+    if (distinct && next - i > 1) thr_text_printf(words, " x %d", next - i);
+  }
+  thr_text_append(words, ")");
+}
+
+/* "turn left 93 degrees, then straight on", or what fits of it. */
+static void put_way(const thr_sheets *s, int first, int end, thr_text *words)
+{
+  if (!follows(s, first))
+    thr_text_append(words, end > first + 1 ? "go straight on" : "go");
+  else {
+    thr_guide_say(&s->guide, s->move[first - 1].half, s->move[first].half, words);
+    if (end > first + 1 && !goes_straight(s, first)) thr_text_append(words, ", then straight on");
+  }
+}
+
+int thr_sheets_run(const thr_sheets *s, int first, int end, thr_text *words)
+{
+  const thr_move *m = &s->move[first];
+  int next = first + 1;
+  while (next < end && goes_straight(s, next) && s->move[next].deed == m->deed)
+    next++;
+  int n = next - first, last = s->move[next - 1].pass;
+  thr_text_printf(words, "pass %d", m->pass + 1);
+  if (n > 1) thr_text_printf(words, "-%d", last + 1);
+  thr_text_append(words, ": ");
+  put_way(s, first, next, words);
+  if (n > 1) thr_text_printf(words, ", %d beads", n);
+  thr_text_printf(words, ", %s to", place_of(s, thr_tail(s->f, m->half)));
+  for (int i = first; i < next; i++)
+    thr_text_printf(words, " %s", place_of(s, thr_head(s->f, s->move[i].half)));
+  thr_text_printf(words, ": %s %d", thr_deed_words(m->deed), n);
+  if (m->deed == THR_PICK_UP && s->edge_kinds > 1) put_kinds(s, first, next, words);
+  return next;
+}

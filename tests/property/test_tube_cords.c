@@ -1,0 +1,571 @@
+/* Several cords for tube joints against all ways to choose them in small frameworks; what must hold in larger ones. */
+#include "tests/support.h"
+#include "tortuosity/tube_cords.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { EDGES = 6, NODES = 6, MOST = 3, PASSES = 11, SHAPES = 60000, TABLE = 1 << 18 };
+
+/* ---- the oracle: all that one cord can be ---- */
+
+/* Passes of the edges, the pairs of half-edges between which it turns as bits, and its ends if their numbers are given. */
+typedef struct {
+  int passes[EDGES];
+  uint64_t turns;
+  int end[2];
+  double length;
+} shape;
+
+typedef struct {
+  const thr_frame *f;
+  const thr_plan_options *o;
+  int pair[2 * EDGES][2 * EDGES]; /* bit of the turn between two half-edges that leave one node */
+  int n, walked[EDGES], most_passes;
+  shape *list;
+  int *table; /* of hashes; index + 1 */
+} shapes;
+
+static uint64_t name_of(const shape *s)
+{
+  uint64_t h = s->turns + 1;
+  for (int e = 0; e < EDGES; e++)
+    h = (h ^ (uint64_t)s->passes[e]) * UINT64_C(0x9e3779b97f4a7c15);
+  h = (h ^ (uint64_t)s->end[0]) * UINT64_C(0x9e3779b97f4a7c15);
+  h = (h ^ (uint64_t)s->end[1]) * UINT64_C(0x9e3779b97f4a7c15);
+  return h ^ h >> 29;
+}
+
+static bool same(const shape *a, const shape *b)
+{
+  return a->turns == b->turns && memcmp(a->passes, b->passes, sizeof a->passes) == 0 &&
+         memcmp(a->end, b->end, sizeof a->end) == 0;
+}
+
+static void keep(shapes *x, const shape *s)
+{
+  uint64_t i = name_of(s) % TABLE;
+  for (; x->table[i]; i = (i + 1) % TABLE)
+    if (same(&x->list[x->table[i] - 1], s)) return;
+  ck_assert_int_lt(x->n, SHAPES);
+  x->list[x->n++] = *s;
+  x->table[i] = x->n;
+}
+
+/* Every walk that goes on from half-edge last, from first on, without turning back. */
+static void walk_on(shapes *x, shape *s, int first, int last, int passes)
+{
+  const thr_frame *f = x->f;
+  const thr_plan_options *o = x->o;
+  int v = thr_head(f, last), start = thr_tail(f, first);
+  if (o->ends == THR_ENDS_CLOSED && v == start && first >> 1 != last >> 1) {
+    shape closed = *s;
+    closed.turns |= UINT64_C(1) << x->pair[last ^ 1][first];
+    keep(x, &closed);
+  } else if (o->ends != THR_ENDS_CLOSED && thr_plan_end_allowed(f, o, v)) {
+    shape open = *s;
+    bool counts = o->ends == THR_ENDS_COUNTS;
+    open.end[0] = counts ? (v < start ? v : start) : 0;
+    open.end[1] = counts ? (v < start ? start : v) : 0;
+    keep(x, &open);
+  }
+  for (int i = f->first[v]; i < f->first[v + 1] && passes < x->most_passes; i++) {
+    int h = f->half[i];
+    if (h >> 1 == last >> 1 || s->passes[h >> 1] == MOST) continue;
+    shape next = *s;
+    next.passes[h >> 1]++;
+    next.turns |= UINT64_C(1) << x->pair[last ^ 1][h];
+    next.length += f->length[h >> 1];
+    walk_on(x, &next, first, h, passes + 1);
+  }
+}
+
+static int by_length(const void *pa, const void *pb)
+{
+  const shape *a = pa, *b = pb;
+  return (a->length > b->length) - (a->length < b->length);
+}
+
+static void all_shapes(shapes *x, const thr_frame *f, const thr_plan_options *o)
+{
+  *x = (shapes){.f = f, .o = o, .most_passes = PASSES};
+  x->list = calloc(SHAPES, sizeof *x->list);
+  x->table = calloc(TABLE, sizeof *x->table);
+  int n = 0;
+  for (int a = 0; a < 2 * f->n_edges; a++)
+    for (int b = a + 1; b < 2 * f->n_edges; b++)
+      if (thr_tail(f, a) == thr_tail(f, b)) x->pair[a][b] = x->pair[b][a] = n++;
+  ck_assert_int_le(n, 64);
+  for (int h = 0; h < 2 * f->n_edges; h++) {
+    shape s = {.length = f->length[h >> 1]};
+    if (o->ends != THR_ENDS_CLOSED && !thr_plan_end_allowed(f, o, thr_tail(f, h))) continue;
+    s.passes[h >> 1] = 1;
+    walk_on(x, &s, h, h, 1);
+  }
+  qsort(x->list, (size_t)x->n, sizeof *x->list, by_length);
+  free(x->table);
+  x->table = NULL;
+}
+
+/* ---- and all that several can be together ---- */
+
+/* Do turns tie every node? */
+static bool tied(const shapes *x, uint64_t turns)
+{
+  const thr_frame *f = x->f;
+  for (int v = 0; v < f->n_nodes; v++) {
+    unsigned seen = 1, before = 0;
+    int d = thr_degree(f, v);
+    const int *half = &f->half[f->first[v]];
+    while (seen != before) {
+      before = seen;
+      for (int a = 0; a < d; a++)
+        for (int b = 0; b < d; b++)
+          if (a != b && (seen >> a & 1u) && turns >> x->pair[half[a]][half[b]] & 1u) seen |= 1u << b;
+    }
+    if (seen != (1u << d) - 1) return false;
+  }
+  return true;
+}
+
+static bool good(const shapes *x, const shape *s)
+{
+  for (int e = 0; e < x->f->n_edges; e++)
+    if (s->passes[e] < thr_plan_cover(x->f, x->o, e)) return false;
+  return tied(x, s->turns);
+}
+
+typedef struct {
+  const shapes *x;
+  bool together; /* the least length of all, not of the longest */
+  double best;
+  int ends[NODES];
+} choice;
+
+static bool right_ends(const choice *c)
+{
+  for (int v = 0; v < c->x->f->n_nodes && c->x->o->ends == THR_ENDS_COUNTS; v++)
+    if (c->ends[v] != c->x->o->end_count[v]) return false;
+  return true;
+}
+
+/* left more shapes, none before number from, beside sum. */
+static void choose(choice *c, int left, int from, const shape *sum)
+{
+  const shapes *x = c->x;
+  if (left == 0) {
+    double cost = sum->length;
+    if (cost < c->best && right_ends(c) && good(x, sum)) c->best = cost;
+    return;
+  }
+  for (int i = from; i < x->n; i++) {
+    const shape *s = &x->list[i];
+    shape next = *sum;
+    if (c->together ? sum->length + left * s->length >= c->best : s->length >= c->best) return; /* they are in order */
+    next.length = c->together ? sum->length + s->length : s->length;
+    next.turns |= s->turns;
+    bool fits = true;
+    for (int e = 0; e < x->f->n_edges; e++) {
+      next.passes[e] += s->passes[e];
+      fits &= next.passes[e] <= thr_plan_capacity(x->f, x->o, e);
+    }
+    c->ends[s->end[0]]++;
+    c->ends[s->end[1]]++;
+    if (fits) choose(c, left - 1, i, &next);
+    c->ends[s->end[0]]--;
+    c->ends[s->end[1]]--;
+  }
+}
+
+/* The least length of n cords together, or of the longest; INFINITY: there are none of so few passes. */
+static double least(const shapes *x, int n, bool together)
+{
+  choice c = {.x = x, .together = together, .best = INFINITY};
+  shape none = {.length = 0};
+  choose(&c, n, 0, &none);
+  return c.best;
+}
+
+/* ---- small frameworks ---- */
+
+static bool has_leaf(const thr_frame *f)
+{
+  for (int v = 0; v < f->n_nodes; v++)
+    if (thr_degree(f, v) == 1) return true;
+  return false;
+}
+
+/* With closed cords few that have a node with one edge, where there are none. */
+static thr_frame small_frame(rng *r, const thr_plan_options *o)
+{
+  for (;;) {
+    int n = rng_between(r, 3, 4), most = o->cover == 1 ? 5 : 4;
+    thr_frame f =
+        random_frame(r, n, rng_between(r, o->ends == THR_ENDS_CLOSED, EDGES - n), (length_kind)rng_below(r, LENGTH_KINDS));
+    bool leaf = o->ends == THR_ENDS_CLOSED && has_leaf(&f) && rng_below(r, 8);
+    if (f.n_edges <= most && !leaf) return f;
+    thr_frame_destroy(&f);
+  }
+}
+
+static thr_plan_options random_options(rng *r, int k)
+{
+  static const thr_ends kind[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET, THR_ENDS_CLOSED};
+  thr_plan_options o = options_for(kind[k % 4], rng_below(r, 4) ? 1 : 2);
+  o.joint = THR_JOINT_TUBE;
+  if (rng_below(r, 4) == 0) o.capacity = o.cover + rng_between(r, 1, 3);
+  return o;
+}
+
+static void random_counts(rng *r, const thr_frame *f, thr_plan_options *o)
+{
+  o->ends = THR_ENDS_COUNTS;
+  o->end_count = calloc((size_t)f->n_nodes, sizeof *o->end_count);
+  for (int i = 0; i < 2 * o->cords; i++)
+    o->end_count[rng_below(r, f->n_nodes)]++;
+}
+
+static double longest_of(const thr_plan *p)
+{
+  double most = 0;
+  for (int i = 0; i < p->n_cords; i++)
+    most = fmax(most, thr_cord_length(&p->frame, &p->cord[i]));
+  return most;
+}
+
+/* Claims beyond what is proved. */
+static void assert_lies_are_refused(thr_plan *p)
+{
+  thr_cords_claim truth = p->cords_claim;
+  if (!truth.longest_optimal) {
+    p->cords_claim.longest_bound += 0.3 * (truth.longest - truth.longest_bound);
+    ck_assert_int_eq(judge_plan(p, NULL), THR_EVIOLATED);
+    p->cords_claim = truth;
+    p->cords_claim.longest_optimal = true;
+    p->cords_claim.longest_bound = truth.longest;
+    ck_assert_int_eq(judge_plan(p, NULL), THR_EVIOLATED);
+    p->cords_claim = truth;
+  }
+  p->cords_claim.longest *= 0.99;
+  ck_assert_int_eq(judge_plan(p, NULL), THR_EVIOLATED);
+  p->cords_claim = truth;
+  if (truth.fewest) {
+    p->cords_claim.fewest++;
+    p->cords_claim.fewest_optimal = p->cords_claim.fewest == p->n_cords;
+    ck_assert_int_eq(judge_plan(p, NULL), THR_EVIOLATED);
+    p->cords_claim = truth;
+  }
+  ck_assert_int_eq(judge_plan(p, NULL), THR_OK);
+}
+
+typedef struct {
+  int solved, open, infeasible;
+} tally;
+
+/* What GLPK calls no better. */
+static const double tolerance = 2e-5;
+
+/* Closed cords: as short together as any so many. */
+static void compare_closed(const thr_frame *f, const thr_plan_options *o, tally *t)
+{
+  shapes x;
+  thr_plan p;
+  thr_cords_word word;
+  thr_err err = {0};
+  all_shapes(&x, f, o);
+  double best = least(&x, o->cords_least, true);
+  thr_status st = thr_tube_cords_plan(f, o, &(thr_limits){0}, &p, &word, &err);
+  free(x.list);
+  if (st == THR_EINFEASIBLE) {
+    ck_assert_msg(isinf(best), "%s, but %g will do", err.text, best);
+    t->infeasible++;
+    return;
+  }
+  ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", err.text);
+  ck_assert_int_eq(p.n_cords, o->cords_least);
+  assert_plan_sound(&p);
+  if (isfinite(best)) {
+    ck_assert_double_le(p.proof.lower_bound, best * (1 + 1e-9));
+    if (st == THR_OK || word.passes_least) ck_assert_double_le(p.metrics.length, best * (1 + 1e-9));
+    ck_assert_double_ge(p.metrics.length, best * (p.metrics.most_passes > MOST ? 0 : 1 - 1e-9));
+  }
+  t->solved += st == THR_OK || word.passes_least;
+  t->open += st == THR_ELIMIT && !word.passes_least;
+  if (p.cords_claim.present) assert_lies_are_refused(&p);
+  thr_plan_destroy(&p);
+}
+
+START_TEST(closed_cords_by_enumeration)
+{
+  rng r = rng_make((uint64_t)_i + 4100);
+  tally t = {0};
+  for (int k = 0; k < 30; k++) {
+    thr_plan_options o = random_options(&r, 0);
+    thr_frame f = small_frame(&r, &o);
+    o.cords_least = 1 + k % 3;
+    o.cords = o.cords_least + rng_below(&r, 2);
+    compare_closed(&f, &o, &t);
+    thr_frame_destroy(&f);
+  }
+  ck_assert_int_gt(t.solved, 8);
+  ck_assert_int_le(t.open, 1);
+}
+END_TEST
+
+/* The longest of two or three as short as of any. */
+static void compare_even(const thr_frame *f, const thr_plan_options *o, tally *t)
+{
+  shapes x;
+  thr_plan p;
+  thr_cords_word word;
+  thr_err err = {0};
+  all_shapes(&x, f, o);
+  double best = least(&x, o->cords, false);
+  thr_status st = thr_tube_cords_plan(f, o, &(thr_limits){0}, &p, &word, &err);
+  free(x.list);
+  if (st == THR_EINFEASIBLE) {
+    ck_assert_msg(isinf(best), "%s, but %g will do", err.text, best);
+    t->infeasible++;
+    return;
+  }
+  ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", err.text);
+  ck_assert_int_eq(p.n_cords, o->cords);
+  assert_plan_sound(&p);
+  double longest = longest_of(&p);
+  bool said = st == THR_OK || word.longest_least;
+  if (isfinite(best)) {
+    ck_assert_double_le(p.cords_claim.longest_bound, best * (1 + 1e-9));
+    if (said) ck_assert_double_le(longest, best * (1 + tolerance));
+    ck_assert_double_ge(longest, best * (p.metrics.most_passes > MOST ? 0 : 1 - 1e-9));
+  }
+  t->solved += said;
+  t->open += !said;
+  assert_lies_are_refused(&p);
+  thr_plan_destroy(&p);
+}
+
+START_TEST(even_cords_by_enumeration)
+{
+  rng r = rng_make((uint64_t)_i + 4300);
+  tally t = {0};
+  for (int k = 0; k < 24; k++) {
+    thr_plan_options o = random_options(&r, k);
+    o.balance = true;
+    o.cords = o.cords_least = 2;
+    thr_frame f = small_frame(&r, &o);
+    if (o.ends == THR_ENDS_ANY && rng_below(&r, 2)) random_counts(&r, &f, &o);
+    compare_even(&f, &o, &t);
+    free(o.end_count);
+    thr_frame_destroy(&f);
+  }
+  ck_assert_int_gt(t.solved, 5);
+  ck_assert_int_le(t.open, 2);
+}
+END_TEST
+
+/* As few as any of that length. */
+static void compare_limited(const thr_frame *f, thr_plan_options *o, double part, tally *t)
+{
+  shapes x;
+  thr_plan p;
+  thr_err err = {0};
+  all_shapes(&x, f, o);
+  double longest[2] = {least(&x, 1, false), least(&x, 2, false)};
+  free(x.list);
+  if (isinf(longest[1])) return;
+  o->max_length = isinf(longest[0]) ? longest[1] * (0.9 + 0.2 * part) : longest[1] + (longest[0] * 1.05 - longest[1]) * part;
+  if (part > 0.9) o->max_length = longest[1] * (1 + tolerance);
+  int few = longest[0] <= o->max_length ? 1 : longest[1] <= o->max_length ? 2 : 3;
+  thr_status st = thr_tube_cords_plan(f, o, &(thr_limits){0}, &p, NULL, &err);
+  if (st == THR_EINFEASIBLE) {
+    ck_assert_msg(few == 3, "%s, but %d will do", err.text, few);
+    t->infeasible++;
+    return;
+  }
+  ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", err.text);
+  assert_plan_sound(&p);
+  ck_assert_double_le(longest_of(&p), o->max_length * (1 + 1e-9));
+  ck_assert_int_le(p.cords_claim.fewest, p.n_cords);
+  if (few < 3) ck_assert_int_le(p.cords_claim.fewest, few);
+  if (p.metrics.most_passes <= MOST) ck_assert_int_ge(p.n_cords, few);
+  t->solved += p.n_cords <= few;
+  t->open += few < 3 && p.n_cords > few;
+  assert_lies_are_refused(&p);
+  thr_plan_destroy(&p);
+}
+
+START_TEST(limited_cords_by_enumeration)
+{
+  rng r = rng_make((uint64_t)_i + 4500);
+  tally t = {0};
+  for (int k = 0; k < 24; k++) {
+    thr_plan_options o = random_options(&r, k);
+    o.cords = 1000;
+    thr_frame f = small_frame(&r, &o);
+    compare_limited(&f, &o, rng_unit(&r), &t);
+    thr_frame_destroy(&f);
+  }
+  ck_assert_int_gt(t.solved, 5);
+  ck_assert_int_le(t.open, 2);
+}
+END_TEST
+
+/* ---- by hand ---- */
+
+/* A ring has no place to split a cord: every cord goes all the way round. */
+START_TEST(a_ring_takes_a_round_for_every_cord)
+{
+  thr_frame f = ring_make(5);
+  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_plan p;
+  thr_cords_word word;
+  thr_err err = {0};
+  o.joint = THR_JOINT_TUBE;
+  o.cords = o.cords_least = 3;
+  thr_status st = thr_tube_cords_plan(&f, &o, &(thr_limits){0}, &p, &word, &err);
+  ck_assert_msg(st == THR_ELIMIT && word.passes_least, "%s", err.text);
+  ck_assert_double_eq_tol(p.metrics.length, 3 * thr_frame_total_length(&f), 1e-9);
+  assert_plan_sound(&p);
+  thr_plan_destroy(&p);
+  o.capacity = 2;
+  err = (thr_err){0};
+  ck_assert_int_eq(thr_tube_cords_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err), THR_EINFEASIBLE);
+  assert_one_line(&err, "there are no 3 closed cords");
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* ---- larger ones ---- */
+
+static thr_frame uneven_grid(int w, int h, uint64_t seed)
+{
+  thr_frame f = grid_make(w, h);
+  rng r = rng_make(seed);
+  for (int e = 0; e < f.n_edges; e++)
+    f.length[e] = 0.5 + rng_unit(&r);
+  f.own_lengths = true;
+  return f;
+}
+
+/* Tied cords share many passes: they come out even, at hardly more than the shortest length; the same in every run. */
+START_TEST(cords_of_grids_are_even)
+{
+  static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET};
+  thr_frame f = uneven_grid(8 + _i % 3, 7, (uint64_t)_i + 1);
+  thr_plan_options o = options_for(ends[_i % 3], 1 + _i / 3 % 2);
+  thr_plan p, q;
+  thr_err err = {0};
+  o.joint = THR_JOINT_TUBE;
+  o.balance = true;
+  o.cords = o.cords_least = 2 + _i % 3;
+  thr_status st = thr_tube_cords_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err);
+  ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", err.text);
+  ck_assert_int_eq(p.n_cords, o.cords);
+  assert_plan_sound(&p);
+  ck_assert_double_le(longest_of(&p), 1.02 * p.proof.lower_bound / o.cords);
+  st = thr_tube_cords_plan(&f, &o, &(thr_limits){0}, &q, NULL, NULL);
+  ck_assert(st == THR_OK || st == THR_ELIMIT);
+  thr_text a = plan_text(&p), b = plan_text(&q);
+  assert_same_text(&a, &b);
+  thr_text_destroy(&a);
+  thr_text_destroy(&b);
+  thr_plan_destroy(&p);
+  thr_plan_destroy(&q);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* Half of all at most: two closed cords at least, three or four where the bound leaves no room for two. */
+START_TEST(cords_of_grids_keep_to_a_limit)
+{
+  static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET};
+  thr_frame f = uneven_grid(7 + _i % 3, 7, (uint64_t)_i + 50);
+  thr_plan_options o = options_for(ends[_i % 3], 1);
+  thr_plan p;
+  thr_err err = {0};
+  o.joint = THR_JOINT_TUBE;
+  o.cords = 1000;
+  o.max_length = 0.7 * thr_frame_total_length(&f);
+  ck_assert_msg(thr_tube_cords_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err) == THR_OK, "%s", err.text);
+  ck_assert_int_eq(p.n_cords, (int)ceil(p.proof.lower_bound / o.max_length));
+  assert_plan_sound(&p);
+  assert_lies_are_refused(&p);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* Two pieces: the proof is one of both, and each has as many cords as it takes. */
+START_TEST(pieces_have_cords_of_their_own)
+{
+  thr_frame one = uneven_grid(5, 5, 3), other = uneven_grid(3, 3, 4), f = side_by_side(&one, &other);
+  thr_plan_options o = options_for(_i % 2 ? THR_ENDS_ANY : THR_ENDS_CLOSED, 1);
+  thr_plan p;
+  thr_err err = {0};
+  o.joint = THR_JOINT_TUBE;
+  o.cords = _i < 2 ? 2 : 1000;
+  o.cords_least = _i < 2 ? 2 : 1;
+  o.balance = _i < 2;
+  o.max_length = _i < 2 ? 0 : 1.01 * thr_frame_total_length(&one);
+  thr_status st = thr_tube_cords_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err);
+  ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", err.text);
+  assert_plan_sound(&p);
+  int cords[2] = {0};
+  for (int i = 0; i < p.n_cords; i++)
+    cords[p.cord[i].component]++;
+  ck_assert_int_eq(cords[0], 2);
+  ck_assert_int_eq(cords[1], _i < 2 ? 2 : 1);
+  assert_lies_are_refused(&p);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&one);
+  thr_frame_destroy(&other);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* ---- memory ---- */
+
+START_TEST(every_allocation_may_fail)
+{
+  thr_frame ring = ring_make(3), path = path_make(3), wheel = wheel_make(3), grid = grid_make(3, 3);
+  const thr_frame *f = _i == 0   ? &ring
+                       : _i == 1 ? &path
+                       : _i == 2 ? &wheel
+                                 : &grid; /* which is too large for an integer programme */
+  thr_plan_options o = options_for(_i % 2 ? THR_ENDS_ANY : THR_ENDS_CLOSED, 1);
+  thr_status st = THR_ENOMEM;
+  o.joint = THR_JOINT_TUBE;
+  o.cords = o.cords_least = 2;
+  o.balance = _i > 0;
+  if (_i > 2) o.balance = false, o.cords = 1000, o.cords_least = 1, o.max_length = 8;
+  for (long k = 1; st == THR_ENOMEM; k++) {
+    thr_plan p;
+    thr_err err = {0};
+    thr_alloc_fail_at(k);
+    st = thr_tube_cords_plan(f, &o, &(thr_limits){0}, &p, NULL, &err);
+    thr_alloc_fail_at(0);
+    ck_assert_msg(st == THR_OK || st == THR_ELIMIT || st == THR_ENOMEM, "allocation %ld: %s", k, err.text);
+    ck_assert(st != THR_ENOMEM || (!p.cord && p.n_cords == 0 && !p.proof.tied.node));
+    thr_plan_destroy(&p);
+  }
+  thr_frame_destroy(&ring);
+  thr_frame_destroy(&path);
+  thr_frame_destroy(&wheel);
+  thr_frame_destroy(&grid);
+}
+END_TEST
+
+int main(void)
+{
+  Suite *s = suite_create("tube_cords");
+  ADD_LOOP(s, 120, closed_cords_by_enumeration, 0, 6);
+  ADD_LOOP(s, 120, even_cords_by_enumeration, 0, 8);
+  ADD_LOOP(s, 120, limited_cords_by_enumeration, 0, 8);
+  ADD_TEST(s, 20, a_ring_takes_a_round_for_every_cord);
+  ADD_LOOP(s, 60, cords_of_grids_are_even, 0, 6);
+  ADD_LOOP(s, 60, cords_of_grids_keep_to_a_limit, 0, 6);
+  ADD_LOOP(s, 30, pieces_have_cords_of_their_own, 0, 4);
+  ADD_LOOP(s, 300, every_allocation_may_fail, 0, 5);
+  return run_suite(s);
+}
