@@ -131,10 +131,12 @@ int drawings_write(const thr_plan *p, int i, const char *path, const drawings_ar
   return cli_write_drawn(st, &t, path, &err);
 }
 
+/* The step sheets last: they take longest, and who stops them has all others. */
 int drawings_write_all(const thr_plan *p, const char *folder, const drawings_args *a)
 {
   int code = EXIT_OK;
-  for (int i = 0; i < N_DOCUMENTS && !code; i++) {
+  for (int k = 0; k < N_DOCUMENTS && !code; k++) {
+    int i = k == N_DOCUMENTS - 1 ? SHEETS : k < SHEETS ? k : k + 1;
     char path[1200];
     code = cli_in_folder(folder, documents[i].file, path, sizeof path);
     if (!code) code = drawings_write(p, i, path, a);

@@ -134,7 +134,7 @@ static void put_certificate(thr_text *t, const thr_plan *p)
   bool missed = proof->unconfirmed > 0 && p->options.confirm == THR_CONFIRM_ALWAYS;
   thr_text_printf(t, "(certificate: %d %s, verified%s)", cuts, cli_cuts_word(p, cuts),
                   agreed   ? "; GLPK agrees"
-                  : missed ? "; GLPK did not finish"
+                  : missed ? "; not confirmed by GLPK"
                            : "");
 }
 

@@ -3,6 +3,7 @@
 #include "diagram/svg.h"
 
 #include <math.h>
+#include <stdio.h>
 
 static const double PITCH[THR_CROP_SCALES] = {28, 24, 20.5, 17.5, 15, 13, 11, 9, 7.5, 6, 4.5, 3, 2, 1}; /* mm */
 static const double RING = 0.85; /* pitches of context around what is drawn now */
@@ -10,9 +11,17 @@ static const double EDGE = 1;    /* mm of white around the whole */
 static const double BETWEEN = 4; /* mm between two windows */
 enum { BASE = 2 };               /* scale at which sizes are asked for first */
 
+static void box_point(thr_box *box, const double at[2])
+{
+  thr_box_extend(box, (thr_box){at[0], at[1], at[0], at[1]});
+}
+
 void thr_crops_make(thr_crops *x, const thr_plan *p, const thr_layout *l)
 {
-  *x = (thr_crops){.plan = p, .layout = l};
+  thr_box all = {l->xy[0][0], l->xy[0][1], l->xy[0][0], l->xy[0][1]};
+  for (int v = 1; v < l->n_points; v++)
+    box_point(&all, l->xy[v]);
+  *x = (thr_crops){.plan = p, .layout = l, .slender = (all.y1 - all.y0) / fmax(all.x1 - all.x0, 1e-6 * (all.y1 - all.y0))};
 }
 
 void thr_crops_destroy(thr_crops *x)
@@ -37,11 +46,6 @@ int thr_crop_panel(const thr_scene *s, int i)
   if (!l->node) return 0;
   const thr_scene_pass *p = &s->pass[i];
   return 0.5 * (p->from[0] + p->to[0]) > (0.5 * (l->middle[0][0] + l->middle[1][0]) - s->origin[0]) * s->scale;
-}
-
-static void box_point(thr_box *box, const double at[2])
-{
-  thr_box_extend(box, (thr_box){at[0], at[1], at[0], at[1]});
 }
 
 static void box_mark(thr_box *box, const thr_mark *m)
@@ -142,16 +146,19 @@ thr_status thr_crop_draw(thr_crops *x, const thr_crop *c, const thr_crop_view *v
 {
   thr_scene *s = &x->scene[view->scale];
   thr_status st = make_scene(x, view->scale, err);
-  if (!st) thr_draw_css(s, t);
+  char scope[32];
+  snprintf(scope, sizeof scope, "view-%d", c->number);
+  if (!st) thr_draw_css(s, scope, t);
+  thr_text_printf(t, "<g class=\"%s\">\n", scope);
   double corner[2] = {at[0], at[1]};
   for (int k = 0; k < view->n_windows && !st; k++) {
     shown[k] = window_of(s, c, view, k);
     if ((st = thr_crop_label(s, c, view->panel[k], shown[k], err))) break;
     thr_box paper = {corner[0], corner[1], corner[0] + view->window[k][0], corner[1] + view->window[k][1]};
     thr_draw_style style = {.state = c->state, .window = &shown[k], .anonymous = true, .no_beads = true};
-    thr_text_printf(t, "<clipPath id=\"view-%d\"><rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/></clipPath>\n", k,
-                    paper.x0, paper.y0, paper.x1 - paper.x0, paper.y1 - paper.y0);
-    thr_text_printf(t, "<g clip-path=\"url(#view-%d)\"><g transform=\"translate(%.2f %.2f)\">\n", k,
+    thr_text_printf(t, "<clipPath id=\"%s-%d\"><rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/></clipPath>\n", scope,
+                    k, paper.x0, paper.y0, paper.x1 - paper.x0, paper.y1 - paper.y0);
+    thr_text_printf(t, "<g clip-path=\"url(#%s-%d)\"><g transform=\"translate(%.2f %.2f)\">\n", scope, k,
                     thr_svg_round(paper.x0 - shown[k].x0), thr_svg_round(paper.y0 - shown[k].y0));
     st = thr_crop_beads(s, c->filled, &shown[k], t, err);
     thr_draw_scene(s, &style, NULL, t);
@@ -159,6 +166,7 @@ thr_status thr_crop_draw(thr_crops *x, const thr_crop *c, const thr_crop_view *v
     put_frame(paper, "#999", 0.25, t);
     corner[view->stacked] += view->window[k][view->stacked] + BETWEEN;
   }
+  thr_text_append(t, "</g>\n");
   return st;
 }
 
@@ -213,7 +221,7 @@ thr_status thr_crop_whole(const thr_plan *p, const thr_layout *l, const unsigned
   }
   double x = 0.5 * (paper.x0 + paper.x1 - s.extent.x0 - s.extent.x1), y = 0.5 * (paper.y0 + paper.y1 - s.extent.y0 - s.extent.y1);
   thr_draw_style style = {.state = state, .anonymous = true, .no_beads = true};
-  thr_draw_css(&s, t);
+  thr_draw_css(&s, "thread", t);
   thr_text_printf(t, "<g transform=\"translate(%.2f %.2f)\">\n", thr_svg_round(x), thr_svg_round(y));
   st = thr_crop_beads(&s, NULL, &s.extent, t, err);
   thr_draw_scene(&s, &style, &s.extent, t);

@@ -10,6 +10,7 @@ enum { THR_CROP_SCALES = 14 };
 typedef struct {
   const thr_plan *plan;
   const thr_layout *layout;
+  double slender; /* height of the layout over its width, at most 1e6 */
   thr_scene scene[THR_CROP_SCALES];
   bool made[THR_CROP_SCALES];
 } thr_crops;
@@ -20,6 +21,7 @@ void thr_crops_destroy(thr_crops *x);
 
 /* What a picture shows: passes in their state (see thr_draw_state), beads that hold cord. Arrays are borrowed. */
 typedef struct {
+  int number;                 /* of the picture, its own in the document */
   const unsigned char *state; /* [n_passes] */
   const bool *filled;         /* [n_edges]; NULL: none does */
   const int *now;             /* [n_now] the passes drawn now, in the order of threading; n_now >= 1 */
@@ -43,8 +45,8 @@ thr_status thr_crop_fit(thr_crops *x, const thr_crop *c, const double room[2], c
                         thr_err *err) THR_MUST_CHECK;
 
 /* Appends the picture with its top left corner at a point of the page: clipped, in frames, each pass that is drawn now with its
- * number and arrow, names at the places that they come to. Brings the style of the document. shown receives what of the scene
- * each window shows. The view's scale is below THR_CROP_SCALES. O(n). */
+ * number and arrow, names at the places that they come to. It is a group of class "view-NUMBER" and brings its style. shown
+ * receives what of the scene each window shows. The view's scale is below THR_CROP_SCALES. O(n). */
 thr_status thr_crop_draw(thr_crops *x, const thr_crop *c, const thr_crop_view *view, const double at[2], thr_box shown[2],
                          thr_text *t, thr_err *err) THR_MUST_CHECK;
 

@@ -5,8 +5,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const char *const OUTLINE = "#bdb8a8", *const EMPTY = "#f3f1ea", *const FILLED = "#dccfa9"; /* as in the overview */
-
 typedef struct {
   int width; /* in tenths of a mm */
   bool filled;
@@ -41,20 +39,8 @@ static bool is_seen(const capsule *c, const thr_box *w)
          fmin(c->end[0][1], c->end[1][1]) - radius <= w->y1 && fmax(c->end[0][1], c->end[1][1]) + radius >= w->y0;
 }
 
-/* Capsules of one look, as lines of a width in mm. */
-static void put_lines(const capsule *c, int n, const char *colour, double width, thr_text *t)
-{
-  thr_text_printf(t, "<path fill=\"none\" stroke-linecap=\"round\" stroke=\"%s\" stroke-width=\"%.2f\" d=\"", colour, width);
-  for (int i = 0; i < n; i++) {
-    thr_svg_move(t, c[i].end[0]);
-    thr_svg_line(t, c[i].end[1]);
-  }
-  thr_text_append(t, "\"/>\n");
-}
-
 thr_status thr_crop_beads(const thr_scene *s, const bool *filled, const thr_box *window, thr_text *t, thr_err *err)
 {
-  double outline = fmin(0.2, 0.02 * s->size.pitch);
   capsule *c = thr_calloc((size_t)s->frame->n_edges, sizeof *c);
   int n = 0;
   if (!c) return thr_nomem(err);
@@ -63,13 +49,19 @@ thr_status thr_crop_beads(const thr_scene *s, const bool *filled, const thr_box 
     n += is_seen(&c[n], window);
   }
   qsort(c, (size_t)n, sizeof *c, by_look);
-  for (int i = 0, next; i < n; i = next) {
-    double width = 0.1 * c[i].width;
-    for (next = i + 1; next < n && c[next].filled == c[i].filled && c[next].width == c[i].width;)
-      next++;
-    put_lines(c + i, next - i, OUTLINE, width + outline, t);
-    put_lines(c + i, next - i, c[i].filled ? FILLED : EMPTY, fmax(width - outline, 0.5 * width), t);
+  thr_status st = THR_OK;
+  for (int i = 0, next; i < n && !st; i = next) {
+    thr_text data = {0};
+    for (next = i; next < n && c[next].filled == c[i].filled && c[next].width == c[i].width; next++) {
+      thr_svg_move(&data, c[next].end[0]);
+      thr_svg_line(&data, c[next].end[1]);
+    }
+    if (data.failed)
+      st = thr_nomem(err);
+    else
+      thr_draw_capsules(s, 0.1 * c[i].width, c[i].filled, data.data, t);
+    thr_text_destroy(&data);
   }
   free(c);
-  return THR_OK;
+  return st;
 }

@@ -57,31 +57,49 @@ void thr_draw_dash(const thr_scene *s, const double *dash, thr_text *t)
   thr_text_append(t, "\"");
 }
 
-void thr_draw_css(const thr_scene *s, thr_text *t)
+/* Capsules of beads, of those that hold cord already, their outlines. */
+static const char *const EMPTY = "#f3f1ea", *const FILLED = "#dccfa9", *const OUTLINE = "#bdb8a8";
+
+double thr_draw_outline(const thr_scene *s)
 {
-  double w = s->size.cord, c = s->size.casing, thin = fmin(0.2, 0.02 * s->size.pitch);
-  thr_text_append(t, "<style>\n.thread text{stroke:none;fill:#222;font-family:'DejaVu Sans',Verdana,sans-serif}\n");
-  thr_text_append(t, ".thread .middle{text-anchor:middle}.thread text.light{fill:#fff}.thread .place text{fill:#555}\n");
-  thr_text_printf(t, ".thread .bead{fill:#f3f1ea;stroke:#bdb8a8;stroke-width:%.2f}\n", thin);
-  thr_text_printf(t, ".thread .foot{fill:#e3d6b8;stroke:#8f7c4f;stroke-width:%.2f}\n", thin);
-  thr_text_printf(t, ".thread .casing{fill:none;stroke:#fff;stroke-width:%.2f;stroke-linejoin:round}\n", w + 2 * c);
-  thr_text_printf(t, ".thread .cord{fill:none;stroke-width:%.2f;stroke-linejoin:round}\n", s->turning ? w + c : w);
+  return fmin(0.2, 0.02 * s->size.pitch);
+}
+
+void thr_draw_capsules(const thr_scene *s, double width, bool filled, const char *data, thr_text *t)
+{
+  double thin = thr_draw_outline(s), wide[2] = {width + thin, fmax(width - thin, 0.5 * width)};
+  const char *const colour[2] = {OUTLINE, filled ? FILLED : EMPTY};
+  for (int k = 0; k < 2; k++)
+    thr_text_printf(t, "<path fill=\"none\" stroke-linecap=\"round\" stroke=\"%s\" stroke-width=\"%.2f\" d=\"%s\"/>\n", colour[k],
+                    wide[k], data);
+}
+
+void thr_draw_css(const thr_scene *s, const char *scope, thr_text *t)
+{
+  const char *k = scope;
+  double w = s->size.cord, c = s->size.casing, thin = thr_draw_outline(s);
+  thr_text_printf(t, "<style>\n.%s text{stroke:none;fill:#222;font-family:'DejaVu Sans',Verdana,sans-serif}\n", k);
+  thr_text_printf(t, ".%s .middle{text-anchor:middle}.%s text.light{fill:#fff}.%s .place text{fill:#555}\n", k, k, k);
+  thr_text_printf(t, ".%s .bead{fill:%s;stroke:%s;stroke-width:%.2f}\n", k, EMPTY, OUTLINE, thin);
+  thr_text_printf(t, ".%s .foot{fill:#e3d6b8;stroke:#8f7c4f;stroke-width:%.2f}\n", k, thin);
+  thr_text_printf(t, ".%s .casing{fill:none;stroke:#fff;stroke-width:%.2f;stroke-linejoin:round}\n", k, w + 2 * c);
+  thr_text_printf(t, ".%s .rim{fill:none;stroke-width:%.2f;stroke-linejoin:round}\n", k, w + 0.7 * c);
+  thr_text_printf(t, ".%s .cord{fill:none;stroke-width:%.2f;stroke-linejoin:round}\n", k, s->turning ? w + c : w);
   if (s->turning) /* the cord's own colour is a paler border; a round end would cover the colour of the turn before */
     thr_text_printf(t,
-                    ".thread .cord{stroke-opacity:0.55}.thread "
+                    ".%s .cord{stroke-opacity:0.55}.%s "
                     ".turn{fill:none;stroke-width:%.2f;stroke-linejoin:round;stroke-linecap:round}\n",
-                    w);
+                    k, k, w);
   else
-    thr_text_append(t, ".thread .cord:not([stroke-dasharray]){stroke-linecap:round}\n");
-  thr_text_printf(t, ".thread .arrow{stroke:#fff;stroke-width:%.2f;stroke-linejoin:round;paint-order:stroke}\n", c);
+    thr_text_printf(t, ".%s .cord:not([stroke-dasharray]){stroke-linecap:round}\n", k);
+  thr_text_printf(t, ".%s .arrow{stroke:#fff;stroke-width:%.2f;stroke-linejoin:round;paint-order:stroke}\n", k, c);
   if (s->copy) /* after the rules that it changes */
-    thr_text_printf(t, ".thread .copy .cord{stroke-width:%.2f}.thread .copy .casing{stroke-width:%.2f}\n", 0.7 * w,
+    thr_text_printf(t, ".%s .copy .cord{stroke-width:%.2f}.%s .copy .casing{stroke-width:%.2f}\n", k, 0.7 * w, k,
                     0.7 * w + 2 * c);
-  thr_text_printf(
-      t, ".thread .pill{fill:#fff;stroke-width:%.2f}.thread .mark{fill:#111;stroke-width:0.80}.thread .mark.pale{fill:#fff}\n",
-      fmin(0.45, fmax(w, 0.25)));
+  thr_text_printf(t, ".%s .pill{fill:#fff;stroke-width:%.2f}.%s .mark{fill:#111;stroke-width:0.80}.%s .mark.pale{fill:#fff}\n", k,
+                  fmin(0.45, fmax(w, 0.25)), k, k);
   if (s->layout->node)
-    thr_text_append(t, ".thread .tag{fill:#fff;stroke-width:0.45}.thread .place text.seam{fill:#111;font-weight:bold}\n");
-  thr_text_printf(t, ".thread .sharp{fill:#111;stroke:#fff;stroke-width:%.2f}\n", 0.5 * c);
-  thr_text_append(t, ".thread .bar{fill:none;stroke:#222;stroke-width:0.40}\n</style>\n");
+    thr_text_printf(t, ".%s .tag{fill:#fff;stroke-width:0.45}.%s .place text.seam{fill:#111;font-weight:bold}\n", k, k);
+  thr_text_printf(t, ".%s .sharp{fill:#111;stroke:#fff;stroke-width:%.2f}\n", k, 0.5 * c);
+  thr_text_printf(t, ".%s .bar{fill:none;stroke:#222;stroke-width:0.40}\n</style>\n", k);
 }

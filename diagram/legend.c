@@ -23,16 +23,17 @@ static const char *plural(int n)
 
 void thr_legend_title(const thr_scene *s, const char *given, char title[160])
 {
-  int n = s->plan->n_cords, paths = s->copy ? thr_copies_paths(s->copy, n) : n;
+  int n = s->plan->n_cords, paths = s->copy ? thr_copies_paths(s->copy, n) : n, beads = s->frame->n_edges;
+  char size[64];
+  snprintf(size, sizeof size, "%d bead%s, %d pass%s", beads, plural(beads), s->n_passes, s->n_passes == 1 ? "" : "es");
   if (given && *given)
     snprintf(title, 160, "%.159s", given);
   else if (n == 1)
-    snprintf(title, 160, "Cord %s: %d beads, %d passes", s->id[0], s->frame->n_edges, s->n_passes);
+    snprintf(title, 160, "Cord %s: %s", s->id[0], size);
   else if (paths < n)
-    snprintf(title, 160, "%d cords, %d path%s to learn: %d beads, %d passes", n, paths, plural(paths), s->frame->n_edges,
-             s->n_passes);
+    snprintf(title, 160, "%d cords, %d path%s to learn: %s", n, paths, plural(paths), size);
   else
-    snprintf(title, 160, "%d cords: %d beads, %d passes", n, s->frame->n_edges, s->n_passes);
+    snprintf(title, 160, "%d cords: %s", n, size);
 }
 
 static double degrees(double angle)
@@ -85,8 +86,9 @@ double thr_legend_heading(const thr_scene *s, const char *title, double x, doubl
   thr_svg_length(total, f->units, length);
   y = thr_svg_wrap(t, x, y + TITLE_SIZE, TITLE_SIZE, width, " font-weight=\"bold\"", title);
   int feet = count_feet(f);
-  snprintf(line, sizeof line, "%d nodes, %d beads (edges), %d %s; %d cord%s, %d passes, %s of cord.", f->n_nodes, f->n_edges,
-           feet, feet == 1 ? "foot" : "feet", s->plan->n_cords, plural(s->plan->n_cords), s->n_passes, length);
+  snprintf(line, sizeof line, "%d nodes, %d bead%s (edge%s), %d %s; %d cord%s, %d pass%s, %s of cord.", f->n_nodes, f->n_edges,
+           plural(f->n_edges), plural(f->n_edges), feet, feet == 1 ? "foot" : "feet", s->plan->n_cords, plural(s->plan->n_cords),
+           s->n_passes, s->n_passes == 1 ? "" : "es", length);
   y = thr_svg_wrap(t, x, y, TEXT_SIZE, width, "", line);
   y = write_view(s, x, y, width, t);
   if (s->number_step == 1)
@@ -158,8 +160,16 @@ static double write_key(const thr_scene *s, double x, double y, thr_text *t)
 
 static void write_swatch(const thr_scene *s, int c, const char *colour, double x, double y, thr_text *t)
 {
-  thr_text_printf(t, "<g class=\"swatch%s\" data-for=\"%s\" stroke=\"%s\" fill=\"%s\"><path class=\"cord\" d=\"M%.2f %.2fh%.2f\"",
-                  thr_scene_is_copy(s, c) ? " copy" : "", s->id[c], colour, colour, x, y, SWATCH - 3);
+  char rim[8];
+  bool rimmed = thr_scene_rim(s, c, colour, rim);
+  thr_text_printf(t, "<g class=\"swatch%s\" data-for=\"%s\" stroke=\"%s\" fill=\"%s\">", thr_scene_is_copy(s, c) ? " copy" : "",
+                  s->id[c], colour, colour);
+  if (rimmed) {
+    thr_text_printf(t, "<path class=\"rim\" stroke=\"%s\" d=\"M%.2f %.2fh%.2f\"", rim, x, y, SWATCH - 3);
+    thr_draw_dash(s, thr_scene_dash(s, c), t);
+    thr_text_append(t, "/>");
+  }
+  thr_text_printf(t, "<path class=\"cord\" d=\"M%.2f %.2fh%.2f\"", x, y, SWATCH - 3);
   thr_draw_dash(s, thr_scene_dash(s, c), t);
   thr_text_append(t, "/>");
   if (s->turning) {
@@ -167,7 +177,9 @@ static void write_swatch(const thr_scene *s, int c, const char *colour, double x
     thr_turning_colour(0, straight);
     thr_text_printf(t, "<path class=\"turn\" stroke=\"%s\" d=\"M%.2f %.2fh%.2f\"/>", straight, x, y, SWATCH - 3);
   }
-  thr_text_printf(t, "<path class=\"arrow\" d=\"M%.2f %.2fl-3.00 -1.20v2.40z\"/></g>", x + SWATCH - 5, y);
+  thr_text_append(t, "<path class=\"arrow\"");
+  if (rimmed) thr_text_printf(t, " fill=\"%s\"", rim);
+  thr_text_printf(t, " d=\"M%.2f %.2fl-3.00 -1.20v2.40z\"/></g>", x + SWATCH - 5, y);
 }
 
 /* Which passes of a single cord have colour k: "passes 1-20, 121-140, .. (blue)". */

@@ -45,7 +45,7 @@ static thr_status write_sheet(const thr_scene *s, const char *given, thr_text *s
            "Overview of a threading plan. Each group cord-ID holds the passes of a cord in order. %s",
            thr_layout_words(s->layout->kind));
   thr_svg_open(svg, w, h, title, description);
-  thr_draw_css(s, svg);
+  thr_draw_css(s, "thread", svg);
   thr_text_printf(svg, "<rect width=\"%.2f\" height=\"%.2f\" fill=\"#fff\"/>\n", w, h);
   if (body.data) thr_text_append_bytes(svg, body.data, body.length);
   thr_text_append(svg, "</svg>\n");

@@ -27,6 +27,28 @@ static unsigned from_light(double light)
   return (unsigned)nearbyint(255 * fmin(fmax(value, 0), 1));
 }
 
+static double to_light(unsigned value)
+{
+  double v = value / 255.0;
+  return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
+}
+
+bool thr_palette_rim(const char *hex, char rim[8])
+{
+  static const double part[3] = {0.2126, 0.7152, 0.0722}, most = 1.05 / 3 - 0.05, wanted = 1.05 / 4.5 - 0.05; /* luminance */
+  unsigned value[3] = {0, 0, 0};
+  double light[3], sum = 0;
+  if (sscanf(hex, "#%2x%2x%2x", &value[0], &value[1], &value[2]) != 3) return false;
+  for (int k = 0; k < 3; k++) {
+    light[k] = to_light(value[k]);
+    sum += part[k] * light[k];
+  }
+  if (sum <= most) return false;
+  double shade = wanted / sum;
+  snprintf(rim, 8, "#%02x%02x%02x", from_light(shade * light[0]), from_light(shade * light[1]), from_light(shade * light[2]));
+  return true;
+}
+
 void thr_turning_colour(double angle, char hex[8])
 {
   static const double pale[3] = {0.94, 0.0100, -0.0173}, dark[3] = {0.27, 0.0700, -0.1212}; /* lightness, a, b */

@@ -5,6 +5,8 @@
 #ifndef THR_PALETTE_H
 #define THR_PALETTE_H
 
+#include <stdbool.h>
+
 enum { THR_COLOURS = 6, THR_DASHES = 4 };
 
 typedef struct {
@@ -15,6 +17,10 @@ typedef struct {
 
 /* i >= 0; repeats every THR_COLOURS. */
 thr_colour thr_palette(int i);
+
+/* A dark shade of a colour that is too pale on white (contrast below 3, WCAG 2.1) to line it with: contrast 4.5. false: it needs
+ * none. */
+bool thr_palette_rim(const char *hex, char rim[8]);
 
 /* Dash pattern number i: on, off lengths in cord widths, 0-terminated; NULL for 0, the full line. Repeats. */
 const double *thr_palette_dash(int i);

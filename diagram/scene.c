@@ -80,6 +80,11 @@ void thr_scene_colour(const thr_scene *s, int i, char hex[8])
              s->plan->n_cords > 1 ? thr_scene_cord_colour(s, p->cord) : thr_palette((p->number - 1) / THR_COLOUR_PASSES).hex);
 }
 
+bool thr_scene_rim(const thr_scene *s, int c, const char *colour, char rim[8])
+{
+  return !s->turning && !thr_scene_is_copy(s, c) && thr_palette_rim(colour, rim);
+}
+
 const double *thr_scene_dash(const thr_scene *s, int c)
 {
   int hues = s->copy ? thr_copies_paths(s->copy, s->plan->n_cords) : s->plan->n_cords;

@@ -120,6 +120,10 @@ const char *thr_scene_cord_colour(const thr_scene *s, int c);
 void thr_scene_colour(const thr_scene *s, int i, char hex[8]);
 enum { THR_COLOUR_PASSES = 20 };
 
+/* Is cord c, in a colour, lined with a darker rim (see thr_palette_rim)? Copies are meant to be pale, and turns have colours that
+ * need none. */
+bool thr_scene_rim(const thr_scene *s, int c, const char *colour, char rim[8]);
+
 /* Smallest pitch at which places that are not in a grid are named, mm. */
 static const double THR_SCENE_NAMED = 8;
 

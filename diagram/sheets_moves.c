@@ -110,9 +110,17 @@ static bool follows(const thr_sheets *s, int i)
   return i > 0 && s->move[i].cord == s->move[i - 1].cord && s->move[i].needle == s->move[i - 1].needle;
 }
 
-static bool goes_straight(const thr_sheets *s, int i)
+/* How move i goes on from the one before it; only if it follows that. */
+static thr_way way_of(const thr_sheets *s, int i)
 {
-  return follows(s, i) && thr_guide_way(&s->guide, s->move[i - 1].half, s->move[i].half) == THR_WAY_STRAIGHT;
+  return thr_guide_way(&s->guide, s->move[i - 1].half, s->move[i].half);
+}
+
+static bool goes_ahead(const thr_sheets *s, int i)
+{
+  if (!follows(s, i)) return false;
+  thr_way way = way_of(s, i);
+  return way == THR_WAY_STRAIGHT || way == THR_WAY_OVER;
 }
 
 /* " (kind 3)", " (kinds 3 x 4, 5, 3)": of the beads that the moves from first to before end pick up. */
@@ -135,19 +143,22 @@ static void put_kinds(const thr_sheets *s, int first, int end, thr_text *words)
 /* "turn left 93 degrees, then straight on", or what fits of it. */
 static void put_way(const thr_sheets *s, int first, int end, thr_text *words)
 {
+  bool curved = false, alone = end == first + 1, ahead = goes_ahead(s, first);
+  for (int i = ahead ? first : first + 1; i < end; i++)
+    curved |= way_of(s, i) == THR_WAY_OVER;
   if (!follows(s, first))
-    thr_text_append(words, end > first + 1 ? "go straight on" : "go");
-  else {
+    thr_text_append(words, alone ? "go" : "go ");
+  else if (alone || !ahead)
     thr_guide_say(&s->guide, s->move[first - 1].half, s->move[first].half, words);
-    if (end > first + 1 && !goes_straight(s, first)) thr_text_append(words, ", then straight on");
-  }
+  if (!alone && !ahead && follows(s, first)) thr_text_append(words, ", then ");
+  if (!alone) thr_text_append(words, curved ? "ahead over the curve" : "straight on");
 }
 
 int thr_sheets_run(const thr_sheets *s, int first, int end, thr_text *words)
 {
   const thr_move *m = &s->move[first];
   int next = first + 1;
-  while (next < end && goes_straight(s, next) && s->move[next].deed == m->deed)
+  while (next < end && goes_ahead(s, next) && s->move[next].deed == m->deed)
     next++;
   int n = next - first, last = s->move[next - 1].pass;
   thr_text_printf(words, "pass %d", m->pass + 1);

@@ -44,7 +44,8 @@ struct thr_sheets {
   int *moved;      /* [n_passes] the move of each pass, cord by cord as in a scene */
   thr_crops crops;
   double size[2]; /* of a page, mm */
-  int n_steps;    /* pages of steps so far */
+  int n_steps;    /* so far */
+  int step_page;  /* pages when the latest one was put, so that it is on the last of these */
   int n_pages, pages_capacity;
   thr_text *page;    /* bodies of the pages, without page numbers */
   double y;          /* where the next line goes on the page that is being filled, mm */
@@ -97,7 +98,7 @@ void thr_sheets_last(thr_sheets *s);          /* sheets_last.c */
 /* Words of a cord: "Cord A (blue)", with its dash if it has one; colour as "#rrggbb" for a row of passes. */
 void thr_sheets_cord_words(const thr_sheets *s, int c, char words[96]);
 
-/* One row: the moves from first on, before end, that go on straight and do alike with their beads. Appends its words and returns
+/* One row: the moves from first on, before end, that go on ahead and do alike with their beads. Appends its words and returns
  * the move after it. */
 int thr_sheets_run(const thr_sheets *s, int first, int end, thr_text *words);
 

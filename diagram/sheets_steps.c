@@ -1,4 +1,4 @@
-/* The steps of a path: some twenty passes a page, as a picture and in rows to tick off. */
+/* The steps of a path: some twenty passes each, as a picture and in rows to tick off. A page takes as many as fit whole. */
 #include "diagram/sheets_parts.h"
 #include "diagram/svg.h"
 
@@ -8,44 +8,26 @@
 #include <string.h>
 
 enum { MOST_MOVES = 48, USUAL_MOVES = 24, FEW_LINES = 14, MOST_LINES = 26, SMALLEST = 6 };
-static const double HEAD = 14, NUMBER = 9;       /* mm: heading of a page; its step number */
-static const double LOCATOR = 42;                /* mm: side of the small picture beside the rows */
+static const double HEAD = 14, NUMBER = 9;       /* mm: heading of a step; its number */
+static const double BETWEEN = 5;                 /* mm between two steps of a page */
+static const double LOCATOR[2] = {30, 42};       /* mm: least and greatest side of the small picture beside the rows */
+static const double BOX = 5;                     /* mm: a box to tick, and white behind it */
 static const double LEAST_PICTURE[2] = {90, 60}; /* mm: width and height */
 
-/* A page: moves first .. end - 1. */
+/* Moves first .. end - 1. */
 typedef struct {
   int first, end;
   thr_crop_view view;
-  int lines;     /* of the text */
+  int lines;     /* of the rows */
+  int all_lines; /* with what is said before and after them */
   thr_text *row; /* [end - first] words of the rows; the first n_rows are used */
   int n_rows;
+  thr_text before, after;
 } step;
 
 static double text_width(const thr_sheets *s)
 {
-  return thr_sheets_width(s) - LOCATOR - 9;
-}
-
-static void destroy_rows(step *p)
-{
-  for (int i = 0; i < p->n_rows; i++)
-    thr_text_destroy(&p->row[i]);
-  p->n_rows = p->lines = 0;
-}
-
-/* Fills rows and lines. */
-static void find_rows(thr_sheets *s, step *p)
-{
-  destroy_rows(p);
-  for (int i = p->first; i < p->end && !s->st;) {
-    thr_text *row = &p->row[p->n_rows++];
-    *row = (thr_text){0};
-    i = thr_sheets_run(s, i, p->end, row);
-    if (row->failed)
-      thr_sheets_fail(s, thr_nomem(&s->why), NULL);
-    else
-      p->lines += thr_sheets_lines(row->data, text_width(s), THR_SHEET_TEXT);
-  }
+  return thr_sheets_width(s) - LOCATOR[1] - 9;
 }
 
 /* ---- what is said beside the rows ---- */
@@ -99,6 +81,36 @@ static void put_check(const thr_sheets *s, int last, thr_text *t)
     thr_text_append(t, m->needle == THR_NEEDLE_LEFT ? ": the start of the cord." : ": the end of the cord.");
 }
 
+static void destroy_text(step *p)
+{
+  for (int i = 0; i < p->n_rows; i++)
+    thr_text_destroy(&p->row[i]);
+  thr_text_destroy(&p->before);
+  thr_text_destroy(&p->after);
+  p->n_rows = p->lines = p->all_lines = 0;
+}
+
+static int count_lines(thr_sheets *s, const thr_text *words, double width)
+{
+  if (words->failed) thr_sheets_fail(s, thr_nomem(&s->why), NULL);
+  return words->data && !words->failed ? thr_sheets_lines(words->data, width, THR_SHEET_TEXT) : 0;
+}
+
+/* Fills texts and lines. */
+static void find_text(thr_sheets *s, step *p)
+{
+  destroy_text(p);
+  for (int i = p->first; i < p->end && !s->st;) {
+    thr_text *row = &p->row[p->n_rows++];
+    *row = (thr_text){0};
+    i = thr_sheets_run(s, i, p->end, row);
+    p->lines += count_lines(s, row, text_width(s));
+  }
+  put_beginning(s, p->first, &p->before);
+  put_check(s, p->end - 1, &p->after);
+  p->all_lines = p->lines + count_lines(s, &p->before, text_width(s) + BOX) + count_lines(s, &p->after, text_width(s) + BOX);
+}
+
 /* "20 passes, 18 beads picked up, 38 of 84 threaded; cord used 640.1 mm, left 1773 mm" */
 static void put_tally(const thr_sheets *s, const step *p, thr_text *t)
 {
@@ -122,8 +134,8 @@ static void put_tally(const thr_sheets *s, const step *p, thr_text *t)
                   m->needle == THR_NEEDLE_ONLY ? "" : " by this needle", used, left);
 }
 
-/* Colour and words of the passes of the page. */
-static void put_heading(thr_sheets *s, const step *p, int number)
+/* Colour and words of its passes. */
+static void put_heading(thr_sheets *s, const step *p, double top)
 {
   const thr_move *a = &s->move[p->first], *b = &s->move[p->end - 1];
   char cord[96], line[256], colour[64], big[16];
@@ -137,34 +149,48 @@ static void put_heading(thr_sheets *s, const step *p, int number)
   n += snprintf(line + n, sizeof line - (size_t)n, a == b ? "pass %d" : "passes %d-%d", a->pass + 1, b->pass + 1);
   snprintf(line + n, sizeof line - (size_t)n, " of %d", s->plan->cord[a->cord].n_passes);
   snprintf(colour, sizeof colour, " font-weight=\"bold\" style=\"fill:%s\"", own.hex);
-  snprintf(big, sizeof big, "%d", number);
+  snprintf(big, sizeof big, "%d", s->n_steps);
   thr_text tally = {0};
   put_tally(s, p, &tally);
-  double x = THR_SHEET_MARGIN, y = THR_SHEET_MARGIN + 6.5;
+  double x = THR_SHEET_MARGIN, y = top + 6.5;
   thr_svg_text(thr_sheets_out(s), x, y, NUMBER, " font-weight=\"bold\"", big);
   x += fmax(14, 0.72 * NUMBER * (double)strlen(big) + 3);
-  thr_svg_text(thr_sheets_out(s), x, THR_SHEET_MARGIN + 3.5, 4.4, colour, line);
+  thr_svg_text(thr_sheets_out(s), x, top + 3.5, 4.4, colour, line);
   if (tally.failed)
     thr_sheets_fail(s, thr_nomem(&s->why), NULL);
   else
-    thr_sheets_text(s, x, THR_SHEET_MARGIN + 9, THR_SHEET_SMALL, thr_sheets_width(s) + THR_SHEET_MARGIN - x,
-                    " style=\"fill:#444\"", tally.data);
+    thr_sheets_text(s, x, top + 9, THR_SHEET_SMALL, thr_sheets_width(s) + THR_SHEET_MARGIN - x, " style=\"fill:#444\"",
+                    tally.data);
   thr_text_destroy(&tally);
 }
 
 /* ---- the picture ---- */
 
-/* Height of the text below the picture, mm; the small picture beside it wants room, too. */
 static double text_height(const step *p)
 {
-  return fmax((p->lines + 3) * THR_SHEET_LINE + 3, LOCATOR + 2 * THR_SHEET_LINE);
+  return (p->all_lines + 1) * THR_SHEET_LINE;
+}
+
+/* The small picture beside the text is about as high as that. */
+static void locator_size(const thr_sheets *s, const step *p, double size[2])
+{
+  size[0] = fmin(fmax(text_height(p) - 3, LOCATOR[0]), LOCATOR[1]);
+  size[1] = fmin(s->crops.slender, 1) * size[0];
+}
+
+/* Height of what is below the picture, mm. */
+static double height_below(const thr_sheets *s, const step *p)
+{
+  double locator[2];
+  locator_size(s, p, locator);
+  return fmax(text_height(p), locator[1] + 4);
 }
 
 /* Room for the picture, mm. */
 static void picture_room(const thr_sheets *s, const step *p, double room[2])
 {
   room[0] = thr_sheets_width(s);
-  room[1] = fmax(thr_sheets_bottom(s) - text_height(p) - THR_SHEET_MARGIN - HEAD, LEAST_PICTURE[1]);
+  room[1] = fmax(thr_sheets_bottom(s) - height_below(s, p) - THR_SHEET_MARGIN - HEAD, LEAST_PICTURE[1]);
 }
 
 /* Passes of the scene that the moves are, in their order. */
@@ -176,11 +202,11 @@ static int list_now(const thr_sheets *s, const step *p, int *now)
   return p->end - p->first;
 }
 
-/* Does the page with the moves up to before end take its text, with every pass numbered in the picture? Fills what it shows. */
+/* Does a page take the step with the moves up to before end, with every pass numbered in the picture? Fills what it shows. */
 static bool is_good(thr_sheets *s, step *p)
 {
   int now[MOST_MOVES], n = p->end - p->first;
-  find_rows(s, p);
+  find_text(s, p);
   if (s->st || (n > 1 && (p->lines > MOST_LINES || (n > USUAL_MOVES && p->lines > FEW_LINES)))) return n == 1;
   thr_crop crop = {.now = now, .n_now = list_now(s, p, now)};
   double room[2];
@@ -190,7 +216,7 @@ static bool is_good(thr_sheets *s, step *p)
   return n == 1 || p->view.scale <= SMALLEST;
 }
 
-/* The move after the last one that could be on the page: another cord, needle or colour begins there. */
+/* The move after the last one that could be in the step: another cord, needle or colour begins there. */
 static int end_of_part(const thr_sheets *s, int first)
 {
   const thr_move *m = &s->move[first];
@@ -201,19 +227,22 @@ static int end_of_part(const thr_sheets *s, int first)
   return end;
 }
 
-/* How many moves the page takes: as many as are good; of those that need several pages alike many on each. */
+/* How many moves it takes: as many as are good; of those that need several steps alike many in each. */
 static void choose_end(thr_sheets *s, step *p)
 {
   int part = end_of_part(s, p->first) - p->first, n = 1;
-  for (p->end = p->first + 2; n < part && is_good(s, p); p->end++)
-    n++;
-  int pages = (part + n - 1) / n;
-  p->end = p->first + (part + pages - 1) / pages;
-  is_good(s, p);
+  p->end = p->first + part;
+  if (!is_good(s, p)) {
+    for (p->end = p->first + 2; n < part && is_good(s, p); p->end++)
+      n++;
+    int steps = (part + n - 1) / n;
+    p->end = p->first + (part + steps - 1) / steps;
+    is_good(s, p);
+  }
   if (p->view.scale >= THR_CROP_SCALES) p->view.scale = THR_CROP_SCALES - 1;
 }
 
-static void put_pictures(thr_sheets *s, const step *p, unsigned char *state, bool *filled)
+static void put_pictures(thr_sheets *s, const step *p, double top, unsigned char *state, bool *filled)
 {
   int now[MOST_MOVES];
   thr_box shown[2];
@@ -221,42 +250,61 @@ static void put_pictures(thr_sheets *s, const step *p, unsigned char *state, boo
     state[i] = s->moved[i] < p->first ? THR_DRAW_EARLIER : s->moved[i] < p->end ? THR_DRAW_NOW : THR_DRAW_HIDDEN;
   for (int e = 0; e < s->f->n_edges; e++)
     filled[e] = s->threaded[e] < p->first;
-  thr_crop crop = {.state = state, .filled = filled, .now = now, .n_now = list_now(s, p, now)};
+  thr_crop crop = {.number = s->n_steps, .state = state, .filled = filled, .now = now, .n_now = list_now(s, p, now)};
   crop.backward = s->move[p->first].needle == THR_NEEDLE_LEFT;
-  double at[2] = {0.5 * (s->size[0] - p->view.size[0]), THR_SHEET_MARGIN + HEAD}, right = s->size[0] - THR_SHEET_MARGIN;
+  double at[2] = {0.5 * (s->size[0] - p->view.size[0]), top + HEAD}, right = s->size[0] - THR_SHEET_MARGIN, locator[2];
+  locator_size(s, p, locator);
   thr_text *t = thr_sheets_out(s);
   thr_status st = thr_crop_draw(&s->crops, &crop, &p->view, at, shown, t, &s->why);
   s->y = at[1] + p->view.size[1];
   if (st)
     thr_sheets_fail(s, st, NULL);
   else
-    thr_crop_locate(&s->crops, &crop, &p->view, shown, (thr_box){right - LOCATOR, s->y + 3, right, s->y + 3 + LOCATOR}, t);
+    thr_crop_locate(&s->crops, &crop, &p->view, shown, (thr_box){right - locator[0], s->y + 3, right, s->y + 3 + locator[1]}, t);
 }
 
 /* ---- rows ---- */
 
-static void put_words(thr_sheets *s, thr_text *words, double width, const char *attributes)
+static void put_words(thr_sheets *s, const thr_text *words, const char *attributes)
 {
-  if (words->failed)
-    thr_sheets_fail(s, thr_nomem(&s->why), NULL);
-  else if (words->data)
-    s->y = thr_sheets_text(s, THR_SHEET_MARGIN, s->y, THR_SHEET_TEXT, width, attributes, words->data);
-  thr_text_destroy(words);
+  if (words->data)
+    s->y = thr_sheets_text(s, THR_SHEET_MARGIN, s->y, THR_SHEET_TEXT, text_width(s) + BOX, attributes, words->data);
 }
 
 static void put_rows(thr_sheets *s, const step *p)
 {
-  thr_text words = {0};
-  s->y += 2 + THR_SHEET_LINE;
-  put_beginning(s, p->first, &words);
-  put_words(s, &words, text_width(s) + 5, " style=\"fill:#444\"");
+  s->y += 1.5 + THR_SHEET_LINE;
+  put_words(s, &p->before, " style=\"fill:#444\"");
   for (int i = 0; i < p->n_rows && !s->st; i++) {
     thr_sheets_box(thr_sheets_out(s), THR_SHEET_MARGIN, s->y);
-    s->y = thr_sheets_text(s, THR_SHEET_MARGIN + 5, s->y, THR_SHEET_TEXT, text_width(s), "", p->row[i].data);
+    s->y = thr_sheets_text(s, THR_SHEET_MARGIN + BOX, s->y, THR_SHEET_TEXT, text_width(s), "", p->row[i].data);
   }
-  put_check(s, p->end - 1, &words);
   s->y += 1;
-  put_words(s, &words, text_width(s) + 5, " font-weight=\"bold\"");
+  put_words(s, &p->after, " font-weight=\"bold\"");
+}
+
+/* Where the step begins: on the page of the one before if it fits there whole, below a rule, else on a page of its own. */
+static double find_top(thr_sheets *s, double height)
+{
+  double y = s->y + BETWEEN;
+  bool follows = s->n_pages == s->step_page && y + height <= thr_sheets_bottom(s);
+  if (follows)
+    thr_text_printf(thr_sheets_out(s), "<path stroke=\"#999\" stroke-width=\"0.20\" d=\"M%.2f %.2fh%.2f\"/>\n", THR_SHEET_MARGIN,
+                    s->y + 0.5 * BETWEEN, thr_sheets_width(s));
+  else
+    thr_sheets_page(s, "", "");
+  s->step_page = s->n_pages;
+  return follows ? y : THR_SHEET_MARGIN;
+}
+
+static void put_step(thr_sheets *s, const step *p, unsigned char *state, bool *filled)
+{
+  double height = HEAD + p->view.size[1] + height_below(s, p), top = find_top(s, height);
+  s->n_steps++;
+  if (!s->st) put_heading(s, p, top);
+  if (!s->st) put_pictures(s, p, top, state, filled);
+  if (!s->st) put_rows(s, p);
+  s->y = top + height;
 }
 
 void thr_sheets_steps(thr_sheets *s, int c)
@@ -269,11 +317,8 @@ void thr_sheets_steps(thr_sheets *s, int c)
   if (!state || !filled) thr_sheets_fail(s, thr_nomem(&s->why), NULL);
   while (p.first < end && !s->st) {
     choose_end(s, &p);
-    thr_sheets_page(s, "", "");
-    if (!s->st) put_heading(s, &p, ++s->n_steps);
-    if (!s->st) put_pictures(s, &p, state, filled);
-    if (!s->st) put_rows(s, &p);
-    destroy_rows(&p);
+    if (!s->st) put_step(s, &p, state, filled);
+    destroy_text(&p);
     p.first = p.end;
   }
   free(state);

@@ -17,7 +17,7 @@ typedef struct {
   const char *const *motion;
   thr_guide guide;
   thr_copy *copy; /* [n_cords] */
-  int *held;      /* [n_edges] cords in the bead so far */
+  thr_held held;  /* by the passes so far */
   int n_passes;
   thr_text *out;
 } steps;
@@ -71,18 +71,18 @@ static int put_row(steps *s, const thr_cord *c, int first)
 {
   thr_text words = {0};
   char range[32], prefix[64], nth[16];
-  int k = first, times = s->held[c->half[k] >> 1] + 1, digits = snprintf(range, sizeof range, "%d", c->n_passes);
+  int k = first, times = s->held.cords[c->half[k] >> 1] + 1, digits = snprintf(range, sizeof range, "%d", c->n_passes);
   if (k == 0)
     thr_text_append(&words, "go");
   else
     thr_guide_say(&s->guide, c->half[k - 1], c->half[k], &words);
   bool straight = is_straight(s, c, k);
   thr_text_printf(&words, " to %s", s->guide.label[thr_head(s->f, c->half[k])]);
-  s->held[c->half[k++] >> 1]++;
-  for (; k < c->n_passes && is_straight(s, c, k) && s->held[c->half[k] >> 1] + 1 == times; k++) {
+  thr_held_pass(&s->held, c->half[k++]);
+  for (; k < c->n_passes && is_straight(s, c, k) && s->held.cords[c->half[k] >> 1] + 1 == times; k++) {
     if (k == first + 1 && !straight) thr_text_append(&words, ", straight on to");
     thr_text_printf(&words, " %s", s->guide.label[thr_head(s->f, c->half[k])]);
-    s->held[c->half[k] >> 1]++;
+    thr_held_pass(&s->held, c->half[k]);
   }
   thr_guide_ordinal(times, nth);
   if (times > 1) thr_text_printf(&words, " (%s pass)", nth);
@@ -165,7 +165,7 @@ static void put_copy(steps *s, int c)
   thr_guide_place(&s->guide, thr_cord_end(s->f, cord), &words);
   put_wrapped(s, "[ ] ", &words);
   for (int k = 0; k < cord->n_passes; k++)
-    s->held[cord->half[k] >> 1]++;
+    thr_held_pass(&s->held, cord->half[k]);
 }
 
 static void put_path(steps *s, int c, int n_paths, int *seen)
@@ -218,9 +218,8 @@ static thr_status prepare(steps *s, thr_err *err)
   if (!st && !p->n_cords) st = thr_fail(err, THR_EINPUT, "the plan has no cord to thread");
   if (st) return st;
   s->copy = thr_calloc((size_t)p->n_cords, sizeof *s->copy);
-  s->held = thr_calloc((size_t)s->f->n_edges, sizeof *s->held);
-  if (!s->copy || !s->held) return thr_nomem(err);
-  st = thr_guide_make(&s->guide, s->f, err);
+  st = s->copy ? thr_held_make(&s->held, s->f->n_edges, err) : thr_nomem(err);
+  if (!st) st = thr_guide_make(&s->guide, s->f, err);
   if (!st) st = thr_copies_find(p, s->copy, err);
   return st;
 }
@@ -242,7 +241,7 @@ done:
   thr_text_destroy(&text);
   thr_guide_destroy(&s.guide);
   free(s.copy);
-  free(s.held);
+  thr_held_destroy(&s.held);
   free(seen);
   return st;
 }

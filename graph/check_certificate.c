@@ -26,7 +26,7 @@ typedef struct {
   wide *shared;           /* [n_edges] sum of the values of the sets that hold both ends */
   int *own;               /* [n_nodes] cut of the present tree whose own node this is, else -1 */
   int64_t *price;         /* [n_nodes] of a place for a cord end there */
-  int *loop;              /* [n_edges] in the order of edge: thr_prices_loops; NULL = not known yet */
+  int *loop, *work;       /* [n_edges] in the order of edge, once they are asked for: thr_prices_loops */
 } workspace;
 
 /* The cuts of one certificate as a forest. Arrays of n_cuts. */
@@ -169,7 +169,8 @@ static thr_priced priced(const workspace *k, const thr_certificate *c, int j)
   int e = k->edge[j];
   bool closed = k->o->ends == THR_ENDS_CLOSED;
   wide of = closed ? (c->n_prices ? c->place_price[0] : 0) : (wide)k->price[k->f->edge[e][0]] + k->price[k->f->edge[e][1]];
-  return thr_prices_edge(k->f, k->o, e, (wide)thr_certificate_weight(k->f, c, e) * c->denominator, of, k->loop ? k->loop[j] : 2);
+  return thr_prices_edge(k->f, k->o, e, (wide)thr_certificate_weight(k->f, c, e) * c->denominator, of,
+                         closed && c->n_prices ? k->loop[j] : 2);
 }
 
 /* Prices at nodes, the parity of nodes at these prices, and what all that adds to the bound. */
@@ -251,8 +252,7 @@ double thr_check_extra(const thr_certificate *c, const thr_check_verdict *v, int
 }
 
 /* Compares the stated sums with the true ones, and says what they prove. */
-static thr_status judge(const workspace *k, const thr_certificate *c, wide sum, wide places, thr_check_verdict *out,
-                        thr_err *err)
+static thr_status judge(const workspace *k, const thr_certificate *c, wide sum, wide places, thr_check_verdict *out, thr_err *err)
 {
   bool extra = false, weightless = false; /* a scale may round what passes cost to nothing */
   wide join = 0;
@@ -294,12 +294,14 @@ static thr_status check_numbers(const workspace *k, const thr_certificate *c, th
   return THR_OK;
 }
 
-/* All edges' at once, when the first certificate needs them. */
-static thr_status find_loops(workspace *k, thr_err *err)
+static thr_status find_loops(workspace *k, int component, thr_err *err)
 {
-  if (k->loop) return THR_OK;
-  if (!(k->loop = thr_calloc((size_t)k->f->n_edges, sizeof *k->loop))) return thr_nomem(err);
-  return thr_prices_loops(k->f, k->edge, k->f->n_edges, k->loop, err);
+  const int first = k->edge_start[component], n = k->edge_start[component + 1] - first;
+  if (!k->loop) k->loop = thr_calloc((size_t)k->f->n_edges, sizeof *k->loop);
+  if (!k->work) k->work = thr_calloc(2 * (size_t)k->f->n_nodes, sizeof *k->work);
+  if (!k->loop || !k->work) return thr_nomem(err);
+  thr_prices_loops(k->f, k->edge + first, n, k->work, k->loop + first);
+  return THR_OK;
 }
 
 static thr_status run_certificate(workspace *k, const thr_certificate *c, thr_check_verdict *out, thr_err *err)
@@ -307,7 +309,7 @@ static thr_status run_certificate(workspace *k, const thr_certificate *c, thr_ch
   forest t = {0};
   wide sum = 0, places = 0;
   thr_status st = check_numbers(k, c, err);
-  if (!st && c->n_prices > 0 && k->o->ends == THR_ENDS_CLOSED) st = find_loops(k, err);
+  if (!st && c->n_prices > 0 && k->o->ends == THR_ENDS_CLOSED) st = find_loops(k, c->component, err);
   if (!st) st = apply_prices(k, c, &places, err);
   if (!st) st = forest_init(&t, c, err);
   if (!st) st = forest_fill(&t, k, err);
@@ -339,6 +341,7 @@ static void workspace_destroy(workspace *k)
   free(k->own);
   free(k->price);
   free(k->loop);
+  free(k->work);
 }
 
 /* Groups nodes and edges by component: counting sort, shifted by one place so that filling leaves the starts right. */

@@ -93,10 +93,11 @@ static void paths_destroy(paths *s)
   free(s->start);
 }
 
-/* Does it matter where the cord starts? Not for a closed one, unless its joints are to be tied and its ends tie nothing. */
+/* Does it not matter where the cord starts? Of a closed one, where its ends may be anywhere and tie nothing. */
 static bool runs_round(const thr_plan *p, const thr_cord *c)
 {
-  return c->closed && (p->options.joint == THR_JOINT_SOLID || p->options.ends == THR_ENDS_CLOSED);
+  const thr_plan_options *o = &p->options;
+  return c->closed && (o->ends == THR_ENDS_CLOSED || (o->ends == THR_ENDS_ANY && o->joint == THR_JOINT_SOLID));
 }
 
 static thr_status paths_init(paths *s, const thr_plan *p, thr_err *err)

@@ -103,16 +103,17 @@ typedef struct {
  * ends, are odd in number. The values of the sets that an edge leaves add up to at most w_e * denominator, if the edge has room
  * for an extra pass at all; those of the sets that hold a node where cord ends are allowed, to at most end_price. Then for
  * every j no extra passes that leave j cord ends weigh less than (sum - j * end_price) / denominator: every set is left by an
- * extra pass, or holds a cord end. */
+ * extra pass, or holds a cord end. With prices of places (graph/prices.h) edges have other weights and nodes another parity,
+ * and the bound has a term more. */
 typedef struct {
   int component;
-  double scale;        /* integer weight per unit of length, > 0 */
-  int64_t denominator; /* > 0 */
-  int64_t end_price;   /* >= 0, in units of 1/denominator; 0 with THR_ENDS_CLOSED and THR_ENDS_COUNTS */
+  double scale;         /* integer weight per unit of length, > 0 */
+  int64_t denominator;  /* > 0 */
+  int64_t end_price;    /* >= 0, in units of 1/denominator; 0 with THR_ENDS_CLOSED and THR_ENDS_COUNTS */
   int n_prices;         /* 0 unless as many cords as asked for may need more passes than a join has (graph/prices.h) */
   int64_t *place_price; /* >= 0, in units of 1/denominator; owned */
-  int64_t join;        /* weight of the extra passes of the plan */
-  int64_t sum;         /* of the cuts' values */
+  int64_t join;         /* weight of the extra passes of the plan */
+  int64_t sum;          /* of the cuts' values */
   int n_cuts;
   thr_cut *cut; /* owned */
 } thr_certificate;
@@ -168,7 +169,7 @@ typedef struct {
   int *image;       /* [n_images * n_nodes] owned */
   int *unique;      /* [n_cords] the cord that this one is a copy of; itself for a unique path; owned */
   int *element;     /* [n_cords] image that maps that one to this, perhaps reversed, and a closed one perhaps from another start
-                       (not with tube joints and ends: where it ends it ties nothing); owned */
+                       (not where its ends matter: THR_ENDS_FEET and _NODES, with tube joints also _ANY); owned */
   double steps;     /* learned: passes of each unique path over the number of ways (from another start, reversed) in which it is
                        its own image under the group */
   int unique_paths; /* number of different values of unique */

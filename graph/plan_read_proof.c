@@ -43,7 +43,8 @@ static thr_status read_prices(const thr_field_reader *r, const thr_json *v, thr_
 
 static thr_status read_certificate(const thr_field_reader *r, const thr_json *v, const thr_frame *f, thr_certificate *c)
 {
-  static const char *const known[] = {"component", "scale", "denominator", "end_price", "join", "sum", "cuts", "place_prices", NULL};
+  static const char *const known[] = {"component", "scale", "denominator",  "end_price", "join",
+                                      "sum",       "cuts",  "place_prices", NULL};
   const thr_json *cuts;
   thr_status st = thr_field_only(r, v, "proof.length.certificate", known);
   if (!st) st = thr_field_int(r, v, "component", 0, f->n_nodes - 1, &c->component);

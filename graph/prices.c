@@ -2,7 +2,6 @@
 #include "graph/prices.h"
 
 #include <limits.h>
-#include <stdlib.h>
 
 enum { LONGEST_LOOP = 10, MOST_STEPS = 1 << 24 };
 
@@ -33,37 +32,33 @@ thr_priced thr_prices_edge(const thr_frame *f, const thr_plan_options *o, int e,
   return p;
 }
 
-/* A search from one node, cut off at a depth. */
+/* Searches from one node, cut off at a depth. */
 typedef struct {
-  int *mark, *queue; /* [n_nodes] the search that reached a node last; those reached */
+  int *mark, *queue; /* [n_nodes] number of the edge whose search reached a node last, plus 1; those reached */
   int steps;
 } search;
 
 /* Edges of the shortest way between the edge's nodes that is not the edge, up to most; most if there is none. */
-static int way_round(const thr_frame *f, int e, int most, int number, search *s)
+static int way_round(const thr_frame *f, int e, int most, search *s)
 {
   int n = 0, depth = 0, goal = f->edge[e][1];
   s->queue[n++] = f->edge[e][0];
-  s->mark[f->edge[e][0]] = number;
+  s->mark[f->edge[e][0]] = e + 1;
   for (int at = 0, level = n; at < n && depth < most - 1; depth++, level = n)
     for (; at < level; at++)
       for (int i = f->first[s->queue[at]]; i < f->first[s->queue[at] + 1]; i++, s->steps++) {
         int v = thr_head(f, f->half[i]);
-        if (f->half[i] >> 1 == e || s->mark[v] == number) continue;
+        if (f->half[i] >> 1 == e || s->mark[v] == e + 1) continue;
         if (v == goal) return depth + 1;
-        s->mark[v] = number;
+        s->mark[v] = e + 1;
         s->queue[n++] = v;
       }
   return most;
 }
 
-thr_status thr_prices_loops(const thr_frame *f, const int *edge, int n, int *loop, thr_err *err)
+void thr_prices_loops(const thr_frame *f, const int *edge, int n, int *work, int *loop)
 {
-  search s = {thr_calloc((size_t)f->n_nodes, sizeof *s.mark), thr_calloc((size_t)f->n_nodes, sizeof *s.queue), 0};
-  thr_status st = s.mark && s.queue ? THR_OK : thr_nomem(err);
-  for (int i = 0; i < n && !st; i++)
-    loop[i] = s.steps < MOST_STEPS ? 1 + way_round(f, edge[i], LONGEST_LOOP - 1, i + 1, &s) : 2;
-  free(s.mark);
-  free(s.queue);
-  return st;
+  search s = {work, work + f->n_nodes, 0};
+  for (int i = 0; i < n; i++)
+    loop[i] = s.steps < MOST_STEPS ? 1 + way_round(f, edge[i], LONGEST_LOOP - 1, &s) : 2;
 }

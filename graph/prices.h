@@ -33,7 +33,7 @@ int thr_prices_number(const thr_plan_options *o, int n_nodes);
 thr_priced thr_prices_edge(const thr_frame *f, const thr_plan_options *o, int e, thr_wide weight, thr_wide of, int loop);
 
 /* Number of edges of the shortest loop over each of edge[n], or fewer: no more than 10 are told apart, and 2^24 steps taken. loop
- * is indexed like edge. */
-thr_status thr_prices_loops(const thr_frame *f, const int *edge, int n, int *loop, thr_err *err) THR_MUST_CHECK;
+ * is indexed like edge. work[2 * n_nodes] is 0 at first, and may serve for other edges after that. */
+void thr_prices_loops(const thr_frame *f, const int *edge, int n, int *work, int *loop);
 
 #endif

@@ -21,7 +21,6 @@ typedef struct {
   thr_trails *trails; /* [n_components] results */
   int *wanted;        /* [n_components] cords to be made of a component now; 0 = none */
   int *passes;        /* [n_edges] */
-  int64_t *price;     /* [n_nodes] of places for ends, where they took further passes */
   bool least;         /* the passes are the shortest that hold the cords */
   bool certain;       /* the longest cord is as short as can be: the solver's word */
 } several;
@@ -34,7 +33,6 @@ static void several_destroy(several *x)
   free(x->component);
   free(x->wanted);
   free(x->passes);
-  free(x->price);
 }
 
 static thr_status several_init(several *x, thr_err *err)
@@ -46,10 +44,9 @@ static thr_status several_init(several *x, thr_err *err)
   x->trails = thr_calloc(n, sizeof *x->trails);
   x->wanted = thr_calloc(n, sizeof *x->wanted);
   x->passes = thr_calloc((size_t)x->f->n_edges, sizeof *x->passes);
-  x->price = thr_calloc((size_t)x->f->n_nodes, sizeof *x->price);
   x->share = (thr_share){x->f, x->o, x->component};
   x->least = x->certain = true;
-  return x->trails && x->wanted && x->passes && x->price ? THR_OK : thr_nomem(err);
+  return x->trails && x->wanted && x->passes ? THR_OK : thr_nomem(err);
 }
 
 static int component_of(const several *x, int e)
@@ -145,7 +142,7 @@ static thr_status make_places(several *x, int k, const thr_certificate *c, thr_e
 {
   bool changed;
   thr_err why = {0};
-  thr_status st = thr_share_places(&x->share, k, x->wanted[k], c, x->limits, x->passes, x->price, &changed, &why);
+  thr_status st = thr_share_places(&x->share, k, x->wanted[k], c, x->limits, x->passes, &changed, &why);
   return st ? thr_fail(err, st == THR_ELIMIT ? THR_EINFEASIBLE : st, "%s", why.text) : THR_OK;
 }
 
@@ -388,8 +385,10 @@ static thr_status prove_places(const several *x, thr_plan *plan, thr_err *err)
   thr_err found = {0};
   thr_status st = THR_OK;
   if (proof->optimal) return THR_OK;
-  for (int k = 0; k < proof->n_certificates && !st; k++)
-    st = thr_share_prices(&x->share, k, x->price, x->limits, &proof->certificate[k], err);
+  for (int k = 0; k < proof->n_certificates && !st; k++) {
+    st = thr_share_prices(&x->share, k, x->limits, &proof->certificate[k], err);
+    proof->unconfirmed += proof->certificate[k].n_prices > 0; /* GLPK was asked about other passes */
+  }
   if (st) return st;
   st = thr_check_length_proof(f, &plan->options, plan->cord, plan->n_cords, proof->certificate, proof->n_certificates,
                               &proof->optimal, &proof->lower_bound, &found);

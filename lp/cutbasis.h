@@ -1,26 +1,27 @@
-/* The cuts of a T-join as rows of a linear programme: minimize weight x, x(cut) >= 1 for every cut, x >= 0; and a basis of it
- * that the join gives. Internal to lp/. */
+/* The cuts of a T-join as a linear programme, and a basis of it that the join gives. Internal to lp/. */
 #ifndef THR_CUTBASIS_H
 #define THR_CUTBASIS_H
 
 #include "lp/tjoin.h"
 
-/* The edges that leave the set of cut i are edge[first[i] .. first[i + 1] - 1]. */
+/* Minimize weight x, x(cut i) - s[i] = 1 for every cut, x >= 0, s >= 0, with the equations of the cuts right inside of a cut
+ * taken off its own: of the edges that leave both nothing is left, so that nests however deep have few entries. Columns: the
+ * edges, then the slacks s; by columns, as thr_lp_create_equations takes it. All arrays are owned. */
 typedef struct {
-  int *tree; /* [n_cuts] the outermost cut round cut i, or i; owned */
-  int *first, *edge;
-} thr_cut_rows;
+  int n_rows, n_columns; /* cuts; edges and cuts */
+  double *rhs;           /* [n_rows] */
+  int *start, *row;
+  double *value;
+  bool *basic; /* [n_columns] n_rows of them, a nonsingular matrix */
+} thr_cut_programme;
 
-/* Children come before their parents in t's forest. O(entries + nodes named + edges * trees that name one of their ends). Release
- * with thr_cut_rows_destroy, after a failure too. */
-thr_status thr_cut_rows_init(thr_cut_rows *r, const thr_tjoin_problem *p, const thr_tjoin *t, thr_err *err) THR_MUST_CHECK;
-void thr_cut_rows_destroy(thr_cut_rows *r);
-
-/* Marks a basis: of row[n_cuts] those whose slack is basic, of column[n_edges] the basic edges; as many together as there are
- * rows, never singular. Its point is the join (without edges of weight 0 that leave no set). If the cuts prove the join to the
- * last unit and no node is named twice, the basis is mostly optimal as well: where the duals are not unique, they are moved until
- * they are a vertex. That takes O((entries + edges) log cuts). */
-thr_status thr_cut_basis(const thr_cut_rows *r, const thr_tjoin_problem *p, const thr_tjoin *t, bool *row, bool *column,
-                         thr_err *err) THR_MUST_CHECK;
+/* If the cuts prove t to the last unit and no node is named twice, as those of lp/moat.h, the point of the basis is the join
+ * (without edges of weight 0 that leave no set). Where the duals are not unique they are moved until they are a vertex: mostly
+ * the basis is optimal as well; it need not be where sets inside of others hang by too few tight edges, as after shrinking.
+ * Otherwise it is a basis with as much of the join as has cuts for itself. O(edges * depth + edges log cuts). Children must come
+ * before their parents in t's forest. On failure nothing is allocated. Release with thr_cut_programme_destroy. */
+thr_status thr_cut_programme_init(thr_cut_programme *c, const thr_tjoin_problem *p, const thr_tjoin *t,
+                                  thr_err *err) THR_MUST_CHECK;
+void thr_cut_programme_destroy(thr_cut_programme *c);
 
 #endif

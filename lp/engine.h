@@ -15,7 +15,7 @@ typedef enum {
   THR_CONFIRM_SKIPPED /* the limits stopped it, or a library failed */
 } thr_confirmation;
 
-enum { THR_CONFIRM_EDGES = 10000 }; /* problems up to this size are confirmed in about a second */
+enum { THR_CONFIRM_EDGES = 10000 }; /* problems up to this size are confirmed well within a second */
 
 /* Solves min weight x, x(cut) >= 1 for the cuts of t, x >= 0, with integer costs and a basis from the join, and compares: t being
  * optimal, the minimum is t->length by duality, or less than 1 below if rounding left the cuts' values so. THR_ESOLVER: it is
@@ -24,7 +24,7 @@ thr_status thr_tjoin_confirm(const thr_tjoin_problem *p, const thr_tjoin *t, con
                              thr_err *err) THR_MUST_CHECK;
 
 typedef struct {
-  bool always;            /* whatever the size; else within a second, of problems up to THR_CONFIRM_EDGES */
+  bool always; /* whatever the size and the work; else of problems up to THR_CONFIRM_EDGES, with about a second's work */
   int confirmed, skipped; /* T-joins */
 } thr_confirmations;
 

@@ -6,7 +6,8 @@
 #include "graph/limits.h"
 #include "graph/status.h"
 
-/* The work of limits counts pivots, each as the number of rows and columns of its programme: some 10 million a second. */
+/* The work of limits counts pivots, each as the number of rows and columns of its programme and 3000: some 100 million a second.
+ */
 typedef struct thr_lp thr_lp;
 
 typedef enum {
@@ -26,8 +27,7 @@ void thr_lp_destroy(thr_lp *lp);
 thr_status thr_lp_add_row(thr_lp *lp, int n, const int *column, const double *value, double lower, thr_err *err) THR_MUST_CHECK;
 
 /* A programme in one go: min cost x, A x = rhs, x >= 0 (free[j]: x[j] unbounded both ways; free NULL = none). A by columns:
- * start[n_columns + 1], row[], value[]; no row twice in a column. Release with thr_lp_destroy. The tests' oracle for
- * lp/interior.h (docs/method.md says why it is no more). */
+ * start[n_columns + 1], row[], value[]; no row twice in a column. Release with thr_lp_destroy. */
 thr_status thr_lp_create_equations(thr_lp **lp, int n_rows, const double *rhs, int n_columns, const double *cost,
                                    const bool *free, const int *start, const int *row, const double *value,
                                    thr_err *err) THR_MUST_CHECK;

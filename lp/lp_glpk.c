@@ -4,6 +4,7 @@
 #include "lp/lp.h"
 
 #include <glpk.h>
+#include <limits.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -310,13 +311,15 @@ thr_status thr_lp_set_costs(thr_lp *lp, const double *cost, thr_err *err)
 
 /* ---- solving ---- */
 
-/* Pivots between two looks at the clock and the interrupt flag. Counted, not timed: where a slice ends changes the path that
- * the method takes, and the same input must give the same plan on a slow machine as on a fast one. */
+/* Pivots before the first look at the clock and the interrupt flag. Counted, not timed: where a slice ends changes the path that
+ * the method takes, and the same input must give the same plan on a slow machine as on a fast one. Every next slice is twice as
+ * long: where one ends GLPK takes back the perturbed costs that lead it out of a degenerate corner. */
 enum { SLICE = 500 };
 
 typedef struct {
   glp_prob *problem;
   bool exact, primal;
+  int slice;
   double left; /* seconds: a slice of a large problem may take longer than there is */
   int code;
 } solve_call;
@@ -328,7 +331,7 @@ static void do_solve(void *argument)
   glp_init_smcp(&options);
   options.msg_lev = GLP_MSG_OFF;
   options.meth = c->primal ? GLP_PRIMAL : GLP_DUALP; /* after new rows the basis stays dual feasible */
-  options.it_lim = SLICE;
+  options.it_lim = c->slice;
   if (c->left < 1e6) options.tm_lim = 1 + (int)(1000 * c->left);
   options.tol_dj = 1e-9; /* the duals become certificates: GLPK's 1e-7 is too coarse to close them */
   c->code = c->exact ? glp_exact(c->problem, &options) : glp_simplex(c->problem, &options);
@@ -349,10 +352,11 @@ static thr_lp_outcome outcome_of(glp_prob *problem)
   }
 }
 
-/* Takes pivots from the work that is left: they cost about as much as there are rows and columns. */
+/* Takes pivots from the work that is left: of a small programme one takes as long as 3000 rows and columns do of a large one. */
 static void spend(const thr_limits *limits, glp_prob *p, int pivots)
 {
-  if (limits->work) *limits->work -= (double)pivots * (glp_get_num_rows(p) + glp_get_num_cols(p));
+  enum { SMALL = 3000 };
+  if (limits->work) *limits->work -= (double)pivots * (SMALL + glp_get_num_rows(p) + glp_get_num_cols(p));
 }
 
 static thr_status solve(thr_lp *lp, bool exact, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)
@@ -360,9 +364,9 @@ static thr_status solve(thr_lp *lp, bool exact, const thr_limits *limits, thr_lp
   *outcome = THR_LP_STOPPED;
   thr_status st = check_alive(lp, err);
   lp->integer = false;
-  for (int restarts = 0; !st;) {
+  for (int restarts = 0, slice = SLICE; !st; slice = slice < INT_MAX / 2 ? 2 * slice : slice) {
     if (thr_limits_stop(limits)) return THR_OK;
-    solve_call c = {lp->problem, exact, lp->primal || restarts > 0, thr_limits_left(limits, INFINITY), 0};
+    solve_call c = {lp->problem, exact, lp->primal || restarts > 0, slice, thr_limits_left(limits, INFINITY), 0};
     int before = glp_get_it_cnt(lp->problem);
     if ((st = guarded(do_solve, &c, err))) return st;
     spend(limits, lp->problem, glp_get_it_cnt(lp->problem) - before);

@@ -14,11 +14,10 @@ typedef struct {
 
 /* Makes room for the ends of n cords in component k: where passes[n_edges], the shortest, leave too few places for them, they are
  * replaced by the shortest ones of all that do not, as one perfect matching (Edmonds & Johnson's reduction of degree
- * constraints). c gives the weights. *changed: they were, and price[n_nodes] is
- * about twice the weight of one more place at each of its nodes. THR_EINFEASIBLE: no passes within the capacities have as many (says
+ * constraints). c gives the weights. *changed: they were. THR_EINFEASIBLE: no passes within the capacities have as many (says
  * where). THR_ELIMIT: stopped, or too large a matching; then passes are as before. */
 thr_status thr_share_places(const thr_share *s, int k, int n, const thr_certificate *c, const thr_limits *limits, int *passes,
-                            int64_t *price, bool *changed, thr_err *err) THR_MUST_CHECK;
+                            bool *changed, thr_err *err) THR_MUST_CHECK;
 
 /* Cuts the walks of a component (thr_trails_trace) into n cords, or as many more as must be: at the sharpest turns where cords
  * may end, or, even = true, so that no cord is much longer than the others. With THR_ENDS_COUNTS the counts say how many.

@@ -10,7 +10,7 @@
 
 enum { MOST_COLUMNS = 100 };
 
-static const double most_work = 2e7; /* of linear programmes: about two seconds */
+static const double most_work = 2e8; /* of linear programmes: about two seconds */
 
 /* Columns of cord c, from c * (2 * n_edges + 2 * n_nodes) on: passes of its edges, whether it passes them, half of what passes
  * its nodes, its ends there. */

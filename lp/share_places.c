@@ -184,18 +184,8 @@ static void take(const ports *p, const thr_matching *m, int *passes)
   }
 }
 
-/* What a core of a group loads its edges with less than nothing, one more place would weigh. */
-static void take_prices(const ports *p, const thr_matching *m, int64_t *price)
-{
-  for (int v = 0; v < p->s->f->n_nodes; v++) {
-    int g = p->group[v];
-    for (int core = g < 0 ? 0 : p->first[g] + p->n_ports[g]; g >= 0 && core < p->first[g + 1]; core++)
-      if (-m->dual[core] > price[v]) price[v] = -m->dual[core];
-  }
-}
-
 thr_status thr_share_places(const thr_share *s, int k, int n, const thr_certificate *c, const thr_limits *limits, int *passes,
-                            int64_t *price, bool *changed, thr_err *err)
+                            bool *changed, thr_err *err)
 {
   ports p = {.s = s, .c = c, .k = k};
   thr_matching m = {0};
@@ -209,7 +199,6 @@ thr_status thr_share_places(const thr_share *s, int k, int n, const thr_certific
     if (st == THR_EINFEASIBLE) why = (thr_err){0};
   }
   if (!st) take(&p, &m, passes);
-  if (!st) take_prices(&p, &m, price);
   *changed = !st;
   if (st == THR_EINFEASIBLE && !why.code)
     thr_fail(&why, st, "the capacities of the edges leave no room for as many cord ends as asked for");

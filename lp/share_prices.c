@@ -5,13 +5,14 @@
 #include "graph/prices.h"
 #include "lp/cuts.h"
 #include "lp/engine.h"
+#include "lp/lp.h"
 
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_EDGES = 10000, MOST_ROUNDS = 60 };
+enum { MOST_EDGES = 10000, MOST_ROUNDS = 60, MOST_PRICES = 30 };
 
 typedef struct {
   const thr_share *s;
@@ -26,7 +27,7 @@ typedef struct {
   thr_wide bound;            /* of c, in units of 1/denominator of it */
 } pricing;
 
-/* What a choice of passes weighs, in weights, and how many places it has: its bound is linear in the price. */
+/* What passes weigh, in weights, and how many places they have. */
 typedef struct {
   double weight, places;
 } line;
@@ -84,7 +85,11 @@ static thr_status pricing_init(pricing *p, int k, thr_err *err)
   for (int v = 0; v <= p->n_nodes; v++)
     p->part[v] = thr_disjoint_find(p->part, v);
   p->unit = choose_unit(p);
-  return p->closed ? thr_prices_loops(f, p->edge, p->n_edges, p->loop, err) : THR_OK;
+  if (!p->closed) return THR_OK;
+  int *work = thr_calloc(2 * n, sizeof *work);
+  if (work) thr_prices_loops(f, p->edge, p->n_edges, work, p->loop);
+  free(work);
+  return work ? THR_OK : thr_nomem(err);
 }
 
 /* Nodes of an edge where cords may end. */
@@ -106,17 +111,20 @@ static thr_priced edge_at(const pricing *p, int i)
   return thr_prices_edge(p->s->f, p->s->o, e, (thr_wide)thr_certificate_weight(p->s->f, c, e) * c->denominator, of, p->loop[i]);
 }
 
-/* The highest price at which no edge is cheaper the more it is passed; or all that there is to be had. */
-static int64_t highest_price(const pricing *p)
+/* The highest price at which no edge is cheaper the more it is passed; or all that there is to be had. *usual: where to look
+ * first. */
+static int64_t highest_price(const pricing *p, int64_t *usual)
 {
-  double sum = 1, most = INFINITY;
+  double sum = 1, most = INFINITY, heaviest = 1;
   for (int i = 0; i < p->n_edges; i++) {
     int e = p->edge[i], n = p->closed ? 1 : ends_of(p, e);
     double weight = (double)thr_certificate_weight(p->s->f, p->c, e);
     sum += weight;
+    heaviest = fmax(heaviest, weight);
     if (n > 0 && thr_plan_capacity(p->s->f, p->s->o, e) == INT_MAX) most = fmin(most, weight / n);
   }
-  return (int64_t)floor(fmin(most, 2 * sum) * (double)p->unit);
+  *usual = (int64_t)(fmin(most, heaviest) * (double)p->unit);
+  return (int64_t)floor(fmin(most, sum) * (double)p->unit);
 }
 
 /* ---- the bound at a price ---- */
@@ -209,15 +217,19 @@ static thr_status solve_part(pricing *p, int part, const bool *odd, bool *in_joi
   thr_tjoin t = {0};
   thr_err why = {0};
   thr_status st = problem_init(&q, p, part, odd, err);
-  if (!st && q.n_edges > 0) {
+  double sum = 0;
+  for (int i = 0; i < q.n_edges && !st; i++)
+    sum += (double)q.weight[i];
+  *stopped |= sum > 0x1p50; /* so high a price is not tried: the sums would not fit */
+  if (!st && !*stopped && q.n_edges > 0) {
     thr_tjoin_problem tjoin = {q.n_nodes, q.n_edges, (const int(*)[2])q.edge, q.weight, q.odd, 0};
     st = thr_tjoin_shrunk(&tjoin, p->s->o->engine, p->limits, &t, &why);
     *stopped |= st == THR_ELIMIT;
-    if (st && st != THR_ELIMIT) thr_fail(err, st, "%s", why.text);
-    if (st == THR_ELIMIT) st = THR_OK;
-    for (int i = 0; i < q.n_edges && !st; i++)
+    if (st && st != THR_ELIMIT) st = thr_fail(err, st, "%s", why.text);
+    for (int i = 0; i < q.n_edges && !*stopped && !st; i++)
       in_join[q.number[i]] = t.in_join[i];
-    if (!st) st = take_cuts(p, &q, &t, err);
+    if (!*stopped && !st) st = take_cuts(p, &q, &t, err);
+    if (st == THR_ELIMIT) st = THR_OK;
   }
   thr_tjoin_destroy(&t);
   problem_destroy(&q);
@@ -246,23 +258,26 @@ static void count_odd(const pricing *p, bool *odd, thr_wide *bound)
   odd[p->n_nodes] = sum; /* free: what makes the number even */
 }
 
-/* Weight and places of the passes that cost least at the trial's price. */
-static line line_of(const pricing *p, const bool *in_join)
+/* Weight and places of the passes that cost least at the trial's prices: a bound linear in the prices. */
+static void measure(const pricing *p, const bool *in_join, double *weight, double *places)
 {
-  line l = {0, 0};
+  *weight = 0;
+  memset(places, 0, (size_t)p->trial.n_prices * sizeof *places);
   for (int i = 0; i < p->n_edges; i++) {
     int e = p->edge[i];
     thr_priced at = edge_at(p, i);
     int odd = at.room && (at.odd < at.even) != in_join[i], n = at.room ? at.passes[odd] : 0;
-    l.weight += n * (double)thr_certificate_weight(p->s->f, p->c, e);
+    *weight += n * (double)thr_certificate_weight(p->s->f, p->c, e);
     n += thr_plan_cover(p->s->f, p->s->o, e);
-    l.places += p->closed ? n - n % 2 + n % 2 * 2.0 / p->loop[i] : n * (double)ends_of(p, e);
+    for (int s = 0; s < 2 && p->counts; s++)
+      places[p->local[p->s->f->edge[e][s]]] += n;
+    if (!p->counts) places[0] += p->closed ? n - n % 2 + n % 2 * 2.0 / p->loop[i] : n * (double)ends_of(p, e);
   }
-  return l;
 }
 
 /* The bound at prices[n], in units; c becomes the trial where that is better. */
-static thr_status try_prices(pricing *p, const int64_t *price, int n_prices, line *l, bool *stopped, thr_err *err)
+static thr_status try_prices(pricing *p, const int64_t *price, int n_prices, double *weight, double *places, bool *stopped,
+                             thr_err *err)
 {
   thr_certificate *c = &p->trial;
   size_t n = (size_t)p->n_nodes + 1, m = (size_t)p->n_edges;
@@ -279,7 +294,7 @@ static thr_status try_prices(pricing *p, const int64_t *price, int n_prices, lin
     for (int v = 0; v <= p->n_nodes && !st && !*stopped; v++)
       if (p->part[v] == v) st = solve_part(p, v, odd, in_join, stopped, err);
     bound += c->sum;
-    if (!st) *l = line_of(p, in_join);
+    if (!st) measure(p, in_join, weight, places);
     if (!st && bound * p->c->denominator > p->bound * c->denominator) {
       thr_certificate keep = *p->c;
       *p->c = *c;
@@ -292,6 +307,12 @@ static thr_status try_prices(pricing *p, const int64_t *price, int n_prices, lin
   return st;
 }
 
+/* Weights being integers. */
+static bool proved(const pricing *p)
+{
+  return p->bound > (p->c->join - 1) * (thr_wide)p->c->denominator;
+}
+
 /* ---- the best price ---- */
 
 /* Where the lines of too few and of enough places meet is the highest bound that they allow: a price that keeps it is the best,
@@ -299,16 +320,22 @@ static thr_status try_prices(pricing *p, const int64_t *price, int n_prices, lin
 static thr_status search(pricing *p, thr_err *err)
 {
   const double need = 2.0 * p->s->o->cords_least;
-  int64_t low = 0, high = highest_price(p);
+  int64_t low = 0, high, top = highest_price(p, &high);
   bool stopped = false;
   line few, many, l;
-  thr_status st = try_prices(p, &low, 1, &few, &stopped, err);
-  if (!st) st = try_prices(p, &high, 1, &many, &stopped, err);
-  for (int round = 0; !st && !stopped && few.places < need && many.places > need && round < MOST_ROUNDS; round++) {
+  thr_status st = try_prices(p, &low, 1, &few.weight, &few.places, &stopped, err);
+  if (!st) st = try_prices(p, &high, 1, &many.weight, &many.places, &stopped, err);
+  while (!st && !stopped && many.places < need && high < top) {
+    few = many;
+    low = high;
+    high = high < top / 2 ? 2 * high : top;
+    st = try_prices(p, &high, 1, &many.weight, &many.places, &stopped, err);
+  }
+  for (int round = 0; !st && !stopped && few.places < need && many.places > need && !proved(p) && round < MOST_ROUNDS; round++) {
     double price = (many.weight - few.weight) / (many.places - few.places);
     int64_t next = (int64_t)nearbyint(price * (double)p->unit);
     if (next <= low || next >= high) break;
-    st = try_prices(p, &next, 1, &l, &stopped, err);
+    st = try_prices(p, &next, 1, &l.weight, &l.places, &stopped, err);
     if (st) break;
     if (l.places >= need) {
       many = l;
@@ -321,44 +348,145 @@ static thr_status search(pricing *p, thr_err *err)
   return st;
 }
 
-/* With numbers of ends given at nodes every node has its price: in halves of a weight. */
-static thr_status search_counts(pricing *p, const int64_t *price, thr_err *err)
+/* Ends given at nodes: prices of those whose edges need fewer passes than there are ends, by a programme. */
+typedef struct {
+  pricing *p;
+  int n;             /* such nodes */
+  int *node, *local; /* [n] and [p->n_nodes], -1 = none */
+  thr_lp *lp;        /* columns: prices, in weights; how far the bound is below the join */
+  int *column;
+  double *value, *x;
+} programme;
+
+static void programme_destroy(programme *q)
 {
+  thr_lp_destroy(q->lp);
+  free(q->node);
+  free(q->local);
+  free(q->column);
+  free(q->value);
+  free(q->x);
+}
+
+static thr_status find_short(programme *q, thr_err *err)
+{
+  const pricing *p = q->p;
   const thr_frame *f = p->s->f;
-  const thr_plan_options *o = p->s->o;
-  bool stopped = false;
-  line l;
-  int64_t *at = thr_calloc((size_t)p->n_nodes, sizeof *at);
-  if (!at) return thr_nomem(err);
+  size_t n = (size_t)p->n_nodes;
+  q->node = thr_calloc(n, sizeof *q->node);
+  q->local = thr_calloc(n, sizeof *q->local);
+  q->column = thr_calloc(n + 1, sizeof *q->column);
+  q->value = thr_calloc(n + 1, sizeof *q->value);
+  q->x = thr_calloc(n + 1, sizeof *q->x);
+  if (!q->node || !q->local || !q->column || !q->value || !q->x) return thr_nomem(err);
   for (int v = 0; v < p->n_nodes; v++) {
-    int u = p->node[v], places = 0;
+    int places = 0, u = p->node[v];
     for (int i = f->first[u]; i < f->first[u + 1]; i++)
-      places += thr_plan_cover(f, o, f->half[i] >> 1);
-    if (places < o->end_count[u]) at[v] = price[u] * (p->unit / 2);
+      places += thr_plan_cover(f, p->s->o, f->half[i] >> 1);
+    q->local[v] = places < p->s->o->end_count[u] ? q->n : -1;
+    if (q->local[v] >= 0) q->node[q->n++] = v;
   }
-  for (int i = 0; i < p->n_edges; i++) { /* none may be cheaper the more it is passed */
-    int a = p->local[f->edge[p->edge[i]][0]], b = p->local[f->edge[p->edge[i]][1]];
-    int64_t most = thr_certificate_weight(f, p->c, p->edge[i]) * p->unit;
-    if (thr_plan_capacity(f, o, p->edge[i]) < INT_MAX || at[a] + at[b] <= most) continue;
-    if (at[a] > most) at[a] = most;
-    at[b] = most - at[a];
+  return THR_OK;
+}
+
+/* No edge may be cheaper the more it is passed. */
+static thr_status build(programme *q, thr_err *err)
+{
+  const pricing *p = q->p;
+  const thr_frame *f = p->s->f;
+  double *cost = thr_calloc((size_t)q->n + 1, sizeof *cost), *upper = thr_calloc((size_t)q->n + 1, sizeof *upper);
+  thr_status st = cost && upper ? THR_OK : thr_nomem(err);
+  int64_t usual;
+  for (int i = 0; i <= q->n && !st; i++)
+    upper[i] = (double)highest_price(p, &usual) / (double)p->unit;
+  if (!st) cost[q->n] = 1;
+  if (!st) st = thr_lp_create(&q->lp, q->n + 1, cost, upper, err);
+  for (int i = 0; i < p->n_edges && !st; i++) {
+    int n = 0, e = p->edge[i];
+    for (int s = 0; s < 2; s++) {
+      q->column[n] = q->local[p->local[f->edge[e][s]]];
+      q->value[n] = -1;
+      n += q->column[n] >= 0;
+    }
+    if (n > 0 && thr_plan_capacity(f, p->s->o, e) == INT_MAX)
+      st = thr_lp_add_row(q->lp, n, q->column, q->value, -(double)thr_certificate_weight(f, p->c, e), err);
   }
-  thr_status st = try_prices(p, at, p->n_nodes, &l, &stopped, err);
-  free(at);
+  free(cost);
+  free(upper);
   return st;
 }
 
-thr_status thr_share_prices(const thr_share *s, int k, const int64_t *price, const thr_limits *limits, thr_certificate *c,
-                            thr_err *err)
+/* These passes hold the bound down. */
+static thr_status add_passes(programme *q, double weight, const double *places, thr_err *err)
+{
+  const pricing *p = q->p;
+  for (int i = 0; i < q->n; i++) {
+    q->column[i] = i;
+    q->value[i] = p->s->o->end_count[p->node[q->node[i]]] - places[q->node[i]];
+  }
+  q->column[q->n] = q->n;
+  q->value[q->n] = 1;
+  return thr_lp_add_row(q->lp, q->n + 1, q->column, q->value, (double)p->c->join - weight, err);
+}
+
+/* The programme's prices, rounded; ones too high for an edge are lowered. */
+static void take_prices(programme *q, int64_t *price)
+{
+  const pricing *p = q->p;
+  thr_lp_primal(q->lp, q->x);
+  for (int i = 0; i < q->n; i++)
+    price[q->node[i]] = (int64_t)nearbyint(fmax(0, q->x[i]) * (double)p->unit);
+  for (int i = 0; i < p->n_edges; i++) {
+    const int *end = p->s->f->edge[p->edge[i]];
+    int64_t *a = &price[p->local[end[0]]], *b = &price[p->local[end[1]]];
+    int64_t most = thr_certificate_weight(p->s->f, p->c, p->edge[i]) * p->unit;
+    if (thr_plan_capacity(p->s->f, p->s->o, p->edge[i]) < INT_MAX || *a + *b <= most) continue;
+    if (*a > most) *a = most;
+    *b = most - *a;
+  }
+}
+
+/* Kelley's method: the programme's prices show passes that hold the bound below what it hopes, until they do not. */
+static thr_status search_each(pricing *p, thr_err *err)
+{
+  programme q = {.p = p};
+  bool stopped = false;
+  double weight, *places = thr_calloc((size_t)p->n_nodes, sizeof *places);
+  int64_t *price = thr_calloc((size_t)p->n_nodes, sizeof *price);
+  thr_lp_outcome outcome = THR_LP_OPTIMAL;
+  thr_status st = places && price ? find_short(&q, err) : thr_nomem(err);
+  if (!st && q.n > 0 && q.n <= MOST_PRICES) {
+    st = build(&q, err);
+    for (int round = 0; !st && !proved(p) && round < MOST_ROUNDS; round++) {
+      st = try_prices(p, price, p->n_nodes, &weight, places, &stopped, err);
+      if (st || stopped || proved(p)) break;
+      st = add_passes(&q, weight, places, err);
+      if (!st) st = thr_lp_solve(q.lp, p->limits, &outcome, err);
+      if (!st && outcome == THR_LP_OPTIMAL) st = thr_lp_solve_exact(q.lp, p->limits, &outcome, err);
+      if (st || outcome != THR_LP_OPTIMAL) break;
+      take_prices(&q, price);
+    }
+  }
+  programme_destroy(&q);
+  free(places);
+  free(price);
+  if (st == THR_ESOLVER) { /* GLPK gave up: what was found stands */
+    if (err) *err = (thr_err){0};
+    st = THR_OK;
+  }
+  return st;
+}
+
+thr_status thr_share_prices(const thr_share *s, int k, const thr_limits *limits, thr_certificate *c, thr_err *err)
 {
   thr_limits quiet = *limits; /* a bound at a price is not one on the weight */
   quiet.progress = NULL;
   pricing p = {
       .s = s, .limits = &quiet, .closed = s->o->ends == THR_ENDS_CLOSED, .counts = s->o->ends == THR_ENDS_COUNTS, .c = c};
   p.bound = (thr_wide)c->sum - 2 * (thr_wide)s->o->cords * c->end_price;
-  if (p.bound > (c->join - 1) * (thr_wide)c->denominator) return THR_OK;
+  if (proved(&p) || thr_limits_stop(limits)) return THR_OK;
   thr_status st = pricing_init(&p, k, err);
-  if (!st && p.n_edges <= MOST_EDGES) st = p.counts ? search_counts(&p, price, err) : search(&p, err);
+  if (!st && p.n_edges <= MOST_EDGES) st = p.counts ? search_each(&p, err) : search(&p, err);
   pricing_destroy(&p);
   return st;
 }

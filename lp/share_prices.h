@@ -8,7 +8,6 @@
  * more: the bound is a concave function of the price, found between prices of too few and of too many places, each by a minimum
  * T-join. With ends free that closes the gap (places are one degree constraint; Edmonds & Johnson 1973); with closed cords it
  * need not. c then has the best found. What the limits stop, or is too large, leaves c as it is or better. About 10 T-joins. */
-thr_status thr_share_prices(const thr_share *s, int k, const int64_t *price, const thr_limits *limits, thr_certificate *c,
-                            thr_err *err) THR_MUST_CHECK;
+thr_status thr_share_prices(const thr_share *s, int k, const thr_limits *limits, thr_certificate *c, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -10,7 +10,7 @@
 
 enum { MOST_COLUMNS = 160 };
 
-static const double most_work = 2e7; /* of linear programmes: about two seconds */
+static const double most_work = 2e8; /* of linear programmes: about two seconds */
 
 /* Columns of cord c, from c * block on: passes of its edges, whether it passes them, its turns, and unless the cords are closed
  * its ends over half-edges. Half-edges are numbered from edges: 2 * i and 2 * i + 1 for the i-th edge of the component. */

@@ -11,12 +11,21 @@
  * there and back), which is learned once; or anything. */
 typedef enum { PLAIN, ALONG, REPEATS } manner;
 
+/* False of an aim and itself. */
 static bool comes_before(const thr_cover_options *o, thr_aim a, thr_aim b)
 {
   int k = 0;
   while (o->prefer[k] != a && o->prefer[k] != b)
     k++;
-  return o->prefer[k] == a;
+  return a != b && o->prefer[k] == a;
+}
+
+/* Does a plan count less of an aim before this one than the programme does? Then it may have this at the price of that. */
+static bool loosened(const thr_programme *p, thr_aim aim, bool repeats)
+{
+  bool turning = p->o->ends == THR_ENDS_ANY && !p->open;
+  return (repeats && (comes_before(p->o, THR_AIM_STEPS, aim) || comes_before(p->o, THR_AIM_PATHS, aim))) ||
+         (turning && comes_before(p->o, THR_AIM_TURNING, aim));
 }
 
 /* Sets manner[component], for each component of the framework. scratch: [n_nodes] zeros. */
@@ -79,7 +88,7 @@ static double bound_steps(const thr_programme *p, const thr_cover *c, const int 
   double all, fewest, has, known;
   count_steps(p->q, c, component, m, true, &all, &known);
   count_steps(p->q, c, component, m, false, &fewest, &has);
-  if (repeats && !steps_proved(p, c)) return all;
+  if (loosened(p, THR_AIM_STEPS, repeats) || (repeats && !steps_proved(p, c))) return all;
   return fmax(all, (repeats ? c->value : c->bound)[THR_AIM_STEPS] - has + fewest);
 }
 
@@ -122,9 +131,9 @@ static double most_closed(const thr_programme *p, const thr_cover *c, bool paths
 static thr_status bound_turning(const thr_programme *p, const thr_cover *c, bool repeats, double *bound, thr_err *err)
 {
   double any[THR_N_AIMS];
-  bool steps = comes_before(p->o, THR_AIM_STEPS, THR_AIM_TURNING), paths = comes_before(p->o, THR_AIM_PATHS, THR_AIM_TURNING);
+  bool paths = comes_before(p->o, THR_AIM_PATHS, THR_AIM_TURNING);
   *bound = c->bound[THR_AIM_TURNING];
-  if (repeats && (steps || paths)) { /* threadings with more of them in the programme count, too */
+  if (loosened(p, THR_AIM_TURNING, repeats)) { /* threadings with more of them in the programme count, too */
     memcpy(any, c->value, sizeof any);
     any[THR_AIM_PATHS] = 1e30;
     thr_status st = thr_turning_quick_bound(p, any, bound, err);
@@ -145,9 +154,15 @@ static thr_status make(const thr_programme *p, const thr_cover *c, const int *co
     out->repeats = out->repeats || m[k] == REPEATS;
   out->least[THR_AIM_STEPS] = bound_steps(p, c, component, m, out->repeats);
   thr_status st = bound_turning(p, c, out->repeats, &out->least[THR_AIM_TURNING], err);
-  if (st || !out->repeats) return st;
-  out->least[THR_AIM_PATHS] = 0;
-  return thr_bounds_paths(p, &out->least[THR_AIM_PATHS], err);
+  if (!st && loosened(p, THR_AIM_OVERLAP, out->repeats)) {
+    out->least[THR_AIM_OVERLAP] = 0;
+    st = thr_bounds_overlap(p, &(thr_limits){0}, &out->least[THR_AIM_OVERLAP], err);
+  }
+  if (!st && (out->repeats || loosened(p, THR_AIM_PATHS, false))) {
+    out->least[THR_AIM_PATHS] = 0;
+    st = thr_bounds_paths(p, &out->least[THR_AIM_PATHS], err);
+  }
+  return st;
 }
 
 thr_status thr_claims_make(const thr_quotient *q, const thr_cover_options *o, const thr_cover *c, thr_claims *out, thr_err *err)

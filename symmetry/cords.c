@@ -15,7 +15,7 @@ typedef struct {
 typedef struct {
   thr_strands s;
   const thr_frame *f;
-  bool tied_ends;       /* with tube joints: where a cord ends it ties nothing */
+  bool open;            /* every cord is open: where a cord ends matters (thr_cover_all_open) */
   const int *component; /* [n_nodes] */
   bool *walked;         /* [darts] of the cords so far */
   int *walk, *scratch;  /* [darts] the leaving darts of the cord at hand */
@@ -129,7 +129,7 @@ static thr_status add_cord(tracer *t, const int *walk, int n, int x, thr_err *er
     c.half[i] = thr_strands_half(&t->s, d);
   }
   c.closed = thr_tail(t->f, c.half[0]) == thr_head(t->f, c.half[n - 1]);
-  c.round = c.closed && !t->tied_ends;
+  c.round = c.closed && !t->open;
   c.component = t->component[thr_tail(t->f, c.half[0])];
   t->cord[t->n_cords++] = c;
   return THR_OK;
@@ -332,7 +332,7 @@ thr_status thr_cover_cords(const thr_quotient *q, const thr_cover_options *o, co
   *record = (thr_symmetry_record){0};
   thr_status st = component ? thr_frame_components(q->f, component, &n_components, err) : thr_nomem(err);
   if (!st) st = tracer_init(&t, q, c, thr_cover_all_open(o), component, err);
-  t.tied_ends = o->tube && o->ends != THR_ENDS_CLOSED;
+  t.open = thr_cover_all_open(o);
   if (!st) st = trace_all(&t, err);
   if (!st) st = order_cords(&t, n_components, &place, err);
   if (!st) st = make_record(&t, place, record, err);

@@ -95,7 +95,8 @@ static thr_status consider(thr_relax *r, row *w, thr_relax_cut cut, bool always,
   return add_row(r, w, cut, err);
 }
 
-/* The rows to begin with: of every node, of the edges at nodes with no more than two, of all ends. */
+/* The rows to begin with: of every node, of the edges at nodes with no more than two. Those of the ends come later: what ends
+ * cost is known only from the other rows, and until then the simplex method tries them one after the other. */
 static thr_status first_rows(thr_relax *r, thr_err *err)
 {
   const thr_turning_columns *c = r->c;
@@ -108,10 +109,6 @@ static thr_status first_rows(thr_relax *r, thr_err *err)
     st = consider(r, &w, (thr_relax_cut){THR_RELAX_SUM, v}, true, &added, err);
     for (int i = f->first[v]; i < f->first[v + 1] && thr_degree(f, v) <= 2 && !st; i++)
       st = consider(r, &w, (thr_relax_cut){THR_RELAX_SIDE, f->half[i]}, true, &added, err);
-  }
-  for (int k = 0; k < c->n_ends && c->task->end_allowed && !st; k++) {
-    st = consider(r, &w, (thr_relax_cut){THR_RELAX_LEAST, k}, true, &added, err);
-    if (!st) st = consider(r, &w, (thr_relax_cut){THR_RELAX_MOST, k}, true, &added, err);
   }
   row_destroy(&w);
   return st;
@@ -191,6 +188,17 @@ static thr_status separate_sides(thr_relax *r, row *w, int *added, thr_err *err)
   return st;
 }
 
+/* Rows of the numbers of ends. */
+static thr_status separate_ends(thr_relax *r, row *w, int *added, thr_err *err)
+{
+  thr_status st = THR_OK;
+  for (int k = 0; k < r->c->n_ends && r->c->task->end_allowed && !st; k++) {
+    st = consider(r, w, (thr_relax_cut){THR_RELAX_LEAST, k}, false, added, err);
+    if (!st) st = consider(r, w, (thr_relax_cut){THR_RELAX_MOST, k}, false, added, err);
+  }
+  return st;
+}
+
 /* Forgets the sets from first on that x does not violate, adds rows for the others. */
 static thr_status add_sets(thr_relax *r, row *w, int first, int *added, thr_err *err)
 {
@@ -216,7 +224,8 @@ thr_status thr_project_separate(thr_relax *r, const thr_limits *limits, int *add
   *added = 0;
   thr_status st = row_init(&w, r->c, err);
   if (st) return st;
-  st = separate_sides(r, &w, added, err);
+  st = separate_ends(r, &w, added, err);
+  if (!st) st = separate_sides(r, &w, added, err);
   for (size_t i = 0; i < sizeof threshold / sizeof *threshold && !st && r->any_odd && r->pool.count == first; i++) {
     st = thr_oddcut_moats(&r->graph, x, threshold[i], r->reduced + r->c->first_extra, &r->pool, err);
     if (!st) st = add_sets(r, &w, first, added, err);

@@ -19,6 +19,7 @@ typedef struct {
   double *length;      /* [n_components] of the shortest */
   int *passes;         /* [n_edges] of the walks at hand */
   thr_trails *trails;  /* [n_components] results */
+  double work;         /* that searches for short cords may still do: about a second of linear programmes */
   bool least, certain; /* the passes are the shortest, the longest cord as short as can be: the solver's word */
 } several;
 
@@ -48,6 +49,7 @@ static thr_status several_init(several *x, thr_err *err)
   x->passes = thr_calloc((size_t)x->f->n_edges, sizeof *x->passes);
   x->share = (thr_share){x->f, x->o, x->component};
   x->least = x->certain = true;
+  x->work = 1e8;
   if (!x->length || !x->trails || !x->passes) return thr_nomem(err);
   for (int i = 0; i < x->shortest->n_cords; i++)
     x->length[x->shortest->cord[i].component] += thr_cord_length(x->f, &x->shortest->cord[i]);
@@ -101,16 +103,16 @@ static bool has_number(const several *x, int n)
 }
 
 /* Short walks: exactly n open ones in every component, or as many as the counts say; of closed ones, one. */
-static thr_status short_walks(const several *x, int n, thr_trails *out, thr_err *err)
+static thr_status short_walks(several *x, int n, thr_trails *out, thr_err *err)
 {
-  enum { SEARCHED = 300 }; /* edges of a framework for which the shortest are worth the time */
   thr_plan_options o = *x->o;
+  thr_limits some = *x->limits;
   thr_tube t = {0};
   thr_err why = {0};
   if (closed_cords(x) || o.ends == THR_ENDS_COUNTS || has_number(x, n)) return walks_of(x, x->shortest, out, err);
   o.cords = o.cords_least = n;
-  thr_status st =
-      x->f->n_edges <= SEARCHED ? thr_tube_shortest(x->f, &o, x->limits, &t, &why) : thr_tube_some(x->f, &o, x->limits, &t, &why);
+  some.work = &x->work;
+  thr_status st = x->work > 0 ? thr_tube_shortest(x->f, &o, &some, &t, &why) : thr_tube_some(x->f, &o, x->limits, &t, &why);
   if (st == THR_OK || st == THR_ELIMIT)
     st = walks_of(x, &t, out, err);
   else

@@ -283,7 +283,7 @@ const isDark = () => document.documentElement.dataset.theme === 'dark';
 function setTheme(dark) {
   document.documentElement.dataset.theme = dark ? 'dark' : 'light';
   if (!stage) return;
-  const names = ['paper', 'bare', 'held', 'now', 'next', 'foot'];
+  const names = ['paper', 'bare', 'held', 'now', 'next', 'foot', 'rim'];
   stage.setTheme(Object.fromEntries(names.map((name) => [name, pageColour(name)])));
   refresh();
 }

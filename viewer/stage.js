@@ -1,11 +1,27 @@
 // The picture in space: beads, cords, feet, the camera. Draws only when something changed.
 import {
-  AmbientLight, BufferAttribute, BufferGeometry, Color, ConeGeometry, CylinderGeometry, DirectionalLight, Fog, InstancedMesh,
+  AmbientLight, BackSide, BufferAttribute, BufferGeometry, Color, ConeGeometry, CylinderGeometry, DirectionalLight, Fog, InstancedMesh,
   LatheGeometry, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, Quaternion, Raycaster, Scene,
   Sphere, SphereGeometry, Vector2, Vector3, WebGLRenderer,
 } from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 import {across, centreLine, frames, lanes, sizesOf, tubes} from './strands.js';
+
+// A dark rim around a mesh, so that no colour of a cord fades into a bead or the page: its far side, wider by so much.
+function lined(mesh, material) {
+  mesh.add(new Mesh(mesh.geometry, material));
+  mesh.children[0].frustumCulled = false;
+  return mesh;
+}
+
+function rimMaterial(width) {
+  const material = new MeshBasicMaterial({side: BackSide});
+  material.onBeforeCompile = (shader) => {
+    const wider = `vec3 transformed = position + ${width.toExponential()} * normal;`;
+    shader.vertexShader = shader.vertexShader.replace('#include <begin_vertex>', wider);
+  };
+  return material;
+}
 
 // Coarser shapes for more beads or passes, so that the picture moves fluently.
 const detailOf = (count) => (count < 700 ? 0 : count < 6000 ? 1 : 2);
@@ -31,6 +47,7 @@ export class Stage {
     this.camera.add(lamp);
     this.addBeads();
     this.addFeet();
+    this.rim = rimMaterial(0.28 * this.sizes.cord);
     this.addCords();
     this.addNeedle();
     this.controls = new OrbitControls(this.camera, canvas);
@@ -85,7 +102,7 @@ export class Stage {
       geometry.setAttribute('normal', new BufferAttribute(tube.normal, 3));
       geometry.setAttribute('color', new BufferAttribute(new Float32Array(tube.position.length), 3));
       geometry.setIndex(new BufferAttribute(tube.index, 1));
-      const mesh = new Mesh(geometry, material);
+      const mesh = lined(new Mesh(geometry, material), this.rim);
       mesh.frustumCulled = false;
       this.scene.add(mesh);
       return {mesh, tube, painted: ''};
@@ -99,16 +116,17 @@ export class Stage {
     this.arrow = new Mesh(new ConeGeometry(3.4 * this.sizes.cord, 9 * this.sizes.cord, 18), this.needleMaterial);
     this.ball = new Mesh(new SphereGeometry(2.1 * this.sizes.cord, 18, 12), this.needleMaterial);
     for (const mesh of [this.current, this.arrow, this.ball]) {
-      mesh.frustumCulled = false;
+      lined(mesh, this.rim).frustumCulled = false;
       this.scene.add(mesh);
     }
   }
 
-  // Colours of the page: bare, held, now, next, foot, paper as CSS colours.
+  // Colours of the page: bare, held, now, next, foot, rim, paper as CSS colours.
   setTheme(colours) {
     this.theme = Object.fromEntries(Object.entries(colours).map(([name, css]) => [name, new Color(css)]));
     this.renderer.setClearColor(this.theme.paper);
     this.scene.fog.color.copy(this.theme.paper);
+    this.rim.color.copy(this.theme.rim);
     if (this.feet) this.feet.material.color.copy(this.theme.foot);
     this.request();
   }
@@ -171,6 +189,7 @@ export class Stage {
     geometry.setIndex(new BufferAttribute(tube.index, 1));
     this.current.geometry.dispose();
     this.current.geometry = geometry;
+    this.current.children[0].geometry = geometry;
     this.arrow.position.copy(from).lerp(to, 0.68);
     this.arrow.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), along);
     this.ball.position.copy(line[line.length - 1]);

@@ -76,25 +76,29 @@ export function centreLine(plan, nodes, sizes, lane, i, segments) {
 }
 
 // Tubes of many centre lines in one mesh: positions, normals, indices, and where each line's vertices and indices end. Rings are
-// carried along without twist.
+// carried along without twist; the first and the last of all are closed by a ring without width.
 export function tubes(lines, radius, sides) {
-  const count = lines.reduce((sum, line) => sum + line.length, 0), quads = lines.reduce((sum, line) => sum + line.length - 1, 0);
+  const count = lines.reduce((sum, line) => sum + line.length, 2), quads = count - lines.length;
   const position = new Float32Array(3 * sides * count), normal = new Float32Array(3 * sides * count);
   const index = new Uint32Array(6 * sides * quads);
   const vertexEnd = new Uint32Array(lines.length), indexEnd = new Uint32Array(lines.length);
   let vertex = 0, at = 0;
   const tangent = new Vector3(), side = new Vector3(), up = new Vector3(), n = new Vector3();
   lines.forEach((line, l) => {
-    line.forEach((point, p) => {
+    const rings = line.map((_, p) => [p, radius]);
+    if (l === 0) rings.unshift([0, 0]);
+    if (l === lines.length - 1) rings.push([line.length - 1, 0]);
+    rings.forEach(([p, wide], ring) => {
+      const point = line[p];
       tangent.subVectors(line[Math.min(p + 1, line.length - 1)], line[Math.max(p - 1, 0)]).normalize();
-      up.copy(across(tangent, p ? up : new Vector3(0.31, 0.17, 0.93)));
+      up.copy(across(tangent, ring ? up : new Vector3(0.31, 0.17, 0.93)));
       side.crossVectors(tangent, up);
       for (let s = 0; s < sides; s++) {
         const angle = (2 * Math.PI * s) / sides;
         n.copy(up).multiplyScalar(Math.cos(angle)).addScaledVector(side, Math.sin(angle));
         normal.set([n.x, n.y, n.z], 3 * (vertex + s));
-        position.set([point.x + radius * n.x, point.y + radius * n.y, point.z + radius * n.z], 3 * (vertex + s));
-        if (p === 0) continue;
+        position.set([point.x + wide * n.x, point.y + wide * n.y, point.z + wide * n.z], 3 * (vertex + s));
+        if (ring === 0) continue;
         const a = vertex + s - sides, b = vertex + ((s + 1) % sides) - sides;
         index.set([a, b, a + sides, b, b + sides, a + sides], at);
         at += 6;

@@ -193,7 +193,47 @@ static int most_extra(const thr_plan *p)
   return most;
 }
 
-static void compare(instance *x, signed char *circuits)
+/* What the checker makes of the plan's certificate, as it is now, is true. Returns whether it accepts it. */
+static bool bound_is_true(const thr_plan *p, double least)
+{
+  bool optimal;
+  double bound;
+  thr_status st =
+      thr_check_length_proof(&p->frame, &p->options, p->cord, p->n_cords, p->proof.certificate, 1, &optimal, &bound, NULL);
+  ck_assert(st == THR_OK || st == THR_EVIOLATED);
+  if (!st) ck_assert_double_le(bound, least * (1 + 1e-9));
+  if (!st && optimal) ck_assert_double_le(p->metrics.length, least * (1 + 1e-9));
+  return !st;
+}
+
+/* Certificates that were tampered with are refused, or prove no more than what is true. Returns how many prices were accepted. */
+static int tamper(rng *r, thr_plan *p, double least)
+{
+  thr_certificate *c = &p->proof.certificate[0], kept = *c;
+  int n = p->options.ends == THR_ENDS_COUNTS ? p->frame.n_nodes : 1, accepted = 0;
+  int64_t price[NODES] = {0}, weight = thr_certificate_weight(&p->frame, c, rng_below(r, p->frame.n_edges)) * c->denominator;
+  for (int i = 0; i < 4 && c->n_cuts + c->n_prices > 0; i++) {
+    int which = rng_below(r, c->n_cuts + c->n_prices);
+    int64_t *one = which < c->n_cuts ? &c->cut[which].value : &c->place_price[which - c->n_cuts], was = *one;
+    int64_t change = (int64_t)((rng_unit(r) - 0.3) * (double)weight);
+    *one += change;
+    if (which < c->n_cuts) c->sum += change;
+    bound_is_true(p, least);
+    *one = was;
+    c->sum = kept.sum;
+  }
+  *c = (thr_certificate){kept.component, kept.scale, kept.denominator, .join = kept.join, .n_prices = n, .place_price = price};
+  for (int i = 0; i < 4; i++) {
+    for (int v = 0; v < n; v++)
+      price[v] = rng_below(r, 3) ? (int64_t)(rng_unit(r) * (double)weight) : 0;
+    accepted += bound_is_true(p, least);
+  }
+  *c = kept;
+  return accepted;
+}
+
+/* *accepted: counts prices at random that the checker takes. */
+static void compare(rng *r, instance *x, signed char *circuits, int *accepted)
 {
   thr_plan p;
   thr_err err = {0};
@@ -215,12 +255,16 @@ static void compare(instance *x, signed char *circuits)
                 p.metrics.length, least, thr_ends_name(o->ends), o->cords_least, o->cords);
   if (p.proof.optimal) ck_assert_double_eq_tol(p.proof.lower_bound, p.metrics.length, 1e-9 * p.metrics.length);
   ck_assert_double_le(p.proof.lower_bound, p.metrics.length * (1 + 1e-9));
+  ck_assert_msg(p.proof.optimal || o->ends == THR_ENDS_CLOSED, "not proved; ends %s, cords %d to %d", thr_ends_name(o->ends),
+                o->cords_least, o->cords);
+  if (same) *accepted += tamper(r, &p, least);
   thr_plan_destroy(&p);
 }
 
 START_TEST(every_combination_is_least)
 {
   rng r = rng_make((uint64_t)_i + 31000);
+  int accepted = 0;
   size_t keys = 1;
   for (int e = 0; e < EDGES; e++)
     keys *= PASSES;
@@ -229,9 +273,10 @@ START_TEST(every_combination_is_least)
   for (int k = 0; k < INSTANCES; k++) {
     instance x;
     choose(&r, &x);
-    compare(&x, circuits);
+    compare(&r, &x, circuits, &accepted);
     thr_frame_destroy(&x.f);
   }
+  ck_assert_int_gt(accepted, INSTANCES);
   free(circuits);
 }
 END_TEST

@@ -1,10 +1,12 @@
 /* Minimum T-joins of random graphs: both engines, with and without shrinking, against each other and against all subsets; every
  * certificate is checked here, by sums of 128 bits. */
 #include "tests/support.h"
+#include "lp/cutbasis.h"
 #include "lp/engine.h"
 #include "lp/moat.h"
 #include "lp/shrink.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -414,6 +416,152 @@ START_TEST(glpk_confirms_what_is_optimal_and_nothing_else)
 }
 END_TEST
 
+/* ---- the programme on the cuts, and its basis ---- */
+
+/* An equation and those of all cuts inside of its own add up to: the edges that leave the set, less the slack, are 1. */
+static void assert_adds_up_to_cuts(const graph *g, const thr_tjoin *t, const thr_cut_programme *c)
+{
+  size_t rows = (size_t)c->n_rows, columns = (size_t)c->n_columns, n = (size_t)g->n;
+  double *sum = calloc(rows * columns, sizeof *sum), *rhs = calloc(rows, sizeof *rhs);
+  bool *has = calloc(rows * n, sizeof *has);
+  ck_assert(sum && rhs && has);
+  spread_sets(g, t, has);
+  for (size_t j = 0; j < columns; j++)
+    for (int k = c->start[j]; k < c->start[j + 1]; k++)
+      sum[(size_t)c->row[k] * columns + j] += c->value[k];
+  for (size_t i = 0; i < rows; i++) { /* children come first */
+    rhs[i] += c->rhs[i];
+    for (size_t j = 0; j < columns; j++) {
+      bool leaves = j < (size_t)g->m && has[i * n + (size_t)g->edge[j][0]] != has[i * n + (size_t)g->edge[j][1]];
+      ck_assert(sum[i * columns + j] == (j == (size_t)g->m + i ? -1 : leaves));
+      if (t->cut[i].parent >= 0) sum[(size_t)t->cut[i].parent * columns + j] += sum[i * columns + j];
+    }
+    ck_assert(rhs[i] == 1);
+    if (t->cut[i].parent >= 0) rhs[t->cut[i].parent] += rhs[i];
+  }
+  free(sum);
+  free(rhs);
+  free(has);
+}
+
+/* Solves a[n * n] x = b in place by elimination; x comes to stand in b. */
+static void solve_square(size_t n, double *a, double *b)
+{
+  for (size_t k = 0; k < n; k++) {
+    size_t best = k;
+    for (size_t i = k + 1; i < n; i++)
+      if (fabs(a[i * n + k]) > fabs(a[best * n + k])) best = i;
+    ck_assert_msg(fabs(a[best * n + k]) > 1e-6, "a singular basis");
+    for (size_t j = 0; j < n; j++) {
+      double kept = a[k * n + j];
+      a[k * n + j] = a[best * n + j], a[best * n + j] = kept;
+    }
+    double kept = b[k];
+    b[k] = b[best], b[best] = kept;
+    for (size_t i = 0; i < n; i++) {
+      double by = i == k ? 0 : a[i * n + k] / a[k * n + k];
+      for (size_t j = k; j < n && by != 0; j++)
+        a[i * n + j] -= by * a[k * n + j];
+      b[i] -= by * b[k];
+    }
+  }
+  for (size_t k = 0; k < n; k++)
+    b[k] /= a[k * n + k];
+}
+
+/* The basis matrix (turned: transposed) in a new array. */
+static double *basis_matrix(const thr_cut_programme *c, bool turned)
+{
+  size_t n = (size_t)c->n_rows, count = 0;
+  double *a = calloc(n * n, sizeof *a);
+  ck_assert_ptr_nonnull(a);
+  for (int j = 0; j < c->n_columns; j++) {
+    if (!c->basic[j]) continue;
+    ck_assert_uint_lt(count, n);
+    for (int k = c->start[j]; k < c->start[j + 1]; k++) {
+      size_t row = (size_t)c->row[k];
+      a[turned ? count * n + row : row * n + count] += c->value[k];
+    }
+    count++;
+  }
+  ck_assert_uint_eq(count, n);
+  return a;
+}
+
+/* The basis is one, its point has no negative column and the join's weight; and, if wanted, it has no negative reduced cost. */
+static void assert_basis_is_the_join(const graph *g, const thr_tjoin *t, const thr_cut_programme *c, bool optimal)
+{
+  size_t n = (size_t)c->n_rows, count = 0;
+  double *a = basis_matrix(c, false), *turned = basis_matrix(c, true), *x = calloc(n, sizeof *x), *dual = calloc(n, sizeof *dual);
+  double weight = 0, most = 1;
+  ck_assert(x && dual);
+  memcpy(x, c->rhs, n * sizeof *x);
+  solve_square(n, a, x);
+  for (int e = 0; e < g->m; e++)
+    most = fmax(most, (double)g->weight[e]);
+  for (int j = 0; j < c->n_columns; j++) {
+    if (!c->basic[j]) continue;
+    ck_assert_double_ge(x[count], -1e-9);
+    dual[count] = j < g->m ? (double)g->weight[j] : 0;
+    weight += dual[count] * x[count];
+    count++;
+  }
+  ck_assert_double_eq_tol(weight, (double)t->length, 1e-9 * most);
+  solve_square(n, turned, dual);
+  for (int j = 0; j < c->n_columns; j++) {
+    double reduced = j < g->m ? (double)g->weight[j] : 0;
+    for (int k = c->start[j]; k < c->start[j + 1]; k++)
+      reduced -= dual[c->row[k]] * c->value[k];
+    ck_assert(!optimal || reduced > -1e-9 * most);
+  }
+  free(a);
+  free(turned);
+  free(x);
+  free(dual);
+}
+
+START_TEST(the_programme_on_the_cuts_starts_at_its_optimum)
+{
+  rng r = rng_make((uint64_t)_i + 6000);
+  for (int k = 0; k < 2 * SHAPES; k++) {
+    graph g = draw_graph(&r, rng_between(&r, 5, 40), (shape_kind)(k % SHAPES), (weight_kind)(_i % WEIGHT_KINDS));
+    thr_tjoin_problem p = problem_of(&g);
+    for (way by = BY_LP; by < WAYS; by++) {
+      thr_tjoin t = solve(&g, by);
+      thr_cut_programme c = {0};
+      if (t.n_cuts) ck_assert_int_eq(thr_cut_programme_init(&c, &p, &t, NULL), THR_OK);
+      assert_adds_up_to_cuts(&g, &t, &c);
+      bool matched = t.n_cuts && (by == BY_MATCHING || by == BY_SHRUNK_MATCHING);
+      if (matched) assert_basis_is_the_join(&g, &t, &c, by == BY_MATCHING);
+      thr_cut_programme_destroy(&c);
+      thr_tjoin_destroy(&t);
+    }
+    graph_destroy(&g);
+  }
+}
+END_TEST
+
+START_TEST(every_allocation_of_a_confirmation_fails_once)
+{
+  rng r = rng_make((uint64_t)_i + 7000);
+  graph g = draw_graph(&r, 12, (shape_kind)(_i % SHAPES), WEIGHTS_SMALL);
+  thr_tjoin_problem p = problem_of(&g);
+  thr_tjoin t = solve(&g, _i < SHAPES ? BY_MATCHING : BY_LP);
+  thr_confirmation said = THR_CONFIRM_SKIPPED;
+  thr_status st = THR_ENOMEM;
+  for (long k = 1; st; k++) {
+    thr_err err = {0};
+    thr_alloc_fail_at(k);
+    st = thr_tjoin_confirm(&p, &t, &no_limit, &said, &err);
+    thr_alloc_fail_at(0);
+    if (st) ck_assert_msg(st == THR_ENOMEM && said == THR_CONFIRM_SKIPPED, "allocation %ld: %s", k, err.text);
+  }
+  ck_assert_int_eq(said, THR_CONFIRMED);
+  thr_tjoin_destroy(&t);
+  graph_destroy(&g);
+}
+END_TEST
+
 int main(void)
 {
   Suite *s = suite_create("moat");
@@ -426,5 +574,7 @@ int main(void)
   ADD_LOOP(s, 30, too_large_weights_are_refused_or_go_to_the_other_engine, 0, 2);
   ADD_TEST(s, 30, large_weights_with_a_light_tree_are_matched);
   ADD_LOOP(s, 60, glpk_confirms_what_is_optimal_and_nothing_else, 0, 8);
+  ADD_LOOP(s, 60, the_programme_on_the_cuts_starts_at_its_optimum, 0, 16);
+  ADD_LOOP(s, 60, every_allocation_of_a_confirmation_fails_once, 0, 2 * SHAPES);
   return run_suite(s);
 }

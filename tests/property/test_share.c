@@ -284,13 +284,14 @@ START_TEST(every_allocation_may_fail)
   int end_count[16] = {3, 1};
   thr_frame grid = grid_make(3, 3), path = path_make(3);
   thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
-  o.cords = o.cords_least = _i == 0 ? 3 : 2;
+  o.cords = o.cords_least = _i == 0 || _i == 6 ? 3 : 2;
   o.balance = _i == 1 || _i == 2;
   if (_i == 2 || _i == 4) o.ends = THR_ENDS_ANY;
   if (_i == 3) o.ends = THR_ENDS_COUNTS, o.end_count = end_count;
   if (_i == 4) o.cords = 1000, o.cords_least = 1, o.max_length = 5;
   if (_i == 5) o.cords = o.cords_least = 9;
-  fail_everywhere(_i == 3 ? &path : &grid, &o);
+  if (_i == 6) o.ends = THR_ENDS_FEET;
+  fail_everywhere(_i == 3 || _i == 6 ? &path : &grid, &o);
   thr_frame_destroy(&grid);
   thr_frame_destroy(&path);
 }
@@ -304,6 +305,6 @@ int main(void)
   ADD_LOOP(s, 60, cords_of_grids_are_even, 0, 8);
   ADD_TEST(s, 20, a_corridor_is_a_forced_detour);
   ADD_TEST(s, 20, detours_and_moved_ends_even_out);
-  ADD_LOOP(s, 120, every_allocation_may_fail, 0, 6);
+  ADD_LOOP(s, 120, every_allocation_may_fail, 0, 7);
   return run_suite(s);
 }

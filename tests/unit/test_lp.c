@@ -133,6 +133,45 @@ START_TEST(limits_stop_and_solving_goes_on)
 }
 END_TEST
 
+/* Fewest nodes that cover disjoint triangles, two of each, by a tree that grows with the number of triangles: within so much
+ * work. Returns what is left of it. */
+static double cover_triangles(int n, double work, thr_lp_outcome *outcome)
+{
+  double one[30];
+  thr_lp *lp;
+  thr_limits limits = {.work = &work};
+  for (int j = 0; j < 3 * n; j++)
+    one[j] = 1;
+  ck_assert_int_eq(thr_lp_create(&lp, 3 * n, one, one, NULL), THR_OK);
+  for (int j = 0; j < 3 * n; j++) {
+    int next = j % 3 == 2 ? j - 2 : j + 1;
+    ck_assert_int_eq(thr_lp_add_row(lp, 2, (const int[]){j, next}, NULL, 1, NULL), THR_OK);
+  }
+  ck_assert_int_eq(thr_lp_solve(lp, &limits, outcome, NULL), THR_OK);
+  if (*outcome == THR_LP_OPTIMAL) {
+    ck_assert_double_eq_tol(thr_lp_objective(lp), 1.5 * n, 1e-9);
+    ck_assert_int_eq(thr_lp_solve_integer(lp, &limits, outcome, NULL), THR_OK);
+  }
+  if (*outcome == THR_LP_OPTIMAL) ck_assert_double_eq_tol(thr_lp_objective(lp), 2 * n, 1e-9);
+  thr_lp_destroy(lp);
+  return work;
+}
+
+/* Limited by work, not by time, a search ends at the same place in every run: with too little as with enough. */
+START_TEST(work_stops_at_the_same_place)
+{
+  const double enough = 1e12, spent = enough - cover_triangles(6, enough, &(thr_lp_outcome){0});
+  ck_assert_double_gt(spent, 0);
+  for (int tenths = 0; tenths <= 15; tenths++) {
+    thr_lp_outcome one, other;
+    double left = cover_triangles(6, spent * tenths / 10, &one);
+    ck_assert(cover_triangles(6, spent * tenths / 10, &other) == left);
+    ck_assert_int_eq(one, tenths > 10 ? THR_LP_OPTIMAL : tenths < 10 ? THR_LP_STOPPED : one);
+    ck_assert_int_eq(other, one);
+  }
+}
+END_TEST
+
 /* Column indices that GLPK answers with abort(). */
 START_TEST(abort_becomes_a_status)
 {
@@ -466,6 +505,7 @@ int main(void)
   ADD_TEST(s, 10, any_basis_may_be_set);
   ADD_TEST(s, 10, infeasible_and_unbounded_are_outcomes);
   ADD_TEST(s, 10, limits_stop_and_solving_goes_on);
+  ADD_TEST(s, 10, work_stops_at_the_same_place);
   ADD_TEST(s, 10, abort_becomes_a_status);
   ADD_LOOP(s, 10, random_covers_are_dual_pairs, 0, 40);
   ADD_LOOP(s, 10, what_is_proved_holds_at_any_time, 0, 40);

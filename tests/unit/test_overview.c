@@ -1,5 +1,6 @@
 /* The overview looked at as a maker does: parsed from its SVG and held against the plan and the framework. */
 #include "diagram/overview.h"
+#include "diagram/palette.h"
 #include "diagram/places.h"
 #include "tests/plans.h"
 #include "tests/svg_tree.h"
@@ -241,6 +242,21 @@ static void assert_seam(const view *v, int c, int k, const stroke *before, const
   assert_at(now->start, at, 0.02);
 }
 
+/* A pass in a pale colour has a rim where it runs, in a darker one, and nothing else has. */
+static void assert_rim(const view *v, int group)
+{
+  char colour[256], dark[8], along[256], path[256];
+  int rim = child_by_class(&v->t, group, "rim");
+  ck_assert(svg_attribute(&v->t, group, "stroke", colour));
+  ck_assert_int_eq(rim > 0, !svg_has_class(&v->t, v->t.element[group].parent, "copy") && thr_palette_rim(colour, dark));
+  if (rim < 0) return;
+  svg_attribute(&v->t, rim, "d", along);
+  svg_attribute(&v->t, child_by_class(&v->t, group, "cord"), "d", path);
+  ck_assert_str_eq(along, path);
+  svg_attribute(&v->t, rim, "stroke", colour);
+  ck_assert_str_eq(colour, dark);
+}
+
 /* Every pass of a cord is drawn once, in order, in its lane, and goes on where the one before ends. */
 static void assert_cord(const view *v, int c, int *seams, int *labelled)
 {
@@ -258,6 +274,7 @@ static void assert_cord(const view *v, int c, int *seams, int *labelled)
     ck_assert_int_lt(k, cord->n_passes);
     ck_assert_str_eq(v->t.element[i].id, id);
     now = stroke_of(v, i);
+    assert_rim(v, i);
     assert_lane(v, cord->half[k], &now);
     if (k == 0) {
       snprintf(id, sizeof id, "S%s", letter);

@@ -154,6 +154,28 @@ START_TEST(colours_stand_out_from_paper)
 }
 END_TEST
 
+/* A cord that is too pale on white has a rim that is not; like its hue, only darker. */
+START_TEST(pale_cords_have_a_dark_rim)
+{
+  int pale = 0;
+  for (int i = 0; i < THR_COLOURS; i++) {
+    const char *hex = thr_palette(i).hex;
+    double cord[3], line[3], less = contrast(hex, "#ffffff");
+    char rim[8];
+    ck_assert_int_eq(thr_palette_rim(hex, rim), less < 3);
+    if (less >= 3) continue;
+    pale++;
+    ck_assert_double_eq_tol(contrast(rim, "#ffffff"), 4.5, 0.1);
+    ck_assert_double_ge(contrast(rim, "#f3f1ea"), 3);
+    linear_of(hex, cord);
+    linear_of(rim, line);
+    for (int k = 0; k < 3; k++)
+      ck_assert_double_eq_tol(line[k] * luminance(hex), cord[k] * luminance(rim), 0.005);
+  }
+  ck_assert_int_eq(pale, 2); /* sky blue and orange */
+}
+END_TEST
+
 /* A copy is paler than every cord, also in grey. */
 START_TEST(copies_are_paler_in_grey)
 {
@@ -189,6 +211,7 @@ int main(void)
   ADD_TEST(s, 10, differences_are_those_published);
   ADD_LOOP(s, 10, colours_differ_to_all_eyes, 0, GREY);
   ADD_TEST(s, 10, colours_stand_out_from_paper);
+  ADD_TEST(s, 10, pale_cords_have_a_dark_rim);
   ADD_TEST(s, 10, copies_are_paler_in_grey);
   ADD_TEST(s, 10, dashes_tell_equal_colours_apart);
   return run_suite(s);

@@ -342,19 +342,22 @@ static void assert_letters(const thr_text *svg)
 
 /* ---- pictures ---- */
 
-/* A step page: its heading's passes each have one number in its picture, and no two numbers overlap. Returns false for others. */
-static bool assert_numbered(const thr_text *svg)
+/* The picture that begins at view, and ends at end: the passes that its heading names have one number each in it, and no two
+ * numbers overlap. */
+static void assert_picture(const char *page, const char *view, const char *end)
 {
   enum { MOST = 64 };
-  const char *heading = strstr(svg->data, ">Cord "), *line_end = heading ? strchr(heading + 1, '<') : NULL;
-  const char *of = heading ? strstr(heading, ": pass") : NULL;
-  if (!heading || !of || of > line_end || !strstr(svg->data, "id=\"view-0\"")) return false;
+  const char *heading = NULL;
+  for (const char *h = strstr(page, ">Cord "); h && h < view; h = strstr(h + 1, ">Cord "))
+    heading = h;
+  ck_assert_ptr_nonnull(heading);
+  const char *of = strstr(heading, ": pass");
+  ck_assert(of && of < strchr(heading + 1, '<'));
   int first, last, seen[MOST] = {0}, n = 0;
   double x[MOST], y[MOST], w[MOST];
   read_range(strpbrk(of, "0123456789"), &first, &last);
   int low = first < last ? first : last, high = first < last ? last : first;
-  const char *s = svg->data;
-  while ((s = strstr(s, "class=\"pill\""))) {
+  for (const char *s = strstr(view, "class=\"pill\""); s && s < end; s = strstr(s, "class=\"pill\"")) {
     ck_assert(n < MOST && next_number(&s, "x=\"", &x[n]) && next_number(&s, "y=\"", &y[n]) && next_number(&s, "width=\"", &w[n]));
     s = strstr(s, "<text");
     s = strchr(s, '>') + 1;
@@ -368,7 +371,26 @@ static bool assert_numbered(const thr_text *svg)
     n++;
   }
   ck_assert_int_eq(n, high - low + 1);
-  return true;
+}
+
+/* Pictures of steps on a page. Each is wholly above the next step, and above the foot of the page. */
+static int count_pictures(const thr_text *svg, double height)
+{
+  static const char group[] = "<g class=\"view-", frame[] = "<clipPath ";
+  int n = 0;
+  double below = 0, y, high;
+  for (const char *view = strstr(svg->data, group), *next; view; view = next, n++) {
+    next = strstr(view + 1, group);
+    const char *end = next ? next : svg->data + svg->length;
+    assert_picture(svg->data, view, end);
+    double low = below;
+    for (const char *s = strstr(view, frame); s && s < end; s = strstr(s, frame)) {
+      ck_assert(next_number(&s, " y=\"", &y) && next_number(&s, " height=\"", &high));
+      ck_assert_msg(y > low && y + high < height - 21, "a picture from %g to %g mm", y, y + high);
+      below = y + high > below ? y + high : below;
+    }
+  }
+  return n;
 }
 
 /* ---- the tests ---- */
@@ -387,7 +409,7 @@ static void judge(thr_plan p, bool middle, thr_page_size page)
     thr_text svg = {0};
     ck_assert_int_eq(thr_sheets_svg(s, i, &svg, NULL), THR_OK);
     assert_letters(&svg);
-    steps += assert_numbered(&svg);
+    steps += count_pictures(&svg, size[1]);
     thr_text_destroy(&svg);
   }
   ck_assert_int_ge(steps, 1);

@@ -526,6 +526,29 @@ START_TEST(direction_and_start_do_not_matter)
 }
 END_TEST
 
+/* Where ends are at chosen nodes the group maps ends to ends; where they may be anywhere a cord may come out at another node. */
+START_TEST(start_matters_where_ends_are_chosen)
+{
+  for (int chosen = 0; chosen < 2; chosen++) {
+    thr_plan p = plan_known(&plans[3]);
+    thr_cord *c = &p.cord[1];
+    p.options.ends = chosen ? THR_ENDS_NODES : THR_ENDS_ANY;
+    if (chosen) p.options.end_node = calloc((size_t)p.frame.n_nodes, sizeof *p.options.end_node);
+    for (int v = 0; chosen && v < p.frame.n_nodes; v++)
+      p.options.end_node[v] = true;
+    ck_assert_int_eq(thr_plan_measure(&p.frame, &p.options, p.cord, p.n_cords, &p.metrics, NULL), THR_OK);
+    assert_plan_sound(&p);
+    int first = c->half[0];
+    c->half[0] = c->half[1], c->half[1] = c->half[2], c->half[2] = first;
+    if (chosen)
+      assert_violated(&p, "start", "symmetry.generators[0]");
+    else
+      assert_plan_sound(&p);
+    thr_plan_destroy(&p);
+  }
+}
+END_TEST
+
 /* Feet and nodes where ends are allowed belong to the framework's colours. */
 START_TEST(feet_and_end_nodes_are_kept)
 {
@@ -700,6 +723,7 @@ int main(void)
   ADD_TEST(s, 10, other_permutations_are_refused);
   ADD_TEST(s, 10, smaller_group_has_more_unique_paths);
   ADD_TEST(s, 10, direction_and_start_do_not_matter);
+  ADD_TEST(s, 10, start_matters_where_ends_are_chosen);
   ADD_TEST(s, 10, feet_and_end_nodes_are_kept);
   ADD_TEST(s, 10, cords_are_counted);
   ADD_LOOP(s, 10, length_proof_bounds_the_plan, 0, N_PLANS);

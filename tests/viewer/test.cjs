@@ -246,6 +246,19 @@ const tests = {
     await close();
   },
 
+  async 'cords have a dark rim'({several}) {
+    const {page, close} = await open(several), colour = [0x2a, 0x2a, 0x2e];
+    await page.locator('#follow').check();
+    assert.equal((await look(page, colour)).near, 0, 'nothing is threaded');
+    await page.locator('#on').click();
+    await drawn(page);
+    for (let i = 0; i < 8; i++) await page.keyboard.press('+');
+    assert.ok((await look(page, colour)).near > 30, 'no rim');
+    await page.locator('#cords input').first().uncheck();
+    assert.equal((await look(page, colour)).near, 0, 'a cord that is off has a rim');
+    await close();
+  },
+
   async 'the step is remembered, for each plan'({dome, several}) {
     const context = await browser.newContext({viewport: WIDE}), first = await open(dome, {context});
     await setSlider(first.page, 17);
