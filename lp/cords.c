@@ -338,22 +338,6 @@ static thr_status grow(several *x, thr_shortest *best, thr_err *err)
 
 /* ---- the plan ---- */
 
-static thr_status take_cords(several *x, thr_plan *plan, thr_err *err)
-{
-  int n = 0;
-  thr_status st = THR_OK;
-  for (int k = 0; k < x->n_components; k++)
-    n += x->trails[k].n_trails;
-  if (!(plan->cord = thr_calloc((size_t)n, sizeof *plan->cord))) return thr_nomem(err);
-  plan->n_cords = n;
-  for (int k = 0, first = 0; k < x->n_components && !st; k++) {
-    int made = x->trails[k].n_trails;
-    st = thr_trails_cords(&x->trails[k], x->f, x->o, k, first, plan->cord + first, err);
-    first += made;
-  }
-  return st;
-}
-
 static thr_status make(several *x, thr_shortest *s, thr_err *err)
 {
   memcpy(x->passes, s->passes, (size_t)x->f->n_edges * sizeof *x->passes);
@@ -426,7 +410,7 @@ thr_status thr_cords_plan(const thr_frame *f, const thr_plan_options *o, const t
   x.o = &plan->options;
   if (!st) st = several_init(&x, err);
   if (!st) st = make(&x, &s, err);
-  if (!st) st = take_cords(&x, plan, err);
+  if (!st) st = thr_trails_plan(x.trails, x.n_components, plan, err);
   if (!st) st = prove(&x, plan, &s, err);
   if (word) *word = (thr_cords_word){x.least, x.certain && o->balance};
   if (st)

@@ -1,7 +1,7 @@
 /* Integer programme for the cords of a small component with tube joints. */
 #include "graph/disjoint.h"
-#include "lp/lp.h"
 #include "lp/share_tied_exact.h"
+#include "lp/share_rows.h"
 
 #include <limits.h>
 #include <math.h>
@@ -12,190 +12,107 @@ enum { MOST_COLUMNS = 160 };
 
 static const double most_work = 2e8; /* of linear programmes: about two seconds */
 
-/* Columns of cord c, from c * block on: passes of its edges, whether it passes them, its turns, and unless the cords are closed
- * its ends over half-edges. Half-edges are numbered from edges: 2 * i and 2 * i + 1 for the i-th edge of the component. */
+/* Columns of a cord beside those of r: its turns, and unless the cords are closed its ends over half-edges. Half-edges are
+ * numbered from edges: 2 * i and 2 * i + 1 for the i-th edge of the component. */
 typedef struct {
-  const thr_share *s;
-  int k, n_cords, block;
-  int n_edges, n_turns, *edge; /* edge: of the framework */
-  int (*turn)[2];              /* half-edges that leave one node */
-  double most;                 /* passes of an edge by a cord */
-  thr_lp *lp;
-  int *column; /* of a row; room for all */
-  double *value, *x;
-  int n;     /* entries of the row */
-  int *part; /* [2 * n_edges] scratch */
+  thr_share_rows r;
+  int k, n_turns, (*turn)[2]; /* half-edges that leave one node */
+  int *part;                  /* [2 * n_edges] scratch */
 } programme;
-
-static int passes_column(const programme *p, int c, int e)
-{
-  return c * p->block + e;
-}
-
-static int used_column(const programme *p, int c, int e)
-{
-  return c * p->block + p->n_edges + e;
-}
 
 static int turn_column(const programme *p, int c, int t)
 {
-  return c * p->block + 2 * p->n_edges + t;
+  return c * p->r.block + 2 * p->r.n_edges + t;
 }
 
 static int end_column(const programme *p, int c, int h)
 {
-  return c * p->block + 2 * p->n_edges + p->n_turns + h;
+  return c * p->r.block + 2 * p->r.n_edges + p->n_turns + h;
 }
 
 static bool open_cords(const programme *p)
 {
-  return p->s->o->ends != THR_ENDS_CLOSED;
+  return p->r.s->o->ends != THR_ENDS_CLOSED;
 }
 
 static double length_of(const programme *p, int e)
 {
-  return p->s->f->length[p->edge[e]];
+  return p->r.s->f->length[p->r.edge[e]];
 }
 
 /* The node that a half-edge leaves. */
 static int node_of(const programme *p, int h)
 {
-  return p->s->f->edge[p->edge[h >> 1]][h & 1];
+  return p->r.s->f->edge[p->r.edge[h >> 1]][h & 1];
 }
 
 static void programme_destroy(programme *p)
 {
-  thr_lp_destroy(p->lp);
-  free(p->edge);
+  thr_share_rows_destroy(&p->r);
   free(p->turn);
-  free(p->column);
-  free(p->value);
-  free(p->x);
   free(p->part);
 }
 
 /* *small: the programme is worth building. */
 static thr_status programme_init(programme *p, bool *small, thr_err *err)
 {
-  const thr_frame *f = p->s->f;
+  const thr_frame *f = p->r.s->f;
   int cover = 1, degree = 1;
   *small = false;
   for (int e = 0; e < f->n_edges; e++)
-    p->n_edges += p->s->component[f->edge[e][0]] == p->k;
-  if (p->n_edges > MOST_COLUMNS) return THR_OK;
-  p->edge = thr_calloc((size_t)p->n_edges, sizeof *p->edge);
-  p->turn = thr_calloc(2 * (size_t)p->n_edges * (size_t)p->n_edges, sizeof *p->turn);
-  p->part = thr_calloc(2 * (size_t)p->n_edges, sizeof *p->part);
-  if (!p->edge || !p->turn || !p->part) return thr_nomem(err);
+    p->r.n_edges += p->r.s->component[f->edge[e][0]] == p->k;
+  if (p->r.n_edges > MOST_COLUMNS) return THR_OK;
+  p->r.edge = thr_calloc((size_t)p->r.n_edges, sizeof *p->r.edge);
+  p->turn = thr_calloc(2 * (size_t)p->r.n_edges * (size_t)p->r.n_edges, sizeof *p->turn);
+  p->part = thr_calloc(2 * (size_t)p->r.n_edges, sizeof *p->part);
+  if (!p->r.edge || !p->turn || !p->part) return thr_nomem(err);
   for (int e = 0, i = 0; e < f->n_edges; e++) {
-    if (p->s->component[f->edge[e][0]] != p->k) continue;
-    p->edge[i++] = e;
-    if (thr_plan_cover(f, p->s->o, e) > cover) cover = thr_plan_cover(f, p->s->o, e);
+    if (p->r.s->component[f->edge[e][0]] != p->k) continue;
+    p->r.edge[i++] = e;
+    if (thr_plan_cover(f, p->r.s->o, e) > cover) cover = thr_plan_cover(f, p->r.s->o, e);
     for (int side = 0; side < 2; side++)
       if (thr_degree(f, f->edge[e][side]) > degree) degree = thr_degree(f, f->edge[e][side]);
   }
-  for (int a = 0; a < 2 * p->n_edges; a++)
-    for (int b = 2 * (a / 2 + 1); b < 2 * p->n_edges; b++) {
+  for (int a = 0; a < 2 * p->r.n_edges; a++)
+    for (int b = 2 * (a / 2 + 1); b < 2 * p->r.n_edges; b++) {
       if (node_of(p, a) != node_of(p, b)) continue;
       p->turn[p->n_turns][0] = a;
       p->turn[p->n_turns++][1] = b;
     }
-  p->most = 2 * cover + degree + 1;
-  p->block = 2 * p->n_edges + p->n_turns + (open_cords(p) ? 2 * p->n_edges : 0);
-  *small = p->block <= MOST_COLUMNS / p->n_cords;
-  if (!*small) return THR_OK;
-  size_t n = (size_t)p->n_cords * (size_t)p->block;
-  p->column = thr_calloc(n, sizeof *p->column);
-  p->value = thr_calloc(n, sizeof *p->value);
-  p->x = thr_calloc(n, sizeof *p->x);
-  return p->column && p->value && p->x ? THR_OK : thr_nomem(err);
+  p->r.most = 2 * cover + degree + 1;
+  p->r.block = 2 * p->r.n_edges + p->n_turns + (open_cords(p) ? 2 * p->r.n_edges : 0);
+  *small = p->r.block <= MOST_COLUMNS / p->r.n_cords;
+  return *small ? thr_share_rows_init(&p->r, err) : THR_OK;
 }
 
 /* ---- rows ---- */
-
-static void put(programme *p, int column, double value)
-{
-  p->column[p->n] = column;
-  p->value[p->n++] = value;
-}
-
-/* sum >= lower, and with both also sum <= lower. */
-static thr_status add(programme *p, double lower, bool both, thr_err *err)
-{
-  thr_status st = thr_lp_add_row(p->lp, p->n, p->column, p->value, lower, err);
-  for (int i = 0; i < p->n && both; i++)
-    p->value[i] = -p->value[i];
-  if (!st && both) st = thr_lp_add_row(p->lp, p->n, p->column, p->value, -lower, err);
-  p->n = 0;
-  return st;
-}
-
-/* Passes of every edge by all cords: no fewer than its cover, no more than its capacity. */
-static thr_status add_covers(programme *p, thr_err *err)
-{
-  thr_status st = THR_OK;
-  for (int e = 0; e < p->n_edges && !st; e++) {
-    int capacity = thr_plan_capacity(p->s->f, p->s->o, p->edge[e]);
-    for (int c = 0; c < p->n_cords; c++)
-      put(p, passes_column(p, c, e), 1);
-    st = add(p, thr_plan_cover(p->s->f, p->s->o, p->edge[e]), false, err);
-    for (int c = 0; c < p->n_cords && capacity < INT_MAX; c++)
-      put(p, passes_column(p, c, e), -1);
-    if (!st && capacity < INT_MAX) st = add(p, -capacity, false, err);
-  }
-  return st;
-}
 
 /* At every end of every edge its passes turn or end there. */
 static thr_status add_balance(programme *p, int c, thr_err *err)
 {
   thr_status st = THR_OK;
-  for (int h = 0; h < 2 * p->n_edges && !st; h++) {
+  for (int h = 0; h < 2 * p->r.n_edges && !st; h++) {
     for (int t = 0; t < p->n_turns; t++)
-      if (p->turn[t][0] == h || p->turn[t][1] == h) put(p, turn_column(p, c, t), 1);
-    if (open_cords(p)) put(p, end_column(p, c, h), 1);
-    put(p, passes_column(p, c, h >> 1), -1);
-    st = add(p, 0, true, err);
+      if (p->turn[t][0] == h || p->turn[t][1] == h) thr_share_put(&p->r, turn_column(p, c, t), 1);
+    if (open_cords(p)) thr_share_put(&p->r, end_column(p, c, h), 1);
+    thr_share_put(&p->r, thr_share_passes(&p->r, c, h >> 1), -1);
+    st = thr_share_row(&p->r, 0, true, err);
   }
-  for (int h = 0; h < 2 * p->n_edges && open_cords(p); h++)
-    put(p, end_column(p, c, h), 1);
-  return st || !open_cords(p) ? st : add(p, 2, true, err);
-}
-
-/* Passes only of edges that are used, some of them; no cord longer than limit (INFINITY: none), nor than the one before. */
-static thr_status add_lengths(programme *p, int c, double limit, thr_err *err)
-{
-  double unit = limit < INFINITY ? limit : thr_frame_total_length(p->s->f);
-  thr_status st = THR_OK;
-  for (int e = 0; e < p->n_edges && !st; e++) {
-    put(p, used_column(p, c, e), p->most);
-    put(p, passes_column(p, c, e), -1);
-    st = add(p, 0, false, err);
-  }
-  for (int e = 0; e < p->n_edges; e++)
-    put(p, passes_column(p, c, e), 1);
-  if (!st) st = add(p, 1, false, err);
-  for (int e = 0; e < p->n_edges && limit < INFINITY; e++)
-    put(p, passes_column(p, c, e), -length_of(p, e) / unit);
-  if (!st && limit < INFINITY) st = add(p, -1, false, err);
-  if (c == 0 || st) return st;
-  for (int e = 0; e < p->n_edges; e++) {
-    put(p, passes_column(p, c - 1, e), length_of(p, e) / unit);
-    put(p, passes_column(p, c, e), -length_of(p, e) / unit);
-  }
-  return add(p, 0, false, err);
+  for (int h = 0; h < 2 * p->r.n_edges && open_cords(p); h++)
+    thr_share_put(&p->r, end_column(p, c, h), 1);
+  return st || !open_cords(p) ? st : thr_share_row(&p->r, 2, true, err);
 }
 
 static thr_status add_counts(programme *p, thr_err *err)
 {
-  const thr_share *s = p->s;
+  const thr_share *s = p->r.s;
   thr_status st = THR_OK;
   for (int v = 0; v < s->f->n_nodes && !st; v++) {
     if (s->component[v] != p->k) continue;
-    for (int c = 0; c < p->n_cords; c++)
-      for (int h = 0; h < 2 * p->n_edges; h++)
-        if (node_of(p, h) == v) put(p, end_column(p, c, h), 1);
-    st = add(p, s->o->end_count[v], true, err);
+    for (int c = 0; c < p->r.n_cords; c++)
+      for (int h = 0; h < 2 * p->r.n_edges; h++)
+        if (node_of(p, h) == v) thr_share_put(&p->r, end_column(p, c, h), 1);
+    st = thr_share_row(&p->r, s->o->end_count[v], true, err);
   }
   return st;
 }
@@ -203,22 +120,22 @@ static thr_status add_counts(programme *p, thr_err *err)
 /* At node v turns of all cords leave the part that half-edges with this root of part are. */
 static thr_status add_tie(programme *p, int v, int root, thr_err *err)
 {
-  for (int c = 0; c < p->n_cords; c++)
+  for (int c = 0; c < p->r.n_cords; c++)
     for (int t = 0; t < p->n_turns; t++) {
       int a = p->turn[t][0], b = p->turn[t][1];
-      if (node_of(p, a) == v && (p->part[a] == root) != (p->part[b] == root)) put(p, turn_column(p, c, t), 1);
+      if (node_of(p, a) == v && (p->part[a] == root) != (p->part[b] == root)) thr_share_put(&p->r, turn_column(p, c, t), 1);
     }
-  return add(p, 1, false, err);
+  return thr_share_row(&p->r, 1, false, err);
 }
 
 /* Every half-edge at a node with others turns somewhere, to begin with. */
 static thr_status add_ties(programme *p, thr_err *err)
 {
   thr_status st = THR_OK;
-  for (int h = 0; h < 2 * p->n_edges; h++)
+  for (int h = 0; h < 2 * p->r.n_edges; h++)
     p->part[h] = h;
-  for (int h = 0; h < 2 * p->n_edges && !st; h++)
-    if (thr_degree(p->s->f, node_of(p, h)) > 1) st = add_tie(p, node_of(p, h), h, err);
+  for (int h = 0; h < 2 * p->r.n_edges && !st; h++)
+    if (thr_degree(p->r.s->f, node_of(p, h)) > 1) st = add_tie(p, node_of(p, h), h, err);
   return st;
 }
 
@@ -227,16 +144,16 @@ static thr_status separate_ties(programme *p, int *added, thr_err *err)
 {
   thr_status st = THR_OK;
   int *part = p->part;
-  for (int h = 0; h < 2 * p->n_edges; h++)
+  for (int h = 0; h < 2 * p->r.n_edges; h++)
     part[h] = h;
-  for (int c = 0; c < p->n_cords; c++)
+  for (int c = 0; c < p->r.n_cords; c++)
     for (int t = 0; t < p->n_turns; t++)
-      if (p->x[turn_column(p, c, t)] > 0.5) thr_disjoint_join(part, p->turn[t][0], p->turn[t][1]);
-  for (int h = 0; h < 2 * p->n_edges; h++)
+      if (p->r.x[turn_column(p, c, t)] > 0.5) thr_disjoint_join(part, p->turn[t][0], p->turn[t][1]);
+  for (int h = 0; h < 2 * p->r.n_edges; h++)
     part[h] = thr_disjoint_find(part, h);
-  for (int h = 0; h < 2 * p->n_edges && !st; h++) {
+  for (int h = 0; h < 2 * p->r.n_edges && !st; h++) {
     bool apart = false;
-    for (int g = 0; g < 2 * p->n_edges; g++)
+    for (int g = 0; g < 2 * p->r.n_edges; g++)
       apart |= node_of(p, g) == node_of(p, h) && part[g] != h;
     if (part[h] != h || !apart) continue;
     st = add_tie(p, node_of(p, h), h, err);
@@ -249,10 +166,11 @@ static thr_status separate_ties(programme *p, int *added, thr_err *err)
 static thr_status add_cut(programme *p, int c, int inside, int a, int b, thr_err *err)
 {
   for (int t = 0; t < p->n_turns; t++)
-    if ((p->part[p->turn[t][0] >> 1] == inside) != (p->part[p->turn[t][1] >> 1] == inside)) put(p, turn_column(p, c, t), 1);
-  put(p, used_column(p, c, a), -1);
-  put(p, used_column(p, c, b), -1);
-  return add(p, -1, false, err);
+    if ((p->part[p->turn[t][0] >> 1] == inside) != (p->part[p->turn[t][1] >> 1] == inside))
+      thr_share_put(&p->r, turn_column(p, c, t), 1);
+  thr_share_put(&p->r, thr_share_used(&p->r, c, a), -1);
+  thr_share_put(&p->r, thr_share_used(&p->r, c, b), -1);
+  return thr_share_row(&p->r, -1, false, err);
 }
 
 /* Cuts for every cord that falls apart, for all cords alike; *added grows. */
@@ -260,19 +178,19 @@ static thr_status separate_cords(programme *p, int *added, thr_err *err)
 {
   thr_status st = THR_OK;
   int *part = p->part; /* of edges */
-  for (int c = 0; c < p->n_cords && !st; c++) {
+  for (int c = 0; c < p->r.n_cords && !st; c++) {
     int first = -1;
-    for (int e = 0; e < p->n_edges; e++)
+    for (int e = 0; e < p->r.n_edges; e++)
       part[e] = e;
     for (int t = 0; t < p->n_turns; t++)
-      if (p->x[turn_column(p, c, t)] > 0.5) thr_disjoint_join(part, p->turn[t][0] >> 1, p->turn[t][1] >> 1);
-    for (int e = 0; e < p->n_edges; e++)
+      if (p->r.x[turn_column(p, c, t)] > 0.5) thr_disjoint_join(part, p->turn[t][0] >> 1, p->turn[t][1] >> 1);
+    for (int e = 0; e < p->r.n_edges; e++)
       part[e] = thr_disjoint_find(part, e);
-    for (int e = 0; e < p->n_edges && !st; e++) {
-      if (p->x[passes_column(p, c, e)] < 0.5) continue;
+    for (int e = 0; e < p->r.n_edges && !st; e++) {
+      if (p->r.x[thr_share_passes(&p->r, c, e)] < 0.5) continue;
       if (first < 0) first = e;
       if (part[e] == part[first]) continue;
-      for (int d = 0; d < p->n_cords && !st; d++, ++*added)
+      for (int d = 0; d < p->r.n_cords && !st; d++, ++*added)
         st = add_cut(p, d, part[e], e, first, err);
       break;
     }
@@ -282,38 +200,38 @@ static thr_status separate_cords(programme *p, int *added, thr_err *err)
 
 static void set_costs(const programme *p, double *cost, double *upper)
 {
-  const thr_plan_options *o = p->s->o;
-  for (int c = 0; c < p->n_cords; c++) {
-    for (int e = 0; e < p->n_edges; e++) {
-      cost[passes_column(p, c, e)] = length_of(p, e);
-      upper[passes_column(p, c, e)] = p->most;
-      upper[used_column(p, c, e)] = 1;
+  const thr_plan_options *o = p->r.s->o;
+  for (int c = 0; c < p->r.n_cords; c++) {
+    for (int e = 0; e < p->r.n_edges; e++) {
+      cost[thr_share_passes(&p->r, c, e)] = length_of(p, e);
+      upper[thr_share_passes(&p->r, c, e)] = p->r.most;
+      upper[thr_share_used(&p->r, c, e)] = 1;
     }
     for (int t = 0; t < p->n_turns; t++)
-      upper[turn_column(p, c, t)] = p->most;
-    for (int h = 0; h < 2 * p->n_edges && open_cords(p); h++)
-      upper[end_column(p, c, h)] = thr_plan_end_allowed(p->s->f, o, node_of(p, h)) ? 2 : 0;
+      upper[turn_column(p, c, t)] = p->r.most;
+    for (int h = 0; h < 2 * p->r.n_edges && open_cords(p); h++)
+      upper[end_column(p, c, h)] = thr_plan_end_allowed(p->r.s->f, o, node_of(p, h)) ? 2 : 0;
   }
 }
 
 static thr_status build(programme *p, double limit, thr_err *err)
 {
-  const int n = p->n_cords * p->block;
+  const int n = p->r.n_cords * p->r.block;
   double *cost = thr_calloc((size_t)n, sizeof *cost), *upper = thr_calloc((size_t)n, sizeof *upper);
   thr_status st = cost && upper ? THR_OK : thr_nomem(err);
   if (!st) set_costs(p, cost, upper);
-  thr_lp_destroy(p->lp);
-  p->lp = NULL;
-  if (!st) st = thr_lp_create(&p->lp, n, cost, upper, err);
+  thr_lp_destroy(p->r.lp);
+  p->r.lp = NULL;
+  if (!st) st = thr_lp_create(&p->r.lp, n, cost, upper, err);
   free(cost);
   free(upper);
-  if (!st) st = add_covers(p, err);
-  for (int c = 0; c < p->n_cords && !st; c++) {
+  if (!st) st = thr_share_covers(&p->r, err);
+  for (int c = 0; c < p->r.n_cords && !st; c++) {
     st = add_balance(p, c, err);
-    if (!st) st = add_lengths(p, c, limit, err);
+    if (!st) st = thr_share_lengths(&p->r, c, limit, err);
   }
   if (!st) st = add_ties(p, err);
-  return !st && p->s->o->ends == THR_ENDS_COUNTS ? add_counts(p, err) : st;
+  return !st && p->r.s->o->ends == THR_ENDS_COUNTS ? add_counts(p, err) : st;
 }
 
 /* Cords shorter than limit? *outcome THR_LP_OPTIMAL: x holds them. */
@@ -323,10 +241,10 @@ static thr_status solve(programme *p, double limit, const thr_limits *limits, th
   *outcome = THR_LP_STOPPED;
   for (int added = 1; !st && added;) {
     added = 0;
-    st = thr_lp_solve(p->lp, limits, outcome, err);
-    if (!st && *outcome == THR_LP_OPTIMAL) st = thr_lp_solve_integer(p->lp, limits, outcome, err);
+    st = thr_lp_solve(p->r.lp, limits, outcome, err);
+    if (!st && *outcome == THR_LP_OPTIMAL) st = thr_lp_solve_integer(p->r.lp, limits, outcome, err);
     if (st || *outcome != THR_LP_OPTIMAL) break;
-    thr_lp_primal(p->lp, p->x);
+    thr_lp_primal(p->r.lp, p->r.x);
     st = separate_ties(p, &added, err);
     if (!st) st = separate_cords(p, &added, err);
   }
@@ -360,14 +278,14 @@ static int free_side(const strand *s, const bool *taken, int h)
 
 static int whole(const programme *p, int column)
 {
-  return (int)nearbyint(p->x[column]);
+  return (int)nearbyint(p->r.x[column]);
 }
 
 static thr_status strand_init(strand *s, const programme *p, int c, thr_err *err)
 {
   *s = (strand){0};
-  for (int e = 0; e < p->n_edges; e++)
-    s->n += whole(p, passes_column(p, c, e));
+  for (int e = 0; e < p->r.n_edges; e++)
+    s->n += whole(p, thr_share_passes(&p->r, c, e));
   bool *taken = thr_calloc(2 * (size_t)s->n, sizeof *taken);
   s->edge = thr_calloc((size_t)s->n, sizeof *s->edge);
   s->mate = thr_calloc(2 * (size_t)s->n, sizeof *s->mate);
@@ -376,8 +294,8 @@ static thr_status strand_init(strand *s, const programme *p, int c, thr_err *err
     free(taken);
     return thr_nomem(err);
   }
-  for (int e = 0, i = 0; e < p->n_edges; e++)
-    for (int k = whole(p, passes_column(p, c, e)); k > 0; k--)
+  for (int e = 0, i = 0; e < p->r.n_edges; e++)
+    for (int k = whole(p, thr_share_passes(&p->r, c, e)); k > 0; k--)
       s->edge[i++] = e;
   for (int i = 0; i < s->n; i++)
     s->part[i] = i;
@@ -421,20 +339,20 @@ static thr_status strand_walk(const strand *s, const programme *p, thr_trails *o
   while (open_cords(p) && s->mate[side] >= 0)
     side++;
   for (int i = 0; i < s->n; i++) {
-    w.half[i] = 2 * p->edge[s->edge[side / 2]] + (side & 1);
+    w.half[i] = 2 * p->r.edge[s->edge[side / 2]] + (side & 1);
     side = s->mate[side ^ 1];
     if (side >= 0 || i == s->n - 1) continue;
     free(w.half);
     return thr_fail(err, THR_ESOLVER, "a cord in two pieces");
   }
-  return thr_trails_add(out, p->s->f, w, err);
+  return thr_trails_add(out, p->r.s->f, w, err);
 }
 
 static thr_status take(const programme *p, thr_trails *w, int *passes, thr_err *err)
 {
   thr_trails new = {0};
   thr_status st = THR_OK;
-  for (int c = 0; c < p->n_cords && !st; c++) {
+  for (int c = 0; c < p->r.n_cords && !st; c++) {
     strand s;
     st = strand_init(&s, p, c, err);
     if (!st) strand_join(&s);
@@ -445,8 +363,8 @@ static thr_status take(const programme *p, thr_trails *w, int *passes, thr_err *
     thr_trails_destroy(&new);
     return st;
   }
-  for (int e = 0; e < p->n_edges; e++)
-    passes[p->edge[e]] = 0;
+  for (int e = 0; e < p->r.n_edges; e++)
+    passes[p->r.edge[e]] = 0;
   thr_trails_count(&new, passes);
   thr_trails_destroy(w);
   *w = new;
@@ -469,7 +387,7 @@ static thr_status find_shortest(programme *p, const thr_limits *limits, thr_trai
   thr_status st = solve(p, INFINITY, limits, &outcome, err);
   if (st || (outcome != THR_LP_OPTIMAL && outcome != THR_LP_INFEASIBLE)) return st;
   *certain = true;
-  bool better = w->n_trails < p->n_cords || thr_lp_objective(p->lp) < total(w) * (1 - 1e-9);
+  bool better = w->n_trails < p->r.n_cords || thr_lp_objective(p->r.lp) < total(w) * (1 - 1e-9);
   return outcome == THR_LP_OPTIMAL && better ? take(p, w, passes, err) : THR_OK;
 }
 
@@ -493,7 +411,7 @@ static thr_status find_even(programme *p, double goal, const thr_limits *limits,
 thr_status thr_share_tied_exact(const thr_share *s, int k, int n, bool shortest, double goal, const thr_limits *limits,
                                 thr_trails *w, int *passes, bool *certain, thr_err *err)
 {
-  programme p = {.s = s, .k = k, .n_cords = n};
+  programme p = {.r = {.s = s, .n_cords = n}, .k = k};
   thr_limits share = *limits;
   double work = most_work;
   bool small;

@@ -275,3 +275,19 @@ thr_status thr_trails_cords(thr_trails *w, const thr_frame *f, const thr_plan_op
   thr_trails_destroy(w);
   return THR_OK;
 }
+
+thr_status thr_trails_plan(thr_trails *trails, int n_components, thr_plan *plan, thr_err *err)
+{
+  int n = 0;
+  thr_status st = THR_OK;
+  for (int k = 0; k < n_components; k++)
+    n += trails[k].n_trails;
+  if (!(plan->cord = thr_calloc((size_t)n, sizeof *plan->cord))) return thr_nomem(err);
+  plan->n_cords = n;
+  for (int k = 0, first = 0; k < n_components && !st; k++) {
+    int made = trails[k].n_trails;
+    st = thr_trails_cords(&trails[k], &plan->frame, &plan->options, k, first, plan->cord + first, err);
+    first += made;
+  }
+  return st;
+}

@@ -75,4 +75,7 @@ void thr_trail_visits_destroy(thr_trail_visits *x);
 thr_status thr_trails_cords(thr_trails *w, const thr_frame *f, const thr_plan_options *o, int k, int first, thr_cord *cord,
                             thr_err *err) THR_MUST_CHECK;
 
+/* Moves the walks trails[n_components] into the cords of plan, whose frame and options are set, component by component. */
+thr_status thr_trails_plan(thr_trails *trails, int n_components, thr_plan *plan, thr_err *err) THR_MUST_CHECK;
+
 #endif

@@ -277,22 +277,6 @@ static thr_status grow(several *x, thr_err *err)
 
 /* ---- the plan ---- */
 
-static thr_status take_walks(several *x, thr_plan *plan, thr_err *err)
-{
-  int n = 0;
-  thr_status st = THR_OK;
-  for (int k = 0; k < x->n_components; k++)
-    n += x->trails[k].n_trails;
-  if (!(plan->cord = thr_calloc((size_t)n, sizeof *plan->cord))) return thr_nomem(err);
-  plan->n_cords = n;
-  for (int k = 0, first = 0; k < x->n_components && !st; k++) {
-    int made = x->trails[k].n_trails;
-    st = thr_trails_cords(&x->trails[k], x->f, x->o, k, first, plan->cord + first, err);
-    first += made;
-  }
-  return st;
-}
-
 /* Is more asked for than the shortest length? */
 static bool lengths_asked(const thr_plan_options *o)
 {
@@ -319,7 +303,7 @@ static thr_status make_cords(thr_tube *t, const thr_limits *limits, thr_plan *pl
   }
   thr_status st = several_init(&x, err);
   if (!st) st = o->max_length > 0 ? grow(&x, err) : o->balance ? make_even(&x, err) : make_number(&x, o->cords_least, false, err);
-  if (!st) st = take_walks(&x, plan, err);
+  if (!st) st = thr_trails_plan(x.trails, x.n_components, plan, err);
   if (!st) *word = (thr_cords_word){x.least && many && !lengths_asked(o), x.certain && o->balance};
   several_destroy(&x);
   return st;
