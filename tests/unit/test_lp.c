@@ -137,7 +137,7 @@ END_TEST
  * work. Returns what is left of it. */
 static double cover_triangles(int n, double work, thr_lp_outcome *outcome)
 {
-  double one[30];
+  double one[30] = {0};
   thr_lp *lp;
   thr_limits limits = {.work = &work};
   for (int j = 0; j < 3 * n; j++)
