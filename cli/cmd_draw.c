@@ -25,7 +25,7 @@ static const char help[] =
     "                       cords.csv   the cut list: a row per cord, with tails and allowances\n"
     "                       beads.csv   the bead schedule: a row per edge and node, bores, kinds\n"
     "                       obj, gltf   cords.obj, cords.gltf: cords as lines for CAD and Blender\n"
-    "                       all         all of these, into a folder\n"
+    "                       all         all of these, into the folder of -o, else the current one\n"
     "      --color cord|tension|turning   what colours of the overview tell apart: cords (default), how\n"
     "                       tight each pass is, or how sharply the cord turns between two beads\n"
     "      --pitch MM       millimetres on paper per bead (default: 24, less for large frameworks)\n" DRAWINGS_HELP
@@ -107,9 +107,12 @@ int cmd_draw(int argc, char **argv)
   thr_plan p;
   int code = cli_read_plan(argv[optind], &p);
   if (code) return code;
-  if (all)
+  if (all) {
+    char names[DRAWINGS_NAMES];
+    drawings_names(&p, &a, names);
     code = drawings_write_all(&p, output ? output : ".", &a);
-  else
+    if (!code && !output) cli_note("drawn in the current folder: %s", names);
+  } else
     code = draw_one(&p, type, output, &a);
   thr_plan_destroy(&p);
   return code;

@@ -19,7 +19,7 @@
 static const char help_requests[] =
     "thread plan FRAME [options]: plan how cord is threaded: shortest, turning least, or symmetric, proved\n\n"
     "Examples:\n"
-    "  thread plan dome.obj                          plan.json, overview.svg, steps.txt in the folder dome/\n"
+    "  thread plan dome.obj                          plan.json, overview.svg, sheets.pdf and more in the folder dome/\n"
     "  thread plan dome.obj --cover 2 -o plan.json   two passes per interface; the plan only\n"
     "  thread plan dome.obj --cords 4 --ends feet --feet lowest --balance   four cords of much the same length\n"
     "  thread plan dome.obj --max-length 900 --ends any   as few cords as that takes\n"
@@ -37,7 +37,8 @@ static const char help_rest[] =
     "      --group ID|NAME   --geometric TOL   --prefer overlap,steps,paths,turning\n"
     "\nFramework:\n" CLI_FRAME_HELP "\nOutput:\n"
     "  -o, --output FILE    write the plan here (- = stdout), and no diagrams unless --draw\n"
-    "      --draw DIR       write the diagrams into this folder, and without -o the plan too\n" DRAWINGS_HELP
+    "      --draw DIR       write the diagrams into this folder, and without -o the plan too\n"
+    "                       (no sheets.pdf for more than 3000 beads: thread draw PLAN -T pdf makes it)\n" DRAWINGS_HELP
     "      --json           summary as JSON on stdout\n"
     "      --compare-objectives   pull of this plan beside those for the other objectives, joints simulated\n" PULL_RUN_HELP
     "  -q, --quiet          no notes and no summary       -v, --verbose  what the solver does       -h, --help\n\n"
@@ -193,7 +194,8 @@ static int parse(int argc, char **argv, arguments *a)
                    .symmetry = symmetry_args_default(),
                    .cords = cords_args_default(),
                    .time_limit = -1,
-                   .objective = &objectives[0]};
+                   .objective = &objectives[0],
+                   .drawings = {.quick = true}};
   pull_args_init(&a->pull, THR_JOINT);
   while ((o = cli_physics_option(&a->pull.physics, argc, argv, "plan", ":" CLI_COMMON_LETTERS PULL_LETTERS "o:", table, help(),
                                  &done)) != -1) {
@@ -385,7 +387,7 @@ static int write_plan(const thr_plan *p, const char *path)
 static int write_outputs(const arguments *a, const planned *x)
 {
   const thr_plan *p = &x->plan;
-  char stem[256], in_folder[1200];
+  char stem[256], in_folder[1200], names[DRAWINGS_NAMES];
   const char *plan_path = a->output ? a->output : in_folder;
   cli_stem(a->path, stem, sizeof stem);
   const char *folder = a->draw ? a->draw : stem;
@@ -393,14 +395,16 @@ static int write_outputs(const arguments *a, const planned *x)
   int code = a->output ? EXIT_OK : cli_in_folder(folder, "plan.json", in_folder, sizeof in_folder);
   if (!code) code = write_plan(p, plan_path);
   if (!code && draw) code = drawings_write_all(p, folder, &a->drawings);
+  if (!code && draw && drawings_no_sheets(p, &a->drawings))
+    cli_note("no sheets.pdf, which takes long for more than %d beads: thread draw %s -T pdf", DRAWINGS_SHEETS_BEADS,
+             strcmp(plan_path, "-") == 0 ? "plan.json" : plan_path);
   bool to_stdout = strcmp(plan_path, "-") == 0;
   if (code || to_stdout || (cli_quiet && !a->json)) return code;
   code = print_summary(a, x);
   if (a->json) return code;
   printf("%splan     %s\n", a->compare || p->options.objective == THR_TORTUOSITY ? "\n" : "", plan_path);
-  if (draw) printf("drawn    in %s:", folder);
-  for (int i = 0; draw && i < drawings_count(); i++)
-    printf(" %s%s", drawings_file(i), i + 1 < drawings_count() ? "" : "\n");
+  drawings_names(p, &a->drawings, names);
+  if (draw) printf("drawn    in %s: %s\n", folder, names);
   return code;
 }
 

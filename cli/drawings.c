@@ -7,6 +7,8 @@
 #include "diagram/tables.h"
 #include "diagram/viewer.h"
 
+#include <stdio.h>
+
 typedef enum { OVERVIEW, SHEETS, STEPS, VIEWER, STEPS_TABLE, CORDS_TABLE, BEADS_TABLE, OBJ, GLTF, N_DOCUMENTS } document;
 
 static const struct {
@@ -79,7 +81,7 @@ static int write_sheets(const thr_plan *p, const char *path, const drawings_args
   o.middle = a->middle;
   thr_status st = cli_copies_describe(p, &copies, &err);
   o.motion = copies.motion;
-  if (!st) st = thr_sheets_make(&sheets, p, &o, &err);
+  if (!st) st = thr_sheets_make(&sheets, p, &o, &limits, &err);
   if (!st) {
     int n = thr_sheets_pages(sheets);
     cli_note("%s: %d %s", documents[SHEETS].file, n, cli_plural(n, "page", "pages"));
@@ -131,6 +133,20 @@ int drawings_write(const thr_plan *p, int i, const char *path, const drawings_ar
   return cli_write_drawn(st, &t, path, &err);
 }
 
+bool drawings_no_sheets(const thr_plan *p, const drawings_args *a)
+{
+  return a->quick && p->frame.n_edges > DRAWINGS_SHEETS_BEADS;
+}
+
+void drawings_names(const thr_plan *p, const drawings_args *a, char names[DRAWINGS_NAMES])
+{
+  int n = 0;
+  names[0] = '\0';
+  for (int i = 0; i < N_DOCUMENTS && n < DRAWINGS_NAMES; i++)
+    if (i != SHEETS || !drawings_no_sheets(p, a))
+      n += snprintf(names + n, (size_t)(DRAWINGS_NAMES - n), "%s%s", n ? " " : "", documents[i].file);
+}
+
 /* The step sheets last: they take longest, and who stops them has all others. */
 int drawings_write_all(const thr_plan *p, const char *folder, const drawings_args *a)
 {
@@ -138,6 +154,7 @@ int drawings_write_all(const thr_plan *p, const char *folder, const drawings_arg
   for (int k = 0; k < N_DOCUMENTS && !code; k++) {
     int i = k == N_DOCUMENTS - 1 ? SHEETS : k < SHEETS ? k : k + 1;
     char path[1200];
+    if (i == SHEETS && drawings_no_sheets(p, a)) break;
     code = cli_in_folder(folder, documents[i].file, path, sizeof path);
     if (!code) code = drawings_write(p, i, path, a);
   }

@@ -14,7 +14,11 @@ typedef struct {
   thr_overview_colour colour; /* of the overview */
   int page;                   /* of the step sheets: thr_page_size */
   bool middle;                /* cords are threaded from their middle, in the step sheets */
+  bool quick;                 /* all documents means all but the step sheets of a framework with too many beads */
 } drawings_args;
+
+/* With more beads step sheets are some hundred pages and take long. */
+enum { DRAWINGS_SHEETS_BEADS = 3000, DRAWINGS_NAMES = 128 };
 
 /* --page, --from: of the step sheets. */
 #define DRAWINGS_OPTIONS                                                                                                         \
@@ -36,5 +40,11 @@ int drawings_write(const thr_plan *p, int i, const char *path, const drawings_ar
 
 /* Writes all of them into folder, which is made if needed, under their usual names; stops at the first that fails. */
 int drawings_write_all(const thr_plan *p, const char *folder, const drawings_args *a);
+
+/* Does that leave out the step sheets? */
+bool drawings_no_sheets(const thr_plan *p, const drawings_args *a);
+
+/* The file names of what it writes: "overview.svg steps.txt". */
+void drawings_names(const thr_plan *p, const drawings_args *a, char names[DRAWINGS_NAMES]);
 
 #endif

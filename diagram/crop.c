@@ -174,16 +174,17 @@ thr_status thr_crop_draw(thr_crops *x, const thr_crop *c, const thr_crop_view *v
 static void put_lines(const thr_scene *s, const thr_crop *c, bool now, const double map[3], thr_text *t)
 {
   int last = -1;
-  for (int i = 0; i < s->n_passes; i++) {
+  for (int k = 0; k < (now ? c->n_now : s->n_passes); k++) {
+    int i = !now ? k : c->now[c->backward ? c->n_now - 1 - k : k];
     int h = s->pass[i].half, from = thr_tail(s->paper, h), to = thr_head(s->paper, h);
-    if (now ? c->state[i] != THR_DRAW_NOW : s->pass[i].lane != 0) continue;
+    if (!now && s->pass[i].lane != 0) continue;
     if (from != last) thr_svg_move(t, (const double[]){map[0] * s->at[from][0] + map[1], map[0] * s->at[from][1] + map[2]});
     thr_svg_line(t, (const double[]){map[0] * s->at[to][0] + map[1], map[0] * s->at[to][1] + map[2]});
     last = to;
   }
 }
 
-void thr_crop_locate(thr_crops *x, const thr_crop *c, const thr_crop_view *view, const thr_box shown[2], thr_box paper,
+void thr_crop_locate(const thr_crops *x, const thr_crop *c, const thr_crop_view *view, const thr_box shown[2], thr_box paper,
                      thr_text *t)
 {
   const thr_scene *s = &x->scene[view->scale];
@@ -205,8 +206,8 @@ void thr_crop_locate(thr_crops *x, const thr_crop *c, const thr_crop_view *view,
   }
 }
 
-thr_status thr_crop_whole(const thr_plan *p, const thr_layout *l, const unsigned char *state, thr_box paper, thr_text *t,
-                          thr_err *err)
+thr_status thr_crop_whole(const thr_plan *p, const thr_layout *l, const unsigned char *state, thr_box paper,
+                          const thr_limits *limits, thr_text *t, thr_err *err)
 {
   enum { ATTEMPTS = 8 };
   thr_scene s = {0};
@@ -214,6 +215,7 @@ thr_status thr_crop_whole(const thr_plan *p, const thr_layout *l, const unsigned
   double room[2] = {paper.x1 - paper.x0, paper.y1 - paper.y0}, pitch = PITCH[0], over = 2;
   for (int i = 0; i < ATTEMPTS && over > 1; i++) {
     thr_scene_destroy(&s);
+    if (thr_limits_stop(limits)) return thr_fail(err, THR_ELIMIT, "interrupted at a picture of the whole");
     if ((st = thr_scene_build(&s, p, l, pitch, true, err))) return st;
     double border = s.places.n_columns ? 18 : 0; /* letters and numbers of places, on both sides */
     over = fmax((s.extent.x1 - s.extent.x0) / (room[0] - border), (s.extent.y1 - s.extent.y0) / (room[1] - border));

@@ -3,6 +3,7 @@
 #define THR_CROP_H
 
 #include "diagram/draw.h"
+#include "graph/limits.h"
 
 /* Scenes of one plan at a few scales, each made when it is first asked for. */
 enum { THR_CROP_SCALES = 14 };
@@ -51,14 +52,14 @@ thr_status thr_crop_draw(thr_crops *x, const thr_crop *c, const thr_crop_view *v
                          thr_text *t, thr_err *err) THR_MUST_CHECK;
 
 /* Appends where that is in the whole, within the paper and in its right upper corner: all beads as thin lines, the passes drawn
- * now, a frame around what is shown. */
-void thr_crop_locate(thr_crops *x, const thr_crop *c, const thr_crop_view *view, const thr_box shown[2], thr_box paper,
+ * now, a frame around what is shown. Needs no states; the picture must have been drawn. O(n). */
+void thr_crop_locate(const thr_crops *x, const thr_crop *c, const thr_crop_view *view, const thr_box shown[2], thr_box paper,
                      thr_text *t);
 
 /* Appends the whole plan, at the largest scale that fits in the paper, with the numbers that this scale has room for; passes in
- * their state (NULL: all now). Brings the style of the document. O(n log n). */
-thr_status thr_crop_whole(const thr_plan *p, const thr_layout *l, const unsigned char *state, thr_box paper, thr_text *t,
-                          thr_err *err) THR_MUST_CHECK;
+ * their state (NULL: all now). Brings the style of the document. O(n log n). THR_ELIMIT if it was interrupted. */
+thr_status thr_crop_whole(const thr_plan *p, const thr_layout *l, const unsigned char *state, thr_box paper,
+                          const thr_limits *limits, thr_text *t, thr_err *err) THR_MUST_CHECK;
 
 /* Places numbers, arrows and names of the passes drawn now that lie in the panel where they hide least in a window of the scene;
  * all others have none then (crop_labels.c). */

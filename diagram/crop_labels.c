@@ -4,6 +4,8 @@
 
 #include <math.h>
 
+static const double CAPTION = 1.4, EDGE = 0.8; /* height in those of the text; mm between it and the window's edge */
+
 /* Labels being placed in a window. */
 typedef struct {
   thr_scene *s;
@@ -161,6 +163,32 @@ static thr_status box_beads(labelling *l, thr_err *err)
   return st;
 }
 
+/* What half of a shell the window shows: at its upper or lower edge where that hides least. The other half's words are out of it.
+ */
+static thr_status place_caption(labelling *l, thr_err *err)
+{
+  thr_scene *s = l->s;
+  double *at = s->caption[l->panel], *other = s->caption[1 - l->panel], least = HUGE_VAL;
+  if (!s->layout->node) return THR_OK;
+  const thr_box *w = &l->window;
+  double half[2] = {0.5 * thr_scene_text_width(thr_scene_caption(s, l->panel), CAPTION * s->size.text),
+                    0.5 * CAPTION * s->size.text};
+  for (int k = 0; k < 6; k++) {
+    double x[3] = {w->x0 + half[0] + EDGE, 0.5 * (w->x0 + w->x1), w->x1 - half[0] - EDGE};
+    double y = k < 3 ? w->y0 + half[1] + EDGE : w->y1 - half[1] - EDGE;
+    thr_box box = thr_box_around(x[k % 3], y, half[0], half[1]);
+    double hidden = 100 * thr_boxes_overlap(&l->boxes, box, THR_BOX_MARK, HUGE_VAL) +
+                    thr_boxes_overlap(&l->boxes, box, THR_BOX_CORD | THR_BOX_BEAD, HUGE_VAL);
+    if (hidden >= least) continue;
+    least = hidden;
+    at[0] = x[k % 3];
+    at[1] = y;
+  }
+  other[0] = w->x0 - 2 * half[0];
+  other[1] = w->y0 - 2 * half[1];
+  return thr_boxes_add(&l->boxes, thr_box_around(at[0], at[1], half[0], half[1]), THR_BOX_NAME, err);
+}
+
 static bool is_mine(const labelling *l, int i)
 {
   return thr_crop_panel(l->s, i) == l->panel;
@@ -171,6 +199,7 @@ static thr_status place_labels(labelling *l, thr_err *err)
   thr_scene *s = l->s;
   const thr_crop *c = l->c;
   thr_status st = box_strands(l, err);
+  if (!st) st = place_caption(l, err);
   for (int k = 0; k < c->n_now && !st; k++)
     if (is_mine(l, c->now[k])) st = place_number(l, c->now[k], err);
   for (int k = 0; k < c->n_now && !st; k++) {

@@ -407,8 +407,9 @@ static void write_places(const drawing *d, const thr_box *grid, thr_text *t)
   thr_text_append(t, " class=\"place\">\n");
   if (grid) write_grid(s, grid, t);
   for (int k = 0; k < 2 && s->layout->node; k++)
-    thr_svg_text(t, s->caption[k][0], s->caption[k][1] + 0.5 * s->size.text, 1.4 * s->size.text, " class=\"middle\"",
-                 thr_scene_caption(s, k));
+    if (in_window(d, (thr_box){s->caption[k][0], s->caption[k][1], s->caption[k][0], s->caption[k][1]}))
+      thr_svg_text(t, s->caption[k][0], s->caption[k][1] + 0.5 * s->size.text, 1.4 * s->size.text, " class=\"middle\"",
+                   thr_scene_caption(s, k));
   for (int v = 0; v < s->layout->n_points; v++) {
     char name[48];
     const double *at = s->name_at[v];

@@ -21,6 +21,7 @@ void thr_sheets_destroy(thr_sheets *s)
   free(s->copy);
   free(s->edge_kind);
   free(s->node_kind);
+  free(s->edge_sort);
   free(s->move);
   free(s->first_move);
   free(s->first_pass);
@@ -30,6 +31,7 @@ void thr_sheets_destroy(thr_sheets *s)
   for (int i = 0; i < s->n_pages; i++)
     thr_text_destroy(&s->page[i]);
   free(s->page);
+  free(s->locator);
   free(s);
 }
 
@@ -39,6 +41,19 @@ static int most(const int *a, int n)
   for (int i = 0; i < n; i++)
     high = a[i] > high ? a[i] : high;
   return high;
+}
+
+static thr_status find_sorts(thr_sheets *s, thr_err *err)
+{
+  int n = s->f->n_edges;
+  thr_bead *bead = thr_calloc((size_t)n, sizeof *bead);
+  s->edge_sort = thr_calloc((size_t)n, sizeof *s->edge_sort);
+  bool made = bead && s->edge_sort;
+  if (made) thr_sheets_beads(s, bead);
+  for (int i = 0; i < n && made; i++)
+    s->edge_sort[bead[i].item] = bead[i].sort;
+  free(bead);
+  return made ? THR_OK : thr_nomem(err);
 }
 
 /* All that pages are made from. */
@@ -54,6 +69,7 @@ static thr_status prepare(thr_sheets *s, thr_err *err)
   if (!s->copy || !s->edge_kind || !s->node_kind) return thr_nomem(err);
   st = thr_copies_find(p, s->copy, err);
   if (!st) st = thr_kinds_find(s->f, s->edge_kind, s->node_kind, err);
+  if (!st) st = find_sorts(s, err);
   if (!st) st = thr_guide_make(&s->guide, s->f, err);
   if (!st) st = thr_sheets_plan_moves(s, err);
   if (st) return st;
@@ -86,19 +102,22 @@ static void lay_out(thr_sheets *s)
     if (s->page[i].failed) thr_sheets_fail(s, thr_nomem(NULL), NULL);
 }
 
-thr_status thr_sheets_make(thr_sheets **out, const thr_plan *p, const thr_sheets_options *o, thr_err *err)
+thr_status thr_sheets_make(thr_sheets **out, const thr_plan *p, const thr_sheets_options *o, const thr_limits *limits,
+                           thr_err *err)
 {
   thr_sheets *s = *out = thr_calloc(1, sizeof *s);
   if (!s) return thr_nomem(err);
   s->plan = p;
   s->f = &p->frame;
   s->o = *o;
+  s->limits = limits;
   thr_page_mm(o->page, s->size);
   thr_status st = prepare(s, &s->why);
   if (st)
     s->st = st;
   else
     lay_out(s);
+  s->limits = NULL;
   if (!s->st) return THR_OK;
   st = s->why.code ? thr_fail(err, s->st, "%s", s->why.text) : thr_nomem(err);
   thr_sheets_destroy(s);
@@ -141,6 +160,7 @@ thr_status thr_sheets_svg(const thr_sheets *s, int i, thr_text *svg, thr_err *er
   thr_svg_open(svg, s->size[0], s->size[1], title, "A page of step sheets.");
   thr_text_append(svg, "<style>.thread text{fill:#222;font-family:'DejaVu Sans',Verdana,sans-serif}</style>\n");
   if (body->data) thr_text_append_bytes(svg, body->data, body->length);
+  thr_sheets_locate(s, i, svg);
   put_view(s, foot, svg);
   snprintf(line, sizeof line, "page %d of %d", i + 1, s->n_pages);
   thr_svg_text(svg, s->size[0] - THR_SHEET_MARGIN, foot, THR_SHEET_SMALL, " text-anchor=\"end\" style=\"fill:#666\"", line);

@@ -22,7 +22,7 @@ static void put_picture(thr_sheets *s, int path)
   }
   double height = 0.52 * (thr_sheets_bottom(s) - s->y);
   thr_box paper = {THR_SHEET_MARGIN, s->y, s->size[0] - THR_SHEET_MARGIN, s->y + height};
-  thr_status st = thr_crop_whole(s->plan, &s->guide.layout, state, paper, thr_sheets_out(s), &s->why);
+  thr_status st = thr_crop_whole(s->plan, &s->guide.layout, state, paper, s->limits, thr_sheets_out(s), &s->why);
   if (st) thr_sheets_fail(s, st, NULL);
   s->y += height + 2 * THR_SHEET_LINE;
   free(state);

@@ -73,6 +73,6 @@ void thr_sheets_front(thr_sheets *s, const int *first)
   put_contents(s, first);
   if (s->plan->n_cords == 1) thr_sheets_paragraph(s, 0, "The colour changes every twenty passes, here and in the steps.");
   thr_box paper = {THR_SHEET_MARGIN, s->y, s->size[0] - THR_SHEET_MARGIN, thr_sheets_bottom(s)};
-  thr_status st = thr_crop_whole(s->plan, &s->guide.layout, NULL, paper, thr_sheets_out(s), &s->why);
+  thr_status st = thr_crop_whole(s->plan, &s->guide.layout, NULL, paper, s->limits, thr_sheets_out(s), &s->why);
   if (st) thr_sheets_fail(s, st, NULL);
 }

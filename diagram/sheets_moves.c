@@ -123,18 +123,27 @@ static bool goes_ahead(const thr_sheets *s, int i)
   return way == THR_WAY_STRAIGHT || way == THR_WAY_OVER;
 }
 
-/* " (kind 3)", " (kinds 3 x 4, 5, 3)": of the beads that the moves from first to before end pick up. */
+/* Are the beads that two moves pick up alike in kind and bore? */
+static bool alike(const thr_sheets *s, int i, int k)
+{
+  int a = s->move[i].half >> 1, b = s->move[k].half >> 1;
+  return s->edge_kind[a] == s->edge_kind[b] && s->edge_sort[a] == s->edge_sort[b];
+}
+
+/* " (kind 3)", " (kinds 3a x 4, 5, 3b)": of the beads that the moves from first to before end pick up. */
 static void put_kinds(const thr_sheets *s, int first, int end, thr_text *words)
 {
-  int distinct = 0;
+  bool distinct = false;
   for (int i = first; i < end; i++)
-    distinct += s->edge_kind[s->move[i].half >> 1] != s->edge_kind[s->move[first].half >> 1];
+    distinct |= !alike(s, first, i);
   thr_text_append(words, distinct ? " (kinds" : " (kind");
   for (int i = first, next; i < end; i = next) {
-    int kind = s->edge_kind[s->move[i].half >> 1];
-    for (next = i + 1; next < end && s->edge_kind[s->move[next].half >> 1] == kind;)
+    char name[16];
+    int e = s->move[i].half >> 1;
+    for (next = i + 1; next < end && alike(s, i, next);)
       next++;
-    thr_text_printf(words, "%s %d", i > first ? "," : "", kind);
+    thr_bead_name(s->edge_kind[e], s->edge_sort[e], name);
+    thr_text_printf(words, "%s %s", i > first ? "," : "", name);
     if (distinct && next - i > 1) thr_text_printf(words, " x %d", next - i);
   }
   thr_text_append(words, ")");
@@ -170,6 +179,6 @@ int thr_sheets_run(const thr_sheets *s, int first, int end, thr_text *words)
   for (int i = first; i < next; i++)
     thr_text_printf(words, " %s", place_of(s, thr_head(s->f, s->move[i].half)));
   thr_text_printf(words, ": %s %d", thr_deed_words(m->deed), n);
-  if (m->deed == THR_PICK_UP && s->edge_kinds > 1) put_kinds(s, first, next, words);
+  if (m->deed == THR_PICK_UP && (s->edge_kinds > 1 || s->edge_sort[0])) put_kinds(s, first, next, words);
   return next;
 }

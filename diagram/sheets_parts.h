@@ -23,6 +23,14 @@ typedef struct {
   double used; /* cord that this needle has used up by its end, in units */
 } thr_move;
 
+/* The small picture beside a step, drawn when its page is written: with all beads in it, it is most of the page. */
+typedef struct {
+  int page;       /* of the booklet, the title page being 0 */
+  int first, end; /* moves of the step */
+  thr_crop_view view;
+  thr_box shown[2], paper;
+} thr_locator;
+
 /* Failures stick: the first one is kept, and what comes after it does nothing. */
 struct thr_sheets {
   const thr_plan *plan;
@@ -34,6 +42,7 @@ struct thr_sheets {
   thr_supplies supplies;
   thr_copy *copy;             /* [n_cords] */
   int *edge_kind, *node_kind; /* as thr_kinds_find */
+  int *edge_sort;             /* as thr_beads_sort */
   int edge_kinds, node_kinds; /* how many */
   int n_moves;
   thr_move *move;  /* [n_moves] in the order of threading: every path, then its copies */
@@ -43,13 +52,16 @@ struct thr_sheets {
   int *first_pass; /* [n_cords] in moved */
   int *moved;      /* [n_passes] the move of each pass, cord by cord as in a scene */
   thr_crops crops;
-  double size[2]; /* of a page, mm */
-  int n_steps;    /* so far */
-  int step_page;  /* pages when the latest one was put, so that it is on the last of these */
+  double size[2];           /* of a page, mm */
+  const thr_limits *limits; /* while pages are laid out */
+  int n_steps;              /* so far */
+  int step_page;            /* pages when the latest one was put, so that it is on the last of these */
   int n_pages, pages_capacity;
-  thr_text *page;    /* bodies of the pages, without page numbers */
-  double y;          /* where the next line goes on the page that is being filled, mm */
-  char running[160]; /* heading of the pages that follow when this one is full */
+  thr_text *page; /* bodies of the pages, without page numbers */
+  int n_locators, locators_capacity;
+  thr_locator *locator; /* page by page */
+  double y;             /* where the next line goes on the page that is being filled, mm */
+  char running[160];    /* heading of the pages that follow when this one is full */
 };
 
 /* Keeps the first failure. */
@@ -87,13 +99,15 @@ void thr_sheets_cells(thr_sheets *s, int n, const double *x, char (*cell)[96], b
 /* ---- what is on them ---- */
 
 thr_status thr_sheets_plan_moves(thr_sheets *s, thr_err *err) THR_MUST_CHECK; /* sheets_moves.c */
+void thr_sheets_locate(const thr_sheets *s, int page, thr_text *t); /* sheets_steps.c: the locators of a page of the booklet */
 /* sheets_front.c: the title page; first[THR_SHEET_PARTS]: pages before each part, this one not counted. */
 typedef enum { THR_SHEET_PREPARE, THR_SHEET_STEPS, THR_SHEET_LAST, THR_SHEET_PARTS } thr_sheet_part;
 void thr_sheets_front(thr_sheets *s, const int *first);
-void thr_sheets_prepare(thr_sheets *s);       /* sheets_prepare.c */
-void thr_sheets_steps(thr_sheets *s, int c);  /* sheets_steps.c: of a path */
-void thr_sheets_copies(thr_sheets *s, int c); /* sheets_copies.c: of a path, if it has any */
-void thr_sheets_last(thr_sheets *s);          /* sheets_last.c */
+void thr_sheets_beads(const thr_sheets *s, thr_bead *b); /* all edges in the order of thr_beads_sort */
+void thr_sheets_prepare(thr_sheets *s);                  /* sheets_prepare.c */
+void thr_sheets_steps(thr_sheets *s, int c);             /* sheets_steps.c: of a path */
+void thr_sheets_copies(thr_sheets *s, int c);            /* sheets_copies.c: of a path, if it has any */
+void thr_sheets_last(thr_sheets *s);                     /* sheets_last.c */
 
 /* Words of a cord: "Cord A (blue)", with its dash if it has one; colour as "#rrggbb" for a row of passes. */
 void thr_sheets_cord_words(const thr_sheets *s, int c, char words[96]);

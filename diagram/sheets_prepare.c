@@ -66,18 +66,6 @@ static void put_cords(thr_sheets *s)
 
 /* ---- beads ---- */
 
-/* Beads of a kind that hold as many cords. */
-typedef struct {
-  int kind, passes, item; /* item: edge or node */
-} group;
-
-static int by_group(const void *a, const void *b)
-{
-  const group *p = a, *q = b;
-  if (p->kind != q->kind) return p->kind - q->kind;
-  return p->passes != q->passes ? p->passes - q->passes : p->item - q->item;
-}
-
 enum { CELLS = 5 };
 
 /* How much cord a bore has to take, in diameters of it and, if known, in mm. */
@@ -90,7 +78,7 @@ static void put_bore(const thr_sheets *s, double cords, char cell[96])
 }
 
 /* Rows in two columns, from left to right, then down. */
-static void put_groups(thr_sheets *s, const group *g, int n, bool edges, char (*head)[96])
+static void put_groups(thr_sheets *s, const thr_bead *g, int n, bool edges, char (*head)[96])
 {
   static const double x[2 * CELLS] = {-8, -24, -46, -62, -84, -103, -119, -141, -157, -179};
   char cell[2 * CELLS][96];
@@ -102,7 +90,7 @@ static void put_groups(thr_sheets *s, const group *g, int n, bool edges, char (*
     char(*row)[96] = cell + filled;
     for (next = i + 1; next < n && g[next].kind == g[i].kind && g[next].passes == g[i].passes;)
       next++;
-    snprintf(row[0], 96, "%d", g[i].kind);
+    thr_bead_name(g[i].kind, g[i].sort, row[0]);
     snprintf(row[1], 96, "%d", next - i);
     if (edges)
       put_length(s, s->f->length[g[i].item], row[2]);
@@ -115,12 +103,17 @@ static void put_groups(thr_sheets *s, const group *g, int n, bool edges, char (*
   }
 }
 
-static void put_beads(thr_sheets *s, group *g)
+void thr_sheets_beads(const thr_sheets *s, thr_bead *b)
+{
+  for (int e = 0; e < s->f->n_edges; e++)
+    b[e] = (thr_bead){.kind = s->edge_kind[e], .passes = s->supplies.passes[e], .item = e};
+  thr_beads_sort(b, s->f->n_edges);
+}
+
+static void put_beads(thr_sheets *s, thr_bead *g)
 {
   char edge_head[CELLS][96] = {"kind", "pieces", "length", "cords", "bore"}, line[200];
-  for (int e = 0; e < s->f->n_edges; e++)
-    g[e] = (group){s->edge_kind[e], s->supplies.passes[e], e};
-  qsort(g, (size_t)s->f->n_edges, sizeof *g, by_group);
+  thr_sheets_beads(s, g);
   snprintf(line, sizeof line, "Beads: %d in %d kind%s by length (in %s), by the cords that each will hold", s->f->n_edges,
            s->edge_kinds, s->edge_kinds == 1 ? "" : "s", s->f->units);
   thr_sheets_title(s, line);
@@ -138,18 +131,16 @@ static int most_passes(const thr_sheets *s, int v)
   return most;
 }
 
-static void put_joints(thr_sheets *s, group *g)
+static void put_joints(thr_sheets *s, thr_bead *g)
 {
   char node_head[CELLS][96] = {"kind", "pieces", "arms", "cords", "bore"}, line[200];
   for (int v = 0; v < s->f->n_nodes; v++)
-    g[v] = (group){s->node_kind[v], most_passes(s, v), v};
-  qsort(g, (size_t)s->f->n_nodes, sizeof *g, by_group);
+    g[v] = (thr_bead){.kind = s->node_kind[v], .passes = most_passes(s, v), .item = v};
+  thr_beads_sort(g, s->f->n_nodes);
   snprintf(line, sizeof line, "Node beads: %d in %d kind%s by their arms, by the most cords that an arm will hold", s->f->n_nodes,
            s->node_kinds, s->node_kinds == 1 ? "" : "s");
   thr_sheets_title(s, line);
   put_groups(s, g, s->f->n_nodes, false, node_head);
-  s->y += 1;
-  thr_sheets_paragraph(s, 0, "Which bead is of which kind: beads.csv. The steps say the kinds of the beads that they pick up.");
 }
 
 static void put_feet(thr_sheets *s)
@@ -202,7 +193,7 @@ static void put_reading(thr_sheets *s)
 void thr_sheets_prepare(thr_sheets *s)
 {
   int most = s->f->n_edges > s->f->n_nodes ? s->f->n_edges : s->f->n_nodes;
-  group *g = thr_calloc((size_t)most, sizeof *g);
+  thr_bead *g = thr_calloc((size_t)most, sizeof *g);
   if (!g) {
     thr_sheets_fail(s, thr_nomem(&s->why), NULL);
     return;
@@ -213,5 +204,9 @@ void thr_sheets_prepare(thr_sheets *s)
   put_feet(s);
   put_beads(s, g);
   if (s->plan->options.joint == THR_JOINT_SOLID) put_joints(s, g);
+  s->y += 1;
+  thr_sheets_paragraph(s, 0,
+                       "A letter tells beads of a kind apart that are bored for different numbers of cords. The steps say the "
+                       "kinds, with these letters, of the beads that they pick up. Which bead is of which kind: beads.csv.");
   free(g);
 }

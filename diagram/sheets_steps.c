@@ -194,12 +194,11 @@ static void picture_room(const thr_sheets *s, const step *p, double room[2])
 }
 
 /* Passes of the scene that the moves are, in their order. */
-static int list_now(const thr_sheets *s, const step *p, int *now)
+static int list_now(const thr_sheets *s, int first, int end, int *now)
 {
-  int c = s->move[p->first].cord, first = s->first_pass[c];
-  for (int i = p->first; i < p->end; i++)
-    now[i - p->first] = first + s->move[i].pass;
-  return p->end - p->first;
+  for (int i = first; i < end; i++)
+    now[i - first] = s->first_pass[s->move[first].cord] + s->move[i].pass;
+  return end - first;
 }
 
 /* Does a page take the step with the moves up to before end, with every pass numbered in the picture? Fills what it shows. */
@@ -208,7 +207,7 @@ static bool is_good(thr_sheets *s, step *p)
   int now[MOST_MOVES], n = p->end - p->first;
   find_text(s, p);
   if (s->st || (n > 1 && (p->lines > MOST_LINES || (n > USUAL_MOVES && p->lines > FEW_LINES)))) return n == 1;
-  thr_crop crop = {.now = now, .n_now = list_now(s, p, now)};
+  thr_crop crop = {.now = now, .n_now = list_now(s, p->first, p->end, now)};
   double room[2];
   picture_room(s, p, room);
   thr_status st = thr_crop_fit(&s->crops, &crop, room, LEAST_PICTURE, &p->view, &s->why);
@@ -245,22 +244,41 @@ static void choose_end(thr_sheets *s, step *p)
 static void put_pictures(thr_sheets *s, const step *p, double top, unsigned char *state, bool *filled)
 {
   int now[MOST_MOVES];
-  thr_box shown[2];
+  thr_box shown[2] = {{0}};
   for (int i = 0; i < s->n_moves; i++)
     state[i] = s->moved[i] < p->first ? THR_DRAW_EARLIER : s->moved[i] < p->end ? THR_DRAW_NOW : THR_DRAW_HIDDEN;
   for (int e = 0; e < s->f->n_edges; e++)
     filled[e] = s->threaded[e] < p->first;
-  thr_crop crop = {.number = s->n_steps, .state = state, .filled = filled, .now = now, .n_now = list_now(s, p, now)};
+  thr_crop crop = {.number = s->n_steps, .state = state, .filled = filled, .now = now};
+  crop.n_now = list_now(s, p->first, p->end, now);
   crop.backward = s->move[p->first].needle == THR_NEEDLE_LEFT;
   double at[2] = {0.5 * (s->size[0] - p->view.size[0]), top + HEAD}, right = s->size[0] - THR_SHEET_MARGIN, locator[2];
   locator_size(s, p, locator);
   thr_text *t = thr_sheets_out(s);
-  thr_status st = thr_crop_draw(&s->crops, &crop, &p->view, at, shown, t, &s->why);
+  thr_status st = thr_grow(&s->locator, s->n_locators, &s->locators_capacity, sizeof *s->locator, &s->why);
+  if (!st) st = thr_crop_draw(&s->crops, &crop, &p->view, at, shown, t, &s->why);
   s->y = at[1] + p->view.size[1];
   if (st)
     thr_sheets_fail(s, st, NULL);
   else
-    thr_crop_locate(&s->crops, &crop, &p->view, shown, (thr_box){right - locator[0], s->y + 3, right, s->y + 3 + locator[1]}, t);
+    s->locator[s->n_locators++] = (thr_locator){.page = s->n_pages,
+                                                .first = p->first,
+                                                .end = p->end,
+                                                .view = p->view,
+                                                .shown = {shown[0], shown[1]},
+                                                .paper = {right - locator[0], s->y + 3, right, s->y + 3 + locator[1]}};
+}
+
+void thr_sheets_locate(const thr_sheets *s, int page, thr_text *t)
+{
+  for (int i = 0; i < s->n_locators; i++) {
+    int now[MOST_MOVES];
+    const thr_locator *l = &s->locator[i];
+    if (l->page != page) continue;
+    thr_crop crop = {.now = now, .n_now = list_now(s, l->first, l->end, now)};
+    crop.backward = s->move[l->first].needle == THR_NEEDLE_LEFT;
+    thr_crop_locate(&s->crops, &crop, &l->view, l->shown, l->paper, t);
+  }
 }
 
 /* ---- rows ---- */
@@ -297,6 +315,15 @@ static double find_top(thr_sheets *s, double height)
   return follows ? y : THR_SHEET_MARGIN;
 }
 
+/* Before each step: it may be stopped there. */
+static void poll(thr_sheets *s, int first)
+{
+  const thr_limits *l = s->limits;
+  if (l->advance) l->advance(l->user, "pages of the step sheets", (double)first / s->n_moves);
+  if (thr_limits_stop(l))
+    thr_sheets_fail(s, thr_fail(&s->why, THR_ELIMIT, "interrupted at page %d of the step sheets", s->n_pages + 1), NULL);
+}
+
 static void put_step(thr_sheets *s, const step *p, unsigned char *state, bool *filled)
 {
   double height = HEAD + p->view.size[1] + height_below(s, p), top = find_top(s, height);
@@ -316,7 +343,8 @@ void thr_sheets_steps(thr_sheets *s, int c)
   int end = p.first + s->plan->cord[c].n_passes;
   if (!state || !filled) thr_sheets_fail(s, thr_nomem(&s->why), NULL);
   while (p.first < end && !s->st) {
-    choose_end(s, &p);
+    poll(s, p.first);
+    if (!s->st) choose_end(s, &p);
     if (!s->st) put_step(s, &p, state, filled);
     destroy_text(&p);
     p.first = p.end;

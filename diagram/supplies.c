@@ -4,6 +4,7 @@
 #include "graph/bore.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 thr_status thr_supplies_make(thr_supplies *s, const thr_plan *p, thr_err *err)
@@ -105,4 +106,31 @@ void thr_supplies_visits(const thr_plan *p, int *visits)
       visits[thr_tail(&p->frame, cord->half[k])]++;
     if (!cord->closed) visits[thr_cord_end(&p->frame, cord)]++;
   }
+}
+
+static int by_sort(const void *a, const void *b)
+{
+  const thr_bead *p = a, *q = b;
+  if (p->kind != q->kind) return p->kind - q->kind;
+  return p->passes != q->passes ? p->passes - q->passes : p->item - q->item;
+}
+
+void thr_beads_sort(thr_bead *b, int n)
+{
+  qsort(b, (size_t)n, sizeof *b, by_sort);
+  for (int i = 0, next; i < n; i = next) {
+    for (next = i; next < n && b[next].kind == b[i].kind; next++)
+      b[next].sort = next == i ? 1 : b[next - 1].sort + (b[next].passes != b[next - 1].passes);
+    for (int k = i; k < next && b[next - 1].sort == 1; k++)
+      b[k].sort = 0;
+  }
+}
+
+void thr_bead_name(int kind, int sort, char name[16])
+{
+  char letters[8], *first = letters + sizeof letters - 1;
+  *first = '\0';
+  for (int rest = sort; rest > 0; rest = (rest - 1) / 26)
+    *--first = (char)('a' + (rest - 1) % 26);
+  snprintf(name, 16, "%d%s", kind, first);
 }

@@ -48,6 +48,18 @@ typedef struct {
 
 thr_cut_length thr_supplies_cut(thr_supplies *s, int c);
 
+/* Beads that are bored for as many cords are of a sort: of a kind (diagram/kinds.h) there may be several. */
+typedef struct {
+  int kind, passes, item; /* passes: most in a bore; item: edge or node */
+  int sort;               /* 0 = the only one of the kind, else 1, 2, .. from the fewest cords on */
+} thr_bead;
+
+/* Orders them by kind, passes and item, and fills sort. O(n log n). */
+void thr_beads_sort(thr_bead *b, int n);
+
+/* "1", or of several sorts "1a", "1b", .. "1z", "1aa". */
+void thr_bead_name(int kind, int sort, char name[16]);
+
 /* Adds to visits[n_nodes] how often cords run through each node, start or end in it. */
 void thr_supplies_visits(const thr_plan *p, int *visits);
 

@@ -23,7 +23,7 @@ static thr_sheets *sheets_of(const thr_plan *p, thr_page_size page, bool middle)
   thr_sheets_options o = thr_sheets_options_default();
   o.page = page;
   o.middle = middle;
-  ck_assert_msg(thr_sheets_make(&s, p, &o, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_sheets_make(&s, p, &o, &none, &err) == THR_OK, "%s", err.text);
   return s;
 }
 
@@ -65,8 +65,9 @@ typedef struct {
   thr_guide guide; /* for the places' names */
   int **half;      /* [n_cords][n_passes] as read, -1 = not yet */
   int *held, *last;
-  int at;  /* node where the needle is; -1 = not known */
-  int due; /* node that the last check announced as the next one; -1 = none */
+  char (*kind)[16]; /* [n_edges] as the row calls it that picks the bead up; "" = none does */
+  int at;           /* node where the needle is; -1 = not known */
+  int due;          /* node that the last check announced as the next one; -1 = none */
 } reader;
 
 static reader reader_make(const thr_plan *p)
@@ -76,7 +77,8 @@ static reader reader_make(const thr_plan *p)
   r.half = calloc((size_t)p->n_cords, sizeof *r.half);
   r.held = calloc((size_t)p->frame.n_edges, sizeof *r.held);
   r.last = calloc((size_t)p->frame.n_edges, sizeof *r.last);
-  ck_assert(r.half && r.held && r.last);
+  r.kind = calloc((size_t)p->frame.n_edges, sizeof *r.kind);
+  ck_assert(r.half && r.held && r.last && r.kind);
   for (int c = 0; c < p->n_cords; c++) {
     r.half[c] = malloc((size_t)p->cord[c].n_passes * sizeof **r.half);
     ck_assert_ptr_nonnull(r.half[c]);
@@ -93,6 +95,7 @@ static void reader_destroy(reader *r)
   free(r->half);
   free(r->held);
   free(r->last);
+  free(r->kind);
   thr_guide_destroy(&r->guide);
 }
 
@@ -144,7 +147,28 @@ static const char *read_range(const char *s, int *first, int *last)
   return end;
 }
 
-/* "pass 4-6: turn left 93 degrees, then straight on, 3 beads, D7 to D6 D5 D4: pick up 3 (kinds 1, 2 x 2)" */
+/* " (kinds 1a, 2 x 2)": of the n beads of a row; words are cut up. */
+static void read_kinds(reader *r, char *words, const int *edge, int n)
+{
+  int k = 0, times;
+  char *s = strstr(words, " (kind"), name[16];
+  if (!s) return;
+  s += strcspn(s + 1, " ") + 1;
+  bool one = !strchr(s, ',') && !strstr(s, " x ");
+  while (*s == ' ') {
+    int length = 0;
+    ck_assert_msg(sscanf(s, " %15[0-9a-z]%n", name, &length) == 1, "%s", s);
+    s += length;
+    times = one ? n : 1;
+    if (sscanf(s, " x %d%n", &times, &length) == 1) s += length;
+    while (times-- > 0 && k < n)
+      snprintf(r->kind[edge[k++]], 16, "%s", name);
+    s += *s == ',';
+  }
+  ck_assert_msg(*s == ')' && k == n, "%s", words);
+}
+
+/* "pass 4-6: turn left 93 degrees, then straight on, 3 beads, D7 to D6 D5 D4: pick up 3 (kinds 1a, 2 x 2)" */
 static void read_row(reader *r, int c, const char *row)
 {
   static const char *const deeds[] = {": pick up ", ": pass through ", ": pass back through "};
@@ -166,13 +190,18 @@ static void read_row(reader *r, int c, const char *row)
   snprintf(places, sizeof places, "%.*s", (int)(deed_at - to - 4), to + 4);
   int at = place_named(r, name), n = words_of(places, word);
   ck_assert_msg(n == abs(last - first) + 1, "%s", row);
+  int edge[MOST_WORDS];
   if (r->at >= 0) ck_assert_int_eq(at, r->at);
   for (int i = 0; i < n; i++) {
     int next = place_named(r, word[i]);
     if (i == 0 && r->due >= 0) ck_assert_int_eq(next, r->due);
     go(r, c, (last < first ? first - i : first + i) - 1, s && last >= first, at, next, deed, deed == 0);
+    edge[i] = thr_frame_edge_between(&r->p->frame, at, next);
     at = next;
   }
+  char kinds[1024];
+  snprintf(kinds, sizeof kinds, "%s", deed_at);
+  if (deed == 0) read_kinds(r, kinds, edge, n);
   r->at = at;
   r->due = -1;
 }
@@ -281,6 +310,40 @@ static void read_text(reader *r, char *text)
   ck_assert_msg(!row[0] && !step[0], "%s%s", row, step);
 }
 
+static int by_length(const void *a, const void *b)
+{
+  double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+static double median_length(const thr_frame *f)
+{
+  double *length = malloc((size_t)f->n_edges * sizeof *length);
+  ck_assert_ptr_nonnull(length);
+  for (int e = 0; e < f->n_edges; e++)
+    length[e] = f->length[e];
+  qsort(length, (size_t)f->n_edges, sizeof *length, by_length);
+  double median = length[f->n_edges / 2];
+  free(length);
+  return median;
+}
+
+/* Beads of one number differ by at most two hundredths of the median; they have one name if and only if they hold as many cords.
+ */
+static void assert_kinds(const reader *r)
+{
+  const thr_frame *f = &r->p->frame;
+  double most = 0.021 * median_length(f);
+  for (int a = 0; a < f->n_edges; a++)
+    for (int b = 0; b < a; b++) {
+      const char *p = r->kind[a], *q = r->kind[b];
+      if (!*p || !*q || atoi(p) != atoi(q)) continue;
+      ck_assert_double_eq_tol(f->length[a], f->length[b], most);
+      ck_assert_msg((strcmp(p, q) == 0) == (r->held[a] == r->held[b]), "%s for %d cords, %s for %d", p, r->held[a], q,
+                    r->held[b]);
+    }
+}
+
 static void assert_reads_back(const thr_plan *p, const thr_text *pdf)
 {
   reader r = reader_make(p);
@@ -289,6 +352,7 @@ static void assert_reads_back(const thr_plan *p, const thr_text *pdf)
   for (int c = 0; c < p->n_cords; c++)
     for (int k = 0; k < p->cord[c].n_passes; k++)
       ck_assert_msg(r.half[c][k] == p->cord[c].half[k], "cord %s, pass %d", p->cord[c].id, k + 1);
+  assert_kinds(&r);
   thr_text_destroy(&text);
   reader_destroy(&r);
 }
@@ -494,6 +558,53 @@ START_TEST(an_interrupt_stops_it)
 }
 END_TEST
 
+START_TEST(an_interrupt_stops_the_layout)
+{
+  volatile sig_atomic_t stop = 1;
+  thr_limits limits = {.interrupted = &stop};
+  thr_err err = {0};
+  thr_plan p = plan_of(ring_make(5), THR_ENDS_CLOSED, 1);
+  thr_sheets_options o = thr_sheets_options_default();
+  thr_sheets *s;
+  ck_assert_int_eq(thr_sheets_make(&s, &p, &o, &limits, &err), THR_ELIMIT);
+  assert_one_line(&err, "interrupted at page 2 of the step sheets");
+  ck_assert_ptr_null(s);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+static int count_before(const char *s, const char *end, const char *what)
+{
+  int n = 0;
+  for (s = strstr(s, what); s && (!end || s < end); s = strstr(s + 1, what))
+    n++;
+  return n;
+}
+
+/* Which half a window shows, in each of them. */
+START_TEST(windows_on_a_shell_say_its_side)
+{
+  int windows = 0;
+  thr_plan p = plan_number(2);
+  thr_sheets *s = sheets_of(&p, THR_PAGE_A4, false);
+  for (int i = 0; i < thr_sheets_pages(s); i++) {
+    thr_text svg = {0};
+    ck_assert_int_eq(thr_sheets_svg(s, i, &svg, NULL), THR_OK);
+    for (const char *view = strstr(svg.data, "<g class=\"view-"), *next; view; view = next) {
+      next = strstr(view + 1, "<g class=\"view-");
+      int n = count_before(view, next, "<clipPath ");
+      ck_assert_int_eq(count_before(view, next, ">from above<") + count_before(view, next, ">from below<"), n);
+      windows += n;
+      if (n == 2) ck_assert_int_eq(count_before(view, next, ">from above<"), 1);
+    }
+    thr_text_destroy(&svg);
+  }
+  ck_assert_int_gt(windows, 6);
+  thr_sheets_destroy(s);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
 START_TEST(plans_that_cannot_be_drawn_are_refused)
 {
   thr_err err = {0};
@@ -501,14 +612,14 @@ START_TEST(plans_that_cannot_be_drawn_are_refused)
   thr_sheets_options o = thr_sheets_options_default();
   thr_plan p = plan_of(ring_make(5), THR_ENDS_CLOSED, 1);
   p.cord[0].half[2] = 99;
-  ck_assert_int_eq(thr_sheets_make(&s, &p, &o, &err), THR_EINPUT);
+  ck_assert_int_eq(thr_sheets_make(&s, &p, &o, &none, &err), THR_EINPUT);
   assert_one_line(&err, "pass 3");
   ck_assert_ptr_null(s);
   thr_cords_destroy(p.cord, p.n_cords);
   p.cord = NULL;
   p.n_cords = 0;
   err = (thr_err){0};
-  ck_assert_int_eq(thr_sheets_make(&s, &p, &o, &err), THR_EINPUT);
+  ck_assert_int_eq(thr_sheets_make(&s, &p, &o, &none, &err), THR_EINPUT);
   assert_one_line(&err, "no cord");
   thr_plan_destroy(&p);
 }
@@ -524,7 +635,7 @@ START_TEST(every_failing_allocation_is_reported)
     thr_err err = {0};
     thr_text pdf = {0};
     thr_alloc_fail_at(k);
-    st = thr_sheets_make(&s, &p, &o, &err);
+    st = thr_sheets_make(&s, &p, &o, &none, &err);
     ck_assert(st == THR_OK || !s);
     if (!st) st = thr_sheets_pdf(s, &none, &pdf, &err);
     thr_alloc_fail_at(0);
@@ -546,6 +657,8 @@ int main(void)
   ADD_TEST(s, 120, a_large_plan_is_read_back);
   ADD_TEST(s, 20, a_pdf_tells_no_time_and_no_place);
   ADD_TEST(s, 20, an_interrupt_stops_it);
+  ADD_TEST(s, 20, an_interrupt_stops_the_layout);
+  ADD_TEST(s, 20, windows_on_a_shell_say_its_side);
   ADD_TEST(s, 20, plans_that_cannot_be_drawn_are_refused);
   ADD_LOOP(s, 60, every_failing_allocation_is_reported, 0, 2);
   return run_suite(s);
