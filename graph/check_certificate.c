@@ -170,7 +170,7 @@ static thr_priced priced(const workspace *k, const thr_certificate *c, int j)
   bool closed = k->o->ends == THR_ENDS_CLOSED;
   wide of = closed ? (c->n_prices ? c->place_price[0] : 0) : (wide)k->price[k->f->edge[e][0]] + k->price[k->f->edge[e][1]];
   return thr_prices_edge(k->f, k->o, e, (wide)thr_certificate_weight(k->f, c, e) * c->denominator, of,
-                         closed && c->n_prices ? k->loop[j] : 2);
+                         closed && c->n_prices && k->loop ? k->loop[j] : 2); /* find_loops comes first */
 }
 
 /* Prices at nodes, the parity of nodes at these prices, and what all that adds to the bound. */
