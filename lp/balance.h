@@ -59,7 +59,4 @@ thr_status thr_balance_shuffle(thr_balance *b, int p, thr_err *err) THR_MUST_CHE
 /* Walk p gives a section to walk q, which gets there over extra passes, if that leaves both shorter than below. */
 thr_status thr_balance_detour(thr_balance *b, int p, int q, double below, bool *made, thr_err *err) THR_MUST_CHECK;
 
-/* Drops the passes of a walk that nothing needs: turns back, and ends that can be drawn in; what is tied stays so. */
-void thr_balance_prune(thr_balance *b, int p);
-
 #endif

@@ -93,6 +93,65 @@ static void make_turns(thr_balance *b, const thr_ways *x, int p, int q, const de
   }
 }
 
+/* ---- passes that nothing needs ---- */
+
+static bool spare(const thr_balance *b, int e, int n)
+{
+  return b->passes[e] - n >= thr_plan_cover(b->s->f, b->s->o, e);
+}
+
+static void drop_turns_back(thr_balance *b, thr_trail *w)
+{
+  int n = 0;
+  for (int i = 0; i < w->n; i++) {
+    int e = w->half[i] >> 1;
+    w->half[n++] = w->half[i];
+    if (n < 2 || (i == w->n - 1 && n == 2) || w->half[n - 2] != (w->half[n - 1] ^ 1) || !spare(b, e, 2)) continue;
+    n -= 2;
+    b->passes[e] -= 2;
+  }
+  w->n = n;
+  while (w->cyclic && w->n > 2 && w->half[0] == (w->half[w->n - 1] ^ 1) && spare(b, w->half[0] >> 1, 2)) {
+    b->passes[w->half[0] >> 1] -= 2;
+    w->n -= 2;
+    memmove(w->half, w->half + 1, (size_t)w->n * sizeof *w->half);
+  }
+}
+
+/* Does what is tied hold without the last pass of a walk? Then it is gone from the ties. */
+static bool untie_last(thr_balance *b, const thr_trail *w)
+{
+  thr_knots_change c = {.n = 0};
+  if (!b->ties) return true;
+  thr_knots_note(&c, w->half[w->n - 2], w->half[w->n - 1], -1);
+  if (!thr_knots_allow(b->ties, &c)) return false;
+  thr_knots_make(b->ties, &c);
+  return true;
+}
+
+/* Ends that are free are drawn in. */
+static void drop_tail(thr_balance *b, thr_trail *w)
+{
+  const thr_frame *f = b->s->f;
+  while (w->n > 1 && spare(b, w->half[w->n - 1] >> 1, 1) && thr_plan_end_allowed(f, b->s->o, thr_trail_node(f, w, w->n - 1)) &&
+         untie_last(b, w)) {
+    b->passes[w->half[w->n - 1] >> 1]--;
+    w->n--;
+  }
+}
+
+/* Drops the passes of a walk that nothing needs: turns back, and ends that can be drawn in; what is tied stays so. */
+static void prune(thr_balance *b, int p)
+{
+  thr_trail *w = &b->w->walk[p];
+  drop_turns_back(b, w);
+  for (int k = 0; k < 2 && !w->cyclic && b->s->o->ends != THR_ENDS_COUNTS; k++) {
+    drop_tail(b, w);
+    thr_trail_reverse(w->half, w->n);
+  }
+  w->length = thr_trail_length(b->s->f, w->half, w->n);
+}
+
 static thr_status make(thr_balance *b, const thr_ways *x, int p, int q, const detour *d, thr_err *err)
 {
   const thr_frame *f = b->s->f;
@@ -122,8 +181,8 @@ static thr_status make(thr_balance *b, const thr_ways *x, int p, int q, const de
   memmove(v->half + d->from, v->half + d->end, (size_t)(v->n - d->end) * sizeof *v->half);
   v->n -= section;
   v->length = thr_trail_length(f, v->half, v->n);
-  thr_balance_prune(b, p);
-  thr_balance_prune(b, q);
+  prune(b, p);
+  prune(b, q);
   return THR_OK;
 }
 
@@ -197,62 +256,4 @@ thr_status thr_balance_detour(thr_balance *b, int p, int q, double below, bool *
   }
   thr_ways_destroy(&x);
   return st;
-}
-
-/* ---- passes that nothing needs ---- */
-
-static bool spare(const thr_balance *b, int e, int n)
-{
-  return b->passes[e] - n >= thr_plan_cover(b->s->f, b->s->o, e);
-}
-
-static void drop_turns_back(thr_balance *b, thr_trail *w)
-{
-  int n = 0;
-  for (int i = 0; i < w->n; i++) {
-    int e = w->half[i] >> 1;
-    w->half[n++] = w->half[i];
-    if (n < 2 || (i == w->n - 1 && n == 2) || w->half[n - 2] != (w->half[n - 1] ^ 1) || !spare(b, e, 2)) continue;
-    n -= 2;
-    b->passes[e] -= 2;
-  }
-  w->n = n;
-  while (w->cyclic && w->n > 2 && w->half[0] == (w->half[w->n - 1] ^ 1) && spare(b, w->half[0] >> 1, 2)) {
-    b->passes[w->half[0] >> 1] -= 2;
-    w->n -= 2;
-    memmove(w->half, w->half + 1, (size_t)w->n * sizeof *w->half);
-  }
-}
-
-/* Does what is tied hold without the last pass of a walk? Then it is gone from the ties. */
-static bool untie_last(thr_balance *b, const thr_trail *w)
-{
-  thr_knots_change c = {.n = 0};
-  if (!b->ties) return true;
-  thr_knots_note(&c, w->half[w->n - 2], w->half[w->n - 1], -1);
-  if (!thr_knots_allow(b->ties, &c)) return false;
-  thr_knots_make(b->ties, &c);
-  return true;
-}
-
-/* Ends that are free are drawn in. */
-static void drop_tail(thr_balance *b, thr_trail *w)
-{
-  const thr_frame *f = b->s->f;
-  while (w->n > 1 && spare(b, w->half[w->n - 1] >> 1, 1) && thr_plan_end_allowed(f, b->s->o, thr_trail_node(f, w, w->n - 1)) &&
-         untie_last(b, w)) {
-    b->passes[w->half[w->n - 1] >> 1]--;
-    w->n--;
-  }
-}
-
-void thr_balance_prune(thr_balance *b, int p)
-{
-  thr_trail *w = &b->w->walk[p];
-  drop_turns_back(b, w);
-  for (int k = 0; k < 2 && !w->cyclic && b->s->o->ends != THR_ENDS_COUNTS; k++) {
-    drop_tail(b, w);
-    thr_trail_reverse(w->half, w->n);
-  }
-  w->length = thr_trail_length(b->s->f, w->half, w->n);
 }
