@@ -83,7 +83,9 @@ TEST_PROGRAMS := $(patsubst %.c,$(DIR)/%,$(wildcard tests/unit/*.c tests/propert
 FUZZ_PROGRAMS := $(patsubst %.c,$(DIR)/%,$(wildcard tests/fuzz/fuzz_*.c))
 VALIDATE := $(DIR)/validate
 VALIDATE_OBJECTS := $(patsubst %.c,$(DIR)/%.o,$(wildcard tests/validate/*.c))
-C_FILES = $(wildcard $(foreach d,$(MODULES) cli tests tests/unit tests/property tests/fuzz tests/validate,$(d)/*.c $(d)/*.h))
+WATCHDOG := $(DIR)/watchdog
+WATCHDOG_OBJECTS := $(patsubst %.c,$(DIR)/%.o,$(wildcard tests/watchdog/*.c))
+C_FILES = $(wildcard $(foreach d,$(MODULES) cli tests tests/unit tests/property tests/fuzz tests/validate tests/watchdog,$(d)/*.c $(d)/*.h))
 
 Q := $(if $(V),,@)
 # `make -jN` given: share its jobs; not given: one per processor
@@ -157,6 +159,11 @@ validate: ## measure the pull force against theory (a few minutes), write docs/v
 	+@$(MAKE) --no-print-directory $(JOBS) BUILD=release $(OUT)/release/validate
 	@$(OUT)/release/validate docs/validation.md
 
+watchdog: ## does every command end in its time, with little memory? The whole matrix (half an hour)
+	+@tools/install-packages.sh $(BUILD_PACKAGES)
+	+@$(MAKE) --no-print-directory $(JOBS) BUILD=release all $(OUT)/release/watchdog
+	@$(OUT)/release/watchdog $(OUT)/release/thread $(OUT)/watchdog --full $(ONLY)
+
 coverage: ## lines and branches reached by the unit and property tests
 	+@tools/install-packages.sh $(BUILD_PACKAGES) $(COVERAGE_PACKAGES)
 	@rm -rf $(OUT)/cov
@@ -199,6 +206,10 @@ $(PROGRAM): $(CLI_OBJECTS) $(LIBRARY)
 $(VALIDATE): $(VALIDATE_OBJECTS) $(LIBRARY)
 	@echo "  LINK  $@"
 	$(Q)$(LINK) -o $@ $^ $(THR_LIBS)
+
+$(WATCHDOG): $(WATCHDOG_OBJECTS)
+	@echo "  LINK  $@"
+	$(Q)$(LINK) -o $@ $^ -lm
 
 $(LIBRARY): $(OBJECTS) $(DIR)/objects.list
 	@echo "  AR    $@"
@@ -249,6 +260,6 @@ $(OUT)/packages.ok:
 	@touch $@
 
 FORCE:
-.PHONY: all demo test fuzz asan layers lint format-check tidy cppcheck format viewer bench validate coverage deps test-deps install uninstall clean help
+.PHONY: all demo test fuzz asan layers lint format-check tidy cppcheck format viewer bench validate watchdog coverage deps test-deps install uninstall clean help
 .PHONY: test-programs fuzz-programs list-tests list-fuzz list-c FORCE
 -include $(wildcard $(DIR)/*/*.d $(DIR)/*/*/*.d)
