@@ -1,7 +1,7 @@
 /* thread compare: plans of one framework side by side, ranked by how hard they are to pull. */
 #include "cli/compare_rows.h"
 #include "cli/ranking.h"
-#include "eval/workers.h"
+#include "graph/workers.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -289,8 +289,12 @@ static thr_status run_simulations(const pull_args *a, entry *e, const int *plan,
   const thr_limits limits = cli_limits(0);
   const thr_limits quiet = {.interrupted = limits.interrupted}; /* in a child: only the parent draws the bar */
   simulation s = {a, e, plan, start, &quiet};
-  const thr_work work = {
-      .n_jobs = 2 * n, .result_size = sizeof(double), .run = settle_plan, .user = &s, .what = "simulating structures"};
+  const thr_work work = {.n_jobs = 2 * n,
+                         .result_size = sizeof(double),
+                         .run = settle_plan,
+                         .user = &s,
+                         .what = "simulating structures",
+                         .advice = "use --no-dynamics"};
   double *index = thr_calloc(2 * (size_t)n, sizeof *index);
   bool *finished = thr_calloc(2 * (size_t)n, sizeof *finished);
   thr_status st =

@@ -2,7 +2,7 @@
 #include "eval/cache.h"
 #include "eval/joint.h"
 #include "eval/taut.h"
-#include "eval/workers.h"
+#include "graph/workers.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -134,8 +134,12 @@ static void keep_job(void *user, int job, const void *result)
 static thr_status measure_joints(work *w, const thr_eval_options *o, const thr_limits *limits, thr_eval *out, thr_err *err)
 {
   table *t = w->table;
-  thr_work jobs = {
-      .result_size = sizeof(thr_drag_result), .run = measure_job, .done = keep_job, .user = w, .what = "measuring joints"};
+  thr_work jobs = {.result_size = sizeof(thr_drag_result),
+                   .run = measure_job,
+                   .done = keep_job,
+                   .user = w,
+                   .what = "measuring joints",
+                   .advice = "use --method capstan"};
   for (int i = 0; i < t->n; i++) {
     if (!t->at[i].needed) continue;
     thr_drag d = drag_of(w, i);

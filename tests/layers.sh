@@ -17,7 +17,7 @@ eval:eval graph lp
 diagram:diagram graph
 cli:cli graph lp symmetry tortuosity eval diagram'
 
-# foreign headers: the only file that may include them. "*" also stands for a folder of headers.
+# foreign and Linux headers: the only file that may include them. "*" also stands for a folder of headers.
 owners='igraph.h:graph/igraph.c
 jansson.h:graph/json_jansson.c
 glpk.h:lp/lp_glpk.c
@@ -27,7 +27,8 @@ traces.h:symmetry/nauty.c
 SuiteSparse*.h:eval/spqr.c
 cholmod*.h:eval/spqr.c
 cairo*.h:diagram/paper.c
-librsvg/*.h:diagram/paper.c'
+librsvg/*.h:diagram/paper.c
+sys/prctl.h:graph/process.c'
 
 # C++, in the file that shims a C++ library
 cpp_headers='new utility cmath cstdlib cstring vector'
@@ -93,7 +94,7 @@ check_sources() { # FILE..
       if (match(code, /(^|[^A-Za-z0-9_])(printf|vprintf|puts|putchar|perror|exit|_exit|_Exit|quick_exit|abort)[ \t]*\(/)) {
         word = substr(code, RSTART, RLENGTH); gsub(/[^A-Za-z_]/, "", word)
         # a forked child has no other way to end
-        if (word != "_exit" || FILENAME != "eval/workers.c") bad(word "(): only cli/ prints and exits")
+        if (word != "_exit" || FILENAME != "graph/process.c") bad(word "(): only cli/ prints and exits")
       }
       if (code ~ /(^|[^A-Za-z0-9_])(stderr|stdout|STDOUT_FILENO|STDERR_FILENO)([^A-Za-z0-9_]|$)/ && FILENAME != "graph/text.c")
         bad("stdout/stderr: only cli/ and thr_text_write in graph/text.c write there")
@@ -194,7 +195,8 @@ self_test() {
   expect ok lp/lp_glpk.c '#include "graph/frame.h"\n#include "lp/lp.h"\n#include <glpk.h>\n'
   expect ok symmetry/nauty.c '#include "graph/frame.h"\n#include <traces.h>\n'
   expect ok eval/bullet.cpp '#include <BulletDynamics/btBox.h>\n#include <btBulletDynamicsCommon.h>\n#include <new>\n'
-  expect ok eval/workers.c '#include <sys/wait.h>\nvoid f(void) { _exit(1); }\n'
+  expect graph/a.c:1 graph/a.c '#include <sys/prctl.h>\n'
+  expect ok graph/process.c '#include <sys/prctl.h>\n#include <sys/wait.h>\nvoid f(void) { _exit(1); }\n'
   expect ok graph/text.c 'void f(void) { fwrite("", 1, 0, stdout); }\n'
   expect ok cli/main.c '#include "lp/lp.h"\nint main(void) { printf("%d", 1); exit(0); }\n'
   expect ok graph/a.c '/* printf(1); #include "lp/lp.h"\n#include "lp/lp.h"\n */\nint f(void) { return snprintf(0, 0, "exit(1) stderr"); } // puts(1)\n'

@@ -1,7 +1,7 @@
 /* The pool of processes: order, failures, crashes, signals, limits, and nothing left behind. */
 #define _POSIX_C_SOURCE 200809L
 #include "tests/support.h"
-#include "eval/workers.h"
+#include "graph/workers.h"
 
 #include <errno.h>
 #include <signal.h>
@@ -158,12 +158,14 @@ static thr_status come_to_harm(void *user, int job, void *result, thr_err *err)
   struct rlimit none = {0};
   setrlimit(RLIMIT_CORE, &none);
   signal(SIGABRT, SIG_DFL);
+  fprintf(stderr, "\nno room left\nsecond line\n");
   abort();
 }
 
 static thr_status run_harm(harm h, int processes, bool *finished, thr_err *err)
 {
-  thr_work w = {.n_jobs = JOBS, .result_size = sizeof(double), .run = come_to_harm, .user = &h, .what = "harm"};
+  thr_work w = {
+      .n_jobs = JOBS, .result_size = sizeof(double), .run = come_to_harm, .user = &h, .what = "harm", .advice = "take a walk"};
   thr_limits limits = {0};
   double results[JOBS];
   thr_status st = thr_workers_run(&w, processes, &limits, results, finished, err);
@@ -188,6 +190,8 @@ START_TEST(a_crash_is_a_failure_of_its_own)
   thr_err err = {0};
   ck_assert_int_eq(run_harm((harm){CRASH, 3}, _i, finished, &err), THR_ESOLVER);
   assert_one_line(&err, "job 4 died of signal 6");
+  assert_one_line(&err, "(it said: no room left)");
+  assert_one_line(&err, "; take a walk");
   err = (thr_err){0};
   ck_assert_int_eq(run_harm((harm){LEAVE, 0}, _i, finished, &err), THR_ESOLVER);
   assert_one_line(&err, "job 1 ended without a result");
@@ -225,7 +229,7 @@ START_TEST(with_few_pipes_it_gets_there)
   getrlimit(RLIMIT_NOFILE, &few);
   int spare = dup(0);
   close(spare);
-  few.rlim_cur = (rlim_t)spare + 3;
+  few.rlim_cur = (rlim_t)spare + 6; /* two pipes while a process starts, two ends of them while it runs */
   setrlimit(RLIMIT_NOFILE, &few);
   thr_status st = thr_workers_run(&w, 8, &limits, results, finished, &err);
   few.rlim_cur = 64;

@@ -1,5 +1,5 @@
 #include "tests/validate/drags.h"
-#include "eval/workers.h"
+#include "graph/workers.h"
 
 #include <stdlib.h>
 #include <unistd.h>

@@ -1,15 +1,14 @@
 /* A pool of forked processes, one per job, each with a pipe that carries its result back. */
 #define _POSIX_C_SOURCE 200809L
-#include "eval/workers.h"
+#include "graph/workers.h"
+#include "graph/process.h"
 
 #include <errno.h>
 #include <math.h>
 #include <poll.h>
-#include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/types.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 static const double WATCH = 0.1; /* s between two looks at the limits */
@@ -21,8 +20,8 @@ typedef struct {
 } message;
 
 typedef struct {
-  pid_t pid; /* 0 = free */
-  int job, pipe;
+  thr_process process; /* none = free */
+  int job;
   size_t received;
   char *data; /* message and result */
 } slot;
@@ -42,109 +41,58 @@ typedef struct {
   thr_err *failure;     /* of that job */
 } pool;
 
-static bool send_all(int fd, const char *data, size_t n)
-{
-  while (n > 0) {
-    ssize_t sent = write(fd, data, n);
-    if (sent < 0 && errno == EINTR) continue;
-    if (sent <= 0) return false;
-    data += sent;
-    n -= (size_t)sent;
-  }
-  return true;
-}
+typedef struct {
+  const pool *pool;
+  const slot *slot;
+} task;
 
-/* Ctrl-C goes to the whole process group: the parent decides what to do about it. A parent that is gone ends the child by
- * SIGPIPE at the latest when it answers. */
-static void leave_signals_to_parent(const sigset_t *mask)
+static bool run_job(void *user, int fd)
 {
-  signal(SIGINT, SIG_IGN);
-  signal(SIGTERM, SIG_IGN);
-  signal(SIGHUP, SIG_IGN);
-  signal(SIGPIPE, SIG_DFL);
-  sigprocmask(SIG_SETMASK, mask, NULL);
-}
-
-/* Never returns: neither the parent's buffered output nor its exit handlers may run twice. */
-static void run_child(const pool *p, const slot *s, int fd)
-{
-  message *head = (message *)(void *)s->data;
-  void *result = s->data + sizeof *head;
+  const task *t = user;
+  const pool *p = t->pool;
+  message *head = (message *)(void *)t->slot->data;
+  void *result = t->slot->data + sizeof *head;
   thr_err err = {0};
-  memset(s->data, 0, p->size);
-  head->status = (int32_t)p->work->run(p->work->user, s->job, result, &err);
+  memset(t->slot->data, 0, p->size);
+  head->status = (int32_t)p->work->run(p->work->user, t->slot->job, result, &err);
   memcpy(head->text, err.text, sizeof head->text);
-  _exit(send_all(fd, s->data, head->status == THR_OK ? p->size : sizeof *head) ? 0 : 1);
+  return thr_process_send(fd, t->slot->data, head->status == THR_OK ? p->size : sizeof *head);
 }
 
-/* THR_ESOLVER if the system gives no pipe or process. */
 static thr_status start(pool *p, slot *s, thr_err *err)
 {
-  int fd[2];
-  sigset_t all, old;
-  if (pipe(fd)) return thr_fail(err, THR_ESOLVER, "cannot start a worker: %s; close other programs", strerror(errno));
-  *s = (slot){.job = p->next, .pipe = fd[0], .data = s->data};
-  sigfillset(&all);
-  sigprocmask(SIG_BLOCK, &all, &old); /* or a signal would run the parent's handler in the child */
-  s->pid = fork();
-  if (s->pid == 0) {
-    close(fd[0]);
-    leave_signals_to_parent(&old);
-    run_child(p, s, fd[1]);
-  }
-  int reason = errno;
-  sigprocmask(SIG_SETMASK, &old, NULL);
-  close(fd[1]);
-  if (s->pid < 0) {
-    s->pid = 0;
-    close(fd[0]);
-    return thr_fail(err, THR_ESOLVER, "cannot start a worker: %s; close other programs or ask for fewer processes",
-                    strerror(reason));
-  }
-  p->next++;
-  return THR_OK;
-}
-
-/* Waits for the child and frees its slot; its wait status, or -1 if somebody else has reaped it. */
-static int reap(slot *s)
-{
-  int status;
-  pid_t got;
-  close(s->pipe);
-  while ((got = waitpid(s->pid, &status, 0)) < 0 && errno == EINTR)
-    continue;
-  s->pid = 0;
-  return got < 0 ? -1 : status;
+  *s = (slot){.job = p->next, .data = s->data};
+  thr_status st = thr_process_start(&s->process, run_job, &(task){p, s}, err);
+  if (!st) p->next++;
+  return st;
 }
 
 /* Ends the children of jobs from `first` on. */
 static void kill_from(pool *p, int first)
 {
   for (int i = 0; i < p->n_slots; i++)
-    if (p->slot[i].pid && p->slot[i].job >= first) kill(p->slot[i].pid, SIGKILL);
-  for (int i = 0; i < p->n_slots; i++)
-    if (p->slot[i].pid && p->slot[i].job >= first) reap(&p->slot[i]);
+    if (p->slot[i].job >= first) thr_process_kill(&p->slot[i].process);
 }
 
-static thr_status judge(const pool *p, const slot *s, int wait_status, thr_err *err)
+/* What came of the job whose child has closed its pipe. */
+static thr_status judge(const pool *p, slot *s, thr_err *err)
 {
+  char who[200];
   const message *head = (const message *)(const void *)s->data;
+  snprintf(who, sizeof who, "%s: the process of job %d", p->work->what, s->job + 1);
+  thr_err death = {0};
+  thr_status st = thr_process_end(&s->process, who, p->work->advice, &death);
   if (s->received == p->size && head->status == THR_OK) return THR_OK;
   if (s->received == sizeof *head && head->status != THR_OK)
     return thr_fail(err, (thr_status)head->status, "%.*s", (int)sizeof head->text - 1, head->text);
-  if (wait_status != -1 && WIFSIGNALED(wait_status))
-    return thr_fail(err, THR_ESOLVER, "%s: the process of job %d died of signal %d (%s); use --method capstan", p->work->what,
-                    s->job + 1, WTERMSIG(wait_status), strsignal(WTERMSIG(wait_status)));
-  return thr_fail(err, THR_ESOLVER, "%s: the process of job %d ended without a result; use --method capstan", p->work->what,
-                  s->job + 1);
+  return thr_fail(err, st ? st : THR_ESOLVER, "%s", st ? death.text : "a worker sent too little");
 }
 
 /* The child has closed its pipe. */
 static void end_job(pool *p, slot *s)
 {
   thr_err err = {0};
-  int wait_status = reap(s);
-  if (judge(p, s, wait_status, &err)) {
+  if (judge(p, s, &err)) {
     p->failed = s->job; /* lower than any before: those above were killed then */
     *p->failure = err;
     kill_from(p, s->job + 1);
@@ -162,7 +110,7 @@ static void receive(pool *p, slot *s)
 {
   char beyond;
   size_t room = p->size - s->received;
-  ssize_t n = read(s->pipe, room ? s->data + s->received : &beyond, room ? room : 1);
+  ssize_t n = read(s->process.pipe, room ? s->data + s->received : &beyond, room ? room : 1);
   if (n < 0 && (errno == EINTR || errno == EAGAIN)) return;
   if (n > 0 && room)
     s->received += (size_t)n;
@@ -175,11 +123,11 @@ static void serve(pool *p)
 {
   nfds_t n = 0;
   for (int i = 0; i < p->n_slots; i++)
-    if (p->slot[i].pid) p->watch[n++] = (struct pollfd){.fd = p->slot[i].pipe, .events = POLLIN};
+    if (p->slot[i].process.pid) p->watch[n++] = (struct pollfd){.fd = p->slot[i].process.pipe, .events = POLLIN};
   if (poll(p->watch, n, (int)ceil(1000 * thr_limits_left(p->limits, WATCH))) <= 0) return;
   for (nfds_t k = 0; k < n; k++)
     for (int i = 0; i < p->n_slots && p->watch[k].revents; i++)
-      if (p->slot[i].pid && p->slot[i].pipe == p->watch[k].fd) {
+      if (p->slot[i].process.pid && p->slot[i].process.pipe == p->watch[k].fd) {
         receive(p, &p->slot[i]);
         break;
       }
@@ -189,7 +137,7 @@ static int running(const pool *p)
 {
   int n = 0;
   for (int i = 0; i < p->n_slots; i++)
-    n += p->slot[i].pid != 0;
+    n += p->slot[i].process.pid != 0;
   return n;
 }
 
@@ -197,7 +145,7 @@ static int running(const pool *p)
 static thr_status fill_slots(pool *p, thr_err *err)
 {
   for (int i = 0; i < p->n_slots && p->next < p->work->n_jobs && p->failed == p->work->n_jobs; i++) {
-    if (p->slot[i].pid) continue;
+    if (p->slot[i].process.pid) continue;
     thr_err reason = {0};
     thr_status st = start(p, &p->slot[i], &reason);
     if (st && running(p)) return THR_OK;

@@ -13,7 +13,8 @@ typedef struct {
   /* Runs in the parent as each job ends, in any order: e.g. to store it in the cache. May be NULL. */
   void (*done)(void *user, int job, const void *result);
   void *user;
-  const char *what; /* for the progress line */
+  const char *what;   /* for the progress line and for messages */
+  const char *advice; /* what to do if a child dies, ends its message; NULL: nothing known */
 } thr_work;
 
 /* Fills results[n_jobs * result_size] and finished[n_jobs]. Stops on the limits (THR_ELIMIT; finished says which results count)
