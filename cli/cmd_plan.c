@@ -30,7 +30,8 @@ static const char help_requests[] =
     "      --objective length|tortuosity|symmetry   what to minimize: cord, how much it turns, or what is to be learned\n"
     "                       (default: length)\n" CORDS_HELP
     "      --time-limit S   stop after S seconds with the best plan so far and its gap, 0 = never (default: 0; other\n"
-    "                       objectives and tube joints: 20). --frontier and --compare-objectives: S once more\n"
+    "                       objectives and tube joints: 20). --frontier, --compare-shortest and --compare-objectives share\n"
+    "                       an S that is given; else each search has its 20 s\n"
     "\n" TURNING_HELP;
 static const char help_rest[] =
     "\nSymmetry (with --objective symmetry; thread symmetries --help says more):\n"
@@ -289,7 +290,7 @@ static int put_refused(thr_text *t, const arguments *a, const struct objective *
   return EXIT_OK;
 }
 
-static int plan_and_put(thr_text *t, const arguments *a, const struct objective *objective, const thr_plan *p)
+static int plan_and_put(thr_text *t, const arguments *a, const struct objective *objective, const thr_plan *p, double deadline)
 {
   thr_err err = {0};
   thr_plan other = {0};
@@ -298,6 +299,7 @@ static int plan_and_put(thr_text *t, const arguments *a, const struct objective 
   thr_plan_options o = p->options;
   ask(a, objective, &o);
   thr_limits limits = cli_limits(o.time_limit);
+  if (deadline > 0) limits.deadline = deadline;
   thr_status st = objective->plan(&p->frame, &o, &limits, &other, &err);
   cli_progress_end();
   int code = st && st != THR_ELIMIT ? cli_fail(&err) : put_objective(t, a, objective, &other);
@@ -306,14 +308,14 @@ static int plan_and_put(thr_text *t, const arguments *a, const struct objective 
 }
 
 /* Pull of this plan beside that of the plans for the other objectives. */
-static int put_comparison(thr_text *t, const arguments *a, const thr_plan *p)
+static int put_comparison(thr_text *t, const arguments *a, const thr_plan *p, double deadline)
 {
   int code = EXIT_OK;
   thr_text_append(t, a->json ? ", \"objectives\": [" : "\nlargest pull by objective, joints measured in simulation\n");
   for (int i = 0; i < N_OBJECTIVES; i++) {
     const struct objective *objective = &objectives[i];
     if (i && a->json) thr_text_append(t, ", ");
-    int done = plan_and_put(t, a, objective, p);
+    int done = plan_and_put(t, a, objective, p, deadline);
     if (!code) code = done;
   }
   if (a->json) thr_text_append(t, "]");
@@ -328,12 +330,23 @@ typedef struct {
   double start;         /* thr_clock() */
 } planned;
 
-/* What a plan of the least turning is held against may take a quarter longer than the plan, counted from its start. */
+/* When all must be done: the plan and what it is held against share the time that was asked for; 0 = none was. */
+static double deadline_of(const arguments *a, const planned *x)
+{
+  return a->time_limit > 0 ? x->start + a->time_limit : 0;
+}
+
+/* Seconds for the plan: all, or half of them if there is to be another search. */
+static double time_of_plan(const arguments *a, const thr_plan_options *o)
+{
+  bool more = a->turning.compare || a->turning.frontier || a->compare;
+  return o->time_limit * (more && a->time_limit > 0 ? 0.5 : 1);
+}
+
 static int put_turning(thr_text *t, const arguments *a, const planned *x)
 {
   turning_rivals r = {0};
-  double limit = x->plan.options.time_limit;
-  int code = turning_rivals_make(&x->plan, a->turning.frontier, limit > 0 ? x->start + 1.25 * limit : 0, &r);
+  int code = turning_rivals_make(&x->plan, a->turning.compare, a->turning.frontier, deadline_of(a, x), &r);
   (a->json ? plan_put_json : plan_put_summary)(t, &x->plan, &r, x->word);
   turning_rivals_destroy(&r);
   return code;
@@ -366,7 +379,7 @@ static int print_summary(const arguments *a, const planned *x)
   default: (a->json ? plan_put_json : plan_put_summary)(&t, &x->plan, NULL, x->word);
   }
   if (a->compare) {
-    int done = put_comparison(&t, a, &x->plan);
+    int done = put_comparison(&t, a, &x->plan, deadline_of(a, x));
     if (!code) code = done;
   }
   if (a->json) thr_text_append(&t, "}\n");
@@ -411,7 +424,7 @@ static int write_outputs(const arguments *a, const planned *x)
 static thr_status make_plan(const arguments *a, const thr_frame *f, const thr_plan_options *o, planned *x, thr_err *err)
 {
   char versions[160];
-  thr_limits limits = cli_limits(o->time_limit);
+  thr_limits limits = cli_limits(time_of_plan(a, o));
   thr_status st;
   if (o->objective == THR_SYMMETRY)
     st = plan_symmetric(f, o, &limits, &x->table, &x->plan, err);

@@ -81,6 +81,10 @@ bool turning_option(turning_args *a, int option, const char *value, bool *ok)
     *ok = !value || cli_int("plan", "--frontier", value, 2, FRONTIER_MOST, &a->frontier);
     name = "--frontier";
     break;
+  case OPTION_TURNING_COMPARE:
+    a->compare = true;
+    name = "--compare-shortest";
+    break;
   default: return false;
   }
   if (!a->given) a->given = name;

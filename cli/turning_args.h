@@ -11,6 +11,7 @@ enum {
   OPTION_TURNING_TOUR,
   OPTION_TURNING_PAIRINGS,
   OPTION_TURNING_FRONTIER,
+  OPTION_TURNING_COMPARE,
   OPTION_TURNING_FREE
 };
 #define TURNING_OPTIONS                                                                                                          \
@@ -18,6 +19,7 @@ enum {
       {"minimize", required_argument, NULL, OPTION_TURNING_MINIMIZE},                                                            \
       {"turn-cost", required_argument, NULL, OPTION_TURNING_COST}, {"tour", required_argument, NULL, OPTION_TURNING_TOUR},       \
       {"pairings", required_argument, NULL, OPTION_TURNING_PAIRINGS},                                                            \
+      {"compare-shortest", no_argument, NULL, OPTION_TURNING_COMPARE},                                                           \
   {                                                                                                                              \
     "frontier", optional_argument, NULL, OPTION_TURNING_FRONTIER                                                                 \
   }
@@ -29,11 +31,15 @@ enum {
   "angle)\n"                                                                                                                     \
   "      --tour least|fleury|hierholzer   the least turning (default), or a classical tour through the shortest passes\n"        \
   "      --pairings keep|ignore   of a classical tour: keep to the cheapest pairing at every node, or not (default: keep)\n"     \
-  "      --frontier[=N]   also the trade-off between length and turning, at up to N lengths, 2 to 1000 (default: 9)\n"
+  "      --frontier[=N]   also the trade-off between length and turning, at up to N lengths, 2 to 1000 (default: 9)\n"           \
+  "      --compare-shortest  beside it the least turning among the shortest cords; with --length-slack 0 that of any length, "   \
+  "with\n"                                                                                                                       \
+  "                       a classical tour the least turning: one more search, as long as the first\n"
 
 typedef struct {
   thr_turning_options options;
   int frontier;      /* points, 0 = none */
+  bool compare;      /* --compare-shortest */
   const char *given; /* the first of these options; NULL = none */
   bool pairings;     /* --pairings was given */
 } turning_args;

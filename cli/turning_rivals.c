@@ -3,6 +3,8 @@
 #include "lp/cords.h"
 #include "tortuosity/tube.h"
 
+#include <math.h>
+
 /* Where there is no such plan that is said; what else fails is an error. */
 static int close_rival(turning_rival *r, thr_status st)
 {
@@ -39,17 +41,21 @@ static int make_corner(const thr_plan *p, const thr_limits *limits, turning_riva
   return close_rival(r, thr_tortuosity_plan(&p->frame, &o, limits, &r->plan, &r->why));
 }
 
-static int make_frontier(const thr_plan *p, int points, thr_frontier *out)
+static int make_frontier(const thr_plan *p, int points, double deadline, thr_frontier *out)
 {
   thr_err err = {0};
-  const thr_limits limits = cli_limits(p->options.time_limit);
+  thr_limits limits = cli_limits(p->options.time_limit);
+  if (deadline > 0) limits.deadline = deadline;
   thr_status st = thr_tortuosity_frontier(&p->frame, &p->options, points, &limits, out, &err);
   cli_progress_end();
   if (st == THR_EINFEASIBLE) cli_note("no frontier: %s", err.text);
   return st && st != THR_ELIMIT && st != THR_EINFEASIBLE ? cli_fail(&err) : EXIT_OK;
 }
 
-int turning_rivals_make(const thr_plan *p, int frontier, double deadline, turning_rivals *out)
+/* s, for the shortest passes where the search has used up its time: stopped at once, they would not be the shortest. */
+static const double grace = 0.3;
+
+int turning_rivals_make(const thr_plan *p, bool optima, int frontier, double deadline, turning_rivals *out)
 {
   thr_limits limits = cli_limits(0);
   bool shortest = p->options.turning.length_slack == 0;
@@ -65,9 +71,12 @@ int turning_rivals_make(const thr_plan *p, int frontier, double deadline, turnin
     if (frontier) cli_note("no frontier: the search was stopped");
     return EXIT_OK;
   }
-  int code = make_length(p, &limits, &out->length);
-  if (!code) code = make_corner(p, &limits, &out->corner);
-  if (!code && frontier) code = make_frontier(p, frontier, &out->frontier);
+  bool tube = p->options.joint == THR_JOINT_TUBE; /* its shortest cords are an integer programme, solved already for the proof */
+  if (deadline > 0) limits.deadline = fmax(deadline, thr_clock() + grace);
+  int code = optima || !tube ? make_length(p, &limits, &out->length) : EXIT_OK;
+  limits.deadline = deadline;
+  if (!code && optima) code = make_corner(p, &limits, &out->corner);
+  if (!code && frontier) code = make_frontier(p, frontier, deadline, &out->frontier);
   return code;
 }
 

@@ -19,10 +19,11 @@ typedef struct {
   thr_frontier frontier;
 } turning_rivals;
 
-/* Makes them until deadline (thr_clock(), 0 = none), and a frontier of that many points (0 = none) within the time limit of the
- * plan once more. Returns EXIT_OK, also where there is no such plan (why says so); or prints and returns the code, with out
- * holding what was made. Release with turning_rivals_destroy. */
-int turning_rivals_make(const thr_plan *p, int frontier, double deadline, turning_rivals *out);
+/* Makes them until deadline (thr_clock(); 0 = none, but the frontier has the time limit of the plan once more): the shortest plan
+ * where it takes no search; optima: that in any case, and the corner, which is a search as long as the plan's own; and a frontier
+ * of that many points (0 = none). Returns EXIT_OK, also where there is no such plan (why says so); or prints and returns the
+ * code, with out holding what was made. Release with turning_rivals_destroy. */
+int turning_rivals_make(const thr_plan *p, bool optima, int frontier, double deadline, turning_rivals *out);
 void turning_rivals_destroy(turning_rivals *r);
 
 static const double turning_right_angle = 1.57079632679489661923;

@@ -1,6 +1,6 @@
 /* Covers that need no programme: copies, made even by a least join, and led on where they cannot turn. */
 #include "graph/disjoint.h"
-#include "lp/tjoin.h"
+#include "lp/engine.h"
 #include "symmetry/contraction.h"
 
 #include <math.h>
@@ -192,7 +192,7 @@ static thr_status add_join(const request *r, const thr_programme *p, const thr_l
   }
   if (!st && *found && any) {
     thr_err why = {0};
-    st = thr_tjoin_solve(&g.problem, limits, &t, &why);
+    st = thr_tjoin_shrunk(&g.problem, THR_ENGINE_AUTO, limits, &t, &why);
     st = st && st != THR_ELIMIT ? thr_fail(err, st, "%s", why.text) : THR_OK; /* the best so far will do */
     *least = (double)t.sum / THR_DUAL_DENOMINATOR * g.unit;
   }

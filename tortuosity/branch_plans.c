@@ -227,6 +227,6 @@ thr_status thr_branch_try_rounded(thr_branch *b, thr_err *err)
   if (name == b->tried) return THR_OK;
   b->tried = name;
   if (c->task->tube) return round_tied(b, err);
-  thr_status st = thr_extra_roughly(c, b->weight, b->end_weight, b->limits, b->passes, b->ends, err);
+  thr_status st = thr_extra_passes(c, b->weight, b->end_weight, false, b->limits, b->passes, b->ends, err);
   return st ? st : thr_branch_try(b, b->passes, b->ends, err);
 }

@@ -1,6 +1,6 @@
 /* T-joins with slots for the cord ends, component by component. */
 #include "tortuosity/extra.h"
-#include "lp/tjoin.h"
+#include "lp/engine.h"
 #include "tortuosity/walks.h"
 
 #include <assert.h>
@@ -135,39 +135,31 @@ static int closing_node(const instance *in, const double *end_weight)
   return best;
 }
 
-/* Stops the search for a join when it has gone on for long enough: counted in linear programmes, so the same everywhere. */
-typedef struct {
-  const thr_limits *outer;
-  int rounds;
-  volatile sig_atomic_t enough;
-} watch;
-
-static void look(void *user, const char *what, double best, double bound)
+/* The least join, or, stopped, one that keeps the slots at one edge each, which the matching's quick join need not. */
+static thr_status solve_join(const thr_tjoin_problem *p, const thr_limits *limits, thr_tjoin *t, thr_err *err)
 {
-  enum { ENOUGH = 25 };
-  watch *w = user;
-  (void)what;
-  bool near = best - bound <= 1e-3 * best, interrupted = w->outer->interrupted && *w->outer->interrupted;
-  if (++w->rounds >= ENOUGH || near || interrupted) w->enough = 1;
+  thr_err stopped = {0};
+  thr_limits quiet = *limits; /* the join's best and bound are not those of the turning */
+  quiet.progress = NULL;
+  thr_status st = thr_tjoin_shrunk(p, THR_ENGINE_AUTO, &quiet, t, &stopped);
+  if (st == THR_ELIMIT && p->n_leaves) {
+    thr_tjoin_destroy(t);
+    st = thr_tjoin_solve(p, &quiet, t, &stopped);
+  }
+  if (st == THR_ELIMIT) return THR_OK; /* a join is a join */
+  return st ? thr_fail(err, st, "%s", stopped.text) : THR_OK;
 }
 
 static thr_status solve_component(const thr_turning_columns *c, int k, const double *weight, const double *end_weight, bool given,
-                                  bool roughly, const thr_limits *limits, int *passes, int *ends, thr_err *err)
+                                  const thr_limits *limits, int *passes, int *ends, thr_err *err)
 {
   instance in;
   thr_tjoin t = {0};
-  thr_err local = {0};
-  watch w = {.outer = limits};
-  thr_limits inner = *limits; /* quiet: the join's best and bound are not those of the turning */
-  inner.progress = NULL;
-  if (roughly) inner = (thr_limits){.deadline = limits->deadline, .interrupted = &w.enough, .progress = look, .user = &w};
   thr_status st = instance_init(&in, c, k, given, err);
   if (!st) {
     fill(&in, weight, end_weight, ends);
     thr_tjoin_problem p = {in.n_nodes + in.n_slots, in.n_edges, (const int(*)[2])in.edge, in.weight, in.odd, in.n_slots};
-    st = thr_tjoin_solve(&p, &inner, &t, &local);
-    if (st && st != THR_ELIMIT) thr_fail(err, st, "%s", local.text);
-    if (st == THR_ELIMIT) st = THR_OK; /* a join is a join */
+    st = solve_join(&p, limits, &t, err);
   }
   for (int i = 0; !st && i < in.n_edges; i++) {
     if (!t.in_join[i]) continue;
@@ -241,8 +233,8 @@ static thr_status fit_ends(const thr_turning_columns *c, int k, int *passes, int
   return st;
 }
 
-static thr_status solve_components(const thr_turning_columns *c, const double *weight, const double *end_weight, bool given,
-                                   bool roughly, const thr_limits *limits, int *passes, int *ends, thr_err *err)
+thr_status thr_extra_passes(const thr_turning_columns *c, const double *weight, const double *end_weight, bool given,
+                            const thr_limits *limits, int *passes, int *ends, thr_err *err)
 {
   thr_status st = THR_OK;
   for (int e = 0; e < c->f->n_edges; e++)
@@ -252,22 +244,10 @@ static thr_status solve_components(const thr_turning_columns *c, const double *w
   for (int v = 0; v < c->f->n_nodes && (!given || count); v++)
     ends[v] = count ? count[v] : 0;
   for (int k = 0; k < c->n_components && !st; k++)
-    st = solve_component(c, k, weight, end_weight, given, roughly, limits, passes, ends, err);
+    st = solve_component(c, k, weight, end_weight, given, limits, passes, ends, err);
   for (int k = 0; k < c->n_components && !st && c->task->end_allowed && !count; k++)
     st = fit_ends(c, k, passes, ends, err);
   return st;
-}
-
-thr_status thr_extra_passes(const thr_turning_columns *c, const double *weight, const double *end_weight, bool given,
-                            const thr_limits *limits, int *passes, int *ends, thr_err *err)
-{
-  return solve_components(c, weight, end_weight, given, false, limits, passes, ends, err);
-}
-
-thr_status thr_extra_roughly(const thr_turning_columns *c, const double *weight, const double *end_weight,
-                             const thr_limits *limits, int *passes, int *ends, thr_err *err)
-{
-  return solve_components(c, weight, end_weight, false, true, limits, passes, ends, err);
 }
 
 void thr_extra_spread_ends(const thr_turning_columns *c, int *ends)

@@ -9,13 +9,9 @@
  * every node is even, and every component has its 2 cords ends. weight[e] >= 0; end_weight[v] >= 0 (NULL = 0) is paid per end,
  * far less than any pass saves. given: ends says where they are. Where that makes more ends at a node than passes, they move to
  * others in pairs, or passes are added. THR_EINFEASIBLE: a component has no node where an end is allowed (named). The join is the
- * best that the limits let lp/tjoin.h find. */
+ * best that the limits let lp/engine.h find. */
 thr_status thr_extra_passes(const thr_turning_columns *c, const double *weight, const double *end_weight, bool given,
                             const thr_limits *limits, int *passes, int *ends, thr_err *err) THR_MUST_CHECK;
-
-/* The same with a join that need not be the shortest, from the first rounds of its linear programme. */
-thr_status thr_extra_roughly(const thr_turning_columns *c, const double *weight, const double *end_weight,
-                             const thr_limits *limits, int *passes, int *ends, thr_err *err) THR_MUST_CHECK;
 
 /* 2 cords ends in every component, as far apart as may be: first one at every allowed node where passes are odd, then one more at
  * each of those with fewest. */
