@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "cli/cli.h"
 #include "cli/copies.h"
+#include "cli/guard.h"
 #include "graph/check.h"
 
 #include <errno.h>
@@ -41,6 +42,7 @@ void cli_error(const char *format, ...)
 
 int cli_fail(const thr_err *err)
 {
+  if (err->code == THR_ENOMEM) guard_no_memory();
   cli_error("%s", err->text);
   switch (err->code) {
   case THR_OK: return EXIT_OK;
@@ -415,21 +417,32 @@ static void log_progress(void *user, const char *what, double best, double bound
     cli_note("%s: best join %.0f, bound %.1f (integer weights)", what, best, bound);
 }
 
+void cli_heed_signals(void)
+{
+  struct sigaction act = {.sa_handler = on_interrupt};
+  sigaction(SIGINT, &act, NULL);
+  sigaction(SIGTERM, &act, NULL); /* what timeout and batch systems send */
+}
+
 thr_limits cli_limits(double seconds)
 {
   static watch seen;
   thr_limits l = {.interrupted = &interrupted, .user = &seen};
   seen = (watch){0};
-  struct sigaction act = {.sa_handler = on_interrupt};
-  sigaction(SIGINT, &act, NULL);
-  sigaction(SIGTERM, &act, NULL); /* what timeout and batch systems send */
+  cli_heed_signals();
   if (seconds > 0) l.deadline = thr_clock() + seconds;
+  if (guard_deadline() > 0 && (l.deadline == 0 || l.deadline > guard_deadline())) l.deadline = guard_deadline();
   if (cli_verbose)
     l.progress = log_progress;
   else if (!cli_quiet && isatty(STDERR_FILENO))
     l.progress = show_progress;
   if (!cli_quiet && isatty(STDERR_FILENO)) l.advance = show_advance;
   return l;
+}
+
+void cli_wipe_line(void)
+{
+  if (isatty(STDERR_FILENO)) fputs("\r\033[K", stderr);
 }
 
 void cli_progress_end(void)

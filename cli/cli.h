@@ -111,9 +111,13 @@ int cli_write_drawn(thr_status st, thr_text *t, const char *path, const thr_err 
 
 /* ---- long computations ---- */
 
+/* From now on SIGINT and SIGTERM only set what cli_limits' interrupt looks at, the second one after a while ends the process. */
+void cli_heed_signals(void);
+
 /* Limits with a deadline (0 = none), Ctrl-C and, on a terminal, a progress line on stderr with the time left. */
 thr_limits cli_limits(double seconds);
 void cli_progress_end(void); /* wipes the progress line */
+void cli_wipe_line(void);    /* the same for one that another process has left */
 
 /* ---- tables ---- */
 

@@ -1,5 +1,6 @@
 /* thread check: is everything that a plan says true? */
 #include "cli/cli.h"
+#include "cli/guard.h"
 #include "graph/check.h"
 
 #include <stdio.h>
@@ -11,12 +12,14 @@ static const char help[] =
     "  thread check plan.json\n"
     "  thread plan dome.obj -o - | thread check -\n\n"
     "Options:\n"
-    "      --json           one JSON line per plan\n"
+    "      --json           one JSON line per plan\n" GUARD_HELP
     "  -q, --quiet          print nothing for plans that hold       -h, --help\n\n"
-    "Exit codes: 0 all plans hold, 1 a violation (printed with its place), 2 usage, 3 not a plan\n";
+    "Exit codes: 0 all plans hold, 1 a violation (printed with its place), 2 usage, 3 not a plan,\n"
+    "5 not verified in the time or memory\n";
 
 enum { OPTION_JSON = OPTION_FREE };
-static const struct option table[] = {CLI_COMMON_OPTIONS, {"json", no_argument, NULL, OPTION_JSON}, {NULL, 0, NULL, 0}};
+static const struct option table[] = {
+    CLI_COMMON_OPTIONS, GUARD_OPTIONS, {"json", no_argument, NULL, OPTION_JSON}, {NULL, 0, NULL, 0}};
 
 /* Of a plan for the least turning, whether its length is the shortest or not: that is another claim. */
 static void put_turning(thr_text *t, const thr_plan *p)
@@ -167,17 +170,28 @@ static int check_one(const char *path, bool json)
   return code ? code : written;
 }
 
-int cmd_check(int argc, char **argv)
+static int check_all(char **path, int n, bool json)
 {
-  int done, o, code = EXIT_OK;
-  bool json = false;
-  while ((o = cli_next_option(argc, argv, "check", ":" CLI_COMMON_LETTERS, table, help, &done)) != -1)
-    if (o == OPTION_JSON) json = true;
-  if (done >= 0) return done;
-  if (optind == argc) return cli_usage("check", "which plan?");
-  for (; optind < argc; optind++) {
-    int one = check_one(argv[optind], json);
+  int code = EXIT_OK;
+  for (int i = 0; i < n; i++) {
+    int one = check_one(path[i], json);
     if (one > code) code = one;
   }
   return code;
+}
+
+int cmd_check(int argc, char **argv)
+{
+  int done, o;
+  bool json = false, ok = true;
+  guard_limits guard = guard_limits_default();
+  guard_end end;
+  while ((o = cli_next_option(argc, argv, "check", ":" CLI_COMMON_LETTERS, table, help, &done)) != -1) {
+    if (o == OPTION_JSON) json = true;
+    if (guard_option(&guard, "check", o, optarg, &ok) && !ok) return EXIT_USAGE;
+  }
+  if (done >= 0) return done;
+  if (optind == argc) return cli_usage("check", "which plan?");
+  if (guard_fork(&guard, &end)) return guard_conclude(&end, "not verified");
+  return check_all(argv + optind, argc - optind, json);
 }

@@ -28,7 +28,7 @@ static const char help[] =
                                              "--no-dynamics is fast. How far its index spreads over seeds is not counted: try a "
                                              "few --seed before you rely on it.\n";
 
-static const struct option table[] = {CLI_COMMON_OPTIONS, PULL_OPTIONS, {NULL, 0, NULL, 0}};
+static const struct option table[] = {CLI_COMMON_OPTIONS, PULL_OPTIONS, GUARD_OPTIONS, {NULL, 0, NULL, 0}};
 
 enum { CAPSTAN, JOINT, HOLDING, SIMULATION, N_RANKINGS };
 
@@ -370,15 +370,19 @@ int cmd_compare(int argc, char **argv)
   int done, option;
   bool ok;
   pull_args a;
+  guard_limits guard = guard_limits_default();
+  guard_end end;
   pull_args_init(&a, THR_JOINT);
   while ((option = cli_physics_option(&a.physics, argc, argv, "compare", ":" CLI_COMMON_LETTERS PULL_LETTERS, table, help,
                                       &done)) != -1)
-    if (pull_option(&a, "compare", option, optarg, &ok) && !ok) return EXIT_USAGE;
+    if ((pull_option(&a, "compare", option, optarg, &ok) || guard_option(&guard, "compare", option, optarg, &ok)) && !ok)
+      return EXIT_USAGE;
   if (done >= 0) return done;
   int n = argc - optind;
   if (n < 1) return cli_usage("compare", "which plans?");
   int code = pull_check(&a, "compare");
   if (code) return code;
+  if (guard_fork(&guard, &end)) return guard_conclude(&end, "no comparison");
   entry *e = thr_calloc((size_t)n, sizeof *e);
   if (!e) {
     cli_error("out of memory");

@@ -1,5 +1,6 @@
 /* thread draw: diagrams of a plan. */
 #include "cli/drawings.h"
+#include "cli/guard.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -28,9 +29,10 @@ static const char help[] =
     "                       all         all of these, into the folder of -o, else the current one\n"
     "      --color cord|tension|turning   what colours of the overview tell apart: cords (default), how\n"
     "                       tight each pass is, or how sharply the cord turns between two beads\n"
-    "      --pitch MM       millimetres on paper per bead (default: 24, less for large frameworks)\n" DRAWINGS_HELP
+    "      --pitch MM       millimetres on paper per bead (default: 24, less for large frameworks)\n" DRAWINGS_HELP GUARD_HELP
     "  -o, --output FILE|DIR   (default: its usual name in the current folder; - = stdout)\n"
-    "  -h, --help\n";
+    "  -h, --help\n\n"
+    "Exit codes: 0 drawn, 2 usage, 3 not a plan, 5 not all drawn in the time or memory\n";
 
 enum { OPTION_PITCH = OPTION_FREE, OPTION_COLOR };
 static const struct option table[] = {CLI_COMMON_OPTIONS,
@@ -38,6 +40,7 @@ static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       {"pitch", required_argument, NULL, OPTION_PITCH},
                                       {"color", required_argument, NULL, OPTION_COLOR},
                                       DRAWINGS_OPTIONS,
+                                      GUARD_OPTIONS,
                                       {"output", required_argument, NULL, 'o'},
                                       {NULL, 0, NULL, 0}};
 
@@ -86,12 +89,15 @@ int cmd_draw(int argc, char **argv)
 {
   int done, option;
   drawings_args a = {0};
+  guard_limits guard = guard_limits_default();
+  guard_end end;
   int color = THR_COLOUR_CORD, type = 0;
   const char *output = NULL;
   while ((option = cli_next_option(argc, argv, "draw", ":" CLI_COMMON_LETTERS "T:o:", table, help, &done)) != -1) {
     if (option == 'T' && !cli_choose("draw", "--type", optarg, type_name, drawings_count() + 1, &type)) return EXIT_USAGE;
     bool ok = true;
-    if (drawings_option(&a, "draw", option, optarg, &ok) && !ok) return EXIT_USAGE;
+    if ((drawings_option(&a, "draw", option, optarg, &ok) || guard_option(&guard, "draw", option, optarg, &ok)) && !ok)
+      return EXIT_USAGE;
     if (option == OPTION_PITCH && !cli_double("draw", "--pitch", optarg, 2, 200, &a.pitch_mm)) return EXIT_USAGE;
     if (option == OPTION_COLOR && !cli_choose("draw", "--color", optarg, color_name, THR_N_COLOURS, &color)) return EXIT_USAGE;
     if (option == 'o') output = optarg;
@@ -104,6 +110,7 @@ int cmd_draw(int argc, char **argv)
   if (!all && output && is_misnamed(output, type))
     return cli_usage("draw", "%s: --type %s makes %s; say which type", output, type_name(type), drawings_file(type));
   if (optind + 1 != argc) return cli_usage("draw", optind == argc ? "which plan?" : "one plan at a time");
+  if (guard_fork(&guard, &end)) return guard_conclude(&end, all ? "not all documents are drawn" : "nothing is drawn");
   thr_plan p;
   int code = cli_read_plan(argv[optind], &p);
   if (code) return code;

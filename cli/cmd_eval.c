@@ -40,6 +40,7 @@ static const char help[] =
 enum { OPTION_TENSION = OPTION_PULL_FREE, OPTION_PLOT, OPTION_STILL };
 static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       PULL_OPTIONS,
+                                      GUARD_OPTIONS,
                                       {"tension", no_argument, NULL, OPTION_TENSION},
                                       {"output", required_argument, NULL, 'o'},
                                       {"plot", required_argument, NULL, OPTION_PLOT},
@@ -48,6 +49,7 @@ static const struct option table[] = {CLI_COMMON_OPTIONS,
 
 typedef struct {
   pull_args pull;
+  guard_limits guard;
   bool tension;
   const char *path, *output, *plot, *still;
 } arguments;
@@ -56,11 +58,11 @@ static int parse(int argc, char **argv, arguments *a)
 {
   int done, option;
   bool ok;
-  *a = (arguments){0};
+  *a = (arguments){.guard = guard_limits_default()};
   pull_args_init(&a->pull, THR_CAPSTAN);
   while ((option = cli_physics_option(&a->pull.physics, argc, argv, "eval", ":" CLI_COMMON_LETTERS PULL_LETTERS "o:", table, help,
                                       &done)) != -1) {
-    if (pull_option(&a->pull, "eval", option, optarg, &ok)) {
+    if (pull_option(&a->pull, "eval", option, optarg, &ok) || guard_option(&a->guard, "eval", option, optarg, &ok)) {
       if (!ok) return EXIT_USAGE;
       continue;
     }
@@ -472,8 +474,10 @@ int cmd_eval(int argc, char **argv)
   arguments a;
   thr_plan p;
   thr_eval e;
+  guard_end end;
   int code = parse(argc, argv, &a);
   if (code >= 0) return code;
+  if (guard_fork(&a.guard, &end)) return guard_conclude(&end, "no result");
   if ((code = cli_read_plan(a.path, &p))) return code;
   code = pull_eval(&a.pull, a.path, &p, (thr_method)a.pull.method, &e);
   bool known = (code == EXIT_OK || code == EXIT_LIMIT) && any_known(&e.record);

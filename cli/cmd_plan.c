@@ -1,6 +1,8 @@
 /* thread plan: framework in, plan and diagrams out. */
+#include "cli/best.h"
 #include "cli/cords_args.h"
 #include "cli/drawings.h"
+#include "cli/guard.h"
 #include "cli/plan_summary.h"
 #include "cli/symmetry_table.h"
 #include "graph/cuttree.h"
@@ -31,7 +33,7 @@ static const char help_requests[] =
     "                       (default: length)\n" CORDS_HELP
     "      --time-limit S   stop after S seconds with the best plan so far and its gap, 0 = never (default: 0; other\n"
     "                       objectives and tube joints: 20). --frontier, --compare-shortest and --compare-objectives share\n"
-    "                       an S that is given; else each search has its 20 s\n"
+    "                       an S that is given, and so do the drawings; else each search has its 20 s\n" GUARD_MEMORY_HELP
     "\n" TURNING_HELP;
 static const char help_rest[] =
     "\nSymmetry (with --objective symmetry; thread symmetries --help says more):\n"
@@ -54,7 +56,7 @@ static const char *help(void)
   return text;
 }
 
-enum { OPTION_OBJECTIVE = OPTION_CORDS_FREE, OPTION_COMPARE, OPTION_TIME, OPTION_DRAW, OPTION_JSON };
+enum { OPTION_OBJECTIVE = OPTION_CORDS_FREE, OPTION_COMPARE, OPTION_DRAW, OPTION_JSON };
 
 static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       CLI_FRAME_OPTIONS,
@@ -64,7 +66,7 @@ static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       CORDS_OPTIONS,
                                       {"compare-objectives", no_argument, NULL, OPTION_COMPARE},
                                       {"objective", required_argument, NULL, OPTION_OBJECTIVE},
-                                      {"time-limit", required_argument, NULL, OPTION_TIME},
+                                      GUARD_OPTIONS,
                                       {"output", required_argument, NULL, 'o'},
                                       {"draw", required_argument, NULL, OPTION_DRAW},
                                       DRAWINGS_OPTIONS,
@@ -121,6 +123,15 @@ static thr_status prove_tied(thr_plan *plan, const thr_limits *limits, thr_err *
   return st;
 }
 
+/* Some cords that tie the joints, for whoever keeps the best so far. */
+static void tell_tied(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits)
+{
+  thr_tube t;
+  if (thr_tube_some(f, o, limits, &t, NULL)) return;
+  thr_limits_found(limits, t.cord, t.n_cords, NULL);
+  thr_tube_destroy(&t);
+}
+
 /* rows: the table, as for thr_symmetry_plan. With tube joints the last part of the time is for the proof of length. */
 static thr_status plan_symmetric(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_symmetries *rows,
                                  thr_plan *plan, thr_err *err)
@@ -129,6 +140,7 @@ static thr_status plan_symmetric(const thr_frame *f, const thr_plan_options *o, 
   thr_limits most = *limits;
   thr_err unproved = {0};
   if (o->joint == THR_JOINT_SOLID) return thr_symmetry_plan(f, o, limits, rows, plan, err);
+  if (limits->found) tell_tied(f, o, limits);
   if (most.deadline > 0) most.deadline -= part * thr_limits_left(limits, INFINITY);
   thr_status found = thr_symmetry_plan(f, o, &most, rows, plan, &unproved);
   thr_status st = plan->n_cords > 0 ? prove_tied(plan, limits, err) : THR_OK;
@@ -166,7 +178,7 @@ typedef struct {
   turning_args turning;
   symmetry_args symmetry;
   cords_args cords;
-  double time_limit; /* s, < 0 = as the objective has it */
+  guard_limits guard; /* seconds < 0: as the objective has it */
   const struct objective *objective;
   const char *path, *output, *draw;
   drawings_args drawings;
@@ -194,7 +206,7 @@ static int parse(int argc, char **argv, arguments *a)
                    .turning = turning_args_default(),
                    .symmetry = symmetry_args_default(),
                    .cords = cords_args_default(),
-                   .time_limit = -1,
+                   .guard = guard_limits_default(),
                    .objective = &objectives[0],
                    .drawings = {.quick = true}};
   pull_args_init(&a->pull, THR_JOINT);
@@ -202,14 +214,14 @@ static int parse(int argc, char **argv, arguments *a)
                                  &done)) != -1) {
     if (cli_frame_option(&a->frame, "plan", o, optarg, &ok) || pull_option(&a->pull, "plan", o, optarg, &ok) ||
         turning_option(&a->turning, o, optarg, &ok) || symmetry_option(&a->symmetry, "plan", o, optarg, &ok) ||
-        cords_option(&a->cords, o, optarg, &ok) || drawings_option(&a->drawings, "plan", o, optarg, &ok)) {
+        cords_option(&a->cords, o, optarg, &ok) || drawings_option(&a->drawings, "plan", o, optarg, &ok) ||
+        guard_option(&a->guard, "plan", o, optarg, &ok)) {
       if (!ok) return EXIT_USAGE;
       continue;
     }
     switch (o) {
     case OPTION_OBJECTIVE: done = find_objective(optarg, &a->objective); break;
     case OPTION_COMPARE: a->compare = true; break;
-    case OPTION_TIME: ok = cli_double("plan", "--time-limit", optarg, 0, 1e9, &a->time_limit); break;
     case OPTION_DRAW: a->draw = optarg; break;
     case OPTION_JSON: a->json = true; break;
     case 'o': a->output = optarg; break;
@@ -234,7 +246,7 @@ static void ask(const arguments *a, const struct objective *objective, thr_plan_
 {
   o->objective = objective->id;
   double usual = a->cords.joint == THR_JOINT_TUBE ? objectives[N_OBJECTIVES - 1].time_limit : objective->time_limit;
-  o->time_limit = a->time_limit < 0 ? usual : a->time_limit;
+  o->time_limit = a->guard.seconds < 0 ? usual : a->guard.seconds;
   turning_args_apply(&a->turning, objective->id, o);
   o->symmetry = objective->id == THR_SYMMETRY ? a->symmetry.options : symmetry_args_default().options;
 }
@@ -327,26 +339,25 @@ typedef struct {
   thr_plan plan;
   thr_symmetries table; /* THR_SYMMETRY only */
   thr_cords_word word;  /* THR_LENGTH only */
-  double start;         /* thr_clock() */
 } planned;
 
 /* When all must be done: the plan and what it is held against share the time that was asked for; 0 = none was. */
-static double deadline_of(const arguments *a, const planned *x)
+static double deadline_of(const arguments *a)
 {
-  return a->time_limit > 0 ? x->start + a->time_limit : 0;
+  return a->guard.seconds > 0 ? guard_deadline() : 0;
 }
 
 /* Seconds for the plan: all, or half of them if there is to be another search. */
 static double time_of_plan(const arguments *a, const thr_plan_options *o)
 {
   bool more = a->turning.compare || a->turning.frontier || a->compare;
-  return o->time_limit * (more && a->time_limit > 0 ? 0.5 : 1);
+  return o->time_limit * (more && a->guard.seconds > 0 ? 0.5 : 1);
 }
 
 static int put_turning(thr_text *t, const arguments *a, const planned *x)
 {
   turning_rivals r = {0};
-  int code = turning_rivals_make(&x->plan, a->turning.compare, a->turning.frontier, deadline_of(a, x), &r);
+  int code = turning_rivals_make(&x->plan, a->turning.compare, a->turning.frontier, deadline_of(a), &r);
   (a->json ? plan_put_json : plan_put_summary)(t, &x->plan, &r, x->word);
   turning_rivals_destroy(&r);
   return code;
@@ -379,7 +390,7 @@ static int print_summary(const arguments *a, const planned *x)
   default: (a->json ? plan_put_json : plan_put_summary)(&t, &x->plan, NULL, x->word);
   }
   if (a->compare) {
-    int done = put_comparison(&t, a, &x->plan, deadline_of(a, x));
+    int done = put_comparison(&t, a, &x->plan, deadline_of(a));
     if (!code) code = done;
   }
   if (a->json) thr_text_append(&t, "}\n");
@@ -389,43 +400,64 @@ static int print_summary(const arguments *a, const planned *x)
 
 /* ---- outputs ---- */
 
-static int write_plan(const thr_plan *p, const char *path)
+/* Where plan and diagrams go: where the options say; where they say nothing, in a folder named after the framework. */
+typedef struct {
+  const char *plan, *folder; /* folder: NULL = no diagrams */
+  char stem[256], in_folder[1200];
+} places;
+
+static int find_places(const arguments *a, places *to)
+{
+  cli_stem(a->path, to->stem, sizeof to->stem);
+  const char *folder = a->draw ? a->draw : to->stem;
+  to->plan = a->output ? a->output : to->in_folder;
+  to->folder = a->draw || !a->output ? folder : NULL;
+  return a->output ? EXIT_OK : cli_in_folder(folder, "plan.json", to->in_folder, sizeof to->in_folder);
+}
+
+/* From here on the plan is what this run leaves, with this exit code. */
+static int write_plan(const thr_plan *p, const char *path, int code)
 {
   thr_text t = {0};
   thr_plan_write(p, &t);
-  return cli_write(&t, path);
+  guard_writing();
+  int written = cli_write(&t, path);
+  guard_written(written ? written : code);
+  return written;
 }
 
-/* Plan and diagrams where the options say; where they say nothing, in a folder named after the framework. */
-static int write_outputs(const arguments *a, const planned *x)
+/* code: of the plan. */
+static int write_outputs(const arguments *a, const planned *x, int planned_code)
 {
   const thr_plan *p = &x->plan;
-  char stem[256], in_folder[1200], names[DRAWINGS_NAMES];
-  const char *plan_path = a->output ? a->output : in_folder;
-  cli_stem(a->path, stem, sizeof stem);
-  const char *folder = a->draw ? a->draw : stem;
-  bool draw = a->draw || !a->output;
-  int code = a->output ? EXIT_OK : cli_in_folder(folder, "plan.json", in_folder, sizeof in_folder);
-  if (!code) code = write_plan(p, plan_path);
-  if (!code && draw) code = drawings_write_all(p, folder, &a->drawings);
-  if (!code && draw && drawings_no_sheets(p, &a->drawings))
+  places to;
+  char names[DRAWINGS_NAMES];
+  int code = find_places(a, &to);
+  if (!code) code = write_plan(p, to.plan, planned_code);
+  int drawn = !code && to.folder ? drawings_write_all(p, to.folder, &a->drawings) : EXIT_OK;
+  if (drawn != EXIT_LIMIT) code = code ? code : drawn; /* the plan's own code says how it was with the time */
+  bool to_stdout = strcmp(to.plan, "-") == 0;
+  if (!code && to.folder && drawings_no_sheets(p, &a->drawings))
     cli_note("no sheets.pdf, which takes long for more than %d beads: thread draw %s -T pdf", DRAWINGS_SHEETS_BEADS,
-             strcmp(plan_path, "-") == 0 ? "plan.json" : plan_path);
-  bool to_stdout = strcmp(plan_path, "-") == 0;
+             to_stdout ? "plan.json" : to.plan);
   if (code || to_stdout || (cli_quiet && !a->json)) return code;
   code = print_summary(a, x);
   if (a->json) return code;
-  printf("%splan     %s\n", a->compare || p->options.objective == THR_TORTUOSITY ? "\n" : "", plan_path);
+  printf("%splan     %s\n", a->compare || p->options.objective == THR_TORTUOSITY ? "\n" : "", to.plan);
   drawings_names(p, &a->drawings, names);
-  if (draw) printf("drawn    in %s: %s\n", folder, names);
+  if (to.folder && !drawn) printf("drawn    in %s: %s\n", to.folder, names);
   return code;
 }
 
+/* Time that nobody asked for is the search's alone. */
 static thr_status make_plan(const arguments *a, const thr_frame *f, const thr_plan_options *o, planned *x, thr_err *err)
 {
   char versions[160];
-  thr_limits limits = cli_limits(time_of_plan(a, o));
   thr_status st;
+  if (a->guard.seconds < 0) guard_allow(o->time_limit);
+  thr_limits limits = cli_limits(time_of_plan(a, o));
+  best_begin(f, o);
+  limits.found = best_found;
   if (o->objective == THR_SYMMETRY)
     st = plan_symmetric(f, o, &limits, &x->table, &x->plan, err);
   else if (o->objective == THR_LENGTH)
@@ -433,6 +465,7 @@ static thr_status make_plan(const arguments *a, const thr_frame *f, const thr_pl
   else
     st = a->objective->plan(f, o, &limits, &x->plan, err);
   cli_progress_end();
+  if (a->guard.seconds < 0) guard_allow(0);
   snprintf(versions, sizeof versions, "thread %s, GLPK %s, igraph %s, nauty %s", THR_VERSION, thr_glpk_version(),
            thr_igraph_version(), thr_nauty_version());
   x->plan.generator = thr_strdup(versions);
@@ -442,14 +475,14 @@ static thr_status make_plan(const arguments *a, const thr_frame *f, const thr_pl
 static int plan_frame(const arguments *a, const thr_frame *f)
 {
   thr_err err = {0};
-  planned x = {.start = thr_clock()};
+  planned x = {0};
   thr_plan_options o = thr_plan_options_default();
   ask(a, a->objective, &o);
   int code = apply_physics(a, f, &o);
   if (!code) code = cords_args_apply(&a->cords, f, &o);
   if (code == EXIT_OK) {
     thr_status st = make_plan(a, f, &o, &x, &err);
-    if (st == THR_OK || (st == THR_ELIMIT && x.plan.n_cords > 0)) code = write_outputs(a, &x);
+    if (st == THR_OK || (st == THR_ELIMIT && x.plan.n_cords > 0)) code = write_outputs(a, &x, st ? EXIT_LIMIT : EXIT_OK);
     if (code == EXIT_OK && st) code = cli_fail(&err);
   }
   free(o.end_node);
@@ -459,12 +492,29 @@ static int plan_frame(const arguments *a, const thr_frame *f)
   return code;
 }
 
+/* After the child that planned: if it left no plan, but had some cords, they are the plan. */
+static int conclude(const arguments *a, guard_end *end)
+{
+  places to;
+  if (end->written) return guard_conclude(end, "the plan is written, but not all that was to be drawn or said of it");
+  if (end->kept.length == 0 || (end->reason == GUARD_DONE && end->code == EXIT_OK))
+    return guard_conclude(end, "no plan was found");
+  int code = find_places(a, &to);
+  if (!code) code = cli_write(&end->kept, to.plan);
+  thr_text_destroy(&end->kept);
+  if (code) return code;
+  cli_error("%s%s%s holds the best plan so far, of which nothing is proved", end->why, *end->why ? ": " : "", to.plan);
+  return EXIT_LIMIT;
+}
+
 int cmd_plan(int argc, char **argv)
 {
   arguments a;
   thr_frame f;
+  guard_end end;
   int code = parse(argc, argv, &a);
   if (code >= 0) return code;
+  if (guard_fork(&a.guard, &end)) return conclude(&a, &end);
   if ((code = cli_read_frame(a.path, &a.frame, &f))) return code;
   code = plan_frame(&a, &f);
   thr_frame_destroy(&f);

@@ -1,4 +1,5 @@
 /* thread symmetries: the groups of a framework, and the best symmetric threading under each. */
+#include "cli/guard.h"
 #include "cli/symmetry_args.h"
 #include "cli/symmetry_table.h"
 
@@ -20,13 +21,13 @@ static const char help[] =
     "      --capacity N     at most N passes through any edge (default: what the framework file says, or any number)\n"
     "      --joint solid|tube   tube: only edges are beads, and cords tie them at every node (default: solid)\n" SYMMETRY_HELP
     "      --mu X           friction, for the capstan factor (default: 0.2)\n"
-    "      --time-limit S   for all groups together, 0 = no limit (default: 20)\n"
+    "      --time-limit S   for all groups together, 0 = no limit (default: 20)\n" GUARD_MEMORY_HELP
     "      --json           as JSON\n" CLI_FRAME_HELP
     "  -q, --quiet          no notes and no progress       -v, --verbose  what the solver does       -h, --help\n\n"
     "* marks the default choice of thread plan --objective symmetry. A step is a pass of a unique path: what is to be learned.\n"
     "Exit codes: 0 every row proved, 2 usage, 3 bad input, 4 infeasible, 5 some rows not proved in time (table printed)\n";
 
-enum { OPTION_ENDS = OPTION_SYMMETRY_FREE, OPTION_COVER, OPTION_CAPACITY, OPTION_JOINT, OPTION_MU, OPTION_TIME, OPTION_JSON };
+enum { OPTION_ENDS = OPTION_SYMMETRY_FREE, OPTION_COVER, OPTION_CAPACITY, OPTION_JOINT, OPTION_MU, OPTION_JSON };
 
 static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       CLI_FRAME_OPTIONS,
@@ -36,13 +37,14 @@ static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       {"capacity", required_argument, NULL, OPTION_CAPACITY},
                                       {"joint", required_argument, NULL, OPTION_JOINT},
                                       {"mu", required_argument, NULL, OPTION_MU},
-                                      {"time-limit", required_argument, NULL, OPTION_TIME},
+                                      GUARD_OPTIONS,
                                       {"json", no_argument, NULL, OPTION_JSON},
                                       {NULL, 0, NULL, 0}};
 
 typedef struct {
   cli_frame_args frame;
   symmetry_args symmetry;
+  guard_limits guard;
   thr_plan_options plan;
   const char *path, *ends;
   bool json;
@@ -67,20 +69,19 @@ static int parse(int argc, char **argv, arguments *a)
   bool ok = true;
   *a = (arguments){.frame = cli_frame_args_default(),
                    .symmetry = symmetry_args_default(),
+                   .guard = {.seconds = 20, .memory = guard_limits_default().memory},
                    .plan = thr_plan_options_default(),
                    .ends = "closed"};
   a->plan.objective = THR_SYMMETRY;
-  a->plan.time_limit = 20;
   while ((o = cli_next_option(argc, argv, "symmetries", ":" CLI_COMMON_LETTERS, table, help, &done)) != -1) {
     if (!cli_frame_option(&a->frame, "symmetries", o, optarg, &ok) &&
-        !symmetry_option(&a->symmetry, "symmetries", o, optarg, &ok)) {
+        !symmetry_option(&a->symmetry, "symmetries", o, optarg, &ok) && !guard_option(&a->guard, "symmetries", o, optarg, &ok)) {
       switch (o) {
       case OPTION_ENDS: a->ends = optarg; break;
       case OPTION_COVER: ok = cli_int("symmetries", "--cover", optarg, 1, 100, &a->plan.cover); break;
       case OPTION_CAPACITY: ok = cli_int("symmetries", "--capacity", optarg, 1, 1000, &a->plan.capacity); break;
       case OPTION_JOINT: ok = parse_joint(optarg, &a->plan.joint); break;
       case OPTION_MU: ok = cli_double("symmetries", "--mu", optarg, 0, 10, &a->plan.physics.mu); break;
-      case OPTION_TIME: ok = cli_double("symmetries", "--time-limit", optarg, 0, 1e9, &a->plan.time_limit); break;
       case OPTION_JSON: a->json = true; break;
       }
     }
@@ -92,6 +93,7 @@ static int parse(int argc, char **argv, arguments *a)
     return cli_usage("symmetries", "--capacity %d leaves no room for --cover %d", a->plan.capacity, a->plan.cover);
   a->path = argv[optind];
   a->plan.symmetry = a->symmetry.options;
+  a->plan.time_limit = a->guard.seconds;
   return -1;
 }
 
@@ -134,8 +136,10 @@ int cmd_symmetries(int argc, char **argv)
 {
   arguments a;
   thr_frame f;
+  guard_end end;
   int code = parse(argc, argv, &a);
   if (code >= 0) return code;
+  if (guard_fork(&a.guard, &end)) return guard_conclude(&end, "no threadings");
   if ((code = cli_read_frame(a.path, &a.frame, &f))) return code;
   code = list_symmetries(&a, &f);
   thr_frame_destroy(&f);

@@ -1,6 +1,7 @@
 #include "cli/drawings.h"
 
 #include "cli/copies.h"
+#include "cli/guard.h"
 #include "diagram/polylines.h"
 #include "diagram/sheets.h"
 #include "diagram/steps.h"
@@ -147,14 +148,29 @@ void drawings_names(const thr_plan *p, const drawings_args *a, char names[DRAWIN
       n += snprintf(names + n, (size_t)(DRAWINGS_NAMES - n), "%s%s", n ? " " : "", documents[i].file);
 }
 
-/* The step sheets last: they take longest, and who stops them has all others. */
+/* In this order: the step sheets last, which take longest, so that who stops them has all others. */
+static int nth_document(int k)
+{
+  return k == N_DOCUMENTS - 1 ? SHEETS : k < SHEETS ? k : k + 1;
+}
+
+/* Is there no time for document k and those after it? Says so. */
+static bool too_late(int k)
+{
+  if (guard_deadline() == 0 || thr_clock() < guard_deadline()) return false;
+  cli_error("not drawn for lack of time: %s%s", documents[nth_document(k)].file,
+            k + 1 < N_DOCUMENTS ? " and what follows it" : "");
+  return true;
+}
+
 int drawings_write_all(const thr_plan *p, const char *folder, const drawings_args *a)
 {
   int code = EXIT_OK;
   for (int k = 0; k < N_DOCUMENTS && !code; k++) {
-    int i = k == N_DOCUMENTS - 1 ? SHEETS : k < SHEETS ? k : k + 1;
+    int i = nth_document(k);
     char path[1200];
     if (i == SHEETS && drawings_no_sheets(p, a)) break;
+    if (too_late(k)) return EXIT_LIMIT;
     code = cli_in_folder(folder, documents[i].file, path, sizeof path);
     if (!code) code = drawings_write(p, i, path, a);
   }

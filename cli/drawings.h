@@ -38,7 +38,8 @@ bool drawings_option(drawings_args *a, const char *command, int option, const ch
 /* Writes document i of the plan to path ("-" = stdout). Returns EXIT_OK or prints and returns the code. */
 int drawings_write(const thr_plan *p, int i, const char *path, const drawings_args *a);
 
-/* Writes all of them into folder, which is made if needed, under their usual names; stops at the first that fails. */
+/* Writes all of them into folder, which is made if needed, under their usual names; stops at the first that fails,
+ * and with EXIT_LIMIT, printed, where the time of the command is over. */
 int drawings_write_all(const thr_plan *p, const char *folder, const drawings_args *a);
 
 /* Does that leave out the step sheets? */

@@ -23,3 +23,8 @@ bool thr_limits_stop(const thr_limits *l)
 {
   return thr_limits_left(l, 1) <= 0;
 }
+
+void thr_limits_found(const thr_limits *l, const struct thr_cord *cord, int n_cords, const struct thr_symmetry_record *symmetry)
+{
+  if (l->found && n_cords > 0) l->found(l->user, cord, n_cords, symmetry);
+}

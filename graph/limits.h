@@ -5,6 +5,9 @@
 #include <signal.h>
 #include <stdbool.h>
 
+struct thr_cord;
+struct thr_symmetry_record;
+
 /* {0}: no limit, no interrupt, silent. */
 typedef struct {
   double deadline;                          /* thr_clock() at which to stop; 0 = none */
@@ -14,6 +17,8 @@ typedef struct {
   void (*progress)(void *user, const char *what, double best, double bound);
   /* called by work whose amount is known beforehand, with the part that is done: 0 .. 1 */
   void (*advance)(void *user, const char *what, double done);
+  /* thr_limits_found */
+  void (*found)(void *user, const struct thr_cord *cord, int n_cords, const struct thr_symmetry_record *symmetry);
   void *user;
 } thr_limits;
 
@@ -24,5 +29,10 @@ bool thr_limits_stop(const thr_limits *l);
 
 /* Seconds left, at most `most` and at least 0. */
 double thr_limits_left(const thr_limits *l, double most);
+
+/* Cords of the whole framework that may be what is asked for, as soon as there are some and whenever there are better ones: they
+ * are what is left if the search has to be ended. Who listens finds out itself whether they are; symmetry: of cords that are
+ * copies of each other, else NULL. Nothing is taken over. */
+void thr_limits_found(const thr_limits *l, const struct thr_cord *cord, int n_cords, const struct thr_symmetry_record *symmetry);
 
 #endif

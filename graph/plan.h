@@ -80,7 +80,7 @@ typedef struct {
 } thr_plan_options;
 
 /* A cord: consecutive half-edges; half[i] arrives where half[i + 1] leaves. A closed cord also ends where it starts. */
-typedef struct {
+typedef struct thr_cord {
   char id[12];   /* "A", "B", .. "Z", "AA", .. */
   int component; /* of the framework, numbered by lowest node */
   bool closed;   /* both ends at one node */
@@ -159,7 +159,7 @@ typedef struct {
 
 /* How the cords of a plan for THR_SYMMETRY are copies of a few unique paths under a group of automorphisms. Cords are compared by
  * the nodes that they run through: of two alike one is a copy of the other, by the identity if need be. */
-typedef struct {
+typedef struct thr_symmetry_record {
   bool present;
   int order;        /* of the group, 1 .. 1024 */
   char name[16];    /* its point group (Schoenflies), or "" if it is a group of the graph only */

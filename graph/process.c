@@ -48,10 +48,16 @@ static bool keep_quiet(int *result, int words)
   return *result >= 0 && words >= 0 && fcntl(words, F_SETFL, O_NONBLOCK) == 0 && dup2(words, 1) >= 0 && dup2(words, 2) >= 0;
 }
 
-/* Never returns. A parent that died before the kernel knew that its death is to end this process is no longer the parent. */
-static void run_child(bool (*run)(void *user, int fd), void *user, pid_t parent, const sigset_t *mask, int fd, int words)
+/* A parent that died before the kernel knew that its death is to end this process is no longer the parent. */
+void thr_process_die_with(pid_t parent)
 {
   if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || getppid() != parent) _exit(1);
+}
+
+/* Never returns. */
+static void run_child(bool (*run)(void *user, int fd), void *user, pid_t parent, const sigset_t *mask, int fd, int words)
+{
+  thr_process_die_with(parent);
   leave_signals_to_parent(mask);
   _exit(keep_quiet(&fd, words) && run(user, fd) ? SENT : 1);
 }

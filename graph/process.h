@@ -1,5 +1,6 @@
 /* A child process that cannot harm its parent: what it prints is kept from the terminal, Ctrl-C is left to the parent, and it
- * dies when the parent dies. Everything that runs in a child is started here (graph/workers.h, graph/child.h). */
+ * dies when the parent dies. Everything that runs in a child is started here (graph/workers.h, graph/child.h), but for commands
+ * as a whole (cli/guard.h). */
 #ifndef THR_PROCESS_H
 #define THR_PROCESS_H
 
@@ -24,6 +25,9 @@ bool thr_process_send(int fd, const char *data, size_t n);
 /* Waits for the end, closes the pipes and leaves *p empty. THR_ESOLVER if the child did not end by run returning true: the text
  * begins with `who`, says the signal and what was printed, and ends with `advice` (NULL: none). */
 thr_status thr_process_end(thr_process *p, const char *who, const char *advice, thr_err *err);
+
+/* In a child: it is killed when its parent dies, whose process it was told; at once if that is dead already. */
+void thr_process_die_with(pid_t parent);
 
 /* Ends it at once, whatever it does, and closes the pipes; nothing if there is no child. */
 void thr_process_kill(thr_process *p);

@@ -114,6 +114,30 @@ static thr_status straighten(const several *x, int k, int *passes, thr_err *err)
   return st;
 }
 
+/* The walks as they are, for whoever keeps the best cords so far. */
+static thr_status tell(const several *x, thr_err *err)
+{
+  thr_plan p = {.frame = *x->f, .options = *x->o};
+  if (!x->limits->found) return THR_OK;
+  thr_trails *copy = thr_calloc((size_t)x->n_components, sizeof *copy);
+  thr_status st = copy ? THR_OK : thr_nomem(err);
+  for (int k = 0; k < x->n_components && !st; k++)
+    for (int i = 0; i < x->trails[k].n_trails && !st; i++) {
+      thr_trail w = x->trails[k].walk[i];
+      size_t bytes = (size_t)w.n * sizeof *w.half;
+      w.half = thr_calloc((size_t)w.n, sizeof *w.half);
+      if (w.half) memcpy(w.half, x->trails[k].walk[i].half, bytes);
+      st = w.half ? thr_trails_add(&copy[k], x->f, w, err) : thr_nomem(err);
+    }
+  if (!st) st = thr_trails_plan(copy, x->n_components, &p, err);
+  if (!st) thr_limits_found(x->limits, p.cord, p.n_cords, NULL);
+  thr_cords_destroy(p.cord, p.n_cords);
+  for (int k = 0; copy && k < x->n_components; k++)
+    thr_trails_destroy(&copy[k]);
+  free(copy);
+  return st;
+}
+
 static thr_status make_exact(several *x, int k, double goal, thr_err *err)
 {
   bool certain;
@@ -164,9 +188,13 @@ static thr_status share_out(several *x, const thr_certificate *c, bool even, dou
     new[k] = (thr_trails){0};
     st = x->o->ends == THR_ENDS_CLOSED ? make_closed(x, k, even, err)
                                        : thr_share_cut(&x->share, x->wanted[k], even, &x->trails[k], err);
-    if (!st && even) st = thr_balance_walks(&x->share, &x->trails[k], goal, x->limits, x->passes, err);
-    if (!st && even) st = make_exact(x, k, goal, err);
-    if (!st && even) st = straighten(x, k, passes, err);
+  }
+  if (!st && even) st = tell(x, err);
+  for (int k = 0; k < x->n_components && even && !st; k++) {
+    if (!x->wanted[k]) continue;
+    st = thr_balance_walks(&x->share, &x->trails[k], goal, x->limits, x->passes, err);
+    if (!st) st = make_exact(x, k, goal, err);
+    if (!st) st = straighten(x, k, passes, err);
   }
   for (int k = 0; new &&k < x->n_components; k++)
     thr_trails_destroy(&new[k]);

@@ -111,6 +111,18 @@ static bool is_said(thr_status st)
   return st == THR_ELIMIT || st == THR_EINFEASIBLE || st == THR_EINPUT || st == THR_ESOLVER;
 }
 
+/* The cords of a cover for whoever keeps the best so far; what fails here shows again when the row is made. */
+static void tell(const thr_quotient *q, const thr_cover_options *how, const thr_cover *c, const thr_limits *limits)
+{
+  int n;
+  thr_cord *cord;
+  thr_symmetry_record record = {0};
+  if (!limits->found || !c->copies || thr_cover_cords(q, how, c, &cord, &n, &record, NULL)) return;
+  thr_limits_found(limits, cord, n, &record);
+  thr_symmetry_record_destroy(&record);
+  thr_cords_destroy(cord, n);
+}
+
 /* Goes on with the row's cover; the last time it becomes the row's threading. */
 static thr_status solve(solver *s, int i, bool quick, const thr_limits *limits, thr_err *err)
 {
@@ -121,6 +133,7 @@ static thr_status solve(solver *s, int i, bool quick, const thr_limits *limits, 
   thr_status st = thr_quotient_init(&q, s->f, &s->t->group[row->group].all, &row->elements, MOST_TYPES, &row->why);
   if (!st) {
     st = thr_cover_improve(&q, &s->how, limits, &s->cover[i], &row->why);
+    if (!st || st == THR_ELIMIT) tell(&q, &s->how, &s->cover[i], limits);
     if (!quick && (!st || st == THR_ELIMIT)) {
       thr_status made = take_cover(s, &q, &s->cover[i], row, &row->why);
       if (made) st = made;
@@ -153,6 +166,7 @@ thr_status thr_symmetry_shortest_tied(const thr_frame *f, const thr_plan_options
   st = thr_group_generate(f->n_nodes, NULL, 0, 1, &g, err);
   if (!st) st = thr_quotient_init(&q, f, &g, &alone, MOST_TYPES, err);
   if (!st) st = thr_cover_find(&q, &s.how, limits, &c, &why);
+  if (!st || st == THR_ELIMIT) tell(&q, &s.how, &c, limits);
   *optimal = false;
   *length = s.base;
   if (!st || st == THR_ELIMIT) {

@@ -58,6 +58,19 @@ static void choose(thr_symmetries *t)
 
 /* ---- all rows ---- */
 
+/* The shortest cords, one in each component, for whoever keeps the best so far. */
+static thr_status tell_shortest(const thr_frame *f, const thr_plan_options *o, const thr_shortest *s, const thr_limits *limits,
+                                thr_err *err)
+{
+  int n = 0;
+  thr_cord *cord = NULL;
+  if (!limits->found) return THR_OK;
+  thr_status st = thr_postman_cords(f, o, s->passes, &cord, &n, err);
+  if (!st) thr_limits_found(limits, cord, n, NULL);
+  thr_cords_destroy(cord, n);
+  return st;
+}
+
 /* With one cord per component, if that can be. */
 static thr_status find_shortest(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_symmetries *t,
                                 thr_err *err)
@@ -77,8 +90,9 @@ static thr_status find_shortest(const thr_frame *f, const thr_plan_options *o, c
   if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", why.text);
   t->shortest = s.length;
   t->shortest_optimal = s.optimal;
+  st = few.cords == 1 ? tell_shortest(f, &few, &s, limits, err) : THR_OK;
   thr_shortest_destroy(&s);
-  return THR_OK;
+  return st;
 }
 
 /* What was asked for and could not be had. */

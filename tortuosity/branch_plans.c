@@ -27,8 +27,20 @@ static int64_t price_of_passes(const thr_branch *b, const int *passes)
   return price;
 }
 
+/* For whoever keeps the best cords so far. */
+static thr_status tell(const thr_branch *b, thr_err *err)
+{
+  int n = thr_join_count(&b->best);
+  if (!b->limits->found) return THR_OK;
+  thr_cord *cord = thr_calloc((size_t)n, sizeof *cord);
+  thr_status st = cord ? thr_join_cords(&b->best, cord, n, err) : thr_nomem(err);
+  if (!st) thr_limits_found(b->limits, cord, n, NULL);
+  thr_cords_destroy(cord, n);
+  return st;
+}
+
 /* Takes over a joined multigraph if it is the best so far; releases it otherwise. */
-static void keep_better(thr_branch *b, thr_join *j, const int *passes)
+static thr_status keep_better(thr_branch *b, thr_join *j, const int *passes, thr_err *err)
 {
   bool forbidden = j->price >= thr_join_forbidden;
   int64_t price = forbidden ? INT64_MAX : (int64_t)nearbyint(ldexp(j->price, THR_TURNING_BITS));
@@ -37,7 +49,7 @@ static void keep_better(thr_branch *b, thr_join *j, const int *passes)
   bool by_length = b->shortest && fabs(length - b->best_length) > 1e-9 * (1 + length);
   if (forbidden || (by_length ? length > b->best_length : price >= b->best_price)) {
     thr_join_destroy(j);
-    return;
+    return THR_OK;
   }
   if (b->found) thr_join_destroy(&b->best);
   b->best = *j;
@@ -47,16 +59,15 @@ static void keep_better(thr_branch *b, thr_join *j, const int *passes)
   b->best_passes = 0;
   for (int e = 0; e < b->c->f->n_edges; e++)
     b->best_passes += passes[e];
+  return tell(b, err);
 }
 
 thr_status thr_branch_try_circuits(thr_branch *b, thr_join *j, const int *passes, thr_err *err)
 {
   bool found = within_limits(b->c, passes);
   thr_status st = found ? thr_circuits_make(j, b->limits, &found, err) : THR_OK;
-  if (!st && found)
-    keep_better(b, j, passes);
-  else
-    thr_join_destroy(j);
+  if (!st && found) return keep_better(b, j, passes, err);
+  thr_join_destroy(j);
   return st;
 }
 
@@ -109,10 +120,8 @@ static thr_status try_columns(thr_branch *b, const int *passes, const int *ends,
   if (st) return st;
   st = thr_join_columns(&j, b->whole, &single, err);
   if (!st && b->several) st = thr_circuits_make(&j, b->limits, &single, err);
-  if (!st && single)
-    keep_better(b, &j, passes);
-  else
-    thr_join_destroy(&j);
+  if (!st && single) return keep_better(b, &j, passes, err);
+  thr_join_destroy(&j);
   return st;
 }
 
@@ -135,10 +144,8 @@ thr_status thr_branch_try(thr_branch *b, const int *passes, const int *ends, thr
   if (st) return st;
   st = thr_join_greedy(&j, 0, err);
   if (!st) st = thr_improve(&j, b->limits, err);
-  if (st)
-    thr_join_destroy(&j);
-  else
-    keep_better(b, &j, passes);
+  if (!st) return keep_better(b, &j, passes, err);
+  thr_join_destroy(&j);
   return st;
 }
 
@@ -153,10 +160,8 @@ thr_status thr_branch_try_cords(thr_branch *b, const thr_cord *cord, int n_cords
   thr_status st = thr_join_from_cords(&j, b->c, cord, n_cords, err);
   if (!st && b->several) return thr_branch_try_circuits(b, &j, b->passes, err);
   if (!st && !b->c->task->tube) st = thr_improve(&j, b->limits, err);
-  if (st)
-    thr_join_destroy(&j);
-  else
-    keep_better(b, &j, b->passes);
+  if (!st) return keep_better(b, &j, b->passes, err);
+  thr_join_destroy(&j);
   return st;
 }
 

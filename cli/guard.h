@@ -1,0 +1,71 @@
+/* Limits that hold whatever a command does: it runs in a child process whose memory the system bounds, and which is ended when
+ * its time is over. What the child has found so far it hands to its parent, which outlives it.
+ *
+ *   guard_end end;
+ *   if (guard_fork(&limits, &end)) return conclude(&end);   the parent, after the child's end
+ *   ..                                                       the child goes on, and returns its exit code as always */
+#ifndef THR_GUARD_H
+#define THR_GUARD_H
+
+#include "graph/text.h"
+
+#include <getopt.h>
+
+/* --time-limit and --memory. */
+typedef struct {
+  double seconds; /* 0 = no limit, < 0 = not said */
+  double memory;  /* bytes, 0 = no limit */
+} guard_limits;
+
+enum { OPTION_TIME = 900, OPTION_MEMORY }; /* beyond the options that commands number on from each other */
+#define GUARD_OPTIONS                                                                                                            \
+  {"time-limit", required_argument, NULL, OPTION_TIME},                                                                          \
+  {                                                                                                                              \
+    "memory", required_argument, NULL, OPTION_MEMORY                                                                             \
+  }
+#define GUARD_MEMORY_HELP "      --memory SIZE    give up beyond so much memory, as 500MB or 2GB, 0 = any (default: 2GB)\n"
+#define GUARD_HELP "      --time-limit S   give up after S seconds, 0 = never (default: 0)\n" GUARD_MEMORY_HELP
+
+guard_limits guard_limits_default(void); /* no time said, 2 GB */
+
+/* Takes one of the options above; false if it is none of them. *ok false: its value was bad (printed). */
+bool guard_option(guard_limits *l, const char *command, int option, const char *value, bool *ok);
+
+typedef enum {
+  GUARD_DONE,        /* the child ended by itself, with `code` */
+  GUARD_TIME,        /* it did not end in its time, and was ended */
+  GUARD_INTERRUPTED, /* nor when it was asked to by a signal */
+  GUARD_MEMORY,      /* it had no more memory */
+  GUARD_DIED         /* of a signal that nobody here sent */
+} guard_reason;
+
+typedef struct {
+  guard_reason reason;
+  int code;      /* GUARD_DONE: the exit code */
+  bool written;  /* its result was out, with exit code `code`: only what comes after is missing */
+  thr_text kept; /* what it handed over last; owned by the caller */
+  char why[120]; /* the reason in words: "not done after 2 s" */
+} guard_end;
+
+/* Forks. Returns false in the child. Returns true in the parent, after the child has ended, or if there could be none (printed:
+ * GUARD_DONE with EXIT_INTERNAL). The first SIGINT or SIGTERM is passed on to the child, which has half a second more then; the
+ * second ends both at once. */
+bool guard_fork(const guard_limits *l, guard_end *end);
+
+/* thr_clock() at which the child must be done; 0 = any time. Without a child 0. */
+double guard_deadline(void);
+
+/* From here on there are so many seconds, whatever there were; 0 = any time. */
+void guard_allow(double seconds);
+
+/* In the child; nothing without one. kept: replaces what was handed over before. Between writing and written nothing ends the
+ * child but a second signal. No memory: what the parent is to say if the child fails now. */
+void guard_keep(const thr_text *t);
+void guard_writing(void);
+void guard_written(int code);
+void guard_no_memory(void);
+
+/* What a command does that has nothing to hand over: prints why it ended and returns the exit code. */
+int guard_conclude(guard_end *end, const char *missing);
+
+#endif
