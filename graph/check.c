@@ -167,8 +167,7 @@ static thr_status walked_from_cords(thr_check_walked *w, const thr_frame *f, con
   return st;
 }
 
-/* As many cords in every component as the options say; of a symmetric plan, in the one that has most. A claim about turning is
- * one about exactly so many, or as many as the given ends make. */
+/* As many cords in every component as the options say; of a symmetric plan, in the one that has most. */
 static thr_status check_cord_count(const thr_check_walked *w, const thr_plan_options *o, const thr_cord *cord, int n_cords,
                                    thr_err *err)
 {
@@ -176,8 +175,7 @@ static thr_status check_cord_count(const thr_check_walked *w, const thr_plan_opt
   thr_status st = count ? THR_OK : thr_nomem(err);
   for (int i = 0; i < n_cords && !st; i++)
     count[cord[i].component]++;
-  bool range = o->objective == THR_LENGTH || (o->objective == THR_TORTUOSITY && o->ends == THR_ENDS_COUNTS);
-  int first = 0, end = w->n_components, least = range ? o->cords_least : o->cords;
+  int first = 0, end = w->n_components, least = o->objective == THR_SYMMETRY ? o->cords : o->cords_least;
   for (int k = 0; k < w->n_components && !st && o->objective == THR_SYMMETRY; k++) {
     if (count[k] > count[first]) first = k;
     end = first + 1;
@@ -387,11 +385,19 @@ static thr_status check_length_claim(const thr_plan *p, const thr_check_walked *
   if (p->options.joint == THR_JOINT_TUBE) {
     thr_status st = thr_tied_least(&p->frame, &p->options, &claim->tied, &lower_bound, err);
     if (st) return st;
+    if (lower_bound > length && !thr_check_close(lower_bound, length, length))
+      return thr_fail(err, THR_EVIOLATED, "proof.length: the tree proves %.12g, which is more than the length %.12g", lower_bound,
+                      length);
     optimal = lower_bound >= length * (1 - 1e-9);
   } else {
     sum_verdicts(&p->frame, &p->options, verdict, w->n_components, length, &optimal, &lower_bound);
   }
   *proved = lower_bound;
+  if (!claim->slack_open && !thr_plan_within_slack(&p->options, length, lower_bound))
+    return thr_fail(err, THR_EVIOLATED,
+                    "options.turning.length_slack: at most %.12g above the least length, but the cords are %.12g long and only "
+                    "%.12g is proved",
+                    p->options.turning.length_slack, length, lower_bound);
   if (claim->optimal && !optimal)
     return thr_fail(err, THR_EVIOLATED, "proof.length: says optimal, but the certificate only proves %.12g of %.12g", lower_bound,
                     p->metrics.length);

@@ -19,6 +19,7 @@ typedef struct {
   const thr_check_walked *w;
   int *start, *node;      /* nodes of component k: node[start[k] .. start[k + 1] - 1] */
   int *edge_start, *edge; /* its edges likewise */
+  int *cords;             /* [n_components] that a component has at most */
   bool *odd;              /* [n_nodes] */
   int *far_start, *far;   /* at v, the other ends of its edges to nodes with more edges: at most sqrt(2 * n_edges) of them */
   int *far_edge;          /* those edges */
@@ -246,26 +247,47 @@ static wide least_weight(const thr_certificate *c, wide places, int64_t ends)
   return proved > 0 ? (proved + c->denominator - 1) / c->denominator : 0;
 }
 
+/* Least weight of extra passes that leave so many ends, as a length: what rounding may have added is taken off. Passes x cost
+ * at least (1 - r) w x / scale less what each edge's rounding adds above its part r, whatever r is; two of them are tried. */
 double thr_check_extra(const thr_certificate *c, const thr_check_verdict *v, int64_t ends)
 {
-  return fmax(0, (double)least_weight(c, v->places, ends) / c->scale - v->rounding);
+  double weight = (double)least_weight(c, v->places, ends) / c->scale;
+  return fmax(0, fmax(weight - v->rounding, weight * (1 - THR_CHECK_ROUNDING) - v->rounding_above));
+}
+
+/* Extra passes of an edge in some shortest plan, at the most. Two passes less leave parity and ends as they are; and where more
+ * passes than 2 cords run over an edge, one cord has three of them, and can do without two. */
+static int most_extra(const workspace *k, const thr_certificate *c, int e)
+{
+  int cover = thr_plan_cover(k->f, k->o, e), room = thr_plan_capacity(k->f, k->o, e) - cover;
+  int most = c->n_prices > 0 && 2 * k->cords[c->component] - cover > 1 ? 2 * k->cords[c->component] - cover : 1;
+  return most < room ? most : room;
+}
+
+/* What rounding an edge's length up to its weight may add to a bound. */
+static void charge_rounding(const workspace *k, const thr_certificate *c, int e, thr_check_verdict *out)
+{
+  double weight = (double)thr_certificate_weight(k->f, c, e) / c->scale, added = weight - k->f->length[e];
+  int most = most_extra(k, c, e);
+  out->rounding += fmax(0, added) * most;
+  out->rounding_above += fmax(0, added - THR_CHECK_ROUNDING * weight) * most;
 }
 
 /* Compares the stated sums with the true ones, and says what they prove. */
 static thr_status judge(const workspace *k, const thr_certificate *c, wide sum, wide places, thr_check_verdict *out, thr_err *err)
 {
-  bool extra = false, weightless = false; /* a scale may round what passes cost to nothing */
+  bool weightless = false; /* a scale may round what passes cost to nothing */
   wide join = 0;
-  double total = 0;
+  double total = 0, extra = 0;
   *out = (thr_check_verdict){.places = places};
   for (int j = k->edge_start[c->component]; j < k->edge_start[c->component + 1]; j++) {
     int e = k->edge[j], more = k->w->passes[e] - thr_plan_cover(k->f, k->o, e);
-    int64_t w = thr_certificate_weight(k->f, c, e);
-    join += (wide)w * more;
-    extra |= more > 0;
-    weightless |= more > 0 && w == 0;
-    out->rounding += fabs(k->f->length[e] - (double)w / c->scale) * fmax(1, more);
+    int64_t weight = thr_certificate_weight(k->f, c, e);
+    join += (wide)weight * more;
+    weightless |= more > 0 && weight == 0;
+    extra += k->f->length[e] * more;
     total += k->f->length[e];
+    charge_rounding(k, c, e, out);
   }
   if (sum != c->sum)
     return thr_fail(err, THR_EVIOLATED, "certificate of component %d: the multipliers do not add up to the stated sum %" PRId64,
@@ -274,8 +296,12 @@ static thr_status judge(const workspace *k, const thr_certificate *c, wide sum, 
     return thr_fail(err, THR_EVIOLATED, "certificate of component %d: the extra passes do not weigh the stated %" PRId64,
                     c->component, c->join);
   int64_t ends = thr_check_ends_free(k->o) ? 2 * (int64_t)k->o->cords : 0;
+  if (least_weight(c, places, ends) > join)
+    return thr_fail(err, THR_EVIOLATED,
+                    "certificate of component %d: its bound is above the weight of the plan's own extra passes", c->component);
   out->extra = thr_check_extra(c, out, ends);
-  out->optimal = !extra || (!weightless && least_weight(c, places, ends) >= join && out->rounding <= 1e-9 * total);
+  bool attained = !weightless && least_weight(c, places, ends) >= join;
+  out->optimal = extra == 0 || (attained && extra - out->extra <= 1e-9 * total);
   return THR_OK;
 }
 
@@ -332,6 +358,7 @@ static void workspace_destroy(workspace *k)
   free(k->node);
   free(k->edge_start);
   free(k->edge);
+  free(k->cords);
   free(k->odd);
   free(k->far_start);
   free(k->far);
@@ -387,6 +414,7 @@ static thr_status workspace_init(workspace *k, const thr_frame *f, const thr_pla
   k->node = thr_calloc(n, sizeof *k->node);
   k->edge_start = thr_calloc(n + 2, sizeof *k->edge_start);
   k->edge = thr_calloc(m, sizeof *k->edge);
+  k->cords = thr_calloc((size_t)w->n_components, sizeof *k->cords);
   k->odd = thr_calloc(n, sizeof *k->odd);
   k->far_start = thr_calloc(n + 1, sizeof *k->far_start);
   k->far = thr_calloc(m, sizeof *k->far);
@@ -395,10 +423,11 @@ static thr_status workspace_init(workspace *k, const thr_frame *f, const thr_pla
   k->shared = thr_calloc(m, sizeof *k->shared);
   k->own = thr_calloc(n, sizeof *k->own);
   k->price = thr_calloc(n, sizeof *k->price);
-  if (!k->start || !k->node || !k->edge_start || !k->edge || !k->odd || !k->own || !k->price) return thr_nomem(err);
+  if (!k->start || !k->node || !k->edge_start || !k->edge || !k->cords || !k->odd || !k->own || !k->price) return thr_nomem(err);
   if (!k->far_start || !k->far || !k->far_edge || !k->held || !k->shared) return thr_nomem(err);
   group(k);
   point(k);
+  thr_check_most_cords(f, o, w, k->cords);
   for (int v = 0; v < f->n_nodes; v++) {
     k->own[v] = -1;
     k->odd[v] = o->ends == THR_ENDS_COUNTS && o->end_count[v] % 2;

@@ -148,6 +148,17 @@ typedef struct {
   int least, most;     /* cords that it may have */
 } part;
 
+void thr_check_most_cords(const thr_frame *f, const thr_plan_options *o, const thr_check_walked *w, int *cords)
+{
+  for (int c = 0; c < w->n_components; c++)
+    cords[c] = o->ends == THR_ENDS_COUNTS ? 0 : o->cords;
+  if (o->ends != THR_ENDS_COUNTS) return;
+  for (int v = 0; v < f->n_nodes; v++)
+    cords[w->component[v]] += o->end_count[v];
+  for (int c = 0; c < w->n_components; c++)
+    cords[c] /= 2;
+}
+
 static thr_status parts_of(const thr_frame *f, const thr_plan_options *o, const thr_check_walked *w, part **parts, thr_err *err)
 {
   part *part_of = thr_calloc((size_t)w->n_components, sizeof *part_of);
@@ -157,14 +168,17 @@ static thr_status parts_of(const thr_frame *f, const thr_plan_options *o, const 
     p->base += f->length[e] * thr_plan_cover(f, o, e);
     p->length += f->length[e] * w->passes[e];
   }
-  for (int v = 0; v < f->n_nodes && o->ends == THR_ENDS_COUNTS; v++)
-    part_of[w->component[v]].most += o->end_count[v];
-  for (int c = 0; c < w->n_components; c++) {
-    bool given = o->ends == THR_ENDS_COUNTS;
-    part_of[c].most = given ? part_of[c].most / 2 : o->cords;
-    part_of[c].least = given ? part_of[c].most : o->cords_least;
+  int *most = thr_calloc((size_t)w->n_components, sizeof *most);
+  if (most) thr_check_most_cords(f, o, w, most);
+  for (int c = 0; c < w->n_components && most; c++) {
+    part_of[c].most = most[c];
+    part_of[c].least = o->ends == THR_ENDS_COUNTS ? most[c] : thr_plan_cords_least(o);
   }
-  return THR_OK;
+  free(most);
+  if (most) return THR_OK;
+  free(part_of);
+  *parts = NULL;
+  return thr_nomem(err);
 }
 
 /* No so many cords through the component are shorter together. */
@@ -174,6 +188,12 @@ static double least_length(const thr_plan_options *o, const part *p, int cords, 
   if (!v) return p->base;
   double any = v->optimal ? p->length : p->base + v->extra;
   return thr_check_ends_free(o) ? fmax(any, p->base + thr_check_extra(c, v, 2 * (int64_t)cords)) : any;
+}
+
+/* Is this more cord than so many of the greatest length? */
+static bool too_long(double length, int cords, const thr_plan_options *o)
+{
+  return length > cords * o->max_length * (1 + 2e-9);
 }
 
 /* ---- tube joints: the proof is one of all components together ---- */
@@ -188,21 +208,18 @@ static thr_status tied_length(const thr_frame *f, const thr_plan_options *o, con
   return thr_tied_least(f, &other, tied, length, err);
 }
 
-/* fewest: a lower bound on the cords of one component with free ends, raised as far as the proof goes. Multipliers prove for n
- * cords a bound that is linear in n, a tree of them the least of several: what it leaves above n * max_length is concave, so the
- * numbers ruled out have no gaps. */
+/* fewest: a lower bound on the cords of one component with free ends, raised as far as the proof goes, one by one: it may rule
+ * out a number and not the one below. */
 static thr_status rule_out(const thr_frame *f, const thr_plan_options *o, const thr_turning_proof *tied, int *fewest,
                            thr_err *err)
 {
   thr_status st = THR_OK;
-  int high = o->cords; /* is not ruled out, or nothing is known of more */
-  for (int n = *fewest; !st && *fewest < high; n = (*fewest + high) / 2) {
+  bool excluded = true;
+  while (!st && excluded && *fewest < o->cords) {
     double length;
-    st = tied_length(f, o, tied, n, n, &length, err);
-    if (!st && length > n * o->max_length * (1 + 1e-9))
-      *fewest = n + 1;
-    else
-      high = n;
+    st = tied_length(f, o, tied, *fewest, *fewest, &length, err);
+    excluded = too_long(length, *fewest, o);
+    if (!st && excluded) ++*fewest;
   }
   return st;
 }
@@ -217,7 +234,7 @@ static thr_status check_tied(const thr_frame *f, const thr_plan_options *o, cons
     most += parts[c].most;
   *bound = fmax(*bound, length / (double)most);
   if (st || o->max_length <= 0) return st;
-  double cords = ceil(length / o->max_length * (1 - 1e-9));
+  double cords = ceil(length / o->max_length * (1 - 2e-9));
   if (cords > found->fewest) found->fewest = cords < (double)most ? (int)cords : (int)most;
   return n_parts == 1 && thr_check_ends_free(o) ? rule_out(f, o, tied, &found->fewest, err) : THR_OK;
 }
@@ -239,7 +256,7 @@ thr_status thr_check_several(const thr_frame *f, const thr_plan_options *o, cons
     const thr_check_verdict *v = verdict ? &verdict[c] : NULL;
     bound = fmax(bound, least_length(o, p, p->most, proof, v) / p->most);
     int least = p->least;
-    while (least < p->most && least_length(o, p, least, proof, v) > least * o->max_length * (1 + 1e-9))
+    while (least < p->most && too_long(least_length(o, p, least, proof, v), least, o))
       least++;
     found->fewest += least;
   }
@@ -249,6 +266,12 @@ thr_status thr_check_several(const thr_frame *f, const thr_plan_options *o, cons
   if (!(o->max_length > 0 && o->cords_least < o->cords)) found->fewest = 0;
   st = detour(f, o, bound, &bound, err);
   if (unit > 0) bound = unit * ceil(bound / unit * (1 - 2e-9));
+  if (bound > found->longest && !thr_check_close(bound, found->longest, found->longest))
+    return thr_fail(err, THR_EVIOLATED, "proof: the longest cord of any plan would have %.12g or more, but this plan's has %.12g",
+                    bound, found->longest);
+  if (found->fewest > n_cords)
+    return thr_fail(err, THR_EVIOLATED, "proof: any plan would have %d cords or more, but this one has %d", found->fewest,
+                    n_cords);
   found->longest_optimal = thr_check_close(found->longest, bound, found->longest);
   found->longest_bound = fmin(found->longest, bound);
   found->fewest_optimal = found->fewest == n_cords;

@@ -1,5 +1,6 @@
 /* The checker's part for the group of a symmetric plan: that it is one of automorphisms, with the order and the name stated. */
 #include "graph/check_parts.h"
+#include "graph/procrustes.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -114,11 +115,14 @@ static thr_status list_elements(elements *g, const thr_symmetry_record *r, int n
   return THR_OK;
 }
 
-/* What all isomorphic groups have in common. */
+/* What all point groups of one name have in common. */
 typedef struct {
   int order;
   int longest;     /* order of the element of greatest order */
   int involutions; /* elements of order 2 */
+  int improper;    /* elements that mirror */
+  int inversions;  /* 1 if the inversion is an element */
+  bool flat;       /* of a group found: whether its elements mirror is open */
 } census;
 
 /* Least k > 0 such that the k-th power of a permutation that is an element of the group is the identity. */
@@ -137,32 +141,43 @@ static int order_of_element(const int *image, int n)
   return order;
 }
 
-static census take_census(const elements *g)
-{
-  census c = {.order = g->order};
-  for (int i = 0; i < g->order; i++) {
-    int order = order_of_element(element(g, i), g->n);
-    if (order > c.longest) c.longest = order;
-    c.involutions += order == 2;
-  }
-  return c;
-}
-
 /* Turns by parts of 1 / n; the same with half turns or mirrors that reverse them; and either with an element of order 2 that
  * commutes with all. */
 static census cyclic(int n)
 {
-  return (census){n, n, n % 2 == 0};
+  return (census){n, n, n % 2 == 0, 0, 0, false};
 }
 
 static census dihedral(int n)
 {
-  return (census){2 * n, n > 1 ? n : 2, n + (n % 2 == 0)};
+  return (census){2 * n, n > 1 ? n : 2, n + (n % 2 == 0), 0, 0, false};
 }
 
 static census doubled(census c)
 {
-  return (census){2 * c.order, c.longest % 2 ? 2 * c.longest : c.longest, 2 * c.involutions + 1};
+  return (census){2 * c.order, c.longest % 2 ? 2 * c.longest : c.longest, 2 * c.involutions + 1, 0, 0, false};
+}
+
+/* With as many mirrors, rotoreflections and inversions as rotations. */
+static census mirrored(census c, bool inversion)
+{
+  c.improper = c.order / 2;
+  c.inversions = inversion;
+  return c;
+}
+
+static census census_of_axis(char letter, int n, const char *end)
+{
+  const census none = {0};
+  bool plain = !*end, even = n % 2 == 0;
+  char more = !plain && !end[1] ? *end : '\0';
+  if (letter == 'S') return plain && even ? mirrored(cyclic(n), n % 4 == 2) : none;
+  if (letter == 'C' && plain) return cyclic(n);
+  if (letter == 'D' && plain) return dihedral(n);
+  if (letter == 'C' && more == 'v') return mirrored(dihedral(n), false);
+  if (letter == 'C' && more == 'h') return mirrored(doubled(cyclic(n)), even);
+  if (letter == 'D' && more == 'h') return mirrored(doubled(dihedral(n)), even);
+  return letter == 'D' && more == 'd' ? mirrored(dihedral(2 * n), !even) : none;
 }
 
 /* Of the point group of that Schoenflies name; order 0 if there is none. */
@@ -171,36 +186,73 @@ static census census_of_name(const char *name)
   static const struct {
     const char *name;
     census census;
-  } single[] = {{"Cs", {2, 2, 1}}, {"Ci", {2, 2, 1}},   {"T", {12, 3, 3}},  {"Td", {24, 4, 9}},   {"Th", {24, 6, 7}},
-                {"O", {24, 4, 9}}, {"Oh", {48, 6, 19}}, {"I", {60, 5, 15}}, {"Ih", {120, 10, 31}}};
+  } single[] = {{"Cs", {2, 2, 1, 1, 0, false}},    {"Ci", {2, 2, 1, 1, 1, false}},   {"T", {12, 3, 3, 0, 0, false}},
+                {"Td", {24, 4, 9, 12, 0, false}},  {"Th", {24, 6, 7, 12, 1, false}}, {"O", {24, 4, 9, 0, 0, false}},
+                {"Oh", {48, 6, 19, 24, 1, false}}, {"I", {60, 5, 15, 0, 0, false}},  {"Ih", {120, 10, 31, 60, 1, false}}};
   const census none = {0};
   for (size_t i = 0; i < sizeof single / sizeof *single; i++)
     if (strcmp(name, single[i].name) == 0) return single[i].census;
   char *end;
   bool number = name[0] && name[1] >= '1' && name[1] <= '9';
-  long long_n = number ? strtol(name + 1, &end, 10) : 0;
-  if (long_n < 1 || long_n > MOST_ELEMENTS) return none;
-  int n = (int)long_n;
-  bool plain = !*end, v = strcmp(end, "v") == 0, h = strcmp(end, "h") == 0, d = strcmp(end, "d") == 0;
-  switch (name[0]) {
-  case 'S': return plain && n % 2 == 0 ? cyclic(n) : none;
-  case 'C': return plain ? cyclic(n) : v ? dihedral(n) : h ? doubled(cyclic(n)) : none;
-  case 'D': return plain ? dihedral(n) : h ? doubled(dihedral(n)) : d ? dihedral(2 * n) : none;
-  default: return none;
-  }
+  long n = number ? strtol(name + 1, &end, 10) : 0;
+  return n >= 1 && n <= MOST_ELEMENTS ? census_of_axis(name[0], (int)n, end) : none;
 }
 
-static thr_status check_name(const elements *g, const char *name, thr_err *err)
+/* Of the group, its elements being motions of the framework. A name, and the option to keep to isometries, say that they are. */
+static thr_status take_census(const elements *g, const thr_plan *p, census *c, thr_err *err)
 {
-  census stated = census_of_name(name), found = take_census(g);
-  if (!*name) return THR_OK;
+  double within = p->options.symmetry.geometric;
+  *c = (census){.order = g->order};
+  for (int i = 0; i < g->order; i++) {
+    int order = order_of_element(element(g, i), g->n);
+    thr_motion m;
+    thr_procrustes(&p->frame, element(g, i), &m);
+    if (*p->symmetry.name && m.residual > THR_ISOMETRY_NEAR + THR_ISOMETRY_ROUNDING)
+      return thr_fail(err, THR_EVIOLATED,
+                      "symmetry.name: \"%s\", but an element of order %d is no isometry: it moves the nodes past their images by "
+                      "%.3g of the framework's size",
+                      p->symmetry.name, order, m.residual);
+    if (within >= 0 && m.farthest > within + 2 * THR_ISOMETRY_ROUNDING)
+      return thr_fail(
+          err, THR_EVIOLATED,
+          "options.symmetry.geometric: isometries within %.12g, but an element of order %d moves a node past its image "
+          "by %.12g of the framework's size",
+          within, order, m.farthest);
+    if (order > c->longest) c->longest = order;
+    c->involutions += order == 2;
+    c->improper += !m.proper;
+    c->flat |= m.flat;
+    c->inversions += order == 2 && m.q[0][0] + m.q[1][1] + m.q[2][2] < -2;
+  }
+  return THR_OK;
+}
+
+static thr_status check_name(const elements *g, const thr_plan *p, thr_err *err)
+{
+  const char *name = p->symmetry.name;
+  census stated = census_of_name(name), found;
+  thr_status st = take_census(g, p, &found, err);
+  if (st || !*name) return st;
   if (stated.order != found.order)
     return thr_fail(err, THR_EVIOLATED, "symmetry.name: \"%s\" is not the name of a point group of order %d", name, found.order);
   if (stated.longest != found.longest || stated.involutions != found.involutions)
     return thr_fail(err, THR_EVIOLATED,
                     "symmetry.name: \"%s\" has %d elements of order 2 and one of order %d; the group has %d, and one of order %d",
                     name, stated.involutions, stated.longest, found.involutions, found.longest);
+  if (!found.flat && (stated.improper != found.improper || stated.inversions != found.inversions))
+    return thr_fail(err, THR_EVIOLATED,
+                    "symmetry.name: \"%s\" has %d elements that mirror, %s inversion; the group has %d, %s inversion", name,
+                    stated.improper, stated.inversions ? "with the" : "no", found.improper, found.inversions ? "with the" : "no");
   return THR_OK;
+}
+
+/* A group that was asked for by name is the plan's; a row's number says nothing that could be verified. */
+static thr_status check_asked(const thr_plan *p, thr_err *err)
+{
+  const char *asked = p->options.symmetry.group;
+  if (!*asked || strspn(asked, "0123456789") == strlen(asked) || strcmp(asked, p->symmetry.name) == 0) return THR_OK;
+  return thr_fail(err, THR_EVIOLATED, "options.symmetry.group: \"%s\" was asked for, but the plan's group is \"%s\"", asked,
+                  p->symmetry.name);
 }
 
 static thr_status check_record(elements *g, const thr_plan *p, thr_err *err)
@@ -216,7 +268,8 @@ static thr_status check_record(elements *g, const thr_plan *p, thr_err *err)
     if (number < 0) st = thr_fail(err, THR_EVIOLATED, "symmetry.images[%d]: not an element of the group", i);
     if (i == 0 && number > 0) st = thr_fail(err, THR_EVIOLATED, "symmetry.images[0]: not the identity");
   }
-  if (!st) st = check_name(g, r->name, err);
+  if (!st) st = check_name(g, p, err);
+  if (!st) st = check_asked(p, err);
   return st;
 }
 

@@ -25,13 +25,21 @@ static inline bool thr_check_ends_free(const thr_plan_options *o)
   return o->ends != THR_ENDS_CLOSED && o->ends != THR_ENDS_COUNTS;
 }
 
-/* What a certificate proves about its component. */
+/* Part of a bound that may be taken off it for rounding, instead of so much for every extra pass. */
+#define THR_CHECK_ROUNDING 5e-10
+
+/* What a certificate proves about its component. Lengths round to weights, and what is rounded up is taken off every bound: for
+ * as many extra passes of each edge as a shortest plan with these options may have, not those of this plan. */
 typedef struct {
-  bool optimal;    /* the passes are the shortest for at most options.cords cords */
-  double extra;    /* no such cords have less extra cord, in units */
-  double rounding; /* of lengths to weights, in units: taken off every bound */
-  thr_wide places; /* what the prices of places add to the cuts' values */
+  bool optimal;          /* the passes are the shortest for at most options.cords cords */
+  double extra;          /* no such cords have less extra cord, in units */
+  double rounding;       /* what it adds at most, in units */
+  double rounding_above; /* the same beyond THR_CHECK_ROUNDING of each edge's weight */
+  thr_wide places;       /* what the prices of places add to the cuts' values */
 } thr_check_verdict;
+
+/* Cords that each component has at most: cords[w->n_components]. Given numbers of ends say how many. O(nodes). */
+void thr_check_most_cords(const thr_frame *f, const thr_plan_options *o, const thr_check_walked *w, int *cords);
 
 /* Verifies the certificates, which must be one per component in order, for passes that were checked already:
  * verdict[w->n_components]. O(nodes + edges, and for each node in a list of the cuts its edges, or sqrt(edges) if that is less,

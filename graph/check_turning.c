@@ -24,6 +24,13 @@ static void node_points_destroy(node_points *k)
   free(k->price);
 }
 
+/* Angles by a formula of the checker's own; steps, which have a threshold, by the one definition that there is. */
+static double price_of(const thr_frame *f, thr_turn_cost cost, int in, int out)
+{
+  if (cost == THR_TURN_STEP) return thr_turn_price(f, cost, in, out);
+  return thr_turn_cost_of(cost, in == (out ^ 1) ? pi : thr_check_angle(f, in, out));
+}
+
 /* Nothing turns where a cord ends; only where an edge is the only one may a cord turn back. */
 static void set_prices(node_points *k, const thr_frame *f, thr_turn_cost cost, int v)
 {
@@ -31,9 +38,8 @@ static void set_prices(node_points *k, const thr_frame *f, thr_turn_cost cost, i
   const int *half = f->half + f->first[v];
   for (int i = 0; i < n; i++)
     for (int j = 0; j < n; j++) {
-      double angle = i == j ? pi : i < d && j < d ? thr_check_angle(f, half[i] ^ 1, half[j]) : 0;
       bool forbidden = i == j && (i == d || d > 1);
-      k->price[i * n + j] = forbidden ? INFINITY : i == d || j == d ? 0 : thr_turn_cost_of(cost, angle);
+      k->price[i * n + j] = forbidden ? INFINITY : i == d || j == d ? 0 : price_of(f, cost, half[i] ^ 1, half[j]);
     }
 }
 
@@ -108,8 +114,9 @@ typedef struct {
   const thr_plan_options *o;
   const thr_cord *cord;
   int n_cords;
-  int *passes; /* [n_edges] */
-  int *ends;   /* [n_nodes] */
+  int cords_least, cords_most; /* that a plan with these options has in all */
+  int *passes;                 /* [n_edges] */
+  int *ends;                   /* [n_nodes] */
   bool *end_allowed;
 } walked;
 
@@ -118,6 +125,19 @@ static void walked_destroy(walked *w)
   free(w->passes);
   free(w->ends);
   free(w->end_allowed);
+}
+
+/* Given ends make as many cords as this plan has. */
+static thr_status count_cords(walked *w, thr_err *err)
+{
+  int components, *component = thr_calloc((size_t)w->f->n_nodes, sizeof *component);
+  thr_status st = component ? thr_frame_components(w->f, component, &components, err) : thr_nomem(err);
+  free(component);
+  if (st) return st;
+  bool counts = w->o->ends == THR_ENDS_COUNTS;
+  w->cords_least = counts ? w->n_cords : components * w->o->cords_least;
+  w->cords_most = counts ? w->n_cords : components * w->o->cords;
+  return THR_OK;
 }
 
 static thr_status walked_init(walked *w, const thr_frame *f, const thr_plan_options *o, const thr_cord *cord, int n_cords,
@@ -138,7 +158,7 @@ static thr_status walked_init(walked *w, const thr_frame *f, const thr_plan_opti
     w->ends[thr_cord_start(f, &cord[i])]++;
     w->ends[thr_cord_end(f, &cord[i])]++;
   }
-  return THR_OK;
+  return count_cords(w, err);
 }
 
 /* Price of a cord's turns; refuses a U-turn where the proof's plans have none. */
@@ -155,7 +175,7 @@ static thr_status price_cord(const walked *w, const thr_cord *c, double *price, 
           "proof.turning: cord %s turns back at node %d after pass %d; the proof is about plans that turn back only at "
           "nodes with one edge",
           c->id, v, k + 1);
-    *price += thr_turn_cost_of(w->o->turning.cost, back ? pi : thr_check_angle(w->f, in, out));
+    *price += price_of(w->f, w->o->turning.cost, in, out);
   }
   return THR_OK;
 }
@@ -213,19 +233,23 @@ static thr_status judge_tree(const walked *w, const thr_turning_claim *claim, th
                                  .tube = w->o->joint == THR_JOINT_TUBE,
                                  .most_passes = claim->most_passes,
                                  .cords = w->o->cords,
+                                 .cords_least = w->o->cords_least,
                                  .end_allowed = w->o->ends == THR_ENDS_CLOSED ? NULL : w->end_allowed,
                                  .end_count = w->o->ends == THR_ENDS_COUNTS ? w->o->end_count : NULL,
                                  .cost = w->o->turning.cost,
                                  .extra_limit = thr_turning_extra_limit(w->f, w->o->cover, limit)};
   thr_status st = thr_turning_proof_check(w->f, &task, &claim->tree, &bound, err);
   if (st) return st;
-  bound = fmax(bound, closed_price(w->o) * w->n_cords);
+  bound = fmax(bound, closed_price(w->o) * w->cords_least);
   /* prices are sums of so many roundings: equal within 1e-9 of a U-turn each */
   double tolerance = 2e-9 * passes * thr_turn_cost_of(w->o->turning.cost, pi);
+  if (bound > found->price + tolerance)
+    return thr_fail(err, THR_EVIOLATED, "proof.turning: the tree proves %.12g, which is more than the turns of this plan, %.12g",
+                    bound, found->price);
   found->optimal = bound >= found->price - tolerance;
   found->lower_bound = found->optimal ? found->price : bound;
   found->gap = found->optimal ? 0 : (found->price - bound) / found->price;
-  found->largest_bound = found->lower_bound / w->n_cords;
+  found->largest_bound = found->lower_bound / w->cords_most;
   found->largest_optimal = found->largest <= found->largest_bound + tolerance;
   return THR_OK;
 }
@@ -271,6 +295,9 @@ static thr_status check_optimal(const thr_turning_claim *c, const thr_turning_cl
   if (c->optimal && !thr_check_close(c->lower_bound, c->price, whole))
     return thr_fail(err, THR_EVIOLATED, "proof.turning: says optimal, but its lower bound %.12g is not the price %.12g",
                     c->lower_bound, c->price);
+  if (c->largest_optimal && !thr_check_close(c->largest_bound, c->largest, whole))
+    return thr_fail(err, THR_EVIOLATED, "proof.turning.largest: says optimal, but its lower bound %.12g is not the price %.12g",
+                    c->largest_bound, c->largest);
   return THR_OK;
 }
 

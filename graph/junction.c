@@ -43,9 +43,7 @@ void thr_tied_task(const thr_frame *f, const thr_plan_options *o, bool *end_allo
                              .capacity = o->capacity,
                              .most_passes = 2 * (cover + degree + 2 * cords) + 1,
                              .cords = cords,
-                             .cords_least = closed                       ? 1
-                                            : o->objective == THR_LENGTH ? o->cords_least
-                                                                         : o->cords,
+                             .cords_least = closed ? 1 : thr_plan_cords_least(o),
                              .end_allowed = closed ? NULL : end_allowed,
                              .end_count = o->ends == THR_ENDS_COUNTS ? o->end_count : NULL,
                              .tube = true,

@@ -143,6 +143,17 @@ const char *thr_confirm_name(thr_confirm c)
   return name[c];
 }
 
+bool thr_plan_within_slack(const thr_plan_options *o, double length, double least)
+{
+  bool asked = o->objective == THR_TORTUOSITY && o->turning.length_slack >= 0;
+  return !asked || length <= (1 + o->turning.length_slack) * least * (1 + 2e-9);
+}
+
+int thr_plan_cords_least(const thr_plan_options *o)
+{
+  return o->objective == THR_SYMMETRY ? 1 : o->cords_least;
+}
+
 int thr_plan_cover(const thr_frame *f, const thr_plan_options *o, int e)
 {
   return f->cover && f->cover[e] > o->cover ? f->cover[e] : o->cover;

@@ -123,6 +123,7 @@ typedef struct {
   bool optimal;       /* proved: the checker agrees, or it says violation */
   double lower_bound; /* no plan with these options is shorter, in units of length */
   double gap;         /* (length - lower_bound) / length */
+  bool slack_open; /* not proved that the cords are within options.turning.length_slack of the least length: said in the plan */
   int confirmed;   /* of the shortest passes: programmes on their cuts in which GLPK's exact method found the same weight, and */
   int unconfirmed; /* those it was not asked about, or did not finish in time. A solver's word: not written */
   int n_certificates;
@@ -227,7 +228,15 @@ const char *thr_confirm_name(thr_confirm c); /* "auto", "always", "never" */
 /* The longest step that every edge is a whole number of, as is every cord then, within 1e-10 of it; 0: none of a thousandth of
  * the longest edge or more. O(edges). */
 double thr_plan_unit(const thr_frame *f);
+/* Is the cord within the asked part above the least length (options.turning.length_slack), by this lower bound on that? True
+ * where none was asked for. */
+bool thr_plan_within_slack(const thr_plan_options *o, double length, double least);
+
 bool thr_plan_end_allowed(const thr_frame *f, const thr_plan_options *o, int v);
+
+/* Cords that every component has at least. With THR_SYMMETRY options.cords is the most in any, and the others may have fewer: 1.
+ */
+int thr_plan_cords_least(const thr_plan_options *o);
 
 /* Passes that edge e needs, and the most that it may have (INT_MAX: no limit): what options and framework say together. */
 int thr_plan_cover(const thr_frame *f, const thr_plan_options *o, int e);

@@ -2,6 +2,7 @@
 #include "graph/plan_fields.h"
 
 #include <stdio.h>
+#include <string.h>
 
 static const char *status_name(int i)
 {
@@ -72,16 +73,25 @@ static thr_status get_status(const thr_field_reader *r, const thr_json *v, const
   return st;
 }
 
+/* "open", or nothing: then the limit on the length that the options set is one that is proved. */
+static thr_status read_slack(const thr_field_reader *r, const thr_json *v, bool *open)
+{
+  const thr_json *slack = thr_json_get(v, "slack");
+  const char *word = thr_json_string(slack);
+  if (slack && (!word || strcmp(word, "open") != 0)) return thr_field_bad(r, "proof.length.slack", "not \"open\"");
+  *open = slack != NULL;
+  return THR_OK;
+}
+
 static thr_status read_length_proof(const thr_field_reader *r, const thr_json *v, const thr_frame *f, thr_length_proof *proof)
 {
-  static const char *const solid[] = {"status", "lower_bound", "gap", "method", "certificate", NULL}, *const tube[] = {
-                                                                                                          "status", "lower_bound",
-                                                                                                          "gap",    "method",
-                                                                                                          "proof",  NULL};
+  static const char *const solid[] = {"status", "lower_bound", "slack", "gap", "method", "certificate", NULL};
+  static const char *const tube[] = {"status", "lower_bound", "slack", "gap", "method", "proof", NULL};
   const thr_json *list, *tied = thr_json_get(v, "proof");
   thr_status st = thr_field_only(r, v, "proof.length", tied ? tube : solid);
   if (!st) st = get_status(r, v, "proof.length", &proof->optimal);
   if (!st) st = thr_field_amount(r, v, "lower_bound", &proof->lower_bound);
+  if (!st) st = read_slack(r, v, &proof->slack_open);
   if (!st) st = thr_field_amount(r, v, "gap", &proof->gap);
   if (!st) proof->present = true;
   if (!st && tied) {

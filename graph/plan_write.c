@@ -244,6 +244,7 @@ static void put_length_proof(thr_text *t, const thr_plan *p)
   const thr_length_proof *proof = &p->proof;
   thr_text_printf(t, "\"length\": {\"status\": \"%s\", ", status_name(proof->optimal));
   put_key_double(t, "lower_bound", proof->lower_bound, ", ");
+  if (proof->slack_open) thr_text_append(t, "\"slack\": \"open\", ");
   put_key_double(t, "gap", proof->gap, ",\n  \"method\": ");
   if (p->options.joint == THR_JOINT_TUBE) {
     thr_text_append(t, "\"multipliers of odd sets and junctions over a tree of branchings\",\n  \"proof\": ");

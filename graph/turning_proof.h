@@ -39,7 +39,8 @@ enum { THR_N_TURN_COSTS = THR_TURN_STEP + 1 };
 const char *thr_turn_cost_name(thr_turn_cost cost); /* "angle", "sine", "step" */
 double thr_turn_cost_of(thr_turn_cost cost, double angle);
 
-/* Price of arriving over half-edge in and leaving over half-edge out. */
+/* Price of arriving over half-edge in and leaving over half-edge out. For steps only this: angles near 90 degrees may round to
+ * either side. */
 double thr_turn_price(const thr_frame *f, thr_turn_cost cost, int in, int out);
 
 /* What the least turning is asked among. */

@@ -1,6 +1,7 @@
 /* All subgroups where they can be listed, else the isometries and what a few generators make. */
 #include "symmetry/groups.h"
 #include "graph/disjoint.h"
+#include "graph/procrustes.h"
 #include "symmetry/automorphisms.h"
 
 #include <math.h>
@@ -8,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-const double thr_symmetry_near = 0.05;
+const double thr_symmetry_near = THR_ISOMETRY_NEAR;
 
 typedef struct {
   const thr_frame *f;
@@ -87,6 +88,18 @@ static thr_status add_group(offer *x, thr_group *g, thr_err *err)
   return THR_OK;
 }
 
+/* Asked for isometries: are all of these within the tolerance? Products of some that are need not be. */
+static bool keeps_shape(const offer *x, int group, const thr_subgroup *g)
+{
+  double tolerance = x->o->symmetry.geometric;
+  for (int i = 0; i < g->order && tolerance >= 0; i++) {
+    thr_motion m;
+    thr_procrustes(x->f, image_of(x->t, group, g->element[i]), &m);
+    if (m.farthest > tolerance + THR_ISOMETRY_ROUNDING) return false;
+  }
+  return true;
+}
+
 /* A row for each class of subgroups of the group that was added last; without `partly` none if there are too many. */
 static thr_status add_classes(offer *x, bool partly, bool *complete, thr_err *err)
 {
@@ -95,7 +108,7 @@ static thr_status add_classes(offer *x, bool partly, bool *complete, thr_err *er
   thr_status st = thr_subgroup_classes_find(&x->t->group[group].all, THR_SYMMETRY_CLASSES, &c, err);
   *complete = c.complete;
   for (int k = 0; k < c.n && !st && (partly || c.complete); k++)
-    st = add_row(x, group, &c.subgroup[k], c.conjugates[k], err);
+    if (keeps_shape(x, group, &c.subgroup[k])) st = add_row(x, group, &c.subgroup[k], c.conjugates[k], err);
   thr_subgroup_classes_destroy(&c);
   return st;
 }

@@ -1,7 +1,7 @@
 /* Isometries of a framework from its coordinates: two reference nodes may go to few places, and where they go fixes the motion up
  * to a mirror; every such motion is refined by Procrustes analysis and verified on all nodes and edges. */
 #include "symmetry/isometry.h"
-#include "symmetry/procrustes.h"
+#include "graph/procrustes.h"
 #include "symmetry/rows.h"
 #include "graph/vector.h"
 
@@ -9,7 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double ROUNDING = 1e-9; /* of sums over coordinates, in parts of size */
 enum {
   ROUNDS = 8, /* of matching and refining: two or three suffice unless nodes crowd */
   TRIES = 4   /* motions that send every node near another but match otherwise, for each isometry allowed */
@@ -349,7 +348,7 @@ thr_status thr_isometries_find(const thr_frame *f, const thr_automorphism_option
                                int *count, thr_err *err)
 {
   const thr_automorphism_options none = {0};
-  search s = {.f = f, .colours = colours ? colours : &none, .tolerance = tolerance + ROUNDING};
+  search s = {.f = f, .colours = colours ? colours : &none, .tolerance = tolerance + THR_ISOMETRY_ROUNDING};
   *out = NULL;
   *count = 0;
   thr_status st = search_init(&s, err);
@@ -377,7 +376,8 @@ thr_status thr_isometries_among(const thr_frame *f, const int *image, int n, dou
   for (int i = 0; i < n; i++) {
     thr_motion m;
     thr_procrustes(f, image + (size_t)i * row, &m);
-    if (m.farthest <= tolerance + ROUNDING) memcpy(*out + (size_t)(*count)++ * row, image + (size_t)i * row, row * sizeof *image);
+    if (m.farthest <= tolerance + THR_ISOMETRY_ROUNDING)
+      memcpy(*out + (size_t)(*count)++ * row, image + (size_t)i * row, row * sizeof *image);
   }
   return THR_OK;
 }
@@ -405,7 +405,7 @@ thr_status thr_length_colours(const thr_frame *f, double tolerance, int *colour,
   for (int e = 0; e < f->n_edges; e++)
     m[e] = (measured){f->length[e], e};
   qsort(m, (size_t)f->n_edges, sizeof *m, by_length);
-  double step = 2 * (tolerance + 2 * ROUNDING) * size; /* an isometry moves either end by the tolerance at most */
+  double step = 2 * (tolerance + 2 * THR_ISOMETRY_ROUNDING) * size; /* an isometry moves either end by the tolerance at most */
   for (int i = 0, last = 0; i < f->n_edges; i++) {
     last += i > 0 && m[i].length - m[i - 1].length > step;
     colour[m[i].edge] = last;

@@ -1,6 +1,6 @@
 /* Procrustes analysis of automorphisms, their names, and the name of the point group that they make. */
 #include "symmetry/isometry.h"
-#include "symmetry/procrustes.h"
+#include "graph/procrustes.h"
 #include "graph/vector.h"
 
 #include <math.h>

@@ -751,9 +751,9 @@ static int verdict_of_sets(const thr_plan *p, const thr_certificate *c, const bo
   const thr_frame *f = &p->frame;
   const thr_plan_options *o = &p->options;
   int n = f->n_nodes;
-  bool more = false;
+  bool more = false, weightless = false;
   big sum = 0, join = 0, d = c->denominator;
-  double rounding = 0, total = 0;
+  double up[2] = {0}, total = 0, extra_length = 0; /* up: what lengths are rounded up by, in all and beyond 5e-10 */
   for (int i = 0; i < c->n_cuts; i++) {
     int odd = 0;
     for (int v = 0; v < n; v++) {
@@ -772,7 +772,10 @@ static int verdict_of_sets(const thr_plan *p, const thr_certificate *c, const bo
     if (roomy(f, o, e) && load > w * d) return 0;
     join += w * extra;
     more |= extra > 0;
-    rounding += fabs(f->length[e] - (double)w / c->scale) * fmax(1, extra);
+    weightless |= extra > 0 && w == 0;
+    for (int k = 0; k < 2 && roomy(f, o, e); k++)
+      up[k] += fmax(0, (double)w / c->scale * (k ? 1 - 5e-10 : 1) - f->length[e]);
+    extra_length += extra * f->length[e];
     total += f->length[e];
   }
   if (c->end_price < 0 || (ends_of(o) == 0 && c->end_price != 0)) return 0;
@@ -783,8 +786,11 @@ static int verdict_of_sets(const thr_plan *p, const thr_certificate *c, const bo
     if (component[v] == c->component && allowed(f, o, v) && held > c->end_price) return 0;
   }
   if (sum != c->sum || join != c->join) return 0;
-  /* multiplied out: sum / d is more than what the join weighs and the ends cost, less 1 */
-  return !more || (sum - (big)ends_of(o) * c->end_price > (join - 1) * d && rounding <= 1e-9 * total) ? 2 : 1;
+  big proved = sum - (big)ends_of(o) * c->end_price; /* multiplied out: at most what the join weighs, optimal above 1 less */
+  if (proved > join * d) return 0;
+  double least = fmax((double)join / c->scale - up[0], (double)join / c->scale * (1 - 5e-10) - up[1]);
+  bool all = proved > (join - 1) * d && !weightless && extra_length - fmax(0, least) <= 1e-9 * total;
+  return !more || all ? 2 : 1;
 }
 
 static int verdict_of(const thr_plan *p, const thr_certificate *c, const int *component, const int *passes)

@@ -262,6 +262,7 @@ static thr_status assemble(const thr_frame *f, const thr_plan_options *o, thr_le
     thr_tube_prove(&s->tube, plan->metrics.length, &plan->proof);
   else if (!st)
     st = thr_postman_prove(&plan->frame, &plan->options, plan->cord, plan->n_cords, &s->solid, &plan->proof, err);
+  plan->proof.slack_open = !thr_plan_within_slack(o, plan->metrics.length, plan->proof.lower_bound);
   if (!st && o->turning.tour == THR_TOUR_LEAST)
     st = judge(&plan->frame, &plan->options, plan->cord, plan->n_cords, l, &plan->turning, err);
   return st;
@@ -278,6 +279,9 @@ static thr_status verdict(const thr_plan *p, const thr_least *l, thr_err *err)
 {
   const thr_turning_claim *c = &p->turning;
   if (!c->present) return THR_OK;
+  if (p->proof.slack_open)
+    return thr_fail(err, THR_ELIMIT, "the least length is not proved: the cords may be %.3g %% longer, more than --length-slack",
+                    100 * (p->metrics.length / p->proof.lower_bound - 1));
   if (p->options.turning.largest && !c->largest_optimal)
     return thr_fail(err, THR_ELIMIT, "the largest turning of a cord is proved to be within %.3g %% of the least",
                     100 * (c->largest - c->largest_bound) / c->largest);

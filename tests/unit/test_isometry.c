@@ -4,7 +4,7 @@
 #include "symmetry/automorphisms.h"
 #include "symmetry/group.h"
 #include "symmetry/isometry.h"
-#include "symmetry/procrustes.h"
+#include "graph/procrustes.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -346,6 +346,7 @@ START_TEST(options_survive_json)
   ck_assert_str_eq(q.options.symmetry.group, o->group);
   ck_assert(q.options.symmetry.geometric == o->geometric);
   ck_assert(memcmp(q.options.symmetry.prefer, o->prefer, sizeof o->prefer) == 0);
+  memcpy(o->group, "C4", 3);
   assert_plan_sound(&p);
   thr_text_destroy(&t);
   thr_plan_destroy(&p);
@@ -422,6 +423,53 @@ START_TEST(every_other_name_of_a_group_is_refused)
 END_TEST
 
 /* Automorphisms that are not the plan's. */
+/* A group that was asked for by its name is that of the plan; a row's number says nothing. */
+START_TEST(group_that_was_asked_for)
+{
+  thr_plan p = plan_known(&plans[0]);
+  const char *said[] = {"", "3", "C4"}, *others[] = {"C2v", "Q"};
+  for (int i = 0; i < 3; i++) {
+    snprintf(p.options.symmetry.group, sizeof p.options.symmetry.group, "%s", said[i]);
+    assert_plan_sound(&p);
+  }
+  for (int i = 0; i < 2; i++) {
+    snprintf(p.options.symmetry.group, sizeof p.options.symmetry.group, "%s", others[i]);
+    assert_violated(&p, others[i], "options.symmetry.group");
+  }
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+static void warp(thr_plan *p, double by)
+{
+  p->frame.xyz[0][2] += by;
+  ck_assert(!thr_plan_measure(&p->frame, &p->options, p->cord, p->n_cords, &p->metrics, NULL));
+}
+
+/* A point group's name claims isometries, roughly; --geometric claims them within its tolerance. An automorphism of the graph
+ * alone may claim neither. */
+START_TEST(names_and_tolerances_claim_isometries)
+{
+  static const double by[] = {0, 1e-3, 1e2};
+  for (int i = 0; i < 3; i++) {
+    thr_plan p = plan_known(&plans[0]);
+    warp(&p, by[i]);
+    if (i < 2)
+      ck_assert_int_eq(thr_check_plan(&p, NULL), THR_OK);
+    else
+      assert_violated(&p, "far", "no isometry");
+    p.symmetry.name[0] = '\0';
+    ck_assert_int_eq(thr_check_plan(&p, NULL), THR_OK);
+    p.options.symmetry.geometric = 1e-6;
+    if (i == 0)
+      ck_assert_int_eq(thr_check_plan(&p, NULL), THR_OK);
+    else
+      assert_violated(&p, "near", "options.symmetry.geometric");
+    thr_plan_destroy(&p);
+  }
+}
+END_TEST
+
 START_TEST(other_automorphisms_are_refused)
 {
   thr_plan p = plan_known(&plans[0]);
@@ -719,6 +767,8 @@ int main(void)
   ADD_TEST(s, 10, options_survive_json);
   ADD_LOOP(s, 20, every_changed_number_is_refused, 0, N_PLANS);
   ADD_TEST(s, 10, every_other_name_of_a_group_is_refused);
+  ADD_TEST(s, 10, group_that_was_asked_for);
+  ADD_TEST(s, 10, names_and_tolerances_claim_isometries);
   ADD_TEST(s, 10, other_automorphisms_are_refused);
   ADD_TEST(s, 10, other_permutations_are_refused);
   ADD_TEST(s, 10, smaller_group_has_more_unique_paths);

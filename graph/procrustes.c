@@ -1,5 +1,5 @@
 /* Procrustes analysis by a singular value decomposition of the 3 x 3 correlation (one-sided Jacobi; Hestenes 1958). */
-#include "symmetry/procrustes.h"
+#include "graph/procrustes.h"
 #include "graph/vector.h"
 
 #include <math.h>
@@ -82,8 +82,8 @@ static void complete(double u[3][3], double v[3][3], int rank)
     memcpy(u[2], v[2], sizeof u[2]);
 }
 
-/* q = sum of u v^T over the singular vectors of h = sum of s u v^T. h is used up. */
-static void polar(double h[3][3], double q[3][3])
+/* q = sum of u v^T over the singular vectors of h = sum of s u v^T. h is used up. flat: they span no more than a plane. */
+static void polar(double h[3][3], double q[3][3], bool *flat)
 {
   double v[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, s[3];
   bool turned = true;
@@ -106,6 +106,7 @@ static void polar(double h[3][3], double q[3][3])
     for (int k = 0; k < 3; k++)
       h[i][k] /= s[i];
   }
+  *flat = rank < 3;
   complete(h, v, rank);
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++)
@@ -140,7 +141,7 @@ void thr_procrustes(const thr_frame *f, const int *image, thr_motion *out)
     for (int i = 0; i < 3; i++)
       for (int j = 0; j < 3; j++) /* rows: h[j] collects the images of direction j */
         h[j][i] += (f->xyz[image[v]][i] - centroid[i]) * scale * (f->xyz[v][j] - centroid[j]) * scale;
-  polar(h, out->q);
+  polar(h, out->q, &out->flat);
   thr_cross(out->q[0], out->q[1], across);
   out->proper = thr_dot(across, out->q[2]) > 0;
   measure(f, image, centroid, size, out);
