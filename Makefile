@@ -40,7 +40,11 @@ CLANG_FORMAT ?= clang-format
 
 # Asked for once and only when a recipe needs it: on a bare machine `make demo` installs pkg-config and the libraries first.
 PKG_CFLAGS = $(eval PKG_CFLAGS := $$(shell pkg-config --cflags igraph nauty jansson))$(PKG_CFLAGS)
-PKG_LIBS = $(eval PKG_LIBS := $$(shell pkg-config --libs igraph nauty jansson bullet-float64 librsvg-2.0 cairo-pdf))$(PKG_LIBS)
+PKG_LIBS = $(eval PKG_LIBS := $$(shell pkg-config --libs nauty jansson bullet-float64))$(PKG_LIBS)
+# Loaded when needed (graph/lazy.h): igraph, librsvg with cairo and GLib, SuiteSparseQR with CHOLMOD. Their names at run time, such as
+# librsvg-2.so.2, are those that the linker writes into a program.
+LAZY_LIBS = $(shell pkg-config --libs igraph librsvg-2.0) -lspqr
+LAZY_NAMES = $(eval LAZY_NAMES := $$(shell tools/library-names.sh $$(call quote,$$(COMPILER)) igraph rsvg-2 spqr -- $$(LAZY_LIBS)))$(LAZY_NAMES)
 BULLET_CFLAGS = $(eval BULLET_CFLAGS := $$(patsubst -I%,-isystem %,$$(shell pkg-config --cflags bullet-float64)))$(BULLET_CFLAGS)
 # the cflags of one file only, paper.c
 RSVG_CFLAGS = $(eval RSVG_CFLAGS := $$(patsubst -I%,-isystem %,$$(shell pkg-config --cflags librsvg-2.0 cairo-pdf)))$(RSVG_CFLAGS)
@@ -63,7 +67,7 @@ endif
 THR_CFLAGS = -std=c11 $(WARN) -ffp-contract=off $(MODE_$(BUILD)) $(CFLAGS)
 THR_CXXFLAGS = -std=c++17 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -fno-exceptions -fno-rtti -ffp-contract=off $(MODE_$(BUILD)) $(CXXFLAGS)
 THR_CPPFLAGS = -I. -DTHR_VERSION='"$(VERSION)"' $(PKG_CFLAGS) $(CPPFLAGS)
-THR_LIBS = $(PKG_LIBS) -lglpk -lspqr -lcholmod -lm $(LDLIBS)
+THR_LIBS = $(PKG_LIBS) -lglpk -lm $(LDLIBS)
 COMPILER = $(if $(filter fuzz,$(BUILD)),$(FUZZ_CC),$(CC))
 # compiles the C++ shim and links everything, since the shim needs the C++ runtime
 COMPILER_CXX = $(if $(filter fuzz,$(BUILD)),$(FUZZ_CXX),$(CXX))
@@ -232,8 +236,9 @@ $(DIR)/%.o: %.S %.html $(DIR)/flags.list
 	@echo "  AS    $@"
 	$(Q)$(COMPILER) $(MODE_$(BUILD)) $(CFLAGS) -c -o $@ $<
 
-$(DIR)/eval/spqr.o $(OUT)/tidy/eval/spqr.ok: private THR_CPPFLAGS += $(SPQR_CFLAGS)
-$(DIR)/diagram/paper.o $(OUT)/tidy/diagram/paper.ok: private THR_CPPFLAGS += $(RSVG_CFLAGS)
+$(DIR)/graph/igraph.o $(OUT)/tidy/graph/igraph.ok: private THR_CPPFLAGS += $(LAZY_NAMES)
+$(DIR)/eval/spqr.o $(OUT)/tidy/eval/spqr.ok: private THR_CPPFLAGS += $(SPQR_CFLAGS) $(LAZY_NAMES)
+$(DIR)/diagram/paper.o $(OUT)/tidy/diagram/paper.ok: private THR_CPPFLAGS += $(RSVG_CFLAGS) $(LAZY_NAMES)
 $(TEST_PROGRAMS:%=%.o) $(TEST_SUPPORT): private THR_CPPFLAGS += $(CHECK_CFLAGS)
 $(TEST_PROGRAMS): $(DIR)/%: $(DIR)/%.o $(TEST_SUPPORT) $(LIBRARY)
 	@echo "  LINK  $@"

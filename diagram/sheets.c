@@ -2,6 +2,7 @@
 
 #include "diagram/kinds.h"
 #include "diagram/svg.h"
+#include "graph/child.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -168,8 +169,10 @@ thr_status thr_sheets_svg(const thr_sheets *s, int i, thr_text *svg, thr_err *er
   return svg->failed ? thr_nomem(err) : THR_OK;
 }
 
-thr_status thr_sheets_pdf(const thr_sheets *s, const thr_limits *limits, thr_text *pdf, thr_err *err)
+/* In a child process: librsvg, cairo and GLib end the program when memory runs out. */
+static thr_status make_pdf(void *user, const thr_limits *limits, thr_sender *to, thr_err *err)
 {
+  const thr_sheets *s = *(const thr_sheets **)user;
   thr_paper *paper = NULL;
   thr_text out = {0};
   char title[96];
@@ -186,6 +189,17 @@ thr_status thr_sheets_pdf(const thr_sheets *s, const thr_limits *limits, thr_tex
   }
   thr_status closed = thr_paper_close(paper, st ? NULL : err);
   if (!st) st = closed;
+  if (!st) st = thr_child_send(to, &out, err);
+  thr_text_destroy(&out);
+  return st;
+}
+
+thr_status thr_sheets_pdf(const thr_sheets *s, const thr_limits *limits, thr_text *pdf, thr_err *err)
+{
+  const thr_child child = {
+      .what = "the step sheets as PDF", .advice = "free memory, or draw without them (-T svg)", .run = make_pdf, .user = &s};
+  thr_text out = {0};
+  thr_status st = thr_child_run(&child, limits, &out, err);
   if (!st) thr_text_append_bytes(pdf, out.data, out.length);
   if (!st && pdf->failed) st = thr_nomem(err);
   thr_text_destroy(&out);

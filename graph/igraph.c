@@ -1,21 +1,55 @@
-/* The only file that knows igraph. igraph's default error handler aborts the program; ours returns the error code.
- * No routine of igraph that uses GLPK may be called here: it would replace the hooks that lp/lp_glpk.c sets. */
+/* The only file that knows igraph, which is loaded when it is first needed. igraph's default error handler aborts the program;
+ * ours returns the error code. No routine of igraph that uses GLPK may be called here: it would replace the hooks that
+ * lp/lp_glpk.c sets. */
 #include "graph/automorphism_count.h"
+#include "graph/child.h"
 #include "graph/cuttree.h"
 #include "graph/drawing.h"
+#include "graph/lazy.h"
 
 #include <igraph.h>
+
+#include <string.h>
+
+#define FUNCTIONS(F)                                                                                                             \
+  F(igraph_automorphisms)                                                                                                        \
+  F(igraph_create)                                                                                                               \
+  F(igraph_destroy)                                                                                                              \
+  F(igraph_error_handler_ignore)                                                                                                 \
+  F(igraph_free)                                                                                                                 \
+  F(igraph_gomory_hu_tree)                                                                                                       \
+  F(igraph_layout_kamada_kawai)                                                                                                  \
+  F(igraph_matrix_destroy)                                                                                                       \
+  F(igraph_matrix_init)                                                                                                          \
+  F(igraph_set_error_handler)                                                                                                    \
+  F(igraph_strerror)                                                                                                             \
+  F(igraph_vcount)                                                                                                               \
+  F(igraph_vector_destroy)                                                                                                       \
+  F(igraph_vector_init)                                                                                                          \
+  F(igraph_vector_int_destroy)                                                                                                   \
+  F(igraph_vector_int_init)
+
+static struct {
+  FUNCTIONS(THR_LAZY_POINTER)
+  bool loaded;
+} lib;
+
+static thr_status load(thr_err *err)
+{
+  static const thr_lazy_symbol symbol[] = {FUNCTIONS(THR_LAZY_SYMBOL)};
+  return thr_lazy_load(&lib.loaded, THR_LIBRARY_IGRAPH, symbol, sizeof symbol / sizeof *symbol, err);
+}
 
 static thr_status failed(igraph_error_t code, thr_err *err)
 {
   if (code == IGRAPH_ENOMEM) return thr_nomem(err);
-  return thr_fail(err, THR_ESOLVER, "igraph: %s", igraph_strerror(code));
+  return thr_fail(err, THR_ESOLVER, "igraph: %s", lib.igraph_strerror(code));
 }
 
 /* Initializes ends with those of the m edges, one after the other. */
 static igraph_error_t list_ends(igraph_vector_int_t *ends, int m, const int (*edge)[2])
 {
-  igraph_error_t code = igraph_vector_int_init(ends, 2 * (igraph_integer_t)m);
+  igraph_error_t code = lib.igraph_vector_int_init(ends, 2 * (igraph_integer_t)m);
   if (code) return code;
   for (int e = 0; e < m; e++) {
     VECTOR(*ends)[2 * e] = edge[e][0];
@@ -29,72 +63,76 @@ static igraph_error_t cut_tree(const igraph_vector_int_t *ends, int n, const igr
 {
   igraph_t g, t;
   igraph_vector_t flows;
-  igraph_error_t code = igraph_create(&g, ends, n, IGRAPH_UNDIRECTED);
+  igraph_error_t code = lib.igraph_create(&g, ends, n, IGRAPH_UNDIRECTED);
   if (code) return code;
-  if ((code = igraph_vector_init(&flows, 0))) goto no_flows;
-  if ((code = igraph_gomory_hu_tree(&g, &t, &flows, capacity))) goto no_tree;
+  if ((code = lib.igraph_vector_init(&flows, 0))) goto no_flows;
+  if ((code = lib.igraph_gomory_hu_tree(&g, &t, &flows, capacity))) goto no_tree;
   for (int i = 0; i < n - 1; i++) {
     tree[i][0] = (int)IGRAPH_FROM(&t, i);
     tree[i][1] = (int)IGRAPH_TO(&t, i);
     flow[i] = VECTOR(flows)[i];
   }
-  igraph_destroy(&t);
+  lib.igraph_destroy(&t);
 no_tree:
-  igraph_vector_destroy(&flows);
+  lib.igraph_vector_destroy(&flows);
 no_flows:
-  igraph_destroy(&g);
+  lib.igraph_destroy(&g);
   return code;
 }
 
 thr_status thr_cut_tree(int n, int m, const int (*edge)[2], const double *capacity, int (*tree)[2], double *flow, thr_err *err)
 {
-  igraph_error_handler_t *old = igraph_set_error_handler(igraph_error_handler_ignore);
+  thr_status st = load(err);
+  if (st) return st;
+  igraph_error_handler_t *old = lib.igraph_set_error_handler(lib.igraph_error_handler_ignore);
   igraph_vector_int_t ends;
   igraph_vector_t weights;
   igraph_error_t code = list_ends(&ends, m, edge);
   if (code) goto no_ends;
-  if ((code = igraph_vector_init(&weights, m))) goto no_weights;
+  if ((code = lib.igraph_vector_init(&weights, m))) goto no_weights;
   for (int e = 0; e < m; e++)
     VECTOR(weights)[e] = capacity[e];
   code = cut_tree(&ends, n, &weights, tree, flow);
-  igraph_vector_destroy(&weights);
+  lib.igraph_vector_destroy(&weights);
 no_weights:
-  igraph_vector_int_destroy(&ends);
+  lib.igraph_vector_int_destroy(&ends);
 no_ends:
-  igraph_set_error_handler(old);
+  lib.igraph_set_error_handler(old);
   return code ? failed(code, err) : THR_OK;
 }
 
 static igraph_error_t count_coloured(const igraph_t *g, const int *colour, igraph_bliss_info_t *info)
 {
   igraph_vector_int_t colours;
-  if (!colour) return igraph_automorphisms(g, NULL, IGRAPH_BLISS_FL, info);
-  igraph_error_t code = igraph_vector_int_init(&colours, igraph_vcount(g));
+  if (!colour) return lib.igraph_automorphisms(g, NULL, IGRAPH_BLISS_FL, info);
+  igraph_error_t code = lib.igraph_vector_int_init(&colours, lib.igraph_vcount(g));
   if (code) return code;
-  for (igraph_integer_t v = 0; v < igraph_vcount(g); v++)
+  for (igraph_integer_t v = 0; v < lib.igraph_vcount(g); v++)
     VECTOR(colours)[v] = colour[v];
-  code = igraph_automorphisms(g, &colours, IGRAPH_BLISS_FL, info);
-  igraph_vector_int_destroy(&colours);
+  code = lib.igraph_automorphisms(g, &colours, IGRAPH_BLISS_FL, info);
+  lib.igraph_vector_int_destroy(&colours);
   return code;
 }
 
 thr_status thr_automorphism_count(int n, int m, const int (*edge)[2], const int *colour, char **digits, thr_err *err)
 {
-  igraph_error_handler_t *old = igraph_set_error_handler(igraph_error_handler_ignore);
+  thr_status st = load(err);
+  if (st) return st;
+  igraph_error_handler_t *old = lib.igraph_set_error_handler(lib.igraph_error_handler_ignore);
   igraph_vector_int_t ends;
   igraph_t g;
   igraph_bliss_info_t info = {0};
   igraph_error_t code = list_ends(&ends, m, edge);
   if (code) goto no_ends;
-  if ((code = igraph_create(&g, &ends, n, IGRAPH_UNDIRECTED))) goto no_graph;
+  if ((code = lib.igraph_create(&g, &ends, n, IGRAPH_UNDIRECTED))) goto no_graph;
   code = count_coloured(&g, colour, &info);
-  igraph_destroy(&g);
+  lib.igraph_destroy(&g);
 no_graph:
-  igraph_vector_int_destroy(&ends);
+  lib.igraph_vector_int_destroy(&ends);
 no_ends:
-  igraph_set_error_handler(old);
+  lib.igraph_set_error_handler(old);
   *digits = code ? NULL : thr_strdup(info.group_size);
-  igraph_free(info.group_size);
+  lib.igraph_free(info.group_size);
   if (code) return failed(code, err);
   return *digits ? THR_OK : thr_nomem(err);
 }
@@ -102,46 +140,79 @@ no_ends:
 static igraph_error_t kamada_kawai(const igraph_t *g, const igraph_vector_t *length, bool circle, double (*xy)[2])
 {
   igraph_matrix_t at;
-  igraph_integer_t n = igraph_vcount(g);
-  igraph_error_t code = igraph_matrix_init(&at, n, 2);
+  igraph_integer_t n = lib.igraph_vcount(g);
+  igraph_error_t code = lib.igraph_matrix_init(&at, n, 2);
   if (code) return code;
   for (igraph_integer_t v = 0; v < n; v++)
     for (int k = 0; k < 2; k++)
       MATRIX(at, v, k) = xy[v][k];
-  code = igraph_layout_kamada_kawai(g, &at, !circle, 50 * n, 0, (double)n, length, NULL, NULL, NULL, NULL);
+  code = lib.igraph_layout_kamada_kawai(g, &at, !circle, 50 * n, 0, (double)n, length, NULL, NULL, NULL, NULL);
   for (igraph_integer_t v = 0; v < n && !code; v++)
     for (int k = 0; k < 2; k++)
       xy[v][k] = MATRIX(at, v, k);
-  igraph_matrix_destroy(&at);
+  lib.igraph_matrix_destroy(&at);
   return code;
+}
+
+typedef struct {
+  int n, m;
+  const int (*edge)[2];
+  const double *length;
+  bool circle;
+  double (*xy)[2];
+} springs;
+
+static igraph_error_t place(const springs *s)
+{
+  igraph_vector_int_t ends;
+  igraph_vector_t lengths;
+  igraph_t g;
+  igraph_error_t code = list_ends(&ends, s->m, s->edge);
+  if (code) goto no_ends;
+  if ((code = lib.igraph_create(&g, &ends, s->n, IGRAPH_UNDIRECTED))) goto no_graph;
+  if ((code = lib.igraph_vector_init(&lengths, s->m))) goto no_lengths;
+  for (int e = 0; e < s->m; e++)
+    VECTOR(lengths)[e] = s->length[e];
+  code = kamada_kawai(&g, &lengths, s->circle, s->xy);
+  lib.igraph_vector_destroy(&lengths);
+no_lengths:
+  lib.igraph_destroy(&g);
+no_graph:
+  lib.igraph_vector_int_destroy(&ends);
+no_ends:
+  return code;
+}
+
+/* In a child process: sends the places. */
+static thr_status place_and_send(void *user, const thr_limits *limits, thr_sender *to, thr_err *err)
+{
+  const springs *s = user;
+  (void)limits;
+  thr_text places = {0};
+  thr_status st = load(err);
+  if (st) return st;
+  lib.igraph_set_error_handler(lib.igraph_error_handler_ignore);
+  igraph_error_t code = place(s);
+  if (code) return failed(code, err);
+  thr_text_append_bytes(&places, (const char *)s->xy, (size_t)s->n * sizeof *s->xy);
+  st = thr_child_send(to, &places, err);
+  thr_text_destroy(&places);
+  return st;
 }
 
 thr_status thr_kamada_kawai(int n, int m, const int (*edge)[2], const double *length, bool circle, double (*xy)[2], thr_err *err)
 {
-  igraph_error_handler_t *old = igraph_set_error_handler(igraph_error_handler_ignore);
-  igraph_vector_int_t ends;
-  igraph_vector_t lengths;
-  igraph_t g;
-  igraph_error_t code = list_ends(&ends, m, edge);
-  if (code) goto no_ends;
-  if ((code = igraph_create(&g, &ends, n, IGRAPH_UNDIRECTED))) goto no_graph;
-  if ((code = igraph_vector_init(&lengths, m))) goto no_lengths;
-  for (int e = 0; e < m; e++)
-    VECTOR(lengths)[e] = length[e];
-  code = kamada_kawai(&g, &lengths, circle, xy);
-  igraph_vector_destroy(&lengths);
-no_lengths:
-  igraph_destroy(&g);
-no_graph:
-  igraph_vector_int_destroy(&ends);
-no_ends:
-  igraph_set_error_handler(old);
-  return code ? failed(code, err) : THR_OK;
+  springs s = {n, m, edge, length, circle, xy};
+  const thr_child child = {.what = "placing nodes for the picture", .run = place_and_send, .user = &s};
+  const thr_limits none = {0};
+  thr_text places = {0};
+  thr_status st = thr_child_run(&child, &none, &places, err);
+  if (!st && n > 0) memcpy(xy, places.data, (size_t)n * sizeof *xy);
+  thr_text_destroy(&places);
+  return st;
 }
 
 const char *thr_igraph_version(void)
 {
-  const char *text;
-  igraph_version(&text, NULL, NULL, NULL);
-  return text;
+  return IGRAPH_VERSION; /* that the program was built with: asking the library would load it */
 }

@@ -28,7 +28,8 @@ SuiteSparse*.h:eval/spqr.c
 cholmod*.h:eval/spqr.c
 cairo*.h:diagram/paper.c
 librsvg/*.h:diagram/paper.c
-sys/prctl.h:graph/process.c'
+sys/prctl.h:graph/process.c
+dlfcn.h:graph/lazy.c'
 
 # C++, in the file that shims a C++ library
 cpp_headers='new utility cmath cstdlib cstring vector'
@@ -196,6 +197,7 @@ self_test() {
   expect ok symmetry/nauty.c '#include "graph/frame.h"\n#include <traces.h>\n'
   expect ok eval/bullet.cpp '#include <BulletDynamics/btBox.h>\n#include <btBulletDynamicsCommon.h>\n#include <new>\n'
   expect graph/a.c:1 graph/a.c '#include <sys/prctl.h>\n'
+  expect graph/igraph.c:1 graph/igraph.c '#include <dlfcn.h>\n'
   expect ok graph/process.c '#include <sys/prctl.h>\n#include <sys/wait.h>\nvoid f(void) { _exit(1); }\n'
   expect ok graph/text.c 'void f(void) { fwrite("", 1, 0, stdout); }\n'
   expect ok cli/main.c '#include "lp/lp.h"\nint main(void) { printf("%d", 1); exit(0); }\n'
