@@ -5,6 +5,7 @@
 #include "cli/guard.h"
 #include "cli/plan_summary.h"
 #include "cli/symmetry_table.h"
+#include "graph/check.h"
 #include "graph/cuttree.h"
 #include "graph/junction.h"
 #include "lp/cords.h"
@@ -415,11 +416,31 @@ static int find_places(const arguments *a, places *to)
   return a->output ? EXIT_OK : cli_in_folder(folder, "plan.json", to->in_folder, sizeof to->in_folder);
 }
 
+/* What is written is first read back and checked as a whole, as by thread check: a plan that it would refuse is not left. */
+static int check_text(const thr_text *t, const char *path)
+{
+  thr_plan p = {0};
+  thr_err err = {0};
+  if (t->failed) return EXIT_OK; /* writing says so */
+  thr_status st = thr_plan_parse(&p, t->data, t->length, strcmp(path, "-") == 0 ? "stdout" : path, &err);
+  if (!st) st = thr_check_plan(&p, &err);
+  thr_plan_destroy(&p);
+  if (st == THR_OK) return EXIT_OK;
+  if (st == THR_ENOMEM) return cli_fail(&err);
+  cli_error("a fault of this program: the plan does not pass its own check, and is not written: %s", err.text);
+  return EXIT_INTERNAL;
+}
+
 /* From here on the plan is what this run leaves, with this exit code. */
 static int write_plan(const thr_plan *p, const char *path, int code)
 {
   thr_text t = {0};
   thr_plan_write(p, &t);
+  int refused = check_text(&t, path);
+  if (refused) {
+    thr_text_destroy(&t);
+    return refused;
+  }
   guard_writing();
   int written = cli_write(&t, path);
   guard_written(written ? written : code);
