@@ -1,6 +1,7 @@
 /* thread check: is everything that a plan says true? */
 #include "cli/cli.h"
 #include "cli/guard.h"
+#include "cli/terms.h"
 #include "graph/check.h"
 
 #include <stdio.h>
@@ -41,7 +42,6 @@ static void put_turning(thr_text *t, const thr_plan *p)
     thr_text_printf(t, "lower bound %.*f verified, gap %.3g %%", angles ? 3 : 6,
                     angles ? cli_degrees(c->lower_bound) : c->lower_bound, 100 * c->gap);
   thr_text_printf(t, " (%d %s", branchings, cli_plural(branchings, "branching", "branchings"));
-  if (c->length_limit >= 0) thr_text_printf(t, "; among plans of at most %.6f %s", c->length_limit, p->frame.units);
   thr_text_append(t, ")");
   if (c->largest_optimal && p->n_cords > 1) thr_text_append(t, "; largest cord: bound attained");
 }
@@ -88,6 +88,7 @@ static void put_verdict(thr_text *t, const char *path, const thr_plan *p)
   put_turning(t, p);
   put_symmetry(t, p);
   thr_text_append(t, "\n");
+  terms_put(t, p);
 }
 
 static void put_number(thr_text *t, const char *key, double value)
@@ -143,6 +144,7 @@ static void put_json(thr_text *t, const char *path, const thr_plan *p, const thr
     put_cords_json(t, p);
     if (p->options.objective == THR_TORTUOSITY) put_turning_json(t, p);
     if (p->symmetry.present) put_symmetry_json(t, &p->symmetry);
+    terms_put_json(t, p);
   }
   thr_text_append(t, "}\n");
 }
