@@ -20,7 +20,7 @@ count_check() { # sums Check's closing lines; a program that ends badly after th
     END { passed = checks - bad; if ((code != 0 && bad == 0) || checks == 0) bad++; print passed + 0, bad + 0 }' "$1"
 }
 
-count_golden() { # the closing line of tests/golden/run.sh and tests/viewer/run.sh
+count_golden() { # the closing line of tests/golden/run.sh, tests/second/compare.py and tests/viewer/run.sh
   awk -v code="$2" '
     /^[0-9]+ passed, [0-9]+ failed$/ { passed = $1; failed = $3; seen = 1 }
     END { if (!seen || (code != 0 && failed == 0)) failed++; print passed + 0, failed + 0 }' "$1"
@@ -62,6 +62,7 @@ job() {
     *) timeout 900 "$OUT/$build/tests/$rest" >"$log" 2>&1 </dev/null || code=$? ;;
     esac
     ;;
+  second/plans) timeout 900 tests/second/compare.py "$OUT/release/thread" >"$log" 2>&1 || code=$? ;;
   viewer/page) viewer/build.sh "$OUT/viewer" 2>"$log" | cmp - diagram/viewer_page.html >>"$log" 2>&1 ||
     { code=1 && echo 'diagram/viewer_page.html is not what viewer/ gives; "make viewer" builds it' >>"$log"; } ;;
   viewer/browser) tests/viewer/run.sh "$OUT/release/thread" "$OUT/viewer-test" >"$log" 2>&1 || code=$? ;;
@@ -73,7 +74,7 @@ job() {
   esac
   end=$(date +%s%N)
   case $name in
-  */golden/* | viewer/browser) counts=$(count_golden "$log" "$code") ;;
+  */golden/* | second/plans | viewer/browser) counts=$(count_golden "$log" "$code") ;;
   asan/* | release/*) counts=$(count_check "$log" "$code") ;;
   *) if [ "$code" -eq 0 ]; then counts='1 0'; else counts='0 1'; fi ;;
   esac
@@ -166,6 +167,10 @@ fi
     give_up "$variant/golden"
   fi
 done
+
+if [ -z "$only_fuzz" ] && wanted second/plans; then
+  if made release all || build release all; then queue+=(second/plans); else give_up second/plans; fi
+fi
 
 # The viewer last: it needs npm and a browser.
 if [ -z "$only_fuzz" ]; then

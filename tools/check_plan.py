@@ -1,0 +1,1394 @@
+#!/usr/bin/env python3
+"""Verifies plans of `thread` without any of its code: written from docs/plan-format.md, with Python's standard library only.
+
+    tools/check_plan.py [-q] PLAN..        - is standard input
+
+One line per plan: what is verified and for which plans it holds, or the first violation. Exit code, the worst of all plans:
+0 every claim holds, 1 a claim does not hold, 2 usage, 3 not a plan that can be read. Sums are exact (integers, fractions of
+doubles); only angles, distances and the tolerances that the page states are floating point. Section names are the page's.
+"""
+import heapq
+import json
+import math
+import re
+import struct
+import sys
+from fractions import Fraction
+
+TOLERANCE = Fraction(1, 10**9)
+UNIT = 2**44  # of prices in proofs of turning and of tied length
+
+
+class Violation(Exception):
+    """A claim that does not hold."""
+
+
+class Unreadable(Exception):
+    """No plan, or of another version."""
+
+
+def require(holds, text):
+    if not holds:
+        raise Violation(text)
+
+
+# ---- JSON ----
+
+
+def texts(value):
+    """All texts in a value."""
+    if type(value) is str:
+        yield value
+    elif type(value) in (list, dict):
+        for child in value if type(value) is list else [*value, *value.values()]:
+            yield from texts(child)
+
+
+def parse(data):
+    def refuse(word):
+        raise Unreadable(f"not valid JSON: {word}")
+
+    def pairs(items):
+        members = dict(items)
+        return members if len(members) == len(items) else refuse("a member comes twice")
+
+    def real(text):
+        value = float(text)
+        if not math.isfinite(value):
+            refuse(f"{text} is out of range")
+        minus_zero = math.copysign(1, value) < 0 == value  # hashed as it is
+        return int(value) if value.is_integer() and abs(value) <= 2**53 and not minus_zero else value
+
+    def whole(text):
+        value = int(text) if len(text) < 25 else refuse(f"{text} is out of range")
+        return value if -(2**63) <= value < 2**63 else refuse(f"{text} is out of range")
+
+    try:
+        value = json.loads(data.decode("utf-8-sig"), parse_constant=refuse, parse_float=real, parse_int=whole, object_pairs_hook=pairs)
+        if any(b"\0" in text.encode("utf-8") for text in texts(value)):  # encode refuses half characters
+            refuse("a text with a character 0")
+        return value
+    except (ValueError, RecursionError) as error:
+        raise Unreadable(f"not valid JSON: {error}") from None
+
+
+KINDS = {"text": str, "integer": int, "truth": bool, "list": list, "object": dict}
+
+
+def member(holder, key, kind, place, low=None, high=None, default=...):
+    """holder[key], of the kind (`number`: integer or real, as a float) and in [low, high]; default if it may be missing."""
+    if key not in holder and default is not ...:
+        return default
+    name = f"{place}.{key}" if place else key
+    require(key in holder, f"{name}: missing")
+    value = holder[key]
+    good = type(value) in (int, float) if kind == "number" else type(value) is KINDS[kind]
+    require(good, f"{name}: not of type {kind}")
+    value = float(value) if kind == "number" else value
+    require(low is None or value >= low, f"{name}: {value} is below {low}")
+    require(high is None or value <= high, f"{name}: {value} is above {high}")
+    return value
+
+
+def choice(holder, key, place, words, default=...):
+    value = member(holder, key, "text", place, default=default)
+    require(value in words, f"{place}.{key}: not one of {', '.join(map(str, words))}")
+    return value
+
+
+def integers(value, place, low, high, n=None):
+    require(type(value) is list and all(type(x) is int for x in value), f"{place}: not a list of integers")
+    require(n is None or len(value) == n, f"{place}: {len(value)} values, expected {n}")
+    require(all(low <= x <= high for x in value), f"{place}: a value is not within {low} to {high}")
+    return value
+
+
+def known(holder, names, place):
+    for key in holder:
+        require(key in names.split(), f"{place}.{key}: not known, and cannot be checked")
+
+
+INT64 = 2**63 - 1
+
+
+# ---- framework ----
+
+
+class Frame:
+    """Half-edge 2 e + s is edge e seen from its end s; at[v] lists those of node v by ascending edge."""
+
+    def __init__(self, o):
+        place = "framework"
+        self.units = o["units"] if type(o.get("units")) is str else "mm"
+        require(len(self.units.encode()) <= 15, "framework.units: longer than 15 bytes")
+        nodes = member(o, "nodes", "list", place)
+        edges = member(o, "edges", "list", place)
+        require(nodes and edges, "framework: no nodes or no edges")
+        for v, p in enumerate(nodes):
+            good = type(p) is list and len(p) == 3 and all(type(x) in (int, float) and abs(x) < 1e100 for x in p)
+            require(good, f"framework.nodes[{v}]: not three numbers below 1e100")
+        self.xyz = [tuple(map(float, p)) for p in nodes]
+        self.n = len(nodes)
+        self.edge = [tuple(integers(e[:2] if type(e) is list else e, f"framework.edges[{i}]", 0, self.n - 1, 2)) for i, e in enumerate(edges)]
+        self.m = len(edges)
+        require(all(a != b for a, b in self.edge), "framework.edges: an edge from a node to itself")
+        require(len({frozenset(e) for e in self.edge}) == self.m, "framework.edges: two edges between the same nodes")
+        require(len(set(self.xyz)) == self.n, "framework.nodes: two nodes at one place")
+        self.at = [[] for _ in range(self.n)]
+        for h in range(2 * self.m):
+            self.at[self.tail(h)].append(h)
+        require(all(self.at), "framework.nodes: a node without an edge")
+        self.read_edges(o)
+        names = member(o, "names", "list", place, default=None)
+        require(names is None or len(names) == self.n and all(type(x) is str for x in names), "framework.names: not a name per node")
+        self.feet = set(integers(o["feet"] if type(o.get("feet")) is list else [], "framework.feet", 0, self.n - 1))
+        require(member(o, "hash", "text", place) == self.hash(), f"framework.hash: the framework's is {self.hash()}")
+        self.components()
+
+    def tail(self, h):
+        return self.edge[h >> 1][h & 1]
+
+    def read_edges(self, o):
+        given = member(o, "lengths", "list", "framework", default=None)
+        if given is None:
+            self.length = []
+            for a, b in self.edge:
+                x, y, z = (q - p for p, q in zip(self.xyz[a], self.xyz[b]))
+                self.length.append(math.sqrt(x * x + y * y + z * z))
+        else:
+            require(len(given) == self.m and all(type(x) in (int, float) for x in given), "framework.lengths: not a number per edge")
+            self.length = [float(x) for x in given]
+        require(all(0 < x < math.inf for x in self.length), "framework.lengths: not more than 0")
+        self.exact = [Fraction(x) for x in self.length]
+        self.cover, self.capacity = (self.passes(o, key) for key in ("covers", "capacities"))
+        self.cover = self.cover and [x or 1 for x in self.cover]
+
+    def passes(self, o, key):
+        """A list per edge, 0 for what is not said; None if nothing is."""
+        given = member(o, key, "list", "framework", default=[0] * self.m)
+        given = integers([0 if x is None else x for x in given], f"framework.{key}", 0, 100, self.m)
+        return given if any(given) else None
+
+    def hash(self):
+        """FNV-1a, 64 bits, of little-endian numbers."""
+        data = struct.pack("<ii", self.n, self.m) + b"".join(struct.pack("<ddd", *p) for p in self.xyz)
+        data += b"".join(struct.pack("<ii", *e) for e in self.edge) + struct.pack(f"<{self.m}d", *self.length)
+        data += bytes(v in self.feet for v in range(self.n))
+        if self.cover is not None:
+            data += struct.pack(f"<{self.m}i", *self.cover)
+        if self.capacity is not None:
+            data += b"capacity" + struct.pack(f"<{self.m}i", *self.capacity)
+        value = 14695981039346656037
+        for byte in data:
+            value = (value ^ byte) * 1099511628211 & 2**64 - 1
+        return f"{value:016x}"
+
+    def components(self):
+        self.component = [-1] * self.n
+        self.pieces = []  # their nodes, ascending
+        for root in range(self.n):
+            if self.component[root] < 0:
+                stack, piece = [root], [root]
+                self.component[root] = len(self.pieces)
+                while stack:
+                    for h in self.at[stack.pop()]:
+                        w = self.tail(h ^ 1)
+                        if self.component[w] < 0:
+                            self.component[w] = len(self.pieces)
+                            stack.append(w)
+                            piece.append(w)
+                self.pieces.append(sorted(piece))
+
+    def edges_of(self, c):
+        return [e for e in range(self.m) if self.component[self.edge[e][0]] == c]
+
+    def angle(self, a, b):
+        """Of the turn between two half-edges that leave one node: 0 straight on, pi back."""
+        if a == b:
+            return math.pi
+        u, v = ([q - p for p, q in zip(self.xyz[self.tail(h)], self.xyz[self.tail(h ^ 1)])] for h in (a, b))
+        s, t = max(map(abs, u)), max(map(abs, v))
+        u, v = [x / s for x in u], [x / t for x in v]
+        cross = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
+        return math.atan2(math.hypot(*cross), -sum(x * y for x, y in zip(u, v)))
+
+    def is_step(self, a, b):
+        """Is it a turn of 90 degrees or more, to 1e-6? In doubles, in the page's order."""
+        scaled = []
+        for h, sign in ((a, -1), (b, 1)):
+            u = [sign * (q - p) for p, q in zip(self.xyz[self.tail(h)], self.xyz[self.tail(h ^ 1)])]
+            shift = math.frexp(max(map(abs, u)))[1]
+            scaled.append([math.ldexp(x, -shift) for x in u])
+        (a0, a1, a2), (b0, b1, b2) = scaled
+        d = a0 * b0 + a1 * b1 + a2 * b2
+        return a == b or d <= 0 or d * d <= 1e-12 * ((a0 * a0 + a1 * a1 + a2 * a2) * (b0 * b0 + b1 * b1 + b2 * b2))
+
+    def distances(self, sources, without=-1):
+        """Shortest way from the nearest source to every node, not over one edge."""
+        best = [None] * self.n
+        queue = [(0.0, v) for v in sources]
+        while queue:
+            d, v = heapq.heappop(queue)
+            if best[v] is None:
+                best[v] = d
+                for h in self.at[v]:
+                    if best[self.tail(h ^ 1)] is None and h >> 1 != without:
+                        heapq.heappush(queue, (d + self.length[h >> 1], self.tail(h ^ 1)))
+        return best
+
+
+# ---- options ----
+
+PHYSICS = {"mu": (0, 2), "mu_low": (0, 2), "mu_high": (0, 3), "mu_bead": (0, 2), "mu_ground": (0, 2), "cord_diameter": (0, 1e9),
+           "bore": (0, 1e9), "bead_diameter": (0, 1e9), "density": (0, 25), "bead_mass": (0, 1e9), "seating": (5e-324, 1e9),
+           "gravity": (0, 1000)}
+
+
+def check_physics(o, place):
+    known(o, "preset note " + " ".join(PHYSICS), place)
+    choice(o, "preset", place, ("pla-cotton", "eps-nylon", "wood-paracord"), default="pla-cotton")
+    member(o, "note", "text", place, default="")
+    for key, (low, high) in PHYSICS.items():
+        member(o, key, "number", place, low, high, default=1.0)
+
+
+class Options:
+    def __init__(self, o, f):
+        p = "options"
+        known(o, "objective joint cover capacity cords max_length balance ends end_nodes end_counts engine confirm turning symmetry"
+              " time_limit physics", p)
+        self.objective = choice(o, "objective", p, ("length", "tortuosity", "symmetry"))
+        self.tube = choice(o, "joint", p, ("solid", "tube")) == "tube"
+        self.cover = member(o, "cover", "integer", p, 1, 100)
+        self.capacity = member(o, "capacity", "integer", p, 1, 100, default=0)
+        self.balance = member(o, "balance", "truth", p, default=False)
+        self.max_length = member(o, "max_length", "number", p, 5e-324, default=None)
+        member(o, "time_limit", "number", p)
+        choice(o, "engine", p, ("auto", "lp", "matching"), default="auto")
+        choice(o, "confirm", p, ("auto", "always", "never"), default="auto")
+        check_physics(member(o, "physics", "object", p), p + ".physics")
+        self.read_cords(o)
+        self.read_ends(o, f)
+        self.read_turning(o)
+        self.read_symmetry(o)
+        self.need = [max(self.cover, f.cover[e] if f.cover else 1) for e in range(f.m)]
+        self.most = []  # passes that fit through each edge, None: any number
+        for e in range(f.m):
+            limits = [x for x in (self.capacity, f.capacity[e] if f.capacity else 0) if x]
+            self.most.append(min(limits) if limits else None)
+            require(self.most[e] is None or self.most[e] >= self.need[e], f"edge {e}: needs more passes than fit")
+
+    def read_cords(self, o):
+        cords = o.get("cords")
+        if type(cords) is dict:
+            known(cords, "least most", "options.cords")
+            self.least = member(cords, "least", "integer", "options.cords", 1, 1000)
+            self.cords = member(cords, "most", "integer", "options.cords", self.least, 1000)
+        else:
+            self.least = self.cords = member(o, "cords", "integer", "options", 1, 1000)
+
+    def read_ends(self, o, f):
+        self.ends = choice(o, "ends", "options", ("closed", "any", "feet", "nodes", "counts"))
+        require(("end_nodes" in o) == (self.ends == "nodes"), "options.end_nodes: with ends `nodes`, and only with them")
+        require(("end_counts" in o) == (self.ends == "counts"), "options.end_counts: with ends `counts`, and only with them")
+        self.count = {}
+        self.allowed = {"closed": set(), "any": set(range(f.n)), "feet": f.feet}.get(self.ends)
+        if self.ends == "nodes":
+            nodes = integers(member(o, "end_nodes", "list", "options"), "options.end_nodes", 0, f.n - 1)
+            self.allowed = set(nodes)
+        if self.ends == "counts":
+            for i, pair in enumerate(member(o, "end_counts", "list", "options")):
+                v, number = integers(pair, f"options.end_counts[{i}]", 0, max(f.n - 1, 2000), 2)
+                require(v < f.n and 1 <= number <= 2000 and v not in self.count, f"options.end_counts[{i}]: not so many ends at a node")
+                self.count[v] = number
+            self.allowed = set(self.count)
+
+    def read_turning(self, o):
+        require(("turning" in o) == (self.objective == "tortuosity"), "options.turning: with that objective, and only with it")
+        self.tour = None
+        if self.objective == "tortuosity":
+            t, p = member(o, "turning", "object", "options"), "options.turning"
+            known(t, "cost length_slack minimize tour pairings", p)
+            self.cost = choice(t, "cost", p, ("angle", "sine", "step"))
+            self.slack = None if t.get("length_slack", 0) is None else member(t, "length_slack", "number", p, 0)
+            choice(t, "minimize", p, ("turning", "max-turning"))
+            self.tour = choice(t, "tour", p, ("least", "fleury", "hierholzer"))
+            choice(t, "pairings", p, ("keep", "ignore"))
+
+    def read_symmetry(self, o):
+        require(("symmetry" in o) == (self.objective == "symmetry"), "options.symmetry: with that objective, and only with it")
+        if self.objective == "symmetry":
+            s, p = member(o, "symmetry", "object", "options"), "options.symmetry"
+            known(s, "group geometric prefer", p)
+            if s.get("group", 0) is not None:
+                require(len(member(s, "group", "text", p).encode()) <= 15, "options.symmetry.group: longer than 15 bytes")
+            if s.get("geometric", "") is not None:
+                member(s, "geometric", "number", p, 0)
+            aims = member(s, "prefer", "list", p)
+            require(sorted(map(str, aims)) == ["overlap", "paths", "steps", "turning"], "options.symmetry.prefer: not each once")
+
+    def price(self, f, a, b):
+        """Of the turn between two half-edges that leave one node."""
+        angle = f.angle(a, b)
+        if self.objective != "tortuosity" or self.cost == "angle":
+            return angle
+        return math.sin(angle / 2) if self.cost == "sine" else float(f.is_step(a, b))
+
+
+# ---- cords ----
+
+
+class Cord:
+    """Its passes as half-edges that leave the node where the pass begins."""
+
+    def __init__(self, o, i, f):
+        place = f"cords[{i}]"
+        require(type(o) is dict, f"{place}: not an object")
+        number, name = i + 1, ""
+        while number:
+            number, letter = divmod(number - 1, 26)
+            name = chr(65 + letter) + name
+        require(member(o, "id", "text", place) == name, f"{place}.id: not {name}")
+        self.id = name
+        edges = integers(member(o, "edges", "list", place), place + ".edges", 0, f.m - 1)
+        self.nodes = integers(member(o, "nodes", "list", place), place + ".nodes", 0, f.n - 1, len(edges) + 1)
+        require(edges, f"{place}: no passes")
+        self.half = []
+        for k, e in enumerate(edges):
+            ends = self.nodes[k], self.nodes[k + 1]
+            require(ends in (f.edge[e], f.edge[e][::-1]), f"cord {name}, pass {k + 1}: edge {e} does not join nodes {ends[0]} and {ends[1]}")
+            self.half.append(2 * e + (ends[0] == f.edge[e][1]))
+        self.component = f.component[self.nodes[0]]
+        require(member(o, "component", "integer", place) == self.component, f"{place}.component: not {self.component}")
+        self.closed = self.nodes[0] == self.nodes[-1]
+        require(member(o, "closed", "truth", place) == self.closed, f"{place}.closed: not so")
+
+    def turns(self, closing):
+        """Pairs of half-edges that leave one node: of the pass that arrives there, and of the one that leaves."""
+        pairs = [(h ^ 1, g) for h, g in zip(self.half, self.half[1:])]
+        return pairs + [(self.half[-1] ^ 1, self.half[0])] if closing else pairs
+
+    def length(self, f):
+        return sum(f.exact[h >> 1] for h in self.half)
+
+
+class Plan:
+    def __init__(self, o):
+        if type(o) is not dict or o.get("format") != "thread-plan":
+            raise Unreadable("format: not a thread plan")
+        if type(o.get("version")) is not int or o["version"] != 1:
+            raise Unreadable("version: not 1")
+        member(o, "generator", "text", "", default="")
+        f = self.frame = Frame(member(o, "framework", "object", ""))
+        self.options = Options(member(o, "options", "object", ""), f)
+        cords = member(o, "cords", "list", "")
+        require(cords, "cords: none")
+        self.cords = [Cord(c, i, f) for i, c in enumerate(cords)]
+        self.file = o
+        self.proof = member(o, "proof", "object", "")
+        known(self.proof, "length cords turning", "proof")
+        self.closing = self.options.ends == "closed"
+        self.passes = [0] * f.m
+        for cord in self.cords:
+            for h in cord.half:
+                self.passes[h >> 1] += 1
+        self.lengths = [cord.length(f) for cord in self.cords]
+        self.length = sum(self.lengths)
+        self.extra = [x - n for x, n in zip(self.passes, self.options.need)]
+        self.per_piece = [sum(c.component == k for c in self.cords) for k in range(len(f.pieces))]
+
+    def close(self, stated, value, scale, name):
+        require(abs(Fraction(stated) - Fraction(value)) <= TOLERANCE * Fraction(scale), f"{name}: stated {stated}, but it is {float(value)}")
+
+
+def check_cords(p):
+    """Walks, ends, passes, numbers, lengths, joints."""
+    f, o = p.frame, p.options
+    for e in range(f.m):
+        require(p.extra[e] >= 0, f"edge {e}: {p.passes[e]} of {o.need[e]} passes")
+        require(o.most[e] is None or p.passes[e] <= o.most[e], f"edge {e}: {p.passes[e]} passes, {o.most[e]} fit")
+    found = {}
+    for cord in p.cords:
+        require(cord.closed or not p.closing, f"cord {cord.id}: not closed")
+        for v in (cord.nodes[0], cord.nodes[-1]):
+            require(p.closing or v in o.allowed, f"cord {cord.id}: an end at node {v}, where none may be")
+            found[v] = found.get(v, 0) + 1
+    require(o.ends != "counts" or found == o.count, "cords: not the numbers of ends at the nodes that were asked for")
+    if o.objective == "symmetry":
+        require(o.cords == max(p.per_piece), "options.cords: not the number in the component that has most")
+    elif o.objective == "tortuosity" or p.proof.get("length") is not None:
+        for k, number in enumerate(p.per_piece):
+            require(o.least <= number <= o.cords, f"component {k}: {number} cords")
+    for cord, length in zip(p.cords, p.lengths):
+        require(o.max_length is None or length <= Fraction(o.max_length) * (1 + TOLERANCE), f"cord {cord.id}: longer than max_length")
+    if o.tube:
+        check_tied(p)
+
+
+def check_tied(p):
+    f = p.frame
+    root = list(range(2 * f.m))
+
+    def find(h):
+        while root[h] != h:
+            root[h] = root[root[h]]
+            h = root[h]
+        return h
+
+    for cord in p.cords:
+        for a, b in cord.turns(p.closing):
+            require(a != b, f"cord {cord.id}: turns back at node {f.tail(a)}")
+            root[find(a)] = find(b)
+    for v in range(f.n):
+        require(len({find(h) for h in f.at[v]}) == 1, f"node {v}: the cords do not tie its edges together")
+
+
+def check_metrics(p):
+    f, m = p.frame, member(p.file, "metrics", "object", "")
+    known(m, "length base_length overlap passes most_passes turning max_turning worst_turn u_turns", "metrics")
+    base = sum(f.exact[e] * n for e, n in enumerate(p.options.need))
+    angles = [[f.angle(a, b) for a, b in cord.turns(p.closing)] for cord in p.cords]
+    p.turning = [math.fsum(x) for x in angles]
+    total = math.fsum(p.turning)
+    for key, value, scale in (("length", p.length, p.length), ("base_length", base, p.length), ("overlap", p.length - base, p.length),
+                              ("turning", total, 1 + total), ("max_turning", max(p.turning), 1 + total),
+                              ("worst_turn", max((a for x in angles for a in x), default=0), 1 + total)):
+        p.close(member(m, key, "number", "metrics"), value, scale, "metrics." + key)
+    back = sum(a == b for cord in p.cords for a, b in cord.turns(p.closing))
+    for key, value in (("passes", sum(p.passes)), ("most_passes", max(p.passes)), ("u_turns", back)):
+        require(member(m, key, "integer", "metrics") == value, f"metrics.{key}: not {value}")
+
+
+# ---- proof.length, solid joints ----
+
+
+class Cuts:
+    """A forest of node sets: their parity, and what of their values an edge leaves or a node is in."""
+
+    def __init__(self, cuts, place, piece, odd):
+        n = len(cuts)
+        self.parent, self.above, self.sets = [None] * n, [0] * n, {}
+        parity, tree = [0] * n, [0] * n
+        piece = set(piece)
+        self.value = []
+        for i, cut in enumerate(cuts):
+            require(type(cut) is dict, f"{place}.cuts[{i}]: not an object")
+            known(cut, "value nodes parent", f"{place}.cuts[{i}]")
+            self.value.append(member(cut, "value", "integer", f"{place}.cuts[{i}]", 0))
+            self.parent[i] = member(cut, "parent", "integer", f"{place}.cuts[{i}]", i + 1, n - 1, default=None)
+        for i in reversed(range(n)):
+            up = self.parent[i]
+            tree[i] = i if up is None else tree[up]
+            self.above[i] = self.value[i] + (0 if up is None else self.above[up])
+        for i, cut in enumerate(cuts):
+            nodes = integers(member(cut, "nodes", "list", f"{place}.cuts[{i}]"), f"{place}.cuts[{i}].nodes", 0, INT64)
+            require(all(a < b for a, b in zip(nodes, nodes[1:])), f"{place}.cuts[{i}].nodes: not ascending")
+            for v in nodes:
+                require(v in piece, f"{place}.cuts[{i}]: node {v} is not in the component")
+                held = self.sets.setdefault(v, {})
+                require(tree[i] not in held, f"{place}.cuts[{i}]: node {v} comes twice in its tree")
+                held[tree[i]] = i
+                parity[i] ^= v in odd
+            require(parity[i], f"{place}.cuts[{i}]: an even number of odd nodes")
+            if self.parent[i] is not None:
+                parity[self.parent[i]] ^= 1
+
+    def held(self, v):
+        return sum(self.above[i] for i in self.sets.get(v, {}).values())
+
+    def left(self, a, b):
+        """Sum of the values of the sets that hold one of two nodes."""
+        total = 0
+        for tree, i in self.sets.get(a, {}).items():
+            j = self.sets.get(b, {}).get(tree)
+            total += self.above[i]
+            while j is not None and i is not None and i != j:  # up to the lowest set round both
+                if i < j:
+                    i = self.parent[i]
+                else:
+                    j = self.parent[j]
+            if i is not None and j is not None:
+                total -= 2 * self.above[i]
+        return total + self.held(b)
+
+
+def shortest_loop(f, e):
+    """Edges of the shortest loop over edge e; 10 if there is none that is shorter."""
+    (a, b), seen, front = f.edge[e], {f.edge[e][0]}, [f.edge[e][0]]
+    for steps in range(1, 9):
+        front = [f.tail(h ^ 1) for v in front for h in f.at[v] if h >> 1 != e]
+        if b in front:
+            return steps + 1
+        front = list(set(front) - seen)
+        seen.update(front)
+    return 10
+
+
+def places(f, o, e, n, price):
+    """Price of the places that n passes over edge e are."""
+    if o.ends != "closed":
+        return n * sum(price(v) for v in f.edge[e] if v in o.allowed)
+    return price(0) * (n // 2 * 2 + (n % 2 and Fraction(2, shortest_loop(f, e))))
+
+
+class Certificate:
+    """Of one component. least(j): least length of its cords if they have j ends."""
+
+    def __init__(self, p, o, place, c):
+        f, opt = p.frame, p.options
+        known(o, "component scale denominator end_price join sum place_prices cuts", place)
+        require(member(o, "component", "integer", place) == c, f"{place}.component: not {c}")
+        self.scale = Fraction(member(o, "scale", "number", place, 5e-324))
+        self.unit = member(o, "denominator", "integer", place, 1)
+        self.end_price = member(o, "end_price", "integer", place, 0)
+        require(self.end_price == 0 or opt.ends not in ("closed", "counts"), f"{place}.end_price: not 0")
+        piece, edges = f.pieces[c], f.edges_of(c)
+        self.base = sum(f.exact[e] * opt.need[e] for e in edges)
+        self.own = self.base + sum(f.exact[e] * p.extra[e] for e in edges)
+        self.weight = {}
+        for e in edges:
+            product = f.length[e] * float(self.scale)
+            require(product < 2**62, f"{place}.scale: too large")
+            self.weight[e] = round(product)
+        join = sum(self.weight[e] * p.extra[e] for e in edges)
+        require(member(o, "join", "integer", place) == join, f"{place}.join: not {join}")
+        prices = self.read_prices(o, place, piece, opt)
+        odd = {v for v in piece if (sum(opt.need[h >> 1] for h in f.at[v]) + opt.count.get(v, 0)) % 2}
+        self.constant, limit = 0, {}
+        if prices:
+            self.constant = self.priced(p, prices, piece, edges, limit, odd, place)
+        else:
+            limit = {e: self.weight[e] * self.unit for e in edges if opt.most[e] != opt.need[e]}
+        cuts = Cuts(member(o, "cuts", "list", place), place, piece, odd)
+        self.sum = sum(cuts.value)
+        require(member(o, "sum", "integer", place) == self.sum, f"{place}.sum: not {self.sum}")
+        for e, most in limit.items():
+            require(cuts.left(*f.edge[e]) <= most, f"{place}: the cuts over edge {e} add up to more than its weight")
+        for v in piece:
+            require(opt.ends == "counts" or v not in opt.allowed or cuts.held(v) <= self.end_price,
+                    f"{place}: the cuts round node {v} add up to more than the end price")
+        self.up = self.round_up(p, edges, bool(prices))
+        extra = [e for e in edges if p.extra[e]]
+        total = sum(f.exact[e] for e in edges)
+        weight = self.weight_bound(2 * opt.cords)
+        require(weight <= join, f"{place}: proves a weight of {weight}, but the plan's extra passes have {join}")
+        closes = weight == join and all(self.weight[e] for e in extra)
+        self.optimal = not extra or closes and self.own - self.base - self.as_length(join) <= TOLERANCE * total
+
+    def read_prices(self, o, place, piece, opt):
+        stated = member(o, "place_prices", "list", place, default=[])
+        require(not stated or opt.objective != "symmetry", f"{place}.place_prices: not with objective symmetry")
+        counts = opt.ends == "counts"
+        integers(stated, place + ".place_prices", 0, INT64, (len(piece) if counts else 1) if stated else 0)
+        return stated and (dict(zip(piece, stated)) if counts else {None: stated[0]})
+
+    def priced(self, p, prices, piece, edges, limit, odd, place):
+        """Fills the edges' limits, changes the parity of nodes; gives what the bound has beside the cuts."""
+        f, o = p.frame, p.options
+        price = lambda v: prices[v] if None not in prices else prices[None]
+        total = sum(price(v) * o.count.get(v, 0) for v in piece) if o.ends == "counts" else price(0) * 2 * o.least
+        for e in edges:
+            held = places(f, o, e, o.need[e], price)
+            room = None if o.most[e] is None else o.most[e] - o.need[e]
+            cost = lambda x: math.floor(self.weight[e] * self.unit * x - (places(f, o, e, o.need[e] + x, price) - held))
+            require(room is not None or cost(2) >= 0, f"{place}: edge {e} is cheaper the more it is passed")
+            even, odd_passes = [0], [1]
+            if room is not None:
+                even, odd_passes = [0, room // 2 * 2], [1, room - 1 + room % 2] if room else []
+            least = min(map(cost, even))
+            if odd_passes:
+                other = min(map(cost, odd_passes))
+                limit[e] = abs(other - least)
+                if other < least:
+                    odd ^= set(f.edge[e])
+                least = min(least, other)
+            total += least - math.ceil(held)
+        return total
+
+    def round_up(self, p, edges, priced):
+        """Of every edge with room: what its weight is more than its length, its weight as a length, the most extra passes it may need."""
+        o, rows = p.options, []
+        for e in edges:
+            room = None if o.most[e] is None else o.most[e] - o.need[e]
+            most = max(1, 2 * o.cords - o.need[e]) if priced else 1
+            stretched = self.weight[e] / self.scale
+            if room != 0:
+                rows.append((max(Fraction(0), stretched - p.frame.exact[e]), stretched, most if room is None else min(room, most)))
+        return rows
+
+    def as_length(self, weight):
+        """Length that extra passes of at least this weight have at least."""
+        part = Fraction(1, 2 * 10**9)
+        one = weight / self.scale - sum(up * most for up, _, most in self.up)
+        two = (1 - part) * weight / self.scale - sum(max(Fraction(0), up - part * whole) * most for up, whole, most in self.up)
+        return max(Fraction(0), one, two)
+
+    def weight_bound(self, ends):
+        """Weight that extra passes with so many ends have at least."""
+        return max(0, -(-(self.sum + self.constant - ends * self.end_price) // self.unit))
+
+    def least(self, ends):
+        return self.base + self.as_length(self.weight_bound(ends))
+
+
+def check_claim(p, claim, own, optimal, bound, scale, place, gap=True):
+    """status, lower_bound and gap of a claim, against what is proved."""
+    status = choice(claim, "status", place, ("optimal", "bound"))
+    stated = Fraction(member(claim, "lower_bound", "number", place, 0))
+    slack = TOLERANCE * Fraction(scale)
+    require(bound <= own + slack, f"{place}: the proof gives {float(bound)}, which is more than the plan's own {float(own)}")
+    require(status == "bound" or optimal, f"{place}: not optimal, {float(bound)} is proved")
+    require(stated <= (own if optimal else bound) + slack, f"{place}.lower_bound: stated {float(stated)}, but {float(bound)} is proved")
+    require(status == "bound" or abs(stated - own) <= slack, f"{place}.lower_bound: not the plan's own")
+    if gap:
+        value = (own - stated) / own if own else 0
+        require(abs(Fraction(member(claim, "gap", "number", place, 0)) - value) <= TOLERANCE, f"{place}.gap: not {float(value)}")
+    return status
+
+
+def check_length(p):
+    """The claim about length, if there is one: what it proves of each component, and how it reads."""
+    claim = member(p.proof, "length", "object", "proof", default=None)
+    if claim is None:
+        return ["no proof of length"]
+    place = "proof.length"
+    known(claim, "status lower_bound slack gap method certificate proof", place)
+    if p.options.tube:
+        require("certificate" not in claim, f"{place}.certificate: not with tube joints")
+        p.tied = Tied(p, member(claim, "proof", "object", place))
+        optimal, bound = p.tied.optimal, p.tied.least
+    else:
+        require("proof" not in claim, f"{place}.proof: only with tube joints")
+        stated = member(claim, "certificate", "list", place)
+        require(len(stated) == len(p.frame.pieces), f"{place}.certificate: not one per component")
+        p.certificate = []
+        for c, o in enumerate(stated):
+            require(type(o) is dict, f"{place}.certificate[{c}]: not an object")
+            p.certificate.append(Certificate(p, o, f"{place}.certificate[{c}]", c))
+        optimal = all(c.optimal for c in p.certificate)
+        bound = sum(c.own if c.optimal else c.least(2 * p.options.cords) for c in p.certificate)
+    status = check_claim(p, claim, p.length, optimal, bound, p.length, place)
+    p.least = p.length if optimal else bound
+    slack = p.options.slack if p.options.objective == "tortuosity" else None
+    if "slack" in claim:
+        choice(claim, "slack", place, ("open",))
+    elif slack is not None:
+        longest = (1 + Fraction(slack)) * (1 + 2 * TOLERANCE) * p.least
+        require(p.length <= longest, f"{place}: the cords are longer than {float(longest)}, the slack above what is proved")
+    return [f"length {status}" if status == "optimal" else f"length at least {claim['lower_bound']:.15g}"]
+
+
+# ---- proofs of turning ----
+
+
+class Model:
+    """Columns of the turns, extra passes, ends and U-turns of plans, and the least price that multipliers prove."""
+
+    def __init__(self, p, cords, most_passes, free):
+        f, o = self.f, self.o = p.frame, p.options
+        self.tied, self.need = o.tube, o.need
+        self.cords = cords  # closed cords of a component at most
+        self.most = [max(o.need[e], min(most_passes, o.most[e] or most_passes)) for e in range(f.m)]
+        if o.ends == "counts":
+            self.group, self.supply = list(range(f.n)), [(o.count.get(v, 0),) * 2 for v in range(f.n)]
+        else:
+            self.group = f.component
+            least = 1 if o.objective == "symmetry" else o.least  # which says the number in one component only
+            self.supply = [(0, 0) if o.ends == "closed" else (2 * least, 2 * o.cords)] * len(f.pieces)
+        self.weight, self.high = {}, {}
+        for v in range(f.n):
+            for i, a in enumerate(f.at[v]):
+                for b in f.at[v][i + 1:]:
+                    self.weight[a, b] = 0 if free else math.floor(Fraction(o.price(f, a, b)) * UNIT)
+                    self.high[a, b] = min(self.most[a >> 1], self.most[b >> 1])
+                if v in o.allowed:
+                    self.weight[a, -1] = 0
+                    self.high[a, -1] = min(self.most[a >> 1], self.supply[self.group[v]][1])
+            if len(f.at[v]) == 1 and not self.tied:
+                a = f.at[v][0]
+                self.weight[a, a] = 0 if free else math.floor(Fraction(o.price(f, a, a)) * UNIT)
+                self.high[a, a] = self.most[a >> 1] // 2
+        self.rate = Fraction(0)
+        if free:
+            self.rate = min(Fraction(f.m) / sum(f.exact), Fraction(5000) / max(f.exact))
+        for e in range(f.m):
+            self.weight[2 * e, 2 * e + 1] = math.floor(f.exact[e] * self.rate * UNIT)
+            self.high[2 * e, 2 * e + 1] = self.most[e] - o.need[e]
+        self.limit = None  # of the length of all cords
+
+    def column(self, a, b):
+        key = (a, b) if (a, b) in self.weight else (b, a)
+        require(key in self.weight, f"no column of half-edges {a} and {b}")
+        return key
+
+    def open(self, c):
+        """Have the cords of component c ends?"""
+        return any(self.supply[k][0] for k in {self.group[v] for v in self.f.pieces[c]})
+
+    def apply(self, dual, place):
+        """Reduced costs of the columns and the constant that multipliers give."""
+        f, cost, constant = self.f, dict(self.weight), 0
+        for h, y in enumerate(dual["potentials"]):
+            constant += y * self.need[h >> 1]
+            cost[h & ~1, h | 1] += y
+        for a, b in cost:
+            if b < 0:
+                cost[a, b] -= dual["potentials"][a] + dual["ends"][self.group[f.tail(a)]]
+            elif a >> 1 != b >> 1 or a == b:
+                cost[a, b] -= dual["potentials"][a] + dual["potentials"][b]
+        for (low, high), y in zip(self.supply, dual["ends"]):
+            constant += y * (low if y >= 0 else high)
+        if dual["length"] and self.limit is not None:
+            longest = max(f.exact)
+            for e in range(f.m):
+                cost[2 * e, 2 * e + 1] += Fraction(dual["length"]) * f.exact[e] / longest
+            base = sum(x * n for x, n in zip(f.exact, self.need))
+            constant -= Fraction(dual["length"]) * max(Fraction(0), Fraction(self.limit) - base) / longest
+        for row in dual["odd_sets"]:
+            constant += self.odd_set(row, cost, place)
+        for row in dual["groups"]:
+            constant += self.a_group(row, cost, place)
+        for row in dual["partitions"]:
+            constant += self.partition(row, cost, place)
+        for row in dual["junctions"]:
+            constant += self.junction(row, cost, place)
+        return cost, constant
+
+    def odd_set(self, row, cost, place):
+        f, y, inside = self.f, row["value"], set(row["members"])
+        parity = sum(self.supply[h - 2 * f.m][0] if h >= 2 * f.m else self.need[h >> 1] for h in inside)
+        require(parity % 2, f"{place}: an odd set is even")
+        touched = set()
+        for h in inside:
+            if h < 2 * f.m:
+                touched.add((h & ~1, h | 1))
+                touched.add((h, -1))
+                touched.update((min(h, g), max(h, g)) for g in f.at[f.tail(h)])
+            else:
+                touched.update((g, -1) for v in range(f.n) if self.group[v] == h - 2 * f.m for g in f.at[v])
+        for a, b in touched:
+            other = b if b >= 0 else 2 * f.m + self.group[f.tail(a)]
+            if (a, b) in cost and (a in inside) != (other in inside):
+                cost[a, b] -= y
+        return y
+
+    def a_group(self, row, cost, place):
+        f, y, inside = self.f, row["value"], set(row["members"])
+        good = False
+        for c in {f.component[f.edge[e][0]] for e in inside}:
+            good |= self.open(c) or self.cords == 1 and not inside.issuperset(f.edges_of(c))
+        require(good, f"{place}: a group need not be connected to the rest")
+        for a, b in cost:
+            if b < 0 and a >> 1 in inside or b >= 0 and (a >> 1 in inside) != (b >> 1 in inside):
+                cost[a, b] -= y
+        return 2 * y
+
+    def blocks(self, blocks, place):
+        require(set(blocks) == set(range(max(blocks) + 1)), f"{place}: a block number is not in use")
+
+    def partition(self, row, cost, place):
+        f, y, block = self.f, row["value"], row["blocks"]
+        require(self.o.ends == "closed", f"{place}: partitions are for closed cords")
+        self.blocks(block, place)
+        owner = {}
+        for e in range(f.m):
+            c = f.component[f.edge[e][0]]
+            require(owner.setdefault(block[e], c) == c, f"{place}: a block in two components")
+        right = sum(max(0, list(owner.values()).count(c) - self.cords) for c in range(len(f.pieces)))
+        for v in range(f.n):
+            here = {block[h >> 1] for h in f.at[v]}
+            if len(here) < 2:
+                continue
+            share = Fraction(y * (len(here) - 1), len(here))
+            odd = {b for b in here if sum(self.need[h >> 1] for h in f.at[v] if block[h >> 1] == b) % 2}
+            for i, a in enumerate(f.at[v]):
+                if block[a >> 1] not in odd:
+                    cost[a & ~1, a | 1] -= share / 2
+                for b in f.at[v][i + 1:]:
+                    if block[a >> 1] != block[b >> 1]:
+                        cost[a, b] -= share
+            right -= Fraction((len(here) - 1) * len(odd), 2 * len(here))
+        return y * right
+
+    def junction(self, row, cost, place):
+        require(self.tied, f"{place}: junctions are for tube joints")
+        at = self.f.at[row["node"]]
+        require(len(row["blocks"]) == len(at), f"{place}: not a block per edge at the node")
+        self.blocks(row["blocks"], place)
+        for i, a in enumerate(at):
+            for j in range(i):
+                if row["blocks"][i] != row["blocks"][j]:
+                    cost[at[j], a] -= row["value"]
+        return row["value"] * max(row["blocks"])
+
+    def read_dual(self, o, place):
+        f = self.f
+        require(type(o) is dict, f"{place}: not an object")
+        known(o, "potentials ends length odd_sets groups partitions junctions", place)
+        dual = {"length": member(o, "length", "integer", place, 0)}
+        for key, n in (("potentials", 2 * f.m), ("ends", len(self.supply))):
+            dual[key] = integers(member(o, key, "list", place), f"{place}.{key}", -INT64, INT64, n)
+        for key, list_name, most, n in (("odd_sets", "members", 2 * f.m + len(self.supply) - 1, None), ("groups", "members", f.m - 1, None),
+                                        ("partitions", "blocks", f.m - 1, f.m), ("junctions", "blocks", f.m - 1, None)):
+            dual[key] = member(o, key, "list", place, default=[] if key == "junctions" else ...)
+            for i, row in enumerate(dual[key]):
+                name = f"{place}.{key}[{i}]"
+                require(type(row) is dict, f"{name}: not an object")
+                known(row, f"value {list_name}" + " node" * (key == "junctions"), name)
+                member(row, "value", "integer", name, 0)
+                values = integers(member(row, list_name, "list", name), f"{name}.{list_name}", 0, most, n)
+                require(list_name == "blocks" or all(a < b for a, b in zip(values, values[1:])), f"{name}.members: not ascending")
+                require(values, f"{name}: empty")
+                if key == "junctions":
+                    member(row, "node", "integer", name, 0, f.n - 1)
+        return dual
+
+    def read(self, o, place):
+        """The proof, checked for shape; bound() adds it up."""
+        known(o, "tree multipliers", place)
+        self.tree = member(o, "tree", "list", place)
+        duals = member(o, "multipliers", "list", place)
+        self.duals = [self.read_dual(d, f"{place}.multipliers[{i}]") for i, d in enumerate(duals)]
+        require(self.tree, f"{place}.tree: empty")
+        parents = [0] * len(self.tree)
+        for i, node in enumerate(self.tree):
+            name = f"{place}.tree[{i}]"
+            require(type(node) is dict, f"{name}: not an object")
+            if "multipliers" in node:
+                known(node, "multipliers", name)
+                member(node, "multipliers", "integer", name, 0, len(duals) - 1)
+                continue
+            known(node, "low high a b value", name)
+            for key in ("low", "high"):
+                parents[member(node, key, "integer", name, i + 1, len(self.tree) - 1)] += 1
+            a, b = (member(node, key, "integer", name, low, 2 * self.f.m - 1) for key, low in (("a", 0), ("b", -1)))
+            self.column(a, b)
+            member(node, "value", "integer", name, 0, 10**6)
+        require(parents == [0] + [1] * (len(self.tree) - 1), f"{place}.tree: not a tree")
+
+    def bound(self, place):
+        """Least price over all leaves, in units of 1 / UNIT; None if no plan is left."""
+        applied = []
+        for i, dual in enumerate(self.duals):
+            cost, constant = self.apply(dual, f"{place}.multipliers[{i}]")
+            applied.append((cost, constant + sum(x * self.high[c] for c, x in cost.items() if x < 0)))
+        best, stack = None, [(0, {})]
+        while stack:
+            i, box = stack.pop()
+            node = self.tree[i]
+            if "multipliers" in node:
+                cost, total = applied[node["multipliers"]]
+                for c, (low, high) in box.items():
+                    total += min(cost[c] * low, cost[c] * high) - min(0, cost[c] * self.high[c])
+                best = total if best is None else min(best, total)
+                continue
+            c = self.column(node["a"], node["b"])
+            low, high = box.get(c, (0, self.high[c]))
+            if low <= min(high, node["value"]):
+                stack.append((node["low"], {**box, c: (low, min(high, node["value"]))}))
+            if max(low, node["value"] + 1) <= high:
+                stack.append((node["high"], {**box, c: (max(low, node["value"] + 1), high)}))
+        return best
+
+
+class Tied:
+    """The proof of least length with tube joints."""
+
+    def __init__(self, p, o):
+        f, place = p.frame, "proof.length.proof"
+        degree = max(map(len, f.at))
+        cords = 1 if p.options.ends == "closed" else p.options.cords
+        self.base = sum(f.exact[e] * n for e, n in enumerate(p.options.need))
+        self.model = Model(p, cords, 2 * (max(p.options.need) + degree + 2 * cords) + 1, True)
+        self.model.read(o, place)
+        self.least = self.least_length(place)
+        require(self.least is not None, f"{place}: proves that there is no plan")
+        self.optimal = p.length - self.least <= TOLERANCE * p.length
+
+    def least_length(self, place):
+        bound = self.model.bound(place)
+        return None if bound is None else self.base + max(Fraction(0), Fraction(bound) / UNIT / self.model.rate)
+
+
+# ---- proof.cords ----
+
+
+def longest_unit(f):
+    """The longest step that every edge is a whole number of, within 1e-10 of its length; 0 if it takes over 1000 to the longest."""
+    longest = max(f.length)
+    for k in range(1, 1001):
+        unit = longest / k
+        if all(abs(x - round(x / unit) * unit) <= 1e-10 * x for x in f.length):
+            return Fraction(longest) / k
+    return 0
+
+
+def forced_detour(p, enough):
+    """Shortest cord over the worst edge; stops at one that is enough."""
+    f, o = p.frame, p.options
+    best = 0.0
+    way = f.distances(o.allowed)
+    for e in sorted(range(f.m), key=lambda e: -f.length[e]):
+        a, b = f.edge[e]
+        if p.closing:
+            round_trip = f.distances([a], e)[b]
+            value = f.length[e] + min(f.length[e], math.inf if round_trip is None else round_trip)
+        else:
+            value = way[a] + f.length[e] + way[b]
+        best = max(best, value)
+        if best >= enough:
+            break
+    return Fraction(best)
+
+
+def fewest_cords(p):
+    """Cords in all components together that no plan has fewer of."""
+    o, limit = p.options, Fraction(p.options.max_length) * (1 + 2 * TOLERANCE)
+    if o.tube:
+        if o.ends in ("any", "feet", "nodes") and len(p.frame.pieces) == 1:
+            supply = p.tied.model.supply
+            for j in range(o.least, p.per_piece[0]):
+                p.tied.model.supply = [(2 * j, 2 * j)]
+                least = p.tied.least_length("proof.length.proof")
+                if least is not None and least <= j * limit:
+                    break
+            else:
+                j = p.per_piece[0]
+            p.tied.model.supply = supply
+            return j
+        return max(math.ceil(p.tied.least / limit), o.least * len(p.frame.pieces))
+    total = 0
+    for c, certificate in enumerate(p.certificate):
+        j = o.least
+        while j < p.per_piece[c] and certificate.least(2 * j) > j * limit:
+            j += 1
+        total += j
+    return total
+
+
+def check_cords_claim(p):
+    claim = member(p.proof, "cords", "object", "proof", default=None)
+    if claim is None:
+        return []
+    o, place = p.options, "proof.cords"
+    known(claim, "longest fewest", place)
+    require("length" in p.proof, f"{place}: without a proof of length")
+    stated = member(claim, "longest", "object", place)
+    known(stated, "status length lower_bound", place + ".longest")
+    own = max(p.lengths)
+    p.close(member(stated, "length", "number", place + ".longest"), own, own, place + ".longest.length")
+    if o.tube:
+        bound = p.tied.least / (len(p.cords) if o.ends == "counts" else o.cords * len(p.frame.pieces))
+    else:
+        cords = [o.cords if o.ends != "counts" else p.per_piece[c] for c in range(len(p.certificate))]
+        bound = max((c.own if c.optimal else c.least(2 * o.cords)) / k for c, k in zip(p.certificate, cords))
+    claimed = member(stated, "lower_bound", "number", place + ".longest")
+    bound = max(bound, forced_detour(p, claimed))
+    unit = longest_unit(p.frame)
+    if unit:
+        bound = max(bound, unit * math.ceil(bound / unit * (1 - 2 * TOLERANCE)))
+    optimal = own - bound <= TOLERANCE * own
+    words = ["longest cord " + check_claim(p, stated, own, optimal, bound, own, place + ".longest", gap=False)]
+    if "fewest" in claim:
+        require(o.max_length is not None and o.least < o.cords, f"{place}.fewest: without max_length and a range of cords")
+        stated, place = member(claim, "fewest", "object", place), place + ".fewest"
+        known(stated, "status lower_bound", place)
+        number, fewest = member(stated, "lower_bound", "integer", place, 1), fewest_cords(p)
+        require(number <= fewest <= len(p.cords), f"{place}.lower_bound: stated {number}, but {fewest} is proved")
+        status = choice(stated, "status", place, ("optimal", "bound"))
+        require(status == "bound" or number == len(p.cords), f"{place}.status: not optimal")
+        words.append(f"fewest cords {number}")
+    return words
+
+
+# ---- proof.turning ----
+
+
+def cheapest_pairing(f, o, v, count):
+    """Least price of pairing count[i] passes of the i-th half-edge at v; None if that is too much to work out."""
+    at = f.at[v]
+    price = {}
+    for i, a in enumerate(at):
+        for j, b in enumerate(at[i:], i):
+            price[i, j] = math.inf if i == j and len(at) > 1 else o.price(f, a, b)
+    best = {(0,) * len(count): 0.0}
+
+    def solve(state):
+        if state in best:
+            return best[state]
+        if len(best) > 20000:
+            raise OverflowError
+        i = next(k for k, n in enumerate(state) if n)
+        least = math.inf
+        for j in range(i, len(state)):
+            if state[j] >= 1 + (i == j):
+                rest = list(state)
+                rest[i] -= 1
+                rest[j] -= 1
+                least = min(least, price[i, j] + solve(tuple(rest)))
+        best[state] = least
+        return least
+
+    try:
+        return solve(tuple(count))
+    except (OverflowError, RecursionError):
+        return None
+
+
+def pairing_bound(p):
+    f, o = p.frame, p.options
+    count = [p.passes[h >> 1] for h in range(2 * f.m)]
+    actual = [0.0] * f.n
+    for cord in p.cords:
+        if not p.closing:
+            count[cord.half[0]] -= 1
+            count[cord.half[-1] ^ 1] -= 1
+        for a, b in cord.turns(p.closing):
+            actual[f.tail(a)] += o.price(f, a, b)
+    total = []
+    for v in range(f.n):
+        value = cheapest_pairing(f, o, v, [count[h] for h in f.at[v]])
+        total.append(actual[v] if value is None else min(value, actual[v]))
+    return math.fsum(total)
+
+
+def check_turning(p):
+    claim = member(p.proof, "turning", "object", "proof", default=None)
+    if claim is None:
+        return []
+    f, o, place = p.frame, p.options, "proof.turning"
+    require(o.tour == "least", f"{place}: only with objective tortuosity and tour least")
+    known(claim, "status price lower_bound gap pairing_bound largest most_passes length_limit method proof", place)
+    for cord in p.cords:
+        for a, b in cord.turns(p.closing):
+            require(a != b or len(f.at[f.tail(a)]) == 1, f"cord {cord.id}: turns back at node {f.tail(a)}, which has other edges")
+    prices = [math.fsum(o.price(f, a, b) for a, b in cord.turns(p.closing)) for cord in p.cords]
+    price = math.fsum(prices)
+    most = member(claim, "most_passes", "integer", place, max(max(p.passes), 4 * max(o.need) + 4), 10**6)
+    limit = None if claim.get("length_limit", 0) is None else member(claim, "length_limit", "number", place, 0)
+    require(limit is None or o.slack is not None, f"{place}.length_limit: the options allow any length")
+    require(limit is None or "length" in p.proof, f"{place}.length_limit: without a proof of the least length")
+    needed = None if limit is None else (1 + Fraction(o.slack)) * p.least
+    require(limit is None or limit >= needed * (1 - TOLERANCE), f"{place}.length_limit: the options allow up to {float(needed or 0)}")
+    require(limit is None or p.length <= Fraction(limit) * (1 + TOLERANCE), f"{place}.length_limit: the plan is longer")
+    model = Model(p, o.cords, most, False)
+    model.limit = limit and Fraction(limit) * (1 + TOLERANCE)
+    model.read(member(claim, "proof", "object", place), place + ".proof")
+    bound = model.bound(place + ".proof")
+    require(bound is not None, f"{place}.proof: proves that there is no plan")
+    bound = max(Fraction(0), Fraction(bound) / UNIT)
+    if p.closing and o.cost != "step":  # Fenchel 1929; sin(x / 2) >= x / pi
+        bound = max(bound, Fraction(2 * math.pi if o.cost == "angle" else 2) * o.least * len(f.pieces))
+    rounding = 2 * TOLERANCE * Fraction(math.pi if o.cost == "angle" else 1) * sum(p.passes)
+    optimal = price - bound <= rounding
+    scale = max(price, 1)
+    p.close(member(claim, "price", "number", place), price, scale, place + ".price")
+    status = check_claim(p, claim, Fraction(price), optimal, bound, scale, place)
+    require(member(claim, "pairing_bound", "number", place, 0) <= pairing_bound(p) + 1e-9 * scale, f"{place}.pairing_bound: too large")
+    largest = member(claim, "largest", "object", place)
+    known(largest, "status price lower_bound", place + ".largest")
+    p.close(member(largest, "price", "number", place + ".largest"), max(prices), scale, place + ".largest.price")
+    number = len(p.cords) if o.ends == "counts" else o.cords * len(f.pieces)
+    share = (Fraction(price) if optimal else bound) / number
+    attained = max(prices) - share <= rounding
+    word = check_claim(p, largest, Fraction(max(prices)), attained, share, scale, place + ".largest", gap=False)
+    return [f"turning {status}", f"largest turning {word}", f"at most {most} passes over any edge"] + (
+        [f"at most {limit} {f.units} of cord"] if limit is not None else [])
+
+
+# ---- symmetry ----
+
+
+def least_rotation(text):
+    """The first in order of all rotations (Booth 1980, in Shiloach's two-pointer form)."""
+    twice, n, i, j, k = text + text, len(text), 0, 1, 0
+    while i < n and j < n and k < n:
+        a, b = twice[i + k], twice[j + k]
+        if a == b:
+            k += 1
+            continue
+        if a > b:
+            i += k + 1
+        else:
+            j += k + 1
+        j += i == j
+        k = 0
+    i = min(i, j)
+    return twice[i:i + n]
+
+
+class Paths:
+    """Cords as strings of nodes, for comparing them; turning ones run round: any start, either way."""
+
+    def __init__(self, p):
+        free = p.closing or p.options.ends == "any" and not p.options.tube
+        self.round = [free and cord.closed for cord in p.cords]
+        self.text = ["".join(map(chr, cord.nodes[:-1] if r else cord.nodes)) for cord, r in zip(p.cords, self.round)]
+
+    def form(self, i, image):
+        text = self.text[i].translate(image)
+        if self.round[i]:
+            return "o" + min(least_rotation(text), least_rotation(text[::-1]))
+        return "-" + min(text, text[::-1])
+
+    def ways(self, i, group):
+        """In how many ways (direction and start) cord i is its own image under an element of the group."""
+        text, found = self.text[i], set()
+        for image in group:
+            moved = text.translate(image)
+            for back in (False, True):
+                own = text[::-1] if back else text
+                if not self.round[i]:
+                    found.update([back] if own == moved else [])
+                    continue
+                at = (own + own).find(moved)
+                while 0 <= at < len(text):
+                    found.add((back, at))
+                    at = (own + own).find(moved, at + 1)
+        return len(found)
+
+
+def point_groups(order):
+    """Names of point groups of this order: {name: (elements of order 2, greatest order, elements that mirror, inversions)}."""
+    table = {"C1": (1, 0, 1, 0, 0), "Cs": (2, 1, 2, 1, 0), "Ci": (2, 1, 2, 1, 1), "T": (12, 3, 3, 0, 0), "Th": (24, 7, 6, 12, 1),
+             "Td": (24, 9, 4, 12, 0), "O": (24, 9, 4, 0, 0), "Oh": (48, 19, 6, 24, 1), "I": (60, 15, 5, 0, 0), "Ih": (120, 31, 10, 60, 1)}
+    for n in range(2, order + 1):
+        even, odd = 1 - n % 2, n % 2
+        table[f"C{n}"] = (n, even, n, 0, 0)
+        table[f"C{n}h"] = (2 * n, 1 + 2 * even, math.lcm(n, 2), n, even)
+        table[f"C{n}v"] = (2 * n, n + even, max(n, 2), n, 0)
+        table[f"D{n}"] = (2 * n, n + even, max(n, 2), 0, 0)
+        table[f"D{n}h"] = (4 * n, 2 * (n + even) + 1, math.lcm(n, 2), 2 * n, even)
+        table[f"D{n}d"] = (4 * n, 2 * n + 1, 2 * n, 2 * n, odd)
+        table[f"S{2 * n}"] = (2 * n, 1, 2 * n, n, odd)
+    return {name: row[1:] for name, row in table.items() if row[0] == order}
+
+
+def element_order(g):
+    result, seen = 1, set()
+    for v in range(len(g)):
+        n = 0
+        while v not in seen:
+            seen.add(v)
+            v, n = g[v], n + 1
+        result = math.lcm(result, n or 1)
+    return result
+
+
+def eigenvectors(a):
+    """Of a symmetric 3 x 3 matrix, as columns (Jacobi's rotations)."""
+    a, v = [row[:] for row in a], [[float(i == j) for j in range(3)] for i in range(3)]
+    for _ in range(30):
+        for p, q in ((0, 1), (0, 2), (1, 2)):
+            if abs(a[p][q]) <= 1e-300:
+                continue
+            t = 0.5 * math.atan2(2 * a[p][q], a[q][q] - a[p][p])
+            c, s = math.cos(t), math.sin(t)
+            for rows in (a, v):
+                for row in rows:
+                    row[p], row[q] = c * row[p] - s * row[q], s * row[p] + c * row[q]
+            a[p], a[q] = [c * x - s * y for x, y in zip(a[p], a[q])], [s * x + c * y for x, y in zip(a[p], a[q])]
+    return v
+
+
+def cross(u, v):
+    return [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+
+
+def dot(u, v):
+    return sum(x * y for x, y in zip(u, v))
+
+
+def unit(u):
+    size = math.hypot(*u)
+    return [x / size for x in u] if size else None
+
+
+class Shape:
+    """Nodes about their centroid, in parts of the root mean square distance from it."""
+
+    def __init__(self, f):
+        centre = [math.fsum(x) / f.n for x in zip(*f.xyz)]
+        nodes = [[x - c for x, c in zip(p, centre)] for p in f.xyz]
+        size = math.sqrt(math.fsum(dot(p, p) for p in nodes) / f.n)
+        self.nodes = [[x / size for x in p] for p in nodes]
+        spread = [[math.fsum(p[i] * p[j] for p in self.nodes) for j in range(3)] for i in range(3)]
+        axes = list(zip(*eigenvectors(spread)))
+        self.flat = min(math.fsum(dot(p, a) ** 2 for p in self.nodes) for a in axes) < 1e-8 * f.n
+
+    def motion(self, g):
+        """The orthogonal matrix that moves the nodes nearest to their images: (it, root mean square distance left, largest one)."""
+        m = [[math.fsum(self.nodes[w][i] * p[j] for w, p in zip(g, self.nodes)) for j in range(3)] for i in range(3)]
+        axes = list(zip(*eigenvectors([[sum(row[i] * row[j] for row in m) for j in range(3)] for i in range(3)])))
+        moved = [[dot(row, a) for row in m] for a in axes]
+        order = sorted(range(3), key=lambda i: -math.hypot(*moved[i]))
+        v = [axes[i] for i in order]
+        u = [unit(moved[order[0]])]
+        second = [x - dot(moved[order[1]], u[0]) * y for x, y in zip(moved[order[1]], u[0])]
+        if math.hypot(*second) < 1e-9 * len(g):  # on a line any direction across will do
+            second = cross(u[0], [float(i == min(range(3), key=lambda k: abs(u[0][k]))) for i in range(3)])
+        u.append(unit(second))
+        third = cross(u[0], u[1])
+        turned = dot(cross(v[0], v[1]), v[2]) < 0
+        if turned if self.flat else dot(third, moved[order[2]]) < 0:
+            third = [-x for x in third]
+        u.append(third)
+        q = [[sum(u[k][i] * v[k][j] for k in range(3)) for j in range(3)] for i in range(3)]
+        left = [math.dist([dot(row, p) for row in q], self.nodes[w]) for w, p in zip(g, self.nodes)]
+        return q, math.sqrt(math.fsum(x * x for x in left) / len(left)), max(left)
+
+
+def check_shape(p, group, order, name):
+    """What the name says of the group, and the tolerance that was asked for of its elements."""
+    asked = p.file["options"]["symmetry"]
+    wanted, tolerance = asked["group"], asked["geometric"]
+    if wanted is not None and not wanted.isdigit():
+        require(wanted == name, f"symmetry.name: {name or 'none'}, but {wanted} was asked for")
+    if not name and tolerance is None:
+        return
+    shape = Shape(p.frame)
+    orders, mirrors, inversions = [], 0, 0
+    for g in group:
+        q, residual, farthest = shape.motion(g)
+        require(not name or residual <= 0.05 + 1e-9, f"symmetry.name: an element is {residual:.3g} away from an isometry")
+        require(tolerance is None or farthest <= tolerance + 2e-9, f"symmetry: an element is {farthest:.3g} away from an isometry")
+        orders.append(element_order(g))
+        if dot(q[0], cross(q[1], q[2])) < 0:
+            mirrors += 1
+            inversions += orders[-1] == 2 and q[0][0] + q[1][1] + q[2][2] < -1
+    if name:
+        row = point_groups(order).get(name)
+        require(row is not None and row[:2] == (orders.count(2), max(orders)), f"symmetry.name: {name} is another group")
+        require(shape.flat or row[2:] == (mirrors, inversions), f"symmetry.name: {name} has other mirrors")
+
+
+def generate(generators, n, order):
+    """The group, as tuples; gives up beyond its stated order."""
+    identity = tuple(range(n))
+    group, front = {identity}, [identity]
+    while front:
+        g = front.pop()
+        for s in generators:
+            h = tuple(s[v] for v in g)
+            if h not in group:
+                group.add(h)
+                front.append(h)
+                require(len(group) <= order, "symmetry.order: the generators make a larger group")
+    return group
+
+
+def check_automorphism(p, g, name):
+    f, o = p.frame, p.options
+    require(sorted(g) == list(range(f.n)), f"{name}: not a permutation")
+    edges = set(map(frozenset, f.edge))
+    for e, (a, b) in enumerate(f.edge):
+        require(frozenset((g[a], g[b])) in edges, f"{name}: edge {e} does not go to an edge")
+    require({g[v] for v in f.feet} == f.feet and {g[v] for v in o.allowed} == o.allowed, f"{name}: feet or ends go elsewhere")
+
+
+def check_symmetry(p):
+    require(("symmetry" in p.file) == (p.options.objective == "symmetry"), "symmetry: with that objective, and only with it")
+    if "symmetry" not in p.file:
+        return []
+    s, place, n = member(p.file, "symmetry", "object", ""), "symmetry", p.frame.n
+    require(p.options.ends != "counts", "symmetry: not with ends `counts`")
+    known(s, "order name generators images cords steps unique_paths", place)
+    order = member(s, "order", "integer", place, 1, 1024)
+    generators = [integers(g, f"symmetry.generators[{i}]", 0, n - 1, n) for i, g in enumerate(member(s, "generators", "list", place))]
+    for i, g in enumerate(generators):
+        check_automorphism(p, g, f"symmetry.generators[{i}]")
+    group = generate(generators, n, order)
+    require(len(group) == order, f"symmetry.order: the generators make {len(group)} elements")
+    name = member(s, "name", "text", place)
+    check_shape(p, group, order, name)
+    images = [tuple(integers(g, f"symmetry.images[{i}]", 0, n - 1, n)) for i, g in enumerate(member(s, "images", "list", place))]
+    require(images and images[0] == tuple(range(n)), "symmetry.images: the first is not the identity")
+    require(all(g in group for g in images), "symmetry.images: an image is not in the group")
+    check_copies(p, s, [list(g) for g in generators], [list(g) for g in images], group)
+    return [f"group {name or 'of the graph'} of order {order}", f"{s['unique_paths']} unique paths", f"{s['steps']:g} steps"]
+
+
+def check_copies(p, s, generators, images, group):
+    paths, identity, n = Paths(p), {}, len(p.cords)
+    forms = [paths.form(i, identity) for i in range(n)]
+    table = lambda g: dict(enumerate(g))
+    for g in generators:
+        require(sorted(paths.form(i, table(g)) for i in range(n)) == sorted(forms), "symmetry: a generator does not map the cords to the cords")
+    rows = member(s, "cords", "list", "symmetry")
+    require(len(rows) == n, "symmetry.cords: not one per cord")
+    unique = set()
+    for i, row in enumerate(rows):
+        name = f"symmetry.cords[{i}]"
+        require(type(row) is dict, f"{name}: not an object")
+        known(row, "of image", name)
+        of = member(row, "of", "integer", name, 0, n - 1)
+        image = member(row, "image", "integer", name, 0, len(images) - 1)
+        require(type(rows[of]) is dict and rows[of].get("of") == of, f"{name}.of: not a unique path")
+        require(paths.form(of, table(images[image])) == forms[i], f"{name}: not that image of cord {of}")
+        unique.add(of)
+    seen = {}
+    for i in unique:
+        for g in group:
+            other = seen.setdefault(paths.form(i, table(g)), i)
+            require(other == i, f"symmetry: cords {other} and {i} are images of each other, and both unique paths")
+    require(member(s, "unique_paths", "integer", "symmetry") == len(unique), f"symmetry.unique_paths: not {len(unique)}")
+    tables = [table(g) for g in group]
+    steps = sum(Fraction(len(p.cords[i].half), paths.ways(i, tables)) for i in unique)
+    p.close(member(s, "steps", "number", "symmetry"), steps, steps, "symmetry.steps")
+
+
+# ---- the whole plan ----
+
+
+def terms(p):
+    """For which plans the claims hold, in words."""
+    o = p.options
+    cords = str(o.cords) if o.least == o.cords else f"{o.least} to {o.cords}"
+    words = [f"{o.objective}, {'tube' if o.tube else 'solid'} joints, ends {o.ends}, cover {o.cover}, {cords} cord(s) in each piece"]
+    for text, given in ((f"capacity {o.capacity}", o.capacity), ("covers of edges", p.frame.cover), ("capacities of edges", p.frame.capacity),
+                        (f"max_length {o.max_length}", o.max_length), ("balanced", o.balance),
+                        ("lengths of edges as stated", "lengths" in p.file["framework"])):
+        words += [text] if given else []
+    return ", ".join(words)
+
+
+def check(data):
+    """What is verified of a plan, one line; Violation or Unreadable."""
+    p = Plan(parse(data))
+    check_cords(p)
+    check_metrics(p)
+    found = check_symmetry(p) + check_length(p) + check_cords_claim(p) + check_turning(p)
+    if "evaluation" in p.file:
+        found.append("evaluation: not verified by this program")
+    return (f"{len(p.cords)} cord(s), {sum(p.passes)} passes, length {float(p.length):.6f} {p.frame.units}; "
+            f"{'; '.join(found)} [{terms(p)}]")
+
+
+def main(arguments):
+    quiet = "-q" in arguments
+    names = [x for x in arguments if x != "-q"]
+    if not names or any(x.startswith("-") and x != "-" for x in names):
+        sys.stderr.write(__doc__)
+        return 2
+    worst = 0
+    for name in names:
+        try:
+            if name == "-":
+                data = sys.stdin.buffer.read()
+            else:
+                with open(name, "rb") as file:
+                    data = file.read()
+            line = check(data)
+            if not quiet:
+                print(f"{name}: {line}")
+        except Violation as error:
+            print(f"{name}: {error}", file=sys.stderr)
+            worst = max(worst, 1)
+        except (Unreadable, OSError) as error:
+            print(f"{name}: {error}", file=sys.stderr)
+            worst = max(worst, 3)
+    return worst
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
