@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+enum { MOST_CORDS = 1000 };      /* that a plan may have in a component */
 static const double OFTEN = 0.2; /* s between two plans that are kept */
 
 static struct {
@@ -55,7 +56,7 @@ static bool count_cords(const thr_plan *p, int *fewest, int *most)
 static bool fits(thr_plan *p)
 {
   int fewest, most;
-  if (!count_cords(p, &fewest, &most)) return false;
+  if (!count_cords(p, &fewest, &most) || most > MOST_CORDS) return false;
   if (p->options.objective == THR_SYMMETRY) p->options.cords = most;
   bool few_enough = most <= p->options.cords, enough = fewest >= p->options.cords_least;
   for (int i = 0; p->options.max_length > 0 && i < p->n_cords; i++)

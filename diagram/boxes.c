@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { MAX_CELLS_ACROSS = 512, MAX_LOOKS = 2000 };
+enum { MAX_CELLS_ACROSS = 512, MAX_LOOKS = 300 };
 
 thr_box thr_box_around(double x, double y, double half_width, double half_height)
 {
@@ -74,6 +74,12 @@ thr_status thr_boxes_add(thr_boxes *b, thr_box box, int kind, thr_err *err)
   return THR_OK;
 }
 
+static double shared(const thr_box *a, const thr_box *b)
+{
+  if (a->x1 <= b->x0 || b->x1 <= a->x0 || a->y1 <= b->y0 || b->y1 <= a->y0) return 0;
+  return (fmin(a->x1, b->x1) - fmax(a->x0, b->x0)) * (fmin(a->y1, b->y1) - fmax(a->y0, b->y0));
+}
+
 double thr_boxes_overlap(thr_boxes *b, thr_box box, int kinds, double enough)
 {
   int span[4], looks = 0;
@@ -87,8 +93,7 @@ double thr_boxes_overlap(thr_boxes *b, thr_box box, int kinds, double enough)
         if (++looks > MAX_LOOKS) return area + (box.x1 - box.x0) * (box.y1 - box.y0);
         if (!(it->kind & kinds) || it->asked == b->question) continue;
         it->asked = b->question;
-        double w = fmin(it->box.x1, box.x1) - fmax(it->box.x0, box.x0), h = fmin(it->box.y1, box.y1) - fmax(it->box.y0, box.y0);
-        if (w > 0 && h > 0) area += w * h;
+        area += shared(&it->box, &box);
         if (area >= enough) return area;
       }
   return area;

@@ -42,7 +42,7 @@ thr_status thr_boxes_add(thr_boxes *b, thr_box box, int kind, thr_err *err) THR_
 void thr_boxes_destroy(thr_boxes *b);
 
 /* Area in mm^2 that box shares with the boxes of the kinds (a sum of THR_BOX_..), overlaps counted each time. Stops once
- * it is enough (> 0). A place so crowded that 2000 boxes were met counts as taken. */
+ * it is enough (> 0). A place so crowded that 300 boxes were met counts as taken. */
 double thr_boxes_overlap(thr_boxes *b, thr_box box, int kinds, double enough);
 
 thr_box thr_box_around(double x, double y, double half_width, double half_height);

@@ -168,7 +168,7 @@ thr_status thr_guide_make(thr_guide *g, const thr_frame *f, thr_err *err)
   thr_status st = thr_layout_choose(&g->layout, f, NULL, 0, err);
   if (!st && thr_layout_to_scale(g->layout.kind))
     st = thr_places_find(&g->places, f, (const double(*)[2])g->layout.xy, g->layout.median, err);
-  g->sides = !g->layout.crossings && !g->layout.capped && g->layout.kind != THR_LAYOUT_DRAWN;
+  g->sides = !g->layout.crossings && !g->layout.estimated && g->layout.kind != THR_LAYOUT_DRAWN;
   if (!st && g->sides) st = find_outward(g, err);
   return st ? st : name_nodes(g, err);
 }

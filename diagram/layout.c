@@ -93,7 +93,6 @@ thr_status thr_layout_join(thr_frame *paper, int n_points, int n_edges, const in
 bool thr_layout_better(const thr_layout *a, const thr_layout *b)
 {
   long faults_a = a->crossings + a->squeezed, faults_b = b->crossings + b->squeezed;
-  if (a->capped != b->capped) return b->capped;
   if (faults_a != faults_b) return faults_a < faults_b;
   return a->ratio > CLEARLY * b->ratio;
 }

@@ -36,7 +36,7 @@ typedef struct {
   double middle[2][2]; /* and these are their middles, the left one's first */
   thr_layout_kind kind;
   long crossings; /* pairs of edges that cross, touch or lie on each other on paper (see thr_layout_measure) */
-  bool capped;    /* counting was cut short: there are at least this many crossings */
+  bool estimated; /* from the crossings of a part of the edges, evenly spread */
   int squeezed;   /* edges shorter than a fifth of the median: no room for a bead */
   double median;  /* median edge length on paper, in units of xy */
   double ratio;   /* shortest edge on paper over median, 0 .. 1; 0 when the median is 0 */
@@ -62,9 +62,9 @@ thr_status thr_layout_make(thr_layout *l, const thr_frame *f, thr_layout_kind ki
  * THR_LAYOUT_DRAWN. Coordinates must be finite (THR_EINPUT). */
 thr_status thr_layout_adopt(thr_layout *l, const thr_frame *f, const double (*xy)[2], thr_err *err) THR_MUST_CHECK;
 
-/* Fills crossings, capped, squeezed, median and ratio from xy. Two edges without a common node count as crossing when
+/* Fills crossings, estimated, squeezed, median and ratio from xy. Two edges without a common node count as crossing when
  * they come nearer than 2 % of the median; two edges at a node when they leave it within 1 degree of each other.
- * Hash grid: O(m + pairs that are near); stops after 5 million pairs (capped). */
+ * Hash grid: O(m + pairs that are near), and O(m log m) at most: beyond that crossings are estimated. */
 thr_status thr_layout_measure(thr_layout *l, const thr_frame *f, thr_err *err) THR_MUST_CHECK;
 
 /* The layout to draw, by crossings + squeezed, then ratio; of nearly equal candidates (ratio within a quarter) the

@@ -151,7 +151,7 @@ thr_status thr_layout_spread(thr_layout *l, const thr_frame *f, thr_err *err)
     thr_layout_destroy(&best);
     st = thr_layout_copy(&best, l, err);
     best_use = use;
-    if (l->capped) break; /* a tangle this large stays one */
+    if (l->estimated) break; /* a tangle this large stays one */
   }
   if (!st) memcpy(l->xy, best.xy, (size_t)f->n_nodes * sizeof *l->xy);
   thr_layout_destroy(&best);

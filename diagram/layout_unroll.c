@@ -183,7 +183,7 @@ thr_status thr_layout_unroll(thr_layout *l, const thr_frame *f, int axis, thr_er
     st = thr_layout_measure(l, f, err);
     if (!st) st = thr_layout_copy(&now, l, err);
     if (!st) thr_layout_keep_better(&best, &now);
-    if (l->capped) break; /* a tangle this large stays one */
+    if (l->estimated) break; /* a tangle this large stays one */
   }
   if (!st) memcpy(l->xy, best.xy, (size_t)f->n_nodes * sizeof *l->xy);
   thr_layout_destroy(&best);

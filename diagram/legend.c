@@ -49,9 +49,15 @@ static int count_feet(const thr_frame *f)
   return n;
 }
 
+static double two_digits(double x)
+{
+  double unit = x > 0 ? pow(10, floor(log10(x)) - 1) : 1;
+  return unit > 1 ? unit * nearbyint(x / unit) : x;
+}
+
 static double write_view(const thr_scene *s, double x, double y, double width, thr_text *t)
 {
-  char line[512];
+  char line[512], number[40];
   const thr_layout *l = s->layout;
   y = thr_svg_wrap(t, x, y, TEXT_SIZE, width, " font-weight=\"bold\"", thr_layout_words(l->kind));
   if (s->n_seams && !thr_scene_labels_seams(s))
@@ -68,11 +74,13 @@ static double write_view(const thr_scene *s, double x, double y, double width, t
              s->unlabelled, s->unlabelled == 1 ? " is" : "s are");
     y = thr_svg_wrap(t, x, y, TEXT_SIZE, width, "", line);
   }
-  if (!l->crossings && !l->capped) return y;
+  if (!l->crossings && !l->estimated) return y;
+  snprintf(number, sizeof number, l->estimated ? "about %.0f" : "%.0f",
+           l->estimated ? two_digits((double)l->crossings) : (double)l->crossings);
   snprintf(
       line, sizeof line,
-      "In this layout %s%ld pair%s of beads cross or touch that do not in space: at these places follow the arrows and numbers.",
-      l->capped ? "more than " : "", l->crossings, plural(l->crossings == 1 ? 1 : 2));
+      "In this layout %s pair%s of beads cross or touch that do not in space: at these places follow the arrows and numbers.",
+      number, plural(l->crossings == 1 ? 1 : 2));
   return thr_svg_wrap(t, x, y, TEXT_SIZE, width, " fill=\"#A03000\"", line);
 }
 

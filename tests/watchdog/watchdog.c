@@ -199,10 +199,10 @@ static const request requests[] = {
 };
 enum { N_REQUESTS = sizeof requests / sizeof *requests };
 
-/* Not all requests know several cords: a symmetric plan has as many as there are copies. */
-static bool knows_cords(const request *q)
+/* A symmetric plan has as many cords as there are copies; what is balanced are several. */
+static bool takes_cords(const request *q, int cords)
 {
-  return strncmp(q->name, "symmetry", 8) != 0;
+  return cords > 1 ? strncmp(q->name, "symmetry", 8) != 0 : strcmp(q->name, "length-balance") != 0;
 }
 
 /* argv of `thread plan`; frame and plan are paths. */
@@ -237,7 +237,7 @@ static bool is_selected(int frame, int request_, bool tube, int cords)
 {
   if (!watchdog_frame_selected(frame) || !requests[request_].selected) return false;
   int turn = (frame + request_) % 4;
-  return tube == (turn % 2 == 1) && (cords > 1) == (turn >= 2 && knows_cords(&requests[request_]));
+  return tube == (turn % 2 == 1) && (cords > 1) == (turn >= 2 && takes_cords(&requests[request_], 3));
 }
 
 static void all_plans(bool full)
@@ -249,7 +249,7 @@ static void all_plans(bool full)
     for (int q = 0; q < N_REQUESTS; q++)
       for (int tube = 0; tube < 2; tube++)
         for (int cords = 1; cords <= 3; cords += 2) {
-          if (cords > 1 && !knows_cords(&requests[q])) continue;
+          if (!takes_cords(&requests[q], cords)) continue;
           if (!full && !is_selected(f, q, tube, cords)) continue;
           snprintf(name, sizeof name, "plan %s %s %s cords-%d", watchdog_frame_name(f), requests[q].name, tube ? "tube" : "solid",
                    cords);
@@ -276,7 +276,7 @@ static void all_signals(int count)
   snprintf(plan, sizeof plan, "%s/plan.json", folder);
   for (int i = 0; i < count; i++) {
     int f = (int)next_random((unsigned)watchdog_frames()), q = (int)next_random(N_REQUESTS), tube = (int)next_random(2);
-    int cords = knows_cords(&requests[q]) && next_random(2) ? 3 : 1, signal = next_random(2) ? SIGINT : SIGTERM;
+    int cords = takes_cords(&requests[q], 3) && next_random(2) ? 3 : 1, signal = next_random(2) ? SIGINT : SIGTERM;
     double delay = 0.02 + next_random(1000) / 1000. * next_random(1000) / 1000. * 3;
     snprintf(name, sizeof name, "signal-%d %s %s %s cords-%d after %.2f s", signal, watchdog_frame_name(f), requests[q].name,
              tube ? "tube" : "solid", cords, delay);
