@@ -104,7 +104,7 @@ void best_found(void *user, const thr_cord *cord, int n_cords, const thr_symmetr
   (void)user;
   double now = thr_clock();
   thr_symmetry_record own = {0};
-  if (!best.f || now - best.at < OFTEN) return;
+  if (!best.f || n_cords == 0 || now - best.at < OFTEN) return;
   thr_plan p = {.frame = *best.f, .options = *best.o, .n_cords = n_cords};
   p.cord = thr_calloc((size_t)n_cords, sizeof *p.cord);
   for (int i = 0; p.cord && i < n_cords; i++) {

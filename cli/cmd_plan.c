@@ -503,6 +503,7 @@ static int plan_frame(const arguments *a, const thr_frame *f)
   if (!code) code = cords_args_apply(&a->cords, f, &o);
   if (code == EXIT_OK) {
     thr_status st = make_plan(a, f, &o, &x, &err);
+    if (guard_deadline() > 0) best_found(NULL, x.plan.cord, x.plan.n_cords, x.plan.symmetry.present ? &x.plan.symmetry : NULL);
     if (st == THR_OK || (st == THR_ELIMIT && x.plan.n_cords > 0)) code = write_outputs(a, &x, st ? EXIT_LIMIT : EXIT_OK);
     if (code == EXIT_OK && st) code = cli_fail(&err);
   }
