@@ -184,8 +184,12 @@ static int count_cords(const thr_frame *f, const int *counts, int *least, int *m
 
 static int apply_counts(const cords_args *a, const thr_frame *f, thr_plan_options *o)
 {
-  int least, most, code = count_cords(f, o->end_count, &least, &most);
-  if (code) return code;
+  int least, most, code;
+  if (o->objective == THR_SYMMETRY) return cli_usage("plan", "--ends NAME:N: not with --objective symmetry");
+  if ((code = count_cords(f, o->end_count, &least, &most))) return code;
+  if (o->turning.tour != THR_TOUR_LEAST && most > 1)
+    return cli_usage("plan", "--tour %s makes one cord in each piece, not the %d of --ends %s", thr_tour_name(o->turning.tour),
+                     most, a->ends);
   if (most > MOST_CORDS || (a->most && (most > a->most || least < a->least))) {
     cli_error("--ends %s: these are the ends of %d %s in a piece; --cords says otherwise", a->ends, most > a->most ? most : least,
               cli_plural(most > a->most ? most : least, "cord", "cords"));

@@ -1,6 +1,7 @@
 /* Passes, room for ends, walks, cords; once, or for more and more cords until none is too long. */
 #include "lp/cords.h"
 #include "graph/check.h"
+#include "graph/pieces.h"
 #include "lp/balance.h"
 #include "lp/postman_parts.h"
 #include "lp/share_exact.h"
@@ -298,9 +299,10 @@ static thr_status try_number(growing *g, int n, int *left, thr_err *err)
   thr_plan_options o = *x->o;
   thr_shortest s;
   o.cords = n;
-  thr_status st = thr_postman_shortest(x->f, &o, x->limits, &s, err);
-  if (st == THR_ELIMIT && err) *err = (thr_err){0};
-  if (st && st != THR_ELIMIT) return st;
+  thr_err why = {0};
+  thr_status st = thr_postman_shortest(x->f, &o, x->limits, &s, &why);
+  if (st == THR_EINFEASIBLE) return THR_OK; /* full edges make more cords end than n: the largest number was found possible */
+  if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", why.text);
   lengths_of(x, s.passes, g->length);
   for (int e = 0; e < x->f->n_edges; e++)
     if (!g->done[component_of(x, e)]) x->passes[e] = s.passes[e];
@@ -421,6 +423,47 @@ static thr_status prove(const several *x, thr_plan *plan, thr_shortest *s, thr_e
   return st;
 }
 
+/* Every piece by itself: one may need more cords than another, or hold fewer. */
+static thr_status make_pieces(several *x, const thr_pieces *p, thr_shortest *s, thr_plan *made, thr_plan *plan, thr_err *err)
+{
+  thr_limits quiet = *x->limits;
+  thr_status st = THR_OK;
+  quiet.found = NULL; /* cords of a piece are no plan */
+  for (int k = 0; k < p->n && !st; k++) {
+    thr_plan asked;
+    thr_cords_word word;
+    thr_err why = {0};
+    if ((st = thr_piece_take(p, k, &asked, err))) return st;
+    st = thr_cords_plan(&asked.frame, &asked.options, &quiet, &made[k], &word, &why);
+    x->least &= word.passes_least;
+    st = st && st != THR_ELIMIT ? thr_fail(err, st, "%s", why.text) : THR_OK;
+    if (!st) thr_piece_give_certificate(p, k, &made[k], &s->certificate[k]);
+    thr_plan_destroy(&asked);
+  }
+  return st ? st : thr_pieces_join(p, made, plan, err);
+}
+
+static thr_status plan_pieces(several *x, thr_shortest *s, thr_plan *plan, thr_err *err)
+{
+  thr_pieces p;
+  thr_status st = thr_pieces_init(&p, x->f, x->o, err);
+  if (st) return st;
+  thr_plan *made = thr_calloc((size_t)p.n, sizeof *made);
+  st = made ? make_pieces(x, &p, s, made, plan, err) : thr_nomem(err);
+  for (int k = 0; made && k < p.n; k++)
+    thr_plan_destroy(&made[k]);
+  free(made);
+  thr_pieces_destroy(&p);
+  return st;
+}
+
+static thr_status plan_all(several *x, thr_shortest *s, thr_plan *plan, thr_err *err)
+{
+  if (x->o->max_length > 0 && x->n_components > 1) return plan_pieces(x, s, plan, err);
+  thr_status st = make(x, s, err);
+  return st ? st : thr_trails_plan(x->trails, x->n_components, plan, err);
+}
+
 thr_status thr_cords_plan(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
                           thr_cords_word *word, thr_err *err)
 {
@@ -437,8 +480,7 @@ thr_status thr_cords_plan(const thr_frame *f, const thr_plan_options *o, const t
   x.f = &plan->frame;
   x.o = &plan->options;
   if (!st) st = several_init(&x, err);
-  if (!st) st = make(&x, &s, err);
-  if (!st) st = thr_trails_plan(x.trails, x.n_components, plan, err);
+  if (!st) st = plan_all(&x, &s, plan, err);
   if (!st) st = prove(&x, plan, &s, err);
   if (word) *word = (thr_cords_word){x.least, x.certain && o->balance};
   if (st)

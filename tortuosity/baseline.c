@@ -205,6 +205,17 @@ static thr_status walk_all(thr_join *j, thr_tour tour, bool ignore_pairings, thr
   return st;
 }
 
+/* A join takes full edges only where there is none without. */
+static thr_status check_room(const thr_turning_columns *c, const int *passes, thr_err *err)
+{
+  const thr_frame *f = c->f;
+  for (int e = 0; e < f->n_edges; e++)
+    if (passes[e] > c->most[e])
+      return thr_fail(err, THR_EINFEASIBLE, "edge %s-%s is full with %d %s, and one cord in each piece would need one more",
+                      f->name[f->edge[e][0]], f->name[f->edge[e][1]], c->most[e], c->most[e] == 1 ? "pass" : "passes");
+  return THR_OK;
+}
+
 thr_status thr_baseline_tour(const thr_frame *f, const thr_least_options *o, thr_tour tour, bool ignore_pairings,
                              const thr_limits *limits, thr_least *out, thr_err *err)
 {
@@ -219,6 +230,7 @@ thr_status thr_baseline_tour(const thr_frame *f, const thr_least_options *o, thr
   thr_status st = passes && ends ? thr_least_task(f, o, &made, err) : thr_nomem(err);
   if (!st) st = thr_turning_columns_init(&c, f, &made.task, err);
   if (!st) st = thr_extra_passes(&c, f->length, NULL, false, limits, passes, ends, err);
+  if (!st) st = check_room(&c, passes, err);
   if (!st) st = thr_join_init(&j, &c, passes, made.end_allowed ? ends : NULL, err);
   if (!st) st = walk_all(&j, tour, ignore_pairings, err);
   if (!st) st = thr_least_cords(f, &j, &made, err);

@@ -98,7 +98,7 @@ static void fill(instance *in, const double *weight, const double *end_weight, c
     full += in->c->most[e] == in->c->cover[e];
     if (in->c->most[e] > in->c->cover[e]) sum += weight[e];
   }
-  const double dear = sum;
+  const double dear = sum > 0 ? 2 * sum : 1;
   sum += full * dear;
   const double scale = sum > 0 ? exp2(floor(log2(whole / sum))) : 0; /* powers of 2 keep ties */
   for (int i = 0; end_weight && i < in->n_nodes; i++)

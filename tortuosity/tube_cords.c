@@ -1,6 +1,7 @@
 /* The shortest tied cords, then as many as asked for, evened out by exchanges that leave the nodes tied. */
 #include "tortuosity/tube_cords.h"
 #include "graph/check.h"
+#include "graph/pieces.h"
 #include "lp/balance.h"
 #include "lp/share_tied_exact.h"
 #include "tortuosity/tube.h"
@@ -185,17 +186,32 @@ static thr_status make_number(several *x, int n, bool even, thr_err *err)
   return st;
 }
 
+/* Of even lengths, as many cords as the shortest are: their number is one that can be. */
+static thr_status even_shortest(several *x, thr_err *err)
+{
+  bool found, certain;
+  thr_status st = walks_of(x, x->shortest, x->trails, err);
+  for (int k = 0; k < x->n_components && !st; k++)
+    st = make_walks(x, k, x->trails[k].n_trails, true, 0, &x->trails[k], &found, &certain, err);
+  return st;
+}
+
 /* Of even lengths: as many cords as there may be. */
 static thr_status make_even(several *x, thr_err *err)
 {
+  enum { IN_SINGLE_STEPS = 12 };
   const int least = x->o->cords_least;
   thr_err why = {0};
   thr_status st = THR_EINFEASIBLE;
-  for (int n = x->o->cords; n >= least && st == THR_EINFEASIBLE; n = n > 2 * least ? n / 2 : n - 1) {
+  for (int n = x->o->cords; n >= least && st == THR_EINFEASIBLE; n = n > 2 * least && n > IN_SINGLE_STEPS ? n / 2 : n - 1) {
     why = (thr_err){0};
     x->least = x->certain = true;
     trails_destroy(x->trails, x->n_components);
     st = make_number(x, n, true, &why);
+  }
+  if (st == THR_EINFEASIBLE && !closed_cords(x)) {
+    trails_destroy(x->trails, x->n_components);
+    st = even_shortest(x, &why);
   }
   return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
 }
@@ -291,6 +307,46 @@ static void move_cords(thr_tube *t, thr_plan *plan)
   t->n_cords = 0;
 }
 
+/* Every piece by itself: one may need more cords than another, or hold fewer. */
+static thr_status make_pieces(several *x, const thr_pieces *p, thr_plan *made, thr_plan *plan, thr_err *err)
+{
+  thr_limits quiet = *x->limits;
+  thr_status st = THR_OK;
+  quiet.found = NULL; /* cords of a piece are no plan */
+  for (int k = 0; k < p->n && !st; k++) {
+    thr_plan asked;
+    thr_cords_word word;
+    thr_err why = {0};
+    if ((st = thr_piece_take(p, k, &asked, err))) return st;
+    st = thr_tube_cords_plan(&asked.frame, &asked.options, &quiet, &made[k], &word, &why);
+    x->certain &= word.longest_least || made[k].cords_claim.longest_optimal;
+    st = st && st != THR_ELIMIT ? thr_fail(err, st, "%s", why.text) : THR_OK;
+    thr_plan_destroy(&asked);
+  }
+  return st ? st : thr_pieces_join(p, made, plan, err);
+}
+
+static thr_status plan_pieces(several *x, thr_plan *plan, thr_err *err)
+{
+  thr_pieces p;
+  thr_status st = thr_pieces_init(&p, x->f, x->o, err);
+  if (st) return st;
+  thr_plan *made = thr_calloc((size_t)p.n, sizeof *made);
+  st = made ? make_pieces(x, &p, made, plan, err) : thr_nomem(err);
+  for (int k = 0; made && k < p.n; k++)
+    thr_plan_destroy(&made[k]);
+  free(made);
+  thr_pieces_destroy(&p);
+  return st;
+}
+
+static thr_status make_some(several *x, thr_plan *plan, thr_err *err)
+{
+  const thr_plan_options *o = x->o;
+  thr_status st = o->max_length > 0 ? grow(x, err) : o->balance ? make_even(x, err) : make_number(x, o->cords_least, false, err);
+  return st ? st : thr_trails_plan(x->trails, x->n_components, plan, err);
+}
+
 /* The cords of the plan; the shortest themselves where nothing more is asked for. */
 static thr_status make_cords(thr_tube *t, const thr_limits *limits, thr_plan *plan, thr_cords_word *word, thr_err *err)
 {
@@ -302,8 +358,7 @@ static thr_status make_cords(thr_tube *t, const thr_limits *limits, thr_plan *pl
     return THR_OK;
   }
   thr_status st = several_init(&x, err);
-  if (!st) st = o->max_length > 0 ? grow(&x, err) : o->balance ? make_even(&x, err) : make_number(&x, o->cords_least, false, err);
-  if (!st) st = thr_trails_plan(x.trails, x.n_components, plan, err);
+  if (!st) st = lengths_asked(o) && x.n_components > 1 ? plan_pieces(&x, plan, err) : make_some(&x, plan, err);
   if (!st) *word = (thr_cords_word){x.least && many && !lengths_asked(o), x.certain && o->balance};
   several_destroy(&x);
   return st;

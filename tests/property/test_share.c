@@ -282,7 +282,7 @@ static void fail_everywhere(const thr_frame *f, const thr_plan_options *o)
 START_TEST(every_allocation_may_fail)
 {
   int end_count[16] = {3, 1};
-  thr_frame grid = grid_make(3, 3), path = path_make(3);
+  thr_frame grid = grid_make(3, 3), path = path_make(3), pieces = triangles_make(2);
   thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
   o.cords = o.cords_least = _i == 0 || _i == 6 ? 3 : 2;
   o.balance = _i == 1 || _i == 2;
@@ -291,9 +291,11 @@ START_TEST(every_allocation_may_fail)
   if (_i == 4) o.cords = 1000, o.cords_least = 1, o.max_length = 5;
   if (_i == 5) o.cords = o.cords_least = 9;
   if (_i == 6) o.ends = THR_ENDS_FEET;
-  fail_everywhere(_i == 3 || _i == 6 ? &path : &grid, &o);
+  if (_i == 7) o.ends = THR_ENDS_ANY, o.cords = 1000, o.cords_least = 1, o.max_length = 2.5;
+  fail_everywhere(_i == 3 || _i == 6 ? &path : _i == 7 ? &pieces : &grid, &o);
   thr_frame_destroy(&grid);
   thr_frame_destroy(&path);
+  thr_frame_destroy(&pieces);
 }
 END_TEST
 
@@ -305,6 +307,6 @@ int main(void)
   ADD_LOOP(s, 60, cords_of_grids_are_even, 0, 8);
   ADD_TEST(s, 20, a_corridor_is_a_forced_detour);
   ADD_TEST(s, 20, detours_and_moved_ends_even_out);
-  ADD_LOOP(s, 120, every_allocation_may_fail, 0, 7);
+  ADD_LOOP(s, 120, every_allocation_may_fail, 0, 8);
   return run_suite(s);
 }

@@ -528,10 +528,11 @@ END_TEST
 
 START_TEST(every_allocation_may_fail)
 {
-  thr_frame ring = ring_make(3), path = path_make(3), wheel = wheel_make(3), grid = grid_make(3, 3);
+  thr_frame ring = ring_make(3), path = path_make(3), wheel = wheel_make(3), grid = grid_make(3, 3), pieces = triangles_make(2);
   const thr_frame *f = _i == 0   ? &ring
                        : _i == 1 ? &path
                        : _i == 2 ? &wheel
+                       : _i == 5 ? &pieces
                                  : &grid; /* which is too large for an integer programme */
   thr_plan_options o = options_for(_i % 2 ? THR_ENDS_ANY : THR_ENDS_CLOSED, 1);
   thr_status st = THR_ENOMEM;
@@ -553,6 +554,7 @@ START_TEST(every_allocation_may_fail)
   thr_frame_destroy(&path);
   thr_frame_destroy(&wheel);
   thr_frame_destroy(&grid);
+  thr_frame_destroy(&pieces);
 }
 END_TEST
 
@@ -566,6 +568,6 @@ int main(void)
   ADD_LOOP(s, 60, cords_of_grids_are_even, 0, 6);
   ADD_LOOP(s, 60, cords_of_grids_keep_to_a_limit, 0, 6);
   ADD_LOOP(s, 30, pieces_have_cords_of_their_own, 0, 4);
-  ADD_LOOP(s, 300, every_allocation_may_fail, 0, 5);
+  ADD_LOOP(s, 300, every_allocation_may_fail, 0, 6);
   return run_suite(s);
 }
