@@ -520,3 +520,15 @@ thr_status thr_frame_bridges(const thr_frame *f, bool *is_bridge, thr_err *err)
   free(work);
   return THR_OK;
 }
+
+void thr_direction(const thr_frame *f, int half, double d[3])
+{
+  const double *from = f->xyz[thr_tail(f, half)], *to = f->xyz[thr_head(f, half)];
+  double largest = 0;
+  for (int i = 0; i < 3; i++) {
+    d[i] = to[i] - from[i];
+    largest = fmax(largest, fabs(d[i]));
+  }
+  for (int i = 0; i < 3; i++)
+    d[i] /= largest;
+}

@@ -220,23 +220,11 @@ double thr_cord_length(const thr_frame *f, const thr_cord *c)
   return sum;
 }
 
-/* Direction of a half-edge with its largest component scaled to 1: products neither overflow nor vanish. */
-static void direction(const thr_frame *f, int h, double d[3])
-{
-  double largest = 0;
-  for (int i = 0; i < 3; i++) {
-    d[i] = f->xyz[thr_head(f, h)][i] - f->xyz[thr_tail(f, h)][i];
-    largest = fmax(largest, fabs(d[i]));
-  }
-  for (int i = 0; i < 3; i++)
-    d[i] /= largest;
-}
-
 double thr_turn_angle(const thr_frame *f, int in, int out)
 {
   double a[3], b[3];
-  direction(f, in, a);
-  direction(f, out, b);
+  thr_direction(f, in, a);
+  thr_direction(f, out, b);
   double cross[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
   double dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   /* atan2 keeps full precision near 0 and pi, where acos loses half of it */

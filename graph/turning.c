@@ -24,28 +24,13 @@ double thr_turn_cost_of(thr_turn_cost cost, double angle)
   }
 }
 
-/* From tail to head, times a power of 2 that keeps squares of it finite. */
-static void direction(const thr_frame *f, int half, double out[3])
-{
-  const double *from = f->xyz[thr_tail(f, half)], *to = f->xyz[thr_head(f, half)];
-  double most = 0;
-  int exponent;
-  for (int i = 0; i < 3; i++) {
-    out[i] = to[i] - from[i];
-    most = fmax(most, fabs(out[i]));
-  }
-  frexp(most, &exponent);
-  for (int i = 0; i < 3; i++)
-    out[i] = ldexp(out[i], -exponent);
-}
-
 /* Is the turn one of 90 degrees or more, to 1e-6 rad? Then its cosine is at most sin 1e-6: in . out <= 0, or its square at most
  * 1e-12 |in|^2 |out|^2. Whoever prices steps asks here, for at the threshold two formulas would give two prices. */
 static bool is_step(const thr_frame *f, int in, int out)
 {
   double a[3], b[3];
-  direction(f, in, a);
-  direction(f, out, b);
+  thr_direction(f, in, a);
+  thr_direction(f, out, b);
   double dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   double squares = (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]) * (b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
   return dot <= 0 || dot * dot <= 1e-12 * squares;
