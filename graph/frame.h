@@ -102,7 +102,8 @@ int thr_frame_edge_between(const thr_frame *f, int a, int b);
 /* Marks as feet the nodes within 1e-6 of the diagonal of the lowest z, and no others. */
 void thr_frame_feet_lowest(thr_frame *f);
 
-/* Direction of a half-edge, from tail to head, with its largest component scaled to 1 or -1: products neither overflow nor vanish. */
+/* Direction of a half-edge, from tail to head, with its largest component scaled to 1 or -1: products neither overflow nor
+ * vanish. */
 void thr_direction(const thr_frame *f, int half, double d[3]);
 
 double thr_frame_total_length(const thr_frame *f);
