@@ -109,10 +109,8 @@ static void put_row(thr_text *t, const thr_plan_options *o, const thr_symmetries
                     row->record.steps, row->n_cords, cli_degrees(m->turning), cli_degrees(m->max_turning),
                     turning_factor(turning_capstan(o->physics.mu, m->max_turning), factor), proved(o, row));
   } else {
-    thr_text_printf(t, "%-81s",
-                    row->why.code == THR_ELIMIT ? "  no threading found in time"
-                    : row->why.code             ? "  no threading"
-                                                : "  not asked for");
+    bool open = row->why.code == THR_ELIMIT || row->why.code == THR_ESOLVER;
+    thr_text_printf(t, "  %-79.79s", open ? row->why.text : row->why.code ? "no threading" : "not asked for");
   }
   thr_text_printf(t, " %8.3f  ", row->residual);
   put_kinds(t, row);
@@ -215,7 +213,7 @@ static const char *row_status(const thr_symmetry_row *row)
 {
   switch (row->why.code) {
   case THR_OK: return row->n_cords > 0 ? "optimal" : "not asked for";
-  case THR_ELIMIT: return row->n_cords > 0 ? "bound" : "time";
+  case THR_ELIMIT: return row->n_cords > 0 ? "bound" : "stopped";
   case THR_EINFEASIBLE: return "infeasible";
   default: return "failed";
   }

@@ -1,8 +1,10 @@
 /* Method structure: every cord's tension profile by the capstan law, the pull by limit analysis, its failure shown by Bullet. */
 #include "eval/methods.h"
+#include "graph/child.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Above this the band over mu would cost more than the answer. */
 enum { BAND_LARGEST = 100 };
@@ -118,6 +120,68 @@ static void clear_record(thr_evaluation *r)
   }
 }
 
+/* ---- the simulation, in a child process: Bullet does not look whether it was given memory ---- */
+
+typedef struct {
+  const thr_frame *f;
+  const thr_cord *cord;
+  const thr_beads *b;
+  const thr_physics *physics;
+  int n_cords;
+  const double **tension;
+  thr_settle_options o;
+} simulation;
+
+static thr_status simulate(void *user, const thr_limits *limits, thr_sender *to, thr_err *err)
+{
+  const simulation *m = user;
+  thr_settle found = {0};
+  thr_text t = {0};
+  thr_status st = thr_settle_run(m->b, m->f, m->cord, m->n_cords, m->tension, m->physics, &m->o, limits, &found, err);
+  size_t poses = (size_t)found.n_beads * sizeof *found.before;
+  if (!st) {
+    thr_text_append_bytes(&t, (const char *)&found, sizeof found);
+    if (found.before) thr_text_append_bytes(&t, (const char *)found.before, poses);
+    if (found.after) thr_text_append_bytes(&t, (const char *)found.after, poses);
+    st = thr_child_send(to, &t, err);
+  }
+  thr_text_destroy(&t);
+  thr_settle_destroy(&found);
+  return st;
+}
+
+/* Moves n poses from the text at *at, which goes on behind them; NULL if there are none or no memory. */
+static double (*take_poses(const char **at, bool present, size_t n))[7]
+{
+  double(*pose)[7] = present ? thr_calloc(n, sizeof *pose) : NULL;
+  if (pose) memcpy(pose, *at, n * sizeof *pose);
+  if (present) *at += n * sizeof *pose;
+  return pose;
+}
+
+static thr_status take_settle(const thr_text *t, thr_settle *out, thr_err *err)
+{
+  memcpy(out, t->data, sizeof *out);
+  const char *at = t->data + sizeof *out;
+  const bool before = out->before, after = out->after; /* there, not here */
+  out->before = take_poses(&at, before, (size_t)out->n_beads);
+  out->after = take_poses(&at, after, (size_t)out->n_beads);
+  if ((!before || out->before) && (!after || out->after)) return THR_OK;
+  thr_settle_destroy(out);
+  return thr_nomem(err);
+}
+
+static thr_status settle(simulation *m, const thr_limits *limits, thr_settle *out, thr_err *err)
+{
+  const thr_child child = {.what = "simulating the structure", .advice = "use --no-dynamics", .run = simulate, .user = m};
+  thr_text answer = {0};
+  *out = (thr_settle){0};
+  thr_status st = thr_child_run(&child, limits, &answer, err);
+  if (!st) st = take_settle(&answer, out, err);
+  thr_text_destroy(&answer);
+  return st;
+}
+
 /* The pull, then what is worth less than it, so that a stop leaves the most. */
 static thr_status run(const thr_frame *f, const thr_cord *cord, const thr_beads *b, const thr_eval_options *o,
                       const thr_limits *limits, const double **tension, thr_eval *out, thr_err *err)
@@ -131,8 +195,14 @@ static thr_status run(const thr_frame *f, const thr_cord *cord, const thr_beads 
   }
   double start = o->start > 0 ? o->start : 3 * out->holding.lower;
   if (o->dynamics && start > 0 && b->n_beads <= thr_settle_largest) {
-    const thr_settle_options settle = {.start = start, .time_step = o->time_step, .iterations = o->iterations, .seed = o->seed};
-    st = thr_settle_run(b, f, cord, r->n_cords, tension, &r->physics, &settle, limits, &out->settle, err);
+    simulation m = {f,
+                    cord,
+                    b,
+                    &r->physics,
+                    r->n_cords,
+                    tension,
+                    {.start = start, .time_step = o->time_step, .iterations = o->iterations, .seed = o->seed}};
+    st = settle(&m, limits, &out->settle, err);
   }
   if (!st && b->n_beads <= BAND_LARGEST) st = band(f, cord, b, limits, r, out->band, err);
   fill_record(r, out->holding.lower);

@@ -28,6 +28,7 @@ thr_status thr_json_parse(thr_json **doc, const char *text, size_t n, const char
   if (blank == n) return thr_fail(err, THR_EINPUT, "%s:1: the file is empty", name);
   json_error_t at;
   json_t *value = json_loadb(text, n, JSON_REJECT_DUPLICATES, &at);
+  if (!value && json_error_code(&at) == json_error_out_of_memory) return thr_nomem(err);
   if (!value)
     return thr_fail(err, THR_EINPUT, "%s:%d:%d: not valid JSON: %s", name, at.line > 0 ? at.line : 1,
                     at.column > 0 ? at.column : 1, at.text);

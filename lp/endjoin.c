@@ -330,7 +330,7 @@ static thr_status confirm(search *s, const point *at, thr_err *err)
   for (int e = s->p->graph.n_edges; e < s->n_edges; e++)
     s->weight[e] = at->price;
   thr_tjoin_problem p = {s->hub + 1, s->n_edges, (const int(*)[2])s->edge, s->weight, s->odd, 0};
-  return at->no_hub ? THR_OK : thr_tjoin_confirm_counted(&p, &at->t, s->limits, s->p->count, err);
+  return at->no_hub ? THR_OK : thr_confirmations_add(s->p->count, &p, &at->t, err);
 }
 
 static thr_status take(search *s, point *join, point *proof, thr_endjoin *out, thr_err *err)
@@ -460,7 +460,7 @@ static thr_status solve_two(search *s, thr_endjoin *out, thr_err *err)
       limit = thr_tjoin_solve(&p, s->limits, &t, err);
     }
     if (limit && limit != THR_ELIMIT) st = limit;
-    if (!st && !limit) st = thr_tjoin_confirm_counted(&p, &t, s->limits, s->p->count, err);
+    if (!st && !limit) st = thr_confirmations_add(s->p->count, &p, &t, err);
   }
   if (!st) {
     thr_cuts cuts = {t.n_cuts, n + 2, t.cut};

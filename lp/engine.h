@@ -10,26 +10,32 @@
 thr_status thr_tjoin_shrunk(const thr_tjoin_problem *p, thr_engine engine, const thr_limits *limits, thr_tjoin *out,
                             thr_err *err) THR_MUST_CHECK;
 
-typedef enum {
-  THR_CONFIRMED,      /* GLPK's exact rational simplex found the same value */
-  THR_CONFIRM_SKIPPED /* the limits stopped it, or a library failed */
-} thr_confirmation;
-
 enum { THR_CONFIRM_EDGES = 10000 }; /* problems up to this size are confirmed well within a second */
 
-/* Solves min weight x, x(cut) >= 1 for the cuts of t, x >= 0, with integer costs and a basis from the join, and compares: t being
- * optimal, the minimum is t->length by duality, or less than 1 below if rounding left the cuts' values so. THR_ESOLVER: it is
- * not, and t or GLPK is wrong. A library that fails confirms nothing, but is no error. */
-thr_status thr_tjoin_confirm(const thr_tjoin_problem *p, const thr_tjoin *t, const thr_limits *limits, thr_confirmation *out,
-                             thr_err *err) THR_MUST_CHECK;
-
+/* T-joins that GLPK is asked about: it solves min weight x, x(cut) >= 1 for the cuts of t, x >= 0, with integer costs and a basis
+ * from the join; t being optimal, the minimum is t->length by duality, or less than 1 below if rounding left the cuts' values so.
+ */
+typedef struct thr_confirm_job thr_confirm_job;
 typedef struct {
-  bool always; /* whatever the size and the work; else of problems up to THR_CONFIRM_EDGES, with about a second's work */
-  int confirmed, skipped; /* T-joins */
+  bool always; /* whatever the size and the work; else problems up to THR_CONFIRM_EDGES, with about a second's work each */
+  int confirmed, skipped; /* GLPK's exact rational simplex found the same value; the limits stopped it, or a library failed */
+  int n_jobs, capacity;
+  thr_confirm_job *job; /* owned, until they are run */
 } thr_confirmations;
 
-/* The same as *count says, and counted there; NULL: nothing is done. */
-thr_status thr_tjoin_confirm_counted(const thr_tjoin_problem *p, const thr_tjoin *t, const thr_limits *limits,
-                                     thr_confirmations *count, thr_err *err) THR_MUST_CHECK;
+/* Remembers a T-join as optimal and to be asked about; c NULL: nothing is done. O(entries of its cuts). */
+thr_status thr_confirmations_add(thr_confirmations *c, const thr_tjoin_problem *p, const thr_tjoin *t,
+                                 thr_err *err) THR_MUST_CHECK;
+
+/* Asks about all that were added, in a child process, and counts. THR_ESOLVER: GLPK finds another minimum, so that a join or GLPK
+ * is wrong. A library that fails, or a child that dies, confirms nothing, but is no error. */
+thr_status thr_confirmations_run(thr_confirmations *c, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
+void thr_confirmations_destroy(thr_confirmations *c);
+
+typedef enum { THR_CONFIRMED, THR_CONFIRM_SKIPPED } thr_confirmation;
+
+/* The same for one, whatever its size. */
+thr_status thr_tjoin_confirm(const thr_tjoin_problem *p, const thr_tjoin *t, const thr_limits *limits, thr_confirmation *out,
+                             thr_err *err) THR_MUST_CHECK;
 
 #endif

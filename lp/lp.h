@@ -54,8 +54,10 @@ thr_status thr_lp_set_costs(thr_lp *lp, const double *cost, thr_err *err) THR_MU
  * solving may go on). THR_ESOLVER if GLPK aborts or gives up; the lp is then only good for thr_lp_destroy. */
 thr_status thr_lp_solve(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err) THR_MUST_CHECK;
 
-/* Exact rational simplex from the optimal basis of the last solve (glp_exact). */
+/* Exact rational simplex from the optimal basis of the last solve (glp_exact). It computes with GMP, which ends the program when
+ * memory runs out: it runs in a child process, whose death is THR_ESOLVER. _here: in this process, which is such a child. */
 thr_status thr_lp_solve_exact(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err) THR_MUST_CHECK;
+thr_status thr_lp_solve_exact_here(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err) THR_MUST_CHECK;
 
 /* Branch and bound with every column a whole number, from the optimum of the last thr_lp_solve. For small programmes. Then
  * thr_lp_primal and thr_lp_objective give the integer optimum, and thr_lp_dual nothing of use. */

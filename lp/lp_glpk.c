@@ -2,6 +2,7 @@
  * error hook jumps out. After that GLPK's environment must be freed, which kills every problem of the process; each
  * thr_lp remembers in which generation of the environment it was born. */
 #include "lp/lp.h"
+#include "graph/child.h"
 
 #include <glpk.h>
 #include <limits.h>
@@ -13,8 +14,9 @@
 struct thr_lp {
   glp_prob *problem;
   int generation;
-  bool primal;  /* the next solve starts from a basis that was set */
-  bool integer; /* the last solve was by branch and bound, whose results GLPK keeps apart */
+  bool primal;   /* the next solve starts from a basis that was set */
+  bool integer;  /* the last solve was by branch and bound, whose results GLPK keeps apart */
+  double *exact; /* the numbers of the last solve if that was exact, else NULL; owned */
 };
 
 static int generation;
@@ -62,6 +64,12 @@ static thr_status check_alive(const thr_lp *lp, thr_err *err)
 {
   if (lp->problem && lp->generation == generation) return THR_OK;
   return thr_fail(err, THR_ESOLVER, "the linear programme was lost in an earlier failure of GLPK");
+}
+
+static void forget_exact(thr_lp *lp)
+{
+  free(lp->exact);
+  lp->exact = NULL;
 }
 
 /* ---- building ---- */
@@ -113,6 +121,7 @@ void thr_lp_destroy(thr_lp *lp)
 {
   if (!lp) return;
   if (!check_alive(lp, NULL) && guarded(do_destroy, lp->problem, NULL)) lp->problem = NULL;
+  forget_exact(lp);
   free(lp);
 }
 
@@ -191,6 +200,7 @@ static void do_add_row(void *argument)
 thr_status thr_lp_add_row(thr_lp *lp, int n, const int *column, const double *value, double lower, thr_err *err)
 {
   thr_status st = check_alive(lp, err);
+  forget_exact(lp);
   if (st) return st;
   row_call c = {lp->problem, n, thr_calloc((size_t)n + 1, sizeof(int)), thr_calloc((size_t)n + 1, sizeof(double)), lower};
   if (!c.index || !c.value) {
@@ -222,6 +232,7 @@ static void do_drop(void *argument)
 thr_status thr_lp_drop_rows(thr_lp *lp, const bool *drop, thr_err *err)
 {
   thr_status st = check_alive(lp, err);
+  forget_exact(lp);
   if (st) return st;
   int n = glp_get_num_rows(lp->problem);
   drop_call c = {lp->problem, 0, thr_calloc((size_t)n + 1, sizeof(int))};
@@ -364,6 +375,7 @@ static thr_status solve(thr_lp *lp, bool exact, const thr_limits *limits, thr_lp
   *outcome = THR_LP_STOPPED;
   thr_status st = check_alive(lp, err);
   lp->integer = false;
+  forget_exact(lp);
   for (int restarts = 0, slice = SLICE; !st; slice = slice < INT_MAX / 2 ? 2 * slice : slice) {
     if (thr_limits_stop(limits)) return THR_OK;
     solve_call c = {lp->problem, exact, lp->primal || restarts > 0, slice, thr_limits_left(limits, INFINITY), 0};
@@ -388,9 +400,102 @@ thr_status thr_lp_solve(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *ou
   return solve(lp, false, limits, outcome, err);
 }
 
-thr_status thr_lp_solve_exact(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)
+thr_status thr_lp_solve_exact_here(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)
 {
   return solve(lp, true, limits, outcome, err);
+}
+
+/* ---- the exact method in a child ---- */
+
+/* Numbers of a solution: outcome, objective, column values, row multipliers. */
+enum { OUTCOME, OBJECTIVE, VALUES };
+
+static size_t count_numbers(const thr_lp *lp)
+{
+  return VALUES + (size_t)glp_get_num_cols(lp->problem) + (size_t)glp_get_num_rows(lp->problem);
+}
+
+/* They, and a byte for each row and column that says where it stands in the basis. */
+static thr_status put_solution(const thr_lp *lp, thr_lp_outcome outcome, thr_text *t, thr_err *err)
+{
+  int n = glp_get_num_cols(lp->problem), m = glp_get_num_rows(lp->problem);
+  double *number = thr_calloc(count_numbers(lp), sizeof *number);
+  if (!number) return thr_nomem(err);
+  number[OUTCOME] = outcome;
+  number[OBJECTIVE] = thr_lp_objective(lp);
+  thr_lp_primal(lp, number + VALUES);
+  thr_lp_dual(lp, number + VALUES + n);
+  thr_text_append_bytes(t, (const char *)number, count_numbers(lp) * sizeof *number);
+  free(number);
+  for (int i = 1; i <= m; i++)
+    thr_text_append_bytes(t, &(char){(char)glp_get_row_stat(lp->problem, i)}, 1);
+  for (int j = 1; j <= n; j++)
+    thr_text_append_bytes(t, &(char){(char)glp_get_col_stat(lp->problem, j)}, 1);
+  return t->failed ? thr_nomem(err) : THR_OK;
+}
+
+static thr_status solve_and_send(void *user, const thr_limits *limits, thr_sender *to, thr_err *err)
+{
+  thr_lp_outcome outcome;
+  thr_text t = {0};
+  thr_status st = thr_lp_solve_exact_here(user, limits, &outcome, err);
+  if (!st) st = put_solution(user, outcome, &t, err);
+  if (!st) st = thr_child_send(to, &t, err);
+  thr_text_destroy(&t);
+  return st;
+}
+
+typedef struct {
+  glp_prob *problem;
+  const char *stand; /* of rows, then of columns */
+} stand_call;
+
+static void do_stand(void *argument)
+{
+  const stand_call *c = argument;
+  int m = glp_get_num_rows(c->problem);
+  for (int i = 0; i < m; i++)
+    glp_set_row_stat(c->problem, i + 1, c->stand[i]);
+  for (int j = 0; j < glp_get_num_cols(c->problem); j++)
+    glp_set_col_stat(c->problem, j + 1, c->stand[m + j]);
+}
+
+static thr_status take_solution(thr_lp *lp, const thr_text *t, thr_lp_outcome *outcome, thr_err *err)
+{
+  size_t n = count_numbers(lp);
+  double *number = thr_calloc(n, sizeof *number);
+  stand_call c = {lp->problem, t->data + n * sizeof *number};
+  thr_status st = number ? guarded(do_stand, &c, err) : thr_nomem(err);
+  if (st) {
+    free(number);
+    return st;
+  }
+  memcpy(number, t->data, n * sizeof *number);
+  *outcome = (thr_lp_outcome)(int)number[OUTCOME];
+  lp->integer = false;
+  if (*outcome == THR_LP_OPTIMAL) lp->primal = false;
+  forget_exact(lp);
+  lp->exact = number;
+  return THR_OK;
+}
+
+thr_status thr_lp_solve_exact(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)
+{
+  const thr_child child = {.what = "GLPK's exact method", .run = solve_and_send, .user = lp};
+  thr_err failure = {0};
+  thr_text answer = {0};
+  *outcome = THR_LP_STOPPED;
+  thr_status st = check_alive(lp, err);
+  if (st || thr_limits_stop(limits)) return st;
+  st = thr_child_run(&child, limits, &answer, &failure);
+  if (!st)
+    st = take_solution(lp, &answer, outcome, err);
+  else if (st == THR_ELIMIT)
+    st = THR_OK;
+  else
+    thr_fail(err, st, "%s", failure.text);
+  thr_text_destroy(&answer);
+  return st;
 }
 
 typedef struct {
@@ -427,6 +532,7 @@ thr_status thr_lp_solve_integer(thr_lp *lp, const thr_limits *limits, thr_lp_out
 {
   *outcome = THR_LP_STOPPED;
   thr_status st = check_alive(lp, err);
+  forget_exact(lp);
   integer_call c = {lp->problem, limits, 0, 0};
   if (!st) c.pivots = glp_get_it_cnt(lp->problem);
   if (!st) st = guarded(do_integer, &c, err);
@@ -439,18 +545,23 @@ thr_status thr_lp_solve_integer(thr_lp *lp, const thr_limits *limits, thr_lp_out
 
 void thr_lp_primal(const thr_lp *lp, double *x)
 {
-  for (int j = 1; j <= glp_get_num_cols(lp->problem); j++)
+  int n = glp_get_num_cols(lp->problem);
+  if (lp->exact) memcpy(x, lp->exact + VALUES, (size_t)n * sizeof *x);
+  for (int j = 1; j <= n && !lp->exact; j++)
     x[j - 1] = lp->integer ? glp_mip_col_val(lp->problem, j) : glp_get_col_prim(lp->problem, j);
 }
 
 void thr_lp_dual(const thr_lp *lp, double *dual)
 {
-  for (int i = 1; i <= glp_get_num_rows(lp->problem); i++)
+  int m = glp_get_num_rows(lp->problem);
+  if (lp->exact) memcpy(dual, lp->exact + VALUES + glp_get_num_cols(lp->problem), (size_t)m * sizeof *dual);
+  for (int i = 1; i <= m && !lp->exact; i++)
     dual[i - 1] = glp_get_row_dual(lp->problem, i);
 }
 
 double thr_lp_objective(const thr_lp *lp)
 {
+  if (lp->exact) return lp->exact[OBJECTIVE];
   return lp->integer ? glp_mip_obj_val(lp->problem) : glp_get_obj_val(lp->problem);
 }
 

@@ -206,7 +206,7 @@ static thr_status solve_closed(postman *m, int d, const instance *in, thr_certif
   thr_tjoin t;
   thr_tjoin_problem p = {in->n_nodes, in->n_edges, (const int(*)[2])in->edge, in->weight, in->odd, 0};
   thr_status st = thr_tjoin_shrunk(&p, m->o->engine, m->limits, &t, err), taken = THR_OK;
-  if (!st) st = thr_tjoin_confirm_counted(&p, &t, m->limits, counter(m), err);
+  if (!st) st = thr_confirmations_add(counter(m), &p, &t, err);
   if (!st || st == THR_ELIMIT) {
     take_join(m, in, t.in_join, c);
     taken = take_cuts(m, d, &t.cut, &t.n_cuts, c->denominator / THR_DUAL_DENOMINATOR, c, err);
@@ -331,6 +331,7 @@ static void postman_destroy(postman *m)
   for (int k = 0; m->certificate && k < m->n_components; k++)
     thr_certificate_destroy(&m->certificate[k]);
   free(m->certificate);
+  thr_confirmations_destroy(&m->confirmed);
   free(m->component);
   free(m->edge_start);
   free(m->edge);
@@ -477,6 +478,7 @@ thr_status thr_postman_shortest(const thr_frame *f, const thr_plan_options *o, c
     thr_fail(&unproved, st, "%s", local.text);
     st = THR_OK; /* the others still get their (quick) best */
   }
+  if (!st) st = thr_confirmations_run(counter(&m), limits, err);
   if (!st) st = judge(&m, out, err);
   if (!st && !out->optimal)
     st = thr_fail(err, THR_ELIMIT, "%s: the cord is proved to be within %.3g %% of the shortest",

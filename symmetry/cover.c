@@ -323,6 +323,14 @@ static thr_status begin(thr_search *s, const thr_cover *known, thr_err *err)
   return !st && s->found && !s->p->o->quick ? offer_improved(s, err) : st;
 }
 
+/* Why the search has not done what it was to do. */
+static thr_status stopped(const thr_search *s, const char *what, thr_err *err)
+{
+  const thr_limits *l = s->limits;
+  const char *why = l->interrupted && *l->interrupted ? "the search was stopped before it could" : "the time was too short to";
+  return thr_fail(err, THR_ELIMIT, "%s %s", why, what);
+}
+
 static thr_status search_all(thr_search *s, const thr_cover *known, thr_cover *out, thr_err *err)
 {
   thr_status st = begin(s, known, err);
@@ -332,11 +340,11 @@ static thr_status search_all(thr_search *s, const thr_cover *known, thr_cover *o
   else if (!st)
     st = search_whole(s, err);
   if (st && st != THR_ELIMIT) return st;
-  if (!s->found) return thr_fail(err, THR_ELIMIT, "the time was too short to find a symmetric cover");
+  if (!s->found) return stopped(s, "find a symmetric cover", err);
   out->optimal = !st;
   thr_status given = hand_over(s, out, err);
   if (given || !st) return given;
-  return thr_fail(err, THR_ELIMIT, "the time was too short to prove that no symmetric cover is better");
+  return stopped(s, "prove that no symmetric cover is better", err);
 }
 
 thr_status thr_cover_improve(const thr_quotient *q, const thr_cover_options *o, const thr_limits *limits, thr_cover *known,

@@ -99,13 +99,14 @@ static thr_status find_shortest(const thr_frame *f, const thr_plan_options *o, c
 static thr_status verdict(const thr_symmetries *t, const char *group, thr_err *err)
 {
   int unsolved = 0, loose = 0, asked = 0;
-  const thr_symmetry_row *none = NULL;
+  const thr_symmetry_row *none = NULL, *open = NULL;
   for (int i = 0; i < t->n; i++) {
     thr_status why = t->row[i].why.code;
     if (!thr_symmetry_asked(t, i, group)) continue;
     asked++;
     unsolved += why == THR_ELIMIT || why == THR_ESOLVER;
     loose += t->row[i].solved && why == THR_ELIMIT;
+    if (!open && (why == THR_ESOLVER || (why == THR_ELIMIT && !t->row[i].solved))) open = &t->row[i];
     if (why) none = &t->row[i];
   }
   if (none && t->chosen < 0 && !unsolved) return thr_fail(err, none->why.code, "%s", none->why.text);
@@ -113,8 +114,8 @@ static thr_status verdict(const thr_symmetries *t, const char *group, thr_err *e
   if (loose == unsolved)
     return thr_fail(err, THR_ELIMIT, "%d of %d %s solved, but not proved: %s", loose, asked,
                     asked == 1 ? "group is" : "groups are", none->why.text);
-  return thr_fail(err, THR_ELIMIT, "%d of %d %s not solved to the end in time", unsolved - loose, asked,
-                  asked == 1 ? "group was" : "groups were");
+  return thr_fail(err, THR_ELIMIT, "%d of %d %s not solved to the end: %s", unsolved - loose, asked,
+                  asked == 1 ? "group was" : "groups were", open->why.text);
 }
 
 /* What a symmetric threading cannot be asked for. */

@@ -397,7 +397,7 @@ START_TEST(no_time)
   thr_plan p;
   thr_err err = {0};
   ck_assert_int_eq(thr_symmetries_find(&f, &o, &over, &t, &err), THR_ELIMIT);
-  assert_one_line(&err, "in time");
+  assert_one_line(&err, "the time was too short");
   ck_assert_int_eq(t.n, 8);
   for (int i = 0; i < t.n; i++)
     ck_assert_int_eq(t.row[i].why.code, THR_ELIMIT);
