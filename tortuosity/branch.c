@@ -292,6 +292,7 @@ thr_status thr_branch_run(thr_branch *b, thr_err *err)
   int root = 0;
   bool tied = b->c->task->tube && !b->c->task->free_turns;
   double penalty = 10 + (b->found ? ldexp((double)b->best_price, -THR_TURNING_BITS) : 10 * covers(b->c));
+  if (!b->c->task->free_turns) penalty += 2 * b->c->task->price_per_length * thr_frame_total_length(b->c->f);
   thr_status st = thr_relax_init(&b->relax, b->c, b->projected, penalty, err);
   if (!st) st = new_node(b, (thr_branch_node){.parent = -1, .bound = INT64_MIN, .dual = -1, .open = true}, &root, err);
   if (!st) st = first_bound(b, root, err);

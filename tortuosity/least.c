@@ -5,6 +5,7 @@
 #include "tortuosity/several.h"
 #include "tortuosity/tie.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -128,7 +129,7 @@ static thr_status find_shortest(const thr_frame *f, const thr_least_options *o, 
   thr_turning_columns_destroy(&c);
   for (int i = 0; i < o->n_start; i++)
     given += thr_cord_length(f, &o->start[i]);
-  counts &= given < (base + extra) * (1 - 1e-9) || !ends_fit(f, passes, ends);
+  counts &= o->slack_from_start || given < (base + extra) * (1 - 1e-9) || !ends_fit(f, passes, ends);
   out->shortest = counts ? given : base + extra;
   out->length_limit = o->length_slack < 0 ? -1 : out->shortest * (1 + o->length_slack);
   out->task.extra_limit = thr_turning_extra_limit(f, o->cover, out->length_limit);
@@ -253,12 +254,46 @@ static thr_status search(const thr_frame *f, const thr_least_options *o, const t
   return st;
 }
 
+/* Price of a unit of length that outweighs turns, within what 64 bits hold of all passes. */
+static double dear_length(const thr_frame *f, int cover)
+{
+  const double most = 2e5;
+  double passes = (double)f->n_edges * thr_turning_most_passes(f, cover);
+  return fmin(100, most / passes) * f->n_edges / thr_frame_total_length(f);
+}
+
+/* The shortest passes hold no such plan, as they would turn back or are full: the slack is measured from a plan of least length.
+ */
+static thr_status search_from_shortest(const thr_frame *f, const thr_least_options *o, const thr_limits *limits, thr_least *out,
+                                       thr_err *err)
+{
+  thr_least shortest;
+  thr_least_options again = *o;
+  thr_err found = {0};
+  again.length_slack = -1;
+  again.cost = THR_TURN_ANGLE;
+  again.price_per_length = dear_length(f, o->cover);
+  thr_status st = search(f, &again, limits, &shortest, &found);
+  if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", found.text);
+  again = *o;
+  again.start = shortest.cord;
+  again.n_start = shortest.n_cords;
+  again.slack_from_start = true;
+  st = search(f, &again, limits, out, err);
+  thr_least_destroy(&shortest);
+  return st;
+}
+
 /* Once more where the plan found is shorter than the one that its slack was measured from. */
 thr_status thr_least_turning(const thr_frame *f, const thr_least_options *o, const thr_limits *limits, thr_least *out,
                              thr_err *err)
 {
   thr_err found = {0};
   thr_status st = search(f, o, limits, out, &found);
+  if (st == THR_EINFEASIBLE && o->length_slack >= 0 && !o->tube && !o->slack_from_start) {
+    found = (thr_err){0};
+    st = search_from_shortest(f, o, limits, out, &found);
+  }
   while ((!st || st == THR_ELIMIT) && o->length_slack >= 0 && out->length < out->shortest * (1 - 1e-9)) {
     thr_least_options again = *o;
     thr_least shorter = {0};

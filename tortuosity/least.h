@@ -19,7 +19,8 @@ typedef struct {
   double price_per_length; /* of extra cord, in the turns' price per unit of length */
   const thr_cord *start;   /* [n_start] a plan of the task to begin with; borrowed, NULL = none */
   int n_start;
-  int most_nodes; /* of the branching tree; 1 = the root only */
+  bool slack_from_start; /* start is the shortest plan known: the shortest passes hold none */
+  int most_nodes;        /* of the branching tree; 1 = the root only */
 } thr_least_options;
 
 thr_least_options thr_least_options_default(void);
