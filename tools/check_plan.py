@@ -223,8 +223,8 @@ class Frame:
         d = a0 * b0 + a1 * b1 + a2 * b2
         return a == b or d <= 0 or d * d <= 1e-12 * ((a0 * a0 + a1 * a1 + a2 * a2) * (b0 * b0 + b1 * b1 + b2 * b2))
 
-    def distances(self, sources, without=-1):
-        """Shortest way from the nearest source to every node, not over one edge."""
+    def distances(self, sources, without=-1, most=math.inf):
+        """Shortest way from the nearest source to every node, not over one edge; None where it is longer than most."""
         best = [None] * self.n
         queue = [(0.0, v) for v in sources]
         while queue:
@@ -232,7 +232,7 @@ class Frame:
             if best[v] is None:
                 best[v] = d
                 for h in self.at[v]:
-                    if best[self.tail(h ^ 1)] is None and h >> 1 != without:
+                    if best[self.tail(h ^ 1)] is None and h >> 1 != without and d + self.length[h >> 1] <= most:
                         heapq.heappush(queue, (d + self.length[h >> 1], self.tail(h ^ 1)))
         return best
 
@@ -242,14 +242,21 @@ class Frame:
 PHYSICS = {"mu": (0, 2), "mu_low": (0, 2), "mu_high": (0, 3), "mu_bead": (0, 2), "mu_ground": (0, 2), "cord_diameter": (0, 1e9),
            "bore": (0, 1e9), "bead_diameter": (0, 1e9), "density": (0, 25), "bead_mass": (0, 1e9), "seating": (5e-324, 1e9),
            "gravity": (0, 1000)}
+DEFAULTS = {None: {"mu": 0.2, "mu_low": 0, "mu_high": 0, "mu_bead": 0.25, "mu_ground": 0.25, "cord_diameter": 0, "bore": 0, "bead_diameter": 0,
+                   "density": 1.24, "bead_mass": 0, "seating": 1, "gravity": 9.80665},
+            "pla-cotton": {"mu": 0.25, "mu_low": 0.15, "mu_high": 0.45, "mu_bead": 0.3, "mu_ground": 0.3},
+            "eps-nylon": {"mu": 0.3, "mu_low": 0.15, "mu_high": 0.5, "mu_bead": 0.5, "mu_ground": 0.5, "density": 0.02},
+            "wood-paracord": {"mu": 0.3, "mu_low": 0.2, "mu_high": 0.4, "mu_bead": 0.24, "mu_ground": 0.3, "cord_diameter": 4, "density": 0.5}}
 
 
 def check_physics(o, place):
     known(o, "preset note " + " ".join(PHYSICS), place)
-    choice(o, "preset", place, ("pla-cotton", "eps-nylon", "wood-paracord"), default="pla-cotton")
+    preset = choice(o, "preset", place, DEFAULTS) if "preset" in o else None
     member(o, "note", "text", place, default="")
-    for key, (low, high) in PHYSICS.items():
-        member(o, key, "number", place, low, high, default=1.0)
+    values = {**DEFAULTS[None], **DEFAULTS[preset]}
+    if preset and "mu" in o:
+        values["mu_low"] = values["mu_high"] = 0
+    return {key: member(o, key, "number", place, low, high, default=values[key]) for key, (low, high) in PHYSICS.items()}
 
 
 class Options:
@@ -931,8 +938,8 @@ def forced_detour(p, enough):
     for e in sorted(range(f.m), key=lambda e: -f.length[e]):
         a, b = f.edge[e]
         if p.closing:
-            round_trip = f.distances([a], e)[b]
-            value = f.length[e] + min(f.length[e], math.inf if round_trip is None else round_trip)
+            back = f.distances([a], e, f.length[e])[b]
+            value = f.length[e] + (f.length[e] if back is None else back)
         else:
             value = way[a] + f.length[e] + way[b]
         best = max(best, value)
@@ -1337,6 +1344,137 @@ def check_copies(p, s, generators, images, group):
     p.close(member(s, "steps", "number", "symmetry"), steps, steps, "symmetry.steps")
 
 
+# ---- evaluation ----
+
+RAMP = ((243, 211, 80), (238, 176, 50), (227, 142, 36), (211, 110, 39), (190, 79, 49), (165, 51, 57), (138, 23, 62), (106, 5, 64), (75, 2, 58))
+MILLIMETRES = {"mm": 1, "millimetre": 1, "millimeter": 1, "millimetres": 1, "millimeters": 1, "cm": 10, "centimetre": 10, "centimeter": 10,
+               "centimetres": 10, "centimeters": 10, "m": 1000, "metre": 1000, "meter": 1000, "metres": 1000, "meters": 1000, "in": 25.4,
+               "inch": 25.4, "inches": 25.4, "ft": 304.8, "foot": 304.8, "feet": 304.8}
+
+
+def near(stated, value, scale, name):
+    require(abs(stated - value) <= 1e-9 * scale, f"{name}: stated {stated}, but it is {value}")
+
+
+def colour(tension, low, high):
+    """Of a tension, red green blue: even steps for equal ratios."""
+    span = math.log(high / low) if low > 0 else math.inf
+    at = (len(RAMP) - 1) * math.log(tension / low) / span if span > 0 and tension > 0 and span < math.inf else 0
+    i = min(int(max(at, 0)), len(RAMP) - 2)
+    return [a + (max(at, 0) - i) * (b - a) for a, b in zip(RAMP[i], RAMP[i + 1])]
+
+
+class Pulled:
+    """The record of one cord."""
+
+    def __init__(self, p, e, o, i):
+        self.place, cord = f"evaluation.cords[{i}]", p.cords[i]
+        require(type(o) is dict, f"{self.place}: not an object")
+        known(o, "id known pull turning taut_turning force other_force loss work error slackest refused tension colours", self.place)
+        require(member(o, "id", "text", self.place) == cord.id, f"{self.place}.id: not {cord.id}")
+        self.pull = choice(o, "pull", self.place, ("start", "end", "both"))
+        self.force = self.other = 0
+        self.tension = []
+        if not member(o, "known", "truth", self.place):
+            require(len(o) == 3, f"{self.place}: more than is known")
+            return
+        self.angles = [p.frame.angle(a, b) for a, b in cord.turns(False)]
+        values = {key: member(o, key, "number", self.place, 0) for key in "turning taut_turning force other_force loss work error".split()}
+        tension = member(o, "tension", "list", self.place)
+        require(len(tension) == len(cord.half), f"{self.place}.tension: not one per pass")
+        self.tension = [member({"tension": x}, "tension", "number", self.place, 0) for x in tension]
+        member(o, "refused", "integer", self.place, 0, 0 if e.method == "capstan" else len(self.angles))
+        self.colours = member(o, "colours", "list", self.place)
+        self.force, self.other = values["force"], values["other_force"]
+        self.slackest = member(o, "slackest", "integer", self.place, 0, len(tension) - 1)
+        self.check_values(e, values, math.fsum(self.angles))
+        if e.method == "capstan":
+            self.check_law(e)
+
+    def check_values(self, e, values, turning):
+        near(values["turning"], turning, 1 + turning, self.place + ".turning")
+        if e.method != "joint":
+            require(values["taut_turning"] == values["turning"], f"{self.place}.taut_turning: not the turning")
+        require(values["error"] == 0 or e.method != "capstan", f"{self.place}.error: of a closed form")
+        first, last = self.tension[0], self.tension[-1]
+        force, other = {"start": (first, 0), "end": (last, 0), "both": (max(first, last), min(first, last))}[self.pull]
+        for key, value in (("force", force), ("other_force", other), ("work", force + other)):
+            near(values[key], value, max(value, values[key]), f"{self.place}.{key}")
+        slack = self.tension[self.slackest]
+        require(slack == min(self.tension), f"{self.place}.slackest: not the least tension")
+        near(values["loss"], 1 - slack / force if force else 0, 1, self.place + ".loss")
+        ways = {"start": [self.tension[self.slackest::-1]], "end": [self.tension[self.slackest:]]}
+        for way in ways["start"] + ways["end"] if self.pull == "both" else ways[self.pull]:
+            require(all(a <= b * (1 + 1e-9) for a, b in zip(way, way[1:])), f"{self.place}: tension falls towards a pulled end")
+
+    def check_law(self, e):
+        """Every tension, from the slackest pass, and that no other pass would do with less pull."""
+        mu = e.physics["mu"]
+        steps = [mu * x if e.law == "capstan" else -math.log(max(1 - mu * math.sin(x / 2), 5e-324)) for x in self.angles]
+        before = [0.0]
+        for x in steps:
+            before.append(before[-1] + x)
+        total, at = before[-1], before[self.slackest]
+        pull = {"start": lambda x: total - x, "end": lambda x: x, "both": lambda x: max(x, total - x)}[self.pull]
+        require(pull(at) <= min(map(pull, before)) + 1e-9 * (1 + total), f"{self.place}.slackest: another pass needs less pull")
+        for k, x in enumerate(before):
+            expected = math.log(e.physics["seating"]) + abs(x - at)
+            require(self.tension[k] > 0 and abs(math.log(self.tension[k]) - expected) <= 1e-9 * (1 + total),
+                    f"{self.place}.tension[{k}]: not by the law")
+
+    def check_colours(self, low, high):
+        require(len(self.colours) == len(self.tension), f"{self.place}.colours: not one per pass")
+        for text, tension in zip(self.colours, self.tension):
+            good = type(text) is str and re.fullmatch("#[0-9a-f]{6}", text)
+            rgb = good and [int(text[k:k + 2], 16) for k in (1, 3, 5)]
+            require(good and all(abs(a - b) <= 1.5 for a, b in zip(rgb, colour(tension, low, high))), f"{self.place}.colours: not so")
+
+
+class Evaluation:
+    def __init__(self, p, o):
+        place = "evaluation"
+        known(o, "method law physics seed time_step iterations largest total scale cords", place)
+        self.method = choice(o, "method", place, ("capstan", "joint", "structure"))
+        require(("law" in o) == (self.method == "capstan"), "evaluation.law: with method capstan, and only with it")
+        self.law = choice(o, "law", place, ("capstan", "mitre"), default="capstan")
+        self.check_physics(p, member(o, "physics", "object", place))
+        member(o, "seed", "integer", place, 0, 2**53)
+        for key in ("time_step", "iterations"):
+            member(o, key, "number", place, 5e-324)
+        rows = member(o, "cords", "list", place)
+        require(len(rows) == len(p.cords), "evaluation.cords: not one per cord")
+        cords = [Pulled(p, self, row, i) for i, row in enumerate(rows)]
+        largest, total = max(c.force for c in cords), math.fsum(c.force + c.other for c in cords)
+        near(member(o, "largest", "number", place), largest, largest, "evaluation.largest")
+        near(member(o, "total", "number", place), total, total, "evaluation.total")
+        tensions = [x for c in cords for x in c.tension] or [0]
+        scale = member(o, "scale", "object", place)
+        known(scale, "low high", "evaluation.scale")
+        for key, value in (("low", min(tensions)), ("high", max(tensions))):
+            require(member(scale, key, "number", "evaluation.scale") == value, f"evaluation.scale.{key}: not {value}")
+        for cord in cords:
+            if cord.tension:
+                cord.check_colours(min(tensions), max(tensions))
+
+    def check_physics(self, p, o):
+        """Complete, and such that the parts fit."""
+        self.physics = v = check_physics(o, "evaluation.physics")
+        f = p.frame
+        shortest = min(math.dist(f.xyz[a], f.xyz[b]) for a, b in f.edge) * MILLIMETRES.get(f.units.lower(), 1)
+        require(0 < v["cord_diameter"] < v["bore"] < min(shortest, v["bead_diameter"]), "evaluation.physics: cord, bore, bead and edges do not fit")
+        require(0 < v["mu_low"] <= v["mu"] <= v["mu_high"], "evaluation.physics: the band of mu does not hold it")
+        require(v["density"] or v["bead_mass"], "evaluation.physics: beads without mass")
+
+
+def check_evaluation(p):
+    if "evaluation" not in p.file:
+        return []
+    e = Evaluation(p, member(p.file, "evaluation", "object", ""))
+    if e.method == "capstan":
+        return [f"evaluation: tensions follow the law {e.law}, which friction of true beads need not"]
+    return [f"evaluation ({e.method}): consistent; the tensions themselves are not verified"]
+
+
 # ---- the whole plan ----
 
 
@@ -1357,9 +1495,7 @@ def check(data):
     p = Plan(parse(data))
     check_cords(p)
     check_metrics(p)
-    found = check_symmetry(p) + check_length(p) + check_cords_claim(p) + check_turning(p)
-    if "evaluation" in p.file:
-        found.append("evaluation: not verified by this program")
+    found = check_symmetry(p) + check_length(p) + check_cords_claim(p) + check_turning(p) + check_evaluation(p)
     return (f"{len(p.cords)} cord(s), {sum(p.passes)} passes, length {float(p.length):.6f} {p.frame.units}; "
             f"{'; '.join(found)} [{terms(p)}]")
 

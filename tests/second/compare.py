@@ -66,6 +66,15 @@ def frame_hash(plan):
             plan["framework"]["hash"] = word
 
 
+def read_small(path):
+    """A plan to change, if it is JSON and not large."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            return json.load(file) if os.path.getsize(path) < 40000 else None
+    except ValueError:
+        return None
+
+
 class Comparison:
     def __init__(self, thread, keep):
         self.thread, self.keep = thread, keep
@@ -145,17 +154,11 @@ def main():
             whole.add(path)
         whole.flush()
         print(f"{whole.count} plans, {whole.accepted} of them accepted, {len(whole.differences)} differences")
-        small = []
-        for path in plans:
-            if os.path.getsize(path) < 40000:
-                with open(path, encoding="utf-8") as file:
-                    small.append(json.load(file))
+        small = [plan for plan in map(read_small, plans) if plan]
         changed = Comparison(a.thread, a.keep)
         chance = random.Random(a.seed)
         for i in range(a.mutants):
             plan = mutate.mutant(chance, chance.choice(small), frame_hash)
-            if "evaluation" in plan and chance.random() < 0.9:
-                del plan["evaluation"]
             path = os.path.join(folder, f"mutant-{i % BATCH}.json")
             with open(path, "w", encoding="utf-8") as file:
                 json.dump(plan, file)
