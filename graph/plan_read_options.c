@@ -208,6 +208,10 @@ thr_status thr_plan_read_options(const thr_field_reader *r, const thr_json *doc,
   if ((st = read_means(r, v, o))) return st;
   if ((st = thr_field_name(r, v, "options", "ends", THR_ENDS_COUNTS + 1, ends_name, &kind))) return st;
   o->ends = (thr_ends)kind;
+  if (thr_json_get(v, "end_nodes") && o->ends != THR_ENDS_NODES)
+    return thr_field_bad(r, "options.end_nodes", "only with ends `nodes`");
+  if (thr_json_get(v, "end_counts") && o->ends != THR_ENDS_COUNTS)
+    return thr_field_bad(r, "options.end_counts", "only with ends `counts`");
   if (o->ends == THR_ENDS_NODES) return read_end_nodes(r, v, f, &o->end_node);
   return o->ends == THR_ENDS_COUNTS ? read_end_counts(r, v, f, &o->end_count) : THR_OK;
 }

@@ -273,6 +273,7 @@ class Options:
         member(o, "time_limit", "number", p)
         choice(o, "engine", p, ("auto", "lp", "matching"), default="auto")
         choice(o, "confirm", p, ("auto", "always", "never"), default="auto")
+        require(self.objective == "length" or "confirm" not in o, "options.confirm: only with objective length")
         check_physics(member(o, "physics", "object", p), p + ".physics")
         self.read_cords(o)
         self.read_ends(o, f)
@@ -328,7 +329,7 @@ class Options:
             s, p = member(o, "symmetry", "object", "options"), "options.symmetry"
             known(s, "group geometric prefer", p)
             if s.get("group", 0) is not None:
-                require(len(member(s, "group", "text", p).encode()) <= 15, "options.symmetry.group: longer than 15 bytes")
+                require(1 <= len(member(s, "group", "text", p).encode()) <= 15, "options.symmetry.group: not 1 to 15 bytes")
             if s.get("geometric", "") is not None:
                 member(s, "geometric", "number", p, 0)
             aims = member(s, "prefer", "list", p)

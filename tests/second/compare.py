@@ -141,7 +141,7 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("thread")
     parser.add_argument("plans", nargs="*")
-    parser.add_argument("--mutants", type=int, default=4000)
+    parser.add_argument("--mutants", type=int, default=8000)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--all", action="store_true")
     parser.add_argument("--keep")
