@@ -14,7 +14,7 @@ static const double pi = 3.14159265358979323846;
 typedef struct {
   int n_kinds, size;   /* size: of the table */
   int *count, *stride; /* [n_kinds] points of a kind; step in the table that one of them makes */
-  double *price;       /* [n_kinds * n_kinds] of pairing two points */
+  double *price;       /* [n_kinds * n_kinds] of pairing two points; NULL without a table */
 } node_points;
 
 static void node_points_destroy(node_points *k)
@@ -52,29 +52,59 @@ static thr_status node_points_init(node_points *k, const thr_frame *f, thr_turn_
   *k = (node_points){.n_kinds = d + (ends > 0), .size = 1};
   k->count = thr_calloc(n, sizeof *k->count);
   k->stride = thr_calloc(n, sizeof *k->stride);
-  k->price = thr_calloc(n * n, sizeof *k->price);
-  if (!k->count || !k->stride || !k->price) return thr_nomem(err);
+  if (!k->count || !k->stride) return thr_nomem(err);
   for (int i = 0; i < k->n_kinds; i++) {
     k->count[i] = i < d ? passes[f->half[f->first[v] + i] >> 1] : ends;
     k->stride[i] = k->size;
     k->size = k->size > LARGEST / (k->count[i] + 1) ? LARGEST + 1 : k->size * (k->count[i] + 1);
   }
   if (k->size > LARGEST) k->size = 0;
+  if (k->size == 0) return THR_OK;
+  if (!(k->price = thr_calloc(n * n, sizeof *k->price))) return thr_nomem(err);
   set_prices(k, f, cost, v);
   return THR_OK;
 }
 
-/* Every point pays at least half of its cheapest partner: a bound where the table would be too large. */
-static double half_prices(const node_points *k)
+/* Least price of a turn from half-edge i of the d at a node to another. No turn costs more than a sharper one, so only the
+ * straightest are priced: those whose cosines are the same but for rounding. */
+static double cheapest_turn(const thr_frame *f, thr_turn_cost cost, const int *half, int d, double (*unit)[3], int i)
 {
-  double sum = 0;
-  for (int i = 0; i < k->n_kinds; i++) {
-    double least = INFINITY;
-    for (int j = 0; j < k->n_kinds; j++)
-      least = fmin(least, k->price[i * k->n_kinds + j]);
-    if (isfinite(least)) sum += k->count[i] * least / 2;
+  double straight = -INFINITY, least = INFINITY;
+  for (int pass = 0; pass < 2; pass++)
+    for (int j = 0; j < d; j++) {
+      double cosine = -(unit[i][0] * unit[j][0] + unit[i][1] * unit[j][1] + unit[i][2] * unit[j][2]);
+      if (j == i) continue;
+      if (pass == 0)
+        straight = fmax(straight, cosine);
+      else if (cosine >= straight - 1e-12)
+        least = fmin(least, price_of(f, cost, half[i] ^ 1, half[j]));
+    }
+  return least;
+}
+
+/* A bound where the table would be too large: every pass pays at least half of its cheapest turn, unless it goes on to a cord
+ * end, of which there are so many. */
+static thr_status half_prices(const thr_frame *f, thr_turn_cost cost, int v, const int *passes, int ends, double *sum,
+                              thr_err *err)
+{
+  int d = thr_degree(f, v);
+  const int *half = f->half + f->first[v];
+  double half_sum = 0, most = 0, (*unit)[3] = thr_calloc((size_t)d, sizeof *unit);
+  if (!unit) return thr_nomem(err);
+  for (int i = 0; i < d; i++) {
+    const double *from = f->xyz[v], *to = f->xyz[thr_head(f, half[i])];
+    double size = hypot(hypot(to[0] - from[0], to[1] - from[1]), to[2] - from[2]);
+    for (int k = 0; k < 3; k++)
+      unit[i][k] = (to[k] - from[k]) / size;
   }
-  return sum;
+  for (int i = 0; i < d && d > 1; i++) {
+    double least = cheapest_turn(f, cost, half, d, unit, i) / 2;
+    half_sum += passes[half[i] >> 1] * least;
+    most = fmax(most, least);
+  }
+  free(unit);
+  *sum += fmax(0, half_sum - ends * most);
+  return THR_OK;
 }
 
 /* Dynamic programming over how many points of each kind are left: the first kind with one left is paired with any. */
@@ -101,7 +131,8 @@ static thr_status pair_node(const thr_frame *f, thr_turn_cost cost, int v, const
   thr_status st = node_points_init(&k, f, cost, v, passes, ends, err);
   double *table = st || !k.size ? NULL : thr_calloc((size_t)k.size, sizeof *table);
   if (!st && k.size && !table) st = thr_nomem(err);
-  if (!st) *sum += table ? cheapest(&k, table) : half_prices(&k);
+  if (!st && table) *sum += cheapest(&k, table);
+  if (!st && !table) st = half_prices(f, cost, v, passes, ends, sum, err);
   free(table);
   node_points_destroy(&k);
   return st;

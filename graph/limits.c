@@ -19,6 +19,14 @@ double thr_limits_left(const thr_limits *l, double most)
   return left < 0 ? 0 : left < most ? left : most;
 }
 
+thr_limits thr_limits_part(const thr_limits *l, double part)
+{
+  thr_limits some = *l;
+  double now = thr_clock(), left = l->deadline - now;
+  if (l->deadline > 0) some.deadline = now + part * (left > 0 ? left : 0);
+  return some;
+}
+
 bool thr_limits_stop(const thr_limits *l)
 {
   return thr_limits_left(l, 1) <= 0;

@@ -220,15 +220,20 @@ double thr_cord_length(const thr_frame *f, const thr_cord *c)
   return sum;
 }
 
+double thr_angle_between(const double a[3], const double b[3])
+{
+  double cross[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  double dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  /* atan2 keeps full precision near 0 and pi, where acos loses half of it */
+  return atan2(sqrt(cross[0] * cross[0] + cross[1] * cross[1] + cross[2] * cross[2]), dot);
+}
+
 double thr_turn_angle(const thr_frame *f, int in, int out)
 {
   double a[3], b[3];
   thr_direction(f, in, a);
   thr_direction(f, out, b);
-  double cross[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  double dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-  /* atan2 keeps full precision near 0 and pi, where acos loses half of it */
-  return atan2(sqrt(cross[0] * cross[0] + cross[1] * cross[1] + cross[2] * cross[2]), dot);
+  return thr_angle_between(a, b);
 }
 
 double thr_cord_turning(const thr_frame *f, const thr_cord *c, bool with_closure)

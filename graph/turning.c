@@ -74,7 +74,7 @@ double thr_turning_extra_limit(const thr_frame *f, int cover, double length_limi
 
 static int64_t weight_of(double price)
 {
-  return (int64_t)floor(ldexp(price, THR_TURNING_BITS));
+  return (int64_t)floor(price * (double)(INT64_C(1) << THR_TURNING_BITS));
 }
 
 int thr_turning_column(const thr_turning_columns *c, int a, int b)
@@ -112,17 +112,40 @@ static void set_column(thr_turning_columns *c, int column, int a, int b, double 
   c->weight[column] = weight_of(price);
 }
 
-static void fill_columns(thr_turning_columns *c)
+/* The turns of node v, priced as thr_turn_price does it. out: [degree] scratch. */
+static void fill_turns(thr_turning_columns *c, int v, double (*out)[3])
+{
+  const thr_turning_task *t = c->task;
+  const int *half = c->f->half + c->f->first[v];
+  int d = thr_degree(c->f, v), column = c->pair_first[v];
+  for (int i = 0; i < d; i++)
+    thr_direction(c->f, half[i], out[i]);
+  for (int i = 0; i < d; i++) {
+    const double in[3] = {-out[i][0], -out[i][1], -out[i][2]};
+    for (int j = i + 1; j < d; j++, column++) {
+      double price = 0;
+      if (t->cost == THR_TURN_STEP && !t->free_turns)
+        price = thr_turn_price(c->f, t->cost, half[i] ^ 1, half[j]);
+      else if (!t->free_turns)
+        price = thr_turn_cost_of(t->cost, thr_angle_between(in, out[j]));
+      set_column(c, column, half[i], half[j], price);
+    }
+  }
+}
+
+static thr_status fill_columns(thr_turning_columns *c, thr_err *err)
 {
   const thr_frame *f = c->f;
   const thr_turning_task *t = c->task;
-  int end = c->first_end, back = c->first_back;
+  int end = c->first_end, back = c->first_back, most = 0;
   for (int v = 0; v < f->n_nodes; v++)
+    if (thr_degree(f, v) > most) most = thr_degree(f, v);
+  double(*out)[3] = thr_calloc((size_t)most, sizeof *out);
+  if (!out) return thr_nomem(err);
+  for (int v = 0; v < f->n_nodes; v++) {
+    fill_turns(c, v, out);
     for (int i = f->first[v]; i < f->first[v + 1]; i++) {
       int a = f->half[i];
-      for (int j = i + 1; j < f->first[v + 1]; j++)
-        set_column(c, thr_turning_column(c, a, f->half[j]), a, f->half[j],
-                   t->free_turns ? 0 : thr_turn_price(f, t->cost, a ^ 1, f->half[j]));
       c->end_column[a] = -1;
       if (t->end_allowed && t->end_allowed[v]) {
         c->end_column[a] = end;
@@ -130,18 +153,31 @@ static void fill_columns(thr_turning_columns *c)
       }
       if (thr_degree(f, v) == 1 && !t->tube) set_column(c, back++, a, a, thr_turn_cost_of(t->cost, pi));
     }
+  }
+  free(out);
   for (int e = 0; e < f->n_edges; e++)
     set_column(c, c->first_extra + e, 2 * e, 2 * e + 1, t->price_per_length * f->length[e]);
+  return THR_OK;
+}
+
+static double longest_edge(const thr_frame *f)
+{
+  double longest = 0;
+  for (int e = 0; e < f->n_edges; e++)
+    longest = fmax(longest, f->length[e]);
+  return longest;
 }
 
 static void fill_lengths(thr_turning_columns *c)
 {
-  double longest = 0;
-  for (int e = 0; e < c->f->n_edges; e++)
-    longest = fmax(longest, c->f->length[e]);
+  double longest = longest_edge(c->f);
   for (int e = 0; e < c->f->n_edges; e++)
     c->length[e] = (int64_t)floor(ldexp(c->f->length[e] / longest, THR_LENGTH_BITS));
-  double limit = ceil(ldexp(c->task->extra_limit / longest, THR_LENGTH_BITS)) + 1;
+}
+
+void thr_turning_limit(thr_turning_columns *c)
+{
+  double longest = longest_edge(c->f), limit = ceil(ldexp(c->task->extra_limit / longest, THR_LENGTH_BITS)) + 1;
   c->extra_limit = c->task->extra_limit < 0 || limit > 4e18 ? -1 : (int64_t)limit; /* so far above that it limits nothing */
 }
 
@@ -240,13 +276,11 @@ thr_status thr_turning_columns_init(thr_turning_columns *c, const thr_frame *f, 
   for (size_t e = 0; e < m && !st; e++)
     if (!(f->length[e] * task->price_per_length < 1e4))
       st = thr_fail(err, THR_EINPUT, "the price per length makes edge %zu cost more than 10000", e);
-  if (st) {
-    thr_turning_columns_destroy(c);
-    return st;
-  }
-  fill_columns(c);
-  fill_lengths(c);
-  return THR_OK;
+  if (!st) st = fill_columns(c, err);
+  if (!st) fill_lengths(c);
+  if (!st) thr_turning_limit(c);
+  if (st) thr_turning_columns_destroy(c);
+  return st;
 }
 
 void thr_turning_columns_destroy(thr_turning_columns *c)

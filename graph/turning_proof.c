@@ -292,11 +292,12 @@ static int64_t least_over_box(const leaf *k, const int *low, const int *high)
   int64_t length = c->extra_limit < 0 ? 0 : k->d->length;
   wide total = k->constant - shifted_down((wide)length * c->extra_limit) - (length > 0);
   for (int j = 0; j < c->n_columns; j++) {
-    if (low[j] > high[j]) return INT64_MAX;
+    int least = low ? low[j] : 0, most = high ? high[j] : thr_turning_most(c, j);
+    if (least > most) return INT64_MAX;
     wide reduced = k->reduced[j];
     if (j >= c->first_extra && j < c->first_end && length > 0)
       reduced += shifted_down((wide)length * c->length[j - c->first_extra]);
-    total += reduced * (reduced < 0 ? high[j] : low[j]);
+    total += reduced * (reduced < 0 ? most : least);
   }
   return total > INT64_MAX ? INT64_MAX : total < INT64_MIN ? INT64_MIN : (int64_t)total;
 }
@@ -414,32 +415,41 @@ static thr_status check_dual_shape(const thr_turning_columns *c, const thr_turni
   return THR_OK;
 }
 
-thr_status thr_turning_proof_check(const thr_frame *f, const thr_turning_task *task, const thr_turning_proof *p, double *bound,
-                                   thr_err *err)
+thr_status thr_turning_proof_check_columns(const thr_turning_columns *c, const thr_turning_proof *p, double *bound, thr_err *err)
 {
-  thr_turning_columns c;
   int64_t least = INT64_MAX;
+  size_t branched = p->n_nodes > 1 ? (size_t)c->n_columns : 0;
+  int *parent = thr_calloc((size_t)p->n_nodes, sizeof *parent), *low = NULL, *high = NULL;
+  thr_status st = parent ? check_dual_shape(c, p, err) : thr_nomem(err);
   *bound = 0;
-  thr_status st = thr_turning_columns_init(&c, f, task, err);
-  if (st) return st;
-  int *parent = thr_calloc((size_t)p->n_nodes, sizeof *parent);
-  int *low = thr_calloc((size_t)c.n_columns, sizeof *low), *high = thr_calloc((size_t)c.n_columns, sizeof *high);
-  st = parent && low && high ? check_dual_shape(&c, p, err) : thr_nomem(err);
-  if (!st) st = link_tree(&c, p, parent, err);
-  for (int j = 0; j < c.n_columns && !st; j++)
-    high[j] = thr_turning_most(&c, j);
+  if (!st) st = link_tree(c, p, parent, err);
+  if (!st && branched && (!(low = thr_calloc(branched, sizeof *low)) || !(high = thr_calloc(branched, sizeof *high))))
+    st = thr_nomem(err);
+  for (int j = 0; high && j < c->n_columns && !st; j++)
+    high[j] = thr_turning_most(c, j);
   for (int i = 0; i < p->n_nodes && !st; i++) {
     int64_t here;
     if (p->node[i].low) continue;
-    walk_up(&c, p, parent, i, false, low, high);
-    st = thr_turning_dual_bound(&c, &p->dual[p->node[i].dual], low, high, &here, err);
-    walk_up(&c, p, parent, i, true, low, high);
+    walk_up(c, p, parent, i, false, low, high);
+    st = thr_turning_dual_bound(c, &p->dual[p->node[i].dual], low, high, &here, err);
+    walk_up(c, p, parent, i, true, low, high);
     if (!st && here < least) least = here;
   }
   if (!st && least > 0) *bound = ldexp((double)least, -THR_TURNING_BITS);
   free(parent);
   free(low);
   free(high);
+  return st;
+}
+
+thr_status thr_turning_proof_check(const thr_frame *f, const thr_turning_task *task, const thr_turning_proof *p, double *bound,
+                                   thr_err *err)
+{
+  thr_turning_columns c;
+  *bound = 0;
+  thr_status st = thr_turning_columns_init(&c, f, task, err);
+  if (st) return st;
+  st = thr_turning_proof_check_columns(&c, p, bound, err);
   thr_turning_columns_destroy(&c);
   return st;
 }

@@ -109,6 +109,9 @@ bool thr_turning_open(const thr_turning_columns *c, int component);
 /* Largest value that a column takes in any plan. */
 int thr_turning_most(const thr_turning_columns *c, int column);
 
+/* Takes over a new extra_limit of the task. */
+void thr_turning_limit(thr_turning_columns *c);
+
 /* A set with its multiplier, in units of 2^-THR_TURNING_BITS. */
 typedef struct {
   int n;
@@ -168,9 +171,9 @@ typedef struct {
 
 void thr_turning_proof_destroy(thr_turning_proof *p);
 
-/* Bound that multipliers prove while column j lies in [low[j], high[j]], in units of 2^-THR_TURNING_BITS, rounded down.
- * THR_EVIOLATED for a negative multiplier, an index out of range, an even odd set, a group that need not be connected to the
- * rest. O(columns + sum of the squares of the degrees over the sets). */
+/* Bound that multipliers prove while column j lies in [low[j], high[j]] (both NULL: 0 to thr_turning_most), in units of
+ * 2^-THR_TURNING_BITS, rounded down. THR_EVIOLATED for a negative multiplier, an index out of range, an even odd set, a group
+ * that need not be connected to the rest. O(columns + sum of the squares of the degrees over the sets). */
 thr_status thr_turning_dual_bound(const thr_turning_columns *c, const thr_turning_dual *d, const int *low, const int *high,
                                   int64_t *bound, thr_err *err) THR_MUST_CHECK;
 
@@ -178,6 +181,10 @@ thr_status thr_turning_dual_bound(const thr_turning_columns *c, const thr_turnin
  * nothing in them is trusted. THR_EVIOLATED with the place. */
 thr_status thr_turning_proof_check(const thr_frame *f, const thr_turning_task *task, const thr_turning_proof *p, double *bound,
                                    thr_err *err) THR_MUST_CHECK;
+
+/* The same with the columns of the task at hand. */
+thr_status thr_turning_proof_check_columns(const thr_turning_columns *c, const thr_turning_proof *p, double *bound,
+                                           thr_err *err) THR_MUST_CHECK;
 
 /* JSON of a proof, one object; and back, strictly: unknown, missing or mistyped members and indices that the framework does not
  * have are THR_EVIOLATED, "place: what". Whether it proves anything is for thr_turning_proof_check. */

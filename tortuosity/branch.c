@@ -2,6 +2,7 @@
 #include "tortuosity/branch.h"
 #include "tortuosity/ascent.h"
 #include "tortuosity/cycles.h"
+#include "tortuosity/nearest.h"
 #include "tortuosity/tie.h"
 
 #include <limits.h>
@@ -10,6 +11,9 @@
 #include <string.h>
 
 static const double integral = 1e-6; /* what counts as a whole number */
+
+/* More turns than these, and more per edge, make a linear programme that is not solved in any time that anybody waits. */
+enum { DENSE = 200000, DENSE_PER_EDGE = 20 };
 
 thr_status thr_branch_init(thr_branch *b, const thr_turning_columns *c, int most_nodes, const thr_limits *limits, thr_err *err)
 {
@@ -21,6 +25,7 @@ thr_status thr_branch_init(thr_branch *b, const thr_turning_columns *c, int most
                     .best_price = INT64_MAX,
                     .best_length = INFINITY};
   b->several = !c->task->end_allowed && c->task->cords > 1;
+  b->dense = !c->task->free_turns && c->first_extra > DENSE && c->first_extra / DENSE_PER_EDGE > c->f->n_edges;
   b->passes = thr_calloc(m, sizeof *b->passes);
   b->ends = thr_calloc(n, sizeof *b->ends);
   b->whole = thr_calloc((size_t)c->n_columns, sizeof *b->whole);
@@ -149,24 +154,16 @@ static bool closed(const thr_branch *b, int i)
   return b->node[i].bound >= b->best_price - thr_branch_tolerance(b);
 }
 
-/* Limits with a part of the time that is left. */
-static thr_limits part_of(const thr_limits *l, double part)
-{
-  thr_limits some = *l;
-  if (l->deadline > 0) some.deadline = l->deadline - (1 - part) * thr_limits_left(l, INFINITY);
-  return some;
-}
-
 /* Tube joints: the bound of the ascent, and from the mean of its solutions passes to begin with. */
 static thr_status climb(thr_branch *b, int root, thr_err *err)
 {
-  const thr_limits some = part_of(b->limits, 0.4);
+  const thr_limits some = thr_limits_part(b->limits, 0.4);
   double target = b->found ? ldexp((double)b->best_price, -THR_TURNING_BITS) : INFINITY;
   thr_turning_dual d = {0};
   bool found = false;
   double *mean = thr_calloc((size_t)b->c->n_columns, sizeof *mean);
   thr_status st = mean ? thr_ascent_run(b->c, target, b->limits, &d, mean, err) : thr_nomem(err);
-  if (!st) st = keep_dual(b, root, d, b->relax.low, b->relax.high, err);
+  if (!st) st = keep_dual(b, root, d, NULL, NULL, err);
   if (!st && !closed(b, root)) st = thr_tie_round(b->c, mean, b->passes, b->ends, &found, err);
   if (!st && found) st = thr_tie_improve(b->c, &some, b->passes, b->ends, err);
   if (!st && found) st = thr_branch_try(b, b->passes, b->ends, err);
@@ -174,18 +171,15 @@ static thr_status climb(thr_branch *b, int root, thr_err *err)
   return st;
 }
 
-/* A first bound for the root where the first linear programme may take longer than there is time. */
-static thr_status first_bound(thr_branch *b, int root, thr_err *err)
+thr_status thr_branch_begin(thr_branch *b, thr_err *err)
 {
-  enum { LARGE = 1000 };
   thr_turning_dual d;
-  thr_limits no_deadline = *b->limits; /* it takes a hundredth of a second, and without it there may be no bound at all */
-  no_deadline.deadline = 0;
-  if (b->c->task->free_turns) return THR_OK;
-  if (b->c->task->tube) return climb(b, root, err);
-  if (b->c->f->n_edges < LARGE) return THR_OK;
-  thr_status st = thr_relax_nodes(b->c, &no_deadline, &d, err);
-  return st ? st : keep_dual(b, root, d, b->relax.low, b->relax.high, err);
+  int root;
+  thr_status st = new_node(b, (thr_branch_node){.parent = -1, .bound = INT64_MIN, .dual = -1, .open = true}, &root, err);
+  if (st || b->c->task->free_turns || b->c->task->tube) return st;
+  const thr_limits some = thr_limits_part(b->limits, 0.2);
+  st = thr_nodes_bound(b->c, &some, &d, err);
+  return st ? st : keep_dual(b, root, d, NULL, NULL, err);
 }
 
 static void report(const thr_branch *b)
@@ -228,11 +222,11 @@ static thr_status solve_tied_root(thr_branch *b, int i, thr_err *err)
 {
   enum { ROUNDS = 3, LARGE = 5000 };
   bool large = b->c->first_extra > LARGE, unsolved = large;
-  thr_limits some = part_of(b->limits, 0.4);
+  thr_limits some = thr_limits_part(b->limits, 0.4);
   thr_status st = large ? THR_OK : solve_node(b, i, &some, err);
   unsolved |= b->stopped;
   if (st || closed(b, i)) return st;
-  some = part_of(b->limits, large ? 0.9 : 0.6);
+  some = thr_limits_part(b->limits, large ? 0.9 : 0.6);
   if (b->found) st = thr_branch_anneal(b, &some, ROUNDS, err);
   b->stopped = thr_limits_stop(b->limits);
   return st || !unsolved || b->stopped || closed(b, i) ? st : solve_node(b, i, b->limits, err);
@@ -287,15 +281,25 @@ static double covers(const thr_turning_columns *c)
   return sum;
 }
 
+/* No programme: the bound of the nodes, or of the ascent, and the plans that there are. */
+static thr_status settle_for_bound(thr_branch *b, bool tied, thr_err *err)
+{
+  thr_status st = tied ? climb(b, 0, err) : THR_OK;
+  b->stopped = true;
+  return st;
+}
+
 thr_status thr_branch_run(thr_branch *b, thr_err *err)
 {
-  int root = 0;
+  const int root = 0;
   bool tied = b->c->task->tube && !b->c->task->free_turns;
   double penalty = 10 + (b->found ? ldexp((double)b->best_price, -THR_TURNING_BITS) : 10 * covers(b->c));
   if (!b->c->task->free_turns) penalty += 2 * b->c->task->price_per_length * thr_frame_total_length(b->c->f);
-  thr_status st = thr_relax_init(&b->relax, b->c, b->projected, penalty, err);
-  if (!st) st = new_node(b, (thr_branch_node){.parent = -1, .bound = INT64_MIN, .dual = -1, .open = true}, &root, err);
-  if (!st) st = first_bound(b, root, err);
+  thr_status st = b->n_nodes ? THR_OK : thr_branch_begin(b, err);
+  if (!st && b->dense) return settle_for_bound(b, tied, err);
+  if (!st && !b->projected && !b->c->task->free_turns && b->found && !tied && closed(b, root)) return THR_OK;
+  if (!st) st = thr_relax_init(&b->relax, b->c, b->projected, penalty, b->limits, err);
+  if (!st && tied) st = climb(b, root, err);
   for (int i; !st && !b->stopped && (i = next_node(b)) >= 0;) {
     st = enter(b, i, err);
     if (!st) st = i == root && tied ? solve_tied_root(b, i, err) : solve_node(b, i, b->limits, err);

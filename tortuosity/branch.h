@@ -38,6 +38,7 @@ typedef struct {
   double *weight, *end_weight;
   int rounds;
   bool stopped; /* by limits or size */
+  bool dense;   /* so many turns that there is no programme of them */
 } thr_branch;
 
 thr_status thr_branch_init(thr_branch *b, const thr_turning_columns *c, int most_nodes, const thr_limits *limits,
@@ -64,6 +65,10 @@ void thr_branch_best(const thr_branch *b, int *passes, int *ends);
 
 /* Tube joints: from the best plan by annealing (tortuosity/tie.h), kept if that turns less. */
 thr_status thr_branch_anneal(thr_branch *b, const thr_limits *limits, int rounds, thr_err *err) THR_MUST_CHECK;
+
+/* The bound of the nodes by themselves, before anything else: what there is where time is short. thr_branch_run does it if nobody
+ * has. */
+thr_status thr_branch_begin(thr_branch *b, thr_err *err) THR_MUST_CHECK;
 
 /* Until the tree is closed, or stopped. */
 thr_status thr_branch_run(thr_branch *b, thr_err *err) THR_MUST_CHECK;

@@ -28,12 +28,12 @@ static int64_t price_of_passes(const thr_branch *b, const int *passes)
 }
 
 /* For whoever keeps the best cords so far. */
-static thr_status tell(const thr_branch *b, thr_err *err)
+static thr_status tell(const thr_branch *b, const thr_join *j, thr_err *err)
 {
-  int n = thr_join_count(&b->best);
+  int n = thr_join_count(j);
   if (!b->limits->found) return THR_OK;
   thr_cord *cord = thr_calloc((size_t)n, sizeof *cord);
-  thr_status st = cord ? thr_join_cords(&b->best, cord, n, err) : thr_nomem(err);
+  thr_status st = cord ? thr_join_cords(j, cord, n, err) : thr_nomem(err);
   if (!st) thr_limits_found(b->limits, cord, n, NULL);
   thr_cords_destroy(cord, n);
   return st;
@@ -59,7 +59,7 @@ static thr_status keep_better(thr_branch *b, thr_join *j, const int *passes, thr
   b->best_passes = 0;
   for (int e = 0; e < b->c->f->n_edges; e++)
     b->best_passes += passes[e];
-  return tell(b, err);
+  return tell(b, &b->best, err);
 }
 
 thr_status thr_branch_try_circuits(thr_branch *b, thr_join *j, const int *passes, thr_err *err)
@@ -77,7 +77,7 @@ static thr_status try_greedy(thr_branch *b, const int *passes, int apart, thr_er
   thr_join j;
   thr_status st = thr_join_init(&j, b->c, passes, NULL, err);
   if (st) return st;
-  st = thr_join_greedy(&j, apart, err);
+  st = thr_join_greedy(&j, apart, b->limits, err);
   if (!st) return thr_branch_try_circuits(b, &j, passes, err);
   thr_join_destroy(&j);
   return st;
@@ -92,7 +92,7 @@ static thr_status try_added(thr_branch *b, const int *passes, thr_err *err)
   if (!all) return thr_nomem(err);
   thr_status st = thr_join_init(&j, b->c, passes, NULL, err);
   if (!st) {
-    st = thr_join_greedy(&j, b->c->task->cords - 1, err);
+    st = thr_join_greedy(&j, b->c->task->cords - 1, b->limits, err);
     if (!st) st = thr_circuits_add(&j, &more, all, &found, err);
     thr_join_destroy(&j);
   }
@@ -142,7 +142,8 @@ thr_status thr_branch_try(thr_branch *b, const int *passes, const int *ends, thr
   if (b->several) return try_several(b, passes, err);
   thr_status st = thr_join_init(&j, b->c, passes, ends, err);
   if (st) return st;
-  st = thr_join_greedy(&j, 0, err);
+  st = thr_join_greedy(&j, 0, b->limits, err);
+  if (!st && !b->found && j.price < thr_join_forbidden) st = tell(b, &j, err); /* where improving it takes all the time */
   if (!st) st = thr_improve(&j, b->limits, err);
   if (!st) return keep_better(b, &j, passes, err);
   thr_join_destroy(&j);

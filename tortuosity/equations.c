@@ -1,4 +1,4 @@
-/* The equations of the turning relaxation, all together and node by node. */
+/* The equations of the turning relaxation, and a basis to start from. */
 #include "tortuosity/relax.h"
 
 #include <math.h>
@@ -80,94 +80,6 @@ thr_status thr_relax_create(thr_relax *r, double penalty, thr_err *err)
   return st;
 }
 
-/* Scratch for nodes one by one. */
-typedef struct {
-  const thr_turning_columns *c;
-  int *column;  /* [most degree] */
-  double *cost; /* [most degree ^ 2] */
-  double *dual; /* [most degree] */
-  thr_turning_dual *d;
-} node_solver;
-
-static int64_t multiplier(double dual)
-{
-  return (int64_t)floor(ldexp(fmax(0, fmin(1e4, dual)), THR_TURNING_BITS));
-}
-
-/* One node by itself: what its turns cost at least if each of its edges is passed as often as it likes, but no less than the
- * cover. Multipliers >= 0 of its half-edges. */
-static thr_status solve_one_node(node_solver *s, int v, const thr_limits *limits, thr_err *err)
-{
-  const thr_turning_columns *c = s->c;
-  const thr_frame *f = c->f;
-  const int *half = f->half + f->first[v];
-  int d = thr_degree(f, v), turns = d * (d - 1) / 2;
-  thr_lp *lp;
-  thr_lp_outcome outcome = THR_LP_OPTIMAL;
-  for (int j = 0; j < turns; j++)
-    s->cost[j] = ldexp((double)c->weight[c->pair_first[v] + j], -THR_TURNING_BITS);
-  thr_status st = thr_lp_create(&lp, turns, s->cost, NULL, err);
-  for (int i = 0; i < d && !st; i++) {
-    int n = 0;
-    for (int k = 0; k < d; k++)
-      if (k != i) s->column[n++] = thr_turning_column(c, half[i], half[k]) - c->pair_first[v];
-    st = thr_lp_add_row(lp, n, s->column, NULL, c->cover[half[i] >> 1], err);
-  }
-  if (!st) st = thr_lp_solve(lp, limits, &outcome, err);
-  if (!st && outcome == THR_LP_OPTIMAL) {
-    thr_lp_dual(lp, s->dual);
-    for (int i = 0; i < d; i++)
-      s->d->potential[half[i]] = multiplier(s->dual[i]);
-  }
-  thr_lp_destroy(lp);
-  return st;
-}
-
-/* An end takes the place of half a turn: what that saves at most is owed to every end. */
-static void charge_ends(const thr_turning_columns *c, thr_turning_dual *d)
-{
-  for (int j = c->first_end; j < c->first_back; j++) {
-    int h = c->half[j][0], k = c->end_group[thr_tail(c->f, h)];
-    if (-d->potential[h] < d->ends[k]) d->ends[k] = -d->potential[h];
-  }
-}
-
-static void node_solver_destroy(node_solver *s)
-{
-  free(s->column);
-  free(s->cost);
-  free(s->dual);
-}
-
-static thr_status node_solver_init(node_solver *s, const thr_turning_columns *c, thr_turning_dual *d, thr_err *err)
-{
-  size_t most = 1;
-  for (int v = 0; v < c->f->n_nodes; v++)
-    if ((size_t)thr_degree(c->f, v) > most) most = (size_t)thr_degree(c->f, v);
-  *s = (node_solver){.c = c, .d = d};
-  s->column = thr_calloc(most, sizeof *s->column);
-  s->cost = thr_calloc(most * most, sizeof *s->cost);
-  s->dual = thr_calloc(most, sizeof *s->dual);
-  return s->column && s->cost && s->dual ? THR_OK : thr_nomem(err);
-}
-
-thr_status thr_relax_nodes(const thr_turning_columns *c, const thr_limits *limits, thr_turning_dual *d, thr_err *err)
-{
-  const thr_frame *f = c->f;
-  node_solver s;
-  *d = (thr_turning_dual){0};
-  thr_status st = node_solver_init(&s, c, d, err);
-  d->potential = thr_calloc(2 * (size_t)f->n_edges, sizeof *d->potential);
-  d->ends = thr_calloc((size_t)c->n_ends, sizeof *d->ends);
-  if (!st && (!d->potential || !d->ends)) st = thr_nomem(err);
-  for (int v = 0; v < f->n_nodes && !st; v++)
-    if (thr_degree(f, v) > 1) st = solve_one_node(&s, v, limits, err);
-  if (!st) charge_ends(c, d);
-  node_solver_destroy(&s);
-  if (st) thr_turning_dual_destroy(d);
-  return st;
-}
-
 /* ---- a basis to start from ---- */
 
 typedef struct {
@@ -237,10 +149,9 @@ static thr_status crash_node(crash *k, int v, const thr_limits *limits, thr_err 
   return st;
 }
 
-thr_status thr_relax_crash(thr_relax *r, thr_err *err)
+thr_status thr_relax_crash(thr_relax *r, const thr_limits *limits, thr_err *err)
 {
   const thr_turning_columns *c = r->c;
-  const thr_limits none = {0}; /* programmes of a few rows */
   int darts = 2 * c->f->n_edges;
   crash k;
   thr_status st = crash_init(&k, r, err);
@@ -248,7 +159,7 @@ thr_status thr_relax_crash(thr_relax *r, thr_err *err)
     if (thr_degree(c->f, v) == 1 && c->task->tube)
       k.column_basic[c->end_column[c->f->half[c->f->first[v]]]] = true; /* all that can be there */
     else if (thr_degree(c->f, v) > 0)
-      st = crash_node(&k, v, &none, err);
+      st = crash_node(&k, v, limits, err);
   for (int i = darts; !st && i < thr_lp_rows(r->lp); i++)
     if (i < darts + c->n_ends && c->task->end_allowed)
       k.column_basic[c->n_columns + 2 * i + 1] = true; /* no ends yet: the artificial column makes up for them */

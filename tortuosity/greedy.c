@@ -1,6 +1,6 @@
 /* Bouchet's greedy on a multigraph of passes. */
 #include "graph/disjoint.h"
-#include "tortuosity/join.h"
+#include "tortuosity/hubs.h"
 #include "tortuosity/pairing.h"
 
 #include <math.h>
@@ -14,6 +14,8 @@ typedef struct {
 
 typedef struct {
   thr_join *j;
+  thr_limits limits; /* for hubs alone: a part of those given */
+  int *place;        /* [n_darts] number of a dart at its node */
   int *link;  /* [n_darts] dart at the other end of the chain of passes that starts with this one; pairs made are inside chains */
   int *stamp; /* [n_nodes] search that saw the node last */
   int *class; /* [n_nodes] port whose search reached it */
@@ -22,7 +24,8 @@ typedef struct {
   int searches; /* so far */
   ranked *order;
   int most;      /* darts at a node */
-  double *price; /* [most * most] at the node at hand */
+  int most_few;  /* darts at a node that is no hub */
+  double *price; /* [most_few * most_few] at the node at hand */
   int *pair;     /* [most] of the node at hand, by position */
   int *port;     /* [most] disjoint sets: what hangs together without the node */
   int *trial;    /* [2 * most] scratch */
@@ -30,6 +33,7 @@ typedef struct {
 
 static void greedy_destroy(greedy *s)
 {
+  free(s->place);
   free(s->link);
   free(s->stamp);
   free(s->class);
@@ -42,34 +46,38 @@ static void greedy_destroy(greedy *s)
   free(s->trial);
 }
 
-static thr_status greedy_init(greedy *s, thr_join *j, int apart, thr_err *err)
+static thr_status greedy_init(greedy *s, thr_join *j, int apart, const thr_limits *limits, thr_err *err)
 {
   const thr_multigraph *g = &j->g;
   size_t n = (size_t)g->n_nodes;
-  *s = (greedy){.j = j};
-  for (int v = 0; v < j->c->f->n_nodes; v++)
-    if (g->first[v + 1] - g->first[v] > s->most) s->most = g->first[v + 1] - g->first[v];
-  if (s->most > 20000) {
-    thr_fail(err, THR_EINPUT, "a node with %d passes is too large to pair", s->most);
-    return THR_EINPUT;
+  *s = (greedy){.j = j, .limits = thr_limits_part(limits, 0.3)};
+  for (int v = 0; v < j->c->f->n_nodes; v++) {
+    int darts = g->first[v + 1] - g->first[v];
+    if (darts > s->most) s->most = darts;
+    if (darts > s->most_few && darts <= THR_HUB) s->most_few = darts;
   }
-  size_t k = (size_t)s->most;
+  size_t k = (size_t)s->most, few = (size_t)s->most_few;
+  s->place = thr_calloc((size_t)g->n_darts, sizeof *s->place);
   s->link = thr_calloc((size_t)g->n_darts, sizeof *s->link);
   s->stamp = thr_calloc(n, sizeof *s->stamp);
   s->class = thr_calloc(n, sizeof *s->class);
   s->queue = thr_calloc(n, sizeof *s->queue);
   s->spare = thr_calloc((size_t)j->c->n_components, sizeof *s->spare);
   s->order = thr_calloc(n, sizeof *s->order);
-  s->price = thr_calloc(k * k, sizeof *s->price);
+  s->price = thr_calloc(few * few, sizeof *s->price);
   s->pair = thr_calloc(k, sizeof *s->pair);
   s->port = thr_calloc(k, sizeof *s->port);
   s->trial = thr_calloc(2 * k, sizeof *s->trial);
-  if (!s->link || !s->stamp || !s->class || !s->queue || !s->spare || !s->order || !s->price || !s->pair || !s->port || !s->trial)
+  if (!s->place || !s->link || !s->stamp || !s->class || !s->queue || !s->spare || !s->order || !s->price || !s->pair ||
+      !s->port || !s->trial)
     return thr_nomem(err);
   for (int i = 0; i < j->c->n_components; i++)
     s->spare[i] = apart;
   for (int d = 0; d < g->n_darts; d++)
     s->link[d] = d ^ 1;
+  for (int v = 0; v < g->n_nodes; v++)
+    for (int i = g->first[v]; i < g->first[v + 1]; i++)
+      s->place[g->dart[i]] = i - g->first[v];
   return THR_OK;
 }
 
@@ -106,6 +114,20 @@ static int by_regret(const void *pa, const void *pb)
   return (a->node > b->node) - (a->node < b->node);
 }
 
+/* The cheapest pairing of node v, by itself, into pair; hubs come last, as if no other pairing of them cost more. */
+static thr_status pair_node(greedy *s, int v, thr_err *err)
+{
+  const thr_multigraph *g = &s->j->g;
+  const int *dart = g->dart + g->first[v];
+  int n = g->first[v + 1] - g->first[v];
+  s->order[v] = (ranked){-1, v};
+  if (n > THR_HUB) return thr_hub_pair(s->j, v, &s->limits, s->pair, err);
+  fill_prices(s, dart, n);
+  thr_status st = thr_pairing_best(n, s->price, s->pair, err);
+  if (!st) s->order[v].regret = regret(s->price, n, s->pair);
+  return st;
+}
+
 /* The best pairing of every node into mate, and the nodes by decreasing regret. */
 static thr_status rank_nodes(greedy *s, thr_err *err)
 {
@@ -114,9 +136,7 @@ static thr_status rank_nodes(greedy *s, thr_err *err)
   for (int v = 0; v < s->j->c->f->n_nodes && !st; v++) {
     const int *dart = g->dart + g->first[v];
     int n = g->first[v + 1] - g->first[v];
-    fill_prices(s, dart, n);
-    st = thr_pairing_best(n, s->price, s->pair, err);
-    s->order[v] = (ranked){st ? 0 : regret(s->price, n, s->pair), v};
+    st = pair_node(s, v, err);
     for (int i = 0; i < n && !st; i++)
       s->j->mate[dart[i]] = dart[s->pair[i]];
   }
@@ -136,10 +156,7 @@ static void find_ports(greedy *s, int v, const int *dart, int n)
   for (int i = 0; i < n; i++) {
     int far = s->link[dart[i]], w = g->tail[far];
     if (w == v) {
-      int k = 0;
-      while (dart[k] != far)
-        k++;
-      left -= thr_disjoint_join(s->port, i, k);
+      left -= thr_disjoint_join(s->port, i, s->place[far]);
     } else if (s->stamp[w] == now) {
       left -= thr_disjoint_join(s->port, i, s->class[w]);
     } else {
@@ -224,33 +241,38 @@ static void exchange_until_few(greedy *s, int n, int pieces)
   }
 }
 
-/* Gives node v the cheapest pairing that keeps enough connected, and joins the chains that it pairs. */
-static void settle_node(greedy *s, int v)
+/* The cheapest pairing of the n darts of node v that leaves at most so many pieces, which the one in pair does not. */
+static thr_status pair_joined(greedy *s, int v, int n, int pieces, thr_err *err)
 {
   enum { ENUMERATED = 8 };
+  int free_darts[ENUMERATED];
+  double least = INFINITY;
+  if (n > THR_HUB) {
+    for (int i = 0; i < n; i++)
+      s->trial[i] = thr_disjoint_find(s->port, i);
+    return thr_hub_join(s->j, v, pieces, s->trial, s->pair, err);
+  }
+  fill_prices(s, s->j->g.dart + s->j->g.first[v], n);
+  for (int i = 0; i < n && i < ENUMERATED; i++)
+    free_darts[i] = -1;
+  if (n <= ENUMERATED)
+    try_pairings(s, n, pieces, free_darts, 0, &least, s->pair);
+  else
+    exchange_until_few(s, n, pieces);
+  return THR_OK;
+}
+
+/* Gives node v the cheapest pairing that keeps enough connected, and joins the chains that it pairs. */
+static thr_status settle_node(greedy *s, int v, thr_err *err)
+{
   const thr_multigraph *g = &s->j->g;
   const int *dart = g->dart + g->first[v];
   int n = g->first[v + 1] - g->first[v];
-  int position[ENUMERATED];
-  fill_prices(s, dart, n);
-  for (int i = 0; i < n; i++) {
-    int k = 0;
-    while (dart[k] != s->j->mate[dart[i]])
-      k++;
-    s->pair[i] = k;
-  }
+  for (int i = 0; i < n; i++)
+    s->pair[i] = s->place[s->j->mate[dart[i]]];
   find_ports(s, v, dart, n);
   int *spare = &s->spare[s->j->c->component[v]], most = *spare < n ? *spare + 1 : n;
-  if (join_pairs(s, n, s->pair) > most) {
-    if (n <= ENUMERATED) {
-      double least = INFINITY;
-      for (int i = 0; i < n; i++)
-        position[i] = -1;
-      try_pairings(s, n, most, position, 0, &least, s->pair);
-    } else {
-      exchange_until_few(s, n, most);
-    }
-  }
+  thr_status st = join_pairs(s, n, s->pair) > most ? pair_joined(s, v, n, most, err) : THR_OK;
   *spare -= join_pairs(s, n, s->pair) - 1;
   for (int i = 0; i < n; i++) {
     int a = dart[i], b = dart[s->pair[i]];
@@ -260,15 +282,16 @@ static void settle_node(greedy *s, int v)
     s->link[p] = q;
     s->link[q] = p;
   }
+  return st;
 }
 
-thr_status thr_join_greedy(thr_join *j, int apart, thr_err *err)
+thr_status thr_join_greedy(thr_join *j, int apart, const thr_limits *limits, thr_err *err)
 {
   greedy s;
-  thr_status st = greedy_init(&s, j, apart, err);
+  thr_status st = greedy_init(&s, j, apart, limits, err);
   if (!st) st = rank_nodes(&s, err);
   for (int i = 0; i < j->c->f->n_nodes && !st; i++)
-    settle_node(&s, s.order[i].node);
+    st = settle_node(&s, s.order[i].node, err);
   greedy_destroy(&s);
   if (!st) thr_join_measure(j);
   return st;

@@ -129,10 +129,10 @@ static void consider(const tour *t, int a, int b, int c, int d, double old, join
 }
 
 /* The cheapest way to join the part i < .. < k, once cut off, to the rest again, at any node. The cut itself does not count. */
-static joint cheapest_joint(const tour *t, int i, int k, double most, int *list)
+static joint cheapest_joint(const tour *t, int i, int k, double most, const thr_limits *limits, int *list)
 {
   joint best = {.extra = most};
-  for (int x = i + 1; x < k; x++) {
+  for (int x = i + 1; x < k && (x % 64 || !thr_limits_stop(limits)); x++) {
     int v = node_of(t, x), n;
     if (v >= t->j->c->f->n_nodes) continue;
     n = transitions_at(t, v, list);
@@ -148,7 +148,7 @@ static joint cheapest_joint(const tour *t, int i, int k, double most, int *list)
 }
 
 /* Cuts the part between two transitions of one node off where that saves more than joining it again costs. */
-static bool cut_and_join(tour *t, int i, int k, int *list)
+static bool cut_and_join(tour *t, int i, int k, const thr_limits *limits, int *list)
 {
   if (i > k) {
     int larger = i;
@@ -158,7 +158,7 @@ static bool cut_and_join(tour *t, int i, int k, int *list)
   double old = pair_price(t, i) + pair_price(t, k);
   double now = thr_join_price(t->j, t->in[i], t->out[k]) + thr_join_price(t->j, t->in[k], t->out[i]);
   if (now >= old - enough) return false;
-  joint best = cheapest_joint(t, i, k, old - now - enough, list);
+  joint best = cheapest_joint(t, i, k, old - now - enough, limits, list);
   if (best.extra >= old - now - enough) return false;
   exchange(t, t->in[i], t->out[k], t->in[k], t->out[i]);
   exchange(t, best.a, best.b, best.c, best.d);
@@ -166,15 +166,15 @@ static bool cut_and_join(tour *t, int i, int k, int *list)
 }
 
 /* One improvement anywhere at node v. */
-static bool improve_node(tour *t, int v, int *here, int *list)
+static bool improve_node(tour *t, int v, const thr_limits *limits, int *here, int *list)
 {
   int n = transitions_at(t, v, here);
-  for (int i = 0; i < n; i++)
+  for (int i = 0; i < n && !thr_limits_stop(limits); i++)
     for (int k = i + 1; k < n; k++)
       if (reverse_part(t, here[i], here[k])) return true;
-  for (int i = 0; i < n; i++)
+  for (int i = 0; i < n && !thr_limits_stop(limits); i++)
     for (int k = i + 1; k < n; k++)
-      if (cut_and_join(t, here[i], here[k], list)) return true;
+      if (cut_and_join(t, here[i], here[k], limits, list)) return true;
   return false;
 }
 
@@ -187,7 +187,7 @@ static void improve_circuit(tour *t, int component, int start, const thr_limits 
     changed = false;
     for (int v = 0; v < c->f->n_nodes && !thr_limits_stop(limits); v++) {
       if (c->component[v] != component) continue;
-      while (improve_node(t, v, here, list)) {
+      while (improve_node(t, v, limits, here, list)) {
         changed = true;
         close_ring(t);
         memset(t->visited, 0, (size_t)t->j->g.n_darts * sizeof *t->visited);

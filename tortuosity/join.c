@@ -95,7 +95,7 @@ double thr_join_price(const thr_join *j, int a, int b)
 {
   int ha = j->g.half[a], hb = j->g.half[b];
   if (ha < 0 || hb < 0) return ha == hb ? thr_join_forbidden : 0;
-  if (ha != hb) return ldexp((double)j->c->weight[thr_turning_column(j->c, ha, hb)], -THR_TURNING_BITS);
+  if (ha != hb) return (double)j->c->weight[thr_turning_column(j->c, ha, hb)] * 0x1p-44; /* 2^-THR_TURNING_BITS */
   return thr_degree(j->c->f, j->g.tail[a]) == 1 ? thr_turn_price(j->c->f, j->c->task->cost, ha ^ 1, ha) : thr_join_forbidden;
 }
 

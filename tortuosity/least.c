@@ -112,27 +112,23 @@ static bool ends_fit(const thr_frame *f, const int *passes, const int *ends)
 }
 
 /* The shortest extra passes, and from the length of a plan with them, or nearly, the limit that the slack allows. */
-static thr_status find_shortest(const thr_frame *f, const thr_least_options *o, const thr_limits *limits, thr_least *out,
+static thr_status find_shortest(thr_turning_columns *c, const thr_least_options *o, const thr_limits *limits, thr_least *out,
                                 int *passes, int *ends, first_cords *start, thr_err *err)
 {
-  thr_turning_columns c;
-  thr_status st = thr_turning_columns_init(&c, f, &out->task, err);
-  if (st) return st;
-  if (o->tube)
-    st = tied_passes(&c, o, passes, ends, err);
-  else
-    st = thr_extra_passes(&c, f->length, NULL, false, limits, passes, ends, err);
-  double extra = st ? 0 : thr_extra_length(&c, passes), base = thr_turning_base_length(f, o->cover), given = 0;
+  const thr_frame *f = c->f;
+  thr_status st =
+      o->tube ? tied_passes(c, o, passes, ends, err) : thr_extra_passes(c, f->length, NULL, false, limits, passes, ends, err);
+  double extra = st ? 0 : thr_extra_length(c, passes), base = thr_turning_base_length(f, o->cover), given = 0;
   bool several = !out->end_allowed && out->task.cords > 1;
-  bool counts = o->n_start > 0 && (!several || o->n_start == out->task.cords * c.n_components);
-  if (!st && several) st = find_several(&c, limits, passes, start, &extra, err);
-  thr_turning_columns_destroy(&c);
+  bool counts = o->n_start > 0 && (!several || o->n_start == out->task.cords * c->n_components);
+  if (!st && several) st = find_several(c, limits, passes, start, &extra, err);
   for (int i = 0; i < o->n_start; i++)
     given += thr_cord_length(f, &o->start[i]);
   counts &= o->slack_from_start || given < (base + extra) * (1 - 1e-9) || !ends_fit(f, passes, ends);
   out->shortest = counts ? given : base + extra;
   out->length_limit = o->length_slack < 0 ? -1 : out->shortest * (1 + o->length_slack);
   out->task.extra_limit = thr_turning_extra_limit(f, o->cover, out->length_limit);
+  thr_turning_limit(c);
   return st;
 }
 
@@ -179,6 +175,7 @@ thr_status thr_least_cords(const thr_frame *f, const thr_join *j, thr_least *out
 
 static const char *why_open(const thr_branch *b)
 {
+  if (b->dense) return "too many turns for a linear programme, so the bound is that of the nodes by themselves";
   if (b->stopped) return "stopped early";
   return b->several ? "what it costs to have no fewer cords is not part of the bound" : "rounding left a gap";
 }
@@ -200,7 +197,7 @@ static thr_status finish(const thr_frame *f, thr_branch *b, thr_least *out, thr_
   out->rounds = b->rounds;
   if ((st = thr_branch_proof(b, &out->proof, err))) return st;
   thr_err found = {0};
-  st = thr_turning_proof_check(f, &out->task, &out->proof, &out->bound, &found);
+  st = thr_turning_proof_check_columns(b->c, &out->proof, &out->bound, &found);
   if (st == THR_EVIOLATED) return thr_fail(err, THR_ESOLVER, "the proof does not pass its own check: %s", found.text);
   if (st) return thr_fail(err, st, "%s", found.text);
   thr_least_judge(out, why_open(b));
@@ -222,6 +219,17 @@ static thr_status not_found(const thr_branch *b, thr_err *err)
   return THR_EINFEASIBLE;
 }
 
+/* Checks of the proof that follow the search, each of which goes through all turns as making the columns does; with a margin. */
+enum { CHECKS = 5 };
+
+/* The limits less so many seconds, but half of what is left at most. */
+static thr_limits without(const thr_limits *l, double seconds)
+{
+  thr_limits less = *l;
+  if (l->deadline > 0) less.deadline -= fmin(seconds, thr_limits_left(l, INFINITY) / 2);
+  return less;
+}
+
 static thr_status search(const thr_frame *f, const thr_least_options *o, const thr_limits *limits, thr_least *out, thr_err *err)
 {
   thr_least made = {0};
@@ -231,9 +239,14 @@ static thr_status search(const thr_frame *f, const thr_least_options *o, const t
   *out = (thr_least){0};
   int *passes = thr_calloc((size_t)f->n_edges, sizeof *passes), *ends = thr_calloc((size_t)f->n_nodes, sizeof *ends);
   thr_status st = passes && ends ? thr_least_task(f, o, &made, err) : thr_nomem(err);
-  if (!st) st = find_shortest(f, o, limits, &made, passes, ends, &start, err);
+  const double begun = thr_clock();
+  thr_limits inner = *limits;
   if (!st) st = thr_turning_columns_init(&c, f, &made.task, err);
-  if (!st) st = thr_branch_init(&b, &c, o->most_nodes, limits, err);
+  const double each = thr_clock() - begun;
+  if (!st) st = find_shortest(&c, o, limits, &made, passes, ends, &start, err);
+  if (!st) st = thr_branch_init(&b, &c, o->most_nodes, &inner, err);
+  if (b.dense) inner = without(limits, CHECKS * each);
+  if (!st) st = thr_branch_begin(&b, err);
   if (!st) st = first_plans(&b, o, &start, passes, ends, err);
   if (!st) st = thr_branch_run(&b, err);
   if (!st && !b.found) st = not_found(&b, err);

@@ -141,7 +141,7 @@ static thr_status make_cords(const search *x, thr_join *j, bool *found, thr_err 
   thr_status st = t->tube ? thr_join_tie(j, x->c, x->passes, x->ends, found, err)
                           : thr_join_init(j, x->c, x->passes, open ? x->ends : NULL, err);
   if (!st && !t->tube) {
-    st = thr_join_greedy(j, open ? 0 : t->cords - 1, err);
+    st = thr_join_greedy(j, open ? 0 : t->cords - 1, x->limits, err);
     *found = !st;
     if (!st && open) st = thr_improve(j, x->limits, err);
   }

@@ -73,7 +73,8 @@ static int lp_column(const thr_relax *r, int column)
   return r->projected ? column - r->c->first_extra : column;
 }
 
-thr_status thr_relax_init(thr_relax *r, const thr_turning_columns *c, bool projected, double penalty, thr_err *err)
+thr_status thr_relax_init(thr_relax *r, const thr_turning_columns *c, bool projected, double penalty, const thr_limits *limits,
+                          thr_err *err)
 {
   size_t n = (size_t)c->n_columns;
   *r = (thr_relax){.c = c, .projected = projected};
@@ -90,7 +91,7 @@ thr_status thr_relax_init(thr_relax *r, const thr_turning_columns *c, bool proje
     r->high[j] = thr_turning_most(c, j);
     if (j >= c->first_extra) st = thr_lp_set_bounds(r->lp, lp_column(r, j), 0, r->high[j], err); /* turns: by their equations */
   }
-  if (!st && !projected) st = thr_relax_crash(r, err);
+  if (!st && !projected) st = thr_relax_crash(r, limits, err);
   if (!st) st = projected ? thr_project_graph(r, err) : init_graph(r, err);
   if (!st && !projected) st = add_node_sets(r, err);
   if (st) thr_relax_destroy(r);

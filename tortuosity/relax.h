@@ -77,7 +77,7 @@ typedef struct {
 
 /* penalty: price of one unit of an artificial column, more than any plan costs. projected: without turns, which must be free, and
  * with tube joints. */
-thr_status thr_relax_init(thr_relax *r, const thr_turning_columns *c, bool projected, double penalty,
+thr_status thr_relax_init(thr_relax *r, const thr_turning_columns *c, bool projected, double penalty, const thr_limits *limits,
                           thr_err *err) THR_MUST_CHECK;
 void thr_relax_destroy(thr_relax *r);
 
@@ -100,13 +100,8 @@ int64_t thr_relax_whole(double value);
 thr_status thr_relax_create(thr_relax *r, double penalty, thr_err *err) THR_MUST_CHECK;
 
 /* Starts the simplex method where every node by itself has its cheapest turns, without extra passes and ends: most of what the
- * slack basis would need as many pivots for as there are rows. */
-thr_status thr_relax_crash(thr_relax *r, thr_err *err) THR_MUST_CHECK;
-
-/* Multipliers of the equations from one small programme per node, as if extra passes had only one end: a first bound where the
- * simplex method may not finish the whole programme. Release with thr_turning_dual_destroy. */
-thr_status thr_relax_nodes(const thr_turning_columns *c, const thr_limits *limits, thr_turning_dual *d,
-                           thr_err *err) THR_MUST_CHECK;
+ * slack basis would need as many pivots for as there are rows. Where the limits stop it the basis is a worse one. */
+thr_status thr_relax_crash(thr_relax *r, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
 
 /* Adds the row of a node's blocks (copied; n of them, 0 .. n - 1) if x violates it. */
 thr_status thr_relax_add_junction(thr_relax *r, int v, const int *block, int n, bool *used, thr_err *err) THR_MUST_CHECK;

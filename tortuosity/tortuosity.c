@@ -27,17 +27,6 @@ static thr_least_options search_options(const thr_plan_options *o)
   return lo;
 }
 
-/* The limits with only a part of the time that is left. */
-static thr_limits share_of_time(const thr_limits *l, double part)
-{
-  thr_limits share = *l;
-  if (l->deadline > 0) {
-    double now = thr_clock();
-    share.deadline = now + part * fmax(0, l->deadline - now);
-  }
-  return share;
-}
-
 /* ---- cords ---- */
 
 /* Among cords that turn no more, shorter ones: the search once more with a price on length that is far below any turn's. What
@@ -127,7 +116,7 @@ static thr_status even_out(const thr_frame *f, const thr_plan *seed, const thr_l
   from.cord = NULL;
   thr_status st = seed ? seed_fits(f, l, seed, &fits, err) : THR_OK;
   if (!st && fits) {
-    const thr_limits share = share_of_time(limits, 0.5);
+    const thr_limits share = thr_limits_part(limits, 0.5);
     st = copy_cords(seed->cord, seed->n_cords, &from.cord, err);
     if (!st) st = thr_max_turning_improve(f, &share, &from, &other, err);
   }
@@ -156,7 +145,7 @@ static void shortest_destroy(shortest_plan *s)
 static thr_status find_shortest(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, shortest_plan *s,
                                 thr_err *err)
 {
-  const thr_limits share = share_of_time(limits, 0.3);
+  const thr_limits share = thr_limits_part(limits, 0.3);
   *s = (shortest_plan){0};
   thr_plan_options any = *o;
   if (o->ends == THR_ENDS_CLOSED) { /* no closed cords are shorter than one, which the search cuts up */
@@ -182,7 +171,7 @@ static thr_status cords_by_length(const thr_frame *f, const thr_plan_options *o,
                                   int *n, thr_err *err)
 {
   thr_plan_options length = *o;
-  const thr_limits share = share_of_time(limits, 0.2);
+  const thr_limits share = thr_limits_part(limits, 0.2);
   thr_err why = {0};
   thr_plan p = {0};
   bool tube = o->joint == THR_JOINT_TUBE;
@@ -225,7 +214,7 @@ static thr_status find_cords(const thr_frame *f, const thr_plan_options *o, cons
   if (o->turning.tour != THR_TOUR_LEAST)
     return thr_baseline_tour(f, &lo, o->turning.tour, o->turning.ignore_pairings, limits, l, err);
   if (!o->turning.largest) return find_from_shortest(f, o, s, limits, l, err);
-  const thr_limits first = share_of_time(limits, 0.6);
+  const thr_limits first = thr_limits_part(limits, 0.6);
   thr_status st = find_from_shortest(f, o, s, &first, l, err);
   if (st && st != THR_ELIMIT) return st;
   st = even_out(f, seed, limits, l, err);
@@ -347,7 +336,7 @@ static thr_status add_point(sweep *s, double slack, thr_err *err)
 {
   thr_least l = {0};
   thr_least_options lo = search_options(s->o);
-  const thr_limits share = share_of_time(&s->limits, 1.0 / s->left--);
+  const thr_limits share = thr_limits_part(&s->limits, 1.0 / s->left--);
   thr_err unused = {0};
   lo.length_slack = slack;
   begin_with(s->f, &s->start.tube, &lo);
