@@ -93,6 +93,26 @@ static thr_status find_seed(const thr_frame *f, const thr_plan_options *o, const
   return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* what else fails leaves no seed */
 }
 
+/* Some cords that tie the joints, or the shortest, for whoever keeps the best so far: sooner than a search has any. */
+static void tell_first(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits)
+{
+  static const double part = 0.2;
+  thr_plan_options length = *o;
+  thr_limits share = *limits;
+  thr_plan p = {0};
+  thr_tube t = {0};
+  if (!limits->found) return;
+  share.found = NULL;
+  if (share.deadline > 0) share.deadline -= (1 - part) * thr_limits_left(limits, INFINITY);
+  length.objective = THR_LENGTH;
+  length.confirm = THR_CONFIRM_NEVER;
+  thr_status st = o->joint == THR_JOINT_TUBE ? thr_tube_some(f, &length, &share, &t, NULL)
+                                             : thr_cords_plan(f, &length, &share, &p, NULL, NULL);
+  if (!st || st == THR_ELIMIT) thr_limits_found(limits, t.cord ? t.cord : p.cord, t.cord ? t.n_cords : p.n_cords, NULL);
+  thr_plan_destroy(&p);
+  thr_tube_destroy(&t);
+}
+
 /* Symmetric cords turn alike: where they are as many as asked for, the one that turns most may be at its bound at once. They keep
  * to no given numbers of ends. */
 static thr_status plan_tortuosity(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
@@ -101,6 +121,7 @@ static thr_status plan_tortuosity(const thr_frame *f, const thr_plan_options *o,
   thr_plan seed = {0};
   thr_status st = THR_OK;
   *plan = (thr_plan){0};
+  tell_first(f, o, limits);
   if (o->turning.largest && o->cords > 1 && o->ends != THR_ENDS_COUNTS) st = find_seed(f, o, limits, &seed, err);
   if (!st) st = thr_tortuosity_plan_from(f, o, seed.n_cords ? &seed : NULL, limits, plan, err);
   thr_plan_destroy(&seed);
@@ -124,15 +145,6 @@ static thr_status prove_tied(thr_plan *plan, const thr_limits *limits, thr_err *
   return st;
 }
 
-/* Some cords that tie the joints, for whoever keeps the best so far. */
-static void tell_tied(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits)
-{
-  thr_tube t;
-  if (thr_tube_some(f, o, limits, &t, NULL)) return;
-  thr_limits_found(limits, t.cord, t.n_cords, NULL);
-  thr_tube_destroy(&t);
-}
-
 /* rows: the table, as for thr_symmetry_plan. With tube joints the last part of the time is for the proof of length. */
 static thr_status plan_symmetric(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_symmetries *rows,
                                  thr_plan *plan, thr_err *err)
@@ -141,7 +153,7 @@ static thr_status plan_symmetric(const thr_frame *f, const thr_plan_options *o, 
   thr_limits most = *limits;
   thr_err unproved = {0};
   if (o->joint == THR_JOINT_SOLID) return thr_symmetry_plan(f, o, limits, rows, plan, err);
-  if (limits->found) tell_tied(f, o, limits);
+  tell_first(f, o, limits);
   if (most.deadline > 0) most.deadline -= part * thr_limits_left(limits, INFINITY);
   thr_status found = thr_symmetry_plan(f, o, &most, rows, plan, &unproved);
   thr_status st = plan->n_cords > 0 ? prove_tied(plan, limits, err) : THR_OK;

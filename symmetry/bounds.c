@@ -7,6 +7,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+enum { MOST_TYPES = 500000 }; /* of the framework without symmetry */
+
 /* Of overlap, or of overlap and a tie together (thr_contraction_bound): of the covers under these types. */
 static thr_status by_join(const thr_programme *p, thr_aim tie, const thr_limits *limits, double *bound, double *weight,
                           thr_err *err)
@@ -36,7 +38,9 @@ thr_status thr_bounds_overlap(const thr_programme *p, const thr_limits *limits, 
   thr_status st = by_join(p, THR_AIM_OVERLAP, limits, &proved, &weight, err);
   if (!st) raise_bound(p, THR_AIM_OVERLAP, proved, bound);
   if (st || q->h->order == 1) return st;
-  st = thr_quotient_init(&all, q->f, q->group, &alone, INT_MAX, err);
+  st = thr_quotient_make(&all, q->f, q->group, &alone, MOST_TYPES, limits, &(thr_err){0});
+  if (st == THR_ELIMIT) return THR_OK; /* then the join under the group is all that is known */
+  if (st) return thr_nomem(err);
   if (!st) st = thr_programme_init(&any, &all, p->o, err);
   if (!st) st = by_join(&any, THR_AIM_OVERLAP, limits, &proved, &weight, err);
   if (!st) raise_bound(p, THR_AIM_OVERLAP, proved, bound);

@@ -125,6 +125,7 @@ thr_status thr_contraction_make(thr_contraction *c, thr_err *err)
   if (!st) contract_pairs(c, made);
   free(made);
   if (!st) st = thr_programme_init(&c->p, &c->q, c->whole->o, err);
+  c->p.limits = c->whole->limits;
   if (!st && c->whole->ties) st = contract_ties(c, err);
   if (st) return st;
   memcpy(c->p.least, c->whole->least, (size_t)q->n_copies * sizeof *c->p.least); /* turns that are gone ruled some out */

@@ -29,6 +29,7 @@ thr_status thr_contraction_make(thr_contraction *c, thr_err *err) THR_MUST_CHECK
 /* In symmetry/lift.c. A solution of p with turns, cheap ones first, but with tube joints first those that tie: value[whole->n].
  * *kept > 0: in so many cells no turns can be found, or none that tie their nodes; they are left as they are from now on, and the
  * contraction is to be made anew. */
+/* THR_ELIMIT, without a text: stopped by the limits of the programme. */
 thr_status thr_contraction_lift(thr_contraction *c, const int *small, int *value, int *kept, thr_err *err) THR_MUST_CHECK;
 
 /* The other way round: what a solution of the whole programme (value[whole->n]) is in p, small[p.n]. Circles: 0. */

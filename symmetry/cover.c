@@ -353,7 +353,10 @@ thr_status thr_cover_improve(const thr_quotient *q, const thr_cover_options *o, 
   thr_programme p = {0};
   thr_cover c = {0};
   thr_search s = {0};
+  thr_limits first = *limits;
   thr_status st = thr_programme_init(&p, q, o, err);
+  if (first.deadline > 0) first.deadline = fmax(first.deadline, o->start_by);
+  p.limits = &first;
   if (!st) st = check_ends(&p, err);
   if (!st && o->tube) st = thr_programme_tie(&p, err);
   if (!st) st = thr_search_init(&s, &p, limits, err);

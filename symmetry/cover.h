@@ -12,6 +12,7 @@ typedef struct {
   const int *edge_cover;      /* [n_edges] instead of cover; NULL = all alike; borrowed */
   const int *edge_capacity;   /* [n_edges] passes that an edge may have at most, INT_MAX = any number; NULL = any; borrowed */
   bool tube;                  /* tube joints: the turns tie the edges at every node (graph/junction.h), none goes back */
+  double start_by;            /* thr_clock() until when a first cover is looked for, even after the limits' deadline */
   bool quick;                 /* overlap and steps only, as far as they come before turning: the rest is as it comes */
 } thr_cover_options;
 

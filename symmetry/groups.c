@@ -15,6 +15,7 @@ typedef struct {
   const thr_frame *f;
   const thr_plan_options *o;
   thr_symmetries *t;
+  const thr_limits *limits;
   int capacity; /* rows that the table has room for */
 } offer;
 
@@ -197,7 +198,7 @@ static thr_status add_isometries(offer *x, const thr_automorphism_options *colou
   thr_err why = {0};
   thr_group g = {0};
   int *image = NULL, count = 0;
-  thr_status st = thr_isometries_find(x->f, colours, tolerance, THR_GROUP_CAP, &image, &count, &why);
+  thr_status st = thr_isometries_find(x->f, colours, tolerance, THR_GROUP_CAP, x->limits, &image, &count, &why);
   if (!st) st = generate(x, image, count, &g, &why);
   free(image);
   *all = !st;
@@ -297,7 +298,9 @@ static thr_status offer_isometries(offer *x, thr_err *err)
   if (st) return st;
   t->mantissa = t->group[0].all.order;
   t->listed = all && complete;
-  if (!all)
+  if (!all && thr_limits_stop(x->limits))
+    snprintf(t->note, sizeof t->note, "too little time to look for isometries: only the identity");
+  else if (!all)
     snprintf(t->note, sizeof t->note, "more than %d isometries within %g, too many to list: only the identity", THR_GROUP_CAP,
              tolerance);
   else if (!complete)
@@ -333,10 +336,10 @@ static thr_status add_extra(offer *x, const thr_automorphisms *a, int most, thr_
   size_t row = (size_t)a->n;
   int count = a->n_generators < FIRST ? a->n_generators : FIRST, *two = thr_calloc(2 * row, sizeof *two);
   thr_status st = two ? THR_OK : thr_nomem(err);
-  for (int i = 0; i < count && !st && x->t->n < most; i++)
+  for (int i = 0; i < count && !st && x->t->n < most && !thr_limits_stop(x->limits); i++)
     st = add_small(x, &a->generator[(size_t)i * row], 1, err);
   for (int i = 0; i < count && !st; i++)
-    for (int j = i + 1; j < count && !st && x->t->n < most; j++) {
+    for (int j = i + 1; j < count && !st && x->t->n < most && !thr_limits_stop(x->limits); j++) {
       memcpy(two, &a->generator[(size_t)i * row], row * sizeof *two);
       memcpy(two + row, &a->generator[(size_t)j * row], row * sizeof *two);
       st = add_small(x, two, 2, err);
@@ -361,6 +364,10 @@ static thr_status offer_some(offer *x, const thr_automorphisms *a, thr_err *err)
   thr_status st = add_isometries(x, &orbits, thr_symmetry_near, &all, err);
   if (!st) st = add_classes(x, true, &complete, err);
   if (st) return st;
+  if (thr_limits_stop(x->limits)) {
+    snprintf(t->note, sizeof t->note, "too many to list, and too little time to look for more than these");
+    return THR_OK;
+  }
   int isometries = t->group[first].all.order, most = t->n + THR_SYMMETRY_EXTRA;
   st = add_extra(x, a, most, err);
   drop_rows(t, most);
@@ -415,9 +422,10 @@ static void sort_rows(thr_symmetries *t)
   }
 }
 
-thr_status thr_symmetry_groups(const thr_frame *f, const thr_plan_options *o, thr_symmetries *t, thr_err *err)
+thr_status thr_symmetry_groups(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_symmetries *t,
+                               thr_err *err)
 {
-  offer x = {.f = f, .o = o, .t = t};
+  offer x = {.f = f, .o = o, .t = t, .limits = limits};
   thr_status st = o->symmetry.geometric >= 0 ? offer_isometries(&x, err) : offer_automorphisms(&x, err);
   sort_rows(t);
   return st;

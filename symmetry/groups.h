@@ -4,7 +4,9 @@
 
 #include "symmetry/symmetry.h"
 
-/* Fills the groups of the table and its rows, without threadings. On failure the table can still be destroyed. */
-thr_status thr_symmetry_groups(const thr_frame *f, const thr_plan_options *o, thr_symmetries *t, thr_err *err) THR_MUST_CHECK;
+/* Fills the groups of the table and its rows, without threadings; fewer when the limits say so. On failure the table can still be
+ * destroyed. */
+thr_status thr_symmetry_groups(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_symmetries *t,
+                               thr_err *err) THR_MUST_CHECK;
 
 #endif

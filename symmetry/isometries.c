@@ -25,6 +25,7 @@ typedef struct {
 
 typedef struct {
   const thr_frame *f;
+  const thr_limits *limits;
   const thr_automorphism_options *colours;
   double tolerance; /* in parts of size, of every node */
   double centroid[3], size;
@@ -226,7 +227,7 @@ int thr_edge_joining(const thr_frame *f, int a, int b)
   return thr_frame_edge_between(f, fewer ? a : b, fewer ? b : a);
 }
 
-static bool is_automorphism(const search *s)
+static bool is_automorphism(search *s)
 {
   const thr_frame *f = s->f;
   memset(s->hit, 0, (size_t)f->n_nodes * sizeof *s->hit);
@@ -236,6 +237,7 @@ static bool is_automorphism(const search *s)
   }
   for (int e = 0; e < f->n_edges; e++) {
     int to = thr_edge_joining(f, s->image[f->edge[e][0]], s->image[f->edge[e][1]]);
+    s->work++;
     if (to < 0 || (s->colours->edge_colour && s->colours->edge_colour[to] != s->colours->edge_colour[e])) return false;
   }
   return true;
@@ -337,18 +339,18 @@ static thr_status try_all(search *s, int cap, thr_err *err)
   for (int i = first; i < first_end && !st; i++)
     for (int j = second; j < second_end && !st; j++) {
       const double *c = s->x[s->like[i].node], *d = s->x[s->like[j].node];
-      if (s->work++ > MOST_WORK) return too_many(s, err);
+      if (s->work++ > MOST_WORK || thr_limits_stop(s->limits)) return too_many(s, err);
       if (fabs(distance(a, b) - distance(c, d)) > 2 * s->tolerance || !base_of(c, d, to)) continue;
       st = try_bases(s, from, to, cap, err);
     }
   return st;
 }
 
-thr_status thr_isometries_find(const thr_frame *f, const thr_automorphism_options *colours, double tolerance, int cap, int **out,
-                               int *count, thr_err *err)
+thr_status thr_isometries_find(const thr_frame *f, const thr_automorphism_options *colours, double tolerance, int cap,
+                               const thr_limits *limits, int **out, int *count, thr_err *err)
 {
   const thr_automorphism_options none = {0};
-  search s = {.f = f, .colours = colours ? colours : &none, .tolerance = tolerance + THR_ISOMETRY_ROUNDING};
+  search s = {.f = f, .limits = limits, .colours = colours ? colours : &none, .tolerance = tolerance + THR_ISOMETRY_ROUNDING};
   *out = NULL;
   *count = 0;
   thr_status st = search_init(&s, err);

@@ -39,9 +39,10 @@ int thr_edge_joining(const thr_frame *f, int a, int b);
  * in out (owned by the caller, [*count * n_nodes]), the identity first, then lexicographic. Feet go to feet, nodes and edges to
  * those of their colour (colours NULL = all alike). Where nodes lie nearer to each other than the tolerance, only the nearest
  * matching of each motion is found; and within a tolerance above rounding the rows need not make a group. The framework has an
- * edge. THR_ELIMIT: more than cap, or far more motions fit than that. O(n) per motion tried, about a second at most. */
-thr_status thr_isometries_find(const thr_frame *f, const thr_automorphism_options *colours, double tolerance, int cap, int **out,
-                               int *count, thr_err *err) THR_MUST_CHECK;
+ * edge. THR_ELIMIT: more than cap, or far more motions fit than that, or stopped by the limits. O(n + edges) per motion tried,
+ * about a second at most. */
+thr_status thr_isometries_find(const thr_frame *f, const thr_automorphism_options *colours, double tolerance, int cap,
+                               const thr_limits *limits, int **out, int *count, thr_err *err) THR_MUST_CHECK;
 
 /* Those of n automorphisms (rows of images) that are isometries within tolerance, as above, in their order. O(n * n_nodes). */
 thr_status thr_isometries_among(const thr_frame *f, const int *image, int n, double tolerance, int **out, int *count,

@@ -15,6 +15,7 @@ typedef struct {
   bool *failed;       /* [n_darts] by lowest type */
   int n, *type;       /* of the cell at hand */
   int *parent, *next; /* [ties->most] tubes of the star at hand, joined so far; scratch */
+  bool stopped;       /* by the limits */
 } lifting;
 
 static void lifting_destroy(lifting *x)
@@ -53,6 +54,12 @@ static thr_status lifting_init(lifting *x, const thr_contraction *c, const int *
   for (int d = 0; d < q->n_darts; d++)
     x->types[x->first[c->root[d] + 1]++] = d;
   return THR_OK;
+}
+
+static bool stop(lifting *x)
+{
+  x->stopped = x->stopped || thr_programme_check_time(x->c->whole) != THR_OK;
+  return x->stopped;
 }
 
 static void enter_cell(lifting *x, int root)
@@ -161,7 +168,7 @@ static bool pair_rest(lifting *x)
   *selves = 0;
   if (!take_terminals(x, true, count) || !can_go_on(x)) return false;
   for (int a; (a = most_left(x)) >= 0;)
-    if (!pair_one(x, a)) return false;
+    if (stop(x) || !pair_one(x, a)) return false;
   return true;
 }
 
@@ -245,6 +252,7 @@ static void tie_star(lifting *x, int star, const int *small)
       if (cell_kept(c, y) || !is_left(x, j)) continue;
       int joins = count_joins(x, star, y);
       if (joins == 0 || joins < most || (joins == most && cost[y] >= cost[best])) continue;
+      if (stop(x)) return;
       enter_cell(x, c->root[p->q->pair[y].dart[0]]);
       if (!leaves_room(x, star, y)) continue;
       most = joins;
@@ -321,6 +329,7 @@ thr_status thr_contraction_lift(thr_contraction *c, const int *small, int *value
     c->keep[d] = true;
     ++*kept;
   }
+  if (x.stopped && !st) st = THR_ELIMIT;
   if (!st && *kept == 0) copy_kept(c, small, value);
   lifting_destroy(&x);
   return st;

@@ -206,6 +206,11 @@ thr_status thr_programme_tie(thr_programme *p, thr_err *err)
   return p->ties ? thr_ties_init(p->ties, p->q, p->node_orbit, err) : thr_nomem(err);
 }
 
+thr_status thr_programme_check_time(const thr_programme *p)
+{
+  return p->limits && thr_limits_stop(p->limits) ? THR_ELIMIT : THR_OK;
+}
+
 bool thr_programme_terminal(const thr_programme *p, int column)
 {
   return p->join[column][1] == p->q->n_darts;

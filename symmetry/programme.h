@@ -22,6 +22,7 @@ typedef struct {
   double unit[THR_N_AIMS];  /* what every cover's worth is a multiple of, but for the constant; 0 = not known */
   int *first, *incident;    /* pair types at dart type d: incident[first[d] .. first[d + 1] - 1], those within one type once */
   int *node_orbit;          /* [n_nodes] lowest node */
+  const thr_limits *limits; /* when to stop, or NULL; borrowed */
   thr_ties *ties;           /* that a solution has to have; NULL = none; owned */
 } thr_programme;
 
@@ -39,6 +40,9 @@ thr_status thr_programme_tie(thr_programme *p, thr_err *err) THR_MUST_CHECK;
 thr_status thr_programme_rule_out(thr_programme *p, thr_err *err) THR_MUST_CHECK;
 
 bool thr_programme_end_allowed(const thr_programme *p, int node);
+
+/* THR_ELIMIT, without a text, when the limits say so. */
+thr_status thr_programme_check_time(const thr_programme *p) THR_MUST_CHECK;
 
 bool thr_programme_terminal(const thr_programme *p, int column); /* does a trail end here, in an end or a fold? */
 

@@ -9,6 +9,7 @@
 /* Scratch of thr_quotient_init. Sets of elements of G are arrays of bool by element number. */
 typedef struct {
   thr_quotient *q;
+  const thr_limits *limits;
   int most;
   int *position; /* [order of G] of an element within H, -1 = not in H */
   int copies_capacity, darts_capacity, pairs_capacity;
@@ -47,6 +48,12 @@ static bool full(const build *b)
   return b->q->n_copies + b->q->n_darts + b->q->n_pairs >= b->most;
 }
 
+static thr_status check_time(const build *b, thr_err *err)
+{
+  return thr_limits_stop(b->limits) ? thr_fail(err, THR_ELIMIT, "the time was too short for the types of passes and turns")
+                                    : THR_OK;
+}
+
 /* ---- images and orbits ---- */
 
 static int half_between(const thr_frame *f, int from, int to)
@@ -55,13 +62,16 @@ static int half_between(const thr_frame *f, int from, int to)
   return e < 0 ? -1 : 2 * e + (f->edge[e][1] == from);
 }
 
-static thr_status map_halves(thr_quotient *q, thr_err *err)
+static thr_status map_halves(const build *b, thr_err *err)
 {
+  thr_quotient *q = b->q;
   const thr_frame *f = q->f;
   size_t halves = 2 * (size_t)f->n_edges;
   q->half_image = thr_calloc((size_t)q->h->order * halves, sizeof *q->half_image);
   if (!q->half_image) return thr_nomem(err);
   for (int i = 0; i < q->h->order; i++) {
+    thr_status st = check_time(b, err);
+    if (st) return st;
     const int *to = &q->group->image[(size_t)q->h->element[i] * (size_t)q->group->degree];
     for (int h = 0; h < 2 * f->n_edges; h += 2) {
       int half = half_between(f, to[thr_tail(f, h)], to[thr_head(f, h)]);
@@ -181,12 +191,14 @@ static thr_status add_dart(build *b, int half, const thr_subgroup *s, int *dart,
 {
   thr_quotient *q = b->q;
   int lowest;
+  thr_status st = check_time(b, err);
+  if (st) return st;
   *dart = find_dart(b, half, s, &lowest);
   if (*dart >= 0) return THR_OK;
   if (full(b)) return too_many(b, err);
   assert(s->order > 0);
   thr_dart_type made = {.half = lowest, .darts = q->h->order / s->order};
-  thr_status st = thr_grow(&q->dart, q->n_darts, &b->darts_capacity, sizeof *q->dart, err);
+  st = thr_grow(&q->dart, q->n_darts, &b->darts_capacity, sizeof *q->dart, err);
   if (!st) st = thr_grow(&b->before, q->n_darts, &b->before_capacity, sizeof *b->before, err);
   if (!st) st = collect(b->least, q->group->order, &made.stabilizer, err);
   if (!st) st = find_layer(b, &made.stabilizer, &made.layer, err);
@@ -415,7 +427,7 @@ static thr_status add_pairs(build *b, int d, thr_err *err)
   const thr_frame *f = q->f;
   const thr_subgroup *s = &q->dart[d].stabilizer;
   int a = q->dart[d].half, v = thr_tail(f, a), lowest;
-  thr_status st = THR_OK;
+  thr_status st = check_time(b, err);
   b->n_at = b->n_normal = 0;
   for (int i = 0; i < q->h->order; i++) {
     if (thr_tail(f, image(q, i, a)) != v) continue;
@@ -481,18 +493,18 @@ static void build_destroy(build *b)
   free(b->at);
 }
 
-thr_status thr_quotient_init(thr_quotient *q, const thr_frame *f, const thr_group *g, const thr_subgroup *h, int most,
-                             thr_err *err)
+thr_status thr_quotient_make(thr_quotient *q, const thr_frame *f, const thr_group *g, const thr_subgroup *h, int most,
+                             const thr_limits *limits, thr_err *err)
 {
   *q = (thr_quotient){.f = f, .group = g, .h = h};
-  build b = {.q = q, .most = most};
+  build b = {.q = q, .limits = limits, .most = most};
   if (g->degree != f->n_nodes) {
     *q = (thr_quotient){0};
     thr_fail(err, THR_EINPUT, "the group permutes %d nodes, the framework has %d", g->degree, f->n_nodes);
     return THR_EINPUT;
   }
   thr_status st = build_init(&b, err);
-  if (!st) st = map_halves(q, err);
+  if (!st) st = map_halves(&b, err);
   if (!st) st = find_edge_orbits(q, err);
   for (int e = 0, orbit = 0; e < f->n_edges && !st; e++)
     if (q->edge_orbit[e] == orbit) {
@@ -506,6 +518,13 @@ thr_status thr_quotient_init(thr_quotient *q, const thr_frame *f, const thr_grou
   build_destroy(&b);
   if (st) thr_quotient_destroy(q);
   return st;
+}
+
+thr_status thr_quotient_init(thr_quotient *q, const thr_frame *f, const thr_group *g, const thr_subgroup *h, int most,
+                             thr_err *err)
+{
+  const thr_limits none = {0};
+  return thr_quotient_make(q, f, g, h, most, &none, err);
 }
 
 void thr_quotient_destroy(thr_quotient *q)

@@ -64,6 +64,10 @@ typedef struct {
  * than `most` types (frameworks with many interchangeable parts); out is empty. */
 thr_status thr_quotient_init(thr_quotient *q, const thr_frame *f, const thr_group *g, const thr_subgroup *h, int most,
                              thr_err *err) THR_MUST_CHECK;
+
+/* The same; THR_ELIMIT also when the limits say so. */
+thr_status thr_quotient_make(thr_quotient *q, const thr_frame *f, const thr_group *g, const thr_subgroup *h, int most,
+                             const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
 void thr_quotient_destroy(thr_quotient *q);
 
 #endif

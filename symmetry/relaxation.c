@@ -19,7 +19,7 @@ thr_status thr_relaxation_add_row(thr_relaxation *r, double lower, thr_err *err)
 {
   int n = r->p->n + r->extra, count = 0, *column = thr_calloc((size_t)n, sizeof *column);
   double *value = thr_calloc((size_t)n, sizeof *value);
-  thr_status st = column && value ? THR_OK : thr_nomem(err);
+  thr_status st = column && value ? thr_programme_check_time(r->p) : thr_nomem(err);
   for (int j = 0; j < n && !st; j++)
     if (r->sum[j] != 0) {
       column[count] = j;

@@ -9,6 +9,10 @@
 
 enum { MOST_TYPES = 200000 }; /* of a quotient: what a linear programme can hold */
 
+/* Every row has a moment for a first cover, and one that has a cover becomes cords, also when the time is over, but no later than
+ * so long after that; in s. */
+static const double MOMENT = 0.05, LATEST = 0.2;
+
 /* What is known while the rows are solved. */
 typedef struct {
   const thr_frame *f;
@@ -17,6 +21,7 @@ typedef struct {
   thr_cover_options how;
   int *edge_cover, *edge_capacity; /* [n_edges] */
   double base;                     /* cord that the edges need, units */
+  double end;                      /* thr_clock() at which all must be done; 0 = any time */
   thr_cover *cover;                /* [t->n] so far */
 } solver;
 
@@ -130,7 +135,10 @@ static thr_status solve(solver *s, int i, bool quick, const thr_limits *limits, 
   thr_quotient q = {0};
   row->why = (thr_err){0};
   s->how.quick = quick;
-  thr_status st = thr_quotient_init(&q, s->f, &s->t->group[row->group].all, &row->elements, MOST_TYPES, &row->why);
+  thr_limits first = *limits;
+  if (s->end > 0) s->how.start_by = fmin(thr_clock() + MOMENT, s->end + LATEST);
+  if (s->end > 0) first.deadline = s->cover[i].copies ? s->end + LATEST : fmax(first.deadline, s->how.start_by);
+  thr_status st = thr_quotient_make(&q, s->f, &s->t->group[row->group].all, &row->elements, MOST_TYPES, &first, &row->why);
   if (!st) {
     st = thr_cover_improve(&q, &s->how, limits, &s->cover[i], &row->why);
     if (!st || st == THR_ELIMIT) tell(&q, &s->how, &s->cover[i], limits);
@@ -164,7 +172,7 @@ thr_status thr_symmetry_shortest_tied(const thr_frame *f, const thr_plan_options
   s.how.quick = true;
   if (few) memcpy(s.how.prefer, cords_first, sizeof cords_first);
   st = thr_group_generate(f->n_nodes, NULL, 0, 1, &g, err);
-  if (!st) st = thr_quotient_init(&q, f, &g, &alone, MOST_TYPES, err);
+  if (!st) st = thr_quotient_make(&q, f, &g, &alone, MOST_TYPES, limits, &why);
   if (!st) st = thr_cover_find(&q, &s.how, limits, &c, &why);
   if (!st || st == THR_ELIMIT) tell(&q, &s.how, &c, limits);
   *optimal = false;
@@ -247,6 +255,7 @@ thr_status thr_symmetry_solve(const thr_frame *f, const thr_plan_options *o, con
   solver s;
   thr_status st = solver_init(&s, f, o, t, err);
   if (st) return st;
+  s.end = limits->deadline;
   for (int r = limits->deadline > 0 ? FIRST : PROOFS; r < N_ROUNDS && !st; r++)
     st = solve_round(&s, (turn)r, limits, err);
   solver_destroy(&s);

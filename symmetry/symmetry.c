@@ -134,7 +134,8 @@ thr_status thr_symmetries_find(const thr_frame *f, const thr_plan_options *o, co
   *out = (thr_symmetries){.chosen = -1};
   thr_status st = check_request(o, err);
   if (!st) st = find_shortest(f, o, limits, out, err);
-  if (!st) st = thr_symmetry_groups(f, o, out, err);
+  const thr_limits share = thr_symmetry_share(limits, 0.3);
+  if (!st) st = thr_symmetry_groups(f, o, &share, out, err);
   if (!st) st = check_asked(out, o->symmetry.group, err);
   if (!st) st = thr_symmetry_solve(f, o, limits, out, err);
   if (!st) {

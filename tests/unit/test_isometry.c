@@ -116,6 +116,8 @@ static void expect_counts(thr_frame f, const char *group, int kinds, const char 
   thr_frame_destroy(&f);
 }
 
+static const thr_limits no_limits;
+
 START_TEST(classes_of_cubic_groups)
 {
   static const char *const octahedral[] = {"identity", "C2", "C3", "C4", "inversion", "mirror", "S4", "S6"};
@@ -436,7 +438,8 @@ static void assert_geometric_part(const thr_frame *f, double tolerance)
   int *found, count, kept = 0;
   thr_err err = {0};
   named_group n = name_elements(f, tolerance);
-  ck_assert_msg(thr_isometries_find(f, NULL, tolerance, THR_GROUP_CAP, &found, &count, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_isometries_find(f, NULL, tolerance, THR_GROUP_CAP, &no_limits, &found, &count, &err) == THR_OK, "%s",
+                err.text);
   for (int k = 0; k < n.g.order; k++) {
     const int *image = &n.g.image[k * f->n_nodes];
     if (n.element[k].kind == THR_ISO_NONE) continue;
@@ -472,9 +475,9 @@ START_TEST(isometries_within_tolerance)
   for (int k = 0; k < SAMPLES; k++) {
     thr_frame f = sample_frame(k), g = noisy(&r, &f, 1e-4 * thr_frame_diagonal(&f) / 3);
     int *found, *tight, count, few, *loose, many;
-    ck_assert_int_eq(thr_isometries_find(&f, NULL, 1e-6, THR_GROUP_CAP, &found, &count, NULL), THR_OK);
-    ck_assert_int_eq(thr_isometries_find(&g, NULL, 1e-6, THR_GROUP_CAP, &tight, &few, NULL), THR_OK);
-    ck_assert_int_eq(thr_isometries_find(&g, NULL, 1e-2, THR_GROUP_CAP, &loose, &many, NULL), THR_OK);
+    ck_assert_int_eq(thr_isometries_find(&f, NULL, 1e-6, THR_GROUP_CAP, &no_limits, &found, &count, NULL), THR_OK);
+    ck_assert_int_eq(thr_isometries_find(&g, NULL, 1e-6, THR_GROUP_CAP, &no_limits, &tight, &few, NULL), THR_OK);
+    ck_assert_int_eq(thr_isometries_find(&g, NULL, 1e-2, THR_GROUP_CAP, &no_limits, &loose, &many, NULL), THR_OK);
     ck_assert_int_eq(few, 1);
     ck_assert_int_eq(many, count);
     ck_assert(memcmp(loose, found, (size_t)count * (size_t)f.n_nodes * sizeof *found) == 0);
@@ -580,7 +583,7 @@ START_TEST(isometries_by_all_permutations)
     for (int v = 0; v < n; v++)
       image[v] = v;
     try_permutations(&f, image, 0, &count);
-    ck_assert_int_eq(thr_isometries_find(&f, NULL, 1e-6, 100, &found, &by_search, NULL), THR_OK);
+    ck_assert_int_eq(thr_isometries_find(&f, NULL, 1e-6, 100, &no_limits, &found, &by_search, NULL), THR_OK);
     ck_assert_int_eq(by_search, count);
     for (int k = 0; k < by_search; k++)
       ck_assert(keeps_frame(&f, NULL, &found[k * n]));
@@ -597,10 +600,10 @@ START_TEST(more_isometries_than_the_cap)
   thr_frame f = no_feet(solid_make(CUBE));
   int *found, count;
   thr_err err = {0};
-  ck_assert_int_eq(thr_isometries_find(&f, NULL, 1e-6, 47, &found, &count, &err), THR_ELIMIT);
+  ck_assert_int_eq(thr_isometries_find(&f, NULL, 1e-6, 47, &no_limits, &found, &count, &err), THR_ELIMIT);
   assert_one_line(&err, "47");
   ck_assert(!found && count == 0);
-  ck_assert_int_eq(thr_isometries_find(&f, NULL, 1e-6, 48, &found, &count, NULL), THR_OK);
+  ck_assert_int_eq(thr_isometries_find(&f, NULL, 1e-6, 48, &no_limits, &found, &count, NULL), THR_OK);
   ck_assert_int_eq(count, 48);
   free(found);
   thr_frame_destroy(&f);
@@ -616,7 +619,7 @@ START_TEST(every_allocation_fails_once)
     int *found, count;
     thr_err err = {0};
     thr_alloc_fail_at(++k);
-    st = thr_isometries_find(&f, NULL, 1e-6, THR_GROUP_CAP, &found, &count, &err);
+    st = thr_isometries_find(&f, NULL, 1e-6, THR_GROUP_CAP, &no_limits, &found, &count, &err);
     thr_alloc_fail_at(0);
     if (st)
       ck_assert_msg(st == THR_ENOMEM && !found && count == 0, "allocation %ld: status %d, %s", k, (int)st, err.text);
