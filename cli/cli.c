@@ -18,14 +18,21 @@ bool cli_quiet, cli_verbose;
 
 /* ---- messages ---- */
 
+/* One line, whatever the names in it. It needs no memory that could run out. */
+static void say(const char *format, va_list args, const char *after)
+{
+  char line[8192];
+  vsnprintf(line, sizeof line, format, args);
+  thr_text_clean(line);
+  fprintf(stderr, "thread: %s%s\n", line, after);
+}
+
 void cli_note(const char *format, ...)
 {
   if (cli_quiet) return;
   va_list args;
   va_start(args, format);
-  fputs("thread: ", stderr);
-  vfprintf(stderr, format, args);
-  fputc('\n', stderr);
+  say(format, args, "");
   va_end(args);
 }
 
@@ -34,9 +41,7 @@ void cli_error(const char *format, ...)
   va_list args;
   va_start(args, format);
   cli_progress_end();
-  fputs("thread: ", stderr);
-  vfprintf(stderr, format, args);
-  fputc('\n', stderr);
+  say(format, args, "");
   va_end(args);
 }
 
@@ -57,11 +62,11 @@ int cli_fail(const thr_err *err)
 
 int cli_usage(const char *command, const char *format, ...)
 {
+  char where[64];
   va_list args;
+  snprintf(where, sizeof where, " (see `thread %s --help`)", command);
   va_start(args, format);
-  fputs("thread: ", stderr);
-  vfprintf(stderr, format, args);
-  fprintf(stderr, " (see `thread %s --help`)\n", command);
+  say(format, args, where);
   va_end(args);
   return EXIT_USAGE;
 }
@@ -83,6 +88,8 @@ int cli_next_option(int argc, char **argv, const char *command, const char *lett
   opterr = 0;
   for (;;) {
     int o = getopt_long(argc, argv, letters, table, NULL);
+    for (int i = optind; o == -1 && *done < 0 && i < argc; i++)
+      if (!*argv[i]) *done = cli_usage(command, "an empty name is no file");
     switch (o) {
     case 'h':
       fputs(help, stdout);
@@ -145,11 +152,12 @@ bool cli_frame_option(cli_frame_args *a, const char *command, int option, const 
   *ok = true;
   switch (option) {
   case OPTION_EDGES: a->read.edges_path = value; return true;
-  case OPTION_UNITS:
-    *ok = strlen(value) < sizeof((thr_frame *)0)->units;
-    if (!*ok) cli_usage(command, "--units %s: at most %d letters", value, (int)sizeof((thr_frame *)0)->units - 1);
-    a->read.units = value;
+  case OPTION_UNITS: {
+    thr_err why = {0};
+    *ok = thr_units_find(value, &a->read.units, &why) == THR_OK;
+    if (!*ok) cli_usage(command, "--units: %s", why.text);
     return true;
+  }
   case OPTION_FEET: a->feet = value; return true;
   case OPTION_WELD: *ok = cli_double(command, "--weld", value, 0, 1e300, &a->read.weld); return true;
   default: return false;
@@ -215,11 +223,6 @@ static bool mark_node(const thr_frame *f, const char *name, const char *option, 
     cli_error("%s: there is no file and no node called %s; the first node is %s", option, name, f->name[0]);
     return false;
   }
-  for (int w = v + 1; w < f->n_nodes; w++)
-    if (strcmp(f->name[w], name) == 0) {
-      cli_error("%s: two nodes are called %s; names in the file must differ", option, name);
-      return false;
-    }
   mark[v] = true;
   return true;
 }

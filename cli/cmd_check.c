@@ -76,7 +76,8 @@ static void put_verdict(thr_text *t, const char *path, const thr_plan *p)
   const thr_metrics *m = &p->metrics;
   const char *units = p->frame.units;
   int cuts = thr_length_proof_cuts(&p->proof);
-  thr_text_printf(t, "%s: %d %s, %d passes, every edge covered, length %.6f %s: ", path, p->n_cords,
+  thr_text_append_clean(t, path);
+  thr_text_printf(t, ": %d %s, %d passes, every edge covered, length %.6f %s: ", p->n_cords,
                   cli_plural(p->n_cords, "cord", "cords"), m->passes, m->length, units);
   if (!p->proof.present)
     thr_text_append(t, "no claim of optimality");

@@ -86,7 +86,7 @@ static thr_status make_rankings(const pull_args *a, const entry *e, int n, ranki
                  .unit = " N",
                  .error = true,
                  .open = "some turns by closed form, their error is not known"},
-      [HOLDING] = {.title = "holding pull of the structure (below the first force nothing holds it, at the second it can stand)",
+      [HOLDING] = {.title = "holding pull while drawn in (below the first force nothing holds it, at the second it can stand)",
                    .key = "holding",
                    .unit = " N"},
       [SIMULATION] = {
@@ -244,6 +244,8 @@ static int evaluate(const pull_args *a, entry *e, int n)
   return worst;
 }
 
+enum { CREPT = -1 }; /* in place of an index */
+
 typedef struct {
   const pull_args *args;
   const entry *e;
@@ -252,7 +254,8 @@ typedef struct {
   const thr_limits *limits;
 } simulation;
 
-/* Job 2 k simulates plan[k], job 2 k + 1 the same at finer settings; the result is a double, NAN if it never came to rest. */
+/* Job 2 k simulates plan[k], job 2 k + 1 the same at finer settings; the result is a double, NAN if it never came to rest, or
+ * CREPT. */
 static thr_status settle_plan(void *user, int job, void *result, thr_err *err)
 {
   const simulation *s = user;
@@ -274,8 +277,9 @@ static thr_status settle_plan(void *user, int job, void *result, thr_err *err)
   if (!st)
     st = thr_settle_run(&b, &e->plan.frame, e->plan.cord, r->n_cords, (const double *const *)tension, &r->physics, &o, s->limits,
                         &out, err);
+  thr_settle_judge(&out, o.start, e->eval[THR_STRUCTURE].holding.upper);
   bool known = out.status == THR_SETTLE_FELL || out.status == THR_SETTLE_HELD;
-  *(double *)result = !st && known ? out.index : NAN;
+  *(double *)result = st ? NAN : known ? out.index : out.status == THR_SETTLE_CREPT ? CREPT : NAN;
   thr_settle_destroy(&out);
   for (int i = 0; i < r->n_cords && tension; i++)
     free(tension[i]);
@@ -307,6 +311,23 @@ static thr_status run_simulations(const pull_args *a, entry *e, const int *plan,
   return st;
 }
 
+/* Why there is no index, and takes away what only says that contacts crept. */
+static void note_simulation(entry *e, bool stopped)
+{
+  bool crept = false, restless = false;
+  for (int i = 0; i < 2; i++) {
+    restless |= isnan(e->index[i]);
+    crept |= e->index[i] == CREPT;
+    if (e->index[i] == CREPT) e->index[i] = NAN;
+  }
+  if (restless && !stopped)
+    cli_note("note: the simulation of %s never came to rest; `thread eval --method structure` says more", e->path);
+  if (crept)
+    cli_note("note: no index where the simulation of %s moved at a pull of more than %.6g N, at which an equilibrium exists: its "
+             "contacts crept",
+             e->path, e->eval[THR_STRUCTURE].holding.upper);
+}
+
 /* All from one pull, each twice; not where no pull is needed, since then there is none to let off. */
 static int settle(const pull_args *a, entry *e, int n)
 {
@@ -324,9 +345,8 @@ static int settle(const pull_args *a, entry *e, int n)
   }
   if (a->options.start > 0) start = a->options.start;
   if (count > 0) st = run_simulations(a, e, plan, count, start, &err);
-  for (int k = 0; k < count && !st; k++)
-    if (isnan(e[plan[k]].index[0]) || isnan(e[plan[k]].index[1]))
-      cli_note("note: the simulation of %s never came to rest; `thread eval --method structure` says more", e[plan[k]].path);
+  for (int k = 0; k < count; k++)
+    note_simulation(&e[plan[k]], st != THR_OK);
   free(plan);
   return st == THR_ELIMIT ? EXIT_LIMIT : st ? cli_fail(&err) : EXIT_OK;
 }
@@ -360,6 +380,8 @@ static int compare(const pull_args *a, char **path, int n, entry *e)
     int settled = settle(a, e, n);
     if (!code || settled == EXIT_LIMIT) code = settled;
   }
+  for (int i = 0; i < n && !a->json; i++)
+    thr_text_clean(path[i]); /* the files are read; what follows is for people */
   int printed = print(a, e, n);
   if (code == EXIT_LIMIT) cli_error("stopped: what is - above is not known");
   return printed ? printed : code;

@@ -21,8 +21,8 @@ static const char help[] =
     "      --method capstan|joint|structure\n"
     "                       capstan: closed form, force = seating tension x exp(mu x turning) (default)\n"
     "                       joint: each joint's friction measured in simulation, along the path the tight cord takes\n"
-    "                       structure: least pull at which the rigid beads have any equilibrium, and which fails "
-    "first\n" PULL_HELP(
+    "                       structure: least pull at which the rigid beads have any equilibrium while the cord is\n"
+    "                       drawn in, and which fails first\n" PULL_HELP(
         "holding pull") "      --tension        print the tension in every pass\n"
                         "  -o, --output FILE    write the plan with this evaluation in it (- = stdout)\n"
                         "      --plot FILE      write a plot of the tension along each cord, as SVG\n"
@@ -32,7 +32,8 @@ static const char help[] =
                         "Pull is the force at the pulled ends of a cord at which its slackest pass has the seating tension "
                         "(capstan, joint), or at "
                         "which\n"
-                        "the structure can just stand (structure). These are different things. The closed form takes the cord "
+                        "the structure can just stand while the cord is drawn in (structure). These are different things. The "
+                        "closed form takes the cord "
                         "through the middle of "
                         "every\n"
                         "bead; a cord thinner than the bore cuts corners, turns less and needs less: method joint knows.\n";
@@ -97,7 +98,7 @@ static const char *method_words(const thr_evaluation *r, bool refused)
   case THR_JOINT:
     return refused ? "joints measured in simulation, some turns by closed form, composed along the path of the tight cord"
                    : "joints measured in simulation, composed along the path of the tight cord";
-  case THR_STRUCTURE: return "structure: least pull at which rigid beads can stand (limit analysis)";
+  case THR_STRUCTURE: return "structure: least pull at which rigid beads can stand while the cord is drawn in (limit analysis)";
   default:
     return r->law == THR_LAW_MITRE ? "mitred beads, closed form; --method joint measures joints in simulation"
                                    : "capstan law, closed form; --method joint measures joints in simulation";
@@ -248,8 +249,16 @@ static void put_joint(thr_text *t, const thr_plan *p, const thr_eval *e)
                     100 * e->interpolation);
 }
 
-static void put_settle(thr_text *t, const thr_plan *p, const thr_settle *s)
+static void put_settle(thr_text *t, const thr_plan *p, const thr_settle *s, double equilibrium)
 {
+  if (s->status == THR_SETTLE_CREPT) {
+    thr_text_printf(t,
+                    "simulation     a bead moved at a pull of more than %.6g N, at which an equilibrium exists: the contacts\n"
+                    "               crept. No ranking index; try a smaller --start, or a smaller --time-step with more\n"
+                    "               --iterations\n",
+                    equilibrium);
+    return;
+  }
   if (s->status == THR_SETTLE_TOO_LARGE) {
     thr_text_printf(t, "simulation     left out: more than %d beads\n", thr_settle_largest);
     return;
@@ -277,7 +286,9 @@ static void put_settle(thr_text *t, const thr_plan *p, const thr_settle *s)
 static void put_holding(thr_text *t, const thr_holding *h)
 {
   if (h->lower > 0)
-    thr_text_printf(t, "\nholding pull   below %.6g N nothing can hold it (proved, residual %.1g)", h->lower, h->residual);
+    thr_text_printf(t,
+                    "\nholding pull   below %.6g N nothing can hold it while the cord is being drawn in (proved, residual %.1g)",
+                    h->lower, h->residual);
   else if (h->upper == 0)
     thr_text_append(t, "\nholding pull   0 N: it stands by itself");
   else
@@ -285,6 +296,9 @@ static void put_holding(thr_text *t, const thr_holding *h)
   if (h->upper > 0 && isfinite(h->upper)) thr_text_printf(t, "; at %.6g N an equilibrium exists", h->upper);
   if (!isfinite(h->upper)) thr_text_append(t, "; no equilibrium was found at any pull");
   thr_text_append(t, "\n");
+  if (h->lower > 0)
+    thr_text_append(
+        t, "               (a cord that was pulled and let go keeps tension inside: it may hold at a hundredth of it)\n");
 }
 
 static void put_structure(thr_text *t, const arguments *a, const thr_plan *p, const thr_eval *e, bool stopped)
@@ -296,7 +310,7 @@ static void put_structure(thr_text *t, const arguments *a, const thr_plan *p, co
     thr_text_printf(t, "just below     bead %s moves fastest (collapse mechanism)\n", p->frame.name[h->first_bead]);
   if (!a->pull.options.dynamics) return;
   if (e->settle.present)
-    put_settle(t, p, &e->settle);
+    put_settle(t, p, &e->settle, h->upper);
   else if (p->frame.n_nodes > thr_settle_largest)
     thr_text_printf(t, "simulation     left out: more than %d beads\n", thr_settle_largest);
   else if (stopped)
@@ -346,17 +360,17 @@ static void put_bead(thr_text *t, const char *before, const thr_frame *f, int be
 
 static void put_json_structure(thr_text *t, const thr_frame *f, const thr_eval *e)
 {
-  static const char *const status[] = {"fell", "held", "never settled", "too large"};
+  static const char *const status[] = {"fell", "held", "never settled", "too large", "crept"};
   const thr_holding *h = &e->holding;
   const thr_settle *s = &e->settle;
   put_number(t, ",\n \"holding\": {\"lower\": ", h->lower);
   put_number(t, ", \"upper\": ", h->upper);
   put_number(t, ", \"residual\": ", h->residual);
   put_bead(t, ", \"first_bead\": ", f, h->first_bead);
-  thr_text_append(t, "}");
+  thr_text_append(t, ", \"holds\": \"while the cord is being drawn in\"}");
   if (!s->present) return;
   thr_text_printf(t, ",\n \"simulation\": {\"status\": \"%s\"", status[s->status]);
-  put_number(t, ", \"ranking_index\": ", s->index);
+  put_number(t, ", \"ranking_index\": ", s->status == THR_SETTLE_FELL || s->status == THR_SETTLE_HELD ? s->index : NAN);
   put_bead(t, ", \"first_bead\": ", f, s->first_bead);
   put_number(t, ", \"gap_before_mm\": ", s->gap_before);
   put_number(t, ", \"gap_after_mm\": ", s->gap_after);
@@ -409,8 +423,8 @@ static thr_status draw_still(const thr_plan *p, const thr_settle *s, thr_text *s
   }
   char note[160];
   snprintf(note, sizeof note, "%s",
-           s->status == THR_SETTLE_FELL ? "Before: under the pull at the start. After: the pull let off until it fell."
-                                        : "It stands until the pull is gone.");
+           s->status == THR_SETTLE_HELD ? "It stands until the pull is gone."
+                                        : "Before: under the pull at the start. After: the pull let off until it fell.");
   const thr_still still = {.title = "The structure in simulation",
                            .note = note,
                            .width = p->evaluation.physics.bead_diameter / mm,

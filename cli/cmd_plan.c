@@ -20,7 +20,7 @@
 #include <string.h>
 
 static const char help_requests[] =
-    "thread plan FRAME [options]: plan how cord is threaded: shortest, turning least, or symmetric, proved\n\n"
+    "thread plan FRAME [options]: plan how cord is threaded: shortest or turning least, proved, or symmetric\n\n"
     "Examples:\n"
     "  thread plan dome.obj                          plan.json, overview.svg, sheets.pdf and more in the folder dome/\n"
     "  thread plan dome.obj --cover 2 -o plan.json   two passes per interface; the plan only\n"
@@ -459,12 +459,29 @@ static int write_plan(const thr_plan *p, const char *path, int code)
   return written;
 }
 
+/* Where the plan is and, unless folder is NULL, the drawings. */
+static int print_places(const arguments *a, const thr_plan *p, const char *plan_path, const char *folder)
+{
+  char names[DRAWINGS_NAMES];
+  thr_text t = {0};
+  thr_text_append(&t, a->compare || p->options.objective == THR_TORTUOSITY ? "\n" : "");
+  thr_text_append(&t, "plan     ");
+  thr_text_append_clean(&t, plan_path);
+  drawings_names(p, &a->drawings, names);
+  if (folder) {
+    thr_text_append(&t, "\ndrawn    in ");
+    thr_text_append_clean(&t, folder);
+    thr_text_printf(&t, ": %s", names);
+  }
+  thr_text_append(&t, "\n");
+  return cli_write(&t, "-");
+}
+
 /* code: of the plan. */
 static int write_outputs(const arguments *a, const planned *x, int planned_code)
 {
   const thr_plan *p = &x->plan;
   places to;
-  char names[DRAWINGS_NAMES];
   int code = find_places(a, &to);
   if (!code) code = write_plan(p, to.plan, planned_code);
   int drawn = !code && to.folder ? drawings_write_all(p, to.folder, &a->drawings) : EXIT_OK;
@@ -475,11 +492,7 @@ static int write_outputs(const arguments *a, const planned *x, int planned_code)
              to_stdout ? "plan.json" : to.plan);
   if (code || to_stdout || (cli_quiet && !a->json)) return code;
   code = print_summary(a, x);
-  if (a->json) return code;
-  printf("%splan     %s\n", a->compare || p->options.objective == THR_TORTUOSITY ? "\n" : "", to.plan);
-  drawings_names(p, &a->drawings, names);
-  if (to.folder && !drawn) printf("drawn    in %s: %s\n", to.folder, names);
-  return code;
+  return code || a->json ? code : print_places(a, p, to.plan, drawn ? NULL : to.folder);
 }
 
 /* Time that nobody asked for is the search's alone. */

@@ -25,7 +25,8 @@ static const char help[] =
     "      --json           as JSON\n" CLI_FRAME_HELP
     "  -q, --quiet          no notes and no progress       -v, --verbose  what the solver does       -h, --help\n\n"
     "* marks the default choice of thread plan --objective symmetry. A step is a pass of a unique path: what is to be learned.\n"
-    "Exit codes: 0 every row proved, 2 usage, 3 bad input, 4 infeasible, 5 some rows not proved in time (table printed)\n";
+    "Exit codes: 0 every row optimal by the solver's word, 2 usage, 3 bad input, 4 infeasible, 5 some rows not in\n"
+    "time (table printed)\n";
 
 enum { OPTION_ENDS = OPTION_SYMMETRY_FREE, OPTION_COVER, OPTION_CAPACITY, OPTION_JOINT, OPTION_MU, OPTION_JSON };
 

@@ -160,7 +160,7 @@ const compare_row compare_rows[] = {
     {"its error where measured, +- %", "joint_error_percent", joint_error, false, -3, THR_JOINT, false},
     {"turns by closed form", "joint_refused", joint_refused, false, -1, THR_JOINT, false},
     {"all pulls together, simulated, N", "joint_total", joint_total, true, -4, THR_JOINT, false},
-    {"holding pull of the structure, N", "holding_pull", holding, true, -6, THR_STRUCTURE, false},
+    {"holding pull while drawn in, N", "holding_pull", holding, true, -6, THR_STRUCTURE, false},
     {"simulation: index, no newtons", "ranking_index", settle_index, false, -3, THR_STRUCTURE, false},
     {"the same, finer steps", "ranking_index_fine", settle_index_fine, false, -3, THR_STRUCTURE, false},
 };

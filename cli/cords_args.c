@@ -126,32 +126,46 @@ int cords_args_check(const cords_args *a, const turning_args *turning, thr_objec
 
 /* ---- numbers of ends ---- */
 
-/* Is text[0 .. n-1] NAME:NUMBER with a node of that name? *v, *count: which. Names may hold colons themselves. */
-static bool end_count(const thr_frame *f, const char *text, int n, int *v, int *count)
+/* The node whose name is before the last colon of text[0 .. n-1], -1 if there is none; *number: what is after it. Names may hold
+ * colons themselves: what is a node's name as a whole has no number. */
+static int counted_node(const thr_frame *f, const char *text, int n, char number[256])
 {
-  char word[256], *colon, *end;
-  if (n >= (int)sizeof word) return false;
+  char word[256], *colon;
+  if (n >= (int)sizeof word) return -1;
   snprintf(word, sizeof word, "%.*s", n, text);
-  if (thr_frame_find(f, word) >= 0 || !(colon = strrchr(word, ':'))) return false;
-  long number = strtol(colon + 1, &end, 10);
+  if (thr_frame_find(f, word) >= 0 || !(colon = strrchr(word, ':'))) return -1;
+  strcpy(number, colon + 1);
   *colon = '\0';
-  *v = thr_frame_find(f, word);
-  *count = (int)number;
-  return *v >= 0 && end != colon + 1 && *end == '\0' && number >= 1 && number <= 2 * MOST_CORDS;
+  return thr_frame_find(f, word);
 }
 
-/* "A:2,B:1": every part is a node and a number. */
-static bool parse_counts(const thr_frame *f, const char *ends, int *counts)
+/* "A:2,B:1" into counts. -1 if no node comes with a number; EXIT_OK; or prints what is wrong and returns the code. */
+static int parse_counts(const thr_frame *f, const char *ends, int *counts)
 {
-  const char *word = ends, *end;
+  const char *word = ends, *end, *alone = NULL;
+  bool some = false;
   for (bool more = *ends; more; word = end + 1) {
-    int v, count;
+    char number[256], *rest;
     end = word + strcspn(word, ",");
     more = *end;
-    if (!end_count(f, word, (int)(end - word), &v, &count) || counts[v]) return false;
-    counts[v] = count;
+    int n = (int)(end - word), v = counted_node(f, word, n, number);
+    if (v < 0) {
+      alone = alone ? alone : word;
+      continue;
+    }
+    long count = strtol(number, &rest, 10);
+    some = true;
+    if (rest == number || *rest || count < 1 || count > 2 * MOST_CORDS)
+      return cli_usage("plan", "--ends %.*s: expected a number of cord ends from 1 to %d after the colon", n, word,
+                       2 * MOST_CORDS);
+    if (counts[v]) return cli_usage("plan", "--ends %s: node %s comes twice", ends, f->name[v]);
+    counts[v] = (int)count;
   }
-  return *ends;
+  if (!some) return -1;
+  if (alone)
+    return cli_usage("plan", "--ends %s: %.*s is no node with a number of cord ends; give every node one, or none", ends,
+                     (int)strcspn(alone, ","), alone);
+  return EXIT_OK;
 }
 
 /* Cords of the pieces that the ends belong to: *most and *least of any. */
@@ -241,7 +255,9 @@ int cords_args_apply(const cords_args *a, const thr_frame *f, thr_plan_options *
     cli_error("out of memory");
     return EXIT_INTERNAL;
   }
-  if (parse_counts(f, a->ends, o->end_count)) return apply_counts(a, f, o);
+  code = parse_counts(f, a->ends, o->end_count);
+  if (code == EXIT_OK) return apply_counts(a, f, o);
+  if (code > 0) return code;
   free(o->end_count);
   o->end_count = NULL;
   return cli_resolve_ends(a->ends, f, o);

@@ -115,7 +115,7 @@ static void put_claim(thr_text *t, const thr_plan *p, thr_cords_word word)
   else if (p->options.balance)
     thr_text_printf(t, "; at least %.6f %s is needed (verified), gap %.3g %%%s", c->longest_bound, units,
                     100 * (c->longest - c->longest_bound) / c->longest,
-                    word.longest_least ? ";\n         none shorter exists, says the integer programme (not verified)" : "");
+                    word.longest_least ? ";\n         optimal by the solver's word (not verified): none shorter exists" : "");
   thr_text_append(t, "\n");
   if (c->fewest == 0) return;
   thr_text_printf(t, "cords    %d; ", p->n_cords);
@@ -154,7 +154,8 @@ static void put_length_status(thr_text *t, const thr_plan *p, thr_cords_word wor
                     100 * proof->gap);
   }
   if (!proof->optimal && word.passes_least && p->options.max_length == 0 && !p->options.balance)
-    thr_text_append(t, "         all other passes were ruled out for so many cords (without a certificate)\n");
+    thr_text_append(t,
+                    "         optimal by the solver's word (not verified): all other passes were ruled out for so many cords\n");
 }
 
 static void put_text(thr_text *t, const thr_plan *p, const double *pull, const turning_rivals *r, thr_cords_word word)

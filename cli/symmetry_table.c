@@ -56,14 +56,14 @@ static void copies_of(const thr_symmetry_row *row, char out[40])
     snprintf(out, 40, "%d x %d-%d", paths, row->least_copies, row->most_copies);
 }
 
-/* "yes", or the first aim that is not proved to be as low as can be. */
-static const char *proved(const thr_plan_options *o, const thr_symmetry_row *row)
+/* The solver's word, which no checker verifies: "optimal", or the first aim that may not be as low as can be. */
+static const char *solvers_word(const thr_plan_options *o, const thr_symmetry_row *row)
 {
   static const char *const no[] = {[THR_AIM_OVERLAP] = "not overlap",
                                    [THR_AIM_STEPS] = "not steps",
                                    [THR_AIM_PATHS] = "not paths",
                                    [THR_AIM_TURNING] = "not turning"};
-  if (row->why.code == THR_OK) return "yes";
+  if (row->why.code == THR_OK) return "optimal";
   for (int k = 0; k < THR_N_AIMS - 1; k++) {
     thr_aim aim = o->symmetry.prefer[k];
     if (row->value[aim] > row->bound[aim] + 1e-6 * fmax(1, fabs(row->value[aim]))) return no[aim];
@@ -107,7 +107,7 @@ static void put_row(thr_text *t, const thr_plan_options *o, const thr_symmetries
     copies_of(row, copies);
     thr_text_printf(t, "%7.1f %% %11s %8.6g %6d %8.0f deg %8.0f deg %12s %11s", 100 * m->overlap / m->base_length, copies,
                     row->record.steps, row->n_cords, cli_degrees(m->turning), cli_degrees(m->max_turning),
-                    turning_factor(turning_capstan(o->physics.mu, m->max_turning), factor), proved(o, row));
+                    turning_factor(turning_capstan(o->physics.mu, m->max_turning), factor), solvers_word(o, row));
   } else {
     bool open = row->why.code == THR_ELIMIT || row->why.code == THR_ESOLVER;
     thr_text_printf(t, "  %-79.79s", open ? row->why.text : row->why.code ? "no threading" : "not asked for");
@@ -143,7 +143,7 @@ void symmetry_put_table(thr_text *t, const thr_plan_options *o, const thr_symmet
     last = first + most;
   }
   thr_text_printf(t, "%6s %6s  %-6s %9s %11s %8s %6s %12s %12s %12s %11s %8s  %s\n", "number", "order", "group", "overlap",
-                  "unique x", "steps", "cords", "turning", "largest", "capstan", "proved", "residual", "elements");
+                  "unique x", "steps", "cords", "turning", "largest", "capstan", "solver says", "residual", "elements");
   if (first > 0) thr_text_printf(t, "    ..  %d larger\n", first);
   for (int i = first; i < last; i++)
     if (!only || s->row[i].n_cords > 0 || s->row[i].why.code) put_row(t, o, s, i);
@@ -212,7 +212,7 @@ static void put_name_json(thr_text *t, const char *name)
 static const char *row_status(const thr_symmetry_row *row)
 {
   switch (row->why.code) {
-  case THR_OK: return row->n_cords > 0 ? "optimal" : "not asked for";
+  case THR_OK: return row->n_cords > 0 ? "optimal by the solver's word" : "not asked for";
   case THR_ELIMIT: return row->n_cords > 0 ? "bound" : "stopped";
   case THR_EINFEASIBLE: return "infeasible";
   default: return "failed";

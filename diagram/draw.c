@@ -189,9 +189,9 @@ static void write_title(const drawing *d, int i, thr_text *t)
   thr_places_name(&s->places, s->frame, thr_tail(s->frame, p->half), from);
   thr_places_name(&s->places, s->frame, thr_head(s->frame, p->half), to);
   thr_text_printf(t, "<title>%s %d: ", s->id[p->cord], p->number);
-  thr_svg_escape(t, from);
+  thr_text_xml(t, from);
   thr_text_append(t, " to ");
-  thr_svg_escape(t, to);
+  thr_text_xml(t, to);
   thr_text_append(t, "</title>");
 }
 

@@ -62,7 +62,10 @@ void thr_guide_place(const thr_guide *g, int v, thr_text *t)
 {
   const char *own = g->f->name && g->f->name[v] ? g->f->name[v] : NULL;
   thr_text_printf(t, "%s%s", g->f->foot && g->f->foot[v] ? "foot " : "", g->label[v]);
-  if (g->places.n_columns && own && strcmp(own, g->label[v]) != 0) thr_text_printf(t, " (node %.40s)", own);
+  if (!g->places.n_columns || !own || strcmp(own, g->label[v]) == 0) return;
+  char name[41];
+  thr_text_copy_clean(name, sizeof name, own);
+  thr_text_printf(t, " (node %s)", name);
 }
 
 void thr_guide_ordinal(int n, char word[16])

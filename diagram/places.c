@@ -148,7 +148,7 @@ void thr_places_name(const thr_places *p, const thr_frame *f, int v, char name[4
   if (p->n_columns)
     snprintf(name, 48, "%s%s", p->letter[p->column[v]], p->number[p->row[v]]);
   else if (f->name && f->name[v])
-    snprintf(name, 48, "%.40s", f->name[v]);
+    thr_text_copy_clean(name, 41, f->name[v]);
   else
     snprintf(name, 48, "%d", v);
 }

@@ -10,33 +10,6 @@ double thr_svg_round(double value)
   return value == 0 ? 0 : value;
 }
 
-/* Length of the UTF-8 sequence at s if it is valid and its character is allowed in XML 1.0, else 0. */
-static int utf8_length(const unsigned char *s)
-{
-  if (s[0] < 0x80) return 1;
-  int n = s[0] >= 0xC2 && s[0] < 0xE0 ? 2 : s[0] >= 0xE0 && s[0] < 0xF0 ? 3 : s[0] >= 0xF0 && s[0] < 0xF5 ? 4 : 0;
-  unsigned c = n ? s[0] & (0xFFu >> (n + 1)) : 0;
-  for (int i = 1; i < n; i++) {
-    if ((s[i] & 0xC0) != 0x80) return 0;
-    c = c << 6 | (s[i] & 0x3F);
-  }
-  if (n == 2 && c < 0xA0) return 0; /* C1 control characters */
-  if (n == 3 && (c < 0x800 || (c >= 0xD800 && c < 0xE000) || c >= 0xFFFE)) return 0;
-  if (n == 4 && (c < 0x10000 || c > 0x10FFFF)) return 0;
-  return n;
-}
-
-void thr_svg_escape(thr_text *t, const char *s)
-{
-  while (*s) {
-    char one[5] = {0};
-    int n = utf8_length((const unsigned char *)s);
-    memcpy(one, s, (size_t)(n ? n : 1));
-    thr_text_xml(t, n ? one : "\xEF\xBF\xBD");
-    s += n ? n : 1;
-  }
-}
-
 void thr_svg_open(thr_text *t, double width, double height, const char *title, const char *description)
 {
   thr_text_printf(t,
@@ -44,16 +17,16 @@ void thr_svg_open(thr_text *t, double width, double height, const char *title, c
                   "width=\"%.2fmm\" height=\"%.2fmm\" viewBox=\"0 0 %.2f %.2f\" role=\"img\" aria-labelledby=\"title "
                   "desc\">\n<title id=\"title\">",
                   width, height, width, height);
-  thr_svg_escape(t, title);
+  thr_text_xml(t, title);
   thr_text_append(t, "</title>\n<desc id=\"desc\">");
-  thr_svg_escape(t, description);
+  thr_text_xml(t, description);
   thr_text_append(t, "</desc>\n");
 }
 
 void thr_svg_text(thr_text *t, double x, double y, double size, const char *attributes, const char *s)
 {
   thr_text_printf(t, "<text x=\"%.2f\" y=\"%.2f\" font-size=\"%.2f\"%s>", thr_svg_round(x), thr_svg_round(y), size, attributes);
-  thr_svg_escape(t, s);
+  thr_text_xml(t, s);
   thr_text_append(t, "</text>\n");
 }
 

@@ -7,9 +7,6 @@
 /* Rounded to the two decimals that are printed, and never -0. */
 double thr_svg_round(double value);
 
-/* XML text of any bytes: what is not valid UTF-8 or not allowed in XML becomes U+FFFD or a space. */
-void thr_svg_escape(thr_text *t, const char *s);
-
 /* The document up to its description, in mm; title and description are escaped. Close it with </svg>. */
 void thr_svg_open(thr_text *t, double width, double height, const char *title, const char *description);
 

@@ -23,15 +23,32 @@ typedef struct {
 
 /* ---- fields ---- */
 
+/* Would a spreadsheet take this text for a formula? Numbers with a sign are numbers. */
+static bool is_formula(const char *s)
+{
+  char *end;
+  s += strspn(s, " ");
+  if (!*s || !strchr("=+-@", *s)) return false;
+  double value = strtod(s, &end);
+  return s[strspn(s, "+-.0123456789eE")] || !isfinite(value) || *end;
+}
+
+/* A name of the framework's file, or a word: cleaned, with an apostrophe before what would be a formula, in quotes if needed. */
 static void put_text(table *t, const char *s)
 {
-  bool quoted = s[strcspn(s, ",\"\r\n")] != '\0';
+  thr_text word = {0};
+  thr_text_append_clean(&word, s);
+  const char *c = word.data && !word.failed ? word.data : "";
+  bool quoted = c[strcspn(c, ",\"")] != '\0';
   thr_text_append(t->out, quoted ? "\"" : "");
-  for (; *s; s++) {
-    if (*s == '"') thr_text_append(t->out, "\"");
-    thr_text_append_bytes(t->out, s, 1);
+  if (is_formula(c)) thr_text_append(t->out, "'");
+  for (; *c; c++) {
+    if (*c == '"') thr_text_append(t->out, "\"");
+    thr_text_append_bytes(t->out, c, 1);
   }
   thr_text_append(t->out, quoted ? "\"," : ",");
+  if (word.failed) t->out->failed = true;
+  thr_text_destroy(&word);
 }
 
 static void put_int(table *t, int i)

@@ -190,17 +190,15 @@ static void put_plan(viewer *s)
   thr_text_append(s->out, "]}");
 }
 
-/* Appends JSON as it may stand in a <script>: no "<" and no line separator, which only strings hold. */
+/* Appends JSON as it may stand in a <script>: no "<", which only strings hold; line separators are escaped in them already. */
 static void put_in_script(const thr_text *json, thr_text *out)
 {
   const char *from = json->data, *end = from + json->length;
   for (const char *at = from; at < end; at++) {
-    bool tag = *at == '<', separator = end - at > 2 && (memcmp(at, "\xE2\x80\xA8", 3) == 0 || memcmp(at, "\xE2\x80\xA9", 3) == 0);
-    if (!tag && !separator) continue;
+    if (*at != '<') continue;
     thr_text_append_bytes(out, from, (size_t)(at - from));
-    thr_text_append(out, tag ? "\\u003c" : at[2] == '\xA8' ? "\\u2028" : "\\u2029");
-    from = at + (tag ? 1 : 3);
-    at = from - 1;
+    thr_text_append(out, "\\u003c");
+    from = at + 1;
   }
   thr_text_append_bytes(out, from, (size_t)(end - from));
 }

@@ -1,6 +1,7 @@
 /* How hard must one pull? Three methods behind one interface (docs/method.md, "Pull force").
  * Seating pull = force at the pulled ends such that the slackest point of every cord holds the seating tension (capstan, joint).
- * Holding pull = least pull at which the closed structure has any equilibrium (structure). They are different things. */
+ * Holding pull = least pull at which the closed structure has any equilibrium while the cords are being drawn in (structure).
+ * They are different things. */
 #ifndef THR_EVAL_H
 #define THR_EVAL_H
 

@@ -1,5 +1,7 @@
-/* Holding pull: least pull at which the closed structure of rigid beads has any equilibrium. Rigid-block limit analysis (R. K.
- * Livesley, "Limit analysis of structures formed from rigid blocks", 1978) as a linear programme. */
+/* Holding pull: least pull at which the closed structure of rigid beads has any equilibrium while the cords are being drawn in:
+ * their tension falls from the pulled ends inwards. A cord that was pulled and let go keeps tension inside, since friction acts
+ * against either direction, and may hold at a hundredth of it. Rigid-block limit analysis (R. K. Livesley, "Limit analysis of
+ * structures formed from rigid blocks", 1978) as a linear programme. */
 #ifndef THR_HOLDING_H
 #define THR_HOLDING_H
 
@@ -8,8 +10,9 @@
 
 typedef struct {
   bool present;
-  double lower; /* N: below it no equilibrium exists (friction pyramids round the cones), proved by the power balance of the
-                   mechanism `velocity`, and within a thousandth of the least such pull; 0 if none is needed */
+  double
+      lower; /* N: below it no equilibrium exists while the cords are drawn in (friction pyramids round the cones), proved by the
+                power balance of the mechanism `velocity`, and within a thousandth of the least such pull; 0 if none is needed */
   double upper; /* N: at it an equilibrium exists (pyramids inside the cones), 0 if not computed, INFINITY if none was found. The
                    structure stands by itself if this is 0 too */
   int first_bead; /* that moves fastest in the collapse mechanism just below lower; -1 if lower is 0 */

@@ -497,6 +497,13 @@ static thr_status check(const thr_settle_options *o, thr_err *err)
   return THR_OK;
 }
 
+void thr_settle_judge(thr_settle *s, double start, double equilibrium)
+{
+  if (!s->present || s->status != THR_SETTLE_FELL || !(s->index * start > equilibrium)) return;
+  s->status = THR_SETTLE_CREPT;
+  s->index = 0;
+}
+
 thr_status thr_settle_run(const thr_beads *b, const thr_frame *f, const thr_cord *cord, int n_cords, const double *const *tension,
                           const thr_physics *physics, const thr_settle_options *o, const thr_limits *limits, thr_settle *out,
                           thr_err *err)

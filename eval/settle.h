@@ -15,12 +15,19 @@ typedef struct {
   uint64_t seed;
 } thr_settle_options;
 
-typedef enum { THR_SETTLE_FELL, THR_SETTLE_HELD, THR_SETTLE_NEVER_SETTLED, THR_SETTLE_TOO_LARGE } thr_settle_status;
+typedef enum {
+  THR_SETTLE_FELL,
+  THR_SETTLE_HELD,
+  THR_SETTLE_NEVER_SETTLED,
+  THR_SETTLE_TOO_LARGE,
+  THR_SETTLE_CREPT /* a bead moved at a pull at which an equilibrium exists (thr_settle_judge) */
+} thr_settle_status;
 
 typedef struct {
   bool present;
   int status;                   /* thr_settle_status */
-  double index;                 /* pull at the fall / start: only its order among plans with the same start means anything */
+  double index;                 /* pull at the fall / start: only its order among plans with the same start means anything; 0 =
+                                   none if CREPT */
   int first_bead;               /* that moved; -1 if none */
   double gap_before, gap_after; /* mm, widest gap between two adjacent faces, settled and at the end */
   double drift;                 /* mm, largest movement while settling */
@@ -41,6 +48,11 @@ typedef struct {
  * TOO_LARGE, nothing else.
  */
 extern const int thr_settle_largest;
+
+/* Limit analysis has found an equilibrium at the pull `equilibrium` (N; INFINITY: at none), and so at every larger one, since
+ * more tension only presses the faces more. If the structure fell above it, its contacts crept: status CREPT, no index. */
+void thr_settle_judge(thr_settle *s, double start, double equilibrium);
+
 thr_status thr_settle_run(const thr_beads *b, const thr_frame *f, const thr_cord *cord, int n_cords, const double *const *tension,
                           const thr_physics *physics, const thr_settle_options *o, const thr_limits *limits, thr_settle *out,
                           thr_err *err) THR_MUST_CHECK;

@@ -203,6 +203,7 @@ static thr_status run(const thr_frame *f, const thr_cord *cord, const thr_beads 
                     tension,
                     {.start = start, .time_step = o->time_step, .iterations = o->iterations, .seed = o->seed}};
     st = settle(&m, limits, &out->settle, err);
+    thr_settle_judge(&out->settle, start, out->holding.upper);
   }
   if (!st && b->n_beads <= BAND_LARGEST) st = band(f, cord, b, limits, r, out->band, err);
   fill_record(r, out->holding.lower);

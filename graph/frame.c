@@ -1,6 +1,7 @@
 /* The framework: drafts as readers collect them, welding, adjacency, hash. */
 #include "graph/frame.h"
 #include "graph/disjoint.h"
+#include "graph/units.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,15 +13,6 @@ static const double SHORTEST = 1e-100, LONGEST = 1e100;
 
 /* ---- drafts ---- */
 
-/* Copy of a name that every output can carry: control characters become spaces. Readers see to it that it is UTF-8. */
-static char *clean_name(const char *name)
-{
-  char *copy = thr_strdup(name);
-  for (char *c = copy; c && *c; c++)
-    if ((unsigned char)*c < 32 || *c == 127) *c = ' ';
-  return copy;
-}
-
 thr_status thr_draft_add_node(thr_draft *d, const double xyz[3], const char *name, bool foot, thr_err *err)
 {
   for (int i = 0; i < 3; i++)
@@ -29,7 +21,8 @@ thr_status thr_draft_add_node(thr_draft *d, const double xyz[3], const char *nam
   thr_status st = thr_grow(&d->node, d->n_nodes, &d->nodes_capacity, sizeof *d->node, err);
   if (st) return st;
   char *copy = NULL;
-  if (name && !(copy = clean_name(name))) return thr_nomem(err);
+  if (name && !(copy = thr_strdup(name))) return thr_nomem(err);
+  if (copy) thr_text_clean(copy);
   d->node[d->n_nodes++] = (struct thr_draft_node){{xyz[0], xyz[1], xyz[2]}, copy, foot};
   return THR_OK;
 }
@@ -55,6 +48,14 @@ thr_status thr_draft_edge_passes(thr_draft *d, int cover, int capacity, thr_err 
   d->edge[e].cover = cover;
   d->edge[e].capacity = capacity;
   return THR_OK;
+}
+
+thr_status thr_draft_set_units(thr_draft *d, const char *units, thr_err *err)
+{
+  const char *name;
+  thr_status st = thr_units_find(units, &name, err);
+  if (!st) snprintf(d->units, sizeof d->units, "%s", name);
+  return st;
 }
 
 void thr_draft_destroy(thr_draft *d)
@@ -241,6 +242,35 @@ static thr_status fill_nodes(thr_frame *f, const thr_draft *d, const int *parent
   return THR_OK;
 }
 
+typedef struct {
+  const char *name;
+  int node; /* of the draft */
+} named;
+
+static int by_name(const void *pa, const void *pb)
+{
+  const named *a = pa, *b = pb;
+  int order = strcmp(a->name, b->name);
+  return order ? order : (a->node > b->node) - (a->node < b->node);
+}
+
+/* Options and tables call nodes by their names. O(n log n). */
+static thr_status check_names(const thr_frame *f, const thr_draft *d, const int *parent, const int *index, thr_err *err)
+{
+  named *list = thr_calloc((size_t)f->n_nodes, sizeof *list);
+  if (!list) return thr_nomem(err);
+  for (int v = 0; v < d->n_nodes; v++)
+    if (parent[v] == v && index[v] >= 0) list[index[v]] = (named){f->name[index[v]], v};
+  qsort(list, (size_t)f->n_nodes, sizeof *list, by_name);
+  thr_status st = THR_OK;
+  for (int i = 1; i < f->n_nodes && !st; i++)
+    if (strcmp(list[i - 1].name, list[i].name) == 0)
+      st = thr_fail(err, THR_EINPUT, "nodes %d and %d, counted from 0, are both called '%.40s'; give each its own name",
+                    list[i - 1].node, list[i].node, list[i].name);
+  free(list);
+  return st;
+}
+
 static thr_status fill_edges(thr_frame *f, const thr_draft *d, const int *parent, const int *index, const bool *keep,
                              thr_err *err)
 {
@@ -326,6 +356,7 @@ thr_status thr_draft_build(const thr_draft *d, double tolerance, thr_frame *fram
   }
   if ((st = allocate(&f, n_nodes, n_edges, err))) goto done;
   if ((st = fill_nodes(&f, d, parent, index, err))) goto done;
+  if ((st = check_names(&f, d, parent, index, err))) goto done;
   if ((st = fill_edges(&f, d, parent, index, keep, err))) goto done;
   if ((st = fill_passes(&f, d, keep, err))) goto done;
   snprintf(f.units, sizeof f.units, "%s", d->units[0] ? d->units : "mm");

@@ -16,7 +16,7 @@ typedef struct {
   int *capacity;    /* [n_edges] passes that fit through the edge, 0 = no limit; NULL = no limits */
   bool *foot;       /* [n_nodes] may a cord end come out here (--ends feet)? */
   char **name;      /* [n_nodes] what the file calls the node: an OBJ vertex number, a COMPAS key, .. */
-  char units[16];   /* "mm" unless the file or the user says otherwise */
+  char units[16];   /* short name of the unit (thr_units_name): "mm" unless the file or the user says otherwise */
   bool own_lengths; /* lengths were given, not Euclidean */
   int *first;       /* [n_nodes + 1] half-edges leaving v: half[first[v] .. first[v + 1] - 1], by ascending edge */
   int *half;        /* [2 * n_edges] */
@@ -53,14 +53,16 @@ typedef struct {
   char units[16]; /* "" = not said */
 } thr_draft;
 
-/* Appends a node; name (UTF-8) may be NULL and is copied, control characters as spaces. Coordinates must be finite and
- * below 1e100 (THR_EINPUT otherwise). */
+/* Appends a node; name may be NULL and is copied and cleaned (thr_text_clean). Coordinates must be finite and below 1e100
+ * (THR_EINPUT otherwise). */
 thr_status thr_draft_add_node(thr_draft *d, const double xyz[3], const char *name, bool foot, thr_err *err) THR_MUST_CHECK;
 /* Appends an edge between node indices that exist already (THR_EINPUT otherwise). length 0 = Euclidean. */
 thr_status thr_draft_add_edge(thr_draft *d, int a, int b, double length, thr_err *err) THR_MUST_CHECK;
 /* Of the edge added last: passes that it needs (1 .. 100, 0 = not said) and that fit through it (cover .. 100, 0 = no limit).
  * THR_EINPUT otherwise. */
 thr_status thr_draft_edge_passes(thr_draft *d, int cover, int capacity, thr_err *err) THR_MUST_CHECK;
+/* Says what one unit of the coordinates is: a word that thr_units_find knows, kept as its short name. THR_EINPUT otherwise. */
+thr_status thr_draft_set_units(thr_draft *d, const char *units, thr_err *err) THR_MUST_CHECK;
 void thr_draft_destroy(thr_draft *d);
 
 /* What was done to the file's data, and what is odd about it. */
@@ -79,8 +81,8 @@ typedef struct {
  * zero-length and duplicate edges and isolated nodes, and fills frame and report (nodes_read .. isolated_nodes). The lowest file
  * index of a welded group gives coordinates and name; any member's foot makes it a foot. Of edges that fall together the first
  * one counts. Nodes and edges keep file order.
- * THR_EINPUT if no edge is left or a length is out of range. The draft is unchanged. O(n log n) as long as few nodes lie within
- * the tolerance of each other along one fixed skew direction; quadratic in those. */
+ * THR_EINPUT if no edge is left, a length is out of range, or two nodes that are left have one name. The draft is unchanged. O(n
+ * log n) as long as few nodes lie within the tolerance of each other along one fixed skew direction; quadratic in those. */
 thr_status thr_draft_build(const thr_draft *d, double tolerance, thr_frame *frame, thr_read_report *report,
                            thr_err *err) THR_MUST_CHECK;
 

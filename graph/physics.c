@@ -231,29 +231,6 @@ void thr_physics_write(const thr_physics *p, thr_text *t)
 
 /* ---- against a framework ---- */
 
-static double known_units(const char *units)
-{
-  static const struct {
-    const char *name[5];
-    double mm;
-  } known[] = {{{"mm", "millimeter", "millimeters", "millimetre", "millimetres"}, 1},
-               {{"cm", "centimeter", "centimeters", "centimetre", "centimetres"}, 10},
-               {{"m", "meter", "meters", "metre", "metres"}, 1000},
-               {{"in", "inch", "inches"}, 25.4},
-               {{"ft", "foot", "feet"}, 304.8}};
-  for (size_t i = 0; i < sizeof known / sizeof *known; i++)
-    for (int k = 0; k < 5 && known[i].name[k]; k++)
-      if (strcmp(units, known[i].name[k]) == 0) return known[i].mm;
-  return 0;
-}
-
-thr_status thr_units_in_mm(const char *units, double *mm, thr_err *err)
-{
-  *mm = known_units(units);
-  if (*mm > 0) return THR_OK;
-  return thr_fail(err, THR_EINPUT, "units: how long is one \"%s\"? Expected mm, cm, m, in or ft; set them with --units", units);
-}
-
 static int by_value(const void *a, const void *b)
 {
   double x = *(const double *)a, y = *(const double *)b;
@@ -332,11 +309,13 @@ thr_status thr_physics_resolve(const thr_physics *p, const thr_frame *f, thr_phy
 {
   thr_physics r = *p;
   edges e;
-  double mm = known_units(f->units);
+  double mm;
   *out = (thr_physics){0};
   thr_status st = check_values(p, err);
-  if (!st && mm == 0 && (p->cord_diameter > 0 || p->bore > 0 || p->bead_diameter > 0)) st = thr_units_in_mm(f->units, &mm, err);
-  if (!st) st = measure_edges(f, mm > 0 ? mm : 1, &e, err);
+  bool sized = p->cord_diameter > 0 || p->bore > 0 || p->bead_diameter > 0;
+  thr_status known = thr_units_in_mm(f->units, &mm, !st && sized ? err : NULL);
+  if (!st && sized) st = known;
+  if (!st) st = measure_edges(f, known ? 1 : mm, &e, err);
   if (st) return st;
   fill_in(&r, &e);
   if ((st = check_sizes(&r, f, &e, err))) return st;

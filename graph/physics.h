@@ -5,6 +5,7 @@
 
 #include "graph/frame.h"
 #include "graph/json.h"
+#include "graph/units.h"
 
 /* Lengths in mm whatever the framework's units. 0 where it says so means "work it out": thr_physics_resolve. */
 typedef struct {
@@ -62,9 +63,6 @@ thr_status thr_physics_from_json(thr_physics *p, const thr_json *object, const c
 thr_status thr_physics_read(thr_physics *p, const char *path, thr_err *err) THR_MUST_CHECK;
 /* The object, on one line. */
 void thr_physics_write(const thr_physics *p, thr_text *t);
-
-/* Millimetres per unit of a framework: mm, cm, m, in, ft and their names in full; THR_EINPUT for others. */
-thr_status thr_units_in_mm(const char *units, double *mm, thr_err *err) THR_MUST_CHECK;
 
 /* Fills in what is 0 = "work it out" and checks that the parts fit: bore > cord, bead > bore, shortest edge > bore,
  * mu_low <= mu <= mu_high, some mass. THR_EINPUT says which value does not fit and what to change. Edges are measured between

@@ -69,6 +69,14 @@ static thr_status read_edges(const thr_field_reader *r, const thr_json *o, thr_d
   return THR_OK;
 }
 
+static thr_status read_units(const thr_field_reader *r, const thr_json *v, thr_draft *d)
+{
+  thr_err why = {0};
+  if (!v) return THR_OK;
+  if (!thr_json_string(v)) return thr_field_bad(r, "framework.units", "not text");
+  return thr_draft_set_units(d, thr_json_string(v), &why) ? thr_field_bad(r, "framework.units", why.text) : THR_OK;
+}
+
 static thr_status read_hash(const thr_field_reader *r, const thr_json *o, const thr_frame *f)
 {
   char hash[20];
@@ -84,13 +92,16 @@ static thr_status read_frame(const thr_field_reader *r, const thr_json *doc, thr
   const thr_json *o;
   thr_draft d = {0};
   thr_read_report report = {0};
+  thr_err why = {0};
   thr_status st = thr_field_need(r, doc, "framework", THR_JSON_OBJECT, &o);
   if (st) return st;
   if ((st = read_nodes(r, o, &d))) goto done;
   if ((st = read_edges(r, o, &d))) goto done;
-  const char *units = thr_json_string(thr_json_get(o, "units"));
-  snprintf(d.units, sizeof d.units, "%s", units ? units : "");
-  if ((st = thr_draft_build(&d, 0, f, &report, r->err))) goto done;
+  if ((st = read_units(r, thr_json_get(o, "units"), &d))) goto done;
+  if ((st = thr_draft_build(&d, 0, f, &report, &why))) {
+    thr_fail(r->err, st, "%s: framework: %s", r->name, why.text);
+    goto done;
+  }
   if (f->n_nodes != d.n_nodes || f->n_edges != d.n_edges)
     st = thr_field_bad(r, "framework", "has coincident nodes, isolated nodes, or an edge twice");
   else
@@ -120,6 +131,7 @@ static thr_status read_cord(const thr_field_reader *r, const thr_json *v, const 
   if (st) return st;
   if (strlen(thr_json_string(id)) >= sizeof c->id) return thr_field_bad(r, "cords: id", "longer than 11 letters");
   snprintf(c->id, sizeof c->id, "%s", thr_json_string(id));
+  thr_text_clean(c->id);
   if ((st = thr_field_int(r, v, "component", 0, f->n_nodes - 1, &c->component))) return st;
   if ((st = thr_field_need(r, v, "closed", THR_JSON_BOOL, &closed))) return st;
   if ((st = thr_field_need(r, v, "nodes", THR_JSON_ARRAY, &nodes))) return st;
@@ -215,6 +227,7 @@ static thr_status read_symmetry(const thr_field_reader *r, const thr_json *doc, 
   if (st) return st;
   if (strlen(thr_json_string(name)) >= sizeof s->name) return thr_field_bad(r, "symmetry.name", "longer than 15 bytes");
   snprintf(s->name, sizeof s->name, "%s", thr_json_string(name));
+  thr_text_clean(s->name);
   s->present = true;
   st = read_images(r, v, "generators", p->frame.n_nodes, &s->generator, &s->n_generators);
   if (!st) st = read_images(r, v, "images", p->frame.n_nodes, &s->image, &s->n_images);
@@ -274,6 +287,7 @@ static thr_status read_document(thr_field_reader *r, const thr_json *doc, thr_pl
   if (version != 1) return thr_field_bad(r, "version", "written by another version of thread; this one reads version 1");
   const char *generator = thr_json_string(thr_json_get(doc, "generator"));
   if (!(p->generator = thr_strdup(generator ? generator : ""))) return thr_nomem(r->err);
+  thr_text_clean(p->generator);
   if ((st = read_frame(r, doc, &p->frame))) return st;
   if ((st = thr_plan_read_options(r, doc, &p->frame, &p->options))) return st;
   r->code = THR_EVIOLATED;

@@ -93,6 +93,7 @@ static thr_status read_symmetry_options(const thr_field_reader *r, const thr_jso
   if (!group || (!name && thr_json_typeof(group) != THR_JSON_NULL) || (name && (!*name || strlen(name) >= sizeof s->group)))
     return thr_field_bad(r, "options.symmetry.group", "neither null nor a text of 1 to 15 bytes");
   snprintf(s->group, sizeof s->group, "%s", name ? name : "");
+  thr_text_clean(s->group);
   if ((st = thr_field_or_null(r, v, "geometric", &s->geometric))) return st;
   return read_prefer(r, v, s->prefer);
 }

@@ -167,8 +167,8 @@ thr_status thr_frame_read(thr_frame *frame, thr_read_report *report, const char 
   else
     st = thr_draft_parse(&d, report, text.data, text.length, name, format, err);
   if (st) goto done;
-  if (o->units) thr_draft_set_units(&d, o->units);
-  st = thr_draft_build(&d, o->weld, frame, report, &build);
+  if (o->units) st = thr_draft_set_units(&d, o->units, &build);
+  if (!st) st = thr_draft_build(&d, o->weld, frame, report, &build);
   if (st) thr_fail(err, st, "%s: %s", name, build.text);
 done:
   if (st) *report = (thr_read_report){0};

@@ -23,7 +23,8 @@ typedef struct {
   table_kind expected;
   char separator; /* 0 until the first row; ' ' = any run of blanks */
   columns c;
-  thr_names names; /* once edges begin */
+  thr_names names;  /* once edges begin */
+  thr_text scratch; /* for one name at a time */
   thr_draft *d;
   thr_err *err;
   int n_fields;
@@ -179,11 +180,13 @@ static bool all_words(const csv *t)
   return true;
 }
 
-/* ---- rows ---- */
+/* ---- names ---- */
 
-/* Tables that went through floating point call node 7 "7.0". */
+/* Tables that went through floating point call node 7 "7.0". An apostrophe keeps a spreadsheet from taking a name for a formula.
+ */
 static thr_span plain_name(thr_span t)
 {
+  if (t.n > 1 && t.s[0] == '\'' && strchr("=+-@", t.s[1])) t = (thr_span){t.s + 1, t.n - 1};
   size_t n = t.n;
   while (n && t.s[n - 1] == '0')
     n--;
@@ -191,6 +194,29 @@ static thr_span plain_name(thr_span t)
   if (n > 1 && n < t.n && t.s[n - 1] == '.' && thr_span_int((thr_span){t.s, n - 1}, &whole)) t.n = n - 1;
   return t;
 }
+
+/* The name in a field as the draft keeps it, valid until the next call. */
+static thr_status name_in(csv *t, thr_span field, const char **name)
+{
+  field = plain_name(field);
+  t->scratch.length = 0;
+  thr_text_append_bytes(&t->scratch, field.s, field.n);
+  if (t->scratch.failed) return thr_nomem(t->err);
+  thr_text_clean(t->scratch.data);
+  *name = t->scratch.data;
+  return THR_OK;
+}
+
+/* The node that a field names; -1 if there is none. */
+static thr_status node_in(csv *t, thr_span field, int *node)
+{
+  const char *name;
+  thr_status st = name_in(t, field, &name);
+  if (!st) *node = thr_names_find(&t->names, thr_span_of(name));
+  return st;
+}
+
+/* ---- rows ---- */
 
 static thr_status read_coordinates(const csv *t, const int *at, double xyz[3])
 {
@@ -265,26 +291,24 @@ static thr_status add_node(csv *t)
   if (!st) st = read_foot(t, &foot);
   if (st) return st;
 
-  thr_span id = plain_name(field_at(t, t->c.id));
+  thr_span id = field_at(t, t->c.id);
   if (t->c.id >= 0 && id.n == 0) return thr_scan_fail(&t->scan, t->err, "the node has no name in column %d", t->c.id + 1);
-  if (!thr_span_utf8(id)) return thr_scan_fail(&t->scan, t->err, "the node's name is not UTF-8; save the file as UTF-8 text");
+  if (!thr_text_is_utf8(id.s, id.n))
+    return thr_scan_fail(&t->scan, t->err, "the node's name is not UTF-8; save the file as UTF-8 text");
   char number[16];
+  const char *name;
   snprintf(number, sizeof number, "%d", t->d->n_nodes);
-  if (t->c.id < 0) id = thr_span_of(number);
-  char *name = thr_calloc(id.n + 1, 1);
-  if (!name) return thr_nomem(t->err);
-  memcpy(name, id.s, id.n);
-  st = thr_draft_add_node(t->d, xyz, name, foot, t->err);
-  free(name);
-  return st;
+  st = name_in(t, t->c.id < 0 ? thr_span_of(number) : id, &name);
+  return st ? st : thr_draft_add_node(t->d, xyz, name, foot, t->err);
 }
 
 static thr_status add_edge(csv *t)
 {
   int end[2];
   for (int i = 0; i < 2; i++) {
-    thr_span id = plain_name(field_at(t, t->c.ends[i]));
-    end[i] = thr_names_find(&t->names, id);
+    thr_span id = field_at(t, t->c.ends[i]);
+    thr_status st = node_in(t, id, &end[i]);
+    if (st) return st;
     if (end[i] < 0)
       return thr_scan_fail(&t->scan, t->err, "there is no node '%.*s'; the nodes are called '%.40s' to '%.40s'",
                            thr_span_width(id), id.s, t->d->node[0].name, t->d->node[t->d->n_nodes - 1].name);
@@ -347,9 +371,12 @@ static thr_status learn(csv *t, bool *used)
   if ((fresh || nodes_open) && t->n_fields >= 2 && all_words(t)) {
     if (t->expected == NODE_TABLE)
       return thr_scan_fail(&t->scan, t->err, "the header names no columns x and y; name the columns id,x,y,z");
+    int a, b;
     thr_status st = begin_edges(t);
+    if (!st) st = node_in(t, t->field[0], &a);
+    if (!st) st = node_in(t, t->field[1], &b);
     if (st) return st;
-    *used = thr_names_find(&t->names, t->field[0]) < 0 && thr_names_find(&t->names, t->field[1]) < 0;
+    *used = a < 0 && b < 0;
     if (*used) edge_header(t);
     return THR_OK;
   }
@@ -394,6 +421,7 @@ thr_status thr_csv_scan(thr_draft *d, const char *text, size_t n, const char *na
   csv t = {.expected = ANY_TABLE, .d = d, .err = err};
   thr_status st = read_table(&t, text, n, name, content);
   thr_names_destroy(&t.names);
+  thr_text_destroy(&t.scratch);
   if (st) thr_draft_destroy(d);
   return st;
 }
@@ -422,6 +450,8 @@ thr_status thr_csv_parse_pair(thr_draft *draft, const thr_text *nodes, const cha
   if (!st) st = read_table(&e, edges->data, edges->length, edges_name, &content);
   thr_names_destroy(&n.names);
   thr_names_destroy(&e.names);
+  thr_text_destroy(&n.scratch);
+  thr_text_destroy(&e.scratch);
   if (st) thr_draft_destroy(draft);
   return st;
 }

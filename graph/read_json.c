@@ -140,6 +140,16 @@ static thr_status read_index(reader *r, const where *at, const thr_json *v, int 
   return THR_OK;
 }
 
+/* What is not there, or null, leaves the default. */
+static thr_status read_units(reader *r, const where *up, const char *key, const thr_json *v)
+{
+  where here = {up, key, 0};
+  thr_err why = {0};
+  if (thr_json_typeof(v) == THR_JSON_NULL) return THR_OK;
+  if (!thr_json_string(v)) return bad(r, &here, "not text; name a unit of length");
+  return thr_draft_set_units(r->d, thr_json_string(v), &why) ? bad(r, &here, why.text) : THR_OK;
+}
+
 /* ---- names ---- */
 
 /* Appends a name without the quotes of a Python string. */
@@ -180,6 +190,7 @@ static thr_status name_of(reader *r, const where *at, const thr_json *v, const c
     append_name(t, v);
   }
   if (t->failed) return thr_nomem(r->err);
+  thr_text_clean(t->data); /* as the draft keeps it */
   *name = t->data;
   return t->length ? THR_OK : bad(r, at, "not a node's name; use a string or a whole number");
 }
@@ -191,6 +202,7 @@ static thr_status key_name(reader *r, const where *at, const char *key, const ch
   thr_text_append(t, "");
   append_key(t, key);
   if (t->failed) return thr_nomem(r->err);
+  thr_text_clean(t->data);
   *name = t->data;
   return t->length ? THR_OK : bad(r, at, "an empty name");
 }
@@ -300,7 +312,7 @@ static thr_status read_feet(reader *r, const where *up, const thr_json *feet)
 
 static thr_status read_own(reader *r, const where *at, const thr_json *o)
 {
-  const char *node_key, *units = thr_json_string(thr_json_get(o, "units"));
+  const char *node_key;
   const thr_json *nodes = MEMBER(o, &node_key, "nodes", "vertices");
   const thr_json *faces = thr_json_get(o, "faces");
   double version;
@@ -308,8 +320,8 @@ static thr_status read_own(reader *r, const where *at, const thr_json *o)
   if (thr_json_number(thr_json_get(o, "version"), &version) && version > 1 && thr_json_get(o, "format"))
     return bad(r, at, "written by a newer version of this program; this one reads version 1");
   if (!is_array(nodes)) return bad(r, &node_list, "not a list of points [x, y, z]");
-  if (units) thr_draft_set_units(r->d, units);
-  thr_status st = read_own_nodes(r, &node_list, nodes, thr_json_get(o, "names"));
+  thr_status st = read_units(r, at, "units", thr_json_get(o, "units"));
+  if (!st) st = read_own_nodes(r, &node_list, nodes, thr_json_get(o, "names"));
   if (!st) st = read_own_edges(r, at, o);
   for (int i = 0; i < thr_json_size(faces) && !st; i++) {
     where here = {&face_list, NULL, i};
@@ -554,10 +566,10 @@ static thr_status read_assembly(reader *r, const where *at, const thr_json *o)
   const char *node_key, *element_key, *unit_key;
   const thr_json *nodes = MEMBER(o, &node_key, "node_list", "nodes");
   const thr_json *elements = MEMBER(o, &element_key, "element_list", "elements"), *supports = thr_json_get(o, "supports");
-  const char *units = thr_json_string(MEMBER(o, &unit_key, "unit", "units"));
+  const thr_json *units = MEMBER(o, &unit_key, "unit", "units");
   where node_list = {at, node_key, 0}, element_list = {at, element_key, 0}, support_list = {at, "supports", 0};
-  if (units) thr_draft_set_units(r->d, units);
-  thr_status st = read_assembly_nodes(r, &node_list, nodes);
+  thr_status st = read_units(r, at, unit_key, units);
+  if (!st) st = read_assembly_nodes(r, &node_list, nodes);
   if (!st) st = read_assembly_elements(r, &element_list, elements);
   for (int i = 0; i < thr_json_size(supports) && !st; i++) {
     where here = {&support_list, NULL, i}, id = {&here, "node_ind", 0};

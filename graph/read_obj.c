@@ -135,11 +135,12 @@ static thr_status read_comment(obj *o, thr_span line)
   thr_span word;
   if (thr_span_starts(line, "# units: ")) {
     line = thr_span_trim((thr_span){line.s + 9, line.n - 9});
-    char units[sizeof o->d->units] = {0};
-    if (line.n == 0 || line.n >= sizeof units) return THR_OK;
-    memcpy(units, line.s, line.n);
-    thr_draft_set_units(o->d, units);
-    return THR_OK;
+    char units[sizeof o->d->units];
+    thr_err why = {0};
+    snprintf(units, sizeof units, "%.*s", line.n < sizeof units ? (int)line.n : (int)sizeof units - 1, line.s);
+    if (line.n < sizeof units && !thr_draft_set_units(o->d, units, &why)) return THR_OK;
+    return thr_scan_fail(&o->scan, o->err, "this comment's '%.*s' is no unit of length; correct or delete the comment",
+                         thr_span_width(line), line.s);
   }
   if (!thr_span_starts(line, "# feet: ")) return THR_OK;
   line = (thr_span){line.s + 8, line.n - 8};

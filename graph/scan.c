@@ -105,29 +105,6 @@ bool thr_span_starts(thr_span t, const char *start)
   return t.n >= n && memcmp(t.s, start, n) == 0;
 }
 
-/* Length of the UTF-8 sequence at s, 0 if it is none (overlong, surrogate, cut off). */
-static size_t utf8_length(const unsigned char *s, size_t n)
-{
-  if (s[0] < 0x80) return 1;
-  size_t length = s[0] >= 0xf0 ? 4 : s[0] >= 0xe0 ? 3 : 2;
-  if (s[0] < 0xc2 || s[0] > 0xf4 || n < length) return 0;
-  for (size_t i = 1; i < length; i++)
-    if ((s[i] & 0xc0) != 0x80) return 0;
-  bool overlong = (s[0] == 0xe0 && s[1] < 0xa0) || (s[0] == 0xf0 && s[1] < 0x90);
-  bool beyond = (s[0] == 0xed && s[1] > 0x9f) || (s[0] == 0xf4 && s[1] > 0x8f);
-  return overlong || beyond ? 0 : length;
-}
-
-bool thr_span_utf8(thr_span t)
-{
-  for (size_t i = 0; i < t.n;) {
-    size_t length = utf8_length((const unsigned char *)t.s + i, t.n - i);
-    if (!length) return false;
-    i += length;
-  }
-  return true;
-}
-
 int thr_span_width(thr_span t)
 {
   return t.n < 40 ? (int)t.n : 40;
@@ -279,23 +256,9 @@ void thr_sides_destroy(thr_sides *t)
 
 /* ---- draft and report ---- */
 
-void thr_draft_set_units(thr_draft *d, const char *units)
-{
-  static const char *const usual[][2] = {{"millimeter", "mm"},  {"millimeters", "mm"}, {"millimetre", "mm"}, {"centimeter", "cm"},
-                                         {"centimeters", "cm"}, {"centimetre", "cm"},  {"meter", "m"},       {"meters", "m"},
-                                         {"metre", "m"},        {"inch", "in"},        {"inches", "in"},     {"feet", "ft"}};
-  for (size_t i = 0; i < sizeof usual / sizeof *usual; i++)
-    if (thr_span_is(thr_span_of(units), usual[i][0])) units = usual[i][1];
-  size_t n = strlen(units);
-  if (n >= sizeof d->units) n = sizeof d->units - 1;
-  while (n && !thr_span_utf8((thr_span){units, n})) /* do not cut a letter in two */
-    n--;
-  memcpy(d->units, units, n);
-  d->units[n] = '\0';
-}
-
 void thr_report_skip(thr_read_report *r, thr_span keyword)
 {
-  if (r->skipped_records++ == 0)
-    snprintf(r->skipped_kind, sizeof r->skipped_kind, "%.*s", keyword.n < 31 ? (int)keyword.n : 31, keyword.s);
+  if (r->skipped_records++) return;
+  snprintf(r->skipped_kind, sizeof r->skipped_kind, "%.*s", keyword.n < 31 ? (int)keyword.n : 31, keyword.s);
+  thr_text_clean(r->skipped_kind);
 }

@@ -29,8 +29,7 @@ thr_span thr_span_of(const char *s);
 thr_span thr_span_trim(thr_span t);                  /* without blanks at both ends */
 bool thr_span_is(thr_span t, const char *word);      /* equal but for ASCII case */
 bool thr_span_starts(thr_span t, const char *start); /* case counts */
-bool thr_span_utf8(thr_span t);
-int thr_span_width(thr_span t); /* for "%.*s" in messages: at most 40 bytes */
+int thr_span_width(thr_span t);                      /* for "%.*s" in messages: at most 40 bytes */
 
 /* A decimal number that is finite; -0 becomes 0 (writers do not tell them apart). decimal_comma: "1,5" is 1.5. */
 bool thr_span_number(thr_span t, bool decimal_comma, double *x);
@@ -62,9 +61,6 @@ thr_status thr_sides_add(thr_sides *t, const int *corner, int n, thr_err *err) T
 /* Appends each different side to the draft, in order of first appearance. O(n log n). */
 thr_status thr_sides_finish(thr_sides *t, thr_draft *d, thr_err *err) THR_MUST_CHECK;
 void thr_sides_destroy(thr_sides *t);
-
-/* Sets the draft's units, cut to what fits; long names become the usual letters ("millimeter": "mm"). */
-void thr_draft_set_units(thr_draft *d, const char *units);
 
 /* Counts a record that is known or harmless but not used. */
 void thr_report_skip(thr_read_report *r, thr_span keyword);

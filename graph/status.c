@@ -1,5 +1,6 @@
 /* Status codes, error text and checked allocation. */
 #include "graph/status.h"
+#include "graph/text.h"
 
 #include <limits.h>
 #include <stdarg.h>
@@ -16,8 +17,7 @@ thr_status thr_fail(thr_err *err, thr_status code, const char *format, ...)
     va_start(args, format);
     vsnprintf(err->text, sizeof err->text, format, args);
     va_end(args);
-    for (char *c = err->text; *c; c++)
-      if ((unsigned char)*c < 32) *c = ' '; /* names from hostile files must not break the one-line rule */
+    thr_text_clean(err->text); /* it may quote a file or its name */
     err->code = code;
   }
   return code;

@@ -1,9 +1,10 @@
-/* Growing text, number formatting, whole-file input and atomic output. */
+/* Growing text, number formatting, cleaning of foreign text, whole-file input and atomic output. */
 #define _XOPEN_SOURCE 700
 #include "graph/text.h"
 
 #include <math.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -13,6 +14,8 @@
 #include <unistd.h>
 
 enum { MAX_INPUT_BYTES = 1 << 30 };
+
+#define NO_NAME "an empty name is no file; name one, or - for stdin or stdout"
 
 static bool reserve(thr_text *t, size_t extra)
 {
@@ -76,31 +79,109 @@ void thr_text_json_number(thr_text *t, double value)
     thr_text_append(t, "null");
 }
 
+/* ---- letters of foreign text ---- */
+
+enum { BROKEN_LETTER = 0x110000 }; /* one beyond the last code point: bytes that are no UTF-8 */
+
+/* Code point of the letter at s, of which n > 0 bytes are left, and its length in bytes; what is no UTF-8 (Unicode 15, table 3-7)
+ * is one broken letter up to the next byte that can begin another. */
+static uint32_t letter_at(const char *s, size_t n, size_t *length)
+{
+  const unsigned char *b = (const unsigned char *)s;
+  size_t wanted = b[0] < 0x80 ? 1 : b[0] < 0xc2 ? 0 : b[0] < 0xe0 ? 2 : b[0] < 0xf0 ? 3 : b[0] < 0xf5 ? 4 : 0;
+  size_t have = 1;
+  while (have < n && (b[have] & 0xc0) == 0x80 && (wanted < 2 || have < wanted) && b[0] >= 0x80)
+    have++;
+  *length = have;
+  if (wanted != have) return BROKEN_LETTER;
+  uint32_t code = wanted == 1 ? b[0] : b[0] & (0x7fu >> wanted);
+  for (size_t i = 1; i < wanted; i++)
+    code = code << 6 | (b[i] & 0x3fu);
+  bool overlong = (wanted == 3 && code < 0x800) || (wanted == 4 && code < 0x10000);
+  bool nobody = (code >= 0xd800 && code < 0xe000) || code >= BROKEN_LETTER;
+  return overlong || nobody ? BROKEN_LETTER : code;
+}
+
+/* Does this letter steer a terminal, a reader of lines or the direction of writing, instead of standing for itself? C0, DEL, C1;
+ * the marks, embeddings, overrides and isolates of the Unicode bidirectional algorithm (UAX 9); the separators of lines and
+ * paragraphs; and the two code points that XML has no place for. */
+static bool is_control(uint32_t code)
+{
+  return code < 0x20 || (code >= 0x7f && code < 0xa0) || code == 0x61c || code == 0x200e || code == 0x200f ||
+         (code >= 0x2028 && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069) || code == 0xfffe || code == 0xffff;
+}
+
+void thr_text_clean(char *s)
+{
+  char *to = s;
+  for (size_t left = strlen(s), length = 0; left > 0; left -= length, s += length) {
+    uint32_t code = letter_at(s, left, &length);
+    if (code != BROKEN_LETTER && !is_control(code)) {
+      memmove(to, s, length);
+      to += length;
+    } else {
+      *to++ = code == BROKEN_LETTER ? '?' : ' ';
+    }
+  }
+  *to = '\0';
+}
+
+void thr_text_copy_clean(char *to, size_t size, const char *s)
+{
+  size_t n = strnlen(s, size);
+  if (n == size) { /* cut before the letter that does not fit */
+    n = 0;
+    for (size_t length = 0; letter_at(s + n, strnlen(s + n, 4), &length), n + length < size;)
+      n += length;
+  }
+  memcpy(to, s, n);
+  to[n] = '\0';
+  thr_text_clean(to);
+}
+
+void thr_text_append_clean(thr_text *t, const char *s)
+{
+  size_t start = t->length;
+  thr_text_append(t, s);
+  if (t->failed) return;
+  thr_text_clean(t->data + start);
+  t->length = start + strlen(t->data + start);
+}
+
+bool thr_text_is_utf8(const char *s, size_t n)
+{
+  for (size_t i = 0, length = 0; i < n; i += length)
+    if (letter_at(s + i, n - i, &length) == BROKEN_LETTER) return false;
+  return true;
+}
+
 void thr_text_json_string(thr_text *t, const char *s)
 {
   thr_text_append(t, "\"");
-  for (; *s; s++) {
-    unsigned char c = (unsigned char)*s;
-    if (c == '"' || c == '\\')
-      thr_text_printf(t, "\\%c", c);
-    else if (c < 32 || c == 127)
-      thr_text_printf(t, "\\u%04x", c);
+  for (size_t left = strlen(s), length = 0; left > 0; left -= length, s += length) {
+    uint32_t code = letter_at(s, left, &length);
+    if (code == '"' || code == '\\')
+      thr_text_printf(t, "\\%c", (int)code);
+    else if (code == BROKEN_LETTER || is_control(code))
+      thr_text_printf(t, "\\u%04x", code == BROKEN_LETTER ? 0xfffdu : (unsigned)code);
     else
-      thr_text_append_bytes(t, s, 1);
+      thr_text_append_bytes(t, s, length);
   }
   thr_text_append(t, "\"");
 }
 
 void thr_text_xml(thr_text *t, const char *s)
 {
-  for (; *s; s++) {
-    switch (*s) {
+  for (size_t left = strlen(s), length = 0; left > 0; left -= length, s += length) {
+    uint32_t code = letter_at(s, left, &length);
+    switch (code) {
     case '&': thr_text_append(t, "&amp;"); break;
     case '<': thr_text_append(t, "&lt;"); break;
     case '>': thr_text_append(t, "&gt;"); break;
     case '"': thr_text_append(t, "&quot;"); break;
     case '\'': thr_text_append(t, "&apos;"); break;
-    default: thr_text_append_bytes(t, (unsigned char)*s < 32 || *s == 127 ? " " : s, 1);
+    case BROKEN_LETTER: thr_text_append(t, "\xEF\xBF\xBD"); break;
+    default: thr_text_append_bytes(t, is_control(code) ? " " : s, is_control(code) ? 1 : length);
     }
   }
 }
@@ -122,10 +203,35 @@ static thr_status write_stdout(const thr_text *t, thr_err *err)
   return fflush(stdout) == 0 ? THR_OK : write_failed("stdout", err);
 }
 
+/* Waits until what was written is on the disk, where the file is on one: pipes and some file systems know no fsync. */
+static bool reach_disk(int fd)
+{
+  return fsync(fd) == 0 || errno == EINVAL || errno == ENOTSUP || errno == ENOSYS;
+}
+
 static bool write_all(FILE *f, const thr_text *t)
 {
   bool ok = t->length == 0 || fwrite(t->data, 1, t->length, f) == t->length;
-  return fclose(f) == 0 && ok;
+  ok = fflush(f) == 0 && reach_disk(fileno(f)) && ok;
+  int why = errno;
+  bool closed = fclose(f) == 0;
+  if (!ok) errno = why;
+  return closed && ok;
+}
+
+/* The new name is in the folder, which is written back by itself (open group, "fsync"; Linux fsync(2)). Best effort: the file is
+ * whole under either name, and a folder that may be written to but not read cannot be opened. */
+static void folder_reaches_disk(const char *path, size_t folder)
+{
+  char *name = thr_calloc(folder + 2, 1);
+  if (!name) return;
+  memcpy(name, folder ? path : ".", folder ? folder : 1);
+  int fd = open(name, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd >= 0) {
+    (void)reach_disk(fd);
+    close(fd);
+  }
+  free(name);
 }
 
 /* A new file beside path, which then takes path's place; mode is what path is to have. */
@@ -145,6 +251,8 @@ static thr_status replace_file(const thr_text *t, const char *path, mode_t mode,
     st = write_failed(path, err);
     if (!f && fd >= 0) close(fd);
     if (fd >= 0) unlink(temporary);
+  } else {
+    folder_reaches_disk(path, folder);
   }
   free(temporary);
   return st;
@@ -168,6 +276,7 @@ thr_status thr_text_write(const thr_text *t, const char *path, thr_err *err)
 {
   if (t->failed) return thr_nomem(err);
   if (strcmp(path, "-") == 0) return write_stdout(t, err);
+  if (!*path) return thr_fail(err, THR_EIO, NO_NAME);
   struct stat target;
   bool exists = stat(path, &target) == 0;
   if (exists && S_ISDIR(target.st_mode)) return thr_fail(err, THR_EIO, "%s: is a folder; give the name of a file", path);
@@ -191,6 +300,7 @@ thr_status thr_text_write(const thr_text *t, const char *path, thr_err *err)
 thr_status thr_text_read(thr_text *t, const char *path, thr_err *err)
 {
   bool is_stdin = strcmp(path, "-") == 0;
+  if (!*path) return thr_fail(err, THR_EIO, NO_NAME);
   FILE *f = is_stdin ? stdin : fopen(path, "rb");
   if (!f) return thr_fail(err, THR_EIO, "%s: cannot open: %s", path, strerror(errno));
   char block[1 << 16];

@@ -22,16 +22,33 @@ void thr_text_double(thr_text *t, double value);
 /* The same as JSON, which has no word for what is not finite: null. */
 void thr_text_json_number(thr_text *t, double value);
 
-/* JSON string with quotes and escapes; bytes >= 0x20 are passed through as UTF-8. */
+/* Foreign text (of a file, a file's name, the command line) made harmless in place, so that it stays on its line, in its
+ * direction and in its field wherever it is printed, drawn or written: control characters (C0, DEL, C1), marks of writing
+ * direction (U+061C, U+200E, U+200F, U+202A to U+202E, U+2066 to U+2069), the separators of lines and paragraphs (U+2028,
+ * U+2029), U+FFFE and U+FFFF become a blank, and a run of bytes that is no UTF-8 a question mark. All other letters stay. Doing
+ * it twice changes nothing, and text never gets longer. O(bytes). */
+void thr_text_clean(char *s);
+
+/* Appends it so. */
+void thr_text_append_clean(thr_text *t, const char *s);
+
+/* Copies it so, as many whole letters as fit into size bytes. O(size). */
+void thr_text_copy_clean(char *to, size_t size, const char *s);
+
+bool thr_text_is_utf8(const char *s, size_t n);
+
+/* JSON string in quotes, valid whatever the bytes: what thr_text_clean takes for a control character is escaped (a program that
+ * reads it gets it back), what is no UTF-8 is U+FFFD. */
 void thr_text_json_string(thr_text *t, const char *s);
 
-/* XML text with the five entities; control characters become spaces. */
+/* XML text with the five entities, cleaned; what is no UTF-8 is U+FFFD. */
 void thr_text_xml(thr_text *t, const char *s);
 
 void thr_text_destroy(thr_text *t);
 
 /* Writes the text to path through a temporary file in the same folder and rename, so that path is either the
- * old file or the whole new one; "-" is stdout. THR_EIO with the path and the reason; THR_ENOMEM if an append failed. */
+ * old file or the whole new one, and after a loss of power as well: the file is on the disk before it takes the name; "-" is
+ * stdout. THR_EIO with the path and the reason; THR_ENOMEM if an append failed. */
 thr_status thr_text_write(const thr_text *t, const char *path, thr_err *err) THR_MUST_CHECK;
 
 /* Reads a whole file ("-" is stdin) into an empty text. At most 1 GiB. */

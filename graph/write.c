@@ -79,8 +79,7 @@ static void write_json(const thr_frame *f, thr_text *out)
 void thr_obj_write_nodes(const thr_frame *f, thr_text *out)
 {
   thr_text_append(out, "# units: ");
-  for (const char *c = f->units; *c; c++) /* a line break would end the comment */
-    thr_text_append_bytes(out, (unsigned char)*c < 32 ? " " : c, 1);
+  thr_text_append_clean(out, f->units);
   thr_text_append(out, "\n");
   if (has_feet(f)) {
     thr_text_append(out, "# feet: ");

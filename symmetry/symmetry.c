@@ -112,7 +112,7 @@ static thr_status verdict(const thr_symmetries *t, const char *group, thr_err *e
   if (none && t->chosen < 0 && !unsolved) return thr_fail(err, none->why.code, "%s", none->why.text);
   if (!unsolved) return THR_OK;
   if (loose == unsolved)
-    return thr_fail(err, THR_ELIMIT, "%d of %d %s solved, but not proved: %s", loose, asked,
+    return thr_fail(err, THR_ELIMIT, "%d of %d %s solved, but not optimal by the solver's word: %s", loose, asked,
                     asked == 1 ? "group is" : "groups are", none->why.text);
   return thr_fail(err, THR_ELIMIT, "%d of %d %s not solved to the end: %s", unsolved - loose, asked,
                   asked == 1 ? "group was" : "groups were", open->why.text);

@@ -113,14 +113,19 @@ INT64 = 2**63 - 1
 
 # ---- framework ----
 
+UNITS = {"um", "mm", "cm", "dm", "m", "km", "in", "ft", "yd", "unit", "units", "inch", "inches", "foot", "feet", "yard", "yards",
+         "micron", "microns"}
+UNITS |= {prefix + metre for prefix in ("", "micro", "milli", "centi", "deci", "kilo") for metre in ("meter", "meters", "metre", "metres")}
+CONTROL = re.compile("[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ufffe\uffff]")
+
 
 class Frame:
     """Half-edge 2 e + s is edge e seen from its end s; at[v] lists those of node v by ascending edge."""
 
     def __init__(self, o):
         place = "framework"
-        self.units = o["units"] if type(o.get("units")) is str else "mm"
-        require(len(self.units.encode()) <= 15, "framework.units: longer than 15 bytes")
+        self.units = member(o, "units", "text", place, default="mm")
+        require(self.units.isascii() and self.units.lower() in UNITS, "framework.units: no unit of length")
         nodes = member(o, "nodes", "list", place)
         edges = member(o, "edges", "list", place)
         require(nodes and edges, "framework: no nodes or no edges")
@@ -141,6 +146,7 @@ class Frame:
         self.read_edges(o)
         names = member(o, "names", "list", place, default=None)
         require(names is None or len(names) == self.n and all(type(x) is str for x in names), "framework.names: not a name per node")
+        require(names is None or len({CONTROL.sub(" ", x) for x in names}) == self.n, "framework.names: two nodes of one name")
         self.feet = set(integers(o["feet"] if type(o.get("feet")) is list else [], "framework.feet", 0, self.n - 1))
         require(member(o, "hash", "text", place) == self.hash(), f"framework.hash: the framework's is {self.hash()}")
         self.components()

@@ -182,14 +182,15 @@ thr_status thr_branch_begin(thr_branch *b, thr_err *err)
   return st ? st : keep_dual(b, root, d, NULL, NULL, err);
 }
 
+/* Where every open node's bound is above the best price, or none is open, that price is the bound: a plan has it. */
 static void report(const thr_branch *b)
 {
   if (!b->limits->progress) return;
-  int64_t least = INT64_MAX;
+  int64_t least = b->best_price;
   for (int i = 0; i < b->n_nodes; i++)
     if (b->node[i].open && b->node[i].bound < least) least = b->node[i].bound;
   b->limits->progress(b->limits->user, "turning", ldexp((double)b->best_price, -THR_TURNING_BITS),
-                      least == INT64_MAX ? 0 : ldexp((double)least, -THR_TURNING_BITS));
+                      ldexp((double)least, -THR_TURNING_BITS));
 }
 
 /* Rounds of rows until none is violated, the bound is good enough, or rounds stop paying. */

@@ -107,6 +107,128 @@ START_TEST(strings_are_escaped)
 }
 END_TEST
 
+/* UTF-8 of a code point, as RFC 3629 has it; returns its length. */
+static int encode(uint32_t code, char out[5])
+{
+  int n = code < 0x80 ? 1 : code < 0x800 ? 2 : code < 0x10000 ? 3 : 4;
+  static const unsigned char lead[] = {0, 0, 0xc0, 0xe0, 0xf0};
+  memset(out, 0, 5);
+  for (int i = n - 1; i > 0; i--, code >>= 6)
+    out[i] = (char)(0x80 | (code & 0x3f));
+  out[0] = (char)(lead[n] | code);
+  return n;
+}
+
+START_TEST(every_letter_is_kept_or_a_blank)
+{
+  static const uint32_t control[][2] = {{1, 0x1f},        {0x7f, 0x9f},     {0x61c, 0x61c},  {0x200e, 0x200f},
+                                        {0x2028, 0x202e}, {0x2066, 0x2069}, {0xfffe, 0xffff}};
+  for (uint32_t code = 1; code < 0x110000; code++) {
+    char letter[5], text[8];
+    if (code >= 0xd800 && code < 0xe000) continue;
+    bool harmful = false;
+    for (size_t i = 0; i < sizeof control / sizeof *control; i++)
+      harmful |= code >= control[i][0] && code <= control[i][1];
+    encode(code, letter);
+    snprintf(text, sizeof text, "a%sb", letter);
+    ck_assert(thr_text_is_utf8(letter, strlen(letter)));
+    thr_text_clean(text);
+    ck_assert_msg(memcmp(text + 1, harmful ? " " : letter, harmful ? 1 : strlen(letter)) == 0 && text[strlen(text) - 1] == 'b',
+                  "U+%04X", (unsigned)code);
+  }
+}
+END_TEST
+
+START_TEST(broken_letters_are_question_marks)
+{
+  static const char *const known[][2] = {{"\xff", "?"},
+                                         {"a\x80z", "a?z"},
+                                         {"\xc0\xaf!", "?!"},
+                                         {"\xc3", "?"},
+                                         {"\xe2\x82", "?"},
+                                         {"\xe2\x82z", "?z"},
+                                         {"\xed\xa0\x80.", "?."},
+                                         {"\xf4\x90\x80\x80.", "?."},
+                                         {"\xc6o a", "?o a"},
+                                         {"\xc3\xa4\xc3", "\xc3\xa4?"},
+                                         {"\xff\xfe\xc3", "???"},
+                                         {"", ""},
+                                         {"\x1b[31m\x07", " [31m "}};
+  for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+    char text[16];
+    snprintf(text, sizeof text, "%s", known[i][0]);
+    thr_text_clean(text);
+    ck_assert_str_eq(text, known[i][1]);
+    thr_text t = {0};
+    thr_text_append(&t, "\xff");
+    thr_text_append_clean(&t, known[i][0]);
+    ck_assert_str_eq(t.data + 1, known[i][1]);
+    ck_assert_uint_eq(t.length, strlen(t.data));
+    thr_text_destroy(&t);
+  }
+}
+END_TEST
+
+START_TEST(letters_are_not_cut)
+{
+  static const char *const known[][2] = {{"abcdef", "abcd"},
+                                         {"abc\xc3\xa4", "abc"},
+                                         {"ab\xc3\xa4z", "ab\xc3\xa4"},
+                                         {"abc\xf0\x9f\xa7\xb5", "abc"},
+                                         {"abcd", "abcd"},
+                                         {"", ""},
+                                         {"\xf0\x9f\xa7\xb5y", "\xf0\x9f\xa7\xb5"},
+                                         {"a\n\xffz!", "a ?z"}};
+  for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+    char out[5];
+    thr_text_copy_clean(out, sizeof out, known[i][0]);
+    ck_assert_str_eq(out, known[i][1]);
+  }
+}
+END_TEST
+
+/* jansson takes no string that is not UTF-8 or holds a control character. */
+START_TEST(any_bytes_make_json)
+{
+  rng r = rng_make(5);
+  static const char *const piece[] = {"\xe2\x80\xae", "\xe2\x80\xa8", "\xc2\x85", "\"", "\\", "\xf0\x9f\xa7\xb5", "\x7f", "\n"};
+  for (int i = 0; i < 20000; i++) {
+    char raw[64] = "";
+    for (int n = rng_between(&r, 0, 12); n > 0; n--) {
+      char byte[2] = {(char)rng_between(&r, 1, 255), 0};
+      strcat(raw, rng_between(&r, 0, 1) ? byte : piece[rng_between(&r, 0, 7)]);
+    }
+    thr_text t = {0};
+    thr_json *doc;
+    thr_err err = {0};
+    thr_text_append(&t, "[");
+    thr_text_json_string(&t, raw);
+    thr_text_append(&t, "]");
+    ck_assert_msg(thr_json_parse(&doc, t.data, t.length, "t", &err) == THR_OK, "%s: %s", err.text, t.data);
+    if (thr_text_is_utf8(raw, strlen(raw))) ck_assert_str_eq(thr_json_string(thr_json_at(doc, 0)), raw);
+    thr_json_destroy(doc);
+    char once[64], twice[64];
+    strcpy(once, raw);
+    thr_text_clean(once);
+    strcpy(twice, once);
+    thr_text_clean(twice);
+    ck_assert_str_eq(once, twice);
+    ck_assert(thr_text_is_utf8(once, strlen(once)));
+    thr_text_destroy(&t);
+  }
+}
+END_TEST
+
+START_TEST(messages_are_clean)
+{
+  thr_err err = {0};
+  thr_fail(&err, THR_EINPUT, "%s: no\nnode '%s'", "a\x1b]0;x\x07",
+           "\xe2\x80\xae"
+           "b\xff");
+  ck_assert_str_eq(err.text, "a ]0;x : no node ' b?'");
+}
+END_TEST
+
 START_TEST(failed_append_is_remembered)
 {
   thr_text t = {0};
@@ -229,6 +351,11 @@ int main(void)
   ADD_TEST(s, 10, grow_doubles_and_keeps_on_failure);
   ADD_TEST(s, 10, doubles_are_short_and_read_back);
   ADD_TEST(s, 10, strings_are_escaped);
+  ADD_TEST(s, 60, every_letter_is_kept_or_a_blank);
+  ADD_TEST(s, 10, broken_letters_are_question_marks);
+  ADD_TEST(s, 10, letters_are_not_cut);
+  ADD_TEST(s, 60, any_bytes_make_json);
+  ADD_TEST(s, 10, messages_are_clean);
   ADD_TEST(s, 10, failed_append_is_remembered);
   ADD_TEST(s, 10, files_are_replaced_whole);
   ADD_TEST(s, 10, json_values_are_read);

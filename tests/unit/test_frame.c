@@ -293,8 +293,9 @@ static thr_status everything(thr_err *err)
   int component[4], count;
   bool bridge[4];
   thr_status st = THR_OK;
+  static const char *const name[4] = {NULL, "a", "b", "c"};
   for (int v = 0; v < 4 && !st; v++)
-    st = thr_draft_add_node(&d, (double[3]){v, v * v, 0}, v ? "name" : NULL, false, err);
+    st = thr_draft_add_node(&d, (double[3]){v, v * v, 0}, name[v], false, err);
   for (int v = 0; v < 4 && !st; v++)
     st = thr_draft_add_edge(&d, v, (v + 1) % 4, 0, err);
   if (!st) st = thr_draft_build(&d, -1, &f, &r, err);

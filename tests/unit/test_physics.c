@@ -211,13 +211,14 @@ START_TEST(units)
   static const struct {
     const char *name;
     double mm;
-  } known[] = {{"mm", 1}, {"cm", 10}, {"m", 1000}, {"in", 25.4}, {"ft", 304.8}, {"meters", 1000}, {"millimetre", 1}};
+  } known[] = {{"mm", 1},     {"cm", 10},         {"m", 1000}, {"in", 25.4}, {"ft", 304.8}, {"meters", 1000}, {"millimetre", 1},
+               {"um", 0.001}, {"Microns", 0.001}, {"MM", 1},   {"km", 1e6},  {"dm", 100},   {"yards", 914.4}, {"Inch", 25.4}};
   double mm;
   for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
     ck_assert_int_eq(thr_units_in_mm(known[i].name, &mm, NULL), THR_OK);
     ck_assert_double_eq(mm, known[i].mm);
   }
-  static const char *const unknown[] = {"", "furlong", "MM", "mm "};
+  static const char *const unknown[] = {"", "furlong", "unit", "mm ", "mm, verified", "m\n", "millimeterss"};
   for (size_t i = 0; i < sizeof unknown / sizeof *unknown; i++) {
     thr_err err = {0};
     ck_assert_int_eq(thr_units_in_mm(unknown[i], &mm, &err), THR_EINPUT);

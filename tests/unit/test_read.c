@@ -564,6 +564,113 @@ START_TEST(long_inputs)
 }
 END_TEST
 
+/* ---- text that is no part of the format ---- */
+
+START_TEST(units_are_units)
+{
+  static const char *const good[][2] = {{"MM", "mm"}, {"Meters", "m"}, {"inch", "in"}, {"microns", "um"}, {"unit", "unit"}};
+  static const char *const bad[] = {"mm, verified", "", "furlong", "mm ", "millimeters and more", "m\\u000a", "\xc3\xa4"};
+  const char *own = "{\"units\":%s,\"nodes\":[[0,0],[1,1]],\"edges\":[[0,1]]}",
+             *assembly = "{\"unit\":%s,\"nodes\":[{\"point\":[0,0,0]},{\"point\":[0,0,1]}],"
+                         "\"elements\":[{\"end_node_inds\":[0,1]}]}";
+  char text[200], word[60];
+  for (int kind = 0; kind < 2; kind++) {
+    for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
+      thr_read_report r;
+      snprintf(word, sizeof word, "\"%s\"", good[i][0]);
+      snprintf(text, sizeof text, kind ? assembly : own, word);
+      thr_frame f = read_text(text, THR_FORMAT_JSON, &r);
+      ck_assert_str_eq(f.units, good[i][1]);
+      thr_frame_destroy(&f);
+    }
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+      thr_draft d = {0};
+      thr_read_report r = {0};
+      thr_err err = {0};
+      snprintf(word, sizeof word, "\"%s\"", bad[i]);
+      snprintf(text, sizeof text, kind ? assembly : own, word);
+      ck_assert_int_eq(thr_draft_parse(&d, &r, text, strlen(text), "f", THR_FORMAT_JSON, &err), THR_EINPUT);
+      ck_assert(strstr(err.text, kind ? "f: unit: " : "f: units: ") == err.text && strstr(err.text, "is no unit of length"));
+    }
+    snprintf(text, sizeof text, kind ? assembly : own, "5");
+    check_error(text, THR_FORMAT_JSON,
+                kind ? "f: unit: not text; name a unit of length" : "f: units: not text; name a unit of length");
+  }
+}
+END_TEST
+
+START_TEST(comments_name_units_or_are_refused)
+{
+  thr_read_report r;
+  thr_frame f = read_text("# units: Feet\nv 0 0 0\nv 1 0 0\nl 1 2\n", THR_FORMAT_OBJ, &r);
+  ck_assert_str_eq(f.units, "ft");
+  thr_text t = {0};
+  thr_frame_write(&f, THR_FORMAT_OBJ, &t);
+  thr_frame g = read_text(t.data, THR_FORMAT_OBJ, &r);
+  ck_assert_str_eq(g.units, "ft");
+  thr_frame_destroy(&f);
+  thr_frame_destroy(&g);
+  thr_text_destroy(&t);
+  check_error("v 0 0 0\n# units: feet\xc6o a\nv 1 0 0\nl 1 2\n", THR_FORMAT_OBJ,
+              "f:2: this comment's 'feet?o a' is no unit of length; correct or delete the comment");
+  check_error("# units: millimillimillimeters\nv 0 0 0\nv 1 0 0\nl 1 2\n", THR_FORMAT_OBJ,
+              "f:1: this comment's 'millimillimillimeters' is no unit of length; correct or delete the comment");
+}
+END_TEST
+
+/* A right-to-left override and a line separator in a name, an edge that names it as it is written and one as it is kept. */
+START_TEST(names_are_cleaned_where_they_are_read)
+{
+  static const char *const text[] = {
+      "id,x,y\na\xe2\x80\xae,0,0\nb\x1b,1,0\nc,1,1\na\xe2\x80\xae,b\x1b\nb\x1b,c\n",
+      "{\"nodes\":[{\"id\":\"a\\u202e\",\"x\":0,\"y\":0},{\"id\":\"b\\u001b\",\"x\":1,\"y\":0},{\"id\":\"c\",\"x\":1,\"y\":1}],"
+      "\"links\":[{\"source\":\"a\\u202e\",\"target\":\"b\\u001b\"},{\"source\":\"b \",\"target\":\"c\"}]}",
+      "{\"node\":{\"a\\u202e\":{\"x\":0,\"y\":0},\"b\\u001b\":{\"x\":1,\"y\":0},\"c\":{\"x\":1,\"y\":1}},"
+      "\"edge\":{\"a\\u202e\":{\"b\\u001b\":{}},\"b\\u001b\":{\"c\":{}}}}"};
+  for (int i = 0; i < 3; i++) {
+    thr_read_report r;
+    thr_frame f = read_text(text[i], i ? THR_FORMAT_JSON : THR_FORMAT_CSV, &r);
+    ck_assert_int_eq(f.n_edges, 2);
+    ck_assert_str_eq(f.name[0], "a ");
+    ck_assert_str_eq(f.name[1], "b ");
+    thr_frame_destroy(&f);
+  }
+  check_error("{\"node\":{\"a\\u202e\":{\"x\":0,\"y\":0},\"a \":{\"x\":1,\"y\":0}},\"edge\":{}}", THR_FORMAT_JSON,
+              "f: two nodes are called 'a ' (number 1 and number 2); give each its own name");
+}
+END_TEST
+
+START_TEST(two_nodes_of_one_name_are_refused)
+{
+  const char *text = "{\"nodes\":[[0,0],[1,1],[2,0]],\"edges\":[[0,1],[1,2]],\"names\":[\"a\",\"b\",\"a\"]}";
+  thr_draft d = {0};
+  thr_read_report r = {0};
+  thr_frame f;
+  thr_err err = {0};
+  ck_assert_int_eq(thr_draft_parse(&d, &r, text, strlen(text), "f", THR_FORMAT_JSON, NULL), THR_OK);
+  ck_assert_int_eq(thr_draft_build(&d, -1, &f, &r, &err), THR_EINPUT);
+  ck_assert_str_eq(err.text, "nodes 0 and 2, counted from 0, are both called 'a'; give each its own name");
+  ck_assert(f.n_nodes == 0 && f.xyz == NULL);
+  d.node[2].xyz[0] = d.node[2].xyz[1] = 0; /* where the first one is: they are one node */
+  ck_assert_int_eq(thr_draft_build(&d, -1, &f, &r, NULL), THR_OK);
+  ck_assert_int_eq(f.n_nodes, 2);
+  thr_frame_destroy(&f);
+  thr_draft_destroy(&d);
+}
+END_TEST
+
+START_TEST(an_apostrophe_is_no_part_of_a_name)
+{
+  thr_read_report r;
+  thr_frame f = read_text("id,x,y\n'=A1,0,0\n'-b,1,0\n'c,1,1\n=A1,'-b\n-b,'c\n", THR_FORMAT_CSV, &r);
+  static const char *const name[] = {"=A1", "-b", "'c"};
+  for (int v = 0; v < 3; v++)
+    ck_assert_str_eq(f.name[v], name[v]);
+  ck_assert_int_eq(f.n_edges, 2);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* ---- memory ---- */
 
 /* Reads, writes and reads again. */
@@ -648,6 +755,11 @@ static void add_tests(TCase *t)
   tcase_add_test(t, options_override);
   tcase_add_test(t, file_errors);
   tcase_add_test(t, long_inputs);
+  tcase_add_test(t, units_are_units);
+  tcase_add_test(t, comments_name_units_or_are_refused);
+  tcase_add_test(t, names_are_cleaned_where_they_are_read);
+  tcase_add_test(t, two_nodes_of_one_name_are_refused);
+  tcase_add_test(t, an_apostrophe_is_no_part_of_a_name);
   tcase_add_loop_test(t, every_allocation_may_fail, 0, sizeof small_files / sizeof *small_files);
 }
 

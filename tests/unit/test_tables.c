@@ -366,7 +366,7 @@ START_TEST(sizes_follow_the_units)
     assert_says(&c, 1, known[i], "");
   }
   assert_says(&c, 1, "cut", "");
-  assert_says(&c, 1, "unit", "cu,bi\nts");
+  assert_says(&c, 1, "unit", "cu,bi ts");
   for (int row = 1; row < d.n_rows; row++) {
     assert_says(&d, row, "bore_mm", "");
     ck_assert_double_ge(number(&d, row, "bore_cords"), 1);
@@ -378,6 +378,33 @@ START_TEST(sizes_follow_the_units)
   thr_plan_destroy(&mm);
   thr_plan_destroy(&m);
   thr_plan_destroy(&cubits);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* What a spreadsheet would take for a formula gets an apostrophe; numbers with a sign stay numbers. */
+START_TEST(names_are_no_formulas)
+{
+  static const char *const name[][2] = {{"=1+1", "'=1+1"}, {"-12.5", "-12.5"},  {"@SUM(A1)", "'@SUM(A1)"}, {"+1e3", "+1e3"},
+                                        {"-", "'-"},       {"-2+3", "'-2+3"},   {"\t=x", "_=x"},           {"+1e999", "'+1e999"},
+                                        {"a=1", "a=1"},    {"-0x10", "'-0x10"}, {"=\"a\",b", "'=\"a\",b"}, {"-inf", "'-inf"}};
+  enum { N = sizeof name / sizeof *name };
+  thr_frame f = path_make(N);
+  for (int v = 0; v < N; v++) {
+    free(f.name[v]);
+    f.name[v] = thr_strdup(name[v][0]);
+  }
+  thr_plan p = plan_simple(&f, THR_ENDS_ANY, 1);
+  csv c = table_of(&p, STEPS, NULL), b = table_of(&p, BEADS, NULL);
+  for (int row = 1; row < c.n_rows; row++) {
+    assert_says(&c, row, "from", name[(int)number(&c, row, "from_node")][1]);
+    assert_says(&c, row, "to", name[(int)number(&c, row, "to_node")][1]);
+  }
+  for (int row = 1; row < N; row++)
+    assert_says(&b, row, "from", name[row - 1][1]);
+  csv_destroy(&c);
+  csv_destroy(&b);
+  thr_plan_destroy(&p);
   thr_frame_destroy(&f);
 }
 END_TEST
@@ -536,6 +563,7 @@ int main(void)
   ADD_TEST(s, 20, left_is_left_on_flat_ground);
   ADD_LOOP(s, 30, cords_are_cut_long_enough, 0, N_PLANS);
   ADD_TEST(s, 20, repetitions_are_said);
+  ADD_TEST(s, 20, names_are_no_formulas);
   ADD_TEST(s, 20, sizes_follow_the_units);
   ADD_LOOP(s, 30, beads_are_the_framework, 0, N_PLANS);
   ADD_TEST(s, 20, tube_joints_have_no_node_beads);

@@ -226,7 +226,7 @@ START_TEST(names_cannot_end_the_script)
     ck_assert(memcmp(at, "\xE2\x80\xA8", 3) != 0 && memcmp(at, "\xE2\x80\xA9", 3) != 0);
   for (int v = 0; v < 4; v++) {
     const char *place = thr_json_string(thr_json_at(thr_json_get(doc, "places"), v));
-    ck_assert_msg(strstr(place, bad[v]) != NULL, "%s", place);
+    ck_assert_msg(strstr(place, v == 2 ? "a_b_" : bad[v]) != NULL, "%s", place); /* separators are cleaned away */
   }
   thr_json_destroy(doc);
   thr_text_destroy(&page);

@@ -1,0 +1,17 @@
+/* Units of length: which words a file may use for them, and how long they are. */
+#ifndef THR_UNITS_H
+#define THR_UNITS_H
+
+#include "graph/status.h"
+
+/* The usual short name ("mm") of a unit called by that name, by its names in full ("Millimeters") or by another short name, in
+ * either case; NULL if the word is none. "unit" is a length that nobody knows. Static. */
+const char *thr_units_name(const char *word);
+
+/* THR_EINPUT if the word is no unit, with the word and those that are; *name as above. */
+thr_status thr_units_find(const char *word, const char **name, thr_err *err) THR_MUST_CHECK;
+
+/* Millimetres in one unit, by its short name or any other; THR_EINPUT if it is none whose length is known. */
+thr_status thr_units_in_mm(const char *units, double *mm, thr_err *err) THR_MUST_CHECK;
+
+#endif
