@@ -223,8 +223,8 @@ class Frame:
         scaled = []
         for h, sign in ((a, -1), (b, 1)):
             u = [sign * (q - p) for p, q in zip(self.xyz[self.tail(h)], self.xyz[self.tail(h ^ 1)])]
-            shift = math.frexp(max(map(abs, u)))[1]
-            scaled.append([math.ldexp(x, -shift) for x in u])
+            largest = max(map(abs, u))
+            scaled.append([x / largest for x in u])
         (a0, a1, a2), (b0, b1, b2) = scaled
         d = a0 * b0 + a1 * b1 + a2 * b2
         return a == b or d <= 0 or d * d <= 1e-12 * ((a0 * a0 + a1 * a1 + a2 * a2) * (b0 * b0 + b1 * b1 + b2 * b2))
@@ -645,14 +645,14 @@ class Certificate:
         return self.base + self.as_length(self.weight_bound(ends))
 
 
-def check_claim(p, claim, own, optimal, bound, scale, place, gap=True):
-    """status, lower_bound and gap of a claim, against what is proved."""
+def check_claim(claim, own, optimal, bound, more, place, gap=True):
+    """status, lower_bound and gap of a claim, against what is proved. more: added to a value for what its rounding is a part of."""
     status = choice(claim, "status", place, ("optimal", "bound"))
     stated = Fraction(member(claim, "lower_bound", "number", place, 0))
-    slack = TOLERANCE * Fraction(scale)
+    slack, proved = TOLERANCE * (more + own), own if optimal else bound
     require(bound <= own + slack, f"{place}: the proof gives {float(bound)}, which is more than the plan's own {float(own)}")
     require(status == "bound" or optimal, f"{place}: not optimal, {float(bound)} is proved")
-    require(stated <= (own if optimal else bound) + slack, f"{place}.lower_bound: stated {float(stated)}, but {float(bound)} is proved")
+    require(stated <= proved + TOLERANCE * (more + proved), f"{place}.lower_bound: stated {float(stated)}, but {float(bound)} is proved")
     require(status == "bound" or abs(stated - own) <= slack, f"{place}.lower_bound: not the plan's own")
     if gap:
         value = (own - stated) / own if own else 0
@@ -681,7 +681,7 @@ def check_length(p):
             p.certificate.append(Certificate(p, o, f"{place}.certificate[{c}]", c))
         optimal = all(c.optimal for c in p.certificate)
         bound = sum(c.own if c.optimal else c.least(2 * p.options.cords) for c in p.certificate)
-    status = check_claim(p, claim, p.length, optimal, bound, p.length, place)
+    status = check_claim(claim, p.length, optimal, bound, 0, place)
     p.least = p.length if optimal else bound
     slack = p.options.slack if p.options.objective == "tortuosity" else None
     if "slack" in claim:
@@ -1002,7 +1002,7 @@ def check_cords_claim(p):
     if unit:
         bound = max(bound, unit * math.ceil(bound / unit * (1 - 2 * TOLERANCE)))
     optimal = own - bound <= TOLERANCE * own
-    words = ["longest cord " + check_claim(p, stated, own, optimal, bound, own, place + ".longest", gap=False)]
+    words = ["longest cord " + check_claim(stated, own, optimal, bound, 0, place + ".longest", gap=False)]
     if "fewest" in claim:
         require(o.max_length is not None and o.least < o.cords, f"{place}.fewest: without max_length and a range of cords")
         stated, place = member(claim, "fewest", "object", place), place + ".fewest"
@@ -1083,29 +1083,30 @@ def check_turning(p):
     require(limit is None or o.slack is not None, f"{place}.length_limit: the options allow any length")
     require(limit is None or "length" in p.proof, f"{place}.length_limit: without a proof of the least length")
     needed = None if limit is None else (1 + Fraction(o.slack)) * p.least
-    require(limit is None or limit >= needed * (1 - TOLERANCE), f"{place}.length_limit: the options allow up to {float(needed or 0)}")
+    require(limit is None or limit >= needed * (1 - TOLERANCE / 200), f"{place}.length_limit: the options allow up to {float(needed or 0)}")
     require(limit is None or p.length <= Fraction(limit) * (1 + TOLERANCE), f"{place}.length_limit: the plan is longer")
     model = Model(p, o.cords, most, False)
-    model.limit = limit and Fraction(limit) * (1 + TOLERANCE)
+    model.limit = None if limit is None else max(Fraction(limit), p.length) * (1 + TOLERANCE / 100)
     model.read(member(claim, "proof", "object", place), place + ".proof")
     bound = model.bound(place + ".proof")
     require(bound is not None, f"{place}.proof: proves that there is no plan")
     bound = max(Fraction(0), Fraction(bound) / UNIT)
     if p.closing and o.cost != "step":  # Fenchel 1929; sin(x / 2) >= x / pi
         bound = max(bound, Fraction(2 * math.pi if o.cost == "angle" else 2) * o.least * len(f.pieces))
-    rounding = 2 * TOLERANCE * Fraction(math.pi if o.cost == "angle" else 1) * sum(p.passes)
+    rounding = 2 * TOLERANCE * Fraction(math.pi if o.cost == "angle" else 1) * sum(min(x, 2 * n) for x, n in zip(p.passes, o.need))
     optimal = price - bound <= rounding
-    scale = max(price, 1)
+    scale = 1 + price
     p.close(member(claim, "price", "number", place), price, scale, place + ".price")
-    status = check_claim(p, claim, Fraction(price), optimal, bound, scale, place)
-    require(member(claim, "pairing_bound", "number", place, 0) <= pairing_bound(p) + 1e-9 * scale, f"{place}.pairing_bound: too large")
+    status = check_claim(claim, Fraction(price), optimal, bound, 1, place)
+    pairing = pairing_bound(p)
+    require(member(claim, "pairing_bound", "number", place, 0) <= pairing + 1e-9 * (1 + pairing), f"{place}.pairing_bound: not {pairing}")
     largest = member(claim, "largest", "object", place)
     known(largest, "status price lower_bound", place + ".largest")
     p.close(member(largest, "price", "number", place + ".largest"), max(prices), scale, place + ".largest.price")
     number = len(p.cords) if o.ends == "counts" else o.cords * len(f.pieces)
     share = (Fraction(price) if optimal else bound) / number
     attained = max(prices) - share <= rounding
-    word = check_claim(p, largest, Fraction(max(prices)), attained, share, scale, place + ".largest", gap=False)
+    word = check_claim(largest, Fraction(max(prices)), attained, share, 1, place + ".largest", gap=False)
     return [f"turning {status}", f"largest turning {word}", f"at most {most} passes over any edge"] + (
         [f"at most {limit} {f.units} of cord"] if limit is not None else [])
 
