@@ -1,7 +1,7 @@
 /* The shortest tied cords, then as many as asked for, evened out by exchanges that leave the nodes tied. */
 #include "tortuosity/tube_cords.h"
 #include "graph/check.h"
-#include "graph/pieces.h"
+#include "graph/components.h"
 #include "lp/balance.h"
 #include "lp/share_tied_exact.h"
 #include "tortuosity/tube.h"
@@ -308,7 +308,7 @@ static void move_cords(thr_tube *t, thr_plan *plan)
 }
 
 /* Every piece by itself: one may need more cords than another, or hold fewer. */
-static thr_status make_pieces(several *x, const thr_pieces *p, thr_plan *made, thr_plan *plan, thr_err *err)
+static thr_status make_pieces(several *x, const thr_components *p, thr_plan *made, thr_plan *plan, thr_err *err)
 {
   thr_limits quiet = *x->limits;
   thr_status st = THR_OK;
@@ -317,26 +317,26 @@ static thr_status make_pieces(several *x, const thr_pieces *p, thr_plan *made, t
     thr_plan asked;
     thr_cords_word word;
     thr_err why = {0};
-    if ((st = thr_piece_take(p, k, &asked, err))) return st;
+    if ((st = thr_component_take(p, k, &asked, err))) return st;
     st = thr_tube_cords_plan(&asked.frame, &asked.options, &quiet, &made[k], &word, &why);
     x->certain &= word.longest_least || made[k].cords_claim.longest_optimal;
     st = st && st != THR_ELIMIT ? thr_fail(err, st, "%s", why.text) : THR_OK;
     thr_plan_destroy(&asked);
   }
-  return st ? st : thr_pieces_join(p, made, plan, err);
+  return st ? st : thr_components_join(p, made, plan, err);
 }
 
 static thr_status plan_pieces(several *x, thr_plan *plan, thr_err *err)
 {
-  thr_pieces p;
-  thr_status st = thr_pieces_init(&p, x->f, x->o, err);
+  thr_components p;
+  thr_status st = thr_components_init(&p, x->f, x->o, err);
   if (st) return st;
   thr_plan *made = thr_calloc((size_t)p.n, sizeof *made);
   st = made ? make_pieces(x, &p, made, plan, err) : thr_nomem(err);
   for (int k = 0; made && k < p.n; k++)
     thr_plan_destroy(&made[k]);
   free(made);
-  thr_pieces_destroy(&p);
+  thr_components_destroy(&p);
   return st;
 }
 

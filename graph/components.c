@@ -1,10 +1,10 @@
 /* Pieces of a framework, and plans of them put together again. */
-#include "graph/pieces.h"
+#include "graph/components.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-void thr_pieces_destroy(thr_pieces *p)
+void thr_components_destroy(thr_components *p)
 {
   free(p->component);
   free(p->local);
@@ -12,7 +12,7 @@ void thr_pieces_destroy(thr_pieces *p)
   free(p->node);
   free(p->first_edge);
   free(p->edge);
-  *p = (thr_pieces){0};
+  *p = (thr_components){0};
 }
 
 /* Items in order of their keys, of which there are n: a counting sort. */
@@ -29,7 +29,7 @@ static void sort_by(const int *key, int n_items, int *first, int n, int *item)
   first[0] = 0;
 }
 
-static thr_status sort_all(thr_pieces *p, thr_err *err)
+static thr_status sort_all(thr_components *p, thr_err *err)
 {
   const thr_frame *f = p->f;
   size_t n = (size_t)p->n + 1;
@@ -52,18 +52,18 @@ static thr_status sort_all(thr_pieces *p, thr_err *err)
   return st;
 }
 
-thr_status thr_pieces_init(thr_pieces *p, const thr_frame *f, const thr_plan_options *o, thr_err *err)
+thr_status thr_components_init(thr_components *p, const thr_frame *f, const thr_plan_options *o, thr_err *err)
 {
-  *p = (thr_pieces){.f = f, .o = o, .component = thr_calloc((size_t)f->n_nodes, sizeof *p->component)};
+  *p = (thr_components){.f = f, .o = o, .component = thr_calloc((size_t)f->n_nodes, sizeof *p->component)};
   thr_status st = p->component ? thr_frame_components(f, p->component, &p->n, err) : thr_nomem(err);
   if (!st) st = sort_all(p, err);
-  if (st) thr_pieces_destroy(p);
+  if (st) thr_components_destroy(p);
   return st;
 }
 
 /* ---- taking one out ---- */
 
-static thr_status allocate(const thr_pieces *p, thr_frame *t, thr_plan_options *o, thr_err *err)
+static thr_status allocate(const thr_components *p, thr_frame *t, thr_plan_options *o, thr_err *err)
 {
   size_t n = (size_t)t->n_nodes, m = (size_t)t->n_edges;
   bool good = (t->xyz = thr_calloc(n, sizeof *t->xyz)) && (t->foot = thr_calloc(n, sizeof *t->foot)) &&
@@ -77,7 +77,7 @@ static thr_status allocate(const thr_pieces *p, thr_frame *t, thr_plan_options *
   return good ? THR_OK : thr_nomem(err);
 }
 
-static thr_status copy_nodes(const thr_pieces *p, int k, thr_frame *t, thr_plan_options *o, thr_err *err)
+static thr_status copy_nodes(const thr_components *p, int k, thr_frame *t, thr_plan_options *o, thr_err *err)
 {
   for (int i = 0; i < t->n_nodes; i++) {
     int v = p->node[p->first_node[k] + i];
@@ -90,7 +90,7 @@ static thr_status copy_nodes(const thr_pieces *p, int k, thr_frame *t, thr_plan_
   return THR_OK;
 }
 
-static void copy_edges(const thr_pieces *p, int k, thr_frame *t)
+static void copy_edges(const thr_components *p, int k, thr_frame *t)
 {
   for (int i = 0; i < t->n_edges; i++) {
     int e = p->edge[p->first_edge[k] + i];
@@ -102,7 +102,7 @@ static void copy_edges(const thr_pieces *p, int k, thr_frame *t)
   }
 }
 
-thr_status thr_piece_take(const thr_pieces *p, int k, thr_plan *out, thr_err *err)
+thr_status thr_component_take(const thr_components *p, int k, thr_plan *out, thr_err *err)
 {
   *out = (thr_plan){.options = *p->o};
   out->options.end_node = NULL;
@@ -125,12 +125,12 @@ thr_status thr_piece_take(const thr_pieces *p, int k, thr_plan *out, thr_err *er
 
 /* ---- putting them together ---- */
 
-static void give_cords(const thr_pieces *p, int k, thr_plan *piece, thr_plan *whole)
+static void give_cords(const thr_components *p, int k, thr_plan *component, thr_plan *whole)
 {
-  for (int i = 0; i < piece->n_cords; i++) {
+  for (int i = 0; i < component->n_cords; i++) {
     thr_cord *c = &whole->cord[whole->n_cords];
-    *c = piece->cord[i];
-    piece->cord[i].half = NULL;
+    *c = component->cord[i];
+    component->cord[i].half = NULL;
     c->component = k;
     thr_cord_id(whole->n_cords++, c->id);
     for (int j = 0; j < c->n_passes; j++)
@@ -138,21 +138,21 @@ static void give_cords(const thr_pieces *p, int k, thr_plan *piece, thr_plan *wh
   }
 }
 
-thr_status thr_pieces_join(const thr_pieces *p, thr_plan *piece, thr_plan *whole, thr_err *err)
+thr_status thr_components_join(const thr_components *p, thr_plan *component, thr_plan *whole, thr_err *err)
 {
   size_t n = 0;
   for (int k = 0; k < p->n; k++)
-    n += (size_t)piece[k].n_cords;
+    n += (size_t)component[k].n_cords;
   if (!(whole->cord = thr_calloc(n, sizeof *whole->cord))) return thr_nomem(err);
   for (int k = 0; k < p->n; k++)
-    give_cords(p, k, &piece[k], whole);
+    give_cords(p, k, &component[k], whole);
   return THR_OK;
 }
 
-void thr_piece_give_certificate(const thr_pieces *p, int k, thr_plan *piece, thr_certificate *c)
+void thr_component_give_certificate(const thr_components *p, int k, thr_plan *component, thr_certificate *c)
 {
-  if (piece->proof.n_certificates != 1) return;
-  thr_certificate *own = &piece->proof.certificate[0];
+  if (component->proof.n_certificates != 1) return;
+  thr_certificate *own = &component->proof.certificate[0];
   thr_certificate_destroy(c);
   *c = *own;
   *own = (thr_certificate){0};
