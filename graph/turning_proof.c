@@ -49,6 +49,8 @@ typedef struct {
   wide *reduced; /* [n_columns] price less what the multipliers take */
   bool *member;  /* [2 * n_edges + n_ends] all false between sets */
   wide constant;
+  int *edges; /* [n_components] */
+  bool *open; /* [n_components] may cords end there? */
 } leaf;
 
 static thr_status check_set(const char *what, int i, const thr_turning_set *s, int limit, thr_err *err)
@@ -94,13 +96,11 @@ static void take_odd(leaf *k, const thr_turning_set *s)
 {
   const thr_turning_columns *c = k->c;
   int darts = 2 * c->f->n_edges;
-  for (int j = 0; j < s->n; j++) {
+  bool ends = s->member[s->n - 1] >= darts; /* members ascend */
+  for (int e = c->first_end; ends && e < c->first_back; e++)
+    if (k->member[darts + c->end_group[thr_tail(c->f, c->half[e][0])]] && !k->member[c->half[e][0]]) k->reduced[e] -= s->value;
+  for (int j = 0; j < s->n && s->member[j] < darts; j++) {
     int h = s->member[j];
-    if (h >= darts) {
-      for (int e = c->first_end; e < c->first_back; e++)
-        if (c->end_group[thr_tail(c->f, c->half[e][0])] == h - darts && !k->member[c->half[e][0]]) k->reduced[e] -= s->value;
-      continue;
-    }
     take_turns(k, h, false, s->value);
     if (!k->member[h ^ 1]) k->reduced[c->first_extra + (h >> 1)] -= s->value;
     if (c->end_column[h] >= 0 && !k->member[darts + c->end_group[thr_tail(c->f, h)]]) k->reduced[c->end_column[h]] -= s->value;
@@ -129,15 +129,13 @@ static thr_status run_odd(leaf *k, int i, thr_err *err)
 static thr_status check_group(const leaf *k, int i, const thr_turning_set *s, thr_err *err)
 {
   const thr_turning_columns *c = k->c;
-  if (thr_turning_open(c, c->component[c->f->edge[s->member[0]][0]])) return THR_OK; /* a cord through it has two ends */
+  int own = c->component[c->f->edge[s->member[0]][0]];
+  if (k->open[own]) return THR_OK; /* a cord through it has two ends */
   if (c->task->cords > 1) return thr_fail(err, THR_EVIOLATED, "turning proof: group %d: several closed cords need not meet", i);
-  int own = c->component[c->f->edge[s->member[0]][0]], edges = 0;
   for (int j = 0; j < s->n; j++)
     if (c->component[c->f->edge[s->member[j]][0]] != own)
       return thr_fail(err, THR_EVIOLATED, "turning proof: group %d: edges of two components", i);
-  for (int e = 0; e < c->f->n_edges; e++)
-    edges += c->component[c->f->edge[e][0]] == own;
-  if (edges == s->n) return thr_fail(err, THR_EVIOLATED, "turning proof: group %d: a whole component", i);
+  if (k->edges[own] == s->n) return thr_fail(err, THR_EVIOLATED, "turning proof: group %d: a whole component", i);
   return THR_OK;
 }
 
@@ -284,21 +282,27 @@ static wide shifted_down(wide n)
   return n / one - (n % one < 0);
 }
 
-/* Least value over the box. With multipliers below 2^58 and sets below 2^62 together, reduced prices stay below 2^63, and nothing
- * here comes near 2^127. */
-static int64_t least_over_box(const leaf *k, const int *low, const int *high)
+/* What column j adds to the least value, between these bounds. With multipliers below 2^58 and sets below 2^62 together, reduced
+ * prices stay below 2^63, and nothing here comes near 2^127. */
+static wide column_adds(const leaf *k, int j, int least, int most)
+{
+  wide reduced = k->reduced[j];
+  return reduced * (reduced < 0 ? most : least);
+}
+
+/* The multiplier of the length: what it takes off the prices of extra passes, and off the sum. */
+static void take_length(leaf *k)
 {
   const thr_turning_columns *c = k->c;
   int64_t length = c->extra_limit < 0 ? 0 : k->d->length;
-  wide total = k->constant - shifted_down((wide)length * c->extra_limit) - (length > 0);
-  for (int j = 0; j < c->n_columns; j++) {
-    int least = low ? low[j] : 0, most = high ? high[j] : thr_turning_most(c, j);
-    if (least > most) return INT64_MAX;
-    wide reduced = k->reduced[j];
-    if (j >= c->first_extra && j < c->first_end && length > 0)
-      reduced += shifted_down((wide)length * c->length[j - c->first_extra]);
-    total += reduced * (reduced < 0 ? most : least);
-  }
+  if (length == 0) return;
+  k->constant -= shifted_down((wide)length * c->extra_limit) + 1;
+  for (int j = c->first_extra; j < c->first_end; j++)
+    k->reduced[j] += shifted_down((wide)length * c->length[j - c->first_extra]);
+}
+
+static int64_t in_64_bits(wide total)
+{
   return total > INT64_MAX ? INT64_MAX : total < INT64_MIN ? INT64_MIN : (int64_t)total;
 }
 
@@ -324,27 +328,64 @@ static thr_status check_sizes(const thr_turning_columns *c, const thr_turning_du
   return thr_fail(err, THR_EVIOLATED, "turning proof: a multiplier is too large, or that of the length negative");
 }
 
+static void leaf_destroy(leaf *k)
+{
+  free(k->reduced);
+  free(k->member);
+  free(k->edges);
+  free(k->open);
+  *k = (leaf){0};
+}
+
+static thr_status leaf_allocate(leaf *k, thr_err *err)
+{
+  const thr_turning_columns *c = k->c;
+  k->reduced = thr_calloc((size_t)c->n_columns, sizeof *k->reduced);
+  k->member = thr_calloc(2 * (size_t)c->f->n_edges + (size_t)c->n_ends, sizeof *k->member);
+  k->edges = thr_calloc((size_t)c->n_components, sizeof *k->edges);
+  k->open = thr_calloc((size_t)c->n_components, sizeof *k->open);
+  if (!k->reduced || !k->member || !k->edges || !k->open) return thr_nomem(err);
+  for (int e = 0; e < c->f->n_edges; e++)
+    k->edges[c->component[c->f->edge[e][0]]]++;
+  for (int v = 0; v < c->f->n_nodes; v++)
+    k->open[c->component[v]] |= c->supply[c->end_group[v]][1] > 0;
+  return THR_OK;
+}
+
+/* What the multipliers leave of all prices, and the sum of what they take. */
+static thr_status leaf_init(leaf *k, const thr_turning_columns *c, const thr_turning_dual *d, thr_err *err)
+{
+  *k = (leaf){.c = c, .d = d};
+  thr_status st = leaf_allocate(k, err);
+  if (!st) st = check_sizes(c, d, err);
+  if (!st) take_potentials(k);
+  for (int i = 0; i < d->n_odd && !st; i++)
+    st = run_odd(k, i, err);
+  for (int i = 0; i < d->n_groups && !st; i++)
+    st = run_group(k, i, err);
+  for (int i = 0; i < d->n_partitions && !st; i++)
+    st = run_partition(k, i, err);
+  for (int i = 0; i < d->n_junctions && !st; i++)
+    st = run_junction(k, i, err);
+  if (!st) take_length(k);
+  return st;
+}
+
 thr_status thr_turning_dual_bound(const thr_turning_columns *c, const thr_turning_dual *d, const int *low, const int *high,
                                   int64_t *bound, thr_err *err)
 {
-  leaf k = {.c = c, .d = d};
+  leaf k;
+  bool empty = false;
   *bound = INT64_MIN;
-  k.reduced = thr_calloc((size_t)c->n_columns, sizeof *k.reduced);
-  k.member = thr_calloc(2 * (size_t)c->f->n_edges + (size_t)c->n_ends, sizeof *k.member);
-  thr_status st = k.reduced && k.member ? THR_OK : thr_nomem(err);
-  if (!st) st = check_sizes(c, d, err);
-  if (!st) take_potentials(&k);
-  for (int i = 0; i < d->n_odd && !st; i++)
-    st = run_odd(&k, i, err);
-  for (int i = 0; i < d->n_groups && !st; i++)
-    st = run_group(&k, i, err);
-  for (int i = 0; i < d->n_partitions && !st; i++)
-    st = run_partition(&k, i, err);
-  for (int i = 0; i < d->n_junctions && !st; i++)
-    st = run_junction(&k, i, err);
-  if (!st) *bound = least_over_box(&k, low, high);
-  free(k.reduced);
-  free(k.member);
+  thr_status st = leaf_init(&k, c, d, err);
+  wide total = k.constant;
+  for (int j = 0; j < c->n_columns && !st; j++) {
+    int least = low ? low[j] : 0, most = high ? high[j] : thr_turning_most(c, j);
+    empty |= least > most;
+    total += column_adds(&k, j, least, most);
+  }
+  if (!st) *bound = empty ? INT64_MAX : in_64_bits(total);
+  leaf_destroy(&k);
   return st;
 }
 
@@ -363,11 +404,12 @@ static int branch_column(const thr_turning_columns *c, const thr_turning_node *n
   return thr_tail(c->f, a) == thr_tail(c->f, b) ? thr_turning_column(c, a, b) : -1;
 }
 
-/* parent[i] of every node; every node but the root is the child of exactly one before it, so walking up ends. */
-static thr_status link_tree(const thr_turning_columns *c, const thr_turning_proof *p, int *parent, thr_err *err)
+/* parent[i] and column[i] of every node, the column that it branches on or -1; every node but the root is the child of exactly
+ * one before it, so walking up ends. */
+static thr_status link_tree(const thr_turning_columns *c, const thr_turning_proof *p, int *parent, int *column, thr_err *err)
 {
   for (int i = 0; i < p->n_nodes; i++)
-    parent[i] = -1;
+    parent[i] = column[i] = -1;
   for (int i = 0; i < p->n_nodes; i++) {
     const thr_turning_node *n = &p->node[i];
     int child[2] = {n->low, n->high};
@@ -377,7 +419,8 @@ static thr_status link_tree(const thr_turning_columns *c, const thr_turning_proo
         return thr_fail(err, THR_EVIOLATED, "turning proof: node %d: no multipliers %d", i, n->dual);
       continue;
     }
-    if (branch_column(c, n) < 0) return thr_fail(err, THR_EVIOLATED, "turning proof: node %d branches on nothing", i);
+    column[i] = branch_column(c, n);
+    if (column[i] < 0) return thr_fail(err, THR_EVIOLATED, "turning proof: node %d branches on nothing", i);
     for (int k = 0; k < 2; k++) {
       if (child[k] <= i || child[k] >= p->n_nodes || parent[child[k]] >= 0)
         return thr_fail(err, THR_EVIOLATED, "turning proof: node %d: bad child %d", i, child[k]);
@@ -387,22 +430,70 @@ static thr_status link_tree(const thr_turning_columns *c, const thr_turning_proo
   return THR_OK;
 }
 
-/* Narrows the box by the branches above node i; or, with restore, widens it again. */
-static void walk_up(const thr_turning_columns *c, const thr_turning_proof *p, const int *parent, int i, bool restore, int *low,
-                    int *high)
+/* The boxes of the leaves: [n_columns] each, as wide as can be between two leaves. */
+typedef struct {
+  const thr_turning_columns *c;
+  const thr_turning_proof *p;
+  int *parent, *column; /* [n_nodes] */
+  int *low, *high;
+  bool *counted;
+} boxes;
+
+static void boxes_destroy(boxes *x)
 {
-  for (int above = parent[i]; above >= 0; i = above, above = parent[i]) {
-    const thr_turning_node *n = &p->node[above];
-    int j = branch_column(c, n);
-    if (restore) {
-      low[j] = 0;
-      high[j] = thr_turning_most(c, j);
-    } else if (n->low == i) {
-      if (n->value < high[j]) high[j] = n->value;
-    } else if (n->value >= low[j]) {
-      low[j] = n->value < INT_MAX ? n->value + 1 : INT_MAX;
+  free(x->parent);
+  free(x->column);
+  free(x->low);
+  free(x->high);
+  free(x->counted);
+}
+
+static thr_status boxes_init(boxes *x, const thr_turning_columns *c, const thr_turning_proof *p, thr_err *err)
+{
+  size_t nodes = (size_t)p->n_nodes, columns = p->n_nodes > 1 ? (size_t)c->n_columns : 0;
+  *x = (boxes){.c = c, .p = p, .parent = thr_calloc(nodes, sizeof *x->parent), .column = thr_calloc(nodes, sizeof *x->column)};
+  x->low = thr_calloc(columns, sizeof *x->low);
+  x->high = thr_calloc(columns, sizeof *x->high);
+  x->counted = thr_calloc(columns, sizeof *x->counted);
+  if (!x->parent || !x->column || !x->low || !x->high || !x->counted) return thr_nomem(err);
+  for (size_t j = 0; j < columns; j++)
+    x->high[j] = thr_turning_most(c, (int)j);
+  return link_tree(c, p, x->parent, x->column, err);
+}
+
+/* Narrows the box by the branches above node i. */
+static void narrow(boxes *x, int i)
+{
+  for (int above = x->parent[i]; above >= 0; i = above, above = x->parent[i]) {
+    const thr_turning_node *n = &x->p->node[above];
+    int j = x->column[above];
+    if (n->low == i) {
+      if (n->value < x->high[j]) x->high[j] = n->value;
+    } else if (n->value >= x->low[j]) {
+      x->low[j] = n->value < INT_MAX ? n->value + 1 : INT_MAX;
     }
   }
+}
+
+/* What the narrow box of node i adds to the value over the widest one; *empty if nothing is in it. Widens it again. */
+static wide correct(boxes *x, const leaf *k, int i, bool *empty)
+{
+  wide sum = 0;
+  *empty = false;
+  for (int above = x->parent[i]; above >= 0; above = x->parent[above]) {
+    int j = x->column[above];
+    if (x->counted[j]) continue;
+    x->counted[j] = true;
+    *empty |= x->low[j] > x->high[j];
+    sum += column_adds(k, j, x->low[j], x->high[j]) - column_adds(k, j, 0, thr_turning_most(x->c, j));
+  }
+  for (int above = x->parent[i]; above >= 0; above = x->parent[above]) {
+    int j = x->column[above];
+    x->low[j] = 0;
+    x->high[j] = thr_turning_most(x->c, j);
+    x->counted[j] = false;
+  }
+  return sum;
 }
 
 static thr_status check_dual_shape(const thr_turning_columns *c, const thr_turning_proof *p, thr_err *err)
@@ -415,30 +506,51 @@ static thr_status check_dual_shape(const thr_turning_columns *c, const thr_turni
   return THR_OK;
 }
 
+/* The leaves by their multipliers: number[first[d] .. first[d + 1] - 1] have those of number d. */
+static void sort_leaves(const thr_turning_proof *p, int *first, int *number)
+{
+  for (int i = 0; i < p->n_nodes; i++)
+    if (!p->node[i].low) first[p->node[i].dual + 2]++;
+  for (int d = 0; d < p->n_duals; d++)
+    first[d + 2] += first[d + 1];
+  for (int i = 0; i < p->n_nodes; i++)
+    if (!p->node[i].low) number[first[p->node[i].dual + 1]++] = i;
+}
+
+/* Least value over the boxes of n leaves that have the multipliers d. O(columns + what d lists, each member as often as there are
+ * turns at it, + leaves * depth). */
+static thr_status least_of_leaves(boxes *x, const thr_turning_dual *d, const int *node, int n, int64_t *least, thr_err *err)
+{
+  leaf k;
+  bool empty;
+  thr_status st = leaf_init(&k, x->c, d, err);
+  wide widest = k.constant;
+  for (int j = 0; j < x->c->n_columns && !st; j++)
+    widest += column_adds(&k, j, 0, thr_turning_most(x->c, j));
+  for (int i = 0; i < n && !st; i++) {
+    narrow(x, node[i]);
+    int64_t here = in_64_bits(widest + correct(x, &k, node[i], &empty));
+    if (!empty && here < *least) *least = here;
+  }
+  leaf_destroy(&k);
+  return st;
+}
+
 thr_status thr_turning_proof_check_columns(const thr_turning_columns *c, const thr_turning_proof *p, double *bound, thr_err *err)
 {
+  boxes x = {0};
   int64_t least = INT64_MAX;
-  size_t branched = p->n_nodes > 1 ? (size_t)c->n_columns : 0;
-  int *parent = thr_calloc((size_t)p->n_nodes, sizeof *parent), *low = NULL, *high = NULL;
-  thr_status st = parent ? check_dual_shape(c, p, err) : thr_nomem(err);
+  int *first = thr_calloc((size_t)p->n_duals + 2, sizeof *first), *leaves = thr_calloc((size_t)p->n_nodes, sizeof *leaves);
+  thr_status st = first && leaves ? check_dual_shape(c, p, err) : thr_nomem(err);
   *bound = 0;
-  if (!st) st = link_tree(c, p, parent, err);
-  if (!st && branched && (!(low = thr_calloc(branched, sizeof *low)) || !(high = thr_calloc(branched, sizeof *high))))
-    st = thr_nomem(err);
-  for (int j = 0; high && j < c->n_columns && !st; j++)
-    high[j] = thr_turning_most(c, j);
-  for (int i = 0; i < p->n_nodes && !st; i++) {
-    int64_t here;
-    if (p->node[i].low) continue;
-    walk_up(c, p, parent, i, false, low, high);
-    st = thr_turning_dual_bound(c, &p->dual[p->node[i].dual], low, high, &here, err);
-    walk_up(c, p, parent, i, true, low, high);
-    if (!st && here < least) least = here;
-  }
+  if (!st) st = boxes_init(&x, c, p, err);
+  if (!st) sort_leaves(p, first, leaves);
+  for (int d = 0; d < p->n_duals && !st; d++)
+    if (first[d + 1] > first[d]) st = least_of_leaves(&x, &p->dual[d], leaves + first[d], first[d + 1] - first[d], &least, err);
   if (!st && least > 0) *bound = ldexp((double)least, -THR_TURNING_BITS);
-  free(parent);
-  free(low);
-  free(high);
+  boxes_destroy(&x);
+  free(first);
+  free(leaves);
   return st;
 }
 
