@@ -113,9 +113,11 @@ INT64 = 2**63 - 1
 
 # ---- framework ----
 
-UNITS = {"um", "mm", "cm", "dm", "m", "km", "in", "ft", "yd", "unit", "units", "inch", "inches", "foot", "feet", "yard", "yards",
-         "micron", "microns"}
-UNITS |= {prefix + metre for prefix in ("", "micro", "milli", "centi", "deci", "kilo") for metre in ("meter", "meters", "metre", "metres")}
+MILLIMETRES = {"um": 0.001, "micron": 0.001, "microns": 0.001, "mm": 1, "cm": 10, "dm": 100, "m": 1000, "km": 1e6,
+               "in": 25.4, "inch": 25.4, "inches": 25.4, "ft": 304.8, "foot": 304.8, "feet": 304.8, "yd": 914.4, "yard": 914.4, "yards": 914.4}
+for prefix, mm in (("micro", 0.001), ("milli", 1), ("centi", 10), ("deci", 100), ("", 1000), ("kilo", 1e6)):
+    MILLIMETRES.update({prefix + metre: mm for metre in ("meter", "meters", "metre", "metres")})
+UNITS = {"unit", "units", *MILLIMETRES}
 CONTROL = re.compile("[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ufffe\uffff]")
 
 
@@ -1355,9 +1357,6 @@ def check_copies(p, s, generators, images, group):
 # ---- evaluation ----
 
 RAMP = ((243, 211, 80), (238, 176, 50), (227, 142, 36), (211, 110, 39), (190, 79, 49), (165, 51, 57), (138, 23, 62), (106, 5, 64), (75, 2, 58))
-MILLIMETRES = {"mm": 1, "millimetre": 1, "millimeter": 1, "millimetres": 1, "millimeters": 1, "cm": 10, "centimetre": 10, "centimeter": 10,
-               "centimetres": 10, "centimeters": 10, "m": 1000, "metre": 1000, "meter": 1000, "metres": 1000, "meters": 1000, "in": 25.4,
-               "inch": 25.4, "inches": 25.4, "ft": 304.8, "foot": 304.8, "feet": 304.8}
 
 
 def near(stated, value, scale, name):

@@ -222,6 +222,37 @@ START_TEST(running_out_of_memory_leaves_nothing)
 }
 END_TEST
 
+/* What is reported on the way: reports, and how many had a bound above the best price. */
+typedef struct {
+  int reports, above;
+} heard;
+
+static void hear(void *user, const char *what, double best, double bound)
+{
+  heard *h = user;
+  if (strcmp(what, "turning") != 0) return;
+  h->reports++;
+  h->above += bound > best;
+}
+
+START_TEST(no_bound_is_reported_above_the_best_price)
+{
+  heard h = {0};
+  thr_limits limits = {.progress = hear, .user = &h};
+  for (uint64_t seed = 0; seed < 400; seed++) {
+    rng r = rng_make(seed);
+    thr_frame f = random_frame(&r, 14, 12, LENGTHS_EUCLID);
+    thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+    thr_plan p;
+    o.objective = THR_TORTUOSITY;
+    ck_assert_int_eq(thr_tortuosity_plan(&f, &o, &limits, &p, NULL), THR_OK);
+    thr_plan_destroy(&p);
+    thr_frame_destroy(&f);
+  }
+  ck_assert_msg(h.reports > 60 && h.above == 0, "%d of %d", h.above, h.reports);
+}
+END_TEST
+
 int main(void)
 {
   Suite *s = suite_create("tortuosity");
@@ -230,6 +261,7 @@ int main(void)
   ADD_TEST(s, 20, more_cords_than_the_shortest_passes_hold);
   ADD_TEST(s, 20, trade_off_begins_at_the_shortest_plan);
   ADD_TEST(s, 20, trade_off_without_any_plan);
+  ADD_TEST(s, 60, no_bound_is_reported_above_the_best_price);
   ADD_LOOP(s, 60, running_out_of_memory_leaves_nothing, 0, 3);
   return run_suite(s);
 }
