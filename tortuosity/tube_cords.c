@@ -315,7 +315,7 @@ static thr_status make_pieces(several *x, const thr_components *p, thr_plan *mad
   quiet.found = NULL; /* cords of a piece are no plan */
   for (int k = 0; k < p->n && !st; k++) {
     thr_plan asked;
-    thr_cords_word word;
+    thr_cords_word word = {0};
     thr_err why = {0};
     if ((st = thr_component_take(p, k, &asked, err))) return st;
     st = thr_tube_cords_plan(&asked.frame, &asked.options, &quiet, &made[k], &word, &why);
