@@ -34,6 +34,7 @@ static double odd_length(rng *r, int kind)
   case 2: return rng_between(r, 1, 3) * (1 + 1e-9 * rng_between(r, -9, 9));
   case 3: return pow(10, rng_between(r, -5, 4));
   case 4: return rng_between(r, 1, 4);
+  case 5: return rng_between(r, 1, 4) * (1 + 1e-11 * rng_between(r, -12, 12));
   default: return 0.1 + rng_unit(r);
   }
 }
@@ -58,7 +59,7 @@ static thr_frame frame_of(rng *r)
   } else {
     f = small_frame(r, rng_between(r, 2, 5), rng_below(r, 4));
   }
-  int kind = rng_below(r, 6);
+  int kind = rng_below(r, 7);
   for (int e = 0; e < f.n_edges; e++)
     f.length[e] = odd_length(r, rng_below(r, 5) ? kind : 3);
   f.own_lengths = true;

@@ -22,10 +22,10 @@ typedef struct {
   bool end_node[NODES], end_allowed[NODES];
   int end_count[NODES];
   thr_turning_task task;
-  bool tied;           /* the proof is one of length, with tube joints */
-  int n_ends;          /* equations of ends */
-  long double least;   /* the truth: a price, or a length */
-  long double largest; /* of the dearest cord, if a whole plan is attacked */
+  bool tied;            /* the proof is one of length, with tube joints */
+  int n_pieces, n_ends; /* components; equations of ends */
+  long double least;    /* the truth: a price, or a length */
+  long double largest;  /* of the dearest cord, if a whole plan is attacked */
 } target;
 
 static void target_destroy(target *t)
@@ -52,6 +52,13 @@ static void choose_options(rng *r, target *t, thr_frame *f, thr_plan_options *o)
   if (o->ends == THR_ENDS_COUNTS) o->end_count = t->end_count;
 }
 
+static int pieces_of(const thr_frame *f)
+{
+  int component[2 * NODES], n;
+  ck_assert_int_eq(thr_frame_components(f, component, &n, NULL), THR_OK);
+  return n;
+}
+
 /* What the proof is about, as the checker sees it. */
 static void find_task(target *t)
 {
@@ -59,7 +66,8 @@ static void find_task(target *t)
   const thr_plan_options *o = &p->options;
   for (int v = 0; v < p->frame.n_nodes; v++)
     t->end_allowed[v] = thr_plan_end_allowed(&p->frame, o, v);
-  t->n_ends = o->ends == THR_ENDS_COUNTS ? p->frame.n_nodes : 1;
+  t->n_pieces = pieces_of(&p->frame);
+  t->n_ends = o->ends == THR_ENDS_COUNTS ? p->frame.n_nodes : t->n_pieces;
   t->task = (thr_turning_task){.cover = o->cover,
                                .capacity = o->capacity,
                                .tube = o->joint == THR_JOINT_TUBE,
@@ -72,15 +80,17 @@ static void find_task(target *t)
                                .extra_limit = thr_turning_extra_limit(&p->frame, o->cover, p->turning.length_limit)};
 }
 
-/* The sum of the program's own turns; of all cords with few passes, if they are solid and ends are free. */
-static long double least_price(const thr_plan *p)
+/* The sum of the program's own turns; of all cords with few passes, if tables can be made of them. */
+static long double least_price(const target *t)
 {
+  const thr_plan *p = &t->plan;
   const thr_plan_options *o = &p->options;
   long double sum = 0;
   for (int i = 0; i < p->n_cords; i++)
     for (int k = 0; k < thr_cord_turns(o, &p->cord[i]); k++)
       sum += thr_turn_price(&p->frame, o->turning.cost, p->cord[i].half[k], p->cord[i].half[(k + 1) % p->cord[i].n_passes]);
-  if (o->joint == THR_JOINT_TUBE || o->ends == THR_ENDS_COUNTS) return sum;
+  if (o->joint == THR_JOINT_TUBE || o->ends == THR_ENDS_COUNTS || t->n_pieces > 1 || p->frame.n_edges > TRUTH_TABLE_EDGES)
+    return sum;
   truth_table table = truth_table_make(&p->frame, o, o->cords > 1 ? 2 : 3);
   long double least = truth_price(&table, o->cords, false, p->turning.length_limit);
   truth_table_destroy(&table);
@@ -105,14 +115,24 @@ static thr_frame small_frame(rng *r)
   }
 }
 
+/* Of one piece or two. */
+static thr_frame any_frame(rng *r)
+{
+  if (rng_below(r, 4)) return small_frame(r);
+  thr_frame a = ring_make(3), b = ring_make(rng_between(r, 3, 4)), f = side_by_side(&a, &b);
+  thr_frame_destroy(&a);
+  thr_frame_destroy(&b);
+  return f;
+}
+
 static bool target_make(rng *r, target *t, bool tied)
 {
   thr_err err = {0};
   thr_plan_options o;
   *t = (target){.tied = tied};
   bool apart = rng_below(r, 8) == 0;
-  thr_frame f = apart ? bowtie_make(r) : small_frame(r);
-  if (f.n_edges > TRUTH_TABLE_EDGES) {
+  thr_frame f = apart ? bowtie_make(r) : any_frame(r);
+  if (f.n_edges > EDGES) {
     thr_frame_destroy(&f);
     return false;
   }
@@ -130,7 +150,7 @@ static bool target_make(rng *r, target *t, bool tied)
     return false;
   }
   find_task(t);
-  t->least = tied ? t->plan.metrics.length : least_price(&t->plan);
+  t->least = tied ? t->plan.metrics.length : least_price(t);
   return true;
 }
 
@@ -458,17 +478,47 @@ static void take_proof_of_so_many(const target *t, candidate *c)
   thr_plan_destroy(&own.plan);
 }
 
+/* Sums and largest prices of all cords with few passes. */
+static void find_prices(target *t)
+{
+  const thr_plan_options *o = &t->plan.options;
+  truth_table table = truth_table_make(&t->plan.frame, o, 2);
+  for (int n = o->cords_least; n <= o->cords; n++) {
+    t->least = fminl(t->least, truth_price(&table, n, false, -1));
+    t->largest = fminl(t->largest, truth_price(&table, n, true, -1));
+  }
+  truth_table_destroy(&table);
+}
+
+/* The same of plans that the program finds: witnesses. */
+static void find_prices_of_plans(target *t)
+{
+  for (int n = t->plan.options.cords_least; n <= t->plan.options.cords; n++)
+    for (int largest = 0; largest < 2; largest++) {
+      thr_plan_options o = t->plan.options;
+      thr_plan p;
+      thr_limits limits = {.deadline = thr_clock() + 5};
+      o.cords = o.cords_least = n;
+      o.turning.largest = largest;
+      thr_status st = thr_tortuosity_plan(&t->plan.frame, &o, &limits, &p, NULL);
+      if (st && st != THR_ELIMIT) continue;
+      t->least = fminl(t->least, p.turning.price);
+      t->largest = fminl(t->largest, p.turning.largest);
+      thr_plan_destroy(&p);
+    }
+}
+
 /* The shortest cords, which turn more than they must, as a plan for the least turning of a range of numbers of cords. */
 static bool claim_target_make(rng *r, target *t)
 {
   thr_plan_options o;
-  *t = (target){.n_ends = 1, .least = INFINITY, .largest = INFINITY};
-  thr_frame f = rng_below(r, 3) ? small_frame(r) : bowtie_make(r);
+  *t = (target){.least = INFINITY, .largest = INFINITY};
+  thr_frame f = rng_below(r, 3) ? any_frame(r) : bowtie_make(r);
   choose_options(r, t, &f, &o);
   o.joint = THR_JOINT_SOLID;
   o.objective = THR_LENGTH;
   o.turning.length_slack = -1;
-  bool fits = o.ends != THR_ENDS_COUNTS && f.n_edges <= TRUTH_TABLE_EDGES;
+  bool fits = o.ends != THR_ENDS_COUNTS && f.n_edges <= (pieces_of(&f) > 1 ? EDGES : TRUTH_TABLE_EDGES);
   thr_status st = fits ? thr_cords_plan(&f, &o, &(thr_limits){0}, &t->plan, NULL, NULL) : THR_EINFEASIBLE;
   thr_frame_destroy(&f);
   if (st && st != THR_ELIMIT) return false;
@@ -481,12 +531,11 @@ static bool claim_target_make(rng *r, target *t)
   free(p->proof.certificate);
   p->proof = (thr_length_proof){0};
   p->cords_claim = (thr_cords_claim){0};
-  truth_table table = truth_table_make(&p->frame, &p->options, 2);
-  for (int n = p->options.cords_least; n <= p->options.cords; n++) {
-    t->least = fminl(t->least, truth_price(&table, n, false, -1));
-    t->largest = fminl(t->largest, truth_price(&table, n, true, -1));
-  }
-  truth_table_destroy(&table);
+  t->n_pieces = t->n_ends = pieces_of(&p->frame);
+  if (t->n_pieces > 1)
+    find_prices_of_plans(t);
+  else
+    find_prices(t);
   if (t->least < INFINITY) return true;
   target_destroy(t);
   return false;
@@ -599,28 +648,17 @@ static void find_witnesses(tied_target *x, const thr_frame *f, const thr_plan_op
     }
 }
 
-static thr_frame tied_frame(rng *r)
-{
-  if (rng_below(r, 3)) return small_frame(r);
-  thr_frame a = ring_make(3), b = ring_make(rng_between(r, 3, 4)), f = side_by_side(&a, &b);
-  thr_frame_destroy(&a);
-  thr_frame_destroy(&b);
-  return f;
-}
-
 static bool tied_target_make(rng *r, tied_target *x)
 {
   thr_plan_options o;
   *x = (tied_target){.t = {.tied = true}};
   target *t = &x->t;
-  thr_frame f = tied_frame(r);
-  int component[2 * NODES], components;
+  thr_frame f = any_frame(r);
   choose_options(r, t, &f, &o);
-  ck_assert_int_eq(thr_frame_components(&f, component, &components, NULL), THR_OK);
   bool fits =
       o.ends != THR_ENDS_COUNTS && o.ends != THR_ENDS_NODES && f.n_edges <= EDGES && tied_plan(&f, &o, o.cords, false, &t->plan);
   if (fits) {
-    t->n_ends = components;
+    t->n_ends = pieces_of(&f);
     o.cords_least = rng_between(r, 1, o.cords);
     o.cords = rng_between(r, o.cords, MOST_CORDS);
     if (rng_below(r, 4)) o.max_length = longest_of(&t->plan) * (rng_below(r, 2) ? 1 : 1 + rng_unit(r));
