@@ -89,7 +89,7 @@ VALIDATE := $(DIR)/validate
 VALIDATE_OBJECTS := $(patsubst %.c,$(DIR)/%.o,$(wildcard tests/validate/*.c))
 WATCHDOG := $(DIR)/watchdog
 WATCHDOG_OBJECTS := $(patsubst %.c,$(DIR)/%.o,$(wildcard tests/watchdog/*.c))
-C_FILES = $(wildcard $(foreach d,$(MODULES) cli tests tests/unit tests/property tests/fuzz tests/validate tests/watchdog,$(d)/*.c $(d)/*.h))
+C_FILES = $(wildcard $(foreach d,$(MODULES) cli tests tests/unit tests/property tests/fuzz tests/validate tests/watchdog tests/memory,$(d)/*.c $(d)/*.h))
 
 Q := $(if $(V),,@)
 # `make -jN` given: share its jobs; not given: one per processor
@@ -163,6 +163,11 @@ validate: ## measure the pull force against theory (a few minutes), write docs/v
 	+@$(MAKE) --no-print-directory $(JOBS) BUILD=release $(OUT)/release/validate
 	@$(OUT)/release/validate docs/validation.md
 
+memory: ## every command with every allocation failing once (hours; SAMPLES=N: N allocations of each command)
+	+@tools/install-packages.sh $(BUILD_PACKAGES)
+	+@$(MAKE) --no-print-directory $(JOBS) BUILD=release all $(OUT)/release/tests/memory/fail_malloc.so
+	@tests/memory/run.sh $(OUT)/release/thread $(OUT)/release/tests/memory/fail_malloc.so $(OUT)/memory $(or $(SAMPLES),0)
+
 watchdog: ## does every command end in its time, with little memory? The whole matrix (half an hour)
 	+@tools/install-packages.sh $(BUILD_PACKAGES)
 	+@$(MAKE) --no-print-directory $(JOBS) BUILD=release all $(OUT)/release/watchdog
@@ -215,6 +220,12 @@ $(WATCHDOG): $(WATCHDOG_OBJECTS)
 	@echo "  LINK  $@"
 	$(Q)$(LINK) -o $@ $^ -lm
 
+# for LD_PRELOAD: allocations that fail
+$(DIR)/tests/memory/fail_malloc.so: tests/memory/fail_malloc.c $(DIR)/flags.list
+	@mkdir -p $(@D)
+	@echo "  LINK  $@"
+	$(Q)$(COMPILER) $(THR_CFLAGS) $(STRICT) -shared -fPIC -o $@ $<
+
 $(LIBRARY): $(OBJECTS) $(DIR)/objects.list
 	@echo "  AR    $@"
 	$(Q)rm -f $@
@@ -265,6 +276,6 @@ $(OUT)/packages.ok:
 	@touch $@
 
 FORCE:
-.PHONY: all demo test fuzz asan layers lint format-check tidy cppcheck format viewer bench validate watchdog coverage deps test-deps install uninstall clean help
+.PHONY: all demo test fuzz asan layers lint format-check tidy cppcheck format viewer bench validate memory watchdog coverage deps test-deps install uninstall clean help
 .PHONY: test-programs fuzz-programs list-tests list-fuzz list-c FORCE
 -include $(wildcard $(DIR)/*/*.d $(DIR)/*/*/*.d)

@@ -47,7 +47,7 @@ void cli_error(const char *format, ...)
 
 int cli_fail(const thr_err *err)
 {
-  if (err->code == THR_ENOMEM) guard_no_memory();
+  if (err->code == THR_ENOMEM && guard_no_memory()) return EXIT_INTERNAL; /* the parent says so */
   cli_error("%s", err->text);
   switch (err->code) {
   case THR_OK: return EXIT_OK;

@@ -54,7 +54,7 @@ bool guard_option(guard_limits *l, const char *command, int option, const char *
 
 /* ---- messages from the child ---- */
 
-typedef enum { KEEP, WRITING, WRITTEN, NO_MEMORY, ALLOW } message;
+typedef enum { KEEP, WRITING, WRITTEN, NO_MEMORY, ALLOW, ENDING } message;
 
 /* Every message: this, and so many bytes. */
 typedef struct {
@@ -88,9 +88,15 @@ void guard_written(int code)
   send((head){.kind = WRITTEN, .code = code}, NULL);
 }
 
-void guard_no_memory(void)
+bool guard_no_memory(void)
 {
   send((head){.kind = NO_MEMORY}, NULL);
+  return to_parent >= 0;
+}
+
+void guard_ending(int code)
+{
+  send((head){.kind = ENDING, .code = code}, NULL);
 }
 
 void guard_allow(double seconds)
@@ -125,6 +131,7 @@ typedef struct {
   double end_by; /* thr_clock() at which the child is killed; 0 = never */
   double first;  /* when the first signal came; 0 = none has */
   bool ended, writing, out_of_memory;
+  bool by_itself;   /* it said that it would end, and how */
   thr_text arrived; /* bytes that are no whole message yet */
   guard_end *end;
 } guarded;
@@ -143,6 +150,7 @@ static void take(guarded *g, const head *h, const char *bytes)
     g->end->code = h->code;
     break;
   case NO_MEMORY: g->out_of_memory = true; break;
+  case ENDING: g->by_itself = true; break;
   case ALLOW:
     if (!g->first) g->end_by = h->seconds > 0 ? thr_clock() + h->seconds + GRACE : 0;
     break;
@@ -208,31 +216,39 @@ static void watch(guarded *g)
   receive(g);
 }
 
-/* How it ended, and why. A library that dies where memory is short has come near the limit. */
+/* A library that dies where memory is short has come near the limit. */
+static guard_reason reason_of(const guarded *g, const guard_limits *l)
+{
+  struct rusage used;
+  bool killed = WIFSIGNALED(g->status);
+  getrusage(RUSAGE_CHILDREN, &used);
+  bool full = l->memory > 0 && 1024. * (double)used.ru_maxrss > 0.7 * l->memory;
+  if (killed && g->end->reason != GUARD_DONE) return g->end->reason; /* by this process */
+  if (g->out_of_memory || (killed && full)) return GUARD_MEMORY;
+  return killed || !g->by_itself ? GUARD_DIED : GUARD_DONE;
+}
+
+/* How it ended, and why. */
 static void judge(guarded *g, const guard_limits *l)
 {
   guard_end *e = g->end;
-  struct rusage used;
-  bool died = WIFSIGNALED(g->status);
-  getrusage(RUSAGE_CHILDREN, &used);
-  bool full = l->memory > 0 && 1024. * (double)used.ru_maxrss > 0.7 * l->memory;
-  if (!died) {
-    if (!e->written) e->code = WEXITSTATUS(g->status);
-    e->reason = g->out_of_memory ? GUARD_MEMORY : GUARD_DONE;
-    if (e->reason == GUARD_DONE) e->code = WEXITSTATUS(g->status);
-  } else if (e->reason == GUARD_DONE) {
-    e->reason = g->out_of_memory || full ? GUARD_MEMORY : GUARD_DIED;
-  }
+  e->reason = reason_of(g, l);
+  if (!WIFSIGNALED(g->status) && (e->reason == GUARD_DONE || !e->written)) e->code = WEXITSTATUS(g->status);
   switch (e->reason) {
   case GUARD_TIME: snprintf(e->why, sizeof e->why, "not done in time"); break;
   case GUARD_INTERRUPTED: snprintf(e->why, sizeof e->why, "stopped"); break;
   case GUARD_MEMORY:
     if (l->memory > 0)
-      snprintf(e->why, sizeof e->why, "%g MB of memory do not suffice (--memory)", l->memory / 1e6);
+      snprintf(e->why, sizeof e->why, "out of memory (--memory allows %g MB)", l->memory / 1e6);
     else
       snprintf(e->why, sizeof e->why, "out of memory");
     break;
-  case GUARD_DIED: snprintf(e->why, sizeof e->why, "died of signal %d (a fault of this program)", WTERMSIG(g->status)); break;
+  case GUARD_DIED:
+    if (WIFSIGNALED(g->status))
+      snprintf(e->why, sizeof e->why, "died of signal %d (a fault of this program, or memory ran out)", WTERMSIG(g->status));
+    else
+      snprintf(e->why, sizeof e->why, "ended by a library (exit code %d)", WEXITSTATUS(g->status));
+    break;
   default: break;
   }
 }

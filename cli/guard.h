@@ -36,7 +36,7 @@ typedef enum {
   GUARD_TIME,        /* it did not end in its time, and was ended */
   GUARD_INTERRUPTED, /* nor when it was asked to by a signal */
   GUARD_MEMORY,      /* it had no more memory */
-  GUARD_DIED         /* of a signal that nobody here sent */
+  GUARD_DIED         /* of a signal that nobody here sent, or a library ended it */
 } guard_reason;
 
 typedef struct {
@@ -59,11 +59,13 @@ double guard_deadline(void);
 void guard_allow(double seconds);
 
 /* In the child; nothing without one. kept: replaces what was handed over before. Between writing and written nothing ends the
- * child but a second signal. No memory: what the parent is to say if the child fails now. */
+ * child but a second signal. No memory: what the parent is to say if the child fails now; false if there is no parent. Ending:
+ * the child exits with this code by itself, not a library. */
 void guard_keep(const thr_text *t);
 void guard_writing(void);
 void guard_written(int code);
-void guard_no_memory(void);
+bool guard_no_memory(void);
+void guard_ending(int code);
 
 /* What a command does that has nothing to hand over: prints why it ended and returns the exit code. */
 int guard_conclude(guard_end *end, const char *missing);

@@ -1,5 +1,6 @@
 /* thread: plans how cord is threaded through bead structures. This file only finds the subcommand. */
 #include "cli/cli.h"
+#include "cli/guard.h"
 #include "eval/world.h"
 #include "graph/cuttree.h"
 #include "lp/lp.h"
@@ -74,7 +75,10 @@ int main(int argc, char **argv)
 {
   int code = dispatch(argc, argv);
   bool written = fflush(stdout) == 0 && !ferror(stdout);
-  if (code || written) return code;
-  cli_error("cannot write to stdout");
-  return EXIT_INPUT;
+  if (!code && !written) {
+    cli_error("cannot write to stdout");
+    code = EXIT_INPUT;
+  }
+  guard_ending(code);
+  return code;
 }

@@ -1,3 +1,4 @@
+#define _XOPEN_SOURCE 700
 #include "diagram/sheets_parts.h"
 
 #include "diagram/kinds.h"
@@ -7,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 
 thr_sheets_options thr_sheets_options_default(void)
 {
@@ -169,6 +171,19 @@ thr_status thr_sheets_svg(const thr_sheets *s, int i, thr_text *svg, thr_err *er
   return svg->failed ? thr_nomem(err) : THR_OK;
 }
 
+/* Ends this process if a page takes so many seconds of processor time: fontconfig without memory tries for ever. */
+static void bound_page(void)
+{
+  enum { MOST = 20 };
+  struct rusage used;
+  struct rlimit r;
+  if (getrusage(RUSAGE_SELF, &used) || getrlimit(RLIMIT_CPU, &r)) return;
+  rlim_t end = (rlim_t)(used.ru_utime.tv_sec + used.ru_stime.tv_sec) + MOST;
+  if (r.rlim_max != RLIM_INFINITY && r.rlim_max < end) return; /* somebody was stricter */
+  r.rlim_cur = end;
+  setrlimit(RLIMIT_CPU, &r);
+}
+
 /* In a child process: librsvg, cairo and GLib end the program when memory runs out. */
 static thr_status make_pdf(void *user, const thr_limits *limits, thr_sender *to, thr_err *err)
 {
@@ -183,6 +198,7 @@ static thr_status make_pdf(void *user, const thr_limits *limits, thr_sender *to,
     if (limits->advance) limits->advance(limits->user, "step sheets", (double)i / s->n_pages);
     if (thr_limits_stop(limits))
       st = thr_fail(err, THR_ELIMIT, "interrupted at page %d of %d of the step sheets", i + 1, s->n_pages);
+    bound_page();
     if (!st) st = thr_sheets_svg(s, i, &svg, err);
     if (!st) st = thr_paper_add(paper, &svg, err);
     thr_text_destroy(&svg);

@@ -20,7 +20,7 @@ count_check() { # sums Check's closing lines; a program that ends badly after th
     END { passed = checks - bad; if ((code != 0 && bad == 0) || checks == 0) bad++; print passed + 0, bad + 0 }' "$1"
 }
 
-count_golden() { # the closing line of tests/golden/run.sh, tests/second/compare.py, tests/viewer/run.sh and the watchdog
+count_golden() { # the closing line of tests/golden/run.sh, tests/second/compare.py, tests/viewer/run.sh, tests/memory/run.sh and the watchdog
   awk -v code="$2" '
     /^[0-9]+ passed, [0-9]+ failed$/ { passed = $1; failed = $3; seen = 1 }
     END { if (!seen || (code != 0 && failed == 0)) failed++; print passed + 0, failed + 0 }' "$1"
@@ -59,6 +59,8 @@ job() {
     [ "$build" = release ] || CK_TIMEOUT_MULTIPLIER=10
     case $rest in
     golden/*) tests/golden/run.sh "$OUT/$build/thread" "tests/$rest" >"$log" 2>&1 || code=$? ;;
+    memory)
+      nice tests/memory/run.sh "$OUT/$build/thread" "$OUT/$build/tests/memory/fail_malloc.so" "$OUT/memory" >"$log" 2>&1 || code=$? ;;
     watchdog) timeout 900 "$OUT/$build/watchdog" "$OUT/$build/thread" "$OUT/watchdog" >"$log" 2>&1 || code=$? ;;
     *) timeout 900 "$OUT/$build/tests/$rest" >"$log" 2>&1 </dev/null || code=$? ;;
     esac
@@ -75,7 +77,7 @@ job() {
   esac
   end=$(date +%s%N)
   case $name in
-  */golden/* | */watchdog | second/plans | viewer/browser) counts=$(count_golden "$log" "$code") ;;
+  */golden/* | */memory | */watchdog | second/plans | viewer/browser) counts=$(count_golden "$log" "$code") ;;
   asan/* | release/*) counts=$(count_check "$log" "$code") ;;
   *) if [ "$code" -eq 0 ]; then counts='1 0'; else counts='0 1'; fi ;;
   esac
@@ -156,13 +158,18 @@ fi
     [ -e "$case" ] && wanted "$variant/${case#tests/}" && cases+=("${case#tests/}")
   done
   watchdog= # of the program that users have: sanitizers take time and memory of their own
+  memory=   # the same
   [ "$variant" = release ] && wanted release/watchdog && watchdog=$OUT/release/watchdog && goals+=("$watchdog")
+  [ "$variant" = release ] && wanted release/memory && memory=$OUT/release/tests/memory/fail_malloc.so && goals+=("$memory")
   [ -n "$ONLY" ] && [ ${#goals[@]} -eq 0 ] && [ ${#cases[@]} -eq 0 ] && continue
   all=yes
   build "$variant" all "${goals[@]}" || all=
   for program in "${names[@]}"; do
     if [ -n "$all" ] || made "$variant" "$OUT/$variant/tests/$program"; then queue+=("$variant/$program"); else give_up "$variant/$program"; fi
   done
+  if [ -n "$memory" ]; then
+    if [ -n "$all" ] || { made release "$memory" && made release "$OUT/release/thread"; }; then queue+=(release/memory); else give_up release/memory; fi
+  fi
   if [ -n "$watchdog" ]; then
     if [ -n "$all" ] || { made release "$watchdog" && made release "$OUT/release/thread"; }; then queue+=(release/watchdog); else give_up release/watchdog; fi
   fi

@@ -1,0 +1,106 @@
+#!/usr/bin/env bash
+# Every command with allocations that fail, its libraries' and its child processes' included:
+#   tests/memory/run.sh PROGRAM fail_malloc.so FOLDER [SAMPLES [WORD]]
+# Of each command (that has this word) so many allocations are tried (0: all), evenly spread, one failing by itself and then the same with all that come
+# after it. Allowed are the exit codes 0, 3, 4, 5 and 70, with a message if it is not 0. What was written is whole: the same bytes
+# as without failures, or a plan that `thread check` accepts; with exit code 0 nothing is missing. And real plans are checked in
+# 40 MB of address space. One line per failure, then "N passed, N failed".
+set -u
+export LC_ALL=C
+program=$(realpath "$1") library=$(realpath "$2") folder=$3 samples=${4:-40} word=${5:-}
+data=$PWD/data passed=0 failed=0
+rm -rf "$folder"
+mkdir -p "$folder/inputs"
+cd "$folder" || exit 1
+folder=$PWD
+export XDG_CACHE_HOME=$folder/cache
+
+# The exit code is the command's; $folder/count then holds how many allocations there were.
+try() { # AT ON FOLDER COMMAND..: in a fresh folder with the inputs
+  local at=$1 on=$2 here=$3
+  shift 3
+  rm -rf "$here"
+  mkdir "$here"
+  ln -s "$folder"/inputs/* "$here"
+  head -c 8 /dev/zero >"$folder/count"
+  (cd "$here" && exec timeout -s KILL 120 env FAIL_COUNT="$folder/count" FAIL_AT="$at" ${on:+FAIL_ON=1} LD_PRELOAD="$library" \
+    "$program" "$@") \
+    >"$here.out" 2>"$here.err" </dev/null
+}
+
+# Empty, or what is wrong with the files of a run that ended with exit code $1.
+judge() { # CODE
+  local file
+  case $1 in
+  0) ;;
+  3 | 4 | 5 | 70) grep -q '^thread: ' run.err || { echo "exit code $1 without a message" && return; } ;;
+  *) echo "exit code $1" && return ;;
+  esac
+  find run -name '.thread-*' | grep . && return
+  while read -r file; do
+    if [ ! -e "run/$file" ]; then
+      [ "$1" != 0 ] || { echo "no $file" && return; }
+    elif ! cmp -s "run/$file" "whole/$file" && ! { [ "${file##*.}" = json ] && "$program" check -q "run/$file" >check.out 2>&1; }; then
+      echo "half of $file or other bytes" && return
+    fi
+  done < <(cd whole && find . -type f)
+}
+
+command_fails() { # COMMAND..
+  local n step i at on wrong
+  case $* in *"$word"*) ;; *) return ;; esac
+  try 0 '' whole "$@"
+  local code=$?
+  [ $code = 0 ] || { echo "thread $*: exit code $code without failures: $(cat whole.err)" && failed=$((failed + 1)) && return; }
+  n=$(od -An -td8 count | tr -d ' ')
+  step=$((samples > 0 && n > samples ? n / samples : 1))
+  for ((i = 0, at = 1; at <= n; i++, at += step)); do
+    for on in '' on; do
+      try $((step > 1 ? at + (i * 7919) % step : at)) "$on" run "$@"
+      wrong=$(judge $?)
+      if [ -z "$wrong" ]; then
+        passed=$((passed + 1))
+      else
+        failed=$((failed + 1))
+        echo "thread $*: allocation $((step > 1 ? at + (i * 7919) % step : at))${on:+ and all after it} of $n fails: $wrong: $(head -c 300 run.err | tr '\n' ' ')"
+      fi
+    done
+  done
+}
+
+"$program" make dome --size 3 -o inputs/frame.json && "$program" plan inputs/frame.json --ends feet -q -o inputs/plan.json &&
+  "$program" plan inputs/frame.json --ends any -q -o inputs/any.json && "$program" eval inputs/plan.json >/dev/null &&
+  "$program" eval inputs/plan.json --method joint >/dev/null 2>&1 || exit 1
+
+fits_into_40_mb() { # PLAN
+  if (ulimit -v 40000 && exec "$program" check -q "$1"); then
+    passed=$((passed + 1))
+  else
+    failed=$((failed + 1))
+    echo "thread check $1 in 40 MB: exit code $?"
+  fi
+}
+
+"$program" plan "$data/jax_fdm/liew_dome.json" -q -o liew.json && "$program" plan "$data/jax_fdm/barrel.obj" -q -o barrel.json || exit 1
+for plan in "$data"/dome7-*.json liew.json barrel.json; do fits_into_40_mb "$plan"; done
+
+command_fails make dome --size 3 -o new.json
+command_fails info frame.json
+command_fails plan frame.json --ends feet -o new.json
+command_fails plan frame.json --ends feet --cords 2 --balance -o new.json
+command_fails plan frame.json --ends feet --engine lp -o new.json
+command_fails plan frame.json --ends feet --objective tortuosity -o new.json
+command_fails plan frame.json --ends feet --objective symmetry -o new.json
+command_fails plan frame.json --ends feet --joint tube -o new.json
+command_fails symmetries frame.json --ends feet
+command_fails check plan.json
+command_fails eval plan.json --method joint --plot tension.svg
+command_fails eval plan.json --method structure --time-step 10 --iterations 0.1
+command_fails compare plan.json any.json --method all --no-dynamics
+command_fails draw plan.json -o overview.svg
+command_fails draw plan.json -T pdf -o sheets.pdf
+command_fails draw plan.json -T html -o viewer.html
+command_fails draw plan.json -T cords.csv -o cords.csv
+
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ]
