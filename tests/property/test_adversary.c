@@ -618,16 +618,25 @@ static void mix(asked *a, thr_plan *fewer)
     thr_cord_id(i, p->cord[i].id);
 }
 
+static double longest_of(const thr_plan *p)
+{
+  double longest = 0;
+  for (int i = 0; i < p->n_cords; i++)
+    longest = fmax(longest, thr_cord_length(&p->frame, &p->cord[i]));
+  return longest;
+}
+
 /* Options that the plan keeps to as well, some of them much wider. */
 static void restate(rng *r, asked *a)
 {
   thr_plan_options *o = &a->q.o;
-  double longest = 0;
-  for (int i = 0; i < a->plan.n_cords; i++)
-    longest = fmax(longest, thr_cord_length(&a->q.f, &a->plan.cord[i]));
+  double longest = longest_of(&a->plan);
   if (o->objective == THR_LENGTH && !run_alike(&a->plan) && rng_below(r, 3) == 0) o->objective = THR_SYMMETRY;
+  if (o->objective == THR_LENGTH && rng_below(r, 4) == 0) o->objective = THR_TORTUOSITY;
+  o->turning.length_slack = rng_below(r, 3) * 0.1;
+  if (o->ends == THR_ENDS_COUNTS) return;
   o->cords_least = rng_between(r, 1, o->cords);
-  if (o->objective == THR_LENGTH) o->cords = rng_between(r, o->cords, MOST_CORDS);
+  if (o->objective != THR_SYMMETRY) o->cords = rng_between(r, o->cords, MOST_CORDS);
   if (rng_below(r, 4)) o->max_length = longest * (rng_below(r, 2) ? 1 : 1 + rng_unit(r));
 }
 
@@ -642,12 +651,29 @@ static bool plan_cords(const request *q, int cords, thr_plan *p)
   return (st == THR_OK || st == THR_ELIMIT) && p->proof.present;
 }
 
+/* With given numbers of ends: even cords that the program finds. */
+static void find_witnesses(asked *a)
+{
+  thr_plan_options o = a->q.o;
+  thr_limits limits = {.deadline = thr_clock() + 5};
+  thr_plan p;
+  o.objective = THR_LENGTH;
+  o.balance = true;
+  a->fewest = a->plan.n_cords;
+  a->longest = longest_of(&a->plan);
+  thr_status st = thr_cords_plan(&a->q.f, &o, &limits, &p, NULL, NULL);
+  if (st && st != THR_ELIMIT) return;
+  a->longest = fmin(a->longest, longest_of(&p));
+  thr_plan_destroy(&p);
+}
+
 static bool plan_and_mix(rng *r, asked *a)
 {
   const request *q = &a->q;
   thr_plan fewer = {0};
-  if (q->o.ends == THR_ENDS_COUNTS || q->f.n_edges / q->n_components > 4 || !plan_cords(q, q->o.cords, &a->plan)) return false;
-  if (q->n_components == 1 || !plan_cords(q, rng_between(r, 1, q->o.cords), &fewer)) return true;
+  bool counts = q->o.ends == THR_ENDS_COUNTS, fits = q->f.n_edges / q->n_components <= 4 && (!counts || counts_fit(q));
+  if (!fits || !plan_cords(q, q->o.cords, &a->plan)) return false;
+  if (q->n_components == 1 || counts || !plan_cords(q, rng_between(r, 1, q->o.cords), &fewer)) return true;
   if (fewer.n_cords < a->plan.n_cords) a->q.o.objective = THR_SYMMETRY;
   if (fewer.n_cords < a->plan.n_cords) mix(a, &fewer);
   thr_plan_destroy(&fewer);
@@ -659,7 +685,6 @@ static bool asked_make(rng *r, asked *a)
   *a = (asked){.longest = 0};
   request_make(r, &a->q);
   request *q = &a->q;
-  if (q->o.end_node) q->o.end_node = q->end_node; /* the structure has been copied */
   q->o.objective = THR_LENGTH;
   q->o.cords = q->o.cords_least = rng_between(r, 1, MOST_CORDS);
   if (!plan_and_mix(r, a) || (q->o.objective == THR_SYMMETRY && run_alike(&a->plan))) {
@@ -674,10 +699,12 @@ static bool asked_make(rng *r, asked *a)
   a->plan.options.cords = q->o.cords;
   a->plan.options.cords_least = q->o.cords_least;
   a->plan.options.max_length = q->o.max_length;
+  a->plan.options.turning.length_slack = q->o.turning.length_slack;
   ck_assert_int_eq(thr_plan_measure(&q->f, &q->o, a->plan.cord, a->plan.n_cords, &a->plan.metrics, NULL), THR_OK);
   q->least = truth_length(&q->f, &true_options, NULL);
-  for (int k = 0; k < q->n_components; k++)
+  for (int k = 0; k < q->n_components && q->o.ends != THR_ENDS_COUNTS; k++)
     find_truth_of_piece(a, k, true_options.cords_least);
+  if (q->o.ends == THR_ENDS_COUNTS) find_witnesses(a);
   memset(q->passes, 0, sizeof q->passes);
   for (int i = 0; i < a->plan.n_cords; i++)
     for (int k = 0; k < a->plan.cord[i].n_passes; k++)
@@ -737,7 +764,8 @@ static double judge_claim(const void *target, const void *what)
   if (forge(a, c, &x) || thr_check_plan(&x.plan, NULL)) return -INFINITY;
   const thr_plan p = x.plan;
   double above = p.proof.lower_bound / a->q.least - 1, longest = p.cords_claim.longest_bound / a->longest - 1;
-  if (p.cords_claim.fewest > a->fewest) return 1;
+  bool within = p.metrics.length <= (1 + p.options.turning.length_slack) * a->q.least * (1 + 4e-9);
+  if (p.cords_claim.fewest > a->fewest || (p.options.objective == THR_TORTUOSITY && !within)) return 1;
   return fmax(above, longest);
 }
 

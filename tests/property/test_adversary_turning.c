@@ -33,8 +33,20 @@ static void target_destroy(target *t)
   thr_plan_destroy(&t->plan);
 }
 
+static void limit_edges(rng *r, thr_frame *f)
+{
+  size_t m = (size_t)f->n_edges;
+  if (rng_below(r, 4) == 0) f->cover = calloc(m, sizeof *f->cover);
+  if (rng_below(r, 4) == 0) f->capacity = calloc(m, sizeof *f->capacity);
+  for (int e = 0; e < f->n_edges; e++) {
+    if (f->cover) f->cover[e] = rng_between(r, 1, 2);
+    if (f->capacity) f->capacity[e] = rng_below(r, 2) ? 0 : rng_between(r, 2, 5);
+  }
+}
+
 static void choose_options(rng *r, target *t, thr_frame *f, thr_plan_options *o)
 {
+  limit_edges(r, f);
   *o = options_for((thr_ends)rng_below(r, 5), rng_below(r, 4) ? 1 : 2);
   o->objective = t->tied ? THR_LENGTH : THR_TORTUOSITY;
   o->joint = t->tied || rng_below(r, 4) == 0 ? THR_JOINT_TUBE : THR_JOINT_SOLID;
