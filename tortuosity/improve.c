@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 static const double enough = 1e-9; /* smaller savings are rounding */
 
@@ -17,6 +16,9 @@ typedef struct {
   int *at;       /* [n_darts] transition that the dart is part of */
   int *ring;     /* [n_darts] mate, with pairs at the end nodes */
   bool *visited; /* [n_darts] */
+  int *node;     /* [n_nodes of the framework] by component: those of the one at hand are node[begin] .. node[end - 1] */
+  int *first;    /* [n_components + 2] */
+  int component, begin, end;
 } tour;
 
 static void tour_destroy(tour *t)
@@ -26,6 +28,19 @@ static void tour_destroy(tour *t)
   free(t->at);
   free(t->ring);
   free(t->visited);
+  free(t->node);
+  free(t->first);
+}
+
+static void sort_nodes(tour *t)
+{
+  const thr_turning_columns *c = t->j->c;
+  for (int v = 0; v < c->f->n_nodes; v++)
+    t->first[c->component[v] + 2]++;
+  for (int k = 1; k <= c->n_components; k++)
+    t->first[k + 1] += t->first[k];
+  for (int v = 0; v < c->f->n_nodes; v++)
+    t->node[t->first[c->component[v] + 1]++] = v;
 }
 
 static thr_status tour_init(tour *t, thr_join *j, thr_err *err)
@@ -37,7 +52,20 @@ static thr_status tour_init(tour *t, thr_join *j, thr_err *err)
   t->at = thr_calloc(n, sizeof *t->at);
   t->ring = thr_calloc(n, sizeof *t->ring);
   t->visited = thr_calloc(n, sizeof *t->visited);
-  return t->in && t->out && t->at && t->ring && t->visited ? THR_OK : thr_nomem(err);
+  t->node = thr_calloc((size_t)j->c->f->n_nodes, sizeof *t->node);
+  t->first = thr_calloc((size_t)j->c->n_components + 2, sizeof *t->first);
+  if (!t->in || !t->out || !t->at || !t->ring || !t->visited || !t->node || !t->first) return thr_nomem(err);
+  sort_nodes(t);
+  return THR_OK;
+}
+
+static void copy_pairs(tour *t, int v)
+{
+  const thr_multigraph *g = &t->j->g;
+  for (int i = g->first[v]; i < g->first[v + 1]; i++) {
+    t->ring[g->dart[i]] = t->j->mate[g->dart[i]];
+    t->visited[g->dart[i]] = false;
+  }
 }
 
 /* Pairs the ends of cord after cord at their node: the far end of one with the near end of the next. */
@@ -45,22 +73,22 @@ static void close_ring(tour *t)
 {
   const thr_join *j = t->j;
   const thr_multigraph *g = &j->g;
-  memcpy(t->ring, j->mate, (size_t)g->n_darts * sizeof *t->ring);
-  for (int v = j->c->f->n_nodes; v < g->n_nodes; v++) {
-    int first = -1, far = -1;
-    for (int i = g->first[v]; i < g->first[v + 1]; i++) {
-      int near = g->dart[i], d = near;
-      if (t->ring[near] >= 0 || near == far) continue;
-      while (j->mate[d ^ 1] >= 0)
-        d = j->mate[d ^ 1];
-      if (first < 0)
-        first = near;
-      else
-        t->ring[far] = near, t->ring[near] = far;
-      far = d ^ 1;
-    }
-    if (first >= 0) t->ring[far] = first, t->ring[first] = far;
+  int v = j->c->f->n_nodes + t->component, first = -1, far = -1;
+  for (int i = t->begin; i < t->end; i++)
+    copy_pairs(t, t->node[i]);
+  copy_pairs(t, v);
+  for (int i = g->first[v]; i < g->first[v + 1]; i++) {
+    int near = g->dart[i], d = near;
+    if (t->ring[near] >= 0 || near == far) continue;
+    while (j->mate[d ^ 1] >= 0)
+      d = j->mate[d ^ 1];
+    if (first < 0)
+      first = near;
+    else
+      t->ring[far] = near, t->ring[near] = far;
+    far = d ^ 1;
   }
+  if (first >= 0) t->ring[far] = first, t->ring[first] = far;
 }
 
 static void walk(tour *t, int start)
@@ -179,22 +207,30 @@ static bool improve_node(tour *t, int v, const thr_limits *limits, int *here, in
 }
 
 /* Improves the circuit through dart start until a whole pass over its nodes changes nothing. */
-static void improve_circuit(tour *t, int component, int start, const thr_limits *limits, int *here, int *list)
+static void improve_circuit(tour *t, int start, const thr_limits *limits, int *here, int *list)
 {
-  const thr_turning_columns *c = t->j->c;
   bool changed = true;
   while (changed && !thr_limits_stop(limits)) {
     changed = false;
-    for (int v = 0; v < c->f->n_nodes && !thr_limits_stop(limits); v++) {
-      if (c->component[v] != component) continue;
-      while (improve_node(t, v, limits, here, list)) {
+    for (int i = t->begin; i < t->end && !thr_limits_stop(limits); i++) {
+      while (improve_node(t, t->node[i], limits, here, list)) {
         changed = true;
         close_ring(t);
-        memset(t->visited, 0, (size_t)t->j->g.n_darts * sizeof *t->visited);
         walk(t, start);
       }
     }
   }
+}
+
+/* The lowest of the component that leaves one of its nodes. */
+static int first_dart(const tour *t)
+{
+  const thr_multigraph *g = &t->j->g;
+  int least = g->n_darts;
+  for (int i = t->begin; i < t->end; i++)
+    for (int k = g->first[t->node[i]]; k < g->first[t->node[i] + 1]; k++)
+      if (g->dart[k] < least) least = g->dart[k];
+  return least;
 }
 
 thr_status thr_improve(thr_join *j, const thr_limits *limits, thr_err *err)
@@ -205,13 +241,13 @@ thr_status thr_improve(thr_join *j, const thr_limits *limits, thr_err *err)
   thr_status st = tour_init(&t, j, err);
   if (!st && (!here || !list)) st = thr_nomem(err);
   for (int k = 0; k < j->c->n_components && !st; k++) {
-    int start = 0;
-    while (start < g->n_darts && (g->tail[start] >= j->c->f->n_nodes || j->c->component[g->tail[start]] != k))
-      start++;
+    t.component = k;
+    t.begin = t.first[k];
+    t.end = t.first[k + 1];
+    int start = first_dart(&t);
     close_ring(&t);
-    memset(t.visited, 0, (size_t)g->n_darts * sizeof *t.visited);
     walk(&t, start);
-    improve_circuit(&t, k, start, limits, here, list);
+    improve_circuit(&t, start, limits, here, list);
   }
   tour_destroy(&t);
   free(here);
