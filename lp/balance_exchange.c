@@ -170,14 +170,27 @@ static thr_knots_change change_of(const row *r, const pieces *x)
   return c;
 }
 
-/* The better of two, if the joints allow it. */
+/* What asking about the joints of a change costs beyond the usual: nodes of very many edges are walked through. */
+static int64_t hub_steps(const thr_balance *b, const thr_knots_change *c)
+{
+  enum { USUAL = 64 };
+  int64_t steps = 0;
+  for (int i = 0; i < c->n; i++) {
+    int degree = thr_degree(b->s->f, thr_tail(b->s->f, c->turn[i].out));
+    if (degree > USUAL) steps += degree;
+  }
+  return steps;
+}
+
+/* The better of two, if the joints allow it. With joints to ask about this is what takes the time. */
 static void offer(thr_balance *b, const row *r, thr_exchange x, thr_exchange *best)
 {
   if (x.longer >= best->longer) return;
   if (b->ties) {
+    if (thr_limits_stop(b->limits)) return;
     pieces list = pieces_of(r, &x);
     thr_knots_change c = change_of(r, &list);
-    b->steps -= c.n;
+    b->steps -= c.n + hub_steps(b, &c);
     if (!thr_knots_allow(b->ties, &c)) return;
   }
   *best = x;

@@ -277,28 +277,60 @@ static thr_status keep_junction(thr_turning_dual *d, int *capacity, int v, int d
   return THR_OK;
 }
 
-/* Kruskal's tree at node v: what every part must still be joined for, from one price of the tree to the next. */
-static thr_status prove_tree(const thr_turning_columns *c, thr_turning_dual *d, int *capacity, int v, turn *list, int *parent,
-                             thr_err *err)
+static int64_t left_of(const thr_turning_columns *c, const thr_turning_dual *d, int g, int h)
+{
+  return c->weight[thr_turning_column(c, g, h)] - d->potential[g] - d->potential[h];
+}
+
+/* Prim's tree at node v, its turns into list[degree - 1]. */
+static void find_tree(const thr_turning_columns *c, const thr_turning_dual *d, int v, turn *list)
 {
   const int *half = c->f->half + c->f->first[v], degree = thr_degree(c->f, v);
-  int n = 0, parts = degree;
+  for (int i = 1; i < degree; i++) /* from each that is not in the tree, the cheapest into it */
+    list[i - 1] = (turn){left_of(c, d, half[0], half[i]), 0, i};
+  for (int joined = 0; joined < degree - 1; joined++) {
+    int next = joined;
+    for (int i = joined; i < degree - 1; i++)
+      if (by_price(&list[i], &list[next]) < 0) next = i;
+    turn t = list[next];
+    list[next] = list[joined];
+    list[joined] = t;
+    for (int i = joined + 1; i < degree - 1; i++) {
+      int64_t price = left_of(c, d, half[t.b], half[list[i].b]);
+      if (price < list[i].price) list[i] = (turn){price, t.b, list[i].b};
+    }
+  }
+}
+
+/* Junctions of a node at most: all that its tree has prices, but where nodes of very many edges would make the proof slow to
+ * check, which looks at all turns of a node for every junction there. */
+static int most_junctions(const thr_frame *f)
+{
+  const double checked = 2e7;
+  enum { LEAST = 8 };
+  double turns = 1;
+  for (int v = 0; v < f->n_nodes; v++)
+    turns += (double)thr_degree(f, v) * thr_degree(f, v);
+  return checked / turns > f->n_edges ? f->n_edges : (int)fmax(LEAST, checked / turns);
+}
+
+/* The cheapest tree at node v: what every part must still be joined for, from one price of the tree to a later one. */
+static thr_status prove_tree(const thr_turning_columns *c, thr_turning_dual *d, int *capacity, int v, int most, turn *list,
+                             int *parent, thr_err *err)
+{
+  const int degree = thr_degree(c->f, v), each = (degree - 2) / most + 1;
   int64_t paid = 0;
   thr_status st = THR_OK;
-  for (int i = 0; i < degree; i++) {
+  for (int i = 0; i < degree; i++)
     parent[i] = i;
-    for (int k = i + 1; k < degree; k++)
-      list[n++] =
-          (turn){c->weight[thr_turning_column(c, half[i], half[k])] - d->potential[half[i]] - d->potential[half[k]], i, k};
-  }
-  qsort(list, (size_t)n, sizeof *list, by_price);
-  for (int i = 0; i < n && parts > 1 && !st; i++) {
-    if (thr_disjoint_find(parent, list[i].a) == thr_disjoint_find(parent, list[i].b)) continue;
-    if (list[i].price > paid) {
+  find_tree(c, d, v, list);
+  qsort(list, degree > 0 ? (size_t)degree - 1 : 0, sizeof *list, by_price);
+  for (int i = 0; i < degree - 1 && !st; i++) {
+    if (list[i].price > paid && i % each == 0) {
       st = keep_junction(d, capacity, v, degree, parent, list[i].price - paid, err);
       paid = list[i].price;
     }
-    parts -= thr_disjoint_join(parent, list[i].a, list[i].b);
+    thr_disjoint_join(parent, list[i].a, list[i].b);
   }
   return st;
 }
@@ -306,12 +338,12 @@ static thr_status prove_tree(const thr_turning_columns *c, thr_turning_dual *d, 
 static thr_status prove_trees(const thr_turning_columns *c, thr_turning_dual *d, thr_err *err)
 {
   size_t most = (size_t)largest_degree(c->f);
-  int capacity = 0;
-  turn *list = thr_calloc(most * most / 2 + 1, sizeof *list);
+  int capacity = 0, junctions = most_junctions(c->f);
+  turn *list = thr_calloc(most, sizeof *list);
   int *parent = thr_calloc(most, sizeof *parent);
   thr_status st = list && parent ? THR_OK : thr_nomem(err);
   for (int v = 0; v < c->f->n_nodes && !st; v++)
-    st = prove_tree(c, d, &capacity, v, list, parent, err);
+    st = prove_tree(c, d, &capacity, v, junctions, list, parent, err);
   free(list);
   free(parent);
   return st;

@@ -15,6 +15,9 @@ static const double integral = 1e-6; /* what counts as a whole number */
 /* More turns than these, and more per edge, make a linear programme that is not solved in any time that anybody waits. */
 enum { DENSE = 200000, DENSE_PER_EDGE = 20 };
 
+/* Tying a node of more edges once takes seconds: it is not done again for a plan that may be better. */
+enum { TIED_DEGREE = 1000 };
+
 thr_status thr_branch_init(thr_branch *b, const thr_turning_columns *c, int most_nodes, const thr_limits *limits, thr_err *err)
 {
   size_t n = (size_t)c->f->n_nodes, m = (size_t)c->f->n_edges;
@@ -154,6 +157,14 @@ static bool closed(const thr_branch *b, int i)
   return b->node[i].bound >= b->best_price - thr_branch_tolerance(b);
 }
 
+static int largest_degree(const thr_frame *f)
+{
+  int most = 0;
+  for (int v = 0; v < f->n_nodes; v++)
+    if (thr_degree(f, v) > most) most = thr_degree(f, v);
+  return most;
+}
+
 /* Tube joints: the bound of the ascent, and from the mean of its solutions passes to begin with. */
 static thr_status climb(thr_branch *b, int root, thr_err *err)
 {
@@ -162,9 +173,11 @@ static thr_status climb(thr_branch *b, int root, thr_err *err)
   thr_turning_dual d = {0};
   bool found = false;
   double *mean = thr_calloc((size_t)b->c->n_columns, sizeof *mean);
-  thr_status st = mean ? thr_ascent_run(b->c, target, b->limits, &d, mean, err) : thr_nomem(err);
+  const thr_limits half = thr_limits_part(b->limits, b->dense ? 0.5 : 1);
+  thr_status st = mean ? thr_ascent_run(b->c, target, &half, &d, mean, err) : thr_nomem(err);
   if (!st) st = keep_dual(b, root, d, NULL, NULL, err);
-  if (!st && !closed(b, root)) st = thr_tie_round(b->c, mean, b->passes, b->ends, &found, err);
+  bool more = !b->found || (!closed(b, root) && !thr_limits_stop(b->limits) && largest_degree(b->c->f) <= TIED_DEGREE);
+  if (!st && more) st = thr_tie_round(b->c, mean, b->passes, b->ends, &found, err);
   if (!st && found) st = thr_tie_improve(b->c, &some, b->passes, b->ends, err);
   if (!st && found) st = thr_branch_try(b, b->passes, b->ends, err);
   free(mean);

@@ -62,9 +62,15 @@ static thr_status keep_better(thr_branch *b, thr_join *j, const int *passes, thr
   return tell(b, &b->best, err);
 }
 
+/* Is there a plan, and no time for another? */
+static bool late(const thr_branch *b)
+{
+  return b->found && thr_limits_stop(b->limits);
+}
+
 thr_status thr_branch_try_circuits(thr_branch *b, thr_join *j, const int *passes, thr_err *err)
 {
-  bool found = within_limits(b->c, passes);
+  bool found = !late(b) && within_limits(b->c, passes);
   thr_status st = found ? thr_circuits_make(j, b->limits, &found, err) : THR_OK;
   if (!st && found) return keep_better(b, j, passes, err);
   thr_join_destroy(j);
@@ -93,7 +99,7 @@ static thr_status try_added(thr_branch *b, const int *passes, thr_err *err)
   thr_status st = thr_join_init(&j, b->c, passes, NULL, err);
   if (!st) {
     st = thr_join_greedy(&j, b->c->task->cords - 1, b->limits, err);
-    if (!st) st = thr_circuits_add(&j, &more, all, &found, err);
+    if (!st) st = thr_circuits_add(&j, b->limits, &more, all, &found, err);
     thr_join_destroy(&j);
   }
   if (!st && found) st = thr_branch_try_circuits(b, &more, all, err);
@@ -106,9 +112,9 @@ static thr_status try_several(thr_branch *b, const int *passes, thr_err *err)
 {
   const int apart[] = {0, b->c->task->cords - 1, INT_MAX};
   thr_status st = THR_OK;
-  for (int i = 0; i < 3 && !st; i++)
+  for (int i = 0; i < 3 && !st && !late(b); i++)
     st = try_greedy(b, passes, apart[i], err);
-  return st ? st : try_added(b, passes, err);
+  return st || late(b) ? st : try_added(b, passes, err);
 }
 
 /* The turns and ends in whole, which fit the passes; kept if they hang together. */
@@ -137,7 +143,7 @@ static thr_status try_tied(thr_branch *b, const int *passes, const int *ends, th
 thr_status thr_branch_try(thr_branch *b, const int *passes, const int *ends, thr_err *err)
 {
   thr_join j;
-  if (!within_limits(b->c, passes)) return THR_OK;
+  if (late(b) || !within_limits(b->c, passes)) return THR_OK;
   if (b->c->task->tube) return try_tied(b, passes, ends, err);
   if (b->several) return try_several(b, passes, err);
   thr_status st = thr_join_init(&j, b->c, passes, ends, err);
@@ -157,7 +163,7 @@ thr_status thr_branch_try_cords(thr_branch *b, const thr_cord *cord, int n_cords
   for (int i = 0; i < n_cords; i++)
     for (int k = 0; k < cord[i].n_passes; k++)
       b->passes[cord[i].half[k] >> 1]++;
-  if (!within_limits(b->c, b->passes)) return THR_OK;
+  if (late(b) || !within_limits(b->c, b->passes)) return THR_OK;
   thr_status st = thr_join_from_cords(&j, b->c, cord, n_cords, err);
   if (!st && b->several) return thr_branch_try_circuits(b, &j, b->passes, err);
   if (!st && !b->c->task->tube) st = thr_improve(&j, b->limits, err);

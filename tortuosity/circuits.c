@@ -20,6 +20,7 @@ typedef struct {
   int *count;              /* [n_components] circuits */
   int *here, *list;        /* [n_darts] scratch */
   int *parent;             /* [n_edges] scratch */
+  int *node, *first;       /* nodes by component: node[first[k]] .. node[first[k + 1] - 1] */
   uint64_t state;          /* of the random numbers */
 } circuits;
 
@@ -41,6 +42,19 @@ static void circuits_destroy(circuits *s)
   free(s->here);
   free(s->list);
   free(s->parent);
+  free(s->node);
+  free(s->first);
+}
+
+static void sort_nodes(circuits *s)
+{
+  const thr_turning_columns *c = s->j->c;
+  for (int v = 0; v < c->f->n_nodes; v++)
+    s->first[c->component[v] + 2]++;
+  for (int k = 1; k <= c->n_components; k++)
+    s->first[k + 1] += s->first[k];
+  for (int v = 0; v < c->f->n_nodes; v++)
+    s->node[s->first[c->component[v] + 1]++] = v;
 }
 
 static thr_status circuits_init(circuits *s, thr_join *j, const thr_limits *limits, thr_err *err)
@@ -55,8 +69,12 @@ static thr_status circuits_init(circuits *s, thr_join *j, const thr_limits *limi
   s->here = thr_calloc(n, sizeof *s->here);
   s->list = thr_calloc(n, sizeof *s->list);
   s->parent = thr_calloc((size_t)j->c->f->n_edges, sizeof *s->parent);
-  bool all = s->in && s->out && s->circuit && s->at && s->count && s->here && s->list && s->parent;
-  return all ? THR_OK : thr_nomem(err);
+  s->node = thr_calloc((size_t)j->c->f->n_nodes, sizeof *s->node);
+  s->first = thr_calloc((size_t)j->c->n_components + 2, sizeof *s->first);
+  bool all = s->in && s->out && s->circuit && s->at && s->count && s->here && s->list && s->parent && s->node && s->first;
+  if (!all) return thr_nomem(err);
+  sort_nodes(s);
+  return THR_OK;
 }
 
 /* Walks all circuits. The same pairs give the same numbers. */
@@ -126,20 +144,33 @@ static bool allowed(const circuits *s, const exchange *x)
   return tied;
 }
 
-/* The cheapest exchange in a component that changes the number of its circuits so; extra is infinite if there is none. */
+/* Of n transitions, the step from one partner to the next: all pairs of a few, about PAIRS of very many. */
+static int partner_step(int n)
+{
+  enum { PAIRS = 20000 };
+  return 1 + (int)((int64_t)n * n / 2 / PAIRS);
+}
+
+/* The better of best and what changes the number of circuits so at node v. */
+static void consider_node(const circuits *s, int v, int change, exchange *best)
+{
+  int n = transitions_at(s, v, s->list), step = partner_step(n);
+  for (int i = 0; i < n; i++)
+    for (int k = i + 1; k < n; k += step)
+      for (int crossed = 0; crossed < 2; crossed++) {
+        exchange x = exchange_of(s, s->list[i], s->list[k], crossed);
+        if (x.change == change && x.extra < best->extra - 1e-12 && allowed(s, &x)) *best = x;
+      }
+}
+
+/* The cheapest exchange in a component that changes the number of its circuits so, as far as the limits let it look; extra is
+ * infinite if there is none. */
 static exchange cheapest(const circuits *s, int component, int change)
 {
-  const thr_turning_columns *c = s->j->c;
   exchange best = {.extra = INFINITY};
-  for (int v = 0; v < c->f->n_nodes; v++) {
-    if (c->component[v] != component) continue;
-    int n = transitions_at(s, v, s->list);
-    for (int i = 0; i < n; i++)
-      for (int k = i + 1; k < n; k++)
-        for (int crossed = 0; crossed < 2; crossed++) {
-          exchange x = exchange_of(s, s->list[i], s->list[k], crossed);
-          if (x.change == change && x.extra < best.extra - 1e-12 && allowed(s, &x)) best = x;
-        }
+  for (int i = s->first[component]; i < s->first[component + 1]; i++) {
+    consider_node(s, s->node[i], change, &best);
+    if (isfinite(best.extra) && thr_limits_stop(s->limits)) break;
   }
   return best;
 }
@@ -162,13 +193,14 @@ static void exchange_any(circuits *s, int component)
   }
 }
 
-/* Until the component has so many circuits. */
+/* Until the component has so many circuits. Stopped, no more are joined or split than cords were asked for. */
 static bool reach(circuits *s, int component)
 {
   enum { SHAKES = 100 };
   for (int shakes = 0;;) {
     int change = s->j->c->task->cords - s->count[component];
     if (change == 0) return true;
+    if (abs(change) > s->j->c->task->cords && thr_limits_stop(s->limits)) return false;
     exchange x = cheapest(s, component, change > 0 ? 1 : -1);
     if (isfinite(x.extra)) {
       make(s, x.made);
@@ -182,9 +214,9 @@ static bool reach(circuits *s, int component)
 /* One exchange at node v that saves and keeps the number, or one that saves with one anywhere that puts the number right. */
 static bool improve_at(circuits *s, int v)
 {
-  int component = s->j->c->component[v], n = transitions_at(s, v, s->here);
-  for (int i = 0; i < n; i++)
-    for (int k = i + 1; k < n; k++)
+  int component = s->j->c->component[v], n = transitions_at(s, v, s->here), step = partner_step(n);
+  for (int i = 0; i < n && !thr_limits_stop(s->limits); i++)
+    for (int k = i + 1; k < n; k += step)
       for (int crossed = 0; crossed < 2; crossed++) {
         exchange x = exchange_of(s, s->here[i], s->here[k], crossed);
         if (x.extra >= -enough || !allowed(s, &x)) continue;
@@ -276,7 +308,7 @@ static thr_status take_walk(adder *s, thr_err *err)
 }
 
 /* One more closed cord in the component. */
-static thr_status add_walk(adder *s, int component, bool *found, thr_err *err)
+static thr_status add_walk(adder *s, int component, const thr_limits *limits, bool *found, thr_err *err)
 {
   const thr_frame *f = s->c->f;
   double least = INFINITY;
@@ -286,6 +318,7 @@ static thr_status add_walk(adder *s, int component, bool *found, thr_err *err)
     thr_walks_closed(&s->walks, h);
     double price = walk_price(s);
     if (price < least - 1e-12) least = price, best = h;
+    if (best >= 0 && thr_limits_stop(limits)) break;
   }
   *found = best >= 0;
   if (best < 0) return THR_OK;
@@ -320,16 +353,15 @@ static thr_status copy_circuits(adder *s, const circuits *from, thr_err *err)
   return st;
 }
 
-thr_status thr_circuits_add(const thr_join *j, thr_join *out, int *passes, bool *found, thr_err *err)
+thr_status thr_circuits_add(const thr_join *j, const thr_limits *limits, thr_join *out, int *passes, bool *found, thr_err *err)
 {
   const thr_turning_columns *c = j->c;
   int cords = c->task->cords;
   circuits from;
   adder s = {0};
   thr_join same = *j; /* follow() does not change it */
-  thr_limits none = {0};
   *out = (thr_join){0};
-  thr_status st = circuits_init(&from, &same, &none, err);
+  thr_status st = circuits_init(&from, &same, limits, err);
   if (!st) follow(&from);
   *found = !st;
   for (int k = 0; k < c->n_components && !st; k++)
@@ -338,7 +370,7 @@ thr_status thr_circuits_add(const thr_join *j, thr_join *out, int *passes, bool 
   if (!st && *found) st = copy_circuits(&s, &from, err);
   for (int k = 0; k < c->n_components && !st && *found; k++)
     for (; from.count[k] < cords && !st && *found; from.count[k]++)
-      st = add_walk(&s, k, found, err);
+      st = add_walk(&s, k, limits, found, err);
   if (!st && *found) st = thr_join_from_cords(out, c, s.cord, s.n_cords, err);
   circuits_destroy(&from);
   adder_destroy(&s);

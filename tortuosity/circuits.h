@@ -13,8 +13,10 @@ thr_status thr_circuits_make(thr_join *j, const thr_limits *limits, bool *found,
 
 /* The circuits of j, and in every component with too few of them further closed cords through passes of their own, each the
  * cheapest of the shortest closed walks through the edges. passes[n_edges] receives the passes. *found is false, and out empty,
- * if most_passes leaves no such walk, or a component has too many circuits. Release out with thr_join_destroy. */
-thr_status thr_circuits_add(const thr_join *j, thr_join *out, int *passes, bool *found, thr_err *err) THR_MUST_CHECK;
+ * if most_passes leaves no such walk, or a component has too many circuits; stopped, the walk is the cheapest so far. Release out
+ * with thr_join_destroy. */
+thr_status thr_circuits_add(const thr_join *j, const thr_limits *limits, thr_join *out, int *passes, bool *found,
+                            thr_err *err) THR_MUST_CHECK;
 
 /* Circuits of few edges through every edge, as many as that takes: the walk through edge number first, through the next edge that
  * is not in one yet (cover times), and so on. *found and out as above. O(edges * sum of the squares of the degrees) at worst. */

@@ -219,8 +219,9 @@ static thr_status not_found(const thr_branch *b, thr_err *err)
   return THR_EINFEASIBLE;
 }
 
-/* Checks of the proof that follow the search, each of which goes through all turns as making the columns does; with a margin. */
-enum { CHECKS = 5 };
+/* Checks of the proof that follow the search, each of which goes through all turns as making the columns does, with tube joints
+ * once for every junction; with a margin. */
+enum { CHECKS = 6, CHECKS_TIED = 20 };
 
 /* The limits less so many seconds, but half of what is left at most. */
 static thr_limits without(const thr_limits *l, double seconds)
@@ -245,7 +246,7 @@ static thr_status search(const thr_frame *f, const thr_least_options *o, const t
   const double each = thr_clock() - begun;
   if (!st) st = find_shortest(&c, o, limits, &made, passes, ends, &start, err);
   if (!st) st = thr_branch_init(&b, &c, o->most_nodes, &inner, err);
-  if (b.dense) inner = without(limits, CHECKS * each);
+  if (b.dense) inner = without(limits, (o->tube ? CHECKS_TIED : CHECKS) * each);
   if (!st) st = thr_branch_begin(&b, err);
   if (!st) st = first_plans(&b, o, &start, passes, ends, err);
   if (!st) st = thr_branch_run(&b, err);

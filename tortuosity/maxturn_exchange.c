@@ -202,10 +202,10 @@ static bool hand_over(thr_evener *s, const thr_place *p, const thr_place *q)
 }
 
 /* One exchange at node v. */
-static bool exchange_at(thr_evener *s, int v)
+static bool exchange_at(thr_evener *s, int v, const thr_limits *limits)
 {
   const thr_multigraph *g = &s->j->g;
-  for (int i = g->first[v]; i < g->first[v + 1]; i++)
+  for (int i = g->first[v]; i < g->first[v + 1] && !thr_limits_stop(limits); i++)
     for (int k = i + 1; k < g->first[v + 1]; k++) {
       const thr_place *p = &s->place[s->at[g->dart[i]]], *q = &s->place[s->at[g->dart[k]]];
       if (p == q || p->in != g->dart[i] || q->in != g->dart[k]) continue;
@@ -229,7 +229,7 @@ void thr_evener_even(thr_evener *s, const thr_limits *limits)
   for (bool changed = true; changed && !thr_limits_stop(limits);) {
     changed = false;
     for (int v = 0; v < c->f->n_nodes && !thr_limits_stop(limits); v++)
-      while (exchange_at(s, v)) {
+      while (exchange_at(s, v, limits)) {
         changed = true;
         thr_evener_follow(s);
       }

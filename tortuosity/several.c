@@ -26,7 +26,7 @@ static thr_status try_cover(thr_branch *b, int first, int *passes, thr_err *err)
   thr_status st = thr_circuits_cover(b->c, first, &few, passes, &found, err);
   if (st || !found) return st;
   const int *all = passes;
-  st = thr_circuits_add(&few, &j, b->passes, &found, err);
+  st = thr_circuits_add(&few, b->limits, &j, b->passes, &found, err);
   if (!st && found) {
     thr_join_destroy(&few);
     few = j;
@@ -46,7 +46,7 @@ static thr_status try_tied(thr_branch *b, int *passes, thr_err *err)
   thr_status st = thr_tie_round(c, NULL, passes, b->ends, &found, err);
   if (!st && found) st = thr_join_tie(&few, c, passes, NULL, &found, err);
   if (st || !found) return st;
-  st = thr_circuits_add(&few, &j, b->passes, &found, err);
+  st = thr_circuits_add(&few, b->limits, &j, b->passes, &found, err);
   thr_join_destroy(&few);
   return st || !found ? st : thr_branch_try_circuits(b, &j, b->passes, err);
 }
