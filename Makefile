@@ -3,7 +3,7 @@ VERSION := 0.1.0
 
 # Choices, as `make BUILD=asan` or in the environment
 BUILD ?= release
-# release | debug | asan (address + undefined behaviour) | cov (gcov) | fuzz (clang); into $(OUT)/$(BUILD)
+# release | debug | asan (address + undefined behaviour) | cov (gcov) | fuzz (clang) | mutants (shared library); into $(OUT)/$(BUILD)
 OUT ?= build
 # everything made goes below this folder
 PREFIX ?= /usr/local
@@ -59,9 +59,10 @@ MODE_release := -O2
 MODE_debug := -O0 -g
 MODE_asan := -O1 -fsanitize=address,undefined $(SANITIZE)
 MODE_cov := -O0 -g --coverage
+MODE_mutants := -O2 -fPIC
 MODE_fuzz := -O1 -fsanitize=fuzzer-no-link,address,undefined $(SANITIZE)
 ifeq ($(MODE_$(BUILD)),)
-$(error BUILD=$(BUILD) is not one of release debug asan cov fuzz)
+$(error BUILD=$(BUILD) is not one of release debug asan cov fuzz mutants)
 endif
 # -ffp-contract=off: no fused multiply-add, so the same digits on every machine
 THR_CFLAGS = -std=c11 $(WARN) -ffp-contract=off $(MODE_$(BUILD)) $(CFLAGS)
@@ -79,7 +80,7 @@ MODULES := graph lp symmetry tortuosity eval diagram
 SOURCES := $(wildcard $(addsuffix /*.c,$(MODULES))) $(wildcard $(addsuffix /*.cpp,$(MODULES))) diagram/viewer_page.S
 OBJECTS := $(addsuffix .o,$(basename $(SOURCES:%=$(DIR)/%)))
 CLI_OBJECTS := $(patsubst %.c,$(DIR)/%.o,$(wildcard cli/*.c))
-LIBRARY := $(DIR)/libthread.a
+LIBRARY := $(DIR)/libthread.$(if $(filter mutants,$(BUILD)),so,a)
 PROGRAM := $(DIR)/thread
 # tests/*.c is shared by all test programs; each file of tests/unit and tests/property is a program
 TEST_SUPPORT := $(patsubst %.c,$(DIR)/%.o,$(wildcard tests/*.c))
@@ -173,6 +174,10 @@ watchdog: ## does every command end in its time, with little memory? The whole m
 	+@$(MAKE) --no-print-directory $(JOBS) BUILD=release all $(OUT)/release/watchdog
 	@$(OUT)/release/watchdog $(OUT)/release/thread $(OUT)/watchdog --full $(ONLY)
 
+mutants: ## break the checker and others line by line: do the tests notice? MUTANTS=n only so many, ONLY="file.c .." or named
+	+@tools/install-packages.sh $(BUILD_PACKAGES) $(TEST_PACKAGES)
+	+@MAKE="$(MAKE)" tools/mutants.py --out "$(OUT)" $(if $(MUTANTS),--sample $(MUTANTS)) $(ONLY)
+
 coverage: ## lines and branches reached by the unit and property tests
 	+@tools/install-packages.sh $(BUILD_PACKAGES) $(COVERAGE_PACKAGES)
 	@rm -rf $(OUT)/cov
@@ -205,6 +210,8 @@ list-tests:
 	@printf '%s\n' $(patsubst $(DIR)/tests/%,%,$(TEST_PROGRAMS))
 list-fuzz:
 	@printf '%s\n' $(patsubst $(DIR)/tests/%,%,$(FUZZ_PROGRAMS))
+list-flags:
+	@printf '%s\n' $(COMPILER) $(THR_CPPFLAGS) $(THR_CFLAGS)
 list-c:
 	@printf '%s\n' $(C_FILES)
 
@@ -226,7 +233,12 @@ $(DIR)/tests/memory/fail_malloc.so: tests/memory/fail_malloc.c $(DIR)/flags.list
 	@echo "  LINK  $@"
 	$(Q)$(COMPILER) $(THR_CFLAGS) $(STRICT) -shared -fPIC -o $@ $<
 
-$(LIBRARY): $(OBJECTS) $(DIR)/objects.list
+# a mutated object, loaded before it, takes the place of its own
+$(DIR)/libthread.so: $(OBJECTS) $(DIR)/objects.list
+	@echo "  LINK  $@"
+	$(Q)$(LINK) -shared -o $@ $(OBJECTS) $(THR_LIBS)
+
+$(DIR)/libthread.a: $(OBJECTS) $(DIR)/objects.list
 	@echo "  AR    $@"
 	$(Q)rm -f $@
 	$(Q)ar rcs $@ $(OBJECTS)
@@ -251,7 +263,8 @@ $(DIR)/graph/igraph.o $(OUT)/tidy/graph/igraph.ok: private THR_CPPFLAGS += $(LAZ
 $(DIR)/eval/spqr.o $(OUT)/tidy/eval/spqr.ok: private THR_CPPFLAGS += $(SPQR_CFLAGS) $(LAZY_NAMES)
 $(DIR)/diagram/paper.o $(OUT)/tidy/diagram/paper.ok: private THR_CPPFLAGS += $(RSVG_CFLAGS) $(LAZY_NAMES)
 $(TEST_PROGRAMS:%=%.o) $(TEST_SUPPORT): private THR_CPPFLAGS += $(CHECK_CFLAGS)
-$(TEST_PROGRAMS): $(DIR)/%: $(DIR)/%.o $(TEST_SUPPORT) $(LIBRARY)
+$(OUT)/mutants/tests/%: private LDFLAGS += -Wl,--wrap=_ck_assert_failed
+$(TEST_PROGRAMS): $(DIR)/%: $(DIR)/%.o $(TEST_SUPPORT) $(if $(filter mutants,$(BUILD)),$(DIR)/tools/mutants/stop.o) $(LIBRARY)
 	@echo "  LINK  $@"
 	$(Q)$(LINK) -o $@ $^ $(CHECK_LIBS) $(THR_LIBS)
 
@@ -276,6 +289,6 @@ $(OUT)/packages.ok:
 	@touch $@
 
 FORCE:
-.PHONY: all demo test fuzz asan layers lint format-check tidy cppcheck format viewer bench validate memory watchdog coverage deps test-deps install uninstall clean help
-.PHONY: test-programs fuzz-programs list-tests list-fuzz list-c FORCE
+.PHONY: all demo test fuzz asan layers lint format-check tidy cppcheck format viewer bench validate memory watchdog mutants coverage deps test-deps install uninstall clean help
+.PHONY: test-programs fuzz-programs list-tests list-fuzz list-flags list-c FORCE
 -include $(wildcard $(DIR)/*/*.d $(DIR)/*/*/*.d)

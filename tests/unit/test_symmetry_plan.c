@@ -170,6 +170,12 @@ static void swap_tips(int k, const thr_frame *f, int *image)
   image[2] = 3, image[3] = 2;
 }
 
+static void swap_crossbar(int k, const thr_frame *f, int *image)
+{
+  identity(k, f, image);
+  image[3] = 4, image[4] = 3;
+}
+
 static const known plans[] = {
     /* MATHS: 6 x 6, corner feet, C4: 1 x 4, 17 learned steps */
     {"dome C4",
@@ -281,6 +287,24 @@ static const known plans[] = {
      {0, 1},
      {0, 0},
      identity,
+     identity},
+    /* a mirror keeps every node of the first cord, and turns the second round: only of that are the steps halved */
+    {"bar and crossbar",
+     star4,
+     THR_ENDS_ANY,
+     1,
+     2,
+     2,
+     2,
+     1,
+     1,
+     2,
+     3,
+     "",
+     {{{1, 0, 2, -1}}, {{3, 0, 4, -1}}},
+     {0, 1},
+     {0, 0},
+     swap_crossbar,
      identity},
     /* two cords in one piece, one in the other */
     {"two and one",

@@ -1,0 +1,568 @@
+/* Rules of the checker, each against an answer that is worked out another way: what rounding takes off a bound, how short the
+ * longest cord can be, and that no claim outlives a failure before it. */
+#include "graph/check_parts.h"
+#include "lp/cords.h"
+#include "tests/support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- rounding ---- */
+
+/* Edges one after the other, the nodes being 0, 1, .. n. */
+static thr_frame chain_make(int n, const double *length)
+{
+  double xyz[8][3] = {{0}};
+  int edge[8][2];
+  for (int e = 0; e < n; e++) {
+    xyz[e + 1][0] = xyz[e][0] + length[e];
+    edge[e][0] = e, edge[e][1] = e + 1;
+  }
+  return frame_make(n + 1, (const double(*)[3])xyz, n, (const int(*)[2])edge, NULL, NULL);
+}
+
+/* Appends so many cords there and back over an edge. */
+static void add_loops(thr_cord *cord, int *n, int edge, int count)
+{
+  for (int i = 0; i < count; i++) {
+    cord[*n] = (thr_cord){.closed = true, .n_passes = 2, .half = calloc(2, sizeof(int))};
+    ck_assert_ptr_nonnull(cord[*n].half);
+    thr_cord_id(*n, cord[*n].id);
+    cord[*n].half[0] = 2 * edge;
+    cord[(*n)++].half[1] = 2 * edge + 1;
+  }
+}
+
+/* Closed cords on a chain run there and back: every edge needs a pair of passes, and every cord one. */
+static double least_of_chain(const double *length, int n, int cords)
+{
+  double sum = 0, shortest = INFINITY;
+  for (int e = 0; e < n; e++) {
+    sum += 2 * length[e];
+    shortest = fmin(shortest, length[e]);
+  }
+  return sum + 2 * shortest * (cords > n ? cords - n : 0);
+}
+
+/* The best bound of certificates without cuts, of a plan with so many cords on a chain: those that no edge needs run over edge
+ * `over`. */
+static double best_bound(const double *length, int n, int cords, double scale, int cover, int over)
+{
+  thr_frame f = chain_make(n, length);
+  thr_plan_options o = options_for(THR_ENDS_CLOSED, cover);
+  thr_cord *cord = calloc((size_t)(cords + n), sizeof *cord);
+  int n_cords = 0;
+  double best = 0;
+  for (int e = 0; e < n; e++)
+    add_loops(cord, &n_cords, e, 1);
+  add_loops(cord, &n_cords, over, cords - n);
+  o.cords = o.cords_least = cords;
+  for (int price = 0; price <= 2000; price += 250) {
+    int64_t place = price;
+    thr_certificate c = {.scale = scale, .denominator = 1000, .n_prices = 1, .place_price = &place};
+    bool optimal;
+    double bound;
+    for (int e = 0; e < n; e++)
+      c.join += thr_certificate_weight(&f, &c, e) * (2 - cover + (e == over ? 2 * (cords - n) : 0));
+    thr_err err = {0};
+    thr_status st = thr_check_length_proof(&f, &o, cord, cords, &c, 1, &optimal, &bound, &err);
+    if (st) {
+      ck_assert_msg(st == THR_EVIOLATED && (strstr(err.text, "bound") || strstr(err.text, "cheaper")), "%s", err.text);
+    } else {
+      ck_assert_double_le(bound, least_of_chain(length, n, cords) * (1 + 1e-12));
+      best = fmax(best, bound);
+    }
+  }
+  thr_cords_destroy(cord, n_cords);
+  thr_frame_destroy(&f);
+  return best;
+}
+
+/* A weight rounded up counts for each pass of each cord: 0.51 for 1, a thousand times. */
+START_TEST(rounding_is_charged_for_every_cord)
+{
+  static const double length[2] = {0.51, 1}, even[2] = {1, 2};
+  for (int cover = 1; cover <= 2; cover++)
+    for (int cords = 2; cords <= 1000; cords *= 4) {
+      for (int k = -2; k < 8; k++)
+        for (int over = 0; over < 2; over++)
+          best_bound(length, 2, cords, ldexp(1, k), cover, over);
+      /* weights that are the lengths prove what is true */
+      ck_assert_double_eq_tol(best_bound(even, 2, cords, 1, cover, 1), least_of_chain(even, 2, cords) - (cover < 2), 2);
+    }
+}
+END_TEST
+
+/* Of random lengths and scales, some of which round most of an edge away. */
+START_TEST(rounding_never_adds_to_a_bound)
+{
+  rng r = rng_make((uint64_t)_i + 1);
+  double length[3];
+  int n = rng_between(&r, 1, 3);
+  for (int e = 0; e < n; e++)
+    length[e] = 0.05 + 2 * rng_unit(&r);
+  double scale = ldexp(1, rng_below(&r, 5)) * (0.5 + rng_unit(&r));
+  for (int over = 0; over < n; over++)
+    best_bound(length, n, n + rng_below(&r, 6), scale, 1 + rng_below(&r, 2), over);
+}
+END_TEST
+
+/* Two cords over one edge there and back, and an odd cut round its end: without prices one pass more is all that a shortest plan
+ * may have, so the rounding of 0.51 to 1 is taken off once. */
+START_TEST(rounding_is_charged_once_without_prices)
+{
+  static const double length[1] = {0.51};
+  thr_frame f = chain_make(1, length);
+  thr_cord *cord = calloc(2, sizeof *cord);
+  int n = 0;
+  bool optimal;
+  double bound;
+  add_loops(cord, &n, 0, 2);
+  for (int cover = 1; cover <= 3; cover += 2) {
+    thr_plan_options o = options_for(THR_ENDS_CLOSED, cover);
+    thr_cut cut = {-1, 1, (int[]){0}, 1};
+    int64_t price = 0;
+    thr_certificate c = {.scale = 1, .denominator = 1, .join = 4 - cover, .sum = 1, .n_cuts = 1, .cut = &cut};
+    o.cords = o.cords_least = 2;
+    ck_assert_int_eq(thr_check_length_proof(&f, &o, cord, 2, &c, 1, &optimal, &bound, NULL), THR_OK);
+    ck_assert_double_eq_tol(bound, 0.51 * (cover + 1), 1e-12);
+    ck_assert_int_eq(optimal, cover == 3);
+    c.n_prices = 1, c.place_price = &price; /* then twice the cords less the cover, and at least once */
+    ck_assert_int_eq(thr_check_length_proof(&f, &o, cord, 2, &c, 1, &optimal, &bound, NULL), THR_OK);
+    ck_assert_double_eq_tol(bound, cover == 3 ? 0.51 * 4 : 0.51, 1e-12); /* 1 - 3 * 0.49 is nothing */
+  }
+  thr_cords_destroy(cord, n);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* One cord, six passes over an edge that needs three: a pass more would do, whatever the certificate's prices are. */
+START_TEST(one_cord_is_charged_for_one_pass)
+{
+  static const double length[1] = {0.51};
+  thr_frame f = chain_make(1, length);
+  thr_cord cord = {.id = "A", .closed = true, .n_passes = 6, .half = (int[]){0, 1, 0, 1, 0, 1}};
+  thr_plan_options o = options_for(THR_ENDS_CLOSED, 3);
+  thr_cut cut = {-1, 1, (int[]){0}, 1};
+  int64_t price = 0;
+  thr_certificate c = {
+      .scale = 1, .denominator = 1, .join = 3, .sum = 1, .n_cuts = 1, .cut = &cut, .n_prices = 1, .place_price = &price};
+  bool optimal;
+  double bound;
+  ck_assert_int_eq(thr_check_length_proof(&f, &o, &cord, 1, &c, 1, &optimal, &bound, NULL), THR_OK);
+  ck_assert_double_eq_tol(bound, 0.51 * 4, 1e-12);
+  ck_assert(!optimal);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* A ring with a tail: the tail is passed twice. Every edge rounds up by a part of 4e-10, which together is far more than the part
+ * of 5e-10 of the tail that may be taken off instead. */
+START_TEST(rounding_of_what_is_passed_once_costs_little)
+{
+  enum { N = 200 };
+  double xyz[N + 1][3] = {{0}}, length[N + 1];
+  int edge[N + 1][2], half[N + 2];
+  for (int v = 0; v < N; v++) {
+    xyz[v][0] = cos(v * 0.01 * 3.14159265358979), xyz[v][1] = sin(v * 0.01 * 3.14159265358979);
+    edge[v][0] = v, edge[v][1] = (v + 1) % N;
+    half[v] = 2 * v;
+  }
+  xyz[N][0] = 3, edge[N][0] = 0, edge[N][1] = N;
+  half[N] = 2 * N, half[N + 1] = 2 * N + 1;
+  for (int e = 0; e <= N; e++)
+    length[e] = 1 - 4e-10;
+  thr_frame f = frame_make(N + 1, (const double(*)[3])xyz, N + 1, (const int(*)[2])edge, length, NULL);
+  thr_cord cord = {.id = "A", .closed = true, .n_passes = N + 2, .half = half};
+  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_cut cut = {-1, 1, (int[]){N}, 1};
+  thr_certificate c = {.scale = 1, .denominator = 1, .join = 1, .sum = 1, .n_cuts = 1, .cut = &cut};
+  static const double part[] = {4e-10, 6e-10, 1e-7};
+  for (int k = 0; k < 3; k++) {
+    bool optimal;
+    double bound, least = 0;
+    for (int e = 0; e <= N; e++)
+      least += f.length[e] = 1 - part[k];
+    least += fmax(1 - (N + 1) * part[k], 1 - 5e-10 - (N + 1) * fmax(0, part[k] - 5e-10));
+    ck_assert_int_eq(thr_check_length_proof(&f, &o, &cord, 1, &c, 1, &optimal, &bound, NULL), THR_OK);
+    ck_assert_int_eq(optimal, k < 2); /* within 1e-9 of the framework's length */
+    if (!optimal) ck_assert_double_eq_tol(bound, least, 1e-10);
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* A weight rounded down leaves a gap of 1e-7 or 1e-10 of the framework's length. */
+START_TEST(optimal_is_within_a_billionth)
+{
+  for (int k = 0; k < 2; k++) {
+    double length[1] = {k ? 1 + 1e-10 : 1 + 1e-7}, bound;
+    thr_frame f = chain_make(1, length);
+    f.length[0] = length[0];
+    thr_cord cord = {.id = "A", .closed = true, .n_passes = 2, .half = (int[]){0, 1}};
+    thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+    thr_cut cut = {-1, 1, (int[]){0}, 1};
+    thr_certificate c = {.scale = 1, .denominator = 1, .join = 1, .sum = 1, .n_cuts = 1, .cut = &cut};
+    bool optimal;
+    ck_assert_int_eq(thr_check_length_proof(&f, &o, &cord, 1, &c, 1, &optimal, &bound, NULL), THR_OK);
+    ck_assert_int_eq(optimal, k);
+    ck_assert_double_eq_tol(bound, k ? 2 * length[0] : length[0] + 1, 1e-15 + 1e-12);
+    thr_err err = {0};
+    c.scale = 2e18;
+    ck_assert_int_eq(thr_check_length_proof(&f, &o, &cord, 1, &c, 1, &optimal, &bound, &err), THR_EVIOLATED);
+    assert_one_line(&err, "scale is too large");
+    thr_frame_destroy(&f);
+  }
+}
+END_TEST
+
+/* ---- several cords ---- */
+
+/* Shortest distances by Floyd and Warshall, and the longest of: what edge must be gone over from end to end or round; the cord
+ * that all need, shared out; in whole units, if lengths have one. */
+static double longest_by_definition(const thr_frame *f, const thr_plan_options *o, double base, int most, double unit)
+{
+  double far[16][16], bound = base / most;
+  for (int a = 0; a < f->n_nodes; a++)
+    for (int b = 0; b < f->n_nodes; b++)
+      far[a][b] = a == b ? 0 : INFINITY;
+  for (int e = 0; e < f->n_edges; e++)
+    far[f->edge[e][0]][f->edge[e][1]] = far[f->edge[e][1]][f->edge[e][0]] = f->length[e];
+  for (int k = 0; k < f->n_nodes; k++)
+    for (int a = 0; a < f->n_nodes; a++)
+      for (int b = 0; b < f->n_nodes; b++)
+        far[a][b] = fmin(far[a][b], far[a][k] + far[k][b]);
+  for (int e = 0; e < f->n_edges; e++) {
+    int a = f->edge[e][0], b = f->edge[e][1];
+    double to[2] = {INFINITY, INFINITY};
+    for (int v = 0; v < f->n_nodes; v++)
+      if (o->ends == THR_ENDS_ANY || (o->ends == THR_ENDS_FEET && f->foot[v])) {
+        to[0] = fmin(to[0], far[v][a]);
+        to[1] = fmin(to[1], far[v][b]);
+      }
+    bound = fmax(bound, f->length[e] + (o->ends == THR_ENDS_CLOSED ? far[a][b] : to[0] + to[1]));
+  }
+  return unit > 0 ? unit * ceil(bound / unit - 1e-6) : bound;
+}
+
+START_TEST(the_longest_cord_has_its_detour)
+{
+  static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET};
+  static const length_kind kinds[] = {LENGTHS_RANDOM, LENGTHS_SMALL_INTEGERS, LENGTHS_EUCLID};
+  rng r = rng_make((uint64_t)_i + 1);
+  length_kind kind = kinds[_i % 3];
+  thr_frame f = random_frame(&r, rng_between(&r, 3, 9), rng_below(&r, 5), kind);
+  thr_plan_options o = options_for(ends[_i / 3 % 3], 1 + rng_below(&r, 2));
+  o.cords = 1 + rng_below(&r, 6);
+  o.cords_least = 1 + rng_below(&r, o.cords);
+  thr_plan p;
+  thr_cords_claim found;
+  thr_err err = {0};
+  thr_status st = thr_cords_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err);
+  if (st == THR_OK || st == THR_ELIMIT) {
+    ck_assert_msg(thr_check_cords(&f, &o, p.cord, p.n_cords, NULL, 0, &found, &err) == THR_OK, "%s", err.text);
+    double longest = 0, base = 0;
+    for (int i = 0; i < p.n_cords; i++)
+      longest = fmax(longest, thr_cord_length(&f, &p.cord[i]));
+    for (int e = 0; e < f.n_edges; e++)
+      base += o.cover * f.length[e];
+    double bound = longest_by_definition(&f, &o, base, o.cords, kind == LENGTHS_SMALL_INTEGERS ? thr_plan_unit(&f) : 0);
+    ck_assert_double_eq_tol(found.longest, longest, 1e-9);
+    ck_assert_double_eq_tol(found.longest_bound, fmin(longest, bound), 1e-9);
+    ck_assert_int_eq(found.longest_optimal, bound > longest - 1e-9 * longest);
+    ck_assert_int_eq(found.fewest, 0);
+    thr_plan_destroy(&p);
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* Every edge there and back by a cord of its own, on complete graphs where the way round is often shorter than an edge. */
+START_TEST(the_longest_closed_cord_has_its_detour)
+{
+  rng r = rng_make((uint64_t)_i + 1);
+  const int n = 5 + _i % 3;
+  double xyz[8][3], length[32], base = 0, longest = 0;
+  int edge[32][2], m = 0, n_cords = 0;
+  for (int v = 0; v < n; v++)
+    for (int i = 0; i < 3; i++)
+      xyz[v][i] = rng_unit(&r);
+  for (int a = 0; a < n; a++)
+    for (int b = 0; b < a; b++) {
+      length[m] = exp(2.5 * rng_unit(&r));
+      base += length[m];
+      longest = fmax(longest, 2 * length[m]);
+      edge[m][0] = a, edge[m++][1] = b;
+    }
+  thr_frame f = frame_make(n, (const double(*)[3])xyz, m, (const int(*)[2])edge, length, NULL);
+  thr_cord *cord = calloc((size_t)m, sizeof *cord);
+  for (int e = 0; e < m; e++)
+    add_loops(cord, &n_cords, e, 1);
+  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  o.cords = o.cords_least = m;
+  thr_cords_claim found;
+  ck_assert_int_eq(thr_check_cords(&f, &o, cord, m, NULL, 0, &found, NULL), THR_OK);
+  ck_assert_double_eq_tol(found.longest, longest, 1e-12);
+  ck_assert_double_eq_tol(found.longest_bound, fmin(longest, longest_by_definition(&f, &o, base, m, 0)), 1e-9);
+  thr_cords_destroy(cord, m);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* Lengths have a common step, or none. */
+START_TEST(cords_have_whole_numbers_of_the_unit)
+{
+  static const double whole[] = {6, 10, 15}, half[] = {1.5, 2.5, 4}, none[] = {1, 1.4142135623730951, 2};
+  const struct {
+    const double *length;
+    double unit;
+  } cases[] = {{whole, 1}, {half, 0.5}, {none, 0}};
+  for (int i = 0; i < 3; i++) {
+    thr_frame f = chain_make(3, cases[i].length);
+    ck_assert_double_eq_tol(thr_plan_unit(&f), cases[i].unit, 1e-9);
+    thr_frame_destroy(&f);
+  }
+}
+END_TEST
+
+/* Two cords there and back on a chain 1, 2: no fewer are allowed where they may have so much; the framework needs 6 in all. */
+START_TEST(the_fewest_cords_have_room)
+{
+  static const double length[2] = {1, 2};
+  static const struct {
+    double most;
+    int fewest;
+  } cases[] = {{6, 1}, {6 - 1e-6, 2}, {5, 2}, {4, 2}, {4 - 2e-9, 2}};
+  thr_frame f = chain_make(2, length);
+  thr_cord *cord = calloc(2, sizeof *cord);
+  int n = 0;
+  bool optimal;
+  double bound;
+  add_loops(cord, &n, 0, 1);
+  add_loops(cord, &n, 1, 1);
+  thr_cut cut[2] = {{-1, 1, (int[]){0}, 2}, {-1, 1, (int[]){2}, 4}};
+  thr_certificate c = {.scale = 2, .denominator = 1, .join = 6, .sum = 6, .n_cuts = 2, .cut = cut};
+  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  o.cords = 2;
+  o.cords_least = 1;
+  ck_assert_int_eq(thr_check_length_proof(&f, &o, cord, 2, &c, 1, &optimal, &bound, NULL), THR_OK);
+  ck_assert(optimal);
+  ck_assert_double_eq(bound, 6);
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    thr_cords_claim found;
+    thr_err err = {0};
+    o.max_length = cases[i].most;
+    ck_assert_msg(thr_check_cords(&f, &o, cord, 2, &c, 1, &found, &err) == THR_OK, "%s", err.text);
+    ck_assert_int_eq(found.fewest, cases[i].fewest);
+    ck_assert_int_eq(found.fewest_optimal, cases[i].fewest == 2);
+  }
+  thr_cords_claim found;
+  o.max_length = 4 - 1e-8; /* the cord over edge 1 is longer */
+  ck_assert_int_eq(thr_check_cords(&f, &o, cord, 2, &c, 1, &found, NULL), THR_EVIOLATED);
+  thr_cords_destroy(cord, 2);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* ---- failures last ---- */
+
+/* What is wrong early is wrong whatever follows, and nothing is found then. */
+START_TEST(failures_are_not_forgotten)
+{
+  static const double length[2] = {1, 2};
+  thr_frame f = chain_make(2, length);
+  thr_cord *cord = calloc(2, sizeof *cord);
+  int n = 0, passes[2] = {2, 2};
+  bool optimal;
+  double bound;
+  add_loops(cord, &n, 0, 1);
+  add_loops(cord, &n, 1, 1);
+  thr_certificate c = {.scale = 1, .denominator = 1, .join = 3}, wrong = c;
+  wrong.join = 2;
+  for (int k = 0; k < 5; k++) {
+    thr_plan_options o = options_for(THR_ENDS_CLOSED, k == 1 ? 3 : 1);
+    o.cords = o.cords_least = k == 2 ? 1 : k == 3 ? 3 : 2;
+    const thr_certificate *proof = k == 4 ? &wrong : &c;
+    thr_status expected = k ? THR_EVIOLATED : THR_OK;
+    thr_turning_proof tied = {0};
+    thr_cords_claim found;
+    ck_assert_int_eq(thr_check_length_proof(&f, &o, cord, 2, proof, 1, &optimal, &bound, NULL), expected);
+    ck_assert_int_eq(thr_check_cords(&f, &o, cord, 2, proof, 1, &found, NULL), expected);
+    ck_assert_int_eq(found.present, k == 0);
+    ck_assert_int_eq(thr_check_tied_cords(&f, &o, cord, 2, &tied, &found, NULL), THR_EVIOLATED); /* that proof is empty */
+    if (k != 2 && k != 3)
+      ck_assert_int_eq(thr_check_length_of_passes(&f, &o, passes, proof, 1, &optimal, &bound, NULL), expected);
+  }
+  thr_cords_destroy(cord, 2);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* So many odd nodes as there are cord ends in a component, and no more; given ends have the parity of their passes. */
+START_TEST(passes_leave_ends_for_the_cords)
+{
+  thr_frame f = star_make(4); /* the tips are odd, the hub is even */
+  int passes[4] = {1, 1, 1, 1}, end_count[5] = {0, 1, 1, 1, 1};
+  bool optimal;
+  double bound;
+  for (int cords = 1; cords <= 3; cords++) {
+    thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+    thr_certificate c = {.scale = 1, .denominator = 1};
+    o.cords = o.cords_least = cords;
+    ck_assert_int_eq(thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, NULL),
+                     cords < 2 ? THR_EVIOLATED : THR_OK);
+  }
+  thr_plan_options o = options_for(THR_ENDS_COUNTS, 1);
+  thr_certificate c = {.scale = 1, .denominator = 1};
+  o.cords = o.cords_least = 2;
+  o.end_count = end_count;
+  ck_assert_int_eq(thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, NULL), THR_OK);
+  end_count[1] = 2, end_count[0] = 1;
+  ck_assert_int_eq(thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, NULL), THR_EVIOLATED);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* ---- tube joints ---- */
+
+/* Two triangles that share node 0: neither a cord round each nor one round both ties all four edges there. */
+START_TEST(tube_joints_are_tied)
+{
+  static const double xyz[5][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}};
+  static const int edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {3, 4}, {4, 0}};
+  static const int half[6] = {0, 2, 4, 6, 8, 10};
+  thr_frame f = frame_make(5, xyz, 6, edge, NULL, NULL);
+  thr_plan p = {0};
+  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  o.cords = 2;
+  o.joint = THR_JOINT_TUBE;
+  ck_assert_int_eq(thr_plan_request(&p, &f, &o, NULL), THR_OK);
+  p.cord = calloc(2, sizeof *p.cord);
+  for (int i = 0; i < 2; i++) {
+    p.cord[i] = (thr_cord){.closed = true, .n_passes = 3, .half = calloc(6, sizeof(int))};
+    thr_cord_id(i, p.cord[i].id);
+    memcpy(p.cord[i].half, half + 3 * i, 3 * sizeof(int));
+  }
+  p.n_cords = 2;
+  thr_err err = {0};
+  ck_assert_int_eq(thr_plan_measure(&f, &o, p.cord, 2, &p.metrics, NULL), THR_OK);
+  ck_assert_int_eq(thr_check_plan(&p, &err), THR_EVIOLATED);
+  assert_one_line(&err, "node 0: the cords do not tie");
+  p.n_cords = 1; /* once through all: 2 -> 3 and 4 -> 1 at node 0, which ties 0-2 to 0-3 and 0-4 to 0-1, and not these pairs */
+  memcpy(p.cord[0].half, half, sizeof half);
+  p.cord[0].n_passes = 6;
+  ck_assert_int_eq(thr_plan_measure(&f, &o, p.cord, 1, &p.metrics, NULL), THR_OK);
+  ck_assert_int_eq(thr_check_plan(&p, NULL), THR_EVIOLATED);
+  p.options.joint = THR_JOINT_SOLID;
+  err = (thr_err){0};
+  ck_assert_msg(thr_check_plan(&p, &err) == THR_OK, "%s", err.text);
+  p.n_cords = 2;
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* An edge there and back: with closed cords the U-turn where it closes is one of its turns. */
+START_TEST(no_cord_of_tube_joints_turns_back_where_it_closes)
+{
+  thr_frame f = path_make(2);
+  thr_plan p = {0};
+  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  o.joint = THR_JOINT_TUBE;
+  for (int ends = 0; ends < 2; ends++) {
+    o.ends = ends ? THR_ENDS_ANY : THR_ENDS_CLOSED;
+    ck_assert_int_eq(thr_plan_request(&p, &f, &o, NULL), THR_OK);
+    int n = 0;
+    p.cord = calloc(1, sizeof *p.cord);
+    add_loops(p.cord, &n, 0, 1);
+    p.n_cords = 1;
+    if (ends) p.cord[0].n_passes = 1, p.cord[0].closed = false;
+    ck_assert_int_eq(thr_plan_measure(&f, &o, p.cord, 1, &p.metrics, NULL), THR_OK);
+    thr_err err = {0};
+    ck_assert_int_eq(thr_check_plan(&p, &err), ends ? THR_OK : THR_EVIOLATED);
+    if (!ends) assert_one_line(&err, "turns back");
+    thr_plan_destroy(&p);
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* Out and back over one edge, then over the other: the first of its turns goes back. */
+START_TEST(no_cord_of_tube_joints_turns_back_first)
+{
+  static const double length[2] = {1, 2};
+  thr_frame f = chain_make(2, length);
+  thr_plan p = {0};
+  thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+  o.joint = THR_JOINT_TUBE;
+  ck_assert_int_eq(thr_plan_request(&p, &f, &o, NULL), THR_OK);
+  int n = 0;
+  p.cord = calloc(1, sizeof *p.cord);
+  add_loops(p.cord, &n, 0, 1);
+  free(p.cord[0].half);
+  p.cord[0] = (thr_cord){.id = "A", .n_passes = 3, .half = calloc(3, sizeof(int))};
+  memcpy(p.cord[0].half, (int[]){1, 0, 2}, 3 * sizeof(int));
+  p.n_cords = 1;
+  ck_assert_int_eq(thr_plan_measure(&f, &o, p.cord, 1, &p.metrics, NULL), THR_OK);
+  thr_err err = {0};
+  ck_assert_int_eq(thr_check_plan(&p, &err), THR_EVIOLATED);
+  assert_one_line(&err, "pass 1: turns back at node 0");
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* ---- metrics ---- */
+
+/* Of a straight cord, which turns by nothing: angles are compared with 1, too. */
+START_TEST(angles_of_a_straight_cord_may_round)
+{
+  thr_frame f = path_make(4);
+  thr_plan p = plan_simple(&f, THR_ENDS_ANY, 1);
+  double *const angle[] = {&p.metrics.turning, &p.metrics.max_turning, &p.metrics.worst_turn};
+  ck_assert_int_eq(thr_check_plan(&p, NULL), THR_OK);
+  for (int i = 0; i < 3; i++) {
+    double kept = *angle[i];
+    ck_assert_double_eq(kept, 0);
+    *angle[i] = 0.9e-9;
+    ck_assert_int_eq(thr_check_plan(&p, NULL), THR_OK);
+    *angle[i] = 1.1e-9;
+    ck_assert_int_eq(thr_check_plan(&p, NULL), THR_EVIOLATED);
+    *angle[i] = kept;
+  }
+  double *const size[] = {&p.metrics.length, &p.metrics.base_length};
+  for (int i = 0; i < 2; i++) {
+    double kept = *size[i];
+    *size[i] = kept * (1 + 0.9e-9);
+    ck_assert_int_eq(thr_check_plan(&p, NULL), THR_OK);
+    *size[i] = kept * (1 + 1.1e-9);
+    ck_assert_int_eq(thr_check_plan(&p, NULL), THR_EVIOLATED);
+    *size[i] = kept;
+  }
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+int main(void)
+{
+  Suite *s = suite_create("rules of the checker");
+  ADD_TEST(s, 20, rounding_is_charged_for_every_cord);
+  ADD_LOOP(s, 20, rounding_never_adds_to_a_bound, 0, 200);
+  ADD_TEST(s, 10, rounding_is_charged_once_without_prices);
+  ADD_TEST(s, 10, one_cord_is_charged_for_one_pass);
+  ADD_TEST(s, 10, rounding_of_what_is_passed_once_costs_little);
+  ADD_TEST(s, 10, optimal_is_within_a_billionth);
+  ADD_LOOP(s, 20, the_longest_cord_has_its_detour, 0, 90);
+  ADD_LOOP(s, 20, the_longest_closed_cord_has_its_detour, 0, 40);
+  ADD_TEST(s, 10, cords_have_whole_numbers_of_the_unit);
+  ADD_TEST(s, 10, the_fewest_cords_have_room);
+  ADD_TEST(s, 10, failures_are_not_forgotten);
+  ADD_TEST(s, 10, passes_leave_ends_for_the_cords);
+  ADD_TEST(s, 10, tube_joints_are_tied);
+  ADD_TEST(s, 10, no_cord_of_tube_joints_turns_back_where_it_closes);
+  ADD_TEST(s, 10, no_cord_of_tube_joints_turns_back_first);
+  ADD_TEST(s, 10, angles_of_a_straight_cord_may_round);
+  return run_suite(s);
+}

@@ -1,0 +1,522 @@
+/* What the checker finds out about turning and says of claims about it: pairings against enumeration and closed forms, trees
+ * whose bound is known, every number of a claim changed. */
+#include "graph/check_parts.h"
+#include "tests/support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define PI 3.14159265358979323846
+#define HALF 0.70710678118654752440 /* sin(PI / 4) */
+
+/* ---- plans by hand ---- */
+
+enum { MOST_WALK = 64 };
+
+/* Appends a cord through these nodes, ending with -1. */
+static void add_cord(thr_plan *p, const int *node)
+{
+  thr_cord c = {.half = calloc(MOST_WALK, sizeof(int))};
+  ck_assert_ptr_nonnull(c.half);
+  for (int i = 0; node[i + 1] >= 0; i++) {
+    int e = thr_frame_edge_between(&p->frame, node[i], node[i + 1]);
+    ck_assert(e >= 0 && c.n_passes < MOST_WALK);
+    c.half[c.n_passes++] = 2 * e + (p->frame.edge[e][1] == node[i]);
+  }
+  thr_cord_id(p->n_cords, c.id);
+  c.closed = thr_cord_start(&p->frame, &c) == thr_cord_end(&p->frame, &c);
+  int component[MOST_WALK], n;
+  ck_assert_int_eq(thr_frame_components(&p->frame, component, &n, NULL), THR_OK);
+  c.component = component[node[0]];
+  p->cord = realloc(p->cord, (size_t)(p->n_cords + 1) * sizeof *p->cord);
+  ck_assert_ptr_nonnull(p->cord);
+  p->cord[p->n_cords++] = c;
+}
+
+/* A tree of one leaf without multipliers; number of equations of the ends as in the model. */
+static void empty_tree(thr_plan *p, int n_ends)
+{
+  thr_turning_proof *t = &p->turning.tree;
+  *t = (thr_turning_proof){1, 1, n_ends, calloc(1, sizeof *t->node), calloc(1, sizeof *t->dual)};
+  t->dual->potential = calloc(2 * (size_t)p->frame.n_edges, sizeof(int64_t));
+  t->dual->ends = calloc((size_t)n_ends, sizeof(int64_t));
+  ck_assert(t->dual->potential && t->dual->ends);
+}
+
+/* A plan of this framework, which is taken, without cords; the claim's kind is the widest. */
+static thr_plan plan_begin(thr_frame f, thr_ends ends, int cords, thr_turn_cost cost)
+{
+  thr_plan p = {0};
+  thr_plan_options o = options_for(ends, 1);
+  int component[MOST_WALK], n;
+  o.objective = THR_TORTUOSITY;
+  o.cords = o.cords_least = cords;
+  o.turning.cost = cost;
+  o.turning.length_slack = -1;
+  ck_assert_int_eq(thr_frame_components(&f, component, &n, NULL), THR_OK);
+  ck_assert_int_eq(thr_plan_request(&p, &f, &o, NULL), THR_OK);
+  p.turning = (thr_turning_claim){.present = true, .most_passes = thr_turning_most_passes(&f, 1), .length_limit = -1};
+  p.generator = thr_strdup("by hand");
+  empty_tree(&p, n);
+  thr_frame_destroy(&f);
+  return p;
+}
+
+static thr_status find(const thr_plan *p, thr_turning_claim *found, thr_err *err)
+{
+  *err = (thr_err){0};
+  return thr_check_turning(&p->frame, &p->options, p->cord, p->n_cords, &p->turning, found, err);
+}
+
+static thr_turning_claim found_of(const thr_plan *p)
+{
+  thr_turning_claim found;
+  thr_err err;
+  ck_assert_msg(find(p, &found, &err) == THR_OK, "%s", err.text);
+  return found;
+}
+
+static void assert_not_found(const thr_plan *p, const char *word)
+{
+  thr_turning_claim found;
+  thr_err err;
+  ck_assert_int_eq(find(p, &found, &err), THR_EVIOLATED);
+  assert_one_line(&err, word);
+}
+
+/* States what the checker finds; the plan then holds. */
+static void state(thr_plan *p)
+{
+  thr_turning_proof tree = p->turning.tree;
+  p->turning = found_of(p);
+  p->turning.tree = tree;
+  ck_assert_int_eq(thr_plan_measure(&p->frame, &p->options, p->cord, p->n_cords, &p->metrics, NULL), THR_OK);
+  thr_err err = {0};
+  ck_assert_msg(thr_check_plan(p, &err) == THR_OK, "%s", err.text);
+}
+
+static void assert_violated(const thr_plan *p, const char *word)
+{
+  thr_err err = {0};
+  ck_assert_msg(thr_check_plan(p, &err) == THR_EVIOLATED, "%s", word);
+  assert_one_line(&err, word);
+}
+
+static void assert_holds(const thr_plan *p)
+{
+  thr_err err = {0};
+  ck_assert_msg(thr_check_plan(p, &err) == THR_OK, "%s", err.text);
+}
+
+/* Unit spokes at these angles from node 0, which node 1 .. n are the ends of. */
+static thr_frame fan_make(int n, const double *angle)
+{
+  double xyz[MOST_WALK][3] = {{0, 0, 0}};
+  int edge[MOST_WALK][2];
+  for (int i = 0; i < n; i++) {
+    xyz[i + 1][0] = cos(angle[i]), xyz[i + 1][1] = sin(angle[i]), xyz[i + 1][2] = 0;
+    edge[i][0] = 0, edge[i][1] = i + 1;
+  }
+  return frame_make(n + 1, (const double(*)[3])xyz, n, (const int(*)[2])edge, NULL, NULL);
+}
+
+/* ---- what cords turn ---- */
+
+/* A bent path, its cord there and back: a quarter twice, and two U-turns at the ends. */
+START_TEST(turns_are_added_up)
+{
+  static const double angle[2] = {0, PI / 2}, price[][2] = {{3 * PI, PI / 2}, {2 + 2 * HALF, HALF}, {4, 1}};
+  for (int cost = 0; cost < THR_N_TURN_COSTS; cost++) {
+    thr_plan closed = plan_begin(fan_make(2, angle), THR_ENDS_CLOSED, 1, (thr_turn_cost)cost);
+    add_cord(&closed, (int[]){1, 0, 2, 0, 1, -1});
+    thr_turning_claim found = found_of(&closed);
+    ck_assert_double_eq_tol(found.price, price[cost][0], 1e-12);
+    ck_assert_double_eq_tol(found.largest, price[cost][0], 1e-12);
+    ck_assert_double_eq_tol(found.pairing_bound, price[cost][0], 1e-12);
+    thr_plan open = plan_begin(fan_make(2, angle), THR_ENDS_ANY, 2, (thr_turn_cost)cost);
+    add_cord(&open, (int[]){1, 0, 2, -1});
+    add_cord(&open, (int[]){1, 0, 2, 0, -1}); /* ends once at the bend: there a pass goes with it */
+    found = found_of(&open);
+    double back = cost == THR_TURN_ANGLE ? PI : 1;
+    ck_assert_double_eq_tol(found.price, 2 * price[cost][1] + back, 1e-12);
+    ck_assert_double_eq_tol(found.largest, price[cost][1] + back, 1e-12);
+    ck_assert_double_eq_tol(found.pairing_bound, 2 * price[cost][1] + back, 1e-12);
+    thr_plan_destroy(&closed);
+    thr_plan_destroy(&open);
+  }
+}
+END_TEST
+
+START_TEST(cords_turn_back_only_at_nodes_with_one_edge)
+{
+  thr_plan p = plan_begin(ring_make(4), THR_ENDS_ANY, 1, THR_TURN_ANGLE);
+  add_cord(&p, (int[]){0, 1, 2, 3, 0, 3, -1});
+  assert_not_found(&p, "turns back at node 0 after pass 4");
+  thr_plan_destroy(&p);
+  static const double xyz[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  static const int edge[5][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 2}};
+  p = plan_begin(frame_make(4, xyz, 5, edge, NULL, NULL), THR_ENDS_CLOSED, 1, THR_TURN_ANGLE);
+  add_cord(&p, (int[]){0, 1, 2, 3, 0, 2, 1, 0, -1}); /* where it closes */
+  assert_not_found(&p, "turns back at node 0 after pass 7");
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+/* One edge, to and fro: as many passes as the proof is about, and a cord as long as it may be, but no more. */
+START_TEST(cords_are_of_the_kind_that_the_proof_is_about)
+{
+  thr_plan p = plan_begin(path_make(2), THR_ENDS_CLOSED, 1, THR_TURN_ANGLE);
+  add_cord(&p, (int[]){0, 1, 0, 1, 0, 1, 0, 1, 0, -1});
+  ck_assert_int_eq(p.turning.most_passes, 8);
+  found_of(&p);
+  p.turning.most_passes = 7;
+  assert_not_found(&p, "most_passes: 7");
+  p.turning.most_passes = 9;
+  p.turning.length_limit = 8;
+  found_of(&p);
+  p.turning.length_limit = 8 - 7e-9;
+  found_of(&p);
+  p.turning.length_limit = 8 - 9e-9;
+  assert_not_found(&p, "8 long");
+  p.turning.length_limit = 0;
+  assert_not_found(&p, "8 long");
+  p.turning.length_limit = -1;
+  add_cord(&p, (int[]){0, 1, 0, -1});
+  p.options.cords = p.options.cords_least = 2;
+  assert_not_found(&p, "10 passes over edge 0");
+  p.turning.most_passes = 10;
+  found_of(&p);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+/* ---- the cheapest pairing of a node ---- */
+
+/* Least cost of pairing all points at a node, point i being a pass of edge[i], or a cord end if that is -1. */
+static double least_pairing(const double *angle, const int *edge, int n, unsigned left)
+{
+  int first = 0;
+  double best = INFINITY;
+  if (left == 0) return 0;
+  while (!(left >> first & 1))
+    first++;
+  for (int k = first + 1; k < n; k++) {
+    if (!(left >> k & 1) || edge[first] == edge[k]) continue;
+    double between = edge[first] < 0 || edge[k] < 0 ? PI : fabs(angle[edge[first]] - angle[edge[k]]);
+    double turn = PI - (between > PI ? 2 * PI - between : between);
+    best = fmin(best, turn + least_pairing(angle, edge, n, left & ~(1U << first | 1U << k)));
+  }
+  return best;
+}
+
+/* Loops from the tips of a fan: cords that begin at the hub, go out and back, and end there, or cross it. */
+START_TEST(pairings_are_the_cheapest)
+{
+  rng r = rng_make((uint64_t)_i + 1);
+  double angle[4];
+  int edge[16], n = 0, n_spokes = rng_between(&r, 2, 4);
+  for (int i = 0; i < n_spokes; i++)
+    angle[i] = 2 * PI * (i + 0.8 * rng_unit(&r)) / n_spokes;
+  thr_plan p = plan_begin(fan_make(n_spokes, angle), THR_ENDS_ANY, 2, THR_TURN_ANGLE);
+  double tips = 0;
+  for (int i = 0; i < 2; i++) {
+    int a = i, b = (a + 1 + rng_below(&r, n_spokes - 1)) % n_spokes;
+    bool from_hub = rng_below(&r, 2), to_hub = rng_below(&r, 2);
+    int walk[8], k = 0;
+    if (from_hub) walk[k++] = 0, edge[n++] = -1, edge[n++] = a, tips += PI;
+    walk[k++] = a + 1, walk[k++] = 0, walk[k++] = b + 1;
+    edge[n++] = a, edge[n++] = b;
+    if (to_hub) walk[k++] = 0, edge[n++] = -1, edge[n++] = b, tips += PI;
+    walk[k] = -1;
+    add_cord(&p, walk);
+  }
+  thr_turning_claim found = found_of(&p);
+  double least = least_pairing(angle, edge, n, (1U << n) - 1);
+  ck_assert_double_eq_tol(found.pairing_bound, least + tips, 1e-9);
+  ck_assert_double_le(found.pairing_bound, found.price + 1e-9);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+/* Spokes within half a turn: the cheapest pairing has the first half with the second. Above 2^20 combinations every spoke pays
+ * half of what the farthest costs it. */
+START_TEST(pairings_of_hubs)
+{
+  for (int n = 18; n <= 24; n += 2) {
+    double angle[24], exact = n / 2 * PI, half = 0;
+    int walk[MOST_WALK] = {1, 0, 0};
+    rng r = rng_make((uint64_t)n);
+    for (int i = 0; i < n; i++)
+      angle[i] = PI * (i + 0.9 * rng_unit(&r)) / (n + 1);
+    thr_plan p = plan_begin(fan_make(n, angle), THR_ENDS_ANY, n / 2, THR_TURN_ANGLE);
+    for (int i = 0; i < n / 2; i++) {
+      walk[0] = i + 1, walk[2] = n - i, walk[3] = -1;
+      add_cord(&p, walk);
+    }
+    for (int i = 0; i < n; i++) {
+      exact += i < n / 2 ? angle[i] : -angle[i];
+      half += (PI - fmax(angle[i] - angle[0], angle[n - 1] - angle[i])) / 2;
+    }
+    thr_turning_claim found = found_of(&p);
+    ck_assert_double_eq_tol(found.pairing_bound, n <= 20 ? exact : half, 1e-9);
+    ck_assert_double_eq_tol(found.price, exact, 1e-9); /* any first half with any second */
+    thr_plan_destroy(&p);
+  }
+}
+END_TEST
+
+/* ---- what the tree proves ---- */
+
+/* A bend by so much must be turned: its half-edges' potentials, half of the price each, prove that. */
+static thr_plan bend_make(double turn, thr_turn_cost cost, int64_t weight)
+{
+  const double angle[2] = {0, PI - turn};
+  static int ends[3] = {0, 1, 1};
+  thr_plan_options o;
+  thr_plan p = plan_begin(fan_make(2, angle), THR_ENDS_ANY, 1, cost);
+  o = p.options;
+  o.ends = THR_ENDS_COUNTS;
+  o.end_count = ends;
+  thr_frame f = {0};
+  thr_turning_claim claim = p.turning;
+  ck_assert_int_eq(thr_frame_copy(&f, &p.frame, NULL), THR_OK);
+  p.turning = (thr_turning_claim){0};
+  thr_plan_destroy(&p);
+  ck_assert_int_eq(thr_plan_request(&p, &f, &o, NULL), THR_OK);
+  thr_turning_proof_destroy(&claim.tree);
+  p.turning = claim;
+  p.generator = thr_strdup("by hand");
+  empty_tree(&p, 3);
+  p.turning.tree.dual->potential[0] = weight / 2;
+  p.turning.tree.dual->potential[2] = weight - weight / 2;
+  add_cord(&p, (int[]){1, 0, 2, -1});
+  thr_frame_destroy(&f);
+  return p;
+}
+
+/* Weights of turns are rounded down: a unit more is above what all plans pay. */
+START_TEST(bends_prove_what_they_cost)
+{
+  static const double turn[] = {0.1, 0.5, 1, 2, 3};
+  for (int i = 0; i < 5; i++) {
+    int64_t down = (int64_t)floor(ldexp(turn[i], THR_TURNING_BITS));
+    for (int more = -1; more <= 1; more++) {
+      thr_plan p = bend_make(turn[i], THR_TURN_ANGLE, down + more);
+      thr_turning_task task = {
+          .cover = 1, .most_passes = 8, .cords = 1, .end_allowed = (bool[]){false, true, true}, .extra_limit = -1};
+      double bound;
+      task.end_count = p.options.end_count;
+      ck_assert_int_eq(thr_turning_proof_check(&p.frame, &task, &p.turning.tree, &bound, NULL), THR_OK);
+      ck_assert_double_le(bound, turn[i]);
+      ck_assert_double_ge(bound, turn[i] - ldexp(12, -THR_TURNING_BITS));
+      ck_assert(found_of(&p).optimal);
+      thr_plan_destroy(&p);
+    }
+  }
+}
+END_TEST
+
+/* Within 2e-9 of a U-turn for each pass the bound meets the price. */
+START_TEST(bounds_are_optimal_within_rounding)
+{
+  static const double off[] = {0, 1.2e-8, 1.3e-8}; /* 2 passes: 4 pi 1e-9 = 1.257e-8 */
+  for (int i = 0; i < 3; i++) {
+    thr_plan p = bend_make(1, THR_TURN_ANGLE, (int64_t)floor(ldexp(1 - off[i], THR_TURNING_BITS)));
+    thr_turning_claim found = found_of(&p);
+    ck_assert_int_eq(found.optimal, i < 2);
+    ck_assert_int_eq(found.largest_optimal, i < 2);
+    ck_assert_double_eq(found.price, found.largest);
+    ck_assert_double_eq_tol(found.lower_bound, i < 2 ? found.price : 1 - off[i], 1e-12);
+    ck_assert_double_eq_tol(found.gap, i < 2 ? 0 : off[i], 1e-12);
+    ck_assert_double_eq_tol(found.largest_bound, found.lower_bound, 1e-12);
+    thr_plan_destroy(&p);
+  }
+}
+END_TEST
+
+/* A bound above the turns of the plan itself is no bound: here of two closed cords, where the plan has one. */
+START_TEST(no_tree_proves_more_than_the_plan_turns)
+{
+  thr_plan p = plan_begin(ring_make(5), THR_ENDS_CLOSED, 2, THR_TURN_ANGLE);
+  add_cord(&p, (int[]){0, 1, 2, 3, 4, 0, -1});
+  assert_not_found(&p, "more than the turns of this plan");
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+/* A closed cord turns round once, whatever the tree says; with prices sin(angle / 2) it pays 2; steps it may need none. */
+START_TEST(closed_cords_turn_round)
+{
+  static const double least[] = {2 * PI, 2, 0};
+  for (int cost = 0; cost < THR_N_TURN_COSTS; cost++)
+    for (int cords = 1; cords <= 2; cords++) {
+      thr_plan p = plan_begin(triangles_make(2), THR_ENDS_CLOSED, cords, (thr_turn_cost)cost);
+      for (int i = 0; i < cords; i++) {
+        add_cord(&p, (int[]){0, 1, 2, 0, -1});
+        add_cord(&p, (int[]){3, 4, 5, 3, -1});
+      }
+      thr_turning_claim found = found_of(&p);
+      double price = cost == THR_TURN_SINE ? 3 * sin(PI / 3) : cost == THR_TURN_STEP ? 3 : 2 * PI;
+      ck_assert_double_eq_tol(found.price, 2 * cords * price, 1e-9);
+      ck_assert_double_eq_tol(found.lower_bound, 2 * cords * least[cost], 1e-9);
+      ck_assert_double_eq_tol(found.largest_bound, least[cost], 1e-9);
+      ck_assert_double_eq_tol(found.gap, 1 - least[cost] / price, 1e-9);
+      ck_assert_int_eq(found.optimal, cost == THR_TURN_ANGLE);
+      ck_assert_int_eq(found.largest_optimal, cost == THR_TURN_ANGLE);
+      p.options.cords_least = 1; /* then only so many are sure to turn */
+      if (cords == 2) {
+        found = found_of(&p);
+        ck_assert_double_eq_tol(found.lower_bound, 2 * least[cost], 1e-9);
+        ck_assert_double_eq_tol(found.largest_bound, least[cost] / 2, 1e-9);
+      }
+      thr_plan_destroy(&p);
+    }
+  thr_plan open = plan_begin(ring_make(3), THR_ENDS_ANY, 1, THR_TURN_ANGLE);
+  add_cord(&open, (int[]){0, 1, 2, 0, -1});
+  ck_assert_double_eq(found_of(&open).lower_bound, 0); /* its two turns are no round */
+  thr_plan_destroy(&open);
+}
+END_TEST
+
+/* Steps are those of one definition, on either side of the quarter. */
+START_TEST(steps_begin_at_a_quarter_less_a_millionth)
+{
+  static const double turn[] = {PI / 2 - 1.1e-6, PI / 2 - 0.9e-6, PI / 2, PI / 2 + 1e-5, 3, 1};
+  static const int step[] = {0, 1, 1, 1, 1, 0};
+  for (int i = 0; i < 6; i++) {
+    thr_plan p = bend_make(turn[i], THR_TURN_STEP, (int64_t)step[i] << THR_TURNING_BITS);
+    thr_turning_claim found = found_of(&p);
+    ck_assert_double_eq(found.price, step[i]);
+    ck_assert_double_eq(found.pairing_bound, step[i]);
+    ck_assert_double_eq(found.lower_bound, step[i]);
+    ck_assert(found.optimal);
+    thr_plan_destroy(&p);
+  }
+}
+END_TEST
+
+/* ---- claims ---- */
+
+/* Each number of a claim that holds may be off by rounding, not by more; bounds may be lower. */
+START_TEST(every_number_of_a_claim_counts)
+{
+  thr_plan p = plan_begin(triangles_make(2), THR_ENDS_CLOSED, 1, THR_TURN_SINE);
+  add_cord(&p, (int[]){0, 1, 2, 0, -1});
+  add_cord(&p, (int[]){3, 4, 5, 3, -1});
+  state(&p);
+  thr_turning_claim good = p.turning, *c = &p.turning;
+  double tolerance = 1e-9 * (1 + good.price);
+  const struct {
+    double *at;
+    double tolerance;
+    bool bound;
+    const char *word;
+  } number[] = {{&c->price, tolerance, false, "turning.price"},
+                {&c->largest, tolerance, false, "largest.price"},
+                {&c->pairing_bound, 1e-9 * (1 + good.pairing_bound), true, "pairing_bound"},
+                {&c->lower_bound, 1e-9 * (1 + good.lower_bound), true, "turning.lower_bound"},
+                {&c->largest_bound, 1e-9 * (1 + good.largest_bound), true, "largest.lower_bound"},
+                {&c->gap, 1e-9, false, "gap"}};
+  for (size_t i = 0; i < sizeof number / sizeof *number; i++)
+    for (int sign = -1; sign <= 1; sign += 2) {
+      double kept = *number[i].at, gap = c->gap;
+      *number[i].at = kept + sign * 0.3 * number[i].tolerance;
+      assert_holds(&p);
+      *number[i].at = kept + sign * 1.2 * number[i].tolerance;
+      if (number[i].at == &c->lower_bound) c->gap = (c->price - c->lower_bound) / c->price;
+      if (number[i].bound && sign < 0)
+        assert_holds(&p);
+      else
+        assert_violated(&p, number[i].word);
+      c->gap = gap;
+      *number[i].at = kept;
+    }
+  c->lower_bound = 0;
+  assert_violated(&p, "gap");
+  c->gap = 1;
+  assert_holds(&p);
+  c->largest_bound = c->pairing_bound = 0;
+  assert_holds(&p);
+  c->optimal = true;
+  assert_violated(&p, "says optimal, but the tree only proves");
+  c->optimal = false, c->largest_optimal = true;
+  assert_violated(&p, "largest: says optimal, but only");
+  *c = good;
+  p.options.turning.tour = THR_TOUR_FLEURY;
+  assert_violated(&p, "classical tour");
+  p.options.turning.tour = THR_TOUR_LEAST;
+  c->length_limit = 10;
+  assert_violated(&p, "any length");
+  c->length_limit = 0;
+  assert_violated(&p, "any length");
+  *c = good;
+  assert_holds(&p);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+START_TEST(an_optimal_claim_states_its_price)
+{
+  thr_plan p = bend_make(1, THR_TURN_ANGLE, (int64_t)1 << THR_TURNING_BITS);
+  state(&p);
+  thr_turning_claim good = p.turning;
+  ck_assert(good.optimal && good.largest_optimal);
+  p.turning.lower_bound = 0.9, p.turning.gap = 0.1;
+  assert_violated(&p, "is not the price");
+  p.turning.optimal = false;
+  assert_holds(&p);
+  p.turning.largest_bound = 0.9;
+  assert_violated(&p, "largest: says optimal, but its lower bound");
+  p.turning.largest_optimal = false;
+  assert_holds(&p);
+  p.turning = good;
+  assert_holds(&p);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+/* The limit must let in what the options allow, by the length that is proved. */
+START_TEST(limits_let_in_what_the_options_allow)
+{
+  thr_plan p = bend_make(1, THR_TURN_ANGLE, (int64_t)1 << THR_TURNING_BITS);
+  state(&p);
+  p.options.turning.length_slack = 0.5;
+  assert_holds(&p); /* the claim is about plans of any length */
+  p.turning.length_limit = 3;
+  ck_assert_int_eq(thr_check_turning_claim(&p, 2, NULL), THR_EVIOLATED); /* nothing says that 2 is the least */
+  p.proof.present = true;
+  static const struct {
+    double limit, least;
+    bool holds;
+  } cases[] = {{3, 2, true},  {4, 2, true}, {3 - 1e-11, 2, true}, {3 - 1e-9, 2, false},
+               {2, 2, false}, {3, 1, true}, {3, 2.1, false}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    thr_err err = {0};
+    p.turning.length_limit = cases[i].limit;
+    ck_assert_int_eq(thr_check_turning_claim(&p, cases[i].least, &err), cases[i].holds ? THR_OK : THR_EVIOLATED);
+    if (!cases[i].holds) assert_one_line(&err, "shuts out");
+  }
+  p.proof.present = false;
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+int main(void)
+{
+  Suite *s = suite_create("checker of turning");
+  ADD_TEST(s, 10, turns_are_added_up);
+  ADD_TEST(s, 10, cords_turn_back_only_at_nodes_with_one_edge);
+  ADD_TEST(s, 10, cords_are_of_the_kind_that_the_proof_is_about);
+  ADD_LOOP(s, 10, pairings_are_the_cheapest, 0, 40);
+  ADD_TEST(s, 20, pairings_of_hubs);
+  ADD_TEST(s, 10, bends_prove_what_they_cost);
+  ADD_TEST(s, 10, bounds_are_optimal_within_rounding);
+  ADD_TEST(s, 10, no_tree_proves_more_than_the_plan_turns);
+  ADD_TEST(s, 10, closed_cords_turn_round);
+  ADD_TEST(s, 10, steps_begin_at_a_quarter_less_a_millionth);
+  ADD_TEST(s, 10, every_number_of_a_claim_counts);
+  ADD_TEST(s, 10, an_optimal_claim_states_its_price);
+  ADD_TEST(s, 10, limits_let_in_what_the_options_allow);
+  return run_suite(s);
+}
