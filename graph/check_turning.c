@@ -46,7 +46,7 @@ static void set_prices(node_points *k, const thr_frame *f, thr_turn_cost cost, i
 static thr_status node_points_init(node_points *k, const thr_frame *f, thr_turn_cost cost, int v, const int *passes, int ends,
                                    thr_err *err)
 {
-  enum { LARGEST = 1 << 20 };
+  enum { LARGEST = 1 << 16 }; /* some milliseconds */
   int d = thr_degree(f, v);
   size_t n = (size_t)d + 1;
   *k = (node_points){.n_kinds = d + (ends > 0), .size = 1};
