@@ -1,5 +1,6 @@
 /* thread info: what a framework is made of. */
 #include "cli/cli.h"
+#include "cli/guard.h"
 #include "eval/rigidity.h"
 #include "graph/junction.h"
 
@@ -18,12 +19,12 @@ static const char help[] =
     "The line `hinged` takes every node for a ball joint: can nodes move without an edge getting longer?\n"
     "What can move must be held by joints that lock. A joint is tied if the cord alone holds its edges\n"
     "together (--joint tube); joints of solid beads need not be.\n\n"
-    "Options:\n" CLI_FRAME_HELP "      --json           as JSON\n"
+    "Options:\n" CLI_FRAME_HELP "      --json           as JSON\n" GUARD_HELP
     "  -q, --quiet          no notes on what was merged or dropped       -h, --help\n";
 
 enum { OPTION_JSON = OPTION_FREE, MOST_DEGREES = 64, MOST_NAMES = 20, MOST_BARS = 50000 };
 static const struct option table[] = {
-    CLI_COMMON_OPTIONS, CLI_FRAME_OPTIONS, {"json", no_argument, NULL, OPTION_JSON}, {NULL, 0, NULL, 0}};
+    CLI_COMMON_OPTIONS, CLI_FRAME_OPTIONS, GUARD_OPTIONS, {"json", no_argument, NULL, OPTION_JSON}, {NULL, 0, NULL, 0}};
 
 typedef struct {
   int degree[MOST_DEGREES + 1]; /* nodes of each degree; the last counts all higher ones too */
@@ -35,6 +36,13 @@ typedef struct {
   int n_untied;
   bool *untied; /* [n_nodes] planned: owned */
 } facts;
+
+/* Is the rank of the rigidity matrix worked out within a second or so? It is sparse unless edges are many for their nodes. */
+static bool can_analyse(const thr_frame *f)
+{
+  const double most_work = 2e9, columns = 3.0 * f->n_nodes;
+  return f->n_edges <= MOST_BARS && (f->n_edges <= 20 * f->n_nodes || f->n_edges * columns * columns <= most_work);
+}
 
 static thr_status find_facts(const thr_frame *f, facts *a, thr_err *err)
 {
@@ -57,7 +65,7 @@ static thr_status find_facts(const thr_frame *f, facts *a, thr_err *err)
   }
   free(component);
   free(bridge);
-  a->analysed = f->n_edges <= MOST_BARS;
+  a->analysed = can_analyse(f);
   return st || !a->analysed ? st : thr_rigidity_find(f, &a->rigidity, err);
 }
 
@@ -95,7 +103,7 @@ static void put_rigidity(thr_text *t, const thr_frame *f, const facts *a)
   if (a->analysed)
     put_motions(t, a);
   else
-    thr_text_printf(t, "hinged      not worked out above %d edges\n", MOST_BARS);
+    thr_text_append(t, "hinged      not worked out for so many edges\n");
   if (!a->planned) return;
   thr_text_printf(t, "untied      %d of %d joints", a->n_untied, f->n_nodes);
   int shown = 0;
@@ -192,27 +200,15 @@ static void put_json(thr_text *t, const thr_frame *f, const facts *a)
   thr_text_printf(t, ", \"hash\": \"%016" PRIx64 "\"}\n", thr_frame_hash(f));
 }
 
-int cmd_info(int argc, char **argv)
+static int tell(const char *path, const cli_frame_args *args, bool json)
 {
-  int done, o;
-  bool json = false, ok;
-  cli_frame_args args = cli_frame_args_default();
-  while ((o = cli_next_option(argc, argv, "info", ":" CLI_COMMON_LETTERS, table, help, &done)) != -1) {
-    if (cli_frame_option(&args, "info", o, optarg, &ok)) {
-      if (!ok) return EXIT_USAGE;
-    } else if (o == OPTION_JSON) {
-      json = true;
-    }
-  }
-  if (done >= 0) return done;
-  if (optind + 1 != argc) return cli_usage("info", optind == argc ? "which framework?" : "one framework at a time");
   thr_frame f;
-  int code = cli_read_frame(argv[optind], &args, &f);
+  int code = cli_read_frame(path, args, &f);
   if (code) return code;
   facts a;
   thr_text t = {0};
   thr_err err = {0};
-  if (find_facts(&f, &a, &err) || find_untied(argv[optind], &a, &err)) {
+  if (find_facts(&f, &a, &err) || find_untied(path, &a, &err)) {
     code = cli_fail(&err);
   } else {
     (json ? put_json : put_text)(&t, &f, &a);
@@ -221,4 +217,24 @@ int cmd_info(int argc, char **argv)
   free(a.untied);
   thr_frame_destroy(&f);
   return code;
+}
+
+int cmd_info(int argc, char **argv)
+{
+  int done, o;
+  bool json = false, ok;
+  cli_frame_args args = cli_frame_args_default();
+  guard_limits guard = guard_limits_default();
+  guard_end end;
+  while ((o = cli_next_option(argc, argv, "info", ":" CLI_COMMON_LETTERS, table, help, &done)) != -1) {
+    if (cli_frame_option(&args, "info", o, optarg, &ok) || guard_option(&guard, "info", o, optarg, &ok)) {
+      if (!ok) return EXIT_USAGE;
+    } else if (o == OPTION_JSON) {
+      json = true;
+    }
+  }
+  if (done >= 0) return done;
+  if (optind + 1 != argc) return cli_usage("info", optind == argc ? "which framework?" : "one framework at a time");
+  if (guard_fork(&guard, &end)) return guard_conclude(&end, "nothing is known");
+  return tell(argv[optind], &args, json);
 }

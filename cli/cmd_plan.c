@@ -360,11 +360,15 @@ static double deadline_of(const arguments *a)
   return a->guard.seconds > 0 ? guard_deadline() : 0;
 }
 
-/* Seconds for the plan: all, or half of them if there is to be another search. */
+/* Seconds for the search: all, or what proof, check and drawings leave of a time that was asked for, or half of it if there is to
+ * be another search. */
 static double time_of_plan(const arguments *a, const thr_plan_options *o)
 {
+  static const double drawing = 0.15, checking = 0.05, most = 3; /* parts; s */
   bool more = a->turning.compare || a->turning.frontier || a->compare;
-  return o->time_limit * (more && a->guard.seconds > 0 ? 0.5 : 1);
+  if (a->guard.seconds <= 0) return o->time_limit;
+  if (more) return 0.5 * o->time_limit;
+  return o->time_limit - fmin(most, o->time_limit * (a->draw || !a->output ? drawing : checking));
 }
 
 static int put_turning(thr_text *t, const arguments *a, const planned *x)
@@ -500,7 +504,7 @@ static thr_status make_plan(const arguments *a, const thr_frame *f, const thr_pl
 {
   char versions[160];
   thr_status st;
-  if (a->guard.seconds < 0) guard_allow(o->time_limit);
+  if (a->guard.seconds < 0) guard_allow(o->time_limit > 0 ? 1 + 1.1 * o->time_limit : 0);
   thr_limits limits = cli_limits(time_of_plan(a, o));
   best_begin(f, o);
   limits.found = best_found;

@@ -318,12 +318,41 @@ static void other_commands(bool full)
     try_words(name, (const char *[]){"plan", frame, "-o", plan, "--draw", drawn, "-q", "--time-limit", "2", NULL});
     snprintf(name, sizeof name, "draw %s", watchdog_frame_name(f));
     if (is_there(plan)) try_words(name, (const char *[]){"draw", plan, "-T", "all", "-o", drawn, "--time-limit", "2", NULL});
+    snprintf(name, sizeof name, "info %s", watchdog_frame_name(f));
+    if (full || f % 3 == 2) try_words(name, (const char *[]){"info", frame, "--time-limit", "2", NULL});
     snprintf(name, sizeof name, "symmetries %s", watchdog_frame_name(f));
     if (full || f % 3 == 0) try_words(name, (const char *[]){"symmetries", frame, "--time-limit", "2", NULL});
     snprintf(name, sizeof name, "symmetries-any-tube %s", watchdog_frame_name(f));
     if (full || f % 3 == 1)
       try_words(name, (const char *[]){"symmetries", frame, "--ends", "any", "--joint", "tube", "--time-limit", "2", NULL});
   }
+}
+
+/* ---- memory ---- */
+
+/* What libraries and the two processes of a command take beside what they allocate, KiB. */
+enum { BESIDE = 40 << 10 };
+
+/* With 60 MB a plan, perhaps of a search given up, or a message; and no process is larger than that. */
+static void little_memory(bool full)
+{
+  char frame[1024], plan[1024], name[200];
+  snprintf(plan, sizeof plan, "%s/little.json", folder);
+  for (int f = 0; f < watchdog_frames(); f++)
+    for (int tube = 0; tube < 2; tube++) {
+      snprintf(name, sizeof name, "memory-60MB %s %s", watchdog_frame_name(f), tube ? "tube" : "solid");
+      if ((!full && (!watchdog_frame_selected(f) || f % 3 != 1)) || (only[0] != '-' && !strstr(name, only))) continue;
+      snprintf(frame, sizeof frame, "%s/%s.obj", folder, watchdog_frame_name(f));
+      unlink(plan);
+      const char *const word[] = {program, "plan",     frame,  "-o",          plan,         "-q",      "--time-limit",
+                                  "2",     "--memory", "60MB", "--objective", "tortuosity", "--joint", tube ? "tube" : "solid",
+                                  NULL};
+      result r = run((char *const *)(size_t)word, 0, 0, cpu_limit), checked;
+      const char *what = judge(&r, plan, false);
+      if (!what && r.memory > 60000000 / 1024 + BESIDE) what = "more than 60 MB";
+      if (!what && is_there(plan) && (what = check(plan, &checked))) r = checked;
+      report(name, what, &r);
+    }
 }
 
 /* ---- all ---- */
@@ -362,6 +391,7 @@ int main(int argc, char **argv)
   if (!write_frames()) return 1;
   all_plans(full);
   other_commands(full);
+  little_memory(full);
   all_signals(signals >= 0 ? signals : full ? 200 : 12);
   printf("%d passed, %d failed\n", passed, failed);
   return failed > 0;
