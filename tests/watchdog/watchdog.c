@@ -278,7 +278,8 @@ static void all_signals(int count)
   snprintf(plan, sizeof plan, "%s/plan.json", folder);
   for (int i = 0; i < count; i++) {
     int f = (int)next_random((unsigned)watchdog_frames()), q = (int)next_random(N_REQUESTS), tube = (int)next_random(2);
-    int cords = takes_cords(&requests[q], 3) && next_random(2) ? 3 : 1, signal = next_random(2) ? SIGINT : SIGTERM;
+    int cords = takes_cords(&requests[q], 3) && (next_random(2) || !takes_cords(&requests[q], 1)) ? 3 : 1,
+        signal = next_random(2) ? SIGINT : SIGTERM;
     double delay = 0.02 + next_random(1000) / 1000. * next_random(1000) / 1000. * 3;
     snprintf(name, sizeof name, "signal-%d %s %s %s cords-%d after %.2f s", signal, watchdog_frame_name(f), requests[q].name,
              tube ? "tube" : "solid", cords, delay);
