@@ -10,6 +10,7 @@
 #include "graph/junction.h"
 #include "lp/cords.h"
 #include "lp/lp.h"
+#include "lp/postman.h"
 #include "symmetry/automorphisms.h"
 #include "tortuosity/tube.h"
 #include "tortuosity/tube_cords.h"
@@ -91,6 +92,24 @@ static thr_status find_seed(const thr_frame *f, const thr_plan_options *o, const
   if (row >= 0) st = thr_symmetries_plan(&s, row, f, &so, &share, seed, &why);
   thr_symmetries_destroy(&s);
   return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* what else fails leaves no seed */
+}
+
+/* One cord through every edge an even number of times, for whoever keeps the best so far: at once, where a plan may be such. */
+static void tell_even(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits)
+{
+  enum { MOST_EDGES = 200000 }; /* beyond, writing it takes longer than it is worth */
+  thr_plan_options one = *o;
+  thr_cord *cord = NULL;
+  int n = 0, *passes = thr_calloc((size_t)f->n_edges, sizeof *passes);
+  bool room = passes && limits->found && o->joint == THR_JOINT_SOLID && f->n_edges <= MOST_EDGES;
+  for (int e = 0; e < f->n_edges && room; e++) {
+    passes[e] = thr_plan_cover(f, o, e) + thr_plan_cover(f, o, e) % 2;
+    room = passes[e] <= thr_plan_capacity(f, o, e);
+  }
+  one.cords = one.cords_least = 1;
+  if (room && !thr_postman_cords(f, &one, passes, &cord, &n, NULL)) thr_limits_found(limits, cord, n, NULL);
+  thr_cords_destroy(cord, n);
+  free(passes);
 }
 
 /* Some cords that tie the joints, or the shortest, for whoever keeps the best so far: sooner than a search has any. */
@@ -508,6 +527,7 @@ static thr_status make_plan(const arguments *a, const thr_frame *f, const thr_pl
   thr_limits limits = cli_limits(time_of_plan(a, o));
   best_begin(f, o);
   limits.found = best_found;
+  tell_even(f, o, &limits);
   if (o->objective == THR_SYMMETRY)
     st = plan_symmetric(f, o, &limits, &x->table, &x->plan, err);
   else if (o->objective == THR_LENGTH)
