@@ -111,13 +111,18 @@ def known(holder, names, place):
 INT64 = 2**63 - 1
 
 
+def clean(text):
+    """Foreign text, for one line of a terminal."""
+    return "".join(c if c.isprintable() else " " for c in text)
+
+
 # ---- framework ----
 
-MILLIMETRES = {"um": 0.001, "micron": 0.001, "microns": 0.001, "mm": 1, "cm": 10, "dm": 100, "m": 1000, "km": 1e6,
-               "in": 25.4, "inch": 25.4, "inches": 25.4, "ft": 304.8, "foot": 304.8, "feet": 304.8, "yd": 914.4, "yard": 914.4, "yards": 914.4}
-for prefix, mm in (("micro", 0.001), ("milli", 1), ("centi", 10), ("deci", 100), ("", 1000), ("kilo", 1e6)):
-    MILLIMETRES.update({prefix + metre: mm for metre in ("meter", "meters", "metre", "metres")})
-UNITS = {"unit", "units", *MILLIMETRES}
+# millimetres of a unit; None: nobody knows
+UNITS = {"um": 0.001, "micron": 0.001, "microns": 0.001, "mm": 1, "cm": 10, "dm": 100, "m": 1000, "km": 1e6, "in": 25.4, "inch": 25.4,
+         "inches": 25.4, "ft": 304.8, "foot": 304.8, "feet": 304.8, "yd": 914.4, "yard": 914.4, "yards": 914.4, "unit": None, "units": None}
+for prefix, size in (("", 1000), ("micro", 0.001), ("milli", 1), ("centi", 10), ("deci", 100), ("kilo", 1e6)):
+    UNITS.update({prefix + metre: size for metre in ("meter", "meters", "metre", "metres")})
 CONTROL = re.compile("[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ufffe\uffff]")
 
 
@@ -1341,6 +1346,7 @@ def check_copies(p, s, generators, images, group):
         of = member(row, "of", "integer", name, 0, n - 1)
         image = member(row, "image", "integer", name, 0, len(images) - 1)
         require(type(rows[of]) is dict and rows[of].get("of") == of, f"{name}.of: not a unique path")
+        require(of != i or image == 0, f"{name}.image: of a unique path it is 0")
         require(paths.form(of, table(images[image])) == forms[i], f"{name}: not that image of cord {of}")
         unique.add(of)
     seen = {}
@@ -1467,7 +1473,9 @@ class Evaluation:
         """Complete, and such that the parts fit."""
         self.physics = v = check_physics(o, "evaluation.physics")
         f = p.frame
-        shortest = min(math.dist(f.xyz[a], f.xyz[b]) for a, b in f.edge) * MILLIMETRES.get(f.units.lower(), 1)
+        millimetres = UNITS[f.units.lower()]
+        require(millimetres, "evaluation.physics: sizes, but nobody knows how long a unit is")
+        shortest = min(math.dist(f.xyz[a], f.xyz[b]) for a, b in f.edge) * millimetres
         require(0 < v["cord_diameter"] < v["bore"] < min(shortest, v["bead_diameter"]), "evaluation.physics: cord, bore, bead and edges do not fit")
         require(0 < v["mu_low"] <= v["mu"] <= v["mu_high"], "evaluation.physics: the band of mu does not hold it")
         require(v["density"] or v["bead_mass"], "evaluation.physics: beads without mass")
@@ -1523,12 +1531,12 @@ def main(arguments):
                     data = file.read()
             line = check(data)
             if not quiet:
-                print(f"{name}: {line}")
+                print(clean(f"{name}: {line}"))
         except Violation as error:
-            print(f"{name}: {error}", file=sys.stderr)
+            print(clean(f"{name}: {error}"), file=sys.stderr)
             worst = max(worst, 1)
         except (Unreadable, OSError) as error:
-            print(f"{name}: {error}", file=sys.stderr)
+            print(clean(f"{name}: {error}"), file=sys.stderr)
             worst = max(worst, 3)
     return worst
 

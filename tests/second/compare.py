@@ -114,7 +114,7 @@ def requests(everything, seed):
                 (frames if kind == "frame" else options).append(rest.strip())
     pairs = [(f, o) for f in frames for o in options]
     if not everything:
-        chosen = random.Random(seed).sample(pairs, 60)
+        chosen = random.Random(seed).sample(pairs, 80)
         pairs = [p for p in pairs if p in chosen]
     return pairs
 
