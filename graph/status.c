@@ -8,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static long fail_at; /* 0: never; 1: the next allocation fails, and so does each later one */
+static long fail_at;     /* 0: never; 1: the next allocation fails */
+static bool fails_later; /* .. and so does each one after it */
 
 thr_status thr_fail(thr_err *err, thr_status code, const char *format, ...)
 {
@@ -26,14 +27,23 @@ thr_status thr_fail(thr_err *err, thr_status code, const char *format, ...)
 void thr_alloc_fail_at(long k)
 {
   fail_at = k;
+  fails_later = true;
+}
+
+void thr_alloc_fail_once(long k)
+{
+  fail_at = k;
+  fails_later = false;
 }
 
 static bool may_allocate(size_t n, size_t size)
 {
   if (fail_at > 1)
     fail_at--;
-  else if (fail_at == 1)
+  else if (fail_at == 1) {
+    if (!fails_later) fail_at = 0;
     return false;
+  }
   return size == 0 || n <= PTRDIFF_MAX / size;
 }
 

@@ -54,4 +54,7 @@ char *thr_strdup(const char *s) THR_MUST_CHECK;
 /* Tests only: the k-th allocation from now fails (k >= 1), and each one after it; 0 switches this off. */
 void thr_alloc_fail_at(long k);
 
+/* The same with the k-th alone. */
+void thr_alloc_fail_once(long k);
+
 #endif
