@@ -111,6 +111,10 @@ def known(holder, names, place):
 INT64 = 2**63 - 1
 
 
+def count(n, what):
+    return f"{n} {what}" if n == 1 else f"{n} {what}{'es' if what.endswith('s') else 's'}"
+
+
 def clean(text):
     """Foreign text, for one line of a terminal."""
     return "".join(c if c.isprintable() else " " for c in text)
@@ -657,9 +661,9 @@ def check_claim(claim, own, optimal, bound, more, place, gap=True):
     status = choice(claim, "status", place, ("optimal", "bound"))
     stated = Fraction(member(claim, "lower_bound", "number", place, 0))
     slack, proved = TOLERANCE * (more + own), own if optimal else bound
-    require(bound <= own + slack, f"{place}: the proof gives {float(bound)}, which is more than the plan's own {float(own)}")
-    require(status == "bound" or optimal, f"{place}: not optimal, {float(bound)} is proved")
-    require(stated <= proved + TOLERANCE * (more + proved), f"{place}.lower_bound: stated {float(stated)}, but {float(bound)} is proved")
+    require(bound <= own + slack, f"{place}: the proof gives {float(bound):.12g}, which is more than the plan's own {float(own):.12g}")
+    require(status == "bound" or optimal, f"{place}: not optimal, {float(bound):.12g} is proved")
+    require(stated <= proved + TOLERANCE * (more + proved), f"{place}.lower_bound: stated {float(stated):.12g}, but {float(bound):.12g} is proved")
     require(status == "bound" or abs(stated - own) <= slack, f"{place}.lower_bound: not the plan's own")
     if gap:
         value = (own - stated) / own if own else 0
@@ -1327,7 +1331,7 @@ def check_symmetry(p):
     require(images and images[0] == tuple(range(n)), "symmetry.images: the first is not the identity")
     require(all(g in group for g in images), "symmetry.images: an image is not in the group")
     check_copies(p, s, [list(g) for g in generators], [list(g) for g in images], group)
-    return [f"group {name or 'of the graph'} of order {order}", f"{s['unique_paths']} unique paths", f"{s['steps']:g} steps"]
+    return [f"group {name or 'of the graph'} of order {order}", count(s["unique_paths"], "unique path"), f"{s['steps']:g} learned steps"]
 
 
 def check_copies(p, s, generators, images, group):
@@ -1496,8 +1500,8 @@ def check_evaluation(p):
 def terms(p):
     """For which plans the claims hold, in words."""
     o = p.options
-    cords = str(o.cords) if o.least == o.cords else f"{o.least} to {o.cords}"
-    words = [f"{o.objective}, {'tube' if o.tube else 'solid'} joints, ends {o.ends}, cover {o.cover}, {cords} cord(s) in each piece"]
+    cords = count(o.cords, "cord") if o.least == o.cords else f"{o.least} to {o.cords} cords"
+    words = [f"{o.objective}, {'tube' if o.tube else 'solid'} joints, ends {o.ends}, cover {o.cover}, {cords} in each piece"]
     for text, given in ((f"capacity {o.capacity}", o.capacity), ("covers of edges", p.frame.cover), ("capacities of edges", p.frame.capacity),
                         (f"max_length {o.max_length}", o.max_length), ("balanced", o.balance),
                         ("lengths of edges as stated", "lengths" in p.file["framework"])):
@@ -1511,7 +1515,7 @@ def check(data):
     check_cords(p)
     check_metrics(p)
     found = check_symmetry(p) + check_length(p) + check_cords_claim(p) + check_turning(p) + check_evaluation(p)
-    return (f"{len(p.cords)} cord(s), {sum(p.passes)} passes, length {float(p.length):.6f} {p.frame.units}; "
+    return (f"{count(len(p.cords), 'cord')}, {count(sum(p.passes), 'pass')}, length {float(p.length):.6f} {p.frame.units}; "
             f"{'; '.join(found)} [{terms(p)}]")
 
 
@@ -1536,7 +1540,7 @@ def main(arguments):
             print(clean(f"{name}: {error}"), file=sys.stderr)
             worst = max(worst, 1)
         except (Unreadable, OSError) as error:
-            print(clean(f"{name}: {error}"), file=sys.stderr)
+            print(clean(f"{name}: {getattr(error, 'strerror', None) or error}"), file=sys.stderr)
             worst = max(worst, 3)
     return worst
 
