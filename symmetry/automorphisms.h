@@ -25,6 +25,15 @@ typedef struct {
  * (said why). Not re-entrant. */
 thr_status thr_automorphisms_find(const thr_frame *f, const thr_automorphism_options *o, thr_automorphisms *out,
                                   thr_err *err) THR_MUST_CHECK;
+
+/* The same in a child process, which the limits can end, as Traces cannot be stopped; without limits that stop anything, here.
+ * *all = false: it was not done in time, and out has the identity alone. */
+thr_status thr_automorphisms_within(const thr_frame *f, const thr_automorphism_options *o, const thr_limits *limits, bool *all,
+                                    thr_automorphisms *out, thr_err *err) THR_MUST_CHECK;
+
+/* Fills the orbits from the generators. */
+thr_status thr_automorphisms_orbits(thr_automorphisms *a, thr_err *err) THR_MUST_CHECK;
+
 void thr_automorphisms_destroy(thr_automorphisms *a);
 
 const char *thr_nauty_version(void);

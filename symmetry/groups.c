@@ -280,8 +280,10 @@ static thr_status find_shape(offer *x, bool *all, thr_err *err)
     colour_ends(x, node);
     st = colour_passes(x, edge, err);
   }
-  if (!st) st = thr_automorphisms_find(x->f, &(thr_automorphism_options){node, edge}, &a, err);
+  bool found;
+  if (!st) st = thr_automorphisms_within(x->f, &(thr_automorphism_options){node, edge}, x->limits, &found, &a, err);
   if (!st) st = add_shape(x, &a, edge, all, err);
+  if (!st) *all = *all && found;
   thr_automorphisms_destroy(&a);
   free(edge);
   free(node);
@@ -386,11 +388,12 @@ static thr_status offer_automorphisms(offer *x, thr_err *err)
   thr_symmetries *t = x->t;
   thr_automorphisms a;
   thr_group g = {0};
+  bool all = true;
   int *node = thr_calloc((size_t)x->f->n_nodes, sizeof *node), *edge = thr_calloc((size_t)x->f->n_edges, sizeof *edge);
   thr_status st = node && edge ? colour_passes(x, edge, err) : thr_nomem(err);
   if (!st) {
     colour_ends(x, node);
-    st = thr_automorphisms_find(x->f, &(thr_automorphism_options){node, edge}, &a, err);
+    st = thr_automorphisms_within(x->f, &(thr_automorphism_options){node, edge}, x->limits, &all, &a, err);
   }
   free(node);
   free(edge);
@@ -404,6 +407,10 @@ static thr_status offer_automorphisms(offer *x, thr_err *err)
     if (!st) st = add_classes(x, false, &t->listed, err);
   }
   if (!st && !t->listed) st = offer_some(x, &a, err);
+  if (!st && !all) {
+    t->listed = false;
+    snprintf(t->note, sizeof t->note, "too little time to find the automorphisms: only the identity");
+  }
   thr_automorphisms_destroy(&a);
   return st;
 }

@@ -197,7 +197,7 @@ static void normalize_order(thr_automorphisms *a)
   a->exponent = 0;
 }
 
-static thr_status find_orbits(thr_automorphisms *a, thr_err *err)
+thr_status thr_automorphisms_orbits(thr_automorphisms *a, thr_err *err)
 {
   a->orbit = thr_calloc((size_t)a->n, sizeof *a->orbit);
   if (!a->orbit) return thr_nomem(err);
@@ -219,7 +219,7 @@ thr_status thr_automorphisms_find(const thr_frame *f, const thr_automorphism_opt
   thr_status st = coloured_init(&c, f, o, err);
   if (!st && c.n > 0) st = run_traces(&c, &k, err);
   if (!st) normalize_order(&a);
-  if (!st) st = find_orbits(&a, err);
+  if (!st) st = thr_automorphisms_orbits(&a, err);
   coloured_destroy(&c);
   if (st) thr_automorphisms_destroy(&a);
   *out = a;

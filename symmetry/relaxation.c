@@ -17,10 +17,13 @@ enum { MOST_EXACT = 4000 };
 
 thr_status thr_relaxation_add_row(thr_relaxation *r, double lower, thr_err *err)
 {
-  int n = r->p->n + r->extra, count = 0, *column = thr_calloc((size_t)n, sizeof *column);
-  double *value = thr_calloc((size_t)n, sizeof *value);
+  int n = r->p->n + r->extra, most = 0, count = 0;
+  for (int j = 0; j < n; j++)
+    most += r->sum[j] != 0;
+  int *column = thr_calloc((size_t)most, sizeof *column);
+  double *value = thr_calloc((size_t)most, sizeof *value);
   thr_status st = column && value ? thr_programme_check_time(r->p) : thr_nomem(err);
-  for (int j = 0; j < n && !st; j++)
+  for (int j = 0; j < n && !st && count < most; j++)
     if (r->sum[j] != 0) {
       column[count] = j;
       value[count++] = r->sum[j];
