@@ -289,6 +289,33 @@ START_TEST(too_many_generators_are_refused)
 }
 END_TEST
 
+/* In a child the same generators and orbits; without time the identity alone. */
+START_TEST(found_within_limits)
+{
+  thr_frame f = grid_make(7, 7), many = triangles_make(200);
+  const thr_frame *const frames[] = {&f, &many};
+  for (int i = 0; i < 2; i++) {
+    thr_automorphism_options o = {0};
+    thr_automorphisms here = find(frames[i], NULL, NULL), a;
+    size_t n = (size_t)here.n;
+    bool all;
+    const thr_limits hour = {.deadline = thr_clock() + 3600}, over = {.deadline = thr_clock() - 1};
+    ck_assert_int_eq(thr_automorphisms_within(frames[i], &o, &hour, &all, &a, NULL), THR_OK);
+    ck_assert(all && a.n == here.n && a.n_generators == here.n_generators);
+    ck_assert_mem_eq(a.generator, here.generator, n * (size_t)a.n_generators * sizeof *a.generator);
+    ck_assert_mem_eq(a.orbit, here.orbit, n * sizeof *a.orbit);
+    ck_assert(a.mantissa == here.mantissa && a.exponent == here.exponent);
+    thr_automorphisms_destroy(&a);
+    ck_assert_int_eq(thr_automorphisms_within(frames[i], &o, &over, &all, &a, NULL), THR_OK);
+    ck_assert(all || (a.n_generators == 0 && a.mantissa == 1)); /* a child may be faster than its parent looks */
+    thr_automorphisms_destroy(&a);
+    thr_automorphisms_destroy(&here);
+  }
+  thr_frame_destroy(&f);
+  thr_frame_destroy(&many);
+}
+END_TEST
+
 /* nauty ends the program when memory runs out; ours goes on. */
 START_TEST(nauty_without_memory)
 {
@@ -704,6 +731,7 @@ int main(void)
   ADD_TEST(s, 20, refused_groups);
   ADD_TEST(s, 60, published_counts_of_subgroups);
   ADD_TEST(s, 60, cyclic_and_dihedral_groups);
+  ADD_TEST(s, 20, found_within_limits);
   ADD_TEST(s, 20, all_subsets_of_small_groups);
   ADD_TEST(s, 20, capped_classes);
   ADD_TEST(s, 60, elementary_abelian_group_is_capped);
