@@ -59,7 +59,8 @@ thr_status thr_lp_solve(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *ou
 thr_status thr_lp_solve_exact(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err) THR_MUST_CHECK;
 thr_status thr_lp_solve_exact_here(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err) THR_MUST_CHECK;
 
-/* Branch and bound with every column a whole number, from the optimum of the last thr_lp_solve. For small programmes. Then
+/* Branch and bound with every column a whole number, from the optimum of the last thr_lp_solve. For small programmes; in a child
+ * process if there are limits to keep. Then
  * thr_lp_primal and thr_lp_objective give the integer optimum, and thr_lp_dual nothing of use. */
 thr_status thr_lp_solve_integer(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err) THR_MUST_CHECK;
 

@@ -16,7 +16,7 @@ struct thr_lp {
   int generation;
   bool primal;   /* the next solve starts from a basis that was set */
   bool integer;  /* the last solve was by branch and bound, whose results GLPK keeps apart */
-  double *exact; /* the numbers of the last solve if that was exact, else NULL; owned */
+  double *exact; /* the numbers of the last solve if that was in a child, exact or by branch and bound, else NULL; owned */
 };
 
 static int generation;
@@ -405,7 +405,52 @@ thr_status thr_lp_solve_exact_here(thr_lp *lp, const thr_limits *limits, thr_lp_
   return solve(lp, true, limits, outcome, err);
 }
 
-/* ---- the exact method in a child ---- */
+typedef struct {
+  glp_prob *problem;
+  const thr_limits *limits;
+  int pivots; /* made when last looked at */
+  int code;
+} integer_call;
+
+/* At every step of the tree, which counts as a pivot too. */
+static void watch_tree(glp_tree *tree, void *call)
+{
+  integer_call *c = call;
+  int pivots = glp_get_it_cnt(c->problem);
+  spend(c->limits, c->problem, 1 + pivots - c->pivots);
+  c->pivots = pivots;
+  if (thr_limits_stop(c->limits)) glp_ios_terminate(tree);
+}
+
+static void do_integer(void *argument)
+{
+  integer_call *c = argument;
+  glp_iocp options;
+  glp_init_iocp(&options);
+  options.msg_lev = GLP_MSG_OFF;
+  options.cb_func = watch_tree;
+  options.cb_info = c;
+  for (int j = 1; j <= glp_get_num_cols(c->problem); j++)
+    glp_set_col_kind(c->problem, j, GLP_IV);
+  c->code = glp_intopt(c->problem, &options);
+}
+
+static thr_status solve_integer(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)
+{
+  *outcome = THR_LP_STOPPED;
+  thr_status st = check_alive(lp, err);
+  forget_exact(lp);
+  integer_call c = {lp->problem, limits, 0, 0};
+  if (!st) c.pivots = glp_get_it_cnt(lp->problem);
+  if (!st) st = guarded(do_integer, &c, err);
+  if (st || c.code == GLP_ESTOP) return st;
+  if (c.code) return thr_fail(err, THR_ESOLVER, "GLPK's branch and bound failed (code %d)", c.code);
+  lp->integer = true;
+  *outcome = glp_mip_status(lp->problem) == GLP_OPT ? THR_LP_OPTIMAL : THR_LP_INFEASIBLE;
+  return THR_OK;
+}
+
+/* ---- methods that take no heed of time, in a child ---- */
 
 /* Numbers of a solution: outcome, objective, column values, row multipliers. */
 enum { OUTCOME, OBJECTIVE, VALUES };
@@ -434,12 +479,18 @@ static thr_status put_solution(const thr_lp *lp, thr_lp_outcome outcome, thr_tex
   return t->failed ? thr_nomem(err) : THR_OK;
 }
 
+typedef struct {
+  thr_lp *lp;
+  thr_status (*solve)(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err);
+} child_job;
+
 static thr_status solve_and_send(void *user, const thr_limits *limits, thr_sender *to, thr_err *err)
 {
+  const child_job *job = user;
   thr_lp_outcome outcome;
   thr_text t = {0};
-  thr_status st = thr_lp_solve_exact_here(user, limits, &outcome, err);
-  if (!st) st = put_solution(user, outcome, &t, err);
+  thr_status st = job->solve(job->lp, limits, &outcome, err);
+  if (!st) st = put_solution(job->lp, outcome, &t, err);
   if (!st) st = thr_child_send(to, &t, err);
   thr_text_destroy(&t);
   return st;
@@ -479,9 +530,10 @@ static thr_status take_solution(thr_lp *lp, const thr_text *t, thr_lp_outcome *o
   return THR_OK;
 }
 
-thr_status thr_lp_solve_exact(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)
+static thr_status solve_in_child(child_job job, const char *what, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)
 {
-  const thr_child child = {.what = "GLPK's exact method", .run = solve_and_send, .user = lp};
+  const thr_child child = {.what = what, .run = solve_and_send, .user = &job};
+  thr_lp *lp = job.lp;
   thr_err failure = {0};
   thr_text answer = {0};
   *outcome = THR_LP_STOPPED;
@@ -498,49 +550,17 @@ thr_status thr_lp_solve_exact(thr_lp *lp, const thr_limits *limits, thr_lp_outco
   return st;
 }
 
-typedef struct {
-  glp_prob *problem;
-  const thr_limits *limits;
-  int pivots; /* made when last looked at */
-  int code;
-} integer_call;
-
-/* At every step of the tree, which counts as a pivot too. */
-static void watch_tree(glp_tree *tree, void *call)
+thr_status thr_lp_solve_exact(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)
 {
-  integer_call *c = call;
-  int pivots = glp_get_it_cnt(c->problem);
-  spend(c->limits, c->problem, 1 + pivots - c->pivots);
-  c->pivots = pivots;
-  if (thr_limits_stop(c->limits)) glp_ios_terminate(tree);
+  return solve_in_child((child_job){lp, thr_lp_solve_exact_here}, "GLPK's exact method", limits, outcome, err);
 }
 
-static void do_integer(void *argument)
-{
-  integer_call *c = argument;
-  glp_iocp options;
-  glp_init_iocp(&options);
-  options.msg_lev = GLP_MSG_OFF;
-  options.cb_func = watch_tree;
-  options.cb_info = c;
-  for (int j = 1; j <= glp_get_num_cols(c->problem); j++)
-    glp_set_col_kind(c->problem, j, GLP_IV);
-  c->code = glp_intopt(c->problem, &options);
-}
-
+/* The programmes at the tree's nodes are solved without a limit, and may go round in circles. Where nobody sets limits, there is
+ * nothing to end. */
 thr_status thr_lp_solve_integer(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)
 {
-  *outcome = THR_LP_STOPPED;
-  thr_status st = check_alive(lp, err);
-  forget_exact(lp);
-  integer_call c = {lp->problem, limits, 0, 0};
-  if (!st) c.pivots = glp_get_it_cnt(lp->problem);
-  if (!st) st = guarded(do_integer, &c, err);
-  if (st || c.code == GLP_ESTOP) return st;
-  if (c.code) return thr_fail(err, THR_ESOLVER, "GLPK's branch and bound failed (code %d)", c.code);
-  lp->integer = true;
-  *outcome = glp_mip_status(lp->problem) == GLP_OPT ? THR_LP_OPTIMAL : THR_LP_INFEASIBLE;
-  return THR_OK;
+  if (limits->deadline == 0 && !limits->interrupted) return solve_integer(lp, limits, outcome, err);
+  return solve_in_child((child_job){lp, solve_integer}, "GLPK's branch and bound", limits, outcome, err);
 }
 
 void thr_lp_primal(const thr_lp *lp, double *x)

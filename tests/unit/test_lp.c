@@ -496,6 +496,60 @@ START_TEST(libraries_tell_their_versions)
 }
 END_TEST
 
+/* Twice the sum of 41 zeros and ones is to be 41: branch and bound has to try nearly all (R. Jeroslow, "Trivial integer programs
+ * unsolvable by branch-and-bound", Math. Programming 6, 1974). */
+START_TEST(branch_and_bound_ends_in_time)
+{
+  enum { N = 41 };
+  int start[N + 1], row[N];
+  double cost[N] = {0}, two[N], odd = N;
+  thr_lp *lp;
+  thr_lp_outcome outcome;
+  for (int j = 0; j < N; j++)
+    start[j] = j, row[j] = 0, two[j] = 2;
+  start[N] = N;
+  ck_assert_int_eq(thr_lp_create_equations(&lp, 1, &odd, N, cost, NULL, start, row, two, NULL), THR_OK);
+  for (int j = 0; j < N; j++)
+    ck_assert_int_eq(thr_lp_set_bounds(lp, j, 0, 1, NULL), THR_OK);
+  const double begun = thr_clock();
+  const thr_limits limits = {.deadline = begun + 0.3};
+  ck_assert_int_eq(thr_lp_solve(lp, &limits, &outcome, NULL), THR_OK);
+  ck_assert_int_eq(outcome, THR_LP_OPTIMAL);
+  ck_assert_int_eq(thr_lp_solve_integer(lp, &limits, &outcome, NULL), THR_OK);
+  ck_assert_int_eq(outcome, THR_LP_STOPPED);
+  ck_assert_double_lt(thr_clock() - begun, 5); /* seconds on a busy machine, not years */
+  thr_lp_destroy(lp);
+}
+END_TEST
+
+/* The same numbers from a child, which keeps limits, as without limits: least x + 1.5 y with 2 x + 3 y at least 7, in whole
+ * numbers. */
+START_TEST(branch_and_bound_in_a_child_is_the_same)
+{
+  const double cost[2] = {1, 1.5}, value[2] = {2, 3};
+  const int column[2] = {0, 1};
+  for (int limited = 0; limited < 2; limited++) {
+    const thr_limits limits = {.deadline = limited ? thr_clock() + 100 : 0};
+    thr_lp *lp;
+    thr_lp_outcome outcome;
+    double x[2];
+    ck_assert_int_eq(thr_lp_create(&lp, 2, cost, NULL, NULL), THR_OK);
+    ck_assert_int_eq(thr_lp_add_row(lp, 2, column, value, 7, NULL), THR_OK);
+    ck_assert_int_eq(thr_lp_solve(lp, &limits, &outcome, NULL), THR_OK);
+    ck_assert_double_eq_tol(thr_lp_objective(lp), 3.5, 1e-9);
+    ck_assert_int_eq(thr_lp_solve_integer(lp, &limits, &outcome, NULL), THR_OK);
+    ck_assert_int_eq(outcome, THR_LP_OPTIMAL);
+    thr_lp_primal(lp, x);
+    ck_assert_double_eq_tol(thr_lp_objective(lp), 3.5, 1e-9); /* x = 2, y = 1 */
+    ck_assert_double_eq_tol(x[0], 2, 1e-6);
+    ck_assert_double_eq_tol(x[1], 1, 1e-6);
+    ck_assert_int_eq(thr_lp_solve(lp, &limits, &outcome, NULL), THR_OK); /* and goes on from there */
+    ck_assert_double_eq_tol(thr_lp_objective(lp), 3.5, 1e-9);
+    thr_lp_destroy(lp);
+  }
+}
+END_TEST
+
 int main(void)
 {
   Suite *s = suite_create("linear programmes and cut tree");
@@ -517,5 +571,7 @@ int main(void)
   ADD_LOOP(s, 20, cut_tree_holds_all_minimum_cuts, 0, 60);
   ADD_TEST(s, 10, cut_tree_of_nonsense_is_a_status);
   ADD_TEST(s, 10, libraries_tell_their_versions);
+  ADD_TEST(s, 30, branch_and_bound_ends_in_time);
+  ADD_TEST(s, 10, branch_and_bound_in_a_child_is_the_same);
   return run_suite(s);
 }
