@@ -174,7 +174,7 @@ thr_status thr_sheets_svg(const thr_sheets *s, int i, thr_text *svg, thr_err *er
 /* Ends this process if a page takes so many seconds of processor time: fontconfig without memory tries for ever. */
 static void bound_page(void)
 {
-  enum { MOST = 20 };
+  enum { MOST = 10 };
   struct rusage used;
   struct rlimit r;
   if (getrusage(RUSAGE_SELF, &used) || getrlimit(RLIMIT_CPU, &r)) return;
@@ -182,6 +182,15 @@ static void bound_page(void)
   if (r.rlim_max != RLIM_INFINITY && r.rlim_max < end) return; /* somebody was stricter */
   r.rlim_cur = end;
   setrlimit(RLIMIT_CPU, &r);
+}
+
+/* Pango leaves words out where an allocation fails, and says nothing: a page is begun only with room for all that it may need. */
+static thr_status check_room(thr_err *err)
+{
+  enum { ROOM = 16 << 20 };
+  void *room = thr_calloc(ROOM, 1);
+  free(room);
+  return room ? THR_OK : thr_nomem(err);
 }
 
 /* In a child process: librsvg, cairo and GLib end the program when memory runs out. */
@@ -199,6 +208,7 @@ static thr_status make_pdf(void *user, const thr_limits *limits, thr_sender *to,
     if (thr_limits_stop(limits))
       st = thr_fail(err, THR_ELIMIT, "interrupted at page %d of %d of the step sheets", i + 1, s->n_pages);
     bound_page();
+    if (!st) st = check_room(err);
     if (!st) st = thr_sheets_svg(s, i, &svg, err);
     if (!st) st = thr_paper_add(paper, &svg, err);
     thr_text_destroy(&svg);
