@@ -12,7 +12,7 @@ typedef struct {
 
 /* For a list of functions  #define FUNCTIONS(F) F(one) F(two):
  * struct { FUNCTIONS(THR_LAZY_POINTER) bool loaded; } lib, and the symbols {FUNCTIONS(THR_LAZY_SYMBOL)} that fill it. */
-#define THR_LAZY_POINTER(f) __typeof__(f) *f;
+#define THR_LAZY_POINTER(f) __typeof__(f) *(f);
 #define THR_LAZY_SYMBOL(f) {#f, &lib.f},
 
 /* Unless *loaded, loads a library by the name that the run-time linker knows it by (libcairo.so.2) and fills the pointers, from

@@ -62,14 +62,16 @@ static void run_child(bool (*run)(void *user, int fd), void *user, pid_t parent,
   _exit(keep_quiet(&fd, words) && run(user, fd) ? SENT : 1);
 }
 
-static thr_status open_pipes(int result[2], int words[2], thr_err *err)
+/* false: errno says why not. */
+static bool open_pipes(int result[2], int words[2])
 {
-  if (pipe(result)) return thr_fail(err, THR_ESOLVER, "cannot start a worker: %s; close other programs", strerror(errno));
-  if (pipe(words) == 0) return THR_OK;
+  if (pipe(result)) return false;
+  if (pipe(words) == 0) return true;
   int reason = errno;
   close(result[READ]);
   close(result[WRITE]);
-  return thr_fail(err, THR_ESOLVER, "cannot start a worker: %s; close other programs", strerror(reason));
+  errno = reason;
+  return false;
 }
 
 thr_status thr_process_start(thr_process *p, bool (*run)(void *user, int fd), void *user, thr_err *err)
@@ -77,8 +79,8 @@ thr_status thr_process_start(thr_process *p, bool (*run)(void *user, int fd), vo
   int result[2], words[2];
   sigset_t all, old;
   const pid_t parent = getpid();
-  thr_status st = open_pipes(result, words, err);
-  if (st) return st;
+  if (!open_pipes(result, words))
+    return thr_fail(err, THR_ESOLVER, "cannot start a worker: %s; close other programs", strerror(errno));
   sigfillset(&all);
   sigprocmask(SIG_BLOCK, &all, &old); /* or a signal would run the parent's handler in the child */
   pid_t pid = fork();

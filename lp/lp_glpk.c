@@ -472,10 +472,10 @@ static thr_status put_solution(const thr_lp *lp, thr_lp_outcome outcome, thr_tex
   thr_lp_dual(lp, number + VALUES + n);
   thr_text_append_bytes(t, (const char *)number, count_numbers(lp) * sizeof *number);
   free(number);
-  for (int i = 1; i <= m; i++)
-    thr_text_append_bytes(t, &(char){(char)glp_get_row_stat(lp->problem, i)}, 1);
-  for (int j = 1; j <= n; j++)
-    thr_text_append_bytes(t, &(char){(char)glp_get_col_stat(lp->problem, j)}, 1);
+  for (int i = 1; i <= m + n; i++) {
+    const char stand = (char)(i <= m ? glp_get_row_stat(lp->problem, i) : glp_get_col_stat(lp->problem, i - m));
+    thr_text_append_bytes(t, &stand, 1);
+  }
   return t->failed ? thr_nomem(err) : THR_OK;
 }
 
