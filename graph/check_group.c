@@ -119,6 +119,7 @@ static thr_status list_elements(elements *g, const thr_symmetry_record *r, int n
 typedef struct {
   int order;
   int longest;     /* order of the element of greatest order */
+  int turn;        /* the same of those that do not mirror */
   int involutions; /* elements of order 2 */
   int improper;    /* elements that mirror */
   int inversions;  /* 1 if the inversion is an element */
@@ -145,22 +146,23 @@ static int order_of_element(const int *image, int n)
  * commutes with all. */
 static census cyclic(int n)
 {
-  return (census){n, n, n % 2 == 0, 0, 0, false};
+  return (census){n, n, n, n % 2 == 0, 0, 0, false};
 }
 
 static census dihedral(int n)
 {
-  return (census){2 * n, n > 1 ? n : 2, n + (n % 2 == 0), 0, 0, false};
+  return (census){2 * n, n > 1 ? n : 2, n > 1 ? n : 2, n + (n % 2 == 0), 0, 0, false};
 }
 
 static census doubled(census c)
 {
-  return (census){2 * c.order, c.longest % 2 ? 2 * c.longest : c.longest, 2 * c.involutions + 1, 0, 0, false};
+  return (census){2 * c.order, c.longest % 2 ? 2 * c.longest : c.longest, c.turn, 2 * c.involutions + 1, 0, 0, false};
 }
 
 /* With as many mirrors, rotoreflections and inversions as rotations. */
-static census mirrored(census c, bool inversion)
+static census mirrored(census c, int turn, bool inversion)
 {
+  c.turn = turn;
   c.improper = c.order / 2;
   c.inversions = inversion;
   return c;
@@ -171,13 +173,13 @@ static census census_of_axis(char letter, int n, const char *end)
   const census none = {0};
   bool plain = !*end, even = n % 2 == 0;
   char more = !plain && !end[1] ? *end : '\0';
-  if (letter == 'S') return plain && even ? mirrored(cyclic(n), n % 4 == 2) : none;
+  if (letter == 'S') return plain && even ? mirrored(cyclic(n), n / 2, n % 4 == 2) : none;
   if (letter == 'C' && plain) return cyclic(n);
   if (letter == 'D' && plain) return dihedral(n);
-  if (letter == 'C' && more == 'v') return mirrored(dihedral(n), false);
-  if (letter == 'C' && more == 'h') return mirrored(doubled(cyclic(n)), even);
-  if (letter == 'D' && more == 'h') return mirrored(doubled(dihedral(n)), even);
-  return letter == 'D' && more == 'd' ? mirrored(dihedral(2 * n), !even) : none;
+  if (letter == 'C' && more == 'v') return mirrored(dihedral(n), n, false);
+  if (letter == 'C' && more == 'h') return mirrored(doubled(cyclic(n)), n, even);
+  if (letter == 'D' && more == 'h') return mirrored(doubled(dihedral(n)), dihedral(n).turn, even);
+  return letter == 'D' && more == 'd' ? mirrored(dihedral(2 * n), dihedral(n).turn, !even) : none;
 }
 
 /* Of the point group of that Schoenflies name; order 0 if there is none. */
@@ -186,9 +188,10 @@ static census census_of_name(const char *name)
   static const struct {
     const char *name;
     census census;
-  } single[] = {{"Cs", {2, 2, 1, 1, 0, false}},    {"Ci", {2, 2, 1, 1, 1, false}},   {"T", {12, 3, 3, 0, 0, false}},
-                {"Td", {24, 4, 9, 12, 0, false}},  {"Th", {24, 6, 7, 12, 1, false}}, {"O", {24, 4, 9, 0, 0, false}},
-                {"Oh", {48, 6, 19, 24, 1, false}}, {"I", {60, 5, 15, 0, 0, false}},  {"Ih", {120, 10, 31, 60, 1, false}}};
+  } single[] = {
+      {"Cs", {2, 2, 1, 1, 1, 0, false}},    {"Ci", {2, 2, 1, 1, 1, 1, false}},   {"T", {12, 3, 3, 3, 0, 0, false}},
+      {"Td", {24, 4, 3, 9, 12, 0, false}},  {"Th", {24, 6, 3, 7, 12, 1, false}}, {"O", {24, 4, 4, 9, 0, 0, false}},
+      {"Oh", {48, 6, 4, 19, 24, 1, false}}, {"I", {60, 5, 5, 15, 0, 0, false}},  {"Ih", {120, 10, 5, 31, 60, 1, false}}};
   const census none = {0};
   for (size_t i = 0; i < sizeof single / sizeof *single; i++)
     if (strcmp(name, single[i].name) == 0) return single[i].census;
@@ -219,6 +222,7 @@ static thr_status take_census(const elements *g, const thr_plan *p, census *c, t
           "by %.12g of the framework's size",
           within, order, m.farthest);
     if (order > c->longest) c->longest = order;
+    if (m.proper && order > c->turn) c->turn = order;
     c->involutions += order == 2;
     c->improper += !m.proper;
     c->flat |= m.flat;
@@ -239,10 +243,13 @@ static thr_status check_name(const elements *g, const thr_plan *p, thr_err *err)
     return thr_fail(err, THR_EVIOLATED,
                     "symmetry.name: \"%s\" has %d elements of order 2 and one of order %d; the group has %d, and one of order %d",
                     name, stated.involutions, stated.longest, found.involutions, found.longest);
-  if (!found.flat && (stated.improper != found.improper || stated.inversions != found.inversions))
-    return thr_fail(err, THR_EVIOLATED,
-                    "symmetry.name: \"%s\" has %d elements that mirror, %s inversion; the group has %d, %s inversion", name,
-                    stated.improper, stated.inversions ? "with the" : "no", found.improper, found.inversions ? "with the" : "no");
+  if (!found.flat && (stated.improper != found.improper || stated.inversions != found.inversions || stated.turn != found.turn))
+    return thr_fail(
+        err, THR_EVIOLATED,
+        "symmetry.name: \"%s\" has %d elements that mirror, %s inversion, and turns of order %d; the group has %d, %s "
+        "inversion, and of order %d",
+        name, stated.improper, stated.inversions ? "with the" : "no", stated.turn, found.improper,
+        found.inversions ? "with the" : "no", found.turn);
   return THR_OK;
 }
 

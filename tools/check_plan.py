@@ -1175,18 +1175,19 @@ class Paths:
 
 
 def point_groups(order):
-    """Names of point groups of this order: {name: (elements of order 2, greatest order, elements that mirror, inversions)}."""
-    table = {"C1": (1, 0, 1, 0, 0), "Cs": (2, 1, 2, 1, 0), "Ci": (2, 1, 2, 1, 1), "T": (12, 3, 3, 0, 0), "Th": (24, 7, 6, 12, 1),
-             "Td": (24, 9, 4, 12, 0), "O": (24, 9, 4, 0, 0), "Oh": (48, 19, 6, 24, 1), "I": (60, 15, 5, 0, 0), "Ih": (120, 31, 10, 60, 1)}
+    """{name: (elements of order 2, greatest order, elements that mirror, inversions, greatest order of a turn)} of this order."""
+    table = {"C1": (1, 0, 1, 0, 0, 1), "Cs": (2, 1, 2, 1, 0, 1), "Ci": (2, 1, 2, 1, 1, 1), "T": (12, 3, 3, 0, 0, 3),
+             "Th": (24, 7, 6, 12, 1, 3), "Td": (24, 9, 4, 12, 0, 3), "O": (24, 9, 4, 0, 0, 4), "Oh": (48, 19, 6, 24, 1, 4),
+             "I": (60, 15, 5, 0, 0, 5), "Ih": (120, 31, 10, 60, 1, 5)}
     for n in range(2, order + 1):
         even, odd = 1 - n % 2, n % 2
-        table[f"C{n}"] = (n, even, n, 0, 0)
-        table[f"C{n}h"] = (2 * n, 1 + 2 * even, math.lcm(n, 2), n, even)
-        table[f"C{n}v"] = (2 * n, n + even, max(n, 2), n, 0)
-        table[f"D{n}"] = (2 * n, n + even, max(n, 2), 0, 0)
-        table[f"D{n}h"] = (4 * n, 2 * (n + even) + 1, math.lcm(n, 2), 2 * n, even)
-        table[f"D{n}d"] = (4 * n, 2 * n + 1, 2 * n, 2 * n, odd)
-        table[f"S{2 * n}"] = (2 * n, 1, 2 * n, n, odd)
+        table[f"C{n}"] = (n, even, n, 0, 0, n)
+        table[f"C{n}h"] = (2 * n, 1 + 2 * even, math.lcm(n, 2), n, even, n)
+        table[f"C{n}v"] = (2 * n, n + even, max(n, 2), n, 0, n)
+        table[f"D{n}"] = (2 * n, n + even, max(n, 2), 0, 0, n)
+        table[f"D{n}h"] = (4 * n, 2 * (n + even) + 1, math.lcm(n, 2), 2 * n, even, n)
+        table[f"D{n}d"] = (4 * n, 2 * n + 1, 2 * n, 2 * n, odd, n)
+        table[f"S{2 * n}"] = (2 * n, 1, 2 * n, n, odd, n)
     return {name: row[1:] for name, row in table.items() if row[0] == order}
 
 
@@ -1273,7 +1274,7 @@ def check_shape(p, group, order, name):
     if not name and tolerance is None:
         return
     shape = Shape(p.frame)
-    orders, mirrors, inversions = [], 0, 0
+    orders, turns, mirrors, inversions = [], [1], 0, 0
     for g in group:
         q, residual, farthest = shape.motion(g)
         require(not name or residual <= 0.05 + 1e-9, f"symmetry.name: an element is {residual:.3g} away from an isometry")
@@ -1282,10 +1283,12 @@ def check_shape(p, group, order, name):
         if dot(q[0], cross(q[1], q[2])) < 0:
             mirrors += 1
             inversions += orders[-1] == 2 and q[0][0] + q[1][1] + q[2][2] < -1
+        else:
+            turns.append(orders[-1])
     if name:
         row = point_groups(order).get(name)
         require(row is not None and row[:2] == (orders.count(2), max(orders)), f"symmetry.name: {name} is another group")
-        require(shape.flat or row[2:] == (mirrors, inversions), f"symmetry.name: {name} has other mirrors")
+        require(shape.flat or row[2:] == (mirrors, inversions, max(turns)), f"symmetry.name: {name} has other mirrors")
 
 
 def generate(generators, n, order):

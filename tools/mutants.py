@@ -35,7 +35,7 @@ LISTS = os.path.join("tools", "mutants")
 
 CERTIFICATES = ["unit/test_check_rules", "unit/test_prices", "unit/test_requests", "property/test_proofs", "unit/test_check", "property/test_several"]
 TURNING = ["property/test_turning_bound", "unit/test_check_turning", "unit/test_tortuosity:more_cords_than_the_shortest_passes_hold"]
-SYMMETRY = ["unit/test_symmetry_plan"]
+SYMMETRY = ["unit/test_check_symmetry", "unit/test_symmetry_plan"]
 MATCHING = ["unit/test_blossom", "property/test_blossom", "property/test_moat"]
 SUITES = {
     "graph/check.c": CERTIFICATES + ["unit/test_check_turning", "unit/test_symmetry_plan", "unit/test_evaluation"],
@@ -45,7 +45,7 @@ SUITES = {
     "graph/check_turning.c": TURNING,
     "graph/turning_proof.c": TURNING,
     "graph/turning.c": TURNING,
-    "graph/junction.c": TURNING,
+    "graph/junction.c": ["unit/test_check_rules", "unit/test_requests"],
     "graph/check_symmetry.c": SYMMETRY,
     "graph/check_group.c": SYMMETRY,
     "graph/procrustes.c": ["unit/test_isometry"] + SYMMETRY,

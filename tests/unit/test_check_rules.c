@@ -1,6 +1,7 @@
 /* Rules of the checker, each against an answer that is worked out another way: what rounding takes off a bound, how short the
  * longest cord can be, and that no claim outlives a failure before it. */
 #include "graph/check_parts.h"
+#include "graph/junction.h"
 #include "lp/cords.h"
 #include "tests/support.h"
 
@@ -214,6 +215,55 @@ START_TEST(optimal_is_within_a_billionth)
     assert_one_line(&err, "scale is too large");
     thr_frame_destroy(&f);
   }
+}
+END_TEST
+
+/* ---- prices ---- */
+
+/* Price of the places that n passes of an edge are: one for each pass; closed, two for each pair, and of the other passes as many
+ * as make a loop for every two places, rounded up. */
+static int64_t places_price(bool closed, int64_t of, int loop, int n)
+{
+  if (!closed) return of * n;
+  int64_t left = n % 2 ? 2 * of : 0;
+  return 2 * of * (n / 2) + left / loop + (left % loop > 0);
+}
+
+/* Against every number of extra passes that there is room for, or the first few if there is no end. */
+START_TEST(edges_at_their_price)
+{
+  rng r = rng_make((uint64_t)_i + 1);
+  thr_frame f = path_make(2);
+  for (int k = 0; k < 200; k++) {
+    bool closed = rng_below(&r, 2), limited = rng_below(&r, 3) > 0;
+    thr_plan_options o = options_for(closed ? THR_ENDS_CLOSED : THR_ENDS_FEET, 1 + rng_below(&r, 4));
+    int room = rng_below(&r, 6), loop = rng_between(&r, 2, 10);
+    int64_t weight = rng_below(&r, 20), of = rng_below(&r, 5) ? rng_below(&r, 30) : weight, best[2] = {INT64_MAX, INT64_MAX};
+    if (limited) o.capacity = o.cover + room;
+    thr_priced p = thr_prices_edge(&f, &o, 0, weight, of, loop);
+    int64_t held = places_price(closed, of, loop, o.cover);
+    ck_assert_int_eq((int64_t)p.held, held);
+    ck_assert_int_eq(p.room, !limited || room > 0);
+    ck_assert_int_eq(p.endless, !limited && of > weight);
+    if (p.endless || !p.room) continue;
+    for (int n = 0; n <= (limited ? room : 9); n++) {
+      int64_t cost = weight * n - places_price(closed, of, loop, o.cover + n) + held;
+      if (cost < best[n % 2]) best[n % 2] = cost;
+    }
+    for (int i = 0; i < 2; i++) {
+      ck_assert_int_eq((int64_t)(i ? p.odd : p.even), best[i]);
+      ck_assert_int_eq(p.passes[i] % 2, i);
+      ck_assert_int_le(p.passes[i], limited ? room : 9);
+      ck_assert_int_eq(weight * p.passes[i] - places_price(closed, of, loop, o.cover + p.passes[i]) + held, best[i]);
+    }
+  }
+  thr_plan_options o = options_for(THR_ENDS_COUNTS, 1);
+  ck_assert_int_eq(thr_prices_number(&o, 7), 7);
+  o.objective = THR_SYMMETRY;
+  ck_assert_int_eq(thr_prices_number(&o, 7), 0);
+  o = options_for(THR_ENDS_FEET, 1);
+  ck_assert_int_eq(thr_prices_number(&o, 7), 1);
+  thr_frame_destroy(&f);
 }
 END_TEST
 
@@ -513,6 +563,100 @@ START_TEST(no_cord_of_tube_joints_turns_back_first)
 }
 END_TEST
 
+/* Is every edge at the node joined to every other by turns of the cords? By spreading from the first until nothing is new. */
+static bool tied_by_turns(const thr_frame *f, const thr_cord *cord, int n_cords, bool closing, int v)
+{
+  bool reached[64] = {false}, more = true;
+  reached[f->half[f->first[v]] / 2] = true;
+  while (more) {
+    more = false;
+    for (int i = 0; i < n_cords; i++)
+      for (int k = 0; k < cord[i].n_passes - !(closing && cord[i].closed); k++) {
+        int a = cord[i].half[k], b = cord[i].half[(k + 1) % cord[i].n_passes];
+        if (thr_head(f, a) != v || reached[a / 2] == reached[b / 2]) continue;
+        reached[a / 2] = reached[b / 2] = more = true;
+      }
+  }
+  for (int i = f->first[v]; i < f->first[v + 1]; i++)
+    if (!reached[f->half[i] / 2]) return false;
+  return true;
+}
+
+/* Random walks, some of them closed. */
+START_TEST(nodes_are_tied_by_turns)
+{
+  rng r = rng_make((uint64_t)_i + 1);
+  thr_frame f = random_frame(&r, 6, 6, LENGTHS_EQUAL);
+  int half[3][40];
+  bool tied[8];
+  thr_cord cord[3];
+  for (int i = 0; i < 3; i++) {
+    cord[i] = (thr_cord){.n_passes = rng_between(&r, 1, 40), .half = half[i]};
+    half[i][0] = rng_below(&r, 2 * f.n_edges);
+    for (int k = 1; k < cord[i].n_passes; k++) {
+      int v = thr_head(&f, half[i][k - 1]);
+      half[i][k] = f.half[f.first[v] + rng_below(&r, thr_degree(&f, v))];
+    }
+    cord[i].closed = thr_cord_start(&f, &cord[i]) == thr_cord_end(&f, &cord[i]);
+  }
+  for (int closing = 0; closing < 2; closing++) {
+    ck_assert_int_eq(thr_junction_tied(&f, cord, 3, closing, tied, NULL), THR_OK);
+    for (int v = 0; v < f.n_nodes; v++)
+      ck_assert_int_eq(tied[v], tied_by_turns(&f, cord, 3, closing, v));
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* What a proof of length with tube joints is about; and with multipliers that prove an extra pass of edge 0. */
+START_TEST(proofs_of_tied_length_are_about_the_plan)
+{
+  static const double length[3] = {2, 3, 1};
+  thr_frame f = chain_make(3, length);
+  bool allowed[4];
+  thr_turning_task t;
+  int count[4] = {1, 0, 0, 1};
+  f.foot[0] = true;
+  for (int k = 0; k < 3; k++) {
+    thr_plan_options o = options_for(k == 0 ? THR_ENDS_CLOSED : k == 1 ? THR_ENDS_FEET : THR_ENDS_COUNTS, 2);
+    o.cords = 3, o.cords_least = 2, o.capacity = 9;
+    if (k == 2) o.end_count = count;
+    thr_tied_task(&f, &o, allowed, &t);
+    ck_assert_int_eq(t.cover, 2);
+    ck_assert_int_eq(t.capacity, 9);
+    ck_assert_int_eq(t.cords, k ? 3 : 1);
+    ck_assert_int_eq(t.cords_least, k ? 2 : 1);
+    ck_assert_int_eq(t.most_passes, 2 * (2 + 2 + 2 * (k ? 3 : 1)) + 1);
+    ck_assert(t.tube && t.free_turns && t.extra_limit < 0);
+    ck_assert_ptr_eq(t.end_allowed, k ? allowed : NULL);
+    ck_assert_ptr_eq(t.end_count, k == 2 ? count : NULL);
+    ck_assert_double_eq_tol(t.price_per_length, 0.5, 1e-12); /* edges by length */
+    for (int v = 0; v < 4; v++)
+      ck_assert_int_eq(allowed[v], k == 0 ? true : k == 1 ? v == 0 : count[v] > 0);
+  }
+  f.length[1] = 20000; /* a price of an edge above 5,000 would be too large */
+  thr_plan_options o = options_for(THR_ENDS_FEET, 1);
+  thr_tied_task(&f, &o, allowed, &t);
+  ck_assert_double_eq_tol(t.price_per_length, 3 / 20003.0, 1e-12);
+  f.length[1] = 3;
+  int64_t potential[6] = {0}, ends[1] = {0};
+  thr_turning_dual dual = {.potential = potential, .ends = ends};
+  thr_turning_node leaf = {0};
+  thr_turning_proof proof = {1, 1, 1, &leaf, &dual};
+  double least;
+  ck_assert_int_eq(thr_tied_least(&f, &o, &proof, &least, NULL), THR_OK);
+  ck_assert_double_eq_tol(least, 6, 1e-12);
+  int member[1] = {0};
+  thr_turning_set odd = {1, member, (int64_t)1 << 43};
+  dual.odd = &odd, dual.n_odd = 1;
+  o.ends =
+      THR_ENDS_CLOSED; /* nothing but an extra pass leaves half-edge 0, alone at its node: 2 * 0.5 a pass, and 0.5 is taken */
+  ck_assert_int_eq(thr_tied_least(&f, &o, &proof, &least, NULL), THR_OK);
+  ck_assert_double_eq_tol(least, 6 + 0.5 / 0.5, 1e-9);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* ---- metrics ---- */
 
 /* Of a straight cord, which turns by nothing: angles are compared with 1, too. */
@@ -554,6 +698,9 @@ int main(void)
   ADD_TEST(s, 10, one_cord_is_charged_for_one_pass);
   ADD_TEST(s, 10, rounding_of_what_is_passed_once_costs_little);
   ADD_TEST(s, 10, optimal_is_within_a_billionth);
+  ADD_LOOP(s, 10, edges_at_their_price, 0, 10);
+  ADD_LOOP(s, 10, nodes_are_tied_by_turns, 0, 60);
+  ADD_TEST(s, 10, proofs_of_tied_length_are_about_the_plan);
   ADD_LOOP(s, 20, the_longest_cord_has_its_detour, 0, 90);
   ADD_LOOP(s, 20, the_longest_closed_cord_has_its_detour, 0, 40);
   ADD_TEST(s, 10, cords_have_whole_numbers_of_the_unit);

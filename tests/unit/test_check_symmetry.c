@@ -1,0 +1,325 @@
+/* The checker's part for symmetry against groups made of matrices, and against readings of cords that are counted one by one. */
+#include "graph/check_parts.h"
+#include "tests/support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define PI 3.14159265358979323846
+
+/* ---- point groups ---- */
+
+enum { MOST = 130, MOST_GENERATORS = 3 };
+
+typedef double matrix[3][3];
+
+typedef struct {
+  const char *name;
+  int order, n_generators;
+  matrix generator[MOST_GENERATORS];
+} point_group;
+
+/* Turn about z by a part of the full one, followed by the mirror z = 0 if asked for. */
+static void turn(double part, bool mirror, matrix m)
+{
+  double c = cos(2 * PI * part), s = sin(2 * PI * part);
+  memcpy(m, (matrix){{c, -s, 0}, {s, c, 0}, {0, 0, mirror ? -1 : 1}}, sizeof(matrix));
+}
+
+static matrix mirror_x = {{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, mirror_z = {{1, 0, 0}, {0, 1, 0}, {0, 0, -1}},
+              half_x = {{1, 0, 0}, {0, -1, 0}, {0, 0, -1}}, half_z = {{-1, 0, 0}, {0, -1, 0}, {0, 0, 1}},
+              third = {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}, invert = {{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}},
+              diagonal = {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}}, quarter = {{0, -1, 0}, {1, 0, 0}, {0, 0, 1}};
+
+static void add(point_group *g, matrix m)
+{
+  memcpy(g->generator[g->n_generators++], m, sizeof(matrix));
+}
+
+/* A turn by a fifth about (0, 1, golden ratio), Rodrigues' formula. */
+static void fifth(matrix m)
+{
+  double phi = (1 + sqrt(5)) / 2, norm = sqrt(1 + phi * phi), k[3] = {0, 1 / norm, phi / norm};
+  double c = cos(2 * PI / 5), s = sin(2 * PI / 5);
+  const matrix cross = {{0, -k[2], k[1]}, {k[2], 0, -k[0]}, {-k[1], k[0], 0}};
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++)
+      m[i][j] = (i == j) * c + s * cross[i][j] + (1 - c) * k[i] * k[j];
+}
+
+enum { N_GROUPS = 34 };
+
+/* The generators are those of the textbooks; orders are multiplied out from them below. */
+static point_group group_number(int i)
+{
+  static const char *const name[N_GROUPS] = {"C1",  "Cs", "Ci", "T",  "Td", "Th",  "O",   "Oh",  "I",   "Ih",  "C2",  "C3",
+                                             "C4",  "C6", "S4", "S6", "S8", "C2v", "C3v", "C4v", "C6v", "C2h", "C3h", "C4h",
+                                             "C6h", "D2", "D3", "D4", "D6", "D2h", "D3h", "D4h", "D2d", "D3d"};
+  point_group g = {.name = name[i]};
+  matrix m;
+  if (i < 10) {
+    if (i == 1) add(&g, mirror_z);
+    if (i == 2) add(&g, invert);
+    if (i >= 3 && i < 8) add(&g, third), add(&g, i < 6 ? half_z : quarter);
+    if (i == 4) add(&g, diagonal);
+    if (i == 5 || i == 7 || i == 9) add(&g, invert);
+    if (i >= 8) fifth(m), add(&g, third), add(&g, m);
+    return g;
+  }
+  int n = name[i][1] - '0';
+  char letter = name[i][0], more = name[i][2];
+  turn(more == 'd' ? 0.5 / n : 1.0 / n, letter == 'S' || more == 'd', m);
+  add(&g, m);
+  if (letter == 'D') add(&g, half_x);
+  if (more == 'v') add(&g, mirror_x);
+  if (more == 'h') add(&g, mirror_z);
+  return g;
+}
+
+/* Number of the point, added if it is new. */
+static int point_number(double (*xyz)[3], int *n, const double p[3])
+{
+  for (int v = 0; v < *n; v++)
+    if (fabs(xyz[v][0] - p[0]) + fabs(xyz[v][1] - p[1]) + fabs(xyz[v][2] - p[2]) < 1e-9) return v;
+  ck_assert_int_lt(*n, MOST);
+  memcpy(xyz[*n], p, sizeof xyz[*n]);
+  return (*n)++;
+}
+
+static void apply(matrix m, const double p[3], double out[3])
+{
+  for (int i = 0; i < 3; i++)
+    out[i] = m[i][0] * p[0] + m[i][1] * p[1] + m[i][2] * p[2];
+}
+
+/* All images of a point that no motion keeps, each joined to each, and of another so that no motion but the group's fits. */
+static thr_plan plan_of_group(point_group *g)
+{
+  static double xyz[MOST][3];
+  static int edge[MOST * MOST][2];
+  const double first[3] = {0.31, 0.52, 0.79};
+  int n = 0, m = 0;
+  point_number(xyz, &n, first);
+  for (int v = 0; v < n; v++)
+    for (int k = 0; k < g->n_generators; k++) {
+      double p[3];
+      apply(g->generator[k], xyz[v], p);
+      point_number(xyz, &n, p);
+    }
+  g->order = n;
+  if (n < 20) { /* so few points may lie in a plane, or have other motions: more orbits */
+    const double more[3][3] = {{1.7, -0.4, 0.23}, {-0.6, 1.9, 0.55}, {0.15, -1.2, 1.4}};
+    for (int i = 0; i < 3; i++) {
+      int from = n;
+      point_number(xyz, &n, more[i]);
+      for (int v = from; v < n; v++)
+        for (int k = 0; k < g->n_generators; k++) {
+          double p[3];
+          apply(g->generator[k], xyz[v], p);
+          point_number(xyz, &n, p);
+        }
+    }
+  }
+  for (int a = 0; a < n; a++)
+    for (int b = 0; b < a; b++)
+      edge[m][0] = b, edge[m++][1] = a;
+  thr_plan p = {.options = options_for(THR_ENDS_ANY, 1)};
+  p.frame = frame_make(n, (const double(*)[3])xyz, m, (const int(*)[2])edge, NULL, NULL);
+  p.options.objective = THR_SYMMETRY;
+  p.options.symmetry.geometric = -1;
+  p.symmetry = (thr_symmetry_record){.present = true, .order = g->order, .n_generators = g->n_generators, .n_images = 1};
+  p.symmetry.generator = calloc(MOST * MOST_GENERATORS, sizeof(int));
+  p.symmetry.image = calloc(MOST, sizeof(int));
+  for (int v = 0; v < n; v++) {
+    p.symmetry.image[v] = v;
+    for (int k = 0; k < g->n_generators; k++) {
+      double to[3];
+      int all = n;
+      apply(g->generator[k], xyz[v], to);
+      p.symmetry.generator[k * n + v] = point_number(xyz, &all, to);
+      ck_assert_int_eq(all, n);
+    }
+  }
+  return p;
+}
+
+static thr_status name_it(thr_plan *p, const char *name, thr_err *err)
+{
+  thr_check_elements g = {0};
+  memset(p->symmetry.name, 0, sizeof p->symmetry.name);
+  memcpy(p->symmetry.name, name, strlen(name));
+  *err = (thr_err){0};
+  thr_status st = thr_check_group(p, &g, err);
+  if (!st) ck_assert_int_eq(g.order, p->symmetry.order);
+  ck_assert(!st || !g.image);
+  free(g.image);
+  return st;
+}
+
+/* A group has its own name and no other's. */
+START_TEST(groups_have_one_name)
+{
+  point_group g = group_number(_i);
+  thr_plan p = plan_of_group(&g);
+  thr_err err;
+  for (int k = 0; k < N_GROUPS; k++) {
+    const char *name = group_number(k).name;
+    thr_status st = name_it(&p, name, &err);
+    ck_assert_msg(st == (k == _i ? THR_OK : THR_EVIOLATED), "%s called %s: %s", g.name, name, err.text);
+  }
+  static const char *const nonsense[] = {"C",   "C0", "C1x", "Cx", "D",  "D2x", "T1",   "Oi",   "S3",     "S5",     "S4v", "C01",
+                                         "C2d", "S0", "Cv",  "Ds", "Is", "C-2", "C2vv", "D2dd", "C99999", "C1024h", "t",   "Tdd"};
+  for (size_t k = 0; k < sizeof nonsense / sizeof *nonsense; k++)
+    ck_assert_int_eq(name_it(&p, nonsense[k], &err), THR_EVIOLATED);
+  ck_assert_int_eq(name_it(&p, "", &err), THR_OK);
+  static const int other[] = {-1, 1};
+  for (int k = 0; k < 2; k++) {
+    p.symmetry.order += other[k];
+    ck_assert_int_eq(name_it(&p, "", &err), THR_EVIOLATED);
+    p.symmetry.order -= other[k];
+  }
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+/* The first node moved by so much of the framework's size: a name holds up to 5 %, a tolerance of one's own up to that. */
+START_TEST(names_are_those_of_isometries)
+{
+  static const char *const names[] = {"Td", "O", "Oh", "Ih"};
+  thr_err err;
+  for (int k = 0; k < 4; k++) {
+    int i = 0;
+    while (strcmp(group_number(i).name, names[k]) != 0)
+      i++;
+    point_group g = group_number(i);
+    thr_plan p = plan_of_group(&g);
+    double size = sqrt(0.31 * 0.31 + 0.52 * 0.52 + 0.79 * 0.79), kept = p.frame.xyz[0][2];
+    for (double part = 1e-4; part < 1; part *= 1.2) {
+      p.frame.xyz[0][2] = kept + part * size;
+      if (part < 0.02) ck_assert_int_eq(name_it(&p, names[k], &err), THR_OK);
+      if (part > 0.6) ck_assert_int_eq(name_it(&p, names[k], &err), THR_EVIOLATED);
+      ck_assert_int_eq(name_it(&p, "", &err), THR_OK);
+      p.options.symmetry.geometric = part / 4;
+      ck_assert_int_eq(name_it(&p, "", &err), THR_EVIOLATED);
+      p.options.symmetry.geometric = 2.5 * part;
+      ck_assert_int_eq(name_it(&p, "", &err), THR_OK);
+      p.options.symmetry.geometric = -1;
+    }
+    thr_plan_destroy(&p);
+  }
+}
+END_TEST
+
+/* ---- cords ---- */
+
+enum { CORNERS = 4, MOST_WALK = 24 };
+
+/* A closed walk on the tetrahedron, mostly one that repeats itself or reads the same backward. */
+static int random_walk(rng *r, int *walk)
+{
+  for (;;) {
+    int n = 0, part = rng_between(r, 2, 6), times = rng_between(r, 1, 3);
+    bool back = rng_below(r, 3) == 0;
+    for (int i = 0; i < part; i++)
+      walk[n++] = rng_below(r, CORNERS - 1);
+    for (int i = part - 2; back && i > 0; i--)
+      walk[n++] = walk[i];
+    int period = n;
+    while (n < times * period)
+      walk[n] = walk[n - period], n++;
+    bool ok = true;
+    for (int i = 0; i < n; i++)
+      ok &= walk[i] != walk[(i + 1) % n];
+    if (ok) return n;
+  }
+}
+
+/* Rotations and reversals that read the same. */
+static int count_readings(const int *walk, int n)
+{
+  int count = 0;
+  for (int start = 0; start < n; start++)
+    for (int back = 0; back < 2; back++) {
+      bool same = true;
+      for (int i = 0; i < n; i++)
+        same &= walk[i] == walk[((back ? start - i : start + i) % n + n) % n];
+      count += same;
+    }
+  return count;
+}
+
+static thr_cord cord_of(const thr_frame *f, int number, const int *walk, int n, int first, int start, bool back)
+{
+  thr_cord c = {.closed = true, .component = number, .n_passes = n, .half = calloc((size_t)n, sizeof(int))};
+  for (int i = 0; i < n; i++) {
+    int a = first + walk[((back ? start - i : start + i) % n + n) % n];
+    int b = first + walk[((back ? start - i - 1 : start + i + 1) % n + n) % n];
+    int e = thr_frame_edge_between(f, a, b);
+    c.half[i] = 2 * e + (f->edge[e][1] == a);
+  }
+  thr_cord_id(number, c.id);
+  return c;
+}
+
+/* Two tetrahedra, a cord round each, from anywhere and either way: one is the image of the other when they are exchanged. What is
+ * learned is one reading of it. */
+START_TEST(copies_may_start_anywhere_and_run_backward)
+{
+  rng r = rng_make((uint64_t)_i + 1);
+  thr_frame one = solid_make(TETRAHEDRON), two = side_by_side(&one, &one);
+  int walk[MOST_WALK * 3], n = random_walk(&r, walk), exchange[8], same[16];
+  for (int v = 0; v < 8; v++)
+    exchange[v] = (v + 4) % 8, same[v] = v, same[8 + v] = exchange[v];
+  thr_cord cord[2] = {cord_of(&two, 0, walk, n, 0, rng_below(&r, n), rng_below(&r, 2)),
+                      cord_of(&two, 1, walk, n, 4, rng_below(&r, n), rng_below(&r, 2))};
+  thr_plan p = {.frame = two, .options = options_for(THR_ENDS_CLOSED, 1), .n_cords = 2, .cord = cord};
+  int unique[2] = {0, 0}, element[2] = {0, 1};
+  p.options.objective = THR_SYMMETRY;
+  p.options.symmetry.geometric = -1;
+  p.symmetry = (thr_symmetry_record){true, 2, "", 1, exchange, 2, same, unique, element, (double)n / count_readings(walk, n), 1};
+  thr_err err = {0};
+  ck_assert_msg(thr_check_symmetry(&p, &err) == THR_OK, "%s", err.text);
+  p.symmetry.steps *= 1 + 2e-9;
+  ck_assert_int_eq(thr_check_symmetry(&p, NULL), THR_EVIOLATED);
+  p.symmetry.steps /= 1 + 2e-9;
+  p.symmetry.unique_paths = 2;
+  ck_assert_int_eq(thr_check_symmetry(&p, NULL), THR_EVIOLATED);
+  p.symmetry.unique_paths = 1;
+  static const int wrong[][2] = {{-1, 1}, {2, 1}, {0, -1}, {0, 2}, {0, 0}, {1, 0}, {1, 1}};
+  for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) { /* no such cord, no such image, not that image, not a copy */
+    unique[1] = wrong[k][0], element[1] = wrong[k][1];
+    ck_assert_int_eq(thr_check_symmetry(&p, NULL), THR_EVIOLATED);
+  }
+  unique[1] = 0, element[1] = 1;
+  element[0] = 1; /* a unique path is its own image 0 */
+  ck_assert_int_eq(thr_check_symmetry(&p, NULL), THR_EVIOLATED);
+  element[0] = 0;
+  int other[MOST_WALK * 3], at = rng_below(&r, n); /* the node that no walk comes to */
+  memcpy(other, walk, sizeof walk);
+  other[at] = CORNERS - 1;
+  for (int k = 0; k < 2; k++) {
+    thr_cord kept = p.cord[k];
+    p.cord[k] = cord_of(&two, k, other, n, 4 * k, rng_below(&r, n), rng_below(&r, 2));
+    err = (thr_err){0};
+    ck_assert_int_eq(thr_check_symmetry(&p, &err), THR_EVIOLATED);
+    assert_one_line(&err, "symmetry");
+    free(p.cord[k].half);
+    p.cord[k] = kept;
+  }
+  ck_assert_int_eq(thr_check_symmetry(&p, NULL), THR_OK);
+  free(cord[0].half);
+  free(cord[1].half);
+  thr_frame_destroy(&one);
+  thr_frame_destroy(&two);
+}
+END_TEST
+
+int main(void)
+{
+  Suite *s = suite_create("checker of symmetry");
+  ADD_LOOP(s, 30, groups_have_one_name, 0, N_GROUPS);
+  ADD_TEST(s, 30, names_are_those_of_isometries);
+  ADD_LOOP(s, 10, copies_may_start_anywhere_and_run_backward, 0, 150);
+  return run_suite(s);
+}
