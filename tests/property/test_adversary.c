@@ -79,12 +79,12 @@ static void limit_edges(rng *r, thr_frame *f)
 
 static void choose_options(rng *r, request *q)
 {
-  static const int many[] = {1, 1, 2, 3, 10, 100, 1000};
+  static const int many[] = {1, 2, 2, 3, 10, 100, 1000};
   thr_plan_options *o = &q->o;
   *o = options_for((thr_ends)rng_below(r, 5), rng_between(r, 1, 2));
   o->objective = rng_below(r, 4) ? THR_LENGTH : THR_SYMMETRY;
   o->cords = many[rng_below(r, 7)];
-  o->cords_least = rng_below(r, 3) ? o->cords : rng_between(r, 1, o->cords);
+  o->cords_least = rng_below(r, 3) == 0 ? 1 : rng_below(r, 2) ? o->cords : rng_between(r, 1, o->cords);
   o->capacity = rng_below(r, 6) ? 0 : rng_between(r, 3, 9);
   for (int v = 0; v < q->f.n_nodes; v++) {
     q->end_node[v] = rng_below(r, 2);
@@ -155,7 +155,7 @@ enum { CUTS = 10, PIECES = 2 };
 typedef struct {
   double scale;
   int64_t denominator, end_price, price[TRUTH_NODES];
-  bool prices;
+  bool prices, even; /* are there prices of places? Are sets with an even number of odd nodes left in? */
   int n_cuts;
   unsigned set[CUTS];
   double share[CUTS];
@@ -242,7 +242,7 @@ static void work_out(const request *q, const choice *x, int k, const int *passes
     if (q->component[v] == k && (q->o.ends == THR_ENDS_COUNTS || w->c.n_prices == 0))
       w->price[w->c.n_prices++] = q->o.ends == THR_ENDS_COUNTS ? x->price[v] : x->price[0];
   for (int i = 0; i < x->n_cuts; i++)
-    if (is_odd(x->set[i] & w->odd)) load(q, x, i, w);
+    if (x->even || is_odd(x->set[i] & w->odd)) load(q, x, i, w);
   if (x->tamper && w->c.n_cuts) w->cut[0].value += x->tamper;
   for (int i = 0; i < w->c.n_cuts; i++)
     w->c.sum += w->cut[i].value;
@@ -324,6 +324,7 @@ static void change(rng *r, const void *target, void *what)
   case 6:
     if (rng_below(r, 4) == 0) x->prices = !x->prices;
     if (rng_below(r, 2) == 0) c->filler = e;
+    if (rng_below(r, 8) == 0) x->even = !x->even;
     if (rng_below(r, 8) == 0) x->tamper = rng_below(r, 2) ? rng_between(r, -1, 1) : attack_integer(r);
     break;
   default: change_cut(r, q, k, x);

@@ -138,6 +138,18 @@ static thr_frame any_frame(rng *r)
   return f;
 }
 
+/* Every component has cord ends, two for each cord. */
+static bool counts_fit(const thr_frame *f, const int *end_count)
+{
+  int component[2 * NODES], n, ends[2 * NODES] = {0};
+  ck_assert_int_eq(thr_frame_components(f, component, &n, NULL), THR_OK);
+  for (int v = 0; v < f->n_nodes; v++)
+    ends[component[v]] += end_count[v];
+  for (int k = 0; k < n; k++)
+    if (ends[k] == 0 || ends[k] % 2) return false;
+  return true;
+}
+
 static bool target_make(rng *r, target *t, bool tied)
 {
   thr_err err = {0};
@@ -154,11 +166,13 @@ static bool target_make(rng *r, target *t, bool tied)
   choose_options(r, t, &f, &o);
   if (apart) o.ends = THR_ENDS_CLOSED, o.end_node = NULL, o.end_count = NULL, o.cords = o.cords_least = 2;
   thr_limits limits = {.deadline = thr_clock() + 5};
-  thr_status st =
-      tied ? thr_tube_cords_plan(&f, &o, &limits, &t->plan, NULL, &err) : thr_tortuosity_plan(&f, &o, &limits, &t->plan, &err);
+  thr_status st = THR_EINFEASIBLE;
+  if (o.ends != THR_ENDS_COUNTS || counts_fit(&f, t->end_count))
+    st = (tied ? thr_tube_cords_plan(&f, &o, &limits, &t->plan, NULL, &err)
+               : thr_tortuosity_plan(&f, &o, &limits, &t->plan, &err));
   thr_frame_destroy(&f);
   if (st && st != THR_ELIMIT) return false;
-  if (tied ? !t->plan.proof.present : !t->plan.turning.present) {
+  if ((tied ? !t->plan.proof.present : !t->plan.turning.present) || thr_check_plan(&t->plan, NULL)) {
     target_destroy(t);
     return false;
   }
