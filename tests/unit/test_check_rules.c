@@ -634,11 +634,16 @@ START_TEST(proofs_of_tied_length_are_about_the_plan)
     for (int v = 0; v < 4; v++)
       ck_assert_int_eq(allowed[v], k == 0 ? true : k == 1 ? v == 0 : count[v] > 0);
   }
-  f.length[1] = 20000; /* a price of an edge above 5,000 would be too large */
   thr_plan_options o = options_for(THR_ENDS_FEET, 1);
-  thr_tied_task(&f, &o, allowed, &t);
-  ck_assert_double_eq_tol(t.price_per_length, 3 / 20003.0, 1e-12);
-  f.length[1] = 3;
+  f.cover = calloc(3, sizeof *f.cover);
+  for (int e = 0; e < 3; e++) {
+    f.cover[0] = f.cover[1] = f.cover[2] = 1;
+    f.cover[e] = 4;
+    thr_tied_task(&f, &o, allowed, &t);
+    ck_assert_int_eq(t.most_passes, 2 * (4 + 2 + 2) + 1);
+  }
+  free(f.cover);
+  f.cover = NULL;
   int64_t potential[6] = {0}, ends[1] = {0};
   thr_turning_dual dual = {.potential = potential, .ends = ends};
   thr_turning_node leaf = {0};
@@ -653,7 +658,121 @@ START_TEST(proofs_of_tied_length_are_about_the_plan)
       THR_ENDS_CLOSED; /* nothing but an extra pass leaves half-edge 0, alone at its node: 2 * 0.5 a pass, and 0.5 is taken */
   ck_assert_int_eq(thr_tied_least(&f, &o, &proof, &least, NULL), THR_OK);
   ck_assert_double_eq_tol(least, 6 + 0.5 / 0.5, 1e-9);
+  odd.value = -1;
+  ck_assert_int_eq(thr_tied_least(&f, &o, &proof, &least, NULL), THR_EVIOLATED);
+  ck_assert_double_eq(least, 0);
   thr_frame_destroy(&f);
+}
+END_TEST
+
+/* An edge costs its part of all length, times their number; but no edge more than 5,000. Whatever the unit of length is. */
+START_TEST(prices_of_tied_length_are_moderate)
+{
+  enum { N = 6000 };
+  thr_frame f = path_make(N + 1);
+  bool *allowed = calloc(N + 1, sizeof *allowed);
+  thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+  thr_turning_task t;
+  for (int at = 0; at < N; at += N - 1)
+    for (double unit = 1e-6; unit < 1e7; unit *= 1000) {
+      for (int e = 0; e < N; e++)
+        f.length[e] = unit;
+      thr_tied_task(&f, &o, allowed, &t);
+      ck_assert_double_eq_tol(t.price_per_length * unit, 1, 1e-9);
+      f.length[at] = 1e6 * unit;
+      thr_tied_task(&f, &o, allowed, &t);
+      ck_assert_double_eq_tol(t.price_per_length * f.length[at], 5000, 1e-6);
+    }
+  free(allowed);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* A chain of four edges of about 1, tied at three nodes, with K cords that end anywhere: twice the passes less twice the turns,
+ * of which there are three or more, are 2 K ends, so that there are K + 3 passes or more. As multipliers: half of the weight of a
+ * pass for the ends, less as much for every half-edge, twice it for every junction. Cords of two edges at most: three are needed,
+ * though two would be long enough for every edge once. */
+START_TEST(the_fewest_cords_of_tube_joints)
+{
+  static const double length[4] = {1, 1.0003, 1.0007, 1.0011};
+  const double all = 4.0021;
+  thr_frame f = chain_make(4, length);
+  thr_cord cord[3];
+  int half[3][2] = {{0, 2}, {2, 4}, {4, 6}}, block[2] = {0, 1};
+  for (int i = 0; i < 3; i++) {
+    cord[i] = (thr_cord){.n_passes = 2, .half = half[i]};
+    thr_cord_id(i, cord[i].id);
+  }
+  int64_t unit = (int64_t)floor(ldexp(4 / all, THR_TURNING_BITS)) / 2, potential[8], ends[1] = {unit};
+  for (int h = 0; h < 8; h++)
+    potential[h] = -unit;
+  thr_turning_junction junction[3] = {{1, block, 2 * unit}, {2, block, 2 * unit}, {3, block, 2 * unit}};
+  thr_turning_dual dual = {.potential = potential, .ends = ends, .n_junctions = 3, .junction = junction};
+  thr_turning_node leaf = {0};
+  thr_turning_proof proof = {1, 1, 1, &leaf, &dual};
+  thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+  thr_cords_claim found;
+  thr_err err = {0};
+  o.joint = THR_JOINT_TUBE;
+  o.max_length = 2.002;
+  for (int most = 3; most <= 5; most++)
+    for (int least = 1; least <= 3; least++) {
+      o.cords = most, o.cords_least = least;
+      ck_assert_msg(thr_check_tied_cords(&f, &o, cord, 3, &proof, &found, &err) == THR_OK, "%s", err.text);
+      ck_assert_double_eq_tol(found.longest, 2.0018, 1e-12);
+      ck_assert_double_eq_tol(found.longest_bound, fmax(1.0011, (all + least - 1) / most), 1e-9);
+      ck_assert_int_eq(found.fewest, least < most ? 3 : 0); /* asked for exactly, they are not claimed */
+      ck_assert_int_eq(found.fewest_optimal, least < most);
+    }
+  o.max_length = 0;
+  ck_assert_int_eq(thr_check_tied_cords(&f, &o, cord, 3, &proof, &found, &err), THR_OK);
+  ck_assert_int_eq(found.fewest, 0);
+  o.cords = 4, o.cords_least = 1;
+  o.max_length = 2.0018; /* (K + 3) of about 1 in K cords of that */
+  ck_assert_int_eq(thr_check_tied_cords(&f, &o, cord, 3, &proof, &found, &err), THR_OK);
+  ck_assert_int_eq(found.fewest, 3);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* The same of two cords on two edges, where the bound is what the plan has, or short of it by a part of 1e-10 or 1e-7. */
+START_TEST(optimal_tied_lengths_are_within_a_billionth)
+{
+  static const double length[2] = {1, 2}, off[] = {0, 1e-10, 1e-7};
+  for (int k = 0; k < 3; k++) {
+    thr_frame f = chain_make(2, length);
+    thr_plan p = {0};
+    thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+    int half[3] = {0, 2, 0}, block[2] = {0, 1};
+    o.joint = THR_JOINT_TUBE;
+    o.cords = o.cords_least = 2;
+    ck_assert_int_eq(thr_plan_request(&p, &f, &o, NULL), THR_OK);
+    p.cord = calloc(2, sizeof *p.cord);
+    p.n_cords = 2;
+    for (int i = 0; i < 2; i++) {
+      p.cord[i] = (thr_cord){.n_passes = 2 - i, .half = calloc(2, sizeof(int))};
+      memcpy(p.cord[i].half, half + 2 * i, (size_t)(2 - i) * sizeof(int));
+      thr_cord_id(i, p.cord[i].id);
+    }
+    int64_t unit = (int64_t)floor(ldexp((1 - 4 * off[k]) * 2 / 3, THR_TURNING_BITS)) / 2;
+    int64_t potential[4] = {-unit, -unit, -unit, -unit}, ends[1] = {unit};
+    thr_turning_junction junction = {1, block, 2 * unit};
+    thr_turning_dual dual = {.potential = potential, .ends = ends, .n_junctions = 1, .junction = &junction};
+    thr_turning_node leaf = {0};
+    p.proof = (thr_length_proof){.present = true, .optimal = true, .lower_bound = 4, .tied = {1, 1, 1, &leaf, &dual}};
+    ck_assert_int_eq(thr_plan_measure(&f, &o, p.cord, 2, &p.metrics, NULL), THR_OK);
+    thr_err err = {0};
+    ck_assert_msg(thr_check_plan(&p, &err) == (k < 2 ? THR_OK : THR_EVIOLATED), "%s", err.text);
+    if (k == 2) assert_one_line(&err, "optimal");
+    p.proof.optimal = false;
+    p.proof.lower_bound = 4 - 4 * off[k];
+    p.proof.gap = off[k];
+    err = (thr_err){0};
+    ck_assert_msg(thr_check_plan(&p, &err) == THR_OK, "%s", err.text);
+    p.proof = (thr_length_proof){0};
+    thr_plan_destroy(&p);
+    thr_frame_destroy(&f);
+  }
 }
 END_TEST
 
@@ -700,6 +819,9 @@ int main(void)
   ADD_TEST(s, 10, optimal_is_within_a_billionth);
   ADD_LOOP(s, 10, edges_at_their_price, 0, 10);
   ADD_LOOP(s, 10, nodes_are_tied_by_turns, 0, 60);
+  ADD_TEST(s, 10, prices_of_tied_length_are_moderate);
+  ADD_TEST(s, 10, optimal_tied_lengths_are_within_a_billionth);
+  ADD_TEST(s, 10, the_fewest_cords_of_tube_joints);
   ADD_TEST(s, 10, proofs_of_tied_length_are_about_the_plan);
   ADD_LOOP(s, 20, the_longest_cord_has_its_detour, 0, 90);
   ADD_LOOP(s, 20, the_longest_closed_cord_has_its_detour, 0, 40);

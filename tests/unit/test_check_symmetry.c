@@ -48,14 +48,14 @@ static void fifth(matrix m)
       m[i][j] = (i == j) * c + s * cross[i][j] + (1 - c) * k[i] * k[j];
 }
 
-enum { N_GROUPS = 34 };
+enum { N_GROUPS = 36 };
 
 /* The generators are those of the textbooks; orders are multiplied out from them below. */
 static point_group group_number(int i)
 {
-  static const char *const name[N_GROUPS] = {"C1",  "Cs", "Ci", "T",  "Td", "Th",  "O",   "Oh",  "I",   "Ih",  "C2",  "C3",
-                                             "C4",  "C6", "S4", "S6", "S8", "C2v", "C3v", "C4v", "C6v", "C2h", "C3h", "C4h",
-                                             "C6h", "D2", "D3", "D4", "D6", "D2h", "D3h", "D4h", "D2d", "D3d"};
+  static const char *const name[N_GROUPS] = {"C1",  "Cs", "Ci",  "T",  "Td", "Th",  "O",   "Oh",  "I",   "Ih",  "C2",  "C3",
+                                             "C4",  "C6", "S4",  "S6", "S8", "C2v", "C3v", "C4v", "C6v", "C2h", "C3h", "C4h",
+                                             "C6h", "C9", "C9v", "D2", "D3", "D4",  "D6",  "D2h", "D3h", "D4h", "D2d", "D3d"};
   point_group g = {.name = name[i]};
   matrix m;
   if (i < 10) {
@@ -121,11 +121,15 @@ static thr_plan plan_of_group(point_group *g)
         }
     }
   }
+  static double moved[MOST][3]; /* a framework may lie anywhere */
+  for (int v = 0; v < n; v++)
+    for (int i = 0; i < 3; i++)
+      moved[v][i] = xyz[v][i] + 10 * (i + 1);
   for (int a = 0; a < n; a++)
     for (int b = 0; b < a; b++)
       edge[m][0] = b, edge[m++][1] = a;
   thr_plan p = {.options = options_for(THR_ENDS_ANY, 1)};
-  p.frame = frame_make(n, (const double(*)[3])xyz, m, (const int(*)[2])edge, NULL, NULL);
+  p.frame = frame_make(n, (const double(*)[3])moved, m, (const int(*)[2])edge, NULL, NULL);
   p.options.objective = THR_SYMMETRY;
   p.options.symmetry.geometric = -1;
   p.symmetry = (thr_symmetry_record){.present = true, .order = g->order, .n_generators = g->n_generators, .n_images = 1};
@@ -295,6 +299,12 @@ START_TEST(copies_may_start_anywhere_and_run_backward)
   element[0] = 1; /* a unique path is its own image 0 */
   ck_assert_int_eq(thr_check_symmetry(&p, NULL), THR_EVIOLATED);
   element[0] = 0;
+  memcpy(same, exchange, sizeof exchange); /* image 0 is the identity */
+  err = (thr_err){0};
+  ck_assert_int_eq(thr_check_symmetry(&p, &err), THR_EVIOLATED);
+  assert_one_line(&err, "not the identity");
+  for (int v = 0; v < 8; v++)
+    same[v] = v;
   int other[MOST_WALK * 3], at = rng_below(&r, n); /* the node that no walk comes to */
   memcpy(other, walk, sizeof walk);
   other[at] = CORNERS - 1;
@@ -315,11 +325,52 @@ START_TEST(copies_may_start_anywhere_and_run_backward)
 }
 END_TEST
 
+/* One cord over two spokes of a star, of which a half turn makes the other two: it permutes no cords. Either order of nodes. */
+START_TEST(cords_are_permuted)
+{
+  thr_frame f = star_make(4);
+  f.foot[1] = false;
+  int half_turn[5] = {0, 3, 4, 1, 2}, same[5] = {0, 1, 2, 3, 4}, zero = 0;
+  for (int k = 0; k < 2; k++) {
+    int half[2] = {k ? 5 : 1, k ? 6 : 2};
+    thr_cord cord = {.id = "A", .n_passes = 2, .half = half};
+    thr_plan p = {.frame = f, .options = options_for(THR_ENDS_ANY, 1), .n_cords = 1, .cord = &cord};
+    p.options.objective = THR_SYMMETRY;
+    p.options.symmetry.geometric = -1;
+    p.symmetry = (thr_symmetry_record){true, 2, "", 1, half_turn, 1, same, &zero, &zero, 2, 1};
+    thr_err err = {0};
+    ck_assert_int_eq(thr_check_symmetry(&p, &err), THR_EVIOLATED);
+    assert_one_line(&err, "symmetry.generators[0]: takes");
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* Out from a foot and back to it: it reads the same backward, but does not run round. */
+START_TEST(a_cord_there_and_back_is_learned_once)
+{
+  thr_frame f = path_make(3);
+  int half[4] = {0, 2, 3, 1}, same[3] = {0, 1, 2}, zero = 0;
+  thr_cord cord = {.id = "A", .closed = true, .n_passes = 4, .half = half};
+  thr_plan p = {.frame = f, .options = options_for(THR_ENDS_FEET, 1), .n_cords = 1, .cord = &cord};
+  p.options.objective = THR_SYMMETRY;
+  p.options.symmetry.geometric = -1;
+  p.symmetry = (thr_symmetry_record){true, 1, "", 0, same, 1, same, &zero, &zero, 2, 1};
+  thr_err err = {0};
+  ck_assert_msg(thr_check_symmetry(&p, &err) == THR_OK, "%s", err.text);
+  p.symmetry.steps = 4;
+  ck_assert_int_eq(thr_check_symmetry(&p, NULL), THR_EVIOLATED);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 int main(void)
 {
   Suite *s = suite_create("checker of symmetry");
   ADD_LOOP(s, 30, groups_have_one_name, 0, N_GROUPS);
   ADD_TEST(s, 30, names_are_those_of_isometries);
   ADD_LOOP(s, 10, copies_may_start_anywhere_and_run_backward, 0, 150);
+  ADD_TEST(s, 10, cords_are_permuted);
+  ADD_TEST(s, 10, a_cord_there_and_back_is_learned_once);
   return run_suite(s);
 }

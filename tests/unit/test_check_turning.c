@@ -345,6 +345,55 @@ START_TEST(no_tree_proves_more_than_the_plan_turns)
 }
 END_TEST
 
+/* Two cords from tip to tip of a bend: of each edge two passes, though one is needed. The ends at the tips, paid by half a turn
+ * each, prove both turns; a bound within 2e-9 of a U-turn for each of the four passes is optimal, and more passes of an edge than
+ * twice those that it needs do not widen that. */
+START_TEST(rounding_is_that_of_twice_the_passes_needed)
+{
+  static const double off[] = {0, 2.4e-8, 2.6e-8};
+  for (int cords = 2; cords <= 4; cords++)
+    for (int i = 0; i < 3; i++) {
+      int ends[3] = {0, cords, cords};
+      thr_plan p = bend_make(1, THR_TURN_ANGLE, 0);
+      int *kept = p.options.end_count;
+      int64_t half = (int64_t)floor(ldexp((1 - off[i] / cords) / 2, THR_TURNING_BITS)),
+              *potential = p.turning.tree.dual->potential;
+      p.options.end_count = ends;
+      p.options.cords = p.options.cords_least = cords;
+      for (int k = 1; k < cords; k++)
+        add_cord(&p, (int[]){1, 0, 2, -1});
+      potential[0] = potential[2] = half, potential[1] = potential[3] = -half;
+      p.turning.tree.dual->ends[1] = p.turning.tree.dual->ends[2] = half;
+      thr_turning_claim found = found_of(&p);
+      ck_assert_double_eq_tol(found.price, cords, 1e-12);
+      ck_assert_int_eq(found.optimal, i < 2);
+      ck_assert_double_eq_tol(found.lower_bound, i < 2 ? cords : cords - off[i], 1e-11);
+      p.options.end_count = kept;
+      thr_plan_destroy(&p);
+    }
+}
+END_TEST
+
+/* Where cords may end at the bend, no turn is needed there: the same multipliers prove nothing. */
+START_TEST(ends_are_where_the_options_allow_them)
+{
+  const double angle[2] = {0, PI - 1};
+  for (int hub = 0; hub < 2; hub++) {
+    thr_plan p = plan_begin(fan_make(2, angle), THR_ENDS_NODES, 1, THR_TURN_ANGLE);
+    bool allowed[3] = {hub, true, true}, *kept = p.options.end_node;
+    p.options.end_node = allowed;
+    int64_t weight = (int64_t)floor(ldexp(1, THR_TURNING_BITS));
+    p.turning.tree.dual->potential[0] = p.turning.tree.dual->potential[2] = weight / 2;
+    add_cord(&p, (int[]){1, 0, 2, -1});
+    thr_turning_claim found = found_of(&p);
+    ck_assert_int_eq(found.optimal, !hub);
+    ck_assert_double_eq_tol(found.lower_bound, !hub, 1e-9);
+    p.options.end_node = kept;
+    thr_plan_destroy(&p);
+  }
+}
+END_TEST
+
 /* A closed cord turns round once, whatever the tree says; with prices sin(angle / 2) it pays 2; steps it may need none. */
 START_TEST(closed_cords_turn_round)
 {
@@ -513,6 +562,8 @@ int main(void)
   ADD_TEST(s, 10, bends_prove_what_they_cost);
   ADD_TEST(s, 10, bounds_are_optimal_within_rounding);
   ADD_TEST(s, 10, no_tree_proves_more_than_the_plan_turns);
+  ADD_TEST(s, 10, rounding_is_that_of_twice_the_passes_needed);
+  ADD_TEST(s, 10, ends_are_where_the_options_allow_them);
   ADD_TEST(s, 10, closed_cords_turn_round);
   ADD_TEST(s, 10, steps_begin_at_a_quarter_less_a_millionth);
   ADD_TEST(s, 10, every_number_of_a_claim_counts);
