@@ -415,6 +415,57 @@ START_TEST(the_fewest_cords_have_room)
 }
 END_TEST
 
+/* Four cords through a cube's twelve edges, three each: eight ends leave no edge to be passed twice, fewer would. */
+START_TEST(ends_pay_for_extra_passes)
+{
+  thr_frame f = solid_make(CUBE);
+  thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+  o.cords = o.cords_least = 4;
+  thr_plan p = plan_of_cords(&f, &o);
+  thr_cords_claim found;
+  thr_err err = {0};
+  ck_assert_double_eq_tol(p.metrics.length, 12, 1e-9);
+  ck_assert_msg(thr_check_cords(&f, &o, p.cord, 4, p.proof.certificate, 1, &found, &err) == THR_OK, "%s", err.text);
+  ck_assert_double_eq_tol(found.longest_bound, 3, 1e-9);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* Of a symmetric plan the component with most cords has as many as asked for, whichever it is. */
+START_TEST(symmetric_cords_are_counted_where_most_are)
+{
+  thr_frame f = triangles_make(2);
+  for (int most = 0; most < 2; most++) {
+    int half[3][3];
+    thr_cord cord[3];
+    for (int i = 0; i < 3; i++) {
+      int component = i < 2 ? i : most;
+      for (int k = 0; k < 3; k++)
+        half[i][k] = 6 * component + 2 * k;
+      for (int k = 0; k < 3; k++) /* each edge the way round */
+        if (thr_head(&f, half[i][k]) != thr_tail(&f, half[i][(k + 1) % 3])) half[i][k] ^= 1;
+      cord[i] = (thr_cord){.closed = true, .component = component, .n_passes = 3, .half = half[i]};
+      thr_cord_id(i, cord[i].id);
+    }
+    thr_certificate c[2] = {{.scale = 1, .denominator = 1}, {.component = 1, .scale = 1, .denominator = 1}};
+    c[most].join = 3;
+    for (int cords = 1; cords <= 3; cords++) {
+      thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+      bool optimal;
+      double bound;
+      thr_err err = {0};
+      o.objective = THR_SYMMETRY;
+      o.cords = o.cords_least = cords;
+      thr_status st = thr_check_length_proof(&f, &o, cord, 3, c, 2, &optimal, &bound, &err);
+      ck_assert_msg(st == (cords == 2 ? THR_OK : THR_EVIOLATED), "%s", err.text);
+      if (st) assert_one_line(&err, most ? "component 1" : "component 0");
+    }
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* ---- failures last ---- */
 
 /* What is wrong early is wrong whatever follows, and nothing is found then. */
@@ -827,6 +878,8 @@ int main(void)
   ADD_LOOP(s, 20, the_longest_closed_cord_has_its_detour, 0, 40);
   ADD_TEST(s, 10, cords_have_whole_numbers_of_the_unit);
   ADD_TEST(s, 10, the_fewest_cords_have_room);
+  ADD_TEST(s, 10, ends_pay_for_extra_passes);
+  ADD_TEST(s, 10, symmetric_cords_are_counted_where_most_are);
   ADD_TEST(s, 10, failures_are_not_forgotten);
   ADD_TEST(s, 10, passes_leave_ends_for_the_cords);
   ADD_TEST(s, 10, tube_joints_are_tied);

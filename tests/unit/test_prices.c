@@ -81,6 +81,32 @@ START_TEST(given_ends_at_a_leaf_take_a_pass_each)
 }
 END_TEST
 
+/* The same from the other end of the path: prices are those of the nodes. */
+START_TEST(places_are_where_the_ends_are)
+{
+  thr_frame f = path_make(4);
+  int end_count[4] = {1, 0, 0, 5};
+  f.foot[0] = false, f.foot[3] = true;
+  thr_plan p = plan_with(&f, THR_ENDS_FEET, 4, NULL), q = plan_with(&f, THR_ENDS_COUNTS, 3, end_count);
+  ck_assert_double_eq_tol(p.metrics.length, 12, 1e-9);
+  ck_assert_double_eq_tol(q.metrics.length, 7, 1e-9);
+  thr_plan_destroy(&p);
+  thr_plan_destroy(&q);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* Three circuits of a triangle, in each of two components: every edge there and back. */
+START_TEST(circuits_of_two_components)
+{
+  thr_frame f = triangles_make(2);
+  thr_plan p = plan_with(&f, THR_ENDS_CLOSED, 3, NULL);
+  ck_assert_double_eq_tol(p.metrics.length, 2 * 6, 1e-9);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* The octahedron falls into four triangles. One more circuit is a pair of passes over an edge; two more are a triangle passed
  * twice, which is then three circuits. */
 START_TEST(circuits_of_an_octahedron)
@@ -147,6 +173,8 @@ int main(void)
   ADD_TEST(s, 20, loops_of_known_frameworks);
   ADD_TEST(s, 20, cords_from_one_foot_take_a_pass_for_every_end);
   ADD_TEST(s, 20, given_ends_at_a_leaf_take_a_pass_each);
+  ADD_TEST(s, 20, places_are_where_the_ends_are);
+  ADD_TEST(s, 20, circuits_of_two_components);
   ADD_TEST(s, 20, circuits_of_an_octahedron);
   ADD_LOOP(s, 20, forged_prices_are_refused, 0, 3);
   return run_suite(s);
