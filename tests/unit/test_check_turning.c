@@ -109,13 +109,13 @@ static void assert_holds(const thr_plan *p)
   ck_assert_msg(thr_check_plan(p, &err) == THR_OK, "%s", err.text);
 }
 
-/* Unit spokes at these angles from node 0, which node 1 .. n are the ends of. */
+/* Unit spokes at these angles from node 0, in a plane that is askew, and away from the origin; nodes 1 .. n are their ends. */
 static thr_frame fan_make(int n, const double *angle)
 {
-  double xyz[MOST_WALK][3] = {{0, 0, 0}};
+  double xyz[MOST_WALK][3] = {{1, 2, 3}};
   int edge[MOST_WALK][2];
   for (int i = 0; i < n; i++) {
-    xyz[i + 1][0] = cos(angle[i]), xyz[i + 1][1] = sin(angle[i]), xyz[i + 1][2] = 0;
+    xyz[i + 1][0] = 1 + cos(angle[i]), xyz[i + 1][1] = 2 + 0.6 * sin(angle[i]), xyz[i + 1][2] = 3 + 0.8 * sin(angle[i]);
     edge[i][0] = 0, edge[i][1] = i + 1;
   }
   return frame_make(n + 1, (const double(*)[3])xyz, n, (const int(*)[2])edge, NULL, NULL);
