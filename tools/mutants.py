@@ -37,6 +37,8 @@ CERTIFICATES = ["unit/test_check_rules", "unit/test_prices", "unit/test_requests
 TURNING = ["property/test_turning_bound", "unit/test_check_turning", "unit/test_tortuosity:more_cords_than_the_shortest_passes_hold"]
 SYMMETRY = ["unit/test_check_symmetry", "unit/test_symmetry_plan"]
 MATCHING = ["unit/test_blossom", "property/test_blossom", "property/test_moat"]
+INTERIOR = ["unit/test_lp:interior_finds_the_shortest_way", "unit/test_lp:interior_finds_the_optimum_it_was_made_from",
+            "unit/test_lp:interior_gives_up_and_stops"]
 SUITES = {
     "graph/check.c": CERTIFICATES + ["unit/test_check_turning", "unit/test_symmetry_plan", "unit/test_evaluation"],
     "graph/check_certificate.c": CERTIFICATES,
@@ -58,7 +60,9 @@ SUITES = {
     "lp/blossom_tree.c": MATCHING,
     "lp/moat.c": ["property/test_moat"],
     "lp/nest.c": ["property/test_moat"],
-    "diagram/lanes.c": ["unit/test_diagram"],
+    "lp/interior.c": INTERIOR,
+    "lp/normal.c": ["unit/test_lp:normal_equations_are_solved", "unit/test_lp:equal_rows_are_solved_once"] + INTERIOR,
+    "diagram/lanes.c": ["unit/test_lanes", "unit/test_diagram:many_shapes_are_drawn_soundly"],
     "eval/capstan.c": ["unit/test_capstan"],
     "eval/profile.c": ["unit/test_capstan"],
 }

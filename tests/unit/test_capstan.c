@@ -1,6 +1,7 @@
 /* Method capstan: closed forms of both laws, symmetry, the best slackest pass by trying all, refusals. */
 #include "tests/support.h"
 #include "eval/eval.h"
+#include "eval/profile.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -102,6 +103,84 @@ START_TEST(ring_pulled_at_both_ends_is_symmetric)
     thr_evaluation_destroy(&c);
     thr_plan_destroy(&p);
     thr_frame_destroy(&f);
+  }
+}
+END_TEST
+
+/* ---- the profile by itself ---- */
+
+/* What pass k holds of the tension of the slackest. */
+static double held(const double *exponent, int slackest, int k)
+{
+  double sum = 0;
+  for (int i = k < slackest ? k : slackest; i < (k < slackest ? slackest : k); i++)
+    sum += exponent[i];
+  return exp(sum);
+}
+
+/* Four turns; the slackest of five passes between two pulled ends is the third: 0.6 and 0.5 on its sides. What lies round the
+ * exponents is none of them. */
+START_TEST(profile_is_filled_from_its_exponents_alone)
+{
+  static const double row[] = {1000, 0.5, 0.1, 0.2, 0.3, 1000, 1000}, *exponent = row + 1;
+  static const struct {
+    thr_pull pull;
+    int slackest;
+    double force, other;
+  } table[] = {{THR_PULL_START, 4, 1.1, -INFINITY}, {THR_PULL_END, 0, 1.1, -INFINITY}, {THR_PULL_BOTH, 2, 0.6, 0.5}};
+  for (int i = 0; i < 3; i++) {
+    thr_eval_cord c = {.n_passes = -1, .pull = THR_PULL_BOTH};
+    thr_err err = {0};
+    ck_assert_msg(thr_profile_cord(&c, "A", 5, exponent, table[i].pull, 4, &err) == THR_OK, "%s", err.text);
+    ck_assert(c.n_passes == 5 && c.pull == table[i].pull && c.slackest == table[i].slackest);
+    for (int k = 0; k < 5; k++)
+      ck_assert_double_eq_tol(c.tension[k], 4 * held(exponent, table[i].slackest, k), 1e-12);
+    double force = 4 * exp(table[i].force), other = 4 * exp(table[i].other);
+    ck_assert_double_eq_tol(c.force, force, 1e-12);
+    ck_assert_double_eq_tol(c.other_force, other, 1e-12);
+    ck_assert_double_eq_tol(c.work, force + other, 1e-12);
+    ck_assert_double_eq_tol(c.loss, 1 - exp(-table[i].force), 1e-12);
+    free(c.tension);
+  }
+}
+END_TEST
+
+/* Where all passes of a straight cord would do, the slackest is the last that begins before the middle. */
+START_TEST(slackest_of_a_straight_cord_is_in_its_middle)
+{
+  static const double none[12];
+  for (int n = 1; n <= 12; n++) {
+    thr_eval_cord c = {0};
+    int last = 0;
+    while (last + 1 < 0.5 * n)
+      last++;
+    ck_assert_int_eq(thr_profile_cord(&c, "A", n, none, THR_PULL_BOTH, 1, NULL), THR_OK);
+    ck_assert_int_eq(c.slackest, last);
+    free(c.tension);
+  }
+}
+END_TEST
+
+/* e^700 is the most, from either side of the slackest pass and whatever the seating. */
+START_TEST(profile_refuses_what_no_number_holds)
+{
+  static const struct {
+    double exponent[2], seating;
+    thr_pull pull;
+    bool good;
+  } table[] = {
+      {{350, 350}, 1, THR_PULL_START, true},   {{350, 350}, 1, THR_PULL_END, true},     {{350, 350.25}, 1, THR_PULL_START, false},
+      {{350, 350.25}, 1, THR_PULL_END, false}, {{350, 349.5}, 1, THR_PULL_START, true}, {{350, 349.5}, 1, THR_PULL_END, true},
+      {{700, 700}, 1, THR_PULL_BOTH, true},    {{0, 700}, 1e5, THR_PULL_START, false},  {{0, 700}, 1e5, THR_PULL_END, false},
+      {{700.25, 0}, 1, THR_PULL_START, false}, {{0, 700.25}, 1, THR_PULL_END, false},   {{700, 700}, 1e4, THR_PULL_BOTH, false}};
+  for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
+    thr_eval_cord c = {0};
+    thr_err err = {0};
+    thr_status st = thr_profile_cord(&c, "A7", 3, table[i].exponent, table[i].pull, table[i].seating, &err);
+    ck_assert_msg(st == (table[i].good ? THR_OK : THR_EINPUT), "case %zu: %d", i, (int)st);
+    if (st) assert_one_line(&err, "A7");
+    ck_assert(!st == (c.tension != NULL));
+    free(c.tension);
   }
 }
 END_TEST
@@ -223,6 +302,76 @@ START_TEST(band_is_what_other_mu_give)
 }
 END_TEST
 
+/* With the other mu of the band the mitre law has no answer, or no number holds the pull: that end is infinite, the rest stands.
+ */
+START_TEST(band_is_infinite_where_no_pull_would_do)
+{
+  thr_frame f = path_make(3);
+  thr_plan p = plan_simple(&f, THR_ENDS_FEET, 1); /* there and back: one turn of pi */
+  int half[300];
+  thr_limits none = {0};
+  thr_eval e;
+  thr_eval_options o = options_of(THR_PULL_START, 0.5, 1);
+  o.law = THR_LAW_MITRE;
+  o.physics.mu_low = 0.25;
+  o.physics.mu_high = 1;
+  ck_assert_int_eq(thr_eval_plan(&f, p.cord, 1, THR_CAPSTAN, &o, &none, &e, NULL), THR_OK);
+  ck_assert_double_eq_tol(e.band[0], 1 / (1 - 0.25), 1e-12);
+  ck_assert_double_eq_tol(e.record.largest, 1 / (1 - 0.5), 1e-12);
+  ck_assert(isinf(e.band[1]));
+  thr_eval_destroy(&e);
+  for (int i = 0; i < 300; i++) /* over one edge to and fro: 299 turns of pi, mu 0.7 is e^658, mu 0.9 e^846 */
+    half[i] = i % 2;
+  thr_cord cord = {.id = "A", .n_passes = 300, .half = half};
+  o = options_of(THR_PULL_START, 0.7, 1);
+  o.physics.mu_low = 0.1;
+  o.physics.mu_high = 0.9;
+  ck_assert_int_eq(thr_eval_plan(&f, &cord, 1, THR_CAPSTAN, &o, &none, &e, NULL), THR_OK);
+  ck_assert_double_eq_tol(log(e.band[0]), 29.9 * PI, 1e-9);
+  ck_assert_double_eq_tol(log(e.record.largest), 0.7 * 299 * PI, 1e-9);
+  ck_assert(isinf(e.band[1]));
+  thr_eval_destroy(&e);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(interrupt_leaves_what_is_complete)
+{
+  thr_frame f = triangles_make(3);
+  thr_plan p = plan_simple(&f, THR_ENDS_CLOSED, 1);
+  thr_eval_options o = options_of(THR_PULL_START, 0.2, 1);
+  volatile sig_atomic_t interrupted = 1;
+  thr_limits limits = {.interrupted = &interrupted};
+  thr_eval e;
+  thr_err err = {0};
+  ck_assert_int_eq(thr_eval_plan(&f, p.cord, p.n_cords, THR_CAPSTAN, &o, &limits, &e, &err), THR_ELIMIT);
+  assert_one_line(&err, "0 of 3");
+  ck_assert(!e.complete && !e.record.cord[0].known);
+  thr_eval_destroy(&e);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* A cord that cannot be evaluated is an error, not a cord without a force. */
+START_TEST(too_large_a_pull_is_refused)
+{
+  thr_frame f = ring_make(4);
+  int half[300];
+  for (int i = 0; i < 300; i++)
+    half[i] = i % 2;
+  thr_cord cord = {.id = "A", .n_passes = 300, .half = half};
+  thr_eval_options o = options_of(THR_PULL_START, 0.9, 1);
+  thr_limits none = {0};
+  thr_eval e;
+  thr_err err = {0};
+  ck_assert_int_eq(thr_eval_plan(&f, &cord, 1, THR_CAPSTAN, &o, &none, &e, &err), THR_EINPUT);
+  assert_one_line(&err, "more cords");
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 int main(void)
 {
   Suite *s = suite_create("capstan");
@@ -235,5 +384,11 @@ int main(void)
   ADD_TEST(s, 10, mitre_law_takes_off_a_share_per_bead);
   ADD_TEST(s, 10, mitre_law_refuses_a_turn_that_it_cannot_describe);
   ADD_TEST(s, 10, band_is_what_other_mu_give);
+  ADD_TEST(s, 10, profile_is_filled_from_its_exponents_alone);
+  ADD_TEST(s, 10, slackest_of_a_straight_cord_is_in_its_middle);
+  ADD_TEST(s, 10, profile_refuses_what_no_number_holds);
+  ADD_TEST(s, 10, band_is_infinite_where_no_pull_would_do);
+  ADD_TEST(s, 10, interrupt_leaves_what_is_complete);
+  ADD_TEST(s, 10, too_large_a_pull_is_refused);
   return run_suite(s);
 }

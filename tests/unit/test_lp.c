@@ -325,8 +325,8 @@ END_TEST
 /* ---- interior point ---- */
 
 typedef struct {
-  int m, n, start[401], row[800];
-  double rhs[64], cost[400], value[800], x[400], dual[64];
+  int m, n, start[401], row[1600];
+  double rhs[64], cost[400], value[1600], x[400], dual[64];
 } programme;
 
 static thr_interior interior(programme *p, const thr_limits *limits)
@@ -359,6 +359,95 @@ static double assert_optimal(const programme *p)
   ck_assert_double_eq_tol(primal, dual, 1e-6 * (1 + fabs(primal)));
   return primal;
 }
+
+/* A D A^T of a programme's columns, dense. */
+static void weigh(const programme *p, const double *weight, double out[64][64])
+{
+  memset(out, 0, 64 * sizeof *out);
+  for (int j = 0; j < p->n; j++)
+    for (int k = p->start[j]; k < p->start[j + 1]; k++)
+      for (int l = p->start[j]; l < p->start[j + 1]; l++)
+        out[p->row[k]][p->row[l]] += weight[j] * p->value[k] * p->value[l];
+}
+
+/* Columns of one to four rows, in any order of rows, which thin out towards the last. */
+static void draw_columns(programme *p, rng *r)
+{
+  p->m = rng_between(r, 1, 40);
+  p->n = rng_between(r, p->m / 2 + 1, 150);
+  for (int j = 0; j < p->n; j++) {
+    int count = rng_between(r, 1, p->m < 4 ? p->m : 4), taken = 0;
+    for (int first = p->start[j]; taken < count;) {
+      int row = rng_below(r, 1 + rng_below(r, p->m)), k = first;
+      while (k < first + taken && p->row[k] != row)
+        k++;
+      if (k < first + taken) row = rng_below(r, p->m);
+      for (k = first; k < first + taken && p->row[k] != row;)
+        k++;
+      if (k < first + taken) continue;
+      p->row[first + taken] = row;
+      p->value[first + taken++] = rng_unit(r) + 0.1;
+    }
+    p->start[j + 1] = p->start[j] + count;
+  }
+}
+
+/* Against the dense matrix, factored twice with other weights; what is asked for has a solution, though rows may depend on each
+ * other. */
+START_TEST(normal_equations_are_solved)
+{
+  rng r = rng_make((uint64_t)_i + 500);
+  programme p = {0};
+  draw_columns(&p, &r);
+  thr_columns a = {p.m, p.n, p.start, p.row, p.value};
+  thr_normal *normal;
+  ck_assert_int_eq(thr_normal_create(&normal, &a, NULL), THR_OK);
+  for (int round = 0; round < 2; round++) {
+    double weight[400], dense[64][64], wanted[64], right[64] = {0}, found[64], most = 1;
+    for (int j = 0; j < p.n; j++)
+      weight[j] = 0.1 + rng_unit(&r);
+    weigh(&p, weight, dense);
+    for (int i = 0; i < p.m; i++)
+      wanted[i] = 2 * rng_unit(&r) - 1;
+    for (int i = 0; i < p.m; i++)
+      for (int k = 0; k < p.m; k++)
+        right[i] += dense[i][k] * wanted[k];
+    thr_normal_factor(normal, weight);
+    thr_normal_solve(normal, right, found);
+    for (int i = 0; i < p.m; i++)
+      most = fmax(most, fabs(found[i]));
+    for (int i = 0; i < p.m; i++) {
+      double left = right[i];
+      for (int k = 0; k < p.m; k++)
+        left -= dense[i][k] * found[k];
+      ck_assert_double_eq_tol(left, 0, 1e-9 * most);
+    }
+  }
+  thr_normal_destroy(normal);
+}
+END_TEST
+
+/* Rows that depend on others have no part in the solution. */
+START_TEST(equal_rows_are_solved_once)
+{
+  static const int start[] = {0, 2, 5, 6}, row[] = {0, 2, 2, 1, 0, 1};
+  static const double value[] = {1, 1, 2, 3, 2, 5}, weight[] = {1, 0.5, 2}, right[] = {3, 7, 3};
+  thr_columns a = {3, 3, start, row, value};
+  thr_normal *normal;
+  double y[3], z[3], back[3];
+  ck_assert_int_eq(thr_normal_create(&normal, &a, NULL), THR_OK);
+  thr_normal_factor(normal, weight);
+  thr_normal_solve(normal, right, y);
+  ck_assert((y[0] == 0) != (y[2] == 0));
+  thr_columns_transposed(&a, y, z);
+  for (int j = 0; j < 3; j++)
+    z[j] *= weight[j];
+  thr_columns_times(&a, z, back);
+  for (int i = 0; i < 3; i++)
+    ck_assert_double_eq_tol(back[i], right[i], 1e-12);
+  thr_normal_destroy(normal);
+}
+END_TEST
 
 /* Made from a solution: x and reduced costs of which one of each pair is 0. */
 START_TEST(interior_finds_the_optimum_it_was_made_from)
@@ -565,6 +654,8 @@ int main(void)
   ADD_LOOP(s, 10, what_is_proved_holds_at_any_time, 0, 40);
   ADD_TEST(s, 10, equations_with_a_free_column);
   ADD_TEST(s, 10, equations_without_a_solution);
+  ADD_LOOP(s, 10, normal_equations_are_solved, 0, 60);
+  ADD_TEST(s, 10, equal_rows_are_solved_once);
   ADD_LOOP(s, 10, interior_finds_the_optimum_it_was_made_from, 0, 40);
   ADD_LOOP(s, 10, interior_finds_the_shortest_way, 0, 20);
   ADD_TEST(s, 10, interior_gives_up_and_stops);
