@@ -134,7 +134,7 @@ static int counted_node(const thr_frame *f, const char *text, int n, char number
   if (n >= (int)sizeof word) return -1;
   snprintf(word, sizeof word, "%.*s", n, text);
   if (thr_frame_find(f, word) >= 0 || !(colon = strrchr(word, ':'))) return -1;
-  strcpy(number, colon + 1);
+  snprintf(number, 256, "%s", colon + 1);
   *colon = '\0';
   return thr_frame_find(f, word);
 }
