@@ -182,9 +182,10 @@ static thr_status check_cord_count(const thr_check_walked *w, const thr_plan_opt
   }
   for (int k = first; k < end && !st; k++) {
     const char *cords = count[k] == 1 ? "cord" : "cords";
-    if ((count[k] < least || count[k] > o->cords) && least == o->cords)
+    if (count[k] >= least && count[k] <= o->cords) continue;
+    if (least == o->cords)
       st = thr_fail(err, THR_EVIOLATED, "component %d: has %d %s; the plan's options say %d", k, count[k], cords, least);
-    else if (count[k] < least || count[k] > o->cords)
+    else
       st = thr_fail(err, THR_EVIOLATED, "component %d: has %d %s; the plan's options say %d to %d", k, count[k], cords, least,
                     o->cords);
   }
@@ -441,12 +442,11 @@ static thr_status check_cords_claim(const thr_plan *p, const thr_check_walked *w
   return THR_OK;
 }
 
-/* *proved: as for check_length_claim, 0 without one. */
+/* *proved: as for check_length_claim; left alone without one. */
 static thr_status check_claims(const thr_plan *p, const thr_check_walked *w, double *proved, thr_err *err)
 {
   thr_check_verdict *verdict = NULL;
   thr_status st = THR_OK;
-  *proved = 0;
   if (p->proof.present && (p->options.joint == THR_JOINT_TUBE) != (p->proof.tied.n_nodes > 0))
     return thr_fail(err, THR_EVIOLATED, "proof.length: has a %s, but the plan's joints are %s",
                     p->proof.tied.n_nodes > 0 ? "proof" : "certificate", thr_joint_name(p->options.joint));
@@ -472,7 +472,7 @@ static thr_status check_names(const thr_plan *p, thr_err *err)
 thr_status thr_check_plan(const thr_plan *p, thr_err *err)
 {
   thr_check_walked w;
-  double least_length;
+  double least_length = 0;
   thr_status st = check_names(p, err);
   if (st) return st;
   if ((st = walked_from_cords(&w, &p->frame, &p->options, p->cord, p->n_cords, err))) return st;

@@ -12,7 +12,7 @@ int64_t thr_certificate_weight(const thr_frame *f, const thr_certificate *c, int
   return (int64_t)nearbyint(f->length[e] * c->scale);
 }
 
-/* Work space over the framework; shared, held and own are clear between certificates. */
+/* Work space over the framework. Each component has one certificate: what is filled in at its nodes and edges stays. */
 typedef struct {
   const thr_frame *f;
   const thr_plan_options *o;
@@ -25,7 +25,7 @@ typedef struct {
   int *far_edge;          /* those edges */
   wide *held;             /* [n_nodes] sum of the values of the sets that hold a node */
   wide *shared;           /* [n_edges] sum of the values of the sets that hold both ends */
-  int *own;               /* [n_nodes] cut of the present tree whose own node this is, else -1 */
+  int *own;               /* [n_nodes] cut of the present tree whose own node this is, else -1; no tree's between trees */
   int64_t *price;         /* [n_nodes] of a place for a cord end there */
   int *loop, *work;       /* [n_edges] in the order of edge, once they are asked for: thr_prices_loops */
 } workspace;
@@ -174,13 +174,12 @@ static thr_priced priced(const workspace *k, const thr_certificate *c, int j)
                          closed && c->n_prices && k->loop ? k->loop[j] : 2); /* find_loops comes first */
 }
 
-/* Prices at nodes, the parity of nodes at these prices, and what all that adds to the bound. */
+/* Prices at nodes, the parity of nodes at these prices, and in *places, which is 0 before, what all that adds to the bound. */
 static thr_status apply_prices(workspace *k, const thr_certificate *c, wide *places, thr_err *err)
 {
   const thr_frame *f = k->f;
   const thr_plan_options *o = k->o;
   int first = k->start[c->component], n = k->start[c->component + 1] - first;
-  *places = 0;
   if (c->n_prices == 0) return THR_OK;
   if (c->n_prices != thr_prices_number(o, n))
     return thr_fail(err, THR_EVIOLATED, "certificate of component %d: %d place prices; expected %d", c->component, c->n_prices,
@@ -227,17 +226,6 @@ static thr_status check_loads(const workspace *k, const thr_certificate *c, thr_
                       c->component, v);
   }
   return THR_OK;
-}
-
-static void clear(workspace *k, int component)
-{
-  for (int j = k->edge_start[component]; j < k->edge_start[component + 1]; j++)
-    k->shared[k->edge[j]] = 0;
-  for (int j = k->start[component]; j < k->start[component + 1]; j++) {
-    k->held[k->node[j]] = 0;
-    k->own[k->node[j]] = -1;
-    k->price[k->node[j]] = 0;
-  }
 }
 
 /* Least weight of extra passes that leave so many ends; weights are integers, and nothing fits between the bound and the next. */
@@ -347,7 +335,6 @@ static thr_status run_certificate(workspace *k, const thr_certificate *c, thr_ch
   }
   if (!st) st = check_loads(k, c, err);
   if (!st) st = judge(k, c, sum, places, out, err);
-  clear(k, c->component);
   forest_destroy(&t);
   return st;
 }

@@ -14,7 +14,7 @@ typedef struct {
 
 static thr_status evaluated(const cord_claim *k, const char *name, double stated, double found, thr_err *err)
 {
-  if (thr_check_close(stated, found, fmax(fabs(stated), fabs(found)))) return THR_OK;
+  if (thr_check_close(stated, found, found)) return THR_OK;
   return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: %s: stated %.12g, but expected %.12g", k->id, name, stated, found);
 }
 
@@ -94,7 +94,7 @@ static thr_status check_law(const cord_claim *k, thr_err *err)
                     c->slackest + 1);
   for (int i = 0; i < c->n_passes; i++) {
     double expected = log(seating) + fabs(before - from);
-    if (!(fabs(log(c->tension[i]) - expected) <= 1e-9 * (1 + total)))
+    if (!thr_check_close(log(c->tension[i]), expected, 1 + total))
       return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: pass %d: stated %.12g N, but the %s law gives %.12g N", k->id,
                       i + 1, c->tension[i], thr_law_name(k->e->law), exp(expected));
     before += law_exponent(k, i);

@@ -58,7 +58,7 @@ static int way_round(const thr_frame *f, int e, int most, search *s)
 
 void thr_prices_loops(const thr_frame *f, const int *edge, int n, int *work, int *loop)
 {
-  search s = {work, work + f->n_nodes, 0};
+  search s = {.mark = work, .queue = work + f->n_nodes};
   for (int i = 0; i < n; i++)
     loop[i] = s.steps < MOST_STEPS ? 1 + way_round(f, edge[i], LONGEST_LOOP - 1, &s) : 2;
 }

@@ -51,8 +51,8 @@ static void swap_rows(double a[3][3], int i, int j)
 /* A unit vector orthogonal to the unit vector a. */
 static void any_orthogonal(const double a[3], double out[3])
 {
-  int least = fabs(a[0]) <= fabs(a[1]) && fabs(a[0]) <= fabs(a[2]) ? 0 : fabs(a[1]) <= fabs(a[2]) ? 1 : 2;
-  double axis[3] = {least == 0, least == 1, least == 2};
+  bool second = fabs(a[0]) > fabs(a[1]);
+  double axis[3] = {!second, second, 0}; /* 45 degrees or more from a */
   thr_cross(a, axis, out);
   double norm = sqrt(thr_dot(out, out));
   for (int i = 0; i < 3; i++)
@@ -101,7 +101,7 @@ static void polar(double h[3][3], double q[3][3], bool *flat)
   int rank = 0;
   for (int i = 0; i < 3; i++) {
     s[i] = sqrt(thr_dot(h[i], h[i]));
-    if (rank < i || s[i] == 0 || s[i] <= FLAT * s[0]) continue;
+    if (rank < i || s[i] <= FLAT * s[0]) continue; /* of no extent: rank 0 */
     rank = i + 1;
     for (int k = 0; k < 3; k++)
       h[i][k] /= s[i];

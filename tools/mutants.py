@@ -34,19 +34,21 @@ LISTS = os.path.join("tools", "mutants")
 # ---- which tests know a file: programs or program:case, in this order ----
 
 CERTIFICATES = ["unit/test_check_rules", "unit/test_prices", "unit/test_requests", "property/test_proofs", "unit/test_check", "property/test_several"]
-TURNING = ["property/test_turning_bound", "unit/test_check_turning", "unit/test_tortuosity:more_cords_than_the_shortest_passes_hold"]
+TURNING = ["unit/test_check_turning", "property/test_turning_bound", "unit/test_tortuosity:more_cords_than_the_shortest_passes_hold"]
+ADVERSARY, ATTACKS = ["property/test_adversary"], "20000"  # attacks of each kind
+ADVERSARY_TURNING = ["property/test_adversary_turning"]
 SYMMETRY = ["unit/test_check_symmetry", "unit/test_symmetry_plan"]
 MATCHING = ["unit/test_blossom", "property/test_blossom", "property/test_moat"]
 INTERIOR = ["unit/test_lp:interior_finds_the_shortest_way", "unit/test_lp:interior_finds_the_optimum_it_was_made_from",
             "unit/test_lp:interior_gives_up_and_stops"]
 SUITES = {
-    "graph/check.c": CERTIFICATES + ["unit/test_check_turning", "unit/test_symmetry_plan", "unit/test_evaluation"],
-    "graph/check_certificate.c": CERTIFICATES,
-    "graph/check_cords.c": CERTIFICATES,
-    "graph/prices.c": CERTIFICATES,
-    "graph/check_turning.c": TURNING,
-    "graph/turning_proof.c": TURNING,
-    "graph/turning.c": TURNING,
+    "graph/check.c": CERTIFICATES + ["unit/test_check_turning", "unit/test_symmetry_plan", "unit/test_evaluation"] + ADVERSARY,
+    "graph/check_certificate.c": CERTIFICATES + ADVERSARY,
+    "graph/check_cords.c": CERTIFICATES + ADVERSARY,
+    "graph/prices.c": CERTIFICATES + ADVERSARY,
+    "graph/check_turning.c": TURNING + ADVERSARY_TURNING,
+    "graph/turning_proof.c": TURNING + ADVERSARY_TURNING,
+    "graph/turning.c": TURNING + ADVERSARY_TURNING,
     "graph/junction.c": ["unit/test_check_rules", "unit/test_requests"],
     "graph/check_symmetry.c": SYMMETRY,
     "graph/check_group.c": SYMMETRY,
@@ -274,7 +276,7 @@ class Bench:
     def run(self, test, preload, limit):
         """Does the test pass?"""
         program, _, case = test.partition(":")
-        env = dict(os.environ, CK_FORK="no", LD_PRELOAD=preload)
+        env = dict(os.environ, CK_FORK="no", LD_PRELOAD=preload, THREAD_ADVERSARY_ATTACKS=ATTACKS)
         if case:
             env["CK_RUN_CASE"] = case
         else:
@@ -394,8 +396,7 @@ def run(a, mutants, sources):
     tests = [t for path in dict.fromkeys(m.path for m in waiting) for t in SUITES[path]]
     bench = Bench(a.out, tests)
     bench.measure(tests)
-    work = os.path.join(bench.dir, "work")
-    shutil.rmtree(work, ignore_errors=True)
+    work = os.path.join(bench.dir, f"work-{os.getpid()}")  # another run may go on in the same tree
     slots = [os.path.join(work, str(i)) for i in range(a.jobs)]
     before, done = cpu(), 0
 
@@ -409,6 +410,7 @@ def run(a, mutants, sources):
         for m in pool.map(one, waiting):
             done += 1
             print(f"{done}/{len(waiting)} {m.verdict:<10} {describe(m)}" + (f" [{m.killer}]" if m.killer else ""), file=sys.stderr, flush=True)
+    shutil.rmtree(work, ignore_errors=True)
     if waiting:
         print(f"{len(waiting)} mutants, {(cpu() - before) / len(waiting):.2f} CPU s each", file=sys.stderr)
 

@@ -172,6 +172,10 @@ START_TEST(groups_have_one_name)
     thr_status st = name_it(&p, name, &err);
     ck_assert_msg(st == (k == _i ? THR_OK : THR_EVIOLATED), "%s called %s: %s", g.name, name, err.text);
   }
+  static const char *const alias[][2] = {{"C2", "D1"},   {"Cs", "C1v"},  {"Cs", "C1h"}, {"Ci", "S2"},
+                                         {"C2v", "D1h"}, {"C2h", "D1d"}, {"D2", "D2"}};
+  for (size_t k = 0; k < sizeof alias / sizeof *alias; k++) /* axes of one turn are none */
+    ck_assert_int_eq(name_it(&p, alias[k][1], &err), strcmp(g.name, alias[k][0]) == 0 ? THR_OK : THR_EVIOLATED);
   static const char *const nonsense[] = {"C",   "C0", "C1x", "Cx", "D",  "D2x", "T1",   "Oi",   "S3",     "S5",     "S4v", "C01",
                                          "C2d", "S0", "Cv",  "Ds", "Is", "C-2", "C2vv", "D2dd", "C99999", "C1024h", "t",   "Tdd"};
   for (size_t k = 0; k < sizeof nonsense / sizeof *nonsense; k++)
@@ -184,6 +188,33 @@ START_TEST(groups_have_one_name)
     p.symmetry.order -= other[k];
   }
   thr_plan_destroy(&p);
+}
+END_TEST
+
+/* A ring is turned by each of its edges: so many elements, one less and one more are refused. */
+START_TEST(rings_turn_in_as_many_ways_as_they_have_nodes)
+{
+  for (int n = 480; n < 520; n++) {
+    thr_frame f = ring_make(n);
+    thr_plan p = {.frame = f, .options = options_for(THR_ENDS_CLOSED, 1)};
+    int *next = calloc((size_t)n, sizeof *next), *same = calloc((size_t)n, sizeof *same);
+    ck_assert(next && same);
+    for (int v = 0; v < n; v++) {
+      f.foot[v] = false;
+      next[v] = (v + 1) % n;
+      same[v] = v;
+    }
+    p.options.symmetry.geometric = -1;
+    p.symmetry = (thr_symmetry_record){.present = true, .n_generators = 1, .generator = next, .n_images = 1, .image = same};
+    for (int off = -1; off <= 1; off++) {
+      thr_err err;
+      p.symmetry.order = n + off;
+      ck_assert_msg(name_it(&p, "", &err) == (off ? THR_EVIOLATED : THR_OK), "%d, stated %d: %s", n, n + off, err.text);
+    }
+    free(next);
+    free(same);
+    thr_frame_destroy(&f);
+  }
 }
 END_TEST
 
@@ -346,6 +377,48 @@ START_TEST(cords_are_permuted)
 }
 END_TEST
 
+/* A cord over each spoke of a star, which a third of a turn permutes: all are copies of the first, and not of each other. */
+START_TEST(copies_are_of_unique_paths)
+{
+  thr_frame f = star_make(3);
+  int third_turn[4] = {0, 2, 3, 1}, image[12] = {0, 1, 2, 3, 0, 2, 3, 1, 0, 3, 1, 2}, half[3] = {0, 2, 4};
+  int unique[3] = {0, 0, 0}, which[3] = {0, 1, 2};
+  thr_cord cord[3];
+  for (int i = 0; i < 3; i++) {
+    cord[i] = (thr_cord){.n_passes = 1, .half = &half[i]};
+    thr_cord_id(i, cord[i].id);
+    f.foot[i + 1] = false;
+  }
+  thr_plan p = {.frame = f, .options = options_for(THR_ENDS_ANY, 1), .n_cords = 3, .cord = cord};
+  p.options.objective = THR_SYMMETRY;
+  p.options.symmetry.geometric = -1;
+  p.symmetry = (thr_symmetry_record){.present = true,
+                                     .order = 3,
+                                     .n_generators = 1,
+                                     .generator = third_turn,
+                                     .n_images = 3,
+                                     .image = image,
+                                     .unique = unique,
+                                     .element = which,
+                                     .unique_paths = 1,
+                                     .steps = 1};
+  thr_err err = {0};
+  ck_assert_msg(thr_check_symmetry(&p, &err) == THR_OK, "%s", err.text);
+  unique[2] = which[2] = 1; /* image 1 of the second is the third, too */
+  ck_assert_int_eq(thr_check_symmetry(&p, &err), THR_EVIOLATED);
+  assert_one_line(&err, "which is a copy itself");
+  unique[2] = 3;
+  err = (thr_err){0};
+  ck_assert_int_eq(thr_check_symmetry(&p, &err), THR_EVIOLATED);
+  assert_one_line(&err, "there is no such cord or image");
+  unique[2] = 0, which[2] = 3;
+  err = (thr_err){0};
+  ck_assert_int_eq(thr_check_symmetry(&p, &err), THR_EVIOLATED);
+  assert_one_line(&err, "there is no such cord or image");
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* Out from a foot and back to it: it reads the same backward, but does not run round. */
 START_TEST(a_cord_there_and_back_is_learned_once)
 {
@@ -370,7 +443,9 @@ int main(void)
   ADD_LOOP(s, 30, groups_have_one_name, 0, N_GROUPS);
   ADD_TEST(s, 30, names_are_those_of_isometries);
   ADD_LOOP(s, 10, copies_may_start_anywhere_and_run_backward, 0, 150);
+  ADD_TEST(s, 30, rings_turn_in_as_many_ways_as_they_have_nodes);
   ADD_TEST(s, 10, cords_are_permuted);
+  ADD_TEST(s, 10, copies_are_of_unique_paths);
   ADD_TEST(s, 10, a_cord_there_and_back_is_learned_once);
   return run_suite(s);
 }

@@ -196,6 +196,7 @@ ALTER(other_end, c->pull = THR_PULL_END)
 ALTER(more_largest, e->largest *= 1.001)
 ALTER(less_total, e->total *= 0.999)
 ALTER(no_step, e->time_step = 0)
+ALTER(no_iteration, e->iterations = 0)
 
 static const alteration alterations[] = {{"force", more_force},
                                          {"other_force", more_other_force},
@@ -216,7 +217,8 @@ static const alteration alterations[] = {{"force", more_force},
                                          {"cord A", other_end},
                                          {"evaluation.largest", more_largest},
                                          {"evaluation.total", less_total},
-                                         {"time_step", no_step}};
+                                         {"time_step", no_step},
+                                         {"iterations", no_iteration}};
 
 START_TEST(the_checker_sees_every_alteration)
 {
@@ -249,6 +251,50 @@ START_TEST(the_checker_sees_a_slackest_pass_that_is_not_best)
   thr_err err = {0};
   ck_assert_int_eq(thr_check_plan(&p, &err), THR_EVIOLATED);
   assert_one_line(&err, "not where its tension is least");
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* Pulled at its start only, a cord may do anything behind its slackest pass but be slacker; forces may be small, or none. */
+START_TEST(the_checker_takes_any_tension_behind_the_slackest_pass)
+{
+  thr_frame f = solid_make(OCTAHEDRON);
+  thr_plan p = evaluated_plan(&f, THR_ENDS_CLOSED, THR_PULL_START, THR_LAW_CAPSTAN);
+  thr_eval_cord *c = &p.evaluation.cord[0];
+  const int n = c->n_passes;
+  p.evaluation.method = THR_JOINT;
+  c->slackest = n - 3;
+  const double least = c->tension[n - 3], parts[] = {1, 0.1, 0.01, 0};
+  c->tension[n - 2] = 1.5 * least, c->tension[n - 1] = 1.2 * least;
+  c->taut_turning = 0.5;
+  for (int k = 0; k < 4; k++) {
+    for (int i = 0; i < n; i++)
+      c->tension[i] *= parts[k];
+    c->force = c->work = c->tension[0];
+    c->other_force = 0;
+    c->loss = c->force > 0 ? 1 - c->tension[n - 3] / c->force : 0;
+    thr_evaluation_sum(&p.evaluation);
+    thr_err err = {0};
+    ck_assert_msg(thr_check_plan(&p, &err) == THR_OK, "%s", err.text);
+    double kept = c->tension[n - 1];
+    c->tension[n - 1] = 0.99 * c->tension[n - 3] - (k == 3);
+    ck_assert_int_eq(thr_check_plan(&p, &err), THR_EVIOLATED);
+    assert_one_line(&err, "is slacker than");
+    c->tension[n - 1] = kept;
+    if (k == 3) continue;
+    c->pull = THR_PULL_BOTH; /* then it falls towards an end that is pulled */
+    c->other_force = kept;
+    c->work += kept;
+    err = (thr_err){0};
+    ck_assert_int_eq(thr_check_plan(&p, &err), THR_EVIOLATED);
+    assert_one_line(&err, "falls");
+    c->pull = THR_PULL_START;
+  }
+  c->taut_turning = -0.1;
+  thr_err err = {0};
+  ck_assert_int_eq(thr_check_plan(&p, &err), THR_EVIOLATED);
+  assert_one_line(&err, "taut_turning");
   thr_plan_destroy(&p);
   thr_frame_destroy(&f);
 }
@@ -340,6 +386,7 @@ int main(void)
   ADD_TEST(s, 10, an_unfinished_evaluation_survives_json);
   ADD_LOOP(s, 10, the_checker_sees_every_alteration, 0, (int)(sizeof alterations / sizeof *alterations));
   ADD_TEST(s, 10, the_checker_sees_a_slackest_pass_that_is_not_best);
+  ADD_TEST(s, 10, the_checker_takes_any_tension_behind_the_slackest_pass);
   ADD_TEST(s, 10, the_checker_takes_measured_tensions_that_rise);
   ADD_TEST(s, 10, nonsense_in_json_is_refused);
   return run_suite(s);

@@ -5,6 +5,7 @@
 #include "symmetry/group.h"
 #include "symmetry/isometry.h"
 #include "graph/procrustes.h"
+#include "graph/vector.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -318,6 +319,66 @@ START_TEST(noise_is_the_residual)
     thr_frame_destroy(&f);
   }
   thr_frame_destroy(&exact);
+}
+END_TEST
+
+/* A square about a point far away, or tiny, or huge: its size and a quarter turn about its centre are known. */
+START_TEST(squares_turn_wherever_they_are)
+{
+  static const struct {
+    double scale, at, within;
+  } cases[] = {{1, 0, 1e-14}, {1, 1e7, 1e-7}, {1e-150, 0, 1e-14}, {1e140, 0, 1e-14}};
+  double xyz[4][3];
+  int image[4] = {1, 2, 3, 0};
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+    const double scale = cases[k].scale, at = cases[k].at;
+    for (int v = 0; v < 4; v++)
+      for (int i = 0; i < 3; i++)
+        xyz[v][i] = at * (i + 1) + scale * (i == 0 ? (v == 0) - (v == 2) : i == 1 ? (v == 1) - (v == 3) : 0);
+    const thr_frame f = {.n_nodes = 4, .xyz = xyz};
+    double centroid[3], size;
+    thr_frame_extent(&f, centroid, &size);
+    thr_motion m;
+    thr_procrustes(&f, image, &m);
+    const double quarter[3][3] = {{0, -1, 0}, {1, 0, 0}, {0, 0, 1}};
+    for (int i = 0; i < 3; i++) {
+      ck_assert_double_eq_tol(centroid[i] / scale, at * (i + 1) / scale, cases[k].within);
+      for (int j = 0; j < 3; j++)
+        ck_assert_double_eq_tol(m.q[i][j], quarter[i][j], cases[k].within);
+    }
+    ck_assert_double_eq_tol(size / scale, 1, cases[k].within);
+    ck_assert(m.proper && m.flat && m.residual <= cases[k].within && m.farthest <= cases[k].within);
+  }
+}
+END_TEST
+
+/* Nodes on a line, in this direction or that: reversed by half a turn across it; all in one place, nothing moves. */
+START_TEST(lines_are_reversed_by_half_turns)
+{
+  rng r = rng_make(5);
+  double xyz[3][3];
+  int image[3] = {2, 1, 0};
+  for (int k = 0; k < 40; k++) {
+    double along[3];
+    for (int i = 0; i < 3; i++)
+      along[i] = k == 39 ? 0 : k < 6 ? (k / 2 == i) * (k % 2 ? -1 : 1) : gauss(&r) * pow(10, -(k + i) % 4);
+    for (int v = 0; v < 3; v++)
+      for (int i = 0; i < 3; i++)
+        xyz[v][i] = 3 - i + (v - 1) * along[i];
+    const thr_frame f = {.n_nodes = 3, .xyz = xyz};
+    thr_motion m;
+    thr_procrustes(&f, image, &m);
+    ck_assert(m.proper && m.flat);
+    ck_assert_double_le(m.residual, 1e-12);
+    double norm = sqrt(thr_dot(along, along));
+    for (int i = 0; i < 3; i++) {
+      ck_assert_double_eq_tol(thr_dot(m.q[i], along), k < 39 ? -along[i] : 0, 1e-12 * (1 + norm));
+      for (int j = 0; j < 3; j++) {
+        ck_assert_double_eq_tol(thr_dot(m.q[i], m.q[j]), i == j, 1e-12);
+        if (k == 39) ck_assert_double_eq_tol(m.q[i][j], i == j, 1e-15);
+      }
+    }
+  }
 }
 END_TEST
 
@@ -651,5 +712,7 @@ int main(void)
   ADD_TEST(s, 60, isometries_by_all_permutations);
   ADD_TEST(s, 20, more_isometries_than_the_cap);
   ADD_TEST(s, 20, every_allocation_fails_once);
+  ADD_TEST(s, 10, squares_turn_wherever_they_are);
+  ADD_TEST(s, 10, lines_are_reversed_by_half_turns);
   return run_suite(s);
 }
