@@ -282,10 +282,12 @@ class Bench:
         else:
             env.pop("CK_RUN_CASE", None)
         with subprocess.Popen([os.path.join(self.tests, program)], env=env, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                              stderr=subprocess.DEVNULL, start_new_session=True,
+                              stderr=subprocess.PIPE, start_new_session=True,
                               preexec_fn=lambda: limits(limit)) as process:
             try:
-                said, _ = process.communicate(timeout=10 * limit + 20)
+                said, failed = process.communicate(timeout=10 * limit + 20)
+                if b"cannot be preloaded" in failed:
+                    raise SystemExit(f"{preload} could not be loaded before tests/{test}")
                 return process.returncode == 0 and b"Checks: 0," not in said
             except subprocess.TimeoutExpired:
                 return False

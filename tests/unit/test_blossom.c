@@ -145,6 +145,35 @@ START_TEST(sums_too_large)
 }
 END_TEST
 
+/* 32 such pairs are no more than is allowed. */
+START_TEST(sums_just_not_too_large)
+{
+  static instance g = {.n_nodes = 64};
+  for (int v = 0; v < g.n_nodes; v += 2)
+    join(&g, v, v + 1, THR_MATCHING_WEIGHT_MOST);
+  assert_weight(&g, 32 * THR_MATCHING_WEIGHT_MOST);
+}
+END_TEST
+
+/* Too large, where only the search finds it out: triangles of no weight in pairs, with a bridge of the largest between. 128
+ * halves of that are 2^60. */
+START_TEST(sums_too_large_on_the_way)
+{
+  for (int pairs = 32; pairs <= 128; pairs += 96) {
+    static instance g;
+    g = (instance){.n_nodes = 6 * pairs};
+    for (int v = 0; v < g.n_nodes; v++)
+      join(&g, v, v % 3 == 2 ? v - 2 : v + 1, 0);
+    for (int v = 0; v < g.n_nodes; v += 6)
+      join(&g, v, v + 3, THR_MATCHING_WEIGHT_MOST);
+    if (pairs < 64)
+      assert_weight(&g, pairs * THR_MATCHING_WEIGHT_MOST);
+    else
+      assert_fails(&g, THR_EINPUT, "too large");
+  }
+}
+END_TEST
+
 START_TEST(interrupt_stops)
 {
   static instance g = {.n_nodes = 6};
@@ -256,6 +285,8 @@ int main(void)
   ADD_TEST(s, 10, no_perfect_matching);
   ADD_TEST(s, 10, input_out_of_range);
   ADD_TEST(s, 10, sums_too_large);
+  ADD_TEST(s, 10, sums_just_not_too_large);
+  ADD_TEST(s, 10, sums_too_large_on_the_way);
   ADD_TEST(s, 10, interrupt_stops);
   ADD_TEST(s, 10, going_on_checks_what_it_gets);
   ADD_TEST(s, 30, every_allocation_fails_once);

@@ -269,6 +269,7 @@ START_TEST(mitre_law_refuses_a_turn_that_it_cannot_describe)
   o.physics.mu = 1;
   ck_assert_int_eq(thr_eval_plan(&f, p.cord, 1, THR_CAPSTAN, &o, &none, &e, &err), THR_EINPUT);
   assert_one_line(&err, "cord A");
+  ck_assert_ptr_nonnull(strstr(err.text, "mitre law"));
   thr_plan_destroy(&p);
   thr_frame_destroy(&f);
 }

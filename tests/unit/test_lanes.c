@@ -231,8 +231,34 @@ static void make_wandering(picture *p, rng *r, int n_cords, int n_passes)
     }
 }
 
-/* Does every lane reach its node nearer to its own bead's direction than to the next one's? Else what is seen there is no order.
- */
+/* A way of one to three edges, and cords over all of it or a part: their marks share what room there is beside a node. */
+static void make_way(picture *p, rng *r, int n_cords)
+{
+  int length = rng_between(r, 1, 3);
+  for (int i = 0; i <= length; i++)
+    add_node(p, i, 0.5 * rng_unit(r));
+  for (int i = 0; i < length; i++)
+    add_edge(p, r, i, i + 1);
+  for (int c = 0; c < n_cords; c++) {
+    for (int i = rng_below(r, length), at = i; i < length; i++)
+      at = go_along(p, c, at, i);
+    if (rng_below(r, 2)) reverse(p, c);
+  }
+}
+
+/* Is a direction, which is `off` from its own bead's, as near to a mark's at point v? */
+static bool near_a_mark(const thr_scene *s, int v, double seen, double off)
+{
+  for (int c = 0; c < s->plan->n_cords; c++)
+    for (int k = 0; k < 2; k++) {
+      const thr_mark *m = &s->mark[c][k];
+      if (m->point == v && (!m->beside || fabs(remainder(seen - m->angle, 2 * PI)) <= off)) return true;
+    }
+  return false;
+}
+
+/* Does every lane reach its node nearer to its own bead's direction than to another's, or a mark's? Else what is seen there is no
+ * order. */
 static bool beads_are_apart(const thr_scene *s)
 {
   for (int i = 0; i < s->n_passes; i++)
@@ -242,6 +268,7 @@ static bool beads_are_apart(const thr_scene *s)
       double seen = atan2(at[1] - s->at[v][1], at[0] - s->at[v][0]), off = fabs(remainder(seen - s->angle[h], 2 * PI));
       for (int j = first; j < first + degree; j++)
         if (s->around[j] != h && fabs(remainder(seen - s->angle[s->around[j]], 2 * PI)) <= off) return false;
+      if (near_a_mark(s, v, seen, off)) return false;
     }
   return true;
 }
@@ -251,11 +278,15 @@ START_TEST(no_two_lanes_had_better_be_swapped)
 {
   rng r = rng_make((uint64_t)_i + 1000);
   int seen = 0;
-  for (int k = 0; seen < 15; k++) {
+  for (int k = 0; seen < 24; k++) {
     ck_assert_int_lt(k, 200);
     picture *p = calloc(1, sizeof *p);
-    make_wandering(p, &r, 1 + k % 3, rng_between(&r, 4, 14));
-    draw(p, 1 + k % 3);
+    int n_cords = 1 + k % 4;
+    if (k % 2)
+      make_way(p, &r, n_cords);
+    else
+      make_wandering(p, &r, n_cords, rng_between(&r, 4, 14));
+    draw(p, n_cords);
     const thr_scene *s = &p->scene;
     assert_lanes_are_taken_once(s);
     bool apart = beads_are_apart(s);
@@ -276,10 +307,33 @@ START_TEST(no_two_lanes_had_better_be_swapped)
 }
 END_TEST
 
+/* More lanes in a bead, and ways through a node, than are compared: drawn all the same, each in its lane. */
+START_TEST(very_many_lanes_are_numbered)
+{
+  rng r = rng_make(7);
+  for (int n = 20; n <= 60; n++) {
+    picture *p = calloc(1, sizeof *p);
+    add_node(p, 0, 0);
+    add_node(p, 1, 0);
+    add_node(p, 0, 1);
+    add_edge(p, &r, 0, 1);
+    add_edge(p, &r, 2, 0);
+    int at = go_along(p, 0, 2, 1);
+    for (int i = 0; i < n; i++)
+      at = go_along(p, 0, at, 0);
+    draw(p, 1);
+    assert_lanes_are_taken_once(&p->scene);
+    picture_destroy(p);
+    free(p);
+  }
+}
+END_TEST
+
 int main(void)
 {
   Suite *s = suite_create("lanes");
   ADD_LOOP(s, 20, parallel_cords_cross_only_if_they_change_sides, 0, 10);
   ADD_LOOP(s, 20, no_two_lanes_had_better_be_swapped, 0, 10);
+  ADD_TEST(s, 20, very_many_lanes_are_numbered);
   return run_suite(s);
 }

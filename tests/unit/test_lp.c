@@ -427,19 +427,20 @@ START_TEST(normal_equations_are_solved)
 }
 END_TEST
 
-/* Rows that depend on others have no part in the solution. */
+/* Rows that depend on others have no part in the solution. What follows in the arrays is no column. */
 START_TEST(equal_rows_are_solved_once)
 {
-  static const int start[] = {0, 2, 5, 6}, row[] = {0, 2, 2, 1, 0, 1};
-  static const double value[] = {1, 1, 2, 3, 2, 5}, weight[] = {1, 0.5, 2}, right[] = {3, 7, 3};
+  static const int start[] = {0, 2, 5, 6, 8}, row[] = {0, 2, 2, 1, 0, 1, 0, 1};
+  static const double value[] = {1, 1, 2, 3, 2, 5, 100, 100}, weight[] = {1, 0.5, 2, 9}, right[] = {3, 7, 3};
   thr_columns a = {3, 3, start, row, value};
   thr_normal *normal;
-  double y[3], z[3], back[3];
+  double y[3], z[4] = {0, 0, 0, 77}, back[3];
   ck_assert_int_eq(thr_normal_create(&normal, &a, NULL), THR_OK);
   thr_normal_factor(normal, weight);
   thr_normal_solve(normal, right, y);
   ck_assert((y[0] == 0) != (y[2] == 0));
   thr_columns_transposed(&a, y, z);
+  ck_assert(z[3] == 77);
   for (int j = 0; j < 3; j++)
     z[j] *= weight[j];
   thr_columns_times(&a, z, back);
