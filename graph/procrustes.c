@@ -101,7 +101,7 @@ static void polar(double h[3][3], double q[3][3], bool *flat)
   int rank = 0;
   for (int i = 0; i < 3; i++) {
     s[i] = sqrt(thr_dot(h[i], h[i]));
-    if (rank < i || s[i] <= FLAT * s[0]) continue; /* of no extent: rank 0 */
+    if (s[i] <= FLAT * s[0]) break; /* of no extent: rank 0 */
     rank = i + 1;
     for (int k = 0; k < 3; k++)
       h[i][k] /= s[i];

@@ -258,7 +258,7 @@ static thr_status run_junction(leaf *k, int i, thr_err *err)
   int d = thr_degree(f, p->node), blocks = 0, used = 0;
   bool *seen = thr_calloc((size_t)d, sizeof *seen), ok = true;
   if (!seen) return thr_nomem(err);
-  for (int a = 0; a < d && ok; a++) {
+  for (int a = 0; a < d; a++) {
     int b = p->block[a];
     ok = b >= 0 && b < d;
     if (!ok) break;

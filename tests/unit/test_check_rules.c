@@ -460,6 +460,124 @@ START_TEST(given_ends_are_those_of_half_as_many_cords)
 }
 END_TEST
 
+/* Nested odd sets of nodes of a complete graph, all of whose nodes are odd. The sum of the multipliers of the sets that hold one
+ * end of an edge, added up set by set, may be as much as its weight, and no more. */
+START_TEST(cuts_add_up_over_edges)
+{
+  enum { N = 8, EDGES = N * (N - 1) / 2 };
+  rng r = rng_make((uint64_t)_i + 1);
+  double xyz[N][3], length[EDGES];
+  int edge[EDGES][2], passes[EDGES], own[N][N], m = 0, n_cuts = 0;
+  bool inside[N][N] = {{false}}, used[N] = {false};
+  thr_cut cut[N];
+  thr_certificate c = {.scale = 1, .denominator = 1, .cut = cut};
+  while (n_cuts < N) { /* the next set: nodes that are in none yet, and sets that are in none yet */
+    int size = 0, k = 0, child[N], n_children = 0;
+    memset(inside[n_cuts], 0, sizeof inside[n_cuts]);
+    for (int v = 0; v < N; v++)
+      if (!used[v] && rng_below(&r, 3) == 0) inside[n_cuts][v] = true, own[n_cuts][k++] = v, size++;
+    for (int i = 0; i < n_cuts; i++)
+      if (cut[i].parent < 0 && rng_below(&r, 2)) {
+        child[n_children++] = i;
+        for (int v = 0; v < N; v++)
+          if (inside[i][v]) inside[n_cuts][v] = true, size++;
+      }
+    if (size % 2 == 0) {
+      if (rng_below(&r, 30) == 0) break;
+      continue;
+    }
+    for (int j = 0; j < k; j++)
+      used[own[n_cuts][j]] = true;
+    for (int j = 0; j < n_children; j++)
+      cut[child[j]].parent = n_cuts;
+    cut[n_cuts] = (thr_cut){-1, k, own[n_cuts], rng_below(&r, 4)};
+    c.sum += cut[n_cuts++].value;
+  }
+  c.n_cuts = n_cuts;
+  for (int v = 0; v < N; v++)
+    for (int i = 0; i < 3; i++)
+      xyz[v][i] = rng_unit(&r);
+  for (int a = 0; a < N; a++)
+    for (int b = 0; b < a; b++, m++) {
+      int load = 0;
+      for (int i = 0; i < n_cuts; i++)
+        load += inside[i][a] != inside[i][b] ? (int)cut[i].value : 0;
+      length[m] = load > 0 ? load : 1;
+      edge[m][0] = a, edge[m][1] = b;
+      passes[m] = 2;
+    }
+  thr_frame f = frame_make(N, (const double(*)[3])xyz, m, (const int(*)[2])edge, length, NULL);
+  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  for (int less = -1; less < m; less++) {
+    thr_err err = {0};
+    bool optimal;
+    double bound;
+    if (less >= 0 && length[less] < 2) continue;
+    if (less >= 0) f.length[less]--;
+    c.join = 0;
+    for (int e = 0; e < m; e++)
+      c.join += (int64_t)f.length[e];
+    thr_status st = thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, &err);
+    ck_assert_msg(st == (less < 0 ? THR_OK : THR_EVIOLATED), "%s", err.text);
+    if (less >= 0) {
+      char said[48];
+      snprintf(said, sizeof said, "the cuts over edge %d add up", less);
+      assert_one_line(&err, said);
+      f.length[less]++;
+    }
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* A ring with an edge so short that it weighs nothing, and a tail, which is passed twice: that is optimal all the same. */
+START_TEST(weightless_edges_passed_once_cost_nothing)
+{
+  static const double xyz[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 0.3, 0}, {-1, 0, 0}}, length[4] = {1, 0.3, 1, 1};
+  static const int edge[4][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}};
+  thr_frame f = frame_make(4, xyz, 4, edge, length, NULL);
+  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_cut cut = {-1, 1, (int[]){3}, 1};
+  thr_certificate c = {.scale = 1, .denominator = 1, .join = 1, .sum = 1, .n_cuts = 1, .cut = &cut};
+  int passes[4] = {1, 1, 1, 2};
+  bool optimal;
+  double bound;
+  thr_err err = {0};
+  ck_assert_msg(thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, &err) == THR_OK, "%s", err.text);
+  ck_assert(optimal);
+  ck_assert_double_eq_tol(bound, 4.3, 1e-12);
+  passes[1] = 3; /* more of it than is needed, which no weight shows */
+  ck_assert_msg(thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, &err) == THR_OK, "%s", err.text);
+  ck_assert(!optimal);
+  ck_assert_double_eq_tol(bound, 4.3, 1e-12);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* The number of cords is one of the options only where something is claimed about it, or by it. */
+START_TEST(cords_are_counted_for_claims)
+{
+  static const double length[2] = {1, 2};
+  static const thr_objective objective[] = {THR_LENGTH, THR_TORTUOSITY};
+  thr_frame f = chain_make(2, length);
+  for (int k = 0; k < 2; k++) {
+    thr_plan p = {0};
+    thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+    o.objective = objective[k];
+    ck_assert_int_eq(thr_plan_request(&p, &f, &o, NULL), THR_OK);
+    p.cord = calloc(2, sizeof *p.cord);
+    add_loops(p.cord, &p.n_cords, 0, 1);
+    add_loops(p.cord, &p.n_cords, 1, 1);
+    ck_assert_int_eq(thr_plan_measure(&f, &o, p.cord, 2, &p.metrics, NULL), THR_OK);
+    thr_err err = {0};
+    ck_assert_msg(thr_check_plan(&p, &err) == (k ? THR_EVIOLATED : THR_OK), "%s", err.text);
+    if (k) assert_one_line(&err, "has 2 cords");
+    thr_plan_destroy(&p);
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* Cords that end anywhere on a star with six legs of 1: K of them leave 6 - 2 K tips that are no ends, each of which costs an
  * extra pass. As multipliers: 1 for every tip, 1 for every end. */
 START_TEST(fewer_cords_have_fewer_ends)
@@ -1007,6 +1125,9 @@ int main(void)
   ADD_TEST(s, 10, the_fewest_cords_have_room);
   ADD_TEST(s, 10, ends_pay_for_extra_passes);
   ADD_TEST(s, 10, given_ends_are_those_of_half_as_many_cords);
+  ADD_LOOP(s, 10, cuts_add_up_over_edges, 0, 60);
+  ADD_TEST(s, 10, weightless_edges_passed_once_cost_nothing);
+  ADD_TEST(s, 10, cords_are_counted_for_claims);
   ADD_TEST(s, 10, fewer_cords_have_fewer_ends);
   ADD_TEST(s, 10, weak_proofs_bound_the_longest);
   ADD_TEST(s, 10, symmetric_cords_are_counted_where_most_are);

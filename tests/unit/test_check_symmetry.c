@@ -419,6 +419,40 @@ START_TEST(copies_are_of_unique_paths)
 }
 END_TEST
 
+/* Round a triangle, and from its first node to its last: the same nodes, but no copy. */
+START_TEST(an_open_cord_is_no_copy_of_a_closed_one)
+{
+  thr_frame f = ring_make(3);
+  int half[3], same[3] = {0, 1, 2}, unique[2] = {0, 0}, which[2] = {0, 0};
+  for (int k = 0; k < 3; k++) {
+    int e = thr_frame_edge_between(&f, k, (k + 1) % 3);
+    half[k] = 2 * e + (f.edge[e][1] == k);
+  }
+  thr_cord cord[2] = {{.id = "A", .closed = true, .n_passes = 3, .half = half}, {.id = "B", .n_passes = 2, .half = half}};
+  thr_plan p = {.frame = f, .options = options_for(THR_ENDS_ANY, 1), .n_cords = 2, .cord = cord};
+  p.options.objective = THR_SYMMETRY;
+  p.options.symmetry.geometric = -1;
+  p.symmetry = (thr_symmetry_record){.present = true,
+                                     .order = 1,
+                                     .generator = same,
+                                     .n_images = 1,
+                                     .image = same,
+                                     .unique = unique,
+                                     .element = which,
+                                     .unique_paths = 1,
+                                     .steps = 3};
+  thr_err err = {0};
+  ck_assert_int_eq(thr_check_symmetry(&p, &err), THR_EVIOLATED);
+  assert_one_line(&err, "cord B is not image 0 of cord A");
+  unique[1] = 1;
+  p.symmetry.unique_paths = 2;
+  p.symmetry.steps = 5;
+  err = (thr_err){0};
+  ck_assert_msg(thr_check_symmetry(&p, &err) == THR_OK, "%s", err.text);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* Out from a foot and back to it: it reads the same backward, but does not run round. */
 START_TEST(a_cord_there_and_back_is_learned_once)
 {
@@ -446,6 +480,7 @@ int main(void)
   ADD_TEST(s, 30, rings_turn_in_as_many_ways_as_they_have_nodes);
   ADD_TEST(s, 10, cords_are_permuted);
   ADD_TEST(s, 10, copies_are_of_unique_paths);
+  ADD_TEST(s, 10, an_open_cord_is_no_copy_of_a_closed_one);
   ADD_TEST(s, 10, a_cord_there_and_back_is_learned_once);
   return run_suite(s);
 }

@@ -290,6 +290,33 @@ START_TEST(pairings_of_hubs)
 }
 END_TEST
 
+/* An odd number of spokes: a cord ends at the hub, and saves no more than the dearest half turn. */
+START_TEST(ends_at_hubs_save_a_turn)
+{
+  enum { N = 19 };
+  double angle[N], half = 0, most = 0;
+  rng r = rng_make(N);
+  for (int i = 0; i < N; i++)
+    angle[i] = PI * (i + 0.9 * rng_unit(&r)) / (N + 1);
+  thr_plan p = plan_begin(fan_make(N, angle), THR_ENDS_ANY, N / 2 + 2, THR_TURN_ANGLE);
+  for (int i = 0; i < N / 2; i++)
+    add_cord(&p, (int[]){i + 1, 0, N - i, -1});
+  add_cord(&p, (int[]){N / 2 + 1, 0, -1});
+  for (int i = 0; i < N; i++) {
+    double least = (PI - fmax(angle[i] - angle[0], angle[N - 1] - angle[i])) / 2;
+    half += least;
+    most = fmax(most, least);
+  }
+  p.options.cords = p.options.cords_least = N / 2 + 1;
+  ck_assert_double_eq_tol(found_of(&p).pairing_bound, half - most, 1e-9);
+  add_cord(&p, (int[]){0, N / 2 + 1, -1});
+  p.options.cords = p.options.cords_least = N / 2 + 2;
+  double twice = (PI - fmax(angle[N / 2] - angle[0], angle[N - 1] - angle[N / 2])) / 2;
+  ck_assert_double_eq_tol(found_of(&p).pairing_bound, half + twice - 2 * most, 1e-9);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
 /* Cords along one edge: nothing turns, though both ends have too many points for a table. */
 START_TEST(nothing_turns_where_cords_end)
 {
@@ -613,6 +640,7 @@ int main(void)
   ADD_TEST(s, 10, cords_are_of_the_kind_that_the_proof_is_about);
   ADD_LOOP(s, 10, pairings_are_the_cheapest, 0, 120);
   ADD_LOOP(s, 20, pairings_of_hubs, 0, 4);
+  ADD_TEST(s, 10, ends_at_hubs_save_a_turn);
   ADD_TEST(s, 10, nothing_turns_where_cords_end);
   ADD_TEST(s, 10, bends_prove_what_they_cost);
   ADD_TEST(s, 10, bounds_are_optimal_within_rounding);
