@@ -392,8 +392,8 @@ static void draw_columns(programme *p, rng *r)
   }
 }
 
-/* Against the dense matrix, factored twice with other weights; what is asked for has a solution, though rows may depend on each
- * other. */
+/* Against the dense matrix, factored with weights of several sizes; what is asked for has a solution, though rows may depend on
+ * each other. */
 START_TEST(normal_equations_are_solved)
 {
   rng r = rng_make((uint64_t)_i + 500);
@@ -402,10 +402,10 @@ START_TEST(normal_equations_are_solved)
   thr_columns a = {p.m, p.n, p.start, p.row, p.value};
   thr_normal *normal;
   ck_assert_int_eq(thr_normal_create(&normal, &a, NULL), THR_OK);
-  for (int round = 0; round < 2; round++) {
-    double weight[400], dense[64][64], wanted[64], right[64] = {0}, found[64], most = 1;
+  for (int round = 0; round < 3; round++) {
+    double weight[400], dense[64][64], wanted[64], right[64] = {0}, found[64], most = 0;
     for (int j = 0; j < p.n; j++)
-      weight[j] = 0.1 + rng_unit(&r);
+      weight[j] = (0.1 + rng_unit(&r)) * pow(1e12, round - 1);
     weigh(&p, weight, dense);
     for (int i = 0; i < p.m; i++)
       wanted[i] = 2 * rng_unit(&r) - 1;
@@ -415,7 +415,7 @@ START_TEST(normal_equations_are_solved)
     thr_normal_factor(normal, weight);
     thr_normal_solve(normal, right, found);
     for (int i = 0; i < p.m; i++)
-      most = fmax(most, fabs(found[i]));
+      most = fmax(most, fabs(right[i]));
     for (int i = 0; i < p.m; i++) {
       double left = right[i];
       for (int k = 0; k < p.m; k++)
@@ -434,7 +434,7 @@ START_TEST(equal_rows_are_solved_once)
   static const double value[] = {1, 1, 2, 3, 2, 5, 100, 100}, weight[] = {1, 0.5, 2, 9}, right[] = {3, 7, 3};
   thr_columns a = {3, 3, start, row, value};
   thr_normal *normal;
-  double y[3], z[4] = {0, 0, 0, 77}, back[3];
+  double y[4] = {0, 0, 0, 77}, z[4] = {0, 0, 0, 77}, back[4] = {0, 0, 0, 77};
   ck_assert_int_eq(thr_normal_create(&normal, &a, NULL), THR_OK);
   thr_normal_factor(normal, weight);
   thr_normal_solve(normal, right, y);
@@ -446,7 +446,9 @@ START_TEST(equal_rows_are_solved_once)
   thr_columns_times(&a, z, back);
   for (int i = 0; i < 3; i++)
     ck_assert_double_eq_tol(back[i], right[i], 1e-12);
+  ck_assert(y[3] == 77 && back[3] == 77);
   thr_normal_destroy(normal);
+  thr_normal_destroy(NULL);
 }
 END_TEST
 
