@@ -7,7 +7,7 @@
 #include <string.h>
 
 static const double PI = 3.14159265358979323846;
-enum { MOST_CORDS = 8, MOST_PASSES = 200, MOST_STRANDS = 100, MOST_NODES = 80 };
+enum { MOST_CORDS = 8, MOST_PASSES = 200, MOST_STRANDS = 100, MOST_NODES = 130 };
 
 /* A framework in the plane with cords that are built pass by pass. */
 typedef struct {
@@ -158,24 +158,30 @@ static void assert_lanes_are_taken_once(const thr_scene *s)
 static void make_run(picture *p, rng *r, int length, int n, const int *place)
 {
   double x = 0, y = 0;
-  int way = add_node(p, x, y), leaf[2][MOST_CORDS];
+  int way = add_node(p, x, y), m = length + 2 * n, ends[2 * MOST_NODES][2], order[2 * MOST_NODES], number[2 * MOST_NODES];
   for (int i = 0; i < length; i++) {
     double a = 1.6 * rng_unit(r) - 0.8;
     int next = add_node(p, x += cos(a), y += sin(a));
-    add_edge(p, r, p->n_nodes - 2, next);
+    ends[i][0] = next - 1, ends[i][1] = next;
   }
-  for (int end = 0; end < 2; end++)
-    for (int i = 0; i < n; i++) {
-      double a = PI / 2 - PI * (i + 0.5) / n;
-      int hub = end ? way + length : way;
-      leaf[end][i] = add_node(p, p->xyz[hub][0] + (end ? 2 : -2) * cos(a), p->xyz[hub][1] + 2 * sin(a));
-      add_edge(p, r, hub, leaf[end][i]);
-    }
+  for (int i = 0; i < 2 * n; i++) {
+    double a = PI / 2 - PI * (i % n + 0.5) / n;
+    int end = i / n, hub = end ? way + length : way;
+    ends[length + i][0] = hub;
+    ends[length + i][1] = add_node(p, p->xyz[hub][0] + (end ? 2 : -2) * cos(a), p->xyz[hub][1] + 2 * sin(a));
+  }
+  for (int i = 0; i < m; i++)
+    order[i] = i;
+  rng_shuffle(r, order, m);
+  for (int i = 0; i < m; i++) {
+    number[order[i]] = i;
+    add_edge(p, r, ends[order[i]][0], ends[order[i]][1]);
+  }
   for (int c = 0; c < n; c++) {
-    int at = go_along(p, c, leaf[0][c], length + c);
+    int at = go_along(p, c, ends[length + c][1], number[length + c]);
     for (int i = 0; i < length; i++)
-      at = go_along(p, c, at, i);
-    go_along(p, c, at, length + n + place[c]);
+      at = go_along(p, c, at, number[i]);
+    go_along(p, c, at, number[length + n + place[c]]);
   }
 }
 
@@ -194,7 +200,7 @@ START_TEST(parallel_cords_cross_only_if_they_change_sides)
   rng r = rng_make((uint64_t)_i + 1);
   for (int k = 0; k < 12; k++) {
     picture *p = calloc(1, sizeof *p);
-    int n = 2 + k % 4, length = rng_between(&r, 1, 40), place[MOST_CORDS] = {0, 1, 2, 3, 4, 5, 6, 7};
+    int n = 2 + k % 4, length = rng_between(&r, 1, 100), place[MOST_CORDS] = {0, 1, 2, 3, 4, 5, 6, 7};
     rng_shuffle(&r, place, n);
     make_run(p, &r, length, n, place);
     for (int c = 0; c < n; c++)
@@ -211,17 +217,9 @@ END_TEST
 
 /* ---- any cords ---- */
 
-/* A wheel, and cords that wander over it, turning back at times. */
-static void make_wandering(picture *p, rng *r, int n_cords, int n_passes)
+/* Cords that go along edges at random, turning back at times. */
+static void wander(picture *p, rng *r, int n_cords, int n_passes)
 {
-  int rim = rng_between(r, 4, 7);
-  add_node(p, 0, 0);
-  for (int i = 0; i < rim; i++)
-    add_node(p, 3 * cos(2 * PI * i / rim + 0.3), 3 * sin(2 * PI * i / rim + 0.3));
-  for (int i = 0; i < rim; i++) {
-    add_edge(p, r, 0, 1 + i);
-    add_edge(p, r, 1 + i, 1 + (i + 1) % rim);
-  }
   for (int c = 0; c < n_cords; c++)
     for (int i = 0, at = rng_below(r, p->n_nodes); i < n_passes;) {
       int e = rng_below(r, p->n_edges);
@@ -229,6 +227,19 @@ static void make_wandering(picture *p, rng *r, int n_cords, int n_passes)
       at = go_along(p, c, at, e);
       i++;
     }
+}
+
+/* A star of three or four edges, or a wheel. */
+static void make_wheel(picture *p, rng *r, bool star)
+{
+  int rim = star ? rng_between(r, 3, 4) : rng_between(r, 4, 7);
+  add_node(p, 0, 0);
+  for (int i = 0; i < rim; i++)
+    add_node(p, 3 * cos(2 * PI * i / rim + 0.3), 3 * sin(2 * PI * i / rim + 0.3));
+  for (int i = 0; i < rim; i++) {
+    add_edge(p, r, 0, 1 + i);
+    if (!star) add_edge(p, r, 1 + i, 1 + (i + 1) % rim);
+  }
 }
 
 /* A way of one to three edges, and cords over all of it or a part: their marks share what room there is beside a node. */
@@ -278,14 +289,16 @@ START_TEST(no_two_lanes_had_better_be_swapped)
 {
   rng r = rng_make((uint64_t)_i + 1000);
   int seen = 0;
-  for (int k = 0; seen < 24; k++) {
-    ck_assert_int_lt(k, 200);
+  for (int k = 0; seen < 40; k++) {
+    ck_assert_int_lt(k, 400);
     picture *p = calloc(1, sizeof *p);
-    int n_cords = 1 + k % 4;
-    if (k % 2)
+    int n_cords = 1 + k / 3 % 4;
+    if (k % 3 == 0) {
       make_way(p, &r, n_cords);
-    else
-      make_wandering(p, &r, n_cords, rng_between(&r, 4, 14));
+    } else {
+      make_wheel(p, &r, k % 3 == 1);
+      wander(p, &r, n_cords, rng_between(&r, 4, 14));
+    }
     draw(p, n_cords);
     const thr_scene *s = &p->scene;
     assert_lanes_are_taken_once(s);
@@ -310,6 +323,16 @@ END_TEST
 /* More lanes in a bead, and ways through a node, than are compared: drawn all the same, each in its lane. */
 START_TEST(very_many_lanes_are_numbered)
 {
+  rng other = rng_make(8);
+  for (int n = 40; n <= 180; n += 20) {
+    picture *p = calloc(1, sizeof *p);
+    make_wheel(p, &other, true);
+    wander(p, &other, 1, n);
+    draw(p, 1);
+    assert_lanes_are_taken_once(&p->scene);
+    picture_destroy(p);
+    free(p);
+  }
   rng r = rng_make(7);
   for (int n = 20; n <= 60; n++) {
     picture *p = calloc(1, sizeof *p);
