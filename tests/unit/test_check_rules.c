@@ -993,6 +993,60 @@ START_TEST(the_fewest_cords_of_tube_joints)
 }
 END_TEST
 
+/* Two such chains, with three cords each: K cords or more in each of them have 2 (4 + K - 1) or so together, and so many cords
+ * of the greatest length hold that. What may be too few cords for one component says nothing about two. */
+START_TEST(the_fewest_cords_of_two_components)
+{
+  static const double length[8] = {1, 1.0003, 1.0007, 1.0011, 1, 1.0003, 1.0007, 1.0011};
+  const double all = 4.0021, two_each = 2 * (all + 1);
+  const struct {
+    double most;
+    int least, fewest;
+  } cases[] = {{two_each / 4 * (1 - 1e-6), 2, 5},
+               {two_each / 4 * (1 - 1e-9), 2, 4},
+               {two_each / 4, 2, 4},
+               {two_each / 5 + 0.002, 2, 5},
+               {4.01, 1, 2},
+               {2.002, 1, 4}};
+  double xyz[10][3] = {{0}};
+  int edge[8][2], half[6][2], block[2] = {0, 1};
+  for (int e = 0; e < 8; e++) {
+    int v = e + e / 4;
+    edge[e][0] = v, edge[e][1] = v + 1;
+    xyz[v + 1][0] = xyz[v][0] + 1;
+    xyz[v][1] = xyz[v + 1][1] = e / 4;
+  }
+  thr_frame f = frame_make(10, (const double(*)[3])xyz, 8, (const int(*)[2])edge, length, NULL);
+  thr_cord cord[6];
+  for (int i = 0; i < 6; i++) {
+    half[i][0] = 2 * (i + i / 3), half[i][1] = half[i][0] + 2;
+    cord[i] = (thr_cord){.component = i / 3, .n_passes = 2, .half = half[i]};
+    thr_cord_id(i, cord[i].id);
+  }
+  int64_t unit = (int64_t)floor(ldexp(4 / all, THR_TURNING_BITS)) / 2, potential[16], ends[2] = {unit, unit};
+  for (int h = 0; h < 16; h++)
+    potential[h] = -unit;
+  thr_turning_junction junction[6];
+  for (int i = 0; i < 6; i++)
+    junction[i] = (thr_turning_junction){i + 1 + 2 * (i / 3), block, 2 * unit};
+  thr_turning_dual dual = {.potential = potential, .ends = ends, .n_junctions = 6, .junction = junction};
+  thr_turning_node leaf = {0};
+  thr_turning_proof proof = {1, 1, 2, &leaf, &dual};
+  thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+  o.joint = THR_JOINT_TUBE;
+  o.cords = 3;
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    thr_cords_claim found;
+    thr_err err = {0};
+    o.cords_least = cases[i].least;
+    o.max_length = cases[i].most;
+    ck_assert_msg(thr_check_tied_cords(&f, &o, cord, 6, &proof, &found, &err) == THR_OK, "%s", err.text);
+    ck_assert_int_eq(found.fewest, cases[i].fewest);
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* Cords of 2 over a chain of 1, 1, 1 and 1; a tree that proves no more than that every edge is passed once. Two cords of 2 are
  * enough, and of 2 less a rounding; and a tree that proves nothing fails, however few cords there may be. */
 START_TEST(rounding_needs_no_cord_more)
@@ -1117,6 +1171,7 @@ int main(void)
   ADD_TEST(s, 10, prices_of_tied_length_are_moderate);
   ADD_TEST(s, 10, optimal_tied_lengths_are_within_a_billionth);
   ADD_TEST(s, 10, the_fewest_cords_of_tube_joints);
+  ADD_TEST(s, 10, the_fewest_cords_of_two_components);
   ADD_TEST(s, 10, rounding_needs_no_cord_more);
   ADD_TEST(s, 10, proofs_of_tied_length_are_about_the_plan);
   ADD_LOOP(s, 20, the_longest_cord_has_its_detour, 0, 90);

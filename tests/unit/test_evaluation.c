@@ -256,6 +256,22 @@ START_TEST(the_checker_sees_a_slackest_pass_that_is_not_best)
 }
 END_TEST
 
+/* Of a straight cord, which turns by nothing: angles are compared with 1, too. */
+START_TEST(the_checker_rounds_the_turning_of_straight_cords)
+{
+  thr_frame f = path_make(4);
+  thr_plan p = evaluated_plan(&f, THR_ENDS_ANY, THR_PULL_BOTH, THR_LAW_CAPSTAN);
+  thr_eval_cord *c = &p.evaluation.cord[0];
+  ck_assert_double_eq(c->turning, 0);
+  c->turning = c->taut_turning = 0.9e-9;
+  ck_assert_int_eq(thr_check_plan(&p, NULL), THR_OK);
+  c->turning = c->taut_turning = 1.1e-9;
+  ck_assert_int_eq(thr_check_plan(&p, NULL), THR_EVIOLATED);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* Pulled at its start only, a cord may do anything behind its slackest pass but be slacker; forces may be small, or none. */
 START_TEST(the_checker_takes_any_tension_behind_the_slackest_pass)
 {
@@ -386,6 +402,7 @@ int main(void)
   ADD_TEST(s, 10, an_unfinished_evaluation_survives_json);
   ADD_LOOP(s, 10, the_checker_sees_every_alteration, 0, (int)(sizeof alterations / sizeof *alterations));
   ADD_TEST(s, 10, the_checker_sees_a_slackest_pass_that_is_not_best);
+  ADD_TEST(s, 10, the_checker_rounds_the_turning_of_straight_cords);
   ADD_TEST(s, 10, the_checker_takes_any_tension_behind_the_slackest_pass);
   ADD_TEST(s, 10, the_checker_takes_measured_tensions_that_rise);
   ADD_TEST(s, 10, nonsense_in_json_is_refused);
