@@ -104,9 +104,9 @@ static int longest_first(const void *pa, const void *pb)
   return a->edge - b->edge;
 }
 
-/* Over the edge and the shortest way back, which is no longer than the edge. Only what could be more than `known` is looked at,
- * and only STEPS edges long: the result is a lower bound. */
-static thr_status closed_detour(ways *w, double known, double *worst, thr_err *err)
+/* Over the edge and the shortest way back, which is no longer than the edge. Only what could raise *worst is looked at, and only
+ * STEPS edges long: the result is a lower bound. */
+static thr_status closed_detour(ways *w, double *worst, thr_err *err)
 {
   enum { STEPS = 1 << 24 };
   const thr_frame *f = w->f;
@@ -115,7 +115,6 @@ static thr_status closed_detour(ways *w, double known, double *worst, thr_err *e
   for (int e = 0; e < f->n_edges; e++)
     by_length[e] = (measured){f->length[e], e};
   qsort(by_length, (size_t)f->n_edges, sizeof *by_length, longest_first);
-  *worst = known;
   for (int i = 0; i < f->n_edges && 2 * by_length[i].length > *worst && w->steps < STEPS; i++) {
     int *end = f->edge[by_length[i].edge];
     reach(w, end[0], 0);
@@ -129,14 +128,15 @@ static thr_status closed_detour(ways *w, double known, double *worst, thr_err *e
   return THR_OK;
 }
 
-static thr_status detour(const thr_frame *f, const thr_plan_options *o, double known, double *worst, thr_err *err)
+/* Raises *worst to the shortest cord over the worst edge. */
+static thr_status detour(const thr_frame *f, const thr_plan_options *o, double *worst, thr_err *err)
 {
   ways w;
   thr_status st = ways_init(&w, f, err);
   if (!st && o->ends == THR_ENDS_CLOSED)
-    st = closed_detour(&w, known, worst, err);
+    st = closed_detour(&w, worst, err);
   else if (!st)
-    *worst = fmax(known, open_detour(&w, o));
+    *worst = fmax(*worst, open_detour(&w, o));
   ways_destroy(&w);
   return st;
 }
@@ -264,7 +264,7 @@ thr_status thr_check_several(const thr_frame *f, const thr_plan_options *o, cons
   free(parts);
   if (st) return st;
   if (!(o->max_length > 0 && o->cords_least < o->cords)) found->fewest = 0;
-  st = detour(f, o, bound, &bound, err);
+  st = detour(f, o, &bound, err);
   if (unit > 0) bound = unit * ceil(bound / unit * (1 - 2e-9));
   if (bound > found->longest && !thr_check_close(bound, found->longest, found->longest))
     return thr_fail(err, THR_EVIOLATED, "proof: the longest cord of any plan would have %.12g or more, but this plan's has %.12g",
