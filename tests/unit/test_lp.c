@@ -452,6 +452,8 @@ START_TEST(equal_rows_are_solved_once)
 }
 END_TEST
 
+enum { MOST_STEPS = 15 }; /* that small programmes like these take: a good start and good corrections take 5 to 10 */
+
 /* Made from a solution: x and reduced costs of which one of each pair is 0. */
 START_TEST(interior_finds_the_optimum_it_was_made_from)
 {
@@ -474,7 +476,8 @@ START_TEST(interior_finds_the_optimum_it_was_made_from)
     wanted += p.cost[j] * x;
   }
   thr_interior found = interior(&p, &no_limit);
-  ck_assert_msg(found.outcome == THR_LP_OPTIMAL, "error %g after %d", found.error, found.iterations);
+  ck_assert_msg(found.outcome == THR_LP_OPTIMAL && found.error < 1e-8, "error %g after %d", found.error, found.iterations);
+  ck_assert_int_le(found.iterations, MOST_STEPS);
   ck_assert_double_eq_tol(assert_optimal(&p), wanted, 1e-6 * (1 + fabs(wanted)));
 }
 END_TEST
@@ -501,7 +504,8 @@ START_TEST(interior_finds_the_shortest_way)
   p.rhs[0] = 1;
   p.rhs[p.m - 1] = -1;
   thr_interior found = interior(&p, &no_limit);
-  ck_assert_msg(found.outcome == THR_LP_OPTIMAL, "error %g after %d", found.error, found.iterations);
+  ck_assert_msg(found.outcome == THR_LP_OPTIMAL && found.error < 1e-8, "error %g after %d", found.error, found.iterations);
+  ck_assert_int_le(found.iterations, MOST_STEPS);
   ck_assert_double_eq_tol(assert_optimal(&p), way[p.m - 1], 1e-6);
 }
 END_TEST
