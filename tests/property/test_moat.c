@@ -4,6 +4,7 @@
 #include "lp/cutbasis.h"
 #include "lp/engine.h"
 #include "lp/moat.h"
+#include "lp/nest.h"
 #include "lp/shrink.h"
 
 #include <math.h>
@@ -562,6 +563,39 @@ START_TEST(every_allocation_of_a_confirmation_fails_once)
 }
 END_TEST
 
+/* Place 0 in a blossom of width 3 in one of width 4, its mate 1 in one of width 6, the mate itself 2 wide. What place 0 lacks
+ * comes from its own blossoms from inside out, then from the mate's from outside in. */
+START_TEST(a_negative_width_is_taken_from_the_moats_between_mates)
+{
+  static const struct {
+    int64_t lacking, width[5]; /* of place 0, 1, blossom 0 round place 0, 1 round 0, 2 round place 1 */
+  } table[] = {{0, {0, 2, 3, 4, 6}}, {2, {0, 2, 1, 4, 6}}, {3, {0, 2, 0, 4, 6}},  {5, {0, 2, 0, 2, 6}},
+               {7, {0, 2, 0, 0, 6}}, {9, {0, 2, 0, 0, 4}}, {14, {0, 1, 0, 0, 0}}, {15, {0, 0, 0, 0, 0}}};
+  int mate[2] = {1, 0}, node_blossom[2] = {0, 2}, parent[3] = {1, -1, -1};
+  int64_t blossom_dual[3] = {3, 4, 6};
+  for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
+    int64_t dual[2] = {-table[k].lacking, 2}, start[2];
+    thr_matching m = {.mate = mate,
+                      .dual = dual,
+                      .n_blossoms = 3,
+                      .blossom_parent = parent,
+                      .node_blossom = node_blossom,
+                      .blossom_dual = blossom_dual};
+    thr_nest nest;
+    bool raised[2];
+    ck_assert_int_eq(thr_nest_init(&nest, 2, &m, raised, NULL), THR_OK);
+    ck_assert(raised[0] == (table[k].lacking > 0) && !raised[1]);
+    for (int s = 0; s < 5; s++)
+      ck_assert_int_eq(nest.width[s], table[k].width[s]);
+    thr_nest_depths(&nest, start);
+    ck_assert_int_eq(start[0], nest.width[0] + nest.width[2] + nest.width[3]);
+    ck_assert_int_eq(start[1], nest.width[1] + nest.width[4]);
+    ck_assert_int_eq(thr_nest_shared_depth(&nest, 0, 1), 0);
+    thr_nest_destroy(&nest);
+  }
+}
+END_TEST
+
 int main(void)
 {
   Suite *s = suite_create("moat");
@@ -576,5 +610,6 @@ int main(void)
   ADD_LOOP(s, 60, glpk_confirms_what_is_optimal_and_nothing_else, 0, 8);
   ADD_LOOP(s, 60, the_programme_on_the_cuts_starts_at_its_optimum, 0, 16);
   ADD_LOOP(s, 60, every_allocation_of_a_confirmation_fails_once, 0, 2 * SHAPES);
+  ADD_TEST(s, 10, a_negative_width_is_taken_from_the_moats_between_mates);
   return run_suite(s);
 }
