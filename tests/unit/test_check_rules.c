@@ -530,6 +530,88 @@ START_TEST(cuts_add_up_over_edges)
 }
 END_TEST
 
+/* Two cords there and back over one edge. At a price of 0.8 of the weight for each of their places a second pass of the edge
+ * pays, so that both of its nodes are even; at none, they are odd, and either may be cut off. */
+START_TEST(prices_change_the_parity_of_both_nodes)
+{
+  static const double length[1] = {1};
+  thr_frame f = chain_make(1, length);
+  thr_cord *cord = calloc(2, sizeof *cord);
+  int n = 0;
+  add_loops(cord, &n, 0, 2);
+  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  o.cords = o.cords_least = 2;
+  for (int v = 0; v < 2; v++)
+    for (int64_t price = 0; price <= 8; price += 8) {
+      thr_cut cut = {-1, 1, &v, 1};
+      thr_certificate c = {.scale = 10, .denominator = 1, .join = 30, .sum = 1, .n_cuts = 1, .cut = &cut};
+      c.n_prices = 1, c.place_price = &price;
+      bool optimal;
+      double bound;
+      thr_err err = {0};
+      thr_status st = thr_check_length_proof(&f, &o, cord, 2, &c, 1, &optimal, &bound, &err);
+      ck_assert_msg(st == (price ? THR_EVIOLATED : THR_OK), "%s", err.text);
+      if (price) assert_one_line(&err, "even number of odd nodes");
+    }
+  thr_cords_destroy(cord, 2);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* Scales and denominators are positive, and weights stay below 1e18. */
+START_TEST(certificates_have_a_scale)
+{
+  static const struct {
+    double scale;
+    int64_t denominator;
+    const char *said;
+  } cases[] = {{1, 1, NULL},       {0, 1, "positive"},  {-1, 1, "positive"},        {NAN, 1, "positive"},
+               {1, 0, "positive"}, {1, -1, "positive"}, {INFINITY, 1, "too large"}, {1e18, 1, "too large"}};
+  static const double length[1] = {1};
+  thr_frame f = chain_make(1, length);
+  thr_cord *cord = calloc(1, sizeof *cord);
+  int n = 0;
+  add_loops(cord, &n, 0, 1);
+  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    thr_certificate c = {.scale = cases[i].scale, .denominator = cases[i].denominator, .join = 1};
+    bool optimal;
+    double bound;
+    thr_err err = {0};
+    thr_status st = thr_check_length_proof(&f, &o, cord, 1, &c, 1, &optimal, &bound, &err);
+    ck_assert_msg(st == (cases[i].said ? THR_EVIOLATED : THR_OK), "%s", err.text);
+    if (st) assert_one_line(&err, cases[i].said);
+  }
+  thr_cords_destroy(cord, 1);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* A certificate is for solid joints, a tree for tubes: a plan has the one or the other. */
+START_TEST(proofs_are_those_of_the_joint)
+{
+  static const double length[1] = {1};
+  thr_frame f = chain_make(1, length);
+  thr_plan p = {0};
+  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  ck_assert_int_eq(thr_plan_request(&p, &f, &o, NULL), THR_OK);
+  p.cord = calloc(1, sizeof *p.cord);
+  add_loops(p.cord, &p.n_cords, 0, 1);
+  ck_assert_int_eq(thr_plan_measure(&f, &o, p.cord, 1, &p.metrics, NULL), THR_OK);
+  thr_cut cut = {-1, 1, (int[]){0}, 1};
+  thr_certificate c = {.scale = 1, .denominator = 1, .join = 1, .sum = 1, .n_cuts = 1, .cut = &cut};
+  p.proof = (thr_length_proof){.present = true, .optimal = true, .lower_bound = 2, .n_certificates = 1, .certificate = &c};
+  thr_err err = {0};
+  ck_assert_msg(thr_check_plan(&p, &err) == THR_OK, "%s", err.text);
+  p.proof.tied.n_nodes = 1;
+  ck_assert_int_eq(thr_check_plan(&p, &err), THR_EVIOLATED);
+  assert_one_line(&err, "has a proof, but the plan's joints are solid");
+  p.proof = (thr_length_proof){0};
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* A ring with an edge so short that it weighs nothing, and a tail, which is passed twice: that is optimal all the same. */
 START_TEST(weightless_edges_passed_once_cost_nothing)
 {
@@ -1181,6 +1263,9 @@ int main(void)
   ADD_TEST(s, 10, ends_pay_for_extra_passes);
   ADD_TEST(s, 10, given_ends_are_those_of_half_as_many_cords);
   ADD_LOOP(s, 10, cuts_add_up_over_edges, 0, 60);
+  ADD_TEST(s, 10, prices_change_the_parity_of_both_nodes);
+  ADD_TEST(s, 10, certificates_have_a_scale);
+  ADD_TEST(s, 10, proofs_are_those_of_the_joint);
   ADD_TEST(s, 10, weightless_edges_passed_once_cost_nothing);
   ADD_TEST(s, 10, cords_are_counted_for_claims);
   ADD_TEST(s, 10, fewer_cords_have_fewer_ends);

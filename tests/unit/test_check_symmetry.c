@@ -453,6 +453,28 @@ START_TEST(an_open_cord_is_no_copy_of_a_closed_one)
 }
 END_TEST
 
+/* Turning the numbers of a path takes one of its edges to where there is none, whichever number that edge has. */
+START_TEST(every_edge_goes_to_an_edge)
+{
+  static const double xyz[3][3] = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  static const int edge[2][2][2] = {{{0, 1}, {1, 2}}, {{1, 2}, {0, 1}}};
+  int turned[2][3] = {{2, 0, 1}, {1, 2, 0}}, same[3] = {0, 1, 2};
+  for (int k = 0; k < 4; k++) {
+    thr_frame f = frame_make(3, xyz, 2, edge[k % 2], NULL, NULL);
+    thr_plan p = {.frame = f, .options = options_for(THR_ENDS_ANY, 1)};
+    for (int v = 0; v < 3; v++)
+      f.foot[v] = false;
+    p.options.symmetry.geometric = -1;
+    p.symmetry = (thr_symmetry_record){
+        .present = true, .order = 3, .n_generators = 1, .generator = turned[k / 2], .n_images = 1, .image = same};
+    thr_err err;
+    ck_assert_int_eq(name_it(&p, "", &err), THR_EVIOLATED);
+    assert_one_line(&err, "which no edge joins");
+    thr_frame_destroy(&f);
+  }
+}
+END_TEST
+
 /* Out from a foot and back to it: it reads the same backward, but does not run round. */
 START_TEST(a_cord_there_and_back_is_learned_once)
 {
@@ -480,6 +502,7 @@ int main(void)
   ADD_TEST(s, 30, rings_turn_in_as_many_ways_as_they_have_nodes);
   ADD_TEST(s, 10, cords_are_permuted);
   ADD_TEST(s, 10, copies_are_of_unique_paths);
+  ADD_TEST(s, 10, every_edge_goes_to_an_edge);
   ADD_TEST(s, 10, an_open_cord_is_no_copy_of_a_closed_one);
   ADD_TEST(s, 10, a_cord_there_and_back_is_learned_once);
   return run_suite(s);

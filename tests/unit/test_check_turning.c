@@ -606,6 +606,21 @@ START_TEST(an_optimal_claim_states_its_price)
 }
 END_TEST
 
+/* Nothing turns, and nothing is left to prove. */
+START_TEST(a_price_of_nothing_has_no_gap)
+{
+  thr_plan p = plan_begin(path_make(3), THR_ENDS_ANY, 1, THR_TURN_ANGLE);
+  add_cord(&p, (int[]){0, 1, 2, -1});
+  state(&p);
+  ck_assert_double_eq(p.turning.price, 0);
+  p.turning.gap = 0;
+  assert_holds(&p);
+  p.turning.gap = 1;
+  assert_violated(&p, "gap");
+  thr_plan_destroy(&p);
+}
+END_TEST
+
 /* The limit must let in what the options allow, by the length that is proved. */
 START_TEST(limits_let_in_what_the_options_allow)
 {
@@ -652,6 +667,7 @@ int main(void)
   ADD_TEST(s, 10, steps_have_one_definition);
   ADD_TEST(s, 10, every_number_of_a_claim_counts);
   ADD_TEST(s, 10, an_optimal_claim_states_its_price);
+  ADD_TEST(s, 10, a_price_of_nothing_has_no_gap);
   ADD_TEST(s, 10, limits_let_in_what_the_options_allow);
   return run_suite(s);
 }
