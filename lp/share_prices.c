@@ -322,7 +322,7 @@ static thr_status search(pricing *p, thr_err *err)
   const double need = 2.0 * p->s->o->cords_least;
   int64_t low = 0, high, top = highest_price(p, &high);
   bool stopped = false;
-  line few, many, l;
+  line few = {0}, many = {0}, l;
   thr_status st = try_prices(p, &low, 1, &few.weight, &few.places, &stopped, err);
   if (!st) st = try_prices(p, &high, 1, &many.weight, &many.places, &stopped, err);
   while (!st && !stopped && many.places < need && high < top) {
