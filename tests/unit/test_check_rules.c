@@ -219,6 +219,27 @@ START_TEST(optimal_is_within_a_billionth)
 }
 END_TEST
 
+/* A ring and a tail of 1e9 in all. The tail weighs 4 of 5, which leaves a gap of a billionth exactly. */
+START_TEST(a_gap_of_a_billionth_is_allowed)
+{
+  static const double xyz[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}};
+  static const double length[4] = {333333330, 333333332, 333333333, 5};
+  static const int edge[4][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}}, passes[4] = {1, 1, 1, 2};
+  thr_frame f = frame_make(4, xyz, 4, edge, length, NULL);
+  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  for (int k = 0; k < 2; k++) {
+    thr_cut cut = {-1, 1, (int[]){3}, 2};
+    const thr_certificate c = {.scale = 0.5, .denominator = 1, .join = 2, .sum = 2, .n_cuts = 1, .cut = &cut};
+    bool optimal;
+    double bound;
+    f.length[0] -= k;
+    ck_assert_int_eq(thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, NULL), THR_OK);
+    ck_assert_int_eq(optimal, k == 0);
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* ---- prices ---- */
 
 /* Price of the places that n passes of an edge are: one for each pass; closed, two for each pair, and of the other passes as many
@@ -530,6 +551,100 @@ START_TEST(cuts_add_up_over_edges)
 }
 END_TEST
 
+/* Where a place costs 13 and a pass 10, as many passes of edge 0 as fit are cheapest: two more or three. One less costs 3 more,
+ * and so much may cuts over the edge add up to: round node 0, if two more leave it odd; round node 1, if three make it odd. */
+START_TEST(cuts_add_up_at_prices)
+{
+  static const double length[2] = {1, 1};
+  for (int room = 2; room <= 3; room++)
+    for (int64_t value = 2; value <= 4; value++) {
+      thr_frame f = chain_make(room - 1, length);
+      int node = 1, passes[2] = {2, 2};
+      int64_t price = 13;
+      thr_cut cut = {-1, 1, &node, value};
+      thr_certificate c = {.scale = 10, .denominator = 1, .sum = value, .n_cuts = 1, .cut = &cut};
+      thr_plan_options o = options_for(THR_ENDS_FEET, 1);
+      bool optimal;
+      double bound;
+      thr_err err = {0};
+      f.foot[0] = true;
+      o.capacity = 1 + room;
+      c.join = 10 * (room - 1), c.n_prices = 1, c.place_price = &price;
+      thr_status st = thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, &err);
+      ck_assert_msg(st == (value > 3 ? THR_EVIOLATED : THR_OK), "%s", err.text);
+      if (st) assert_one_line(&err, "the cuts over edge 0 add up");
+      /* 2 places, what the passes of edge 0 cost less their places, and the cut */
+      double extra = (2 * 13 + (room * (10 - 13) - 13) + (double)value) / 10;
+      if (!st) ck_assert_double_eq_tol(bound, room - 1 + extra, 1e-12);
+      if (!st) ck_assert_int_eq(optimal, room == 2 && value == 3);
+      thr_frame_destroy(&f);
+    }
+}
+END_TEST
+
+/* The nodes of a cut ascend, from the first two on. */
+START_TEST(nodes_of_cuts_ascend)
+{
+  static const double length[2] = {1, 1};
+  static const struct {
+    int n, node[3];
+    const char *said;
+  } cases[] = {{1, {0}, NULL},
+               {2, {0, 1}, NULL},
+               {2, {1, 0}, "ascending at 0"},
+               {3, {0, 1, 1}, "ascending at 1"},
+               {3, {0, 2, 1}, "ascending at 1"}};
+  thr_frame f = chain_make(2, length);
+  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    int node[3], passes[2] = {2, 2};
+    memcpy(node, cases[i].node, sizeof node);
+    thr_cut cut = {-1, cases[i].n, node, 0};
+    const thr_certificate c = {.scale = 1, .denominator = 1, .join = 2, .n_cuts = 1, .cut = &cut};
+    bool optimal;
+    double bound;
+    thr_err err = {0};
+    thr_status st = thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, &err);
+    ck_assert_msg(st == (cases[i].said ? THR_EVIOLATED : THR_OK), "%s", err.text);
+    if (st) assert_one_line(&err, cases[i].said);
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* Three edges by themselves: in none of them may a cut round an end have more than the price of an end. */
+START_TEST(end_prices_hold_in_every_component)
+{
+  double xyz[6][3] = {{0}};
+  static const int edge[3][2] = {{0, 1}, {2, 3}, {4, 5}}, passes[3] = {1, 1, 1};
+  for (int v = 0; v < 6; v++)
+    xyz[v][0] = v % 2, xyz[v][1] = v / 2;
+  thr_frame f = frame_make(6, (const double(*)[3])xyz, 3, edge, NULL, NULL);
+  thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+  for (int dear = -1; dear < 6; dear++) {
+    thr_cut cut[3];
+    thr_certificate c[3];
+    int node[3];
+    bool optimal;
+    double bound;
+    thr_err err = {0};
+    for (int i = 0; i < 3; i++) {
+      bool here = dear >= 0 && dear / 2 == i;
+      node[i] = here ? dear : 2 * i;
+      cut[i] = (thr_cut){-1, 1, &node[i], here ? 2 : 1};
+      c[i] = (thr_certificate){
+          .component = i, .scale = 10, .denominator = 1, .sum = cut[i].value, .end_price = 1, .n_cuts = 1, .cut = &cut[i]};
+    }
+    thr_status st = thr_check_length_of_passes(&f, &o, passes, c, 3, &optimal, &bound, &err);
+    ck_assert_msg(st == (dear < 0 ? THR_OK : THR_EVIOLATED), "%s", err.text);
+    char said[64];
+    snprintf(said, sizeof said, "the cuts round node %d add up", dear);
+    if (st) assert_one_line(&err, said);
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* Two cords there and back over one edge. At a price of 0.8 of the weight for each of their places a second pass of the edge
  * pays, so that both of its nodes are even; at none, they are odd, and either may be cut off. */
 START_TEST(prices_change_the_parity_of_both_nodes)
@@ -574,13 +689,16 @@ START_TEST(certificates_have_a_scale)
   add_loops(cord, &n, 0, 1);
   thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-    thr_certificate c = {.scale = cases[i].scale, .denominator = cases[i].denominator, .join = 1};
-    bool optimal;
-    double bound;
-    thr_err err = {0};
-    thr_status st = thr_check_length_proof(&f, &o, cord, 1, &c, 1, &optimal, &bound, &err);
-    ck_assert_msg(st == (cases[i].said ? THR_EVIOLATED : THR_OK), "%s", err.text);
-    if (st) assert_one_line(&err, cases[i].said);
+    int64_t price = 0;
+    thr_certificate c = {.scale = cases[i].scale, .denominator = cases[i].denominator, .join = 1, .place_price = &price};
+    for (c.n_prices = 0; c.n_prices < 2; c.n_prices++) {
+      bool optimal;
+      double bound;
+      thr_err err = {0};
+      thr_status st = thr_check_length_proof(&f, &o, cord, 1, &c, 1, &optimal, &bound, &err);
+      ck_assert_msg(st == (cases[i].said ? THR_EVIOLATED : THR_OK), "%s", err.text);
+      if (st) assert_one_line(&err, cases[i].said);
+    }
   }
   thr_cords_destroy(cord, 1);
   thr_frame_destroy(&f);
@@ -718,6 +836,39 @@ START_TEST(weak_proofs_bound_the_longest)
 }
 END_TEST
 
+/* No proof that holds proves more than a plan has. Of verdicts that are said to, and of more cord than the options allow, the
+ * checker tells: one cord there and back on a chain, which needs half of it. */
+START_TEST(bounds_beyond_the_plan_are_refused)
+{
+  static const double length[2] = {1, 1.4142135623730951}, all = 2.4142135623730951;
+  static const struct {
+    double part, most;
+    const char *said;
+  } cases[] = {{2 + 0.9e-9, 0, NULL},
+               {2 + 2.2e-9, 0, "the longest cord of any plan would have"},
+               {3, 0, "the longest cord of any plan would have 7.24264068712 or more, but this plan's has 4.82842712475"},
+               {1, 2, "any plan would have 2 cords or more, but this one has 1"},
+               {1, 3, NULL}};
+  thr_frame f = chain_make(2, length);
+  int half[4] = {0, 2, 3, 1}, component[3] = {0}, passes[2] = {2, 2};
+  const thr_cord cord = {.id = "A", .closed = true, .n_passes = 4, .half = half};
+  const thr_check_walked w = {1, component, passes};
+  const thr_certificate c = {.scale = 1, .denominator = 1};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+    const thr_check_verdict verdict = {.extra = (cases[i].part - 1) * all};
+    thr_cords_claim found;
+    thr_err err = {0};
+    o.max_length = cases[i].most;
+    o.cords = cases[i].most > 0 ? 3 : 1, o.cords_least = 1;
+    thr_status st = thr_check_several(&f, &o, &w, &cord, 1, &c, &verdict, NULL, &found, &err);
+    ck_assert_msg(st == (cases[i].said ? THR_EVIOLATED : THR_OK), "case %zu: %s", i, err.text);
+    if (st) assert_one_line(&err, cases[i].said);
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* Of a symmetric plan the component with most cords has as many as asked for, whichever it is. */
 START_TEST(symmetric_cords_are_counted_where_most_are)
 {
@@ -785,6 +936,34 @@ START_TEST(failures_are_not_forgotten)
       ck_assert_int_eq(thr_check_length_of_passes(&f, &o, passes, proof, 1, &optimal, &bound, NULL), expected);
   }
   thr_cords_destroy(cord, 2);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* Both ends of a cord are where ends may be; and a greatest length below 1 is one, too. */
+START_TEST(cords_end_where_they_may_and_are_no_longer)
+{
+  static const double length[2] = {0.25, 0.5};
+  thr_frame f = chain_make(2, length);
+  int half[2][2] = {{0, 2}, {3, 1}};
+  for (int foot = -1; foot < 3; foot += 2)
+    for (int back = 0; back < 2; back++) {
+      const thr_cord cord = {.id = "A", .n_passes = 2, .half = half[back]};
+      thr_plan_options o = options_for(foot < 0 ? THR_ENDS_ANY : THR_ENDS_FEET, 1);
+      thr_cords_claim found;
+      thr_err err = {0};
+      for (int v = 0; v < 3; v++)
+        f.foot[v] = v == foot + 1; /* node 2 */
+      o.max_length = foot < 0 ? 0.7 : 0.75;
+      ck_assert_int_eq(thr_check_cords(&f, &o, &cord, 1, NULL, 0, &found, &err), THR_EVIOLATED);
+      assert_one_line(&err, foot < 0 ? "0.75 long; the plan's options allow 0.7" : back ? "ends at node 0" : "starts at node 0");
+    }
+  const thr_cord cord = {.id = "A", .n_passes = 2, .half = half[0]};
+  thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+  thr_cords_claim found;
+  o.max_length = 0.75;
+  ck_assert_int_eq(thr_check_cords(&f, &o, &cord, 1, NULL, 0, &found, NULL), THR_OK);
+  ck_assert_double_eq_tol(found.longest_bound, 0.75, 1e-9);
   thr_frame_destroy(&f);
 }
 END_TEST
@@ -1071,6 +1250,9 @@ START_TEST(the_fewest_cords_of_tube_joints)
   o.max_length = 2.0018; /* (K + 3) of about 1 in K cords of that */
   ck_assert_int_eq(thr_check_tied_cords(&f, &o, cord, 3, &proof, &found, &err), THR_OK);
   ck_assert_int_eq(found.fewest, 3);
+  o.cords = 2;
+  ck_assert_int_eq(thr_check_tied_cords(&f, &o, cord, 3, &proof, &found, &err), THR_EVIOLATED);
+  assert_one_line(&err, "has 3 cords; the plan's options say 1 to 2");
   thr_frame_destroy(&f);
 }
 END_TEST
@@ -1248,6 +1430,7 @@ int main(void)
   ADD_TEST(s, 10, one_cord_is_charged_for_one_pass);
   ADD_TEST(s, 10, rounding_of_what_is_passed_once_costs_little);
   ADD_TEST(s, 10, optimal_is_within_a_billionth);
+  ADD_TEST(s, 10, a_gap_of_a_billionth_is_allowed);
   ADD_LOOP(s, 10, edges_at_their_price, 0, 10);
   ADD_LOOP(s, 10, nodes_are_tied_by_turns, 0, 60);
   ADD_TEST(s, 10, prices_of_tied_length_are_moderate);
@@ -1263,6 +1446,9 @@ int main(void)
   ADD_TEST(s, 10, ends_pay_for_extra_passes);
   ADD_TEST(s, 10, given_ends_are_those_of_half_as_many_cords);
   ADD_LOOP(s, 10, cuts_add_up_over_edges, 0, 60);
+  ADD_TEST(s, 10, cuts_add_up_at_prices);
+  ADD_TEST(s, 10, nodes_of_cuts_ascend);
+  ADD_TEST(s, 10, end_prices_hold_in_every_component);
   ADD_TEST(s, 10, prices_change_the_parity_of_both_nodes);
   ADD_TEST(s, 10, certificates_have_a_scale);
   ADD_TEST(s, 10, proofs_are_those_of_the_joint);
@@ -1270,8 +1456,10 @@ int main(void)
   ADD_TEST(s, 10, cords_are_counted_for_claims);
   ADD_TEST(s, 10, fewer_cords_have_fewer_ends);
   ADD_TEST(s, 10, weak_proofs_bound_the_longest);
+  ADD_TEST(s, 10, bounds_beyond_the_plan_are_refused);
   ADD_TEST(s, 10, symmetric_cords_are_counted_where_most_are);
   ADD_TEST(s, 10, failures_are_not_forgotten);
+  ADD_TEST(s, 10, cords_end_where_they_may_and_are_no_longer);
   ADD_TEST(s, 10, passes_leave_ends_for_the_cords);
   ADD_TEST(s, 10, tube_joints_are_tied);
   ADD_TEST(s, 10, no_cord_of_tube_joints_turns_back_where_it_closes);

@@ -316,6 +316,86 @@ START_TEST(the_checker_takes_any_tension_behind_the_slackest_pass)
 }
 END_TEST
 
+/* Pulled at its end only, the same before the slackest pass; and behind it the tension rises. */
+START_TEST(the_checker_takes_any_tension_before_the_slackest_pass)
+{
+  thr_frame f = solid_make(OCTAHEDRON);
+  thr_plan p = evaluated_plan(&f, THR_ENDS_CLOSED, THR_PULL_END, THR_LAW_CAPSTAN);
+  thr_eval_cord *c = &p.evaluation.cord[0];
+  const int n = c->n_passes;
+  thr_err err = {0};
+  p.evaluation.method = THR_JOINT;
+  c->slackest = 2;
+  c->tension[0] = 1.2 * c->tension[2], c->tension[1] = 1.5 * c->tension[2];
+  c->loss = 1 - c->tension[2] / c->force;
+  c->taut_turning = 0;
+  ck_assert_msg(thr_check_plan(&p, &err) == THR_OK, "%s", err.text);
+  double kept = c->tension[n - 2];
+  c->tension[n - 2] = 1.01 * c->tension[n - 1];
+  ck_assert_int_eq(thr_check_plan(&p, &err), THR_EVIOLATED);
+  assert_one_line(&err, "falls");
+  c->tension[n - 2] = kept;
+  kept = c->tension[0];
+  c->tension[0] = 0.99 * c->tension[2];
+  err = (thr_err){0};
+  ck_assert_int_eq(thr_check_plan(&p, &err), THR_EVIOLATED);
+  assert_one_line(&err, "pass 1 is slacker than pass 3");
+  c->tension[0] = kept;
+  c->pull = THR_PULL_BOTH;
+  c->other_force = kept;
+  c->work += kept;
+  thr_evaluation_sum(&p.evaluation);
+  err = (thr_err){0};
+  ck_assert_int_eq(thr_check_plan(&p, &err), THR_EVIOLATED);
+  assert_one_line(&err, "falls between pass 1 and 2");
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* A cord that turns by 0.5 + d, 0.3 and 0.5: pass 2 needs least, pass 3 as much and the friction of d. Both that and the tension
+ * of a pass, as a logarithm, may differ by 1e-9 of 1 and what is lost on the whole way; the loss by 1e-9. */
+START_TEST(the_checker_rounds_what_the_law_gives)
+{
+  const double mu = 0.2, lost = mu * 1.3, tolerance = 1e-9 * (1 + lost), part = _i ? 1.1 : 0.9;
+  const double turn[3] = {0.5 + part * tolerance / mu, 0.3, 0.5};
+  double xyz[5][3] = {{0}}, direction = 0;
+  const int edge[4][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 4}};
+  for (int k = 0; k < 4; k++) {
+    xyz[k + 1][0] = xyz[k][0] + cos(direction), xyz[k + 1][1] = xyz[k][1] + sin(direction);
+    if (k < 3) direction += turn[k];
+  }
+  thr_frame f = frame_make(5, (const double(*)[3])xyz, 4, edge, NULL, NULL);
+  thr_plan p = evaluated_plan(&f, THR_ENDS_ANY, THR_PULL_BOTH, THR_LAW_CAPSTAN);
+  thr_eval_cord *c = &p.evaluation.cord[0];
+  ck_assert_int_eq(p.cord[0].half[0], 0);
+  ck_assert_int_eq(c->slackest, 1);
+  c->slackest = 2;
+  const double from[4] = {turn[0] + turn[1], turn[1], 0, turn[2]};
+  for (int k = 0; k < 4; k++)
+    c->tension[k] = 2.5 * exp(mu * from[k]);
+  c->force = c->tension[0], c->other_force = c->tension[3];
+  c->work = c->force + c->other_force;
+  c->loss = 1 - 2.5 / c->force;
+  thr_evaluation_sum(&p.evaluation);
+  thr_err err = {0};
+  ck_assert_msg(thr_check_plan(&p, &err) == (_i ? THR_EVIOLATED : THR_OK), "%s", err.text);
+  if (_i) assert_one_line(&err, "not where its tension is least");
+  if (_i == 0)
+    for (int k = 0; k < 2; k++) {
+      double kept = c->loss;
+      c->tension[1] = 2.5 * exp(mu * from[1] + (k ? 1.1 : 0.9) * tolerance);
+      ck_assert_int_eq(thr_check_plan(&p, NULL), k ? THR_EVIOLATED : THR_OK);
+      c->tension[1] = 2.5 * exp(mu * from[1]);
+      c->loss += (k ? 1.1 : 0.9) * 1e-9;
+      ck_assert_int_eq(thr_check_plan(&p, NULL), k ? THR_EVIOLATED : THR_OK);
+      c->loss = kept;
+    }
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* Methods that measure may differ from the law, but not fall towards a pulled end. */
 START_TEST(the_checker_takes_measured_tensions_that_rise)
 {
@@ -404,6 +484,8 @@ int main(void)
   ADD_TEST(s, 10, the_checker_sees_a_slackest_pass_that_is_not_best);
   ADD_TEST(s, 10, the_checker_rounds_the_turning_of_straight_cords);
   ADD_TEST(s, 10, the_checker_takes_any_tension_behind_the_slackest_pass);
+  ADD_TEST(s, 10, the_checker_takes_any_tension_before_the_slackest_pass);
+  ADD_LOOP(s, 10, the_checker_rounds_what_the_law_gives, 0, 2);
   ADD_TEST(s, 10, the_checker_takes_measured_tensions_that_rise);
   ADD_TEST(s, 10, nonsense_in_json_is_refused);
   return run_suite(s);
