@@ -679,6 +679,13 @@ START_TEST(partitions_that_prove_nothing)
     assert_small(&s, partition[i].value < 0 ? "negative" : "closed cords only");
     s.task.end_allowed = NULL;
   }
+  thr_turning_columns c; /* 5 blocks of one component and 3 of the other: 4 + 2 connections, whatever the room held before */
+  ck_assert_int_eq(thr_turning_columns_init(&c, &s.frame, &s.task, NULL), THR_OK);
+  int scratch[10];
+  for (int i = 0; i < 10; i++)
+    scratch[i] = 1000;
+  ck_assert_int_eq(thr_turning_connections(&c, (int[]){0, 1, 2, 3, 4, 5, 6, 7}, scratch), 6);
+  thr_turning_columns_destroy(&c);
   thr_frame_destroy(&s.frame);
 }
 END_TEST
@@ -703,6 +710,8 @@ START_TEST(junctions_that_prove_nothing)
       {0, {0, 2, 2}, 1, "bad block numbers"},
       {0, {0, 0, 2}, 1, "bad block numbers"},
       {1, {0, 2, 0}, 1, "bad block numbers"},
+      {0, {-1, 0, 1}, 1, "bad block numbers"},
+      {0, {3, 0, 1}, 1, "bad block numbers"},
   };
   small s;
   small_make(&s);

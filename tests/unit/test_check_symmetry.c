@@ -218,6 +218,51 @@ START_TEST(rings_turn_in_as_many_ways_as_they_have_nodes)
 }
 END_TEST
 
+/* At most 1024 elements. */
+START_TEST(groups_have_1024_elements_at_most)
+{
+  for (int n = 1024; n <= 1025; n++) {
+    thr_frame f = ring_make(n);
+    thr_plan p = {.frame = f, .options = options_for(THR_ENDS_CLOSED, 1)};
+    int *next = calloc((size_t)n, sizeof *next), *same = calloc((size_t)n, sizeof *same);
+    ck_assert(next && same);
+    for (int v = 0; v < n; v++) {
+      f.foot[v] = false;
+      next[v] = (v + 1) % n;
+      same[v] = v;
+    }
+    p.options.symmetry.geometric = 0; /* but for rounding */
+    p.symmetry =
+        (thr_symmetry_record){.present = true, .order = n, .n_generators = 1, .generator = next, .n_images = 1, .image = same};
+    thr_err err;
+    ck_assert_msg(name_it(&p, "", &err) == (n > 1024 ? THR_EVIOLATED : THR_OK), "%d: %s", n, err.text);
+    if (n > 1024) assert_one_line(&err, "expected 1 to 1024");
+    free(next);
+    free(same);
+    thr_frame_destroy(&f);
+  }
+}
+END_TEST
+
+/* The spokes of a star are permuted in 6! ways, whose images of the hub are the same. */
+START_TEST(spokes_are_permuted_in_all_ways)
+{
+  thr_frame f = star_make(6);
+  for (int v = 0; v < 7; v++)
+    f.foot[v] = false;
+  int generator[14] = {0, 2, 1, 3, 4, 5, 6, 0, 2, 3, 4, 5, 6, 1}, same[7] = {0, 1, 2, 3, 4, 5, 6};
+  thr_plan p = {.frame = f, .options = options_for(THR_ENDS_CLOSED, 1)};
+  p.options.symmetry.geometric = -1;
+  for (int order = 719; order <= 721; order++) {
+    thr_err err;
+    p.symmetry = (thr_symmetry_record){
+        .present = true, .order = order, .n_generators = 2, .generator = generator, .n_images = 1, .image = same};
+    ck_assert_int_eq(name_it(&p, "", &err), order == 720 ? THR_OK : THR_EVIOLATED);
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* The first node moved by so much of the framework's size: a name holds up to 5 %, a tolerance of one's own up to that. */
 START_TEST(names_are_those_of_isometries)
 {
@@ -353,6 +398,81 @@ START_TEST(copies_may_start_anywhere_and_run_backward)
   free(cord[1].half);
   thr_frame_destroy(&one);
   thr_frame_destroy(&two);
+}
+END_TEST
+
+/* Walks that read backward as they do forward at some places, or repeat all but a node. */
+START_TEST(walks_are_learned_whole)
+{
+  static const int walk[][12] = {{0, 1, 2, 0, 3},
+                                 {0, 1, 3, 0, 2, 1},
+                                 {0, 1, 0, 2, 3, 2, 1, 0, 2, 3},
+                                 {0, 1, 0, 2, 0, 3, 2, 1, 0, 2, 0, 3},
+                                 {0, 1, 2, 3, 0, 1, 2, 3},
+                                 {0, 1, 2, 1}},
+                   length[] = {5, 6, 10, 12, 8, 4};
+  thr_frame f = solid_make(TETRAHEDRON);
+  int same[CORNERS] = {0, 1, 2, 3}, zero = 0;
+  for (size_t k = 0; k < sizeof length / sizeof *length; k++)
+    for (int start = 0; start < 2 * length[k]; start++) {
+      int n = length[k], readings = count_readings(walk[k], n);
+      thr_cord cord = cord_of(&f, 0, walk[k], n, 0, start / 2, start % 2);
+      thr_plan p = {.frame = f, .options = options_for(THR_ENDS_CLOSED, 1), .n_cords = 1, .cord = &cord};
+      p.options.objective = THR_SYMMETRY;
+      p.options.symmetry.geometric = -1;
+      p.symmetry = (thr_symmetry_record){true, 1, "", 0, same, 1, same, &zero, &zero, (double)n / readings, 1};
+      thr_err err = {0};
+      ck_assert_msg(thr_check_symmetry(&p, &err) == THR_OK, "walk %zu: %s", k, err.text);
+      free(cord.half);
+    }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* One spoke, and that spoke and another: the longer one is no copy of the shorter, nor the other way round. */
+START_TEST(copies_are_as_long)
+{
+  thr_frame f = path_make(3);
+  int half[2] = {0, 2}, same[3] = {0, 1, 2}, unique[2] = {0, 0}, which[2] = {0, 0};
+  for (int k = 0; k < 2; k++) {
+    thr_cord cord[2] = {{.id = "A", .n_passes = 1 + k, .half = half}, {.id = "B", .n_passes = 2 - k, .half = half}};
+    thr_plan p = {.frame = f, .options = options_for(THR_ENDS_ANY, 1), .n_cords = 2, .cord = cord};
+    p.options.objective = THR_SYMMETRY;
+    p.options.symmetry.geometric = -1;
+    p.symmetry = (thr_symmetry_record){true, 1, "", 0, same, 1, same, unique, which, 1 + k, 1};
+    thr_err err = {0};
+    ck_assert_int_eq(thr_check_symmetry(&p, &err), THR_EVIOLATED);
+    assert_one_line(&err, "cord B is not image 0 of cord A");
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* A cord round a triangle is its own image in every turn, but is said to be image 0. Without the cord the group is still judged.
+ */
+START_TEST(a_unique_path_is_its_own_image_0)
+{
+  thr_frame f = ring_make(3);
+  f.foot[0] = false;
+  int walk[3] = {0, 1, 2}, next[3] = {1, 2, 0}, image[6] = {0, 1, 2, 1, 2, 0}, zero = 0;
+  thr_cord cord = cord_of(&f, 0, walk, 3, 0, 0, false);
+  for (int which = 0; which < 2; which++) {
+    thr_plan p = {.frame = f, .options = options_for(THR_ENDS_CLOSED, 1), .n_cords = 1, .cord = &cord};
+    p.options.objective = THR_SYMMETRY;
+    p.options.symmetry.geometric = -1;
+    p.symmetry = (thr_symmetry_record){true, 3, "", 1, next, 2, image, &zero, &which, 1, 1};
+    thr_err err = {0};
+    ck_assert_msg(thr_check_symmetry(&p, &err) == (which ? THR_EVIOLATED : THR_OK), "%s", err.text);
+    if (which) assert_one_line(&err, "its own image 0");
+    p.n_cords = p.symmetry.unique_paths = 0;
+    p.symmetry.steps = 0;
+    p.symmetry.order = 2;
+    err = (thr_err){0};
+    ck_assert_int_eq(thr_check_symmetry(&p, &err), THR_EVIOLATED);
+    assert_one_line(&err, "symmetry.order");
+  }
+  free(cord.half);
+  thr_frame_destroy(&f);
 }
 END_TEST
 
@@ -500,6 +620,11 @@ int main(void)
   ADD_TEST(s, 30, names_are_those_of_isometries);
   ADD_LOOP(s, 10, copies_may_start_anywhere_and_run_backward, 0, 150);
   ADD_TEST(s, 30, rings_turn_in_as_many_ways_as_they_have_nodes);
+  ADD_TEST(s, 30, groups_have_1024_elements_at_most);
+  ADD_TEST(s, 10, spokes_are_permuted_in_all_ways);
+  ADD_TEST(s, 10, walks_are_learned_whole);
+  ADD_TEST(s, 10, copies_are_as_long);
+  ADD_TEST(s, 10, a_unique_path_is_its_own_image_0);
   ADD_TEST(s, 10, cords_are_permuted);
   ADD_TEST(s, 10, copies_are_of_unique_paths);
   ADD_TEST(s, 10, every_edge_goes_to_an_edge);

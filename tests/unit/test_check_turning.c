@@ -3,6 +3,7 @@
 #include "graph/check_parts.h"
 #include "tests/support.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -333,6 +334,40 @@ START_TEST(nothing_turns_where_cords_end)
 }
 END_TEST
 
+/* No cords turn nothing, which is proved without any rounding. */
+START_TEST(no_cords_turn_nothing)
+{
+  thr_plan p = plan_begin(path_make(3), THR_ENDS_ANY, 1, THR_TURN_ANGLE);
+  thr_turning_claim found = found_of(&p);
+  ck_assert_double_eq(found.price, 0);
+  ck_assert_double_eq(found.pairing_bound, 0);
+  ck_assert_double_eq(found.lower_bound, 0);
+  ck_assert(found.optimal && found.largest_optimal);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+/* To and fro over one edge: a table holds up to 2^16 - 1 passes; of more, nothing is said of a node with one edge. */
+START_TEST(many_passes_turn_back)
+{
+  static const int passes[] = {65534, 65536};
+  for (int k = 0; k < 2; k++) {
+    thr_plan p = plan_begin(path_make(2), THR_ENDS_CLOSED, 1, THR_TURN_ANGLE);
+    add_cord(&p, (int[]){0, 1, 0, -1});
+    free(p.cord->half);
+    p.cord->half = calloc((size_t)passes[k], sizeof(int));
+    ck_assert_ptr_nonnull(p.cord->half);
+    p.cord->n_passes = p.turning.most_passes = passes[k];
+    for (int i = 0; i < passes[k]; i++)
+      p.cord->half[i] = i % 2;
+    thr_turning_claim found = found_of(&p);
+    ck_assert_double_eq_tol(found.price, passes[k] * PI, 1e-6);
+    ck_assert_double_eq_tol(found.pairing_bound, k ? 0 : passes[k] * PI, 1e-6);
+    thr_plan_destroy(&p);
+  }
+}
+END_TEST
+
 /* ---- what the tree proves ---- */
 
 /* A bend by so much must be turned: its half-edges' potentials, half of the price each, prove that. */
@@ -412,32 +447,141 @@ START_TEST(no_tree_proves_more_than_the_plan_turns)
 }
 END_TEST
 
-/* Two cords from tip to tip of a bend: of each edge two passes, though one is needed. The ends at the tips, paid by half a turn
- * each, prove both turns; a bound within 2e-9 of a U-turn for each of the four passes is optimal, and more passes of an edge than
- * twice those that it needs do not widen that. */
+/* Cords from tip to tip of a bend. The ends at the tips, paid by half a turn each, prove all turns; a bound within 2e-9 of a
+ * U-turn for each pass is optimal, and more passes of an edge than twice those that it needs do not widen that. */
 START_TEST(rounding_is_that_of_twice_the_passes_needed)
 {
-  static const double off[] = {0, 2.4e-8, 2.6e-8};
-  for (int cords = 2; cords <= 4; cords++)
-    for (int i = 0; i < 3; i++) {
-      int ends[3] = {0, cords, cords};
-      thr_plan p = bend_make(1, THR_TURN_ANGLE, 0);
-      int *kept = p.options.end_count;
-      int64_t half = (int64_t)floor(ldexp((1 - off[i] / cords) / 2, THR_TURNING_BITS)),
-              *potential = p.turning.tree.dual->potential;
-      p.options.end_count = ends;
-      p.options.cords = p.options.cords_least = cords;
-      for (int k = 1; k < cords; k++)
-        add_cord(&p, (int[]){1, 0, 2, -1});
-      potential[0] = potential[2] = half, potential[1] = potential[3] = -half;
-      p.turning.tree.dual->ends[1] = p.turning.tree.dual->ends[2] = half;
+  static const double part[] = {0, 0.96, 1.04};
+  for (int i = 0; i < 3; i++)
+    for (int cover = 1; cover <= 2; cover++)
+      for (int cords = 2; cords <= 4; cords++) {
+        int ends[3] = {0, cords, cords}, counted = cords < 2 * cover ? cords : 2 * cover;
+        thr_plan p = bend_make(1, THR_TURN_ANGLE, 0);
+        int *kept = p.options.end_count;
+        double off = part[i] * 2 * counted * 2e-9 * PI;
+        int64_t half = (int64_t)floor(ldexp((1 - off / cords) / 2, THR_TURNING_BITS)),
+                *potential = p.turning.tree.dual->potential;
+        p.options.end_count = ends;
+        p.options.cords = p.options.cords_least = cords;
+        p.options.cover = cover;
+        p.turning.most_passes = 4 * cover + 4;
+        for (int k = 1; k < cords; k++)
+          add_cord(&p, (int[]){1, 0, 2, -1});
+        potential[0] = potential[2] = half, potential[1] = potential[3] = -half;
+        p.turning.tree.dual->ends[1] = p.turning.tree.dual->ends[2] = half;
+        thr_turning_claim found = found_of(&p);
+        ck_assert_double_eq_tol(found.price, cords, 1e-12);
+        ck_assert_int_eq(found.optimal, i < 2);
+        ck_assert_double_eq_tol(found.lower_bound, i < 2 ? cords : cords - off, 1e-11);
+        p.options.end_count = kept;
+        thr_plan_destroy(&p);
+      }
+}
+END_TEST
+
+/* ---- limits on the length ---- */
+
+static void scale(thr_frame *f, double by)
+{
+  for (int v = 0; v < f->n_nodes; v++)
+    for (int i = 0; i < 3; i++)
+      f->xyz[v][i] *= by;
+  for (int e = 0; e < f->n_edges; e++)
+    f->length[e] *= by;
+}
+
+/* Three spokes that all but coincide, and one opposite to them: unless that one is passed three times, two of the three turn into
+ * each other, which is a step. Half a step for each of the three, less half of one for the fourth, prove it, if the length takes
+ * back what extra passes of the fourth save: 1 - (limit - 4) / 2. Without a limit they prove nothing. */
+START_TEST(limits_on_the_length_prove_turns)
+{
+  static const double angle[4] = {-0.1, 0, 0.1, PI}, size[] = {1 / 16.0, 1, 3};
+  static const double limit[][2] = {{4, 1}, {4.5, 0.75}, {5, 0.5}, {6, 0}, {-1, 0}}; /* and the bound */
+  bool allowed[5] = {false, true, true, true, true};
+  for (int k = 0; k < 3; k++)
+    for (size_t i = 0; i < sizeof limit / sizeof *limit; i++) {
+      thr_plan p = plan_begin(fan_make(4, angle), THR_ENDS_NODES, 3, THR_TURN_STEP);
+      thr_turning_dual *d = p.turning.tree.dual;
+      bool *kept = p.options.end_node;
+      scale(&p.frame, size[k]);
+      p.options.end_node = allowed;
+      p.options.cords_least = 2;
+      add_cord(&p, (int[]){1, 0, 4, -1});
+      add_cord(&p, (int[]){2, 0, 3, -1});
+      d->length = (int64_t)1 << (THR_TURNING_BITS - 1);
+      d->potential[0] = d->potential[2] = d->potential[4] = d->length;
+      d->potential[6] = -d->length;
+      p.turning.length_limit = limit[i][0] < 0 ? -1 : limit[i][0] * size[k];
       thr_turning_claim found = found_of(&p);
-      ck_assert_double_eq_tol(found.price, cords, 1e-12);
-      ck_assert_int_eq(found.optimal, i < 2);
-      ck_assert_double_eq_tol(found.lower_bound, i < 2 ? cords : cords - off[i], 1e-11);
-      p.options.end_count = kept;
+      ck_assert_double_eq(found.price, 1);
+      ck_assert_double_eq_tol(found.lower_bound, limit[i][1], 1e-9);
+      ck_assert_int_eq(found.optimal, i == 0);
+      p.options.end_node = kept;
       thr_plan_destroy(&p);
     }
+}
+END_TEST
+
+/* Three cords along one edge, with as many ends at both: three passes there must be, so a limit that is less by rounding, which
+ * is let through, and large multipliers would prove turns where nothing turns. The limit is no less than the cords. */
+START_TEST(a_limit_just_below_the_cords_proves_nothing)
+{
+  static const double size[] = {1 / 16.0, 1, 3};
+  for (int k = 0; k < 3; k++) {
+    int ends[2] = {3, 3};
+    thr_plan p = plan_begin(path_make(2), THR_ENDS_ANY, 3, THR_TURN_ANGLE);
+    scale(&p.frame, size[k]);
+    thr_turning_proof_destroy(&p.turning.tree);
+    empty_tree(&p, 2);
+    p.options.ends = THR_ENDS_COUNTS;
+    p.options.end_count = ends;
+    for (int i = 0; i < 3; i++)
+      add_cord(&p, (int[]){0, 1, -1});
+    thr_turning_dual *d = p.turning.tree.dual;
+    d->length = d->ends[1] = (int64_t)1 << 57;
+    d->potential[1] = -d->length;
+    p.turning.length_limit = (3 - 2e-9) * size[k];
+    thr_turning_claim found = found_of(&p);
+    ck_assert_double_eq(found.price, 0);
+    ck_assert_double_eq(found.lower_bound, 0);
+    ck_assert(found.optimal);
+    p.turning.length_limit = (3 - 4e-9) * size[k];
+    assert_not_found(&p, "long");
+    p.options.ends = THR_ENDS_ANY;
+    p.options.end_count = NULL;
+    thr_plan_destroy(&p);
+  }
+}
+END_TEST
+
+/* Branches on the one turn of a bend, one below the other: the narrowest bounds count, in whichever order they come. Multipliers
+ * above the price need the turn to be made at most once, those that ask for passes need it to be made four times. */
+START_TEST(branches_on_one_turn_narrow_it)
+{
+  static const thr_turning_node tree[][5] = {
+      {{1, 2, 0, 2, 3, 0}, {3, 4, 0, 2, 1, 0}, {0, 0, 0, 0, 0, 1}, {0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 1}},
+      {{1, 2, 0, 2, 0, 0}, {0, 0, 0, 0, 0, 0}, {3, 4, 0, 2, 3, 0}, {0, 0, 0, 0, 0, 1}, {0, 0, 0, 0, 0, 2}},
+      {{1, 2, 0, 2, INT_MAX, 0}, {0, 0, 0, 0, 0, 1}, {0, 0, 0, 0, 0, 1}}};
+  for (int k = 0; k < 3; k++) {
+    thr_plan p = bend_make(1, THR_TURN_ANGLE, (int64_t)3 << (THR_TURNING_BITS - 1));
+    thr_turning_proof *t = &p.turning.tree;
+    t->n_nodes = k < 2 ? 5 : 3;
+    t->n_duals = 3;
+    t->node = realloc(t->node, (size_t)t->n_nodes * sizeof *t->node);
+    t->dual = realloc(t->dual, 3 * sizeof *t->dual);
+    ck_assert(t->node && t->dual);
+    memcpy(t->node, tree[k], (size_t)t->n_nodes * sizeof *t->node);
+    for (int d = 1; d < 3; d++) {
+      t->dual[d] = (thr_turning_dual){.potential = calloc(4, sizeof(int64_t)), .ends = calloc(3, sizeof(int64_t))};
+      ck_assert(t->dual[d].potential && t->dual[d].ends);
+    }
+    t->dual[2].potential[0] = -((int64_t)1 << (THR_TURNING_BITS - 1));
+    if (k == 2) t->dual[1].potential[0] = t->dual[1].potential[2] = (int64_t)1 << (THR_TURNING_BITS - 1);
+    thr_turning_claim found = found_of(&p);
+    ck_assert_double_eq_tol(found.lower_bound, 1, 1e-9);
+    ck_assert(found.optimal);
+    thr_plan_destroy(&p);
+  }
 }
 END_TEST
 
@@ -516,11 +660,12 @@ END_TEST
 START_TEST(steps_have_one_definition)
 {
   for (int i = -200; i <= 200; i++) {
-    thr_plan p = bend_make(PI / 2 - 1e-6 + i * 1e-17 * (1 << abs(i) % 8), THR_TURN_STEP, 0);
+    thr_plan p = bend_make(PI / 2 - 1e-6 + i * 1e-17 * (1 << abs(i) % 8), THR_TURN_STEP, (int64_t)1 << THR_TURNING_BITS);
     double step = thr_turn_price(&p.frame, THR_TURN_STEP, p.cord[0].half[0], p.cord[0].half[1]);
     thr_turning_claim found = found_of(&p);
     ck_assert_double_eq(found.price, step);
     ck_assert_double_eq(found.pairing_bound, step);
+    ck_assert_double_eq(found.lower_bound, step);
     thr_plan_destroy(&p);
   }
 }
@@ -617,6 +762,11 @@ START_TEST(a_price_of_nothing_has_no_gap)
   assert_holds(&p);
   p.turning.gap = 1;
   assert_violated(&p, "gap");
+  p.turning.gap = 0;
+  p.turning.pairing_bound = 5e-10; /* rounding */
+  assert_holds(&p);
+  p.turning.pairing_bound = 2e-9;
+  assert_violated(&p, "pairing_bound");
   thr_plan_destroy(&p);
 }
 END_TEST
@@ -642,6 +792,10 @@ START_TEST(limits_let_in_what_the_options_allow)
     ck_assert_int_eq(thr_check_turning_claim(&p, cases[i].least, &err), cases[i].holds ? THR_OK : THR_EVIOLATED);
     if (!cases[i].holds) assert_one_line(&err, "shuts out");
   }
+  thr_err err = {0};
+  p.turning.length_limit = 0; /* lets in all plans of length 0, but not the cords */
+  ck_assert_int_eq(thr_check_turning_claim(&p, 0, &err), THR_EVIOLATED);
+  assert_one_line(&err, "2 long");
   p.proof.present = false;
   thr_plan_destroy(&p);
 }
@@ -657,10 +811,15 @@ int main(void)
   ADD_LOOP(s, 20, pairings_of_hubs, 0, 4);
   ADD_TEST(s, 10, ends_at_hubs_save_a_turn);
   ADD_TEST(s, 10, nothing_turns_where_cords_end);
+  ADD_TEST(s, 10, no_cords_turn_nothing);
+  ADD_TEST(s, 10, many_passes_turn_back);
   ADD_TEST(s, 10, bends_prove_what_they_cost);
   ADD_TEST(s, 10, bounds_are_optimal_within_rounding);
   ADD_TEST(s, 10, no_tree_proves_more_than_the_plan_turns);
   ADD_TEST(s, 10, rounding_is_that_of_twice_the_passes_needed);
+  ADD_TEST(s, 10, limits_on_the_length_prove_turns);
+  ADD_TEST(s, 10, a_limit_just_below_the_cords_proves_nothing);
+  ADD_TEST(s, 10, branches_on_one_turn_narrow_it);
   ADD_TEST(s, 10, ends_are_where_the_options_allow_them);
   ADD_TEST(s, 10, closed_cords_turn_round);
   ADD_TEST(s, 10, steps_begin_at_a_quarter_less_a_millionth);
