@@ -561,7 +561,7 @@ START_TEST(branches_on_one_turn_narrow_it)
   static const thr_turning_node tree[][5] = {
       {{1, 2, 0, 2, 3, 0}, {3, 4, 0, 2, 1, 0}, {0, 0, 0, 0, 0, 1}, {0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 1}},
       {{1, 2, 0, 2, 0, 0}, {0, 0, 0, 0, 0, 0}, {3, 4, 0, 2, 3, 0}, {0, 0, 0, 0, 0, 1}, {0, 0, 0, 0, 0, 2}},
-      {{1, 2, 0, 2, INT_MAX, 0}, {0, 0, 0, 0, 0, 1}, {0, 0, 0, 0, 0, 1}}};
+      {{1, 2, 0, 2, INT_MAX, 0}, {0, 0, 0, 0, 0, 1}, {0, 0, 0, 0, 0, 2}}};
   for (int k = 0; k < 3; k++) {
     thr_plan p = bend_make(1, THR_TURN_ANGLE, (int64_t)3 << (THR_TURNING_BITS - 1));
     thr_turning_proof *t = &p.turning.tree;
@@ -644,6 +644,7 @@ START_TEST(steps_begin_at_a_quarter_less_a_millionth)
 {
   static const double turn[] = {PI / 2 - 1.1e-6, PI / 2 - 0.9e-6, PI / 2, PI / 2 + 1e-5, 3, 1};
   static const int step[] = {0, 1, 1, 1, 1, 0};
+  ck_assert_double_eq(thr_turn_cost_of(THR_TURN_STEP, PI / 2 - 1e-6), 1);
   for (int i = 0; i < 6; i++) {
     thr_plan p = bend_make(turn[i], THR_TURN_STEP, (int64_t)step[i] << THR_TURNING_BITS);
     thr_turning_claim found = found_of(&p);
