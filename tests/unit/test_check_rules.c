@@ -139,6 +139,40 @@ START_TEST(rounding_is_charged_once_without_prices)
 }
 END_TEST
 
+/* With prices a shortest plan may have twice the cords less the cover: 0.9 weighs 1, and a tenth is taken off for each of them.
+ */
+START_TEST(rounding_is_charged_for_twice_the_cords_less_the_cover)
+{
+  static const double length[1] = {0.9};
+  thr_frame f = chain_make(1, length);
+  for (int cover = 1; cover <= 3; cover += 2)
+    for (int cords = 2; cords <= 4; cords++) {
+      thr_cord *cord = calloc((size_t)cords, sizeof *cord);
+      int n = 0;
+      add_loops(cord, &n, 0, cords);
+      thr_plan_options o = options_for(THR_ENDS_CLOSED, cover);
+      o.cords = o.cords_least = cords;
+      thr_cut cut = {-1, 1, (int[]){0}, 1};
+      int64_t price = 0;
+      const thr_certificate c = {.scale = 1,
+                                 .denominator = 1,
+                                 .join = 2 * cords - cover,
+                                 .sum = 1,
+                                 .n_cuts = 1,
+                                 .cut = &cut,
+                                 .n_prices = 1,
+                                 .place_price = &price};
+      bool optimal;
+      double bound;
+      ck_assert_int_eq(thr_check_length_proof(&f, &o, cord, cords, &c, 1, &optimal, &bound, NULL), THR_OK);
+      ck_assert_int_eq(optimal, 2 * cords - cover == 1);
+      ck_assert_double_eq_tol(bound, optimal ? 0.9 * 4 : 0.9 * cover + 1 - 0.1 * (2 * cords - cover), 1e-8);
+      thr_cords_destroy(cord, n);
+    }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* One cord, six passes over an edge that needs three: a pass more would do, whatever the certificate's prices are. */
 START_TEST(one_cord_is_charged_for_one_pass)
 {
@@ -354,9 +388,9 @@ END_TEST
 START_TEST(the_longest_closed_cord_has_its_detour)
 {
   rng r = rng_make((uint64_t)_i + 1);
-  const int n = 5 + _i % 4;
-  double xyz[8][3], length[32], base = 0, longest = 0;
-  int edge[32][2], m = 0, n_cords = 0;
+  const int n = 5 + _i % 12;
+  double xyz[16][3], length[120], base = 0, longest = 0;
+  int edge[120][2], m = 0, n_cords = 0;
   for (int v = 0; v < n; v++)
     for (int i = 0; i < 3; i++)
       xyz[v][i] = rng_unit(&r);
@@ -906,6 +940,35 @@ START_TEST(symmetric_cords_are_counted_where_most_are)
 }
 END_TEST
 
+/* Two triangles: in each of them there are as many cords as asked for. */
+START_TEST(cords_are_counted_in_every_component)
+{
+  thr_frame f = triangles_make(2);
+  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  for (int twice = -1; twice < 2; twice++) {
+    int half[3][3];
+    thr_cord cord[3];
+    for (int i = 0; i < 3; i++) {
+      int component = i < 2 ? i : twice;
+      for (int k = 0; k < 3 && component >= 0; k++)
+        half[i][k] = 6 * component + 2 * k;
+      for (int k = 0; k < 3 && component >= 0; k++) /* each edge the way round */
+        if (thr_head(&f, half[i][k]) != thr_tail(&f, half[i][(k + 1) % 3])) half[i][k] ^= 1;
+      cord[i] = (thr_cord){.closed = true, .component = component, .n_passes = 3, .half = half[i]};
+      thr_cord_id(i, cord[i].id);
+    }
+    thr_cords_claim found;
+    thr_err err = {0};
+    thr_status st = thr_check_cords(&f, &o, cord, twice < 0 ? 2 : 3, NULL, 0, &found, &err);
+    ck_assert_msg(st == (twice < 0 ? THR_OK : THR_EVIOLATED), "%s", err.text);
+    char said[64];
+    snprintf(said, sizeof said, "component %d: has 2 cords; the plan's options say 1", twice);
+    if (st) assert_one_line(&err, said);
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* ---- failures last ---- */
 
 /* What is wrong early is wrong whatever follows, and nothing is found then. */
@@ -936,6 +999,31 @@ START_TEST(failures_are_not_forgotten)
       ck_assert_int_eq(thr_check_length_of_passes(&f, &o, passes, proof, 1, &optimal, &bound, NULL), expected);
   }
   thr_cords_destroy(cord, 2);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* On a chain that is passed there and back, of whichever edge none or too many pairs are. */
+START_TEST(every_edge_is_covered_and_has_room)
+{
+  static const double length[3] = {1, 1, 1};
+  thr_frame f = chain_make(3, length);
+  thr_plan_options o = options_for(THR_ENDS_CLOSED, 2);
+  o.capacity = 3;
+  for (int e = -1; e < 3; e++)
+    for (int more = -2; more <= 2; more += 4) {
+      int passes[3] = {2, 2, 2};
+      if (e >= 0) passes[e] += more;
+      const thr_certificate c = {.scale = 1, .denominator = 1};
+      bool optimal;
+      double bound;
+      thr_err err = {0};
+      thr_status st = thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, &err);
+      ck_assert_msg(st == (e < 0 ? THR_OK : THR_EVIOLATED), "%s", err.text);
+      char said[96];
+      snprintf(said, sizeof said, "edge %d (nodes %d and %d): %s", e, e, e + 1, more < 0 ? "0 of 2" : "4 passes, but only 3");
+      if (st) assert_one_line(&err, said);
+    }
   thr_frame_destroy(&f);
 }
 END_TEST
@@ -1427,6 +1515,7 @@ int main(void)
   ADD_TEST(s, 20, rounding_is_charged_for_every_cord);
   ADD_LOOP(s, 20, rounding_never_adds_to_a_bound, 0, 200);
   ADD_TEST(s, 10, rounding_is_charged_once_without_prices);
+  ADD_TEST(s, 10, rounding_is_charged_for_twice_the_cords_less_the_cover);
   ADD_TEST(s, 10, one_cord_is_charged_for_one_pass);
   ADD_TEST(s, 10, rounding_of_what_is_passed_once_costs_little);
   ADD_TEST(s, 10, optimal_is_within_a_billionth);
@@ -1458,7 +1547,9 @@ int main(void)
   ADD_TEST(s, 10, weak_proofs_bound_the_longest);
   ADD_TEST(s, 10, bounds_beyond_the_plan_are_refused);
   ADD_TEST(s, 10, symmetric_cords_are_counted_where_most_are);
+  ADD_TEST(s, 10, cords_are_counted_in_every_component);
   ADD_TEST(s, 10, failures_are_not_forgotten);
+  ADD_TEST(s, 10, every_edge_is_covered_and_has_room);
   ADD_TEST(s, 10, cords_end_where_they_may_and_are_no_longer);
   ADD_TEST(s, 10, passes_leave_ends_for_the_cords);
   ADD_TEST(s, 10, tube_joints_are_tied);

@@ -797,7 +797,15 @@ START_TEST(limits_let_in_what_the_options_allow)
   p.turning.length_limit = 0; /* lets in all plans of length 0, but not the cords */
   ck_assert_int_eq(thr_check_turning_claim(&p, 0, &err), THR_EVIOLATED);
   assert_one_line(&err, "2 long");
-  p.proof.present = false;
+  thr_certificate c = {.scale = 1, .denominator = 1}; /* every edge once: 2 */
+  p.proof = (thr_length_proof){.present = true, .optimal = true, .lower_bound = 2, .n_certificates = 1, .certificate = &c};
+  for (p.turning.length_limit = 2; p.turning.length_limit <= 3; p.turning.length_limit++) {
+    err = (thr_err){0};
+    thr_status st = thr_check_plan(&p, &err);
+    ck_assert_msg(st == (p.turning.length_limit < 3 ? THR_EVIOLATED : THR_OK), "%s", err.text);
+    if (st) assert_one_line(&err, "shuts out");
+  }
+  p.proof = (thr_length_proof){0};
   thr_plan_destroy(&p);
 }
 END_TEST
