@@ -423,43 +423,34 @@ static thr_status prove(const several *x, thr_plan *plan, thr_shortest *s, thr_e
   return st;
 }
 
-/* Every piece by itself: one may need more cords than another, or hold fewer. */
-static thr_status make_pieces(several *x, const thr_components *p, thr_shortest *s, thr_plan *made, thr_plan *plan, thr_err *err)
+typedef struct {
+  several *x;
+  thr_shortest *shortest; /* whose certificates become those of the components */
+} by_component;
+
+/* One component by itself: it may need more cords than another, or hold fewer. */
+static thr_status plan_component(void *user, const thr_components *p, int k, const thr_plan *asked, thr_plan *made, thr_err *err)
 {
-  thr_limits quiet = *x->limits;
-  thr_status st = THR_OK;
-  quiet.found = NULL; /* cords of a piece are no plan */
-  for (int k = 0; k < p->n && !st; k++) {
-    thr_plan asked;
-    thr_cords_word word = {0};
-    thr_err why = {0};
-    if ((st = thr_component_take(p, k, &asked, err))) return st;
-    st = thr_cords_plan(&asked.frame, &asked.options, &quiet, &made[k], &word, &why);
-    x->least &= word.passes_least;
-    st = st && st != THR_ELIMIT ? thr_fail(err, st, "%s", why.text) : THR_OK;
-    if (!st) thr_component_give_certificate(p, k, &made[k], &s->certificate[k]);
-    thr_plan_destroy(&asked);
-  }
-  return st ? st : thr_components_join(p, made, plan, err);
+  const by_component *b = user;
+  thr_limits quiet = *b->x->limits;
+  thr_cords_word word = {0};
+  thr_err why = {0};
+  quiet.found = NULL; /* cords of a component are no plan */
+  thr_status st = thr_cords_plan(&asked->frame, &asked->options, &quiet, made, &word, &why);
+  b->x->least &= word.passes_least;
+  if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", why.text);
+  thr_component_give_certificate(p, k, made, &b->shortest->certificate[k]);
+  return THR_OK;
 }
 
-static thr_status plan_pieces(several *x, thr_shortest *s, thr_plan *plan, thr_err *err)
+static thr_status plan_components(several *x, thr_shortest *s, thr_plan *plan, thr_err *err)
 {
-  thr_components p;
-  thr_status st = thr_components_init(&p, x->f, x->o, err);
-  if (st) return st;
-  thr_plan *made = thr_calloc((size_t)p.n, sizeof *made);
-  st = made ? make_pieces(x, &p, s, made, plan, err) : thr_nomem(err);
-  for (int k = 0; made && k < p.n; k++)
-    thr_plan_destroy(&made[k]);
-  free(made);
-  thr_components_destroy(&p);
-  return st;
+  return thr_components_plan(x->f, x->o, plan_component, &(by_component){x, s}, plan, err);
 }
 
 static thr_status plan_all(several *x, thr_shortest *s, thr_plan *plan, thr_err *err)
 {
-  if (x->o->max_length > 0 && x->n_components > 1) return plan_pieces(x, s, plan, err);
+  if (x->o->max_length > 0 && x->n_components > 1) return plan_components(x, s, plan, err);
   thr_status st = make(x, s, err);
   return st ? st : thr_trails_plan(x->trails, x->n_components, plan, err);
 }

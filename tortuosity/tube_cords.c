@@ -307,37 +307,19 @@ static void move_cords(thr_tube *t, thr_plan *plan)
   t->n_cords = 0;
 }
 
-/* Every piece by itself: one may need more cords than another, or hold fewer. */
-static thr_status make_pieces(several *x, const thr_components *p, thr_plan *made, thr_plan *plan, thr_err *err)
+/* One component by itself: it may need more cords than another, or hold fewer. */
+static thr_status plan_component(void *user, const thr_components *p, int k, const thr_plan *asked, thr_plan *made, thr_err *err)
 {
+  several *x = user;
   thr_limits quiet = *x->limits;
-  thr_status st = THR_OK;
-  quiet.found = NULL; /* cords of a piece are no plan */
-  for (int k = 0; k < p->n && !st; k++) {
-    thr_plan asked;
-    thr_cords_word word = {0};
-    thr_err why = {0};
-    if ((st = thr_component_take(p, k, &asked, err))) return st;
-    st = thr_tube_cords_plan(&asked.frame, &asked.options, &quiet, &made[k], &word, &why);
-    x->certain &= word.longest_least || made[k].cords_claim.longest_optimal;
-    st = st && st != THR_ELIMIT ? thr_fail(err, st, "%s", why.text) : THR_OK;
-    thr_plan_destroy(&asked);
-  }
-  return st ? st : thr_components_join(p, made, plan, err);
-}
-
-static thr_status plan_pieces(several *x, thr_plan *plan, thr_err *err)
-{
-  thr_components p;
-  thr_status st = thr_components_init(&p, x->f, x->o, err);
-  if (st) return st;
-  thr_plan *made = thr_calloc((size_t)p.n, sizeof *made);
-  st = made ? make_pieces(x, &p, made, plan, err) : thr_nomem(err);
-  for (int k = 0; made && k < p.n; k++)
-    thr_plan_destroy(&made[k]);
-  free(made);
-  thr_components_destroy(&p);
-  return st;
+  thr_cords_word word = {0};
+  thr_err why = {0};
+  (void)p;
+  (void)k;
+  quiet.found = NULL; /* cords of a component are no plan */
+  thr_status st = thr_tube_cords_plan(&asked->frame, &asked->options, &quiet, made, &word, &why);
+  x->certain &= word.longest_least || made->cords_claim.longest_optimal;
+  return st && st != THR_ELIMIT ? thr_fail(err, st, "%s", why.text) : THR_OK;
 }
 
 static thr_status make_some(several *x, thr_plan *plan, thr_err *err)
@@ -358,7 +340,9 @@ static thr_status make_cords(thr_tube *t, const thr_limits *limits, thr_plan *pl
     return THR_OK;
   }
   thr_status st = several_init(&x, err);
-  if (!st) st = lengths_asked(o) && x.n_components > 1 ? plan_pieces(&x, plan, err) : make_some(&x, plan, err);
+  if (!st)
+    st = lengths_asked(o) && x.n_components > 1 ? thr_components_plan(x.f, o, plan_component, &x, plan, err)
+                                                : make_some(&x, plan, err);
   if (!st) *word = (thr_cords_word){x.least && many && !lengths_asked(o), x.certain && o->balance};
   several_destroy(&x);
   return st;
