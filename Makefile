@@ -41,7 +41,7 @@ CLANG_FORMAT ?= clang-format
 # Asked for once and only when a recipe needs it: on a bare machine `make demo` installs pkg-config and the libraries first.
 PKG_CFLAGS = $(eval PKG_CFLAGS := $$(shell pkg-config --cflags igraph nauty jansson))$(PKG_CFLAGS)
 PKG_LIBS = $(eval PKG_LIBS := $$(shell pkg-config --libs nauty jansson bullet-float64))$(PKG_LIBS)
-# Loaded when needed (graph/lazy.h): igraph, librsvg with cairo and GLib, SuiteSparseQR with CHOLMOD. Their names at run time, such as
+# Loaded when needed (graph/process/lazy.h): igraph, librsvg with cairo and GLib, SuiteSparseQR with CHOLMOD. Their names at run time, such as
 # librsvg-2.so.2, are those that the linker writes into a program.
 LAZY_LIBS = $(shell pkg-config --libs igraph librsvg-2.0) -lspqr
 LAZY_NAMES = $(eval LAZY_NAMES := $$(shell tools/library-names.sh $$(call quote,$$(COMPILER)) igraph rsvg-2 spqr -- $$(LAZY_LIBS)))$(LAZY_NAMES)
@@ -77,9 +77,12 @@ STRICT = $(if $(filter-out 0,$(WERROR)),$(if $(filter fuzz,$(BUILD)),,-Werror))
 
 DIR := $(OUT)/$(BUILD)
 MODULES := graph lp symmetry tortuosity eval diagram
-SOURCES := $(wildcard $(addsuffix /*.c,$(MODULES))) $(wildcard $(addsuffix /*.cpp,$(MODULES))) diagram/viewer_page.S
+# every module, and its folders by stage
+FOLDERS := $(MODULES) $(patsubst %/,%,$(wildcard $(addsuffix /*/,$(MODULES))))
+CLI_FOLDERS := cli $(patsubst %/,%,$(wildcard cli/*/))
+SOURCES := $(wildcard $(addsuffix /*.c,$(FOLDERS))) $(wildcard $(addsuffix /*.cpp,$(FOLDERS))) diagram/export/viewer_page.S
 OBJECTS := $(addsuffix .o,$(basename $(SOURCES:%=$(DIR)/%)))
-CLI_OBJECTS := $(patsubst %.c,$(DIR)/%.o,$(wildcard cli/*.c))
+CLI_OBJECTS := $(patsubst %.c,$(DIR)/%.o,$(wildcard $(addsuffix /*.c,$(CLI_FOLDERS))))
 LIBRARY := $(DIR)/libthread.$(if $(filter mutants,$(BUILD)),so,a)
 PROGRAM := $(DIR)/thread
 # tests/*.c is shared by all test programs; each file of tests/unit and tests/property is a program
@@ -90,7 +93,7 @@ VALIDATE := $(DIR)/validate
 VALIDATE_OBJECTS := $(patsubst %.c,$(DIR)/%.o,$(wildcard tests/validate/*.c))
 WATCHDOG := $(DIR)/watchdog
 WATCHDOG_OBJECTS := $(patsubst %.c,$(DIR)/%.o,$(wildcard tests/watchdog/*.c))
-C_FILES = $(wildcard $(foreach d,$(MODULES) cli tests tests/unit tests/property tests/fuzz tests/validate tests/watchdog tests/memory,$(d)/*.c $(d)/*.h))
+C_FILES = $(wildcard $(foreach d,$(FOLDERS) $(CLI_FOLDERS) tests tests/unit tests/property tests/fuzz tests/validate tests/watchdog tests/memory,$(d)/*.c $(d)/*.h))
 
 Q := $(if $(V),,@)
 # `make -jN` given: share its jobs; not given: one per processor
@@ -150,10 +153,10 @@ format: ## rewrite the sources with clang-format
 	+@tools/install-packages.sh clang-format
 	@$(CLANG_FORMAT) -i $(C_FILES)
 
-viewer: ## rebuild diagram/viewer_page.html from viewer/ (needs npm)
+viewer: ## rebuild diagram/export/viewer_page.html from viewer/ (needs npm)
 	@mkdir -p $(OUT)
 	@viewer/build.sh $(OUT)/viewer > $(OUT)/viewer_page.html
-	@mv $(OUT)/viewer_page.html diagram/viewer_page.html
+	@mv $(OUT)/viewer_page.html diagram/export/viewer_page.html
 
 bench: ## run bench/*.sh with the release build
 	+@$(MAKE) --no-print-directory $(JOBS) BUILD=release all
@@ -259,9 +262,9 @@ $(DIR)/%.o: %.S %.html $(DIR)/flags.list
 	@echo "  AS    $@"
 	$(Q)$(COMPILER) $(MODE_$(BUILD)) $(CFLAGS) -c -o $@ $<
 
-$(DIR)/graph/igraph.o $(OUT)/tidy/graph/igraph.ok: private THR_CPPFLAGS += $(LAZY_NAMES)
-$(DIR)/eval/spqr.o $(OUT)/tidy/eval/spqr.ok: private THR_CPPFLAGS += $(SPQR_CFLAGS) $(LAZY_NAMES)
-$(DIR)/diagram/paper.o $(OUT)/tidy/diagram/paper.ok: private THR_CPPFLAGS += $(RSVG_CFLAGS) $(LAZY_NAMES)
+$(DIR)/graph/framework/igraph.o $(OUT)/tidy/graph/framework/igraph.ok: private THR_CPPFLAGS += $(LAZY_NAMES)
+$(DIR)/eval/structure/spqr.o $(OUT)/tidy/eval/structure/spqr.ok: private THR_CPPFLAGS += $(SPQR_CFLAGS) $(LAZY_NAMES)
+$(DIR)/diagram/export/paper.o $(OUT)/tidy/diagram/export/paper.ok: private THR_CPPFLAGS += $(RSVG_CFLAGS) $(LAZY_NAMES)
 $(TEST_PROGRAMS:%=%.o) $(TEST_SUPPORT): private THR_CPPFLAGS += $(CHECK_CFLAGS)
 $(OUT)/mutants/tests/%: private LDFLAGS += -Wl,--wrap=_ck_assert_failed
 $(TEST_PROGRAMS): $(DIR)/%: $(DIR)/%.o $(TEST_SUPPORT) $(if $(filter mutants,$(BUILD)),$(DIR)/tools/mutants/stop.o) $(LIBRARY)

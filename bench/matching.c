@@ -7,11 +7,11 @@
  * Families: grid, geodesic, honeycomb (lengths even in 1/2 .. 3/2), honeycomb-equal (all lengths equal), planar (points at random
  * in the cells of a grid, joined along the grid and across some cells, some edges left out). */
 #include "graph/limits.h"
-#include "graph/make.h"
+#include "graph/framework/make.h"
 #include "graph/random.h"
-#include "lp/blossom.h"
-#include "lp/candidates.h"
-#include "lp/engine.h"
+#include "lp/matching/blossom.h"
+#include "lp/matching/candidates.h"
+#include "lp/tjoin/engine.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 #include "cli/best.h"
 #include "cli/cli.h"
 #include "cli/guard.h"
-#include "graph/check.h"
+#include "graph/check/check.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,9 +1,9 @@
 /* Messages, options, reading and writing for all subcommands. */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/cli.h"
-#include "cli/copies.h"
+#include "cli/print/copies_table.h"
 #include "cli/guard.h"
-#include "graph/check.h"
+#include "graph/check/check.h"
 
 #include <errno.h>
 #include <math.h>

@@ -2,10 +2,10 @@
 #ifndef THR_CLI_H
 #define THR_CLI_H
 
-#include "diagram/overview.h"
+#include "diagram/overview/overview.h"
 #include "graph/limits.h"
-#include "graph/plan.h"
-#include "graph/read.h"
+#include "graph/plan/plan.h"
+#include "graph/io/read.h"
 
 #include <getopt.h>
 

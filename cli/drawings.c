@@ -1,12 +1,12 @@
 #include "cli/drawings.h"
 
-#include "cli/copies.h"
+#include "cli/print/copies_table.h"
 #include "cli/guard.h"
-#include "diagram/polylines.h"
-#include "diagram/sheets.h"
-#include "diagram/steps.h"
-#include "diagram/tables.h"
-#include "diagram/viewer.h"
+#include "diagram/scene/polylines.h"
+#include "diagram/sheets/sheets.h"
+#include "diagram/overview/steps.h"
+#include "diagram/tables/tables.h"
+#include "diagram/export/viewer.h"
 
 #include <stdio.h>
 

@@ -1,10 +1,10 @@
 /* thread: plans how cord is threaded through bead structures. This file only finds the subcommand. */
 #include "cli/cli.h"
 #include "cli/guard.h"
-#include "eval/world.h"
-#include "graph/cuttree.h"
-#include "lp/lp.h"
-#include "symmetry/automorphisms.h"
+#include "eval/joint/world.h"
+#include "graph/framework/cuttree.h"
+#include "lp/solver/lp.h"
+#include "symmetry/group/automorphisms.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #define THR_PULL_H
 
 #include "cli/guard.h"
-#include "cli/physics.h"
+#include "cli/args/physics_args.h"
 #include "eval/eval.h"
 
 enum {

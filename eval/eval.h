@@ -5,9 +5,9 @@
 #ifndef THR_EVAL_H
 #define THR_EVAL_H
 
-#include "eval/holding.h"
-#include "eval/profile.h"
-#include "eval/settle.h"
+#include "eval/structure/holding.h"
+#include "eval/cord/profile.h"
+#include "eval/structure/settle.h"
 
 typedef struct {
   thr_physics physics;       /* as asked; the methods resolve it against the framework */

@@ -12,7 +12,8 @@ struct thr_symmetry_record;
 typedef struct {
   double deadline;                          /* thr_clock() at which to stop; 0 = none */
   const volatile sig_atomic_t *interrupted; /* set by a signal handler, or NULL */
-  double *work; /* NULL, or what linear programmes may still do (lp/lp.h): ends a search at the same place on any machine */
+  double
+      *work; /* NULL, or what linear programmes may still do (lp/solver/lp.h): ends a search at the same place on any machine */
   /* called now and then with what is being done and the best value and proven bound so far (same unit) */
   void (*progress)(void *user, const char *what, double best, double bound);
   /* called by work whose amount is known beforehand, with the part that is done: 0 .. 1 */

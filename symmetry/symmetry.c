@@ -1,9 +1,9 @@
 /* Options -> groups -> the best symmetric threading of each -> one of them -> plan. */
 #include "symmetry/symmetry.h"
-#include "graph/check.h"
-#include "lp/postman.h"
-#include "symmetry/groups.h"
-#include "symmetry/solve.h"
+#include "graph/check/check.h"
+#include "lp/length/postman.h"
+#include "symmetry/group/groups.h"
+#include "symmetry/cover/solve.h"
 
 #include <math.h>
 #include <stdio.h>

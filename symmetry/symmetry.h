@@ -3,8 +3,8 @@
 #ifndef THR_SYMMETRY_H
 #define THR_SYMMETRY_H
 
-#include "symmetry/cover.h"
-#include "symmetry/isometry.h"
+#include "symmetry/cover/cover.h"
+#include "symmetry/group/isometry.h"
 
 enum {
   THR_SYMMETRY_CLASSES = 100, /* of subgroups; a group with more is too large to be listed */
@@ -22,13 +22,13 @@ typedef struct {
   thr_subgroup elements;       /* owned */
   char name[16];               /* point group (Schoenflies), or "" if some element is no isometry within thr_symmetry_near */
   int kinds[THR_ISO_NONE + 1]; /* elements of each kind */
-  double residual;             /* of the element that is farthest from an isometry (symmetry/isometry.h) */
+  double residual;             /* of the element that is farthest from an isometry (symmetry/group/isometry.h) */
   /* THR_OK: best, proved. THR_ELIMIT: not proved, or none found in time (then n_cords = 0). THR_EINFEASIBLE, THR_EINPUT,
    * THR_ESOLVER: none, said why. code 0 and n_cords = 0: not asked for. */
   thr_err why;
   bool solved;                                 /* the programme was, to the end: if not THR_OK, it proves less than the best */
   double value[THR_N_AIMS], bound[THR_N_AIMS]; /* what the plan has; no threading under the group, as plans count, has less with
-                                                  the aims before it at these values (symmetry/claims.h) */
+                                                  the aims before it at these values (symmetry/cover/claims.h) */
   int n_cords;
   int least_copies, most_copies; /* cords of a unique path, itself among them: the fewest and the most */
   thr_cord *cord;                /* [n_cords] owned; NULL once a plan has taken them */
@@ -67,10 +67,10 @@ typedef struct {
  * isometries within it make, among the automorphisms that keep edge lengths (thr_length_colours).
  * options.symmetry.group: only the rows of that number or name are solved, and the best of them is chosen. Otherwise the default
  * choice: least learned steps among the rows with at most thr_symmetry_slack more cord than the shortest plan, or if there is
- * none the least cord; ties by overlap, cords, turning, number. Time is shared as symmetry/solve.h says. THR_OK: every row that
- * was asked for is solved. THR_ELIMIT: some are not (their row says so); out holds the rest. THR_EINPUT: no row of that number or
- * name, or a largest length, balance or numbers of ends are asked for. THR_EINFEASIBLE: no threading with these
- * ends. Otherwise out is empty. */
+ * none the least cord; ties by overlap, cords, turning, number. Time is shared as symmetry/cover/solve.h says. THR_OK: every row
+ * that was asked for is solved. THR_ELIMIT: some are not (their row says so); out holds the rest. THR_EINPUT: no row of that
+ * number or name, or a largest length, balance or numbers of ends are asked for. THR_EINFEASIBLE: no threading with these ends.
+ * Otherwise out is empty. */
 thr_status thr_symmetries_find(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_symmetries *out,
                                thr_err *err) THR_MUST_CHECK;
 void thr_symmetries_destroy(thr_symmetries *t);

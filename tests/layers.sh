@@ -18,18 +18,18 @@ diagram:diagram graph
 cli:cli graph lp symmetry tortuosity eval diagram'
 
 # foreign and Linux headers: the only file that may include them. "*" also stands for a folder of headers.
-owners='igraph.h:graph/igraph.c
-jansson.h:graph/json_jansson.c
-glpk.h:lp/lp_glpk.c
-nau*.h:symmetry/nauty.c
-traces.h:symmetry/nauty.c
-*bt[A-Z]*.h:eval/bullet.cpp
-SuiteSparse*.h:eval/spqr.c
-cholmod*.h:eval/spqr.c
-cairo*.h:diagram/paper.c
-librsvg/*.h:diagram/paper.c
-sys/prctl.h:graph/process.c
-dlfcn.h:graph/lazy.c'
+owners='igraph.h:graph/framework/igraph.c
+jansson.h:graph/io/json_jansson.c
+glpk.h:lp/solver/lp_glpk.c
+nau*.h:symmetry/group/nauty.c
+traces.h:symmetry/group/nauty.c
+*bt[A-Z]*.h:eval/joint/bullet.cpp
+SuiteSparse*.h:eval/structure/spqr.c
+cholmod*.h:eval/structure/spqr.c
+cairo*.h:diagram/export/paper.c
+librsvg/*.h:diagram/export/paper.c
+sys/prctl.h:graph/process/process.c
+dlfcn.h:graph/process/lazy.c'
 
 # C++, in the file that shims a C++ library
 cpp_headers='new utility cmath cstdlib cstring vector'
@@ -95,7 +95,7 @@ check_sources() { # FILE..
       if (match(code, /(^|[^A-Za-z0-9_])(printf|vprintf|puts|putchar|perror|exit|_exit|_Exit|quick_exit|abort)[ \t]*\(/)) {
         word = substr(code, RSTART, RLENGTH); gsub(/[^A-Za-z_]/, "", word)
         # a forked child has no other way to end
-        if (word != "_exit" || FILENAME != "graph/process.c") bad(word "(): only cli/ prints and exits")
+        if (word != "_exit" || FILENAME != "graph/process/process.c") bad(word "(): only cli/ prints and exits")
       }
       if (code ~ /(^|[^A-Za-z0-9_])(stderr|stdout|STDOUT_FILENO|STDERR_FILENO)([^A-Za-z0-9_]|$)/ && FILENAME != "graph/text.c")
         bad("stdout/stderr: only cli/ and thr_text_write in graph/text.c write there")
@@ -124,7 +124,7 @@ check_machine() { # every text file except build output and fuzz seeds
 check_tree() {
   local -a sources=() headers=()
   mapfile -t sources < <(for m in graph lp symmetry tortuosity eval diagram cli; do
-    for f in "$m"/*.c "$m"/*.h "$m"/*.cpp; do [ -e "$f" ] && echo "$f"; done
+    for f in "$m"/*.c "$m"/*.h "$m"/*.cpp "$m"/*/*.c "$m"/*/*.h "$m"/*/*.cpp; do [ -e "$f" ] && echo "$f"; done
   done)
   for f in "${sources[@]}"; do case $f in *.h) headers+=("$f") ;; esac; done
   [ ${#sources[@]} -eq 0 ] || check_sources "${sources[@]}"
@@ -163,18 +163,18 @@ self_test() {
     esac || { failed=1 && echo "self-test $n: wanted $want for $file, got: $got"; }
   }
 
-  expect graph/a.c:1 graph/a.c '#include "lp/lp.h"\n'
+  expect graph/a.c:1 graph/a.c '#include "lp/solver/lp.h"\n'
   expect lp/a.c:2 lp/a.c '\n#include "tortuosity/t.h"\n'
   expect tortuosity/a.c:1 tortuosity/a.c '#include "symmetry/s.h"\n'
-  expect diagram/a.c:1 diagram/a.c '#include "lp/lp.h"\n'
+  expect diagram/a.c:1 diagram/a.c '#include "lp/solver/lp.h"\n'
   expect eval/a.h:3 eval/a.h '#ifndef THR_A_H\n#define THR_A_H\n# include  "diagram/d.h"\n#endif\n'
   expect graph/a.c:1 graph/a.c '#include "frame.h"\n'
   expect graph/a.c:1 graph/a.c '#include "../lp/lp.h"\n'
   expect graph/a.c:1 graph/a.c '#include <igraph.h>\n'
-  expect graph/frame.c:1 graph/frame.c '#include <jansson.h>\n'
+  expect graph/framework/frame.c:1 graph/framework/frame.c '#include <jansson.h>\n'
   expect cli/main.c:1 cli/main.c '#include <glpk.h>\n'
-  expect symmetry/group.c:1 symmetry/group.c '#include <traces.h>\n'
-  expect symmetry/group.c:1 symmetry/group.c '#include <nauty/nausparse.h>\n'
+  expect symmetry/group/group.c:1 symmetry/group/group.c '#include <traces.h>\n'
+  expect symmetry/group/group.c:1 symmetry/group/group.c '#include <nauty/nausparse.h>\n'
   expect eval/a.c:1 eval/a.c '#include <SuiteSparseQR_C.h>\n'
   expect eval/a.cpp:1 eval/a.cpp '#include <btBulletDynamicsCommon.h>\n'
   expect eval/a.c:1 eval/a.c '#include <BulletDynamics/btBox.h>\n'
@@ -192,16 +192,16 @@ self_test() {
   expect graph/a.h:1 graph/a.h '#ifndef THR_A_H\n#define THR_B_H\n#endif\n'
   expect docs/a.md:2 docs/a.md "one\nsee /ho""me/someone/thread\n"
   expect tools/a.sh:1 tools/a.sh "curl http://deb.deb""ian.org/x\n"
-  expect ok graph/igraph.c '#include <igraph.h>\n#include <stdio.h>\n#include "graph/frame.h"\n'
-  expect ok lp/lp_glpk.c '#include "graph/frame.h"\n#include "lp/lp.h"\n#include <glpk.h>\n'
-  expect ok symmetry/nauty.c '#include "graph/frame.h"\n#include <traces.h>\n'
-  expect ok eval/bullet.cpp '#include <BulletDynamics/btBox.h>\n#include <btBulletDynamicsCommon.h>\n#include <new>\n'
+  expect ok graph/framework/igraph.c '#include <igraph.h>\n#include <stdio.h>\n#include "graph/framework/frame.h"\n'
+  expect ok lp/solver/lp_glpk.c '#include "graph/framework/frame.h"\n#include "lp/solver/lp.h"\n#include <glpk.h>\n'
+  expect ok symmetry/group/nauty.c '#include "graph/framework/frame.h"\n#include <traces.h>\n'
+  expect ok eval/joint/bullet.cpp '#include <BulletDynamics/btBox.h>\n#include <btBulletDynamicsCommon.h>\n#include <new>\n'
   expect graph/a.c:1 graph/a.c '#include <sys/prctl.h>\n'
-  expect graph/igraph.c:1 graph/igraph.c '#include <dlfcn.h>\n'
-  expect ok graph/process.c '#include <sys/prctl.h>\n#include <sys/wait.h>\nvoid f(void) { _exit(1); }\n'
+  expect graph/framework/igraph.c:1 graph/framework/igraph.c '#include <dlfcn.h>\n'
+  expect ok graph/process/process.c '#include <sys/prctl.h>\n#include <sys/wait.h>\nvoid f(void) { _exit(1); }\n'
   expect ok graph/text.c 'void f(void) { fwrite("", 1, 0, stdout); }\n'
-  expect ok cli/main.c '#include "lp/lp.h"\nint main(void) { printf("%d", 1); exit(0); }\n'
-  expect ok graph/a.c '/* printf(1); #include "lp/lp.h"\n#include "lp/lp.h"\n */\nint f(void) { return snprintf(0, 0, "exit(1) stderr"); } // puts(1)\n'
+  expect ok cli/main.c '#include "lp/solver/lp.h"\nint main(void) { printf("%d", 1); exit(0); }\n'
+  expect ok graph/a.c '/* printf(1); #include "lp/solver/lp.h"\n#include "lp/solver/lp.h"\n */\nint f(void) { return snprintf(0, 0, "exit(1) stderr"); } // puts(1)\n'
   expect ok graph/a.c 'void thr_exit(int); void f(int at_exit) { thr_exit(at_exit); my_printf(1); }\n'
   expect ok graph/a.h '/* head */\n#ifndef THR_A_H\n#define THR_A_H\n#endif\n'
   expect ok docs/a.md 'cord/wo''rk/length, https://example.org/wo''rk/x, <b>/home/</b>\n'

@@ -2,7 +2,7 @@
 #ifndef THR_MATCHINGS_H
 #define THR_MATCHINGS_H
 
-#include "lp/blossom.h"
+#include "lp/matching/blossom.h"
 #include "tests/support.h"
 
 enum { INSTANCE_EDGES = 20000 };
@@ -26,7 +26,7 @@ void join_randomly(instance *g, rng *r, int n_edges, int64_t most);
 /* 0 .. most. */
 int64_t random_weight(rng *r, int64_t most);
 
-/* Fails unless m is a perfect matching and its duals prove it lightest, by the sums of lp/blossom.h. */
+/* Fails unless m is a perfect matching and its duals prove it lightest, by the sums of lp/matching/blossom.h. */
 void assert_lightest(const instance *g, const thr_matching *m);
 
 /* Weight of the lightest perfect matching by trying all of them, or -1; at most 20 nodes. */

@@ -66,8 +66,8 @@ job() {
     esac
     ;;
   second/plans) timeout 900 tests/second/compare.py "$OUT/release/thread" >"$log" 2>&1 || code=$? ;;
-  viewer/page) viewer/build.sh "$OUT/viewer" 2>"$log" | cmp - diagram/viewer_page.html >>"$log" 2>&1 ||
-    { code=1 && echo 'diagram/viewer_page.html is not what viewer/ gives; "make viewer" builds it' >>"$log"; } ;;
+  viewer/page) viewer/build.sh "$OUT/viewer" 2>"$log" | cmp - diagram/export/viewer_page.html >>"$log" 2>&1 ||
+    { code=1 && echo 'diagram/export/viewer_page.html is not what viewer/ gives; "make viewer" builds it' >>"$log"; } ;;
   viewer/browser) tests/viewer/run.sh "$OUT/release/thread" "$OUT/viewer-test" >"$log" 2>&1 || code=$? ;;
   fuzz/*)
     fuzz "$name" "$log" || code=$?

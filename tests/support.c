@@ -1,6 +1,6 @@
 /* Builders and oracles of the tests. */
 #include "tests/support.h"
-#include "graph/read.h"
+#include "graph/io/read.h"
 
 #include <math.h>
 #include <stdio.h>

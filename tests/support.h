@@ -3,9 +3,9 @@
 #ifndef THR_SUPPORT_H
 #define THR_SUPPORT_H
 
-#include "graph/check.h"
-#include "graph/plan.h"
-#include "lp/postman.h"
+#include "graph/check/check.h"
+#include "graph/plan/plan.h"
+#include "lp/length/postman.h"
 
 #include <check.h>
 #include <stdint.h>

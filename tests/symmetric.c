@@ -1,6 +1,6 @@
 /* Frameworks whose symmetries are known. */
 #include "tests/symmetric.h"
-#include "symmetry/automorphisms.h"
+#include "symmetry/group/automorphisms.h"
 
 #include <math.h>
 #include <stdlib.h>

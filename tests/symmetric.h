@@ -3,9 +3,9 @@
 #define THR_TEST_SYMMETRIC_H
 
 #include "tests/support.h"
-#include "graph/make.h"
-#include "symmetry/cover.h"
-#include "symmetry/group.h"
+#include "graph/framework/make.h"
+#include "symmetry/cover/cover.h"
+#include "symmetry/group/group.h"
 
 thr_frame shape_make(thr_shape shape, int size, int rings); /* as `thread make` does */
 thr_frame truncated_icosahedron(void);                      /* 60 nodes of degree 3, no feet */

@@ -3,7 +3,7 @@
 #ifndef THR_THREADINGS_H
 #define THR_THREADINGS_H
 
-#include "graph/plan.h"
+#include "graph/plan/plan.h"
 
 typedef enum { THREAD_LINES, THREAD_STAIRS, THREAD_SNAKE, N_THREADINGS } threading;
 

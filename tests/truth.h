@@ -2,7 +2,7 @@
 #ifndef THR_TRUTH_H
 #define THR_TRUTH_H
 
-#include "graph/plan.h"
+#include "graph/plan/plan.h"
 
 enum { TRUTH_NODES = 8, TRUTH_EDGES = 8, TRUTH_TABLE_EDGES = 6 }; /* at most, in all components together; for tables */
 

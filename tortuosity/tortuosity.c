@@ -1,12 +1,12 @@
 /* Options -> the search's task -> cords -> plan with its claims; and the trade-off between length and turning. */
 #include "tortuosity/tortuosity.h"
-#include "graph/check.h"
-#include "graph/junction.h"
-#include "lp/cords.h"
-#include "lp/postman.h"
-#include "tortuosity/baseline.h"
-#include "tortuosity/maxturn.h"
-#include "tortuosity/tube.h"
+#include "graph/check/check.h"
+#include "graph/plan/junction.h"
+#include "lp/length/cords.h"
+#include "lp/length/postman.h"
+#include "tortuosity/tour/baseline.h"
+#include "tortuosity/cords/maxturn.h"
+#include "tortuosity/tie/tube.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -4,12 +4,12 @@
 #define THR_TORTUOSITY_H
 
 #include "graph/limits.h"
-#include "graph/plan.h"
+#include "graph/plan/plan.h"
 
 /* Makes a plan as options.turning says: extra passes, ends and pairings chosen together, or a classical tour to compare with
  * (which claims nothing about its turning). Among plans that turn equally little it takes a short one if it finds it. The plan
- * holds the proof of length (graph/plan.h, thr_length_proof) as well; with a length slack the limit is that part above
- * the shortest plan found for so many cords. Both claims are what graph/check.c says, never what the solver hopes.
+ * holds the proof of length (graph/plan/plan.h, thr_length_proof) as well; with a length slack the limit is that part above
+ * the shortest plan found for so many cords. Both claims are what graph/check/check.c says, never what the solver hopes.
  * THR_OK: what was to be minimized is proved optimal, or the tour is a classical one. THR_ELIMIT: the plan is valid and holds its
  * bound and gap. THR_EINFEASIBLE: no node for a cord end in a component (named), or no plan within the limits on passes and
  * length. THR_EINPUT: options that do not go together (said). Otherwise the plan is empty. */

@@ -1,4 +1,4 @@
-// The plan as the page holds it (diagram/viewer.c writes it), unrolled into steps: one per pass, unique paths before their
+// The plan as the page holds it (diagram/export/viewer.c writes it), unrolled into steps: one per pass, unique paths before their
 // copies.
 
 // 32-bit FNV-1a over integers: tells one plan of a framework from another.

@@ -3,7 +3,7 @@
 #ifndef THR_FUZZ_H
 #define THR_FUZZ_H
 
-#include "graph/read.h"
+#include "graph/io/read.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* Fuzzes the reader of physics (config files, options.physics of plans) and what is made of it: what parses is in range, survives
  * being written and read again, and resolves against a framework to sizes that fit, or is refused. */
-#include "graph/physics.h"
+#include "graph/plan/physics.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* Fuzzes the reader of plans and the checker: what parses is checked without a crash, and is written and read again as the
  * same bytes with the same verdict. What the checker lets through is evaluated as well. */
 #include "eval/eval.h"
-#include "graph/check.h"
+#include "graph/check/check.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,9 +1,9 @@
 /* An adversary of the checker: certificates that hill climbing looks for on small frameworks, to have a bound accepted that is
  * above the truth. The truth comes from trying all choices (tests/truth.h). */
-#include "lp/cords.h"
+#include "lp/length/cords.h"
 #include "tests/attack.h"
 #include "tests/truth.h"
-#include "graph/prices.h"
+#include "graph/plan/prices.h"
 
 #include <limits.h>
 #include <math.h>

@@ -1,11 +1,11 @@
 /* The adversary of test_adversary.c against proofs of turning and of tied length: trees of multipliers on small frameworks,
  * looked for by hill climbing from nothing and from the program's own proofs, to prove more than is true. Of prices the truth is
  * exact (tests/truth.h), so that even the last bit of the rounding counts. */
-#include "graph/junction.h"
+#include "graph/plan/junction.h"
 #include "tests/attack.h"
 #include "tests/truth.h"
 #include "tortuosity/tortuosity.h"
-#include "tortuosity/tube_cords.h"
+#include "tortuosity/tie/tube_cords.h"
 
 #include <limits.h>
 #include <math.h>

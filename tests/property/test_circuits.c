@@ -1,7 +1,7 @@
 /* Several closed cords in every component against enumeration over all pairings of all passes. */
 #include "tests/symmetric.h"
-#include "graph/make.h"
-#include "tortuosity/maxturn.h"
+#include "graph/framework/make.h"
+#include "tortuosity/cords/maxturn.h"
 
 #include <math.h>
 #include <stdlib.h>

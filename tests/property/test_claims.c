@@ -1,5 +1,5 @@
 /* What is claimed of rows must hold for threadings as plans count them, whatever comes first. */
-#include "symmetry/claims.h"
+#include "symmetry/cover/claims.h"
 #include "tests/symmetric.h"
 
 #include <string.h>

@@ -1,11 +1,11 @@
 /* Symmetric covers against exhaustive search and against published figures. */
-#include "graph/junction.h"
-#include "graph/make.h"
-#include "symmetry/automorphisms.h"
-#include "symmetry/claims.h"
-#include "symmetry/cover.h"
-#include "symmetry/isometry.h"
-#include "symmetry/turning_bound.h"
+#include "graph/plan/junction.h"
+#include "graph/framework/make.h"
+#include "symmetry/group/automorphisms.h"
+#include "symmetry/cover/claims.h"
+#include "symmetry/cover/cover.h"
+#include "symmetry/group/isometry.h"
+#include "symmetry/cover/turning_bound.h"
 #include "tests/symmetric.h"
 
 #include <math.h>

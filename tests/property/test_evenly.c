@@ -1,7 +1,7 @@
 /* Cords that turn evenly, tied cords that turn least, and given numbers of ends that differ from piece to piece, of random small
  * frameworks against every choice of passes, ends and pairs. */
 #include "tests/symmetric.h"
-#include "graph/make.h"
+#include "graph/framework/make.h"
 #include "tortuosity/tortuosity.h"
 
 #include <math.h>

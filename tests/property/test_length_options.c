@@ -1,5 +1,5 @@
 /* Shortest plans under every combination of cover, capacity, ends and number of cords, against all choices of extra passes. */
-#include "lp/cords.h"
+#include "lp/length/cords.h"
 #include "tests/support.h"
 
 #include <math.h>

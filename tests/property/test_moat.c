@@ -1,11 +1,11 @@
 /* Minimum T-joins of random graphs: both engines, with and without shrinking, against each other and against all subsets; every
  * certificate is checked here, by sums of 128 bits. */
 #include "tests/support.h"
-#include "lp/cutbasis.h"
-#include "lp/engine.h"
-#include "lp/moat.h"
-#include "lp/nest.h"
-#include "lp/shrink.h"
+#include "lp/tjoin/cutbasis.h"
+#include "lp/tjoin/engine.h"
+#include "lp/matching/moat.h"
+#include "lp/matching/nest.h"
+#include "lp/tjoin/shrink.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* The least turning of frameworks whose optima are known from other programs (docs/method.md), in degrees. */
-#include "graph/make.h"
+#include "graph/framework/make.h"
 #include "tests/support.h"
-#include "tortuosity/least.h"
+#include "tortuosity/proof/least.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* Every row of the table of symmetries, made a plan, written, read and checked, is what the row said of it. */
 #include "tests/symmetric.h"
-#include "graph/check.h"
+#include "graph/check/check.h"
 #include "symmetry/symmetry.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* The longest of several cords against all ways to share out passes in small frameworks; what must hold in larger ones. */
-#include "lp/cords.h"
+#include "lp/length/cords.h"
 #include "tests/support.h"
 
 #include <math.h>

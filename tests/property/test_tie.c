@@ -1,9 +1,9 @@
 /* Tied nodes: the turns of one against all turns, walks against prices from scratch, the ascent's bound against enumeration's
  * optimum in a linear programme with all rows. */
-#include "lp/lp.h"
+#include "lp/solver/lp.h"
 #include "tests/ties.h"
-#include "tortuosity/ascent.h"
-#include "tortuosity/tie_walk.h"
+#include "tortuosity/proof/ascent.h"
+#include "tortuosity/tie/tie_walk.h"
 
 #include <math.h>
 #include <stdlib.h>

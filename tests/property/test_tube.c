@@ -1,8 +1,8 @@
 /* The shortest cords for tube joints against all passes and all turns of small frameworks, and against published values. */
 #include "tests/ties.h"
-#include "graph/junction.h"
+#include "graph/plan/junction.h"
 #include "tortuosity/tortuosity.h"
-#include "tortuosity/tube.h"
+#include "tortuosity/tie/tube.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* Several cords for tube joints against all ways to choose them in small frameworks; what must hold in larger ones. */
 #include "tests/support.h"
-#include "tortuosity/tube_cords.h"
+#include "tortuosity/tie/tube_cords.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,10 +1,10 @@
 /* The least turning of random small frameworks against enumeration, its proof under alteration, and what must not change. */
 #include "tests/symmetric.h"
-#include "graph/make.h"
-#include "tortuosity/extra.h"
-#include "tortuosity/improve.h"
-#include "tortuosity/least.h"
-#include "tortuosity/maxturn.h"
+#include "graph/framework/make.h"
+#include "tortuosity/cords/extra.h"
+#include "tortuosity/cords/improve.h"
+#include "tortuosity/proof/least.h"
+#include "tortuosity/cords/maxturn.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,7 @@
-/* Bounds on turning against their definition. graph/turning_proof.h says which equations and inequalities hold for every plan;
- * here each is written down as a row over the columns, and what random multipliers prove is added up row by row, exactly. */
-#include "graph/turning_proof.h"
+/* Bounds on turning against their definition. graph/plan/turning_proof.h says which equations and inequalities hold for every
+ * plan; here each is written down as a row over the columns, and what random multipliers prove is added up row by row, exactly.
+ */
+#include "graph/plan/turning_proof.h"
 #include "tests/support.h"
 
 #include <limits.h>

@@ -1,7 +1,7 @@
 /* The classical tours against a second Fleury on counts of passes, pairings by enumeration, and the shortest length. */
 #include "tests/support.h"
-#include "graph/make.h"
-#include "tortuosity/baseline.h"
+#include "graph/framework/make.h"
+#include "tortuosity/tour/baseline.h"
 
 #include <math.h>
 #include <stdlib.h>

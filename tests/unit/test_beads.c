@@ -1,5 +1,5 @@
 /* Beads: faces, masses against counted volumes, feet, and cords that pull nothing away as a whole. */
-#include "eval/beads.h"
+#include "eval/structure/beads.h"
 #include "tests/support.h"
 #include "tests/threadings.h"
 

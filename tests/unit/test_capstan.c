@@ -1,7 +1,7 @@
 /* Method capstan: closed forms of both laws, symmetry, the best slackest pass by trying all, refusals. */
 #include "tests/support.h"
 #include "eval/eval.h"
-#include "eval/profile.h"
+#include "eval/cord/profile.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,8 +1,8 @@
 /* Rules of the checker, each against an answer that is worked out another way: what rounding takes off a bound, how short the
  * longest cord can be, and that no claim outlives a failure before it. */
-#include "graph/check_parts.h"
-#include "graph/junction.h"
-#include "lp/cords.h"
+#include "graph/check/check_parts.h"
+#include "graph/plan/junction.h"
+#include "lp/length/cords.h"
 #include "tests/support.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* The checker's part for symmetry against groups made of matrices, and against readings of cords that are counted one by one. */
-#include "graph/check_parts.h"
+#include "graph/check/check_parts.h"
 #include "tests/support.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 /* What the checker finds out about turning and says of claims about it: pairings against enumeration and closed forms, trees
  * whose bound is known, every number of a claim changed. */
-#include "graph/check_parts.h"
+#include "graph/check/check_parts.h"
 #include "tests/support.h"
 
 #include <limits.h>

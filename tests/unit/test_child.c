@@ -1,7 +1,7 @@
 /* One job in a child process: answers of any size, the best so far, deaths, limits, and no child that outlives its parent. */
 #define _POSIX_C_SOURCE 200809L
 #include "tests/support.h"
-#include "graph/child.h"
+#include "graph/process/child.h"
 
 #include <errno.h>
 #include <poll.h>

@@ -1,8 +1,8 @@
 /* Starts, contraction and exchanges of symmetric covers: every solution put into the equations by hand, least joins against
  * exhaustive search, turning against what a cross must have. */
-#include "symmetry/automorphisms.h"
-#include "symmetry/bounds.h"
-#include "symmetry/contraction.h"
+#include "symmetry/group/automorphisms.h"
+#include "symmetry/cover/bounds.h"
+#include "symmetry/cover/contraction.h"
 #include "tests/symmetric.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* What the words for copies say, against matrices whose geometry is known: x to the right, y to the back, z up. */
-#include "cli/copies.c"
+#include "cli/print/copies_table.c"
 #include "tests/symmetric.h"
 
 #include <string.h>

@@ -1,7 +1,7 @@
 /* Cords of symmetric covers: for every class of subgroups of small frameworks, plans that the checker agrees with. */
 #include "tests/symmetric.h"
-#include "symmetry/automorphisms.h"
-#include "symmetry/cover.h"
+#include "symmetry/group/automorphisms.h"
+#include "symmetry/cover/cover.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* Forests of cuts against their sets written out. */
 #include "tests/support.h"
-#include "lp/cuts.h"
+#include "lp/tjoin/cuts.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* Diagrams: layouts measured and chosen, and the overview picture read back from its SVG text. */
-#include "diagram/overview.h"
-#include "diagram/palette.h"
-#include "graph/make.h"
+#include "diagram/overview/overview.h"
+#include "diagram/scene/palette.h"
+#include "graph/framework/make.h"
 #include "symmetry/symmetry.h"
 #include "tests/symmetric.h"
 

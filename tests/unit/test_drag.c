@@ -1,7 +1,7 @@
 /* A cord dragged in Bullet: the capstan law as oracle, the taut path of a zigzag in closed form, same bits, range and refusals.
  */
 #include "tests/support.h"
-#include "eval/drag.h"
+#include "eval/joint/drag.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* The floor: status and error text, checked allocation, growing text, JSON reading. */
 #define _POSIX_C_SOURCE 200809L
 #include "tests/support.h"
-#include "graph/json.h"
+#include "graph/io/json.h"
 
 #include <math.h>
 #include <stdio.h>

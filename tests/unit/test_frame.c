@@ -1,5 +1,5 @@
 /* Drafts, welding and the framework: small cases with known answers, and every allocation failing once. */
-#include "graph/frame.h"
+#include "graph/framework/frame.h"
 
 #include <check.h>
 #include <math.h>

@@ -2,10 +2,10 @@
  * against published counts and all subsets. */
 #define _POSIX_C_SOURCE 200809L
 #include "tests/symmetric.h"
-#include "graph/automorphism_count.h"
-#include "symmetry/automorphisms.h"
-#include "symmetry/group.h"
-#include "symmetry/isometry.h"
+#include "graph/framework/automorphism_count.h"
+#include "symmetry/group/automorphisms.h"
+#include "symmetry/group/group.h"
+#include "symmetry/group/isometry.h"
 
 #include <math.h>
 #include <stdio.h>

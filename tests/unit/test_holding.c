@@ -3,8 +3,8 @@
 #include "tests/support.h"
 #include "tests/threadings.h"
 #include "eval/eval.h"
-#include "graph/make.h"
-#include "lp/lp.h"
+#include "graph/framework/make.h"
+#include "lp/solver/lp.h"
 
 #include <math.h>
 #include <stdio.h>

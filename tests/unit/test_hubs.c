@@ -1,10 +1,10 @@
 /* Nodes of any degree: the bound of the nodes by themselves against linear and integer programming, pairings of hubs against
  * integer programming, and plans of frameworks whose turns no programme holds. */
-#include "lp/lp.h"
+#include "lp/solver/lp.h"
 #include "tests/support.h"
-#include "tortuosity/hubs.h"
-#include "tortuosity/nearest.h"
-#include "tortuosity/pairing.h"
+#include "tortuosity/proof/hubs.h"
+#include "tortuosity/proof/nearest.h"
+#include "tortuosity/tour/pairing.h"
 #include "tortuosity/tortuosity.h"
 
 #include <math.h>

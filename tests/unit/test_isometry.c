@@ -1,10 +1,10 @@
 /* What automorphisms are in space, against the known classes of point groups; isometries from coordinates against nauty's group.
  */
 #include "tests/symmetric.h"
-#include "symmetry/automorphisms.h"
-#include "symmetry/group.h"
-#include "symmetry/isometry.h"
-#include "graph/procrustes.h"
+#include "symmetry/group/automorphisms.h"
+#include "symmetry/group/group.h"
+#include "symmetry/group/isometry.h"
+#include "graph/framework/procrustes.h"
 #include "graph/vector.h"
 
 #include <math.h>

@@ -1,9 +1,9 @@
 /* Composing joints along taut cords, with friction laws that are known exactly in Bullet's place; and the cache of joints. */
 #define _POSIX_C_SOURCE 200809L
 #include "tests/support.h"
-#include "eval/cache.h"
-#include "eval/joint.h"
-#include "eval/taut.h"
+#include "eval/joint/cache.h"
+#include "eval/joint/joint.h"
+#include "eval/cord/taut.h"
 
 #include <dirent.h>
 #include <math.h>

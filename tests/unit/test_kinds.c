@@ -1,6 +1,6 @@
 /* Kinds of beads against turned, mirrored and renamed ones; bores against closed forms and areas. */
-#include "diagram/kinds.h"
-#include "graph/bore.h"
+#include "diagram/tables/kinds.h"
+#include "graph/framework/bore.h"
 #include "tests/symmetric.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* Lanes by the geometry of the finished picture: which strands cross in a node is read from where they enter and leave it. */
-#include "diagram/scene.h"
+#include "diagram/scene/scene.h"
 #include "tests/support.h"
 
 #include <math.h>

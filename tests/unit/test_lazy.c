@@ -1,6 +1,6 @@
 /* Libraries that are loaded when they are needed. */
 #include "tests/support.h"
-#include "graph/lazy.h"
+#include "graph/process/lazy.h"
 
 #include <math.h>
 #include <string.h>

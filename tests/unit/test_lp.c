@@ -1,7 +1,7 @@
 /* Contract of the linear programming interface, and of the cut tree. */
 #include "tests/support.h"
-#include "graph/cuttree.h"
-#include "lp/interior.h"
+#include "graph/framework/cuttree.h"
+#include "lp/solver/interior.h"
 
 #include <math.h>
 #include <stdlib.h>

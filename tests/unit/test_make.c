@@ -1,6 +1,6 @@
 /* Generators: counts from closed forms, Euler characteristic, symmetry, lengths; data/dome7.json is the default dome. */
-#include "graph/make.h"
-#include "graph/read.h"
+#include "graph/framework/make.h"
+#include "graph/io/read.h"
 
 #include <check.h>
 #include <math.h>

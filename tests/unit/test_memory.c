@@ -2,7 +2,7 @@
  * nothing leaks (the sanitizer build looks). Allocations inside GLPK and igraph are their own. */
 #include "tests/support.h"
 #include "eval/eval.h"
-#include "graph/read.h"
+#include "graph/io/read.h"
 
 #include <stdlib.h>
 #include <string.h>

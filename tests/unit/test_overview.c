@@ -1,7 +1,7 @@
 /* The overview looked at as a maker does: parsed from its SVG and held against the plan and the framework. */
-#include "diagram/overview.h"
-#include "diagram/palette.h"
-#include "diagram/places.h"
+#include "diagram/overview/overview.h"
+#include "diagram/scene/palette.h"
+#include "diagram/scene/places.h"
 #include "tests/plans.h"
 #include "tests/svg_tree.h"
 

@@ -1,7 +1,7 @@
 /* Pairing at one node: subsets against integer programming against enumeration, on random stars under every price. */
 #include "tests/support.h"
-#include "tortuosity/pairing.h"
-#include "graph/turning_proof.h"
+#include "tortuosity/tour/pairing.h"
+#include "graph/plan/turning_proof.h"
 
 #include <math.h>
 #include <stdio.h>

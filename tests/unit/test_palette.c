@@ -1,5 +1,5 @@
 /* The palette in numbers, for eyes of every kind and for grey print. */
-#include "diagram/palette.h"
+#include "diagram/scene/palette.h"
 #include "tests/support.h"
 
 #include <math.h>

@@ -1,8 +1,8 @@
 /* Two panels of closed shells, the side that they show, and drawings by springs. */
-#include "diagram/guide.h"
-#include "diagram/layout.h"
-#include "graph/drawing.h"
-#include "graph/make.h"
+#include "diagram/overview/guide.h"
+#include "diagram/layout/layout.h"
+#include "graph/framework/drawing.h"
+#include "graph/framework/make.h"
 #include "tests/symmetric.h"
 
 #include <math.h>

@@ -1,9 +1,9 @@
 /* The tension plot, the overview coloured by tension and by turning, and the still picture: heights against tensions, lightness
  * against angles, order against depth, rotated poses against a rotated framework. */
-#include "diagram/overview.h"
-#include "diagram/palette.h"
-#include "diagram/still.h"
-#include "diagram/tension.h"
+#include "diagram/overview/overview.h"
+#include "diagram/scene/palette.h"
+#include "diagram/overview/still.h"
+#include "diagram/overview/tension.h"
 #include "tests/support.h"
 
 #include <math.h>

@@ -1,8 +1,8 @@
 /* The cords as lines: OBJ read back by the reader of frameworks and record by record, glTF decoded byte by byte. */
-#include "diagram/palette.h"
-#include "diagram/polylines.h"
-#include "graph/json.h"
-#include "graph/read.h"
+#include "diagram/scene/palette.h"
+#include "diagram/scene/polylines.h"
+#include "graph/io/json.h"
+#include "graph/io/read.h"
 #include "tests/plans.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* T-joins and the shortest cord: known answers, data files, limits. */
 #include "tests/support.h"
-#include "graph/make.h"
-#include "lp/tjoin.h"
+#include "graph/framework/make.h"
+#include "lp/tjoin/tjoin.h"
 
 #include <math.h>
 #include <stdlib.h>

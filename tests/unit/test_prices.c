@@ -1,7 +1,7 @@
 /* Prices of places in certificates: loops, what the checker refuses, plans that need more places than a shortest join has. */
-#include "graph/prices.h"
-#include "graph/check.h"
-#include "lp/cords.h"
+#include "graph/plan/prices.h"
+#include "graph/check/check.h"
+#include "lp/length/cords.h"
 #include "tests/support.h"
 
 #include <stdlib.h>

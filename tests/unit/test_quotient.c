@@ -1,7 +1,7 @@
 /* Types of copies, darts and turns under a group: known cases, counts that must agree, limits, failing allocations. */
-#include "graph/make.h"
-#include "symmetry/automorphisms.h"
-#include "symmetry/cover.h"
+#include "graph/framework/make.h"
+#include "symmetry/group/automorphisms.h"
+#include "symmetry/cover/cover.h"
 #include "tests/support.h"
 
 #include <math.h>

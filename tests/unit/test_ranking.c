@@ -1,5 +1,5 @@
 /* Rankings: ties are what the intervals allow, and no more. */
-#include "cli/ranking.c"
+#include "cli/print/ranking.c"
 #include "tests/support.h"
 
 enum { MOST = 7 };

@@ -1,6 +1,6 @@
 /* Readers and writers: every dialect with a known answer, the stored frameworks' totals, error texts, round trips, and
  * every allocation failing once. */
-#include "graph/read.h"
+#include "graph/io/read.h"
 
 #include <check.h>
 #include <math.h>

@@ -1,8 +1,8 @@
 /* Rigidity: closed forms, theorems (Cauchy and Dehn: convex triangulated spheres), and the rank of random frameworks with whole
  * coordinates by elimination modulo a prime. */
 #include "tests/symmetric.h"
-#include "eval/rank.h"
-#include "eval/rigidity.h"
+#include "eval/structure/rank.h"
+#include "eval/structure/rigidity.h"
 
 #include <stdlib.h>
 

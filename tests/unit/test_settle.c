@@ -1,6 +1,6 @@
 /* The structure in Bullet against statics: cantilevers scale as moments do, what stands stands, what cannot be simulated is
  * refused, and equal input gives equal bits. */
-#include "eval/settle.h"
+#include "eval/structure/settle.h"
 #include "tests/support.h"
 
 #include <math.h>

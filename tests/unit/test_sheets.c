@@ -1,8 +1,8 @@
 /* Step sheets: the PDF's text as pdftotext finds it, read row by row back into half-edges and compared with the plan; sizes of
  * pages and letters; every pass of a step numbered in its picture. */
 #define _POSIX_C_SOURCE 200809L
-#include "diagram/guide.h"
-#include "diagram/sheets.h"
+#include "diagram/overview/guide.h"
+#include "diagram/sheets/sheets.h"
 #include "tests/plans.h"
 
 #include <ctype.h>

@@ -1,6 +1,6 @@
 /* Shrinking of T-join problems: what is left of known graphs, and what comes back. */
 #include "tests/support.h"
-#include "lp/shrink.h"
+#include "lp/tjoin/shrink.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* The table of groups, the choice, and plans from it: published values, permutations followed node by node, the checker. */
 #include "tests/symmetric.h"
-#include "graph/check.h"
+#include "graph/check/check.h"
 #include "symmetry/symmetry.h"
 #include "tortuosity/tortuosity.h"
 

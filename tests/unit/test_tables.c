@@ -1,6 +1,6 @@
 /* Tables of a plan, read back and worked out again from its JSON and coordinates. */
-#include "diagram/tables.h"
-#include "graph/json.h"
+#include "diagram/tables/tables.h"
+#include "graph/io/json.h"
 #include "tests/plans.h"
 
 #include <math.h>

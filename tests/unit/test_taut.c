@@ -1,7 +1,7 @@
 /* The taut path: closed forms by hand, a brute force that knows the openings only by distances to the channels' axes, symmetry.
  */
 #include "tests/support.h"
-#include "eval/taut.h"
+#include "eval/cord/taut.h"
 
 #include <math.h>
 #include <stdlib.h>

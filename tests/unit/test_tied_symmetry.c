@@ -1,11 +1,11 @@
 /* Symmetric threadings that tie tube joints: published lengths, the search without symmetry, the checker. That they are the best
  * under every group of small frameworks is shown in tests/property/test_cover.c. */
-#include "graph/check.h"
-#include "graph/junction.h"
+#include "graph/check/check.h"
+#include "graph/plan/junction.h"
 #include "symmetry/symmetry.h"
-#include "symmetry/ties.h"
+#include "symmetry/cover/ties.h"
 #include "tests/symmetric.h"
-#include "tortuosity/tube.h"
+#include "tortuosity/tie/tube.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* The objective "tortuosity" as a whole: what the length slack is measured from, the trade-off, and what is said of a plan that
  * is not proved. */
 #include "tests/support.h"
-#include "tortuosity/least.h"
+#include "tortuosity/proof/least.h"
 #include "tortuosity/tortuosity.h"
 
 #include <math.h>

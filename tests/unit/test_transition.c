@@ -1,8 +1,8 @@
 /* Multigraph, pairing, joining, tracing, and the cords made of them. */
 #include "tests/support.h"
-#include "graph/multigraph.h"
-#include "graph/tour.h"
-#include "graph/transition.h"
+#include "graph/threading/multigraph.h"
+#include "graph/threading/tour.h"
+#include "graph/threading/transition.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,8 +1,8 @@
 /* The viewer's page: what is in it is read back with the JSON library and compared with the plan, names that could end the script
  * do not, and failures leave nothing behind. What the page does is tested in tests/viewer. */
-#include "diagram/viewer.h"
-#include "graph/json.h"
-#include "graph/make.h"
+#include "diagram/export/viewer.h"
+#include "graph/io/json.h"
+#include "graph/framework/make.h"
 #include "symmetry/symmetry.h"
 #include "tests/support.h"
 #include "tests/symmetric.h"

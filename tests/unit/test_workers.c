@@ -1,7 +1,7 @@
 /* The pool of processes: order, failures, crashes, signals, limits, and nothing left behind. */
 #define _POSIX_C_SOURCE 200809L
 #include "tests/support.h"
-#include "graph/workers.h"
+#include "graph/process/workers.h"
 
 #include <errno.h>
 #include <signal.h>

@@ -1,6 +1,6 @@
 /* The thesis's Fig. 12: a row of beads held out from a wall by one straight cord. */
-#include "eval/holding.h"
-#include "eval/settle.h"
+#include "eval/structure/holding.h"
+#include "eval/structure/settle.h"
 #include "tests/validate/validate.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 /* Whole cords of 20 turns in Bullet against joints composed along the taut path. */
-#include "eval/taut.h"
-#include "graph/frame.h"
+#include "eval/cord/taut.h"
+#include "graph/framework/frame.h"
 #include "tests/validate/drags.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 #include "tests/validate/drags.h"
-#include "graph/workers.h"
+#include "graph/process/workers.h"
 
 #include <stdlib.h>
 #include <unistd.h>

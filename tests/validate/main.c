@@ -1,6 +1,6 @@
 /* make validate: docs/validation.md. Exit code 1 if a value is outside its bound. Usage: validate FILE [part] */
-#include "eval/drag.h"
-#include "eval/world.h"
+#include "eval/joint/drag.h"
+#include "eval/joint/world.h"
 #include "tests/validate/validate.h"
 
 #include <stdio.h>

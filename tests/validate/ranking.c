@@ -1,6 +1,6 @@
 /* Three threadings of the 7x7 dome: the order of their pulls by every method and under varied settings of the simulation. */
 #include "eval/eval.h"
-#include "graph/workers.h"
+#include "graph/process/workers.h"
 #include "tests/validate/validate.h"
 
 #include <stdio.h>

@@ -1,0 +1,264 @@
+/* Options about cords: how many, how long, where they end, and what fits through a bead. */
+#include "cli/args/cords_args.h"
+#include "graph/framework/bore.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_CORDS = 1000, MOST_PASSES = 100 };
+
+cords_args cords_args_default(void)
+{
+  const thr_plan_options usual = thr_plan_options_default();
+  return (cords_args){.ends = "closed", .cover = usual.cover, .capacity = usual.capacity, .joint = usual.joint};
+}
+
+/* ---- parsing ---- */
+
+static const char *joint_name(int i)
+{
+  return thr_joint_name((thr_joint)i);
+}
+
+static const char *engine_name(int i)
+{
+  return thr_engine_name((thr_engine)i);
+}
+
+static const char *confirm_name(int i)
+{
+  return thr_confirm_name((thr_confirm)i);
+}
+
+static bool cords_number(const char *text, int n, int *out)
+{
+  char number[16];
+  if (n <= 0 || n >= (int)sizeof number) {
+    cli_usage("plan", "--cords: expected a number of cords, A..B, ..B or auto");
+    return false;
+  }
+  snprintf(number, sizeof number, "%.*s", n, text);
+  return cli_int("plan", "--cords", number, 1, MOST_CORDS, out);
+}
+
+/* "4", "2..4", "..4", "auto". */
+static bool parse_cords(cords_args *a, const char *value)
+{
+  const char *dots = strstr(value, "..");
+  a->automatic = strcmp(value, "auto") == 0;
+  a->least = 1;
+  a->most = MOST_CORDS;
+  if (a->automatic) return true;
+  if (!dots) {
+    bool ok = cords_number(value, (int)strlen(value), &a->most);
+    a->least = a->most;
+    return ok;
+  }
+  if (dots > value && !cords_number(value, (int)(dots - value), &a->least)) return false;
+  if (!cords_number(dots + 2, (int)strlen(dots + 2), &a->most)) return false;
+  if (a->least <= a->most) return true;
+  cli_usage("plan", "--cords %s: the first number is the smaller one", value);
+  return false;
+}
+
+bool cords_option(cords_args *a, int option, const char *value, bool *ok)
+{
+  int i = 0;
+  switch (option) {
+  case OPTION_CORDS: *ok = parse_cords(a, value); return true;
+  case OPTION_CORDS_MAX_LENGTH:
+    *ok = cli_double("plan", "--max-length", value, 0, 1e100, &a->max_length);
+    if (*ok && a->max_length == 0) {
+      cli_usage("plan", "--max-length 0: a cord has some length");
+      *ok = false;
+    }
+    return true;
+  case OPTION_CORDS_BALANCE: a->balance = true; return true;
+  case OPTION_CORDS_COVER: *ok = cli_int("plan", "--cover", value, 1, MOST_PASSES, &a->cover); return true;
+  case OPTION_CORDS_CAPACITY: *ok = cli_int("plan", "--capacity", value, 1, 10 * MOST_PASSES, &a->capacity); return true;
+  case OPTION_CORDS_JOINT:
+    *ok = cli_choose("plan", "--joint", value, joint_name, 2, &i);
+    a->joint = i ? THR_JOINT_TUBE : THR_JOINT_SOLID;
+    return true;
+  case OPTION_CORDS_ENGINE:
+    *ok = cli_choose("plan", "--engine", value, engine_name, 3, &i);
+    if (*ok) a->engine = (thr_engine)i;
+    return true;
+  case OPTION_CORDS_CONFIRM:
+    *ok = cli_choose("plan", "--confirm", value, confirm_name, 3, &i);
+    if (*ok) a->confirm = (thr_confirm)i;
+    return true;
+  case OPTION_CORDS_ENDS: a->ends = value; return true;
+  default: return false;
+  }
+}
+
+const char *cords_args_refused(const cords_args *a, thr_objective objective, bool rival)
+{
+  if (objective == THR_LENGTH) return NULL;
+  if (a->max_length > 0) return "--max-length";
+  if (a->balance) return "--balance";
+  if (a->automatic) return "--cords auto";
+  if (a->least != a->most) return "a range of --cords";
+  if (objective == THR_TORTUOSITY) return NULL;
+  return a->most > 1 && !rival ? "--cords" : NULL;
+}
+
+int cords_args_check(const cords_args *a, const turning_args *turning, thr_objective objective)
+{
+  const char *refused = cords_args_refused(a, objective, false), *tour = thr_tour_name(turning->options.tour);
+  if (refused) return cli_usage("plan", "%s: not with --objective %s", refused, thr_objective_name(objective));
+  if (a->confirm == THR_CONFIRM_ALWAYS && (objective != THR_LENGTH || a->joint == THR_JOINT_TUBE))
+    return cli_usage("plan", "--confirm always: of shortest passes only, with --objective length and --joint solid");
+  if (a->balance && a->most < 2) return cli_usage("plan", "--balance needs several --cords");
+  if (a->balance && (a->max_length > 0 || a->automatic))
+    return cli_usage("plan", "--balance makes the longest cord as short as can be: no --%s with it",
+                     a->automatic ? "cords auto" : "max-length");
+  if (a->automatic && a->max_length == 0) return cli_usage("plan", "--cords auto: as many as needed for what? Give --max-length");
+  if (a->capacity > 0 && a->capacity < a->cover)
+    return cli_usage("plan", "--capacity %d leaves no room for --cover %d", a->capacity, a->cover);
+  if (turning->options.tour == THR_TOUR_LEAST) return -1;
+  if (a->most > 1) return cli_usage("plan", "--tour %s makes one cord in each piece, not --cords %d", tour, a->most);
+  if (a->joint == THR_JOINT_TUBE) return cli_usage("plan", "--tour %s ties no joints: no --joint tube", tour);
+  return -1;
+}
+
+/* ---- numbers of ends ---- */
+
+/* The node whose name is before the last colon of text[0 .. n-1], -1 if there is none; *number: what is after it. Names may hold
+ * colons themselves: what is a node's name as a whole has no number. */
+static int counted_node(const thr_frame *f, const char *text, int n, char number[256])
+{
+  char word[256], *colon;
+  if (n >= (int)sizeof word) return -1;
+  snprintf(word, sizeof word, "%.*s", n, text);
+  if (thr_frame_find(f, word) >= 0 || !(colon = strrchr(word, ':'))) return -1;
+  snprintf(number, 256, "%s", colon + 1);
+  *colon = '\0';
+  return thr_frame_find(f, word);
+}
+
+/* "A:2,B:1" into counts. -1 if no node comes with a number; EXIT_OK; or prints what is wrong and returns the code. */
+static int parse_counts(const thr_frame *f, const char *ends, int *counts)
+{
+  const char *word = ends, *end, *alone = NULL;
+  bool some = false;
+  for (bool more = *ends; more; word = end + 1) {
+    char number[256], *rest;
+    end = word + strcspn(word, ",");
+    more = *end;
+    int n = (int)(end - word), v = counted_node(f, word, n, number);
+    if (v < 0) {
+      alone = alone ? alone : word;
+      continue;
+    }
+    long count = strtol(number, &rest, 10);
+    some = true;
+    if (rest == number || *rest || count < 1 || count > 2 * MOST_CORDS)
+      return cli_usage("plan", "--ends %.*s: expected a number of cord ends from 1 to %d after the colon", n, word,
+                       2 * MOST_CORDS);
+    if (counts[v]) return cli_usage("plan", "--ends %s: node %s comes twice", ends, f->name[v]);
+    counts[v] = (int)count;
+  }
+  if (!some) return -1;
+  if (alone)
+    return cli_usage("plan", "--ends %s: %.*s is no node with a number of cord ends; give every node one, or none", ends,
+                     (int)strcspn(alone, ","), alone);
+  return EXIT_OK;
+}
+
+/* Cords of the pieces that the ends belong to: *most and *least of any. */
+static int count_cords(const thr_frame *f, const int *counts, int *least, int *most)
+{
+  thr_err err = {0};
+  int n, code = EXIT_OK, *component = thr_calloc((size_t)f->n_nodes, sizeof *component);
+  int *sum = thr_calloc((size_t)f->n_nodes, sizeof *sum), *first = thr_calloc((size_t)f->n_nodes, sizeof *first);
+  thr_status st = component && sum && first ? thr_frame_components(f, component, &n, &err) : thr_nomem(&err);
+  *least = MOST_CORDS;
+  *most = 0;
+  for (int v = f->n_nodes - 1; v >= 0 && !st; v--) {
+    sum[component[v]] += counts[v];
+    first[component[v]] = v;
+  }
+  for (int k = 0; !st && !code && k < n; k++) {
+    if (sum[k] % 2 || sum[k] == 0) {
+      cli_error("--ends: the piece with node %s has %d %s; cords have two each, and every piece needs one", f->name[first[k]],
+                sum[k], cli_plural(sum[k], "cord end", "cord ends"));
+      code = EXIT_INFEASIBLE;
+    }
+    if (sum[k] / 2 < *least) *least = sum[k] / 2;
+    if (sum[k] / 2 > *most) *most = sum[k] / 2;
+  }
+  free(component);
+  free(sum);
+  free(first);
+  return st ? cli_fail(&err) : code;
+}
+
+static int apply_counts(const cords_args *a, const thr_frame *f, thr_plan_options *o)
+{
+  int least, most, code;
+  if (o->objective == THR_SYMMETRY) return cli_usage("plan", "--ends NAME:N: not with --objective symmetry");
+  if ((code = count_cords(f, o->end_count, &least, &most))) return code;
+  if (o->turning.tour != THR_TOUR_LEAST && most > 1)
+    return cli_usage("plan", "--tour %s makes one cord in each piece, not the %d of --ends %s", thr_tour_name(o->turning.tour),
+                     most, a->ends);
+  if (most > MOST_CORDS || (a->most && (most > a->most || least < a->least))) {
+    cli_error("--ends %s: these are the ends of %d %s in a piece; --cords says otherwise", a->ends, most > a->most ? most : least,
+              cli_plural(most > a->most ? most : least, "cord", "cords"));
+    return EXIT_INFEASIBLE;
+  }
+  o->ends = THR_ENDS_COUNTS;
+  o->cords_least = least;
+  o->cords = most;
+  return EXIT_OK;
+}
+
+/* ---- together ---- */
+
+/* Cord and bore say how many passes fit, where both were given. A symmetric plan is not held to that. */
+static int apply_bore(thr_plan_options *o)
+{
+  const thr_physics *p = &o->physics;
+  if (p->bore == 0 || p->cord_diameter == 0 || o->objective == THR_SYMMETRY) return EXIT_OK;
+  int fit = thr_bore_fits(p->bore, p->cord_diameter);
+  if (fit < o->cover) {
+    cli_error("%d %s of a cord of %g mm %s through a bore of %g mm; --cover asks for %d", fit, cli_plural(fit, "pass", "passes"),
+              p->cord_diameter, fit == 1 ? "fits" : "fit", p->bore, o->cover);
+    return EXIT_INFEASIBLE;
+  }
+  if (o->capacity == 0 || fit < o->capacity) o->capacity = fit;
+  return EXIT_OK;
+}
+
+static void apply_number(const cords_args *a, thr_plan_options *o)
+{
+  bool free_number = a->most == 0 && a->max_length > 0;
+  o->cords = a->most ? a->most : free_number ? MOST_CORDS : 1;
+  o->cords_least = a->most ? a->least : 1;
+}
+
+int cords_args_apply(const cords_args *a, const thr_frame *f, thr_plan_options *o)
+{
+  o->cover = a->cover;
+  o->capacity = a->capacity;
+  o->joint = a->joint;
+  o->engine = a->engine;
+  o->confirm = a->confirm;
+  o->max_length = a->max_length;
+  o->balance = a->balance;
+  int code = apply_bore(o);
+  if (code) return code;
+  apply_number(a, o);
+  if (!(o->end_count = thr_calloc((size_t)f->n_nodes, sizeof *o->end_count))) {
+    cli_error("out of memory");
+    return EXIT_INTERNAL;
+  }
+  code = parse_counts(f, a->ends, o->end_count);
+  if (code == EXIT_OK) return apply_counts(a, f, o);
+  if (code > 0) return code;
+  free(o->end_count);
+  o->end_count = NULL;
+  return cli_resolve_ends(a->ends, f, o);
+}

@@ -1,0 +1,68 @@
+/* The options of `thread plan` that say how many cords there are, how long, where they end and what fits through a bead. */
+#ifndef THR_CLI_CORDS_ARGS_H
+#define THR_CLI_CORDS_ARGS_H
+
+#include "cli/args/symmetry_args.h"
+#include "cli/args/turning_args.h"
+
+enum {
+  OPTION_CORDS = OPTION_SYMMETRY_FREE,
+  OPTION_CORDS_MAX_LENGTH,
+  OPTION_CORDS_BALANCE,
+  OPTION_CORDS_COVER,
+  OPTION_CORDS_CAPACITY,
+  OPTION_CORDS_JOINT,
+  OPTION_CORDS_ENDS,
+  OPTION_CORDS_ENGINE,
+  OPTION_CORDS_CONFIRM,
+  OPTION_CORDS_FREE
+};
+#define CORDS_OPTIONS                                                                                                            \
+  {"cords", required_argument, NULL, OPTION_CORDS}, {"max-length", required_argument, NULL, OPTION_CORDS_MAX_LENGTH},            \
+      {"balance", no_argument, NULL, OPTION_CORDS_BALANCE}, {"cover", required_argument, NULL, OPTION_CORDS_COVER},              \
+      {"capacity", required_argument, NULL, OPTION_CORDS_CAPACITY}, {"joint", required_argument, NULL, OPTION_CORDS_JOINT},      \
+      {"engine", required_argument, NULL, OPTION_CORDS_ENGINE}, {"confirm", required_argument, NULL, OPTION_CORDS_CONFIRM},      \
+  {                                                                                                                              \
+    "ends", required_argument, NULL, OPTION_CORDS_ENDS                                                                           \
+  }
+#define CORDS_HELP                                                                                                               \
+  "      --ends closed|any|feet|FILE|NAME,..   both ends of a cord at one node (default), or anywhere, at feet, at these\n"      \
+  "      --ends NAME:N,.. exactly so many cord ends at each of these nodes\n"                                                    \
+  "      --cords K        K cords in every piece, 1 to 1000 (default: 1);  A..B, ..B: at most B;  auto: with --max-length\n"     \
+  "      --max-length L   no cord longer than L units, as few as it takes\n"                                                     \
+  "      --balance        make the longest cord short\n"                                                                         \
+  "      --cover N        at least N passes over every interface (default: 1)\n"                                                 \
+  "      --capacity N     at most N; --bore and --cord-diameter together: as many as fit\n"                                      \
+  "      --engine auto|lp|matching   what finds the shortest passes (default: auto)\n"                                           \
+  "      --confirm auto|always|never  does GLPK find the same length, exactly? auto: asked for a second at most\n"               \
+  "      --joint solid|tube   node beads are rigid pieces (default), or the cord ties the edges together at every node\n"
+
+typedef struct {
+  const char *ends;
+  int cover, capacity; /* as thr_plan_options */
+  int least, most;     /* cords; 0 = not said */
+  bool automatic;      /* --cords auto */
+  double max_length;   /* 0 = not said */
+  bool balance;
+  thr_joint joint;
+  thr_engine engine;
+  thr_confirm confirm;
+} cords_args;
+
+cords_args cords_args_default(void);
+
+/* Takes one of the options above; false if it is none of them. *ok false: its value was bad (printed). */
+bool cords_option(cords_args *a, int option, const char *value, bool *ok);
+
+/* Does what was asked make sense together, and with the objective? -1, or prints and returns the code. */
+int cords_args_check(const cords_args *a, const turning_args *turning, thr_objective objective);
+
+/* What of these options an objective cannot do: a few words like "--balance", or NULL. rival: a plan to compare with, which may
+ * have another number of cords. */
+const char *cords_args_refused(const cords_args *a, thr_objective objective, bool rival);
+
+/* Lays them over *o, which holds cord and beads already, for this framework. Returns EXIT_OK or prints and returns the code. The
+ * caller frees o->end_node and o->end_count. */
+int cords_args_apply(const cords_args *a, const thr_frame *f, thr_plan_options *o);
+
+#endif

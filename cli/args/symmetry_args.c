@@ -1,0 +1,67 @@
+/* Options of symmetric threading. */
+#include "cli/args/symmetry_args.h"
+
+#include <stdio.h>
+#include <string.h>
+
+symmetry_args symmetry_args_default(void)
+{
+  return (symmetry_args){.options = thr_plan_options_default().symmetry};
+}
+
+static const char *aim_name(int i)
+{
+  return thr_aim_name((thr_aim)i);
+}
+
+/* The aims in the list, then the others in their usual order. */
+static bool parse_prefer(const char *command, const char *value, thr_aim prefer[THR_N_AIMS])
+{
+  bool taken[THR_N_AIMS] = {false};
+  int n = 0;
+  const char *word = value, *end = value;
+  if (!*value) cli_usage(command, "--prefer: what counts first?");
+  for (bool more = *value; more; more = *end, word = end + 1) {
+    char name[16];
+    int aim;
+    end = word + strcspn(word, ",");
+    snprintf(name, sizeof name, "%.*s", (int)(end - word), word);
+    if (!cli_choose(command, "--prefer", name, aim_name, THR_N_AIMS, &aim)) return false;
+    if (taken[aim]) {
+      cli_usage(command, "--prefer %s: %s is there twice", value, name);
+      return false;
+    }
+    taken[aim] = true;
+    prefer[n++] = (thr_aim)aim;
+  }
+  for (int aim = 0; aim < THR_N_AIMS && n; aim++)
+    if (!taken[aim]) prefer[n++] = (thr_aim)aim;
+  return n > 0;
+}
+
+bool symmetry_option(symmetry_args *a, const char *command, int option, const char *value, bool *ok)
+{
+  thr_symmetry_options *o = &a->options;
+  const char *name;
+  switch (option) {
+  case OPTION_SYMMETRY_GROUP:
+    name = "--group";
+    *ok = *value && strlen(value) < sizeof o->group;
+    if (*ok)
+      snprintf(o->group, sizeof o->group, "%s", value);
+    else
+      cli_usage(command, "--group %s: expected a number or a name from `thread symmetries`", value);
+    break;
+  case OPTION_SYMMETRY_GEOMETRIC:
+    name = "--geometric";
+    *ok = cli_double(command, name, value, 0, 1, &o->geometric);
+    break;
+  case OPTION_SYMMETRY_PREFER:
+    name = "--prefer";
+    *ok = parse_prefer(command, value, o->prefer);
+    break;
+  default: return false;
+  }
+  if (!a->given) a->given = name;
+  return true;
+}

@@ -1,0 +1,112 @@
+/* Options of the least turning. */
+#include "cli/args/turning_args.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { FRONTIER_POINTS = 9, FRONTIER_MOST = 1000 };
+
+turning_args turning_args_default(void)
+{
+  const thr_plan_options usual = thr_plan_options_default();
+  return (turning_args){.options = usual.turning};
+}
+
+static const char *cost_name(int i)
+{
+  return thr_turn_cost_name((thr_turn_cost)i);
+}
+
+static const char *tour_name(int i)
+{
+  return thr_tour_name((thr_tour)i);
+}
+
+static const char *minimize_name(int i)
+{
+  return i ? "max-turning" : "turning";
+}
+
+static const char *pairings_name(int i)
+{
+  return i ? "ignore" : "keep";
+}
+
+/* "5" or "5%". */
+static bool slack(const char *text, double *out)
+{
+  char *end;
+  double percent = strtod(text, &end);
+  bool ok = end != text && (*end == '\0' || strcmp(end, "%") == 0) && percent >= 0 && percent <= 1e6;
+  if (ok)
+    *out = percent / 100;
+  else
+    cli_usage("plan", "--length-slack %s: expected a percentage from 0 to 1e+06, like 5 or 5%%", text);
+  return ok;
+}
+
+bool turning_option(turning_args *a, int option, const char *value, bool *ok)
+{
+  thr_turning_options *o = &a->options;
+  const char *name = NULL;
+  int i = 0;
+  switch (option) {
+  case OPTION_TURNING_SLACK:
+    *ok = slack(value, &o->length_slack);
+    name = "--length-slack";
+    break;
+  case OPTION_TURNING_MINIMIZE:
+    *ok = cli_choose("plan", "--minimize", value, minimize_name, 2, &i);
+    o->largest = i == 1;
+    name = "--minimize";
+    break;
+  case OPTION_TURNING_COST:
+    *ok = cli_choose("plan", "--turn-cost", value, cost_name, THR_N_TURN_COSTS, &i);
+    if (*ok) o->cost = (thr_turn_cost)i;
+    name = "--turn-cost";
+    break;
+  case OPTION_TURNING_TOUR:
+    *ok = cli_choose("plan", "--tour", value, tour_name, THR_N_TOURS, &i);
+    if (*ok) o->tour = (thr_tour)i;
+    name = "--tour";
+    break;
+  case OPTION_TURNING_PAIRINGS:
+    *ok = cli_choose("plan", "--pairings", value, pairings_name, 2, &i);
+    o->ignore_pairings = i == 1;
+    a->pairings = true;
+    name = "--pairings";
+    break;
+  case OPTION_TURNING_FRONTIER:
+    a->frontier = FRONTIER_POINTS;
+    *ok = !value || cli_int("plan", "--frontier", value, 2, FRONTIER_MOST, &a->frontier);
+    name = "--frontier";
+    break;
+  case OPTION_TURNING_COMPARE:
+    a->compare = true;
+    name = "--compare-shortest";
+    break;
+  default: return false;
+  }
+  if (!a->given) a->given = name;
+  return true;
+}
+
+/* What would be ignored is refused. */
+int turning_args_check(const turning_args *a, thr_objective objective)
+{
+  const thr_turning_options *o = &a->options;
+  if (objective != THR_TORTUOSITY && a->given) return cli_usage("plan", "%s needs --objective tortuosity", a->given);
+  if (o->tour == THR_TOUR_LEAST)
+    return a->pairings ? cli_usage("plan", "--pairings is for --tour fleury and --tour hierholzer") : -1;
+  const char *tour = thr_tour_name(o->tour);
+  if (o->length_slack > 0) return cli_usage("plan", "--tour %s takes the shortest passes: no --length-slack but 0", tour);
+  if (o->largest) return cli_usage("plan", "--tour %s minimizes nothing: no --minimize max-turning", tour);
+  if (a->frontier) return cli_usage("plan", "--tour %s minimizes nothing: no --frontier", tour);
+  return -1;
+}
+
+void turning_args_apply(const turning_args *a, thr_objective objective, thr_plan_options *o)
+{
+  const turning_args usual = turning_args_default();
+  o->turning = objective == THR_TORTUOSITY ? a->options : usual.options;
+}

@@ -1,0 +1,421 @@
+/* thread compare: plans of one framework side by side, ranked by how hard they are to pull. */
+#include "cli/print/compare_rows.h"
+#include "cli/print/ranking.h"
+#include "graph/process/workers.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char help[] =
+    "thread compare PLAN.. [options]: plans of one framework side by side; * marks the best of each row\n\n"
+    "Examples:\n"
+    "  thread compare closed.json feet.json --mu 0.3           ranked by pull, joints measured in simulation\n"
+    "  thread compare closed.json feet.json --method capstan   the same by the closed form, at once\n"
+    "  thread compare data/dome7-*.json --method all           closed form, joints, structure: do they agree?\n\n"
+    "Options:\n"
+    "      --method joint|capstan|structure|all\n"
+    "                       what to rank by (default: joint); the closed form is always shown beside it\n" PULL_HELP(
+        "largest holding pull of the plans") "      --json           as JSON\n"
+                                             "  -q, --quiet          no notes and no progress       -h, --help\n\n"
+                                             "A difference within the measured error is a tie. The simulation of the structure "
+                                             "runs twice for each plan, the second time "
+                                             "with half\n"
+                                             "the time step and twice the iterations, all from one pull; only what both runs "
+                                             "tell apart is no tie. It takes minutes;\n"
+                                             "--no-dynamics is fast. How far its index spreads over seeds is not counted: try a "
+                                             "few --seed before you rely on it.\n";
+
+static const struct option table[] = {CLI_COMMON_OPTIONS, PULL_OPTIONS, GUARD_OPTIONS, {NULL, 0, NULL, 0}};
+
+enum { CAPSTAN, JOINT, HOLDING, SIMULATION, N_RANKINGS };
+
+typedef compare_entry entry;
+
+/* Is method i part of this comparison? */
+static bool wanted(const pull_args *a, thr_method i)
+{
+  return i == THR_CAPSTAN || a->method == (int)i || a->method == PULL_ALL_METHODS;
+}
+
+/* ---- rankings ---- */
+
+/* Fills value and interval of plan i; leaves it unknown if it is. */
+static void rank_plan(ranking *r, int by, const entry *e, int i)
+{
+  const thr_holding *h = &e->eval[THR_STRUCTURE].holding;
+  double rough = e->index[0], fine = e->index[1];
+  switch (by) {
+  case CAPSTAN:
+    r->value[i] = compare_largest(e, THR_CAPSTAN);
+    r->low[i] = r->value[i] * (1 - 1e-6);
+    r->high[i] = r->value[i] * (1 + 1e-6);
+    break;
+  case JOINT:
+    r->value[i] = compare_largest(e, THR_JOINT);
+    r->low[i] = r->value[i] * exp(-e->eval[THR_JOINT].error);
+    r->high[i] = e->eval[THR_JOINT].refused ? INFINITY : r->value[i] * exp(e->eval[THR_JOINT].error);
+    break;
+  case HOLDING:
+    r->value[i] = r->low[i] = compare_largest(e, THR_STRUCTURE);
+    r->high[i] = h->upper >= h->lower ? h->upper : INFINITY;
+    break;
+  default:
+    r->value[i] = isnan(fine) ? NAN : rough;
+    r->low[i] = fmin(rough, fine);
+    r->high[i] = fmax(rough, fine);
+  }
+}
+
+static bool simulated(const entry *e, int n)
+{
+  for (int i = 0; i < n; i++)
+    if (!isnan(e[i].index[0])) return true;
+  return false;
+}
+
+/* Those of the wanted methods, one after the other; *count of them. */
+static thr_status make_rankings(const pull_args *a, const entry *e, int n, ranking *r, int *count, thr_err *err)
+{
+  static const ranking kind[N_RANKINGS] = {
+      [CAPSTAN] = {.title = "seating pull, closed form", .key = "capstan", .unit = " N"},
+      [JOINT] = {.title = "seating pull, joints measured in simulation",
+                 .key = "joint",
+                 .unit = " N",
+                 .error = true,
+                 .open = "some turns by closed form, their error is not known"},
+      [HOLDING] = {.title = "holding pull while drawn in (below the first force nothing holds it, at the second it can stand)",
+                   .key = "holding",
+                   .unit = " N"},
+      [SIMULATION] = {
+          .title = "simulation of the structure, an index without unit (coarse .. fine; its spread over seeds is not counted)",
+          .key = "simulation",
+          .unit = ""}};
+  static const thr_method method[N_RANKINGS] = {THR_CAPSTAN, THR_JOINT, THR_STRUCTURE, THR_STRUCTURE};
+  bool all = a->method == PULL_ALL_METHODS;
+  *count = 0;
+  for (int by = 0; by < N_RANKINGS; by++) {
+    if (!all && a->method != (int)method[by]) continue;
+    if (by == SIMULATION && !simulated(e, n)) continue;
+    r[*count] = kind[by];
+    thr_status st = ranking_init(&r[*count], n, err);
+    if (st) return st;
+    for (int i = 0; i < n; i++)
+      rank_plan(&r[*count], by, &e[i], i);
+    ranking_make(&r[(*count)++]);
+  }
+  return THR_OK;
+}
+
+/* The first two rankings that contradict each other, and about which plans; false if they all agree. */
+static bool find_disagreement(const ranking *r, int count, int which[2], int pair[2])
+{
+  for (which[0] = 0; which[0] < count; which[0]++)
+    for (which[1] = which[0] + 1; which[1] < count; which[1]++)
+      if (ranking_disagree(&r[which[0]], &r[which[1]], pair)) return true;
+  return false;
+}
+
+static void put_agreement(const ranking *r, int count, const char *const *name, thr_text *t)
+{
+  int which[2], pair[2];
+  if (count < 2) return;
+  if (find_disagreement(r, count, which, pair))
+    thr_text_printf(t, "the rankings disagree: %s needs less than %s by %s, more by %s\n", name[pair[0]], name[pair[1]],
+                    r[which[0]].key, r[which[1]].key);
+  else
+    thr_text_append(t, "the rankings agree, ties aside\n");
+}
+
+/* ---- output ---- */
+
+static void put_head(thr_text *t, const entry *e, int n)
+{
+  thr_text_printf(t, "%-32s", "");
+  for (int i = 0; i < n; i++) {
+    size_t letters = strlen(e[i].path);
+    thr_text_printf(t, letters > 16 ? " ..%s " : " %16s ", letters > 16 ? e[i].path + letters - 14 : e[i].path);
+  }
+  thr_text_printf(t, "\n%-32s", "objective");
+  for (int i = 0; i < n; i++)
+    thr_text_printf(t, " %16s ", thr_objective_name(e[i].plan.options.objective));
+  thr_text_printf(t, "\n%-32s", "ends");
+  for (int i = 0; i < n; i++)
+    thr_text_printf(t, " %16s ", thr_ends_name(e[i].plan.options.ends));
+}
+
+static bool same_physics(const thr_physics *a, const thr_physics *b)
+{
+  for (int i = 0; i < thr_physics_n_fields; i++)
+    if (thr_physics_get(a, &thr_physics_fields[i]) != thr_physics_get(b, &thr_physics_fields[i])) return false;
+  return true;
+}
+
+static void put_text(thr_text *t, const pull_args *a, const entry *e, int n, const ranking *r, int count, const char *const *name)
+{
+  const thr_physics *first = &e[0].eval[THR_CAPSTAN].record.physics;
+  bool same = true;
+  put_head(t, e, n);
+  for (int k = 0; k < compare_n_rows; k++) {
+    if (!wanted(a, compare_rows[k].method) || !compare_is_shown(e, n, &compare_rows[k])) continue;
+    thr_text_printf(t, "\n%-32s", compare_rows[k].label);
+    for (int i = 0; i < n; i++)
+      compare_put_cell(t, &compare_rows[k], compare_rows[k].value(&e[i]), compare_is_best(e, n, &compare_rows[k], i));
+  }
+  for (int i = 1; i < n; i++)
+    same = same && same_physics(first, &e[i].eval[THR_CAPSTAN].record.physics);
+  thr_text_printf(t, "\n\n* best of the row. Pull: seating tension %g N, pulled at: %s, mu = ", first->seating, a->pull);
+  if (same)
+    thr_text_printf(t, "%g\n", first->mu);
+  else
+    thr_text_append(t, "each plan's own\n");
+  if (n < 2) return;
+  thr_text_append(t, "\n");
+  for (int k = 0; k < count; k++)
+    ranking_put_text(&r[k], name, t);
+  put_agreement(r, count, name, t);
+}
+
+static void put_json(thr_text *t, const pull_args *a, const entry *e, int n, const ranking *r, int count, const char *const *name)
+{
+  int which[2], pair[2];
+  thr_text_append(t, "{\"plans\": [");
+  for (int i = 0; i < n; i++) {
+    thr_text_append(t, i ? ",\n {\"plan\": " : "\n {\"plan\": ");
+    thr_text_json_string(t, e[i].path);
+    thr_text_printf(t, ", \"framework\": \"%016" PRIx64 "\", \"objective\": \"%s\", \"ends\": \"%s\", \"physics\": ",
+                    thr_frame_hash(&e[i].plan.frame), thr_objective_name(e[i].plan.options.objective),
+                    thr_ends_name(e[i].plan.options.ends));
+    thr_physics_write(&e[i].eval[THR_CAPSTAN].record.physics, t);
+    for (int k = 0; k < compare_n_rows; k++) {
+      double value = compare_rows[k].value(&e[i]);
+      if (!wanted(a, compare_rows[k].method)) continue;
+      thr_text_printf(t, ", \"%s\": ", compare_rows[k].key);
+      thr_text_json_number(t, value);
+    }
+    thr_text_append(t, ", \"best\": [");
+    for (int k = 0, some = 0; k < compare_n_rows; k++)
+      if (compare_is_best(e, n, &compare_rows[k], i)) thr_text_printf(t, "%s\"%s\"", some++ ? ", " : "", compare_rows[k].key);
+    thr_text_append(t, "]}");
+  }
+  thr_text_append(t, "\n],\n\"rankings\": [");
+  for (int k = 0; k < count; k++) {
+    thr_text_append(t, k ? ",\n " : "\n ");
+    ranking_put_json(&r[k], name, t);
+  }
+  thr_text_printf(t, "\n],\n\"agree\": %s}\n", find_disagreement(r, count, which, pair) ? "false" : "true");
+}
+
+/* ---- work ---- */
+
+/* Pulls compare only on one framework and at one friction. */
+static int read_entries(char **path, int n, entry *e)
+{
+  for (int i = 0; i < n; i++) {
+    e[i].path = path[i];
+    e[i].index[0] = e[i].index[1] = NAN;
+    int code = cli_read_plan(path[i], &e[i].plan);
+    if (code) return code;
+    if (i == 0 || thr_frame_hash(&e[i].plan.frame) == thr_frame_hash(&e[0].plan.frame)) continue;
+    cli_error("%s is for another framework than %s: pulls can be compared on one framework only", path[i], path[0]);
+    return EXIT_INPUT;
+  }
+  return EXIT_OK;
+}
+
+/* Every method for every plan. One that fails for a plan leaves it unknown, its message printed; but nothing compares if not even
+ * the closed form is known, or if the user has stopped it. */
+static int evaluate(const pull_args *a, entry *e, int n)
+{
+  pull_args plain = *a;
+  int worst = EXIT_OK;
+  plain.options.dynamics = false; /* the simulation follows, when the common start is known */
+  for (int method = 0; method < THR_N_METHODS; method++)
+    for (int i = 0; i < n && wanted(a, (thr_method)method); i++) {
+      int code = pull_eval(&plain, e[i].path, &e[i].plan, (thr_method)method, &e[i].eval[method]);
+      if (code == EXIT_LIMIT || (code && method == THR_CAPSTAN)) return code;
+      if (!worst) worst = code;
+      if (i > 0 && method == THR_CAPSTAN && !same_physics(&e[i].eval[0].record.physics, &e[0].eval[0].record.physics))
+        cli_note("note: %s has its own cord and beads, other than %s: give --mu and the like to compare like with like",
+                 e[i].path, e[0].path);
+    }
+  return worst;
+}
+
+enum { CREPT = -1 }; /* in place of an index */
+
+typedef struct {
+  const pull_args *args;
+  const entry *e;
+  const int *plan; /* which are simulated */
+  double start;
+  const thr_limits *limits;
+} simulation;
+
+/* Job 2 k simulates plan[k], job 2 k + 1 the same at finer settings; the result is a double, NAN if it never came to rest, or
+ * CREPT. */
+static thr_status settle_plan(void *user, int job, void *result, thr_err *err)
+{
+  const simulation *s = user;
+  const entry *e = &s->e[s->plan[job / 2]];
+  const thr_evaluation *r = &e->eval[THR_STRUCTURE].record;
+  const thr_settle_options o = {.start = s->start,
+                                .time_step = s->args->options.time_step * (job & 1 ? 0.5 : 1),
+                                .iterations = s->args->options.iterations * (job & 1 ? 2 : 1),
+                                .seed = s->args->options.seed};
+  thr_beads b = {0};
+  thr_settle out = {0};
+  double **tension = thr_calloc((size_t)r->n_cords, sizeof *tension);
+  thr_status st = tension ? thr_beads_make(&e->plan.frame, &r->physics, &b, err) : thr_nomem(err);
+  for (int i = 0; i < r->n_cords && !st; i++) { /* of a pull of 1 */
+    if (!(tension[i] = thr_calloc((size_t)r->cord[i].n_passes, sizeof **tension))) st = thr_nomem(err);
+    for (int k = 0; k < r->cord[i].n_passes && !st; k++)
+      tension[i][k] = r->cord[i].tension[k] / r->cord[i].force;
+  }
+  if (!st)
+    st = thr_settle_run(&b, &e->plan.frame, e->plan.cord, r->n_cords, (const double *const *)tension, &r->physics, &o, s->limits,
+                        &out, err);
+  thr_settle_judge(&out, o.start, e->eval[THR_STRUCTURE].holding.upper);
+  bool known = out.status == THR_SETTLE_FELL || out.status == THR_SETTLE_HELD;
+  *(double *)result = st ? NAN : known ? out.index : out.status == THR_SETTLE_CREPT ? CREPT : NAN;
+  thr_settle_destroy(&out);
+  for (int i = 0; i < r->n_cords && tension; i++)
+    free(tension[i]);
+  free(tension);
+  thr_beads_destroy(&b);
+  return st;
+}
+
+static thr_status run_simulations(const pull_args *a, entry *e, const int *plan, int n, double start, thr_err *err)
+{
+  const thr_limits limits = cli_limits(0);
+  const thr_limits quiet = {.interrupted = limits.interrupted}; /* in a child: only the parent draws the bar */
+  simulation s = {a, e, plan, start, &quiet};
+  const thr_work work = {.n_jobs = 2 * n,
+                         .result_size = sizeof(double),
+                         .run = settle_plan,
+                         .user = &s,
+                         .what = "simulating structures",
+                         .advice = "use --no-dynamics"};
+  double *index = thr_calloc(2 * (size_t)n, sizeof *index);
+  bool *finished = thr_calloc(2 * (size_t)n, sizeof *finished);
+  thr_status st =
+      index && finished ? thr_workers_run(&work, a->options.processes, &limits, index, finished, err) : thr_nomem(err);
+  for (int i = 0; i < 2 * n && index && finished; i++)
+    if (finished[i]) e[plan[i / 2]].index[i & 1] = index[i];
+  free(index);
+  free(finished);
+  cli_progress_end();
+  return st;
+}
+
+/* Why there is no index, and takes away what only says that contacts crept. */
+static void note_simulation(entry *e, bool stopped)
+{
+  bool crept = false, restless = false;
+  for (int i = 0; i < 2; i++) {
+    restless |= isnan(e->index[i]);
+    crept |= e->index[i] == CREPT;
+    if (e->index[i] == CREPT) e->index[i] = NAN;
+  }
+  if (restless && !stopped)
+    cli_note("note: the simulation of %s never came to rest; `thread eval --method structure` says more", e->path);
+  if (crept)
+    cli_note("note: no index where the simulation of %s moved at a pull of more than %.6g N, at which an equilibrium exists: its "
+             "contacts crept",
+             e->path, e->eval[THR_STRUCTURE].holding.upper);
+}
+
+/* All from one pull, each twice; not where no pull is needed, since then there is none to let off. */
+static int settle(const pull_args *a, entry *e, int n)
+{
+  thr_err err = {0};
+  double start = 0;
+  int count = 0, *plan = thr_calloc((size_t)n, sizeof *plan);
+  thr_status st = plan ? THR_OK : thr_nomem(&err);
+  bool large = e[0].plan.frame.n_nodes > thr_settle_largest;
+  if (large) cli_note("note: no simulation of the structure: it has more than %d beads", thr_settle_largest);
+  for (int i = 0; i < n && plan && !large; i++) {
+    double pull = compare_largest(&e[i], THR_STRUCTURE);
+    if (pull > 0) plan[count++] = i;
+    if (pull > 0) start = fmax(start, 3 * pull);
+    if (pull <= 0) cli_note("note: %s is not simulated: it needs no pull, so that there is none to let off", e[i].path);
+  }
+  if (a->options.start > 0) start = a->options.start;
+  if (count > 0) st = run_simulations(a, e, plan, count, start, &err);
+  for (int k = 0; k < count; k++)
+    note_simulation(&e[plan[k]], st != THR_OK);
+  free(plan);
+  return st == THR_ELIMIT ? EXIT_LIMIT : st ? cli_fail(&err) : EXIT_OK;
+}
+
+static int print(const pull_args *a, const entry *e, int n)
+{
+  thr_err err = {0};
+  thr_text t = {0};
+  ranking r[N_RANKINGS] = {{0}};
+  int count = 0;
+  const char **name = thr_calloc((size_t)n, sizeof *name);
+  thr_status st = name ? make_rankings(a, e, n, r, &count, &err) : thr_nomem(&err);
+  if (!st) {
+    for (int i = 0; i < n; i++)
+      name[i] = e[i].path;
+    (a->json ? put_json : put_text)(&t, a, e, n, r, count, name);
+  }
+  for (int i = 0; i < N_RANKINGS; i++)
+    ranking_destroy(&r[i]);
+  free(name);
+  return st ? cli_fail(&err) : cli_write(&t, "-");
+}
+
+static int compare(const pull_args *a, char **path, int n, entry *e)
+{
+  int code = read_entries(path, n, e);
+  if (code) return code;
+  code = evaluate(a, e, n);
+  if (code && code != EXIT_LIMIT && !e[n - 1].eval[THR_CAPSTAN].record.present) return code;
+  if (code != EXIT_LIMIT && wanted(a, THR_STRUCTURE) && a->options.dynamics) {
+    int settled = settle(a, e, n);
+    if (!code || settled == EXIT_LIMIT) code = settled;
+  }
+  for (int i = 0; i < n && !a->json; i++)
+    thr_text_clean(path[i]); /* the files are read; what follows is for people */
+  int printed = print(a, e, n);
+  if (code == EXIT_LIMIT) cli_error("stopped: what is - above is not known");
+  return printed ? printed : code;
+}
+
+int cmd_compare(int argc, char **argv)
+{
+  int done, option;
+  bool ok;
+  pull_args a;
+  guard_limits guard = guard_limits_default();
+  guard_end end;
+  pull_args_init(&a, THR_JOINT);
+  while ((option = cli_physics_option(&a.physics, argc, argv, "compare", ":" CLI_COMMON_LETTERS PULL_LETTERS, table, help,
+                                      &done)) != -1)
+    if ((pull_option(&a, "compare", option, optarg, &ok) || guard_option(&guard, "compare", option, optarg, &ok)) && !ok)
+      return EXIT_USAGE;
+  if (done >= 0) return done;
+  int n = argc - optind;
+  if (n < 1) return cli_usage("compare", "which plans?");
+  int code = pull_check(&a, "compare");
+  if (code) return code;
+  if (guard_fork(&guard, &end)) return guard_conclude(&end, "no comparison");
+  entry *e = thr_calloc((size_t)n, sizeof *e);
+  if (!e) {
+    cli_error("out of memory");
+    return EXIT_INTERNAL;
+  }
+  code = compare(&a, argv + optind, n, e);
+  for (int i = 0; i < n; i++) {
+    thr_plan_destroy(&e[i].plan);
+    for (int k = 0; k < THR_N_METHODS; k++)
+      thr_eval_destroy(&e[i].eval[k]);
+  }
+  free(e);
+  return code;
+}

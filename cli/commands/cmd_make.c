@@ -1,0 +1,106 @@
+/* thread make: example frameworks. */
+#include "cli/cli.h"
+#include "graph/framework/make.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const char help[] = "thread make SHAPE [options]: an example framework\n\n"
+                           "Examples:\n"
+                           "  thread make dome --size 7 -o dome.json        7 x 7 nodes, feet at the four corners\n"
+                           "  thread make tube --size 12 --rings 7 -o tube.obj\n\n"
+                           "Shapes (what --size counts):\n"
+                           "  dome       square grid, domed, a foot at each corner (nodes per side)\n"
+                           "  geodesic   geodesic dome standing on its rim (frequency)\n"
+                           "  sphere     closed geodesic sphere (frequency)\n"
+                           "  tube       square grid rolled up, standing on its first ring (nodes around)\n"
+                           "  honeycomb  hexagonal grid, domed (rings of hexagons)\n\n"
+                           "Options:\n"
+                           "      --size N         see above\n"
+                           "      --rings N        tube: rings along the axis\n"
+                           "      --pitch MM       distance between neighbours in mm\n"
+                           "      --rise R         dome, honeycomb: height over half span\n"
+                           "  -o, --output FILE    .json, .obj or .csv (default: JSON on stdout)       -h, --help\n";
+
+enum { OPTION_SIZE = OPTION_FREE, OPTION_RINGS, OPTION_PITCH, OPTION_RISE };
+static const struct option table[] = {CLI_COMMON_OPTIONS,
+                                      {"size", required_argument, NULL, OPTION_SIZE},
+                                      {"rings", required_argument, NULL, OPTION_RINGS},
+                                      {"pitch", required_argument, NULL, OPTION_PITCH},
+                                      {"rise", required_argument, NULL, OPTION_RISE},
+                                      {"output", required_argument, NULL, 'o'},
+                                      {NULL, 0, NULL, 0}};
+
+static const char *const shape_name[] = {"dome", "geodesic", "tube", "sphere", "honeycomb"}; /* as thr_shape */
+enum { N_SHAPES = sizeof shape_name / sizeof *shape_name };
+
+static int find_shape(const char *name)
+{
+  for (int i = 0; i < N_SHAPES; i++)
+    if (strcmp(name, shape_name[i]) == 0) return i;
+  return -1;
+}
+
+typedef struct {
+  const char *output, *size, *rings, *pitch, *rise;
+} arguments;
+
+static bool apply(const arguments *a, thr_make_options *o)
+{
+  bool has_rise = o->shape == THR_MAKE_DOME || o->shape == THR_MAKE_HONEYCOMB;
+  if ((a->rings && o->shape != THR_MAKE_TUBE) || (a->rise && !has_rise)) {
+    cli_usage("make", "a %s has no %s", shape_name[o->shape], a->rings && o->shape != THR_MAKE_TUBE ? "--rings" : "--rise");
+    return false;
+  }
+  if (a->size && !cli_int("make", "--size", a->size, 1, 1000000, &o->size)) return false;
+  if (a->rings && !cli_int("make", "--rings", a->rings, 1, 1000000, &o->rings)) return false;
+  if (a->pitch && !cli_double("make", "--pitch", a->pitch, 1e-6, 1e9, &o->pitch)) return false;
+  return !a->rise || cli_double("make", "--rise", a->rise, 0, 100, &o->rise);
+}
+
+/* JSON on stdout and for names without an ending; nothing is written in a format that its name does not say. */
+static bool known_ending(const char *output)
+{
+  const char *slash = strrchr(output, '/'), *dot = strrchr(slash ? slash : output, '.');
+  return !dot || strcmp(dot, ".json") == 0 || thr_format_of_path(output) != THR_FORMAT_JSON;
+}
+
+static int make(const thr_make_options *o, const char *output)
+{
+  thr_err err = {0};
+  thr_draft draft = {0};
+  thr_frame f = {0};
+  thr_read_report report = {0};
+  thr_text t = {0};
+  thr_status st = thr_make(&draft, o, &err);
+  if (!st) st = thr_draft_build(&draft, -1, &f, &report, &err);
+  if (!st) thr_frame_write(&f, thr_format_of_path(output), &t);
+  thr_draft_destroy(&draft);
+  thr_frame_destroy(&f);
+  if (st == THR_EINPUT) return cli_usage("make", "%s", err.text);
+  return st ? cli_fail(&err) : cli_write(&t, output);
+}
+
+int cmd_make(int argc, char **argv)
+{
+  int done, option;
+  arguments a = {.output = "-"};
+  while ((option = cli_next_option(argc, argv, "make", ":" CLI_COMMON_LETTERS "o:", table, help, &done)) != -1) {
+    switch (option) {
+    case OPTION_SIZE: a.size = optarg; break;
+    case OPTION_RINGS: a.rings = optarg; break;
+    case OPTION_PITCH: a.pitch = optarg; break;
+    case OPTION_RISE: a.rise = optarg; break;
+    case 'o': a.output = optarg; break;
+    }
+  }
+  if (done >= 0) return done;
+  if (optind + 1 != argc)
+    return cli_usage("make", optind == argc ? "which shape? dome, geodesic, sphere, tube or honeycomb" : "one shape at a time");
+  int shape = find_shape(argv[optind]);
+  if (shape < 0)
+    return cli_usage("make", "there is no shape %s; there are dome, geodesic, sphere, tube and honeycomb", argv[optind]);
+  if (!known_ending(a.output)) return cli_usage("make", "%s: the ending must be .json, .obj or .csv", a.output);
+  thr_make_options o = thr_make_options_default((thr_shape)shape);
+  return apply(&a, &o) ? make(&o, a.output) : EXIT_USAGE;
+}

@@ -1,0 +1,594 @@
+/* thread plan: framework in, plan and diagrams out. */
+#include "cli/best.h"
+#include "cli/args/cords_args.h"
+#include "cli/drawings.h"
+#include "cli/guard.h"
+#include "cli/print/plan_summary.h"
+#include "cli/print/symmetry_table.h"
+#include "graph/check/check.h"
+#include "graph/framework/cuttree.h"
+#include "graph/plan/junction.h"
+#include "lp/length/cords.h"
+#include "lp/solver/lp.h"
+#include "lp/length/postman.h"
+#include "symmetry/group/automorphisms.h"
+#include "tortuosity/tie/tube.h"
+#include "tortuosity/tie/tube_cords.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char help_requests[] =
+    "thread plan FRAME [options]: plan how cord is threaded: shortest or turning least, proved, or symmetric\n\n"
+    "Examples:\n"
+    "  thread plan dome.obj                          plan.json, overview.svg, sheets.pdf and more in the folder dome/\n"
+    "  thread plan dome.obj --cover 2 -o plan.json   two passes per interface; the plan only\n"
+    "  thread plan dome.obj --cords 4 --ends feet --feet lowest --balance   four cords of much the same length\n"
+    "  thread plan dome.obj --max-length 900 --ends any   as few cords as that takes\n"
+    "  thread plan dome.obj --objective tortuosity   the cord that turns least: it pulls most easily\n"
+    "  thread plan dome.obj --objective symmetry     a short path to learn, and its mirrored and turned copies\n"
+    "  thread make dome | thread plan - -o - | thread check -\n\n"
+    "What is planned:\n"
+    "      --objective length|tortuosity|symmetry   what to minimize: cord, how much it turns, or what is to be learned\n"
+    "                       (default: length)\n" CORDS_HELP
+    "      --time-limit S   stop after S seconds with the best plan so far and its gap, 0 = never (default: 0; other\n"
+    "                       objectives and tube joints: 20). --frontier, --compare-shortest and --compare-objectives share\n"
+    "                       an S that is given, and so do the drawings; else each search has its 20 s\n" GUARD_MEMORY_HELP
+    "\n" TURNING_HELP;
+static const char help_rest[] =
+    "\nSymmetry (with --objective symmetry; thread symmetries --help says more):\n"
+    "      --group ID|NAME   --geometric TOL   --prefer overlap,steps,paths,turning\n"
+    "\nFramework:\n" CLI_FRAME_HELP "\nOutput:\n"
+    "  -o, --output FILE    write the plan here (- = stdout), and no diagrams unless --draw\n"
+    "      --draw DIR       write the diagrams into this folder, and without -o the plan too\n"
+    "                       (no sheets.pdf for more than 3000 beads: thread draw PLAN -T pdf makes it)\n" DRAWINGS_HELP
+    "      --json           summary as JSON on stdout\n"
+    "      --compare-objectives   pull of this plan beside those for the other objectives, joints simulated\n" PULL_RUN_HELP
+    "  -q, --quiet          no notes and no summary       -v, --verbose  what the solver does       -h, --help\n\n"
+    "Exit codes: 0 proved (or a classical tour), 2 usage, 3 bad input, 4 infeasible or none found, 5 not proved (plan\n"
+    "written), 70 internal. What is said of cord and beads is stored in the plan; thread eval begins with it.\n";
+
+/* One text: as one literal it would be longer than C promises to take. */
+static const char *help(void)
+{
+  static char text[sizeof help_requests + sizeof help_rest];
+  snprintf(text, sizeof text, "%s%s", help_requests, help_rest);
+  return text;
+}
+
+enum { OPTION_OBJECTIVE = OPTION_CORDS_FREE, OPTION_COMPARE, OPTION_DRAW, OPTION_JSON };
+
+static const struct option table[] = {CLI_COMMON_OPTIONS,
+                                      CLI_FRAME_OPTIONS,
+                                      PULL_RUN_OPTIONS,
+                                      TURNING_OPTIONS,
+                                      SYMMETRY_OPTIONS,
+                                      CORDS_OPTIONS,
+                                      {"compare-objectives", no_argument, NULL, OPTION_COMPARE},
+                                      {"objective", required_argument, NULL, OPTION_OBJECTIVE},
+                                      GUARD_OPTIONS,
+                                      {"output", required_argument, NULL, 'o'},
+                                      {"draw", required_argument, NULL, OPTION_DRAW},
+                                      DRAWINGS_OPTIONS,
+                                      {"json", no_argument, NULL, OPTION_JSON},
+                                      {NULL, 0, NULL, 0}};
+
+/* ---- objectives ---- */
+
+/* A symmetric plan with as many cords in every piece, if there is one. */
+static thr_status find_seed(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *seed, thr_err *err)
+{
+  thr_symmetries s;
+  thr_plan_options so = *o;
+  thr_err why = {0};
+  thr_limits share = *limits;
+  double now = thr_clock();
+  if (share.deadline > 0) share.deadline = now + 0.25 * fmax(0, share.deadline - now);
+  so.symmetry = thr_plan_options_default().symmetry;
+  thr_status st = thr_symmetries_find(f, &so, &share, &s, &why);
+  int row = st && st != THR_ELIMIT ? -1 : thr_symmetries_even(&s, o->cords);
+  if (row >= 0) st = thr_symmetries_plan(&s, row, f, &so, &share, seed, &why);
+  thr_symmetries_destroy(&s);
+  return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* what else fails leaves no seed */
+}
+
+/* One cord through every edge an even number of times, for whoever keeps the best so far: at once, where a plan may be such. */
+static void tell_even(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits)
+{
+  enum { MOST_EDGES = 200000 }; /* beyond, writing it takes longer than it is worth */
+  thr_plan_options one = *o;
+  thr_cord *cord = NULL;
+  int n = 0, *passes = thr_calloc((size_t)f->n_edges, sizeof *passes);
+  bool room = passes && limits->found && o->joint == THR_JOINT_SOLID && f->n_edges <= MOST_EDGES;
+  for (int e = 0; e < f->n_edges && room; e++) {
+    passes[e] = thr_plan_cover(f, o, e) + thr_plan_cover(f, o, e) % 2;
+    room = passes[e] <= thr_plan_capacity(f, o, e);
+  }
+  one.cords = one.cords_least = 1;
+  if (room && !thr_postman_cords(f, &one, passes, &cord, &n, NULL)) thr_limits_found(limits, cord, n, NULL);
+  thr_cords_destroy(cord, n);
+  free(passes);
+}
+
+/* Some cords that tie the joints, or the shortest, for whoever keeps the best so far: sooner than a search has any. */
+static void tell_first(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits)
+{
+  static const double part = 0.2;
+  thr_plan_options length = *o;
+  thr_limits share = *limits;
+  thr_plan p = {0};
+  thr_tube t = {0};
+  if (!limits->found) return;
+  share.found = NULL;
+  if (share.deadline > 0) share.deadline -= (1 - part) * thr_limits_left(limits, INFINITY);
+  length.objective = THR_LENGTH;
+  length.confirm = THR_CONFIRM_NEVER;
+  thr_status st = o->joint == THR_JOINT_TUBE ? thr_tube_some(f, &length, &share, &t, NULL)
+                                             : thr_cords_plan(f, &length, &share, &p, NULL, NULL);
+  if (!st || st == THR_ELIMIT) thr_limits_found(limits, t.cord ? t.cord : p.cord, t.cord ? t.n_cords : p.n_cords, NULL);
+  thr_plan_destroy(&p);
+  thr_tube_destroy(&t);
+}
+
+/* Symmetric cords turn alike: where they are as many as asked for, the one that turns most may be at its bound at once. They keep
+ * to no given numbers of ends. */
+static thr_status plan_tortuosity(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
+                                  thr_err *err)
+{
+  thr_plan seed = {0};
+  thr_status st = THR_OK;
+  *plan = (thr_plan){0};
+  tell_first(f, o, limits);
+  if (o->turning.largest && o->cords > 1 && o->ends != THR_ENDS_COUNTS) st = find_seed(f, o, limits, &seed, err);
+  if (!st) st = thr_tortuosity_plan_from(f, o, seed.n_cords ? &seed : NULL, limits, plan, err);
+  thr_plan_destroy(&seed);
+  return st;
+}
+
+/* What the length of a plan with tube joints is proved against. Closed cords are as long as one in every piece. */
+static thr_status prove_tied(thr_plan *plan, const thr_limits *limits, thr_err *err)
+{
+  thr_tube t;
+  thr_plan_options o = plan->options;
+  thr_err why = {0};
+  if (o.ends == THR_ENDS_CLOSED) o.cords = 1;
+  thr_status st = thr_tube_shortest(&plan->frame, &o, limits, &t, &why);
+  if (st == THR_OK || st == THR_ELIMIT)
+    st = thr_tied_least(&plan->frame, &plan->options, &t.proof, &t.bound, err);
+  else
+    st = thr_fail(err, st, "%s", why.text);
+  if (!st) thr_tube_prove(&t, plan->metrics.length, &plan->proof);
+  thr_tube_destroy(&t);
+  return st;
+}
+
+/* rows: the table, as for thr_symmetry_plan. With tube joints the last part of the time is for the proof of length. */
+static thr_status plan_symmetric(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_symmetries *rows,
+                                 thr_plan *plan, thr_err *err)
+{
+  static const double part = 0.15;
+  thr_limits most = *limits;
+  thr_err unproved = {0};
+  if (o->joint == THR_JOINT_SOLID) return thr_symmetry_plan(f, o, limits, rows, plan, err);
+  tell_first(f, o, limits);
+  if (most.deadline > 0) most.deadline -= part * thr_limits_left(limits, INFINITY);
+  thr_status found = thr_symmetry_plan(f, o, &most, rows, plan, &unproved);
+  thr_status st = plan->n_cords > 0 ? prove_tied(plan, limits, err) : THR_OK;
+  if (st) thr_plan_destroy(plan);
+  return st || !found ? st : thr_fail(err, found, "%s", unproved.text);
+}
+
+static thr_status plan_symmetry(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
+                                thr_err *err)
+{
+  return plan_symmetric(f, o, limits, NULL, plan, err);
+}
+
+static thr_status plan_length(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
+                              thr_err *err)
+{
+  if (o->joint == THR_JOINT_TUBE) return thr_tube_cords_plan(f, o, limits, plan, NULL, err);
+  return thr_cords_plan(f, o, limits, plan, NULL, err);
+}
+
+/* What can be minimized: a further objective adds its function here. */
+static const struct objective {
+  const char *name;
+  thr_objective id;
+  double time_limit; /* s, unless the user says otherwise */
+  thr_status (*plan)(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *out, thr_err *err);
+} objectives[] = {{"length", THR_LENGTH, 0, plan_length},
+                  {"symmetry", THR_SYMMETRY, 20, plan_symmetry},
+                  {"tortuosity", THR_TORTUOSITY, 20, plan_tortuosity}};
+enum { N_OBJECTIVES = sizeof objectives / sizeof *objectives };
+
+typedef struct {
+  cli_frame_args frame;
+  pull_args pull;
+  turning_args turning;
+  symmetry_args symmetry;
+  cords_args cords;
+  guard_limits guard; /* seconds < 0: as the objective has it */
+  const struct objective *objective;
+  const char *path, *output, *draw;
+  drawings_args drawings;
+  bool json, compare;
+} arguments;
+
+static const char *objective_name(int i)
+{
+  return objectives[i].name;
+}
+
+static int find_objective(const char *name, const struct objective **out)
+{
+  int i;
+  if (!cli_choose("plan", "--objective", name, objective_name, N_OBJECTIVES, &i)) return EXIT_USAGE;
+  *out = &objectives[i];
+  return -1;
+}
+
+static int parse(int argc, char **argv, arguments *a)
+{
+  int done, o;
+  bool ok = true;
+  *a = (arguments){.frame = cli_frame_args_default(),
+                   .turning = turning_args_default(),
+                   .symmetry = symmetry_args_default(),
+                   .cords = cords_args_default(),
+                   .guard = guard_limits_default(),
+                   .objective = &objectives[0],
+                   .drawings = {.quick = true}};
+  pull_args_init(&a->pull, THR_JOINT);
+  while ((o = cli_physics_option(&a->pull.physics, argc, argv, "plan", ":" CLI_COMMON_LETTERS PULL_LETTERS "o:", table, help(),
+                                 &done)) != -1) {
+    if (cli_frame_option(&a->frame, "plan", o, optarg, &ok) || pull_option(&a->pull, "plan", o, optarg, &ok) ||
+        turning_option(&a->turning, o, optarg, &ok) || symmetry_option(&a->symmetry, "plan", o, optarg, &ok) ||
+        cords_option(&a->cords, o, optarg, &ok) || drawings_option(&a->drawings, "plan", o, optarg, &ok) ||
+        guard_option(&a->guard, "plan", o, optarg, &ok)) {
+      if (!ok) return EXIT_USAGE;
+      continue;
+    }
+    switch (o) {
+    case OPTION_OBJECTIVE: done = find_objective(optarg, &a->objective); break;
+    case OPTION_COMPARE: a->compare = true; break;
+    case OPTION_DRAW: a->draw = optarg; break;
+    case OPTION_JSON: a->json = true; break;
+    case 'o': a->output = optarg; break;
+    }
+    if (!ok) return EXIT_USAGE;
+    if (done >= 0) return done;
+  }
+  if (done >= 0) return done;
+  if (optind + 1 != argc) return cli_usage("plan", optind == argc ? "which framework?" : "one framework at a time");
+  a->path = argv[optind];
+  if ((a->output && !*a->output) || (a->draw && !*a->draw)) return cli_usage("plan", "an empty name is no place to write to");
+  const char *wordy = a->json ? "--json" : a->compare ? "--compare-objectives" : a->turning.frontier ? "--frontier" : NULL;
+  if (wordy && a->output && strcmp(a->output, "-") == 0) return cli_usage("plan", "%s and -o - both want stdout", wordy);
+  if (a->symmetry.given && a->objective->id != THR_SYMMETRY)
+    return cli_usage("plan", "%s needs --objective symmetry", a->symmetry.given);
+  int code = turning_args_check(&a->turning, a->objective->id);
+  return code < 0 ? cords_args_check(&a->cords, &a->turning, a->objective->id) : code;
+}
+
+/* What is asked of an objective: what is about turning or symmetry concerns only one of them. */
+static void ask(const arguments *a, const struct objective *objective, thr_plan_options *o)
+{
+  o->objective = objective->id;
+  double usual = a->cords.joint == THR_JOINT_TUBE ? objectives[N_OBJECTIVES - 1].time_limit : objective->time_limit;
+  o->time_limit = a->guard.seconds < 0 ? usual : a->guard.seconds;
+  turning_args_apply(&a->turning, objective->id, o);
+  o->symmetry = objective->id == THR_SYMMETRY ? a->symmetry.options : symmetry_args_default().options;
+}
+
+/* What was said of cord and beads must fit the framework; if nothing was, a framework of any size will do. */
+static int apply_physics(const arguments *a, const thr_frame *f, thr_plan_options *o)
+{
+  thr_err err = {0};
+  thr_physics resolved;
+  int code = cli_physics_apply(&a->pull.physics, &o->physics);
+  if (code || a->pull.physics.n == 0) return code;
+  return thr_physics_resolve(&o->physics, f, &resolved, &err) ? cli_fail(&err) : EXIT_OK;
+}
+
+/* ---- the other objectives ---- */
+
+static int put_objective(thr_text *t, const arguments *a, const struct objective *objective, const thr_plan *p)
+{
+  thr_eval e;
+  const char *closing = objective == a->objective ? "   this plan" : "";
+  int code = pull_eval(&a->pull, objective->name, p, THR_JOINT, &e);
+  if (a->json)
+    thr_text_printf(t, "{\"objective\": \"%s\", \"pull\": ", objective->name);
+  else
+    thr_text_printf(t, "  %-12s", objective->name);
+  if (code == EXIT_OK && a->json) {
+    thr_text_double(t, e.record.largest);
+    thr_text_append(t, ", \"error\": ");
+    thr_text_double(t, e.error);
+    thr_text_printf(t, ", \"refused\": %d", e.refused);
+  } else if (code == EXIT_OK) {
+    thr_text_printf(t, e.refused ? "%12.4g N (error at least %.3g %%" : "%12.4g N (+-%.3g %%", e.record.largest,
+                    pull_percent(e.error));
+    if (e.refused) thr_text_printf(t, ": %d %s by closed form", e.refused, cli_plural(e.refused, "turn", "turns"));
+    thr_text_printf(t, ")%s", closing);
+    if (objective->id == THR_SYMMETRY) thr_text_printf(t, "   %d %s", p->n_cords, cli_plural(p->n_cords, "cord", "cords"));
+  } else {
+    thr_text_printf(t, a->json ? "null" : "%14s", "not known");
+  }
+  thr_text_append(t, a->json ? "}" : "\n");
+  thr_eval_destroy(&e);
+  return code;
+}
+
+/* An objective that cannot do what this plan was asked for. */
+static int put_refused(thr_text *t, const arguments *a, const struct objective *objective)
+{
+  const char *option = cords_args_refused(&a->cords, objective->id, true);
+  if (a->json)
+    thr_text_printf(t, "{\"objective\": \"%s\", \"pull\": null}", objective->name);
+  else
+    thr_text_printf(t, "  %-12s%14s   not with %s\n", objective->name, "-", option);
+  return EXIT_OK;
+}
+
+static int plan_and_put(thr_text *t, const arguments *a, const struct objective *objective, const thr_plan *p, double deadline)
+{
+  thr_err err = {0};
+  thr_plan other = {0};
+  if (objective == a->objective) return put_objective(t, a, objective, p);
+  if (cords_args_refused(&a->cords, objective->id, true)) return put_refused(t, a, objective);
+  thr_plan_options o = p->options;
+  ask(a, objective, &o);
+  thr_limits limits = cli_limits(o.time_limit);
+  if (deadline > 0) limits.deadline = deadline;
+  thr_status st = objective->plan(&p->frame, &o, &limits, &other, &err);
+  cli_progress_end();
+  int code = st && st != THR_ELIMIT ? cli_fail(&err) : put_objective(t, a, objective, &other);
+  thr_plan_destroy(&other);
+  return code;
+}
+
+/* Pull of this plan beside that of the plans for the other objectives. */
+static int put_comparison(thr_text *t, const arguments *a, const thr_plan *p, double deadline)
+{
+  int code = EXIT_OK;
+  thr_text_append(t, a->json ? ", \"objectives\": [" : "\nlargest pull by objective, joints measured in simulation\n");
+  for (int i = 0; i < N_OBJECTIVES; i++) {
+    const struct objective *objective = &objectives[i];
+    if (i && a->json) thr_text_append(t, ", ");
+    int done = plan_and_put(t, a, objective, p, deadline);
+    if (!code) code = done;
+  }
+  if (a->json) thr_text_append(t, "]");
+  return code;
+}
+
+/* What was planned. */
+typedef struct {
+  thr_plan plan;
+  thr_symmetries table; /* THR_SYMMETRY only */
+  thr_cords_word word;  /* THR_LENGTH only */
+} planned;
+
+/* When all must be done: the plan and what it is held against share the time that was asked for; 0 = none was. */
+static double deadline_of(const arguments *a)
+{
+  return a->guard.seconds > 0 ? guard_deadline() : 0;
+}
+
+/* Seconds for the search: all, or what proof, check and drawings leave of a time that was asked for, or half of it if there is to
+ * be another search. */
+static double time_of_plan(const arguments *a, const thr_plan_options *o)
+{
+  static const double drawing = 0.15, checking = 0.05, most = 3; /* parts; s */
+  bool more = a->turning.compare || a->turning.frontier || a->compare;
+  if (a->guard.seconds <= 0) return o->time_limit;
+  if (more) return 0.5 * o->time_limit;
+  return o->time_limit - fmin(most, o->time_limit * (a->draw || !a->output ? drawing : checking));
+}
+
+static int put_turning(thr_text *t, const arguments *a, const planned *x)
+{
+  turning_rivals r = {0};
+  int code = turning_rivals_make(&x->plan, a->turning.compare, a->turning.frontier, deadline_of(a), &r);
+  (a->json ? plan_put_json : plan_put_summary)(t, &x->plan, &r, x->word);
+  turning_rivals_destroy(&r);
+  return code;
+}
+
+static void put_symmetry(thr_text *t, const arguments *a, const planned *x)
+{
+  enum { ROWS = 8 };
+  const thr_plan *p = &x->plan;
+  if (a->json) {
+    plan_put_json(t, p, NULL, x->word);
+    thr_text_append(t, ", \"symmetries\": {");
+    symmetry_put_table_json(t, &p->options, &x->table);
+    thr_text_append(t, "}");
+  } else {
+    symmetry_put_head(t, &p->frame, &p->options, &x->table);
+    symmetry_put_table(t, &p->options, &x->table, ROWS);
+    thr_text_append(t, "\n");
+    plan_put_summary(t, p, NULL, x->word);
+  }
+}
+
+static int print_summary(const arguments *a, const planned *x)
+{
+  thr_text t = {0};
+  int code = EXIT_OK;
+  switch (x->plan.options.objective) {
+  case THR_TORTUOSITY: code = put_turning(&t, a, x); break;
+  case THR_SYMMETRY: put_symmetry(&t, a, x); break;
+  default: (a->json ? plan_put_json : plan_put_summary)(&t, &x->plan, NULL, x->word);
+  }
+  if (a->compare) {
+    int done = put_comparison(&t, a, &x->plan, deadline_of(a));
+    if (!code) code = done;
+  }
+  if (a->json) thr_text_append(&t, "}\n");
+  int written = cli_write(&t, "-");
+  return code ? code : written;
+}
+
+/* ---- outputs ---- */
+
+/* Where plan and diagrams go: where the options say; where they say nothing, in a folder named after the framework. */
+typedef struct {
+  const char *plan, *folder; /* folder: NULL = no diagrams */
+  char stem[256], in_folder[1200];
+} places;
+
+static int find_places(const arguments *a, places *to)
+{
+  cli_stem(a->path, to->stem, sizeof to->stem);
+  const char *folder = a->draw ? a->draw : to->stem;
+  to->plan = a->output ? a->output : to->in_folder;
+  to->folder = a->draw || !a->output ? folder : NULL;
+  return a->output ? EXIT_OK : cli_in_folder(folder, "plan.json", to->in_folder, sizeof to->in_folder);
+}
+
+/* What is written is first read back and checked as a whole, as by thread check: a plan that it would refuse is not left. */
+static int check_text(const thr_text *t, const char *path)
+{
+  thr_plan p = {0};
+  thr_err err = {0};
+  if (t->failed) return EXIT_OK; /* writing says so */
+  thr_status st = thr_plan_parse(&p, t->data, t->length, strcmp(path, "-") == 0 ? "stdout" : path, &err);
+  if (!st) st = thr_check_plan(&p, &err);
+  thr_plan_destroy(&p);
+  if (st == THR_OK) return EXIT_OK;
+  if (st == THR_ENOMEM) return cli_fail(&err);
+  cli_error("a fault of this program: the plan does not pass its own check, and is not written: %s", err.text);
+  return EXIT_INTERNAL;
+}
+
+/* From here on the plan is what this run leaves, with this exit code. */
+static int write_plan(const thr_plan *p, const char *path, int code)
+{
+  thr_text t = {0};
+  thr_plan_write(p, &t);
+  int refused = check_text(&t, path);
+  if (refused) {
+    thr_text_destroy(&t);
+    return refused;
+  }
+  guard_writing();
+  int written = cli_write(&t, path);
+  guard_written(written ? written : code);
+  return written;
+}
+
+/* Where the plan is and, unless folder is NULL, the drawings. */
+static int print_places(const arguments *a, const thr_plan *p, const char *plan_path, const char *folder)
+{
+  char names[DRAWINGS_NAMES];
+  thr_text t = {0};
+  thr_text_append(&t, a->compare || p->options.objective == THR_TORTUOSITY ? "\n" : "");
+  thr_text_append(&t, "plan     ");
+  thr_text_append_clean(&t, plan_path);
+  drawings_names(p, &a->drawings, names);
+  if (folder) {
+    thr_text_append(&t, "\ndrawn    in ");
+    thr_text_append_clean(&t, folder);
+    thr_text_printf(&t, ": %s", names);
+  }
+  thr_text_append(&t, "\n");
+  return cli_write(&t, "-");
+}
+
+/* code: of the plan. */
+static int write_outputs(const arguments *a, const planned *x, int planned_code)
+{
+  const thr_plan *p = &x->plan;
+  places to;
+  int code = find_places(a, &to);
+  if (!code) code = write_plan(p, to.plan, planned_code);
+  int drawn = !code && to.folder ? drawings_write_all(p, to.folder, &a->drawings) : EXIT_OK;
+  if (drawn != EXIT_LIMIT) code = code ? code : drawn; /* the plan's own code says how it was with the time */
+  bool to_stdout = strcmp(to.plan, "-") == 0;
+  if (!code && to.folder && drawings_no_sheets(p, &a->drawings))
+    cli_note("no sheets.pdf, which takes long for more than %d beads: thread draw %s -T pdf", DRAWINGS_SHEETS_BEADS,
+             to_stdout ? "plan.json" : to.plan);
+  if (code || to_stdout || (cli_quiet && !a->json)) return code;
+  code = print_summary(a, x);
+  return code || a->json ? code : print_places(a, p, to.plan, drawn ? NULL : to.folder);
+}
+
+/* Time that nobody asked for is the search's alone. */
+static thr_status make_plan(const arguments *a, const thr_frame *f, const thr_plan_options *o, planned *x, thr_err *err)
+{
+  char versions[160];
+  thr_status st;
+  if (a->guard.seconds < 0) guard_allow(o->time_limit > 0 ? 1 + 1.1 * o->time_limit : 0);
+  thr_limits limits = cli_limits(time_of_plan(a, o));
+  best_begin(f, o);
+  limits.found = best_found;
+  tell_even(f, o, &limits);
+  if (o->objective == THR_SYMMETRY)
+    st = plan_symmetric(f, o, &limits, &x->table, &x->plan, err);
+  else if (o->objective == THR_LENGTH)
+    st = (o->joint == THR_JOINT_TUBE ? thr_tube_cords_plan : thr_cords_plan)(f, o, &limits, &x->plan, &x->word, err);
+  else
+    st = a->objective->plan(f, o, &limits, &x->plan, err);
+  cli_progress_end();
+  if (a->guard.seconds < 0) guard_allow(0);
+  snprintf(versions, sizeof versions, "thread %s, GLPK %s, igraph %s, nauty %s", THR_VERSION, thr_glpk_version(),
+           thr_igraph_version(), thr_nauty_version());
+  x->plan.generator = thr_strdup(versions);
+  return st;
+}
+
+static int plan_frame(const arguments *a, const thr_frame *f)
+{
+  thr_err err = {0};
+  planned x = {0};
+  thr_plan_options o = thr_plan_options_default();
+  ask(a, a->objective, &o);
+  int code = apply_physics(a, f, &o);
+  if (!code) code = cords_args_apply(&a->cords, f, &o);
+  if (code == EXIT_OK) {
+    thr_status st = make_plan(a, f, &o, &x, &err);
+    if (guard_deadline() > 0) best_found(NULL, x.plan.cord, x.plan.n_cords, x.plan.symmetry.present ? &x.plan.symmetry : NULL);
+    if (st == THR_OK || (st == THR_ELIMIT && x.plan.n_cords > 0)) code = write_outputs(a, &x, st ? EXIT_LIMIT : EXIT_OK);
+    if (code == EXIT_OK && st) code = cli_fail(&err);
+  }
+  free(o.end_node);
+  free(o.end_count);
+  thr_plan_destroy(&x.plan);
+  thr_symmetries_destroy(&x.table);
+  return code;
+}
+
+/* After the child that planned: if it left no plan, but had some cords, they are the plan. */
+static int conclude(const arguments *a, guard_end *end)
+{
+  places to;
+  if (end->written) return guard_conclude(end, "the plan is written, but not all that was to be drawn or said of it");
+  bool told =
+      end->reason == GUARD_DONE && end->code != EXIT_LIMIT && end->code != EXIT_INTERNAL; /* what the user wants to know */
+  if (end->kept.length == 0 || told) return guard_conclude(end, "no plan was found");
+  int code = find_places(a, &to);
+  if (!code) code = cli_write(&end->kept, to.plan);
+  thr_text_destroy(&end->kept);
+  if (code) return code;
+  cli_error("%s%s%s holds the best plan so far, of which nothing is proved", end->why, *end->why ? ": " : "", to.plan);
+  return EXIT_LIMIT;
+}
+
+int cmd_plan(int argc, char **argv)
+{
+  arguments a;
+  thr_frame f;
+  guard_end end;
+  int code = parse(argc, argv, &a);
+  if (code >= 0) return code;
+  if (guard_fork(&a.guard, &end)) return conclude(&a, &end);
+  if ((code = cli_read_frame(a.path, &a.frame, &f))) return code;
+  code = plan_frame(&a, &f);
+  thr_frame_destroy(&f);
+  return code;
+}

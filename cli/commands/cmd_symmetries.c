@@ -1,0 +1,148 @@
+/* thread symmetries: the groups of a framework, and the best symmetric threading under each. */
+#include "cli/guard.h"
+#include "cli/args/symmetry_args.h"
+#include "cli/print/symmetry_table.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char help[] =
+    "thread symmetries FRAME [options]: groups of symmetries, and the best symmetric threading under each\n\n"
+    "Examples:\n"
+    "  thread symmetries dome.obj --ends feet        how much is to be learned under each group, and at what price in cord\n"
+    "  thread symmetries dome.obj --prefer turning   the threadings that turn least instead of the shortest\n"
+    "  thread symmetries dome.obj --geometric 0.01   only mirrors, rotations, .. of the shape\n"
+    "  thread plan dome.obj --objective symmetry --group 3   the plan of row 3\n\n"
+    "Options:\n"
+    "      --ends closed|any|feet|FILE|NAME,..   where cord ends may be, as for thread plan (default: closed)\n"
+    "      --cover N        at least N passes over every interface (default: 1)\n"
+    "      --capacity N     at most N passes through any edge (default: what the framework file says, or any number)\n"
+    "      --joint solid|tube   tube: only edges are beads, and cords tie them at every node (default: solid)\n" SYMMETRY_HELP
+    "      --mu X           friction, for the capstan factor (default: 0.2)\n"
+    "      --time-limit S   for all groups together, 0 = no limit (default: 20)\n" GUARD_MEMORY_HELP
+    "      --json           as JSON\n" CLI_FRAME_HELP
+    "  -q, --quiet          no notes and no progress       -v, --verbose  what the solver does       -h, --help\n\n"
+    "* marks the default choice of thread plan --objective symmetry. A step is a pass of a unique path: what is to be learned.\n"
+    "Exit codes: 0 every row optimal by the solver's word, 2 usage, 3 bad input, 4 infeasible, 5 some rows not in\n"
+    "time (table printed)\n";
+
+enum { OPTION_ENDS = OPTION_SYMMETRY_FREE, OPTION_COVER, OPTION_CAPACITY, OPTION_JOINT, OPTION_MU, OPTION_JSON };
+
+static const struct option table[] = {CLI_COMMON_OPTIONS,
+                                      CLI_FRAME_OPTIONS,
+                                      SYMMETRY_OPTIONS,
+                                      {"ends", required_argument, NULL, OPTION_ENDS},
+                                      {"cover", required_argument, NULL, OPTION_COVER},
+                                      {"capacity", required_argument, NULL, OPTION_CAPACITY},
+                                      {"joint", required_argument, NULL, OPTION_JOINT},
+                                      {"mu", required_argument, NULL, OPTION_MU},
+                                      GUARD_OPTIONS,
+                                      {"json", no_argument, NULL, OPTION_JSON},
+                                      {NULL, 0, NULL, 0}};
+
+typedef struct {
+  cli_frame_args frame;
+  symmetry_args symmetry;
+  guard_limits guard;
+  thr_plan_options plan;
+  const char *path, *ends;
+  bool json;
+} arguments;
+
+static const char *joint_name(int i)
+{
+  return thr_joint_name((thr_joint)i);
+}
+
+static bool parse_joint(const char *value, thr_joint *joint)
+{
+  int i = 0;
+  bool ok = cli_choose("symmetries", "--joint", value, joint_name, 2, &i);
+  *joint = (thr_joint)i;
+  return ok;
+}
+
+static int parse(int argc, char **argv, arguments *a)
+{
+  int done, o;
+  bool ok = true;
+  *a = (arguments){.frame = cli_frame_args_default(),
+                   .symmetry = symmetry_args_default(),
+                   .guard = {.seconds = 20, .memory = guard_limits_default().memory},
+                   .plan = thr_plan_options_default(),
+                   .ends = "closed"};
+  a->plan.objective = THR_SYMMETRY;
+  while ((o = cli_next_option(argc, argv, "symmetries", ":" CLI_COMMON_LETTERS, table, help, &done)) != -1) {
+    if (!cli_frame_option(&a->frame, "symmetries", o, optarg, &ok) &&
+        !symmetry_option(&a->symmetry, "symmetries", o, optarg, &ok) && !guard_option(&a->guard, "symmetries", o, optarg, &ok)) {
+      switch (o) {
+      case OPTION_ENDS: a->ends = optarg; break;
+      case OPTION_COVER: ok = cli_int("symmetries", "--cover", optarg, 1, 100, &a->plan.cover); break;
+      case OPTION_CAPACITY: ok = cli_int("symmetries", "--capacity", optarg, 1, 1000, &a->plan.capacity); break;
+      case OPTION_JOINT: ok = parse_joint(optarg, &a->plan.joint); break;
+      case OPTION_MU: ok = cli_double("symmetries", "--mu", optarg, 0, 10, &a->plan.physics.mu); break;
+      case OPTION_JSON: a->json = true; break;
+      }
+    }
+    if (!ok) return EXIT_USAGE;
+  }
+  if (done >= 0) return done;
+  if (optind + 1 != argc) return cli_usage("symmetries", optind == argc ? "which framework?" : "one framework at a time");
+  if (a->plan.capacity > 0 && a->plan.capacity < a->plan.cover)
+    return cli_usage("symmetries", "--capacity %d leaves no room for --cover %d", a->plan.capacity, a->plan.cover);
+  a->path = argv[optind];
+  a->plan.symmetry = a->symmetry.options;
+  a->plan.time_limit = a->guard.seconds;
+  return -1;
+}
+
+static int print(const arguments *a, const thr_frame *f, const thr_symmetries *s)
+{
+  thr_text t = {0};
+  if (a->json) {
+    thr_text_printf(&t, "{\"framework\": \"%016" PRIx64 "\", \"nodes\": %d, \"edges\": %d, \"units\": ", thr_frame_hash(f),
+                    f->n_nodes, f->n_edges);
+    thr_text_json_string(&t, f->units);
+    thr_text_printf(&t, ", \"ends\": \"%s\", \"cover\": %d, \"joint\": \"%s\", ", thr_ends_name(a->plan.ends), a->plan.cover,
+                    thr_joint_name(a->plan.joint));
+    symmetry_put_table_json(&t, &a->plan, s);
+    thr_text_append(&t, "}\n");
+  } else {
+    symmetry_put_head(&t, f, &a->plan, s);
+    symmetry_put_table(&t, &a->plan, s, s->n);
+  }
+  return cli_write(&t, "-");
+}
+
+static int list_symmetries(arguments *a, const thr_frame *f)
+{
+  thr_err err = {0};
+  thr_symmetries s;
+  int code = cli_resolve_ends(a->ends, f, &a->plan);
+  if (code == EXIT_OK) {
+    const thr_limits limits = cli_limits(a->plan.time_limit);
+    thr_status st = thr_symmetries_find(f, &a->plan, &limits, &s, &err);
+    cli_progress_end();
+    if (!st || st == THR_ELIMIT) code = print(a, f, &s);
+    if (code == EXIT_OK && st) code = cli_fail(&err);
+    thr_symmetries_destroy(&s);
+  }
+  free(a->plan.end_node);
+  return code;
+}
+
+int cmd_symmetries(int argc, char **argv)
+{
+  arguments a;
+  thr_frame f;
+  guard_end end;
+  int code = parse(argc, argv, &a);
+  if (code >= 0) return code;
+  if (guard_fork(&a.guard, &end)) return guard_conclude(&end, "no threadings");
+  if ((code = cli_read_frame(a.path, &a.frame, &f))) return code;
+  code = list_symmetries(&a, &f);
+  thr_frame_destroy(&f);
+  return code;
+}

@@ -1,0 +1,199 @@
+/* The rows of `thread compare`. */
+#include "cli/print/compare_rows.h"
+#include "cli/print/turning_summary.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static double cords(const compare_entry *e)
+{
+  return e->plan.n_cords;
+}
+static double passes(const compare_entry *e)
+{
+  return e->plan.metrics.passes;
+}
+static double length(const compare_entry *e)
+{
+  return e->plan.metrics.length;
+}
+static double overlap(const compare_entry *e)
+{
+  return e->plan.metrics.overlap;
+}
+static double overlap_percent(const compare_entry *e)
+{
+  return 100 * e->plan.metrics.overlap / e->plan.metrics.base_length;
+}
+static double gap_percent(const compare_entry *e)
+{
+  return e->plan.proof.present ? 100 * e->plan.proof.gap : NAN;
+}
+static double turning(const compare_entry *e)
+{
+  return cli_degrees(e->plan.metrics.turning);
+}
+static double max_turning(const compare_entry *e)
+{
+  return cli_degrees(e->plan.metrics.max_turning);
+}
+static double worst_turn(const compare_entry *e)
+{
+  return cli_degrees(e->plan.metrics.worst_turn);
+}
+/* A price of turns bounds their angles only where it is the angle. */
+static const thr_turning_claim *angle_claim(const compare_entry *e)
+{
+  return e->plan.turning.present && e->plan.options.turning.cost == THR_TURN_ANGLE ? &e->plan.turning : NULL;
+}
+static double turning_bound(const compare_entry *e)
+{
+  return angle_claim(e) ? cli_degrees(angle_claim(e)->lower_bound) : NAN;
+}
+static double turning_gap(const compare_entry *e)
+{
+  return e->plan.turning.present ? 100 * e->plan.turning.gap : NAN;
+}
+static double pairing_bound(const compare_entry *e)
+{
+  return angle_claim(e) ? cli_degrees(angle_claim(e)->pairing_bound) : NAN;
+}
+static double largest_bound(const compare_entry *e)
+{
+  return angle_claim(e) ? cli_degrees(angle_claim(e)->largest_bound) : NAN;
+}
+static double capstan(const compare_entry *e)
+{
+  return turning_capstan(e->eval[THR_CAPSTAN].record.physics.mu, e->plan.metrics.max_turning);
+}
+static double turns_over_60(const compare_entry *e)
+{
+  return thr_plan_turns_over(&e->plan, turning_right_angle * 2 / 3);
+}
+static double turns_over_90(const compare_entry *e)
+{
+  return thr_plan_turns_over(&e->plan, turning_right_angle);
+}
+static double u_turns(const compare_entry *e)
+{
+  return e->plan.metrics.u_turns;
+}
+static bool is_known(const compare_entry *e, thr_method method)
+{
+  return e->eval[method].record.present && e->eval[method].complete;
+}
+double compare_largest(const compare_entry *e, thr_method method)
+{
+  return is_known(e, method) ? e->eval[method].record.largest : NAN;
+}
+static double total_of(const compare_entry *e, thr_method method)
+{
+  return is_known(e, method) ? e->eval[method].record.total : NAN;
+}
+static double closed_largest(const compare_entry *e)
+{
+  return compare_largest(e, THR_CAPSTAN);
+}
+static double closed_total(const compare_entry *e)
+{
+  return total_of(e, THR_CAPSTAN);
+}
+static double joint_largest(const compare_entry *e)
+{
+  return compare_largest(e, THR_JOINT);
+}
+static double joint_total(const compare_entry *e)
+{
+  return total_of(e, THR_JOINT);
+}
+static double joint_error(const compare_entry *e)
+{
+  return is_known(e, THR_JOINT) ? pull_percent(e->eval[THR_JOINT].error) : NAN;
+}
+static double joint_refused(const compare_entry *e)
+{
+  return is_known(e, THR_JOINT) ? (double)e->eval[THR_JOINT].refused : NAN;
+}
+static double taut_turning(const compare_entry *e)
+{
+  const thr_evaluation *r = &e->eval[THR_JOINT].record;
+  double sum = 0;
+  for (int i = 0; i < r->n_cords; i++)
+    sum += r->cord[i].taut_turning;
+  return is_known(e, THR_JOINT) ? cli_degrees(sum) : NAN;
+}
+static double holding(const compare_entry *e)
+{
+  return compare_largest(e, THR_STRUCTURE);
+}
+static double settle_index(const compare_entry *e)
+{
+  return e->index[0];
+}
+static double settle_index_fine(const compare_entry *e)
+{
+  return e->index[1];
+}
+
+const compare_row compare_rows[] = {
+    {"cords", "cords", cords, false, -1, THR_CAPSTAN, false},
+    {"passes", "passes", passes, true, -1, THR_CAPSTAN, false},
+    {"length", "length", length, true, 3, THR_CAPSTAN, false},
+    {"overlap", "overlap", overlap, true, 3, THR_CAPSTAN, false},
+    {"overlap %", "overlap_percent", overlap_percent, true, 2, THR_CAPSTAN, false},
+    {"length: gap to its bound %", "gap_percent", gap_percent, false, -6, THR_CAPSTAN, false},
+    {"turning with closing turns, deg", "turning_deg", turning, true, 1, THR_CAPSTAN, false},
+    {"the same, largest cord, deg", "max_turning_deg", max_turning, true, 1, THR_CAPSTAN, false},
+    {"capstan factor of that cord", "max_capstan", capstan, true, -6, THR_CAPSTAN, false},
+    {"turning: proven bound, deg", "turning_bound_deg", turning_bound, false, 1, THR_CAPSTAN, true},
+    {"turning: gap to it %", "turning_gap_percent", turning_gap, false, -6, THR_CAPSTAN, true},
+    {"turning: pairing bound, deg", "pairing_bound_deg", pairing_bound, false, 1, THR_CAPSTAN, true},
+    {"turning: bound of a cord, deg", "max_turning_bound_deg", largest_bound, false, 1, THR_CAPSTAN, true},
+    {"sharpest turn, deg", "worst_turn_deg", worst_turn, true, 1, THR_CAPSTAN, false},
+    {"turns over 60 deg", "turns_over_60", turns_over_60, true, -1, THR_CAPSTAN, false},
+    {"turns over 90 deg", "turns_over_90", turns_over_90, true, -1, THR_CAPSTAN, false},
+    {"U-turns", "u_turns", u_turns, true, -1, THR_CAPSTAN, false},
+    {"largest pull, closed form, N", "largest_pull", closed_largest, true, -6, THR_CAPSTAN, false},
+    {"all pulls together, N", "total_pull", closed_total, true, -6, THR_CAPSTAN, false},
+    {"turning of the tight cords, deg", "taut_turning_deg", taut_turning, true, 1, THR_JOINT, false},
+    {"largest pull, simulated, N", "joint_pull", joint_largest, true, -4, THR_JOINT, false},
+    {"its error where measured, +- %", "joint_error_percent", joint_error, false, -3, THR_JOINT, false},
+    {"turns by closed form", "joint_refused", joint_refused, false, -1, THR_JOINT, false},
+    {"all pulls together, simulated, N", "joint_total", joint_total, true, -4, THR_JOINT, false},
+    {"holding pull while drawn in, N", "holding_pull", holding, true, -6, THR_STRUCTURE, false},
+    {"simulation: index, no newtons", "ranking_index", settle_index, false, -3, THR_STRUCTURE, false},
+    {"the same, finer steps", "ranking_index_fine", settle_index_fine, false, -3, THR_STRUCTURE, false},
+};
+const int compare_n_rows = (int)(sizeof compare_rows / sizeof *compare_rows);
+
+bool compare_is_best(const compare_entry *e, int n, const compare_row *r, int i)
+{
+  double mine = r->value(&e[i]);
+  if (!r->rate || n < 2 || !isfinite(mine)) return false;
+  for (int k = 0; k < n; k++)
+    if (r->value(&e[k]) < mine - 1e-6 * fabs(mine)) return false;
+  return true;
+}
+
+bool compare_is_shown(const compare_entry *e, int n, const compare_row *r)
+{
+  for (int i = 0; i < n && r->optional; i++)
+    if (!isnan(r->value(&e[i]))) return true;
+  return !r->optional;
+}
+
+void compare_put_cell(thr_text *t, const compare_row *r, double value, bool best)
+{
+  char cell[40];
+  if (isnan(value))
+    snprintf(cell, sizeof cell, "-");
+  else if (isinf(value))
+    snprintf(cell, sizeof cell, "> 1e300");
+  else if (r->decimals == -1)
+    snprintf(cell, sizeof cell, "%.0f", value);
+  else if (r->decimals < 0)
+    snprintf(cell, sizeof cell, "%.*g", -r->decimals, value);
+  else
+    snprintf(cell, sizeof cell, "%.*f", r->decimals, value);
+  thr_text_printf(t, " %16s%s", cell, best ? "*" : " ");
+}

@@ -1,0 +1,114 @@
+#include "cli/print/copies_table.h"
+
+#include "symmetry/group/isometry.h"
+#include "symmetry/symmetry.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static const double UPRIGHT = 0.94, LEVEL = 0.34; /* cosines to the vertical: 20 and 70 degrees */
+static const double EXACTLY = 0.9998;             /* cosine: 1 degree */
+
+/* " about the x axis", " about a slanted axis"; nothing for the vertical, which is meant if nothing is said. */
+static const char *about(const double axis[3])
+{
+  if (fabs(axis[2]) > UPRIGHT) return "";
+  if (fabs(axis[0]) > EXACTLY) return " about the x axis";
+  if (fabs(axis[1]) > EXACTLY) return " about the y axis";
+  return fabs(axis[2]) < LEVEL ? " about a level axis" : " about a slanted axis";
+}
+
+/* What a mirror with that normal changes, if it is along an axis. */
+static const char *across(const double axis[3])
+{
+  if (fabs(axis[2]) > UPRIGHT) return " upside down";
+  if (fabs(axis[0]) > EXACTLY) return " left to right";
+  return fabs(axis[1]) > EXACTLY ? " front to back" : "";
+}
+
+/* From where an axis is seen that points upwards, to the right or to the back; "" if no short words say it. */
+static const char *seen_from(const double axis[3])
+{
+  if (fabs(axis[2]) > UPRIGHT) return " from above";
+  if (fabs(axis[0]) > EXACTLY) return " from the right";
+  return fabs(axis[1]) > EXACTLY ? " from behind" : "";
+}
+
+/* "turned by 90 degrees clockwise from above". The axis points upwards, x to the right or y to the back. */
+static void say_turn(const thr_isometry *o, char words[72])
+{
+  double angle = fabs(o->angle) * 180 / 3.14159265358979323846;
+  const char *way = o->angle > 0 ? "counter-clockwise" : "clockwise", *from = seen_from(o->axis);
+  bool half = angle > 180 - 1e-6;
+  if (half && fabs(o->axis[2]) < LEVEL)
+    snprintf(words, 72, "turned over%s", about(o->axis));
+  else if (half)
+    snprintf(words, 72, "turned by 180 degrees%s", about(o->axis));
+  else if (*from)
+    snprintf(words, 72, "turned by %.4g degrees %s%s", angle, way, from);
+  else
+    snprintf(words, 72, "turned by %.4g degrees%s", angle, about(o->axis));
+}
+
+/* Of a permutation of the nodes; "" if no motion is near. */
+static void say_motion(const thr_frame *f, const int *image, char words[104])
+{
+  thr_isometry o;
+  char turn[72];
+  thr_isometry_of(f, image, thr_symmetry_near, &o);
+  switch (o.kind) {
+  case THR_ISO_IDENTITY: snprintf(words, 104, "in the same place"); break;
+  case THR_ISO_ROTATION:
+    say_turn(&o, turn);
+    snprintf(words, 104, "%s", turn);
+    break;
+  case THR_ISO_MIRROR: snprintf(words, 104, "mirrored%s", across(o.axis)); break;
+  case THR_ISO_INVERSION: snprintf(words, 104, "inverted (mirrored at the middle point)"); break;
+  case THR_ISO_ROTOREFLECTION:
+    say_turn(&o, turn);
+    snprintf(words, 104, "mirrored%s and %s", across(o.axis), turn);
+    break;
+  default: words[0] = '\0';
+  }
+}
+
+/* hit: [n] all false, and again after it. */
+static bool is_permutation(const int *image, int n, bool *hit)
+{
+  bool yes = true;
+  int seen = 0;
+  for (; seen < n && yes; seen++) {
+    yes = image[seen] >= 0 && image[seen] < n && !hit[image[seen]];
+    if (yes) hit[image[seen]] = true;
+  }
+  for (int v = 0; v < seen; v++)
+    if (image[v] >= 0 && image[v] < n) hit[image[v]] = false;
+  return yes;
+}
+
+void cli_copies_destroy(cli_copies *c)
+{
+  free(c->motion);
+  free(c->words);
+  *c = (cli_copies){0};
+}
+
+thr_status cli_copies_describe(const thr_plan *p, cli_copies *out, thr_err *err)
+{
+  const thr_symmetry_record *r = &p->symmetry;
+  cli_copies c = {.motion = thr_calloc((size_t)p->n_cords, sizeof *c.motion),
+                  .words = thr_calloc((size_t)r->n_images, sizeof *c.words)};
+  bool *hit = thr_calloc((size_t)p->frame.n_nodes, sizeof *hit);
+  thr_status st = c.motion && c.words && hit ? THR_OK : thr_nomem(err);
+  for (int i = 0; i < r->n_images && !st; i++) {
+    const int *image = r->image + (size_t)i * (size_t)p->frame.n_nodes;
+    if (is_permutation(image, p->frame.n_nodes, hit)) say_motion(&p->frame, image, c.words[i]);
+  }
+  for (int i = 0; i < p->n_cords && r->present && !st; i++)
+    if (r->unique[i] != i && c.words[r->element[i]][0]) c.motion[i] = c.words[r->element[i]];
+  free(hit);
+  if (st) cli_copies_destroy(&c);
+  *out = c;
+  return st;
+}

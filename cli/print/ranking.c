@@ -1,0 +1,130 @@
+/* Rankings with honest ties. */
+#include "cli/print/ranking.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+thr_status ranking_init(ranking *r, int n, thr_err *err)
+{
+  size_t count = (size_t)n;
+  r->value = thr_calloc(count, sizeof *r->value);
+  r->low = thr_calloc(count, sizeof *r->low);
+  r->high = thr_calloc(count, sizeof *r->high);
+  r->order = thr_calloc(count, sizeof *r->order);
+  r->rank = thr_calloc(count, sizeof *r->rank);
+  if (!r->value || !r->low || !r->high || !r->order || !r->rank) {
+    ranking_destroy(r);
+    return thr_nomem(err);
+  }
+  r->n = n;
+  for (int i = 0; i < n; i++)
+    r->value[i] = NAN;
+  return THR_OK;
+}
+
+void ranking_destroy(ranking *r)
+{
+  free(r->value);
+  free(r->low);
+  free(r->high);
+  free(r->order);
+  free(r->rank);
+  *r = (ranking){0};
+}
+
+/* A rank ends where every interval so far lies below every interval to come. */
+static void join_ties(ranking *r)
+{
+  double above = INFINITY; /* the lowest end of the intervals to come */
+  for (int k = r->n_ranked - 1; k > 0; k--) {
+    above = fmin(above, r->low[r->order[k]]);
+    r->rank[r->order[k]] = 1;
+    for (int i = 0; i < k; i++)
+      if (r->high[r->order[i]] >= above) r->rank[r->order[k]] = 0; /* a tie */
+  }
+  for (int k = 0; k < r->n_ranked; k++)
+    r->rank[r->order[k]] = k == 0 || r->rank[r->order[k]] ? k + 1 : r->rank[r->order[k - 1]];
+}
+
+void ranking_make(ranking *r)
+{
+  r->n_ranked = 0;
+  for (int i = 0; i < r->n; i++) {
+    r->rank[i] = 0;
+    if (isnan(r->value[i])) continue;
+    int k = r->n_ranked++;
+    for (; k > 0 && r->value[r->order[k - 1]] > r->value[i]; k--)
+      r->order[k] = r->order[k - 1];
+    r->order[k] = i;
+  }
+  join_ties(r);
+}
+
+/* +-0.4 %, or from .. to. */
+static void put_interval(const ranking *r, int i, thr_text *t)
+{
+  double low = r->low[i], high = r->high[i];
+  if (!isfinite(high))
+    thr_text_printf(t, " (at least %.4g%s%s%s)", low, r->unit, r->open ? ": " : "", r->open ? r->open : "");
+  else if (r->error && r->value[i] > 0)
+    thr_text_printf(t, " (+-%.3g %%)", 100 * (high / r->value[i] - 1));
+  else if (!r->error && high > low * (1 + 1e-5))
+    thr_text_printf(t, " (%.4g .. %.4g%s)", low, high, r->unit);
+}
+
+void ranking_put_text(const ranking *r, const char *const *name, thr_text *t)
+{
+  int widest = 0;
+  for (int i = 0; i < r->n; i++)
+    if ((int)strlen(name[i]) > widest) widest = (int)strlen(name[i]);
+  thr_text_printf(t, "ranking by %s\n", r->title);
+  for (int k = 0; k < r->n_ranked; k++) {
+    int i = r->order[k];
+    thr_text_printf(t, "  %d. %-*s %.4g%s", r->rank[i], widest, name[i], r->value[i], r->unit);
+    put_interval(r, i, t);
+    if (k > 0)
+      thr_text_append(t, r->rank[i] == r->rank[r->order[k - 1]] ? "  tie, within the error" : "  more, beyond the error");
+    thr_text_append(t, "\n");
+  }
+  for (int i = 0; i < r->n; i++)
+    if (!r->rank[i]) thr_text_printf(t, "  -  %-*s not known\n", widest, name[i]);
+}
+
+static void put_number(thr_text *t, const char *before, double value)
+{
+  thr_text_append(t, before);
+  thr_text_json_number(t, value);
+}
+
+void ranking_put_json(const ranking *r, const char *const *name, thr_text *t)
+{
+  thr_text_printf(t, "{\"by\": \"%s\", \"order\": [", r->key);
+  for (int k = 0; k < r->n_ranked; k++) {
+    int i = r->order[k];
+    thr_text_append(t, k ? ", {\"plan\": " : "{\"plan\": ");
+    thr_text_json_string(t, name[i]);
+    put_number(t, ", \"value\": ", r->value[i]);
+    put_number(t, ", \"low\": ", r->low[i]);
+    put_number(t, ", \"high\": ", r->high[i]);
+    thr_text_printf(t, ", \"rank\": %d}", r->rank[i]);
+  }
+  thr_text_append(t, "]}");
+}
+
+static bool surely_less(const ranking *r, int i, int k)
+{
+  return r->rank[i] && r->rank[k] && r->high[i] < r->low[k];
+}
+
+bool ranking_disagree(const ranking *a, const ranking *b, int pair[2])
+{
+  for (int i = 0; i < a->n; i++)
+    for (int k = 0; k < a->n; k++) {
+      if (!surely_less(a, i, k) || !surely_less(b, k, i)) continue;
+      pair[0] = i;
+      pair[1] = k;
+      return true;
+    }
+  return false;
+}

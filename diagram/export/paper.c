@@ -1,0 +1,139 @@
+#include "diagram/export/paper.h"
+#include "graph/process/lazy.h"
+
+#include <cairo-pdf.h>
+#include <librsvg/rsvg.h>
+#include <stdlib.h>
+
+#ifdef __SANITIZE_ADDRESS__
+/* fontconfig keeps what it has read of fonts until the process ends, where the leak checker cannot see it. */
+const char *__lsan_default_suppressions(void);
+const char *__lsan_default_options(void);
+
+const char *__lsan_default_suppressions(void)
+{
+  return "leak:libfontconfig";
+}
+
+const char *__lsan_default_options(void)
+{
+  return "print_suppressions=0";
+}
+#endif
+
+#define FUNCTIONS(F)                                                                                                             \
+  F(cairo_create)                                                                                                                \
+  F(cairo_destroy)                                                                                                               \
+  F(cairo_pdf_surface_create_for_stream)                                                                                         \
+  F(cairo_pdf_surface_set_metadata)                                                                                              \
+  F(cairo_show_page)                                                                                                             \
+  F(cairo_status)                                                                                                                \
+  F(cairo_status_to_string)                                                                                                      \
+  F(cairo_surface_destroy)                                                                                                       \
+  F(cairo_surface_finish)                                                                                                        \
+  F(cairo_surface_status)                                                                                                        \
+  F(g_error_free)                                                                                                                \
+  F(g_object_unref)                                                                                                              \
+  F(rsvg_handle_new_from_data)                                                                                                   \
+  F(rsvg_handle_render_document)
+
+/* Of librsvg, and of what it needs itself: cairo and GLib. */
+static struct {
+  FUNCTIONS(THR_LAZY_POINTER)
+  bool loaded;
+} lib;
+
+static thr_status load(thr_err *err)
+{
+  static const thr_lazy_symbol symbol[] = {FUNCTIONS(THR_LAZY_SYMBOL)};
+  return thr_lazy_load(&lib.loaded, THR_LIBRARY_RSVG_2, symbol, sizeof symbol / sizeof *symbol, err);
+}
+
+static const double POINT = 25.4 / 72; /* mm */
+
+struct thr_paper {
+  cairo_surface_t *surface;
+  cairo_t *cairo;
+  double width, height; /* pt */
+};
+
+const char *thr_page_name(thr_page_size s)
+{
+  static const char *const name[] = {"a4", "letter"};
+  return name[s];
+}
+
+void thr_page_mm(thr_page_size s, double size[2])
+{
+  static const double mm[][2] = {{210, 297}, {215.9, 279.4}};
+  for (int i = 0; i < 2; i++)
+    size[i] = mm[s][i];
+}
+
+static cairo_status_t append(void *out, const unsigned char *bytes, unsigned int n)
+{
+  thr_text *t = out;
+  thr_text_append_bytes(t, (const char *)bytes, n);
+  return t->failed ? CAIRO_STATUS_WRITE_ERROR : CAIRO_STATUS_SUCCESS;
+}
+
+static thr_status failed(cairo_status_t status, thr_err *err)
+{
+  if (status == CAIRO_STATUS_NO_MEMORY || status == CAIRO_STATUS_WRITE_ERROR) return thr_nomem(err);
+  return thr_fail(err, THR_ESOLVER, "cairo cannot write the PDF: %s", lib.cairo_status_to_string(status));
+}
+
+/* cairo puts the time of day into a file that has no date. */
+static void describe(cairo_surface_t *surface, const char *title)
+{
+  static const char epoch[] = "2000-01-01T00:00:00Z";
+  lib.cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, title);
+  lib.cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, epoch);
+  lib.cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_MOD_DATE, epoch);
+}
+
+thr_status thr_paper_open(thr_paper **p, thr_page_size size, const char *title, thr_text *out, thr_err *err)
+{
+  double mm[2];
+  *p = NULL;
+  thr_status st = load(err);
+  if (st) return st;
+  thr_page_mm(size, mm);
+  thr_paper *new = *p = thr_calloc(1, sizeof *new);
+  if (!new) return thr_nomem(err);
+  new->width = mm[0] / POINT;
+  new->height = mm[1] / POINT;
+  new->surface = lib.cairo_pdf_surface_create_for_stream(append, out, new->width, new->height);
+  new->cairo = lib.cairo_create(new->surface);
+  cairo_status_t status = lib.cairo_status(new->cairo);
+  if (status) return failed(status, err);
+  describe(new->surface, title);
+  return THR_OK;
+}
+
+thr_status thr_paper_add(thr_paper *p, const thr_text *svg, thr_err *err)
+{
+  GError *why = NULL;
+  thr_status st = THR_OK;
+  if (svg->failed) return thr_nomem(err);
+  RsvgHandle *page = lib.rsvg_handle_new_from_data((const guint8 *)(svg->data ? svg->data : ""), svg->length, &why);
+  RsvgRectangle whole = {0, 0, p->width, p->height};
+  if (!page || !lib.rsvg_handle_render_document(page, p->cairo, &whole, &why))
+    st = thr_fail(err, THR_ESOLVER, "librsvg cannot draw a page: %s", why ? why->message : "no reason given");
+  if (page) lib.g_object_unref(page);
+  if (why) lib.g_error_free(why);
+  lib.cairo_show_page(p->cairo);
+  cairo_status_t status = lib.cairo_status(p->cairo);
+  return !st && status ? failed(status, err) : st;
+}
+
+thr_status thr_paper_close(thr_paper *p, thr_err *err)
+{
+  if (!p) return THR_OK;
+  lib.cairo_destroy(p->cairo);
+  lib.cairo_surface_finish(p->surface);
+  cairo_status_t status = lib.cairo_surface_status(p->surface);
+  lib.cairo_surface_destroy(p->surface);
+  free(p);
+  return status ? failed(status, err) : THR_OK;
+}

@@ -1,0 +1,312 @@
+/* Candidate layouts: the projections, and the choice among all of them. */
+#include "diagram/layout/layout.h"
+
+#include "diagram/layout/layout_parts.h"
+#include "graph/framework/drawing.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double MAX_COORDINATE = 1e100; /* squares must stay finite */
+static const double CLEARLY = 1.25;         /* so much larger a ratio shows */
+static const double LEGIBLE = 0.5;          /* ratio of a picture that needs no second panel */
+
+const char *thr_layout_name(thr_layout_kind kind)
+{
+  static const char *const name[THR_LAYOUT_KINDS] = {"plan",       "unrolled",   "front",  "side",   "plane",
+                                                     "unrolled-x", "unrolled-y", "spread", "panels", "drawn"};
+  return (unsigned)kind < THR_LAYOUT_KINDS ? name[kind] : "?";
+}
+
+const char *thr_layout_words(thr_layout_kind kind)
+{
+  static const char *const words[THR_LAYOUT_KINDS] = {
+      "Plan, seen from outside (from above).",
+      "Unrolled from the crown in the middle outwards, seen from outside (from above); distances around the middle are "
+      "stretched.",
+      "Elevation, seen from outside (from the front: x to the right, z up).",
+      "Elevation, seen from outside (from the side: y to the right, z up).",
+      "Seen at right angles to the plane that fits best, with the higher nodes up the page.",
+      "Unrolled about the x axis, seen from outside (from the +x end, which is in the middle); distances around it are "
+      "stretched.",
+      "Unrolled about the y axis, seen from outside (from the +y end, which is in the middle); distances around it are "
+      "stretched.",
+      "Spread flat from the middle outwards, like a shell opened on the far side, seen from outside; beads far out look longer "
+      "than they are.",
+      "Two halves of a closed shell, both seen from outside: turn the shell half round about the page's vertical to get from one "
+      "to the other. Places on their rims are on both.",
+      "Schematic: which bead joins which is true, lengths and angles are not."};
+  return (unsigned)kind < THR_LAYOUT_KINDS ? words[kind] : "";
+}
+
+bool thr_layout_to_scale(thr_layout_kind kind)
+{
+  return kind == THR_LAYOUT_PLAN || kind == THR_LAYOUT_FRONT || kind == THR_LAYOUT_SIDE || kind == THR_LAYOUT_PLANE;
+}
+
+void thr_layout_destroy(thr_layout *l)
+{
+  free(l->xy);
+  free(l->node);
+  thr_frame_destroy(&l->paper);
+  *l = (thr_layout){0};
+}
+
+thr_status thr_layout_copy(thr_layout *to, const thr_layout *from, thr_err *err)
+{
+  thr_layout l = *from;
+  size_t n = (size_t)from->n_points;
+  thr_status st = THR_OK;
+  l.paper = (thr_frame){0};
+  l.xy = thr_calloc(n, sizeof *l.xy);
+  l.node = from->node ? thr_calloc(n, sizeof *l.node) : NULL;
+  if (!l.xy || (from->node && !l.node)) st = thr_nomem(err);
+  if (!st && from->node)
+    st = thr_layout_join(&l.paper, from->n_points, from->paper.n_edges, (const int(*)[2])from->paper.edge, err);
+  if (st) {
+    thr_layout_destroy(&l);
+    return st;
+  }
+  if (n) memcpy(l.xy, from->xy, n * sizeof *l.xy);
+  if (l.node) memcpy(l.node, from->node, n * sizeof *l.node);
+  *to = l;
+  return THR_OK;
+}
+
+thr_status thr_layout_join(thr_frame *paper, int n_points, int n_edges, const int (*edge)[2], thr_err *err)
+{
+  thr_frame p = {.n_nodes = n_points, .n_edges = n_edges};
+  p.edge = thr_calloc((size_t)p.n_edges, sizeof *p.edge);
+  p.first = thr_calloc((size_t)n_points + 1, sizeof *p.first);
+  p.half = thr_calloc(2 * (size_t)p.n_edges, sizeof *p.half);
+  if (!p.edge || !p.first || !p.half) {
+    thr_frame_destroy(&p);
+    return thr_nomem(err);
+  }
+  memcpy(p.edge, edge, (size_t)p.n_edges * sizeof *p.edge);
+  thr_frame_index(&p);
+  *paper = p;
+  return THR_OK;
+}
+
+bool thr_layout_better(const thr_layout *a, const thr_layout *b)
+{
+  long faults_a = a->crossings + a->squeezed, faults_b = b->crossings + b->squeezed;
+  if (faults_a != faults_b) return faults_a < faults_b;
+  return a->ratio > CLEARLY * b->ratio;
+}
+
+void thr_layout_keep_better(thr_layout *best, thr_layout *l)
+{
+  if (!best->xy || thr_layout_better(l, best)) {
+    thr_layout t = *best;
+    *best = *l;
+    *l = t;
+  }
+  thr_layout_destroy(l);
+}
+
+static void project(thr_layout *l, const thr_frame *f, const double right[3], const double up[3])
+{
+  for (int v = 0; v < f->n_nodes; v++) {
+    l->xy[v][0] = thr_dot(f->xyz[v], right);
+    l->xy[v][1] = thr_dot(f->xyz[v], up);
+  }
+}
+
+/* ---- best-fit plane ---- */
+
+/* One Jacobi rotation that zeroes a[p][q] of a symmetric matrix; vec collects the eigenvectors as columns. */
+static void rotate(double a[3][3], double vec[3][3], int p, int q)
+{
+  if (a[p][q] == 0) return;
+  double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
+  double t = (theta >= 0 ? 1 : -1) / (fabs(theta) + sqrt(theta * theta + 1)), c = 1 / sqrt(t * t + 1), s = t * c;
+  for (int k = 0; k < 3; k++) {
+    double x = a[k][p], y = a[k][q];
+    a[k][p] = c * x - s * y;
+    a[k][q] = s * x + c * y;
+  }
+  for (int k = 0; k < 3; k++) {
+    double x = a[p][k], y = a[q][k];
+    a[p][k] = c * x - s * y;
+    a[q][k] = s * x + c * y;
+    x = vec[k][p], y = vec[k][q];
+    vec[k][p] = c * x - s * y;
+    vec[k][q] = s * x + c * y;
+  }
+}
+
+/* Unit normal of the least-squares plane, towards the viewer: upwards, or for a wall from the front or the side. */
+static void plane_normal(const thr_frame *f, double normal[3])
+{
+  double mean[3], a[3][3] = {{0}}, vec[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  thr_layout_mean_point(f, mean);
+  for (int v = 0; v < f->n_nodes; v++)
+    for (int i = 0; i < 3; i++)
+      for (int j = 0; j < 3; j++)
+        a[i][j] += (f->xyz[v][i] - mean[i]) * (f->xyz[v][j] - mean[j]);
+  for (int sweep = 0; sweep < 30; sweep++) {
+    rotate(a, vec, 0, 1);
+    rotate(a, vec, 0, 2);
+    rotate(a, vec, 1, 2);
+  }
+  int least = 2;
+  for (int i = 1; i >= 0; i--)
+    if (a[i][i] < a[least][least]) least = i;
+  for (int i = 0; i < 3; i++)
+    normal[i] = vec[i][least];
+  double sign = fabs(normal[2]) > 1e-6 ? normal[2] : fabs(normal[1]) > 1e-6 ? -normal[1] : normal[0];
+  for (int i = 0; i < 3 && sign < 0; i++)
+    normal[i] = -normal[i];
+}
+
+static void project_plane(thr_layout *l, const thr_frame *f)
+{
+  double n[3], up[3], right[3];
+  plane_normal(f, n);
+  /* near the horizontal, "higher up the page" would turn the sheet for a trifle: keep y up */
+  const double top[3] = {0, n[2] > 0.95, n[2] <= 0.95};
+  double along = thr_dot(top, n);
+  for (int i = 0; i < 3; i++)
+    up[i] = top[i] - along * n[i];
+  double size = sqrt(thr_dot(up, up));
+  for (int i = 0; i < 3; i++)
+    up[i] /= size;
+  thr_cross_product(up, n, right);
+  project(l, f, right, up);
+}
+
+/* ---- candidates ---- */
+
+static thr_status place(thr_layout *l, const thr_frame *f, thr_err *err)
+{
+  static const double x[3] = {1, 0, 0}, y[3] = {0, 1, 0}, z[3] = {0, 0, 1};
+  switch (l->kind) {
+  case THR_LAYOUT_PLAN: project(l, f, x, y); return THR_OK;
+  case THR_LAYOUT_FRONT: project(l, f, x, z); return THR_OK;
+  case THR_LAYOUT_SIDE: project(l, f, y, z); return THR_OK;
+  case THR_LAYOUT_PLANE: project_plane(l, f); return THR_OK;
+  case THR_LAYOUT_UNROLLED_X: return thr_layout_unroll(l, f, 0, err);
+  case THR_LAYOUT_UNROLLED_Y: return thr_layout_unroll(l, f, 1, err);
+  case THR_LAYOUT_UNROLLED_Z: return thr_layout_unroll(l, f, 2, err);
+  case THR_LAYOUT_SPREAD: return thr_layout_spread(l, f, err);
+  default: return thr_fail(err, THR_EINPUT, "layout kind %d cannot be made from coordinates", (int)l->kind);
+  }
+}
+
+thr_status thr_layout_make(thr_layout *out, const thr_frame *f, thr_layout_kind kind, thr_err *err)
+{
+  thr_layout l = {.n_nodes = f->n_nodes, .n_points = f->n_nodes, .kind = kind};
+  *out = (thr_layout){0};
+  for (int v = 0; v < f->n_nodes; v++)
+    for (int i = 0; i < 3; i++)
+      if (!(fabs(f->xyz[v][i]) < MAX_COORDINATE))
+        return thr_fail(err, THR_EINPUT, "node %d lies at %g: too far to be drawn", v, f->xyz[v][i]);
+  if (kind == THR_LAYOUT_PANELS) return thr_layout_panels(out, f, err);
+  l.xy = thr_calloc((size_t)f->n_nodes, sizeof *l.xy);
+  if (!l.xy) return thr_nomem(err);
+  thr_status st = place(&l, f, err);
+  if (!st) st = thr_layout_measure(&l, f, err);
+  if (st) thr_layout_destroy(&l);
+  *out = l;
+  return st;
+}
+
+thr_status thr_layout_adopt(thr_layout *out, const thr_frame *f, const double (*xy)[2], thr_err *err)
+{
+  thr_layout l = {.n_nodes = f->n_nodes, .n_points = f->n_nodes, .kind = THR_LAYOUT_DRAWN};
+  for (int v = 0; v < f->n_nodes; v++)
+    if (!(fabs(xy[v][0]) < MAX_COORDINATE && fabs(xy[v][1]) < MAX_COORDINATE))
+      return thr_fail(err, THR_EINPUT, "node %d of the layout has no finite place on paper", v);
+  l.xy = thr_calloc((size_t)f->n_nodes, sizeof *l.xy);
+  if (!l.xy) return thr_nomem(err);
+  if (f->n_nodes) memcpy(l.xy, xy, (size_t)f->n_nodes * sizeof *l.xy);
+  thr_status st = thr_layout_measure(&l, f, err);
+  if (st) thr_layout_destroy(&l);
+  *out = l;
+  return st;
+}
+
+/* Is a single picture good enough that two panels would only be a nuisance? */
+static bool legible(const thr_layout *l)
+{
+  return !l->crossings && !l->squeezed && l->ratio >= LEGIBLE;
+}
+
+/* Replaces *best by what the drawing algorithm makes of it, or of its own circle, if that is better. */
+static thr_status try_drawing(thr_layout *best, const thr_frame *f, bool circle, thr_err *err)
+{
+  thr_layout l = {0};
+  double(*xy)[2] = thr_calloc((size_t)f->n_nodes, sizeof *xy);
+  if (!xy) return thr_nomem(err);
+  memcpy(xy, best->xy, (size_t)f->n_nodes * sizeof *xy);
+  thr_status st = thr_kamada_kawai(f->n_nodes, f->n_edges, (const int(*)[2])f->edge, f->length, circle, xy, err);
+  if (!st) st = thr_layout_adopt(&l, f, (const double(*)[2])xy, err);
+  if (!st) thr_layout_keep_better(best, &l);
+  free(xy);
+  return st;
+}
+
+thr_status thr_layout_choose(thr_layout *out, const thr_frame *f, const thr_layout *extra, int n_extra, thr_err *err)
+{
+  thr_layout best = {0}, l = {0};
+  thr_status st = THR_OK;
+  for (int kind = THR_LAYOUT_PLAN; kind < THR_LAYOUT_DRAWN; kind++) {
+    thr_err flat = {0};
+    if (kind == THR_LAYOUT_PANELS && legible(&best)) break;
+    st = thr_layout_make(&l, f, (thr_layout_kind)kind, kind == THR_LAYOUT_PLAN ? err : &flat);
+    if (st == THR_EINPUT && kind != THR_LAYOUT_PLAN) continue;
+    if (st) {
+      st = kind == THR_LAYOUT_PLAN ? st : thr_fail(err, st, "%s", flat.text);
+      goto done;
+    }
+    thr_layout_keep_better(&best, &l);
+    if (kind == THR_LAYOUT_PLAN && best.crossings == 0 && best.ratio >= 1 / CLEARLY) break;
+  }
+  bool tangled = best.crossings && f->n_nodes <= THR_LAYOUT_DRAWN_NODES;
+  st = tangled ? try_drawing(&best, f, false, err) : THR_OK;
+  if (tangled && !st) st = try_drawing(&best, f, true, err);
+  if (st) goto done;
+  for (int i = 0; i < n_extra; i++) {
+    if (!thr_layout_better(&extra[i], &best)) continue;
+    st = thr_layout_copy(&l, &extra[i], err);
+    if (st) goto done;
+    thr_layout_keep_better(&best, &l);
+  }
+done:
+  if (st) thr_layout_destroy(&best);
+  *out = best;
+  return st;
+}
+
+/* ---- around a node ---- */
+
+typedef struct {
+  double angle;
+  int half;
+} spoke;
+
+static int by_angle(const void *a, const void *b)
+{
+  const spoke *p = a, *q = b;
+  if (p->angle != q->angle) return p->angle < q->angle ? -1 : 1;
+  return p->half - q->half;
+}
+
+thr_status thr_layout_around(const thr_frame *f, const double *angle, int *around, thr_err *err)
+{
+  spoke *k = thr_calloc((size_t)f->n_edges * 2, sizeof *k);
+  if (!k) return thr_nomem(err);
+  for (int v = 0; v < f->n_nodes; v++) {
+    int first = f->first[v], degree = thr_degree(f, v);
+    for (int i = 0; i < degree; i++)
+      k[i] = (spoke){angle[f->half[first + i]], f->half[first + i]};
+    qsort(k, (size_t)degree, sizeof *k, by_angle);
+    for (int i = 0; i < degree; i++)
+      around[first + i] = k[i].half;
+  }
+  free(k);
+  return THR_OK;
+}

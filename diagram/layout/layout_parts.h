@@ -1,0 +1,43 @@
+/* What the files that make layouts share. Private to diagram/. */
+#ifndef THR_LAYOUT_PARTS_H
+#define THR_LAYOUT_PARTS_H
+
+#include "diagram/layout/layout.h"
+
+/* Fill xy[n_nodes], which is allocated, and measure; THR_EINPUT if the frame is flat (not about z). */
+thr_status thr_layout_unroll(thr_layout *l, const thr_frame *f, int axis, thr_err *err) THR_MUST_CHECK; /* 0 = x, 1 = y, 2 = z */
+thr_status thr_layout_spread(thr_layout *l, const thr_frame *f, thr_err *err) THR_MUST_CHECK;
+
+/* The same for two panels, which have points of their own: fills all of *l on success, nothing otherwise. */
+thr_status thr_layout_panels(thr_layout *l, const thr_frame *f, thr_err *err) THR_MUST_CHECK;
+
+/* Fills *paper of a layout with points of their own: edge[n_edges] holds the points that the edges join, and is copied. */
+thr_status thr_layout_join(thr_frame *paper, int n_points, int n_edges, const int (*edge)[2], thr_err *err) THR_MUST_CHECK;
+
+/* Replaces *best by *l when that is better or best is empty; the loser is freed. */
+void thr_layout_keep_better(thr_layout *best, thr_layout *l);
+
+/* Centre of the least-squares sphere; false if it is larger than THR_LAYOUT_FLAT diagonals: the frame is flat. */
+enum { THR_LAYOUT_FLAT = 50 };
+bool thr_layout_fit_sphere(const thr_frame *f, double centre[3]);
+void thr_layout_mean_point(const thr_frame *f, double mean[3]);
+
+/* Directions of the nodes from the centre of that sphere, allocated: (*unit)[n_nodes]. THR_EINPUT if the frame is flat. */
+thr_status thr_layout_directions(const thr_frame *f, double (**unit)[3], thr_err *err) THR_MUST_CHECK;
+
+/* Middle of a widest empty cap among n directions, the lowest of nearly equal ones; returns its angle from there to the nearest
+ * direction, rad. */
+double thr_layout_opening(const double (*unit)[3], int n, double middle[3]);
+
+static inline double thr_dot(const double a[3], const double b[3])
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static inline void thr_cross_product(const double a[3], const double b[3], double c[3])
+{
+  for (int i = 0; i < 3; i++)
+    c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+}
+
+#endif

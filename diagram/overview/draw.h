@@ -1,0 +1,49 @@
+/* Draws a scene as SVG elements, in mm on paper: pads of feet, beads, cords with casings, turns and arrows, ends, names of places
+ * and numbers. All of it for the overview; for a page about some passes the same scene with a state per pass. Private to
+ * diagram/. */
+#ifndef THR_DRAW_H
+#define THR_DRAW_H
+
+#include "diagram/scene/scene.h"
+
+typedef enum {
+  THR_DRAW_NOW,     /* in its colour, with arrow and number */
+  THR_DRAW_EARLIER, /* grey, below all that are drawn now, without arrow and number */
+  THR_DRAW_HIDDEN   /* not at all */
+} thr_draw_state;
+
+/* {0}: everything, as in the overview. Arrays are borrowed. An S mark is drawn if its cord's first pass is, an E mark if the last
+ * one is. */
+typedef struct {
+  const unsigned char *state; /* [n_passes] thr_draw_state; NULL: all are drawn now */
+  const thr_box *window;      /* in mm of the scene: what lies outside is left out, not cut off; NULL: nothing is */
+  bool anonymous;             /* no ids and titles: a document may hold several pictures, and ids only once */
+  bool no_beads;              /* the caller draws them */
+} thr_draw_style;
+
+/* Appends the <style> element for everything below, within elements of a class: "thread" is that of a whole document. */
+void thr_draw_css(const thr_scene *s, const char *scope, thr_text *t);
+
+/* Appends the groups "feet", "beads", one per cord ("cord-A", with a group "A-17" per pass), "ends", with panels "seams",
+ * "places" and "numbers" (see thr_overview_svg). Letters and numbers of a grid only with grid. */
+void thr_draw_scene(const thr_scene *s, const thr_draw_style *style, const thr_box *grid, thr_text *t);
+
+/* Are letters and numbers of places wanted on all four sides of the whole picture? */
+bool thr_draw_grid_both(const thr_scene *s);
+
+/* Pieces that the legend shows, too. A mark's ring has a colour of its own; pale: of a copy. */
+void thr_draw_mark(const thr_scene *s, const thr_mark *m, bool end, bool pale, const char *ring, double x, double y, thr_text *t);
+void thr_draw_pill(const thr_scene *s, const char *number, const char *colour, double x, double y, thr_text *t);
+void thr_draw_seam(const thr_scene *s, const thr_mark *m, const char *colour, thr_text *t); /* to or from the other panel */
+void thr_draw_sharp(const thr_scene *s, double x, double y, thr_text *t);                   /* the sign of a sharp turn */
+void thr_draw_foot_pad(const thr_scene *s, double x, double y, thr_text *t);                /* under a node that is a foot */
+
+/* Appends beads of a width in mm, as lines with round ends: data are the path's. filled: they hold cord already. Outlines are
+ * thr_draw_outline mm wide. */
+void thr_draw_capsules(const thr_scene *s, double width, bool filled, const char *data, thr_text *t);
+double thr_draw_outline(const thr_scene *s);
+
+/* Appends the attribute that dashes a cord's line; nothing for a full line (NULL). */
+void thr_draw_dash(const thr_scene *s, const double *dash, thr_text *t);
+
+#endif

@@ -1,0 +1,70 @@
+/* What nodes and turns are called for whoever threads a plan, the same in every document. Private to diagram/. */
+#ifndef THR_GUIDE_H
+#define THR_GUIDE_H
+
+#include "diagram/layout/layout.h"
+#include "diagram/scene/places.h"
+#include "graph/plan/plan.h"
+
+/* Turns of less are "straight on". */
+static const double THR_GUIDE_STRAIGHT = 0.26179938779914943654; /* rad, 15 degrees */
+
+enum { THR_LABEL = 64 };
+
+/* {0} is valid and empty. Arrays are owned, the frame is borrowed. */
+typedef struct {
+  const thr_frame *f;
+  thr_layout layout;
+  thr_places places;
+  bool sides;               /* have left and right a meaning? Not where the layout shows beads that cross, or is only drawn */
+  double (*outward)[3];     /* [n_nodes] unit normal towards the viewer of the layout; 0 where none is known */
+  char (*label)[THR_LABEL]; /* [n_nodes] the node's place as in the overview; all different, without blanks */
+} thr_guide;
+
+/* Lays the framework out as the overview does. O(n log n). Release with thr_guide_destroy, after a failure too. */
+thr_status thr_guide_make(thr_guide *g, const thr_frame *f, thr_err *err) THR_MUST_CHECK;
+void thr_guide_destroy(thr_guide *g);
+
+/* Appends "foot A1 (node 17)": the node's own name where it is called by its place. */
+void thr_guide_place(const thr_guide *g, int v, thr_text *t);
+
+/* How half-edge out goes on from half-edge in (head(in) = tail(out)). */
+typedef enum {
+  THR_WAY_STRAIGHT,
+  THR_WAY_LEFT, /* as seen from outside, going with the needle */
+  THR_WAY_RIGHT,
+  THR_WAY_OVER, /* ahead, where the surface bends */
+  THR_WAY_TURN, /* to a side that cannot be told */
+  THR_WAY_BACK  /* into the same edge */
+} thr_way;
+
+thr_way thr_guide_way(const thr_guide *g, int in, int out);
+
+/* Appends "straight on", "turn left 90 degrees", "over the curve 24 degrees", "turn back". */
+void thr_guide_say(const thr_guide *g, int in, int out, thr_text *t);
+
+/* What a pass does with the bead of its edge. */
+typedef enum {
+  THR_PICK_UP,      /* no cord has been in it yet */
+  THR_PASS_THROUGH, /* the way that the cord in it went that came last */
+  THR_PASS_BACK     /* against that one */
+} thr_deed;
+
+const char *thr_deed_words(thr_deed d); /* "pick up", "pass through", "pass back through" */
+
+/* What the beads hold so far. {0} is valid and empty. */
+typedef struct {
+  int *cords; /* [n_edges] */
+  int *last;  /* [n_edges] half-edge of the latest pass, if cords > 0 */
+} thr_held;
+
+thr_status thr_held_make(thr_held *h, int n_edges, thr_err *err) THR_MUST_CHECK;
+void thr_held_destroy(thr_held *h);
+
+/* Takes the needle over a half-edge. */
+thr_deed thr_held_pass(thr_held *h, int half);
+
+/* "second", "third", "4th", "21st" */
+void thr_guide_ordinal(int n, char word[16]);
+
+#endif

@@ -1,0 +1,470 @@
+/* Heading and legend of the overview. Widths of text are estimated for a wide face, so that lines never run out. */
+#include "diagram/overview/legend.h"
+
+#include "diagram/overview/draw.h"
+#include "diagram/overview/svg.h"
+#include "diagram/overview/tension.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double TITLE_SIZE = 5, TEXT_SIZE = 3.2, ROW = 5.2, SWATCH = 13, RAMP = 96; /* mm */
+enum { MOST_TICKS = 10 };
+
+#define DEGREE "\xC2\xB0" /* its sign in UTF-8 */
+
+/* "1 cord", "2 cords" */
+static const char *plural(int n)
+{
+  return n == 1 ? "" : "s";
+}
+
+void thr_legend_title(const thr_scene *s, const char *given, char title[160])
+{
+  int n = s->plan->n_cords, paths = s->copy ? thr_copies_paths(s->copy, n) : n, beads = s->frame->n_edges;
+  char size[64];
+  snprintf(size, sizeof size, "%d bead%s, %d pass%s", beads, plural(beads), s->n_passes, s->n_passes == 1 ? "" : "es");
+  if (given && *given)
+    snprintf(title, 160, "%.159s", given);
+  else if (n == 1)
+    snprintf(title, 160, "Cord %s: %s", s->id[0], size);
+  else if (paths < n)
+    snprintf(title, 160, "%d cords, %d path%s to learn: %s", n, paths, plural(paths), size);
+  else
+    snprintf(title, 160, "%d cords: %s", n, size);
+}
+
+static double degrees(double angle)
+{
+  return angle * 90 / THR_SCENE_SHARP;
+}
+
+static int count_feet(const thr_frame *f)
+{
+  int n = 0;
+  for (int v = 0; v < f->n_nodes; v++)
+    n += f->foot && f->foot[v];
+  return n;
+}
+
+static double two_digits(double x)
+{
+  double unit = x > 0 ? pow(10, floor(log10(x)) - 1) : 1;
+  return unit > 1 ? unit * nearbyint(x / unit) : x;
+}
+
+static double write_view(const thr_scene *s, double x, double y, double width, thr_text *t)
+{
+  char line[512], number[40];
+  const thr_layout *l = s->layout;
+  y = thr_svg_wrap(t, x, y, TEXT_SIZE, width, " font-weight=\"bold\"", thr_layout_words(l->kind));
+  if (s->n_seams && !thr_scene_labels_seams(s))
+    y = thr_svg_wrap(t, x, y, TEXT_SIZE, width, "",
+                     "At a place on the rim the cord may go on in the other half, at the place of the same name.");
+  if (thr_scene_labels_seams(s)) {
+    snprintf(
+        line, sizeof line,
+        "\"to 17\" where the cord leaves a half and \"from 16\" where it comes out on the other: at places of the same name.");
+    y = thr_svg_wrap(t, x, y, TEXT_SIZE, width, "", line);
+  }
+  if (s->unlabelled) {
+    snprintf(line, sizeof line, "%d such place%s without a label for want of room: look for the number of the next pass.",
+             s->unlabelled, s->unlabelled == 1 ? " is" : "s are");
+    y = thr_svg_wrap(t, x, y, TEXT_SIZE, width, "", line);
+  }
+  if (!l->crossings && !l->estimated) return y;
+  snprintf(number, sizeof number, l->estimated ? "about %.0f" : "%.0f",
+           l->estimated ? two_digits((double)l->crossings) : (double)l->crossings);
+  snprintf(
+      line, sizeof line,
+      "In this layout %s pair%s of beads cross or touch that do not in space: at these places follow the arrows and numbers.",
+      number, plural(l->crossings == 1 ? 1 : 2));
+  return thr_svg_wrap(t, x, y, TEXT_SIZE, width, " fill=\"#A03000\"", line);
+}
+
+double thr_legend_heading(const thr_scene *s, const char *title, double x, double y, double width, thr_text *t)
+{
+  char line[512], length[64], numbers[160];
+  const thr_frame *f = s->frame;
+  double total = 0;
+  for (int c = 0; c < s->plan->n_cords; c++)
+    total += thr_cord_length(f, &s->plan->cord[c]);
+  thr_svg_length(total, f->units, length);
+  y = thr_svg_wrap(t, x, y + TITLE_SIZE, TITLE_SIZE, width, " font-weight=\"bold\"", title);
+  int feet = count_feet(f);
+  snprintf(line, sizeof line, "%d nodes, %d bead%s (edge%s), %d %s; %d cord%s, %d pass%s, %s of cord.", f->n_nodes, f->n_edges,
+           plural(f->n_edges), plural(f->n_edges), feet, feet == 1 ? "foot" : "feet", s->plan->n_cords, plural(s->plan->n_cords),
+           s->n_passes, s->n_passes == 1 ? "" : "es", length);
+  y = thr_svg_wrap(t, x, y, TEXT_SIZE, width, "", line);
+  y = write_view(s, x, y, width, t);
+  if (s->number_step == 1)
+    snprintf(numbers, sizeof numbers, "Every pass%s is numbered", s->copy ? " of a path to learn" : "");
+  else
+    snprintf(numbers, sizeof numbers, "Every %dth pass is numbered, and each %s's first and last", s->number_step,
+             s->copy ? "path" : "cord");
+  const char *pale = s->copy ? " Pale and thin: copies of a path." : "";
+  if (s->dropped)
+    snprintf(line, sizeof line, "%s, except %d where there is no room.%s", numbers, s->dropped, pale);
+  else
+    snprintf(line, sizeof line, "%s.%s", numbers, pale);
+  y = thr_svg_wrap(t, x, y, TEXT_SIZE, width, "", line);
+  if (!s->places.n_columns && s->size.pitch < THR_SCENE_NAMED)
+    return thr_svg_wrap(t, x, y, TEXT_SIZE, width, "",
+                        s->layout->node ? "Only places on the rims have names at this scale."
+                                        : "Places have no names at this scale.");
+  if (!s->nameless) return y;
+  snprintf(line, sizeof line, "%d place%s no name for want of room.", s->nameless, s->nameless == 1 ? " has" : "s have");
+  return thr_svg_wrap(t, x, y, TEXT_SIZE, width, "", line);
+}
+
+/* A round length whose bar is 20 to 50 mm on paper. */
+static double write_scale_bar(const thr_scene *s, double x, double y, double width, thr_text *t)
+{
+  char length[64], line[160];
+  double most = 50 / s->scale, unit = pow(10, floor(log10(most)));
+  double value = most >= 5 * unit ? 5 * unit : most >= 2 * unit ? 2 * unit : unit, bar = value * s->scale;
+  if (s->layout->kind == THR_LAYOUT_SPREAD || s->layout->kind == THR_LAYOUT_DRAWN || !(bar > 1 && bar < 60)) return y;
+  thr_text_printf(t, "<g id=\"scale\"><path class=\"bar\" d=\"M%.2f %.2fv-2.00M%.2f %.2fh%.2fM%.2f %.2fv-2.00\"/>\n", x, y, x,
+                  y - 1, bar, x + bar, y);
+  if (value >= 1e6 || value < 1e-3)
+    snprintf(length, sizeof length, "%.0e", value);
+  else
+    snprintf(length, sizeof length, "%.*f", value < 1 ? (int)ceil(-log10(value) - 1e-9) : 0, value);
+  snprintf(line, sizeof line, "%s %.15s%s", length, s->frame->units,
+           thr_layout_to_scale(s->layout->kind) ? " of the framework, as seen here"
+                                                : " of the framework, from the middle outwards");
+  y = thr_svg_wrap(t, x + bar + 3, y, TEXT_SIZE, width - bar - 3, "", line) - 1.45 * TEXT_SIZE;
+  thr_text_append(t, "</g>\n");
+  return y + ROW + 2;
+}
+
+/* One line of signs: start, end, bead, number, foot. */
+static double write_key(const thr_scene *s, double x, double y, thr_text *t)
+{
+  thr_mark m = s->mark[0][0];
+  char colour[8] = "#000";
+  if (s->n_passes) thr_scene_colour(s, 0, colour);
+  const char *ring = s->plan->n_cords > 1 && !s->tension ? colour : "#111";
+  double line = y + 0.36 * TEXT_SIZE;
+  thr_draw_mark(s, &m, false, false, ring, x + m.radius, y, t);
+  thr_svg_text(t, x += 2 * m.radius + 1.5, line, TEXT_SIZE, "", "start");
+  x += 16;
+  m = s->mark[0][1];
+  thr_draw_mark(s, &m, true, false, ring, x, y, t);
+  thr_svg_text(t, x += m.radius + 1.5, line, TEXT_SIZE, "", "end");
+  x += 14;
+  thr_draw_pill(s, s->plan->n_cords > 1 ? "A1" : "1", colour, x, y, t);
+  thr_svg_text(t, x += 5, line, TEXT_SIZE, "", "number of a pass");
+  x += 38;
+  thr_text_printf(t, "<rect class=\"bead\" x=\"%.2f\" y=\"%.2f\" width=\"9.00\" height=\"4.00\" rx=\"1.20\"/>\n", x - 4, y - 2);
+  thr_svg_text(t, x += 7, line, TEXT_SIZE, "", "bead");
+  if (!count_feet(s->frame)) return y + ROW + 2;
+  thr_text_printf(t, "<rect class=\"foot\" x=\"%.2f\" y=\"%.2f\" width=\"4.00\" height=\"4.00\"/>\n", x + 14, y - 2);
+  thr_svg_text(t, x + 20, line, TEXT_SIZE, "", "foot");
+  return y + ROW + 2;
+}
+
+static void write_swatch(const thr_scene *s, int c, const char *colour, double x, double y, thr_text *t)
+{
+  char rim[8];
+  bool rimmed = thr_scene_rim(s, c, colour, rim);
+  thr_text_printf(t, "<g class=\"swatch%s\" data-for=\"%s\" stroke=\"%s\" fill=\"%s\">", thr_scene_is_copy(s, c) ? " copy" : "",
+                  s->id[c], colour, colour);
+  if (rimmed) {
+    thr_text_printf(t, "<path class=\"rim\" stroke=\"%s\" d=\"M%.2f %.2fh%.2f\"", rim, x, y, SWATCH - 3);
+    thr_draw_dash(s, thr_scene_dash(s, c), t);
+    thr_text_append(t, "/>");
+  }
+  thr_text_printf(t, "<path class=\"cord\" d=\"M%.2f %.2fh%.2f\"", x, y, SWATCH - 3);
+  thr_draw_dash(s, thr_scene_dash(s, c), t);
+  thr_text_append(t, "/>");
+  if (s->turning) {
+    char straight[8];
+    thr_turning_colour(0, straight);
+    thr_text_printf(t, "<path class=\"turn\" stroke=\"%s\" d=\"M%.2f %.2fh%.2f\"/>", straight, x, y, SWATCH - 3);
+  }
+  thr_text_append(t, "<path class=\"arrow\"");
+  if (rimmed) thr_text_printf(t, " fill=\"%s\"", rim);
+  thr_text_printf(t, " d=\"M%.2f %.2fl-3.00 -1.20v2.40z\"/></g>", x + SWATCH - 5, y);
+}
+
+/* Which passes of a single cord have colour k: "passes 1-20, 121-140, .. (blue)". */
+static void ranges_of_colour(const thr_scene *s, int k, char line[320])
+{
+  int period = THR_COLOURS * THR_COLOUR_PASSES, shown = 0, n = snprintf(line, 320, "passes ");
+  for (int from = k * THR_COLOUR_PASSES + 1; from <= s->n_passes; from += period) {
+    int to = from + THR_COLOUR_PASSES - 1 < s->n_passes ? from + THR_COLOUR_PASSES - 1 : s->n_passes;
+    if (shown++ == 3) {
+      n += snprintf(line + n, (size_t)(320 - n), ", and so on");
+      break;
+    }
+    n += snprintf(line + n, (size_t)(320 - n), "%s%d-%d", shown > 1 ? ", " : "", from, to);
+  }
+  snprintf(line + n, (size_t)(320 - n), " (%s)", thr_palette(k).name);
+}
+
+/* "Cord A: 86 passes through 84 beads, 2413 mm, from A3 to C1"; seen[e] = c + 1 marks beads met. */
+static void describe_cord(const thr_scene *s, int c, int *seen, char line[320])
+{
+  const thr_cord *cord = &s->plan->cord[c];
+  const thr_frame *f = s->frame;
+  char length[64], from[48], to[48], where[128];
+  int beads = 0;
+  for (int i = 0; i < cord->n_passes; i++) {
+    int e = cord->half[i] >> 1;
+    beads += seen[e] != c + 1;
+    seen[e] = c + 1;
+  }
+  thr_svg_length(thr_cord_length(f, cord), f->units, length);
+  thr_places_name(&s->places, f, thr_cord_start(f, cord), from);
+  thr_places_name(&s->places, f, thr_cord_end(f, cord), to);
+  if (thr_cord_start(f, cord) == thr_cord_end(f, cord))
+    snprintf(where, sizeof where, "from %s and back to it", from);
+  else
+    snprintf(where, sizeof where, "from %s to %s", from, to);
+  snprintf(line, 320, "Cord %s: %d pass%s through %d bead%s, %s, %s", s->id[c], cord->n_passes, cord->n_passes == 1 ? "" : "es",
+           beads, plural(beads), length, where);
+}
+
+/* "1200 DEG of turning, sharpest turn 120 DEG, 14 over 60 DEG, 3 over 90 DEG": of the cords from first to before end. */
+static void describe_turning(const thr_scene *s, int first, int end, char line[160])
+{
+  double sum = 0, sharpest = 0;
+  int over_60 = 0, over_90 = 0;
+  for (int i = s->first_pass[first]; i < s->first_pass[end]; i++) {
+    double angle = s->pass[i].turned;
+    sum += fmax(angle, 0);
+    sharpest = fmax(sharpest, angle);
+    over_60 += thr_turn_over(angle, THR_SCENE_SHARP * 2 / 3);
+    over_90 += thr_turn_over(angle, THR_SCENE_SHARP);
+  }
+  snprintf(line, 160, "%.0f" DEGREE " of turning, sharpest turn %.10g" DEGREE ", %d over 60" DEGREE ", %d over 90" DEGREE,
+           degrees(sum), round(10 * degrees(sharpest)) / 10, over_60, over_90);
+}
+
+/* A ramp of colours with an axis. */
+typedef struct {
+  const char *id;
+  double low, high; /* even in the middle if low = high */
+  bool logarithmic;
+  int n_ticks;
+  double tick[MOST_TICKS];
+  void (*colour)(const thr_scene *s, double value, char hex[8]);
+} ramp;
+
+/* Where a value is on the ramp, 0 .. 1; and back. */
+static double ramp_part(const ramp *r, double value)
+{
+  if (!(r->high > r->low)) return 0.5;
+  return r->logarithmic ? log(value / r->low) / log(r->high / r->low) : (value - r->low) / (r->high - r->low);
+}
+
+static double ramp_value(const ramp *r, double part)
+{
+  return r->logarithmic ? r->low * pow(r->high / r->low, part) : r->low + part * (r->high - r->low);
+}
+
+static double write_ramp(const thr_scene *s, const ramp *r, double x, double y, thr_text *t)
+{
+  enum { STEPS = 48 };
+  const double high = 4;
+  char number[32], hex[8];
+  thr_text_printf(t, "<g id=\"%s\" shape-rendering=\"crispEdges\">\n", r->id);
+  for (int i = 0; i < STEPS; i++) {
+    r->colour(s, ramp_value(r, (i + 0.5) / STEPS), hex);
+    thr_text_printf(t, "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"%s\"/>\n", x + RAMP / STEPS * i, y,
+                    RAMP / STEPS, high, hex);
+  }
+  thr_text_append(t, "</g>\n");
+  for (int i = 0; i < r->n_ticks; i++) {
+    double at = thr_svg_round(x + ramp_part(r, r->tick[i]) * RAMP);
+    thr_text_printf(t, "<path class=\"bar\" d=\"M%.2f %.2fv1.20\"/>\n", at, y + high);
+    snprintf(number, sizeof number, "%.10g", r->tick[i]);
+    thr_svg_text(t, at, y + high + 1.8 + TEXT_SIZE, TEXT_SIZE, " class=\"middle\"", number);
+  }
+  return y + high + 2 * ROW + 1;
+}
+
+static void colour_of_tension(const thr_scene *s, double newton, char hex[8])
+{
+  thr_tension_colour(s->tension_range, newton, hex);
+}
+
+static void colour_of_turn(const thr_scene *s, double degrees_turned, char hex[8])
+{
+  (void)s;
+  thr_turning_colour(degrees_turned / degrees(1), hex);
+}
+
+/* The scale of the colours of tension, with its method in words. */
+static double write_tension_scale(const thr_scene *s, double x, double y, double width, thr_text *t)
+{
+  char line[320];
+  const double *range = s->tension_range;
+  ramp r = {.id = "tension-scale", .low = range[0], .high = range[1], .colour = colour_of_tension};
+  r.logarithmic = range[0] > 0 && range[1] > range[0];
+  if (!r.logarithmic) r.high = r.low;
+  r.n_ticks = thr_svg_ticks(range[0], range[1], r.logarithmic, MOST_TICKS, r.tick);
+  snprintf(line, sizeof line, "Colour: tension in newton, on a logarithmic scale, by method %s (%s); mu = %g.",
+           thr_method_name(s->tension->method), thr_tension_method_words(s->tension), s->tension->physics.mu);
+  y = thr_svg_wrap(t, x, y, TEXT_SIZE, width, "", line);
+  return write_ramp(s, &r, x, y - 0.5 * TEXT_SIZE, t);
+}
+
+/* The sign of a sharp turn with its meaning, if there is one. */
+static void write_sharp_key(const thr_scene *s, double x, double y, thr_text *t)
+{
+  int marked = 0, sharp = 0;
+  for (int i = 0; i < s->n_passes; i++) {
+    marked += s->pass[i].sharp;
+    sharp += thr_turn_over(s->pass[i].turned, THR_SCENE_SHARP);
+  }
+  if (!marked) return;
+  thr_draw_sharp(s, x, y, t);
+  thr_svg_text(t, x + thr_scene_sharp_size(s) + 1.5, y + 0.36 * TEXT_SIZE, TEXT_SIZE, "",
+               marked < sharp ? "over 90" DEGREE " (not all)" : "over 90" DEGREE);
+}
+
+/* The scale of the colours of turns, below the sum over all cords. */
+static double write_turning_scale(const thr_scene *s, double x, double y, double width, thr_text *t)
+{
+  char line[200], sum[160];
+  ramp r = {.id = "turning-scale", .high = 180, .colour = colour_of_turn};
+  while (r.n_ticks <= 6) {
+    r.tick[r.n_ticks] = 30 * r.n_ticks;
+    r.n_ticks++;
+  }
+  describe_turning(s, 0, s->plan->n_cords, sum);
+  snprintf(line, sizeof line, "%s%s.", s->plan->n_cords > 1 ? "All cords: " : "", sum);
+  y = thr_svg_wrap(t, x, y, TEXT_SIZE, width, "", line);
+  snprintf(line, sizeof line, "Colour: turn between two beads, in degrees (0 = straight); %s.",
+           s->plan->options.ends == THR_ENDS_CLOSED ? "ends: closing turn" : "ends do not turn");
+  y = thr_svg_wrap(t, x, y, TEXT_SIZE, width, "", line) - 0.5 * TEXT_SIZE;
+  write_sharp_key(s, x + RAMP + 8, y + 2, t);
+  return write_ramp(s, &r, x, y, t);
+}
+
+/* "Cord B: repeat A from foot G1, turned by 90 degrees" */
+static void describe_copy(const thr_scene *s, int c, char line[320])
+{
+  char from[48], words[192];
+  int start = thr_cord_start(s->frame, &s->plan->cord[c]);
+  thr_places_name(&s->places, s->frame, start, from);
+  thr_copies_words(s->plan, s->copy, c, s->motion, words);
+  snprintf(line, 320, "Cord %s: repeat %s from %s%s%s", s->id[c], s->id[s->copy[c].of],
+           s->frame->foot && s->frame->foot[start] ? "foot " : "", from, words);
+}
+
+/* A row of the legend: of a cord, or of a colour of the only cord, or of the copies of a cord that have no row. */
+typedef struct {
+  int cord;
+  int more; /* so many copies, or 0 */
+} row;
+
+/* One row per cord, each unique path followed by its copies; of too many copies the first; or one per colour. Returns how many.
+ */
+static int list_rows(const thr_scene *s, row *rows)
+{
+  enum { MOST_COPIES = 48, FEWEST = 2 };
+  int n = 0, cords = s->plan->n_cords, colours = (s->n_passes + THR_COLOUR_PASSES - 1) / THR_COLOUR_PASSES;
+  int most = s->copy ? MOST_COPIES / thr_copies_paths(s->copy, cords) : 0;
+  if (most < FEWEST) most = FEWEST;
+  if (cords == 1 && colours > THR_COLOURS) colours = THR_COLOURS;
+  for (int i = 0; i < (cords == 1 ? colours : cords); i++) {
+    if (thr_scene_is_copy(s, i)) continue;
+    rows[n++] = (row){i, 0};
+    int copies = s->copy ? thr_copies_count(s->copy, cords, i) : 0, shown = 0;
+    int rows_left = copies == most + 1 ? copies : most; /* a row that says "1 more" may as well be that copy's */
+    for (int c = 0; c < cords && shown < copies && shown < rows_left; c++) {
+      if (c == i || s->copy[c].of != i) continue;
+      rows[n++] = (row){c, 0};
+      shown++;
+    }
+    if (copies > shown) rows[n++] = (row){i, copies - shown};
+  }
+  return n;
+}
+
+static void describe_row(const thr_scene *s, row r, int *seen, char line[320])
+{
+  if (s->plan->n_cords == 1)
+    ranges_of_colour(s, r.cord, line);
+  else if (r.more)
+    snprintf(line, 320, "and %d more cop%s of %s", r.more, r.more == 1 ? "y" : "ies", s->id[r.cord]);
+  else if (thr_scene_is_copy(s, r.cord))
+    describe_copy(s, r.cord, line);
+  else
+    describe_cord(s, r.cord, seen, line);
+}
+
+/* Of cord c, or of colour c of the only cord. */
+static const char *row_colour(const thr_scene *s, int c)
+{
+  if (s->tension) return "#555";
+  return s->plan->n_cords == 1 ? thr_palette(c).hex : thr_scene_cord_colour(s, c);
+}
+
+/* The rows of the legend in columns that fit the width; cords whose turning is shown have a second line. */
+static double write_rows(const thr_scene *s, const row *rows, int n, double x, double y, double width, int *seen, thr_text *t)
+{
+  char line[320], turning[160] = "";
+  bool single = s->plan->n_cords == 1;
+  int widest = 1;
+  for (int i = 0; i < n; i++) {
+    describe_row(s, rows[i], seen, line);
+    if (s->turning) describe_turning(s, rows[i].cord, rows[i].cord + 1, turning);
+    int w = thr_scene_characters(line), other = thr_scene_characters(turning);
+    widest = w > widest ? w : widest;
+    widest = other > widest ? other : widest;
+  }
+  memset(seen, 0, (size_t)s->frame->n_edges * sizeof *seen);
+  double column = SWATCH + 0.58 * TEXT_SIZE * widest + 6;
+  int columns = (int)fmax(1, floor((width + 6) / column)), down = (n + columns - 1) / columns;
+  double room = fmin(column - SWATCH, width - SWATCH), base = y, bottom = y;
+  for (int i = 0; i < n; i++) {
+    int at = i / down, c = rows[i].cord; /* rows run down, then across */
+    double left = x + at * column;
+    if (i % down == 0) base = y;
+    describe_row(s, rows[i], seen, line);
+    if (!rows[i].more) write_swatch(s, single ? 0 : c, row_colour(s, c), left, base - 1.1, t);
+    base = thr_svg_wrap(t, left + SWATCH, base, TEXT_SIZE, room, "", line);
+    if (s->turning) {
+      describe_turning(s, c, c + 1, turning);
+      base = thr_svg_wrap(t, left + SWATCH, base, TEXT_SIZE, room, "", turning);
+    }
+    base += ROW - 1.45 * TEXT_SIZE;
+    bottom = fmax(bottom, base);
+  }
+  return bottom;
+}
+
+thr_status thr_legend_foot(const thr_scene *s, double x, double y, double width, thr_text *t, double *bottom, thr_err *err)
+{
+  char line[320];
+  *bottom = y;
+  int *seen = thr_calloc((size_t)s->frame->n_edges, sizeof *seen), most = 2 * s->plan->n_cords + THR_COLOURS;
+  row *rows = thr_calloc((size_t)most, sizeof *rows);
+  thr_status st = seen && rows ? THR_OK : thr_nomem(err);
+  if (st) goto done;
+  thr_text_append(t, "<g id=\"legend\">\n");
+  y = write_scale_bar(s, x, y + 3, width, t);
+  if (s->plan->n_cords) {
+    y = write_key(s, x, y, t);
+    y += 2;
+    if (s->plan->n_cords == 1) {
+      describe_cord(s, 0, seen, line);
+      y = thr_svg_wrap(t, x, y, TEXT_SIZE, width, "", line) + 0.6;
+    }
+    if (s->tension) y = write_tension_scale(s, x, y + 1, width, t);
+    if (s->turning) y = write_turning_scale(s, x, y + 1, width, t);
+    if (!(s->tension || s->turning) || s->plan->n_cords > 1) y = write_rows(s, rows, list_rows(s, rows), x, y, width, seen, t);
+  }
+  thr_text_append(t, "</g>\n");
+  *bottom = y;
+done:
+  free(seen);
+  free(rows);
+  return st;
+}

@@ -1,0 +1,131 @@
+#include "diagram/overview/svg.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+double thr_svg_round(double value)
+{
+  value = round(value * 100) / 100;
+  return value == 0 ? 0 : value;
+}
+
+void thr_svg_open(thr_text *t, double width, double height, const char *title, const char *description)
+{
+  thr_text_printf(t,
+                  "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"thread\" "
+                  "width=\"%.2fmm\" height=\"%.2fmm\" viewBox=\"0 0 %.2f %.2f\" role=\"img\" aria-labelledby=\"title "
+                  "desc\">\n<title id=\"title\">",
+                  width, height, width, height);
+  thr_text_xml(t, title);
+  thr_text_append(t, "</title>\n<desc id=\"desc\">");
+  thr_text_xml(t, description);
+  thr_text_append(t, "</desc>\n");
+}
+
+void thr_svg_text(thr_text *t, double x, double y, double size, const char *attributes, const char *s)
+{
+  thr_text_printf(t, "<text x=\"%.2f\" y=\"%.2f\" font-size=\"%.2f\"%s>", thr_svg_round(x), thr_svg_round(y), size, attributes);
+  thr_text_xml(t, s);
+  thr_text_append(t, "</text>\n");
+}
+
+double thr_svg_wrap(thr_text *t, double x, double y, double size, double width, const char *attributes, const char *words)
+{
+  char line[512];
+  int n = 0, fits = (int)(width / (0.58 * size));
+  while (*words) {
+    n = 0;
+    int last_space = -1, wide = 0; /* in characters */
+    while (n < 500 && words[n]) {
+      wide += ((unsigned char)words[n] & 0xC0) != 0x80;
+      if (wide > fits && n) break;
+      if (words[n] == ' ') last_space = n;
+      n++;
+    }
+    if (words[n] && words[n] != ' ' && last_space > 0) n = last_space;
+    /* never cut a character in two */
+    while (n > 1 && ((unsigned char)words[n] & 0xC0) == 0x80)
+      n--;
+    snprintf(line, sizeof line, "%.*s", n, words);
+    thr_svg_text(t, x, y, size, attributes, line);
+    y += 1.45 * size;
+    words += n;
+    while (*words == ' ')
+      words++;
+  }
+  return y;
+}
+
+void thr_svg_move(thr_text *t, const double at[2])
+{
+  thr_text_printf(t, "M%.2f %.2f", thr_svg_round(at[0]), thr_svg_round(at[1]));
+}
+
+void thr_svg_line(thr_text *t, const double at[2])
+{
+  thr_text_printf(t, "L%.2f %.2f", thr_svg_round(at[0]), thr_svg_round(at[1]));
+}
+
+void thr_svg_curve(thr_text *t, const double a[2], const double b[2], const double at[2])
+{
+  thr_text_printf(t, "C%.2f %.2f %.2f %.2f %.2f %.2f", thr_svg_round(a[0]), thr_svg_round(a[1]), thr_svg_round(b[0]),
+                  thr_svg_round(b[1]), thr_svg_round(at[0]), thr_svg_round(at[1]));
+}
+
+void thr_svg_length(double value, const char *units, char text[64])
+{
+  double size = fabs(value);
+  int decimals = size >= 1000 ? 0 : size >= 100 ? 1 : size >= 10 ? 2 : 3;
+  if (size >= 1e9 || (size > 0 && size < 0.01))
+    snprintf(text, 64, "%.4g %.15s", value, units);
+  else
+    snprintf(text, 64, "%.*f %.15s", decimals, value, units);
+}
+
+void thr_svg_force(double newton, char text[32])
+{
+  double size = fabs(newton);
+  int decimals = size >= 100 ? 0 : size >= 10 ? 1 : size >= 1 ? 2 : 3;
+  if (size >= 1e6 || (size > 0 && size < 0.01))
+    snprintf(text, 32, "%.2e N", newton);
+  else
+    snprintf(text, 32, "%.*f N", decimals, newton);
+}
+
+/* Powers of ten, every so many that no more than most fit; or with their 2 and 5 fold. */
+static int log_ticks(double low, double high, int most, double *tick)
+{
+  int first = (int)floor(log10(low) + 1e-9), last = (int)ceil(log10(high) - 1e-9), n = 0;
+  bool fine = 3 * (last - first) + 1 <= most;
+  int step = (last - first + most - 1) / most;
+  for (int k = first; k <= last; k += step > 1 ? step : 1)
+    for (int i = 0; i < (fine ? 3 : 1); i++) {
+      static const double fold[] = {1, 2, 5};
+      double value = fold[i] * pow(10, k);
+      if (value >= low * (1 - 1e-9) && value <= high * (1 + 1e-9) && n < most) tick[n++] = value;
+    }
+  return n;
+}
+
+int thr_svg_ticks(double low, double high, bool logarithmic, int most, double *tick)
+{
+  if (!(high > low)) {
+    tick[0] = low;
+    return 1;
+  }
+  if (logarithmic) {
+    int n = log_ticks(low, high, most, tick);
+    if (n > 1) return n;
+  }
+  static const double fold[] = {1, 2, 5, 10};
+  double unit = pow(10, floor(log10((high - low) / (most - 1)))), step = unit;
+  int n = 0;
+  for (int i = 0; i < 4; i++) {
+    step = fold[i] * unit;
+    if (floor(high / step + 1e-9) - ceil(low / step - 1e-9) + 1 <= most) break;
+  }
+  for (double k = ceil(low / step - 1e-9); k * step <= high + 1e-9 * step && n < most; k++)
+    tick[n++] = k == 0 ? 0 : k * step;
+  return n;
+}

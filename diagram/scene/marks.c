@@ -1,0 +1,96 @@
+/* Where the S disc and the E square of every cord go: beside the node, between two beads, so that neither hides a strand.
+ * A short stub of cord leads there, as it does at the real node. */
+#include "diagram/scene/scene.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static const double PI = 3.14159265358979323846;
+enum { MAX_SECTORS = 24, SPREAD = 7 };
+
+/* A place for a mark under judgement. */
+typedef struct {
+  double at[2], angle, cost;
+  bool beside;
+} candidate;
+
+static double mark_radius(const thr_scene *s, const char *text)
+{
+  return fmax(fmax(2.2, fmin(0.105 * s->size.pitch, 3.2)), 0.36 * s->size.text * thr_scene_characters(text) + 0.5);
+}
+
+/* Keeps the cheaper of best and a place at a distance and direction from the node. */
+static void judge(thr_scene *s, const thr_mark *m, double angle, double distance, double penalty, candidate *best)
+{
+  const double *o = s->at[m->point];
+  double r = m->radius, x = o[0] + distance * cos(angle), y = o[1] + distance * sin(angle);
+  double disc = 4 * r * r;
+  double cost = penalty + distance / s->size.pitch;
+  cost += 100 * thr_boxes_overlap(&s->boxes, thr_box_around(x, y, r + 0.4, r + 0.4), THR_BOX_MARK, HUGE_VAL) / disc;
+  cost += 2 * thr_boxes_overlap(&s->boxes, thr_box_around(x, y, 0.8 * r, 0.8 * r), THR_BOX_BEAD, HUGE_VAL) / disc;
+  if (cost < best->cost - 1e-9) *best = (candidate){{x, y}, angle, cost, distance > 0};
+}
+
+/* Tries the sector that begins at half-edge around[first + i] of the mark's node. */
+static void judge_sector(thr_scene *s, const thr_mark *m, int i, double penalty, candidate *best)
+{
+  const thr_frame *f = s->paper;
+  int first = f->first[m->point], degree = thr_degree(f, m->point);
+  int h = s->around[first + i], g = s->around[first + (i + 1) % degree];
+  double wide = degree > 1 ? thr_scene_sweep(s->angle[h], s->angle[g]) : 2 * PI;
+  if (degree > 1 && wide < 0.2) return;
+  double half_bead = 0.5 * fmax(s->bead[h >> 1], s->bead[g >> 1]);
+  int n = wide > 1.7 ? SPREAD : 1;
+  for (int k = 1; k <= n; k++) {
+    double off = wide * k / (n + 1), nearest = fmin(fmin(off, wide - off), PI / 2);
+    double distance = fmax((m->radius + half_bead + 0.3) / sin(nearest), m->radius + s->size.gap);
+    /* straight out of the sector's middle looks best: a little is charged for leaning over */
+    double lean = penalty + 0.1 * fabs(2 * off / wide - 1);
+    judge(s, m, s->angle[h] + off, fmin(distance, 0.62 * s->size.pitch + m->radius), lean, best);
+  }
+}
+
+/* Number of half-edges between sector i and the half-edge with rank r. */
+static int steps_away(int i, int r, int degree)
+{
+  int d = (i - r + degree) % degree, back = (r - i - 1 + degree) % degree;
+  return d < back ? d : back;
+}
+
+static thr_status place_mark(thr_scene *s, thr_mark *m, int half, thr_err *err)
+{
+  int degree = thr_degree(s->paper, m->point), rank = s->rank[half];
+  candidate best = {{s->at[m->point][0], s->at[m->point][1]}, 0, HUGE_VAL, false};
+  m->radius = m->half[0] = m->half[1] = mark_radius(s, m->text);
+  int n = degree < MAX_SECTORS ? degree : MAX_SECTORS;
+  for (int k = 0; k < n; k++) {
+    /* rank, rank - 1, rank + 1, ..: the nearest sectors first */
+    int i = ((rank + (k % 2 ? -(k + 1) / 2 : k / 2)) % degree + degree) % degree;
+    judge_sector(s, m, i, 0.3 * steps_away(i, rank, degree), &best);
+  }
+  judge(s, m, 0, 0, 1.5, &best);
+  m->at[0] = best.at[0];
+  m->at[1] = best.at[1];
+  m->angle = atan2(sin(best.angle), cos(best.angle));
+  m->beside = best.beside;
+  double reach = m->radius + 0.5; /* its outline too */
+  return thr_boxes_add(&s->boxes, thr_box_around(m->at[0], m->at[1], reach, reach), THR_BOX_MARK, err);
+}
+
+thr_status thr_scene_place_marks(thr_scene *s, thr_err *err)
+{
+  thr_status st = THR_OK;
+  for (int c = 0; c < s->plan->n_cords && !st; c++) {
+    const thr_cord *cord = &s->plan->cord[c];
+    int last = cord->half[cord->n_passes - 1];
+    const char *id = s->plan->n_cords > 1 ? s->id[c] : "";
+    thr_mark *m = s->mark[c];
+    m[0].point = thr_tail(s->paper, cord->half[0]);
+    m[1].point = thr_head(s->paper, last);
+    snprintf(m[0].text, sizeof m[0].text, "S%s", id);
+    snprintf(m[1].text, sizeof m[1].text, "E%s", id);
+    st = place_mark(s, &m[0], cord->half[0], err);
+    if (!st) st = place_mark(s, &m[1], last ^ 1, err);
+  }
+  return st;
+}

@@ -1,0 +1,45 @@
+/* Step sheets: a plan as a booklet to thread from, with a pencil to tick off what is done. A title page with the picture of the
+ * whole; what to prepare; each path to learn in steps of about twenty passes with a picture of just these; its copies; and what
+ * to do at the end. */
+#ifndef THR_SHEETS_H
+#define THR_SHEETS_H
+
+#include "diagram/export/paper.h"
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+
+/* Shorter cords are threaded from their end in any case. */
+enum { THR_SHEETS_FOLD = 24 };
+
+typedef struct {
+  thr_page_size page;
+  bool middle; /* cords of THR_SHEETS_FOLD passes and more are folded in their middle and threaded with two needles */
+  const char *const *motion; /* as in thr_overview_options; borrowed */
+} thr_sheets_options;
+
+thr_sheets_options thr_sheets_options_default(void);
+
+/* Pages that are laid out and not yet written. Release with thr_sheets_destroy (NULL ok). */
+typedef struct thr_sheets thr_sheets;
+
+/* Lays out all pages. Every row names its passes, its turn, every place that the needle comes to, and whether it picks up the
+ * beads, passes through them or back through them, so that the sheets alone hold the exact sequence of half-edges (a framework
+ * has at most one edge between two nodes). Places are called as in the overview. Nothing is smaller than 7 pt. Text is set in
+ * DejaVu Sans (Debian: fonts-dejavu-core). The plan is borrowed and must outlive the sheets. THR_EINPUT for a plan without cords,
+ * for cords that do not fit the framework, and for sizes of cord and beads that do not fit it. O(n log n) for each of the few
+ * scales that pictures have, and O(n) a page. Tells limits->advance how far it is; THR_ELIMIT if it was interrupted. *s is NULL
+ * on failure. */
+thr_status thr_sheets_make(thr_sheets **s, const thr_plan *p, const thr_sheets_options *o, const thr_limits *limits,
+                           thr_err *err) THR_MUST_CHECK;
+void thr_sheets_destroy(thr_sheets *s);
+
+int thr_sheets_pages(const thr_sheets *s);
+
+/* A page as a whole SVG document in mm, i from 0. Appended to svg; THR_ENOMEM. */
+thr_status thr_sheets_svg(const thr_sheets *s, int i, thr_text *svg, thr_err *err) THR_MUST_CHECK;
+
+/* Appends all pages as one PDF; tells limits->advance how far it is. The same plan, options and fonts give the same bytes.
+ * THR_ELIMIT if it was interrupted. pdf is unchanged on failure. */
+thr_status thr_sheets_pdf(const thr_sheets *s, const thr_limits *limits, thr_text *pdf, thr_err *err) THR_MUST_CHECK;
+
+#endif

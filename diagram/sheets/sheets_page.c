@@ -1,0 +1,181 @@
+/* Pages of step sheets: begun, filled from the top down, broken into lines. */
+#include "diagram/sheets/sheets_parts.h"
+#include "diagram/overview/svg.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double HEADING = 5, BOX = 2.8; /* mm */
+
+void thr_sheets_fail(thr_sheets *s, thr_status st, const thr_err *why)
+{
+  if (s->st) return;
+  s->st = st;
+  if (why) s->why = *why;
+}
+
+thr_text *thr_sheets_out(thr_sheets *s)
+{
+  return &s->page[s->n_pages - 1];
+}
+
+double thr_sheets_width(const thr_sheets *s)
+{
+  return s->size[0] - 2 * THR_SHEET_MARGIN;
+}
+
+double thr_sheets_bottom(const thr_sheets *s)
+{
+  return s->size[1] - THR_SHEET_MARGIN - THR_SHEET_FOOT;
+}
+
+/* ---- lines ---- */
+
+/* Width of a character in em, rather too much: DejaVu Sans, and a full square for scripts that it lacks. */
+static double advance(const char *c)
+{
+  if ((unsigned char)*c >= 0x80) return ((unsigned char)*c & 0xC0) == 0x80 ? 0 : 1;
+  if (*c == ' ') return 0.32;
+  if (strchr("il.,:;|'()[]!jfrt-", *c)) return 0.42;
+  if (strchr("mwMW@%", *c)) return 1;
+  return isupper((unsigned char)*c) ? 0.74 : 0.64;
+}
+
+size_t thr_sheets_fit(const char *words, double width, double size)
+{
+  double wide = 0;
+  size_t n = 0, blank = 0;
+  for (; words[n]; n++) {
+    if (words[n] == ' ') blank = n;
+    wide += size * advance(words + n);
+    if (wide > width && n) break;
+  }
+  if (!words[n] || words[n] == ' ') return n;
+  if (blank) return blank;
+  while (n > 1 && ((unsigned char)words[n] & 0xC0) == 0x80) /* never cut a character in two */
+    n--;
+  return n;
+}
+
+/* Where the next line begins. */
+static const char *next_line(const char *words, double width, double size)
+{
+  words += thr_sheets_fit(words, width, size);
+  return words + strspn(words, " ");
+}
+
+int thr_sheets_lines(const char *words, double width, double size)
+{
+  int n = 0;
+  for (; *words; n++)
+    words = next_line(words, width, size);
+  return n;
+}
+
+static double line_height(double size)
+{
+  return size == THR_SHEET_TEXT ? THR_SHEET_LINE : 1.45 * size;
+}
+
+double thr_sheets_text(thr_sheets *s, double x, double y, double size, double width, const char *attributes, const char *words)
+{
+  while (*words && !s->st) {
+    size_t n = thr_sheets_fit(words, width, size);
+    char line[512];
+    n = n < sizeof line ? n : sizeof line - 1;
+    memcpy(line, words, n);
+    line[n] = '\0';
+    thr_svg_text(thr_sheets_out(s), x, y, size, attributes, line);
+    words += n;
+    words += strspn(words, " ");
+    y += line_height(size);
+  }
+  return y;
+}
+
+/* ---- pages ---- */
+
+void thr_sheets_page(thr_sheets *s, const char *heading, const char *running)
+{
+  if (s->st) return;
+  thr_status st = thr_grow(&s->page, s->n_pages, &s->pages_capacity, sizeof *s->page, &s->why);
+  if (st) {
+    thr_sheets_fail(s, st, NULL);
+    return;
+  }
+  s->page[s->n_pages++] = (thr_text){0};
+  thr_text copy = {0}; /* heading may be s->running */
+  thr_text_append(&copy, running);
+  s->y = THR_SHEET_MARGIN + HEADING;
+  s->y = thr_sheets_text(s, THR_SHEET_MARGIN, s->y, HEADING, thr_sheets_width(s), " font-weight=\"bold\"", heading) + 1;
+  if (copy.failed) thr_sheets_fail(s, thr_nomem(&s->why), NULL);
+  size_t n = copy.length < sizeof s->running ? copy.length : sizeof s->running - 1;
+  if (n) memcpy(s->running, copy.data, n);
+  s->running[n] = '\0';
+  thr_text_destroy(&copy);
+}
+
+bool thr_sheets_room(thr_sheets *s, double height)
+{
+  if (s->st || s->y + height <= thr_sheets_bottom(s)) return false;
+  thr_sheets_page(s, s->running, s->running);
+  return true;
+}
+
+/* ---- flowing text ---- */
+
+void thr_sheets_title(thr_sheets *s, const char *words)
+{
+  if (!thr_sheets_room(s, 5 * THR_SHEET_LINE)) s->y += 3; /* with some of what it is the title of */
+  s->y = thr_sheets_text(s, THR_SHEET_MARGIN, s->y, 3.6, thr_sheets_width(s), " font-weight=\"bold\"", words) + 0.5;
+}
+
+/* Line by line, so that a long paragraph may go over to other pages. */
+static void flow(thr_sheets *s, double x, const char *words)
+{
+  double width = thr_sheets_width(s) + THR_SHEET_MARGIN - x;
+  while (*words && !s->st) {
+    size_t n = thr_sheets_fit(words, width, THR_SHEET_TEXT);
+    char line[512];
+    n = n < sizeof line ? n : sizeof line - 1;
+    memcpy(line, words, n);
+    line[n] = '\0';
+    thr_sheets_room(s, 0);
+    s->y = thr_sheets_text(s, x, s->y, THR_SHEET_TEXT, 2 * width, "", line);
+    words += n;
+    words += strspn(words, " ");
+  }
+}
+
+void thr_sheets_paragraph(thr_sheets *s, double indent, const char *words)
+{
+  flow(s, THR_SHEET_MARGIN + indent, words);
+}
+
+void thr_sheets_box(thr_text *t, double x, double y)
+{
+  thr_text_printf(
+      t, "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"#fff\" stroke=\"#222\" stroke-width=\"0.25\"/>\n", x,
+      y - 0.9 * BOX, BOX, BOX);
+}
+
+void thr_sheets_tick(thr_sheets *s, const char *words)
+{
+  thr_sheets_room(s, 2 * THR_SHEET_LINE);
+  if (!s->st) thr_sheets_box(thr_sheets_out(s), THR_SHEET_MARGIN, s->y);
+  flow(s, THR_SHEET_MARGIN + 5, words);
+}
+
+void thr_sheets_cells(thr_sheets *s, int n, const double *x, char (*cell)[96], bool bold)
+{
+  thr_sheets_room(s, 0);
+  for (int i = 0; i < n && !s->st; i++) {
+    char attributes[64] = "";
+    if (x[i] < 0) strcat(attributes, " text-anchor=\"end\"");
+    if (bold) strcat(attributes, " font-weight=\"bold\"");
+    thr_svg_text(thr_sheets_out(s), THR_SHEET_MARGIN + fabs(x[i]), s->y, THR_SHEET_SMALL, attributes, cell[i]);
+  }
+  s->y += 4.1;
+}

@@ -1,0 +1,119 @@
+/* What the files that lay out step sheets share. Private to diagram/. */
+#ifndef THR_SHEETS_PARTS_H
+#define THR_SHEETS_PARTS_H
+
+#include "diagram/scene/copies.h"
+#include "diagram/overview/crop.h"
+#include "diagram/overview/guide.h"
+#include "diagram/sheets/sheets.h"
+#include "diagram/tables/supplies.h"
+
+/* mm. Nothing is set smaller than SMALL: 7 pt are 2.47 mm. */
+static const double THR_SHEET_MARGIN = 12, THR_SHEET_FOOT = 9; /* around a page; kept free at its foot for the page's number */
+static const double THR_SHEET_TEXT = 3, THR_SHEET_SMALL = 2.6, THR_SHEET_LINE = 4.5;
+
+typedef enum { THR_NEEDLE_ONLY, THR_NEEDLE_RIGHT, THR_NEEDLE_LEFT } thr_needle;
+
+/* A pass as it is threaded. */
+typedef struct {
+  int cord, pass; /* pass from 0 */
+  int half;       /* as the needle goes: against the plan's for the left needle */
+  thr_deed deed;
+  thr_needle needle;
+  double used; /* cord that this needle has used up by its end, in units */
+} thr_move;
+
+/* The small picture beside a step, drawn when its page is written: with all beads in it, it is most of the page. */
+typedef struct {
+  int page;       /* of the booklet, the title page being 0 */
+  int first, end; /* moves of the step */
+  thr_crop_view view;
+  thr_box shown[2], paper;
+} thr_locator;
+
+/* Failures stick: the first one is kept, and what comes after it does nothing. */
+struct thr_sheets {
+  const thr_plan *plan;
+  const thr_frame *f;
+  thr_sheets_options o;
+  thr_status st;
+  thr_err why;
+  thr_guide guide;
+  thr_supplies supplies;
+  thr_copy *copy;             /* [n_cords] */
+  int *edge_kind, *node_kind; /* as thr_kinds_find */
+  int *edge_sort;             /* as thr_beads_sort */
+  int edge_kinds, node_kinds; /* how many */
+  int n_moves;
+  thr_move *move;  /* [n_moves] in the order of threading: every path, then its copies */
+  int *first_move; /* [n_cords] */
+  int *fold;       /* [n_cords] pass at whose start the cord is folded; 0 = threaded from its end */
+  int *threaded;   /* [n_edges] first move over it; n_moves = none */
+  int *first_pass; /* [n_cords] in moved */
+  int *moved;      /* [n_passes] the move of each pass, cord by cord as in a scene */
+  thr_crops crops;
+  double size[2];           /* of a page, mm */
+  const thr_limits *limits; /* while pages are laid out */
+  int n_steps;              /* so far */
+  int step_page;            /* pages when the latest one was put, so that it is on the last of these */
+  int n_pages, pages_capacity;
+  thr_text *page; /* bodies of the pages, without page numbers */
+  int n_locators, locators_capacity;
+  thr_locator *locator; /* page by page */
+  double y;             /* where the next line goes on the page that is being filled, mm */
+  char running[160];    /* heading of the pages that follow when this one is full */
+};
+
+/* Keeps the first failure. */
+void thr_sheets_fail(thr_sheets *s, thr_status st, const thr_err *why);
+
+/* ---- pages (sheets_page.c) ---- */
+
+thr_text *thr_sheets_out(thr_sheets *s); /* of the page being filled */
+double thr_sheets_width(const thr_sheets *s);
+double thr_sheets_bottom(const thr_sheets *s); /* y below which nothing is written */
+
+/* Begins a page with a heading; running is what pages say that it flows over to. */
+void thr_sheets_page(thr_sheets *s, const char *heading, const char *running);
+
+/* Goes on to another page unless there is room for a height of so many mm. Returns whether it did. */
+bool thr_sheets_room(thr_sheets *s, double height);
+
+/* Bytes of words that fit in a line of width mm at a font size, broken at blanks. */
+size_t thr_sheets_fit(const char *words, double width, double size);
+int thr_sheets_lines(const char *words, double width, double size);
+
+/* Text at a point, in no more lines than are needed, THR_SHEET_LINE or 1.45 font sizes apart; returns the y of the line after it.
+ */
+double thr_sheets_text(thr_sheets *s, double x, double y, double size, double width, const char *attributes, const char *words);
+
+/* Flowing text: a heading within the page, a paragraph, a paragraph with a box to tick. */
+void thr_sheets_title(thr_sheets *s, const char *words);
+void thr_sheets_paragraph(thr_sheets *s, double indent, const char *words);
+void thr_sheets_tick(thr_sheets *s, const char *words);
+void thr_sheets_box(thr_text *t, double x, double y); /* the box alone, its line at y */
+
+/* A row of a table; x: where columns begin, from the margin; < 0: where they end, right-aligned at -x. bold: a heading. */
+void thr_sheets_cells(thr_sheets *s, int n, const double *x, char (*cell)[96], bool bold);
+
+/* ---- what is on them ---- */
+
+thr_status thr_sheets_plan_moves(thr_sheets *s, thr_err *err) THR_MUST_CHECK; /* sheets_moves.c */
+void thr_sheets_locate(const thr_sheets *s, int page, thr_text *t); /* sheets_steps.c: the locators of a page of the booklet */
+/* sheets_front.c: the title page; first[THR_SHEET_PARTS]: pages before each part, this one not counted. */
+typedef enum { THR_SHEET_PREPARE, THR_SHEET_STEPS, THR_SHEET_LAST, THR_SHEET_PARTS } thr_sheet_part;
+void thr_sheets_front(thr_sheets *s, const int *first);
+void thr_sheets_beads(const thr_sheets *s, thr_bead *b); /* all edges in the order of thr_beads_sort */
+void thr_sheets_prepare(thr_sheets *s);                  /* sheets_prepare.c */
+void thr_sheets_steps(thr_sheets *s, int c);             /* sheets_steps.c: of a path */
+void thr_sheets_copies(thr_sheets *s, int c);            /* sheets_copies.c: of a path, if it has any */
+void thr_sheets_last(thr_sheets *s);                     /* sheets_last.c */
+
+/* Words of a cord: "Cord A (blue)", with its dash if it has one; colour as "#rrggbb" for a row of passes. */
+void thr_sheets_cord_words(const thr_sheets *s, int c, char words[96]);
+
+/* One row: the moves from first on, before end, that go on ahead and do alike with their beads. Appends its words and returns
+ * the move after it. */
+int thr_sheets_run(const thr_sheets *s, int first, int end, thr_text *words);
+
+#endif

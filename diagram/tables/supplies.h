@@ -1,0 +1,66 @@
+/* What has to be at hand before threading: how much cord to cut, how wide beads must be bored. Private to diagram/. */
+#ifndef THR_SUPPLIES_H
+#define THR_SUPPLIES_H
+
+#include "graph/plan/plan.h"
+
+/* {0} is valid and empty. Arrays are owned, the plan is borrowed. */
+typedef struct {
+  const thr_plan *plan;
+  int *passes;       /* [n_edges] over it, of all cords */
+  double *narrowest; /* [most passes of an edge + 1] bore for so many, in cord diameters; 0 = not asked for yet */
+  double mm;         /* per unit; 0 = sizes in mm are not known */
+  double cord;       /* mm, diameter; > 0 if mm is */
+  double bore;       /* mm, of the plan */
+} thr_supplies;
+
+/* Counts passes; THR_EINPUT for a plan without cords and for cords that do not fit the framework. Release with
+ * thr_supplies_destroy, after a failure too. O(passes). */
+thr_status thr_supplies_make(thr_supplies *s, const thr_plan *p, thr_err *err) THR_MUST_CHECK;
+void thr_supplies_destroy(thr_supplies *s);
+
+/* Cord and bores as the plan was evaluated, else as asked for or worked out: mm, cord and bore. Where nothing was said of them, a
+ * framework whose size is not known, or is no bead's, leaves them open. THR_EINPUT for sizes that do not fit the framework. */
+thr_status thr_supplies_find_sizes(thr_supplies *s, thr_err *err) THR_MUST_CHECK;
+
+/* Bore that the passes of edge e need, in cord diameters (graph/framework/bore.h); and of the node's widest one. */
+double thr_supplies_bore(thr_supplies *s, int e);
+double thr_supplies_node_bore(thr_supplies *s, int v);
+
+/* A bore of so many cord diameters in mm, rounded up: a hundredth of a mm too narrow is too narrow. 0 if mm is not known. */
+double thr_supplies_bore_mm(const thr_supplies *s, double cords);
+
+/* What is cut off beside the way through the middles of the beads. At each of a cord's two ends (a closed cord has them too) a
+ * tail to hold and pull it by: six inches are what bead weavers leave to tie and weave in. And a knot: a tight overhand knot
+ * takes up at least 16.4 diameters of cord (V. Katritch et al., "Geometry and physics of knots", Nature 384, 1996: 16.33 for the
+ * ideal trefoil, later computed as 16.37). In turns: beside other cords it may lie at the outer wall of its bores all along, and
+ * a line at a distance r beside another one is longer by r times the angle by which both turn, exactly: (bore - cord) / 2 each.
+ */
+static const double THR_SUPPLIES_TAIL = 150;  /* mm */
+static const double THR_SUPPLIES_KNOT = 16.4; /* cord diameters */
+
+/* In units. Where mm is not known only length is, and the rest is 0. */
+typedef struct {
+  double length;
+  double tails, knots, turns; /* of both ends; of all turns */
+  double cut;                 /* all of these */
+} thr_cut_length;
+
+thr_cut_length thr_supplies_cut(thr_supplies *s, int c);
+
+/* Beads that are bored for as many cords are of a sort: of a kind (diagram/tables/kinds.h) there may be several. */
+typedef struct {
+  int kind, passes, item; /* passes: most in a bore; item: edge or node */
+  int sort;               /* 0 = the only one of the kind, else 1, 2, .. from the fewest cords on */
+} thr_bead;
+
+/* Orders them by kind, passes and item, and fills sort. O(n log n). */
+void thr_beads_sort(thr_bead *b, int n);
+
+/* "1", or of several sorts "1a", "1b", .. "1z", "1aa". */
+void thr_bead_name(int kind, int sort, char name[16]);
+
+/* Adds to visits[n_nodes] how often cords run through each node, start or end in it. */
+void thr_supplies_visits(const thr_plan *p, int *visits);
+
+#endif

@@ -1,0 +1,61 @@
+/* Tension along a cord from what each turn costs. */
+#include "eval/cord/profile.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* The pass that the tension reaches last: the far end, or between two pulled ends the pass that costs its farther end least; of
+ * several the last before the middle of the cord. */
+static int slackest_pass(int n_passes, const double *exponent, thr_pull pull)
+{
+  if (pull == THR_PULL_START) return n_passes - 1;
+  if (pull == THR_PULL_END) return 0;
+  int slackest = 0;
+  double total = 0, before = 0, best = INFINITY;
+  for (int k = 0; k + 1 < n_passes; k++)
+    total += exponent[k];
+  for (int k = 0; k < n_passes; k++) {
+    double worse = fmax(before, total - before);
+    if (worse < best || (worse == best && 2 * k < n_passes)) {
+      best = worse;
+      slackest = k;
+    }
+    if (k + 1 < n_passes) before += exponent[k];
+  }
+  return slackest;
+}
+
+thr_status thr_profile_cord(thr_eval_cord *c, const char *id, int n_passes, const double *exponent, thr_pull pull, double seating,
+                            thr_err *err)
+{
+  int slackest = slackest_pass(n_passes, exponent, pull);
+  double *tension = thr_calloc((size_t)n_passes, sizeof *tension);
+  if (!tension) return thr_nomem(err);
+  double from = 0, to = 0; /* cost between the slackest pass and the pass at hand, towards the start and the end */
+  tension[slackest] = seating;
+  for (int i = slackest; i > 0; i--) {
+    from += exponent[i - 1];
+    tension[i - 1] = seating * exp(from);
+  }
+  for (int i = slackest; i + 1 < n_passes; i++) {
+    to += exponent[i];
+    tension[i + 1] = seating * exp(to);
+  }
+  double at_start = tension[0], at_end = tension[n_passes - 1], sum = at_start + at_end;
+  if (!(fmax(from, to) <= 700) || !isfinite(sum)) {
+    free(tension);
+    return thr_fail(err, THR_EINPUT,
+                    "cord %s: the pull would be e^%.0f times the seating tension of %g N, past what a number can hold (e^700); "
+                    "use a smaller mu, or a plan with more cords",
+                    id, fmax(from, to), seating);
+  }
+  c->n_passes = n_passes;
+  c->pull = pull;
+  c->force = pull == THR_PULL_START ? at_start : pull == THR_PULL_END ? at_end : fmax(at_start, at_end);
+  c->other_force = pull == THR_PULL_BOTH ? fmin(at_start, at_end) : 0;
+  c->loss = 1 - seating / c->force;
+  c->work = c->force + c->other_force;
+  c->slackest = slackest;
+  c->tension = tension;
+  return THR_OK;
+}

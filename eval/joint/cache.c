@@ -1,0 +1,153 @@
+/* One file per measured joint, named by a hash of its key; the key itself stands in it, so a collision is only a miss. */
+#define _POSIX_C_SOURCE 200809L
+#include "eval/joint/cache.h"
+#include "eval/joint/world.h"
+
+#include <assert.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { MAX_FILE = 4096, MAX_VALUES = 512 };
+
+static uint64_t fnv1a(const char *s, size_t n)
+{
+  uint64_t h = 14695981039346656037u;
+  for (size_t i = 0; i < n; i++)
+    h = (h ^ (unsigned char)s[i]) * 1099511628211u;
+  return h;
+}
+
+void thr_cache_key(const thr_drag *d, thr_text *key)
+{
+  assert(d->n_turns == 1);
+  thr_text_printf(key, "joint measured by thread\nprotocol %s\nbullet %d\n", thr_drag_protocol(), thr_bullet_version());
+  thr_text_printf(key, "turn %.17g\ntwist %.17g\nsegment %.17g\nbore %.17g\nmu %.17g\n", d->turn[0], d->twist ? d->twist[0] : 0,
+                  d->segment, d->bore, d->mu);
+  thr_text_printf(key, "seed %" PRIu64 "\ntime_step %.17g\niterations %.17g\nspacing %.17g\nsides %d\n", d->seed, d->time_step,
+                  d->iterations, d->spacing, d->sides);
+}
+
+void thr_cache_write(const thr_text *key, const thr_drag_result *r, thr_text *out)
+{
+  size_t begin = out->length;
+  if (key->failed) out->failed = true;
+  thr_text_append_bytes(out, key->data, key->length);
+  thr_text_printf(out, "status %d\nratio %.17g\ndrift %.17g\nscatter %.17g\ntaut %.17g\nsteps %.17g\n", r->status, r->ratio,
+                  r->drift, r->scatter, r->taut, r->steps);
+  if (!out->failed) thr_text_printf(out, "check %016" PRIx64 "\n", fnv1a(out->data + begin, out->length - begin));
+}
+
+static bool finite_result(const thr_drag_result *r)
+{
+  return isfinite(r->ratio) && isfinite(r->drift) && isfinite(r->scatter) && isfinite(r->taut) && isfinite(r->steps);
+}
+
+bool thr_cache_parse(const char *text, size_t n, const thr_text *key, thr_drag_result *out)
+{
+  char values[MAX_VALUES];
+  if (key->failed || n <= key->length || n - key->length >= sizeof values) return false;
+  if (memcmp(text, key->data, key->length) != 0) return false;
+  memcpy(values, text + key->length, n - key->length);
+  values[n - key->length] = 0;
+
+  thr_drag_result r;
+  double status; /* an integer of any length would overflow %d */
+  if (sscanf(values, "status %lf ratio %lf drift %lf scatter %lf taut %lf steps %lf", &status, &r.ratio, &r.drift, &r.scatter,
+             &r.taut, &r.steps) != 6)
+    return false;
+  if (status != THR_DRAG_SETTLED && status != THR_DRAG_UNSETTLED && status != THR_DRAG_OUT_OF_RANGE) return false;
+  r.status = (int)status;
+  if (!finite_result(&r)) return false;
+
+  thr_text again = {0}; /* writing it again covers spelling, order, checksum and what may follow */
+  thr_cache_write(key, &r, &again);
+  bool same = !again.failed && again.length == n && memcmp(again.data, text, n) == 0;
+  thr_text_destroy(&again);
+  if (same) *out = r;
+  return same;
+}
+
+static bool file_name(const char *folder, const thr_text *key, thr_text *path)
+{
+  if (key->failed) return false;
+  thr_text_printf(path, "%s/joint-%016" PRIx64 ".txt", folder, fnv1a(key->data, key->length));
+  return !path->failed;
+}
+
+/* Bytes of a regular file of at most MAX_FILE - 1 bytes, or -1. O_NONBLOCK: a pipe of that name must not stop us. */
+static ssize_t read_small(const char *path, char *data)
+{
+  struct stat info;
+  int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (fd < 0) return -1;
+  ssize_t n = -1, got = 0;
+  if (fstat(fd, &info) == 0 && S_ISREG(info.st_mode) && info.st_size < MAX_FILE) {
+    for (n = 0; n < MAX_FILE; n += got) {
+      got = read(fd, data + n, (size_t)(MAX_FILE - n));
+      if (got < 0 && errno == EINTR)
+        got = 0;
+      else if (got <= 0)
+        break;
+    }
+    if (got < 0) n = -1;
+  }
+  close(fd);
+  return n < MAX_FILE ? n : -1;
+}
+
+bool thr_cache_load(const char *folder, const thr_drag *d, thr_drag_result *out)
+{
+  char data[MAX_FILE];
+  thr_text key = {0}, path = {0};
+  bool found = false;
+  thr_cache_key(d, &key);
+  if (file_name(folder, &key, &path)) {
+    ssize_t n = read_small(path.data, data);
+    found = n >= 0 && thr_cache_parse(data, (size_t)n, &key, out);
+  }
+  thr_text_destroy(&key);
+  thr_text_destroy(&path);
+  return found;
+}
+
+/* Makes the folders that a path names; what cannot be made shows when the file is written. */
+static void make_folders(char *path)
+{
+  for (char *c = path + 1; *c; c++) {
+    if (*c != '/') continue;
+    *c = 0;
+    (void)mkdir(path, 0777);
+    *c = '/';
+  }
+}
+
+thr_status thr_cache_store(const char *folder, const thr_drag *d, const thr_drag_result *r, thr_err *err)
+{
+  struct stat info;
+  thr_text key = {0}, path = {0}, text = {0};
+  thr_status st;
+  thr_cache_key(d, &key);
+  thr_cache_write(&key, r, &text);
+  if (!finite_result(r))
+    st = thr_fail(err, THR_EINPUT, "a measurement that is not finite is not kept");
+  else if (!file_name(folder, &key, &path))
+    st = thr_nomem(err);
+  else {
+    make_folders(path.data);
+    if (lstat(path.data, &info) == 0 && !S_ISREG(info.st_mode))
+      st = thr_fail(err, THR_EIO, "%s: is not a file; remove it", path.data);
+    else
+      st = thr_text_write(&text, path.data, err);
+  }
+  thr_text_destroy(&key);
+  thr_text_destroy(&path);
+  thr_text_destroy(&text);
+  return st;
+}

@@ -1,0 +1,44 @@
+/* The framework as rigid beads: one bead per node, an arm of square section towards the middle of every edge, ended by a face in
+ * the plane through the edge's middle and square to it. Adjacent beads meet face to face; feet stand on the ground. */
+#ifndef THR_BEADS_H
+#define THR_BEADS_H
+
+#include "graph/plan/physics.h"
+#include "graph/plan/plan.h"
+
+/* Units here are SI: m, kg, N. */
+typedef struct {
+  int n_beads, n_faces;       /* = nodes, edges of the framework */
+  double (*centre)[3];        /* [n_beads] node positions, m; z = 0 is the underside of the lowest foot */
+  double (*mass_centre)[3];   /* [n_beads] m */
+  double *mass;               /* [n_beads] kg */
+  double (*middle)[3];        /* [n_faces] centre of the interface, m */
+  double (*axis)[3];          /* [n_faces] unit, from bead edge[e][0] to edge[e][1] */
+  double (*corner)[4][3];     /* [n_faces] corners of the interface, m, in order round the axis */
+  double width;               /* m, of an arm */
+  double bore;                /* m */
+  int n_feet;                 /* supports: the framework's feet, or its lowest nodes if it has none */
+  int *foot;                  /* [n_feet] bead */
+  double (*foot_point)[4][3]; /* [n_feet] contact points with the ground, m: a square of side width, sides along x and y, half a
+                                 width below the foot's node: each foot has its own patch of level ground at its underside */
+  bool *fixed;                /* [n_beads] held in place: such beads need no equilibrium. All false until thr_beads_clamp */
+  double size;                /* m: diagonal of the bounding box, for tolerances */
+} thr_beads;
+
+/* physics must be resolved. One side of every arm's square section is horizontal; a vertical arm's sides are along x and y. Faces
+ * are in the middle of the straight line between the nodes, also where the framework gives its own lengths. Mass: bead_mass, or
+ * density x (volume of the arms less their bores), the arms' overlap at the node taken off (the text in beads.c says how).
+ * THR_EINPUT for sizes out of range. Release with thr_beads_destroy. O(n). */
+thr_status thr_beads_make(const thr_frame *f, const thr_physics *physics, thr_beads *out, thr_err *err) THR_MUST_CHECK;
+void thr_beads_destroy(thr_beads *b);
+
+/* Holds the beads with fixed[n_beads] true in place and takes the ground away (n_feet = 0): for cantilevers and the like. */
+void thr_beads_clamp(thr_beads *b, const bool *fixed);
+
+/* Cord forces on the beads when every pulled end is pulled with 1 N: force and moment about the bead's mass centre,
+ * wrench[n_beads][6] (N, N m). tension[i] is cord i's tension per pass relative to a pull of 1. The cord acts along the centre
+ * lines; its ends are knotted to their end beads. */
+void thr_beads_cord_wrench(const thr_beads *b, const thr_frame *f, const thr_cord *cord, int n_cords,
+                           const double *const *tension, double (*wrench)[6]);
+
+#endif

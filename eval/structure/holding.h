@@ -1,0 +1,34 @@
+/* Holding pull: least pull at which the closed structure of rigid beads has any equilibrium while the cords are being drawn in:
+ * their tension falls from the pulled ends inwards. A cord that was pulled and let go keeps tension inside, since friction acts
+ * against either direction, and may hold at a hundredth of it. Rigid-block limit analysis (R. K. Livesley, "Limit analysis of
+ * structures formed from rigid blocks", 1978) as a linear programme. */
+#ifndef THR_HOLDING_H
+#define THR_HOLDING_H
+
+#include "eval/structure/beads.h"
+#include "graph/limits.h"
+
+typedef struct {
+  bool present;
+  double
+      lower; /* N: below it no equilibrium exists while the cords are drawn in (friction pyramids round the cones), proved by the
+                power balance of the mechanism `velocity`, and within a thousandth of the least such pull; 0 if none is needed */
+  double upper; /* N: at it an equilibrium exists (pyramids inside the cones), 0 if not computed, INFINITY if none was found. The
+                   structure stands by itself if this is 0 too */
+  int first_bead; /* that moves fastest in the collapse mechanism just below lower; -1 if lower is 0 */
+  double
+      residual; /* fastest closing of a contact in the mechanism, whose fastest bead moves with 1: how exactly lower is proved */
+  double (*velocity)[6]; /* [n_beads] collapse mechanism: translation of the mass centre, rotation (1/m), scaled to a largest
+                            translation of 1; owned */
+} thr_holding;
+
+/* Adds to press[n_faces] what the cords press each face with at a pull of 1; tension[i] is cord i's tension per pass. */
+void thr_holding_press(const thr_cord *cord, int n_cords, const double *const *tension, double *press);
+
+/* press: thr_holding_press, from 0. THR_EINFEASIBLE if no pull holds it, by a mechanism verified here (says which bead fails:
+ * e.g. feet slide); THR_ESOLVER if neither was decided, because tensions span too many powers of ten; THR_ELIMIT when stopped. */
+thr_status thr_holding_pull(const thr_beads *b, const thr_frame *f, const thr_physics *physics, const double *press,
+                            bool want_upper, const thr_limits *limits, thr_holding *out, thr_err *err) THR_MUST_CHECK;
+void thr_holding_destroy(thr_holding *h);
+
+#endif

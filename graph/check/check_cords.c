@@ -1,0 +1,279 @@
+/* Claims about several cords: how short the longest can be, and how few they can be. */
+#include "graph/check/check_parts.h"
+#include "graph/plan/junction.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* ---- shortest ways ---- */
+
+typedef struct {
+  double distance;
+  int node;
+} reached;
+
+/* Dijkstra's method with a binary heap. A node may wait in it several times; the nearest counts. */
+typedef struct {
+  const thr_frame *f;
+  double *distance; /* [n_nodes] INFINITY = not reached */
+  int n_waiting, n_touched, steps;
+  reached *waiting; /* [2 * n_edges + n_nodes] */
+  int *touched;     /* [n_nodes] those reached */
+} ways;
+
+static void ways_destroy(ways *w)
+{
+  free(w->distance);
+  free(w->waiting);
+  free(w->touched);
+}
+
+static thr_status ways_init(ways *w, const thr_frame *f, thr_err *err)
+{
+  size_t n = (size_t)f->n_nodes;
+  *w = (ways){.f = f};
+  w->distance = thr_calloc(n, sizeof *w->distance);
+  w->waiting = thr_calloc(2 * (size_t)f->n_edges + n, sizeof *w->waiting);
+  w->touched = thr_calloc(n, sizeof *w->touched);
+  if (!w->distance || !w->waiting || !w->touched) return thr_nomem(err);
+  for (size_t v = 0; v < n; v++)
+    w->distance[v] = INFINITY;
+  return THR_OK;
+}
+
+static void reach(ways *w, int v, double distance)
+{
+  if (!(distance < w->distance[v])) return;
+  if (w->distance[v] == INFINITY) w->touched[w->n_touched++] = v;
+  w->distance[v] = distance;
+  int i = w->n_waiting++;
+  for (; i > 0 && distance < w->waiting[(i - 1) / 2].distance; i = (i - 1) / 2)
+    w->waiting[i] = w->waiting[(i - 1) / 2];
+  w->waiting[i] = (reached){distance, v};
+}
+
+static reached nearest(ways *w)
+{
+  reached top = w->waiting[0], last = w->waiting[--w->n_waiting];
+  int i = 0;
+  for (int child; (child = 2 * i + 1) < w->n_waiting; i = child) {
+    if (child + 1 < w->n_waiting && w->waiting[child + 1].distance < w->waiting[child].distance) child++;
+    if (last.distance <= w->waiting[child].distance) break;
+    w->waiting[i] = w->waiting[child];
+  }
+  w->waiting[i] = last;
+  return top;
+}
+
+/* Settles all nodes, or those up to node target (-1 = none). */
+static void spread(ways *w, int target)
+{
+  while (w->n_waiting > 0) {
+    reached r = nearest(w);
+    if (r.distance > w->distance[r.node]) continue;
+    if (r.node == target) return;
+    for (int i = w->f->first[r.node]; i < w->f->first[r.node + 1]; i++, w->steps++)
+      reach(w, thr_head(w->f, w->f->half[i]), r.distance + w->f->length[w->f->half[i] >> 1]);
+  }
+}
+
+/* ---- the shortest cord over the worst edge ---- */
+
+/* From where a cord may end over the edge to where one may end. */
+static double open_detour(ways *w, const thr_plan_options *o)
+{
+  const thr_frame *f = w->f;
+  double worst = 0;
+  for (int v = 0; v < f->n_nodes; v++)
+    if (thr_plan_end_allowed(f, o, v)) reach(w, v, 0);
+  spread(w, -1);
+  for (int e = 0; e < f->n_edges; e++)
+    worst = fmax(worst, w->distance[f->edge[e][0]] + f->length[e] + w->distance[f->edge[e][1]]);
+  return worst;
+}
+
+typedef struct {
+  double length;
+  int edge;
+} measured;
+
+static int longest_first(const void *pa, const void *pb)
+{
+  const measured *a = pa, *b = pb;
+  if (a->length != b->length) return a->length > b->length ? -1 : 1;
+  return a->edge - b->edge;
+}
+
+/* Over the edge and the shortest way back, which is no longer than the edge. Only what could raise *worst is looked at, and only
+ * STEPS edges long: the result is a lower bound. */
+static thr_status closed_detour(ways *w, double *worst, thr_err *err)
+{
+  enum { STEPS = 1 << 24 };
+  const thr_frame *f = w->f;
+  measured *by_length = thr_calloc((size_t)f->n_edges, sizeof *by_length);
+  if (!by_length) return thr_nomem(err);
+  for (int e = 0; e < f->n_edges; e++)
+    by_length[e] = (measured){f->length[e], e};
+  qsort(by_length, (size_t)f->n_edges, sizeof *by_length, longest_first);
+  for (int i = 0; i < f->n_edges && 2 * by_length[i].length > *worst && w->steps < STEPS; i++) {
+    int *end = f->edge[by_length[i].edge];
+    reach(w, end[0], 0);
+    spread(w, end[1]);
+    *worst = fmax(*worst, by_length[i].length + w->distance[end[1]]);
+    for (; w->n_touched > 0; w->n_touched--)
+      w->distance[w->touched[w->n_touched - 1]] = INFINITY;
+    w->n_waiting = 0;
+  }
+  free(by_length);
+  return THR_OK;
+}
+
+/* Raises *worst to the shortest cord over the worst edge. */
+static thr_status detour(const thr_frame *f, const thr_plan_options *o, double *worst, thr_err *err)
+{
+  ways w;
+  thr_status st = ways_init(&w, f, err);
+  if (!st && o->ends == THR_ENDS_CLOSED)
+    st = closed_detour(&w, worst, err);
+  else if (!st)
+    *worst = fmax(*worst, open_detour(&w, o));
+  ways_destroy(&w);
+  return st;
+}
+
+/* ---- component by component ---- */
+
+typedef struct {
+  double base, length; /* of the passes that its edges need, and of all, in units */
+  int least, most;     /* cords that it may have */
+} part;
+
+void thr_check_most_cords(const thr_frame *f, const thr_plan_options *o, const thr_check_walked *w, int *cords)
+{
+  for (int c = 0; c < w->n_components; c++)
+    cords[c] = o->ends == THR_ENDS_COUNTS ? 0 : o->cords;
+  if (o->ends != THR_ENDS_COUNTS) return;
+  for (int v = 0; v < f->n_nodes; v++)
+    cords[w->component[v]] += o->end_count[v];
+  for (int c = 0; c < w->n_components; c++)
+    cords[c] /= 2;
+}
+
+static thr_status parts_of(const thr_frame *f, const thr_plan_options *o, const thr_check_walked *w, part **parts, thr_err *err)
+{
+  part *part_of = thr_calloc((size_t)w->n_components, sizeof *part_of);
+  if (!(*parts = part_of)) return thr_nomem(err);
+  for (int e = 0; e < f->n_edges; e++) {
+    part *p = &part_of[w->component[f->edge[e][0]]];
+    p->base += f->length[e] * thr_plan_cover(f, o, e);
+    p->length += f->length[e] * w->passes[e];
+  }
+  int *most = thr_calloc((size_t)w->n_components, sizeof *most);
+  if (most) thr_check_most_cords(f, o, w, most);
+  for (int c = 0; c < w->n_components && most; c++) {
+    part_of[c].most = most[c];
+    part_of[c].least = o->ends == THR_ENDS_COUNTS ? most[c] : thr_plan_cords_least(o);
+  }
+  free(most);
+  if (most) return THR_OK;
+  free(part_of);
+  *parts = NULL;
+  return thr_nomem(err);
+}
+
+/* No so many cords through the component are shorter together. */
+static double least_length(const thr_plan_options *o, const part *p, int cords, const thr_certificate *c,
+                           const thr_check_verdict *v)
+{
+  if (!v) return p->base;
+  double any = v->optimal ? p->length : p->base + v->extra;
+  return thr_check_ends_free(o) ? fmax(any, p->base + thr_check_extra(c, v, 2 * (int64_t)cords)) : any;
+}
+
+/* Is this more cord than so many of the greatest length? */
+static bool too_long(double length, int cords, const thr_plan_options *o)
+{
+  return length > cords * o->max_length * (1 + 2e-9);
+}
+
+/* ---- tube joints: the proof is one of all components together ---- */
+
+/* No cords, from least to most in every component, are shorter together. */
+static thr_status tied_length(const thr_frame *f, const thr_plan_options *o, const thr_turning_proof *tied, int least, int most,
+                              double *length, thr_err *err)
+{
+  thr_plan_options other = *o;
+  other.cords_least = least;
+  other.cords = most;
+  return thr_tied_least(f, &other, tied, length, err);
+}
+
+/* fewest: a lower bound on the cords of one component with free ends, raised as far as the proof goes, one by one: it may rule
+ * out a number and not the one below. */
+static thr_status rule_out(const thr_frame *f, const thr_plan_options *o, const thr_turning_proof *tied, int *fewest,
+                           thr_err *err)
+{
+  thr_status st = THR_OK;
+  bool excluded = true;
+  while (!st && excluded && *fewest < o->cords) {
+    double length;
+    st = tied_length(f, o, tied, *fewest, *fewest, &length, err);
+    excluded = too_long(length, *fewest, o);
+    if (!st && excluded) ++*fewest;
+  }
+  return st;
+}
+
+static thr_status check_tied(const thr_frame *f, const thr_plan_options *o, const thr_turning_proof *tied, const part *parts,
+                             int n_parts, double *bound, thr_cords_claim *found, thr_err *err)
+{
+  double length;
+  int64_t most = 0;
+  thr_status st = tied_length(f, o, tied, o->cords_least, o->cords, &length, err);
+  for (int c = 0; c < n_parts; c++)
+    most += parts[c].most;
+  *bound = fmax(*bound, length / (double)most);
+  if (st || o->max_length <= 0) return st;
+  double cords = ceil(length / o->max_length * (1 - 2e-9));
+  if (cords > found->fewest) found->fewest = cords < (double)most ? (int)cords : (int)most;
+  return n_parts == 1 && thr_check_ends_free(o) ? rule_out(f, o, tied, &found->fewest, err) : THR_OK;
+}
+
+thr_status thr_check_several(const thr_frame *f, const thr_plan_options *o, const thr_check_walked *w, const thr_cord *cord,
+                             int n_cords, const thr_certificate *certificate, const thr_check_verdict *verdict,
+                             const thr_turning_proof *tied, thr_cords_claim *found, thr_err *err)
+{
+  part *parts;
+  double bound = 0, unit = thr_plan_unit(f); /* cords have whole numbers of it */
+  *found = (thr_cords_claim){.present = true};
+  thr_status st = parts_of(f, o, w, &parts, err);
+  if (st) return st;
+  for (int i = 0; i < n_cords; i++)
+    found->longest = fmax(found->longest, thr_cord_length(f, &cord[i]));
+  for (int c = 0; c < w->n_components; c++) {
+    const part *p = &parts[c];
+    const thr_certificate *proof = verdict ? &certificate[c] : NULL;
+    const thr_check_verdict *v = verdict ? &verdict[c] : NULL;
+    bound = fmax(bound, least_length(o, p, p->most, proof, v) / p->most);
+    int least = p->least;
+    while (least < p->most && too_long(least_length(o, p, least, proof, v), least, o))
+      least++;
+    found->fewest += least;
+  }
+  if (tied) st = check_tied(f, o, tied, parts, w->n_components, &bound, found, err);
+  free(parts);
+  if (st) return st;
+  if (!(o->max_length > 0 && o->cords_least < o->cords)) found->fewest = 0;
+  st = detour(f, o, &bound, err);
+  if (unit > 0) bound = unit * ceil(bound / unit * (1 - 2e-9));
+  if (bound > found->longest && !thr_check_close(bound, found->longest, found->longest))
+    return thr_fail(err, THR_EVIOLATED, "proof: the longest cord of any plan would have %.12g or more, but this plan's has %.12g",
+                    bound, found->longest);
+  if (found->fewest > n_cords)
+    return thr_fail(err, THR_EVIOLATED, "proof: any plan would have %d cords or more, but this one has %d", found->fewest,
+                    n_cords);
+  found->longest_optimal = thr_check_close(found->longest, bound, found->longest);
+  found->longest_bound = fmin(found->longest, bound);
+  found->fewest_optimal = found->fewest == n_cords;
+  return st;
+}

@@ -1,0 +1,164 @@
+/* The checker's part for evaluations: what must follow from tensions, cords and physics. Knows nothing of eval/. */
+#include "graph/check/check_parts.h"
+
+#include <math.h>
+
+/* What is claimed about one cord. */
+typedef struct {
+  const thr_frame *f;
+  const thr_cord *cord;
+  const thr_evaluation *e;
+  const thr_eval_cord *c;
+  const char *id;
+} cord_claim;
+
+static thr_status evaluated(const cord_claim *k, const char *name, double stated, double found, thr_err *err)
+{
+  if (thr_check_close(stated, found, found)) return THR_OK;
+  return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: %s: stated %.12g, but expected %.12g", k->id, name, stated, found);
+}
+
+/* The numbers that follow from the tensions. */
+static thr_status check_forces(const cord_claim *k, thr_err *err)
+{
+  const thr_eval_cord *c = k->c;
+  double at_start = c->tension[0], at_end = c->tension[c->n_passes - 1], least = c->tension[c->slackest];
+  double force = c->pull == THR_PULL_START ? at_start : c->pull == THR_PULL_END ? at_end : fmax(at_start, at_end);
+  double other = c->pull == THR_PULL_BOTH ? fmin(at_start, at_end) : 0;
+  thr_status st;
+  if ((st = evaluated(k, "force", c->force, force, err))) return st;
+  if ((st = evaluated(k, "other_force", c->other_force, other, err))) return st;
+  if ((st = evaluated(k, "work", c->work, force + other, err))) return st;
+  double loss = force > 0 ? 1 - least / force : 0;
+  if (!thr_check_close(c->loss, loss, 1))
+    return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: loss: stated %.12g, but the tensions give %.12g", k->id, c->loss,
+                    loss);
+  for (int i = 0; i < c->n_passes; i++)
+    if (c->tension[i] < least)
+      return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: pass %d is slacker than pass %d, which is said to be slackest",
+                      k->id, i + 1, c->slackest + 1);
+  return THR_OK;
+}
+
+/* A cord that slides towards a pulled end gets tighter on the way, or stays as it is. */
+static thr_status check_rise(const cord_claim *k, thr_err *err)
+{
+  const thr_eval_cord *c = k->c;
+  for (int i = 0; i + 1 < c->n_passes; i++) {
+    bool to_end = i >= c->slackest;
+    if (to_end ? c->pull == THR_PULL_START : c->pull == THR_PULL_END) continue;
+    double rise = to_end ? c->tension[i + 1] - c->tension[i] : c->tension[i] - c->tension[i + 1];
+    if (rise < 0)
+      return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: the tension falls between pass %d and %d, towards a pulled end",
+                      k->id, i + 1, i + 2);
+  }
+  return THR_OK;
+}
+
+/* ln of what the turn after pass i multiplies the tension by; 0 after the last. The mitre law in another form than the one that
+ * made the plan. */
+static double law_exponent(const cord_claim *k, int i)
+{
+  if (i + 1 >= k->cord->n_passes) return 0;
+  double mu = k->e->physics.mu, angle = thr_check_angle(k->f, k->cord->half[i], k->cord->half[i + 1]);
+  return k->e->law == THR_LAW_CAPSTAN ? mu * angle : log(1 / (1 - mu * sin(angle / 2)));
+}
+
+/* Does the slackest pass lie where the pull is least? from receives the exponents before it, total those of the whole cord. */
+static bool slackest_is_best(const cord_claim *k, double *from, double *total)
+{
+  const thr_eval_cord *c = k->c;
+  double before = 0, best = INFINITY;
+  *from = *total = 0;
+  for (int i = 0; i < c->n_passes; i++)
+    *total += law_exponent(k, i);
+  for (int i = 0; i < c->n_passes; i++) {
+    if (i == c->slackest) *from = before;
+    best = fmin(best, fmax(before, *total - before));
+    before += law_exponent(k, i);
+  }
+  if (c->pull == THR_PULL_START) return c->slackest == c->n_passes - 1;
+  if (c->pull == THR_PULL_END) return c->slackest == 0;
+  return fmax(*from, *total - *from) <= best + 1e-9 * (1 + *total);
+}
+
+/* Method capstan: the slackest pass holds the seating tension, and every other has what the law gives. */
+static thr_status check_law(const cord_claim *k, thr_err *err)
+{
+  const thr_eval_cord *c = k->c;
+  double from, total, before = 0, seating = k->e->physics.seating;
+  thr_status st = evaluated(k, "tension of the slackest pass", c->tension[c->slackest], seating, err);
+  if (st) return st;
+  if (!slackest_is_best(k, &from, &total))
+    return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: pass %d is not where its tension is least", k->id,
+                    c->slackest + 1);
+  for (int i = 0; i < c->n_passes; i++) {
+    double expected = log(seating) + fabs(before - from);
+    if (!thr_check_close(log(c->tension[i]), expected, 1 + total))
+      return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: pass %d: stated %.12g N, but the %s law gives %.12g N", k->id,
+                      i + 1, c->tension[i], thr_law_name(k->e->law), exp(expected));
+    before += law_exponent(k, i);
+  }
+  return THR_OK;
+}
+
+static thr_status check_cord_evaluation(const thr_plan *p, int i, thr_err *err)
+{
+  const thr_evaluation *e = &p->evaluation;
+  const thr_cord *cord = &p->cord[i];
+  const thr_eval_cord *c = &e->cord[i];
+  const cord_claim k = {&p->frame, cord, e, c, cord->id};
+  double turning = 0;
+  for (int j = 0; j + 1 < cord->n_passes; j++)
+    turning += thr_check_angle(&p->frame, cord->half[j], cord->half[j + 1]);
+  if (!thr_check_close(c->turning, turning, 1 + turning))
+    return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: turning: stated %.12g, but the cord turns by %.12g", k.id,
+                    c->turning, turning);
+  if (!(c->taut_turning >= 0) || (e->method != THR_JOINT && c->taut_turning != c->turning))
+    return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: taut_turning: %.12g; expected %s", k.id, c->taut_turning,
+                    e->method == THR_JOINT ? "0 or more" : "the turning, for this method");
+  if (!(c->error >= 0) || (e->method == THR_CAPSTAN && (c->error > 0 || c->refused > 0)))
+    return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: error and refused: no such error is possible with this method",
+                    k.id);
+  thr_status st = check_forces(&k, err);
+  if (!st) st = check_rise(&k, err);
+  if (!st && e->method == THR_CAPSTAN) st = check_law(&k, err);
+  return st;
+}
+
+/* Are all sizes filled in, and do they fit the framework? */
+static thr_status check_physics(const thr_plan *p, thr_err *err)
+{
+  thr_physics again;
+  thr_err found = {0};
+  const thr_physics *stated = &p->evaluation.physics;
+  thr_status st = thr_physics_resolve(stated, &p->frame, &again, &found);
+  if (st == THR_ENOMEM) return thr_nomem(err);
+  if (st) return thr_fail(err, THR_EVIOLATED, "evaluation.physics: %s", found.text);
+  for (int i = 0; i < thr_physics_n_fields; i++)
+    if (thr_physics_get(stated, &thr_physics_fields[i]) != thr_physics_get(&again, &thr_physics_fields[i]))
+      return thr_fail(err, THR_EVIOLATED, "evaluation.physics.%s: an evaluation states what it used, so not 0",
+                      thr_physics_fields[i].key);
+  return THR_OK;
+}
+
+thr_status thr_check_evaluation(const thr_plan *p, thr_err *err)
+{
+  const thr_evaluation *e = &p->evaluation;
+  double largest = 0, total = 0;
+  thr_status st = check_physics(p, err);
+  if (st) return st;
+  if (!(e->time_step > 0) || !(e->iterations > 0))
+    return thr_fail(err, THR_EVIOLATED, "evaluation: time_step and iterations must be positive");
+  for (int i = 0; i < e->n_cords; i++) {
+    if (!e->cord[i].known) continue;
+    if ((st = check_cord_evaluation(p, i, err))) return st;
+    largest = fmax(largest, e->cord[i].force);
+    total += e->cord[i].work;
+  }
+  if (!thr_check_close(e->largest, largest, largest))
+    return thr_fail(err, THR_EVIOLATED, "evaluation.largest: stated %.12g, but the cords give %.12g", e->largest, largest);
+  if (!thr_check_close(e->total, total, total))
+    return thr_fail(err, THR_EVIOLATED, "evaluation.total: stated %.12g, but the cords give %.12g", e->total, total);
+  return THR_OK;
+}

@@ -1,0 +1,39 @@
+/* The connected components of a framework, each as a framework and options of its own. */
+#ifndef THR_COMPONENTS_H
+#define THR_COMPONENTS_H
+
+#include "graph/plan/plan.h"
+
+/* Nodes and edges by component, ascending: those of component k are node[first_node[k] .. first_node[k + 1] - 1], and so the
+ * edges. */
+typedef struct {
+  const thr_frame *f; /* not owned, as are the options */
+  const thr_plan_options *o;
+  int n;
+  int *component, *local; /* [n_nodes] component of a node, and its number in there */
+  int *first_node, *node, *first_edge, *edge;
+} thr_components;
+
+/* O(nodes + edges). On failure p is empty. */
+thr_status thr_components_init(thr_components *p, const thr_frame *f, const thr_plan_options *o, thr_err *err) THR_MUST_CHECK;
+void thr_components_destroy(thr_components *p);
+
+/* Piece k alone, with what is asked of it, as an empty plan; nodes and edges keep their order. O(component). On failure out is
+ * empty.
+ */
+thr_status thr_component_take(const thr_components *p, int k, thr_plan *out, thr_err *err) THR_MUST_CHECK;
+
+/* Moves the cords of component[n], plans of all components, into those of the whole, which has none yet. */
+thr_status thr_components_join(const thr_components *p, thr_plan *component, thr_plan *whole, thr_err *err) THR_MUST_CHECK;
+
+/* Plans every component by itself, by one(user, k, asked, made, err), and puts the cords together in whole, which has none yet.
+ * asked: what thr_component_take gives; one fills made, an empty plan, and returns no THR_ELIMIT. */
+typedef thr_status thr_component_planner(void *user, const thr_components *p, int k, const thr_plan *asked, thr_plan *made,
+                                         thr_err *err);
+thr_status thr_components_plan(const thr_frame *f, const thr_plan_options *o, thr_component_planner *one, void *user,
+                               thr_plan *whole, thr_err *err) THR_MUST_CHECK;
+
+/* Moves the certificate of a plan of component k, if it has one, into c. */
+void thr_component_give_certificate(const thr_components *p, int k, thr_plan *component, thr_certificate *c);
+
+#endif

@@ -1,0 +1,218 @@
+/* The only file that knows igraph, which is loaded when it is first needed. igraph's default error handler aborts the program;
+ * ours returns the error code. No routine of igraph that uses GLPK may be called here: it would replace the hooks that
+ * lp/solver/lp_glpk.c sets. */
+#include "graph/framework/automorphism_count.h"
+#include "graph/process/child.h"
+#include "graph/framework/cuttree.h"
+#include "graph/framework/drawing.h"
+#include "graph/process/lazy.h"
+
+#include <igraph.h>
+
+#include <string.h>
+
+#define FUNCTIONS(F)                                                                                                             \
+  F(igraph_automorphisms)                                                                                                        \
+  F(igraph_create)                                                                                                               \
+  F(igraph_destroy)                                                                                                              \
+  F(igraph_error_handler_ignore)                                                                                                 \
+  F(igraph_free)                                                                                                                 \
+  F(igraph_gomory_hu_tree)                                                                                                       \
+  F(igraph_layout_kamada_kawai)                                                                                                  \
+  F(igraph_matrix_destroy)                                                                                                       \
+  F(igraph_matrix_init)                                                                                                          \
+  F(igraph_set_error_handler)                                                                                                    \
+  F(igraph_strerror)                                                                                                             \
+  F(igraph_vcount)                                                                                                               \
+  F(igraph_vector_destroy)                                                                                                       \
+  F(igraph_vector_init)                                                                                                          \
+  F(igraph_vector_int_destroy)                                                                                                   \
+  F(igraph_vector_int_init)
+
+static struct {
+  FUNCTIONS(THR_LAZY_POINTER)
+  bool loaded;
+} lib;
+
+static thr_status load(thr_err *err)
+{
+  static const thr_lazy_symbol symbol[] = {FUNCTIONS(THR_LAZY_SYMBOL)};
+  return thr_lazy_load(&lib.loaded, THR_LIBRARY_IGRAPH, symbol, sizeof symbol / sizeof *symbol, err);
+}
+
+static thr_status failed(igraph_error_t code, thr_err *err)
+{
+  if (code == IGRAPH_ENOMEM) return thr_nomem(err);
+  return thr_fail(err, THR_ESOLVER, "igraph: %s", lib.igraph_strerror(code));
+}
+
+/* Initializes ends with those of the m edges, one after the other. */
+static igraph_error_t list_ends(igraph_vector_int_t *ends, int m, const int (*edge)[2])
+{
+  igraph_error_t code = lib.igraph_vector_int_init(ends, 2 * (igraph_integer_t)m);
+  if (code) return code;
+  for (int e = 0; e < m; e++) {
+    VECTOR(*ends)[2 * e] = edge[e][0];
+    VECTOR(*ends)[2 * e + 1] = edge[e][1];
+  }
+  return code;
+}
+
+static igraph_error_t cut_tree(const igraph_vector_int_t *ends, int n, const igraph_vector_t *capacity, int (*tree)[2],
+                               double *flow)
+{
+  igraph_t g, t;
+  igraph_vector_t flows;
+  igraph_error_t code = lib.igraph_create(&g, ends, n, IGRAPH_UNDIRECTED);
+  if (code) return code;
+  if ((code = lib.igraph_vector_init(&flows, 0))) goto no_flows;
+  if ((code = lib.igraph_gomory_hu_tree(&g, &t, &flows, capacity))) goto no_tree;
+  for (int i = 0; i < n - 1; i++) {
+    tree[i][0] = (int)IGRAPH_FROM(&t, i);
+    tree[i][1] = (int)IGRAPH_TO(&t, i);
+    flow[i] = VECTOR(flows)[i];
+  }
+  lib.igraph_destroy(&t);
+no_tree:
+  lib.igraph_vector_destroy(&flows);
+no_flows:
+  lib.igraph_destroy(&g);
+  return code;
+}
+
+thr_status thr_cut_tree(int n, int m, const int (*edge)[2], const double *capacity, int (*tree)[2], double *flow, thr_err *err)
+{
+  thr_status st = load(err);
+  if (st) return st;
+  igraph_error_handler_t *old = lib.igraph_set_error_handler(lib.igraph_error_handler_ignore);
+  igraph_vector_int_t ends;
+  igraph_vector_t weights;
+  igraph_error_t code = list_ends(&ends, m, edge);
+  if (code) goto no_ends;
+  if ((code = lib.igraph_vector_init(&weights, m))) goto no_weights;
+  for (int e = 0; e < m; e++)
+    VECTOR(weights)[e] = capacity[e];
+  code = cut_tree(&ends, n, &weights, tree, flow);
+  lib.igraph_vector_destroy(&weights);
+no_weights:
+  lib.igraph_vector_int_destroy(&ends);
+no_ends:
+  lib.igraph_set_error_handler(old);
+  return code ? failed(code, err) : THR_OK;
+}
+
+static igraph_error_t count_coloured(const igraph_t *g, const int *colour, igraph_bliss_info_t *info)
+{
+  igraph_vector_int_t colours;
+  if (!colour) return lib.igraph_automorphisms(g, NULL, IGRAPH_BLISS_FL, info);
+  igraph_error_t code = lib.igraph_vector_int_init(&colours, lib.igraph_vcount(g));
+  if (code) return code;
+  for (igraph_integer_t v = 0; v < lib.igraph_vcount(g); v++)
+    VECTOR(colours)[v] = colour[v];
+  code = lib.igraph_automorphisms(g, &colours, IGRAPH_BLISS_FL, info);
+  lib.igraph_vector_int_destroy(&colours);
+  return code;
+}
+
+thr_status thr_automorphism_count(int n, int m, const int (*edge)[2], const int *colour, char **digits, thr_err *err)
+{
+  thr_status st = load(err);
+  if (st) return st;
+  igraph_error_handler_t *old = lib.igraph_set_error_handler(lib.igraph_error_handler_ignore);
+  igraph_vector_int_t ends;
+  igraph_t g;
+  igraph_bliss_info_t info = {0};
+  igraph_error_t code = list_ends(&ends, m, edge);
+  if (code) goto no_ends;
+  if ((code = lib.igraph_create(&g, &ends, n, IGRAPH_UNDIRECTED))) goto no_graph;
+  code = count_coloured(&g, colour, &info);
+  lib.igraph_destroy(&g);
+no_graph:
+  lib.igraph_vector_int_destroy(&ends);
+no_ends:
+  lib.igraph_set_error_handler(old);
+  *digits = code ? NULL : thr_strdup(info.group_size);
+  lib.igraph_free(info.group_size);
+  if (code) return failed(code, err);
+  return *digits ? THR_OK : thr_nomem(err);
+}
+
+static igraph_error_t kamada_kawai(const igraph_t *g, const igraph_vector_t *length, bool circle, double (*xy)[2])
+{
+  igraph_matrix_t at;
+  igraph_integer_t n = lib.igraph_vcount(g);
+  igraph_error_t code = lib.igraph_matrix_init(&at, n, 2);
+  if (code) return code;
+  for (igraph_integer_t v = 0; v < n; v++)
+    for (int k = 0; k < 2; k++)
+      MATRIX(at, v, k) = xy[v][k];
+  code = lib.igraph_layout_kamada_kawai(g, &at, !circle, 50 * n, 0, (double)n, length, NULL, NULL, NULL, NULL);
+  for (igraph_integer_t v = 0; v < n && !code; v++)
+    for (int k = 0; k < 2; k++)
+      xy[v][k] = MATRIX(at, v, k);
+  lib.igraph_matrix_destroy(&at);
+  return code;
+}
+
+typedef struct {
+  int n, m;
+  const int (*edge)[2];
+  const double *length;
+  bool circle;
+  double (*xy)[2];
+} springs;
+
+static igraph_error_t place(const springs *s)
+{
+  igraph_vector_int_t ends;
+  igraph_vector_t lengths;
+  igraph_t g;
+  igraph_error_t code = list_ends(&ends, s->m, s->edge);
+  if (code) goto no_ends;
+  if ((code = lib.igraph_create(&g, &ends, s->n, IGRAPH_UNDIRECTED))) goto no_graph;
+  if ((code = lib.igraph_vector_init(&lengths, s->m))) goto no_lengths;
+  for (int e = 0; e < s->m; e++)
+    VECTOR(lengths)[e] = s->length[e];
+  code = kamada_kawai(&g, &lengths, s->circle, s->xy);
+  lib.igraph_vector_destroy(&lengths);
+no_lengths:
+  lib.igraph_destroy(&g);
+no_graph:
+  lib.igraph_vector_int_destroy(&ends);
+no_ends:
+  return code;
+}
+
+/* In a child process: sends the places. */
+static thr_status place_and_send(void *user, const thr_limits *limits, thr_sender *to, thr_err *err)
+{
+  const springs *s = user;
+  (void)limits;
+  thr_text places = {0};
+  thr_status st = load(err);
+  if (st) return st;
+  lib.igraph_set_error_handler(lib.igraph_error_handler_ignore);
+  igraph_error_t code = place(s);
+  if (code) return failed(code, err);
+  thr_text_append_bytes(&places, (const char *)s->xy, (size_t)s->n * sizeof *s->xy);
+  st = thr_child_send(to, &places, err);
+  thr_text_destroy(&places);
+  return st;
+}
+
+thr_status thr_kamada_kawai(int n, int m, const int (*edge)[2], const double *length, bool circle, double (*xy)[2], thr_err *err)
+{
+  springs s = {n, m, edge, length, circle, xy};
+  const thr_child child = {.what = "placing nodes for the picture", .run = place_and_send, .user = &s};
+  const thr_limits none = {0};
+  thr_text places = {0};
+  thr_status st = thr_child_run(&child, &none, &places, err);
+  if (!st && n > 0) memcpy(xy, places.data, (size_t)n * sizeof *xy);
+  thr_text_destroy(&places);
+  return st;
+}
+
+const char *thr_igraph_version(void)
+{
+  return IGRAPH_VERSION; /* that the program was built with: asking the library would load it */
+}

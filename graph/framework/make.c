@@ -1,0 +1,326 @@
+/* Example frameworks. Every node is called by a letter (column, ring or row) and a number, as on a map.
+ * Coordinates come from integers wherever possible, so that mirror images agree to the last digit. */
+#include "graph/framework/make.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { MAX_NODES = 2000000 };
+static const double PI = 3.14159265358979323846;
+
+thr_make_options thr_make_options_default(thr_shape shape)
+{
+  static const int size[] = {
+      [THR_MAKE_DOME] = 7, [THR_MAKE_GEODESIC] = 4, [THR_MAKE_TUBE] = 12, [THR_MAKE_SPHERE] = 3, [THR_MAKE_HONEYCOMB] = 3};
+  return (thr_make_options){shape, size[shape], 7, 20, 0.5};
+}
+
+/* "A1" for letter 0, number 0; after Z comes AA. */
+static void node_name(int letter, int number, char name[24])
+{
+  char letters[8];
+  int n = 0;
+  for (int rest = letter + 1; rest > 0; rest = (rest - 1) / 26)
+    letters[n++] = (char)('A' + (rest - 1) % 26);
+  for (int i = 0; i < n; i++)
+    name[i] = letters[n - 1 - i];
+  snprintf(name + n, 24 - (size_t)n, "%d", number + 1);
+}
+
+static thr_status add_node(thr_draft *d, double x, double y, double z, int letter, int number, bool foot, thr_err *err)
+{
+  char name[24];
+  node_name(letter, number, name);
+  return thr_draft_add_node(d, (double[3]){x, y, z}, name, foot, err);
+}
+
+/* ---- square-grid dome: z = crown * (1 - r^2 / R^2), zero at the four corners, which are the feet ---- */
+
+static thr_status make_dome(thr_draft *d, const thr_make_options *o, thr_err *err)
+{
+  int n = o->size, half = n - 1; /* in half pitches, so that even sides have integer places too */
+  double crown = o->rise * 0.5 * half * o->pitch;
+  thr_status st = THR_OK;
+  for (int column = 0; column < n; column++)
+    for (int row = 0; row < n && !st; row++) {
+      int x = 2 * column - half, y = 2 * row - half;
+      bool corner = (column == 0 || column == n - 1) && (row == 0 || row == n - 1);
+      double height = 1 - (double)(x * x + y * y) / (2.0 * half * half);
+      st = add_node(d, 0.5 * x * o->pitch, 0.5 * y * o->pitch, crown * height, column, row, corner, err);
+    }
+  for (int v = 0; v < n * n && !st; v++) {
+    if (v % n < n - 1) st = thr_draft_add_edge(d, v, v + 1, 0, err);
+    if (!st && v / n < n - 1) st = thr_draft_add_edge(d, v, v + n, 0, err);
+  }
+  return st;
+}
+
+/* ---- circles ---- */
+
+/* The point i of n on the unit circle, folded into the first octant so that mirror images are exact. */
+static void circle_point(int i, int n, double *x, double *y)
+{
+  int64_t part = i, whole = n; /* of a turn */
+  bool left = false, below = false;
+  if (2 * part > whole) {
+    part = whole - part;
+    below = true;
+  }
+  if (4 * part > whole) {
+    part = whole - 2 * part;
+    whole *= 2;
+    left = true;
+  }
+  if (8 * part > whole) {
+    *x = sin(2 * PI * (double)(whole - 4 * part) / (double)(4 * whole));
+    *y = cos(2 * PI * (double)(whole - 4 * part) / (double)(4 * whole));
+  } else {
+    *x = cos(2 * PI * (double)part / (double)whole);
+    *y = sin(2 * PI * (double)part / (double)whole);
+  }
+  if (left) *x = -*x;
+  if (below) *y = -*y;
+}
+
+/* ---- tube: rings of nodes straight above each other; the lowest ring are the feet ---- */
+
+static thr_status make_tube(thr_draft *d, const thr_make_options *o, thr_err *err)
+{
+  int n = o->size;
+  double radius = 0.5 * o->pitch / sin(PI / n); /* neighbours on a ring are one pitch apart */
+  thr_status st = THR_OK;
+  for (int ring = 0; ring < o->rings; ring++)
+    for (int i = 0; i < n && !st; i++) {
+      double x, y;
+      circle_point(i, n, &x, &y);
+      st = add_node(d, radius * x, radius * y, ring * o->pitch, ring, i, ring == 0, err);
+    }
+  for (int ring = 0; ring < o->rings; ring++)
+    for (int i = 0; i < n && !st; i++) {
+      int v = ring * n + i;
+      st = thr_draft_add_edge(d, v, ring * n + (i + 1) % n, 0, err);
+      if (!st && ring + 1 < o->rings) st = thr_draft_add_edge(d, v, v + n, 0, err);
+    }
+  return st;
+}
+
+/* ---- geodesic: an icosahedron with a corner up, each side cut into f parts and pushed out to the sphere.
+ * Its nodes lie in rows 0 .. 3f from the north pole N over the upper corners U_0 .. U_4 (row f) and the lower ones
+ * L_0 .. L_4 (row 2f) to the south pole S; row r has row_size nodes in five equal sectors ---- */
+
+static int row_size(int f, int r)
+{
+  int per_sector = r <= f ? r : r <= 2 * f ? f : 3 * f - r;
+  return per_sector ? 5 * per_sector : 1;
+}
+
+typedef struct {
+  double north[3], south[3], upper[5][3], lower[5][3];
+} icosahedron;
+
+static icosahedron make_icosahedron(void)
+{
+  icosahedron k = {.north = {0, 0, 1}, .south = {0, 0, -1}};
+  double z = 1 / sqrt(5), radius = 2 / sqrt(5);
+  for (int i = 0; i < 5; i++) {
+    double x, y;
+    circle_point(2 * i, 10, &x, &y);
+    k.upper[i][0] = radius * x;
+    k.upper[i][1] = radius * y;
+    k.upper[i][2] = z;
+    circle_point(2 * i + 1, 10, &x, &y);
+    k.lower[i][0] = radius * x;
+    k.lower[i][1] = radius * y;
+    k.lower[i][2] = -z;
+  }
+  return k;
+}
+
+/* Point of the unit sphere over (wa * a + wb * b + wc * c) of a flat face. */
+static void on_sphere(const double a[3], int wa, const double b[3], int wb, const double c[3], int wc, double xyz[3])
+{
+  double norm = 0;
+  for (int i = 0; i < 3; i++) {
+    xyz[i] = wa * a[i] + (wb * b[i] + wc * c[i]);
+    norm += xyz[i] * xyz[i];
+  }
+  for (int i = 0; i < 3; i++)
+    xyz[i] /= sqrt(norm);
+}
+
+/* Place of node i of row r. */
+static void row_point(const icosahedron *k, int f, int r, int i, double xyz[3])
+{
+  int per_sector = row_size(f, r) / 5, s = per_sector ? i / per_sector : 0, j = per_sector ? i % per_sector : 0;
+  const double *u0 = k->upper[s], *u1 = k->upper[(s + 1) % 5], *l0 = k->lower[s], *l1 = k->lower[(s + 1) % 5];
+  if (r <= f)
+    on_sphere(k->north, f - r, u0, r - j, u1, j, xyz);
+  else if (r >= 2 * f)
+    on_sphere(k->south, r - 2 * f, l0, 3 * f - r - j, l1, j, xyz);
+  else if (j < 2 * f - r) /* row r - f of the triangle U_s, U_s+1, L_s */
+    on_sphere(l0, r - f, u0, 2 * f - r - j, u1, j, xyz);
+  else /* of the triangle U_s+1, L_s, L_s+1 */
+    on_sphere(u1, 2 * f - r, l0, f - j, l1, j - (2 * f - r), xyz);
+}
+
+/* Joins a row of 5m nodes (m = 0: the pole) to the row of 5(m + 1) beside it, farther from the pole. */
+static thr_status join_growing(thr_draft *d, int near, int m, int far, thr_err *err)
+{
+  int n = 5 * (m + 1);
+  thr_status st = THR_OK;
+  for (int i = 0; m == 0 && i < n && !st; i++)
+    st = thr_draft_add_edge(d, near, far + i, 0, err);
+  for (int i = 0; i < 5 * m && !st; i++) {
+    int here = i / m * (m + 1) + i % m; /* same place in the same sector */
+    if (i % m == 0) st = thr_draft_add_edge(d, near + i, far + (here + n - 1) % n, 0, err);
+    if (!st) st = thr_draft_add_edge(d, near + i, far + here, 0, err);
+    if (!st) st = thr_draft_add_edge(d, near + i, far + here + 1, 0, err);
+  }
+  return st;
+}
+
+/* Joins two rows of n nodes each. */
+static thr_status join_equal(thr_draft *d, int near, int far, int n, thr_err *err)
+{
+  thr_status st = THR_OK;
+  for (int i = 0; i < n && !st; i++) {
+    st = thr_draft_add_edge(d, near + i, far + (i + n - 1) % n, 0, err);
+    if (!st) st = thr_draft_add_edge(d, near + i, far + i, 0, err);
+  }
+  return st;
+}
+
+/* Scales the unit sphere's draft so that the mean edge is one pitch. */
+static void scale_to_pitch(thr_draft *d, double pitch)
+{
+  double sum = 0;
+  for (int e = 0; e < d->n_edges; e++) {
+    const double *a = d->node[d->edge[e].a].xyz, *b = d->node[d->edge[e].b].xyz;
+    sum += sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
+  }
+  double radius = pitch / (sum / d->n_edges);
+  for (int v = 0; v < d->n_nodes; v++)
+    for (int i = 0; i < 3; i++)
+      d->node[v].xyz[i] *= radius;
+}
+
+/* Rows 0 .. last; the last row are the feet, unless it is the south pole. */
+static thr_status make_rows(thr_draft *d, const thr_make_options *o, int last, thr_err *err)
+{
+  const icosahedron k = make_icosahedron();
+  int f = o->size, start = 0, before = 0;
+  thr_status st = THR_OK;
+  for (int r = 0; r <= last && !st; before = start, start += row_size(f, r), r++) {
+    int n = row_size(f, r), m = n / 5;
+    for (int i = 0; i < n && !st; i++) {
+      double p[3];
+      row_point(&k, f, r, i, p);
+      st = add_node(d, p[0], p[1], p[2], r, i, r == last && r < 3 * f, err);
+    }
+    for (int i = 0; i < n && n > 1 && !st; i++)
+      st = thr_draft_add_edge(d, start + i, start + (i + 1) % n, 0, err);
+    if (st || r == 0) continue;
+    if (r <= f)
+      st = join_growing(d, before, m - 1, start, err);
+    else if (r <= 2 * f)
+      st = join_equal(d, before, start, n, err);
+    else
+      st = join_growing(d, start, m, before, err);
+  }
+  if (!st) scale_to_pitch(d, o->pitch);
+  return st;
+}
+
+/* ---- honeycomb dome: hexagons with a corner up in rings round one. 2R zigzag rows; row k < R has 2R + 1 + 2k nodes
+ * with both ends low, the rest mirrors it. Places are integers: x in sqrt(3)/2 pitches, y in half pitches ---- */
+
+static int zigzag_size(int rings, int k)
+{
+  return 2 * rings + 1 + 2 * (k < rings ? k : 2 * rings - 1 - k);
+}
+
+/* Places of node t of row k. */
+static void zigzag_place(int rings, int k, int t, int *x, int *y)
+{
+  bool upper = k < rings;
+  int mirrored = upper ? k : 2 * rings - 1 - k, low = 3 * (rings - 1 - mirrored) + 1;
+  *x = t - (zigzag_size(rings, k) - 1) / 2;
+  *y = low + t % 2;
+  if (!upper) *y = -*y;
+}
+
+/* Square of the distance from the axis, in half pitches. */
+static int64_t zigzag_square(int x, int y)
+{
+  return 3 * (int64_t)x * x + (int64_t)y * y;
+}
+
+static thr_status make_honeycomb(thr_draft *d, const thr_make_options *o, thr_err *err)
+{
+  int rings = o->size, x, y, start = 0;
+  int64_t rim = 0;
+  thr_status st = THR_OK;
+  zigzag_place(rings, 0, 1, &x, &y); /* the top row's first peak is one of the farthest nodes */
+  rim = zigzag_square(x, y);
+  double crown = o->rise * 0.5 * sqrt((double)rim) * o->pitch;
+  for (int k = 0; k < 2 * rings; k++)
+    for (int t = 0; t < zigzag_size(rings, k) && !st; t++) {
+      zigzag_place(rings, k, t, &x, &y);
+      int64_t square = zigzag_square(x, y);
+      double height = 1 - (double)square / (double)rim;
+      st = add_node(d, 0.5 * sqrt(3) * x * o->pitch, 0.5 * y * o->pitch, crown * height, k, t, square == rim, err);
+    }
+  for (int k = 0; k < 2 * rings; start += zigzag_size(rings, k), k++) {
+    int n = zigzag_size(rings, k), next = k + 1 < 2 * rings ? zigzag_size(rings, k + 1) : 0;
+    for (int t = 0; t < n && !st; t++) {
+      if (t + 1 < n) st = thr_draft_add_edge(d, start + t, start + t + 1, 0, err);
+      bool low = (t % 2 == 0) == (k < rings);
+      int below = t + (next - n) / 2; /* same x in the next row */
+      if (!st && low && next) st = thr_draft_add_edge(d, start + t, start + n + below, 0, err);
+    }
+  }
+  return st;
+}
+
+/* ---- all of them ---- */
+
+static thr_status check_size(const char *what, int size, int least, int most, thr_err *err)
+{
+  if (size >= least && size <= most) return THR_OK;
+  return thr_fail(err, THR_EINPUT, "%s is %d; it must be %d to %d for this shape", what, size, least, most);
+}
+
+static thr_status check_options(const thr_make_options *o, thr_err *err)
+{
+  /* the largest sizes within MAX_NODES: n^2, 5f^2 + 5f + 1 or so, 10f^2 + 2, 6R^2 nodes */
+  static const struct {
+    int least, most;
+  } size[] = {[THR_MAKE_DOME] = {2, 1414},
+              [THR_MAKE_GEODESIC] = {1, 630},
+              [THR_MAKE_TUBE] = {3, MAX_NODES / 2},
+              [THR_MAKE_SPHERE] = {1, 447},
+              [THR_MAKE_HONEYCOMB] = {1, 577}};
+  thr_status st = check_size("size", o->size, size[o->shape].least, size[o->shape].most, err);
+  if (!st && o->shape == THR_MAKE_TUBE) st = check_size("rings", o->rings, 2, MAX_NODES / o->size, err);
+  if (!st && !(o->pitch > 0 && isfinite(o->pitch)))
+    st = thr_fail(err, THR_EINPUT, "pitch is %g; it must be a positive length in mm", o->pitch);
+  if (!st && !(o->rise >= 0 && isfinite(o->rise)))
+    st = thr_fail(err, THR_EINPUT, "rise is %g; it must be 0 or more, as a fraction of the half span", o->rise);
+  return st;
+}
+
+thr_status thr_make(thr_draft *draft, const thr_make_options *o, thr_err *err)
+{
+  thr_status st = check_options(o, err);
+  if (st) return st;
+  snprintf(draft->units, sizeof draft->units, "mm");
+  switch (o->shape) {
+  case THR_MAKE_DOME: st = make_dome(draft, o, err); break;
+  case THR_MAKE_TUBE: st = make_tube(draft, o, err); break;
+  case THR_MAKE_GEODESIC: st = make_rows(draft, o, o->size + (o->size + 1) / 2, err); break;
+  case THR_MAKE_SPHERE: st = make_rows(draft, o, 3 * o->size, err); break;
+  case THR_MAKE_HONEYCOMB: st = make_honeycomb(draft, o, err); break;
+  }
+  if (st) thr_draft_destroy(draft);
+  return st;
+}

@@ -1,0 +1,457 @@
+/* CSV: tables of nodes and edges, or one edge per line as six coordinates (docs/formats.md, "CSV"). */
+#include "graph/io/scan.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_FIELDS = 64 }; /* columns after these are not looked at */
+
+typedef enum { ANY_TABLE, NODE_TABLE, EDGE_TABLE } table_kind; /* what the caller knows of the text */
+typedef enum { NO_ROWS, NODE_ROWS, EDGE_ROWS, LINE_ROWS } row_kind;
+
+/* Where things stand in a row; -1 = nowhere. */
+typedef struct {
+  row_kind kind;
+  bool header;
+  int width; /* fields in the row that this was learnt from */
+  int id, xyz[6], foot, ends[2], length, cover, capacity;
+} columns;
+
+typedef struct {
+  thr_scan scan;
+  table_kind expected;
+  char separator; /* 0 until the first row; ' ' = any run of blanks */
+  columns c;
+  thr_names names;  /* once edges begin */
+  thr_text scratch; /* for one name at a time */
+  thr_draft *d;
+  thr_err *err;
+  int n_fields;
+  thr_span field[MAX_FIELDS];
+} csv;
+
+static thr_span field_at(const csv *t, int i)
+{
+  return i >= 0 && i < t->n_fields ? t->field[i] : (thr_span){"", 0};
+}
+
+static bool number_at(const csv *t, int i, double *x)
+{
+  return thr_span_number(field_at(t, i), t->separator == ';' || t->separator == '\t', x);
+}
+
+/* ---- from line to fields ---- */
+
+static char find_separator(thr_span line)
+{
+  for (const char *wanted = ";\t,"; *wanted; wanted++) {
+    bool quoted = false;
+    for (size_t i = 0; i < line.n; i++) {
+      if (line.s[i] == '"') quoted = !quoted;
+      if (line.s[i] == *wanted && !quoted) return *wanted;
+    }
+  }
+  return ' ';
+}
+
+static bool is_separator(const csv *t, char c)
+{
+  return c == t->separator || (t->separator == ' ' && c == '\t');
+}
+
+/* Takes one field and the separator after it off the line. */
+static thr_status take_field(csv *t, thr_span *rest, thr_span *field)
+{
+  size_t i = 0, start, end;
+  while (i < rest->n && (rest->s[i] == ' ' || (rest->s[i] == '\t' && t->separator != '\t')))
+    i++;
+  if (i < rest->n && rest->s[i] == '"') {
+    start = ++i;
+    while (i < rest->n && (rest->s[i] != '"' || (i + 1 < rest->n && rest->s[i + 1] == '"')))
+      i += rest->s[i] == '"' ? 2 : 1;
+    if (i >= rest->n) return thr_scan_fail(&t->scan, t->err, "a quote is not closed; close it on the same line");
+    end = i++;
+  } else {
+    start = i;
+    while (i < rest->n && !is_separator(t, rest->s[i]))
+      i++;
+    end = i;
+  }
+  while (i < rest->n && !is_separator(t, rest->s[i]))
+    i++; /* after a closing quote */
+  *field = thr_span_trim((thr_span){rest->s + start, end - start});
+  if (i < rest->n) i++;
+  *rest = (thr_span){rest->s + i, rest->n - i};
+  return THR_OK;
+}
+
+/* Fills t->field from the next line that has something on it; empty fields at the end do not count (spreadsheets pad
+ * rows). *more is false at the end of the text. */
+static thr_status next_row(csv *t, bool *more)
+{
+  thr_span line;
+  while ((*more = thr_scan_line(&t->scan, &line))) {
+    line = thr_span_trim(line);
+    if (line.n == 0 || line.s[0] == '#') continue;
+    if (!t->separator) t->separator = find_separator(line);
+    t->n_fields = 0;
+    for (int i = 0; line.n && i < MAX_FIELDS; i++) {
+      thr_status st = take_field(t, &line, &t->field[i]);
+      if (st) return st;
+      if (t->field[i].n) t->n_fields = i + 1;
+    }
+    if (t->n_fields) return THR_OK;
+  }
+  return THR_OK;
+}
+
+/* ---- headers ---- */
+
+static int column(const csv *t, const char *const *names)
+{
+  for (; *names; names++)
+    for (int i = 0; i < t->n_fields; i++)
+      if (thr_span_is(t->field[i], *names)) return i;
+  return -1;
+}
+
+#define COLUMN(t, ...) column(t, (const char *const[]){__VA_ARGS__, NULL})
+
+static columns no_columns(const csv *t, row_kind kind, bool header)
+{
+  return (columns){kind, header, t->n_fields, -1, {-1, -1, -1, -1, -1, -1}, -1, {0, 1}, -1, -1, -1};
+}
+
+/* What a header may say of edges beside their ends. */
+static void find_edge_columns(const csv *t, columns *c)
+{
+  c->length = COLUMN(t, "length");
+  c->cover = COLUMN(t, "cover");
+  c->capacity = COLUMN(t, "capacity");
+}
+
+/* Is this row a header that names coordinates? Then it says where they are. */
+static bool coordinate_header(csv *t)
+{
+  columns c = no_columns(t, LINE_ROWS, true);
+  const char *const six[] = {"x1", "y1", "z1", "x2", "y2", "z2"};
+  for (int i = 0; i < 6; i++)
+    c.xyz[i] = COLUMN(t, six[i]);
+  find_edge_columns(t, &c);
+  if (c.xyz[0] < 0 || c.xyz[1] < 0 || c.xyz[3] < 0 || c.xyz[4] < 0) {
+    c = no_columns(t, NODE_ROWS, true);
+    c.xyz[0] = COLUMN(t, "x");
+    c.xyz[1] = COLUMN(t, "y");
+    c.xyz[2] = COLUMN(t, "z");
+    if (c.xyz[0] < 0 || c.xyz[1] < 0) return false;
+    c.id = c.xyz[0] && c.xyz[1] && c.xyz[2] ? 0 : -1;
+    c.foot = COLUMN(t, "is_support", "is_grounded", "foot", "feet");
+    if (c.foot == 0) c.id = -1;
+  }
+  t->c = c;
+  return true;
+}
+
+static void edge_header(csv *t)
+{
+  static const char *const pair[][2] = {{"a", "b"},           {"u", "v"},          {"i", "j"},   {"source", "target"},
+                                        {"from", "to"},       {"start", "end"},    {"n1", "n2"}, {"node1", "node2"},
+                                        {"node_1", "node_2"}, {"node_a", "node_b"}};
+  t->c = no_columns(t, EDGE_ROWS, true);
+  for (size_t i = 0; i < sizeof pair / sizeof *pair; i++) {
+    int a = COLUMN(t, pair[i][0]), b = COLUMN(t, pair[i][1]);
+    if (a < 0 || b < 0) continue;
+    t->c.ends[0] = a;
+    t->c.ends[1] = b;
+    break;
+  }
+  find_edge_columns(t, &t->c);
+  int *const named[] = {&t->c.length, &t->c.cover, &t->c.capacity};
+  for (int i = 0; i < 3; i++)
+    if (*named[i] == t->c.ends[0] || *named[i] == t->c.ends[1]) *named[i] = -1;
+}
+
+static bool all_words(const csv *t)
+{
+  double x;
+  for (int i = 0; i < t->n_fields; i++)
+    if (number_at(t, i, &x)) return false;
+  return true;
+}
+
+/* ---- names ---- */
+
+/* Tables that went through floating point call node 7 "7.0". An apostrophe keeps a spreadsheet from taking a name for a formula.
+ */
+static thr_span plain_name(thr_span t)
+{
+  if (t.n > 1 && t.s[0] == '\'' && strchr("=+-@", t.s[1])) t = (thr_span){t.s + 1, t.n - 1};
+  size_t n = t.n;
+  while (n && t.s[n - 1] == '0')
+    n--;
+  int whole;
+  if (n > 1 && n < t.n && t.s[n - 1] == '.' && thr_span_int((thr_span){t.s, n - 1}, &whole)) t.n = n - 1;
+  return t;
+}
+
+/* The name in a field as the draft keeps it, valid until the next call. */
+static thr_status name_in(csv *t, thr_span field, const char **name)
+{
+  field = plain_name(field);
+  t->scratch.length = 0;
+  thr_text_append_bytes(&t->scratch, field.s, field.n);
+  if (t->scratch.failed) return thr_nomem(t->err);
+  thr_text_clean(t->scratch.data);
+  *name = t->scratch.data;
+  return THR_OK;
+}
+
+/* The node that a field names; -1 if there is none. */
+static thr_status node_in(csv *t, thr_span field, int *node)
+{
+  const char *name;
+  thr_status st = name_in(t, field, &name);
+  if (!st) *node = thr_names_find(&t->names, thr_span_of(name));
+  return st;
+}
+
+/* ---- rows ---- */
+
+static thr_status read_coordinates(const csv *t, const int *at, double xyz[3])
+{
+  for (int i = 0; i < 3; i++) {
+    thr_span f = field_at(t, at[i]);
+    xyz[i] = 0;
+    if (i == 2 && f.n == 0) continue; /* flat frameworks have no z */
+    if (f.n == 0) return thr_scan_fail(&t->scan, t->err, "no %c coordinate in column %d; give a number", 'x' + i, at[i] + 1);
+    if (!number_at(t, at[i], &xyz[i]))
+      return thr_scan_fail(&t->scan, t->err, "'%.*s' in column %d is not a finite number; give %c as a decimal number",
+                           thr_span_width(f), f.s, at[i] + 1, 'x' + i);
+  }
+  return THR_OK;
+}
+
+static thr_status read_foot(const csv *t, bool *foot)
+{
+  thr_span f = field_at(t, t->c.foot);
+  double x;
+  *foot = false;
+  if (f.n == 0 || thr_span_is(f, "false") || thr_span_is(f, "no")) return THR_OK;
+  if (number_at(t, t->c.foot, &x))
+    *foot = x != 0;
+  else if (thr_span_is(f, "true") || thr_span_is(f, "yes") || thr_span_is(f, "x"))
+    *foot = true;
+  else
+    return thr_scan_fail(&t->scan, t->err, "'%.*s' in column %d does not say whether this is a foot; use 1 or 0",
+                         thr_span_width(f), f.s, t->c.foot + 1);
+  return THR_OK;
+}
+
+static thr_status read_length(const csv *t, double *length)
+{
+  thr_span f = field_at(t, t->c.length);
+  *length = 0;
+  if (f.n == 0 || (number_at(t, t->c.length, length) && *length > 0)) return THR_OK;
+  return thr_scan_fail(&t->scan, t->err,
+                       "length '%.*s' is not a positive number; leave it empty for the distance of the two nodes",
+                       thr_span_width(f), f.s);
+}
+
+/* A whole number from 1; 0 if the field is empty. */
+static thr_status read_count(const csv *t, int at, const char *what, int *count)
+{
+  thr_span f = field_at(t, at);
+  *count = 0;
+  if (f.n == 0 || (thr_span_int(plain_name(f), count) && *count >= 1)) return THR_OK;
+  return thr_scan_fail(&t->scan, t->err, "%s '%.*s' is not a whole number from 1 on; leave it empty if there is none", what,
+                       thr_span_width(f), f.s);
+}
+
+/* Adds an edge with what its row says beside the ends. */
+static thr_status finish_edge(csv *t, int a, int b)
+{
+  double length;
+  int cover, capacity;
+  thr_err local = {0};
+  thr_status st = read_length(t, &length);
+  if (!st) st = read_count(t, t->c.cover, "cover", &cover);
+  if (!st) st = read_count(t, t->c.capacity, "capacity", &capacity);
+  if (!st) st = thr_draft_add_edge(t->d, a, b, length, t->err);
+  if (st) return st;
+  st = thr_draft_edge_passes(t->d, cover, capacity, &local);
+  return st ? thr_scan_fail(&t->scan, t->err, "%s", local.text) : THR_OK;
+}
+
+static thr_status add_node(csv *t)
+{
+  double xyz[3];
+  bool foot;
+  thr_status st = read_coordinates(t, t->c.xyz, xyz);
+  if (!st) st = read_foot(t, &foot);
+  if (st) return st;
+
+  thr_span id = field_at(t, t->c.id);
+  if (t->c.id >= 0 && id.n == 0) return thr_scan_fail(&t->scan, t->err, "the node has no name in column %d", t->c.id + 1);
+  if (!thr_text_is_utf8(id.s, id.n))
+    return thr_scan_fail(&t->scan, t->err, "the node's name is not UTF-8; save the file as UTF-8 text");
+  char number[16];
+  const char *name;
+  snprintf(number, sizeof number, "%d", t->d->n_nodes);
+  st = name_in(t, t->c.id < 0 ? thr_span_of(number) : id, &name);
+  return st ? st : thr_draft_add_node(t->d, xyz, name, foot, t->err);
+}
+
+static thr_status add_edge(csv *t)
+{
+  int end[2];
+  for (int i = 0; i < 2; i++) {
+    thr_span id = field_at(t, t->c.ends[i]);
+    thr_status st = node_in(t, id, &end[i]);
+    if (st) return st;
+    if (end[i] < 0)
+      return thr_scan_fail(&t->scan, t->err, "there is no node '%.*s'; the nodes are called '%.40s' to '%.40s'",
+                           thr_span_width(id), id.s, t->d->node[0].name, t->d->node[t->d->n_nodes - 1].name);
+  }
+  return finish_edge(t, end[0], end[1]);
+}
+
+static thr_status add_line(csv *t)
+{
+  double a[3], b[3];
+  thr_status st = read_coordinates(t, t->c.xyz, a);
+  if (!st) st = read_coordinates(t, t->c.xyz + 3, b);
+  if (!st) st = thr_draft_add_node(t->d, a, NULL, false, t->err);
+  if (!st) st = thr_draft_add_node(t->d, b, NULL, false, t->err);
+  return st ? st : finish_edge(t, t->d->n_nodes - 2, t->d->n_nodes - 1);
+}
+
+/* ---- what kind of row ---- */
+
+static thr_status begin_edges(csv *t)
+{
+  t->c = no_columns(t, EDGE_ROWS, false);
+  return t->names.entry ? THR_OK : thr_names_build(&t->names, t->d, t->scan.name, t->err);
+}
+
+/* Sets the columns of rows without a header by their number. */
+static thr_status guess_columns(csv *t)
+{
+  int n = t->n_fields;
+  if (t->expected == EDGE_TABLE ? n >= 2 : t->expected == ANY_TABLE && n == 2) return begin_edges(t);
+  if (t->expected == ANY_TABLE && n == 6) {
+    t->c = no_columns(t, LINE_ROWS, false);
+    for (int i = 0; i < 6; i++)
+      t->c.xyz[i] = i;
+    return THR_OK;
+  }
+  if (t->expected == EDGE_TABLE || (n != 3 && n != 4))
+    return thr_scan_fail(&t->scan, t->err, "a row of %d fields without a header; %s", n,
+                         t->expected == EDGE_TABLE   ? "an edge names two nodes"
+                         : t->expected == NODE_TABLE ? "a node is x,y,z or id,x,y,z"
+                                                     : "an edge is x1,y1,z1,x2,y2,z2, a node x,y,z or id,x,y,z");
+  t->c = no_columns(t, NODE_ROWS, false);
+  if (n == 4) t->c.id = 0;
+  for (int i = 0; i < 3; i++)
+    t->c.xyz[i] = n - 3 + i;
+  return THR_OK;
+}
+
+/* Learns from a row what it and those after it are; *used if the row was a header. */
+static thr_status learn(csv *t, bool *used)
+{
+  bool nodes_open = t->c.kind == NODE_ROWS, fresh = t->c.kind == NO_ROWS;
+  *used = false;
+  if (t->c.kind == EDGE_ROWS) return THR_OK;
+  if (t->expected != EDGE_TABLE && (fresh || nodes_open) && coordinate_header(t)) {
+    *used = true;
+    if (t->c.kind == NODE_ROWS || (t->expected == ANY_TABLE && fresh)) return THR_OK;
+    return thr_scan_fail(&t->scan, t->err, "columns x1 to z2 make a table of their own; take them out of the table of nodes");
+  }
+  if ((fresh || nodes_open) && t->n_fields >= 2 && all_words(t)) {
+    if (t->expected == NODE_TABLE)
+      return thr_scan_fail(&t->scan, t->err, "the header names no columns x and y; name the columns id,x,y,z");
+    int a, b;
+    thr_status st = begin_edges(t);
+    if (!st) st = node_in(t, t->field[0], &a);
+    if (!st) st = node_in(t, t->field[1], &b);
+    if (st) return st;
+    *used = a < 0 && b < 0;
+    if (*used) edge_header(t);
+    return THR_OK;
+  }
+  if (fresh) return guess_columns(t);
+  if (nodes_open && t->expected == ANY_TABLE && t->n_fields == 2 && t->c.width > 2) return begin_edges(t);
+  return THR_OK;
+}
+
+static thr_status add_row(csv *t)
+{
+  if (!t->c.header && t->n_fields != t->c.width && !(t->expected == EDGE_TABLE && t->n_fields >= 2))
+    return thr_scan_fail(&t->scan, t->err, "%d fields where the rows before have %d; %s", t->n_fields, t->c.width,
+                         t->c.kind == EDGE_ROWS ? "nodes come before edges" : "complete the row or put a header before it");
+  switch (t->c.kind) {
+  case NODE_ROWS: return add_node(t);
+  case EDGE_ROWS: return add_edge(t);
+  default: return add_line(t);
+  }
+}
+
+/* Reads one table into t->d. An edge table without nodes is not read further than its first row. */
+static thr_status read_table(csv *t, const char *text, size_t n, const char *name, thr_csv_content *content)
+{
+  bool more = true, used;
+  *content = THR_CSV_WHOLE;
+  thr_status st = thr_scan_start(&t->scan, text, n, name, t->err);
+  while (!st && !(st = next_row(t, &more)) && more) {
+    if ((st = learn(t, &used))) break;
+    *content = t->c.kind == NODE_ROWS ? THR_CSV_NODES_ONLY : THR_CSV_WHOLE;
+    if (t->c.kind == EDGE_ROWS && t->d->n_nodes == 0) {
+      *content = THR_CSV_EDGES_ONLY;
+      break;
+    }
+    if (!used) st = add_row(t);
+  }
+  if (!st && t->c.kind == NO_ROWS) st = thr_scan_fail(&t->scan, t->err, "the table has no rows");
+  return st;
+}
+
+thr_status thr_csv_scan(thr_draft *d, const char *text, size_t n, const char *name, thr_csv_content *content, thr_err *err)
+{
+  csv t = {.expected = ANY_TABLE, .d = d, .err = err};
+  thr_status st = read_table(&t, text, n, name, content);
+  thr_names_destroy(&t.names);
+  thr_text_destroy(&t.scratch);
+  if (st) thr_draft_destroy(d);
+  return st;
+}
+
+thr_status thr_csv_parse(thr_draft *d, thr_read_report *r, const char *text, size_t n, const char *name, thr_err *err)
+{
+  thr_csv_content content;
+  (void)r; /* every row is used */
+  thr_status st = thr_csv_scan(d, text, n, name, &content, err);
+  if (st || content == THR_CSV_WHOLE) return st;
+  thr_draft_destroy(d);
+  return content == THR_CSV_NODES_ONLY
+             ? thr_fail(err, THR_EINPUT, "%s: nodes but no edges; add rows that name two nodes, or give the table of edges too",
+                        name)
+             : thr_fail(err, THR_EINPUT, "%s: edges but no columns x and y before them; give the table of nodes too", name);
+}
+
+thr_status thr_csv_parse_pair(thr_draft *draft, const thr_text *nodes, const char *nodes_name, const thr_text *edges,
+                              const char *edges_name, thr_err *err)
+{
+  thr_csv_content content;
+  csv n = {.expected = NODE_TABLE, .d = draft, .err = err}, e = {.expected = EDGE_TABLE, .d = draft, .err = err};
+  thr_status st = read_table(&n, nodes->data, nodes->length, nodes_name, &content);
+  if (!st && draft->n_nodes == 0) st = thr_fail(err, THR_EINPUT, "%s: no row with a node's coordinates", nodes_name);
+  if (!st) st = thr_names_build(&e.names, draft, nodes_name, err);
+  if (!st) st = read_table(&e, edges->data, edges->length, edges_name, &content);
+  thr_names_destroy(&n.names);
+  thr_names_destroy(&e.names);
+  thr_text_destroy(&n.scratch);
+  thr_text_destroy(&e.scratch);
+  if (st) thr_draft_destroy(draft);
+  return st;
+}

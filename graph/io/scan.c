@@ -1,0 +1,264 @@
+/* Lines, words and numbers of text formats; node names; sides of faces. */
+#include "graph/io/scan.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- lines ---- */
+
+thr_status thr_scan_start(thr_scan *s, const char *text, size_t n, const char *name, thr_err *err)
+{
+  *s = (thr_scan){name, text, text, 1, 1};
+  if (n == 0) return THR_OK; /* an empty file's text is NULL */
+  s->end += n;
+  const char *nul = memchr(s->at, '\0', n);
+  if (nul) {
+    for (const char *c = s->at; c < nul; c++)
+      s->line += *c == '\n';
+    return thr_scan_fail(s, err, "a NUL byte, so this is not plain text; save the file as UTF-8 text");
+  }
+  if (n >= 3 && memcmp(s->at, "\xef\xbb\xbf", 3) == 0) s->at += 3;
+  return THR_OK;
+}
+
+/* Moves past the line at s->at and returns its end. */
+static const char *skip_line(thr_scan *s)
+{
+  const char *c = s->at;
+  while (c < s->end && *c != '\n' && *c != '\r')
+    c++;
+  s->at = c;
+  if (s->at < s->end) s->at += *c == '\r' && c + 1 < s->end && c[1] == '\n' ? 2 : 1;
+  s->next++;
+  return c;
+}
+
+bool thr_scan_line(thr_scan *s, thr_span *line)
+{
+  if (s->at >= s->end) return false;
+  s->line = s->next;
+  line->s = s->at;
+  line->n = (size_t)(skip_line(s) - line->s);
+  return true;
+}
+
+bool thr_scan_extend(thr_scan *s, thr_span *line)
+{
+  if (s->at >= s->end) return false;
+  line->n = (size_t)(skip_line(s) - line->s);
+  return true;
+}
+
+thr_status thr_scan_fail(const thr_scan *s, thr_err *err, const char *format, ...)
+{
+  char what[400];
+  va_list args;
+  va_start(args, format);
+  vsnprintf(what, sizeof what, format, args);
+  va_end(args);
+  return thr_fail(err, THR_EINPUT, "%s:%d: %s", s->name, s->line, what);
+}
+
+/* ---- words and numbers ---- */
+
+thr_span thr_span_of(const char *s)
+{
+  return (thr_span){s, strlen(s)};
+}
+
+static bool is_blank(char c)
+{
+  return c == ' ' || c == '\t';
+}
+
+thr_span thr_span_trim(thr_span t)
+{
+  while (t.n && is_blank(t.s[0])) {
+    t.s++;
+    t.n--;
+  }
+  while (t.n && is_blank(t.s[t.n - 1]))
+    t.n--;
+  return t;
+}
+
+static char lower(char c)
+{
+  return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
+}
+
+bool thr_span_is(thr_span t, const char *word)
+{
+  size_t i = 0;
+  while (i < t.n && word[i] && lower(t.s[i]) == lower(word[i]))
+    i++;
+  return i == t.n && !word[i];
+}
+
+bool thr_span_starts(thr_span t, const char *start)
+{
+  size_t n = strlen(start);
+  return t.n >= n && memcmp(t.s, start, n) == 0;
+}
+
+int thr_span_width(thr_span t)
+{
+  return t.n < 40 ? (int)t.n : 40;
+}
+
+static bool is_digit(char c)
+{
+  return c >= '0' && c <= '9';
+}
+
+bool thr_span_number(thr_span t, bool decimal_comma, double *x)
+{
+  char copy[128]; /* strtod wants an end; no sane number is longer */
+  if (t.n == 0 || t.n >= sizeof copy) return false;
+  for (size_t i = 0; i < t.n; i++) {
+    char c = t.s[i];
+    bool comma = decimal_comma && c == ',' && i > 0 && i + 1 < t.n && is_digit(t.s[i - 1]) && is_digit(t.s[i + 1]);
+    if (!is_digit(c) && c != '+' && c != '-' && c != '.' && c != 'e' && c != 'E' && !comma) return false; /* inf, nan, hex */
+    copy[i] = comma ? '.' : c;
+  }
+  copy[t.n] = '\0';
+  char *end;
+  double value = strtod(copy, &end);
+  if (end == copy || *end || !isfinite(value)) return false;
+  *x = value == 0 ? 0 : value;
+  return true;
+}
+
+bool thr_span_int(thr_span t, int *x)
+{
+  bool negative = t.n && t.s[0] == '-';
+  size_t i = t.n && (t.s[0] == '-' || t.s[0] == '+') ? 1 : 0;
+  if (i == t.n) return false;
+  int64_t value = 0;
+  for (; i < t.n; i++) {
+    if (!is_digit(t.s[i])) return false;
+    value = 10 * value + (t.s[i] - '0');
+    if (value > INT_MAX) value = INT_MAX;
+  }
+  *x = (int)(negative ? -value : value);
+  return true;
+}
+
+/* ---- names ---- */
+
+static int by_name(const void *pa, const void *pb)
+{
+  const struct thr_named *a = pa, *b = pb;
+  int order = strcmp(a->name, b->name);
+  return order ? order : (a->node > b->node) - (a->node < b->node);
+}
+
+thr_status thr_names_build(thr_names *t, const thr_draft *d, const char *file, thr_err *err)
+{
+  struct thr_named *entry = thr_calloc((size_t)d->n_nodes, sizeof *entry);
+  if (!entry) return thr_nomem(err);
+  for (int v = 0; v < d->n_nodes; v++)
+    entry[v] = (struct thr_named){d->node[v].name, v};
+  qsort(entry, (size_t)d->n_nodes, sizeof *entry, by_name);
+  for (int i = 1; i < d->n_nodes; i++)
+    if (strcmp(entry[i - 1].name, entry[i].name) == 0) {
+      thr_status st =
+          thr_fail(err, THR_EINPUT, "%s: two nodes are called '%.40s' (number %d and number %d); give each its own name", file,
+                   entry[i].name, entry[i - 1].node + 1, entry[i].node + 1);
+      free(entry);
+      return st;
+    }
+  *t = (thr_names){d->n_nodes, entry};
+  return THR_OK;
+}
+
+int thr_names_find(const thr_names *t, thr_span name)
+{
+  int low = 0, high = t->n;
+  while (low < high) {
+    int middle = low + (high - low) / 2;
+    const char *here = t->entry[middle].name;
+    int order = strncmp(here, name.s, name.n);
+    if (order == 0 && here[name.n]) order = 1;
+    if (order == 0) return t->entry[middle].node;
+    if (order < 0)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return -1;
+}
+
+void thr_names_destroy(thr_names *t)
+{
+  free(t->entry);
+  *t = (thr_names){0};
+}
+
+/* ---- sides of faces ---- */
+
+thr_status thr_sides_add(thr_sides *t, const int *corner, int n, thr_err *err)
+{
+  for (int i = 0; i < (n > 2 ? n : n - 1); i++) {
+    thr_status st = thr_grow(&t->ends, t->n, &t->capacity, sizeof *t->ends, err);
+    if (st) return st;
+    t->ends[t->n][0] = corner[i];
+    t->ends[t->n++][1] = corner[(i + 1) % n];
+  }
+  return THR_OK;
+}
+
+typedef struct {
+  int low, high, index;
+} keyed_side;
+
+static int by_ends(const void *pa, const void *pb)
+{
+  const keyed_side *a = pa, *b = pb;
+  if (a->low != b->low) return a->low < b->low ? -1 : 1;
+  if (a->high != b->high) return a->high < b->high ? -1 : 1;
+  return (a->index > b->index) - (a->index < b->index);
+}
+
+thr_status thr_sides_finish(thr_sides *t, thr_draft *d, thr_err *err)
+{
+  thr_status st = THR_OK;
+  keyed_side *key = thr_calloc((size_t)t->n, sizeof *key);
+  bool *again = thr_calloc((size_t)t->n, sizeof *again);
+  if (!key || !again) {
+    st = thr_nomem(err);
+    goto done;
+  }
+  for (int i = 0; i < t->n; i++) {
+    int a = t->ends[i][0], b = t->ends[i][1];
+    key[i] = (keyed_side){a < b ? a : b, a < b ? b : a, i};
+  }
+  qsort(key, (size_t)t->n, sizeof *key, by_ends);
+  for (int i = 1; i < t->n; i++)
+    again[key[i].index] = key[i].low == key[i - 1].low && key[i].high == key[i - 1].high;
+  for (int i = 0; i < t->n && !st; i++)
+    if (!again[i]) st = thr_draft_add_edge(d, t->ends[i][0], t->ends[i][1], 0, err);
+done:
+  free(key);
+  free(again);
+  return st;
+}
+
+void thr_sides_destroy(thr_sides *t)
+{
+  free(t->ends);
+  *t = (thr_sides){0};
+}
+
+/* ---- draft and report ---- */
+
+void thr_report_skip(thr_read_report *r, thr_span keyword)
+{
+  if (r->skipped_records++) return;
+  snprintf(r->skipped_kind, sizeof r->skipped_kind, "%.*s", keyword.n < 31 ? (int)keyword.n : 31, keyword.s);
+  thr_text_clean(r->skipped_kind);
+}

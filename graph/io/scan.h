@@ -1,0 +1,73 @@
+/* Internal to the readers: lines, words and numbers of text formats, node names, sides shared by faces. */
+#ifndef THR_SCAN_H
+#define THR_SCAN_H
+
+#include "graph/io/read.h"
+
+/* Part of a text that somebody else owns; not NUL-terminated and without NUL bytes. */
+typedef struct {
+  const char *s;
+  size_t n;
+} thr_span;
+
+typedef struct {
+  const char *name;     /* of the text, for messages */
+  const char *at, *end; /* what is left */
+  int line, next;       /* number of the line given last, from 1, and of the one after it */
+} thr_scan;
+
+/* Starts at the text's first line, after a byte-order mark. THR_EINPUT if the text has NUL bytes. */
+thr_status thr_scan_start(thr_scan *s, const char *text, size_t n, const char *name, thr_err *err) THR_MUST_CHECK;
+/* Next line without its end (LF, CRLF or CR); false at the end of the text. */
+bool thr_scan_line(thr_scan *s, thr_span *line);
+/* Makes line longer by the line after it; s->line stays. False at the end of the text. */
+bool thr_scan_extend(thr_scan *s, thr_span *line);
+/* THR_EINPUT with "name:line: " before the text. */
+thr_status thr_scan_fail(const thr_scan *s, thr_err *err, const char *format, ...) THR_PRINTF(3, 4);
+
+thr_span thr_span_of(const char *s);
+thr_span thr_span_trim(thr_span t);                  /* without blanks at both ends */
+bool thr_span_is(thr_span t, const char *word);      /* equal but for ASCII case */
+bool thr_span_starts(thr_span t, const char *start); /* case counts */
+int thr_span_width(thr_span t);                      /* for "%.*s" in messages: at most 40 bytes */
+
+/* A decimal number that is finite; -0 becomes 0 (writers do not tell them apart). decimal_comma: "1,5" is 1.5. */
+bool thr_span_number(thr_span t, bool decimal_comma, double *x);
+/* A decimal integer; beyond int it saturates. */
+bool thr_span_int(thr_span t, int *x);
+
+/* Node numbers by name. {0} is valid and empty. Valid as long as the draft's nodes stay. */
+typedef struct {
+  int n;
+  struct thr_named {
+    const char *name;
+    int node;
+  } * entry; /* by name; owned */
+} thr_names;
+
+/* Every node of the draft needs a name; THR_EINPUT if two have the same. O(n log n). */
+thr_status thr_names_build(thr_names *t, const thr_draft *d, const char *file, thr_err *err) THR_MUST_CHECK;
+int thr_names_find(const thr_names *t, thr_span name); /* -1 if there is none. O(log n) */
+void thr_names_destroy(thr_names *t);
+
+/* Sides of faces: most belong to two faces, which is no oddity to report, so each goes to the draft once. */
+typedef struct {
+  int n, capacity;
+  int (*ends)[2]; /* owned */
+} thr_sides;
+
+/* Collects the sides of one polygon; two nodes make one side. */
+thr_status thr_sides_add(thr_sides *t, const int *corner, int n, thr_err *err) THR_MUST_CHECK;
+/* Appends each different side to the draft, in order of first appearance. O(n log n). */
+thr_status thr_sides_finish(thr_sides *t, thr_draft *d, thr_err *err) THR_MUST_CHECK;
+void thr_sides_destroy(thr_sides *t);
+
+/* Counts a record that is known or harmless but not used. */
+void thr_report_skip(thr_read_report *r, thr_span keyword);
+
+/* CSV with word of what the table lacks, so that the other half of a pair can be looked for. */
+typedef enum { THR_CSV_WHOLE, THR_CSV_NODES_ONLY, THR_CSV_EDGES_ONLY } thr_csv_content;
+thr_status thr_csv_scan(thr_draft *d, const char *text, size_t n, const char *name, thr_csv_content *content,
+                        thr_err *err) THR_MUST_CHECK;
+
+#endif

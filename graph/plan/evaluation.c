@@ -1,0 +1,314 @@
+/* The record of an evaluation: sums, colours, and its member of plan.json. */
+#include "graph/plan/evaluation.h"
+
+#include "graph/plan/plan.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const method_name[] = {"capstan", "joint", "structure"};
+static const char *const law_name[] = {"capstan", "mitre"};
+static const char *const pull_name[] = {"start", "end", "both"};
+
+const char *thr_method_name(thr_method m)
+{
+  return method_name[m];
+}
+
+const char *thr_law_name(thr_law l)
+{
+  return law_name[l];
+}
+
+const char *thr_pull_name(thr_pull p)
+{
+  return pull_name[p];
+}
+
+void thr_evaluation_sum(thr_evaluation *e)
+{
+  e->largest = e->total = 0;
+  for (int i = 0; i < e->n_cords; i++) {
+    e->largest = fmax(e->largest, e->cord[i].force);
+    e->total += e->cord[i].force + e->cord[i].other_force;
+  }
+}
+
+void thr_evaluation_destroy(thr_evaluation *e)
+{
+  for (int i = 0; i < e->n_cords; i++)
+    free(e->cord[i].tension);
+  free(e->cord);
+  *e = (thr_evaluation){0};
+}
+
+bool thr_evaluation_range(const thr_evaluation *e, double range[2])
+{
+  bool known = false;
+  range[0] = INFINITY;
+  range[1] = 0;
+  for (int i = 0; i < e->n_cords; i++)
+    for (int k = 0; e->cord[i].known && k < e->cord[i].n_passes; k++) {
+      known = true;
+      range[0] = fmin(range[0], e->cord[i].tension[k]);
+      range[1] = fmax(range[1], e->cord[i].tension[k]);
+    }
+  if (!known) range[0] = 0;
+  return known;
+}
+
+void thr_tension_colour(const double range[2], double tension, char hex[8])
+{
+  /* Equal steps in the Oklab space (B. Ottosson, 2020), lightness 0.87 to 0.28, yellow over red to violet: lightness alone tells
+   * the order, so that it is read without colour vision too. */
+  static const int stop[][3] = {{243, 211, 80}, {238, 176, 50}, {227, 142, 36}, {211, 110, 39}, {190, 79, 49},
+                                {165, 51, 57},  {138, 23, 62},  {106, 5, 64},   {75, 2, 58}};
+  enum { LAST = sizeof stop / sizeof *stop - 1 };
+  double span = log(range[1] / range[0]), at = span > 0 ? LAST * log(tension / range[0]) / span : 0;
+  at = isfinite(at) ? fmin(fmax(at, 0), LAST) : 0;
+  int i = at < LAST ? (int)at : LAST - 1, rgb[3];
+  for (int c = 0; c < 3; c++)
+    rgb[c] = (int)nearbyint(stop[i][c] + (at - i) * (stop[i + 1][c] - stop[i][c]));
+  snprintf(hex, 8, "#%02x%02x%02x", (unsigned)rgb[0] & 255, (unsigned)rgb[1] & 255, (unsigned)rgb[2] & 255);
+}
+
+/* ---- writing ---- */
+
+static void put_double(thr_text *t, const char *before, double value)
+{
+  thr_text_append(t, before);
+  thr_text_double(t, value);
+}
+
+static void put_cord(thr_text *t, const thr_eval_cord *c, int i, const double range[2])
+{
+  char id[12];
+  thr_cord_id(i, id);
+  thr_text_printf(t, "%s\n    {\"id\": \"%s\", \"known\": %s, \"pull\": \"%s\"", i ? "," : "", id, c->known ? "true" : "false",
+                  thr_pull_name(c->pull));
+  if (c->known) {
+    put_double(t, ", \"turning\": ", c->turning);
+    put_double(t, ", \"taut_turning\": ", c->taut_turning);
+    put_double(t, ",\n     \"force\": ", c->force);
+    put_double(t, ", \"other_force\": ", c->other_force);
+    put_double(t, ", \"loss\": ", c->loss);
+    put_double(t, ", \"work\": ", c->work);
+    put_double(t, ", \"error\": ", c->error);
+    thr_text_printf(t, ", \"slackest\": %d, \"refused\": %d,\n     \"tension\": [", c->slackest, c->refused);
+    for (int k = 0; k < c->n_passes; k++)
+      put_double(t, k ? "," : "", c->tension[k]);
+    thr_text_append(t, "],\n     \"colours\": [");
+    for (int k = 0; k < c->n_passes; k++) {
+      char hex[8];
+      thr_tension_colour(range, c->tension[k], hex);
+      thr_text_printf(t, "%s\"%s\"", k ? "," : "", hex);
+    }
+    thr_text_append(t, "]");
+  }
+  thr_text_append(t, "}");
+}
+
+void thr_evaluation_write(const thr_evaluation *e, thr_text *t)
+{
+  double range[2];
+  thr_evaluation_range(e, range);
+  thr_text_printf(t, "\"evaluation\": {\"method\": \"%s\"", thr_method_name(e->method));
+  if (e->method == THR_CAPSTAN) thr_text_printf(t, ", \"law\": \"%s\"", thr_law_name(e->law));
+  thr_text_append(t, ",\n  \"physics\": ");
+  thr_physics_write(&e->physics, t);
+  thr_text_printf(t, ",\n  \"seed\": %" PRIu64, e->seed);
+  put_double(t, ", \"time_step\": ", e->time_step);
+  put_double(t, ", \"iterations\": ", e->iterations);
+  put_double(t, ", \"largest\": ", e->largest);
+  put_double(t, ", \"total\": ", e->total);
+  put_double(t, ",\n  \"scale\": {\"low\": ", range[0]);
+  put_double(t, ", \"high\": ", range[1]);
+  thr_text_append(t, "},\n  \"cords\": [");
+  for (int i = 0; i < e->n_cords; i++)
+    put_cord(t, &e->cord[i], i, range);
+  thr_text_append(t, "\n  ]},\n");
+}
+
+/* ---- reading: every failure is "place.member: what" ---- */
+
+typedef struct {
+  const char *place;
+  thr_err *err;
+} reader;
+
+static thr_status bad(const reader *r, const char *key, const char *what)
+{
+  return thr_fail(r->err, THR_EVIOLATED, "%s.%s: %s", r->place, key, what);
+}
+
+/* known ends with NULL. */
+static thr_status only_members(const reader *r, const thr_json *o, const char *const *known)
+{
+  const char *key = thr_json_unknown(o, known);
+  return key ? bad(r, key, "this version does not know it and cannot check it") : THR_OK;
+}
+
+static thr_status get_double(const reader *r, const thr_json *o, const char *key, double *out)
+{
+  return thr_json_number(thr_json_get(o, key), out) ? THR_OK : bad(r, key, "missing or not a finite number");
+}
+
+static thr_status get_int(const reader *r, const thr_json *o, const char *key, int64_t high, int64_t *out)
+{
+  if (thr_json_int(thr_json_get(o, key), out) && *out >= 0 && *out <= high) return THR_OK;
+  return thr_fail(r->err, THR_EVIOLATED, "%s.%s: missing or not an integer from 0 to %" PRId64, r->place, key, high);
+}
+
+static thr_status get_word(const reader *r, const thr_json *o, const char *key, const char *const *word, int n, int *out)
+{
+  const char *value = thr_json_string(thr_json_get(o, key));
+  for (*out = 0; value && *out < n; ++*out)
+    if (strcmp(value, word[*out]) == 0) return THR_OK;
+  *out = 0;
+  return bad(r, key, value ? "an unknown word" : "missing or not text");
+}
+
+/* A colour may differ by one step of 255: the logarithm is not the same to the last bit everywhere. */
+static bool same_colour(const char *a, const char *b)
+{
+  unsigned x[3], y[3];
+  if (!a || strlen(a) != 7 || a[strspn(a, "#0123456789abcdef")]) return false;
+  if (sscanf(a, "#%2x%2x%2x", &x[0], &x[1], &x[2]) != 3 || sscanf(b, "#%2x%2x%2x", &y[0], &y[1], &y[2]) != 3) return false;
+  for (int i = 0; i < 3; i++)
+    if (x[i] > y[i] + 1 || y[i] > x[i] + 1) return false;
+  return true;
+}
+
+static thr_status read_tension(const reader *r, const thr_json *o, thr_eval_cord *c)
+{
+  const thr_json *list = thr_json_get(o, "tension"), *colours = thr_json_get(o, "colours");
+  int n = thr_json_size(list);
+  if (thr_json_typeof(list) != THR_JSON_ARRAY || n < 1) return bad(r, "tension", "missing or empty");
+  if (thr_json_typeof(colours) != THR_JSON_ARRAY || thr_json_size(colours) != n) return bad(r, "colours", "not one per tension");
+  if (!(c->tension = thr_calloc((size_t)n, sizeof *c->tension))) return thr_nomem(r->err);
+  c->n_passes = n;
+  for (int k = 0; k < n; k++)
+    if (!thr_json_number(thr_json_at(list, k), &c->tension[k]) || !(c->tension[k] >= 0))
+      return thr_fail(r->err, THR_EVIOLATED, "%s.tension[%d]: not a number from 0 on", r->place, k);
+  return THR_OK;
+}
+
+static thr_status read_cord(const reader *r, const thr_json *o, int i, thr_eval_cord *c)
+{
+  static const char *const all[] = {"id",   "known", "pull",     "turning", "taut_turning", "force",   "other_force", "loss",
+                                    "work", "error", "slackest", "refused", "tension",      "colours", NULL};
+  static const char *const unknown[] = {"id", "known", "pull", NULL};
+  char name[12];
+  thr_cord_id(i, name);
+  const char *id = thr_json_string(thr_json_get(o, "id"));
+  const thr_json *known = thr_json_get(o, "known");
+  int pull;
+  int64_t slackest = 0, refused = 0;
+  if (!id || strcmp(id, name) != 0) return bad(r, "id", "not the plan's cord with this number");
+  if (thr_json_typeof(known) != THR_JSON_BOOL) return bad(r, "known", "missing; expected true or false");
+  c->known = thr_json_true(known);
+  thr_status st = only_members(r, o, c->known ? all : unknown);
+  if (!st) st = get_word(r, o, "pull", pull_name, THR_N_PULLS, &pull);
+  if (st) return st;
+  c->pull = (thr_pull)pull;
+  if (!c->known) return THR_OK;
+  const struct {
+    const char *key;
+    double *to;
+  } number[] = {{"turning", &c->turning}, {"taut_turning", &c->taut_turning},
+                {"force", &c->force},     {"other_force", &c->other_force},
+                {"loss", &c->loss},       {"work", &c->work},
+                {"error", &c->error}};
+  for (size_t k = 0; k < sizeof number / sizeof *number && !st; k++)
+    st = get_double(r, o, number[k].key, number[k].to);
+  if (!st) st = read_tension(r, o, c);
+  if (!st) st = get_int(r, o, "slackest", c->n_passes - 1, &slackest);
+  if (!st) st = get_int(r, o, "refused", c->n_passes - 1, &refused);
+  c->slackest = (int)slackest;
+  c->refused = (int)refused;
+  return st;
+}
+
+static thr_status read_cords(const reader *r, const thr_json *o, thr_evaluation *e)
+{
+  const thr_json *list = thr_json_get(o, "cords");
+  int n = thr_json_size(list);
+  if (thr_json_typeof(list) != THR_JSON_ARRAY || n < 1) return bad(r, "cords", "missing or empty");
+  if (!(e->cord = thr_calloc((size_t)n, sizeof *e->cord))) return thr_nomem(r->err);
+  e->n_cords = n;
+  for (int i = 0; i < n; i++) {
+    char place[256];
+    snprintf(place, sizeof place, "%.200s.cords[%d]", r->place, i);
+    thr_status st = read_cord(&(reader){place, r->err}, thr_json_at(list, i), i, &e->cord[i]);
+    if (st) return st;
+  }
+  return THR_OK;
+}
+
+/* Scale and colours are no members of the record: they must follow from the tensions. */
+static thr_status check_colours(const reader *r, const thr_json *o, const thr_evaluation *e)
+{
+  static const char *const known[] = {"low", "high", NULL};
+  double range[2], stated[2];
+  const thr_json *scale = thr_json_get(o, "scale"), *cords = thr_json_get(o, "cords");
+  thr_status st = only_members(r, scale, known);
+  if (!st) st = get_double(r, scale, "low", &stated[0]);
+  if (!st) st = get_double(r, scale, "high", &stated[1]);
+  if (st) return st;
+  thr_evaluation_range(e, range);
+  if (stated[0] != range[0] || stated[1] != range[1]) return bad(r, "scale", "not the least and largest tension");
+  for (int i = 0; i < e->n_cords; i++) {
+    const thr_json *colours = thr_json_get(thr_json_at(cords, i), "colours");
+    for (int k = 0; e->cord[i].known && k < e->cord[i].n_passes; k++) {
+      char hex[8];
+      thr_tension_colour(range, e->cord[i].tension[k], hex);
+      if (!same_colour(thr_json_string(thr_json_at(colours, k)), hex))
+        return thr_fail(r->err, THR_EVIOLATED, "%s.cords[%d].colours[%d]: expected %s for this tension", r->place, i, k, hex);
+    }
+  }
+  return THR_OK;
+}
+
+static thr_status read_members(const reader *r, const thr_json *o, thr_evaluation *e)
+{
+  static const char *const known[] = {"method",  "law",   "physics", "seed",  "time_step", "iterations",
+                                      "largest", "total", "scale",   "cords", NULL};
+  char place[256];
+  int method = 0, law = 0;
+  int64_t seed = 0;
+  thr_err found = {0};
+  thr_status st = only_members(r, o, known);
+  if (!st) st = get_word(r, o, "method", method_name, THR_N_METHODS, &method);
+  if (st) return st;
+  if (method == THR_CAPSTAN)
+    st = get_word(r, o, "law", law_name, THR_N_LAWS, &law);
+  else if (thr_json_get(o, "law"))
+    st = bad(r, "law", "only the method capstan goes by a law");
+  if (st) return st;
+  *e = (thr_evaluation){.present = true, .method = (thr_method)method, .law = (thr_law)law, .physics = thr_physics_default()};
+  snprintf(place, sizeof place, "%.200s.physics", r->place);
+  if (thr_physics_from_json(&e->physics, thr_json_get(o, "physics"), place, &found))
+    return thr_fail(r->err, THR_EVIOLATED, "%s", found.text);
+  if ((st = get_int(r, o, "seed", INT64_C(1) << 53, &seed))) return st;
+  e->seed = (uint64_t)seed;
+  if ((st = get_double(r, o, "time_step", &e->time_step))) return st;
+  if ((st = get_double(r, o, "iterations", &e->iterations))) return st;
+  if ((st = get_double(r, o, "largest", &e->largest))) return st;
+  if ((st = get_double(r, o, "total", &e->total))) return st;
+  if ((st = read_cords(r, o, e))) return st;
+  return check_colours(r, o, e);
+}
+
+thr_status thr_evaluation_from_json(thr_evaluation *e, const thr_json *object, const char *place, thr_err *err)
+{
+  thr_evaluation read = {0};
+  const reader r = {place, err};
+  thr_status st = thr_json_typeof(object) == THR_JSON_OBJECT ? read_members(&r, object, &read)
+                                                             : thr_fail(err, THR_EVIOLATED, "%s: not an object", place);
+  if (st) thr_evaluation_destroy(&read);
+  *e = read;
+  return st;
+}

@@ -1,0 +1,69 @@
+/* What `thread eval` found out about a plan, in the form that is kept in plan.json: the eval methods fill it, drawings show it,
+ * the checker verifies that it is consistent with the plan. */
+#ifndef THR_EVALUATION_H
+#define THR_EVALUATION_H
+
+#include "graph/plan/physics.h"
+
+typedef enum { THR_CAPSTAN, THR_JOINT, THR_STRUCTURE, THR_N_METHODS } thr_method;
+typedef enum {
+  THR_LAW_CAPSTAN, /* T_out = T_in exp(mu theta) */
+  THR_LAW_MITRE,   /* thesis, Fig. 13: a mitred bead takes mu T_out sin(theta / 2) off the tension */
+  THR_N_LAWS
+} thr_law;
+typedef enum { THR_PULL_START, THR_PULL_END, THR_PULL_BOTH, THR_N_PULLS } thr_pull;
+
+typedef struct {
+  bool known;          /* false: stopped before all of this cord's joints were measured; the rest is then 0 and tension NULL */
+  thr_pull pull;       /* which end(s) are pulled */
+  int n_passes;        /* of the cord */
+  double turning;      /* rad, nominal: through the bead centres; without a closed cord's closing turn */
+  double taut_turning; /* rad, of the path that the tight cord takes in its bores; capstan and structure: = turning */
+  double force;        /* N at the pulled end; with both ends pulled, at the one that needs more */
+  double other_force;  /* N at the other end with both pulled, else 0 */
+  double loss;         /* friction loss 1 - tension[slackest] / force */
+  double work;         /* J per metre of cord drawn out at every pulled end: force (+ other_force) x 1 m */
+  double error;        /* the force is right within a factor exp(+-error) but for what refused turns add; 0 for closed forms */
+  int slackest;        /* pass with the least tension, counted from 0 */
+  int refused;         /* turns not measured (too sharp, out of range, unsteady): the closed form stands in for them */
+  double *tension;     /* [n_passes] N; owned */
+} thr_eval_cord;
+
+typedef struct {
+  bool present;
+  thr_method method;
+  thr_law law;                  /* of method capstan */
+  thr_physics physics;          /* resolved */
+  uint64_t seed;                /* of a simulation's small initial disorder */
+  double time_step, iterations; /* factors on the validated protocol's */
+  int n_cords;                  /* = the plan's */
+  thr_eval_cord *cord;          /* owned */
+  double largest;               /* N: largest force at any pulled end */
+  double total;                 /* N: sum over all pulled ends */
+} thr_evaluation;
+
+const char *thr_method_name(thr_method m); /* "capstan", "joint", "structure" */
+const char *thr_law_name(thr_law l);       /* "capstan", "mitre" */
+const char *thr_pull_name(thr_pull p);     /* "start", "end", "both" */
+
+/* Largest and total from the cords; those that are not known count as 0. */
+void thr_evaluation_sum(thr_evaluation *e);
+void thr_evaluation_destroy(thr_evaluation *e);
+
+/* Least and largest tension of any pass, N; false, and both 0, if no cord is known. */
+bool thr_evaluation_range(const thr_evaluation *e, double range[2]);
+
+/* Colour of a tension: a perceptually even, colour-blind safe ramp over the logarithm of range, pale = slack, dark = tight.
+ * Out of range: the nearer end; a range of one value: pale. "#rrggbb". O(1). */
+void thr_tension_colour(const double range[2], double tension, char hex[8]);
+
+/* The member "evaluation" of plan.json, written after "metrics". */
+void thr_evaluation_write(const thr_evaluation *e, thr_text *t);
+/* Reads it with its shape checked: known members only, one record per cord with its id, finite numbers, tensions of 0 or more,
+ * one colour per tension, scale and colours as they follow from the tensions. place names file and member for messages;
+ * THR_EVIOLATED. n_passes is that of the tension list, 0 for a cord that is not known: the reader of the plan compares and fills
+ * it in. thr_check_plan verifies the rest: forces, losses, slackest pass and sums from the tensions, no fall towards a pulled
+ * end, turning and (method capstan) every tension from the cords. Release with thr_evaluation_destroy. O(passes). */
+thr_status thr_evaluation_from_json(thr_evaluation *e, const thr_json *object, const char *place, thr_err *err) THR_MUST_CHECK;
+
+#endif

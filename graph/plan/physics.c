@@ -1,0 +1,327 @@
+/* Physical quantities: one table of fields, presets, JSON, and what follows from the framework. */
+#include "graph/plan/physics.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MU, MU_LOW, MU_HIGH, MU_BEAD, MU_GROUND, CORD_DIAMETER, BORE, BEAD_DIAMETER, DENSITY, BEAD_MASS, SEATING, GRAVITY };
+
+#define FIELD(name) #name, offsetof(thr_physics, name)
+const thr_physics_field thr_physics_fields[] = {
+    [MU] = {FIELD(mu), 0, 2, false, "", "friction coefficient, cord on bead"},
+    [MU_LOW] = {FIELD(mu_low), 0, 2, false, "", "lower end of the band of mu (0: half of mu)"},
+    [MU_HIGH] = {FIELD(mu_high), 0, 3, false, "", "upper end of the band of mu (0: one and a half mu)"},
+    [MU_BEAD] = {FIELD(mu_bead), 0, 2, false, "", "friction coefficient, bead on bead"},
+    [MU_GROUND] = {FIELD(mu_ground), 0, 2, false, "", "friction coefficient, foot on ground"},
+    [CORD_DIAMETER] = {FIELD(cord_diameter), 0, 1e9, false, "mm",
+                       "thickness of the cord (0: 1/20 of the median edge, at most 1/4 of the shortest)"},
+    [BORE] = {FIELD(bore), 0, 1e9, false, "mm", "inner diameter of the channels (0: twice the cord)"},
+    [BEAD_DIAMETER] = {FIELD(bead_diameter), 0, 1e9, false, "mm",
+                       "width of a bead's arm (0: 0.35 of the median edge, at least 1.5 bores)"},
+    [DENSITY] = {FIELD(density), 0, 25, false, "g/cm3", "density of the beads' material"},
+    [BEAD_MASS] = {FIELD(bead_mass), 0, 1e9, false, "g", "mass of every bead (0: density x volume)"},
+    [SEATING] = {FIELD(seating), 0, 1e9, true, "N", "tension that must reach the slackest point of every cord"},
+    [GRAVITY] = {FIELD(gravity), 0, 1000, false, "m/s2", "gravity"},
+};
+const int thr_physics_n_fields = (int)(sizeof thr_physics_fields / sizeof *thr_physics_fields);
+
+#define COMMON .seating = 1, .gravity = 9.80665
+const thr_physics_preset thr_physics_presets[] = {
+    {"pla-cotton",
+     "Printed PLA beads, cotton cord. Density 1.24 g/cm3: usual in makers' data sheets. mu: estimate, no "
+     "measurement of cotton on PLA found; the band is wide (polyester yarn on its own package: 0.23 to 0.48, "
+     "Textile Research Journal 70, 2000). mu_bead, mu_ground: estimates.",
+     {.preset = "pla-cotton",
+      .mu = 0.25,
+      .mu_low = 0.15,
+      .mu_high = 0.45,
+      .mu_bead = 0.3,
+      .mu_ground = 0.3,
+      .density = 1.24,
+      COMMON}},
+    {"eps-nylon",
+     "Expanded polystyrene blocks, nylon cord. Density 0.02 g/cm3: blocks of 0.015 to 0.035 are usual (Khan and "
+     "Meguid, Int. J. of Geosynthetics and Ground Engineering 4, 2018). mu_bead 0.5: moulded or wire-cut EPS on "
+     "EPS (technical note \"Friction\" of the EPS geofoam industry, undated). mu: estimate, no measurement found, "
+     "the band is wide. mu_ground: estimate.",
+     {.preset = "eps-nylon",
+      .mu = 0.3,
+      .mu_low = 0.15,
+      .mu_high = 0.5,
+      .mu_bead = 0.5,
+      .mu_ground = 0.5,
+      .density = 0.02,
+      COMMON}},
+    {"wood-paracord",
+     "Pine beads, paracord 550. mu 0.28 to 0.31: one hobby measurement on a pine roller by the capstan formula "
+     "(\"Measurement of the coefficient of friction for the capstan equation\", forum of the International Guild "
+     "of Knot Tyers, 2021); the band is wider, an estimate for other woods. Diameter 4 mm: 5/32 inch, common for "
+     "type III. mu_bead 0.24: Scots pine, end grain on end grain, static (0.12 along the grain: Aira and others, "
+     "Materiales de Construccion 64, 2014). mu_ground, density: estimates.",
+     {.preset = "wood-paracord",
+      .mu = 0.3,
+      .mu_low = 0.2,
+      .mu_high = 0.4,
+      .mu_bead = 0.24,
+      .mu_ground = 0.3,
+      .cord_diameter = 4,
+      .density = 0.5,
+      COMMON}},
+};
+const int thr_physics_n_presets = (int)(sizeof thr_physics_presets / sizeof *thr_physics_presets);
+
+thr_physics thr_physics_default(void)
+{
+  return (thr_physics){.mu = 0.2, .mu_bead = 0.25, .mu_ground = 0.25, .density = 1.24, COMMON};
+}
+
+/* ---- by name ---- */
+
+static bool same_key(const char *key, const char *given)
+{
+  for (; *key && *given; key++, given++)
+    if (*key != *given && !(*key == '_' && *given == '-')) return false;
+  return *key == *given;
+}
+
+const thr_physics_field *thr_physics_find(const char *key)
+{
+  for (int i = 0; i < thr_physics_n_fields; i++)
+    if (same_key(thr_physics_fields[i].key, key)) return &thr_physics_fields[i];
+  return NULL;
+}
+
+double thr_physics_get(const thr_physics *p, const thr_physics_field *field)
+{
+  double value;
+  memcpy(&value, (const char *)p + field->offset, sizeof value);
+  return value;
+}
+
+static const thr_physics_preset *find_preset(const char *name)
+{
+  for (int i = 0; i < thr_physics_n_presets; i++)
+    if (strcmp(thr_physics_presets[i].name, name) == 0) return &thr_physics_presets[i];
+  return NULL;
+}
+
+/* A preset's band is about the preset's cord and bead, not about a mu that somebody measured. */
+static void drop_preset_band(thr_physics *p)
+{
+  const thr_physics_preset *from = find_preset(p->preset);
+  if (!from || p->mu_low != from->physics.mu_low || p->mu_high != from->physics.mu_high) return;
+  p->mu_low = p->mu_high = 0;
+}
+
+/* "expected 0 to 2", "expected more than 0 N, up to 1e+09 N". */
+static void describe_range(const thr_physics_field *field, char *text, size_t n)
+{
+  const char *space = *field->unit ? " " : "";
+  if (field->positive)
+    snprintf(text, n, "expected more than %g%s%s, up to %g%s%s", field->low, space, field->unit, field->high, space, field->unit);
+  else
+    snprintf(text, n, "expected %g to %g%s%s", field->low, field->high, space, field->unit);
+}
+
+thr_status thr_physics_set(thr_physics *p, const thr_physics_field *field, double value, thr_err *err)
+{
+  if (!(value >= field->low && value <= field->high) || (field->positive && !(value > 0))) {
+    char range[96];
+    describe_range(field, range, sizeof range);
+    return thr_fail(err, THR_EINPUT, "%s: %g is out of range; %s", field->key, value, range);
+  }
+  if (field == &thr_physics_fields[MU] && value != p->mu) drop_preset_band(p);
+  memcpy((char *)p + field->offset, &value, sizeof value);
+  return THR_OK;
+}
+
+thr_status thr_physics_set_preset(thr_physics *p, const char *name, thr_err *err)
+{
+  const thr_physics_preset *preset = find_preset(name);
+  if (preset) {
+    *p = preset->physics;
+    return THR_OK;
+  }
+  char known[160] = "";
+  for (int i = 0; i < thr_physics_n_presets; i++) {
+    size_t n = strlen(known);
+    snprintf(known + n, sizeof known - n, "%s%s", i ? ", " : "", thr_physics_presets[i].name);
+  }
+  return thr_fail(err, THR_EINPUT, "preset: there is none called %.60s; expected one of %s", name, known);
+}
+
+/* ---- JSON ---- */
+
+static thr_status only_fields(const thr_json *object, thr_err *err)
+{
+  void *iter = NULL;
+  const char *key;
+  const thr_json *value;
+  while (thr_json_next(object, &iter, &key, &value)) {
+    bool text = strcmp(key, "preset") == 0 || strcmp(key, "note") == 0;
+    const thr_physics_field *field = thr_physics_find(key);
+    if (!text && field && strcmp(field->key, key) != 0)
+      return thr_fail(err, THR_EINPUT, "%.60s: no such quantity; did you mean %s?", key, field->key);
+    if (!text && !field)
+      return thr_fail(err, THR_EINPUT, "%.60s: no such quantity; `thread eval --help` lists them (here with _ for -)", key);
+    if (text && !thr_json_string(value)) return thr_fail(err, THR_EINPUT, "%s: not text", key);
+  }
+  return THR_OK;
+}
+
+static thr_status set_from_json(thr_physics *p, const thr_json *object, thr_err *err)
+{
+  if (thr_json_typeof(object) != THR_JSON_OBJECT) return thr_fail(err, THR_EINPUT, "not an object; expected {\"mu\": 0.2, ..}");
+  thr_status st = only_fields(object, err);
+  const char *preset = thr_json_string(thr_json_get(object, "preset"));
+  if (!st && preset) st = thr_physics_set_preset(p, preset, err);
+  for (int i = 0; i < thr_physics_n_fields && !st; i++) {
+    const thr_physics_field *field = &thr_physics_fields[i];
+    const thr_json *v = thr_json_get(object, field->key);
+    double value;
+    char range[96];
+    if (!v) continue;
+    describe_range(field, range, sizeof range);
+    st = thr_json_number(v, &value) ? thr_physics_set(p, field, value, err)
+                                    : thr_fail(err, THR_EINPUT, "%s: not a finite number; %s", field->key, range);
+  }
+  return st;
+}
+
+thr_status thr_physics_from_json(thr_physics *p, const thr_json *object, const char *place, thr_err *err)
+{
+  thr_physics read = *p;
+  thr_err found = {0};
+  thr_status st = set_from_json(&read, object, &found);
+  if (st) return thr_fail(err, st, "%s: %s", place, found.text);
+  *p = read;
+  return THR_OK;
+}
+
+thr_status thr_physics_read(thr_physics *p, const char *path, thr_err *err)
+{
+  thr_text text = {0};
+  thr_json *doc = NULL;
+  const char *name = strcmp(path, "-") == 0 ? "stdin" : path;
+  thr_status st = thr_text_read(&text, path, err);
+  if (!st) st = thr_json_parse(&doc, text.data, text.length, name, err);
+  if (!st) st = thr_physics_from_json(p, doc, name, err);
+  thr_json_destroy(doc);
+  thr_text_destroy(&text);
+  return st;
+}
+
+void thr_physics_write(const thr_physics *p, thr_text *t)
+{
+  thr_text_append(t, "{");
+  if (*p->preset) {
+    thr_text_append(t, "\"preset\": ");
+    thr_text_json_string(t, p->preset);
+    thr_text_append(t, ", ");
+  }
+  for (int i = 0; i < thr_physics_n_fields; i++) {
+    thr_text_printf(t, "%s\"%s\": ", i ? ", " : "", thr_physics_fields[i].key);
+    thr_text_double(t, thr_physics_get(p, &thr_physics_fields[i]));
+  }
+  thr_text_append(t, "}");
+}
+
+/* ---- against a framework ---- */
+
+static int by_value(const void *a, const void *b)
+{
+  double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+typedef struct {
+  double median, shortest; /* mm */
+  int shortest_edge;
+} edges;
+
+static thr_status measure_edges(const thr_frame *f, double mm, edges *out, thr_err *err)
+{
+  double *length = thr_calloc((size_t)f->n_edges, sizeof *length);
+  if (!length) return thr_nomem(err);
+  *out = (edges){.shortest = INFINITY};
+  for (int e = 0; e < f->n_edges; e++) {
+    const double *a = f->xyz[f->edge[e][0]], *b = f->xyz[f->edge[e][1]];
+    length[e] = mm * hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
+    if (length[e] < out->shortest) *out = (edges){.shortest = length[e], .shortest_edge = e};
+  }
+  qsort(length, (size_t)f->n_edges, sizeof *length, by_value);
+  out->median = length[f->n_edges / 2];
+  free(length);
+  if (out->shortest >= 1e-6 && out->median <= 1e8) return THR_OK;
+  return thr_fail(err, THR_EINPUT, "edges from %g mm, half of them over %g mm, are no beads' size; set the units with --units",
+                  out->shortest, out->median);
+}
+
+/* Nine decimals: half of 0.2 and one and a half times 0.2 print as 0.1 and 0.3. */
+static double rounded(double mu)
+{
+  return nearbyint(mu * 1e9) / 1e9;
+}
+
+static void fill_in(thr_physics *p, const edges *e)
+{
+  if (p->mu_low == 0) p->mu_low = fmin(p->mu, rounded(p->mu / 2));
+  if (p->mu_high == 0) p->mu_high = fmax(p->mu, rounded(1.5 * p->mu));
+  if (p->cord_diameter == 0) p->cord_diameter = fmin(e->median / 20, e->shortest / 4);
+  if (p->bore == 0) p->bore = 2 * p->cord_diameter;
+  if (p->bead_diameter == 0) p->bead_diameter = fmax(0.35 * e->median, 1.5 * p->bore);
+}
+
+static thr_status check_sizes(const thr_physics *p, const thr_frame *f, const edges *e, thr_err *err)
+{
+  if (!(p->bore > p->cord_diameter))
+    return thr_fail(err, THR_EINPUT, "bore: a cord of %g mm does not fit into %g mm; raise --bore or lower --cord-diameter",
+                    p->cord_diameter, p->bore);
+  if (!(p->bead_diameter > p->bore))
+    return thr_fail(err, THR_EINPUT, "bead_diameter: %g mm leaves no wall round a bore of %g mm; raise it or lower --bore",
+                    p->bead_diameter, p->bore);
+  if (!(e->shortest > p->bore)) {
+    const int *end = f->edge[e->shortest_edge];
+    return thr_fail(err, THR_EINPUT,
+                    "edge %d (nodes %.40s and %.40s) is %g mm long, shorter than the bore of %g mm; set the framework's --units, "
+                    "or lower --bore or --cord-diameter",
+                    e->shortest_edge, f->name[end[0]], f->name[end[1]], e->shortest, p->bore);
+  }
+  return THR_OK;
+}
+
+static thr_status check_values(const thr_physics *p, thr_err *err)
+{
+  thr_physics copy = *p;
+  for (int i = 0; i < thr_physics_n_fields; i++) {
+    thr_status st = thr_physics_set(&copy, &thr_physics_fields[i], thr_physics_get(p, &thr_physics_fields[i]), err);
+    if (st) return st;
+  }
+  if (p->density == 0 && p->bead_mass == 0)
+    return thr_fail(err, THR_EINPUT, "density: beads without mass; set --density or --bead-mass");
+  return THR_OK;
+}
+
+thr_status thr_physics_resolve(const thr_physics *p, const thr_frame *f, thr_physics *out, thr_err *err)
+{
+  thr_physics r = *p;
+  edges e;
+  double mm;
+  *out = (thr_physics){0};
+  thr_status st = check_values(p, err);
+  bool sized = p->cord_diameter > 0 || p->bore > 0 || p->bead_diameter > 0;
+  thr_status known = thr_units_in_mm(f->units, &mm, !st && sized ? err : NULL);
+  if (!st && sized) st = known;
+  if (!st) st = measure_edges(f, known ? 1 : mm, &e, err);
+  if (st) return st;
+  fill_in(&r, &e);
+  if ((st = check_sizes(&r, f, &e, err))) return st;
+  if (!(r.mu_low <= r.mu && r.mu <= r.mu_high))
+    return thr_fail(err, THR_EINPUT, "mu_low: the band %g to %g does not hold mu = %g; set --mu-low and --mu-high", r.mu_low,
+                    r.mu_high, r.mu);
+  *out = r;
+  return THR_OK;
+}

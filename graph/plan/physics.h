@@ -1,0 +1,73 @@
+/* What the simulation is told about cord and beads: friction, sizes, weights. One table (thr_physics_fields) drives the
+ * command line, the config file and plan.json, so that a quantity is named, bounded and explained once. */
+#ifndef THR_PHYSICS_H
+#define THR_PHYSICS_H
+
+#include "graph/framework/frame.h"
+#include "graph/io/json.h"
+#include "graph/framework/units.h"
+
+/* Lengths in mm whatever the framework's units. 0 where it says so means "work it out": thr_physics_resolve. */
+typedef struct {
+  char preset[24];      /* name of the preset this began with, "" = none */
+  double mu;            /* friction cord on bead */
+  double mu_low;        /* honest band of mu: the sensitivity of every force is shown between them; 0 = half of mu */
+  double mu_high;       /* 0 = one and a half mu */
+  double mu_bead;       /* friction bead on bead */
+  double mu_ground;     /* friction foot on ground */
+  double cord_diameter; /* mm; 0 = a twentieth of the median edge, but at most a quarter of the shortest */
+  double bore;          /* mm, inner diameter of the channels; 0 = twice the cord */
+  double bead_diameter; /* mm, outer width of a bead's arm; 0 = the larger of 0.35 median edge and 1.5 bores */
+  double density;       /* g/cm3 of the bead's material */
+  double bead_mass;     /* g per bead; 0 = density x volume */
+  double seating;       /* N: tension that must reach the slackest point of every cord */
+  double gravity;       /* m/s2, along -z */
+} thr_physics;
+
+typedef struct {
+  const char *key;  /* in JSON: "cord_diameter"; the option is the same with dashes */
+  size_t offset;    /* of the double in thr_physics */
+  double low, high; /* accepted, both inclusive unless positive */
+  bool positive;    /* 0 itself is refused */
+  const char *unit; /* "mm", "" */
+  const char *help; /* one line for --help and the docs */
+} thr_physics_field;
+
+extern const thr_physics_field thr_physics_fields[];
+extern const int thr_physics_n_fields;
+
+/* A named set of values with where each comes from. */
+typedef struct {
+  const char *name;   /* "pla-cotton", "eps-nylon", "wood-paracord" */
+  const char *source; /* a sentence per value that was found, and which are estimates */
+  thr_physics physics;
+} thr_physics_preset;
+
+extern const thr_physics_preset thr_physics_presets[];
+extern const int thr_physics_n_presets;
+
+thr_physics thr_physics_default(void);
+
+/* Field by key ("cord_diameter" or "cord-diameter"), or NULL. */
+const thr_physics_field *thr_physics_find(const char *key);
+double thr_physics_get(const thr_physics *p, const thr_physics_field *field);
+/* THR_EINPUT if out of the field's range or not finite: names the field, the value and what is accepted. A new mu drops the band
+ * that came with a preset; a band that was set stays. */
+thr_status thr_physics_set(thr_physics *p, const thr_physics_field *field, double value, thr_err *err) THR_MUST_CHECK;
+thr_status thr_physics_set_preset(thr_physics *p, const char *name, thr_err *err) THR_MUST_CHECK;
+
+/* Reads an object {"preset": .., "mu": .., "note": ".."}: unknown members are errors. The preset counts first, then mu. place is
+ * the file's name and what in it is read, for messages. On failure p is unchanged. */
+thr_status thr_physics_from_json(thr_physics *p, const thr_json *object, const char *place, thr_err *err) THR_MUST_CHECK;
+/* A file that holds one such object. */
+thr_status thr_physics_read(thr_physics *p, const char *path, thr_err *err) THR_MUST_CHECK;
+/* The object, on one line. */
+void thr_physics_write(const thr_physics *p, thr_text *t);
+
+/* Fills in what is 0 = "work it out" and checks that the parts fit: bore > cord, bead > bore, shortest edge > bore,
+ * mu_low <= mu <= mu_high, some mass. THR_EINPUT says which value does not fit and what to change. Edges are measured between
+ * their nodes. With units that thr_units_in_mm does not know, sizes that were asked for in mm are an error; else a unit counts as
+ * a mm, and what needs a true size must ask thr_units_in_mm itself. Resolving twice changes nothing. O(m log m). */
+thr_status thr_physics_resolve(const thr_physics *p, const thr_frame *f, thr_physics *out, thr_err *err) THR_MUST_CHECK;
+
+#endif

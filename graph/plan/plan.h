@@ -1,0 +1,283 @@
+/* The threading plan: the small vocabulary through which all stages meet. An objective makes one, the checker,
+ * eval, compare and draw read it. docs/plan-format.md is the schema of its JSON. */
+#ifndef THR_PLAN_H
+#define THR_PLAN_H
+
+#include "graph/plan/evaluation.h"
+#include "graph/plan/turning_proof.h"
+
+/* THR_ENDS_COUNTS: at every node exactly so many cord ends. */
+typedef enum { THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET, THR_ENDS_NODES, THR_ENDS_COUNTS } thr_ends;
+
+/* Solid: a node bead is one rigid piece, any pairing locks it. Tube: only edges are beads, and the cord itself ties them
+ * together: at every node the graph of the edges there and of the turns between them is connected, and no cord turns back into
+ * its edge (Demaine, Kirkpatrick & Lin 2024). */
+typedef enum { THR_JOINT_SOLID, THR_JOINT_TUBE } thr_joint;
+
+typedef enum { THR_LENGTH, THR_TORTUOSITY, THR_SYMMETRY, THR_N_OBJECTIVES } thr_objective;
+
+/* How the cords of a plan for the least turning are found. */
+typedef enum {
+  THR_TOUR_LEAST,  /* extra passes, ends and pairings chosen together */
+  THR_TOUR_FLEURY, /* the classical tours through the shortest passes, to compare with */
+  THR_TOUR_HIERHOLZER,
+  THR_N_TOURS
+} thr_tour;
+
+/* What is asked for beside THR_TORTUOSITY. */
+typedef struct {
+  thr_turn_cost cost;
+  double length_slack; /* cord allowed above the shortest, as a part of it; < 0 = any length */
+  bool largest;        /* minimize the turning of the cord that turns most, not of all together */
+  thr_tour tour;
+  bool ignore_pairings; /* of the classical tours: edges in their order instead of the cheapest pairing of every node */
+} thr_turning_options;
+
+/* What a symmetric plan can have little of. */
+typedef enum { THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_PATHS, THR_AIM_TURNING, THR_N_AIMS } thr_aim;
+
+/* What is asked for beside THR_SYMMETRY. */
+typedef struct {
+  char group[16];             /* row of `thread symmetries` or name of a point group; "" = the default choice */
+  double geometric;           /* isometries within this tolerance only; < 0 = any automorphism */
+  thr_aim prefer[THR_N_AIMS]; /* what is minimized first, second, .. */
+} thr_symmetry_options;
+
+/* Which engine finds the shortest passes (lp/tjoin/engine.h). */
+typedef enum {
+  THR_ENGINE_AUTO, /* matching, unless the weights are more than it takes */
+  THR_ENGINE_LP,   /* odd cuts, GLPK */
+  THR_ENGINE_MATCHING
+} thr_engine;
+
+/* Whether GLPK's exact method is asked for the same minimum, too. */
+typedef enum {
+  THR_CONFIRM_AUTO,   /* of problems of moderate size, for a second at most (lp/tjoin/engine.h) */
+  THR_CONFIRM_ALWAYS, /* whatever it takes, within the time limit */
+  THR_CONFIRM_NEVER
+} thr_confirm;
+
+/* What the user asked for; echoed in the plan so that it can be made again. */
+typedef struct {
+  thr_objective objective;
+  thr_joint joint;
+  int cover;                   /* every edge gets at least this many passes, 1 .. 100; the framework may ask for more (cover) */
+  int capacity;                /* at most so many passes of any edge, 0 = no limit; the framework may allow fewer (capacity) */
+  int cords;                   /* at most so many in every component, 1 .. 1000; THR_SYMMETRY: the most in any, as it came out */
+  int cords_least;             /* at least so many; = cords: exactly */
+  double max_length;           /* no cord is longer, in units; 0 = no limit */
+  bool balance;                /* THR_LENGTH: minimize the longest cord, then the length of all */
+  thr_turning_options turning; /* THR_TORTUOSITY only */
+  thr_symmetry_options symmetry; /* THR_SYMMETRY only */
+  thr_ends ends;
+  bool *end_node;      /* [n_nodes] THR_ENDS_NODES only: where ends may be; owned, else NULL */
+  int *end_count;      /* [n_nodes] THR_ENDS_COUNTS only: how many ends there are, their sum in every component even and at most
+                          2 * cords; owned, else NULL */
+  thr_physics physics; /* of cord and beads, as asked: what eval starts from */
+  double time_limit;   /* s, 0 = none */
+  thr_engine engine;   /* changes no length */
+  thr_confirm confirm; /* THR_LENGTH with THR_JOINT_SOLID only */
+} thr_plan_options;
+
+/* A cord: consecutive half-edges; half[i] arrives where half[i + 1] leaves. A closed cord also ends where it starts. */
+typedef struct thr_cord {
+  char id[12];   /* "A", "B", .. "Z", "AA", .. */
+  int component; /* of the framework, numbered by lowest node */
+  bool closed;   /* both ends at one node */
+  int n_passes;  /* >= 1 */
+  int *half;     /* [n_passes] owned */
+} thr_cord;
+
+/* One odd cut: the edges leaving a node set that holds an odd number of odd nodes. The cuts of a certificate form a forest: a
+ * cut's set is its own nodes and the sets of its children, all disjoint. Sets of different trees may overlap in any way.
+ * So nested sets take no more room than the largest of them. */
+typedef struct {
+  int parent; /* a later cut, the one right around this one; -1 = none */
+  int n_nodes;
+  int *node;     /* those in no child, ascending; owned */
+  int64_t value; /* >= 0: its dual multiplier in units of 1/denominator */
+} thr_cut;
+
+/* Proof of a lower bound on the extra cord of one component (Edmonds & Johnson 1973): a packing of odd cuts.
+ * Edge e weighs w_e = round(length_e * scale). A node is odd if the passes that its edges need, with THR_ENDS_COUNTS and its cord
+ * ends, are odd in number. The values of the sets that an edge leaves add up to at most w_e * denominator, if the edge has room
+ * for an extra pass at all; those of the sets that hold a node where cord ends are allowed, to at most end_price. Then for
+ * every j no extra passes that leave j cord ends weigh less than (sum - j * end_price) / denominator: every set is left by an
+ * extra pass, or holds a cord end. With prices of places (graph/plan/prices.h) edges have other weights and nodes another parity,
+ * and the bound has a term more. */
+typedef struct {
+  int component;
+  double scale;         /* integer weight per unit of length, > 0 */
+  int64_t denominator;  /* > 0 */
+  int64_t end_price;    /* >= 0, in units of 1/denominator; 0 with THR_ENDS_CLOSED and THR_ENDS_COUNTS */
+  int n_prices;         /* 0 unless as many cords as asked for may need more passes than a join has (graph/plan/prices.h) */
+  int64_t *place_price; /* >= 0, in units of 1/denominator; owned */
+  int64_t join;         /* weight of the extra passes of the plan */
+  int64_t sum;          /* of the cuts' values */
+  int n_cuts;
+  thr_cut *cut; /* owned */
+} thr_certificate;
+
+typedef struct {
+  bool present;
+  bool optimal;       /* proved: the checker agrees, or it says violation */
+  double lower_bound; /* no plan with these options is shorter, in units of length */
+  double gap;         /* (length - lower_bound) / length */
+  bool slack_open; /* not proved that the cords are within options.turning.length_slack of the least length: said in the plan */
+  int confirmed;   /* of the shortest passes: programmes on their cuts in which GLPK's exact method found the same weight, and */
+  int unconfirmed; /* those it was not asked about, or did not finish in time. A solver's word: not written */
+  int n_certificates;
+  thr_certificate *certificate; /* one per component; owned */
+  thr_turning_proof tied;       /* THR_JOINT_TUBE, instead of certificates: the proof of thr_tied_task (graph/plan/junction.h) */
+} thr_length_proof;
+
+/* What is proved about several cords, of plans with the same options. */
+typedef struct {
+  bool present;
+  double longest;       /* length of the longest cord, in units */
+  double longest_bound; /* no plan has a shorter longest cord */
+  bool longest_optimal; /* proved: the checker agrees, or it says violation */
+  int fewest;           /* no plan has fewer cords in all, none being longer than options.max_length; 0 = not claimed */
+  bool fewest_optimal;  /* this one has no more */
+} thr_cords_claim;
+
+/* What is proved about the turning of a plan for THR_TORTUOSITY: of no plan with the same options, U-turns at nodes with one edge
+ * only, at most most_passes over any edge and no more cord than length_limit are all turns together cheaper than lower_bound. */
+typedef struct {
+  bool present;
+  bool optimal;         /* proved: the checker agrees, or it says violation */
+  double price;         /* of all turns, as options.turning.cost prices them; THR_TURN_ANGLE: = metrics.turning */
+  double lower_bound;   /* what the tree proves */
+  double gap;           /* (price - lower_bound) / price, 0 if price is 0 */
+  double pairing_bound; /* sum over the nodes of the cheapest pairing of the passes and ends there, each node on its own */
+  double largest;       /* price of the cord that turns most */
+  double largest_bound; /* no plan of the same kind has less: lower_bound shared out evenly */
+  bool largest_optimal;
+  int most_passes;
+  double length_limit; /* in units; < 0 = none */
+  thr_turning_proof tree;
+} thr_turning_claim;
+
+/* How the cords of a plan for THR_SYMMETRY are copies of a few unique paths under a group of automorphisms. Cords are compared by
+ * the nodes that they run through: of two alike one is a copy of the other, by the identity if need be. */
+typedef struct thr_symmetry_record {
+  bool present;
+  int order;        /* of the group, 1 .. 1024 */
+  char name[16];    /* its point group (Schoenflies), or "" if it is a group of the graph only */
+  int n_generators; /* of the group, as images of the nodes */
+  int *generator;   /* [n_generators * n_nodes] owned */
+  int n_images;     /* elements that map unique paths to copies; image 0 is the identity */
+  int *image;       /* [n_images * n_nodes] owned */
+  int *unique;      /* [n_cords] the cord that this one is a copy of; itself for a unique path; owned */
+  int *element;     /* [n_cords] image that maps that one to this, perhaps reversed, and a closed one perhaps from another start
+                       (not where its ends matter: THR_ENDS_FEET and _NODES, with tube joints also _ANY); owned */
+  double steps;     /* learned: passes of each unique path over the number of ways (from another start, reversed) in which it is
+                       its own image under the group */
+  int unique_paths; /* number of different values of unique */
+} thr_symmetry_record;
+
+void thr_symmetry_record_destroy(thr_symmetry_record *r);
+
+typedef struct {
+  double length;      /* of all cords, in units */
+  double base_length; /* of the passes that the edges need, in units */
+  double overlap;     /* length - base_length */
+  int passes;         /* of all cords */
+  int most_passes;    /* on one edge */
+  double turning;     /* sum of turning angles over all cords, rad; with THR_ENDS_CLOSED also the turn where a cord closes */
+  double max_turning; /* of the cord that turns most, rad */
+  double worst_turn;  /* sharpest single turn, rad */
+  int u_turns;        /* turns from an edge back into the same edge */
+} thr_metrics;
+
+typedef struct {
+  thr_frame frame;
+  thr_plan_options options;
+  char *generator; /* versions of program and libraries, one line; owned */
+  int n_cords;
+  thr_cord *cord; /* owned */
+  thr_metrics metrics;
+  thr_symmetry_record symmetry; /* present with THR_SYMMETRY */
+  thr_evaluation evaluation;    /* of `thread eval`, if present */
+  thr_length_proof proof;
+  thr_cords_claim cords_claim;
+  thr_turning_claim turning;
+} thr_plan;
+
+/* "length", "tortuosity", "symmetry"; "least", "fleury", "hierholzer"; "overlap", "steps", "paths", "turning". */
+const char *thr_objective_name(thr_objective o);
+const char *thr_tour_name(thr_tour t);
+const char *thr_aim_name(thr_aim a);
+
+thr_plan_options thr_plan_options_default(void);
+void thr_plan_destroy(thr_plan *p);
+void thr_cords_destroy(thr_cord *cord, int n); /* cord[n] and their half arrays; NULL ok */
+
+/* Copies framework and options into an empty plan. */
+thr_status thr_plan_request(thr_plan *p, const thr_frame *f, const thr_plan_options *o, thr_err *err) THR_MUST_CHECK;
+void thr_cord_id(int i, char id[12]); /* 0 -> "A", 25 -> "Z", 26 -> "AA" */
+void thr_certificate_destroy(thr_certificate *c);
+
+int thr_length_proof_cuts(const thr_length_proof *proof); /* odd cuts, or odd sets and junctions, that it puts a multiplier on */
+
+const char *thr_ends_name(thr_ends e);       /* "closed", "any", "feet", "nodes", "counts" */
+const char *thr_joint_name(thr_joint j);     /* "solid", "tube" */
+const char *thr_engine_name(thr_engine e);   /* "auto", "lp", "matching" */
+const char *thr_confirm_name(thr_confirm c); /* "auto", "always", "never" */
+
+/* The longest step that every edge is a whole number of, as is every cord then, within 1e-10 of it; 0: none of a thousandth of
+ * the longest edge or more. O(edges). */
+double thr_plan_unit(const thr_frame *f);
+/* Is the cord within the asked part above the least length (options.turning.length_slack), by this lower bound on that? True
+ * where none was asked for. */
+bool thr_plan_within_slack(const thr_plan_options *o, double length, double least);
+
+bool thr_plan_end_allowed(const thr_frame *f, const thr_plan_options *o, int v);
+
+/* Cords that every component has at least. With THR_SYMMETRY options.cords is the most in any, and the others may have fewer: 1.
+ */
+int thr_plan_cords_least(const thr_plan_options *o);
+
+/* Passes that edge e needs, and the most that it may have (INT_MAX: no limit): what options and framework say together. */
+int thr_plan_cover(const thr_frame *f, const thr_plan_options *o, int e);
+int thr_plan_capacity(const thr_frame *f, const thr_plan_options *o, int e);
+
+/* First and last node of a cord (equal for a closed one). */
+int thr_cord_start(const thr_frame *f, const thr_cord *c);
+int thr_cord_end(const thr_frame *f, const thr_cord *c);
+double thr_cord_length(const thr_frame *f, const thr_cord *c);
+
+/* Turning angle in rad between arriving over half-edge in and leaving over half-edge out (head(in) = tail(out)):
+ * 0 = straight on, pi = U-turn. */
+double thr_turn_angle(const thr_frame *f, int in, int out);
+
+/* The same between two directions (graph/framework/frame.h), for many turns at one node. */
+double thr_angle_between(const double a[3], const double b[3]);
+
+/* Sum of the turning angles inside a cord, rad; with_closure adds the turn between a closed cord's last and first pass. */
+double thr_cord_turning(const thr_frame *f, const thr_cord *c, bool with_closure);
+
+/* Turns of a cord that count: with THR_ENDS_CLOSED as many as passes (the last one closes it), else one less. Turn k goes from
+ * pass k to pass k + 1 (or 0). */
+int thr_cord_turns(const thr_plan_options *o, const thr_cord *c);
+
+/* Is a turn sharper than angle (both in rad), by more than 1e-9? */
+bool thr_turn_over(double turn, double angle);
+
+/* Turns of all cords that are sharper than angle (rad). */
+int thr_plan_turns_over(const thr_plan *p, double angle);
+
+/* Price of the turns of a cord. */
+double thr_cord_price(const thr_frame *f, const thr_plan_options *o, const thr_cord *c);
+
+/* Computes metrics from frame, options (cover, ends) and cords alone. */
+thr_status thr_plan_measure(const thr_frame *f, const thr_plan_options *o, const thr_cord *cord, int n_cords, thr_metrics *m,
+                            thr_err *err) THR_MUST_CHECK;
+
+/* JSON of a plan; and back. Errors are "name: place: what": THR_EINPUT for what is not a plan at all, THR_EVIOLATED for
+ * cords, metrics and proofs that contradict the framework (a pass whose edge does not join its two nodes). */
+void thr_plan_write(const thr_plan *p, thr_text *out);
+thr_status thr_plan_read(thr_plan *p, const char *path, thr_err *err) THR_MUST_CHECK;
+thr_status thr_plan_parse(thr_plan *p, const char *text, size_t n, const char *name, thr_err *err) THR_MUST_CHECK;
+
+#endif

@@ -1,0 +1,194 @@
+/* Proof of a lower bound on the turning of all cords of a plan, and its check without a solver.
+ *
+ * The model. At both ends of every edge its passes either turn into another edge or end there. Half-edge h
+ * (graph/framework/frame.h) also names "edge h/2 seen from its node"; columns are what a plan counts: turn  (a, b)  passes that
+ * go between the edges of half-edges a and b, which leave one node     cost: the turn's price extra  e      passes of edge e
+ * beyond the cover                                                cost: price_per_length end    h      cord ends that arrive at
+ * h's node over h's edge                                  cost: none back   h      U-turns at a node with one edge (nowhere else
+ * are they allowed)                  cost: the price of a U-turn with, for each half-edge h:  sum of turns at h + 2 back(h) +
+ * end(h) = cover + extra(h/2),  and sum of ends = 2 cords in every component (none if the cords are closed), or from 2
+ * cords_least to 2 cords, or at every node as many as are asked for. Whatever multipliers one puts on such equations, and on
+ * inequalities that hold for every plan, the least value of  cost x + multipliers (right side - left side)  over the box of the
+ * columns' limits is a lower bound: no condition on the multipliers but their sign. The inequalities are odd set U of half-edges,
+ * cover * |U| odd: at least one turn, extra pass or end leaves it. U may hold the ends of a component; group S of edges,
+ * connected to the rest: turns that leave S + ends in S >= 2 (one closed cord per component, or open cords; not several closed
+ * cords, of which one may be all that is in S); partition of the edges into blocks (closed cords, any number): at a node where b
+ * blocks meet, t turns between blocks connect at most (b - 1) / b * (t + half the number of blocks with an odd number of passes
+ * there) of them, because a block with an even number has 2 turns to others or none. Passes of a block with an even number of
+ * edges at the node (times cover) are odd only if it has an extra pass there. A closed cord connects all blocks that it passes,
+ * and the cords of a component pass all of its blocks, so with k cords the blocks of a component fall into at most k connected
+ * parts: the sum over all nodes is at least the sum over the components of max(0, blocks - k); junction (tube joints only): the
+ * edges at a node in b blocks: at least b - 1 turns go between different blocks; the limit on the extra length. With tube joints
+ * nothing turns back, and nothing but the passes need cost: then this is the proof of least length. A tree of bounds on single
+ * columns turns this into an exact method: the proved bound is the least over its leaves. */
+#ifndef THR_TURNING_PROOF_H
+#define THR_TURNING_PROOF_H
+
+#include "graph/framework/frame.h"
+#include "graph/io/json.h"
+
+typedef enum {
+  THR_TURN_ANGLE, /* rad, 0 = straight on */
+  THR_TURN_SINE,  /* sin(angle / 2), the thesis's Fig. 13 */
+  THR_TURN_STEP   /* 1 for a turn of 90 degrees or more (to 1e-6 rad), else 0 */
+} thr_turn_cost;
+
+enum { THR_N_TURN_COSTS = THR_TURN_STEP + 1 };
+
+const char *thr_turn_cost_name(thr_turn_cost cost); /* "angle", "sine", "step" */
+double thr_turn_cost_of(thr_turn_cost cost, double angle);
+
+/* Price of arriving over half-edge in and leaving over half-edge out. For steps only this: angles near 90 degrees may round to
+ * either side. */
+double thr_turn_price(const thr_frame *f, thr_turn_cost cost, int in, int out);
+
+/* What the least turning is asked among. */
+typedef struct {
+  int cover;               /* passes of every edge at least, >= 1; the framework may ask for more */
+  int capacity;            /* of any edge, 0 = no limit; the framework may allow fewer */
+  int most_passes;         /* of any edge, >= every cover: what the search, and the proof, is restricted to */
+  int cords;               /* in every component, >= 1 */
+  int cords_least;         /* open cords only: at least so many; 0 = exactly cords */
+  const bool *end_allowed; /* [n_nodes] borrowed; NULL = closed cords */
+  const int *end_count;    /* [n_nodes] borrowed; exactly so many ends at every node, end_allowed where not 0; NULL = not said */
+  bool tube;               /* tube joints: the turns tie the edges at every node (graph/plan/junction.h), none goes back */
+  bool free_turns;         /* turns cost nothing: price_per_length alone counts */
+  thr_turn_cost cost;
+  double price_per_length; /* of extra cord, in the turns' price per unit of length, >= 0 */
+  double extra_limit;      /* of all extra cord, in units of length; < 0 = none */
+} thr_turning_task;
+
+/* Passes of edge e at least, when every edge has cover: the framework may ask for more. */
+int thr_turning_cover(const thr_frame *f, int cover, int e);
+
+/* The length of all passes that must be. */
+double thr_turning_base_length(const thr_frame *f, int cover);
+
+/* Passes over any edge up to which the least turning is looked for, and proved: 4 * the largest cover + 4. */
+int thr_turning_most_passes(const thr_frame *f, int cover);
+
+/* extra_limit for a limit on the length of all cords (< 0 = none): a little more than the difference, so that no rounding shuts
+ * out a plan of just that length. */
+double thr_turning_extra_limit(const thr_frame *f, int cover, double length_limit);
+
+/* The columns of the model, numbered turns, extras, ends, backs. */
+typedef struct {
+  const thr_frame *f;
+  const thr_turning_task *task;
+  int n_components;
+  int *component;   /* [n_nodes] */
+  int *cover;       /* [n_edges] passes at least */
+  int *most;        /* [n_edges] and at most, >= cover */
+  int n_ends;       /* equations of the ends: one per component, or per node if they are counted there */
+  int *end_group;   /* [n_nodes] the one that a node's ends are in */
+  int (*supply)[2]; /* [n_ends] their least and largest number, both even or equal; 0, 0 for closed cords */
+  int *pair_first;  /* [n_nodes] column of the first turn at a node */
+  int *position;    /* [2 * n_edges] of a half-edge among those of its node */
+  int first_extra, first_end, first_back, n_columns;
+  int (*half)[2];      /* [n_columns] turn: a, b; extra: both half-edges; end: h, -1; back: h, h */
+  int *end_column;     /* [2 * n_edges] or -1 */
+  int64_t *weight;     /* [n_columns] price in units of 2^-THR_TURNING_BITS, rounded down: sums stay below the true price */
+  int64_t *length;     /* [n_edges] in units of longest / 2^THR_LENGTH_BITS, rounded down */
+  int64_t extra_limit; /* in the same units, rounded up; -1 = none */
+} thr_turning_columns;
+
+enum { THR_TURNING_BITS = 44, THR_LENGTH_BITS = 40 };
+
+/* THR_EINPUT for more columns than an int counts, or a task out of range. Memory: sum of the squares of the degrees. */
+thr_status thr_turning_columns_init(thr_turning_columns *c, const thr_frame *f, const thr_turning_task *task,
+                                    thr_err *err) THR_MUST_CHECK;
+void thr_turning_columns_destroy(thr_turning_columns *c);
+
+/* Column of the turn between two half-edges that leave one node (a != b). */
+int thr_turning_column(const thr_turning_columns *c, int a, int b);
+
+/* Has a component cord ends? O(nodes). */
+bool thr_turning_open(const thr_turning_columns *c, int component);
+
+/* Largest value that a column takes in any plan. */
+int thr_turning_most(const thr_turning_columns *c, int column);
+
+/* Takes over a new extra_limit of the task. */
+void thr_turning_limit(thr_turning_columns *c);
+
+/* A set with its multiplier, in units of 2^-THR_TURNING_BITS. */
+typedef struct {
+  int n;
+  int *member;   /* ascending; owned. Odd sets: half-edges, and 2 * n_edges + k for the ends of equation k. Groups: edges */
+  int64_t value; /* >= 0 */
+} thr_turning_set;
+
+/* Blocks of the edges at a node, with the multiplier of their junction. */
+typedef struct {
+  int node;
+  int *block; /* [degree] of the node's half-edges in their order: 0 .. blocks - 1, each in use; owned */
+  int64_t value;
+} thr_turning_junction;
+
+/* A partition with its multiplier. */
+typedef struct {
+  int *block; /* [n_edges] 0 .. blocks - 1, each in use, none in two components; owned */
+  int64_t value;
+} thr_turning_partition;
+
+/* At node v: how many blocks meet. odd (may be NULL) receives how many of them have an odd number of passes there as long as none
+ * is extra; even[i] (may be NULL) whether the i-th half-edge of v is in a block with an even number. O(degree^2). */
+int thr_turning_blocks_at(const thr_turning_columns *c, const int *block, int v, int *odd, bool *even);
+
+/* Connections between the blocks that closed cords make at least: the sum over the components of max(0, blocks - cords).
+ * -1: a block number is out of range or not in use, or a block lies in two components. scratch: [n_edges + n_components].
+ * O(edges). */
+int thr_turning_connections(const thr_turning_columns *c, const int *block, int *scratch);
+
+/* Multipliers at a leaf; units of 2^-THR_TURNING_BITS. All arrays are owned. */
+typedef struct {
+  int64_t *potential; /* [2 * n_edges] of the half-edges' equations, any sign */
+  int64_t *ends;      /* [n_ends] of the equations of the cord ends, any sign */
+  int64_t
+      length; /* of the limit on the extra length, >= 0; per unit of length of the columns' lengths, times 2^THR_LENGTH_BITS */
+  int n_odd, n_groups, n_partitions, n_junctions;
+  thr_turning_set *odd, *group;
+  thr_turning_partition *partition;
+  thr_turning_junction *junction;
+} thr_turning_dual;
+
+void thr_turning_dual_destroy(thr_turning_dual *d);
+
+/* A node of the tree: an inner one says that its column is at most value (low) or at least value + 1 (high). */
+typedef struct {
+  int low, high; /* nodes after this one; 0 = a leaf */
+  int a, b;      /* the branched column's half-edges, as in thr_turning_columns */
+  int value;
+  int dual; /* leaf: index of its multipliers */
+} thr_turning_node;
+
+typedef struct {
+  int n_nodes, n_duals, n_ends;
+  thr_turning_node *node; /* owned; node[0] is the root */
+  thr_turning_dual *dual; /* owned; ends [n_ends] */
+} thr_turning_proof;
+
+void thr_turning_proof_destroy(thr_turning_proof *p);
+
+/* Bound that multipliers prove while column j lies in [low[j], high[j]] (both NULL: 0 to thr_turning_most), in units of
+ * 2^-THR_TURNING_BITS, rounded down. THR_EVIOLATED for a negative multiplier, an index out of range, an even odd set, a group
+ * that need not be connected to the rest. O(columns + sum of the squares of the degrees over the sets). */
+thr_status thr_turning_dual_bound(const thr_turning_columns *c, const thr_turning_dual *d, const int *low, const int *high,
+                                  int64_t *bound, thr_err *err) THR_MUST_CHECK;
+
+/* Checks the tree and all leaves; *bound is the price that no plan of the task undercuts (>= 0). Arrays come from a reader:
+ * nothing in them is trusted. THR_EVIOLATED with the place. Each multipliers' bound once, and O(depth) for every leaf. */
+thr_status thr_turning_proof_check(const thr_frame *f, const thr_turning_task *task, const thr_turning_proof *p, double *bound,
+                                   thr_err *err) THR_MUST_CHECK;
+
+/* The same with the columns of the task at hand. */
+thr_status thr_turning_proof_check_columns(const thr_turning_columns *c, const thr_turning_proof *p, double *bound,
+                                           thr_err *err) THR_MUST_CHECK;
+
+/* JSON of a proof, one object; and back, strictly: unknown, missing or mistyped members and indices that the framework does not
+ * have are THR_EVIOLATED, "place: what". Whether it proves anything is for thr_turning_proof_check. */
+void thr_turning_proof_write(const thr_turning_proof *p, const thr_frame *f, thr_text *t);
+thr_status thr_turning_proof_from_json(thr_turning_proof *p, const thr_frame *f, const thr_json *v, const char *place,
+                                       thr_err *err) THR_MUST_CHECK;
+
+#endif

@@ -1,0 +1,189 @@
+/* One child process and the messages that it sends: answers, progress, and the end with its status. */
+#define _POSIX_C_SOURCE 200809L
+#include "graph/process/child.h"
+#include "graph/process/process.h"
+
+#include <errno.h>
+#include <math.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+static const double WATCH = 0.1;     /* s between two looks at the limits */
+static const double GRACE = 1.0 / 3; /* s that a child has to stop by itself */
+enum { BLOCK = 1 << 16 };            /* bytes read at once */
+
+enum { ANSWER, PROGRESS, ADVANCE, END };
+
+/* Every message: this, and `length` bytes: the answer, what is being done, or the text of a failure. */
+typedef struct {
+  size_t length;
+  double value[2]; /* best and bound, or the part done, or the work left */
+  int32_t kind, status;
+} head;
+
+struct thr_sender {
+  const thr_limits *limits; /* of the parent */
+  int fd;
+};
+
+/* ---- the child ---- */
+
+static volatile sig_atomic_t told_to_stop;
+
+static void stop(int signal_number)
+{
+  (void)signal_number;
+  told_to_stop = 1;
+}
+
+static bool post(thr_sender *to, head h, const char *bytes)
+{
+  return thr_process_send(to->fd, (const char *)&h, sizeof h) && thr_process_send(to->fd, bytes, h.length);
+}
+
+thr_status thr_child_send(thr_sender *to, const thr_text *answer, thr_err *err)
+{
+  if (answer->failed) return thr_nomem(err);
+  if (post(to, (head){.kind = ANSWER, .length = answer->length}, answer->data)) return THR_OK;
+  return thr_fail(err, THR_ESOLVER, "a worker cannot send its answer: %s", strerror(errno));
+}
+
+static void post_progress(void *user, const char *what, double best, double bound)
+{
+  post(user, (head){.kind = PROGRESS, .length = strlen(what), .value = {best, bound}}, what);
+}
+
+static void post_advance(void *user, const char *what, double done)
+{
+  post(user, (head){.kind = ADVANCE, .length = strlen(what), .value = {done}}, what);
+}
+
+typedef struct {
+  const thr_child *child;
+  const thr_limits *limits;
+} task;
+
+static bool run_job(void *user, int fd)
+{
+  const task *t = user;
+  thr_sender to = {.limits = t->limits, .fd = fd};
+  double work = t->limits->work ? *t->limits->work : 0;
+  const thr_limits limits = {.deadline = t->limits->deadline,
+                             .interrupted = &told_to_stop,
+                             .work = t->limits->work ? &work : NULL,
+                             .progress = t->limits->progress ? post_progress : NULL,
+                             .advance = t->limits->advance ? post_advance : NULL,
+                             .user = &to};
+  struct sigaction ask = {.sa_handler = stop};
+  thr_err err = {0};
+  told_to_stop = t->limits->interrupted && *t->limits->interrupted;
+  sigemptyset(&ask.sa_mask);
+  sigaction(SIGUSR1, &ask, NULL);
+  thr_status st = t->child->run(t->child->user, &limits, &to, &err);
+  return post(&to, (head){.kind = END, .length = strlen(err.text), .value = {work}, .status = (int32_t)st}, err.text);
+}
+
+/* ---- the parent ---- */
+
+typedef struct {
+  const thr_child *child;
+  const thr_limits *limits;
+  thr_process process;
+  thr_text *answer, arrived; /* bytes not yet taken for a message */
+  double asked;              /* thr_clock() when the child was asked to stop; 0 = not yet */
+  bool ended;                /* the message of its end has come, with this status and text */
+  thr_err end;
+  thr_status status;
+} parent;
+
+static void take(parent *p, const head *h, const char *bytes)
+{
+  const thr_limits *l = p->limits;
+  char what[200];
+  snprintf(what, sizeof what, "%.*s", h->length < sizeof what ? (int)h->length : (int)sizeof what - 1, bytes);
+  if (h->kind == PROGRESS) l->progress(l->user, what, h->value[0], h->value[1]);
+  if (h->kind == ADVANCE) l->advance(l->user, what, h->value[0]);
+  if (h->kind == ANSWER) {
+    p->answer->length = 0;
+    thr_text_append_bytes(p->answer, bytes, h->length);
+  }
+  if (h->kind == END) {
+    p->ended = true;
+    p->status = (thr_status)h->status;
+    if (p->status) thr_fail(&p->end, p->status, "%.*s", (int)h->length, bytes);
+    if (l->work) *l->work = h->value[0];
+  }
+}
+
+/* Takes the messages that have arrived whole. */
+static void take_all(parent *p)
+{
+  size_t at = 0;
+  head h;
+  while (p->arrived.length - at >= sizeof h) {
+    memcpy(&h, p->arrived.data + at, sizeof h);
+    if (p->arrived.length - at - sizeof h < h.length) break;
+    take(p, &h, p->arrived.data + at + sizeof h);
+    at += sizeof h + h.length;
+  }
+  if (at == 0) return;
+  p->arrived.length -= at;
+  memmove(p->arrived.data, p->arrived.data + at, p->arrived.length);
+}
+
+/* false when the child has closed its pipe. */
+static bool receive(parent *p)
+{
+  static char block[BLOCK];
+  struct pollfd news = {.fd = p->process.pipe, .events = POLLIN};
+  double wait = p->asked > 0 ? fmax(p->asked + GRACE - thr_clock(), 0) : thr_limits_left(p->limits, WATCH);
+  if (poll(&news, 1, (int)ceil(1000 * fmin(wait, WATCH))) <= 0) return true;
+  ssize_t n = read(p->process.pipe, block, sizeof block);
+  if (n < 0 && (errno == EINTR || errno == EAGAIN)) return true;
+  if (n <= 0) return false;
+  thr_text_append_bytes(&p->arrived, block, (size_t)n);
+  take_all(p);
+  return true;
+}
+
+/* false if the child has not stopped in time and was killed. */
+static bool watch(parent *p)
+{
+  while (!p->arrived.failed && !p->answer->failed && receive(p)) {
+    if (!p->asked && thr_limits_stop(p->limits)) {
+      p->asked = thr_clock();
+      kill(p->process.pid, SIGUSR1);
+    }
+    if (p->asked > 0 && thr_clock() > p->asked + GRACE) return false;
+  }
+  return true;
+}
+
+static thr_status judge(parent *p, bool stopped, thr_err *err)
+{
+  char who[200];
+  if (p->arrived.failed || p->answer->failed) return thr_nomem(err);
+  if (!stopped) return thr_fail(err, THR_ELIMIT, "%s: stopped before it was done", p->child->what);
+  if (p->ended) return p->status ? thr_fail(err, p->status, "%s", p->end.text) : THR_OK;
+  snprintf(who, sizeof who, "%s: its process", p->child->what);
+  thr_status st = thr_process_end(&p->process, who, p->child->advice, err);
+  return st ? st : thr_fail(err, THR_ESOLVER, "%s: its process sent too little", p->child->what);
+}
+
+thr_status thr_child_run(const thr_child *c, const thr_limits *limits, thr_text *answer, thr_err *err)
+{
+  parent p = {.child = c, .limits = limits, .answer = answer};
+  task t = {c, limits};
+  thr_err reason = {0};
+  thr_status st = thr_process_start(&p.process, run_job, &t, &reason);
+  if (st) return thr_fail(err, st, "%s: %s", c->what, reason.text);
+  bool stopped = watch(&p);
+  st = judge(&p, stopped, err);
+  thr_process_kill(&p.process);
+  thr_text_destroy(&p.arrived);
+  if (answer->failed) thr_text_destroy(answer);
+  return st;
+}

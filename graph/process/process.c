@@ -1,0 +1,153 @@
+/* Forking, the signals and descriptors of a child, and how its end is told. */
+#define _POSIX_C_SOURCE 200809L
+#include "graph/process/process.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { READ = 0, WRITE = 1 }; /* ends of a pipe */
+enum { FIRST_FREE = 3 };      /* descriptors below are standard input, output and error */
+enum { SENT = 113 };          /* exit code of a child that has sent everything, other than a library's exit(0) */
+
+bool thr_process_send(int fd, const char *data, size_t n)
+{
+  while (n > 0) {
+    ssize_t sent = write(fd, data, n);
+    if (sent < 0 && errno == EINTR) continue;
+    if (sent <= 0) return false;
+    data += sent;
+    n -= (size_t)sent;
+  }
+  return true;
+}
+
+/* Ctrl-C goes to the whole process group: the parent decides what to do about it. */
+static void leave_signals_to_parent(const sigset_t *mask)
+{
+  signal(SIGINT, SIG_IGN);
+  signal(SIGTERM, SIG_IGN);
+  signal(SIGHUP, SIG_IGN);
+  signal(SIGUSR1, SIG_IGN); /* until run() wants it */
+  signal(SIGPIPE, SIG_DFL);
+  sigprocmask(SIG_SETMASK, mask, NULL);
+}
+
+/* What a library prints goes into the words, and so does what exit() would flush of the parent's buffers. A full pipe drops the
+ * rest. The result's descriptor moves up if it lies where standard output was closed. */
+static bool keep_quiet(int *result, int words)
+{
+  if (*result < FIRST_FREE) *result = fcntl(*result, F_DUPFD, FIRST_FREE);
+  if (words < FIRST_FREE) words = fcntl(words, F_DUPFD, FIRST_FREE);
+  return *result >= 0 && words >= 0 && fcntl(words, F_SETFL, O_NONBLOCK) == 0 && dup2(words, 1) >= 0 && dup2(words, 2) >= 0;
+}
+
+/* A parent that died before the kernel knew that its death is to end this process is no longer the parent. */
+void thr_process_die_with(pid_t parent)
+{
+  if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || getppid() != parent) _exit(1);
+}
+
+/* Never returns. */
+static void run_child(bool (*run)(void *user, int fd), void *user, pid_t parent, const sigset_t *mask, int fd, int words)
+{
+  thr_process_die_with(parent);
+  leave_signals_to_parent(mask);
+  _exit(keep_quiet(&fd, words) && run(user, fd) ? SENT : 1);
+}
+
+/* false: errno says why not. */
+static bool open_pipes(int result[2], int words[2])
+{
+  if (pipe(result)) return false;
+  if (pipe(words) == 0) return true;
+  int reason = errno;
+  close(result[READ]);
+  close(result[WRITE]);
+  errno = reason;
+  return false;
+}
+
+thr_status thr_process_start(thr_process *p, bool (*run)(void *user, int fd), void *user, thr_err *err)
+{
+  int result[2], words[2];
+  sigset_t all, old;
+  const pid_t parent = getpid();
+  if (!open_pipes(result, words))
+    return thr_fail(err, THR_ESOLVER, "cannot start a worker: %s; close other programs", strerror(errno));
+  sigfillset(&all);
+  sigprocmask(SIG_BLOCK, &all, &old); /* or a signal would run the parent's handler in the child */
+  pid_t pid = fork();
+  if (pid == 0) {
+    close(result[READ]);
+    close(words[READ]);
+    run_child(run, user, parent, &old, result[WRITE], words[WRITE]);
+  }
+  int reason = errno;
+  sigprocmask(SIG_SETMASK, &old, NULL);
+  close(result[WRITE]);
+  close(words[WRITE]);
+  if (pid > 0) {
+    *p = (thr_process){.pid = pid, .pipe = result[READ], .words = words[READ]};
+    return THR_OK;
+  }
+  close(result[READ]);
+  close(words[READ]);
+  return thr_fail(err, THR_ESOLVER, "cannot start a worker: %s; close other programs or ask for fewer processes",
+                  strerror(reason));
+}
+
+/* The first line of the words that says something, of at most size - 1 bytes. */
+static void first_line(int words, char *line, size_t size)
+{
+  char said[1024];
+  fcntl(words, F_SETFL, O_NONBLOCK); /* a process that the child started may still hold the other end */
+  ssize_t n = read(words, said, sizeof said - 1);
+  said[n > 0 ? n : 0] = '\0';
+  const char *s = said;
+  while (isspace((unsigned char)*s))
+    s++;
+  snprintf(line, size, "%.*s", (int)strcspn(s, "\r\n"), s);
+}
+
+/* Its wait status, or -1 if somebody else has waited for it. */
+static int reap(thr_process *p, char *line, size_t size)
+{
+  int status;
+  pid_t got;
+  close(p->pipe);
+  while ((got = waitpid(p->pid, &status, 0)) < 0 && errno == EINTR)
+    continue;
+  first_line(p->words, line, size);
+  close(p->words);
+  *p = (thr_process){0};
+  return got < 0 ? -1 : status;
+}
+
+thr_status thr_process_end(thr_process *p, const char *who, const char *advice, thr_err *err)
+{
+  char line[200];
+  int status = reap(p, line, sizeof line);
+  const char *opening = *line ? " (it said: " : "", *closing = *line ? ")" : "", *comma = advice ? "; " : "";
+  if (!advice) advice = "";
+  if (status != -1 && WIFSIGNALED(status))
+    return thr_fail(err, THR_ESOLVER, "%s died of signal %d (%s)%s%s%s%s%s", who, WTERMSIG(status), strsignal(WTERMSIG(status)),
+                    opening, line, closing, comma, advice);
+  if (status == -1 || WEXITSTATUS(status) != SENT)
+    return thr_fail(err, THR_ESOLVER, "%s ended without a result%s%s%s%s%s", who, opening, line, closing, comma, advice);
+  return THR_OK;
+}
+
+void thr_process_kill(thr_process *p)
+{
+  char line[2];
+  if (!p->pid) return;
+  kill(p->pid, SIGKILL);
+  reap(p, line, sizeof line);
+}

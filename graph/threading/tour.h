@@ -1,0 +1,18 @@
+/* From edge multiplicities and ends to cords: pair at every node, join the circuits, cut at the ends. */
+#ifndef THR_TOUR_H
+#define THR_TOUR_H
+
+#include "graph/plan/plan.h"
+
+/* One cord per component of the framework; passes[e] >= 1 for every edge. ends[k] are the two end nodes of component k's
+ * cord: different nodes = open from the first to the second; both v = closed at v; both -1 = closed, starting at an
+ * end node that the options allow (a foot rather than another) where the turn that closing leaves out is sharpest.
+ * cord[n_components] is filled; each half array is allocated for the caller, none on failure. THR_EINPUT if passes and
+ * ends leave a node with an odd number of both. Near-linear in passes. */
+thr_status thr_tour_cords(const thr_frame *f, const thr_plan_options *o, const int *component, int n_components,
+                          const int *passes, const int (*ends)[2], thr_cord *cord, thr_err *err) THR_MUST_CHECK;
+
+/* The pass from which the closed circuit half[0 .. n-1] had best start as a cord, as above. */
+int thr_tour_start(const thr_frame *f, const thr_plan_options *o, const int *half, int n);
+
+#endif

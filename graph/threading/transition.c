@@ -1,0 +1,202 @@
+/* Pairing at nodes, and joining circuits by exchanging pairs (Kotzig 1968). */
+#include "graph/threading/transition.h"
+#include "graph/disjoint.h"
+#include "graph/plan/plan.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { EXACT_DARTS = 12 }; /* largest node paired by dynamic programming: 2^12 subsets */
+
+static bool same_pass_back(const thr_multigraph *g, int a, int b)
+{
+  return g->half[a] == g->half[b]; /* both leave over one edge, or both are cord ends */
+}
+
+double thr_transition_price(const thr_frame *f, const thr_multigraph *g, int a, int b)
+{
+  double price = same_pass_back(g, a, b) ? THR_U_TURN_PRICE : 0;
+  if (g->half[a] < 0 || g->half[b] < 0) return price;
+  return price + thr_turn_angle(f, g->half[a] ^ 1, g->half[b]);
+}
+
+static void set_pair(int *mate, int a, int b)
+{
+  mate[a] = b;
+  mate[b] = a;
+}
+
+/* best[s] = least price of pairing the darts of subset s; choice[s] = partner of its lowest dart. */
+static void pair_exactly(const thr_frame *f, const thr_multigraph *g, const int *dart, int n, int *mate)
+{
+  static _Thread_local double best[1 << EXACT_DARTS];
+  static _Thread_local unsigned char choice[1 << EXACT_DARTS];
+  double price[EXACT_DARTS][EXACT_DARTS];
+  for (int i = 0; i < n; i++)
+    for (int j = i + 1; j < n; j++)
+      price[i][j] = thr_transition_price(f, g, dart[i], dart[j]);
+  best[0] = 0;
+  for (unsigned s = 1; s < 1u << n; s++) {
+    int i = 0;
+    while (!(s >> i & 1u))
+      i++;
+    best[s] = INFINITY; /* stays so for subsets of odd size */
+    for (int j = i + 1; j < n; j++) {
+      if (!(s >> j & 1u)) continue;
+      double total = price[i][j] + best[s & ~(1u << i | 1u << j)];
+      if (total < best[s]) {
+        best[s] = total;
+        choice[s] = (unsigned char)j;
+      }
+    }
+  }
+  for (unsigned s = (1u << n) - 1; s;) {
+    int i = 0;
+    while (!(s >> i & 1u))
+      i++;
+    set_pair(mate, dart[i], dart[choice[s]]);
+    s &= ~(1u << i | 1u << choice[s]);
+  }
+}
+
+/* Darts grouped by edge (copies of an edge are consecutive): dart i with dart i + n/2 differ in edge unless one edge has
+ * more than half of all darts, and then U-turns are unavoidable. */
+static void pair_by_halves(const int *dart, int n, int *mate)
+{
+  for (int i = 0; i < n / 2; i++)
+    set_pair(mate, dart[i], dart[i + n / 2]);
+}
+
+thr_status thr_transition_pair(const thr_frame *f, const thr_multigraph *g, int *mate, thr_err *err)
+{
+  for (int v = 0; v < g->n_nodes; v++) {
+    const int *dart = g->dart + g->first[v];
+    int n = g->first[v + 1] - g->first[v];
+    if (n % 2) return thr_fail(err, THR_EINPUT, "node %s has an odd number (%d) of passes and ends", f->name[v], n);
+    if (n <= EXACT_DARTS)
+      pair_exactly(f, g, dart, n, mate);
+    else
+      pair_by_halves(dart, n, mate);
+  }
+  return THR_OK;
+}
+
+void thr_transition_trace(const int *mate, int start, int *out, int *count)
+{
+  int n = 0, d = start;
+  do {
+    out[n++] = d;
+    d = mate[d ^ 1];
+  } while (d != start);
+  *count = n;
+}
+
+/* ---- joining ---- */
+
+typedef struct {
+  double extra; /* price of the new pairs less that of the old */
+  int a, c;     /* one dart of each pair; a < c */
+  bool cross;   /* new pairs (a d)(b c) instead of (a c)(b d), where b = mate of a and d = mate of c */
+} exchange;
+
+typedef struct {
+  exchange *list;
+  int count, capacity;
+} exchanges;
+
+static int by_extra(const void *pa, const void *pb)
+{
+  const exchange *x = pa, *y = pb;
+  if (x->extra != y->extra) return x->extra < y->extra ? -1 : 1;
+  if (x->a != y->a) return x->a < y->a ? -1 : 1;
+  return (x->c > y->c) - (x->c < y->c);
+}
+
+static exchange best_exchange(const thr_frame *f, const thr_multigraph *g, const int *mate, int a, int c)
+{
+  int b = mate[a], d = mate[c];
+  double old = thr_transition_price(f, g, a, b) + thr_transition_price(f, g, c, d);
+  double straight = thr_transition_price(f, g, a, c) + thr_transition_price(f, g, b, d) - old;
+  double cross = thr_transition_price(f, g, a, d) + thr_transition_price(f, g, b, c) - old;
+  return (exchange){straight <= cross ? straight : cross, a, c, cross < straight};
+}
+
+/* Labels both darts of each pass with the number of its circuit. */
+static void label_circuits(const thr_multigraph *g, const int *mate, int *circuit)
+{
+  int n = 0;
+  for (int d = 0; d < g->n_darts; d++)
+    circuit[d] = -1;
+  for (int start = 0; start < g->n_darts; start++) {
+    if (circuit[start] >= 0) continue;
+    for (int d = start; circuit[d] < 0; d = mate[d ^ 1])
+      circuit[d] = circuit[d ^ 1] = n;
+    n++;
+  }
+}
+
+/* Exchanges between different circuits at node v: all of them at a small node; at a large one each pair with the next. */
+static thr_status collect(const thr_frame *f, const thr_multigraph *g, const int *mate, const int *circuit, int v, exchanges *x,
+                          thr_err *err)
+{
+  int n = g->first[v + 1] - g->first[v];
+  const int *dart = g->dart + g->first[v];
+  for (int i = 0; i < n; i++) {
+    if (mate[dart[i]] < dart[i]) continue;
+    for (int j = i + 1, seen = 0; j < n && (n <= EXACT_DARTS || seen < 1); j++) {
+      if (mate[dart[j]] < dart[j]) continue;
+      seen++;
+      if (circuit[dart[i]] == circuit[dart[j]]) continue;
+      thr_status st = thr_grow(&x->list, x->count, &x->capacity, sizeof *x->list, err);
+      if (st) return st;
+      x->list[x->count++] = best_exchange(f, g, mate, dart[i], dart[j]);
+    }
+  }
+  return THR_OK;
+}
+
+/* One round of Kruskal's rule over exchanges; a pair takes part in at most one exchange a round. */
+static int apply_cheapest(exchanges *x, int *mate, const int *circuit, int *parent, bool *moved)
+{
+  int applied = 0;
+  if (x->count) qsort(x->list, (size_t)x->count, sizeof *x->list, by_extra);
+  for (int i = 0; i < x->count; i++) {
+    int a = x->list[i].a, c = x->list[i].c, b = mate[a], d = mate[c];
+    if (moved[a] || moved[c]) continue;
+    if (!thr_disjoint_join(parent, circuit[a], circuit[c])) continue;
+    set_pair(mate, a, x->list[i].cross ? d : c);
+    set_pair(mate, b, x->list[i].cross ? c : d);
+    moved[a] = moved[b] = moved[c] = moved[d] = true;
+    applied++;
+  }
+  return applied;
+}
+
+thr_status thr_transition_join(const thr_frame *f, const thr_multigraph *g, int *mate, thr_err *err)
+{
+  thr_status st = THR_OK;
+  exchanges x = {0};
+  int *circuit = thr_calloc((size_t)g->n_darts, sizeof *circuit);
+  int *parent = thr_calloc((size_t)g->n_darts, sizeof *parent);
+  bool *moved = thr_calloc((size_t)g->n_darts, sizeof *moved);
+  if (!circuit || !parent || !moved) {
+    st = thr_nomem(err);
+    goto done;
+  }
+  do {
+    x.count = 0;
+    label_circuits(g, mate, circuit);
+    memset(moved, 0, (size_t)g->n_darts * sizeof *moved);
+    for (int d = 0; d < g->n_darts; d++)
+      parent[d] = d;
+    for (int v = 0; v < g->n_nodes; v++)
+      if ((st = collect(f, g, mate, circuit, v, &x, err))) goto done;
+  } while (apply_cheapest(&x, mate, circuit, parent, moved) > 0);
+done:
+  free(x.list);
+  free(circuit);
+  free(parent);
+  free(moved);
+  return st;
+}

@@ -1,0 +1,29 @@
+/* Transition systems: at every node, which pass continues into which. */
+#ifndef THR_TRANSITION_H
+#define THR_TRANSITION_H
+
+#include "graph/threading/multigraph.h"
+
+/* mate[d] of dart d is the dart at the same node that the cord leaves by when it arrives against d (along d ^ 1);
+ * mate[mate[d]] = d. Array of n_darts, owned by the caller. */
+
+/* Price of continuing from dart a to dart b at their node: the turning angle in rad (0 for a cord end), and
+ * THR_U_TURN_PRICE more for a U-turn or for joining two cord ends, which would leave a cord without a pass. */
+#define THR_U_TURN_PRICE 1000.0
+double thr_transition_price(const thr_frame *f, const thr_multigraph *g, int a, int b);
+
+/* Pairs the darts at every node. Up to 12 darts: least total price, by dynamic programming over subsets, so a node has
+ * a U-turn only where no pairing is without one. More darts: no U-turn where one can be avoided, price not minimized;
+ * linear. Every degree must be even (THR_EINPUT otherwise). */
+thr_status thr_transition_pair(const thr_frame *f, const thr_multigraph *g, int *mate, thr_err *err) THR_MUST_CHECK;
+
+/* Exchanges pairs (a b)(c d) -> (a c)(b d) or (a d)(b c) at nodes where two circuits meet, cheapest first, until each
+ * component of the multigraph is one circuit. Adds no U-turn where the pairs at hand have none:
+ * if both new pairings had one, an old pair would have been one. O(p log p) a round for p pairs of pairs, few rounds. */
+thr_status thr_transition_join(const thr_frame *f, const thr_multigraph *g, int *mate, thr_err *err) THR_MUST_CHECK;
+
+/* Euler tour from dart start that keeps to the pairing: out[0..n_darts/2 - 1] receives the darts of the circuit in
+ * order; *count how many (all of them when the circuit is single). Linear. */
+void thr_transition_trace(const int *mate, int start, int *out, int *count);
+
+#endif

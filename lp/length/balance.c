@@ -1,0 +1,173 @@
+/* The search: which walks exchange with which. */
+#include "graph/random.h"
+#include "lp/length/balance.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+  STEPS_PER_PASS = 300, /* what the search may cost */
+  STEPS_LEAST = 300000, /* small ones get this much */
+  PARTNERS = 12         /* shorter walks that a walk is compared with while it cannot be made shorter otherwise */
+};
+
+static bool stop(const thr_balance *b)
+{
+  return b->steps <= 0 || thr_limits_stop(b->limits);
+}
+
+static int longest(const thr_trails *w)
+{
+  int best = 0;
+  for (int i = 1; i < w->n_trails; i++)
+    if (w->walk[i].length > w->walk[best].length) best = i;
+  return best;
+}
+
+static double mean(const thr_trails *w)
+{
+  double sum = 0;
+  for (int i = 0; i < w->n_trails; i++)
+    sum += w->walk[i].length;
+  return sum / w->n_trails;
+}
+
+static bool done(const thr_balance *b)
+{
+  double most = b->w->walk[longest(b->w)].length;
+  return most <= b->goal || most <= mean(b->w) * (1 + 1e-12);
+}
+
+/* What the longer of two walks must fall below for an exchange to be worth it: a part of what is too much, so that a few
+ * exchanges lead to the end. */
+static double worth(const thr_balance *b, double length)
+{
+  double too_much = fmax(length - fmax(b->goal, mean(b->w)), 0);
+  return length - fmax(1e-9 * length, too_much / 64);
+}
+
+/* Walks by length, the longest first. */
+typedef struct {
+  double length;
+  int walk;
+} ranked;
+
+static int by_length(const void *pa, const void *pb)
+{
+  const ranked *a = pa, *b = pb;
+  if (a->length != b->length) return a->length > b->length ? -1 : 1;
+  return (a->walk > b->walk) - (a->walk < b->walk);
+}
+
+static void rank(const thr_trails *w, ranked *order)
+{
+  for (int i = 0; i < w->n_trails; i++)
+    order[i] = (ranked){w->walk[i].length, i};
+  qsort(order, (size_t)w->n_trails, sizeof *order, by_length);
+}
+
+/* The best exchange of walk p with a shorter one; two tries with cyclic ones, which meet at a random node. */
+static thr_status exchange_with_shorter(thr_balance *b, const ranked *order, int p, bool *made, thr_err *err)
+{
+  thr_exchange best = {.longer = worth(b, b->w->walk[p].length)};
+  int with = -1, tries = b->w->walk[p].cyclic ? 2 : 1;
+  thr_status st = THR_OK;
+  for (int k = b->w->n_trails - 1; k >= 0 && order[k].walk != p && !st && b->steps > 0; k--)
+    for (int t = 0; t < tries && !st; t++) {
+      thr_exchange x;
+      int q = order[k].walk;
+      if (b->w->walk[p].cyclic && with >= 0) continue; /* only the last one found is at hand */
+      st = thr_balance_find(b, p, q, &x, err);
+      if (st || x.longer >= best.longer) continue;
+      best = x;
+      with = q;
+      if (b->w->walk[p].cyclic) break;
+    }
+  *made = !st && with >= 0;
+  return *made ? thr_balance_make(b, p, with, &best, err) : st;
+}
+
+/* Every walk exchanges with shorter ones, again and again. */
+static thr_status sweep(thr_balance *b, ranked *order, thr_err *err)
+{
+  thr_status st = THR_OK;
+  for (bool any = true; any && !st && !stop(b) && !done(b);) {
+    any = false;
+    rank(b->w, order);
+    for (int i = 0; i + 1 < b->w->n_trails && !st && !stop(b); i++) {
+      bool made;
+      st = exchange_with_shorter(b, order, order[i].walk, &made, err);
+      any |= made;
+      if (made) break; /* the order is no longer right */
+    }
+  }
+  return st;
+}
+
+/* The longest and another one in another order, so that other exchanges are possible. */
+static thr_status shuffle(thr_balance *b, const ranked *order, thr_err *err)
+{
+  int n = b->w->n_trails, p = order[0].walk, q = order[1 + (int)(thr_random(&b->random) % (uint64_t)(n - 1))].walk;
+  thr_status st = thr_balance_shuffle(b, p, err);
+  if (!st) st = thr_balance_shuffle(b, q, err);
+  return st;
+}
+
+static thr_status detour(thr_balance *b, const ranked *order, bool *made, thr_err *err)
+{
+  thr_status st = THR_OK;
+  int p = order[0].walk, tried = 0;
+  *made = false;
+  for (int k = b->w->n_trails - 1; k > 0 && tried < PARTNERS && !*made && !st && !stop(b); k--, tried++)
+    st = thr_balance_detour(b, p, order[k].walk, worth(b, b->w->walk[p].length), made, err);
+  return st;
+}
+
+/* Rounds of shuffles and exchanges; after some in vain a detour. */
+static thr_status search(thr_balance *b, ranked *order, thr_err *err)
+{
+  enum { IN_VAIN = 24, STUCK = 20 };
+  thr_status st = sweep(b, order, err);
+  for (int vain = 0, stuck = 0; stuck < STUCK && !st && !stop(b) && !done(b);) {
+    double most = b->w->walk[longest(b->w)].length;
+    bool made = false;
+    rank(b->w, order);
+    if (vain == IN_VAIN) st = detour(b, order, &made, err);
+    if (vain == IN_VAIN) stuck += !made;
+    if (!made && !st) st = shuffle(b, order, err);
+    if (!st) st = sweep(b, order, err);
+    bool better = b->w->walk[longest(b->w)].length < worth(b, most);
+    vain = better || vain == IN_VAIN ? 0 : vain + 1;
+    if (better) stuck = 0;
+  }
+  return st;
+}
+
+thr_status thr_balance_walks(const thr_share *s, thr_trails *w, double goal, const thr_limits *limits, int *passes, thr_err *err)
+{
+  int64_t all = 0;
+  size_t n = (size_t)s->f->n_nodes;
+  if (w->n_trails < 2) return THR_OK;
+  for (int i = 0; i < w->n_trails; i++)
+    all += w->walk[i].n;
+  thr_balance b = {.s = s, .limits = limits, .w = w, .passes = passes, .goal = goal, .random = 1};
+  b.steps = STEPS_LEAST + STEPS_PER_PASS * all;
+  b.first = thr_calloc(n, sizeof *b.first);
+  ranked *order = thr_calloc((size_t)w->n_trails, sizeof *order);
+  thr_knots ties = {0};
+  thr_status st = b.first && order ? THR_OK : thr_nomem(err);
+  if (!st && s->o->joint == THR_JOINT_TUBE) {
+    st = thr_knots_init(&ties, s->f, w, err);
+    b.ties = &ties;
+  }
+  if (!st) {
+    memset(b.first, 0xff, n * sizeof *b.first);
+    st = search(&b, order, err);
+  }
+  free(b.first);
+  free(b.merged);
+  free(order);
+  thr_knots_destroy(&ties);
+  return st;
+}

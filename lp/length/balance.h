@@ -1,0 +1,62 @@
+/* Evening out the cords of a component: exchanges until the longest cannot be made shorter (Ahr & Reinelt 2006 for closed tours
+ * from one depot; here cords end where they may, and share nodes). */
+#ifndef THR_BALANCE_H
+#define THR_BALANCE_H
+
+#include "lp/length/share.h"
+#include "lp/length/knots.h"
+
+/* One component's cords on the way; all arrays are owned by whoever fills it. */
+typedef struct {
+  const thr_share *s;
+  const thr_limits *limits;
+  thr_trails *w;   /* cyclic with THR_ENDS_CLOSED, else open */
+  thr_knots *ties; /* tube joints: of these walks, which every change leaves tied; else NULL */
+  int *passes;     /* [n_edges] of these walks */
+  double goal;     /* shorter than this the longest need not be */
+  uint64_t random; /* state */
+  int64_t steps;   /* left; what a search costs */
+  int *first;      /* [n_nodes] -1 between uses */
+  int room;        /* of merged */
+  int *merged;     /* [passes of the two walks] of an exchange between cyclic walks */
+} thr_balance;
+
+/* Exchanges until no walk is longer than goal, none helps, or the limits stop it. passes[n_edges] are those of all components and
+ * change where cords take detours. With tube joints the walks tie all nodes of the component before and after. Work in proportion
+ * to passes, at most some hundred times as much. The same input gives the same walks. Failure (THR_ENOMEM) leaves valid walks. */
+thr_status thr_balance_walks(const thr_share *s, thr_trails *w, double goal, const thr_limits *limits, int *passes,
+                             thr_err *err) THR_MUST_CHECK;
+
+/* ---- internal to lp/balance*.c ---- */
+
+/* How two walks exchange passes at a node where both are. */
+typedef enum {
+  THR_EXCHANGE_NONE,
+  THR_EXCHANGE_TAILS,
+  THR_EXCHANGE_CROSS,
+  THR_EXCHANGE_GIVE,
+  THR_EXCHANGE_JOIN,
+  THR_EXCHANGE_SECTION
+} thr_exchange_kind;
+
+typedef struct {
+  thr_exchange_kind kind;
+  double longer; /* length of the longer of the two afterwards; INFINITY: no exchange */
+  int i, j, k;   /* positions, see balance_exchange.c */
+} thr_exchange;
+
+enum { THR_MOST_VISITS = 32 }; /* of a node, that each of its visits is compared with: hubs are not quadratic */
+
+/* The exchange between two walks that leaves them most equal. */
+thr_status thr_balance_find(thr_balance *b, int p, int q, thr_exchange *best, thr_err *err) THR_MUST_CHECK;
+
+/* Makes it: right after it was found. */
+thr_status thr_balance_make(thr_balance *b, int p, int q, const thr_exchange *x, thr_err *err) THR_MUST_CHECK;
+
+/* Turns round random closed sections of a walk: its passes and ends stay, their order changes. */
+thr_status thr_balance_shuffle(thr_balance *b, int p, thr_err *err) THR_MUST_CHECK;
+
+/* Walk p gives a section to walk q, which gets there over extra passes, if that leaves both shorter than below. */
+thr_status thr_balance_detour(thr_balance *b, int p, int q, double below, bool *made, thr_err *err) THR_MUST_CHECK;
+
+#endif

@@ -1,0 +1,34 @@
+/* The shortest plan with any number of cords: passes (lp/length/postman.h), shared out among cords (lp/length/share.h,
+ * lp/length/balance.h). */
+#ifndef THR_CORDS_H
+#define THR_CORDS_H
+
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+
+/* What is known beyond what graph/check/check.c can verify, for the one who asked. */
+typedef struct {
+  bool passes_least; /* these passes are the shortest that hold the cords: found by an exact method whose proof is not recorded */
+  bool longest_least; /* balance: with as many cords, no longest cord is shorter: the word of an integer programme */
+} thr_cords_word;
+
+/* Plans options.cords_least .. options.cords cords in every component (with THR_ENDS_COUNTS, as many as the counts say):
+ * - usually the shortest passes of all, and the fewest cords through them, cut where they turn most;
+ * - balance: the longest cord is made as short as the search finds, extra passes included;
+ * - max_length: the fewest cords none of which is longer, as far as the search finds them.
+ * word may be NULL. THR_OK: what was asked to be least is proved to be. THR_ELIMIT: the plan is valid and says its bounds.
+ * THR_EINFEASIBLE: there is none, or none was found: the text says which, and why. Otherwise the plan is empty. */
+thr_status thr_cords_plan(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
+                          thr_cords_word *word, thr_err *err) THR_MUST_CHECK;
+
+/* ---- shared with tube joints (tortuosity/tie/tube_cords.c) ---- */
+
+/* THR_EINFEASIBLE, said: an edge that no cord within options.max_length can pass, coming from where it may end and going where it
+ * may end. */
+thr_status thr_cords_reach(const thr_frame *f, const thr_plan_options *o, thr_err *err) THR_MUST_CHECK;
+
+/* Is what was asked to be least proved to be, by the plan's claims? Else THR_ELIMIT, and how far it may be off; unproved: what is
+ * to be said before that, if anything. */
+thr_status thr_cords_judge(const thr_plan *plan, const thr_err *unproved, thr_err *err) THR_MUST_CHECK;
+
+#endif

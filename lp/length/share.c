@@ -1,0 +1,186 @@
+/* Cutting walks where cords may end. */
+#include "lp/length/share.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A place to cut: before pass number at of a walk. */
+typedef struct {
+  double turn; /* that the cut leaves out, rad */
+  int walk, at, node;
+} place;
+
+typedef struct {
+  const thr_share *s;
+  thr_trails *w;
+  int *left; /* [n_nodes] THR_ENDS_COUNTS: cuts that are still to be made there; else NULL */
+  place *list;
+  int n, capacity;
+} places;
+
+static bool may_cut(const places *p, int v)
+{
+  return p->left ? p->left[v] > 0 : thr_plan_end_allowed(p->s->f, p->s->o, v);
+}
+
+/* Every cut adds two ends: what the counts ask for beyond the ends that the walks have. */
+static thr_status count_cuts(places *p, int *cuts, thr_err *err)
+{
+  const thr_frame *f = p->s->f;
+  *cuts = 0;
+  if (!(p->left = thr_calloc((size_t)f->n_nodes, sizeof *p->left))) return thr_nomem(err);
+  const int k = p->s->component[thr_tail(f, p->w->walk[0].half[0])];
+  for (int v = 0; v < f->n_nodes; v++)
+    if (p->s->component[v] == k) p->left[v] = p->s->o->end_count[v];
+  for (int i = 0; i < p->w->n_trails; i++) {
+    const thr_trail *x = &p->w->walk[i];
+    if (x->cyclic) continue;
+    p->left[thr_tail(f, x->half[0])]--;
+    p->left[thr_head(f, x->half[x->n - 1])]--;
+  }
+  for (int v = 0; v < f->n_nodes; v++) {
+    if (p->left[v] < 0 || p->left[v] % 2)
+      return thr_fail(err, THR_ESOLVER, "the passes do not leave as many ends at node %s as asked for", f->name[v]);
+    p->left[v] /= 2;
+    *cuts += p->left[v];
+  }
+  return THR_OK;
+}
+
+static thr_status find_places(places *p, thr_err *err)
+{
+  const thr_frame *f = p->s->f;
+  p->n = 0;
+  for (int i = 0; i < p->w->n_trails; i++) {
+    const thr_trail *x = &p->w->walk[i];
+    for (int at = x->cyclic ? 0 : 1; at < x->n; at++) {
+      int v = thr_tail(f, x->half[at]);
+      if (!may_cut(p, v)) continue;
+      thr_status st = thr_grow(&p->list, p->n, &p->capacity, sizeof *p->list, err);
+      if (st) return st;
+      p->list[p->n++] = (place){thr_trail_turn(f, x->half[at ? at - 1 : x->n - 1], x->half[at]), i, at, v};
+    }
+  }
+  return THR_OK;
+}
+
+static int by_turn(const void *pa, const void *pb)
+{
+  const place *a = pa, *b = pb;
+  if (fabs(a->turn - b->turn) > 1e-9) return a->turn > b->turn ? -1 : 1; /* equal ones in order, whatever the rounding */
+  if (a->walk != b->walk) return a->walk < b->walk ? -1 : 1;
+  return (a->at > b->at) - (a->at < b->at);
+}
+
+/* The last place of a walk first. */
+static int by_place(const void *pa, const void *pb)
+{
+  const place *a = pa, *b = pb;
+  if (a->walk != b->walk) return a->walk < b->walk ? -1 : 1;
+  return (a->at < b->at) - (a->at > b->at);
+}
+
+/* Cuts at all places of the list. */
+static thr_status cut_all(places *p, thr_err *err)
+{
+  thr_status st = THR_OK;
+  if (p->n) qsort(p->list, (size_t)p->n, sizeof *p->list, by_place);
+  for (int i = 0, end; i < p->n && !st; i = end) {
+    thr_trail *x = &p->w->walk[p->list[i].walk];
+    for (end = i; end < p->n && p->list[end].walk == p->list[i].walk;)
+      end++;
+    int last = end, shift = 0;
+    if (x->cyclic) { /* the first place opens it */
+      shift = p->list[--last].at;
+      x->cyclic = false;
+      st = thr_trail_rotate(x, shift, err);
+    }
+    for (int j = i; j < last && !st; j++)
+      st = thr_trails_split(p->w, p->s->f, p->list[j].walk, p->list[j].at - shift, err);
+  }
+  return st;
+}
+
+static thr_status too_few(const places *p, int wanted, thr_err *err)
+{
+  const thr_frame *f = p->s->f;
+  return thr_fail(err, THR_EINFEASIBLE, "the piece with node %s has too few places for the ends of %d cords",
+                  f->name[thr_tail(f, p->w->walk[0].half[0])], wanted);
+}
+
+static thr_status cut_sharpest(places *p, int cuts, int wanted, thr_err *err)
+{
+  int taken = 0;
+  thr_status st = find_places(p, err);
+  if (st) return st;
+  if (p->n) qsort(p->list, (size_t)p->n, sizeof *p->list, by_turn);
+  for (int i = 0; i < p->n && taken < cuts; i++) {
+    if (!may_cut(p, p->list[i].node)) continue;
+    if (p->left) p->left[p->list[i].node]--;
+    p->list[taken++] = p->list[i];
+  }
+  if (taken < cuts) return too_few(p, wanted, err);
+  p->n = taken;
+  return cut_all(p, err);
+}
+
+/* Where an open walk is cut into the most equal parts; 0 = nowhere. A cyclic one: where it may be opened; -1 = nowhere. */
+static int middle(const places *p, const thr_trail *x)
+{
+  double sum = 0, best = INFINITY;
+  int at = x->cyclic ? -1 : 0;
+  for (int i = 0; i < x->n; i++) {
+    if ((x->cyclic || i) && may_cut(p, thr_tail(p->s->f, x->half[i]))) {
+      double off = x->cyclic ? 0 : fabs(sum - x->length / 2);
+      if (off < best) {
+        best = off;
+        at = i;
+      }
+    }
+    sum += p->s->f->length[x->half[i] >> 1];
+  }
+  return at;
+}
+
+/* The longest walk that can be cut, in the middle; again and again. */
+static thr_status cut_longest(places *p, int cuts, int wanted, thr_err *err)
+{
+  thr_status st = THR_OK;
+  for (int done = 0; done < cuts && !st; done++) {
+    int best = -1, best_at = 0;
+    for (int i = 0; i < p->w->n_trails; i++) {
+      thr_trail *x = &p->w->walk[i];
+      if (best >= 0 && x->length <= p->w->walk[best].length * (1 + 1e-12)) continue;
+      int at = middle(p, x);
+      if (at < (x->cyclic ? 0 : 1)) continue;
+      best = i;
+      best_at = at;
+    }
+    if (best < 0) return too_few(p, wanted, err);
+    thr_trail *x = &p->w->walk[best];
+    if (x->cyclic) {
+      st = thr_trail_rotate(x, best_at, err);
+      x->cyclic = false;
+    } else {
+      st = thr_trails_split(p->w, p->s->f, best, best_at, err);
+    }
+  }
+  return st;
+}
+
+thr_status thr_share_cut(const thr_share *s, int n, bool even, thr_trails *w, thr_err *err)
+{
+  places p = {.s = s, .w = w};
+  bool counts = s->o->ends == THR_ENDS_COUNTS;
+  int open = 0, cuts = 0;
+  thr_status st = THR_OK;
+  for (int i = 0; i < w->n_trails; i++)
+    open += !w->walk[i].cyclic;
+  if (counts) st = count_cuts(&p, &cuts, err);
+  if (!counts && n > open) cuts = n - open;
+  if (!st && cuts) st = even && !counts ? cut_longest(&p, cuts, n, err) : cut_sharpest(&p, cuts, open + cuts, err);
+  free(p.left);
+  free(p.list);
+  return st;
+}

@@ -1,0 +1,209 @@
+/* Extra passes where cord ends need more of them: a perfect matching of ports. */
+#include "graph/check/check.h"
+#include "lp/matching/blossom.h"
+#include "lp/length/share.h"
+
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_EDGES = 2000000 }; /* of a matching */
+
+/* Every possible extra pass has a port at each of its nodes: the two are matched with each other if the pass is made, else each
+ * with a core of its group. A group of p ports that needs d passes, or 2, 4, .. more, has p - d cores, which may be matched
+ * with each other. A group is a node; or all nodes where cords may end, if ends are free to be at any of them. */
+typedef struct {
+  const thr_share *s;
+  const thr_certificate *c;
+  int k, n_groups;
+  int *group; /* [n_nodes] or -1 */
+  int *need;  /* [n_groups] d */
+  int *first,
+      *top;     /* [n_groups + 1] ports of a group are first .. first + n_ports - 1, then cores to the next first; next port */
+  int *n_ports; /* [n_groups] */
+  int *copies;  /* [n_edges] possible extra passes */
+  int n_edges, n_passes;
+  int (*edge)[2]; /* the passes come first */
+  int64_t *weight;
+} ports;
+
+static void ports_destroy(ports *p)
+{
+  free(p->group);
+  free(p->need);
+  free(p->first);
+  free(p->top);
+  free(p->n_ports);
+  free(p->copies);
+  free(p->edge);
+  free(p->weight);
+}
+
+static int passes_at(const thr_frame *f, const int *passes, int v)
+{
+  int sum = 0;
+  for (int i = f->first[v]; i < f->first[v + 1]; i++)
+    sum += passes[f->half[i] >> 1];
+  return sum;
+}
+
+static int covers_at(const thr_share *s, int v)
+{
+  int sum = 0;
+  for (int i = s->f->first[v]; i < s->f->first[v + 1]; i++)
+    sum += thr_plan_cover(s->f, s->o, s->f->half[i] >> 1);
+  return sum;
+}
+
+static bool enough_places(const thr_share *s, int k, int n, const int *passes)
+{
+  int free_places = 0;
+  for (int v = 0; v < s->f->n_nodes; v++) {
+    if (s->component[v] != k || !thr_plan_end_allowed(s->f, s->o, v)) continue;
+    int at = passes_at(s->f, passes, v);
+    if (s->o->ends == THR_ENDS_COUNTS && at < s->o->end_count[v]) return false;
+    if (free_places < INT_MAX / 2) free_places += at;
+  }
+  return s->o->ends == THR_ENDS_COUNTS || free_places >= 2 * n;
+}
+
+/* Groups, and the passes that they need beyond the cover. */
+static void find_groups(ports *p, int n)
+{
+  const thr_share *s = p->s;
+  bool counts = s->o->ends == THR_ENDS_COUNTS;
+  int joint = -1; /* the group of all places where ends are free to be */
+  for (int v = 0; v < s->f->n_nodes; v++) {
+    p->group[v] = -1;
+    if (s->component[v] != p->k) continue;
+    bool end = thr_plan_end_allowed(s->f, s->o, v);
+    int g = !counts && end && joint >= 0 ? joint : p->n_groups++;
+    if (!counts && end && joint < 0) {
+      joint = g;
+      p->need[g] = 2 * n;
+    } else if (counts) {
+      p->need[g] = s->o->end_count[v];
+    }
+    p->group[v] = g;
+    p->need[g] -= covers_at(s, v);
+  }
+  for (int g = 0; g < p->n_groups; g++)
+    if (p->need[g] < 0) p->need[g] = -p->need[g] % 2;
+}
+
+/* More than so many extra passes of an edge are more than its groups need. */
+static thr_status count_ports(ports *p, thr_err *err)
+{
+  const thr_share *s = p->s;
+  int64_t edges = 0;
+  for (int e = 0; e < s->f->n_edges; e++) {
+    int a = p->group[s->f->edge[e][0]], b = p->group[s->f->edge[e][1]];
+    if (a < 0) continue;
+    int most = a == b ? (p->need[a] + 1) / 2 : p->need[a] > p->need[b] ? p->need[a] : p->need[b];
+    int room = thr_plan_capacity(s->f, s->o, e) - thr_plan_cover(s->f, s->o, e);
+    if (most < 1) most = 1;
+    p->copies[e] = most < room ? most : room;
+    p->n_ports[a] += p->copies[e];
+    p->n_ports[b] += p->copies[e];
+    p->n_passes += p->copies[e];
+  }
+  for (int g = 0; g < p->n_groups; g++) {
+    int64_t cores = p->n_ports[g] - p->need[g];
+    if (cores >= 0) edges += cores * p->n_ports[g] + cores * (cores - 1) / 2;
+  }
+  if (edges + p->n_passes > MOST_EDGES)
+    return thr_fail(err, THR_ELIMIT, "too many ends, at nodes with too many edges, to find the shortest extra passes for them");
+  p->n_edges = (int)edges + p->n_passes;
+  return THR_OK;
+}
+
+static thr_status no_room(const ports *p, int g, thr_err *err)
+{
+  int v = 0;
+  while (p->group[v] != g)
+    v++;
+  return thr_fail(err, THR_EINFEASIBLE,
+                  "the edges at node %s%s have no room for enough passes: their capacity allows fewer cord ends than asked for",
+                  p->s->f->name[v], p->s->o->ends == THR_ENDS_COUNTS ? "" : " and wherever else its cords may end");
+}
+
+static void add_edge(ports *p, int *n, int a, int b, int64_t weight)
+{
+  p->edge[*n][0] = a;
+  p->edge[*n][1] = b;
+  p->weight[(*n)++] = weight;
+}
+
+static thr_status build(ports *p, thr_err *err)
+{
+  const thr_frame *f = p->s->f;
+  int n = 0;
+  for (int g = 0; g < p->n_groups; g++) {
+    if (p->n_ports[g] < p->need[g]) return no_room(p, g, err);
+    p->top[g] = p->first[g];
+    p->first[g + 1] = p->first[g] + 2 * p->n_ports[g] - p->need[g];
+  }
+  p->edge = thr_calloc((size_t)p->n_edges, sizeof *p->edge);
+  p->weight = thr_calloc((size_t)p->n_edges, sizeof *p->weight);
+  if (!p->edge || !p->weight) return thr_nomem(err);
+  for (int e = 0; e < f->n_edges; e++)
+    for (int i = 0; i < p->copies[e]; i++) {
+      int a = p->top[p->group[f->edge[e][0]]]++, b = p->top[p->group[f->edge[e][1]]]++;
+      add_edge(p, &n, a, b, thr_certificate_weight(f, p->c, e));
+    }
+  for (int g = 0; g < p->n_groups; g++)
+    for (int core = p->first[g] + p->n_ports[g]; core < p->first[g + 1]; core++)
+      for (int other = p->first[g]; other < core; other++)
+        add_edge(p, &n, other, core, 0);
+  return THR_OK;
+}
+
+static thr_status ports_init(ports *p, int n, thr_err *err)
+{
+  size_t nodes = (size_t)p->s->f->n_nodes;
+  p->group = thr_calloc(nodes, sizeof *p->group);
+  p->need = thr_calloc(nodes, sizeof *p->need);
+  p->first = thr_calloc(nodes + 1, sizeof *p->first);
+  p->top = thr_calloc(nodes, sizeof *p->top);
+  p->n_ports = thr_calloc(nodes, sizeof *p->n_ports);
+  p->copies = thr_calloc((size_t)p->s->f->n_edges, sizeof *p->copies);
+  if (!p->group || !p->need || !p->first || !p->top || !p->n_ports || !p->copies) return thr_nomem(err);
+  find_groups(p, n);
+  thr_status st = count_ports(p, err);
+  return st ? st : build(p, err);
+}
+
+static void take(const ports *p, const thr_matching *m, int *passes)
+{
+  const thr_share *s = p->s;
+  for (int e = 0, n = 0; e < s->f->n_edges; e++) {
+    if (p->group[s->f->edge[e][0]] < 0) continue;
+    passes[e] = thr_plan_cover(s->f, s->o, e);
+    for (int i = 0; i < p->copies[e]; i++, n++)
+      passes[e] += m->mate_edge[p->edge[n][0]] == n;
+  }
+}
+
+thr_status thr_share_places(const thr_share *s, int k, int n, const thr_certificate *c, const thr_limits *limits, int *passes,
+                            bool *changed, thr_err *err)
+{
+  ports p = {.s = s, .c = c, .k = k};
+  thr_matching m = {0};
+  *changed = false;
+  if (s->o->ends == THR_ENDS_CLOSED || enough_places(s, k, n, passes)) return THR_OK;
+  thr_err why = {0};
+  thr_status st = ports_init(&p, n, &why);
+  if (!st) {
+    thr_matching_problem problem = {p.first[p.n_groups], p.n_edges, (const int(*)[2])p.edge, p.weight};
+    st = thr_matching_solve(&problem, limits, &m, &why);
+    if (st == THR_EINFEASIBLE) why = (thr_err){0};
+  }
+  if (!st) take(&p, &m, passes);
+  *changed = !st;
+  if (st == THR_EINFEASIBLE && !why.code)
+    thr_fail(&why, st, "the capacities of the edges leave no room for as many cord ends as asked for");
+  if (st) thr_fail(err, st, "%s", why.text);
+  thr_matching_destroy(&m);
+  ports_destroy(&p);
+  return st;
+}

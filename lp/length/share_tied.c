@@ -1,0 +1,241 @@
+/* More closed cords for tube joints: other orders of the same passes, then pairs of passes, or a cord round a short circuit. */
+#include "lp/length/balance.h"
+#include "lp/length/ways.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+  const thr_share *s;
+  thr_trails *w;
+  thr_knots ties;
+  int *passes;
+  bool even;
+} splitting;
+
+/* ---- other orders ---- */
+
+/* Sections turned round at random, so that other places to split come up. */
+static thr_status split_shuffled(splitting *x, int n, thr_err *err)
+{
+  enum { ROUNDS = 12 };
+  size_t nodes = (size_t)x->s->f->n_nodes;
+  thr_balance b = {.s = x->s, .w = x->w, .ties = &x->ties, .passes = x->passes, .random = 1};
+  if (!(b.first = thr_calloc(nodes, sizeof *b.first))) return thr_nomem(err);
+  memset(b.first, 0xff, nodes * sizeof *b.first);
+  thr_status st = thr_share_split(x->s, n, x->even, &x->ties, x->w, err);
+  for (int round = 0; round < ROUNDS && !st && x->w->n_trails < n; round++) {
+    for (int i = 0; i < x->w->n_trails && !st; i++)
+      st = thr_balance_shuffle(&b, i, err);
+    if (!st) st = thr_share_split(x->s, n, x->even, &x->ties, x->w, err);
+  }
+  free(b.first);
+  return st;
+}
+
+/* ---- two more passes of one edge ---- */
+
+/* Between passes from .. end - 1 of a walk and the rest of it: there by half-edge half, and back. */
+typedef struct {
+  double price;
+  int walk, from, end, half;
+} chord;
+
+static int before(const thr_trail *x, int at)
+{
+  return x->half[at ? at - 1 : x->n - 1];
+}
+
+/* The visits must not pass the edge: a cord would turn back. Then both halves tie what the walk tied. */
+static bool passes_at(const thr_trail *x, int at, int e)
+{
+  return x->half[at] >> 1 == e || before(x, at) >> 1 == e;
+}
+
+/* Chords over half-edge h, between visits of one walk. */
+static void offer_chords(const splitting *x, const thr_trail_visits *v, int only, int h, chord *best)
+{
+  const thr_frame *f = x->s->f;
+  for (int i = v->first[thr_tail(f, h)], seen = 0; i >= 0 && seen < THR_MOST_VISITS; i = v->next[i], seen++) {
+    const thr_trail *y = &x->w->walk[v->walk[i]];
+    if ((only >= 0 && v->walk[i] != only) || passes_at(y, v->at[i], h >> 1)) continue;
+    for (int j = v->first[thr_head(f, h)], others = 0; j >= 0 && others < THR_MOST_VISITS; j = v->next[j], others++) {
+      if (v->walk[j] != v->walk[i] || v->at[j] < v->at[i] || passes_at(y, v->at[j], h >> 1)) continue;
+      double part = thr_trail_length(f, y->half + v->at[i], v->at[j] - v->at[i]);
+      double price = x->even ? fmax(part, y->length - part) : 0;
+      price += f->length[h >> 1];
+      if (price < best->price) *best = (chord){price, v->walk[i], v->at[i], v->at[j], h};
+    }
+  }
+}
+
+static thr_status best_chord(const splitting *x, chord *best, thr_err *err)
+{
+  thr_trail_visits v;
+  const thr_frame *f = x->s->f;
+  int only = -1;
+  *best = (chord){.price = INFINITY};
+  for (int i = 0; i < x->w->n_trails && x->even; i++)
+    if (only < 0 || x->w->walk[i].length > x->w->walk[only].length) only = i;
+  thr_status st = thr_trail_visits_init(&v, f, x->w, err);
+  if (st) return st;
+  for (int h = 0; h < 2 * f->n_edges; h++)
+    if (x->passes[h >> 1] <= thr_plan_capacity(f, x->s->o, h >> 1) - 2 && (x->even || f->length[h >> 1] < best->price))
+      offer_chords(x, &v, only, h, best);
+  thr_trail_visits_destroy(&v);
+  return THR_OK;
+}
+
+static thr_status add_chord(splitting *x, const chord *c, thr_err *err)
+{
+  thr_trail *old = &x->w->walk[c->walk];
+  thr_knots_change change = {.n = 0};
+  int section = c->end - c->from, rest = old->n - section, n = 0;
+  thr_trail one = {section + 1, thr_calloc((size_t)section + 1, sizeof *one.half), 0, true};
+  int *two = thr_calloc((size_t)rest + 1, sizeof *two);
+  if (!one.half || !two) {
+    free(one.half);
+    free(two);
+    return thr_nomem(err);
+  }
+  thr_knots_note(&change, before(old, c->from), old->half[c->from], -1);
+  thr_knots_note(&change, old->half[c->end - 1], old->half[c->end], -1);
+  thr_knots_note(&change, before(old, c->from), c->half, 1);
+  thr_knots_note(&change, c->half, old->half[c->end], 1);
+  thr_knots_note(&change, old->half[c->end - 1], c->half ^ 1, 1);
+  thr_knots_note(&change, c->half ^ 1, old->half[c->from], 1);
+  thr_knots_make(&x->ties, &change);
+  memcpy(one.half, old->half + c->from, (size_t)section * sizeof *one.half);
+  one.half[section] = c->half ^ 1;
+  for (int i = 0; i < old->n; i++) {
+    if (i == c->from) two[n++] = c->half;
+    if (i < c->from || i >= c->end) two[n++] = old->half[i];
+  }
+  free(old->half);
+  *old = (thr_trail){n, two, thr_trail_length(x->s->f, two, n), true};
+  x->passes[c->half >> 1] += 2;
+  return thr_trails_add(x->w, x->s->f, one, err);
+}
+
+/* ---- a short circuit ---- */
+
+/* Out of node start over two ways, and between their ends over an edge. */
+typedef struct {
+  double length;
+  int start, edge;
+} circuit;
+
+/* The first half-edge of the way to v; -1 at the start. */
+static int leaves_by(const thr_ways *g, int v)
+{
+  int h = -1;
+  for (; g->over[v] >= 0; v = thr_tail(g->f, g->over[v]))
+    h = g->over[v];
+  return h;
+}
+
+static thr_status spread_from(const splitting *x, thr_ways *g, int v, double most, thr_err *err)
+{
+  thr_ways_clear(g);
+  thr_status st = thr_ways_start(g, v, err);
+  return st ? st : thr_ways_spread(g, x->s->o, x->passes, 1, most, NULL, err);
+}
+
+static bool on_way(const thr_ways *g, int v, int e)
+{
+  return g->over[v] >= 0 && g->over[v] >> 1 == e;
+}
+
+/* The shortest circuit with room for one more pass: of the ways from every node, two that leave it differently and nearly meet.
+ * In large frameworks from some nodes only. */
+static thr_status best_circuit(const splitting *x, thr_ways *g, int component, circuit *best, thr_err *err)
+{
+  const double most = 5e7; /* edges looked at */
+  const thr_frame *f = x->s->f;
+  thr_status st = THR_OK;
+  int step = 1 + (int)((double)f->n_nodes * f->n_edges / most);
+  *best = (circuit){INFINITY, -1, -1};
+  for (int v = 0; v < f->n_nodes && !st; v += best->start < 0 ? 1 : step) {
+    if (x->s->component[v] != component) continue;
+    st = spread_from(x, g, v, best->length, err);
+    for (int e = 0; e < f->n_edges && !st; e++) {
+      int a = f->edge[e][0], b = f->edge[e][1];
+      double length = g->far[a] + g->far[b] + f->length[e];
+      if (!(length < best->length) || on_way(g, a, e) || on_way(g, b, e)) continue;
+      if (x->passes[e] < thr_plan_capacity(f, x->s->o, e) && leaves_by(g, a) != leaves_by(g, b)) *best = (circuit){length, v, e};
+    }
+  }
+  return st;
+}
+
+static int way_length(const thr_ways *g, int v)
+{
+  int n = 0;
+  for (; g->over[v] >= 0; v = thr_tail(g->f, g->over[v]))
+    n++;
+  return n;
+}
+
+static thr_status add_circuit(splitting *x, thr_ways *g, const circuit *c, thr_err *err)
+{
+  const thr_frame *f = x->s->f;
+  int a = f->edge[c->edge][0], b = f->edge[c->edge][1];
+  thr_status st = spread_from(x, g, c->start, c->length, err);
+  if (st) return st;
+  int there = way_length(g, a), back = way_length(g, b), n = there;
+  thr_trail new = {there + 1 + back, thr_calloc((size_t)there + 1 + (size_t)back, sizeof *new.half), 0, true};
+  if (!new.half) return thr_nomem(err);
+  for (int v = a; g->over[v] >= 0; v = thr_tail(f, g->over[v]))
+    new.half[--n] = g->over[v];
+  new.half[there] = 2 * c->edge;
+  n = there + 1;
+  for (int v = b; g->over[v] >= 0; v = thr_tail(f, g->over[v]))
+    new.half[n++] = g->over[v] ^ 1;
+  for (int i = 0; i < new.n; i++) {
+    thr_knots_change change = {.n = 0};
+    thr_knots_note(&change, before(&new, i), new.half[i], 1);
+    thr_knots_make(&x->ties, &change);
+    x->passes[new.half[i] >> 1]++;
+  }
+  return thr_trails_add(x->w, f, new, err);
+}
+
+static bool must_more(const splitting *x, int n)
+{
+  return x->w->n_trails < (x->even && x->s->o->cords_least < n ? x->s->o->cords_least : n);
+}
+
+/* One more walk, for few more passes. *made: there was room, and it must be or makes the longest shorter. */
+static thr_status add_one(splitting *x, thr_ways *g, int n, bool *made, thr_err *err)
+{
+  chord c;
+  circuit round = {.length = INFINITY};
+  int component = x->s->component[thr_tail(x->s->f, x->w->walk[0].half[0])];
+  thr_status st = best_chord(x, &c, err);
+  if (!st && must_more(x, n)) st = best_circuit(x, g, component, &round, err);
+  if (st) return st;
+  bool cut = must_more(x, n) ? c.price < INFINITY && 2 * x->s->f->length[c.half >> 1] <= round.length
+                             : c.price < thr_trails_longest(x->w) * (1 - 1e-9);
+  *made = cut || round.length < INFINITY;
+  if (cut) return add_chord(x, &c, err);
+  return *made ? add_circuit(x, g, &round, err) : THR_OK;
+}
+
+thr_status thr_share_tied(const thr_share *s, int n, bool even, int *passes, thr_trails *w, bool *found, thr_err *err)
+{
+  thr_ways g = {0};
+  splitting x = {.s = s, .w = w, .passes = passes, .even = even};
+  bool made = true;
+  thr_status st = thr_knots_init(&x.ties, s->f, w, err);
+  if (!st) st = thr_ways_init(&g, s->f, err);
+  if (!st) st = split_shuffled(&x, n, err);
+  while (!st && made && w->n_trails < n) {
+    st = add_one(&x, &g, n, &made, err);
+    if (!st) st = thr_share_split(s, n, even, &x.ties, w, err);
+  }
+  *found = !must_more(&x, n);
+  thr_ways_destroy(&g);
+  thr_knots_destroy(&x.ties);
+  return st;
+}

@@ -1,0 +1,63 @@
+/* Dijkstra's method on a framework. */
+#include "lp/length/ways.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+thr_status thr_ways_init(thr_ways *x, const thr_frame *f, thr_err *err)
+{
+  size_t n = (size_t)f->n_nodes;
+  *x = (thr_ways){.f = f,
+                  .unit = thr_frame_total_length(f) * 0x1p-50,
+                  .far = thr_calloc(n, sizeof *x->far),
+                  .over = thr_calloc(n, sizeof *x->over)};
+  if (!x->far || !x->over) return thr_nomem(err);
+  thr_ways_clear(x);
+  return THR_OK;
+}
+
+void thr_ways_destroy(thr_ways *x)
+{
+  free(x->far);
+  free(x->over);
+  free(x->queue.entry);
+}
+
+void thr_ways_clear(thr_ways *x)
+{
+  for (int v = 0; v < x->f->n_nodes; v++)
+    x->far[v] = INFINITY;
+  x->queue.count = 0;
+}
+
+/* Lengths are rounded in the queue only: a node that was taken too early is taken again. */
+static thr_status reach(thr_ways *x, int v, double far, int over, thr_err *err)
+{
+  if (far >= x->far[v]) return THR_OK;
+  x->far[v] = far;
+  x->over[v] = over;
+  return thr_queue_push(&x->queue, (thr_queued){-(int64_t)(far / x->unit), v}, err);
+}
+
+thr_status thr_ways_start(thr_ways *x, int v, thr_err *err)
+{
+  return reach(x, v, 0, -1, err);
+}
+
+thr_status thr_ways_spread(thr_ways *x, const thr_plan_options *o, const int *passes, int room, double most, int64_t *steps,
+                           thr_err *err)
+{
+  const thr_frame *f = x->f;
+  thr_status st = THR_OK;
+  while (x->queue.count > 0 && !st) {
+    thr_queued at = thr_queue_pop(&x->queue);
+    if (-at.key > (int64_t)(x->far[at.place] / x->unit)) continue; /* a shorter way was found since */
+    if (steps) *steps -= 4;
+    for (int i = f->first[at.place]; i < f->first[at.place + 1] && !st; i++) {
+      int h = f->half[i], e = h >> 1;
+      double far = x->far[at.place] + f->length[e];
+      if (far <= most && (!passes || thr_plan_capacity(f, o, e) - passes[e] >= room)) st = reach(x, thr_head(f, h), far, h, err);
+    }
+  }
+  return st;
+}

@@ -1,0 +1,28 @@
+/* Shortest ways from some nodes of a framework (Dijkstra), where there is room for a cord. Internal to lp/. */
+#ifndef THR_WAYS_H
+#define THR_WAYS_H
+
+#include "graph/plan/plan.h"
+#include "lp/matching/network.h"
+
+typedef struct {
+  const thr_frame *f;
+  double unit;     /* lengths in these steps order the queue */
+  double *far;     /* [n_nodes] owned; INFINITY: not reached */
+  int *over;       /* [n_nodes] owned; half-edge that leads there on the way, -1 at a start */
+  thr_queue queue; /* entry is owned */
+} thr_ways;
+
+thr_status thr_ways_init(thr_ways *x, const thr_frame *f, thr_err *err) THR_MUST_CHECK;
+void thr_ways_destroy(thr_ways *x);
+
+/* Forgets all starts and ways. */
+void thr_ways_clear(thr_ways *x);
+thr_status thr_ways_start(thr_ways *x, int v, thr_err *err) THR_MUST_CHECK;
+
+/* From the starts, over edges whose capacity leaves room for so many passes beyond passes[n_edges] (NULL: over all), no further
+ * than most. What it costs is taken off *steps (NULL ok). O(m log m). */
+thr_status thr_ways_spread(thr_ways *x, const thr_plan_options *o, const int *passes, int room, double most, int64_t *steps,
+                           thr_err *err) THR_MUST_CHECK;
+
+#endif

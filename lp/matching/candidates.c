@@ -1,0 +1,325 @@
+/* Candidate pairs by truncated searches, by a Voronoi diagram, and along a tree. */
+#include "lp/matching/candidates.h"
+#include "graph/disjoint.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- lists of pairs ---- */
+
+thr_status thr_pairs_add(thr_pairs *pairs, int i, int j, int64_t weight, thr_err *err)
+{
+  if (pairs->count == pairs->capacity) {
+    int capacity = pairs->capacity;
+    thr_status st = thr_grow(&pairs->end, pairs->count, &capacity, sizeof *pairs->end, err);
+    if (st) return st;
+    int64_t *grown = thr_realloc(pairs->weight, (size_t)capacity, sizeof *grown);
+    if (!grown) return thr_nomem(err);
+    pairs->weight = grown;
+    pairs->capacity = capacity;
+  }
+  pairs->end[pairs->count][0] = i < j ? i : j;
+  pairs->end[pairs->count][1] = i < j ? j : i;
+  pairs->weight[pairs->count++] = weight;
+  return THR_OK;
+}
+
+void thr_pairs_destroy(thr_pairs *pairs)
+{
+  free(pairs->end);
+  free(pairs->weight);
+  *pairs = (thr_pairs){0};
+}
+
+typedef struct {
+  int end[2];
+  int64_t weight;
+} pair;
+
+/* Stable, by one of the two ends. start[n_odd + 1] is scratch space. */
+static void sort_by_end(const pair *from, pair *to, int n, int side, int *start, int n_odd)
+{
+  memset(start, 0, ((size_t)n_odd + 1) * sizeof *start);
+  for (int k = 0; k < n; k++)
+    start[from[k].end[side] + 1]++;
+  for (int v = 1; v <= n_odd; v++)
+    start[v] += start[v - 1];
+  for (int k = 0; k < n; k++)
+    to[start[from[k].end[side]]++] = from[k];
+}
+
+thr_status thr_pairs_tidy(thr_pairs *pairs, int from, int n_odd, thr_err *err)
+{
+  int n = pairs->count - from;
+  pair *a = thr_calloc((size_t)n, sizeof *a), *b = thr_calloc((size_t)n, sizeof *b);
+  int *start = thr_calloc((size_t)n_odd + 1, sizeof *start);
+  thr_status st = a && b && start ? THR_OK : thr_nomem(err);
+  if (st) goto done;
+  for (int k = 0; k < n; k++)
+    a[k] = (pair){{pairs->end[from + k][0], pairs->end[from + k][1]}, pairs->weight[from + k]};
+  sort_by_end(a, b, n, 1, start, n_odd);
+  sort_by_end(b, a, n, 0, start, n_odd);
+  pairs->count = from;
+  for (int k = 0; k < n; k++) {
+    int last = pairs->count - 1;
+    if (last >= from && pairs->end[last][0] == a[k].end[0] && pairs->end[last][1] == a[k].end[1]) {
+      if (a[k].weight < pairs->weight[last]) pairs->weight[last] = a[k].weight;
+    } else if ((st = thr_pairs_add(pairs, a[k].end[0], a[k].end[1], a[k].weight, err))) {
+      break;
+    }
+  }
+done:
+  free(a);
+  free(b);
+  free(start);
+  return st;
+}
+
+/* ---- the diagram ---- */
+
+thr_status thr_flood_run(const thr_network *net, const int64_t *start, int64_t floor, thr_flood *f, thr_err *err)
+{
+  size_t n = (size_t)net->n_places;
+  thr_queue queue = {0};
+  *f = (thr_flood){
+      .depth = thr_calloc(n, sizeof *f->depth), .root = thr_calloc(n, sizeof *f->root), .order = thr_calloc(n, sizeof *f->order)};
+  thr_status st = f->depth && f->root && f->order ? THR_OK : thr_nomem(err);
+  for (size_t v = 0; v < n && !st; v++) {
+    f->depth[v] = floor;
+    f->root[v] = -1;
+  }
+  for (int i = 0; i < net->n_odd && !st; i++) {
+    f->depth[net->odd[i]] = start[i];
+    f->root[net->odd[i]] = i;
+    if (start[i] > floor) st = thr_queue_push(&queue, (thr_queued){start[i], net->odd[i]}, err);
+  }
+  while (queue.count && !st) {
+    thr_queued at = thr_queue_pop(&queue);
+    if (at.key != f->depth[at.place]) continue; /* reached deeper since */
+    f->order[f->n_reached++] = at.place;
+    for (int k = net->first[at.place]; k < net->first[at.place + 1] && !st; k++) {
+      const thr_arc *arc = &net->arc[k];
+      int64_t depth = at.key - 2 * arc->weight;
+      if (depth <= f->depth[arc->head]) continue;
+      f->depth[arc->head] = depth;
+      f->root[arc->head] = f->root[at.place];
+      st = thr_queue_push(&queue, (thr_queued){depth, arc->head}, err);
+    }
+  }
+  free(queue.entry);
+  if (st) thr_flood_destroy(f);
+  return st;
+}
+
+void thr_flood_destroy(thr_flood *f)
+{
+  free(f->depth);
+  free(f->root);
+  free(f->order);
+  *f = (thr_flood){0};
+}
+
+/* ---- the nearest ---- */
+
+enum {
+  NEAREST = 13,      /* others that a search looks for; those as far as the last come along .. */
+  NEAREST_MOST = 20, /* .. up to so many */
+  SETTLED_MOST = 96  /* places that it settles: where odd places are rare, the diagram does better */
+};
+
+typedef struct {
+  const thr_network *net;
+  int64_t *near; /* [n_places] minus the way there, of those touched by this search */
+  int *touched;  /* [n_places] touched[v] == search: near[v] is of this search */
+  thr_queue queue;
+  thr_pairs pairs;
+  int *first; /* [n_odd + 1] pairs found from odd place i: first[i] .. first[i + 1] - 1 */
+} near_search;
+
+/* Has the search from i found j? */
+static bool found_from(const near_search *s, int i, int j)
+{
+  for (int k = s->first[i]; k < s->first[i + 1]; k++)
+    if (s->pairs.end[k][0] == j || s->pairs.end[k][1] == j) return true;
+  return false;
+}
+
+static thr_status relax(near_search *s, int search, thr_queued at, thr_err *err)
+{
+  const thr_network *net = s->net;
+  thr_status st = THR_OK;
+  for (int k = net->first[at.place]; k < net->first[at.place + 1] && !st; k++) {
+    const thr_arc *arc = &net->arc[k];
+    int64_t near = at.key - arc->weight;
+    if (s->touched[arc->head] == search && near <= s->near[arc->head]) continue;
+    s->touched[arc->head] = search;
+    s->near[arc->head] = near;
+    st = thr_queue_push(&s->queue, (thr_queued){near, arc->head}, err);
+  }
+  return st;
+}
+
+/* Pairs of odd place i with those near it that have not found it themselves. */
+static thr_status find_near(near_search *s, int i, int64_t *reach, thr_err *err)
+{
+  const thr_network *net = s->net;
+  int found = 0, settled = 0;
+  int64_t last = 0;
+  s->queue.count = 0;
+  s->touched[net->odd[i]] = i + 1;
+  s->near[net->odd[i]] = 0;
+  thr_status st = relax(s, i + 1, (thr_queued){0, net->odd[i]}, err);
+  while (s->queue.count && !st) {
+    thr_queued at = thr_queue_pop(&s->queue);
+    int j = net->number[at.place];
+    if (at.key != s->near[at.place]) continue;
+    if (settled++ == SETTLED_MOST || (found >= NEAREST && (at.key < last || found == NEAREST_MOST))) break;
+    if (j >= 0) {
+      found++;
+      last = at.key;
+      if (j > i || !found_from(s, j, i)) st = thr_pairs_add(&s->pairs, i, j, -at.key, err);
+    }
+    if (!st && net->first[at.place + 1] - net->first[at.place] < THR_HUB_DEGREE) st = relax(s, i + 1, at, err);
+  }
+  s->first[i + 1] = s->pairs.count;
+  reach[i] = found < NEAREST ? INT64_MAX : -2 * last;
+  return st;
+}
+
+/* Adds those pairs of `more` that no search has found. */
+static thr_status add_rest(near_search *s, const thr_pairs *more, thr_err *err)
+{
+  thr_status st = THR_OK;
+  for (int k = 0; k < more->count && !st; k++) {
+    int i = more->end[k][0], j = more->end[k][1];
+    if (!found_from(s, i, j) && !found_from(s, j, i)) st = thr_pairs_add(&s->pairs, i, j, more->weight[k], err);
+  }
+  return st;
+}
+
+/* The pairs of `more`, and those of odd places with those near them, once each. */
+static thr_status merge_near(const thr_network *net, const thr_limits *limits, const thr_pairs *more, thr_pairs *pairs,
+                             int64_t *reach, thr_err *err)
+{
+  enum { SEARCHES_BETWEEN_LIMITS = 1 << 10 };
+  near_search s = {.net = net,
+                   .near = thr_calloc((size_t)net->n_places, sizeof *s.near),
+                   .touched = thr_calloc((size_t)net->n_places, sizeof *s.touched),
+                   .first = thr_calloc((size_t)net->n_odd + 1, sizeof *s.first)};
+  thr_status st = s.near && s.touched && s.first ? THR_OK : thr_nomem(err);
+  for (int i = 0; i < net->n_odd && !st; i++) {
+    bool stop = i % SEARCHES_BETWEEN_LIMITS == 0 && thr_limits_stop(limits);
+    st = stop ? thr_fail(err, THR_ELIMIT, "stopped early, before all pairs were found") : find_near(&s, i, reach, err);
+  }
+  if (!st) st = add_rest(&s, more, err);
+  free(s.near);
+  free(s.touched);
+  free(s.first);
+  free(s.queue.entry);
+  *pairs = s.pairs;
+  return st;
+}
+
+/* ---- neighbours in the diagram, and a tree ---- */
+
+static thr_status add_neighbours(const thr_network *net, thr_pairs *pairs, thr_err *err)
+{
+  thr_flood f = {0};
+  int64_t *start = thr_calloc((size_t)net->n_odd, sizeof *start);
+  thr_status st = start ? thr_flood_run(net, start, INT64_MIN, &f, err) : thr_nomem(err);
+  for (int v = 0; v < net->n_places && !st; v++)
+    for (int k = net->first[v]; k < net->first[v + 1] && !st; k++) {
+      int w = net->arc[k].head;
+      if (v < w && f.root[v] != f.root[w])
+        st = thr_pairs_add(pairs, f.root[v], f.root[w], net->arc[k].weight - f.depth[v] / 2 - f.depth[w] / 2, err);
+    }
+  free(start);
+  thr_flood_destroy(&f);
+  return st ? st : thr_pairs_tidy(pairs, 0, net->n_odd, err);
+}
+
+static int by_weight(const void *pa, const void *pb)
+{
+  const pair *a = pa, *b = pb;
+  if (a->weight != b->weight) return a->weight < b->weight ? -1 : 1;
+  if (a->end[0] != b->end[0]) return a->end[0] < b->end[0] ? -1 : 1;
+  return (a->end[1] > b->end[1]) - (a->end[1] < b->end[1]);
+}
+
+/* Each odd place: edges of the tree there, their xor (of a leaf it is the only one), and who is carried here unpaired from how
+ * far. */
+typedef struct {
+  int degree, across, guest;
+  int64_t way;
+} tree_node;
+
+/* From the leaves inwards: what comes unpaired to a place is paired with what waits there. */
+static thr_status pair_up(const pair *edge, tree_node *node, int *stack, int n, thr_pairs *pairs, thr_err *err)
+{
+  int top = 0;
+  thr_status st = THR_OK;
+  for (int v = 0; v < n; v++)
+    if (node[v].degree == 1) stack[top++] = v;
+  while (top && !st) {
+    int v = stack[--top];
+    if (node[v].degree == 0) continue; /* the last of the tree */
+    const pair *e = &edge[node[v].across];
+    int w = e->end[0] == v ? e->end[1] : e->end[0];
+    int64_t way = node[v].way + e->weight;
+    node[w].across ^= node[v].across;
+    if (--node[w].degree == 1) stack[top++] = w;
+    if (node[v].guest < 0) continue;
+    if (node[w].guest >= 0) {
+      st = thr_pairs_add(pairs, node[v].guest, node[w].guest, way + node[w].way, err);
+      node[w].guest = -1;
+    } else {
+      node[w].guest = node[v].guest;
+      node[w].way = way;
+    }
+  }
+  return st;
+}
+
+/* Adds the pairs along a lightest spanning tree of the pairs that are there. */
+static thr_status add_fallback(thr_pairs *pairs, int n_odd, thr_err *err)
+{
+  size_t n = (size_t)n_odd, m = (size_t)pairs->count;
+  pair *edge = thr_calloc(m, sizeof *edge);
+  tree_node *node = thr_calloc(n, sizeof *node);
+  int *parent = thr_calloc(n, sizeof *parent);
+  thr_status st = edge && node && parent ? THR_OK : thr_nomem(err);
+  if (st) goto done;
+  for (size_t k = 0; k < m; k++)
+    edge[k] = (pair){{pairs->end[k][0], pairs->end[k][1]}, pairs->weight[k]};
+  qsort(edge, m, sizeof *edge, by_weight);
+  for (int i = 0; i < n_odd; i++)
+    parent[i] = node[i].guest = i;
+  for (size_t k = 0; k < m; k++) {
+    if (!thr_disjoint_join(parent, edge[k].end[0], edge[k].end[1])) continue;
+    for (int s = 0; s < 2; s++) {
+      node[edge[k].end[s]].degree++;
+      node[edge[k].end[s]].across ^= (int)k;
+    }
+  }
+  st = pair_up(edge, node, parent, n_odd, pairs, err); /* parent has served and is as long as the stack */
+done:
+  free(edge);
+  free(node);
+  free(parent);
+  return st;
+}
+
+thr_status thr_candidates_find(const thr_network *net, const thr_limits *limits, thr_pairs *pairs, int64_t *reach, thr_err *err)
+{
+  thr_pairs wide = {0};
+  *pairs = (thr_pairs){0};
+  thr_status st = add_neighbours(net, &wide, err);
+  if (!st) st = add_fallback(&wide, net->n_odd, err);
+  if (!st) st = merge_near(net, limits, &wide, pairs, reach, err);
+  if (st) thr_pairs_destroy(pairs);
+  if (st == THR_ELIMIT)
+    *pairs = wide;
+  else
+    thr_pairs_destroy(&wide);
+  return st;
+}

@@ -1,0 +1,47 @@
+/* Pairs of odd places that a lightest perfect matching may use, and the ways between them. Internal to lp/. */
+#ifndef THR_CANDIDATES_H
+#define THR_CANDIDATES_H
+
+#include "lp/matching/network.h"
+
+enum {
+  THR_HUB_DEGREE = 64
+}; /* a place with so many arcs is a hub (lp/matching/hub.h): no search for the nearest goes on from it */
+
+/* Places i and j of net->odd, and the weight of a way between them, not always a shortest one. */
+typedef struct {
+  int count, capacity;
+  int (*end)[2];   /* owned; end[0] < end[1] */
+  int64_t *weight; /* [capacity] owned */
+} thr_pairs;
+
+thr_status thr_pairs_add(thr_pairs *pairs, int i, int j, int64_t weight, thr_err *err) THR_MUST_CHECK;
+void thr_pairs_destroy(thr_pairs *pairs);
+
+/* Sorts the pairs from `from` on by their ends, n_odd = number of places, and keeps the lightest of those with the same ends.
+ * O(pairs + n_odd). */
+thr_status thr_pairs_tidy(thr_pairs *pairs, int from, int n_odd, thr_err *err) THR_MUST_CHECK;
+
+/* Which odd place reaches a place first if all grow at the same speed, each from a depth of its own (an additively weighted
+ * Voronoi diagram). */
+typedef struct {
+  int64_t *depth; /* [n_places] of its root, less twice the way from there; owned */
+  int *root;  /* [n_places] position in net->odd, or -1: not reached; an odd place counts as its own unless another one reaches
+                 it at greater depth; owned */
+  int *order; /* [n_reached] places reached above the floor, deepest first; owned */
+  int n_reached;
+} thr_flood;
+
+/* Depths in halves of a weight. start[n_odd]: of the odd places; places at or below the floor are not reached and keep it as
+ * depth (INT64_MIN: all are reached). O(m log m). Release with thr_flood_destroy. */
+thr_status thr_flood_run(const thr_network *net, const int64_t *start, int64_t floor, thr_flood *f, thr_err *err) THR_MUST_CHECK;
+void thr_flood_destroy(thr_flood *f);
+
+/* Candidates to begin with: of every odd place the nearest others; those whose Voronoi cells touch; and pairs along a lightest
+ * spanning tree of these, which make a perfect matching (on a connected graph). reach[n_odd] receives how far the nearest of each
+ * go, in halves of a weight (INT64_MAX: there are few). THR_ELIMIT: pairs holds those whose cells touch and those along the tree,
+ * and so the nearest of every odd place. Near-linear. */
+thr_status thr_candidates_find(const thr_network *net, const thr_limits *limits, thr_pairs *pairs, int64_t *reach,
+                               thr_err *err) THR_MUST_CHECK;
+
+#endif

@@ -1,0 +1,84 @@
+/* Pairs over hubs. */
+#include "lp/matching/hub.h"
+#include "graph/random.h"
+
+#include <stdlib.h>
+
+enum { HUBS_MOST = 4, ROUNDS = 2 };
+
+static int degree(const thr_network *net, int v)
+{
+  return net->first[v + 1] - net->first[v];
+}
+
+/* Fills hub with the places of most arcs, most first; returns their number. */
+static int choose(const thr_network *net, int hub[HUBS_MOST])
+{
+  int n = 0;
+  for (int v = 0; v < net->n_places; v++) {
+    if (degree(net, v) < THR_HUB_DEGREE) continue;
+    int at = n < HUBS_MOST ? n++ : HUBS_MOST;
+    for (; at > 0 && degree(net, hub[at - 1]) < degree(net, v); at--)
+      if (at < HUBS_MOST) hub[at] = hub[at - 1];
+    if (at < HUBS_MOST) hub[at] = v;
+  }
+  return n;
+}
+
+thr_status thr_hubs_find(const thr_network *net, thr_hubs *hubs, thr_err *err)
+{
+  int hub[HUBS_MOST];
+  const int64_t none = 0;
+  *hubs = (thr_hubs){.count = choose(net, hub), .n_odd = net->n_odd};
+  hubs->way = thr_calloc((size_t)hubs->count * (size_t)net->n_odd, sizeof *hubs->way);
+  thr_status st = hubs->way ? THR_OK : thr_nomem(err);
+  for (int k = 0; k < hubs->count && !st; k++) {
+    thr_network alone = *net; /* all grows from this hub */
+    alone.odd = &hub[k];
+    alone.n_odd = 1;
+    thr_flood f = {0};
+    st = thr_flood_run(&alone, &none, INT64_MIN, &f, err);
+    for (int i = 0; i < net->n_odd && !st; i++)
+      hubs->way[k * net->n_odd + i] = -f.depth[net->odd[i]] / 2;
+    thr_flood_destroy(&f);
+  }
+  if (st) thr_hubs_destroy(hubs);
+  return st;
+}
+
+void thr_hubs_destroy(thr_hubs *hubs)
+{
+  free(hubs->way);
+  *hubs = (thr_hubs){0};
+}
+
+static void shuffle(int *list, int n, uint64_t *random)
+{
+  for (int i = n - 1; i > 0; i--) {
+    int j = (int)(thr_random(random) % ((uint64_t)i + 1)), x = list[i];
+    list[i] = list[j];
+    list[j] = x;
+  }
+}
+
+thr_status thr_hubs_pairs(const thr_hubs *hubs, const int64_t *reach, uint64_t *random, thr_pairs *pairs, thr_err *err)
+{
+  if (hubs->count == 0) return THR_OK;
+  int *list = thr_calloc((size_t)hubs->n_odd, sizeof *list);
+  thr_status st = list ? THR_OK : thr_nomem(err);
+  for (int k = 0; k < hubs->count && !st; k++) {
+    const int64_t *way = &hubs->way[k * hubs->n_odd];
+    int n = 0;
+    for (int i = 0; i < hubs->n_odd; i++)
+      if (way[i] <= reach[i] / 2) list[n++] = i;
+    for (int round = 0; round < ROUNDS && n > 1; round++) {
+      shuffle(list, n, random);
+      for (int i = 0; i < n && !st; i++) {
+        int a = list[i], b = list[i + 1 < n ? i + 1 : 0];
+        st = thr_pairs_add(pairs, a, b, way[a] + way[b], err);
+      }
+    }
+  }
+  free(list);
+  return st;
+}

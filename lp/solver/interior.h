@@ -1,0 +1,31 @@
+/* Large sparse linear programmes by a primal-dual interior point method: predictor and corrector (S. Mehrotra 1992), further
+ * correctors (J. Gondzio 1996). */
+#ifndef THR_INTERIOR_H
+#define THR_INTERIOR_H
+
+#include "graph/limits.h"
+#include "lp/solver/lp.h"
+#include "lp/solver/normal.h"
+
+/* min cost x, A x = rhs, x >= 0. */
+typedef struct {
+  thr_columns a;
+  const double *rhs;  /* [n_rows] */
+  const double *cost; /* [n_columns] */
+} thr_equations;
+
+/* The best that was seen; both arrays are the caller's. x and dual may come from different steps: rounding spoils x first. */
+typedef struct {
+  thr_lp_outcome outcome; /* OPTIMAL, UNDECIDED (none exists, or numbers too bad) or STOPPED */
+  double *x;              /* [n_columns] > 0 */
+  double *dual;           /* [n_rows] multipliers */
+  double error;           /* of x: largest of the relative residuals, primal and dual, and the gap */
+  int iterations;
+} thr_interior;
+
+/* For optima near 1: one below 1e-6 counts as 0. Values are approximate (error 1e-8) and from the middle of the optimal face, not
+ * a corner: callers check them. No column may be long: each makes a square block of A A^T. Equations may depend on each other.
+ * Deterministic. Fails only for want of memory; stopping is an outcome. Some tens of sparse factorizations. */
+thr_status thr_interior_solve(const thr_equations *e, const thr_limits *limits, thr_interior *out, thr_err *err) THR_MUST_CHECK;
+
+#endif

@@ -1,0 +1,41 @@
+/* Minimum T-joins: which engine, shrinking first, and the word of a third party on the result. */
+#ifndef THR_ENGINE_H
+#define THR_ENGINE_H
+
+#include "lp/tjoin/tjoin.h"
+
+/* As thr_tjoin_solve, by either engine: THR_ENGINE_LP is lp/tjoin/tjoin.h, THR_ENGINE_MATCHING lp/matching/moat.h (weights that
+ * do not fit: THR_EINPUT). The problem is shrunk before (lp/tjoin/shrink.h) where that pays: always for the linear programme, for
+ * the matching if it loses many nodes. */
+thr_status thr_tjoin_shrunk(const thr_tjoin_problem *p, thr_engine engine, const thr_limits *limits, thr_tjoin *out,
+                            thr_err *err) THR_MUST_CHECK;
+
+enum { THR_CONFIRM_EDGES = 10000 }; /* problems up to this size are confirmed well within a second */
+
+/* T-joins that GLPK is asked about: it solves min weight x, x(cut) >= 1 for the cuts of t, x >= 0, with integer costs and a basis
+ * from the join; t being optimal, the minimum is t->length by duality, or less than 1 below if rounding left the cuts' values so.
+ */
+typedef struct thr_confirm_job thr_confirm_job;
+typedef struct {
+  bool always; /* whatever the size and the work; else problems up to THR_CONFIRM_EDGES, with about a second's work each */
+  int confirmed, skipped; /* GLPK's exact rational simplex found the same value; the limits stopped it, or a library failed */
+  int n_jobs, capacity;
+  thr_confirm_job *job; /* owned, until they are run */
+} thr_confirmations;
+
+/* Remembers a T-join as optimal and to be asked about; c NULL: nothing is done. O(entries of its cuts). */
+thr_status thr_confirmations_add(thr_confirmations *c, const thr_tjoin_problem *p, const thr_tjoin *t,
+                                 thr_err *err) THR_MUST_CHECK;
+
+/* Asks about all that were added, in a child process, and counts. THR_ESOLVER: GLPK finds another minimum, so that a join or GLPK
+ * is wrong. A library that fails, or a child that dies, confirms nothing, but is no error. */
+thr_status thr_confirmations_run(thr_confirmations *c, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
+void thr_confirmations_destroy(thr_confirmations *c);
+
+typedef enum { THR_CONFIRMED, THR_CONFIRM_SKIPPED } thr_confirmation;
+
+/* The same for one, whatever its size. */
+thr_status thr_tjoin_confirm(const thr_tjoin_problem *p, const thr_tjoin *t, const thr_limits *limits, thr_confirmation *out,
+                             thr_err *err) THR_MUST_CHECK;
+
+#endif

@@ -1,0 +1,431 @@
+/* The cutting-plane loop: solve, separate, round to a join, turn the dual into an exact certificate. */
+#include "lp/tjoin/tjoin.h"
+#include "graph/disjoint.h"
+#include "lp/tjoin/cuts.h"
+#include "lp/solver/lp.h"
+#include "lp/tjoin/oddcut.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+__extension__ typedef __int128 wide; /* sums of cut values times weights pass 64 bits on hostile inputs */
+
+typedef struct {
+  const thr_tjoin_problem *p;
+  const thr_limits *limits;
+  thr_oddcut_graph graph;
+  thr_oddcut_pool pool;
+  thr_lp *lp;
+  double unit;                           /* costs of the linear programme = weights / unit, so that they are about 1 */
+  double *cost, *x, *reduced_cost, *key; /* [n_edges] */
+  double *whole;        /* [n_edges] the weights themselves: GLPK's exact method rounds costs that are no integers */
+  double *dual;         /* [pool.count at the last solve] */
+  int64_t *value;       /* the same, rounded to integers that load no edge too much */
+  int solved;           /* rows at the last solve */
+  double bound_at_drop; /* objective when rows were last dropped */
+  int *order, *parent;  /* [n_edges], [n_nodes] scratch of the rounding */
+  bool *tree_join;      /* [n_edges] */
+  bool *leaf_used;      /* [n_leaves] */
+  wide *slack;          /* [n_edges] */
+  thr_tjoin best;
+} solver;
+
+static thr_status solver_init(solver *s, const thr_tjoin_problem *p, const thr_limits *limits, thr_err *err)
+{
+  size_t n = (size_t)p->n_nodes, m = (size_t)p->n_edges;
+  *s = (solver){.p = p, .limits = limits};
+  thr_status st = thr_oddcut_graph_init(&s->graph, p, err);
+  if (st) return st;
+  s->cost = thr_calloc(m, sizeof *s->cost);
+  s->whole = thr_calloc(m, sizeof *s->whole);
+  s->x = thr_calloc(m, sizeof *s->x);
+  s->reduced_cost = thr_calloc(m, sizeof *s->reduced_cost);
+  s->key = thr_calloc(m, sizeof *s->key);
+  s->order = thr_calloc(m, sizeof *s->order);
+  s->parent = thr_calloc(n, sizeof *s->parent);
+  s->tree_join = thr_calloc(m, sizeof *s->tree_join);
+  s->leaf_used = thr_calloc((size_t)p->n_leaves, sizeof *s->leaf_used);
+  s->slack = thr_calloc(m, sizeof *s->slack);
+  s->best.in_join = thr_calloc(m, sizeof *s->best.in_join);
+  s->best.length = INT64_MAX;
+  if (!s->cost || !s->whole || !s->x || !s->reduced_cost || !s->key || !s->order || !s->parent || !s->tree_join ||
+      !s->leaf_used || !s->slack || !s->best.in_join)
+    return thr_nomem(err);
+  double sum = 0;
+  for (size_t e = 0; e < m; e++)
+    sum += s->whole[e] = (double)p->weight[e];
+  s->unit = sum > 0 ? sum / (double)m : 1;
+  for (size_t e = 0; e < m; e++)
+    s->cost[e] = s->reduced_cost[e] = (double)p->weight[e] / s->unit;
+  return thr_lp_create(&s->lp, p->n_edges, s->cost, NULL, err);
+}
+
+static void solver_destroy(solver *s)
+{
+  thr_lp_destroy(s->lp);
+  thr_oddcut_pool_destroy(&s->pool);
+  thr_oddcut_graph_destroy(&s->graph);
+  free(s->cost);
+  free(s->whole);
+  free(s->x);
+  free(s->reduced_cost);
+  free(s->key);
+  free(s->dual);
+  free(s->value);
+  free(s->order);
+  free(s->parent);
+  free(s->tree_join);
+  free(s->leaf_used);
+  free(s->slack);
+}
+
+void thr_tjoin_destroy(thr_tjoin *t)
+{
+  for (int i = 0; i < t->n_cuts; i++)
+    free(t->cut[i].node);
+  free(t->cut);
+  free(t->in_join);
+  *t = (thr_tjoin){0};
+}
+
+/* ---- rounding: the T-join of a spanning tree that prefers edges of large x ---- */
+
+static const double *sort_key; /* qsort has no user pointer; like GLPK, not for threads */
+
+static int by_key(const void *pa, const void *pb)
+{
+  int a = *(const int *)pa, b = *(const int *)pb;
+  if (sort_key[a] != sort_key[b]) return sort_key[a] < sort_key[b] ? -1 : 1;
+  return (a > b) - (a < b);
+}
+
+/* Marks in s->tree_join the edges of a spanning tree, cheapest keys first (a leaf joined to a leaf stays apart). */
+static void spanning_tree(solver *s)
+{
+  const thr_tjoin_problem *p = s->p;
+  int first_leaf = p->n_nodes - p->n_leaves;
+  for (int e = 0; e < p->n_edges; e++) {
+    s->order[e] = e;
+    s->tree_join[e] = false;
+  }
+  sort_key = s->key;
+  qsort(s->order, (size_t)p->n_edges, sizeof *s->order, by_key);
+  memset(s->leaf_used, 0, (size_t)p->n_leaves * sizeof *s->leaf_used);
+  for (int v = 0; v < p->n_nodes; v++)
+    s->parent[v] = v;
+  for (int i = 0; i < p->n_edges; i++) {
+    int e = s->order[i], a = p->edge[e][0], b = p->edge[e][1];
+    if ((a >= first_leaf && s->leaf_used[a - first_leaf]) || (b >= first_leaf && s->leaf_used[b - first_leaf])) continue;
+    if (a >= first_leaf) s->leaf_used[a - first_leaf] = true;
+    if (b >= first_leaf) s->leaf_used[b - first_leaf] = true;
+    s->tree_join[e] = thr_disjoint_join(s->parent, p->edge[e][0], p->edge[e][1]);
+  }
+}
+
+/* Keeps of the tree the edges that separate an odd number of odd nodes: the only T-join in it. Leaves inwards. */
+static thr_status prune_tree(solver *s, thr_err *err)
+{
+  const thr_tjoin_problem *p = s->p;
+  size_t n = (size_t)p->n_nodes;
+  int *degree = thr_calloc(n, sizeof *degree), *stack = thr_calloc(n, sizeof *stack), top = 0;
+  bool *odd = thr_calloc(n, sizeof *odd), *done = thr_calloc((size_t)p->n_edges, sizeof *done);
+  thr_status st = degree && stack && odd && done ? THR_OK : thr_nomem(err);
+  if (st) goto done;
+  memcpy(odd, p->odd, n * sizeof *odd);
+  for (int e = 0; e < p->n_edges; e++)
+    for (int i = 0; s->tree_join[e] && i < 2; i++)
+      degree[p->edge[e][i]]++;
+  for (int v = 0; v < p->n_nodes; v++)
+    if (degree[v] == 1) stack[top++] = v;
+  while (top) {
+    int v = stack[--top];
+    for (int k = s->graph.first[v]; k < s->graph.first[v + 1]; k++) {
+      int e = s->graph.incident[k];
+      if (!s->tree_join[e] || done[e]) continue;
+      int w = p->edge[e][0] == v ? p->edge[e][1] : p->edge[e][0];
+      done[e] = true;
+      if (odd[v])
+        odd[w] = !odd[w];
+      else
+        s->tree_join[e] = false;
+      if (--degree[w] == 1) stack[top++] = w;
+      break;
+    }
+  }
+done:
+  free(degree);
+  free(stack);
+  free(odd);
+  free(done);
+  return st;
+}
+
+/* Keeps the T-join of the spanning tree under s->key if it is the best so far. */
+static thr_status try_tree(solver *s, thr_err *err)
+{
+  const thr_tjoin_problem *p = s->p;
+  spanning_tree(s);
+  thr_status st = prune_tree(s, err);
+  if (st) return st;
+  int64_t length = 0;
+  for (int e = 0; e < p->n_edges; e++)
+    if (s->tree_join[e]) length += p->weight[e];
+  if (length < s->best.length) {
+    s->best.length = length;
+    memcpy(s->best.in_join, s->tree_join, (size_t)p->n_edges * sizeof *s->tree_join);
+  }
+  return THR_OK;
+}
+
+/* Two roundings: of the point x (all 0 at the start), and of the dual, whose tight edges hold every shortest join. */
+static thr_status round_to_join(solver *s, thr_err *err)
+{
+  int m = s->p->n_edges;
+  for (int e = 0; e < m; e++)
+    s->key[e] = s->cost[e] * (1 - fmin(s->x[e], 1));
+  thr_status st = try_tree(s, err);
+  for (int e = 0; e < m; e++)
+    s->key[e] = fmax(s->reduced_cost[e], 0) + 1e-6 * s->key[e];
+  return st ? st : try_tree(s, err);
+}
+
+/* ---- the dual as integers ---- */
+
+/* value = dual in units of 1/denominator of a weight, rounded down; then whatever still overloads an edge is taken back
+ * from the cuts over it, and what slack is left is given out again: to cuts in use, or with greedy to any cut in turn.
+ * Fills s->value, returns their sum. */
+static int64_t integer_dual(solver *s, bool greedy)
+{
+  const thr_tjoin_problem *p = s->p;
+  for (int e = 0; e < p->n_edges; e++)
+    s->slack[e] = (wide)p->weight[e] * THR_DUAL_DENOMINATOR;
+  for (int i = 0; i < s->solved; i++) {
+    double y = s->dual[i] * s->unit * THR_DUAL_DENOMINATOR;
+    s->value[i] = y > 1 ? (int64_t)fmin(y, 4e18) : 0;
+    for (int k = 0; k < s->pool.cut[i].n_edges; k++)
+      s->slack[s->pool.cut[i].edge[k]] -= s->value[i];
+  }
+  wide sum = 0;
+  for (int pass = 0; pass < 2; pass++) /* first take back, then give out */
+    for (int i = 0; i < s->solved; i++) {
+      const struct thr_oddcut *c = &s->pool.cut[i];
+      wide least = s->slack[c->edge[0]];
+      for (int k = 1; k < c->n_edges; k++)
+        if (s->slack[c->edge[k]] < least) least = s->slack[c->edge[k]];
+      if (pass == 0 ? least >= 0 : least <= 0 || (s->value[i] == 0 && !greedy)) continue;
+      if (least < -(wide)s->value[i]) least = -(wide)s->value[i];
+      s->value[i] += (int64_t)least;
+      for (int k = 0; k < c->n_edges; k++)
+        s->slack[c->edge[k]] -= least;
+    }
+  for (int i = 0; i < s->solved; i++)
+    sum += s->value[i];
+  return (int64_t)sum;
+}
+
+static thr_status store_cuts(solver *s, int64_t sum, thr_err *err)
+{
+  thr_tjoin *best = &s->best;
+  for (int i = 0; i < best->n_cuts; i++)
+    free(best->cut[i].node);
+  free(best->cut);
+  best->n_cuts = 0;
+  best->cut = thr_calloc((size_t)s->solved, sizeof *best->cut);
+  if (!best->cut) return thr_nomem(err);
+  for (int i = 0; i < s->solved; i++) {
+    const struct thr_oddcut *c = &s->pool.cut[i];
+    if (s->value[i] == 0) continue;
+    thr_cut *to = &best->cut[best->n_cuts];
+    *to = (thr_cut){-1, c->n_nodes, thr_calloc((size_t)c->n_nodes, sizeof *to->node), s->value[i]};
+    if (!to->node) return thr_nomem(err);
+    best->n_cuts++;
+    memcpy(to->node, c->node, (size_t)c->n_nodes * sizeof *to->node);
+  }
+  best->sum = sum;
+  return THR_OK;
+}
+
+/* Turns the dual of the last solve into a certificate and keeps it if its bound is the best; sets best.optimal. */
+static thr_status certify(solver *s, bool greedy, thr_err *err)
+{
+  int64_t sum = integer_dual(s, greedy);
+  thr_status st = THR_OK;
+  if (sum > s->best.sum || s->best.n_cuts == 0) st = store_cuts(s, sum, err);
+  s->best.optimal = (wide)s->best.sum > ((wide)s->best.length - 1) * THR_DUAL_DENOMINATOR;
+  return st;
+}
+
+/* ---- the loop ---- */
+
+static thr_status add_new_rows(solver *s, thr_err *err)
+{
+  thr_status st = THR_OK;
+  for (int i = thr_lp_rows(s->lp); i < s->pool.count && !st; i++)
+    st = thr_lp_add_row(s->lp, s->pool.cut[i].n_edges, s->pool.cut[i].edge, NULL, 1, err);
+  return st;
+}
+
+/* Makes room for the multipliers of all cuts and sets them to 0. */
+static thr_status reserve_duals(solver *s, thr_err *err)
+{
+  size_t rows = (size_t)s->pool.count;
+  double *dual = thr_realloc(s->dual, rows, sizeof *dual);
+  if (!dual) return thr_nomem(err);
+  s->dual = dual;
+  int64_t *value = thr_realloc(s->value, rows, sizeof *value);
+  if (!value) return thr_nomem(err);
+  s->value = value;
+  memset(s->dual, 0, rows * sizeof *s->dual);
+  s->solved = s->pool.count;
+  return THR_OK;
+}
+
+/* cost_unit: what a cost of 1 in the last solve is worth in costs of s->cost. */
+static void read_duals(solver *s, double cost_unit)
+{
+  thr_lp_dual(s->lp, s->dual);
+  for (int i = 0; i < s->solved; i++)
+    s->dual[i] *= cost_unit;
+  memcpy(s->reduced_cost, s->cost, (size_t)s->p->n_edges * sizeof *s->cost);
+  for (int i = 0; i < s->solved; i++)
+    for (int k = 0; s->dual[i] != 0 && k < s->pool.cut[i].n_edges; k++)
+      s->reduced_cost[s->pool.cut[i].edge[k]] -= s->dual[i];
+}
+
+static thr_status solve_rows(solver *s, bool exact, thr_lp_outcome *outcome, thr_err *err)
+{
+  thr_status st = add_new_rows(s, err);
+  if (!st) st = reserve_duals(s, err);
+  if (!st && exact) st = thr_lp_set_costs(s->lp, s->whole, err);
+  if (!st) st = (exact ? thr_lp_solve_exact : thr_lp_solve)(s->lp, s->limits, outcome, err);
+  if (st) return st;
+  if (*outcome == THR_LP_INFEASIBLE || *outcome == THR_LP_UNBOUNDED)
+    return thr_fail(err, THR_ESOLVER, "GLPK found no optimum of an odd-cut relaxation, which always has one");
+  thr_lp_primal(s->lp, s->x);
+  read_duals(s, exact ? 1 / s->unit : 1);
+  return exact ? thr_lp_set_costs(s->lp, s->cost, err) : THR_OK;
+}
+
+/* Cuts that the point x violates: moats round the odd components of the support; failing that, of the support of larger
+ * values; failing that, exactly. */
+static thr_status separate(solver *s, thr_err *err)
+{
+  static const double threshold[] = {1e-6, 0.2, 0.35, 0.51, 0.7};
+  int before = s->pool.count;
+  thr_status st = THR_OK;
+  for (size_t i = 0; i < sizeof threshold / sizeof *threshold && !st && s->pool.count == before; i++)
+    st = thr_oddcut_moats(&s->graph, s->x, threshold[i], s->reduced_cost, &s->pool, err);
+  if (!st && s->pool.count == before) st = thr_oddcut_exact(&s->graph, s->x, &s->pool, err);
+  return st;
+}
+
+/* Drops rows whose slack has been basic for a while, so that the linear programme stays small. Only after the bound has
+ * risen: where it stands still (ties), the same rows would come back for ever. */
+static thr_status drop_idle(solver *s, thr_err *err)
+{
+  enum { PATIENCE = 6 };
+  bool *drop = thr_calloc((size_t)s->solved, sizeof *drop);
+  if (!drop) return thr_nomem(err);
+  bool any = false, risen = thr_lp_objective(s->lp) > s->bound_at_drop * (1 + 1e-9);
+  for (int i = 0; i < s->solved; i++) {
+    struct thr_oddcut *c = &s->pool.cut[i];
+    c->idle = thr_lp_row_basic(s->lp, i) ? c->idle + 1 : 0;
+    any |= drop[i] = risen && c->idle > PATIENCE;
+  }
+  thr_status st = THR_OK;
+  if (any && !(st = thr_lp_drop_rows(s->lp, drop, err))) {
+    thr_oddcut_pool_drop(&s->pool, drop);
+    s->bound_at_drop = thr_lp_objective(s->lp);
+  }
+  free(drop);
+  return st;
+}
+
+static void report(const solver *s, const char *what)
+{
+  if (!s->limits->progress) return;
+  double denominator = THR_DUAL_DENOMINATOR;
+  s->limits->progress(s->limits->user, what, (double)s->best.length, (double)s->best.sum / denominator);
+}
+
+/* The inexact method cannot tell joins apart whose weights differ by a unit, and so may stop at a point that looks
+ * integral: the exact one goes on from there, with cuts of its own, until none is violated. */
+static thr_status solve_exactly(solver *s, thr_lp_outcome *outcome, thr_err *err)
+{
+  for (int before = -1; before < s->pool.count;) {
+    before = s->pool.count;
+    thr_status st = solve_rows(s, true, outcome, err);
+    if (st || *outcome == THR_LP_STOPPED) return st;
+    if ((st = round_to_join(s, err))) return st;
+    if ((st = certify(s, false, err)) || s->best.optimal) return st;
+    if ((st = separate(s, err))) return st;
+  }
+  return THR_OK;
+}
+
+/* Balls round the odd nodes, and what they prove before any linear programme is solved. */
+static thr_status start(solver *s, thr_err *err)
+{
+  thr_status st = thr_oddcut_moats(&s->graph, NULL, 0, s->reduced_cost, &s->pool, err);
+  if (!st) st = reserve_duals(s, err);
+  if (!st) st = round_to_join(s, err);
+  return st ? st : certify(s, true, err);
+}
+
+/* Until bound and join meet, separation finds nothing, or the limits stop it. */
+static thr_status solve_inexactly(solver *s, thr_lp_outcome *outcome, thr_err *err)
+{
+  for (int before = -1; before < s->pool.count;) {
+    thr_status st = solve_rows(s, false, outcome, err);
+    if (st) return st;
+    if ((st = round_to_join(s, err))) return st;
+    if ((st = certify(s, false, err))) return st; /* also of an unfinished solve: any multipliers can be made valid */
+    report(s, "odd cuts");
+    if (s->best.optimal || *outcome == THR_LP_STOPPED) return THR_OK;
+    if ((st = drop_idle(s, err))) return st;
+    before = s->pool.count;
+    if ((st = separate(s, err))) return st;
+  }
+  return THR_OK;
+}
+
+static thr_status run(solver *s, thr_err *err)
+{
+  thr_lp_outcome outcome = THR_LP_OPTIMAL;
+  thr_err failure = {0};
+  thr_status st = start(s, err);
+  if (st || s->best.optimal) return st;
+  st = solve_inexactly(s, &outcome, &failure);
+  if (!st && !s->best.optimal && outcome == THR_LP_OPTIMAL) st = solve_exactly(s, &outcome, &failure);
+  if (st == THR_ENOMEM) return thr_nomem(err);
+  if (s->best.optimal) return THR_OK;
+  if (st) return thr_fail(err, THR_ELIMIT, "%s", failure.text); /* join and bound stay good whatever a library does */
+  if (outcome == THR_LP_STOPPED) return thr_fail(err, THR_ELIMIT, "stopped early");
+  return thr_fail(err, THR_ELIMIT, "the odd-cut bound and the best join do not meet; please report this framework");
+}
+
+thr_status thr_tjoin_solve(const thr_tjoin_problem *p, const thr_limits *limits, thr_tjoin *out, thr_err *err)
+{
+  solver s;
+  *out = (thr_tjoin){0};
+  int n_odd = 0;
+  for (int v = 0; v < p->n_nodes; v++)
+    n_odd += p->odd[v];
+  if (n_odd == 0) { /* the empty join needs no proof */
+    out->in_join = thr_calloc((size_t)p->n_edges, sizeof *out->in_join);
+    out->optimal = true;
+    return out->in_join ? THR_OK : thr_nomem(err);
+  }
+  thr_status st = solver_init(&s, p, limits, err);
+  if (!st) st = run(&s, err);
+  if (!st || st == THR_ELIMIT) {
+    thr_cuts forest = {s.best.n_cuts, p->n_nodes, s.best.cut};
+    if (thr_cuts_nest(&forest, err)) st = THR_ENOMEM;
+    s.best.cut = forest.cut;
+  }
+  solver_destroy(&s);
+  if (st && st != THR_ELIMIT) thr_tjoin_destroy(&s.best);
+  *out = s.best;
+  return st;
+}

@@ -1,0 +1,377 @@
+/* The best symmetric cover, one aim after the other. */
+#include "symmetry/cover/cover.h"
+#include "symmetry/cover/bounds.h"
+#include "symmetry/cover/contraction.h"
+#include "symmetry/cover/search.h"
+#include "symmetry/cover/turning_bound.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void thr_cover_destroy(thr_cover *c)
+{
+  free(c->copies);
+  free(c->pairs);
+  free(c->ends);
+  *c = (thr_cover){0};
+}
+
+bool thr_cover_all_open(const thr_cover_options *o)
+{
+  return o->ends == THR_ENDS_FEET || o->ends == THR_ENDS_NODES || (o->ends == THR_ENDS_ANY && o->tube);
+}
+
+/* A component of the framework without a node where its cords may end. */
+static thr_status check_ends(const thr_programme *p, thr_err *err)
+{
+  const thr_quotient *q = p->q;
+  int count = 0, *component = thr_calloc((size_t)q->f->n_nodes, sizeof *component);
+  bool *has_end = thr_calloc((size_t)q->f->n_nodes, sizeof *has_end);
+  thr_status st = component && has_end ? thr_frame_components(q->f, component, &count, err) : thr_nomem(err);
+  for (int d = 0; d < q->n_darts && !st; d++) {
+    if (p->most[p->first_end + d] == 0) continue;
+    for (int i = 0; i < q->h->order; i++)
+      has_end[component[thr_tail(q->f, q->half_image[(size_t)i * 2 * (size_t)q->f->n_edges + (size_t)q->dart[d].half])]] = true;
+  }
+  for (int v = 0; v < q->f->n_nodes && p->open && !st; v++)
+    if (!has_end[component[v]])
+      st = thr_fail(err, THR_EINFEASIBLE, "no cord may end in the component of node %s, with ends %s", q->f->name[v],
+                    thr_ends_name(p->o->ends));
+  free(component);
+  free(has_end);
+  return st;
+}
+
+static thr_status hand_over(thr_search *s, thr_cover *out, thr_err *err)
+{
+  const thr_quotient *q = s->p->q;
+  double quick;
+  thr_status st = thr_turning_quick_bound(s->p, s->worth, &quick, err);
+  if (st) return st;
+  s->bound[THR_AIM_TURNING] = fmax(s->bound[THR_AIM_TURNING], quick);
+  memcpy(out->value, s->worth, sizeof out->value);
+  for (int a = 0; a < THR_N_AIMS; a++)
+    out->bound[a] = fmin(s->bound[a], s->worth[a]); /* a later aim may win by rounding in an earlier one */
+  out->copies = thr_calloc((size_t)q->n_copies, sizeof *out->copies);
+  out->pairs = thr_calloc((size_t)q->n_pairs, sizeof *out->pairs);
+  out->ends = thr_calloc((size_t)q->n_darts, sizeof *out->ends);
+  if (!out->copies || !out->pairs || !out->ends) return thr_nomem(err);
+  memcpy(out->copies, s->best, (size_t)q->n_copies * sizeof *s->best);
+  if (q->n_pairs > 0) memcpy(out->pairs, s->best + s->p->first_pair, (size_t)q->n_pairs * sizeof *s->best);
+  memcpy(out->ends, s->best + s->p->first_end, (size_t)q->n_darts * sizeof *s->best);
+  return THR_OK;
+}
+
+/* Keeps a lifted solution, mended. */
+static thr_status offer_joined(thr_search *s, thr_err *err)
+{
+  thr_status st = thr_programme_mend(s->p, s->other, err);
+  if (!st) st = thr_programme_open(s->p, s->other, err);
+  return st ? st : thr_search_offer(s, err);
+}
+
+/* Limits that leave so much of the time that is left. */
+static thr_limits part_of_time(const thr_search *s, double part)
+{
+  thr_limits limits = *s->limits;
+  if (limits.deadline > 0) limits.deadline -= (1 - part) * thr_limits_left(&limits, INFINITY);
+  return limits;
+}
+
+/* The best so far with its turns as cheap as they can be and joined again, and then by exchanges that leave it whole. */
+static thr_status offer_improved(thr_search *s, thr_err *err)
+{
+  const thr_limits limits = part_of_time(s, 0.5);
+  memcpy(s->other, s->best, (size_t)s->p->n * sizeof *s->best);
+  thr_status st = thr_programme_straighten(s->p, &limits, s->other, err);
+  if (!st) st = offer_joined(s, err);
+  memcpy(s->other, s->best, (size_t)s->p->n * sizeof *s->best);
+  if (!st) st = thr_programme_improve(s->p, &limits, s->other, err);
+  return st ? st : thr_search_offer(s, err);
+}
+
+/* Lifts a start with tube joints, for which it gets more copies where need be; *failed as thr_contraction_lift has it. */
+static thr_status lift_tied(thr_search *s, thr_contraction *c, const bool *barred, int *small, int *failed, thr_err *err)
+{
+  enum { ROUNDS = 8 };
+  const thr_ties *ties = s->p->ties;
+  bool *loose = thr_calloc((size_t)ties->n, sizeof *loose), enough = true;
+  thr_status st = loose ? thr_contraction_fasten(c, barred, NULL, small, &enough, err) : thr_nomem(err);
+  *failed = 1;
+  for (int round = 0; round < ROUNDS && enough && *failed && !st; round++) {
+    memset(c->keep, 0, (size_t)s->p->q->n_darts * sizeof *c->keep);
+    if (round > 0) st = thr_contraction_fasten(c, barred, loose, small, &enough, err);
+    if (!st && enough) st = thr_contraction_lift(c, small, s->other, failed, err);
+    for (int i = 0; i < ties->n && !st; i++)
+      loose[i] = false;
+    for (int d = 0; d < s->p->q->n_darts && !st; d++)
+      if (c->keep[d] && ties->star[d] >= 0) loose[ties->star[d]] = true;
+  }
+  free(loose);
+  return st;
+}
+
+static thr_status try_start(thr_search *s, thr_contraction *c, thr_contraction_kind kind, const bool *barred, int *small,
+                            thr_err *err)
+{
+  bool made;
+  int failed = 0;
+  s->valid = s->lifted = false;
+  thr_status st = thr_contraction_start(c, kind, barred, s->limits, small, &made, err);
+  if (!st && made && s->p->ties)
+    st = lift_tied(s, c, barred, small, &failed, err);
+  else if (!st && made)
+    st = thr_contraction_lift(c, small, s->other, &failed, err);
+  s->lifted = !st && made && !failed;
+  if (s->lifted) st = offer_joined(s, err);
+  memset(c->keep, 0, (size_t)s->p->q->n_darts * sizeof *c->keep);
+  return st;
+}
+
+static bool is_freest(const thr_programme *p, int copy)
+{
+  const thr_copy_type *t = p->q->copy;
+  for (int k = copy - 1; k >= 0 && t[k].edge == t[copy].edge; k--)
+    if (p->most[k] != 0 && t[k].passes > t[copy].passes) return false;
+  for (int k = copy + 1; k < p->q->n_copies && t[k].edge == t[copy].edge; k++)
+    if (p->most[k] != 0 && t[k].passes > t[copy].passes) return false;
+  return true;
+}
+
+/* Bars the copies in sets of s->other that need an end and have none, the freest excepted; if there are none of them, or all is
+ * asked for, all but the freest. *more: are any barred that were not? */
+static thr_status bar(thr_search *s, bool all, bool *barred, bool *more, thr_err *err)
+{
+  const thr_programme *p = s->p;
+  thr_programme_parts parts = {0};
+  thr_status st = thr_programme_parts_init(&parts, p, err);
+  if (!st) thr_programme_parts_find(&parts, p, s->other);
+  *more = false;
+  for (int every = all; every < 2 && !*more && !st; every++)
+    for (int k = 0; k < p->first_pair; k++) {
+      int root = parts.root[p->join[k][0]];
+      bool lacks = every || (s->other[k] > 0 && root >= 0 && parts.ends[root] == 0);
+      if (!lacks || barred[k] || p->most[k] == 0 || is_freest(p, k)) continue;
+      barred[k] = *more = true;
+    }
+  thr_programme_parts_destroy(&parts);
+  return st;
+}
+
+/* Covers that need no programme: with the least copies; where cords would be closed that may not be, with freer ones there; and
+ * if need be, which serves always, with the freest twice. The best is improved. */
+static thr_status start(thr_search *s, thr_err *err)
+{
+  const thr_programme *p = s->p;
+  thr_contraction c;
+  thr_status st = thr_contraction_init(&c, p, true, err);
+  if (st) return st;
+  int *small = thr_calloc((size_t)c.p.n, sizeof *small);
+  bool *barred = thr_calloc((size_t)p->first_pair, sizeof *barred);
+  st = small && barred ? try_start(s, &c, THR_CONTRACTION_LEAST, barred, small, err) : thr_nomem(err);
+  for (bool more = !s->found || (p->open && !thr_search_beaten(s, THR_AIM_OVERLAP, s->bound[THR_AIM_OVERLAP])); more && !st;) {
+    st = try_start(s, &c, THR_CONTRACTION_PLAIN, barred, small, err);
+    more = !s->valid;
+    if (!st && more) st = bar(s, !s->lifted, barred, &more, err);
+  }
+  if (!s->found && !st) st = try_start(s, &c, THR_CONTRACTION_TWICE, barred, small, err);
+  if (s->found && !st && !p->o->quick) st = offer_improved(s, err);
+  free(small);
+  free(barred);
+  thr_contraction_destroy(&c);
+  return st;
+}
+
+/* What is known of overlap and paths without a cover. */
+static thr_status bound_first(thr_search *s, thr_err *err)
+{
+  thr_status st = thr_bounds_overlap(s->p, s->limits, &s->bound[THR_AIM_OVERLAP], err);
+  return st ? st : thr_bounds_paths(s->p, &s->bound[THR_AIM_PATHS], err);
+}
+
+/* Steps and paths, where overlap is first and least for certain: it may not grow for them. */
+static thr_status bound_ties(thr_search *s, thr_err *err)
+{
+  static const thr_aim tie[] = {THR_AIM_STEPS, THR_AIM_PATHS};
+  thr_status st = THR_OK;
+  if (s->p->o->prefer[0] != THR_AIM_OVERLAP || !thr_search_beaten(s, THR_AIM_OVERLAP, s->bound[THR_AIM_OVERLAP])) return THR_OK;
+  for (size_t k = 0; k < sizeof tie / sizeof *tie && !st; k++)
+    if (!thr_search_beaten(s, tie[k], s->bound[tie[k]]))
+      st = thr_bounds_tie(s->p, tie[k], s->worth[THR_AIM_OVERLAP], s->limits, &s->bound[tie[k]], err);
+  return st;
+}
+
+/* Bounds of the contracted programme: with the aims before at the same values. */
+static void take_bounds(thr_search *s, const thr_search *small, int n)
+{
+  for (int k = 0; k < n; k++) {
+    thr_aim aim = s->p->o->prefer[k];
+    s->bound[aim] = fmax(s->bound[aim], small->bound[aim]);
+    if (!thr_search_beaten(s, aim, s->bound[aim])) break;
+  }
+}
+
+/* What the best so far turns at least, with the aims before turning as they are, in half the time that is left. small: a search
+ * of the contraction, whose programme goes on if it keeps no aim lower than that. */
+static thr_status bound_turning(thr_search *s, const thr_contraction *c, thr_search *small, thr_err *err)
+{
+  const thr_limits limits = part_of_time(s, 0.5);
+  thr_relaxation own = {0};
+  bool fits = true;
+  for (int k = 0; k < small->kept; k++) {
+    thr_aim aim = s->p->o->prefer[k];
+    fits = fits && s->worth[aim] <= small->worth[aim] + thr_programme_tolerance(s->p, aim);
+  }
+  thr_status st = thr_turning_bound(c, fits ? &small->r : &own, fits ? small->kept : 0, s->best, s->worth, &limits,
+                                    &s->bound[THR_AIM_TURNING], err);
+  thr_relaxation_destroy(&own);
+  return st == THR_ELIMIT ? THR_OK : st;
+}
+
+/* What is known of the whole programme: the best cover, and bounds, which hold for the contracted one, too. */
+static thr_status begin_with(thr_search *small, const thr_search *s, const thr_contraction *c, thr_err *err)
+{
+  bool same = true; /* are the aims before at their least for certain? */
+  for (int k = 0; k < THR_N_AIMS && same && s->p->o->prefer[k] != THR_AIM_TURNING; k++) {
+    thr_aim aim = s->p->o->prefer[k];
+    small->bound[aim] = s->bound[aim];
+    same = thr_search_beaten(s, aim, s->bound[aim]);
+  }
+  if (!s->found) return THR_OK;
+  thr_contraction_lower(c, s->best, small->other);
+  return thr_search_offer(small, err);
+}
+
+/* How many aims come before turning; a quick search leaves out what comes after steps, and paths. */
+static int aims_before_turning(const thr_cover_options *o)
+{
+  int all = 0, quick = 0;
+  for (; o->prefer[all] != THR_AIM_TURNING; all++)
+    if (o->prefer[all] != THR_AIM_PATHS) quick = all + 1;
+  return o->quick ? quick : all;
+}
+
+/* The aims before turning in the contracted programme, whose cells are left as they are where its solution cannot be lifted. */
+static thr_status search_contracted(thr_search *s, thr_err *err)
+{
+  static const double part = 0.7; /* of the time: the rest is for lifting and for turning */
+  thr_contraction c;
+  thr_limits limits = *s->limits;
+  const bool quick = s->p->o->quick;
+  int n = aims_before_turning(s->p->o), failed = 1;
+  if (limits.deadline > 0) limits.deadline -= (1 - part) * thr_limits_left(&limits, INFINITY);
+  thr_status st = thr_contraction_init(&c, s->p, false, err);
+  if (st) return st;
+  while (failed > 0 && !st) {
+    thr_search small;
+    st = thr_search_init(&small, &c.p, &limits, err);
+    if (st) break;
+    st = begin_with(&small, s, &c, err);
+    small.extra = c.p.q->n_darts; /* for the bound on turning */
+    thr_status searched = st ? st : thr_search_aims(&small, n, err);
+    if (searched && searched != THR_ELIMIT) st = searched;
+    failed = 0;
+    if (!st && small.found) st = thr_contraction_lift(&c, small.best, s->other, &failed, err);
+    if (!st && small.found && !failed) st = offer_joined(s, err);
+    if (!st && !failed) take_bounds(s, &small, n);
+    if (!st && !failed && s->found && !quick) st = bound_turning(s, &c, &small, err);
+    if (!st && s->found && !failed && !quick) st = offer_improved(s, err);
+    thr_search_destroy(&small);
+    if (!st && failed) st = thr_contraction_make(&c, err);
+  }
+  thr_contraction_destroy(&c);
+  return st;
+}
+
+/* All aims in the whole programme. If that ends early with a cover that the bound on turning does not hold for, it gets one. */
+static thr_status search_whole(thr_search *s, thr_err *err)
+{
+  static const double part = 0.8;
+  const thr_limits *all = s->limits, most = part_of_time(s, part);
+  thr_contraction c;
+  thr_search none = {0};
+  int n = aims_before_turning(s->p->o);
+  s->limits = &most;
+  thr_status st = thr_search_aims(s, n, err);
+  s->limits = all;
+  if (!st) return thr_search_aims(s, THR_N_AIMS, err);
+  if (st != THR_ELIMIT || !s->found || s->bound[THR_AIM_TURNING] > 0) return st;
+  thr_status made = thr_contraction_init(&c, s->p, false, err);
+  if (made) return made;
+  made = bound_turning(s, &c, &none, err);
+  thr_relaxation_destroy(&none.r);
+  thr_contraction_destroy(&c);
+  return made ? made : st;
+}
+
+/* What was found and proved before, or a first cover. */
+static thr_status begin(thr_search *s, const thr_cover *known, thr_err *err)
+{
+  const thr_quotient *q = s->p->q;
+  thr_status st = THR_OK;
+  if (!known->copies) {
+    st = bound_first(s, err);
+    if (!st) st = start(s, err);
+    return !st && s->found ? bound_ties(s, err) : st;
+  }
+  memcpy(s->bound, known->bound, sizeof s->bound);
+  memcpy(s->other, known->copies, (size_t)q->n_copies * sizeof *s->other);
+  if (q->n_pairs > 0) memcpy(s->other + s->p->first_pair, known->pairs, (size_t)q->n_pairs * sizeof *s->other);
+  memcpy(s->other + s->p->first_end, known->ends, (size_t)q->n_darts * sizeof *s->other);
+  st = thr_search_offer(s, err);
+  return !st && s->found && !s->p->o->quick ? offer_improved(s, err) : st;
+}
+
+/* Why the search has not done what it was to do. */
+static thr_status stopped(const thr_search *s, const char *what, thr_err *err)
+{
+  const thr_limits *l = s->limits;
+  const char *why = l->interrupted && *l->interrupted ? "the search was stopped before it could" : "the time was too short to";
+  return thr_fail(err, THR_ELIMIT, "%s %s", why, what);
+}
+
+static thr_status search_all(thr_search *s, const thr_cover *known, thr_cover *out, thr_err *err)
+{
+  thr_status st = begin(s, known, err);
+  if (!st) st = search_contracted(s, err);
+  if (!st && s->p->o->quick && s->found)
+    st = THR_ELIMIT;
+  else if (!st)
+    st = search_whole(s, err);
+  if (st && st != THR_ELIMIT) return st;
+  if (!s->found) return stopped(s, "find a symmetric cover", err);
+  out->optimal = !st;
+  thr_status given = hand_over(s, out, err);
+  if (given || !st) return given;
+  return stopped(s, "prove that no symmetric cover is better", err);
+}
+
+thr_status thr_cover_improve(const thr_quotient *q, const thr_cover_options *o, const thr_limits *limits, thr_cover *known,
+                             thr_err *err)
+{
+  thr_programme p = {0};
+  thr_cover c = {0};
+  thr_search s = {0};
+  thr_limits first = *limits;
+  thr_status st = thr_programme_init(&p, q, o, err);
+  if (first.deadline > 0) first.deadline = fmax(first.deadline, o->start_by);
+  p.limits = &first;
+  if (!st) st = check_ends(&p, err);
+  if (!st && o->tube) st = thr_programme_tie(&p, err);
+  if (!st) st = thr_search_init(&s, &p, limits, err);
+  if (!st) st = search_all(&s, known, &c, err);
+  thr_search_destroy(&s);
+  thr_programme_destroy(&p);
+  if (st && st != THR_ELIMIT) thr_cover_destroy(&c);
+  thr_cover_destroy(known);
+  *known = c;
+  return st;
+}
+
+thr_status thr_cover_find(const thr_quotient *q, const thr_cover_options *o, const thr_limits *limits, thr_cover *out,
+                          thr_err *err)
+{
+  *out = (thr_cover){0};
+  return thr_cover_improve(q, o, limits, out, err);
+}

@@ -1,0 +1,71 @@
+/* The linear programme over the columns of symmetry/cover/programme.h, with rows added as a point violates them. Internal. */
+#ifndef THR_RELAXATION_H
+#define THR_RELAXATION_H
+
+#include "lp/solver/lp.h"
+#include "lp/tjoin/oddcut.h"
+#include "symmetry/cover/programme.h"
+
+typedef struct {
+  const thr_programme *p;
+  int extra; /* columns after those of p, >= 0, in no row as yet and at no cost */
+  thr_lp *lp;
+  thr_aim aim;        /* minimized at present */
+  bool circles;       /* circles count from now on: paths are, or were, minimized */
+  double *low, *high; /* [p->n] bounds in force */
+  double *x;          /* [p->n + extra] of the last solve */
+  double objective;   /* of the last solve, in the aim's unit, with its constant; rounded up to what a cover can have */
+  bool whole;         /* is x integral? */
+  /* odd sets */
+  thr_tjoin_problem problem;
+  thr_oddcut_graph graph;
+  thr_oddcut_pool pool;
+  int *column;    /* [problem.n_edges] that the edge stands for */
+  double *metric; /* [problem.n_edges] overlap that it costs, in parts of the largest */
+  bool *surplus;  /* [problem.n_edges] or rather for the surplus of its edge orbit over the cover? */
+  double *weight; /* [problem.n_edges] scratch */
+  double *sum;    /* [p->n + extra] all 0: for the coefficients of a row */
+} thr_relaxation;
+
+/* THR_ELIMIT: stopped; r is empty. */
+thr_status thr_relaxation_init(thr_relaxation *r, const thr_programme *p, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
+void thr_relaxation_destroy(thr_relaxation *r);
+
+/* The same with extra columns (symmetry/cover/turning_bound.h). */
+thr_status thr_relaxation_init_extra(thr_relaxation *r, const thr_programme *p, int extra, const thr_limits *limits,
+                                     thr_err *err) THR_MUST_CHECK;
+
+/* Adds the row r->sum * x >= lower and clears r->sum. */
+thr_status thr_relaxation_add_row(thr_relaxation *r, double lower, thr_err *err) THR_MUST_CHECK;
+
+/* The same if x violates it, counted in *added; else r->sum is cleared. */
+thr_status thr_relaxation_add_violated(thr_relaxation *r, double lower, int *added, thr_err *err) THR_MUST_CHECK;
+
+/* In symmetry/cover/tie_rows.c, for tube joints. Between the b blocks of any partition of the tubes at a node there are b - 1
+ * turns: at first between all tubes; then for the blocks that turns join with more than some value of x, and where there are few
+ * tubes for any two blocks. */
+thr_status thr_relaxation_tie_first(thr_relaxation *r, thr_err *err) THR_MUST_CHECK;
+thr_status thr_relaxation_tie(thr_relaxation *r, int *added, thr_err *err) THR_MUST_CHECK;
+
+/* What is minimized from now on. */
+thr_status thr_relaxation_aim(thr_relaxation *r, thr_aim aim, thr_err *err) THR_MUST_CHECK;
+
+/* Keeps the present aim at most at this value. */
+thr_status thr_relaxation_fix(thr_relaxation *r, double value, thr_err *err) THR_MUST_CHECK;
+
+/* Bounds on a column from now on. */
+thr_status thr_relaxation_bound(thr_relaxation *r, int column, double low, double high, thr_err *err) THR_MUST_CHECK;
+
+/* Solves with the present rows and bounds; integer: with whole columns only, by GLPK's own branch and bound. */
+thr_status thr_relaxation_solve(thr_relaxation *r, bool integer, const thr_limits *limits, thr_lp_outcome *outcome,
+                                thr_err *err) THR_MUST_CHECK;
+
+/* Adds rows that x violates: odd sets, ties, connected sets, sets with too many folds. They hold for every cover,
+ * whatever the bounds in force. *added = 0 if there are none. THR_ELIMIT: stopped. */
+thr_status thr_relaxation_separate(thr_relaxation *r, const thr_limits *limits, int *added, thr_err *err) THR_MUST_CHECK;
+
+/* The column to branch on where x is not whole: copies of edges with several types, other copies, ends, turns; of these the most
+ * undecided. */
+int thr_relaxation_branch(const thr_relaxation *r);
+
+#endif

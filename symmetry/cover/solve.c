@@ -1,0 +1,263 @@
+/* Rows of the table: covers, the threadings made from them, and what is proved of those. */
+#include "symmetry/cover/solve.h"
+#include "symmetry/cover/claims.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_TYPES = 200000 }; /* of a quotient: what a linear programme can hold */
+
+/* Every row has a moment for a first cover, and one that has a cover becomes cords, also when the time is over, but no later than
+ * so long after that; in s. */
+static const double MOMENT = 0.05, LATEST = 0.2;
+
+/* What is known while the rows are solved. */
+typedef struct {
+  const thr_frame *f;
+  const thr_plan_options *o;
+  thr_symmetries *t;
+  thr_cover_options how;
+  int *edge_cover, *edge_capacity; /* [n_edges] */
+  double base;                     /* cord that the edges need, units */
+  double end;                      /* thr_clock() at which all must be done; 0 = any time */
+  thr_cover *cover;                /* [t->n] so far */
+} solver;
+
+static void solver_destroy(solver *s)
+{
+  for (int i = 0; i < s->t->n && s->cover; i++)
+    thr_cover_destroy(&s->cover[i]);
+  free(s->cover);
+  free(s->edge_cover);
+  free(s->edge_capacity);
+}
+
+static thr_status solver_init(solver *s, const thr_frame *f, const thr_plan_options *o, thr_symmetries *t, thr_err *err)
+{
+  *s = (solver){.f = f, .o = o, .t = t, .how = {.cover = o->cover, .ends = o->ends, .end_node = o->end_node}};
+  s->how.tube = o->joint == THR_JOINT_TUBE;
+  memcpy(s->how.prefer, o->symmetry.prefer, sizeof s->how.prefer);
+  s->edge_cover = thr_calloc((size_t)f->n_edges, sizeof *s->edge_cover);
+  s->edge_capacity = thr_calloc((size_t)f->n_edges, sizeof *s->edge_capacity);
+  s->cover = thr_calloc((size_t)t->n, sizeof *s->cover);
+  if (!s->edge_cover || !s->edge_capacity || !s->cover) {
+    solver_destroy(s);
+    return thr_nomem(err);
+  }
+  for (int e = 0; e < f->n_edges; e++) {
+    s->edge_cover[e] = thr_plan_cover(f, o, e);
+    s->edge_capacity[e] = thr_plan_capacity(f, o, e);
+    s->base += s->edge_cover[e] * f->length[e];
+  }
+  s->how.edge_cover = s->edge_cover;
+  s->how.edge_capacity = s->edge_capacity;
+  return THR_OK;
+}
+
+/* ---- one row ---- */
+
+static thr_status count_copies(thr_symmetry_row *row, thr_err *err)
+{
+  int *copies = thr_calloc((size_t)row->n_cords, sizeof *copies);
+  if (!copies) return thr_nomem(err);
+  for (int i = 0; i < row->n_cords; i++)
+    copies[row->record.unique[i]]++;
+  row->least_copies = row->n_cords;
+  for (int i = 0; i < row->n_cords; i++) {
+    if (copies[i] == 0) continue;
+    if (copies[i] < row->least_copies) row->least_copies = copies[i];
+    if (copies[i] > row->most_copies) row->most_copies = copies[i];
+  }
+  free(copies);
+  return THR_OK;
+}
+
+/* What the plan has, and what is proved of that. */
+static thr_status restate(const thr_quotient *q, const thr_cover_options *o, const thr_cover *c, thr_symmetry_row *row,
+                          thr_err *err)
+{
+  thr_claims claims;
+  bool weaker = false;
+  thr_status st = thr_claims_make(q, o, c, &claims, err);
+  if (st) return st;
+  row->value[THR_AIM_STEPS] = row->record.steps;
+  row->value[THR_AIM_PATHS] = row->record.unique_paths;
+  row->value[THR_AIM_TURNING] = row->metrics.turning;
+  for (int a = 0; a < THR_N_AIMS; a++) {
+    double rounding = 1e-6 * fmax(1, fabs(row->value[a])) + fmax(0, c->value[a] - c->bound[a]);
+    weaker = weaker || row->value[a] > claims.least[a] + rounding;
+    row->bound[a] = fmin(claims.least[a], row->value[a]); /* but for rounding it is no more */
+  }
+  if (!weaker || !c->optimal) return THR_OK;
+  return thr_fail(err, THR_ELIMIT, "%s",
+                  claims.repeats ? "cords may run alike, which the search tells apart and a plan does not"
+                                 : "a plan does not count the turn where a closed cord comes out, the search does");
+}
+
+static thr_status take_cover(const solver *s, const thr_quotient *q, const thr_cover *c, thr_symmetry_row *row, thr_err *err)
+{
+  memcpy(row->value, c->value, sizeof row->value);
+  memcpy(row->bound, c->bound, sizeof row->bound);
+  row->solved = c->optimal;
+  if (!c->copies) return THR_OK; /* out of time before there was any */
+  thr_status st = thr_cover_cords(q, &s->how, c, &row->cord, &row->n_cords, &row->record, err);
+  if (st) return st;
+  snprintf(row->record.name, sizeof row->record.name, "%s", row->name);
+  st = count_copies(row, err);
+  if (!st) st = thr_plan_measure(q->f, s->o, row->cord, row->n_cords, &row->metrics, err);
+  return st ? st : restate(q, &s->how, c, row, err);
+}
+
+/* What a row can do without a threading is to say why; all else is a failure. */
+static bool is_said(thr_status st)
+{
+  return st == THR_ELIMIT || st == THR_EINFEASIBLE || st == THR_EINPUT || st == THR_ESOLVER;
+}
+
+/* The cords of a cover for whoever keeps the best so far; what fails here shows again when the row is made. */
+static void tell(const thr_quotient *q, const thr_cover_options *how, const thr_cover *c, const thr_limits *limits)
+{
+  int n;
+  thr_cord *cord;
+  thr_symmetry_record record = {0};
+  if (!limits->found || !c->copies || thr_cover_cords(q, how, c, &cord, &n, &record, NULL)) return;
+  thr_limits_found(limits, cord, n, &record);
+  thr_symmetry_record_destroy(&record);
+  thr_cords_destroy(cord, n);
+}
+
+/* Goes on with the row's cover; the last time it becomes the row's threading. */
+static thr_status solve(solver *s, int i, bool quick, const thr_limits *limits, thr_err *err)
+{
+  thr_symmetry_row *row = &s->t->row[i];
+  thr_quotient q = {0};
+  row->why = (thr_err){0};
+  s->how.quick = quick;
+  thr_limits first = *limits;
+  if (s->end > 0) s->how.start_by = fmin(thr_clock() + MOMENT, s->end + LATEST);
+  if (s->end > 0) first.deadline = s->cover[i].copies ? s->end + LATEST : fmax(first.deadline, s->how.start_by);
+  thr_status st = thr_quotient_make(&q, s->f, &s->t->group[row->group].all, &row->elements, MOST_TYPES, &first, &row->why);
+  if (!st) {
+    st = thr_cover_improve(&q, &s->how, limits, &s->cover[i], &row->why);
+    if (!st || st == THR_ELIMIT) tell(&q, &s->how, &s->cover[i], limits);
+    if (!quick && (!st || st == THR_ELIMIT)) {
+      thr_status made = take_cover(s, &q, &s->cover[i], row, &row->why);
+      if (made) st = made;
+    }
+  }
+  if (st) thr_fail(&row->why, st, "stopped early"); /* if no one said why */
+  if (!quick) thr_cover_destroy(&s->cover[i]);
+  thr_quotient_destroy(&q);
+  return st && !is_said(st) ? thr_fail(err, st, "%s", row->why.text) : THR_OK;
+}
+
+/* ---- the shortest of all ---- */
+
+thr_status thr_symmetry_shortest_tied(const thr_frame *f, const thr_plan_options *o, bool few, const thr_limits *limits,
+                                      double *length, bool *optimal, thr_err *err)
+{
+  static const thr_aim cords_first[] = {THR_AIM_PATHS, THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_TURNING};
+  thr_symmetries none = {0};
+  int identity = 0;
+  const thr_subgroup alone = {1, &identity};
+  thr_group g = {0};
+  thr_quotient q = {0};
+  thr_cover c = {0};
+  thr_err why = {0};
+  solver s;
+  thr_status st = solver_init(&s, f, o, &none, err);
+  if (st) return st;
+  s.how.quick = true;
+  if (few) memcpy(s.how.prefer, cords_first, sizeof cords_first);
+  st = thr_group_generate(f->n_nodes, NULL, 0, 1, &g, err);
+  if (!st) st = thr_quotient_make(&q, f, &g, &alone, MOST_TYPES, limits, &why);
+  if (!st) st = thr_cover_find(&q, &s.how, limits, &c, &why);
+  if (!st || st == THR_ELIMIT) tell(&q, &s.how, &c, limits);
+  *optimal = false;
+  *length = s.base;
+  if (!st || st == THR_ELIMIT) {
+    double value = c.value[THR_AIM_OVERLAP], bound = c.bound[THR_AIM_OVERLAP];
+    *optimal = c.copies && value <= bound + 1e-6 * s.base && (!few || c.value[THR_AIM_PATHS] <= c.bound[THR_AIM_PATHS]);
+    *length += c.copies ? fmax(0, value) : 0;
+    st = THR_OK;
+  } else {
+    thr_fail(err, st, "%s", why.text);
+  }
+  thr_cover_destroy(&c);
+  thr_quotient_destroy(&q);
+  thr_group_destroy(&g);
+  solver_destroy(&s);
+  return st;
+}
+
+/* ---- whose turn it is ---- */
+
+thr_limits thr_symmetry_share(const thr_limits *l, double part)
+{
+  thr_limits share = *l;
+  double now = thr_clock();
+  if (l->deadline > 0) share.deadline = now + part * fmax(0, l->deadline - now);
+  return share;
+}
+
+bool thr_symmetry_asked(const thr_symmetries *t, int row, const char *group)
+{
+  char number[16];
+  snprintf(number, sizeof number, "%d", row + 1);
+  return !*group || strcmp(number, group) == 0 || strcmp(t->row[row].name, group) == 0;
+}
+
+/* Is there, for all that is known, a better default choice under this group than the best so far? */
+static bool may_be_chosen(const solver *s, int row)
+{
+  double limit = s->t->shortest * (1 + thr_symmetry_slack) - s->base, steps = INFINITY, overlap = INFINITY;
+  const thr_cover *c = s->cover;
+  for (int i = 0; i < s->t->n; i++) {
+    if (!c[i].copies) continue;
+    overlap = fmin(overlap, c[i].value[THR_AIM_OVERLAP]);
+    if (c[i].value[THR_AIM_OVERLAP] <= limit) steps = fmin(steps, c[i].value[THR_AIM_STEPS]);
+  }
+  if (!c[row].copies) return true;
+  if (isinf(steps)) return c[row].bound[THR_AIM_OVERLAP] < overlap - 1e-9 * s->base;
+  return c[row].bound[THR_AIM_OVERLAP] <= limit && c[row].bound[THR_AIM_STEPS] < steps - 1e-9;
+}
+
+typedef enum { FIRST, CHOICE, PROOFS, N_ROUNDS } turn;
+
+static bool has_turn(const solver *s, turn r, int row)
+{
+  bool ended = s->t->row[row].why.code && s->t->row[row].why.code != THR_ELIMIT;
+  return thr_symmetry_asked(s->t, row, s->o->symmetry.group) && !ended && (r != CHOICE || may_be_chosen(s, row));
+}
+
+static thr_status solve_round(solver *s, turn r, const thr_limits *limits, thr_err *err)
+{
+  static const double part[N_ROUNDS] = {0.5, 0.7, 1}; /* of the time that is left */
+  const thr_limits all = thr_symmetry_share(limits, part[r]);
+  int n = 0, done = 0;
+  thr_status st = THR_OK;
+  for (int i = 0; i < s->t->n; i++)
+    n += has_turn(s, r, i);
+  for (int i = 0; i < s->t->n && !st && done < n; i++) {
+    if (!has_turn(s, r, i)) continue;
+    if (limits->advance) limits->advance(limits->user, "threading under each group", (r + (double)done / n) / N_ROUNDS);
+    const thr_limits share = thr_symmetry_share(&all, 1.0 / (n - done++));
+    st = solve(s, i, r != PROOFS, &share, err);
+  }
+  return st;
+}
+
+thr_status thr_symmetry_solve(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_symmetries *t,
+                              thr_err *err)
+{
+  solver s;
+  thr_status st = solver_init(&s, f, o, t, err);
+  if (st) return st;
+  s.end = limits->deadline;
+  for (int r = limits->deadline > 0 ? FIRST : PROOFS; r < N_ROUNDS && !st; r++)
+    st = solve_round(&s, (turn)r, limits, err);
+  solver_destroy(&s);
+  return st;
+}

@@ -1,0 +1,427 @@
+/* Covers that need no programme: copies, made even by a least join, and led on where they cannot turn. */
+#include "graph/disjoint.h"
+#include "lp/tjoin/engine.h"
+#include "symmetry/cover/contraction.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- copies ---- */
+
+/* Orbits of a copy type by which it covers its edge alone, and the passes beyond the cover. */
+static int needed(const thr_programme *p, int copy, int *over)
+{
+  int passes = p->q->copy[copy].passes, cover = p->cover[p->q->copy[copy].edge_orbit];
+  int n = (cover + passes - 1) / passes;
+  *over = n * passes - cover;
+  return n;
+}
+
+/* Orbits of the freest copies with which every dart type that they have occurs 2 * ((cover + 1) / 2) times. */
+static int evenly(const thr_programme *p, int copy)
+{
+  const thr_copy_type *t = &p->q->copy[copy];
+  int half = (p->cover[t->edge_orbit] + 1) / 2;
+  return !t->fold && t->dart[0] == t->dart[1] ? half : 2 * half;
+}
+
+/* One copy type for every edge orbit: that with least overlap, without folds if possible, or else the freest. False if capacities
+ * leave none of this kind. */
+static bool take_copies(const thr_contraction *c, thr_contraction_kind kind, const bool *barred, int *small)
+{
+  const thr_programme *p = c->whole;
+  const thr_quotient *q = p->q;
+  for (int k = 0, end; k < q->n_copies; k = end) {
+    int best = -1, over, least = 0;
+    for (end = k; end < q->n_copies && q->copy[end].edge == q->copy[k].edge; end++) {
+      if (p->most[end] == 0 || barred[end] || (kind != THR_CONTRACTION_LEAST && q->copy[end].fold)) continue;
+      needed(p, end, &over);
+      bool better = best < 0 || q->copy[end].passes > q->copy[best].passes;
+      if (best >= 0 && kind != THR_CONTRACTION_TWICE)
+        better = over < least || (over == least && q->copy[best].fold && !q->copy[end].fold);
+      if (!better) continue;
+      best = end;
+      least = over;
+    }
+    if (best < 0) return false;
+    small[best] = kind == THR_CONTRACTION_TWICE ? evenly(p, best) : needed(p, best, &over);
+  }
+  return true;
+}
+
+/* What a column is worth in aims of which these parts count. */
+static double price(const thr_programme *p, const double *part, int j)
+{
+  double sum = 0;
+  for (int a = 0; a < THR_N_AIMS; a++)
+    sum += part[a] > 0 ? part[a] * p->cost[a][j] : 0;
+  return sum;
+}
+
+/* The copies that every cover has. Returns what it is worth for certain without any others. */
+static double take_certain(const thr_programme *p, const double *part, int *small)
+{
+  const thr_quotient *q = p->q;
+  double worth = 0;
+  for (int a = 0; a < THR_N_AIMS; a++)
+    worth += part[a] * p->constant[a];
+  for (int k = 0, end; k < q->n_copies; k = end) {
+    double least = (double)INFINITY;
+    for (end = k; end < q->n_copies && q->copy[end].edge == q->copy[k].edge; end++) {
+      small[end] = p->least[end];
+      double pass = price(p, part, end) / q->copy[end].passes;
+      if (p->most[end] != 0)
+        least = fmin(least, fmax(p->cover[p->q->copy[end].edge_orbit], small[end] * q->copy[end].passes) * pass);
+    }
+    worth += least;
+  }
+  return worth;
+}
+
+/* ---- the least join ---- */
+
+/* The columns as edges between dart types and the root of all terminals. */
+typedef struct {
+  thr_tjoin_problem problem;
+  int (*edge)[2];
+  int64_t *weight;
+  bool *odd;
+  int *column; /* [problem.n_edges] -1: it makes the graph connected; as a bridge with even sides no least join has it */
+  int *parent; /* [problem.n_nodes] */
+  bool *rest;  /* [problem.n_nodes] by lowest node of a part: is the number of its odd nodes odd? */
+  double unit; /* overlap that a weight of 1 stands for, or a little more */
+} join;
+
+static void join_destroy(join *g)
+{
+  free(g->edge);
+  free(g->weight);
+  free(g->odd);
+  free(g->column);
+  free(g->parent);
+  free(g->rest);
+}
+
+static void add_edge(join *g, int a, int b, int column, double cost)
+{
+  int e = g->problem.n_edges++;
+  g->edge[e][0] = a;
+  g->edge[e][1] = b;
+  g->column[e] = column;
+  g->weight[e] = (int64_t)floor(cost / g->unit + 1e-4); /* whole numbers of a unit are not exact */
+}
+
+/* What is asked of a join. */
+typedef struct {
+  double part[THR_N_AIMS]; /* of the aims that count */
+  const bool *barred;      /* [first_pair] copy types that it may not have, or NULL */
+  bool folds;              /* may it have folds? */
+  bool certain; /* where an edge orbit has several copy types they cost nothing: one more of one may be one less of another */
+} request;
+
+static double request_price(const request *r, const thr_programme *p, int j)
+{
+  return r->certain && j < p->first_pair && p->least[j] == 0 ? 0 : price(p, r->part, j);
+}
+
+static void choose_unit(join *g, const request *r, const thr_programme *p)
+{
+  const double most = 0x1p48;
+  double sum = 0;
+  bool alone = r->part[THR_AIM_OVERLAP] == 1 && r->part[THR_AIM_STEPS] == 0 && r->part[THR_AIM_PATHS] == 0;
+  for (int j = 0; j < p->first_circle; j++)
+    sum += request_price(r, p, j);
+  g->unit = p->unit[THR_AIM_OVERLAP];
+  if (alone && g->unit > 0 && sum / g->unit < most / 4) return;
+  g->unit = sum > 0 ? sum / most : 1;
+}
+
+static thr_status join_init(join *g, const thr_programme *p, thr_err *err)
+{
+  size_t n = (size_t)p->q->n_darts + 1, most = (size_t)p->first_circle + n;
+  *g = (join){.edge = thr_calloc(most, sizeof *g->edge)};
+  g->weight = thr_calloc(most, sizeof *g->weight);
+  g->odd = thr_calloc(n, sizeof *g->odd);
+  g->column = thr_calloc(most, sizeof *g->column);
+  g->parent = thr_calloc(n, sizeof *g->parent);
+  g->rest = thr_calloc(n, sizeof *g->rest);
+  if (!g->edge || !g->weight || !g->odd || !g->column || !g->parent || !g->rest) return thr_nomem(err);
+  g->problem = (thr_tjoin_problem){.n_nodes = (int)n, .edge = (const int(*)[2])g->edge, .weight = g->weight, .odd = g->odd};
+  return THR_OK;
+}
+
+static void fill_join(join *g, const request *r, const thr_programme *p, const int *small)
+{
+  int root = p->q->n_darts;
+  choose_unit(g, r, p);
+  for (int d = 0; d <= root; d++)
+    g->parent[d] = d;
+  for (int j = 0; j < p->first_circle; j++) {
+    int a = p->join[j][0], b = p->join[j][1];
+    g->odd[a] ^= small[j] % 2;
+    g->odd[b] ^= small[j] % 2;
+    if (p->most[j] == 0 || a == b || (r->barred && j < p->first_pair && r->barred[j])) continue;
+    if (!r->folds && thr_programme_terminal(p, j) && j < p->first_end) continue;
+    add_edge(g, a, b, j, request_price(r, p, j));
+    thr_disjoint_join(g->parent, a, b);
+  }
+  g->odd[root] = false; /* takes as many terminals as it is given */
+  for (int d = 0; d < root; d++)
+    g->rest[thr_disjoint_find(g->parent, d)] ^= g->odd[d];
+  int top = thr_disjoint_find(g->parent, root);
+  g->odd[root] = g->rest[top];
+  g->rest[top] = false;
+}
+
+/* Adds the least join to small; *found = false if there is none. *least: what any such join is worth at least. */
+static thr_status add_join(const request *r, const thr_programme *p, const thr_limits *limits, int *small, bool *found,
+                           double *least, thr_err *err)
+{
+  join g;
+  thr_tjoin t = {0};
+  bool any = false;
+  thr_status st = join_init(&g, p, err);
+  *found = !st;
+  *least = 0;
+  if (!st) fill_join(&g, r, p, small);
+  for (int d = 0; d < g.problem.n_nodes && !st; d++) {
+    *found = *found && !g.rest[d];
+    any = any || g.odd[d];
+    if (d > 0 && thr_disjoint_join(g.parent, 0, d)) add_edge(&g, 0, d, -1, 0);
+  }
+  if (!st && *found && any) {
+    thr_err why = {0};
+    st = thr_tjoin_shrunk(&g.problem, THR_ENGINE_AUTO, limits, &t, &why);
+    st = st && st != THR_ELIMIT ? thr_fail(err, st, "%s", why.text) : THR_OK; /* the best so far will do */
+    *least = (double)t.sum / THR_DUAL_DENOMINATOR * g.unit;
+  }
+  for (int e = 0; t.in_join && e < g.problem.n_edges; e++)
+    if (g.column[e] >= 0) small[g.column[e]] += t.in_join[e];
+  thr_tjoin_destroy(&t);
+  join_destroy(&g);
+  return st;
+}
+
+/* ---- leading on ---- */
+
+/* Of the whole programme: dart orbits that outnumber all others of their cell, and so can neither turn nor end. */
+typedef struct {
+  const thr_contraction *c;
+  const bool *barred;
+  int *small;
+  int *surplus;       /* [n_darts] */
+  int *first, *copy;  /* copy types with a dart of type d: copy[first[d] .. first[d + 1] - 1] */
+  double *way;        /* [n_darts] overlap of a least way there that has yet to turn, INFINITY = none */
+  int *over, *before; /* [n_darts] copy type that it comes over, and the type that it turned at before */
+  int *queue;         /* [n_darts] ring */
+  bool *waiting;      /* [n_darts] is it in the queue? */
+} leading;
+
+static thr_status leading_init(leading *l, const thr_contraction *c, const bool *barred, int *small, thr_err *err)
+{
+  const thr_quotient *q = c->whole->q;
+  size_t n = (size_t)q->n_darts;
+  *l = (leading){.c = c, .barred = barred, .small = small, .surplus = thr_calloc(n, sizeof *l->surplus)};
+  l->first = thr_calloc(n + 2, sizeof *l->first);
+  l->copy = thr_calloc(2 * (size_t)q->n_copies, sizeof *l->copy);
+  l->way = thr_calloc(n, sizeof *l->way);
+  l->over = thr_calloc(n, sizeof *l->over);
+  l->before = thr_calloc(n, sizeof *l->before);
+  l->queue = thr_calloc(n, sizeof *l->queue);
+  l->waiting = thr_calloc(n, sizeof *l->waiting);
+  if (!l->surplus || !l->first || !l->copy || !l->way || !l->over || !l->before || !l->queue || !l->waiting)
+    return thr_nomem(err);
+  for (int i = 0; i < 2 * q->n_copies; i++)
+    if (q->copy[i / 2].dart[i % 2] >= 0) l->first[q->copy[i / 2].dart[i % 2] + 2]++;
+  for (int d = 1; d <= q->n_darts; d++)
+    l->first[d + 1] += l->first[d];
+  for (int i = 0; i < 2 * q->n_copies; i++)
+    if (q->copy[i / 2].dart[i % 2] >= 0) l->copy[l->first[q->copy[i / 2].dart[i % 2] + 1]++] = i / 2;
+  return THR_OK;
+}
+
+static void leading_destroy(leading *l)
+{
+  free(l->surplus);
+  free(l->first);
+  free(l->copy);
+  free(l->way);
+  free(l->over);
+  free(l->before);
+  free(l->queue);
+  free(l->waiting);
+}
+
+/* Column of the contracted programme in which a dart orbit of type d may end: a cord end, or a self pair unless every cord is to
+ * be open (it might lack an end then); -1 = none. */
+static int terminal_of(const leading *l, int d)
+{
+  const thr_programme *whole = l->c->whole, *p = &l->c->p;
+  int cell = l->c->becomes[d];
+  if (whole->most[whole->first_end + d] != 0) return p->first_end + cell;
+  for (int k = whole->first[d]; k < whole->first[d + 1] && !whole->open; k++) {
+    if (!whole->q->pair[whole->incident[k]].self) continue;
+    for (int i = p->first[cell]; i < p->first[cell + 1]; i++)
+      if (p->q->pair[p->incident[i]].self) return p->first_pair + p->incident[i];
+  }
+  return -1;
+}
+
+/* Those that may end do. sum: [n_darts] zeros. */
+static void find_surplus(leading *l, int *sum)
+{
+  const thr_contraction *c = l->c;
+  const thr_programme *whole = c->whole, *p = &c->p;
+  for (int i = 0; i < 2 * whole->q->n_copies; i++) {
+    int d = whole->q->copy[i / 2].dart[i % 2];
+    if (d < 0) continue;
+    l->surplus[d] += 2 * l->small[i / 2];
+    sum[c->root[d]] += l->small[i / 2];
+  }
+  for (int d = 0; d < whole->q->n_darts; d++) {
+    int cell = c->becomes[d];
+    if (c->root[d] != d) continue;
+    sum[d] += l->small[p->first_end + cell]; /* terminals go where most is left */
+    for (int k = p->first[cell]; k < p->first[cell + 1]; k++)
+      if (p->q->pair[p->incident[k]].self) sum[d] += l->small[p->first_pair + p->incident[k]];
+  }
+  for (int d = 0; d < whole->q->n_darts; d++) {
+    int terminal = terminal_of(l, d);
+    l->surplus[d] -= sum[c->root[d]];
+    if (l->surplus[d] <= 0 || thr_programme_loop(whole, d)) l->surplus[d] = 0;
+    if (l->surplus[d] == 0 || terminal < 0) continue;
+    l->small[terminal] += l->surplus[d];
+    l->surplus[d] = 0;
+  }
+}
+
+/* From type d, whose way is known, over a turn and a copy each. */
+static void go_on(leading *l, int d, int *tail, int *length)
+{
+  const thr_programme *p = l->c->whole;
+  for (int k = p->first[d]; k < p->first[d + 1]; k++) {
+    const thr_pair_type *t = &p->q->pair[p->incident[k]];
+    int b = t->dart[0] + t->dart[1] - d;
+    if (t->self || p->most[p->first_pair + p->incident[k]] == 0) continue;
+    for (int i = l->first[b]; i < l->first[b + 1]; i++) {
+      const thr_copy_type *over = &p->q->copy[l->copy[i]];
+      int to = over->dart[0] + over->dart[1] - b;
+      double way = l->way[d] + p->cost[THR_AIM_OVERLAP][l->copy[i]];
+      if (over->fold || p->most[l->copy[i]] == 0 || l->barred[l->copy[i]] || way >= l->way[to]) continue;
+      l->way[to] = way;
+      l->over[to] = l->copy[i];
+      l->before[to] = d;
+      if (l->waiting[to]) continue;
+      l->waiting[to] = true;
+      l->queue[*tail] = to;
+      *tail = (*tail + 1) % p->q->n_darts;
+      ++*length;
+    }
+  }
+}
+
+/* Least ways from type a. A way back to a is one, too: a itself counts as not reached. */
+static void find_ways(leading *l, int a)
+{
+  int n = l->c->whole->q->n_darts, head = 0, tail = 0, length = 0;
+  for (int d = 0; d < n; d++)
+    l->way[d] = (double)INFINITY;
+  l->way[a] = 0;
+  l->over[a] = -1;
+  go_on(l, a, &tail, &length);
+  for (; length > 0; length--) {
+    int d = l->queue[head];
+    head = (head + 1) % n;
+    l->waiting[d] = false;
+    go_on(l, d, &tail, &length);
+  }
+}
+
+/* A type that wants to turn too and can turn into d, -1 = none; a wants to once itself. */
+static int partner_of(const leading *l, int d, int a)
+{
+  const thr_programme *p = l->c->whole;
+  for (int k = p->first[d]; k < p->first[d + 1]; k++) {
+    const thr_pair_type *t = &p->q->pair[p->incident[k]];
+    int u = t->dart[0] + t->dart[1] - d;
+    if (!t->self && p->most[p->first_pair + p->incident[k]] != 0 && l->surplus[u] > (u == a)) return u;
+  }
+  return -1;
+}
+
+/* Leads one orbit of type a on, on the least way, to one more that wants it or to a terminal. False if there is none. */
+static bool lead_one(leading *l, int a)
+{
+  int end = -1;
+  find_ways(l, a);
+  for (int d = 0; d < l->c->whole->q->n_darts; d++)
+    if (d != a && isfinite(l->way[d]) && (end < 0 || l->way[d] < l->way[end]) &&
+        (terminal_of(l, d) >= 0 || partner_of(l, d, a) >= 0))
+      end = d;
+  if (end < 0) return false;
+  int partner = partner_of(l, end, a);
+  l->surplus[a]--;
+  if (partner >= 0)
+    l->surplus[partner]--;
+  else
+    l->small[terminal_of(l, end)]++;
+  for (int d = end; d != a; d = l->before[d])
+    l->small[l->over[d]]++;
+  return true;
+}
+
+/* *found = false if some cannot be led on, or a copy type occurs too often then. */
+static thr_status lead_on(const thr_contraction *c, const bool *barred, int *small, bool *found, thr_err *err)
+{
+  leading l = {0};
+  thr_status st = leading_init(&l, c, barred, small, err);
+  int n = c->whole->q->n_darts;
+  if (!st) {
+    memset(l.over, 0, (size_t)n * sizeof *l.over);
+    find_surplus(&l, l.over);
+  }
+  for (int d = 0; d < n && *found && !st; d++)
+    while (l.surplus[d] > 0 && *found)
+      *found = lead_one(&l, d);
+  for (int k = 0; k < c->p.first_pair && !st; k++)
+    *found = *found && small[k] <= c->p.most[k];
+  leading_destroy(&l);
+  return st;
+}
+
+/* ---- all ---- */
+
+thr_status thr_contraction_start(const thr_contraction *c, thr_contraction_kind kind, const bool *barred,
+                                 const thr_limits *limits, int *small, bool *found, thr_err *err)
+{
+  request r = {.part = {[THR_AIM_OVERLAP] = 1}, .barred = barred, .folds = kind == THR_CONTRACTION_LEAST};
+  r.part[THR_AIM_STEPS] = thr_contraction_tie(c, THR_AIM_STEPS);
+  r.part[THR_AIM_PATHS] = thr_contraction_tie(c, THR_AIM_PATHS) / 16;
+  double least;
+  thr_status st = THR_OK;
+  memset(small, 0, (size_t)c->p.n * sizeof *small);
+  *found = take_copies(c, kind, barred, small);
+  if (*found && kind != THR_CONTRACTION_TWICE) st = add_join(&r, &c->p, limits, small, found, &least, err);
+  return !st && *found ? lead_on(c, barred, small, found, err) : st;
+}
+
+double thr_contraction_tie(const thr_contraction *c, thr_aim aim)
+{
+  return 1e-5 * c->p.scale[THR_AIM_OVERLAP] / c->p.scale[aim];
+}
+
+thr_status thr_contraction_bound(const thr_contraction *c, thr_aim tie, const thr_limits *limits, double *bound, thr_err *err)
+{
+  request r = {.part = {[THR_AIM_OVERLAP] = 1}, .folds = true, .certain = true};
+  bool found;
+  double least;
+  int *small = thr_calloc((size_t)c->p.n, sizeof *small);
+  if (!small) return thr_nomem(err);
+  if (tie != THR_AIM_OVERLAP) r.part[tie] = thr_contraction_tie(c, tie);
+  *bound = take_certain(&c->p, r.part, small);
+  thr_status st = add_join(&r, &c->p, limits, small, &found, &least, err);
+  *bound += least;
+  free(small);
+  return st;
+}

@@ -1,0 +1,544 @@
+/* Orbits of copies, darts and turns under a group. */
+#include "symmetry/group/quotient.h"
+#include "symmetry/group/isometry.h"
+
+#include <assert.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Scratch of thr_quotient_init. Sets of elements of G are arrays of bool by element number. */
+typedef struct {
+  thr_quotient *q;
+  const thr_limits *limits;
+  int most;
+  int *position; /* [order of G] of an element within H, -1 = not in H */
+  int copies_capacity, darts_capacity, pairs_capacity;
+  int *latest; /* [2 * n_edges] dart type over a half-edge that was added last, -1 = none */
+  int *before; /* [n_darts] the one added before it over the same half-edge */
+  int before_capacity;
+  bool *set, *least;     /* [order of G] */
+  int *normal, *at;      /* [order of H] positions: of N, of H_v (see add_pairs) */
+  int n_normal, n_at;    /* how many */
+  thr_subgroup *s_class; /* [n_layers] least conjugate of each layer's stabilizers */
+  int classes_capacity;
+} build;
+
+static int image(const thr_quotient *q, int i, int half)
+{
+  return q->half_image[(size_t)i * 2 * (size_t)q->f->n_edges + (size_t)half];
+}
+
+static int product(const thr_group *g, int a, int b)
+{
+  return g->product[(size_t)a * (size_t)g->order + (size_t)b];
+}
+
+static int conjugated(const thr_group *g, int by, int a)
+{
+  return product(g, product(g, by, a), g->inverse[by]);
+}
+
+static thr_status too_many(const build *b, thr_err *err)
+{
+  return thr_fail(err, THR_ELIMIT, "a group of order %d makes more than %d types of passes and turns", b->q->h->order, b->most);
+}
+
+static bool full(const build *b)
+{
+  return b->q->n_copies + b->q->n_darts + b->q->n_pairs >= b->most;
+}
+
+static thr_status check_time(const build *b, thr_err *err)
+{
+  return thr_limits_stop(b->limits) ? thr_fail(err, THR_ELIMIT, "the time was too short for the types of passes and turns")
+                                    : THR_OK;
+}
+
+/* ---- images and orbits ---- */
+
+static int half_between(const thr_frame *f, int from, int to)
+{
+  int e = thr_edge_joining(f, from, to);
+  return e < 0 ? -1 : 2 * e + (f->edge[e][1] == from);
+}
+
+static thr_status map_halves(const build *b, thr_err *err)
+{
+  thr_quotient *q = b->q;
+  const thr_frame *f = q->f;
+  size_t halves = 2 * (size_t)f->n_edges;
+  q->half_image = thr_calloc((size_t)q->h->order * halves, sizeof *q->half_image);
+  if (!q->half_image) return thr_nomem(err);
+  for (int i = 0; i < q->h->order; i++) {
+    thr_status st = check_time(b, err);
+    if (st) return st;
+    const int *to = &q->group->image[(size_t)q->h->element[i] * (size_t)q->group->degree];
+    for (int h = 0; h < 2 * f->n_edges; h += 2) {
+      int half = half_between(f, to[thr_tail(f, h)], to[thr_head(f, h)]);
+      if (half < 0) return thr_fail(err, THR_EINPUT, "element %d of the group is no automorphism", q->h->element[i]);
+      q->half_image[(size_t)i * halves + (size_t)h] = half;
+      q->half_image[(size_t)i * halves + (size_t)h + 1] = half ^ 1;
+    }
+  }
+  return THR_OK;
+}
+
+static thr_status find_edge_orbits(thr_quotient *q, thr_err *err)
+{
+  size_t m = (size_t)q->f->n_edges;
+  q->edge_orbit = thr_calloc(m, sizeof *q->edge_orbit);
+  q->orbit_size = thr_calloc(m, sizeof *q->orbit_size);
+  q->orbit_length = thr_calloc(m, sizeof *q->orbit_length);
+  if (!q->edge_orbit || !q->orbit_size || !q->orbit_length) return thr_nomem(err);
+  memset(q->edge_orbit, -1, m * sizeof *q->edge_orbit);
+  for (int e = 0; e < q->f->n_edges; e++) {
+    if (q->edge_orbit[e] >= 0) continue;
+    int orbit = q->n_edge_orbits++;
+    for (int i = 0; i < q->h->order; i++) {
+      int to = image(q, i, 2 * e) >> 1;
+      if (q->edge_orbit[to] >= 0) continue;
+      q->edge_orbit[to] = orbit;
+      q->orbit_size[orbit]++;
+      q->orbit_length[orbit] += q->f->length[to];
+    }
+  }
+  return THR_OK;
+}
+
+/* ---- sets of elements ---- */
+
+static bool less_set(const bool *a, const bool *b, int n)
+{
+  for (int g = 0; g < n; g++)
+    if (a[g] != b[g]) return a[g];
+  return false;
+}
+
+/* Marks the conjugates of s by an element in set[order of G]. */
+static void mark_conjugate(const thr_group *g, int by, const thr_subgroup *s, bool *set)
+{
+  memset(set, 0, (size_t)g->order * sizeof *set);
+  for (int k = 0; k < s->order; k++)
+    set[conjugated(g, by, s->element[k])] = true;
+}
+
+static thr_status collect(const bool *set, int order, thr_subgroup *out, thr_err *err)
+{
+  int n = 0;
+  for (int g = 0; g < order; g++)
+    n += set[g];
+  *out = (thr_subgroup){n, thr_calloc((size_t)n, sizeof(int))};
+  if (!out->element) return thr_nomem(err);
+  for (int g = 0, k = 0; g < order; g++)
+    if (set[g]) out->element[k++] = g;
+  return THR_OK;
+}
+
+static bool holds_exactly(const bool *set, int order, const thr_subgroup *s)
+{
+  int n = 0;
+  for (int g = 0; g < order; g++)
+    n += set[g];
+  for (int k = 0; k < s->order && n == s->order; k++)
+    if (!set[s->element[k]]) return false;
+  return n == s->order;
+}
+
+/* Leaves the least conjugate of s in b->least, by elements that move half to where no element moves it lower (half < 0: by any
+ * element). Returns that lowest image. */
+static int least_conjugate(const build *b, int half, const thr_subgroup *s)
+{
+  const thr_quotient *q = b->q;
+  int order = q->group->order, lowest = half;
+  for (int i = 0; half >= 0 && i < q->h->order; i++)
+    if (image(q, i, half) < lowest) lowest = image(q, i, half);
+  bool first = true;
+  for (int i = 0; i < q->h->order; i++) {
+    if (half >= 0 && image(q, i, half) != lowest) continue;
+    if (!first && s->order == 1) break;
+    mark_conjugate(q->group, q->h->element[i], s, b->set);
+    if (first || less_set(b->set, b->least, order)) memcpy(b->least, b->set, (size_t)order * sizeof *b->least);
+    first = false;
+  }
+  return lowest;
+}
+
+/* ---- darts ---- */
+
+/* Type of the dart (half, s), or -1; leaves the canonical stabilizer in b->least and its half-edge in *lowest. */
+static int find_dart(const build *b, int half, const thr_subgroup *s, int *lowest)
+{
+  *lowest = least_conjugate(b, half, s);
+  for (int d = b->latest[*lowest]; d >= 0; d = b->before[d])
+    if (holds_exactly(b->least, b->q->group->order, &b->q->dart[d].stabilizer)) return d;
+  return -1;
+}
+
+static thr_status find_layer(build *b, const thr_subgroup *s, int *layer, thr_err *err)
+{
+  thr_quotient *q = b->q;
+  int order = q->group->order;
+  least_conjugate(b, -1, s);
+  for (*layer = 0; *layer < q->n_layers; ++*layer)
+    if (holds_exactly(b->least, order, &b->s_class[*layer])) return THR_OK;
+  thr_status st = thr_grow(&b->s_class, q->n_layers, &b->classes_capacity, sizeof *b->s_class, err);
+  if (!st) st = collect(b->least, order, &b->s_class[q->n_layers], err);
+  if (!st) q->n_layers++;
+  return st;
+}
+
+static thr_status add_dart(build *b, int half, const thr_subgroup *s, int *dart, thr_err *err)
+{
+  thr_quotient *q = b->q;
+  int lowest;
+  thr_status st = check_time(b, err);
+  if (st) return st;
+  *dart = find_dart(b, half, s, &lowest);
+  if (*dart >= 0) return THR_OK;
+  if (full(b)) return too_many(b, err);
+  assert(s->order > 0);
+  thr_dart_type made = {.half = lowest, .darts = q->h->order / s->order};
+  st = thr_grow(&q->dart, q->n_darts, &b->darts_capacity, sizeof *q->dart, err);
+  if (!st) st = thr_grow(&b->before, q->n_darts, &b->before_capacity, sizeof *b->before, err);
+  if (!st) st = collect(b->least, q->group->order, &made.stabilizer, err);
+  if (!st) st = find_layer(b, &made.stabilizer, &made.layer, err);
+  if (st) {
+    thr_subgroup_destroy(&made.stabilizer);
+    return st;
+  }
+  *dart = q->n_darts++;
+  q->dart[*dart] = made;
+  b->before[*dart] = b->latest[lowest];
+  b->latest[lowest] = *dart;
+  return THR_OK;
+}
+
+/* ---- copies ---- */
+
+/* The elements of H that map edge e to itself, as a group of their own: element k of it is (*element)[k]. */
+static thr_status edge_stabilizer(const build *b, int e, thr_group *own, int **element, thr_err *err)
+{
+  const thr_quotient *q = b->q;
+  int n = 0, *number = thr_calloc((size_t)q->group->order, sizeof *number);
+  *element = thr_calloc((size_t)q->h->order, sizeof **element);
+  *own = (thr_group){0};
+  thr_status st = number && *element ? THR_OK : thr_nomem(err);
+  for (int i = 0; i < q->h->order && !st; i++)
+    if (image(q, i, 2 * e) >> 1 == e) {
+      number[q->h->element[i]] = n;
+      (*element)[n++] = q->h->element[i];
+    }
+  own->order = n;
+  if (!st) {
+    own->product = thr_calloc((size_t)n * (size_t)n, sizeof *own->product);
+    own->inverse = thr_calloc((size_t)n, sizeof *own->inverse);
+    if (!own->product || !own->inverse) st = thr_nomem(err);
+  }
+  for (int i = 0; i < n && !st; i++) {
+    own->inverse[i] = number[q->group->inverse[(*element)[i]]];
+    for (int k = 0; k < n; k++)
+      own->product[i * n + k] = number[product(q->group, (*element)[i], (*element)[k])];
+  }
+  free(number);
+  return st;
+}
+
+/* The elements of k that do not turn edge e round. */
+static thr_status keepers(const build *b, int e, const thr_subgroup *k, thr_subgroup *out, thr_err *err)
+{
+  *out = (thr_subgroup){0, thr_calloc((size_t)k->order, sizeof(int))};
+  if (!out->element) return thr_nomem(err);
+  for (int i = 0; i < k->order; i++)
+    if (image(b->q, b->position[k->element[i]], 2 * e) == 2 * e) out->element[out->order++] = k->element[i];
+  return THR_OK;
+}
+
+/* Takes over k. stabilizers: of e in H. */
+static thr_status add_copy(build *b, int e, int stabilizers, thr_subgroup *k, thr_err *err)
+{
+  thr_quotient *q = b->q;
+  thr_copy_type c = {q->edge_orbit[e], e, stabilizers / k->order, q->h->order / k->order, false, {-1, -1}, 0, *k};
+  thr_subgroup s = {0};
+  *k = (thr_subgroup){0};
+  thr_status st = full(b) ? too_many(b, err) : keepers(b, e, &c.stabilizer, &s, err);
+  if (!st) st = thr_grow(&q->copy, q->n_copies, &b->copies_capacity, sizeof *q->copy, err);
+  if (!st) st = add_dart(b, 2 * e, &s, &c.dart[0], err);
+  c.fold = s.order < c.stabilizer.order;
+  if (!st && !c.fold) st = add_dart(b, 2 * e + 1, &s, &c.dart[1], err);
+  thr_subgroup_destroy(&s);
+  if (st) {
+    thr_subgroup_destroy(&c.stabilizer);
+    return st;
+  }
+  c.layer = q->dart[c.dart[0]].layer;
+  q->copy[q->n_copies++] = c;
+  return THR_OK;
+}
+
+static thr_status add_copies(build *b, int e, thr_err *err)
+{
+  thr_group own = {0};
+  thr_subgroup_classes classes = {0};
+  int *element = NULL;
+  thr_status st = edge_stabilizer(b, e, &own, &element, err);
+  if (!st) st = thr_subgroup_classes_find(&own, b->most, &classes, err);
+  if (!st && !classes.complete) st = too_many(b, err);
+  for (int k = 0; k < classes.n && !st; k++) {
+    for (int i = 0; i < classes.subgroup[k].order; i++)
+      classes.subgroup[k].element[i] = element[classes.subgroup[k].element[i]];
+    st = add_copy(b, e, own.order, &classes.subgroup[k], err);
+  }
+  thr_subgroup_classes_destroy(&classes);
+  thr_group_destroy(&own);
+  free(element);
+  return st;
+}
+
+/* ---- order of the darts ---- */
+
+typedef struct {
+  thr_dart_type type;
+  int was; /* its number before */
+} numbered;
+
+static int by_half(const void *a, const void *b)
+{
+  const thr_dart_type *p = &((const numbered *)a)->type, *q = &((const numbered *)b)->type;
+  if (p->half != q->half) return p->half < q->half ? -1 : 1;
+  if (p->stabilizer.order != q->stabilizer.order) return p->stabilizer.order > q->stabilizer.order ? -1 : 1;
+  for (int k = 0; k < p->stabilizer.order; k++)
+    if (p->stabilizer.element[k] != q->stabilizer.element[k]) return p->stabilizer.element[k] < q->stabilizer.element[k] ? -1 : 1;
+  return 0;
+}
+
+/* Numbers layers by their first dart, the trivial one first; becomes: [n_layers] scratch. */
+static void number_layers(thr_quotient *q, int *becomes)
+{
+  int next = 0;
+  for (int d = 0; d < q->n_darts; d++)
+    if (q->dart[d].stabilizer.order == 1) next = 1;
+  for (int l = 0; l < q->n_layers; l++)
+    becomes[l] = -1;
+  for (int d = 0; d < q->n_darts; d++) {
+    int *layer = &q->dart[d].layer;
+    if (becomes[*layer] < 0) becomes[*layer] = q->dart[d].stabilizer.order == 1 ? 0 : next++;
+    *layer = becomes[*layer];
+  }
+  for (int c = 0; c < q->n_copies; c++)
+    q->copy[c].layer = becomes[q->copy[c].layer];
+}
+
+static thr_status sort_darts(build *b, thr_err *err)
+{
+  thr_quotient *q = b->q;
+  size_t n = (size_t)q->n_darts;
+  numbered *list = thr_calloc(n, sizeof *list);
+  int *becomes = thr_calloc(n, sizeof *becomes); /* at most as many layers as darts */
+  thr_status st = list && becomes ? THR_OK : thr_nomem(err);
+  if (!st) {
+    for (int d = 0; d < q->n_darts; d++)
+      list[d] = (numbered){q->dart[d], d};
+    qsort(list, n, sizeof *list, by_half);
+    memset(b->latest, -1, 2 * (size_t)q->f->n_edges * sizeof *b->latest);
+    assert(b->before || n == 0);
+    for (int d = 0; d < q->n_darts; d++) {
+      q->dart[d] = list[d].type;
+      becomes[list[d].was] = d;
+      b->before[d] = b->latest[q->dart[d].half];
+      b->latest[q->dart[d].half] = d;
+    }
+    for (int c = 0; c < q->n_copies; c++)
+      for (int i = 0; i < 2; i++)
+        if (q->copy[c].dart[i] >= 0) q->copy[c].dart[i] = becomes[q->copy[c].dart[i]];
+    number_layers(q, becomes);
+  }
+  free(list);
+  free(becomes);
+  return st;
+}
+
+/* ---- turns ---- */
+
+static double mean_angle(const thr_quotient *q, int a, int b)
+{
+  double sum = 0;
+  for (int i = 0; i < q->h->order; i++)
+    sum += thr_turn_angle(q->f, image(q, i, a) ^ 1, image(q, i, b));
+  return sum / q->h->order;
+}
+
+static bool normalizes(const build *b, int i, const thr_subgroup *s)
+{
+  const thr_quotient *q = b->q;
+  for (int k = 0; k < s->order; k++)
+    if (!thr_subgroup_has(s, conjugated(q->group, q->h->element[i], s->element[k]))) return false;
+  return true;
+}
+
+static int lowest_by_normal(const build *b, int half)
+{
+  int lowest = half;
+  for (int k = 0; k < b->n_normal; k++) {
+    int to = image(b->q, b->normal[k], half);
+    if (to < lowest) lowest = to;
+  }
+  return lowest;
+}
+
+/* An element that exchanges the darts (a, s) and (b2, s), without being in s itself; -1 = none. */
+static int find_exchange(const build *b, int a, int b2, const thr_subgroup *s)
+{
+  const thr_quotient *q = b->q;
+  for (int k = 0; k < b->n_at; k++) {
+    int i = b->at[k], g = q->h->element[i];
+    if (image(q, i, a) == b2 && image(q, i, b2) == a && !thr_subgroup_has(s, g) && thr_subgroup_has(s, product(q->group, g, g)) &&
+        normalizes(b, i, s))
+      return g;
+  }
+  return -1;
+}
+
+/* Is the turn from half-edge a to b2, both with stabilizer s and of one type, to be listed as seen from a? The turn seen the
+ * other way round is the same one: the lower of the two stands for both. */
+static bool lower_side(const build *b, int a, int b2, const thr_subgroup *s)
+{
+  for (int k = 0; k < b->n_at; k++)
+    if (image(b->q, b->at[k], b2) == a && normalizes(b, b->at[k], s)) return b2 <= lowest_by_normal(b, image(b->q, b->at[k], a));
+  return false;
+}
+
+static thr_status add_pair(build *b, int d, int other, int half, int element, thr_err *err)
+{
+  thr_quotient *q = b->q;
+  if (full(b)) return too_many(b, err);
+  thr_status st = thr_grow(&q->pair, q->n_pairs, &b->pairs_capacity, sizeof *q->pair, err);
+  if (st) return st;
+  thr_pair_type p = {{d, other}, {q->dart[d].half, half}, element >= 0, q->dart[d].darts, 0, element};
+  if (p.self) p.turns /= 2;
+  p.angle = mean_angle(q, p.half[0], half);
+  q->pair[q->n_pairs++] = p;
+  return THR_OK;
+}
+
+/* The turns from the representative of dart type d to darts of its own and later types. */
+static thr_status add_pairs(build *b, int d, thr_err *err)
+{
+  const thr_quotient *q = b->q;
+  const thr_frame *f = q->f;
+  const thr_subgroup *s = &q->dart[d].stabilizer;
+  int a = q->dart[d].half, v = thr_tail(f, a), lowest;
+  thr_status st = check_time(b, err);
+  b->n_at = b->n_normal = 0;
+  for (int i = 0; i < q->h->order; i++) {
+    if (thr_tail(f, image(q, i, a)) != v) continue;
+    b->at[b->n_at++] = i;
+    if (image(q, i, a) == a && normalizes(b, i, s)) b->normal[b->n_normal++] = i;
+  }
+  for (int k = f->first[v]; k < f->first[v + 1] && !st; k++) {
+    int half = f->half[k];
+    bool fixed = (half == a) == (thr_degree(f, v) == 1) && lowest_by_normal(b, half) == half;
+    for (int i = 0; i < s->order && fixed; i++)
+      fixed = image(q, b->position[s->element[i]], half) == half;
+    if (!fixed) continue;
+    int other = find_dart(b, half, s, &lowest);
+    assert(other >= 0); /* a subgroup of the edge's stabilizer, so it made a copy type */
+    if (other < d || (other == d && !lower_side(b, a, half, s))) continue;
+    st = add_pair(b, d, other, half, -1, err);
+    int element = other == d ? find_exchange(b, a, half, s) : -1;
+    if (!st && element >= 0) st = add_pair(b, d, d, half, element, err);
+  }
+  return st;
+}
+
+static int by_darts(const void *a, const void *b)
+{
+  const thr_pair_type *p = a, *q = b;
+  int key[4] = {p->dart[0] - q->dart[0], p->dart[1] - q->dart[1], p->half[1] - q->half[1], p->self - q->self};
+  for (int i = 0; i < 4; i++)
+    if (key[i] != 0) return key[i];
+  return 0;
+}
+
+/* ---- all ---- */
+
+static thr_status build_init(build *b, thr_err *err)
+{
+  const thr_quotient *q = b->q;
+  size_t order = (size_t)q->group->order, halves = 2 * (size_t)q->f->n_edges;
+  b->position = thr_calloc(order, sizeof *b->position);
+  b->latest = thr_calloc(halves, sizeof *b->latest);
+  b->set = thr_calloc(order, sizeof *b->set);
+  b->least = thr_calloc(order, sizeof *b->least);
+  b->normal = thr_calloc((size_t)q->h->order, sizeof *b->normal);
+  b->at = thr_calloc((size_t)q->h->order, sizeof *b->at);
+  if (!b->position || !b->latest || !b->set || !b->least || !b->normal || !b->at) return thr_nomem(err);
+  memset(b->position, -1, order * sizeof *b->position);
+  memset(b->latest, -1, halves * sizeof *b->latest);
+  for (int i = 0; i < q->h->order; i++)
+    b->position[q->h->element[i]] = i;
+  return THR_OK;
+}
+
+static void build_destroy(build *b)
+{
+  for (int l = 0; b->s_class && l < b->q->n_layers; l++)
+    thr_subgroup_destroy(&b->s_class[l]);
+  free(b->s_class);
+  free(b->position);
+  free(b->latest);
+  free(b->before);
+  free(b->set);
+  free(b->least);
+  free(b->normal);
+  free(b->at);
+}
+
+thr_status thr_quotient_make(thr_quotient *q, const thr_frame *f, const thr_group *g, const thr_subgroup *h, int most,
+                             const thr_limits *limits, thr_err *err)
+{
+  *q = (thr_quotient){.f = f, .group = g, .h = h};
+  build b = {.q = q, .limits = limits, .most = most};
+  if (g->degree != f->n_nodes) {
+    *q = (thr_quotient){0};
+    thr_fail(err, THR_EINPUT, "the group permutes %d nodes, the framework has %d", g->degree, f->n_nodes);
+    return THR_EINPUT;
+  }
+  thr_status st = build_init(&b, err);
+  if (!st) st = map_halves(&b, err);
+  if (!st) st = find_edge_orbits(q, err);
+  for (int e = 0, orbit = 0; e < f->n_edges && !st; e++)
+    if (q->edge_orbit[e] == orbit) {
+      st = add_copies(&b, e, err);
+      orbit++;
+    }
+  if (!st) st = sort_darts(&b, err);
+  for (int d = 0; d < q->n_darts && !st; d++)
+    st = add_pairs(&b, d, err);
+  if (!st && q->n_pairs > 0) qsort(q->pair, (size_t)q->n_pairs, sizeof *q->pair, by_darts);
+  build_destroy(&b);
+  if (st) thr_quotient_destroy(q);
+  return st;
+}
+
+thr_status thr_quotient_init(thr_quotient *q, const thr_frame *f, const thr_group *g, const thr_subgroup *h, int most,
+                             thr_err *err)
+{
+  const thr_limits none = {0};
+  return thr_quotient_make(q, f, g, h, most, &none, err);
+}
+
+void thr_quotient_destroy(thr_quotient *q)
+{
+  for (int c = 0; c < q->n_copies; c++)
+    thr_subgroup_destroy(&q->copy[c].stabilizer);
+  for (int d = 0; d < q->n_darts; d++)
+    thr_subgroup_destroy(&q->dart[d].stabilizer);
+  free(q->half_image);
+  free(q->edge_orbit);
+  free(q->orbit_size);
+  free(q->orbit_length);
+  free(q->copy);
+  free(q->dart);
+  free(q->pair);
+  *q = (thr_quotient){0};
+}

@@ -1,0 +1,44 @@
+/* A symmetric cover made concrete: orbits of darts as cosets, linked over the edges and at the nodes (symmetry/group/quotient.h).
+ */
+#ifndef THR_STRANDS_H
+#define THR_STRANDS_H
+
+#include "symmetry/cover/cover.h"
+
+/* Darts of an orbit of type t are the cosets x S of t's stabilizer: the dart x S lies over the image under x of t's half-edge.
+ * The two links of an orbit are elements: multiplying from the right commutes with H. */
+typedef struct {
+  const thr_quotient *q; /* borrowed */
+  int n_orbits, n_darts;
+  int *type;           /* [n_orbits] dart type */
+  int *first;          /* [n_orbits + 1] darts of orbit o: first[o] .. first[o + 1] - 1 */
+  int *orbit;          /* [n_darts] */
+  int *other, *over;   /* [n_orbits] across the edge: dart y S -> dart y over S' of orbit other (itself: a fold) */
+  int *partner, *turn; /* [n_orbits] at the node likewise; partner -1: cord ends, itself: a fold */
+  int *place;          /* [order of G] of an element in H, -1 = not in H */
+  int *row;            /* [q->n_darts] row of a type in the two tables, -1 = not used */
+  int *coset;          /* [rows * order of H] number of the coset that holds the i-th element of H */
+  int *chosen;         /* [rows * order of H] lowest element of each coset */
+} thr_strands;
+
+/* Fewest trails in the quotient: circles are joined to others wherever they have dart orbits of one type, which may be exchanged
+ * at no price. Then fewest cords: of the ways to pair two orbits, those with which closed cords are long. all_open: no trail may
+ * be closed; THR_ESOLVER if that cannot be. Also THR_ESOLVER: counts that do not balance. O(orbits * H + cosets * (H + S)), and a
+ * walk along its cord for each choice in a closed one. */
+thr_status thr_strands_init(thr_strands *s, const thr_quotient *q, const thr_cover *c, bool all_open,
+                            thr_err *err) THR_MUST_CHECK;
+void thr_strands_destroy(thr_strands *s);
+
+/* Two orbits of one type exchange what they are paired with. */
+void thr_strands_exchange(thr_strands *s, int a, int b);
+
+/* Exchanges orbits so that no trail of the quotient runs between two folds. THR_ESOLVER, s unchanged: there are not enough ends
+ * within reach of the folds. O(folds * orbits). */
+thr_status thr_strands_open(thr_strands *s, thr_err *err) THR_MUST_CHECK;
+
+int thr_strands_half(const thr_strands *s, int d);         /* half-edge that dart d lies over and leaves along */
+int thr_strands_across(const thr_strands *s, int d);       /* the other dart of its copy */
+int thr_strands_mate(const thr_strands *s, int d);         /* the dart paired with it at its node; -1: a cord ends */
+int thr_strands_image(const thr_strands *s, int x, int d); /* under element x of H */
+
+#endif

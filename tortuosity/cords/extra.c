@@ -1,0 +1,270 @@
+/* T-joins with slots for the cord ends, component by component. */
+#include "tortuosity/cords/extra.h"
+#include "lp/tjoin/engine.h"
+#include "tortuosity/cords/walks.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stdlib.h>
+
+double thr_extra_length(const thr_turning_columns *c, const int *passes)
+{
+  double sum = 0;
+  for (int e = 0; e < c->f->n_edges; e++)
+    sum += (passes[e] - c->cover[e]) * c->f->length[e];
+  return sum;
+}
+
+/* The T-join problem of one component: its edges, then edges from slots to end nodes, then edges between slots. */
+typedef struct {
+  const thr_turning_columns *c;
+  int k, n_nodes, n_own, n_edges, n_slots;
+  int *local, *node; /* [frame nodes] position in the component; [n_nodes] frame node */
+  int (*edge)[2];
+  int64_t *weight;
+  int *what; /* [n_edges] frame edge, or frame node of an end, or -1 */
+  bool *odd;
+} instance;
+
+static void instance_destroy(instance *in)
+{
+  free(in->local);
+  free(in->node);
+  free(in->edge);
+  free(in->weight);
+  free(in->what);
+  free(in->odd);
+}
+
+static thr_status instance_init(instance *in, const thr_turning_columns *c, int k, bool given, thr_err *err)
+{
+  const thr_frame *f = c->f;
+  size_t n = (size_t)f->n_nodes;
+  int allowed = 0;
+  *in = (instance){.c = c, .k = k, .n_slots = c->task->end_allowed && !given ? 2 * c->task->cords : 0};
+  in->local = thr_calloc(n, sizeof *in->local);
+  in->node = thr_calloc(n, sizeof *in->node);
+  if (!in->local || !in->node) return thr_nomem(err);
+  for (int v = 0; v < f->n_nodes; v++) {
+    if (c->component[v] != k) continue;
+    allowed += c->task->end_allowed && c->task->end_allowed[v];
+    in->local[v] = in->n_nodes;
+    in->node[in->n_nodes++] = v;
+  }
+  if (in->n_slots && !allowed)
+    return thr_fail(
+        err, THR_EINFEASIBLE,
+        "piece %d (the one with node %s) has no node where a cord may end; name one with --feet (try --feet lowest) or "
+        "--ends, or use --ends closed",
+        k + 1, f->name[in->node[0]]);
+  for (int e = 0; e < f->n_edges; e++)
+    in->n_own += c->component[f->edge[e][0]] == k;
+  size_t edges = (size_t)in->n_own + (size_t)in->n_slots * ((size_t)allowed + (size_t)in->n_slots);
+  if (edges > (1u << 20)) return thr_fail(err, THR_EINPUT, "too many cords for so many nodes where they may end");
+  in->edge = thr_calloc(edges, sizeof *in->edge);
+  in->weight = thr_calloc(edges, sizeof *in->weight);
+  in->what = thr_calloc(edges, sizeof *in->what);
+  in->odd = thr_calloc((size_t)in->n_nodes + (size_t)in->n_slots, sizeof *in->odd);
+  return in->edge && in->weight && in->what && in->odd ? THR_OK : thr_nomem(err);
+}
+
+static void add_edge(instance *in, int a, int b, int64_t weight, int what)
+{
+  in->edge[in->n_edges][0] = a;
+  in->edge[in->n_edges][1] = b;
+  in->weight[in->n_edges] = weight;
+  in->what[in->n_edges++] = what;
+}
+
+/* Passes that the edges at node v need. */
+static int covers_at(const thr_turning_columns *c, int v)
+{
+  int sum = 0;
+  for (int i = c->f->first[v]; i < c->f->first[v + 1]; i++)
+    sum += c->cover[c->f->half[i] >> 1];
+  return sum;
+}
+
+/* Weights add up to a power of 2 such that the slots' edges, each dearer than all of them, stay within what lp/tjoin/tjoin.h
+ * takes. */
+static void fill(instance *in, const double *weight, const double *end_weight, const int *ends)
+{
+  const thr_frame *f = in->c->f;
+  assert(in->edge && in->weight && in->what && in->odd);
+  const double whole = exp2(fmin(44, floor(50 - log2(2 + 2.0 * in->n_slots * (in->n_nodes + in->n_slots)))));
+  double sum = 0, most = 0;
+  int full = 0; /* edges with no room for an extra pass: each dearer than all others together */
+  for (int e = 0; e < f->n_edges; e++) {
+    if (in->c->component[f->edge[e][0]] != in->k) continue;
+    full += in->c->most[e] == in->c->cover[e];
+    if (in->c->most[e] > in->c->cover[e]) sum += weight[e];
+  }
+  const double dear = sum > 0 ? 2 * sum : 1;
+  sum += full * dear;
+  const double scale = sum > 0 ? exp2(floor(log2(whole / sum))) : 0; /* powers of 2 keep ties */
+  for (int i = 0; end_weight && i < in->n_nodes; i++)
+    most = fmax(most, end_weight[in->node[i]]);
+  for (int i = 0; i < in->n_nodes; i++)
+    for (int k = f->first[in->node[i]]; k < f->first[in->node[i] + 1]; k++) {
+      int h = f->half[k];
+      if (h % 2 == 0)
+        add_edge(in, i, in->local[thr_head(f, h)],
+                 (int64_t)nearbyint((in->c->most[h >> 1] > in->c->cover[h >> 1] ? weight[h >> 1] : dear) * scale), h >> 1);
+    }
+  int64_t slot = (int64_t)whole + 1;
+  for (int s = 0; s < in->n_slots; s++) {
+    for (int i = 0; i < in->n_nodes; i++)
+      if (in->c->task->end_allowed[in->node[i]])
+        add_edge(in, i, in->n_nodes + s, slot + (end_weight && most > 0 ? (int64_t)(end_weight[in->node[i]] / most * 64) : 0),
+                 in->node[i]);
+    for (int t = s + 1; t < in->n_slots; t++)
+      add_edge(in, in->n_nodes + s, in->n_nodes + t, 2 * slot, -1);
+    in->odd[in->n_nodes + s] = true;
+  }
+  for (int i = 0; i < in->n_nodes; i++)
+    in->odd[i] = (covers_at(in->c, in->node[i]) + (in->n_slots ? 0 : ends[in->node[i]])) % 2 != 0;
+}
+
+/* Both ends of a cord that comes out where it went in: at the allowed node of least weight. */
+static int closing_node(const instance *in, const double *end_weight)
+{
+  int best = -1;
+  for (int i = 0; i < in->n_nodes; i++) {
+    int v = in->node[i];
+    if (in->c->task->end_allowed[v] && (best < 0 || (end_weight && end_weight[v] < end_weight[best]))) best = v;
+  }
+  return best;
+}
+
+/* The least join, or, stopped, one that keeps the slots at one edge each, which the matching's quick join need not. */
+static thr_status solve_join(const thr_tjoin_problem *p, const thr_limits *limits, thr_tjoin *t, thr_err *err)
+{
+  thr_err stopped = {0};
+  thr_limits quiet = *limits; /* the join's best and bound are not those of the turning */
+  quiet.progress = NULL;
+  thr_status st = thr_tjoin_shrunk(p, THR_ENGINE_AUTO, &quiet, t, &stopped);
+  if (st == THR_ELIMIT && p->n_leaves) {
+    thr_tjoin_destroy(t);
+    st = thr_tjoin_solve(p, &quiet, t, &stopped);
+  }
+  if (st == THR_ELIMIT) return THR_OK; /* a join is a join */
+  return st ? thr_fail(err, st, "%s", stopped.text) : THR_OK;
+}
+
+static thr_status solve_component(const thr_turning_columns *c, int k, const double *weight, const double *end_weight, bool given,
+                                  const thr_limits *limits, int *passes, int *ends, thr_err *err)
+{
+  instance in;
+  thr_tjoin t = {0};
+  thr_status st = instance_init(&in, c, k, given, err);
+  if (!st) {
+    fill(&in, weight, end_weight, ends);
+    thr_tjoin_problem p = {in.n_nodes + in.n_slots, in.n_edges, (const int(*)[2])in.edge, in.weight, in.odd, in.n_slots};
+    st = solve_join(&p, limits, &t, err);
+  }
+  for (int i = 0; !st && i < in.n_edges; i++) {
+    if (!t.in_join[i]) continue;
+    if (i < in.n_own)
+      passes[in.what[i]]++;
+    else if (in.what[i] >= 0)
+      ends[in.what[i]]++;
+    else
+      ends[closing_node(&in, end_weight)] += 2;
+  }
+  thr_tjoin_destroy(&t);
+  instance_destroy(&in);
+  return st;
+}
+
+/* ---- ends that the passes hold ---- */
+
+/* Passes at node v less the cord ends there. */
+static int room_at(const thr_frame *f, int v, const int *passes, const int *ends)
+{
+  int room = -ends[v];
+  for (int i = f->first[v]; i < f->first[v + 1]; i++)
+    room += passes[f->half[i] >> 1];
+  return room;
+}
+
+/* Moves two ends at a time, so that every node stays even, from where there are more than passes to the node with most room.
+ * Returns how many have none; they are left out. */
+static int move_ends(const thr_turning_columns *c, int k, const int *passes, int *ends)
+{
+  const thr_frame *f = c->f;
+  int homeless = 0;
+  for (int v = 0; v < f->n_nodes; v++) {
+    if (c->component[v] != k || !c->task->end_allowed[v]) continue;
+    int over = -room_at(f, v, passes, ends);
+    for (; over > 0; over -= 2) {
+      int best = -1, most = 1;
+      for (int u = 0; u < f->n_nodes; u++) {
+        if (c->component[u] != k || !c->task->end_allowed[u]) continue;
+        int room = room_at(f, u, passes, ends);
+        if (room > most) most = room, best = u;
+      }
+      ends[v] -= 2;
+      if (best >= 0)
+        ends[best] += 2;
+      else
+        homeless += 2;
+    }
+  }
+  return homeless;
+}
+
+/* No more ends at a node than passes: others have room, or there are more passes, along the shortest walk between nodes where
+ * cords may end. Where none is left within most_passes there are ends too many, which no pairing holds. */
+static thr_status fit_ends(const thr_turning_columns *c, int k, int *passes, int *ends, thr_err *err)
+{
+  int homeless = move_ends(c, k, passes, ends), last = -1;
+  if (homeless == 0) return THR_OK;
+  thr_walks w;
+  thr_status st = thr_walks_init(&w, c, err);
+  for (; homeless > 0 && !st; homeless -= 2) {
+    thr_walks_open(&w, k, passes);
+    if (!thr_walks_add(&w, passes)) break;
+    ends[thr_tail(c->f, w.half[0])]++;
+    ends[thr_head(c->f, w.half[w.n - 1])]++;
+  }
+  for (int v = 0; v < c->f->n_nodes && homeless > 0; v++)
+    if (c->component[v] == k && c->task->end_allowed[v]) last = v;
+  if (last >= 0) ends[last] += homeless;
+  thr_walks_destroy(&w);
+  return st;
+}
+
+thr_status thr_extra_passes(const thr_turning_columns *c, const double *weight, const double *end_weight, bool given,
+                            const thr_limits *limits, int *passes, int *ends, thr_err *err)
+{
+  thr_status st = THR_OK;
+  for (int e = 0; e < c->f->n_edges; e++)
+    passes[e] = c->cover[e];
+  const int *count = c->task->end_count;
+  given |= count != NULL;
+  for (int v = 0; v < c->f->n_nodes && (!given || count); v++)
+    ends[v] = count ? count[v] : 0;
+  for (int k = 0; k < c->n_components && !st; k++)
+    st = solve_component(c, k, weight, end_weight, given, limits, passes, ends, err);
+  for (int k = 0; k < c->n_components && !st && c->task->end_allowed && !count; k++)
+    st = fit_ends(c, k, passes, ends, err);
+  return st;
+}
+
+void thr_extra_spread_ends(const thr_turning_columns *c, int *ends)
+{
+  const thr_frame *f = c->f;
+  for (int v = 0; v < f->n_nodes; v++)
+    ends[v] = 0;
+  for (int k = 0; k < c->n_components && c->task->end_allowed; k++)
+    for (int i = 0; i < 2 * c->task->cords; i++) {
+      int best = -1;
+      for (int v = 0; v < f->n_nodes; v++) {
+        int own = covers_at(c, v) + ends[v];
+        if (c->component[v] != k || !c->task->end_allowed[v]) continue;
+        int than = best < 0 ? 0 : covers_at(c, best) + ends[best];
+        if (best < 0 || ends[v] - own % 2 < ends[best] - than % 2) best = v;
+      }
+      if (best >= 0) ends[best]++;
+    }
+}

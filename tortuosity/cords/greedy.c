@@ -1,0 +1,298 @@
+/* Bouchet's greedy on a multigraph of passes. */
+#include "graph/disjoint.h"
+#include "tortuosity/proof/hubs.h"
+#include "tortuosity/tour/pairing.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+  double regret;
+  int node;
+} ranked;
+
+typedef struct {
+  thr_join *j;
+  thr_limits limits; /* for hubs alone: a part of those given */
+  int *place;        /* [n_darts] number of a dart at its node */
+  int *link;  /* [n_darts] dart at the other end of the chain of passes that starts with this one; pairs made are inside chains */
+  int *stamp; /* [n_nodes] search that saw the node last */
+  int *class; /* [n_nodes] port whose search reached it */
+  int *queue; /* [n_nodes] */
+  int *spare; /* [n_components] pieces that the component may still fall into */
+  int searches; /* so far */
+  ranked *order;
+  int most;      /* darts at a node */
+  int most_few;  /* darts at a node that is no hub */
+  double *price; /* [most_few * most_few] at the node at hand */
+  int *pair;     /* [most] of the node at hand, by position */
+  int *port;     /* [most] disjoint sets: what hangs together without the node */
+  int *trial;    /* [2 * most] scratch */
+} greedy;
+
+static void greedy_destroy(greedy *s)
+{
+  free(s->place);
+  free(s->link);
+  free(s->stamp);
+  free(s->class);
+  free(s->queue);
+  free(s->spare);
+  free(s->order);
+  free(s->price);
+  free(s->pair);
+  free(s->port);
+  free(s->trial);
+}
+
+static thr_status greedy_init(greedy *s, thr_join *j, int apart, const thr_limits *limits, thr_err *err)
+{
+  const thr_multigraph *g = &j->g;
+  size_t n = (size_t)g->n_nodes;
+  *s = (greedy){.j = j, .limits = thr_limits_part(limits, 0.3)};
+  for (int v = 0; v < j->c->f->n_nodes; v++) {
+    int darts = g->first[v + 1] - g->first[v];
+    if (darts > s->most) s->most = darts;
+    if (darts > s->most_few && darts <= THR_HUB) s->most_few = darts;
+  }
+  size_t k = (size_t)s->most, few = (size_t)s->most_few;
+  s->place = thr_calloc((size_t)g->n_darts, sizeof *s->place);
+  s->link = thr_calloc((size_t)g->n_darts, sizeof *s->link);
+  s->stamp = thr_calloc(n, sizeof *s->stamp);
+  s->class = thr_calloc(n, sizeof *s->class);
+  s->queue = thr_calloc(n, sizeof *s->queue);
+  s->spare = thr_calloc((size_t)j->c->n_components, sizeof *s->spare);
+  s->order = thr_calloc(n, sizeof *s->order);
+  s->price = thr_calloc(few * few, sizeof *s->price);
+  s->pair = thr_calloc(k, sizeof *s->pair);
+  s->port = thr_calloc(k, sizeof *s->port);
+  s->trial = thr_calloc(2 * k, sizeof *s->trial);
+  if (!s->place || !s->link || !s->stamp || !s->class || !s->queue || !s->spare || !s->order || !s->price || !s->pair ||
+      !s->port || !s->trial)
+    return thr_nomem(err);
+  for (int i = 0; i < j->c->n_components; i++)
+    s->spare[i] = apart;
+  for (int d = 0; d < g->n_darts; d++)
+    s->link[d] = d ^ 1;
+  for (int v = 0; v < g->n_nodes; v++)
+    for (int i = g->first[v]; i < g->first[v + 1]; i++)
+      s->place[g->dart[i]] = i - g->first[v];
+  return THR_OK;
+}
+
+static void fill_prices(greedy *s, const int *dart, int n)
+{
+  for (int i = 0; i < n; i++)
+    for (int k = 0; k < n; k++)
+      s->price[i * n + k] = i == k ? thr_join_forbidden : thr_join_price(s->j, dart[i], dart[k]);
+}
+
+/* Price of the best exchange of pairs (a, b) and (c, d); *cross says which. */
+static double exchange_price(const double *price, int n, int a, int b, int c, int d, bool *cross)
+{
+  double straight = price[a * n + c] + price[b * n + d], crossed = price[a * n + d] + price[b * n + c];
+  *cross = crossed < straight;
+  return fmin(straight, crossed) - price[a * n + b] - price[c * n + d];
+}
+
+/* What the cheapest other pairing costs more, as far as one exchange goes (all of them at a node of 4). */
+static double regret(const double *price, int n, const int *pair)
+{
+  double least = INFINITY;
+  bool cross;
+  for (int a = 0; a < n; a++)
+    for (int c = a + 1; c < n; c++)
+      if (pair[a] > a && pair[c] > c) least = fmin(least, exchange_price(price, n, a, pair[a], c, pair[c], &cross));
+  return least;
+}
+
+static int by_regret(const void *pa, const void *pb)
+{
+  const ranked *a = pa, *b = pb;
+  if (a->regret != b->regret) return a->regret > b->regret ? -1 : 1;
+  return (a->node > b->node) - (a->node < b->node);
+}
+
+/* The cheapest pairing of node v, by itself, into pair; hubs come last, as if no other pairing of them cost more. */
+static thr_status pair_node(greedy *s, int v, thr_err *err)
+{
+  const thr_multigraph *g = &s->j->g;
+  const int *dart = g->dart + g->first[v];
+  int n = g->first[v + 1] - g->first[v];
+  s->order[v] = (ranked){-1, v};
+  if (n > THR_HUB) return thr_hub_pair(s->j, v, &s->limits, s->pair, err);
+  fill_prices(s, dart, n);
+  thr_status st = thr_pairing_best(n, s->price, s->pair, err);
+  if (!st) s->order[v].regret = regret(s->price, n, s->pair);
+  return st;
+}
+
+/* The best pairing of every node into mate, and the nodes by decreasing regret. */
+static thr_status rank_nodes(greedy *s, thr_err *err)
+{
+  const thr_multigraph *g = &s->j->g;
+  thr_status st = THR_OK;
+  for (int v = 0; v < s->j->c->f->n_nodes && !st; v++) {
+    const int *dart = g->dart + g->first[v];
+    int n = g->first[v + 1] - g->first[v];
+    st = pair_node(s, v, err);
+    for (int i = 0; i < n && !st; i++)
+      s->j->mate[dart[i]] = dart[s->pair[i]];
+  }
+  if (!st) qsort(s->order, (size_t)s->j->c->f->n_nodes, sizeof *s->order, by_regret);
+  return st;
+}
+
+/* Joins in port[] the darts of v that hang together without v: a search from all of them at once, over chains, until they are one
+ * or nothing is left to see. */
+static void find_ports(greedy *s, int v, const int *dart, int n)
+{
+  const thr_multigraph *g = &s->j->g;
+  int left = n, head = 0, tail = 0, now = ++s->searches;
+  s->stamp[v] = now;
+  for (int i = 0; i < n; i++)
+    s->port[i] = i;
+  for (int i = 0; i < n; i++) {
+    int far = s->link[dart[i]], w = g->tail[far];
+    if (w == v) {
+      left -= thr_disjoint_join(s->port, i, s->place[far]);
+    } else if (s->stamp[w] == now) {
+      left -= thr_disjoint_join(s->port, i, s->class[w]);
+    } else {
+      s->stamp[w] = now;
+      s->class[w] = i;
+      s->queue[tail++] = w;
+    }
+  }
+  while (head < tail && left > 1) {
+    int u = s->queue[head++];
+    for (int i = g->first[u]; i < g->first[u + 1]; i++) {
+      int w = g->tail[s->link[g->dart[i]]];
+      if (w == v) continue;
+      if (s->stamp[w] == now) {
+        left -= thr_disjoint_join(s->port, s->class[u], s -> class[w]);
+      } else {
+        s->stamp[w] = now;
+        s->class[w] = s->class[u];
+        s->queue[tail++] = w;
+      }
+    }
+  }
+}
+
+/* Components of the darts under ports and pairs, as disjoint sets in trial. */
+static int join_pairs(greedy *s, int n, const int *pair)
+{
+  int left = 0;
+  for (int i = 0; i < n; i++)
+    s->trial[i] = thr_disjoint_find(s->port, i);
+  for (int i = 0; i < n; i++)
+    left += s->trial[i] == i;
+  for (int i = 0; i < n; i++)
+    if (pair[i] > i) left -= thr_disjoint_join(s->trial, i, pair[i]);
+  return left;
+}
+
+static void set_pair(int *mate, int a, int b)
+{
+  mate[a] = b;
+  mate[b] = a;
+}
+
+/* All pairings of the darts that are free in pair (-1), the cheapest of those that leave few enough pieces into best. */
+static void try_pairings(greedy *s, int n, int pieces, int *pair, double price, double *least, int *best)
+{
+  int i = 0;
+  if (price >= *least) return;
+  while (i < n && pair[i] >= 0)
+    i++;
+  if (i == n) {
+    if (join_pairs(s, n, pair) > pieces) return;
+    *least = price;
+    memcpy(best, pair, (size_t)n * sizeof *best);
+    return;
+  }
+  for (int k = i + 1; k < n; k++) {
+    if (pair[k] >= 0) continue;
+    set_pair(pair, i, k);
+    try_pairings(s, n, pieces, pair, price + s->price[i * n + k], least, best);
+    pair[i] = pair[k] = -1;
+  }
+}
+
+/* Exchanges pairs of different pieces, cheapest first, until there are few enough. */
+static void exchange_until_few(greedy *s, int n, int pieces)
+{
+  while (join_pairs(s, n, s->pair) > pieces) {
+    int best_a = -1, best_c = -1;
+    bool cross, best_cross = false;
+    double least = INFINITY;
+    for (int a = 0; a < n; a++)
+      for (int c = a + 1; c < n; c++) {
+        if (s->pair[a] < a || s->pair[c] < c || thr_disjoint_find(s->trial, a) == thr_disjoint_find(s->trial, c)) continue;
+        double extra = exchange_price(s->price, n, a, s->pair[a], c, s->pair[c], &cross);
+        if (extra < least) least = extra, best_a = a, best_c = c, best_cross = cross;
+      }
+    if (best_a < 0) return;
+    int b = s->pair[best_a], d = s->pair[best_c];
+    set_pair(s->pair, best_a, best_cross ? d : best_c);
+    set_pair(s->pair, b, best_cross ? best_c : d);
+  }
+}
+
+/* The cheapest pairing of the n darts of node v that leaves at most so many pieces, which the one in pair does not. */
+static thr_status pair_joined(greedy *s, int v, int n, int pieces, thr_err *err)
+{
+  enum { ENUMERATED = 8 };
+  int free_darts[ENUMERATED];
+  double least = INFINITY;
+  if (n > THR_HUB) {
+    for (int i = 0; i < n; i++)
+      s->trial[i] = thr_disjoint_find(s->port, i);
+    return thr_hub_join(s->j, v, pieces, s->trial, s->pair, err);
+  }
+  fill_prices(s, s->j->g.dart + s->j->g.first[v], n);
+  for (int i = 0; i < n && i < ENUMERATED; i++)
+    free_darts[i] = -1;
+  if (n <= ENUMERATED)
+    try_pairings(s, n, pieces, free_darts, 0, &least, s->pair);
+  else
+    exchange_until_few(s, n, pieces);
+  return THR_OK;
+}
+
+/* Gives node v the cheapest pairing that keeps enough connected, and joins the chains that it pairs. */
+static thr_status settle_node(greedy *s, int v, thr_err *err)
+{
+  const thr_multigraph *g = &s->j->g;
+  const int *dart = g->dart + g->first[v];
+  int n = g->first[v + 1] - g->first[v];
+  for (int i = 0; i < n; i++)
+    s->pair[i] = s->place[s->j->mate[dart[i]]];
+  find_ports(s, v, dart, n);
+  int *spare = &s->spare[s->j->c->component[v]], most = *spare < n ? *spare + 1 : n;
+  thr_status st = join_pairs(s, n, s->pair) > most ? pair_joined(s, v, n, most, err) : THR_OK;
+  *spare -= join_pairs(s, n, s->pair) - 1;
+  for (int i = 0; i < n; i++) {
+    int a = dart[i], b = dart[s->pair[i]];
+    s->j->mate[a] = b;
+    if (s->pair[i] < i) continue;
+    int p = s->link[a], q = s->link[b];
+    s->link[p] = q;
+    s->link[q] = p;
+  }
+  return st;
+}
+
+thr_status thr_join_greedy(thr_join *j, int apart, const thr_limits *limits, thr_err *err)
+{
+  greedy s;
+  thr_status st = greedy_init(&s, j, apart, limits, err);
+  if (!st) st = rank_nodes(&s, err);
+  for (int i = 0; i < j->c->f->n_nodes && !st; i++)
+    st = settle_node(&s, s.order[i].node, err);
+  greedy_destroy(&s);
+  if (!st) thr_join_measure(j);
+  return st;
+}

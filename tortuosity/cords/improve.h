@@ -1,0 +1,13 @@
+/* Fewer turns by exchanges of pairs at the nodes that leave the cords whole. */
+#ifndef THR_IMPROVE_H
+#define THR_IMPROVE_H
+
+#include "graph/limits.h"
+#include "tortuosity/cords/join.h"
+
+/* Until no exchange saves, or the limits stop it: (1) two pairs at one node that run a part of the cord the other way round; (2)
+ * two pairs at one node that cut a part of the cord off, and two at another (or the same) that join it again. What is joined
+ * stays joined; passes and ends stay as they are. A round of (2) is O(saving cuts * pairs at nodes); few rounds. */
+thr_status thr_improve(thr_join *j, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
+
+#endif

@@ -1,0 +1,22 @@
+/* The largest turning of any cord: what the hand feels with several cords, each pulled at both ends. */
+#ifndef THR_MAXTURN_H
+#define THR_MAXTURN_H
+
+#include "tortuosity/proof/least.h"
+
+typedef struct {
+  double largest; /* price of the turns of the cord that turns most */
+  double bound;   /* no plan of the task has less: the proved least of all cords, shared out evenly */
+} thr_max_turning;
+
+/* Evens out the turning of the cords in plan. Exchanges: tails and heads of two open cords that meet at a node, parts cut off one
+ * cord and joined to another, parts run the other way round, ends moved to the other pass at their node; those that lower the sum
+ * of the 8th powers of the cords' prices (so the largest counts most), and by simulated annealing a counted number at random. The
+ * same from other ends, where the task allows them, and from other extra passes within its limits. With tube joints all of them
+ * leave every node tied. Cords, prices, turning and
+ * length of plan change; its proof (of the sum) still holds, its claim of optimality (of the sum) may not. Stops when the largest
+ * is at the bound, when the count is used up, or by the limits (no error). The same input gives the same cords. */
+thr_status thr_max_turning_improve(const thr_frame *f, const thr_limits *limits, thr_least *plan, thr_max_turning *out,
+                                   thr_err *err) THR_MUST_CHECK;
+
+#endif

@@ -1,0 +1,217 @@
+/* Groups: components of the support, and minimum cuts by augmenting paths. */
+#include "tortuosity/proof/column_groups.h"
+#include "graph/disjoint.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double tolerance = 1e-6;
+
+static int end_node(const thr_turning_columns *c, int column)
+{
+  return c->f->n_edges + c->component[thr_tail(c->f, c->half[column][0])];
+}
+
+/* The two edges (or an edge and the ends of its component, numbered after the edges) that a column joins; false for others. */
+static bool joins(const thr_turning_columns *c, int j, int *a, int *b)
+{
+  if (j >= c->first_back || (j >= c->first_extra && j < c->first_end)) return false;
+  *a = c->half[j][0] >> 1;
+  *b = j < c->first_extra ? c->half[j][1] >> 1 : end_node(c, j);
+  return true;
+}
+
+/* ---- components ---- */
+
+thr_status thr_groups_support(const thr_groups_call *g, double threshold, int *added, thr_err *err)
+{
+  const thr_turning_columns *c = g->c;
+  int m = c->f->n_edges, n = m + c->n_components, a, b;
+  int *parent = thr_calloc((size_t)n, sizeof *parent), *start = thr_calloc((size_t)n + 2, sizeof *start);
+  int *list = thr_calloc((size_t)m, sizeof *list), *pieces = thr_calloc((size_t)c->n_components, sizeof *pieces);
+  thr_status st = parent && start && list && pieces ? THR_OK : thr_nomem(err);
+  for (int v = 0; v < n && !st; v++)
+    parent[v] = v;
+  for (int j = 0; j < c->first_back && !st; j++)
+    if (joins(c, j, &a, &b) && g->x[j] > threshold) thr_disjoint_join(parent, a, b);
+  for (int e = 0; e < m && !st; e++) {
+    int root = thr_disjoint_find(parent, e);
+    start[root + 2]++;
+    pieces[c->component[c->f->edge[e][0]]] += root == e; /* the lowest is the root: an edge, not the ends */
+  }
+  for (int v = 1; v <= n && !st; v++)
+    start[v + 1] += start[v];
+  for (int e = 0; e < m && !st; e++)
+    list[start[thr_disjoint_find(parent, e) + 1]++] = e;
+  for (int e = 0; e < m && !st; e++) {
+    int k = c->component[c->f->edge[e][0]];
+    bool used, alone = pieces[k] == 1;
+    if (thr_disjoint_find(parent, e) != e || alone) continue;
+    st = g->add(g->user, list + start[e], start[e + 1] - start[e], &used, err);
+    *added += !st && used;
+  }
+  free(parent);
+  free(start);
+  free(list);
+  free(pieces);
+  return st;
+}
+
+/* ---- flows ---- */
+
+typedef struct {
+  int n, m;
+  int *first, *arc, *to; /* arcs leaving v: arc[first[v] .. first[v + 1] - 1]; arc a goes to to[a]; a ^ 1 goes back */
+  double *capacity, *flow;
+  int *block; /* disjoint sets: a root is one node of the shrunk graph */
+  int *next;  /* circular list of the nodes of a block */
+  int *by, *queue;
+  int *list;
+} network;
+
+static void network_destroy(network *w)
+{
+  free(w->first);
+  free(w->arc);
+  free(w->to);
+  free(w->capacity);
+  free(w->flow);
+  free(w->block);
+  free(w->next);
+  free(w->by);
+  free(w->queue);
+  free(w->list);
+}
+
+static thr_status network_init(network *w, const thr_groups_call *g, thr_err *err)
+{
+  const thr_turning_columns *c = g->c;
+  int links = 0, a, b;
+  for (int j = 0; j < c->first_back; j++)
+    links += joins(c, j, &a, &b) && g->x[j] > 1e-9;
+  *w = (network){.n = c->f->n_edges + c->n_components, .m = 2 * links};
+  size_t n = (size_t)w->n, m = (size_t)w->m;
+  w->first = thr_calloc(n + 2, sizeof *w->first);
+  w->arc = thr_calloc(m, sizeof *w->arc);
+  w->to = thr_calloc(m, sizeof *w->to);
+  w->capacity = thr_calloc(m, sizeof *w->capacity);
+  w->flow = thr_calloc(m, sizeof *w->flow);
+  w->block = thr_calloc(n, sizeof *w->block);
+  w->next = thr_calloc(n, sizeof *w->next);
+  w->by = thr_calloc(n, sizeof *w->by);
+  w->queue = thr_calloc(n, sizeof *w->queue);
+  w->list = thr_calloc(n, sizeof *w->list);
+  if (!w->first || !w->arc || !w->to || !w->capacity || !w->flow || !w->block || !w->next || !w->by || !w->queue || !w->list)
+    return thr_nomem(err);
+  for (int j = 0, k = 0; j < c->first_back; j++) {
+    if (!joins(c, j, &a, &b) || g->x[j] <= 1e-9) continue;
+    w->to[k] = b;
+    w->to[k + 1] = a;
+    w->capacity[k] = w->capacity[k + 1] = g->x[j];
+    w->first[a + 2]++;
+    w->first[b + 2]++;
+    k += 2;
+  }
+  for (int v = 1; v <= w->n; v++)
+    w->first[v + 1] += w->first[v];
+  for (int k = 0; k < w->m; k++)
+    w->arc[w->first[w->to[k ^ 1] + 1]++] = k;
+  for (int v = 0; v < w->n; v++)
+    w->block[v] = w->next[v] = v;
+  return THR_OK;
+}
+
+static void merge(network *w, int a, int b)
+{
+  if (!thr_disjoint_join(w->block, a, b)) return;
+  int swap = w->next[a];
+  w->next[a] = w->next[b];
+  w->next[b] = swap;
+}
+
+/* Breadth-first search over arcs with room from the block of s; by[root] = the arc that reached it. True if t is reached. */
+static bool reach(network *w, int s, int t, int *reached)
+{
+  int head = 0, tail = 0;
+  for (int v = 0; v < w->n; v++)
+    w->by[v] = -1;
+  w->by[w->queue[tail++] = s] = -2;
+  while (head < tail) {
+    int root = w->queue[head++], v = root;
+    do {
+      for (int i = w->first[v]; i < w->first[v + 1]; i++) {
+        int a = w->arc[i], to = thr_disjoint_find(w->block, w->to[a]);
+        if (w->by[to] != -1 || w->capacity[a] - w->flow[a] < 1e-9) continue;
+        w->by[to] = a;
+        w->queue[tail++] = to;
+        if (to == t) return true;
+      }
+      v = w->next[v];
+    } while (v != root);
+  }
+  *reached = tail;
+  return false;
+}
+
+static double augment(network *w, int s, int t)
+{
+  double room = INFINITY;
+  for (int v = t; v != s; v = thr_disjoint_find(w->block, w->to[w->by[v] ^ 1]))
+    room = fmin(room, w->capacity[w->by[v]] - w->flow[w->by[v]]);
+  for (int v = t; v != s; v = thr_disjoint_find(w->block, w->to[w->by[v] ^ 1])) {
+    w->flow[w->by[v]] += room;
+    w->flow[w->by[v] ^ 1] -= room;
+  }
+  return room;
+}
+
+/* A flow from t's block to the root's; tells of the group on t's side if it is less than 2. */
+static thr_status separate_from(network *w, const thr_groups_call *g, int t, int root, int *added, thr_err *err)
+{
+  double total = 0;
+  int reached = 0, n = 0;
+  bool used;
+  memset(w->flow, 0, (size_t)w->m * sizeof *w->flow);
+  while (total < 2 - tolerance) {
+    if (!reach(w, t, root, &reached)) break;
+    total += augment(w, t, root);
+  }
+  if (total >= 2 - tolerance) return THR_OK;
+  for (int i = 0; i < reached; i++) {
+    int v = w->queue[i];
+    do {
+      if (v < g->c->f->n_edges) w->list[n++] = v;
+      v = w->next[v];
+    } while (v != w->queue[i]);
+  }
+  thr_status st = g->add(g->user, w->list, n, &used, err);
+  *added += !st && used;
+  return st;
+}
+
+thr_status thr_groups_flow(const thr_groups_call *g, int *added, thr_err *err)
+{
+  enum { ENOUGH = 100 };
+  const thr_turning_columns *c = g->c;
+  network w;
+  int m = c->f->n_edges;
+  int *root = thr_calloc((size_t)c->n_components, sizeof *root);
+  thr_status st = network_init(&w, g, err);
+  if (!st && !root) st = thr_nomem(err);
+  for (int k = 0; k < w.m && !st; k += 2)
+    if (w.capacity[k] >= 2 - tolerance) merge(&w, w.to[k], w.to[k + 1]);
+  for (int k = 0; k < c->n_components && !st; k++)
+    root[k] = thr_turning_open(c, k) ? m + k : -1;
+  for (int e = 0; e < m && !st && *added < ENOUGH; e++) {
+    int k = c->component[c->f->edge[e][0]];
+    if (root[k] < 0) root[k] = e;
+    int from = thr_disjoint_find(w.block, e), to = thr_disjoint_find(w.block, root[k]);
+    if (from == to) continue;
+    st = separate_from(&w, g, from, to, added, err);
+    merge(&w, from, to);
+  }
+  network_destroy(&w);
+  free(root);
+  return st;
+}

@@ -1,0 +1,12 @@
+/* Other extra passes: short cycles of edges added to a plan's passes or taken away. Internal to tortuosity/. */
+#ifndef THR_CYCLES_H
+#define THR_CYCLES_H
+
+#include "tortuosity/proof/branch.h"
+
+/* For every edge a shortest cycle through it (by number of edges): each of the cycle's edges that has extra passes loses one,
+ * each other gets one; kept if the cords made from that turn less. Until a round over all edges changes nothing, most_tries are
+ * done or the limits stop it. A plan must have been found. */
+thr_status thr_cycles_improve(thr_branch *b, int most_tries, thr_err *err) THR_MUST_CHECK;
+
+#endif

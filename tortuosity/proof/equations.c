@@ -1,0 +1,171 @@
+/* The equations of the turning relaxation, and a basis to start from. */
+#include "tortuosity/proof/relax.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+  int n, *start, *row;
+  double *value, *cost, *rhs;
+} matrix;
+
+static void put(matrix *m, int row, double value)
+{
+  m->row[m->n] = row;
+  m->value[m->n++] = value;
+}
+
+static void fill_matrix(const thr_relax *r, double penalty, matrix *m)
+{
+  const thr_turning_columns *c = r->c;
+  int darts = 2 * c->f->n_edges, j = 0;
+  for (; j < c->n_columns; j++) {
+    int a = c->half[j][0], b = c->half[j][1];
+    bool extra = j >= c->first_extra && j < c->first_end;
+    m->start[j] = m->n;
+    m->cost[j] = ldexp((double)c->weight[j], -THR_TURNING_BITS);
+    put(m, a, a == b ? 2 : extra ? -1 : 1);
+    if (b >= 0 && a != b) put(m, b, extra ? -1 : 1);
+    if (b < 0) put(m, darts + c->end_group[thr_tail(c->f, a)], 1);
+  }
+  for (int i = 0; i < r->n_equations; i++)
+    for (int sign = -1; sign <= 1; sign += 2) {
+      m->start[j] = m->n;
+      m->cost[j++] = penalty;
+      put(m, i, sign);
+    }
+  m->start[j] = m->n; /* helps every row that is added later */
+  m->cost[j++] = penalty;
+  m->start[j] = m->n;
+  for (int h = 0; h < darts; h++)
+    m->rhs[h] = c->cover[h >> 1];
+  for (int i = darts; i < r->n_equations; i++)
+    m->rhs[i] = c->supply[i - darts][0];
+}
+
+static void matrix_destroy(matrix *m)
+{
+  free(m->start);
+  free(m->row);
+  free(m->value);
+  free(m->cost);
+  free(m->rhs);
+}
+
+static thr_status matrix_init(matrix *m, const thr_relax *r, double penalty, thr_err *err)
+{
+  size_t n = (size_t)r->n_all, entries = 3 * (size_t)r->c->n_columns + 2 * (size_t)r->n_equations;
+  *m = (matrix){0};
+  m->start = thr_calloc(n + 1, sizeof *m->start);
+  m->row = thr_calloc(entries, sizeof *m->row);
+  m->value = thr_calloc(entries, sizeof *m->value);
+  m->cost = thr_calloc(n, sizeof *m->cost);
+  m->rhs = thr_calloc((size_t)r->n_equations, sizeof *m->rhs);
+  if (!m->start || !m->row || !m->value || !m->cost || !m->rhs) {
+    matrix_destroy(m);
+    return thr_nomem(err);
+  }
+  fill_matrix(r, penalty, m);
+  return THR_OK;
+}
+
+thr_status thr_relax_create(thr_relax *r, double penalty, thr_err *err)
+{
+  matrix m;
+  thr_status st = matrix_init(&m, r, penalty, err);
+  if (st) return st;
+  st = thr_lp_create_equations(&r->lp, r->n_equations, m.rhs, r->n_all, m.cost, NULL, m.start, m.row, m.value, err);
+  matrix_destroy(&m);
+  return st;
+}
+
+/* ---- a basis to start from ---- */
+
+typedef struct {
+  const thr_relax *r;
+  matrix m;                       /* of one node: its rows, and its turns or its U-turn */
+  bool *row_basic, *column_basic; /* of the whole programme */
+  int *back;                      /* [2 * n_edges] column of the U-turn at a half-edge, else 0 */
+} crash;
+
+static void crash_destroy(crash *k)
+{
+  matrix_destroy(&k->m);
+  free(k->row_basic);
+  free(k->column_basic);
+  free(k->back);
+}
+
+static thr_status crash_init(crash *k, const thr_relax *r, thr_err *err)
+{
+  const thr_turning_columns *c = r->c;
+  size_t most = 1, turns;
+  for (int v = 0; v < c->f->n_nodes; v++)
+    if ((size_t)thr_degree(c->f, v) > most) most = (size_t)thr_degree(c->f, v);
+  turns = most * most;
+  *k = (crash){.r = r};
+  k->m.start = thr_calloc(turns + 1, sizeof *k->m.start);
+  k->m.row = thr_calloc(2 * turns, sizeof *k->m.row);
+  k->m.value = thr_calloc(2 * turns, sizeof *k->m.value);
+  k->m.cost = thr_calloc(turns, sizeof *k->m.cost);
+  k->m.rhs = thr_calloc(most, sizeof *k->m.rhs);
+  k->row_basic = thr_calloc((size_t)thr_lp_rows(r->lp), sizeof *k->row_basic);
+  k->column_basic = thr_calloc((size_t)r->n_all, sizeof *k->column_basic);
+  k->back = thr_calloc(2 * (size_t)c->f->n_edges, sizeof *k->back);
+  if (!k->m.start || !k->m.row || !k->m.value || !k->m.cost || !k->m.rhs || !k->row_basic || !k->column_basic || !k->back)
+    return thr_nomem(err);
+  for (int j = c->first_back; j < c->n_columns; j++)
+    k->back[c->half[j][0]] = j;
+  return THR_OK;
+}
+
+/* The cheapest turns at node v without extra passes and ends: what is basic there is basic in the whole. */
+static thr_status crash_node(crash *k, int v, const thr_limits *limits, thr_err *err)
+{
+  const thr_turning_columns *c = k->r->c;
+  const int *half = c->f->half + c->f->first[v];
+  int d = thr_degree(c->f, v), n = d == 1 ? 1 : d * (d - 1) / 2, first = d == 1 ? k->back[half[0]] : c->pair_first[v];
+  thr_lp *lp;
+  thr_lp_outcome outcome = THR_LP_OPTIMAL;
+  k->m.n = 0;
+  for (int j = 0; j < n; j++) {
+    int a = c->half[first + j][0], b = c->half[first + j][1];
+    k->m.start[j] = k->m.n;
+    k->m.cost[j] = ldexp((double)c->weight[first + j], -THR_TURNING_BITS);
+    put(&k->m, c->position[a], a == b ? 2 : 1);
+    if (a != b) put(&k->m, c->position[b], 1);
+  }
+  k->m.start[n] = k->m.n;
+  for (int i = 0; i < d; i++)
+    k->m.rhs[i] = c->cover[half[i] >> 1];
+  thr_status st = thr_lp_create_equations(&lp, d, k->m.rhs, n, k->m.cost, NULL, k->m.start, k->m.row, k->m.value, err);
+  if (!st) st = thr_lp_solve(lp, limits, &outcome, err);
+  for (int i = 0; i < d && !st; i++)
+    k->row_basic[half[i]] = thr_lp_row_basic(lp, i);
+  for (int j = 0; j < n && !st; j++)
+    k->column_basic[first + j] = thr_lp_column_basic(lp, j);
+  thr_lp_destroy(lp);
+  return st;
+}
+
+thr_status thr_relax_crash(thr_relax *r, const thr_limits *limits, thr_err *err)
+{
+  const thr_turning_columns *c = r->c;
+  int darts = 2 * c->f->n_edges;
+  crash k;
+  thr_status st = crash_init(&k, r, err);
+  for (int v = 0; v < c->f->n_nodes && !st; v++)
+    if (thr_degree(c->f, v) == 1 && c->task->tube)
+      k.column_basic[c->end_column[c->f->half[c->f->first[v]]]] = true; /* all that can be there */
+    else if (thr_degree(c->f, v) > 0)
+      st = crash_node(&k, v, limits, err);
+  for (int i = darts; !st && i < thr_lp_rows(r->lp); i++)
+    if (i < darts + c->n_ends && c->task->end_allowed)
+      k.column_basic[c->n_columns + 2 * i + 1] = true; /* no ends yet: the artificial column makes up for them */
+    else
+      k.row_basic[i] = true;
+  if (!st) st = thr_lp_set_basis(r->lp, k.row_basic, k.column_basic, err);
+  crash_destroy(&k);
+  return st;
+}

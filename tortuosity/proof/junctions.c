@@ -1,0 +1,107 @@
+/* Finding divisions of the edges at a node that a point does not tie. */
+#include "graph/disjoint.h"
+#include "tortuosity/proof/relax.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { ENUMERATED = 7 }; /* edges at a node whose divisions are all looked at: 877 of 7 */
+
+/* The edges of one node, and how much a point turns between them. */
+typedef struct {
+  int d;
+  const double *between; /* [d * d], above the diagonal */
+  int *block, *worst, *parent;
+  int worst_blocks;
+  double violation;
+} star;
+
+/* The division in block, into n parts of which crossing turns join different ones. */
+static void judge(star *s, int n, double crossing)
+{
+  double violation = n - 1 - crossing;
+  if (violation <= s->violation + 1e-9) return;
+  s->violation = violation;
+  s->worst_blocks = n;
+  memcpy(s->worst, s->block, (size_t)s->d * sizeof *s->worst);
+}
+
+/* All divisions that go on from the first k edges in n parts. */
+static void divide(star *s, int k, int n, double crossing)
+{
+  if (k == s->d) {
+    judge(s, n, crossing);
+    return;
+  }
+  for (int b = 0; b <= n; b++) {
+    double more = 0;
+    for (int i = 0; i < k; i++)
+      if (s->block[i] != b) more += s->between[i * s->d + k];
+    s->block[k] = b;
+    divide(s, k + 1, b == n ? n + 1 : n, crossing + more);
+  }
+}
+
+/* The parts that turns of more than threshold connect. */
+static void judge_parts(star *s, double threshold)
+{
+  int n = 0;
+  double crossing = 0;
+  for (int i = 0; i < s->d; i++)
+    s->parent[i] = i;
+  for (int i = 0; i < s->d; i++)
+    for (int k = i + 1; k < s->d; k++)
+      if (s->between[i * s->d + k] > threshold) thr_disjoint_join(s->parent, i, k);
+  for (int i = 0; i < s->d; i++) { /* the lowest member of a part is its root */
+    int root = thr_disjoint_find(s->parent, i);
+    s->block[i] = root == i ? n++ : s->block[root];
+    for (int k = 0; k < i; k++)
+      if (s->block[k] != s->block[i]) crossing += s->between[k * s->d + i];
+  }
+  judge(s, n, crossing);
+}
+
+/* Of the divisions of d edges into blocks the one with the fewest turns between blocks for its number of them: between[i * d +
+ * k], i < k, turns between edges i and k. block[d] and *n_blocks receive it; *n_blocks is 0 if none is violated. For up to 7
+ * edges all divisions, 877 at most; for more those into parts that hang together. */
+static thr_status find_worst(int d, const double *between, int *block, int *n_blocks, thr_err *err)
+{
+  static const double threshold[] = {1e-6, 0.2, 0.35, 0.51, 0.7, 0.99, INFINITY}; /* the last: single edges */
+  star s = {.d = d, .between = between, .worst = block, .violation = 1e-6};
+  s.block = thr_calloc((size_t)d, sizeof *s.block);
+  s.parent = thr_calloc((size_t)d, sizeof *s.parent);
+  thr_status st = s.block && s.parent ? THR_OK : thr_nomem(err);
+  if (!st && d <= ENUMERATED) divide(&s, 0, 0, 0);
+  for (size_t i = 0; i < sizeof threshold / sizeof *threshold && d > ENUMERATED && !st; i++)
+    judge_parts(&s, threshold[i]);
+  *n_blocks = s.worst_blocks;
+  free(s.block);
+  free(s.parent);
+  return st;
+}
+
+thr_status thr_junctions_separate(thr_relax *r, int *added, thr_err *err)
+{
+  const thr_turning_columns *c = r->c;
+  const thr_frame *f = c->f;
+  size_t most = 1;
+  for (int v = 0; v < f->n_nodes; v++)
+    if ((size_t)thr_degree(f, v) > most) most = (size_t)thr_degree(f, v);
+  double *between = thr_calloc(most * most, sizeof *between);
+  int *block = thr_calloc(most, sizeof *block);
+  thr_status st = between && block ? THR_OK : thr_nomem(err);
+  for (int v = 0; v < f->n_nodes && !st; v++) {
+    int d = thr_degree(f, v), blocks = 0;
+    bool used = false;
+    for (int i = 0; i < d; i++)
+      for (int k = i + 1; k < d; k++)
+        between[i * d + k] = r->x[thr_turning_column(c, f->half[f->first[v] + i], f->half[f->first[v] + k])];
+    if (d > 1) st = find_worst(d, between, block, &blocks, err);
+    if (!st && blocks > 1) st = thr_relax_add_junction(r, v, block, blocks, &used, err);
+    *added += used;
+  }
+  free(between);
+  free(block);
+  return st;
+}

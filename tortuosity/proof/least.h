@@ -1,0 +1,60 @@
+/* The least turning: extra passes, ends and pairings chosen together (docs/method.md). */
+#ifndef THR_LEAST_H
+#define THR_LEAST_H
+
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "tortuosity/cords/join.h"
+
+typedef struct {
+  int cover, capacity; /* as in thr_plan_options */
+  bool tube;           /* tube joints; then start must be set, closed cords of any number */
+  thr_ends ends;
+  const bool *end_node; /* [n_nodes] THR_ENDS_NODES only; borrowed */
+  const int *end_count; /* [n_nodes] THR_ENDS_COUNTS only; borrowed */
+  int cords;            /* in every component, exactly, unless the ends are counted; 0 = 1 */
+  int most_passes;      /* of an edge; 0 = 4 * cover + 4 */
+  thr_turn_cost cost;
+  double length_slack;     /* extra cord allowed above the shortest plan found, as a part of its length; < 0 = any length */
+  double price_per_length; /* of extra cord, in the turns' price per unit of length */
+  const thr_cord *start;   /* [n_start] a plan of the task to begin with; borrowed, NULL = none */
+  int n_start;
+  bool slack_from_start; /* start is the shortest plan known: the shortest passes hold none */
+  int most_nodes;        /* of the branching tree; 1 = the root only */
+} thr_least_options;
+
+thr_least_options thr_least_options_default(void);
+
+typedef struct {
+  thr_turning_task task; /* what the proof is about; end_allowed is owned by this struct */
+  bool *end_allowed;     /* [n_nodes] or NULL */
+  int n_cords;
+  thr_cord *cord; /* [n_cords] owned */
+  double price;   /* of all turns and extra cord; where a cord has both ends at one node, nothing turns there (closed: it does) */
+  double turning; /* rad, whatever the cost */
+  double length, shortest; /* of these cords; of the shortest plan found for the same options. The shortest passes may not hold so
+                              many cords: then those that a search without a limit finds count (docs/method.md) */
+  double length_limit;     /* what the proof is restricted to; < 0 = none */
+  double bound;            /* no plan of the task has a lower price: what the check of the proof says */
+  bool optimal;            /* price and bound agree within 1e-9 of a U-turn per pass */
+  const char *open;        /* why it is not proved; static text, NULL if optimal */
+  thr_turning_proof proof;
+  int rounds; /* linear programmes solved */
+} thr_least;
+
+/* THR_OK: optimal. THR_ELIMIT: the limits or the size of the tree stopped it; out holds the best plan, its bound and the proof of
+ * that. THR_EINFEASIBLE: no node for an end, or no plan within most_passes and
+ * length found (with several closed cords that proves nothing). Otherwise out is empty. */
+thr_status thr_least_turning(const thr_frame *f, const thr_least_options *o, const thr_limits *limits, thr_least *out,
+                             thr_err *err) THR_MUST_CHECK;
+void thr_least_destroy(thr_least *l);
+
+/* Steps that other makers of cords share: the task of the options, and cords with price, turning and length from a joined
+ * multigraph. */
+thr_status thr_least_task(const thr_frame *f, const thr_least_options *o, thr_least *out, thr_err *err) THR_MUST_CHECK;
+thr_status thr_least_cords(const thr_frame *f, const thr_join *j, thr_least *out, thr_err *err) THR_MUST_CHECK;
+
+/* Sets optimal from price and bound, and open: why, if it is not. */
+void thr_least_judge(thr_least *l, const char *why);
+
+#endif

@@ -1,0 +1,180 @@
+/* Partitions from pairings, node by node. */
+#include "tortuosity/proof/partition.h"
+#include "graph/disjoint.h"
+#include "tortuosity/tour/pairing.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { LEVELS = 48 };
+
+typedef struct {
+  double regret; /* < 0: stays whole */
+  int node;
+} ranked;
+
+typedef struct {
+  thr_relax *r;
+  int most;         /* passes at a node */
+  double *price;    /* [most * most] */
+  int *half, *mate; /* [most] passes of the node at hand */
+  ranked *order;    /* [n_nodes] */
+  int *parent;      /* [n_edges] blocks */
+  int *block;       /* [n_edges] their numbers */
+  int *scratch;     /* [n_edges + n_components] */
+  int (*pair)[2];   /* edges that the chosen pairings join, node by node */
+  int *pair_first;  /* [n_nodes + 1] */
+} splitter;
+
+static void splitter_destroy(splitter *s)
+{
+  free(s->price);
+  free(s->half);
+  free(s->mate);
+  free(s->order);
+  free(s->parent);
+  free(s->block);
+  free(s->scratch);
+  free(s->pair);
+  free(s->pair_first);
+}
+
+static int passes_of(const thr_relax *r, int half)
+{
+  return r->c->cover[half >> 1] + (int)nearbyint(r->x[r->c->first_extra + (half >> 1)]);
+}
+
+static thr_status splitter_init(splitter *s, thr_relax *r, thr_err *err)
+{
+  const thr_frame *f = r->c->f;
+  size_t n = (size_t)f->n_nodes, m = (size_t)f->n_edges, all = 0;
+  *s = (splitter){.r = r};
+  for (int v = 0; v < f->n_nodes; v++) {
+    int passes = 0;
+    for (int i = f->first[v]; i < f->first[v + 1]; i++)
+      passes += passes_of(r, f->half[i]);
+    if (passes > s->most) s->most = passes;
+    all += (size_t)passes / 2;
+  }
+  size_t k = (size_t)s->most;
+  s->price = thr_calloc(k * k, sizeof *s->price);
+  s->half = thr_calloc(k, sizeof *s->half);
+  s->mate = thr_calloc(k, sizeof *s->mate);
+  s->order = thr_calloc(n, sizeof *s->order);
+  s->parent = thr_calloc(m, sizeof *s->parent);
+  s->block = thr_calloc(m, sizeof *s->block);
+  s->scratch = thr_calloc(m + (size_t)r->c->n_components, sizeof *s->scratch);
+  s->pair = thr_calloc(all, sizeof *s->pair);
+  s->pair_first = thr_calloc(n + 1, sizeof *s->pair_first);
+  bool ok = s->price && s->half && s->mate && s->order && s->parent && s->block && s->scratch && s->pair && s->pair_first;
+  return ok ? THR_OK : thr_nomem(err);
+}
+
+/* What the cheapest exchange of two pairs costs. */
+static double regret_of(const splitter *s, int n)
+{
+  double least = 1e8;
+  for (int a = 0; a < n; a++)
+    for (int c = a + 1; c < n; c++) {
+      int b = s->mate[a], d = s->mate[c];
+      if (b < a || d < c) continue;
+      double old = s->price[a * n + b] + s->price[c * n + d];
+      least = fmin(least, fmin(s->price[a * n + c] + s->price[b * n + d], s->price[a * n + d] + s->price[b * n + c]) - old);
+    }
+  return least;
+}
+
+/* Pairs the passes of node v: by price, or by how much x uses the turns. */
+static thr_status pair_node(splitter *s, int v, bool by_point, thr_err *err)
+{
+  const thr_turning_columns *c = s->r->c;
+  const thr_frame *f = c->f;
+  int n = 0, *at = &s->pair_first[v + 1];
+  *at = s->pair_first[v];
+  for (int i = f->first[v]; i < f->first[v + 1]; i++)
+    for (int k = passes_of(s->r, f->half[i]); k > 0; k--)
+      s->half[n++] = f->half[i];
+  s->order[v] = (ranked){-1, v};
+  if (n % 2 || n > THR_PAIRING_EXACT || thr_degree(f, v) < 2) return THR_OK;
+  for (int i = 0; i < n; i++)
+    for (int k = 0; k < n; k++) {
+      int j = s->half[i] == s->half[k] ? -1 : thr_turning_column(c, s->half[i], s->half[k]);
+      s->price[i * n + k] = j < 0 ? 1e6 : by_point ? 1 - s->r->x[j] : ldexp((double)c->weight[j], -THR_TURNING_BITS);
+    }
+  thr_status st = thr_pairing_best(n, s->price, s->mate, err);
+  if (st) return st;
+  s->order[v].regret = regret_of(s, n);
+  for (int i = 0; i < n; i++)
+    if (s->mate[i] > i) {
+      s->pair[*at][0] = s->half[i] >> 1;
+      s->pair[(*at)++][1] = s->half[s->mate[i]] >> 1;
+    }
+  return THR_OK;
+}
+
+static int by_regret(const void *pa, const void *pb)
+{
+  const ranked *a = pa, *b = pb;
+  if (a->regret != b->regret) return a->regret < b->regret ? -1 : 1;
+  return (a->node > b->node) - (a->node < b->node);
+}
+
+/* Numbers the blocks and offers them as a row. false in *more when so few need not be connected. */
+static thr_status offer(splitter *s, int *added, bool *more, thr_err *err)
+{
+  int m = s->r->c->f->n_edges, n = 0;
+  bool used = false;
+  for (int e = 0; e < m; e++)
+    s->block[e] = thr_disjoint_find(s->parent, e) == e ? n++ : s->block[thr_disjoint_find(s->parent, e)];
+  int connections = thr_turning_connections(s->r->c, s->block, s->scratch);
+  *more = connections > 0;
+  thr_status st = *more ? thr_relax_add_partition(s->r, s->block, connections, &used, err) : THR_OK;
+  *added += !st && used;
+  return st;
+}
+
+static void make_whole(splitter *s, int v)
+{
+  const thr_frame *f = s->r->c->f;
+  for (int i = f->first[v]; i + 1 < f->first[v + 1]; i++)
+    thr_disjoint_join(s->parent, f->half[i] >> 1, f->half[i + 1] >> 1);
+}
+
+/* All nodes paired; then whole again, those of least regret first. */
+static thr_status go_through(splitter *s, int *added, thr_err *err)
+{
+  const thr_frame *f = s->r->c->f;
+  int n = f->n_nodes, step = 1 + n / LEVELS, waited = 0;
+  bool more = true;
+  thr_status st = THR_OK;
+  qsort(s->order, (size_t)n, sizeof *s->order, by_regret);
+  for (int e = 0; e < f->n_edges; e++)
+    s->parent[e] = e;
+  for (int k = 0; k < s->pair_first[n]; k++)
+    thr_disjoint_join(s->parent, s->pair[k][0], s->pair[k][1]);
+  for (int i = 0; i < n && more && !st; i++) {
+    bool level = i == 0 || s->order[i].regret > s->order[i - 1].regret + 1e-9;
+    waited++;
+    if (s->order[i].regret >= 0 && level && (waited >= step || i == 0 || s->order[i - 1].regret <= 1e-9)) {
+      st = offer(s, added, &more, err);
+      waited = 0;
+    }
+    make_whole(s, s->order[i].node);
+  }
+  return st;
+}
+
+thr_status thr_partitions_separate(thr_relax *r, int *added, thr_err *err)
+{
+  splitter s;
+  thr_status st = splitter_init(&s, r, err);
+  for (int by_point = 0; by_point < 2 && !st; by_point++) {
+    s.pair_first[0] = 0;
+    for (int v = 0; v < r->c->f->n_nodes && !st; v++)
+      st = pair_node(&s, v, by_point, err);
+    if (!st) st = go_through(&s, added, err);
+  }
+  splitter_destroy(&s);
+  return st;
+}

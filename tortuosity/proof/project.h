@@ -1,0 +1,23 @@
+/* The relaxation of tortuosity/proof/relax.h without its turns, for the shortest passes with tube joints: where turns cost
+ * nothing, what they say about passes and ends is (tortuosity/tie/tie.h) at every node v with d edges: passes - ends >= 2 (d - 1)
+ * (0 if d = 1); for every edge e there: the passes less ends of the others >= those of e; passes less ends of e >= 1, if d > 1;
+ * passes and ends out of a set of nodes that has an odd number of covers: at least one extra pass or end. Internal to
+ * tortuosity/: relax.c calls these for tasks with free turns. */
+#ifndef THR_PROJECT_H
+#define THR_PROJECT_H
+
+#include "tortuosity/proof/relax.h"
+
+thr_status thr_project_create(thr_relax *r, double penalty, thr_err *err) THR_MUST_CHECK;
+thr_status thr_project_graph(thr_relax *r, thr_err *err) THR_MUST_CHECK;
+
+/* Sets reduced of the extra passes and ends from the last solve. */
+thr_status thr_project_reduce(thr_relax *r, thr_err *err) THR_MUST_CHECK;
+
+/* Adds rows that x violates. */
+thr_status thr_project_separate(thr_relax *r, const thr_limits *limits, int *added, thr_err *err) THR_MUST_CHECK;
+
+/* The multipliers of the last solve as those of the whole model: a node's row is its junction of single edges. */
+thr_status thr_project_dual(const thr_relax *r, thr_turning_dual *d, thr_err *err) THR_MUST_CHECK;
+
+#endif

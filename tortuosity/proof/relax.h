@@ -1,0 +1,116 @@
+/* The linear programme over the columns of graph/plan/turning_proof.h, with its odd, group, partition and junction rows added as
+ * a point violates them. Where turns cost nothing the columns of the turns may be left out (tortuosity/proof/project.h). */
+#ifndef THR_RELAX_H
+#define THR_RELAX_H
+
+#include "graph/plan/turning_proof.h"
+#include "lp/solver/lp.h"
+#include "lp/tjoin/oddcut.h"
+
+/* A group row: the edges of the group and the columns that cross it. */
+typedef struct {
+  uint64_t name;
+  int n_edges, n_columns;
+  int *edge; /* ascending */
+  int *column;
+} thr_relax_group;
+
+typedef enum {
+  THR_RELAX_ODD,
+  THR_RELAX_GROUP,
+  THR_RELAX_PARTITION,
+  THR_RELAX_JUNCTION,
+  THR_RELAX_SUM,  /* without turns: of node number index; .. */
+  THR_RELAX_SIDE, /* of half-edge index and the others of its node */
+  THR_RELAX_USE,  /* of half-edge index alone */
+  THR_RELAX_LEAST,
+  THR_RELAX_MOST /* ends of equation index */
+} thr_relax_kind;
+
+/* A row: which list it is in, and where. */
+typedef struct {
+  thr_relax_kind kind;
+  int index;
+} thr_relax_cut;
+
+/* A partition row. */
+typedef struct {
+  uint64_t name;
+  int *block; /* [n_edges] */
+  int n_columns, *column;
+  double *value; /* [n_columns] */
+  double lower;
+} thr_relax_partition;
+
+/* A junction row. */
+typedef struct {
+  int node, n_blocks, n_columns;
+  int *block, *column; /* [degree], [n_columns] */
+} thr_relax_junction;
+
+typedef struct {
+  const thr_turning_columns *c;
+  thr_lp *lp;
+  bool projected;  /* the programme has no turns: its columns begin with the extra passes */
+  int n_equations; /* rows of half-edges, of ends, of the length limit */
+  int n_all;       /* columns with the artificial ones, which keep every branch feasible at a price */
+  double *x;       /* [n_all] of the last solve */
+  double *dual;    /* [rows at the last solve] */
+  double objective;
+  double artificial;         /* sum of the artificial columns */
+  bool any_odd;              /* is there an odd set at all? */
+  bool solved;               /* x is an optimum of the present rows */
+  int *low, *high;           /* [n_columns] bounds in force */
+  thr_tjoin_problem problem; /* the graph whose nodes are half-edges and ends, whose edges are columns */
+  thr_oddcut_graph graph;
+  thr_oddcut_pool pool;
+  int n_groups, groups_capacity;
+  thr_relax_group *group;
+  int n_partitions, partitions_capacity;
+  thr_relax_partition *partition;
+  int n_junctions, junctions_capacity;
+  thr_relax_junction *junction;
+  int n_cuts, cuts_capacity;
+  thr_relax_cut *cut; /* rows after the equations */
+  double *reduced;
+} thr_relax;
+
+/* penalty: price of one unit of an artificial column, more than any plan costs. projected: without turns, which must be free, and
+ * with tube joints. */
+thr_status thr_relax_init(thr_relax *r, const thr_turning_columns *c, bool projected, double penalty, const thr_limits *limits,
+                          thr_err *err) THR_MUST_CHECK;
+void thr_relax_destroy(thr_relax *r);
+
+/* Puts bounds on a column, for the next solve. */
+thr_status thr_relax_set(thr_relax *r, int column, int low, int high, thr_err *err) THR_MUST_CHECK;
+
+/* Solves with the present rows; fills x, dual, objective. solved is false if the limits stopped it (x and dual are usable). */
+thr_status thr_relax_solve(thr_relax *r, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
+
+/* Adds rows that x violates; *added = 0 if there are none (exact separation). */
+thr_status thr_relax_separate(thr_relax *r, const thr_limits *limits, int *added, thr_err *err) THR_MUST_CHECK;
+
+/* The multipliers of the last solve as integers. Release with thr_turning_dual_destroy. */
+thr_status thr_relax_dual(const thr_relax *r, thr_turning_dual *d, thr_err *err) THR_MUST_CHECK;
+
+/* A multiplier in units of 2^-THR_TURNING_BITS; far below -1e4 or above 1e4 it would be useless. */
+int64_t thr_relax_whole(double value);
+
+/* The linear programme of the equations alone, in tortuosity/proof/equations.c. */
+thr_status thr_relax_create(thr_relax *r, double penalty, thr_err *err) THR_MUST_CHECK;
+
+/* Starts the simplex method where every node by itself has its cheapest turns, without extra passes and ends: most of what the
+ * slack basis would need as many pivots for as there are rows. Where the limits stop it the basis is a worse one. */
+thr_status thr_relax_crash(thr_relax *r, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
+
+/* Adds the row of a node's blocks (copied; n of them, 0 .. n - 1) if x violates it. */
+thr_status thr_relax_add_junction(thr_relax *r, int v, const int *block, int n, bool *used, thr_err *err) THR_MUST_CHECK;
+
+/* Junction rows that x violates, in tortuosity/proof/junctions.c: the worst of every node. *added grows. */
+thr_status thr_junctions_separate(thr_relax *r, int *added, thr_err *err) THR_MUST_CHECK;
+
+/* Adds the row of a partition (block as in graph/plan/turning_proof.h, copied, which needs so many connections) if x violates it
+ * and it is new. */
+thr_status thr_relax_add_partition(thr_relax *r, const int *block, int connections, bool *used, thr_err *err) THR_MUST_CHECK;
+
+#endif

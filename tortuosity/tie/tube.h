@@ -1,0 +1,36 @@
+/* The shortest cords for tube joints: Graph Threading (Demaine, Kirkpatrick & Lin, ITCS 2024) with ends, covers, capacities. */
+#ifndef THR_TUBE_H
+#define THR_TUBE_H
+
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+
+typedef struct {
+  int n_cords;
+  thr_cord *cord; /* [n_cords] owned */
+  double length;
+  int most_passes;         /* of any edge */
+  thr_turning_proof proof; /* of bound, for graph/plan/junction.h */
+  double bound;            /* no cords of the options are shorter */
+} thr_tube;
+
+/* Cords that tie every node, the shortest, from options.cords_least to options.cords in every component, with little turning at
+ * the nodes. Closed: one in every component, which is no longer than any number of them. THR_OK: proved. THR_ELIMIT: out holds
+ * cords, and what is proved. THR_EINFEASIBLE: a node or a piece that no cords can tie (named), or none found. THR_EINPUT: several
+ * closed cords for another objective than THR_LENGTH. Otherwise out is empty. */
+thr_status thr_tube_shortest(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_tube *out,
+                             thr_err *err) THR_MUST_CHECK;
+
+/* Some such cords, without a search: bound is 0. Near-linear in passes as a rule. */
+thr_status thr_tube_some(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_tube *out,
+                         thr_err *err) THR_MUST_CHECK;
+void thr_tube_destroy(thr_tube *t);
+
+/* What the proof of t, which is moved, says of cords of this length. */
+void thr_tube_prove(thr_tube *t, double length, thr_length_proof *proof);
+
+/* The objective "length" with tube joints: thr_tube_cords_plan (tortuosity/tie/tube_cords.h) without a word. */
+thr_status thr_tube_plan(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
+                         thr_err *err) THR_MUST_CHECK;
+
+#endif

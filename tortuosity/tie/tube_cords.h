@@ -1,0 +1,11 @@
+/* The objective "length" with tube joints: one cord or several, of limited or even lengths. */
+#ifndef THR_TUBE_CORDS_H
+#define THR_TUBE_CORDS_H
+
+#include "lp/length/cords.h"
+
+/* As thr_cords_plan (lp/length/cords.h), with cords that tie every node. */
+thr_status thr_tube_cords_plan(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
+                               thr_cords_word *word, thr_err *err) THR_MUST_CHECK;
+
+#endif

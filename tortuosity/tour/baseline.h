@@ -1,0 +1,19 @@
+/* The classical tours through the shortest passes, to compare with. */
+#ifndef THR_BASELINE_H
+#define THR_BASELINE_H
+
+#include "tortuosity/proof/least.h"
+
+/* Fleury's tour never takes a pass that is a bridge of what is left while there is another; Hierholzer's splices closed walks
+ * into each other where they meet. Among the passes that are left both take by default              the partner of the one they
+ * came by in its node's cheapest pairing (tortuosity/tour/pairing.h); where that is taken, Fleury the straightest, Hierholzer the
+ * first in the order of the framework's edges with ignore_pairings    the first in that order Hierholzer's closed walks are then
+ * the circuits of the cheapest pairings, and two pairs change where one is spliced in.
+ *
+ * Fills out like thr_least_turning, without proof, bound or claim (bound 0, optimal false). U-turns may occur anywhere if
+ * pairings are ignored, and where a walk is spliced in. One cord per component; length_slack and most_nodes are not looked at.
+ * THR_EINPUT for THR_TOUR_LEAST and several cords. Fleury's bridges are found by search: O(passes^2) at worst. */
+thr_status thr_baseline_tour(const thr_frame *f, const thr_least_options *o, thr_tour tour, bool ignore_pairings,
+                             const thr_limits *limits, thr_least *out, thr_err *err) THR_MUST_CHECK;
+
+#endif
