@@ -17,20 +17,20 @@ static bool stop(const thr_balance *b)
   return b->steps <= 0 || thr_limits_stop(b->limits);
 }
 
-static int longest(const thr_trails *w)
+static int longest(const thr_walks *w)
 {
   int best = 0;
-  for (int i = 1; i < w->n_trails; i++)
+  for (int i = 1; i < w->n_walks; i++)
     if (w->walk[i].length > w->walk[best].length) best = i;
   return best;
 }
 
-static double mean(const thr_trails *w)
+static double mean(const thr_walks *w)
 {
   double sum = 0;
-  for (int i = 0; i < w->n_trails; i++)
+  for (int i = 0; i < w->n_walks; i++)
     sum += w->walk[i].length;
-  return sum / w->n_trails;
+  return sum / w->n_walks;
 }
 
 static bool done(const thr_balance *b)
@@ -60,11 +60,11 @@ static int by_length(const void *pa, const void *pb)
   return (a->walk > b->walk) - (a->walk < b->walk);
 }
 
-static void rank(const thr_trails *w, ranked *order)
+static void rank(const thr_walks *w, ranked *order)
 {
-  for (int i = 0; i < w->n_trails; i++)
+  for (int i = 0; i < w->n_walks; i++)
     order[i] = (ranked){w->walk[i].length, i};
-  qsort(order, (size_t)w->n_trails, sizeof *order, by_length);
+  qsort(order, (size_t)w->n_walks, sizeof *order, by_length);
 }
 
 /* The best exchange of walk p with a shorter one; two tries with cyclic ones, which meet at a random node. */
@@ -73,7 +73,7 @@ static thr_status exchange_with_shorter(thr_balance *b, const ranked *order, int
   thr_exchange best = {.longer = worth(b, b->w->walk[p].length)};
   int with = -1, tries = b->w->walk[p].cyclic ? 2 : 1;
   thr_status st = THR_OK;
-  for (int k = b->w->n_trails - 1; k >= 0 && order[k].walk != p && !st && b->steps > 0; k--)
+  for (int k = b->w->n_walks - 1; k >= 0 && order[k].walk != p && !st && b->steps > 0; k--)
     for (int t = 0; t < tries && !st; t++) {
       thr_exchange x;
       int q = order[k].walk;
@@ -95,7 +95,7 @@ static thr_status sweep(thr_balance *b, ranked *order, thr_err *err)
   for (bool any = true; any && !st && !stop(b) && !done(b);) {
     any = false;
     rank(b->w, order);
-    for (int i = 0; i + 1 < b->w->n_trails && !st && !stop(b); i++) {
+    for (int i = 0; i + 1 < b->w->n_walks && !st && !stop(b); i++) {
       bool made;
       st = exchange_with_shorter(b, order, order[i].walk, &made, err);
       any |= made;
@@ -108,7 +108,7 @@ static thr_status sweep(thr_balance *b, ranked *order, thr_err *err)
 /* The longest and another one in another order, so that other exchanges are possible. */
 static thr_status shuffle(thr_balance *b, const ranked *order, thr_err *err)
 {
-  int n = b->w->n_trails, p = order[0].walk, q = order[1 + (int)(thr_random(&b->random) % (uint64_t)(n - 1))].walk;
+  int n = b->w->n_walks, p = order[0].walk, q = order[1 + (int)(thr_random(&b->random) % (uint64_t)(n - 1))].walk;
   thr_status st = thr_balance_shuffle(b, p, err);
   if (!st) st = thr_balance_shuffle(b, q, err);
   return st;
@@ -119,7 +119,7 @@ static thr_status detour(thr_balance *b, const ranked *order, bool *made, thr_er
   thr_status st = THR_OK;
   int p = order[0].walk, tried = 0;
   *made = false;
-  for (int k = b->w->n_trails - 1; k > 0 && tried < PARTNERS && !*made && !st && !stop(b); k--, tried++)
+  for (int k = b->w->n_walks - 1; k > 0 && tried < PARTNERS && !*made && !st && !stop(b); k--, tried++)
     st = thr_balance_detour(b, p, order[k].walk, worth(b, b->w->walk[p].length), made, err);
   return st;
 }
@@ -144,17 +144,17 @@ static thr_status search(thr_balance *b, ranked *order, thr_err *err)
   return st;
 }
 
-thr_status thr_balance_walks(const thr_share *s, thr_trails *w, double goal, const thr_limits *limits, int *passes, thr_err *err)
+thr_status thr_balance_walks(const thr_share *s, thr_walks *w, double goal, const thr_limits *limits, int *passes, thr_err *err)
 {
   int64_t all = 0;
   size_t n = (size_t)s->f->n_nodes;
-  if (w->n_trails < 2) return THR_OK;
-  for (int i = 0; i < w->n_trails; i++)
+  if (w->n_walks < 2) return THR_OK;
+  for (int i = 0; i < w->n_walks; i++)
     all += w->walk[i].n;
   thr_balance b = {.s = s, .limits = limits, .w = w, .passes = passes, .goal = goal, .random = 1};
   b.steps = STEPS_LEAST + STEPS_PER_PASS * all;
   b.first = thr_calloc(n, sizeof *b.first);
-  ranked *order = thr_calloc((size_t)w->n_trails, sizeof *order);
+  ranked *order = thr_calloc((size_t)w->n_walks, sizeof *order);
   thr_knots ties = {0};
   thr_status st = b.first && order ? THR_OK : thr_nomem(err);
   if (!st && s->o->joint == THR_JOINT_TUBE) {

@@ -10,7 +10,7 @@
 typedef struct {
   const thr_share *s;
   const thr_limits *limits;
-  thr_trails *w;   /* cyclic with THR_ENDS_CLOSED, else open */
+  thr_walks *w;    /* cyclic with THR_ENDS_CLOSED, else open */
   thr_knots *ties; /* tube joints: of these walks, which every change leaves tied; else NULL */
   int *passes;     /* [n_edges] of these walks */
   double goal;     /* shorter than this the longest need not be */
@@ -24,7 +24,7 @@ typedef struct {
 /* Exchanges until no walk is longer than goal, none helps, or the limits stop it. passes[n_edges] are those of all components and
  * change where cords take detours. With tube joints the walks tie all nodes of the component before and after. Work in proportion
  * to passes, at most some hundred times as much. The same input gives the same walks. Failure (THR_ENOMEM) leaves valid walks. */
-thr_status thr_balance_walks(const thr_share *s, thr_trails *w, double goal, const thr_limits *limits, int *passes,
+thr_status thr_balance_walks(const thr_share *s, thr_walks *w, double goal, const thr_limits *limits, int *passes,
                              thr_err *err) THR_MUST_CHECK;
 
 /* ---- internal to lp/balance*.c ---- */

@@ -25,23 +25,23 @@ static int way_to(const thr_frame *f, const thr_ways *x, int goal, int *half)
   int n = 0;
   for (int v = goal; x->over[v] >= 0; v = thr_tail(f, x->over[v]))
     half[n++] = x->over[v] ^ 1;
-  thr_trail_reverse(half, n);
+  thr_walk_reverse(half, n);
   return n;
 }
 
 /* Where q is at the start of the way to goal. */
-static int leave_at(const thr_frame *f, const thr_ways *x, int goal, const thr_trail *q)
+static int leave_at(const thr_frame *f, const thr_ways *x, int goal, const thr_walk *q)
 {
   int v = goal, at = 0;
   while (x->over[v] >= 0)
     v = thr_tail(f, x->over[v]);
-  while (thr_trail_node(f, q, at) != v)
+  while (thr_walk_node(f, q, at) != v)
     at++;
   return at;
 }
 
 /* Pass number at of a walk; -1: before or after an open one. */
-static int pass_at(const thr_trail *w, int at)
+static int pass_at(const thr_walk *w, int at)
 {
   if (at >= 0 && at < w->n) return w->half[at];
   return w->cyclic ? w->half[at < 0 ? w->n - 1 : 0] : -1;
@@ -51,7 +51,7 @@ static int pass_at(const thr_trail *w, int at)
 static thr_knots_change change_of(const thr_balance *b, const thr_ways *x, int p, int q, const detour *d)
 {
   thr_knots_change c = {.n = 0};
-  const thr_trail *v = &b->w->walk[p], *w = &b->w->walk[q];
+  const thr_walk *v = &b->w->walk[p], *w = &b->w->walk[q];
   int at = d->back ? leave_at(b->s->f, x, d->goal, w) : w->n, before = pass_at(w, at - 1), after = pass_at(w, at);
   int in = d->backwards ? v->half[d->end - 1] ^ 1 : v->half[d->from];
   int out = d->backwards ? v->half[d->from] ^ 1 : v->half[d->end - 1];
@@ -100,7 +100,7 @@ static bool spare(const thr_balance *b, int e, int n)
   return b->passes[e] - n >= thr_plan_cover(b->s->f, b->s->o, e);
 }
 
-static void drop_turns_back(thr_balance *b, thr_trail *w)
+static void drop_turns_back(thr_balance *b, thr_walk *w)
 {
   int n = 0;
   for (int i = 0; i < w->n; i++) {
@@ -119,7 +119,7 @@ static void drop_turns_back(thr_balance *b, thr_trail *w)
 }
 
 /* Does what is tied hold without the last pass of a walk? Then it is gone from the ties. */
-static bool untie_last(thr_balance *b, const thr_trail *w)
+static bool untie_last(thr_balance *b, const thr_walk *w)
 {
   thr_knots_change c = {.n = 0};
   if (!b->ties) return true;
@@ -130,10 +130,10 @@ static bool untie_last(thr_balance *b, const thr_trail *w)
 }
 
 /* Ends that are free are drawn in. */
-static void drop_tail(thr_balance *b, thr_trail *w)
+static void drop_tail(thr_balance *b, thr_walk *w)
 {
   const thr_frame *f = b->s->f;
-  while (w->n > 1 && spare(b, w->half[w->n - 1] >> 1, 1) && thr_plan_end_allowed(f, b->s->o, thr_trail_node(f, w, w->n - 1)) &&
+  while (w->n > 1 && spare(b, w->half[w->n - 1] >> 1, 1) && thr_plan_end_allowed(f, b->s->o, thr_walk_node(f, w, w->n - 1)) &&
          untie_last(b, w)) {
     b->passes[w->half[w->n - 1] >> 1]--;
     w->n--;
@@ -143,19 +143,19 @@ static void drop_tail(thr_balance *b, thr_trail *w)
 /* Drops the passes of a walk that nothing needs: turns back, and ends that can be drawn in; what is tied stays so. */
 static void prune(thr_balance *b, int p)
 {
-  thr_trail *w = &b->w->walk[p];
+  thr_walk *w = &b->w->walk[p];
   drop_turns_back(b, w);
   for (int k = 0; k < 2 && !w->cyclic && b->s->o->ends != THR_ENDS_COUNTS; k++) {
     drop_tail(b, w);
-    thr_trail_reverse(w->half, w->n);
+    thr_walk_reverse(w->half, w->n);
   }
-  w->length = thr_trail_length(b->s->f, w->half, w->n);
+  w->length = thr_walk_length(b->s->f, w->half, w->n);
 }
 
 static thr_status make(thr_balance *b, const thr_ways *x, int p, int q, const detour *d, thr_err *err)
 {
   const thr_frame *f = b->s->f;
-  thr_trail *v = &b->w->walk[p], *w = &b->w->walk[q];
+  thr_walk *v = &b->w->walk[p], *w = &b->w->walk[q];
   int section = d->end - d->from, n = 0, at = d->back ? leave_at(f, x, d->goal, w) : w->n;
   int *half = thr_calloc((size_t)(w->n + section) + 2 * (size_t)f->n_nodes, sizeof *half);
   if (!half) return thr_nomem(err);
@@ -167,20 +167,20 @@ static thr_status make(thr_balance *b, const thr_ways *x, int p, int q, const de
     b->passes[half[n + i] >> 1] += d->back ? 2 : 1;
   n += way;
   memcpy(half + n, v->half + d->from, (size_t)section * sizeof *half);
-  if (d->backwards) thr_trail_reverse(half + n, section);
+  if (d->backwards) thr_walk_reverse(half + n, section);
   n += section;
   if (d->back) {
     memcpy(half + n, half + at, (size_t)way * sizeof *half);
-    thr_trail_reverse(half + n, way);
+    thr_walk_reverse(half + n, way);
     n += way;
   }
   memcpy(half + n, w->half + at, (size_t)(w->n - at) * sizeof *half);
   n += w->n - at;
   free(w->half);
-  *w = (thr_trail){n, half, thr_trail_length(f, half, n), w->cyclic};
+  *w = (thr_walk){n, half, thr_walk_length(f, half, n), w->cyclic};
   memmove(v->half + d->from, v->half + d->end, (size_t)(v->n - d->end) * sizeof *v->half);
   v->n -= section;
-  v->length = thr_trail_length(f, v->half, v->n);
+  v->length = thr_walk_length(f, v->half, v->n);
   prune(b, p);
   prune(b, q);
   return THR_OK;
@@ -190,17 +190,17 @@ static thr_status make(thr_balance *b, const thr_ways *x, int p, int q, const de
 static thr_status find_sections(thr_balance *b, thr_ways *x, int p, int q, detour *best, thr_err *err)
 {
   const thr_frame *f = b->s->f;
-  const thr_trail *v = &b->w->walk[p], *w = &b->w->walk[q];
+  const thr_walk *v = &b->w->walk[p], *w = &b->w->walk[q];
   thr_status st = THR_OK;
   thr_ways_clear(x);
   for (int i = 0; i < w->n && !st; i++)
-    st = thr_ways_start(x, thr_trail_node(f, w, i), err);
+    st = thr_ways_start(x, thr_walk_node(f, w, i), err);
   if (!st) st = spread(b, x, 2, best->longer / 2, err);
   double *sum = st ? NULL : thr_calloc((size_t)v->n + 1, sizeof *sum);
   int *next = st ? NULL : thr_calloc((size_t)v->n + 1, sizeof *next);
   if (!st && (!sum || !next)) st = thr_nomem(err);
   for (int j = 0; j <= v->n && !st; j++) {
-    int node = thr_trail_node(f, v, j);
+    int node = thr_walk_node(f, v, j);
     if (j > 0) sum[j] = sum[j - 1] + f->length[v->half[j - 1] >> 1];
     next[j] = b->first[node];
     b->first[node] = j;
@@ -212,7 +212,7 @@ static thr_status find_sections(thr_balance *b, thr_ways *x, int p, int q, detou
     }
   }
   for (int j = 0; j <= v->n && !st; j++)
-    b->first[thr_trail_node(f, v, j)] = -1;
+    b->first[thr_walk_node(f, v, j)] = -1;
   free(sum);
   free(next);
   return st;
@@ -222,14 +222,14 @@ static thr_status find_sections(thr_balance *b, thr_ways *x, int p, int q, detou
 static thr_status find_tails(thr_balance *b, thr_ways *x, int p, int q, detour *best, thr_err *err)
 {
   const thr_frame *f = b->s->f;
-  const thr_trail *v = &b->w->walk[p], *w = &b->w->walk[q];
-  int last = thr_trail_node(f, v, v->n);
+  const thr_walk *v = &b->w->walk[p], *w = &b->w->walk[q];
+  int last = thr_walk_node(f, v, v->n);
   double part = 0;
   thr_ways_clear(x);
-  thr_status st = thr_ways_start(x, thr_trail_node(f, w, w->n), err);
+  thr_status st = thr_ways_start(x, thr_walk_node(f, w, w->n), err);
   if (!st) st = spread(b, x, 1, best->longer, err);
   for (int i = v->n - 1; i > 0 && !st; i--) {
-    int node = thr_trail_node(f, v, i);
+    int node = thr_walk_node(f, v, i);
     part += f->length[v->half[i] >> 1];
     if (!thr_plan_end_allowed(f, b->s->o, node)) continue;
     offer(b, x, p, q, (detour){fmax(v->length - part, w->length + part + x->far[node]), i, v->n, 0, node, false, false}, best);
@@ -249,8 +249,8 @@ thr_status thr_balance_detour(thr_balance *b, int p, int q, double below, bool *
   if (!st && (*made = best.longer < below)) st = make(b, &x, p, q, &best, err);
   bool free_ends = !b->w->walk[p].cyclic && b->s->o->ends != THR_ENDS_COUNTS;
   for (int k = 0; k < 4 && free_ends && !*made && !st; k++) {
-    thr_trail *w = &b->w->walk[k & 1 ? q : p]; /* all four directions of the two */
-    thr_trail_reverse(w->half, w->n);
+    thr_walk *w = &b->w->walk[k & 1 ? q : p]; /* all four directions of the two */
+    thr_walk_reverse(w->half, w->n);
     st = find_tails(b, &x, p, q, &best, err);
     if (!st && (*made = best.longer < below)) st = make(b, &x, p, q, &best, err);
   }

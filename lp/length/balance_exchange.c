@@ -8,7 +8,7 @@
 
 /* Lengths of a walk before each of its positions 0 .. n, and its visits of nodes. */
 typedef struct {
-  const thr_trail *w;
+  const thr_walk *w;
   double *sum; /* [n + 1] */
   int *next;   /* [n + 1] earlier position at the same node, -1 = none */
 } measured;
@@ -25,7 +25,7 @@ static void mark(thr_balance *b, const measured *m, bool forget)
 {
   const thr_frame *f = b->s->f;
   for (int i = 0; i <= m->w->n - m->w->cyclic; i++) {
-    int *first = &b->first[thr_trail_node(f, m->w, i)];
+    int *first = &b->first[thr_walk_node(f, m->w, i)];
     if (forget) {
       *first = -1;
     } else {
@@ -35,7 +35,7 @@ static void mark(thr_balance *b, const measured *m, bool forget)
   }
 }
 
-static thr_status measure(const thr_balance *b, const thr_trail *w, measured *m, thr_err *err)
+static thr_status measure(const thr_balance *b, const thr_walk *w, measured *m, thr_err *err)
 {
   size_t n = (size_t)w->n + 1;
   *m = (measured){w, thr_calloc(n, sizeof *m->sum), thr_calloc(n, sizeof *m->next)};
@@ -240,12 +240,12 @@ static void offer_joins(thr_balance *b, const measured *p, const measured *q, th
   row r = row_of(p, q);
   int np = p->w->n, nq = q->w->n;
   for (int k = 0; k < 4; k++) {
-    if (thr_trail_node(f, p->w, k & 1 ? 0 : np) != thr_trail_node(f, q->w, k & 2 ? nq : 0)) continue;
+    if (thr_walk_node(f, p->w, k & 1 ? 0 : np) != thr_walk_node(f, q->w, k & 2 ? nq : 0)) continue;
     double all = p->sum[np] + q->sum[nq];
     for (int at = 1; at < np + nq; at++) {
       const measured *which;
       int i = in_row(p, q, k, at, &which);
-      if (!thr_plan_end_allowed(f, b->s->o, thr_trail_node(f, which->w, i))) continue;
+      if (!thr_plan_end_allowed(f, b->s->o, thr_walk_node(f, which->w, i))) continue;
       double part = (which == p ? k & 1 : k & 2) ? which->sum[which->w->n] - which->sum[i] : which->sum[i];
       if (which == q) part += p->sum[np];
       offer(b, &r, (thr_exchange){THR_EXCHANGE_JOIN, fmax(part, all - part), at, 0, k}, best);
@@ -259,7 +259,7 @@ static void find_open(thr_balance *b, const measured *p, const measured *q, thr_
   int *at_q = b->merged; /* the last visit of q at each position of p */
   mark(b, q, false);
   for (int i = 0; i <= p->w->n; i++) {
-    at_q[i] = b->first[thr_trail_node(f, p->w, i)];
+    at_q[i] = b->first[thr_walk_node(f, p->w, i)];
     for (int j = at_q[i], seen = 0; j >= 0 && seen < THR_MOST_VISITS; j = q->next[j], seen++)
       offer_tails(b, p, i, q, j, best);
   }
@@ -282,7 +282,7 @@ static bool common_visit(thr_balance *b, const measured *p, const measured *q, i
   *j = -1;
   for (int k = 0; k < n && *j < 0; k++) {
     *i = (from + k) % n;
-    *j = b->first[thr_trail_node(f, p->w, *i)];
+    *j = b->first[thr_walk_node(f, p->w, *i)];
   }
   mark(b, q, true);
   return *j >= 0;
@@ -297,8 +297,8 @@ static thr_status find_cyclic(thr_balance *b, const measured *p, const measured 
     b->merged[k] = p->w->half[(i + k) % np];
   for (int k = 0; k < nq; k++)
     b->merged[np + k] = q->w->half[(j + k) % nq];
-  if (thr_random(&b->random) & 1) thr_trail_reverse(b->merged + np, nq);
-  thr_trail all = {np + nq, b->merged, 0, true};
+  if (thr_random(&b->random) & 1) thr_walk_reverse(b->merged + np, nq);
+  thr_walk all = {np + nq, b->merged, 0, true};
   measured m;
   thr_status st = measure(b, &all, &m, err);
   if (st) return st;
@@ -327,7 +327,7 @@ static thr_status make_room(thr_balance *b, int n, thr_err *err)
 
 thr_status thr_balance_find(thr_balance *b, int p, int q, thr_exchange *best, thr_err *err)
 {
-  const thr_trail *x = &b->w->walk[p], *y = &b->w->walk[q];
+  const thr_walk *x = &b->w->walk[p], *y = &b->w->walk[q];
   measured mp = {0}, mq = {0};
   *best = (thr_exchange){.longer = INFINITY};
   b->steps -= x->n + y->n;
@@ -349,13 +349,13 @@ static void append(const row *r, const piece *p, int *half, int *n)
 {
   for (int i = p->from; i < p->end; i++)
     half[*n + i - p->from] = half_at(r, i);
-  if (p->backwards) thr_trail_reverse(half + *n, p->end - p->from);
+  if (p->backwards) thr_walk_reverse(half + *n, p->end - p->from);
   *n += p->end - p->from;
 }
 
 thr_status thr_balance_make(thr_balance *b, int p, int q, const thr_exchange *x, thr_err *err)
 {
-  thr_trail *v = &b->w->walk[p], *w = &b->w->walk[q];
+  thr_walk *v = &b->w->walk[p], *w = &b->w->walk[q];
   row r = {v->half, w->half, v->n, w->n, v->cyclic};
   if (v->cyclic) r = (row){b->merged, b->merged + v->n, v->n, w->n, true};
   pieces list = pieces_of(&r, x);
@@ -374,13 +374,13 @@ thr_status thr_balance_make(thr_balance *b, int p, int q, const thr_exchange *x,
   if (b->ties) thr_knots_make(b->ties, &c);
   free(v->half);
   free(w->half);
-  *v = (thr_trail){n[0], half[0], thr_trail_length(b->s->f, half[0], n[0]), v->cyclic};
-  *w = (thr_trail){n[1], half[1], thr_trail_length(b->s->f, half[1], n[1]), w->cyclic};
+  *v = (thr_walk){n[0], half[0], thr_walk_length(b->s->f, half[0], n[0]), v->cyclic};
+  *w = (thr_walk){n[1], half[1], thr_walk_length(b->s->f, half[1], n[1]), w->cyclic};
   return THR_OK;
 }
 
 /* The closed section i .. j - 1 of x the other way round. */
-static void turn_round(thr_balance *b, thr_trail *x, int i, int j)
+static void turn_round(thr_balance *b, thr_walk *x, int i, int j)
 {
   thr_knots_change c = {.n = 0};
   int before = i > 0 ? x->half[i - 1] : x->cyclic ? x->half[x->n - 1] : -1;
@@ -392,13 +392,13 @@ static void turn_round(thr_balance *b, thr_trail *x, int i, int j)
     if (!thr_knots_allow(b->ties, &c)) return;
     thr_knots_make(b->ties, &c);
   }
-  thr_trail_reverse(x->half + i, j - i);
+  thr_walk_reverse(x->half + i, j - i);
 }
 
 thr_status thr_balance_shuffle(thr_balance *b, int p, thr_err *err)
 {
   enum { TURNS = 8 };
-  thr_trail *x = &b->w->walk[p];
+  thr_walk *x = &b->w->walk[p];
   measured m;
   b->steps -= TURNS * (int64_t)x->n / 4;
   for (int t = 0; t < TURNS; t++) {

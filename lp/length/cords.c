@@ -19,18 +19,18 @@ typedef struct {
   const thr_limits *limits;
   thr_share share;
   int n_components, *component;
-  thr_trails *trails; /* [n_components] results */
-  int *wanted;        /* [n_components] cords to be made of a component now; 0 = none */
-  int *passes;        /* [n_edges] */
-  bool least;         /* the passes are the shortest that hold the cords */
-  bool certain;       /* the longest cord is as short as can be: the solver's word */
+  thr_walks *walks; /* [n_components] results */
+  int *wanted;      /* [n_components] cords to be made of a component now; 0 = none */
+  int *passes;      /* [n_edges] */
+  bool least;       /* the passes are the shortest that hold the cords */
+  bool certain;     /* the longest cord is as short as can be: the solver's word */
 } several;
 
 static void several_destroy(several *x)
 {
-  for (int k = 0; x->trails && k < x->n_components; k++)
-    thr_trails_destroy(&x->trails[k]);
-  free(x->trails);
+  for (int k = 0; x->walks && k < x->n_components; k++)
+    thr_walks_destroy(&x->walks[k]);
+  free(x->walks);
   free(x->component);
   free(x->wanted);
   free(x->passes);
@@ -42,12 +42,12 @@ static thr_status several_init(several *x, thr_err *err)
   thr_status st = thr_frame_components(x->f, x->component, &x->n_components, err);
   if (st) return st;
   size_t n = (size_t)x->n_components;
-  x->trails = thr_calloc(n, sizeof *x->trails);
+  x->walks = thr_calloc(n, sizeof *x->walks);
   x->wanted = thr_calloc(n, sizeof *x->wanted);
   x->passes = thr_calloc((size_t)x->f->n_edges, sizeof *x->passes);
   x->share = (thr_share){x->f, x->o, x->component};
   x->least = x->certain = true;
-  return x->trails && x->wanted && x->passes ? THR_OK : thr_nomem(err);
+  return x->walks && x->wanted && x->passes ? THR_OK : thr_nomem(err);
 }
 
 static int component_of(const several *x, int e)
@@ -73,18 +73,18 @@ static const char *node_of(const several *x, int k)
 }
 
 /* A closed cord through its passes again: its ends are where they were, where leaving out a turn saves most. */
-static thr_status open_again(const several *x, thr_trail *w, int node, thr_err *err)
+static thr_status open_again(const several *x, thr_walk *w, int node, thr_err *err)
 {
   int best = -1;
   double most = -1;
   for (int i = 0; i < w->n; i++) {
-    double turn = thr_trail_turn(x->f, w->half[i ? i - 1 : w->n - 1], w->half[i]);
-    if (thr_trail_node(x->f, w, i) != node || turn < most + 1e-9) continue;
+    double turn = thr_walk_turn(x->f, w->half[i ? i - 1 : w->n - 1], w->half[i]);
+    if (thr_walk_node(x->f, w, i) != node || turn < most + 1e-9) continue;
     best = i;
     most = turn;
   }
   w->cyclic = false;
-  return thr_trail_rotate(w, best, err);
+  return thr_walk_rotate(w, best, err);
 }
 
 /* Evening out takes the passes of a cord in any order: the same passes again with little turning. Each cord costs a look at the
@@ -93,22 +93,22 @@ static thr_status straighten(const several *x, int k, int *passes, thr_err *err)
 {
   const double most = 1e8;
   const thr_frame *f = x->f;
-  if ((double)x->trails[k].n_trails * f->n_edges > most) return THR_OK;
-  thr_trails *one = thr_calloc((size_t)x->n_components, sizeof *one);
+  if ((double)x->walks[k].n_walks * f->n_edges > most) return THR_OK;
+  thr_walks *one = thr_calloc((size_t)x->n_components, sizeof *one);
   thr_status st = one ? THR_OK : thr_nomem(err);
-  for (int i = 0; i < x->trails[k].n_trails && !st; i++) {
-    thr_trail *w = &x->trails[k].walk[i];
-    int node = thr_trail_node(f, w, 0);
+  for (int i = 0; i < x->walks[k].n_walks && !st; i++) {
+    thr_walk *w = &x->walks[k].walk[i];
+    int node = thr_walk_node(f, w, 0);
     bool cyclic = w->cyclic;
     memset(passes, 0, (size_t)f->n_edges * sizeof *passes);
     for (int j = 0; j < w->n; j++)
       passes[w->half[j] >> 1]++;
-    st = thr_trails_trace(f, passes, x->component, x->n_components, one, err);
+    st = thr_walks_trace(f, passes, x->component, x->n_components, one, err);
     if (st) break;
     free(w->half);
     *w = one[k].walk[0];
     one[k].walk[0].half = NULL;
-    thr_trails_destroy(&one[k]);
+    thr_walks_destroy(&one[k]);
     if (w->cyclic && !cyclic) st = open_again(x, w, node, err);
   }
   free(one);
@@ -120,21 +120,21 @@ static thr_status tell(const several *x, thr_err *err)
 {
   thr_plan p = {.frame = *x->f, .options = *x->o};
   if (!x->limits->found) return THR_OK;
-  thr_trails *copy = thr_calloc((size_t)x->n_components, sizeof *copy);
+  thr_walks *copy = thr_calloc((size_t)x->n_components, sizeof *copy);
   thr_status st = copy ? THR_OK : thr_nomem(err);
   for (int k = 0; k < x->n_components && !st; k++)
-    for (int i = 0; i < x->trails[k].n_trails && !st; i++) {
-      thr_trail w = x->trails[k].walk[i];
+    for (int i = 0; i < x->walks[k].n_walks && !st; i++) {
+      thr_walk w = x->walks[k].walk[i];
       size_t bytes = (size_t)w.n * sizeof *w.half;
       w.half = thr_calloc((size_t)w.n, sizeof *w.half);
-      if (w.half) memcpy(w.half, x->trails[k].walk[i].half, bytes);
-      st = w.half ? thr_trails_add(&copy[k], x->f, w, err) : thr_nomem(err);
+      if (w.half) memcpy(w.half, x->walks[k].walk[i].half, bytes);
+      st = w.half ? thr_walks_add(&copy[k], x->f, w, err) : thr_nomem(err);
     }
-  if (!st) st = thr_trails_plan(copy, x->n_components, &p, err);
+  if (!st) st = thr_walks_plan(copy, x->n_components, &p, err);
   if (!st) thr_limits_found(x->limits, p.cord, p.n_cords, NULL);
   thr_cords_destroy(p.cord, p.n_cords);
   for (int k = 0; copy && k < x->n_components; k++)
-    thr_trails_destroy(&copy[k]);
+    thr_walks_destroy(&copy[k]);
   free(copy);
   return st;
 }
@@ -142,7 +142,7 @@ static thr_status tell(const several *x, thr_err *err)
 static thr_status make_exact(several *x, int k, double goal, thr_err *err)
 {
   bool certain;
-  thr_status st = thr_share_exact(&x->share, k, goal, x->limits, &x->trails[k], x->passes, &certain, err);
+  thr_status st = thr_share_exact(&x->share, k, goal, x->limits, &x->walks[k], x->passes, &certain, err);
   x->certain &= certain;
   return st;
 }
@@ -152,10 +152,10 @@ static thr_status make_closed(several *x, int k, bool even, thr_err *err)
 {
   bool enough, least = true;
   int n = x->wanted[k], must = x->o->cords_least;
-  thr_status st = thr_share_circuits(&x->share, n, even, &x->trails[k], &enough, err);
-  if (!st && !enough && even) st = thr_share_chords(&x->share, n, x->passes, &x->trails[k], err);
-  if (st || enough || (even && x->trails[k].n_trails >= must)) return st;
-  st = thr_share_more(&x->share, k, even ? must : n, x->passes, &x->trails[k], &enough, &least, err);
+  thr_status st = thr_share_circuits(&x->share, n, even, &x->walks[k], &enough, err);
+  if (!st && !enough && even) st = thr_share_chords(&x->share, n, x->passes, &x->walks[k], err);
+  if (st || enough || (even && x->walks[k].n_walks >= must)) return st;
+  st = thr_share_more(&x->share, k, even ? must : n, x->passes, &x->walks[k], &enough, &least, err);
   x->least &= least;
   if (st || enough) return st;
   return thr_fail(err, THR_EINFEASIBLE, "the piece with node %s cannot hold %d closed cords: the capacities leave no room",
@@ -176,29 +176,29 @@ static thr_status share_out(several *x, const thr_certificate *c, bool even, dou
 {
   thr_status st = THR_OK;
   int *passes = thr_calloc((size_t)x->f->n_edges, sizeof *passes);
-  thr_trails *new = thr_calloc((size_t)x->n_components, sizeof *new);
+  thr_walks *new = thr_calloc((size_t)x->n_components, sizeof *new);
   if (!passes || !new) st = thr_nomem(err);
   for (int k = 0; k < x->n_components && !st; k++)
     if (x->wanted[k]) st = make_places(x, k, &c[k], err);
   if (!st) only_wanted(x, passes);
-  if (!st) st = thr_trails_trace(x->f, passes, x->component, x->n_components, new, err);
+  if (!st) st = thr_walks_trace(x->f, passes, x->component, x->n_components, new, err);
   for (int k = 0; k < x->n_components && !st; k++) {
     if (!x->wanted[k]) continue;
-    thr_trails_destroy(&x->trails[k]);
-    x->trails[k] = new[k];
-    new[k] = (thr_trails){0};
+    thr_walks_destroy(&x->walks[k]);
+    x->walks[k] = new[k];
+    new[k] = (thr_walks){0};
     st = x->o->ends == THR_ENDS_CLOSED ? make_closed(x, k, even, err)
-                                       : thr_share_cut(&x->share, x->wanted[k], even, &x->trails[k], err);
+                                       : thr_share_cut(&x->share, x->wanted[k], even, &x->walks[k], err);
   }
   if (!st && even) st = tell(x, err);
   for (int k = 0; k < x->n_components && even && !st; k++) {
     if (!x->wanted[k]) continue;
-    st = thr_balance_walks(&x->share, &x->trails[k], goal, x->limits, x->passes, err);
+    st = thr_balance_walks(&x->share, &x->walks[k], goal, x->limits, x->passes, err);
     if (!st) st = make_exact(x, k, goal, err);
     if (!st) st = straighten(x, k, passes, err);
   }
   for (int k = 0; new &&k < x->n_components; k++)
-    thr_trails_destroy(&new[k]);
+    thr_walks_destroy(&new[k]);
   free(new);
   free(passes);
   return st;
@@ -317,7 +317,7 @@ static thr_status try_number(growing *g, int n, int *left, thr_err *err)
   st = share_out(x, s.certificate, true, x->o->max_length, err);
   *left = 0;
   for (int k = 0; k < x->n_components && !st; k++) {
-    if (x->wanted[k]) g->done[k] = within(thr_trails_longest(&x->trails[k]), x->o->max_length);
+    if (x->wanted[k]) g->done[k] = within(thr_walks_longest(&x->walks[k]), x->o->max_length);
     *left += !g->done[k];
   }
   thr_shortest_destroy(&s);
@@ -331,8 +331,8 @@ static thr_status none_found(const growing *g, int most, thr_err *err)
   while (g->done[k])
     k++;
   const char *cords = most == 1 ? "cord" : "cords", *units = x->f->units;
-  double length = x->o->max_length, found = thr_trails_longest(&x->trails[k]);
-  if (x->trails[k].n_trails == 0)
+  double length = x->o->max_length, found = thr_walks_longest(&x->walks[k]);
+  if (x->walks[k].n_walks == 0)
     return thr_fail(err, THR_EINFEASIBLE, "the piece with node %s needs %g %s of cord: %d %s of at most %g %s are too few",
                     node_of(x, k), g->length[k], units, most, cords, length, units);
   return thr_fail(err, THR_EINFEASIBLE,
@@ -452,7 +452,7 @@ static thr_status plan_all(several *x, thr_shortest *s, thr_plan *plan, thr_err 
 {
   if (x->o->max_length > 0 && x->n_components > 1) return plan_components(x, s, plan, err);
   thr_status st = make(x, s, err);
-  return st ? st : thr_trails_plan(x->trails, x->n_components, plan, err);
+  return st ? st : thr_walks_plan(x->walks, x->n_components, plan, err);
 }
 
 thr_status thr_cords_plan(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,

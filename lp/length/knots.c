@@ -22,16 +22,16 @@ static void count_turn(thr_knots *t, int in, int out, int by)
   if (a != b) t->count[t->first[v] + b * d + a] += by;
 }
 
-static void count_walks(thr_knots *t, const thr_trails *w)
+static void count_walks(thr_knots *t, const thr_walks *w)
 {
-  for (int i = 0; i < w->n_trails; i++) {
-    const thr_trail *x = &w->walk[i];
+  for (int i = 0; i < w->n_walks; i++) {
+    const thr_walk *x = &w->walk[i];
     for (int k = x->cyclic ? 0 : 1; k < x->n; k++)
       count_turn(t, x->half[k ? k - 1 : x->n - 1], x->half[k], 1);
   }
 }
 
-thr_status thr_knots_init(thr_knots *t, const thr_frame *f, const thr_trails *w, thr_err *err)
+thr_status thr_knots_init(thr_knots *t, const thr_frame *f, const thr_walks *w, thr_err *err)
 {
   size_t sum = 0;
   int most = 1;

@@ -3,7 +3,7 @@
 #ifndef THR_KNOTS_H
 #define THR_KNOTS_H
 
-#include "lp/length/trails.h"
+#include "graph/threading/walks.h"
 
 /* count[first[v] + a * degree + b]: turns between the half-edges number a and b of node v, in both orders. */
 typedef struct {
@@ -16,7 +16,7 @@ typedef struct {
 } thr_knots;
 
 /* The turns of the walks, with those that close cyclic ones. O(passes + sum of the squares of the degrees), also in memory. */
-thr_status thr_knots_init(thr_knots *t, const thr_frame *f, const thr_trails *w, thr_err *err) THR_MUST_CHECK;
+thr_status thr_knots_init(thr_knots *t, const thr_frame *f, const thr_walks *w, thr_err *err) THR_MUST_CHECK;
 void thr_knots_destroy(thr_knots *t);
 
 /* Turns that come and go; at most THR_MOST_CHANGED. */

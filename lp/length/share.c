@@ -13,7 +13,7 @@ typedef struct {
 
 typedef struct {
   const thr_share *s;
-  thr_trails *w;
+  thr_walks *w;
   int *left; /* [n_nodes] THR_ENDS_COUNTS: cuts that are still to be made there; else NULL */
   place *list;
   int n, capacity;
@@ -33,8 +33,8 @@ static thr_status count_cuts(places *p, int *cuts, thr_err *err)
   const int k = p->s->component[thr_tail(f, p->w->walk[0].half[0])];
   for (int v = 0; v < f->n_nodes; v++)
     if (p->s->component[v] == k) p->left[v] = p->s->o->end_count[v];
-  for (int i = 0; i < p->w->n_trails; i++) {
-    const thr_trail *x = &p->w->walk[i];
+  for (int i = 0; i < p->w->n_walks; i++) {
+    const thr_walk *x = &p->w->walk[i];
     if (x->cyclic) continue;
     p->left[thr_tail(f, x->half[0])]--;
     p->left[thr_head(f, x->half[x->n - 1])]--;
@@ -52,14 +52,14 @@ static thr_status find_places(places *p, thr_err *err)
 {
   const thr_frame *f = p->s->f;
   p->n = 0;
-  for (int i = 0; i < p->w->n_trails; i++) {
-    const thr_trail *x = &p->w->walk[i];
+  for (int i = 0; i < p->w->n_walks; i++) {
+    const thr_walk *x = &p->w->walk[i];
     for (int at = x->cyclic ? 0 : 1; at < x->n; at++) {
       int v = thr_tail(f, x->half[at]);
       if (!may_cut(p, v)) continue;
       thr_status st = thr_grow(&p->list, p->n, &p->capacity, sizeof *p->list, err);
       if (st) return st;
-      p->list[p->n++] = (place){thr_trail_turn(f, x->half[at ? at - 1 : x->n - 1], x->half[at]), i, at, v};
+      p->list[p->n++] = (place){thr_walk_turn(f, x->half[at ? at - 1 : x->n - 1], x->half[at]), i, at, v};
     }
   }
   return THR_OK;
@@ -87,17 +87,17 @@ static thr_status cut_all(places *p, thr_err *err)
   thr_status st = THR_OK;
   if (p->n) qsort(p->list, (size_t)p->n, sizeof *p->list, by_place);
   for (int i = 0, end; i < p->n && !st; i = end) {
-    thr_trail *x = &p->w->walk[p->list[i].walk];
+    thr_walk *x = &p->w->walk[p->list[i].walk];
     for (end = i; end < p->n && p->list[end].walk == p->list[i].walk;)
       end++;
     int last = end, shift = 0;
     if (x->cyclic) { /* the first place opens it */
       shift = p->list[--last].at;
       x->cyclic = false;
-      st = thr_trail_rotate(x, shift, err);
+      st = thr_walk_rotate(x, shift, err);
     }
     for (int j = i; j < last && !st; j++)
-      st = thr_trails_split(p->w, p->s->f, p->list[j].walk, p->list[j].at - shift, err);
+      st = thr_walks_split(p->w, p->s->f, p->list[j].walk, p->list[j].at - shift, err);
   }
   return st;
 }
@@ -126,7 +126,7 @@ static thr_status cut_sharpest(places *p, int cuts, int wanted, thr_err *err)
 }
 
 /* Where an open walk is cut into the most equal parts; 0 = nowhere. A cyclic one: where it may be opened; -1 = nowhere. */
-static int middle(const places *p, const thr_trail *x)
+static int middle(const places *p, const thr_walk *x)
 {
   double sum = 0, best = INFINITY;
   int at = x->cyclic ? -1 : 0;
@@ -149,8 +149,8 @@ static thr_status cut_longest(places *p, int cuts, int wanted, thr_err *err)
   thr_status st = THR_OK;
   for (int done = 0; done < cuts && !st; done++) {
     int best = -1, best_at = 0;
-    for (int i = 0; i < p->w->n_trails; i++) {
-      thr_trail *x = &p->w->walk[i];
+    for (int i = 0; i < p->w->n_walks; i++) {
+      thr_walk *x = &p->w->walk[i];
       if (best >= 0 && x->length <= p->w->walk[best].length * (1 + 1e-12)) continue;
       int at = middle(p, x);
       if (at < (x->cyclic ? 0 : 1)) continue;
@@ -158,24 +158,24 @@ static thr_status cut_longest(places *p, int cuts, int wanted, thr_err *err)
       best_at = at;
     }
     if (best < 0) return too_few(p, wanted, err);
-    thr_trail *x = &p->w->walk[best];
+    thr_walk *x = &p->w->walk[best];
     if (x->cyclic) {
-      st = thr_trail_rotate(x, best_at, err);
+      st = thr_walk_rotate(x, best_at, err);
       x->cyclic = false;
     } else {
-      st = thr_trails_split(p->w, p->s->f, best, best_at, err);
+      st = thr_walks_split(p->w, p->s->f, best, best_at, err);
     }
   }
   return st;
 }
 
-thr_status thr_share_cut(const thr_share *s, int n, bool even, thr_trails *w, thr_err *err)
+thr_status thr_share_cut(const thr_share *s, int n, bool even, thr_walks *w, thr_err *err)
 {
   places p = {.s = s, .w = w};
   bool counts = s->o->ends == THR_ENDS_COUNTS;
   int open = 0, cuts = 0;
   thr_status st = THR_OK;
-  for (int i = 0; i < w->n_trails; i++)
+  for (int i = 0; i < w->n_walks; i++)
     open += !w->walk[i].cyclic;
   if (counts) st = count_cuts(&p, &cuts, err);
   if (!counts && n > open) cuts = n - open;

@@ -19,36 +19,36 @@ typedef struct {
 thr_status thr_share_places(const thr_share *s, int k, int n, const thr_certificate *c, const thr_limits *limits, int *passes,
                             bool *changed, thr_err *err) THR_MUST_CHECK;
 
-/* Cuts the walks of a component (thr_trails_trace) into n cords, or as many more as must be: at the sharpest turns where cords
+/* Cuts the walks of a component (thr_walks_trace) into n cords, or as many more as must be: at the sharpest turns where cords
  * may end, or, even = true, so that no cord is much longer than the others. With THR_ENDS_COUNTS the counts say how many.
  * THR_EINFEASIBLE: there are fewer places (thr_share_places makes room for as many as are asked for). */
-thr_status thr_share_cut(const thr_share *s, int n, bool even, thr_trails *w, thr_err *err) THR_MUST_CHECK;
+thr_status thr_share_cut(const thr_share *s, int n, bool even, thr_walks *w, thr_err *err) THR_MUST_CHECK;
 
 /* The same with THR_ENDS_CLOSED: n closed walks. *enough false: these passes do not hold as many, or so many were not found; w
  * then holds as many as were. */
-thr_status thr_share_circuits(const thr_share *s, int n, bool even, thr_trails *w, bool *enough, thr_err *err) THR_MUST_CHECK;
+thr_status thr_share_circuits(const thr_share *s, int n, bool even, thr_walks *w, bool *enough, thr_err *err) THR_MUST_CHECK;
 
 /* Splits closed walks at nodes that one visits twice, without further passes, until there are n or none can be: where that turns
  * least, or, even = true, the longest in halves. ties: those of the walks, which stay tied; or NULL. */
-thr_status thr_share_split(const thr_share *s, int n, bool even, thr_knots *ties, thr_trails *w, thr_err *err) THR_MUST_CHECK;
+thr_status thr_share_split(const thr_share *s, int n, bool even, thr_knots *ties, thr_walks *w, thr_err *err) THR_MUST_CHECK;
 
 /* The same for tube joints, with further passes where it must be: n closed walks that tie what w ties, few of them. even: from
  * options.cords_least on no more than make the longest shorter. *found false: the capacities leave no room for as many as must be
  * among those that were looked for; w then holds as many as there was room for. */
-thr_status thr_share_tied(const thr_share *s, int n, bool even, int *passes, thr_trails *w, bool *found,
+thr_status thr_share_tied(const thr_share *s, int n, bool even, int *passes, thr_walks *w, bool *found,
                           thr_err *err) THR_MUST_CHECK;
 
 /* What thr_share_circuits did not find: n closed walks of component k through other passes. *least: they are the shortest passes
  * that hold so many, found among all sums of loops of a component with few of them; else further pairs of passes over the
  * shortest edges. *found false: the capacities leave no room. */
-thr_status thr_share_more(const thr_share *s, int k, int n, int *passes, thr_trails *w, bool *found, bool *least,
+thr_status thr_share_more(const thr_share *s, int k, int n, int *passes, thr_walks *w, bool *found, bool *least,
                           thr_err *err) THR_MUST_CHECK;
 
 /* Splits the longest closed walk, again and again, into two that both pass a way between two of its nodes, or if that is no good
  * into one for each of its edges, until there are n or none gets shorter by it. O(n * passes of a walk * edges around it). */
-thr_status thr_share_chords(const thr_share *s, int n, int *passes, thr_trails *w, thr_err *err) THR_MUST_CHECK;
+thr_status thr_share_chords(const thr_share *s, int n, int *passes, thr_walks *w, thr_err *err) THR_MUST_CHECK;
 
 /* Joins cyclic walks at shared nodes until there are n, with little turning. */
-thr_status thr_share_merge(const thr_share *s, int n, thr_trails *w, thr_err *err) THR_MUST_CHECK;
+thr_status thr_share_merge(const thr_share *s, int n, thr_walks *w, thr_err *err) THR_MUST_CHECK;
 
 #endif

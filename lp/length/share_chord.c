@@ -13,18 +13,18 @@ typedef struct {
 } chord;
 
 /* The ways from the node before each pass of w to its other nodes, over edges with room for two more passes. */
-static thr_status best_chord(thr_ways *x, const thr_share *s, const thr_trail *w, const int *passes, chord *best, thr_err *err)
+static thr_status best_chord(thr_ways *x, const thr_share *s, const thr_walk *w, const int *passes, chord *best, thr_err *err)
 {
   thr_status st = THR_OK;
   *best = (chord){w->length * (1 - 1e-9), 0, 0};
   for (int i = 0; i < w->n && !st; i++) {
     double part = 0;
     thr_ways_clear(x);
-    st = thr_ways_start(x, thr_trail_node(s->f, w, i), err);
+    st = thr_ways_start(x, thr_walk_node(s->f, w, i), err);
     if (!st) st = thr_ways_spread(x, s->o, passes, 2, w->length / 2, NULL, err);
     for (int j = i + 1; j < w->n && !st; j++) {
       part += s->f->length[w->half[j - 1] >> 1];
-      double longer = fmax(part, w->length - part) + x->far[thr_trail_node(s->f, w, j)];
+      double longer = fmax(part, w->length - part) + x->far[thr_walk_node(s->f, w, j)];
       if (longer < best->longer) *best = (chord){longer, i, j};
     }
   }
@@ -32,19 +32,19 @@ static thr_status best_chord(thr_ways *x, const thr_share *s, const thr_trail *w
 }
 
 /* Walk i and a new one become the halves. */
-static thr_status split(thr_ways *x, const thr_share *s, int i, const chord *c, int *passes, thr_trails *w, thr_err *err)
+static thr_status split(thr_ways *x, const thr_share *s, int i, const chord *c, int *passes, thr_walks *w, thr_err *err)
 {
   const thr_frame *f = s->f;
-  int end = thr_trail_node(f, &w->walk[i], c->end), n = 0, section = c->end - c->from;
+  int end = thr_walk_node(f, &w->walk[i], c->end), n = 0, section = c->end - c->from;
   thr_ways_clear(x);
-  thr_status st = thr_ways_start(x, thr_trail_node(f, &w->walk[i], c->from), err);
+  thr_status st = thr_ways_start(x, thr_walk_node(f, &w->walk[i], c->from), err);
   if (!st) st = thr_ways_spread(x, s->o, passes, 2, w->walk[i].length / 2, NULL, err);
   if (st) return st;
   for (int v = end; x->over[v] >= 0; v = thr_tail(f, x->over[v]))
     n++;
-  thr_trail *old = &w->walk[i];
-  thr_trail one = {section + n, thr_calloc((size_t)section + (size_t)n, sizeof *one.half), 0, true};
-  thr_trail two = {old->n - section + n, thr_calloc((size_t)(old->n - section) + (size_t)n, sizeof *two.half), 0, true};
+  thr_walk *old = &w->walk[i];
+  thr_walk one = {section + n, thr_calloc((size_t)section + (size_t)n, sizeof *one.half), 0, true};
+  thr_walk two = {old->n - section + n, thr_calloc((size_t)(old->n - section) + (size_t)n, sizeof *two.half), 0, true};
   if (!one.half || !two.half) {
     free(one.half);
     free(two.half);
@@ -58,19 +58,19 @@ static thr_status split(thr_ways *x, const thr_share *s, int i, const chord *c, 
     two.half[c->from + n - 1 - k] = x->over[v];
     passes[x->over[v] >> 1] += 2;
   }
-  two.length = thr_trail_length(f, two.half, two.n);
+  two.length = thr_walk_length(f, two.half, two.n);
   free(old->half);
   *old = two;
-  return thr_trails_add(w, f, one, err);
+  return thr_walks_add(w, f, one, err);
 }
 
 /* Walk i becomes a walk there and back over every edge that it passes, if that is shorter; *made: it was, and there was room. */
-static thr_status dissolve(const thr_share *s, int i, int n, int *passes, thr_trails *w, bool *made, thr_err *err)
+static thr_status dissolve(const thr_share *s, int i, int n, int *passes, thr_walks *w, bool *made, thr_err *err)
 {
   const thr_frame *f = s->f;
-  const thr_trail *x = &w->walk[i];
+  const thr_walk *x = &w->walk[i];
   int size = x->n;
-  *made = size > 1 && w->n_trails + size - 1 <= n;
+  *made = size > 1 && w->n_walks + size - 1 <= n;
   for (int k = 0; k < size && *made; k++) {
     int e = x->half[k] >> 1;
     *made = 2 * f->length[e] < x->length * (1 - 1e-9) && thr_plan_capacity(f, s->o, e) > passes[e];
@@ -83,26 +83,26 @@ static thr_status dissolve(const thr_share *s, int i, int n, int *passes, thr_tr
     half[0] = h;
     half[1] = h ^ 1;
     passes[h >> 1]++;
-    st = thr_trails_add(w, f, (thr_trail){2, half, 0, true}, err);
+    st = thr_walks_add(w, f, (thr_walk){2, half, 0, true}, err);
   }
   if (st) return st;
-  thr_trail *first = &w->walk[i]; /* keeps its first pass */
+  thr_walk *first = &w->walk[i]; /* keeps its first pass */
   first->half[1] = first->half[0] ^ 1;
   first->n = 2;
-  first->length = thr_trail_length(f, first->half, first->n);
+  first->length = thr_walk_length(f, first->half, first->n);
   passes[first->half[0] >> 1]++;
   return THR_OK;
 }
 
-thr_status thr_share_chords(const thr_share *s, int n, int *passes, thr_trails *w, thr_err *err)
+thr_status thr_share_chords(const thr_share *s, int n, int *passes, thr_walks *w, thr_err *err)
 {
   thr_ways x;
   chord best;
   bool more = true;
   thr_status st = thr_ways_init(&x, s->f, err);
-  while (!st && more && w->n_trails < n) {
+  while (!st && more && w->n_walks < n) {
     int longest = 0;
-    for (int i = 1; i < w->n_trails; i++)
+    for (int i = 1; i < w->n_walks; i++)
       if (w->walk[i].length > w->walk[longest].length) longest = i;
     st = best_chord(&x, s, &w->walk[longest], passes, &best, err);
     more = best.end > best.from;

@@ -7,12 +7,12 @@
 
 enum { MOST_VISITS = 32 }; /* of a node, that each of its visits is compared with: hubs are not quadratic */
 
-static double turn_at(const thr_frame *f, const thr_trail *x, int at)
+static double turn_at(const thr_frame *f, const thr_walk *x, int at)
 {
-  return thr_trail_turn(f, x->half[at ? at - 1 : x->n - 1], x->half[at]);
+  return thr_walk_turn(f, x->half[at ? at - 1 : x->n - 1], x->half[at]);
 }
 
-static int before(const thr_trail *x, int at)
+static int before(const thr_walk *x, int at)
 {
   return x->half[at ? at - 1 : x->n - 1];
 }
@@ -25,13 +25,13 @@ typedef struct {
 } section;
 
 /* Turning that is added by making a walk of its own of passes from .. end - 1. */
-static double split_price(const thr_frame *f, const thr_trail *x, int from, int end)
+static double split_price(const thr_frame *f, const thr_walk *x, int from, int end)
 {
-  return thr_trail_turn(f, before(x, from), x->half[end]) + thr_trail_turn(f, x->half[end - 1], x->half[from]) -
+  return thr_walk_turn(f, before(x, from), x->half[end]) + thr_walk_turn(f, x->half[end - 1], x->half[from]) -
          turn_at(f, x, from) - turn_at(f, x, end);
 }
 
-static thr_knots_change change_of(const thr_trail *x, int from, int end)
+static thr_knots_change change_of(const thr_walk *x, int from, int end)
 {
   thr_knots_change c = {.n = 0};
   thr_knots_note(&c, before(x, from), x->half[from], -1);
@@ -41,24 +41,24 @@ static thr_knots_change change_of(const thr_trail *x, int from, int end)
   return c;
 }
 
-static bool stays_tied(thr_knots *ties, const thr_trail *x, int from, int end)
+static bool stays_tied(thr_knots *ties, const thr_walk *x, int from, int end)
 {
   thr_knots_change c = change_of(x, from, end);
   return thr_knots_allow(ties, &c);
 }
 
 /* The section to split off: that which adds least turning, or, of walk number only, that which is nearest to half of it. */
-static thr_status best_section(const thr_share *s, const thr_trails *w, thr_knots *ties, int only, section *best, thr_err *err)
+static thr_status best_section(const thr_share *s, const thr_walks *w, thr_knots *ties, int only, section *best, thr_err *err)
 {
-  thr_trail_visits x;
+  thr_walk_visits x;
   *best = (section){INFINITY, -1, 0, 0};
-  thr_status st = thr_trail_visits_init(&x, s->f, w, err);
+  thr_status st = thr_walk_visits_init(&x, s->f, w, err);
   double *sum = st ? NULL : thr_calloc((size_t)x.n, sizeof *sum); /* length of the walk before a visit */
   if (!st && !sum) st = thr_nomem(err);
   for (int i = 1; i < x.n && !st; i++)
     if (x.at[i] > 0) sum[i] = sum[i - 1] + s->f->length[w->walk[x.walk[i]].half[x.at[i] - 1] >> 1];
   for (int j = 0; j < x.n && !st; j++) {
-    const thr_trail *y = &w->walk[x.walk[j]];
+    const thr_walk *y = &w->walk[x.walk[j]];
     if (only >= 0 && x.walk[j] != only) continue;
     for (int i = x.next[j], seen = 0; i >= 0 && x.walk[i] == x.walk[j] && seen < MOST_VISITS; i = x.next[i], seen++) {
       double score = only >= 0 ? fabs(sum[j] - sum[i] - y->length / 2) : split_price(s->f, y, x.at[i], x.at[j]);
@@ -66,21 +66,21 @@ static thr_status best_section(const thr_share *s, const thr_trails *w, thr_knot
         *best = (section){score, x.walk[j], x.at[i], x.at[j]};
     }
   }
-  thr_trail_visits_destroy(&x);
+  thr_walk_visits_destroy(&x);
   free(sum);
   return st;
 }
 
 /* The longest walk first that has a node twice. */
-static thr_status best_half(const thr_share *s, const thr_trails *w, thr_knots *ties, section *best, thr_err *err)
+static thr_status best_half(const thr_share *s, const thr_walks *w, thr_knots *ties, section *best, thr_err *err)
 {
   thr_status st = THR_OK;
-  bool *tried = thr_calloc((size_t)w->n_trails, sizeof *tried);
+  bool *tried = thr_calloc((size_t)w->n_walks, sizeof *tried);
   if (!tried) return thr_nomem(err);
   *best = (section){INFINITY, -1, 0, 0};
-  for (int round = 0; round < w->n_trails && best->walk < 0 && !st; round++) {
+  for (int round = 0; round < w->n_walks && best->walk < 0 && !st; round++) {
     int longest = -1;
-    for (int i = 0; i < w->n_trails; i++)
+    for (int i = 0; i < w->n_walks; i++)
       if (!tried[i] && (longest < 0 || w->walk[i].length > w->walk[longest].length)) longest = i;
     tried[longest] = true;
     st = best_section(s, w, ties, longest, best, err);
@@ -89,10 +89,10 @@ static thr_status best_half(const thr_share *s, const thr_trails *w, thr_knots *
   return st;
 }
 
-thr_status thr_share_split(const thr_share *s, int n, bool even, thr_knots *ties, thr_trails *w, thr_err *err)
+thr_status thr_share_split(const thr_share *s, int n, bool even, thr_knots *ties, thr_walks *w, thr_err *err)
 {
   thr_status st = THR_OK;
-  while (w->n_trails < n && !st) {
+  while (w->n_walks < n && !st) {
     section best;
     st = even ? best_half(s, w, ties, &best, err) : best_section(s, w, ties, -1, &best, err);
     if (!st && best.walk < 0) break;
@@ -100,7 +100,7 @@ thr_status thr_share_split(const thr_share *s, int n, bool even, thr_knots *ties
       thr_knots_change c = change_of(&w->walk[best.walk], best.from, best.end);
       thr_knots_make(ties, &c);
     }
-    if (!st) st = thr_trails_take_section(w, s->f, best.walk, best.from, best.end, err);
+    if (!st) st = thr_walks_take_section(w, s->f, best.walk, best.from, best.end, err);
   }
   return st;
 }
@@ -141,9 +141,9 @@ static int way_back(peeling *p, int h, int most)
   return found;
 }
 
-static thr_status peel(peeling *p, int h, int back, thr_trails *w, thr_err *err)
+static thr_status peel(peeling *p, int h, int back, thr_walks *w, thr_err *err)
 {
-  thr_trail x = {back + 1, thr_calloc((size_t)back + 1, sizeof *x.half), 0, true};
+  thr_walk x = {back + 1, thr_calloc((size_t)back + 1, sizeof *x.half), 0, true};
   if (!x.half) return thr_nomem(err);
   x.half[0] = h;
   for (int i = back, v = thr_tail(p->f, h); i > 0; i--) {
@@ -152,11 +152,11 @@ static thr_status peel(peeling *p, int h, int back, thr_trails *w, thr_err *err)
   }
   for (int i = 0; i <= back; i++)
     p->left[x.half[i] >> 1]--;
-  return thr_trails_add(w, p->f, x, err);
+  return thr_walks_add(w, p->f, x, err);
 }
 
 /* As many circuits as short ones make, pairs of passes over one edge first: no more are possible without them. */
-static thr_status peel_all(peeling *p, thr_trails *w, thr_err *err)
+static thr_status peel_all(peeling *p, thr_walks *w, thr_err *err)
 {
   enum { SHORT = 8 };
   thr_status st = THR_OK;
@@ -169,16 +169,16 @@ static thr_status peel_all(peeling *p, thr_trails *w, thr_err *err)
   return st;
 }
 
-static thr_status short_circuits(const thr_share *s, const thr_trails *w, thr_trails *out, thr_err *err)
+static thr_status short_circuits(const thr_share *s, const thr_walks *w, thr_walks *out, thr_err *err)
 {
   size_t n = (size_t)s->f->n_nodes;
   peeling p = {s->f, thr_calloc((size_t)s->f->n_edges, sizeof *p.left), thr_calloc(n, sizeof *p.queue),
                thr_calloc(n, sizeof *p.from), thr_calloc(n, sizeof *p.depth)};
-  *out = (thr_trails){0};
+  *out = (thr_walks){0};
   thr_status st = p.left && p.queue && p.from && p.depth ? THR_OK : thr_nomem(err);
-  if (!st) thr_trails_count(w, p.left);
+  if (!st) thr_walks_count(w, p.left);
   if (!st) st = peel_all(&p, out, err);
-  if (st) thr_trails_destroy(out);
+  if (st) thr_walks_destroy(out);
   free(p.left);
   free(p.queue);
   free(p.from);
@@ -195,22 +195,22 @@ typedef struct {
 } junction;
 
 /* Cheapest way to put walk b, from its pass number at_b on, before pass at_a of walk a. */
-static void offer_junction(const thr_frame *f, const thr_trails *w, int a, int at_a, int b, int at_b, junction *best)
+static void offer_junction(const thr_frame *f, const thr_walks *w, int a, int at_a, int b, int at_b, junction *best)
 {
-  const thr_trail *x = &w->walk[a], *y = &w->walk[b];
+  const thr_walk *x = &w->walk[a], *y = &w->walk[b];
   int in = before(x, at_a), out = x->half[at_a], in_b = before(y, at_b), out_b = y->half[at_b];
-  double old = thr_trail_turn(f, in, out) + thr_trail_turn(f, in_b, out_b);
-  double along = thr_trail_turn(f, in, out_b) + thr_trail_turn(f, in_b, out) - old;
-  double against = thr_trail_turn(f, in, in_b ^ 1) + thr_trail_turn(f, out_b ^ 1, out) - old;
+  double old = thr_walk_turn(f, in, out) + thr_walk_turn(f, in_b, out_b);
+  double along = thr_walk_turn(f, in, out_b) + thr_walk_turn(f, in_b, out) - old;
+  double against = thr_walk_turn(f, in, in_b ^ 1) + thr_walk_turn(f, out_b ^ 1, out) - old;
   double price = fmin(along, against);
   if (price < best->price - 1e-9) *best = (junction){price, a, at_a, b, at_b, against < along - 1e-9};
 }
 
-static thr_status best_junction(const thr_share *s, const thr_trails *w, junction *best, thr_err *err)
+static thr_status best_junction(const thr_share *s, const thr_walks *w, junction *best, thr_err *err)
 {
-  thr_trail_visits x;
+  thr_walk_visits x;
   *best = (junction){.price = INFINITY, .a = -1};
-  thr_status st = thr_trail_visits_init(&x, s->f, w, err);
+  thr_status st = thr_walk_visits_init(&x, s->f, w, err);
   if (st) return st;
   for (int j = 0; j < x.n; j++)
     for (int i = x.next[j], seen = 0; i >= 0 && seen < MOST_VISITS; i = x.next[i])
@@ -218,37 +218,37 @@ static thr_status best_junction(const thr_share *s, const thr_trails *w, junctio
         offer_junction(s->f, w, x.walk[i], x.at[i], x.walk[j], x.at[j], best);
         seen++;
       }
-  thr_trail_visits_destroy(&x);
+  thr_walk_visits_destroy(&x);
   return THR_OK;
 }
 
-thr_status thr_share_merge(const thr_share *s, int n, thr_trails *w, thr_err *err)
+thr_status thr_share_merge(const thr_share *s, int n, thr_walks *w, thr_err *err)
 {
   thr_status st = THR_OK;
-  while (w->n_trails > n && !st) {
+  while (w->n_walks > n && !st) {
     junction best;
     st = best_junction(s, w, &best, err);
     if (!st && best.a < 0) return thr_fail(err, THR_ESOLVER, "circuits of one piece that do not meet");
-    if (!st) st = thr_trails_merge(w, s->f, best.a, best.at_a, best.b, best.at_b, best.against, err);
+    if (!st) st = thr_walks_merge(w, s->f, best.a, best.at_a, best.b, best.at_b, best.against, err);
   }
   return st;
 }
 
-thr_status thr_share_circuits(const thr_share *s, int n, bool even, thr_trails *w, bool *enough, thr_err *err)
+thr_status thr_share_circuits(const thr_share *s, int n, bool even, thr_walks *w, bool *enough, thr_err *err)
 {
-  thr_trails many;
+  thr_walks many;
   thr_status st = thr_share_split(s, n, even, NULL, w, err);
-  *enough = w->n_trails >= n;
+  *enough = w->n_walks >= n;
   if (st || *enough) return st;
   if ((st = short_circuits(s, w, &many, err))) return st;
-  bool better = many.n_trails > w->n_trails;
+  bool better = many.n_walks > w->n_walks;
   if (better) {
-    thr_trails keep = *w;
+    thr_walks keep = *w;
     *w = many;
     many = keep;
-    *enough = w->n_trails >= n;
+    *enough = w->n_walks >= n;
     st = thr_share_merge(s, n, w, err);
   }
-  thr_trails_destroy(&many);
+  thr_walks_destroy(&many);
   return st;
 }

@@ -181,7 +181,7 @@ static thr_status solve(programme *p, double limit, const thr_limits *limits, th
 }
 
 /* The cord that x describes, opened where x has its ends if it comes back to its start. */
-static thr_status take_cord(programme *p, int c, int *passes, thr_trails *all, thr_trails *out, thr_err *err)
+static thr_status take_cord(programme *p, int c, int *passes, thr_walks *all, thr_walks *out, thr_err *err)
 {
   const thr_frame *f = p->r.s->f;
   int n_components = p->k + 1, open = -1;
@@ -192,48 +192,48 @@ static thr_status take_cord(programme *p, int c, int *passes, thr_trails *all, t
     if (p->r.x[ends_column(p, c, v)] > 1.5) open = p->node[v];
   for (int v = 0; v < f->n_nodes; v++)
     if (p->r.s->component[v] >= n_components) n_components = p->r.s->component[v] + 1;
-  thr_status st = thr_trails_trace(f, passes, p->r.s->component, n_components, all, err);
+  thr_status st = thr_walks_trace(f, passes, p->r.s->component, n_components, all, err);
   if (st) return st;
-  thr_trail w = all[p->k].walk[0];
+  thr_walk w = all[p->k].walk[0];
   all[p->k].walk[0].half = NULL;
-  thr_trails_destroy(&all[p->k]);
+  thr_walks_destroy(&all[p->k]);
   int at = 0;
-  while (open >= 0 && thr_trail_node(f, &w, at) != open)
+  while (open >= 0 && thr_walk_node(f, &w, at) != open)
     at++;
   if (open >= 0) w.cyclic = false;
-  st = thr_trail_rotate(&w, at, err);
-  if (!st) return thr_trails_add(out, f, w, err);
+  st = thr_walk_rotate(&w, at, err);
+  if (!st) return thr_walks_add(out, f, w, err);
   free(w.half);
   return st;
 }
 
-static thr_status take(programme *p, thr_trails *w, int *passes, thr_err *err)
+static thr_status take(programme *p, thr_walks *w, int *passes, thr_err *err)
 {
   size_t m = (size_t)p->r.s->f->n_edges;
   int *own = thr_calloc(m, sizeof *own);
-  thr_trails new = {0}, *all = thr_calloc((size_t)p->r.s->f->n_nodes, sizeof *all);
+  thr_walks new = {0}, *all = thr_calloc((size_t)p->r.s->f->n_nodes, sizeof *all);
   thr_status st = own && all ? THR_OK : thr_nomem(err);
   for (int c = 0; c < p->r.n_cords && !st; c++)
     st = take_cord(p, c, own, all, &new, err);
   if (!st) {
     for (int e = 0; e < p->r.n_edges; e++)
       passes[p->r.edge[e]] = 0;
-    thr_trails_count(&new, passes);
-    thr_trails_destroy(w);
+    thr_walks_count(&new, passes);
+    thr_walks_destroy(w);
     *w = new;
   } else {
-    thr_trails_destroy(&new);
+    thr_walks_destroy(&new);
   }
   free(own);
   free(all);
   return st;
 }
 
-thr_status thr_share_exact(const thr_share *s, int k, double goal, const thr_limits *limits, thr_trails *w, int *passes,
+thr_status thr_share_exact(const thr_share *s, int k, double goal, const thr_limits *limits, thr_walks *w, int *passes,
                            bool *certain, thr_err *err)
 {
   const double less = 2e-5; /* part that a better one is shorter at least: above GLPK's tolerances */
-  programme p = {.r = {.s = s, .n_cords = w->n_trails}, .k = k};
+  programme p = {.r = {.s = s, .n_cords = w->n_walks}, .k = k};
   thr_limits share = *limits;
   double work = most_work;
   *certain = false;
@@ -242,14 +242,14 @@ thr_status thr_share_exact(const thr_share *s, int k, double goal, const thr_lim
   thr_status st = find_component(&p, err);
   if (!st && p.r.n_cords * p.r.block <= MOST_COLUMNS) {
     st = thr_share_rows_init(&p.r, err);
-    while (!st && thr_trails_longest(w) > goal) {
+    while (!st && thr_walks_longest(w) > goal) {
       thr_lp_outcome outcome;
-      double before = thr_trails_longest(w);
+      double before = thr_walks_longest(w);
       st = solve(&p, before * (1 - less), &share, &outcome, err);
       *certain = !st && outcome == THR_LP_INFEASIBLE;
       if (st || outcome != THR_LP_OPTIMAL) break;
       st = take(&p, w, passes, err);
-      if (!st && thr_trails_longest(w) >= before) break; /* tolerances */
+      if (!st && thr_walks_longest(w) >= before) break; /* tolerances */
     }
   }
   programme_destroy(&p);

@@ -9,7 +9,7 @@
  * cords added as needed) says whether there are any. *certain: it said that there are none shorter by more than 2e-5 of it, which
  * is GLPK's word. Components that are too large, and what the limits stop, leave w as it is or better. goal: shorter is not asked
  * for. */
-thr_status thr_share_exact(const thr_share *s, int k, double goal, const thr_limits *limits, thr_trails *w, int *passes,
+thr_status thr_share_exact(const thr_share *s, int k, double goal, const thr_limits *limits, thr_walks *w, int *passes,
                            bool *certain, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -166,29 +166,29 @@ static double cost(few *x, int a, int *passes)
   return sum;
 }
 
-static thr_status add_pairs(const few *x, const int *passes, thr_trails *w, thr_err *err)
+static thr_status add_pairs(const few *x, const int *passes, thr_walks *w, thr_err *err)
 {
   thr_status st = THR_OK;
   for (int i = 0; i < x->n_edges; i++)
     for (int n = passes[x->edge[i]] / 2; n > 0 && !st; n--) {
-      thr_trail pair = {2, thr_calloc(2, sizeof *pair.half), 0, true};
+      thr_walk pair = {2, thr_calloc(2, sizeof *pair.half), 0, true};
       if (!pair.half) return thr_nomem(err);
       pair.half[0] = 2 * x->edge[i];
       pair.half[1] = pair.half[0] ^ 1;
-      st = thr_trails_add(w, x->s->f, pair, err);
+      st = thr_walks_add(w, x->s->f, pair, err);
     }
   return st;
 }
 
 /* The circuit of set number a as a walk. */
-static thr_status add_circuit(const few *x, int a, thr_trails *w, thr_err *err)
+static thr_status add_circuit(const few *x, int a, thr_walks *w, thr_err *err)
 {
   const thr_frame *f = x->s->f;
   int size = 0, n = 0;
   uint64_t left = x->set[a];
   for (int i = 0; i < x->n_edges; i++)
     size += in(left, i);
-  thr_trail c = {size, thr_calloc((size_t)size, sizeof *c.half), 0, true};
+  thr_walk c = {size, thr_calloc((size_t)size, sizeof *c.half), 0, true};
   if (!c.half) return thr_nomem(err);
   for (int i = 0, at = -1; left; i = (i + 1) % x->n_edges) {
     const int *e = f->edge[x->edge[i]];
@@ -198,14 +198,14 @@ static thr_status add_circuit(const few *x, int a, thr_trails *w, thr_err *err)
     at = e[1 - side];
     left &= ~(UINT64_C(1) << i);
   }
-  return thr_trails_add(w, f, c, err);
+  return thr_walks_add(w, f, c, err);
 }
 
-static thr_status solve(few *x, int *passes, thr_trails *w, bool *found, thr_err *err)
+static thr_status solve(few *x, int *passes, thr_walks *w, bool *found, thr_err *err)
 {
   int best = -1;
   double least = INFINITY;
-  thr_trails new = {0};
+  thr_walks new = {0};
   thr_status st = tabulate(x, err);
   for (int a = 0; a < 1 << x->n_loops && !st; a++) {
     double c = cost(x, a, NULL);
@@ -222,18 +222,18 @@ static thr_status solve(few *x, int *passes, thr_trails *w, bool *found, thr_err
     st = add_circuit(x, one, &new, err);
   }
   if (!st) st = thr_share_merge(x->s, x->n, &new, err);
-  thr_trails_destroy(st ? &new : w);
+  thr_walks_destroy(st ? &new : w);
   if (!st) *w = new;
   return st;
 }
 
 /* Too large for that: pairs of passes over the shortest edges with room for them. */
-static thr_status add_shortest(few *x, int *passes, thr_trails *w, bool *found, thr_err *err)
+static thr_status add_shortest(few *x, int *passes, thr_walks *w, bool *found, thr_err *err)
 {
   const thr_frame *f = x->s->f;
   thr_status st = THR_OK;
   *found = true;
-  while (w->n_trails < x->n && !st) {
+  while (w->n_walks < x->n && !st) {
     int best = -1;
     for (int e = 0; e < f->n_edges; e++)
       if (x->s->component[f->edge[e][0]] == x->k && passes[e] + 2 <= thr_plan_capacity(f, x->s->o, e) &&
@@ -241,17 +241,17 @@ static thr_status add_shortest(few *x, int *passes, thr_trails *w, bool *found, 
         best = e;
     *found = best >= 0;
     if (!*found) return THR_OK;
-    thr_trail pair = {2, thr_calloc(2, sizeof *pair.half), 0, true};
+    thr_walk pair = {2, thr_calloc(2, sizeof *pair.half), 0, true};
     if (!pair.half) return thr_nomem(err);
     pair.half[0] = 2 * best;
     pair.half[1] = pair.half[0] ^ 1;
     passes[best] += 2;
-    st = thr_trails_add(w, f, pair, err);
+    st = thr_walks_add(w, f, pair, err);
   }
   return st;
 }
 
-thr_status thr_share_more(const thr_share *s, int k, int n, int *passes, thr_trails *w, bool *found, bool *least, thr_err *err)
+thr_status thr_share_more(const thr_share *s, int k, int n, int *passes, thr_walks *w, bool *found, bool *least, thr_err *err)
 {
   const thr_frame *f = s->f;
   few x = {.s = s, .k = k, .n = n};

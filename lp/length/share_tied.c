@@ -8,7 +8,7 @@
 
 typedef struct {
   const thr_share *s;
-  thr_trails *w;
+  thr_walks *w;
   thr_knots ties;
   int *passes;
   bool even;
@@ -25,8 +25,8 @@ static thr_status split_shuffled(splitting *x, int n, thr_err *err)
   if (!(b.first = thr_calloc(nodes, sizeof *b.first))) return thr_nomem(err);
   memset(b.first, 0xff, nodes * sizeof *b.first);
   thr_status st = thr_share_split(x->s, n, x->even, &x->ties, x->w, err);
-  for (int round = 0; round < ROUNDS && !st && x->w->n_trails < n; round++) {
-    for (int i = 0; i < x->w->n_trails && !st; i++)
+  for (int round = 0; round < ROUNDS && !st && x->w->n_walks < n; round++) {
+    for (int i = 0; i < x->w->n_walks && !st; i++)
       st = thr_balance_shuffle(&b, i, err);
     if (!st) st = thr_share_split(x->s, n, x->even, &x->ties, x->w, err);
   }
@@ -42,27 +42,27 @@ typedef struct {
   int walk, from, end, half;
 } chord;
 
-static int before(const thr_trail *x, int at)
+static int before(const thr_walk *x, int at)
 {
   return x->half[at ? at - 1 : x->n - 1];
 }
 
 /* The visits must not pass the edge: a cord would turn back. Then both halves tie what the walk tied. */
-static bool passes_at(const thr_trail *x, int at, int e)
+static bool passes_at(const thr_walk *x, int at, int e)
 {
   return x->half[at] >> 1 == e || before(x, at) >> 1 == e;
 }
 
 /* Chords over half-edge h, between visits of one walk. */
-static void offer_chords(const splitting *x, const thr_trail_visits *v, int only, int h, chord *best)
+static void offer_chords(const splitting *x, const thr_walk_visits *v, int only, int h, chord *best)
 {
   const thr_frame *f = x->s->f;
   for (int i = v->first[thr_tail(f, h)], seen = 0; i >= 0 && seen < THR_MOST_VISITS; i = v->next[i], seen++) {
-    const thr_trail *y = &x->w->walk[v->walk[i]];
+    const thr_walk *y = &x->w->walk[v->walk[i]];
     if ((only >= 0 && v->walk[i] != only) || passes_at(y, v->at[i], h >> 1)) continue;
     for (int j = v->first[thr_head(f, h)], others = 0; j >= 0 && others < THR_MOST_VISITS; j = v->next[j], others++) {
       if (v->walk[j] != v->walk[i] || v->at[j] < v->at[i] || passes_at(y, v->at[j], h >> 1)) continue;
-      double part = thr_trail_length(f, y->half + v->at[i], v->at[j] - v->at[i]);
+      double part = thr_walk_length(f, y->half + v->at[i], v->at[j] - v->at[i]);
       double price = x->even ? fmax(part, y->length - part) : 0;
       price += f->length[h >> 1];
       if (price < best->price) *best = (chord){price, v->walk[i], v->at[i], v->at[j], h};
@@ -72,27 +72,27 @@ static void offer_chords(const splitting *x, const thr_trail_visits *v, int only
 
 static thr_status best_chord(const splitting *x, chord *best, thr_err *err)
 {
-  thr_trail_visits v;
+  thr_walk_visits v;
   const thr_frame *f = x->s->f;
   int only = -1;
   *best = (chord){.price = INFINITY};
-  for (int i = 0; i < x->w->n_trails && x->even; i++)
+  for (int i = 0; i < x->w->n_walks && x->even; i++)
     if (only < 0 || x->w->walk[i].length > x->w->walk[only].length) only = i;
-  thr_status st = thr_trail_visits_init(&v, f, x->w, err);
+  thr_status st = thr_walk_visits_init(&v, f, x->w, err);
   if (st) return st;
   for (int h = 0; h < 2 * f->n_edges; h++)
     if (x->passes[h >> 1] <= thr_plan_capacity(f, x->s->o, h >> 1) - 2 && (x->even || f->length[h >> 1] < best->price))
       offer_chords(x, &v, only, h, best);
-  thr_trail_visits_destroy(&v);
+  thr_walk_visits_destroy(&v);
   return THR_OK;
 }
 
 static thr_status add_chord(splitting *x, const chord *c, thr_err *err)
 {
-  thr_trail *old = &x->w->walk[c->walk];
+  thr_walk *old = &x->w->walk[c->walk];
   thr_knots_change change = {.n = 0};
   int section = c->end - c->from, rest = old->n - section, n = 0;
-  thr_trail one = {section + 1, thr_calloc((size_t)section + 1, sizeof *one.half), 0, true};
+  thr_walk one = {section + 1, thr_calloc((size_t)section + 1, sizeof *one.half), 0, true};
   int *two = thr_calloc((size_t)rest + 1, sizeof *two);
   if (!one.half || !two) {
     free(one.half);
@@ -113,9 +113,9 @@ static thr_status add_chord(splitting *x, const chord *c, thr_err *err)
     if (i < c->from || i >= c->end) two[n++] = old->half[i];
   }
   free(old->half);
-  *old = (thr_trail){n, two, thr_trail_length(x->s->f, two, n), true};
+  *old = (thr_walk){n, two, thr_walk_length(x->s->f, two, n), true};
   x->passes[c->half >> 1] += 2;
-  return thr_trails_add(x->w, x->s->f, one, err);
+  return thr_walks_add(x->w, x->s->f, one, err);
 }
 
 /* ---- a short circuit ---- */
@@ -184,7 +184,7 @@ static thr_status add_circuit(splitting *x, thr_ways *g, const circuit *c, thr_e
   thr_status st = spread_from(x, g, c->start, c->length, err);
   if (st) return st;
   int there = way_length(g, a), back = way_length(g, b), n = there;
-  thr_trail new = {there + 1 + back, thr_calloc((size_t)there + 1 + (size_t)back, sizeof *new.half), 0, true};
+  thr_walk new = {there + 1 + back, thr_calloc((size_t)there + 1 + (size_t)back, sizeof *new.half), 0, true};
   if (!new.half) return thr_nomem(err);
   for (int v = a; g->over[v] >= 0; v = thr_tail(f, g->over[v]))
     new.half[--n] = g->over[v];
@@ -198,12 +198,12 @@ static thr_status add_circuit(splitting *x, thr_ways *g, const circuit *c, thr_e
     thr_knots_make(&x->ties, &change);
     x->passes[new.half[i] >> 1]++;
   }
-  return thr_trails_add(x->w, f, new, err);
+  return thr_walks_add(x->w, f, new, err);
 }
 
 static bool must_more(const splitting *x, int n)
 {
-  return x->w->n_trails < (x->even && x->s->o->cords_least < n ? x->s->o->cords_least : n);
+  return x->w->n_walks < (x->even && x->s->o->cords_least < n ? x->s->o->cords_least : n);
 }
 
 /* One more walk, for few more passes. *made: there was room, and it must be or makes the longest shorter. */
@@ -216,13 +216,13 @@ static thr_status add_one(splitting *x, thr_ways *g, int n, bool *made, thr_err 
   if (!st && must_more(x, n)) st = best_circuit(x, g, component, &round, err);
   if (st) return st;
   bool cut = must_more(x, n) ? c.price < INFINITY && 2 * x->s->f->length[c.half >> 1] <= round.length
-                             : c.price < thr_trails_longest(x->w) * (1 - 1e-9);
+                             : c.price < thr_walks_longest(x->w) * (1 - 1e-9);
   *made = cut || round.length < INFINITY;
   if (cut) return add_chord(x, &c, err);
   return *made ? add_circuit(x, g, &round, err) : THR_OK;
 }
 
-thr_status thr_share_tied(const thr_share *s, int n, bool even, int *passes, thr_trails *w, bool *found, thr_err *err)
+thr_status thr_share_tied(const thr_share *s, int n, bool even, int *passes, thr_walks *w, bool *found, thr_err *err)
 {
   thr_ways g = {0};
   splitting x = {.s = s, .w = w, .passes = passes, .even = even};
@@ -230,7 +230,7 @@ thr_status thr_share_tied(const thr_share *s, int n, bool even, int *passes, thr
   thr_status st = thr_knots_init(&x.ties, s->f, w, err);
   if (!st) st = thr_ways_init(&g, s->f, err);
   if (!st) st = split_shuffled(&x, n, err);
-  while (!st && made && w->n_trails < n) {
+  while (!st && made && w->n_walks < n) {
     st = add_one(&x, &g, n, &made, err);
     if (!st) st = thr_share_split(s, n, even, &x.ties, w, err);
   }

@@ -331,10 +331,10 @@ static void strand_join(strand *s)
 }
 
 /* One walk, from an end if there is one. */
-static thr_status strand_walk(const strand *s, const programme *p, thr_trails *out, thr_err *err)
+static thr_status strand_walk(const strand *s, const programme *p, thr_walks *out, thr_err *err)
 {
   int side = 0;
-  thr_trail w = {s->n, thr_calloc((size_t)s->n, sizeof *w.half), 0, !open_cords(p)};
+  thr_walk w = {s->n, thr_calloc((size_t)s->n, sizeof *w.half), 0, !open_cords(p)};
   if (!w.half) return thr_nomem(err);
   while (open_cords(p) && s->mate[side] >= 0)
     side++;
@@ -345,12 +345,12 @@ static thr_status strand_walk(const strand *s, const programme *p, thr_trails *o
     free(w.half);
     return thr_fail(err, THR_ESOLVER, "a cord in two pieces");
   }
-  return thr_trails_add(out, p->r.s->f, w, err);
+  return thr_walks_add(out, p->r.s->f, w, err);
 }
 
-static thr_status take(const programme *p, thr_trails *w, int *passes, thr_err *err)
+static thr_status take(const programme *p, thr_walks *w, int *passes, thr_err *err)
 {
-  thr_trails new = {0};
+  thr_walks new = {0};
   thr_status st = THR_OK;
   for (int c = 0; c < p->r.n_cords && !st; c++) {
     strand s;
@@ -360,56 +360,56 @@ static thr_status take(const programme *p, thr_trails *w, int *passes, thr_err *
     strand_destroy(&s);
   }
   if (st) {
-    thr_trails_destroy(&new);
+    thr_walks_destroy(&new);
     return st;
   }
   for (int e = 0; e < p->r.n_edges; e++)
     passes[p->r.edge[e]] = 0;
-  thr_trails_count(&new, passes);
-  thr_trails_destroy(w);
+  thr_walks_count(&new, passes);
+  thr_walks_destroy(w);
   *w = new;
   return THR_OK;
 }
 
 /* ---- the questions ---- */
 
-static double total(const thr_trails *w)
+static double total(const thr_walks *w)
 {
   double sum = 0;
-  for (int i = 0; i < w->n_trails; i++)
+  for (int i = 0; i < w->n_walks; i++)
     sum += w->walk[i].length;
   return sum;
 }
 
-static thr_status find_shortest(programme *p, const thr_limits *limits, thr_trails *w, int *passes, bool *certain, thr_err *err)
+static thr_status find_shortest(programme *p, const thr_limits *limits, thr_walks *w, int *passes, bool *certain, thr_err *err)
 {
   thr_lp_outcome outcome;
   thr_status st = solve(p, INFINITY, limits, &outcome, err);
   if (st || (outcome != THR_LP_OPTIMAL && outcome != THR_LP_INFEASIBLE)) return st;
   *certain = true;
-  bool better = w->n_trails < p->r.n_cords || thr_lp_objective(p->r.lp) < total(w) * (1 - 1e-9);
+  bool better = w->n_walks < p->r.n_cords || thr_lp_objective(p->r.lp) < total(w) * (1 - 1e-9);
   return outcome == THR_LP_OPTIMAL && better ? take(p, w, passes, err) : THR_OK;
 }
 
-static thr_status find_even(programme *p, double goal, const thr_limits *limits, thr_trails *w, int *passes, bool *certain,
+static thr_status find_even(programme *p, double goal, const thr_limits *limits, thr_walks *w, int *passes, bool *certain,
                             thr_err *err)
 {
   const double less = 2e-5; /* part that a better one is shorter at least: above GLPK's tolerances */
   thr_status st = THR_OK;
-  while (!st && thr_trails_longest(w) > goal) {
+  while (!st && thr_walks_longest(w) > goal) {
     thr_lp_outcome outcome;
-    double before = thr_trails_longest(w);
+    double before = thr_walks_longest(w);
     st = solve(p, before * (1 - less), limits, &outcome, err);
     *certain = !st && outcome == THR_LP_INFEASIBLE;
     if (st || outcome != THR_LP_OPTIMAL) break;
     st = take(p, w, passes, err);
-    if (!st && thr_trails_longest(w) >= before) break; /* tolerances */
+    if (!st && thr_walks_longest(w) >= before) break; /* tolerances */
   }
   return st;
 }
 
 thr_status thr_share_tied_exact(const thr_share *s, int k, int n, bool shortest, double goal, const thr_limits *limits,
-                                thr_trails *w, int *passes, bool *certain, thr_err *err)
+                                thr_walks *w, int *passes, bool *certain, thr_err *err)
 {
   programme p = {.r = {.s = s, .n_cords = n}, .k = k};
   thr_limits share = *limits;

@@ -10,6 +10,6 @@
  * tied nodes added as needed; a cord passes no edge more often than twice what the edge needs and as often as edges meet at one
  * node, and once more. *certain: GLPK's word, that no shorter ones exist (by more than 2e-5). */
 thr_status thr_share_tied_exact(const thr_share *s, int k, int n, bool shortest, double goal, const thr_limits *limits,
-                                thr_trails *w, int *passes, bool *certain, thr_err *err) THR_MUST_CHECK;
+                                thr_walks *w, int *passes, bool *certain, thr_err *err) THR_MUST_CHECK;
 
 #endif

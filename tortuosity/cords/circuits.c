@@ -1,7 +1,7 @@
 /* Exchanges between and within the circuits of closed cords. */
 #include "tortuosity/cords/circuits.h"
 #include "graph/random.h"
-#include "tortuosity/cords/walks.h"
+#include "tortuosity/cords/walk_search.h"
 
 #include <assert.h>
 #include <math.h>
@@ -264,29 +264,29 @@ typedef struct {
   thr_cord *cord; /* [n_cords] owned */
   int n_cords, made;
   int *passes;
-  thr_walks walks;
+  thr_walk_search walks;
 } adder;
 
 static void adder_destroy(adder *s)
 {
   thr_cords_destroy(s->cord, s->n_cords);
-  thr_walks_destroy(&s->walks);
+  thr_walk_search_destroy(&s->walks);
 }
 
 static thr_status adder_init(adder *s, const thr_turning_columns *c, int *passes, int n_cords, thr_err *err)
 {
   *s = (adder){.c = c, .n_cords = n_cords, .passes = passes};
   s->cord = thr_calloc((size_t)n_cords, sizeof *s->cord);
-  return s->cord ? thr_walks_init(&s->walks, c, err) : thr_nomem(err);
+  return s->cord ? thr_walk_search_init(&s->walks, c, err) : thr_nomem(err);
 }
 
 /* Price of the walk found last; infinite if it needs more passes than allowed. */
 static double walk_price(const adder *s)
 {
   const thr_turning_task *t = s->c->task;
-  const thr_walks *w = &s->walks;
+  const thr_walk_search *w = &s->walks;
   double price = 0;
-  if (!thr_walks_add(w, s->passes)) return INFINITY;
+  if (!thr_walk_search_add(w, s->passes)) return INFINITY;
   for (int i = 0; i < w->n; i++) {
     int h = w->half[i];
     price += thr_turn_price(s->c->f, t->cost, h, w->half[(i + 1) % w->n]) + t->price_per_length * s->c->f->length[h >> 1];
@@ -299,7 +299,7 @@ static double walk_price(const adder *s)
 static thr_status take_walk(adder *s, thr_err *err)
 {
   thr_cord *c = &s->cord[s->made];
-  const thr_walks *w = &s->walks;
+  const thr_walk_search *w = &s->walks;
   if (!(c->half = thr_calloc((size_t)w->n, sizeof *c->half))) return thr_nomem(err);
   memcpy(c->half, w->half, (size_t)w->n * sizeof *c->half);
   c->n_passes = w->n;
@@ -315,15 +315,15 @@ static thr_status add_walk(adder *s, int component, const thr_limits *limits, bo
   int best = -1;
   for (int h = 0; h < 2 * f->n_edges; h += 2) {
     if (s->c->component[thr_tail(f, h)] != component) continue;
-    thr_walks_closed(&s->walks, h);
+    thr_walk_search_closed(&s->walks, h);
     double price = walk_price(s);
     if (price < least - 1e-12) least = price, best = h;
     if (best >= 0 && thr_limits_stop(limits)) break;
   }
   *found = best >= 0;
   if (best < 0) return THR_OK;
-  thr_walks_closed(&s->walks, best);
-  *found = thr_walks_add(&s->walks, s->passes);
+  thr_walk_search_closed(&s->walks, best);
+  *found = thr_walk_search_add(&s->walks, s->passes);
   return *found ? take_walk(s, err) : THR_OK;
 }
 
@@ -384,8 +384,8 @@ static thr_status cover_edges(adder *s, int first, bool *found, thr_err *err)
   memset(s->passes, 0, (size_t)m * sizeof *s->passes);
   for (int i = 0; i < m; i++)
     while (s->passes[(first + i) % m] < cover[(first + i) % m]) {
-      thr_walks_closed(&s->walks, 2 * ((first + i) % m));
-      if (!(*found = thr_walks_add(&s->walks, s->passes))) return THR_OK;
+      thr_walk_search_closed(&s->walks, 2 * ((first + i) % m));
+      if (!(*found = thr_walk_search_add(&s->walks, s->passes))) return THR_OK;
       thr_status st = take_walk(s, err);
       if (st) return st;
     }

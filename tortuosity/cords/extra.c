@@ -1,7 +1,7 @@
 /* T-joins with slots for the cord ends, component by component. */
 #include "tortuosity/cords/extra.h"
 #include "lp/tjoin/engine.h"
-#include "tortuosity/cords/walks.h"
+#include "tortuosity/cords/walk_search.h"
 
 #include <assert.h>
 #include <math.h>
@@ -219,18 +219,18 @@ static thr_status fit_ends(const thr_turning_columns *c, int k, int *passes, int
 {
   int homeless = move_ends(c, k, passes, ends), last = -1;
   if (homeless == 0) return THR_OK;
-  thr_walks w;
-  thr_status st = thr_walks_init(&w, c, err);
+  thr_walk_search w;
+  thr_status st = thr_walk_search_init(&w, c, err);
   for (; homeless > 0 && !st; homeless -= 2) {
-    thr_walks_open(&w, k, passes);
-    if (!thr_walks_add(&w, passes)) break;
+    thr_walk_search_open(&w, k, passes);
+    if (!thr_walk_search_add(&w, passes)) break;
     ends[thr_tail(c->f, w.half[0])]++;
     ends[thr_head(c->f, w.half[w.n - 1])]++;
   }
   for (int v = 0; v < c->f->n_nodes && homeless > 0; v++)
     if (c->component[v] == k && c->task->end_allowed[v]) last = v;
   if (last >= 0) ends[last] += homeless;
-  thr_walks_destroy(&w);
+  thr_walk_search_destroy(&w);
   return st;
 }
 

@@ -19,21 +19,21 @@ typedef struct {
   int n_components, *component;
   double *length;      /* [n_components] of the shortest */
   int *passes;         /* [n_edges] of the walks at hand */
-  thr_trails *trails;  /* [n_components] results */
+  thr_walks *walks;    /* [n_components] results */
   double work;         /* that searches for short cords may still do: about a second of linear programmes */
   bool least, certain; /* the passes are the shortest, the longest cord as short as can be: the solver's word */
 } several;
 
-static void trails_destroy(thr_trails *trails, int n)
+static void walks_destroy(thr_walks *walks, int n)
 {
-  for (int k = 0; trails && k < n; k++)
-    thr_trails_destroy(&trails[k]);
+  for (int k = 0; walks && k < n; k++)
+    thr_walks_destroy(&walks[k]);
 }
 
 static void several_destroy(several *x)
 {
-  trails_destroy(x->trails, x->n_components);
-  free(x->trails);
+  walks_destroy(x->walks, x->n_components);
+  free(x->walks);
   free(x->component);
   free(x->length);
   free(x->passes);
@@ -46,12 +46,12 @@ static thr_status several_init(several *x, thr_err *err)
   if (st) return st;
   size_t n = (size_t)x->n_components;
   x->length = thr_calloc(n, sizeof *x->length);
-  x->trails = thr_calloc(n, sizeof *x->trails);
+  x->walks = thr_calloc(n, sizeof *x->walks);
   x->passes = thr_calloc((size_t)x->f->n_edges, sizeof *x->passes);
   x->share = (thr_share){x->f, x->o, x->component};
   x->least = x->certain = true;
   x->work = 1e8;
-  if (!x->length || !x->trails || !x->passes) return thr_nomem(err);
+  if (!x->length || !x->walks || !x->passes) return thr_nomem(err);
   for (int i = 0; i < x->shortest->n_cords; i++)
     x->length[x->shortest->cord[i].component] += thr_cord_length(x->f, &x->shortest->cord[i]);
   return THR_OK;
@@ -73,15 +73,15 @@ static const char *node_of(const several *x, int k)
 /* ---- a number of cords ---- */
 
 /* The cords as walks, by component: out[n_components], empty before. */
-static thr_status walks_of(const several *x, const thr_tube *t, thr_trails *out, thr_err *err)
+static thr_status walks_of(const several *x, const thr_tube *t, thr_walks *out, thr_err *err)
 {
   thr_status st = THR_OK;
   for (int i = 0; i < t->n_cords && !st; i++) {
     const thr_cord *c = &t->cord[i];
-    thr_trail w = {c->n_passes, thr_calloc((size_t)c->n_passes, sizeof *w.half), 0, closed_cords(x)};
+    thr_walk w = {c->n_passes, thr_calloc((size_t)c->n_passes, sizeof *w.half), 0, closed_cords(x)};
     if (!w.half) return thr_nomem(err);
     memcpy(w.half, c->half, (size_t)c->n_passes * sizeof *w.half);
-    st = thr_trails_add(&out[c->component], x->f, w, err);
+    st = thr_walks_add(&out[c->component], x->f, w, err);
   }
   return st;
 }
@@ -104,7 +104,7 @@ static bool has_number(const several *x, int n)
 }
 
 /* Short walks: exactly n open ones in every component, or as many as the counts say; of closed ones, one. */
-static thr_status short_walks(several *x, int n, thr_trails *out, thr_err *err)
+static thr_status short_walks(several *x, int n, thr_walks *out, thr_err *err)
 {
   thr_plan_options o = *x->o;
   thr_limits some = *x->limits;
@@ -123,45 +123,45 @@ static thr_status short_walks(several *x, int n, thr_trails *out, thr_err *err)
 }
 
 /* passes are those of the walks of component k. */
-static void count_passes(const several *x, int k, const thr_trails *w)
+static void count_passes(const several *x, int k, const thr_walks *w)
 {
   for (int e = 0; e < x->f->n_edges; e++)
     if (x->component[x->f->edge[e][0]] == k) x->passes[e] = 0;
-  thr_trails_count(w, x->passes);
+  thr_walks_count(w, x->passes);
 }
 
-static double total(const thr_trails *w)
+static double total(const thr_walks *w)
 {
   double sum = 0;
-  for (int i = 0; i < w->n_trails; i++)
+  for (int i = 0; i < w->n_walks; i++)
     sum += w->walk[i].length;
   return sum;
 }
 
 /* n closed walks of component k from few. *found false: not so many; certain: there are none. */
-static thr_status split(several *x, int k, int n, bool even, thr_trails *w, bool *found, bool *certain, thr_err *err)
+static thr_status split(several *x, int k, int n, bool even, thr_walks *w, bool *found, bool *certain, thr_err *err)
 {
   double least = x->length[k] * (1 + 1e-12);
   *certain = false;
   thr_status st = thr_share_tied(&x->share, n, even, x->passes, w, found, err);
   if (st || (*found && (even || total(w) <= least))) return st;
   st = thr_share_tied_exact(&x->share, k, n, true, 0, x->limits, w, x->passes, certain, err);
-  *found = w->n_trails >= n;
+  *found = w->n_walks >= n;
   if (!even) x->least &= *certain;
   return st;
 }
 
-static thr_status even_out(several *x, int k, double goal, thr_trails *w, thr_err *err)
+static thr_status even_out(several *x, int k, double goal, thr_walks *w, thr_err *err)
 {
   bool certain;
   thr_status st = thr_balance_walks(&x->share, w, goal, x->limits, x->passes, err);
-  if (!st) st = thr_share_tied_exact(&x->share, k, w->n_trails, false, goal, x->limits, w, x->passes, &certain, err);
+  if (!st) st = thr_share_tied_exact(&x->share, k, w->n_walks, false, goal, x->limits, w, x->passes, &certain, err);
   if (!st) x->certain &= certain;
   return st;
 }
 
 /* From short walks n of component k. */
-static thr_status make_walks(several *x, int k, int n, bool even, double goal, thr_trails *w, bool *found, bool *certain,
+static thr_status make_walks(several *x, int k, int n, bool even, double goal, thr_walks *w, bool *found, bool *certain,
                              thr_err *err)
 {
   thr_status st = THR_OK;
@@ -175,10 +175,10 @@ static thr_status make_walks(several *x, int k, int n, bool even, double goal, t
 /* All components at once, with n cords each. */
 static thr_status make_number(several *x, int n, bool even, thr_err *err)
 {
-  thr_status st = short_walks(x, n, x->trails, err);
+  thr_status st = short_walks(x, n, x->walks, err);
   for (int k = 0; k < x->n_components && !st; k++) {
     bool found, certain;
-    st = make_walks(x, k, n, even, 0, &x->trails[k], &found, &certain, err);
+    st = make_walks(x, k, n, even, 0, &x->walks[k], &found, &certain, err);
     if (!st && !found)
       st = thr_fail(err, THR_EINFEASIBLE, "the piece with node %s: %s %d closed cords that tie its joints", node_of(x, k),
                     certain ? "there are no" : "did not find", n);
@@ -190,9 +190,9 @@ static thr_status make_number(several *x, int n, bool even, thr_err *err)
 static thr_status even_shortest(several *x, thr_err *err)
 {
   bool found, certain;
-  thr_status st = walks_of(x, x->shortest, x->trails, err);
+  thr_status st = walks_of(x, x->shortest, x->walks, err);
   for (int k = 0; k < x->n_components && !st; k++)
-    st = make_walks(x, k, x->trails[k].n_trails, true, 0, &x->trails[k], &found, &certain, err);
+    st = make_walks(x, k, x->walks[k].n_walks, true, 0, &x->walks[k], &found, &certain, err);
   return st;
 }
 
@@ -206,11 +206,11 @@ static thr_status make_even(several *x, thr_err *err)
   for (int n = x->o->cords; n >= least && st == THR_EINFEASIBLE; n = n > 2 * least && n > IN_SINGLE_STEPS ? n / 2 : n - 1) {
     why = (thr_err){0};
     x->least = x->certain = true;
-    trails_destroy(x->trails, x->n_components);
+    walks_destroy(x->walks, x->n_components);
     st = make_number(x, n, true, &why);
   }
   if (st == THR_EINFEASIBLE && !closed_cords(x)) {
-    trails_destroy(x->trails, x->n_components);
+    walks_destroy(x->walks, x->n_components);
     st = even_shortest(x, &why);
   }
   return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
@@ -228,20 +228,20 @@ static thr_status try_number(several *x, int n, bool *done, thr_err *err)
 {
   bool found, certain;
   thr_err why = {0};
-  thr_trails *new = thr_calloc((size_t)x->n_components, sizeof *new);
+  thr_walks *new = thr_calloc((size_t)x->n_components, sizeof *new);
   if (!new) return thr_nomem(err);
   thr_status st = short_walks(x, n, new, &why);
   bool none = st == THR_EINFEASIBLE;
   for (int k = 0; k < x->n_components && !st; k++) {
-    if (done[k] || total(&new[k]) > fmax(n, new[k].n_trails) * x->o->max_length * (1 + 1e-9)) continue;
+    if (done[k] || total(&new[k]) > fmax(n, new[k].n_walks) * x->o->max_length * (1 + 1e-9)) continue;
     st = make_walks(x, k, n, true, x->o->max_length, &new[k], &found, &certain, &why);
     if (st || !found) continue;
-    thr_trails_destroy(&x->trails[k]);
-    x->trails[k] = new[k];
-    new[k] = (thr_trails){0};
-    done[k] = within(thr_trails_longest(&x->trails[k]), x->o->max_length);
+    thr_walks_destroy(&x->walks[k]);
+    x->walks[k] = new[k];
+    new[k] = (thr_walks){0};
+    done[k] = within(thr_walks_longest(&x->walks[k]), x->o->max_length);
   }
-  trails_destroy(new, x->n_components);
+  walks_destroy(new, x->n_components);
   free(new);
   return st && !none ? thr_fail(err, st, "%s", why.text) : THR_OK;
 }
@@ -250,7 +250,7 @@ static thr_status none_found(const several *x, int k, thr_err *err)
 {
   const char *units = x->f->units;
   double limit = x->o->max_length;
-  if (x->trails[k].n_trails == 0)
+  if (x->walks[k].n_walks == 0)
     return thr_fail(err, THR_EINFEASIBLE,
                     "the piece with node %s: did not find up to %d cords that tie its joints, none longer than %g %s; together "
                     "they need %g %s",
@@ -259,7 +259,7 @@ static thr_status none_found(const several *x, int k, thr_err *err)
       err, THR_EINFEASIBLE,
       "the piece with node %s: did not find up to %d cords that tie its joints, none longer than %g %s, but one of %g "
       "%s",
-      node_of(x, k), x->o->cords, limit, units, thr_trails_longest(&x->trails[k]), units);
+      node_of(x, k), x->o->cords, limit, units, thr_walks_longest(&x->walks[k]), units);
 }
 
 /* A component that is not done; -1: all are. */
@@ -326,7 +326,7 @@ static thr_status make_some(several *x, thr_plan *plan, thr_err *err)
 {
   const thr_plan_options *o = x->o;
   thr_status st = o->max_length > 0 ? grow(x, err) : o->balance ? make_even(x, err) : make_number(x, o->cords_least, false, err);
-  return st ? st : thr_trails_plan(x->trails, x->n_components, plan, err);
+  return st ? st : thr_walks_plan(x->walks, x->n_components, plan, err);
 }
 
 /* The cords of the plan; the shortest themselves where nothing more is asked for. */

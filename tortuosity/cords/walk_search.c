@@ -1,13 +1,13 @@
 /* Searches over half-edges. */
-#include "tortuosity/cords/walks.h"
+#include "tortuosity/cords/walk_search.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-thr_status thr_walks_init(thr_walks *w, const thr_turning_columns *c, thr_err *err)
+thr_status thr_walk_search_init(thr_walk_search *w, const thr_turning_columns *c, thr_err *err)
 {
   size_t darts = 2 * (size_t)c->f->n_edges;
-  *w = (thr_walks){.c = c};
+  *w = (thr_walk_search){.c = c};
   w->by = thr_calloc(darts, sizeof *w->by);
   w->stamp = thr_calloc(darts, sizeof *w->stamp);
   w->queue = thr_calloc(darts, sizeof *w->queue);
@@ -16,7 +16,7 @@ thr_status thr_walks_init(thr_walks *w, const thr_turning_columns *c, thr_err *e
   return w->by && w->stamp && w->queue && w->length && w->half ? THR_OK : thr_nomem(err);
 }
 
-void thr_walks_destroy(thr_walks *w)
+void thr_walk_search_destroy(thr_walk_search *w)
 {
   free(w->by);
   free(w->stamp);
@@ -31,7 +31,7 @@ static bool turns_back(const thr_frame *f, int in, int out)
 }
 
 /* The walk that ends with half-edge h, back to the one before which stands first. */
-static void trace(thr_walks *w, int h, int first)
+static void trace(thr_walk_search *w, int h, int first)
 {
   int at = h;
   do {
@@ -46,7 +46,7 @@ static void trace(thr_walks *w, int h, int first)
 }
 
 /* Breadth-first from h until it comes back into h. */
-void thr_walks_closed(thr_walks *w, int h)
+void thr_walk_search_closed(thr_walk_search *w, int h)
 {
   const thr_frame *f = w->c->f;
   int head = 0, tail = 0, now = ++w->searches;
@@ -68,7 +68,7 @@ void thr_walks_closed(thr_walks *w, int h)
 enum { QUEUED = -1 }; /* in stamp, which no number of a search is */
 
 /* A shorter way to go over half-edge out, coming from in. The queue is a ring. */
-static void reach(thr_walks *w, int out, int in, double before)
+static void reach(thr_walk_search *w, int out, int in, double before)
 {
   double length = before + w->c->f->length[out >> 1];
   if (length >= w->length[out]) return;
@@ -79,7 +79,7 @@ static void reach(thr_walks *w, int out, int in, double before)
   w->queue[(w->head + w->n_queued++) % (2 * w->c->f->n_edges)] = out;
 }
 
-static int next_queued(thr_walks *w)
+static int next_queued(thr_walk_search *w)
 {
   int h = w->queue[w->head];
   w->head = (w->head + 1) % (2 * w->c->f->n_edges);
@@ -100,7 +100,7 @@ static bool absorbs(const thr_frame *f, const int *passes, int in)
 }
 
 /* Label correcting (Bellman, Ford, Moore) from all nodes where cords may end. */
-void thr_walks_open(thr_walks *w, int component, const int *passes)
+void thr_walk_search_open(thr_walk_search *w, int component, const int *passes)
 {
   const thr_frame *f = w->c->f;
   const thr_turning_task *t = w->c->task;
@@ -129,7 +129,7 @@ void thr_walks_open(thr_walks *w, int component, const int *passes)
   if (best >= 0) trace(w, best, -1);
 }
 
-bool thr_walks_add(const thr_walks *w, int *passes)
+bool thr_walk_search_add(const thr_walk_search *w, int *passes)
 {
   bool room = w->n > 0;
   for (int i = 0; i < w->n; i++)

@@ -1,20 +1,20 @@
 /* Tracing, cutting and merging of walks. */
-#include "lp/length/trails.h"
+#include "graph/threading/walks.h"
 #include "graph/threading/tour.h"
 #include "graph/threading/transition.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-void thr_trails_destroy(thr_trails *w)
+void thr_walks_destroy(thr_walks *w)
 {
-  for (int i = 0; i < w->n_trails; i++)
+  for (int i = 0; i < w->n_walks; i++)
     free(w->walk[i].half);
   free(w->walk);
-  *w = (thr_trails){0};
+  *w = (thr_walks){0};
 }
 
-double thr_trail_length(const thr_frame *f, const int *half, int n)
+double thr_walk_length(const thr_frame *f, const int *half, int n)
 {
   double sum = 0;
   for (int i = 0; i < n; i++)
@@ -22,34 +22,34 @@ double thr_trail_length(const thr_frame *f, const int *half, int n)
   return sum;
 }
 
-double thr_trails_longest(const thr_trails *w)
+double thr_walks_longest(const thr_walks *w)
 {
   double most = 0;
-  for (int i = 0; i < w->n_trails; i++)
+  for (int i = 0; i < w->n_walks; i++)
     most = w->walk[i].length > most ? w->walk[i].length : most;
   return most;
 }
 
-thr_status thr_trails_add(thr_trails *w, const thr_frame *f, thr_trail walk, thr_err *err)
+thr_status thr_walks_add(thr_walks *w, const thr_frame *f, thr_walk walk, thr_err *err)
 {
-  thr_status st = thr_grow(&w->walk, w->n_trails, &w->capacity, sizeof *w->walk, err);
+  thr_status st = thr_grow(&w->walk, w->n_walks, &w->capacity, sizeof *w->walk, err);
   if (st) {
     free(walk.half);
     return st;
   }
-  walk.length = thr_trail_length(f, walk.half, walk.n);
-  w->walk[w->n_trails++] = walk;
+  walk.length = thr_walk_length(f, walk.half, walk.n);
+  w->walk[w->n_walks++] = walk;
   return THR_OK;
 }
 
-void thr_trails_count(const thr_trails *w, int *passes)
+void thr_walks_count(const thr_walks *w, int *passes)
 {
-  for (int i = 0; i < w->n_trails; i++)
+  for (int i = 0; i < w->n_walks; i++)
     for (int k = 0; k < w->walk[i].n; k++)
       passes[w->walk[i].half[k] >> 1]++;
 }
 
-double thr_trail_turn(const thr_frame *f, int in, int out)
+double thr_walk_turn(const thr_frame *f, int in, int out)
 {
   return thr_turn_angle(f, in, out) + (out == (in ^ 1) ? THR_U_TURN_PRICE : 0);
 }
@@ -80,8 +80,7 @@ static thr_status pair_odd_nodes(const thr_frame *f, const int *passes, const in
 }
 
 /* Cuts the circuit dart[0 .. n-1], which starts with a virtual dart if it has any, at those. */
-static thr_status break_circuit(const thr_frame *f, const thr_multigraph *g, const int *dart, int n, thr_trails *out,
-                                thr_err *err)
+static thr_status break_circuit(const thr_frame *f, const thr_multigraph *g, const int *dart, int n, thr_walks *out, thr_err *err)
 {
   thr_status st = THR_OK;
   bool cyclic = g->half[dart[0]] >= 0;
@@ -89,11 +88,11 @@ static thr_status break_circuit(const thr_frame *f, const thr_multigraph *g, con
     for (end = from; end < n && g->half[dart[end]] >= 0;)
       end++;
     if (end == from) return thr_fail(err, THR_ESOLVER, "a cord without a pass");
-    thr_trail w = {end - from, thr_calloc((size_t)(end - from), sizeof *w.half), 0, cyclic};
+    thr_walk w = {end - from, thr_calloc((size_t)(end - from), sizeof *w.half), 0, cyclic};
     if (!w.half) return thr_nomem(err);
     for (int i = from; i < end; i++)
       w.half[i - from] = g->half[dart[i]];
-    st = thr_trails_add(out, f, w, err);
+    st = thr_walks_add(out, f, w, err);
   }
   return st;
 }
@@ -110,7 +109,7 @@ static void find_starts(const thr_multigraph *g, const int *component, int *star
 }
 
 static thr_status trace_circuits(const thr_frame *f, const thr_multigraph *g, const int *component, int n_components,
-                                 thr_trails *out, thr_err *err)
+                                 thr_walks *out, thr_err *err)
 {
   int *mate = thr_calloc((size_t)g->n_darts, sizeof *mate), *walk = thr_calloc((size_t)g->n_darts, sizeof *walk);
   int *start = thr_calloc((size_t)n_components, sizeof *start), n;
@@ -129,8 +128,8 @@ static thr_status trace_circuits(const thr_frame *f, const thr_multigraph *g, co
   return st;
 }
 
-thr_status thr_trails_trace(const thr_frame *f, const int *passes, const int *component, int n_components, thr_trails *out,
-                            thr_err *err)
+thr_status thr_walks_trace(const thr_frame *f, const int *passes, const int *component, int n_components, thr_walks *out,
+                           thr_err *err)
 {
   thr_multigraph g = {0};
   int n_pairs = 0, (*pair)[2] = thr_calloc((size_t)f->n_nodes / 2 + 1, sizeof *pair);
@@ -139,7 +138,7 @@ thr_status thr_trails_trace(const thr_frame *f, const int *passes, const int *co
   if (!st) st = thr_multigraph_init(&g, f, passes, (const int(*)[2])pair, n_pairs, err);
   if (!st) st = trace_circuits(f, &g, component, n_components, out, err);
   for (int k = 0; k < n_components && st; k++)
-    thr_trails_destroy(&out[k]);
+    thr_walks_destroy(&out[k]);
   thr_multigraph_destroy(&g);
   free(pair);
   return st;
@@ -147,7 +146,7 @@ thr_status thr_trails_trace(const thr_frame *f, const int *passes, const int *co
 
 /* ---- changes ---- */
 
-thr_status thr_trail_rotate(thr_trail *w, int at, thr_err *err)
+thr_status thr_walk_rotate(thr_walk *w, int at, thr_err *err)
 {
   if (at == 0) return THR_OK;
   int *half = thr_calloc((size_t)w->n, sizeof *half);
@@ -160,40 +159,40 @@ thr_status thr_trail_rotate(thr_trail *w, int at, thr_err *err)
 }
 
 /* A new walk of the passes from .. end - 1 of walk i. */
-static thr_status copy_section(thr_trails *w, const thr_frame *f, int i, int from, int end, bool cyclic, thr_err *err)
+static thr_status copy_section(thr_walks *w, const thr_frame *f, int i, int from, int end, bool cyclic, thr_err *err)
 {
   int n = end - from;
-  thr_trail new = {n, thr_calloc((size_t)n, sizeof *new.half), 0, cyclic};
+  thr_walk new = {n, thr_calloc((size_t)n, sizeof *new.half), 0, cyclic};
   if (!new.half) return thr_nomem(err);
   memcpy(new.half, w->walk[i].half + from, (size_t)n * sizeof *new.half);
-  return thr_trails_add(w, f, new, err);
+  return thr_walks_add(w, f, new, err);
 }
 
-thr_status thr_trails_split(thr_trails *w, const thr_frame *f, int i, int at, thr_err *err)
+thr_status thr_walks_split(thr_walks *w, const thr_frame *f, int i, int at, thr_err *err)
 {
   thr_status st = copy_section(w, f, i, at, w->walk[i].n, false, err);
   if (st) return st;
-  thr_trail *x = &w->walk[i];
+  thr_walk *x = &w->walk[i];
   x->n = at;
   x->cyclic = false;
-  x->length = thr_trail_length(f, x->half, x->n);
+  x->length = thr_walk_length(f, x->half, x->n);
   return THR_OK;
 }
 
-thr_status thr_trails_take_section(thr_trails *w, const thr_frame *f, int i, int from, int end, thr_err *err)
+thr_status thr_walks_take_section(thr_walks *w, const thr_frame *f, int i, int from, int end, thr_err *err)
 {
   thr_status st = copy_section(w, f, i, from, end, true, err);
   if (st) return st;
-  thr_trail *x = &w->walk[i];
+  thr_walk *x = &w->walk[i];
   memmove(x->half + from, x->half + end, (size_t)(x->n - end) * sizeof *x->half);
   x->n -= end - from;
-  x->length = thr_trail_length(f, x->half, x->n);
+  x->length = thr_walk_length(f, x->half, x->n);
   return THR_OK;
 }
 
-thr_status thr_trails_merge(thr_trails *w, const thr_frame *f, int a, int at_a, int b, int at_b, bool against, thr_err *err)
+thr_status thr_walks_merge(thr_walks *w, const thr_frame *f, int a, int at_a, int b, int at_b, bool against, thr_err *err)
 {
-  thr_trail *x = &w->walk[a], *y = &w->walk[b];
+  thr_walk *x = &w->walk[a], *y = &w->walk[b];
   int *half = thr_realloc(x->half, (size_t)x->n + (size_t)y->n, sizeof *half);
   if (!half) return thr_nomem(err);
   x->half = half;
@@ -201,29 +200,29 @@ thr_status thr_trails_merge(thr_trails *w, const thr_frame *f, int a, int at_a, 
   for (int i = 0; i < y->n; i++)
     half[at_a + i] = against ? y->half[(at_b + 2 * y->n - 1 - i) % y->n] ^ 1 : y->half[(at_b + i) % y->n];
   x->n += y->n;
-  x->length = thr_trail_length(f, half, x->n);
+  x->length = thr_walk_length(f, half, x->n);
   free(y->half);
-  *y = w->walk[--w->n_trails];
+  *y = w->walk[--w->n_walks];
   return THR_OK;
 }
 
 /* ---- visits ---- */
 
-thr_status thr_trail_visits_init(thr_trail_visits *x, const thr_frame *f, const thr_trails *w, thr_err *err)
+thr_status thr_walk_visits_init(thr_walk_visits *x, const thr_frame *f, const thr_walks *w, thr_err *err)
 {
   size_t n = 0;
-  for (int i = 0; i < w->n_trails; i++)
+  for (int i = 0; i < w->n_walks; i++)
     n += (size_t)w->walk[i].n;
-  *x = (thr_trail_visits){.first = thr_calloc((size_t)f->n_nodes, sizeof *x->first),
-                          .next = thr_calloc(n, sizeof *x->next),
-                          .walk = thr_calloc(n, sizeof *x->walk),
-                          .at = thr_calloc(n, sizeof *x->at)};
+  *x = (thr_walk_visits){.first = thr_calloc((size_t)f->n_nodes, sizeof *x->first),
+                         .next = thr_calloc(n, sizeof *x->next),
+                         .walk = thr_calloc(n, sizeof *x->walk),
+                         .at = thr_calloc(n, sizeof *x->at)};
   if (!x->first || !x->next || !x->walk || !x->at) {
-    thr_trail_visits_destroy(x);
+    thr_walk_visits_destroy(x);
     return thr_nomem(err);
   }
   memset(x->first, 0xff, (size_t)f->n_nodes * sizeof *x->first);
-  for (int i = 0; i < w->n_trails; i++)
+  for (int i = 0; i < w->n_walks; i++)
     for (int k = 0; k < w->walk[i].n; k++) {
       int *first = &x->first[thr_tail(f, w->walk[i].half[k])];
       x->next[x->n] = *first;
@@ -234,23 +233,23 @@ thr_status thr_trail_visits_init(thr_trail_visits *x, const thr_frame *f, const 
   return THR_OK;
 }
 
-void thr_trail_visits_destroy(thr_trail_visits *x)
+void thr_walk_visits_destroy(thr_walk_visits *x)
 {
   free(x->first);
   free(x->next);
   free(x->walk);
   free(x->at);
-  *x = (thr_trail_visits){0};
+  *x = (thr_walk_visits){0};
 }
 
 /* ---- cords ---- */
 
-int thr_trail_node(const thr_frame *f, const thr_trail *w, int at)
+int thr_walk_node(const thr_frame *f, const thr_walk *w, int at)
 {
   return at < w->n ? thr_tail(f, w->half[at]) : thr_head(f, w->half[w->n - 1]);
 }
 
-void thr_trail_reverse(int *half, int n)
+void thr_walk_reverse(int *half, int n)
 {
   for (int i = 0, j = n - 1; i <= j; i++, j--) {
     int h = half[i];
@@ -259,34 +258,34 @@ void thr_trail_reverse(int *half, int n)
   }
 }
 
-thr_status thr_trails_cords(thr_trails *w, const thr_frame *f, const thr_plan_options *o, int k, int first, thr_cord *cord,
-                            thr_err *err)
+thr_status thr_walks_cords(thr_walks *w, const thr_frame *f, const thr_plan_options *o, int k, int first, thr_cord *cord,
+                           thr_err *err)
 {
-  for (int i = 0; i < w->n_trails; i++) {
-    thr_trail *x = &w->walk[i];
+  for (int i = 0; i < w->n_walks; i++) {
+    thr_walk *x = &w->walk[i];
     int start = thr_tail(f, x->half[0]), end = thr_head(f, x->half[x->n - 1]);
-    if (start > end) thr_trail_reverse(x->half, x->n);
-    thr_status st = x->cyclic ? thr_trail_rotate(x, thr_tour_start(f, o, x->half, x->n), err) : THR_OK;
+    if (start > end) thr_walk_reverse(x->half, x->n);
+    thr_status st = x->cyclic ? thr_walk_rotate(x, thr_tour_start(f, o, x->half, x->n), err) : THR_OK;
     if (st) return st;
     cord[i] = (thr_cord){.component = k, .closed = start == end, .n_passes = x->n, .half = x->half};
     thr_cord_id(first + i, cord[i].id);
     x->half = NULL;
   }
-  thr_trails_destroy(w);
+  thr_walks_destroy(w);
   return THR_OK;
 }
 
-thr_status thr_trails_plan(thr_trails *trails, int n_components, thr_plan *plan, thr_err *err)
+thr_status thr_walks_plan(thr_walks *walks, int n_components, thr_plan *plan, thr_err *err)
 {
   int n = 0;
   thr_status st = THR_OK;
   for (int k = 0; k < n_components; k++)
-    n += trails[k].n_trails;
+    n += walks[k].n_walks;
   if (!(plan->cord = thr_calloc((size_t)n, sizeof *plan->cord))) return thr_nomem(err);
   plan->n_cords = n;
   for (int k = 0, first = 0; k < n_components && !st; k++) {
-    int made = trails[k].n_trails;
-    st = thr_trails_cords(&trails[k], &plan->frame, &plan->options, k, first, plan->cord + first, err);
+    int made = walks[k].n_walks;
+    st = thr_walks_cords(&walks[k], &plan->frame, &plan->options, k, first, plan->cord + first, err);
     first += made;
   }
   return st;

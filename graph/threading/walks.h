@@ -1,0 +1,82 @@
+/* Walks through the passes of a framework (graph theory's: consecutive half-edges, an edge as often as it comes), while it is
+ * still open which cord takes which. */
+#ifndef THR_WALKS_H
+#define THR_WALKS_H
+
+#include "graph/plan/plan.h"
+
+/* Consecutive half-edges. */
+typedef struct {
+  int n, *half;  /* owned */
+  double length; /* in units */
+  bool cyclic;   /* comes back to its start, where no cord end is yet */
+} thr_walk;
+
+/* Those of one component. */
+typedef struct {
+  int n_walks, capacity;
+  thr_walk *walk; /* owned */
+} thr_walks;
+
+void thr_walks_destroy(thr_walks *w);
+
+/* As few walks as pass every edge of each component passes[e] times, paired for little turning: a cyclic one where all nodes have
+ * an even number of passes, else open ones between those that have not. out[n_components]; near-linear in passes. */
+thr_status thr_walks_trace(const thr_frame *f, const int *passes, const int *component, int n_components, thr_walks *out,
+                           thr_err *err) THR_MUST_CHECK;
+
+/* Appends a walk, which is taken over, or released on failure. Its length is worked out. */
+thr_status thr_walks_add(thr_walks *w, const thr_frame *f, thr_walk walk, thr_err *err) THR_MUST_CHECK;
+
+/* The number of passes that the walks make of each edge is added to passes[n_edges]. */
+void thr_walks_count(const thr_walks *w, int *passes);
+
+double thr_walk_length(const thr_frame *f, const int *half, int n);
+
+/* Of the longest walk; 0 if there are none. */
+double thr_walks_longest(const thr_walks *w);
+
+/* The node before pass number at; with at = n, after the last one. */
+int thr_walk_node(const thr_frame *f, const thr_walk *w, int at);
+
+/* The half-edges of a walk the other way round. */
+void thr_walk_reverse(int *half, int n);
+
+/* Turns a cyclic walk round so that it starts with what was its pass number at. */
+thr_status thr_walk_rotate(thr_walk *w, int at, thr_err *err) THR_MUST_CHECK;
+
+/* Walk i keeps its passes before number at, 0 < at < n; the others become a new walk, the last. */
+thr_status thr_walks_split(thr_walks *w, const thr_frame *f, int i, int at, thr_err *err) THR_MUST_CHECK;
+
+/* Passes from .. end - 1 of the cyclic walk i, which start and end at one node, become a cyclic walk of their own. */
+thr_status thr_walks_take_section(thr_walks *w, const thr_frame *f, int i, int from, int end, thr_err *err) THR_MUST_CHECK;
+
+/* Cyclic walk b goes into cyclic walk a before its pass at_a, beginning with its own pass at_b, or against its direction with
+ * the one before. Walk b takes the number of the last. */
+thr_status thr_walks_merge(thr_walks *w, const thr_frame *f, int a, int at_a, int b, int at_b, bool against,
+                           thr_err *err) THR_MUST_CHECK;
+
+/* Price of going on from half-edge in with out: the turn in rad, and much more for a turn back. */
+double thr_walk_turn(const thr_frame *f, int in, int out);
+
+/* Where the walks of one component (all cyclic ones, or all) are at each node. */
+typedef struct {
+  int *first; /* [n_nodes] newest visit, -1 = none */
+  int *next;  /* [n] of the same node */
+  int *walk;  /* [n] */
+  int *at;    /* [n] its pass number */
+  int n;
+} thr_walk_visits;
+
+thr_status thr_walk_visits_init(thr_walk_visits *x, const thr_frame *f, const thr_walks *w, thr_err *err) THR_MUST_CHECK;
+void thr_walk_visits_destroy(thr_walk_visits *x);
+
+/* Moves the walks into cords cord[0 .. n_walks - 1] of component k, numbered from first on: open ones from their lower end,
+ * cyclic ones from where closing leaves out most (graph/threading/tour.h). */
+thr_status thr_walks_cords(thr_walks *w, const thr_frame *f, const thr_plan_options *o, int k, int first, thr_cord *cord,
+                           thr_err *err) THR_MUST_CHECK;
+
+/* Moves the walks walks[n_components] into the cords of plan, whose frame and options are set, component by component. */
+thr_status thr_walks_plan(thr_walks *walks, int n_components, thr_plan *plan, thr_err *err) THR_MUST_CHECK;
+
+#endif
