@@ -1,4 +1,4 @@
-// Bullet 3.24 behind world.h: the only file that knows the library.
+/* Bullet 3.24 behind world.h: the only file that knows the library. */
 
 #include "eval/joint/world.h"
 
