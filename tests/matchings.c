@@ -1,5 +1,6 @@
 #include "tests/matchings.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 __extension__ typedef __int128 wide;
@@ -146,4 +147,30 @@ int64_t lightest_by_force(const instance *g)
 {
   ck_assert_int_le(g->n_nodes, 20);
   return lightest_from(g, 0, 0, -1);
+}
+
+/* ---- pairings ---- */
+
+double pairing_price(int n, const double *price, const int *mate)
+{
+  double sum = 0;
+  for (int i = 0; i < n; i++)
+    if (mate[i] > i) sum += price[i * n + mate[i]];
+  return sum;
+}
+
+double least_pairing(int n, const double *price)
+{
+  static instance g;
+  thr_matching m;
+  g.n_nodes = n;
+  g.n_edges = 0;
+  for (int i = 0; i < n; i++)
+    for (int j = i + 1; j < n; j++)
+      join(&g, i, j, (int64_t)llround(1e12 * price[i * n + j]));
+  const thr_matching_problem p = view(&g);
+  ck_assert_int_eq(thr_matching_solve(&p, &(thr_limits){0}, &m, NULL), THR_OK);
+  double least = pairing_price(n, price, m.mate);
+  thr_matching_destroy(&m);
+  return least;
 }

@@ -32,4 +32,11 @@ void assert_lightest(const instance *g, const thr_matching *m);
 /* Weight of the lightest perfect matching by trying all of them, or -1; at most 20 nodes. */
 int64_t lightest_by_force(const instance *g);
 
+/* Pairings of an even number n of points: price[i * n + j] = price[j * n + i] >= 0 of pairing i with j. */
+double pairing_price(int n, const double *price, const int *mate);
+
+/* The least price, as the engine's lightest perfect matching of the complete graph, with prices in whole 1e-12; at most 1000
+ * each. */
+double least_pairing(int n, const double *price);
+
 #endif

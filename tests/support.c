@@ -28,6 +28,31 @@ void add_case(Suite *s, const char *name, double seconds, const TTest *test, int
   suite_add_tcase(s, t);
 }
 
+static int share(void)
+{
+  const char *text = getenv("THREAD_TEST_SHARE");
+  int n = text ? atoi(text) : 1;
+  return n > 1 ? n : 1;
+}
+
+int share_of(int n)
+{
+  return (n + share() - 1) / share();
+}
+
+/* One of each run of share() numbers, its place in the run another each time: kinds that take turns all have theirs. */
+void add_examples(Suite *s, const char *name, double seconds, const TTest *test, int end)
+{
+  TCase *t = tcase_create(name);
+  tcase_set_timeout(t, seconds);
+  for (int first = 0, run = 0; first < end; first += share(), run++) {
+    int i = first + 7 * run % share();
+    i = i < end ? i : end - 1;
+    tcase_add_loop_test(t, test, i, i + 1);
+  }
+  suite_add_tcase(s, t);
+}
+
 void assert_one_line(const thr_err *err, const char *word)
 {
   ck_assert_int_ne(err->code, THR_OK);

@@ -20,6 +20,13 @@ int run_suite(Suite *s);
 #define ADD_LOOP(suite, seconds, test, first, end) add_case(suite, #test, seconds, test, first, end)
 void add_case(Suite *s, const char *name, double seconds, const TTest *test, int first, int end);
 
+/* A part of n examples of an exhaustive test, one at least: all, or with THREAD_TEST_SHARE=10 in the environment a tenth. */
+int share_of(int n);
+
+/* Adds the test for a part of the numbers 0 .. end - 1, spread over them. */
+#define ADD_EXAMPLES(suite, seconds, test, end) add_examples(suite, #test, seconds, test, end)
+void add_examples(Suite *s, const char *name, double seconds, const TTest *test, int end);
+
 /* Fails unless err holds a status with a text of one line that contains word (NULL: any). */
 void assert_one_line(const thr_err *err, const char *word);
 

@@ -12,13 +12,6 @@ static const double MAX_COORDINATE = 1e100; /* squares must stay finite */
 static const double CLEARLY = 1.25;         /* so much larger a ratio shows */
 static const double LEGIBLE = 0.5;          /* ratio of a picture that needs no second panel */
 
-const char *thr_layout_name(thr_layout_kind kind)
-{
-  static const char *const name[THR_LAYOUT_KINDS] = {"plan",       "unrolled",   "front",  "side",   "plane",
-                                                     "unrolled-x", "unrolled-y", "spread", "panels", "drawn"};
-  return (unsigned)kind < THR_LAYOUT_KINDS ? name[kind] : "?";
-}
-
 const char *thr_layout_words(thr_layout_kind kind)
 {
   static const char *const words[THR_LAYOUT_KINDS] = {

@@ -82,7 +82,6 @@ bool thr_layout_better(const thr_layout *a, const thr_layout *b);
 thr_status thr_layout_copy(thr_layout *to, const thr_layout *from, thr_err *err) THR_MUST_CHECK;
 void thr_layout_destroy(thr_layout *l);
 
-const char *thr_layout_name(thr_layout_kind kind);  /* "plan", "unrolled", "front", .. */
 const char *thr_layout_words(thr_layout_kind kind); /* for the reader of a diagram: "seen from outside (from above)", .. */
 
 /* Half-edges as paper->half, but by ascending angle[2 * n_edges] (rad, in (-pi, pi]) within a node, in around[2 * n_edges]. */

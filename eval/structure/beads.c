@@ -189,28 +189,3 @@ void thr_beads_clamp(thr_beads *b, const bool *fixed)
   memcpy(b->fixed, fixed, (size_t)b->n_beads * sizeof *fixed);
   b->n_feet = 0;
 }
-
-/* Adds a force of size along direction at the point at to a bead's wrench. */
-static void add_force(const thr_beads *b, int bead, double size, const double direction[3], const double at[3], double wrench[6])
-{
-  double lever[3], moment[3];
-  for (int k = 0; k < 3; k++)
-    lever[k] = at[k] - b->mass_centre[bead][k];
-  cross(lever, direction, moment);
-  for (int k = 0; k < 3; k++) {
-    wrench[k] += size * direction[k];
-    wrench[k + 3] += size * moment[k];
-  }
-}
-
-void thr_beads_cord_wrench(const thr_beads *b, const thr_frame *f, const thr_cord *cord, int n_cords,
-                           const double *const *tension, double (*wrench)[6])
-{
-  memset(wrench, 0, (size_t)b->n_beads * sizeof *wrench);
-  for (int i = 0; i < n_cords; i++)
-    for (int k = 0; k < cord[i].n_passes; k++) {
-      int e = cord[i].half[k] >> 1; /* a pass draws its two beads together, whichever way it runs */
-      add_force(b, f->edge[e][0], tension[i][k], b->axis[e], b->middle[e], wrench[f->edge[e][0]]);
-      add_force(b, f->edge[e][1], -tension[i][k], b->axis[e], b->middle[e], wrench[f->edge[e][1]]);
-    }
-}

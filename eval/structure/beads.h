@@ -35,10 +35,4 @@ void thr_beads_destroy(thr_beads *b);
 /* Holds the beads with fixed[n_beads] true in place and takes the ground away (n_feet = 0): for cantilevers and the like. */
 void thr_beads_clamp(thr_beads *b, const bool *fixed);
 
-/* Cord forces on the beads when every pulled end is pulled with 1 N: force and moment about the bead's mass centre,
- * wrench[n_beads][6] (N, N m). tension[i] is cord i's tension per pass relative to a pull of 1. The cord acts along the centre
- * lines; its ends are knotted to their end beads. */
-void thr_beads_cord_wrench(const thr_beads *b, const thr_frame *f, const thr_cord *cord, int n_cords,
-                           const double *const *tension, double (*wrench)[6]);
-
 #endif

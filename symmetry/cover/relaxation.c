@@ -387,12 +387,7 @@ thr_status thr_relaxation_separate(thr_relaxation *r, const thr_limits *limits, 
 
 /* ---- all ---- */
 
-thr_status thr_relaxation_init(thr_relaxation *r, const thr_programme *p, const thr_limits *limits, thr_err *err)
-{
-  return thr_relaxation_init_extra(r, p, 0, limits, err);
-}
-
-thr_status thr_relaxation_init_extra(thr_relaxation *r, const thr_programme *p, int extra, const thr_limits *limits, thr_err *err)
+thr_status thr_relaxation_init(thr_relaxation *r, const thr_programme *p, int extra, const thr_limits *limits, thr_err *err)
 {
   *r = (thr_relaxation){.p = p, .extra = extra};
   r->x = thr_calloc((size_t)p->n + (size_t)extra, sizeof *r->x);

@@ -27,13 +27,10 @@ typedef struct {
   double *sum;    /* [p->n + extra] all 0: for the coefficients of a row */
 } thr_relaxation;
 
-/* THR_ELIMIT: stopped; r is empty. */
-thr_status thr_relaxation_init(thr_relaxation *r, const thr_programme *p, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
+/* With so many extra columns after the programme's (symmetry/cover/turning_bound.h). THR_ELIMIT: stopped; r is empty. */
+thr_status thr_relaxation_init(thr_relaxation *r, const thr_programme *p, int extra, const thr_limits *limits,
+                               thr_err *err) THR_MUST_CHECK;
 void thr_relaxation_destroy(thr_relaxation *r);
-
-/* The same with extra columns (symmetry/cover/turning_bound.h). */
-thr_status thr_relaxation_init_extra(thr_relaxation *r, const thr_programme *p, int extra, const thr_limits *limits,
-                                     thr_err *err) THR_MUST_CHECK;
 
 /* Adds the row r->sum * x >= lower and clears r->sum. */
 thr_status thr_relaxation_add_row(thr_relaxation *r, double lower, thr_err *err) THR_MUST_CHECK;

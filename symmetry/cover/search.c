@@ -178,7 +178,7 @@ static thr_status solve_whole(thr_search *s, thr_aim aim, bool *open, thr_err *e
 static thr_status prepare(thr_search *s, int number, thr_err *err)
 {
   const thr_aim *prefer = s->p->o->prefer;
-  thr_status st = s->r.p ? THR_OK : thr_relaxation_init_extra(&s->r, s->p, s->extra, s->limits, err);
+  thr_status st = s->r.p ? THR_OK : thr_relaxation_init(&s->r, s->p, s->extra, s->limits, err);
   for (; s->kept < number && !st; s->kept++) {
     st = thr_relaxation_aim(&s->r, prefer[s->kept], err);
     if (!st) st = thr_relaxation_fix(&s->r, s->worth[prefer[s->kept]], err);

@@ -248,7 +248,7 @@ static thr_status master_init(master *m, const thr_contraction *c, thr_relaxatio
   thr_status st = list_cells(m, err);
   if (!st) st = make_room(m, err);
   if (!st) st = find_most(m, worth, err);
-  if (!st && !r->p) st = thr_relaxation_init_extra(r, &c->p, c->p.q->n_darts, limits, err);
+  if (!st && !r->p) st = thr_relaxation_init(r, &c->p, c->p.q->n_darts, limits, err);
   for (int k = kept; !st && prefer[k] != THR_AIM_TURNING; k++) {
     st = thr_relaxation_aim(r, prefer[k], err);
     if (!st) st = thr_relaxation_fix(r, worth[prefer[k]], err);

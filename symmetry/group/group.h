@@ -30,8 +30,6 @@ typedef struct {
 
 void thr_subgroup_destroy(thr_subgroup *s);
 
-/* Smallest subgroup that holds the elements given. */
-thr_status thr_subgroup_generate(const thr_group *g, const int *element, int n, thr_subgroup *out, thr_err *err) THR_MUST_CHECK;
 bool thr_subgroup_has(const thr_subgroup *s, int element); /* O(log order) */
 
 /* A few elements that generate s: greedily, the lowest that is not yet generated. Returns how many: at most 10, since each at

@@ -72,13 +72,6 @@ static thr_status copy_elements(const thr_group *g, const set *s, thr_subgroup *
   return THR_OK;
 }
 
-thr_status thr_subgroup_generate(const thr_group *g, const int *element, int n, thr_subgroup *out, thr_err *err)
-{
-  set s = trivial();
-  close_set(g, &s, element, n);
-  return copy_elements(g, &s, out, err);
-}
-
 void thr_subgroup_destroy(thr_subgroup *s)
 {
   free(s->element);

@@ -1,7 +1,6 @@
 /* Beads: faces, masses against counted volumes, feet, and cords that pull nothing away as a whole. */
 #include "eval/structure/beads.h"
 #include "tests/support.h"
-#include "tests/threadings.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -216,114 +215,23 @@ START_TEST(feet_stand_on_their_own_ground)
 }
 END_TEST
 
-/* Cords of a plan with random tensions: random, so that no symmetry hides a wrong sign. */
-typedef struct {
-  double **tension;
-  double (*wrench)[6];
-} pulled;
-
-static pulled pull(rng *r, const thr_plan *p, const thr_beads *b)
-{
-  pulled out = {thr_calloc((size_t)p->n_cords, sizeof *out.tension), thr_calloc((size_t)b->n_beads, sizeof *out.wrench)};
-  for (int i = 0; i < p->n_cords; i++) {
-    out.tension[i] = thr_calloc((size_t)p->cord[i].n_passes, sizeof *out.tension[i]);
-    for (int k = 0; k < p->cord[i].n_passes; k++)
-      out.tension[i][k] = 0.1 + rng_unit(r);
-  }
-  thr_beads_cord_wrench(b, &p->frame, p->cord, p->n_cords, (const double *const *)out.tension, out.wrench);
-  return out;
-}
-
-static void pulled_destroy(pulled *x, int n_cords)
-{
-  for (int i = 0; i < n_cords; i++)
-    free(x->tension[i]);
-  free(x->tension);
-  free(x->wrench);
-}
-
-START_TEST(cords_pull_nothing_away)
-{
-  rng r = rng_make((uint64_t)_i + 100);
-  thr_frame f = random_frame(&r, rng_between(&r, 2, 20), rng_below(&r, 20), LENGTHS_EUCLID);
-  thr_plan p = plan_simple(&f, _i % 2 ? THR_ENDS_ANY : THR_ENDS_CLOSED, 1 + _i % 3);
-  thr_physics physics = physics_of(0.2, 0.05);
-  thr_beads b = beads_of(&f, &physics);
-  pulled x = pull(&r, &p, &b);
-  double sum[6] = {0}, size = 0;
-  for (int v = 0; v < b.n_beads; v++) {
-    const double *w = x.wrench[v], *c = b.mass_centre[v];
-    for (int k = 0; k < 3; k++) {
-      sum[k] += w[k];
-      sum[k + 3] += w[k + 3] + c[(k + 1) % 3] * w[(k + 2) % 3] - c[(k + 2) % 3] * w[(k + 1) % 3];
-      size += fabs(w[k]);
-    }
-  }
-  for (int k = 0; k < 3; k++) {
-    ck_assert_double_eq_tol(sum[k], 0, 1e-13 * size);
-    ck_assert_double_eq_tol(sum[k + 3], 0, 1e-13 * size * b.size);
-  }
-  pulled_destroy(&x, p.n_cords);
-  thr_beads_destroy(&b);
-  thr_plan_destroy(&p);
-  thr_frame_destroy(&f);
-}
-END_TEST
-
-/* What one bead feels: the tensions before and after it, each outwards along its arm through the node. */
-START_TEST(a_turning_cord_pushes_its_bead_inwards)
-{
-  double a = 0.3 * (_i + 1);
-  const double xyz[3][3] = {{-2, 0, 0}, {0, 0, 0}, {2 * cos(a), 2 * sin(a), 0}};
-  thr_frame f = in_units(frame_make(3, xyz, 2, (const int[2][2]){{0, 1}, {2, 1}}, NULL, NULL), "m");
-  thr_physics physics = physics_of(100, 20);
-  thr_beads b = beads_of(&f, &physics);
-  thr_cord cord = {.id = "A", .n_passes = 2, .half = (int[]){0, 3}};
-  const double tension[2] = {3, 2}, *const all[1] = {tension};
-  double wrench[3][6];
-  thr_beads_cord_wrench(&b, &f, &cord, 1, all, wrench);
-  double force[3] = {-3 + 2 * cos(a), 2 * sin(a), 0};
-  double lever[2] = {b.centre[1][0] - b.mass_centre[1][0], b.centre[1][1] - b.mass_centre[1][1]};
-  for (int k = 0; k < 3; k++)
-    ck_assert_double_eq_tol(wrench[1][k], force[k], 1e-14);
-  ck_assert_double_eq_tol(wrench[1][5], lever[0] * force[1] - lever[1] * force[0], 1e-14);
-  ck_assert_double_eq_tol(wrench[0][0], 3, 1e-14); /* knotted there */
-  ck_assert_double_eq_tol(wrench[2][0], -2 * cos(a), 1e-14);
-  thr_beads_destroy(&b);
-  thr_frame_destroy(&f);
-}
-END_TEST
-
-/* Straight lines under even tension are symmetric as the dome is: swapping x and y swaps the forces. */
+/* Masses are as symmetric as the dome. */
 START_TEST(dome_is_symmetric)
 {
   thr_frame f = frame_load("data/dome7.json", NULL);
-  thr_plan p = threading_make(&f, 7, THREAD_LINES);
   thr_physics physics = physics_of(6, 2);
   thr_beads b = beads_of(&f, &physics);
-  double ones[7], (*wrench)[6] = thr_calloc(49, sizeof *wrench), least = INFINITY, most = 0;
-  const double *tension[14];
-  for (int i = 0; i < 7; i++)
-    ones[i] = 1;
-  for (int i = 0; i < 14; i++)
-    tension[i] = ones;
+  double least = INFINITY, most = 0;
   ck_assert_int_eq(b.n_feet, 4);
-  ck_assert_int_eq(p.n_cords, 14);
-  thr_beads_cord_wrench(&b, &f, p.cord, p.n_cords, tension, wrench);
   for (int i = 0; i < 7; i++)
     for (int j = 0; j < 7; j++) {
-      const double *here = wrench[7 * i + j], *there = wrench[7 * j + i];
       ck_assert_double_eq_tol(b.mass[7 * i + j], b.mass[7 * j + i], 1e-15);
       ck_assert_double_eq_tol(b.mass[7 * i + j], b.mass[7 * (6 - i) + j], 1e-15);
-      ck_assert_double_eq_tol(here[0], there[1], 1e-12);
-      ck_assert_double_eq_tol(here[2], there[2], 1e-12);
       least = fmin(least, b.mass[7 * i + j]);
       most = fmax(most, b.mass[7 * i + j]);
     }
   ck_assert(b.mass[0] == least && most > least); /* corners have two arms */
-  free(wrench);
   thr_beads_destroy(&b);
-  thr_plan_destroy(&p);
   thr_frame_destroy(&f);
 }
 END_TEST
@@ -379,8 +287,6 @@ int main(void)
   ADD_LOOP(s, 10, faces_are_squares_across_the_middle, 0, 30);
   ADD_LOOP(s, 10, units_do_not_matter, 0, 10);
   ADD_TEST(s, 10, feet_stand_on_their_own_ground);
-  ADD_LOOP(s, 10, cords_pull_nothing_away, 0, 40);
-  ADD_LOOP(s, 10, a_turning_cord_pushes_its_bead_inwards, 0, 8);
   ADD_TEST(s, 10, dome_is_symmetric);
   ADD_TEST(s, 10, nonsense_is_refused);
   ADD_TEST(s, 10, memory_may_run_out_anywhere);

@@ -694,7 +694,7 @@ START_TEST(shapes_find_a_layout_without_crossings)
   ck_assert_int_eq(thr_layout_choose(&l, &f, NULL, 0, NULL), THR_OK);
   ck_assert_int_eq((int)l.crossings, 0);
   ck_assert_int_eq(l.squeezed, 0);
-  ck_assert_str_eq(thr_layout_name(l.kind), thr_layout_name(table[_i].kind));
+  ck_assert_int_eq(l.kind, table[_i].kind);
   thr_layout_destroy(&l);
   thr_frame_destroy(&f);
 }
@@ -714,8 +714,7 @@ START_TEST(layouts_show_the_outside)
     for (int i = f.first[top]; i + 1 < f.first[top + 1]; i++) {
       int a = thr_head(&f, f.half[i]), b = thr_head(&f, f.half[i + 1]);
       double above = turn(f.xyz[top], f.xyz[a], f.xyz[b]);
-      if (fabs(above) > 1e-6)
-        ck_assert_msg(above * turn(l.xy[top], l.xy[a], l.xy[b]) > 0, "mirrored: %s", thr_layout_name(kinds[k]));
+      if (fabs(above) > 1e-6) ck_assert_msg(above * turn(l.xy[top], l.xy[a], l.xy[b]) > 0, "mirrored: layout %d", (int)kinds[k]);
     }
     thr_layout_destroy(&l);
   }

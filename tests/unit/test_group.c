@@ -471,6 +471,24 @@ START_TEST(refused_groups)
   ck_assert_int_eq(thr_group_generate(3, twice, 1, 9, &g, NULL), THR_EINPUT);
   ck_assert_int_eq(thr_group_generate(3, far, 1, 9, &g, NULL), THR_EINPUT);
 }
+
+/* Elements that are products of the generators. */
+static int order_generated(const thr_group *g, const int *generator, int n)
+{
+  int *made = calloc((size_t)g->order, sizeof *made), count = 1;
+  bool *has = calloc((size_t)g->order, sizeof *has);
+  ck_assert(made && has);
+  has[0] = true;
+  for (int i = 0; i < count; i++)
+    for (int k = 0; k < n; k++) {
+      int product = times(g, made[i], generator[k]);
+      if (!has[product]) made[count++] = product;
+      has[product] = true;
+    }
+  free(made);
+  free(has);
+  return count;
+}
 END_TEST
 
 /* ---- subgroups ---- */
@@ -478,7 +496,6 @@ END_TEST
 static void assert_subgroup(const thr_group *g, const thr_subgroup *s)
 {
   int generator[16];
-  thr_subgroup again;
   ck_assert_int_eq(s->element[0], 0);
   ck_assert_int_eq(g->order % s->order, 0);
   for (int i = 0; i < s->order; i++) {
@@ -491,10 +508,7 @@ static void assert_subgroup(const thr_group *g, const thr_subgroup *s)
     members += thr_subgroup_has(s, a);
   ck_assert_int_eq(members, s->order);
   ck_assert(n <= 10 && 1 << n <= s->order);
-  ck_assert_int_eq(thr_subgroup_generate(g, generator, n, &again, NULL), THR_OK);
-  ck_assert_int_eq(again.order, s->order);
-  ck_assert(memcmp(again.element, s->element, (size_t)s->order * sizeof *s->element) == 0);
-  thr_subgroup_destroy(&again);
+  ck_assert_int_eq(order_generated(g, generator, n), s->order); /* all of s, as s is closed */
 }
 
 /* Below 0, 0 or above: by descending order, then by elements. */
@@ -662,14 +676,12 @@ END_TEST
 
 /* ---- memory ---- */
 
-static thr_status run(const thr_frame *f, const int *edge_colour, thr_automorphisms *a, thr_group *g, thr_subgroup *s,
-                      thr_subgroup_classes *c, thr_err *err)
+static thr_status run(const thr_frame *f, const int *edge_colour, thr_automorphisms *a, thr_group *g, thr_subgroup_classes *c,
+                      thr_err *err)
 {
   thr_automorphism_options o = {NULL, edge_colour};
-  static const int some[2] = {1, 2};
   thr_status st = thr_automorphisms_find(f, &o, a, err);
   if (!st) st = thr_group_generate(a->n, a->generator, a->n_generators, THR_GROUP_CAP, g, err);
-  if (!st) st = thr_subgroup_generate(g, some, 2, s, err);
   if (!st) st = thr_subgroup_classes_find(g, 100, c, err);
   return st;
 }
@@ -685,16 +697,14 @@ START_TEST(every_allocation_fails_once)
   while (st) {
     thr_automorphisms a = {0};
     thr_group g = {0};
-    thr_subgroup s = {0};
     thr_subgroup_classes c = {0};
     thr_err err = {0};
     thr_alloc_fail_at(++k);
-    st = run(&f, edge_colour, &a, &g, &s, &c, &err);
+    st = run(&f, edge_colour, &a, &g, &c, &err);
     thr_alloc_fail_at(0);
     if (st) {
       ck_assert_msg(st == THR_ENOMEM, "allocation %ld: status %d, %s", k, (int)st, err.text);
       ck_assert(!c.subgroup && !c.conjugates && c.n == 0);
-      ck_assert(s.element || !s.order);
       ck_assert(g.image ? g.order == 16 : !g.product);
       ck_assert(!!a.generator == !!a.orbit);
     } else {
@@ -702,7 +712,6 @@ START_TEST(every_allocation_fails_once)
     }
     thr_automorphisms_destroy(&a);
     thr_group_destroy(&g);
-    thr_subgroup_destroy(&s);
     thr_subgroup_classes_destroy(&c);
     ck_assert_int_lt(k, 10000);
   }

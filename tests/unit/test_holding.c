@@ -36,6 +36,29 @@ static thr_physics physics_of(double width, double mu)
                        .gravity = 10};
 }
 
+/* Adds a force of so many newtons along a direction at a point to a bead's wrench about its mass centre. */
+static void add_force(const thr_beads *b, int bead, double newtons, const double *direction, const double *at, double *wrench)
+{
+  double lever[3];
+  for (int k = 0; k < 3; k++)
+    lever[k] = at[k] - b->mass_centre[bead][k];
+  for (int k = 0; k < 3; k++) {
+    int next = (k + 1) % 3, last = (k + 2) % 3;
+    wrench[k] += newtons * direction[k];
+    wrench[k + 3] += newtons * (lever[next] * direction[last] - lever[last] * direction[next]);
+  }
+}
+
+/* Every pass draws its two beads together with 1 N, along its edge. */
+static void add_cord(const thr_beads *b, const thr_frame *f, const thr_cord *cord, double (*wrench)[6])
+{
+  for (int k = 0; k < cord->n_passes; k++) {
+    int e = cord->half[k] / 2, from = f->edge[e][0], to = f->edge[e][1];
+    add_force(b, from, 1, b->axis[e], b->middle[e], wrench[from]);
+    add_force(b, to, -1, b->axis[e], b->middle[e], wrench[to]);
+  }
+}
+
 /* Takes the frame over. Every cord has tension 1 throughout. */
 static model model_make(thr_frame frame, thr_physics physics, const bool *fixed, const thr_cord *cord, int n_cords)
 {
@@ -53,8 +76,8 @@ static model model_make(thr_frame frame, thr_physics physics, const bool *fixed,
   for (int i = 0; i < n_cords; i++) {
     ck_assert(cord[i].n_passes <= 256);
     tension[i] = one;
+    add_cord(&m.beads, &m.frame, &cord[i], m.wrench);
   }
-  thr_beads_cord_wrench(&m.beads, &m.frame, cord, n_cords, tension, m.wrench);
   thr_holding_press(cord, n_cords, tension, m.press);
   free(tension);
   return m;

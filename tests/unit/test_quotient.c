@@ -112,9 +112,7 @@ END_TEST
 
 static thr_subgroup everything(const thr_group *g)
 {
-  thr_subgroup s;
-  ck_assert_int_eq(thr_subgroup_generate(g, NULL, 0, &s, NULL), THR_OK);
-  int *all = thr_realloc(s.element, (size_t)g->order, sizeof *all);
+  int *all = thr_calloc((size_t)g->order, sizeof *all);
   ck_assert_ptr_nonnull(all);
   for (int a = 0; a < g->order; a++)
     all[a] = a;
@@ -155,9 +153,8 @@ START_TEST(trivial_group)
 {
   thr_frame f = grid_make(5, 4);
   thr_group g = whole_group(&f);
-  thr_subgroup h;
+  thr_subgroup h = {1, &(int){0}};
   int turns = 0;
-  ck_assert_int_eq(thr_subgroup_generate(&g, NULL, 0, &h, NULL), THR_OK);
   thr_quotient q = quotient_of(&f, &g, &h);
   for (int v = 0; v < f.n_nodes; v++)
     turns += thr_degree(&f, v) * (thr_degree(&f, v) - 1) / 2;
@@ -166,7 +163,6 @@ START_TEST(trivial_group)
   ck_assert_int_eq(q.n_pairs, turns);
   ck_assert_int_eq(q.n_layers, 1);
   thr_quotient_destroy(&q);
-  thr_subgroup_destroy(&h);
   thr_group_destroy(&g);
   thr_frame_destroy(&f);
 }
