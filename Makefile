@@ -76,7 +76,7 @@ LINK = $(COMPILER_CXX) $(MODE_$(BUILD)) $(CFLAGS) $(LDFLAGS)
 STRICT = $(if $(filter-out 0,$(WERROR)),$(if $(filter fuzz,$(BUILD)),,-Werror))
 
 DIR := $(OUT)/$(BUILD)
-MODULES := graph lp symmetry tortuosity eval diagram
+MODULES := graph lp symmetry tortuosity planner eval diagram
 # every module, and its folders by stage
 FOLDERS := $(MODULES) $(patsubst %/,%,$(wildcard $(addsuffix /*/,$(MODULES))))
 CLI_FOLDERS := cli $(patsubst %/,%,$(wildcard cli/*/))
@@ -93,7 +93,7 @@ VALIDATE := $(DIR)/validate
 VALIDATE_OBJECTS := $(patsubst %.c,$(DIR)/%.o,$(wildcard tests/validate/*.c))
 WATCHDOG := $(DIR)/watchdog
 WATCHDOG_OBJECTS := $(patsubst %.c,$(DIR)/%.o,$(wildcard tests/watchdog/*.c))
-C_FILES = $(wildcard $(foreach d,$(FOLDERS) $(CLI_FOLDERS) tests tests/unit tests/property tests/fuzz tests/validate tests/watchdog tests/memory,$(d)/*.c $(d)/*.h))
+C_FILES = $(wildcard $(foreach d,$(FOLDERS) $(CLI_FOLDERS) tests tests/unit tests/property tests/fuzz tests/validate tests/watchdog tests/memory docs,$(d)/*.c $(d)/*.h))
 
 Q := $(if $(V),,@)
 # `make -jN` given: share its jobs; not given: one per processor

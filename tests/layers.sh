@@ -15,7 +15,8 @@ symmetry:symmetry graph lp
 tortuosity:tortuosity graph lp
 eval:eval graph lp
 diagram:diagram graph
-cli:cli graph lp symmetry tortuosity eval diagram'
+planner:planner graph lp symmetry tortuosity
+cli:cli graph lp symmetry tortuosity planner eval diagram'
 
 # foreign and Linux headers: the only file that may include them. "*" also stands for a folder of headers.
 owners='igraph.h:graph/framework/igraph.c
@@ -123,7 +124,7 @@ check_machine() { # every text file except build output and fuzz seeds
 
 check_tree() {
   local -a sources=() headers=()
-  mapfile -t sources < <(for m in graph lp symmetry tortuosity eval diagram cli; do
+  mapfile -t sources < <(for m in graph lp symmetry tortuosity planner eval diagram cli; do
     for f in "$m"/*.c "$m"/*.h "$m"/*.cpp "$m"/*/*.c "$m"/*/*.h "$m"/*/*.cpp; do [ -e "$f" ] && echo "$f"; done
   done)
   for f in "${sources[@]}"; do case $f in *.h) headers+=("$f") ;; esac; done
@@ -166,6 +167,7 @@ self_test() {
   expect graph/a.c:1 graph/a.c '#include "lp/solver/lp.h"\n'
   expect lp/a.c:2 lp/a.c '\n#include "tortuosity/t.h"\n'
   expect tortuosity/a.c:1 tortuosity/a.c '#include "symmetry/s.h"\n'
+  expect tortuosity/a.c:1 tortuosity/a.c '#include "planner/plan.h"\n'
   expect diagram/a.c:1 diagram/a.c '#include "lp/solver/lp.h"\n'
   expect eval/a.h:3 eval/a.h '#ifndef THR_A_H\n#define THR_A_H\n# include  "diagram/d.h"\n#endif\n'
   expect graph/a.c:1 graph/a.c '#include "frame.h"\n'

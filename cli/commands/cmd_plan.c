@@ -6,16 +6,8 @@
 #include "cli/print/plan_summary.h"
 #include "cli/print/symmetry_table.h"
 #include "graph/check/check.h"
-#include "graph/framework/cuttree.h"
-#include "graph/plan/junction.h"
-#include "lp/length/cords.h"
-#include "lp/solver/lp.h"
-#include "lp/length/postman.h"
-#include "symmetry/group/automorphisms.h"
-#include "tortuosity/tie/tube.h"
-#include "tortuosity/tie/tube_cords.h"
+#include "planner/dispatch.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -75,134 +67,7 @@ static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       {"json", no_argument, NULL, OPTION_JSON},
                                       {NULL, 0, NULL, 0}};
 
-/* ---- objectives ---- */
-
-/* A symmetric plan with as many cords in every piece, if there is one. */
-static thr_status find_seed(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *seed, thr_err *err)
-{
-  thr_symmetries s;
-  thr_plan_options so = *o;
-  thr_err why = {0};
-  thr_limits share = *limits;
-  double now = thr_clock();
-  if (share.deadline > 0) share.deadline = now + 0.25 * fmax(0, share.deadline - now);
-  so.symmetry = thr_plan_options_default().symmetry;
-  thr_status st = thr_symmetries_find(f, &so, &share, &s, &why);
-  int row = st && st != THR_ELIMIT ? -1 : thr_symmetries_even(&s, o->cords);
-  if (row >= 0) st = thr_symmetries_plan(&s, row, f, &so, &share, seed, &why);
-  thr_symmetries_destroy(&s);
-  return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* what else fails leaves no seed */
-}
-
-/* One cord through every edge an even number of times, for whoever keeps the best so far: at once, where a plan may be such. */
-static void tell_even(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits)
-{
-  enum { MOST_EDGES = 200000 }; /* beyond, writing it takes longer than it is worth */
-  thr_plan_options one = *o;
-  thr_cord *cord = NULL;
-  int n = 0, *passes = thr_calloc((size_t)f->n_edges, sizeof *passes);
-  bool room = passes && limits->found && o->joint == THR_JOINT_SOLID && f->n_edges <= MOST_EDGES;
-  for (int e = 0; e < f->n_edges && room; e++) {
-    passes[e] = thr_plan_cover(f, o, e) + thr_plan_cover(f, o, e) % 2;
-    room = passes[e] <= thr_plan_capacity(f, o, e);
-  }
-  one.cords = one.cords_least = 1;
-  if (room && !thr_postman_cords(f, &one, passes, &cord, &n, NULL)) thr_limits_found(limits, cord, n, NULL);
-  thr_cords_destroy(cord, n);
-  free(passes);
-}
-
-/* Some cords that tie the joints, or the shortest, for whoever keeps the best so far: sooner than a search has any. */
-static void tell_first(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits)
-{
-  static const double part = 0.2;
-  thr_plan_options length = *o;
-  thr_limits share = *limits;
-  thr_plan p = {0};
-  thr_tube t = {0};
-  if (!limits->found) return;
-  share.found = NULL;
-  if (share.deadline > 0) share.deadline -= (1 - part) * thr_limits_left(limits, INFINITY);
-  length.objective = THR_LENGTH;
-  length.confirm = THR_CONFIRM_NEVER;
-  thr_status st = o->joint == THR_JOINT_TUBE ? thr_tube_some(f, &length, &share, &t, NULL)
-                                             : thr_cords_plan(f, &length, &share, &p, NULL, NULL);
-  if (!st || st == THR_ELIMIT) thr_limits_found(limits, t.cord ? t.cord : p.cord, t.cord ? t.n_cords : p.n_cords, NULL);
-  thr_plan_destroy(&p);
-  thr_tube_destroy(&t);
-}
-
-/* Symmetric cords turn alike: where they are as many as asked for, the one that turns most may be at its bound at once. They keep
- * to no given numbers of ends. */
-static thr_status plan_tortuosity(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
-                                  thr_err *err)
-{
-  thr_plan seed = {0};
-  thr_status st = THR_OK;
-  *plan = (thr_plan){0};
-  tell_first(f, o, limits);
-  if (o->turning.largest && o->cords > 1 && o->ends != THR_ENDS_COUNTS) st = find_seed(f, o, limits, &seed, err);
-  if (!st) st = thr_tortuosity_plan_from(f, o, seed.n_cords ? &seed : NULL, limits, plan, err);
-  thr_plan_destroy(&seed);
-  return st;
-}
-
-/* What the length of a plan with tube joints is proved against. Closed cords are as long as one in every piece. */
-static thr_status prove_tied(thr_plan *plan, const thr_limits *limits, thr_err *err)
-{
-  thr_tube t;
-  thr_plan_options o = plan->options;
-  thr_err why = {0};
-  if (o.ends == THR_ENDS_CLOSED) o.cords = 1;
-  thr_status st = thr_tube_shortest(&plan->frame, &o, limits, &t, &why);
-  if (st == THR_OK || st == THR_ELIMIT)
-    st = thr_tied_least(&plan->frame, &plan->options, &t.proof, &t.bound, err);
-  else
-    st = thr_fail(err, st, "%s", why.text);
-  if (!st) thr_tube_prove(&t, plan->metrics.length, &plan->proof);
-  thr_tube_destroy(&t);
-  return st;
-}
-
-/* rows: the table, as for thr_symmetry_plan. With tube joints the last part of the time is for the proof of length. */
-static thr_status plan_symmetric(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_symmetries *rows,
-                                 thr_plan *plan, thr_err *err)
-{
-  static const double part = 0.15;
-  thr_limits most = *limits;
-  thr_err unproved = {0};
-  if (o->joint == THR_JOINT_SOLID) return thr_symmetry_plan(f, o, limits, rows, plan, err);
-  tell_first(f, o, limits);
-  if (most.deadline > 0) most.deadline -= part * thr_limits_left(limits, INFINITY);
-  thr_status found = thr_symmetry_plan(f, o, &most, rows, plan, &unproved);
-  thr_status st = plan->n_cords > 0 ? prove_tied(plan, limits, err) : THR_OK;
-  if (st) thr_plan_destroy(plan);
-  return st || !found ? st : thr_fail(err, found, "%s", unproved.text);
-}
-
-static thr_status plan_symmetry(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
-                                thr_err *err)
-{
-  return plan_symmetric(f, o, limits, NULL, plan, err);
-}
-
-static thr_status plan_length(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
-                              thr_err *err)
-{
-  if (o->joint == THR_JOINT_TUBE) return thr_tube_cords_plan(f, o, limits, plan, NULL, err);
-  return thr_cords_plan(f, o, limits, plan, NULL, err);
-}
-
-/* What can be minimized: a further objective adds its function here. */
-static const struct objective {
-  const char *name;
-  thr_objective id;
-  double time_limit; /* s, unless the user says otherwise */
-  thr_status (*plan)(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *out, thr_err *err);
-} objectives[] = {{"length", THR_LENGTH, 0, plan_length},
-                  {"symmetry", THR_SYMMETRY, 20, plan_symmetry},
-                  {"tortuosity", THR_TORTUOSITY, 20, plan_tortuosity}};
-enum { N_OBJECTIVES = sizeof objectives / sizeof *objectives };
+/* ---- options ---- */
 
 typedef struct {
   cli_frame_args frame;
@@ -211,22 +76,17 @@ typedef struct {
   symmetry_args symmetry;
   cords_args cords;
   guard_limits guard; /* seconds < 0: as the objective has it */
-  const struct objective *objective;
+  thr_objective objective;
   const char *path, *output, *draw;
   drawings_args drawings;
   bool json, compare;
 } arguments;
 
-static const char *objective_name(int i)
-{
-  return objectives[i].name;
-}
-
-static int find_objective(const char *name, const struct objective **out)
+static int find_objective(const char *name, thr_objective *out)
 {
   int i;
-  if (!cli_choose("plan", "--objective", name, objective_name, N_OBJECTIVES, &i)) return EXIT_USAGE;
-  *out = &objectives[i];
+  if (!cli_choose("plan", "--objective", name, thr_dispatch_name, THR_N_OBJECTIVES, &i)) return EXIT_USAGE;
+  *out = thr_dispatch_objective(i);
   return -1;
 }
 
@@ -239,7 +99,7 @@ static int parse(int argc, char **argv, arguments *a)
                    .symmetry = symmetry_args_default(),
                    .cords = cords_args_default(),
                    .guard = guard_limits_default(),
-                   .objective = &objectives[0],
+                   .objective = thr_dispatch_objective(0),
                    .drawings = {.quick = true}};
   pull_args_init(&a->pull, THR_JOINT);
   while ((o = cli_physics_option(&a->pull.physics, argc, argv, "plan", ":" CLI_COMMON_LETTERS PULL_LETTERS "o:", table, help(),
@@ -267,20 +127,20 @@ static int parse(int argc, char **argv, arguments *a)
   if ((a->output && !*a->output) || (a->draw && !*a->draw)) return cli_usage("plan", "an empty name is no place to write to");
   const char *wordy = a->json ? "--json" : a->compare ? "--compare-objectives" : a->turning.frontier ? "--frontier" : NULL;
   if (wordy && a->output && strcmp(a->output, "-") == 0) return cli_usage("plan", "%s and -o - both want stdout", wordy);
-  if (a->symmetry.given && a->objective->id != THR_SYMMETRY)
+  if (a->symmetry.given && a->objective != THR_SYMMETRY)
     return cli_usage("plan", "%s needs --objective symmetry", a->symmetry.given);
-  int code = turning_args_check(&a->turning, a->objective->id);
-  return code < 0 ? cords_args_check(&a->cords, &a->turning, a->objective->id) : code;
+  int code = turning_args_check(&a->turning, a->objective);
+  return code < 0 ? cords_args_check(&a->cords, &a->turning, a->objective) : code;
 }
 
 /* What is asked of an objective: what is about turning or symmetry concerns only one of them. */
-static void ask(const arguments *a, const struct objective *objective, thr_plan_options *o)
+static void ask(const arguments *a, thr_objective objective, thr_plan_options *o)
 {
-  o->objective = objective->id;
-  double usual = a->cords.joint == THR_JOINT_TUBE ? objectives[N_OBJECTIVES - 1].time_limit : objective->time_limit;
-  o->time_limit = a->guard.seconds < 0 ? usual : a->guard.seconds;
-  turning_args_apply(&a->turning, objective->id, o);
-  o->symmetry = objective->id == THR_SYMMETRY ? a->symmetry.options : symmetry_args_default().options;
+  o->objective = objective;
+  o->joint = a->cords.joint;
+  o->time_limit = a->guard.seconds < 0 ? thr_dispatch_usual_seconds(o) : a->guard.seconds;
+  turning_args_apply(&a->turning, objective, o);
+  o->symmetry = objective == THR_SYMMETRY ? a->symmetry.options : symmetry_args_default().options;
 }
 
 /* What was said of cord and beads must fit the framework; if nothing was, a framework of any size will do. */
@@ -295,15 +155,15 @@ static int apply_physics(const arguments *a, const thr_frame *f, thr_plan_option
 
 /* ---- the other objectives ---- */
 
-static int put_objective(thr_text *t, const arguments *a, const struct objective *objective, const thr_plan *p)
+static int put_objective(thr_text *t, const arguments *a, thr_objective objective, const thr_plan *p)
 {
   thr_eval e;
   const char *closing = objective == a->objective ? "   this plan" : "";
-  int code = pull_eval(&a->pull, objective->name, p, THR_JOINT, &e);
+  int code = pull_eval(&a->pull, thr_objective_name(objective), p, THR_JOINT, &e);
   if (a->json)
-    thr_text_printf(t, "{\"objective\": \"%s\", \"pull\": ", objective->name);
+    thr_text_printf(t, "{\"objective\": \"%s\", \"pull\": ", thr_objective_name(objective));
   else
-    thr_text_printf(t, "  %-12s", objective->name);
+    thr_text_printf(t, "  %-12s", thr_objective_name(objective));
   if (code == EXIT_OK && a->json) {
     thr_text_double(t, e.record.largest);
     thr_text_append(t, ", \"error\": ");
@@ -314,7 +174,7 @@ static int put_objective(thr_text *t, const arguments *a, const struct objective
                     pull_percent(e.error));
     if (e.refused) thr_text_printf(t, ": %d %s by closed form", e.refused, cli_plural(e.refused, "turn", "turns"));
     thr_text_printf(t, ")%s", closing);
-    if (objective->id == THR_SYMMETRY) thr_text_printf(t, "   %d %s", p->n_cords, cli_plural(p->n_cords, "cord", "cords"));
+    if (objective == THR_SYMMETRY) thr_text_printf(t, "   %d %s", p->n_cords, cli_plural(p->n_cords, "cord", "cords"));
   } else {
     thr_text_printf(t, a->json ? "null" : "%14s", "not known");
   }
@@ -324,27 +184,27 @@ static int put_objective(thr_text *t, const arguments *a, const struct objective
 }
 
 /* An objective that cannot do what this plan was asked for. */
-static int put_refused(thr_text *t, const arguments *a, const struct objective *objective)
+static int put_refused(thr_text *t, const arguments *a, thr_objective objective)
 {
-  const char *option = cords_args_refused(&a->cords, objective->id, true);
+  const char *option = cords_args_refused(&a->cords, objective, true);
   if (a->json)
-    thr_text_printf(t, "{\"objective\": \"%s\", \"pull\": null}", objective->name);
+    thr_text_printf(t, "{\"objective\": \"%s\", \"pull\": null}", thr_objective_name(objective));
   else
-    thr_text_printf(t, "  %-12s%14s   not with %s\n", objective->name, "-", option);
+    thr_text_printf(t, "  %-12s%14s   not with %s\n", thr_objective_name(objective), "-", option);
   return EXIT_OK;
 }
 
-static int plan_and_put(thr_text *t, const arguments *a, const struct objective *objective, const thr_plan *p, double deadline)
+static int plan_and_put(thr_text *t, const arguments *a, thr_objective objective, const thr_plan *p, double deadline)
 {
   thr_err err = {0};
   thr_plan other = {0};
   if (objective == a->objective) return put_objective(t, a, objective, p);
-  if (cords_args_refused(&a->cords, objective->id, true)) return put_refused(t, a, objective);
+  if (cords_args_refused(&a->cords, objective, true)) return put_refused(t, a, objective);
   thr_plan_options o = p->options;
   ask(a, objective, &o);
   thr_limits limits = cli_limits(o.time_limit);
   if (deadline > 0) limits.deadline = deadline;
-  thr_status st = objective->plan(&p->frame, &o, &limits, &other, &err);
+  thr_status st = thr_plan_make(&p->frame, &o, &limits, &other, NULL, &err);
   cli_progress_end();
   int code = st && st != THR_ELIMIT ? cli_fail(&err) : put_objective(t, a, objective, &other);
   thr_plan_destroy(&other);
@@ -356,10 +216,9 @@ static int put_comparison(thr_text *t, const arguments *a, const thr_plan *p, do
 {
   int code = EXIT_OK;
   thr_text_append(t, a->json ? ", \"objectives\": [" : "\nlargest pull by objective, joints measured in simulation\n");
-  for (int i = 0; i < N_OBJECTIVES; i++) {
-    const struct objective *objective = &objectives[i];
+  for (int i = 0; i < THR_N_OBJECTIVES; i++) {
     if (i && a->json) thr_text_append(t, ", ");
-    int done = plan_and_put(t, a, objective, p, deadline);
+    int done = plan_and_put(t, a, thr_dispatch_objective(i), p, deadline);
     if (!code) code = done;
   }
   if (a->json) thr_text_append(t, "]");
@@ -369,8 +228,7 @@ static int put_comparison(thr_text *t, const arguments *a, const thr_plan *p, do
 /* What was planned. */
 typedef struct {
   thr_plan plan;
-  thr_symmetries table; /* THR_SYMMETRY only */
-  thr_cords_word word;  /* THR_LENGTH only */
+  thr_report report;
 } planned;
 
 /* When all must be done: the plan and what it is held against share the time that was asked for; 0 = none was. */
@@ -379,24 +237,25 @@ static double deadline_of(const arguments *a)
   return a->guard.seconds > 0 ? guard_deadline() : 0;
 }
 
-/* Seconds for the search: all, or what proof, check and drawings leave of a time that was asked for, or half of it if there is to
- * be another search. */
+/* Seconds for the search: of a time that was asked for what the rest leaves. */
 static double time_of_plan(const arguments *a, const thr_plan_options *o)
 {
-  static const double drawing = 0.15, checking = 0.05, most = 3; /* parts; s */
   bool more = a->turning.compare || a->turning.frontier || a->compare;
-  if (a->guard.seconds <= 0) return o->time_limit;
-  if (more) return 0.5 * o->time_limit;
-  return o->time_limit - fmin(most, o->time_limit * (a->draw || !a->output ? drawing : checking));
+  return a->guard.seconds <= 0 ? o->time_limit : thr_dispatch_search_seconds(o->time_limit, a->draw || !a->output, more);
 }
 
 static int put_turning(thr_text *t, const arguments *a, const planned *x)
 {
-  turning_rivals r = {0};
-  int code = turning_rivals_make(&x->plan, a->turning.compare, a->turning.frontier, deadline_of(a), &r);
-  (a->json ? plan_put_json : plan_put_summary)(t, &x->plan, &r, x->word);
-  turning_rivals_destroy(&r);
-  return code;
+  thr_rivals r = {0};
+  thr_err err = {0};
+  thr_limits limits = cli_limits(0);
+  limits.deadline = deadline_of(a);
+  thr_status st = thr_rivals_make(&x->plan, a->turning.compare, a->turning.frontier, &limits, &r, &err);
+  cli_progress_end();
+  if (r.no_frontier.code) cli_note("no frontier: %s", r.no_frontier.text);
+  (a->json ? plan_put_json : plan_put_summary)(t, &x->plan, &r, x->report.word);
+  thr_rivals_destroy(&r);
+  return st ? cli_fail(&err) : EXIT_OK;
 }
 
 static void put_symmetry(thr_text *t, const arguments *a, const planned *x)
@@ -404,15 +263,15 @@ static void put_symmetry(thr_text *t, const arguments *a, const planned *x)
   enum { ROWS = 8 };
   const thr_plan *p = &x->plan;
   if (a->json) {
-    plan_put_json(t, p, NULL, x->word);
+    plan_put_json(t, p, NULL, x->report.word);
     thr_text_append(t, ", \"symmetries\": {");
-    symmetry_put_table_json(t, &p->options, &x->table);
+    symmetry_put_table_json(t, &p->options, &x->report.symmetries);
     thr_text_append(t, "}");
   } else {
-    symmetry_put_head(t, &p->frame, &p->options, &x->table);
-    symmetry_put_table(t, &p->options, &x->table, ROWS);
+    symmetry_put_head(t, &p->frame, &p->options, &x->report.symmetries);
+    symmetry_put_table(t, &p->options, &x->report.symmetries, ROWS);
     thr_text_append(t, "\n");
-    plan_put_summary(t, p, NULL, x->word);
+    plan_put_summary(t, p, NULL, x->report.word);
   }
 }
 
@@ -423,7 +282,7 @@ static int print_summary(const arguments *a, const planned *x)
   switch (x->plan.options.objective) {
   case THR_TORTUOSITY: code = put_turning(&t, a, x); break;
   case THR_SYMMETRY: put_symmetry(&t, a, x); break;
-  default: (a->json ? plan_put_json : plan_put_summary)(&t, &x->plan, NULL, x->word);
+  default: (a->json ? plan_put_json : plan_put_summary)(&t, &x->plan, NULL, x->report.word);
   }
   if (a->compare) {
     int done = put_comparison(&t, a, &x->plan, deadline_of(a));
@@ -521,24 +380,13 @@ static int write_outputs(const arguments *a, const planned *x, int planned_code)
 /* Time that nobody asked for is the search's alone. */
 static thr_status make_plan(const arguments *a, const thr_frame *f, const thr_plan_options *o, planned *x, thr_err *err)
 {
-  char versions[160];
-  thr_status st;
   if (a->guard.seconds < 0) guard_allow(o->time_limit > 0 ? 1 + 1.1 * o->time_limit : 0);
   thr_limits limits = cli_limits(time_of_plan(a, o));
   best_begin(f, o);
   limits.found = best_found;
-  tell_even(f, o, &limits);
-  if (o->objective == THR_SYMMETRY)
-    st = plan_symmetric(f, o, &limits, &x->table, &x->plan, err);
-  else if (o->objective == THR_LENGTH)
-    st = (o->joint == THR_JOINT_TUBE ? thr_tube_cords_plan : thr_cords_plan)(f, o, &limits, &x->plan, &x->word, err);
-  else
-    st = a->objective->plan(f, o, &limits, &x->plan, err);
+  thr_status st = thr_plan_make(f, o, &limits, &x->plan, &x->report, err);
   cli_progress_end();
   if (a->guard.seconds < 0) guard_allow(0);
-  snprintf(versions, sizeof versions, "thread %s, GLPK %s, igraph %s, nauty %s", THR_VERSION, thr_glpk_version(),
-           thr_igraph_version(), thr_nauty_version());
-  x->plan.generator = thr_strdup(versions);
   return st;
 }
 
@@ -559,7 +407,7 @@ static int plan_frame(const arguments *a, const thr_frame *f)
   free(o.end_node);
   free(o.end_count);
   thr_plan_destroy(&x.plan);
-  thr_symmetries_destroy(&x.table);
+  thr_report_destroy(&x.report);
   return code;
 }
 

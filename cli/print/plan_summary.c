@@ -158,7 +158,7 @@ static void put_length_status(thr_text *t, const thr_plan *p, thr_cords_word wor
                     "         optimal by the solver's word (not verified): all other passes were ruled out for so many cords\n");
 }
 
-static void put_text(thr_text *t, const thr_plan *p, const double *pull, const turning_rivals *r, thr_cords_word word)
+static void put_text(thr_text *t, const thr_plan *p, const double *pull, const thr_rivals *r, thr_cords_word word)
 {
   const thr_metrics *m = &p->metrics;
   double mu = p->options.physics.mu;
@@ -189,7 +189,7 @@ static double *pulls_of(thr_text *t, const thr_plan *p, double *largest)
   return pull;
 }
 
-void plan_put_summary(thr_text *t, const thr_plan *p, const turning_rivals *r, thr_cords_word word)
+void plan_put_summary(thr_text *t, const thr_plan *p, const thr_rivals *r, thr_cords_word word)
 {
   double largest, *pull = pulls_of(t, p, &largest);
   if (pull) put_text(t, p, pull, r, word);
@@ -213,7 +213,7 @@ static void put_claim_json(thr_text *t, const thr_plan *p, thr_cords_word word)
     thr_text_printf(t, ", \"fewest_cords\": %d, \"fewest_status\": \"%s\"", c->fewest, c->fewest_optimal ? "optimal" : "bound");
 }
 
-void plan_put_json(thr_text *t, const thr_plan *p, const turning_rivals *r, thr_cords_word word)
+void plan_put_json(thr_text *t, const thr_plan *p, const thr_rivals *r, thr_cords_word word)
 {
   const thr_metrics *m = &p->metrics;
   thr_text_printf(t, "{\"framework\": \"%016" PRIx64 "\", \"nodes\": %d, \"edges\": %d, \"cords\": %d, ",

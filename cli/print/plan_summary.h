@@ -6,9 +6,9 @@
 #include "lp/length/cords.h"
 
 /* r: for a plan of the least turning, what it is held against; NULL for others. word: what is known beyond what is verified. */
-void plan_put_summary(thr_text *t, const thr_plan *p, const turning_rivals *r, thr_cords_word word);
+void plan_put_summary(thr_text *t, const thr_plan *p, const thr_rivals *r, thr_cords_word word);
 
 /* The same as members of an object that is left open. */
-void plan_put_json(thr_text *t, const thr_plan *p, const turning_rivals *r, thr_cords_word word);
+void plan_put_json(thr_text *t, const thr_plan *p, const thr_rivals *r, thr_cords_word word);
 
 #endif

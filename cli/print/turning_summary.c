@@ -99,7 +99,7 @@ static figures figures_of(const thr_plan *p, const thr_plan *q)
 }
 
 /* The claim that bounds the turning: of a classical tour, that of the plan with the least. NULL = none. */
-static const thr_turning_claim *claim_of(const thr_plan *p, const turning_rivals *r)
+static const thr_turning_claim *claim_of(const thr_plan *p, const thr_rivals *r)
 {
   if (p->turning.present) return &p->turning;
   return r->corner.made && r->corner.plan.turning.present ? &r->corner.plan.turning : NULL;
@@ -111,7 +111,7 @@ static bool in_angles(const thr_plan *p)
 }
 
 /* A bound on prices bounds angles only where they are the price. */
-static figures figures_of_bound(const thr_plan *p, const turning_rivals *r)
+static figures figures_of_bound(const thr_plan *p, const thr_rivals *r)
 {
   const thr_turning_claim *claim = claim_of(p, r);
   figures b;
@@ -210,7 +210,7 @@ static void put_u_turns(thr_text *t, const thr_plan *p)
   thr_text_append(t, more ? ", ..\n" : "\n");
 }
 
-static void put_tour_status(thr_text *t, const thr_plan *p, const turning_rivals *r)
+static void put_tour_status(thr_text *t, const thr_plan *p, const thr_rivals *r)
 {
   const thr_turning_claim *claim = claim_of(p, r);
   thr_text_append(t, "         a classical tour, nothing proved");
@@ -221,7 +221,7 @@ static void put_tour_status(thr_text *t, const thr_plan *p, const turning_rivals
   thr_text_append(t, "\n");
 }
 
-void turning_put_status(thr_text *t, const thr_plan *p, const turning_rivals *r)
+void turning_put_status(thr_text *t, const thr_plan *p, const thr_rivals *r)
 {
   const thr_turning_claim *c = &p->turning;
   thr_text_printf(t, "turning  %.3f deg", cli_degrees(p->metrics.turning));
@@ -281,7 +281,7 @@ static const char *yes_or_no(const thr_plan *p)
   return !p->turning.present ? "-" : p->turning.optimal ? "yes" : "no";
 }
 
-static int make_columns(const thr_plan *p, const turning_rivals *r, column out[MOST_COLUMNS])
+static int make_columns(const thr_plan *p, const thr_rivals *r, column out[MOST_COLUMNS])
 {
   int n = 0;
   out[n++] = (column){"this plan", yes_or_no(p), figures_of(p, p)};
@@ -291,12 +291,12 @@ static int make_columns(const thr_plan *p, const turning_rivals *r, column out[M
   return n;
 }
 
-static void put_left_out(thr_text *t, const turning_rival *r)
+static void put_left_out(thr_text *t, const thr_rival *r)
 {
   if (!r->made && r->why.code) thr_text_printf(t, "without %s: %s\n", r->title, r->why.text);
 }
 
-void turning_put_table(thr_text *t, const thr_plan *p, const turning_rivals *r)
+void turning_put_table(thr_text *t, const thr_plan *p, const thr_rivals *r)
 {
   column c[MOST_COLUMNS];
   int n = make_columns(p, r, c);
@@ -320,7 +320,7 @@ void turning_put_table(thr_text *t, const thr_plan *p, const turning_rivals *r)
   put_left_out(t, &r->length);
 }
 
-void turning_put_frontier(thr_text *t, const thr_plan *p, const turning_rivals *r)
+void turning_put_frontier(thr_text *t, const thr_plan *p, const thr_rivals *r)
 {
   const thr_frontier *f = &r->frontier;
   bool angles = in_angles(p), proved = true;
@@ -384,7 +384,7 @@ static void put_figures_json(thr_text *t, const figures *x, bool all)
     if (all || !figure[i].known) put_number(t, figure[i].key, x->value[i]);
 }
 
-static void put_rival_json(thr_text *t, const thr_plan *p, const turning_rival *r, bool claims)
+static void put_rival_json(thr_text *t, const thr_plan *p, const thr_rival *r, bool claims)
 {
   thr_text_printf(t, ", \"%s\": ", r->key);
   if (!r->made) {
@@ -417,7 +417,7 @@ static void put_frontier_json(thr_text *t, const thr_plan *p, const thr_frontier
   thr_text_append(t, "]");
 }
 
-void turning_put_json(thr_text *t, const thr_plan *p, const turning_rivals *r)
+void turning_put_json(thr_text *t, const thr_plan *p, const thr_rivals *r)
 {
   figures x = figures_of(p, p);
   thr_text_printf(t, ", \"turn_cost\": \"%s\"", thr_turn_cost_name(p->options.turning.cost));

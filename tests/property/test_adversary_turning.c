@@ -4,7 +4,7 @@
 #include "graph/plan/junction.h"
 #include "tests/attack.h"
 #include "tests/truth.h"
-#include "tortuosity/tortuosity.h"
+#include "planner/turning.h"
 #include "tortuosity/tie/tube_cords.h"
 
 #include <limits.h>

@@ -2,7 +2,7 @@
  * frameworks against every choice of passes, ends and pairs. */
 #include "tests/symmetric.h"
 #include "graph/framework/make.h"
-#include "tortuosity/tortuosity.h"
+#include "planner/turning.h"
 
 #include <math.h>
 #include <stdlib.h>

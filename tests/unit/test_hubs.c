@@ -6,7 +6,7 @@
 #include "tortuosity/proof/hubs.h"
 #include "tortuosity/proof/nearest.h"
 #include "tortuosity/tour/pairing.h"
-#include "tortuosity/tortuosity.h"
+#include "planner/turning.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #include "tests/symmetric.h"
 #include "graph/check/check.h"
 #include "symmetry/symmetry.h"
-#include "tortuosity/tortuosity.h"
+#include "planner/turning.h"
 
 #include <math.h>
 #include <stdio.h>

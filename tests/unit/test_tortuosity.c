@@ -2,7 +2,7 @@
  * is not proved. */
 #include "tests/support.h"
 #include "tortuosity/proof/least.h"
-#include "tortuosity/tortuosity.h"
+#include "planner/turning.h"
 
 #include <math.h>
 #include <string.h>

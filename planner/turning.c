@@ -1,16 +1,14 @@
 /* Options -> the search's task -> cords -> plan with its claims; and the trade-off between length and turning. */
-#include "tortuosity/tortuosity.h"
+#include "planner/turning.h"
 #include "graph/check/check.h"
-#include "graph/plan/junction.h"
-#include "lp/length/cords.h"
 #include "lp/length/postman.h"
-#include "tortuosity/tour/baseline.h"
-#include "tortuosity/cords/maxturn.h"
+#include "planner/even_turning.h"
+#include "planner/planners.h"
 #include "tortuosity/tie/tube.h"
+#include "tortuosity/tour/baseline.h"
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 static thr_least_options search_options(const thr_plan_options *o)
 {
@@ -65,70 +63,7 @@ static thr_status find_least(const thr_frame *f, const thr_least_options *lo, co
   return st;
 }
 
-/* ---- a second start for the cord that turns most ---- */
-
-/* Are they cords of the task: as many in every component as l has, over passes and ends that it allows? Given numbers of ends no
- * other objective's plan keeps to. */
-static thr_status seed_fits(const thr_frame *f, const thr_least *l, const thr_plan *seed, bool *fits, thr_err *err)
-{
-  int *count = thr_calloc((size_t)f->n_nodes, sizeof *count); /* cords of a component: l's less the seed's */
-  bool *tied = thr_calloc((size_t)f->n_nodes, sizeof *tied), open = l->end_allowed != NULL;
-  thr_status st = count && tied ? THR_OK : thr_nomem(err);
-  double length = 0;
-  *fits = !l->task.end_count && seed->n_cords == l->n_cords && seed->frame.n_nodes == f->n_nodes &&
-          seed->options.cover == l->task.cover && seed->metrics.most_passes <= l->task.most_passes;
-  if (!st && *fits) st = thr_junction_tied(f, seed->cord, seed->n_cords, !open, tied, err);
-  *fits &= !st;
-  for (int i = 0; *fits && i < l->n_cords; i++) {
-    const thr_cord *c = &seed->cord[i];
-    count[l->cord[i].component]++;
-    count[c->component]--;
-    length += thr_cord_length(f, c);
-    *fits = open ? l->end_allowed[thr_cord_start(f, c)] && l->end_allowed[thr_cord_end(f, c)] : c->closed;
-    for (int k = 0; k + 1 < c->n_passes && *fits; k++) /* the search never turns back where it need not */
-      *fits = c->half[k + 1] != (c->half[k] ^ 1) || (thr_degree(f, thr_head(f, c->half[k])) == 1 && !l->task.tube);
-  }
-  for (int v = 0; v < f->n_nodes && *fits; v++)
-    *fits = count[v] == 0 && (tied[v] || !l->task.tube);
-  *fits &= l->length_limit < 0 || length <= l->length_limit * (1 + 1e-12);
-  free(count);
-  free(tied);
-  return st;
-}
-
-static thr_status copy_cords(const thr_cord *from, int n, thr_cord **to, thr_err *err)
-{
-  if (!(*to = thr_calloc((size_t)n, sizeof **to))) return thr_nomem(err);
-  for (int i = 0; i < n; i++) {
-    (*to)[i] = from[i];
-    if (!((*to)[i].half = thr_calloc((size_t)from[i].n_passes, sizeof *from[i].half))) return thr_nomem(err);
-    memcpy((*to)[i].half, from[i].half, (size_t)from[i].n_passes * sizeof *from[i].half);
-  }
-  return THR_OK;
-}
-
-/* The better of what comes of l's own cords and of the seed's, which is tried first. */
-static thr_status even_out(const thr_frame *f, const thr_plan *seed, const thr_limits *limits, thr_least *l, thr_err *err)
-{
-  bool fits = false;
-  thr_max_turning own = {.largest = INFINITY}, other = own;
-  thr_least from = *l; /* with the seed's cords; all else stays l's */
-  from.cord = NULL;
-  thr_status st = seed ? seed_fits(f, l, seed, &fits, err) : THR_OK;
-  if (!st && fits) {
-    const thr_limits share = thr_limits_part(limits, 0.5);
-    st = copy_cords(seed->cord, seed->n_cords, &from.cord, err);
-    if (!st) st = thr_max_turning_improve(f, &share, &from, &other, err);
-  }
-  if (!st && !(other.largest <= other.bound * (1 + 1e-9))) st = thr_max_turning_improve(f, limits, l, &own, err);
-  if (!st && other.largest < own.largest) {
-    thr_cord *cord = l->cord;
-    *l = from;
-    from.cord = cord;
-  }
-  thr_cords_destroy(from.cord, l->n_cords);
-  return st;
-}
+/* ---- where it begins ---- */
 
 /* The shortest passes of solid joints, or the shortest cords of tube joints; the other is empty. */
 typedef struct {
@@ -145,7 +80,7 @@ static void shortest_destroy(shortest_plan *s)
 static thr_status find_shortest(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, shortest_plan *s,
                                 thr_err *err)
 {
-  const thr_limits share = thr_limits_part(limits, 0.3);
+  const thr_limits share = thr_dispatch_share(limits, THR_STEP_SHORTEST);
   *s = (shortest_plan){0};
   thr_plan_options any = *o;
   if (o->ends == THR_ENDS_CLOSED) { /* no closed cords are shorter than one, which the search cuts up */
@@ -171,12 +106,11 @@ static thr_status cords_by_length(const thr_frame *f, const thr_plan_options *o,
                                   int *n, thr_err *err)
 {
   thr_plan_options length = *o;
-  const thr_limits share = thr_limits_part(limits, 0.2);
+  const thr_limits share = thr_dispatch_share(limits, THR_STEP_BY_LENGTH);
   thr_err why = {0};
   thr_plan p = {0};
-  bool tube = o->joint == THR_JOINT_TUBE;
   length.objective = THR_LENGTH;
-  thr_status st = tube ? thr_tube_plan(f, &length, &share, &p, &why) : thr_cords_plan(f, &length, &share, &p, NULL, &why);
+  thr_status st = thr_planner_length(f, &length, &share, &p, NULL, &why);
   *cord = p.cord;
   *n = p.n_cords;
   p.cord = NULL;
@@ -214,10 +148,10 @@ static thr_status find_cords(const thr_frame *f, const thr_plan_options *o, cons
   if (o->turning.tour != THR_TOUR_LEAST)
     return thr_baseline_tour(f, &lo, o->turning.tour, o->turning.ignore_pairings, limits, l, err);
   if (!o->turning.largest) return find_from_shortest(f, o, s, limits, l, err);
-  const thr_limits first = thr_limits_part(limits, 0.6);
+  const thr_limits first = thr_dispatch_share(limits, THR_STEP_LEAST);
   thr_status st = find_from_shortest(f, o, s, &first, l, err);
   if (st && st != THR_ELIMIT) return st;
-  st = even_out(f, seed, limits, l, err);
+  st = thr_even_turning(f, seed, limits, l, err);
   if (st) thr_least_destroy(l);
   return st;
 }
@@ -303,6 +237,22 @@ thr_status thr_tortuosity_plan(const thr_frame *f, const thr_plan_options *o, co
                                thr_err *err)
 {
   return thr_tortuosity_plan_from(f, o, NULL, limits, plan, err);
+}
+
+/* Symmetric cords turn alike: where they are as many as asked for, the one that turns most may be at its bound at once. They keep
+ * to no given numbers of ends. */
+thr_status thr_planner_turning(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
+                               thr_report *report, thr_err *err)
+{
+  thr_plan seed = {0};
+  thr_status st = THR_OK;
+  (void)report;
+  *plan = (thr_plan){0};
+  thr_planner_tell_first(f, o, limits);
+  if (o->turning.largest && o->cords > 1 && o->ends != THR_ENDS_COUNTS) st = thr_even_seed(f, o, limits, &seed, err);
+  if (!st) st = thr_tortuosity_plan_from(f, o, seed.n_cords ? &seed : NULL, limits, plan, err);
+  thr_plan_destroy(&seed);
+  return st;
 }
 
 /* ---- the trade-off ---- */

@@ -1,7 +1,7 @@
-/* The objective "tortuosity": from the options of a plan to cords that turn least, and what is proved of them (thesis, chapter 6;
+/* Plans of the least turning: from the options of a plan to cords that turn least, and what is proved of them (thesis, chapter 6;
  * docs/method.md). Friction grows as exp(mu * angle), so this is the threading that pulls most easily. */
-#ifndef THR_TORTUOSITY_H
-#define THR_TORTUOSITY_H
+#ifndef THR_PLANNER_TURNING_H
+#define THR_PLANNER_TURNING_H
 
 #include "graph/limits.h"
 #include "graph/plan/plan.h"

@@ -1,0 +1,62 @@
+/* Who plans what, and how the time is shared out. */
+#include "planner/planners.h"
+
+#include <math.h>
+
+/* What can be minimized: a further objective adds its row here. */
+static const struct {
+  thr_objective id;
+  double seconds; /* unless the user says otherwise; 0 = as long as it takes */
+  thr_planner *plan;
+} objectives[THR_N_OBJECTIVES] = {
+    {THR_LENGTH, 0, thr_planner_length}, {THR_SYMMETRY, 20, thr_planner_symmetric}, {THR_TORTUOSITY, 20, thr_planner_turning}};
+
+static const double tube_seconds = 20; /* of any objective: tied cords are an integer programme */
+
+/* Of the time that is left when a step begins. */
+static const double part[THR_N_STEPS] = {
+    [THR_STEP_FIRST] = 0.2, [THR_STEP_SEED] = 0.25,     [THR_STEP_SHORTEST] = 0.3,        [THR_STEP_BY_LENGTH] = 0.2,
+    [THR_STEP_LEAST] = 0.6, [THR_STEP_EVEN_SEED] = 0.5, [THR_STEP_SYMMETRIC_TIED] = 0.85,
+};
+
+/* Of all that a user allows. */
+static const double part_drawing = 0.15, part_checking = 0.05, part_compared = 0.5, most_after_search = 3; /* s */
+
+const char *thr_dispatch_name(int i)
+{
+  return thr_objective_name(objectives[i].id);
+}
+
+thr_objective thr_dispatch_objective(int i)
+{
+  return objectives[i].id;
+}
+
+static int row_of(const thr_plan_options *o)
+{
+  int i = 0;
+  while (objectives[i].id != o->objective)
+    i++;
+  return i;
+}
+
+thr_planner *thr_dispatch(const thr_plan_options *o)
+{
+  return objectives[row_of(o)].plan;
+}
+
+thr_limits thr_dispatch_share(const thr_limits *limits, thr_step step)
+{
+  return thr_limits_part(limits, part[step]);
+}
+
+double thr_dispatch_usual_seconds(const thr_plan_options *o)
+{
+  return o->joint == THR_JOINT_TUBE ? tube_seconds : objectives[row_of(o)].seconds;
+}
+
+double thr_dispatch_search_seconds(double seconds, bool drawn, bool compared)
+{
+  if (compared) return part_compared * seconds;
+  return seconds - fmin(most_after_search, seconds * (drawn ? part_drawing : part_checking));
+}

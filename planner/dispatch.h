@@ -1,0 +1,38 @@
+/* Who plans what, and how the time is shared out: both tables are in planner/dispatch.c. */
+#ifndef THR_DISPATCH_H
+#define THR_DISPATCH_H
+
+#include "planner/plan.h"
+
+/* A planner: fills an empty plan and an empty report, with the statuses of thr_plan_make. */
+typedef thr_status thr_planner(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
+                               thr_report *report, thr_err *err);
+
+/* The name of the i-th of THR_N_OBJECTIVES, in the order in which a user reads them, and which it is. */
+const char *thr_dispatch_name(int i);
+thr_objective thr_dispatch_objective(int i);
+
+thr_planner *thr_dispatch(const thr_plan_options *o);
+
+/* Steps of a plan that have a part of the time to themselves, of what is left when their turn comes. */
+typedef enum {
+  THR_STEP_FIRST,          /* some cords, before the search has any */
+  THR_STEP_SEED,           /* symmetric cords that the largest turning may begin with */
+  THR_STEP_SHORTEST,       /* with tube joints, the shortest cords: where the search for the least turning begins */
+  THR_STEP_BY_LENGTH,      /* cords of the least length where the shortest passes may not hold them */
+  THR_STEP_LEAST,          /* the least turning of all cords, before that of the cord that turns most */
+  THR_STEP_EVEN_SEED,      /* evening out the turning from the seed; the rest is for the search's own cords */
+  THR_STEP_SYMMETRIC_TIED, /* a symmetric plan with tube joints; the rest is for its proof of length */
+  THR_N_STEPS
+} thr_step;
+
+thr_limits thr_dispatch_share(const thr_limits *limits, thr_step step);
+
+/* Seconds for a plan if nobody says how many; 0 = any time. */
+double thr_dispatch_usual_seconds(const thr_plan_options *o);
+
+/* What of the seconds that everything may take is for the search: the rest is for checking and writing, for drawing, or for the
+ * plans that it is held against. */
+double thr_dispatch_search_seconds(double seconds, bool drawn, bool compared);
+
+#endif

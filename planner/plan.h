@@ -1,0 +1,29 @@
+/* One way to make a plan: what is wanted goes in, a plan with its proofs comes out (planner/dispatch.c says who plans it).
+ *
+ *   thr_plan_options request = thr_plan_options_default();
+ *   request.objective = THR_TORTUOSITY;
+ *   if (!thr_plan_make(&frame, &request, &(thr_limits){0}, &plan, NULL, &err)) thr_plan_write(&plan, &text);
+ */
+#ifndef THR_PLANNER_PLAN_H
+#define THR_PLANNER_PLAN_H
+
+#include "lp/length/cords.h"
+#include "symmetry/symmetry.h"
+
+/* What was found out beside the plan. */
+typedef struct {
+  thr_cords_word word;       /* what a solver says of the cords and the checker cannot verify */
+  thr_symmetries symmetries; /* of a symmetric plan: the groups and their threadings, without the cords that the plan has taken */
+} thr_report;
+
+void thr_report_destroy(thr_report *r);
+
+/* Plans what is requested within the limits, which are all that bounds the time: request->time_limit is only recorded. The plan's
+ * claims are what graph/check/check.c says of its proofs. limits->found hears of cords as soon as there are some. report: NULL =
+ * not wanted. THR_OK: what was to be least is proved to be. THR_ELIMIT: the plan is valid and holds its bounds, or it is
+ * empty because no cords were found in time. THR_EINFEASIBLE: there is no plan, or none was found (said). THR_EINPUT: wishes that
+ * do not go together (said). Otherwise the plan is empty; the report must be released in any case. */
+thr_status thr_plan_make(const thr_frame *frame, const thr_plan_options *request, const thr_limits *limits, thr_plan *plan,
+                         thr_report *report, thr_err *err) THR_MUST_CHECK;
+
+#endif

@@ -1,0 +1,15 @@
+/* The planners that the table of planner/dispatch.c chooses from. Private to planner/. */
+#ifndef THR_PLANNERS_H
+#define THR_PLANNERS_H
+
+#include "planner/dispatch.h"
+
+thr_planner thr_planner_length, thr_planner_turning, thr_planner_symmetric;
+
+/* Some cords that tie the joints, or the shortest, for whoever keeps the best so far: sooner than a search has any. */
+void thr_planner_tell_first(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits);
+
+/* What the cords of a plan with tube joints are proved to be as to their length. */
+thr_status thr_planner_prove_tied(thr_plan *plan, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
+
+#endif

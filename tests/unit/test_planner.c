@@ -1,0 +1,123 @@
+/* Plans made by the library alone: the example of docs/ as it stands, and the proofs that come with every plan. */
+#define _XOPEN_SOURCE 700
+#include "graph/check/check.h"
+#include "planner/dispatch.h"
+#include "tests/support.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+int example_main(int argc, char **argv);
+#define main example_main
+#include "docs/example.c"
+#undef main
+
+START_TEST(the_example_plans_for_every_objective)
+{
+  char folder[] = "/tmp/thread-test-XXXXXX", path[THR_N_OBJECTIVES][64];
+  char *argv[2 + THR_N_OBJECTIVES] = {"example", "data/dome7.json"};
+  ck_assert(mkdtemp(folder) != NULL);
+  for (int i = 0; i < THR_N_OBJECTIVES; i++) {
+    snprintf(path[i], sizeof path[i], "%s/%d.json", folder, i);
+    argv[2 + i] = path[i];
+  }
+  ck_assert_int_eq(example_main(2 + THR_N_OBJECTIVES, argv), 0);
+  for (int i = 0; i < THR_N_OBJECTIVES; i++) {
+    thr_plan p;
+    thr_err e = {0};
+    ck_assert_msg(thr_plan_read(&p, path[i], &e) == THR_OK, "%s", e.text);
+    ck_assert_msg(thr_check_plan(&p, &e) == THR_OK, "%s", e.text);
+    ck_assert_int_eq((int)p.options.objective, i);
+    ck_assert(p.proof.present && p.proof.lower_bound > 0);
+    thr_plan_destroy(&p);
+    ck_assert_int_eq(remove(path[i]), 0);
+  }
+  ck_assert_int_eq(rmdir(folder), 0);
+}
+END_TEST
+
+START_TEST(every_plan_comes_with_proofs)
+{
+  const thr_joint joint = _i % 2 ? THR_JOINT_TUBE : THR_JOINT_SOLID;
+  thr_frame f = solid_make(OCTAHEDRON);
+  thr_plan_options o = thr_plan_options_default();
+  const thr_limits limits = {.deadline = thr_clock() + 5};
+  thr_plan p;
+  thr_report r;
+  thr_err e = {0};
+  o.objective = thr_dispatch_objective(_i / 2);
+  o.joint = joint;
+  thr_status st = thr_plan_make(&f, &o, &limits, &p, &r, &e);
+  ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", e.text);
+  ck_assert_int_gt(p.n_cords, 0);
+  ck_assert_ptr_nonnull(p.generator);
+  ck_assert_ptr_nonnull(strstr(p.generator, "GLPK"));
+  e = (thr_err){0};
+  ck_assert_msg(thr_check_plan(&p, &e) == THR_OK, "%s", e.text);
+  ck_assert(p.proof.present);
+  ck_assert_double_ge(p.proof.lower_bound, thr_frame_total_length(&f) * (1 - 1e-9));
+  ck_assert(p.symmetry.present == (o.objective == THR_SYMMETRY));
+  ck_assert(p.turning.present == (o.objective == THR_TORTUOSITY));
+  ck_assert((r.symmetries.n > 0) == (o.objective == THR_SYMMETRY));
+  thr_report_destroy(&r);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+static int heard;
+
+static void hear(void *user, const thr_cord *cord, int n_cords, const thr_symmetry_record *symmetry)
+{
+  (void)user;
+  (void)cord;
+  (void)symmetry;
+  heard += n_cords > 0;
+}
+
+START_TEST(some_cords_are_heard_of_early)
+{
+  thr_frame f = solid_make(CUBE);
+  thr_plan_options o = thr_plan_options_default();
+  const thr_limits limits = {.deadline = thr_clock() + 5, .found = hear};
+  thr_plan p;
+  thr_err e = {0};
+  o.objective = thr_dispatch_objective(_i);
+  heard = 0;
+  thr_status st = thr_plan_make(&f, &o, &limits, &p, NULL, &e);
+  ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", e.text);
+  ck_assert_int_gt(heard, 0);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(time_is_shared_out)
+{
+  thr_plan_options o = thr_plan_options_default();
+  ck_assert_double_eq(thr_dispatch_usual_seconds(&o), 0);
+  o.joint = THR_JOINT_TUBE;
+  ck_assert_double_eq(thr_dispatch_usual_seconds(&o), 20);
+  ck_assert_double_eq(thr_dispatch_search_seconds(10, false, true), 5);
+  ck_assert_double_lt(thr_dispatch_search_seconds(10, true, false), thr_dispatch_search_seconds(10, false, false));
+  ck_assert_double_ge(thr_dispatch_search_seconds(1000, true, false), 997);
+  for (int i = 0; i < THR_N_STEPS; i++) {
+    const double now = thr_clock();
+    const thr_limits all = {.deadline = now + 100};
+    const thr_limits share = thr_dispatch_share(&all, (thr_step)i);
+    ck_assert(share.deadline > now + 1 && share.deadline < all.deadline);
+  }
+}
+END_TEST
+
+int main(void)
+{
+  Suite *s = suite_create("planner");
+  add_case(s, "example", 60, the_example_plans_for_every_objective, 0, 1);
+  add_case(s, "proofs", 60, every_plan_comes_with_proofs, 0, 2 * THR_N_OBJECTIVES);
+  add_case(s, "heard", 60, some_cords_are_heard_of_early, 0, THR_N_OBJECTIVES);
+  add_case(s, "time", 10, time_is_shared_out, 0, 1);
+  return run_suite(s);
+}
