@@ -186,7 +186,7 @@ static int note_components(const thr_frame *f, thr_err *err)
   int count, *component = thr_calloc((size_t)f->n_nodes, sizeof *component);
   if (!component) return thr_nomem(err);
   thr_status st = thr_frame_components(f, component, &count, err);
-  if (!st && count > 1) cli_note("note: the framework is in %d separate pieces; each gets its own cord", count);
+  if (!st && count > 1) cli_note("note: the framework is in %d separate components; each gets its own cord", count);
   free(component);
   return st;
 }

@@ -6,7 +6,7 @@
 #include "graph/plan/plan.h"
 #include "tortuosity/proof/least.h"
 
-/* A symmetric plan with as many cords in every piece as options.cords, if there is one; else seed stays empty. */
+/* A symmetric plan with as many cords in every component as options.cords, if there is one; else seed stays empty. */
 thr_status thr_even_seed(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *seed,
                          thr_err *err) THR_MUST_CHECK;
 

@@ -29,7 +29,7 @@ void thr_planner_tell_first(const thr_frame *f, const thr_plan_options *o, const
   thr_tube_destroy(&t);
 }
 
-/* Closed cords are as long as one in every piece. */
+/* Closed cords are as long as one in every component. */
 thr_status thr_planner_prove_tied(thr_plan *plan, const thr_limits *limits, thr_err *err)
 {
   thr_tube t;

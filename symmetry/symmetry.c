@@ -203,7 +203,8 @@ thr_status thr_symmetries_plan(thr_symmetries *t, int row, const thr_frame *f, c
   with.objective = THR_SYMMETRY;
   count_cords(r, &least, &with.cords);
   if (with.cords > MOST_CORDS)
-    return thr_fail(err, THR_EINFEASIBLE, "group %d makes %d cords in one piece, more than %d", row + 1, with.cords, MOST_CORDS);
+    return thr_fail(err, THR_EINFEASIBLE, "group %d makes %d cords in one component, more than %d", row + 1, with.cords,
+                    MOST_CORDS);
   thr_status st = thr_plan_request(plan, f, &with, err);
   if (!st) {
     plan->cord = r->cord;

@@ -1504,7 +1504,7 @@ def terms(p):
     """For which plans the claims hold, in words."""
     o = p.options
     cords = count(o.cords, "cord") if o.least == o.cords else f"{o.least} to {o.cords} cords"
-    words = [f"{o.objective}, {'tube' if o.tube else 'solid'} joints, ends {o.ends}, cover {o.cover}, {cords} in each piece"]
+    words = [f"{o.objective}, {'tube' if o.tube else 'solid'} joints, ends {o.ends}, cover {o.cover}, {cords} in each component"]
     for text, given in ((f"capacity {o.capacity}", o.capacity), ("covers of edges", p.frame.cover), ("capacities of edges", p.frame.capacity),
                         (f"max_length {o.max_length}", o.max_length), ("balanced", o.balance),
                         ("lengths of edges as stated", "lengths" in p.file["framework"])):

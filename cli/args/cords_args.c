@@ -119,7 +119,7 @@ int cords_args_check(const cords_args *a, const turning_args *turning, thr_objec
   if (a->capacity > 0 && a->capacity < a->cover)
     return cli_usage("plan", "--capacity %d leaves no room for --cover %d", a->capacity, a->cover);
   if (turning->options.tour == THR_TOUR_LEAST) return -1;
-  if (a->most > 1) return cli_usage("plan", "--tour %s makes one cord in each piece, not --cords %d", tour, a->most);
+  if (a->most > 1) return cli_usage("plan", "--tour %s makes one cord in each component, not --cords %d", tour, a->most);
   if (a->joint == THR_JOINT_TUBE) return cli_usage("plan", "--tour %s ties no joints: no --joint tube", tour);
   return -1;
 }
@@ -168,7 +168,7 @@ static int parse_counts(const thr_frame *f, const char *ends, int *counts)
   return EXIT_OK;
 }
 
-/* Cords of the pieces that the ends belong to: *most and *least of any. */
+/* Cords of the components that the ends belong to: *most and *least of any. */
 static int count_cords(const thr_frame *f, const int *counts, int *least, int *most)
 {
   thr_err err = {0};
@@ -183,8 +183,8 @@ static int count_cords(const thr_frame *f, const int *counts, int *least, int *m
   }
   for (int k = 0; !st && !code && k < n; k++) {
     if (sum[k] % 2 || sum[k] == 0) {
-      cli_error("--ends: the piece with node %s has %d %s; cords have two each, and every piece needs one", f->name[first[k]],
-                sum[k], cli_plural(sum[k], "cord end", "cord ends"));
+      cli_error("--ends: the component with node %s has %d %s; cords have two each, and every component needs one",
+                f->name[first[k]], sum[k], cli_plural(sum[k], "cord end", "cord ends"));
       code = EXIT_INFEASIBLE;
     }
     if (sum[k] / 2 < *least) *least = sum[k] / 2;
@@ -202,11 +202,11 @@ static int apply_counts(const cords_args *a, const thr_frame *f, thr_plan_option
   if (o->objective == THR_SYMMETRY) return cli_usage("plan", "--ends NAME:N: not with --objective symmetry");
   if ((code = count_cords(f, o->end_count, &least, &most))) return code;
   if (o->turning.tour != THR_TOUR_LEAST && most > 1)
-    return cli_usage("plan", "--tour %s makes one cord in each piece, not the %d of --ends %s", thr_tour_name(o->turning.tour),
-                     most, a->ends);
+    return cli_usage("plan", "--tour %s makes one cord in each component, not the %d of --ends %s",
+                     thr_tour_name(o->turning.tour), most, a->ends);
   if (most > MOST_CORDS || (a->most && (most > a->most || least < a->least))) {
-    cli_error("--ends %s: these are the ends of %d %s in a piece; --cords says otherwise", a->ends, most > a->most ? most : least,
-              cli_plural(most > a->most ? most : least, "cord", "cords"));
+    cli_error("--ends %s: these are the ends of %d %s in a component; --cords says otherwise", a->ends,
+              most > a->most ? most : least, cli_plural(most > a->most ? most : least, "cord", "cords"));
     return EXIT_INFEASIBLE;
   }
   o->ends = THR_ENDS_COUNTS;

@@ -28,7 +28,7 @@ enum {
 #define CORDS_HELP                                                                                                               \
   "      --ends closed|any|feet|FILE|NAME,..   both ends of a cord at one node (default), or anywhere, at feet, at these\n"      \
   "      --ends NAME:N,.. exactly so many cord ends at each of these nodes\n"                                                    \
-  "      --cords K        K cords in every piece, 1 to 1000 (default: 1);  A..B, ..B: at most B;  auto: with --max-length\n"     \
+  "      --cords K        K cords in every component, 1 to 1000 (default: 1);  A..B, ..B: at most B;  auto: with --max-length\n" \
   "      --max-length L   no cord longer than L units, as few as it takes\n"                                                     \
   "      --balance        make the longest cord short\n"                                                                         \
   "      --cover N        at least N passes over every interface (default: 1)\n"                                                 \

@@ -11,7 +11,7 @@
 #include <string.h>
 
 static const char help[] =
-    "thread info FRAME [options]: nodes, edges, odd nodes, pieces, feet, rigidity\n\n"
+    "thread info FRAME [options]: nodes, edges, odd nodes, components, feet, rigidity\n\n"
     "Examples:\n"
     "  thread info dome.obj --feet lowest\n"
     "  thread info nodes.csv --edges edges.csv --json\n"
@@ -130,7 +130,7 @@ static void put_text(thr_text *t, const thr_frame *f, const facts *a)
   for (int d = 0; d <= MOST_DEGREES; d++)
     if (a->degree[d]) thr_text_printf(t, " %d x %d%s", a->degree[d], d, d == MOST_DEGREES ? " or more" : "");
   thr_text_printf(t, "\nodd nodes   %d%s\n", a->odd, a->odd ? "" : " (one closed cord needs no overlap)");
-  thr_text_printf(t, "pieces      %d\nbridges     %d%s\nfeet        %d\n", a->components, a->bridges,
+  thr_text_printf(t, "components  %d\nbridges     %d%s\nfeet        %d\n", a->components, a->bridges,
                   a->bridges ? " (a closed cord passes each twice)" : "", a->feet);
   thr_text_printf(t, "length      %.6f %s in all, edges from %.6g to %.6g%s\n", thr_frame_total_length(f), f->units, a->shortest,
                   a->longest, f->own_lengths ? " (given by the file)" : "");

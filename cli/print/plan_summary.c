@@ -71,11 +71,11 @@ static int pieces_of(const thr_plan *p)
 }
 
 /* How many cords were asked for. */
-static void put_number(thr_text *t, const thr_plan *p, int pieces)
+static void put_number(thr_text *t, const thr_plan *p, int components)
 {
   enum { NO_LIMIT = 1000 };
   const thr_plan_options *o = &p->options;
-  const char *each = pieces > 1 ? " in each piece" : "";
+  const char *each = components > 1 ? " in each component" : "";
   if (o->objective == THR_SYMMETRY || o->ends == THR_ENDS_COUNTS)
     thr_text_printf(t, "; %d %s", p->n_cords, cli_plural(p->n_cords, "cord", "cords"));
   else if (o->cords_least < o->cords && o->cords < NO_LIMIT)
@@ -91,15 +91,15 @@ static void put_number(thr_text *t, const thr_plan *p, int pieces)
 static void put_head(thr_text *t, const thr_plan *p)
 {
   const thr_plan_options *o = &p->options;
-  int pieces = pieces_of(p);
+  int components = pieces_of(p);
   thr_text_printf(t, "%d nodes, %d %s, %d %s; %d %s per edge", p->frame.n_nodes, p->frame.n_edges,
-                  cli_plural(p->frame.n_edges, "edge", "edges"), pieces, cli_plural(pieces, "piece", "pieces"), o->cover,
-                  cli_plural(o->cover, "pass", "passes"));
+                  cli_plural(p->frame.n_edges, "edge", "edges"), components, cli_plural(components, "component", "components"),
+                  o->cover, cli_plural(o->cover, "pass", "passes"));
   if (p->frame.cover) thr_text_append(t, " or as the framework says");
   if (o->capacity) thr_text_printf(t, ", at most %d", o->capacity);
   thr_text_printf(t, "; ends: %s", thr_ends_name(o->ends));
   if (o->joint == THR_JOINT_TUBE) thr_text_append(t, "; joints: tube");
-  put_number(t, p, pieces);
+  put_number(t, p, components);
   thr_text_append(t, "\n\n");
 }
 

@@ -91,7 +91,7 @@ void symmetry_put_head(thr_text *t, const thr_frame *f, const thr_plan_options *
   double base = 0;
   for (int e = 0; e < f->n_edges; e++)
     base += thr_plan_cover(f, o, e) * f->length[e];
-  thr_text_printf(t, "ends: %s; %d %s per edge%s; the shortest plan with one cord in each piece has %.1f %% overlap%s\n\n",
+  thr_text_printf(t, "ends: %s; %d %s per edge%s; the shortest plan with one cord in each component has %.1f %% overlap%s\n\n",
                   thr_ends_name(o->ends), o->cover, cli_plural(o->cover, "pass", "passes"),
                   o->joint == THR_JOINT_TUBE ? "; joints: tube" : "", 100 * (s->shortest - base) / base,
                   s->shortest_optimal ? "" : " (not proved)");

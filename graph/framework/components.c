@@ -1,4 +1,4 @@
-/* Pieces of a framework, and plans of them put together again. */
+/* Components of a framework, and plans of them put together again. */
 #include "graph/framework/components.h"
 
 #include <stdlib.h>

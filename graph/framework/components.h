@@ -18,8 +18,8 @@ typedef struct {
 thr_status thr_components_init(thr_components *p, const thr_frame *f, const thr_plan_options *o, thr_err *err) THR_MUST_CHECK;
 void thr_components_destroy(thr_components *p);
 
-/* Piece k alone, with what is asked of it, as an empty plan; nodes and edges keep their order. O(component). On failure out is
- * empty.
+/* Component k alone, with what is asked of it, as an empty plan; nodes and edges keep their order. O(component). On failure out
+ * is empty.
  */
 thr_status thr_component_take(const thr_components *p, int k, thr_plan *out, thr_err *err) THR_MUST_CHECK;
 

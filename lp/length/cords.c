@@ -158,7 +158,7 @@ static thr_status make_closed(several *x, int k, bool even, thr_err *err)
   st = thr_share_more(&x->share, k, even ? must : n, x->passes, &x->walks[k], &enough, &least, err);
   x->least &= least;
   if (st || enough) return st;
-  return thr_fail(err, THR_EINFEASIBLE, "the piece with node %s cannot hold %d closed cords: the capacities leave no room",
+  return thr_fail(err, THR_EINFEASIBLE, "the component with node %s cannot hold %d closed cords: the capacities leave no room",
                   node_of(x, k), n);
 }
 
@@ -333,10 +333,10 @@ static thr_status none_found(const growing *g, int most, thr_err *err)
   const char *cords = most == 1 ? "cord" : "cords", *units = x->f->units;
   double length = x->o->max_length, found = thr_walks_longest(&x->walks[k]);
   if (x->walks[k].n_walks == 0)
-    return thr_fail(err, THR_EINFEASIBLE, "the piece with node %s needs %g %s of cord: %d %s of at most %g %s are too few",
+    return thr_fail(err, THR_EINFEASIBLE, "the component with node %s needs %g %s of cord: %d %s of at most %g %s are too few",
                     node_of(x, k), g->length[k], units, most, cords, length, units);
   return thr_fail(err, THR_EINFEASIBLE,
-                  "the piece with node %s: did not find %s%d %s with none longer than %g %s, but one of %g %s", node_of(x, k),
+                  "the component with node %s: did not find %s%d %s with none longer than %g %s, but one of %g %s", node_of(x, k),
                   x->o->cords_least == most ? "" : "up to ", most, cords, length, units, found, units);
 }
 

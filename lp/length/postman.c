@@ -300,7 +300,7 @@ static thr_status check_parts(const postman *m, thr_err *err)
   return st;
 }
 
-/* In every piece cords can end somewhere; ends that are given have their cords. */
+/* In every component cords can end somewhere; ends that are given have their cords. */
 static thr_status check_ends(const postman *m, thr_err *err)
 {
   const thr_frame *f = m->f;
@@ -313,13 +313,14 @@ static thr_status check_ends(const postman *m, thr_err *err)
   for (int k = 0; k < m->n_components && !st; k++) {
     const char *name = f->name[first[k]];
     if (ends[k] == 0)
-      st = thr_fail(err, THR_EINFEASIBLE,
-                    "piece %d (the one with node %s) has no node where a cord may end; name one with --feet (try --feet lowest) "
-                    "or --ends, or use --ends closed",
-                    k + 1, name);
+      st = thr_fail(
+          err, THR_EINFEASIBLE,
+          "component %d (the one with node %s) has no node where a cord may end; name one with --feet (try --feet lowest) "
+          "or --ends, or use --ends closed",
+          k + 1, name);
     else if (m->o->ends == THR_ENDS_COUNTS && (ends[k] % 2 || ends[k] / 2 > m->o->cords || ends[k] / 2 < m->o->cords_least))
-      st = thr_fail(err, THR_EINFEASIBLE, "piece %d (the one with node %s): %d cord ends do not make %d %s; each has two", k + 1,
-                    name, ends[k], m->o->cords, m->o->cords == 1 ? "cord" : "cords");
+      st = thr_fail(err, THR_EINFEASIBLE, "component %d (the one with node %s): %d cord ends do not make %d %s; each has two",
+                    k + 1, name, ends[k], m->o->cords, m->o->cords == 1 ? "cord" : "cords");
   }
   free(ends);
   free(first);

@@ -105,7 +105,7 @@ static thr_status cut_all(places *p, thr_err *err)
 static thr_status too_few(const places *p, int wanted, thr_err *err)
 {
   const thr_frame *f = p->s->f;
-  return thr_fail(err, THR_EINFEASIBLE, "the piece with node %s has too few places for the ends of %d cords",
+  return thr_fail(err, THR_EINFEASIBLE, "the component with node %s has too few places for the ends of %d cords",
                   f->name[thr_tail(f, p->w->walk[0].half[0])], wanted);
 }
 

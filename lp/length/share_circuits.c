@@ -228,7 +228,7 @@ thr_status thr_share_merge(const thr_share *s, int n, thr_walks *w, thr_err *err
   while (w->n_walks > n && !st) {
     junction best;
     st = best_junction(s, w, &best, err);
-    if (!st && best.a < 0) return thr_fail(err, THR_ESOLVER, "circuits of one piece that do not meet");
+    if (!st && best.a < 0) return thr_fail(err, THR_ESOLVER, "circuits of one component that do not meet");
     if (!st) st = thr_walks_merge(w, s->f, best.a, best.at_a, best.b, best.at_b, best.against, err);
   }
   return st;

@@ -38,7 +38,7 @@ static void search_destroy(search *s)
   thr_tjoin_destroy(&s->many.t);
 }
 
-/* In every piece one edge to the hub. */
+/* In every component one edge to the hub. */
 static thr_status find_pieces(search *s, thr_err *err)
 {
   int n = s->p->graph.n_nodes, *parent = thr_calloc((size_t)n, sizeof *parent);
@@ -50,9 +50,9 @@ static thr_status find_pieces(search *s, thr_err *err)
   for (int e = 0; e < s->p->graph.n_edges && !st; e++)
     thr_disjoint_join(parent, s->edge[e][0], s->edge[e][1]);
   for (int e = s->p->graph.n_edges; e < s->n_edges && !st; e++) {
-    int piece = thr_disjoint_find(parent, s->edge[e][0]);
-    if (!seen[piece]) s->end_of_piece[s->n_pieces++] = e;
-    seen[piece] = true;
+    int component = thr_disjoint_find(parent, s->edge[e][0]);
+    if (!seen[component]) s->end_of_piece[s->n_pieces++] = e;
+    seen[component] = true;
   }
   free(parent);
   free(seen);
@@ -104,8 +104,8 @@ static thr_status solve_at(search *s, int64_t price, point *at, thr_err *err)
   return st;
 }
 
-/* A join with the fewest ends: as if a cord could end in every piece of the graph at its first node for it only. Of a connected
- * graph it is the lightest closed one. */
+/* A join with the fewest ends: as if a cord could end in every component of the graph at its first node for it only. Of a
+ * connected graph it is the lightest closed one. */
 static thr_status solve_fewest(search *s, point *at, thr_err *err)
 {
   int m = s->p->graph.n_edges, n_pieces = s->n_pieces, (*edge)[2] = thr_calloc((size_t)m + (size_t)n_pieces, sizeof *edge);

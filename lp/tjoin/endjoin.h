@@ -4,15 +4,15 @@
 
 #include "lp/tjoin/engine.h"
 
-/* All arrays are borrowed. The graph may fall into pieces, no more of them with an odd number of odd nodes than n_ends, each with
- * a node where ends are allowed. */
+/* All arrays are borrowed. The graph may fall into components, no more of them with an odd number of odd nodes than n_ends, each
+ * with a node where ends are allowed. */
 typedef struct {
   thr_tjoin_problem graph; /* without leaves */
   const bool *end_allowed; /* [n_nodes], one at least */
   int n_ends;              /* even: so many odd nodes, if allowed, need no edge of the join; the others do */
   thr_engine engine;
   thr_confirmations *count; /* GLPK is asked about the join whose cuts are the proof; NULL: it is not */
-  int64_t far;              /* twice this is more than the weight of the way between any two nodes of a piece */
+  int64_t far;              /* twice this is more than the weight of the way between any two nodes of a component */
 } thr_endjoin_problem;
 
 typedef struct {

@@ -274,7 +274,7 @@ START_TEST(too_many_cords_are_refused)
   o.cords = 2;
   o.most_passes = 3; /* twice there and back needs 4 */
   ck_assert_int_eq(thr_least_turning(&f, &o, &limits, &l, &err), THR_EINFEASIBLE);
-  assert_one_line(&err, "no plan with 2 closed cords in every piece and at most 3 passes of every edge was found");
+  assert_one_line(&err, "no plan with 2 closed cords in every component and at most 3 passes of every edge was found");
   ck_assert_ptr_null(l.cord);
   thr_frame_destroy(&f);
 }

@@ -13,7 +13,7 @@ static const double first_step = 0.05, least_step = 1e-4, most_new = 0.1;
 static const double most_multiplier = 2000; /* where there is no plan, nothing else would stop them */
 
 /* Where the multipliers stand: shift[m], which one half-edge of an edge gets and the other one pays; both[m] >= 0, which both
- * get; and that of the length, >= 0. One piece. */
+ * get; and that of the length, >= 0. One component. */
 typedef struct {
   const thr_turning_columns *c;
   int m, n;              /* edges; multipliers: 2 * m + 1 */

@@ -210,7 +210,7 @@ static thr_status not_found(const thr_branch *b, thr_err *err)
   const thr_turning_task *t = b->c->task;
   if (b->several)
     thr_fail(err, THR_EINFEASIBLE,
-             "no plan with %d closed cords in every piece and at most %d passes of every edge was found; "
+             "no plan with %d closed cords in every component and at most %d passes of every edge was found; "
              "ask for fewer cords, or allow more passes or more length",
              t->cords, t->most_passes);
   else

@@ -50,7 +50,7 @@ thr_status thr_tie_possible(const thr_turning_columns *c, thr_err *err)
     else if (loose[k] > c->supply[k][1])
       st = thr_fail(err, THR_EINFEASIBLE,
                     "nodes with one edge only, such as %s, take %d ends with tube joints, but there are no more than %d in their "
-                    "piece; ask for more --cords",
+                    "component; ask for more --cords",
                     f->name[v], loose[k], c->supply[k][1]);
   }
   free(loose);

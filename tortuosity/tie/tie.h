@@ -35,7 +35,7 @@ typedef struct {
   int at, d, n;        /* node whose prices are in price (-1: none), its degree, pairs of the last one tied */
   thr_knot_pair *pair; /* [most] */
   int *parent;         /* [places] disjoint sets of the edges; places = 1 + largest degree */
-  int *left, *room;    /* [places] passes not yet paired; of a set. In one piece with parent */
+  int *left, *room;    /* [places] passes not yet paired; of a set. In one component with parent */
   int *order;          /* [turns] columns of every node, the cheapest first */
   double *price;       /* [places * places] */
   double turning;      /* of the pairs of the last node; INFINITY: it cannot be tied */

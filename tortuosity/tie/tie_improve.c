@@ -26,7 +26,7 @@ static void descend(thr_walker *w, const thr_limits *limits)
 }
 
 typedef struct {
-  int *passes, *ends; /* one piece */
+  int *passes, *ends; /* one component */
   double total;
 } best_plan;
 

@@ -128,7 +128,7 @@ thr_status thr_tube_shortest(const thr_frame *f, const thr_plan_options *o, cons
   *out = (thr_tube){0};
   if (o->ends == THR_ENDS_CLOSED && o->objective != THR_LENGTH && o->cords > 1)
     return thr_fail(err, THR_EINPUT,
-                    "tube joints take one closed cord in every piece; let the cords end somewhere, or ask for one");
+                    "tube joints take one closed cord in every component; let the cords end somewhere, or ask for one");
   thr_status st = make(f, o, true, limits, out, err);
   if (st || proved(out)) return st;
   return thr_fail(err, THR_ELIMIT, "the length is proved to be within %.3g %% of the least",

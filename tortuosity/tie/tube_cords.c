@@ -180,7 +180,7 @@ static thr_status make_number(several *x, int n, bool even, thr_err *err)
     bool found, certain;
     st = make_walks(x, k, n, even, 0, &x->walks[k], &found, &certain, err);
     if (!st && !found)
-      st = thr_fail(err, THR_EINFEASIBLE, "the piece with node %s: %s %d closed cords that tie its joints", node_of(x, k),
+      st = thr_fail(err, THR_EINFEASIBLE, "the component with node %s: %s %d closed cords that tie its joints", node_of(x, k),
                     certain ? "there are no" : "did not find", n);
   }
   return st;
@@ -251,13 +251,14 @@ static thr_status none_found(const several *x, int k, thr_err *err)
   const char *units = x->f->units;
   double limit = x->o->max_length;
   if (x->walks[k].n_walks == 0)
-    return thr_fail(err, THR_EINFEASIBLE,
-                    "the piece with node %s: did not find up to %d cords that tie its joints, none longer than %g %s; together "
-                    "they need %g %s",
-                    node_of(x, k), x->o->cords, limit, units, x->length[k], units);
+    return thr_fail(
+        err, THR_EINFEASIBLE,
+        "the component with node %s: did not find up to %d cords that tie its joints, none longer than %g %s; together "
+        "they need %g %s",
+        node_of(x, k), x->o->cords, limit, units, x->length[k], units);
   return thr_fail(
       err, THR_EINFEASIBLE,
-      "the piece with node %s: did not find up to %d cords that tie its joints, none longer than %g %s, but one of %g "
+      "the component with node %s: did not find up to %d cords that tie its joints, none longer than %g %s, but one of %g "
       "%s",
       node_of(x, k), x->o->cords, limit, units, thr_walks_longest(&x->walks[k]), units);
 }

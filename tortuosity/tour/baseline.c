@@ -211,7 +211,7 @@ static thr_status check_room(const thr_turning_columns *c, const int *passes, th
   const thr_frame *f = c->f;
   for (int e = 0; e < f->n_edges; e++)
     if (passes[e] > c->most[e])
-      return thr_fail(err, THR_EINFEASIBLE, "edge %s-%s is full with %d %s, and one cord in each piece would need one more",
+      return thr_fail(err, THR_EINFEASIBLE, "edge %s-%s is full with %d %s, and one cord in each component would need one more",
                       f->name[f->edge[e][0]], f->name[f->edge[e][1]], c->most[e], c->most[e] == 1 ? "pass" : "passes");
   return THR_OK;
 }
@@ -225,7 +225,7 @@ thr_status thr_baseline_tour(const thr_frame *f, const thr_least_options *o, thr
   *out = (thr_least){0};
   if (tour != THR_TOUR_FLEURY && tour != THR_TOUR_HIERHOLZER)
     return thr_fail(err, THR_EINPUT, "the least turning is no classical tour; name fleury or hierholzer");
-  if (o->cords > 1) return thr_fail(err, THR_EINPUT, "the classical tours make one cord per piece; leave --cords out");
+  if (o->cords > 1) return thr_fail(err, THR_EINPUT, "the classical tours make one cord per component; leave --cords out");
   int *passes = thr_calloc((size_t)f->n_edges, sizeof *passes), *ends = thr_calloc((size_t)f->n_nodes, sizeof *ends);
   thr_status st = passes && ends ? thr_least_task(f, o, &made, err) : thr_nomem(err);
   if (!st) st = thr_turning_columns_init(&c, f, &made.task, err);
