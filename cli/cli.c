@@ -3,6 +3,7 @@
 #include "cli/cli.h"
 #include "cli/print/copies_table.h"
 #include "cli/guard.h"
+#include "graph/angle.h"
 #include "graph/check/check.h"
 
 #include <errno.h>
@@ -458,7 +459,7 @@ void cli_progress_end(void)
 
 double cli_degrees(double radians)
 {
-  return radians * (180 / 3.14159265358979323846);
+  return thr_degrees(radians);
 }
 
 const char *cli_plural(int n, const char *one, const char *many)

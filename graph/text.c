@@ -90,7 +90,7 @@ static uint32_t letter_at(const char *s, size_t n, size_t *length)
   const unsigned char *b = (const unsigned char *)s;
   size_t wanted = b[0] < 0x80 ? 1 : b[0] < 0xc2 ? 0 : b[0] < 0xe0 ? 2 : b[0] < 0xf0 ? 3 : b[0] < 0xf5 ? 4 : 0;
   size_t have = 1;
-  while (have < n && (b[have] & 0xc0) == 0x80 && (wanted < 2 || have < wanted) && b[0] >= 0x80)
+  while (have < n && thr_text_is_inside((char)b[have]) && (wanted < 2 || have < wanted) && b[0] >= 0x80)
     have++;
   *length = have;
   if (wanted != have) return BROKEN_LETTER;
@@ -153,6 +153,14 @@ bool thr_text_is_utf8(const char *s, size_t n)
   for (size_t i = 0, length = 0; i < n; i += length)
     if (letter_at(s + i, n - i, &length) == BROKEN_LETTER) return false;
   return true;
+}
+
+int thr_text_columns(const char *s, size_t n)
+{
+  int columns = 0;
+  for (size_t i = 0; i < n && s[i]; i++)
+    columns += !thr_text_is_inside(s[i]);
+  return columns;
 }
 
 void thr_text_json_string(thr_text *t, const char *s)

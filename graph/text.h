@@ -37,6 +37,15 @@ void thr_text_copy_clean(char *to, size_t size, const char *s);
 
 bool thr_text_is_utf8(const char *s, size_t n);
 
+/* Is this byte of UTF-8 text inside a letter, not its first? */
+static inline bool thr_text_is_inside(char byte)
+{
+  return ((unsigned char)byte & 0xC0) == 0x80;
+}
+
+/* Width in columns of the first n bytes of UTF-8 text, or of all of it if there are fewer: one for each letter. */
+int thr_text_columns(const char *s, size_t n);
+
 /* JSON string in quotes, valid whatever the bytes: what thr_text_clean takes for a control character is escaped (a program that
  * reads it gets it back), what is no UTF-8 is U+FFFD. */
 void thr_text_json_string(thr_text *t, const char *s);

@@ -78,7 +78,7 @@ static thr_status find_shortest(const thr_frame *f, const thr_plan_options *o, c
   thr_shortest s;
   thr_err why = {0};
   thr_plan_options few = *o;
-  const thr_limits share = thr_symmetry_share(limits, 0.25);
+  const thr_limits share = thr_limits_part(limits, 0.25);
   if (o->joint == THR_JOINT_TUBE)
     return thr_symmetry_shortest_tied(f, o, o->ends != THR_ENDS_CLOSED, &share, &t->shortest, &t->shortest_optimal, err);
   few.cords = 1;
@@ -134,7 +134,7 @@ thr_status thr_symmetries_find(const thr_frame *f, const thr_plan_options *o, co
   *out = (thr_symmetries){.chosen = -1};
   thr_status st = check_request(o, err);
   if (!st) st = find_shortest(f, o, limits, out, err);
-  const thr_limits share = thr_symmetry_share(limits, 0.3);
+  const thr_limits share = thr_limits_part(limits, 0.3);
   if (!st) st = thr_symmetry_groups(f, o, &share, out, err);
   if (!st) st = check_asked(out, o->symmetry.group, err);
   if (!st) st = thr_symmetry_solve(f, o, limits, out, err);

@@ -1,13 +1,12 @@
 /* Builders and oracles of the tests. */
 #include "tests/support.h"
+#include "graph/angle.h"
 #include "graph/io/read.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const double PI = 3.14159265358979323846;
 
 /* ---- running ---- */
 
@@ -235,13 +234,13 @@ thr_frame path_make(int n)
 static void put_rim(sketch *s, int n, double radius)
 {
   for (int v = 0; v < n; v++)
-    put_node(s, radius * cos(2 * PI * v / n), radius * sin(2 * PI * v / n), 0);
+    put_node(s, radius * cos(2 * THR_PI * v / n), radius * sin(2 * THR_PI * v / n), 0);
 }
 
 thr_frame ring_make(int n)
 {
   sketch s = sketch_make(n, n);
-  put_rim(&s, n, 0.5 / sin(PI / n));
+  put_rim(&s, n, 0.5 / sin(THR_PI / n));
   for (int v = 0; v < n; v++)
     put_edge(&s, v, (v + 1) % n);
   put_foot(&s, 0);

@@ -1,5 +1,6 @@
 #include "cli/print/copies_table.h"
 
+#include "graph/angle.h"
 #include "symmetry/group/isometry.h"
 #include "symmetry/symmetry.h"
 
@@ -38,7 +39,7 @@ static const char *seen_from(const double axis[3])
 /* "turned by 90 degrees clockwise from above". The axis points upwards, x to the right or y to the back. */
 static void say_turn(const thr_isometry *o, char words[72])
 {
-  double angle = fabs(o->angle) * 180 / 3.14159265358979323846;
+  double angle = fabs(o->angle) * 180 / THR_PI;
   const char *way = o->angle > 0 ? "counter-clockwise" : "clockwise", *from = seen_from(o->axis);
   bool half = angle > 180 - 1e-6;
   if (half && fabs(o->axis[2]) < LEVEL)

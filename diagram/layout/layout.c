@@ -167,7 +167,7 @@ static void project_plane(thr_layout *l, const thr_frame *f)
   double size = sqrt(thr_dot(up, up));
   for (int i = 0; i < 3; i++)
     up[i] /= size;
-  thr_cross_product(up, n, right);
+  thr_cross(up, n, right);
   project(l, f, right, up);
 }
 

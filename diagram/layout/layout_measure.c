@@ -4,6 +4,7 @@
  * cells and meets only its neighbourhood. Where edges are so long that it meets most others, pairs are counted for as many edges,
  * spread evenly over the list, as n log n of time is enough for, and the rest is estimated. */
 #include "diagram/layout/layout.h"
+#include "graph/sort.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -26,12 +27,6 @@ typedef struct {
   int *turn;  /* [n_edges] when an edge's pairs are counted */
 } grid;
 
-static int ascending(const void *a, const void *b)
-{
-  double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 static double edge_length(const thr_layout *l, const thr_frame *paper, int e)
 {
   const double *a = l->xy[paper->edge[e][0]], *b = l->xy[paper->edge[e][1]];
@@ -47,7 +42,7 @@ static thr_status measure_lengths(thr_layout *l, const thr_frame *f, double *mea
     length[e] = edge_length(l, f, e);
     *mean += length[e] / f->n_edges;
   }
-  qsort(length, (size_t)f->n_edges, sizeof *length, ascending);
+  thr_sort_doubles(length, (size_t)f->n_edges);
   l->median = f->n_edges ? length[f->n_edges / 2] : 0;
   l->ratio = l->median > 0 ? length[0] / l->median : 0;
   l->squeezed = 0;

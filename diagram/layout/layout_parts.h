@@ -3,6 +3,7 @@
 #define THR_LAYOUT_PARTS_H
 
 #include "diagram/layout/layout.h"
+#include "graph/vector.h"
 
 /* Fill xy[n_nodes], which is allocated, and measure; THR_EINPUT if the frame is flat (not about z). */
 thr_status thr_layout_unroll(thr_layout *l, const thr_frame *f, int axis, thr_err *err) THR_MUST_CHECK; /* 0 = x, 1 = y, 2 = z */
@@ -28,16 +29,5 @@ thr_status thr_layout_directions(const thr_frame *f, double (**unit)[3], thr_err
 /* Middle of a widest empty cap among n directions, the lowest of nearly equal ones; returns its angle from there to the nearest
  * direction, rad. */
 double thr_layout_opening(const double (*unit)[3], int n, double middle[3]);
-
-static inline double thr_dot(const double a[3], const double b[3])
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static inline void thr_cross_product(const double a[3], const double b[3], double c[3])
-{
-  for (int i = 0; i < 3; i++)
-    c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
-}
 
 #endif

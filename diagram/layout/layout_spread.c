@@ -1,11 +1,10 @@
 /* Spreading of closed shells: opened at the widest face, preferably below, and flattened stereographically. */
 #include "diagram/layout/layout_parts.h"
+#include "graph/angle.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const double PI = 3.14159265358979323846;
 
 /* Cosine of the angle between direction d and the nearest node, all seen from the sphere's centre. */
 static double nearest_node(const double (*unit)[3], int n, const double d[3])
@@ -19,7 +18,7 @@ static double nearest_node(const double (*unit)[3], int n, const double d[3])
 /* Direction i of n on a Fibonacci lattice, from the lowest up: evenly spread over the sphere (Gonzalez 2010). */
 static void lattice(int i, int n, double d[3])
 {
-  double z = (2.0 * i + 1) / n - 1, r = sqrt(1 - z * z), turn = i * PI * (3 - sqrt(5));
+  double z = (2.0 * i + 1) / n - 1, r = sqrt(1 - z * z), turn = i * THR_PI * (3 - sqrt(5));
   d[0] = r * cos(turn);
   d[1] = r * sin(turn);
   d[2] = z;
@@ -90,7 +89,7 @@ static void lay_spread(thr_layout *l, const double (*unit)[3], const double open
   size = sqrt(thr_dot(up, up));
   for (int i = 0; i < 3; i++)
     up[i] /= size;
-  thr_cross_product(up, axis, right);
+  thr_cross(up, axis, right);
   double inner = 0;
   for (int v = 0; v < l->n_nodes; v++)
     if (thr_dot(unit[v], axis) > how.rim_from) inner = fmax(inner, spread_radius(thr_dot(unit[v], axis), how.squeeze));

@@ -2,11 +2,11 @@
 #include "diagram/overview/draw.h"
 
 #include "diagram/overview/svg.h"
+#include "graph/angle.h"
 
 #include <math.h>
 #include <stdio.h>
 
-static const double PI = 3.14159265358979323846;
 static const char *const EARLIER = "#b0b0b0";
 
 /* What is drawn: a scene and how. */
@@ -97,7 +97,7 @@ static void write_bead(const drawing *d, int e, thr_text *t)
   thr_scene_direction(s, 2 * e, along);
   double x = 0.5 * (a[0] + b[0] + (near - far) * along[0]), y = 0.5 * (a[1] + b[1] + (near - far) * along[1]);
   if (!in_window(d, thr_box_around(x, y, 0.5 * (length + w), 0.5 * (length + w)))) return;
-  double turn = thr_svg_round(atan2(along[1], along[0]) * 180 / PI);
+  double turn = thr_svg_round(atan2(along[1], along[0]) * 180 / THR_PI);
   open_element(d, "rect", "bead-", "", e, t);
   thr_text_printf(t, " x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" rx=\"%.2f\"", thr_svg_round(-0.5 * length),
                   thr_svg_round(-0.5 * w), length, w, 0.4 * fmin(w, length));

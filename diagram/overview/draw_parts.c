@@ -7,7 +7,7 @@
 
 void thr_draw_mark(const thr_scene *s, const thr_mark *m, bool end, bool pale, const char *ring, double x, double y, thr_text *t)
 {
-  double r = m->radius, size = thr_scene_characters(m->text) > 1 ? s->size.text : fmax(s->size.text, 1.35 * r);
+  double r = m->radius, size = thr_text_columns(m->text, SIZE_MAX) > 1 ? s->size.text : fmax(s->size.text, 1.35 * r);
   const char *class = pale ? "mark pale" : "mark";
   if (end)
     thr_text_printf(t, "<rect class=\"%s\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" stroke=\"%s\"/>", class,

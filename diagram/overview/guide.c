@@ -1,6 +1,7 @@
 #include "diagram/overview/guide.h"
 
 #include "diagram/scene/scene.h"
+#include "graph/angle.h"
 #include "graph/vector.h"
 
 #include <ctype.h>
@@ -10,7 +11,6 @@
 #include <string.h>
 
 static const double AHEAD = 0.13962634015954636; /* rad, 8 degrees: to that side it is still ahead */
-static const double PI = 3.14159265358979323846;
 
 /* ---- names ---- */
 
@@ -126,7 +126,7 @@ static bool direction(const thr_frame *f, int h, double d[3])
 static void add_corner(const thr_frame *f, int h, int g, double sweep, double normal[3])
 {
   double a[3], b[3], cross[3];
-  if (!(sweep > 0 && sweep < PI - 1e-6) || !direction(f, h, a) || !direction(f, g, b)) return;
+  if (!(sweep > 0 && sweep < THR_PI - 1e-6) || !direction(f, h, a) || !direction(f, g, b)) return;
   thr_cross(a, b, cross);
   for (int i = 0; i < 3; i++)
     normal[i] += cross[i];
@@ -196,7 +196,7 @@ thr_way thr_guide_way(const thr_guide *g, int in, int out)
   thr_cross(a, b, cross);
   double turn = atan2(thr_dot(n, cross), thr_dot(a, b) - thr_dot(a, n) * thr_dot(b, n));
   if (fabs(turn) < AHEAD) return THR_WAY_OVER;
-  return fabs(turn) > PI - AHEAD ? THR_WAY_TURN : turn > 0 ? THR_WAY_LEFT : THR_WAY_RIGHT;
+  return fabs(turn) > THR_PI - AHEAD ? THR_WAY_TURN : turn > 0 ? THR_WAY_LEFT : THR_WAY_RIGHT;
 }
 
 void thr_guide_say(const thr_guide *g, int in, int out, thr_text *t)
@@ -205,5 +205,5 @@ void thr_guide_say(const thr_guide *g, int in, int out, thr_text *t)
   thr_way way = thr_guide_way(g, in, out);
   thr_text_append(t, word[way]);
   if (way != THR_WAY_STRAIGHT && way != THR_WAY_BACK)
-    thr_text_printf(t, " %.0f degrees", thr_turn_angle(g->f, in, out) * 180 / PI);
+    thr_text_printf(t, " %.0f degrees", thr_turn_angle(g->f, in, out) * 180 / THR_PI);
 }

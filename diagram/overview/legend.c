@@ -415,7 +415,7 @@ static double write_rows(const thr_scene *s, const row *rows, int n, double x, d
   for (int i = 0; i < n; i++) {
     describe_row(s, rows[i], seen, line);
     if (s->turning) describe_turning(s, rows[i].cord, rows[i].cord + 1, turning);
-    int w = thr_scene_characters(line), other = thr_scene_characters(turning);
+    int w = thr_text_columns(line, SIZE_MAX), other = thr_text_columns(turning, SIZE_MAX);
     widest = w > widest ? w : widest;
     widest = other > widest ? other : widest;
   }

@@ -27,14 +27,12 @@ typedef struct {
 /* Writes the prefix and then the words, broken at blanks; further lines begin below the first word. Destroys words. */
 static void put_wrapped(steps *s, const char *prefix, thr_text *words)
 {
-  int indent = thr_scene_characters(prefix), column = indent;
+  int indent = thr_text_columns(prefix, SIZE_MAX), column = indent;
   thr_text *t = s->out;
   thr_text_append(t, prefix);
   for (const char *w = words->data ? words->data : ""; *w;) {
     size_t length = strcspn(w, " ");
-    int wide = 0;
-    for (size_t i = 0; i < length; i++)
-      wide += ((unsigned char)w[i] & 0xC0) != 0x80;
+    int wide = thr_text_columns(w, length);
     if (column > indent && column + 1 + wide > COLUMNS) {
       thr_text_printf(t, "\n%*s", indent, "");
       column = indent;

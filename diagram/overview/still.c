@@ -30,22 +30,15 @@ typedef struct {
   face *face;             /* [5 * 2 * n_edges] room for one panel */
 } view;
 
-static void cross(const double a[3], const double b[3], double out[3])
-{
-  out[0] = a[1] * b[2] - a[2] * b[1];
-  out[1] = a[2] * b[0] - a[0] * b[2];
-  out[2] = a[0] * b[1] - a[1] * b[0];
-}
-
 /* v turned by the quaternion of a pose. */
 static void turn(const double pose[7], const double v[3], double out[3])
 {
   const double *q = pose + 3;
   double a[3], b[3];
-  cross(q, v, a);
+  thr_cross(q, v, a);
   for (int k = 0; k < 3; k++)
     a[k] += q[3] * v[k];
-  cross(q, a, b);
+  thr_cross(q, a, b);
   for (int k = 0; k < 3; k++)
     out[k] = v[k] + 2 * b[k];
 }
@@ -59,7 +52,7 @@ static void look(view *w)
   w->right[0] = -sin(AZIMUTH);
   w->right[1] = cos(AZIMUTH);
   w->right[2] = 0;
-  cross(e, w->right, w->up);
+  thr_cross(e, w->right, w->up);
 }
 
 /* ---- faces ---- */
@@ -79,7 +72,7 @@ static void arm_corners(const view *w, int h, double axis[3], double side[2][3],
   side[0][0] = level > 1e-9 ? -axis[1] / level : 1;
   side[0][1] = level > 1e-9 ? axis[0] / level : 0;
   side[0][2] = 0;
-  cross(axis, side[0], side[1]);
+  thr_cross(axis, side[0], side[1]);
   for (int end = 0; end < 2; end++)
     for (int i = 0; i < 4; i++)
       for (int k = 0; k < 3; k++)

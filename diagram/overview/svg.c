@@ -38,14 +38,14 @@ double thr_svg_wrap(thr_text *t, double x, double y, double size, double width, 
     n = 0;
     int last_space = -1, wide = 0; /* in characters */
     while (n < 500 && words[n]) {
-      wide += ((unsigned char)words[n] & 0xC0) != 0x80;
+      wide += !thr_text_is_inside(words[n]);
       if (wide > fits && n) break;
       if (words[n] == ' ') last_space = n;
       n++;
     }
     if (words[n] && words[n] != ' ' && last_space > 0) n = last_space;
     /* never cut a character in two */
-    while (n > 1 && ((unsigned char)words[n] & 0xC0) == 0x80)
+    while (n > 1 && thr_text_is_inside(words[n]))
       n--;
     snprintf(line, sizeof line, "%.*s", n, words);
     thr_svg_text(t, x, y, size, attributes, line);

@@ -1,11 +1,11 @@
 /* Where the S disc and the E square of every cord go: beside the node, between two beads, so that neither hides a strand.
  * A short stub of cord leads there, as it does at the real node. */
 #include "diagram/scene/scene.h"
+#include "graph/angle.h"
 
 #include <math.h>
 #include <stdio.h>
 
-static const double PI = 3.14159265358979323846;
 enum { MAX_SECTORS = 24, SPREAD = 7 };
 
 /* A place for a mark under judgement. */
@@ -16,7 +16,7 @@ typedef struct {
 
 static double mark_radius(const thr_scene *s, const char *text)
 {
-  return fmax(fmax(2.2, fmin(0.105 * s->size.pitch, 3.2)), 0.36 * s->size.text * thr_scene_characters(text) + 0.5);
+  return fmax(fmax(2.2, fmin(0.105 * s->size.pitch, 3.2)), 0.36 * s->size.text * thr_text_columns(text, SIZE_MAX) + 0.5);
 }
 
 /* Keeps the cheaper of best and a place at a distance and direction from the node. */
@@ -37,12 +37,12 @@ static void judge_sector(thr_scene *s, const thr_mark *m, int i, double penalty,
   const thr_frame *f = s->paper;
   int first = f->first[m->point], degree = thr_degree(f, m->point);
   int h = s->around[first + i], g = s->around[first + (i + 1) % degree];
-  double wide = degree > 1 ? thr_scene_sweep(s->angle[h], s->angle[g]) : 2 * PI;
+  double wide = degree > 1 ? thr_scene_sweep(s->angle[h], s->angle[g]) : 2 * THR_PI;
   if (degree > 1 && wide < 0.2) return;
   double half_bead = 0.5 * fmax(s->bead[h >> 1], s->bead[g >> 1]);
   int n = wide > 1.7 ? SPREAD : 1;
   for (int k = 1; k <= n; k++) {
-    double off = wide * k / (n + 1), nearest = fmin(fmin(off, wide - off), PI / 2);
+    double off = wide * k / (n + 1), nearest = fmin(fmin(off, wide - off), THR_PI / 2);
     double distance = fmax((m->radius + half_bead + 0.3) / sin(nearest), m->radius + s->size.gap);
     /* straight out of the sector's middle looks best: a little is charged for leaning over */
     double lean = penalty + 0.1 * fabs(2 * off / wide - 1);

@@ -1,4 +1,5 @@
 #include "diagram/scene/palette.h"
+#include "graph/angle.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -52,7 +53,7 @@ bool thr_palette_rim(const char *hex, char rim[8])
 void thr_turning_colour(double angle, char hex[8])
 {
   static const double pale[3] = {0.94, 0.0100, -0.0173}, dark[3] = {0.27, 0.0700, -0.1212}; /* lightness, a, b */
-  double part = fmin(fmax(angle / 3.14159265358979323846, 0), 1), at[3], cone[3];
+  double part = fmin(fmax(angle / THR_PI, 0), 1), at[3], cone[3];
   for (int i = 0; i < 3; i++)
     at[i] = pale[i] + part * (dark[i] - pale[i]);
   cone[0] = pow(at[0] + 0.3963377774 * at[1] + 0.2158037573 * at[2], 3);

@@ -1,22 +1,14 @@
 /* Paper, beads and passes: the parts of the scene that everything else is placed against. */
 #include "diagram/scene/scene.h"
+#include "graph/angle.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const double PI = 3.14159265358979323846;
 static const double AUTO_PITCH = 24, MAX_WIDTH = 1130, MAX_HEIGHT = 1070; /* mm; A0 is 1189 long, less margins and text */
 static const double SHORT = 0.36; /* at most this share of an edge is left free at each end */
-
-int thr_scene_characters(const char *text)
-{
-  int n = 0;
-  for (; *text; text++)
-    n += ((unsigned char)*text & 0xC0) != 0x80;
-  return n;
-}
 
 double thr_scene_text_width(const char *text, double font_size)
 {
@@ -24,7 +16,7 @@ double thr_scene_text_width(const char *text, double font_size)
   int capitals = 0;
   for (const char *s = text; *s; s++)
     capitals += *s >= 'A' && *s <= 'Z';
-  return font_size * (0.64 * thr_scene_characters(text) + 0.11 * capitals);
+  return font_size * (0.64 * thr_text_columns(text, SIZE_MAX) + 0.11 * capitals);
 }
 
 double thr_scene_pill_height(const thr_scene *s)
@@ -45,8 +37,8 @@ void thr_scene_number(const thr_scene *s, int pass, char text[32])
 
 double thr_scene_sweep(double a, double b)
 {
-  double d = fmod(b - a, 2 * PI);
-  return d < 0 ? d + 2 * PI : d;
+  double d = fmod(b - a, 2 * THR_PI);
+  return d < 0 ? d + 2 * THR_PI : d;
 }
 
 bool thr_scene_is_copy(const thr_scene *s, int c)
@@ -332,7 +324,7 @@ static void size_beads(thr_scene *s)
 static double clearance(const thr_scene *s, int h, int other)
 {
   double a = thr_scene_sweep(s->angle[h], s->angle[other]);
-  if (a > PI) a = 2 * PI - a;
+  if (a > THR_PI) a = 2 * THR_PI - a;
   if (a > 2.6) return 0;
   if (a < 0.05) a = 0.05;
   return 0.5 * (s->bead[other >> 1] + s->bead[h >> 1] * cos(a)) / sin(a);

@@ -181,8 +181,7 @@ const char *thr_scene_caption(const thr_scene *s, int panel);
 /* The name of the place that a point of the layout shows. */
 void thr_scene_place_name(const thr_scene *s, int point, char name[48]);
 
-/* Number of characters (code points) of a text, and its estimated width in mm. */
-int thr_scene_characters(const char *text);
+/* Estimated width of a text in mm. */
 double thr_scene_text_width(const char *text, double font_size);
 
 /* Size of the pill behind a number, mm. */

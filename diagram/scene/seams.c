@@ -1,11 +1,11 @@
 /* Two panels: which places are on both, and how a cord gets from one to the other. Where it leaves a panel a short end of it is
  * labelled with the next pass ("to 17"), and where it comes out on the other one with the pass before ("from 16"). */
 #include "diagram/scene/scene.h"
+#include "graph/angle.h"
 
 #include <math.h>
 #include <stdio.h>
 
-static const double PI = 3.14159265358979323846;
 static const double HIDES = 8;                                  /* cost of a label that lies on a bead or on cord, in pitches */
 static const double AIR = 0.25;                                 /* mm */
 static const double SMALLEST = 16;                              /* mm: pitch from which on cords are labelled */
@@ -45,7 +45,7 @@ static bool find_name_place(thr_scene *s, int point, double half_width, double h
   bool found = false;
   for (int i = 0; i < degree; i++) {
     int h = s->around[first + i], g = s->around[first + (i + 1) % degree];
-    double wide = degree > 1 ? thr_scene_sweep(s->angle[h], s->angle[g]) : 2 * PI, off = s->angle[h] + 0.5 * wide;
+    double wide = degree > 1 ? thr_scene_sweep(s->angle[h], s->angle[g]) : 2 * THR_PI, off = s->angle[h] + 0.5 * wide;
     double c = cos(off), w = sin(off), reach = fmin(half_width / fmax(fabs(c), 1e-9), half_height / fmax(fabs(w), 1e-9));
     for (int k = 0;; k++) {
       double d = (0.2 + 0.08 * k) * s->size.pitch + reach;
@@ -119,7 +119,7 @@ static void judge(thr_scene *s, label *l, double angle, double distance)
 {
   thr_mark *m = l->mark;
   const double *o = s->at[m->point], to[2] = {o[0] + distance * cos(angle), o[1] + distance * sin(angle)};
-  double cost = distance / s->size.pitch + 0.2 * fabs(remainder(angle - l->straight, 2 * PI));
+  double cost = distance / s->size.pitch + 0.2 * fabs(remainder(angle - l->straight, 2 * THR_PI));
   thr_box box = thr_box_around(to[0], to[1], m->half[0] + AIR, m->half[1] + AIR);
   if (cost >= l->cost || !on_its_side(s, m->point, box, l->gap)) return;
   if (thr_boxes_overlap(&s->boxes, box, THR_BOX_MARK | THR_BOX_NAME, 1e-9) > 0) return;
@@ -142,7 +142,7 @@ static bool find_label_place(thr_scene *s, label *l)
   int steps = (int)((FARTHEST - NEAREST) / STEP + 0.5);
   for (int i = 0; i < degree; i++) {
     double low = s->angle[s->around[first + i]], high = s->angle[s->around[first + (i + 1) % degree]];
-    double wide = degree > 1 ? thr_scene_sweep(low, high) : 2 * PI;
+    double wide = degree > 1 ? thr_scene_sweep(low, high) : 2 * THR_PI;
     int n = (int)(wide / NARROW);
     for (int k = 1; k <= n; k++)
       for (int j = 0; j <= steps; j++)
@@ -190,7 +190,7 @@ static thr_status label_seam(thr_scene *s, int i, double gap, thr_err *err)
   for (int k = 0; k < 2; k++) {
     m[k].point = thr_tail(s->paper, half[k]);
     m[k].radius = fmax(m[k].half[0], m[k].half[1]);
-    label l = {&m[k], s->angle[half[k]] + PI, gap, HUGE_VAL};
+    label l = {&m[k], s->angle[half[k]] + THR_PI, gap, HUGE_VAL};
     if (*labelled) *labelled = find_label_place(s, &l);
   }
   thr_status st = THR_OK;
@@ -199,7 +199,7 @@ static thr_status label_seam(thr_scene *s, int i, double gap, thr_err *err)
       st = box_label(s, &m[k], err);
       continue;
     }
-    m[k].angle = remainder(s->angle[half[k]] + PI, 2 * PI);
+    m[k].angle = remainder(s->angle[half[k]] + THR_PI, 2 * THR_PI);
     m[k].at[0] = s->at[m[k].point][0];
     m[k].at[1] = s->at[m[k].point][1];
     m[k].beside = false;

@@ -1,6 +1,7 @@
 /* What to do when all cords are through: which ends to pull, knots, what to look at. */
 #include "diagram/sheets/sheets_parts.h"
 #include "diagram/overview/svg.h"
+#include "graph/angle.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -25,7 +26,7 @@ static int by_hardness(const void *a, const void *b)
 
 static double degrees(double angle)
 {
-  return angle * (180 / 3.14159265358979323846);
+  return thr_degrees(angle);
 }
 
 static const thr_eval_cord *known_of(const thr_sheets *s, int c)

@@ -36,7 +36,7 @@ double thr_sheets_bottom(const thr_sheets *s)
 /* Width of a character in em, rather too much: DejaVu Sans, and a full square for scripts that it lacks. */
 static double advance(const char *c)
 {
-  if ((unsigned char)*c >= 0x80) return ((unsigned char)*c & 0xC0) == 0x80 ? 0 : 1;
+  if ((unsigned char)*c >= 0x80) return thr_text_is_inside(*c) ? 0 : 1;
   if (*c == ' ') return 0.32;
   if (strchr("il.,:;|'()[]!jfrt-", *c)) return 0.42;
   if (strchr("mwMW@%", *c)) return 1;
@@ -54,7 +54,7 @@ size_t thr_sheets_fit(const char *words, double width, double size)
   }
   if (!words[n] || words[n] == ' ') return n;
   if (blank) return blank;
-  while (n > 1 && ((unsigned char)words[n] & 0xC0) == 0x80) /* never cut a character in two */
+  while (n > 1 && thr_text_is_inside(words[n])) /* never cut a character in two */
     n--;
   return n;
 }

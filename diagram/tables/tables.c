@@ -4,12 +4,11 @@
 #include "diagram/overview/guide.h"
 #include "diagram/tables/kinds.h"
 #include "diagram/tables/supplies.h"
+#include "graph/angle.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const double PI = 3.14159265358979323846;
 
 /* What all tables are made from. */
 typedef struct {
@@ -64,7 +63,7 @@ static void put_number(table *t, double value)
 
 static void put_angle(table *t, double angle)
 {
-  put_number(t, nearbyint(angle * (180 / PI) * 100) / 100);
+  put_number(t, nearbyint(angle * (180 / THR_PI) * 100) / 100);
 }
 
 static void put_yes(table *t, bool yes)

@@ -4,6 +4,7 @@
  * Gauss-Seidel over the openings settles a straight run of n of them in n^2 sweeps; Newton steps with a barrier take the same few
  * dozen for 20 nodes and for 7,000. */
 #include "eval/cord/taut.h"
+#include "graph/angle.h"
 #include "graph/vector.h"
 
 #include <math.h>
@@ -362,12 +363,6 @@ static thr_status solve(path *p, const char *id, thr_err *err)
                   steps);
 }
 
-static double turn_between(const double a[3], const double b[3])
-{
-  double cross[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  return atan2(sqrt(thr_dot(cross, cross)), thr_dot(a, b));
-}
-
 /* Openings and path in turns, until the turns stay: turn holds the nominal ones at first. */
 static thr_status settle(path *p, double radius, const char *id, double *turn, thr_err *err)
 {
@@ -379,7 +374,7 @@ static thr_status settle(path *p, double radius, const char *id, double *turn, t
     if (st) return st;
     change = 0;
     for (int i = 0; i + 1 < p->n; i++) {
-      double now = turn_between(p->piece[i].unit, p->piece[i + 1].unit);
+      double now = thr_angle_between(p->piece[i].unit, p->piece[i + 1].unit);
       change = fmax(change, fabs(now - turn[i]));
       turn[i] = now;
     }

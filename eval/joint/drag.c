@@ -4,6 +4,7 @@
  */
 #include "eval/joint/drag.h"
 #include "eval/joint/world.h"
+#include "graph/angle.h"
 #include "graph/random.h"
 #include "graph/vector.h"
 
@@ -12,8 +13,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define PI 3.14159265358979323846
 
 #ifndef PROTOCOL
 #define PROTOCOL static const
@@ -60,7 +59,7 @@ PROTOCOL struct {
               .most_log = 4,
               .least_fit = 0.7};
 
-const double thr_drag_largest_turn = 150 * PI / 180;
+const double thr_drag_largest_turn = 150 * THR_PI / 180;
 const double thr_drag_least_bore = 1.01, thr_drag_largest_bore = 1e3;
 
 static const double PULL_MARGIN = 1.1, WEDGE_DOUBT = 0.1;
@@ -95,12 +94,6 @@ static double between(const double a[3], const double b[3], double unit[3])
   for (int k = 0; k < 3; k++)
     unit[k] = n > 0 ? unit[k] / n : 0;
   return n;
-}
-
-static double angle(const double a[3], const double b[3])
-{
-  double c[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  return atan2(sqrt(thr_dot(c, c)), thr_dot(a, b));
 }
 
 /* Quaternions x y z w. */
@@ -167,7 +160,7 @@ static thr_status check(const thr_drag *d, thr_err *err)
   if (d->n_turns < 1 || d->n_turns > MOST_TURNS)
     return thr_fail(err, THR_EINPUT, "drag: %d turns; 1 to %d can be simulated", d->n_turns, MOST_TURNS);
   for (int i = 0; i < d->n_turns; i++)
-    if (!(d->turn[i] >= 0 && d->turn[i] <= PI) || (d->twist && !isfinite(d->twist[i])))
+    if (!(d->turn[i] >= 0 && d->turn[i] <= THR_PI) || (d->twist && !isfinite(d->twist[i])))
       return thr_fail(err, THR_EINPUT, "drag: turn %d must be between 0 and pi and its twist finite", i + 1);
   if (!(d->mu >= 0 && d->mu <= DBL_MAX)) return thr_fail(err, THR_EINPUT, "drag: mu is %g; give one of 0 or more", d->mu);
   if (!(d->bore > 1 && d->bore <= thr_drag_largest_bore))
@@ -283,7 +276,7 @@ static void wall_corners(const run *r, const joint *j, int side, int i, int side
   double slope = tan(j->angle / 2), reach = j->reach[side > 0], bore = r->d->bore;
   double outer = fmin(bore + protocol.wall, slope > 0 ? (bore + reach / slope) / 2 : INFINITY); /* mitred walls must not cross */
   for (int k = 0; k < 8; k++) {
-    double phi = PI * (2 * i + (k & 1 ? 1 : -1)) / sides, radius = (k & 2 ? outer : bore) / cos(PI / sides);
+    double phi = THR_PI * (2 * i + (k & 1 ? 1 : -1)) / sides, radius = (k & 2 ? outer : bore) / cos(THR_PI / sides);
     double y = radius * cos(phi);
     p[k][0] = side * (k & 4 ? reach : y * slope);
     p[k][1] = y;
@@ -343,7 +336,7 @@ static bool make_path(const run *r, piece *p, double *links)
     p[i].straight = between(i ? r->joint[i - 1].via : begin, i < n ? r->joint[i].via : end, p[i].d);
   *links = 0;
   for (int i = 0; i <= n; i++) {
-    p[i].arc = i < n ? angle(p[i].d, p[i + 1].d) : 0;
+    p[i].arc = i < n ? thr_angle_between(p[i].d, p[i + 1].d) : 0;
     along(i ? r->joint[i - 1].via : begin, cut, p[i].d, p[i].from);
     double next = tan(p[i].arc / 2), toward[3];
     p[i].straight = (p[i].straight - cut - next) / r->spacing;
@@ -469,7 +462,7 @@ static double turning(const run *r, double (*path)[3])
   int stride = (int)lround(fmax(1, 1 / r->spacing));
   for (long i = r->blocks + 1 + stride; i < r->spheres; i += stride) {
     between(path[i - stride], path[i], d);
-    if (i > r->blocks + 1 + stride) sum += angle(before, d);
+    if (i > r->blocks + 1 + stride) sum += thr_angle_between(before, d);
     memcpy(before, d, sizeof before);
   }
   return sum;

@@ -2,6 +2,7 @@
 #include "eval/joint/cache.h"
 #include "eval/joint/joint.h"
 #include "eval/cord/taut.h"
+#include "graph/angle.h"
 #include "graph/process/workers.h"
 
 #include <math.h>
@@ -9,9 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PI 3.14159265358979323846
-
-const double thr_joint_step = PI / 24;
+const double thr_joint_step = THR_PI / 24;
 
 static const double STRAIGHT = 1e-6; /* rad: a turn that costs nothing */
 static const double ON_GRID = 1e-9;  /* rad: closer to a measured angle is that angle */
@@ -324,7 +323,7 @@ static thr_status check_any_measured(const thr_eval *e, const thr_drag *d, doubl
   int sharp = e->refused_sharp, outside = e->refused_outside, unsettled = e->refused_unsettled;
   char why[3][120] = {{0}};
   if (sharp + outside + unsettled == 0) return THR_OK;
-  if (sharp) snprintf(why[0], sizeof why[0], "; %d sharper than %.0f degrees", sharp, largest_turn * (180 / PI));
+  if (sharp) snprintf(why[0], sizeof why[0], "; %d sharper than %.0f degrees", sharp, largest_turn * (180 / THR_PI));
   if (outside)
     snprintf(why[1], sizeof why[1], "; %d out of range at bore / cord diameter = %.4g and mu = %.4g", outside, d->bore, d->mu);
   if (unsettled) snprintf(why[2], sizeof why[2], "; %d where the cord does not slide steadily", unsettled);

@@ -1,5 +1,6 @@
 /* Geometry of rigid beads: faces, masses, feet, and what cords do to them. */
 #include "eval/structure/beads.h"
+#include "graph/angle.h"
 #include "graph/vector.h"
 
 #include <math.h>
@@ -104,7 +105,7 @@ static thr_status place_face(thr_beads *b, const thr_frame *f, int e, thr_err *e
  * bores, for square joints with two opposite arms among them. */
 static void weigh(thr_beads *b, const thr_frame *f, const thr_physics *physics, int v)
 {
-  double section_area = b->width * b->width - 0.25 * 3.14159265358979323846 * b->bore * b->bore;
+  double section_area = b->width * b->width - 0.25 * THR_PI * b->bore * b->bore;
   int degree = thr_degree(f, v);
   double share = degree > 2 ? 2.0 / degree : 1, volume = 0, moment[3] = {0};
   for (int i = f->first[v]; i < f->first[v + 1]; i++) {

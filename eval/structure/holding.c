@@ -8,6 +8,7 @@
  * beads together; more of both changes nothing else), and a mechanism in which some beads move as one is a mechanism. */
 #include "eval/structure/holding.h"
 
+#include "graph/angle.h"
 #include "graph/disjoint.h"
 #include "lp/solver/interior.h"
 #include "graph/vector.h"
@@ -18,8 +19,7 @@
 #include <string.h>
 
 enum { EDGES = 8, CORNERS = 4 };
-static const double PI = 3.14159265358979323846;
-#define WIDEN (1 / cos(PI / EDGES)) /* puts the pyramids round the cones */
+#define WIDEN (1 / cos(THR_PI / EDGES)) /* puts the pyramids round the cones */
 /* Tensions are capped at so many times the least one, until the bound closes: further apart, the solver loses the small ones. */
 enum { CAPS = 5 };
 static const double cap[CAPS] = {1e4, 1e6, 1e8, 1e10, 1e12};
@@ -96,7 +96,7 @@ static void add_contact(structure *s, int bead, int other, const double at[3], c
   memcpy(c->at, at, sizeof c->at);
   for (int e = 0; e < EDGES; e++)
     for (int i = 0; i < 3; i++)
-      c->ray[e][i] = normal[i] + mu * (cos(2 * PI * e / EDGES) * tangent[0][i] + sin(2 * PI * e / EDGES) * tangent[1][i]);
+      c->ray[e][i] = normal[i] + mu * (cos(2 * THR_PI * e / EDGES) * tangent[0][i] + sin(2 * THR_PI * e / EDGES) * tangent[1][i]);
 }
 
 /* widen: factor on friction, to put the pyramids round the cones. */

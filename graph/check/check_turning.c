@@ -1,12 +1,11 @@
 /* The checker's part for turning: what the tree of multipliers proves about a plan, and whether the plan is of the kind that the
  * proof is about. Prices and pairings are worked out here; the tree is graph/check/turning_proof.c's. */
 #include "graph/check/check_parts.h"
+#include "graph/angle.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const double pi = 3.14159265358979323846;
 
 /* ---- the cheapest pairing of a node on its own ---- */
 
@@ -28,7 +27,7 @@ static void node_points_destroy(node_points *k)
 static double price_of(const thr_frame *f, thr_turn_cost cost, int in, int out)
 {
   if (cost == THR_TURN_STEP) return thr_turn_price(f, cost, in, out);
-  return thr_turn_cost_of(cost, in == (out ^ 1) ? pi : thr_check_angle(f, in, out));
+  return thr_turn_cost_of(cost, in == (out ^ 1) ? THR_PI : thr_check_angle(f, in, out));
 }
 
 /* Nothing turns where a cord ends; only where an edge is the only one may a cord turn back. */
@@ -247,7 +246,7 @@ static thr_status judge_cords(const walked *w, thr_turning_claim *found, thr_err
 static double closed_price(const thr_plan_options *o)
 {
   if (o->ends != THR_ENDS_CLOSED || o->turning.cost == THR_TURN_STEP) return 0;
-  return o->turning.cost == THR_TURN_ANGLE ? 2 * pi : 2;
+  return o->turning.cost == THR_TURN_ANGLE ? 2 * THR_PI : 2;
 }
 
 static thr_status judge_tree(const walked *w, const thr_turning_claim *claim, thr_turning_claim *found, thr_err *err)
@@ -273,7 +272,7 @@ static thr_status judge_tree(const walked *w, const thr_turning_claim *claim, th
   if (st) return st;
   bound = fmax(bound, closed_price(w->o) * w->cords_least);
   /* prices are sums of so many roundings: equal within 1e-9 of a U-turn for each pass, of an edge at most twice those it needs */
-  double tolerance = 2e-9 * passes * thr_turn_cost_of(w->o->turning.cost, pi);
+  double tolerance = 2e-9 * passes * thr_turn_cost_of(w->o->turning.cost, THR_PI);
   if (bound > found->price + tolerance)
     return thr_fail(err, THR_EVIOLATED, "proof.turning: the tree proves %.12g, which is more than the turns of this plan, %.12g",
                     bound, found->price);

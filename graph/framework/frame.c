@@ -2,6 +2,7 @@
 #include "graph/framework/frame.h"
 #include "graph/disjoint.h"
 #include "graph/framework/units.h"
+#include "graph/sort.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -128,12 +129,6 @@ static double diagonal_of(const double (*xyz)[3], int n, size_t stride)
   return distance(low, high);
 }
 
-static int ascending(const void *pa, const void *pb)
-{
-  double a = *(const double *)pa, b = *(const double *)pb;
-  return (a > b) - (a < b);
-}
-
 /* 1e-6 of the bounding box's diagonal, but no more than a thousandth of the median edge: one stray node far away must not
  * weld everything else together. */
 static thr_status default_tolerance(const thr_draft *d, double *tolerance, thr_err *err)
@@ -145,7 +140,7 @@ static thr_status default_tolerance(const thr_draft *d, double *tolerance, thr_e
     double apart = distance(d->node[d->edge[e].a].xyz, d->node[d->edge[e].b].xyz);
     if (apart > 0) length[n++] = apart;
   }
-  qsort(length, (size_t)n, sizeof *length, ascending);
+  thr_sort_doubles(length, (size_t)n);
   *tolerance = 1e-6 * diagonal_of((const double(*)[3])d->node[0].xyz, d->n_nodes, sizeof *d->node);
   if (n > 0) *tolerance = fmin(*tolerance, 1e-3 * length[n / 2]);
   free(length);

@@ -1,12 +1,12 @@
 /* Example frameworks. Every node is called by a letter (column, ring or row) and a number, as on a map.
  * Coordinates come from integers wherever possible, so that mirror images agree to the last digit. */
 #include "graph/framework/make.h"
+#include "graph/angle.h"
 
 #include <math.h>
 #include <stdio.h>
 
 enum { MAX_NODES = 2000000 };
-static const double PI = 3.14159265358979323846;
 
 thr_make_options thr_make_options_default(thr_shape shape)
 {
@@ -72,11 +72,11 @@ static void circle_point(int i, int n, double *x, double *y)
     left = true;
   }
   if (8 * part > whole) {
-    *x = sin(2 * PI * (double)(whole - 4 * part) / (double)(4 * whole));
-    *y = cos(2 * PI * (double)(whole - 4 * part) / (double)(4 * whole));
+    *x = sin(2 * THR_PI * (double)(whole - 4 * part) / (double)(4 * whole));
+    *y = cos(2 * THR_PI * (double)(whole - 4 * part) / (double)(4 * whole));
   } else {
-    *x = cos(2 * PI * (double)part / (double)whole);
-    *y = sin(2 * PI * (double)part / (double)whole);
+    *x = cos(2 * THR_PI * (double)part / (double)whole);
+    *y = sin(2 * THR_PI * (double)part / (double)whole);
   }
   if (left) *x = -*x;
   if (below) *y = -*y;
@@ -87,7 +87,7 @@ static void circle_point(int i, int n, double *x, double *y)
 static thr_status make_tube(thr_draft *d, const thr_make_options *o, thr_err *err)
 {
   int n = o->size;
-  double radius = 0.5 * o->pitch / sin(PI / n); /* neighbours on a ring are one pitch apart */
+  double radius = 0.5 * o->pitch / sin(THR_PI / n); /* neighbours on a ring are one pitch apart */
   thr_status st = THR_OK;
   for (int ring = 0; ring < o->rings; ring++)
     for (int i = 0; i < n && !st; i++) {

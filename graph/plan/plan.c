@@ -1,5 +1,6 @@
 /* Plans: names, ends, turning angles, metrics. */
 #include "graph/plan/plan.h"
+#include "graph/angle.h"
 
 #include <limits.h>
 #include <math.h>
@@ -218,14 +219,6 @@ double thr_cord_length(const thr_frame *f, const thr_cord *c)
   for (int i = 0; i < c->n_passes; i++)
     sum += f->length[c->half[i] >> 1];
   return sum;
-}
-
-double thr_angle_between(const double a[3], const double b[3])
-{
-  double cross[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  double dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-  /* atan2 keeps full precision near 0 and pi, where acos loses half of it */
-  return atan2(sqrt(cross[0] * cross[0] + cross[1] * cross[1] + cross[2] * cross[2]), dot);
 }
 
 double thr_turn_angle(const thr_frame *f, int in, int out)

@@ -251,9 +251,6 @@ double thr_cord_length(const thr_frame *f, const thr_cord *c);
  * 0 = straight on, pi = U-turn. */
 double thr_turn_angle(const thr_frame *f, int in, int out);
 
-/* The same between two directions (graph/framework/frame.h), for many turns at one node. */
-double thr_angle_between(const double a[3], const double b[3]);
-
 /* Sum of the turning angles inside a cord, rad; with_closure adds the turn between a closed cord's last and first pass. */
 double thr_cord_turning(const thr_frame *f, const thr_cord *c, bool with_closure);
 

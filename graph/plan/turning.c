@@ -1,11 +1,10 @@
 /* Prices of turns, and the columns of the turning model. */
 #include "graph/plan/plan.h"
+#include "graph/angle.h"
 
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
-
-static const double pi = 3.14159265358979323846;
 
 /* ---- prices ---- */
 
@@ -19,7 +18,7 @@ double thr_turn_cost_of(thr_turn_cost cost, double angle)
 {
   switch (cost) {
   case THR_TURN_SINE: return sin(angle / 2);
-  case THR_TURN_STEP: return angle >= pi / 2 - 1e-6;
+  case THR_TURN_STEP: return angle >= THR_PI / 2 - 1e-6;
   default: return angle;
   }
 }
@@ -38,7 +37,7 @@ static bool is_step(const thr_frame *f, int in, int out)
 
 double thr_turn_price(const thr_frame *f, thr_turn_cost cost, int in, int out)
 {
-  if (in == (out ^ 1)) return thr_turn_cost_of(cost, pi);
+  if (in == (out ^ 1)) return thr_turn_cost_of(cost, THR_PI);
   return cost == THR_TURN_STEP ? is_step(f, in, out) : thr_turn_cost_of(cost, thr_turn_angle(f, in, out));
 }
 
@@ -151,7 +150,7 @@ static thr_status fill_columns(thr_turning_columns *c, thr_err *err)
         c->end_column[a] = end;
         set_column(c, end++, a, -1, 0);
       }
-      if (thr_degree(f, v) == 1 && !t->tube) set_column(c, back++, a, a, thr_turn_cost_of(t->cost, pi));
+      if (thr_degree(f, v) == 1 && !t->tube) set_column(c, back++, a, a, thr_turn_cost_of(t->cost, THR_PI));
     }
   }
   free(out);

@@ -1,5 +1,6 @@
 /* Moats: widths that are no less than 0, depths, and the odd cuts that they are made of. */
 #include "lp/matching/nest.h"
+#include "graph/sort.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -215,12 +216,6 @@ static void sort_places(cutter *c)
     c->node[c->first_node[c->net->place[v] + 1]++] = v;
 }
 
-static int ascending(const void *a, const void *b)
-{
-  int x = *(const int *)a, y = *(const int *)b;
-  return (x > y) - (x < y);
-}
-
 /* A cut of set s: the places list[from .. end - 1] and all that waits inside. */
 static thr_status add_cut(cutter *c, int s, int from, int end, int64_t width, thr_err *err)
 {
@@ -235,7 +230,7 @@ static thr_status add_cut(cutter *c, int s, int from, int end, int64_t width, th
   for (int i = from; i < end; i++)
     for (int j = c->first_node[c->list[i]]; j < c->first_node[c->list[i] + 1]; j++)
       cut->node[cut->n_nodes++] = c->node[j];
-  if (n > 1) qsort(cut->node, (size_t)n, sizeof *cut->node, ascending);
+  thr_sort_ints(cut->node, (size_t)n);
   for (int inside = c->open[s]; inside >= 0; inside = c->waiting[inside])
     c->cut[inside].parent = k;
   c->open[s] = c->last_open[s] = k;

@@ -1,5 +1,6 @@
 /* Least degree by explicit elimination: what is left of a row's neighbours when it goes is its column of the factor. */
 #include "lp/solver/normal.h"
+#include "graph/sort.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -40,12 +41,6 @@ typedef struct {
   int count, *item; /* ascending; owned */
 } set;
 
-static int ascending(const void *a, const void *b)
-{
-  int x = *(const int *)a, y = *(const int *)b;
-  return (x > y) - (x < y);
-}
-
 /* Neighbours of every row: the rows that share a column with it. by_start, by_item in order of rows still. */
 static thr_status neighbours(const thr_normal *n, set *row, thr_err *err)
 {
@@ -60,7 +55,7 @@ static thr_status neighbours(const thr_normal *n, set *row, thr_err *err)
       for (int l = a->start[j]; l < a->start[j + 1]; l++)
         if (seen[a->row[l]] != i + 1) seen[a->row[l]] = i + 1, list[count++] = a->row[l];
     }
-    qsort(list, (size_t)count, sizeof *list, ascending);
+    thr_sort_ints(list, (size_t)count);
     row[i].item = thr_calloc((size_t)count, sizeof *list);
     if (!row[i].item) st = thr_nomem(err);
     if (!st) memcpy(row[i].item, list, (size_t)count * sizeof *list);
@@ -145,7 +140,7 @@ static thr_status make_factor(thr_normal *n, const set *row, const int *order, t
     n->start[s + 1] = n->start[s] + from->count;
     for (int k = 0; k < from->count; k++)
       to[k] = n->place[from->item[k]];
-    qsort(to, (size_t)from->count, sizeof *to, ascending);
+    thr_sort_ints(to, (size_t)from->count);
   }
   return THR_OK;
 }

@@ -1,5 +1,6 @@
 /* Nodes of a forest of cuts move between lists; whole sets are never written out. */
 #include "lp/tjoin/cuts.h"
+#include "graph/sort.h"
 
 #include <stdlib.h>
 
@@ -9,12 +10,6 @@ void thr_cuts_destroy(thr_cuts *c)
     free(c->cut[i].node);
   free(c->cut);
   *c = (thr_cuts){0};
-}
-
-static int ascending(const void *a, const void *b)
-{
-  int x = *(const int *)a, y = *(const int *)b;
-  return (x > y) - (x < y);
 }
 
 /* order[n]: children before their parents. */
@@ -277,7 +272,7 @@ static thr_status pass_nodes_on(thr_cuts *c, const bool *drop, const int *to, in
       outer->node[outer->n_nodes++] = from->node[j];
   }
   for (int i = 0; i < c->n; i++)
-    if (more[i] > 0) qsort(c->cut[i].node, (size_t)c->cut[i].n_nodes, sizeof *c->cut[i].node, ascending);
+    thr_sort_ints(c->cut[i].node, (size_t)c->cut[i].n_nodes);
   return THR_OK;
 }
 

@@ -3,6 +3,7 @@
 #include "graph/framework/cuttree.h"
 #include "graph/disjoint.h"
 #include "graph/random.h"
+#include "graph/sort.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -106,12 +107,6 @@ void thr_oddcut_pool_drop(thr_oddcut_pool *pool, const bool *drop)
     pool->seen[slot_of(pool, pool->cut[i].name)] = pool->cut[i].name;
 }
 
-static int ascending(const void *a, const void *b)
-{
-  int x = *(const int *)a, y = *(const int *)b;
-  return (x > y) - (x < y);
-}
-
 /* Fills c with the cut of the n nodes marked in g->member: their side or, if that is smaller, the other. */
 static thr_status collect(const thr_oddcut_graph *g, const int *node, int n, struct thr_oddcut *c, thr_err *err)
 {
@@ -133,7 +128,7 @@ static thr_status collect(const thr_oddcut_graph *g, const int *node, int n, str
   } else {
     memcpy(c->node, node, (size_t)n * sizeof *node);
     c->n_nodes = n;
-    qsort(c->node, (size_t)n, sizeof *c->node, ascending);
+    thr_sort_ints(c->node, (size_t)n);
   }
   return THR_OK;
 }

@@ -71,18 +71,10 @@ static thr_status offer_joined(thr_search *s, thr_err *err)
   return st ? st : thr_search_offer(s, err);
 }
 
-/* Limits that leave so much of the time that is left. */
-static thr_limits part_of_time(const thr_search *s, double part)
-{
-  thr_limits limits = *s->limits;
-  if (limits.deadline > 0) limits.deadline -= (1 - part) * thr_limits_left(&limits, INFINITY);
-  return limits;
-}
-
 /* The best so far with its turns as cheap as they can be and joined again, and then by exchanges that leave it whole. */
 static thr_status offer_improved(thr_search *s, thr_err *err)
 {
-  const thr_limits limits = part_of_time(s, 0.5);
+  const thr_limits limits = thr_limits_part(s->limits, 0.5);
   memcpy(s->other, s->best, (size_t)s->p->n * sizeof *s->best);
   thr_status st = thr_programme_straighten(s->p, &limits, s->other, err);
   if (!st) st = offer_joined(s, err);
@@ -216,7 +208,7 @@ static void take_bounds(thr_search *s, const thr_search *small, int n)
  * of the contraction, whose programme goes on if it keeps no aim lower than that. */
 static thr_status bound_turning(thr_search *s, const thr_contraction *c, thr_search *small, thr_err *err)
 {
-  const thr_limits limits = part_of_time(s, 0.5);
+  const thr_limits limits = thr_limits_part(s->limits, 0.5);
   thr_relaxation own = {0};
   bool fits = true;
   for (int k = 0; k < small->kept; k++) {
@@ -257,10 +249,9 @@ static thr_status search_contracted(thr_search *s, thr_err *err)
 {
   static const double part = 0.7; /* of the time: the rest is for lifting and for turning */
   thr_contraction c;
-  thr_limits limits = *s->limits;
+  const thr_limits limits = thr_limits_part(s->limits, part);
   const bool quick = s->p->o->quick;
   int n = aims_before_turning(s->p->o), failed = 1;
-  if (limits.deadline > 0) limits.deadline -= (1 - part) * thr_limits_left(&limits, INFINITY);
   thr_status st = thr_contraction_init(&c, s->p, false, err);
   if (st) return st;
   while (failed > 0 && !st) {
@@ -288,7 +279,7 @@ static thr_status search_contracted(thr_search *s, thr_err *err)
 static thr_status search_whole(thr_search *s, thr_err *err)
 {
   static const double part = 0.8;
-  const thr_limits *all = s->limits, most = part_of_time(s, part);
+  const thr_limits *all = s->limits, most = thr_limits_part(s->limits, part);
   thr_contraction c;
   thr_search none = {0};
   int n = aims_before_turning(s->p->o);

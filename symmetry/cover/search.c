@@ -166,8 +166,7 @@ static thr_status solve_node(thr_search *s, thr_aim aim, bool root, bool integer
 static thr_status solve_whole(thr_search *s, thr_aim aim, bool *open, thr_err *err)
 {
   const thr_limits *all = s->limits;
-  thr_limits half = *all;
-  if (half.deadline > 0) half.deadline -= 0.5 * thr_limits_left(&half, INFINITY);
+  const thr_limits half = thr_limits_part(all, 0.5);
   s->limits = &half;
   thr_status st = solve_node(s, aim, true, true, open, err);
   s->limits = all;

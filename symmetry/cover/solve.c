@@ -194,14 +194,6 @@ thr_status thr_symmetry_shortest_tied(const thr_frame *f, const thr_plan_options
 
 /* ---- whose turn it is ---- */
 
-thr_limits thr_symmetry_share(const thr_limits *l, double part)
-{
-  thr_limits share = *l;
-  double now = thr_clock();
-  if (l->deadline > 0) share.deadline = now + part * fmax(0, l->deadline - now);
-  return share;
-}
-
 bool thr_symmetry_asked(const thr_symmetries *t, int row, const char *group)
 {
   char number[16];
@@ -235,7 +227,7 @@ static bool has_turn(const solver *s, turn r, int row)
 static thr_status solve_round(solver *s, turn r, const thr_limits *limits, thr_err *err)
 {
   static const double part[N_ROUNDS] = {0.5, 0.7, 1}; /* of the time that is left */
-  const thr_limits all = thr_symmetry_share(limits, part[r]);
+  const thr_limits all = thr_limits_part(limits, part[r]);
   int n = 0, done = 0;
   thr_status st = THR_OK;
   for (int i = 0; i < s->t->n; i++)
@@ -243,7 +235,7 @@ static thr_status solve_round(solver *s, turn r, const thr_limits *limits, thr_e
   for (int i = 0; i < s->t->n && !st && done < n; i++) {
     if (!has_turn(s, r, i)) continue;
     if (limits->advance) limits->advance(limits->user, "threading under each group", (r + (double)done / n) / N_ROUNDS);
-    const thr_limits share = thr_symmetry_share(&all, 1.0 / (n - done++));
+    const thr_limits share = thr_limits_part(&all, 1.0 / (n - done++));
     st = solve(s, i, r != PROOFS, &share, err);
   }
   return st;

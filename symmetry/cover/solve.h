@@ -18,7 +18,4 @@ thr_status thr_symmetry_shortest_tied(const thr_frame *f, const thr_plan_options
 /* group: as in thr_symmetry_options. */
 bool thr_symmetry_asked(const thr_symmetries *t, int row, const char *group);
 
-/* Limits that leave this part of the time that is left. */
-thr_limits thr_symmetry_share(const thr_limits *l, double part);
-
 #endif

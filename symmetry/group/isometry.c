@@ -1,13 +1,12 @@
 /* Procrustes analysis of automorphisms, their names, and the name of the point group that they make. */
 #include "symmetry/group/isometry.h"
+#include "graph/angle.h"
 #include "graph/framework/procrustes.h"
 #include "graph/vector.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-static const double PI = 3.14159265358979323846;
 
 /* Least k > 0 such that the permutation's k-th power is the identity: of points that one cycle moves, its length, and the least
  * common multiple of those. Marks nothing: a cycle is counted at its lowest point. */
@@ -64,7 +63,7 @@ static void decompose(double q[3][3], bool proper, double axis[3], double *angle
   double twist[3] = {(r[2][1] - r[1][2]) / 2, (r[0][2] - r[2][0]) / 2, (r[1][0] - r[0][1]) / 2};
   axis_of(r, cosine, axis);
   *angle = atan2(thr_dot(axis, twist), cosine);
-  if (!proper) *angle += *angle > 0 ? -PI : PI; /* -1 is half a turn and a mirror */
+  if (!proper) *angle += *angle > 0 ? -THR_PI : THR_PI; /* -1 is half a turn and a mirror */
 }
 
 static int common_divisor(int a, int b)
@@ -89,10 +88,10 @@ static void classify(thr_isometry *o, double q[3][3], bool proper)
   int order = o->order;
   double angle;
   decompose(q, proper, o->axis, &angle);
-  int part = (int)lround(fabs(angle) * order / (2 * PI)), d = common_divisor(order, part), own = order / d;
+  int part = (int)lround(fabs(angle) * order / (2 * THR_PI)), d = common_divisor(order, part), own = order / d;
   if (!proper && own % 2 == 1) own *= 2;
   if (own != order) return;
-  double snapped = copysign(2 * PI * part / order, angle);
+  double snapped = copysign(2 * THR_PI * part / order, angle);
   if (!proper && part == 0) {
     o->kind = THR_ISO_MIRROR;
     snprintf(o->name, sizeof o->name, "mirror");
@@ -101,7 +100,7 @@ static void classify(thr_isometry *o, double q[3][3], bool proper)
     snprintf(o->name, sizeof o->name, "inversion");
   } else {
     o->kind = proper ? THR_ISO_ROTATION : THR_ISO_ROTOREFLECTION;
-    o->angle = 2 * part == order ? PI : snapped;
+    o->angle = 2 * part == order ? THR_PI : snapped;
     name_turn(o, proper ? 'C' : 'S', part, order);
   }
   if (o->kind == THR_ISO_INVERSION) memset(o->axis, 0, sizeof o->axis);

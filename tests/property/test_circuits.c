@@ -1,13 +1,12 @@
 /* Several closed cords in every component against enumeration over all pairings of all passes. */
 #include "tests/symmetric.h"
+#include "graph/angle.h"
 #include "graph/framework/make.h"
 #include "tortuosity/cords/maxturn.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const double pi = 3.14159265358979323846;
 
 /* ---- oracle ---- */
 
@@ -27,7 +26,7 @@ typedef struct {
 static double turn_price(const oracle *o, int a, int b)
 {
   int ha = o->half[a], hb = o->half[b];
-  if (ha == hb) return thr_degree(o->f, thr_tail(o->f, ha)) == 1 ? thr_turn_cost_of(o->task->cost, pi) : (double)INFINITY;
+  if (ha == hb) return thr_degree(o->f, thr_tail(o->f, ha)) == 1 ? thr_turn_cost_of(o->task->cost, THR_PI) : (double)INFINITY;
   return thr_turn_cost_of(o->task->cost, thr_turn_angle(o->f, ha ^ 1, hb));
 }
 
@@ -242,23 +241,23 @@ START_TEST(known_answers)
   for (int k = 0; k < 4; k++) {
     thr_least l = solve(&f, k + 1, k < 3);
     assert_cords(&f, &l);
-    ck_assert_double_eq_tol(l.price, degrees[k] / 180 * pi, 1e-6);
+    ck_assert_double_eq_tol(l.price, degrees[k] / 180 * THR_PI, 1e-6);
     thr_least_destroy(&l);
   }
   thr_frame_destroy(&f);
   f = solid_make(TETRAHEDRON); /* its four triangles: no closed cord turns less than once round (Fenchel 1929) */
   thr_least faces = solve(&f, 4, false);
-  ck_assert_double_eq_tol(faces.price, 8 * pi, 1e-6);
+  ck_assert_double_eq_tol(faces.price, 8 * THR_PI, 1e-6);
   thr_least_destroy(&faces);
   thr_frame_destroy(&f);
   f = ring_make(5); /* round and round */
   thr_least l = solve(&f, 3, false);
-  ck_assert_double_eq_tol(l.price, 6 * pi, 1e-6);
+  ck_assert_double_eq_tol(l.price, 6 * THR_PI, 1e-6);
   thr_least_destroy(&l);
   thr_frame_destroy(&f);
   f = path_make(4); /* there and back, twice */
   l = solve(&f, 2, false);
-  ck_assert_double_eq_tol(l.price, 4 * pi, 1e-6);
+  ck_assert_double_eq_tol(l.price, 4 * THR_PI, 1e-6);
   thr_least_destroy(&l);
   thr_frame_destroy(&f);
 }
@@ -339,7 +338,7 @@ START_TEST(more_cords_need_fewer_connections)
   for (int cords = 1; cords <= 3; cords++) {
     l.task.cords = cords;
     ck_assert_int_eq(thr_turning_proof_check(&f, &l.task, &l.proof, &bound, NULL), THR_OK);
-    ck_assert_double_le(bound, (1260 - 60 * cords) / 180.0 * pi + 1e-9);
+    ck_assert_double_le(bound, (1260 - 60 * cords) / 180.0 * THR_PI + 1e-9);
   }
   d->n_groups = groups;
   thr_least_destroy(&l);

@@ -1,12 +1,13 @@
 /* The least turning of frameworks whose optima are known from other programs (docs/method.md), in degrees. */
 #include "graph/framework/make.h"
+#include "graph/angle.h"
 #include "tests/support.h"
 #include "tortuosity/proof/least.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-static const double DEGREE = 3.14159265358979323846 / 180;
+static const double DEGREE = THR_PI / 180;
 
 /* ---- frameworks ---- */
 

@@ -1,5 +1,6 @@
 /* The least turning of random small frameworks against enumeration, its proof under alteration, and what must not change. */
 #include "tests/symmetric.h"
+#include "graph/angle.h"
 #include "graph/framework/make.h"
 #include "tortuosity/cords/extra.h"
 #include "tortuosity/cords/improve.h"
@@ -82,8 +83,7 @@ static void pair_node(oracle *o, int v, int *left, node_option *made)
   for (int k = i; k < d; k++) {
     if (k == i ? d > 1 || left[i] < 2 : left[k] == 0) continue;
     node_option next = *made;
-    next.price += k == i ? thr_turn_cost_of(o->cost, 3.14159265358979323846)
-                         : thr_turn_cost_of(o->cost, thr_turn_angle(f, half[i] ^ 1, half[k]));
+    next.price += k == i ? thr_turn_cost_of(o->cost, THR_PI) : thr_turn_cost_of(o->cost, thr_turn_angle(f, half[i] ^ 1, half[k]));
     next.link[half[i] >> 1] |= 1u << (half[k] >> 1);
     left[i]--;
     left[k]--;
@@ -337,7 +337,7 @@ static void expect_degrees(const thr_frame *f, double degrees)
 {
   thr_least_options o = thr_least_options_default();
   thr_least l = solve(f, &o, true);
-  ck_assert_double_eq_tol(l.price * 180 / 3.14159265358979323846, degrees, 1e-4);
+  ck_assert_double_eq_tol(l.price * 180 / THR_PI, degrees, 1e-4);
   ck_assert_double_eq_tol(l.bound, l.price, 1e-6);
   thr_least_destroy(&l);
 }
@@ -564,7 +564,7 @@ START_TEST(two_pieces_have_a_cord_each)
   thr_least_options o = thr_least_options_default();
   thr_least l = solve(&f, &o, true);
   ck_assert_int_eq(l.n_cords, 2);
-  ck_assert_double_eq_tol(l.bound, 4 * 3.14159265358979323846, 1e-6);
+  ck_assert_double_eq_tol(l.bound, 4 * THR_PI, 1e-6);
   thr_least_destroy(&l);
   thr_frame_destroy(&f);
 }

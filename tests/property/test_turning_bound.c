@@ -2,6 +2,7 @@
  * plan; here each is written down as a row over the columns, and what random multipliers prove is added up row by row, exactly.
  */
 #include "graph/plan/turning_proof.h"
+#include "graph/angle.h"
 #include "tests/support.h"
 
 #include <limits.h>

@@ -1,12 +1,11 @@
 /* Beads: faces, masses against counted volumes, feet, and cords that pull nothing away as a whole. */
 #include "eval/structure/beads.h"
+#include "graph/angle.h"
 #include "tests/support.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const double PI = 3.14159265358979323846;
 
 /* Round numbers: 1 g/cm3, so that a cube of 1 m weighs a tonne. */
 static thr_physics physics_of(double width, double bore)
@@ -50,7 +49,7 @@ START_TEST(row_of_beads)
   thr_frame f = in_units(path_make(5), "m");
   thr_physics p = physics_of(200, 50);
   thr_beads b = beads_of(&f, &p);
-  double section = 0.2 * 0.2 - PI / 4 * 0.05 * 0.05;
+  double section = 0.2 * 0.2 - THR_PI / 4 * 0.05 * 0.05;
   ck_assert(b.n_beads == 5 && b.n_faces == 4 && b.width == 0.2 && b.bore == 0.05);
   for (int v = 0; v < 5; v++) {
     bool end = v == 0 || v == 4;

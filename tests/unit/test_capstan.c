@@ -2,12 +2,11 @@
 #include "tests/support.h"
 #include "eval/eval.h"
 #include "eval/cord/profile.h"
+#include "graph/angle.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const double PI = 3.14159265358979323846;
 
 static thr_eval_options options_of(thr_pull pull, double mu, double seating)
 {
@@ -37,7 +36,7 @@ static thr_evaluation eval(const thr_frame *f, const thr_cord *cord, int n, thr_
 START_TEST(single_turn_is_exponential)
 {
   for (int i = 0; i <= 12; i++) {
-    double a = i * PI / 12;
+    double a = i * THR_PI / 12;
     const double xyz[3][3] = {{-1, 0, 0}, {0, 0, 0}, {2 * cos(a), 2 * sin(a), 0}};
     thr_frame f = frame_make(3, xyz, 2, (const int[2][2]){{0, 1}, {1, 2}}, NULL, NULL);
     thr_cord cord = {.id = "A", .n_passes = 2, .half = (int[]){0, 2}};
@@ -95,7 +94,7 @@ START_TEST(ring_pulled_at_both_ends_is_symmetric)
     thr_frame f = ring_make(n);
     thr_plan p = plan_simple(&f, THR_ENDS_CLOSED, 1);
     thr_evaluation c = eval(&f, p.cord, 1, THR_PULL_BOTH, 0.2, 1);
-    double turn = 2 * PI / n, far = (double)(n / 2) * turn, near = (double)((n - 1) / 2) * turn;
+    double turn = 2 * THR_PI / n, far = (double)(n / 2) * turn, near = (double)((n - 1) / 2) * turn;
     ck_assert_double_eq_tol(c.cord[0].turning, (n - 1) * turn, 1e-9);
     ck_assert_double_eq_tol(c.cord[0].force, exp(0.2 * far), 1e-9);
     ck_assert_double_eq_tol(c.cord[0].other_force, exp(0.2 * near), 1e-9);
@@ -228,7 +227,7 @@ START_TEST(cords_add_up)
   thr_evaluation c = eval(&f, p.cord, p.n_cords, THR_PULL_START, 0.2, 2);
   ck_assert_int_eq(c.n_cords, 5);
   ck_assert_double_eq_tol(c.total, 5 * c.largest, 1e-9);
-  ck_assert_double_eq_tol(c.largest, 2 * exp(0.2 * 4 * PI / 3), 1e-9);
+  ck_assert_double_eq_tol(c.largest, 2 * exp(0.2 * 4 * THR_PI / 3), 1e-9);
   thr_evaluation_destroy(&c);
   thr_plan_destroy(&p);
   thr_frame_destroy(&f);
@@ -328,8 +327,8 @@ START_TEST(band_is_infinite_where_no_pull_would_do)
   o.physics.mu_low = 0.1;
   o.physics.mu_high = 0.9;
   ck_assert_int_eq(thr_eval_plan(&f, &cord, 1, THR_CAPSTAN, &o, &none, &e, NULL), THR_OK);
-  ck_assert_double_eq_tol(log(e.band[0]), 29.9 * PI, 1e-9);
-  ck_assert_double_eq_tol(log(e.record.largest), 0.7 * 299 * PI, 1e-9);
+  ck_assert_double_eq_tol(log(e.band[0]), 29.9 * THR_PI, 1e-9);
+  ck_assert_double_eq_tol(log(e.record.largest), 0.7 * 299 * THR_PI, 1e-9);
   ck_assert(isinf(e.band[1]));
   thr_eval_destroy(&e);
   thr_plan_destroy(&p);

@@ -1,6 +1,7 @@
 /* Rules of the checker, each against an answer that is worked out another way: what rounding takes off a bound, how short the
  * longest cord can be, and that no claim outlives a failure before it. */
 #include "graph/check/check_parts.h"
+#include "graph/angle.h"
 #include "graph/plan/junction.h"
 #include "lp/length/cords.h"
 #include "tests/support.h"
@@ -201,7 +202,7 @@ START_TEST(rounding_of_what_is_passed_once_costs_little)
   double xyz[N + 1][3] = {{0}}, length[N + 1];
   int edge[N + 1][2], half[N + 2];
   for (int v = 0; v < N; v++) {
-    xyz[v][0] = cos(v * 0.01 * 3.14159265358979), xyz[v][1] = sin(v * 0.01 * 3.14159265358979);
+    xyz[v][0] = cos(v * 0.01 * THR_PI), xyz[v][1] = sin(v * 0.01 * THR_PI);
     edge[v][0] = v, edge[v][1] = (v + 1) % N;
     half[v] = 2 * v;
   }

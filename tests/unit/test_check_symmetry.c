@@ -1,12 +1,11 @@
 /* The checker's part for symmetry against groups made of matrices, and against readings of cords that are counted one by one. */
 #include "graph/check/check_parts.h"
+#include "graph/angle.h"
 #include "tests/support.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define PI 3.14159265358979323846
 
 /* ---- point groups ---- */
 
@@ -23,7 +22,7 @@ typedef struct {
 /* Turn about z by a part of the full one, followed by the mirror z = 0 if asked for. */
 static void turn(double part, bool mirror, matrix m)
 {
-  double c = cos(2 * PI * part), s = sin(2 * PI * part);
+  double c = cos(2 * THR_PI * part), s = sin(2 * THR_PI * part);
   memcpy(m, (matrix){{c, -s, 0}, {s, c, 0}, {0, 0, mirror ? -1 : 1}}, sizeof(matrix));
 }
 
@@ -41,7 +40,7 @@ static void add(point_group *g, matrix m)
 static void fifth(matrix m)
 {
   double phi = (1 + sqrt(5)) / 2, norm = sqrt(1 + phi * phi), k[3] = {0, 1 / norm, phi / norm};
-  double c = cos(2 * PI / 5), s = sin(2 * PI / 5);
+  double c = cos(2 * THR_PI / 5), s = sin(2 * THR_PI / 5);
   const matrix cross = {{0, -k[2], k[1]}, {k[2], 0, -k[0]}, {-k[1], k[0], 0}};
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++)

@@ -1,6 +1,7 @@
 /* What the checker finds out about turning and says of claims about it: pairings against enumeration and closed forms, trees
  * whose bound is known, every number of a claim changed. */
 #include "graph/check/check_parts.h"
+#include "graph/angle.h"
 #include "tests/support.h"
 
 #include <limits.h>
@@ -8,8 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PI 3.14159265358979323846
-#define HALF 0.70710678118654752440 /* sin(PI / 4) */
+#define HALF 0.70710678118654752440 /* sin(pi / 4) */
 
 /* ---- plans by hand ---- */
 
@@ -135,7 +135,7 @@ static thr_frame fan_make(int n, const double *angle)
 /* A bent path, its cord there and back: a quarter twice, and two U-turns at the ends. */
 START_TEST(turns_are_added_up)
 {
-  static const double angle[2] = {0, PI / 2}, price[][2] = {{3 * PI, PI / 2}, {2 + 2 * HALF, HALF}, {4, 1}};
+  static const double angle[2] = {0, THR_PI / 2}, price[][2] = {{3 * THR_PI, THR_PI / 2}, {2 + 2 * HALF, HALF}, {4, 1}};
   for (int cost = 0; cost < THR_N_TURN_COSTS; cost++) {
     thr_plan closed = plan_begin(fan_make(2, angle), THR_ENDS_CLOSED, 1, (thr_turn_cost)cost);
     add_cord(&closed, (int[]){1, 0, 2, 0, 1, -1});
@@ -147,7 +147,7 @@ START_TEST(turns_are_added_up)
     add_cord(&open, (int[]){1, 0, 2, -1});
     add_cord(&open, (int[]){1, 0, 2, 0, -1}); /* ends once at the bend: there a pass goes with it */
     found = found_of(&open);
-    double back = cost == THR_TURN_ANGLE ? PI : 1;
+    double back = cost == THR_TURN_ANGLE ? THR_PI : 1;
     ck_assert_double_eq_tol(found.price, 2 * price[cost][1] + back, 1e-12);
     ck_assert_double_eq_tol(found.largest, price[cost][1] + back, 1e-12);
     ck_assert_double_eq_tol(found.pairing_bound, 2 * price[cost][1] + back, 1e-12);
@@ -212,7 +212,7 @@ END_TEST
 
 static double price_of_turn(thr_turn_cost cost, double turn)
 {
-  return cost == THR_TURN_ANGLE ? turn : cost == THR_TURN_SINE ? sin(turn / 2) : turn >= PI / 2 - 1e-6;
+  return cost == THR_TURN_ANGLE ? turn : cost == THR_TURN_SINE ? sin(turn / 2) : turn >= THR_PI / 2 - 1e-6;
 }
 
 /* Least cost of pairing all points at a node, point i being a pass of edge[i], or a cord end if that is -1. */
@@ -225,8 +225,8 @@ static double least_pairing(thr_turn_cost cost, const double *angle, const int *
     first++;
   for (int k = first + 1; k < n; k++) {
     if (!(left >> k & 1) || edge[first] == edge[k]) continue;
-    double between = edge[first] < 0 || edge[k] < 0 ? PI : fabs(angle[edge[first]] - angle[edge[k]]);
-    double turn = PI - (between > PI ? 2 * PI - between : between);
+    double between = edge[first] < 0 || edge[k] < 0 ? THR_PI : fabs(angle[edge[first]] - angle[edge[k]]);
+    double turn = THR_PI - (between > THR_PI ? 2 * THR_PI - between : between);
     best = fmin(best, price_of_turn(cost, turn) + least_pairing(cost, angle, edge, n, left & ~(1U << first | 1U << k)));
   }
   return best;
@@ -240,9 +240,9 @@ START_TEST(pairings_are_the_cheapest)
   const thr_turn_cost cost = (thr_turn_cost)(_i % THR_N_TURN_COSTS);
   int edge[16], n = 0, n_spokes = rng_between(&r, 2, 4);
   for (int i = 0; i < n_spokes; i++)
-    angle[i] = 2 * PI * (i + 0.8 * rng_unit(&r)) / n_spokes;
+    angle[i] = 2 * THR_PI * (i + 0.8 * rng_unit(&r)) / n_spokes;
   thr_plan p = plan_begin(fan_make(n_spokes, angle), THR_ENDS_ANY, 2, cost);
-  double tips = 0, back = price_of_turn(cost, PI);
+  double tips = 0, back = price_of_turn(cost, THR_PI);
   for (int i = 0; i < 2; i++) {
     int a = i, b = (a + 1 + rng_below(&r, n_spokes - 1)) % n_spokes;
     bool from_hub = rng_below(&r, 2), to_hub = rng_below(&r, 2);
@@ -269,11 +269,11 @@ START_TEST(pairings_of_hubs)
   const int passes = 1 + _i / 2;
   for (int n = 14; n <= 20; n += 2) {
     const int hub = _i % 2 ? n : 0, first = hub ? 0 : 1;
-    double angle[24], exact = n / 2 * PI, half = 0;
+    double angle[24], exact = n / 2 * THR_PI, half = 0;
     int walk[MOST_WALK] = {0, hub, 0};
     rng r = rng_make((uint64_t)n);
     for (int i = 0; i < n; i++)
-      angle[i] = PI * (i + 0.9 * rng_unit(&r)) / (n + 1);
+      angle[i] = THR_PI * (i + 0.9 * rng_unit(&r)) / (n + 1);
     thr_plan p = plan_begin(fan_with_hub(n, angle, hub), THR_ENDS_ANY, passes * n / 2, THR_TURN_ANGLE);
     for (int i = 0; i < passes * n / 2; i++) {
       walk[0] = i / passes + first, walk[2] = n - 1 - i / passes + first, walk[3] = -1;
@@ -281,7 +281,7 @@ START_TEST(pairings_of_hubs)
     }
     for (int i = 0; i < n; i++) {
       exact += i < n / 2 ? angle[i] : -angle[i];
-      half += (PI - fmax(angle[i] - angle[0], angle[n - 1] - angle[i])) / 2;
+      half += (THR_PI - fmax(angle[i] - angle[0], angle[n - 1] - angle[i])) / 2;
     }
     thr_turning_claim found = found_of(&p);
     ck_assert_double_eq_tol(found.pairing_bound, passes * (pow(passes + 1, n) <= 65536 ? exact : half), 1e-9);
@@ -298,13 +298,13 @@ START_TEST(ends_at_hubs_save_a_turn)
   double angle[N], half = 0, most = 0;
   rng r = rng_make(N);
   for (int i = 0; i < N; i++)
-    angle[i] = PI * (i + 0.9 * rng_unit(&r)) / (N + 1);
+    angle[i] = THR_PI * (i + 0.9 * rng_unit(&r)) / (N + 1);
   thr_plan p = plan_begin(fan_make(N, angle), THR_ENDS_ANY, N / 2 + 2, THR_TURN_ANGLE);
   for (int i = 0; i < N / 2; i++)
     add_cord(&p, (int[]){i + 1, 0, N - i, -1});
   add_cord(&p, (int[]){N / 2 + 1, 0, -1});
   for (int i = 0; i < N; i++) {
-    double least = (PI - fmax(angle[i] - angle[0], angle[N - 1] - angle[i])) / 2;
+    double least = (THR_PI - fmax(angle[i] - angle[0], angle[N - 1] - angle[i])) / 2;
     half += least;
     most = fmax(most, least);
   }
@@ -312,7 +312,7 @@ START_TEST(ends_at_hubs_save_a_turn)
   ck_assert_double_eq_tol(found_of(&p).pairing_bound, half - most, 1e-9);
   add_cord(&p, (int[]){0, N / 2 + 1, -1});
   p.options.cords = p.options.cords_least = N / 2 + 2;
-  double twice = (PI - fmax(angle[N / 2] - angle[0], angle[N - 1] - angle[N / 2])) / 2;
+  double twice = (THR_PI - fmax(angle[N / 2] - angle[0], angle[N - 1] - angle[N / 2])) / 2;
   ck_assert_double_eq_tol(found_of(&p).pairing_bound, half + twice - 2 * most, 1e-9);
   thr_plan_destroy(&p);
 }
@@ -361,8 +361,8 @@ START_TEST(many_passes_turn_back)
     for (int i = 0; i < passes[k]; i++)
       p.cord->half[i] = i % 2;
     thr_turning_claim found = found_of(&p);
-    ck_assert_double_eq_tol(found.price, passes[k] * PI, 1e-6);
-    ck_assert_double_eq_tol(found.pairing_bound, k ? 0 : passes[k] * PI, 1e-6);
+    ck_assert_double_eq_tol(found.price, passes[k] * THR_PI, 1e-6);
+    ck_assert_double_eq_tol(found.pairing_bound, k ? 0 : passes[k] * THR_PI, 1e-6);
     thr_plan_destroy(&p);
   }
 }
@@ -373,7 +373,7 @@ END_TEST
 /* A bend by so much must be turned: its half-edges' potentials, half of the price each, prove that. */
 static thr_plan bend_make(double turn, thr_turn_cost cost, int64_t weight)
 {
-  const double angle[2] = {0, PI - turn};
+  const double angle[2] = {0, THR_PI - turn};
   static int ends[3] = {0, 1, 1};
   thr_plan_options o;
   thr_plan p = plan_begin(fan_make(2, angle), THR_ENDS_ANY, 1, cost);
@@ -458,7 +458,7 @@ START_TEST(rounding_is_that_of_twice_the_passes_needed)
         int ends[3] = {0, cords, cords}, counted = cords < 2 * cover ? cords : 2 * cover;
         thr_plan p = bend_make(1, THR_TURN_ANGLE, 0);
         int *kept = p.options.end_count;
-        double off = part[i] * 2 * counted * 2e-9 * PI;
+        double off = part[i] * 2 * counted * 2e-9 * THR_PI;
         int64_t half = (int64_t)floor(ldexp((1 - off / cords) / 2, THR_TURNING_BITS)),
                 *potential = p.turning.tree.dual->potential;
         p.options.end_count = ends;
@@ -495,7 +495,7 @@ static void scale(thr_frame *f, double by)
  * back what extra passes of the fourth save: 1 - (limit - 4) / 2. Without a limit they prove nothing. */
 START_TEST(limits_on_the_length_prove_turns)
 {
-  static const double angle[4] = {-0.1, 0, 0.1, PI}, size[] = {1 / 16.0, 1, 3};
+  static const double angle[4] = {-0.1, 0, 0.1, THR_PI}, size[] = {1 / 16.0, 1, 3};
   static const double limit[][2] = {{4, 1}, {4.5, 0.75}, {5, 0.5}, {6, 0}, {-1, 0}}; /* and the bound */
   bool allowed[5] = {false, true, true, true, true};
   for (int k = 0; k < 3; k++)
@@ -588,7 +588,7 @@ END_TEST
 /* Where cords may end at the bend, no turn is needed there: the same multipliers prove nothing. */
 START_TEST(ends_are_where_the_options_allow_them)
 {
-  const double angle[2] = {0, PI - 1};
+  const double angle[2] = {0, THR_PI - 1};
   for (int hub = 0; hub < 2; hub++) {
     thr_plan p = plan_begin(fan_make(2, angle), THR_ENDS_NODES, 1, THR_TURN_ANGLE);
     bool allowed[3] = {hub, true, true}, *kept = p.options.end_node;
@@ -608,7 +608,7 @@ END_TEST
 /* A closed cord turns round once, whatever the tree says; with prices sin(angle / 2) it pays 2; steps it may need none. */
 START_TEST(closed_cords_turn_round)
 {
-  static const double least[] = {2 * PI, 2, 0};
+  static const double least[] = {2 * THR_PI, 2, 0};
   for (int cost = 0; cost < THR_N_TURN_COSTS; cost++)
     for (int cords = 1; cords <= 2; cords++) {
       thr_plan p = plan_begin(triangles_make(2), THR_ENDS_CLOSED, cords, (thr_turn_cost)cost);
@@ -617,7 +617,7 @@ START_TEST(closed_cords_turn_round)
         add_cord(&p, (int[]){3, 4, 5, 3, -1});
       }
       thr_turning_claim found = found_of(&p);
-      double price = cost == THR_TURN_SINE ? 3 * sin(PI / 3) : cost == THR_TURN_STEP ? 3 : 2 * PI;
+      double price = cost == THR_TURN_SINE ? 3 * sin(THR_PI / 3) : cost == THR_TURN_STEP ? 3 : 2 * THR_PI;
       ck_assert_double_eq_tol(found.price, 2 * cords * price, 1e-9);
       ck_assert_double_eq_tol(found.lower_bound, 2 * cords * least[cost], 1e-9);
       ck_assert_double_eq_tol(found.largest_bound, least[cost], 1e-9);
@@ -642,9 +642,9 @@ END_TEST
 /* Steps are those of one definition, on either side of the quarter. */
 START_TEST(steps_begin_at_a_quarter_less_a_millionth)
 {
-  static const double turn[] = {PI / 2 - 1.1e-6, PI / 2 - 0.9e-6, PI / 2, PI / 2 + 1e-5, 3, 1};
+  static const double turn[] = {THR_PI / 2 - 1.1e-6, THR_PI / 2 - 0.9e-6, THR_PI / 2, THR_PI / 2 + 1e-5, 3, 1};
   static const int step[] = {0, 1, 1, 1, 1, 0};
-  ck_assert_double_eq(thr_turn_cost_of(THR_TURN_STEP, PI / 2 - 1e-6), 1);
+  ck_assert_double_eq(thr_turn_cost_of(THR_TURN_STEP, THR_PI / 2 - 1e-6), 1);
   for (int i = 0; i < 6; i++) {
     thr_plan p = bend_make(turn[i], THR_TURN_STEP, (int64_t)step[i] << THR_TURNING_BITS);
     thr_turning_claim found = found_of(&p);
@@ -661,7 +661,7 @@ END_TEST
 START_TEST(steps_have_one_definition)
 {
   for (int i = -200; i <= 200; i++) {
-    thr_plan p = bend_make(PI / 2 - 1e-6 + i * 1e-17 * (1 << abs(i) % 8), THR_TURN_STEP, (int64_t)1 << THR_TURNING_BITS);
+    thr_plan p = bend_make(THR_PI / 2 - 1e-6 + i * 1e-17 * (1 << abs(i) % 8), THR_TURN_STEP, (int64_t)1 << THR_TURNING_BITS);
     double step = thr_turn_price(&p.frame, THR_TURN_STEP, p.cord[0].half[0], p.cord[0].half[1]);
     thr_turning_claim found = found_of(&p);
     ck_assert_double_eq(found.price, step);

@@ -1,5 +1,6 @@
 /* What the words for copies say, against matrices whose geometry is known: x to the right, y to the back, z up. */
 #include "cli/print/copies_table.c"
+#include "graph/angle.h"
 #include "tests/symmetric.h"
 
 #include <string.h>
@@ -128,7 +129,7 @@ END_TEST
 START_TEST(turns_of_a_tube)
 {
   known k[3];
-  double s = sin(2 * 3.14159265358979323846 / 7), c = cos(2 * 3.14159265358979323846 / 7);
+  double s = sin(2 * THR_PI / 7), c = cos(2 * THR_PI / 7);
   const known made[3] = {
       {{{c, -s, 0}, {s, c, 0}, {0, 0, 1}}, "turned by 51.43 degrees counter-clockwise from above"},
       {{{c, s, 0}, {-s, c, 0}, {0, 0, 1}}, "turned by 51.43 degrees clockwise from above"},

@@ -2,11 +2,12 @@
  */
 #include "tests/support.h"
 #include "eval/joint/drag.h"
+#include "graph/angle.h"
 
 #include <math.h>
 #include <string.h>
 
-static const double DEGREE = 3.14159265358979323846 / 180;
+static const double DEGREE = THR_PI / 180;
 
 static thr_drag joint(const double *turn, double mu)
 {

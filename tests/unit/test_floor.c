@@ -1,13 +1,40 @@
 /* The floor: status and error text, checked allocation, growing text, JSON reading. */
 #define _POSIX_C_SOURCE 200809L
 #include "tests/support.h"
+#include "graph/angle.h"
 #include "graph/io/json.h"
+#include "graph/sort.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+
+/* ---- numbers ---- */
+
+START_TEST(numbers_are_sorted)
+{
+  int whole[] = {3, INT_MIN, 7, 3, INT_MAX, -1}, in_order[] = {INT_MIN, -1, 3, 3, 7, INT_MAX};
+  double real[] = {0.5, -INFINITY, 1e300, -0.25, 0.5}, real_in_order[] = {-INFINITY, -0.25, 0.5, 0.5, 1e300};
+  thr_sort_ints(whole, 6);
+  thr_sort_doubles(real, 5);
+  thr_sort_ints(NULL, 0);
+  ck_assert_mem_eq(whole, in_order, sizeof whole);
+  ck_assert_mem_eq(real, real_in_order, sizeof real);
+}
+END_TEST
+
+START_TEST(angles_keep_their_digits)
+{
+  const double east[3] = {3, 0, 0}, nearly[3] = {1, 1e-12, 0}, west[3] = {-2, 0, 0}, none[3] = {0};
+  ck_assert_double_eq_tol(thr_angle_between(east, nearly), 1e-12, 1e-25);
+  ck_assert_double_eq(thr_angle_between(east, west), THR_PI);
+  ck_assert_double_eq(thr_angle_between(east, none), 0);
+  ck_assert_double_eq(thr_degrees(THR_PI), 180);
+}
+END_TEST
 
 /* ---- status ---- */
 
@@ -187,6 +214,16 @@ START_TEST(letters_are_not_cut)
 }
 END_TEST
 
+START_TEST(columns_are_letters)
+{
+  const char *text = "a\xc3\xa4\xf0\x9f\xa7\xb5z"; /* 1, 2, 4 and 1 byte */
+  ck_assert_int_eq(thr_text_columns(text, SIZE_MAX), 4);
+  ck_assert_int_eq(thr_text_columns(text, 3), 2);
+  ck_assert_int_eq(thr_text_columns(text, 0), 0);
+  ck_assert_int_eq(thr_text_columns("", SIZE_MAX), 0);
+}
+END_TEST
+
 /* jansson takes no string that is not UTF-8 or holds a control character. */
 START_TEST(any_bytes_make_json)
 {
@@ -345,6 +382,8 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("floor");
+  ADD_TEST(s, 10, numbers_are_sorted);
+  ADD_TEST(s, 10, angles_keep_their_digits);
   ADD_TEST(s, 10, first_failure_wins);
   ADD_TEST(s, 10, error_text_is_one_bounded_line);
   ADD_TEST(s, 10, allocation_fails_where_told);
@@ -354,6 +393,7 @@ int main(void)
   ADD_TEST(s, 60, every_letter_is_kept_or_a_blank);
   ADD_TEST(s, 10, broken_letters_are_question_marks);
   ADD_TEST(s, 10, letters_are_not_cut);
+  ADD_TEST(s, 10, columns_are_letters);
   ADD_TEST(s, 60, any_bytes_make_json);
   ADD_TEST(s, 10, messages_are_clean);
   ADD_TEST(s, 10, failed_append_is_remembered);

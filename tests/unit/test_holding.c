@@ -1,6 +1,7 @@
 /* Holding pull: closed forms of cantilever and friction, a plain programme solved by simplex, the mechanism checked as a
  * mechanism. */
 #include "tests/support.h"
+#include "graph/angle.h"
 #include "tests/threadings.h"
 #include "eval/eval.h"
 #include "graph/framework/make.h"
@@ -11,7 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double PI = 3.14159265358979323846;
 static const thr_limits no_limit;
 
 typedef struct {
@@ -211,7 +211,7 @@ START_TEST(friction_carries_a_bead)
     thr_holding h = hold(&m);
     double exact = 0.1 / mu;
     ck_assert(h.lower <= exact * (1 + 1e-7) && h.upper >= exact * (1 - 1e-7));
-    ck_assert_double_eq_tol(h.upper, h.lower / cos(PI / 8), 1e-6 * exact);
+    ck_assert_double_eq_tol(h.upper, h.lower / cos(THR_PI / 8), 1e-6 * exact);
     ck_assert_int_eq(h.first_bead, 1);
     thr_holding_destroy(&h);
     model_destroy(&m);
@@ -445,7 +445,7 @@ static void add_point(plain *p, const model *m, int bead, int other, const doubl
   for (int e = 0; e < 8; e++, p->n++) {
     double force[3];
     for (int k = 0; k < 3; k++)
-      force[k] = normal[k] + mu * (cos(e * PI / 4) * u[k] + sin(e * PI / 4) * v[k]);
+      force[k] = normal[k] + mu * (cos(e * THR_PI / 4) * u[k] + sin(e * THR_PI / 4) * v[k]);
     p->start[p->n + 1] = p->start[p->n];
     push(p, m, bead, force, at, 1);
     push(p, m, other, force, at, -1);
@@ -490,8 +490,8 @@ START_TEST(equals_a_plain_programme_by_simplex)
 {
   model m = random_model((uint64_t)_i + 1, 8);
   double upper = by_simplex(&m), mu_bead = m.physics.mu_bead, mu_ground = m.physics.mu_ground;
-  m.physics.mu_bead /= cos(PI / 8);
-  m.physics.mu_ground /= cos(PI / 8);
+  m.physics.mu_bead /= cos(THR_PI / 8);
+  m.physics.mu_ground /= cos(THR_PI / 8);
   double lower = by_simplex(&m);
   m.physics.mu_bead = mu_bead;
   m.physics.mu_ground = mu_ground;

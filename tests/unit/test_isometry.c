@@ -1,6 +1,7 @@
 /* What automorphisms are in space, against the known classes of point groups; isometries from coordinates against nauty's group.
  */
 #include "tests/symmetric.h"
+#include "graph/angle.h"
 #include "symmetry/group/automorphisms.h"
 #include "symmetry/group/group.h"
 #include "symmetry/group/isometry.h"
@@ -11,8 +12,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const double PI = 3.14159265358979323846;
 
 /* The listed group of a framework, and what each element is within tolerance. */
 typedef struct {
@@ -89,7 +88,7 @@ static void assert_sound(const thr_frame *f, const named_group *n, double tolera
     ck_assert((k == 0) == (o->kind == THR_ISO_IDENTITY));
     if (o->kind == THR_ISO_NONE) continue;
     ck_assert_double_eq_tol(norm, turns || o->kind == THR_ISO_MIRROR, 1e-12);
-    ck_assert(turns ? o->angle > -PI && o->angle <= PI && o->angle != 0 : o->angle == 0);
+    ck_assert(turns ? o->angle > -THR_PI && o->angle <= THR_PI && o->angle != 0 : o->angle == 0);
     for (int i = 0; i < 3; i++) /* the largest component is positive */
       ck_assert(o->axis[i] > -1e-9 || fmax(fmax(o->axis[0], o->axis[1]), o->axis[2]) >= -o->axis[i] - 1e-9);
     assert_moves(f, &n->g.image[k * f->n_nodes], o, tolerance);
@@ -184,7 +183,7 @@ static thr_frame antiprism(int n, double twist)
   double xyz[40][3];
   int edge[80][2], m = 0;
   for (int i = 0; i < n; i++) {
-    double low = 2 * PI * i / n, high = low + PI / n + twist;
+    double low = 2 * THR_PI * i / n, high = low + THR_PI / n + twist;
     xyz[i][0] = cos(low), xyz[i][1] = sin(low), xyz[i][2] = 0.6;
     xyz[n + i][0] = cos(high), xyz[n + i][1] = sin(high), xyz[n + i][2] = -0.6;
     edge[m][0] = i, edge[m++][1] = (i + 1) % n;
@@ -277,7 +276,7 @@ END_TEST
 
 static double gauss(rng *r)
 {
-  return sqrt(-2 * log(1 - rng_unit(r))) * cos(2 * PI * rng_unit(r));
+  return sqrt(-2 * log(1 - rng_unit(r))) * cos(2 * THR_PI * rng_unit(r));
 }
 
 static thr_frame noisy(rng *r, const thr_frame *f, double sigma)

@@ -4,6 +4,7 @@
 #include "eval/joint/cache.h"
 #include "eval/joint/joint.h"
 #include "eval/cord/taut.h"
+#include "graph/angle.h"
 
 #include <dirent.h>
 #include <math.h>
@@ -13,8 +14,6 @@
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
-
-static const double PI = 3.14159265358979323846;
 
 /* ---- laws in Bullet's place ---- */
 
@@ -63,14 +62,14 @@ static thr_status noise_law(const thr_drag *d, const thr_limits *limits, thr_dra
 static thr_status steady_below_80_degrees(const thr_drag *d, const thr_limits *limits, thr_drag_result *out, thr_err *err)
 {
   if (capstan_law(d, limits, out, err)) return THR_ESOLVER;
-  if (d->turn[0] > 80 * PI / 180) *out = (thr_drag_result){.status = THR_DRAG_UNSETTLED, .ratio = 77};
+  if (d->turn[0] > 80 * THR_PI / 180) *out = (thr_drag_result){.status = THR_DRAG_UNSETTLED, .ratio = 77};
   return THR_OK;
 }
 
 static thr_status out_of_range_from_80_degrees(const thr_drag *d, const thr_limits *limits, thr_drag_result *out, thr_err *err)
 {
   if (capstan_law(d, limits, out, err)) return THR_ESOLVER;
-  if (d->turn[0] > 80 * PI / 180) *out = (thr_drag_result){.status = THR_DRAG_OUT_OF_RANGE};
+  if (d->turn[0] > 80 * THR_PI / 180) *out = (thr_drag_result){.status = THR_DRAG_OUT_OF_RANGE};
   return THR_OK;
 }
 
@@ -162,7 +161,7 @@ static thr_status compose(trial *t, const thr_frame *f, const thr_cord *cord, in
 
 static void must_compose(trial *t, const thr_frame *f, const thr_cord *cord, int n_cords, law measure)
 {
-  ck_assert_msg(!compose(t, f, cord, n_cords, measure, PI), "%s", t->err.text);
+  ck_assert_msg(!compose(t, f, cord, n_cords, measure, THR_PI), "%s", t->err.text);
 }
 
 /* A plan over random edges of length 1 and more, so that the cord and bore of trial_make fit. */
@@ -251,7 +250,7 @@ START_TEST(only_what_is_needed_is_measured)
     int joints;
   } turn[] = {{0, 0}, {2, 2}, {7.5, 1}, {10, 3}, {20, 3}, {90, 1}, {91, 3}, {120, 1}, {178, 3}};
   for (size_t i = 0; i < sizeof turn / sizeof *turn; i++) {
-    double a = turn[i].degrees * PI / 180;
+    double a = turn[i].degrees * THR_PI / 180;
     const double at[3][3] = {{-1, 0, 0}, {0, 0, 0}, {cos(a), sin(a), 0}};
     thr_frame f = frame_make(3, at, 2, (const int[2][2]){{0, 1}, {1, 2}}, NULL, NULL);
     thr_cord cord = {.id = "A", .n_passes = 2, .half = (int[]){0, 2}};
@@ -283,7 +282,7 @@ START_TEST(friction_belongs_to_the_shape_of_the_joint)
     const thr_eval_cord *c = &t.e.record.cord[0];
     /* two lines that touch a circle of the cord's radius round the inner edge, which is one bore radius from both axes */
     double bore = 0.025 + clearance, slope = atan2(bore, 1 - bore) - asin(0.025 / hypot(bore, 1 - bore));
-    double taut = PI / 2 - 2 * slope, rate = bent_exponent(0.2, PI / 2) / (PI / 2);
+    double taut = THR_PI / 2 - 2 * slope, rate = bent_exponent(0.2, THR_PI / 2) / (THR_PI / 2);
     ck_assert_double_eq_tol(c->taut_turning, taut, 1e-6);
     ck_assert_double_eq_tol(log(c->force), rate * taut, 1e-6);
     ck_assert_double_ge(c->error, 0.9 * (rate * taut - bent_exponent(0.2, taut)));
@@ -317,7 +316,7 @@ static int turns_beyond(const thr_plan *p, const double *taut, double limit)
 /* Joints above 80 degrees fail, which a turn needs from 75 on, the last angle of the grid before; or the source ends at 100. */
 START_TEST(refused_turns_take_the_closed_form_and_are_counted)
 {
-  const double grid = 75 * PI / 180, end = 100 * PI / 180;
+  const double grid = 75 * THR_PI / 180, end = 100 * THR_PI / 180;
   thr_plan p = random_plan((uint64_t)_i + 1, 60);
   double *turn = taut_turns(&p.frame, p.cord), sum = 0;
   int failing = turns_beyond(&p, turn, grid), sharp = turns_beyond(&p, turn, end);
@@ -326,8 +325,8 @@ START_TEST(refused_turns_take_the_closed_form_and_are_counted)
     law measure;
     double largest;
     int sharp, outside, unsettled;
-  } expected[] = {{steady_below_80_degrees, PI, 0, 0, failing},
-                  {out_of_range_from_80_degrees, PI, 0, failing, 0},
+  } expected[] = {{steady_below_80_degrees, THR_PI, 0, 0, failing},
+                  {out_of_range_from_80_degrees, THR_PI, 0, failing, 0},
                   {capstan_law, end, sharp, 0, 0},
                   {steady_below_80_degrees, end, sharp, 0, failing - sharp},
                   {out_of_range_from_80_degrees, end, sharp, failing - sharp, 0}};
@@ -391,7 +390,7 @@ START_TEST(bores_out_of_range_are_refused_by_name)
     t.least_bore = 1.01;
     t.o.physics.cord_diameter = 1e-4;
     t.o.physics.bore = 1e-4 * wrong[i];
-    ck_assert_int_eq(compose(&t, &p.frame, p.cord, 1, capstan_law, PI), THR_EINPUT);
+    ck_assert_int_eq(compose(&t, &p.frame, p.cord, 1, capstan_law, THR_PI), THR_EINPUT);
     assert_one_line(&t.err, "--bore");
     assert_one_line(&t.err, "--cord-diameter");
     assert_one_line(&t.err, wrong[i] > 2 ? "a narrower --bore" : "a wider --bore");
@@ -410,13 +409,13 @@ START_TEST(failures_are_handed_on)
 {
   thr_plan p = random_plan(1, 20);
   trial t = trial_make(0.1);
-  ck_assert_int_eq(compose(&t, &p.frame, p.cord, 1, failing_law, PI), THR_ESOLVER);
+  ck_assert_int_eq(compose(&t, &p.frame, p.cord, 1, failing_law, THR_PI), THR_ESOLVER);
   assert_one_line(&t.err, "the world ended");
   thr_eval_destroy(&t.e);
   t.o.physics.mu = 2;
   t.o.physics.seating = 1e9;
   thr_plan q = random_plan(1, 900);
-  ck_assert_int_eq(compose(&t, &q.frame, q.cord, 1, capstan_law, PI), THR_EINPUT);
+  ck_assert_int_eq(compose(&t, &q.frame, q.cord, 1, capstan_law, THR_PI), THR_EINPUT);
   assert_one_line(&t.err, "cord A");
   thr_eval_destroy(&t.e);
   thr_plan_destroy(&p);
@@ -512,7 +511,7 @@ START_TEST(an_interrupt_leaves_what_is_complete)
   thr_cord cord[] = {{.id = "A", .n_passes = 2, .half = (int[]){0, 2}}, {.id = "B", .n_passes = 3, .half = (int[]){4, 6, 8}}};
   trial t = trial_make(0.2);
   t.limits = (thr_limits){.interrupted = &interrupted, .advance = interrupt_after_one};
-  ck_assert_int_eq(compose(&t, &f, cord, 2, slow_law, PI), THR_ELIMIT);
+  ck_assert_int_eq(compose(&t, &f, cord, 2, slow_law, THR_PI), THR_ELIMIT);
   assert_one_line(&t.err, "stopped");
   ck_assert_int_eq(t.e.joints_measured, 1);
   ck_assert(t.e.record.cord[0].known && !t.e.record.cord[1].known);
@@ -520,7 +519,7 @@ START_TEST(an_interrupt_leaves_what_is_complete)
   ck_assert(t.e.band[0] == 1 && t.e.band[1] == 1); /* of the same cords as the pulls */
   ck_assert(!t.e.record.cord[1].tension && t.e.record.cord[1].force == 0);
   thr_eval_destroy(&t.e);
-  ck_assert_int_eq(compose(&t, &f, cord, 2, capstan_law, PI), THR_ELIMIT); /* already interrupted */
+  ck_assert_int_eq(compose(&t, &f, cord, 2, capstan_law, THR_PI), THR_ELIMIT); /* already interrupted */
   thr_eval_destroy(&t.e);
   interrupted = 0;
   t.limits = (thr_limits){.interrupted = &interrupted};
@@ -562,7 +561,7 @@ START_TEST(memory_that_runs_out_leaves_nothing)
     trial t = trial_make(0.2);
     t.o.cache = folder;
     t.e = (thr_eval){0};
-    thr_joint_source source = {.measure = capstan_law, .error = drift_and_scatter, .largest_turn = PI, .largest_bore = 1e3};
+    thr_joint_source source = {.measure = capstan_law, .error = drift_and_scatter, .largest_turn = THR_PI, .largest_bore = 1e3};
     ck_assert_int_eq(thr_physics_resolve(&t.o.physics, &p.frame, &t.e.record.physics, NULL), THR_OK);
     t.e.record.cord = calloc(1, sizeof *t.e.record.cord);
     t.e.record.n_cords = 1;

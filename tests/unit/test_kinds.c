@@ -1,13 +1,12 @@
 /* Kinds of beads against turned, mirrored and renamed ones; bores against closed forms and areas. */
 #include "diagram/tables/kinds.h"
+#include "graph/angle.h"
 #include "graph/framework/bore.h"
 #include "tests/symmetric.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const double PI = 3.14159265358979323846;
 
 /* ---- kinds ---- */
 
@@ -160,9 +159,14 @@ END_TEST
 START_TEST(bores_are_the_proved_ones)
 {
   static const double ratio[][2] = {{1, 1}, {2, 2}, {6, 3}, {7, 3}};
-  const double more[][2] = {{3, 1 + 2 / sqrt(3)},     {4, 1 + sqrt(2)},           {5, 1 + sqrt(2 + 2 / sqrt(5))},
-                            {8, 1 + 1 / sin(PI / 7)}, {9, 1 + 1 / sin(PI / 8)},   {11, 1 + 1 / sin(PI / 9)},
-                            {13, 2 + sqrt(5)},        {19, 1 + sqrt(2) + sqrt(6)}};
+  const double more[][2] = {{3, 1 + 2 / sqrt(3)},
+                            {4, 1 + sqrt(2)},
+                            {5, 1 + sqrt(2 + 2 / sqrt(5))},
+                            {8, 1 + 1 / sin(THR_PI / 7)},
+                            {9, 1 + 1 / sin(THR_PI / 8)},
+                            {11, 1 + 1 / sin(THR_PI / 9)},
+                            {13, 2 + sqrt(5)},
+                            {19, 1 + sqrt(2) + sqrt(6)}};
   for (int i = 0; i < 4; i++)
     ck_assert_double_eq_tol(thr_bore_for((int)ratio[i][0]), ratio[i][1], 1e-8);
   for (int i = 0; i < 8; i++)
@@ -177,7 +181,7 @@ START_TEST(bores_hold_what_they_are_for)
     double bore = thr_bore_for(n);
     ck_assert_int_ge(thr_bore_fits(bore * 1.3, 1.3), n);
     ck_assert_int_lt(thr_bore_fits(bore * (1 - 1e-7), 1), n);
-    ck_assert_double_ge(bore * bore * (n == 1 ? 1 : PI / sqrt(12)), n * (1 - 1e-9));
+    ck_assert_double_ge(bore * bore * (n == 1 ? 1 : THR_PI / sqrt(12)), n * (1 - 1e-9));
     if (n > 1) ck_assert_double_ge(bore * (1 + 1e-8), thr_bore_for(n - 1));
   }
   ck_assert_int_eq(thr_bore_fits(0.9, 1), 0);

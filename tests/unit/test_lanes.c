@@ -1,12 +1,12 @@
 /* Lanes by the geometry of the finished picture: which strands cross in a node is read from where they enter and leave it. */
 #include "diagram/scene/scene.h"
+#include "graph/angle.h"
 #include "tests/support.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const double PI = 3.14159265358979323846;
 enum { MOST_CORDS = 8, MOST_PASSES = 200, MOST_STRANDS = 100, MOST_NODES = 130 };
 
 /* A framework in the plane with cords that are built pass by pass. */
@@ -165,7 +165,7 @@ static void make_run(picture *p, rng *r, int length, int n, const int *place)
     ends[i][0] = next - 1, ends[i][1] = next;
   }
   for (int i = 0; i < 2 * n; i++) {
-    double a = PI / 2 - PI * (i % n + 0.5) / n;
+    double a = THR_PI / 2 - THR_PI * (i % n + 0.5) / n;
     int end = i / n, hub = end ? way + length : way;
     ends[length + i][0] = hub;
     ends[length + i][1] = add_node(p, p->xyz[hub][0] + (end ? 2 : -2) * cos(a), p->xyz[hub][1] + 2 * sin(a));
@@ -235,7 +235,7 @@ static void make_wheel(picture *p, rng *r, bool star)
   int rim = star ? rng_between(r, 3, 4) : rng_between(r, 4, 7);
   add_node(p, 0, 0);
   for (int i = 0; i < rim; i++)
-    add_node(p, 3 * cos(2 * PI * i / rim + 0.3), 3 * sin(2 * PI * i / rim + 0.3));
+    add_node(p, 3 * cos(2 * THR_PI * i / rim + 0.3), 3 * sin(2 * THR_PI * i / rim + 0.3));
   for (int i = 0; i < rim; i++) {
     add_edge(p, r, 0, 1 + i);
     if (!star) add_edge(p, r, 1 + i, 1 + (i + 1) % rim);
@@ -263,7 +263,7 @@ static bool near_a_mark(const thr_scene *s, int v, double seen, double off)
   for (int c = 0; c < s->plan->n_cords; c++)
     for (int k = 0; k < 2; k++) {
       const thr_mark *m = &s->mark[c][k];
-      if (m->point == v && (!m->beside || fabs(remainder(seen - m->angle, 2 * PI)) <= off)) return true;
+      if (m->point == v && (!m->beside || fabs(remainder(seen - m->angle, 2 * THR_PI)) <= off)) return true;
     }
   return false;
 }
@@ -276,9 +276,9 @@ static bool beads_are_apart(const thr_scene *s)
     for (int k = 0; k < 2; k++) {
       int h = s->pass[i].half ^ k, v = thr_tail(s->paper, h), first = s->paper->first[v], degree = thr_degree(s->paper, v);
       const double *at = k ? s->pass[i].to : s->pass[i].from;
-      double seen = atan2(at[1] - s->at[v][1], at[0] - s->at[v][0]), off = fabs(remainder(seen - s->angle[h], 2 * PI));
+      double seen = atan2(at[1] - s->at[v][1], at[0] - s->at[v][0]), off = fabs(remainder(seen - s->angle[h], 2 * THR_PI));
       for (int j = first; j < first + degree; j++)
-        if (s->around[j] != h && fabs(remainder(seen - s->angle[s->around[j]], 2 * PI)) <= off) return false;
+        if (s->around[j] != h && fabs(remainder(seen - s->angle[s->around[j]], 2 * THR_PI)) <= off) return false;
       if (near_a_mark(s, v, seen, off)) return false;
     }
   return true;

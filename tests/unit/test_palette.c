@@ -1,12 +1,11 @@
 /* The palette in numbers, for eyes of every kind and for grey print. */
 #include "diagram/scene/palette.h"
+#include "graph/angle.h"
 #include "tests/support.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-static const double PI = 3.14159265358979323846;
 
 /* ---- colour ---- */
 
@@ -65,12 +64,12 @@ static void lab_of(const char *hex, eyes who, double lab[3])
 static double hue(double a, double b)
 {
   double h = a == 0 && b == 0 ? 0 : atan2(b, a);
-  return h < 0 ? h + 2 * PI : h;
+  return h < 0 ? h + 2 * THR_PI : h;
 }
 
 static double deg(double x)
 {
-  return x * PI / 180;
+  return x * THR_PI / 180;
 }
 
 /* CIEDE2000 (CIE 142-2001), in the notation of G. Sharma, W. Wu, E. N. Dalal, Color Res. Appl. 30(1), 2005. */
@@ -81,15 +80,15 @@ static double delta_e(const double p[3], const double q[3])
   double h1 = hue(a1, p[2]), h2 = hue(a2, q[2]), dh = h2 - h1, hm = h1 + h2;
   if (c1 * c2 == 0) {
     dh = 0;
-  } else if (fabs(h2 - h1) > PI) {
-    dh += dh > 0 ? -2 * PI : 2 * PI;
-    hm += hm < 2 * PI ? 2 * PI : -2 * PI;
+  } else if (fabs(h2 - h1) > THR_PI) {
+    dh += dh > 0 ? -2 * THR_PI : 2 * THR_PI;
+    hm += hm < 2 * THR_PI ? 2 * THR_PI : -2 * THR_PI;
   }
   if (c1 * c2 != 0) hm *= 0.5;
   double big_h = 2 * sqrt(c1 * c2) * sin(0.5 * dh), lm = 0.5 * (p[0] + q[0]), cm = 0.5 * (c1 + c2);
   double t = 1 - 0.17 * cos(hm - deg(30)) + 0.24 * cos(2 * hm) + 0.32 * cos(3 * hm + deg(6)) - 0.20 * cos(4 * hm - deg(63));
   double sl = 1 + 0.015 * pow(lm - 50, 2) / sqrt(20 + pow(lm - 50, 2)), sc = 1 + 0.045 * cm, sh = 1 + 0.015 * cm * t;
-  double x = (hm * 180 / PI - 275) / 25, rt = -sin(deg(60) * exp(-x * x)) * 2 * sqrt(pow(cm, 7) / (pow(cm, 7) + pow(25, 7)));
+  double x = (hm * 180 / THR_PI - 275) / 25, rt = -sin(deg(60) * exp(-x * x)) * 2 * sqrt(pow(cm, 7) / (pow(cm, 7) + pow(25, 7)));
   double l = (q[0] - p[0]) / sl, c = (c2 - c1) / sc, h = big_h / sh;
   return sqrt(l * l + c * c + h * h + rt * c * h);
 }

@@ -4,6 +4,7 @@
 #include "diagram/scene/palette.h"
 #include "diagram/overview/still.h"
 #include "diagram/overview/tension.h"
+#include "graph/angle.h"
 #include "tests/support.h"
 
 #include <math.h>
@@ -12,8 +13,6 @@
 #include <string.h>
 
 #define DEGREE "\xC2\xB0"
-
-static const double PI = 3.14159265358979323846;
 
 /* ---- plans with tensions ---- */
 
@@ -362,11 +361,11 @@ START_TEST(turns_have_even_colours)
   char hex[8];
   thr_turning_colour(0, hex);
   oklab_of(hex, first);
-  thr_turning_colour(PI, hex);
+  thr_turning_colour(THR_PI, hex);
   oklab_of(hex, last);
   ck_assert_double_gt(first[0] - last[0], 0.6);
   for (int degrees = 0; degrees <= 180; degrees += 5) {
-    thr_turning_colour(degrees * PI / 180, hex);
+    thr_turning_colour(degrees * THR_PI / 180, hex);
     oklab_of(hex, lab);
     for (int i = 0; i < 3; i++)
       ck_assert_double_eq_tol(lab[i], first[i] + (last[i] - first[i]) * degrees / 180, 0.006);
@@ -378,7 +377,7 @@ START_TEST(turns_have_even_colours)
     }
   }
   char more[8], less[8];
-  thr_turning_colour(PI, hex);
+  thr_turning_colour(THR_PI, hex);
   thr_turning_colour(4, more);
   ck_assert_str_eq(hex, more);
   thr_turning_colour(0, hex);
@@ -415,7 +414,7 @@ static thr_plan bent_plan(int n_turns, const int *degrees)
   double xyz[16][3] = {{0}}, heading = 0;
   int edge[16][2];
   for (int k = 0; k <= n_turns; k++) {
-    if (k) heading += (k % 2 ? 1 : -1) * degrees[k - 1] * PI / 180;
+    if (k) heading += (k % 2 ? 1 : -1) * degrees[k - 1] * THR_PI / 180;
     xyz[k + 1][0] = xyz[k][0] + cos(heading);
     xyz[k + 1][1] = xyz[k][1] + sin(heading);
     edge[k][0] = k;
@@ -439,7 +438,7 @@ static double angle_of_colour(const char *hex)
   char end[8];
   thr_turning_colour(0, end);
   oklab_of(end, first);
-  thr_turning_colour(PI, end);
+  thr_turning_colour(THR_PI, end);
   oklab_of(end, last);
   oklab_of(hex, lab);
   return 180 * (first[0] - lab[0]) / (first[0] - last[0]);
@@ -573,7 +572,7 @@ START_TEST(turning_of_several_cords)
   }
   thr_metrics m;
   ck_assert_int_eq(thr_plan_measure(&p.frame, &p.options, p.cord, CORDS, &m, &err), THR_OK);
-  ck_assert_double_eq_tol(m.turning * 180 / PI, 600, 1e-9);
+  ck_assert_double_eq_tol(m.turning * 180 / THR_PI, 600, 1e-9);
   ck_assert(
       says(svg.data, "All cords: 600" DEGREE " of turning, sharpest turn 120" DEGREE ", 5 over 60" DEGREE ", 5 over 90" DEGREE));
   ck_assert_int_eq(

@@ -1,11 +1,10 @@
 /* Plans: names, turning angles, metrics, JSON and what it refuses. */
 #include "tests/support.h"
+#include "graph/angle.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const double PI = 3.14159265358979323846;
 
 START_TEST(cord_ids_count_like_columns)
 {
@@ -27,13 +26,13 @@ START_TEST(turn_angles_have_closed_forms)
 {
   static const double degrees[] = {0, 1e-5, 30, 45, 90, 120, 179.99999, 180};
   for (size_t i = 0; i < sizeof degrees / sizeof *degrees; i++) {
-    double a = degrees[i] * PI / 180;
+    double a = degrees[i] * THR_PI / 180;
     const double xyz[3][3] = {{-3, 0, 1}, {0, 0, 1}, {5 * cos(a), 5 * sin(a), 1}};
     const int edge[2][2] = {{0, 1}, {2, 1}};
     thr_frame f = frame_make(3, xyz, 2, edge, NULL, NULL);
     ck_assert_double_eq_tol(thr_turn_angle(&f, 0, 3), a, 1e-12);
     ck_assert_double_eq_tol(thr_turn_angle(&f, 2, 1), a, 1e-12); /* the other way the same */
-    ck_assert_double_eq_tol(thr_turn_angle(&f, 0, 1), PI, 1e-12);
+    ck_assert_double_eq_tol(thr_turn_angle(&f, 0, 1), THR_PI, 1e-12);
     thr_frame_destroy(&f);
   }
 }
@@ -49,10 +48,10 @@ START_TEST(ring_is_measured)
   ck_assert_int_eq(m->u_turns, 0);
   ck_assert_double_eq_tol(m->length, 8, 1e-12);
   ck_assert_double_eq(m->overlap, 0);
-  ck_assert_double_eq_tol(m->turning, 2 * PI, 1e-12);
-  ck_assert_double_eq_tol(m->max_turning, 2 * PI, 1e-12);
-  ck_assert_double_eq_tol(m->worst_turn, PI / 4, 1e-12);
-  ck_assert_double_eq_tol(thr_cord_turning(&f, &p.cord[0], false), 7 * PI / 4, 1e-12);
+  ck_assert_double_eq_tol(m->turning, 2 * THR_PI, 1e-12);
+  ck_assert_double_eq_tol(m->max_turning, 2 * THR_PI, 1e-12);
+  ck_assert_double_eq_tol(m->worst_turn, THR_PI / 4, 1e-12);
+  ck_assert_double_eq_tol(thr_cord_turning(&f, &p.cord[0], false), 7 * THR_PI / 4, 1e-12);
   ck_assert_int_eq(thr_cord_start(&f, &p.cord[0]), 0); /* the foot */
   thr_plan_destroy(&p);
   thr_frame_destroy(&f);
@@ -69,7 +68,7 @@ START_TEST(path_there_and_back_is_measured)
   ck_assert_double_eq(p.metrics.overlap, 3);
   ck_assert_int_eq(p.metrics.most_passes, 2);
   ck_assert_int_eq(p.metrics.u_turns, 1); /* at the far end; where both cord ends come out nothing turns */
-  ck_assert_double_eq_tol(p.metrics.worst_turn, PI, 1e-12);
+  ck_assert_double_eq_tol(p.metrics.worst_turn, THR_PI, 1e-12);
   assert_plan_sound(&p);
   thr_plan_destroy(&p);
   p = plan_simple(&f, THR_ENDS_ANY, 1);

@@ -3,6 +3,7 @@
 #include "diagram/scene/places.h"
 #include "diagram/layout/layout.h"
 #include "diagram/overview/steps.h"
+#include "graph/angle.h"
 #include "graph/framework/make.h"
 #include "graph/vector.h"
 #include "symmetry/symmetry.h"
@@ -15,7 +16,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double PI = 3.14159265358979323846;
 enum { MOST_LINE = 4000 };
 
 /* ---- plans ---- */
@@ -151,7 +151,7 @@ static int read_times(const char *row)
 /* What the row says of its first pass, against the angle in space. */
 static void assert_move(reader *r, const char *move, const int *half, int k)
 {
-  double angle = k ? thr_turn_angle(&r->p->frame, half[k - 1], half[k]) * 180 / PI : 0;
+  double angle = k ? thr_turn_angle(&r->p->frame, half[k - 1], half[k]) * 180 / THR_PI : 0;
   const char *number = move + strcspn(move, "0123456789");
   if (k == 0)
     ck_assert_int_eq(strncmp(move, "go to ", 6), 0);
@@ -180,7 +180,7 @@ static int read_row(reader *r, int start, int *half, int n)
     int to = read_node(r, &at);
     half[k] = half_between(f, node, to);
     ck_assert_int_eq(++r->held[half[k] >> 1], times);
-    if (k >= first) ck_assert_double_lt(thr_turn_angle(f, half[k - 1], half[k]), PI / 12);
+    if (k >= first) ck_assert_double_lt(thr_turn_angle(f, half[k - 1], half[k]), THR_PI / 12);
     if (strncmp(at, ", straight on to", 16) == 0) {
       ck_assert_int_eq(k, first - 1);
       at += 16;

@@ -1,5 +1,6 @@
 /* Tables of a plan, read back and worked out again from its JSON and coordinates. */
 #include "diagram/tables/tables.h"
+#include "graph/angle.h"
 #include "graph/io/json.h"
 #include "tests/plans.h"
 
@@ -7,8 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const double PI = 3.14159265358979323846;
 
 /* ---- CSV ---- */
 
@@ -165,7 +164,7 @@ static double bend(const json_plan *j, int a, int b, int c)
   vector(j, a, b, u);
   vector(j, b, c, v);
   double cosine = (u[0] * v[0] + u[1] * v[1] + u[2] * v[2]) / distance(j, a, b) / distance(j, b, c);
-  return acos(fmin(1, fmax(-1, cosine))) * 180 / PI;
+  return acos(fmin(1, fmax(-1, cosine))) * 180 / THR_PI;
 }
 
 static double length_of(const json_plan *j, const thr_json *cord)
@@ -312,7 +311,7 @@ START_TEST(cords_are_cut_long_enough)
     ck_assert_double_eq_tol(number(&c, row, "turning_degrees"), turning, 0.01);
     ck_assert_double_eq_tol(number(&c, row, "tails"), 2 * 150, 1e-9);
     ck_assert_double_eq_tol(number(&c, row, "knots"), 2 * 16.4 * 0.125, 1e-9);
-    ck_assert_double_eq_tol(number(&c, row, "turns"), (0.5 - 0.125) / 2 * turning * PI / 180, 1e-6 * turning + 1e-12);
+    ck_assert_double_eq_tol(number(&c, row, "turns"), (0.5 - 0.125) / 2 * turning * THR_PI / 180, 1e-6 * turning + 1e-12);
     ck_assert_double_eq_tol(number(&c, row, "cut"), cut, 1e-6 * cut);
     ck_assert_int_eq(integer(&c, row, "passes"), thr_json_size(thr_json_get(cord, "edges")));
     assert_says(&c, row, "closed", thr_json_true(thr_json_get(cord, "closed")) ? "yes" : "no");

@@ -2,12 +2,12 @@
  */
 #include "tests/support.h"
 #include "eval/cord/taut.h"
+#include "graph/angle.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const double PI = 3.14159265358979323846;
 enum { MOST = 7001 };
 
 /* A cord through n + 1 points in a row. */
@@ -114,7 +114,7 @@ START_TEST(without_clearance_it_is_the_centre_line)
 {
   rng r = rng_make((uint64_t)_i + 1);
   double at[31][3];
-  random_points(&r, 30, 10, PI, at);
+  random_points(&r, 30, 10, THR_PI, at);
   strung s = string_up(30, (const double(*)[3])at);
   for (int k = 0; k < 2; k++) { /* a clearance of next to nothing moves it by next to nothing */
     result *t = pull_taut(&s, k * 1e-5);
@@ -134,7 +134,7 @@ START_TEST(single_turn_by_hand)
 {
   for (int a = 0; a <= 10; a++)
     for (int b = 0; b < 6; b++) {
-      double turn = a * PI / 12, c = 0.02 * b, edge = 1, half = turn / 2;
+      double turn = a * THR_PI / 12, c = 0.02 * b, edge = 1, half = turn / 2;
       const double at[3][3] = {{-edge * cos(half), -edge * sin(half), 1}, {0, 0, 1}, {edge * cos(half), -edge * sin(half), 1}};
       strung s = string_up(2, at);
       result *r = pull_taut(&s, c);
@@ -153,7 +153,7 @@ START_TEST(long_zigzag_and_ring_by_hand)
 {
   static double at[402][3];
   for (int k = 0; k < 4; k++) {
-    double turn = (k + 1) * PI / 6, in = 1 / cos(turn / 2);
+    double turn = (k + 1) * THR_PI / 6, in = 1 / cos(turn / 2);
     zigzag(401, 10, turn, at);
     strung s = string_up(401, (const double(*)[3])at);
     result *r = pull_taut(&s, 1);
@@ -162,16 +162,17 @@ START_TEST(long_zigzag_and_ring_by_hand)
     unstring(&s);
   }
   for (int sides = 5; sides < 12; sides++) {
-    double radius = 5 / sin(PI / sides);
+    double radius = 5 / sin(THR_PI / sides);
     for (int i = 0; i < 402; i++) {
-      at[i][0] = radius * cos(2 * PI * (i % sides) / sides);
-      at[i][1] = radius * sin(2 * PI * (i % sides) / sides);
+      at[i][0] = radius * cos(2 * THR_PI * (i % sides) / sides);
+      at[i][1] = radius * sin(2 * THR_PI * (i % sides) / sides);
       at[i][2] = i * 1e-6; /* several nodes at one place would be welded */
     }
     strung s = string_up(401, (const double(*)[3])at);
     result *r = pull_taut(&s, 1);
-    ck_assert_double_eq_tol(r->turn[200], 2 * PI / sides, 1e-5);
-    ck_assert_double_eq_tol(distance(r->point[200], r->point[201]), 2 * (radius - 1 / cos(PI / sides)) * sin(PI / sides), 1e-5);
+    ck_assert_double_eq_tol(r->turn[200], 2 * THR_PI / sides, 1e-5);
+    ck_assert_double_eq_tol(distance(r->point[200], r->point[201]), 2 * (radius - 1 / cos(THR_PI / sides)) * sin(THR_PI / sides),
+                            1e-5);
     free(r);
     unstring(&s);
   }
@@ -191,7 +192,7 @@ START_TEST(thick_cord_in_a_plane_by_hand)
   static double at[402][3];
   for (int a = 1; a <= 8; a++)
     for (double bore = 1.1; bore < 3; bore += 0.3) { /* radii; the cord's is 1 */
-      double turn = a * PI / 12, edge = 2.6 * bore * tan(turn / 2) + 10, in = bore * tan(turn / 2);
+      double turn = a * THR_PI / 12, edge = 2.6 * bore * tan(turn / 2) + 10, in = bore * tan(turn / 2);
       zigzag(401, edge, turn, at);
       strung s = string_up(401, (const double(*)[3])at), two = string_up(2, (const double(*)[3])at);
       result *r = pull_thick(&s, 1, bore - 1), *t = pull_thick(&two, 1, bore - 1);
@@ -210,13 +211,13 @@ START_TEST(thick_cord_round_a_ring_by_hand)
 {
   static double at[402][3];
   for (int i = 0; i < 402; i++) {
-    at[i][0] = 10 * cos(PI * (i % 6) / 3);
-    at[i][1] = 10 * sin(PI * (i % 6) / 3);
+    at[i][0] = 10 * cos(THR_PI * (i % 6) / 3);
+    at[i][1] = 10 * sin(THR_PI * (i % 6) / 3);
     at[i][2] = i * 1e-6;
   }
   strung s = string_up(401, (const double(*)[3])at);
   result *r = pull_thick(&s, 1, 1), *thin = pull_taut(&s, 1);
-  ck_assert_double_eq_tol(r->turn[200], PI / 3, 1e-5);
+  ck_assert_double_eq_tol(r->turn[200], THR_PI / 3, 1e-5);
   ck_assert_double_eq_tol(r->point[200][0], thin->point[200][0], 1e-5);
   free(r);
   free(thin);
@@ -227,7 +228,7 @@ END_TEST
 START_TEST(shallow_zigzag_becomes_straight)
 {
   static double at[1001][3];
-  zigzag(1000, 10, 10 * PI / 180, at);
+  zigzag(1000, 10, 10 * THR_PI / 180, at);
   strung s = string_up(1000, (const double(*)[3])at);
   result *r = pull_taut(&s, 1); /* half the zigzag's width, 0.44, fits */
   ck_assert_double_eq_tol(r->turning, 0, 1e-8);
@@ -243,10 +244,10 @@ START_TEST(u_turns_go_round_the_node)
   thr_frame f = frame_make(3, at, 2, (const int[2][2]){{0, 1}, {1, 2}}, NULL, NULL);
   strung s = {.frame = f, .cord = {.id = "A", .n_passes = 4, .half = (int[]){0, 2, 3, 1}}};
   result *r = pull_taut(&s, 0.1);
-  ck_assert_double_eq_tol(r->turn[1], PI, 1e-9);
+  ck_assert_double_eq_tol(r->turn[1], THR_PI, 1e-9);
   ck_assert_double_eq_tol(distance(r->point[2], at[2]), 0, 1e-12);
   ck_assert_double_eq_tol(distance(r->point[1], r->point[3]), 0, 1e-7);
-  ck_assert_double_lt(r->turn[0], PI / 2);
+  ck_assert_double_lt(r->turn[0], THR_PI / 2);
   free(r);
   thr_frame_destroy(&f);
 
@@ -256,8 +257,8 @@ START_TEST(u_turns_go_round_the_node)
     s = string_up(2, sharp);
     r = pull_taut(&s, 0.1);
     ck_assert_double_le(distance(r->point[1], sharp[1]), 0.5);
-    ck_assert_double_gt(r->turn[0], PI / 2);
-    ck_assert_double_le(r->turn[0], PI);
+    ck_assert_double_gt(r->turn[0], THR_PI / 2);
+    ck_assert_double_le(r->turn[0], THR_PI);
     free(r);
     unstring(&s);
   }
@@ -323,7 +324,7 @@ static void place_vertex(const double (*at)[3], int i, double clearance, double 
     double middle = angle, height = part;
     for (int a = -4; a <= 4; a++)
       for (int b = -2; b <= 2; b++) {
-        double u = middle + a * width * PI / 4, v = fmin(1, fmax(0, height + b * width / 4));
+        double u = middle + a * width * THR_PI / 4, v = fmin(1, fmax(0, height + b * width / 4));
         point_in(at, i, clearance, u, v, q);
         double length = distance(p[i - 1], q) + distance(q, p[i + 1]);
         if (length >= least) continue;

@@ -1,13 +1,12 @@
 /* The objective "tortuosity" as a whole: what the length slack is measured from, the trade-off, and what is said of a plan that
  * is not proved. */
 #include "tests/support.h"
+#include "graph/angle.h"
 #include "tortuosity/proof/least.h"
 #include "planner/turning.h"
 
 #include <math.h>
 #include <string.h>
-
-static const double pi = 3.14159265358979323846;
 
 /* A bar 0-1-2 with a leg 1-3. */
 static thr_frame tee_make(void)
@@ -126,7 +125,7 @@ START_TEST(the_reason_why_it_is_not_proved)
   thr_err err = {0};
   ck_assert_int_eq(make_plan(&f, 2, -1, &p, &err), THR_ELIMIT);
   assert_one_line(&err, "what it costs to have no fewer cords is not part of the bound");
-  ck_assert_double_eq_tol(p.metrics.turning, 5 * pi, 1e-6);
+  ck_assert_double_eq_tol(p.metrics.turning, 5 * THR_PI, 1e-6);
   ck_assert_double_eq_tol(p.metrics.length, 8, 1e-9);
   thr_plan_destroy(&p);
   thr_frame_destroy(&f);
@@ -144,7 +143,7 @@ START_TEST(more_cords_than_the_shortest_passes_hold)
   assert_one_line(&err, "--length-slack");
   ck_assert_double_eq_tol(p.metrics.length, 6, 1e-9);
   ck_assert_double_eq_tol(p.turning.length_limit, 6, 1e-9);
-  ck_assert_double_eq_tol(p.metrics.turning, 4 * pi, 1e-6);
+  ck_assert_double_eq_tol(p.metrics.turning, 4 * THR_PI, 1e-6);
   ck_assert_int_eq(thr_check_plan(&p, NULL), THR_OK);
   p.proof.slack_open = false;
   err = (thr_err){0};

@@ -1,5 +1,6 @@
 /* Multigraph, pairing, joining, tracing, and the cords made of them. */
 #include "tests/support.h"
+#include "graph/angle.h"
 #include "graph/threading/multigraph.h"
 #include "graph/threading/tour.h"
 #include "graph/threading/transition.h"
@@ -7,8 +8,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const double PI = 3.14159265358979323846;
 
 /* ---- a multigraph and its pairing ---- */
 
@@ -241,7 +240,7 @@ START_TEST(octahedron_pairs_straight_then_joins)
   double turning = 0;
   for (int v = 0; v < 6; v++)
     turning += price_at(&f, &t, v);
-  ck_assert_double_eq_tol(turning, 6 * PI, 1e-9); /* 1080 degrees in three squares */
+  ck_assert_double_eq_tol(turning, 6 * THR_PI, 1e-9); /* 1080 degrees in three squares */
   ck_assert_int_eq(count_circuits(&t), 3);
   ck_assert_int_eq(thr_transition_join(&f, &t.g, t.mate, NULL), THR_OK);
   ck_assert_int_eq(count_circuits(&t), 1);

@@ -1,5 +1,6 @@
 /* Whole cords of 20 turns in Bullet against joints composed along the taut path. */
 #include "eval/cord/taut.h"
+#include "graph/angle.h"
 #include "graph/framework/frame.h"
 #include "tests/validate/drags.h"
 
@@ -9,7 +10,7 @@
 #include <string.h>
 
 enum { CORDS = 5, SEGMENT = 10 };
-static const double degree = 3.14159265358979323846 / 180, BORE = 2;
+static const double degree = THR_PI / 180, BORE = 2;
 
 typedef struct {
   double nominal, taut; /* rad */

@@ -1,10 +1,11 @@
 /* One joint in Bullet against the capstan law, and how the result moves with every number of the protocol. */
 #include "tests/validate/drags.h"
+#include "graph/angle.h"
 
 #include <math.h>
 #include <stdio.h>
 
-static const double degree = 3.14159265358979323846 / 180;
+static const double degree = THR_PI / 180;
 
 /* A bore of two cords, and wider where the cord would wedge in it. */
 static double round_bore(double degrees)

@@ -1,11 +1,12 @@
 /* The thesis's Fig. 13: a mitred bead takes mu F sin(theta / 2) off the tension F. A different formula from the capstan law. */
 #include "eval/eval.h"
+#include "graph/angle.h"
 #include "tests/validate/validate.h"
 
 #include <math.h>
 #include <stdio.h>
 
-static const double degree = 3.14159265358979323846 / 180;
+static const double degree = THR_PI / 180;
 
 static thr_status one_turn(double angle, double mu, thr_law law, double *loss, thr_err *err)
 {

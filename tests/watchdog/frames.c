@@ -1,10 +1,9 @@
 /* Generators of the frameworks, written out as they are made. */
 #include "tests/watchdog/frames.h"
+#include "graph/angle.h"
 
 #include <math.h>
 #include <stdio.h>
-
-static const double pi = 3.14159265358979323846;
 
 static void node(FILE *to, double x, double y, double z)
 {
@@ -21,7 +20,7 @@ static void edge(FILE *to, int a, int b)
 static void ring(FILE *to, int n, double r, double z)
 {
   for (int i = 0; i < n; i++)
-    node(to, r * cos(2 * pi * i / n), r * sin(2 * pi * i / n), z);
+    node(to, r * cos(2 * THR_PI * i / n), r * sin(2 * THR_PI * i / n), z);
 }
 
 static void star(FILE *to, int n, int unused)
@@ -30,7 +29,7 @@ static void star(FILE *to, int n, int unused)
   node(to, 0, 0, 0);
   for (int i = 0; i < n; i++) {
     double length = 10 + i % 7;
-    node(to, length * cos(2 * pi * i / n), length * sin(2 * pi * i / n), 1);
+    node(to, length * cos(2 * THR_PI * i / n), length * sin(2 * THR_PI * i / n), 1);
   }
   for (int i = 1; i <= n; i++)
     edge(to, 0, i);
@@ -92,7 +91,7 @@ static void pieces(FILE *to, int n, int k)
 {
   for (int i = 0; i < n; i++)
     for (int j = 0; j < k; j++)
-      node(to, 30 * (i % 60) + 10 * cos(2 * pi * j / k), 30 * (double)(i / 60) + 10 * sin(2 * pi * j / k), 0);
+      node(to, 30 * (i % 60) + 10 * cos(2 * THR_PI * j / k), 30 * (double)(i / 60) + 10 * sin(2 * THR_PI * j / k), 0);
   for (int i = 0; i < n; i++)
     for (int j = 0; j < (k == 2 ? 1 : k); j++)
       edge(to, i * k + j, i * k + (j + 1) % k);

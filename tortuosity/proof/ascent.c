@@ -1,5 +1,6 @@
 /* The volume algorithm over trees at the nodes. */
 #include "tortuosity/proof/ascent.h"
+#include "graph/angle.h"
 #include "graph/disjoint.h"
 #include "tortuosity/proof/relax.h"
 
@@ -226,7 +227,7 @@ static void take_mean(ascent *a, double steep, double along)
 
 static void climb(ascent *a, double target, const thr_limits *limits)
 {
-  double value = bound_at(a, a->at), part = first_step, u_turn = thr_turn_cost_of(a->c->task->cost, 3.14159265358979323846);
+  double value = bound_at(a, a->at), part = first_step, u_turn = thr_turn_cost_of(a->c->task->cost, THR_PI);
   memcpy(a->uphill, a->rise, (size_t)a->n * sizeof *a->rise);
   memcpy(a->mean, a->count, 2 * (size_t)a->m * sizeof *a->count);
   memcpy(a->mean_ends, a->ends, 2 * (size_t)a->m * sizeof *a->ends);

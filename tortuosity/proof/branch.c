@@ -1,5 +1,6 @@
 /* Best bound first; every node keeps the multipliers that prove its bound. */
 #include "tortuosity/proof/branch.h"
+#include "graph/angle.h"
 #include "tortuosity/proof/ascent.h"
 #include "tortuosity/proof/cycles.h"
 #include "tortuosity/proof/nearest.h"
@@ -66,7 +67,7 @@ static double base_price(const thr_turning_columns *c)
 
 int64_t thr_branch_tolerance(const thr_branch *b)
 {
-  double u_turn = thr_turn_cost_of(b->c->task->cost, 3.14159265358979323846);
+  double u_turn = thr_turn_cost_of(b->c->task->cost, THR_PI);
   if (b->c->task->free_turns) return (int64_t)(0.3e-9 * ((double)b->best_price + base_price(b->c)));
   return (int64_t)ldexp(1e-9 * u_turn * b->best_passes, THR_TURNING_BITS);
 }

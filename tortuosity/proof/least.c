@@ -1,5 +1,6 @@
 /* From options to a task, a first plan, the search, and the result with its checked proof. */
 #include "tortuosity/proof/least.h"
+#include "graph/angle.h"
 #include "tortuosity/proof/branch.h"
 #include "tortuosity/cords/extra.h"
 #include "tortuosity/cords/several.h"
@@ -186,7 +187,7 @@ void thr_least_judge(thr_least *l, const char *why)
   for (int i = 0; i < l->n_cords; i++)
     passes += l->cord[i].n_passes;
   /* twice what thr_branch_tolerance allows, for the roundings of the proof */
-  l->optimal = l->bound >= l->price - 2e-9 * thr_turn_cost_of(l->task.cost, 3.14159265358979323846) * passes;
+  l->optimal = l->bound >= l->price - 2e-9 * thr_turn_cost_of(l->task.cost, THR_PI) * passes;
   l->open = l->optimal ? NULL : why;
 }
 

@@ -1,5 +1,6 @@
 /* A bound from the nodes one by one. */
 #include "lp/matching/blossom.h"
+#include "graph/sort.h"
 #include "tortuosity/proof/nearest.h"
 
 #include <stdlib.h>
@@ -161,12 +162,6 @@ static void charge_ends(const thr_turning_columns *c, thr_turning_dual *d)
   }
 }
 
-static int ascending(const void *a, const void *b)
-{
-  int x = *(const int *)a, y = *(const int *)b;
-  return (x > y) - (x < y);
-}
-
 static bool is_odd(const thr_turning_columns *c, int v)
 {
   int sum = 0;
@@ -231,7 +226,7 @@ static thr_status add_set(const thr_turning_columns *c, thr_turning_dual *d, int
   if (!member) return thr_nomem(err);
   for (int i = 0; i < n; i++)
     member[i] = c->f->half[c->f->first[v] + i];
-  qsort(member, (size_t)n, sizeof *member, ascending);
+  thr_sort_ints(member, (size_t)n);
   d->odd[d->n_odd++] = (thr_turning_set){n, member, value};
   return THR_OK;
 }

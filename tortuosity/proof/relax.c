@@ -1,6 +1,7 @@
 /* Rows, separation and multipliers of the turning relaxation. */
 #include "tortuosity/proof/relax.h"
 #include "graph/disjoint.h"
+#include "graph/sort.h"
 #include "tortuosity/proof/column_groups.h"
 #include "tortuosity/proof/partition.h"
 #include "tortuosity/proof/project.h"
@@ -233,12 +234,6 @@ static uint64_t name_of(int n, const int *edge)
   return name;
 }
 
-static int ascending(const void *a, const void *b)
-{
-  int x = *(const int *)a, y = *(const int *)b;
-  return (x > y) - (x < y);
-}
-
 /* The columns that cross the marked edges. */
 static thr_status crossing(const thr_turning_columns *c, thr_relax_group *g, const bool *inside, thr_err *err)
 {
@@ -274,7 +269,7 @@ static thr_status add_group(void *user, const int *edge, int n, bool *used, thr_
   for (int i = 0; i < n && !st; i++)
     inside[g.edge[i] = edge[i]] = true;
   if (!st) {
-    qsort(g.edge, (size_t)n, sizeof *g.edge, ascending);
+    thr_sort_ints(g.edge, (size_t)n);
     st = crossing(r->c, &g, inside, err);
   }
   free(inside);

@@ -1,5 +1,6 @@
 /* Local search over the passes of tied nodes, and annealing. */
 #include "graph/random.h"
+#include "graph/angle.h"
 #include "tortuosity/tie/tie_walk.h"
 
 #include <math.h>
@@ -50,7 +51,7 @@ static void cool(thr_walker *w, uint64_t *state, const thr_limits *limits, best_
 {
   enum { VISITS = 10 }; /* of every step */
   static const double hot = 0.03, cold = 0.002;
-  double u_turn = thr_turn_cost_of(w->c->task->cost, 3.14159265358979323846);
+  double u_turn = thr_turn_cost_of(w->c->task->cost, THR_PI);
   int steps = 4 * w->c->f->n_edges;
   for (int64_t i = 0, n = (int64_t)VISITS * steps; i < n && !thr_limits_stop(limits); i++) {
     double temperature = u_turn * hot * pow(cold / hot, (double)i / (double)n);

@@ -349,14 +349,6 @@ static thr_status make_cords(thr_tube *t, const thr_limits *limits, thr_plan *pl
   return st;
 }
 
-/* What the search for the shortest cords may take of the time. */
-static thr_limits part_of(const thr_limits *limits, bool all)
-{
-  thr_limits part = *limits;
-  if (limits->deadline > 0 && !all) part.deadline -= thr_limits_left(limits, INFINITY) / 2;
-  return part;
-}
-
 static thr_status prove(thr_tube *t, bool one, thr_plan *plan, thr_err *err)
 {
   const thr_frame *f = &plan->frame;
@@ -375,7 +367,7 @@ thr_status thr_tube_cords_plan(const thr_frame *f, const thr_plan_options *o, co
   thr_cords_word said = {0};
   bool one = o->cords == 1 && o->max_length == 0 && o->ends != THR_ENDS_COUNTS;
   *plan = (thr_plan){0};
-  thr_limits part = part_of(limits, !lengths_asked(o));
+  const thr_limits part = lengths_asked(o) ? thr_limits_part(limits, 0.5) : *limits;
   thr_status proved = thr_tube_shortest(f, o, &part, &t, &why);
   if (proved && proved != THR_ELIMIT) return thr_fail(err, proved, "%s", why.text);
   thr_status st = thr_plan_request(plan, f, o, err);

@@ -1,0 +1,26 @@
+/* Numbers in ascending order. */
+#include "graph/sort.h"
+
+#include <stdlib.h>
+
+static int by_int(const void *a, const void *b)
+{
+  int x = *(const int *)a, y = *(const int *)b;
+  return (x > y) - (x < y);
+}
+
+static int by_double(const void *a, const void *b)
+{
+  double x = *(const double *)a, y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+void thr_sort_ints(int *list, size_t n)
+{
+  if (n > 1) qsort(list, n, sizeof *list, by_int);
+}
+
+void thr_sort_doubles(double *list, size_t n)
+{
+  if (n > 1) qsort(list, n, sizeof *list, by_double);
+}
