@@ -62,7 +62,7 @@ static bool apply(const arguments *a, thr_make_options *o)
 static bool known_ending(const char *output)
 {
   const char *slash = strrchr(output, '/'), *dot = strrchr(slash ? slash : output, '.');
-  return !dot || strcmp(dot, ".json") == 0 || thr_format_of_path(output) != THR_FORMAT_JSON;
+  return !dot || thr_format_of_path(output);
 }
 
 static int make(const thr_make_options *o, const char *output)

@@ -1,5 +1,5 @@
 /* Reading a framework from a file: which format, which second file, then weld. */
-#include "graph/io/scan.h"
+#include "graph/io/formats.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,71 +11,18 @@ thr_read_options thr_read_options_default(void)
   return (thr_read_options){NULL, -1, NULL};
 }
 
-/* ---- formats ---- */
-
-/* What follows the last dot of the file's name, "" if nothing does. */
-static const char *extension(const char *path)
+static thr_status find_format(const char *text, size_t n, const char *name, const thr_format **format, thr_err *err)
 {
-  const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
-  return dot ? dot + 1 : "";
-}
-
-/* AUTO if the extension says nothing; THR_EINPUT if it says a format that is not read. */
-static thr_status format_by_name(const char *name, thr_format *format, thr_err *err)
-{
-  static const char *const foreign[] = {"dxf", "dwg",  "ply", "off",   "stl", "3dm",  "graphml",
-                                        "gml", "gltf", "glb", "blend", "igs", "step", "stp"};
-  thr_span ending = thr_span_of(extension(name));
-  *format = THR_FORMAT_AUTO;
-  if (thr_span_is(ending, "csv") || thr_span_is(ending, "tsv")) *format = THR_FORMAT_CSV;
-  if (thr_span_is(ending, "obj")) *format = THR_FORMAT_OBJ;
-  if (thr_span_is(ending, "json")) *format = THR_FORMAT_JSON;
-  for (size_t i = 0; i < sizeof foreign / sizeof *foreign; i++)
-    if (thr_span_is(ending, foreign[i]))
-      return thr_fail(err, THR_EINPUT, "%s: %s files are not read; export the lines as OBJ, CSV or JSON", name, foreign[i]);
-  return THR_OK;
-}
-
-/* JSON opens with a bracket, OBJ lines with a keyword; the rest is a table. */
-static thr_format format_by_content(const char *text, size_t n)
-{
-  static const char *const keywords[] = {"v", "vn", "vt",     "l",      "f",      "g",   "o",
-                                         "s", "p",  "mtllib", "usemtl", "cstype", "deg", "curv"};
-  thr_scan scan;
-  thr_span line;
-  if (thr_scan_start(&scan, text, n, "", NULL)) return THR_FORMAT_CSV; /* whose reader says what is wrong */
-  while (thr_scan_line(&scan, &line)) {
-    line = thr_span_trim(line);
-    if (line.n == 0 || line.s[0] == '#') continue;
-    if (line.s[0] == '{' || line.s[0] == '[') return THR_FORMAT_JSON;
-    size_t word = 0;
-    while (word < line.n && line.s[word] != ' ' && line.s[word] != '\t')
-      word++;
-    for (size_t i = 0; word < line.n && i < sizeof keywords / sizeof *keywords; i++)
-      if (thr_span_is((thr_span){line.s, word}, keywords[i])) return THR_FORMAT_OBJ;
-    return THR_FORMAT_CSV;
-  }
-  return THR_FORMAT_CSV;
-}
-
-static thr_status find_format(const char *text, size_t n, const char *name, thr_format *format, thr_err *err)
-{
-  if (*format != THR_FORMAT_AUTO) return THR_OK;
-  thr_status st = format_by_name(name, format, err);
-  if (!st && *format == THR_FORMAT_AUTO) *format = format_by_content(text, n);
+  thr_status st = *format ? THR_OK : thr_format_by_name(name, format, err);
+  if (!st && !*format) *format = thr_format_by_text(text, n);
   return st;
 }
 
 thr_status thr_draft_parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n, const char *name,
-                           thr_format format, thr_err *err)
+                           const thr_format *format, thr_err *err)
 {
   thr_status st = find_format(text, n, name, &format, err);
-  if (st) return st;
-  switch (format) {
-  case THR_FORMAT_OBJ: return thr_obj_parse(draft, report, text, n, name, err);
-  case THR_FORMAT_JSON: return thr_json_frame_parse(draft, report, text, n, name, err);
-  default: return thr_csv_parse(draft, report, text, n, name, err);
-  }
+  return st ? st : format->parse(draft, report, text, n, name, err);
 }
 
 /* ---- the other half of a CSV pair ---- */
@@ -122,8 +69,8 @@ static thr_status parse_with(thr_draft *d, const thr_text *text, const char *pat
   return st;
 }
 
-static thr_status parse_csv_file(thr_draft *d, const thr_text *text, const char *path, const char *name, char *pair_path,
-                                 size_t pair_size, thr_err *err)
+static thr_status parse_csv_file(thr_draft *d, const thr_format *format, const thr_text *text, const char *path, const char *name,
+                                 char *pair_path, size_t pair_size, thr_err *err)
 {
   thr_csv_content content;
   thr_read_report unused = {0};
@@ -136,7 +83,7 @@ static thr_status parse_csv_file(thr_draft *d, const thr_text *text, const char 
     if (pair_path) snprintf(pair_path, pair_size, "%s", partner);
     st = parse_with(d, text, path, partner, content == THR_CSV_NODES_ONLY, err);
   } else if (!st) {
-    st = thr_csv_parse(d, &unused, text->data, text->length, name, err); /* says what is missing */
+    st = format->parse(d, &unused, text->data, text->length, name, err); /* says what is missing */
   }
   free(partner);
   return st;
@@ -149,23 +96,23 @@ thr_status thr_frame_read(thr_frame *frame, thr_read_report *report, const char 
 {
   thr_text text = {0};
   thr_draft d = {0};
-  thr_format format = THR_FORMAT_AUTO;
+  const thr_format *format = NULL;
   thr_err build = {0};
   const char *name = strcmp(path, "-") == 0 ? "stdin" : path;
   *frame = (thr_frame){0};
   *report = (thr_read_report){0};
   if (pair_path && pair_size) *pair_path = '\0';
 
-  thr_status st = format_by_name(name, &format, err);
+  thr_status st = thr_format_by_name(name, &format, err);
   if (!st) st = thr_text_read(&text, path, err);
   if (!st) st = find_format(text.data, text.length, name, &format, err);
   if (st) goto done;
   if (o->edges_path)
     st = parse_with(&d, &text, name, o->edges_path, true, err);
-  else if (format == THR_FORMAT_CSV)
-    st = parse_csv_file(&d, &text, path, name, pair_path, pair_size, err);
+  else if (format->pairs)
+    st = parse_csv_file(&d, format, &text, path, name, pair_path, pair_size, err);
   else
-    st = thr_draft_parse(&d, report, text.data, text.length, name, format, err);
+    st = format->parse(&d, report, text.data, text.length, name, err);
   if (st) goto done;
   if (o->units) st = thr_draft_set_units(&d, o->units, &build);
   if (!st) st = thr_draft_build(&d, o->weld, frame, report, &build);

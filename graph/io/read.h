@@ -5,7 +5,10 @@
 #include "graph/framework/frame.h"
 #include "graph/io/json.h"
 
-typedef enum { THR_FORMAT_AUTO, THR_FORMAT_CSV, THR_FORMAT_OBJ, THR_FORMAT_JSON } thr_format;
+typedef struct thr_format thr_format; /* graph/io/formats.h */
+
+/* "json", "obj" or "csv"; NULL if there is none of that name. */
+const thr_format *thr_format_named(const char *name);
 
 typedef struct {
   const char *edges_path; /* second file of a CSV nodes + edges pair, or NULL */
@@ -22,35 +25,28 @@ thr_read_options thr_read_options_default(void);
 thr_status thr_frame_read(thr_frame *frame, thr_read_report *report, const char *path, const thr_read_options *o, char *pair_path,
                           size_t pair_size, thr_err *err) THR_MUST_CHECK;
 
-/* Parses one text into a draft; name is for messages only. What the fuzzers call.
- * CSV text with nodes only or edges only gives THR_EINPUT that says so: use thr_csv_parse_pair. */
+/* Parses one text into a draft; format: NULL = the one that the name's ending or, failing that, the text says. On failure the
+ * draft is empty. What the fuzzers call. CSV text with nodes only or edges only gives THR_EINPUT that says so: use
+ * thr_csv_parse_pair. */
 thr_status thr_draft_parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n, const char *name,
-                           thr_format format, thr_err *err) THR_MUST_CHECK;
+                           const thr_format *format, thr_err *err) THR_MUST_CHECK;
 
 /* CSV pair: a table of nodes (id, x, y, z by header or position) and a table of edges (two node ids first). */
 thr_status thr_csv_parse_pair(thr_draft *draft, const thr_text *nodes, const char *nodes_name, const thr_text *edges,
                               const char *edges_name, thr_err *err) THR_MUST_CHECK;
 
-/* The formats one by one (same contract as thr_draft_parse). */
-thr_status thr_csv_parse(thr_draft *d, thr_read_report *r, const char *text, size_t n, const char *name,
-                         thr_err *err) THR_MUST_CHECK;
-thr_status thr_obj_parse(thr_draft *d, thr_read_report *r, const char *text, size_t n, const char *name,
-                         thr_err *err) THR_MUST_CHECK;
-thr_status thr_json_frame_parse(thr_draft *d, thr_read_report *r, const char *text, size_t n, const char *name,
-                                thr_err *err) THR_MUST_CHECK;
-
 /* What a JSON document says of the edge added last: cover and capacity, NULL or null = nothing. THR_EINPUT: why not, without the
  * place. */
 thr_status thr_json_edge_passes(thr_draft *d, const thr_json *cover, const thr_json *capacity, thr_err *err) THR_MUST_CHECK;
 
-/* Appends the framework in a format (JSON: our own frame; OBJ: v + two-vertex l records, feet as a comment line
+/* Appends the framework in a format; NULL is JSON (JSON: our own frame; OBJ: v + two-vertex l records, feet as a comment line
  * "# feet: .." that thr_obj_parse reads back; CSV: six columns per edge). */
-void thr_frame_write(const thr_frame *f, thr_format format, thr_text *out);
+void thr_frame_write(const thr_frame *f, const thr_format *format, thr_text *out);
 
 /* Of an OBJ file the comments on units and feet and the v records: vertex v + 1 is node v. */
 void thr_obj_write_nodes(const thr_frame *f, thr_text *out);
 
-/* By the path's extension; THR_FORMAT_JSON for "-" and unknown ones. */
-thr_format thr_format_of_path(const char *path);
+/* The format that the path's ending says; NULL if it says none that can be written. */
+const thr_format *thr_format_of_path(const char *path);
 
 #endif

@@ -1,5 +1,5 @@
 /* CSV: tables of nodes and edges, or one edge per line as six coordinates (docs/formats.md, "CSV"). */
-#include "graph/io/scan.h"
+#include "graph/io/formats.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -426,7 +426,7 @@ thr_status thr_csv_scan(thr_draft *d, const char *text, size_t n, const char *na
   return st;
 }
 
-thr_status thr_csv_parse(thr_draft *d, thr_read_report *r, const char *text, size_t n, const char *name, thr_err *err)
+static thr_status parse(thr_draft *d, thr_read_report *r, const char *text, size_t n, const char *name, thr_err *err)
 {
   thr_csv_content content;
   (void)r; /* every row is used */
@@ -455,3 +455,5 @@ thr_status thr_csv_parse_pair(thr_draft *draft, const thr_text *nodes, const cha
   if (st) thr_draft_destroy(draft);
   return st;
 }
+
+const thr_format thr_csv_format = {"csv", {"csv", "tsv"}, NULL, parse, thr_csv_write, true};

@@ -1,7 +1,7 @@
 /* JSON frameworks: our own, COMPAS 1.x and 2.x, assembly_instances, conmech, networkx node-link (docs/formats.md).
  * The kind is told by its members, and the first one found in the document, however deep, is the framework. */
 #include "graph/io/json.h"
-#include "graph/io/scan.h"
+#include "graph/io/formats.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -677,7 +677,7 @@ static thr_status search(reader *r, const where *at, const thr_json *v)
   return st;
 }
 
-thr_status thr_json_frame_parse(thr_draft *d, thr_read_report *r, const char *text, size_t n, const char *name, thr_err *err)
+static thr_status parse(thr_draft *d, thr_read_report *r, const char *text, size_t n, const char *name, thr_err *err)
 {
   thr_json *doc;
   thr_status st = thr_json_parse(&doc, text, n, name, err);
@@ -698,3 +698,10 @@ thr_status thr_json_frame_parse(thr_draft *d, thr_read_report *r, const char *te
   }
   return st;
 }
+
+static bool begins(thr_span line)
+{
+  return line.s[0] == '{' || line.s[0] == '[';
+}
+
+const thr_format thr_json_format = {"json", {"json"}, begins, parse, thr_json_write, false};

@@ -1,5 +1,5 @@
 /* Wavefront OBJ: v, l, f and Rhino's degree-1 curves. Names are the file's own vertex numbers, from 1. */
-#include "graph/io/scan.h"
+#include "graph/io/formats.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -184,7 +184,7 @@ static thr_status mark_feet(obj *o)
   return THR_OK;
 }
 
-thr_status thr_obj_parse(thr_draft *d, thr_read_report *r, const char *text, size_t n, const char *name, thr_err *err)
+static thr_status parse(thr_draft *d, thr_read_report *r, const char *text, size_t n, const char *name, thr_err *err)
 {
   obj o = {.d = d, .report = r, .err = err};
   thr_span line;
@@ -209,3 +209,16 @@ thr_status thr_obj_parse(thr_draft *d, thr_read_report *r, const char *text, siz
   }
   return st;
 }
+
+/* With a record, of which no keyword stands alone. */
+static bool begins(thr_span line)
+{
+  static const char *const keywords[] = {"v", "vn",     "vt",     "l",      "f",   "g",    "o", "s",
+                                         "p", "mtllib", "usemtl", "cstype", "deg", "curv", NULL};
+  size_t word = 0;
+  while (word < line.n && line.s[word] != ' ' && line.s[word] != '\t')
+    word++;
+  return word < line.n && is_one_of((thr_span){line.s, word}, keywords);
+}
+
+const thr_format thr_obj_format = {"obj", {"obj"}, begins, parse, thr_obj_write, false};

@@ -70,4 +70,9 @@ typedef enum { THR_CSV_WHOLE, THR_CSV_NODES_ONLY, THR_CSV_EDGES_ONLY } thr_csv_c
 thr_status thr_csv_scan(thr_draft *d, const char *text, size_t n, const char *name, thr_csv_content *content,
                         thr_err *err) THR_MUST_CHECK;
 
+/* The writers of write.c. */
+void thr_json_write(const thr_frame *f, thr_text *out);
+void thr_obj_write(const thr_frame *f, thr_text *out);
+void thr_csv_write(const thr_frame *f, thr_text *out);
+
 #endif

@@ -1,8 +1,5 @@
 /* Frameworks as JSON, OBJ and CSV text. */
-#include "graph/io/read.h"
-
-#include <stdio.h>
-#include <string.h>
+#include "graph/io/formats.h"
 
 static void write_point(const double xyz[3], const char *separator, thr_text *out)
 {
@@ -39,7 +36,7 @@ static void write_passes(const char *key, const int *passes, int n, thr_text *ou
   }
 }
 
-static void write_json(const thr_frame *f, thr_text *out)
+void thr_json_write(const thr_frame *f, thr_text *out)
 {
   thr_text_append(out, "{\n\"format\": \"thread-frame\",\n\"version\": 1,\n\"units\": ");
   thr_text_json_string(out, f->units);
@@ -93,7 +90,7 @@ void thr_obj_write_nodes(const thr_frame *f, thr_text *out)
   }
 }
 
-static void write_obj(const thr_frame *f, thr_text *out)
+void thr_obj_write(const thr_frame *f, thr_text *out)
 {
   thr_text_printf(out, "# thread framework: %d nodes, %d edges\n", f->n_nodes, f->n_edges);
   thr_obj_write_nodes(f, out);
@@ -101,7 +98,7 @@ static void write_obj(const thr_frame *f, thr_text *out)
     thr_text_printf(out, "l %d %d\n", f->edge[e][0] + 1, f->edge[e][1] + 1);
 }
 
-static void write_csv(const thr_frame *f, thr_text *out)
+void thr_csv_write(const thr_frame *f, thr_text *out)
 {
   thr_text_printf(out, "x1,y1,z1,x2,y2,z2%s%s%s\n", f->own_lengths ? ",length" : "", f->cover ? ",cover" : "",
                   f->capacity ? ",capacity" : "");
@@ -118,29 +115,4 @@ static void write_csv(const thr_frame *f, thr_text *out)
     if (f->capacity && f->capacity[e]) thr_text_printf(out, "%d", f->capacity[e]);
     thr_text_append(out, "\n");
   }
-}
-
-void thr_frame_write(const thr_frame *f, thr_format format, thr_text *out)
-{
-  switch (format) {
-  case THR_FORMAT_OBJ: write_obj(f, out); break;
-  case THR_FORMAT_CSV: write_csv(f, out); break;
-  default: write_json(f, out);
-  }
-}
-
-thr_format thr_format_of_path(const char *path)
-{
-  static const struct {
-    const char *ending;
-    thr_format format;
-  } known[] = {{".csv", THR_FORMAT_CSV}, {".tsv", THR_FORMAT_CSV}, {".obj", THR_FORMAT_OBJ}};
-  size_t n = strlen(path);
-  for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
-    size_t m = strlen(known[i].ending), k = 0;
-    while (k < m && n > m && (path[n - m + k] == known[i].ending[k] || path[n - m + k] == known[i].ending[k] - ('a' - 'A')))
-      k++;
-    if (k == m) return known[i].format;
-  }
-  return THR_FORMAT_JSON;
 }

@@ -19,7 +19,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
   const uint8_t *cut = size ? memchr(data, '|', size) : NULL;
   if (cut) fuzz_pair(data, size, cut);
-  fuzz_one(data, size, THR_FORMAT_CSV);
-  fuzz_one(data, size, THR_FORMAT_AUTO);
+  fuzz_one(data, size, thr_format_named("csv"));
+  fuzz_one(data, size, NULL);
   return 0;
 }

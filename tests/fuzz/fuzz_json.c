@@ -3,6 +3,6 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-  fuzz_one(data, size, THR_FORMAT_JSON);
+  fuzz_one(data, size, thr_format_named("json"));
   return 0;
 }

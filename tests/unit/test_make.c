@@ -244,7 +244,7 @@ START_TEST(data_dome_is_the_default)
   thr_make_options o = thr_make_options_default(THR_MAKE_DOME);
   thr_frame f = make(o.shape, o.size, o.rings, o.pitch, o.rise);
   thr_text written = {0}, stored = {0};
-  thr_frame_write(&f, THR_FORMAT_JSON, &written);
+  thr_frame_write(&f, thr_format_named("json"), &written);
   ck_assert_int_eq(thr_text_read(&stored, "data/dome7.json", NULL), THR_OK);
   ck_assert_str_eq(written.data, stored.data);
   thr_text_destroy(&written);

@@ -35,7 +35,7 @@ START_TEST(obj_is_read_back)
   thr_read_report report = {0};
   thr_frame f = {0};
   thr_err err = {0};
-  ck_assert_msg(thr_obj_parse(&d, &report, t.data, t.length, "cords.obj", &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_draft_parse(&d, &report, t.data, t.length, "cords.obj", NULL, &err) == THR_OK, "%s", err.text);
   ck_assert_int_eq(thr_draft_build(&d, 0, &f, &report, &err), THR_OK);
   ck_assert_int_eq(report.edges_read, p.metrics.passes);
   ck_assert_int_eq(f.n_nodes, p.frame.n_nodes);

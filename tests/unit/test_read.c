@@ -11,7 +11,7 @@
 static const double SQRT2 = 1.41421356237309504880;
 
 /* Reads a text that must be good. */
-static thr_frame read_text(const char *text, thr_format format, thr_read_report *r)
+static thr_frame read_text(const char *text, const thr_format *format, thr_read_report *r)
 {
   thr_draft d = {0};
   thr_frame f = {0};
@@ -24,7 +24,7 @@ static thr_frame read_text(const char *text, thr_format format, thr_read_report 
 }
 
 /* Reads a text and checks counts and total length; feet is their names, separated by blanks. */
-static void check_text(const char *text, thr_format format, int n_nodes, int n_edges, double total, const char *feet)
+static void check_text(const char *text, const thr_format *format, int n_nodes, int n_edges, double total, const char *feet)
 {
   thr_read_report r;
   thr_frame f = read_text(text, format, &r);
@@ -41,7 +41,7 @@ static void check_text(const char *text, thr_format format, int n_nodes, int n_e
   thr_frame_destroy(&f);
 }
 
-static void check_error(const char *text, thr_format format, const char *message)
+static void check_error(const char *text, const thr_format *format, const char *message)
 {
   thr_draft d = {0};
   thr_read_report r = {0};
@@ -52,7 +52,7 @@ static void check_error(const char *text, thr_format format, const char *message
 }
 
 /* Covers and capacities of a text's edges as "cover/capacity ..", "" if the frame has neither. */
-static void check_passes(const char *text, thr_format format, const char *passes)
+static void check_passes(const char *text, const thr_format *format, const char *passes)
 {
   thr_read_report r;
   thr_frame f = read_text(text, format, &r);
@@ -67,7 +67,7 @@ static void check_passes(const char *text, thr_format format, const char *passes
 
 START_TEST(passes_of_edges)
 {
-  thr_format csv = THR_FORMAT_CSV, json = THR_FORMAT_JSON;
+  const thr_format *csv = thr_format_named("csv"), *json = thr_format_named("json");
   check_passes("0,0,0,1,0,0\n1,0,0,1,1,0\n", csv, "");
   check_passes("x1,y1,z1,x2,y2,z2,cover,capacity\n0,0,0,1,0,0,2,\n1,0,0,1,1,0,,3\n", csv, "2/0 1/3");
   check_passes("id,x,y\na,0,0\nb,1,0\nu,v,Cover\na,b,4\n", csv, "4/-1");
@@ -87,7 +87,7 @@ END_TEST
 
 START_TEST(csv_shapes)
 {
-  thr_format csv = THR_FORMAT_CSV;
+  const thr_format *csv = thr_format_named("csv");
   check_text("0,0,0,1,0,0\n1,0,0,1,1,0\n", csv, 3, 2, 2, "");
   check_text("\xef\xbb\xbf# note\r\nX1,Y1,Z1,X2,Y2,Z2,Length\r\n0,0,0,1,0,0,\r\n\r\n1,0,0,1,1,0,2.5\r\n", csv, 3, 2, 3.5, "");
   check_text("id,x1,y1,x2,y2\n7,0,0,3,4\n", csv, 2, 1, 5, "");
@@ -107,14 +107,14 @@ END_TEST
 
 START_TEST(csv_first_edge_is_not_taken_for_a_header)
 {
-  check_text("a,0,0,0\nb,1,0,0\nc,1,1,0\na,b\nb,c\n", THR_FORMAT_CSV, 3, 2, 2, "");
-  check_text("a,0,0,0\nb,1,0,0\nc,1,1,0\nfrom,to\nb,c\n", THR_FORMAT_CSV, 2, 1, 1, "");
+  check_text("a,0,0,0\nb,1,0,0\nc,1,1,0\na,b\nb,c\n", thr_format_named("csv"), 3, 2, 2, "");
+  check_text("a,0,0,0\nb,1,0,0\nc,1,1,0\nfrom,to\nb,c\n", thr_format_named("csv"), 2, 1, 1, "");
 }
 END_TEST
 
 START_TEST(csv_errors)
 {
-  thr_format csv = THR_FORMAT_CSV;
+  const thr_format *csv = thr_format_named("csv");
   check_error("", csv, "f:1: the table has no rows");
   check_error("# only\n", csv, "f:1: the table has no rows");
   check_error("0,0,zero,1,1,1\n", csv, "f:1: 'zero' in column 3 is not a finite number; give z as a decimal number");
@@ -148,7 +148,7 @@ START_TEST(csv_nul_byte)
   thr_draft d = {0};
   thr_read_report r = {0};
   thr_err err = {0};
-  ck_assert_int_eq(thr_csv_parse(&d, &r, text, sizeof text - 1, "f", &err), THR_EINPUT);
+  ck_assert_int_eq(thr_draft_parse(&d, &r, text, sizeof text - 1, "f", thr_format_named("csv"), &err), THR_EINPUT);
   ck_assert_str_eq(err.text, "f:2: a NUL byte, so this is not plain text; save the file as UTF-8 text");
 }
 END_TEST
@@ -198,7 +198,7 @@ END_TEST
 
 START_TEST(obj_records)
 {
-  thr_format obj = THR_FORMAT_OBJ;
+  const thr_format *obj = thr_format_named("obj");
   check_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2 3\n", obj, 3, 2, 2, "");
   check_text("o a\nv 0 0 0 1 0.5 0.5\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nf 1/1/1 2//1 3/1 4\n", obj, 4, 4, 4, "");
   check_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nl -1 \\\n -3 \\\r\n2\n", obj, 3, 2, SQRT2 + 1, "");
@@ -213,7 +213,7 @@ START_TEST(obj_rhino_curves)
   thr_read_report r;
   thr_frame f = read_text("v 0 0 0\nv 1 0 0\nv 1 1 0\ncstype bspline\ndeg 1\ncurv 0 2 1 2 \\\n3\nparm u 0 0 1 2 2\nend\n"
                           "deg 3\ncurv 0 1 1 2 3 1\nend\nxyz 4\n",
-                          THR_FORMAT_OBJ, &r);
+                          thr_format_named("obj"), &r);
   ck_assert_int_eq(f.n_edges, 2);
   ck_assert_int_eq(r.skipped_records, 2);
   ck_assert_str_eq(r.skipped_kind, "curv");
@@ -224,7 +224,7 @@ END_TEST
 START_TEST(obj_shared_sides_are_no_duplicates)
 {
   thr_read_report r;
-  thr_frame f = read_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\nl 1 2\n", THR_FORMAT_OBJ, &r);
+  thr_frame f = read_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\nl 1 2\n", thr_format_named("obj"), &r);
   ck_assert_int_eq(f.n_edges, 5);
   ck_assert_int_eq(r.duplicate_edges, 1); /* the line repeats a side */
   thr_frame_destroy(&f);
@@ -233,7 +233,7 @@ END_TEST
 
 START_TEST(obj_errors)
 {
-  thr_format obj = THR_FORMAT_OBJ;
+  const thr_format *obj = thr_format_named("obj");
   check_error("v 0 0 0\nv 1 1 1\n", obj, "f: no l, f or degree-1 curv record; export lines or polylines");
   check_error("v 0 0\n", obj, "f:1: v has 2 numbers; it needs x, y and z");
   check_error("v 0 inf 0\n", obj, "f:1: 'inf' is not a finite number; give y as a decimal number");
@@ -252,7 +252,7 @@ END_TEST
 
 START_TEST(json_dialects)
 {
-  thr_format json = THR_FORMAT_JSON;
+  const thr_format *json = thr_format_named("json");
   check_text("{\"format\":\"thread-frame\",\"version\":1,\"nodes\":[[0,0,0],[1,0,0],[1,1]],\"edges\":[[0,1],[1,2]],"
              "\"lengths\":[1.5,2],\"feet\":[2],\"names\":[\"a\",\"b\",\"c\"]}",
              json, 3, 2, 3.5, "c");
@@ -288,14 +288,14 @@ START_TEST(json_units_and_grounded_nodes)
   thr_frame f = read_text("{\"unit\":\"millimeter\",\"node_list\":[{\"point\":{\"X\":0,\"Y\":0,\"Z\":1.5},\"node_id\":0,"
                           "\"is_grounded\":1},{\"point\":{\"X\":1,\"Y\":0,\"Z\":1.5},\"node_id\":7}],"
                           "\"element_list\":[{\"end_node_ids\":[0,7]}]}",
-                          THR_FORMAT_JSON, &r);
+                          thr_format_named("json"), &r);
   ck_assert_str_eq(f.units, "mm");
   ck_assert_str_eq(f.name[1], "7");
   ck_assert(f.foot[0] && !f.foot[1]);
   thr_frame_destroy(&f);
   f = read_text("{\"unit\":\"meter\",\"nodes\":[{\"point\":[0,0,0],\"node_ind\":3},{\"point\":[0,0,1],\"node_ind\":9}],"
                 "\"elements\":[{\"end_node_inds\":[3,9]}],\"supports\":[{\"node_ind\":9}]}",
-                THR_FORMAT_JSON, &r);
+                thr_format_named("json"), &r);
   ck_assert_str_eq(f.units, "m");
   ck_assert(!f.foot[0] && f.foot[1]);
   thr_frame_destroy(&f);
@@ -305,8 +305,8 @@ END_TEST
 START_TEST(json_takes_the_first_framework)
 {
   thr_read_report r;
-  thr_frame f =
-      read_text("[{\"nodes\":[[0,0],[1,0]],\"edges\":[[0,1]]},{\"nodes\":[[0,0],[2,0]],\"edges\":[[0,1]]}]", THR_FORMAT_JSON, &r);
+  thr_frame f = read_text("[{\"nodes\":[[0,0],[1,0]],\"edges\":[[0,1]]},{\"nodes\":[[0,0],[2,0]],\"edges\":[[0,1]]}]",
+                          thr_format_named("json"), &r);
   ck_assert_double_eq(f.length[0], 1);
   ck_assert_int_eq(r.skipped_records, 1);
   thr_frame_destroy(&f);
@@ -315,7 +315,7 @@ END_TEST
 
 START_TEST(json_errors)
 {
-  thr_format json = THR_FORMAT_JSON;
+  const thr_format *json = thr_format_named("json");
   check_error("{}", json, "f: no framework in this JSON; docs/formats.md shows the forms that are read");
   check_error("{\"data\":{\"node\":{\"21\":{\"x\":\"a\",\"y\":0}},\"edge\":{}}}", json,
               "f: data.node[\"21\"].x: not a number; give a decimal number");
@@ -350,13 +350,13 @@ START_TEST(json_syntax_and_depth)
   thr_draft d = {0};
   thr_read_report r = {0};
   thr_err err = {0};
-  ck_assert_int_eq(thr_draft_parse(&d, &r, "{\n \"nodes\":", 11, "f", THR_FORMAT_JSON, &err), THR_EINPUT);
+  ck_assert_int_eq(thr_draft_parse(&d, &r, "{\n \"nodes\":", 11, "f", thr_format_named("json"), &err), THR_EINPUT);
   ck_assert_ptr_nonnull(strstr(err.text, "f:2:"));
   size_t n = 100000;
   char *deep = malloc(n);
   memset(deep, '[', n);
   err = (thr_err){0};
-  ck_assert_int_eq(thr_draft_parse(&d, &r, deep, n, "f", THR_FORMAT_AUTO, &err), THR_EINPUT);
+  ck_assert_int_eq(thr_draft_parse(&d, &r, deep, n, "f", NULL, &err), THR_EINPUT);
   ck_assert_ptr_nonnull(strstr(err.text, "depth"));
   free(deep);
 }
@@ -366,15 +366,17 @@ END_TEST
 
 START_TEST(formats_by_name_and_content)
 {
-  ck_assert_int_eq(thr_format_of_path("a.CSV"), THR_FORMAT_CSV);
-  ck_assert_int_eq(thr_format_of_path("a/b.c.obj"), THR_FORMAT_OBJ);
-  ck_assert_int_eq(thr_format_of_path("a.tsv"), THR_FORMAT_CSV);
-  ck_assert_int_eq(thr_format_of_path("a.json"), THR_FORMAT_JSON);
-  ck_assert_int_eq(thr_format_of_path("-"), THR_FORMAT_JSON);
-  ck_assert_int_eq(thr_format_of_path("obj"), THR_FORMAT_JSON);
-  check_text("# c\n v 0 0 0\nv 1 0 0\nl 1 2\n", THR_FORMAT_AUTO, 2, 1, 1, "");
-  check_text("# c\n0 0 0 1 0 0\n", THR_FORMAT_AUTO, 2, 1, 1, "");
-  check_text("\xef\xbb\xbf \n{\"nodes\":[[0,0],[1,0]],\"edges\":[[0,1]]}", THR_FORMAT_AUTO, 2, 1, 1, "");
+  ck_assert_ptr_eq(thr_format_of_path("a.CSV"), thr_format_named("csv"));
+  ck_assert_ptr_eq(thr_format_of_path("a/b.c.obj"), thr_format_named("obj"));
+  ck_assert_ptr_eq(thr_format_of_path("a.tsv"), thr_format_named("csv"));
+  ck_assert_ptr_eq(thr_format_of_path("a.json"), thr_format_named("json"));
+  ck_assert_ptr_null(thr_format_of_path("-"));
+  ck_assert_ptr_null(thr_format_of_path("obj"));
+  ck_assert_ptr_null(thr_format_named("stl"));
+  check_error("a.b\n", NULL, "f:1: a row of 1 fields without a header; an edge is x1,y1,z1,x2,y2,z2, a node x,y,z or id,x,y,z");
+  check_text("# c\n v 0 0 0\nv 1 0 0\nl 1 2\n", NULL, 2, 1, 1, "");
+  check_text("# c\n0 0 0 1 0 0\n", NULL, 2, 1, 1, "");
+  check_text("\xef\xbb\xbf \n{\"nodes\":[[0,0],[1,0]],\"edges\":[[0,1]]}", NULL, 2, 1, 1, "");
 }
 END_TEST
 
@@ -438,24 +440,27 @@ END_TEST
 START_TEST(round_trips)
 {
   thr_frame f = read_file(stored[_i].path);
-  for (int format = THR_FORMAT_CSV; format <= THR_FORMAT_JSON; format++) {
+  const thr_format *json = thr_format_named("json"), *obj = thr_format_named("obj"),
+                   *all[] = {thr_format_named("csv"), obj, json};
+  for (int i = 0; i < 3; i++) {
+    const thr_format *format = all[i];
     thr_text text = {0};
     thr_read_report r;
-    thr_frame_write(&f, (thr_format)format, &text);
-    thr_frame g = read_text(text.data, (thr_format)format, &r);
+    thr_frame_write(&f, format, &text);
+    thr_frame g = read_text(text.data, format, &r);
     ck_assert_int_eq(g.n_nodes, f.n_nodes);
     ck_assert_int_eq(g.n_edges, f.n_edges);
     ck_assert(memcmp(g.length, f.length, (size_t)f.n_edges * sizeof *f.length) == 0);
-    if (format == THR_FORMAT_JSON || (format == THR_FORMAT_OBJ && !f.cover)) {
+    if (format == json || (format == obj && !f.cover)) {
       ck_assert(thr_frame_hash(&g) == thr_frame_hash(&f));
       ck_assert_str_eq(g.units, f.units);
     }
     size_t bytes = (size_t)f.n_edges * sizeof *f.cover;
-    if (format != THR_FORMAT_OBJ) {
+    if (format != obj) {
       ck_assert(!g.cover == !f.cover && !g.capacity == !f.capacity);
       ck_assert(!f.cover || (memcmp(g.cover, f.cover, bytes) == 0 && memcmp(g.capacity, f.capacity, bytes) == 0));
     }
-    for (int v = 0; format == THR_FORMAT_JSON && v < f.n_nodes; v++)
+    for (int v = 0; format == json && v < f.n_nodes; v++)
       ck_assert_str_eq(g.name[v], f.name[v]);
     thr_frame_destroy(&g);
     thr_text_destroy(&text);
@@ -544,21 +549,21 @@ START_TEST(long_inputs)
   thr_text_append(&t, "v 0 0 0\nv 1 0 0\nl 1 \\\n");
   for (int i = 0; i < 200000; i++)
     thr_text_append(&t, "2 1 \\\n");
-  thr_frame f = read_text(t.data, THR_FORMAT_OBJ, &r);
+  thr_frame f = read_text(t.data, thr_format_named("obj"), &r);
   ck_assert_int_eq(f.n_edges, 1);
   thr_frame_destroy(&f);
   thr_text_destroy(&t);
 
   for (int i = 0; i < 100000; i++)
     thr_text_printf(&t, "%d,0,0,%d,0,0\n", i, i + 1);
-  f = read_text(t.data, THR_FORMAT_CSV, &r);
+  f = read_text(t.data, thr_format_named("csv"), &r);
   ck_assert_int_eq(f.n_nodes, 100001);
   thr_frame_destroy(&f);
   thr_text_destroy(&t);
 
   for (int i = 0; i < 1000000; i++)
     thr_text_append(&t, "0,");
-  check_error(t.data, THR_FORMAT_CSV,
+  check_error(t.data, thr_format_named("csv"),
               "f:1: a row of 64 fields without a header; an edge is x1,y1,z1,x2,y2,z2, a node x,y,z or id,x,y,z");
   thr_text_destroy(&t);
 }
@@ -579,7 +584,7 @@ START_TEST(units_are_units)
       thr_read_report r;
       snprintf(word, sizeof word, "\"%s\"", good[i][0]);
       snprintf(text, sizeof text, kind ? assembly : own, word);
-      thr_frame f = read_text(text, THR_FORMAT_JSON, &r);
+      thr_frame f = read_text(text, thr_format_named("json"), &r);
       ck_assert_str_eq(f.units, good[i][1]);
       thr_frame_destroy(&f);
     }
@@ -589,11 +594,11 @@ START_TEST(units_are_units)
       thr_err err = {0};
       snprintf(word, sizeof word, "\"%s\"", bad[i]);
       snprintf(text, sizeof text, kind ? assembly : own, word);
-      ck_assert_int_eq(thr_draft_parse(&d, &r, text, strlen(text), "f", THR_FORMAT_JSON, &err), THR_EINPUT);
+      ck_assert_int_eq(thr_draft_parse(&d, &r, text, strlen(text), "f", thr_format_named("json"), &err), THR_EINPUT);
       ck_assert(strstr(err.text, kind ? "f: unit: " : "f: units: ") == err.text && strstr(err.text, "is no unit of length"));
     }
     snprintf(text, sizeof text, kind ? assembly : own, "5");
-    check_error(text, THR_FORMAT_JSON,
+    check_error(text, thr_format_named("json"),
                 kind ? "f: unit: not text; name a unit of length" : "f: units: not text; name a unit of length");
   }
 }
@@ -602,18 +607,18 @@ END_TEST
 START_TEST(comments_name_units_or_are_refused)
 {
   thr_read_report r;
-  thr_frame f = read_text("# units: Feet\nv 0 0 0\nv 1 0 0\nl 1 2\n", THR_FORMAT_OBJ, &r);
+  thr_frame f = read_text("# units: Feet\nv 0 0 0\nv 1 0 0\nl 1 2\n", thr_format_named("obj"), &r);
   ck_assert_str_eq(f.units, "ft");
   thr_text t = {0};
-  thr_frame_write(&f, THR_FORMAT_OBJ, &t);
-  thr_frame g = read_text(t.data, THR_FORMAT_OBJ, &r);
+  thr_frame_write(&f, thr_format_named("obj"), &t);
+  thr_frame g = read_text(t.data, thr_format_named("obj"), &r);
   ck_assert_str_eq(g.units, "ft");
   thr_frame_destroy(&f);
   thr_frame_destroy(&g);
   thr_text_destroy(&t);
-  check_error("v 0 0 0\n# units: feet\xc6o a\nv 1 0 0\nl 1 2\n", THR_FORMAT_OBJ,
+  check_error("v 0 0 0\n# units: feet\xc6o a\nv 1 0 0\nl 1 2\n", thr_format_named("obj"),
               "f:2: this comment's 'feet?o a' is no unit of length; correct or delete the comment");
-  check_error("# units: millimillimillimeters\nv 0 0 0\nv 1 0 0\nl 1 2\n", THR_FORMAT_OBJ,
+  check_error("# units: millimillimillimeters\nv 0 0 0\nv 1 0 0\nl 1 2\n", thr_format_named("obj"),
               "f:1: this comment's 'millimillimillimeters' is no unit of length; correct or delete the comment");
 }
 END_TEST
@@ -629,13 +634,13 @@ START_TEST(names_are_cleaned_where_they_are_read)
       "\"edge\":{\"a\\u202e\":{\"b\\u001b\":{}},\"b\\u001b\":{\"c\":{}}}}"};
   for (int i = 0; i < 3; i++) {
     thr_read_report r;
-    thr_frame f = read_text(text[i], i ? THR_FORMAT_JSON : THR_FORMAT_CSV, &r);
+    thr_frame f = read_text(text[i], i ? thr_format_named("json") : thr_format_named("csv"), &r);
     ck_assert_int_eq(f.n_edges, 2);
     ck_assert_str_eq(f.name[0], "a ");
     ck_assert_str_eq(f.name[1], "b ");
     thr_frame_destroy(&f);
   }
-  check_error("{\"node\":{\"a\\u202e\":{\"x\":0,\"y\":0},\"a \":{\"x\":1,\"y\":0}},\"edge\":{}}", THR_FORMAT_JSON,
+  check_error("{\"node\":{\"a\\u202e\":{\"x\":0,\"y\":0},\"a \":{\"x\":1,\"y\":0}},\"edge\":{}}", thr_format_named("json"),
               "f: two nodes are called 'a ' (number 1 and number 2); give each its own name");
 }
 END_TEST
@@ -647,7 +652,7 @@ START_TEST(two_nodes_of_one_name_are_refused)
   thr_read_report r = {0};
   thr_frame f;
   thr_err err = {0};
-  ck_assert_int_eq(thr_draft_parse(&d, &r, text, strlen(text), "f", THR_FORMAT_JSON, NULL), THR_OK);
+  ck_assert_int_eq(thr_draft_parse(&d, &r, text, strlen(text), "f", thr_format_named("json"), NULL), THR_OK);
   ck_assert_int_eq(thr_draft_build(&d, -1, &f, &r, &err), THR_EINPUT);
   ck_assert_str_eq(err.text, "nodes 0 and 2, counted from 0, are both called 'a'; give each its own name");
   ck_assert(f.n_nodes == 0 && f.xyz == NULL);
@@ -662,7 +667,7 @@ END_TEST
 START_TEST(an_apostrophe_is_no_part_of_a_name)
 {
   thr_read_report r;
-  thr_frame f = read_text("id,x,y\n'=A1,0,0\n'-b,1,0\n'c,1,1\n=A1,'-b\n-b,'c\n", THR_FORMAT_CSV, &r);
+  thr_frame f = read_text("id,x,y\n'=A1,0,0\n'-b,1,0\n'c,1,1\n=A1,'-b\n-b,'c\n", thr_format_named("csv"), &r);
   static const char *const name[] = {"=A1", "-b", "'c"};
   for (int v = 0; v < 3; v++)
     ck_assert_str_eq(f.name[v], name[v]);

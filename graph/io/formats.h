@@ -1,0 +1,26 @@
+/* Formats of framework files: what a file of graph/io/ says of the format that it reads. */
+#ifndef THR_FORMATS_H
+#define THR_FORMATS_H
+
+#include "graph/io/scan.h"
+
+/* A new format is one file, with its reader, perhaps its writer, and one of these, and its line in the table of formats.c. */
+struct thr_format {
+  const char *name;
+  const char *ending[3]; /* of files' names, without the dot, NULL after the last; the first is the one that is written */
+  /* Does a text of this format begin with such a line? Blank lines and # comments before it are left out. NULL: the format that
+   * is taken where no other begins so. */
+  bool (*begins)(thr_span line);
+  /* The contract of thr_draft_parse. */
+  thr_status (*parse)(thr_draft *d, thr_read_report *r, const char *text, size_t n, const char *name, thr_err *err);
+  void (*write)(const thr_frame *f, thr_text *out); /* NULL: it is only read */
+  bool pairs;                                       /* a second file may hold the edges (thr_csv_parse_pair) */
+};
+
+/* By the file's name: NULL if that says nothing; THR_EINPUT if it says a format that is not read. */
+thr_status thr_format_by_name(const char *name, const thr_format **format, thr_err *err) THR_MUST_CHECK;
+
+/* By the first line of the text that says anything. */
+const thr_format *thr_format_by_text(const char *text, size_t n);
+
+#endif
