@@ -1,4 +1,4 @@
-/* Odd cuts: pool, moats by Dijkstra, exact separation by a Gomory-Hu tree. */
+/* Odd sets: rows, moats by Dijkstra, exact separation by a Gomory-Hu tree. */
 #include "lp/tjoin/oddcut.h"
 #include "graph/framework/cuttree.h"
 #include "graph/disjoint.h"
@@ -53,87 +53,44 @@ static int other_end(const thr_tjoin_problem *p, int e, int v)
   return p->edge[e][0] == v ? p->edge[e][1] : p->edge[e][0];
 }
 
-/* ---- pool ---- */
+/* ---- rows ---- */
 
-void thr_oddcut_pool_destroy(thr_oddcut_pool *pool)
+/* Puts the edges that leave the n nodes marked in g->member; returns the right side of their row. */
+static double put_crossing(const thr_oddcut_graph *g, thr_pool *pool, const int *node, int n)
 {
-  for (int i = 0; i < pool->count; i++) {
-    free(pool->cut[i].node);
-    free(pool->cut[i].edge);
-  }
-  free(pool->cut);
-  free(pool->seen);
-  *pool = (thr_oddcut_pool){0};
-}
-
-/* Slot of a name in the table (0 marks an empty slot; a name of 0 is as good as impossible and is merely lost). */
-static int slot_of(const thr_oddcut_pool *pool, uint64_t name)
-{
-  int i = (int)(name % (uint64_t)pool->seen_size);
-  while (pool->seen[i] && pool->seen[i] != name)
-    i = i + 1 == pool->seen_size ? 0 : i + 1;
-  return i;
-}
-
-static thr_status rehash(thr_oddcut_pool *pool, int size, thr_err *err)
-{
-  uint64_t *table = thr_calloc((size_t)size, sizeof *table);
-  if (!table) return thr_nomem(err);
-  free(pool->seen);
-  pool->seen = table;
-  pool->seen_size = size;
-  pool->seen_used = pool->count;
-  for (int i = 0; i < pool->count; i++)
-    table[slot_of(pool, pool->cut[i].name)] = pool->cut[i].name;
-  return THR_OK;
-}
-
-void thr_oddcut_pool_drop(thr_oddcut_pool *pool, const bool *drop)
-{
-  int kept = 0;
-  for (int i = 0; i < pool->count; i++) {
-    if (drop[i]) {
-      free(pool->cut[i].node);
-      free(pool->cut[i].edge);
-    } else {
-      pool->cut[kept++] = pool->cut[i];
+  double lower = 1;
+  for (int i = 0; i < n; i++)
+    for (int k = g->first[node[i]]; k < g->first[node[i] + 1]; k++) {
+      int e = g->incident[k];
+      if (g->member[other_end(g->p, e, node[i])]) continue;
+      if (g->put)
+        lower += g->put(g->user, pool, e);
+      else
+        thr_pool_put(pool, e, 1);
     }
-  }
-  pool->count = kept;
-  if (pool->seen_size == 0) return;
-  memset(pool->seen, 0, (size_t)pool->seen_size * sizeof *pool->seen);
-  pool->seen_used = kept;
-  for (int i = 0; i < kept; i++)
-    pool->seen[slot_of(pool, pool->cut[i].name)] = pool->cut[i].name;
+  return lower;
 }
 
-/* Fills c with the cut of the n nodes marked in g->member: their side or, if that is smaller, the other. */
-static thr_status collect(const thr_oddcut_graph *g, const int *node, int n, struct thr_oddcut *c, thr_err *err)
+/* The row of the marked nodes, whose members are their side or, if that is smaller, the other; ascending. */
+static thr_status add_row(const thr_oddcut_graph *g, thr_pool *pool, const int *node, int n, uint64_t name, thr_err *err)
 {
-  const thr_tjoin_problem *p = g->p;
-  bool flip = 2 * n > p->n_nodes || (2 * n == p->n_nodes && g->member[0]);
-  int crossing = 0, size = flip ? p->n_nodes - n : n;
-  for (int i = 0; i < n; i++)
-    for (int k = g->first[node[i]]; k < g->first[node[i] + 1]; k++)
-      crossing += !g->member[other_end(p, g->incident[k], node[i])];
-  c->node = thr_calloc((size_t)size, sizeof *c->node);
-  c->edge = thr_calloc((size_t)crossing, sizeof *c->edge);
-  if (!c->node || !c->edge) return thr_nomem(err);
-  for (int i = 0; i < n; i++)
-    for (int k = g->first[node[i]]; k < g->first[node[i] + 1]; k++)
-      if (!g->member[other_end(p, g->incident[k], node[i])]) c->edge[c->n_edges++] = g->incident[k];
-  if (flip) {
-    for (int v = 0; v < p->n_nodes; v++)
-      if (!g->member[v]) c->node[c->n_nodes++] = v;
-  } else {
-    memcpy(c->node, node, (size_t)n * sizeof *node);
-    c->n_nodes = n;
-    thr_sort_ints(c->node, (size_t)n);
+  const int all = g->p->n_nodes;
+  bool flip = 2 * n > all || (2 * n == all && g->member[0]);
+  int size = flip ? all - n : n, *side = thr_calloc((size_t)size, sizeof *side);
+  if (!side) return thr_nomem(err);
+  for (int v = 0, k = 0; flip && k < size; v++)
+    if (!g->member[v]) side[k++] = v;
+  if (!flip) {
+    memcpy(side, node, (size_t)n * sizeof *side);
+    thr_sort_ints(side, (size_t)n);
   }
-  return THR_OK;
+  double lower = put_crossing(g, pool, node, n);
+  thr_status st = thr_pool_add(pool, (thr_row){.name = name, .lower = lower, .member = side, .n_members = size}, err);
+  free(side);
+  return st;
 }
 
-thr_status thr_oddcut_add(const thr_oddcut_graph *g, thr_oddcut_pool *pool, int *node, int n, thr_err *err)
+thr_status thr_oddcut_add(const thr_oddcut_graph *g, thr_pool *pool, const int *node, int n, thr_err *err)
 {
   uint64_t name = 0;
   bool odd = false;
@@ -143,26 +100,13 @@ thr_status thr_oddcut_add(const thr_oddcut_graph *g, thr_oddcut_pool *pool, int 
   }
   if (!odd) return THR_OK;
   if ((name ^ g->all) < name) name ^= g->all;
-  thr_status st;
-  if (2 * pool->seen_used >= pool->seen_size && (st = rehash(pool, pool->seen_size ? 2 * pool->seen_size : 1024, err))) return st;
-  int slot = slot_of(pool, name);
-  if (pool->seen[slot]) return THR_OK;
-  if ((st = thr_grow(&pool->cut, pool->count, &pool->capacity, sizeof *pool->cut, err))) return st;
-  struct thr_oddcut c = {.name = name};
+  if (thr_pool_knows(pool, name)) return THR_OK;
   for (int i = 0; i < n; i++)
     g->member[node[i]] = true;
-  st = collect(g, node, n, &c, err);
+  thr_status st = add_row(g, pool, node, n, name, err);
   for (int i = 0; i < n; i++)
     g->member[node[i]] = false;
-  if (st) {
-    free(c.node);
-    free(c.edge);
-    return st;
-  }
-  pool->seen[slot] = name;
-  pool->seen_used++;
-  pool->cut[pool->count++] = c;
-  return THR_OK;
+  return st;
 }
 
 /* ---- moats ---- */
@@ -258,8 +202,8 @@ static void bound_radii(const thr_tjoin_problem *p, const double *reduced_cost, 
 }
 
 /* For one owner, nodes come in order of distance: each prefix that ends before a farther node is a ball. */
-static thr_status add_balls(const thr_oddcut_graph *g, const voronoi *z, const int *start, const int *by_owner,
-                            thr_oddcut_pool *pool, thr_err *err)
+static thr_status add_balls(const thr_oddcut_graph *g, const voronoi *z, const int *start, const int *by_owner, thr_pool *pool,
+                            thr_err *err)
 {
   thr_status st = THR_OK;
   int *prefix = thr_calloc((size_t)g->p->n_nodes, sizeof *prefix);
@@ -311,7 +255,7 @@ static void components(const thr_tjoin_problem *p, const double *x, double thres
 }
 
 thr_status thr_oddcut_moats(const thr_oddcut_graph *g, const double *x, double threshold, const double *reduced_cost,
-                            thr_oddcut_pool *pool, thr_err *err)
+                            thr_pool *pool, thr_err *err)
 {
   const thr_tjoin_problem *p = g->p;
   size_t n = (size_t)p->n_nodes;
@@ -379,7 +323,7 @@ static thr_status shrunk_init(shrunk *s, int n, int m, thr_err *err)
 
 /* Adds the side of tree edge i, in framework nodes: those whose shrunk node is still joined to tree[i][0]. */
 static thr_status add_side(const thr_oddcut_graph *g, const shrunk *s, int i, const int *node, const int *shrunk_of, int n,
-                           int *list, thr_oddcut_pool *pool, thr_err *err)
+                           int *list, thr_pool *pool, thr_err *err)
 {
   for (int v = 0; v < s->n; v++)
     s->parent[v] = v;
@@ -393,7 +337,7 @@ static thr_status add_side(const thr_oddcut_graph *g, const shrunk *s, int i, co
 
 /* node[0 .. n-1] is one component of the support; block[v] its contracted group; shrunk_of and list are scratch. */
 static thr_status separate_component(const thr_oddcut_graph *g, const double *x, const int *node, int n, int *block,
-                                     int *shrunk_of, int *list, thr_oddcut_pool *pool, thr_err *err)
+                                     int *shrunk_of, int *list, thr_pool *pool, thr_err *err)
 {
   const thr_tjoin_problem *p = g->p;
   shrunk s;
@@ -425,7 +369,7 @@ static thr_status separate_component(const thr_oddcut_graph *g, const double *x,
   return st;
 }
 
-thr_status thr_oddcut_exact(const thr_oddcut_graph *g, const double *x, thr_oddcut_pool *pool, thr_err *err)
+thr_status thr_oddcut_exact(const thr_oddcut_graph *g, const double *x, thr_pool *pool, thr_err *err)
 {
   const thr_tjoin_problem *p = g->p;
   size_t n = (size_t)p->n_nodes;

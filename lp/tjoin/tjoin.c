@@ -5,6 +5,7 @@
 #include "lp/solver/lp.h"
 #include "lp/tjoin/oddcut.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,7 +16,7 @@ typedef struct {
   const thr_tjoin_problem *p;
   const thr_limits *limits;
   thr_oddcut_graph graph;
-  thr_oddcut_pool pool;
+  thr_pool pool;
   thr_lp *lp;
   double unit;                           /* costs of the linear programme = weights / unit, so that they are about 1 */
   double *cost, *x, *reduced_cost, *key; /* [n_edges] */
@@ -36,6 +37,7 @@ static thr_status solver_init(solver *s, const thr_tjoin_problem *p, const thr_l
   size_t n = (size_t)p->n_nodes, m = (size_t)p->n_edges;
   *s = (solver){.p = p, .limits = limits};
   thr_status st = thr_oddcut_graph_init(&s->graph, p, err);
+  if (!st) st = thr_pool_init(&s->pool, p->n_edges, err);
   if (st) return st;
   s->cost = thr_calloc(m, sizeof *s->cost);
   s->whole = thr_calloc(m, sizeof *s->whole);
@@ -64,7 +66,7 @@ static thr_status solver_init(solver *s, const thr_tjoin_problem *p, const thr_l
 static void solver_destroy(solver *s)
 {
   thr_lp_destroy(s->lp);
-  thr_oddcut_pool_destroy(&s->pool);
+  thr_pool_destroy(&s->pool);
   thr_oddcut_graph_destroy(&s->graph);
   free(s->cost);
   free(s->whole);
@@ -203,21 +205,21 @@ static int64_t integer_dual(solver *s, bool greedy)
   for (int i = 0; i < s->solved; i++) {
     double y = s->dual[i] * s->unit * THR_DUAL_DENOMINATOR;
     s->value[i] = y > 1 ? (int64_t)fmin(y, 4e18) : 0;
-    for (int k = 0; k < s->pool.cut[i].n_edges; k++)
-      s->slack[s->pool.cut[i].edge[k]] -= s->value[i];
+    for (int k = 0; k < s->pool.row[i].n; k++)
+      s->slack[s->pool.row[i].column[k]] -= s->value[i];
   }
   wide sum = 0;
   for (int pass = 0; pass < 2; pass++) /* first take back, then give out */
     for (int i = 0; i < s->solved; i++) {
-      const struct thr_oddcut *c = &s->pool.cut[i];
-      wide least = s->slack[c->edge[0]];
-      for (int k = 1; k < c->n_edges; k++)
-        if (s->slack[c->edge[k]] < least) least = s->slack[c->edge[k]];
+      const thr_row *r = &s->pool.row[i];
+      wide least = s->slack[r->column[0]];
+      for (int k = 1; k < r->n; k++)
+        if (s->slack[r->column[k]] < least) least = s->slack[r->column[k]];
       if (pass == 0 ? least >= 0 : least <= 0 || (s->value[i] == 0 && !greedy)) continue;
       if (least < -(wide)s->value[i]) least = -(wide)s->value[i];
       s->value[i] += (int64_t)least;
-      for (int k = 0; k < c->n_edges; k++)
-        s->slack[c->edge[k]] -= least;
+      for (int k = 0; k < r->n; k++)
+        s->slack[r->column[k]] -= least;
     }
   for (int i = 0; i < s->solved; i++)
     sum += s->value[i];
@@ -234,13 +236,13 @@ static thr_status store_cuts(solver *s, int64_t sum, thr_err *err)
   best->cut = thr_calloc((size_t)s->solved, sizeof *best->cut);
   if (!best->cut) return thr_nomem(err);
   for (int i = 0; i < s->solved; i++) {
-    const struct thr_oddcut *c = &s->pool.cut[i];
+    const thr_row *r = &s->pool.row[i];
     if (s->value[i] == 0) continue;
     thr_cut *to = &best->cut[best->n_cuts];
-    *to = (thr_cut){-1, c->n_nodes, thr_calloc((size_t)c->n_nodes, sizeof *to->node), s->value[i]};
+    *to = (thr_cut){-1, r->n_members, thr_calloc((size_t)r->n_members, sizeof *to->node), s->value[i]};
     if (!to->node) return thr_nomem(err);
     best->n_cuts++;
-    memcpy(to->node, c->node, (size_t)c->n_nodes * sizeof *to->node);
+    memcpy(to->node, r->member, (size_t)r->n_members * sizeof *to->node);
   }
   best->sum = sum;
   return THR_OK;
@@ -257,14 +259,6 @@ static thr_status certify(solver *s, bool greedy, thr_err *err)
 }
 
 /* ---- the loop ---- */
-
-static thr_status add_new_rows(solver *s, thr_err *err)
-{
-  thr_status st = THR_OK;
-  for (int i = thr_lp_rows(s->lp); i < s->pool.count && !st; i++)
-    st = thr_lp_add_row(s->lp, s->pool.cut[i].n_edges, s->pool.cut[i].edge, NULL, 1, err);
-  return st;
-}
 
 /* Makes room for the multipliers of all cuts and sets them to 0. */
 static thr_status reserve_duals(solver *s, thr_err *err)
@@ -289,13 +283,12 @@ static void read_duals(solver *s, double cost_unit)
     s->dual[i] *= cost_unit;
   memcpy(s->reduced_cost, s->cost, (size_t)s->p->n_edges * sizeof *s->cost);
   for (int i = 0; i < s->solved; i++)
-    for (int k = 0; s->dual[i] != 0 && k < s->pool.cut[i].n_edges; k++)
-      s->reduced_cost[s->pool.cut[i].edge[k]] -= s->dual[i];
+    thr_row_charge(&s->pool.row[i], s->dual[i], s->reduced_cost);
 }
 
 static thr_status solve_rows(solver *s, bool exact, thr_lp_outcome *outcome, thr_err *err)
 {
-  thr_status st = add_new_rows(s, err);
+  thr_status st = thr_pool_load(&s->pool, thr_lp_rows(s->lp), -1, s->lp, err);
   if (!st) st = reserve_duals(s, err);
   if (!st && exact) st = thr_lp_set_costs(s->lp, s->whole, err);
   if (!st) st = (exact ? thr_lp_solve_exact : thr_lp_solve)(s->lp, s->limits, outcome, err);
@@ -325,20 +318,9 @@ static thr_status separate(solver *s, thr_err *err)
 static thr_status drop_idle(solver *s, thr_err *err)
 {
   enum { PATIENCE = 6 };
-  bool *drop = thr_calloc((size_t)s->solved, sizeof *drop);
-  if (!drop) return thr_nomem(err);
-  bool any = false, risen = thr_lp_objective(s->lp) > s->bound_at_drop * (1 + 1e-9);
-  for (int i = 0; i < s->solved; i++) {
-    struct thr_oddcut *c = &s->pool.cut[i];
-    c->idle = thr_lp_row_basic(s->lp, i) ? c->idle + 1 : 0;
-    any |= drop[i] = risen && c->idle > PATIENCE;
-  }
-  thr_status st = THR_OK;
-  if (any && !(st = thr_lp_drop_rows(s->lp, drop, err))) {
-    thr_oddcut_pool_drop(&s->pool, drop);
-    s->bound_at_drop = thr_lp_objective(s->lp);
-  }
-  free(drop);
+  bool any, risen = thr_lp_objective(s->lp) > s->bound_at_drop * (1 + 1e-9);
+  thr_status st = thr_pool_age(&s->pool, risen ? PATIENCE : INT_MAX, s->lp, &any, err);
+  if (!st && any) s->bound_at_drop = thr_lp_objective(s->lp);
   return st;
 }
 

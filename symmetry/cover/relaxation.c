@@ -15,42 +15,23 @@ enum { MOST_EXACT = 4000 };
 
 /* ---- rows ---- */
 
-thr_status thr_relaxation_add_row(thr_relaxation *r, double lower, thr_err *err)
+/* Adds the rows of the pool that are not in the programme yet. */
+static thr_status load(thr_relaxation *r, thr_err *err)
 {
-  int n = r->p->n + r->extra, most = 0, count = 0;
-  for (int j = 0; j < n; j++)
-    most += r->sum[j] != 0;
-  int *column = thr_calloc((size_t)most, sizeof *column);
-  double *value = thr_calloc((size_t)most, sizeof *value);
-  thr_status st = column && value ? thr_programme_check_time(r->p) : thr_nomem(err);
-  for (int j = 0; j < n && !st && count < most; j++)
-    if (r->sum[j] != 0) {
-      column[count] = j;
-      value[count++] = r->sum[j];
-      r->sum[j] = 0;
-    }
-  if (!st) st = thr_lp_add_row(r->lp, count, column, value, lower, err);
-  free(column);
-  free(value);
-  return st;
+  thr_status st = thr_programme_check_time(r->p);
+  return st ? st : thr_pool_load(&r->pool, thr_lp_rows(r->lp) - r->p->q->n_darts, -1, r->lp, err);
 }
 
-/* Is the row in r->sum violated by x? If not it is cleared. */
-static bool violated(thr_relaxation *r, double lower)
+thr_status thr_relaxation_add_row(thr_relaxation *r, double lower, thr_err *err)
 {
-  double sum = 0;
-  for (int j = 0; j < r->p->n; j++)
-    sum += r->sum[j] * r->x[j];
-  bool yes = sum < lower - tolerance;
-  if (!yes) memset(r->sum, 0, (size_t)r->p->n * sizeof *r->sum);
-  return yes;
+  thr_status st = thr_pool_add(&r->pool, (thr_row){.lower = lower}, err);
+  return st ? st : load(r, err);
 }
 
 thr_status thr_relaxation_add_violated(thr_relaxation *r, double lower, int *added, thr_err *err)
 {
-  if (!violated(r, lower)) return THR_OK;
-  ++*added;
-  return thr_relaxation_add_row(r, lower, err);
+  thr_status st = thr_pool_offer(&r->pool, (thr_row){.lower = lower}, r->x, tolerance, added, err);
+  return st ? st : load(r, err);
 }
 
 /* Dart types' equations: copies = turns + ends. */
@@ -78,13 +59,13 @@ static thr_status create_equations(thr_relaxation *r, thr_err *err)
   }
   for (int j = p->n; j < columns && !st; j++)
     start[j + 1] = n;
-  if (!st) st = thr_lp_create_equations(&r->lp, darts, rhs, columns, r->sum, NULL, start, row, value, err);
+  if (!st) st = thr_lp_create_equations(&r->lp, darts, rhs, columns, r->x, NULL, start, row, value, err);
   free(start);
   free(row);
   free(value);
   free(rhs);
   for (int j = 0; j < p->n && !st; j++)
-    st = thr_relaxation_bound(r, j, p->least[j], p->most[j] < 0 ? (double)INFINITY : p->most[j], err);
+    st = thr_lp_set_bounds(r->lp, j, p->least[j], p->most[j] < 0 ? (double)INFINITY : p->most[j], err);
   return st;
 }
 
@@ -106,11 +87,11 @@ static thr_status add_cover_rows(thr_relaxation *r, thr_err *err)
     int cover = r->p->cover[q->copy[c].edge_orbit], capacity = r->p->capacity[q->copy[c].edge_orbit];
     if (end == c + 1) continue; /* a bound instead */
     for (int k = c; k < end; k++)
-      r->sum[k] = q->copy[k].passes < cover ? q->copy[k].passes : cover;
+      thr_pool_put(&r->pool, k, q->copy[k].passes < cover ? q->copy[k].passes : cover);
     st = thr_relaxation_add_row(r, cover, err);
     if (st || capacity == INT_MAX) continue;
     for (int k = c; k < end; k++)
-      r->sum[k] = -q->copy[k].passes;
+      thr_pool_put(&r->pool, k, -q->copy[k].passes);
     st = thr_relaxation_add_row(r, -capacity, err);
   }
   return st;
@@ -178,6 +159,21 @@ static void fill_graph(thr_relaxation *r, int (*edge)[2], bool *odd)
   }
 }
 
+/* Puts the columns that an edge of the graph stands for; returns what they are over. */
+static double put_edge(void *user, thr_pool *pool, int edge)
+{
+  const thr_relaxation *r = user;
+  const thr_quotient *q = r->p->q;
+  int j = r->column[edge];
+  if (!r->surplus[edge]) {
+    thr_pool_put(pool, j, 1);
+    return r->p->least[j];
+  }
+  for (int c = start_of_orbit(q, j), end = end_of_orbit(q, c); c < end; c++)
+    thr_pool_put(pool, c, q->copy[c].passes);
+  return r->p->cover[q->copy[j].edge_orbit];
+}
+
 static thr_status init_graph(thr_relaxation *r, thr_err *err)
 {
   const thr_programme *p = r->p;
@@ -191,7 +187,10 @@ static thr_status init_graph(thr_relaxation *r, thr_err *err)
   r->surplus = thr_calloc(most, sizeof *r->surplus);
   if (!edge || !odd || !r->column || !r->weight || !r->metric || !r->surplus) return thr_nomem(err);
   fill_graph(r, edge, odd);
-  return thr_oddcut_graph_init(&r->graph, &r->problem, err);
+  thr_status st = thr_oddcut_graph_init(&r->graph, &r->problem, err);
+  r->graph.put = put_edge;
+  r->graph.user = r;
+  return st;
 }
 
 static double weigh(const thr_relaxation *r, int edge)
@@ -205,45 +204,12 @@ static double weigh(const thr_relaxation *r, int edge)
   return fmax(0, sum - r->p->cover[q->copy[j].edge_orbit]);
 }
 
-/* Adds what an edge of the graph stands for to r->sum; returns what it is over. */
-static double add_weight(thr_relaxation *r, int edge)
-{
-  const thr_quotient *q = r->p->q;
-  int j = r->column[edge];
-  if (!r->surplus[edge]) {
-    r->sum[j]++;
-    return r->p->least[j];
-  }
-  for (int c = start_of_orbit(q, j), end = end_of_orbit(q, c); c < end; c++)
-    r->sum[c] += q->copy[c].passes;
-  return r->p->cover[q->copy[j].edge_orbit];
-}
-
-/* The row of an odd set: the surplus that crosses is at least 1. */
-static double gather_odd(thr_relaxation *r, const struct thr_oddcut *cut)
-{
-  double lower = 1;
-  for (int k = 0; k < cut->n_edges; k++)
-    lower += add_weight(r, cut->edge[k]);
-  return lower;
-}
-
-/* Rows for the sets from first on that x violates; the others are forgotten. */
+/* Adds the odd sets from first on that x violates; the others are forgotten. */
 static thr_status add_odd_rows(thr_relaxation *r, const thr_limits *limits, int first, int *added, thr_err *err)
 {
-  thr_status st = THR_OK;
-  int before = *added;
-  bool *drop = thr_calloc((size_t)r->pool.count, sizeof *drop);
-  if (!drop) return thr_nomem(err);
-  for (int i = first; i < r->pool.count && !st; i++) {
-    int rows = *added;
-    if (thr_limits_stop(limits)) st = THR_ELIMIT;
-    if (!st) st = thr_relaxation_add_violated(r, gather_odd(r, &r->pool.cut[i]), added, err);
-    drop[i] = *added == rows;
-  }
-  if (*added - before < r->pool.count - first) thr_oddcut_pool_drop(&r->pool, drop);
-  free(drop);
-  return st;
+  if (thr_limits_stop(limits)) return THR_ELIMIT;
+  thr_status st = thr_pool_keep_violated(&r->pool, first, r->x, tolerance, added, err);
+  return st ? st : load(r, err);
 }
 
 /* The first sets: balls round the nodes, as far as their turns join their dart types, with odd numbers of darts. */
@@ -257,8 +223,9 @@ static thr_status add_first_sets(thr_relaxation *r, const thr_limits *limits, th
   }
   for (int j = 0; j < r->p->n; j++) /* every odd set is violated */
     r->x[j] = r->p->least[j];
+  int before = r->pool.count;
   thr_status st = thr_oddcut_moats(&r->graph, r->weight, 0.5, r->metric, &r->pool, err);
-  return st ? st : add_odd_rows(r, limits, 0, &added, err);
+  return st ? st : add_odd_rows(r, limits, before, &added, err);
 }
 
 static thr_status separate_odd(thr_relaxation *r, const thr_limits *limits, int *added, thr_err *err)
@@ -282,13 +249,13 @@ static thr_status separate_odd(thr_relaxation *r, const thr_limits *limits, int 
 
 /* ---- connected sets ---- */
 
-/* Coefficients of what leaves a set of dart types and of the terminals inside, of sign fold for folds. */
-static void gather_leaving(thr_relaxation *r, const bool *inside, double fold)
+/* Puts what leaves a set of dart types and of the terminals inside, of sign fold for folds. */
+static void put_leaving(thr_relaxation *r, const bool *inside, double fold)
 {
   const thr_programme *p = r->p;
   for (int j = 0; j < p->first_circle; j++) {
     bool a = inside[p->join[j][0]], terminal = thr_programme_terminal(p, j);
-    if (terminal ? a : a != inside[p->join[j][1]]) r->sum[j] += terminal && j < p->first_end ? fold : 1;
+    if (terminal ? a : a != inside[p->join[j][1]]) thr_pool_put(&r->pool, j, terminal && j < p->first_end ? fold : 1);
   }
 }
 
@@ -300,12 +267,12 @@ static thr_status add_connected(thr_relaxation *r, const bool *inside, int c, in
   const thr_quotient *q = p->q;
   int before = *added;
   for (int weak = 0; weak < 2 && *added == before; weak++) {
-    gather_leaving(r, inside, 1);
+    put_leaving(r, inside, 1);
     for (int d = 0; d < q->n_darts; d++)
-      if (inside[d]) r->sum[p->first_circle + d] += 2;
+      if (inside[d]) thr_pool_put(&r->pool, p->first_circle + d, 2);
     for (int k = start_of_orbit(q, c), end = end_of_orbit(q, k); k < end && !weak; k++)
-      if (!inside[q->copy[k].dart[0]] && (q->copy[k].fold || !inside[q->copy[k].dart[1]])) r->sum[k] += 2;
-    if (weak) r->sum[c] -= 2.0 / p->most[c];
+      if (!inside[q->copy[k].dart[0]] && (q->copy[k].fold || !inside[q->copy[k].dart[1]])) thr_pool_put(&r->pool, k, 2);
+    if (weak) thr_pool_put(&r->pool, c, -2.0 / p->most[c]);
     thr_status st = thr_relaxation_add_violated(r, weak ? 0 : 2, added, err);
     if (st) return st;
   }
@@ -339,7 +306,7 @@ static thr_status separate_connected(thr_relaxation *r, int *added, thr_err *err
       inside[d] = s.root[d] == root;
     st = add_connected(r, inside, copy[root], added, err);
     if (!st && p->open) {
-      gather_leaving(r, inside, -1);
+      put_leaving(r, inside, -1);
       st = thr_relaxation_add_violated(r, 0, added, err);
     }
   }
@@ -362,11 +329,11 @@ static thr_status separate_folds(thr_relaxation *r, int *added, thr_err *err)
     const bool *inside = j < p->first_pair ? copy_side : pair_side;
     int a = p->join[j][0], b = p->join[j][1];
     if (thr_programme_terminal(p, j))
-      r->sum[j] += !inside[a] ? 0 : j >= p->first_end ? 1 : -1;
+      thr_pool_put(&r->pool, j, !inside[a] ? 0 : j >= p->first_end ? 1 : -1);
     else
-      r->sum[j] += inside[a] != inside[b];
+      thr_pool_put(&r->pool, j, inside[a] != inside[b]);
     for (int i = 0; i < 2 && j < p->first_pair; i++)
-      if (p->join[j][i] < p->q->n_darts) r->sum[j] += copy_side[p->join[j][i]] != pair_side[p->join[j][i]];
+      if (p->join[j][i] < p->q->n_darts) thr_pool_put(&r->pool, j, copy_side[p->join[j][i]] != pair_side[p->join[j][i]]);
   }
   if (found && !st) st = thr_relaxation_add_violated(r, 0, added, err);
   free(copy_side);
@@ -391,10 +358,8 @@ thr_status thr_relaxation_init(thr_relaxation *r, const thr_programme *p, int ex
 {
   *r = (thr_relaxation){.p = p, .extra = extra};
   r->x = thr_calloc((size_t)p->n + (size_t)extra, sizeof *r->x);
-  r->sum = thr_calloc((size_t)p->n + (size_t)extra, sizeof *r->sum);
-  r->low = thr_calloc((size_t)p->n, sizeof *r->low);
-  r->high = thr_calloc((size_t)p->n, sizeof *r->high);
-  thr_status st = r->x && r->sum && r->low && r->high ? THR_OK : thr_nomem(err);
+  thr_status st = r->x ? THR_OK : thr_nomem(err);
+  if (!st) st = thr_pool_init(&r->pool, p->n + extra, err);
   if (!st) st = create_equations(r, err);
   if (!st) st = add_cover_rows(r, err);
   if (!st && p->ties) st = thr_relaxation_tie_first(r, err);
@@ -407,14 +372,11 @@ thr_status thr_relaxation_init(thr_relaxation *r, const thr_programme *p, int ex
 void thr_relaxation_destroy(thr_relaxation *r)
 {
   thr_lp_destroy(r->lp);
-  thr_oddcut_pool_destroy(&r->pool);
+  thr_pool_destroy(&r->pool);
   thr_oddcut_graph_destroy(&r->graph);
   free((void *)r->problem.edge);
   free((void *)r->problem.odd);
   free(r->x);
-  free(r->low);
-  free(r->high);
-  free(r->sum);
   free(r->column);
   free(r->weight);
   free(r->surplus);
@@ -441,15 +403,8 @@ thr_status thr_relaxation_fix(thr_relaxation *r, double value, thr_err *err)
   const thr_programme *p = r->p;
   double scale = p->scale[r->aim];
   for (int j = 0; j < p->n; j++)
-    r->sum[j] = -p->cost[r->aim][j] / scale;
+    thr_pool_put(&r->pool, j, -p->cost[r->aim][j] / scale);
   return thr_relaxation_add_row(r, -(value - p->constant[r->aim]) / scale - slack, err);
-}
-
-thr_status thr_relaxation_bound(thr_relaxation *r, int column, double low, double high, thr_err *err)
-{
-  r->low[column] = low;
-  r->high[column] = high;
-  return thr_lp_set_bounds(r->lp, column, low, high, err);
 }
 
 thr_status thr_relaxation_solve(thr_relaxation *r, bool integer, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)

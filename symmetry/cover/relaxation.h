@@ -10,32 +10,30 @@ typedef struct {
   const thr_programme *p;
   int extra; /* columns after those of p, >= 0, in no row as yet and at no cost */
   thr_lp *lp;
-  thr_aim aim;        /* minimized at present */
-  bool circles;       /* circles count from now on: paths are, or were, minimized */
-  double *low, *high; /* [p->n] bounds in force */
-  double *x;          /* [p->n + extra] of the last solve */
-  double objective;   /* of the last solve, in the aim's unit, with its constant; rounded up to what a cover can have */
-  bool whole;         /* is x integral? */
+  thr_aim aim;      /* minimized at present */
+  bool circles;     /* circles count from now on: paths are, or were, minimized */
+  double *x;        /* [p->n + extra] of the last solve */
+  double objective; /* of the last solve, in the aim's unit, with its constant; rounded up to what a cover can have */
+  bool whole;       /* is x integral? */
   /* odd sets */
   thr_tjoin_problem problem;
   thr_oddcut_graph graph;
-  thr_oddcut_pool pool;
+  thr_pool pool;  /* the rows after the equations */
   int *column;    /* [problem.n_edges] that the edge stands for */
   double *metric; /* [problem.n_edges] overlap that it costs, in parts of the largest */
   bool *surplus;  /* [problem.n_edges] or rather for the surplus of its edge orbit over the cover? */
   double *weight; /* [problem.n_edges] scratch */
-  double *sum;    /* [p->n + extra] all 0: for the coefficients of a row */
 } thr_relaxation;
 
-/* With so many extra columns after the programme's (symmetry/cover/turning_bound.h). THR_ELIMIT: stopped; r is empty. */
+/* extra: columns for symmetry/cover/turning_bound.h. THR_ELIMIT: stopped; r is empty. */
 thr_status thr_relaxation_init(thr_relaxation *r, const thr_programme *p, int extra, const thr_limits *limits,
                                thr_err *err) THR_MUST_CHECK;
 void thr_relaxation_destroy(thr_relaxation *r);
 
-/* Adds the row r->sum * x >= lower and clears r->sum. */
+/* Adds the row that r->pool has put together, with this right side, to the pool and to the programme. */
 thr_status thr_relaxation_add_row(thr_relaxation *r, double lower, thr_err *err) THR_MUST_CHECK;
 
-/* The same if x violates it, counted in *added; else r->sum is cleared. */
+/* The same if x violates it and it is new, counted in *added. */
 thr_status thr_relaxation_add_violated(thr_relaxation *r, double lower, int *added, thr_err *err) THR_MUST_CHECK;
 
 /* In symmetry/cover/tie_rows.c, for tube joints. Between the b blocks of any partition of the tubes at a node there are b - 1
@@ -49,9 +47,6 @@ thr_status thr_relaxation_aim(thr_relaxation *r, thr_aim aim, thr_err *err) THR_
 
 /* Keeps the present aim at most at this value. */
 thr_status thr_relaxation_fix(thr_relaxation *r, double value, thr_err *err) THR_MUST_CHECK;
-
-/* Bounds on a column from now on. */
-thr_status thr_relaxation_bound(thr_relaxation *r, int column, double low, double high, thr_err *err) THR_MUST_CHECK;
 
 /* Solves with the present rows and bounds; integer: with whole columns only, by GLPK's own branch and bound. */
 thr_status thr_relaxation_solve(thr_relaxation *r, bool integer, const thr_limits *limits, thr_lp_outcome *outcome,

@@ -62,83 +62,6 @@ bool thr_search_beaten(const thr_search *s, thr_aim aim, double bound)
   return s->found && s->worth[aim] <= bound + thr_programme_tolerance(s->p, aim);
 }
 
-/* A node of the search tree: its parent's with other bounds on one column. */
-typedef struct {
-  int parent, column; /* the root: -1 */
-  double low, high, bound;
-} node;
-
-typedef struct {
-  node *node;
-  int n, capacity;
-  int *open; /* nodes still to be solved */
-  int n_open, open_capacity;
-  int at;     /* node whose bounds are in force */
-  int *chain; /* scratch */
-  int chain_capacity;
-} tree;
-
-static void tree_destroy(tree *t)
-{
-  free(t->node);
-  free(t->open);
-  free(t->chain);
-}
-
-static thr_status add_node(tree *t, node made, thr_err *err)
-{
-  thr_status st = thr_grow(&t->node, t->n, &t->capacity, sizeof *t->node, err);
-  if (!st) st = thr_grow(&t->open, t->n_open, &t->open_capacity, sizeof *t->open, err);
-  if (!st) st = thr_grow(&t->chain, t->n, &t->chain_capacity, sizeof *t->chain, err); /* no path is longer */
-  if (st) return st;
-  t->open[t->n_open++] = t->n;
-  t->node[t->n++] = made;
-  return THR_OK;
-}
-
-/* Puts the bounds of a node in force. */
-static thr_status move_to(thr_search *s, tree *t, int to, thr_err *err)
-{
-  thr_status st = THR_OK;
-  int n = 0;
-  for (int k = t->at; k > 0 && !st; k = t->node[k].parent) {
-    int j = t->node[k].column, most = s->p->most[j];
-    st = thr_relaxation_bound(&s->r, j, s->p->least[j], most < 0 ? (double)INFINITY : most, err);
-  }
-  for (int k = to; k > 0; k = t->node[k].parent)
-    t->chain[n++] = k;
-  while (n > 0 && !st) {
-    const node *b = &t->node[t->chain[--n]];
-    st = thr_relaxation_bound(&s->r, b->column, b->low, b->high, err);
-  }
-  t->at = to;
-  return st;
-}
-
-/* Two nodes instead of the present one; the one that is nearer to x comes first, the lower one if both are. */
-static thr_status split(thr_search *s, tree *t, thr_err *err)
-{
-  const thr_relaxation *r = &s->r;
-  int j = thr_relaxation_branch(r), at = t->at;
-  double whole = floor(r->x[j]);
-  node lower = {at, j, r->low[j], whole, r->objective}, upper = {at, j, whole + 1, r->high[j], r->objective};
-  bool up = r->x[j] - whole > 0.5 + 1e-6;
-  thr_status st = add_node(t, up ? lower : upper, err);
-  return st ? st : add_node(t, up ? upper : lower, err);
-}
-
-/* Takes the open node of least bound, the latest of several; -1: none is better than the best so far. */
-static int take(const thr_search *s, tree *t, thr_aim aim)
-{
-  int best = -1;
-  for (int i = 0; i < t->n_open; i++)
-    if (best < 0 || t->node[t->open[i]].bound <= t->node[t->open[best]].bound + 1e-9 * s->p->scale[aim]) best = i;
-  if (best < 0 || thr_search_beaten(s, aim, t->node[t->open[best]].bound)) return -1;
-  int taken = t->open[best];
-  memmove(&t->open[best], &t->open[best + 1], (size_t)(--t->n_open - best) * sizeof *t->open);
-  return taken;
-}
-
 /* Solves a node with all rows that its optima violate, integer: its whole ones. *open: it is to be branched on. THR_ELIMIT:
  * stopped. */
 static thr_status solve_node(thr_search *s, thr_aim aim, bool root, bool integer, bool *open, thr_err *err)
@@ -185,31 +108,77 @@ static thr_status prepare(thr_search *s, int number, thr_err *err)
   return st ? st : thr_relaxation_aim(&s->r, prefer[number], err);
 }
 
-/* Minimizes one aim by branch and cut, best bound first. THR_ELIMIT: stopped; the bounds on columns are as before in any case. */
+/* The search for the best value of one aim. */
+typedef struct {
+  thr_search *s;
+  thr_aim aim;
+  thr_tree tree;
+} aim_search;
+
+static double enough(const thr_search *s, thr_aim aim)
+{
+  return s->found ? s->worth[aim] - thr_programme_tolerance(s->p, aim) : INFINITY;
+}
+
+static thr_status set_bounds(void *user, int column, int low, int high, thr_err *err)
+{
+  aim_search *a = user;
+  return thr_lp_set_bounds(a->s->r.lp, column, low, high == THR_TREE_ANY ? (double)INFINITY : high, err);
+}
+
+/* A node's bound and its whole points; then the column to branch on, first towards the side that it is nearer to. */
+static thr_status solve(void *user, int i, thr_tree_branch *branch, thr_err *err)
+{
+  aim_search *a = user;
+  thr_search *s = a->s;
+  thr_tree_node *n = &a->tree.node[i];
+  const thr_relaxation *r = &s->r;
+  bool open;
+  s->bound[a->aim] = fmax(s->bound[a->aim], n->bound);
+  thr_status st = solve_node(s, a->aim, i == 0, false, &open, err);
+  if (!st && open && i == 0 && s->p->ties) st = solve_whole(s, a->aim, &open, err);
+  a->tree.enough = enough(s, a->aim);
+  if (st || !open) return st;
+  n->bound = r->objective;
+  branch->column = thr_relaxation_branch(r);
+  branch->value = (int)floor(r->x[branch->column]);
+  branch->high = r->x[branch->column] - branch->value > 0.5 + 1e-6;
+  return THR_OK;
+}
+
+static thr_status init_tree(aim_search *a, thr_err *err)
+{
+  const thr_programme *p = a->s->p;
+  int *most = thr_calloc((size_t)p->n, sizeof *most);
+  if (!most) return thr_nomem(err);
+  for (int j = 0; j < p->n; j++)
+    most[j] = p->most[j] < 0 ? THR_TREE_ANY : p->most[j];
+  thr_status st = thr_tree_init(&a->tree, p->n, p->least, most, err);
+  a->tree.grain = 1e-9 * p->scale[a->aim];
+  a->tree.enough = enough(a->s, a->aim);
+  free(most);
+  return st;
+}
+
+/* Minimizes one aim by branch and cut. THR_ELIMIT: stopped; the bounds on columns are as before in any case. */
 static thr_status minimize(thr_search *s, int number, thr_err *err)
 {
-  tree t = {0};
-  bool open;
-  thr_aim aim = s->p->o->prefer[number];
-  if (thr_search_beaten(s, aim, s->bound[aim])) return THR_OK;
+  aim_search a = {.s = s, .aim = s->p->o->prefer[number]};
+  const thr_tree_calls calls = {&a, s->limits, set_bounds, solve};
+  if (thr_search_beaten(s, a.aim, s->bound[a.aim])) return THR_OK;
   thr_status st = prepare(s, number, err);
-  if (!st) st = add_node(&t, (node){-1, -1, 0, 0, s->bound[aim]}, err);
-  for (int next; !st && (next = take(s, &t, aim)) >= 0;) {
-    s->bound[aim] = fmax(s->bound[aim], t.node[next].bound);
-    st = move_to(s, &t, next, err);
-    if (!st) st = solve_node(s, aim, next == 0, false, &open, err);
-    if (!st && open && next == 0 && s->p->ties) st = solve_whole(s, aim, &open, err);
-    if (!st && open) st = split(s, &t, err);
-  }
+  if (!st) st = init_tree(&a, err);
+  if (!st) st = thr_tree_run(&a.tree, &calls, err);
+  if (!st && a.tree.stopped) st = THR_ELIMIT;
   if (!st && !s->found)
     st = thr_fail(err, THR_EINFEASIBLE, "no threading with ends %s%s is symmetric under this group of order %d",
                   thr_ends_name(s->p->o->ends), s->p->o->tube ? " that ties every joint" : "", s->p->q->h->order);
-  if (!st) s->bound[aim] = s->worth[aim];
+  if (!st) s->bound[a.aim] = s->worth[a.aim];
   if (!st || st == THR_ELIMIT) {
-    thr_status moved = move_to(s, &t, 0, err);
+    thr_status moved = thr_tree_enter(&a.tree, &calls, 0, err);
     if (moved) st = moved;
   }
-  tree_destroy(&t);
+  thr_tree_destroy(&a.tree);
   return st;
 }
 

@@ -2,6 +2,7 @@
 #ifndef THR_SEARCH_H
 #define THR_SEARCH_H
 
+#include "lp/model/tree.h"
 #include "symmetry/cover/relaxation.h"
 
 typedef struct {

@@ -6,13 +6,13 @@
 
 enum { FEW = 8 }; /* tubes at a node up to which all sets of them are looked at */
 
-/* Coefficients of the row of these blocks; no column need count more than what is asked for. */
-static void gather(thr_relaxation *r, int star, const int *block, int blocks)
+/* Puts the row of these blocks; no column need count more than what is asked for. */
+static void put_blocks(thr_relaxation *r, int star, const int *block, int blocks)
 {
   const thr_ties *t = r->p->ties;
   for (int i = t->first[star]; i < t->first[star + 1]; i++) {
     int y = t->pair[i], turns = thr_ties_between(t, y, block);
-    r->sum[r->p->first_pair + y] = turns < blocks - 1 ? turns : blocks - 1;
+    thr_pool_put(&r->pool, r->p->first_pair + y, turns < blocks - 1 ? turns : blocks - 1);
   }
 }
 
@@ -25,7 +25,7 @@ thr_status thr_relaxation_tie_first(thr_relaxation *r, thr_err *err)
   for (int i = 0; i < t->most; i++)
     block[i] = i;
   for (int i = 0; i < t->n && !st; i++) {
-    gather(r, i, block, t->degree[i]);
+    put_blocks(r, i, block, t->degree[i]);
     st = thr_relaxation_add_row(r, t->degree[i] - 1, err);
   }
   free(block);
@@ -62,11 +62,11 @@ static thr_status tie_star(thr_relaxation *r, int star, int *block, int *best, i
   for (size_t k = 0; k < sizeof threshold / sizeof *threshold && *added == before && !st; k++) {
     int blocks = thr_ties_blocks(t, star, r->x + r->p->first_pair, threshold[k], block);
     if (blocks < 2) continue;
-    gather(r, star, block, blocks);
+    put_blocks(r, star, block, blocks);
     st = thr_relaxation_add_violated(r, blocks - 1, added, err);
   }
   if (st || *added > before || r->whole || t->degree[star] > FEW || !find_cut(r, star, block, best)) return st;
-  gather(r, star, best, 2);
+  put_blocks(r, star, best, 2);
   return thr_relaxation_add_violated(r, 1, added, err);
 }
 

@@ -367,10 +367,10 @@ static thr_status add_cut(master *m, int i, const int *first, const int *copy, t
   int d = m->c->becomes[m->type[m->first_type[i]]], self = self_column(m, d);
   for (int k = m->first_type[i]; k < m->first_type[i + 1]; k++)
     for (int l = first[m->type[k]]; l < first[m->type[k] + 1]; l++)
-      m->r->sum[copy[l] / 2] -= m->shift[m->type[k]] / scale;
-  m->r->sum[small->first_end + d] -= mu.ends / scale;
-  if (self >= 0) m->r->sum[self] -= mu.self / scale;
-  m->r->sum[small->n + d] = 1;
+      thr_pool_put(&m->r->pool, copy[l] / 2, -m->shift[m->type[k]] / scale);
+  thr_pool_put(&m->r->pool, small->first_end + d, -mu.ends / scale);
+  if (self >= 0) thr_pool_put(&m->r->pool, self, -mu.self / scale);
+  thr_pool_put(&m->r->pool, small->n + d, 1);
   return thr_relaxation_add_row(m->r, 0, err);
 }
 

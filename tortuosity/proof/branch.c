@@ -45,7 +45,7 @@ void thr_branch_destroy(thr_branch *b)
   for (int i = 0; i < b->n_duals; i++)
     thr_turning_dual_destroy(&b->dual[i]);
   free(b->dual);
-  free(b->node);
+  thr_tree_destroy(&b->tree);
   free(b->passes);
   free(b->ends);
   free(b->whole);
@@ -98,45 +98,17 @@ static int most_fractional(const thr_branch *b)
 
 /* ---- nodes ---- */
 
-static thr_status new_node(thr_branch *b, thr_branch_node node, int *index, thr_err *err)
-{
-  thr_status st = thr_grow(&b->node, b->n_nodes, &b->nodes_capacity, sizeof *b->node, err);
-  if (st) return st;
-  *index = b->n_nodes;
-  b->node[b->n_nodes++] = node;
-  return THR_OK;
-}
-
-/* Puts the bounds of a node's branches on the relaxation. */
-static thr_status enter(thr_branch *b, int i, thr_err *err)
-{
-  const thr_turning_columns *c = b->c;
-  thr_status st = THR_OK;
-  int *low = thr_calloc((size_t)c->n_columns, sizeof *low), *high = b->whole;
-  if (!low) return thr_nomem(err);
-  for (int k = 0; k < c->n_columns; k++)
-    high[k] = thr_turning_most(c, k);
-  for (; b->node[i].parent >= 0; i = b->node[i].parent) {
-    const thr_branch_node *n = &b->node[i];
-    if (n->high && n->value + 1 > low[n->column]) low[n->column] = n->value + 1;
-    if (!n->high && n->value < high[n->column]) high[n->column] = n->value;
-  }
-  for (int k = 0; k < c->n_columns && !st; k++)
-    st = thr_relax_set(&b->relax, k, low[k], high[k], err);
-  free(low);
-  return st;
-}
-
 /* Takes multipliers over, for node i if they prove more than it has. */
 static thr_status keep_dual(thr_branch *b, int i, thr_turning_dual d, const int *low, const int *high, thr_err *err)
 {
   int64_t bound;
   thr_status st = thr_turning_dual_bound(b->c, &d, low, high, &bound, err);
-  if (!st && (b->node[i].dual < 0 || bound > b->node[i].bound)) {
+  thr_tree_node *n = &b->tree.node[i];
+  if (!st && (n->proof < 0 || (double)bound > n->bound)) {
     st = thr_grow(&b->dual, b->n_duals, &b->duals_capacity, sizeof *b->dual, err);
     if (!st) {
-      b->node[i].bound = bound;
-      b->node[i].dual = b->n_duals;
+      n->bound = (double)bound;
+      n->proof = b->n_duals;
       b->dual[b->n_duals++] = d;
       return THR_OK;
     }
@@ -150,12 +122,18 @@ static thr_status certify(thr_branch *b, int i, thr_err *err)
 {
   thr_turning_dual d;
   thr_status st = thr_relax_dual(&b->relax, &d, err);
-  return st ? st : keep_dual(b, i, d, b->relax.low, b->relax.high, err);
+  return st ? st : keep_dual(b, i, d, b->tree.low, b->tree.high, err);
+}
+
+/* A node of this bound is closed. */
+static double enough(const thr_branch *b)
+{
+  return b->found ? (double)(b->best_price - thr_branch_tolerance(b)) : INFINITY;
 }
 
 static bool closed(const thr_branch *b, int i)
 {
-  return b->node[i].bound >= b->best_price - thr_branch_tolerance(b);
+  return b->tree.node[i].bound >= enough(b);
 }
 
 static int largest_degree(const thr_frame *f)
@@ -185,26 +163,36 @@ static thr_status climb(thr_branch *b, int root, thr_err *err)
   return st;
 }
 
+static thr_status init_tree(thr_branch *b, thr_err *err)
+{
+  size_t n = (size_t)b->c->n_columns;
+  int *least = thr_calloc(n, sizeof *least);
+  if (!least) return thr_nomem(err);
+  for (size_t k = 0; k < n; k++)
+    b->whole[k] = thr_turning_most(b->c, (int)k);
+  thr_status st = thr_tree_init(&b->tree, b->c->n_columns, least, b->whole, err);
+  b->tree.most_nodes = b->most_nodes;
+  free(least);
+  return st;
+}
+
 thr_status thr_branch_begin(thr_branch *b, thr_err *err)
 {
   thr_turning_dual d;
-  int root;
-  thr_status st = new_node(b, (thr_branch_node){.parent = -1, .bound = INT64_MIN, .dual = -1, .open = true}, &root, err);
+  thr_status st = init_tree(b, err);
   if (st || b->c->task->free_turns || b->c->task->tube) return st;
   const thr_limits some = thr_limits_part(b->limits, 0.2);
   st = thr_nodes_bound(b->c, &some, &d, err);
-  return st ? st : keep_dual(b, root, d, NULL, NULL, err);
+  return st ? st : keep_dual(b, 0, d, NULL, NULL, err);
 }
 
 /* Where every open node's bound is above the best price, or none is open, that price is the bound: a plan has it. */
 static void report(const thr_branch *b)
 {
   if (!b->limits->progress) return;
-  int64_t least = b->best_price;
-  for (int i = 0; i < b->n_nodes; i++)
-    if (b->node[i].open && b->node[i].bound < least) least = b->node[i].bound;
+  double least = fmin((double)b->best_price, thr_tree_bound(&b->tree));
   b->limits->progress(b->limits->user, "turning", ldexp((double)b->best_price, -THR_TURNING_BITS),
-                      ldexp((double)least, -THR_TURNING_BITS));
+                      ldexp(least, -THR_TURNING_BITS));
 }
 
 /* Rounds of rows until none is violated, the bound is good enough, or rounds stop paying. */
@@ -220,13 +208,13 @@ static thr_status solve_node(thr_branch *b, int i, const thr_limits *limits, thr
     bool whole = b->relax.solved && b->relax.artificial < integral && most_fractional(b) < 0;
     if ((st = whole ? thr_branch_try_whole(b, err) : b->relax.solved ? thr_branch_try_rounded(b, err) : THR_OK)) return st;
     double target = ldexp((double)(b->best_price - thr_branch_tolerance(b)), -THR_TURNING_BITS);
-    if (!b->relax.solved) b->stopped = true;
-    if (b->relax.objective >= target || b->stopped) break;
+    if (!b->relax.solved) b->tree.stopped = true;
+    if (b->relax.objective >= target || b->tree.stopped) break;
     idle = b->relax.objective > risen + 1e-3 * (target - risen) ? 0 : idle + 1;
     if (idle == 0) risen = b->relax.objective;
     if (idle > PATIENCE && !whole) break;
     if ((st = thr_relax_separate(&b->relax, limits, &added, err))) return st;
-    b->stopped |= thr_limits_stop(limits);
+    b->tree.stopped |= thr_limits_stop(limits);
   }
   return certify(b, i, err);
 }
@@ -239,53 +227,35 @@ static thr_status solve_tied_root(thr_branch *b, int i, thr_err *err)
   bool large = b->c->first_extra > LARGE, unsolved = large;
   thr_limits some = thr_limits_part(b->limits, 0.4);
   thr_status st = large ? THR_OK : solve_node(b, i, &some, err);
-  unsolved |= b->stopped;
+  unsolved |= b->tree.stopped;
   if (st || closed(b, i)) return st;
   some = thr_limits_part(b->limits, large ? 0.9 : 0.6);
   if (b->found) st = thr_branch_anneal(b, &some, ROUNDS, err);
-  b->stopped = thr_limits_stop(b->limits);
-  return st || !unsolved || b->stopped || closed(b, i) ? st : solve_node(b, i, b->limits, err);
+  b->tree.stopped = thr_limits_stop(b->limits);
+  return st || !unsolved || b->tree.stopped || closed(b, i) ? st : solve_node(b, i, b->limits, err);
 }
 
-static thr_status split(thr_branch *b, int i, thr_err *err)
+static thr_status set_bounds(void *user, int column, int low, int high, thr_err *err)
 {
-  int k = most_fractional(b), child[2];
-  if (k < 0) return THR_OK;
-  if (b->n_nodes + 2 > b->most_nodes) {
-    b->stopped = true;
-    return THR_OK;
-  }
-  int value = (int)floor(b->relax.x[k]);
-  for (int side = 0; side < 2; side++) {
-    thr_branch_node n = {.parent = i,
-                         .depth = b->node[i].depth + 1,
-                         .column = k,
-                         .value = value,
-                         .high = side == 1,
-                         .bound = b->node[i].bound,
-                         .dual = b->node[i].dual,
-                         .open = true};
-    thr_status st = new_node(b, n, &child[side], err);
-    if (st) return st;
-  }
-  b->node[i].low_child = child[0];
-  b->node[i].high_child = child[1];
-  b->node[i].branched = k;
-  b->node[i].branch_value = value;
-  return THR_OK;
+  thr_branch *b = user;
+  return thr_relax_set(&b->relax, column, low, high, err);
 }
 
-/* The open node of least bound, the deepest of equals; -1 if every open node is closed by its bound. */
-static int next_node(const thr_branch *b)
+/* A node's bound and plans; then the column to branch on. */
+static thr_status solve(void *user, int i, thr_tree_branch *branch, thr_err *err)
 {
-  int best = -1;
-  for (int i = 0; i < b->n_nodes; i++) {
-    const thr_branch_node *n = &b->node[i];
-    if (!n->open || (n->dual >= 0 && closed(b, i))) continue;
-    if (best < 0 || n->bound < b->node[best].bound || (n->bound == b->node[best].bound && n->depth > b->node[best].depth))
-      best = i;
-  }
-  return best;
+  thr_branch *b = user;
+  const thr_turning_task *t = b->c->task;
+  bool root = i == 0, tied_root = root && t->tube && !t->free_turns;
+  thr_status st = tied_root ? solve_tied_root(b, i, err) : solve_node(b, i, b->limits, err);
+  if (st) return st;
+  report(b);
+  if (root && b->found && !t->tube && !b->tree.stopped && !closed(b, i))
+    st = thr_cycles_improve(b, (int)fmin(2000, 1e6 / b->c->f->n_edges), err);
+  b->tree.enough = enough(b);
+  branch->column = most_fractional(b);
+  if (branch->column >= 0) branch->value = (int)floor(b->relax.x[branch->column]);
+  return st;
 }
 
 static double covers(const thr_turning_columns *c)
@@ -300,7 +270,7 @@ static double covers(const thr_turning_columns *c)
 static thr_status settle_for_bound(thr_branch *b, bool tied, thr_err *err)
 {
   thr_status st = tied ? climb(b, 0, err) : THR_OK;
-  b->stopped = true;
+  b->tree.stopped = true;
   return st;
 }
 
@@ -310,79 +280,72 @@ thr_status thr_branch_run(thr_branch *b, thr_err *err)
   bool tied = b->c->task->tube && !b->c->task->free_turns;
   double penalty = 10 + (b->found ? ldexp((double)b->best_price, -THR_TURNING_BITS) : 10 * covers(b->c));
   if (!b->c->task->free_turns) penalty += 2 * b->c->task->price_per_length * thr_frame_total_length(b->c->f);
-  thr_status st = b->n_nodes ? THR_OK : thr_branch_begin(b, err);
+  thr_status st = b->tree.n_nodes ? THR_OK : thr_branch_begin(b, err);
   if (!st && b->dense) return settle_for_bound(b, tied, err);
   if (!st && !b->projected && !b->c->task->free_turns && b->found && !tied && closed(b, root)) return THR_OK;
   if (!st) st = thr_relax_init(&b->relax, b->c, b->projected, penalty, b->limits, err);
   if (!st && tied) st = climb(b, root, err);
-  for (int i; !st && !b->stopped && (i = next_node(b)) >= 0;) {
-    st = enter(b, i, err);
-    if (!st) st = i == root && tied ? solve_tied_root(b, i, err) : solve_node(b, i, b->limits, err);
-    if (st) break;
-    report(b);
-    if (b->stopped) break;
-    b->node[i].open = false;
-    if (i == root && b->found && !b->c->task->tube && !closed(b, i))
-      st = thr_cycles_improve(b, (int)fmin(2000, 1e6 / b->c->f->n_edges), err);
-    if (!st && !closed(b, i)) st = split(b, i, err);
-  }
-  return st;
+  const thr_tree_calls calls = {b, NULL, set_bounds, solve};
+  b->tree.enough = enough(b);
+  return st ? st : thr_tree_run(&b->tree, &calls, err);
 }
 
 /* What the proof is to prove: what closes the search, or what all leaves prove but a thousandth of the gap, for which very many
  * leaves may be left out where the bound hardly rises. */
-static int64_t worth_proving(const thr_branch *b)
+static double worth_proving(const thr_branch *b)
 {
-  int64_t target = b->found ? b->best_price - thr_branch_tolerance(b) : INT64_MAX, least = target;
-  for (int i = 0; i < b->n_nodes; i++)
-    if (!b->node[i].low_child && b->node[i].bound < least) least = b->node[i].bound;
+  double target = enough(b), least = target;
+  for (int i = 0; i < b->tree.n_nodes; i++)
+    if (!b->tree.node[i].child[0]) least = fmin(least, b->tree.node[i].bound);
   return least - (b->found ? (target - least) / 1000 : 0);
 }
 
 /* place[i]: number of node i in the proof, -1 = not needed, because a node above it proves enough. */
-static int place_nodes(const thr_branch *b, int64_t enough, int *place)
+static int place_nodes(const thr_tree *t, double enough, int *place)
 {
   int n = 0;
-  for (int i = 0; i < b->n_nodes; i++) {
-    int above = b->node[i].parent;
-    bool needed = above < 0 || (place[above] >= 0 && b->node[above].bound < enough);
+  for (int i = 0; i < t->n_nodes; i++) {
+    int above = t->node[i].parent;
+    bool needed = above < 0 || (place[above] >= 0 && t->node[above].bound < enough);
     place[i] = needed ? n++ : -1;
   }
   return n;
 }
 
-static thr_turning_node proof_node(const thr_branch *b, const thr_branch_node *n, const int *place)
+static thr_turning_node proof_node(const thr_branch *b, const thr_tree_node *n, const int *place)
 {
-  return (thr_turning_node){.low = place[n->low_child],
-                            .high = place[n->high_child],
-                            .a = b->c->half[n->branched][0],
-                            .b = b->c->half[n->branched][1],
-                            .value = n->branch_value,
+  const thr_tree_node *child = &b->tree.node[n->child[0]];
+  return (thr_turning_node){.low = place[n->child[0]],
+                            .high = place[n->child[1]],
+                            .a = b->c->half[child->column][0],
+                            .b = b->c->half[child->column][1],
+                            .value = child->value,
                             .dual = -1};
 }
 
 thr_status thr_branch_proof(thr_branch *b, thr_turning_proof *p, thr_err *err)
 {
   *p = (thr_turning_proof){.n_ends = b->c->n_ends};
-  p->node = thr_calloc((size_t)b->n_nodes, sizeof *p->node);
+  const thr_tree *t = &b->tree;
+  p->node = thr_calloc((size_t)t->n_nodes, sizeof *p->node);
   p->dual = thr_calloc((size_t)b->n_duals, sizeof *p->dual);
-  int *moved = thr_calloc((size_t)b->n_duals, sizeof *moved), *place = thr_calloc((size_t)b->n_nodes, sizeof *place);
+  int *moved = thr_calloc((size_t)b->n_duals, sizeof *moved), *place = thr_calloc((size_t)t->n_nodes, sizeof *place);
   thr_status st = p->node && p->dual && moved && place ? THR_OK : thr_nomem(err);
-  int64_t enough = worth_proving(b);
-  if (!st) p->n_nodes = place_nodes(b, enough, place);
-  for (int i = 0; i < b->n_nodes && !st; i++) {
-    const thr_branch_node *n = &b->node[i];
+  double needed = worth_proving(b);
+  if (!st) p->n_nodes = place_nodes(t, needed, place);
+  for (int i = 0; i < t->n_nodes && !st; i++) {
+    const thr_tree_node *n = &t->node[i];
     if (place[i] < 0) continue;
-    if (n->low_child && n->bound < enough) {
+    if (n->child[0] && n->bound < needed) {
       p->node[place[i]] = proof_node(b, n, place);
       continue;
     }
-    if (!moved[n->dual]) {
-      p->dual[p->n_duals] = b->dual[n->dual];
-      b->dual[n->dual] = (thr_turning_dual){0};
-      moved[n->dual] = ++p->n_duals;
+    if (!moved[n->proof]) {
+      p->dual[p->n_duals] = b->dual[n->proof];
+      b->dual[n->proof] = (thr_turning_dual){0};
+      moved[n->proof] = ++p->n_duals;
     }
-    p->node[place[i]] = (thr_turning_node){.dual = moved[n->dual] - 1};
+    p->node[place[i]] = (thr_turning_node){.dual = moved[n->proof] - 1};
   }
   free(moved);
   free(place);

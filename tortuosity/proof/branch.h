@@ -2,27 +2,16 @@
 #ifndef THR_BRANCH_H
 #define THR_BRANCH_H
 
+#include "lp/model/tree.h"
 #include "tortuosity/cords/join.h"
 #include "tortuosity/proof/relax.h"
-
-typedef struct {
-  int parent, depth;
-  int column, value; /* how this node differs from its parent: column <= value, or >= value + 1 if high */
-  bool high;
-  int low_child, high_child; /* 0 = none */
-  int branched;              /* column that the children differ in */
-  int branch_value;
-  int64_t bound; /* of its own multipliers, or of its parent's */
-  int dual;      /* index of the multipliers that prove it, -1 = none */
-  bool open;     /* still to be solved */
-} thr_branch_node;
 
 typedef struct {
   const thr_turning_columns *c;
   const thr_limits *limits;
   thr_relax relax;
-  int n_nodes, nodes_capacity, most_nodes;
-  thr_branch_node *node;
+  thr_tree tree; /* bounds in units of 2^-THR_TURNING_BITS, proved by the dual of that number; empty before thr_branch_begin */
+  int most_nodes;
   int n_duals, duals_capacity;
   thr_turning_dual *dual;
   bool several;   /* closed cords in a component */
@@ -37,8 +26,7 @@ typedef struct {
   int *passes, *ends, *whole; /* scratch */
   double *weight, *end_weight;
   int rounds;
-  bool stopped; /* by limits or size */
-  bool dense;   /* so many turns that there is no programme of them */
+  bool dense; /* so many turns that there is no programme of them */
 } thr_branch;
 
 thr_status thr_branch_init(thr_branch *b, const thr_turning_columns *c, int most_nodes, const thr_limits *limits,

@@ -46,10 +46,9 @@ thr_status thr_groups_support(const thr_groups_call *g, double threshold, int *a
     list[start[thr_disjoint_find(parent, e) + 1]++] = e;
   for (int e = 0; e < m && !st; e++) {
     int k = c->component[c->f->edge[e][0]];
-    bool used, alone = pieces[k] == 1;
+    bool alone = pieces[k] == 1;
     if (thr_disjoint_find(parent, e) != e || alone) continue;
-    st = g->add(g->user, list + start[e], start[e + 1] - start[e], &used, err);
-    *added += !st && used;
+    st = g->add(g->user, list + start[e], start[e + 1] - start[e], added, err);
   }
   free(parent);
   free(start);
@@ -171,7 +170,6 @@ static thr_status separate_from(network *w, const thr_groups_call *g, int t, int
 {
   double total = 0;
   int reached = 0, n = 0;
-  bool used;
   memset(w->flow, 0, (size_t)w->m * sizeof *w->flow);
   while (total < 2 - tolerance) {
     if (!reach(w, t, root, &reached)) break;
@@ -185,9 +183,7 @@ static thr_status separate_from(network *w, const thr_groups_call *g, int t, int
       v = w->next[v];
     } while (v != w->queue[i]);
   }
-  thr_status st = g->add(g->user, w->list, n, &used, err);
-  *added += !st && used;
-  return st;
+  return g->add(g->user, w->list, n, added, err);
 }
 
 thr_status thr_groups_flow(const thr_groups_call *g, int *added, thr_err *err)

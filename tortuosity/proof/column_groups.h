@@ -4,11 +4,11 @@
 
 #include "graph/plan/turning_proof.h"
 
-/* add is told of each group found (n edges); it says whether it was violated and used. */
+/* add is told of each group found (n edges); *added grows if it was violated and used. */
 typedef struct {
   const thr_turning_columns *c;
   const double *x; /* [n_columns] */
-  thr_status (*add)(void *user, const int *edge, int n, bool *used, thr_err *err);
+  thr_status (*add)(void *user, const int *edge, int n, int *added, thr_err *err);
   void *user;
 } thr_groups_call;
 

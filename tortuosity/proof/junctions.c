@@ -93,13 +93,11 @@ thr_status thr_junctions_separate(thr_relax *r, int *added, thr_err *err)
   thr_status st = between && block ? THR_OK : thr_nomem(err);
   for (int v = 0; v < f->n_nodes && !st; v++) {
     int d = thr_degree(f, v), blocks = 0;
-    bool used = false;
     for (int i = 0; i < d; i++)
       for (int k = i + 1; k < d; k++)
         between[i * d + k] = r->x[thr_turning_column(c, f->half[f->first[v] + i], f->half[f->first[v] + k])];
     if (d > 1) st = find_worst(d, between, block, &blocks, err);
-    if (!st && blocks > 1) st = thr_relax_add_junction(r, v, block, blocks, &used, err);
-    *added += used;
+    if (!st && blocks > 1) st = thr_relax_add_junction(r, v, block, blocks, added, err);
   }
   free(between);
   free(block);

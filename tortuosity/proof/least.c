@@ -177,7 +177,7 @@ thr_status thr_least_cords(const thr_frame *f, const thr_join *j, thr_least *out
 static const char *why_open(const thr_branch *b)
 {
   if (b->dense) return "too many turns for a linear programme, so the bound is that of the nodes by themselves";
-  if (b->stopped) return "stopped early";
+  if (b->tree.stopped) return "stopped early";
   return b->several ? "what it costs to have no fewer cords is not part of the bound" : "rounding left a gap";
 }
 

@@ -124,14 +124,11 @@ static int by_regret(const void *pa, const void *pb)
 static thr_status offer(splitter *s, int *added, bool *more, thr_err *err)
 {
   int m = s->r->c->f->n_edges, n = 0;
-  bool used = false;
   for (int e = 0; e < m; e++)
     s->block[e] = thr_disjoint_find(s->parent, e) == e ? n++ : s->block[thr_disjoint_find(s->parent, e)];
   int connections = thr_turning_connections(s->r->c, s->block, s->scratch);
   *more = connections > 0;
-  thr_status st = *more ? thr_relax_add_partition(s->r, s->block, connections, &used, err) : THR_OK;
-  *added += !st && used;
-  return st;
+  return *more ? thr_relax_add_partition(s->r, s->block, connections, added, err) : THR_OK;
 }
 
 static void make_whole(splitter *s, int v)

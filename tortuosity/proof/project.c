@@ -5,112 +5,57 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double tolerance = 1e-6;
-
-/* A row: sum value[i] * x[column[i]] >= lower. */
-typedef struct {
-  int n, *column;
-  double *value, lower;
-} row;
-
-static void row_destroy(row *w)
+/* Puts passes less ends of half-edge h, times sign; returns what the passes that must be are of it. */
+static int put_half(thr_relax *r, int h, int sign)
 {
-  free(w->column);
-  free(w->value);
+  const thr_turning_columns *c = r->c;
+  thr_pool_put(&r->pool, h >> 1, sign);
+  if (c->end_column[h] >= 0) thr_pool_put(&r->pool, c->end_column[h] - c->first_extra, -sign);
+  return sign * c->cover[h >> 1];
 }
 
-/* Room for any row. */
-static thr_status row_init(row *w, const thr_turning_columns *c, thr_err *err)
-{
-  size_t most = 1 + (size_t)(c->first_back - c->first_extra);
-  *w = (row){.column = thr_calloc(most, sizeof *w->column), .value = thr_calloc(most, sizeof *w->value)};
-  if (w->column && w->value) return THR_OK;
-  row_destroy(w);
-  return thr_nomem(err);
-}
-
-static void put(row *w, int column, double value)
-{
-  w->column[w->n] = column;
-  w->value[w->n++] = value;
-}
-
-/* Passes less ends of half-edge h, times sign. */
-static void put_half(row *w, const thr_turning_columns *c, int h, int sign)
-{
-  put(w, c->first_extra + (h >> 1), sign);
-  if (c->end_column[h] >= 0) put(w, c->end_column[h], -sign);
-  w->lower -= sign * c->cover[h >> 1];
-}
-
-static void fill_row(row *w, const thr_relax *r, thr_relax_cut cut)
+/* Puts the row of that kind and index together; returns its right side. */
+static int put_row(thr_relax *r, thr_relax_kind kind, int k)
 {
   const thr_turning_columns *c = r->c;
   const thr_frame *f = c->f;
-  int k = cut.index, v = cut.kind == THR_RELAX_SUM ? k : cut.kind == THR_RELAX_SIDE ? thr_tail(f, k) : -1;
-  w->n = 0;
-  w->lower = cut.kind == THR_RELAX_SUM ? 2 * (thr_degree(f, v) - 1) : cut.kind == THR_RELAX_USE || cut.kind == THR_RELAX_ODD;
+  int v = kind == THR_RELAX_SUM ? k : kind == THR_RELAX_SIDE ? thr_tail(f, k) : -1, sign = kind == THR_RELAX_MOST ? -1 : 1;
+  int lower = kind == THR_RELAX_SUM ? 2 * (thr_degree(f, v) - 1) : kind == THR_RELAX_USE;
   for (int i = v < 0 ? 0 : f->first[v]; v >= 0 && i < f->first[v + 1]; i++)
-    put_half(w, c, f->half[i], cut.kind == THR_RELAX_SIDE && f->half[i] == k ? -1 : 1);
-  if (cut.kind == THR_RELAX_USE) put_half(w, c, k, 1);
-  if (cut.kind == THR_RELAX_LEAST || cut.kind == THR_RELAX_MOST) {
-    int sign = cut.kind == THR_RELAX_LEAST ? 1 : -1;
-    w->lower = sign * c->supply[k][cut.kind == THR_RELAX_MOST];
-    for (int j = c->first_end; j < c->first_back; j++)
-      if (c->end_group[thr_tail(f, c->half[j][0])] == k) put(w, j, sign);
-  }
-  if (cut.kind == THR_RELAX_ODD)
-    for (int i = 0; i < r->pool.cut[k].n_edges; i++)
-      put(w, c->first_extra + r->pool.cut[k].edge[i], 1);
+    lower -= put_half(r, f->half[i], kind == THR_RELAX_SIDE && f->half[i] == k ? -1 : 1);
+  if (kind == THR_RELAX_USE) lower -= put_half(r, k, 1);
+  if (kind != THR_RELAX_LEAST && kind != THR_RELAX_MOST) return lower;
+  for (int j = c->first_end; j < c->first_back; j++)
+    if (c->end_group[thr_tail(f, c->half[j][0])] == k) thr_pool_put(&r->pool, j - c->first_extra, sign);
+  return sign * c->supply[k][kind == THR_RELAX_MOST];
 }
 
-static double excess(const row *w, const double *x)
+/* Adds the row of that kind and index. */
+static thr_status add_row(thr_relax *r, thr_relax_kind kind, int k, thr_err *err)
 {
-  double sum = -w->lower;
-  for (int i = 0; i < w->n; i++)
-    sum += w->value[i] * x[w->column[i]];
-  return sum;
+  int lower = put_row(r, kind, k);
+  return thr_pool_add(&r->pool, (thr_row){.kind = (int)kind, .index = k, .lower = lower}, err);
 }
 
-/* Adds the row to the programme, whose columns are the extra passes, the ends, and the artificial one. */
-static thr_status add_row(thr_relax *r, row *w, thr_relax_cut cut, thr_err *err)
+/* The same if x violates it. */
+static thr_status offer_row(thr_relax *r, thr_relax_kind kind, int k, int *added, thr_err *err)
 {
-  const int first = r->c->first_extra;
-  thr_status st = thr_grow(&r->cut, r->n_cuts, &r->cuts_capacity, sizeof *r->cut, err);
-  if (st) return st;
-  for (int i = 0; i < w->n; i++)
-    w->column[i] -= first;
-  put(w, r->c->first_back - first, 1);
-  st = thr_lp_add_row(r->lp, w->n, w->column, w->value, w->lower, err);
-  if (!st) r->cut[r->n_cuts++] = cut;
-  return st;
-}
-
-/* Adds it if x violates it; with always set, in any case. */
-static thr_status consider(thr_relax *r, row *w, thr_relax_cut cut, bool always, int *added, thr_err *err)
-{
-  fill_row(w, r, cut);
-  if (!always && excess(w, r->x) > -tolerance) return THR_OK;
-  ++*added;
-  return add_row(r, w, cut, err);
+  const double tolerance = 1e-6, *x = r->x + r->c->first_extra;
+  int lower = put_row(r, kind, k);
+  return thr_pool_offer(&r->pool, (thr_row){.kind = (int)kind, .index = k, .lower = lower}, x, tolerance, added, err);
 }
 
 /* The rows to begin with: of every node, of the edges at nodes with no more than two. Those of the ends come later: what ends
  * cost is known only from the other rows, and until then the simplex method tries them one after the other. */
 static thr_status first_rows(thr_relax *r, thr_err *err)
 {
-  const thr_turning_columns *c = r->c;
-  const thr_frame *f = c->f;
-  row w;
-  int added = 0;
-  thr_status st = row_init(&w, c, err);
-  if (st) return st;
+  const thr_frame *f = r->c->f;
+  thr_status st = THR_OK;
   for (int v = 0; v < f->n_nodes && !st; v++) {
-    st = consider(r, &w, (thr_relax_cut){THR_RELAX_SUM, v}, true, &added, err);
+    st = add_row(r, THR_RELAX_SUM, v, err);
     for (int i = f->first[v]; i < f->first[v + 1] && thr_degree(f, v) <= 2 && !st; i++)
-      st = consider(r, &w, (thr_relax_cut){THR_RELAX_SIDE, f->half[i]}, true, &added, err);
+      st = add_row(r, THR_RELAX_SIDE, f->half[i], err);
   }
-  row_destroy(&w);
   return st;
 }
 
@@ -155,86 +100,39 @@ thr_status thr_project_graph(thr_relax *r, thr_err *err)
   return thr_oddcut_graph_init(&r->graph, &r->problem, err);
 }
 
-thr_status thr_project_reduce(thr_relax *r, thr_err *err)
-{
-  const thr_turning_columns *c = r->c;
-  row w;
-  thr_status st = row_init(&w, c, err);
-  if (st) return st;
-  for (int j = c->first_extra; j < c->first_back; j++)
-    r->reduced[j] = ldexp((double)c->weight[j], -THR_TURNING_BITS);
-  for (int i = 0; i < r->n_cuts; i++) {
-    if (r->dual[i] == 0) continue;
-    fill_row(&w, r, r->cut[i]);
-    for (int k = 0; k < w.n; k++)
-      r->reduced[w.column[k]] -= r->dual[i] * w.value[k];
-  }
-  row_destroy(&w);
-  return THR_OK;
-}
-
 /* ---- separation ---- */
 
 /* Rows of the edges at their nodes. */
-static thr_status separate_sides(thr_relax *r, row *w, int *added, thr_err *err)
+static thr_status separate_sides(thr_relax *r, int *added, thr_err *err)
 {
   const thr_frame *f = r->c->f;
   thr_status st = THR_OK;
   for (int h = 0; h < 2 * f->n_edges && !st; h++) {
     int d = thr_degree(f, thr_tail(f, h));
-    if (d > 2) st = consider(r, w, (thr_relax_cut){THR_RELAX_SIDE, h}, false, added, err);
-    if (!st && d > 1 && r->c->end_column[h] >= 0) st = consider(r, w, (thr_relax_cut){THR_RELAX_USE, h}, false, added, err);
+    if (d > 2) st = offer_row(r, THR_RELAX_SIDE, h, added, err);
+    if (!st && d > 1 && r->c->end_column[h] >= 0) st = offer_row(r, THR_RELAX_USE, h, added, err);
   }
   return st;
 }
 
 /* Rows of the numbers of ends. */
-static thr_status separate_ends(thr_relax *r, row *w, int *added, thr_err *err)
+static thr_status separate_ends(thr_relax *r, int *added, thr_err *err)
 {
   thr_status st = THR_OK;
   for (int k = 0; k < r->c->n_ends && r->c->task->end_allowed && !st; k++) {
-    st = consider(r, w, (thr_relax_cut){THR_RELAX_LEAST, k}, false, added, err);
-    if (!st) st = consider(r, w, (thr_relax_cut){THR_RELAX_MOST, k}, false, added, err);
+    st = offer_row(r, THR_RELAX_LEAST, k, added, err);
+    if (!st) st = offer_row(r, THR_RELAX_MOST, k, added, err);
   }
-  return st;
-}
-
-/* Forgets the sets from first on that x does not violate, adds rows for the others. */
-static thr_status add_sets(thr_relax *r, row *w, int first, int *added, thr_err *err)
-{
-  bool *drop = thr_calloc((size_t)r->pool.count, sizeof *drop);
-  thr_status st = drop ? THR_OK : thr_nomem(err);
-  for (int i = first; i < r->pool.count && !st; i++) {
-    fill_row(w, r, (thr_relax_cut){THR_RELAX_ODD, i});
-    drop[i] = excess(w, r->x) > -tolerance;
-  }
-  if (!st) thr_oddcut_pool_drop(&r->pool, drop);
-  free(drop);
-  for (int i = first; i < r->pool.count && !st; i++)
-    st = consider(r, w, (thr_relax_cut){THR_RELAX_ODD, i}, true, added, err);
   return st;
 }
 
 thr_status thr_project_separate(thr_relax *r, const thr_limits *limits, int *added, thr_err *err)
 {
-  static const double threshold[] = {1e-6, 0.2, 0.35, 0.51, 0.7};
-  const double *x = r->x + r->c->first_extra;
-  row w;
-  int first = r->pool.count;
   *added = 0;
-  thr_status st = row_init(&w, r->c, err);
-  if (st) return st;
-  st = separate_ends(r, &w, added, err);
-  if (!st) st = separate_sides(r, &w, added, err);
-  for (size_t i = 0; i < sizeof threshold / sizeof *threshold && !st && r->any_odd && r->pool.count == first; i++) {
-    st = thr_oddcut_moats(&r->graph, x, threshold[i], r->reduced + r->c->first_extra, &r->pool, err);
-    if (!st) st = add_sets(r, &w, first, added, err);
-  }
-  if (!st && r->any_odd && *added == 0 && !thr_limits_stop(limits)) {
-    st = thr_oddcut_exact(&r->graph, x, &r->pool, err);
-    if (!st) st = add_sets(r, &w, first, added, err);
-  }
-  row_destroy(&w);
+  thr_status st = separate_ends(r, added, err);
+  if (!st) st = separate_sides(r, added, err);
+  if (!st) st = thr_relax_odd(r, false, added, err);
+  if (!st && *added == 0 && !thr_limits_stop(limits)) st = thr_relax_odd(r, true, added, err);
   return st;
 }
 
@@ -255,7 +153,7 @@ static thr_status add_junction(const thr_turning_columns *c, thr_turning_dual *d
 }
 
 /* The half-edges of the set's nodes, and the ends in it. */
-static thr_status add_set(const thr_relax *r, thr_turning_dual *d, const struct thr_oddcut *cut, int64_t value, thr_err *err)
+static thr_status add_set(const thr_relax *r, thr_turning_dual *d, const thr_row *row, int64_t value, thr_err *err)
 {
   const thr_frame *f = r->c->f;
   bool *in = thr_calloc((size_t)r->problem.n_nodes, sizeof *in);
@@ -263,9 +161,9 @@ static thr_status add_set(const thr_relax *r, thr_turning_dual *d, const struct 
   int n = 0;
   *to = (thr_turning_set){.value = value};
   if (!in) return thr_nomem(err);
-  for (int i = 0; i < cut->n_nodes; i++) {
-    in[cut->node[i]] = true;
-    n += cut->node[i] < f->n_nodes ? thr_degree(f, cut->node[i]) : 1;
+  for (int i = 0; i < row->n_members; i++) {
+    in[row->member[i]] = true;
+    n += row->member[i] < f->n_nodes ? thr_degree(f, row->member[i]) : 1;
   }
   to->member = thr_calloc((size_t)n, sizeof *to->member);
   for (int h = 0; to->member && h < 2 * f->n_edges; h++)
@@ -276,22 +174,22 @@ static thr_status add_set(const thr_relax *r, thr_turning_dual *d, const struct 
   return to->member ? THR_OK : thr_nomem(err);
 }
 
-static thr_status add_multiplier(const thr_relax *r, thr_turning_dual *d, thr_relax_cut cut, int64_t value, thr_err *err)
+static thr_status add_multiplier(const thr_relax *r, thr_turning_dual *d, const thr_row *row, int64_t value, thr_err *err)
 {
   const thr_turning_columns *c = r->c;
   const thr_frame *f = c->f;
-  int k = cut.index, v;
-  switch (cut.kind) {
+  int k = row->index, v;
+  switch (row->kind) {
   case THR_RELAX_LEAST: d->ends[k] += value; return THR_OK;
   case THR_RELAX_MOST: d->ends[k] -= value; return THR_OK;
-  case THR_RELAX_ODD: return add_set(r, d, &r->pool.cut[k], value, err);
+  case THR_RELAX_ODD: return add_set(r, d, row, value, err);
   case THR_RELAX_USE: d->potential[k] -= value; return add_junction(c, d, thr_tail(f, k), k, value, err);
   default: break;
   }
-  v = cut.kind == THR_RELAX_SUM ? k : thr_tail(f, k);
+  v = row->kind == THR_RELAX_SUM ? k : thr_tail(f, k);
   for (int i = f->first[v]; i < f->first[v + 1]; i++)
-    d->potential[f->half[i]] -= cut.kind == THR_RELAX_SIDE && f->half[i] == k ? -value : value;
-  return cut.kind == THR_RELAX_SUM ? add_junction(c, d, v, -1, 2 * value, err) : THR_OK;
+    d->potential[f->half[i]] -= row->kind == THR_RELAX_SIDE && f->half[i] == k ? -value : value;
+  return row->kind == THR_RELAX_SUM ? add_junction(c, d, v, -1, 2 * value, err) : THR_OK;
 }
 
 thr_status thr_project_dual(const thr_relax *r, thr_turning_dual *d, thr_err *err)
@@ -301,10 +199,10 @@ thr_status thr_project_dual(const thr_relax *r, thr_turning_dual *d, thr_err *er
   d->potential = thr_calloc(2 * (size_t)c->f->n_edges, sizeof *d->potential);
   d->ends = thr_calloc((size_t)c->n_ends, sizeof *d->ends);
   d->odd = thr_calloc((size_t)r->pool.count, sizeof *d->odd);
-  d->junction = thr_calloc((size_t)r->n_cuts, sizeof *d->junction);
+  d->junction = thr_calloc((size_t)r->pool.count, sizeof *d->junction);
   thr_status st = d->potential && d->ends && d->odd && d->junction ? THR_OK : thr_nomem(err);
-  for (int i = 0; i < r->n_cuts && !st; i++)
-    if (thr_relax_whole(r->dual[i]) > 0) st = add_multiplier(r, d, r->cut[i], thr_relax_whole(r->dual[i]), err);
+  for (int i = 0; i < r->pool.count && !st; i++)
+    if (thr_relax_whole(r->dual[i]) > 0) st = add_multiplier(r, d, &r->pool.row[i], thr_relax_whole(r->dual[i]), err);
   if (st) thr_turning_dual_destroy(d);
   return st;
 }

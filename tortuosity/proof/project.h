@@ -11,9 +11,6 @@
 thr_status thr_project_create(thr_relax *r, double penalty, thr_err *err) THR_MUST_CHECK;
 thr_status thr_project_graph(thr_relax *r, thr_err *err) THR_MUST_CHECK;
 
-/* Sets reduced of the extra passes and ends from the last solve. */
-thr_status thr_project_reduce(thr_relax *r, thr_err *err) THR_MUST_CHECK;
-
 /* Adds rows that x violates. */
 thr_status thr_project_separate(thr_relax *r, const thr_limits *limits, int *added, thr_err *err) THR_MUST_CHECK;
 

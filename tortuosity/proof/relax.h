@@ -7,46 +7,18 @@
 #include "lp/solver/lp.h"
 #include "lp/tjoin/oddcut.h"
 
-/* A group row: the edges of the group and the columns that cross it. */
-typedef struct {
-  uint64_t name;
-  int n_edges, n_columns;
-  int *edge; /* ascending */
-  int *column;
-} thr_relax_group;
-
+/* What a row is of (thr_row); its index and members. */
 typedef enum {
-  THR_RELAX_ODD,
-  THR_RELAX_GROUP,
-  THR_RELAX_PARTITION,
-  THR_RELAX_JUNCTION,
-  THR_RELAX_SUM,  /* without turns: of node number index; .. */
-  THR_RELAX_SIDE, /* of half-edge index and the others of its node */
-  THR_RELAX_USE,  /* of half-edge index alone */
+  THR_RELAX_ODD,       /* members: the half-edges and ends of the set, without turns its nodes and ends */
+  THR_RELAX_GROUP,     /* its edges, ascending */
+  THR_RELAX_PARTITION, /* [n_edges] their blocks */
+  THR_RELAX_JUNCTION,  /* of node index: [degree] blocks */
+  THR_RELAX_SUM,       /* without turns: of node number index; .. */
+  THR_RELAX_SIDE,      /* of half-edge index and the others of its node */
+  THR_RELAX_USE,       /* of half-edge index alone */
   THR_RELAX_LEAST,
   THR_RELAX_MOST /* ends of equation index */
 } thr_relax_kind;
-
-/* A row: which list it is in, and where. */
-typedef struct {
-  thr_relax_kind kind;
-  int index;
-} thr_relax_cut;
-
-/* A partition row. */
-typedef struct {
-  uint64_t name;
-  int *block; /* [n_edges] */
-  int n_columns, *column;
-  double *value; /* [n_columns] */
-  double lower;
-} thr_relax_partition;
-
-/* A junction row. */
-typedef struct {
-  int node, n_blocks, n_columns;
-  int *block, *column; /* [degree], [n_columns] */
-} thr_relax_junction;
 
 typedef struct {
   const thr_turning_columns *c;
@@ -60,18 +32,9 @@ typedef struct {
   double artificial;         /* sum of the artificial columns */
   bool any_odd;              /* is there an odd set at all? */
   bool solved;               /* x is an optimum of the present rows */
-  int *low, *high;           /* [n_columns] bounds in force */
   thr_tjoin_problem problem; /* the graph whose nodes are half-edges and ends, whose edges are columns */
   thr_oddcut_graph graph;
-  thr_oddcut_pool pool;
-  int n_groups, groups_capacity;
-  thr_relax_group *group;
-  int n_partitions, partitions_capacity;
-  thr_relax_partition *partition;
-  int n_junctions, junctions_capacity;
-  thr_relax_junction *junction;
-  int n_cuts, cuts_capacity;
-  thr_relax_cut *cut; /* rows after the equations */
+  thr_pool pool; /* the rows after the equations; without turns their columns begin with the extra passes */
   double *reduced;
 } thr_relax;
 
@@ -104,13 +67,17 @@ thr_status thr_relax_create(thr_relax *r, double penalty, thr_err *err) THR_MUST
 thr_status thr_relax_crash(thr_relax *r, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
 
 /* Adds the row of a node's blocks (copied; n of them, 0 .. n - 1) if x violates it. */
-thr_status thr_relax_add_junction(thr_relax *r, int v, const int *block, int n, bool *used, thr_err *err) THR_MUST_CHECK;
+thr_status thr_relax_add_junction(thr_relax *r, int v, int *block, int n, int *added, thr_err *err) THR_MUST_CHECK;
 
 /* Junction rows that x violates, in tortuosity/proof/junctions.c: the worst of every node. *added grows. */
 thr_status thr_junctions_separate(thr_relax *r, int *added, thr_err *err) THR_MUST_CHECK;
 
 /* Adds the row of a partition (block as in graph/plan/turning_proof.h, copied, which needs so many connections) if x violates it
  * and it is new. */
-thr_status thr_relax_add_partition(thr_relax *r, const int *block, int connections, bool *used, thr_err *err) THR_MUST_CHECK;
+thr_status thr_relax_add_partition(thr_relax *r, int *block, int connections, int *added, thr_err *err) THR_MUST_CHECK;
+
+/* Adds the sets that moats find, or that are found exactly, and that x violates; x and reduced begin with the pool's first
+ * column. *added grows. */
+thr_status thr_relax_odd(thr_relax *r, bool exact, int *added, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -10,48 +10,34 @@ int64_t thr_relax_whole(double value)
   return (int64_t)nearbyint(ldexp(fmax(-1e4, fmin(1e4, value)), THR_TURNING_BITS));
 }
 
-static thr_status copy_set(thr_turning_set *to, int n, const int *member, int64_t value, thr_err *err)
+static thr_status copy_members(int **to, const thr_row *row, thr_err *err)
 {
-  *to = (thr_turning_set){n, thr_calloc((size_t)n, sizeof *to->member), value};
-  if (!to->member) return thr_nomem(err);
-  memcpy(to->member, member, (size_t)n * sizeof *member);
-  return THR_OK;
-}
-
-static thr_status copy_blocks(const thr_relax *r, thr_turning_partition *to, const int *block, int64_t value, thr_err *err)
-{
-  size_t m = (size_t)r->c->f->n_edges;
-  *to = (thr_turning_partition){thr_calloc(m, sizeof *to->block), value};
-  if (!to->block) return thr_nomem(err);
-  memcpy(to->block, block, m * sizeof *block);
-  return THR_OK;
-}
-
-static thr_status copy_junction(const thr_relax *r, thr_turning_junction *to, const thr_relax_junction *from, int64_t value,
-                                thr_err *err)
-{
-  size_t d = (size_t)thr_degree(r->c->f, from->node);
-  *to = (thr_turning_junction){from->node, thr_calloc(d, sizeof *to->block), value};
-  if (!to->block) return thr_nomem(err);
-  memcpy(to->block, from->block, d * sizeof *to->block);
+  size_t n = (size_t)row->n_members;
+  if (!(*to = thr_calloc(n, sizeof **to))) return thr_nomem(err);
+  memcpy(*to, row->member, n * sizeof **to);
   return THR_OK;
 }
 
 static thr_status copy_cuts(const thr_relax *r, thr_turning_dual *d, thr_err *err)
 {
   thr_status st = THR_OK;
-  for (int i = 0; i < r->n_cuts && !st; i++) {
+  for (int i = 0; i < r->pool.count && !st; i++) {
     int64_t value = thr_relax_whole(r->dual[r->n_equations + i]);
-    int k = r->cut[i].index;
+    const thr_row *row = &r->pool.row[i];
     if (value <= 0) continue;
-    if (r->cut[i].kind == THR_RELAX_JUNCTION)
-      st = copy_junction(r, &d->junction[d->n_junctions++], &r->junction[k], value, err);
-    else if (r->cut[i].kind == THR_RELAX_PARTITION)
-      st = copy_blocks(r, &d->partition[d->n_partitions++], r->partition[k].block, value, err);
-    else if (r->cut[i].kind == THR_RELAX_ODD)
-      st = copy_set(&d->odd[d->n_odd++], r->pool.cut[k].n_nodes, r->pool.cut[k].node, value, err);
-    else
-      st = copy_set(&d->group[d->n_groups++], r->group[k].n_edges, r->group[k].edge, value, err);
+    if (row->kind == THR_RELAX_ODD || row->kind == THR_RELAX_GROUP) {
+      thr_turning_set *to = row->kind == THR_RELAX_ODD ? &d->odd[d->n_odd++] : &d->group[d->n_groups++];
+      *to = (thr_turning_set){.n = row->n_members, .value = value};
+      st = copy_members(&to->member, row, err);
+    } else if (row->kind == THR_RELAX_PARTITION) {
+      thr_turning_partition *to = &d->partition[d->n_partitions++];
+      to->value = value;
+      st = copy_members(&to->block, row, err);
+    } else {
+      thr_turning_junction *to = &d->junction[d->n_junctions++];
+      *to = (thr_turning_junction){.node = row->index, .value = value};
+      st = copy_members(&to->block, row, err);
+    }
   }
   return st;
 }
@@ -62,8 +48,8 @@ thr_status thr_relax_dual(const thr_relax *r, thr_turning_dual *d, thr_err *err)
   int darts = 2 * c->f->n_edges, used[THR_RELAX_JUNCTION + 1] = {0};
   *d = (thr_turning_dual){0};
   if (r->projected) return thr_project_dual(r, d, err);
-  for (int i = 0; i < r->n_cuts; i++)
-    used[r->cut[i].kind] += thr_relax_whole(r->dual[r->n_equations + i]) > 0;
+  for (int i = 0; i < r->pool.count; i++)
+    used[r->pool.row[i].kind] += thr_relax_whole(r->dual[r->n_equations + i]) > 0;
   d->potential = thr_calloc((size_t)darts, sizeof *d->potential);
   d->ends = thr_calloc((size_t)c->n_ends, sizeof *d->ends);
   d->odd = thr_calloc((size_t)used[THR_RELAX_ODD], sizeof *d->odd);

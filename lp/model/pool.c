@@ -1,0 +1,255 @@
+/* Rows with names in an open-addressed table. */
+#include "lp/model/pool.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+thr_status thr_pool_init(thr_pool *p, int n_columns, thr_err *err)
+{
+  size_t n = (size_t)n_columns;
+  *p = (thr_pool){.n_columns = n_columns};
+  p->sum = thr_calloc(n, sizeof *p->sum);
+  p->drafted = thr_calloc(n, sizeof *p->drafted);
+  p->draft = thr_calloc(n, sizeof *p->draft);
+  if (p->sum && p->drafted && p->draft) return THR_OK;
+  thr_pool_destroy(p);
+  return thr_nomem(err);
+}
+
+static void row_destroy(thr_row *r)
+{
+  free(r->member);
+  free(r->column);
+  free(r->value);
+}
+
+void thr_pool_destroy(thr_pool *p)
+{
+  for (int i = 0; i < p->count; i++)
+    row_destroy(&p->row[i]);
+  free(p->row);
+  free(p->seen);
+  free(p->sum);
+  free(p->drafted);
+  free(p->draft);
+  *p = (thr_pool){0};
+}
+
+/* ---- names ---- */
+
+/* Slot of a name in the table. 0 marks an empty one. */
+static int slot_of(const thr_pool *p, uint64_t name)
+{
+  int i = (int)(name % (uint64_t)p->seen_size);
+  while (p->seen[i] && p->seen[i] != name)
+    i = i + 1 == p->seen_size ? 0 : i + 1;
+  return i;
+}
+
+bool thr_pool_knows(const thr_pool *p, uint64_t name)
+{
+  return p->seen_size > 0 && p->seen[slot_of(p, name)] == name;
+}
+
+/* Fills the table, which is empty, with the names of all rows. */
+static void name_all(thr_pool *p)
+{
+  p->seen_used = p->count;
+  for (int i = 0; i < p->count; i++)
+    p->seen[slot_of(p, p->row[i].name)] = p->row[i].name;
+}
+
+static thr_status remember(thr_pool *p, uint64_t name, thr_err *err)
+{
+  if (2 * p->seen_used >= p->seen_size) {
+    int size = p->seen_size ? 2 * p->seen_size : 1024;
+    uint64_t *table = thr_calloc((size_t)size, sizeof *table);
+    if (!table) return thr_nomem(err);
+    free(p->seen);
+    p->seen = table;
+    p->seen_size = size;
+    name_all(p);
+  }
+  p->seen[slot_of(p, name)] = name;
+  p->seen_used++;
+  return THR_OK;
+}
+
+static uint64_t mix(uint64_t name, uint64_t word)
+{
+  name = (name ^ word) * UINT64_C(0x9e3779b97f4a7c15);
+  return name ^ name >> 29;
+}
+
+static uint64_t word_of(double value)
+{
+  uint64_t word;
+  memcpy(&word, &value, sizeof word);
+  return word;
+}
+
+/* ---- the row that is put together ---- */
+
+void thr_pool_put(thr_pool *p, int column, double value)
+{
+  if (!p->drafted[column]) p->draft[p->n_draft++] = column;
+  p->drafted[column] = true;
+  p->sum[column] += value;
+}
+
+static void forget_draft(thr_pool *p)
+{
+  for (int i = 0; i < p->n_draft; i++) {
+    p->sum[p->draft[i]] = 0;
+    p->drafted[p->draft[i]] = false;
+  }
+  p->n_draft = 0;
+}
+
+static uint64_t name_draft(const thr_pool *p, double lower)
+{
+  uint64_t name = mix(1, word_of(lower));
+  for (int i = 0; i < p->n_draft; i++)
+    if (p->sum[p->draft[i]] != 0) name = mix(mix(name, (uint64_t)p->draft[i]), word_of(p->sum[p->draft[i]]));
+  return name ? name : 1;
+}
+
+static thr_status fill_row(const thr_pool *p, thr_row *row, thr_err *err)
+{
+  bool ones = true;
+  int most = 0;
+  for (int i = 0; i < p->n_draft; i++) {
+    most += p->sum[p->draft[i]] != 0;
+    ones &= p->sum[p->draft[i]] == 0 || p->sum[p->draft[i]] == 1;
+  }
+  row->column = thr_calloc((size_t)most, sizeof *row->column);
+  if (!ones) row->value = thr_calloc((size_t)most, sizeof *row->value);
+  if (!row->column || (!ones && !row->value)) return thr_nomem(err);
+  for (int i = 0; i < p->n_draft && row->n < most; i++) {
+    int j = p->draft[i];
+    if (p->sum[j] == 0) continue;
+    if (row->value) row->value[row->n] = p->sum[j];
+    row->column[row->n++] = j;
+  }
+  return THR_OK;
+}
+
+thr_status thr_pool_add(thr_pool *p, thr_row row, thr_err *err)
+{
+  const int *member = row.member;
+  if (!row.name) row.name = name_draft(p, row.lower);
+  row.member = NULL;
+  thr_status st = thr_grow(&p->row, p->count, &p->capacity, sizeof *p->row, err);
+  if (!st && member && !(row.member = thr_calloc((size_t)row.n_members, sizeof *member))) st = thr_nomem(err);
+  if (!st && row.n_members > 0 && member) memcpy(row.member, member, (size_t)row.n_members * sizeof *member);
+  if (!st) st = fill_row(p, &row, err);
+  if (!st) st = remember(p, row.name, err);
+  if (st)
+    row_destroy(&row);
+  else
+    p->row[p->count++] = row;
+  forget_draft(p);
+  return st;
+}
+
+thr_status thr_pool_offer(thr_pool *p, thr_row row, const double *x, double tolerance, int *added, thr_err *err)
+{
+  double sum = 0;
+  for (int i = 0; i < p->n_draft; i++)
+    sum += p->sum[p->draft[i]] * x[p->draft[i]];
+  bool violated = sum < row.lower - tolerance;
+  if (violated && !row.name) row.name = name_draft(p, row.lower);
+  if (violated && !thr_pool_knows(p, row.name)) {
+    ++*added;
+    return thr_pool_add(p, row, err);
+  }
+  forget_draft(p);
+  return THR_OK;
+}
+
+/* ---- rows ---- */
+
+double thr_row_sum(const thr_row *r, const double *x)
+{
+  double sum = 0;
+  for (int k = 0; k < r->n; k++)
+    sum += r->value ? r->value[k] * x[r->column[k]] : x[r->column[k]];
+  return sum;
+}
+
+void thr_row_charge(const thr_row *r, double price, double *reduced)
+{
+  for (int k = 0; k < r->n && price != 0; k++)
+    reduced[r->column[k]] -= r->value ? price * r->value[k] : price;
+}
+
+void thr_pool_drop(thr_pool *p, const bool *drop)
+{
+  int kept = 0;
+  for (int i = 0; i < p->count; i++)
+    if (drop[i])
+      row_destroy(&p->row[i]);
+    else
+      p->row[kept++] = p->row[i];
+  p->count = kept;
+  if (p->seen_size == 0) return;
+  memset(p->seen, 0, (size_t)p->seen_size * sizeof *p->seen);
+  name_all(p);
+}
+
+thr_status thr_pool_keep_violated(thr_pool *p, int first, const double *x, double tolerance, int *added, thr_err *err)
+{
+  int kept = 0, found = p->count - first;
+  bool *drop = thr_calloc((size_t)p->count, sizeof *drop);
+  if (!drop) return thr_nomem(err);
+  for (int i = first; i < p->count; i++) {
+    drop[i] = thr_row_sum(&p->row[i], x) >= p->row[i].lower - tolerance;
+    kept += !drop[i];
+  }
+  if (kept < found) thr_pool_drop(p, drop);
+  *added += kept;
+  free(drop);
+  return THR_OK;
+}
+
+/* ---- rows of a linear programme ---- */
+
+thr_status thr_pool_load(const thr_pool *p, int first, int help, thr_lp *lp, thr_err *err)
+{
+  size_t n = (size_t)p->n_columns + 1;
+  thr_status st = THR_OK;
+  if (first >= p->count) return THR_OK;
+  int *column = thr_calloc(n, sizeof *column);
+  double *value = thr_calloc(n, sizeof *value);
+  if (!column || !value) st = thr_nomem(err);
+  for (int i = first; i < p->count && !st; i++) {
+    const thr_row *r = &p->row[i];
+    for (int k = 0; k < r->n; k++) {
+      column[k] = r->column[k];
+      value[k] = r->value ? r->value[k] : 1;
+    }
+    column[r->n] = help;
+    value[r->n] = 1;
+    st = thr_lp_add_row(lp, r->n + (help >= 0), column, value, r->lower, err);
+  }
+  free(column);
+  free(value);
+  return st;
+}
+
+thr_status thr_pool_age(thr_pool *p, int patience, thr_lp *lp, bool *any, thr_err *err)
+{
+  thr_status st = THR_OK;
+  bool *drop = thr_calloc((size_t)p->count, sizeof *drop);
+  *any = false;
+  if (!drop) return thr_nomem(err);
+  for (int i = 0; i < p->count; i++) {
+    p->row[i].idle = thr_lp_row_basic(lp, i) ? p->row[i].idle + 1 : 0;
+    *any |= drop[i] = p->row[i].idle > patience;
+  }
+  if (*any) st = thr_lp_drop_rows(lp, drop, err);
+  if (*any && !st) thr_pool_drop(p, drop);
+  free(drop);
+  return st;
+}
