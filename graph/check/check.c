@@ -389,7 +389,7 @@ static thr_status check_length_claim(const thr_plan *p, const thr_check_walked *
     if (lower_bound > length && !thr_check_close(lower_bound, length, length))
       return thr_fail(err, THR_EVIOLATED, "proof.length: the tree proves %.12g, which is more than the length %.12g", lower_bound,
                       length);
-    optimal = lower_bound >= length * (1 - 1e-9);
+    optimal = thr_check_close(lower_bound, length, length);
   } else {
     sum_verdicts(&p->frame, &p->options, verdict, w->n_components, length, &optimal, &lower_bound);
   }

@@ -106,11 +106,11 @@ static thr_status half_prices(const thr_frame *f, thr_turn_cost cost, int v, con
   return THR_OK;
 }
 
-/* Dynamic programming over how many points of each kind are left: the first kind with one left is paired with any. */
+/* Dynamic programming over how many points of each kind are left: the first kind with one left is paired with any. table: [size]
+ * zeros. */
 static double cheapest(const node_points *k, double *table)
 {
   int n = k->n_kinds;
-  table[0] = 0;
   for (int s = 1; s < k->size; s++) {
     int first = 0;
     while (s / k->stride[first] % (k->count[first] + 1) == 0)
@@ -210,12 +210,11 @@ static thr_status price_cord(const walked *w, const thr_cord *c, double *price, 
   return THR_OK;
 }
 
-/* Sets what follows from the cords; and they must be of the kind that the proof is about. */
+/* Adds to *found, which is zeros, what follows from the cords; and they must be of the kind that the proof is about. */
 static thr_status judge_cords(const walked *w, thr_turning_claim *found, thr_err *err)
 {
   const thr_frame *f = w->f;
   double length = 0;
-  found->price = found->largest = found->pairing_bound = 0;
   for (int i = 0; i < w->n_cords; i++) {
     double price;
     thr_status st = price_cord(w, &w->cord[i], &price, err);

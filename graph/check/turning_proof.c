@@ -164,7 +164,7 @@ int thr_turning_blocks_at(const thr_turning_columns *c, const int *block, int v,
   const thr_frame *f = c->f;
   const int *half = f->half + f->first[v];
   int d = thr_degree(f, v), blocks = 0;
-  if (odd) *odd = 0;
+  *odd = 0;
   for (int i = 0; i < d; i++) {
     int first = i, passes = 0;
     for (int k = 0; k < d; k++) {
@@ -172,10 +172,10 @@ int thr_turning_blocks_at(const thr_turning_columns *c, const int *block, int v,
       passes += c->cover[half[k] >> 1] % 2;
       if (k < first) first = k;
     }
-    if (even) even[i] = passes % 2 == 0;
+    even[i] = passes % 2 == 0;
     if (first < i) continue;
     blocks++;
-    if (odd) *odd += passes % 2;
+    *odd += passes % 2;
   }
   return blocks;
 }
@@ -275,13 +275,6 @@ static thr_status run_junction(leaf *k, int i, thr_err *err)
   return THR_OK;
 }
 
-/* n / 2^THR_LENGTH_BITS, rounded down. */
-static wide shifted_down(wide n)
-{
-  wide one = (wide)1 << THR_LENGTH_BITS;
-  return n / one - (n % one < 0);
-}
-
 /* What column j adds to the least value, between these bounds. With multipliers below 2^58 and sets below 2^62 together, reduced
  * prices stay below 2^63, and nothing here comes near 2^127. */
 static wide column_adds(const leaf *k, int j, int least, int most)
@@ -290,15 +283,16 @@ static wide column_adds(const leaf *k, int j, int least, int most)
   return reduced * (reduced < 0 ? most : least);
 }
 
-/* The multiplier of the length: what it takes off the prices of extra passes, and off the sum. */
+/* The multiplier of the length; neither it nor a length is negative. What it adds to the prices of extra passes, rounded down,
+ * and takes off the sum, rounded up. */
 static void take_length(leaf *k)
 {
   const thr_turning_columns *c = k->c;
   int64_t length = c->extra_limit < 0 ? 0 : k->d->length;
   if (length == 0) return;
-  k->constant -= shifted_down((wide)length * c->extra_limit) + 1;
+  k->constant -= ((wide)length * c->extra_limit >> THR_LENGTH_BITS) + 1;
   for (int j = c->first_extra; j < c->first_end; j++)
-    k->reduced[j] += shifted_down((wide)length * c->length[j - c->first_extra]);
+    k->reduced[j] += (wide)length * c->length[j - c->first_extra] >> THR_LENGTH_BITS;
 }
 
 static int64_t in_64_bits(wide total)

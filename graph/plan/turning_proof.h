@@ -131,8 +131,8 @@ typedef struct {
   int64_t value;
 } thr_turning_partition;
 
-/* At node v: how many blocks meet. odd (may be NULL) receives how many of them have an odd number of passes there as long as none
- * is extra; even[i] (may be NULL) whether the i-th half-edge of v is in a block with an even number. O(degree^2). */
+/* At node v: how many blocks meet. *odd receives how many of them have an odd number of passes there as long as none is extra;
+ * even[i] whether the i-th half-edge of v is in a block with an even number. O(degree^2). */
 int thr_turning_blocks_at(const thr_turning_columns *c, const int *block, int v, int *odd, bool *even);
 
 /* Connections between the blocks that closed cords make at least: the sum over the components of max(0, blocks - cords).
@@ -171,8 +171,9 @@ typedef struct {
 void thr_turning_proof_destroy(thr_turning_proof *p);
 
 /* Bound that multipliers prove while column j lies in [low[j], high[j]] (both NULL: 0 to thr_turning_most), in units of
- * 2^-THR_TURNING_BITS, rounded down. THR_EVIOLATED for a negative multiplier, an index out of range, an even odd set, a group
- * that need not be connected to the rest. O(columns + sum of the squares of the degrees over the sets). */
+ * 2^-THR_TURNING_BITS, rounded down; INT64_MAX if nothing does. On failure INT64_MIN: THR_EVIOLATED for a negative multiplier, an
+ * index out of range, an even odd set, a group that need not be connected to the rest. O(columns + sum of the squares of the
+ * degrees over the sets). */
 thr_status thr_turning_dual_bound(const thr_turning_columns *c, const thr_turning_dual *d, const int *low, const int *high,
                                   int64_t *bound, thr_err *err) THR_MUST_CHECK;
 

@@ -479,6 +479,34 @@ START_TEST(leaves_prove_what_their_rows_add_up_to)
 }
 END_TEST
 
+/* A box that a plan cannot be in proves anything; without a box it is the widest one; and multipliers that hold no more prove
+ * nothing. */
+START_TEST(boxes_may_be_empty_or_missing)
+{
+  static model m;
+  rng r = rng_make((uint64_t)_i + 1);
+  model_make(&r, &m);
+  thr_turning_dual d = random_dual(&r, &m);
+  int64_t bound, widest;
+  for (int j = 0; j < m.columns.n_columns; j++)
+    m.low[j] = 0, m.high[j] = m.column[j].most;
+  ck_assert_int_eq(thr_turning_dual_bound(&m.columns, &d, m.low, m.high, &widest, NULL), THR_OK);
+  ck_assert_int_eq(thr_turning_dual_bound(&m.columns, &d, NULL, NULL, &bound, NULL), THR_OK);
+  ck_assert_int_eq(bound, widest);
+  for (int j = 0; j < m.columns.n_columns; j++) {
+    m.low[j] = m.high[j] + 1;
+    ck_assert_int_eq(thr_turning_dual_bound(&m.columns, &d, m.low, m.high, &bound, NULL), THR_OK);
+    ck_assert_int_eq(bound, INT64_MAX);
+    m.low[j] = 0;
+  }
+  d.length = -1;
+  ck_assert_int_eq(thr_turning_dual_bound(&m.columns, &d, m.low, m.high, &bound, NULL), THR_EVIOLATED);
+  ck_assert_int_eq(bound, INT64_MIN);
+  thr_turning_dual_destroy(&d);
+  model_destroy(&m);
+}
+END_TEST
+
 /* ---- trees ---- */
 
 /* Exact bound of the tree at node i, whose box is low .. high; the box is left as it was. */
@@ -524,24 +552,26 @@ static void make_gentle(rng *r, const model *m, thr_turning_dual *d)
     d->junction[i].value = 0;
 }
 
-/* Three branches: the root, its lower and its upper child, sometimes on one column; five leaves, two of them alike. */
+/* Three branches, sometimes on one column: the root, its lower child, and the upper child or the lower child's own; four leaves,
+ * some of them alike. */
 START_TEST(trees_prove_their_worst_leaf)
 {
   static model m;
   rng r = rng_make((uint64_t)_i + 1000);
   model_make(&r, &m);
-  static const int child[3][2] = {{1, 2}, {3, 4}, {5, 6}};
+  static const int branch[2][3] = {{0, 1, 2}, {0, 1, 3}};
   thr_turning_node node[7] = {0};
   thr_turning_dual dual[3];
   int one = rng_below(&r, m.columns.n_columns);
   for (int i = 0; i < 3; i++) {
     int j = rng_below(&r, 2) ? rng_below(&r, m.columns.n_columns) : one;
-    node[i] = (thr_turning_node){child[i][0], child[i][1], m.column[j].a, m.column[j].b, rng_below(&r, m.column[j].most + 1), 0};
+    node[branch[_i % 2][i]] =
+        (thr_turning_node){2 * i + 1, 2 * i + 2, m.column[j].a, m.column[j].b, rng_below(&r, m.column[j].most + 1), 0};
     dual[i] = random_dual(&r, &m);
     dual[i].length = 0;
     if (!m.task.end_allowed) make_gentle(&r, &m, &dual[i]);
   }
-  for (int i = 3; i < 7; i++)
+  for (int i = 2; i < 7; i++)
     node[i].dual = rng_below(&r, 3);
   thr_turning_proof p = {7, 3, m.columns.n_ends, node, dual};
   for (int j = 0; j < m.columns.n_columns; j++)
@@ -788,6 +818,12 @@ START_TEST(trees_that_prove_nothing)
   s.node[0].a = 0, s.node[0].b = -1; /* an end, where one is allowed */
   s.task.end_allowed = s.anywhere;
   assert_small(&s, NULL);
+  static const int beyond[][2] = {{16, 17}, {17, 16}, {16, -1}, {16, 0}, {-1, -1}, {-1, -2}, {0, 16}};
+  for (size_t i = 0; i < sizeof beyond / sizeof *beyond; i++) { /* numbers that half-edges after the last would have */
+    s.node[0].a = beyond[i][0], s.node[0].b = beyond[i][1];
+    assert_small(&s, "nothing");
+  }
+  s.node[0].a = 0, s.node[0].b = -1;
   s.anywhere[0] = false;
   assert_small(&s, "nothing");
   s.task.end_allowed = NULL;
@@ -829,6 +865,19 @@ START_TEST(proofs_of_another_shape)
     assert_one_line(&err, shape[i].word);
     err = (thr_err){0};
   }
+  thr_turning_set bad = {0, NULL, 1}; /* an empty set, in multipliers that no leaf has */
+  thr_turning_dual dual[2] = {s.dual, s.dual};
+  thr_turning_proof nothing = {1, 2, 2, s.node, dual};
+  thr_turning_columns c;
+  dual[1].odd = &bad, dual[1].n_odd = 1;
+  ck_assert_int_eq(thr_turning_columns_init(&c, &s.frame, &s.task, NULL), THR_OK);
+  bound = 7; /* nothing is left over from before */
+  ck_assert_int_eq(thr_turning_proof_check_columns(&c, &nothing, &bound, NULL), THR_OK);
+  ck_assert_double_eq(bound, 0);
+  thr_turning_columns_destroy(&c);
+  s.task.cords = 0, bound = 7;
+  ck_assert_int_eq(thr_turning_proof_check(&s.frame, &s.task, &nothing, &bound, NULL), THR_EINPUT);
+  ck_assert_double_eq(bound, 0);
   thr_frame_destroy(&s.frame);
 }
 END_TEST
@@ -861,6 +910,16 @@ START_TEST(tasks_out_of_range)
     assert_one_line(&err, NULL);
     ck_assert_ptr_null(c.weight);
   }
+  thr_turning_task dear = good; /* one edge, at a price of 10000 */
+  dear.price_per_length = 1e4;
+  for (int e = 0; e < s.frame.n_edges; e++) {
+    for (int k = 0; k < s.frame.n_edges; k++)
+      s.frame.length[k] = k == e ? 1 : 0.5;
+    ck_assert_int_eq(thr_turning_columns_init(&c, &s.frame, &dear, NULL), THR_EINPUT);
+    s.frame.length[e] = nextafter(1, 0);
+    ck_assert_int_eq(thr_turning_columns_init(&c, &s.frame, &dear, NULL), THR_OK);
+    thr_turning_columns_destroy(&c);
+  }
   thr_turning_task full = good;
   full.cover = full.capacity = 2;
   ck_assert_int_eq(thr_turning_columns_init(&c, &s.frame, &full, NULL), THR_OK);
@@ -868,6 +927,11 @@ START_TEST(tasks_out_of_range)
   full.cover = 3;
   ck_assert_int_eq(thr_turning_columns_init(&c, &s.frame, &full, NULL), THR_EINFEASIBLE);
   thr_frame_destroy(&s.frame);
+  thr_err err = {0};
+  thr_frame hub = star_make(50000); /* 1.2e9 turns */
+  ck_assert_int_eq(thr_turning_columns_init(&c, &hub, &good, &err), THR_EINPUT);
+  assert_one_line(&err, "possible turns at the nodes");
+  thr_frame_destroy(&hub);
 }
 END_TEST
 
@@ -906,6 +970,23 @@ START_TEST(steps_are_the_same_in_all_directions)
 }
 END_TEST
 
+/* Limits of some millions of the longest edge are none. */
+START_TEST(limits_that_limit_nothing)
+{
+  const double most = ldexp(4e18, -THR_LENGTH_BITS);
+  thr_frame f = path_make(3);
+  for (int more = 0; more < 2; more++) {
+    const thr_turning_task task = {
+        .cover = 1, .most_passes = 8, .cords = 1, .extra_limit = more ? nextafter(most, INFINITY) : most};
+    thr_turning_columns c;
+    ck_assert_int_eq(thr_turning_columns_init(&c, &f, &task, NULL), THR_OK);
+    ck_assert_int_eq(c.extra_limit, more ? -1 : INT64_C(4000000000000000000));
+    thr_turning_columns_destroy(&c);
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 START_TEST(limits_of_passes_and_length)
 {
   thr_frame f = path_make(4);
@@ -933,6 +1014,7 @@ int main(void)
 {
   Suite *s = suite_create("bounds on turning");
   ADD_LOOP(s, 20, leaves_prove_what_their_rows_add_up_to, 0, 120);
+  ADD_LOOP(s, 20, boxes_may_be_empty_or_missing, 0, 10);
   ADD_LOOP(s, 20, trees_prove_their_worst_leaf, 0, 500);
   ADD_TEST(s, 20, sets_that_prove_nothing);
   ADD_TEST(s, 20, partitions_that_prove_nothing);
@@ -942,6 +1024,7 @@ int main(void)
   ADD_TEST(s, 20, proofs_of_another_shape);
   ADD_TEST(s, 20, tasks_out_of_range);
   ADD_LOOP(s, 20, steps_are_the_same_in_all_directions, 0, 8);
+  ADD_TEST(s, 20, limits_that_limit_nothing);
   ADD_TEST(s, 20, limits_of_passes_and_length);
   return run_suite(s);
 }

@@ -107,21 +107,26 @@ START_TEST(scale_that_rounds_all_away_proves_nothing)
 END_TEST
 
 /* A ring with a chord that costs next to nothing: passed to and fro it weighs nothing under a coarse scale, and each pass
- * rounds once more. Neither may pass for a proof. */
+ * rounds once more. Neither may pass for a proof, whichever edge the chord is. */
 START_TEST(passes_without_weight_prove_nothing)
 {
   static const double xyz[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-  static const int edge[5][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 2}};
-  static const double length[5] = {2.5, 2.5, 2.5, 2.5, 9e-9};
-  fixture x = fixture_make(frame_make(4, xyz, 5, edge, length, NULL), THR_ENDS_CLOSED);
-  thr_plan *p = &x.plan;
-  thr_certificate *c = &p->proof.certificate[0];
-  assert_holds(p);
-  drop_cuts(c);
-  c->scale = 2;
-  c->join = 0;
-  assert_violated(p, "optimal");
-  fixture_destroy(&x);
+  for (int chord = 0; chord < 5; chord++) {
+    int edge[5][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 1}};
+    double length[5] = {2.5, 2.5, 2.5, 2.5, 2.5};
+    memcpy(edge[4], edge[chord], sizeof edge[4]);
+    edge[chord][0] = 0, edge[chord][1] = 2;
+    length[chord] = 9e-9;
+    fixture x = fixture_make(frame_make(4, xyz, 5, (const int(*)[2])edge, length, NULL), THR_ENDS_CLOSED);
+    thr_plan *p = &x.plan;
+    thr_certificate *c = &p->proof.certificate[0];
+    assert_holds(p);
+    drop_cuts(c);
+    c->scale = 2;
+    c->join = 0;
+    assert_violated(p, "optimal");
+    fixture_destroy(&x);
+  }
 }
 END_TEST
 
@@ -413,7 +418,8 @@ START_TEST(each_metric_counts)
   thr_plan *p = &x.plan;
   thr_metrics kept = p->metrics, *m = &p->metrics;
   double *real[] = {&m->length, &m->base_length, &m->overlap, &m->turning, &m->max_turning, &m->worst_turn};
-  static const char *const real_name[] = {"length", "base_length", "overlap", "turning", "max_turning", "worst_turn"};
+  static const char *const real_name[] = {"metrics.length",  "metrics.base_length", "metrics.overlap",
+                                          "metrics.turning", "metrics.max_turning", "metrics.worst_turn"};
   for (int i = 0; i < 6; i++)
     for (int k = 0; k < 4; k++) {
       *m = kept;
@@ -421,7 +427,7 @@ START_TEST(each_metric_counts)
       assert_violated(p, real_name[i]);
     }
   int *whole[] = {&m->passes, &m->most_passes, &m->u_turns};
-  static const char *const whole_name[] = {"passes", "most_passes", "u_turns"};
+  static const char *const whole_name[] = {"metrics.passes", "metrics.most_passes", "metrics.u_turns"};
   for (int i = 0; i < 3; i++)
     for (int k = -1; k < 2; k += 2) {
       *m = kept;

@@ -262,8 +262,19 @@ START_TEST(pairings_are_the_cheapest)
 }
 END_TEST
 
-/* Spokes within half a turn, passed so often each: the cheapest pairing has the first half with the second. Above 2^16
- * combinations every spoke pays half of what the farthest costs it. */
+/* Moves the tips of a fan along its spokes. */
+static void stretch(rng *r, thr_frame *f, int hub)
+{
+  for (int e = 0; e < f->n_edges; e++) {
+    int tip = f->edge[e][f->edge[e][0] == hub];
+    f->length[e] = 0.2 + 3 * rng_unit(r);
+    for (int i = 0; i < 3; i++)
+      f->xyz[tip][i] = f->xyz[hub][i] + f->length[e] * (f->xyz[tip][i] - f->xyz[hub][i]);
+  }
+}
+
+/* Spokes of all lengths within half a turn, passed so often each: the cheapest pairing has the first half with the second. Above
+ * 2^16 combinations every spoke pays half of what the farthest costs it. */
 START_TEST(pairings_of_hubs)
 {
   const int passes = 1 + _i / 2;
@@ -274,7 +285,9 @@ START_TEST(pairings_of_hubs)
     rng r = rng_make((uint64_t)n);
     for (int i = 0; i < n; i++)
       angle[i] = THR_PI * (i + 0.9 * rng_unit(&r)) / (n + 1);
-    thr_plan p = plan_begin(fan_with_hub(n, angle, hub), THR_ENDS_ANY, passes * n / 2, THR_TURN_ANGLE);
+    thr_frame f = fan_with_hub(n, angle, hub);
+    stretch(&r, &f, hub);
+    thr_plan p = plan_begin(f, THR_ENDS_ANY, passes * n / 2, THR_TURN_ANGLE);
     for (int i = 0; i < passes * n / 2; i++) {
       walk[0] = i / passes + first, walk[2] = n - 1 - i / passes + first, walk[3] = -1;
       add_cord(&p, walk);
@@ -416,6 +429,9 @@ START_TEST(bends_prove_what_they_cost)
       thr_plan_destroy(&p);
     }
   }
+  thr_plan p = bend_make(1, THR_TURN_ANGLE, 1); /* a single unit is a bound, too */
+  ck_assert_double_eq(found_of(&p).lower_bound, ldexp(1, -THR_TURNING_BITS));
+  thr_plan_destroy(&p);
 }
 END_TEST
 
@@ -764,8 +780,9 @@ START_TEST(a_price_of_nothing_has_no_gap)
   p.turning.gap = 1;
   assert_violated(&p, "gap");
   p.turning.gap = 0;
-  p.turning.pairing_bound = 5e-10; /* rounding */
+  p.turning.pairing_bound = p.turning.price = p.turning.largest = 5e-10; /* rounding */
   assert_holds(&p);
+  p.turning.price = p.turning.largest = 0;
   p.turning.pairing_bound = 2e-9;
   assert_violated(&p, "pairing_bound");
   thr_plan_destroy(&p);

@@ -41,6 +41,25 @@ START_TEST(loops_of_known_frameworks)
 }
 END_TEST
 
+/* At a hub of so many edges the search gives up: then no more is said than holds of every edge. */
+START_TEST(loops_that_are_searched_in_vain)
+{
+  enum { N = 4200 }; /* each search looks at all edges of the hub */
+  thr_frame f = star_make(N);
+  int *edge = thr_calloc(N, sizeof *edge), *loop = thr_calloc(N, sizeof *loop), *work = thr_calloc(2 * (N + 1), sizeof *work);
+  ck_assert(edge && loop && work);
+  for (int e = 0; e < N; e++)
+    edge[e] = e;
+  thr_prices_loops(&f, edge, N, work, loop);
+  ck_assert_int_eq(loop[0], 10);
+  ck_assert_int_eq(loop[N - 1], 2);
+  free(edge);
+  free(loop);
+  free(work);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* ---- plans ---- */
 
 static thr_plan plan_with(const thr_frame *f, thr_ends ends, int cords, int *end_count)
@@ -171,6 +190,7 @@ int main(void)
 {
   Suite *s = suite_create("prices");
   ADD_TEST(s, 20, loops_of_known_frameworks);
+  ADD_TEST(s, 10, loops_that_are_searched_in_vain);
   ADD_TEST(s, 20, cords_from_one_foot_take_a_pass_for_every_end);
   ADD_TEST(s, 20, given_ends_at_a_leaf_take_a_pass_each);
   ADD_TEST(s, 20, places_are_where_the_ends_are);
