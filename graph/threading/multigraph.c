@@ -12,8 +12,8 @@ static void add_copy(thr_multigraph *g, int *n, int half, int a, int b)
   g->tail[(*n)++] = b;
 }
 
-thr_status thr_multigraph_init(thr_multigraph *g, const thr_frame *f, const int *passes, const int (*end)[2], int n_ends,
-                               thr_err *err)
+thr_status thr_multigraph_init(thr_multigraph *g, const thr_frame *f, int n_more, const int *passes, const int (*end)[2],
+                               int n_ends, thr_err *err)
 {
   *g = (thr_multigraph){0};
   int64_t copies = n_ends;
@@ -21,11 +21,11 @@ thr_status thr_multigraph_init(thr_multigraph *g, const thr_frame *f, const int 
     copies += passes[e];
   if (copies > INT_MAX / 4) return thr_fail(err, THR_EINPUT, "more than %d passes; use a smaller --cover", INT_MAX / 4);
   size_t n_darts = 2 * (size_t)copies;
-  thr_multigraph m = {.n_darts = (int)n_darts, .n_nodes = f->n_nodes};
+  thr_multigraph m = {.n_darts = (int)n_darts, .n_nodes = f->n_nodes + n_more};
   m.half = thr_calloc(n_darts, sizeof *m.half);
   m.tail = thr_calloc(n_darts, sizeof *m.tail);
   m.dart = thr_calloc(n_darts, sizeof *m.dart);
-  m.first = thr_calloc((size_t)f->n_nodes + 2, sizeof *m.first);
+  m.first = thr_calloc((size_t)m.n_nodes + 2, sizeof *m.first);
   if (!m.half || !m.tail || !m.dart || !m.first) {
     thr_multigraph_destroy(&m);
     return thr_nomem(err);

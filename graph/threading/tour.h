@@ -1,4 +1,4 @@
-/* From edge multiplicities and ends to cords: pair at every node, join the circuits, cut at the ends. */
+/* From edge multiplicities and ends to cords: one in every component, through the walk that graph/threading/walks.h traces. */
 #ifndef THR_TOUR_H
 #define THR_TOUR_H
 
@@ -12,7 +12,8 @@
 thr_status thr_tour_cords(const thr_frame *f, const thr_plan_options *o, const int *component, int n_components,
                           const int *passes, const int (*ends)[2], thr_cord *cord, thr_err *err) THR_MUST_CHECK;
 
-/* The pass from which the closed circuit half[0 .. n-1] had best start as a cord, as above. */
+/* The pass from which the closed circuit half[0 .. n-1] had best start as a cord, as above; o NULL: at any node, the first of its
+ * sharpest turns. */
 int thr_tour_start(const thr_frame *f, const thr_plan_options *o, const int *half, int n);
 
 #endif

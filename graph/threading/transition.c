@@ -2,6 +2,7 @@
 #include "graph/threading/transition.h"
 #include "graph/disjoint.h"
 #include "graph/plan/plan.h"
+#include "graph/threading/threading.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -88,7 +89,7 @@ void thr_transition_trace(const int *mate, int start, int *out, int *count)
   do {
     out[n++] = d;
     d = mate[d ^ 1];
-  } while (d != start);
+  } while (d >= 0 && d != start);
   *count = n;
 }
 
@@ -120,20 +121,6 @@ static exchange best_exchange(const thr_frame *f, const thr_multigraph *g, const
   double straight = thr_transition_price(f, g, a, c) + thr_transition_price(f, g, b, d) - old;
   double cross = thr_transition_price(f, g, a, d) + thr_transition_price(f, g, b, c) - old;
   return (exchange){straight <= cross ? straight : cross, a, c, cross < straight};
-}
-
-/* Labels both darts of each pass with the number of its circuit. */
-static void label_circuits(const thr_multigraph *g, const int *mate, int *circuit)
-{
-  int n = 0;
-  for (int d = 0; d < g->n_darts; d++)
-    circuit[d] = -1;
-  for (int start = 0; start < g->n_darts; start++) {
-    if (circuit[start] >= 0) continue;
-    for (int d = start; circuit[d] < 0; d = mate[d ^ 1])
-      circuit[d] = circuit[d ^ 1] = n;
-    n++;
-  }
 }
 
 /* Exchanges between different circuits at node v: all of them at a small node; at a large one each pair with the next. */
@@ -186,7 +173,7 @@ thr_status thr_transition_join(const thr_frame *f, const thr_multigraph *g, int 
   }
   do {
     x.count = 0;
-    label_circuits(g, mate, circuit);
+    thr_threading_label(g, mate, circuit);
     memset(moved, 0, (size_t)g->n_darts * sizeof *moved);
     for (int d = 0; d < g->n_darts; d++)
       parent[d] = d;

@@ -22,8 +22,8 @@ thr_status thr_transition_pair(const thr_frame *f, const thr_multigraph *g, int 
  * if both new pairings had one, an old pair would have been one. O(p log p) a round for p pairs of pairs, few rounds. */
 thr_status thr_transition_join(const thr_frame *f, const thr_multigraph *g, int *mate, thr_err *err) THR_MUST_CHECK;
 
-/* Euler tour from dart start that keeps to the pairing: out[0..n_darts/2 - 1] receives the darts of the circuit in
- * order; *count how many (all of them when the circuit is single). Linear. */
+/* The cord from dart start on, until it comes back there or ends (mate < 0): its darts into out, room for n_darts / 2, *count how
+ * many. Linear. */
 void thr_transition_trace(const int *mate, int start, int *out, int *count);
 
 #endif

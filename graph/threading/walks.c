@@ -135,7 +135,7 @@ thr_status thr_walks_trace(const thr_frame *f, const int *passes, const int *com
   int n_pairs = 0, (*pair)[2] = thr_calloc((size_t)f->n_nodes / 2 + 1, sizeof *pair);
   memset(out, 0, (size_t)n_components * sizeof *out);
   thr_status st = pair ? pair_odd_nodes(f, passes, component, n_components, pair, &n_pairs, err) : thr_nomem(err);
-  if (!st) st = thr_multigraph_init(&g, f, passes, (const int(*)[2])pair, n_pairs, err);
+  if (!st) st = thr_multigraph_init(&g, f, 0, passes, (const int(*)[2])pair, n_pairs, err);
   if (!st) st = trace_circuits(f, &g, component, n_components, out, err);
   for (int k = 0; k < n_components && st; k++)
     thr_walks_destroy(&out[k]);

@@ -2,9 +2,11 @@
 #include "tests/support.h"
 #include "graph/angle.h"
 #include "graph/threading/multigraph.h"
+#include "graph/threading/threading.h"
 #include "graph/threading/tour.h"
 #include "graph/threading/transition.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,7 +31,7 @@ static threading thread_make(const thr_frame *f, const int *passes, const int (*
 {
   threading t;
   thr_err err = {0};
-  ck_assert_int_eq(thr_multigraph_init(&t.g, f, passes, end, n_ends, &err), THR_OK);
+  ck_assert_int_eq(thr_multigraph_init(&t.g, f, 0, passes, end, n_ends, &err), THR_OK);
   t.mate = constant(t.g.n_darts, -1);
   ck_assert_msg(thr_transition_pair(f, &t.g, t.mate, &err) == THR_OK, "%s", err.text);
   return t;
@@ -145,7 +147,7 @@ START_TEST(multigraph_holds_every_pass)
   thr_frame f = random_frame(&r, 9, 8, LENGTHS_EUCLID);
   int end[1][2] = {{2, 5}}, *passes = even_passes(&r, &f, 2, NULL), *copies = constant(f.n_edges, 0);
   thr_multigraph g;
-  ck_assert_int_eq(thr_multigraph_init(&g, &f, passes, (const int(*)[2])end, 1, NULL), THR_OK);
+  ck_assert_int_eq(thr_multigraph_init(&g, &f, 0, passes, (const int(*)[2])end, 1, NULL), THR_OK);
   for (int d = 0; d < g.n_darts; d++) {
     if (g.half[d] < 0) {
       ck_assert(g.tail[d] == end[0][d % 2]);
@@ -174,7 +176,7 @@ START_TEST(multigraph_refuses_too_many_passes)
   int *passes = constant(3, 1 << 30);
   thr_multigraph g;
   thr_err err = {0};
-  ck_assert_int_eq(thr_multigraph_init(&g, &f, passes, NULL, 0, &err), THR_EINPUT);
+  ck_assert_int_eq(thr_multigraph_init(&g, &f, 0, passes, NULL, 0, &err), THR_EINPUT);
   assert_one_line(&err, "--cover");
   ck_assert(g.half == NULL);
   free(passes);
@@ -206,7 +208,7 @@ START_TEST(odd_nodes_are_refused)
   int *passes = constant(3, 1), mate[6];
   thr_multigraph g;
   thr_err err = {0};
-  ck_assert_int_eq(thr_multigraph_init(&g, &f, passes, NULL, 0, NULL), THR_OK);
+  ck_assert_int_eq(thr_multigraph_init(&g, &f, 0, passes, NULL, 0, NULL), THR_OK);
   ck_assert_int_eq(thr_transition_pair(&f, &g, mate, &err), THR_EINPUT);
   assert_one_line(&err, "node 0");
   thr_multigraph_destroy(&g);
@@ -245,6 +247,103 @@ START_TEST(octahedron_pairs_straight_then_joins)
   ck_assert_int_eq(thr_transition_join(&f, &t.g, t.mate, NULL), THR_OK);
   ck_assert_int_eq(count_circuits(&t), 1);
   thread_destroy(&t);
+  thr_frame_destroy(&f);
+  free(passes);
+}
+END_TEST
+
+/* ---- cords that change ---- */
+
+typedef struct {
+  const thr_frame *f;
+  const thr_multigraph *g;
+} priced;
+
+static double turning_price(const void *of, int a, int b)
+{
+  const priced *p = of;
+  return thr_transition_price(p->f, p->g, a, b);
+}
+
+static double sum_of_totals(const thr_threading *t)
+{
+  double sum = 0;
+  for (int k = 0; k < t->n_cords; k++)
+    sum += t->total[k];
+  return sum;
+}
+
+/* By hand: from the first edge of node v on, over turns, as far as that goes. */
+static bool hangs_together(const thr_threading *t, int v)
+{
+  const thr_frame *f = t->f;
+  bool reached[64] = {true}, more = true, all = true;
+  int d = thr_degree(f, v);
+  ck_assert_int_le(d, 64);
+  while (more) {
+    more = false;
+    for (int i = 0; i < t->n_places; i++) {
+      int a = t->g->half[t->place[i].in], b = t->g->half[t->place[i].out], at[2] = {-1, -1};
+      if (a < 0 || b < 0 || t->g->tail[t->place[i].in] != v) continue;
+      for (int k = 0; k < d; k++) {
+        if (f->half[f->first[v] + k] == a) at[0] = k;
+        if (f->half[f->first[v] + k] == b) at[1] = k;
+      }
+      more |= reached[at[0]] != reached[at[1]];
+      reached[at[0]] = reached[at[1]] = reached[at[0]] || reached[at[1]];
+    }
+  }
+  for (int k = 0; k < d; k++)
+    all &= reached[k];
+  return all;
+}
+
+/* One exchange at random: what was said of it is what following the cords shows, and taken back it has not been. */
+static void try_exchange(rng *r, thr_threading *t)
+{
+  int here[64], cords = t->n_cords, v = rng_below(r, t->f->n_nodes), n = thr_threading_places(t, v, here);
+  double before = sum_of_totals(t);
+  if (n < 2) return;
+  int i = rng_below(r, n), k = (i + 1 + rng_below(r, n - 1)) % n;
+  thr_exchange x = thr_threading_exchange(t, here[i], here[k], rng_below(r, 2));
+  thr_broken old = {0};
+  thr_threading_make(t, &x, &old);
+  ck_assert(thr_threading_follow(t, INT_MAX));
+  ck_assert_int_eq(t->n_cords, cords + x.change);
+  ck_assert_double_eq_tol(sum_of_totals(t), before + x.extra, 1e-6);
+  ck_assert(thr_threading_tied(t, v) == hangs_together(t, v));
+  if (rng_below(r, 2)) return;
+  thr_threading_take_back(t, &old);
+  ck_assert(thr_threading_follow(t, INT_MAX));
+  ck_assert_int_eq(t->n_cords, cords);
+  ck_assert_double_eq_tol(sum_of_totals(t), before, 1e-6);
+}
+
+START_TEST(exchanges_do_what_they_say)
+{
+  rng r = rng_make((uint64_t)_i + 1100);
+  thr_frame f = random_frame(&r, rng_between(&r, 3, 12), rng_below(&r, 12), LENGTHS_EUCLID);
+  int odd[2] = {0, rng_between(&r, 1, f.n_nodes - 1)}, ends[2][2] = {{odd[0], f.n_nodes}, {odd[1], f.n_nodes}};
+  bool open = _i % 2;
+  int *passes = even_passes(&r, &f, rng_between(&r, 1, 2), open ? odd : NULL);
+  threading made = {.mate = NULL};
+  ck_assert_int_eq(thr_multigraph_init(&made.g, &f, 1, passes, (const int(*)[2])ends, open ? 2 : 0, NULL), THR_OK);
+  made.mate = constant(made.g.n_darts, -1);
+  ck_assert_int_eq(thr_transition_pair(&f, &made.g, made.mate, NULL), THR_OK);
+  for (int i = made.g.first[f.n_nodes]; i < made.g.n_darts; i++)
+    made.mate[made.g.dart[i]] = -1;
+  priced p = {&f, &made.g};
+  thr_threading t;
+  ck_assert_int_eq(thr_threading_init(&t, &f, &made.g, made.mate, turning_price, &p, true, NULL), THR_OK);
+  ck_assert(thr_threading_follow(&t, INT_MAX));
+  ck_assert(!thr_threading_closed(&t, 0) == open);
+  int cords = t.n_cords;
+  ck_assert(!thr_threading_follow(&t, cords - 1));
+  ck_assert(thr_threading_follow(&t, cords));
+  for (int i = 0; i < 40; i++)
+    try_exchange(&r, &t);
+  thr_threading_destroy(&t);
+  thread_destroy(&made);
   thr_frame_destroy(&f);
   free(passes);
 }
@@ -391,6 +490,7 @@ int main(void)
   ADD_TEST(s, 10, odd_nodes_are_refused);
   ADD_LOOP(s, 10, join_leaves_one_circuit_and_no_new_u_turn, 0, 100);
   ADD_TEST(s, 10, octahedron_pairs_straight_then_joins);
+  ADD_LOOP(s, 10, exchanges_do_what_they_say, 0, 100);
   ADD_LOOP(s, 10, open_cord_runs_from_end_to_end, 0, 50);
   ADD_LOOP(s, 10, closed_cord_starts_where_told_or_at_a_foot, 0, 50);
   ADD_TEST(s, 10, odd_passes_are_refused);

@@ -3,70 +3,42 @@
 #include "graph/disjoint.h"
 #include "tortuosity/tie/tie.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* ---- the multigraph ---- */
 
-static void sort_darts(thr_multigraph *g)
+/* pair[i]: node of the i-th cord end and the end node of its component; returns how many. */
+static int list_ends(const thr_turning_columns *c, const int *ends, int (*pair)[2])
 {
-  for (int d = 0; d < g->n_darts; d++)
-    g->first[g->tail[d] + 2]++;
-  for (int v = 1; v <= g->n_nodes; v++)
-    g->first[v + 1] += g->first[v];
-  for (int d = 0; d < g->n_darts; d++)
-    g->dart[g->first[g->tail[d] + 1]++] = d;
-}
-
-static void add_copy(thr_multigraph *g, int *n, int half, int a, int b)
-{
-  g->half[*n] = half;
-  g->tail[(*n)++] = a;
-  g->half[*n] = half < 0 ? -1 : half ^ 1;
-  g->tail[(*n)++] = b;
+  int n = 0;
+  for (int v = 0; v < c->f->n_nodes; v++)
+    for (int k = 0; k < ends[v]; k++, n++) {
+      if (!pair) continue;
+      pair[n][0] = v;
+      pair[n][1] = c->f->n_nodes + c->component[v];
+    }
+  return n;
 }
 
 thr_status thr_join_init(thr_join *j, const thr_turning_columns *c, const int *passes, const int *ends, thr_err *err)
 {
   const thr_frame *f = c->f;
-  int64_t copies = 0;
-  int n = 0;
   *j = (thr_join){.c = c};
-  for (int e = 0; e < f->n_edges; e++)
-    copies += passes[e];
-  for (int v = 0; ends && v < f->n_nodes; v++)
-    copies += ends[v];
-  if (copies > INT_MAX / 4) return thr_fail(err, THR_EINPUT, "more than %d passes; use a smaller --cover", INT_MAX / 4);
-  size_t darts = 2 * (size_t)copies;
-  thr_multigraph *g = &j->g;
-  *g = (thr_multigraph){.n_darts = (int)darts, .n_nodes = f->n_nodes + c->n_components};
-  g->half = thr_calloc(darts, sizeof *g->half);
-  g->tail = thr_calloc(darts, sizeof *g->tail);
-  g->dart = thr_calloc(darts, sizeof *g->dart);
-  g->first = thr_calloc((size_t)g->n_nodes + 2, sizeof *g->first);
-  j->mate = thr_calloc(darts, sizeof *j->mate);
-  if (!g->half || !g->tail || !g->dart || !g->first || !j->mate) {
-    thr_join_destroy(j);
-    return thr_nomem(err);
-  }
-  for (int e = 0; e < f->n_edges; e++)
-    for (int k = 0; k < passes[e]; k++)
-      add_copy(g, &n, 2 * e, f->edge[e][0], f->edge[e][1]);
-  for (int v = 0; ends && v < f->n_nodes; v++)
-    for (int k = 0; k < ends[v]; k++)
-      add_copy(g, &n, -1, v, f->n_nodes + c->component[v]);
-  sort_darts(g);
-  for (int d = 0; d < g->n_darts; d++)
+  int n = ends ? list_ends(c, ends, NULL) : 0, (*pair)[2] = thr_calloc((size_t)n, sizeof *pair);
+  if (!pair) return thr_nomem(err);
+  if (ends) list_ends(c, ends, pair);
+  thr_status st = thr_multigraph_init(&j->g, f, c->n_components, passes, (const int(*)[2])pair, n, err);
+  if (!st && !(j->mate = thr_calloc((size_t)j->g.n_darts, sizeof *j->mate))) st = thr_nomem(err);
+  for (int d = 0; d < j->g.n_darts && !st; d++)
     j->mate[d] = -1;
-  for (int v = 0; v < f->n_nodes; v++)
-    if ((g->first[v + 1] - g->first[v]) % 2) {
-      thr_join_destroy(j);
-      thr_fail(err, THR_EINPUT, "node %s has an odd number of passes and ends", f->name[v]);
-      return THR_EINPUT;
-    }
-  return THR_OK;
+  for (int v = 0; v < f->n_nodes && !st; v++)
+    if ((j->g.first[v + 1] - j->g.first[v]) % 2)
+      st = thr_fail(err, THR_EINPUT, "node %s has an odd number of passes and ends", f->name[v]);
+  free(pair);
+  if (st) thr_join_destroy(j);
+  return st;
 }
 
 bool thr_join_open(const thr_join *j, int component)
@@ -97,6 +69,16 @@ double thr_join_price(const thr_join *j, int a, int b)
   if (ha < 0 || hb < 0) return ha == hb ? thr_join_forbidden : 0;
   if (ha != hb) return (double)j->c->weight[thr_turning_column(j->c, ha, hb)] * 0x1p-44; /* 2^-THR_TURNING_BITS */
   return thr_degree(j->c->f, j->g.tail[a]) == 1 ? thr_turn_price(j->c->f, j->c->task->cost, ha ^ 1, ha) : thr_join_forbidden;
+}
+
+static double pair_price(const void *of, int a, int b)
+{
+  return thr_join_price(of, a, b);
+}
+
+thr_status thr_join_threading(thr_join *j, thr_threading *t, thr_err *err)
+{
+  return thr_threading_init(t, j->c->f, &j->g, j->mate, pair_price, j, j->c->task->tube, err);
 }
 
 void thr_join_measure(thr_join *j)
@@ -142,62 +124,53 @@ static void pair_columns(thr_join *j, const int *x, stock *s)
   }
 }
 
-/* Numbers of circuits into circuit[] (by their first dart); a chain that ends at an end node has number n_darts + component. */
-static void label_circuits(const thr_join *j, int *circuit)
-{
-  const thr_multigraph *g = &j->g;
-  int nodes = j->c->f->n_nodes;
-  for (int d = 0; d < g->n_darts; d++)
-    circuit[d] = -1;
-  for (int v = nodes; v < g->n_nodes; v++)
-    for (int i = g->first[v]; i < g->first[v + 1]; i++)
-      for (int d = g->dart[i]; d >= 0 && circuit[d] < 0; d = j->mate[d ^ 1])
-        circuit[d] = circuit[d ^ 1] = g->n_darts + v - nodes;
-  for (int start = 0; start < g->n_darts; start++)
-    for (int d = start; circuit[d] < 0; d = j->mate[d ^ 1])
-      circuit[d] = circuit[d ^ 1] = start;
-}
-
 /* Equal passes change their partners at one node if that joins two circuits: same turns, fewer circuits. */
-static void join_equal_passes(thr_join *j, const int *circuit, int *parent)
+static void join_equal_passes(thr_join *j, const int *cord, int *parent)
 {
   thr_multigraph *g = &j->g;
   for (int d = 0; d + 2 < g->n_darts; d += 2) {
-    if (g->half[d] < 0 || g->half[d] != g->half[d + 2]) continue;
-    if (!thr_disjoint_join(parent, circuit[d], circuit[d + 2])) continue;
+    if (g->half[d] < 0 || g->half[d] != g->half[d + 2] || !thr_disjoint_join(parent, cord[d], cord[d + 2])) continue;
     int a = j->mate[d], b = j->mate[d + 2];
     set_pair(j->mate, d, b);
     set_pair(j->mate, d + 2, a);
   }
 }
 
-/* Is every circuit the first of its component, or joined to the ends? */
-static bool all_joined(const thr_join *j, const int *circuit, int *parent)
+/* The open cords of a component are one set, and every closed one is its own: joins them over equal passes. Is a component one
+ * set then? first: [n_components] scratch. */
+static bool join_all(thr_join *j, const int *cord, int n_cords, int *parent, int *first)
 {
   const thr_turning_columns *c = j->c;
-  bool joined = true;
-  int *root = parent + j->g.n_darts; /* the entries of end nodes without ends are free */
+  bool single = true;
+  for (int i = 0; i < n_cords; i++)
+    parent[i] = i;
   for (int k = 0; k < c->n_components; k++)
-    if (!thr_join_open(j, k)) root[k] = -1;
-  for (int d = 0; d < j->g.n_darts; d++) {
-    int k = j->g.tail[d] < c->f->n_nodes ? c->component[j->g.tail[d]] : -1;
-    if (k < 0) continue;
-    int own = thr_disjoint_find(parent, circuit[d]);
-    bool open = thr_join_open(j, k);
-    if (!open && root[k] < 0) root[k] = own;
-    joined &= own == (open ? thr_disjoint_find(parent, j->g.n_darts + k) : root[k]);
+    first[k] = -1;
+  for (int d = j->g.n_darts - 1; d >= 0; d--) {
+    int v = j->g.tail[d];
+    if (v >= c->f->n_nodes) continue;
+    int *f = &first[c->component[v]];
+    if (*f < 0)
+      *f = cord[d];
+    else if (j->g.half[d] < 0) /* virtual ones have the highest numbers */
+      thr_disjoint_join(parent, *f, cord[d]);
   }
-  return joined;
+  join_equal_passes(j, cord, parent);
+  for (int d = 0; d < j->g.n_darts && single; d++)
+    if (j->g.tail[d] < c->f->n_nodes)
+      single = thr_disjoint_find(parent, cord[d]) == thr_disjoint_find(parent, first[c->component[j->g.tail[d]]]);
+  return single;
 }
 
 thr_status thr_join_columns(thr_join *j, const int *x, bool *single, thr_err *err)
 {
   const thr_frame *f = j->c->f;
-  size_t darts = (size_t)j->g.n_darts, all = darts + (size_t)j->c->n_components;
+  size_t darts = (size_t)j->g.n_darts;
   stock s = {thr_calloc(2 * (size_t)f->n_edges, sizeof *s.head), thr_calloc(darts, sizeof *s.next),
              thr_calloc((size_t)f->n_nodes, sizeof *s.end_first)};
-  int *circuit = thr_calloc(darts, sizeof *circuit), *parent = thr_calloc(all, sizeof *parent);
-  thr_status st = s.head && s.next && s.end_first && circuit && parent ? THR_OK : thr_nomem(err);
+  int *cord = thr_calloc(darts, sizeof *cord), *parent = thr_calloc(darts, sizeof *parent);
+  int *first = thr_calloc((size_t)j->c->n_components, sizeof *first);
+  thr_status st = s.head && s.next && s.end_first && cord && parent && first ? THR_OK : thr_nomem(err);
   *single = false;
   if (!st) {
     for (int h = 0; h < 2 * f->n_edges; h++)
@@ -215,18 +188,15 @@ thr_status thr_join_columns(thr_join *j, const int *x, bool *single, thr_err *er
       if (j->mate[d] < 0 && j->g.tail[d] < f->n_nodes) st = thr_fail(err, THR_ESOLVER, "turns do not fit the passes");
   }
   if (!st) {
-    for (size_t d = 0; d < all; d++)
-      parent[d] = (int)d;
-    label_circuits(j, circuit);
-    join_equal_passes(j, circuit, parent);
-    *single = all_joined(j, circuit, parent);
+    *single = join_all(j, cord, thr_threading_label(&j->g, j->mate, cord), parent, first);
     thr_join_measure(j);
   }
   free(s.head);
   free(s.next);
   free(s.end_first);
-  free(circuit);
+  free(cord);
   free(parent);
+  free(first);
   return st;
 }
 
@@ -243,21 +213,6 @@ thr_status thr_join_tie(thr_join *j, const thr_turning_columns *c, const int *pa
   if (st) thr_join_destroy(j);
   free(x);
   return st;
-}
-
-bool thr_join_tied(const thr_join *j, int v, int *parent)
-{
-  const thr_turning_columns *c = j->c;
-  const thr_multigraph *g = &j->g;
-  int d = thr_degree(c->f, v), apart = d - 1;
-  for (int i = 0; i < d; i++)
-    parent[i] = i;
-  for (int i = g->first[v]; i < g->first[v + 1] && apart > 0; i++) {
-    int a = g->dart[i], b = j->mate[a];
-    if (b > a && g->half[a] >= 0 && g->half[b] >= 0)
-      apart -= thr_disjoint_join(parent, c->position[g->half[a]], c->position[g->half[b]]);
-  }
-  return apart == 0;
 }
 
 /* ---- from cords ---- */

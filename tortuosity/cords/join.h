@@ -3,11 +3,12 @@
 #define THR_JOIN_H
 
 #include "graph/limits.h"
-#include "graph/threading/multigraph.h"
+#include "graph/threading/threading.h"
 #include "graph/plan/plan.h"
 
 /* Multigraph of the passes; cord ends are virtual edges to one more node per component, n_nodes + k, which is never paired.
- * Closed cords have none. mate as in graph/threading/transition.h, -1 at the end nodes. */
+ * Closed cords have none. mate as in graph/threading/transition.h,
+ * -1 at the end nodes. */
 typedef struct {
   const thr_turning_columns *c;
   thr_multigraph g;
@@ -31,8 +32,11 @@ int thr_join_count(const thr_join *j);
 
 /* Price of pairing two darts of one node: of the turn; 0 with a cord end; forbidden for a U-turn at a node with other edges, and
  * for two cord ends, which would leave a cord without a pass. */
-static const double thr_join_forbidden = 1e9;
+static const double thr_join_forbidden = THR_FORBIDDEN;
 double thr_join_price(const thr_join *j, int a, int b);
+
+/* The cords of j, whose pairs change with them; nothing is followed yet. On failure t is to be destroyed too. */
+thr_status thr_join_threading(thr_join *j, thr_threading *t, thr_err *err) THR_MUST_CHECK;
 
 /* Sets price from mate. */
 void thr_join_measure(thr_join *j);
@@ -52,9 +56,6 @@ thr_status thr_join_columns(thr_join *j, const int *x, bool *single, thr_err *er
  * The circuits are as many as it happens. *found is false, and j empty, if a node cannot be tied. */
 thr_status thr_join_tie(thr_join *j, const thr_turning_columns *c, const int *passes, const int *ends, bool *found,
                         thr_err *err) THR_MUST_CHECK;
-
-/* Do the pairs at node v tie its edges (graph/plan/junction.h)? parent[degree of v] is scratch. */
-bool thr_join_tied(const thr_join *j, int v, int *parent);
 
 /* Cords of a joined multigraph, each half array allocated for the caller: component by component, open ones from the lower
  * of their end nodes; a closed one starts where its turn is sharpest. cord has room for n_cords; THR_ESOLVER if there are more or

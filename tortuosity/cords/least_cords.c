@@ -1,34 +1,10 @@
 /* Cords traced through a joined multigraph. */
+#include "graph/threading/tour.h"
+#include "graph/threading/transition.h"
 #include "tortuosity/cords/join.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-/* Darts from d on until the circuit closes or an end node is reached. */
-static int trace(const thr_join *j, int d, int *out)
-{
-  int n = 0, start = d;
-  do {
-    out[n++] = d;
-    d = j->mate[d ^ 1];
-  } while (d >= 0 && d != start);
-  return n;
-}
-
-/* Walks the n half-edges of a closed cord from its sharpest turn: its two ends come out there instead of turning. */
-static int sharpest(const thr_frame *f, const int *half, int n)
-{
-  int best = 0;
-  double most = -1;
-  for (int i = 0; i < n; i++) {
-    double angle = thr_turn_angle(f, half[(i + n - 1) % n], half[i]);
-    if (angle > most + 1e-9) { /* the first of equals, whatever the rounding */
-      most = angle;
-      best = i;
-    }
-  }
-  return best;
-}
 
 /* walk[0 .. n-1]: darts of a cord, with its virtual ones if it has ends. */
 static thr_status make_cord(const thr_join *j, int *walk, int n, bool open, thr_cord *c, thr_err *err)
@@ -40,7 +16,7 @@ static thr_status make_cord(const thr_join *j, int *walk, int n, bool open, thr_
   if (!(c->half = thr_calloc((size_t)n, sizeof *c->half))) return thr_nomem(err);
   for (int i = 0; i < n; i++)
     walk[i] = j->g.half[walk[i + first]];
-  if (!open) from = sharpest(f, walk, n);
+  if (!open) from = thr_tour_start(f, NULL, walk, n); /* its two ends come out there instead of turning */
   bool reverse = open && thr_tail(f, walk[0]) > thr_head(f, walk[n - 1]);
   for (int i = 0; i < n; i++)
     c->half[i] = reverse ? walk[n - 1 - i] ^ 1 : walk[(from + i) % n];
@@ -55,7 +31,8 @@ static thr_status cord_from(const thr_join *j, int d, bool *walked, int *walk, t
                             thr_err *err)
 {
   if (walked[d]) return THR_OK;
-  int n = trace(j, d, walk);
+  int n;
+  thr_transition_trace(j->mate, d, walk, &n);
   for (int i = 0; i < n; i++)
     walked[walk[i]] = walked[walk[i] ^ 1] = true;
   if (*made == n_cords) return thr_fail(err, THR_ESOLVER, "more than the %d cords asked for", n_cords);

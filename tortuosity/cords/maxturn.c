@@ -1,10 +1,10 @@
 /* Cords evened out from several starts. */
 #include "tortuosity/cords/maxturn.h"
 #include "graph/random.h"
+#include "graph/threading/even.h"
 #include "tortuosity/cords/circuits.h"
 #include "tortuosity/cords/extra.h"
 #include "tortuosity/cords/improve.h"
-#include "tortuosity/cords/maxturn_exchange.h"
 #include "tortuosity/tie/tie.h"
 
 #include <math.h>
@@ -26,9 +26,10 @@ typedef struct {
 /* Exchanges and annealing from j, which becomes the best or is released. */
 static thr_status improve_from(search *x, thr_join *j, int steps, thr_err *err)
 {
-  thr_evener s;
+  thr_threading t;
+  thr_evener s = {&t, thr_join_count(j), x->scale, 1};
   int *best = thr_calloc((size_t)j->g.n_darts, sizeof *best);
-  thr_status st = thr_evener_init(&s, j, x->scale, err);
+  thr_status st = thr_join_threading(j, &t, err);
   if (!st && !best) st = thr_nomem(err);
   if (!st && thr_evener_follow(&s)) {
     s.state = thr_random(&x->state);
@@ -43,7 +44,7 @@ static thr_status improve_from(search *x, thr_join *j, int steps, thr_err *err)
       x->value = value;
     }
   }
-  thr_evener_destroy(&s);
+  thr_threading_destroy(&t);
   free(best);
   thr_join_destroy(j);
   return st;
@@ -163,20 +164,16 @@ static thr_status try_passes(search *x, bool shortest, int steps, thr_err *err)
   return st;
 }
 
-static bool finished(const search *x, const thr_evener *s)
-{
-  return thr_limits_stop(x->limits) || thr_evener_largest(s) <= x->bound * (1 + 1e-9);
-}
-
 /* Is there nothing left to try? */
 static thr_status is_finished(const search *x, bool *done, thr_err *err)
 {
-  thr_evener s;
+  thr_threading t;
   thr_join j = x->best; /* only followed */
-  thr_status st = thr_evener_init(&s, &j, x->scale, err);
+  thr_evener s = {&t, thr_join_count(&j), x->scale, 1};
+  thr_status st = thr_join_threading(&j, &t, err);
   if (!st) thr_evener_follow(&s);
-  *done = st || s.n_cords == 1 || finished(x, &s);
-  thr_evener_destroy(&s);
+  *done = st || s.n_cords == 1 || thr_limits_stop(x->limits) || thr_evener_largest(&s) <= x->bound * (1 + 1e-9);
+  thr_threading_destroy(&t);
   return st;
 }
 

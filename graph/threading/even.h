@@ -1,0 +1,30 @@
+/* Exchanges that even out the totals of a threading's cords: the sum of their 8th powers, in which the largest counts most, is
+ * made small by descent and by simulated annealing (S. Kirkpatrick, C. D. Gelatt & M. P. Vecchi 1983). */
+#ifndef THR_EVEN_H
+#define THR_EVEN_H
+
+#include "graph/limits.h"
+#include "graph/threading/threading.h"
+
+typedef struct {
+  thr_threading *t; /* borrowed; all its cords are open, or all closed */
+  int n_cords;      /* that there are to be */
+  double scale;     /* a total that counts as 1 */
+  uint64_t state;   /* of the random numbers */
+} thr_evener;
+
+/* Follows all cords again. false: there are circuits that are no cords, or not as many cords. O(darts). */
+bool thr_evener_follow(thr_evener *s);
+
+double thr_evener_value(const thr_evener *s);
+double thr_evener_largest(const thr_evener *s);
+
+/* Exchanges that lower the value, until none does or the limits stop it: tails and heads of two open cords that meet at a node,
+ * parts run the other way round, parts cut off one cord and joined to another. */
+void thr_evener_even(thr_evener *s, const thr_limits *limits);
+
+/* The same at random, so many steps, and some that raise the value, with falling probability; ends at the best that it came by,
+ * or where the largest total is at the bound. best: [n_darts] scratch. O(darts) a step. */
+void thr_evener_anneal(thr_evener *s, const thr_limits *limits, int steps, double bound, int *best);
+
+#endif
