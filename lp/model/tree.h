@@ -58,7 +58,7 @@ typedef struct {
 thr_status thr_tree_init(thr_tree *t, int n_columns, const int *least, const int *most, thr_err *err) THR_MUST_CHECK;
 void thr_tree_destroy(thr_tree *t);
 
-/* Until all nodes are closed, or it is stopped. May go on later. */
+/* Until all nodes are closed, or it is stopped. */
 thr_status thr_tree_run(thr_tree *t, const thr_tree_calls *calls, thr_err *err) THR_MUST_CHECK;
 
 /* Puts the bounds of a node in force. */

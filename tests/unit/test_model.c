@@ -1,0 +1,336 @@
+/* Rows and tree of lp/model/ against all whole points of small covering problems: minimize cost x, A x >= lower, 0 <= x <= most.
+ */
+#include "lp/model/pool.h"
+#include "lp/model/tree.h"
+#include "tests/support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { COLUMNS = 5, ROWS = 6, MOST = 3 };
+
+typedef struct {
+  int cost[COLUMNS], row[ROWS][COLUMNS], lower[ROWS];
+} covering;
+
+static covering covering_make(rng *r)
+{
+  covering c;
+  for (int j = 0; j < COLUMNS; j++)
+    c.cost[j] = rng_between(r, 1, 4);
+  for (int i = 0; i < ROWS; i++) {
+    int room = 0;
+    for (int j = 0; j < COLUMNS; j++)
+      room += MOST * (c.row[i][j] = rng_below(r, 4));
+    c.lower[i] = rng_below(r, 1 + room);
+  }
+  return c;
+}
+
+static int short_of(const covering *c, int i, const int *x)
+{
+  int missing = c->lower[i];
+  for (int j = 0; j < COLUMNS; j++)
+    missing -= c->row[i][j] * x[j];
+  return missing;
+}
+
+static int price_of(const covering *c, const int *x)
+{
+  int sum = 0;
+  for (int j = 0; j < COLUMNS; j++)
+    sum += c->cost[j] * x[j];
+  return sum;
+}
+
+/* Of all whole points. */
+static int least_price(const covering *c)
+{
+  int best = INT32_MAX;
+  for (int k = 0; k < 1 << (2 * COLUMNS); k++) {
+    int x[COLUMNS], i = 0;
+    for (int j = 0; j < COLUMNS; j++)
+      x[j] = k >> (2 * j) & 3;
+    while (i < ROWS && short_of(c, i, x) <= 0)
+      i++;
+    if (i == ROWS && price_of(c, x) < best) best = price_of(c, x);
+  }
+  return best;
+}
+
+/* ---- a tree over bounds without a linear programme ---- */
+
+typedef struct {
+  const covering *c;
+  thr_tree tree;
+  int low[COLUMNS], high[COLUMNS]; /* as the tree has told */
+  int solved[4096], n_solved;
+} search;
+
+static thr_status tell(void *user, int column, int low, int high, thr_err *err)
+{
+  (void)err;
+  search *s = user;
+  s->low[column] = low;
+  s->high[column] = high;
+  return THR_OK;
+}
+
+static void assert_in_force(const search *s)
+{
+  for (int j = 0; j < COLUMNS; j++) {
+    ck_assert_int_eq(s->low[j], s->tree.low[j]);
+    ck_assert_int_eq(s->high[j], s->tree.high[j]);
+  }
+}
+
+/* The price of the least values; a solution if they cover, none if the most do not, else a column of a row that is short. */
+static thr_status solve_by_least(void *user, int node, thr_tree_branch *branch, thr_err *err)
+{
+  (void)err;
+  search *s = user;
+  int i = 0, k = 0;
+  s->solved[s->n_solved++] = node;
+  assert_in_force(s);
+  s->tree.node[node].bound = price_of(s->c, s->low);
+  while (k < ROWS && short_of(s->c, k, s->high) <= 0)
+    k++;
+  while (i < ROWS && short_of(s->c, i, s->low) <= 0)
+    i++;
+  if (i == ROWS) s->tree.enough = fmin(s->tree.enough, s->tree.node[node].bound);
+  if (i == ROWS || k < ROWS) return THR_OK;
+  branch->column = 0;
+  while (s->c->row[i][branch->column] == 0 || s->low[branch->column] == s->high[branch->column])
+    branch->column++;
+  branch->value = s->low[branch->column];
+  branch->high = true;
+  return THR_OK;
+}
+
+static void search_init(search *s, const covering *c)
+{
+  static const int least[COLUMNS], most[COLUMNS] = {MOST, MOST, MOST, MOST, MOST};
+  *s = (search){.c = c};
+  memcpy(s->high, most, sizeof most);
+  ck_assert_int_eq(thr_tree_init(&s->tree, COLUMNS, least, most, NULL), THR_OK);
+}
+
+START_TEST(the_tree_finds_the_least_of_all_points)
+{
+  rng r = rng_make((uint64_t)_i);
+  const covering c = covering_make(&r);
+  search s;
+  search_init(&s, &c);
+  const thr_tree_calls calls = {&s, NULL, tell, solve_by_least};
+  ck_assert_int_eq(thr_tree_run(&s.tree, &calls, NULL), THR_OK);
+  ck_assert(!s.tree.stopped);
+  ck_assert_double_eq(s.tree.enough, least_price(&c));
+  for (int i = 0; i < s.n_solved; i++) {
+    const thr_tree_node *n = &s.tree.node[s.solved[i]];
+    if (n->parent >= 0) ck_assert_msg(s.tree.node[n->parent].bound < s.tree.enough, "a node below a closed one was solved");
+  }
+  ck_assert_int_eq(thr_tree_enter(&s.tree, &calls, 0, NULL), THR_OK);
+  assert_in_force(&s);
+  for (int j = 0; j < COLUMNS; j++)
+    ck_assert(s.low[j] == 0 && s.high[j] == MOST);
+  thr_tree_destroy(&s.tree);
+}
+END_TEST
+
+START_TEST(a_stopped_tree_knows_a_bound)
+{
+  rng r = rng_make((uint64_t)_i);
+  const covering c = covering_make(&r);
+  double work = 0;
+  const thr_limits none = {.work = &work};
+  for (int by_work = 0; by_work < 2; by_work++) {
+    search s;
+    search_init(&s, &c);
+    const thr_tree_calls calls = {&s, by_work ? &none : NULL, tell, solve_by_least};
+    if (!by_work) s.tree.most_nodes = 1 + _i % 8;
+    ck_assert_int_eq(thr_tree_run(&s.tree, &calls, NULL), THR_OK);
+    ck_assert_int_ge(s.n_solved, 1);
+    if (by_work) ck_assert_int_eq(s.n_solved, 1); /* the root in any case */
+    ck_assert_int_le(s.tree.n_nodes, by_work ? 3 : s.tree.most_nodes);
+    if (s.tree.stopped) ck_assert_double_le(thr_tree_bound(&s.tree), least_price(&c));
+    if (!s.tree.stopped) ck_assert_double_eq(s.tree.enough, least_price(&c));
+    thr_tree_destroy(&s.tree);
+  }
+}
+END_TEST
+
+/* Two columns of 0 or 1, all bounds within one grain of each other. */
+static thr_status solve_ties(void *user, int node, thr_tree_branch *branch, thr_err *err)
+{
+  (void)err;
+  search *s = user;
+  s->solved[s->n_solved++] = node;
+  s->tree.node[node].bound = 10.5 - 0.01 * s->n_solved;
+  if (s->tree.node[node].depth < 2) *branch = (thr_tree_branch){s->tree.node[node].depth, 0, node == 0};
+  return THR_OK;
+}
+
+START_TEST(of_equal_bounds_the_deepest_the_youngest_the_preferred)
+{
+  static const int least[COLUMNS], most[COLUMNS] = {1, 1, 1, 1, 1};
+  search s = {.n_solved = 0};
+  ck_assert_int_eq(thr_tree_init(&s.tree, COLUMNS, least, most, NULL), THR_OK);
+  s.tree.grain = 1;
+  const thr_tree_calls calls = {&s, NULL, tell, solve_ties};
+  ck_assert_int_eq(thr_tree_run(&s.tree, &calls, NULL), THR_OK);
+  const int expected[] = {0, 2, 3, 4, 1, 5, 6}; /* 1, 2 below the root, the high one first; then the low ones */
+  ck_assert_int_eq(s.n_solved, 7);
+  for (int i = 0; i < 7; i++)
+    ck_assert_int_eq(s.solved[i], expected[i]);
+  thr_tree_destroy(&s.tree);
+}
+END_TEST
+
+/* ---- rows that are found as a point violates them ---- */
+
+typedef struct {
+  search s;
+  thr_pool pool;
+  thr_lp *lp;
+  rng r;
+} cutting;
+
+static thr_status set_in_programme(void *user, int column, int low, int high, thr_err *err)
+{
+  cutting *k = user;
+  thr_status st = tell(&k->s, column, low, high, err);
+  return st ? st : thr_lp_set_bounds(k->lp, column, low, high, err);
+}
+
+/* One row that x violates, begun anywhere. */
+static int separate(cutting *k, const double *x)
+{
+  const covering *c = k->s.c;
+  int added = 0;
+  for (int q = 0, first = rng_below(&k->r, ROWS); q < ROWS && !added; q++) {
+    int i = (first + q) % ROWS;
+    for (int j = 0; j < COLUMNS; j++) {
+      thr_pool_put(&k->pool, j, c->row[i][j] + 1); /* in two steps, which must add up */
+      thr_pool_put(&k->pool, j, -1);
+    }
+    ck_assert_int_eq(thr_pool_offer(&k->pool, (thr_row){.index = i, .lower = c->lower[i]}, x, 1e-6, &added, NULL), THR_OK);
+  }
+  return added;
+}
+
+static thr_status solve_by_programme(void *user, int node, thr_tree_branch *branch, thr_err *err)
+{
+  cutting *k = user;
+  thr_tree *t = &k->s.tree;
+  thr_limits none = {0};
+  double x[COLUMNS];
+  for (bool more = true, any; more;) {
+    thr_lp_outcome outcome;
+    ck_assert_int_eq(thr_pool_load(&k->pool, thr_lp_rows(k->lp), -1, k->lp, err), THR_OK);
+    ck_assert_int_eq(thr_lp_solve(k->lp, &none, &outcome, err), THR_OK);
+    if (outcome == THR_LP_INFEASIBLE) return THR_OK;
+    ck_assert_int_eq(outcome, THR_LP_OPTIMAL);
+    thr_lp_primal(k->lp, x);
+    for (int i = 0; i < k->pool.count; i++)
+      ck_assert_double_ge(thr_row_sum(&k->pool.row[i], x), k->pool.row[i].lower - 1e-6);
+    ck_assert_int_eq(thr_pool_age(&k->pool, 2, k->lp, &any, err), THR_OK);
+    ck_assert_int_eq(k->pool.count, thr_lp_rows(k->lp));
+    more = separate(k, x) > 0;
+  }
+  t->node[node].bound = fmax(t->node[node].bound, thr_lp_objective(k->lp) - 1e-6);
+  for (int j = 0; j < COLUMNS && branch->column < 0; j++)
+    if (fabs(x[j] - nearbyint(x[j])) > 1e-5) *branch = (thr_tree_branch){j, (int)floor(x[j]), false};
+  if (branch->column < 0) t->enough = fmin(t->enough, nearbyint(thr_lp_objective(k->lp)));
+  return THR_OK;
+}
+
+START_TEST(rows_found_on_the_way_lead_to_the_same_price)
+{
+  rng r = rng_make((uint64_t)_i);
+  const covering c = covering_make(&r);
+  cutting k = {.r = r};
+  double cost[COLUMNS], most[COLUMNS] = {MOST, MOST, MOST, MOST, MOST};
+  for (int j = 0; j < COLUMNS; j++)
+    cost[j] = c.cost[j];
+  search_init(&k.s, &c);
+  ck_assert_int_eq(thr_pool_init(&k.pool, COLUMNS, NULL), THR_OK);
+  ck_assert_int_eq(thr_lp_create(&k.lp, COLUMNS, cost, most, NULL), THR_OK);
+  const thr_tree_calls calls = {&k, NULL, set_in_programme, solve_by_programme};
+  ck_assert_int_eq(thr_tree_run(&k.s.tree, &calls, NULL), THR_OK);
+  ck_assert_double_eq(k.s.tree.enough, least_price(&c));
+  thr_tree_destroy(&k.s.tree);
+  thr_pool_destroy(&k.pool);
+  thr_lp_destroy(k.lp);
+}
+END_TEST
+
+static void put_row(thr_pool *p, double a, double b)
+{
+  thr_pool_put(p, 2, a);
+  thr_pool_put(p, 0, b);
+  thr_pool_put(p, 1, 3);
+  thr_pool_put(p, 1, -3); /* nothing is left of it */
+}
+
+START_TEST(a_row_is_known_until_it_is_dropped)
+{
+  const double none[3] = {0}, enough[3] = {2, 0, 2};
+  double reduced[3] = {10, 10, 10};
+  int added = 0, set[] = {7, 9};
+  thr_pool p;
+  ck_assert_int_eq(thr_pool_init(&p, 3, NULL), THR_OK);
+  put_row(&p, 1, 2);
+  ck_assert_int_eq(thr_pool_offer(&p, (thr_row){.lower = 4}, enough, 1e-6, &added, NULL), THR_OK);
+  ck_assert_int_eq(p.count, 0); /* not violated */
+  for (int twice = 0; twice < 2; twice++) {
+    put_row(&p, 1, 2);
+    ck_assert_int_eq(thr_pool_offer(&p, (thr_row){.lower = 4, .member = set, .n_members = 2}, none, 1e-6, &added, NULL), THR_OK);
+  }
+  ck_assert(added == 1 && p.count == 1 && p.row[0].n == 2 && p.row[0].column[0] == 2 && p.row[0].column[1] == 0);
+  set[1] = 0; /* its own copy */
+  ck_assert(p.row[0].n_members == 2 && p.row[0].member[1] == 9);
+  ck_assert_double_eq(thr_row_sum(&p.row[0], enough), 6);
+  thr_row_charge(&p.row[0], 3, reduced);
+  ck_assert(reduced[0] == 4 && reduced[1] == 10 && reduced[2] == 7);
+  put_row(&p, 1, 1); /* another row */
+  ck_assert_int_eq(thr_pool_offer(&p, (thr_row){.lower = 4}, none, 1e-6, &added, NULL), THR_OK);
+  ck_assert(added == 2 && p.count == 2 && p.row[1].value == NULL);
+  ck_assert_int_eq(thr_pool_keep_violated(&p, 0, enough, 1e-6, &added, NULL), THR_OK);
+  ck_assert(added == 2 && p.count == 0);
+  put_row(&p, 1, 2);
+  ck_assert_int_eq(thr_pool_offer(&p, (thr_row){.lower = 4}, none, 1e-6, &added, NULL), THR_OK);
+  ck_assert(added == 3 && p.count == 1);
+  thr_pool_destroy(&p);
+}
+END_TEST
+
+START_TEST(a_pool_of_thousands_knows_them_all)
+{
+  enum { MANY = 3000 };
+  const double x[2] = {0};
+  int added = 0;
+  thr_pool p;
+  ck_assert_int_eq(thr_pool_init(&p, 2, NULL), THR_OK);
+  for (int i = 0; i < 2 * MANY; i++) {
+    thr_pool_put(&p, i % 2, 1 + i % MANY);
+    ck_assert_int_eq(thr_pool_offer(&p, (thr_row){.lower = 1}, x, 1e-6, &added, NULL), THR_OK);
+  }
+  ck_assert_int_eq(added, MANY);
+  for (int i = 0; i < MANY; i++)
+    ck_assert(thr_pool_knows(&p, p.row[i].name) && p.row[i].column[0] == i % 2);
+  thr_pool_destroy(&p);
+}
+END_TEST
+
+int main(void)
+{
+  Suite *s = suite_create("rows and tree");
+  ADD_LOOP(s, 20, the_tree_finds_the_least_of_all_points, 0, 200);
+  ADD_LOOP(s, 20, a_stopped_tree_knows_a_bound, 0, 50);
+  ADD_TEST(s, 5, of_equal_bounds_the_deepest_the_youngest_the_preferred);
+  ADD_LOOP(s, 20, rows_found_on_the_way_lead_to_the_same_price, 0, 200);
+  ADD_TEST(s, 5, a_row_is_known_until_it_is_dropped);
+  ADD_TEST(s, 5, a_pool_of_thousands_knows_them_all);
+  return run_suite(s);
+}
