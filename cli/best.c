@@ -29,11 +29,9 @@ static double value_of(const thr_plan *p)
   double longest = 0;
   for (int i = 0; i < p->n_cords; i++)
     longest = fmax(longest, thr_cord_length(&p->frame, &p->cord[i]));
-  switch (p->options.objective) {
-  case THR_SYMMETRY: return p->symmetry.steps;
-  case THR_TORTUOSITY: return p->options.turning.largest ? p->metrics.max_turning : p->metrics.turning;
-  default: return p->options.balance ? longest : p->metrics.length;
-  }
+  if (thr_wants_symmetry(&p->options)) return p->symmetry.steps;
+  if (thr_wants_turning(&p->options)) return thr_wants_largest(&p->options) ? p->metrics.max_turning : p->metrics.turning;
+  return thr_wants_balance(&p->options) ? longest : p->metrics.length;
 }
 
 /* Cords in the component that has most, and in the one that has fewest; false without memory. */
@@ -57,11 +55,11 @@ static bool fits(thr_plan *p)
 {
   int fewest, most;
   if (!count_cords(p, &fewest, &most) || most > MOST_CORDS) return false;
-  if (p->options.objective == THR_SYMMETRY) p->options.cords = most;
+  if (thr_wants_symmetry(&p->options)) p->options.cords = most;
   bool few_enough = most <= p->options.cords, enough = fewest >= p->options.cords_least;
   for (int i = 0; p->options.max_length > 0 && i < p->n_cords; i++)
     few_enough = few_enough && thr_cord_length(&p->frame, &p->cord[i]) <= p->options.max_length * (1 + 1e-12);
-  return few_enough && (enough || p->options.objective == THR_SYMMETRY || p->options.ends == THR_ENDS_COUNTS);
+  return few_enough && (enough || thr_wants_symmetry(&p->options) || p->options.ends == THR_ENDS_COUNTS);
 }
 
 /* Every cord a copy of itself, by the identity. */
@@ -111,7 +109,7 @@ void best_found(void *user, const thr_cord *cord, int n_cords, const thr_symmetr
     p.cord[i] = cord[i];
     thr_cord_id(i, p.cord[i].id);
   }
-  bool copies = best.o->objective == THR_SYMMETRY, sound = p.cord != NULL;
+  bool copies = thr_wants_symmetry(best.o), sound = p.cord != NULL;
   if (sound && copies && !symmetry) sound = !*best.o->symmetry.group && identity_record(&p, &own) == THR_OK;
   if (copies) p.symmetry = symmetry ? *symmetry : own;
   if (sound) keep_better(&p, now);

@@ -35,7 +35,7 @@ thr_objective thr_dispatch_objective(int i)
 static int row_of(const thr_plan_options *o)
 {
   int i = 0;
-  while (objectives[i].id != o->objective)
+  while (objectives[i].id != thr_aims_objective(o))
     i++;
   return i;
 }

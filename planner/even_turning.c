@@ -15,6 +15,7 @@ thr_status thr_even_seed(const thr_frame *f, const thr_plan_options *o, const th
   thr_err why = {0};
   const thr_limits share = thr_dispatch_share(limits, THR_STEP_SEED);
   so.symmetry = thr_plan_options_default().symmetry;
+  so.aims = thr_aims_symmetric;
   thr_status st = thr_symmetries_find(f, &so, &share, &s, &why);
   int row = st && st != THR_ELIMIT ? -1 : thr_symmetries_even(&s, o->cords);
   if (row >= 0) st = thr_symmetries_plan(&s, row, f, &so, &share, seed, &why);

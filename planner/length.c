@@ -20,7 +20,7 @@ void thr_planner_tell_first(const thr_frame *f, const thr_plan_options *o, const
   thr_tube t = {0};
   if (!limits->found) return;
   share.found = NULL;
-  length.objective = THR_LENGTH;
+  length.aims = thr_aims_shortest;
   length.confirm = THR_CONFIRM_NEVER;
   thr_status st = o->joint == THR_JOINT_TUBE ? thr_tube_some(f, &length, &share, &t, NULL)
                                              : thr_cords_plan(f, &length, &share, &p, NULL, NULL);

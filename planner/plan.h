@@ -1,8 +1,9 @@
 /* One way to make a plan: what is wanted goes in, a plan with its proofs comes out (planner/dispatch.c says who plans it).
  *
  *   thr_plan_options request = thr_plan_options_default();
- *   request.objective = THR_TORTUOSITY;
- *   if (!thr_plan_make(&frame, &request, &(thr_limits){0}, &plan, NULL, &err)) thr_plan_write(&plan, &text);
+ *   if (!thr_aims_parse("length+5%,turning", &request, &err) &&
+ *       !thr_plan_make(&frame, &request, &(thr_limits){0}, &plan, NULL, &err))
+ *     thr_plan_write(&plan, &text);
  */
 #ifndef THR_PLANNER_PLAN_H
 #define THR_PLANNER_PLAN_H

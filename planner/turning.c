@@ -84,7 +84,7 @@ static thr_status find_shortest(const thr_frame *f, const thr_plan_options *o, c
   *s = (shortest_plan){0};
   thr_plan_options any = *o;
   if (o->ends == THR_ENDS_CLOSED) { /* no closed cords are shorter than one, which the search cuts up */
-    any.objective = THR_LENGTH;
+    any.aims = thr_aims_shortest;
     any.cords_least = 1;
   }
   if (o->joint == THR_JOINT_TUBE) return thr_tube_shortest(f, &any, &share, &s->tube, err);
@@ -109,7 +109,7 @@ static thr_status cords_by_length(const thr_frame *f, const thr_plan_options *o,
   const thr_limits share = thr_dispatch_share(limits, THR_STEP_BY_LENGTH);
   thr_err why = {0};
   thr_plan p = {0};
-  length.objective = THR_LENGTH;
+  length.aims = thr_aims_shortest;
   thr_status st = thr_planner_length(f, &length, &share, &p, NULL, &why);
   *cord = p.cord;
   *n = p.n_cords;
@@ -147,7 +147,7 @@ static thr_status find_cords(const thr_frame *f, const thr_plan_options *o, cons
   const thr_least_options lo = search_options(o);
   if (o->turning.tour != THR_TOUR_LEAST)
     return thr_baseline_tour(f, &lo, o->turning.tour, o->turning.ignore_pairings, limits, l, err);
-  if (!o->turning.largest) return find_from_shortest(f, o, s, limits, l, err);
+  if (!thr_wants_largest(o)) return find_from_shortest(f, o, s, limits, l, err);
   const thr_limits first = thr_dispatch_share(limits, THR_STEP_LEAST);
   thr_status st = find_from_shortest(f, o, s, &first, l, err);
   if (st && st != THR_ELIMIT) return st;
@@ -205,10 +205,10 @@ static thr_status verdict(const thr_plan *p, const thr_least *l, thr_err *err)
   if (p->proof.slack_open)
     return thr_fail(err, THR_ELIMIT, "the least length is not proved: the cords may be %.3g %% longer, more than --length-slack",
                     100 * (p->metrics.length / p->proof.lower_bound - 1));
-  if (p->options.turning.largest && !c->largest_optimal)
+  if (thr_wants_largest(&p->options) && !c->largest_optimal)
     return thr_fail(err, THR_ELIMIT, "the largest turning of a cord is proved to be within %.3g %% of the least",
                     100 * (c->largest - c->largest_bound) / c->largest);
-  if (!p->options.turning.largest && !c->optimal)
+  if (!thr_wants_largest(&p->options) && !c->optimal)
     return thr_fail(err, THR_ELIMIT, "%s: the turning is proved to be within %.3g %% of the least", why_open(l), 100 * c->gap);
   return THR_OK;
 }
@@ -249,7 +249,7 @@ thr_status thr_planner_turning(const thr_frame *f, const thr_plan_options *o, co
   (void)report;
   *plan = (thr_plan){0};
   thr_planner_tell_first(f, o, limits);
-  if (o->turning.largest && o->cords > 1 && o->ends != THR_ENDS_COUNTS) st = thr_even_seed(f, o, limits, &seed, err);
+  if (thr_wants_largest(o) && o->cords > 1 && o->ends != THR_ENDS_COUNTS) st = thr_even_seed(f, o, limits, &seed, err);
   if (!st) st = thr_tortuosity_plan_from(f, o, seed.n_cords ? &seed : NULL, limits, plan, err);
   thr_plan_destroy(&seed);
   return st;

@@ -16,7 +16,7 @@
 thr_status thr_tortuosity_plan(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
                                thr_err *err) THR_MUST_CHECK;
 
-/* The same with a second start for options.turning.largest: the cords of seed (NULL = none), another plan of the framework, if
+/* The same with a second start for the aim max-turning: the cords of seed (NULL = none), another plan of the framework, if
  * they are as many in every component and keep to the options. A symmetric plan may attain the bound at once (docs/method.md). */
 thr_status thr_tortuosity_plan_from(const thr_frame *f, const thr_plan_options *o, const thr_plan *seed, const thr_limits *limits,
                                     thr_plan *plan, thr_err *err) THR_MUST_CHECK;

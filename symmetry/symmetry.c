@@ -122,7 +122,7 @@ static thr_status verdict(const thr_symmetries *t, const char *group, thr_err *e
 static thr_status check_request(const thr_plan_options *o, thr_err *err)
 {
   const char *what = o->max_length > 0            ? "a largest length of the cords"
-                     : o->balance                 ? "cords of balanced length"
+                     : thr_wants_balance(o)       ? "cords of balanced length"
                      : o->ends == THR_ENDS_COUNTS ? "a number of cord ends for each node"
                                                   : NULL;
   return what ? thr_fail(err, THR_EINPUT, "symmetric threadings do not know %s", what) : THR_OK;
@@ -200,7 +200,7 @@ thr_status thr_symmetries_plan(thr_symmetries *t, int row, const thr_frame *f, c
   thr_plan_options with = *o;
   int least;
   *plan = (thr_plan){0};
-  with.objective = THR_SYMMETRY;
+  if (!thr_wants_symmetry(o)) with.aims = thr_aims_symmetric;
   count_cords(r, &least, &with.cords);
   if (with.cords > MOST_CORDS)
     return thr_fail(err, THR_EINFEASIBLE, "group %d makes %d cords in one component, more than %d", row + 1, with.cords,

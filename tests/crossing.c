@@ -492,7 +492,7 @@ static void say_turning(crossing_case *c)
   const int *v = c->value;
   c->o.turning.length_slack = slack[v[BY_SLACK]];
   c->o.turning.cost = (thr_turn_cost)v[BY_COST];
-  c->o.turning.largest = v[BY_MINIMIZE];
+  if (v[BY_MINIMIZE] && v[BY_OBJECTIVE] == TORTUOSITY) c->o.aims.aim[0] = THR_AIM_MAX_TURNING;
   c->o.turning.tour = (thr_tour)v[BY_TOUR];
   if (v[BY_SLACK]) say(c, " --length-slack %s", crossing_value[BY_SLACK][v[BY_SLACK]]);
   if (v[BY_COST]) say(c, " --turn-cost %s", crossing_value[BY_COST][v[BY_COST]]);
@@ -502,14 +502,13 @@ static void say_turning(crossing_case *c)
 
 static void say_options(crossing_case *c, const sketch *s, rng *r)
 {
-  static const thr_objective objective[] = {THR_LENGTH, THR_TORTUOSITY, THR_SYMMETRY};
+  static const char *const aims[] = {"length", "turning", "overlap,steps"};
   const int *v = c->value;
   c->o = thr_plan_options_default();
-  c->o.objective = objective[v[BY_OBJECTIVE]];
+  want(&c->o, v[BY_BALANCE] ? "longest" : aims[v[BY_OBJECTIVE]]);
   c->o.joint = v[BY_JOINT] ? THR_JOINT_TUBE : THR_JOINT_SOLID;
   c->o.cover = 1 + v[BY_COVER];
   c->o.capacity = v[BY_CAPACITY];
-  c->o.balance = v[BY_BALANCE];
   if (v[BY_OBJECTIVE]) say(c, " --objective %s", crossing_value[BY_OBJECTIVE][v[BY_OBJECTIVE]]);
   if (v[BY_JOINT]) say(c, " --joint tube");
   if (v[BY_COVER]) say(c, " --cover 2");

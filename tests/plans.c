@@ -17,7 +17,7 @@ thr_plan symmetric_plan(thr_frame f, thr_ends ends, int cover, const char *group
   thr_err err = {0};
   thr_limits none = {0};
   thr_plan_options o = options_for(ends, cover);
-  o.objective = THR_SYMMETRY;
+  want(&o, "overlap,steps");
   snprintf(o.symmetry.group, sizeof o.symmetry.group, "%s", group);
   thr_status st = thr_symmetry_plan(&f, &o, &none, NULL, &p, &err);
   ck_assert_msg(st == THR_OK || (st == THR_ELIMIT && p.n_cords > 0), "%s", err.text); /* proved or not */

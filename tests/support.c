@@ -99,6 +99,16 @@ void rng_shuffle(rng *r, int *a, int n)
   }
 }
 
+/* ---- requests ---- */
+
+void want(thr_plan_options *o, const char *aims)
+{
+  thr_err err = {0};
+  const thr_turning_options turning = o->turning;
+  ck_assert_msg(thr_aims_parse(aims, o, &err) == THR_OK, "%s: %s", aims, err.text);
+  o->turning = turning;
+}
+
 /* ---- frameworks ---- */
 
 thr_frame frame_make(int n, const double (*xyz)[3], int m, const int (*edge)[2], const double *length, const int *feet)

@@ -42,6 +42,11 @@ int rng_between(rng *r, int low, int high); /* both included */
 double rng_unit(rng *r);                    /* [0, 1) */
 void rng_shuffle(rng *r, int *a, int n);
 
+/* ---- requests ---- */
+
+/* Asks for these aims, a list as thr_aims_parse reads; prices of turns and the slack of the length stay as they are. */
+void want(thr_plan_options *o, const char *aims);
+
 /* ---- frameworks ---- */
 
 /* length NULL: Euclidean; feet is a list that ends with -1, or NULL. */

@@ -94,22 +94,22 @@ bool cords_option(cords_args *a, int option, const char *value, bool *ok)
   }
 }
 
-const char *cords_args_refused(const cords_args *a, thr_objective objective, bool rival)
+const char *cords_args_refused(const cords_args *a, const thr_plan_options *wanted, bool rival)
 {
-  if (objective == THR_LENGTH) return NULL;
+  if (thr_wants_length(wanted)) return NULL;
   if (a->max_length > 0) return "--max-length";
   if (a->balance) return "--balance";
   if (a->automatic) return "--cords auto";
   if (a->least != a->most) return "a range of --cords";
-  if (objective == THR_TORTUOSITY) return NULL;
+  if (thr_wants_turning(wanted)) return NULL;
   return a->most > 1 && !rival ? "--cords" : NULL;
 }
 
-int cords_args_check(const cords_args *a, const turning_args *turning, thr_objective objective)
+int cords_args_check(const cords_args *a, const turning_args *turning, const thr_plan_options *wanted)
 {
-  const char *refused = cords_args_refused(a, objective, false), *tour = thr_tour_name(turning->options.tour);
-  if (refused) return cli_usage("plan", "%s: not with --objective %s", refused, thr_objective_name(objective));
-  if (a->confirm == THR_CONFIRM_ALWAYS && (objective != THR_LENGTH || a->joint == THR_JOINT_TUBE))
+  const char *refused = cords_args_refused(a, wanted, false), *tour = thr_tour_name(turning->options.tour);
+  if (refused) return cli_usage("plan", "%s: not with --objective %s", refused, thr_objective_name(thr_aims_objective(wanted)));
+  if (a->confirm == THR_CONFIRM_ALWAYS && (!thr_wants_length(wanted) || a->joint == THR_JOINT_TUBE))
     return cli_usage("plan", "--confirm always: of shortest passes only, with --objective length and --joint solid");
   if (a->balance && a->most < 2) return cli_usage("plan", "--balance needs several --cords");
   if (a->balance && (a->max_length > 0 || a->automatic))
@@ -199,7 +199,7 @@ static int count_cords(const thr_frame *f, const int *counts, int *least, int *m
 static int apply_counts(const cords_args *a, const thr_frame *f, thr_plan_options *o)
 {
   int least, most, code;
-  if (o->objective == THR_SYMMETRY) return cli_usage("plan", "--ends NAME:N: not with --objective symmetry");
+  if (thr_wants_symmetry(o)) return cli_usage("plan", "--ends NAME:N: not with --objective symmetry");
   if ((code = count_cords(f, o->end_count, &least, &most))) return code;
   if (o->turning.tour != THR_TOUR_LEAST && most > 1)
     return cli_usage("plan", "--tour %s makes one cord in each component, not the %d of --ends %s",
@@ -221,7 +221,7 @@ static int apply_counts(const cords_args *a, const thr_frame *f, thr_plan_option
 static int apply_bore(thr_plan_options *o)
 {
   const thr_physics *p = &o->physics;
-  if (p->bore == 0 || p->cord_diameter == 0 || o->objective == THR_SYMMETRY) return EXIT_OK;
+  if (p->bore == 0 || p->cord_diameter == 0 || thr_wants_symmetry(o)) return EXIT_OK;
   int fit = thr_bore_fits(p->bore, p->cord_diameter);
   if (fit < o->cover) {
     cli_error("%d %s of a cord of %g mm %s through a bore of %g mm; --cover asks for %d", fit, cli_plural(fit, "pass", "passes"),
@@ -247,7 +247,6 @@ int cords_args_apply(const cords_args *a, const thr_frame *f, thr_plan_options *
   o->engine = a->engine;
   o->confirm = a->confirm;
   o->max_length = a->max_length;
-  o->balance = a->balance;
   int code = apply_bore(o);
   if (code) return code;
   apply_number(a, o);

@@ -54,12 +54,12 @@ cords_args cords_args_default(void);
 /* Takes one of the options above; false if it is none of them. *ok false: its value was bad (printed). */
 bool cords_option(cords_args *a, int option, const char *value, bool *ok);
 
-/* Does what was asked make sense together, and with the objective? -1, or prints and returns the code. */
-int cords_args_check(const cords_args *a, const turning_args *turning, thr_objective objective);
+/* Does what was asked make sense together, and with the aims of what is wanted? -1, or prints and returns the code. */
+int cords_args_check(const cords_args *a, const turning_args *turning, const thr_plan_options *wanted);
 
-/* What of these options an objective cannot do: a few words like "--balance", or NULL. rival: a plan to compare with, which may
- * have another number of cords. */
-const char *cords_args_refused(const cords_args *a, thr_objective objective, bool rival);
+/* What of these options plans with such aims cannot do: a few words like "--balance", or NULL. rival: a plan to compare with,
+ * which may have another number of cords. */
+const char *cords_args_refused(const cords_args *a, const thr_plan_options *wanted, bool rival);
 
 /* Lays them over *o, which holds cord and beads already, for this framework. Returns EXIT_OK or prints and returns the code. The
  * caller frees o->end_node and o->end_count. */

@@ -6,7 +6,10 @@
 
 symmetry_args symmetry_args_default(void)
 {
-  return (symmetry_args){.options = thr_plan_options_default().symmetry};
+  const thr_plan_options usual = thr_plan_options_default();
+  symmetry_args a = {.options = usual.symmetry};
+  thr_aims_order(&usual, a.prefer);
+  return a;
 }
 
 static const char *aim_name(int i)
@@ -58,7 +61,8 @@ bool symmetry_option(symmetry_args *a, const char *command, int option, const ch
     break;
   case OPTION_SYMMETRY_PREFER:
     name = "--prefer";
-    *ok = parse_prefer(command, value, o->prefer);
+    *ok = parse_prefer(command, value, a->prefer);
+    a->preferred = true;
     break;
   default: return false;
   }

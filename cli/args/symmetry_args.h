@@ -18,7 +18,9 @@ enum { OPTION_SYMMETRY_GROUP = OPTION_TURNING_FREE, OPTION_SYMMETRY_GEOMETRIC, O
 
 typedef struct {
   thr_symmetry_options options;
-  const char *given; /* the first of these options; NULL = none */
+  thr_aim prefer[THR_N_AIMS]; /* what counts first, second, .. */
+  bool preferred;             /* --prefer was given */
+  const char *given;          /* the first of these options; NULL = none */
 } symmetry_args;
 
 symmetry_args symmetry_args_default(void);

@@ -24,7 +24,7 @@ static const char *tour_name(int i)
 
 static const char *minimize_name(int i)
 {
-  return i ? "max-turning" : "turning";
+  return thr_aim_name(i ? THR_AIM_MAX_TURNING : THR_AIM_TURNING);
 }
 
 static const char *pairings_name(int i)
@@ -53,17 +53,17 @@ bool turning_option(turning_args *a, int option, const char *value, bool *ok)
   switch (option) {
   case OPTION_TURNING_SLACK:
     *ok = slack(value, &o->length_slack);
-    name = "--length-slack";
+    a->spelled = name = "--length-slack";
     break;
   case OPTION_TURNING_MINIMIZE:
     *ok = cli_choose("plan", "--minimize", value, minimize_name, 2, &i);
-    o->largest = i == 1;
-    name = "--minimize";
+    a->largest = i == 1;
+    a->spelled = name = "--minimize";
     break;
   case OPTION_TURNING_COST:
     *ok = cli_choose("plan", "--turn-cost", value, cost_name, THR_N_TURN_COSTS, &i);
     if (*ok) o->cost = (thr_turn_cost)i;
-    name = "--turn-cost";
+    a->spelled = name = "--turn-cost";
     break;
   case OPTION_TURNING_TOUR:
     *ok = cli_choose("plan", "--tour", value, tour_name, THR_N_TOURS, &i);
@@ -92,21 +92,15 @@ bool turning_option(turning_args *a, int option, const char *value, bool *ok)
 }
 
 /* What would be ignored is refused. */
-int turning_args_check(const turning_args *a, thr_objective objective)
+int turning_args_check(const turning_args *a, const thr_plan_options *wanted)
 {
   const thr_turning_options *o = &a->options;
-  if (objective != THR_TORTUOSITY && a->given) return cli_usage("plan", "%s needs --objective tortuosity", a->given);
+  if (!thr_wants_turning(wanted) && a->given) return cli_usage("plan", "%s needs --objective tortuosity", a->given);
   if (o->tour == THR_TOUR_LEAST)
     return a->pairings ? cli_usage("plan", "--pairings is for --tour fleury and --tour hierholzer") : -1;
   const char *tour = thr_tour_name(o->tour);
   if (o->length_slack > 0) return cli_usage("plan", "--tour %s takes the shortest passes: no --length-slack but 0", tour);
-  if (o->largest) return cli_usage("plan", "--tour %s minimizes nothing: no --minimize max-turning", tour);
+  if (a->largest) return cli_usage("plan", "--tour %s minimizes nothing: no --minimize max-turning", tour);
   if (a->frontier) return cli_usage("plan", "--tour %s minimizes nothing: no --frontier", tour);
   return -1;
-}
-
-void turning_args_apply(const turning_args *a, thr_objective objective, thr_plan_options *o)
-{
-  const turning_args usual = turning_args_default();
-  o->turning = objective == THR_TORTUOSITY ? a->options : usual.options;
 }

@@ -38,10 +38,12 @@ enum {
 
 typedef struct {
   thr_turning_options options;
-  int frontier;      /* points, 0 = none */
-  bool compare;      /* --compare-shortest */
-  const char *given; /* the first of these options; NULL = none */
-  bool pairings;     /* --pairings was given */
+  bool largest;        /* --minimize max-turning */
+  int frontier;        /* points, 0 = none */
+  bool compare;        /* --compare-shortest */
+  const char *given;   /* the first of these options; NULL = none */
+  const char *spelled; /* one of them that says a part of --aims; NULL = none */
+  bool pairings;       /* --pairings was given */
 } turning_args;
 
 turning_args turning_args_default(void);
@@ -49,10 +51,7 @@ turning_args turning_args_default(void);
 /* Takes one of the options above; false if it is none of them. *ok false: its value was bad (printed). */
 bool turning_option(turning_args *a, int option, const char *value, bool *ok);
 
-/* Does what was asked make sense together, and with the objective? -1, or prints and returns the code. */
-int turning_args_check(const turning_args *a, thr_objective objective);
-
-/* What was asked, for a plan of this objective. One that takes no such options gets the defaults. */
-void turning_args_apply(const turning_args *a, thr_objective objective, thr_plan_options *o);
+/* Does what was asked make sense together, and with the aims of what is wanted? -1, or prints and returns the code. */
+int turning_args_check(const turning_args *a, const thr_plan_options *wanted);
 
 #endif

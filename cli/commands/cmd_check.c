@@ -29,7 +29,7 @@ static void put_turning(thr_text *t, const thr_plan *p)
   int branchings = c->tree.n_nodes / 2;
   const char *cost = thr_turn_cost_name(p->options.turning.cost);
   bool angles = p->options.turning.cost == THR_TURN_ANGLE;
-  if (p->options.objective != THR_TORTUOSITY) return;
+  if (!thr_wants_turning(&p->options)) return;
   thr_text_printf(t, "; turning %.3f deg: ", cli_degrees(p->metrics.turning));
   if (!c->present) {
     thr_text_append(t, "no claim of optimality");
@@ -58,7 +58,7 @@ static void put_symmetry(thr_text *t, const thr_plan *p)
 static void put_cords(thr_text *t, const thr_plan *p)
 {
   const thr_cords_claim *c = &p->cords_claim;
-  if (c->present && p->options.balance) {
+  if (c->present && thr_wants_balance(&p->options)) {
     thr_text_printf(t, "; longest cord %.6f %s: ", c->longest, p->frame.units);
     if (c->longest_optimal)
       thr_text_append(t, "optimal, verified");
@@ -143,7 +143,7 @@ static void put_json(thr_text *t, const char *path, const thr_plan *p, const thr
       thr_text_double(t, p->proof.gap);
     }
     put_cords_json(t, p);
-    if (p->options.objective == THR_TORTUOSITY) put_turning_json(t, p);
+    if (thr_wants_turning(&p->options)) put_turning_json(t, p);
     if (p->symmetry.present) put_symmetry_json(t, &p->symmetry);
     terms_put_json(t, p);
   }

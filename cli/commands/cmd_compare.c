@@ -140,7 +140,7 @@ static void put_head(thr_text *t, const entry *e, int n)
   }
   thr_text_printf(t, "\n%-32s", "objective");
   for (int i = 0; i < n; i++)
-    thr_text_printf(t, " %16s ", thr_objective_name(e[i].plan.options.objective));
+    thr_text_printf(t, " %16s ", thr_objective_name(thr_aims_objective(&e[i].plan.options)));
   thr_text_printf(t, "\n%-32s", "ends");
   for (int i = 0; i < n; i++)
     thr_text_printf(t, " %16s ", thr_ends_name(e[i].plan.options.ends));
@@ -186,7 +186,7 @@ static void put_json(thr_text *t, const pull_args *a, const entry *e, int n, con
     thr_text_append(t, i ? ",\n {\"plan\": " : "\n {\"plan\": ");
     thr_text_json_string(t, e[i].path);
     thr_text_printf(t, ", \"framework\": \"%016" PRIx64 "\", \"objective\": \"%s\", \"ends\": \"%s\", \"physics\": ",
-                    thr_frame_hash(&e[i].plan.frame), thr_objective_name(e[i].plan.options.objective),
+                    thr_frame_hash(&e[i].plan.frame), thr_objective_name(thr_aims_objective(&e[i].plan.options)),
                     thr_ends_name(e[i].plan.options.ends));
     thr_physics_write(&e[i].eval[THR_CAPSTAN].record.physics, t);
     for (int k = 0; k < compare_n_rows; k++) {

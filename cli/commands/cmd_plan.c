@@ -1,6 +1,6 @@
 /* thread plan: framework in, plan and diagrams out. */
 #include "cli/best.h"
-#include "cli/args/cords_args.h"
+#include "cli/args/aims_args.h"
 #include "cli/drawings.h"
 #include "cli/guard.h"
 #include "cli/print/plan_summary.h"
@@ -22,9 +22,7 @@ static const char help_requests[] =
     "  thread plan dome.obj --objective tortuosity   the cord that turns least: it pulls most easily\n"
     "  thread plan dome.obj --objective symmetry     a short path to learn, and its mirrored and turned copies\n"
     "  thread make dome | thread plan - -o - | thread check -\n\n"
-    "What is planned:\n"
-    "      --objective length|tortuosity|symmetry   what to minimize: cord, how much it turns, or what is to be learned\n"
-    "                       (default: length)\n" CORDS_HELP
+    "What is planned:\n" AIMS_HELP CORDS_HELP
     "      --time-limit S   stop after S seconds with the best plan so far and its gap, 0 = never (default: 0; other\n"
     "                       objectives and tube joints: 20). --frontier, --compare-shortest and --compare-objectives share\n"
     "                       an S that is given, and so do the drawings; else each search has its 20 s\n" GUARD_MEMORY_HELP
@@ -50,7 +48,7 @@ static const char *help(void)
   return text;
 }
 
-enum { OPTION_OBJECTIVE = OPTION_CORDS_FREE, OPTION_COMPARE, OPTION_DRAW, OPTION_JSON };
+enum { OPTION_COMPARE = OPTION_AIMS_FREE, OPTION_DRAW, OPTION_JSON };
 
 static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       CLI_FRAME_OPTIONS,
@@ -59,7 +57,7 @@ static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       SYMMETRY_OPTIONS,
                                       CORDS_OPTIONS,
                                       {"compare-objectives", no_argument, NULL, OPTION_COMPARE},
-                                      {"objective", required_argument, NULL, OPTION_OBJECTIVE},
+                                      AIMS_OPTIONS,
                                       GUARD_OPTIONS,
                                       {"output", required_argument, NULL, 'o'},
                                       {"draw", required_argument, NULL, OPTION_DRAW},
@@ -76,19 +74,12 @@ typedef struct {
   symmetry_args symmetry;
   cords_args cords;
   guard_limits guard; /* seconds < 0: as the objective has it */
-  thr_objective objective;
+  aims_args aims;
+  thr_plan_options wanted; /* aims, and what belongs to them */
   const char *path, *output, *draw;
   drawings_args drawings;
   bool json, compare;
 } arguments;
-
-static int find_objective(const char *name, thr_objective *out)
-{
-  int i;
-  if (!cli_choose("plan", "--objective", name, thr_dispatch_name, THR_N_OBJECTIVES, &i)) return EXIT_USAGE;
-  *out = thr_dispatch_objective(i);
-  return -1;
-}
 
 static int parse(int argc, char **argv, arguments *a)
 {
@@ -99,20 +90,18 @@ static int parse(int argc, char **argv, arguments *a)
                    .symmetry = symmetry_args_default(),
                    .cords = cords_args_default(),
                    .guard = guard_limits_default(),
-                   .objective = thr_dispatch_objective(0),
                    .drawings = {.quick = true}};
   pull_args_init(&a->pull, THR_JOINT);
   while ((o = cli_physics_option(&a->pull.physics, argc, argv, "plan", ":" CLI_COMMON_LETTERS PULL_LETTERS "o:", table, help(),
                                  &done)) != -1) {
     if (cli_frame_option(&a->frame, "plan", o, optarg, &ok) || pull_option(&a->pull, "plan", o, optarg, &ok) ||
         turning_option(&a->turning, o, optarg, &ok) || symmetry_option(&a->symmetry, "plan", o, optarg, &ok) ||
-        cords_option(&a->cords, o, optarg, &ok) || drawings_option(&a->drawings, "plan", o, optarg, &ok) ||
-        guard_option(&a->guard, "plan", o, optarg, &ok)) {
+        cords_option(&a->cords, o, optarg, &ok) || aims_option(&a->aims, o, optarg, &ok) ||
+        drawings_option(&a->drawings, "plan", o, optarg, &ok) || guard_option(&a->guard, "plan", o, optarg, &ok)) {
       if (!ok) return EXIT_USAGE;
       continue;
     }
     switch (o) {
-    case OPTION_OBJECTIVE: done = find_objective(optarg, &a->objective); break;
     case OPTION_COMPARE: a->compare = true; break;
     case OPTION_DRAW: a->draw = optarg; break;
     case OPTION_JSON: a->json = true; break;
@@ -127,20 +116,21 @@ static int parse(int argc, char **argv, arguments *a)
   if ((a->output && !*a->output) || (a->draw && !*a->draw)) return cli_usage("plan", "an empty name is no place to write to");
   const char *wordy = a->json ? "--json" : a->compare ? "--compare-objectives" : a->turning.frontier ? "--frontier" : NULL;
   if (wordy && a->output && strcmp(a->output, "-") == 0) return cli_usage("plan", "%s and -o - both want stdout", wordy);
-  if (a->symmetry.given && a->objective != THR_SYMMETRY)
+  int code = aims_args_settle(&a->aims, &a->turning, &a->symmetry, &a->cords);
+  if (code >= 0) return code;
+  aims_args_apply(&a->aims, &a->turning, &a->symmetry, &a->cords, a->aims.objective, &a->wanted);
+  if (a->symmetry.given && !thr_wants_symmetry(&a->wanted))
     return cli_usage("plan", "%s needs --objective symmetry", a->symmetry.given);
-  int code = turning_args_check(&a->turning, a->objective);
-  return code < 0 ? cords_args_check(&a->cords, &a->turning, a->objective) : code;
+  code = turning_args_check(&a->turning, &a->wanted);
+  return code < 0 ? cords_args_check(&a->cords, &a->turning, &a->wanted) : code;
 }
 
 /* What is asked of an objective: what is about turning or symmetry concerns only one of them. */
 static void ask(const arguments *a, thr_objective objective, thr_plan_options *o)
 {
-  o->objective = objective;
+  aims_args_apply(&a->aims, &a->turning, &a->symmetry, &a->cords, objective, o);
   o->joint = a->cords.joint;
   o->time_limit = a->guard.seconds < 0 ? thr_dispatch_usual_seconds(o) : a->guard.seconds;
-  turning_args_apply(&a->turning, objective, o);
-  o->symmetry = objective == THR_SYMMETRY ? a->symmetry.options : symmetry_args_default().options;
 }
 
 /* What was said of cord and beads must fit the framework; if nothing was, a framework of any size will do. */
@@ -158,7 +148,7 @@ static int apply_physics(const arguments *a, const thr_frame *f, thr_plan_option
 static int put_objective(thr_text *t, const arguments *a, thr_objective objective, const thr_plan *p)
 {
   thr_eval e;
-  const char *closing = objective == a->objective ? "   this plan" : "";
+  const char *closing = objective == a->aims.objective ? "   this plan" : "";
   int code = pull_eval(&a->pull, thr_objective_name(objective), p, THR_JOINT, &e);
   if (a->json)
     thr_text_printf(t, "{\"objective\": \"%s\", \"pull\": ", thr_objective_name(objective));
@@ -174,7 +164,7 @@ static int put_objective(thr_text *t, const arguments *a, thr_objective objectiv
                     pull_percent(e.error));
     if (e.refused) thr_text_printf(t, ": %d %s by closed form", e.refused, cli_plural(e.refused, "turn", "turns"));
     thr_text_printf(t, ")%s", closing);
-    if (objective == THR_SYMMETRY) thr_text_printf(t, "   %d %s", p->n_cords, cli_plural(p->n_cords, "cord", "cords"));
+    if (thr_wants_symmetry(&p->options)) thr_text_printf(t, "   %d %s", p->n_cords, cli_plural(p->n_cords, "cord", "cords"));
   } else {
     thr_text_printf(t, a->json ? "null" : "%14s", "not known");
   }
@@ -184,9 +174,8 @@ static int put_objective(thr_text *t, const arguments *a, thr_objective objectiv
 }
 
 /* An objective that cannot do what this plan was asked for. */
-static int put_refused(thr_text *t, const arguments *a, thr_objective objective)
+static int put_refused(thr_text *t, const arguments *a, thr_objective objective, const char *option)
 {
-  const char *option = cords_args_refused(&a->cords, objective, true);
   if (a->json)
     thr_text_printf(t, "{\"objective\": \"%s\", \"pull\": null}", thr_objective_name(objective));
   else
@@ -198,10 +187,11 @@ static int plan_and_put(thr_text *t, const arguments *a, thr_objective objective
 {
   thr_err err = {0};
   thr_plan other = {0};
-  if (objective == a->objective) return put_objective(t, a, objective, p);
-  if (cords_args_refused(&a->cords, objective, true)) return put_refused(t, a, objective);
+  if (objective == a->aims.objective) return put_objective(t, a, objective, p);
   thr_plan_options o = p->options;
   ask(a, objective, &o);
+  const char *refused = cords_args_refused(&a->cords, &o, true);
+  if (refused) return put_refused(t, a, objective, refused);
   thr_limits limits = cli_limits(o.time_limit);
   if (deadline > 0) limits.deadline = deadline;
   thr_status st = thr_plan_make(&p->frame, &o, &limits, &other, NULL, &err);
@@ -279,11 +269,12 @@ static int print_summary(const arguments *a, const planned *x)
 {
   thr_text t = {0};
   int code = EXIT_OK;
-  switch (x->plan.options.objective) {
-  case THR_TORTUOSITY: code = put_turning(&t, a, x); break;
-  case THR_SYMMETRY: put_symmetry(&t, a, x); break;
-  default: (a->json ? plan_put_json : plan_put_summary)(&t, &x->plan, NULL, x->report.word);
-  }
+  if (thr_wants_turning(&x->plan.options))
+    code = put_turning(&t, a, x);
+  else if (thr_wants_symmetry(&x->plan.options))
+    put_symmetry(&t, a, x);
+  else
+    (a->json ? plan_put_json : plan_put_summary)(&t, &x->plan, NULL, x->report.word);
   if (a->compare) {
     int done = put_comparison(&t, a, &x->plan, deadline_of(a));
     if (!code) code = done;
@@ -346,7 +337,7 @@ static int print_places(const arguments *a, const thr_plan *p, const char *plan_
 {
   char names[DRAWINGS_NAMES];
   thr_text t = {0};
-  thr_text_append(&t, a->compare || p->options.objective == THR_TORTUOSITY ? "\n" : "");
+  thr_text_append(&t, a->compare || thr_wants_turning(&p->options) ? "\n" : "");
   thr_text_append(&t, "plan     ");
   thr_text_append_clean(&t, plan_path);
   drawings_names(p, &a->drawings, names);
@@ -395,7 +386,7 @@ static int plan_frame(const arguments *a, const thr_frame *f)
   thr_err err = {0};
   planned x = {0};
   thr_plan_options o = thr_plan_options_default();
-  ask(a, a->objective, &o);
+  ask(a, a->aims.objective, &o);
   int code = apply_physics(a, f, &o);
   if (!code) code = cords_args_apply(&a->cords, f, &o);
   if (code == EXIT_OK) {

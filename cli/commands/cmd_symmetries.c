@@ -73,7 +73,6 @@ static int parse(int argc, char **argv, arguments *a)
                    .guard = {.seconds = 20, .memory = guard_limits_default().memory},
                    .plan = thr_plan_options_default(),
                    .ends = "closed"};
-  a->plan.objective = THR_SYMMETRY;
   while ((o = cli_next_option(argc, argv, "symmetries", ":" CLI_COMMON_LETTERS, table, help, &done)) != -1) {
     if (!cli_frame_option(&a->frame, "symmetries", o, optarg, &ok) &&
         !symmetry_option(&a->symmetry, "symmetries", o, optarg, &ok) && !guard_option(&a->guard, "symmetries", o, optarg, &ok)) {
@@ -94,6 +93,8 @@ static int parse(int argc, char **argv, arguments *a)
     return cli_usage("symmetries", "--capacity %d leaves no room for --cover %d", a->plan.capacity, a->plan.cover);
   a->path = argv[optind];
   a->plan.symmetry = a->symmetry.options;
+  a->plan.aims.n = THR_N_AIMS;
+  memcpy(a->plan.aims.aim, a->symmetry.prefer, sizeof a->symmetry.prefer);
   a->plan.time_limit = a->guard.seconds;
   return -1;
 }

@@ -9,7 +9,7 @@
 
 static bool turns_least(const thr_plan *p)
 {
-  return p->options.objective == THR_TORTUOSITY;
+  return thr_wants_turning(&p->options);
 }
 
 /* ---- cords ---- */
@@ -76,7 +76,7 @@ static void put_number(thr_text *t, const thr_plan *p, int components)
   enum { NO_LIMIT = 1000 };
   const thr_plan_options *o = &p->options;
   const char *each = components > 1 ? " in each component" : "";
-  if (o->objective == THR_SYMMETRY || o->ends == THR_ENDS_COUNTS)
+  if (thr_wants_symmetry(o) || o->ends == THR_ENDS_COUNTS)
     thr_text_printf(t, "; %d %s", p->n_cords, cli_plural(p->n_cords, "cord", "cords"));
   else if (o->cords_least < o->cords && o->cords < NO_LIMIT)
     thr_text_printf(t, "; %d to %d cords%s", o->cords_least, o->cords, each);
@@ -84,7 +84,7 @@ static void put_number(thr_text *t, const thr_plan *p, int components)
     thr_text_printf(t, "; %d cords and more%s", o->cords_least, each);
   else if (o->cords_least == o->cords && o->cords > 1)
     thr_text_printf(t, "; %d cords%s", o->cords, each);
-  if (o->balance) thr_text_append(t, "; of even length");
+  if (thr_wants_balance(o)) thr_text_append(t, "; of even length");
   if (o->max_length > 0) thr_text_printf(t, "; none longer than %g %s", o->max_length, p->frame.units);
 }
 
@@ -112,7 +112,7 @@ static void put_claim(thr_text *t, const thr_plan *p, thr_cords_word word)
   thr_text_printf(t, "longest  %.6f %s", c->longest, units);
   if (c->longest_optimal)
     thr_text_append(t, "; optimal: with these options the longest cord is no shorter (verified)");
-  else if (p->options.balance)
+  else if (thr_wants_balance(&p->options))
     thr_text_printf(t, "; at least %.6f %s is needed (verified), gap %.3g %%%s", c->longest_bound, units,
                     100 * (c->longest - c->longest_bound) / c->longest,
                     word.longest_least ? ";\n         optimal by the solver's word (not verified): none shorter exists" : "");
@@ -145,7 +145,8 @@ static void put_length_status(thr_text *t, const thr_plan *p, thr_cords_word wor
     thr_text_append(t, "optimal: no threading with these options uses less cord ");
     put_certificate(t, p);
     thr_text_append(t, "\n");
-  } else if (p->options.objective != THR_LENGTH || p->options.max_length > 0 || p->options.balance) { /* which asks for more */
+  } else if (!thr_wants_length(&p->options) || p->options.max_length > 0 ||
+             thr_wants_balance(&p->options)) { /* which asks for more */
     thr_text_printf(t, "at least %.6f %s is needed ", proof->lower_bound, p->frame.units);
     put_certificate(t, p);
     thr_text_printf(t, "; this is %.2f %% more\n", 100 * (p->metrics.length / proof->lower_bound - 1));
@@ -153,7 +154,7 @@ static void put_length_status(thr_text *t, const thr_plan *p, thr_cords_word wor
     thr_text_printf(t, "not proved optimal: at least %.6f %s is needed, gap %.3g %%\n", proof->lower_bound, p->frame.units,
                     100 * proof->gap);
   }
-  if (!proof->optimal && word.passes_least && p->options.max_length == 0 && !p->options.balance)
+  if (!proof->optimal && word.passes_least && p->options.max_length == 0 && !thr_wants_balance(&p->options))
     thr_text_append(t,
                     "         optimal by the solver's word (not verified): all other passes were ruled out for so many cords\n");
 }

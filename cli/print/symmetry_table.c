@@ -63,12 +63,14 @@ static const char *solvers_word(const thr_plan_options *o, const thr_symmetry_ro
                                    [THR_AIM_STEPS] = "not steps",
                                    [THR_AIM_PATHS] = "not paths",
                                    [THR_AIM_TURNING] = "not turning"};
+  thr_aim order[THR_N_AIMS];
   if (row->why.code == THR_OK) return "optimal";
+  thr_aims_order(o, order);
   for (int k = 0; k < THR_N_AIMS - 1; k++) {
-    thr_aim aim = o->symmetry.prefer[k];
+    thr_aim aim = order[k];
     if (row->value[aim] > row->bound[aim] + 1e-6 * fmax(1, fabs(row->value[aim]))) return no[aim];
   }
-  return no[o->symmetry.prefer[THR_N_AIMS - 1]];
+  return no[order[THR_N_AIMS - 1]];
 }
 
 /* ---- text ---- */

@@ -77,7 +77,7 @@ static void put_plans(thr_text *t, const thr_plan *p)
 
 static bool slack_asked(const thr_plan *p)
 {
-  return p->options.objective == THR_TORTUOSITY && p->options.turning.length_slack >= 0;
+  return thr_wants_turning(&p->options) && p->options.turning.length_slack >= 0;
 }
 
 static bool slack_proved(const thr_plan *p)
@@ -93,7 +93,7 @@ static bool measured(const thr_plan *p)
 /* Was a row of a table asked for, which says nothing without the table? */
 static bool row_asked(const thr_plan *p)
 {
-  return p->options.objective == THR_SYMMETRY && isdigit((unsigned char)p->options.symmetry.group[0]);
+  return thr_wants_symmetry(&p->options) && isdigit((unsigned char)p->options.symmetry.group[0]);
 }
 
 void terms_put(thr_text *t, const thr_plan *p)

@@ -237,14 +237,14 @@ void turning_put_status(thr_text *t, const thr_plan *p, const thr_rivals *r)
                     in_angles(p) ? "turns less" : "has a lower price");
     put_proof(t, &c->tree);
   } else {
-    thr_text_append(t, p->options.turning.largest ? "         all cords together need at least "
-                                                  : "         not proved optimal: at least ");
+    thr_text_append(t, thr_wants_largest(&p->options) ? "         all cords together need at least "
+                                                      : "         not proved optimal: at least ");
     put_price(t, p, c->lower_bound);
-    thr_text_printf(t, "%s, gap %.3g %% ", p->options.turning.largest ? "" : " is needed", 100 * c->gap);
+    thr_text_printf(t, "%s, gap %.3g %% ", thr_wants_largest(&p->options) ? "" : " is needed", 100 * c->gap);
     put_proof(t, &c->tree);
   }
   if (c->present) put_restriction(t, p);
-  if (c->present && (p->n_cords > 1 || p->options.turning.largest)) put_largest(t, p);
+  if (c->present && (p->n_cords > 1 || thr_wants_largest(&p->options))) put_largest(t, p);
   put_u_turns(t, p);
 }
 

@@ -40,10 +40,10 @@ static void put_goal(thr_sheets *s)
 {
   const thr_plan *p = s->plan;
   char line[320], proof[128];
-  if (p->options.objective == THR_TORTUOSITY) {
+  if (thr_wants_turning(&p->options)) {
     put_proof(proof, sizeof proof, "turning", p->turning.present, p->turning.optimal, p->turning.gap);
     snprintf(line, sizeof line, "Goal: as little turning as possible; %s", proof);
-  } else if (p->options.objective == THR_SYMMETRY) {
+  } else if (thr_wants_symmetry(&p->options)) {
     int paths = thr_copies_paths(s->copy, p->n_cords);
     put_proof(proof, sizeof proof, "cord", p->proof.present, p->proof.optimal, p->proof.gap);
     snprintf(line, sizeof line, "Goal: cords that repeat each other: %d path%s to learn, %d cop%s; %s", paths, plural(paths),

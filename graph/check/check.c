@@ -175,8 +175,8 @@ static thr_status check_cord_count(const thr_check_walked *w, const thr_plan_opt
   thr_status st = count ? THR_OK : thr_nomem(err);
   for (int i = 0; i < n_cords && !st; i++)
     count[cord[i].component]++;
-  int first = 0, end = w->n_components, least = o->objective == THR_SYMMETRY ? o->cords : o->cords_least;
-  for (int k = 0; k < w->n_components && !st && o->objective == THR_SYMMETRY; k++) {
+  int first = 0, end = w->n_components, least = thr_wants_symmetry(o) ? o->cords : o->cords_least;
+  for (int k = 0; k < w->n_components && !st && thr_wants_symmetry(o); k++) {
     if (count[k] > count[first]) first = k;
     end = first + 1;
   }
@@ -476,7 +476,7 @@ thr_status thr_check_plan(const thr_plan *p, thr_err *err)
   thr_status st = check_names(p, err);
   if (st) return st;
   if ((st = walked_from_cords(&w, &p->frame, &p->options, p->cord, p->n_cords, err))) return st;
-  if (p->proof.present || p->cords_claim.present || p->options.objective != THR_LENGTH)
+  if (p->proof.present || p->cords_claim.present || !thr_wants_length(&p->options))
     st = check_cord_count(&w, &p->options, p->cord, p->n_cords, err);
   if (!st) st = check_metrics(p, w.passes, err);
   if (!st && p->symmetry.present) st = thr_check_symmetry(p, err);

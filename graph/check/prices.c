@@ -7,7 +7,7 @@ enum { LONGEST_LOOP = 10, MOST_STEPS = 1 << 24 };
 
 int thr_prices_number(const thr_plan_options *o, int n_nodes)
 {
-  if (o->objective == THR_SYMMETRY) return 0;
+  if (thr_wants_symmetry(o)) return 0;
   return o->ends == THR_ENDS_COUNTS ? n_nodes : 1;
 }
 

@@ -7,20 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-thr_plan_options thr_plan_options_default(void)
-{
-  thr_plan_options o = {.cover = 1,
-                        .cords = 1,
-                        .cords_least = 1,
-                        .turning = {.length_slack = -1},
-                        .ends = THR_ENDS_CLOSED,
-                        .physics = thr_physics_default()};
-  o.symmetry.geometric = -1;
-  for (int i = 0; i < THR_N_AIMS; i++)
-    o.symmetry.prefer[i] = (thr_aim)i;
-  return o;
-}
-
 void thr_certificate_destroy(thr_certificate *c)
 {
   for (int i = 0; i < c->n_cuts; i++)
@@ -103,69 +89,6 @@ int thr_length_proof_cuts(const thr_length_proof *proof)
   return cuts;
 }
 
-const char *thr_objective_name(thr_objective o)
-{
-  static const char *const name[] = {"length", "tortuosity", "symmetry"};
-  return name[o];
-}
-
-const char *thr_tour_name(thr_tour t)
-{
-  static const char *const name[] = {"least", "fleury", "hierholzer"};
-  return name[t];
-}
-
-const char *thr_aim_name(thr_aim a)
-{
-  static const char *const name[] = {"overlap", "steps", "paths", "turning"};
-  return name[a];
-}
-
-const char *thr_ends_name(thr_ends e)
-{
-  static const char *const name[] = {"closed", "any", "feet", "nodes", "counts"};
-  return name[e];
-}
-
-const char *thr_joint_name(thr_joint j)
-{
-  return j == THR_JOINT_TUBE ? "tube" : "solid";
-}
-
-const char *thr_engine_name(thr_engine e)
-{
-  static const char *const name[] = {[THR_ENGINE_AUTO] = "auto", [THR_ENGINE_LP] = "lp", [THR_ENGINE_MATCHING] = "matching"};
-  return name[e];
-}
-
-const char *thr_confirm_name(thr_confirm c)
-{
-  static const char *const name[] = {[THR_CONFIRM_AUTO] = "auto", [THR_CONFIRM_ALWAYS] = "always", [THR_CONFIRM_NEVER] = "never"};
-  return name[c];
-}
-
-bool thr_plan_within_slack(const thr_plan_options *o, double length, double least)
-{
-  bool asked = o->objective == THR_TORTUOSITY && o->turning.length_slack >= 0;
-  return !asked || length <= (1 + o->turning.length_slack) * least * (1 + 2e-9);
-}
-
-int thr_plan_cords_least(const thr_plan_options *o)
-{
-  return o->objective == THR_SYMMETRY ? 1 : o->cords_least;
-}
-
-int thr_plan_cover(const thr_frame *f, const thr_plan_options *o, int e)
-{
-  return f->cover && f->cover[e] > o->cover ? f->cover[e] : o->cover;
-}
-
-int thr_plan_capacity(const thr_frame *f, const thr_plan_options *o, int e)
-{
-  int own = f->capacity && f->capacity[e] > 0 ? f->capacity[e] : INT_MAX;
-  return o->capacity > 0 && o->capacity < own ? o->capacity : own;
-}
-
 /* Euclid's algorithm on lengths with rounding. */
 static double common_step(double a, double b, double rounding)
 {
@@ -191,16 +114,6 @@ double thr_plan_unit(const thr_frame *f)
   for (int e = 0; e < f->n_edges; e++)
     if (fabs(f->length[e] - unit * round(f->length[e] / unit)) > 1e-10 * f->length[e]) return 0;
   return unit;
-}
-
-bool thr_plan_end_allowed(const thr_frame *f, const thr_plan_options *o, int v)
-{
-  switch (o->ends) {
-  case THR_ENDS_FEET: return f->foot[v];
-  case THR_ENDS_NODES: return o->end_node[v];
-  case THR_ENDS_COUNTS: return o->end_count[v] > 0;
-  default: return true;
-  }
 }
 
 int thr_cord_start(const thr_frame *f, const thr_cord *c)

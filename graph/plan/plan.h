@@ -4,80 +4,8 @@
 #define THR_PLAN_H
 
 #include "graph/plan/evaluation.h"
+#include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
-
-/* THR_ENDS_COUNTS: at every node exactly so many cord ends. */
-typedef enum { THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET, THR_ENDS_NODES, THR_ENDS_COUNTS } thr_ends;
-
-/* Solid: a node bead is one rigid piece, any pairing locks it. Tube: only edges are beads, and the cord itself ties them
- * together: at every node the graph of the edges there and of the turns between them is connected, and no cord turns back into
- * its edge (Demaine, Kirkpatrick & Lin 2024). */
-typedef enum { THR_JOINT_SOLID, THR_JOINT_TUBE } thr_joint;
-
-typedef enum { THR_LENGTH, THR_TORTUOSITY, THR_SYMMETRY, THR_N_OBJECTIVES } thr_objective;
-
-/* How the cords of a plan for the least turning are found. */
-typedef enum {
-  THR_TOUR_LEAST,  /* extra passes, ends and pairings chosen together */
-  THR_TOUR_FLEURY, /* the classical tours through the shortest passes, to compare with */
-  THR_TOUR_HIERHOLZER,
-  THR_N_TOURS
-} thr_tour;
-
-/* What is asked for beside THR_TORTUOSITY. */
-typedef struct {
-  thr_turn_cost cost;
-  double length_slack; /* cord allowed above the shortest, as a part of it; < 0 = any length */
-  bool largest;        /* minimize the turning of the cord that turns most, not of all together */
-  thr_tour tour;
-  bool ignore_pairings; /* of the classical tours: edges in their order instead of the cheapest pairing of every node */
-} thr_turning_options;
-
-/* What a symmetric plan can have little of. */
-typedef enum { THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_PATHS, THR_AIM_TURNING, THR_N_AIMS } thr_aim;
-
-/* What is asked for beside THR_SYMMETRY. */
-typedef struct {
-  char group[16];             /* row of `thread symmetries` or name of a point group; "" = the default choice */
-  double geometric;           /* isometries within this tolerance only; < 0 = any automorphism */
-  thr_aim prefer[THR_N_AIMS]; /* what is minimized first, second, .. */
-} thr_symmetry_options;
-
-/* Which engine finds the shortest passes (lp/tjoin/engine.h). */
-typedef enum {
-  THR_ENGINE_AUTO, /* matching, unless the weights are more than it takes */
-  THR_ENGINE_LP,   /* odd cuts, GLPK */
-  THR_ENGINE_MATCHING
-} thr_engine;
-
-/* Whether GLPK's exact method is asked for the same minimum, too. */
-typedef enum {
-  THR_CONFIRM_AUTO,   /* of problems of moderate size, for a second at most (lp/tjoin/engine.h) */
-  THR_CONFIRM_ALWAYS, /* whatever it takes, within the time limit */
-  THR_CONFIRM_NEVER
-} thr_confirm;
-
-/* What the user asked for; echoed in the plan so that it can be made again. */
-typedef struct {
-  thr_objective objective;
-  thr_joint joint;
-  int cover;                   /* every edge gets at least this many passes, 1 .. 100; the framework may ask for more (cover) */
-  int capacity;                /* at most so many passes of any edge, 0 = no limit; the framework may allow fewer (capacity) */
-  int cords;                   /* at most so many in every component, 1 .. 1000; THR_SYMMETRY: the most in any, as it came out */
-  int cords_least;             /* at least so many; = cords: exactly */
-  double max_length;           /* no cord is longer, in units; 0 = no limit */
-  bool balance;                /* THR_LENGTH: minimize the longest cord, then the length of all */
-  thr_turning_options turning; /* THR_TORTUOSITY only */
-  thr_symmetry_options symmetry; /* THR_SYMMETRY only */
-  thr_ends ends;
-  bool *end_node;      /* [n_nodes] THR_ENDS_NODES only: where ends may be; owned, else NULL */
-  int *end_count;      /* [n_nodes] THR_ENDS_COUNTS only: how many ends there are, their sum in every component even and at most
-                          2 * cords; owned, else NULL */
-  thr_physics physics; /* of cord and beads, as asked: what eval starts from */
-  double time_limit;   /* s, 0 = none */
-  thr_engine engine;   /* changes no length */
-  thr_confirm confirm; /* THR_LENGTH with THR_JOINT_SOLID only */
-} thr_plan_options;
 
 /* A cord: consecutive half-edges; half[i] arrives where half[i + 1] leaves. A closed cord also ends where it starts. */
 typedef struct thr_cord {
@@ -141,7 +69,7 @@ typedef struct {
   bool fewest_optimal;  /* this one has no more */
 } thr_cords_claim;
 
-/* What is proved about the turning of a plan for THR_TORTUOSITY: of no plan with the same options, U-turns at nodes with one edge
+/* What is proved about the turning of a plan that turns little: of no plan with the same options, U-turns at nodes with one edge
  * only, at most most_passes over any edge and no more cord than length_limit are all turns together cheaper than lower_bound. */
 typedef struct {
   bool present;
@@ -158,7 +86,7 @@ typedef struct {
   thr_turning_proof tree;
 } thr_turning_claim;
 
-/* How the cords of a plan for THR_SYMMETRY are copies of a few unique paths under a group of automorphisms. Cords are compared by
+/* How the cords of a symmetric plan are copies of a few unique paths under a group of automorphisms. Cords are compared by
  * the nodes that they run through: of two alike one is a copy of the other, by the identity if need be. */
 typedef struct thr_symmetry_record {
   bool present;
@@ -197,19 +125,13 @@ typedef struct {
   int n_cords;
   thr_cord *cord; /* owned */
   thr_metrics metrics;
-  thr_symmetry_record symmetry; /* present with THR_SYMMETRY */
+  thr_symmetry_record symmetry; /* present with symmetric plans */
   thr_evaluation evaluation;    /* of `thread eval`, if present */
   thr_length_proof proof;
   thr_cords_claim cords_claim;
   thr_turning_claim turning;
 } thr_plan;
 
-/* "length", "tortuosity", "symmetry"; "least", "fleury", "hierholzer"; "overlap", "steps", "paths", "turning". */
-const char *thr_objective_name(thr_objective o);
-const char *thr_tour_name(thr_tour t);
-const char *thr_aim_name(thr_aim a);
-
-thr_plan_options thr_plan_options_default(void);
 void thr_plan_destroy(thr_plan *p);
 void thr_cords_destroy(thr_cord *cord, int n); /* cord[n] and their half arrays; NULL ok */
 
@@ -220,28 +142,9 @@ void thr_certificate_destroy(thr_certificate *c);
 
 int thr_length_proof_cuts(const thr_length_proof *proof); /* odd cuts, or odd sets and junctions, that it puts a multiplier on */
 
-const char *thr_ends_name(thr_ends e);       /* "closed", "any", "feet", "nodes", "counts" */
-const char *thr_joint_name(thr_joint j);     /* "solid", "tube" */
-const char *thr_engine_name(thr_engine e);   /* "auto", "lp", "matching" */
-const char *thr_confirm_name(thr_confirm c); /* "auto", "always", "never" */
-
 /* The longest step that every edge is a whole number of, as is every cord then, within 1e-10 of it; 0: none of a thousandth of
  * the longest edge or more. O(edges). */
 double thr_plan_unit(const thr_frame *f);
-/* Is the cord within the asked part above the least length (options.turning.length_slack), by this lower bound on that? True
- * where none was asked for. */
-bool thr_plan_within_slack(const thr_plan_options *o, double length, double least);
-
-bool thr_plan_end_allowed(const thr_frame *f, const thr_plan_options *o, int v);
-
-/* Cords that every component has at least. With THR_SYMMETRY options.cords is the most in any, and the others may have fewer: 1.
- */
-int thr_plan_cords_least(const thr_plan_options *o);
-
-/* Passes that edge e needs, and the most that it may have (INT_MAX: no limit): what options and framework say together. */
-int thr_plan_cover(const thr_frame *f, const thr_plan_options *o, int e);
-int thr_plan_capacity(const thr_frame *f, const thr_plan_options *o, int e);
-
 /* First and last node of a cord (equal for a closed one). */
 int thr_cord_start(const thr_frame *f, const thr_cord *c);
 int thr_cord_end(const thr_frame *f, const thr_cord *c);

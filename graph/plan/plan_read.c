@@ -218,7 +218,7 @@ static thr_status read_symmetry(const thr_field_reader *r, const thr_json *doc, 
 {
   static const char *const known[] = {"order", "name", "generators", "images", "cords", "steps", "unique_paths", NULL};
   const thr_json *v = thr_json_get(doc, "symmetry"), *name;
-  if (p->options.objective != THR_SYMMETRY)
+  if (!thr_wants_symmetry(&p->options))
     return v ? thr_field_bad(r, "symmetry", "only plans with this objective have it") : THR_OK;
   thr_status st = thr_field_need(r, doc, "symmetry", THR_JSON_OBJECT, &v);
   if (!st) st = thr_field_only(r, v, "symmetry", known);

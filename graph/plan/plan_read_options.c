@@ -36,17 +36,18 @@ static const char *confirm_name(int i)
 {
   return thr_confirm_name((thr_confirm)i);
 }
-static const char *aim_name(int i)
+static const char *minimize_name(int i)
 {
-  return i ? "max-turning" : "turning";
+  return thr_aim_name(i ? THR_AIM_MAX_TURNING : THR_AIM_TURNING);
 }
 static const char *pairings_name(int i)
 {
   return i ? "ignore" : "keep";
 }
 
-static thr_status read_turning_options(const thr_field_reader *r, const thr_json *o, thr_turning_options *t)
+static thr_status read_turning_options(const thr_field_reader *r, const thr_json *o, thr_plan_options *out)
 {
+  thr_turning_options *t = &out->turning;
   static const char *const known[] = {"cost", "length_slack", "minimize", "tour", "pairings", NULL};
   const thr_json *v;
   int cost, aim, tour, pairings;
@@ -54,19 +55,19 @@ static thr_status read_turning_options(const thr_field_reader *r, const thr_json
   if (!st) st = thr_field_only(r, v, "options.turning", known);
   if (!st) st = thr_field_name(r, v, "options.turning", "cost", THR_N_TURN_COSTS, cost_name, &cost);
   if (!st) st = thr_field_or_null(r, v, "length_slack", &t->length_slack);
-  if (!st) st = thr_field_name(r, v, "options.turning", "minimize", 2, aim_name, &aim);
+  if (!st) st = thr_field_name(r, v, "options.turning", "minimize", 2, minimize_name, &aim);
   if (!st) st = thr_field_name(r, v, "options.turning", "tour", THR_N_TOURS, tour_name, &tour);
   if (!st) st = thr_field_name(r, v, "options.turning", "pairings", 2, pairings_name, &pairings);
   if (st) return st;
   t->cost = (thr_turn_cost)cost;
-  t->largest = aim == 1;
+  out->aims = (thr_aims){1, {aim == 1 ? THR_AIM_MAX_TURNING : THR_AIM_TURNING}};
   t->tour = (thr_tour)tour;
   t->ignore_pairings = pairings == 1;
   return THR_OK;
 }
 
 /* Every aim once. */
-static thr_status read_prefer(const thr_field_reader *r, const thr_json *o, thr_aim prefer[THR_N_AIMS])
+static thr_status read_prefer(const thr_field_reader *r, const thr_json *o, thr_aim prefer[])
 {
   bool named[THR_N_AIMS] = {false};
   const thr_json *list;
@@ -81,8 +82,9 @@ static thr_status read_prefer(const thr_field_reader *r, const thr_json *o, thr_
   return st;
 }
 
-static thr_status read_symmetry_options(const thr_field_reader *r, const thr_json *o, thr_symmetry_options *s)
+static thr_status read_symmetry_options(const thr_field_reader *r, const thr_json *o, thr_plan_options *out)
 {
+  thr_symmetry_options *s = &out->symmetry;
   static const char *const known[] = {"group", "geometric", "prefer", NULL};
   const thr_json *v, *group;
   thr_status st = thr_field_need(r, o, "symmetry", THR_JSON_OBJECT, &v);
@@ -95,7 +97,8 @@ static thr_status read_symmetry_options(const thr_field_reader *r, const thr_jso
   snprintf(s->group, sizeof s->group, "%s", name ? name : "");
   thr_text_clean(s->group);
   if ((st = thr_field_or_null(r, v, "geometric", &s->geometric))) return st;
-  return read_prefer(r, v, s->prefer);
+  out->aims.n = THR_N_AIMS;
+  return read_prefer(r, v, out->aims.aim);
 }
 
 /* Which options there are depends on the objective. */
@@ -110,10 +113,9 @@ static thr_status read_objective(const thr_field_reader *r, const thr_json *v, t
   known[sizeof known / sizeof *known - 2] = own[objective];
   if ((st = thr_field_only(r, v, "options", known))) return st;
   if ((st = thr_field_name(r, v, "options", "joint", 2, joint_name, &joint))) return st;
-  o->objective = (thr_objective)objective;
   o->joint = (thr_joint)joint;
-  if (objective == THR_TORTUOSITY) return read_turning_options(r, v, &o->turning);
-  return objective == THR_SYMMETRY ? read_symmetry_options(r, v, &o->symmetry) : THR_OK;
+  if (objective == THR_TORTUOSITY) return read_turning_options(r, v, o);
+  return objective == THR_SYMMETRY ? read_symmetry_options(r, v, o) : THR_OK;
 }
 
 /* A number: exactly so many; or least and most. */
@@ -132,6 +134,12 @@ static thr_status read_cord_range(const thr_field_reader *r, const thr_json *o, 
   return st;
 }
 
+static void put_first(thr_aims *a, thr_aim aim)
+{
+  memmove(&a->aim[1], &a->aim[0], (size_t)a->n++ * sizeof *a->aim);
+  a->aim[0] = aim;
+}
+
 /* What is not there is not asked for. */
 static thr_status read_limits(const thr_field_reader *r, const thr_json *v, thr_plan_options *o)
 {
@@ -144,7 +152,7 @@ static thr_status read_limits(const thr_field_reader *r, const thr_json *v, thr_
     if (!st && o->max_length == 0) st = thr_field_bad(r, "options.max_length", "not above 0");
   }
   if (!st && balance && thr_json_typeof(balance) != THR_JSON_BOOL) st = thr_field_bad(r, "options.balance", "not true or false");
-  if (!st && balance) o->balance = thr_json_true(balance);
+  if (!st && balance && thr_json_true(balance)) put_first(&o->aims, THR_AIM_LONGEST);
   return st;
 }
 

@@ -165,7 +165,7 @@ thr_status thr_plan_read_proofs(const thr_field_reader *r, const thr_json *doc, 
   static const char *const of_length[] = {"length", "cords", NULL}, *const of_turning[] = {"length", "cords", "turning", NULL};
   const thr_json *all;
   thr_status st = thr_field_need(r, doc, "proof", THR_JSON_OBJECT, &all);
-  if (!st) st = thr_field_only(r, all, "proof", p->options.objective == THR_TORTUOSITY ? of_turning : of_length);
+  if (!st) st = thr_field_only(r, all, "proof", thr_wants_turning(&p->options) ? of_turning : of_length);
   const thr_json *length = thr_json_get(all, "length"), *turning = thr_json_get(all, "turning"),
                  *cords = thr_json_get(all, "cords");
   if (!st && length) st = read_length_proof(r, length, &p->frame, &p->proof);

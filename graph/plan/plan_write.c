@@ -90,16 +90,21 @@ static void put_frame(thr_text *t, const thr_frame *f)
   thr_text_append(t, "\n},\n");
 }
 
-static void put_turning_options(thr_text *t, const thr_turning_options *o)
+static void put_turning_options(thr_text *t, const thr_plan_options *asked)
 {
+  const thr_turning_options *o = &asked->turning;
   thr_text_printf(t, "\"turning\": {\"cost\": \"%s\", \"length_slack\": ", thr_turn_cost_name(o->cost));
   put_or_null(t, o->length_slack);
   thr_text_printf(t, ", \"minimize\": \"%s\", \"tour\": \"%s\", \"pairings\": \"%s\"},\n  ",
-                  o->largest ? "max-turning" : "turning", thr_tour_name(o->tour), o->ignore_pairings ? "ignore" : "keep");
+                  thr_aim_name(thr_wants_largest(asked) ? THR_AIM_MAX_TURNING : THR_AIM_TURNING), thr_tour_name(o->tour),
+                  o->ignore_pairings ? "ignore" : "keep");
 }
 
-static void put_symmetry_options(thr_text *t, const thr_symmetry_options *o)
+static void put_symmetry_options(thr_text *t, const thr_plan_options *asked)
 {
+  const thr_symmetry_options *o = &asked->symmetry;
+  thr_aim order[THR_N_AIMS];
+  thr_aims_order(asked, order);
   thr_text_append(t, "\"symmetry\": {\"group\": ");
   if (o->group[0])
     thr_text_json_string(t, o->group);
@@ -109,7 +114,7 @@ static void put_symmetry_options(thr_text *t, const thr_symmetry_options *o)
   put_or_null(t, o->geometric);
   thr_text_append(t, ", \"prefer\": [");
   for (int i = 0; i < THR_N_AIMS; i++)
-    thr_text_printf(t, i ? ", \"%s\"" : "\"%s\"", thr_aim_name(o->prefer[i]));
+    thr_text_printf(t, i ? ", \"%s\"" : "\"%s\"", thr_aim_name(order[i]));
   thr_text_append(t, "]},\n  ");
 }
 
@@ -137,20 +142,20 @@ static void put_ends(thr_text *t, const thr_plan *p)
 static void put_options(thr_text *t, const thr_plan *p)
 {
   const thr_plan_options *o = &p->options;
-  thr_text_printf(t, "\"options\": {\"objective\": \"%s\", \"joint\": \"%s\", \"cover\": %d, ", thr_objective_name(o->objective),
-                  thr_joint_name(o->joint), o->cover);
+  thr_text_printf(t, "\"options\": {\"objective\": \"%s\", \"joint\": \"%s\", \"cover\": %d, ",
+                  thr_objective_name(thr_aims_objective(o)), thr_joint_name(o->joint), o->cover);
   if (o->capacity > 0) thr_text_printf(t, "\"capacity\": %d, ", o->capacity);
   if (o->cords_least == o->cords)
     thr_text_printf(t, "\"cords\": %d, ", o->cords);
   else
     thr_text_printf(t, "\"cords\": {\"least\": %d, \"most\": %d}, ", o->cords_least, o->cords);
   if (o->max_length > 0) put_key_double(t, "max_length", o->max_length, ", ");
-  if (o->balance) thr_text_append(t, "\"balance\": true, ");
+  if (thr_wants_balance(o)) thr_text_append(t, "\"balance\": true, ");
   put_ends(t, p);
-  if (o->objective == THR_TORTUOSITY) put_turning_options(t, &o->turning);
-  if (o->objective == THR_SYMMETRY) put_symmetry_options(t, &o->symmetry);
+  if (thr_wants_turning(o)) put_turning_options(t, o);
+  if (thr_wants_symmetry(o)) put_symmetry_options(t, o);
   if (o->engine != THR_ENGINE_AUTO) thr_text_printf(t, "\"engine\": \"%s\", ", thr_engine_name(o->engine));
-  if (o->objective == THR_LENGTH && o->confirm != THR_CONFIRM_AUTO)
+  if (thr_wants_length(o) && o->confirm != THR_CONFIRM_AUTO)
     thr_text_printf(t, "\"confirm\": \"%s\", ", thr_confirm_name(o->confirm));
   put_key_double(t, "time_limit", o->time_limit, ",");
   thr_text_append(t, "\n  \"physics\": ");

@@ -25,7 +25,7 @@ typedef struct {
 } thr_priced;
 
 /* Prices that a certificate must have, if any: of every place alike (1); THR_ENDS_COUNTS: one for every node of its component, in
- * order. None with THR_SYMMETRY, whose cords are not asked for by number. */
+ * order. None with symmetric plans, whose cords are not asked for by number. */
 int thr_prices_number(const thr_plan_options *o, int n_nodes);
 
 /* of: sum of the prices at the edge's two nodes where cords may end; THR_ENDS_CLOSED: the price of a place. weight: of the edge,

@@ -233,7 +233,7 @@ static void choose_numbers(several *x)
     int n = o->cords_least;
     if (o->ends == THR_ENDS_COUNTS) {
       n = counted_cords(x, k);
-    } else if (o->balance) {
+    } else if (thr_wants_balance(o)) {
       int room = most_cords(x, x->passes, k);
       n = room < n ? n : room < o->cords ? room : o->cords;
     }
@@ -373,7 +373,7 @@ static thr_status make(several *x, thr_shortest *s, thr_err *err)
   memcpy(x->passes, s->passes, (size_t)x->f->n_edges * sizeof *x->passes);
   if (x->o->max_length > 0) return grow(x, s, err);
   choose_numbers(x);
-  return share_out(x, s->certificate, x->o->balance, 0, err);
+  return share_out(x, s->certificate, thr_wants_balance(x->o), 0, err);
 }
 
 thr_status thr_cords_judge(const thr_plan *plan, const thr_err *unproved, thr_err *err)
@@ -381,12 +381,12 @@ thr_status thr_cords_judge(const thr_plan *plan, const thr_err *unproved, thr_er
   const thr_plan_options *o = &plan->options;
   const thr_cords_claim *c = &plan->cords_claim;
   const char *why = unproved->code ? unproved->text : "", *colon = unproved->code ? ": " : "";
-  if (o->balance && !c->longest_optimal)
+  if (thr_wants_balance(o) && !c->longest_optimal)
     return thr_fail(err, THR_ELIMIT, "%s%sthe longest cord is proved to be within %.3g %% of the shortest possible", why, colon,
                     100 * (c->longest - c->longest_bound) / c->longest);
-  if (!o->balance && o->max_length > 0 && c->fewest && !c->fewest_optimal)
+  if (!thr_wants_balance(o) && o->max_length > 0 && c->fewest && !c->fewest_optimal)
     return thr_fail(err, THR_ELIMIT, "%s%sat least %d cords are needed; these are %d", why, colon, c->fewest, plan->n_cords);
-  if (o->balance || (o->max_length > 0 && c->fewest) || plan->proof.optimal) return THR_OK;
+  if (thr_wants_balance(o) || (o->max_length > 0 && c->fewest) || plan->proof.optimal) return THR_OK;
   return thr_fail(err, THR_ELIMIT, "%s%sthe cords are proved to be within %.3g %% of the shortest", why, colon,
                   100 * plan->proof.gap);
 }
@@ -473,7 +473,7 @@ thr_status thr_cords_plan(const thr_frame *f, const thr_plan_options *o, const t
   if (!st) st = several_init(&x, err);
   if (!st) st = plan_all(&x, &s, plan, err);
   if (!st) st = prove(&x, plan, &s, err);
-  if (word) *word = (thr_cords_word){x.least, x.certain && o->balance};
+  if (word) *word = (thr_cords_word){x.least, x.certain && thr_wants_balance(o)};
   if (st)
     thr_plan_destroy(plan);
   else

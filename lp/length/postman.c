@@ -38,7 +38,7 @@ typedef struct {
 static thr_confirmations *counter(postman *m)
 {
   m->confirmed.always = m->o->confirm == THR_CONFIRM_ALWAYS;
-  bool asked = m->o->confirm != THR_CONFIRM_NEVER && m->o->objective == THR_LENGTH && m->o->joint == THR_JOINT_SOLID;
+  bool asked = m->o->confirm != THR_CONFIRM_NEVER && thr_wants_length(m->o) && m->o->joint == THR_JOINT_SOLID;
   return asked ? &m->confirmed : NULL;
 }
 

@@ -38,7 +38,7 @@ static thr_status solver_init(solver *s, const thr_frame *f, const thr_plan_opti
 {
   *s = (solver){.f = f, .o = o, .t = t, .how = {.cover = o->cover, .ends = o->ends, .end_node = o->end_node}};
   s->how.tube = o->joint == THR_JOINT_TUBE;
-  memcpy(s->how.prefer, o->symmetry.prefer, sizeof s->how.prefer);
+  thr_aims_order(o, s->how.prefer);
   s->edge_cover = thr_calloc((size_t)f->n_edges, sizeof *s->edge_cover);
   s->edge_capacity = thr_calloc((size_t)f->n_edges, sizeof *s->edge_capacity);
   s->cover = thr_calloc((size_t)t->n, sizeof *s->cover);

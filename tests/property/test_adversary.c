@@ -82,7 +82,7 @@ static void choose_options(rng *r, request *q)
   static const int many[] = {1, 2, 2, 3, 10, 100, 1000};
   thr_plan_options *o = &q->o;
   *o = options_for((thr_ends)rng_below(r, 5), rng_between(r, 1, 2));
-  o->objective = rng_below(r, 4) ? THR_LENGTH : THR_SYMMETRY;
+  want(o, rng_below(r, 4) ? "length" : "steps");
   o->cords = many[rng_below(r, 7)];
   o->cords_least = rng_below(r, 3) == 0 ? 1 : rng_below(r, 2) ? o->cords : rng_between(r, 1, o->cords);
   o->capacity = rng_below(r, 6) ? 0 : rng_between(r, 3, 9);
@@ -130,7 +130,7 @@ static void request_make(rng *r, request *q)
     if (q->o.ends == THR_ENDS_COUNTS && !counts_fit(q)) continue;
     if (q->f.n_edges > TRUTH_EDGES) continue;
     thr_plan_options asked = q->o; /* of a symmetric plan the number of cords is not asked for, but came out */
-    if (q->o.objective == THR_SYMMETRY) asked.cords_least = 1;
+    if (thr_wants_symmetry(&q->o)) asked.cords_least = 1;
     bool fits = true;
     for (int e = 0; e < q->f.n_edges; e++)
       fits &= thr_plan_capacity(&q->f, &q->o, e) >= thr_plan_cover(&q->f, &q->o, e);
@@ -339,7 +339,7 @@ static int room_of(const request *q, const int *passes, int e)
 /* Pairs of passes that are missing for the cords: in component k, or at node v if numbers of ends are given. */
 static int pairs_missing(const request *q, const int *passes, int k, int v)
 {
-  int places = 0, cords = q->o.objective == THR_SYMMETRY ? 1 : q->o.cords_least;
+  int places = 0, cords = thr_wants_symmetry(&q->o) ? 1 : q->o.cords_least;
   for (int e = 0; e < q->f.n_edges; e++)
     for (int i = 0; i < 2; i++) {
       int u = q->f.edge[e][i];
@@ -412,7 +412,7 @@ static const attack_kind of_length = {sizeof(candidate), change, judge_length, 3
 static void say_hole(const request *q, const candidate *c, double above)
 {
   printf("hole: %.17g above %.17g, ends %d, cords %d..%d, cover %d, capacity %d, objective %d\n", above, q->least, (int)q->o.ends,
-         q->o.cords_least, q->o.cords, q->o.cover, q->o.capacity, (int)q->o.objective);
+         q->o.cords_least, q->o.cords, q->o.cover, q->o.capacity, (int)thr_aims_objective(&q->o));
   for (int e = 0; e < q->f.n_edges; e++)
     printf("  edge %d-%d %.17g cover %d capacity %d shortest %d more %d\n", q->f.edge[e][0], q->f.edge[e][1], q->f.length[e],
            thr_plan_cover(&q->f, &q->o, e), thr_plan_capacity(&q->f, &q->o, e), q->passes[e], c->more[e]);
@@ -632,12 +632,12 @@ static void restate(rng *r, asked *a)
 {
   thr_plan_options *o = &a->q.o;
   double longest = longest_of(&a->plan);
-  if (o->objective == THR_LENGTH && !run_alike(&a->plan) && rng_below(r, 3) == 0) o->objective = THR_SYMMETRY;
-  if (o->objective == THR_LENGTH && rng_below(r, 4) == 0) o->objective = THR_TORTUOSITY;
+  if (thr_wants_length(o) && !run_alike(&a->plan) && rng_below(r, 3) == 0) want(o, "overlap,steps");
+  if (thr_wants_length(o) && rng_below(r, 4) == 0) want(o, "turning");
   o->turning.length_slack = rng_below(r, 3) * 0.1;
   if (o->ends == THR_ENDS_COUNTS) return;
   o->cords_least = rng_between(r, 1, o->cords);
-  if (o->objective != THR_SYMMETRY) o->cords = rng_between(r, o->cords, MOST_CORDS);
+  if (!thr_wants_symmetry(o)) o->cords = rng_between(r, o->cords, MOST_CORDS);
   if (rng_below(r, 4)) o->max_length = longest * (rng_below(r, 2) ? 1 : 1 + rng_unit(r));
 }
 
@@ -646,7 +646,7 @@ static bool plan_cords(const request *q, int cords, thr_plan *p)
 {
   thr_plan_options o = q->o;
   thr_limits limits = {.deadline = thr_clock() + 5};
-  o.objective = THR_LENGTH;
+  want(&o, "length");
   o.cords = o.cords_least = cords;
   thr_status st = thr_cords_plan(&q->f, &o, &limits, p, NULL, NULL);
   return (st == THR_OK || st == THR_ELIMIT) && p->proof.present;
@@ -658,8 +658,8 @@ static void find_witnesses(asked *a)
   thr_plan_options o = a->q.o;
   thr_limits limits = {.deadline = thr_clock() + 5};
   thr_plan p;
-  o.objective = THR_LENGTH;
-  o.balance = true;
+  want(&o, "length");
+  want(&o, "longest");
   a->fewest = a->plan.n_cords;
   a->longest = longest_of(&a->plan);
   thr_status st = thr_cords_plan(&a->q.f, &o, &limits, &p, NULL, NULL);
@@ -675,7 +675,7 @@ static bool plan_and_mix(rng *r, asked *a)
   bool counts = q->o.ends == THR_ENDS_COUNTS, fits = q->f.n_edges / q->n_components <= 4 && (!counts || counts_fit(q));
   if (!fits || !plan_cords(q, q->o.cords, &a->plan)) return false;
   if (q->n_components == 1 || counts || !plan_cords(q, rng_between(r, 1, q->o.cords), &fewer)) return true;
-  if (fewer.n_cords < a->plan.n_cords) a->q.o.objective = THR_SYMMETRY;
+  if (fewer.n_cords < a->plan.n_cords) want(&a->q.o, "overlap,steps");
   if (fewer.n_cords < a->plan.n_cords) mix(a, &fewer);
   thr_plan_destroy(&fewer);
   return true;
@@ -686,17 +686,17 @@ static bool asked_make(rng *r, asked *a)
   *a = (asked){.longest = 0};
   request_make(r, &a->q);
   request *q = &a->q;
-  q->o.objective = THR_LENGTH;
+  want(&q->o, "length");
   q->o.cords = q->o.cords_least = rng_between(r, 1, MOST_CORDS);
-  if (!plan_and_mix(r, a) || (q->o.objective == THR_SYMMETRY && run_alike(&a->plan))) {
+  if (!plan_and_mix(r, a) || (thr_wants_symmetry(&q->o) && run_alike(&a->plan))) {
     asked_destroy(a);
     return false;
   }
   lengthen(r, a);
   restate(r, a);
   thr_plan_options true_options = q->o;
-  if (q->o.objective == THR_SYMMETRY) true_options.cords_least = 1, make_symmetric(a);
-  a->plan.options.objective = q->o.objective;
+  if (thr_wants_symmetry(&q->o)) true_options.cords_least = 1, make_symmetric(a);
+  a->plan.options.aims = q->o.aims;
   a->plan.options.cords = q->o.cords;
   a->plan.options.cords_least = q->o.cords_least;
   a->plan.options.max_length = q->o.max_length;
@@ -766,7 +766,7 @@ static double judge_claim(const void *target, const void *what)
   const thr_plan p = x.plan;
   double above = p.proof.lower_bound / a->q.least - 1, longest = p.cords_claim.longest_bound / a->longest - 1;
   bool within = p.metrics.length <= (1 + p.options.turning.length_slack) * a->q.least * (1 + 4e-9);
-  if (p.cords_claim.fewest > a->fewest || (p.options.objective == THR_TORTUOSITY && !within)) return 1;
+  if (p.cords_claim.fewest > a->fewest || (thr_wants_turning(&p.options) && !within)) return 1;
   return fmax(above, longest);
 }
 
@@ -844,7 +844,7 @@ START_TEST(what_a_mirror_keeps_is_learned_whole)
   thr_cord cord[] = {{.id = "A", .n_passes = 1, .half = stem}, {.id = "B", .n_passes = 2, .half = arms}};
   thr_plan p = {
       .frame = frame_make(4, xyz, 3, edge, NULL, NULL), .options = options_for(THR_ENDS_ANY, 1), .n_cords = 2, .cord = cord};
-  p.options.objective = THR_SYMMETRY;
+  want(&p.options, "overlap,steps");
   p.options.cords = p.options.cords_least = 2;
   p.symmetry = (thr_symmetry_record){.present = true, .order = 2, .n_generators = 1, .generator = mirror, .n_images = 1};
   p.symmetry.image = identity, p.symmetry.unique = unique, p.symmetry.element = element, p.symmetry.unique_paths = 2;

@@ -49,7 +49,7 @@ static void choose_options(rng *r, target *t, thr_frame *f, thr_plan_options *o)
   limit_edges(r, f);
   static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET, THR_ENDS_NODES, THR_ENDS_COUNTS};
   *o = options_for(ends[rng_below(r, 6)], rng_below(r, 4) ? 1 : 2);
-  o->objective = t->tied ? THR_LENGTH : THR_TORTUOSITY;
+  want(o, t->tied ? "length" : "turning");
   o->joint = t->tied || rng_below(r, 4) == 0 ? THR_JOINT_TUBE : THR_JOINT_SOLID;
   o->cords = o->cords_least = rng_below(r, 3) ? 1 : 2;
   o->turning.cost = (thr_turn_cost)rng_below(r, THR_N_TURN_COSTS);
@@ -570,7 +570,7 @@ static void find_prices_of_plans(target *t)
       thr_plan p;
       thr_limits limits = {.deadline = thr_clock() + 5};
       o.cords = o.cords_least = n;
-      o.turning.largest = largest;
+      want(&o, largest ? "max-turning" : "turning");
       thr_status st = thr_tortuosity_plan(&t->plan.frame, &o, &limits, &p, NULL);
       if (st && st != THR_ELIMIT) continue;
       t->least = fminl(t->least, p.turning.price);
@@ -587,14 +587,14 @@ static bool claim_target_make(rng *r, target *t)
   thr_frame f = rng_below(r, 3) ? any_frame(r) : bowtie_make(r);
   choose_options(r, t, &f, &o);
   o.joint = THR_JOINT_SOLID;
-  o.objective = THR_LENGTH;
+  want(&o, "length");
   o.turning.length_slack = -1;
   bool fits = o.ends != THR_ENDS_COUNTS && f.n_edges <= (pieces_of(&f) > 1 ? EDGES : TRUTH_TABLE_EDGES);
   thr_status st = fits ? thr_cords_plan(&f, &o, &(thr_limits){0}, &t->plan, NULL, NULL) : THR_EINFEASIBLE;
   thr_frame_destroy(&f);
   if (st && st != THR_ELIMIT) return false;
   thr_plan *p = &t->plan;
-  p->options.objective = THR_TORTUOSITY;
+  want(&p->options, "turning");
   p->options.cords_least = rng_between(r, 1, o.cords);
   p->options.cords = rng_between(r, o.cords, MOST_CORDS - 1);
   for (int i = 0; i < p->proof.n_certificates; i++)
@@ -689,7 +689,7 @@ static bool tied_plan(const thr_frame *f, const thr_plan_options *o, int cords, 
   thr_plan_options exactly = *o;
   thr_limits limits = {.deadline = thr_clock() + 5};
   exactly.cords = exactly.cords_least = cords;
-  exactly.balance = balance;
+  want(&exactly, balance ? "longest" : "length");
   exactly.max_length = 0;
   thr_status st = thr_tube_cords_plan(f, &exactly, &limits, p, NULL, NULL);
   return st == THR_OK || st == THR_ELIMIT;
@@ -733,7 +733,7 @@ static bool tied_target_make(rng *r, tied_target *x)
     o.cords_least = rng_between(r, 1, o.cords);
     o.cords = rng_between(r, o.cords, MOST_CORDS);
     if (rng_below(r, 4)) o.max_length = longest_of(&t->plan) * (rng_below(r, 2) ? 1 : 1 + rng_unit(r));
-    t->plan.options.objective = rng_below(r, 3) ? THR_LENGTH : THR_TORTUOSITY;
+    want(&t->plan.options, rng_below(r, 3) ? "length" : "turning");
     t->plan.options.turning.length_slack = -1;
     t->plan.options.cords = o.cords;
     t->plan.options.cords_least = o.cords_least;

@@ -169,7 +169,7 @@ static void judge_threading(judged *j, const thr_plan *p)
     if (passes[e] < walks_cover(f, o, e) || passes[e] > walks_capacity(f, o, e)) finding(j, "edge %d: %d passes", e, passes[e]);
   for (int v = 0; v < f->n_nodes && o->ends == THR_ENDS_COUNTS; v++)
     if (ends[v] != o->end_count[v]) finding(j, "node %d has %d ends", v, ends[v]);
-  for (int k = 0; k < j->n_pieces && o->objective != THR_SYMMETRY; k++)
+  for (int k = 0; k < j->n_pieces && !thr_wants_symmetry(o); k++)
     if (cords[k] < o->cords_least || cords[k] > o->cords) finding(j, "piece %d has %d cords", k, cords[k]);
   if (o->joint == THR_JOINT_TUBE) judge_ties(j, p);
 }
@@ -217,8 +217,8 @@ static void cords_of(const judged *j, int k, int *least, int *most)
 {
   const thr_plan_options *o = &j->c.o;
   int n, component[64], sum = 0;
-  *least = o->objective == THR_SYMMETRY ? 1 : o->cords_least;
-  *most = o->objective == THR_SYMMETRY || o->cords > MOST_CORDS ? MOST_CORDS : o->cords;
+  *least = thr_wants_symmetry(o) ? 1 : o->cords_least;
+  *most = thr_wants_symmetry(o) || o->cords > MOST_CORDS ? MOST_CORDS : o->cords;
   if (o->ends != THR_ENDS_COUNTS) return;
   ck_assert_int_eq(thr_frame_components(&j->c.f, component, &n, NULL), THR_OK);
   for (int v = 0; v < j->c.f.n_nodes; v++)
@@ -431,7 +431,7 @@ static void judge_length(judged *j, const thr_plan *p, double least)
 {
   double length = length_of(&j->c.f, p), tolerance = 2.1e-9 * length;
   if (!p->proof.present) return;
-  if (j->c.o.objective == THR_SYMMETRY && j->c.o.ends != THR_ENDS_COUNTS) {
+  if (thr_wants_symmetry(&j->c.o) && j->c.o.ends != THR_ENDS_COUNTS) {
     judge_bound(j, "length", p->proof.lower_bound, length, p->proof.optimal, least_with_its_cords(j, p, -1), tolerance);
     least = least_with_at_most(j, p->options.cords);
     if (p->proof.lower_bound > least + tolerance)
@@ -445,7 +445,7 @@ static void judge_cords(judged *j, const thr_plan *p)
 {
   const thr_cords_claim *c = &p->cords_claim;
   double longest = longest_of(&j->c.f, p), tolerance = 3e-9 * longest, limit = c->longest_bound - tolerance;
-  if (!c->present || j->c.o.objective == THR_SYMMETRY) return;
+  if (!c->present || thr_wants_symmetry(&j->c.o)) return;
   judge_bound(j, "longest", c->longest_bound, longest, c->longest_optimal, NAN, tolerance);
   if (c->longest_optimal && c->longest_bound < longest - tolerance)
     finding(j, "longest: optimal at %.12g, but bound %.12g", longest, c->longest_bound);
@@ -495,7 +495,7 @@ static void judge_turning(judged *j, const thr_plan *p)
 static void judge_slack(judged *j, const thr_plan *p)
 {
   double slack = j->c.o.turning.length_slack, least = least_of(j, BACK_AT_LEAVES, by_length, -1);
-  if (j->c.o.objective != THR_TORTUOSITY || slack < 0 || isnan(least) || j->c.o.turning.tour != THR_TOUR_LEAST) return;
+  if (!thr_wants_turning(&j->c.o) || slack < 0 || isnan(least) || j->c.o.turning.tour != THR_TOUR_LEAST) return;
   double length = length_of(&j->c.f, p);
   if (length > least * (1 + slack) * (1 + 3e-9) && !strstr(j->said, "more than --length-slack"))
     finding(j, "slack %g: %.12g is %.3g %% above the shortest, %.12g", slack, length, 100 * (length / least - 1), least);
@@ -524,7 +524,7 @@ static bool admits(const char *said)
 
 static void judge_none(judged *j, counts *n)
 {
-  walks_back back = j->c.o.objective == THR_LENGTH ? BACK_ANYWHERE : BACK_AT_LEAVES;
+  walks_back back = thr_wants_length(&j->c.o) ? BACK_ANYWHERE : BACK_AT_LEAVES;
   int is_one = exists(j, back, rounding);
   n->none++;
   n->unsure += is_one < 0;
@@ -547,7 +547,7 @@ static void judge_written(judged *j, counts *n)
   judge_word(j, p);
   judge_turning(j, p);
   judge_slack(j, p);
-  bool shortest = j->c.o.objective == THR_LENGTH && !j->c.o.balance && j->c.o.max_length == 0;
+  bool shortest = thr_wants_length(&j->c.o) && !thr_wants_balance(&j->c.o) && j->c.o.max_length == 0;
   if (j->code == 0 && shortest && !(p->proof.present && p->proof.optimal)) finding(j, "exit 0, but the length is not proved");
   snprintf(path, sizeof path, "%s/plan.json", folder);
   char said[OUTPUT];
@@ -646,7 +646,8 @@ typedef struct {
 
 #define CAPACITY(n) .capacity = (n)
 #define CORDS(a, b) .cords_least = (a), .cords = (b)
-#define TURNING(slack, price, most) .turning = {.length_slack = (slack), .cost = (price), .largest = (most)}
+#define TURNING(slack, price) .turning = {.length_slack = (slack), .cost = (price)}
+#define AIM(what) .aims = {1, {THR_AIM_##what}}
 
 static const known_case known[] = {
     /* The shortest passes need a full edge, or turn back: the slack was measured from them, and no plan found. */
@@ -654,27 +655,27 @@ static const known_case known[] = {
      "[0,1],[0,2],[1,2]",
      "\"lengths\": [25.495,70.003,13.585], \"covers\": [1,1,3]",
      "--objective tortuosity --capacity 3 --length-slack 10 --turn-cost step --minimize max-turning --ends any",
-     {.objective = THR_TORTUOSITY, CAPACITY(3), CORDS(1, 1), TURNING(0.1, THR_TURN_STEP, true), .ends = THR_ENDS_ANY},
+     {AIM(MAX_TURNING), CAPACITY(3), CORDS(1, 1), TURNING(0.1, THR_TURN_STEP), .ends = THR_ENDS_ANY},
      {0}},
     {"[74,95,11],[86,98,6],[17,31,32]",
      "[1,0],[2,0]",
      "\"lengths\": [77.524,75.204], \"covers\": [1,2]",
      "--objective tortuosity --cords 2 --length-slack 40 --turn-cost step --ends 1:1,2:3",
-     {.objective = THR_TORTUOSITY, CORDS(2, 2), TURNING(0.4, THR_TURN_STEP, false), .ends = THR_ENDS_COUNTS},
+     {AIM(TURNING), CORDS(2, 2), TURNING(0.4, THR_TURN_STEP), .ends = THR_ENDS_COUNTS},
      {0, 1, 3}},
     /* Every edge that a tour would need once more is full: it took one nevertheless. */
     {"[50,0,50],[0,100,50],[50,0,0],[100,0,0]",
      "[1,0],[2,1],[1,3],[3,0]",
      "\"capacities\": [1,null,3,null]",
      "--objective tortuosity --capacity 1 --length-slack 0 --tour fleury --ends any",
-     {.objective = THR_TORTUOSITY, CAPACITY(1), CORDS(1, 1), .turning = {.tour = THR_TOUR_FLEURY}, .ends = THR_ENDS_ANY},
+     {AIM(TURNING), CAPACITY(1), CORDS(1, 1), .turning = {.tour = THR_TOUR_FLEURY}, .ends = THR_ENDS_ANY},
      {0}},
     /* One number of cords was tried for all pieces. */
     {"[0,0,0],[40,0,0],[80,0,0],[400,0,0],[440,0,0]",
      "[0,1],[1,2],[3,4]",
      "\"feet\": [0,1,2,3,4]",
      "--joint tube --cover 2 --capacity 2 --balance --cords 1..3 --ends feet",
-     {.joint = THR_JOINT_TUBE, .cover = 2, CAPACITY(2), .balance = true, CORDS(1, 3), .ends = THR_ENDS_FEET},
+     {.joint = THR_JOINT_TUBE, .cover = 2, CAPACITY(2), AIM(LONGEST), CORDS(1, 3), .ends = THR_ENDS_FEET},
      {0}},
     {"[0,0,0],[40,0,0],[80,0,0],[450,0,0],[375,43,0],[375,-43,0]",
      "[1,0],[1,2],[4,3],[4,5],[3,5]",
@@ -729,7 +730,7 @@ START_TEST(what_was_wrong_once)
   write_frame(path, k->nodes, k->edges, k->more);
   memcpy(end_count, k->end_count, sizeof end_count);
   o.end_count = end_count;
-  if (o.objective != THR_TORTUOSITY) o.turning.length_slack = -1;
+  if (!thr_wants_turning(&o)) o.turning.length_slack = -1;
   judge_given(path, &o, k->arguments);
   close_folder();
 }
@@ -749,7 +750,7 @@ START_TEST(symmetric_pieces_have_numbers_of_their_own)
              rng_below(&r, 101), rng_below(&r, 101));
   }
   write_frame(path, nodes, "[0,1],[0,2],[0,3],[1,2],[1,3],[2,3],[4,5],[5,6],[6,4]", "\"feet\": [0,1,4,5]");
-  o.objective = THR_SYMMETRY;
+  want(&o, "overlap,steps");
   o.joint = THR_JOINT_TUBE;
   o.ends = _i % 2 ? THR_ENDS_ANY : THR_ENDS_FEET;
   judge_given(path, &o,
@@ -798,7 +799,7 @@ START_TEST(steps_at_their_threshold)
     snprintf(nodes + n, sizeof nodes - n, ",[%.17g,%.17g,%.17g]", at[0], at[1], at[2]);
   }
   write_frame(path, nodes, _i % 2 ? "[0,1],[0,2],[3,0],[4,0]" : "[0,1],[2,0],[0,3]", "");
-  o.objective = THR_TORTUOSITY;
+  want(&o, "turning");
   o.ends = THR_ENDS_ANY;
   o.turning.cost = THR_TURN_STEP;
   judge_given(path, &o, "--objective tortuosity --turn-cost step --ends any --weld 0");

@@ -217,7 +217,7 @@ static void compare(const thr_frame *f, const thr_plan_options *o, int most_extr
   const thr_limits none = {0};
   thr_plan p;
   thr_err err = {0};
-  bool largest = o->turning.largest;
+  bool largest = thr_wants_largest(o);
   thr_status st = thr_tortuosity_plan(f, o, &none, &p, &err);
   t->asked++;
   if (st == THR_EINFEASIBLE) {
@@ -246,10 +246,10 @@ static void compare(const thr_frame *f, const thr_plan_options *o, int most_extr
 static thr_plan_options request(rng *r, thr_joint joint, thr_ends ends, int cords, bool largest)
 {
   thr_plan_options o = options_for(ends, 1);
-  o.objective = THR_TORTUOSITY;
+  want(&o, "turning");
   o.joint = joint;
   o.cords = o.cords_least = cords;
-  o.turning.largest = largest;
+  if (largest) want(&o, "max-turning");
   o.turning.cost = (thr_turn_cost)(rng_below(r, 4) ? 0 : rng_between(r, 1, 2));
   o.turning.length_slack = rng_below(r, 4) ? -1 : rng_below(r, 2) * 0.1;
   return o;
@@ -325,7 +325,7 @@ START_TEST(domes_are_tied_and_evened_out)
   o.turning.cost = THR_TURN_ANGLE;
   o.turning.length_slack = -1;
   thr_plan sum = solve(&f, &o);
-  o.turning.largest = true;
+  want(&o, "max-turning");
   thr_plan even = solve(&f, &o);
   ck_assert_int_eq(even.n_cords, o.cords);
   ck_assert_double_ge(even.turning.largest, even.turning.largest_bound * (1 - 1e-9));

@@ -84,7 +84,7 @@ START_TEST(rows_and_their_plans)
   thr_plan_options o = options_for(ends, 1);
   thr_symmetries t;
   thr_err err = {0};
-  o.objective = THR_SYMMETRY;
+  want(&o, "overlap,steps");
   thr_status found = thr_symmetries_find(&f, &o, &none, &t, &err);
   if (ends == THR_ENDS_FEET && !s->feet) {
     ck_assert_int_eq(found, THR_EINFEASIBLE);

@@ -111,7 +111,7 @@ START_TEST(two_cords_of_small_ones_are_even)
     thr_plan p;
     thr_err err = {0};
     o.cords = o.cords_least = 2;
-    o.balance = true;
+    want(&o, "longest");
     o.capacity = k % 4 ? 0 : o.cover + 1;
     double least = least_longest(&f, &o);
     thr_status st = thr_cords_plan(&f, &o, &(thr_limits){0}, &p, &word, &err);
@@ -195,7 +195,7 @@ START_TEST(cords_of_grids_are_even)
   thr_plan_options o = options_for(ends[_i % 4], 1 + _i / 4 % 2);
   if (o.ends == THR_ENDS_NODES) o.end_node = end_node;
   o.cords = o.cords_least = 2 + _i % 5;
-  o.balance = true;
+  want(&o, "longest");
   if (o.ends == THR_ENDS_FEET) o.cords = o.cords_least = 2 + _i % 3;
   thr_plan p, q;
   thr_err err = {0};
@@ -225,7 +225,7 @@ START_TEST(a_corridor_is_a_forced_detour)
   thr_plan p;
   thr_err err = {0};
   o.cords = o.cords_least = 2;
-  o.balance = true;
+  want(&o, "longest");
   ck_assert_msg(thr_cords_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err) == THR_OK, "%s", err.text);
   ck_assert_double_eq_tol(longest_of(&p), 22, 1e-9);
   ck_assert(p.cords_claim.longest_optimal);
@@ -250,7 +250,7 @@ START_TEST(detours_and_moved_ends_even_out)
   thr_plan p;
   thr_err err = {0};
   o.cords = o.cords_least = 2;
-  o.balance = true;
+  want(&o, "longest");
   thr_status st = thr_cords_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err);
   ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", err.text);
   ck_assert_double_le(longest_of(&p), 29 + 1e-9);
@@ -285,7 +285,7 @@ START_TEST(every_allocation_may_fail)
   thr_frame grid = grid_make(3, 3), path = path_make(3), pieces = triangles_make(2);
   thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
   o.cords = o.cords_least = _i == 0 || _i == 6 ? 3 : 2;
-  o.balance = _i == 1 || _i == 2;
+  want(&o, _i == 1 || _i == 2 ? "longest" : "length");
   if (_i == 2 || _i == 4) o.ends = THR_ENDS_ANY;
   if (_i == 3) o.ends = THR_ENDS_COUNTS, o.end_count = end_count;
   if (_i == 4) o.cords = 1000, o.cords_least = 1, o.max_length = 5;

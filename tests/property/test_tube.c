@@ -147,7 +147,7 @@ static void compare_turning(const thr_frame *f, thr_plan_options *o, tally *t)
   const thr_limits none = {0};
   thr_plan p;
   thr_err err = {0};
-  o->objective = THR_TORTUOSITY;
+  want(o, "turning");
   o->cords_least = o->cords;
   double shortest = least_by_enumeration(f, o, false, INFINITY);
   double least = least_by_enumeration(f, o, true, o->turning.length_slack < 0 ? INFINITY : shortest);
@@ -401,14 +401,14 @@ START_TEST(every_allocation_fails_once)
   thr_status st = THR_ENOMEM;
   long k = 0;
   o.joint = THR_JOINT_TUBE;
-  o.objective = _i < 2 ? THR_LENGTH : THR_TORTUOSITY;
+  want(&o, _i < 2 ? "length" : "turning");
   f.length[0] = 1.5; /* nothing to choose from would be too simple */
   f.own_lengths = true;
   while (st) {
     thr_plan p = {0};
     thr_err err = {0};
     thr_alloc_fail_at(++k);
-    st = o.objective == THR_LENGTH ? thr_tube_plan(&f, &o, &none, &p, &err) : thr_tortuosity_plan(&f, &o, &none, &p, &err);
+    st = thr_wants_length(&o) ? thr_tube_plan(&f, &o, &none, &p, &err) : thr_tortuosity_plan(&f, &o, &none, &p, &err);
     thr_alloc_fail_at(0);
     ck_assert_msg(!st || st == THR_ENOMEM, "allocation %ld: status %d, %s", k, (int)st, err.text);
     ck_assert(!st || (!p.cord && !p.proof.tied.node));

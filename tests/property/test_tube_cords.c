@@ -351,7 +351,7 @@ START_TEST(even_cords_by_enumeration)
   tally t = {0};
   for (int k = 0; k < 24; k++) {
     thr_plan_options o = random_options(&r, k);
-    o.balance = true;
+    want(&o, "longest");
     o.cords = o.cords_least = 2;
     thr_frame f = small_frame(&r, &o);
     if (o.ends == THR_ENDS_ANY && rng_below(&r, 2)) random_counts(&r, &f, &o);
@@ -457,7 +457,7 @@ START_TEST(cords_of_grids_are_even)
   thr_plan p, q;
   thr_err err = {0};
   o.joint = THR_JOINT_TUBE;
-  o.balance = true;
+  want(&o, "longest");
   o.cords = o.cords_least = 2 + _i % 3;
   thr_status st = thr_tube_cords_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err);
   ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", err.text);
@@ -506,7 +506,7 @@ START_TEST(pieces_have_cords_of_their_own)
   o.joint = THR_JOINT_TUBE;
   o.cords = _i < 2 ? 2 : 1000;
   o.cords_least = _i < 2 ? 2 : 1;
-  o.balance = _i < 2;
+  want(&o, _i < 2 ? "longest" : "length");
   o.max_length = _i < 2 ? 0 : 1.01 * thr_frame_total_length(&one);
   thr_status st = thr_tube_cords_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err);
   ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", err.text);
@@ -538,8 +538,8 @@ START_TEST(every_allocation_may_fail)
   thr_status st = THR_ENOMEM;
   o.joint = THR_JOINT_TUBE;
   o.cords = o.cords_least = 2;
-  o.balance = _i > 0;
-  if (_i > 2) o.balance = false, o.cords = 1000, o.cords_least = 1, o.max_length = 8;
+  want(&o, _i > 0 && _i < 3 ? "longest" : "length");
+  if (_i > 2) o.cords = 1000, o.cords_least = 1, o.max_length = 8;
   for (long k = 1; st == THR_ENOMEM; k++) {
     thr_plan p;
     thr_err err = {0};

@@ -451,7 +451,7 @@ START_TEST(cords_without_a_proof)
   p->options.cords = 3;
   assert_holds(p);
   p->options.cords_least = 3;
-  p->options.objective = THR_TORTUOSITY;
+  want(&p->options, "turning");
   assert_violated(p, "component 0: has 1 cord; the plan's options say 3");
   fixture_destroy(&x);
 }

@@ -316,7 +316,7 @@ START_TEST(edges_at_their_price)
   }
   thr_plan_options o = options_for(THR_ENDS_COUNTS, 1);
   ck_assert_int_eq(thr_prices_number(&o, 7), 7);
-  o.objective = THR_SYMMETRY;
+  want(&o, "overlap,steps");
   ck_assert_int_eq(thr_prices_number(&o, 7), 0);
   o = options_for(THR_ENDS_FEET, 1);
   ck_assert_int_eq(thr_prices_number(&o, 7), 1);
@@ -896,12 +896,12 @@ END_TEST
 START_TEST(cords_are_counted_for_claims)
 {
   static const double length[2] = {1, 2};
-  static const thr_objective objective[] = {THR_LENGTH, THR_TORTUOSITY};
+  static const char *const aims[] = {"length", "turning"};
   thr_frame f = chain_make(2, length);
   for (int k = 0; k < 2; k++) {
     thr_plan p = {0};
     thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
-    o.objective = objective[k];
+    want(&o, aims[k]);
     ck_assert_int_eq(thr_plan_request(&p, &f, &o, NULL), THR_OK);
     p.cord = calloc(2, sizeof *p.cord);
     add_loops(p.cord, &p.n_cords, 0, 1);
@@ -1052,7 +1052,7 @@ START_TEST(symmetric_cords_are_counted_where_most_are)
       bool optimal;
       double bound;
       thr_err err = {0};
-      o.objective = THR_SYMMETRY;
+      want(&o, "overlap,steps");
       o.cords = o.cords_least = cords;
       thr_status st = thr_check_length_proof(&f, &o, cord, 3, c, 2, &optimal, &bound, &err);
       ck_assert_msg(st == (cords == 2 ? THR_OK : THR_EVIOLATED), "%s", err.text);

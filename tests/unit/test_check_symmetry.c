@@ -129,7 +129,7 @@ static thr_plan plan_of_group(point_group *g)
       edge[m][0] = b, edge[m++][1] = a;
   thr_plan p = {.options = options_for(THR_ENDS_ANY, 1)};
   p.frame = frame_make(n, (const double(*)[3])moved, m, (const int(*)[2])edge, NULL, NULL);
-  p.options.objective = THR_SYMMETRY;
+  want(&p.options, "overlap,steps");
   p.options.symmetry.geometric = -1;
   p.symmetry = (thr_symmetry_record){.present = true, .order = g->order, .n_generators = g->n_generators, .n_images = 1};
   p.symmetry.generator = calloc(MOST * MOST_GENERATORS, sizeof(int));
@@ -354,7 +354,7 @@ START_TEST(copies_may_start_anywhere_and_run_backward)
                       cord_of(&two, 1, walk, n, 4, rng_below(&r, n), rng_below(&r, 2))};
   thr_plan p = {.frame = two, .options = options_for(THR_ENDS_CLOSED, 1), .n_cords = 2, .cord = cord};
   int unique[2] = {0, 0}, element[2] = {0, 1};
-  p.options.objective = THR_SYMMETRY;
+  want(&p.options, "overlap,steps");
   p.options.symmetry.geometric = -1;
   p.symmetry = (thr_symmetry_record){true, 2, "", 1, exchange, 2, same, unique, element, (double)n / count_readings(walk, n), 1};
   thr_err err = {0};
@@ -417,7 +417,7 @@ START_TEST(walks_are_learned_whole)
       int n = length[k], readings = count_readings(walk[k], n);
       thr_cord cord = cord_of(&f, 0, walk[k], n, 0, start / 2, start % 2);
       thr_plan p = {.frame = f, .options = options_for(THR_ENDS_CLOSED, 1), .n_cords = 1, .cord = &cord};
-      p.options.objective = THR_SYMMETRY;
+      want(&p.options, "overlap,steps");
       p.options.symmetry.geometric = -1;
       p.symmetry = (thr_symmetry_record){true, 1, "", 0, same, 1, same, &zero, &zero, (double)n / readings, 1};
       thr_err err = {0};
@@ -436,7 +436,7 @@ START_TEST(copies_are_as_long)
   for (int k = 0; k < 2; k++) {
     thr_cord cord[2] = {{.id = "A", .n_passes = 1 + k, .half = half}, {.id = "B", .n_passes = 2 - k, .half = half}};
     thr_plan p = {.frame = f, .options = options_for(THR_ENDS_ANY, 1), .n_cords = 2, .cord = cord};
-    p.options.objective = THR_SYMMETRY;
+    want(&p.options, "overlap,steps");
     p.options.symmetry.geometric = -1;
     p.symmetry = (thr_symmetry_record){true, 1, "", 0, same, 1, same, unique, which, 1 + k, 1};
     thr_err err = {0};
@@ -457,7 +457,7 @@ START_TEST(a_unique_path_is_its_own_image_0)
   thr_cord cord = cord_of(&f, 0, walk, 3, 0, 0, false);
   for (int which = 0; which < 2; which++) {
     thr_plan p = {.frame = f, .options = options_for(THR_ENDS_CLOSED, 1), .n_cords = 1, .cord = &cord};
-    p.options.objective = THR_SYMMETRY;
+    want(&p.options, "overlap,steps");
     p.options.symmetry.geometric = -1;
     p.symmetry = (thr_symmetry_record){true, 3, "", 1, next, 2, image, &zero, &which, 1, 1};
     thr_err err = {0};
@@ -485,7 +485,7 @@ START_TEST(cords_are_permuted)
     int half[2] = {k ? 5 : 1, k ? 6 : 2};
     thr_cord cord = {.id = "A", .n_passes = 2, .half = half};
     thr_plan p = {.frame = f, .options = options_for(THR_ENDS_ANY, 1), .n_cords = 1, .cord = &cord};
-    p.options.objective = THR_SYMMETRY;
+    want(&p.options, "overlap,steps");
     p.options.symmetry.geometric = -1;
     p.symmetry = (thr_symmetry_record){true, 2, "", 1, half_turn, 1, same, &zero, &zero, 2, 1};
     thr_err err = {0};
@@ -509,7 +509,7 @@ START_TEST(copies_are_of_unique_paths)
     f.foot[i + 1] = false;
   }
   thr_plan p = {.frame = f, .options = options_for(THR_ENDS_ANY, 1), .n_cords = 3, .cord = cord};
-  p.options.objective = THR_SYMMETRY;
+  want(&p.options, "overlap,steps");
   p.options.symmetry.geometric = -1;
   p.symmetry = (thr_symmetry_record){.present = true,
                                      .order = 3,
@@ -549,7 +549,7 @@ START_TEST(an_open_cord_is_no_copy_of_a_closed_one)
   }
   thr_cord cord[2] = {{.id = "A", .closed = true, .n_passes = 3, .half = half}, {.id = "B", .n_passes = 2, .half = half}};
   thr_plan p = {.frame = f, .options = options_for(THR_ENDS_ANY, 1), .n_cords = 2, .cord = cord};
-  p.options.objective = THR_SYMMETRY;
+  want(&p.options, "overlap,steps");
   p.options.symmetry.geometric = -1;
   p.symmetry = (thr_symmetry_record){.present = true,
                                      .order = 1,
@@ -601,7 +601,7 @@ START_TEST(a_cord_there_and_back_is_learned_once)
   int half[4] = {0, 2, 3, 1}, same[3] = {0, 1, 2}, zero = 0;
   thr_cord cord = {.id = "A", .closed = true, .n_passes = 4, .half = half};
   thr_plan p = {.frame = f, .options = options_for(THR_ENDS_FEET, 1), .n_cords = 1, .cord = &cord};
-  p.options.objective = THR_SYMMETRY;
+  want(&p.options, "overlap,steps");
   p.options.symmetry.geometric = -1;
   p.symmetry = (thr_symmetry_record){true, 1, "", 0, same, 1, same, &zero, &zero, 2, 1};
   thr_err err = {0};

@@ -51,7 +51,7 @@ static thr_plan plan_begin(thr_frame f, thr_ends ends, int cords, thr_turn_cost 
   thr_plan p = {0};
   thr_plan_options o = options_for(ends, 1);
   int component[MOST_WALK], n;
-  o.objective = THR_TORTUOSITY;
+  want(&o, "turning");
   o.cords = o.cords_least = cords;
   o.turning.cost = cost;
   o.turning.length_slack = -1;

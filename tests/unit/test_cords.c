@@ -55,7 +55,7 @@ static thr_plan plan_of(const thr_frame *f, const thr_cover_options *c, thr_cord
   thr_plan_options o = options_for(c->ends, c->cover);
   int *count = calloc((size_t)f->n_nodes, sizeof *count);
   ck_assert(count != NULL);
-  o.objective = THR_SYMMETRY;
+  want(&o, "overlap,steps");
   for (int i = 0; i < n_cords; i++)
     if (++count[cord[i].component] > o.cords) o.cords = count[cord[i].component];
   free(count);

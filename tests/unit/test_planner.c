@@ -29,7 +29,7 @@ START_TEST(the_example_plans_for_every_objective)
     thr_err e = {0};
     ck_assert_msg(thr_plan_read(&p, path[i], &e) == THR_OK, "%s", e.text);
     ck_assert_msg(thr_check_plan(&p, &e) == THR_OK, "%s", e.text);
-    ck_assert_int_eq((int)p.options.objective, i);
+    ck_assert_int_eq((int)thr_aims_objective(&p.options), i);
     ck_assert(p.proof.present && p.proof.lower_bound > 0);
     thr_plan_destroy(&p);
     ck_assert_int_eq(remove(path[i]), 0);
@@ -47,7 +47,7 @@ START_TEST(every_plan_comes_with_proofs)
   thr_plan p;
   thr_report r;
   thr_err e = {0};
-  o.objective = thr_dispatch_objective(_i / 2);
+  want(&o, aims[_i / 2]);
   o.joint = joint;
   thr_status st = thr_plan_make(&f, &o, &limits, &p, &r, &e);
   ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", e.text);
@@ -58,9 +58,9 @@ START_TEST(every_plan_comes_with_proofs)
   ck_assert_msg(thr_check_plan(&p, &e) == THR_OK, "%s", e.text);
   ck_assert(p.proof.present);
   ck_assert_double_ge(p.proof.lower_bound, thr_frame_total_length(&f) * (1 - 1e-9));
-  ck_assert(p.symmetry.present == (o.objective == THR_SYMMETRY));
-  ck_assert(p.turning.present == (o.objective == THR_TORTUOSITY));
-  ck_assert((r.symmetries.n > 0) == (o.objective == THR_SYMMETRY));
+  ck_assert(p.symmetry.present == (thr_wants_symmetry(&o)));
+  ck_assert(p.turning.present == (thr_wants_turning(&o)));
+  ck_assert((r.symmetries.n > 0) == (thr_wants_symmetry(&o)));
   thr_report_destroy(&r);
   thr_plan_destroy(&p);
   thr_frame_destroy(&f);
@@ -84,7 +84,7 @@ START_TEST(some_cords_are_heard_of_early)
   const thr_limits limits = {.deadline = thr_clock() + 5, .found = hear};
   thr_plan p;
   thr_err e = {0};
-  o.objective = thr_dispatch_objective(_i);
+  want(&o, aims[_i]);
   heard = 0;
   thr_status st = thr_plan_make(&f, &o, &limits, &p, NULL, &e);
   ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", e.text);

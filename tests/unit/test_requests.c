@@ -50,7 +50,7 @@ START_TEST(everything_asked_for_survives_json)
   o.end_count = end_count;
   o.capacity = 3;
   o.cords_least = 2, o.cords = 5;
-  o.max_length = 12.5, o.balance = true, o.joint = THR_JOINT_TUBE;
+  o.max_length = 12.5, want(&o, "longest"), o.joint = THR_JOINT_TUBE;
   o.engine = THR_ENGINE_LP, o.confirm = THR_CONFIRM_NEVER;
   thr_plan p, q;
   const int walk[] = {0, 1, 2};
@@ -62,7 +62,7 @@ START_TEST(everything_asked_for_survives_json)
   ck_assert(memcmp(q.frame.cover, f.cover, (size_t)f.n_edges * sizeof *f.cover) == 0);
   ck_assert(memcmp(q.frame.capacity, f.capacity, (size_t)f.n_edges * sizeof *f.capacity) == 0);
   ck_assert(q.options.ends == THR_ENDS_COUNTS && memcmp(q.options.end_count, end_count, sizeof end_count) == 0);
-  ck_assert(q.options.capacity == 3 && q.options.cords_least == 2 && q.options.cords == 5 && q.options.balance);
+  ck_assert(q.options.capacity == 3 && q.options.cords_least == 2 && q.options.cords == 5 && thr_wants_balance(&q.options));
   ck_assert(q.options.max_length == 12.5 && q.options.joint == THR_JOINT_TUBE);
   ck_assert(q.options.engine == THR_ENGINE_LP && q.options.confirm == THR_CONFIRM_NEVER);
   ck_assert(q.cords_claim.present && q.cords_claim.longest == 2 && q.cords_claim.longest_bound == 1.5);
@@ -385,6 +385,71 @@ START_TEST(every_allocation_of_the_check_fails_once)
 }
 END_TEST
 
+/* What the list comes to, written again; NULL and a word of the message where it is refused. */
+static const struct {
+  const char *list, *settled, *word;
+} lists[] = {
+    {"length", "length", NULL},
+    {"overlap", "length", NULL},
+    {"longest", "longest,length", NULL},
+    {"longest,overlap", "longest,length", NULL},
+    {"turning", "turning", NULL},
+    {"turning:angle", "turning", NULL},
+    {"max-turning:step", "max-turning:step", NULL},
+    {"length,turning", "length,turning", NULL},
+    {"length+12.5%,turning:sine", "length+12.5%,turning:sine", NULL},
+    {"length+5,max-turning", "length+5%,max-turning", NULL},
+    {"steps", "steps,overlap,paths,turning", NULL},
+    {"turning,paths", "turning,paths,overlap,steps", NULL},
+    {"length,steps", "overlap,steps,paths,turning", NULL},
+    {"", NULL, "no aim"},
+    {"length,", NULL, "no aim"},
+    {"short", NULL, "no aim"},
+    {"turning,turning", NULL, "twice"},
+    {"length,overlap", NULL, "same"},
+    {"turning,max-turning", NULL, "not both"},
+    {"turning,length", NULL, "before"},
+    {"length,longest", NULL, "before"},
+    {"longest,turning", NULL, "longest"},
+    {"steps,longest", NULL, "longest"},
+    {"steps,max-turning", NULL, "max-turning"},
+    {"steps,turning:sine", NULL, "cost"},
+    {"length+5%", NULL, "beyond"},
+    {"length+5%,steps", NULL, "beyond"},
+    {"length+x,turning", NULL, "percentage"},
+    {"length+-1%,turning", NULL, "percentage"},
+    {"turning+5%", NULL, "percentage"},
+    {"turning:dear", NULL, "cost"},
+    {"length:sine,turning", NULL, "cost"},
+};
+enum { N_LISTS = sizeof lists / sizeof *lists };
+
+START_TEST(aims_are_read_and_written)
+{
+  thr_plan_options o = thr_plan_options_default(), again = o;
+  thr_err err = {0};
+  o.turning.cost = THR_TURN_SINE; /* which the list takes back */
+  o.turning.length_slack = 3;
+  const thr_plan_options before = o;
+  thr_status st = thr_aims_parse(lists[_i].list, &o, &err);
+  if (!lists[_i].settled) {
+    ck_assert_int_eq(st, THR_EINPUT);
+    assert_one_line(&err, lists[_i].word);
+    ck_assert(memcmp(&o, &before, sizeof o) == 0);
+    return;
+  }
+  thr_text t = {0};
+  ck_assert_msg(st == THR_OK, "%s", err.text);
+  thr_aims_write(&o, &t);
+  ck_assert_str_eq(t.data, lists[_i].settled);
+  ck_assert_int_eq(thr_aims_parse(t.data, &again, &err), THR_OK);
+  ck_assert(memcmp(&again.aims, &o.aims, sizeof o.aims) == 0);
+  ck_assert(again.turning.cost == o.turning.cost && again.turning.length_slack == o.turning.length_slack);
+  ck_assert_int_eq(thr_wants_length(&o) + thr_wants_turning(&o) + thr_wants_symmetry(&o), 1);
+  thr_text_destroy(&t);
+}
+END_TEST
+
 int main(void)
 {
   Suite *s = suite_create("requests");
@@ -399,5 +464,6 @@ int main(void)
   ADD_TEST(s, 10, a_claim_about_the_fewest);
   ADD_TEST(s, 10, the_longest_forced_detour);
   ADD_TEST(s, 10, every_allocation_of_the_check_fails_once);
+  ADD_LOOP(s, 10, aims_are_read_and_written, 0, N_LISTS);
   return run_suite(s);
 }

@@ -14,7 +14,7 @@ static const thr_limits no_limits = {0};
 static thr_plan_options asked(thr_ends ends, int cover)
 {
   thr_plan_options o = options_for(ends, cover);
-  o.objective = THR_SYMMETRY;
+  want(&o, "overlap,steps");
   return o;
 }
 
@@ -363,7 +363,7 @@ START_TEST(what_it_does_not_know)
   thr_frame f = no_feet(path_make(4));
   thr_plan_options plain = asked(THR_ENDS_CLOSED, 1), o[3] = {plain, plain, plain};
   o[0].max_length = 100;
-  o[1].balance = true;
+  want(&o[1], "longest");
   o[2].ends = THR_ENDS_COUNTS;
   for (int i = 0; i < 3; i++) {
     thr_symmetries t;
@@ -439,8 +439,7 @@ START_TEST(seeds_for_the_largest_turning)
   thr_status taken = thr_symmetries_plan(&t, row, &f, &o, &no_limits, &seed, &err);
   ck_assert(taken == THR_OK || taken == THR_ELIMIT);
   ck_assert_int_eq(thr_symmetries_even(&t, 8), -1); /* its cords are taken */
-  turning.objective = THR_TORTUOSITY;
-  turning.turning.largest = true;
+  want(&turning, "max-turning");
   turning.cords = 8;
   ck_assert_msg(thr_tortuosity_plan_from(&f, &turning, &seed, &no_limits, &p, &err) == THR_OK, "%s", err.text);
   ck_assert(p.turning.largest_optimal && p.metrics.max_turning <= seed.metrics.max_turning + 1e-9);

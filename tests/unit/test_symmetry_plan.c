@@ -52,7 +52,7 @@ static thr_plan plan_known(const known *k)
   thr_frame f = k->frame();
   thr_plan p = {0};
   thr_plan_options o = options_for(k->ends, k->cover);
-  o.objective = THR_SYMMETRY;
+  want(&o, "overlap,steps");
   o.cords = k->cords;
   ck_assert_int_eq(thr_plan_request(&p, &f, &o, NULL), THR_OK);
   thr_symmetry_record *r = &p.symmetry;
@@ -340,7 +340,7 @@ START_TEST(known_plans_are_sound)
   ck_assert(memcmp(b->generator, a->generator, (size_t)a->n_generators * row) == 0);
   ck_assert(memcmp(b->image, a->image, (size_t)a->n_images * row) == 0);
   ck_assert(memcmp(b->unique, a->unique, cords) == 0 && memcmp(b->element, a->element, cords) == 0);
-  ck_assert(q.options.objective == THR_SYMMETRY && q.options.symmetry.geometric < 0 && !q.options.symmetry.group[0]);
+  ck_assert(thr_wants_symmetry(&q.options) && q.options.symmetry.geometric < 0 && !q.options.symmetry.group[0]);
   thr_text_destroy(&t);
   thr_plan_destroy(&p);
   thr_plan_destroy(&q);
@@ -364,12 +364,12 @@ START_TEST(options_survive_json)
   memcpy(o->group, "C4 \"x\" \xc3\xa4", 10);
   o->geometric = 1.0 / 3;
   for (int i = 0; i < THR_N_AIMS; i++)
-    o->prefer[i] = (thr_aim)(THR_N_AIMS - 1 - i);
+    p.options.aims.aim[i] = (thr_aim)(THR_N_AIMS - 1 - i);
   thr_text t = plan_text(&p);
   thr_plan q = plan_from(t.data);
   ck_assert_str_eq(q.options.symmetry.group, o->group);
   ck_assert(q.options.symmetry.geometric == o->geometric);
-  ck_assert(memcmp(q.options.symmetry.prefer, o->prefer, sizeof o->prefer) == 0);
+  ck_assert(memcmp(&q.options.aims, &p.options.aims, sizeof p.options.aims) == 0);
   memcpy(o->group, "C4", 3);
   assert_plan_sound(&p);
   thr_text_destroy(&t);

@@ -14,7 +14,7 @@
 static thr_plan_options tied(thr_ends ends)
 {
   thr_plan_options o = options_for(ends, 1);
-  o.objective = THR_SYMMETRY;
+  want(&o, "overlap,steps");
   o.joint = THR_JOINT_TUBE;
   return o;
 }

@@ -110,7 +110,7 @@ static thr_status make_plan(const thr_frame *f, int cords, double slack, thr_pla
 {
   thr_plan_options o = thr_plan_options_default();
   const thr_limits limits = {0};
-  o.objective = THR_TORTUOSITY;
+  want(&o, "turning");
   o.ends = THR_ENDS_CLOSED;
   o.cords = o.cords_least = cords;
   o.turning.length_slack = slack;
@@ -160,7 +160,7 @@ static thr_status sweep(const thr_frame *f, int cords, thr_frontier *out, thr_er
 {
   thr_plan_options o = thr_plan_options_default();
   const thr_limits limits = {0};
-  o.objective = THR_TORTUOSITY;
+  want(&o, "turning");
   o.ends = THR_ENDS_CLOSED;
   o.cords = cords;
   return thr_tortuosity_frontier(f, &o, 4, &limits, out, err);
@@ -243,7 +243,7 @@ START_TEST(no_bound_is_reported_above_the_best_price)
     thr_frame f = random_frame(&r, 14, 12, LENGTHS_EUCLID);
     thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
     thr_plan p;
-    o.objective = THR_TORTUOSITY;
+    want(&o, "turning");
     ck_assert_int_eq(thr_tortuosity_plan(&f, &o, &limits, &p, NULL), THR_OK);
     thr_plan_destroy(&p);
     thr_frame_destroy(&f);

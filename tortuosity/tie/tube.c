@@ -126,7 +126,7 @@ static thr_status make(const thr_frame *f, const thr_plan_options *o, bool searc
 thr_status thr_tube_shortest(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_tube *out, thr_err *err)
 {
   *out = (thr_tube){0};
-  if (o->ends == THR_ENDS_CLOSED && o->objective != THR_LENGTH && o->cords > 1)
+  if (o->ends == THR_ENDS_CLOSED && !thr_wants_length(o) && o->cords > 1)
     return thr_fail(err, THR_EINPUT,
                     "tube joints take one closed cord in every component; let the cords end somewhere, or ask for one");
   thr_status st = make(f, o, true, limits, out, err);

@@ -17,7 +17,7 @@ typedef struct {
 /* Cords that tie every node, the shortest, from options.cords_least to options.cords in every component, with little turning at
  * the nodes. Closed: one in every component, which is no longer than any number of them. THR_OK: proved. THR_ELIMIT: out holds
  * cords, and what is proved. THR_EINFEASIBLE: a node or a component that no cords can tie (named), or none found. THR_EINPUT:
- * several closed cords for another objective than THR_LENGTH. Otherwise out is empty. */
+ * several closed cords for another plan than one of the least length. Otherwise out is empty. */
 thr_status thr_tube_shortest(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_tube *out,
                              thr_err *err) THR_MUST_CHECK;
 

@@ -297,7 +297,7 @@ static thr_status grow(several *x, thr_err *err)
 /* Is more asked for than the shortest length? */
 static bool lengths_asked(const thr_plan_options *o)
 {
-  return o->balance || o->max_length > 0;
+  return thr_wants_balance(o) || o->max_length > 0;
 }
 
 static void move_cords(thr_tube *t, thr_plan *plan)
@@ -326,7 +326,7 @@ static thr_status plan_component(void *user, const thr_components *p, int k, con
 static thr_status make_some(several *x, thr_plan *plan, thr_err *err)
 {
   const thr_plan_options *o = x->o;
-  thr_status st = o->max_length > 0 ? grow(x, err) : o->balance ? make_even(x, err) : make_number(x, o->cords_least, false, err);
+  thr_status st = o->max_length > 0 ? grow(x, err) : thr_wants_balance(o) ? make_even(x, err) : make_number(x, o->cords_least, false, err);
   return st ? st : thr_walks_plan(x->walks, x->n_components, plan, err);
 }
 
@@ -344,7 +344,7 @@ static thr_status make_cords(thr_tube *t, const thr_limits *limits, thr_plan *pl
   if (!st)
     st = lengths_asked(o) && x.n_components > 1 ? thr_components_plan(x.f, o, plan_component, &x, plan, err)
                                                 : make_some(&x, plan, err);
-  if (!st) *word = (thr_cords_word){x.least && many && !lengths_asked(o), x.certain && o->balance};
+  if (!st) *word = (thr_cords_word){x.least && many && !lengths_asked(o), x.certain && thr_wants_balance(o)};
   several_destroy(&x);
   return st;
 }

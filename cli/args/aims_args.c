@@ -1,0 +1,60 @@
+/* What is minimized, in one list or in the options that spell it. */
+#include "cli/args/aims_args.h"
+#include "planner/dispatch.h"
+
+#include <string.h>
+
+bool aims_option(aims_args *a, int option, const char *value, bool *ok)
+{
+  int i;
+  switch (option) {
+  case OPTION_AIMS: a->aims = value; return true;
+  case OPTION_OBJECTIVE:
+    a->given = true;
+    *ok = cli_choose("plan", "--objective", value, thr_dispatch_name, THR_N_OBJECTIVES, &i);
+    if (*ok) a->objective = thr_dispatch_objective(i);
+    return true;
+  default: return false;
+  }
+}
+
+/* An option that says a part of what --aims says whole; NULL = none was given. */
+static const char *spelled(const aims_args *a, const turning_args *turning, const symmetry_args *symmetry,
+                           const cords_args *cords)
+{
+  return a->given              ? "--objective"
+         : turning->spelled    ? turning->spelled
+         : cords->balance      ? "--balance"
+         : symmetry->preferred ? "--prefer"
+                               : NULL;
+}
+
+int aims_args_settle(aims_args *a, turning_args *turning, symmetry_args *symmetry, cords_args *cords)
+{
+  thr_err err = {0};
+  thr_plan_options o = thr_plan_options_default();
+  const char *other = spelled(a, turning, symmetry, cords);
+  if (!a->aims) return -1;
+  if (other) return cli_usage("plan", "--aims says all that is minimized: no %s beside it", other);
+  if (thr_aims_parse(a->aims, &o, &err)) return cli_usage("plan", "--aims %s: %s", a->aims, err.text);
+  a->objective = thr_aims_objective(&o);
+  turning->largest = thr_wants_largest(&o);
+  turning->options.cost = o.turning.cost;
+  turning->options.length_slack = o.turning.length_slack;
+  cords->balance = thr_wants_balance(&o);
+  thr_aims_order(&o, symmetry->prefer);
+  return -1;
+}
+
+void aims_args_apply(const aims_args *a, const turning_args *turning, const symmetry_args *symmetry, const cords_args *cords,
+                     thr_objective objective, thr_plan_options *o)
+{
+  const thr_plan_options usual = thr_plan_options_default();
+  bool own = objective == a->objective;
+  o->aims = thr_aims_of(objective);
+  o->turning = own && thr_wants_turning(o) ? turning->options : usual.turning;
+  o->symmetry = own && thr_wants_symmetry(o) ? symmetry->options : usual.symmetry;
+  if (own && thr_wants_symmetry(o)) memcpy(o->aims.aim, symmetry->prefer, sizeof symmetry->prefer);
+  if (own && thr_wants_turning(o) && turning->largest) o->aims.aim[0] = THR_AIM_MAX_TURNING;
+  if (own && thr_wants_length(o) && cords->balance) o->aims = (thr_aims){2, {THR_AIM_LONGEST, THR_AIM_LENGTH}};
+}

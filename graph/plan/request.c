@@ -1,0 +1,316 @@
+/* What is asked of a plan: lists of aims, names, and what options and framework say together. */
+#include "graph/plan/request.h"
+
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+thr_plan_options thr_plan_options_default(void)
+{
+  return (thr_plan_options){.aims = thr_aims_shortest,
+                            .cover = 1,
+                            .cords = 1,
+                            .cords_least = 1,
+                            .turning = {.length_slack = -1},
+                            .symmetry = {.geometric = -1},
+                            .ends = THR_ENDS_CLOSED,
+                            .physics = thr_physics_default()};
+}
+
+/* ---- what the aims come to ---- */
+
+const thr_aims thr_aims_shortest = {1, {THR_AIM_LENGTH}};
+const thr_aims thr_aims_straightest = {1, {THR_AIM_TURNING}};
+const thr_aims thr_aims_symmetric = {THR_N_AIMS, {THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_PATHS, THR_AIM_TURNING}};
+
+thr_aims thr_aims_of(thr_objective objective)
+{
+  return objective == THR_SYMMETRY ? thr_aims_symmetric : objective == THR_TORTUOSITY ? thr_aims_straightest : thr_aims_shortest;
+}
+
+bool thr_aims_have(const thr_plan_options *o, thr_aim aim)
+{
+  for (int i = 0; i < o->aims.n; i++)
+    if (o->aims.aim[i] == aim) return true;
+  return false;
+}
+
+thr_objective thr_aims_objective(const thr_plan_options *o)
+{
+  if (thr_aims_have(o, THR_AIM_STEPS) || thr_aims_have(o, THR_AIM_PATHS)) return THR_SYMMETRY;
+  return thr_aims_have(o, THR_AIM_TURNING) || thr_aims_have(o, THR_AIM_MAX_TURNING) ? THR_TORTUOSITY : THR_LENGTH;
+}
+
+bool thr_wants_length(const thr_plan_options *o)
+{
+  return thr_aims_objective(o) == THR_LENGTH;
+}
+
+bool thr_wants_turning(const thr_plan_options *o)
+{
+  return thr_aims_objective(o) == THR_TORTUOSITY;
+}
+
+bool thr_wants_symmetry(const thr_plan_options *o)
+{
+  return thr_aims_objective(o) == THR_SYMMETRY;
+}
+
+bool thr_wants_balance(const thr_plan_options *o)
+{
+  return thr_aims_have(o, THR_AIM_LONGEST);
+}
+
+bool thr_wants_largest(const thr_plan_options *o)
+{
+  return thr_aims_have(o, THR_AIM_MAX_TURNING);
+}
+
+void thr_aims_order(const thr_plan_options *o, thr_aim order[THR_N_AIMS])
+{
+  bool taken[THR_N_AIMS] = {false};
+  int n = 0;
+  for (int i = 0; i < o->aims.n; i++) {
+    thr_aim aim = o->aims.aim[i];
+    if (aim < THR_N_AIMS) taken[order[n++] = aim] = true;
+  }
+  for (int aim = 0; aim < THR_N_AIMS; aim++)
+    if (!taken[aim]) order[n++] = (thr_aim)aim;
+}
+
+/* ---- lists of aims ---- */
+
+/* A list while it is read. */
+typedef struct {
+  bool named[THR_ALL_AIMS], priced, limited;
+  thr_aims aims;
+  thr_turn_cost cost;
+  double slack; /* < 0 = none */
+} list;
+
+/* Of a word like "length+5%": the number. */
+static bool read_slack(const char *text, double *slack)
+{
+  char *end;
+  double percent = strtod(text, &end);
+  *slack = percent / 100;
+  return end != text && (*end == '\0' || strcmp(end, "%") == 0) && percent >= 0 && percent <= 1e6;
+}
+
+static bool read_cost(const char *name, thr_turn_cost *cost)
+{
+  for (int i = 0; i < THR_N_TURN_COSTS; i++)
+    if (strcmp(thr_turn_cost_name((thr_turn_cost)i), name) == 0) {
+      *cost = (thr_turn_cost)i;
+      return true;
+    }
+  return false;
+}
+
+/* word: one aim, which is taken apart. */
+static thr_status read_aim(char *word, list *l, thr_err *err)
+{
+  char *more = strpbrk(word, "+:"), mark = more ? *more : '\0';
+  int aim = 0;
+  if (more) *more++ = '\0';
+  while (aim < THR_ALL_AIMS && strcmp(word, thr_aim_name((thr_aim)aim)) != 0)
+    aim++;
+  if (aim == THR_ALL_AIMS)
+    return thr_fail(err, THR_EINPUT, "\"%s\" is no aim; there are length, longest, turning, max-turning, overlap, steps, paths",
+                    word);
+  if (l->named[aim]) return thr_fail(err, THR_EINPUT, "%s is there twice", word);
+  l->named[aim] = true;
+  l->aims.aim[l->aims.n++] = (thr_aim)aim;
+  if (mark == '+') {
+    if (aim != THR_AIM_LENGTH || !read_slack(more, &l->slack))
+      return thr_fail(err, THR_EINPUT, "%s+%s: only length takes a percentage, from 0 to 1e+06, like length+5%%", word, more);
+    l->limited = true;
+  }
+  if (mark != ':') return THR_OK;
+  if ((aim != THR_AIM_TURNING && aim != THR_AIM_MAX_TURNING) || !read_cost(more, &l->cost))
+    return thr_fail(err, THR_EINPUT, "%s:%s: only turning and max-turning take a cost: angle, sine or step", word, more);
+  l->priced = true;
+  return THR_OK;
+}
+
+static thr_status read_list(const char *text, list *l, thr_err *err)
+{
+  char word[64];
+  const char *from = text, *end = text;
+  thr_status st = THR_OK;
+  for (bool more = true; more && !st; more = *end, from = end + 1) {
+    end = from + strcspn(from, ",");
+    snprintf(word, sizeof word, "%.*s", (int)(end - from), from);
+    st = read_aim(word, l, err);
+  }
+  return st;
+}
+
+/* Takes an aim out of the list: where it was, -1 if it is not there. */
+static int take_out(thr_aims *a, thr_aim aim)
+{
+  int at = 0;
+  while (at < a->n && a->aim[at] != aim)
+    at++;
+  if (at == a->n) return -1;
+  memmove(&a->aim[at], &a->aim[at + 1], (size_t)(--a->n - at) * sizeof *a->aim);
+  return at;
+}
+
+/* Length and overlap are one but for a constant. */
+static void rename_aim(list *l, thr_aim from, thr_aim to)
+{
+  for (int i = 0; i < l->aims.n; i++)
+    if (l->aims.aim[i] == from) l->aims.aim[i] = to;
+  l->named[to] |= l->named[from];
+  l->named[from] = false;
+}
+
+static thr_status settle_symmetric(list *l, thr_plan_options *o, thr_err *err)
+{
+  if (l->named[THR_AIM_LONGEST] || l->named[THR_AIM_MAX_TURNING])
+    return thr_fail(err, THR_EINPUT, "symmetric plans, which steps and paths ask for, do not know longest and max-turning");
+  if (l->priced) return thr_fail(err, THR_EINPUT, "of symmetric plans the turning is that of its angles: no cost of turns");
+  rename_aim(l, THR_AIM_LENGTH, THR_AIM_OVERLAP);
+  o->aims = l->aims;
+  thr_aims_order(o, l->aims.aim);
+  l->aims.n = THR_N_AIMS;
+  return THR_OK;
+}
+
+/* Length before turning is a limit on it. */
+static thr_status settle_turning(list *l, thr_err *err)
+{
+  if (l->named[THR_AIM_TURNING] && l->named[THR_AIM_MAX_TURNING])
+    return thr_fail(err, THR_EINPUT, "turning or max-turning, not both");
+  if (l->named[THR_AIM_LONGEST]) return thr_fail(err, THR_EINPUT, "longest does not go with turning and max-turning");
+  int at = take_out(&l->aims, THR_AIM_LENGTH);
+  if (at > 0) return thr_fail(err, THR_EINPUT, "length comes before turning: it is what limits the cord");
+  if (at == 0 && l->slack < 0) l->slack = 0;
+  return THR_OK;
+}
+
+static thr_status settle_length(list *l, thr_err *err)
+{
+  if (!l->named[THR_AIM_LENGTH]) l->aims.aim[l->aims.n++] = THR_AIM_LENGTH;
+  if (l->named[THR_AIM_LONGEST] && l->aims.aim[0] != THR_AIM_LONGEST)
+    return thr_fail(err, THR_EINPUT, "longest comes before length: the shortest longest cord, and then the least length");
+  return THR_OK;
+}
+
+static thr_status settle(list *l, thr_plan_options *o, thr_err *err)
+{
+  bool symmetric = l->named[THR_AIM_STEPS] || l->named[THR_AIM_PATHS];
+  bool turning = !symmetric && (l->named[THR_AIM_TURNING] || l->named[THR_AIM_MAX_TURNING]);
+  if (l->named[THR_AIM_LENGTH] && l->named[THR_AIM_OVERLAP])
+    return thr_fail(err, THR_EINPUT, "length and overlap are the same aim");
+  if (l->limited && !turning)
+    return thr_fail(err, THR_EINPUT, "length+%g%%: cord beyond the least length is for turning or max-turning", 100 * l->slack);
+  if (symmetric) return settle_symmetric(l, o, err);
+  rename_aim(l, THR_AIM_OVERLAP, THR_AIM_LENGTH);
+  return turning ? settle_turning(l, err) : settle_length(l, err);
+}
+
+thr_status thr_aims_parse(const char *text, thr_plan_options *o, thr_err *err)
+{
+  list l = {.slack = -1};
+  thr_plan_options trial = *o;
+  thr_status st = read_list(text, &l, err);
+  if (!st) st = settle(&l, &trial, err);
+  if (st) return st;
+  o->aims = l.aims;
+  o->turning.cost = l.cost;
+  o->turning.length_slack = l.slack;
+  return THR_OK;
+}
+
+void thr_aims_write(const thr_plan_options *o, thr_text *out)
+{
+  bool turning = thr_wants_turning(o), limited = turning && o->turning.length_slack >= 0;
+  if (limited && o->turning.length_slack > 0)
+    thr_text_printf(out, "length+%.15g%%,", 100 * o->turning.length_slack);
+  else if (limited)
+    thr_text_append(out, "length,");
+  for (int i = 0; i < o->aims.n; i++) {
+    thr_text_printf(out, i ? ",%s" : "%s", thr_aim_name(o->aims.aim[i]));
+    if (turning && o->turning.cost != THR_TURN_ANGLE) thr_text_printf(out, ":%s", thr_turn_cost_name(o->turning.cost));
+  }
+}
+
+/* ---- names ---- */
+
+const char *thr_objective_name(thr_objective o)
+{
+  static const char *const name[] = {"length", "tortuosity", "symmetry"};
+  return name[o];
+}
+
+const char *thr_tour_name(thr_tour t)
+{
+  static const char *const name[] = {"least", "fleury", "hierholzer"};
+  return name[t];
+}
+
+const char *thr_aim_name(thr_aim a)
+{
+  static const char *const name[] = {"overlap", "steps", "paths", "turning", "length", "longest", "max-turning"};
+  return name[a];
+}
+
+const char *thr_ends_name(thr_ends e)
+{
+  static const char *const name[] = {"closed", "any", "feet", "nodes", "counts"};
+  return name[e];
+}
+
+const char *thr_joint_name(thr_joint j)
+{
+  return j == THR_JOINT_TUBE ? "tube" : "solid";
+}
+
+const char *thr_engine_name(thr_engine e)
+{
+  static const char *const name[] = {[THR_ENGINE_AUTO] = "auto", [THR_ENGINE_LP] = "lp", [THR_ENGINE_MATCHING] = "matching"};
+  return name[e];
+}
+
+const char *thr_confirm_name(thr_confirm c)
+{
+  static const char *const name[] = {[THR_CONFIRM_AUTO] = "auto", [THR_CONFIRM_ALWAYS] = "always", [THR_CONFIRM_NEVER] = "never"};
+  return name[c];
+}
+
+/* ---- options and framework together ---- */
+
+bool thr_plan_within_slack(const thr_plan_options *o, double length, double least)
+{
+  bool asked = thr_wants_turning(o) && o->turning.length_slack >= 0;
+  return !asked || length <= (1 + o->turning.length_slack) * least * (1 + 2e-9);
+}
+
+int thr_plan_cords_least(const thr_plan_options *o)
+{
+  return thr_wants_symmetry(o) ? 1 : o->cords_least;
+}
+
+int thr_plan_cover(const thr_frame *f, const thr_plan_options *o, int e)
+{
+  return f->cover && f->cover[e] > o->cover ? f->cover[e] : o->cover;
+}
+
+int thr_plan_capacity(const thr_frame *f, const thr_plan_options *o, int e)
+{
+  int own = f->capacity && f->capacity[e] > 0 ? f->capacity[e] : INT_MAX;
+  return o->capacity > 0 && o->capacity < own ? o->capacity : own;
+}
+
+bool thr_plan_end_allowed(const thr_frame *f, const thr_plan_options *o, int v)
+{
+  switch (o->ends) {
+  case THR_ENDS_FEET: return f->foot[v];
+  case THR_ENDS_NODES: return o->end_node[v];
+  case THR_ENDS_COUNTS: return o->end_count[v] > 0;
+  default: return true;
+  }
+}

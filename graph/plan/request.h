@@ -1,0 +1,158 @@
+/* The request: what a plan is asked to be, and what it is to have little of, first, second, ...
+ *
+ *   thr_plan_options o = thr_plan_options_default();
+ *   thr_aims_parse("length+5%,turning:sine", &o, &err)   at most 5 % above the least length, and of that the least turning
+ */
+#ifndef THR_REQUEST_H
+#define THR_REQUEST_H
+
+#include "graph/framework/frame.h"
+#include "graph/plan/physics.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/text.h"
+
+/* THR_ENDS_COUNTS: at every node exactly so many cord ends. */
+typedef enum { THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET, THR_ENDS_NODES, THR_ENDS_COUNTS } thr_ends;
+
+/* Solid: a node bead is one rigid piece, any pairing locks it. Tube: only edges are beads, and the cord itself ties them
+ * together: at every node the graph of the edges there and of the turns between them is connected, and no cord turns back into
+ * its edge (Demaine, Kirkpatrick & Lin 2024). */
+typedef enum { THR_JOINT_SOLID, THR_JOINT_TUBE } thr_joint;
+
+/* What a plan can have little of, by the names in brackets. */
+typedef enum {
+  THR_AIM_OVERLAP,             /* cord beyond what the edges need [overlap]: length, but for a constant */
+  THR_AIM_STEPS,               /* what is to be learned of cords that are copies of each other [steps] */
+  THR_AIM_PATHS,               /* cords of which the others are copies [paths] */
+  THR_AIM_TURNING,             /* of all cords [turning] */
+  THR_N_AIMS,                  /* of a symmetric plan: those above */
+  THR_AIM_LENGTH = THR_N_AIMS, /* of all cords [length] */
+  THR_AIM_LONGEST,             /* length of the longest cord [longest] */
+  THR_AIM_MAX_TURNING,         /* of the cord that turns most [max-turning] */
+  THR_ALL_AIMS
+} thr_aim;
+
+/* What is minimized first, second, ... Which plan that is follows: with steps or paths a symmetric one (THR_SYMMETRY), which has
+ * all THR_N_AIMS in some order; else with turning or max-turning one that turns little (THR_TORTUOSITY); else a short one
+ * (THR_LENGTH), its length being the last aim if no other place is said. {0} is the least length. */
+typedef struct {
+  int n;
+  thr_aim aim[THR_ALL_AIMS];
+} thr_aims;
+
+typedef enum { THR_LENGTH, THR_TORTUOSITY, THR_SYMMETRY, THR_N_OBJECTIVES } thr_objective;
+
+/* How the cords of a plan for the least turning are found. */
+typedef enum {
+  THR_TOUR_LEAST,  /* extra passes, ends and pairings chosen together */
+  THR_TOUR_FLEURY, /* the classical tours through the shortest passes, to compare with */
+  THR_TOUR_HIERHOLZER,
+  THR_N_TOURS
+} thr_tour;
+
+/* What is asked for of a plan that turns little. */
+typedef struct {
+  thr_turn_cost cost;
+  double length_slack; /* cord allowed above the shortest, as a part of it; < 0 = any length */
+  thr_tour tour;
+  bool ignore_pairings; /* of the classical tours: edges in their order instead of the cheapest pairing of every node */
+} thr_turning_options;
+
+/* What is asked for of a symmetric plan. */
+typedef struct {
+  char group[16];   /* row of `thread symmetries` or name of a point group; "" = the default choice */
+  double geometric; /* isometries within this tolerance only; < 0 = any automorphism */
+} thr_symmetry_options;
+
+/* Which engine finds the shortest passes (lp/tjoin/engine.h). */
+typedef enum {
+  THR_ENGINE_AUTO, /* matching, unless the weights are more than it takes */
+  THR_ENGINE_LP,   /* odd cuts, GLPK */
+  THR_ENGINE_MATCHING
+} thr_engine;
+
+/* Whether GLPK's exact method is asked for the same minimum, too. */
+typedef enum {
+  THR_CONFIRM_AUTO,   /* of problems of moderate size, for a second at most (lp/tjoin/engine.h) */
+  THR_CONFIRM_ALWAYS, /* whatever it takes, within the time limit */
+  THR_CONFIRM_NEVER
+} thr_confirm;
+
+/* What the user asked for; echoed in the plan so that it can be made again. */
+typedef struct {
+  thr_aims aims;
+  thr_joint joint;
+  int cover;         /* every edge gets at least this many passes, 1 .. 100; the framework may ask for more (cover) */
+  int capacity;      /* at most so many passes of any edge, 0 = no limit; the framework may allow fewer (capacity) */
+  int cords;         /* at most so many in every component, 1 .. 1000; of a symmetric plan: the most in any, as it came out */
+  int cords_least;   /* at least so many; = cords: exactly */
+  double max_length; /* no cord is longer, in units; 0 = no limit */
+  thr_turning_options turning;   /* of plans that turn little only */
+  thr_symmetry_options symmetry; /* of symmetric plans only */
+  thr_ends ends;
+  bool *end_node;      /* [n_nodes] THR_ENDS_NODES only: where ends may be; owned, else NULL */
+  int *end_count;      /* [n_nodes] THR_ENDS_COUNTS only: how many ends there are, their sum in every component even and at most
+                          2 * cords; owned, else NULL */
+  thr_physics physics; /* of cord and beads, as asked: what eval starts from */
+  double time_limit;   /* s, 0 = none */
+  thr_engine engine;   /* changes no length */
+  thr_confirm confirm; /* of the least length with THR_JOINT_SOLID only */
+} thr_plan_options;
+
+thr_plan_options thr_plan_options_default(void);
+
+/* ---- aims ---- */
+
+extern const thr_aims thr_aims_shortest, thr_aims_straightest; /* length; turning */
+extern const thr_aims thr_aims_symmetric;                      /* in the usual order: overlap, steps, paths, turning */
+thr_aims thr_aims_of(thr_objective objective);                 /* one of these */
+
+bool thr_aims_have(const thr_plan_options *o, thr_aim aim);
+thr_objective thr_aims_objective(const thr_plan_options *o);
+
+/* What the aims come to, for those who plan, check or print. */
+bool thr_wants_length(const thr_plan_options *o);   /* a short plan, and neither of the next two */
+bool thr_wants_turning(const thr_plan_options *o);  /* one that turns little */
+bool thr_wants_symmetry(const thr_plan_options *o); /* a symmetric one */
+bool thr_wants_balance(const thr_plan_options *o);  /* a short longest cord */
+bool thr_wants_largest(const thr_plan_options *o);  /* that the cord that turns most turns little */
+
+/* The order of a symmetric plan's aims; the usual one where the aims name none of them. */
+void thr_aims_order(const thr_plan_options *o, thr_aim order[THR_N_AIMS]);
+
+/* Reads a list of aims with commas: their names above; "length+5%" before turning or max-turning: at most so much above the
+ * least length (also "length" alone: none); "turning:sine", "max-turning:step": what a turn costs. The list says all: what of
+ * aims, length_slack and cost it leaves out becomes the default. THR_EINPUT: words that are no aims, or that do not go together.
+ * On failure o is unchanged. */
+thr_status thr_aims_parse(const char *text, thr_plan_options *o, thr_err *err) THR_MUST_CHECK;
+
+/* Such a list, which says the same. */
+void thr_aims_write(const thr_plan_options *o, thr_text *out);
+
+/* ---- the rest ---- */
+
+/* "length", "tortuosity", "symmetry"; "least", "fleury", "hierholzer"; "overlap", "steps", .. */
+const char *thr_objective_name(thr_objective o);
+const char *thr_tour_name(thr_tour t);
+const char *thr_aim_name(thr_aim a);
+const char *thr_ends_name(thr_ends e);       /* "closed", "any", "feet", "nodes", "counts" */
+const char *thr_joint_name(thr_joint j);     /* "solid", "tube" */
+const char *thr_engine_name(thr_engine e);   /* "auto", "lp", "matching" */
+const char *thr_confirm_name(thr_confirm c); /* "auto", "always", "never" */
+
+/* Is the cord within the asked part above the least length (options.turning.length_slack), by this lower bound on that? True
+ * where none was asked for. */
+bool thr_plan_within_slack(const thr_plan_options *o, double length, double least);
+
+bool thr_plan_end_allowed(const thr_frame *f, const thr_plan_options *o, int v);
+
+/* Cords that every component has at least. Of a symmetric plan options.cords is the most in any, and the others may have
+ * fewer: 1.
+ */
+int thr_plan_cords_least(const thr_plan_options *o);
+
+/* Passes that edge e needs, and the most that it may have (INT_MAX: no limit): what options and framework say together. */
+int thr_plan_cover(const thr_frame *f, const thr_plan_options *o, int e);
+int thr_plan_capacity(const thr_frame *f, const thr_plan_options *o, int e);
+
+#endif
