@@ -326,7 +326,9 @@ static thr_status plan_component(void *user, const thr_components *p, int k, con
 static thr_status make_some(several *x, thr_plan *plan, thr_err *err)
 {
   const thr_plan_options *o = x->o;
-  thr_status st = o->max_length > 0 ? grow(x, err) : thr_wants_balance(o) ? make_even(x, err) : make_number(x, o->cords_least, false, err);
+  thr_status st = o->max_length > 0      ? grow(x, err)
+                  : thr_wants_balance(o) ? make_even(x, err)
+                                         : make_number(x, o->cords_least, false, err);
   return st ? st : thr_walks_plan(x->walks, x->n_components, plan, err);
 }
 
