@@ -92,62 +92,58 @@ static void put_verdict(thr_text *t, const char *path, const thr_plan *p)
   terms_put(t, p);
 }
 
-static void put_number(thr_text *t, const char *key, double value)
-{
-  thr_text_printf(t, ", \"%s\": ", key);
-  thr_text_double(t, value);
-}
-
-static void put_turning_json(thr_text *t, const thr_plan *p)
+static void put_turning_json(thr_writer *w, const thr_plan *p)
 {
   const thr_turning_claim *c = &p->turning;
-  put_number(t, "turning", p->metrics.turning);
+  thr_write_number(w, "turning", p->metrics.turning);
   if (!c->present) return;
-  thr_text_printf(t, ", \"turning_status\": \"%s\"", c->optimal ? "optimal" : "bound");
-  put_number(t, "price", c->price);
-  put_number(t, "price_lower_bound", c->lower_bound);
-  put_number(t, "turning_gap", c->gap);
-  if (c->length_limit >= 0) put_number(t, "length_limit", c->length_limit);
+  thr_write_string(w, "turning_status", c->optimal ? "optimal" : "bound");
+  thr_write_number(w, "price", c->price);
+  thr_write_number(w, "price_lower_bound", c->lower_bound);
+  thr_write_number(w, "turning_gap", c->gap);
+  if (c->length_limit >= 0) thr_write_number(w, "length_limit", c->length_limit);
 }
 
-static void put_cords_json(thr_text *t, const thr_plan *p)
+static void put_cords_json(thr_writer *w, const thr_cords_claim *c)
 {
-  const thr_cords_claim *c = &p->cords_claim;
-  if (!c->present) return;
-  put_number(t, "longest", c->longest);
-  put_number(t, "longest_lower_bound", c->longest_bound);
-  if (c->fewest > 0) put_number(t, "fewest_cords", c->fewest);
+  thr_write_number(w, "longest", c->longest);
+  thr_write_number(w, "longest_lower_bound", c->longest_bound);
+  if (c->fewest > 0) thr_write_int(w, "fewest_cords", c->fewest);
 }
 
-static void put_symmetry_json(thr_text *t, const thr_symmetry_record *s)
+static void put_symmetry_json(thr_writer *w, const thr_symmetry_record *s)
 {
-  put_number(t, "group_order", s->order);
-  put_number(t, "unique_paths", s->unique_paths);
-  put_number(t, "learned_steps", s->steps);
+  thr_write_int(w, "group_order", s->order);
+  thr_write_int(w, "unique_paths", s->unique_paths);
+  thr_write_number(w, "learned_steps", s->steps);
+}
+
+static void put_claims_json(thr_writer *w, const thr_plan *p)
+{
+  thr_write_number(w, "length", p->metrics.length);
+  if (p->proof.present) {
+    thr_write_string(w, "status", p->proof.optimal ? "optimal" : "bound");
+    thr_write_number(w, "lower_bound", p->proof.lower_bound);
+    thr_write_number(w, "gap", p->proof.gap);
+  }
+  if (p->cords_claim.present) put_cords_json(w, &p->cords_claim);
+  if (thr_wants_turning(&p->options)) put_turning_json(w, p);
+  if (p->symmetry.present) put_symmetry_json(w, &p->symmetry);
+  terms_put_json(w, p);
 }
 
 static void put_json(thr_text *t, const char *path, const thr_plan *p, const thr_err *err)
 {
-  thr_text_append(t, "{\"plan\": ");
-  thr_text_json_string(t, path);
-  if (err->code) {
-    thr_text_printf(t, ", \"ok\": false, \"%s\": ", err->code == THR_EVIOLATED ? "violation" : "error");
-    thr_text_json_string(t, err->text);
-  } else {
-    thr_text_append(t, ", \"ok\": true, \"length\": ");
-    thr_text_double(t, p->metrics.length);
-    if (p->proof.present) {
-      thr_text_printf(t, ", \"status\": \"%s\", \"lower_bound\": ", p->proof.optimal ? "optimal" : "bound");
-      thr_text_double(t, p->proof.lower_bound);
-      thr_text_append(t, ", \"gap\": ");
-      thr_text_double(t, p->proof.gap);
-    }
-    put_cords_json(t, p);
-    if (thr_wants_turning(&p->options)) put_turning_json(t, p);
-    if (p->symmetry.present) put_symmetry_json(t, &p->symmetry);
-    terms_put_json(t, p);
-  }
-  thr_text_append(t, "}\n");
+  thr_writer w = {.out = t};
+  thr_write_object(&w, NULL);
+  thr_write_string(&w, "plan", path);
+  thr_write_bool(&w, "ok", !err->code);
+  if (err->code)
+    thr_write_string(&w, err->code == THR_EVIOLATED ? "violation" : "error", err->text);
+  else
+    put_claims_json(&w, p);
+  thr_write_close(&w);
+  thr_text_append(t, "\n");
 }
 
 static int check_one(const char *path, bool json)

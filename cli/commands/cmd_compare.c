@@ -178,34 +178,46 @@ static void put_text(thr_text *t, const pull_args *a, const entry *e, int n, con
   put_agreement(r, count, name, t);
 }
 
+static void put_plan_json(thr_writer *w, const pull_args *a, const entry *e, int n, int i)
+{
+  thr_write_line(w, 1);
+  thr_write_object(w, NULL);
+  thr_write_string(w, "plan", e[i].path);
+  thr_write_hash(w, "framework", thr_frame_hash(&e[i].plan.frame));
+  thr_write_string(w, "objective", thr_objective_name(thr_aims_objective(&e[i].plan.options)));
+  thr_write_string(w, "ends", thr_ends_name(e[i].plan.options.ends));
+  thr_physics_write(&e[i].eval[THR_CAPSTAN].record.physics, w, "physics");
+  for (int k = 0; k < compare_n_rows; k++)
+    if (wanted(a, compare_rows[k].method)) thr_write_number(w, compare_rows[k].key, compare_rows[k].value(&e[i]));
+  thr_write_array(w, "best");
+  for (int k = 0; k < compare_n_rows; k++)
+    if (compare_is_best(e, n, &compare_rows[k], i)) thr_write_string(w, NULL, compare_rows[k].key);
+  thr_write_close(w);
+  thr_write_close(w);
+}
+
 static void put_json(thr_text *t, const pull_args *a, const entry *e, int n, const ranking *r, int count, const char *const *name)
 {
   int which[2], pair[2];
-  thr_text_append(t, "{\"plans\": [");
-  for (int i = 0; i < n; i++) {
-    thr_text_append(t, i ? ",\n {\"plan\": " : "\n {\"plan\": ");
-    thr_text_json_string(t, e[i].path);
-    thr_text_printf(t, ", \"framework\": \"%016" PRIx64 "\", \"objective\": \"%s\", \"ends\": \"%s\", \"physics\": ",
-                    thr_frame_hash(&e[i].plan.frame), thr_objective_name(thr_aims_objective(&e[i].plan.options)),
-                    thr_ends_name(e[i].plan.options.ends));
-    thr_physics_write(&e[i].eval[THR_CAPSTAN].record.physics, t);
-    for (int k = 0; k < compare_n_rows; k++) {
-      double value = compare_rows[k].value(&e[i]);
-      if (!wanted(a, compare_rows[k].method)) continue;
-      thr_text_printf(t, ", \"%s\": ", compare_rows[k].key);
-      thr_text_json_number(t, value);
-    }
-    thr_text_append(t, ", \"best\": [");
-    for (int k = 0, some = 0; k < compare_n_rows; k++)
-      if (compare_is_best(e, n, &compare_rows[k], i)) thr_text_printf(t, "%s\"%s\"", some++ ? ", " : "", compare_rows[k].key);
-    thr_text_append(t, "]}");
-  }
-  thr_text_append(t, "\n],\n\"rankings\": [");
+  thr_writer w = {.out = t};
+  thr_write_object(&w, NULL);
+  thr_write_array(&w, "plans");
+  for (int i = 0; i < n; i++)
+    put_plan_json(&w, a, e, n, i);
+  thr_write_line(&w, 0);
+  thr_write_close(&w);
+  thr_write_line(&w, 0);
+  thr_write_array(&w, "rankings");
   for (int k = 0; k < count; k++) {
-    thr_text_append(t, k ? ",\n " : "\n ");
-    ranking_put_json(&r[k], name, t);
+    thr_write_line(&w, 1);
+    ranking_put_json(&r[k], name, &w);
   }
-  thr_text_printf(t, "\n],\n\"agree\": %s}\n", find_disagreement(r, count, which, pair) ? "false" : "true");
+  thr_write_line(&w, 0);
+  thr_write_close(&w);
+  thr_write_line(&w, 0);
+  thr_write_bool(&w, "agree", !find_disagreement(r, count, which, pair));
+  thr_write_close(&w);
+  thr_text_append(t, "\n");
 }
 
 /* ---- work ---- */

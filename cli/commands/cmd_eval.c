@@ -342,61 +342,74 @@ static void put_text(thr_text *t, const arguments *a, const thr_plan *p, const t
 
 /* ---- JSON ---- */
 
-/* What is not finite is null. */
-static void put_number(thr_text *t, const char *before, double value)
+/* Its name, or null if there is none. */
+static void put_bead(thr_writer *w, const char *key, const thr_frame *f, int bead)
 {
-  thr_text_append(t, before);
-  thr_text_json_number(t, value);
-}
-
-static void put_bead(thr_text *t, const char *before, const thr_frame *f, int bead)
-{
-  thr_text_append(t, before);
   if (bead >= 0)
-    thr_text_json_string(t, f->name[bead]);
+    thr_write_string(w, key, f->name[bead]);
   else
-    thr_text_append(t, "null");
+    thr_write_null(w, key);
 }
 
-static void put_json_structure(thr_text *t, const thr_frame *f, const thr_eval *e)
+static void put_json_holding(thr_writer *w, const thr_frame *f, const thr_holding *h)
+{
+  thr_write_line(w, 1);
+  thr_write_object(w, "holding");
+  thr_write_number(w, "lower", h->lower);
+  thr_write_number(w, "upper", h->upper);
+  thr_write_number(w, "residual", h->residual);
+  put_bead(w, "first_bead", f, h->first_bead);
+  thr_write_string(w, "holds", "while the cord is being drawn in");
+  thr_write_close(w);
+}
+
+static void put_json_simulation(thr_writer *w, const thr_frame *f, const thr_settle *s)
 {
   static const char *const status[] = {"fell", "held", "never settled", "too large", "crept"};
-  const thr_holding *h = &e->holding;
-  const thr_settle *s = &e->settle;
-  put_number(t, ",\n \"holding\": {\"lower\": ", h->lower);
-  put_number(t, ", \"upper\": ", h->upper);
-  put_number(t, ", \"residual\": ", h->residual);
-  put_bead(t, ", \"first_bead\": ", f, h->first_bead);
-  thr_text_append(t, ", \"holds\": \"while the cord is being drawn in\"}");
-  if (!s->present) return;
-  thr_text_printf(t, ",\n \"simulation\": {\"status\": \"%s\"", status[s->status]);
-  put_number(t, ", \"ranking_index\": ", s->status == THR_SETTLE_FELL || s->status == THR_SETTLE_HELD ? s->index : NAN);
-  put_bead(t, ", \"first_bead\": ", f, s->first_bead);
-  put_number(t, ", \"gap_before_mm\": ", s->gap_before);
-  put_number(t, ", \"gap_after_mm\": ", s->gap_after);
-  put_number(t, ", \"drift_mm\": ", s->drift);
-  put_number(t, ", \"finer\": ", s->finer);
-  thr_text_append(t, "}");
+  const bool ranked = s->status == THR_SETTLE_FELL || s->status == THR_SETTLE_HELD;
+  thr_write_line(w, 1);
+  thr_write_object(w, "simulation");
+  thr_write_string(w, "status", status[s->status]);
+  thr_write_number(w, "ranking_index", ranked ? s->index : NAN);
+  put_bead(w, "first_bead", f, s->first_bead);
+  thr_write_number(w, "gap_before_mm", s->gap_before);
+  thr_write_number(w, "gap_after_mm", s->gap_after);
+  thr_write_number(w, "drift_mm", s->drift);
+  thr_write_number(w, "finer", s->finer);
+  thr_write_close(w);
+}
+
+static void put_json_joints(thr_writer *w, const thr_eval *e)
+{
+  thr_write_int(w, "refused_sharp", e->refused_sharp);
+  thr_write_int(w, "refused_unsettled", e->refused_unsettled);
+  thr_write_int(w, "refused_outside", e->refused_outside);
+  thr_write_line(w, 1);
+  thr_write_object(w, "joints");
+  thr_write_int(w, "unsettled", e->joints_unsettled);
+  thr_write_number(w, "interpolation", e->interpolation);
+  thr_write_close(w);
 }
 
 static void put_json(thr_text *t, const thr_plan *p, const thr_eval *e, bool stopped)
 {
-  thr_text_printf(t, "{\"framework\": \"%016" PRIx64 "\", \"complete\": %s, ", thr_frame_hash(&p->frame),
-                  e->complete && !stopped ? "true" : "false");
-  thr_evaluation_write(&p->evaluation, t);
-  put_number(t, " \"band\": [", e->band[0]);
-  put_number(t, ", ", e->band[1]);
-  put_number(t, "], \"error\": ", e->error);
-  thr_text_printf(t, ", \"refused\": %d", e->refused);
-  if (p->evaluation.method == THR_JOINT) {
-    thr_text_printf(t, ", \"refused_sharp\": %d, \"refused_unsettled\": %d, \"refused_outside\": %d", e->refused_sharp,
-                    e->refused_unsettled, e->refused_outside);
-    thr_text_printf(t, ",\n \"joints\": {\"unsettled\": %d", e->joints_unsettled);
-    put_number(t, ", \"interpolation\": ", e->interpolation);
-    thr_text_append(t, "}");
-  }
-  if (e->holding.present) put_json_structure(t, &p->frame, e);
-  thr_text_append(t, "}\n");
+  thr_writer w = {.out = t};
+  thr_write_object(&w, NULL);
+  thr_write_hash(&w, "framework", thr_frame_hash(&p->frame));
+  thr_write_bool(&w, "complete", e->complete && !stopped);
+  thr_evaluation_write(&p->evaluation, &w, "evaluation");
+  thr_write_line(&w, 1);
+  thr_write_array(&w, "band");
+  thr_write_number(&w, NULL, e->band[0]);
+  thr_write_number(&w, NULL, e->band[1]);
+  thr_write_close(&w);
+  thr_write_number(&w, "error", e->error);
+  thr_write_int(&w, "refused", e->refused);
+  if (p->evaluation.method == THR_JOINT) put_json_joints(&w, e);
+  if (e->holding.present) put_json_holding(&w, &p->frame, &e->holding);
+  if (e->holding.present && e->settle.present) put_json_simulation(&w, &p->frame, &e->settle);
+  thr_write_close(&w);
+  thr_text_append(t, "\n");
 }
 
 /* ---- outputs ---- */

@@ -6,6 +6,7 @@
 
 #include <inttypes.h>
 #include <limits.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -141,63 +142,60 @@ static void put_text(thr_text *t, const thr_frame *f, const facts *a)
   thr_text_printf(t, "hash        %016" PRIx64 "\n", thr_frame_hash(f));
 }
 
-/* A count that there may be none of. */
-static void put_count(thr_text *t, const char *key, bool known, int value)
-{
-  thr_text_printf(t, ", \"%s\": ", key);
-  if (known)
-    thr_text_printf(t, "%d", value);
-  else
-    thr_text_append(t, "null");
-}
-
-static void put_rigidity_json(thr_text *t, const facts *a)
+static void put_rigidity_json(thr_writer *w, const facts *a)
 {
   const thr_rigidity *r = &a->rigidity;
-  thr_text_printf(t, ", \"rigidity\": {\"rank\": %d, \"rigid_motions\": %d, \"motions\": %d, \"self_stresses\": %d", r->rank,
-                  r->rigid_motions, r->motions, r->self_stresses);
-  put_count(t, "motions_within_plane", r->flat, r->plane_motions);
-  put_count(t, "motions_with_feet_held", a->feet > 0, r->pinned);
-  thr_text_printf(t, ", \"unclear\": %s}", r->unclear ? "true" : "false");
+  thr_write_object(w, "rigidity");
+  thr_write_int(w, "rank", r->rank);
+  thr_write_int(w, "rigid_motions", r->rigid_motions);
+  thr_write_int(w, "motions", r->motions);
+  thr_write_int(w, "self_stresses", r->self_stresses);
+  thr_write_number(w, "motions_within_plane", r->flat ? (double)r->plane_motions : NAN);
+  thr_write_number(w, "motions_with_feet_held", a->feet > 0 ? (double)r->pinned : NAN);
+  thr_write_bool(w, "unclear", r->unclear);
+  thr_write_close(w);
 }
 
-static void put_untied_json(thr_text *t, const thr_frame *f, const facts *a)
+static void put_untied_json(thr_writer *w, const thr_frame *f, const facts *a)
 {
-  thr_text_append(t, ", \"untied\": [");
-  for (int v = 0, shown = 0; v < f->n_nodes; v++)
-    if (a->untied[v]) {
-      thr_text_append(t, shown++ ? ", " : "");
-      thr_text_json_string(t, f->name[v]);
-    }
-  thr_text_append(t, "]");
+  thr_write_array(w, "untied");
+  for (int v = 0; v < f->n_nodes; v++)
+    if (a->untied[v]) thr_write_string(w, NULL, f->name[v]);
+  thr_write_close(w);
+}
+
+static void put_degrees_json(thr_writer *w, const facts *a)
+{
+  thr_write_object(w, "degrees");
+  for (int d = 0; d <= MOST_DEGREES; d++) {
+    char degree[16];
+    snprintf(degree, sizeof degree, "%d", d);
+    if (a->degree[d]) thr_write_int(w, degree, a->degree[d]);
+  }
+  thr_write_close(w);
 }
 
 static void put_json(thr_text *t, const thr_frame *f, const facts *a)
 {
-  bool some = false;
-  thr_text_printf(t, "{\"nodes\": %d, \"edges\": %d, \"degrees\": {", f->n_nodes, f->n_edges);
-  for (int d = 0; d <= MOST_DEGREES; d++)
-    if (a->degree[d]) {
-      thr_text_printf(t, "%s\"%d\": %d", some ? ", " : "", d, a->degree[d]);
-      some = true;
-    }
-  thr_text_printf(t, "}, \"odd_nodes\": %d, \"components\": %d, \"bridges\": %d, \"feet\": %d, \"units\": ", a->odd,
-                  a->components, a->bridges, a->feet);
-  thr_text_json_string(t, f->units);
-  const struct {
-    const char *key;
-    double value;
-  } number[] = {{"length", thr_frame_total_length(f)},
-                {"shortest_edge", a->shortest},
-                {"longest_edge", a->longest},
-                {"diagonal", thr_frame_diagonal(f)}};
-  for (size_t i = 0; i < sizeof number / sizeof *number; i++) {
-    thr_text_printf(t, ", \"%s\": ", number[i].key);
-    thr_text_double(t, number[i].value);
-  }
-  if (a->analysed) put_rigidity_json(t, a);
-  if (a->planned) put_untied_json(t, f, a);
-  thr_text_printf(t, ", \"hash\": \"%016" PRIx64 "\"}\n", thr_frame_hash(f));
+  thr_writer w = {.out = t};
+  thr_write_object(&w, NULL);
+  thr_write_int(&w, "nodes", f->n_nodes);
+  thr_write_int(&w, "edges", f->n_edges);
+  put_degrees_json(&w, a);
+  thr_write_int(&w, "odd_nodes", a->odd);
+  thr_write_int(&w, "components", a->components);
+  thr_write_int(&w, "bridges", a->bridges);
+  thr_write_int(&w, "feet", a->feet);
+  thr_write_string(&w, "units", f->units);
+  thr_write_number(&w, "length", thr_frame_total_length(f));
+  thr_write_number(&w, "shortest_edge", a->shortest);
+  thr_write_number(&w, "longest_edge", a->longest);
+  thr_write_number(&w, "diagonal", thr_frame_diagonal(f));
+  if (a->analysed) put_rigidity_json(&w, a);
+  if (a->planned) put_untied_json(&w, f, a);
+  thr_write_hash(&w, "hash", thr_frame_hash(f));
+  thr_write_close(&w);
+  thr_text_append(t, "\n");
 }
 
 static int tell(const char *path, const cli_frame_args *args, bool json)

@@ -8,6 +8,7 @@
 #include "graph/check/check.h"
 #include "planner/dispatch.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -145,73 +146,87 @@ static int apply_physics(const arguments *a, const thr_frame *f, thr_plan_option
 
 /* ---- the other objectives ---- */
 
-static int put_objective(thr_text *t, const arguments *a, thr_objective objective, const thr_plan *p)
+/* code: why its pull is not known, EXIT_OK if it is. */
+static void put_pull_json(thr_writer *w, thr_objective objective, const thr_eval *e, int code)
 {
-  thr_eval e;
-  const char *closing = objective == a->aims.objective ? "   this plan" : "";
-  int code = pull_eval(&a->pull, thr_objective_name(objective), p, THR_JOINT, &e);
-  if (a->json)
-    thr_text_printf(t, "{\"objective\": \"%s\", \"pull\": ", thr_objective_name(objective));
-  else
-    thr_text_printf(t, "  %-12s", thr_objective_name(objective));
-  if (code == EXIT_OK && a->json) {
-    thr_text_double(t, e.record.largest);
-    thr_text_append(t, ", \"error\": ");
-    thr_text_double(t, e.error);
-    thr_text_printf(t, ", \"refused\": %d", e.refused);
-  } else if (code == EXIT_OK) {
-    thr_text_printf(t, e.refused ? "%12.4g N (error at least %.3g %%" : "%12.4g N (+-%.3g %%", e.record.largest,
-                    pull_percent(e.error));
-    if (e.refused) thr_text_printf(t, ": %d %s by closed form", e.refused, cli_plural(e.refused, "turn", "turns"));
-    thr_text_printf(t, ")%s", closing);
+  thr_write_object(w, NULL);
+  thr_write_string(w, "objective", thr_objective_name(objective));
+  thr_write_number(w, "pull", code == EXIT_OK ? e->record.largest : NAN);
+  if (code == EXIT_OK) {
+    thr_write_number(w, "error", e->error);
+    thr_write_int(w, "refused", e->refused);
+  }
+  thr_write_close(w);
+}
+
+static void put_pull(thr_text *t, const arguments *a, thr_objective objective, const thr_plan *p, const thr_eval *e, int code)
+{
+  thr_text_printf(t, "  %-12s", thr_objective_name(objective));
+  if (code == EXIT_OK) {
+    thr_text_printf(t, e->refused ? "%12.4g N (error at least %.3g %%" : "%12.4g N (+-%.3g %%", e->record.largest,
+                    pull_percent(e->error));
+    if (e->refused) thr_text_printf(t, ": %d %s by closed form", e->refused, cli_plural(e->refused, "turn", "turns"));
+    thr_text_printf(t, ")%s", objective == a->aims.objective ? "   this plan" : "");
     if (thr_wants_symmetry(&p->options)) thr_text_printf(t, "   %d %s", p->n_cords, cli_plural(p->n_cords, "cord", "cords"));
   } else {
-    thr_text_printf(t, a->json ? "null" : "%14s", "not known");
+    thr_text_printf(t, "%14s", "not known");
   }
-  thr_text_append(t, a->json ? "}" : "\n");
+  thr_text_append(t, "\n");
+}
+
+static int put_objective(thr_writer *w, const arguments *a, thr_objective objective, const thr_plan *p)
+{
+  thr_eval e;
+  int code = pull_eval(&a->pull, thr_objective_name(objective), p, THR_JOINT, &e);
+  if (a->json)
+    put_pull_json(w, objective, &e, code);
+  else
+    put_pull(w->out, a, objective, p, &e, code);
   thr_eval_destroy(&e);
   return code;
 }
 
 /* An objective that cannot do what this plan was asked for. */
-static int put_refused(thr_text *t, const arguments *a, thr_objective objective, const char *option)
+static int put_refused(thr_writer *w, const arguments *a, thr_objective objective, const char *option)
 {
   if (a->json)
-    thr_text_printf(t, "{\"objective\": \"%s\", \"pull\": null}", thr_objective_name(objective));
+    put_pull_json(w, objective, NULL, EXIT_USAGE);
   else
-    thr_text_printf(t, "  %-12s%14s   not with %s\n", thr_objective_name(objective), "-", option);
+    thr_text_printf(w->out, "  %-12s%14s   not with %s\n", thr_objective_name(objective), "-", option);
   return EXIT_OK;
 }
 
-static int plan_and_put(thr_text *t, const arguments *a, thr_objective objective, const thr_plan *p, double deadline)
+static int plan_and_put(thr_writer *w, const arguments *a, thr_objective objective, const thr_plan *p, double deadline)
 {
   thr_err err = {0};
   thr_plan other = {0};
-  if (objective == a->aims.objective) return put_objective(t, a, objective, p);
+  if (objective == a->aims.objective) return put_objective(w, a, objective, p);
   thr_plan_options o = p->options;
   ask(a, objective, &o);
   const char *refused = cords_args_refused(&a->cords, &o, true);
-  if (refused) return put_refused(t, a, objective, refused);
+  if (refused) return put_refused(w, a, objective, refused);
   thr_limits limits = cli_limits(o.time_limit);
   if (deadline > 0) limits.deadline = deadline;
   thr_status st = thr_plan_make(&p->frame, &o, &limits, &other, NULL, &err);
   cli_progress_end();
-  int code = st && st != THR_ELIMIT ? cli_fail(&err) : put_objective(t, a, objective, &other);
+  int code = st && st != THR_ELIMIT ? cli_fail(&err) : put_objective(w, a, objective, &other);
   thr_plan_destroy(&other);
   return code;
 }
 
 /* Pull of this plan beside that of the plans for the other objectives. */
-static int put_comparison(thr_text *t, const arguments *a, const thr_plan *p, double deadline)
+static int put_comparison(thr_writer *w, const arguments *a, const thr_plan *p, double deadline)
 {
   int code = EXIT_OK;
-  thr_text_append(t, a->json ? ", \"objectives\": [" : "\nlargest pull by objective, joints measured in simulation\n");
+  if (a->json)
+    thr_write_array(w, "objectives");
+  else
+    thr_text_append(w->out, "\nlargest pull by objective, joints measured in simulation\n");
   for (int i = 0; i < THR_N_OBJECTIVES; i++) {
-    if (i && a->json) thr_text_append(t, ", ");
-    int done = plan_and_put(t, a, thr_dispatch_objective(i), p, deadline);
+    int done = plan_and_put(w, a, thr_dispatch_objective(i), p, deadline);
     if (!code) code = done;
   }
-  if (a->json) thr_text_append(t, "]");
+  if (a->json) thr_write_close(w);
   return code;
 }
 
@@ -234,7 +249,15 @@ static double time_of_plan(const arguments *a, const thr_plan_options *o)
   return a->guard.seconds <= 0 ? o->time_limit : thr_dispatch_search_seconds(o->time_limit, a->draw || !a->output, more);
 }
 
-static int put_turning(thr_text *t, const arguments *a, const planned *x)
+static void put_plan(thr_writer *w, const arguments *a, const planned *x, const thr_rivals *r)
+{
+  if (a->json)
+    plan_put_json(w, &x->plan, r, x->report.word);
+  else
+    plan_put_summary(w->out, &x->plan, r, x->report.word);
+}
+
+static int put_turning(thr_writer *w, const arguments *a, const planned *x)
 {
   thr_rivals r = {0};
   thr_err err = {0};
@@ -243,43 +266,47 @@ static int put_turning(thr_text *t, const arguments *a, const planned *x)
   thr_status st = thr_rivals_make(&x->plan, a->turning.compare, a->turning.frontier, &limits, &r, &err);
   cli_progress_end();
   if (r.no_frontier.code) cli_note("no frontier: %s", r.no_frontier.text);
-  (a->json ? plan_put_json : plan_put_summary)(t, &x->plan, &r, x->report.word);
+  put_plan(w, a, x, &r);
   thr_rivals_destroy(&r);
   return st ? cli_fail(&err) : EXIT_OK;
 }
 
-static void put_symmetry(thr_text *t, const arguments *a, const planned *x)
+static void put_symmetry(thr_writer *w, const arguments *a, const planned *x)
 {
   enum { ROWS = 8 };
   const thr_plan *p = &x->plan;
-  if (a->json) {
-    plan_put_json(t, p, NULL, x->report.word);
-    thr_text_append(t, ", \"symmetries\": {");
-    symmetry_put_table_json(t, &p->options, &x->report.symmetries);
-    thr_text_append(t, "}");
-  } else {
-    symmetry_put_head(t, &p->frame, &p->options, &x->report.symmetries);
-    symmetry_put_table(t, &p->options, &x->report.symmetries, ROWS);
-    thr_text_append(t, "\n");
-    plan_put_summary(t, p, NULL, x->report.word);
+  if (!a->json) {
+    symmetry_put_head(w->out, &p->frame, &p->options, &x->report.symmetries);
+    symmetry_put_table(w->out, &p->options, &x->report.symmetries, ROWS);
+    thr_text_append(w->out, "\n");
   }
+  put_plan(w, a, x, NULL);
+  if (!a->json) return;
+  thr_write_object(w, "symmetries");
+  symmetry_put_table_json(w, &p->options, &x->report.symmetries);
+  thr_write_close(w);
 }
 
 static int print_summary(const arguments *a, const planned *x)
 {
   thr_text t = {0};
+  thr_writer w = {.out = &t};
   int code = EXIT_OK;
+  if (a->json) thr_write_object(&w, NULL);
   if (thr_wants_turning(&x->plan.options))
-    code = put_turning(&t, a, x);
+    code = put_turning(&w, a, x);
   else if (thr_wants_symmetry(&x->plan.options))
-    put_symmetry(&t, a, x);
+    put_symmetry(&w, a, x);
   else
-    (a->json ? plan_put_json : plan_put_summary)(&t, &x->plan, NULL, x->report.word);
+    put_plan(&w, a, x, NULL);
   if (a->compare) {
-    int done = put_comparison(&t, a, &x->plan, deadline_of(a));
+    int done = put_comparison(&w, a, &x->plan, deadline_of(a));
     if (!code) code = done;
   }
-  if (a->json) thr_text_append(&t, "}\n");
+  if (a->json) {
+    thr_write_close(&w);
+    thr_text_append(&t, "\n");
+  }
   int written = cli_write(&t, "-");
   return code ? code : written;
 }

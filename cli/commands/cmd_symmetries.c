@@ -99,17 +99,27 @@ static int parse(int argc, char **argv, arguments *a)
   return -1;
 }
 
+static void put_json(thr_text *t, const arguments *a, const thr_frame *f, const thr_symmetries *s)
+{
+  thr_writer w = {.out = t};
+  thr_write_object(&w, NULL);
+  thr_write_hash(&w, "framework", thr_frame_hash(f));
+  thr_write_int(&w, "nodes", f->n_nodes);
+  thr_write_int(&w, "edges", f->n_edges);
+  thr_write_string(&w, "units", f->units);
+  thr_write_string(&w, "ends", thr_ends_name(a->plan.ends));
+  thr_write_int(&w, "cover", a->plan.cover);
+  thr_write_string(&w, "joint", thr_joint_name(a->plan.joint));
+  symmetry_put_table_json(&w, &a->plan, s);
+  thr_write_close(&w);
+  thr_text_append(t, "\n");
+}
+
 static int print(const arguments *a, const thr_frame *f, const thr_symmetries *s)
 {
   thr_text t = {0};
   if (a->json) {
-    thr_text_printf(&t, "{\"framework\": \"%016" PRIx64 "\", \"nodes\": %d, \"edges\": %d, \"units\": ", thr_frame_hash(f),
-                    f->n_nodes, f->n_edges);
-    thr_text_json_string(&t, f->units);
-    thr_text_printf(&t, ", \"ends\": \"%s\", \"cover\": %d, \"joint\": \"%s\", ", thr_ends_name(a->plan.ends), a->plan.cover,
-                    thr_joint_name(a->plan.joint));
-    symmetry_put_table_json(&t, &a->plan, s);
-    thr_text_append(&t, "}\n");
+    put_json(&t, a, f, s);
   } else {
     symmetry_put_head(&t, f, &a->plan, s);
     symmetry_put_table(&t, &a->plan, s, s->n);

@@ -199,42 +199,39 @@ void plan_put_summary(thr_text *t, const thr_plan *p, const thr_rivals *r, thr_c
 
 /* ---- JSON ---- */
 
-static void put_claim_json(thr_text *t, const thr_plan *p, thr_cords_word word)
+static void put_claim_json(thr_writer *w, const thr_plan *p, thr_cords_word word)
 {
   const thr_cords_claim *c = &p->cords_claim;
-  thr_text_append(t, ", \"longest\": ");
-  thr_text_double(t, c->longest);
-  thr_text_append(t, ", \"longest_bound\": ");
-  thr_text_double(t, c->longest_bound);
-  thr_text_printf(t, ", \"longest_status\": \"%s\"",
-                  c->longest_optimal   ? "optimal"
-                  : word.longest_least ? "bound, optimal by the solver's word"
-                                       : "bound");
-  if (c->fewest)
-    thr_text_printf(t, ", \"fewest_cords\": %d, \"fewest_status\": \"%s\"", c->fewest, c->fewest_optimal ? "optimal" : "bound");
+  thr_write_number(w, "longest", c->longest);
+  thr_write_number(w, "longest_bound", c->longest_bound);
+  thr_write_string(w, "longest_status",
+                   c->longest_optimal   ? "optimal"
+                   : word.longest_least ? "bound, optimal by the solver's word"
+                                        : "bound");
+  if (!c->fewest) return;
+  thr_write_int(w, "fewest_cords", c->fewest);
+  thr_write_string(w, "fewest_status", c->fewest_optimal ? "optimal" : "bound");
 }
 
-void plan_put_json(thr_text *t, const thr_plan *p, const thr_rivals *r, thr_cords_word word)
+void plan_put_json(thr_writer *w, const thr_plan *p, const thr_rivals *r, thr_cords_word word)
 {
   const thr_metrics *m = &p->metrics;
-  thr_text_printf(t, "{\"framework\": \"%016" PRIx64 "\", \"nodes\": %d, \"edges\": %d, \"cords\": %d, ",
-                  thr_frame_hash(&p->frame), p->frame.n_nodes, p->frame.n_edges, p->n_cords);
-  thr_text_append(t, "\"units\": ");
-  thr_text_json_string(t, p->frame.units);
-  const struct {
-    const char *key;
-    double value;
-  } number[] = {{"length", m->length},           {"base_length", m->base_length},
-                {"overlap", m->overlap},         {"lower_bound", p->proof.lower_bound},
-                {"gap", p->proof.gap},           {"turning", m->turning},
-                {"max_turning", m->max_turning}, {"mu", p->options.physics.mu}};
-  for (size_t i = 0; i < sizeof number / sizeof *number; i++) {
-    thr_text_printf(t, ", \"%s\": ", number[i].key);
-    thr_text_double(t, number[i].value);
-  }
-  thr_text_printf(t, ", \"status\": \"%s\", \"pull_factor\": ", p->proof.optimal ? "optimal" : "bound");
-  thr_text_json_number(t, turning_pull(p, NULL));
-  if (p->cords_claim.present) put_claim_json(t, p, word);
-  if (r) turning_put_json(t, p, r);
-  if (p->symmetry.present) symmetry_put_json(t, p);
+  thr_write_hash(w, "framework", thr_frame_hash(&p->frame));
+  thr_write_int(w, "nodes", p->frame.n_nodes);
+  thr_write_int(w, "edges", p->frame.n_edges);
+  thr_write_int(w, "cords", p->n_cords);
+  thr_write_string(w, "units", p->frame.units);
+  thr_write_number(w, "length", m->length);
+  thr_write_number(w, "base_length", m->base_length);
+  thr_write_number(w, "overlap", m->overlap);
+  thr_write_number(w, "lower_bound", p->proof.lower_bound);
+  thr_write_number(w, "gap", p->proof.gap);
+  thr_write_number(w, "turning", m->turning);
+  thr_write_number(w, "max_turning", m->max_turning);
+  thr_write_number(w, "mu", p->options.physics.mu);
+  thr_write_string(w, "status", p->proof.optimal ? "optimal" : "bound");
+  thr_write_number(w, "pull_factor", turning_pull(p, NULL));
+  if (p->cords_claim.present) put_claim_json(w, p, word);
+  if (r) turning_put_json(w, p, r);
+  if (p->symmetry.present) symmetry_put_json(w, p);
 }

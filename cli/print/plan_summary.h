@@ -9,6 +9,6 @@
 void plan_put_summary(thr_text *t, const thr_plan *p, const thr_rivals *r, thr_cords_word word);
 
 /* The same as members of an object that is left open. */
-void plan_put_json(thr_text *t, const thr_plan *p, const thr_rivals *r, thr_cords_word word);
+void plan_put_json(thr_writer *w, const thr_plan *p, const thr_rivals *r, thr_cords_word word);
 
 #endif

@@ -91,25 +91,23 @@ void ranking_put_text(const ranking *r, const char *const *name, thr_text *t)
     if (!r->rank[i]) thr_text_printf(t, "  -  %-*s not known\n", widest, name[i]);
 }
 
-static void put_number(thr_text *t, const char *before, double value)
+void ranking_put_json(const ranking *r, const char *const *name, thr_writer *w)
 {
-  thr_text_append(t, before);
-  thr_text_json_number(t, value);
-}
-
-void ranking_put_json(const ranking *r, const char *const *name, thr_text *t)
-{
-  thr_text_printf(t, "{\"by\": \"%s\", \"order\": [", r->key);
+  thr_write_object(w, NULL);
+  thr_write_string(w, "by", r->key);
+  thr_write_array(w, "order");
   for (int k = 0; k < r->n_ranked; k++) {
     int i = r->order[k];
-    thr_text_append(t, k ? ", {\"plan\": " : "{\"plan\": ");
-    thr_text_json_string(t, name[i]);
-    put_number(t, ", \"value\": ", r->value[i]);
-    put_number(t, ", \"low\": ", r->low[i]);
-    put_number(t, ", \"high\": ", r->high[i]);
-    thr_text_printf(t, ", \"rank\": %d}", r->rank[i]);
+    thr_write_object(w, NULL);
+    thr_write_string(w, "plan", name[i]);
+    thr_write_number(w, "value", r->value[i]);
+    thr_write_number(w, "low", r->low[i]);
+    thr_write_number(w, "high", r->high[i]);
+    thr_write_int(w, "rank", r->rank[i]);
+    thr_write_close(w);
   }
-  thr_text_append(t, "]}");
+  thr_write_close(w);
+  thr_write_close(w);
 }
 
 static bool surely_less(const ranking *r, int i, int k)

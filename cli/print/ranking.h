@@ -2,7 +2,7 @@
 #ifndef THR_RANKING_H
 #define THR_RANKING_H
 
-#include "graph/text.h"
+#include "graph/io/writer.h"
 
 /* Least first. Plans whose intervals overlap, or are joined by others that do, are a tie and share a rank: between plans of
  * different rank no interval reaches across. Filled by ranking_make from value, low and high. */
@@ -25,7 +25,7 @@ void ranking_make(ranking *r);
 
 /* "1. lines.json  12.3 N (+-0.4 %)" .. and whether each is more than those before. */
 void ranking_put_text(const ranking *r, const char *const *name, thr_text *t);
-void ranking_put_json(const ranking *r, const char *const *name, thr_text *t);
+void ranking_put_json(const ranking *r, const char *const *name, thr_writer *w);
 
 /* A pair of plans that the two put in opposite orders, beyond what their intervals allow; false if there is none. */
 bool ranking_disagree(const ranking *a, const ranking *b, int pair[2]);

@@ -196,19 +196,22 @@ void symmetry_put_paths(thr_text *t, const thr_plan *p)
 
 /* ---- JSON ---- */
 
-static void put_number(thr_text *t, const char *key, double value)
+static void put_order_json(thr_writer *w, const char *key, double mantissa, int exponent)
 {
-  thr_text_printf(t, ", \"%s\": ", key);
-  thr_text_json_number(t, value);
+  thr_text digits = {0};
+  put_order(&digits, mantissa, exponent);
+  thr_write_printf(w, key, "%s", digits.data ? digits.data : "0");
+  w->out->failed |= digits.failed;
+  thr_text_destroy(&digits);
 }
 
-static void put_name_json(thr_text *t, const char *name)
+/* Text, or null if there is none. */
+static void put_name_json(thr_writer *w, const char *name)
 {
-  thr_text_append(t, ", \"name\": ");
   if (*name)
-    thr_text_json_string(t, name);
+    thr_write_string(w, "name", name);
   else
-    thr_text_append(t, "null");
+    thr_write_null(w, "name");
 }
 
 static const char *row_status(const thr_symmetry_row *row)
@@ -221,27 +224,27 @@ static const char *row_status(const thr_symmetry_row *row)
   }
 }
 
-static void put_threading_json(thr_text *t, const thr_plan_options *o, const thr_symmetry_row *row)
+static void put_threading_json(thr_writer *w, const thr_plan_options *o, const thr_symmetry_row *row)
 {
   const thr_metrics *m = &row->metrics;
-  put_number(t, "overlap", m->overlap);
-  put_number(t, "overlap_percent", 100 * m->overlap / m->base_length);
-  put_number(t, "length", m->length);
-  thr_text_printf(t, ", \"unique_paths\": %d, \"least_copies\": %d, \"most_copies\": %d, \"cords\": %d", row->record.unique_paths,
-                  row->least_copies, row->most_copies, row->n_cords);
-  put_number(t, "steps", row->record.steps);
-  put_number(t, "turning", m->turning);
-  put_number(t, "max_turning", m->max_turning);
-  put_number(t, "max_capstan", turning_capstan(o->physics.mu, m->max_turning));
-  thr_text_append(t, ", \"bound\": {");
-  for (int a = 0; a < THR_N_AIMS; a++) {
-    thr_text_printf(t, "%s\"%s\": ", a ? ", " : "", thr_aim_name((thr_aim)a));
-    thr_text_json_number(t, row->bound[a]);
-  }
-  thr_text_append(t, "}");
+  thr_write_number(w, "overlap", m->overlap);
+  thr_write_number(w, "overlap_percent", 100 * m->overlap / m->base_length);
+  thr_write_number(w, "length", m->length);
+  thr_write_int(w, "unique_paths", row->record.unique_paths);
+  thr_write_int(w, "least_copies", row->least_copies);
+  thr_write_int(w, "most_copies", row->most_copies);
+  thr_write_int(w, "cords", row->n_cords);
+  thr_write_number(w, "steps", row->record.steps);
+  thr_write_number(w, "turning", m->turning);
+  thr_write_number(w, "max_turning", m->max_turning);
+  thr_write_number(w, "max_capstan", turning_capstan(o->physics.mu, m->max_turning));
+  thr_write_object(w, "bound");
+  for (int a = 0; a < THR_N_AIMS; a++)
+    thr_write_number(w, thr_aim_name((thr_aim)a), row->bound[a]);
+  thr_write_close(w);
 }
 
-static void put_row_json(thr_text *t, const thr_plan_options *o, const thr_symmetries *s, int i)
+static void put_row_json(thr_writer *w, const thr_plan_options *o, const thr_symmetries *s, int i)
 {
   static const char *const kind[] = {[THR_ISO_IDENTITY] = "identity",
                                      [THR_ISO_ROTATION] = "rotation",
@@ -250,63 +253,62 @@ static void put_row_json(thr_text *t, const thr_plan_options *o, const thr_symme
                                      [THR_ISO_ROTOREFLECTION] = "rotoreflection",
                                      [THR_ISO_NONE] = "none"};
   const thr_symmetry_row *row = &s->row[i];
-  thr_text_printf(t, "{\"number\": %d, \"order\": %d", i + 1, row->order);
-  put_name_json(t, row->name);
-  thr_text_append(t, ", \"conjugates\": ");
-  if (row->conjugates > 0)
-    thr_text_printf(t, "%d", row->conjugates);
-  else
-    thr_text_append(t, "null");
-  put_number(t, "residual", row->residual);
-  thr_text_append(t, ", \"elements\": {");
+  thr_write_line(w, 1);
+  thr_write_object(w, NULL);
+  thr_write_int(w, "number", i + 1);
+  thr_write_int(w, "order", row->order);
+  put_name_json(w, row->name);
+  thr_write_number(w, "conjugates", row->conjugates > 0 ? (double)row->conjugates : NAN);
+  thr_write_number(w, "residual", row->residual);
+  thr_write_object(w, "elements");
   for (int k = 0; k <= THR_ISO_NONE; k++)
-    thr_text_printf(t, "%s\"%s\": %d", k ? ", " : "", kind[k], row->kinds[k]);
-  thr_text_printf(t, "}, \"status\": \"%s\"", row_status(row));
-  if (row->why.code) {
-    thr_text_append(t, ", \"why\": ");
-    thr_text_json_string(t, row->why.text);
-  }
-  if (row->n_cords > 0) put_threading_json(t, o, row);
-  thr_text_append(t, "}");
+    thr_write_int(w, kind[k], row->kinds[k]);
+  thr_write_close(w);
+  thr_write_string(w, "status", row_status(row));
+  if (row->why.code) thr_write_string(w, "why", row->why.text);
+  if (row->n_cords > 0) put_threading_json(w, o, row);
+  thr_write_close(w);
 }
 
-void symmetry_put_table_json(thr_text *t, const thr_plan_options *o, const thr_symmetries *s)
+void symmetry_put_table_json(thr_writer *w, const thr_plan_options *o, const thr_symmetries *s)
 {
-  thr_text_append(t, "\"order\": ");
-  put_order(t, s->mantissa, s->exponent);
-  thr_text_printf(t, ", \"node_orbits\": %d, \"edge_orbits\": %d, \"listed\": %s, \"note\": ", s->node_orbits, s->edge_orbits,
-                  s->listed ? "true" : "false");
-  thr_text_json_string(t, s->note);
-  thr_text_append(t, ", \"geometric\": ");
-  thr_text_json_number(t, o->symmetry.geometric >= 0 ? o->symmetry.geometric : NAN);
-  if (o->symmetry.geometric >= 0) {
-    thr_text_append(t, ", \"length_keeping\": ");
-    put_order(t, s->keep_lengths[0], (int)s->keep_lengths[1]);
-  }
-  put_number(t, "mu", o->physics.mu);
-  put_number(t, "shortest", s->shortest);
-  thr_text_printf(t, ", \"shortest_status\": \"%s\", \"chosen\": ", s->shortest_optimal ? "optimal" : "bound");
-  thr_text_json_number(t, s->chosen >= 0 ? (double)s->chosen + 1 : NAN);
-  thr_text_printf(t, ", \"within_slack\": %s, \"groups\": [", s->within ? "true" : "false");
-  for (int i = 0; i < s->n; i++) {
-    thr_text_append(t, i ? ",\n " : "\n ");
-    put_row_json(t, o, s, i);
-  }
-  thr_text_append(t, "]");
+  const bool geometric = o->symmetry.geometric >= 0;
+  put_order_json(w, "order", s->mantissa, s->exponent);
+  thr_write_int(w, "node_orbits", s->node_orbits);
+  thr_write_int(w, "edge_orbits", s->edge_orbits);
+  thr_write_bool(w, "listed", s->listed);
+  thr_write_string(w, "note", s->note);
+  thr_write_number(w, "geometric", geometric ? o->symmetry.geometric : NAN);
+  if (geometric) put_order_json(w, "length_keeping", s->keep_lengths[0], (int)s->keep_lengths[1]);
+  thr_write_number(w, "mu", o->physics.mu);
+  thr_write_number(w, "shortest", s->shortest);
+  thr_write_string(w, "shortest_status", s->shortest_optimal ? "optimal" : "bound");
+  thr_write_number(w, "chosen", s->chosen >= 0 ? (double)s->chosen + 1 : NAN);
+  thr_write_bool(w, "within_slack", s->within);
+  thr_write_array(w, "groups");
+  for (int i = 0; i < s->n; i++)
+    put_row_json(w, o, s, i);
+  thr_write_close(w);
 }
 
-void symmetry_put_json(thr_text *t, const thr_plan *p)
+void symmetry_put_json(thr_writer *w, const thr_plan *p)
 {
   const thr_symmetry_record *r = &p->symmetry;
-  thr_text_printf(t, ", \"group\": {\"order\": %d", r->order);
-  put_name_json(t, r->name);
-  thr_text_printf(t, "}, \"unique_paths\": %d", r->unique_paths);
-  put_number(t, "steps", r->steps);
-  thr_text_append(t, ", \"copies\": [");
+  thr_write_object(w, "group");
+  thr_write_int(w, "order", r->order);
+  put_name_json(w, r->name);
+  thr_write_close(w);
+  thr_write_int(w, "unique_paths", r->unique_paths);
+  thr_write_number(w, "steps", r->steps);
+  thr_write_array(w, "copies");
   for (int i = 0; i < p->n_cords; i++) {
-    thr_text_printf(t, "%s{\"cord\": \"%s\", \"of\": \"%s\", \"by\": \"", i ? ", " : "", p->cord[i].id, p->cord[r->unique[i]].id);
-    put_isometry(t, p, r->element[i]);
-    thr_text_append(t, "\"}");
+    thr_text by = {0};
+    put_isometry(&by, p, r->element[i]);
+    thr_write_object(w, NULL);
+    thr_write_string(w, "cord", p->cord[i].id);
+    thr_write_string(w, "of", p->cord[r->unique[i]].id);
+    thr_write_words(w, "by", &by);
+    thr_write_close(w);
   }
-  thr_text_append(t, "]");
+  thr_write_close(w);
 }

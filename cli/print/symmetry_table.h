@@ -16,9 +16,9 @@ void symmetry_put_table(thr_text *t, const thr_plan_options *o, const thr_symmet
 void symmetry_put_paths(thr_text *t, const thr_plan *p);
 
 /* The table as members of an object that is left open, the first without a comma before it. */
-void symmetry_put_table_json(thr_text *t, const thr_plan_options *o, const thr_symmetries *s);
+void symmetry_put_table_json(thr_writer *w, const thr_plan_options *o, const thr_symmetries *s);
 
 /* Group and paths of a plan as members of an object, each with a comma before it. */
-void symmetry_put_json(thr_text *t, const thr_plan *p);
+void symmetry_put_json(thr_writer *w, const thr_plan *p);
 
 #endif

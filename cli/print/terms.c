@@ -111,18 +111,14 @@ void terms_put(thr_text *t, const thr_plan *p)
                     thr_method_name(p->evaluation.method));
 }
 
-void terms_put_json(thr_text *t, const thr_plan *p)
+void terms_put_json(thr_writer *w, const thr_plan *p)
 {
   thr_text words = {0};
   put_plans(&words, p);
-  thr_text_append(t, ", \"terms\": ");
-  if (words.failed)
-    t->failed = true;
-  else
-    thr_text_json_string(t, words.data);
-  thr_text_destroy(&words);
-  if (slack_asked(p))
-    thr_text_printf(t, ", \"length_slack\": %.12g, \"slack_verified\": %s", p->options.turning.length_slack,
-                    slack_proved(p) ? "true" : "false");
-  if (p->evaluation.present) thr_text_printf(t, ", \"tensions_verified\": %s", measured(p) ? "false" : "true");
+  thr_write_words(w, "terms", &words);
+  if (slack_asked(p)) {
+    thr_write_printf(w, "length_slack", "%.12g", p->options.turning.length_slack);
+    thr_write_bool(w, "slack_verified", slack_proved(p));
+  }
+  if (p->evaluation.present) thr_write_bool(w, "tensions_verified", !measured(p));
 }

@@ -9,6 +9,6 @@
 void terms_put(thr_text *t, const thr_plan *p);
 
 /* The same as members of a JSON object, from ", " on. */
-void terms_put_json(thr_text *t, const thr_plan *p);
+void terms_put_json(thr_writer *w, const thr_plan *p);
 
 #endif

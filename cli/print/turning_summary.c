@@ -347,16 +347,10 @@ void turning_put_frontier(thr_text *t, const thr_plan *p, const thr_rivals *r)
 
 /* ---- JSON ---- */
 
-static void put_number(thr_text *t, const char *key, double value)
+static void put_bound_json(thr_writer *w, const thr_plan *p, double bound)
 {
-  thr_text_printf(t, ", \"%s\": ", key);
-  thr_text_json_number(t, value);
-}
-
-static void put_bound_json(thr_text *t, const thr_plan *p, double bound)
-{
-  put_number(t, "turning_lower_bound", in_angles(p) ? bound : NAN);
-  put_number(t, "price_lower_bound", bound);
+  thr_write_number(w, "turning_lower_bound", in_angles(p) ? bound : NAN);
+  thr_write_number(w, "price_lower_bound", bound);
 }
 
 static const char *proof_status(bool claimed, bool optimal)
@@ -366,71 +360,71 @@ static const char *proof_status(bool claimed, bool optimal)
 
 /* bound: the claim that bounds the turning, NULL = none. A classical tour has that of the plan with the least turning, but claims
  * nothing itself. */
-static void put_claim_json(thr_text *t, const thr_plan *p, const thr_turning_claim *bound, double price)
+static void put_claim_json(thr_writer *w, const thr_plan *p, const thr_turning_claim *bound, double price)
 {
   const thr_turning_claim *own = &p->turning;
-  put_bound_json(t, p, bound ? bound->lower_bound : NAN);
-  put_number(t, "turning_gap", own->present ? own->gap : bound ? 1 - bound->lower_bound / price : NAN);
-  thr_text_printf(t, ", \"turning_status\": \"%s\"", proof_status(own->present, own->optimal));
-  put_number(t, "pairing_bound", own->present ? own->pairing_bound : NAN);
-  put_number(t, "max_turning_bound", bound && in_angles(p) ? bound->largest_bound : NAN);
-  put_number(t, "max_price_bound", bound ? bound->largest_bound : NAN);
-  thr_text_printf(t, ", \"max_turning_status\": \"%s\"", proof_status(own->present, own->largest_optimal));
+  put_bound_json(w, p, bound ? bound->lower_bound : NAN);
+  thr_write_number(w, "turning_gap", own->present ? own->gap : bound ? 1 - bound->lower_bound / price : NAN);
+  thr_write_string(w, "turning_status", proof_status(own->present, own->optimal));
+  thr_write_number(w, "pairing_bound", own->present ? own->pairing_bound : NAN);
+  thr_write_number(w, "max_turning_bound", bound && in_angles(p) ? bound->largest_bound : NAN);
+  thr_write_number(w, "max_price_bound", bound ? bound->largest_bound : NAN);
+  thr_write_string(w, "max_turning_status", proof_status(own->present, own->largest_optimal));
 }
 
-static void put_figures_json(thr_text *t, const figures *x, bool all)
+static void put_figures_json(thr_writer *w, const figures *x, bool all)
 {
   for (int i = 0; i < N_FIGURES; i++)
-    if (all || !figure[i].known) put_number(t, figure[i].key, x->value[i]);
+    if (all || !figure[i].known) thr_write_number(w, figure[i].key, x->value[i]);
 }
 
-static void put_rival_json(thr_text *t, const thr_plan *p, const thr_rival *r, bool claims)
+static void put_rival_json(thr_writer *w, const thr_plan *p, const thr_rival *r, bool claims)
 {
-  thr_text_printf(t, ", \"%s\": ", r->key);
   if (!r->made) {
-    thr_text_append(t, "null");
+    thr_write_null(w, r->key);
     return;
   }
   figures x = figures_of(p, &r->plan);
-  thr_text_append(t, "{\"plan\": ");
-  thr_text_json_string(t, r->title);
-  put_figures_json(t, &x, true);
-  if (claims) put_claim_json(t, &r->plan, &r->plan.turning, x.value[PRICE]);
-  thr_text_append(t, "}");
+  thr_write_object(w, r->key);
+  thr_write_string(w, "plan", r->title);
+  put_figures_json(w, &x, true);
+  if (claims) put_claim_json(w, &r->plan, &r->plan.turning, x.value[PRICE]);
+  thr_write_close(w);
 }
 
-static void put_frontier_json(thr_text *t, const thr_plan *p, const thr_frontier *f)
+static void put_frontier_json(thr_writer *w, const thr_plan *p, const thr_frontier *f)
 {
-  thr_text_append(t, ", \"frontier\": [");
+  thr_write_array(w, "frontier");
   for (int i = 0; i < f->n; i++) {
     const thr_frontier_point *q = &f->point[i];
-    thr_text_append(t, i ? ",\n {\"length\": " : "\n {\"length\": ");
-    thr_text_json_number(t, q->length);
-    put_number(t, "overlap", q->overlap);
-    put_number(t, "turning", q->turning);
-    put_number(t, "price", q->price);
-    put_bound_json(t, p, q->lower_bound);
-    put_number(t, "max_turning", q->max_turning);
-    put_number(t, "max_capstan", turning_capstan(p->options.physics.mu, q->max_turning));
-    thr_text_printf(t, ", \"turning_status\": \"%s\"}", q->open ? "bound" : "optimal");
+    thr_write_line(w, 1);
+    thr_write_object(w, NULL);
+    thr_write_number(w, "length", q->length);
+    thr_write_number(w, "overlap", q->overlap);
+    thr_write_number(w, "turning", q->turning);
+    thr_write_number(w, "price", q->price);
+    put_bound_json(w, p, q->lower_bound);
+    thr_write_number(w, "max_turning", q->max_turning);
+    thr_write_number(w, "max_capstan", turning_capstan(p->options.physics.mu, q->max_turning));
+    thr_write_string(w, "turning_status", q->open ? "bound" : "optimal");
+    thr_write_close(w);
   }
-  thr_text_append(t, "]");
+  thr_write_close(w);
 }
 
-void turning_put_json(thr_text *t, const thr_plan *p, const thr_rivals *r)
+void turning_put_json(thr_writer *w, const thr_plan *p, const thr_rivals *r)
 {
   figures x = figures_of(p, p);
-  thr_text_printf(t, ", \"turn_cost\": \"%s\"", thr_turn_cost_name(p->options.turning.cost));
-  put_figures_json(t, &x, false);
-  put_claim_json(t, p, claim_of(p, r), x.value[PRICE]);
-  thr_text_append(t, ", \"capstan\": [");
+  thr_write_string(w, "turn_cost", thr_turn_cost_name(p->options.turning.cost));
+  put_figures_json(w, &x, false);
+  put_claim_json(w, p, claim_of(p, r), x.value[PRICE]);
+  thr_write_array(w, "capstan");
   for (int i = 0; i < p->n_cords; i++) {
-    if (i) thr_text_append(t, ", ");
-    thr_text_json_number(
-        t, turning_capstan(p->options.physics.mu, thr_cord_turning(&p->frame, &p->cord[i], p->options.ends == THR_ENDS_CLOSED)));
+    double turning = thr_cord_turning(&p->frame, &p->cord[i], p->options.ends == THR_ENDS_CLOSED);
+    thr_write_number(w, NULL, turning_capstan(p->options.physics.mu, turning));
   }
-  thr_text_append(t, "]");
-  put_rival_json(t, p, &r->corner, true);
-  put_rival_json(t, p, &r->length, false);
-  if (r->frontier.n) put_frontier_json(t, p, &r->frontier);
+  thr_write_close(w);
+  put_rival_json(w, p, &r->corner, true);
+  put_rival_json(w, p, &r->length, false);
+  if (r->frontier.n) put_frontier_json(w, p, &r->frontier);
 }

@@ -23,6 +23,6 @@ void turning_put_table(thr_text *t, const thr_plan *p, const thr_rivals *r);
 void turning_put_frontier(thr_text *t, const thr_plan *p, const thr_rivals *r);
 
 /* All of that as members of an object, each with a comma before it. */
-void turning_put_json(thr_text *t, const thr_plan *p, const thr_rivals *r);
+void turning_put_json(thr_writer *w, const thr_plan *p, const thr_rivals *r);
 
 #endif

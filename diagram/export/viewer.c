@@ -6,10 +6,11 @@
 #include "diagram/scene/scene.h"
 #include "diagram/overview/svg.h"
 #include "diagram/overview/tension.h"
+#include "graph/io/writer.h"
 
 #include <assert.h>
-#include <inttypes.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,170 +25,205 @@ typedef struct {
   bool tension;   /* are there any? */
   double range[2];
   int most; /* passes of one bead */
-  thr_text *out;
+  thr_writer out;
 } viewer;
 
-/* ---- pieces ---- */
-
-static void put_string(viewer *s, const char *before, const char *string)
-{
-  thr_text_append(s->out, before);
-  thr_text_json_string(s->out, string);
-}
-
-/* Takes the words. */
-static void put_words(viewer *s, const char *before, thr_text *words)
-{
-  put_string(s, before, words->data ? words->data : "");
-  if (words->failed) s->out->failed = true;
-  thr_text_destroy(words);
-}
-
-static const char *comma(int i)
-{
-  return i ? "," : "";
-}
-
 /* ---- the framework ---- */
+
+static void put_point(thr_writer *w, int digits, const double at[3])
+{
+  thr_write_array(w, NULL);
+  for (int i = 0; i < 3; i++)
+    thr_write_printf(w, NULL, "%.*g", digits, at[i]);
+  thr_write_close(w);
+}
+
+/* The next member of the whole, on a line of its own. */
+static thr_writer *next_line(viewer *s)
+{
+  thr_write_line(&s->out, 0);
+  return &s->out;
+}
 
 static void put_nodes(viewer *s)
 {
   const thr_frame *f = s->f;
-  thr_text_append(s->out, ",\n\"nodes\":[");
+  thr_writer *w = &s->out;
+  thr_write_array(next_line(s), "nodes");
   for (int v = 0; v < f->n_nodes; v++)
-    thr_text_printf(s->out, "%s[%.7g,%.7g,%.7g]", comma(v), f->xyz[v][0], f->xyz[v][1], f->xyz[v][2]);
-  thr_text_append(s->out, "],\n\"outward\":[");
-  for (int v = 0; v < f->n_nodes; v++) {
-    const double *n = s->guide.outward[v];
-    thr_text_printf(s->out, "%s[%.3g,%.3g,%.3g]", comma(v), n[0], n[1], n[2]);
-  }
-  thr_text_append(s->out, "],\n\"labels\":[");
+    put_point(w, 7, f->xyz[v]);
+  thr_write_close(w);
+  thr_write_array(next_line(s), "outward");
   for (int v = 0; v < f->n_nodes; v++)
-    put_string(s, comma(v), s->guide.label[v]);
-  thr_text_append(s->out, "],\n\"places\":[");
+    put_point(w, 3, s->guide.outward[v]);
+  thr_write_close(w);
+  thr_write_array(next_line(s), "labels");
+  for (int v = 0; v < f->n_nodes; v++)
+    thr_write_string(w, NULL, s->guide.label[v]);
+  thr_write_close(w);
+  thr_write_array(next_line(s), "places");
   for (int v = 0; v < f->n_nodes; v++) {
     thr_text place = {0};
     thr_guide_place(&s->guide, v, &place);
-    put_words(s, comma(v), &place);
+    thr_write_words(w, NULL, &place);
   }
-  thr_text_append(s->out, "],\n\"feet\":[");
-  for (int v = 0, n = 0; v < f->n_nodes; v++)
-    if (f->foot && f->foot[v]) thr_text_printf(s->out, "%s%d", comma(n++), v);
-  thr_text_append(s->out, "]");
+  thr_write_close(w);
+  thr_write_array(next_line(s), "feet");
+  for (int v = 0; v < f->n_nodes; v++)
+    if (f->foot && f->foot[v]) thr_write_int(w, NULL, v);
+  thr_write_close(w);
 }
 
 static void put_edges(viewer *s)
 {
   const thr_frame *f = s->f;
-  thr_text_append(s->out, ",\n\"edges\":[");
+  thr_write_array(next_line(s), "edges");
   for (int e = 0; e < f->n_edges; e++)
-    thr_text_printf(s->out, "%s[%d,%d]", comma(e), f->edge[e][0], f->edge[e][1]);
-  thr_text_append(s->out, "],\n\"lengths\":[");
+    thr_write_ints(&s->out, NULL, f->edge[e], 2);
+  thr_write_close(&s->out);
+  thr_write_array(next_line(s), "lengths");
   for (int e = 0; e < f->n_edges; e++)
-    thr_text_printf(s->out, "%s%.7g", comma(e), f->length[e]);
-  thr_text_append(s->out, "]");
+    thr_write_printf(&s->out, NULL, "%.7g", f->length[e]);
+  thr_write_close(&s->out);
 }
 
 /* ---- the cords ---- */
 
 static void put_tension(viewer *s, const thr_eval_cord *r)
 {
-  thr_text force = {0};
-  char text[32], hex[8];
+  thr_writer *w = &s->out;
+  char text[32], words[64], hex[8];
   thr_svg_force(r->force, text);
-  thr_text_printf(&force, "pull at %s: %s", r->pull == THR_PULL_BOTH ? "both ends" : thr_pull_name(r->pull), text);
-  put_words(s, ",\n \"pull\":", &force);
-  thr_text_append(s->out, ",\"tension\":[");
+  snprintf(words, sizeof words, "pull at %s: %s", r->pull == THR_PULL_BOTH ? "both ends" : thr_pull_name(r->pull), text);
+  thr_write_line(w, 1);
+  thr_write_string(w, "pull", words);
+  thr_write_array(w, "tension");
   for (int k = 0; k < r->n_passes; k++)
-    thr_text_printf(s->out, "%s%.4g", comma(k), r->tension[k]);
-  thr_text_append(s->out, "],\"taut\":[");
+    thr_write_printf(w, NULL, "%.4g", r->tension[k]);
+  thr_write_close(w);
+  thr_write_array(w, "taut");
   for (int k = 0; k < r->n_passes; k++) {
     thr_tension_colour(s->range, r->tension[k], hex);
-    put_string(s, comma(k), hex);
+    thr_write_string(w, NULL, hex);
   }
-  thr_text_append(s->out, "]");
+  thr_write_close(w);
 }
 
-static void put_cord(viewer *s, int c)
+static void put_turns(viewer *s, const thr_cord *cord)
 {
-  const thr_cord *cord = &s->plan->cord[c];
-  thr_colour colour = thr_palette(s->copy[c].path);
-  char words[192] = "";
-  if (s->copy[c].of != c) thr_copies_words(s->plan, s->copy, c, s->motion, words);
-  put_string(s, c ? ",\n{\"id\":" : "\n{\"id\":", cord->id);
-  thr_text_printf(s->out, ",\"closed\":%s,\"of\":%d,\"path\":%d", cord->closed ? "true" : "false", s->copy[c].of,
-                  s->copy[c].path);
-  put_string(s, ",\"how\":", words);
-  put_string(s, ",\"colour\":", colour.hex);
-  put_string(s, ",\"pale\":", colour.pale);
-  thr_svg_length(thr_cord_length(s->f, cord), s->f->units, words);
-  put_string(s, ",\"length\":", words);
-  thr_text_append(s->out, ",\n \"half\":[");
-  for (int k = 0; k < cord->n_passes; k++)
-    thr_text_printf(s->out, "%s%d", comma(k), cord->half[k]);
-  thr_text_append(s->out, "],\n \"turns\":[");
+  thr_write_line(&s->out, 1);
+  thr_write_array(&s->out, "turns");
   for (int k = 0; k < cord->n_passes; k++) {
     thr_text turn = {0};
     if (k > 0)
       thr_guide_say(&s->guide, cord->half[k - 1], cord->half[k], &turn);
     else
       thr_text_append(&turn, "go");
-    put_words(s, comma(k), &turn);
+    thr_write_words(&s->out, NULL, &turn);
   }
-  thr_text_append(s->out, "]");
+  thr_write_close(&s->out);
+}
+
+static void put_cord(viewer *s, int c)
+{
+  const thr_cord *cord = &s->plan->cord[c];
+  thr_writer *w = &s->out;
+  thr_colour colour = thr_palette(s->copy[c].path);
+  char words[192] = "";
+  if (s->copy[c].of != c) thr_copies_words(s->plan, s->copy, c, s->motion, words);
+  thr_write_object(next_line(s), NULL);
+  thr_write_string(w, "id", cord->id);
+  thr_write_bool(w, "closed", cord->closed);
+  thr_write_int(w, "of", s->copy[c].of);
+  thr_write_int(w, "path", s->copy[c].path);
+  thr_write_string(w, "how", words);
+  thr_write_string(w, "colour", colour.hex);
+  thr_write_string(w, "pale", colour.pale);
+  thr_svg_length(thr_cord_length(s->f, cord), s->f->units, words);
+  thr_write_string(w, "length", words);
+  thr_write_line(w, 1);
+  thr_write_ints(w, "half", cord->half, cord->n_passes);
+  put_turns(s, cord);
   if (s->tension && s->plan->evaluation.cord[c].known) put_tension(s, &s->plan->evaluation.cord[c]);
-  thr_text_append(s->out, "}");
+  thr_write_close(w);
 }
 
 /* ---- the whole ---- */
 
-static void put_scale(viewer *s)
+static void put_ticks(viewer *s)
 {
+  thr_writer *w = &s->out;
   double tick[TICKS];
-  char text[32], hex[8];
+  char text[32];
   int n = thr_svg_ticks(s->range[0], s->range[1], s->range[0] > 0, TICKS, tick);
-  put_string(s, ",\n\"scale\":{\"method\":", thr_tension_method_words(&s->plan->evaluation));
-  thr_text_printf(s->out, ",\"low\":%.7g,\"high\":%.7g,\"ticks\":[", s->range[0], s->range[1]);
+  thr_write_array(w, "ticks");
   for (int i = 0; i < n; i++) {
     thr_svg_force(tick[i], text);
-    thr_text_printf(s->out, "%s[%.7g,", comma(i), tick[i]);
-    put_string(s, "", text);
-    thr_text_append(s->out, "]");
+    thr_write_array(w, NULL);
+    thr_write_printf(w, NULL, "%.7g", tick[i]);
+    thr_write_string(w, NULL, text);
+    thr_write_close(w);
   }
-  thr_text_append(s->out, "],\"ramp\":[");
+  thr_write_close(w);
+}
+
+static void put_scale(viewer *s)
+{
+  thr_writer *w = &s->out;
+  char hex[8];
+  thr_write_object(next_line(s), "scale");
+  thr_write_string(w, "method", thr_tension_method_words(&s->plan->evaluation));
+  thr_write_printf(w, "low", "%.7g", s->range[0]);
+  thr_write_printf(w, "high", "%.7g", s->range[1]);
+  put_ticks(s);
+  thr_write_array(w, "ramp");
   for (int i = 0; i <= RAMP; i++) { /* the colours are even over the logarithm */
     double part = (double)i / RAMP;
     thr_tension_colour(s->range, s->range[0] * pow(s->range[1] / s->range[0], part), hex);
-    put_string(s, comma(i), hex);
+    thr_write_string(w, NULL, hex);
   }
-  thr_text_append(s->out, "]}");
+  thr_write_close(w);
+  thr_write_close(w);
+}
+
+static void put_head(viewer *s)
+{
+  const thr_plan *p = s->plan;
+  thr_writer *w = &s->out;
+  thr_write_string(w, "format", "thread-viewer");
+  thr_write_int(w, "version", 1);
+  thr_write_hash(w, "frame", thr_frame_hash(s->f));
+  thr_write_string(w, "units", s->f->units);
+  thr_write_string(w, "seen", thr_layout_words(s->guide.layout.kind));
+  thr_write_bool(w, "sides", s->guide.sides);
+  thr_write_int(w, "paths", thr_copies_paths(s->copy, p->n_cords));
+  thr_write_array(next_line(s), "nth");
+  for (int i = 1; i <= s->most; i++) {
+    char nth[16];
+    thr_guide_ordinal(i, nth);
+    thr_write_string(w, NULL, nth);
+  }
+  thr_write_close(w);
+  /* one cord on its own changes its colour on the way, as in the overview */
+  thr_write_int(next_line(s), "run", p->n_cords == 1 ? THR_COLOUR_PASSES : 0);
+  thr_write_array(w, "palette");
+  for (int i = 0; i < THR_COLOURS; i++)
+    thr_write_string(w, NULL, thr_palette(i).hex);
+  thr_write_close(w);
 }
 
 static void put_plan(viewer *s)
 {
-  const thr_plan *p = s->plan;
-  thr_text_printf(s->out, "{\"format\":\"thread-viewer\",\"version\":1,\"frame\":\"%016" PRIx64 "\"", thr_frame_hash(s->f));
-  put_string(s, ",\"units\":", s->f->units);
-  put_string(s, ",\"seen\":", thr_layout_words(s->guide.layout.kind));
-  thr_text_printf(s->out, ",\"sides\":%s,\"paths\":%d", s->guide.sides ? "true" : "false", thr_copies_paths(s->copy, p->n_cords));
-  thr_text_append(s->out, ",\n\"nth\":[");
-  for (int i = 1; i <= s->most; i++) {
-    char nth[16];
-    thr_guide_ordinal(i, nth);
-    put_string(s, comma(i - 1), nth);
-  }
-  /* one cord on its own changes its colour on the way, as in the overview */
-  thr_text_printf(s->out, "],\n\"run\":%d,\"palette\":[", p->n_cords == 1 ? THR_COLOUR_PASSES : 0);
-  for (int i = 0; i < THR_COLOURS; i++)
-    put_string(s, comma(i), thr_palette(i).hex);
-  thr_text_append(s->out, "]");
+  thr_write_object(&s->out, NULL);
+  put_head(s);
   put_nodes(s);
   put_edges(s);
   if (s->tension) put_scale(s);
-  thr_text_append(s->out, ",\n\"cords\":[");
-  for (int c = 0; c < p->n_cords; c++)
+  thr_write_array(next_line(s), "cords");
+  for (int c = 0; c < s->plan->n_cords; c++)
     put_cord(s, c);
-  thr_text_append(s->out, "]}");
+  thr_write_close(&s->out);
+  thr_write_close(&s->out);
 }
 
 /* Appends JSON as it may stand in a <script>: no "<", which only strings hold; line separators are escaped in them already. */
@@ -228,7 +264,7 @@ static thr_status prepare(viewer *s, thr_err *err)
 thr_status thr_viewer_html(const thr_plan *p, const char *const *motion, thr_text *html, thr_err *err)
 {
   thr_text json = {0}, page = {0};
-  viewer s = {.plan = p, .f = &p->frame, .motion = motion, .out = &json};
+  viewer s = {.plan = p, .f = &p->frame, .motion = motion, .out = {.out = &json, .compact = true}};
   const char *mark = strstr(thr_viewer_page, THR_VIEWER_MARK);
   assert(mark);
   thr_status st = prepare(&s, err);

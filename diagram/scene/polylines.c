@@ -4,9 +4,11 @@
 #include "diagram/scene/palette.h"
 #include "diagram/scene/scene.h"
 #include "graph/io/read.h"
+#include "graph/io/writer.h"
 
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -111,9 +113,12 @@ static thr_status put_strip(const thr_plan *p, int c, double metres, base64 *b, 
   return THR_OK;
 }
 
-static void put_corner(const char *key, const float corner[3], thr_text *t)
+static void put_corner(thr_writer *w, const char *key, const float corner[3])
 {
-  thr_text_printf(t, ", \"%s\": [%.9g, %.9g, %.9g]", key, (double)corner[0], (double)corner[1], (double)corner[2]);
+  thr_write_array(w, key);
+  for (int i = 0; i < 3; i++)
+    thr_write_printf(w, NULL, "%.9g", (double)corner[i]);
+  thr_write_close(w);
 }
 
 static double linear(const char *hex)
@@ -123,69 +128,123 @@ static double linear(const char *hex)
   return value <= 0.04045 ? value / 12.92 : pow((value + 0.055) / 1.055, 2.4);
 }
 
-static void put_material(const thr_plan *p, const thr_copy *copy, int c, const char *id, thr_text *t)
+static void put_material(thr_writer *w, const thr_plan *p, const thr_copy *copy, int c)
 {
   bool symmetric = thr_copies_paths(copy, p->n_cords) < p->n_cords;
   thr_colour colour = thr_palette(symmetric ? copy[c].path : c);
   const char *hex = copy[c].of == c ? colour.hex : colour.pale;
-  thr_text_printf(t,
-                  "{\"name\": \"cord-%s\", \"pbrMetallicRoughness\": {\"baseColorFactor\": [%.4f, %.4f, %.4f, 1], "
-                  "\"metallicFactor\": 0, \"roughnessFactor\": 1}}",
-                  id, linear(hex + 1), linear(hex + 3), linear(hex + 5));
+  thr_write_object(w, "pbrMetallicRoughness");
+  thr_write_array(w, "baseColorFactor");
+  for (int i = 1; i < 7; i += 2)
+    thr_write_printf(w, NULL, "%.4f", linear(hex + i));
+  thr_write_int(w, NULL, 1);
+  thr_write_close(w);
+  thr_write_int(w, "metallicFactor", 0);
+  thr_write_int(w, "roughnessFactor", 1);
+  thr_write_close(w);
+}
+
+static void put_primitive(thr_writer *w, int c)
+{
+  thr_write_array(w, "primitives");
+  thr_write_object(w, NULL);
+  thr_write_object(w, "attributes");
+  thr_write_int(w, "POSITION", c);
+  thr_write_close(w);
+  thr_write_int(w, "mode", LINE_STRIP);
+  thr_write_int(w, "material", c);
+  thr_write_close(w);
+  thr_write_close(w);
+}
+
+static void put_accessor(thr_writer *w, int c, const strip *s)
+{
+  thr_write_int(w, "bufferView", c);
+  thr_write_int(w, "componentType", FLOAT);
+  thr_write_int(w, "count", s->count);
+  thr_write_string(w, "type", "VEC3");
+  put_corner(w, "min", s->low);
+  put_corner(w, "max", s->high);
+}
+
+static void put_view(thr_writer *w, const strip *s, int64_t offset)
+{
+  thr_write_int(w, "buffer", 0);
+  thr_write_int(w, "byteOffset", offset);
+  thr_write_int(w, "byteLength", 12 * (int64_t)s->count);
+  thr_write_int(w, "target", ARRAY_BUFFER);
 }
 
 typedef enum { NODES, MESHES, MATERIALS, ACCESSORS, VIEWS, N_LISTS } list;
 
 /* One element per cord of a list; bytes before it in the buffer: offset. */
-static void put_element(const thr_plan *p, const thr_copy *copy, list what, int c, const strip *s, size_t offset, thr_text *t)
+static void put_element(thr_writer *w, const thr_plan *p, const thr_copy *copy, list what, int c, const strip *s, int64_t offset)
 {
-  char id[12];
+  char id[12], name[24];
   thr_scene_cord_id(p, c, id);
+  snprintf(name, sizeof name, "cord-%s", id);
+  thr_write_line(w, 0);
+  thr_write_object(w, NULL);
+  if (what <= MATERIALS) thr_write_string(w, "name", name);
   switch (what) {
-  case NODES: thr_text_printf(t, "{\"name\": \"cord-%s\", \"mesh\": %d}", id, c); break;
-  case MESHES:
-    thr_text_printf(t,
-                    "{\"name\": \"cord-%s\", \"primitives\": [{\"attributes\": {\"POSITION\": %d}, \"mode\": %d, "
-                    "\"material\": %d}]}",
-                    id, c, LINE_STRIP, c);
-    break;
-  case MATERIALS: put_material(p, copy, c, id, t); break;
-  case ACCESSORS:
-    thr_text_printf(t, "{\"bufferView\": %d, \"componentType\": %d, \"count\": %d, \"type\": \"VEC3\"", c, FLOAT, s->count);
-    put_corner("min", s->low, t);
-    put_corner("max", s->high, t);
-    thr_text_append(t, "}");
-    break;
-  default:
-    thr_text_printf(t, "{\"buffer\": 0, \"byteOffset\": %zu, \"byteLength\": %zu, \"target\": %d}", offset, 12 * (size_t)s->count,
-                    ARRAY_BUFFER);
+  case NODES: thr_write_int(w, "mesh", c); break;
+  case MESHES: put_primitive(w, c); break;
+  case MATERIALS: put_material(w, p, copy, c); break;
+  case ACCESSORS: put_accessor(w, c, s); break;
+  default: put_view(w, s, offset);
   }
+  thr_write_close(w);
 }
 
-static void put_lists(const thr_plan *p, const thr_copy *copy, const strip *s, thr_text *t)
+static void put_lists(thr_writer *w, const thr_plan *p, const thr_copy *copy, const strip *s)
 {
   static const char *const key[N_LISTS] = {"nodes", "meshes", "materials", "accessors", "bufferViews"};
   for (int what = 0; what < N_LISTS; what++) {
-    size_t offset = 0;
-    thr_text_printf(t, "\"%s\": [\n", key[what]);
+    int64_t offset = 0;
+    thr_write_line(w, 0);
+    thr_write_array(w, key[what]);
     for (int c = 0; c < p->n_cords; c++) {
-      put_element(p, copy, (list)what, c, &s[c], offset, t);
-      thr_text_append(t, c + 1 < p->n_cords ? ",\n" : "],\n");
-      offset += 12 * (size_t)s[c].count;
+      put_element(w, p, copy, (list)what, c, &s[c], offset);
+      offset += 12 * (int64_t)s[c].count;
     }
+    thr_write_close(w);
   }
 }
 
-static void put_head(const thr_plan *p, double metres, thr_text *t)
+static void put_head(thr_writer *w, const thr_plan *p, double metres)
 {
-  thr_text_append(t, "{\n\"asset\": {\"version\": \"2.0\", \"generator\": \"thread\", \"extras\": {\"unit\": ");
-  thr_text_json_string(t, p->frame.units);
-  thr_text_append(t, ", \"metres_per_unit\": ");
-  thr_text_double(t, metres);
-  thr_text_append(t, "}},\n\"scene\": 0,\n\"scenes\": [{\"nodes\": [");
+  thr_write_line(w, 0);
+  thr_write_object(w, "asset");
+  thr_write_string(w, "version", "2.0");
+  thr_write_string(w, "generator", "thread");
+  thr_write_object(w, "extras");
+  thr_write_string(w, "unit", p->frame.units);
+  thr_write_number(w, "metres_per_unit", metres);
+  thr_write_close(w);
+  thr_write_close(w);
+  thr_write_line(w, 0);
+  thr_write_int(w, "scene", 0);
+  thr_write_line(w, 0);
+  thr_write_array(w, "scenes");
+  thr_write_object(w, NULL);
+  thr_write_array(w, "nodes");
   for (int c = 0; c < p->n_cords; c++)
-    thr_text_printf(t, c ? ", %d" : "%d", c);
-  thr_text_append(t, "]}],\n");
+    thr_write_int(w, NULL, c);
+  thr_write_close(w);
+  thr_write_close(w);
+  thr_write_close(w);
+}
+
+/* Takes over the address of the n points. */
+static void put_buffers(thr_writer *w, int64_t n, thr_text *address)
+{
+  thr_write_line(w, 0);
+  thr_write_array(w, "buffers");
+  thr_write_object(w, NULL);
+  thr_write_int(w, "byteLength", 12 * n);
+  thr_write_words(w, "uri", address);
+  thr_write_close(w);
+  thr_write_close(w);
 }
 
 thr_status thr_polylines_gltf(const thr_plan *p, thr_text *out, thr_err *err)
@@ -193,6 +252,7 @@ thr_status thr_polylines_gltf(const thr_plan *p, thr_text *out, thr_err *err)
   int n;
   double mm;
   thr_text t = {0}, data = {0};
+  thr_writer w = {.out = &t};
   base64 bytes = {.out = &data};
   thr_status st = check(p, &n, err);
   if (st) return st;
@@ -201,16 +261,17 @@ thr_status thr_polylines_gltf(const thr_plan *p, thr_text *out, thr_err *err)
   if (!copy || !s) st = thr_nomem(err);
   if (!st) st = thr_copies_find(p, copy, err);
   double metres = thr_units_in_mm(p->frame.units, &mm, NULL) ? 0.001 : mm / 1000;
+  thr_text_append(&data, "data:application/octet-stream;base64,");
   for (int c = 0; c < p->n_cords && !st; c++)
     st = put_strip(p, c, metres, &bytes, &s[c], err);
   if (!st) {
-    put_head(p, metres, &t);
-    put_lists(p, copy, s, &t);
-    thr_text_printf(&t, "\"buffers\": [{\"byteLength\": %zu, \"uri\": \"data:application/octet-stream;base64,",
-                    12 * ((size_t)n + (size_t)p->n_cords));
-    if (data.data) thr_text_append_bytes(&t, data.data, data.length);
-    thr_text_append(&t, "\"}]\n}\n");
-    t.failed |= data.failed;
+    thr_write_object(&w, NULL);
+    put_head(&w, p, metres);
+    put_lists(&w, p, copy, s);
+    put_buffers(&w, (int64_t)n + p->n_cords, &data);
+    thr_write_line(&w, 0);
+    thr_write_close(&w);
+    thr_text_append(&t, "\n");
   }
   thr_text_destroy(&data);
   free(copy);

@@ -1,4 +1,4 @@
-/* Reading JSON through jansson, behind a handle, so that one file knows the library. Writing goes through thr_text:
+/* Reading JSON through jansson, behind a handle, so that one file knows the library. Writing goes through graph/io/writer.h:
  * our files want a stable key order and short lines, which a generic dumper does not give. */
 #ifndef THR_JSON_H
 #define THR_JSON_H

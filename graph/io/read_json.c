@@ -704,4 +704,4 @@ static bool begins(thr_span line)
   return line.s[0] == '{' || line.s[0] == '[';
 }
 
-const thr_format thr_json_format = {"json", {"json"}, begins, parse, thr_json_write, false};
+const thr_format thr_json_format = {"json", {"json"}, begins, parse, thr_json_frame_write, false};

@@ -71,7 +71,7 @@ thr_status thr_csv_scan(thr_draft *d, const char *text, size_t n, const char *na
                         thr_err *err) THR_MUST_CHECK;
 
 /* The writers of write.c. */
-void thr_json_write(const thr_frame *f, thr_text *out);
+void thr_json_frame_write(const thr_frame *f, thr_text *out);
 void thr_obj_write(const thr_frame *f, thr_text *out);
 void thr_csv_write(const thr_frame *f, thr_text *out);
 

@@ -1,5 +1,6 @@
 /* Frameworks as JSON, OBJ and CSV text. */
 #include "graph/io/formats.h"
+#include "graph/io/writer.h"
 
 static void write_point(const double xyz[3], const char *separator, thr_text *out)
 {
@@ -16,61 +17,98 @@ static bool has_feet(const thr_frame *f)
   return false;
 }
 
-/* Numbers of the feet, counted from base. */
-static void write_feet(const thr_frame *f, int base, const char *separator, thr_text *out)
+static void put_rows_of_nodes(const thr_frame *f, thr_writer *w)
 {
-  bool first = true;
+  thr_write_line(w, 0);
+  thr_write_array(w, "nodes");
   for (int v = 0; v < f->n_nodes; v++) {
-    if (!f->foot[v]) continue;
-    thr_text_printf(out, "%s%d", first ? "" : separator, v + base);
-    first = false;
+    thr_write_line(w, 0);
+    thr_write_array(w, NULL);
+    for (int i = 0; i < 3; i++)
+      thr_write_number(w, NULL, f->xyz[v][i]);
+    thr_write_close(w);
   }
+  thr_write_line(w, 0);
+  thr_write_close(w);
 }
 
-static void write_passes(const char *key, const int *passes, int n, thr_text *out)
+static void put_rows_of_edges(const thr_frame *f, thr_writer *w)
 {
-  for (int e = 0; passes && e < n; e++) {
-    if (e == 0) thr_text_printf(out, ",\n\"%s\": [", key);
-    thr_text_printf(out, e ? ", %d" : "%d", passes[e]);
-    if (e + 1 == n) thr_text_append(out, "]");
+  thr_write_line(w, 0);
+  thr_write_array(w, "edges");
+  for (int e = 0; e < f->n_edges; e++) {
+    thr_write_line(w, 0);
+    thr_write_array(w, NULL);
+    thr_write_int(w, NULL, f->edge[e][0]);
+    thr_write_int(w, NULL, f->edge[e][1]);
+    thr_write_close(w);
   }
+  thr_write_line(w, 0);
+  thr_write_close(w);
 }
 
-void thr_json_write(const thr_frame *f, thr_text *out)
+static void put_lengths(const thr_frame *f, thr_writer *w)
 {
-  thr_text_append(out, "{\n\"format\": \"thread-frame\",\n\"version\": 1,\n\"units\": ");
-  thr_text_json_string(out, f->units);
-  thr_text_append(out, ",\n\"nodes\": [");
+  thr_write_line(w, 0);
+  thr_write_array(w, "lengths");
+  for (int e = 0; e < f->n_edges; e++) {
+    thr_write_line(w, 0);
+    thr_write_number(w, NULL, f->length[e]);
+  }
+  thr_write_line(w, 0);
+  thr_write_close(w);
+}
+
+static void put_passes(const char *key, const int *passes, int n, thr_writer *w)
+{
+  thr_write_line(w, 0);
+  thr_write_array(w, key);
+  for (int e = 0; e < n; e++)
+    thr_write_int(w, NULL, passes[e]);
+  thr_write_close(w);
+}
+
+static void put_feet(const thr_frame *f, thr_writer *w)
+{
+  thr_write_line(w, 0);
+  thr_write_array(w, "feet");
+  for (int v = 0; v < f->n_nodes; v++)
+    if (f->foot[v]) thr_write_int(w, NULL, v);
+  thr_write_close(w);
+}
+
+static void put_names(const thr_frame *f, thr_writer *w)
+{
+  thr_write_line(w, 0);
+  thr_write_array(w, "names");
   for (int v = 0; v < f->n_nodes; v++) {
-    thr_text_append(out, v ? ",\n[" : "\n[");
-    write_point(f->xyz[v], ", ", out);
-    thr_text_append(out, "]");
+    thr_write_line(w, 0);
+    thr_write_string(w, NULL, f->name[v]);
   }
-  thr_text_append(out, "\n],\n\"edges\": [");
-  for (int e = 0; e < f->n_edges; e++)
-    thr_text_printf(out, "%s[%d, %d]", e ? ",\n" : "\n", f->edge[e][0], f->edge[e][1]);
-  thr_text_append(out, "\n]");
-  for (int e = 0; f->own_lengths && e < f->n_edges; e++) {
-    thr_text_append(out, e ? ",\n" : ",\n\"lengths\": [\n");
-    thr_text_double(out, f->length[e]);
-    if (e + 1 == f->n_edges) thr_text_append(out, "\n]");
-  }
-  write_passes("covers", f->cover, f->n_edges, out);
-  write_passes("capacities", f->capacity, f->n_edges, out);
-  if (has_feet(f)) {
-    thr_text_append(out, ",\n\"feet\": [");
-    write_feet(f, 0, ", ", out);
-    thr_text_append(out, "]");
-  }
-  if (!thr_frame_names_are_indices(f)) {
-    thr_text_append(out, ",\n\"names\": [");
-    for (int v = 0; v < f->n_nodes; v++) {
-      thr_text_append(out, v ? ",\n" : "\n");
-      thr_text_json_string(out, f->name[v]);
-    }
-    thr_text_append(out, "\n]");
-  }
-  thr_text_append(out, "\n}\n");
+  thr_write_line(w, 0);
+  thr_write_close(w);
+}
+
+void thr_json_frame_write(const thr_frame *f, thr_text *out)
+{
+  thr_writer w = {.out = out};
+  thr_write_object(&w, NULL);
+  thr_write_line(&w, 0);
+  thr_write_string(&w, "format", "thread-frame");
+  thr_write_line(&w, 0);
+  thr_write_int(&w, "version", 1);
+  thr_write_line(&w, 0);
+  thr_write_string(&w, "units", f->units);
+  put_rows_of_nodes(f, &w);
+  put_rows_of_edges(f, &w);
+  if (f->own_lengths) put_lengths(f, &w);
+  if (f->cover) put_passes("covers", f->cover, f->n_edges, &w);
+  if (f->capacity) put_passes("capacities", f->capacity, f->n_edges, &w);
+  if (has_feet(f)) put_feet(f, &w);
+  if (!thr_frame_names_are_indices(f)) put_names(f, &w);
+  thr_write_line(&w, 0);
+  thr_write_close(&w);
+  thr_text_append(out, "\n");
 }
 
 void thr_obj_write_nodes(const thr_frame *f, thr_text *out)
@@ -79,8 +117,9 @@ void thr_obj_write_nodes(const thr_frame *f, thr_text *out)
   thr_text_append_clean(out, f->units);
   thr_text_append(out, "\n");
   if (has_feet(f)) {
-    thr_text_append(out, "# feet: ");
-    write_feet(f, 1, " ", out);
+    thr_text_append(out, "# feet:");
+    for (int v = 0; v < f->n_nodes; v++)
+      if (f->foot[v]) thr_text_printf(out, " %d", v + 1);
     thr_text_append(out, "\n");
   }
   for (int v = 0; v < f->n_nodes; v++) {

@@ -77,59 +77,75 @@ void thr_tension_colour(const double range[2], double tension, char hex[8])
 
 /* ---- writing ---- */
 
-static void put_double(thr_text *t, const char *before, double value)
+static void put_tension(thr_writer *w, const thr_eval_cord *c, const double range[2])
 {
-  thr_text_append(t, before);
-  thr_text_double(t, value);
+  thr_write_line(w, 5);
+  thr_write_row(w, "tension");
+  for (int k = 0; k < c->n_passes; k++)
+    thr_write_number(w, NULL, c->tension[k]);
+  thr_write_close(w);
+  thr_write_line(w, 5);
+  thr_write_row(w, "colours");
+  for (int k = 0; k < c->n_passes; k++) {
+    char hex[8];
+    thr_tension_colour(range, c->tension[k], hex);
+    thr_write_string(w, NULL, hex);
+  }
+  thr_write_close(w);
 }
 
-static void put_cord(thr_text *t, const thr_eval_cord *c, int i, const double range[2])
+static void put_cord(thr_writer *w, const thr_eval_cord *c, int i, const double range[2])
 {
   char id[12];
   thr_cord_id(i, id);
-  thr_text_printf(t, "%s\n    {\"id\": \"%s\", \"known\": %s, \"pull\": \"%s\"", i ? "," : "", id, c->known ? "true" : "false",
-                  thr_pull_name(c->pull));
+  thr_write_line(w, 4);
+  thr_write_object(w, NULL);
+  thr_write_string(w, "id", id);
+  thr_write_bool(w, "known", c->known);
+  thr_write_string(w, "pull", thr_pull_name(c->pull));
   if (c->known) {
-    put_double(t, ", \"turning\": ", c->turning);
-    put_double(t, ", \"taut_turning\": ", c->taut_turning);
-    put_double(t, ",\n     \"force\": ", c->force);
-    put_double(t, ", \"other_force\": ", c->other_force);
-    put_double(t, ", \"loss\": ", c->loss);
-    put_double(t, ", \"work\": ", c->work);
-    put_double(t, ", \"error\": ", c->error);
-    thr_text_printf(t, ", \"slackest\": %d, \"refused\": %d,\n     \"tension\": [", c->slackest, c->refused);
-    for (int k = 0; k < c->n_passes; k++)
-      put_double(t, k ? "," : "", c->tension[k]);
-    thr_text_append(t, "],\n     \"colours\": [");
-    for (int k = 0; k < c->n_passes; k++) {
-      char hex[8];
-      thr_tension_colour(range, c->tension[k], hex);
-      thr_text_printf(t, "%s\"%s\"", k ? "," : "", hex);
-    }
-    thr_text_append(t, "]");
+    thr_write_number(w, "turning", c->turning);
+    thr_write_number(w, "taut_turning", c->taut_turning);
+    thr_write_line(w, 5);
+    thr_write_number(w, "force", c->force);
+    thr_write_number(w, "other_force", c->other_force);
+    thr_write_number(w, "loss", c->loss);
+    thr_write_number(w, "work", c->work);
+    thr_write_number(w, "error", c->error);
+    thr_write_int(w, "slackest", c->slackest);
+    thr_write_int(w, "refused", c->refused);
+    put_tension(w, c, range);
   }
-  thr_text_append(t, "}");
+  thr_write_close(w);
 }
 
-void thr_evaluation_write(const thr_evaluation *e, thr_text *t)
+void thr_evaluation_write(const thr_evaluation *e, thr_writer *w, const char *key)
 {
   double range[2];
   thr_evaluation_range(e, range);
-  thr_text_printf(t, "\"evaluation\": {\"method\": \"%s\"", thr_method_name(e->method));
-  if (e->method == THR_CAPSTAN) thr_text_printf(t, ", \"law\": \"%s\"", thr_law_name(e->law));
-  thr_text_append(t, ",\n  \"physics\": ");
-  thr_physics_write(&e->physics, t);
-  thr_text_printf(t, ",\n  \"seed\": %" PRIu64, e->seed);
-  put_double(t, ", \"time_step\": ", e->time_step);
-  put_double(t, ", \"iterations\": ", e->iterations);
-  put_double(t, ", \"largest\": ", e->largest);
-  put_double(t, ", \"total\": ", e->total);
-  put_double(t, ",\n  \"scale\": {\"low\": ", range[0]);
-  put_double(t, ", \"high\": ", range[1]);
-  thr_text_append(t, "},\n  \"cords\": [");
+  thr_write_object(w, key);
+  thr_write_string(w, "method", thr_method_name(e->method));
+  if (e->method == THR_CAPSTAN) thr_write_string(w, "law", thr_law_name(e->law));
+  thr_write_line(w, 2);
+  thr_physics_write(&e->physics, w, "physics");
+  thr_write_line(w, 2);
+  thr_write_printf(w, "seed", "%" PRIu64, e->seed);
+  thr_write_number(w, "time_step", e->time_step);
+  thr_write_number(w, "iterations", e->iterations);
+  thr_write_number(w, "largest", e->largest);
+  thr_write_number(w, "total", e->total);
+  thr_write_line(w, 2);
+  thr_write_object(w, "scale");
+  thr_write_number(w, "low", range[0]);
+  thr_write_number(w, "high", range[1]);
+  thr_write_close(w);
+  thr_write_line(w, 2);
+  thr_write_array(w, "cords");
   for (int i = 0; i < e->n_cords; i++)
-    put_cord(t, &e->cord[i], i, range);
-  thr_text_append(t, "\n  ]},\n");
+    put_cord(w, &e->cord[i], i, range);
+  thr_write_line(w, 2);
+  thr_write_close(w);
+  thr_write_close(w);
 }
 
 /* ---- reading: every failure is "place.member: what" ---- */

@@ -58,7 +58,7 @@ bool thr_evaluation_range(const thr_evaluation *e, double range[2]);
 void thr_tension_colour(const double range[2], double tension, char hex[8]);
 
 /* The member "evaluation" of plan.json, written after "metrics". */
-void thr_evaluation_write(const thr_evaluation *e, thr_text *t);
+void thr_evaluation_write(const thr_evaluation *e, thr_writer *w, const char *key);
 /* Reads it with its shape checked: known members only, one record per cord with its id, finite numbers, tensions of 0 or more,
  * one colour per tension, scale and colours as they follow from the tensions. place names file and member for messages;
  * THR_EVIOLATED. n_passes is that of the tension list, 0 for a cord that is not known: the reader of the plan compares and fills

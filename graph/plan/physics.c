@@ -214,19 +214,13 @@ thr_status thr_physics_read(thr_physics *p, const char *path, thr_err *err)
   return st;
 }
 
-void thr_physics_write(const thr_physics *p, thr_text *t)
+void thr_physics_write(const thr_physics *p, thr_writer *w, const char *key)
 {
-  thr_text_append(t, "{");
-  if (*p->preset) {
-    thr_text_append(t, "\"preset\": ");
-    thr_text_json_string(t, p->preset);
-    thr_text_append(t, ", ");
-  }
-  for (int i = 0; i < thr_physics_n_fields; i++) {
-    thr_text_printf(t, "%s\"%s\": ", i ? ", " : "", thr_physics_fields[i].key);
-    thr_text_double(t, thr_physics_get(p, &thr_physics_fields[i]));
-  }
-  thr_text_append(t, "}");
+  thr_write_object(w, key);
+  if (*p->preset) thr_write_string(w, "preset", p->preset);
+  for (int i = 0; i < thr_physics_n_fields; i++)
+    thr_write_number(w, thr_physics_fields[i].key, thr_physics_get(p, &thr_physics_fields[i]));
+  thr_write_close(w);
 }
 
 /* ---- against a framework ---- */

@@ -5,6 +5,7 @@
 
 #include "graph/framework/frame.h"
 #include "graph/io/json.h"
+#include "graph/io/writer.h"
 #include "graph/framework/units.h"
 
 /* Lengths in mm whatever the framework's units. 0 where it says so means "work it out": thr_physics_resolve. */
@@ -61,8 +62,8 @@ thr_status thr_physics_set_preset(thr_physics *p, const char *name, thr_err *err
 thr_status thr_physics_from_json(thr_physics *p, const thr_json *object, const char *place, thr_err *err) THR_MUST_CHECK;
 /* A file that holds one such object. */
 thr_status thr_physics_read(thr_physics *p, const char *path, thr_err *err) THR_MUST_CHECK;
-/* The object, on one line. */
-void thr_physics_write(const thr_physics *p, thr_text *t);
+/* That object, on one line. */
+void thr_physics_write(const thr_physics *p, thr_writer *w, const char *key);
 
 /* Fills in what is 0 = "work it out" and checks that the parts fit: bore > cord, bead > bore, shortest edge > bore,
  * mu_low <= mu <= mu_high, some mass. THR_EINPUT says which value does not fit and what to change. Edges are measured between

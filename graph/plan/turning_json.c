@@ -8,78 +8,109 @@
 
 /* ---- writing ---- */
 
-static void put_multipliers(thr_text *t, const int64_t *value, int n)
+static void put_multipliers(thr_writer *w, const char *key, const int64_t *value, int n)
 {
-  thr_text_append(t, "[");
+  thr_write_row(w, key);
   for (int i = 0; i < n; i++)
-    thr_text_printf(t, i ? ",%" PRId64 : "%" PRId64, value[i]);
-  thr_text_append(t, "]");
+    thr_write_int(w, NULL, value[i]);
+  thr_write_close(w);
 }
 
-static void put_sets(thr_text *t, const char *key, const thr_turning_set *set, int n)
+/* One of a list, each on its own line: an object with its value, open. */
+static void begin_item(thr_writer *w, int64_t value)
 {
-  thr_text_printf(t, ",\n     \"%s\": [", key);
+  thr_write_line(w, 6);
+  thr_write_object(w, NULL);
+  thr_write_int(w, "value", value);
+}
+
+static void begin_list(thr_writer *w, const char *key)
+{
+  thr_write_line(w, 5);
+  thr_write_array(w, key);
+}
+
+static void put_sets(thr_writer *w, const char *key, const thr_turning_set *set, int n)
+{
+  begin_list(w, key);
   for (int i = 0; i < n; i++) {
-    thr_text_printf(t, "%s      {\"value\": %" PRId64 ", \"members\": [", i ? ",\n" : "\n", set[i].value);
-    for (int k = 0; k < set[i].n; k++)
-      thr_text_printf(t, k ? ",%d" : "%d", set[i].member[k]);
-    thr_text_append(t, "]}");
+    begin_item(w, set[i].value);
+    thr_write_ints(w, "members", set[i].member, set[i].n);
+    thr_write_close(w);
   }
-  thr_text_append(t, "]");
+  thr_write_close(w);
 }
 
-static void put_junctions(thr_text *t, const thr_turning_dual *d, const thr_frame *f)
+static void put_partitions(thr_writer *w, const thr_turning_dual *d, int n_edges)
 {
-  thr_text_append(t, ",\n     \"junctions\": [");
+  begin_list(w, "partitions");
+  for (int i = 0; i < d->n_partitions; i++) {
+    begin_item(w, d->partition[i].value);
+    thr_write_ints(w, "blocks", d->partition[i].block, n_edges);
+    thr_write_close(w);
+  }
+  thr_write_close(w);
+}
+
+static void put_junctions(thr_writer *w, const thr_turning_dual *d, const thr_frame *f)
+{
+  begin_list(w, "junctions");
   for (int i = 0; i < d->n_junctions; i++) {
     const thr_turning_junction *p = &d->junction[i];
-    thr_text_printf(t, "%s      {\"value\": %" PRId64 ", \"node\": %d, \"blocks\": [", i ? ",\n" : "\n", p->value, p->node);
-    for (int k = 0; k < thr_degree(f, p->node); k++)
-      thr_text_printf(t, k ? ",%d" : "%d", p->block[k]);
-    thr_text_append(t, "]}");
+    begin_item(w, p->value);
+    thr_write_int(w, "node", p->node);
+    thr_write_ints(w, "blocks", p->block, thr_degree(f, p->node));
+    thr_write_close(w);
   }
-  thr_text_append(t, "]");
+  thr_write_close(w);
 }
 
-static void put_dual(thr_text *t, const thr_turning_dual *d, const thr_frame *f, int n_ends)
+static void put_dual(thr_writer *w, const thr_turning_dual *d, const thr_frame *f, int n_ends)
 {
-  thr_text_append(t, "{\"potentials\": ");
-  put_multipliers(t, d->potential, 2 * f->n_edges);
-  thr_text_append(t, ",\n     \"ends\": ");
-  put_multipliers(t, d->ends, n_ends);
-  thr_text_printf(t, ", \"length\": %" PRId64, d->length);
-  put_sets(t, "odd_sets", d->odd, d->n_odd);
-  put_sets(t, "groups", d->group, d->n_groups);
-  thr_text_append(t, ",\n     \"partitions\": [");
-  for (int i = 0; i < d->n_partitions; i++) {
-    thr_text_printf(t, "%s      {\"value\": %" PRId64 ", \"blocks\": [", i ? ",\n" : "\n", d->partition[i].value);
-    for (int e = 0; e < f->n_edges; e++)
-      thr_text_printf(t, e ? ",%d" : "%d", d->partition[i].block[e]);
-    thr_text_append(t, "]}");
-  }
-  thr_text_append(t, "]");
-  if (d->n_junctions) put_junctions(t, d, f);
-  thr_text_append(t, "}");
+  thr_write_object(w, NULL);
+  put_multipliers(w, "potentials", d->potential, 2 * f->n_edges);
+  thr_write_line(w, 5);
+  put_multipliers(w, "ends", d->ends, n_ends);
+  thr_write_int(w, "length", d->length);
+  put_sets(w, "odd_sets", d->odd, d->n_odd);
+  put_sets(w, "groups", d->group, d->n_groups);
+  put_partitions(w, d, f->n_edges);
+  if (d->n_junctions) put_junctions(w, d, f);
+  thr_write_close(w);
 }
 
-void thr_turning_proof_write(const thr_turning_proof *p, const thr_frame *f, thr_text *t)
+static void put_node(thr_writer *w, const thr_turning_node *n)
 {
-  thr_text_append(t, "{\"tree\": [");
+  thr_write_object(w, NULL);
+  if (n->low) {
+    thr_write_int(w, "low", n->low);
+    thr_write_int(w, "high", n->high);
+    thr_write_int(w, "a", n->a);
+    thr_write_int(w, "b", n->b);
+    thr_write_int(w, "value", n->value);
+  } else {
+    thr_write_int(w, "multipliers", n->dual);
+  }
+  thr_write_close(w);
+}
+
+void thr_turning_proof_write(const thr_turning_proof *p, const thr_frame *f, thr_writer *w, const char *key)
+{
+  thr_write_object(w, key);
+  thr_write_array(w, "tree");
   for (int i = 0; i < p->n_nodes; i++) {
-    const thr_turning_node *n = &p->node[i];
-    thr_text_append(t, i ? ",\n    " : "\n    ");
-    if (n->low)
-      thr_text_printf(t, "{\"low\": %d, \"high\": %d, \"a\": %d, \"b\": %d, \"value\": %d}", n->low, n->high, n->a, n->b,
-                      n->value);
-    else
-      thr_text_printf(t, "{\"multipliers\": %d}", n->dual);
+    thr_write_line(w, 4);
+    put_node(w, &p->node[i]);
   }
-  thr_text_append(t, "],\n   \"multipliers\": [");
+  thr_write_close(w);
+  thr_write_line(w, 3);
+  thr_write_array(w, "multipliers");
   for (int i = 0; i < p->n_duals; i++) {
-    thr_text_append(t, i ? ",\n    " : "\n    ");
-    put_dual(t, &p->dual[i], f, p->n_ends);
+    thr_write_line(w, 4);
+    put_dual(w, &p->dual[i], f, p->n_ends);
   }
-  thr_text_append(t, "]}");
+  thr_write_close(w);
+  thr_write_close(w);
 }
 
 /* ---- reading ---- */

@@ -26,6 +26,7 @@
 
 #include "graph/framework/frame.h"
 #include "graph/io/json.h"
+#include "graph/io/writer.h"
 
 typedef enum {
   THR_TURN_ANGLE, /* rad, 0 = straight on */
@@ -188,7 +189,7 @@ thr_status thr_turning_proof_check_columns(const thr_turning_columns *c, const t
 
 /* JSON of a proof, one object; and back, strictly: unknown, missing or mistyped members and indices that the framework does not
  * have are THR_EVIOLATED, "place: what". Whether it proves anything is for thr_turning_proof_check. */
-void thr_turning_proof_write(const thr_turning_proof *p, const thr_frame *f, thr_text *t);
+void thr_turning_proof_write(const thr_turning_proof *p, const thr_frame *f, thr_writer *w, const char *key);
 thr_status thr_turning_proof_from_json(thr_turning_proof *p, const thr_frame *f, const thr_json *v, const char *place,
                                        thr_err *err) THR_MUST_CHECK;
 

@@ -645,10 +645,10 @@ static void assert_round_trip(const thr_frame *f, const thr_least *l)
   thr_err err = {0};
   thr_turning_proof p;
   double bound;
-  thr_turning_proof_write(&l->proof, f, &text);
+  thr_turning_proof_write(&l->proof, f, &(thr_writer){.out = &text}, NULL);
   ck_assert_int_eq(thr_json_parse(&doc, text.data, text.length, "proof", &err), THR_OK);
   ck_assert_msg(thr_turning_proof_from_json(&p, f, doc, "proof", &err) == THR_OK, "%s", err.text);
-  thr_turning_proof_write(&p, f, &again);
+  thr_turning_proof_write(&p, f, &(thr_writer){.out = &again}, NULL);
   assert_same_text(&text, &again);
   ck_assert_int_eq(thr_turning_proof_check(f, &l->task, &p, &bound, &err), THR_OK);
   ck_assert_double_eq(bound, l->bound);

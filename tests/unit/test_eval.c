@@ -183,8 +183,8 @@ END_TEST
 static void assert_same_bits(const thr_eval *a, const thr_eval *b)
 {
   thr_text x = {0}, y = {0};
-  thr_evaluation_write(&a->record, &x); /* all digits */
-  thr_evaluation_write(&b->record, &y);
+  thr_evaluation_write(&a->record, &(thr_writer){.out = &x}, NULL); /* all digits */
+  thr_evaluation_write(&b->record, &(thr_writer){.out = &y}, NULL);
   assert_same_text(&x, &y);
   ck_assert(memcmp(a->band, b->band, sizeof a->band) == 0 && a->error == b->error && a->refused == b->refused);
   ck_assert_int_eq(a->refused, a->refused_sharp + a->refused_outside + a->refused_unsettled);

@@ -3,6 +3,7 @@
 #include "tests/support.h"
 #include "graph/angle.h"
 #include "graph/io/json.h"
+#include "graph/io/writer.h"
 #include "graph/sort.h"
 
 #include <limits.h>
@@ -323,6 +324,66 @@ static thr_json *parse(const char *text)
   return doc;
 }
 
+static void put_document(thr_writer *w)
+{
+  thr_text words = {0};
+  thr_text_append(&words, "a \"b\"");
+  thr_write_object(w, NULL);
+  thr_write_line(w, 2);
+  thr_write_ints(w, "list", (const int[]){1, -2}, 2);
+  thr_write_number(w, "half", 0.5);
+  thr_write_number(w, "none", INFINITY);
+  thr_write_line(w, 2);
+  thr_write_array(w, "rows");
+  for (int i = 0; i < 2; i++) {
+    thr_write_row(w, NULL);
+    thr_write_bool(w, NULL, i == 0);
+    thr_write_null(w, NULL);
+    thr_write_close(w);
+  }
+  thr_write_object(w, NULL);
+  thr_write_close(w);
+  thr_write_close(w);
+  thr_write_words(w, "a\nkey", &words);
+  thr_write_hash(w, "hash", 0xabcu);
+  thr_write_printf(w, "three", "%.2f", 3.0);
+  thr_write_line(w, 0);
+  thr_write_close(w);
+}
+
+START_TEST(json_is_written)
+{
+  thr_text loose = {0}, compact = {0};
+  put_document(&(thr_writer){.out = &loose});
+  put_document(&(thr_writer){.out = &compact, .compact = true});
+  ck_assert_str_eq(loose.data,
+                   "{\n  \"list\": [1,-2], \"half\": 0.5, \"none\": null,\n  \"rows\": [[true,null], [false,null], {}], "
+                   "\"a\\u000akey\": \"a \\\"b\\\"\", \"hash\": \"0000000000000abc\", \"three\": 3.00\n}");
+  ck_assert_str_eq(compact.data, "{\n  \"list\":[1,-2],\"half\":0.5,\"none\":null,\n  \"rows\":[[true,null],[false,null],{}],"
+                                 "\"a\\u000akey\":\"a \\\"b\\\"\",\"hash\":\"0000000000000abc\",\"three\":3.00\n}");
+  thr_text_destroy(&loose);
+  thr_text_destroy(&compact);
+}
+END_TEST
+
+/* Whichever allocation fails, the text knows; without a failure it is whole. */
+START_TEST(json_writing_remembers_failures)
+{
+  bool failed = true;
+  int k = 0;
+  while (failed) {
+    thr_text text = {0};
+    thr_alloc_fail_once(++k);
+    put_document(&(thr_writer){.out = &text});
+    thr_alloc_fail_at(0);
+    failed = text.failed;
+    if (!failed) ck_assert_int_eq(text.data[text.length - 1], '}');
+    thr_text_destroy(&text);
+  }
+  ck_assert_int_gt(k, 2);
+}
+END_TEST
+
 START_TEST(json_values_are_read)
 {
   thr_json *doc = parse("\xef\xbb\xbf{\"z\": [1, 2.0, 2.5, \"x\", true, null], \"a\": 9223372036854775807}");
@@ -398,6 +459,8 @@ int main(void)
   ADD_TEST(s, 10, messages_are_clean);
   ADD_TEST(s, 10, failed_append_is_remembered);
   ADD_TEST(s, 10, files_are_replaced_whole);
+  ADD_TEST(s, 10, json_is_written);
+  ADD_TEST(s, 10, json_writing_remembers_failures);
   ADD_TEST(s, 10, json_values_are_read);
   ADD_TEST(s, 10, json_absent_is_harmless);
   ADD_TEST(s, 10, json_errors_name_the_place);

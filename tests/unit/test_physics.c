@@ -148,7 +148,7 @@ START_TEST(json_there_and_back)
     if (rng_below(&r, 2)) set(&p, thr_physics_fields[i].key, thr_physics_fields[i].high * (1 - rng_unit(&r)));
   thr_text t = {0};
   thr_err err = {0};
-  thr_physics_write(&p, &t);
+  thr_physics_write(&p, &(thr_writer){.out = &t}, NULL);
   ck_assert(!t.failed && strchr(t.data, '\n') == NULL);
   ck_assert_msg(parse(&q, t.data, &err) == THR_OK, "%s", err.text);
   assert_same(&p, &q);
