@@ -158,54 +158,6 @@ thr_status thr_walk_rotate(thr_walk *w, int at, thr_err *err)
   return THR_OK;
 }
 
-/* A new walk of the passes from .. end - 1 of walk i. */
-static thr_status copy_section(thr_walks *w, const thr_frame *f, int i, int from, int end, bool cyclic, thr_err *err)
-{
-  int n = end - from;
-  thr_walk new = {n, thr_calloc((size_t)n, sizeof *new.half), 0, cyclic};
-  if (!new.half) return thr_nomem(err);
-  memcpy(new.half, w->walk[i].half + from, (size_t)n * sizeof *new.half);
-  return thr_walks_add(w, f, new, err);
-}
-
-thr_status thr_walks_split(thr_walks *w, const thr_frame *f, int i, int at, thr_err *err)
-{
-  thr_status st = copy_section(w, f, i, at, w->walk[i].n, false, err);
-  if (st) return st;
-  thr_walk *x = &w->walk[i];
-  x->n = at;
-  x->cyclic = false;
-  x->length = thr_walk_length(f, x->half, x->n);
-  return THR_OK;
-}
-
-thr_status thr_walks_take_section(thr_walks *w, const thr_frame *f, int i, int from, int end, thr_err *err)
-{
-  thr_status st = copy_section(w, f, i, from, end, true, err);
-  if (st) return st;
-  thr_walk *x = &w->walk[i];
-  memmove(x->half + from, x->half + end, (size_t)(x->n - end) * sizeof *x->half);
-  x->n -= end - from;
-  x->length = thr_walk_length(f, x->half, x->n);
-  return THR_OK;
-}
-
-thr_status thr_walks_merge(thr_walks *w, const thr_frame *f, int a, int at_a, int b, int at_b, bool against, thr_err *err)
-{
-  thr_walk *x = &w->walk[a], *y = &w->walk[b];
-  int *half = thr_realloc(x->half, (size_t)x->n + (size_t)y->n, sizeof *half);
-  if (!half) return thr_nomem(err);
-  x->half = half;
-  memmove(half + at_a + y->n, half + at_a, (size_t)(x->n - at_a) * sizeof *half);
-  for (int i = 0; i < y->n; i++)
-    half[at_a + i] = against ? y->half[(at_b + 2 * y->n - 1 - i) % y->n] ^ 1 : y->half[(at_b + i) % y->n];
-  x->n += y->n;
-  x->length = thr_walk_length(f, half, x->n);
-  free(y->half);
-  *y = w->walk[--w->n_walks];
-  return THR_OK;
-}
-
 /* ---- visits ---- */
 
 thr_status thr_walk_visits_init(thr_walk_visits *x, const thr_frame *f, const thr_walks *w, thr_err *err)

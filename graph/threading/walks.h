@@ -45,17 +45,6 @@ void thr_walk_reverse(int *half, int n);
 /* Turns a cyclic walk round so that it starts with what was its pass number at. */
 thr_status thr_walk_rotate(thr_walk *w, int at, thr_err *err) THR_MUST_CHECK;
 
-/* Walk i keeps its passes before number at, 0 < at < n; the others become a new walk, the last. */
-thr_status thr_walks_split(thr_walks *w, const thr_frame *f, int i, int at, thr_err *err) THR_MUST_CHECK;
-
-/* Passes from .. end - 1 of the cyclic walk i, which start and end at one node, become a cyclic walk of their own. */
-thr_status thr_walks_take_section(thr_walks *w, const thr_frame *f, int i, int from, int end, thr_err *err) THR_MUST_CHECK;
-
-/* Cyclic walk b goes into cyclic walk a before its pass at_a, beginning with its own pass at_b, or against its direction with
- * the one before. Walk b takes the number of the last. */
-thr_status thr_walks_merge(thr_walks *w, const thr_frame *f, int a, int at_a, int b, int at_b, bool against,
-                           thr_err *err) THR_MUST_CHECK;
-
 /* Price of going on from half-edge in with out: the turn in rad, and much more for a turn back. */
 double thr_walk_turn(const thr_frame *f, int in, int out);
 

@@ -155,10 +155,10 @@ thr_status thr_balance_walks(const thr_share *s, thr_walks *w, double goal, cons
   b.steps = STEPS_LEAST + STEPS_PER_PASS * all;
   b.first = thr_calloc(n, sizeof *b.first);
   ranked *order = thr_calloc((size_t)w->n_walks, sizeof *order);
-  thr_knots ties = {0};
+  thr_junction_graphs ties = {0};
   thr_status st = b.first && order ? THR_OK : thr_nomem(err);
   if (!st && s->o->joint == THR_JOINT_TUBE) {
-    st = thr_knots_init(&ties, s->f, w, err);
+    st = thr_junction_graphs_init(&ties, s->f, w, err);
     b.ties = &ties;
   }
   if (!st) {
@@ -168,6 +168,6 @@ thr_status thr_balance_walks(const thr_share *s, thr_walks *w, double goal, cons
   free(b.first);
   free(b.merged);
   free(order);
-  thr_knots_destroy(&ties);
+  thr_junction_graphs_destroy(&ties);
   return st;
 }

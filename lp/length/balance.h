@@ -4,21 +4,21 @@
 #define THR_BALANCE_H
 
 #include "lp/length/share.h"
-#include "lp/length/knots.h"
 
 /* One component's cords on the way; all arrays are owned by whoever fills it. */
 typedef struct {
   const thr_share *s;
   const thr_limits *limits;
-  thr_walks *w;    /* cyclic with THR_ENDS_CLOSED, else open */
-  thr_knots *ties; /* tube joints: of these walks, which every change leaves tied; else NULL */
-  int *passes;     /* [n_edges] of these walks */
-  double goal;     /* shorter than this the longest need not be */
-  uint64_t random; /* state */
-  int64_t steps;   /* left; what a search costs */
-  int *first;      /* [n_nodes] -1 between uses */
-  int room;        /* of merged */
-  int *merged;     /* [passes of the two walks] of an exchange between cyclic walks */
+  thr_walks *w;              /* cyclic with THR_ENDS_CLOSED, else open */
+  thr_junction_graphs *ties; /* tube joints: of these walks, which every change leaves tied; else NULL */
+  int *passes;               /* [n_edges] of these walks */
+  double goal;               /* shorter than this the longest need not be */
+  uint64_t random;           /* state */
+  int64_t steps;             /* left; what a search costs */
+  int *first;                /* [n_nodes] -1 between uses */
+  int room;                  /* of merged */
+  int *merged;               /* [passes of the two walks] of an exchange between cyclic walks */
+  int *way;                  /* [n_nodes] of a detour */
 } thr_balance;
 
 /* Exchanges until no walk is longer than goal, none helps, or the limits stop it. passes[n_edges] are those of all components and

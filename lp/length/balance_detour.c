@@ -20,15 +20,6 @@ typedef struct {
   bool back, backwards;
 } detour;
 
-static int way_to(const thr_frame *f, const thr_ways *x, int goal, int *half)
-{
-  int n = 0;
-  for (int v = goal; x->over[v] >= 0; v = thr_tail(f, x->over[v]))
-    half[n++] = x->over[v] ^ 1;
-  thr_walk_reverse(half, n);
-  return n;
-}
-
 /* Where q is at the start of the way to goal. */
 static int leave_at(const thr_frame *f, const thr_ways *x, int goal, const thr_walk *q)
 {
@@ -40,57 +31,34 @@ static int leave_at(const thr_frame *f, const thr_ways *x, int goal, const thr_w
   return at;
 }
 
-/* Pass number at of a walk; -1: before or after an open one. */
-static int pass_at(const thr_walk *w, int at)
+/* Walk q, and then p, as the detour leaves them. */
+static thr_splice splice_of(const thr_balance *b, const thr_ways *x, int p, int q, const detour *d)
 {
-  if (at >= 0 && at < w->n) return w->half[at];
-  return w->cyclic ? w->half[at < 0 ? w->n - 1 : 0] : -1;
-}
-
-/* The turns that go and come; those inside the way, which only come, are left out. */
-static thr_knots_change change_of(const thr_balance *b, const thr_ways *x, int p, int q, const detour *d)
-{
-  thr_knots_change c = {.n = 0};
   const thr_walk *v = &b->w->walk[p], *w = &b->w->walk[q];
-  int at = d->back ? leave_at(b->s->f, x, d->goal, w) : w->n, before = pass_at(w, at - 1), after = pass_at(w, at);
-  int in = d->backwards ? v->half[d->end - 1] ^ 1 : v->half[d->from];
-  int out = d->backwards ? v->half[d->from] ^ 1 : v->half[d->end - 1];
-  thr_knots_note(&c, pass_at(v, d->from - 1), v->half[d->from], -1);
-  thr_knots_note(&c, v->half[d->end - 1], pass_at(v, d->end), -1);
-  thr_knots_note(&c, pass_at(v, d->from - 1), pass_at(v, d->end), 1);
-  if (d->back) thr_knots_note(&c, before, after, -1);
-  int last = x->over[d->goal], first = last; /* of the way */
-  for (int h = last; h >= 0; h = x->over[thr_tail(b->s->f, h)])
-    first = h;
-  thr_knots_note(&c, before, last < 0 ? in : first, 1);
-  thr_knots_note(&c, last, in, 1);
-  if (!d->back) return c;
-  thr_knots_note(&c, out, last < 0 ? after : last ^ 1, 1);
-  if (last >= 0) thr_knots_note(&c, first ^ 1, after, 1);
-  return c;
+  int at = d->back ? leave_at(b->s->f, x, d->goal, w) : w->n, n = thr_ways_path(x, d->goal, b->way);
+  thr_splice s = thr_splice_of(v->cyclic, w, v);
+  thr_splice_add(&s, 2, b->way, n);
+  thr_splice_put(&s, 0, 0, at, false);
+  thr_splice_put(&s, 2, 0, n, false);
+  thr_splice_put(&s, 1, d->from, d->end, d->backwards);
+  if (d->back) thr_splice_put(&s, 2, 0, n, true);
+  thr_splice_put(&s, 0, at, w->n, false);
+  thr_splice_next(&s);
+  thr_splice_put(&s, 1, 0, d->from, false);
+  thr_splice_put(&s, 1, d->end, v->n, false);
+  return s;
 }
 
 static void offer(thr_balance *b, const thr_ways *x, int p, int q, detour d, detour *best)
 {
   if (d.longer >= best->longer) return;
   if (b->ties) {
-    thr_knots_change c = change_of(b, x, p, q, &d);
+    thr_splice s = splice_of(b, x, p, q, &d);
+    thr_turn_change c = thr_splice_turns(&s);
     b->steps -= c.n;
-    if (!thr_knots_allow(b->ties, &c)) return;
+    if (!thr_junction_graphs_allow(b->ties, &c)) return;
   }
   *best = d;
-}
-
-/* After it was offered. The way counts there and, if d says so, back. */
-static void make_turns(thr_balance *b, const thr_ways *x, int p, int q, const detour *d)
-{
-  thr_knots_change c = change_of(b, x, p, q, d);
-  thr_knots_make(b->ties, &c);
-  for (int h = x->over[d->goal]; h >= 0; h = x->over[thr_tail(b->s->f, h)]) {
-    c.n = 0;
-    thr_knots_note(&c, x->over[thr_tail(b->s->f, h)], h, d->back ? 2 : 1);
-    thr_knots_make(b->ties, &c);
-  }
 }
 
 /* ---- passes that nothing needs ---- */
@@ -121,11 +89,11 @@ static void drop_turns_back(thr_balance *b, thr_walk *w)
 /* Does what is tied hold without the last pass of a walk? Then it is gone from the ties. */
 static bool untie_last(thr_balance *b, const thr_walk *w)
 {
-  thr_knots_change c = {.n = 0};
+  thr_turn_change c = {.n = 0};
   if (!b->ties) return true;
-  thr_knots_note(&c, w->half[w->n - 2], w->half[w->n - 1], -1);
-  if (!thr_knots_allow(b->ties, &c)) return false;
-  thr_knots_make(b->ties, &c);
+  thr_turn_change_note(&c, w->half[w->n - 2], w->half[w->n - 1], -1);
+  if (!thr_junction_graphs_allow(b->ties, &c)) return false;
+  thr_junction_graphs_make(b->ties, &c);
   return true;
 }
 
@@ -154,33 +122,9 @@ static void prune(thr_balance *b, int p)
 
 static thr_status make(thr_balance *b, const thr_ways *x, int p, int q, const detour *d, thr_err *err)
 {
-  const thr_frame *f = b->s->f;
-  thr_walk *v = &b->w->walk[p], *w = &b->w->walk[q];
-  int section = d->end - d->from, n = 0, at = d->back ? leave_at(f, x, d->goal, w) : w->n;
-  int *half = thr_calloc((size_t)(w->n + section) + 2 * (size_t)f->n_nodes, sizeof *half);
-  if (!half) return thr_nomem(err);
-  if (b->ties) make_turns(b, x, p, q, d);
-  memcpy(half, w->half, (size_t)at * sizeof *half);
-  n = at;
-  int way = way_to(f, x, d->goal, half + n);
-  for (int i = 0; i < way; i++)
-    b->passes[half[n + i] >> 1] += d->back ? 2 : 1;
-  n += way;
-  memcpy(half + n, v->half + d->from, (size_t)section * sizeof *half);
-  if (d->backwards) thr_walk_reverse(half + n, section);
-  n += section;
-  if (d->back) {
-    memcpy(half + n, half + at, (size_t)way * sizeof *half);
-    thr_walk_reverse(half + n, way);
-    n += way;
-  }
-  memcpy(half + n, w->half + at, (size_t)(w->n - at) * sizeof *half);
-  n += w->n - at;
-  free(w->half);
-  *w = (thr_walk){n, half, thr_walk_length(f, half, n), w->cyclic};
-  memmove(v->half + d->from, v->half + d->end, (size_t)(v->n - d->end) * sizeof *v->half);
-  v->n -= section;
-  v->length = thr_walk_length(f, v->half, v->n);
+  thr_splice s = splice_of(b, x, p, q, d);
+  thr_status st = thr_splice_make(&s, b->s->f, b->w, q, p, b->ties, b->passes, err);
+  if (st) return st;
   prune(b, p);
   prune(b, q);
   return THR_OK;
@@ -245,6 +189,7 @@ thr_status thr_balance_detour(thr_balance *b, int p, int q, double below, bool *
   detour best = none;
   *made = false;
   thr_status st = thr_ways_init(&x, b->s->f, err);
+  if (!(b->way = thr_calloc((size_t)b->s->f->n_nodes, sizeof *b->way)) && !st) st = thr_nomem(err);
   if (!st) st = find_sections(b, &x, p, q, &best, err);
   if (!st && (*made = best.longer < below)) st = make(b, &x, p, q, &best, err);
   bool free_ends = !b->w->walk[p].cyclic && b->s->o->ends != THR_ENDS_COUNTS;
@@ -255,5 +200,6 @@ thr_status thr_balance_detour(thr_balance *b, int p, int q, double below, bool *
     if (!st && (*made = best.longer < below)) st = make(b, &x, p, q, &best, err);
   }
   thr_ways_destroy(&x);
+  free(b->way);
   return st;
 }

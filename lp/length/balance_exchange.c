@@ -50,128 +50,67 @@ static thr_status measure(const thr_balance *b, const thr_walk *w, measured *m, 
 
 /* ---- what an exchange does ---- */
 
-/* Two walks in a row: position at of all is position at of one, or at - n of the other. */
-typedef struct {
-  const int *one, *other;
-  int n, n_other;
-  bool cyclic;
-} row;
-
-/* Positions from .. end - 1 of a row, perhaps backwards. */
-typedef struct {
-  int from, end;
-  bool backwards;
-} piece;
-
-enum { MOST_PIECES = 10 };
-
-typedef struct {
-  piece list[MOST_PIECES];
-  int n, first; /* the first walk afterwards is list[0 .. first - 1] */
-} pieces;
-
-static void put(pieces *x, int from, int end, bool backwards)
+/* Positions from .. end - 1 of two walks in a row. */
+static void put_in_row(thr_splice *s, int from, int end)
 {
-  if (end > from) x->list[x->n++] = (piece){from, end, backwards};
-}
-
-/* Cuts at the end of the one walk, so that no piece is of both. */
-static void put_cut(pieces *x, const row *r, int from, int end)
-{
-  int cut = from < r->n && r->n < end ? r->n : end;
-  put(x, from, cut, false);
-  put(x, cut, end, false);
+  int n = s->row[0].n;
+  thr_splice_put(s, 0, from, end < n ? end : n, false);
+  thr_splice_put(s, 1, from > n ? from - n : 0, end - n, false);
 }
 
 /* The two walks in a row as x->k says, the first part of them x->i passes long. */
-static void put_joined(pieces *out, const row *r, const thr_exchange *x)
+static void put_joined(thr_splice *s, const thr_exchange *x)
 {
-  const piece part[2] = {{0, r->n, x->k & 1}, {r->n, r->n + r->n_other, x->k & 2}};
-  for (int i = 0, done = 0; i < 2; done += part[i].end - part[i].from, i++) {
-    int from = part[i].from, end = part[i].end, before = x->i - done;
+  for (int i = 0, done = 0; i < 2; done += s->row[i].n, i++) {
+    int n = s->row[i].n, before = x->i - done;
+    bool back = x->k & (i + 1);
     if (before < 0) before = 0;
-    if (before > end - from) before = end - from;
-    int cut = part[i].backwards ? end - before : from + before;
-    put(out, part[i].backwards ? cut : from, part[i].backwards ? end : cut, part[i].backwards);
-    if (done < x->i && x->i <= done + end - from) out->first = out->n;
-    put(out, part[i].backwards ? from : cut, part[i].backwards ? cut : end, part[i].backwards);
+    if (before > n) before = n;
+    int cut = back ? n - before : before;
+    thr_splice_put(s, i, back ? cut : 0, back ? n : cut, back);
+    if (done < x->i && x->i <= done + n) thr_splice_next(s);
+    thr_splice_put(s, i, back ? 0 : cut, back ? cut : n, back);
   }
 }
 
-static pieces pieces_of(const row *r, const thr_exchange *x)
+/* Exchange x of the two walks in s. */
+static void put_exchange(thr_splice *s, const thr_exchange *x)
 {
-  pieces out = {.n = 0};
-  int i = x->i, j = x->j, k = x->k, n = r->n, all = r->n + r->n_other;
+  int i = x->i, j = x->j, n = s->row[0].n, m = s->row[1].n;
   switch (x->kind) {
   case THR_EXCHANGE_TAILS:
-    put(&out, 0, i, false);
-    put(&out, n + j, all, false);
-    out.first = out.n;
-    put(&out, n, n + j, false);
-    put(&out, i, n, false);
+    thr_splice_put(s, 0, 0, i, false);
+    thr_splice_put(s, 1, j, m, false);
+    thr_splice_next(s);
+    thr_splice_put(s, 1, 0, j, false);
+    thr_splice_put(s, 0, i, n, false);
     break;
   case THR_EXCHANGE_CROSS:
-    put(&out, 0, i, false);
-    put(&out, n, n + j, true);
-    out.first = out.n;
-    put(&out, i, n, true);
-    put(&out, n + j, all, false);
+    thr_splice_put(s, 0, 0, i, false);
+    thr_splice_put(s, 1, 0, j, true);
+    thr_splice_next(s);
+    thr_splice_put(s, 0, i, n, true);
+    thr_splice_put(s, 1, j, m, false);
     break;
   case THR_EXCHANGE_GIVE:
-    put(&out, 0, i, false);
-    put(&out, j, n, false);
-    out.first = out.n;
-    put(&out, n, n + k, false);
-    put(&out, i, j, false);
-    put(&out, n + k, all, false);
+    thr_splice_put(s, 0, 0, i, false);
+    thr_splice_put(s, 0, j, n, false);
+    thr_splice_next(s);
+    thr_splice_put(s, 1, 0, x->k, false);
+    thr_splice_put(s, 0, i, j, false);
+    thr_splice_put(s, 1, x->k, m, false);
     break;
-  case THR_EXCHANGE_JOIN: put_joined(&out, r, x); break;
+  case THR_EXCHANGE_JOIN: put_joined(s, x); break;
   default:
-    put_cut(&out, r, i, j);
-    out.first = out.n;
-    put_cut(&out, r, 0, i);
-    put_cut(&out, r, j, all);
+    put_in_row(s, i, j);
+    thr_splice_next(s);
+    put_in_row(s, 0, i);
+    put_in_row(s, j, n + m);
   }
-  return out;
-}
-
-static int half_at(const row *r, int at)
-{
-  return at < r->n ? r->one[at] : r->other[at - r->n];
-}
-
-static int first_half(const row *r, const piece *p)
-{
-  return p->backwards ? half_at(r, p->end - 1) ^ 1 : half_at(r, p->from);
-}
-
-static int last_half(const row *r, const piece *p)
-{
-  return p->backwards ? half_at(r, p->from) ^ 1 : half_at(r, p->end - 1);
-}
-
-/* Turns where the pieces were cut, and where they meet now. */
-static thr_knots_change change_of(const row *r, const pieces *x)
-{
-  thr_knots_change c = {.n = 0};
-  int all = r->n + r->n_other;
-  for (int i = 0; i < x->n; i++) {
-    int from = x->list[i].from;
-    if (from != 0 && from != r->n)
-      thr_knots_note(&c, half_at(r, from - 1), half_at(r, from), -1);
-    else if (r->cyclic)
-      thr_knots_note(&c, half_at(r, from ? all - 1 : r->n - 1), half_at(r, from), -1);
-  }
-  for (int i = 0; i < x->n; i++) {
-    bool start = i == 0 || i == x->first;
-    int before = !start ? i - 1 : i == 0 ? x->first - 1 : x->n - 1;
-    if (!start || r->cyclic) thr_knots_note(&c, last_half(r, &x->list[before]), first_half(r, &x->list[i]), 1);
-  }
-  return c;
 }
 
 /* What asking about the joints of a change costs beyond the usual: nodes of very many edges are walked through. */
-static int64_t hub_steps(const thr_balance *b, const thr_knots_change *c)
+static int64_t hub_steps(const thr_balance *b, const thr_turn_change *c)
 {
   enum { USUAL = 64 };
   int64_t steps = 0;
@@ -183,31 +122,27 @@ static int64_t hub_steps(const thr_balance *b, const thr_knots_change *c)
 }
 
 /* The better of two, if the joints allow it. With joints to ask about this is what takes the time. */
-static void offer(thr_balance *b, const row *r, thr_exchange x, thr_exchange *best)
+static void offer(thr_balance *b, const thr_splice *walks, thr_exchange x, thr_exchange *best)
 {
   if (x.longer >= best->longer) return;
   if (b->ties) {
     if (thr_limits_stop(b->limits)) return;
-    pieces list = pieces_of(r, &x);
-    thr_knots_change c = change_of(r, &list);
+    thr_splice s = *walks;
+    put_exchange(&s, &x);
+    thr_turn_change c = thr_splice_turns(&s);
     b->steps -= c.n + hub_steps(b, &c);
-    if (!thr_knots_allow(b->ties, &c)) return;
+    if (!thr_junction_graphs_allow(b->ties, &c)) return;
   }
   *best = x;
 }
 
 /* ---- open walks: tails, sections, common ends ---- */
 
-static row row_of(const measured *p, const measured *q)
-{
-  return (row){p->w->half, q->w->half, p->w->n, q->w->n, false};
-}
-
 /* TAILS: p[0, i) q[j, ..) and q[0, j) p[i, ..). CROSS: p[0, i) and q[0, j) backwards, p[i, ..) backwards and q[j, ..). */
 static void offer_tails(thr_balance *b, const measured *p, int i, const measured *q, int j, thr_exchange *best)
 {
   int np = p->w->n, nq = q->w->n;
-  row r = row_of(p, q);
+  thr_splice r = thr_splice_of(false, p->w, q->w);
   double all = p->sum[np] + q->sum[nq], tails = p->sum[i] + q->sum[nq] - q->sum[j], cross = p->sum[i] + q->sum[j];
   if (i + nq - j > 0 && j + np - i > 0) offer(b, &r, (thr_exchange){THR_EXCHANGE_TAILS, fmax(tails, all - tails), i, j, 0}, best);
   if (i + j > 0 && np - i + nq - j > 0) offer(b, &r, (thr_exchange){THR_EXCHANGE_CROSS, fmax(cross, all - cross), i, j, 0}, best);
@@ -216,7 +151,7 @@ static void offer_tails(thr_balance *b, const measured *p, int i, const measured
 /* GIVE: the closed section p[i, j) goes into q before its position k. */
 static void offer_sections(thr_balance *b, const measured *p, int j, const measured *q, int k, thr_exchange *best)
 {
-  row r = row_of(p, q);
+  thr_splice r = thr_splice_of(false, p->w, q->w);
   double all = p->sum[p->w->n] + q->sum[q->w->n];
   for (int i = p->next[j], seen = 0; i >= 0 && seen < THR_MOST_VISITS; i = p->next[i], seen++) {
     double left = p->sum[p->w->n] - (p->sum[j] - p->sum[i]);
@@ -237,7 +172,7 @@ static int in_row(const measured *p, const measured *q, int k, int at, const mea
 static void offer_joins(thr_balance *b, const measured *p, const measured *q, thr_exchange *best)
 {
   const thr_frame *f = b->s->f;
-  row r = row_of(p, q);
+  thr_splice r = thr_splice_of(false, p->w, q->w);
   int np = p->w->n, nq = q->w->n;
   for (int k = 0; k < 4; k++) {
     if (thr_walk_node(f, p->w, k & 1 ? 0 : np) != thr_walk_node(f, q->w, k & 2 ? nq : 0)) continue;
@@ -288,6 +223,12 @@ static bool common_visit(thr_balance *b, const measured *p, const measured *q, i
   return *j >= 0;
 }
 
+/* The first np passes of the two merged, and the others. */
+static thr_splice merged_rows(const thr_balance *b, int np, int nq)
+{
+  return thr_splice_of(true, &(thr_walk){.n = np, .half = b->merged}, &(thr_walk){.n = nq, .half = b->merged + np});
+}
+
 /* SECTION: merged[i, j) and the rest. */
 static thr_status find_cyclic(thr_balance *b, const measured *p, const measured *q, thr_exchange *best, thr_err *err)
 {
@@ -302,7 +243,7 @@ static thr_status find_cyclic(thr_balance *b, const measured *p, const measured 
   measured m;
   thr_status st = measure(b, &all, &m, err);
   if (st) return st;
-  row r = {b->merged, b->merged + np, np, nq, true};
+  thr_splice r = merged_rows(b, np, nq);
   mark(b, &m, false);
   mark(b, &m, true);
   for (j = 1; j < all.n; j++)
@@ -345,52 +286,26 @@ thr_status thr_balance_find(thr_balance *b, int p, int q, thr_exchange *best, th
 
 /* ---- making it ---- */
 
-static void append(const row *r, const piece *p, int *half, int *n)
-{
-  for (int i = p->from; i < p->end; i++)
-    half[*n + i - p->from] = half_at(r, i);
-  if (p->backwards) thr_walk_reverse(half + *n, p->end - p->from);
-  *n += p->end - p->from;
-}
-
 thr_status thr_balance_make(thr_balance *b, int p, int q, const thr_exchange *x, thr_err *err)
 {
-  thr_walk *v = &b->w->walk[p], *w = &b->w->walk[q];
-  row r = {v->half, w->half, v->n, w->n, v->cyclic};
-  if (v->cyclic) r = (row){b->merged, b->merged + v->n, v->n, w->n, true};
-  pieces list = pieces_of(&r, x);
-  int size[2] = {0, 0}, n[2] = {0, 0};
-  for (int i = 0; i < list.n; i++)
-    size[i >= list.first] += list.list[i].end - list.list[i].from;
-  int *half[2] = {thr_calloc((size_t)size[0], sizeof **half), thr_calloc((size_t)size[1], sizeof **half)};
-  if (!half[0] || !half[1]) {
-    free(half[0]);
-    free(half[1]);
-    return thr_nomem(err);
-  }
-  for (int i = 0; i < list.n; i++)
-    append(&r, &list.list[i], half[i >= list.first], &n[i >= list.first]);
-  thr_knots_change c = change_of(&r, &list);
-  if (b->ties) thr_knots_make(b->ties, &c);
-  free(v->half);
-  free(w->half);
-  *v = (thr_walk){n[0], half[0], thr_walk_length(b->s->f, half[0], n[0]), v->cyclic};
-  *w = (thr_walk){n[1], half[1], thr_walk_length(b->s->f, half[1], n[1]), w->cyclic};
-  return THR_OK;
+  const thr_walk *v = &b->w->walk[p], *w = &b->w->walk[q];
+  thr_splice s = v->cyclic ? merged_rows(b, v->n, w->n) : thr_splice_of(false, v, w);
+  put_exchange(&s, x);
+  return thr_splice_make(&s, b->s->f, b->w, p, q, b->ties, NULL, err);
 }
 
 /* The closed section i .. j - 1 of x the other way round. */
 static void turn_round(thr_balance *b, thr_walk *x, int i, int j)
 {
-  thr_knots_change c = {.n = 0};
+  thr_turn_change c = {.n = 0};
   int before = i > 0 ? x->half[i - 1] : x->cyclic ? x->half[x->n - 1] : -1;
   if (b->ties && j - i < x->n) {
-    thr_knots_note(&c, before, x->half[i], -1);
-    thr_knots_note(&c, x->half[j - 1], x->half[j], -1);
-    thr_knots_note(&c, before, x->half[j - 1] ^ 1, 1);
-    thr_knots_note(&c, x->half[i] ^ 1, x->half[j], 1);
-    if (!thr_knots_allow(b->ties, &c)) return;
-    thr_knots_make(b->ties, &c);
+    thr_turn_change_note(&c, before, x->half[i], -1);
+    thr_turn_change_note(&c, x->half[j - 1], x->half[j], -1);
+    thr_turn_change_note(&c, before, x->half[j - 1] ^ 1, 1);
+    thr_turn_change_note(&c, x->half[i] ^ 1, x->half[j], 1);
+    if (!thr_junction_graphs_allow(b->ties, &c)) return;
+    thr_junction_graphs_make(b->ties, &c);
   }
   thr_walk_reverse(x->half + i, j - i);
 }

@@ -3,7 +3,7 @@
 #define THR_SHARE_H
 
 #include "graph/limits.h"
-#include "lp/length/knots.h"
+#include "graph/threading/splice.h"
 
 /* Where cords may end, and how many ends there are. All is borrowed. */
 typedef struct {
@@ -30,7 +30,8 @@ thr_status thr_share_circuits(const thr_share *s, int n, bool even, thr_walks *w
 
 /* Splits closed walks at nodes that one visits twice, without further passes, until there are n or none can be: where that turns
  * least, or, even = true, the longest in halves. ties: those of the walks, which stay tied; or NULL. */
-thr_status thr_share_split(const thr_share *s, int n, bool even, thr_knots *ties, thr_walks *w, thr_err *err) THR_MUST_CHECK;
+thr_status thr_share_split(const thr_share *s, int n, bool even, thr_junction_graphs *ties, thr_walks *w,
+                           thr_err *err) THR_MUST_CHECK;
 
 /* The same for tube joints, with further passes where it must be: n closed walks that tie what w ties, few of them. even: from
  * options.cords_least on no more than make the longest shorter. *found false: the capacities leave no room for as many as must be
@@ -47,6 +48,11 @@ thr_status thr_share_more(const thr_share *s, int k, int n, int *passes, thr_wal
 /* Splits the longest closed walk, again and again, into two that both pass a way between two of its nodes, or if that is no good
  * into one for each of its edges, until there are n or none gets shorter by it. O(n * passes of a walk * edges around it). */
 thr_status thr_share_chords(const thr_share *s, int n, int *passes, thr_walks *w, thr_err *err) THR_MUST_CHECK;
+
+/* Closed walk i becomes two, its passes from .. end - 1 and the others, which both pass the way way[n] between their ends: from
+ * the node before pass number from to that before number end. ties: of the walks, or NULL. */
+thr_status thr_share_chord(const thr_share *s, thr_walks *w, int i, int from, int end, const int *way, int n,
+                           thr_junction_graphs *ties, int *passes, thr_err *err) THR_MUST_CHECK;
 
 /* Joins cyclic walks at shared nodes until there are n, with little turning. */
 thr_status thr_share_merge(const thr_share *s, int n, thr_walks *w, thr_err *err) THR_MUST_CHECK;

@@ -31,37 +31,34 @@ static thr_status best_chord(thr_ways *x, const thr_share *s, const thr_walk *w,
   return st;
 }
 
+thr_status thr_share_chord(const thr_share *s, thr_walks *w, int i, int from, int end, const int *way, int n,
+                           thr_junction_graphs *ties, int *passes, thr_err *err)
+{
+  const thr_walk *old = &w->walk[i];
+  thr_splice x = thr_splice_of(true, old, NULL);
+  thr_splice_add(&x, 1, way, n);
+  thr_splice_put(&x, 0, 0, from, false);
+  thr_splice_put(&x, 1, 0, n, false);
+  thr_splice_put(&x, 0, end, old->n, false);
+  thr_splice_next(&x);
+  thr_splice_put(&x, 0, from, end, false);
+  thr_splice_put(&x, 1, 0, n, true);
+  return thr_splice_make(&x, s->f, w, i, -1, ties, passes, err);
+}
+
 /* Walk i and a new one become the halves. */
 static thr_status split(thr_ways *x, const thr_share *s, int i, const chord *c, int *passes, thr_walks *w, thr_err *err)
 {
   const thr_frame *f = s->f;
-  int end = thr_walk_node(f, &w->walk[i], c->end), n = 0, section = c->end - c->from;
+  int *way = thr_calloc((size_t)f->n_nodes, sizeof *way);
+  if (!way) return thr_nomem(err);
   thr_ways_clear(x);
   thr_status st = thr_ways_start(x, thr_walk_node(f, &w->walk[i], c->from), err);
   if (!st) st = thr_ways_spread(x, s->o, passes, 2, w->walk[i].length / 2, NULL, err);
-  if (st) return st;
-  for (int v = end; x->over[v] >= 0; v = thr_tail(f, x->over[v]))
-    n++;
-  thr_walk *old = &w->walk[i];
-  thr_walk one = {section + n, thr_calloc((size_t)section + (size_t)n, sizeof *one.half), 0, true};
-  thr_walk two = {old->n - section + n, thr_calloc((size_t)(old->n - section) + (size_t)n, sizeof *two.half), 0, true};
-  if (!one.half || !two.half) {
-    free(one.half);
-    free(two.half);
-    return thr_nomem(err);
-  }
-  memcpy(one.half, old->half + c->from, (size_t)section * sizeof *one.half);
-  memcpy(two.half, old->half, (size_t)c->from * sizeof *two.half);
-  memcpy(two.half + c->from + n, old->half + c->end, (size_t)(old->n - c->end) * sizeof *two.half);
-  for (int k = 0, v = end; k < n; k++, v = thr_tail(f, x->over[v])) {
-    one.half[section + k] = x->over[v] ^ 1;
-    two.half[c->from + n - 1 - k] = x->over[v];
-    passes[x->over[v] >> 1] += 2;
-  }
-  two.length = thr_walk_length(f, two.half, two.n);
-  free(old->half);
-  *old = two;
-  return thr_walks_add(w, f, one, err);
+  int n = st ? 0 : thr_ways_path(x, thr_walk_node(f, &w->walk[i], c->end), way);
+  if (!st) st = thr_share_chord(s, w, i, c->from, c->end, way, n, NULL, passes, err);
+  free(way);
+  return st;
 }
 
 /* Walk i becomes a walk there and back over every edge that it passes, if that is shorter; *made: it was, and there was room. */

@@ -31,24 +31,27 @@ static double split_price(const thr_frame *f, const thr_walk *x, int from, int e
          turn_at(f, x, from) - turn_at(f, x, end);
 }
 
-static thr_knots_change change_of(const thr_walk *x, int from, int end)
+/* Passes from .. end - 1 as a walk of their own. */
+static thr_splice split_off(const thr_walk *x, int from, int end)
 {
-  thr_knots_change c = {.n = 0};
-  thr_knots_note(&c, before(x, from), x->half[from], -1);
-  thr_knots_note(&c, x->half[end - 1], x->half[end], -1);
-  thr_knots_note(&c, before(x, from), x->half[end], 1);
-  thr_knots_note(&c, x->half[end - 1], x->half[from], 1);
-  return c;
+  thr_splice s = thr_splice_of(true, x, NULL);
+  thr_splice_put(&s, 0, 0, from, false);
+  thr_splice_put(&s, 0, end, x->n, false);
+  thr_splice_next(&s);
+  thr_splice_put(&s, 0, from, end, false);
+  return s;
 }
 
-static bool stays_tied(thr_knots *ties, const thr_walk *x, int from, int end)
+static bool stays_tied(thr_junction_graphs *ties, const thr_walk *x, int from, int end)
 {
-  thr_knots_change c = change_of(x, from, end);
-  return thr_knots_allow(ties, &c);
+  thr_splice s = split_off(x, from, end);
+  thr_turn_change c = thr_splice_turns(&s);
+  return thr_junction_graphs_allow(ties, &c);
 }
 
 /* The section to split off: that which adds least turning, or, of walk number only, that which is nearest to half of it. */
-static thr_status best_section(const thr_share *s, const thr_walks *w, thr_knots *ties, int only, section *best, thr_err *err)
+static thr_status best_section(const thr_share *s, const thr_walks *w, thr_junction_graphs *ties, int only, section *best,
+                               thr_err *err)
 {
   thr_walk_visits x;
   *best = (section){INFINITY, -1, 0, 0};
@@ -72,7 +75,7 @@ static thr_status best_section(const thr_share *s, const thr_walks *w, thr_knots
 }
 
 /* The longest walk first that has a node twice. */
-static thr_status best_half(const thr_share *s, const thr_walks *w, thr_knots *ties, section *best, thr_err *err)
+static thr_status best_half(const thr_share *s, const thr_walks *w, thr_junction_graphs *ties, section *best, thr_err *err)
 {
   thr_status st = THR_OK;
   bool *tried = thr_calloc((size_t)w->n_walks, sizeof *tried);
@@ -89,18 +92,16 @@ static thr_status best_half(const thr_share *s, const thr_walks *w, thr_knots *t
   return st;
 }
 
-thr_status thr_share_split(const thr_share *s, int n, bool even, thr_knots *ties, thr_walks *w, thr_err *err)
+thr_status thr_share_split(const thr_share *s, int n, bool even, thr_junction_graphs *ties, thr_walks *w, thr_err *err)
 {
   thr_status st = THR_OK;
   while (w->n_walks < n && !st) {
     section best;
     st = even ? best_half(s, w, ties, &best, err) : best_section(s, w, ties, -1, &best, err);
     if (!st && best.walk < 0) break;
-    if (!st && ties) {
-      thr_knots_change c = change_of(&w->walk[best.walk], best.from, best.end);
-      thr_knots_make(ties, &c);
-    }
-    if (!st) st = thr_walks_take_section(w, s->f, best.walk, best.from, best.end, err);
+    if (st) break;
+    thr_splice x = split_off(&w->walk[best.walk], best.from, best.end);
+    st = thr_splice_make(&x, s->f, w, best.walk, -1, ties, NULL, err);
   }
   return st;
 }
@@ -222,6 +223,18 @@ static thr_status best_junction(const thr_share *s, const thr_walks *w, junction
   return THR_OK;
 }
 
+/* Walk b goes into walk a, and its number is that of the last. */
+static thr_status merge(const thr_share *s, thr_walks *w, const junction *j, thr_err *err)
+{
+  const thr_walk *a = &w->walk[j->a], *b = &w->walk[j->b];
+  thr_splice x = thr_splice_of(true, a, b);
+  thr_splice_put(&x, 0, 0, j->at_a, false);
+  thr_splice_put(&x, 1, j->against ? 0 : j->at_b, j->against ? j->at_b : b->n, j->against);
+  thr_splice_put(&x, 1, j->against ? j->at_b : 0, j->against ? b->n : j->at_b, j->against);
+  thr_splice_put(&x, 0, j->at_a, a->n, false);
+  return thr_splice_make(&x, s->f, w, j->a, j->b, NULL, NULL, err);
+}
+
 thr_status thr_share_merge(const thr_share *s, int n, thr_walks *w, thr_err *err)
 {
   thr_status st = THR_OK;
@@ -229,7 +242,7 @@ thr_status thr_share_merge(const thr_share *s, int n, thr_walks *w, thr_err *err
     junction best;
     st = best_junction(s, w, &best, err);
     if (!st && best.a < 0) return thr_fail(err, THR_ESOLVER, "circuits of one component that do not meet");
-    if (!st) st = thr_walks_merge(w, s->f, best.a, best.at_a, best.b, best.at_b, best.against, err);
+    if (!st) st = merge(s, w, &best, err);
   }
   return st;
 }

@@ -9,7 +9,7 @@
 typedef struct {
   const thr_share *s;
   thr_walks *w;
-  thr_knots ties;
+  thr_junction_graphs ties;
   int *passes;
   bool even;
 } splitting;
@@ -87,37 +87,6 @@ static thr_status best_chord(const splitting *x, chord *best, thr_err *err)
   return THR_OK;
 }
 
-static thr_status add_chord(splitting *x, const chord *c, thr_err *err)
-{
-  thr_walk *old = &x->w->walk[c->walk];
-  thr_knots_change change = {.n = 0};
-  int section = c->end - c->from, rest = old->n - section, n = 0;
-  thr_walk one = {section + 1, thr_calloc((size_t)section + 1, sizeof *one.half), 0, true};
-  int *two = thr_calloc((size_t)rest + 1, sizeof *two);
-  if (!one.half || !two) {
-    free(one.half);
-    free(two);
-    return thr_nomem(err);
-  }
-  thr_knots_note(&change, before(old, c->from), old->half[c->from], -1);
-  thr_knots_note(&change, old->half[c->end - 1], old->half[c->end], -1);
-  thr_knots_note(&change, before(old, c->from), c->half, 1);
-  thr_knots_note(&change, c->half, old->half[c->end], 1);
-  thr_knots_note(&change, old->half[c->end - 1], c->half ^ 1, 1);
-  thr_knots_note(&change, c->half ^ 1, old->half[c->from], 1);
-  thr_knots_make(&x->ties, &change);
-  memcpy(one.half, old->half + c->from, (size_t)section * sizeof *one.half);
-  one.half[section] = c->half ^ 1;
-  for (int i = 0; i < old->n; i++) {
-    if (i == c->from) two[n++] = c->half;
-    if (i < c->from || i >= c->end) two[n++] = old->half[i];
-  }
-  free(old->half);
-  *old = (thr_walk){n, two, thr_walk_length(x->s->f, two, n), true};
-  x->passes[c->half >> 1] += 2;
-  return thr_walks_add(x->w, x->s->f, one, err);
-}
-
 /* ---- a short circuit ---- */
 
 /* Out of node start over two ways, and between their ends over an edge. */
@@ -169,33 +138,22 @@ static thr_status best_circuit(const splitting *x, thr_ways *g, int component, c
   return st;
 }
 
-static int way_length(const thr_ways *g, int v)
-{
-  int n = 0;
-  for (; g->over[v] >= 0; v = thr_tail(g->f, g->over[v]))
-    n++;
-  return n;
-}
-
 static thr_status add_circuit(splitting *x, thr_ways *g, const circuit *c, thr_err *err)
 {
   const thr_frame *f = x->s->f;
-  int a = f->edge[c->edge][0], b = f->edge[c->edge][1];
   thr_status st = spread_from(x, g, c->start, c->length, err);
   if (st) return st;
-  int there = way_length(g, a), back = way_length(g, b), n = there;
-  thr_walk new = {there + 1 + back, thr_calloc((size_t)there + 1 + (size_t)back, sizeof *new.half), 0, true};
+  thr_walk new = {0, thr_calloc(2 * (size_t)f->n_nodes + 1, sizeof *new.half), 0, true};
   if (!new.half) return thr_nomem(err);
-  for (int v = a; g->over[v] >= 0; v = thr_tail(f, g->over[v]))
-    new.half[--n] = g->over[v];
+  int there = thr_ways_path(g, f->edge[c->edge][0], new.half);
+  int back = thr_ways_path(g, f->edge[c->edge][1], new.half + there + 1);
   new.half[there] = 2 * c->edge;
-  n = there + 1;
-  for (int v = b; g->over[v] >= 0; v = thr_tail(f, g->over[v]))
-    new.half[n++] = g->over[v] ^ 1;
+  thr_walk_reverse(new.half + there + 1, back);
+  new.n = there + 1 + back;
   for (int i = 0; i < new.n; i++) {
-    thr_knots_change change = {.n = 0};
-    thr_knots_note(&change, before(&new, i), new.half[i], 1);
-    thr_knots_make(&x->ties, &change);
+    thr_turn_change change = {.n = 0};
+    thr_turn_change_note(&change, before(&new, i), new.half[i], 1);
+    thr_junction_graphs_make(&x->ties, &change);
     x->passes[new.half[i] >> 1]++;
   }
   return thr_walks_add(x->w, f, new, err);
@@ -218,7 +176,7 @@ static thr_status add_one(splitting *x, thr_ways *g, int n, bool *made, thr_err 
   bool cut = must_more(x, n) ? c.price < INFINITY && 2 * x->s->f->length[c.half >> 1] <= round.length
                              : c.price < thr_walks_longest(x->w) * (1 - 1e-9);
   *made = cut || round.length < INFINITY;
-  if (cut) return add_chord(x, &c, err);
+  if (cut) return thr_share_chord(x->s, x->w, c.walk, c.from, c.end, &c.half, 1, &x->ties, x->passes, err);
   return *made ? add_circuit(x, g, &round, err) : THR_OK;
 }
 
@@ -227,7 +185,7 @@ thr_status thr_share_tied(const thr_share *s, int n, bool even, int *passes, thr
   thr_ways g = {0};
   splitting x = {.s = s, .w = w, .passes = passes, .even = even};
   bool made = true;
-  thr_status st = thr_knots_init(&x.ties, s->f, w, err);
+  thr_status st = thr_junction_graphs_init(&x.ties, s->f, w, err);
   if (!st) st = thr_ways_init(&g, s->f, err);
   if (!st) st = split_shuffled(&x, n, err);
   while (!st && made && w->n_walks < n) {
@@ -236,6 +194,6 @@ thr_status thr_share_tied(const thr_share *s, int n, bool even, int *passes, thr
   }
   *found = !must_more(&x, n);
   thr_ways_destroy(&g);
-  thr_knots_destroy(&x.ties);
+  thr_junction_graphs_destroy(&x.ties);
   return st;
 }

@@ -1,5 +1,6 @@
 /* Dijkstra's method on a framework. */
 #include "lp/length/ways.h"
+#include "graph/threading/walks.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -60,4 +61,13 @@ thr_status thr_ways_spread(thr_ways *x, const thr_plan_options *o, const int *pa
     }
   }
   return st;
+}
+
+int thr_ways_path(const thr_ways *x, int v, int *half)
+{
+  int n = 0;
+  for (; x->over[v] >= 0; v = thr_tail(x->f, x->over[v]))
+    half[n++] = x->over[v] ^ 1;
+  thr_walk_reverse(half, n);
+  return n;
 }

@@ -2,6 +2,7 @@
 #include "tests/support.h"
 #include "graph/angle.h"
 #include "graph/threading/multigraph.h"
+#include "graph/threading/splice.h"
 #include "graph/threading/threading.h"
 #include "graph/threading/tour.h"
 #include "graph/threading/transition.h"
@@ -349,6 +350,85 @@ START_TEST(exchanges_do_what_they_say)
 }
 END_TEST
 
+/* ---- walks that change ---- */
+
+/* The turns counted on the way are those of the walks as they are now. */
+static void assert_counted(const thr_junction_graphs *kept, const thr_frame *f, const thr_walks *w)
+{
+  thr_junction_graphs now;
+  size_t n = 0;
+  ck_assert_int_eq(thr_junction_graphs_init(&now, f, w, NULL), THR_OK);
+  for (int v = 0; v < f->n_nodes; v++)
+    n += (size_t)thr_degree(f, v) * (size_t)thr_degree(f, v);
+  ck_assert_mem_eq(kept->count, now.count, n * sizeof *now.count);
+  thr_junction_graphs_destroy(&now);
+}
+
+static void assert_closed_walks(const thr_frame *f, const thr_walks *w, const int *passes)
+{
+  int *made = constant(f->n_edges, 0);
+  thr_walks_count(w, made);
+  ck_assert_mem_eq(made, passes, (size_t)f->n_edges * sizeof *made);
+  for (int i = 0; i < w->n_walks; i++) {
+    const thr_walk *x = &w->walk[i];
+    ck_assert(x->cyclic);
+    ck_assert_double_eq_tol(x->length, thr_walk_length(f, x->half, x->n), 1e-9);
+    for (int k = 0; k < x->n; k++)
+      ck_assert_int_eq(thr_head(f, x->half[k]), thr_tail(f, x->half[(k + 1) % x->n]));
+  }
+  free(made);
+}
+
+/* Positions i < j of walk x at one node. */
+static bool same_node(rng *r, const thr_frame *f, const thr_walk *x, int *i, int *j)
+{
+  for (int tries = 0; tries < 100; tries++) {
+    *i = rng_below(r, x->n);
+    *j = rng_below(r, x->n);
+    if (*i < *j && thr_walk_node(f, x, *i) == thr_walk_node(f, x, *j)) return true;
+  }
+  return false;
+}
+
+/* Cut in two at a node that it visits twice, over a further pass there and back, and joined again the other way round. */
+START_TEST(spliced_walks_keep_their_passes_and_count_their_turns)
+{
+  rng r = rng_make((uint64_t)_i + 1300);
+  thr_frame f = random_frame(&r, rng_between(&r, 3, 10), rng_below(&r, 12), LENGTHS_EUCLID);
+  int *passes = even_passes(&r, &f, 2, NULL), *component = constant(f.n_nodes, 0), i, j;
+  thr_walks w;
+  thr_junction_graphs ties;
+  ck_assert_int_eq(thr_walks_trace(&f, passes, component, 1, &w, NULL), THR_OK);
+  ck_assert_int_eq(thr_junction_graphs_init(&ties, &f, &w, NULL), THR_OK);
+  ck_assert(same_node(&r, &f, w.walk, &i, &j));
+  int node = thr_walk_node(&f, w.walk, i), out = f.half[f.first[node]], way[2] = {out, out ^ 1};
+  thr_splice s = thr_splice_of(true, w.walk, NULL);
+  thr_splice_add(&s, 1, way, 2);
+  thr_splice_put(&s, 0, 0, i, false);
+  thr_splice_put(&s, 1, 0, 2, rng_below(&r, 2));
+  thr_splice_put(&s, 0, j, w.walk->n, false);
+  thr_splice_next(&s);
+  thr_splice_put(&s, 0, i, j, rng_below(&r, 2));
+  ck_assert_int_eq(thr_splice_make(&s, &f, &w, 0, -1, &ties, passes, NULL), THR_OK);
+  ck_assert_int_eq(w.n_walks, 2);
+  assert_closed_walks(&f, &w, passes);
+  assert_counted(&ties, &f, &w);
+  s = thr_splice_of(true, &w.walk[0], &w.walk[1]); /* walk 1 begins and ends at the node, so that its sections are one */
+  thr_splice_put(&s, 0, 0, i, false);
+  thr_splice_put(&s, 1, 0, w.walk[1].n, true);
+  thr_splice_put(&s, 0, i, w.walk[0].n, false);
+  ck_assert_int_eq(thr_splice_make(&s, &f, &w, 0, 1, &ties, NULL, NULL), THR_OK);
+  ck_assert_int_eq(w.n_walks, 1);
+  assert_closed_walks(&f, &w, passes);
+  assert_counted(&ties, &f, &w);
+  thr_walks_destroy(&w);
+  thr_junction_graphs_destroy(&ties);
+  thr_frame_destroy(&f);
+  free(passes);
+  free(component);
+}
+END_TEST
+
 /* ---- cords ---- */
 
 static void assert_uses_all(const thr_frame *f, const int *passes, const thr_cord *cord, int n)
@@ -491,6 +571,7 @@ int main(void)
   ADD_LOOP(s, 10, join_leaves_one_circuit_and_no_new_u_turn, 0, 100);
   ADD_TEST(s, 10, octahedron_pairs_straight_then_joins);
   ADD_LOOP(s, 10, exchanges_do_what_they_say, 0, 100);
+  ADD_LOOP(s, 10, spliced_walks_keep_their_passes_and_count_their_turns, 0, 100);
   ADD_LOOP(s, 10, open_cord_runs_from_end_to_end, 0, 50);
   ADD_LOOP(s, 10, closed_cord_starts_where_told_or_at_a_foot, 0, 50);
   ADD_TEST(s, 10, odd_passes_are_refused);

@@ -1,7 +1,7 @@
-/* Tube joints while it is still open which cord takes which passes: the turns of all walks at every node, counted, so that a
- * change of turns can be tried (graph/plan/junction.h). Internal to lp/ and tortuosity/. */
-#ifndef THR_KNOTS_H
-#define THR_KNOTS_H
+/* The junction graph of every node (graph/plan/junction.h) while it is still open which cord takes which passes: the turns of all
+ * walks, counted, so that a change of turns can be tried. */
+#ifndef THR_JUNCTION_GRAPHS_H
+#define THR_JUNCTION_GRAPHS_H
 
 #include "graph/threading/walks.h"
 
@@ -13,11 +13,11 @@ typedef struct {
   int *count;    /* owned */
   int *queue;    /* [largest degree] owned; scratch, and */
   bool *seen;    /* [largest degree] owned */
-} thr_knots;
+} thr_junction_graphs;
 
 /* The turns of the walks, with those that close cyclic ones. O(passes + sum of the squares of the degrees), also in memory. */
-thr_status thr_knots_init(thr_knots *t, const thr_frame *f, const thr_walks *w, thr_err *err) THR_MUST_CHECK;
-void thr_knots_destroy(thr_knots *t);
+thr_status thr_junction_graphs_init(thr_junction_graphs *t, const thr_frame *f, const thr_walks *w, thr_err *err) THR_MUST_CHECK;
+void thr_junction_graphs_destroy(thr_junction_graphs *t);
 
 /* Turns that come and go; at most THR_MOST_CHANGED. */
 enum { THR_MOST_CHANGED = 16 };
@@ -27,13 +27,13 @@ typedef struct {
   struct {
     int in, out, by; /* half-edge that arrives, half-edge that leaves; 1 or -1 */
   } turn[THR_MOST_CHANGED];
-} thr_knots_change;
+} thr_turn_change;
 
 /* in or out < 0: a cord end, where nothing turns. */
-void thr_knots_note(thr_knots_change *c, int in, int out, int by);
+void thr_turn_change_note(thr_turn_change *c, int in, int out, int by);
 
 /* Does every node that the change is about stay tied (one that was not before is no worse for it), and does nothing turn back? */
-bool thr_knots_allow(thr_knots *t, const thr_knots_change *c);
-void thr_knots_make(thr_knots *t, const thr_knots_change *c);
+bool thr_junction_graphs_allow(thr_junction_graphs *t, const thr_turn_change *c);
+void thr_junction_graphs_make(thr_junction_graphs *t, const thr_turn_change *c);
 
 #endif

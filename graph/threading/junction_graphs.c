@@ -1,20 +1,20 @@
 /* Turns by node, and whether they hang together. */
-#include "lp/length/knots.h"
+#include "graph/threading/junction_graphs.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-void thr_knots_destroy(thr_knots *t)
+void thr_junction_graphs_destroy(thr_junction_graphs *t)
 {
   free(t->first);
   free(t->place);
   free(t->count);
   free(t->queue);
   free(t->seen);
-  *t = (thr_knots){0};
+  *t = (thr_junction_graphs){0};
 }
 
-static void count_turn(thr_knots *t, int in, int out, int by)
+static void count_turn(thr_junction_graphs *t, int in, int out, int by)
 {
   int v = thr_tail(t->f, out);
   size_t d = (size_t)thr_degree(t->f, v), a = (size_t)t->place[in ^ 1], b = (size_t)t->place[out];
@@ -22,7 +22,7 @@ static void count_turn(thr_knots *t, int in, int out, int by)
   if (a != b) t->count[t->first[v] + b * d + a] += by;
 }
 
-static void count_walks(thr_knots *t, const thr_walks *w)
+static void count_walks(thr_junction_graphs *t, const thr_walks *w)
 {
   for (int i = 0; i < w->n_walks; i++) {
     const thr_walk *x = &w->walk[i];
@@ -31,13 +31,13 @@ static void count_walks(thr_knots *t, const thr_walks *w)
   }
 }
 
-thr_status thr_knots_init(thr_knots *t, const thr_frame *f, const thr_walks *w, thr_err *err)
+thr_status thr_junction_graphs_init(thr_junction_graphs *t, const thr_frame *f, const thr_walks *w, thr_err *err)
 {
   size_t sum = 0;
   int most = 1;
-  *t = (thr_knots){.f = f,
-                   .first = thr_calloc((size_t)f->n_nodes, sizeof *t->first),
-                   .place = thr_calloc(2 * (size_t)f->n_edges, sizeof *t->place)};
+  *t = (thr_junction_graphs){.f = f,
+                             .first = thr_calloc((size_t)f->n_nodes, sizeof *t->first),
+                             .place = thr_calloc(2 * (size_t)f->n_edges, sizeof *t->place)};
   for (int v = 0; v < f->n_nodes && t->first && t->place; v++) {
     int d = thr_degree(f, v);
     t->first[v] = sum;
@@ -50,7 +50,7 @@ thr_status thr_knots_init(thr_knots *t, const thr_frame *f, const thr_walks *w, 
   t->queue = thr_calloc((size_t)most, sizeof *t->queue);
   t->seen = thr_calloc((size_t)most, sizeof *t->seen);
   if (!t->first || !t->place || !t->count || !t->queue || !t->seen) {
-    thr_knots_destroy(t);
+    thr_junction_graphs_destroy(t);
     return thr_nomem(err);
   }
   count_walks(t, w);
@@ -58,7 +58,7 @@ thr_status thr_knots_init(thr_knots *t, const thr_frame *f, const thr_walks *w, 
 }
 
 /* Half-edges at node v that hang together with its first one; -1: something turns back. */
-static int reached(thr_knots *t, int v)
+static int reached(thr_junction_graphs *t, int v)
 {
   int d = thr_degree(t->f, v), n = 1;
   const int *count = t->count + t->first[v];
@@ -77,7 +77,7 @@ static int reached(thr_knots *t, int v)
   return n;
 }
 
-void thr_knots_note(thr_knots_change *c, int in, int out, int by)
+void thr_turn_change_note(thr_turn_change *c, int in, int out, int by)
 {
   if (in < 0 || out < 0) return;
   c->turn[c->n].in = in;
@@ -85,19 +85,19 @@ void thr_knots_note(thr_knots_change *c, int in, int out, int by)
   c->turn[c->n++].by = by;
 }
 
-void thr_knots_make(thr_knots *t, const thr_knots_change *c)
+void thr_junction_graphs_make(thr_junction_graphs *t, const thr_turn_change *c)
 {
   for (int i = 0; i < c->n; i++)
     count_turn(t, c->turn[i].in, c->turn[i].out, c->turn[i].by);
 }
 
-bool thr_knots_allow(thr_knots *t, const thr_knots_change *c)
+bool thr_junction_graphs_allow(thr_junction_graphs *t, const thr_turn_change *c)
 {
   bool allowed = true;
   for (int i = 0; i < c->n && allowed; i++)
     allowed = c->turn[i].by < 0 || c->turn[i].in != (c->turn[i].out ^ 1);
   if (!allowed) return false;
-  thr_knots_make(t, c);
+  thr_junction_graphs_make(t, c);
   for (int i = 0; i < c->n && allowed; i++) {
     int v = thr_tail(t->f, c->turn[i].out);
     allowed = reached(t, v) == thr_degree(t->f, v);
