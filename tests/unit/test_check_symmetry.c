@@ -400,16 +400,13 @@ START_TEST(copies_may_start_anywhere_and_run_backward)
 }
 END_TEST
 
-/* Walks that read backward as they do forward at some places, or repeat all but a node. */
+/* Walks that read backward as they do forward at some places, or repeat all but a node, or almost all of a part. */
 START_TEST(walks_are_learned_whole)
 {
-  static const int walk[][12] = {{0, 1, 2, 0, 3},
-                                 {0, 1, 3, 0, 2, 1},
-                                 {0, 1, 0, 2, 3, 2, 1, 0, 2, 3},
-                                 {0, 1, 0, 2, 0, 3, 2, 1, 0, 2, 0, 3},
-                                 {0, 1, 2, 3, 0, 1, 2, 3},
-                                 {0, 1, 2, 1}},
-                   length[] = {5, 6, 10, 12, 8, 4};
+  static const int walk[][12] =
+      {{0, 1, 2, 0, 3},          {0, 1, 3, 0, 2, 1}, {0, 1, 0, 2, 3, 2, 1, 0, 2, 3}, {0, 1, 0, 2, 0, 3, 2, 1, 0, 2, 0, 3},
+       {0, 1, 2, 3, 0, 1, 2, 3}, {0, 1, 2, 1},       {0, 1, 2, 0, 1, 2, 0, 1, 2, 1}},
+                   length[] = {5, 6, 10, 12, 8, 4, 10};
   thr_frame f = solid_make(TETRAHEDRON);
   int same[CORNERS] = {0, 1, 2, 3}, zero = 0;
   for (size_t k = 0; k < sizeof length / sizeof *length; k++)
@@ -444,6 +441,54 @@ START_TEST(copies_are_as_long)
     assert_one_line(&err, "cord B is not image 0 of cord A");
   }
   thr_frame_destroy(&f);
+}
+END_TEST
+
+/* Two spokes of a star whose hub has any number: their paths differ in one node, the first or the last of them. */
+START_TEST(copies_come_to_the_same_nodes)
+{
+  static const double xyz[3][3] = {{0, 0, 0}, {1, 0, 0}, {2, 1, 0}};
+  for (int hub = 0; hub < 3; hub++) {
+    int edge[2][2] = {{(hub + 1) % 3, hub}, {(hub + 2) % 3, hub}};
+    thr_frame f = frame_make(3, xyz, 2, (const int(*)[2])edge, NULL, NULL);
+    int half[2] = {0, 2}, same[3] = {0, 1, 2}, unique[2] = {0, 0}, which[2] = {0, 0};
+    thr_cord cord[2] = {{.id = "A", .n_passes = 1, .half = half}, {.id = "B", .n_passes = 1, .half = half + 1}};
+    thr_plan p = {.frame = f, .options = options_for(THR_ENDS_ANY, 1), .n_cords = 2, .cord = cord};
+    p.options.objective = THR_SYMMETRY;
+    p.options.symmetry.geometric = -1;
+    p.symmetry = (thr_symmetry_record){true, 1, "", 0, same, 1, same, unique, which, 1, 1};
+    thr_err err = {0};
+    ck_assert_int_eq(thr_check_symmetry(&p, &err), THR_EVIOLATED);
+    assert_one_line(&err, "cord B is not image 0 of cord A");
+    thr_frame_destroy(&f);
+  }
+}
+END_TEST
+
+/* A fork whose tines are exchanged: that keeps the nodes of the cord over its handle, and not those of a cord over a tine. */
+START_TEST(what_is_kept_is_learned_whole)
+{
+  static const double xyz[4][3] = {{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {2, -1, 0}};
+  static const int edge[3][2] = {{0, 1}, {2, 1}, {3, 1}};
+  for (int back = 0; back < 2; back++) {
+    thr_frame f = frame_make(4, xyz, 3, edge, NULL, NULL);
+    int half[3] = {back, 2 + back, 4 + back}, exchange[4] = {0, 1, 3, 2}, image[8] = {0, 1, 2, 3, 0, 1, 3, 2};
+    int unique[3] = {0, 1, 1}, which[3] = {0, 0, 1};
+    thr_cord cord[3];
+    for (int i = 0; i < 3; i++) {
+      cord[i] = (thr_cord){.n_passes = 1, .half = &half[i]};
+      thr_cord_id(i, cord[i].id);
+    }
+    for (int v = 0; v < 4; v++)
+      f.foot[v] = false;
+    thr_plan p = {.frame = f, .options = options_for(THR_ENDS_ANY, 1), .n_cords = 3, .cord = cord};
+    p.options.objective = THR_SYMMETRY;
+    p.options.symmetry.geometric = -1;
+    p.symmetry = (thr_symmetry_record){true, 2, "", 1, exchange, 2, image, unique, which, 2, 2};
+    thr_err err = {0};
+    ck_assert_msg(thr_check_symmetry(&p, &err) == THR_OK, "%s", err.text);
+    thr_frame_destroy(&f);
+  }
 }
 END_TEST
 
@@ -623,6 +668,8 @@ int main(void)
   ADD_TEST(s, 10, spokes_are_permuted_in_all_ways);
   ADD_TEST(s, 10, walks_are_learned_whole);
   ADD_TEST(s, 10, copies_are_as_long);
+  ADD_TEST(s, 10, copies_come_to_the_same_nodes);
+  ADD_TEST(s, 10, what_is_kept_is_learned_whole);
   ADD_TEST(s, 10, a_unique_path_is_its_own_image_0);
   ADD_TEST(s, 10, cords_are_permuted);
   ADD_TEST(s, 10, copies_are_of_unique_paths);

@@ -351,6 +351,53 @@ START_TEST(squares_turn_wherever_they_are)
 }
 END_TEST
 
+/* However far a permutation is from an isometry, the motion is one, but for the last digits. */
+START_TEST(motions_are_orthogonal)
+{
+  rng r = rng_make(31);
+  double xyz[6][3], stretch[3];
+  int image[6];
+  for (int k = 0; k < 5000; k++) {
+    for (int i = 0; i < 3; i++)
+      stretch[i] = exp(gauss(&r));
+    for (int v = 0; v < 6; v++) {
+      image[v] = rng_below(&r, 6);
+      for (int i = 0; i < 3; i++)
+        xyz[v][i] = stretch[i] * gauss(&r);
+    }
+    const thr_frame f = {.n_nodes = 6, .xyz = xyz};
+    thr_motion m;
+    thr_procrustes(&f, image, &m);
+    for (int i = 0; i < 3 && !m.flat; i++)
+      for (int j = 0; j < 3; j++)
+        ck_assert_double_eq_tol(thr_dot(m.q[i], m.q[j]), i == j, 1e-14);
+  }
+}
+END_TEST
+
+/* A box of half the sides 1, 1 and so much: flat if that is less than a ten-thousandth. Seen from each of its sides. */
+START_TEST(flat_is_thinner_than_a_ten_thousandth)
+{
+  static const double thin[] = {0, 1e-6, 0.9e-4, 1.1e-4, 1e-3, 1e-2, 1};
+  int image[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+  double xyz[8][3];
+  for (size_t k = 0; k < sizeof thin / sizeof *thin; k++)
+    for (int side = 0; side < 3; side++) {
+      for (int v = 0; v < 8; v++)
+        for (int i = 0; i < 3; i++)
+          xyz[v][i] = (v >> i & 1 ? 1 : -1) * (i == side ? thin[k] : 1);
+      const thr_frame f = {.n_nodes = 8, .xyz = xyz};
+      thr_motion m;
+      thr_procrustes(&f, image, &m);
+      ck_assert_int_eq(m.flat, thin[k] < 1e-4);
+      ck_assert(m.proper);
+      for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+          ck_assert_double_eq_tol(m.q[i][j], i == j, 1e-12);
+    }
+}
+END_TEST
+
 /* Nodes on a line, in this direction or that: reversed by half a turn across it; all in one place, nothing moves. */
 START_TEST(lines_are_reversed_by_half_turns)
 {
@@ -713,5 +760,7 @@ int main(void)
   ADD_TEST(s, 20, every_allocation_fails_once);
   ADD_TEST(s, 10, squares_turn_wherever_they_are);
   ADD_TEST(s, 10, lines_are_reversed_by_half_turns);
+  ADD_TEST(s, 20, motions_are_orthogonal);
+  ADD_TEST(s, 20, flat_is_thinner_than_a_ten_thousandth);
   return run_suite(s);
 }
