@@ -238,19 +238,18 @@ static thr_status add_steps(paths *s, const thr_check_elements *g, int u, double
   const thr_symmetry_record *r = &s->p->symmetry;
   int mapped = 0, fixed = 0;
   for (int i = 0; i < g->order; i++) {
-    path image = *move(s, u, element(g, i));
-    image.cord = -1;
-    mapped += compare(&image, &s->cord[u]) == 0;
+    const path *image = move(s, u, element(g, i));
+    mapped += compare(image, &s->cord[u]) == 0;
     fixed += keeps_nodes(s, u, element(g, i));
     int low = 0, high = s->p->n_cords; /* the first cord that runs so, and those after it */
     while (low < high) {
       int middle = low + (high - low) / 2;
-      if (compare(&s->sorted[middle], &image) < 0)
+      if (compare(&s->sorted[middle], image) < 0)
         low = middle + 1;
       else
         high = middle;
     }
-    for (; low < s->p->n_cords && compare(&s->sorted[low], &image) == 0; low++)
+    for (; low < s->p->n_cords && compare(&s->sorted[low], image) == 0; low++)
       if (r->unique[s->sorted[low].cord] != u)
         return thr_fail(err, THR_EVIOLATED, "symmetry.cords[%d]: cord %s is an image of cord %s, but said to be one of cord %s",
                         s->sorted[low].cord, s->p->cord[s->sorted[low].cord].id, s->p->cord[u].id,

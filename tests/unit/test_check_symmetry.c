@@ -568,6 +568,16 @@ START_TEST(copies_are_of_unique_paths)
                                      .steps = 1};
   thr_err err = {0};
   ck_assert_msg(thr_check_symmetry(&p, &err) == THR_OK, "%s", err.text);
+  for (int i = 1; i < 3; i++) { /* one that is said to be a unique path, too */
+    unique[i] = i, which[i] = 0;
+    p.symmetry.unique_paths = 2, p.symmetry.steps = 2;
+    err = (thr_err){0};
+    ck_assert_int_eq(thr_check_symmetry(&p, &err), THR_EVIOLATED);
+    assert_one_line(&err, "is an image of cord A, but said to be one of cord");
+    unique[i] = 0, which[i] = i;
+    p.symmetry.unique_paths = 1, p.symmetry.steps = 1;
+  }
+  err = (thr_err){0};
   unique[2] = which[2] = 1; /* image 1 of the second is the third, too */
   ck_assert_int_eq(thr_check_symmetry(&p, &err), THR_EVIOLATED);
   assert_one_line(&err, "which is a copy itself");
