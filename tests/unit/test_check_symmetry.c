@@ -627,6 +627,37 @@ START_TEST(an_open_cord_is_no_copy_of_a_closed_one)
 }
 END_TEST
 
+/* On a star with any hub: no node goes to where another one goes, or to none, by the first generator or the second. */
+START_TEST(no_two_nodes_go_to_one)
+{
+  static const double xyz[4][3] = {{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {1, 3, 0}};
+  for (int hub = 0; hub < 4; hub++)
+    for (int v = 0; v < 4; v++)
+      for (int to = -1; to <= 4; to++) {
+        int edge[3][2], generator[12] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3}, *bad = generator + 4;
+        const bool second = (hub + v) % 2;
+        for (int i = 0; i < 3; i++)
+          edge[i][0] = hub, edge[i][1] = (hub + 1 + i) % 4;
+        thr_frame f = frame_make(4, xyz, 3, (const int(*)[2])edge, NULL, NULL);
+        thr_plan p = {.frame = f, .options = options_for(THR_ENDS_ANY, 1)};
+        for (int k = 0; k < 4; k++)
+          f.foot[k] = false;
+        bad[v] = to;
+        p.options.symmetry.geometric = -1;
+        p.symmetry = (thr_symmetry_record){.present = true,
+                                           .order = 1 + (to != v),
+                                           .n_generators = 2,
+                                           .generator = second ? generator : bad,
+                                           .n_images = 1,
+                                           .image = generator};
+        thr_err err;
+        ck_assert_int_eq(name_it(&p, "", &err), to == v ? THR_OK : THR_EVIOLATED);
+        if (to != v) assert_one_line(&err, second ? "generators[1]: not a permutation" : "generators[0]: not a permutation");
+        thr_frame_destroy(&f);
+      }
+}
+END_TEST
+
 /* Turning the numbers of a path takes one of its edges to where there is none, whichever number that edge has. */
 START_TEST(every_edge_goes_to_an_edge)
 {
@@ -683,6 +714,7 @@ int main(void)
   ADD_TEST(s, 10, a_unique_path_is_its_own_image_0);
   ADD_TEST(s, 10, cords_are_permuted);
   ADD_TEST(s, 10, copies_are_of_unique_paths);
+  ADD_TEST(s, 10, no_two_nodes_go_to_one);
   ADD_TEST(s, 10, every_edge_goes_to_an_edge);
   ADD_TEST(s, 10, an_open_cord_is_no_copy_of_a_closed_one);
   ADD_TEST(s, 10, a_cord_there_and_back_is_learned_once);
