@@ -461,6 +461,7 @@ START_TEST(lines_are_reversed_by_half_turns)
     thr_procrustes(&f, image, &m);
     ck_assert(m.proper && m.flat);
     ck_assert_double_le(m.residual, 1e-12);
+    ck_assert_double_le(m.farthest, 1e-12);
     double norm = sqrt(thr_dot(along, along));
     for (int i = 0; i < 3; i++) {
       ck_assert_double_eq_tol(thr_dot(m.q[i], along), k < 39 ? -along[i] : 0, 1e-12 * (1 + norm));
