@@ -1,5 +1,6 @@
 /* The checker's part for symmetry against groups made of matrices, and against readings of cords that are counted one by one. */
 #include "graph/check/check_parts.h"
+#include "graph/framework/procrustes.h"
 #include "graph/angle.h"
 #include "tests/support.h"
 
@@ -190,6 +191,53 @@ START_TEST(groups_have_one_name)
 }
 END_TEST
 
+/* A bipyramid on a triangle, turned by a third of a turn and mirrored: its tips are back after two, its corners after three, and
+ * all after six. */
+START_TEST(orders_are_those_of_all_cycles)
+{
+  double xyz[5][3] = {{0, 0, 1}, {0, 0, -1}};
+  int edge[6][2], six[5] = {1, 0, 3, 4, 2}, same[5] = {0, 1, 2, 3, 4};
+  for (int i = 0; i < 3; i++) {
+    xyz[2 + i][0] = cos(2 * THR_PI * i / 3), xyz[2 + i][1] = sin(2 * THR_PI * i / 3);
+    edge[i][0] = 0, edge[3 + i][0] = 1, edge[i][1] = edge[3 + i][1] = 2 + i;
+  }
+  thr_frame f = frame_make(5, (const double(*)[3])xyz, 6, (const int(*)[2])edge, NULL, NULL);
+  for (int v = 0; v < 5; v++)
+    f.foot[v] = false;
+  thr_plan p = {.frame = f, .options = options_for(THR_ENDS_CLOSED, 1)};
+  p.options.symmetry.geometric = -1;
+  p.symmetry =
+      (thr_symmetry_record){.present = true, .order = 6, .n_generators = 1, .generator = six, .n_images = 1, .image = same};
+  thr_err err;
+  ck_assert_msg(name_it(&p, "C3h", &err) == THR_OK, "%s", err.text);
+  ck_assert_int_eq(name_it(&p, "C6", &err), THR_EVIOLATED);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* A square may be turned over or mirrored, which is the same in its plane; but five of its motions are of order 2, not three. */
+START_TEST(names_of_flat_frameworks)
+{
+  static const struct {
+    const char *name;
+    bool holds;
+  } cases[] = {{"C4v", true}, {"D4", true}, {"D2d", true}, {"C4h", false}, {"D2h", false}, {"C8", false}};
+  thr_frame f = ring_make(4);
+  int generator[8] = {1, 2, 3, 0, 0, 3, 2, 1}, same[4] = {0, 1, 2, 3};
+  for (int v = 0; v < 4; v++)
+    f.foot[v] = false;
+  thr_plan p = {.frame = f, .options = options_for(THR_ENDS_CLOSED, 1)};
+  p.options.symmetry.geometric = -1;
+  p.symmetry =
+      (thr_symmetry_record){.present = true, .order = 8, .n_generators = 2, .generator = generator, .n_images = 1, .image = same};
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+    thr_err err;
+    ck_assert_msg(name_it(&p, cases[k].name, &err) == (cases[k].holds ? THR_OK : THR_EVIOLATED), "%s", cases[k].name);
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* A ring is turned by each of its edges: so many elements, one less and one more are refused. */
 START_TEST(rings_turn_in_as_many_ways_as_they_have_nodes)
 {
@@ -236,6 +284,7 @@ START_TEST(groups_have_1024_elements_at_most)
     thr_err err;
     ck_assert_msg(name_it(&p, "", &err) == (n > 1024 ? THR_EVIOLATED : THR_OK), "%d: %s", n, err.text);
     if (n > 1024) assert_one_line(&err, "expected 1 to 1024");
+    if (n == 1024) ck_assert_int_eq(name_it(&p, "C1024", &err), THR_OK);
     free(next);
     free(same);
     thr_frame_destroy(&f);
@@ -287,6 +336,41 @@ START_TEST(names_are_those_of_isometries)
     }
     thr_plan_destroy(&p);
   }
+}
+END_TEST
+
+/* Names hold up to 5 %, and tolerances of one's own as far as they go, but for rounding: a mirror that a node is moved off. */
+START_TEST(limits_of_isometries_are_sharp)
+{
+  point_group g = group_number(1);
+  thr_plan p = plan_of_group(&g);
+  double low = 0, high = 10, kept = p.frame.xyz[0][2];
+  static const struct {
+    double more;
+    bool holds;
+  } cases[] = {{-1e-9, true}, {0.5e-9, true}, {1.5e-9, false}};
+  thr_err err;
+  thr_motion m;
+  for (int k = 0; k < 3; k++) {
+    for (low = 0, high = 10; nextafter(low, high) < high;) { /* so far off that the residual is what it should be */
+      double middle = (low + high) / 2;
+      p.frame.xyz[0][2] = kept + middle;
+      thr_procrustes(&p.frame, p.symmetry.generator, &m);
+      *(m.residual < THR_ISOMETRY_NEAR + cases[k].more ? &low : &high) = middle;
+    }
+    ck_assert_int_eq(name_it(&p, "Cs", &err), cases[k].holds ? THR_OK : THR_EVIOLATED);
+  }
+  static const struct {
+    double less;
+    bool holds;
+  } own[] = {{-1e-9, true}, {1.5e-9, true}, {2.5e-9, false}};
+  for (int k = 0; k < 3; k++) {
+    p.options.symmetry.geometric = m.farthest - own[k].less;
+    ck_assert_int_eq(name_it(&p, "", &err), own[k].holds ? THR_OK : THR_EVIOLATED);
+  }
+  p.options.symmetry.geometric = 0;
+  ck_assert_int_eq(name_it(&p, "", &err), THR_EVIOLATED);
+  thr_plan_destroy(&p);
 }
 END_TEST
 
@@ -703,6 +787,9 @@ int main(void)
   Suite *s = suite_create("checker of symmetry");
   ADD_LOOP(s, 30, groups_have_one_name, 0, N_GROUPS);
   ADD_TEST(s, 30, names_are_those_of_isometries);
+  ADD_TEST(s, 10, limits_of_isometries_are_sharp);
+  ADD_TEST(s, 10, names_of_flat_frameworks);
+  ADD_TEST(s, 10, orders_are_those_of_all_cycles);
   ADD_LOOP(s, 10, copies_may_start_anywhere_and_run_backward, 0, 150);
   ADD_TEST(s, 30, rings_turn_in_as_many_ways_as_they_have_nodes);
   ADD_TEST(s, 30, groups_have_1024_elements_at_most);

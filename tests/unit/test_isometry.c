@@ -377,22 +377,29 @@ START_TEST(lines_are_tilted_by_rotations)
 }
 END_TEST
 
-/* Distances of the moved nodes from their images, by definition. */
-static void assert_distances(const thr_frame *f, const int *image, const thr_motion *m)
+/* Distances of the moved nodes from their images, by definition; and the motion is the nearest one, which leaves the correlation
+ * symmetric, if it is not flat. */
+static void assert_nearest(const thr_frame *f, const int *image, const thr_motion *m)
 {
-  double centroid[3], size, sum = 0, most = 0;
+  double centroid[3], size, sum = 0, most = 0, left[3][3] = {{0}};
   thr_frame_extent(f, centroid, &size);
   for (int v = 0; v < f->n_nodes; v++) {
     double from[3], off[3];
     for (int i = 0; i < 3; i++)
       from[i] = f->xyz[v][i] - centroid[i];
-    for (int i = 0; i < 3; i++)
-      off[i] = thr_dot(m->q[i], from) - (f->xyz[image[v]][i] - centroid[i]);
+    for (int i = 0; i < 3; i++) {
+      double to = f->xyz[image[v]][i] - centroid[i];
+      off[i] = thr_dot(m->q[i], from) - to;
+      for (int j = 0; j < 9; j++)
+        left[j / 3][j % 3] += m->q[i][j / 3] * to * from[j % 3];
+    }
     sum += thr_dot(off, off);
     most = fmax(most, sqrt(thr_dot(off, off)));
   }
   ck_assert_double_eq_tol(m->residual, sqrt(sum / f->n_nodes) / size, 1e-9);
   ck_assert_double_eq_tol(m->farthest, most / size, 1e-9);
+  for (int i = 0; i < 3 && !m->flat; i++)
+    ck_assert_double_eq_tol(left[i][(i + 1) % 3], left[(i + 1) % 3][i], 1e-9 * size * size);
 }
 
 /* However far a permutation is from an isometry, the motion is one, but for the last digits. */
@@ -412,7 +419,7 @@ START_TEST(motions_are_orthogonal)
     const thr_frame f = {.n_nodes = 6, .xyz = xyz};
     thr_motion m;
     thr_procrustes(&f, image, &m);
-    assert_distances(&f, image, &m);
+    assert_nearest(&f, image, &m);
     for (int i = 0; i < 3 && !m.flat; i++)
       for (int j = 0; j < 3; j++)
         ck_assert_double_eq_tol(thr_dot(m.q[i], m.q[j]), i == j, 1e-14);
