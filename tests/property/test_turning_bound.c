@@ -552,26 +552,26 @@ static void make_gentle(rng *r, const model *m, thr_turning_dual *d)
     d->junction[i].value = 0;
 }
 
-/* Three branches, sometimes on one column: the root, its lower child, and the upper child or the lower child's own; four leaves,
- * some of them alike. */
+/* Three branches, sometimes on one column: the root, one of its children, and the other or a child's own; four leaves, some of
+ * them alike. */
 START_TEST(trees_prove_their_worst_leaf)
 {
   static model m;
   rng r = rng_make((uint64_t)_i + 1000);
   model_make(&r, &m);
-  static const int branch[2][3] = {{0, 1, 2}, {0, 1, 3}};
+  static const int branch[3][3] = {{0, 1, 2}, {0, 1, 3}, {0, 2, 4}};
   thr_turning_node node[7] = {0};
   thr_turning_dual dual[3];
   int one = rng_below(&r, m.columns.n_columns);
   for (int i = 0; i < 3; i++) {
     int j = rng_below(&r, 2) ? rng_below(&r, m.columns.n_columns) : one;
-    node[branch[_i % 2][i]] =
+    node[branch[_i % 3][i]] =
         (thr_turning_node){2 * i + 1, 2 * i + 2, m.column[j].a, m.column[j].b, rng_below(&r, m.column[j].most + 1), 0};
     dual[i] = random_dual(&r, &m);
     dual[i].length = 0;
     if (!m.task.end_allowed) make_gentle(&r, &m, &dual[i]);
   }
-  for (int i = 2; i < 7; i++)
+  for (int i = 1; i < 7; i++)
     node[i].dual = rng_below(&r, 3);
   thr_turning_proof p = {7, 3, m.columns.n_ends, node, dual};
   for (int j = 0; j < m.columns.n_columns; j++)
