@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # Every command with allocations that fail, its libraries' and its child processes' included:
 #   tests/memory/run.sh PROGRAM fail_malloc.so FOLDER [SAMPLES [WORD]]
-# Of each command (that has this word) so many allocations are tried (0: all), evenly spread, one failing by itself and then the same with all that come
-# after it. Allowed are the exit codes 0, 3, 4, 5 and 70, with a message if it is not 0. What was written is whole: the same bytes
-# as without failures, or a plan that `thread check` accepts, or a PDF with all its pages (Pango leaves words out where a single
-# allocation fails, unnoticed); with exit code 0 nothing is missing. And real plans are checked in
-# 40 MB of address space. One line per failure, then "N passed, N failed".
+# Allocations are told apart by the stack of calls that leads to them. Of each command (that has this word) so many stacks are
+# tried (0: all), evenly spread: the first allocation of each fails, by itself and then with all that come after it. Allowed are
+# the exit codes 0, 3, 4, 5 and 70, with a message if it is not 0. What was written is whole: the same bytes as without failures,
+# or a plan that `thread check` accepts, or a PDF with the same words; with exit code 0 nothing is missing. And real plans are
+# checked in 40 MB of address space. One line per failure, with the words that repeat it, then "N passed, N failed".
 set -u
 export LC_ALL=C
 program=$(realpath "$1") library=$(realpath "$2") folder=$3 samples=${4:-40} word=${5:-}
@@ -16,24 +16,39 @@ cd "$folder" || exit 1
 folder=$PWD
 export XDG_CACHE_HOME=$folder/cache
 
-# The exit code is the command's; $folder/count then holds how many allocations there were.
-try() { # AT ON FOLDER COMMAND..: in a fresh folder with the inputs
-  local at=$1 on=$2 here=$3
-  shift 3
+# The exit code is the command's; $folder/record is as fail_malloc.c says.
+try() { # FOLDER SETTINGS.. -- COMMAND..: in a fresh folder with the inputs
+  local here=$1 settings=()
+  shift
+  while [ "$1" != -- ]; do settings+=("$1") && shift; done
+  shift
   rm -rf "$here"
   mkdir "$here"
   ln -s "$folder"/inputs/* "$here"
-  head -c 8 /dev/zero >"$folder/count"
-  (cd "$here" && exec timeout -s KILL 120 env FAIL_COUNT="$folder/count" FAIL_AT="$at" ${on:+FAIL_ON=1} LD_PRELOAD="$library" \
-    "$program" "$@") \
+  : >"$folder/record"
+  (cd "$here" && exec timeout -s KILL 120 env FAIL_FILE="$folder/record" "${settings[@]}" LD_PRELOAD="$library" "$program" "$@") \
     >"$here.out" 2>"$here.err" </dev/null
+}
+
+number() { # PLACE: the number that is there in the record
+  od -An -td8 -j $((8 * $1)) -N 8 "$folder/record" | tr -d ' '
+}
+
+# The allocation that is meant is looked for near where it was; everywhere if things came in another order.
+try_stack() { # STACK AT ON COMMAND..
+  local stack=$1 at=$2 on=$3 code
+  shift 3
+  try run FAIL_STACK="$stack" FAIL_FROM=$((at > 500 ? at - 500 : 0)) $on -- "$@"
+  code=$?
+  [ "$(number 1)" = 0 ] || return $code
+  try run FAIL_STACK="$stack" $on -- "$@"
 }
 
 is_whole() { # FILE
   cmp -s "run/$1" "whole/$1" && return
   case $1 in
   *.json) "$program" check -q "run/$1" >check.out 2>&1 ;;
-  *.pdf) [ "$(tail -c 6 "run/$1")" = '%%EOF' ] && [ "$(grep -ac '/Type /Page' "run/$1")" = "$(grep -ac '/Type /Page' "whole/$1")" ] ;;
+  *.pdf) [ "$(tail -c 6 "run/$1")" = '%%EOF' ] && cmp -s <(pdftotext -layout "run/$1" -) <(pdftotext -layout "whole/$1" -) ;;
   *) false ;;
   esac
 }
@@ -57,25 +72,31 @@ judge() { # CODE
 }
 
 command_fails() { # COMMAND..
-  local n step i at on wrong
+  local code n allocations step i at on wrong before=$failed unmet=0 stacks=()
   case $* in *"$word"*) ;; *) return ;; esac
-  try 0 '' whole "$@"
-  local code=$?
+  try whole -- "$@"
+  code=$?
   [ $code = 0 ] || { echo "thread $*: exit code $code without failures: $(cat whole.err)" && failed=$((failed + 1)) && return; }
-  n=$(od -An -td8 count | tr -d ' ')
+  allocations=$(number 0)
+  n=$(number 2)
+  readarray -t stacks < <(od -An -v -tx8 -w16 -j 24 -N $((16 * n)) "$folder/record")
   step=$((samples > 0 && n > samples ? n / samples : 1))
-  for ((i = 0, at = 1; at <= n; i++, at += step)); do
-    for on in '' on; do
-      try $((step > 1 ? at + (i * 7919) % step : at)) "$on" run "$@"
+  for ((i = 0, at = 0; at < n; i++, at += step)); do
+    read -r stack place <<<"${stacks[step > 1 ? (at + (i * 7919) % step) % n : at]}"
+    for on in '' FAIL_ON=1; do
+      try_stack "$stack" $((16#$place)) "$on" "$@"
       wrong=$(judge $?)
-      if [ -z "$wrong" ]; then
+      if [ "$(number 1)" = 0 ]; then
+        unmet=$((unmet + 1))
+      elif [ -z "$wrong" ]; then
         passed=$((passed + 1))
       else
         failed=$((failed + 1))
-        echo "thread $*: allocation $((step > 1 ? at + (i * 7919) % step : at))${on:+ and all after it} of $n fails: $wrong: $(head -c 300 run.err | tr '\n' ' ')"
+        echo "thread $*: FAIL_STACK=$stack $on: $wrong: $(head -c 300 run.err | tr '\n' ' ')"
       fi
     done
   done
+  echo "thread $*: $allocations allocations, $n stacks, $i tried, $((failed - before)) failed, $unmet not met again"
 }
 
 "$program" make dome --size 3 -o inputs/frame.json && "$program" plan inputs/frame.json --ends feet -q -o inputs/plan.json &&

@@ -21,6 +21,7 @@
 #include <unistd.h>
 
 static const double cpu_limit = 3;         /* s, with --time-limit 2 */
+static const double plan_by = 1;           /* CPU s, with --time-limit 2: there is some plan after that */
 static const double after_signal = 1;      /* s */
 static const double started = 0.05;        /* s: before, a signal may meet a process that is still being loaded */
 static const long memory_limit = 1L << 20; /* KiB */
@@ -175,7 +176,7 @@ static const char *judge(const result *r, const char *plan, bool interrupted)
   if (r->memory > memory_limit) return "more than 1 GB";
   if (r->code < 0 && interrupted && r->cpu < started && !written) return NULL;
   if (r->code != 0 && r->code != 4 && r->code != 5) return "exit code";
-  if (plan && r->code == 0 && !written) return "no plan";
+  if (plan && !written && (r->code == 0 || (r->code == 5 && !interrupted && r->cpu >= plan_by))) return "no plan";
   if (r->code == 4 && written) return "exit code 4";
   if (!written && r->code != 0 && strncmp(r->message, "thread: ", 8) != 0) return "no message";
   return NULL;
