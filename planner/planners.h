@@ -12,4 +12,7 @@ void thr_planner_tell_first(const thr_frame *f, const thr_plan_options *o, const
 /* What the cords of a plan with tube joints are proved to be as to their length. */
 thr_status thr_planner_prove_tied(thr_plan *plan, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
 
+/* Cords that take no search, sound but long, for whoever keeps the best so far; nothing where nobody listens. */
+void thr_planner_tell_at_once(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits);
+
 #endif

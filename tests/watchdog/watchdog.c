@@ -21,7 +21,7 @@
 #include <unistd.h>
 
 static const double cpu_limit = 3;         /* s, with --time-limit 2 */
-static const double plan_by = 1;           /* CPU s, with --time-limit 2: there is some plan after that */
+static const double plan_by = 0.5;         /* CPU s, with --time-limit 2: there is some plan after that */
 static const double after_signal = 1;      /* s */
 static const double started = 0.05;        /* s: before, a signal may meet a process that is still being loaded */
 static const long memory_limit = 1L << 20; /* KiB */

@@ -1,0 +1,161 @@
+/* Sections of a tour, with ways to where cords may end. */
+#include "lp/length/cut_tour.h"
+#include "graph/framework/components.h"
+#include "graph/threading/walks.h"
+#include "lp/length/ways.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+  const thr_frame *f;
+  const thr_plan_options *o;
+  int n_components, *component;
+  int *left;               /* [n_edges] passes still to be made */
+  thr_walks *tour, *cords; /* [n_components] */
+  thr_ways home;           /* to where cords may end, or to the start of the one at hand */
+} cutting;
+
+static void cutting_destroy(cutting *x)
+{
+  for (int k = 0; x->tour && k < x->n_components; k++)
+    thr_walks_destroy(&x->tour[k]);
+  for (int k = 0; x->cords && k < x->n_components; k++)
+    thr_walks_destroy(&x->cords[k]);
+  thr_ways_destroy(&x->home);
+  free(x->tour);
+  free(x->cords);
+  free(x->component);
+  free(x->left);
+}
+
+static bool closed_cords(const cutting *x)
+{
+  return x->o->ends == THR_ENDS_CLOSED;
+}
+
+static thr_status trace_tours(cutting *x, thr_err *err)
+{
+  int *even = thr_calloc((size_t)x->f->n_edges, sizeof *even);
+  if (!even) return thr_nomem(err);
+  for (int e = 0; e < x->f->n_edges; e++)
+    even[e] = x->left[e] + x->left[e] % 2;
+  thr_status st = thr_walks_trace(x->f, even, x->component, x->n_components, x->tour, err);
+  free(even);
+  return st;
+}
+
+static thr_status cutting_init(cutting *x, thr_err *err)
+{
+  const thr_frame *f = x->f;
+  thr_status st = thr_ways_init(&x->home, f, err);
+  x->component = thr_calloc((size_t)f->n_nodes, sizeof *x->component);
+  x->left = thr_calloc((size_t)f->n_edges, sizeof *x->left);
+  if (!st && (!x->component || !x->left)) st = thr_nomem(err);
+  if (!st) st = thr_frame_components(f, x->component, &x->n_components, err);
+  if (st) return st;
+  x->tour = thr_calloc((size_t)x->n_components, sizeof *x->tour);
+  x->cords = thr_calloc((size_t)x->n_components, sizeof *x->cords);
+  if (!x->tour || !x->cords) return thr_nomem(err);
+  for (int e = 0; e < f->n_edges; e++)
+    x->left[e] = thr_plan_cover(f, x->o, e);
+  for (int v = 0; v < f->n_nodes && !st && !closed_cords(x); v++)
+    if (thr_plan_end_allowed(f, x->o, v)) st = thr_ways_start(&x->home, v, err);
+  if (!st) st = thr_ways_spread(&x->home, x->o, NULL, 0, INFINITY, NULL, err);
+  return st ? st : trace_tours(x, err);
+}
+
+/* Closed cords: the ways to node v. */
+static thr_status begin_at(cutting *x, int v, thr_err *err)
+{
+  if (!closed_cords(x)) return THR_OK;
+  thr_ways_clear(&x->home);
+  thr_status st = thr_ways_start(&x->home, v, err);
+  return st ? st : thr_ways_spread(&x->home, x->o, NULL, 0, x->o->max_length, NULL, err);
+}
+
+/* Where the section of tour w that begins at pass `from` ends: after the last pass that still has to be made with which the cord
+ * is no longer than it may be; `from`: there is none. */
+static int section_end(const cutting *x, const thr_walk *w, int from)
+{
+  const thr_frame *f = x->f;
+  double most = x->o->max_length * (1 + 1e-12), length = x->home.far[thr_walk_node(f, w, from)];
+  int end = from;
+  for (int i = from; i < w->n && length <= most; i++) {
+    int e = w->half[i] >> 1;
+    length += f->length[e];
+    if (x->left[e] > 0 && length + x->home.far[thr_head(f, w->half[i])] <= most) end = i + 1;
+  }
+  return end;
+}
+
+static int way_length(const thr_ways *g, int v)
+{
+  int n = 0;
+  for (; g->over[v] >= 0; v = thr_tail(g->f, g->over[v]))
+    n++;
+  return n;
+}
+
+static void way_home(const thr_ways *g, int v, int *half)
+{
+  for (; g->over[v] >= 0; v = thr_tail(g->f, g->over[v]))
+    *half++ = g->over[v] ^ 1;
+}
+
+/* Passes from .. end - 1 of w, and the ways to and from them. */
+static thr_status add_cord(cutting *x, thr_walks *to, const thr_walk *w, int from, int end, thr_err *err)
+{
+  int a = thr_walk_node(x->f, w, from), b = thr_walk_node(x->f, w, end);
+  int n_to = way_length(&x->home, a), n_back = way_length(&x->home, b), section = end - from;
+  thr_walk cord = {n_to + section + n_back, NULL, 0, closed_cords(x)};
+  if (!(cord.half = thr_calloc((size_t)cord.n, sizeof *cord.half))) return thr_nomem(err);
+  way_home(&x->home, a, cord.half);
+  thr_walk_reverse(cord.half, n_to);
+  memcpy(cord.half + n_to, w->half + from, (size_t)section * sizeof *cord.half);
+  way_home(&x->home, b, cord.half + n_to + section);
+  for (int i = 0; i < cord.n; i++)
+    x->left[cord.half[i] >> 1]--;
+  return thr_walks_add(to, x->f, cord, err);
+}
+
+/* *found: no cord would be too long, and there are not too many. */
+static thr_status cut(cutting *x, int k, bool *found, thr_err *err)
+{
+  thr_status st = THR_OK;
+  const thr_walk *w = x->tour[k].walk;
+  *found = true;
+  for (int i = 0, end; i < w->n && !st && *found; i = end) {
+    end = i + 1;
+    if (x->left[w->half[i] >> 1] <= 0) continue;
+    st = begin_at(x, thr_walk_node(x->f, w, i), err);
+    if (!st) end = section_end(x, w, i);
+    *found = end > i && x->cords[k].n_walks < x->o->cords;
+    if (!st && *found) st = add_cord(x, &x->cords[k], w, i, end, err);
+  }
+  *found &= x->cords[k].n_walks >= x->o->cords_least;
+  return st;
+}
+
+thr_status thr_cut_tour(const thr_frame *f, const thr_plan_options *o, thr_cord **cord, int *n_cords, thr_err *err)
+{
+  cutting x = {.f = f, .o = o};
+  thr_plan p = {.frame = *f, .options = *o};
+  bool found = true;
+  *cord = NULL;
+  *n_cords = 0;
+  if (o->ends == THR_ENDS_COUNTS) return THR_OK;
+  thr_status st = cutting_init(&x, err);
+  for (int k = 0; k < x.n_components && !st && found; k++)
+    st = cut(&x, k, &found, err);
+  if (!st && found) st = thr_walks_plan(x.cords, x.n_components, &p, err);
+  cutting_destroy(&x);
+  if (st) {
+    thr_cords_destroy(p.cord, p.n_cords);
+  } else {
+    *cord = p.cord;
+    *n_cords = p.n_cords;
+  }
+  return st;
+}

@@ -1,0 +1,15 @@
+/* Cords of limited length at once: what there is before a search has found any. Internal to lp/ and whoever keeps the best. */
+#ifndef THR_CUT_TOUR_H
+#define THR_CUT_TOUR_H
+
+#include "graph/plan/plan.h"
+
+/* One tour through every component, each edge an even number of times, cut into sections; each is a cord together with the
+ * shortest ways from and to places where cords may end, or back to its start, and none is longer than options.max_length (G. N.
+ * Frederickson, M. S. Hecht & C. E. Kim, "Approximation algorithms for some routing problems", SIAM J. Comput. 7, 1978).
+ * Capacities are not looked at. *n_cords = 0: not by this way, which proves nothing. cord[*n_cords] is the caller's. Near-linear
+ * in passes for open cords; for closed ones the ways from the start of each are looked for. */
+thr_status thr_cut_tour(const thr_frame *f, const thr_plan_options *o, thr_cord **cord, int *n_cords,
+                        thr_err *err) THR_MUST_CHECK;
+
+#endif

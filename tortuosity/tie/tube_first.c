@@ -1,0 +1,290 @@
+/* Tied cords without a search. At every node each edge is followed by the next one, and the last by the first: a ring of turns,
+ * which ties the node. Where two passes of one edge belong to different circuits, exchanging them behind the edge joins the
+ * circuits and changes no turn; so there is one circuit in every component. It may be opened once at every node, because a ring
+ * without one turn is a path; more closed cords run around a short circuit. */
+#include "tortuosity/tie/tube_first.h"
+#include "graph/disjoint.h"
+#include "graph/framework/components.h"
+#include "graph/threading/transition.h"
+#include "graph/threading/walks.h"
+#include "lp/length/ways.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct {
+  const thr_frame *f;
+  const thr_plan_options *o;
+  int n_components, *component;
+  int passes; /* of every edge */
+  thr_multigraph g;
+  int *mate, *walk; /* [n_darts] */
+  thr_walks *walks; /* [n_components] */
+  bool *mark;       /* [n_nodes] scratch of ways; then, where a circuit was opened */
+} first;
+
+static void first_destroy(first *x)
+{
+  for (int k = 0; x->walks && k < x->n_components; k++)
+    thr_walks_destroy(&x->walks[k]);
+  free(x->walks);
+  free(x->component);
+  free(x->mate);
+  free(x->walk);
+  free(x->mark);
+  thr_multigraph_destroy(&x->g);
+}
+
+static thr_status first_init(first *x, thr_err *err)
+{
+  const thr_frame *f = x->f;
+  if (!(x->component = thr_calloc((size_t)f->n_nodes, sizeof *x->component))) return thr_nomem(err);
+  thr_status st = thr_frame_components(f, x->component, &x->n_components, err);
+  if (st) return st;
+  int *passes = thr_calloc((size_t)f->n_edges, sizeof *passes);
+  if (!passes) return thr_nomem(err);
+  for (int e = 0; e < f->n_edges; e++)
+    passes[e] = x->passes;
+  st = thr_multigraph_init(&x->g, f, passes, NULL, 0, err);
+  free(passes);
+  if (st) return st;
+  x->mate = thr_calloc((size_t)x->g.n_darts, sizeof *x->mate);
+  x->walk = thr_calloc((size_t)x->g.n_darts, sizeof *x->walk);
+  x->walks = thr_calloc((size_t)x->n_components, sizeof *x->walks);
+  x->mark = thr_calloc((size_t)f->n_nodes, sizeof *x->mark);
+  return x->mate && x->walk && x->walks && x->mark ? THR_OK : thr_nomem(err);
+}
+
+/* Do these options and this framework have such cords? Sets the number of passes. */
+static bool is_possible(first *x)
+{
+  const thr_plan_options *o = x->o;
+  bool closed = o->ends == THR_ENDS_CLOSED;
+  if (o->ends == THR_ENDS_COUNTS || (closed && o->max_length > 0)) return false;
+  x->passes = 2;
+  for (int e = 0; e < x->f->n_edges; e++)
+    if (thr_plan_cover(x->f, o, e) > x->passes) x->passes = thr_plan_cover(x->f, o, e);
+  x->passes += x->passes % 2;
+  int more = closed ? o->cords_least - 1 : 0;
+  for (int e = 0; e < x->f->n_edges; e++)
+    if (thr_plan_capacity(x->f, o, e) - more < x->passes) return false;
+  for (int v = 0; v < x->f->n_nodes; v++)
+    if (thr_degree(x->f, v) < 2) return false;
+  return true;
+}
+
+/* The darts of a node stand edge by edge: the second of every two of an edge goes on in the first of two of the next edge. */
+static void pair_in_rings(first *x)
+{
+  const thr_multigraph *g = &x->g;
+  for (int v = 0; v < g->n_nodes; v++) {
+    const int *dart = g->dart + g->first[v];
+    int n = g->first[v + 1] - g->first[v];
+    for (int i = 1; i < n; i += 2) {
+      int next = (i - 1 + x->passes) % n;
+      x->mate[dart[i]] = dart[next];
+      x->mate[dart[next]] = dart[i];
+    }
+  }
+}
+
+static void exchange(int *mate, int a, int b)
+{
+  int behind_a = mate[a], behind_b = mate[b];
+  mate[a] = behind_b;
+  mate[behind_b] = a;
+  mate[b] = behind_a;
+  mate[behind_a] = b;
+}
+
+static thr_status join_circuits(first *x, thr_err *err)
+{
+  const thr_multigraph *g = &x->g;
+  int copies = g->n_darts / 2, *circuit = thr_calloc((size_t)copies, sizeof *circuit);
+  if (!circuit) return thr_nomem(err);
+  for (int c = 0; c < copies; c++)
+    circuit[c] = c;
+  for (int d = 0; d < g->n_darts; d++)
+    thr_disjoint_join(circuit, d / 2, x->mate[d] / 2);
+  for (int v = 0; v < g->n_nodes; v++)
+    for (int i = g->first[v]; i + 1 < g->first[v + 1]; i++) {
+      int a = g->dart[i], b = g->dart[i + 1];
+      if (g->half[a] == g->half[b] && thr_disjoint_join(circuit, a / 2, b / 2)) exchange(x->mate, a, b);
+    }
+  free(circuit);
+  return THR_OK;
+}
+
+/* The circuit of the component that dart d is in. */
+static thr_status take_circuit(first *x, int d, thr_err *err)
+{
+  thr_walk w = {.cyclic = true};
+  thr_transition_trace(x->mate, d, x->walk, &w.n);
+  if (!(w.half = thr_calloc((size_t)w.n, sizeof *w.half))) return thr_nomem(err);
+  for (int i = 0; i < w.n; i++)
+    w.half[i] = x->g.half[x->walk[i]];
+  return thr_walks_add(&x->walks[x->component[x->g.tail[d]]], x->f, w, err);
+}
+
+static thr_status take_circuits(first *x, thr_err *err)
+{
+  thr_status st = THR_OK;
+  for (int d = 0; d < x->g.n_darts && !st; d++)
+    if (x->walks[x->component[x->g.tail[d]]].n_walks == 0) st = take_circuit(x, d, err);
+  return st;
+}
+
+/* ---- more closed cords ---- */
+
+/* From node v back along its way to node `to`; returns how many passes, which go into half unless that is NULL. */
+static int go_back(const thr_ways *g, int v, int to, int *half)
+{
+  int n = 0;
+  for (; v != to; v = thr_tail(g->f, g->over[v]), n++)
+    if (half) half[n] = g->over[v] ^ 1;
+  return n;
+}
+
+/* Where the ways to a and b part. */
+static int fork_of(const thr_ways *g, int a, int b, bool *mark)
+{
+  for (int v = a; g->over[v] >= 0; v = thr_tail(g->f, g->over[v]))
+    mark[v] = true;
+  while (!mark[b] && g->over[b] >= 0)
+    b = thr_tail(g->f, g->over[b]);
+  for (int v = a; g->over[v] >= 0; v = thr_tail(g->f, g->over[v]))
+    mark[v] = false;
+  return b;
+}
+
+/* n times the circuit that edge e closes with the ways to its nodes. */
+static thr_status add_circuit(first *x, const thr_ways *g, int e, int n, thr_err *err)
+{
+  int a = x->f->edge[e][0], b = x->f->edge[e][1], fork = fork_of(g, a, b, x->mark);
+  int from_a = go_back(g, a, fork, NULL), from_b = go_back(g, b, fork, NULL);
+  thr_status st = THR_OK;
+  for (int i = 0; i < n && !st; i++) {
+    thr_walk w = {1 + from_a + from_b, NULL, 0, true};
+    if (!(w.half = thr_calloc((size_t)w.n, sizeof *w.half))) return thr_nomem(err);
+    w.half[0] = 2 * e;
+    go_back(g, b, fork, w.half + 1);
+    go_back(g, a, fork, w.half + 1 + from_b);
+    thr_walk_reverse(w.half + 1 + from_b, from_a);
+    st = thr_walks_add(&x->walks[x->component[a]], x->f, w, err);
+  }
+  return st;
+}
+
+/* The edge of every component that closes the shortest circuit with the ways to its nodes. */
+static void find_circuits(const first *x, const thr_ways *g, int *best)
+{
+  const thr_frame *f = x->f;
+  for (int k = 0; k < x->n_components; k++)
+    best[k] = -1;
+  for (int e = 0; e < f->n_edges; e++) {
+    int a = f->edge[e][0], b = f->edge[e][1], *at = &best[x->component[a]];
+    if (g->over[a] >> 1 == e || g->over[b] >> 1 == e) continue;
+    if (*at < 0 || f->length[e] + g->far[a] + g->far[b] < f->length[*at] + g->far[f->edge[*at][0]] + g->far[f->edge[*at][1]])
+      *at = e;
+  }
+}
+
+/* n more circuits in every component, all around the shortest that one edge closes with ways from its first node. */
+static thr_status add_circuits(first *x, int n, thr_err *err)
+{
+  thr_ways g;
+  int *best = thr_calloc((size_t)x->n_components, sizeof *best);
+  thr_status st = thr_ways_init(&g, x->f, err);
+  if (!st && !best) st = thr_nomem(err);
+  for (int v = 0, k = 0; v < x->f->n_nodes && !st; v++) /* components are numbered by their lowest nodes */
+    if (x->component[v] == k) st = thr_ways_start(&g, v, err), k++;
+  if (!st) st = thr_ways_spread(&g, x->o, NULL, 0, INFINITY, NULL, err);
+  if (!st) find_circuits(x, &g, best);
+  for (int k = 0; k < x->n_components && !st; k++)
+    st = add_circuit(x, &g, best[k], n, err);
+  thr_ways_destroy(&g);
+  free(best);
+  return st;
+}
+
+/* ---- open cords ---- */
+
+/* Where the piece of circuit w that begins at pass `from` ends: at the first place from length `least` on, or else the last place
+ * up to length `most`. -1: nowhere. The circuit's end is a place. */
+static int next_place(const first *x, const thr_walk *w, int from, double least, double most)
+{
+  int found = -1;
+  double length = 0;
+  for (int i = from + 1; i <= w->n; i++) {
+    int v = thr_walk_node(x->f, w, i);
+    length += x->f->length[w->half[i - 1] >> 1];
+    if (length > most) return found;
+    if (i < w->n && (x->mark[v] || !thr_plan_end_allowed(x->f, x->o, v))) continue;
+    found = i;
+    if (length >= least) return found;
+  }
+  return found;
+}
+
+/* The circuit of component k cut into pieces; *n counts them. */
+static thr_status cut_circuit(first *x, int k, int *n, thr_err *err)
+{
+  const thr_plan_options *o = x->o;
+  thr_walks *w = &x->walks[k];
+  int start = 0;
+  while (start < w->walk[0].n && !thr_plan_end_allowed(x->f, o, thr_walk_node(x->f, &w->walk[0], start)))
+    start++;
+  *n = 0;
+  if (start == w->walk[0].n) return THR_OK;
+  thr_status st = thr_walk_rotate(&w->walk[0], start, err);
+  x->mark[thr_walk_node(x->f, &w->walk[0], 0)] = true;
+  for (int last = 0, wanted = o->cords_least; !st && w->walk[last].n > 0; last++) {
+    thr_walk *rest = &w->walk[last];
+    double part = rest->length / (wanted > last ? wanted - last : 1);
+    int at =
+        o->max_length > 0 ? next_place(x, rest, 0, INFINITY, o->max_length) : next_place(x, rest, 0, part * (1 - 1e-9), INFINITY);
+    if (at < 0) return THR_OK;
+    *n = last + 1;
+    if (at == rest->n) return THR_OK;
+    x->mark[thr_walk_node(x->f, rest, at)] = true;
+    st = thr_walks_split(w, x->f, last, at, err);
+  }
+  return st;
+}
+
+/* *found: all components could be cut into as many pieces as asked for. */
+static thr_status cut_circuits(first *x, bool *found, thr_err *err)
+{
+  thr_status st = THR_OK;
+  *found = true;
+  for (int k = 0; k < x->n_components && !st && *found; k++) {
+    int n;
+    st = cut_circuit(x, k, &n, err);
+    *found = n == x->walks[k].n_walks && n >= x->o->cords_least && n <= x->o->cords;
+  }
+  return st;
+}
+
+thr_status thr_tube_first(const thr_frame *f, const thr_plan_options *o, thr_cord **cord, int *n_cords, thr_err *err)
+{
+  first x = {.f = f, .o = o};
+  thr_plan p = {.frame = *f, .options = *o};
+  bool found = true;
+  *cord = NULL;
+  *n_cords = 0;
+  if (!is_possible(&x)) return THR_OK;
+  thr_status st = first_init(&x, err);
+  if (!st) pair_in_rings(&x);
+  if (!st) st = join_circuits(&x, err);
+  if (!st) st = take_circuits(&x, err);
+  if (!st) st = o->ends == THR_ENDS_CLOSED ? add_circuits(&x, o->cords_least - 1, err) : cut_circuits(&x, &found, err);
+  if (!st && found) st = thr_walks_plan(x.walks, x.n_components, &p, err);
+  first_destroy(&x);
+  if (st) {
+    thr_cords_destroy(p.cord, p.n_cords);
+  } else {
+    *cord = p.cord;
+    *n_cords = p.n_cords;
+  }
+  return st;
+}
