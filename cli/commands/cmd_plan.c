@@ -434,8 +434,8 @@ static int conclude(const arguments *a, guard_end *end)
 {
   places to;
   if (end->written) return guard_conclude(end, "the plan is written, but not all that was to be drawn or said of it");
-  bool told =
-      end->reason == GUARD_DONE && end->code != EXIT_LIMIT && end->code != EXIT_INTERNAL; /* what the user wants to know */
+  bool searched = end->code == EXIT_LIMIT || end->code == EXIT_INFEASIBLE || end->code == EXIT_INTERNAL;
+  bool told = end->reason == GUARD_DONE && !searched; /* what the user wants to know */
   if (end->kept.length == 0 || told) return guard_conclude(end, "no plan was found");
   int code = find_places(a, &to);
   if (!code) code = cli_write(&end->kept, to.plan);
