@@ -54,55 +54,46 @@ bool guard_option(guard_limits *l, const char *command, int option, const char *
 
 /* ---- messages from the child ---- */
 
-typedef enum { KEEP, WRITING, WRITTEN, NO_MEMORY, ALLOW, ENDING } message;
-
-/* Every message: this, and so many bytes. */
-typedef struct {
-  message kind;
-  int code;
-  double seconds;
-  size_t length;
-} head;
+enum { KEEP, WRITING, WRITTEN, NO_MEMORY, ALLOW, ENDING }; /* kinds; code: exit code; value of ALLOW: s */
 
 static int to_parent = -1; /* in the child: where messages go */
 static double deadline;    /* thr_clock() */
 
-static void send(head h, const char *bytes)
+static void send(thr_message m, const char *bytes)
 {
-  if (to_parent < 0) return;
-  if (!thr_process_send(to_parent, (const char *)&h, sizeof h) || !thr_process_send(to_parent, bytes, h.length)) to_parent = -1;
+  if (to_parent >= 0 && !thr_message_send(to_parent, m, bytes)) to_parent = -1;
 }
 
 void guard_keep(const thr_text *t)
 {
-  if (!t->failed) send((head){.kind = KEEP, .length = t->length}, t->data);
+  if (!t->failed) send((thr_message){.kind = KEEP, .length = t->length}, t->data);
 }
 
 void guard_writing(void)
 {
-  send((head){.kind = WRITING}, NULL);
+  send((thr_message){.kind = WRITING}, NULL);
 }
 
 void guard_written(int code)
 {
-  send((head){.kind = WRITTEN, .code = code}, NULL);
+  send((thr_message){.kind = WRITTEN, .code = code}, NULL);
 }
 
 bool guard_no_memory(void)
 {
-  send((head){.kind = NO_MEMORY}, NULL);
+  send((thr_message){.kind = NO_MEMORY}, NULL);
   return to_parent >= 0;
 }
 
 void guard_ending(int code)
 {
-  send((head){.kind = ENDING, .code = code}, NULL);
+  send((thr_message){.kind = ENDING, .code = code}, NULL);
 }
 
 void guard_allow(double seconds)
 {
   deadline = seconds > 0 ? thr_clock() + seconds : 0;
-  send((head){.kind = ALLOW, .seconds = seconds}, NULL);
+  send((thr_message){.kind = ALLOW, .value = {seconds}}, NULL);
 }
 
 double guard_deadline(void)
@@ -136,8 +127,9 @@ typedef struct {
   guard_end *end;
 } guarded;
 
-static void take(guarded *g, const head *h, const char *bytes)
+static void take(void *user, const thr_message *h, const char *bytes)
 {
+  guarded *g = user;
   switch (h->kind) {
   case KEEP:
     g->end->kept.length = 0;
@@ -152,33 +144,16 @@ static void take(guarded *g, const head *h, const char *bytes)
   case NO_MEMORY: g->out_of_memory = true; break;
   case ENDING: g->by_itself = true; break;
   case ALLOW:
-    if (!g->first) g->end_by = h->seconds > 0 ? thr_clock() + h->seconds + GRACE : 0;
+    if (!g->first) g->end_by = h->value[0] > 0 ? thr_clock() + h->value[0] + GRACE : 0;
     break;
   }
-}
-
-static void take_all(guarded *g)
-{
-  size_t at = 0;
-  head h;
-  while (g->arrived.length - at >= sizeof h) {
-    memcpy(&h, g->arrived.data + at, sizeof h);
-    if (g->arrived.length - at - sizeof h < h.length) break;
-    take(g, &h, g->arrived.data + at + sizeof h);
-    at += sizeof h + h.length;
-  }
-  if (at == 0) return;
-  g->arrived.length -= at;
-  memmove(g->arrived.data, g->arrived.data + at, g->arrived.length);
 }
 
 /* Takes what lies in the pipe. */
 static void receive(guarded *g)
 {
-  static char block[1 << 16];
-  for (ssize_t n; (n = read(g->pipe, block, sizeof block)) > 0;)
-    thr_text_append_bytes(&g->arrived, block, (size_t)n);
-  take_all(g);
+  while (thr_messages_receive(g->pipe, &g->arrived, take, g) > 0)
+    continue;
 }
 
 /* Signals: the first is passed on, the second ends everything, unless it is the first once more, sent to the process and to its

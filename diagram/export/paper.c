@@ -1,3 +1,4 @@
+#define _POSIX_C_SOURCE 200809L
 #include "diagram/export/paper.h"
 #include "graph/process/lazy.h"
 
@@ -43,9 +44,11 @@ static struct {
   bool loaded;
 } lib;
 
+/* GLib must not allocate by slices: where memory is out it says so with the lock of slices held, and waits for itself. */
 static thr_status load(thr_err *err)
 {
   static const thr_lazy_symbol symbol[] = {FUNCTIONS(THR_LAZY_SYMBOL)};
+  if (setenv("G_SLICE", "always-malloc", 0)) return thr_nomem(err);
   return thr_lazy_load(&lib.loaded, THR_LIBRARY_RSVG_2, symbol, sizeof symbol / sizeof *symbol, err);
 }
 

@@ -13,16 +13,10 @@
 
 static const double WATCH = 0.1;     /* s between two looks at the limits */
 static const double GRACE = 1.0 / 3; /* s that a child has to stop by itself */
-enum { BLOCK = 1 << 16 };            /* bytes read at once */
 
+/* Kinds of messages. Bytes: the answer, what is being done, or the text of a failure; value: best and bound, the part done, or
+ * the work left; code: the status. */
 enum { ANSWER, PROGRESS, ADVANCE, END };
-
-/* Every message: this, and `length` bytes: the answer, what is being done, or the text of a failure. */
-typedef struct {
-  size_t length;
-  double value[2]; /* best and bound, or the part done, or the work left */
-  int32_t kind, status;
-} head;
 
 struct thr_sender {
   const thr_limits *limits; /* of the parent */
@@ -39,26 +33,23 @@ static void stop(int signal_number)
   told_to_stop = 1;
 }
 
-static bool post(thr_sender *to, head h, const char *bytes)
-{
-  return thr_process_send(to->fd, (const char *)&h, sizeof h) && thr_process_send(to->fd, bytes, h.length);
-}
-
 thr_status thr_child_send(thr_sender *to, const thr_text *answer, thr_err *err)
 {
   if (answer->failed) return thr_nomem(err);
-  if (post(to, (head){.kind = ANSWER, .length = answer->length}, answer->data)) return THR_OK;
+  if (thr_message_send(to->fd, (thr_message){.kind = ANSWER, .length = answer->length}, answer->data)) return THR_OK;
   return thr_fail(err, THR_ESOLVER, "a worker cannot send its answer: %s", strerror(errno));
 }
 
 static void post_progress(void *user, const char *what, double best, double bound)
 {
-  post(user, (head){.kind = PROGRESS, .length = strlen(what), .value = {best, bound}}, what);
+  const thr_sender *to = user;
+  thr_message_send(to->fd, (thr_message){.kind = PROGRESS, .length = strlen(what), .value = {best, bound}}, what);
 }
 
 static void post_advance(void *user, const char *what, double done)
 {
-  post(user, (head){.kind = ADVANCE, .length = strlen(what), .value = {done}}, what);
+  const thr_sender *to = user;
+  thr_message_send(to->fd, (thr_message){.kind = ADVANCE, .length = strlen(what), .value = {done}}, what);
 }
 
 typedef struct {
@@ -83,7 +74,8 @@ static bool run_job(void *user, int fd)
   sigemptyset(&ask.sa_mask);
   sigaction(SIGUSR1, &ask, NULL);
   thr_status st = t->child->run(t->child->user, &limits, &to, &err);
-  return post(&to, (head){.kind = END, .length = strlen(err.text), .value = {work}, .status = (int32_t)st}, err.text);
+  return thr_message_send(fd, (thr_message){.kind = END, .length = strlen(err.text), .value = {work}, .code = (int32_t)st},
+                          err.text);
 }
 
 /* ---- the parent ---- */
@@ -94,13 +86,15 @@ typedef struct {
   thr_process process;
   thr_text *answer, arrived; /* bytes not yet taken for a message */
   double asked;              /* thr_clock() when the child was asked to stop; 0 = not yet */
+  bool stuck;                /* the child waits for itself */
   bool ended;                /* the message of its end has come, with this status and text */
   thr_err end;
   thr_status status;
 } parent;
 
-static void take(parent *p, const head *h, const char *bytes)
+static void take(void *user, const thr_message *h, const char *bytes)
 {
+  parent *p = user;
   const thr_limits *l = p->limits;
   char what[200];
   snprintf(what, sizeof what, "%.*s", h->length < sizeof what ? (int)h->length : (int)sizeof what - 1, bytes);
@@ -112,47 +106,29 @@ static void take(parent *p, const head *h, const char *bytes)
   }
   if (h->kind == END) {
     p->ended = true;
-    p->status = (thr_status)h->status;
+    p->status = (thr_status)h->code;
     if (p->status) thr_fail(&p->end, p->status, "%.*s", (int)h->length, bytes);
     if (l->work) *l->work = h->value[0];
   }
 }
 
-/* Takes the messages that have arrived whole. */
-static void take_all(parent *p)
-{
-  size_t at = 0;
-  head h;
-  while (p->arrived.length - at >= sizeof h) {
-    memcpy(&h, p->arrived.data + at, sizeof h);
-    if (p->arrived.length - at - sizeof h < h.length) break;
-    take(p, &h, p->arrived.data + at + sizeof h);
-    at += sizeof h + h.length;
-  }
-  if (at == 0) return;
-  p->arrived.length -= at;
-  memmove(p->arrived.data, p->arrived.data + at, p->arrived.length);
-}
-
 /* false when the child has closed its pipe. */
 static bool receive(parent *p)
 {
-  static char block[BLOCK];
   struct pollfd news = {.fd = p->process.pipe, .events = POLLIN};
   double wait = p->asked > 0 ? fmax(p->asked + GRACE - thr_clock(), 0) : thr_limits_left(p->limits, WATCH);
-  if (poll(&news, 1, (int)ceil(1000 * fmin(wait, WATCH))) <= 0) return true;
-  ssize_t n = read(p->process.pipe, block, sizeof block);
-  if (n < 0 && (errno == EINTR || errno == EAGAIN)) return true;
-  if (n <= 0) return false;
-  thr_text_append_bytes(&p->arrived, block, (size_t)n);
-  take_all(p);
-  return true;
+  if (poll(&news, 1, (int)ceil(1000 * fmin(wait, WATCH))) <= 0) {
+    p->stuck = thr_process_stuck(&p->process);
+    return true;
+  }
+  ssize_t n = thr_messages_receive(p->process.pipe, &p->arrived, take, p);
+  return n > 0 || (n < 0 && (errno == EINTR || errno == EAGAIN));
 }
 
 /* false if the child has not stopped in time and was killed. */
 static bool watch(parent *p)
 {
-  while (!p->arrived.failed && !p->answer->failed && receive(p)) {
+  while (!p->arrived.failed && !p->answer->failed && !p->stuck && receive(p)) {
     if (!p->asked && thr_limits_stop(p->limits)) {
       p->asked = thr_clock();
       kill(p->process.pid, SIGUSR1);
@@ -167,6 +143,8 @@ static thr_status judge(parent *p, bool stopped, thr_err *err)
   char who[200];
   if (p->arrived.failed || p->answer->failed) return thr_nomem(err);
   if (!stopped) return thr_fail(err, THR_ELIMIT, "%s: stopped before it was done", p->child->what);
+  if (p->stuck)
+    return thr_fail(err, THR_ESOLVER, "%s: its process waited for itself (memory ran out in a library)", p->child->what);
   if (p->ended) return p->status ? thr_fail(err, p->status, "%s", p->end.text) : THR_OK;
   snprintf(who, sizeof who, "%s: its process", p->child->what);
   thr_status st = thr_process_end(&p->process, who, p->child->advice, err);

@@ -10,11 +10,14 @@
 #include <string.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 enum { READ = 0, WRITE = 1 }; /* ends of a pipe */
 enum { FIRST_FREE = 3 };      /* descriptors below are standard input, output and error */
 enum { SENT = 113 };          /* exit code of a child that has sent everything, other than a library's exit(0) */
+enum { BLOCK = 1 << 16 };     /* bytes read at once */
+enum { STUCK = 200 };         /* looks without any work in between */
 
 bool thr_process_send(int fd, const char *data, size_t n)
 {
@@ -26,6 +29,38 @@ bool thr_process_send(int fd, const char *data, size_t n)
     n -= (size_t)sent;
   }
   return true;
+}
+
+bool thr_message_send(int fd, thr_message m, const char *bytes)
+{
+  return thr_process_send(fd, (const char *)&m, sizeof m) && thr_process_send(fd, bytes, m.length);
+}
+
+/* Hands over the messages that have arrived whole. */
+static void take_all(thr_text *arrived, void (*take)(void *user, const thr_message *m, const char *bytes), void *user)
+{
+  size_t at = 0;
+  thr_message m;
+  while (arrived->length - at >= sizeof m) {
+    memcpy(&m, arrived->data + at, sizeof m);
+    if (arrived->length - at - sizeof m < m.length) break;
+    take(user, &m, arrived->data + at + sizeof m);
+    at += sizeof m + m.length;
+  }
+  if (at == 0) return;
+  arrived->length -= at;
+  memmove(arrived->data, arrived->data + at, arrived->length);
+}
+
+ssize_t thr_messages_receive(int fd, thr_text *arrived, void (*take)(void *user, const thr_message *m, const char *bytes),
+                             void *user)
+{
+  static _Thread_local char block[BLOCK];
+  ssize_t n = read(fd, block, sizeof block);
+  if (n <= 0) return n;
+  thr_text_append_bytes(arrived, block, (size_t)n);
+  take_all(arrived, take, user);
+  return n;
 }
 
 /* Ctrl-C goes to the whole process group: the parent decides what to do about it. */
@@ -142,6 +177,23 @@ thr_status thr_process_end(thr_process *p, const char *who, const char *advice, 
   if (status == -1 || WEXITSTATUS(status) != SENT)
     return thr_fail(err, THR_ESOLVER, "%s ended without a result%s%s%s%s%s", who, opening, line, closing, comma, advice);
   return THR_OK;
+}
+
+/* Processor time that it has used, s. */
+static double cpu_time(pid_t pid)
+{
+  clockid_t clock;
+  struct timespec t;
+  if (clock_getcpuclockid(pid, &clock) || clock_gettime(clock, &t)) return 0;
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+bool thr_process_stuck(thr_process *p)
+{
+  double cpu = cpu_time(p->pid);
+  p->looks = cpu == p->cpu ? p->looks + 1 : 0;
+  p->cpu = cpu;
+  return p->looks >= STUCK;
 }
 
 void thr_process_kill(thr_process *p)

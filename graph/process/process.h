@@ -4,7 +4,7 @@
 #ifndef THR_PROCESS_H
 #define THR_PROCESS_H
 
-#include "graph/status.h"
+#include "graph/text.h"
 
 #include <sys/types.h>
 
@@ -13,6 +13,8 @@ typedef struct {
   pid_t pid; /* 0 = none */
   int pipe;  /* what the child writes to the descriptor that it is given arrives here */
   int words; /* what it or a library prints, of which thr_process_end quotes the first line */
+  int looks; /* of thr_process_stuck, since its processor time grew; that was: */
+  double cpu;
 } thr_process;
 
 /* Forks. The child calls run(user, fd) and ends; nothing else of the program runs in it, neither buffered output nor exit
@@ -22,12 +24,30 @@ thr_status thr_process_start(thr_process *p, bool (*run)(void *user, int fd), vo
 /* Writes n bytes, in spite of signals. */
 bool thr_process_send(int fd, const char *data, size_t n);
 
+/* A message, followed by `length` bytes. What the others mean is up to sender and receiver. */
+typedef struct {
+  size_t length;
+  double value[2];
+  int32_t kind, code;
+} thr_message;
+
+bool thr_message_send(int fd, thr_message m, const char *bytes);
+
+/* Reads what lies in the pipe, 64 KB at most, and hands over the messages that have arrived whole; `arrived` keeps what has not.
+ * As read() returns; 0: the other end is closed. */
+ssize_t thr_messages_receive(int fd, thr_text *arrived, void (*take)(void *user, const thr_message *m, const char *bytes),
+                             void *user);
+
 /* Waits for the end, closes the pipes and leaves *p empty. THR_ESOLVER if the child did not end by run returning true: the text
  * begins with `who`, says the signal and what was printed, and ends with `advice` (NULL: none). */
 thr_status thr_process_end(thr_process *p, const char *who, const char *advice, thr_err *err);
 
 /* In a child: it is killed when its parent dies, whose process it was told; at once if that is dead already. */
 void thr_process_die_with(pid_t parent);
+
+/* Has it slept for some 20 s of such calls, one every 0.1 s? A library that waits for itself, as GLib does where memory is out
+ * while it holds a lock, never ends. */
+bool thr_process_stuck(thr_process *p);
 
 /* Ends it at once, whatever it does, and closes the pipes; nothing if there is no child. */
 void thr_process_kill(thr_process *p);

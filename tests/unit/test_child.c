@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "tests/support.h"
 #include "graph/process/child.h"
+#include "graph/process/process.h"
 
 #include <errno.h>
 #include <poll.h>
@@ -314,6 +315,46 @@ START_TEST(a_child_may_stop_by_itself)
 }
 END_TEST
 
+static bool spin(void *user, int fd)
+{
+  (void)user;
+  for (volatile double x = 0; fd >= 0; x += 1)
+    continue;
+  return true;
+}
+
+static bool sleep_on(void *user, int fd)
+{
+  (void)user;
+  (void)fd;
+  pause_ms(60000);
+  return true;
+}
+
+/* Is it at some of so many looks, so many ms apart? */
+static bool found_stuck(bool (*run)(void *user, int fd), int looks, long pause)
+{
+  thr_process p;
+  bool stuck = false;
+  ck_assert_int_eq(thr_process_start(&p, run, NULL, NULL), THR_OK);
+  pause_ms(200);
+  for (int i = 0; i < looks && !stuck; i++) {
+    pause_ms(pause);
+    stuck = thr_process_stuck(&p);
+  }
+  thr_process_kill(&p);
+  assert_no_children();
+  return stuck;
+}
+
+START_TEST(a_child_that_waits_for_itself_is_found)
+{
+  ck_assert(found_stuck(sleep_on, 202, 1));
+  ck_assert(!found_stuck(sleep_on, 150, 1));
+  ck_assert(!found_stuck(spin, 250, 10));
+}
+END_TEST
+
 /* A child whose parent is killed: its end of the pipe closes. */
 static thr_status sleep_with(void *user, const thr_limits *limits, thr_sender *to, thr_err *err)
 {
@@ -359,6 +400,7 @@ int main(void)
   ADD_TEST(s, 10, progress_and_work_come_back);
   ADD_LOOP(s, 20, a_child_that_takes_no_heed_is_killed, 0, 2);
   ADD_LOOP(s, 20, a_child_may_stop_by_itself, 0, 2);
+  ADD_TEST(s, 30, a_child_that_waits_for_itself_is_found);
   ADD_TEST(s, 20, a_child_dies_with_its_parent);
   return run_suite(s);
 }
