@@ -45,7 +45,7 @@ static thr_status first_init(first *x, thr_err *err)
   if (!passes) return thr_nomem(err);
   for (int e = 0; e < f->n_edges; e++)
     passes[e] = x->passes;
-  st = thr_multigraph_init(&x->g, f, passes, NULL, 0, err);
+  st = thr_multigraph_init(&x->g, f, 0, passes, NULL, 0, err);
   free(passes);
   if (st) return st;
   x->mate = thr_calloc((size_t)x->g.n_darts, sizeof *x->mate);
