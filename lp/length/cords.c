@@ -4,8 +4,8 @@
 #include "graph/framework/components.h"
 #include "lp/length/balance.h"
 #include "lp/length/postman_parts.h"
-#include "lp/length/share_exact.h"
 #include "lp/length/share_prices.h"
+#include "lp/length/share_table.h"
 #include "lp/length/ways.h"
 
 #include <limits.h>
@@ -48,6 +48,11 @@ static thr_status several_init(several *x, thr_err *err)
   x->share = (thr_share){x->f, x->o, x->component};
   x->least = x->certain = true;
   return x->walks && x->wanted && x->passes ? THR_OK : thr_nomem(err);
+}
+
+static bool within(double length, double limit)
+{
+  return length <= limit * (1 + 1e-12);
 }
 
 static int component_of(const several *x, int e)
@@ -139,27 +144,44 @@ static thr_status tell(const several *x, thr_err *err)
   return st;
 }
 
+/* What the table knows better, where the component is small: with a goal only if it was missed. */
 static thr_status make_exact(several *x, int k, double goal, thr_err *err)
 {
-  bool certain;
-  thr_status st = thr_share_exact(&x->share, k, goal, x->limits, &x->walks[k], x->passes, &certain, err);
+  const thr_plan_options *o = x->o;
+  thr_walks *w = &x->walks[k];
+  bool certain, counts = o->ends == THR_ENDS_COUNTS;
+  thr_share_ask ask = {counts ? w->n_walks : o->cords_least, counts ? w->n_walks : o->cords, true, INFINITY};
+  if (goal > 0 && within(thr_walks_longest(w), goal)) return THR_OK;
+  if (goal > 0) ask = (thr_share_ask){ask.least, counts ? ask.most : x->wanted[k], false, goal};
+  thr_status st = thr_share_table(&x->share, k, &ask, x->limits, w, x->passes, &certain, err);
   x->certain &= certain;
   return st;
 }
 
-/* Closed cords of component k from its circuit. */
-static thr_status make_closed(several *x, int k, bool even, thr_err *err)
+/* So many closed cords of component k as its shortest passes do not hold. */
+static thr_status make_more(several *x, int k, int n, thr_err *err)
 {
-  bool enough, least = true;
+  thr_walks *w = &x->walks[k];
+  bool certain, found;
+  thr_status st = thr_share_table(&x->share, k, &(thr_share_ask){n, n, false, INFINITY}, x->limits, w, x->passes, &certain, err);
+  x->least &= certain;
+  found = w->n_walks >= n;
+  if (!st && !found && !certain) st = thr_share_more(&x->share, k, n, x->passes, w, &found, err);
+  if (st || found) return st;
+  return thr_fail(err, THR_EINFEASIBLE, "the component with node %s cannot hold %d closed cords: the capacities leave no room",
+                  node_of(x, k), n);
+}
+
+/* Closed cords of component k from its circuit. scratch[n_edges]. */
+static thr_status make_closed(several *x, int k, bool even, int *scratch, thr_err *err)
+{
+  bool enough;
   int n = x->wanted[k], must = x->o->cords_least;
   thr_status st = thr_share_circuits(&x->share, n, even, &x->walks[k], &enough, err);
   if (!st && !enough && even) st = thr_share_chords(&x->share, n, x->passes, &x->walks[k], err);
   if (st || enough || (even && x->walks[k].n_walks >= must)) return st;
-  st = thr_share_more(&x->share, k, even ? must : n, x->passes, &x->walks[k], &enough, &least, err);
-  x->least &= least;
-  if (st || enough) return st;
-  return thr_fail(err, THR_EINFEASIBLE, "the component with node %s cannot hold %d closed cords: the capacities leave no room",
-                  node_of(x, k), n);
+  st = make_more(x, k, even ? must : n, err);
+  return st ? st : straighten(x, k, scratch, err);
 }
 
 /* Room for the ends of as many cords as are wanted; without it there are none. */
@@ -187,7 +209,7 @@ static thr_status share_out(several *x, const thr_certificate *c, bool even, dou
     thr_walks_destroy(&x->walks[k]);
     x->walks[k] = new[k];
     new[k] = (thr_walks){0};
-    st = x->o->ends == THR_ENDS_CLOSED ? make_closed(x, k, even, err)
+    st = x->o->ends == THR_ENDS_CLOSED ? make_closed(x, k, even, passes, err)
                                        : thr_share_cut(&x->share, x->wanted[k], even, &x->walks[k], err);
   }
   if (!st && even) st = tell(x, err);
@@ -256,11 +278,6 @@ static void lengths_of(const several *x, const int *passes, double *length)
   memset(length, 0, (size_t)x->n_components * sizeof *length);
   for (int e = 0; e < x->f->n_edges; e++)
     length[component_of(x, e)] += passes[e] * x->f->length[e];
-}
-
-static bool within(double length, double limit)
-{
-  return length <= limit * (1 + 1e-12);
 }
 
 thr_status thr_cords_reach(const thr_frame *f, const thr_plan_options *o, thr_err *err)

@@ -39,11 +39,9 @@ thr_status thr_share_split(const thr_share *s, int n, bool even, thr_junction_gr
 thr_status thr_share_tied(const thr_share *s, int n, bool even, int *passes, thr_walks *w, bool *found,
                           thr_err *err) THR_MUST_CHECK;
 
-/* What thr_share_circuits did not find: n closed walks of component k through other passes. *least: they are the shortest passes
- * that hold so many, found among all sums of loops of a component with few of them; else further pairs of passes over the
- * shortest edges. *found false: the capacities leave no room. */
-thr_status thr_share_more(const thr_share *s, int k, int n, int *passes, thr_walks *w, bool *found, bool *least,
-                          thr_err *err) THR_MUST_CHECK;
+/* What thr_share_circuits did not find: pairs of passes of component k over the shortest edges, until there are n closed walks.
+ * *found false: the capacities leave no room. */
+thr_status thr_share_more(const thr_share *s, int k, int n, int *passes, thr_walks *w, bool *found, thr_err *err) THR_MUST_CHECK;
 
 /* Splits the longest closed walk, again and again, into two that both pass a way between two of its nodes, or if that is no good
  * into one for each of its edges, until there are n or none gets shorter by it. O(n * passes of a walk * edges around it). */

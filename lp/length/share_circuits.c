@@ -265,3 +265,28 @@ thr_status thr_share_circuits(const thr_share *s, int n, bool even, thr_walks *w
   thr_walks_destroy(&many);
   return st;
 }
+
+/* ---- pairs of passes ---- */
+
+thr_status thr_share_more(const thr_share *s, int k, int n, int *passes, thr_walks *w, bool *found, thr_err *err)
+{
+  const thr_frame *f = s->f;
+  thr_status st = THR_OK;
+  *found = true;
+  while (w->n_walks < n && !st) {
+    int best = -1;
+    for (int e = 0; e < f->n_edges; e++)
+      if (s->component[f->edge[e][0]] == k && passes[e] + 2 <= thr_plan_capacity(f, s->o, e) &&
+          (best < 0 || f->length[e] < f->length[best]))
+        best = e;
+    *found = best >= 0;
+    if (!*found) return THR_OK;
+    thr_walk pair = {2, thr_calloc(2, sizeof *pair.half), 0, true};
+    if (!pair.half) return thr_nomem(err);
+    pair.half[0] = 2 * best;
+    pair.half[1] = pair.half[0] ^ 1;
+    passes[best] += 2;
+    st = thr_walks_add(w, f, pair, err);
+  }
+  return st;
+}

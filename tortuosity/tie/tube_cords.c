@@ -3,7 +3,7 @@
 #include "graph/check/check.h"
 #include "graph/framework/components.h"
 #include "lp/length/balance.h"
-#include "lp/length/share_tied_exact.h"
+#include "lp/length/share_table.h"
 #include "tortuosity/tie/tube.h"
 
 #include <math.h>
@@ -138,6 +138,11 @@ static double total(const thr_walks *w)
   return sum;
 }
 
+static bool within(double length, double limit)
+{
+  return length <= limit * (1 + 1e-12);
+}
+
 /* n closed walks of component k from few. *found false: not so many; certain: there are none. */
 static thr_status split(several *x, int k, int n, bool even, thr_walks *w, bool *found, bool *certain, thr_err *err)
 {
@@ -145,7 +150,7 @@ static thr_status split(several *x, int k, int n, bool even, thr_walks *w, bool 
   *certain = false;
   thr_status st = thr_share_tied(&x->share, n, even, x->passes, w, found, err);
   if (st || (*found && (even || total(w) <= least))) return st;
-  st = thr_share_tied_exact(&x->share, k, n, true, 0, x->limits, w, x->passes, certain, err);
+  st = thr_share_table(&x->share, k, &(thr_share_ask){n, n, false, INFINITY}, x->limits, w, x->passes, certain, err);
   *found = w->n_walks >= n;
   if (!even) x->least &= *certain;
   return st;
@@ -154,8 +159,11 @@ static thr_status split(several *x, int k, int n, bool even, thr_walks *w, bool 
 static thr_status even_out(several *x, int k, double goal, thr_walks *w, thr_err *err)
 {
   bool certain;
+  const int n = w->n_walks;
+  thr_share_ask ask = {n, n, goal == 0, goal > 0 ? goal : INFINITY};
   thr_status st = thr_balance_walks(&x->share, w, goal, x->limits, x->passes, err);
-  if (!st) st = thr_share_tied_exact(&x->share, k, w->n_walks, false, goal, x->limits, w, x->passes, &certain, err);
+  if (st || (goal > 0 && within(thr_walks_longest(w), goal))) return st;
+  st = thr_share_table(&x->share, k, &ask, x->limits, w, x->passes, &certain, err);
   if (!st) x->certain &= certain;
   return st;
 }
@@ -217,11 +225,6 @@ static thr_status make_even(several *x, thr_err *err)
 }
 
 /* ---- no cord longer than a limit ---- */
-
-static bool within(double length, double limit)
-{
-  return length <= limit * (1 + 1e-12);
-}
 
 /* Tries n cords in every component that is not done and may do with so few. */
 static thr_status try_number(several *x, int n, bool *done, thr_err *err)

@@ -1,0 +1,47 @@
+/* A small component of a framework as walks that collect items (graph/threading/subsets.h): states are its half-edges.
+ *
+ * Items: each pass that an edge needs, and a cord end wherever ends are counted. What ties so many choices together that a table
+ * for all would be large comes in only where cords were found that do without:
+ * - capacities: then each pass that the edge may have is an item, collected once;
+ * - cuts of tube joints: of the edges at a node some, the others, and as an item any turn between these and those. Where cords
+ *   never end a node of three edges needs none: each edge turns to another.
+ * Without them the table's cords cost no more than any others. */
+#ifndef THR_ITEMS_H
+#define THR_ITEMS_H
+
+#include "graph/plan/plan.h"
+#include "graph/threading/subsets.h"
+
+typedef struct {
+  const thr_frame *f;
+  const thr_plan_options *o; /* joint, cover, capacity, ends */
+  const int *component;
+  int k;
+  bool turning;  /* turns are what costs, as options.turning prices them, not length */
+  uint32_t full; /* edges whose capacities count, 1 << i */
+  int n_cuts;
+  uint64_t cut[THR_SUBSETS_MOST_ITEMS]; /* sets of states that leave one node */
+  int n_edges, *edge;                   /* of the component; half-edge 2 * edge[i] + s is state 2 * i + s */
+  uint32_t *pass, *end;                 /* [n_edges], [f->n_nodes] their items */
+  uint32_t *turn;                       /* [n_cuts] its item */
+  thr_subsets_model m;
+} thr_items;
+
+/* Component k, component[n_nodes], without capacities or cuts. With turning U-turns are only at nodes with one edge, with tube
+ * joints nowhere. */
+thr_status thr_items_init(thr_items *p, const thr_frame *f, const thr_plan_options *o, const int *component, int k, bool turning,
+                          thr_err *err) THR_MUST_CHECK;
+void thr_items_destroy(thr_items *p);
+
+/* Makes the model. *small false: it has too many items. */
+thr_status thr_items_model(thr_items *p, bool *small, thr_err *err) THR_MUST_CHECK;
+
+/* The framework's half-edge that a state is. */
+int thr_items_half(const thr_items *p, int state);
+
+/* Of walks of such a model, n_passes[i] states each. *keep: they keep the capacities and tie the nodes. Else what they miss
+ * counts from now on; *more: there was something to add. */
+thr_status thr_items_refine(thr_items *p, int n_walks, int *const *state, const int *n_passes, bool *keep, bool *more,
+                            thr_err *err) THR_MUST_CHECK;
+
+#endif

@@ -1,0 +1,105 @@
+/* The table, the cords that it finds, and what they miss. */
+#include "graph/threading/small_cords.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+void thr_small_cords_destroy(thr_small_cords *x)
+{
+  for (int i = 0; x->half && i < x->n; i++)
+    free(x->half[i]);
+  free(x->half);
+  free(x->n_passes);
+  *x = (thr_small_cords){0};
+}
+
+static bool less(double a, double b)
+{
+  return a < b * (1 - 1e-9) - 1e-12;
+}
+
+/* Are the known cords not what is asked for, or n that cost this better? */
+static bool is_better(const thr_small_ask *ask, int n, double dearest, double sum)
+{
+  if (ask->known < ask->least || ask->known > ask->most || ask->known_dearest > ask->limit * (1 + 1e-12)) return true;
+  if (ask->limit < INFINITY && n != ask->known) return n < ask->known;
+  if (ask->even && less(dearest, ask->known_dearest)) return true;
+  return less(sum, ask->known_sum) && (!ask->even || !less(ask->known_dearest, dearest));
+}
+
+/* n cords, as states. */
+static thr_status take_cords(thr_subsets *t, int n, thr_small_cords *out, double *dearest, thr_err *err)
+{
+  thr_status st = THR_OK;
+  *dearest = 0;
+  out->half = thr_calloc((size_t)n, sizeof *out->half);
+  out->n_passes = thr_calloc((size_t)n, sizeof *out->n_passes);
+  if (!out->half || !out->n_passes) return thr_nomem(err);
+  for (; out->n < n && !st; out->n++) {
+    double cost;
+    st = thr_subsets_walk(t, out->n, &out->half[out->n], &out->n_passes[out->n], &cost, err);
+    *dearest = fmax(*dearest, cost);
+  }
+  return st;
+}
+
+typedef enum { NOT_KNOWN, NONE_BETTER, BETTER, MORE_COUNTS } verdict;
+
+/* Of the model as it is: out receives what is better than the known cords. */
+static thr_status solve(const thr_subsets_model *m, const thr_small_ask *ask, const thr_limits *limits, thr_small_cords *out,
+                        verdict *v, thr_err *err)
+{
+  thr_subsets *t;
+  double limit = ask->limit, sum, dearest;
+  int n = -1;
+  thr_status st = thr_subsets_create(m, limits, &t, err);
+  if (st || !t) return st;
+  if (ask->even) st = thr_subsets_dearest(t, ask->least, ask->most, &limit, err);
+  if (!st && ask->even && isinf(limit)) n = 0;
+  if (!st && !isnan(limit) && n < 0)
+    st = thr_subsets_find(t, ask->least, ask->most, ask->limit < INFINITY, limit * (1 + 1e-12), &n, &sum, err);
+  if (!st && n >= 0) *v = NONE_BETTER;
+  if (!st && n > 0) {
+    st = take_cords(t, n, out, &dearest, err);
+    if (!st && is_better(ask, n, dearest, sum)) *v = BETTER;
+  }
+  thr_subsets_destroy(t);
+  return st;
+}
+
+static thr_status try_items(thr_items *p, const thr_small_ask *ask, const thr_limits *limits, thr_small_cords *out, verdict *v,
+                            thr_err *err)
+{
+  bool small, keep, more;
+  *v = NOT_KNOWN;
+  thr_status st = thr_items_model(p, &small, err);
+  if (!st && small) st = solve(&p->m, ask, limits, out, v, err);
+  if (st || *v != BETTER) return st;
+  st = thr_items_refine(p, out->n, out->half, out->n_passes, &keep, &more, err);
+  if (!keep) *v = more ? MORE_COUNTS : NOT_KNOWN;
+  return st;
+}
+
+thr_status thr_small_cords_find(const thr_frame *f, const thr_plan_options *o, const int *component, int k,
+                                const thr_small_ask *ask, const thr_limits *limits, thr_small_cords *out, bool *certain,
+                                thr_err *err)
+{
+  thr_items p;
+  thr_err why = {0};
+  verdict v = MORE_COUNTS;
+  *out = (thr_small_cords){0};
+  *certain = false;
+  thr_status st = thr_items_init(&p, f, o, component, k, ask->turning, err);
+  if (st) return st;
+  while (!st && v == MORE_COUNTS) {
+    thr_small_cords_destroy(out);
+    st = try_items(&p, ask, limits, out, &v, &why);
+  }
+  if (st || v != BETTER) thr_small_cords_destroy(out);
+  for (int i = 0; i < out->n; i++)
+    for (int j = 0; j < out->n_passes[i]; j++)
+      out->half[i][j] = thr_items_half(&p, out->half[i][j]);
+  thr_items_destroy(&p);
+  *certain = !st && (v == BETTER || v == NONE_BETTER);
+  return st && st != THR_ELIMIT ? thr_fail(err, st, "%s", why.text) : THR_OK;
+}

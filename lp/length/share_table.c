@@ -1,0 +1,47 @@
+/* Cords of the table as walks. */
+#include "lp/length/share_table.h"
+#include "graph/threading/small_cords.h"
+
+#include <stdlib.h>
+
+static double total(const thr_walks *w)
+{
+  double sum = 0;
+  for (int i = 0; i < w->n_walks; i++)
+    sum += w->walk[i].length;
+  return sum;
+}
+
+/* The half-edges are moved. */
+static thr_status take(const thr_share *s, int k, thr_small_cords *cords, thr_walks *w, int *passes, thr_err *err)
+{
+  const thr_frame *f = s->f;
+  thr_walks new = {0};
+  thr_status st = THR_OK;
+  for (int i = 0; i < cords->n && !st; i++) {
+    thr_walk walk = {cords->n_passes[i], cords->half[i], 0, s->o->ends == THR_ENDS_CLOSED};
+    cords->half[i] = NULL;
+    st = thr_walks_add(&new, f, walk, err);
+  }
+  if (st) {
+    thr_walks_destroy(&new);
+    return st;
+  }
+  for (int e = 0; e < f->n_edges; e++)
+    if (s->component[f->edge[e][0]] == k) passes[e] = 0;
+  thr_walks_count(&new, passes);
+  thr_walks_destroy(w);
+  *w = new;
+  return THR_OK;
+}
+
+thr_status thr_share_table(const thr_share *s, int k, const thr_share_ask *ask, const thr_limits *limits, thr_walks *w,
+                           int *passes, bool *certain, thr_err *err)
+{
+  thr_small_cords cords;
+  const thr_small_ask all = {ask->least, ask->most, false, ask->even, ask->limit, w->n_walks, thr_walks_longest(w), total(w)};
+  thr_status st = thr_small_cords_find(s->f, s->o, s->component, k, &all, limits, &cords, certain, err);
+  if (!st && cords.n > 0) st = take(s, k, &cords, w, passes, err);
+  thr_small_cords_destroy(&cords);
+  return st;
+}

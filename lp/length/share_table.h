@@ -1,0 +1,20 @@
+/* The cords of a small component by a table over subsets (graph/threading/small_cords.h): exact. */
+#ifndef THR_SHARE_TABLE_H
+#define THR_SHARE_TABLE_H
+
+#include "lp/length/share.h"
+
+/* What is asked of the cords of a component. */
+typedef struct {
+  int least, most; /* so many */
+  bool even;       /* the longest as short as can be; then, and without it, little length in all */
+  double limit;    /* of each cord, INFINITY = none: then the fewest */
+} thr_share_ask;
+
+/* Puts such cords of component k in place of w where w is worse, or is none: the options' ends, covers, capacities, joint. w and
+ * passes become the best known; *certain: nothing is better, or there is nothing (w is then as it was). Components that are too
+ * large, and what the limits stop, leave w as it is. */
+thr_status thr_share_table(const thr_share *s, int k, const thr_share_ask *ask, const thr_limits *limits, thr_walks *w,
+                           int *passes, bool *certain, thr_err *err) THR_MUST_CHECK;
+
+#endif
