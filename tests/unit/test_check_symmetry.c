@@ -538,7 +538,7 @@ START_TEST(copies_come_to_the_same_nodes)
     int half[2] = {0, 2}, same[3] = {0, 1, 2}, unique[2] = {0, 0}, which[2] = {0, 0};
     thr_cord cord[2] = {{.id = "A", .n_passes = 1, .half = half}, {.id = "B", .n_passes = 1, .half = half + 1}};
     thr_plan p = {.frame = f, .options = options_for(THR_ENDS_ANY, 1), .n_cords = 2, .cord = cord};
-    p.options.objective = THR_SYMMETRY;
+    want(&p.options, "overlap,steps");
     p.options.symmetry.geometric = -1;
     p.symmetry = (thr_symmetry_record){true, 1, "", 0, same, 1, same, unique, which, 1, 1};
     thr_err err = {0};
@@ -566,7 +566,7 @@ START_TEST(what_is_kept_is_learned_whole)
     for (int v = 0; v < 4; v++)
       f.foot[v] = false;
     thr_plan p = {.frame = f, .options = options_for(THR_ENDS_ANY, 1), .n_cords = 3, .cord = cord};
-    p.options.objective = THR_SYMMETRY;
+    want(&p.options, "overlap,steps");
     p.options.symmetry.geometric = -1;
     p.symmetry = (thr_symmetry_record){true, 2, "", 1, exchange, 2, image, unique, which, 2, 2};
     thr_err err = {0};
