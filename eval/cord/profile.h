@@ -1,4 +1,9 @@
-/* Tension along a cord whose turns multiply it: every method that knows what each turn costs ends here. */
+/* Tension along a cord whose turns multiply it: every method that knows what each turn costs ends here.
+ *
+ * T(k + 1) = T(k) / c(k), c(k) >= 1 the factor of turn k; pulled at both ends the cord is slackest where the two sides meet. The
+ * pull is the seating tension times the product of the factors on the way there.
+ *
+ * Example: three turns of factors 2, 2 and 3, pulled at one end, 5 N at the far one: 5 * 12 = 60 N. */
 #ifndef THR_PROFILE_H
 #define THR_PROFILE_H
 

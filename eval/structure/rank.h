@@ -1,4 +1,8 @@
-/* Rank of a sparse matrix, by SuiteSparseQR (T. A. Davis, ACM TOMS 38, 2011). */
+/* Rank of a sparse matrix, by SuiteSparseQR (T. A. Davis, ACM TOMS 38, 2011).
+ *
+ * A P = Q R; the rank is the number of diagonal entries of R above a tolerance.
+ *
+ * Example: rows (1, 0), (0, 1), (1, 1) have rank 2. */
 #ifndef THR_RANK_H
 #define THR_RANK_H
 

@@ -1,4 +1,10 @@
-/* Pairs of odd places that a lightest perfect matching may use, and the ways between them. Internal to lp/. */
+/* Pairs of odd places that a lightest perfect matching may use, and the shortest paths between them. Internal to lp/.
+ *
+ * For every odd place the nearest others by a truncated Dijkstra search; every two whose cells of the Voronoi diagram touch (an
+ * edge between the cells gives the path); and the edges of a spanning tree of these, so that all can be paired.
+ *
+ * Example: odd places at 0, 1, 5 and 6 of a line are candidates (0, 1), (1, 5) and (5, 6); (0, 6) is not, and pricing
+ * (lp/matching/moat.h) shows that it is not needed. */
 #ifndef THR_CANDIDATES_H
 #define THR_CANDIDATES_H
 

@@ -1,5 +1,10 @@
-/* Places with very many arcs, such as the one that stands for outside where cord ends are allowed at every node: any two odd
- * places that reach it can be paired over it, too many pairs to list. Internal to lp/. */
+/* Pairs over a hub, a place with very many arcs, such as the one that stands for outside where cord ends are allowed at every
+ * node: any two odd places that reach it can be paired over it, too many pairs to list. Internal to lp/.
+ *
+ * A pair over the hub weighs d(u) + d(v), where d is the distance to the hub. Listed are the pairs along two random circuits
+ * through all places whose moats reach so far; pricing asks again until the moats pay for every pair.
+ *
+ * Example: four places a, b, c, d give ab, bc, cd, da in one circuit, of the six pairs that there are. */
 #ifndef THR_HUB_H
 #define THR_HUB_H
 

@@ -1,6 +1,13 @@
-/* Minimum T-join by matching: the odd nodes are paired along shortest ways, and the duals of the matching are moats round them
+/* Minimum T-join by matching: the odd nodes are paired along shortest paths, and the duals of the matching are moats round them
  * (Edmonds & Johnson 1973; pricing: M. Groetschel & O. Holland, "Solving matching problems with linear programming", Math. Prog.
- * 33, 1985). The engine for large frameworks; lp/tjoin/tjoin.h is the other one. */
+ * 33, 1985). The engine for large frameworks; lp/tjoin/tjoin.h is the other one.
+ *
+ * Length of the join = sum over odd sets S of the width of the moat round S, where over every edge the widths of the moats that
+ * it crosses add up to no more than its weight. A pair that was left out is needed only if it is closer than the moats of its
+ * two places are wide in sum.
+ *
+ * Example: a path of edges 2, 3, 2 with all four nodes odd: moats of width 1 round each node lie within both edges of 2, and the
+ * join is these two edges, 4 long. */
 #ifndef THR_MOAT_H
 #define THR_MOAT_H
 

@@ -1,5 +1,10 @@
-/* Large sparse linear programmes by a primal-dual interior point method: predictor and corrector (S. Mehrotra 1992), further
- * correctors (J. Gondzio 1996). */
+/* Large sparse linear programmes by a primal-dual interior point method: predictor and corrector (S. Mehrotra, SIAM J.
+ * Optimization 2, 1992), further correctors (J. Gondzio, Comp. Optimization and Applications 6, 1996).
+ *
+ * Minimize c x with A x = b, x >= 0: Newton's method on A x = b, A^T y + z = c, x z = target, with the target going to 0; every
+ * step solves (A D A^T) dy = r with D = x / z (lp/solver/normal.h).
+ *
+ * Example: minimize x + 2 y with x + y = 1 ends at x = 1, y = 0 with the dual value 1. */
 #ifndef THR_INTERIOR_H
 #define THR_INTERIOR_H
 

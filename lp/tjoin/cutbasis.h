@@ -1,4 +1,10 @@
-/* The cuts of a T-join as a linear programme, and a basis of it that the join gives. Internal to lp/. */
+/* The cuts of a T-join as a linear programme, and a basis of it that the join gives, so that GLPK needs no pivot to confirm the
+ * optimum. Internal to lp/.
+ *
+ * Minimize the sum of w(e) x(e) with x(edges that leave S) >= 1 for every set S of the nest; the basic columns are tight edges
+ * that span each level of the nest.
+ *
+ * Example: one odd set S with two edges of weight 2 and 3 leaving it: the row x1 + x2 >= 1, basic x1 = 1, dual 2. */
 #ifndef THR_CUTBASIS_H
 #define THR_CUTBASIS_H
 

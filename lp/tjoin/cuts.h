@@ -1,4 +1,9 @@
-/* Forests of cuts (graph/plan/plan.h, thr_cut): nesting sets in each other, and changing the side of a cut. Internal to lp/. */
+/* Forests of cuts (graph/plan/plan.h, thr_cut): nesting sets in each other, and changing the side of a cut. Internal to lp/.
+ *
+ * Each cut lists only the nodes that no set inside it has; the whole set is the list with those of all sets inside. A set and
+ * its complement have the same cut, so any set may be replaced by the nodes outside of it.
+ *
+ * Example: {0, 1, 2} round {0} is kept as the cut {0} and, outside it, the cut with the list 1, 2. */
 #ifndef THR_CUTS_H
 #define THR_CUTS_H
 

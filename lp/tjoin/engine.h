@@ -1,4 +1,10 @@
-/* Minimum T-joins: which engine, shrinking first, and the word of a third party on the result. */
+/* Minimum T-joins: which engine, shrinking first, and the word of a third party on the result.
+ *
+ * Matching (lp/matching/moat.h) is the engine, unless the user asks for the linear programme (lp/tjoin/tjoin.h) or the weights
+ * are too large for whole numbers of 64 bits.
+ *
+ * Example: of a framework with two bridges and ten chains the engine sees what is left of it without them; joins and cuts are
+ * carried back. */
 #ifndef THR_ENGINE_H
 #define THR_ENGINE_H
 

@@ -1,8 +1,12 @@
 /* Finding odd sets that a fractional point violates: sets S of nodes, an odd number of them odd, with x(edges that leave S) < 1.
  * Heuristically by moats (a ball round every odd component of the support), exactly by a Gomory-Hu tree (Padberg & Rao,
- * Mathematics of Operations Research 7, 1982). Every set becomes a row of a pool, its members those of the row:
+ * Mathematics of Operations Research 7, 1982): of a tree of minimum cuts the lightest edge with an odd number of odd nodes on
+ * its sides. Every set becomes a row of a pool, its members those of the row:
+ *
  *   st = thr_oddcut_moats(&graph, x, 1e-6, reduced_cost, &pool, err);
- *   if (!st && pool.count == before) st = thr_oddcut_exact(&graph, x, &pool, err); */
+ *   if (!st && pool.count == before) st = thr_oddcut_exact(&graph, x, &pool, err);
+ *
+ * Example: a triangle of odd nodes with x = 1/2 on its edges and 0 on the others that leave it breaks the row of the triangle. */
 #ifndef THR_ODDCUT_H
 #define THR_ODDCUT_H
 

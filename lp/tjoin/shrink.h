@@ -1,4 +1,11 @@
-/* Exact shrinking of a T-join problem, before either engine solves it: bridges, parallel edges, nodes of degree 1 and 2. */
+/* Exact shrinking of a T-join problem, before either engine solves it: bridges, parallel edges, nodes of degree 1 and 2.
+ *
+ * A bridge is in the join if its sides are odd, and a cut by itself then. Of parallel edges the lightest counts. An even node
+ * with edges of weight a and b goes, and one edge of weight a + b stands for both; at an odd one just one of the two is in the
+ * join: the lighter, a <= b, is taken, a moat of width a goes round the node, and an edge of weight b - a stands for changing
+ * over.
+ *
+ * Example: an odd node between edges of weight 2 and 5: the join has 2, and an edge of weight 3 instead of both. */
 #ifndef THR_SHRINK_H
 #define THR_SHRINK_H
 

@@ -1,4 +1,10 @@
-/* Minimum T-join by linear programming over odd cuts (Edmonds & Johnson 1973; separation: Padberg & Rao 1982). */
+/* Minimum T-join by linear programming over odd cuts (Edmonds & Johnson 1973; separation: Padberg & Rao 1982).
+ *
+ * Minimize the sum of w(e) x(e) with x(edges that leave S) >= 1 for every set S with an odd number of nodes of T; the corners of
+ * this polyhedron are T-joins, and its dual, a packing of odd cuts, is the proof.
+ *
+ * Example: a cycle of four edges of weight 1 with two opposite odd nodes: both halves are T-joins of weight 2, and moats of
+ * width 1 round each odd node prove it. */
 #ifndef THR_TJOIN_H
 #define THR_TJOIN_H
 

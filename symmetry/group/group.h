@@ -1,4 +1,9 @@
-/* A finite permutation group with all its elements listed, and its subgroups up to conjugacy. */
+/* A finite permutation group with all its elements listed, and its subgroups up to conjugacy.
+ *
+ * Elements are found breadth first from the generators, with a table of products; subgroups by extension: each one is extended
+ * by one more element, and one of each class of conjugates is kept (J. Neubueser 1960).
+ *
+ * Example: the eight elements of the square's group have 10 subgroups in 8 classes. */
 #ifndef THR_GROUP_H
 #define THR_GROUP_H
 

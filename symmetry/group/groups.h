@@ -1,4 +1,7 @@
-/* Which groups of automorphisms are offered for a framework. Internal to symmetry/. */
+/* Which groups of automorphisms are offered for a framework: all subgroups up to conjugacy where they can be listed, else the
+ * isometries and what a few generators make. Internal to symmetry/.
+ *
+ * Example: of the square's group C4v: C1, C2, C4, two classes of mirrors, two of C2v, and C4v itself. */
 #ifndef THR_SYMMETRY_GROUPS_H
 #define THR_SYMMETRY_GROUPS_H
 

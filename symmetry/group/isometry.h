@@ -1,4 +1,10 @@
-/* What an automorphism is in space: the best rigid motion or reflection that moves the nodes to their images. */
+/* What an automorphism is in space: the best rigid motion or reflection that moves the nodes to their images, and what that is
+ * called.
+ *
+ * The orthogonal R with the least sum of |R x(v) - x(p(v))|^2 (Procrustes analysis, Schoenemann 1966): from the singular value
+ * decomposition X^T Y = U S V^T, R = V U^T. The trace of R says the angle, its determinant whether it reflects.
+ *
+ * Example: R with determinant 1 and trace -1 turns by 180 degrees: C2. */
 #ifndef THR_ISOMETRY_H
 #define THR_ISOMETRY_H
 

@@ -1,4 +1,9 @@
-/* The classical tours through the shortest passes, to compare with. */
+/* The classical tours through the shortest passes, to compare with: Hierholzer (1873), who joins circuits where they meet, and
+ * Fleury (1883), who never passes a bridge of what is left while there is another way on. Both need a connected multigraph with
+ * even degrees, which the shortest extra passes give.
+ *
+ * Example: two triangles with one node in common: Hierholzer walks the first and inserts the second where it comes past the
+ * common node. */
 #ifndef THR_BASELINE_H
 #define THR_BASELINE_H
 

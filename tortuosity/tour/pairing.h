@@ -1,4 +1,9 @@
-/* Pairing the passes at one node: minimum-weight perfect matching of n points under any prices. */
+/* Pairing the passes at one node: minimum-weight perfect matching of n points under any prices.
+ *
+ * Up to 16 points by dynamic programming over subsets: best(S) = min over j of price(i, j) + best(S - {i, j}), i the lowest
+ * point of S; beyond, point i with i + n / 2, then exchanges of two pairs while any saves.
+ *
+ * Example: four passes straight across each other are paired with their opposites, at price 0. */
 #ifndef THR_PAIRING_H
 #define THR_PAIRING_H
 
