@@ -1,5 +1,10 @@
 /* The objective "symmetry": learn a few paths, repeat them (thesis, chapter 5; docs/method.md). Which groups of automorphisms a
- * framework has, the best symmetric threading under each, and the choice among them. */
+ * framework has, the best symmetric threading under each, and the choice among them.
+ *
+ * For every group H: the cover of least (overlap, steps, paths), in the order asked for, among those that H maps to themselves;
+ * a step is a pass of a unique path.
+ *
+ * Example: a square dome under C4v: one path over an eighth of it, walked eight times, each time turned or mirrored. */
 #ifndef THR_SYMMETRY_H
 #define THR_SYMMETRY_H
 

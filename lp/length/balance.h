@@ -1,5 +1,10 @@
-/* Evening out the cords of a component: exchanges until the longest cannot be made shorter (Ahr & Reinelt 2006 for closed tours
- * from one depot; here cords end where they may, and share nodes). */
+/* Evening out the cords of a component: exchanges until the longest cannot be made shorter (D. Ahr & G. Reinelt, "A tabu search
+ * algorithm for the min-max k-Chinese postman problem", Computers & Operations Research 33, 2006, for closed tours from one
+ * depot; here cords end where they may, and share nodes).
+ *
+ * Minimize the longest of K cords; no plan is below the total divided by K, or the least cord that passes any one edge.
+ *
+ * Example: cords of 3 and 9 that share a node exchange their tails and become 6 and 6. */
 #ifndef THR_BALANCE_H
 #define THR_BALANCE_H
 

@@ -1,5 +1,7 @@
 /* The shortest plan with any number of cords: passes (lp/length/postman.h), shared out among cords (lp/length/share.h,
- * lp/length/balance.h). */
+ * lp/length/balance.h); for a length limit with more and more cords until none is longer.
+ *
+ * Example: a framework of 12 m of passes, no cord longer than 5 m: three cords at least, ceil(12 / 5). */
 #ifndef THR_CORDS_H
 #define THR_CORDS_H
 

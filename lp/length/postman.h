@@ -1,4 +1,10 @@
-/* Route Inspection: the shortest cord that covers a framework (thesis, chapter 5 "Length"; Edmonds & Johnson 1973). */
+/* Route Inspection: the shortest cord that covers a framework (thesis, chapter 5 "Length"; Edmonds & Johnson 1973).
+ *
+ * Length = cover x sum of all lengths + a minimum T-join of the nodes that these passes leave odd. K cords have 2 K ends, which
+ * may take odd nodes out of T (lp/tjoin/endjoin.h).
+ *
+ * Example: a square with one diagonal of length d: two odd nodes. Closed: 4 + 2 d, the diagonal twice; with two ends there: 4 +
+ * d. */
 #ifndef THR_POSTMAN_H
 #define THR_POSTMAN_H
 

@@ -1,4 +1,9 @@
-/* How the passes of a component are shared out among several cords (docs/method.md). */
+/* How the passes of a component are shared out among several cords (docs/method.md).
+ *
+ * Open cords: one walk, cut where cords may end, costs nothing. Closed cords: a walk that comes twice past a node falls into two
+ * there; where no node is passed twice, further passes make more circuits.
+ *
+ * Example: a figure of eight, two closed cords: cut at its middle. */
 #ifndef THR_SHARE_H
 #define THR_SHARE_H
 

@@ -1,4 +1,9 @@
-/* Proof that cords need as many passes as they have beyond a shortest join, by prices of places (graph/plan/prices.h). */
+/* Proof that cords need as many passes as they have beyond a shortest join, by prices of places (graph/plan/prices.h).
+ *
+ * Let every pass at a node where a cord may end be worth p, a place for its end, as if it made the edge lighter, and let 2 K
+ * such places cost 2 K p: the least join at these prices, put together, is a bound for K cords, and the best p is searched for.
+ *
+ * Example: docs/method.md, "Several cords". */
 #ifndef THR_SHARE_PRICES_H
 #define THR_SHARE_PRICES_H
 

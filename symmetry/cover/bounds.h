@@ -1,6 +1,10 @@
 /* What no symmetric cover is better than, by one minimum T-join (symmetry/cover/start.c) or by counting. Internal.
  *
- * Bounds only grow: each is the larger of what it was and what is proved here, in the aim's unit. Limits weaken them. */
+ * Overlap: a symmetric cover is a cover, so it has no less than the shortest. Steps: every edge orbit needs at least one pass of
+ * a unique path. Bounds only grow: each is the larger of what it was and what is proved here, in the aim's unit. Limits weaken
+ * them.
+ *
+ * Example: nine edge orbits need nine steps at least. */
 #ifndef THR_BOUNDS_H
 #define THR_BOUNDS_H
 

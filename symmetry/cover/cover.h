@@ -1,4 +1,10 @@
-/* The best symmetric cover for one group: how many orbits of each type (MATHS: orbits as integer columns). */
+/* The best symmetric cover for one group: how many orbits of each type of copies, turns, ends and folds
+ * (symmetry/group/quotient.h), as an integer programme.
+ *
+ * Minimize overlap, then steps, then paths, subject to: every edge orbit is passed often enough, the turns and ends of every
+ * dart type use up its darts, and what is chosen hangs together.
+ *
+ * Example: a ring of six edges under C6: one orbit of copies and one of turns make one closed cord. */
 #ifndef THR_COVER_H
 #define THR_COVER_H
 

@@ -1,4 +1,7 @@
-/* The search for the best whole solution of a programme (symmetry/cover/programme.h), aim by aim. Internal. */
+/* The search for the best whole solution of a programme (symmetry/cover/programme.h), aim by aim: when one is settled, or its
+ * time is up, its value becomes a row and the next is minimized. Internal.
+ *
+ * Example: the least overlap is 0; then, with overlap 0 as a row, the fewest steps. */
 #ifndef THR_SEARCH_H
 #define THR_SEARCH_H
 

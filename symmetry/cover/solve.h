@@ -1,4 +1,5 @@
-/* The best threading under each group of the table, and who gets how much of the time. Internal to symmetry/. */
+/* The best threading under each group of the table, and who gets how much of the time: all get a little, then those that are
+ * open and may still be the best get more. Internal to symmetry/. */
 #ifndef THR_SYMMETRY_SOLVE_H
 #define THR_SYMMETRY_SOLVE_H
 

@@ -1,4 +1,10 @@
-/* A given number of closed cords in every component: circuits cut apart and joined. */
+/* A given number of closed cords in every component: circuits cut apart at nodes that one visits twice, and joined where two
+ * meet.
+ *
+ * Cutting at a node replaces turns (a b)(c d) by (a d)(c b), and one circuit becomes two; joining is the same exchange the other
+ * way round.
+ *
+ * Example: a figure of eight is one circuit or two, by the exchange at its middle. */
 #ifndef THR_CIRCUITS_H
 #define THR_CIRCUITS_H
 

@@ -1,4 +1,5 @@
-/* Extra passes and ends of least weight: where the search for the least turning starts, and how its points are rounded. */
+/* Extra passes and ends of least weight under any prices of edges: where the search for the least turning starts, and how its
+ * points are rounded. A minimum T-join (lp/tjoin/engine.h) with slots for the ends. */
 #ifndef THR_EXTRA_H
 #define THR_EXTRA_H
 

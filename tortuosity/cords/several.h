@@ -1,4 +1,7 @@
-/* Plans with several closed cords in every component, to begin the search with. Internal to tortuosity/. */
+/* Plans with several closed cords in every component, to begin the search with: covers by short circuits, the same number of
+ * passes everywhere, and in tiny frameworks all choices of extra passes. Internal to tortuosity/.
+ *
+ * Example: of a cube its six faces cover every edge twice, in six closed cords. */
 #ifndef THR_SEVERAL_H
 #define THR_SEVERAL_H
 

@@ -1,4 +1,9 @@
-/* Branch and cut over the turning relaxation. Internal to tortuosity/. */
+/* Branch and cut over the turning relaxation (tortuosity/proof/relax.h) on the tree of lp/model/tree.h. Internal to tortuosity/.
+ *
+ * A column that is fractional, x = 2.5, is decided to be at most 2 or at least 3; each leaf of the finished tree keeps integer
+ * multipliers that prove its bound, and the least of these is the plan's.
+ *
+ * Example: bounds 10 and 12 of the two sides and a plan of price 11 leave one side open. */
 #ifndef THR_BRANCH_H
 #define THR_BRANCH_H
 

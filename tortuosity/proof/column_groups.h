@@ -1,4 +1,10 @@
-/* Finding groups of edges that a fractional point does not connect to the rest. Internal to tortuosity/. */
+/* Finding groups of edges that a fractional point does not connect to the rest: first components of its support, then minimum
+ * cuts by augmenting paths (L. R. Ford & D. R. Fulkerson 1956). Internal to tortuosity/.
+ *
+ * Row of a group S of edges, not all of a component: a single closed cord leaves S at least twice; open cords leave it or end in
+ * it.
+ *
+ * Example: two circuits that meet at a node without a turn from one to the other: each of them is a violated group. */
 #ifndef THR_GROUPS_H
 #define THR_GROUPS_H
 

@@ -1,4 +1,9 @@
-/* Other extra passes: short cycles of edges added to a plan's passes or taken away. Internal to tortuosity/. */
+/* Other extra passes: short cycles of edges added to a plan's passes or taken away. Internal to tortuosity/.
+ *
+ * The difference of two sets of passes that have the same ends is a sum of circuits, so any other passes are reached by such
+ * changes.
+ *
+ * Example: an extra pass over one side of a hexagon is exchanged for one over each other side. */
 #ifndef THR_CYCLES_H
 #define THR_CYCLES_H
 

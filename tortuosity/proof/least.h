@@ -1,4 +1,9 @@
-/* The least turning: extra passes, ends and pairings chosen together (docs/method.md). */
+/* The least turning: extra passes, ends and pairings chosen together (docs/method.md).
+ *
+ * Minimize the sum of the prices of all turns (angle, sine or steps) over all threadings of the task; a first plan from least
+ * joins, then branch and cut (tortuosity/proof/branch.h), then the integer proof, which is checked here once more.
+ *
+ * Example: two edges in line turn by 0 with ends anywhere; closed, the cord turns back at both ends: 2 pi. */
 #ifndef THR_LEAST_H
 #define THR_LEAST_H
 

@@ -1,5 +1,5 @@
 /* The cheapest turns of every half-edge at a node of any degree: what pairings and bounds there are chosen among first. Internal
- * to tortuosity/. */
+ * to tortuosity/. One sweep over the node's columns, O(degree^2), with room for a few of each. */
 #ifndef THR_NEAREST_H
 #define THR_NEAREST_H
 

@@ -1,4 +1,9 @@
-/* Finding partitions of the edges that a point does not connect enough. Internal to tortuosity/. */
+/* Finding partitions of the edges into blocks that a point does not connect enough. Internal to tortuosity/.
+ *
+ * Row: the connections that turns make between b blocks are at least b - K for K closed cords. Blocks are the circuits of the
+ * cheapest pairings, merged by Kruskal's method (1956) along the least regrets.
+ *
+ * Example: three circuits need two connections to become one cord. */
 #ifndef THR_PARTITION_H
 #define THR_PARTITION_H
 

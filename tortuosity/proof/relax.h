@@ -1,5 +1,11 @@
 /* The linear programme over the columns of graph/plan/turning_proof.h, with its odd, group, partition and junction rows added as
- * a point violates them. Where turns cost nothing the columns of the turns may be left out (tortuosity/proof/project.h). */
+ * a point violates them. Where turns cost nothing the columns of the turns may be left out (tortuosity/proof/project.h).
+ *
+ * Minimize the sum of price x turns, subject at every half-edge to: passes = turns + ends there. Odd sets, like those of
+ * matchings (Edmonds 1965), groups (what is chosen in a set of edges must leave it) and partitions (b blocks need b - 1 links)
+ * are separated.
+ *
+ * Example: a node with four edges passed once: two turns, each edge in one of them; the straight ones cost 0. */
 #ifndef THR_RELAX_H
 #define THR_RELAX_H
 

@@ -1,4 +1,10 @@
-/* The shortest cords for tube joints: Graph Threading (Demaine, Kirkpatrick & Lin, ITCS 2024) with ends, covers, capacities. */
+/* The shortest cords for tube joints: Graph Threading (Demaine, Kirkpatrick & Lin, ITCS 2024) with ends, covers, capacities.
+ *
+ * Minimize the length with, at every node of degree d: passes that arrive, less ends, at least 2 (d - 1), no edge with more of
+ * them than all others together, and an even number; these are the passes whose node can be tied (tortuosity/tie/tie.h).
+ *
+ * Example: an octahedron: 6 passes arrive at every node of degree 4, so it takes 18 over its twelve edges, where solid joints
+ * take 12. */
 #ifndef THR_TUBE_H
 #define THR_TUBE_H
 

@@ -1,4 +1,6 @@
-/* The objective "length" with tube joints: one cord or several, of limited or even lengths. */
+/* The objective "length" with tube joints: one cord or several, of limited or even lengths. The shortest tied passes
+ * (tortuosity/tie/tube.h) are cut into cords at no cost where they may end; exchanges that leave every node tied then even them
+ * out. */
 #ifndef THR_TUBE_CORDS_H
 #define THR_TUBE_CORDS_H
 
