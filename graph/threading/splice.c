@@ -144,3 +144,13 @@ thr_status thr_splice_make(const thr_splice *s, const thr_frame *f, thr_walks *w
   if (b >= 0 && !two.half) w->n_walks--;
   return THR_OK;
 }
+
+thr_status thr_splice_cut(thr_walks *w, const thr_frame *f, int i, int at, thr_err *err)
+{
+  const thr_walk *x = &w->walk[i];
+  thr_splice s = thr_splice_of(false, x, NULL);
+  thr_splice_put(&s, 0, 0, at, false);
+  thr_splice_next(&s);
+  thr_splice_put(&s, 0, at, x->n, false);
+  return thr_splice_make(&s, f, w, i, -1, NULL, NULL, err);
+}

@@ -48,4 +48,7 @@ thr_turn_change thr_splice_turns(const thr_splice *s);
 thr_status thr_splice_make(const thr_splice *s, const thr_frame *f, thr_walks *w, int a, int b, thr_junction_graphs *ties,
                            int *passes, thr_err *err) THR_MUST_CHECK;
 
+/* Open walk number i keeps its passes before number at; the others become a new walk, the last. */
+thr_status thr_splice_cut(thr_walks *w, const thr_frame *f, int i, int at, thr_err *err) THR_MUST_CHECK;
+
 #endif

@@ -81,17 +81,6 @@ static int by_place(const void *pa, const void *pb)
   return (a->at < b->at) - (a->at > b->at);
 }
 
-/* Open walk i keeps its passes before number at; the others become a new walk, the last. */
-static thr_status cut(const places *p, int i, int at, thr_err *err)
-{
-  const thr_walk *x = &p->w->walk[i];
-  thr_splice s = thr_splice_of(false, x, NULL);
-  thr_splice_put(&s, 0, 0, at, false);
-  thr_splice_next(&s);
-  thr_splice_put(&s, 0, at, x->n, false);
-  return thr_splice_make(&s, p->s->f, p->w, i, -1, NULL, NULL, err);
-}
-
 /* Cuts at all places of the list. */
 static thr_status cut_all(places *p, thr_err *err)
 {
@@ -108,7 +97,7 @@ static thr_status cut_all(places *p, thr_err *err)
       st = thr_walk_rotate(x, shift, err);
     }
     for (int j = i; j < last && !st; j++)
-      st = cut(p, p->list[j].walk, p->list[j].at - shift, err);
+      st = thr_splice_cut(p->w, p->s->f, p->list[j].walk, p->list[j].at - shift, err);
   }
   return st;
 }
@@ -174,7 +163,7 @@ static thr_status cut_longest(places *p, int cuts, int wanted, thr_err *err)
       st = thr_walk_rotate(x, best_at, err);
       x->cyclic = false;
     } else {
-      st = cut(p, best, best_at, err);
+      st = thr_splice_cut(p->w, p->s->f, best, best_at, err);
     }
   }
   return st;

@@ -5,6 +5,7 @@
 #include "tortuosity/tie/tube_first.h"
 #include "graph/disjoint.h"
 #include "graph/framework/components.h"
+#include "graph/threading/splice.h"
 #include "graph/threading/transition.h"
 #include "graph/threading/walks.h"
 #include "lp/length/ways.h"
@@ -247,7 +248,7 @@ static thr_status cut_circuit(first *x, int k, int *n, thr_err *err)
     *n = last + 1;
     if (at == rest->n) return THR_OK;
     x->mark[thr_walk_node(x->f, rest, at)] = true;
-    st = thr_walks_split(w, x->f, last, at, err);
+    st = thr_splice_cut(w, x->f, last, at, err);
   }
   return st;
 }
