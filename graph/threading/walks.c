@@ -158,21 +158,6 @@ thr_status thr_walk_rotate(thr_walk *w, int at, thr_err *err)
   return THR_OK;
 }
 
-thr_status thr_walks_split(thr_walks *w, const thr_frame *f, int i, int at, thr_err *err)
-{
-  int n = w->walk[i].n - at;
-  thr_walk new = {n, thr_calloc((size_t)n, sizeof *new.half), 0, false};
-  if (!new.half) return thr_nomem(err);
-  memcpy(new.half, w->walk[i].half + at, (size_t)n * sizeof *new.half);
-  thr_status st = thr_walks_add(w, f, new, err);
-  if (st) return st;
-  thr_walk *x = &w->walk[i];
-  x->n = at;
-  x->cyclic = false;
-  x->length = thr_walk_length(f, x->half, x->n);
-  return THR_OK;
-}
-
 /* ---- visits ---- */
 
 thr_status thr_walk_visits_init(thr_walk_visits *x, const thr_frame *f, const thr_walks *w, thr_err *err)

@@ -45,9 +45,6 @@ void thr_walk_reverse(int *half, int n);
 /* Turns a cyclic walk round so that it starts with what was its pass number at. */
 thr_status thr_walk_rotate(thr_walk *w, int at, thr_err *err) THR_MUST_CHECK;
 
-/* Walk i keeps its passes before number at, 0 < at < n; the others become a new walk, the last. */
-thr_status thr_walks_split(thr_walks *w, const thr_frame *f, int i, int at, thr_err *err) THR_MUST_CHECK;
-
 /* Price of going on from half-edge in with out: the turn in rad, and much more for a turn back. */
 double thr_walk_turn(const thr_frame *f, int in, int out);
 
