@@ -8,8 +8,8 @@ OUT ?= build
 # everything made goes below this folder
 PREFIX ?= /usr/local
 DESTDIR ?=
-FUZZ_SECONDS ?= 10
-# seconds per fuzz target
+FUZZ_SECONDS ?= 60
+# seconds per target of `make fuzz`
 WERROR ?= $(filter true 1,$(CI))
 # not empty and not 0: warnings are errors
 V ?=
@@ -116,14 +116,15 @@ demo: ## install what is missing, build, plan a dome, check the plan
 	@echo; echo "plan:    $(DEMO_OUT)/plan.json"
 	@for f in $(DEMO_OUT)/*.svg $(DEMO_OUT)/*.pdf $(DEMO_OUT)/*.html; do if [ -e "$$f" ]; then echo "drawing: $$f"; fi; done
 
-test: ## install what is missing, build, run everything; ends with "N passed, N failed" (ONLY=word runs the matching ones)
+test: ## install what is missing, build, run the tests; ends with "N passed, N failed" (ONLY=word runs the matching ones)
+test-fast: ## a minute's tests: a tenth of the examples, without sanitizers
+test-rest: ## what `make test` leaves out: all examples under sanitizers, more allocations that fail, longer fuzzing
+test-all: ## everything
+fuzz: ## fuzz every reader for FUZZ_SECONDS, keeping what is found in build/fuzz/found
+test test-fast test-rest test-all fuzz:
 	+@tools/install-packages.sh $(BUILD_PACKAGES) $(TEST_PACKAGES) || { echo "0 passed, 1 failed"; exit 1; }
 	+@MAKE="$(MAKE)" OUT="$(OUT)" FUZZ_SECONDS="$(FUZZ_SECONDS)" ONLY="$(ONLY)" CLANG_FORMAT="$(CLANG_FORMAT)" \
-	  VIEWER_PACKAGES="$(VIEWER_PACKAGES)" tests/run.sh
-
-fuzz: ## fuzz every reader for FUZZ_SECONDS, keeping what is found in build/fuzz/found
-	+@tools/install-packages.sh $(BUILD_PACKAGES) $(TEST_PACKAGES)
-	+@MAKE="$(MAKE)" OUT="$(OUT)" FUZZ_SECONDS="$(FUZZ_SECONDS)" FUZZ_SEED=0 ONLY="$(ONLY)" tests/run.sh fuzz
+	  VIEWER_PACKAGES="$(VIEWER_PACKAGES)" tests/run.sh $(@:test-%=%)
 
 asan: ## build the program with the address and undefined-behaviour sanitizers
 	+@$(MAKE) --no-print-directory $(JOBS) BUILD=asan all
@@ -206,6 +207,23 @@ clean: ## remove everything made
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-10s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
+
+# ---- the jobs of tests/run.sh, each after what it needs: make BUILD=asan run/asan/unit/test_read ----
+
+# The tests of the release build begin while the other two are made. run.sh sets JOBS_release, JOBS_asan and JOBS_fuzz.
+suite-release suite-asan suite-fuzz: suite-%: suite-built
+	+@$(MAKE) BUILD=$* $(JOBS_$*)
+suite-built:
+	+-@$(MAKE) BUILD=release all
+
+GOLDEN_JOBS := $(patsubst tests/%,run/$(BUILD)/%,$(wildcard tests/golden/*.case))
+$(TEST_PROGRAMS:$(DIR)/tests/%=run/$(BUILD)/%): run/$(BUILD)/%: $(DIR)/tests/%
+$(FUZZ_PROGRAMS:$(DIR)/tests/%=run/%): run/%: $(DIR)/tests/%
+$(GOLDEN_JOBS) run/second/plans run/viewer/browser: $(PROGRAM)
+run/$(BUILD)/memory: $(PROGRAM) $(DIR)/tests/memory/fail_malloc.so
+run/$(BUILD)/watchdog: $(PROGRAM) $(WATCHDOG)
+run/%: FORCE
+	@tests/run.sh job $*
 
 test-programs: $(TEST_PROGRAMS)
 fuzz-programs: $(FUZZ_PROGRAMS)
@@ -292,6 +310,6 @@ $(OUT)/packages.ok:
 	@touch $@
 
 FORCE:
-.PHONY: all demo test fuzz asan layers lint format-check tidy cppcheck format viewer bench validate memory watchdog mutants coverage deps test-deps install uninstall clean help
-.PHONY: test-programs fuzz-programs list-tests list-fuzz list-flags list-c FORCE
+.PHONY: all demo test test-fast test-rest test-all fuzz asan layers lint format-check tidy cppcheck format viewer bench validate memory watchdog mutants coverage deps test-deps install uninstall clean help
+.PHONY: suite-release suite-asan suite-fuzz suite-built test-programs fuzz-programs list-tests list-fuzz list-flags list-c FORCE
 -include $(wildcard $(DIR)/*/*.d $(DIR)/*/*/*.d)

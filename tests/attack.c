@@ -28,10 +28,10 @@ bool attack_climb(rng *r, const attack_kind *kind, const void *target, void *can
   return best > kind->false_above;
 }
 
-long attack_number(long otherwise)
+long attack_number(long usual)
 {
   const char *text = getenv("THREAD_ADVERSARY_ATTACKS");
-  return text ? strtol(text, NULL, 10) : otherwise;
+  return text ? strtol(text, NULL, 10) : share_of((int)usual);
 }
 
 uint64_t attack_seed(void)

@@ -24,8 +24,9 @@ typedef struct {
  * hole. */
 bool attack_climb(rng *r, const attack_kind *kind, const void *target, void *candidate, int steps, attack_tally *tally);
 
-/* How many attacks to make (THREAD_ADVERSARY_ATTACKS in the environment), and the first seed (THREAD_ADVERSARY_SEED). */
-long attack_number(long otherwise);
+/* How many attacks to make (THREAD_ADVERSARY_ATTACKS in the environment; otherwise a part of the usual number), and the first
+ * seed (THREAD_ADVERSARY_SEED). */
+long attack_number(long usual);
 uint64_t attack_seed(void);
 
 /* Prints the tally if THREAD_ADVERSARY_ATTACKS is set. */

@@ -1,210 +1,183 @@
 #!/usr/bin/env bash
-# Runs the whole suite and closes with the line "N passed, N failed". Started by `make test`, which sets
-# MAKE, OUT (where things are built), FUZZ_SECONDS, VIEWER_PACKAGES and ONLY (run the jobs whose name contains this word).
-# `tests/run.sh fuzz` (make fuzz): the fuzz targets only, keeping what they find. tests/README.md tells more.
+# Runs a part of the tests and closes with the line "N passed, N failed": tests/run.sh test|fast|rest|all|fuzz, started by `make
+# test`, test-fast, test-rest, test-all and fuzz, which set MAKE, OUT (where things are built), FUZZ_SECONDS, VIEWER_PACKAGES and
+# ONLY (run the jobs whose name contains this word). tests/README.md says what is in each.
 set -u
 cd "$(dirname "$0")/.." || exit 1
-export LC_ALL=C OUT=${OUT:-build} FUZZ_SECONDS=${FUZZ_SECONDS:-10} FUZZ_SEED=${FUZZ_SEED:-1}
-export MAKE=${MAKE:-make} CLANG_FORMAT=${CLANG_FORMAT:-clang-format}
-ONLY=${ONLY:-}
+export LC_ALL=C OUT=${OUT:-build} FUZZ_SECONDS=${FUZZ_SECONDS:-60} MAKE=${MAKE:-make} CLANG_FORMAT=${CLANG_FORMAT:-clang-format}
 export RESULTS=$OUT/results
-jobs=()
-case ${MAKEFLAGS:-} in *-j*) ;; *) jobs=("-j$(nproc)") ;; esac
 
-# ---- one job: tests/run.sh --job NAME. Writes "passed failed" to $RESULTS/NAME.count and prints one line. ----
+# Longest first, so that none of them is left alone at the end.
+longest='second/plans release/watchdog release/memory viewer/browser unit/test_sheets property/test_cover property/test_tube_cords
+property/test_evenly unit/test_holding golden/eval unit/test_overview property/test_cross property/test_circuits
+property/test_adversary_turning unit/test_diagram unit/test_tied_symmetry unit/test_group golden/draw golden/plan'
+
+# ---- one job: tests/run.sh job NAME. Writes "passed failed skipped" to $RESULTS/NAME.count and prints a line to file 7 (make has 3 and 4). ----
 
 count_check() { # sums Check's closing lines; a program that ends badly after them fails once more
   awk -v code="$2" '
     /^[0-9]+%: Checks: [0-9]+, Failures: [0-9]+, Errors: [0-9]+$/ {
       split($0, n, /[^0-9]+/); checks += n[2]; bad += n[3] + n[4] }
-    END { passed = checks - bad; if ((code != 0 && bad == 0) || checks == 0) bad++; print passed + 0, bad + 0 }' "$1"
+    END { passed = checks - bad; if ((code != 0 && bad == 0) || checks == 0) bad++; print passed + 0, bad + 0, 0 }' "$1"
 }
 
-count_golden() { # the closing line of tests/golden/run.sh, tests/second/compare.py, tests/viewer/run.sh, tests/memory/run.sh and the watchdog
+count_lines() { # the closing line of tests/golden/run.sh, tests/second/compare.py, tests/viewer/run.sh, tests/memory/run.sh and the watchdog
   awk -v code="$2" '
     /^[0-9]+ passed, [0-9]+ failed$/ { passed = $1; failed = $3; seen = 1 }
-    END { if (!seen || (code != 0 && failed == 0)) failed++; print passed + 0, failed + 0 }' "$1"
+    END { if (!seen || (code != 0 && failed == 0)) failed++; print passed + 0, failed + 0, 0 }' "$1"
 }
 
-fuzz() { # NAME LOG: new inputs go below $OUT, the seeds of the tree are only read
-  local target=${1#fuzz/} seeds found dictionary
+# New inputs go below $OUT, the seeds of the tree are only read. FUZZ_RUNS is how many inputs are tried; 0: FUZZ_SECONDS, going on
+# from what was found before.
+fuzz() { # NAME LOG
+  local target=${1#fuzz/fuzz_} found limit most
   local -a more=()
-  target=${target#fuzz_}
-  seeds=tests/fuzz/corpus/$target
   found=$OUT/fuzz/found/$target
-  dictionary=tests/fuzz/$target.dict
-  [ "$FUZZ_SEED" = 0 ] || rm -rf "$found"
+  limit="-runs=$FUZZ_RUNS -seed=1" most=1800
+  if [ "$FUZZ_RUNS" = 0 ]; then limit=-max_total_time=$FUZZ_SECONDS most=$((FUZZ_SECONDS * 3 + 120)); else rm -rf "$found"; fi
   mkdir -p "$found" "$OUT/fuzz/failures"
-  [ -f "$dictionary" ] && more+=("-dict=$dictionary")
-  [ -d "$seeds" ] && more+=("$seeds")
-  timeout $((FUZZ_SECONDS * 3 + 120)) "$OUT/fuzz/tests/$1" -max_total_time="$FUZZ_SECONDS" -seed="$FUZZ_SEED" -timeout=20 \
-    -rss_limit_mb=2048 -print_final_stats=1 -artifact_prefix="$OUT/fuzz/failures/$target-" \
-    "$found" "${more[@]}" >"$2" 2>&1
+  [ -f "tests/fuzz/$target.dict" ] && more+=("-dict=tests/fuzz/$target.dict")
+  [ -d "tests/fuzz/corpus/$target" ] && more+=("tests/fuzz/corpus/$target")
+  # shellcheck disable=SC2086 # two words
+  timeout "$most" "$OUT/fuzz/tests/$1" $limit -timeout=120 -rss_limit_mb=2048 -print_final_stats=1 \
+    -artifact_prefix="$OUT/fuzz/failures/$target-" "$found" "${more[@]}" >"$2" 2>&1
 }
 
-job() {
-  local name=$1 build=${1%%/*} rest=${1#*/} code=0 note='' start end counts passed failed
-  local log=$RESULTS/${name//\//_}.log
-  start=$(date +%s%N)
+format() { # LOG
+  env -u MAKEFLAGS -u MAKELEVEL "$MAKE" -s format-check >"$1.all" 2>&1
+  local code=$?
+  sed -n 's/^\([^:]*\):.*code should be clang-formatted.*/\1/p' "$1.all" | sort | uniq -c >"$1"
+  if [ -s "$1" ]; then echo 'lines to change, by file; "make format" does it' >>"$1"; else cat "$1.all" >"$1"; fi
+  return $code
+}
+
+viewer_page() {
+  tools/npm-packages.sh viewer "$OUT/viewer" || { echo '1 skipped' && return 77; }
+  viewer/build.sh "$OUT/viewer" | cmp - diagram/export/viewer_page.html && return
+  echo 'diagram/export/viewer_page.html is not what viewer/ gives; "make viewer" builds it'
+  return 1
+}
+
+run() { # NAME LOG: runs the job; its exit code, 77 = skipped
+  local name=$1 build=${1%%/*} rest=${1#*/} log=$2
+  export THREAD_TEST_SHARE=$SHARE_RELEASE CK_TIMEOUT_MULTIPLIER=10
+  [ "$build" = asan ] && THREAD_TEST_SHARE=$SHARE_ASAN CK_TIMEOUT_MULTIPLIER=30
   case $name in
-  layers) tests/layers.sh >"$log" 2>&1 || code=$? ;;
-  layers-self-test) tests/layers.sh --self-test >"$log" 2>&1 || code=$? ;;
-  format)
-    "$MAKE" -s format-check >"$log.all" 2>&1 || code=$?
-    sed -n 's/^\([^:]*\):.*code should be clang-formatted.*/\1/p' "$log.all" | sort | uniq -c >"$log"
-    if [ -s "$log" ]; then echo 'lines to change, by file; "make format" does it' >>"$log"; else cat "$log.all" >"$log"; fi
-    ;;
-  asan/* | release/*)
-    export CK_TIMEOUT_MULTIPLIER=3
-    [ "$build" = release ] || CK_TIMEOUT_MULTIPLIER=10
-    case $rest in
-    golden/*) tests/golden/run.sh "$OUT/$build/thread" "tests/$rest" >"$log" 2>&1 || code=$? ;;
-    memory)
-      nice tests/memory/run.sh "$OUT/$build/thread" "$OUT/$build/tests/memory/fail_malloc.so" "$OUT/memory" >"$log" 2>&1 || code=$? ;;
-    watchdog) timeout 900 "$OUT/$build/watchdog" "$OUT/$build/thread" "$OUT/watchdog" >"$log" 2>&1 || code=$? ;;
-    *) timeout 900 "$OUT/$build/tests/$rest" >"$log" 2>&1 </dev/null || code=$? ;;
-    esac
-    ;;
-  second/plans) timeout 900 tests/second/compare.py "$OUT/release/thread" >"$log" 2>&1 || code=$? ;;
-  viewer/page) viewer/build.sh "$OUT/viewer" 2>"$log" | cmp - diagram/export/viewer_page.html >>"$log" 2>&1 ||
-    { code=1 && echo 'diagram/export/viewer_page.html is not what viewer/ gives; "make viewer" builds it' >>"$log"; } ;;
-  viewer/browser) tests/viewer/run.sh "$OUT/release/thread" "$OUT/viewer-test" >"$log" 2>&1 || code=$? ;;
-  fuzz/*)
-    fuzz "$name" "$log" || code=$?
-    note=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")
-    note=${note:+, $note runs}
-    ;;
-  esac
-  end=$(date +%s%N)
+  layers) tests/layers.sh ;;
+  layers-self-test) tests/layers.sh --self-test ;;
+  format) format "$log" && return ;;
+  */golden/*) tests/golden/run.sh "$OUT/$build/thread" "tests/$rest" ;;
+  release/memory) nice tests/memory/run.sh "$OUT/release/thread" "$OUT/release/tests/memory/fail_malloc.so" "$OUT/memory" "$MEMORY_SAMPLES" ;;
+  release/watchdog) timeout 1800 "$OUT/release/watchdog" "$OUT/release/thread" "$OUT/watchdog" ;;
+  release/* | asan/*) timeout 3600 "$OUT/$build/tests/$rest" </dev/null ;;
+  second/plans) timeout 1800 tests/second/compare.py "$OUT/release/thread" ;;
+  viewer/page) viewer_page ;;
+  viewer/browser) tests/viewer/run.sh "$OUT/release/thread" "$OUT/viewer-test" ;;
+  fuzz/*) fuzz "$name" "$log" ;;
+  esac >>"$log" 2>&1
+}
+
+job() { # NAME
+  local name=$1 code=0 note='' spent counts passed failed skipped
+  local log=$RESULTS/${name//\//_}.log TIMEFORMAT='%1R s, %1U + %1S CPU s'
+  : >"$log"
+  spent=$( { time run "$name" "$log" 7>&-; } 2>&1) || code=$?
   case $name in
-  */golden/* | */memory | */watchdog | second/plans | viewer/browser) counts=$(count_golden "$log" "$code") ;;
+  */golden/* | */memory | */watchdog | second/plans | viewer/browser) counts=$(count_lines "$log" "$code") ;;
   asan/* | release/*) counts=$(count_check "$log" "$code") ;;
-  *) if [ "$code" -eq 0 ]; then counts='1 0'; else counts='0 1'; fi ;;
+  *) if [ "$code" -eq 0 ]; then counts='1 0 0'; else counts='0 1 0'; fi ;;
   esac
-  echo "$counts" >"$RESULTS/${name//\//_}.count"
-  passed=${counts% *} failed=${counts#* }
+  [ $code -eq 77 ] && [ "${CI:-}" != true ] && counts="0 0 $(sed -n 's/^\([0-9]*\) skipped$/\1/p' "$log")"
+  case $name in fuzz/*) note=$(sed -n 's/^stat::number_of_executed_units: *\(.*\)/, \1 runs/p' "$log") ;; esac
+  read -r passed failed skipped <<<"$counts"
   { # one write at a time, so that lines of parallel jobs do not mix
     flock 9
-    if [ "$failed" -eq 0 ]; then
-      printf 'ok    %-44s %4d  (%d.%d s%s)\n' "$name" "$passed" $(((end - start) / 1000000000)) $(((end - start) / 100000000 % 10)) "$note"
-    else
+    if [ "$failed" -gt 0 ]; then
       printf 'FAIL  %-44s %4d, %d FAILED (exit code %d)\n' "$name" "$passed" "$failed" "$code"
       head -c 100000 "$log" | sed 's/^/      | /'
+    elif [ "$skipped" -gt 0 ]; then
+      printf 'skip  %-44s %4d  (npm, its network or a browser is missing)\n' "$name" "$skipped"
+    else
+      printf 'ok    %-44s %4d  (%s%s)\n' "$name" "$passed" "$spent" "$note"
     fi
-  } 9>"$RESULTS/lock"
+  } 9>"$RESULTS/lock" >&7
+  echo "$counts" >"$RESULTS/${name//\//_}.count"
 }
 
-if [ "${1:-}" = --job ]; then
+if [ "${1:-}" = job ]; then
+  { true >&7; } 2>/dev/null || exec 7>&1
   job "$2"
   exit 0
 fi
 
-# ---- the whole suite ----
+# ---- which jobs ----
 
-only_fuzz=
-[ "${1:-}" = fuzz ] && only_fuzz=yes
+tier=${1:-test}
+export SHARE_RELEASE=1 SHARE_ASAN=10 MEMORY_SAMPLES=40 FUZZ_RUNS=20000
+builds='release asan' tree='layers layers-self-test format' programs='second/plans viewer/page viewer/browser' whole='' fuzz=yes
+case $tier in
+test) whole='release/watchdog release/memory' MEMORY_SAMPLES=4 ;;
+fast) builds=release SHARE_RELEASE=10 programs='' fuzz='' ;;
+rest) builds=asan SHARE_ASAN=1 tree='' programs='' whole='release/watchdog release/memory' FUZZ_RUNS=200000 ;;
+all) SHARE_ASAN=1 whole='release/watchdog release/memory' FUZZ_RUNS=200000 ;;
+fuzz) builds='' tree='' programs='' FUZZ_RUNS=0 ;;
+*) echo "tests/run.sh: $tier is none of test, fast, rest, all and fuzz" >&2 && exit 2 ;;
+esac
+
+list() { # every job of the tier; of a build, the longest first
+  local build case
+  printf '%s\n' $tree $whole $programs
+  for build in $builds; do
+    "$MAKE" -s list-tests | sed "s#^#$build/#"
+    for case in tests/golden/*.case; do echo "$build/${case#tests/}"; done
+  done
+  [ -z "$fuzz" ] || "$MAKE" -s list-fuzz
+}
+
+order() {
+  awk -v longest="$longest" '
+    BEGIN { n = split(longest, name); for (i = 1; i <= n; i++) rank[name[i]] = i - n }
+    { short = $1; sub(/^(release|asan)\//, "", short); sub(/\.case$/, "", short); print ($1 in rank ? rank[$1] : rank[short] + 0), $1 }' |
+    sort -s -k1,1n | cut -d' ' -f2
+}
+
+mapfile -t queue < <(list | grep -F -e "${ONLY:-}" | order)
+[ ${#queue[@]} -gt 0 ] || { echo '0 passed, 0 failed' && exit 1; }
+
+# ---- running them: make builds what each job needs, and runs it; what the compilers say goes into a file ----
+
 export ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1:detect_stack_use_after_return=1
 export UBSAN_OPTIONS=print_stacktrace=1
 rm -rf "$RESULTS"
 mkdir -p "$RESULTS"
-
-give_up() { # NAME: a job that cannot run
-  echo "FAIL  $1: does not build"
-  echo '0 1' >"$RESULTS/${1//\//_}.count"
-}
-
-build() { # BUILD GOAL..: true if everything was made
-  local build=$1
-  shift
-  if "$MAKE" --no-print-directory -k "${jobs[@]}" BUILD="$build" "$@" >"$RESULTS/build-$build.txt" 2>&1; then
-    ! grep -q 'warning:' "$RESULTS/build-$build.txt" || sed 's/^/      | /' "$RESULTS/build-$build.txt"
-    return 0
-  fi
-  echo "FAIL  build $build"
-  sed 's/^/      | /' "$RESULTS/build-$build.txt"
-  return 1
-}
-
-made() { "$MAKE" -s BUILD="$1" "$2" >/dev/null 2>&1; } # is this file there and up to date?
-
-wanted() { case $1 in *"$ONLY"*) true ;; *) false ;; esac }
-
-queue=()
-if [ -z "$only_fuzz" ]; then
-  for name in layers layers-self-test format; do wanted "$name" && queue+=("$name"); done
-fi
-
-# longest first: fuzz targets, then the sanitizer build
-mapfile -t fuzzers < <("$MAKE" -s list-fuzz | sort)
-mapfile -t programs < <("$MAKE" -s list-tests | sort)
-goals=() names=()
-for target in "${fuzzers[@]}"; do
-  [ -n "$target" ] && wanted "$target" && goals+=("$OUT/fuzz/tests/$target") && names+=("$target")
-done
-if [ ${#goals[@]} -gt 0 ]; then
-  all=yes
-  build fuzz "${goals[@]}" || all=
-  for target in "${names[@]}"; do
-    if [ -n "$all" ] || made fuzz "$OUT/fuzz/tests/$target"; then queue+=("$target"); else give_up "$target"; fi
-  done
-fi
-
-[ -n "$only_fuzz" ] || for variant in asan release; do
-  goals=() names=() cases=()
-  for program in "${programs[@]}"; do
-    [ -n "$program" ] && wanted "$variant/$program" && goals+=("$OUT/$variant/tests/$program") && names+=("$program")
-  done
-  for case in tests/golden/*.case; do
-    [ -e "$case" ] && wanted "$variant/${case#tests/}" && cases+=("${case#tests/}")
-  done
-  watchdog= # of the program that users have: sanitizers take time and memory of their own
-  memory=   # the same
-  [ "$variant" = release ] && wanted release/watchdog && watchdog=$OUT/release/watchdog && goals+=("$watchdog")
-  [ "$variant" = release ] && wanted release/memory && memory=$OUT/release/tests/memory/fail_malloc.so && goals+=("$memory")
-  [ -n "$ONLY" ] && [ ${#goals[@]} -eq 0 ] && [ ${#cases[@]} -eq 0 ] && continue
-  all=yes
-  build "$variant" all "${goals[@]}" || all=
-  for program in "${names[@]}"; do
-    if [ -n "$all" ] || made "$variant" "$OUT/$variant/tests/$program"; then queue+=("$variant/$program"); else give_up "$variant/$program"; fi
-  done
-  if [ -n "$memory" ]; then
-    if [ -n "$all" ] || { made release "$memory" && made release "$OUT/release/thread"; }; then queue+=(release/memory); else give_up release/memory; fi
-  fi
-  if [ -n "$watchdog" ]; then
-    if [ -n "$all" ] || { made release "$watchdog" && made release "$OUT/release/thread"; }; then queue+=(release/watchdog); else give_up release/watchdog; fi
-  fi
-  [ ${#cases[@]} -eq 0 ] && continue
-  if [ -n "$all" ] || made "$variant" "$OUT/$variant/thread"; then
-    for case in "${cases[@]}"; do queue+=("$variant/$case"); done
-  else
-    give_up "$variant/golden"
-  fi
-done
-
-if [ -z "$only_fuzz" ] && wanted second/plans; then
-  if made release all || build release all; then queue+=(second/plans); else give_up second/plans; fi
-fi
-
-# The viewer last: it needs npm and a browser.
-if [ -z "$only_fuzz" ]; then
-  names=()
-  for name in viewer/page viewer/browser; do wanted "$name" && names+=("$name"); done
-  # shellcheck disable=SC2086 # one word per package
-  if [ ${#names[@]} -eq 0 ]; then
-    :
-  elif tools/install-packages.sh ${VIEWER_PACKAGES:-} && build release all; then
-    queue+=("${names[@]}")
-  else
-    give_up viewer
-  fi
-fi
-
-[ ${#queue[@]} -eq 0 ] || printf '%s\n' "${queue[@]}" | xargs -P "$(nproc)" -I{} tests/run.sh --job {}
-
-# A job that was queued but left no count was killed: it failed.
+exec 7>&1
+export JOBS_release='' JOBS_asan='' JOBS_fuzz=''
 for name in "${queue[@]}"; do
-  [ -e "$RESULTS/${name//\//_}.count" ] || { echo "FAIL  $name: killed" && echo '0 1' >"$RESULTS/${name//\//_}.count"; }
+  case $name in
+  asan/*) JOBS_asan+=" run/$name" ;;
+  fuzz/*) JOBS_fuzz+=" run/$name" ;;
+  *) JOBS_release+=" run/$name" ;;
+  esac
 done
-cat "$RESULTS"/*.count 2>/dev/null | awk '
-  { passed += $1; failed += $2 }
-  END { printf "%d passed, %d failed\n", passed, failed; exit failed > 0 || passed == 0 }'
+case " ${queue[*]}" in *' viewer/'*) tools/install-packages.sh ${VIEWER_PACKAGES:-} >"$RESULTS/packages.log" 2>&1 ;; esac
+jobs=("-j$(nproc)")
+case ${MAKEFLAGS:-} in *-j*) jobs=() ;; esac
+"$MAKE" --no-print-directory -k -O "${jobs[@]}" ${JOBS_release:+suite-release} ${JOBS_asan:+suite-asan} ${JOBS_fuzz:+suite-fuzz} \
+  >"$RESULTS/build.log" 2>&1
+
+# A job without a count was killed, or what it needs was not built.
+bad=
+for name in "${queue[@]}"; do
+  file=$RESULTS/${name//\//_}
+  [ -e "$file.count" ] && continue
+  bad=yes
+  if [ -e "$file.log" ]; then echo "FAIL  $name: killed"; else echo "FAIL  $name: does not build"; fi
+  echo '0 1 0' >"$file.count"
+done
+[ -z "$bad" ] || grep -vE '^  (CC|CXX|AS|AR|LINK) ' "$RESULTS/build.log" | sed 's/^/      | /'
+cat "$RESULTS"/*.count | awk '
+  { passed += $1; failed += $2; skipped += $3 }
+  END {
+    if (skipped) printf "%d skipped: npm, its network or a browser is missing\n", skipped
+    printf "%d passed, %d failed\n", passed, failed
+    exit failed > 0 || passed == 0 }'

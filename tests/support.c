@@ -45,8 +45,7 @@ void add_examples(Suite *s, const char *name, double seconds, const TTest *test,
   TCase *t = tcase_create(name);
   tcase_set_timeout(t, seconds);
   for (int first = 0, run = 0; first < end; first += share(), run++) {
-    int i = first + 7 * run % share();
-    i = i < end ? i : end - 1;
+    int i = first + 7 * run % (end - first < share() ? end - first : share());
     tcase_add_loop_test(t, test, i, i + 1);
   }
   suite_add_tcase(s, t);

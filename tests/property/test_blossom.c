@@ -157,10 +157,10 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("blossom");
-  ADD_LOOP(s, 60, small_ones_match_all_matchings, 0, 20);
-  ADD_LOOP(s, 60, random_ones_are_proven, 0, 8);
-  ADD_LOOP(s, 60, grids_are_proven, 0, 6);
-  ADD_LOOP(s, 60, nested_blossoms_are_proven, 0, 20);
-  ADD_LOOP(s, 60, going_on_with_more_edges_is_proven, 0, 10);
+  ADD_EXAMPLES(s, 60, small_ones_match_all_matchings, 20);
+  ADD_EXAMPLES(s, 60, random_ones_are_proven, 8);
+  ADD_EXAMPLES(s, 60, grids_are_proven, 6);
+  ADD_EXAMPLES(s, 60, nested_blossoms_are_proven, 20);
+  ADD_EXAMPLES(s, 60, going_on_with_more_edges_is_proven, 10);
   return run_suite(s);
 }

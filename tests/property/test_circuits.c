@@ -349,12 +349,12 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("closed cords of random frameworks");
-  ADD_LOOP(s, 60, several_closed_cords_are_least, 0, 10);
-  ADD_LOOP(s, 60, every_component_has_its_cords, 0, 4);
+  ADD_EXAMPLES(s, 60, several_closed_cords_are_least, 10);
+  ADD_EXAMPLES(s, 60, every_component_has_its_cords, 4);
   ADD_TEST(s, 20, known_answers);
   ADD_TEST(s, 20, too_many_cords_are_refused);
   ADD_LOOP(s, 60, domes_are_proved_and_evened_out, 2, 5);
-  ADD_LOOP(s, 60, running_out_of_memory_leaves_nothing, 0, 2);
+  ADD_EXAMPLES(s, 60, running_out_of_memory_leaves_nothing, 2);
   ADD_TEST(s, 20, more_cords_need_fewer_connections);
   return run_suite(s);
 }

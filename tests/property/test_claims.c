@@ -117,6 +117,6 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("claims");
-  ADD_LOOP(s, 120, claims_leave_room_for_other_orders, 0, SHAPES);
+  ADD_EXAMPLES(s, 120, claims_leave_room_for_other_orders, SHAPES);
   return run_suite(s);
 }

@@ -859,9 +859,9 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("cover");
-  ADD_LOOP(s, 120, covers_match_exhaustion, 0, EXAMPLES);
-  ADD_LOOP(s, 120, capacities_match_exhaustion, 0, EXAMPLES);
-  ADD_LOOP(s, 240, tied_covers_match_exhaustion, 0, EXAMPLES);
+  ADD_EXAMPLES(s, 120, covers_match_exhaustion, EXAMPLES);
+  ADD_EXAMPLES(s, 120, capacities_match_exhaustion, EXAMPLES);
+  ADD_EXAMPLES(s, 240, tied_covers_match_exhaustion, EXAMPLES);
   ADD_TEST(s, 20, covers_by_edge);
   ADD_TEST(s, 60, domes);
   ADD_TEST(s, 60, solids);

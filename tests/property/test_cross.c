@@ -24,12 +24,6 @@
 
 enum { PIECES = 3, MOST_CORDS = 10, OUTPUT = 4000 };
 
-#ifdef __SANITIZE_ADDRESS__
-enum { CASES = 250 };
-#else
-enum { CASES = 1000 };
-#endif
-
 /* ---- running the program ---- */
 
 static const char *self; /* as it was called */
@@ -845,7 +839,7 @@ START_TEST(pairs_of_options_agree_with_all_walks)
 {
   static crossing_tally tally;
   static judged j;
-  long cases = from_environment("THREAD_CROSS_CASES", CASES), seed = from_environment("THREAD_CROSS_SEED", 1);
+  long cases = from_environment("THREAD_CROSS_CASES", share_of(1000)), seed = from_environment("THREAD_CROSS_SEED", 1);
   long most_edges = from_environment("THREAD_CROSS_EDGES", 5);
   counts n = {0};
   char path[128];
@@ -879,7 +873,7 @@ int main(int argc, char **argv)
   Suite *s = suite_create("cross");
   ADD_LOOP(s, 30, refused_together, 0, n_crossing_refusals);
   ADD_LOOP(s, 60, what_was_wrong_once, 0, N_KNOWN);
-  ADD_LOOP(s, 60, symmetric_pieces_have_numbers_of_their_own, 0, 8);
+  ADD_EXAMPLES(s, 60, symmetric_pieces_have_numbers_of_their_own, 8);
   ADD_LOOP(s, 30, steps_at_their_threshold, 0, 24);
   ADD_TEST(s, 600, pairs_of_options_agree_with_all_walks);
   return run_suite(s);

@@ -408,10 +408,10 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("cords that turn evenly");
-  ADD_LOOP(s, 120, cords_are_least, 0, 12);
-  ADD_LOOP(s, 60, given_ends_in_every_piece, 0, 24);
-  ADD_LOOP(s, 120, domes_are_tied_and_evened_out, 0, 7);
-  ADD_LOOP(s, 20, false_claims_are_refused, 0, 2);
-  ADD_LOOP(s, 120, running_out_of_memory_leaves_nothing, 0, 6);
+  ADD_EXAMPLES(s, 120, cords_are_least, 12);
+  ADD_EXAMPLES(s, 60, given_ends_in_every_piece, 24);
+  ADD_EXAMPLES(s, 120, domes_are_tied_and_evened_out, 7);
+  ADD_EXAMPLES(s, 20, false_claims_are_refused, 2);
+  ADD_EXAMPLES(s, 120, running_out_of_memory_leaves_nothing, 6);
   return run_suite(s);
 }

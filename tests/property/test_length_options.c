@@ -284,6 +284,6 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("length options");
-  ADD_LOOP(s, 120, every_combination_is_least, 0, 16);
+  ADD_EXAMPLES(s, 120, every_combination_is_least, 16);
   return run_suite(s);
 }

@@ -599,17 +599,17 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("moat");
-  ADD_LOOP(s, 120, small_ones_match_all_subsets, 0, 20);
-  ADD_LOOP(s, 120, medium_ones_agree, 0, 20);
-  ADD_LOOP(s, 60, larger_ones_are_proved, 0, 24);
-  ADD_LOOP(s, 30, same_input_gives_the_same_join, 0, 24);
+  ADD_EXAMPLES(s, 120, small_ones_match_all_subsets, 20);
+  ADD_EXAMPLES(s, 120, medium_ones_agree, 20);
+  ADD_EXAMPLES(s, 60, larger_ones_are_proved, 24);
+  ADD_EXAMPLES(s, 30, same_input_gives_the_same_join, 24);
   ADD_TEST(s, 30, a_stopped_one_is_valid);
-  ADD_LOOP(s, 60, every_allocation_fails_once, 0, 12);
-  ADD_LOOP(s, 30, too_large_weights_are_refused_or_go_to_the_other_engine, 0, 2);
+  ADD_EXAMPLES(s, 60, every_allocation_fails_once, 12);
+  ADD_EXAMPLES(s, 30, too_large_weights_are_refused_or_go_to_the_other_engine, 2);
   ADD_TEST(s, 30, large_weights_with_a_light_tree_are_matched);
-  ADD_LOOP(s, 60, glpk_confirms_what_is_optimal_and_nothing_else, 0, 8);
-  ADD_LOOP(s, 60, the_programme_on_the_cuts_starts_at_its_optimum, 0, 16);
-  ADD_LOOP(s, 60, every_allocation_of_a_confirmation_fails_once, 0, 2 * SHAPES);
+  ADD_EXAMPLES(s, 60, glpk_confirms_what_is_optimal_and_nothing_else, 8);
+  ADD_EXAMPLES(s, 60, the_programme_on_the_cuts_starts_at_its_optimum, 16);
+  ADD_EXAMPLES(s, 60, every_allocation_of_a_confirmation_fails_once, 2 * SHAPES);
   ADD_TEST(s, 10, a_negative_width_is_taken_from_the_moats_between_mates);
   return run_suite(s);
 }

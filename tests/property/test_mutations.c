@@ -507,12 +507,12 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("altered plans");
-  ADD_LOOP(s, 60, any_node_or_edge_of_a_cord, 0, 3 * FRAMES);
-  ADD_LOOP(s, 60, any_pass_dropped_turned_or_swapped, 0, 3 * FRAMES);
-  ADD_LOOP(s, 60, any_word_about_a_cord, 0, 3 * FRAMES);
-  ADD_LOOP(s, 60, any_metric_and_claim, 0, 3 * FRAMES);
-  ADD_LOOP(s, 60, any_number_and_set_of_a_certificate, 0, 3 * FRAMES);
-  ADD_LOOP(s, 60, any_number_and_set_with_several_cords, 0, 28);
-  ADD_LOOP(s, 60, a_longer_cord_is_never_proved, 0, 3 * FRAMES);
+  ADD_EXAMPLES(s, 60, any_node_or_edge_of_a_cord, 3 * FRAMES);
+  ADD_EXAMPLES(s, 60, any_pass_dropped_turned_or_swapped, 3 * FRAMES);
+  ADD_EXAMPLES(s, 60, any_word_about_a_cord, 3 * FRAMES);
+  ADD_EXAMPLES(s, 60, any_metric_and_claim, 3 * FRAMES);
+  ADD_EXAMPLES(s, 60, any_number_and_set_of_a_certificate, 3 * FRAMES);
+  ADD_EXAMPLES(s, 60, any_number_and_set_with_several_cords, 28);
+  ADD_EXAMPLES(s, 60, a_longer_cord_is_never_proved, 3 * FRAMES);
   return run_suite(s);
 }

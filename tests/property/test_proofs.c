@@ -364,6 +364,6 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("proofs");
-  ADD_LOOP(s, 120, what_is_proved_is_true, 0, 4);
+  ADD_EXAMPLES(s, 120, what_is_proved_is_true, 4);
   return run_suite(s);
 }

@@ -116,6 +116,6 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("rows");
-  ADD_LOOP(s, 120, rows_and_their_plans, 0, 3 * N_SOURCES);
+  ADD_EXAMPLES(s, 120, rows_and_their_plans, 3 * N_SOURCES);
   return run_suite(s);
 }

@@ -217,8 +217,8 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("requests and several cords");
-  ADD_LOOP(s, 60, every_kind_of_request, 0, 200);
-  ADD_LOOP(s, 30, capacities_against_a_matching, 0, 60);
-  ADD_LOOP(s, 60, bounds_on_several_cords_are_true, 0, 60);
+  ADD_EXAMPLES(s, 60, every_kind_of_request, 200);
+  ADD_EXAMPLES(s, 30, capacities_against_a_matching, 60);
+  ADD_EXAMPLES(s, 60, bounds_on_several_cords_are_true, 60);
   return run_suite(s);
 }

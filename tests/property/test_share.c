@@ -302,11 +302,11 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("share");
-  ADD_LOOP(s, 120, two_cords_of_small_ones_are_even, 0, 6);
-  ADD_LOOP(s, 120, small_ones_need_as_few_cords_as_the_oracle, 0, 4);
-  ADD_LOOP(s, 60, cords_of_grids_are_even, 0, 8);
+  ADD_EXAMPLES(s, 120, two_cords_of_small_ones_are_even, 6);
+  ADD_EXAMPLES(s, 120, small_ones_need_as_few_cords_as_the_oracle, 4);
+  ADD_EXAMPLES(s, 60, cords_of_grids_are_even, 8);
   ADD_TEST(s, 20, a_corridor_is_a_forced_detour);
   ADD_TEST(s, 20, detours_and_moved_ends_even_out);
-  ADD_LOOP(s, 120, every_allocation_may_fail, 0, 8);
+  ADD_EXAMPLES(s, 120, every_allocation_may_fail, 8);
   return run_suite(s);
 }

@@ -366,18 +366,18 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("shortest cords of random frameworks");
-  ADD_LOOP(s, 60, small_ones_match_all_subsets, 0, 50);
-  ADD_LOOP(s, 60, medium_ones_match_a_matching, 0, 25);
-  ADD_LOOP(s, 30, oracles_agree, 0, 5);
-  ADD_LOOP(s, 60, cords_of_small_ones_match_all_subsets, 0, 25);
-  ADD_LOOP(s, 60, cords_of_medium_ones_match_a_matching, 0, 12);
-  ADD_LOOP(s, 30, enough_cords_need_no_extra_pass, 0, 25);
-  ADD_LOOP(s, 30, a_longer_plan_is_bounded_by_the_shortest, 0, 60);
+  ADD_EXAMPLES(s, 60, small_ones_match_all_subsets, 50);
+  ADD_EXAMPLES(s, 60, medium_ones_match_a_matching, 25);
+  ADD_EXAMPLES(s, 30, oracles_agree, 5);
+  ADD_EXAMPLES(s, 60, cords_of_small_ones_match_all_subsets, 25);
+  ADD_EXAMPLES(s, 60, cords_of_medium_ones_match_a_matching, 12);
+  ADD_EXAMPLES(s, 30, enough_cords_need_no_extra_pass, 25);
+  ADD_EXAMPLES(s, 30, a_longer_plan_is_bounded_by_the_shortest, 60);
   ADD_LOOP(s, 30, larger_ones_are_proved, 72, 112);
-  ADD_LOOP(s, 20, names_and_order_do_not_matter, 0, 40);
-  ADD_LOOP(s, 20, place_does_not_matter_and_size_scales, 0, 40);
-  ADD_LOOP(s, 20, more_freedom_is_never_longer, 0, 40);
-  ADD_LOOP(s, 20, same_input_gives_the_same_bytes, 0, 12);
+  ADD_EXAMPLES(s, 20, names_and_order_do_not_matter, 40);
+  ADD_EXAMPLES(s, 20, place_does_not_matter_and_size_scales, 40);
+  ADD_EXAMPLES(s, 20, more_freedom_is_never_longer, 40);
+  ADD_EXAMPLES(s, 20, same_input_gives_the_same_bytes, 12);
   ADD_TEST(s, 60, every_framework_in_data_is_solved);
   ADD_TEST(s, 120, further_frameworks_are_solved_where_present);
   return run_suite(s);

@@ -381,11 +381,11 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("tie");
-  ADD_LOOP(s, 120, every_allocation_may_fail, 0, 2);
-  ADD_LOOP(s, 120, nodes_by_all_turns, 0, 6);
-  ADD_LOOP(s, 120, walks_change_what_they_say, 0, 3);
+  ADD_EXAMPLES(s, 120, every_allocation_may_fail, 2);
+  ADD_EXAMPLES(s, 120, nodes_by_all_turns, 6);
+  ADD_EXAMPLES(s, 120, walks_change_what_they_say, 3);
   ADD_TEST(s, 60, walks_keep_the_length);
-  ADD_LOOP(s, 120, ascent_comes_near_the_programme, 0, 3);
-  ADD_LOOP(s, 120, ascent_stays_below_plans, 0, 3);
+  ADD_EXAMPLES(s, 120, ascent_comes_near_the_programme, 3);
+  ADD_EXAMPLES(s, 120, ascent_stays_below_plans, 3);
   return run_suite(s);
 }

@@ -423,9 +423,9 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("tube");
-  ADD_LOOP(s, 60, every_allocation_fails_once, 0, 4);
-  ADD_LOOP(s, 120, shortest_by_enumeration, 0, 20);
-  ADD_LOOP(s, 120, least_turning_by_enumeration, 0, 10);
+  ADD_EXAMPLES(s, 60, every_allocation_fails_once, 4);
+  ADD_EXAMPLES(s, 120, shortest_by_enumeration, 20);
+  ADD_EXAMPLES(s, 120, least_turning_by_enumeration, 10);
   ADD_TEST(s, 20, solids);
   ADD_TEST(s, 20, cubic_is_route_inspection);
   ADD_TEST(s, 5, ring_and_path);

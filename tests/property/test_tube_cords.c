@@ -561,13 +561,13 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("tube_cords");
-  ADD_LOOP(s, 120, closed_cords_by_enumeration, 0, 6);
-  ADD_LOOP(s, 120, even_cords_by_enumeration, 0, 8);
-  ADD_LOOP(s, 120, limited_cords_by_enumeration, 0, 8);
+  ADD_EXAMPLES(s, 120, closed_cords_by_enumeration, 6);
+  ADD_EXAMPLES(s, 120, even_cords_by_enumeration, 8);
+  ADD_EXAMPLES(s, 120, limited_cords_by_enumeration, 8);
   ADD_TEST(s, 20, a_ring_takes_a_round_for_every_cord);
-  ADD_LOOP(s, 60, cords_of_grids_are_even, 0, 6);
-  ADD_LOOP(s, 60, cords_of_grids_keep_to_a_limit, 0, 6);
-  ADD_LOOP(s, 30, pieces_have_cords_of_their_own, 0, 4);
-  ADD_LOOP(s, 300, every_allocation_may_fail, 0, 6);
+  ADD_EXAMPLES(s, 60, cords_of_grids_are_even, 6);
+  ADD_EXAMPLES(s, 60, cords_of_grids_keep_to_a_limit, 6);
+  ADD_EXAMPLES(s, 30, pieces_have_cords_of_their_own, 4);
+  ADD_EXAMPLES(s, 300, every_allocation_may_fail, 6);
   return run_suite(s);
 }

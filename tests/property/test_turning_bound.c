@@ -1013,9 +1013,9 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("bounds on turning");
-  ADD_LOOP(s, 20, leaves_prove_what_their_rows_add_up_to, 0, 120);
-  ADD_LOOP(s, 20, boxes_may_be_empty_or_missing, 0, 10);
-  ADD_LOOP(s, 20, trees_prove_their_worst_leaf, 0, 500);
+  ADD_EXAMPLES(s, 20, leaves_prove_what_their_rows_add_up_to, 120);
+  ADD_EXAMPLES(s, 20, boxes_may_be_empty_or_missing, 10);
+  ADD_EXAMPLES(s, 20, trees_prove_their_worst_leaf, 500);
   ADD_TEST(s, 20, sets_that_prove_nothing);
   ADD_TEST(s, 20, partitions_that_prove_nothing);
   ADD_TEST(s, 20, junctions_that_prove_nothing);
@@ -1023,7 +1023,7 @@ int main(void)
   ADD_TEST(s, 20, trees_that_prove_nothing);
   ADD_TEST(s, 20, proofs_of_another_shape);
   ADD_TEST(s, 20, tasks_out_of_range);
-  ADD_LOOP(s, 20, steps_are_the_same_in_all_directions, 0, 8);
+  ADD_EXAMPLES(s, 20, steps_are_the_same_in_all_directions, 8);
   ADD_TEST(s, 20, limits_that_limit_nothing);
   ADD_TEST(s, 20, limits_of_passes_and_length);
   return run_suite(s);

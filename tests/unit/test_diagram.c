@@ -766,7 +766,7 @@ int main(void)
 {
   Suite *s = suite_create("diagram");
   ADD_LOOP(s, 20, a_dome_has_every_pass_numbered_once, 0, 3);
-  ADD_LOOP(s, 30, many_shapes_are_drawn_soundly, 0, 7);
+  ADD_EXAMPLES(s, 30, many_shapes_are_drawn_soundly, 7);
   ADD_TEST(s, 20, many_cords_are_told_apart);
   ADD_LOOP(s, 20, copies_are_pale, 0, 2);
   ADD_TEST(s, 20, the_legend_says_how_paths_repeat);
@@ -776,7 +776,7 @@ int main(void)
   ADD_TEST(s, 20, numbers_thin_out_with_the_pitch);
   ADD_TEST(s, 30, a_large_dome_stays_within_a0);
   ADD_TEST(s, 20, broken_plans_are_refused);
-  ADD_LOOP(s, 60, every_allocation_may_fail, 0, 4);
+  ADD_EXAMPLES(s, 60, every_allocation_may_fail, 4);
   ADD_TEST(s, 30, crossings_agree_with_all_pairs);
   ADD_LOOP(s, 20, shapes_find_a_layout_without_crossings, 0, 6);
   ADD_TEST(s, 20, layouts_show_the_outside);

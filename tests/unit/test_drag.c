@@ -269,8 +269,8 @@ int main(void)
   Suite *s = suite_create("drag");
   ADD_TEST(s, 30, straight_channel_loses_nothing);
   ADD_TEST(s, 30, without_friction_nothing_is_lost);
-  ADD_LOOP(s, 30, joints_obey_the_capstan_law, 0, 4);
-  ADD_LOOP(s, 30, result_does_not_hang_on_the_protocol, 0, 3);
+  ADD_EXAMPLES(s, 30, joints_obey_the_capstan_law, 4);
+  ADD_EXAMPLES(s, 30, result_does_not_hang_on_the_protocol, 3);
   ADD_TEST(s, 30, same_input_gives_the_same_bits);
   ADD_TEST(s, 60, zigzag_cuts_corners);
   ADD_TEST(s, 60, tight_bores_wedge);

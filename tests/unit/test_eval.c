@@ -478,7 +478,7 @@ int main(void)
 {
   Suite *s = suite_create("eval");
   if (!mkdtemp(cache)) return 1;
-  ADD_LOOP(s, 60, records_are_sound_whichever_end_is_pulled, 0, THR_N_METHODS * THR_N_PULLS);
+  ADD_EXAMPLES(s, 60, records_are_sound_whichever_end_is_pulled, THR_N_METHODS * THR_N_PULLS);
   ADD_LOOP(s, 60, every_cord_can_be_pulled_its_own_way, 0, THR_N_METHODS);
   ADD_LOOP(s, 60, more_friction_is_never_less_pull, 0, THR_N_METHODS);
   ADD_LOOP(s, 60, pull_is_proportional, 0, THR_N_METHODS);
@@ -489,7 +489,7 @@ int main(void)
   ADD_TEST(s, 30, a_stop_is_a_stop_whatever_the_sum);
   ADD_TEST(s, 30, unsettled_joints_are_not_a_simulation);
   ADD_LOOP(s, 60, an_interrupt_leaves_what_is_complete, 0, THR_N_METHODS);
-  ADD_LOOP(s, 60, every_allocation_fails_once, 0, 2);
+  ADD_EXAMPLES(s, 60, every_allocation_fails_once, 2);
   int failed = run_suite(s);
   remove_cache();
   return failed;

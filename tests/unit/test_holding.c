@@ -745,9 +745,9 @@ int main(void)
   ADD_TEST(s, 10, hopeless_structures_name_a_bead);
   ADD_TEST(s, 10, stops_when_told);
   ADD_TEST(s, 20, memory_may_run_out_anywhere);
-  ADD_LOOP(s, 20, bounds_are_proved_and_close, 0, 60);
-  ADD_LOOP(s, 20, equals_a_plain_programme_by_simplex, 0, 40);
-  ADD_LOOP(s, 20, uneven_cords_decide_alike, 0, 40);
+  ADD_EXAMPLES(s, 20, bounds_are_proved_and_close, 60);
+  ADD_EXAMPLES(s, 20, equals_a_plain_programme_by_simplex, 40);
+  ADD_EXAMPLES(s, 20, uneven_cords_decide_alike, 40);
   ADD_TEST(s, 10, twice_the_weight_needs_twice_the_pull);
   ADD_TEST(s, 30, mirrored_plans_pull_alike);
   ADD_TEST(s, 10, same_bits_again);

@@ -231,8 +231,8 @@ int main(void)
 {
   Suite *s = suite_create("hubs");
   ADD_LOOP(s, 30, nodes_pay_what_their_turns_cost, 0, 12);
-  ADD_LOOP(s, 60, nodes_prove_no_more_than_the_optimum, 0, 60);
-  ADD_LOOP(s, 60, hubs_are_paired_nearly_as_cheaply_as_by_matching, 0, 5);
+  ADD_EXAMPLES(s, 60, nodes_prove_no_more_than_the_optimum, 60);
+  ADD_EXAMPLES(s, 60, hubs_are_paired_nearly_as_cheaply_as_by_matching, 5);
   ADD_LOOP(s, 30, hubs_join_what_they_are_asked_to, 0, 2);
   ADD_LOOP(s, 60, dense_frameworks_have_plans_and_bounds, 0, 2);
   return run_suite(s);

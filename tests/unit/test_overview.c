@@ -499,9 +499,9 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("overview");
-  ADD_LOOP(s, 60, every_pass_is_drawn_once_and_in_order, 0, N_DRAWN);
-  ADD_LOOP(s, 60, what_is_written_is_legible, 0, N_DRAWN);
-  ADD_LOOP(s, 60, small_pictures_stay_legible, 0, 11);
+  ADD_EXAMPLES(s, 60, every_pass_is_drawn_once_and_in_order, N_DRAWN);
+  ADD_EXAMPLES(s, 60, what_is_written_is_legible, N_DRAWN);
+  ADD_EXAMPLES(s, 60, small_pictures_stay_legible, 11);
   ADD_TEST(s, 20, letters_tell_cords_apart);
   return run_suite(s);
 }

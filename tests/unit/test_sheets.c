@@ -651,15 +651,15 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("sheets");
-  ADD_LOOP(s, 60, plans_are_read_back_from_the_pdf, 0, N_PLANS);
-  ADD_LOOP(s, 60, plans_threaded_from_the_middle_too, 0, N_PLANS);
-  ADD_LOOP(s, 60, odd_plans_are_read_back, 0, 10);
+  ADD_EXAMPLES(s, 60, plans_are_read_back_from_the_pdf, N_PLANS);
+  ADD_EXAMPLES(s, 60, plans_threaded_from_the_middle_too, N_PLANS);
+  ADD_EXAMPLES(s, 60, odd_plans_are_read_back, 10);
   ADD_TEST(s, 120, a_large_plan_is_read_back);
   ADD_TEST(s, 20, a_pdf_tells_no_time_and_no_place);
   ADD_TEST(s, 20, an_interrupt_stops_it);
   ADD_TEST(s, 20, an_interrupt_stops_the_layout);
   ADD_TEST(s, 20, windows_on_a_shell_say_its_side);
   ADD_TEST(s, 20, plans_that_cannot_be_drawn_are_refused);
-  ADD_LOOP(s, 60, every_failing_allocation_is_reported, 0, 2);
+  ADD_EXAMPLES(s, 60, every_failing_allocation_is_reported, 2);
   return run_suite(s);
 }

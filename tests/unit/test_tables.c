@@ -558,16 +558,16 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("tables");
-  ADD_LOOP(s, 30, steps_are_the_plan, 0, N_PLANS);
+  ADD_EXAMPLES(s, 30, steps_are_the_plan, N_PLANS);
   ADD_TEST(s, 20, left_is_left_on_flat_ground);
-  ADD_LOOP(s, 30, cords_are_cut_long_enough, 0, N_PLANS);
+  ADD_EXAMPLES(s, 30, cords_are_cut_long_enough, N_PLANS);
   ADD_TEST(s, 20, repetitions_are_said);
   ADD_TEST(s, 20, names_are_no_formulas);
   ADD_TEST(s, 20, sizes_follow_the_units);
-  ADD_LOOP(s, 30, beads_are_the_framework, 0, N_PLANS);
+  ADD_EXAMPLES(s, 30, beads_are_the_framework, N_PLANS);
   ADD_TEST(s, 20, tube_joints_have_no_node_beads);
   ADD_TEST(s, 20, names_are_quoted);
   ADD_TEST(s, 20, broken_plans_are_refused);
-  ADD_LOOP(s, 60, every_allocation_may_fail, 0, N_TABLES);
+  ADD_EXAMPLES(s, 60, every_allocation_may_fail, N_TABLES);
   return run_suite(s);
 }

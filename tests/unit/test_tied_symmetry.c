@@ -272,12 +272,12 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("tied_symmetry");
-  ADD_LOOP(s, 60, published_lengths, 0, 4);
-  ADD_LOOP(s, 60, plans_pass_the_checker, 0, 5);
-  ADD_LOOP(s, 120, shortest_is_that_of_the_other_search, 0, 2);
+  ADD_EXAMPLES(s, 60, published_lengths, 4);
+  ADD_EXAMPLES(s, 60, plans_pass_the_checker, 5);
+  ADD_EXAMPLES(s, 120, shortest_is_that_of_the_other_search, 2);
   ADD_TEST(s, 20, ends_are_mapped_to_ends);
   ADD_TEST(s, 10, what_cannot_be_tied_is_said);
   ADD_LOOP(s, 20, stars_against_images, 0, 2);
-  ADD_LOOP(s, 100, every_allocation_fails_once, 0, 2);
+  ADD_EXAMPLES(s, 100, every_allocation_fails_once, 2);
   return run_suite(s);
 }
