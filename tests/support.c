@@ -51,6 +51,11 @@ void add_examples(Suite *s, const char *name, double seconds, const TTest *test,
   suite_add_tcase(s, t);
 }
 
+void add_large(Suite *s, const char *name, double seconds, const TTest *test, int first, int end)
+{
+  if (share() == 1) add_case(s, name, seconds, test, first, end);
+}
+
 void assert_one_line(const thr_err *err, const char *word)
 {
   ck_assert_int_ne(err->code, THR_OK);

@@ -31,6 +31,10 @@ int share_of(int n);
 #define ADD_EXAMPLES(suite, seconds, test, end) add_examples(suite, #test, seconds, test, end)
 void add_examples(Suite *s, const char *name, double seconds, const TTest *test, int end);
 
+/* Adds a test that takes long, only where all examples are run. */
+#define ADD_LARGE(suite, seconds, test, first, end) add_large(suite, #test, seconds, test, first, end)
+void add_large(Suite *s, const char *name, double seconds, const TTest *test, int first, int end);
+
 /* Fails unless err holds a status with a text of one line that contains word (NULL: any). */
 void assert_one_line(const thr_err *err, const char *word);
 

@@ -751,9 +751,9 @@ int main(void)
   ADD_TEST(s, 10, twice_the_weight_needs_twice_the_pull);
   ADD_TEST(s, 30, mirrored_plans_pull_alike);
   ADD_TEST(s, 10, same_bits_again);
-  ADD_TEST(s, 60, straight_lines_pull_least);
-  ADD_LOOP(s, 60, rough_cords_are_never_hopeless, 0, 3);
-  ADD_LOOP(s, 60, large_domes_are_decided, THREAD_LINES, THREAD_SNAKE);
+  ADD_LARGE(s, 60, straight_lines_pull_least, 0, 1);
+  ADD_LARGE(s, 60, rough_cords_are_never_hopeless, 0, 3);
+  ADD_LARGE(s, 60, large_domes_are_decided, THREAD_LINES, THREAD_SNAKE);
   ADD_TEST(s, 20, too_rough_is_unknown);
   ADD_TEST(s, 20, what_stands_has_no_forces);
   return run_suite(s);

@@ -185,7 +185,7 @@ int main(void)
   ADD_TEST(s, 20, double_banana);
   ADD_TEST(s, 20, feet_hold);
   ADD_TEST(s, 20, close_calls_are_said);
-  ADD_LOOP(s, 60, whole_coordinates, 0, 8);
+  ADD_EXAMPLES(s, 60, whole_coordinates, 8);
   ADD_TEST(s, 20, empty_matrices);
   return run_suite(s);
 }

@@ -382,7 +382,7 @@ int main(void)
   ADD_TEST(s, 60, cantilever_falls_where_statics_says);
   ADD_TEST(s, 60, cantilever_scales_as_statics);
   ADD_TEST(s, 60, start_does_not_matter);
-  ADD_LOOP(s, 60, direction_does_not_matter, 0, 8);
+  ADD_EXAMPLES(s, 60, direction_does_not_matter, 8);
   ADD_TEST(s, 60, too_little_pull_never_settles);
   ADD_TEST(s, 60, what_stands_is_held);
   ADD_TEST(s, 10, creep_gives_no_index);

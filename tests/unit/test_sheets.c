@@ -654,7 +654,7 @@ int main(void)
   ADD_EXAMPLES(s, 60, plans_are_read_back_from_the_pdf, N_PLANS);
   ADD_EXAMPLES(s, 60, plans_threaded_from_the_middle_too, N_PLANS);
   ADD_EXAMPLES(s, 60, odd_plans_are_read_back, 10);
-  ADD_TEST(s, 120, a_large_plan_is_read_back);
+  ADD_LARGE(s, 120, a_large_plan_is_read_back, 0, 1);
   ADD_TEST(s, 20, a_pdf_tells_no_time_and_no_place);
   ADD_TEST(s, 20, an_interrupt_stops_it);
   ADD_TEST(s, 20, an_interrupt_stops_the_layout);

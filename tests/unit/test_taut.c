@@ -456,8 +456,8 @@ int main(void)
   ADD_TEST(s, 10, thick_cord_round_a_ring_by_hand);
   ADD_TEST(s, 10, shallow_zigzag_becomes_straight);
   ADD_TEST(s, 10, u_turns_go_round_the_node);
-  ADD_LOOP(s, 20, no_shorter_path_by_brute_force, 0, 10);
-  ADD_LOOP(s, 10, turned_scaled_or_reversed_it_is_the_same, 0, 20);
+  ADD_EXAMPLES(s, 20, no_shorter_path_by_brute_force, 10);
+  ADD_EXAMPLES(s, 10, turned_scaled_or_reversed_it_is_the_same, 20);
   ADD_TEST(s, 20, more_clearance_is_shorter);
   ADD_TEST(s, 10, nonsense_is_refused);
   return run_suite(s);
