@@ -22,4 +22,11 @@ thr_status thr_multigraph_init(thr_multigraph *g, const thr_frame *f, int n_more
                                int n_ends, thr_err *err) THR_MUST_CHECK;
 void thr_multigraph_destroy(thr_multigraph *g);
 
+/* Pairs a and b in an array in which every member names its mate. */
+static inline void thr_set_pair(int *mate, int a, int b)
+{
+  mate[a] = b;
+  mate[b] = a;
+}
+
 #endif

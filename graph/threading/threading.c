@@ -112,12 +112,6 @@ bool thr_threading_tied(const thr_threading *t, int v)
   return apart == 0;
 }
 
-static void set_pair(int *mate, int a, int b)
-{
-  mate[a] = b;
-  mate[b] = a;
-}
-
 void thr_threading_pair(thr_threading *t, int a, int b, int c, int d, thr_broken *old)
 {
   for (int i = 0; i < 2 && old; i++) {
@@ -125,15 +119,15 @@ void thr_threading_pair(thr_threading *t, int a, int b, int c, int d, thr_broken
     old->pair[old->n][0] = one;
     old->pair[old->n++][1] = t->mate[one];
   }
-  set_pair(t->mate, a, b);
-  set_pair(t->mate, c, d);
+  thr_set_pair(t->mate, a, b);
+  thr_set_pair(t->mate, c, d);
 }
 
 void thr_threading_take_back(thr_threading *t, thr_broken *old)
 {
   while (old->n > 0) {
     old->n--;
-    set_pair(t->mate, old->pair[old->n][0], old->pair[old->n][1]);
+    thr_set_pair(t->mate, old->pair[old->n][0], old->pair[old->n][1]);
   }
 }
 

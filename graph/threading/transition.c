@@ -2,13 +2,14 @@
 #include "graph/threading/transition.h"
 #include "graph/disjoint.h"
 #include "graph/plan/plan.h"
+#include "graph/threading/pairing.h"
 #include "graph/threading/threading.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { EXACT_DARTS = 12 }; /* largest node paired by dynamic programming: 2^12 subsets */
+enum { EXACT_DARTS = 12 }; /* largest node paired at least price: 2^12 subsets */
 
 static bool same_pass_back(const thr_multigraph *g, int a, int b)
 {
@@ -22,43 +23,17 @@ double thr_transition_price(const thr_frame *f, const thr_multigraph *g, int a, 
   return price + thr_turn_angle(f, g->half[a] ^ 1, g->half[b]);
 }
 
-static void set_pair(int *mate, int a, int b)
+static thr_status pair_exactly(const thr_frame *f, const thr_multigraph *g, const int *dart, int n, int *mate, thr_err *err)
 {
-  mate[a] = b;
-  mate[b] = a;
-}
-
-/* best[s] = least price of pairing the darts of subset s; choice[s] = partner of its lowest dart. */
-static void pair_exactly(const thr_frame *f, const thr_multigraph *g, const int *dart, int n, int *mate)
-{
-  static _Thread_local double best[1 << EXACT_DARTS];
-  static _Thread_local unsigned char choice[1 << EXACT_DARTS];
-  double price[EXACT_DARTS][EXACT_DARTS];
+  double price[EXACT_DARTS * EXACT_DARTS] = {0};
+  int pair[EXACT_DARTS];
   for (int i = 0; i < n; i++)
-    for (int j = i + 1; j < n; j++)
-      price[i][j] = thr_transition_price(f, g, dart[i], dart[j]);
-  best[0] = 0;
-  for (unsigned s = 1; s < 1u << n; s++) {
-    int i = 0;
-    while (!(s >> i & 1u))
-      i++;
-    best[s] = INFINITY; /* stays so for subsets of odd size */
-    for (int j = i + 1; j < n; j++) {
-      if (!(s >> j & 1u)) continue;
-      double total = price[i][j] + best[s & ~(1u << i | 1u << j)];
-      if (total < best[s]) {
-        best[s] = total;
-        choice[s] = (unsigned char)j;
-      }
-    }
-  }
-  for (unsigned s = (1u << n) - 1; s;) {
-    int i = 0;
-    while (!(s >> i & 1u))
-      i++;
-    set_pair(mate, dart[i], dart[choice[s]]);
-    s &= ~(1u << i | 1u << choice[s]);
-  }
+    for (int j = 0; j < n; j++)
+      price[i * n + j] = i == j ? 0 : thr_transition_price(f, g, dart[i], dart[j]);
+  thr_status st = thr_pairing_best(n, price, pair, err);
+  for (int i = 0; i < n && !st; i++)
+    mate[dart[i]] = dart[pair[i]];
+  return st;
 }
 
 /* Darts grouped by edge (copies of an edge are consecutive): dart i with dart i + n/2 differ in edge unless one edge has
@@ -66,21 +41,22 @@ static void pair_exactly(const thr_frame *f, const thr_multigraph *g, const int 
 static void pair_by_halves(const int *dart, int n, int *mate)
 {
   for (int i = 0; i < n / 2; i++)
-    set_pair(mate, dart[i], dart[i + n / 2]);
+    thr_set_pair(mate, dart[i], dart[i + n / 2]);
 }
 
 thr_status thr_transition_pair(const thr_frame *f, const thr_multigraph *g, int *mate, thr_err *err)
 {
-  for (int v = 0; v < g->n_nodes; v++) {
+  thr_status st = THR_OK;
+  for (int v = 0; v < g->n_nodes && !st; v++) {
     const int *dart = g->dart + g->first[v];
     int n = g->first[v + 1] - g->first[v];
     if (n % 2) return thr_fail(err, THR_EINPUT, "node %s has an odd number (%d) of passes and ends", f->name[v], n);
     if (n <= EXACT_DARTS)
-      pair_exactly(f, g, dart, n, mate);
+      st = pair_exactly(f, g, dart, n, mate, err);
     else
       pair_by_halves(dart, n, mate);
   }
-  return THR_OK;
+  return st;
 }
 
 void thr_transition_trace(const int *mate, int start, int *out, int *count)
@@ -152,8 +128,8 @@ static int apply_cheapest(exchanges *x, int *mate, const int *circuit, int *pare
     int a = x->list[i].a, c = x->list[i].c, b = mate[a], d = mate[c];
     if (moved[a] || moved[c]) continue;
     if (!thr_disjoint_join(parent, circuit[a], circuit[c])) continue;
-    set_pair(mate, a, x->list[i].cross ? d : c);
-    set_pair(mate, b, x->list[i].cross ? c : d);
+    thr_set_pair(mate, a, x->list[i].cross ? d : c);
+    thr_set_pair(mate, b, x->list[i].cross ? c : d);
     moved[a] = moved[b] = moved[c] = moved[d] = true;
     applied++;
   }

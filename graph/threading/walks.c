@@ -42,6 +42,14 @@ thr_status thr_walks_add(thr_walks *w, const thr_frame *f, thr_walk walk, thr_er
   return THR_OK;
 }
 
+thr_status thr_walks_copy(thr_walks *w, const thr_frame *f, const int *half, int n, bool cyclic, thr_err *err)
+{
+  thr_walk new = {n, thr_calloc((size_t)n, sizeof *new.half), 0, cyclic};
+  if (!new.half) return thr_nomem(err);
+  memcpy(new.half, half, (size_t)n * sizeof *half);
+  return thr_walks_add(w, f, new, err);
+}
+
 void thr_walks_count(const thr_walks *w, int *passes)
 {
   for (int i = 0; i < w->n_walks; i++)

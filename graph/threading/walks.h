@@ -28,6 +28,9 @@ thr_status thr_walks_trace(const thr_frame *f, const int *passes, const int *com
 /* Appends a walk, which is taken over, or released on failure. Its length is worked out. */
 thr_status thr_walks_add(thr_walks *w, const thr_frame *f, thr_walk walk, thr_err *err) THR_MUST_CHECK;
 
+/* Appends a copy of half[n]. */
+thr_status thr_walks_copy(thr_walks *w, const thr_frame *f, const int *half, int n, bool cyclic, thr_err *err) THR_MUST_CHECK;
+
 /* The number of passes that the walks make of each edge is added to passes[n_edges]. */
 void thr_walks_count(const thr_walks *w, int *passes);
 
@@ -38,6 +41,12 @@ double thr_walks_longest(const thr_walks *w);
 
 /* The node before pass number at; with at = n, after the last one. */
 int thr_walk_node(const thr_frame *f, const thr_walk *w, int at);
+
+/* The half-edge before pass number at of a cyclic walk, or of an open one if at > 0. */
+static inline int thr_walk_before(const thr_walk *w, int at)
+{
+  return w->half[at ? at - 1 : w->n - 1];
+}
 
 /* The half-edges of a walk the other way round. */
 void thr_walk_reverse(int *half, int n);

@@ -83,7 +83,7 @@ static thr_status open_again(const several *x, thr_walk *w, int node, thr_err *e
   int best = -1;
   double most = -1;
   for (int i = 0; i < w->n; i++) {
-    double turn = thr_walk_turn(x->f, w->half[i ? i - 1 : w->n - 1], w->half[i]);
+    double turn = thr_walk_turn(x->f, thr_walk_before(w, i), w->half[i]);
     if (thr_walk_node(x->f, w, i) != node || turn < most + 1e-9) continue;
     best = i;
     most = turn;
@@ -129,11 +129,8 @@ static thr_status tell(const several *x, thr_err *err)
   thr_status st = copy ? THR_OK : thr_nomem(err);
   for (int k = 0; k < x->n_components && !st; k++)
     for (int i = 0; i < x->walks[k].n_walks && !st; i++) {
-      thr_walk w = x->walks[k].walk[i];
-      size_t bytes = (size_t)w.n * sizeof *w.half;
-      w.half = thr_calloc((size_t)w.n, sizeof *w.half);
-      if (w.half) memcpy(w.half, x->walks[k].walk[i].half, bytes);
-      st = w.half ? thr_walks_add(&copy[k], x->f, w, err) : thr_nomem(err);
+      const thr_walk *w = &x->walks[k].walk[i];
+      st = thr_walks_copy(&copy[k], x->f, w->half, w->n, w->cyclic, err);
     }
   if (!st) st = thr_walks_plan(copy, x->n_components, &p, err);
   if (!st) thr_limits_found(x->limits, p.cord, p.n_cords, NULL);

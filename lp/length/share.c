@@ -59,7 +59,7 @@ static thr_status find_places(places *p, thr_err *err)
       if (!may_cut(p, v)) continue;
       thr_status st = thr_grow(&p->list, p->n, &p->capacity, sizeof *p->list, err);
       if (st) return st;
-      p->list[p->n++] = (place){thr_walk_turn(f, x->half[at ? at - 1 : x->n - 1], x->half[at]), i, at, v};
+      p->list[p->n++] = (place){thr_walk_turn(f, thr_walk_before(x, at), x->half[at]), i, at, v};
     }
   }
   return THR_OK;

@@ -75,12 +75,9 @@ static thr_status dissolve(const thr_share *s, int i, int n, int *passes, thr_wa
   if (!*made) return THR_OK;
   thr_status st = THR_OK;
   for (int k = 1; k < size && !st; k++) {
-    int *half = thr_calloc(2, sizeof *half), h = w->walk[i].half[k];
-    if (!half) return thr_nomem(err);
-    half[0] = h;
-    half[1] = h ^ 1;
+    int h = w->walk[i].half[k];
     passes[h >> 1]++;
-    st = thr_walks_add(w, f, (thr_walk){2, half, 0, true}, err);
+    st = thr_walks_copy(w, f, (const int[]){h, h ^ 1}, 2, true, err);
   }
   if (st) return st;
   thr_walk *first = &w->walk[i]; /* keeps its first pass */

@@ -9,12 +9,7 @@ enum { MOST_VISITS = 32 }; /* of a node, that each of its visits is compared wit
 
 static double turn_at(const thr_frame *f, const thr_walk *x, int at)
 {
-  return thr_walk_turn(f, x->half[at ? at - 1 : x->n - 1], x->half[at]);
-}
-
-static int before(const thr_walk *x, int at)
-{
-  return x->half[at ? at - 1 : x->n - 1];
+  return thr_walk_turn(f, thr_walk_before(x, at), x->half[at]);
 }
 
 /* ---- splitting ---- */
@@ -27,7 +22,7 @@ typedef struct {
 /* Turning that is added by making a walk of its own of passes from .. end - 1. */
 static double split_price(const thr_frame *f, const thr_walk *x, int from, int end)
 {
-  return thr_walk_turn(f, before(x, from), x->half[end]) + thr_walk_turn(f, x->half[end - 1], x->half[from]) -
+  return thr_walk_turn(f, thr_walk_before(x, from), x->half[end]) + thr_walk_turn(f, x->half[end - 1], x->half[from]) -
          turn_at(f, x, from) - turn_at(f, x, end);
 }
 
@@ -199,7 +194,7 @@ typedef struct {
 static void offer_junction(const thr_frame *f, const thr_walks *w, int a, int at_a, int b, int at_b, junction *best)
 {
   const thr_walk *x = &w->walk[a], *y = &w->walk[b];
-  int in = before(x, at_a), out = x->half[at_a], in_b = before(y, at_b), out_b = y->half[at_b];
+  int in = thr_walk_before(x, at_a), out = x->half[at_a], in_b = thr_walk_before(y, at_b), out_b = y->half[at_b];
   double old = thr_walk_turn(f, in, out) + thr_walk_turn(f, in_b, out_b);
   double along = thr_walk_turn(f, in, out_b) + thr_walk_turn(f, in_b, out) - old;
   double against = thr_walk_turn(f, in, in_b ^ 1) + thr_walk_turn(f, out_b ^ 1, out) - old;

@@ -42,15 +42,10 @@ typedef struct {
   int walk, from, end, half;
 } chord;
 
-static int before(const thr_walk *x, int at)
-{
-  return x->half[at ? at - 1 : x->n - 1];
-}
-
 /* The visits must not pass the edge: a cord would turn back. Then both halves tie what the walk tied. */
 static bool passes_at(const thr_walk *x, int at, int e)
 {
-  return x->half[at] >> 1 == e || before(x, at) >> 1 == e;
+  return x->half[at] >> 1 == e || thr_walk_before(x, at) >> 1 == e;
 }
 
 /* Chords over half-edge h, between visits of one walk. */
@@ -152,7 +147,7 @@ static thr_status add_circuit(splitting *x, thr_ways *g, const circuit *c, thr_e
   new.n = there + 1 + back;
   for (int i = 0; i < new.n; i++) {
     thr_turn_change change = {.n = 0};
-    thr_turn_change_note(&change, before(&new, i), new.half[i], 1);
+    thr_turn_change_note(&change, thr_walk_before(&new, i), new.half[i], 1);
     thr_junction_graphs_make(&x->ties, &change);
     x->passes[new.half[i] >> 1]++;
   }

@@ -1,5 +1,6 @@
 /* Dart orbits as cosets, their links, and the choices among them. */
 #include "symmetry/lift/strands.h"
+#include "graph/disjoint.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -312,26 +313,16 @@ typedef struct {
 
 static int root(const trails *t, int o)
 {
-  for (; t->parent[o] != o; o = t->parent[o])
-    t->parent[o] = t->parent[t->parent[o]];
-  return o;
+  return thr_disjoint_find(t->parent, o);
 }
 
-/* The lowest orbit is the root. */
-static int join(trails *t, int a, int b)
+/* The counts of both stay with the root. */
+static void join(trails *t, int a, int b)
 {
-  a = root(t, a);
-  b = root(t, b);
-  if (a == b) return a;
-  if (b < a) {
-    int lower = b;
-    b = a;
-    a = lower;
-  }
-  t->parent[b] = a;
-  t->ends[a] += t->ends[b];
-  t->folds[a] += t->folds[b];
-  return a;
+  int ra = root(t, a), rb = root(t, b), ends = t->ends[ra] + t->ends[rb], folds = t->folds[ra] + t->folds[rb];
+  if (!thr_disjoint_join(t->parent, ra, rb)) return;
+  t->ends[root(t, ra)] = ends;
+  t->folds[root(t, ra)] = folds;
 }
 
 static void find_trails(const thr_strands *s, trails *t)

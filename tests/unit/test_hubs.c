@@ -5,7 +5,7 @@
 #include "tests/support.h"
 #include "tortuosity/proof/hubs.h"
 #include "tortuosity/proof/nearest.h"
-#include "tortuosity/tour/pairing.h"
+#include "graph/threading/pairing.h"
 #include "planner/turning.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* Pairing at one node: subsets against enumeration and the matching engine, on random stars under every price. */
 #include "tests/matchings.h"
 #include "tests/support.h"
-#include "tortuosity/tour/pairing.h"
+#include "graph/threading/pairing.h"
 #include "graph/plan/turning_proof.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* Bouchet's greedy on a multigraph of passes. */
 #include "graph/disjoint.h"
 #include "tortuosity/proof/hubs.h"
-#include "tortuosity/tour/pairing.h"
+#include "graph/threading/pairing.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -194,12 +194,6 @@ static int join_pairs(greedy *s, int n, const int *pair)
   return left;
 }
 
-static void set_pair(int *mate, int a, int b)
-{
-  mate[a] = b;
-  mate[b] = a;
-}
-
 /* All pairings of the darts that are free in pair (-1), the cheapest of those that leave few enough pieces into best. */
 static void try_pairings(greedy *s, int n, int pieces, int *pair, double price, double *least, int *best)
 {
@@ -215,7 +209,7 @@ static void try_pairings(greedy *s, int n, int pieces, int *pair, double price, 
   }
   for (int k = i + 1; k < n; k++) {
     if (pair[k] >= 0) continue;
-    set_pair(pair, i, k);
+    thr_set_pair(pair, i, k);
     try_pairings(s, n, pieces, pair, price + s->price[i * n + k], least, best);
     pair[i] = pair[k] = -1;
   }
@@ -236,8 +230,8 @@ static void exchange_until_few(greedy *s, int n, int pieces)
       }
     if (best_a < 0) return;
     int b = s->pair[best_a], d = s->pair[best_c];
-    set_pair(s->pair, best_a, best_cross ? d : best_c);
-    set_pair(s->pair, b, best_cross ? best_c : d);
+    thr_set_pair(s->pair, best_a, best_cross ? d : best_c);
+    thr_set_pair(s->pair, b, best_cross ? best_c : d);
   }
 }
 

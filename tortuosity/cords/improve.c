@@ -42,10 +42,10 @@ static void close_ring(tour *t, int v)
     if (first < 0)
       first = near;
     else
-      ring[far] = near, ring[near] = far;
+      thr_set_pair(ring, far, near);
     far = d ^ 1;
   }
-  if (first >= 0) ring[far] = first, ring[first] = far;
+  if (first >= 0) thr_set_pair(ring, far, first);
 }
 
 static void follow(tour *t)
@@ -57,87 +57,61 @@ static void follow(tour *t)
   thr_threading_follow(&t->ring, g->n_darts);
 }
 
-static void exchange(tour *t, int a, int b, int c, int d)
+static void make(tour *t, const thr_exchange *x)
 {
-  int *mate = t->j->mate;
-  mate[a] = b;
-  mate[b] = a;
-  mate[c] = d;
-  mate[d] = c;
-}
-
-static double price(const tour *t, int a, int b)
-{
-  return thr_join_price(t->j, a, b);
+  thr_set_pair(t->j->mate, x->made[0], x->made[1]);
+  thr_set_pair(t->j->mate, x->made[2], x->made[3]);
 }
 
 /* Runs the part between two places of one node the other way round where that saves. true: the tour has changed. */
-static bool reverse_part(tour *t, const thr_place *i, const thr_place *k)
+static bool reverse_part(tour *t, int i, int k)
 {
-  if (price(t, i->in, k->in) + price(t, i->out, k->out) >= i->price + k->price - enough) return false;
-  exchange(t, i->in, k->in, i->out, k->out);
+  thr_exchange x = thr_threading_exchange(&t->ring, i, k, true);
+  if (x.extra >= -enough) return false;
+  make(t, &x);
   return true;
 }
 
-typedef struct {
-  double extra;
-  int a, b, c, d; /* pairs to make */
-} joint;
-
-static void consider(const tour *t, int a, int b, int c, int d, double old, joint *best)
-{
-  double extra = price(t, a, b) + price(t, c, d) - old;
-  if (extra < best->extra - 1e-12) *best = (joint){extra, a, b, c, d};
-}
-
 /* The cheapest way to join the part i < .. < k, once cut off, to the rest again, at any node. The cut itself does not count. */
-static joint cheapest_joint(const tour *t, const thr_place *i, const thr_place *k, double most, const thr_limits *limits,
-                            int *list)
+static thr_exchange cheapest_joint(const tour *t, int i, int k, double most, const thr_limits *limits, int *list)
 {
   const thr_threading *r = &t->ring;
-  joint best = {.extra = most};
-  for (const thr_place *x = i + 1; x < k && (x->index % 64 || !thr_limits_stop(limits)); x++) {
-    int v = r->g->tail[x->in];
+  thr_exchange best = {.extra = most};
+  for (int p = i + 1; p < k && (p % 64 || !thr_limits_stop(limits)); p++) {
+    int v = r->g->tail[r->place[p].in];
     if (v >= r->f->n_nodes) continue;
     int n = thr_threading_places(r, v, list);
-    for (int y = 0; y < n; y++) {
-      const thr_place *z = &r->place[list[y]];
-      if (z >= i && z <= k) continue;
-      consider(t, x->in, z->in, x->out, z->out, x->price + z->price, &best);
-      consider(t, x->in, z->out, x->out, z->in, x->price + z->price, &best);
-    }
+    for (int y = 0; y < n; y++)
+      for (int crossed = 1; crossed >= 0 && (list[y] < i || list[y] > k); crossed--) {
+        thr_exchange x = thr_threading_exchange(r, p, list[y], crossed);
+        if (x.extra < best.extra - 1e-12) best = x;
+      }
   }
   return best;
 }
 
 /* Cuts the part between two places of one node off where that saves more than joining it again costs. */
-static bool cut_and_join(tour *t, const thr_place *i, const thr_place *k, const thr_limits *limits, int *list)
+static bool cut_and_join(tour *t, int i, int k, const thr_limits *limits, int *list)
 {
-  if (i > k) {
-    const thr_place *later = i;
-    i = k;
-    k = later;
-  }
-  double old = i->price + k->price, now = price(t, i->in, k->out) + price(t, k->in, i->out);
-  if (now >= old - enough) return false;
-  joint best = cheapest_joint(t, i, k, old - now - enough, limits, list);
-  if (best.extra >= old - now - enough) return false;
-  exchange(t, i->in, k->out, k->in, i->out);
-  exchange(t, best.a, best.b, best.c, best.d);
+  thr_exchange x = thr_threading_exchange(&t->ring, i, k, false);
+  if (x.extra >= -enough) return false;
+  thr_exchange best = cheapest_joint(t, i < k ? i : k, i < k ? k : i, -x.extra - enough, limits, list);
+  if (best.extra >= -x.extra - enough) return false;
+  make(t, &x);
+  make(t, &best);
   return true;
 }
 
 /* One improvement anywhere at node v. */
 static bool improve_node(tour *t, int v, const thr_limits *limits, int *here, int *list)
 {
-  const thr_place *place = t->ring.place;
   int n = thr_threading_places(&t->ring, v, here);
   for (int i = 0; i < n && !thr_limits_stop(limits); i++)
     for (int k = i + 1; k < n; k++)
-      if (reverse_part(t, &place[here[i]], &place[here[k]])) return true;
+      if (reverse_part(t, here[i], here[k])) return true;
   for (int i = 0; i < n && !thr_limits_stop(limits); i++)
     for (int k = i + 1; k < n; k++)
-      if (cut_and_join(t, &place[here[i]], &place[here[k]], limits, list)) return true;
+      if (cut_and_join(t, here[i], here[k], limits, list)) return true;
   return false;
 }
 

@@ -88,12 +88,6 @@ void thr_join_measure(thr_join *j)
     if (j->mate[d] > d) j->price += thr_join_price(j, d, j->mate[d]);
 }
 
-static void set_pair(int *mate, int a, int b)
-{
-  mate[a] = b;
-  mate[b] = a;
-}
-
 /* ---- pairs as given ---- */
 
 /* Free darts by half-edge: the next one of each is taken off its list. */
@@ -119,7 +113,7 @@ static void pair_columns(thr_join *j, const int *x, stock *s)
       int half_a = c->half[k][0], half_b = c->half[k][1];
       int a = take(&s->head[half_a], s->next);
       int b = take(half_b >= 0 ? &s->head[half_b] : &s->end_first[thr_tail(c->f, half_a)], s->next);
-      if (a >= 0 && b >= 0) set_pair(j->mate, a, b);
+      if (a >= 0 && b >= 0) thr_set_pair(j->mate, a, b);
     }
   }
 }
@@ -131,8 +125,8 @@ static void join_equal_passes(thr_join *j, const int *cord, int *parent)
   for (int d = 0; d + 2 < g->n_darts; d += 2) {
     if (g->half[d] < 0 || g->half[d] != g->half[d + 2] || !thr_disjoint_join(parent, cord[d], cord[d + 2])) continue;
     int a = j->mate[d], b = j->mate[d + 2];
-    set_pair(j->mate, d, b);
-    set_pair(j->mate, d + 2, a);
+    thr_set_pair(j->mate, d, b);
+    thr_set_pair(j->mate, d + 2, a);
   }
 }
 
@@ -246,10 +240,10 @@ static void pair_cord(thr_join *j, const thr_cord *c, int *cursor)
   for (int i = 0; i < c->n_passes; i++) {
     int d = next_copy(&j->g, cursor, c->half[i]);
     if (first < 0) first = d;
-    if (last >= 0) set_pair(j->mate, last, d);
+    if (last >= 0) thr_set_pair(j->mate, last, d);
     last = d ^ 1;
   }
-  set_pair(j->mate, last, open ? cursor[f->n_edges + thr_head(f, c->half[c->n_passes - 1])] : first);
+  thr_set_pair(j->mate, last, open ? cursor[f->n_edges + thr_head(f, c->half[c->n_passes - 1])] : first);
   if (open) cursor[f->n_edges + thr_head(f, c->half[c->n_passes - 1])] += 2;
 }
 

@@ -1,70 +1,57 @@
-/* Cords traced through a joined multigraph. */
+/* Cords of a joined multigraph. */
 #include "graph/threading/tour.h"
-#include "graph/threading/transition.h"
+#include "graph/threading/walks.h"
 #include "tortuosity/cords/join.h"
 
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* walk[0 .. n-1]: darts of a cord, with its virtual ones if it has ends. */
-static thr_status make_cord(const thr_join *j, int *walk, int n, bool open, thr_cord *c, thr_err *err)
+static thr_status make_cord(const thr_threading *t, int k, thr_cord *c, thr_err *err)
 {
-  const thr_frame *f = j->c->f;
-  int first = open, from = 0;
-  n -= 2 * open;
+  const thr_frame *f = t->f;
+  const thr_place *place = t->place + t->first[k];
+  bool open = !thr_threading_closed(t, k);
+  int n = t->first[k + 1] - t->first[k] - open;
   if (n < 1) return thr_fail(err, THR_ESOLVER, "a cord without a pass");
   if (!(c->half = thr_calloc((size_t)n, sizeof *c->half))) return thr_nomem(err);
-  for (int i = 0; i < n; i++)
-    walk[i] = j->g.half[walk[i + first]];
-  if (!open) from = thr_tour_start(f, NULL, walk, n); /* its two ends come out there instead of turning */
-  bool reverse = open && thr_tail(f, walk[0]) > thr_head(f, walk[n - 1]);
-  for (int i = 0; i < n; i++)
-    c->half[i] = reverse ? walk[n - 1 - i] ^ 1 : walk[(from + i) % n];
+  for (int i = 0; i < n; i++) /* a closed one as it was traced: its first place comes after its first pass */
+    c->half[i] = t->g->half[place[open ? i : (i + n - 1) % n].out];
+  thr_walk w = {n, c->half, 0, !open};
+  if (open && thr_walk_node(f, &w, 0) > thr_walk_node(f, &w, n)) thr_walk_reverse(c->half, n);
+  thr_status st = open ? THR_OK : thr_walk_rotate(&w, thr_tour_start(f, NULL, c->half, n), err); /* its ends come out there */
+  c->half = w.half;
   c->n_passes = n;
-  c->closed = thr_tail(f, c->half[0]) == thr_head(f, c->half[n - 1]);
-  c->component = j->c->component[thr_tail(f, c->half[0])];
-  return THR_OK;
+  c->closed = thr_walk_node(f, &w, 0) == thr_walk_node(f, &w, n);
+  return st;
 }
 
-/* One cord from dart d unless its circuit is walked already. */
-static thr_status cord_from(const thr_join *j, int d, bool *walked, int *walk, thr_cord *cord, int n_cords, int *made,
-                            thr_err *err)
+/* Component by component. */
+static thr_status make_cords(const thr_threading *t, const thr_turning_columns *c, thr_cord *cord, thr_err *err)
 {
-  if (walked[d]) return THR_OK;
-  int n;
-  thr_transition_trace(j->mate, d, walk, &n);
-  for (int i = 0; i < n; i++)
-    walked[walk[i]] = walked[walk[i] ^ 1] = true;
-  if (*made == n_cords) return thr_fail(err, THR_ESOLVER, "more than the %d cords asked for", n_cords);
-  thr_status st = make_cord(j, walk, n, j->g.tail[d] >= j->c->f->n_nodes, &cord[*made], err);
-  if (st) return st;
-  thr_cord_id(*made, cord[*made].id);
-  ++*made;
-  return THR_OK;
+  thr_status st = THR_OK;
+  for (int component = 0, made = 0; component < c->n_components; component++)
+    for (int k = 0; k < t->n_cords && !st; k++) {
+      if (c->component[t->g->tail[t->place[t->first[k]].in]] != component) continue;
+      st = make_cord(t, k, &cord[made], err);
+      cord[made].component = component;
+      thr_cord_id(made, cord[made].id);
+      made++;
+    }
+  return st;
 }
 
 thr_status thr_join_cords(const thr_join *j, thr_cord *cord, int n_cords, thr_err *err)
 {
-  const thr_multigraph *g = &j->g;
-  const thr_turning_columns *c = j->c;
-  int made = 0;
+  thr_threading t;
+  thr_join same = *j; /* following does not change it */
   memset(cord, 0, (size_t)n_cords * sizeof *cord);
-  bool *walked = thr_calloc((size_t)g->n_darts, sizeof *walked);
-  int *walk = thr_calloc((size_t)g->n_darts, sizeof *walk);
-  thr_status st = walked && walk ? THR_OK : thr_nomem(err);
-  for (int k = 0; k < c->n_components && !st; k++) {
-    int v = c->f->n_nodes + k;
-    for (int i = g->first[v]; i < g->first[v + 1] && !st; i++)
-      st = cord_from(j, g->dart[i], walked, walk, cord, n_cords, &made, err);
-    for (int d = 0; d < g->n_darts && !st && !thr_join_open(j, k); d++)
-      if (c->component[g->tail[d]] == k) st = cord_from(j, d, walked, walk, cord, n_cords, &made, err);
-  }
-  if (!st && made < n_cords) st = thr_fail(err, THR_ESOLVER, "%d cords, fewer than the %d asked for", made, n_cords);
-  for (int d = 0; d < g->n_darts && !st; d++)
-    if (!walked[d]) st = thr_fail(err, THR_ESOLVER, "passes that no cord holds");
-  free(walked);
-  free(walk);
-  for (int i = 0; st && i < made; i++) {
+  thr_status st = thr_join_threading(&same, &t, err);
+  if (!st) thr_threading_follow(&t, INT_MAX);
+  if (!st && t.n_cords != n_cords) st = thr_fail(err, THR_ESOLVER, "%d cords instead of the %d asked for", t.n_cords, n_cords);
+  if (!st) st = make_cords(&t, j->c, cord, err);
+  thr_threading_destroy(&t);
+  for (int i = 0; st && i < n_cords; i++) {
     free(cord[i].half);
     cord[i] = (thr_cord){0};
   }

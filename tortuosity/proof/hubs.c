@@ -125,15 +125,15 @@ static void pair_left_over(const hub *h, int *pair)
   for (int k = 0, last = -1; k < h->n; k++) {
     int a = h->sorted[k];
     if (pair[a] >= 0) continue;
-    if (last >= 0) pair[a] = last, pair[last] = a;
+    if (last >= 0) thr_set_pair(pair, a, last);
     last = last >= 0 ? -1 : a;
   }
   for (int a = 0; a < h->n; a++)
     for (int c = 0; c < h->n && price(h, a, pair[a]) >= thr_join_forbidden; c++) {
       int b = pair[a], d = pair[c];
       if (c == a || c == b || price(h, a, c) >= thr_join_forbidden || price(h, b, d) >= thr_join_forbidden) continue;
-      pair[a] = c, pair[c] = a;
-      pair[b] = d, pair[d] = b;
+      thr_set_pair(pair, a, c);
+      thr_set_pair(pair, b, d);
     }
 }
 
@@ -148,7 +148,7 @@ static thr_status pair_greedily(const hub *h, const near_pairs *p, int *pair, th
   for (int i = 0; i < h->n; i++)
     pair[i] = -1;
   for (int k = 0; k < p->n; k++)
-    if (pair[list[k].a] < 0 && pair[list[k].b] < 0) pair[list[k].a] = list[k].b, pair[list[k].b] = list[k].a;
+    if (pair[list[k].a] < 0 && pair[list[k].b] < 0) thr_set_pair(pair, list[k].a, list[k].b);
   free(list);
   pair_left_over(h, pair);
   return THR_OK;
@@ -201,8 +201,8 @@ static bool apply(int *part, int *pair, int a, int b)
 {
   if (pair[a] == b || !thr_disjoint_join(part, a, b)) return false;
   int c = pair[a], d = pair[b];
-  pair[a] = b, pair[b] = a;
-  pair[c] = d, pair[d] = c;
+  thr_set_pair(pair, a, b);
+  thr_set_pair(pair, c, d);
   return true;
 }
 

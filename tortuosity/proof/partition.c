@@ -1,7 +1,7 @@
 /* Partitions from pairings, node by node. */
 #include "tortuosity/proof/partition.h"
 #include "graph/disjoint.h"
-#include "tortuosity/tour/pairing.h"
+#include "graph/threading/pairing.h"
 
 #include <math.h>
 #include <stdlib.h>

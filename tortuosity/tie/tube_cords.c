@@ -78,10 +78,7 @@ static thr_status walks_of(const several *x, const thr_tube *t, thr_walks *out, 
   thr_status st = THR_OK;
   for (int i = 0; i < t->n_cords && !st; i++) {
     const thr_cord *c = &t->cord[i];
-    thr_walk w = {c->n_passes, thr_calloc((size_t)c->n_passes, sizeof *w.half), 0, closed_cords(x)};
-    if (!w.half) return thr_nomem(err);
-    memcpy(w.half, c->half, (size_t)c->n_passes * sizeof *w.half);
-    st = thr_walks_add(&out[c->component], x->f, w, err);
+    st = thr_walks_copy(&out[c->component], x->f, c->half, c->n_passes, closed_cords(x), err);
   }
   return st;
 }

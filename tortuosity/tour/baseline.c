@@ -2,7 +2,7 @@
 #include "tortuosity/tour/baseline.h"
 #include "tortuosity/cords/extra.h"
 #include "tortuosity/cords/join.h"
-#include "tortuosity/tour/pairing.h"
+#include "graph/threading/pairing.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -155,9 +155,7 @@ static void take_pairs(walker *w, int n)
   thr_join *j = w->j;
   for (int i = 0; i < n; i++) {
     int arriving = w->walk[i] ^ 1, leaving = w->walk[(i + 1) % n];
-    if (j->g.tail[arriving] >= j->c->f->n_nodes) continue;
-    j->mate[arriving] = leaving;
-    j->mate[leaving] = arriving;
+    if (j->g.tail[arriving] < j->c->f->n_nodes) thr_set_pair(j->mate, arriving, leaving);
   }
 }
 

@@ -11,7 +11,7 @@
 
 /* Fleury's tour never takes a pass that is a bridge of what is left while there is another; Hierholzer's splices closed walks
  * into each other where they meet. Among the passes that are left both take by default              the partner of the one they
- * came by in its node's cheapest pairing (tortuosity/tour/pairing.h); where that is taken, Fleury the straightest, Hierholzer the
+ * came by in its node's cheapest pairing (graph/threading/pairing.h); where that is taken, Fleury the straightest, Hierholzer the
  * first in the order of the framework's edges with ignore_pairings    the first in that order Hierholzer's closed walks are then
  * the circuits of the cheapest pairings, and two pairs change where one is spliced in.
  *

@@ -1,14 +1,9 @@
 /* Pairing at a node: subsets, exchanges. */
-#include "tortuosity/tour/pairing.h"
+#include "graph/threading/pairing.h"
+#include "graph/threading/multigraph.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-static void set_pair(int *mate, int a, int b)
-{
-  mate[a] = b;
-  mate[b] = a;
-}
 
 static int lowest(unsigned s)
 {
@@ -56,7 +51,7 @@ static thr_status pair_by_subsets(int n, const double *price, int *mate, thr_err
   }
   for (unsigned s = all; s && !st;) {
     int i = lowest(s);
-    set_pair(mate, i, choice[s]);
+    thr_set_pair(mate, i, choice[s]);
     s &= ~(1u << i | 1u << choice[s]);
   }
   free(best);
@@ -75,8 +70,8 @@ static bool exchange_pairs(int n, const double *price, int *mate)
       double old = price[a * n + b] + price[c * n + d];
       double straight = price[a * n + c] + price[b * n + d], cross = price[a * n + d] + price[b * n + c];
       if (fmin(straight, cross) >= old - 1e-9 * (1 + fabs(old))) continue;
-      set_pair(mate, a, straight <= cross ? c : d);
-      set_pair(mate, b, straight <= cross ? d : c);
+      thr_set_pair(mate, a, straight <= cross ? c : d);
+      thr_set_pair(mate, b, straight <= cross ? d : c);
       saved = true;
     }
   return saved;
@@ -87,7 +82,7 @@ thr_status thr_pairing_best(int n, const double *price, int *mate, thr_err *err)
   if (n % 2) return thr_fail(err, THR_EINPUT, "%d passes and ends at a node cannot be paired", n);
   if (n <= THR_PAIRING_EXACT) return pair_by_subsets(n, price, mate, err);
   for (int i = 0; i < n / 2; i++)
-    set_pair(mate, i, i + n / 2);
+    thr_set_pair(mate, i, i + n / 2);
   while (exchange_pairs(n, price, mate))
     ;
   return THR_OK;
