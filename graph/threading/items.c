@@ -3,6 +3,7 @@
 #include "graph/disjoint.h"
 
 #include <limits.h>
+#include <math.h>
 #include <stdlib.h>
 
 static int tail_of(const thr_items *p, int state)
@@ -95,9 +96,11 @@ static thr_status add(thr_subsets_step **list, int *n, int *room, thr_subsets_st
   return st;
 }
 
+/* Of cords that turn as much the shorter ones win. */
 static double pass_cost(const thr_items *p, int state)
 {
-  return p->turning ? 0 : p->f->length[p->edge[state >> 1]];
+  const double little = 1e-11, length = p->f->length[p->edge[state >> 1]];
+  return p->turning ? little * length / p->longest : length;
 }
 
 static double turn_cost(const thr_items *p, int in, int out)
@@ -280,8 +283,11 @@ static thr_status find_edges(thr_items *p, thr_err *err)
   p->end = thr_calloc((size_t)f->n_nodes, sizeof *p->end);
   p->turn = thr_calloc(THR_SUBSETS_MOST_ITEMS, sizeof *p->turn);
   if (!p->edge || !p->pass || !p->end || !p->turn) return thr_nomem(err);
-  for (int e = 0, i = 0; e < f->n_edges; e++)
-    if (p->component[f->edge[e][0]] == p->k) p->edge[i++] = e;
+  for (int e = 0, i = 0; e < f->n_edges; e++) {
+    if (p->component[f->edge[e][0]] != p->k) continue;
+    p->edge[i++] = e;
+    p->longest = fmax(p->longest, f->length[e]);
+  }
   return THR_OK;
 }
 

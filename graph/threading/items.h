@@ -21,6 +21,7 @@ typedef struct {
   uint32_t full; /* edges whose capacities count, 1 << i */
   int n_cuts;
   uint64_t cut[THR_SUBSETS_MOST_ITEMS]; /* sets of states that leave one node */
+  double longest;                       /* edge of the component */
   int n_edges, *edge;                   /* of the component; half-edge 2 * edge[i] + s is state 2 * i + s */
   uint32_t *pass, *end;                 /* [n_edges], [f->n_nodes] their items */
   uint32_t *turn;                       /* [n_cuts] its item */

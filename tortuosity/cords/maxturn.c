@@ -5,6 +5,7 @@
 #include "tortuosity/cords/circuits.h"
 #include "tortuosity/cords/extra.h"
 #include "tortuosity/cords/improve.h"
+#include "tortuosity/cords/maxturn_small.h"
 #include "tortuosity/tie/tie.h"
 
 #include <math.h>
@@ -285,10 +286,13 @@ thr_status thr_max_turning_improve(const thr_frame *f, const thr_limits *limits,
 {
   thr_turning_columns c = {0};
   search x = {0};
+  bool found = false;
   *out = (thr_max_turning){.bound = plan->bound / plan->n_cords};
   thr_status st = thr_turning_columns_init(&c, f, &plan->task, err);
   if (!st) st = search_init(&x, &c, limits, plan, largest_price(f, plan), out->bound, err);
-  if (!st) st = run(&x, err);
+  if (!st && out->bound < x.scale * (1 - 1e-9))
+    st = thr_max_turning_small(&c, plan->cord, plan->n_cords, limits, &x.best, &found, err);
+  if (!st && !found) st = run(&x, err);
   if (!st) {
     thr_join_measure(&x.best);
     st = take_cords(f, &x.best, plan, err);

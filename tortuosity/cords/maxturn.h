@@ -14,7 +14,8 @@ typedef struct {
   double bound;   /* no plan of the task has less: the proved least of all cords, shared out evenly */
 } thr_max_turning;
 
-/* Evens out the turning of the cords in plan. Exchanges: tails and heads of two open cords that meet at a node, parts cut off one
+/* Evens out the turning of the cords in plan: of small components exactly (tortuosity/cords/maxturn_small.h), else by
+ * exchanges: tails and heads of two open cords that meet at a node, parts cut off one
  * cord and joined to another, parts run the other way round, ends moved to the other pass at their node; those that lower the sum
  * of the 8th powers of the cords' prices (so the largest counts most), and by simulated annealing a counted number at random. The
  * same from other ends, where the task allows them, and from other extra passes within its limits. With tube joints all of them

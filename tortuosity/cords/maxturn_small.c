@@ -1,0 +1,113 @@
+/* Component by component; then the limits of the task. */
+#include "tortuosity/cords/maxturn_small.h"
+#include "graph/threading/small_cords.h"
+#include "tortuosity/cords/extra.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct {
+  const thr_turning_columns *c;
+  thr_plan_options o; /* what the task says, for the table */
+  int n_cords;
+  thr_cord *cord;         /* [n_cords] the best; half of the given ones, or of the table's */
+  thr_small_cords *small; /* [c->n_components] the table's */
+} table;
+
+static void table_destroy(table *x)
+{
+  for (int k = 0; x->small && k < x->c->n_components; k++)
+    thr_small_cords_destroy(&x->small[k]);
+  free(x->small);
+  free(x->cord);
+  free(x->o.end_node);
+  free(x->o.end_count);
+}
+
+static thr_status table_init(table *x, const thr_turning_columns *c, const thr_cord *cord, int n_cords, thr_err *err)
+{
+  const thr_turning_task *t = c->task;
+  const size_t n = (size_t)c->f->n_nodes;
+  *x = (table){.c = c, .o = thr_plan_options_default(), .n_cords = n_cords};
+  x->o.joint = t->tube ? THR_JOINT_TUBE : THR_JOINT_SOLID;
+  x->o.cover = t->cover;
+  x->o.capacity = t->capacity;
+  x->o.turning.cost = t->cost;
+  x->o.ends = t->end_count ? THR_ENDS_COUNTS : t->end_allowed ? THR_ENDS_NODES : THR_ENDS_CLOSED;
+  x->o.end_node = thr_calloc(n, sizeof *x->o.end_node);
+  x->o.end_count = thr_calloc(n, sizeof *x->o.end_count);
+  x->cord = thr_calloc((size_t)n_cords, sizeof *x->cord);
+  x->small = thr_calloc((size_t)c->n_components, sizeof *x->small);
+  if (!x->o.end_node || !x->o.end_count || !x->cord || !x->small) return thr_nomem(err);
+  for (int v = 0; v < c->f->n_nodes; v++) {
+    x->o.end_node[v] = t->end_allowed && t->end_allowed[v];
+    x->o.end_count[v] = t->end_count ? t->end_count[v] : 0;
+  }
+  for (int i = 0; i < n_cords; i++)
+    x->cord[i] = cord[i];
+  return THR_OK;
+}
+
+static double price_of(const table *x, const thr_cord *cord)
+{
+  double price = 0;
+  for (int i = 0; i < cord->n_passes - (x->o.ends != THR_ENDS_CLOSED); i++)
+    price += thr_turn_price(x->c->f, x->o.turning.cost, cord->half[i], cord->half[(i + 1) % cord->n_passes]);
+  return price;
+}
+
+static thr_status improve_component(table *x, int k, const thr_limits *limits, bool *certain, thr_err *err)
+{
+  thr_small_ask ask = {.turning = true, .even = true, .limit = INFINITY};
+  for (int i = 0; i < x->n_cords; i++) {
+    if (x->cord[i].component != k) continue;
+    const double price = price_of(x, &x->cord[i]);
+    ask.known++;
+    ask.known_dearest = fmax(ask.known_dearest, price);
+    ask.known_sum += price;
+  }
+  ask.least = ask.most = ask.known;
+  thr_small_cords *new = &x->small[k];
+  thr_status st = thr_small_cords_find(x->c->f, &x->o, x->c->component, k, &ask, limits, new, certain, err);
+  for (int i = 0, next = 0; i < x->n_cords && next < new->n; i++) {
+    if (x->cord[i].component != k) continue;
+    x->cord[i].half = new->half[next];
+    x->cord[i].n_passes = new->n_passes[next++];
+  }
+  return st;
+}
+
+/* Do the cords keep to what else the task says? */
+static thr_status keep_limits(const table *x, bool *keep, thr_err *err)
+{
+  const thr_turning_columns *c = x->c;
+  int *passes = thr_calloc((size_t)c->f->n_edges, sizeof *passes);
+  if (!passes) return thr_nomem(err);
+  for (int i = 0; i < x->n_cords; i++)
+    for (int j = 0; j < x->cord[i].n_passes; j++)
+      passes[x->cord[i].half[j] >> 1]++;
+  *keep = c->task->extra_limit < 0 || thr_extra_length(c, passes) <= c->task->extra_limit;
+  for (int e = 0; e < c->f->n_edges; e++)
+    *keep &= passes[e] <= c->most[e];
+  free(passes);
+  return THR_OK;
+}
+
+thr_status thr_max_turning_small(const thr_turning_columns *c, const thr_cord *cord, int n_cords, const thr_limits *limits,
+                                 thr_join *j, bool *found, thr_err *err)
+{
+  table x;
+  thr_join new = {0};
+  *found = true;
+  thr_status st = table_init(&x, c, cord, n_cords, err);
+  for (int k = 0; k < c->n_components && !st && *found; k++)
+    st = improve_component(&x, k, limits, found, err);
+  if (!st && *found) st = keep_limits(&x, found, err);
+  if (!st && *found) st = thr_join_from_cords(&new, c, x.cord, n_cords, err);
+  if (!st && *found) {
+    thr_join_destroy(j);
+    *j = new;
+  }
+  table_destroy(&x);
+  return st;
+}
