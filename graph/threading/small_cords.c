@@ -21,7 +21,9 @@ static bool less(double a, double b)
 /* Are the known cords not what is asked for, or n that cost this better? */
 static bool is_better(const thr_small_ask *ask, int n, double dearest, double sum)
 {
-  if (ask->known < ask->least || ask->known > ask->most || ask->known_dearest > ask->limit * (1 + 1e-12)) return true;
+  if (ask->known < ask->least || ask->known > ask->most ||
+      ask->known_dearest > ask->limit * (1 + 1e-12) + (ask->turning ? 1e-9 : 0))
+    return true;
   if (ask->limit < INFINITY && n != ask->known) return n < ask->known;
   if (ask->even && less(dearest, ask->known_dearest)) return true;
   return less(sum, ask->known_sum) && (!ask->even || !less(ask->known_dearest, dearest));
@@ -45,19 +47,21 @@ static thr_status take_cords(thr_subsets *t, int n, thr_small_cords *out, double
 
 typedef enum { NOT_KNOWN, NONE_BETTER, BETTER, MORE_COUNTS } verdict;
 
-/* Of the model as it is: out receives what is better than the known cords. */
-static thr_status solve(const thr_subsets_model *m, const thr_small_ask *ask, const thr_limits *limits, thr_small_cords *out,
-                        verdict *v, thr_err *err)
+/* Of the model as it is: out receives what is better than the known cords. *work: what tables may still take, and what is left.
+ */
+static thr_status solve(const thr_subsets_model *m, const thr_small_ask *ask, const thr_limits *limits, double *work,
+                        thr_small_cords *out, verdict *v, thr_err *err)
 {
   thr_subsets *t;
+  const double rounding = ask->turning ? 1e-9 : 0;
   double limit = ask->limit, sum, dearest;
   int n = -1;
-  thr_status st = thr_subsets_create(m, limits, &t, err);
+  thr_status st = thr_subsets_create(m, limits, work, &t, err);
   if (st || !t) return st;
   if (ask->even) st = thr_subsets_dearest(t, ask->least, ask->most, &limit, err);
   if (!st && ask->even && isinf(limit)) n = 0;
   if (!st && !isnan(limit) && n < 0)
-    st = thr_subsets_find(t, ask->least, ask->most, ask->limit < INFINITY, limit * (1 + 1e-12), &n, &sum, err);
+    st = thr_subsets_find(t, ask->least, ask->most, ask->limit < INFINITY, limit * (1 + 1e-12) + rounding, &n, &sum, err);
   if (!st && n >= 0) *v = NONE_BETTER;
   if (!st && n > 0) {
     st = take_cords(t, n, out, &dearest, err);
@@ -67,13 +71,13 @@ static thr_status solve(const thr_subsets_model *m, const thr_small_ask *ask, co
   return st;
 }
 
-static thr_status try_items(thr_items *p, const thr_small_ask *ask, const thr_limits *limits, thr_small_cords *out, verdict *v,
-                            thr_err *err)
+static thr_status try_items(thr_items *p, const thr_small_ask *ask, const thr_limits *limits, double *work, thr_small_cords *out,
+                            verdict *v, thr_err *err)
 {
   bool small, keep, more;
   *v = NOT_KNOWN;
   thr_status st = thr_items_model(p, &small, err);
-  if (!st && small) st = solve(&p->m, ask, limits, out, v, err);
+  if (!st && small) st = solve(&p->m, ask, limits, work, out, v, err);
   if (st || *v != BETTER) return st;
   st = thr_items_refine(p, out->n, out->half, out->n_passes, &keep, &more, err);
   if (!keep) *v = more ? MORE_COUNTS : NOT_KNOWN;
@@ -87,13 +91,14 @@ thr_status thr_small_cords_find(const thr_frame *f, const thr_plan_options *o, c
   thr_items p;
   thr_err why = {0};
   verdict v = MORE_COUNTS;
+  double work = 2e9; /* two seconds or so */
   *out = (thr_small_cords){0};
   *certain = false;
   thr_status st = thr_items_init(&p, f, o, component, k, ask->turning, err);
   if (st) return st;
   while (!st && v == MORE_COUNTS) {
     thr_small_cords_destroy(out);
-    st = try_items(&p, ask, limits, out, &v, &why);
+    st = try_items(&p, ask, limits, &work, out, &v, &why);
   }
   if (st || v != BETTER) thr_small_cords_destroy(out);
   for (int i = 0; i < out->n; i++)

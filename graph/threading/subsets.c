@@ -24,7 +24,7 @@ struct thr_subsets {
   uint32_t *like;   /* [n_sets] the set whose walk it is */
   int n_levels;     /* of g that there is room for, with level 0 */
   double *g;        /* [n_levels * n_sets] */
-  double work;      /* parts of sets that may still be looked at */
+  double *work;     /* left */
   int n_parts;
   uint32_t *part; /* [n_parts] of what was found last: the items of every walk that is not the cheapest of all */
 };
@@ -238,18 +238,20 @@ static thr_status make_table(thr_subsets *x, bool *all, thr_err *err)
   return st;
 }
 
-thr_status thr_subsets_create(const thr_subsets_model *m, const thr_limits *limits, thr_subsets **out, thr_err *err)
+thr_status thr_subsets_create(const thr_subsets_model *m, const thr_limits *limits, double *work, thr_subsets **out, thr_err *err)
 {
-  const double most_entries = 1e7, most_work = 3e9;
+  const double most_entries = 1e7;
   bool all = false;
   *out = NULL;
   if (m->n_items > THR_SUBSETS_MOST_ITEMS) return THR_OK;
   thr_subsets *x = thr_calloc(1, sizeof *x);
   if (!x) return thr_nomem(err);
-  *x = (thr_subsets){.m = m, .limits = limits, .n_sets = UINT32_C(1) << m->n_items, .work = most_work};
+  *x = (thr_subsets){.m = m, .limits = limits, .n_sets = UINT32_C(1) << m->n_items, .work = work};
   thr_status st = number_sets(x, err);
   choose_item(x);
-  if (!st && (double)x->n_rows * m->n_states <= most_entries) st = make_table(x, &all, err);
+  const double entries = (double)x->n_rows * m->n_states;
+  *work -= entries * m->n_states;
+  if (!st && entries <= most_entries && *work >= 0) st = make_table(x, &all, err);
   if (!st && all)
     *out = x;
   else
@@ -303,8 +305,8 @@ static double *level(const thr_subsets *x, int k)
 static bool fill(thr_subsets *x, measure by, int k)
 {
   uint32_t part;
-  x->work -= x->pairs / 4;
-  if (x->work < 0) return false;
+  *x->work -= x->pairs / 4;
+  if (*x->work < 0) return false;
   for (uint32_t set = 0; set < x->n_sets; set++) {
     if (set % 1024 == 0 && thr_limits_stop(x->limits)) return false;
     if (set & x->item) continue;

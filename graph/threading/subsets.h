@@ -38,9 +38,11 @@ typedef struct {
 
 typedef struct thr_subsets thr_subsets;
 
-/* Fills f of the model, which is borrowed. *x is NULL if the limits stopped it, or there are more than 10 million sets and
+/* Fills f of the model, which is borrowed. *work: how often states and parts of sets may be looked at, which this and the
+ * functions below take from. *x is NULL if that or the limits stopped it, or there are more than 10 million sets and
  * states: 18 items have room for 38 states. 12 bytes each. */
-thr_status thr_subsets_create(const thr_subsets_model *m, const thr_limits *limits, thr_subsets **x, thr_err *err) THR_MUST_CHECK;
+thr_status thr_subsets_create(const thr_subsets_model *m, const thr_limits *limits, double *work, thr_subsets **x,
+                              thr_err *err) THR_MUST_CHECK;
 void thr_subsets_destroy(thr_subsets *x);
 
 /* Least cost of the dearest of least .. most walks that collect enough together; INFINITY: there are none, NAN: too long to find
