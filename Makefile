@@ -82,6 +82,10 @@ FOLDERS := $(MODULES) $(patsubst %/,%,$(wildcard $(addsuffix /*/,$(MODULES))))
 CLI_FOLDERS := cli $(patsubst %/,%,$(wildcard cli/*/))
 SOURCES := $(wildcard $(addsuffix /*.c,$(FOLDERS))) $(wildcard $(addsuffix /*.cpp,$(FOLDERS))) diagram/export/viewer_page.S
 OBJECTS := $(addsuffix .o,$(basename $(SOURCES:%=$(DIR)/%)))
+ifeq ($(BUILD),fuzz)
+# what the targets reach: readers, checker, evaluation
+OBJECTS := $(filter $(DIR)/graph/% $(DIR)/eval/% $(DIR)/lp/solver/%,$(OBJECTS))
+endif
 CLI_OBJECTS := $(patsubst %.c,$(DIR)/%.o,$(wildcard $(addsuffix /*.c,$(CLI_FOLDERS))))
 LIBRARY := $(DIR)/libthread.$(if $(filter mutants,$(BUILD)),so,a)
 PROGRAM := $(DIR)/thread
