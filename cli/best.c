@@ -2,6 +2,9 @@
 #include "cli/cli.h"
 #include "cli/guard.h"
 #include "graph/check/check.h"
+#include "graph/limits.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,9 @@
 #ifndef THR_BEST_H
 #define THR_BEST_H
 
+#include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
+#include "graph/plan/request.h"
 
 /* What cords must be: those of a plan for this framework with these options. Both stay as they are until the search is over. */
 void best_begin(const thr_frame *f, const thr_plan_options *o);

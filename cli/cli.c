@@ -5,6 +5,7 @@
 #include "cli/guard.h"
 #include "graph/angle.h"
 #include "graph/check/check.h"
+#include "graph/framework/units.h"
 
 #include <errno.h>
 #include <math.h>

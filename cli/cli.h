@@ -3,9 +3,13 @@
 #define THR_CLI_H
 
 #include "diagram/overview/overview.h"
+#include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/io/read.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 #include <getopt.h>
 

@@ -2,11 +2,15 @@
 
 #include "cli/print/copies_table.h"
 #include "cli/guard.h"
+#include "diagram/export/paper.h"
 #include "diagram/scene/polylines.h"
 #include "diagram/sheets/sheets.h"
 #include "diagram/overview/steps.h"
 #include "diagram/tables/tables.h"
 #include "diagram/export/viewer.h"
+#include "graph/limits.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 #include <stdio.h>
 

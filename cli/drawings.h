@@ -3,6 +3,8 @@
 #define THR_CLI_DRAWINGS_H
 
 #include "cli/cli.h"
+#include "diagram/overview/overview.h"
+#include "graph/plan/plan.h"
 
 int drawings_count(void);
 const char *drawings_type(int i); /* as --type names it: "svg", "steps.csv" */

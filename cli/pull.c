@@ -1,6 +1,11 @@
 /* Options of the methods that measure the pull, and running them. */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/pull.h"
+#include "graph/framework/frame.h"
+#include "graph/framework/units.h"
+#include "graph/limits.h"
+#include "graph/plan/physics.h"
+#include "graph/status.h"
 
 #include <math.h>
 #include <stdio.h>

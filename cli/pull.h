@@ -5,6 +5,9 @@
 #include "cli/guard.h"
 #include "cli/args/physics_args.h"
 #include "eval/eval.h"
+#include "graph/plan/evaluation.h"
+#include "graph/plan/plan.h"
+#include "graph/text.h"
 
 enum {
   OPTION_PULL_METHOD = OPTION_FREE,

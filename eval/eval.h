@@ -8,6 +8,12 @@
 #include "eval/structure/holding.h"
 #include "eval/cord/profile.h"
 #include "eval/structure/settle.h"
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/evaluation.h"
+#include "graph/plan/physics.h"
+#include "graph/plan/plan.h"
+#include "graph/status.h"
 
 typedef struct {
   thr_physics physics;       /* as asked; the methods resolve it against the framework */

@@ -4,6 +4,10 @@
 #define THR_METHODS_H
 
 #include "eval/eval.h"
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/status.h"
 
 /* Closed form over the turning angles (capstan.c). */
 thr_status thr_capstan_method(const thr_frame *f, const thr_cord *cord, const thr_eval_options *o, const thr_limits *limits,

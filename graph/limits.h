@@ -2,6 +2,8 @@
 #ifndef THR_LIMITS_H
 #define THR_LIMITS_H
 
+#include "graph/plan/plan.h"
+
 #include <signal.h>
 #include <stdbool.h>
 

@@ -1,4 +1,9 @@
 /* Cords that take no search, where a plan may be such. */
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
 #include "lp/length/cut_tour.h"
 #include "lp/length/postman.h"
 #include "planner/planners.h"

@@ -2,6 +2,11 @@
 #ifndef THR_DISPATCH_H
 #define THR_DISPATCH_H
 
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
 #include "planner/plan.h"
 
 /* A planner: fills an empty plan and an empty report, with the statuses of thr_plan_make. */

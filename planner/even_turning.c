@@ -2,6 +2,7 @@
 #include "planner/even_turning.h"
 #include "graph/plan/junction.h"
 #include "planner/dispatch.h"
+#include "symmetry/symmetry.h"
 #include "tortuosity/cords/maxturn.h"
 
 #include <math.h>

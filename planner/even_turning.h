@@ -2,8 +2,11 @@
 #ifndef THR_EVEN_TURNING_H
 #define THR_EVEN_TURNING_H
 
+#include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
 #include "tortuosity/proof/least.h"
 
 /* A symmetric plan with as many cords in every component as options.cords, if there is one; else seed stays empty. */

@@ -1,5 +1,13 @@
 /* Plans of the least length: of solid joints lp/ makes them, of tube joints tortuosity/tie, since what ties a node are turns. */
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
 #include "graph/plan/junction.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
+#include "lp/length/cords.h"
+#include "planner/dispatch.h"
+#include "planner/plan.h"
 #include "planner/planners.h"
 #include "tortuosity/tie/tube.h"
 #include "tortuosity/tie/tube_cords.h"

@@ -8,6 +8,11 @@
 #ifndef THR_PLANNER_PLAN_H
 #define THR_PLANNER_PLAN_H
 
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
 #include "lp/length/cords.h"
 #include "symmetry/symmetry.h"
 

@@ -2,6 +2,11 @@
 #ifndef THR_PLANNERS_H
 #define THR_PLANNERS_H
 
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
 #include "planner/dispatch.h"
 
 thr_planner thr_planner_length, thr_planner_turning, thr_planner_symmetric;

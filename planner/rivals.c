@@ -1,6 +1,8 @@
 /* The plans that one of the least turning is held against. */
 #include "planner/rivals.h"
+#include "graph/plan/request.h"
 #include "planner/dispatch.h"
+#include "planner/plan.h"
 
 #include <math.h>
 

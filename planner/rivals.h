@@ -2,6 +2,9 @@
 #ifndef THR_RIVALS_H
 #define THR_RIVALS_H
 
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/status.h"
 #include "planner/turning.h"
 
 /* A plan that another is held against. */

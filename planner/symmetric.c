@@ -1,5 +1,13 @@
 /* Symmetric plans: the table of groups and the one that is chosen from it; with tube joints its length is proved afterwards. */
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
+#include "planner/dispatch.h"
+#include "planner/plan.h"
 #include "planner/planners.h"
+#include "symmetry/symmetry.h"
 
 thr_status thr_planner_symmetric(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
                                  thr_report *report, thr_err *err)

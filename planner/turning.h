@@ -3,8 +3,11 @@
 #ifndef THR_PLANNER_TURNING_H
 #define THR_PLANNER_TURNING_H
 
+#include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
 
 /* Makes a plan as options.turning says: extra passes, ends and pairings chosen together, or a classical tour to compare with
  * (which claims nothing about its turning). Among plans that turn equally little it takes a short one if it finds it. The plan

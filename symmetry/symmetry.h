@@ -8,7 +8,13 @@
 #ifndef THR_SYMMETRY_H
 #define THR_SYMMETRY_H
 
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
 #include "symmetry/cover/cover.h"
+#include "symmetry/group/group.h"
 #include "symmetry/group/isometry.h"
 
 enum {

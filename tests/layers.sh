@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Who may include whom, who may print or exit, include guards, no paths or hosts of one machine.
+# Who may include whom, who may print or exit, what the checker reaches, names of files, circles of files, includes of what is used,
+# include guards, no paths or hosts of one machine.
 # Prints "layers: ok", or each violation as file:line: what; then exits 1. `--self-test` proves that it catches each kind.
 set -u
 export LC_ALL=C
@@ -17,6 +18,35 @@ eval:eval graph lp
 diagram:diagram graph
 planner:planner graph lp symmetry tortuosity
 cli:cli graph lp symmetry tortuosity planner eval diagram'
+
+# The checker reaches, also through other headers, only headers of these folders: nothing that makes plans.
+checker=graph/check
+checker_reaches='graph graph/framework graph/plan graph/check graph/io/json.h graph/io/writer.h'
+
+# At most so many files of a folder may include each other in a circle (x.c and x.h are one file).
+longest_circle=3
+
+# What is still so, to be mended: "circle file" of one of its files, "name file" of the later one, "uses file".
+exceptions='circle symmetry/cover/bounds.c
+name planner/plan.c
+name planner/turning.c'
+
+# For awk: allowed(rule, file) is true for an exception; report_stale says which are none any more.
+# shellcheck disable=SC2016
+with_exceptions='
+  BEGIN { n = split(exceptions, list, "\n"); for (i = 1; i <= n; i++) except[list[i]] = 1 }
+  { is_there[FILENAME] = 1 }
+  function allowed(rule, file) {
+    if (!((rule " " file) in except)) return 0
+    except[rule " " file] = 2
+    return 1
+  }
+  function report_stale(rules,    key, part) {
+    for (key in except) {
+      split(key, part, " ")
+      if (except[key] == 1 && index(rules, part[1]) && (part[2] in is_there)) print part[2] ":1: no exception any more: take \"" key "\" from tests/layers.sh"
+    }
+  }'
 
 # foreign and Linux headers: the only file that may include them. "*" also stands for a folder of headers.
 owners='igraph.h:graph/framework/igraph.c
@@ -103,6 +133,125 @@ check_sources() { # FILE..
     }' "$@"
 }
 
+# What the quoted includes of all files say together: the checker's reach, names of files, circles.
+check_structure() { # FILE..
+  awk -v checker="$checker" -v reaches="$checker_reaches" -v longest="$longest_circle" -v exceptions="$exceptions" "$with_exceptions"'
+    function folder_of(file) { return file ~ /\// ? substr(file, 1, match(file, /\/[^\/]*$/) - 1) : "" }
+    function stem_of(file) { sub(/\.[a-z]+$/, "", file); return file }
+    function base_of(file) { sub(/.*\//, "", file); return file }
+    function reach(from, file,    i, list, n) { # everything that the file includes, and what that includes
+      n = split(includes[file], list, " ")
+      for (i = 1; i <= n; i++) {
+        if ((from, list[i]) in seen) continue
+        seen[from, list[i]] = 1
+        if (!(folder_of(list[i]) in may_reach) && !(list[i] in may_reach))
+          print from ":1: the checker must not reach " list[i] (file == from ? "" : ", as by " file)
+        else reach(from, list[i])
+      }
+    }
+    function walk(from, stem,    i, list, n) { # all stems of the folder that lead on from this one
+      n = split(leads[stem], list, " ")
+      for (i = 1; i <= n; i++) if (!((from, list[i]) in to)) { to[from, list[i]] = 1; walk(from, list[i]) }
+    }
+    FNR == 1 { file[++n_files] = FILENAME }
+    /^[ \t]*#[ \t]*include[ \t]*"/ {
+      name = $0; sub(/^[^"]*"/, "", name); sub(/".*/, "", name)
+      includes[FILENAME] = includes[FILENAME] " " name
+      if (folder_of(name) == folder_of(FILENAME) && stem_of(name) != stem_of(FILENAME))
+        leads[stem_of(FILENAME)] = leads[stem_of(FILENAME)] " " stem_of(name)
+    }
+    END {
+      n = split(reaches, list, " ")
+      for (i = 1; i <= n; i++) may_reach[list[i]] = 1
+      for (i = 1; i <= n_files; i++) {
+        if (folder_of(file[i]) == checker) reach(file[i], file[i])
+        base = base_of(stem_of(file[i])); stem = stem_of(file[i])
+        if (stem in known) continue
+        known[stem] = 1; stems[++n_stems] = stem
+        # a header and its code may stand in two folders
+        if (base in first && base != "main" && !index(includes[stem ".c"] " ", " " first[base] ".h ") &&
+            !index(includes[first[base] ".c"] " ", " " stem ".h ") && !allowed("name", file[i]))
+          print file[i] ":1: " first[base] " has the same name"
+        if (!(base in first)) first[base] = stem
+      }
+      for (i = 1; i <= n_stems; i++) walk(stems[i], stems[i])
+      for (i = 1; i <= n_stems; i++) {
+        if (stems[i] in told || !((stems[i], stems[i]) in to)) continue
+        circle = base_of(stems[i]); size = 1
+        for (k = i + 1; k <= n_stems; k++)
+          if (((stems[i], stems[k]) in to) && ((stems[k], stems[i]) in to)) { circle = circle " " base_of(stems[k]); size++; told[stems[k]] = 1 }
+        if (size > longest && !allowed("circle", stems[i] ".c")) print stems[i] ".c:1: a circle of " size " files: " circle
+      }
+      report_stale("name circle")
+    }' "$@"
+}
+
+# Whoever names a function or type of the house includes the header that declares it, or leaves that to its own header.
+check_uses() { # FILE..
+  awk -v exceptions="$exceptions" "$with_exceptions"'
+    function strip(s,    out, c, two, i, n) { # uses and sets in_comment; also strings go
+      out = ""; n = length(s)
+      for (i = 1; i <= n; i++) {
+        c = substr(s, i, 1); two = substr(s, i, 2)
+        if (in_comment) { if (two == "*/") { in_comment = 0; i++ } }
+        else if (two == "/*") { in_comment = 1; i++; out = out " " }
+        else if (two == "//") break
+        else if (c == "\"" || c == "\047") { for (i++; i <= n && substr(s, i, 1) != c; i++) if (substr(s, i, 1) == "\\") i++ }
+        else out = out c
+      }
+      return out
+    }
+    function declare(name) { if (name ~ /^thr_/ && !index(where[name] " ", " " FILENAME " ")) where[name] = where[name] " " FILENAME }
+    function statement(s,    name) { # a statement of a header outside all braces, its {..} as {}
+      if (s ~ /^[ ]*typedef/) {
+        if (match(s, /\([ ]*\*[ ]*thr_[a-z0-9_]+/)) { name = substr(s, RSTART, RLENGTH); sub(/^[( *]*/, "", name) }
+        else { name = s; sub(/[ ]*$/, "", name); sub(/.*[^a-z0-9_]/, "", name) }
+        declare(name)
+      } else if (match(s, /thr_[a-z0-9_]+[ ]*\(/)) { name = substr(s, RSTART, RLENGTH); sub(/[ ]*\($/, "", name); declare(name) }
+      if (match(s, /struct thr_[a-z0-9_]+[ ]*{/)) { name = substr(s, RSTART + 7, RLENGTH - 7); sub(/[ ]*{$/, "", name); declare(name) }
+    }
+    function feed(line,    i, c) {
+      for (i = 1; i <= length(line); i++) {
+        c = substr(line, i, 1)
+        if (c == "{") { if (depth++ == 0) held = held "{" }
+        else if (c == "}") { if (--depth == 0 && held !~ /typedef|struct|enum|=/) { statement(held); held = "" } }
+        else if (depth == 0 && c == ";") { statement(held); held = "" }
+        else if (depth == 0) held = held c
+      }
+      if (depth == 0) held = held " "
+    }
+    function included(file, header) { return index(includes[file] " ", " " header " ") }
+    function own(file) { sub(/\.[a-z]+$/, ".h", file); return file }
+    FNR == 1 { in_comment = 0; depth = 0; held = "" }
+    /^[ \t]*#/ {
+      if (!in_comment && $0 ~ /include[ \t]*"/) { name = $0; sub(/^[^"]*"/, "", name); sub(/".*/, "", name); includes[FILENAME] = includes[FILENAME] " " name }
+      next
+    }
+    {
+      line = strip($0)
+      if (FILENAME ~ /\.h$/) feed(line)
+      while (match(line, /[A-Za-z0-9_]+/)) {
+        word = substr(line, RSTART, RLENGTH); line = substr(line, RSTART + RLENGTH)
+        if (word ~ /^thr_/ && !((FILENAME, word) in used)) { used[FILENAME, word] = FNR; uses[FILENAME] = uses[FILENAME] " " word }
+      }
+    }
+    END {
+      for (file in uses) {
+        n = split(uses[file], names, " ")
+        for (i = 1; i <= n; i++) {
+          m = split(where[names[i]], header, " "); good = m == 0
+          for (k = 1; k <= m; k++)
+            good = good || header[k] == file || header[k] == own(file) || included(file, header[k]) || included(own(file), header[k])
+          if (!good && !((file, header[1]) in told) && !allowed("uses", file)) {
+            told[file, header[1]] = 1
+            print file ":" used[file, names[i]] ": include \"" header[1] "\" for " names[i]
+          }
+        }
+      }
+      report_stale("uses")
+    }' "$@"
+}
+
 # #ifndef THR_X_H and #define THR_X_H as the first code of every header
 check_guards() { # FILE..
   awk '
@@ -128,7 +277,11 @@ check_tree() {
     for f in "$m"/*.c "$m"/*.h "$m"/*.cpp "$m"/*/*.c "$m"/*/*.h "$m"/*/*.cpp; do [ -e "$f" ] && echo "$f"; done
   done)
   for f in "${sources[@]}"; do case $f in *.h) headers+=("$f") ;; esac; done
-  [ ${#sources[@]} -eq 0 ] || check_sources "${sources[@]}"
+  if [ ${#sources[@]} -gt 0 ]; then
+    check_sources "${sources[@]}"
+    check_structure "${sources[@]}"
+    check_uses "${sources[@]}"
+  fi
   [ ${#headers[@]} -eq 0 ] || check_guards "${headers[@]}"
   check_machine
 }
@@ -151,12 +304,15 @@ self_test() {
   # shellcheck disable=SC2064 # the value of now
   trap "rm -rf '$scratch'" EXIT
 
-  expect() { # FILE:LINE|ok FILE TEXT
-    local want=$1 file=$2 text=$3 got
+  expect() { # FILE:LINE|ok FILE TEXT [FILE TEXT ..]
+    local want=$1 file=$2 got
     n=$((n + 1))
     rm -rf "$scratch/tree"
-    mkdir -p "$scratch/tree/$(dirname "$file")"
-    printf '%b' "$text" >"$scratch/tree/$file"
+    for (( ; $# > 2; )); do
+      mkdir -p "$scratch/tree/$(dirname "$2")"
+      printf '%b' "$3" >"$scratch/tree/$2"
+      shift 2
+    done
     got=$(cd "$scratch/tree" && report)
     case $want in
     ok) [ "$got" = 'layers: ok' ] ;;
@@ -194,6 +350,24 @@ self_test() {
   expect graph/a.h:1 graph/a.h '#ifndef THR_A_H\n#define THR_B_H\n#endif\n'
   expect docs/a.md:2 docs/a.md "one\nsee /ho""me/someone/thread\n"
   expect tools/a.sh:1 tools/a.sh "curl http://deb.deb""ian.org/x\n"
+  local guard='#ifndef THR_A_H\n#define THR_A_H\n' other='#ifndef THR_B_H\n#define THR_B_H\n'
+  expect graph/check/a.c:1 graph/check/a.c '#include "graph/threading/t.h"\n'
+  expect graph/check/a.c:1 graph/check/a.c '#include "graph/io/read.h"\n'
+  expect graph/check/a.c:1 graph/check/a.c '#include "graph/plan/b.h"\n' graph/plan/b.h "$other"'#include "graph/process/p.h"\n#endif\n'
+  expect ok graph/check/a.c '#include "graph/plan/b.h"\n#include "graph/io/json.h"\n' graph/plan/b.h "$other"'#include "graph/status.h"\n#endif\n'
+  expect ok graph/plan/a.c '#include "graph/threading/t.h"\n'
+  expect lp/tjoin/a.c:1 graph/plan/a.c '\n' lp/tjoin/a.c '\n'
+  expect ok graph/plan/a.h "$guard#endif\n" graph/check/a.c '#include "graph/plan/a.h"\n' cli/main.c '\n' eval/main.c '\n'
+  expect lp/a.c:1 lp/a.c '#include "lp/b.h"\n' lp/b.c '#include "lp/c.h"\n' lp/c.c '#include "lp/d.h"\n' lp/d.c '#include "lp/a.h"\n'
+  expect ok lp/a.c '#include "lp/b.h"\n' lp/b.c '#include "lp/c.h"\n' lp/c.c '#include "lp/a.h"\n#include "lp/d.h"\n' lp/d.c '\n'
+  expect ok lp/a.c '#include "lp/b.h"\n' lp/b.c '#include "lp/c.h"\n' lp/c.c '#include "lp/d.h"\n' lp/d.c '#include "graph/a.h"\n'
+  expect lp/b.c:2 lp/a.h "$guard"'int thr_a(int);\n#endif\n' lp/b.c '\nint f(void) { return thr_a(1); }\n'
+  expect lp/b.c:1 lp/a.h "$guard"'typedef struct {\n  int x;\n} thr_a;\n#endif\n' lp/b.c 'thr_a *f(void);\n'
+  expect lp/b.c:1 lp/a.h "$guard"'typedef struct thr_a thr_a;\n#endif\n' lp/b.c 'thr_a *f(void);\n'
+  expect lp/b.c:1 lp/a.h "$guard"'typedef int (*thr_a)(int);\n#endif\n' lp/b.c 'thr_a f;\n'
+  expect lp/c.c:2 lp/a.h "$guard"'static inline int thr_a(int x)\n{\n  return x;\n}\nint thr_b(void);\n#endif\n' lp/c.c '\nint x = thr_b();\n'
+  expect lp/c.c:2 lp/a.h "$guard"'int thr_a;\n#endif\n' lp/b.h "$other"'#include "lp/a.h"\nvoid thr_b(void);\n#endif\n' lp/d.h '#ifndef THR_D_H\n#define THR_D_H\nint thr_d(void);\n#endif\n' lp/c.c '#include "lp/b.h"\nint x = thr_d();\n'
+  expect ok lp/a.h "$guard"'int thr_a(int);\n#endif\n' lp/b.h "$other"'#include "lp/a.h"\n#endif\n' lp/b.c '#include "lp/b.h"\nint x = thr_a(1); /* thr_c */\n'
   expect ok graph/framework/igraph.c '#include <igraph.h>\n#include <stdio.h>\n#include "graph/framework/frame.h"\n'
   expect ok lp/solver/lp_glpk.c '#include "graph/framework/frame.h"\n#include "lp/solver/lp.h"\n#include <glpk.h>\n'
   expect ok symmetry/group/nauty.c '#include "graph/framework/frame.h"\n#include <traces.h>\n'

@@ -1,5 +1,6 @@
 /* What is minimized, in one list or in the options that spell it. */
 #include "cli/args/aims_args.h"
+#include "graph/status.h"
 #include "planner/dispatch.h"
 
 #include <string.h>

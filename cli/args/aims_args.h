@@ -4,6 +4,7 @@
 #define THR_CLI_AIMS_ARGS_H
 
 #include "cli/args/cords_args.h"
+#include "graph/plan/request.h"
 
 enum { OPTION_AIMS = OPTION_CORDS_FREE, OPTION_OBJECTIVE, OPTION_AIMS_FREE };
 #define AIMS_OPTIONS                                                                                                             \

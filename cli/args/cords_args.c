@@ -1,6 +1,8 @@
 /* Options about cords: how many, how long, where they end, and what fits through a bead. */
 #include "cli/args/cords_args.h"
 #include "graph/framework/bore.h"
+#include "graph/plan/physics.h"
+#include "graph/status.h"
 
 #include <stdio.h>
 #include <stdlib.h>

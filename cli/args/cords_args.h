@@ -4,6 +4,8 @@
 
 #include "cli/args/symmetry_args.h"
 #include "cli/args/turning_args.h"
+#include "graph/framework/frame.h"
+#include "graph/plan/request.h"
 
 enum {
   OPTION_CORDS = OPTION_SYMMETRY_FREE,

@@ -1,5 +1,6 @@
 /* Options of the physical quantities. */
 #include "cli/args/physics_args.h"
+#include "graph/status.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -3,6 +3,7 @@
 #define THR_CLI_PHYSICS_H
 
 #include "cli/cli.h"
+#include "graph/plan/physics.h"
 
 enum { CLI_PHYSICS_MOST = 64 };
 

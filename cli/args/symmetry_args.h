@@ -3,6 +3,7 @@
 #define THR_CLI_SYMMETRY_ARGS_H
 
 #include "cli/args/turning_args.h"
+#include "graph/plan/request.h"
 
 enum { OPTION_SYMMETRY_GROUP = OPTION_TURNING_FREE, OPTION_SYMMETRY_GEOMETRIC, OPTION_SYMMETRY_PREFER, OPTION_SYMMETRY_FREE };
 #define SYMMETRY_OPTIONS                                                                                                         \

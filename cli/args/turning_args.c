@@ -1,5 +1,6 @@
 /* Options of the least turning. */
 #include "cli/args/turning_args.h"
+#include "graph/plan/turning_proof.h"
 
 #include <stdlib.h>
 #include <string.h>

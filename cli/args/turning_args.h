@@ -3,6 +3,7 @@
 #define THR_CLI_TURNING_ARGS_H
 
 #include "cli/pull.h"
+#include "graph/plan/request.h"
 
 enum {
   OPTION_TURNING_SLACK = OPTION_PULL_FREE,

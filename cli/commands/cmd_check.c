@@ -3,6 +3,12 @@
 #include "cli/guard.h"
 #include "cli/print/terms.h"
 #include "graph/check/check.h"
+#include "graph/io/writer.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 #include <stdio.h>
 #include <string.h>

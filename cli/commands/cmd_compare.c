@@ -1,7 +1,20 @@
 /* thread compare: plans of one framework side by side, ranked by how hard they are to pull. */
 #include "cli/print/compare_rows.h"
 #include "cli/print/ranking.h"
+#include "eval/eval.h"
+#include "eval/structure/beads.h"
+#include "eval/structure/holding.h"
+#include "eval/structure/settle.h"
+#include "graph/framework/frame.h"
+#include "graph/io/writer.h"
+#include "graph/limits.h"
+#include "graph/plan/evaluation.h"
+#include "graph/plan/physics.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
 #include "graph/process/workers.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -1,6 +1,8 @@
 /* thread draw: diagrams of a plan. */
 #include "cli/drawings.h"
 #include "cli/guard.h"
+#include "diagram/overview/overview.h"
+#include "graph/plan/plan.h"
 
 #include <stdio.h>
 #include <string.h>

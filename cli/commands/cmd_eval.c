@@ -2,7 +2,18 @@
 #include "cli/pull.h"
 #include "diagram/overview/still.h"
 #include "diagram/overview/tension.h"
+#include "eval/eval.h"
 #include "eval/joint/drag.h"
+#include "eval/structure/holding.h"
+#include "eval/structure/settle.h"
+#include "graph/framework/frame.h"
+#include "graph/framework/units.h"
+#include "graph/io/writer.h"
+#include "graph/plan/evaluation.h"
+#include "graph/plan/physics.h"
+#include "graph/plan/plan.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 #include <inttypes.h>
 #include <math.h>

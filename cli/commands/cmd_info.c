@@ -2,7 +2,12 @@
 #include "cli/cli.h"
 #include "cli/guard.h"
 #include "eval/structure/rigidity.h"
+#include "graph/framework/frame.h"
+#include "graph/io/writer.h"
 #include "graph/plan/junction.h"
+#include "graph/plan/plan.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 #include <inttypes.h>
 #include <limits.h>

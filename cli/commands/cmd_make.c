@@ -1,6 +1,10 @@
 /* thread make: example frameworks. */
 #include "cli/cli.h"
+#include "graph/framework/frame.h"
 #include "graph/framework/make.h"
+#include "graph/io/read.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -5,8 +5,19 @@
 #include "cli/guard.h"
 #include "cli/print/plan_summary.h"
 #include "cli/print/symmetry_table.h"
+#include "eval/eval.h"
 #include "graph/check/check.h"
+#include "graph/framework/frame.h"
+#include "graph/io/writer.h"
+#include "graph/limits.h"
+#include "graph/plan/physics.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
+#include "graph/text.h"
 #include "planner/dispatch.h"
+#include "planner/plan.h"
+#include "planner/rivals.h"
 
 #include <math.h>
 #include <stdio.h>

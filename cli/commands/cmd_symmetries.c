@@ -2,6 +2,13 @@
 #include "cli/guard.h"
 #include "cli/args/symmetry_args.h"
 #include "cli/print/symmetry_table.h"
+#include "graph/framework/frame.h"
+#include "graph/io/writer.h"
+#include "graph/limits.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
+#include "graph/text.h"
+#include "symmetry/symmetry.h"
 
 #include <inttypes.h>
 #include <stdio.h>

@@ -3,6 +3,10 @@
 #define THR_COMPARE_ROWS_H
 
 #include "cli/pull.h"
+#include "eval/eval.h"
+#include "graph/plan/evaluation.h"
+#include "graph/plan/plan.h"
+#include "graph/text.h"
 
 typedef struct {
   const char *path;

@@ -1,6 +1,7 @@
 #include "cli/print/copies_table.h"
 
 #include "graph/angle.h"
+#include "graph/framework/frame.h"
 #include "symmetry/group/isometry.h"
 #include "symmetry/symmetry.h"
 

@@ -3,6 +3,7 @@
 #define THR_CLI_COPIES_H
 
 #include "graph/plan/plan.h"
+#include "graph/status.h"
 
 typedef struct {
   const char **motion; /* [n_cords] "turned by 90 degrees .."; NULL for no copy, and for one that no motion makes; owned */

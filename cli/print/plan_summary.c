@@ -1,6 +1,9 @@
 /* The summary of `thread plan`, as text and as JSON. */
 #include "cli/print/plan_summary.h"
 #include "cli/print/symmetry_table.h"
+#include "graph/framework/frame.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -3,7 +3,11 @@
 #define THR_CLI_PLAN_SUMMARY_H
 
 #include "cli/print/turning_summary.h"
+#include "graph/io/writer.h"
+#include "graph/plan/plan.h"
+#include "graph/text.h"
 #include "lp/length/cords.h"
+#include "planner/rivals.h"
 
 /* r: for a plan of the least turning, what it is held against; NULL for others. word: what is known beyond what is verified. */
 void plan_put_summary(thr_text *t, const thr_plan *p, const thr_rivals *r, thr_cords_word word);

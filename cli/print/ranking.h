@@ -3,6 +3,8 @@
 #define THR_RANKING_H
 
 #include "graph/io/writer.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 /* Least first. Plans whose intervals overlap, or are joined by others that do, are a tie and share a rank: between plans of
  * different rank no interval reaches across. Filled by ranking_make from value, low and high. */

@@ -2,6 +2,7 @@
 #include "cli/print/symmetry_table.h"
 #include "cli/print/turning_summary.h"
 #include "symmetry/group/automorphisms.h"
+#include "symmetry/group/isometry.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,6 +3,11 @@
 #define THR_CLI_SYMMETRY_TABLE_H
 
 #include "cli/cli.h"
+#include "graph/framework/frame.h"
+#include "graph/io/writer.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/text.h"
 #include "symmetry/symmetry.h"
 
 /* "8 automorphisms, ..": the group, its orbits, and what was not listed. */

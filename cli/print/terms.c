@@ -1,5 +1,7 @@
 #include "cli/print/terms.h"
 #include "cli/cli.h"
+#include "graph/plan/evaluation.h"
+#include "graph/plan/request.h"
 
 #include <ctype.h>
 #include <string.h>

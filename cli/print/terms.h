@@ -2,7 +2,9 @@
 #ifndef THR_CLI_TERMS_H
 #define THR_CLI_TERMS_H
 
+#include "graph/io/writer.h"
 #include "graph/plan/plan.h"
+#include "graph/text.h"
 
 /* Indented lines: what plans the claims are about (ends, passes, cords, joints, lengths), what is proved of the length slack,
  * and which statements of the plan nobody can verify, if there are any. */

@@ -1,6 +1,11 @@
 /* The table "each against", what is proved of the turning, and the frontier. */
 #include "cli/print/turning_summary.h"
 #include "eval/eval.h"
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/request.h"
+#include "graph/plan/turning_proof.h"
+#include "planner/turning.h"
 
 #include <math.h>
 #include <stdio.h>

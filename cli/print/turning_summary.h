@@ -3,6 +3,9 @@
 #define THR_CLI_TURNING_SUMMARY_H
 
 #include "cli/cli.h"
+#include "graph/io/writer.h"
+#include "graph/plan/plan.h"
+#include "graph/text.h"
 #include "planner/rivals.h"
 
 static const double turning_right_angle = 1.57079632679489661923;

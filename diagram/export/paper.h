@@ -3,6 +3,7 @@
 #ifndef THR_PAPER_H
 #define THR_PAPER_H
 
+#include "graph/status.h"
 #include "graph/text.h"
 
 typedef enum { THR_PAGE_A4, THR_PAGE_LETTER, THR_N_PAGES } thr_page_size;

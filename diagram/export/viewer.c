@@ -1,12 +1,15 @@
 #include "diagram/export/viewer.h"
 
+#include "diagram/layout/layout.h"
 #include "diagram/scene/copies.h"
 #include "diagram/overview/guide.h"
 #include "diagram/scene/palette.h"
 #include "diagram/scene/scene.h"
 #include "diagram/overview/svg.h"
 #include "diagram/overview/tension.h"
+#include "graph/framework/frame.h"
 #include "graph/io/writer.h"
+#include "graph/plan/evaluation.h"
 
 #include <assert.h>
 #include <math.h>

@@ -4,6 +4,8 @@
 #define THR_VIEWER_H
 
 #include "graph/plan/plan.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 /* Appends the page with the plan in it. Paths come before their copies, as in the steps in words, and places and turns are called
  * as there; if the plan has an evaluation with a known cord, colours can show its tensions. motion: as in thr_overview_options.

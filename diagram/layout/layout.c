@@ -3,6 +3,7 @@
 
 #include "diagram/layout/layout_parts.h"
 #include "graph/framework/drawing.h"
+#include "graph/vector.h"
 
 #include <math.h>
 #include <stdlib.h>

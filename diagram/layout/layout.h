@@ -5,6 +5,7 @@
 #define THR_LAYOUT_H
 
 #include "graph/framework/frame.h"
+#include "graph/status.h"
 
 enum { THR_LAYOUT_DRAWN_NODES = 1000 };
 static const double THR_LAYOUT_OPEN = 1; /* rad, seen from the middle: half the angle of the widest opening of a closed shell */

@@ -1,6 +1,7 @@
 #include "diagram/overview/crop.h"
 
 #include "diagram/overview/svg.h"
+#include "graph/framework/frame.h"
 
 #include <math.h>
 #include <stdio.h>

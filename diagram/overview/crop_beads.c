@@ -1,6 +1,11 @@
 /* Beads as capsules: thick lines with round ends, all of a width in one element. */
 #include "diagram/overview/crop.h"
+#include "diagram/overview/draw.h"
 #include "diagram/overview/svg.h"
+#include "diagram/scene/boxes.h"
+#include "diagram/scene/scene.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 #include <math.h>
 #include <stdlib.h>

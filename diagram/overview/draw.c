@@ -1,8 +1,12 @@
 /* Writes a scene, or the part of it that a style asks for, as SVG. */
 #include "diagram/overview/draw.h"
 
+#include "diagram/layout/layout.h"
 #include "diagram/overview/svg.h"
+#include "diagram/scene/palette.h"
+#include "diagram/scene/places.h"
 #include "graph/angle.h"
+#include "graph/framework/frame.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,7 +4,9 @@
 #ifndef THR_DRAW_H
 #define THR_DRAW_H
 
+#include "diagram/scene/boxes.h"
 #include "diagram/scene/scene.h"
+#include "graph/text.h"
 
 typedef enum {
   THR_DRAW_NOW,     /* in its colour, with arrow and number */

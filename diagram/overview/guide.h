@@ -4,7 +4,10 @@
 
 #include "diagram/layout/layout.h"
 #include "diagram/scene/places.h"
+#include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 /* Turns of less are "straight on". */
 static const double THR_GUIDE_STRAIGHT = 0.26179938779914943654; /* rad, 15 degrees */

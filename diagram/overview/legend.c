@@ -1,9 +1,16 @@
 /* Heading and legend of the overview. Widths of text are estimated for a wide face, so that lines never run out. */
 #include "diagram/overview/legend.h"
 
+#include "diagram/layout/layout.h"
 #include "diagram/overview/draw.h"
 #include "diagram/overview/svg.h"
 #include "diagram/overview/tension.h"
+#include "diagram/scene/copies.h"
+#include "diagram/scene/palette.h"
+#include "diagram/scene/places.h"
+#include "graph/framework/frame.h"
+#include "graph/plan/evaluation.h"
+#include "graph/plan/plan.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,6 +3,8 @@
 #define THR_LEGEND_H
 
 #include "diagram/scene/scene.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 /* The title to show: the given one, or one made from the counts. */
 void thr_legend_title(const thr_scene *s, const char *given, char title[160]);

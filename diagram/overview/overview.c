@@ -6,6 +6,7 @@
 #include "diagram/scene/scene.h"
 #include "diagram/overview/svg.h"
 #include "diagram/overview/tension.h"
+#include "graph/plan/evaluation.h"
 
 #include <math.h>
 #include <stdio.h>

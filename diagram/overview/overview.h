@@ -4,6 +4,8 @@
 
 #include "diagram/layout/layout.h"
 #include "graph/plan/plan.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 typedef enum { THR_COLOUR_CORD, THR_COLOUR_TENSION, THR_COLOUR_TURNING, THR_N_COLOURS } thr_overview_colour;
 

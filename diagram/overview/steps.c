@@ -1,9 +1,11 @@
 #include "diagram/overview/steps.h"
 
+#include "diagram/layout/layout.h"
 #include "diagram/scene/copies.h"
 #include "diagram/overview/guide.h"
 #include "diagram/scene/scene.h"
 #include "diagram/overview/svg.h"
+#include "graph/framework/frame.h"
 
 #include <stdio.h>
 #include <stdlib.h>

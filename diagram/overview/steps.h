@@ -3,6 +3,8 @@
 #define THR_STEPS_H
 
 #include "graph/plan/plan.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 /* Appends UTF-8 text of at most 100 columns. Places are called as in the overview, "left" and "right" are as seen there, that is
  * from outside; both are left out where the overview shows beads that cross. A path is a heading, a line "start at PLACE", rows

@@ -3,6 +3,7 @@
 #define THR_STILL_H
 
 #include "graph/framework/frame.h"
+#include "graph/status.h"
 #include "graph/text.h"
 
 /* Beads are a node's arms of square section to the middles of its edges, one side as level as the edge allows. Lengths in units

@@ -2,7 +2,10 @@
 #ifndef THR_TENSION_H
 #define THR_TENSION_H
 
+#include "graph/plan/evaluation.h"
 #include "graph/plan/plan.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 typedef struct {
   const char *title; /* NULL or "": "Tension along 3 cords"; borrowed */

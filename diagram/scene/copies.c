@@ -1,4 +1,5 @@
 #include "diagram/scene/copies.h"
+#include "graph/framework/frame.h"
 
 #include <stdio.h>
 #include <stdlib.h>

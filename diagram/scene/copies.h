@@ -4,6 +4,7 @@
 #define THR_COPIES_H
 
 #include "graph/plan/plan.h"
+#include "graph/status.h"
 
 /* Pass k of a copy is the image of pass start + k of its unique path; backward: of pass start - k, run the other way. Closed
  * cords go round. */

@@ -1,5 +1,6 @@
 /* Clusters of x and of y; letters and numbers for them. */
 #include "diagram/scene/places.h"
+#include "graph/text.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,6 +3,7 @@
 #define THR_PLACES_H
 
 #include "graph/framework/frame.h"
+#include "graph/status.h"
 
 /* {0} is valid and means: not a grid, places are called by the nodes' names. Arrays are owned. */
 typedef struct {

@@ -3,6 +3,8 @@
 #include "diagram/scene/copies.h"
 #include "diagram/scene/palette.h"
 #include "diagram/scene/scene.h"
+#include "graph/framework/frame.h"
+#include "graph/framework/units.h"
 #include "graph/io/read.h"
 #include "graph/io/writer.h"
 

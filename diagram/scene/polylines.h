@@ -5,6 +5,8 @@
 #define THR_POLYLINES_H
 
 #include "graph/plan/plan.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 /* Wavefront OBJ in the framework's units and axes: all nodes, then per cord an object with a two-vertex l record per pass, in
  * order (Blender takes no more than the first two vertices of an l for an edge). The reader of frameworks reads it back. */

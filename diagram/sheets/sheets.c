@@ -1,8 +1,13 @@
 #define _XOPEN_SOURCE 700
 #include "diagram/sheets/sheets_parts.h"
 
+#include "diagram/layout/layout.h"
+#include "diagram/overview/crop.h"
+#include "diagram/overview/guide.h"
+#include "diagram/scene/copies.h"
 #include "diagram/tables/kinds.h"
 #include "diagram/overview/svg.h"
+#include "diagram/tables/supplies.h"
 #include "graph/process/child.h"
 
 #include <stdio.h>

@@ -7,6 +7,8 @@
 #include "diagram/export/paper.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 /* Shorter cords are threaded from their end in any case. */
 enum { THR_SHEETS_FOLD = 24 };

@@ -1,6 +1,13 @@
 /* The title page of step sheets: counts, what the plan is good for, where things are, the picture of the whole. */
+#include "diagram/overview/crop.h"
+#include "diagram/scene/boxes.h"
+#include "diagram/scene/copies.h"
 #include "diagram/sheets/sheets_parts.h"
 #include "diagram/overview/svg.h"
+#include "graph/framework/frame.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
 
 #include <stdio.h>
 

@@ -2,6 +2,10 @@
 #include "diagram/sheets/sheets_parts.h"
 #include "diagram/overview/svg.h"
 #include "graph/angle.h"
+#include "graph/framework/frame.h"
+#include "graph/plan/evaluation.h"
+#include "graph/plan/plan.h"
+#include "graph/status.h"
 
 #include <math.h>
 #include <stdio.h>

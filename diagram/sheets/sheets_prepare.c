@@ -1,6 +1,11 @@
 /* What to prepare: cords to cut, beads to make, feet; and how the sheets are read. */
 #include "diagram/sheets/sheets_parts.h"
 #include "diagram/overview/svg.h"
+#include "diagram/tables/supplies.h"
+#include "graph/framework/frame.h"
+#include "graph/plan/plan.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 #include <math.h>
 #include <stdio.h>

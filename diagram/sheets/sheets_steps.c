@@ -1,6 +1,14 @@
 /* The steps of a path: some twenty passes each, as a picture and in rows to tick off. A page takes as many as fit whole. */
+#include "diagram/overview/crop.h"
+#include "diagram/overview/guide.h"
+#include "diagram/scene/boxes.h"
+#include "diagram/scene/palette.h"
 #include "diagram/sheets/sheets_parts.h"
 #include "diagram/overview/svg.h"
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 #include <math.h>
 #include <stdio.h>

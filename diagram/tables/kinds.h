@@ -3,6 +3,7 @@
 #define THR_KINDS_H
 
 #include "graph/framework/frame.h"
+#include "graph/status.h"
 
 /* Lengths, and points of beads, that differ by no more are equal: a hundredth of the median edge. */
 static const double THR_KINDS_TOLERANCE = 0.01;

@@ -2,6 +2,9 @@
 
 #include "diagram/scene/scene.h"
 #include "graph/framework/bore.h"
+#include "graph/framework/frame.h"
+#include "graph/framework/units.h"
+#include "graph/plan/physics.h"
 
 #include <math.h>
 #include <stdio.h>

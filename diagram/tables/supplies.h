@@ -3,6 +3,7 @@
 #define THR_SUPPLIES_H
 
 #include "graph/plan/plan.h"
+#include "graph/status.h"
 
 /* {0} is valid and empty. Arrays are owned, the plan is borrowed. */
 typedef struct {

@@ -5,6 +5,7 @@
 #include "diagram/tables/kinds.h"
 #include "diagram/tables/supplies.h"
 #include "graph/angle.h"
+#include "graph/framework/frame.h"
 
 #include <math.h>
 #include <stdlib.h>

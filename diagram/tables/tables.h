@@ -7,6 +7,8 @@
 #define THR_TABLES_H
 
 #include "graph/plan/plan.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 /* A row per pass in the order of thr_steps_text: each unique path, then its copies. Places and turns are called as there.
  * O(n log n). */

@@ -1,5 +1,13 @@
 /* Pull force in closed form: what each turn of the cord through the bead centres costs. */
+#include "eval/cord/profile.h"
+#include "eval/eval.h"
 #include "eval/methods.h"
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/evaluation.h"
+#include "graph/plan/physics.h"
+#include "graph/plan/plan.h"
+#include "graph/status.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -8,6 +8,7 @@
 #define THR_PROFILE_H
 
 #include "graph/plan/evaluation.h"
+#include "graph/status.h"
 
 /* exponent[n_passes - 1] >= 0: ln of the ratio of the tensions on both sides of the turn after pass k. Allocates c->tension such
  * that the slackest pass holds seating, and fills n_passes, pull, force, other_force, loss, work, slackest; leaves the other

@@ -9,7 +9,9 @@
 #ifndef THR_TAUT_H
 #define THR_TAUT_H
 
+#include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
+#include "graph/status.h"
 
 /* radius of the cord and clearance = bore radius - radius, both in units of the framework, >= 0; a clearance below 1e-9 of the
  * cord's shortest edge counts as 0. Where two straight pieces of the taut cord would meet, the openings confine it: at an inner

@@ -1,6 +1,7 @@
 /* Bullet 3.24 behind world.h: the only file that knows the library. */
 
 #include "eval/joint/world.h"
+#include "graph/status.h"
 
 #include <BulletCollision/CollisionDispatch/btCompoundCompoundCollisionAlgorithm.h>
 #include <btBulletDynamicsCommon.h>

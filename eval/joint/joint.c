@@ -1,8 +1,12 @@
 /* Method joint: a table of joints measured in Bullet, composed along the taut path of every cord. */
+#include "eval/cord/profile.h"
 #include "eval/joint/cache.h"
 #include "eval/joint/joint.h"
 #include "eval/cord/taut.h"
 #include "graph/angle.h"
+#include "graph/framework/units.h"
+#include "graph/plan/evaluation.h"
+#include "graph/plan/physics.h"
 #include "graph/process/workers.h"
 
 #include <math.h>

@@ -1,6 +1,7 @@
 /* Geometry of rigid beads: faces, masses, feet, and what cords do to them. */
 #include "eval/structure/beads.h"
 #include "graph/angle.h"
+#include "graph/framework/units.h"
 #include "graph/vector.h"
 
 #include <math.h>

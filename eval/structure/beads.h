@@ -9,8 +9,10 @@
 #ifndef THR_BEADS_H
 #define THR_BEADS_H
 
+#include "graph/framework/frame.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
+#include "graph/status.h"
 
 /* Units here are SI: m, kg, N. */
 typedef struct {

@@ -12,6 +12,7 @@
 #include "graph/disjoint.h"
 #include "lp/solver/interior.h"
 #include "graph/vector.h"
+#include "lp/solver/lp.h"
 
 #include <assert.h>
 #include <math.h>

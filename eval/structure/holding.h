@@ -11,7 +11,11 @@
 #define THR_HOLDING_H
 
 #include "eval/structure/beads.h"
+#include "graph/framework/frame.h"
 #include "graph/limits.h"
+#include "graph/plan/physics.h"
+#include "graph/plan/plan.h"
+#include "graph/status.h"
 
 typedef struct {
   bool present;

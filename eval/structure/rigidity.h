@@ -10,6 +10,7 @@
 #define THR_RIGIDITY_H
 
 #include "graph/framework/frame.h"
+#include "graph/status.h"
 
 /* Of the framework with a bar for every edge and a ball joint for every node, summed over its pieces. Counts of independent
  * infinitesimal motions: besides moving and turning as a whole, which a piece does in rigid_motions ways. */

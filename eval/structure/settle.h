@@ -7,7 +7,11 @@
 #define THR_SETTLE_H
 
 #include "eval/structure/beads.h"
+#include "graph/framework/frame.h"
 #include "graph/limits.h"
+#include "graph/plan/physics.h"
+#include "graph/plan/plan.h"
+#include "graph/status.h"
 
 typedef struct {
   double start;                 /* N: pull at which the structure settles; the same for plans that are to be ranked */

@@ -1,7 +1,10 @@
 /* The one file that knows SuiteSparse, which is loaded, and works, in a child process. */
 #include "eval/structure/rank.h"
+#include "graph/limits.h"
 #include "graph/process/child.h"
 #include "graph/process/lazy.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 #include <SuiteSparseQR_C.h>
 

@@ -1,6 +1,18 @@
 /* Method structure: every cord's tension profile by the capstan law, the pull by limit analysis, its failure shown by Bullet. */
+#include "eval/cord/profile.h"
+#include "eval/eval.h"
 #include "eval/methods.h"
+#include "eval/structure/beads.h"
+#include "eval/structure/holding.h"
+#include "eval/structure/settle.h"
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/evaluation.h"
+#include "graph/plan/physics.h"
+#include "graph/plan/plan.h"
 #include "graph/process/child.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 #include <math.h>
 #include <stdlib.h>

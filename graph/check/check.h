@@ -2,7 +2,11 @@
 #ifndef THR_CHECK_H
 #define THR_CHECK_H
 
+#include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/status.h"
 
 /* Integer weight of an edge under a certificate's scale. */
 int64_t thr_certificate_weight(const thr_frame *f, const thr_certificate *c, int e);

@@ -1,6 +1,11 @@
 /* Claims about several cords: how short the longest can be, and how few they can be. */
 #include "graph/check/check_parts.h"
+#include "graph/framework/frame.h"
 #include "graph/plan/junction.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/status.h"
 
 #include <math.h>
 #include <stdlib.h>

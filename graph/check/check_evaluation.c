@@ -1,5 +1,10 @@
 /* The checker's part for evaluations: what must follow from tensions, cords and physics. Knows nothing of eval/. */
 #include "graph/check/check_parts.h"
+#include "graph/framework/frame.h"
+#include "graph/plan/evaluation.h"
+#include "graph/plan/physics.h"
+#include "graph/plan/plan.h"
+#include "graph/status.h"
 
 #include <math.h>
 

@@ -3,7 +3,12 @@
 #define THR_CHECK_PARTS_H
 
 #include "graph/check/check.h"
+#include "graph/framework/frame.h"
+#include "graph/plan/plan.h"
 #include "graph/plan/prices.h"
+#include "graph/plan/request.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/status.h"
 
 /* Lengths, angles and forces are sums of doubles, taken in an order of the plan's own: equal up to 1e-9 of what they are parts
  * of. */

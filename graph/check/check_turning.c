@@ -1,7 +1,13 @@
 /* The checker's part for turning: what the tree of multipliers proves about a plan, and whether the plan is of the kind that the
  * proof is about. Prices and pairings are worked out here; the tree is graph/check/turning_proof.c's. */
+#include "graph/check/check.h"
 #include "graph/check/check_parts.h"
 #include "graph/angle.h"
+#include "graph/framework/frame.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/status.h"
 
 #include <math.h>
 #include <stdlib.h>

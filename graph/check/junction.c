@@ -1,6 +1,11 @@
 /* Which nodes the cords tie. */
+#include "graph/framework/frame.h"
 #include "graph/plan/junction.h"
 #include "graph/disjoint.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/status.h"
 
 #include <math.h>
 #include <stdlib.h>

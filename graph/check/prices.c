@@ -1,5 +1,7 @@
 /* Edges at their price. */
+#include "graph/framework/frame.h"
 #include "graph/plan/prices.h"
+#include "graph/plan/request.h"
 
 #include <limits.h>
 

@@ -1,5 +1,7 @@
 /* Lagrangean bounds on turning, in integers. */
+#include "graph/framework/frame.h"
 #include "graph/plan/turning_proof.h"
+#include "graph/status.h"
 
 #include <limits.h>
 #include <math.h>

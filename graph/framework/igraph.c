@@ -2,10 +2,13 @@
  * ours returns the error code. No routine of igraph that uses GLPK may be called here: it would replace the hooks that
  * lp/solver/lp_glpk.c sets. */
 #include "graph/framework/automorphism_count.h"
+#include "graph/limits.h"
 #include "graph/process/child.h"
 #include "graph/framework/cuttree.h"
 #include "graph/framework/drawing.h"
 #include "graph/process/lazy.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 #include <igraph.h>
 

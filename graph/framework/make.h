@@ -3,6 +3,7 @@
 #define THR_MAKE_H
 
 #include "graph/framework/frame.h"
+#include "graph/status.h"
 
 typedef enum { THR_MAKE_DOME, THR_MAKE_GEODESIC, THR_MAKE_TUBE, THR_MAKE_SPHERE, THR_MAKE_HONEYCOMB } thr_shape;
 

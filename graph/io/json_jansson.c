@@ -1,5 +1,6 @@
 /* The only file that knows jansson. A thr_json is a json_t under another name. */
 #include "graph/io/json.h"
+#include "graph/status.h"
 
 #include <jansson.h>
 #include <math.h>

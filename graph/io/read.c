@@ -1,5 +1,6 @@
 /* Reading a framework from a file: which format, which second file, then weld. */
 #include "graph/io/formats.h"
+#include "graph/io/scan.h"
 
 #include <stdio.h>
 #include <stdlib.h>

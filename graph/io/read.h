@@ -4,6 +4,8 @@
 
 #include "graph/framework/frame.h"
 #include "graph/io/json.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 typedef struct thr_format thr_format; /* graph/io/formats.h */
 

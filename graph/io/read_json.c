@@ -1,7 +1,12 @@
 /* JSON frameworks: our own, COMPAS 1.x and 2.x, assembly_instances, conmech, networkx node-link (docs/formats.md).
  * The kind is told by its members, and the first one found in the document, however deep, is the framework. */
+#include "graph/framework/frame.h"
 #include "graph/io/json.h"
 #include "graph/io/formats.h"
+#include "graph/io/read.h"
+#include "graph/io/scan.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 #include <stdio.h>
 #include <stdlib.h>

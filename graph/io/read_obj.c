@@ -1,5 +1,8 @@
 /* Wavefront OBJ: v, l, f and Rhino's degree-1 curves. Names are the file's own vertex numbers, from 1. */
+#include "graph/framework/frame.h"
 #include "graph/io/formats.h"
+#include "graph/io/scan.h"
+#include "graph/status.h"
 
 #include <stdio.h>
 #include <stdlib.h>

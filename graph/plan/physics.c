@@ -1,5 +1,6 @@
 /* Physical quantities: one table of fields, presets, JSON, and what follows from the framework. */
 #include "graph/plan/physics.h"
+#include "graph/text.h"
 
 #include <math.h>
 #include <stddef.h>

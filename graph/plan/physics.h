@@ -7,6 +7,7 @@
 #include "graph/io/json.h"
 #include "graph/io/writer.h"
 #include "graph/framework/units.h"
+#include "graph/status.h"
 
 /* Lengths in mm whatever the framework's units. 0 where it says so means "work it out": thr_physics_resolve. */
 typedef struct {

@@ -1,5 +1,12 @@
 /* plan.json, read: what was asked for. */
+#include "graph/framework/frame.h"
+#include "graph/io/json.h"
+#include "graph/plan/physics.h"
 #include "graph/plan/plan_fields.h"
+#include "graph/plan/request.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 #include <stdio.h>
 #include <string.h>

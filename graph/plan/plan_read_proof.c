@@ -1,5 +1,11 @@
 /* plan.json, read: proofs. */
+#include "graph/framework/frame.h"
+#include "graph/io/json.h"
+#include "graph/plan/plan.h"
 #include "graph/plan/plan_fields.h"
+#include "graph/plan/request.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/status.h"
 
 #include <stdio.h>
 #include <string.h>

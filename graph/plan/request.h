@@ -9,6 +9,7 @@
 #include "graph/framework/frame.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/turning_proof.h"
+#include "graph/status.h"
 #include "graph/text.h"
 
 /* THR_ENDS_COUNTS: at every node exactly so many cord ends. */

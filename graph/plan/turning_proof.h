@@ -27,6 +27,7 @@
 #include "graph/framework/frame.h"
 #include "graph/io/json.h"
 #include "graph/io/writer.h"
+#include "graph/status.h"
 
 typedef enum {
   THR_TURN_ANGLE, /* rad, 0 = straight on */

@@ -4,6 +4,7 @@
 #define THR_CHILD_H
 
 #include "graph/limits.h"
+#include "graph/status.h"
 #include "graph/text.h"
 
 /* The child's way to its parent. */

@@ -4,6 +4,7 @@
 #ifndef THR_PROCESS_H
 #define THR_PROCESS_H
 
+#include "graph/status.h"
 #include "graph/text.h"
 
 #include <sys/types.h>

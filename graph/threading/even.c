@@ -1,6 +1,7 @@
 /* Exchanges at one node or two: by descent, and by simulated annealing. */
 #include "graph/threading/even.h"
 #include "graph/random.h"
+#include "graph/threading/multigraph.h"
 
 #include <math.h>
 #include <string.h>

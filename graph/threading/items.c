@@ -1,6 +1,7 @@
 /* Items, the steps that collect them, and what walks miss that are not held to it. */
 #include "graph/threading/items.h"
 #include "graph/disjoint.h"
+#include "graph/plan/turning_proof.h"
 
 #include <limits.h>
 #include <math.h>

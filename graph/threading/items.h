@@ -9,7 +9,10 @@
 #ifndef THR_ITEMS_H
 #define THR_ITEMS_H
 
+#include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
 #include "graph/threading/subsets.h"
 
 typedef struct {

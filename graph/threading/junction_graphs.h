@@ -3,6 +3,8 @@
 #ifndef THR_JUNCTION_GRAPHS_H
 #define THR_JUNCTION_GRAPHS_H
 
+#include "graph/framework/frame.h"
+#include "graph/status.h"
 #include "graph/threading/walks.h"
 
 /* count[first[v] + a * degree + b]: turns between the half-edges number a and b of node v, in both orders. */

@@ -4,6 +4,7 @@
 #define THR_MULTIGRAPH_H
 
 #include "graph/framework/frame.h"
+#include "graph/status.h"
 
 /* Copy c has two darts, 2c and 2c + 1, one leaving each of its nodes; dart ^ 1 is the other. half[d] is the framework's
  * half-edge that dart d runs along, or -1 for a virtual edge. */

@@ -1,5 +1,6 @@
 /* The table, the cords that it finds, and what they miss. */
 #include "graph/threading/small_cords.h"
+#include "graph/threading/subsets.h"
 
 #include <math.h>
 #include <stdlib.h>

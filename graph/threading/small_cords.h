@@ -6,6 +6,10 @@
 #ifndef THR_SMALL_CORDS_H
 #define THR_SMALL_CORDS_H
 
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
 #include "graph/threading/items.h"
 
 /* Cost is length, or with turning the price of turns (options.turning.cost). */

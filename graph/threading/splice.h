@@ -9,7 +9,10 @@
 #ifndef THR_SPLICE_H
 #define THR_SPLICE_H
 
+#include "graph/framework/frame.h"
+#include "graph/status.h"
 #include "graph/threading/junction_graphs.h"
+#include "graph/threading/walks.h"
 
 enum { THR_MOST_SECTIONS = 10 };
 

@@ -9,6 +9,8 @@
 #ifndef THR_THREADING_H
 #define THR_THREADING_H
 
+#include "graph/framework/frame.h"
+#include "graph/status.h"
 #include "graph/threading/multigraph.h"
 
 /* What is not to be done at any price. */

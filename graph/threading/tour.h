@@ -2,7 +2,10 @@
 #ifndef THR_TOUR_H
 #define THR_TOUR_H
 
+#include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
 
 /* One cord per component of the framework; passes[e] >= 1 for every edge. ends[k] are the two end nodes of component k's
  * cord: different nodes = open from the first to the second; both v = closed at v; both -1 = closed, starting at an

@@ -2,6 +2,8 @@
 #ifndef THR_TRANSITION_H
 #define THR_TRANSITION_H
 
+#include "graph/framework/frame.h"
+#include "graph/status.h"
 #include "graph/threading/multigraph.h"
 
 /* mate[d] of dart d is the dart at the same node that the cord leaves by when it arrives against d (along d ^ 1);

@@ -1,5 +1,6 @@
 /* Tracing, cutting and merging of walks. */
 #include "graph/threading/walks.h"
+#include "graph/threading/multigraph.h"
 #include "graph/threading/tour.h"
 #include "graph/threading/transition.h"
 

@@ -3,7 +3,10 @@
 #ifndef THR_WALKS_H
 #define THR_WALKS_H
 
+#include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
 
 /* Consecutive half-edges. */
 typedef struct {

@@ -8,6 +8,10 @@
 #ifndef THR_BALANCE_H
 #define THR_BALANCE_H
 
+#include "graph/limits.h"
+#include "graph/status.h"
+#include "graph/threading/junction_graphs.h"
+#include "graph/threading/walks.h"
 #include "lp/length/share.h"
 
 /* One component's cords on the way; all arrays are owned by whoever fills it. */

@@ -1,5 +1,12 @@
 /* Exchanges between two walks over nodes that both visit: no pass is added. */
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/request.h"
 #include "graph/random.h"
+#include "graph/status.h"
+#include "graph/threading/junction_graphs.h"
+#include "graph/threading/splice.h"
+#include "graph/threading/walks.h"
 #include "lp/length/balance.h"
 
 #include <math.h>

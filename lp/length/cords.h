@@ -5,8 +5,11 @@
 #ifndef THR_CORDS_H
 #define THR_CORDS_H
 
+#include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
 
 /* What is known beyond what graph/check/check.c can verify, for the one who asked. */
 typedef struct {

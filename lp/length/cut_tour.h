@@ -2,7 +2,10 @@
 #ifndef THR_CUT_TOUR_H
 #define THR_CUT_TOUR_H
 
+#include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
 
 /* One tour through every component, each edge an even number of times, cut into sections; each is a cord together with the
  * shortest ways from and to places where cords may end, or back to its start, and none is longer than options.max_length (G. N.

@@ -3,6 +3,7 @@
 #include "graph/check/check.h"
 #include "graph/disjoint.h"
 #include "lp/tjoin/endjoin.h"
+#include "lp/tjoin/tjoin.h"
 
 #include <assert.h>
 #include <math.h>

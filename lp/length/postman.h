@@ -8,8 +8,11 @@
 #ifndef THR_POSTMAN_H
 #define THR_POSTMAN_H
 
+#include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
 #include "lp/tjoin/engine.h"
 
 /* Passes of the shortest cords that cover a framework, at most options.cords of them in every component, before anything runs

@@ -2,6 +2,7 @@
 #ifndef THR_POSTMAN_PARTS_H
 #define THR_POSTMAN_PARTS_H
 
+#include "graph/status.h"
 #include "lp/length/postman.h"
 
 /* What the checker, which said found, means of a certificate, in the words of a solver that made it. */

@@ -1,6 +1,12 @@
 /* Passes -> ends -> cords -> plan, and its proof. */
 #include "graph/check/check.h"
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
 #include "graph/threading/tour.h"
+#include "lp/length/postman.h"
 #include "lp/length/postman_parts.h"
 
 #include <stdlib.h>

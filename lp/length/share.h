@@ -7,8 +7,14 @@
 #ifndef THR_SHARE_H
 #define THR_SHARE_H
 
+#include "graph/framework/frame.h"
 #include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
+#include "graph/threading/junction_graphs.h"
 #include "graph/threading/splice.h"
+#include "graph/threading/walks.h"
 
 /* Where cords may end, and how many ends there are. All is borrowed. */
 typedef struct {

@@ -1,4 +1,10 @@
 /* More closed cords than circuits: walks are split along a way between two of their nodes, which both halves pass. */
+#include "graph/framework/frame.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
+#include "graph/threading/junction_graphs.h"
+#include "graph/threading/splice.h"
+#include "graph/threading/walks.h"
 #include "lp/length/share.h"
 #include "lp/length/ways.h"
 

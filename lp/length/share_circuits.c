@@ -1,4 +1,10 @@
 /* Sharing out passes among closed cords: splitting at nodes that a walk visits twice, short circuits, merging. */
+#include "graph/framework/frame.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
+#include "graph/threading/junction_graphs.h"
+#include "graph/threading/splice.h"
+#include "graph/threading/walks.h"
 #include "lp/length/share.h"
 
 #include <math.h>

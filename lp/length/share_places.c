@@ -1,5 +1,10 @@
 /* Extra passes where cord ends need more of them: a perfect matching of ports. */
 #include "graph/check/check.h"
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
 #include "lp/matching/blossom.h"
 #include "lp/length/share.h"
 

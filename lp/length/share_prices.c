@@ -2,10 +2,13 @@
 #include "lp/length/share_prices.h"
 #include "graph/check/check.h"
 #include "graph/disjoint.h"
+#include "graph/framework/frame.h"
 #include "graph/plan/prices.h"
+#include "graph/plan/request.h"
 #include "lp/tjoin/cuts.h"
 #include "lp/tjoin/engine.h"
 #include "lp/solver/lp.h"
+#include "lp/tjoin/tjoin.h"
 
 #include <limits.h>
 #include <math.h>

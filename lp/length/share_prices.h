@@ -7,6 +7,9 @@
 #ifndef THR_SHARE_PRICES_H
 #define THR_SHARE_PRICES_H
 
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/status.h"
 #include "lp/length/share.h"
 
 /* Where the certificate c of component k, found without prices, proves less than these passes need, looks for prices that prove

@@ -1,5 +1,6 @@
 /* Cords of the table as walks. */
 #include "lp/length/share_table.h"
+#include "graph/framework/frame.h"
 #include "graph/threading/small_cords.h"
 
 #include <stdlib.h>

@@ -2,6 +2,9 @@
 #ifndef THR_SHARE_TABLE_H
 #define THR_SHARE_TABLE_H
 
+#include "graph/limits.h"
+#include "graph/status.h"
+#include "graph/threading/walks.h"
 #include "lp/length/share.h"
 
 /* What is asked of the cords of a component. */

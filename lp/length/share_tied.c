@@ -1,5 +1,11 @@
 /* More closed cords for tube joints: other orders of the same passes, then pairs of passes, or a cord round a short circuit. */
+#include "graph/framework/frame.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
+#include "graph/threading/junction_graphs.h"
+#include "graph/threading/walks.h"
 #include "lp/length/balance.h"
+#include "lp/length/share.h"
 #include "lp/length/ways.h"
 
 #include <math.h>

@@ -2,7 +2,10 @@
 #ifndef THR_WAYS_H
 #define THR_WAYS_H
 
+#include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
 #include "lp/matching/network.h"
 
 typedef struct {

@@ -11,6 +11,8 @@
 #ifndef THR_BLOSSOM_PARTS_H
 #define THR_BLOSSOM_PARTS_H
 
+#include "graph/limits.h"
+#include "graph/status.h"
 #include "lp/matching/blossom.h"
 
 typedef enum { FREE, OUTER, INNER } blossom_label;

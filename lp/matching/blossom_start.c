@@ -1,4 +1,5 @@
 /* Where the searches begin: greedy duals, or those of an earlier matching made fit for new edges. */
+#include "graph/status.h"
 #include "lp/matching/blossom_parts.h"
 
 thr_status thr_blossom_infeasible(const thr_matching_state *s)

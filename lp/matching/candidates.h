@@ -8,6 +8,8 @@
 #ifndef THR_CANDIDATES_H
 #define THR_CANDIDATES_H
 
+#include "graph/limits.h"
+#include "graph/status.h"
 #include "lp/matching/network.h"
 
 enum {

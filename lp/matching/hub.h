@@ -8,7 +8,9 @@
 #ifndef THR_HUB_H
 #define THR_HUB_H
 
+#include "graph/status.h"
 #include "lp/matching/candidates.h"
+#include "lp/matching/network.h"
 
 typedef struct {
   int count, n_odd;

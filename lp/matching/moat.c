@@ -1,7 +1,10 @@
 /* Rounds of matching and pricing until the moats overload no edge; then the join and its cuts. */
 #include "lp/matching/moat.h"
+#include "lp/matching/blossom.h"
+#include "lp/matching/candidates.h"
 #include "lp/matching/hub.h"
 #include "lp/matching/nest.h"
+#include "lp/matching/network.h"
 
 #include <assert.h>
 #include <stdlib.h>

@@ -11,6 +11,8 @@
 #ifndef THR_MOAT_H
 #define THR_MOAT_H
 
+#include "graph/limits.h"
+#include "graph/status.h"
 #include "lp/tjoin/tjoin.h"
 
 #define THR_MOAT_WEIGHTS_MOST (INT64_C(1) << 50)

@@ -10,8 +10,11 @@
 #ifndef THR_NEST_H
 #define THR_NEST_H
 
+#include "graph/plan/plan.h"
+#include "graph/status.h"
 #include "lp/matching/blossom.h"
 #include "lp/matching/candidates.h"
+#include "lp/matching/network.h"
 
 /* Sets 0 .. n_odd - 1 are the odd places, then come the blossoms, children before parents. Widths and depths in halves of a
  * weight. A place's depth is the total width of the moats that it lies inside of. */

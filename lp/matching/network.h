@@ -8,6 +8,7 @@
 #ifndef THR_NETWORK_H
 #define THR_NETWORK_H
 
+#include "graph/status.h"
 #include "lp/tjoin/tjoin.h"
 
 /* An edge as seen from one of its places. */

@@ -11,6 +11,7 @@
 #ifndef THR_POOL_H
 #define THR_POOL_H
 
+#include "graph/status.h"
 #include "lp/solver/lp.h"
 
 #include <stdint.h>

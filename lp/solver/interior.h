@@ -9,6 +9,7 @@
 #define THR_INTERIOR_H
 
 #include "graph/limits.h"
+#include "graph/status.h"
 #include "lp/solver/lp.h"
 #include "lp/solver/normal.h"
 

@@ -1,6 +1,9 @@
 /* The only file that knows GLPK. GLPK aborts on misuse and when memory runs out: every call runs under guarded(), whose
  * error hook jumps out. After that GLPK's environment must be freed, which kills every problem of the process; each
  * thr_lp remembers in which generation of the environment it was born. */
+#include "graph/limits.h"
+#include "graph/status.h"
+#include "graph/text.h"
 #include "lp/solver/lp.h"
 #include "graph/process/child.h"
 

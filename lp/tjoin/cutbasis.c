@@ -9,6 +9,7 @@
  * edge to the ground), or a further edge is tight. */
 #include "lp/tjoin/cutbasis.h"
 #include "graph/disjoint.h"
+#include "graph/plan/plan.h"
 
 #include <stdlib.h>
 

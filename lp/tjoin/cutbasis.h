@@ -8,6 +8,7 @@
 #ifndef THR_CUTBASIS_H
 #define THR_CUTBASIS_H
 
+#include "graph/status.h"
 #include "lp/tjoin/tjoin.h"
 
 /* Minimize weight x, x(cut i) - s[i] = 1 for every cut, x >= 0, s >= 0, with the equations of the cuts right inside of a cut

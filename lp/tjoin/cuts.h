@@ -8,6 +8,7 @@
 #define THR_CUTS_H
 
 #include "graph/plan/plan.h"
+#include "graph/status.h"
 
 /* The forest cut[n] over the nodes 0 .. n_nodes - 1. Where a function fails for want of memory, the forest can only be released.
  */

@@ -10,7 +10,12 @@
 #ifndef THR_ENDJOIN_H
 #define THR_ENDJOIN_H
 
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
 #include "lp/tjoin/engine.h"
+#include "lp/tjoin/tjoin.h"
 
 /* All arrays are borrowed. The graph may fall into components, no more of them with an odd number of odd nodes than n_ends, each
  * with a node where ends are allowed. */

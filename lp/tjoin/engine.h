@@ -8,6 +8,9 @@
 #ifndef THR_ENGINE_H
 #define THR_ENGINE_H
 
+#include "graph/limits.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
 #include "lp/tjoin/tjoin.h"
 
 /* As thr_tjoin_solve, by either engine: THR_ENGINE_LP is lp/tjoin/tjoin.h, THR_ENGINE_MATCHING lp/matching/moat.h (weights that

@@ -10,6 +10,7 @@
 #ifndef THR_ODDCUT_H
 #define THR_ODDCUT_H
 
+#include "graph/status.h"
 #include "lp/model/pool.h"
 #include "lp/tjoin/tjoin.h"
 

@@ -9,6 +9,7 @@
 #ifndef THR_SHRINK_H
 #define THR_SHRINK_H
 
+#include "graph/status.h"
 #include "lp/tjoin/tjoin.h"
 
 /* One node taken out. The lighter or only edge, or the first, is a. */

@@ -1,6 +1,9 @@
 /* Back from the reduced problem: nodes are put where the moats have room for them. */
+#include "graph/plan/plan.h"
+#include "graph/status.h"
 #include "lp/tjoin/cuts.h"
 #include "lp/tjoin/shrink.h"
+#include "lp/tjoin/tjoin.h"
 
 #include <stdlib.h>
 

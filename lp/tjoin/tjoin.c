@@ -1,6 +1,7 @@
 /* The cutting-plane loop: solve, separate, round to a join, turn the dual into an exact certificate. */
 #include "lp/tjoin/tjoin.h"
 #include "graph/disjoint.h"
+#include "lp/model/pool.h"
 #include "lp/tjoin/cuts.h"
 #include "lp/solver/lp.h"
 #include "lp/tjoin/oddcut.h"

@@ -10,6 +10,7 @@
 
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
+#include "graph/status.h"
 
 /* A connected graph with integer weights; parallel edges are allowed. All arrays are borrowed. */
 typedef struct {

@@ -1,7 +1,10 @@
 /* Bounds that need no cover. */
 #include "symmetry/cover/bounds.h"
 #include "graph/disjoint.h"
+#include "graph/framework/frame.h"
 #include "symmetry/cover/contraction.h"
+#include "symmetry/group/group.h"
+#include "symmetry/group/quotient.h"
 
 #include <limits.h>
 #include <math.h>

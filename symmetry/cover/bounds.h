@@ -8,6 +8,9 @@
 #ifndef THR_BOUNDS_H
 #define THR_BOUNDS_H
 
+#include "graph/limits.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
 #include "symmetry/cover/programme.h"
 
 /* A symmetric cover is a cover: the bound for the programme, and that for the group of the identity alone, which holds as well.

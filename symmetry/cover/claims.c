@@ -1,6 +1,11 @@
 /* Bounds on what is counted in a plan, from bounds on what is counted in the programme. */
 #include "symmetry/cover/claims.h"
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
 #include "symmetry/cover/bounds.h"
+#include "symmetry/cover/programme.h"
 #include "symmetry/cover/turning_bound.h"
 
 #include <math.h>

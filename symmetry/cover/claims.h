@@ -5,7 +5,9 @@
 #ifndef THR_CLAIMS_H
 #define THR_CLAIMS_H
 
+#include "graph/status.h"
 #include "symmetry/cover/cover.h"
+#include "symmetry/group/quotient.h"
 
 /* Cords can run alike where an edge needs several passes; a cord can run back the way it came from a node with one edge where no
  * cord may end, if another such node or an end is where it began. Elsewhere, of threadings that run alike in part, one has no

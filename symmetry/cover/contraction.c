@@ -1,6 +1,7 @@
 /* Cells of dart types: made and undone. */
 #include "symmetry/cover/contraction.h"
 #include "graph/disjoint.h"
+#include "symmetry/cover/ties.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -6,7 +6,11 @@
 #ifndef THR_CONTRACTION_H
 #define THR_CONTRACTION_H
 
+#include "graph/limits.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
 #include "symmetry/cover/programme.h"
+#include "symmetry/group/quotient.h"
 
 typedef struct {
   const thr_programme *whole; /* borrowed */

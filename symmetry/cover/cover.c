@@ -1,8 +1,12 @@
 /* The best symmetric cover, one aim after the other. */
 #include "symmetry/cover/cover.h"
+#include "graph/framework/frame.h"
 #include "symmetry/cover/bounds.h"
 #include "symmetry/cover/contraction.h"
+#include "symmetry/cover/programme.h"
+#include "symmetry/cover/relaxation.h"
 #include "symmetry/cover/search.h"
+#include "symmetry/cover/ties.h"
 #include "symmetry/cover/turning_bound.h"
 
 #include <math.h>

@@ -8,6 +8,10 @@
 #ifndef THR_COVER_H
 #define THR_COVER_H
 
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
 #include "symmetry/group/quotient.h"
 
 typedef struct {

@@ -1,6 +1,10 @@
 /* Exchanges at the nodes of a whole solution: sets are joined, turning gets less. */
 #include "graph/disjoint.h"
+#include "graph/limits.h"
+#include "graph/status.h"
 #include "symmetry/cover/programme.h"
+#include "symmetry/cover/ties.h"
+#include "symmetry/group/quotient.h"
 
 #include <stdlib.h>
 

@@ -1,4 +1,5 @@
 /* Folds that outnumber the ends they could be led to: a flow. */
+#include "graph/status.h"
 #include "symmetry/cover/programme.h"
 
 #include <math.h>

@@ -1,6 +1,7 @@
 /* Columns, costs and connected sets of a symmetric cover. */
 #include "symmetry/cover/programme.h"
 #include "graph/disjoint.h"
+#include "graph/framework/frame.h"
 
 #include <limits.h>
 #include <math.h>

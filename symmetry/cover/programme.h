@@ -7,8 +7,12 @@
 #ifndef THR_PROGRAMME_H
 #define THR_PROGRAMME_H
 
+#include "graph/limits.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
 #include "symmetry/cover/cover.h"
 #include "symmetry/cover/ties.h"
+#include "symmetry/group/quotient.h"
 
 /* Columns: copy types, pair types, ends by dart type, circles by dart type. A circle column is 1 at one dart type of each
  * connected set of types that no trail ends in. The columns are also the edges of a graph whose nodes are the dart types and one

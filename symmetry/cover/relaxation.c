@@ -1,5 +1,6 @@
 /* Rows and separation of the programme of a symmetric cover. */
 #include "symmetry/cover/relaxation.h"
+#include "symmetry/group/quotient.h"
 
 #include <limits.h>
 #include <math.h>

@@ -5,8 +5,13 @@
 #ifndef THR_RELAXATION_H
 #define THR_RELAXATION_H
 
+#include "graph/limits.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
+#include "lp/model/pool.h"
 #include "lp/solver/lp.h"
 #include "lp/tjoin/oddcut.h"
+#include "lp/tjoin/tjoin.h"
 #include "symmetry/cover/programme.h"
 
 typedef struct {

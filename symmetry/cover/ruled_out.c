@@ -1,5 +1,9 @@
 /* Columns of a symmetric cover that no cover needs, or has. */
+#include "graph/framework/frame.h"
+#include "graph/status.h"
 #include "symmetry/cover/programme.h"
+#include "symmetry/group/group.h"
+#include "symmetry/group/quotient.h"
 
 #include <stdlib.h>
 #include <string.h>

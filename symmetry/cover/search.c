@@ -1,5 +1,6 @@
 /* Branch and cut, one aim after the other. */
 #include "symmetry/cover/search.h"
+#include "lp/solver/lp.h"
 
 #include <math.h>
 #include <stdlib.h>

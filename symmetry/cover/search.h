@@ -5,7 +5,11 @@
 #ifndef THR_SEARCH_H
 #define THR_SEARCH_H
 
+#include "graph/limits.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
 #include "lp/model/tree.h"
+#include "symmetry/cover/programme.h"
 #include "symmetry/cover/relaxation.h"
 
 typedef struct {

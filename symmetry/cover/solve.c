@@ -1,6 +1,10 @@
 /* Rows of the table: covers, the threadings made from them, and what is proved of those. */
 #include "symmetry/cover/solve.h"
+#include "graph/plan/plan.h"
 #include "symmetry/cover/claims.h"
+#include "symmetry/cover/cover.h"
+#include "symmetry/group/group.h"
+#include "symmetry/group/quotient.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,6 +3,10 @@
 #ifndef THR_SYMMETRY_SOLVE_H
 #define THR_SYMMETRY_SOLVE_H
 
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
 #include "symmetry/symmetry.h"
 
 /* Fills the rows that are asked for. With a deadline: first all rows, overlap and learned steps only; then, likewise, those that

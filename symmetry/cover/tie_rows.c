@@ -1,5 +1,8 @@
 /* Rows of the relaxation that hold for tube joints. */
+#include "graph/status.h"
+#include "lp/model/pool.h"
 #include "symmetry/cover/relaxation.h"
+#include "symmetry/cover/ties.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,7 @@
 /* Stars of tubes, and what joins them. */
 #include "symmetry/cover/ties.h"
 #include "graph/disjoint.h"
+#include "graph/framework/frame.h"
 
 #include <stdlib.h>
 

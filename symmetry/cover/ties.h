@@ -7,6 +7,7 @@
 #ifndef THR_TIES_H
 #define THR_TIES_H
 
+#include "graph/status.h"
 #include "symmetry/group/quotient.h"
 
 typedef struct {

@@ -1,5 +1,9 @@
 /* Lower bounds on turning, cell by cell. */
 #include "symmetry/cover/turning_bound.h"
+#include "graph/plan/request.h"
+#include "lp/model/pool.h"
+#include "lp/solver/lp.h"
+#include "symmetry/group/quotient.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,7 +5,10 @@
 #ifndef THR_TURNING_BOUND_H
 #define THR_TURNING_BOUND_H
 
+#include "graph/limits.h"
+#include "graph/status.h"
 #include "symmetry/cover/contraction.h"
+#include "symmetry/cover/programme.h"
 #include "symmetry/cover/relaxation.h"
 
 /* By a dual ascent at every node, in O(pair types): multipliers u >= 0 of the dart types with u[a] + u[b] <= the price of every

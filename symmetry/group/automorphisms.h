@@ -10,6 +10,7 @@
 
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
+#include "graph/status.h"
 
 typedef struct {
   const int *node_colour; /* [n_nodes] borrowed, NULL = all alike. Feet and other nodes are told apart in any case */

@@ -3,6 +3,8 @@
 #include "graph/disjoint.h"
 #include "graph/framework/procrustes.h"
 #include "symmetry/group/automorphisms.h"
+#include "symmetry/group/group.h"
+#include "symmetry/group/isometry.h"
 
 #include <math.h>
 #include <stdio.h>

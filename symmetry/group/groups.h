@@ -5,6 +5,10 @@
 #ifndef THR_SYMMETRY_GROUPS_H
 #define THR_SYMMETRY_GROUPS_H
 
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
 #include "symmetry/symmetry.h"
 
 /* Fills the groups of the table and its rows, without threadings; fewer when the limits say so. On failure the table can still be

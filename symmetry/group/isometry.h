@@ -8,6 +8,9 @@
 #ifndef THR_ISOMETRY_H
 #define THR_ISOMETRY_H
 
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/status.h"
 #include "symmetry/group/automorphisms.h"
 
 typedef enum {

@@ -14,8 +14,10 @@
 #ifndef THR_QUOTIENT_H
 #define THR_QUOTIENT_H
 
+#include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
+#include "graph/status.h"
 #include "symmetry/group/group.h"
 
 typedef struct {

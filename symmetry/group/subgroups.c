@@ -1,4 +1,5 @@
 /* Subgroups of a listed group, and all of them up to conjugacy by extension (Neubueser 1960). */
+#include "graph/status.h"
 #include "symmetry/group/group.h"
 
 #include <assert.h>

@@ -1,5 +1,9 @@
 /* Copies for a start that has to tie tube joints. */
+#include "graph/status.h"
 #include "symmetry/cover/contraction.h"
+#include "symmetry/cover/programme.h"
+#include "symmetry/cover/ties.h"
+#include "symmetry/group/quotient.h"
 
 #include <limits.h>
 #include <stdlib.h>

@@ -8,7 +8,9 @@
 #ifndef THR_STRANDS_H
 #define THR_STRANDS_H
 
+#include "graph/status.h"
 #include "symmetry/cover/cover.h"
+#include "symmetry/group/quotient.h"
 
 /* Darts of an orbit of type t are the cosets x S of t's stabilizer: the dart x S lies over the image under x of t's half-edge.
  * The two links of an orbit are elements: multiplying from the right commutes with H. */

@@ -1,5 +1,10 @@
 /* The cords of a symmetric cover, copies as images of their unique paths, and the record that says so. */
+#include "graph/framework/frame.h"
+#include "graph/plan/plan.h"
+#include "graph/status.h"
 #include "symmetry/cover/cover.h"
+#include "symmetry/group/group.h"
+#include "symmetry/group/quotient.h"
 #include "symmetry/lift/strands.h"
 
 #include <stdlib.h>

@@ -1,6 +1,9 @@
 /* Exchanges between and within the circuits of closed cords. */
 #include "tortuosity/cords/circuits.h"
+#include "graph/framework/frame.h"
+#include "graph/plan/plan.h"
 #include "graph/random.h"
+#include "graph/threading/threading.h"
 #include "tortuosity/cords/walk_search.h"
 
 #include <assert.h>

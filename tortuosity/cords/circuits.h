@@ -9,6 +9,8 @@
 #define THR_CIRCUITS_H
 
 #include "graph/limits.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/status.h"
 #include "tortuosity/cords/join.h"
 
 /* Changes the pairs of closed cords so that every component has task.cords circuits. Too many: two circuits that meet are joined

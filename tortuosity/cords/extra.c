@@ -1,6 +1,8 @@
 /* T-joins with slots for the cord ends, component by component. */
 #include "tortuosity/cords/extra.h"
+#include "graph/framework/frame.h"
 #include "lp/tjoin/engine.h"
+#include "lp/tjoin/tjoin.h"
 #include "tortuosity/cords/walk_search.h"
 
 #include <assert.h>

@@ -5,6 +5,7 @@
 
 #include "graph/limits.h"
 #include "graph/plan/turning_proof.h"
+#include "graph/status.h"
 
 /* Fills passes[n_edges] = cover + a T-join of least weight, one per component, and ends[n_nodes] (none if closed): with them
  * every node is even, and every component has its 2 cords ends. weight[e] >= 0; end_weight[v] >= 0 (NULL = 0) is paid per end,

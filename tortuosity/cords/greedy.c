@@ -1,5 +1,9 @@
 /* Bouchet's greedy on a multigraph of passes. */
 #include "graph/disjoint.h"
+#include "graph/limits.h"
+#include "graph/status.h"
+#include "graph/threading/multigraph.h"
+#include "tortuosity/cords/join.h"
 #include "tortuosity/proof/hubs.h"
 #include "graph/threading/pairing.h"
 

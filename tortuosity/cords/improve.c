@@ -1,5 +1,7 @@
 /* Exchanges on a tour: reversals, and cuts that are joined elsewhere (2- and 3-opt on transitions). */
 #include "tortuosity/cords/improve.h"
+#include "graph/threading/multigraph.h"
+#include "graph/threading/threading.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -8,6 +8,7 @@
 #define THR_IMPROVE_H
 
 #include "graph/limits.h"
+#include "graph/status.h"
 #include "tortuosity/cords/join.h"
 
 /* Until no exchange saves, or the limits stop it: (1) two pairs at one node that run a part of the cord the other way round; (2)

@@ -1,6 +1,7 @@
 /* The multigraph of passes, and pairs as a point or cords say. */
 #include "tortuosity/cords/join.h"
 #include "graph/disjoint.h"
+#include "graph/framework/frame.h"
 #include "tortuosity/tie/tie.h"
 
 #include <math.h>

@@ -9,6 +9,9 @@
 #define THR_JOIN_H
 
 #include "graph/limits.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/status.h"
+#include "graph/threading/multigraph.h"
 #include "graph/threading/threading.h"
 #include "graph/plan/plan.h"
 

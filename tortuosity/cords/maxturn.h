@@ -7,6 +7,9 @@
 #ifndef THR_MAXTURN_H
 #define THR_MAXTURN_H
 
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/status.h"
 #include "tortuosity/proof/least.h"
 
 typedef struct {

@@ -1,6 +1,10 @@
 /* Covers by short circuits, and all passes of tiny frameworks. */
 #include "tortuosity/cords/several.h"
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/turning_proof.h"
 #include "tortuosity/cords/circuits.h"
+#include "tortuosity/cords/join.h"
 #include "tortuosity/tie/tie.h"
 
 #include <stdlib.h>

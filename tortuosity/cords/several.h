@@ -5,6 +5,7 @@
 #ifndef THR_SEVERAL_H
 #define THR_SEVERAL_H
 
+#include "graph/status.h"
 #include "tortuosity/proof/branch.h"
 
 /* Tries short circuits over all edges, from each edge on in small frameworks; where nothing is found the same even number of

@@ -1,5 +1,6 @@
 /* Searches over half-edges. */
 #include "tortuosity/cords/walk_search.h"
+#include "graph/framework/frame.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,6 +3,7 @@
 #define THR_WALK_SEARCH_H
 
 #include "graph/plan/turning_proof.h"
+#include "graph/status.h"
 
 typedef struct {
   const thr_turning_columns *c;

@@ -2,6 +2,7 @@
 #include "tortuosity/proof/ascent.h"
 #include "graph/angle.h"
 #include "graph/disjoint.h"
+#include "graph/framework/frame.h"
 #include "tortuosity/proof/relax.h"
 
 #include <math.h>

@@ -10,6 +10,7 @@
 
 #include "graph/limits.h"
 #include "graph/plan/turning_proof.h"
+#include "graph/status.h"
 
 /* d: the best multipliers found, with the junctions that prove the trees. mean[n_columns]: how often the mean takes every extra
  * pass and end; other columns 0. target: no bound above it is worth having. Stops early by the limits, but never without a bound.

@@ -1,6 +1,7 @@
 /* Best bound first; every node keeps the multipliers that prove its bound. */
 #include "tortuosity/proof/branch.h"
 #include "graph/angle.h"
+#include "graph/framework/frame.h"
 #include "tortuosity/proof/ascent.h"
 #include "tortuosity/proof/cycles.h"
 #include "tortuosity/proof/nearest.h"

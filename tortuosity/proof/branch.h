@@ -7,6 +7,10 @@
 #ifndef THR_BRANCH_H
 #define THR_BRANCH_H
 
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/status.h"
 #include "lp/model/tree.h"
 #include "tortuosity/cords/join.h"
 #include "tortuosity/proof/relax.h"

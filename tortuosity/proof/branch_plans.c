@@ -1,4 +1,11 @@
 /* Plans from the points of the relaxation. */
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/status.h"
+#include "graph/threading/multigraph.h"
+#include "tortuosity/cords/join.h"
 #include "tortuosity/proof/branch.h"
 #include "tortuosity/cords/circuits.h"
 #include "tortuosity/cords/extra.h"

@@ -1,6 +1,7 @@
 /* Groups: components of the support, and minimum cuts by augmenting paths. */
 #include "tortuosity/proof/column_groups.h"
 #include "graph/disjoint.h"
+#include "graph/framework/frame.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -9,6 +9,7 @@
 #define THR_GROUPS_H
 
 #include "graph/plan/turning_proof.h"
+#include "graph/status.h"
 
 /* add is told of each group found (n edges); *added grows if it was violated and used. */
 typedef struct {

@@ -1,5 +1,7 @@
 /* Local search over extra passes. */
 #include "tortuosity/proof/cycles.h"
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
 
 #include <stdlib.h>
 #include <string.h>

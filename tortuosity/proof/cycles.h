@@ -7,6 +7,7 @@
 #ifndef THR_CYCLES_H
 #define THR_CYCLES_H
 
+#include "graph/status.h"
 #include "tortuosity/proof/branch.h"
 
 /* For every edge a shortest cycle through it (by number of edges): each of the cycle's edges that has extra passes loses one,

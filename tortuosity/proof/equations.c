@@ -1,4 +1,9 @@
 /* The equations of the turning relaxation, and a basis to start from. */
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/status.h"
+#include "lp/solver/lp.h"
 #include "tortuosity/proof/relax.h"
 
 #include <math.h>

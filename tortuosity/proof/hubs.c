@@ -1,6 +1,8 @@
 /* Nodes with very many passes: matching over near pairs, and the cheapest exchanges between near pairs. */
 #include "tortuosity/proof/hubs.h"
 #include "graph/disjoint.h"
+#include "graph/framework/frame.h"
+#include "graph/threading/multigraph.h"
 #include "lp/matching/blossom.h"
 #include "tortuosity/proof/nearest.h"
 

@@ -7,6 +7,8 @@
 #ifndef THR_HUBS_H
 #define THR_HUBS_H
 
+#include "graph/limits.h"
+#include "graph/status.h"
 #include "tortuosity/cords/join.h"
 
 enum { THR_HUB = 64 }; /* more passes and ends than this make a node a hub */

@@ -1,5 +1,8 @@
 /* Finding divisions of the edges at a node that a point does not tie. */
 #include "graph/disjoint.h"
+#include "graph/framework/frame.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/status.h"
 #include "tortuosity/proof/relax.h"
 
 #include <math.h>

@@ -7,8 +7,12 @@
 #ifndef THR_LEAST_H
 #define THR_LEAST_H
 
+#include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/status.h"
 #include "tortuosity/cords/join.h"
 
 typedef struct {

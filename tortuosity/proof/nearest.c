@@ -1,5 +1,6 @@
 /* Cheapest turns, by one sweep over a node's columns. */
 #include "tortuosity/proof/nearest.h"
+#include "graph/framework/frame.h"
 
 #include <stdlib.h>
 

@@ -5,6 +5,7 @@
 
 #include "graph/limits.h"
 #include "graph/plan/turning_proof.h"
+#include "graph/status.h"
 
 typedef struct {
   int degree, n;   /* n: turns of every half-edge; less than the degree, 0 at a node with one edge */

@@ -1,4 +1,8 @@
 /* A bound from the nodes one by one. */
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/status.h"
 #include "lp/matching/blossom.h"
 #include "graph/sort.h"
 #include "tortuosity/proof/nearest.h"

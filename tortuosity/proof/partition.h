@@ -7,6 +7,7 @@
 #ifndef THR_PARTITION_H
 #define THR_PARTITION_H
 
+#include "graph/status.h"
 #include "tortuosity/proof/relax.h"
 
 /* Every node is given its cheapest pairing, or the one that x uses most; what hangs together then are the blocks. Nodes are made

@@ -1,5 +1,10 @@
 /* Rows and multipliers of the relaxation without turns. */
 #include "tortuosity/proof/project.h"
+#include "graph/framework/frame.h"
+#include "lp/model/pool.h"
+#include "lp/solver/lp.h"
+#include "lp/tjoin/oddcut.h"
+#include "lp/tjoin/tjoin.h"
 
 #include <math.h>
 #include <stdlib.h>

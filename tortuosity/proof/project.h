@@ -6,6 +6,9 @@
 #ifndef THR_PROJECT_H
 #define THR_PROJECT_H
 
+#include "graph/limits.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/status.h"
 #include "tortuosity/proof/relax.h"
 
 thr_status thr_project_create(thr_relax *r, double penalty, thr_err *err) THR_MUST_CHECK;

@@ -1,5 +1,6 @@
 /* Rows, separation and multipliers of the turning relaxation. */
 #include "tortuosity/proof/relax.h"
+#include "graph/framework/frame.h"
 #include "graph/sort.h"
 #include "tortuosity/proof/column_groups.h"
 #include "tortuosity/proof/partition.h"

@@ -9,9 +9,13 @@
 #ifndef THR_RELAX_H
 #define THR_RELAX_H
 
+#include "graph/limits.h"
 #include "graph/plan/turning_proof.h"
+#include "graph/status.h"
+#include "lp/model/pool.h"
 #include "lp/solver/lp.h"
 #include "lp/tjoin/oddcut.h"
+#include "lp/tjoin/tjoin.h"
 
 /* What a row is of (thr_row); its index and members. */
 typedef enum {

@@ -1,5 +1,9 @@
 /* The multipliers of the turning relaxation as integers. */
+#include "graph/plan/turning_proof.h"
+#include "graph/status.h"
+#include "lp/model/pool.h"
 #include "tortuosity/proof/project.h"
+#include "tortuosity/proof/relax.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,7 @@
 /* Turns that tie the nodes. */
 #include "tortuosity/tie/tie.h"
 #include "graph/disjoint.h"
+#include "graph/framework/frame.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -11,6 +11,7 @@
 
 #include "graph/limits.h"
 #include "graph/plan/turning_proof.h"
+#include "graph/status.h"
 
 /* How many more passes must start at node v, over edges of the right kind, until it can be tied; 0: it can. O(degree). */
 int thr_tie_need(const thr_turning_columns *c, int v, const int *passes, const int *ends);

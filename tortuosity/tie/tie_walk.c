@@ -1,5 +1,6 @@
 /* Searching closed walks over tied nodes. */
 #include "tortuosity/tie/tie_walk.h"
+#include "graph/framework/frame.h"
 
 #include <math.h>
 #include <stdlib.h>

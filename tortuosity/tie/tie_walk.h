@@ -7,6 +7,8 @@
 #ifndef THR_TIE_WALK_H
 #define THR_TIE_WALK_H
 
+#include "graph/plan/turning_proof.h"
+#include "graph/status.h"
 #include "tortuosity/tie/tie.h"
 
 enum { THR_WALK_LABELS = 600 }; /* partial walks that one search looks at, at most */

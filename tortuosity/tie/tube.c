@@ -1,6 +1,7 @@
 /* The shortest tied cords: a search without turns, then one with them where that leaves a gap. */
 #include "tortuosity/tie/tube.h"
 #include "graph/plan/junction.h"
+#include "tortuosity/cords/join.h"
 #include "tortuosity/proof/branch.h"
 #include "tortuosity/tie/tie.h"
 

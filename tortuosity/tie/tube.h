@@ -8,8 +8,12 @@
 #ifndef THR_TUBE_H
 #define THR_TUBE_H
 
+#include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/status.h"
 
 typedef struct {
   int n_cords;

@@ -2,7 +2,9 @@
 #include "tortuosity/tie/tube_cords.h"
 #include "graph/check/check.h"
 #include "graph/framework/components.h"
+#include "graph/threading/walks.h"
 #include "lp/length/balance.h"
+#include "lp/length/share.h"
 #include "lp/length/share_table.h"
 #include "tortuosity/tie/tube.h"
 

@@ -4,6 +4,11 @@
 #ifndef THR_TUBE_CORDS_H
 #define THR_TUBE_CORDS_H
 
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
 #include "lp/length/cords.h"
 
 /* As thr_cords_plan (lp/length/cords.h), with cords that tie every node. */

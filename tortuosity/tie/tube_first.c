@@ -5,6 +5,7 @@
 #include "tortuosity/tie/tube_first.h"
 #include "graph/disjoint.h"
 #include "graph/framework/components.h"
+#include "graph/threading/multigraph.h"
 #include "graph/threading/splice.h"
 #include "graph/threading/transition.h"
 #include "graph/threading/walks.h"

@@ -2,7 +2,10 @@
 #ifndef THR_TUBE_FIRST_H
 #define THR_TUBE_FIRST_H
 
+#include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
 
 /* Cords that tie every node, with 2 passes of every edge (or as many as the largest cover, made even): no length is looked at but
  * options.max_length. *n_cords = 0: not by this way, which proves nothing: it knows no nodes with one edge, no counted ends, no

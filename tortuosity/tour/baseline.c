@@ -1,5 +1,7 @@
 /* Fleury (1883) and Hierholzer (1873) on the multigraph of passes. */
 #include "tortuosity/tour/baseline.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/threading/multigraph.h"
 #include "tortuosity/cords/extra.h"
 #include "tortuosity/cords/join.h"
 #include "graph/threading/pairing.h"

@@ -7,6 +7,10 @@
 #ifndef THR_BASELINE_H
 #define THR_BASELINE_H
 
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
 #include "tortuosity/proof/least.h"
 
 /* Fleury's tour never takes a pass that is a bridge of what is left while there is another; Hierholzer's splices closed walks
