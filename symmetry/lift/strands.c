@@ -1,6 +1,7 @@
 /* Dart orbits as cosets, their links, and the choices among them. */
 #include "symmetry/lift/strands.h"
 #include "graph/disjoint.h"
+#include "symmetry/group/group.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,9 @@
 /* Cords of a joined multigraph. */
+#include "graph/framework/frame.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/status.h"
+#include "graph/threading/threading.h"
 #include "graph/threading/tour.h"
 #include "graph/threading/walks.h"
 #include "tortuosity/cords/join.h"

@@ -1,6 +1,8 @@
 /* Partitions from pairings, node by node. */
 #include "tortuosity/proof/partition.h"
 #include "graph/disjoint.h"
+#include "graph/framework/frame.h"
+#include "graph/plan/turning_proof.h"
 #include "graph/threading/pairing.h"
 
 #include <math.h>
