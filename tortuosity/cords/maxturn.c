@@ -1,10 +1,15 @@
 /* Cords evened out from several starts. */
 #include "tortuosity/cords/maxturn.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/turning_proof.h"
 #include "graph/random.h"
 #include "graph/threading/even.h"
+#include "graph/threading/multigraph.h"
+#include "graph/threading/threading.h"
 #include "tortuosity/cords/circuits.h"
 #include "tortuosity/cords/extra.h"
 #include "tortuosity/cords/improve.h"
+#include "tortuosity/cords/join.h"
 #include "tortuosity/cords/maxturn_small.h"
 #include "tortuosity/tie/tie.h"
 

@@ -1,5 +1,6 @@
 /* Component by component; then the limits of the task. */
 #include "tortuosity/cords/maxturn_small.h"
+#include "graph/plan/request.h"
 #include "graph/threading/small_cords.h"
 #include "tortuosity/cords/extra.h"
 

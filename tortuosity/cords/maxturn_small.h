@@ -2,6 +2,10 @@
 #ifndef THR_MAXTURN_SMALL_H
 #define THR_MAXTURN_SMALL_H
 
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/status.h"
 #include "tortuosity/cords/join.h"
 
 /* Cords of which the one that turns most turns least, as many in every component as the n_cords given ones are, which they are or
