@@ -1,5 +1,6 @@
 /* Rankings: ties are what the intervals allow, and no more. */
 #include "cli/print/ranking.c"
+#include "graph/io/writer.h"
 #include "tests/support.h"
 
 enum { MOST = 7 };
@@ -41,6 +42,7 @@ START_TEST(open_ends_and_unknown_plans)
   const int rank[4] = {2, 0, 2, 1};
   ranking r = ranking_of(4, interval);
   thr_text t = {0};
+  thr_writer w = {.out = &t};
   const char *const name[4] = {"a", "b", "c", "d"};
   ck_assert_int_eq(r.n_ranked, 3);
   for (int i = 0; i < 4; i++)
@@ -51,7 +53,7 @@ START_TEST(open_ends_and_unknown_plans)
   ck_assert_ptr_nonnull(strstr(t.data, "2. c 50 N (49 .. 51 N)  tie, within the error\n"));
   ck_assert_ptr_nonnull(strstr(t.data, "-  b not known\n"));
   thr_text_destroy(&t);
-  ranking_put_json(&r, name, &t);
+  ranking_put_json(&r, name, &w);
   ck_assert_ptr_nonnull(strstr(t.data, "{\"plan\": \"a\", \"value\": 10, \"low\": 9, \"high\": null, \"rank\": 2}"));
   thr_text_destroy(&t);
   ranking_destroy(&r);
