@@ -3,7 +3,6 @@
 #include "cli/cli.h"
 #include "cli/print/copies_table.h"
 #include "cli/guard.h"
-#include "graph/angle.h"
 #include "graph/check/check.h"
 #include "graph/framework/units.h"
 
@@ -260,7 +259,7 @@ bool cli_mark_nodes(const thr_frame *f, const char *list, const char *option, bo
 int cli_resolve_ends(const char *ends, const thr_frame *f, thr_plan_options *o)
 {
   for (int kind = THR_ENDS_CLOSED; kind < THR_ENDS_NODES; kind++)
-    if (strcmp(ends, thr_ends_name((thr_ends)kind)) == 0) {
+    if (strcmp(ends, thr_ends_name(kind)) == 0) {
       o->ends = (thr_ends)kind;
       return EXIT_OK;
     }
@@ -457,11 +456,6 @@ void cli_progress_end(void)
 }
 
 /* ---- tables ---- */
-
-double cli_degrees(double radians)
-{
-  return thr_degrees(radians);
-}
 
 const char *cli_plural(int n, const char *one, const char *many)
 {

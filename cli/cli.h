@@ -125,8 +125,6 @@ void cli_wipe_line(void);    /* the same for one that another process has left *
 
 /* ---- tables ---- */
 
-double cli_degrees(double radians);
-
 /* "n word" or "n words". */
 const char *cli_plural(int n, const char *one, const char *many);
 

@@ -98,11 +98,6 @@ static int write_sheets(const thr_plan *p, const char *path, const drawings_args
   return cli_write_drawn(st, &pdf, path, &err);
 }
 
-static const char *page_name(int i)
-{
-  return thr_page_name((thr_page_size)i);
-}
-
 static const char *from_name(int i)
 {
   static const char *const name[] = {"end", "middle"};
@@ -113,7 +108,7 @@ bool drawings_option(drawings_args *a, const char *command, int option, const ch
 {
   int from = a->middle;
   if (option != OPTION_PAGE && option != OPTION_FROM) return false;
-  *ok = option == OPTION_PAGE ? cli_choose(command, "--page", value, page_name, THR_N_PAGES, &a->page)
+  *ok = option == OPTION_PAGE ? cli_choose(command, "--page", value, thr_page_name, THR_N_PAGES, &a->page)
                               : cli_choose(command, "--from", value, from_name, 2, &from);
   a->middle = from;
   return true;

@@ -88,12 +88,7 @@ static bool check_pull(const char *command, const char *value)
 
 static const char *method_name(int i)
 {
-  return i < THR_N_METHODS ? thr_method_name((thr_method)i) : "all";
-}
-
-static const char *law_name(int i)
-{
-  return thr_law_name((thr_law)i);
+  return i < THR_N_METHODS ? thr_method_name(i) : "all";
 }
 
 bool pull_option(pull_args *a, const char *command, int option, const char *value, bool *ok)
@@ -105,7 +100,7 @@ bool pull_option(pull_args *a, const char *command, int option, const char *valu
   switch (option) {
   case OPTION_PULL_METHOD: *ok = cli_choose(command, "--method", value, method_name, methods, &a->method); return true;
   case OPTION_PULL_LAW:
-    *ok = cli_choose(command, "--law", value, law_name, THR_N_LAWS, &law);
+    *ok = cli_choose(command, "--law", value, thr_law_name, THR_N_LAWS, &law);
     if (*ok) o->law = (thr_law)law;
     return true;
   case OPTION_PULL_END:

@@ -18,21 +18,6 @@ cords_args cords_args_default(void)
 
 /* ---- parsing ---- */
 
-static const char *joint_name(int i)
-{
-  return thr_joint_name((thr_joint)i);
-}
-
-static const char *engine_name(int i)
-{
-  return thr_engine_name((thr_engine)i);
-}
-
-static const char *confirm_name(int i)
-{
-  return thr_confirm_name((thr_confirm)i);
-}
-
 static bool cords_number(const char *text, int n, int *out)
 {
   char number[16];
@@ -80,15 +65,15 @@ bool cords_option(cords_args *a, int option, const char *value, bool *ok)
   case OPTION_CORDS_COVER: *ok = cli_int("plan", "--cover", value, 1, MOST_PASSES, &a->cover); return true;
   case OPTION_CORDS_CAPACITY: *ok = cli_int("plan", "--capacity", value, 1, 10 * MOST_PASSES, &a->capacity); return true;
   case OPTION_CORDS_JOINT:
-    *ok = cli_choose("plan", "--joint", value, joint_name, 2, &i);
+    *ok = cli_choose("plan", "--joint", value, thr_joint_name, 2, &i);
     a->joint = i ? THR_JOINT_TUBE : THR_JOINT_SOLID;
     return true;
   case OPTION_CORDS_ENGINE:
-    *ok = cli_choose("plan", "--engine", value, engine_name, 3, &i);
+    *ok = cli_choose("plan", "--engine", value, thr_engine_name, 3, &i);
     if (*ok) a->engine = (thr_engine)i;
     return true;
   case OPTION_CORDS_CONFIRM:
-    *ok = cli_choose("plan", "--confirm", value, confirm_name, 3, &i);
+    *ok = cli_choose("plan", "--confirm", value, thr_confirm_name, 3, &i);
     if (*ok) a->confirm = (thr_confirm)i;
     return true;
   case OPTION_CORDS_ENDS: a->ends = value; return true;

@@ -12,11 +12,6 @@ symmetry_args symmetry_args_default(void)
   return a;
 }
 
-static const char *aim_name(int i)
-{
-  return thr_aim_name((thr_aim)i);
-}
-
 /* The aims in the list, then the others in their usual order. */
 static bool parse_prefer(const char *command, const char *value, thr_aim prefer[THR_N_AIMS])
 {
@@ -29,7 +24,7 @@ static bool parse_prefer(const char *command, const char *value, thr_aim prefer[
     int aim;
     end = word + strcspn(word, ",");
     snprintf(name, sizeof name, "%.*s", (int)(end - word), word);
-    if (!cli_choose(command, "--prefer", name, aim_name, THR_N_AIMS, &aim)) return false;
+    if (!cli_choose(command, "--prefer", name, thr_aim_name, THR_N_AIMS, &aim)) return false;
     if (taken[aim]) {
       cli_usage(command, "--prefer %s: %s is there twice", value, name);
       return false;

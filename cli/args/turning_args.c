@@ -13,26 +13,6 @@ turning_args turning_args_default(void)
   return (turning_args){.options = usual.turning};
 }
 
-static const char *cost_name(int i)
-{
-  return thr_turn_cost_name((thr_turn_cost)i);
-}
-
-static const char *tour_name(int i)
-{
-  return thr_tour_name((thr_tour)i);
-}
-
-static const char *minimize_name(int i)
-{
-  return thr_aim_name(i ? THR_AIM_MAX_TURNING : THR_AIM_TURNING);
-}
-
-static const char *pairings_name(int i)
-{
-  return i ? "ignore" : "keep";
-}
-
 /* "5" or "5%". */
 static bool slack(const char *text, double *out)
 {
@@ -57,22 +37,22 @@ bool turning_option(turning_args *a, int option, const char *value, bool *ok)
     a->spelled = name = "--length-slack";
     break;
   case OPTION_TURNING_MINIMIZE:
-    *ok = cli_choose("plan", "--minimize", value, minimize_name, 2, &i);
+    *ok = cli_choose("plan", "--minimize", value, thr_minimize_name, 2, &i);
     a->largest = i == 1;
     a->spelled = name = "--minimize";
     break;
   case OPTION_TURNING_COST:
-    *ok = cli_choose("plan", "--turn-cost", value, cost_name, THR_N_TURN_COSTS, &i);
+    *ok = cli_choose("plan", "--turn-cost", value, thr_turn_cost_name, THR_N_TURN_COSTS, &i);
     if (*ok) o->cost = (thr_turn_cost)i;
     a->spelled = name = "--turn-cost";
     break;
   case OPTION_TURNING_TOUR:
-    *ok = cli_choose("plan", "--tour", value, tour_name, THR_N_TOURS, &i);
+    *ok = cli_choose("plan", "--tour", value, thr_tour_name, THR_N_TOURS, &i);
     if (*ok) o->tour = (thr_tour)i;
     name = "--tour";
     break;
   case OPTION_TURNING_PAIRINGS:
-    *ok = cli_choose("plan", "--pairings", value, pairings_name, 2, &i);
+    *ok = cli_choose("plan", "--pairings", value, thr_pairings_name, 2, &i);
     o->ignore_pairings = i == 1;
     a->pairings = true;
     name = "--pairings";

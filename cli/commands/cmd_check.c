@@ -2,6 +2,7 @@
 #include "cli/cli.h"
 #include "cli/guard.h"
 #include "cli/print/terms.h"
+#include "graph/angle.h"
 #include "graph/check/check.h"
 #include "graph/io/writer.h"
 #include "graph/plan/plan.h"
@@ -36,7 +37,7 @@ static void put_turning(thr_text *t, const thr_plan *p)
   const char *cost = thr_turn_cost_name(p->options.turning.cost);
   bool angles = p->options.turning.cost == THR_TURN_ANGLE;
   if (!thr_wants_turning(&p->options)) return;
-  thr_text_printf(t, "; turning %.3f deg: ", cli_degrees(p->metrics.turning));
+  thr_text_printf(t, "; turning %.3f deg: ", thr_degrees(p->metrics.turning));
   if (!c->present) {
     thr_text_append(t, "no claim of optimality");
     return;
@@ -46,7 +47,7 @@ static void put_turning(thr_text *t, const thr_plan *p)
     thr_text_append(t, "optimal, proof verified");
   else
     thr_text_printf(t, "lower bound %.*f verified, gap %.3g %%", angles ? 3 : 6,
-                    angles ? cli_degrees(c->lower_bound) : c->lower_bound, 100 * c->gap);
+                    angles ? thr_degrees(c->lower_bound) : c->lower_bound, 100 * c->gap);
   thr_text_printf(t, " (%d %s", branchings, cli_plural(branchings, "branching", "branchings"));
   thr_text_append(t, ")");
   if (c->largest_optimal && p->n_cords > 1) thr_text_append(t, "; largest cord: bound attained");

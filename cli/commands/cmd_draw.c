@@ -53,11 +53,6 @@ static bool is_folder(const char *path)
   return (n && path[n - 1] == '/') || (stat(path, &s) == 0 && S_ISDIR(s.st_mode));
 }
 
-static const char *color_name(int c)
-{
-  return thr_overview_colour_name((thr_overview_colour)c);
-}
-
 static const char *type_name(int t)
 {
   return t < drawings_count() ? drawings_type(t) : "all";
@@ -101,7 +96,8 @@ int cmd_draw(int argc, char **argv)
     if ((drawings_option(&a, "draw", option, optarg, &ok) || guard_option(&guard, "draw", option, optarg, &ok)) && !ok)
       return EXIT_USAGE;
     if (option == OPTION_PITCH && !cli_double("draw", "--pitch", optarg, 2, 200, &a.pitch_mm)) return EXIT_USAGE;
-    if (option == OPTION_COLOR && !cli_choose("draw", "--color", optarg, color_name, THR_N_COLOURS, &color)) return EXIT_USAGE;
+    if (option == OPTION_COLOR && !cli_choose("draw", "--color", optarg, thr_overview_colour_name, THR_N_COLOURS, &color))
+      return EXIT_USAGE;
     if (option == 'o') output = optarg;
   }
   if (done >= 0) return done;

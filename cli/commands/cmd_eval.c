@@ -14,6 +14,7 @@
 #include "graph/plan/plan.h"
 #include "graph/status.h"
 #include "graph/text.h"
+#include "graph/angle.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -165,8 +166,8 @@ static void put_error(thr_text *t, const thr_eval_cord *c)
 
 static void put_cord(thr_text *t, const char *id, const thr_eval_cord *c, thr_method method)
 {
-  thr_text_printf(t, "%-5s %8.1f deg", id, cli_degrees(c->turning));
-  if (method == THR_JOINT) thr_text_printf(t, " %8.1f deg", cli_degrees(c->taut_turning));
+  thr_text_printf(t, "%-5s %8.1f deg", id, thr_degrees(c->turning));
+  if (method == THR_JOINT) thr_text_printf(t, " %8.1f deg", thr_degrees(c->taut_turning));
   put_cell(t, 12, digits(method), c->force, true);
   put_cell(t, 13, digits(method), c->other_force, c->pull == THR_PULL_BOTH);
   put_loss(t, c->loss);
@@ -250,7 +251,7 @@ static void put_reason(thr_text *t, int n, const char *why)
 static void put_joint(thr_text *t, const thr_plan *p, const thr_eval *e)
 {
   char sharp[80];
-  snprintf(sharp, sizeof sharp, "sharper than %.0f degrees, the sharpest that was validated", cli_degrees(thr_drag_largest_turn));
+  snprintf(sharp, sizeof sharp, "sharper than %.0f degrees, the sharpest that was validated", thr_degrees(thr_drag_largest_turn));
   if (e->refused) thr_text_printf(t, "%d of %d turns by closed form, whose error is not known:\n", e->refused, turns_of(p));
   put_reason(t, e->refused_sharp, sharp);
   put_reason(t, e->refused_unsettled, "the cord did not slide steadily; try a smaller --time-step or more --iterations");

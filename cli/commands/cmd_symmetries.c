@@ -58,15 +58,10 @@ typedef struct {
   bool json;
 } arguments;
 
-static const char *joint_name(int i)
-{
-  return thr_joint_name((thr_joint)i);
-}
-
 static bool parse_joint(const char *value, thr_joint *joint)
 {
   int i = 0;
-  bool ok = cli_choose("symmetries", "--joint", value, joint_name, 2, &i);
+  bool ok = cli_choose("symmetries", "--joint", value, thr_joint_name, 2, &i);
   *joint = (thr_joint)i;
   return ok;
 }

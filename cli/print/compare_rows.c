@@ -1,6 +1,7 @@
 /* The rows of `thread compare`. */
 #include "cli/print/compare_rows.h"
 #include "cli/print/turning_summary.h"
+#include "graph/angle.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -31,15 +32,15 @@ static double gap_percent(const compare_entry *e)
 }
 static double turning(const compare_entry *e)
 {
-  return cli_degrees(e->plan.metrics.turning);
+  return thr_degrees(e->plan.metrics.turning);
 }
 static double max_turning(const compare_entry *e)
 {
-  return cli_degrees(e->plan.metrics.max_turning);
+  return thr_degrees(e->plan.metrics.max_turning);
 }
 static double worst_turn(const compare_entry *e)
 {
-  return cli_degrees(e->plan.metrics.worst_turn);
+  return thr_degrees(e->plan.metrics.worst_turn);
 }
 /* A price of turns bounds their angles only where it is the angle. */
 static const thr_turning_claim *angle_claim(const compare_entry *e)
@@ -48,7 +49,7 @@ static const thr_turning_claim *angle_claim(const compare_entry *e)
 }
 static double turning_bound(const compare_entry *e)
 {
-  return angle_claim(e) ? cli_degrees(angle_claim(e)->lower_bound) : NAN;
+  return angle_claim(e) ? thr_degrees(angle_claim(e)->lower_bound) : NAN;
 }
 static double turning_gap(const compare_entry *e)
 {
@@ -56,11 +57,11 @@ static double turning_gap(const compare_entry *e)
 }
 static double pairing_bound(const compare_entry *e)
 {
-  return angle_claim(e) ? cli_degrees(angle_claim(e)->pairing_bound) : NAN;
+  return angle_claim(e) ? thr_degrees(angle_claim(e)->pairing_bound) : NAN;
 }
 static double largest_bound(const compare_entry *e)
 {
-  return angle_claim(e) ? cli_degrees(angle_claim(e)->largest_bound) : NAN;
+  return angle_claim(e) ? thr_degrees(angle_claim(e)->largest_bound) : NAN;
 }
 static double capstan(const compare_entry *e)
 {
@@ -120,7 +121,7 @@ static double taut_turning(const compare_entry *e)
   double sum = 0;
   for (int i = 0; i < r->n_cords; i++)
     sum += r->cord[i].taut_turning;
-  return is_known(e, THR_JOINT) ? cli_degrees(sum) : NAN;
+  return is_known(e, THR_JOINT) ? thr_degrees(sum) : NAN;
 }
 static double holding(const compare_entry *e)
 {

@@ -4,6 +4,7 @@
 #include "graph/framework/frame.h"
 #include "graph/plan/request.h"
 #include "graph/status.h"
+#include "graph/angle.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -42,8 +43,8 @@ static void put_cord(thr_text *t, const thr_plan *p, const thr_cord *c, double p
   const cord_turns x = turns_of(p, c);
   const char *from = p->frame.name[thr_cord_start(&p->frame, c)], *to = p->frame.name[thr_cord_end(&p->frame, c)];
   char factor[24];
-  thr_text_printf(t, "%-5s %7d %14.3f %6.0f deg ", c->id, c->n_passes, thr_cord_length(&p->frame, c), cli_degrees(x.turning));
-  if (turns_least(p)) thr_text_printf(t, "%6.0f deg ", cli_degrees(x.sharpest));
+  thr_text_printf(t, "%-5s %7d %14.3f %6.0f deg ", c->id, c->n_passes, thr_cord_length(&p->frame, c), thr_degrees(x.turning));
+  if (turns_least(p)) thr_text_printf(t, "%6.0f deg ", thr_degrees(x.sharpest));
   thr_text_printf(t, "%8d ", x.u_turns);
   if (turns_least(p)) thr_text_printf(t, "%12s ", turning_factor(turning_capstan(p->options.physics.mu, x.turning), factor));
   thr_text_printf(t, "%12s", turning_factor(pull, factor));

@@ -1,6 +1,7 @@
 /* Groups and copies in words and in JSON. */
 #include "cli/print/symmetry_table.h"
 #include "cli/print/turning_summary.h"
+#include "graph/angle.h"
 #include "symmetry/group/automorphisms.h"
 #include "symmetry/group/isometry.h"
 
@@ -109,7 +110,7 @@ static void put_row(thr_text *t, const thr_plan_options *o, const thr_symmetries
   if (row->n_cords > 0) {
     copies_of(row, copies);
     thr_text_printf(t, "%7.1f %% %11s %8.6g %6d %8.0f deg %8.0f deg %12s %11s", 100 * m->overlap / m->base_length, copies,
-                    row->record.steps, row->n_cords, cli_degrees(m->turning), cli_degrees(m->max_turning),
+                    row->record.steps, row->n_cords, thr_degrees(m->turning), thr_degrees(m->max_turning),
                     turning_factor(turning_capstan(o->physics.mu, m->max_turning), factor), solvers_word(o, row));
   } else {
     bool open = row->why.code == THR_ELIMIT || row->why.code == THR_ESOLVER;
@@ -241,7 +242,7 @@ static void put_threading_json(thr_writer *w, const thr_plan_options *o, const t
   thr_write_number(w, "max_capstan", turning_capstan(o->physics.mu, m->max_turning));
   thr_write_object(w, "bound");
   for (int a = 0; a < THR_N_AIMS; a++)
-    thr_write_number(w, thr_aim_name((thr_aim)a), row->bound[a]);
+    thr_write_number(w, thr_aim_name(a), row->bound[a]);
   thr_write_close(w);
 }
 

@@ -6,6 +6,7 @@
 #include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
 #include "planner/turning.h"
+#include "graph/angle.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -138,7 +139,7 @@ static figures figures_of_bound(const thr_plan *p, const thr_rivals *r)
 static void put_price(thr_text *t, const thr_plan *p, double price)
 {
   if (in_angles(p))
-    thr_text_printf(t, "%.3f deg", cli_degrees(price));
+    thr_text_printf(t, "%.3f deg", thr_degrees(price));
   else
     thr_text_printf(t, "%.6g (%s)", price, thr_turn_cost_name(p->options.turning.cost));
 }
@@ -229,7 +230,7 @@ static void put_tour_status(thr_text *t, const thr_plan *p, const thr_rivals *r)
 void turning_put_status(thr_text *t, const thr_plan *p, const thr_rivals *r)
 {
   const thr_turning_claim *c = &p->turning;
-  thr_text_printf(t, "turning  %.3f deg", cli_degrees(p->metrics.turning));
+  thr_text_printf(t, "turning  %.3f deg", thr_degrees(p->metrics.turning));
   if (!in_angles(p)) {
     thr_text_append(t, ", price ");
     put_price(t, p, price_of(p, p));
@@ -269,7 +270,7 @@ static void put_cell(thr_text *t, format kind, double value)
              : kind == FORMAT_ANGLE   ? 1
                                       : 0,
              kind == FORMAT_PERCENT ? 100 * value
-             : kind == FORMAT_ANGLE ? cli_degrees(value)
+             : kind == FORMAT_ANGLE ? thr_degrees(value)
                                     : value);
   thr_text_printf(t, " %18s", cell);
 }
@@ -337,13 +338,13 @@ void turning_put_frontier(thr_text *t, const thr_plan *p, const thr_rivals *r)
     const thr_frontier_point *q = &f->point[i];
     char factor[24];
     thr_text_printf(t, "%14.3f %14.2f %% %9.1f deg", q->length, 100 * fmax(0, q->length / p->proof.lower_bound - 1),
-                    cli_degrees(q->turning));
+                    thr_degrees(q->turning));
     if (angles)
-      thr_text_printf(t, " %9.1f deg", cli_degrees(q->lower_bound));
+      thr_text_printf(t, " %9.1f deg", thr_degrees(q->lower_bound));
     else
       thr_text_printf(t, " %13.6g %13.6g", q->price, q->lower_bound);
     thr_text_printf(t, " %7.3g %% %9.1f deg %12s%s\n",
-                    !q->open || q->price <= 0 ? 0 : 100 * fmax(0, 1 - q->lower_bound / q->price), cli_degrees(q->max_turning),
+                    !q->open || q->price <= 0 ? 0 : 100 * fmax(0, 1 - q->lower_bound / q->price), thr_degrees(q->max_turning),
                     turning_factor(turning_capstan(p->options.physics.mu, q->max_turning), factor), q->open ? "  *" : "");
     proved &= !q->open;
   }

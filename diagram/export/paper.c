@@ -60,7 +60,7 @@ struct thr_paper {
   double width, height; /* pt */
 };
 
-const char *thr_page_name(thr_page_size s)
+const char *thr_page_name(int s)
 {
   static const char *const name[] = {"a4", "letter"};
   return name[s];

@@ -8,7 +8,7 @@
 
 typedef enum { THR_PAGE_A4, THR_PAGE_LETTER, THR_N_PAGES } thr_page_size;
 
-const char *thr_page_name(thr_page_size s);        /* "a4", "letter" */
+const char *thr_page_name(int s);                  /* "a4", "letter" */
 void thr_page_mm(thr_page_size s, double size[2]); /* width and height, upright, mm */
 
 typedef struct thr_paper thr_paper;

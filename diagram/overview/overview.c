@@ -18,7 +18,7 @@ thr_overview_options thr_overview_options_default(void)
   return (thr_overview_options){.title = NULL, .pitch_mm = 0, .layout = NULL, .colour = THR_COLOUR_CORD, .motion = NULL};
 }
 
-const char *thr_overview_colour_name(thr_overview_colour c)
+const char *thr_overview_colour_name(int c)
 {
   static const char *const name[] = {"cord", "tension", "turning"};
   return name[c];

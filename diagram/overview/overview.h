@@ -9,7 +9,7 @@
 
 typedef enum { THR_COLOUR_CORD, THR_COLOUR_TENSION, THR_COLOUR_TURNING, THR_N_COLOURS } thr_overview_colour;
 
-const char *thr_overview_colour_name(thr_overview_colour c); /* "cord", "tension", "turning" */
+const char *thr_overview_colour_name(int c); /* "cord", "tension", "turning" */
 
 typedef struct {
   const char *title;          /* NULL or "": "Cord A: 84 beads, 86 passes"; borrowed */

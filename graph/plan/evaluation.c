@@ -13,12 +13,12 @@ static const char *const method_name[] = {"capstan", "joint", "structure"};
 static const char *const law_name[] = {"capstan", "mitre"};
 static const char *const pull_name[] = {"start", "end", "both"};
 
-const char *thr_method_name(thr_method m)
+const char *thr_method_name(int m)
 {
   return method_name[m];
 }
 
-const char *thr_law_name(thr_law l)
+const char *thr_law_name(int l)
 {
   return law_name[l];
 }

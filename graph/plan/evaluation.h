@@ -45,9 +45,9 @@ typedef struct {
   double total;                 /* N: sum over all pulled ends */
 } thr_evaluation;
 
-const char *thr_method_name(thr_method m); /* "capstan", "joint", "structure" */
-const char *thr_law_name(thr_law l);       /* "capstan", "mitre" */
-const char *thr_pull_name(thr_pull p);     /* "start", "end", "both" */
+const char *thr_method_name(int m);    /* "capstan", "joint", "structure" */
+const char *thr_law_name(int l);       /* "capstan", "mitre" */
+const char *thr_pull_name(thr_pull p); /* "start", "end", "both" */
 
 /* Largest and total from the cords; those that are not known count as 0. */
 void thr_evaluation_sum(thr_evaluation *e);

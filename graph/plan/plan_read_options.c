@@ -11,47 +11,6 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *objective_name(int i)
-{
-  return thr_objective_name((thr_objective)i);
-}
-static const char *ends_name(int i)
-{
-  return thr_ends_name((thr_ends)i);
-}
-static const char *cost_name(int i)
-{
-  return thr_turn_cost_name((thr_turn_cost)i);
-}
-static const char *tour_name(int i)
-{
-  return thr_tour_name((thr_tour)i);
-}
-static const char *prefer_name(int i)
-{
-  return thr_aim_name((thr_aim)i);
-}
-static const char *joint_name(int i)
-{
-  return thr_joint_name((thr_joint)i);
-}
-static const char *engine_name(int i)
-{
-  return thr_engine_name((thr_engine)i);
-}
-static const char *confirm_name(int i)
-{
-  return thr_confirm_name((thr_confirm)i);
-}
-static const char *minimize_name(int i)
-{
-  return thr_aim_name(i ? THR_AIM_MAX_TURNING : THR_AIM_TURNING);
-}
-static const char *pairings_name(int i)
-{
-  return i ? "ignore" : "keep";
-}
-
 static thr_status read_turning_options(const thr_field_reader *r, const thr_json *o, thr_plan_options *out)
 {
   thr_turning_options *t = &out->turning;
@@ -60,11 +19,11 @@ static thr_status read_turning_options(const thr_field_reader *r, const thr_json
   int cost, aim, tour, pairings;
   thr_status st = thr_field_need(r, o, "turning", THR_JSON_OBJECT, &v);
   if (!st) st = thr_field_only(r, v, "options.turning", known);
-  if (!st) st = thr_field_name(r, v, "options.turning", "cost", THR_N_TURN_COSTS, cost_name, &cost);
+  if (!st) st = thr_field_name(r, v, "options.turning", "cost", THR_N_TURN_COSTS, thr_turn_cost_name, &cost);
   if (!st) st = thr_field_or_null(r, v, "length_slack", &t->length_slack);
-  if (!st) st = thr_field_name(r, v, "options.turning", "minimize", 2, minimize_name, &aim);
-  if (!st) st = thr_field_name(r, v, "options.turning", "tour", THR_N_TOURS, tour_name, &tour);
-  if (!st) st = thr_field_name(r, v, "options.turning", "pairings", 2, pairings_name, &pairings);
+  if (!st) st = thr_field_name(r, v, "options.turning", "minimize", 2, thr_minimize_name, &aim);
+  if (!st) st = thr_field_name(r, v, "options.turning", "tour", THR_N_TOURS, thr_tour_name, &tour);
+  if (!st) st = thr_field_name(r, v, "options.turning", "pairings", 2, thr_pairings_name, &pairings);
   if (st) return st;
   t->cost = (thr_turn_cost)cost;
   out->aims = (thr_aims){1, {aim == 1 ? THR_AIM_MAX_TURNING : THR_AIM_TURNING}};
@@ -81,7 +40,7 @@ static thr_status read_prefer(const thr_field_reader *r, const thr_json *o, thr_
   thr_status st = thr_field_need(r, o, "prefer", THR_JSON_ARRAY, &list);
   if (!st && thr_json_size(list) != THR_N_AIMS) return thr_field_bad(r, "options.symmetry.prefer", "not four aims");
   for (int i = 0, aim = 0; i < THR_N_AIMS && !st; i++) {
-    st = thr_field_name_of(r, thr_json_at(list, i), "options.symmetry", "prefer", THR_N_AIMS, prefer_name, &aim);
+    st = thr_field_name_of(r, thr_json_at(list, i), "options.symmetry", "prefer", THR_N_AIMS, thr_aim_name, &aim);
     if (!st && named[aim]) return thr_field_bad(r, "options.symmetry.prefer", "names one aim twice");
     named[aim] = true;
     prefer[i] = (thr_aim)aim;
@@ -115,11 +74,11 @@ static thr_status read_objective(const thr_field_reader *r, const thr_json *v, t
   const char *known[] = {"objective", "joint",      "cover",      "capacity", "cords",  "max_length", "balance", "ends",
                          "end_nodes", "end_counts", "time_limit", "physics",  "engine", NULL,         NULL};
   int objective, joint;
-  thr_status st = thr_field_name(r, v, "options", "objective", THR_N_OBJECTIVES, objective_name, &objective);
+  thr_status st = thr_field_name(r, v, "options", "objective", THR_N_OBJECTIVES, thr_objective_name, &objective);
   if (st) return st;
   known[sizeof known / sizeof *known - 2] = own[objective];
   if ((st = thr_field_only(r, v, "options", known))) return st;
-  if ((st = thr_field_name(r, v, "options", "joint", 2, joint_name, &joint))) return st;
+  if ((st = thr_field_name(r, v, "options", "joint", 2, thr_joint_name, &joint))) return st;
   o->joint = (thr_joint)joint;
   if (objective == THR_TORTUOSITY) return read_turning_options(r, v, o);
   return objective == THR_SYMMETRY ? read_symmetry_options(r, v, o) : THR_OK;
@@ -168,8 +127,8 @@ static thr_status read_means(const thr_field_reader *r, const thr_json *v, thr_p
 {
   int engine = THR_ENGINE_AUTO, confirm = THR_CONFIRM_AUTO;
   thr_status st = thr_field_double(r, v, "time_limit", &o->time_limit);
-  if (!st && thr_json_get(v, "engine")) st = thr_field_name(r, v, "options", "engine", 3, engine_name, &engine);
-  if (!st && thr_json_get(v, "confirm")) st = thr_field_name(r, v, "options", "confirm", 3, confirm_name, &confirm);
+  if (!st && thr_json_get(v, "engine")) st = thr_field_name(r, v, "options", "engine", 3, thr_engine_name, &engine);
+  if (!st && thr_json_get(v, "confirm")) st = thr_field_name(r, v, "options", "confirm", 3, thr_confirm_name, &confirm);
   o->engine = (thr_engine)engine;
   o->confirm = (thr_confirm)confirm;
   return st;
@@ -222,7 +181,7 @@ thr_status thr_plan_read_options(const thr_field_reader *r, const thr_json *doc,
   snprintf(place, sizeof place, "%.200s: options.physics", r->name);
   if ((st = thr_physics_from_json(&o->physics, thr_json_get(v, "physics"), place, r->err))) return st;
   if ((st = read_means(r, v, o))) return st;
-  if ((st = thr_field_name(r, v, "options", "ends", THR_ENDS_COUNTS + 1, ends_name, &kind))) return st;
+  if ((st = thr_field_name(r, v, "options", "ends", THR_ENDS_COUNTS + 1, thr_ends_name, &kind))) return st;
   o->ends = (thr_ends)kind;
   if (thr_json_get(v, "end_nodes") && o->ends != THR_ENDS_NODES)
     return thr_field_bad(r, "options.end_nodes", "only with ends `nodes`");

@@ -118,9 +118,9 @@ static void put_turning_options(thr_writer *w, const thr_plan_options *asked)
   thr_write_object(w, "turning");
   thr_write_string(w, "cost", thr_turn_cost_name(o->cost));
   put_or_null(w, "length_slack", o->length_slack);
-  thr_write_string(w, "minimize", thr_aim_name(thr_wants_largest(asked) ? THR_AIM_MAX_TURNING : THR_AIM_TURNING));
+  thr_write_string(w, "minimize", thr_minimize_name(thr_wants_largest(asked)));
   thr_write_string(w, "tour", thr_tour_name(o->tour));
-  thr_write_string(w, "pairings", o->ignore_pairings ? "ignore" : "keep");
+  thr_write_string(w, "pairings", thr_pairings_name(o->ignore_pairings));
   thr_write_close(w);
   thr_write_line(w, 2);
 }

@@ -101,7 +101,7 @@ static bool read_slack(const char *text, double *slack)
 static bool read_cost(const char *name, thr_turn_cost *cost)
 {
   for (int i = 0; i < THR_N_TURN_COSTS; i++)
-    if (strcmp(thr_turn_cost_name((thr_turn_cost)i), name) == 0) {
+    if (strcmp(thr_turn_cost_name(i), name) == 0) {
       *cost = (thr_turn_cost)i;
       return true;
     }
@@ -114,7 +114,7 @@ static thr_status read_aim(char *word, list *l, thr_err *err)
   char *more = strpbrk(word, "+:"), mark = more ? *more : '\0';
   int aim = 0;
   if (more) *more++ = '\0';
-  while (aim < THR_ALL_AIMS && strcmp(word, thr_aim_name((thr_aim)aim)) != 0)
+  while (aim < THR_ALL_AIMS && strcmp(word, thr_aim_name(aim)) != 0)
     aim++;
   if (aim == THR_ALL_AIMS)
     return thr_fail(err, THR_EINPUT, "\"%s\" is no aim; there are length, longest, turning, max-turning, overlap, steps, paths",
@@ -240,42 +240,52 @@ void thr_aims_write(const thr_plan_options *o, thr_text *out)
 
 /* ---- names ---- */
 
-const char *thr_objective_name(thr_objective o)
+const char *thr_objective_name(int o)
 {
   static const char *const name[] = {"length", "tortuosity", "symmetry"};
   return name[o];
 }
 
-const char *thr_tour_name(thr_tour t)
+const char *thr_tour_name(int t)
 {
   static const char *const name[] = {"least", "fleury", "hierholzer"};
   return name[t];
 }
 
-const char *thr_aim_name(thr_aim a)
+const char *thr_aim_name(int a)
 {
   static const char *const name[] = {"overlap", "steps", "paths", "turning", "length", "longest", "max-turning"};
   return name[a];
 }
 
-const char *thr_ends_name(thr_ends e)
+const char *thr_minimize_name(int largest)
+{
+  return thr_aim_name(largest ? THR_AIM_MAX_TURNING : THR_AIM_TURNING);
+}
+
+const char *thr_pairings_name(int ignore)
+{
+  return ignore ? "ignore" : "keep";
+}
+
+const char *thr_ends_name(int e)
 {
   static const char *const name[] = {"closed", "any", "feet", "nodes", "counts"};
   return name[e];
 }
 
-const char *thr_joint_name(thr_joint j)
+const char *thr_joint_name(int j)
 {
   return j == THR_JOINT_TUBE ? "tube" : "solid";
 }
 
-const char *thr_engine_name(thr_engine e)
+const char *thr_engine_name(int e)
 {
   static const char *const name[] = {[THR_ENGINE_AUTO] = "auto", [THR_ENGINE_LP] = "lp", [THR_ENGINE_MATCHING] = "matching"};
   return name[e];
 }
 
-const char *thr_confirm_name(thr_confirm c)
+const char *thr_confirm_name(int c)
 {
   static const char *const name[] = {[THR_CONFIRM_AUTO] = "auto", [THR_CONFIRM_ALWAYS] = "always", [THR_CONFIRM_NEVER] = "never"};
   return name[c];

@@ -132,14 +132,17 @@ void thr_aims_write(const thr_plan_options *o, thr_text *out);
 
 /* ---- the rest ---- */
 
-/* "length", "tortuosity", "symmetry"; "least", "fleury", "hierholzer"; "overlap", "steps", .. */
-const char *thr_objective_name(thr_objective o);
-const char *thr_tour_name(thr_tour t);
-const char *thr_aim_name(thr_aim a);
-const char *thr_ends_name(thr_ends e);       /* "closed", "any", "feet", "nodes", "counts" */
-const char *thr_joint_name(thr_joint j);     /* "solid", "tube" */
-const char *thr_engine_name(thr_engine e);   /* "auto", "lp", "matching" */
-const char *thr_confirm_name(thr_confirm c); /* "auto", "always", "never" */
+/* What options and plans call the values of an enumeration, or of a yes or no:
+ * "length", "tortuosity", "symmetry"; "least", "fleury", "hierholzer"; "overlap", "steps", .. */
+const char *thr_objective_name(int o);
+const char *thr_tour_name(int t);
+const char *thr_aim_name(int a);
+const char *thr_minimize_name(int largest); /* "turning", "max-turning" */
+const char *thr_pairings_name(int ignore);  /* "keep", "ignore" */
+const char *thr_ends_name(int e);           /* "closed", "any", "feet", "nodes", "counts" */
+const char *thr_joint_name(int j);          /* "solid", "tube" */
+const char *thr_engine_name(int e);         /* "auto", "lp", "matching" */
+const char *thr_confirm_name(int c);        /* "auto", "always", "never" */
 
 /* Is the cord within the asked part above the least length (options.turning.length_slack), by this lower bound on that? True
  * where none was asked for. */

@@ -12,7 +12,7 @@
 
 /* ---- prices ---- */
 
-const char *thr_turn_cost_name(thr_turn_cost cost)
+const char *thr_turn_cost_name(int cost)
 {
   static const char *const name[] = {"angle", "sine", "step"};
   return name[cost];

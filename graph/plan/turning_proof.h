@@ -37,7 +37,7 @@ typedef enum {
 
 enum { THR_N_TURN_COSTS = THR_TURN_STEP + 1 };
 
-const char *thr_turn_cost_name(thr_turn_cost cost); /* "angle", "sine", "step" */
+const char *thr_turn_cost_name(int cost); /* "angle", "sine", "step" */
 double thr_turn_cost_of(thr_turn_cost cost, double angle);
 
 /* Price of arriving over half-edge in and leaving over half-edge out. For steps only this: angles near 90 degrees may round to

@@ -580,8 +580,7 @@ static void compare_with_exhaustion(const example *t, const thr_frame *f, const 
   for (int a = 0; a < THR_N_AIMS && !st; a++)
     ck_assert_msg(fabs(c.value[a] - x.best[a]) < 1e-4 && fabs(c.bound[a] - c.value[a]) < 1e-4,
                   "%s, order %d, ends %s, cover %d%s: %s %g, bound %g, by exhaustion %g", t->name, h->order,
-                  thr_ends_name(o->ends), o->cover, o->tube ? ", tied" : "", thr_aim_name((thr_aim)a), c.value[a], c.bound[a],
-                  x.best[a]);
+                  thr_ends_name(o->ends), o->cover, o->tube ? ", tied" : "", thr_aim_name(a), c.value[a], c.bound[a], x.best[a]);
   if (!st && o->tube) check_ties(&q, o, &c);
   if (!st) {
     check_turning_bounds(&q, o, &c, false, n);

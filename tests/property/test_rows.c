@@ -34,8 +34,8 @@ static void check_bounds(const thr_symmetry_row *row)
                                   [THR_AIM_TURNING] = row->metrics.turning};
   for (int a = 0; a < THR_N_AIMS; a++) {
     double rounding = 1e-5 * fmax(1, has[a]);
-    ck_assert_msg(has[a] >= row->bound[a] - rounding, "order %d, %s: %g, but at least %g", row->order, thr_aim_name((thr_aim)a),
-                  has[a], row->bound[a]);
+    ck_assert_msg(has[a] >= row->bound[a] - rounding, "order %d, %s: %g, but at least %g", row->order, thr_aim_name(a), has[a],
+                  row->bound[a]);
     ck_assert(row->why.code || has[a] <= row->bound[a] + rounding);
   }
 }
