@@ -22,6 +22,7 @@ thr_planner *thr_dispatch(const thr_plan_options *o);
 /* Steps of a plan that have a part of the time to themselves, of what is left when their turn comes. */
 typedef enum {
   THR_STEP_FIRST,          /* some cords, before the search has any */
+  THR_STEP_TIED,           /* the shortest tied cords, and their proof; the rest is for their lengths one by one */
   THR_STEP_SEED,           /* symmetric cords that the largest turning may begin with */
   THR_STEP_SHORTEST,       /* with tube joints, the shortest cords: where the search for the least turning begins */
   THR_STEP_BY_LENGTH,      /* cords of the least length where the shortest passes may not hold them */

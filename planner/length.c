@@ -1,4 +1,7 @@
-/* Plans of the least length: of solid joints lp/ makes them, of tube joints tortuosity/tie, since what ties a node are turns. */
+/* Plans of the least length, component by component: of solid joints lp/ makes them, of tube joints tortuosity/tie, since what
+ * ties a node are turns. */
+#include "graph/check/check.h"
+#include "graph/framework/components.h"
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/junction.h"
@@ -12,12 +15,159 @@
 #include "tortuosity/tie/tube.h"
 #include "tortuosity/tie/tube_cords.h"
 
+#include <stdlib.h>
+
+typedef thr_status component_planner(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
+                                     thr_cords_word *word, thr_err *err);
+
+/* ---- several components ---- */
+
+/* One component by itself, in its part of the time: it may need more cords than another, or hold fewer. */
+static thr_status plan_component(const thr_components *c, int k, component_planner *one, const thr_limits *limits, thr_plan *made,
+                                 thr_cords_word *all, thr_err *err)
+{
+  thr_plan asked;
+  thr_cords_word word = {0};
+  thr_err why = {0};
+  thr_status st = thr_component_take(c, k, &asked, err);
+  if (st) return st;
+  const int *first = c->first_edge;
+  thr_limits share = thr_limits_part(limits, (double)(first[k + 1] - first[k]) / (first[c->n] - first[k]));
+  share.found = NULL; /* cords of a component are no plan */
+  st = one(&asked.frame, &asked.options, &share, made, &word, &why);
+  thr_plan_destroy(&asked);
+  all->passes_least &= word.passes_least;
+  all->longest_least &= word.longest_least || made->cords_claim.longest_optimal;
+  return st && st != THR_ELIMIT ? thr_fail(err, st, "%s", why.text) : THR_OK;
+}
+
+/* The certificates of the components' plans, and how often GLPK agreed. */
+static thr_status take_certificates(const thr_components *c, thr_plan *made, thr_length_proof *proof, thr_err *err)
+{
+  *proof = (thr_length_proof){.present = true};
+  if (!(proof->certificate = thr_calloc((size_t)c->n, sizeof *proof->certificate))) return thr_nomem(err);
+  proof->n_certificates = c->n;
+  for (int k = 0; k < c->n; k++) {
+    thr_component_give_certificate(c, k, &made[k], &proof->certificate[k]);
+    proof->confirmed += made[k].proof.confirmed;
+    proof->unconfirmed += made[k].proof.unconfirmed;
+  }
+  return THR_OK;
+}
+
+/* Fills the cords of plan, which holds framework and options, and with solid joints its certificates. */
+static thr_status plan_components(component_planner *one, const thr_limits *limits, thr_plan *plan, thr_cords_word *word,
+                                  thr_err *err)
+{
+  thr_components c;
+  thr_status st = thr_components_init(&c, &plan->frame, &plan->options, err);
+  if (st) return st;
+  thr_plan *made = thr_calloc((size_t)c.n, sizeof *made);
+  if (!made) st = thr_nomem(err);
+  *word = (thr_cords_word){true, thr_wants_balance(&plan->options)};
+  for (int k = 0; k < c.n && !st; k++)
+    st = plan_component(&c, k, one, limits, &made[k], word, err);
+  if (!st) st = thr_components_join(&c, made, plan, err);
+  if (!st && plan->options.joint == THR_JOINT_SOLID) st = take_certificates(&c, made, &plan->proof, err);
+  for (int k = 0; made && k < c.n; k++)
+    thr_plan_destroy(&made[k]);
+  free(made);
+  thr_components_destroy(&c);
+  return st;
+}
+
+static thr_status count_components(const thr_frame *f, int *n, thr_err *err)
+{
+  int *component = thr_calloc((size_t)f->n_nodes, sizeof *component);
+  thr_status st = component ? thr_frame_components(f, component, n, err) : thr_nomem(err);
+  free(component);
+  return st;
+}
+
+/* ---- solid joints ---- */
+
+/* What the components' certificates prove of all cords together. */
+static thr_status prove_solid(thr_plan *plan, thr_err *err)
+{
+  const thr_frame *f = &plan->frame;
+  const thr_plan_options *o = &plan->options;
+  thr_length_proof *proof = &plan->proof;
+  thr_err found = {0};
+  thr_status st = thr_plan_measure(f, o, plan->cord, plan->n_cords, &plan->metrics, err);
+  if (st) return st;
+  st = thr_check_length_proof(f, o, plan->cord, plan->n_cords, proof->certificate, proof->n_certificates, &proof->optimal,
+                              &proof->lower_bound, &found);
+  if (!st)
+    st = thr_check_cords(f, o, plan->cord, plan->n_cords, proof->certificate, proof->n_certificates, &plan->cords_claim, &found);
+  proof->gap = (plan->metrics.length - proof->lower_bound) / plan->metrics.length;
+  return thr_check_own(st, &found, err);
+}
+
+/* One cord in each component is a problem that falls apart by itself. */
+static bool one_each(const thr_plan_options *o)
+{
+  return o->cords == 1 && o->max_length == 0 && o->ends != THR_ENDS_COUNTS;
+}
+
+static thr_status plan_solid(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
+                             thr_cords_word *word, thr_err *err)
+{
+  int n = 1;
+  thr_status st = one_each(o) ? THR_OK : count_components(f, &n, err);
+  if (st) return st;
+  if (n == 1) return thr_cords_plan(f, o, limits, plan, word, err);
+  st = thr_plan_request(plan, f, o, err);
+  if (!st) st = plan_components(thr_cords_plan, limits, plan, word, err);
+  if (!st) st = prove_solid(plan, err);
+  if (!st) return thr_cords_judge(plan, &(thr_err){0}, err);
+  thr_plan_destroy(plan);
+  return st;
+}
+
+/* ---- tube joints ---- */
+
+/* The proof of tied length is one for the whole framework. */
+static thr_status prove_tied(thr_tube *t, thr_plan *plan, thr_err *err)
+{
+  const thr_frame *f = &plan->frame;
+  const thr_plan_options *o = &plan->options;
+  thr_status st = thr_plan_measure(f, o, plan->cord, plan->n_cords, &plan->metrics, err);
+  if (!st) thr_tube_prove(t, plan->metrics.length, &plan->proof);
+  if (st || one_each(o)) return st;
+  return thr_check_tied_cords(f, o, plan->cord, plan->n_cords, &plan->proof.tied, &plan->cords_claim, err);
+}
+
+static thr_status plan_tied(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
+                            thr_cords_word *word, thr_err *err)
+{
+  thr_tube t = {0};
+  thr_err why = {0};
+  int n;
+  const thr_limits part = thr_wants_balance(o) || o->max_length > 0 ? thr_dispatch_share(limits, THR_STEP_TIED) : *limits;
+  thr_status proved = thr_tube_shortest(f, o, &part, &t, &why);
+  if (proved && proved != THR_ELIMIT) return thr_fail(err, proved, "%s", why.text);
+  thr_status st = thr_plan_request(plan, f, o, err);
+  if (!st) st = count_components(f, &n, err);
+  if (!st)
+    st = n > 1 && thr_tube_shares(o) ? plan_components(plan_tied, limits, plan, word, err)
+                                     : thr_tube_cords(&t, limits, plan, word, err);
+  if (!st) st = prove_tied(&t, plan, err);
+  thr_tube_destroy(&t);
+  if (!st) return thr_cords_judge(plan, &(thr_err){0}, err);
+  thr_plan_destroy(plan);
+  return st;
+}
+
+/* ---- the planner ---- */
+
 thr_status thr_planner_length(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
                               thr_report *report, thr_err *err)
 {
-  thr_cords_word *word = report ? &report->word : NULL;
-  if (o->joint == THR_JOINT_TUBE) return thr_tube_cords_plan(f, o, limits, plan, word, err);
-  return thr_cords_plan(f, o, limits, plan, word, err);
+  thr_cords_word word = {0};
+  *plan = (thr_plan){0};
+  thr_status st = (o->joint == THR_JOINT_TUBE ? plan_tied : plan_solid)(f, o, limits, plan, &word, err);
+  if (report) report->word = word;
+  return st;
 }
 
 void thr_planner_tell_first(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits)
@@ -31,7 +181,7 @@ void thr_planner_tell_first(const thr_frame *f, const thr_plan_options *o, const
   length.aims = thr_aims_shortest;
   length.confirm = THR_CONFIRM_NEVER;
   thr_status st = o->joint == THR_JOINT_TUBE ? thr_tube_some(f, &length, &share, &t, NULL)
-                                             : thr_cords_plan(f, &length, &share, &p, NULL, NULL);
+                                             : thr_planner_length(f, &length, &share, &p, NULL, NULL);
   if (!st || st == THR_ELIMIT) thr_limits_found(limits, t.cord ? t.cord : p.cord, t.cord ? t.n_cords : p.n_cords, NULL);
   thr_plan_destroy(&p);
   thr_tube_destroy(&t);

@@ -171,8 +171,7 @@ static thr_status judge(const thr_frame *f, const thr_plan_options *o, const thr
   l->proof = (thr_turning_proof){0};
   thr_status st = thr_check_turning(f, o, cord, n_cords, &claim, found, &text);
   found->tree = claim.tree;
-  if (st == THR_EVIOLATED) return thr_fail(err, THR_ESOLVER, "the plan does not pass its own check: %s", text.text);
-  return st ? thr_fail(err, st, "%s", text.text) : THR_OK;
+  return thr_check_own(st, &text, err);
 }
 
 /* Takes cords and proof of l, and the certificates or the proof of s. */

@@ -113,6 +113,15 @@ void want(thr_plan_options *o, const char *aims)
   o->turning = turning;
 }
 
+thr_status length_plan(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *p, thr_cords_word *word,
+                       thr_err *err)
+{
+  thr_report r = {0};
+  thr_status st = thr_planner_length(f, o, limits, p, &r, err);
+  if (word) *word = r.word;
+  return st;
+}
+
 /* ---- frameworks ---- */
 
 thr_frame frame_make(int n, const double (*xyz)[3], int m, const int (*edge)[2], const double *length, const int *feet)

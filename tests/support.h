@@ -6,6 +6,7 @@
 #include "graph/check/check.h"
 #include "graph/plan/plan.h"
 #include "lp/length/postman.h"
+#include "planner/planners.h"
 
 #include <check.h>
 #include <stdint.h>
@@ -54,6 +55,10 @@ void rng_shuffle(rng *r, int *a, int n);
 
 /* Asks for these aims, a list as thr_aims_parse reads; prices of turns and the slack of the length stay as they are. */
 void want(thr_plan_options *o, const char *aims);
+
+/* A plan of the least length, as the planner makes it. word: NULL = not wanted. */
+thr_status length_plan(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *p, thr_cords_word *word,
+                       thr_err *err);
 
 /* ---- frameworks ---- */
 

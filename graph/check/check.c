@@ -469,6 +469,12 @@ static thr_status check_names(const thr_plan *p, thr_err *err)
   return THR_OK;
 }
 
+thr_status thr_check_own(thr_status st, const thr_err *found, thr_err *err)
+{
+  if (st == THR_EVIOLATED) return thr_fail(err, THR_ESOLVER, "the plan does not pass its own check: %s", found->text);
+  return st ? thr_fail(err, st, "%s", found->text) : THR_OK;
+}
+
 thr_status thr_check_plan(const thr_plan *p, thr_err *err)
 {
   thr_check_walked w;

@@ -45,6 +45,10 @@ thr_status thr_check_length_of_passes(const thr_frame *f, const thr_plan_options
                                       const thr_certificate *certificate, int n_certificates, bool *optimal, double *lower_bound,
                                       thr_err *err) THR_MUST_CHECK;
 
+/* What the checker, which said found and returned st, means to whoever has just made what it looked at: a violation is a fault of
+ * the program, THR_ESOLVER. */
+thr_status thr_check_own(thr_status st, const thr_err *found, thr_err *err) THR_MUST_CHECK;
+
 /* Verifies the whole plan. THR_OK, or THR_EVIOLATED with the first violation: cord, pass, nodes or certificate, cut, edge. */
 thr_status thr_check_plan(const thr_plan *p, thr_err *err) THR_MUST_CHECK;
 

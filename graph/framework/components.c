@@ -161,31 +161,3 @@ void thr_component_give_certificate(const thr_components *p, int k, thr_plan *co
     for (int j = 0; j < c->cut[i].n_nodes; j++)
       c->cut[i].node[j] = p->node[p->first_node[k] + c->cut[i].node[j]];
 }
-
-static thr_status plan_all(const thr_components *p, thr_component_planner *one, void *user, thr_plan *made, thr_err *err)
-{
-  thr_status st = THR_OK;
-  for (int k = 0; k < p->n && !st; k++) {
-    thr_plan asked;
-    if ((st = thr_component_take(p, k, &asked, err))) return st;
-    st = one(user, p, k, &asked, &made[k], err);
-    thr_plan_destroy(&asked);
-  }
-  return st;
-}
-
-thr_status thr_components_plan(const thr_frame *f, const thr_plan_options *o, thr_component_planner *one, void *user,
-                               thr_plan *whole, thr_err *err)
-{
-  thr_components p;
-  thr_status st = thr_components_init(&p, f, o, err);
-  if (st) return st;
-  thr_plan *made = thr_calloc((size_t)p.n, sizeof *made);
-  st = made ? plan_all(&p, one, user, made, err) : thr_nomem(err);
-  if (!st) st = thr_components_join(&p, made, whole, err);
-  for (int k = 0; made && k < p.n; k++)
-    thr_plan_destroy(&made[k]);
-  free(made);
-  thr_components_destroy(&p);
-  return st;
-}

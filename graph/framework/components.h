@@ -29,13 +29,6 @@ thr_status thr_component_take(const thr_components *p, int k, thr_plan *out, thr
 /* Moves the cords of component[n], plans of all components, into those of the whole, which has none yet. */
 thr_status thr_components_join(const thr_components *p, thr_plan *component, thr_plan *whole, thr_err *err) THR_MUST_CHECK;
 
-/* Plans every component by itself, by one(user, k, asked, made, err), and puts the cords together in whole, which has none yet.
- * asked: what thr_component_take gives; one fills made, an empty plan, and returns no THR_ELIMIT. */
-typedef thr_status thr_component_planner(void *user, const thr_components *p, int k, const thr_plan *asked, thr_plan *made,
-                                         thr_err *err);
-thr_status thr_components_plan(const thr_frame *f, const thr_plan_options *o, thr_component_planner *one, void *user,
-                               thr_plan *whole, thr_err *err) THR_MUST_CHECK;
-
 /* Moves the certificate of a plan of component k, if it has one, into c. */
 void thr_component_give_certificate(const thr_components *p, int k, thr_plan *component, thr_certificate *c);
 

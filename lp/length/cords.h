@@ -17,7 +17,8 @@ typedef struct {
   bool longest_least; /* balance: with as many cords, no longest cord is shorter: the word of an integer programme */
 } thr_cords_word;
 
-/* Plans options.cords_least .. options.cords cords in every component (with THR_ENDS_COUNTS, as many as the counts say):
+/* Plans options.cords_least .. options.cords cords (with THR_ENDS_COUNTS, as many as the counts say) in a framework of one
+ * component, or one cord in each of several:
  * - usually the shortest passes of all, and the fewest cords through them, cut where they turn most;
  * - balance: the longest cord is made as short as the search finds, extra passes included;
  * - max_length: the fewest cords none of which is longer, as far as the search finds them.
@@ -26,7 +27,7 @@ typedef struct {
 thr_status thr_cords_plan(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
                           thr_cords_word *word, thr_err *err) THR_MUST_CHECK;
 
-/* ---- shared with tube joints (tortuosity/tie/tube_cords.c) ---- */
+/* ---- shared with tube joints, and with frameworks of several components (planner/length.c) ---- */
 
 /* THR_EINFEASIBLE, said: an edge that no cord within options.max_length can pass, coming from where it may end and going where it
  * may end. */

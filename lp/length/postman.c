@@ -1,5 +1,5 @@
 /* Framework -> T-join problems -> passes and certificates. */
-#include "lp/length/postman_parts.h"
+#include "lp/length/postman.h"
 #include "graph/check/check.h"
 #include "graph/disjoint.h"
 #include "lp/tjoin/endjoin.h"
@@ -314,14 +314,14 @@ static thr_status check_ends(const postman *m, thr_err *err)
   for (int k = 0; k < m->n_components && !st; k++) {
     const char *name = f->name[first[k]];
     if (ends[k] == 0)
-      st = thr_fail(
-          err, THR_EINFEASIBLE,
-          "component %d (the one with node %s) has no node where a cord may end; name one with --feet (try --feet lowest) "
-          "or --ends, or use --ends closed",
-          k + 1, name);
+      st = thr_fail(err, THR_EINFEASIBLE,
+                    "the component with node %s has no node where a cord may end; name one with --feet (try --feet lowest) or "
+                    "--ends, or use "
+                    "--ends closed",
+                    name);
     else if (m->o->ends == THR_ENDS_COUNTS && (ends[k] % 2 || ends[k] / 2 > m->o->cords || ends[k] / 2 < m->o->cords_least))
-      st = thr_fail(err, THR_EINFEASIBLE, "component %d (the one with node %s): %d cord ends do not make %d %s; each has two",
-                    k + 1, name, ends[k], m->o->cords, m->o->cords == 1 ? "cord" : "cords");
+      st = thr_fail(err, THR_EINFEASIBLE, "the component with node %s: %d cord ends do not make %d %s; each has two", name,
+                    ends[k], m->o->cords, m->o->cords == 1 ? "cord" : "cords");
   }
   free(ends);
   free(first);
@@ -442,12 +442,6 @@ static thr_status postman_init(postman *m, thr_err *err)
   return st;
 }
 
-thr_status thr_postman_own_check(thr_status st, const thr_err *found, thr_err *err)
-{
-  if (st == THR_EVIOLATED) return thr_fail(err, THR_ESOLVER, "the plan does not pass its own check: %s", found->text);
-  return st ? thr_fail(err, st, "%s", found->text) : THR_OK;
-}
-
 static thr_status judge(postman *m, thr_shortest *out, thr_err *err)
 {
   thr_err found = {0};
@@ -457,9 +451,9 @@ static thr_status judge(postman *m, thr_shortest *out, thr_err *err)
   m->certificate = NULL;
   for (int e = 0; e < m->f->n_edges; e++)
     out->length += out->passes[e] * m->f->length[e];
-  return thr_postman_own_check(thr_check_length_of_passes(m->f, m->o, out->passes, out->certificate, out->n_certificates,
-                                                          &out->optimal, &out->lower_bound, &found),
-                               &found, err);
+  return thr_check_own(thr_check_length_of_passes(m->f, m->o, out->passes, out->certificate, out->n_certificates, &out->optimal,
+                                                  &out->lower_bound, &found),
+                       &found, err);
 }
 
 thr_status thr_postman_shortest(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_shortest *out,

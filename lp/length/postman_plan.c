@@ -7,7 +7,6 @@
 #include "graph/status.h"
 #include "graph/threading/tour.h"
 #include "lp/length/postman.h"
-#include "lp/length/postman_parts.h"
 
 #include <stdlib.h>
 
@@ -46,9 +45,9 @@ thr_status thr_postman_prove(const thr_frame *f, const thr_plan_options *o, cons
   s->n_certificates = 0;
   for (int i = 0; i < n_cords; i++)
     length += thr_cord_length(f, &cord[i]);
-  st = thr_postman_own_check(thr_check_length_proof(f, o, cord, n_cords, proof->certificate, proof->n_certificates,
-                                                    &proof->optimal, &proof->lower_bound, &found),
-                             &found, err);
+  st = thr_check_own(thr_check_length_proof(f, o, cord, n_cords, proof->certificate, proof->n_certificates, &proof->optimal,
+                                            &proof->lower_bound, &found),
+                     &found, err);
   proof->gap = (length - proof->lower_bound) / length;
   return st;
 }

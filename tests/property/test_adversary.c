@@ -648,7 +648,7 @@ static bool plan_cords(const request *q, int cords, thr_plan *p)
   thr_limits limits = {.deadline = thr_clock() + 5};
   want(&o, "length");
   o.cords = o.cords_least = cords;
-  thr_status st = thr_cords_plan(&q->f, &o, &limits, p, NULL, NULL);
+  thr_status st = length_plan(&q->f, &o, &limits, p, NULL, NULL);
   return (st == THR_OK || st == THR_ELIMIT) && p->proof.present;
 }
 
@@ -662,7 +662,7 @@ static void find_witnesses(asked *a)
   want(&o, "longest");
   a->fewest = a->plan.n_cords;
   a->longest = longest_of(&a->plan);
-  thr_status st = thr_cords_plan(&a->q.f, &o, &limits, &p, NULL, NULL);
+  thr_status st = length_plan(&a->q.f, &o, &limits, &p, NULL, NULL);
   if (st && st != THR_ELIMIT) return;
   a->longest = fmin(a->longest, longest_of(&p));
   thr_plan_destroy(&p);

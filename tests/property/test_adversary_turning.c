@@ -168,8 +168,7 @@ static bool target_make(rng *r, target *t, bool tied)
   thr_limits limits = {.deadline = thr_clock() + 5};
   thr_status st = THR_EINFEASIBLE;
   if (o.ends != THR_ENDS_COUNTS || counts_fit(&f, t->end_count))
-    st = (tied ? thr_tube_cords_plan(&f, &o, &limits, &t->plan, NULL, &err)
-               : thr_tortuosity_plan(&f, &o, &limits, &t->plan, &err));
+    st = (tied ? length_plan(&f, &o, &limits, &t->plan, NULL, &err) : thr_tortuosity_plan(&f, &o, &limits, &t->plan, &err));
   thr_frame_destroy(&f);
   if (st && st != THR_ELIMIT) return false;
   if ((tied ? !t->plan.proof.present : !t->plan.turning.present) || thr_check_plan(&t->plan, NULL)) {
@@ -590,7 +589,7 @@ static bool claim_target_make(rng *r, target *t)
   want(&o, "length");
   o.turning.length_slack = -1;
   bool fits = o.ends != THR_ENDS_COUNTS && f.n_edges <= (pieces_of(&f) > 1 ? EDGES : TRUTH_TABLE_EDGES);
-  thr_status st = fits ? thr_cords_plan(&f, &o, &(thr_limits){0}, &t->plan, NULL, NULL) : THR_EINFEASIBLE;
+  thr_status st = fits ? length_plan(&f, &o, &(thr_limits){0}, &t->plan, NULL, NULL) : THR_EINFEASIBLE;
   thr_frame_destroy(&f);
   if (st && st != THR_ELIMIT) return false;
   thr_plan *p = &t->plan;
@@ -691,7 +690,7 @@ static bool tied_plan(const thr_frame *f, const thr_plan_options *o, int cords, 
   exactly.cords = exactly.cords_least = cords;
   want(&exactly, balance ? "longest" : "length");
   exactly.max_length = 0;
-  thr_status st = thr_tube_cords_plan(f, &exactly, &limits, p, NULL, NULL);
+  thr_status st = length_plan(f, &exactly, &limits, p, NULL, NULL);
   return st == THR_OK || st == THR_ELIMIT;
 }
 

@@ -239,7 +239,7 @@ static void compare(rng *r, instance *x, signed char *circuits, int *accepted)
   thr_err err = {0};
   const thr_plan_options *o = &x->o;
   double least = least_length(&x->f, o, circuits);
-  thr_status st = thr_cords_plan(&x->f, o, &(thr_limits){0}, &p, NULL, &err);
+  thr_status st = length_plan(&x->f, o, &(thr_limits){0}, &p, NULL, &err);
   if (st == THR_EINFEASIBLE) {
     ck_assert_msg(isinf(least), "%s, but %g will do", err.text, least);
     assert_one_line(&err, NULL);

@@ -114,7 +114,7 @@ START_TEST(two_cords_of_small_ones_are_even)
     want(&o, "longest");
     o.capacity = k % 4 ? 0 : o.cover + 1;
     double least = least_longest(&f, &o);
-    thr_status st = thr_cords_plan(&f, &o, &(thr_limits){0}, &p, &word, &err);
+    thr_status st = length_plan(&f, &o, &(thr_limits){0}, &p, &word, &err);
     if (st == THR_EINFEASIBLE) {
       ck_assert_msg(isinf(least), "%s, but %g will do", err.text, least);
       thr_frame_destroy(&f);
@@ -148,7 +148,7 @@ START_TEST(small_ones_need_as_few_cords_as_the_oracle)
     double longer = least_longest(&f, &o), shortest = one.metrics.length;
     o.max_length = k % 2 ? longer * 1.0001 : shortest * (0.9 + 0.2 * rng_unit(&r));
     int few = o.max_length >= shortest ? 1 : o.max_length >= longer ? 2 : 3;
-    thr_status st = thr_cords_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err);
+    thr_status st = length_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err);
     if (st == THR_EINFEASIBLE) {
       ck_assert_int_eq(few, 3);
     } else {
@@ -199,12 +199,12 @@ START_TEST(cords_of_grids_are_even)
   if (o.ends == THR_ENDS_FEET) o.cords = o.cords_least = 2 + _i % 3;
   thr_plan p, q;
   thr_err err = {0};
-  thr_status st = thr_cords_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err);
+  thr_status st = length_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err);
   ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", err.text);
   ck_assert_int_eq(p.n_cords, o.cords);
   assert_plan_sound(&p);
   ck_assert_double_le(longest_of(&p), 1.02 * p.metrics.length / o.cords);
-  st = thr_cords_plan(&f, &o, &(thr_limits){0}, &q, NULL, NULL);
+  st = length_plan(&f, &o, &(thr_limits){0}, &q, NULL, NULL);
   ck_assert(st == THR_OK || st == THR_ELIMIT);
   thr_text a = plan_text(&p), b = plan_text(&q);
   assert_same_text(&a, &b);
@@ -226,14 +226,14 @@ START_TEST(a_corridor_is_a_forced_detour)
   thr_err err = {0};
   o.cords = o.cords_least = 2;
   want(&o, "longest");
-  ck_assert_msg(thr_cords_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(length_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err) == THR_OK, "%s", err.text);
   ck_assert_double_eq_tol(longest_of(&p), 22, 1e-9);
   ck_assert(p.cords_claim.longest_optimal);
   thr_plan_destroy(&p);
   o = options_for(THR_ENDS_FEET, 1);
   o.cords = 1000;
   o.max_length = 21.5;
-  ck_assert_int_eq(thr_cords_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err), THR_EINFEASIBLE);
+  ck_assert_int_eq(length_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err), THR_EINFEASIBLE);
   assert_one_line(&err, "10 and 11");
   thr_frame_destroy(&f);
 }
@@ -251,7 +251,7 @@ START_TEST(detours_and_moved_ends_even_out)
   thr_err err = {0};
   o.cords = o.cords_least = 2;
   want(&o, "longest");
-  thr_status st = thr_cords_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err);
+  thr_status st = length_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err);
   ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", err.text);
   ck_assert_double_le(longest_of(&p), 29 + 1e-9);
   thr_plan_destroy(&p);
@@ -267,7 +267,7 @@ static void fail_everywhere(const thr_frame *f, const thr_plan_options *o)
     thr_plan p;
     thr_err err = {0};
     thr_alloc_fail_at(k);
-    thr_status st = thr_cords_plan(f, o, &(thr_limits){0}, &p, NULL, &err);
+    thr_status st = length_plan(f, o, &(thr_limits){0}, &p, NULL, &err);
     thr_alloc_fail_at(0);
     if (st == THR_OK || st == THR_ELIMIT) {
       ck_assert_int_gt(total_passes(&p), 0);

@@ -123,7 +123,7 @@ static void compare(const thr_frame *f, const thr_plan_options *o, tally *t)
   thr_plan p;
   thr_err err = {0};
   double least = least_by_enumeration(f, o, false, INFINITY);
-  thr_status st = thr_tube_plan(f, o, &none, &p, &err);
+  thr_status st = length_plan(f, o, &none, &p, NULL, &err);
   if (st == THR_EINFEASIBLE) {
     ck_assert_msg(isinf(least), "%s; but there is one of length %g", err.text, least);
     t->infeasible++;
@@ -245,7 +245,7 @@ static thr_plan shortest(const thr_frame *f, thr_ends ends, int cover)
   thr_plan p;
   thr_err err = {0};
   o.joint = THR_JOINT_TUBE;
-  thr_status st = thr_tube_plan(f, &o, &none, &p, &err);
+  thr_status st = length_plan(f, &o, &none, &p, NULL, &err);
   ck_assert_msg(st == THR_OK, "%s", err.text);
   assert_plan_sound(&p);
   return p;
@@ -304,14 +304,14 @@ START_TEST(what_cannot_be_tied_is_named)
   thr_plan p;
   thr_err err = {0};
   o.joint = THR_JOINT_TUBE;
-  ck_assert_int_eq(thr_tube_plan(&f, &o, &none, &p, &err), THR_EINFEASIBLE);
+  ck_assert_int_eq(length_plan(&f, &o, &none, &p, NULL, &err), THR_EINFEASIBLE);
   assert_one_line(&err, f.name[1]);
   o.ends = THR_ENDS_ANY; /* three ends at the leaves, two of one cord */
   err = (thr_err){0};
-  ck_assert_int_eq(thr_tube_plan(&f, &o, &none, &p, &err), THR_EINFEASIBLE);
+  ck_assert_int_eq(length_plan(&f, &o, &none, &p, NULL, &err), THR_EINFEASIBLE);
   assert_one_line(&err, "--cords");
   o.cords = 2;
-  ck_assert_int_eq(thr_tube_plan(&f, &o, &none, &p, &err), THR_OK);
+  ck_assert_int_eq(length_plan(&f, &o, &none, &p, NULL, &err), THR_OK);
   ck_assert_double_eq_tol(p.metrics.length, 4, 1e-9); /* one spoke twice */
   ck_assert_int_eq(p.n_cords, 2);
   thr_plan_destroy(&p);
@@ -321,7 +321,7 @@ START_TEST(what_cannot_be_tied_is_named)
   o.joint = THR_JOINT_TUBE;
   o.capacity = 1; /* three passes at a node, but four tie it */
   err = (thr_err){0};
-  ck_assert_int_eq(thr_tube_plan(&f, &o, &none, &p, &err), THR_EINFEASIBLE);
+  ck_assert_int_eq(length_plan(&f, &o, &none, &p, NULL, &err), THR_EINFEASIBLE);
   assert_one_line(&err, "room for 3 passes");
   thr_frame_destroy(&f);
 }
@@ -408,7 +408,7 @@ START_TEST(every_allocation_fails_once)
     thr_plan p = {0};
     thr_err err = {0};
     thr_alloc_fail_at(++k);
-    st = thr_wants_length(&o) ? thr_tube_plan(&f, &o, &none, &p, &err) : thr_tortuosity_plan(&f, &o, &none, &p, &err);
+    st = thr_wants_length(&o) ? length_plan(&f, &o, &none, &p, NULL, &err) : thr_tortuosity_plan(&f, &o, &none, &p, &err);
     thr_alloc_fail_at(0);
     ck_assert_msg(!st || st == THR_ENOMEM, "allocation %ld: status %d, %s", k, (int)st, err.text);
     ck_assert(!st || (!p.cord && !p.proof.tied.node));

@@ -275,7 +275,7 @@ static void compare_closed(const thr_frame *f, const thr_plan_options *o, tally 
   thr_err err = {0};
   all_shapes(&x, f, o);
   double best = least(&x, o->cords_least, true);
-  thr_status st = thr_tube_cords_plan(f, o, &(thr_limits){0}, &p, &word, &err);
+  thr_status st = length_plan(f, o, &(thr_limits){0}, &p, &word, &err);
   free(x.list);
   if (st == THR_EINFEASIBLE) {
     ck_assert_msg(isinf(best), "%s, but %g will do", err.text, best);
@@ -322,7 +322,7 @@ static void compare_even(const thr_frame *f, const thr_plan_options *o, tally *t
   thr_err err = {0};
   all_shapes(&x, f, o);
   double best = least(&x, o->cords, false);
-  thr_status st = thr_tube_cords_plan(f, o, &(thr_limits){0}, &p, &word, &err);
+  thr_status st = length_plan(f, o, &(thr_limits){0}, &p, &word, &err);
   free(x.list);
   if (st == THR_EINFEASIBLE) {
     ck_assert_msg(isinf(best), "%s, but %g will do", err.text, best);
@@ -377,7 +377,7 @@ static void compare_limited(const thr_frame *f, thr_plan_options *o, double part
   o->max_length = isinf(longest[0]) ? longest[1] * (0.9 + 0.2 * part) : longest[1] + (longest[0] * 1.05 - longest[1]) * part;
   if (part > 0.9) o->max_length = longest[1] * (1 + tolerance);
   int few = longest[0] <= o->max_length ? 1 : longest[1] <= o->max_length ? 2 : 3;
-  thr_status st = thr_tube_cords_plan(f, o, &(thr_limits){0}, &p, NULL, &err);
+  thr_status st = length_plan(f, o, &(thr_limits){0}, &p, NULL, &err);
   if (st == THR_EINFEASIBLE) {
     ck_assert_msg(few == 3, "%s, but %d will do", err.text, few);
     t->infeasible++;
@@ -423,14 +423,14 @@ START_TEST(a_ring_takes_a_round_for_every_cord)
   thr_err err = {0};
   o.joint = THR_JOINT_TUBE;
   o.cords = o.cords_least = 3;
-  thr_status st = thr_tube_cords_plan(&f, &o, &(thr_limits){0}, &p, &word, &err);
+  thr_status st = length_plan(&f, &o, &(thr_limits){0}, &p, &word, &err);
   ck_assert_msg(st == THR_ELIMIT && word.passes_least, "%s", err.text);
   ck_assert_double_eq_tol(p.metrics.length, 3 * thr_frame_total_length(&f), 1e-9);
   assert_plan_sound(&p);
   thr_plan_destroy(&p);
   o.capacity = 2;
   err = (thr_err){0};
-  ck_assert_int_eq(thr_tube_cords_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err), THR_EINFEASIBLE);
+  ck_assert_int_eq(length_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err), THR_EINFEASIBLE);
   assert_one_line(&err, "there are no 3 closed cords");
   thr_frame_destroy(&f);
 }
@@ -459,12 +459,12 @@ START_TEST(cords_of_grids_are_even)
   o.joint = THR_JOINT_TUBE;
   want(&o, "longest");
   o.cords = o.cords_least = 2 + _i % 3;
-  thr_status st = thr_tube_cords_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err);
+  thr_status st = length_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err);
   ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", err.text);
   ck_assert_int_eq(p.n_cords, o.cords);
   assert_plan_sound(&p);
   ck_assert_double_le(longest_of(&p), 1.02 * p.proof.lower_bound / o.cords);
-  st = thr_tube_cords_plan(&f, &o, &(thr_limits){0}, &q, NULL, NULL);
+  st = length_plan(&f, &o, &(thr_limits){0}, &q, NULL, NULL);
   ck_assert(st == THR_OK || st == THR_ELIMIT);
   thr_text a = plan_text(&p), b = plan_text(&q);
   assert_same_text(&a, &b);
@@ -487,7 +487,7 @@ START_TEST(cords_of_grids_keep_to_a_limit)
   o.joint = THR_JOINT_TUBE;
   o.cords = 1000;
   o.max_length = 0.7 * thr_frame_total_length(&f);
-  ck_assert_msg(thr_tube_cords_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(length_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err) == THR_OK, "%s", err.text);
   ck_assert_int_eq(p.n_cords, (int)ceil(p.proof.lower_bound / o.max_length));
   assert_plan_sound(&p);
   assert_lies_are_refused(&p);
@@ -508,7 +508,7 @@ START_TEST(pieces_have_cords_of_their_own)
   o.cords_least = _i < 2 ? 2 : 1;
   want(&o, _i < 2 ? "longest" : "length");
   o.max_length = _i < 2 ? 0 : 1.01 * thr_frame_total_length(&one);
-  thr_status st = thr_tube_cords_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err);
+  thr_status st = length_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err);
   ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", err.text);
   assert_plan_sound(&p);
   int cords[2] = {0};
@@ -544,7 +544,7 @@ START_TEST(every_allocation_may_fail)
     thr_plan p;
     thr_err err = {0};
     thr_alloc_fail_at(k);
-    st = thr_tube_cords_plan(f, &o, &(thr_limits){0}, &p, NULL, &err);
+    st = length_plan(f, &o, &(thr_limits){0}, &p, NULL, &err);
     thr_alloc_fail_at(0);
     ck_assert_msg(st == THR_OK || st == THR_ELIMIT || st == THR_ENOMEM, "allocation %ld: %s", k, err.text);
     ck_assert(st != THR_ENOMEM || (!p.cord && p.n_cords == 0 && !p.proof.tied.node));

@@ -56,9 +56,9 @@ static thr_status instance_init(instance *in, const thr_turning_columns *c, int 
   if (in->n_slots && !allowed)
     return thr_fail(
         err, THR_EINFEASIBLE,
-        "component %d (the one with node %s) has no node where a cord may end; name one with --feet (try --feet lowest) or "
-        "--ends, or use --ends closed",
-        k + 1, f->name[in->node[0]]);
+        "the component with node %s has no node where a cord may end; name one with --feet (try --feet lowest) or --ends, or use "
+        "--ends closed",
+        f->name[in->node[0]]);
   for (int e = 0; e < f->n_edges; e++)
     in->n_own += c->component[f->edge[e][0]] == k;
   size_t edges = (size_t)in->n_own + (size_t)in->n_slots * ((size_t)allowed + (size_t)in->n_slots);

@@ -39,8 +39,4 @@ void thr_tube_destroy(thr_tube *t);
 /* What the proof of t, which is moved, says of cords of this length. */
 void thr_tube_prove(thr_tube *t, double length, thr_length_proof *proof);
 
-/* The objective "length" with tube joints: thr_tube_cords_plan (tortuosity/tie/tube_cords.h) without a word. */
-thr_status thr_tube_plan(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
-                         thr_err *err) THR_MUST_CHECK;
-
 #endif
