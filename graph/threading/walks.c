@@ -169,37 +169,60 @@ thr_status thr_walk_rotate(thr_walk *w, int at, thr_err *err)
 
 /* ---- visits ---- */
 
-thr_status thr_walk_visits_init(thr_walk_visits *x, const thr_frame *f, const thr_walks *w, thr_err *err)
+static void list_walk(thr_walk_visits *x, int i)
 {
-  size_t n = 0;
-  for (int i = 0; i < w->n_walks; i++)
-    n += (size_t)w->walk[i].n;
-  *x = (thr_walk_visits){.first = thr_calloc((size_t)f->n_nodes, sizeof *x->first),
+  const thr_walk *w = &x->w[i];
+  double sum = 0;
+  for (int k = 0; k <= w->n; k++) {
+    int e = x->n++;
+    x->walk[e] = i;
+    x->at[e] = k;
+    x->sum[e] = sum;
+    x->next[e] = -1;
+    if (k < w->n) sum += x->f->length[w->half[k] >> 1];
+    if (k == w->n && w->cyclic) continue;
+    int *first = &x->first[thr_walk_node(x->f, w, k)];
+    x->next[e] = *first;
+    *first = e;
+  }
+}
+
+thr_status thr_walk_visits_init(thr_walk_visits *x, const thr_frame *f, const thr_walk *w, int n_walks, int *first, thr_err *err)
+{
+  size_t n = (size_t)n_walks, nodes = (size_t)f->n_nodes;
+  for (int i = 0; i < n_walks; i++)
+    n += (size_t)w[i].n;
+  *x = (thr_walk_visits){.f = f,
+                         .w = w,
+                         .first = first ? first : thr_calloc(nodes, sizeof *x->first),
                          .next = thr_calloc(n, sizeof *x->next),
                          .walk = thr_calloc(n, sizeof *x->walk),
-                         .at = thr_calloc(n, sizeof *x->at)};
-  if (!x->first || !x->next || !x->walk || !x->at) {
+                         .at = thr_calloc(n, sizeof *x->at),
+                         .sum = thr_calloc(n, sizeof *x->sum),
+                         .own = !first};
+  if (!x->first || !x->next || !x->walk || !x->at || !x->sum) {
     thr_walk_visits_destroy(x);
     return thr_nomem(err);
   }
-  memset(x->first, 0xff, (size_t)f->n_nodes * sizeof *x->first);
-  for (int i = 0; i < w->n_walks; i++)
-    for (int k = 0; k < w->walk[i].n; k++) {
-      int *first = &x->first[thr_tail(f, w->walk[i].half[k])];
-      x->next[x->n] = *first;
-      x->walk[x->n] = i;
-      x->at[x->n] = k;
-      *first = x->n++;
-    }
+  if (x->own) memset(x->first, 0xff, nodes * sizeof *x->first);
+  for (int i = 0; i < n_walks; i++)
+    list_walk(x, i);
   return THR_OK;
+}
+
+void thr_walk_visits_forget(const thr_walk_visits *x)
+{
+  for (int e = 0; e < x->n; e++)
+    x->first[thr_walk_node(x->f, &x->w[x->walk[e]], x->at[e])] = -1;
 }
 
 void thr_walk_visits_destroy(thr_walk_visits *x)
 {
-  free(x->first);
+  if (x->own) free(x->first);
   free(x->next);
   free(x->walk);
   free(x->at);
+  free(x->sum);
   *x = (thr_walk_visits){0};
 }
 

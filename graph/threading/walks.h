@@ -60,16 +60,25 @@ thr_status thr_walk_rotate(thr_walk *w, int at, thr_err *err) THR_MUST_CHECK;
 /* Price of going on from half-edge in with out: the turn in rad, and much more for a turn back. */
 double thr_walk_turn(const thr_frame *f, int in, int out);
 
-/* Where the walks of one component (all cyclic ones, or all) are at each node. */
+/* The visits that walks pay to nodes, walk by walk, at positions 0 .. n of each; the last position of a cyclic one is listed, but
+ * is no visit. */
 typedef struct {
-  int *first; /* [n_nodes] newest visit, -1 = none */
-  int *next;  /* [n] of the same node */
-  int *walk;  /* [n] */
-  int *at;    /* [n] its pass number */
+  const thr_frame *f;
+  const thr_walk *w; /* the first walk */
   int n;
+  int *first;  /* [n_nodes] newest visit, -1 = none */
+  int *next;   /* [n] visit before of the same node, -1 = none */
+  int *walk;   /* [n] */
+  int *at;     /* [n] its position */
+  double *sum; /* [n] length of the walk as far as there */
+  bool own;    /* first is owned */
 } thr_walk_visits;
 
-thr_status thr_walk_visits_init(thr_walk_visits *x, const thr_frame *f, const thr_walks *w, thr_err *err) THR_MUST_CHECK;
+/* Of walks w[0 .. n_walks - 1]. first: [n_nodes] of -1, borrowed and changed until thr_walk_visits_forget; NULL: one of its own.
+ * O(positions), and O(nodes) for one of its own. */
+thr_status thr_walk_visits_init(thr_walk_visits *x, const thr_frame *f, const thr_walk *w, int n_walks, int *first,
+                                thr_err *err) THR_MUST_CHECK;
+void thr_walk_visits_forget(const thr_walk_visits *x);
 void thr_walk_visits_destroy(thr_walk_visits *x);
 
 /* Moves the walks into cords cord[0 .. n_walks - 1] of component k, numbered from first on: open ones from their lower end,

@@ -146,25 +146,19 @@ static thr_status find_sections(thr_balance *b, thr_ways *x, int p, int q, detou
   for (int i = 0; i < w->n && !st; i++)
     st = thr_ways_start(x, thr_walk_node(f, w, i), err);
   if (!st) st = spread(b, x, 2, best->longer / 2, err);
-  double *sum = st ? NULL : thr_calloc((size_t)v->n + 1, sizeof *sum);
-  int *next = st ? NULL : thr_calloc((size_t)v->n + 1, sizeof *next);
-  if (!st && (!sum || !next)) st = thr_nomem(err);
-  for (int j = 0; j <= v->n && !st; j++) {
-    int node = thr_walk_node(f, v, j);
-    if (j > 0) sum[j] = sum[j - 1] + f->length[v->half[j - 1] >> 1];
-    next[j] = b->first[node];
-    b->first[node] = j;
-    for (int i = next[j], seen = 0; i >= 0 && seen < THR_MOST_VISITS; i = next[i], seen++) {
-      double part = sum[j] - sum[i];
-      if (j - i < v->n)
-        offer(b, x, p, q, (detour){fmax(v->length - part, w->length + part + 2 * x->far[node]), i, j, 0, node, true, false},
-              best);
-    }
-  }
+  thr_walk_visits m = {0};
+  thr_walk open = *v; /* where it ends is a visit, too */
+  open.cyclic = false;
+  if (!st) st = thr_walk_visits_init(&m, f, &open, 1, b->first, err);
   for (int j = 0; j <= v->n && !st; j++)
-    b->first[thr_walk_node(f, v, j)] = -1;
-  free(sum);
-  free(next);
+    for (int i = m.next[j], seen = 0; i >= 0 && seen < THR_MOST_VISITS; i = m.next[i], seen++) {
+      double part = m.sum[j] - m.sum[i], far = x->far[thr_walk_node(f, v, j)];
+      if (j - i < v->n)
+        offer(b, x, p, q,
+              (detour){fmax(v->length - part, w->length + part + 2 * far), i, j, 0, thr_walk_node(f, v, j), true, false}, best);
+    }
+  if (!st) thr_walk_visits_forget(&m);
+  thr_walk_visits_destroy(&m);
   return st;
 }
 

@@ -13,46 +13,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Lengths of a walk before each of its positions 0 .. n, and its visits of nodes. */
-typedef struct {
-  const thr_walk *w;
-  double *sum; /* [n + 1] */
-  int *next;   /* [n + 1] earlier position at the same node, -1 = none */
-} measured;
-
-static void measured_destroy(measured *m)
+static thr_status visits_of(const thr_balance *b, const thr_walk *w, thr_walk_visits *x, thr_err *err)
 {
-  free(m->sum);
-  free(m->next);
-  *m = (measured){0};
-}
-
-/* Marks the visits in b->first, unless forget. */
-static void mark(thr_balance *b, const measured *m, bool forget)
-{
-  const thr_frame *f = b->s->f;
-  for (int i = 0; i <= m->w->n - m->w->cyclic; i++) {
-    int *first = &b->first[thr_walk_node(f, m->w, i)];
-    if (forget) {
-      *first = -1;
-    } else {
-      m->next[i] = *first;
-      *first = i;
-    }
-  }
-}
-
-static thr_status measure(const thr_balance *b, const thr_walk *w, measured *m, thr_err *err)
-{
-  size_t n = (size_t)w->n + 1;
-  *m = (measured){w, thr_calloc(n, sizeof *m->sum), thr_calloc(n, sizeof *m->next)};
-  if (!m->sum || !m->next) {
-    measured_destroy(m);
-    return thr_nomem(err);
-  }
-  for (int i = 0; i < w->n; i++)
-    m->sum[i + 1] = m->sum[i] + b->s->f->length[w->half[i] >> 1];
-  return THR_OK;
+  return thr_walk_visits_init(x, b->s->f, w, 1, b->first, err);
 }
 
 /* ---- what an exchange does ---- */
@@ -129,12 +92,12 @@ static int64_t hub_steps(const thr_balance *b, const thr_turn_change *c)
 }
 
 /* The better of two, if the joints allow it. With joints to ask about this is what takes the time. */
-static void offer(thr_balance *b, const thr_splice *walks, thr_exchange x, thr_exchange *best)
+static void offer(thr_balance *b, const thr_walk *p, const thr_walk *q, thr_exchange x, thr_exchange *best)
 {
   if (x.longer >= best->longer) return;
   if (b->ties) {
     if (thr_limits_stop(b->limits)) return;
-    thr_splice s = *walks;
+    thr_splice s = thr_splice_of(p->cyclic, p, q);
     put_exchange(&s, &x);
     thr_turn_change c = thr_splice_turns(&s);
     b->steps -= c.n + hub_steps(b, &c);
@@ -146,28 +109,28 @@ static void offer(thr_balance *b, const thr_splice *walks, thr_exchange x, thr_e
 /* ---- open walks: tails, sections, common ends ---- */
 
 /* TAILS: p[0, i) q[j, ..) and q[0, j) p[i, ..). CROSS: p[0, i) and q[0, j) backwards, p[i, ..) backwards and q[j, ..). */
-static void offer_tails(thr_balance *b, const measured *p, int i, const measured *q, int j, thr_exchange *best)
+static void offer_tails(thr_balance *b, const thr_walk_visits *p, int i, const thr_walk_visits *q, int j, thr_exchange *best)
 {
   int np = p->w->n, nq = q->w->n;
-  thr_splice r = thr_splice_of(false, p->w, q->w);
   double all = p->sum[np] + q->sum[nq], tails = p->sum[i] + q->sum[nq] - q->sum[j], cross = p->sum[i] + q->sum[j];
-  if (i + nq - j > 0 && j + np - i > 0) offer(b, &r, (thr_exchange){THR_EXCHANGE_TAILS, fmax(tails, all - tails), i, j, 0}, best);
-  if (i + j > 0 && np - i + nq - j > 0) offer(b, &r, (thr_exchange){THR_EXCHANGE_CROSS, fmax(cross, all - cross), i, j, 0}, best);
+  if (i + nq - j > 0 && j + np - i > 0)
+    offer(b, p->w, q->w, (thr_exchange){THR_EXCHANGE_TAILS, fmax(tails, all - tails), i, j, 0}, best);
+  if (i + j > 0 && np - i + nq - j > 0)
+    offer(b, p->w, q->w, (thr_exchange){THR_EXCHANGE_CROSS, fmax(cross, all - cross), i, j, 0}, best);
 }
 
 /* GIVE: the closed section p[i, j) goes into q before its position k. */
-static void offer_sections(thr_balance *b, const measured *p, int j, const measured *q, int k, thr_exchange *best)
+static void offer_sections(thr_balance *b, const thr_walk_visits *p, int j, const thr_walk_visits *q, int k, thr_exchange *best)
 {
-  thr_splice r = thr_splice_of(false, p->w, q->w);
   double all = p->sum[p->w->n] + q->sum[q->w->n];
   for (int i = p->next[j], seen = 0; i >= 0 && seen < THR_MOST_VISITS; i = p->next[i], seen++) {
     double left = p->sum[p->w->n] - (p->sum[j] - p->sum[i]);
-    if (j - i < p->w->n) offer(b, &r, (thr_exchange){THR_EXCHANGE_GIVE, fmax(left, all - left), i, j, k}, best);
+    if (j - i < p->w->n) offer(b, p->w, q->w, (thr_exchange){THR_EXCHANGE_GIVE, fmax(left, all - left), i, j, k}, best);
   }
 }
 
 /* Position at of p and q in a row, each turned round if its bit of k is set: which walk, and where in it. */
-static int in_row(const measured *p, const measured *q, int k, int at, const measured **which)
+static int in_row(const thr_walk_visits *p, const thr_walk_visits *q, int k, int at, const thr_walk_visits **which)
 {
   *which = at <= p->w->n ? p : q;
   if (at > p->w->n) at -= p->w->n;
@@ -176,89 +139,86 @@ static int in_row(const measured *p, const measured *q, int k, int at, const mea
 }
 
 /* JOIN: two walks with an end at one node become one there, which is cut where ends are allowed, at i. */
-static void offer_joins(thr_balance *b, const measured *p, const measured *q, thr_exchange *best)
+static void offer_joins(thr_balance *b, const thr_walk_visits *p, const thr_walk_visits *q, thr_exchange *best)
 {
   const thr_frame *f = b->s->f;
-  thr_splice r = thr_splice_of(false, p->w, q->w);
   int np = p->w->n, nq = q->w->n;
   for (int k = 0; k < 4; k++) {
     if (thr_walk_node(f, p->w, k & 1 ? 0 : np) != thr_walk_node(f, q->w, k & 2 ? nq : 0)) continue;
     double all = p->sum[np] + q->sum[nq];
     for (int at = 1; at < np + nq; at++) {
-      const measured *which;
+      const thr_walk_visits *which;
       int i = in_row(p, q, k, at, &which);
       if (!thr_plan_end_allowed(f, b->s->o, thr_walk_node(f, which->w, i))) continue;
       double part = (which == p ? k & 1 : k & 2) ? which->sum[which->w->n] - which->sum[i] : which->sum[i];
       if (which == q) part += p->sum[np];
-      offer(b, &r, (thr_exchange){THR_EXCHANGE_JOIN, fmax(part, all - part), at, 0, k}, best);
+      offer(b, p->w, q->w, (thr_exchange){THR_EXCHANGE_JOIN, fmax(part, all - part), at, 0, k}, best);
     }
   }
 }
 
-static void find_open(thr_balance *b, const measured *p, const measured *q, thr_exchange *best)
+static thr_status find_open(thr_balance *b, const thr_walk *v, const thr_walk *w, thr_exchange *best, thr_err *err)
 {
   const thr_frame *f = b->s->f;
   int *at_q = b->merged; /* the last visit of q at each position of p */
-  mark(b, q, false);
-  for (int i = 0; i <= p->w->n; i++) {
-    at_q[i] = b->first[thr_walk_node(f, p->w, i)];
-    for (int j = at_q[i], seen = 0; j >= 0 && seen < THR_MOST_VISITS; j = q->next[j], seen++)
-      offer_tails(b, p, i, q, j, best);
+  thr_walk_visits p, q = {0};
+  thr_status st = visits_of(b, v, &p, err);
+  if (!st) thr_walk_visits_forget(&p);
+  if (!st) st = visits_of(b, w, &q, err);
+  for (int i = 0; i <= v->n && !st; i++) {
+    at_q[i] = b->first[thr_walk_node(f, v, i)];
+    for (int j = at_q[i], seen = 0; j >= 0 && seen < THR_MOST_VISITS; j = q.next[j], seen++)
+      offer_tails(b, &p, i, &q, j, best);
   }
-  mark(b, q, true);
-  mark(b, p, false);
-  mark(b, p, true);
-  for (int j = 1; j <= p->w->n; j++)
-    if (at_q[j] >= 0) offer_sections(b, p, j, q, at_q[j], best);
-  if (b->s->o->ends != THR_ENDS_COUNTS) offer_joins(b, p, q, best);
+  if (!st) thr_walk_visits_forget(&q);
+  for (int j = 1; j <= v->n && !st; j++)
+    if (at_q[j] >= 0) offer_sections(b, &p, j, &q, at_q[j], best);
+  if (!st && b->s->o->ends != THR_ENDS_COUNTS) offer_joins(b, &p, &q, best);
+  thr_walk_visits_destroy(&p);
+  thr_walk_visits_destroy(&q);
+  return st;
 }
 
 /* ---- cyclic walks: merged at a node of both, and split at another ---- */
 
-/* A visit of both, any: with the numbers of the passes in p and q. */
-static bool common_visit(thr_balance *b, const measured *p, const measured *q, int *i, int *j)
+/* A visit of both, any: with the numbers of the passes in p and q; *j -1: there is none. */
+static thr_status common_visit(thr_balance *b, const thr_walk *p, const thr_walk *q, int *i, int *j, thr_err *err)
 {
-  const thr_frame *f = b->s->f;
-  int n = p->w->n, from = (int)(thr_random(&b->random) % (uint64_t)n);
-  mark(b, q, false);
+  thr_walk_visits x;
+  int from = (int)(thr_random(&b->random) % (uint64_t)p->n);
   *j = -1;
-  for (int k = 0; k < n && *j < 0; k++) {
-    *i = (from + k) % n;
-    *j = b->first[thr_walk_node(f, p->w, *i)];
+  thr_status st = visits_of(b, q, &x, err);
+  if (st) return st;
+  for (int k = 0; k < p->n && *j < 0; k++) {
+    *i = (from + k) % p->n;
+    *j = b->first[thr_walk_node(b->s->f, p, *i)];
   }
-  mark(b, q, true);
-  return *j >= 0;
-}
-
-/* The first np passes of the two merged, and the others. */
-static thr_splice merged_rows(const thr_balance *b, int np, int nq)
-{
-  return thr_splice_of(true, &(thr_walk){.n = np, .half = b->merged}, &(thr_walk){.n = nq, .half = b->merged + np});
+  thr_walk_visits_forget(&x);
+  thr_walk_visits_destroy(&x);
+  return THR_OK;
 }
 
 /* SECTION: merged[i, j) and the rest. */
-static thr_status find_cyclic(thr_balance *b, const measured *p, const measured *q, thr_exchange *best, thr_err *err)
+static thr_status find_cyclic(thr_balance *b, const thr_walk *p, const thr_walk *q, thr_exchange *best, thr_err *err)
 {
-  int i, j, np = p->w->n, nq = q->w->n;
-  if (!common_visit(b, p, q, &i, &j)) return THR_OK;
+  int i, j, np = p->n, nq = q->n;
+  thr_status st = common_visit(b, p, q, &i, &j, err);
+  if (st || j < 0) return st;
   for (int k = 0; k < np; k++)
-    b->merged[k] = p->w->half[(i + k) % np];
+    b->merged[k] = p->half[(i + k) % np];
   for (int k = 0; k < nq; k++)
-    b->merged[np + k] = q->w->half[(j + k) % nq];
+    b->merged[np + k] = q->half[(j + k) % nq];
   if (thr_random(&b->random) & 1) thr_walk_reverse(b->merged + np, nq);
-  thr_walk all = {np + nq, b->merged, 0, true};
-  measured m;
-  thr_status st = measure(b, &all, &m, err);
-  if (st) return st;
-  thr_splice r = merged_rows(b, np, nq);
-  mark(b, &m, false);
-  mark(b, &m, true);
+  const thr_walk all = {np + nq, b->merged, 0, true}, one = {np, b->merged, 0, true}, other = {nq, b->merged + np, 0, true};
+  thr_walk_visits x;
+  if ((st = visits_of(b, &all, &x, err))) return st;
+  thr_walk_visits_forget(&x);
   for (j = 1; j < all.n; j++)
-    for (int seen = 0, e = m.next[j]; e >= 0 && seen < THR_MOST_VISITS; e = m.next[e], seen++) {
-      double part = m.sum[j] - m.sum[e];
-      offer(b, &r, (thr_exchange){THR_EXCHANGE_SECTION, fmax(part, m.sum[all.n] - part), e, j, 0}, best);
+    for (int seen = 0, e = x.next[j]; e >= 0 && seen < THR_MOST_VISITS; e = x.next[e], seen++) {
+      double part = x.sum[j] - x.sum[e];
+      offer(b, &one, &other, (thr_exchange){THR_EXCHANGE_SECTION, fmax(part, x.sum[all.n] - part), e, j, 0}, best);
     }
-  measured_destroy(&m);
+  thr_walk_visits_destroy(&x);
   return THR_OK;
 }
 
@@ -276,27 +236,23 @@ static thr_status make_room(thr_balance *b, int n, thr_err *err)
 thr_status thr_balance_find(thr_balance *b, int p, int q, thr_exchange *best, thr_err *err)
 {
   const thr_walk *x = &b->w->walk[p], *y = &b->w->walk[q];
-  measured mp = {0}, mq = {0};
   *best = (thr_exchange){.longer = INFINITY};
   b->steps -= x->n + y->n;
   thr_status st = make_room(b, x->n + y->n + 1, err);
-  if (!st) st = measure(b, x, &mp, err);
-  if (!st) st = measure(b, y, &mq, err);
-  if (!st && x->cyclic)
-    st = find_cyclic(b, &mp, &mq, best, err);
-  else if (!st)
-    find_open(b, &mp, &mq, best);
-  measured_destroy(&mp);
-  measured_destroy(&mq);
-  return st;
+  if (st) return st;
+  return x->cyclic ? find_cyclic(b, x, y, best, err) : find_open(b, x, y, best, err);
 }
 
 /* ---- making it ---- */
 
 thr_status thr_balance_make(thr_balance *b, int p, int q, const thr_exchange *x, thr_err *err)
 {
-  const thr_walk *v = &b->w->walk[p], *w = &b->w->walk[q];
-  thr_splice s = v->cyclic ? merged_rows(b, v->n, w->n) : thr_splice_of(false, v, w);
+  thr_walk v = b->w->walk[p], w = b->w->walk[q];
+  if (v.cyclic) {
+    v.half = b->merged;
+    w.half = b->merged + v.n;
+  }
+  thr_splice s = thr_splice_of(v.cyclic, &v, &w);
   put_exchange(&s, x);
   return thr_splice_make(&s, b->s->f, b->w, p, q, b->ties, NULL, err);
 }
@@ -321,15 +277,14 @@ thr_status thr_balance_shuffle(thr_balance *b, int p, thr_err *err)
 {
   enum { TURNS = 8 };
   thr_walk *x = &b->w->walk[p];
-  measured m;
+  thr_walk_visits m;
   b->steps -= TURNS * (int64_t)x->n / 4;
   for (int t = 0; t < TURNS; t++) {
-    thr_status st = measure(b, x, &m, err);
+    thr_status st = visits_of(b, x, &m, err);
     if (st) return st;
-    mark(b, &m, false);
-    mark(b, &m, true);
+    thr_walk_visits_forget(&m);
     int j = (int)(thr_random(&b->random) % (uint64_t)x->n), i = m.next[j];
-    measured_destroy(&m);
+    thr_walk_visits_destroy(&m);
     if (i >= 0 && (thr_random(&b->random) & 3)) turn_round(b, x, i, j);
   }
   return THR_OK;

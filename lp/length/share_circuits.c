@@ -56,22 +56,17 @@ static thr_status best_section(const thr_share *s, const thr_walks *w, thr_junct
 {
   thr_walk_visits x;
   *best = (section){INFINITY, -1, 0, 0};
-  thr_status st = thr_walk_visits_init(&x, s->f, w, err);
-  double *sum = st ? NULL : thr_calloc((size_t)x.n, sizeof *sum); /* length of the walk before a visit */
-  if (!st && !sum) st = thr_nomem(err);
-  for (int i = 1; i < x.n && !st; i++)
-    if (x.at[i] > 0) sum[i] = sum[i - 1] + s->f->length[w->walk[x.walk[i]].half[x.at[i] - 1] >> 1];
+  thr_status st = thr_walk_visits_init(&x, s->f, w->walk, w->n_walks, NULL, err);
   for (int j = 0; j < x.n && !st; j++) {
     const thr_walk *y = &w->walk[x.walk[j]];
     if (only >= 0 && x.walk[j] != only) continue;
     for (int i = x.next[j], seen = 0; i >= 0 && x.walk[i] == x.walk[j] && seen < MOST_VISITS; i = x.next[i], seen++) {
-      double score = only >= 0 ? fabs(sum[j] - sum[i] - y->length / 2) : split_price(s->f, y, x.at[i], x.at[j]);
+      double score = only >= 0 ? fabs(x.sum[j] - x.sum[i] - y->length / 2) : split_price(s->f, y, x.at[i], x.at[j]);
       if (score < best->score - 1e-9 && (!ties || stays_tied(ties, y, x.at[i], x.at[j])))
         *best = (section){score, x.walk[j], x.at[i], x.at[j]};
     }
   }
   thr_walk_visits_destroy(&x);
-  free(sum);
   return st;
 }
 
@@ -212,7 +207,7 @@ static thr_status best_junction(const thr_share *s, const thr_walks *w, junction
 {
   thr_walk_visits x;
   *best = (junction){.price = INFINITY, .a = -1};
-  thr_status st = thr_walk_visits_init(&x, s->f, w, err);
+  thr_status st = thr_walk_visits_init(&x, s->f, w->walk, w->n_walks, NULL, err);
   if (st) return st;
   for (int j = 0; j < x.n; j++)
     for (int i = x.next[j], seen = 0; i >= 0 && seen < MOST_VISITS; i = x.next[i])

@@ -79,7 +79,7 @@ static thr_status best_chord(const splitting *x, chord *best, thr_err *err)
   *best = (chord){.price = INFINITY};
   for (int i = 0; i < x->w->n_walks && x->even; i++)
     if (only < 0 || x->w->walk[i].length > x->w->walk[only].length) only = i;
-  thr_status st = thr_walk_visits_init(&v, f, x->w, err);
+  thr_status st = thr_walk_visits_init(&v, f, x->w->walk, x->w->n_walks, NULL, err);
   if (st) return st;
   for (int h = 0; h < 2 * f->n_edges; h++)
     if (x->passes[h >> 1] <= thr_plan_capacity(f, x->s->o, h >> 1) - 2 && (x->even || f->length[h >> 1] < best->price))
