@@ -260,6 +260,18 @@ static void put_rim(sketch *s, int n, double radius)
     put_node(s, radius * cos(2 * THR_PI * v / n), radius * sin(2 * THR_PI * v / n), 0);
 }
 
+thr_frame chain_make(int n, const double *length)
+{
+  double xyz[9][3] = {{0}};
+  int edge[8][2];
+  ck_assert_int_le(n, 8);
+  for (int e = 0; e < n; e++) {
+    xyz[e + 1][0] = xyz[e][0] + length[e];
+    edge[e][0] = e, edge[e][1] = e + 1;
+  }
+  return frame_make(n + 1, (const double(*)[3])xyz, n, (const int(*)[2])edge, NULL, NULL);
+}
+
 thr_frame ring_make(int n)
 {
   sketch s = sketch_make(n, n);
@@ -557,6 +569,17 @@ thr_plan plan_of_cords(const thr_frame *f, const thr_plan_options *o)
   free(left);
   free(link);
   return p;
+}
+
+void add_loops(thr_cord *cord, int *n, int edge, int count)
+{
+  for (int i = 0; i < count; i++) {
+    cord[*n] = (thr_cord){.closed = true, .n_passes = 2, .half = calloc(2, sizeof(int))};
+    ck_assert_ptr_nonnull(cord[*n].half);
+    thr_cord_id(*n, cord[*n].id);
+    cord[*n].half[0] = 2 * edge;
+    cord[(*n)++].half[1] = 2 * edge + 1;
+  }
 }
 
 thr_text plan_text(const thr_plan *p)

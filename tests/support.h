@@ -69,12 +69,13 @@ thr_frame frame_load(const char *path, const char *edges_path);
 typedef enum { TETRAHEDRON, CUBE, OCTAHEDRON, DODECAHEDRON, ICOSAHEDRON } solid;
 thr_frame solid_make(solid s); /* edges of length 1 */
 
-thr_frame path_make(int n);        /* straight along x, unit edges, foot at node 0 */
-thr_frame ring_make(int n);        /* regular n-gon of unit edges, foot at node 0 */
-thr_frame star_make(int n);        /* n unit spokes in a plane; node 0 is the hub, node 1 the foot */
-thr_frame wheel_make(int n);       /* star and rim */
-thr_frame grid_make(int w, int h); /* unit squares in a plane, feet at the corners */
-thr_frame triangles_make(int n);   /* n separate unit triangles, each with one foot */
+thr_frame path_make(int n);                        /* straight along x, unit edges, foot at node 0 */
+thr_frame chain_make(int n, const double *length); /* straight along x, at most 8 edges of these lengths */
+thr_frame ring_make(int n);                        /* regular n-gon of unit edges, foot at node 0 */
+thr_frame star_make(int n);                        /* n unit spokes in a plane; node 0 is the hub, node 1 the foot */
+thr_frame wheel_make(int n);                       /* star and rim */
+thr_frame grid_make(int w, int h);                 /* unit squares in a plane, feet at the corners */
+thr_frame triangles_make(int n);                   /* n separate unit triangles, each with one foot */
 
 typedef enum { LENGTHS_EUCLID, LENGTHS_EQUAL, LENGTHS_SMALL_INTEGERS, LENGTHS_RANDOM, LENGTHS_SURDS } length_kind;
 enum { LENGTH_KINDS = 5 };
@@ -100,6 +101,9 @@ thr_plan plan_simple(const thr_frame *f, thr_ends ends, int cover);
 /* Plan of o->cords cords through the shortest passes of a connected framework with ends; the proof is the postman's. Its cords
  * are a walk's pieces, cut where an end may be: fails if there are too few such places. */
 thr_plan plan_of_cords(const thr_frame *f, const thr_plan_options *o);
+
+/* Appends so many closed cords there and back over an edge, and counts them in *n. */
+void add_loops(thr_cord *cord, int *n, int edge, int count);
 
 thr_text plan_text(const thr_plan *p);
 thr_plan plan_from(const char *text);

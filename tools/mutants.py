@@ -33,7 +33,8 @@ LISTS = os.path.join("tools", "mutants")
 
 # ---- which tests know a file: programs or program:case, in this order ----
 
-CERTIFICATES = ["unit/test_check_rules", "unit/test_prices", "unit/test_requests", "property/test_proofs", "unit/test_check", "property/test_several"]
+CERTIFICATES = ["unit/test_check_rounding", "unit/test_check_cuts", "unit/test_check_cords", "unit/test_check_tubes", "unit/test_check_rules",
+                "unit/test_prices", "unit/test_requests", "property/test_proofs", "unit/test_check", "property/test_several"]
 TURNING = ["unit/test_check_turning", "property/test_turning_bound", "unit/test_tortuosity:more_cords_than_the_shortest_passes_hold"]
 ADVERSARY, ATTACKS = ["property/test_adversary"], "20000"  # attacks of each kind
 ADVERSARY_TURNING = ["property/test_adversary_turning"]
@@ -49,7 +50,7 @@ SUITES = {
     "graph/check/check_turning.c": TURNING + ADVERSARY_TURNING,
     "graph/check/turning_proof.c": TURNING + ADVERSARY_TURNING,
     "graph/plan/turning.c": TURNING + ADVERSARY_TURNING,
-    "graph/check/junction.c": ["unit/test_check_rules", "unit/test_requests"],
+    "graph/check/junction.c": ["unit/test_check_tubes", "unit/test_requests"],
     "graph/check/check_symmetry.c": SYMMETRY,
     "graph/check/check_group.c": SYMMETRY,
     "graph/framework/procrustes.c": ["unit/test_isometry"] + SYMMETRY,
