@@ -44,10 +44,10 @@ void thr_contraction_lower(const thr_contraction *c, const int *value, int *smal
 typedef enum { THR_CONTRACTION_LEAST, THR_CONTRACTION_PLAIN, THR_CONTRACTION_TWICE } thr_contraction_kind;
 
 /* In symmetry/cover/start.c. Of a contraction of all cells: such copies, of types that are not barred[p.first_pair], the first
- * two kinds made even by a least T-join over copies and terminals, and led on along least ways where they outnumber the others of
- * their cell (small[p.n], without the turns, which lifting finds). Of least overlap where every edge orbit has one copy type and
- * nothing is to be led on, but not always the best, and its sets may lack ends; *found = false if there is none of this kind. The
- * last kind can always be lifted, and always be joined into one set for every component. */
+ * two kinds made even by a least T-join over copies and terminals (small[p.n], without the turns, which lifting finds, unless one
+ * type outnumbers all others of its cell). Of least overlap where every edge orbit has one copy type, but not always the best,
+ * and its sets may lack ends; *found = false if there is none of this kind. The last kind can always be lifted, and always be
+ * joined into one set for every component. */
 thr_status thr_contraction_start(const thr_contraction *c, thr_contraction_kind kind, const bool *barred,
                                  const thr_limits *limits, int *small, bool *found, thr_err *err) THR_MUST_CHECK;
 

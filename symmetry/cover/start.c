@@ -1,4 +1,4 @@
-/* Covers that need no programme: copies, made even by a least join, and led on where they cannot turn. */
+/* Covers that need no programme: copies, made even by a least join, and ends where they cannot turn. */
 #include "graph/disjoint.h"
 #include "graph/limits.h"
 #include "graph/plan/request.h"
@@ -209,62 +209,14 @@ static thr_status add_join(const request *r, const thr_programme *p, const thr_l
   return st;
 }
 
-/* ---- leading on ---- */
-
-/* Of the whole programme: dart orbits that outnumber all others of their cell, and so can neither turn nor end. */
-typedef struct {
-  const thr_contraction *c;
-  const bool *barred;
-  int *small;
-  int *surplus;       /* [n_darts] */
-  int *first, *copy;  /* copy types with a dart of type d: copy[first[d] .. first[d + 1] - 1] */
-  double *way;        /* [n_darts] overlap of a least way there that has yet to turn, INFINITY = none */
-  int *over, *before; /* [n_darts] copy type that it comes over, and the type that it turned at before */
-  int *queue;         /* [n_darts] ring */
-  bool *waiting;      /* [n_darts] is it in the queue? */
-} leading;
-
-static thr_status leading_init(leading *l, const thr_contraction *c, const bool *barred, int *small, thr_err *err)
-{
-  const thr_quotient *q = c->whole->q;
-  size_t n = (size_t)q->n_darts;
-  *l = (leading){.c = c, .barred = barred, .small = small, .surplus = thr_calloc(n, sizeof *l->surplus)};
-  l->first = thr_calloc(n + 2, sizeof *l->first);
-  l->copy = thr_calloc(2 * (size_t)q->n_copies, sizeof *l->copy);
-  l->way = thr_calloc(n, sizeof *l->way);
-  l->over = thr_calloc(n, sizeof *l->over);
-  l->before = thr_calloc(n, sizeof *l->before);
-  l->queue = thr_calloc(n, sizeof *l->queue);
-  l->waiting = thr_calloc(n, sizeof *l->waiting);
-  if (!l->surplus || !l->first || !l->copy || !l->way || !l->over || !l->before || !l->queue || !l->waiting)
-    return thr_nomem(err);
-  for (int i = 0; i < 2 * q->n_copies; i++)
-    if (q->copy[i / 2].dart[i % 2] >= 0) l->first[q->copy[i / 2].dart[i % 2] + 2]++;
-  for (int d = 1; d <= q->n_darts; d++)
-    l->first[d + 1] += l->first[d];
-  for (int i = 0; i < 2 * q->n_copies; i++)
-    if (q->copy[i / 2].dart[i % 2] >= 0) l->copy[l->first[q->copy[i / 2].dart[i % 2] + 1]++] = i / 2;
-  return THR_OK;
-}
-
-static void leading_destroy(leading *l)
-{
-  free(l->surplus);
-  free(l->first);
-  free(l->copy);
-  free(l->way);
-  free(l->over);
-  free(l->before);
-  free(l->queue);
-  free(l->waiting);
-}
+/* ---- ends where no turn is left ---- */
 
 /* Column of the contracted programme in which a dart orbit of type d may end: a cord end, or a self pair unless every cord is to
  * be open (it might lack an end then); -1 = none. */
-static int terminal_of(const leading *l, int d)
+static int terminal_of(const thr_contraction *c, int d)
 {
-  const thr_programme *whole = l->c->whole, *p = &l->c->p;
-  int cell = l->c->becomes[d];
+  const thr_programme *whole = c->whole, *p = &c->p;
+  int cell = c->becomes[d];
   if (whole->most[whole->first_end + d] != 0) return p->first_end + cell;
   for (int k = whole->first[d]; k < whole->first[d + 1] && !whole->open; k++) {
     if (!whole->q->pair[whole->incident[k]].self) continue;
@@ -274,126 +226,36 @@ static int terminal_of(const leading *l, int d)
   return -1;
 }
 
-/* Those that may end do. sum: [n_darts] zeros. */
-static void find_surplus(leading *l, int *sum)
+/* Dart orbits that outnumber all others of their cell cannot turn: they end, where they may; *found = false if some may not.
+ * Those of the whole programme. */
+static thr_status end_surplus(const thr_contraction *c, int *small, bool *found, thr_err *err)
 {
-  const thr_contraction *c = l->c;
   const thr_programme *whole = c->whole, *p = &c->p;
-  for (int i = 0; i < 2 * whole->q->n_copies; i++) {
-    int d = whole->q->copy[i / 2].dart[i % 2];
+  const thr_quotient *q = whole->q;
+  int *surplus = thr_calloc(2 * (size_t)q->n_darts, sizeof *surplus), *sum = surplus + q->n_darts;
+  if (!surplus) return thr_nomem(err);
+  for (int i = 0; i < 2 * q->n_copies; i++) {
+    int d = q->copy[i / 2].dart[i % 2];
     if (d < 0) continue;
-    l->surplus[d] += 2 * l->small[i / 2];
-    sum[c->root[d]] += l->small[i / 2];
+    surplus[d] += 2 * small[i / 2];
+    sum[c->root[d]] += small[i / 2];
   }
-  for (int d = 0; d < whole->q->n_darts; d++) {
+  for (int d = 0; d < q->n_darts; d++) {
     int cell = c->becomes[d];
     if (c->root[d] != d) continue;
-    sum[d] += l->small[p->first_end + cell]; /* terminals go where most is left */
+    sum[d] += small[p->first_end + cell]; /* terminals go where most is left */
     for (int k = p->first[cell]; k < p->first[cell + 1]; k++)
-      if (p->q->pair[p->incident[k]].self) sum[d] += l->small[p->first_pair + p->incident[k]];
+      if (p->q->pair[p->incident[k]].self) sum[d] += small[p->first_pair + p->incident[k]];
   }
-  for (int d = 0; d < whole->q->n_darts; d++) {
-    int terminal = terminal_of(l, d);
-    l->surplus[d] -= sum[c->root[d]];
-    if (l->surplus[d] <= 0 || thr_programme_loop(whole, d)) l->surplus[d] = 0;
-    if (l->surplus[d] == 0 || terminal < 0) continue;
-    l->small[terminal] += l->surplus[d];
-    l->surplus[d] = 0;
+  for (int d = 0; d < q->n_darts; d++) {
+    int terminal = terminal_of(c, d);
+    surplus[d] -= sum[c->root[d]];
+    if (surplus[d] <= 0 || thr_programme_loop(whole, d)) continue;
+    *found = *found && terminal >= 0;
+    if (terminal >= 0) small[terminal] += surplus[d];
   }
-}
-
-/* From type d, whose way is known, over a turn and a copy each. */
-static void go_on(leading *l, int d, int *tail, int *length)
-{
-  const thr_programme *p = l->c->whole;
-  for (int k = p->first[d]; k < p->first[d + 1]; k++) {
-    const thr_pair_type *t = &p->q->pair[p->incident[k]];
-    int b = t->dart[0] + t->dart[1] - d;
-    if (t->self || p->most[p->first_pair + p->incident[k]] == 0) continue;
-    for (int i = l->first[b]; i < l->first[b + 1]; i++) {
-      const thr_copy_type *over = &p->q->copy[l->copy[i]];
-      int to = over->dart[0] + over->dart[1] - b;
-      double way = l->way[d] + p->cost[THR_AIM_OVERLAP][l->copy[i]];
-      if (over->fold || p->most[l->copy[i]] == 0 || l->barred[l->copy[i]] || way >= l->way[to]) continue;
-      l->way[to] = way;
-      l->over[to] = l->copy[i];
-      l->before[to] = d;
-      if (l->waiting[to]) continue;
-      l->waiting[to] = true;
-      l->queue[*tail] = to;
-      *tail = (*tail + 1) % p->q->n_darts;
-      ++*length;
-    }
-  }
-}
-
-/* Least ways from type a. A way back to a is one, too: a itself counts as not reached. */
-static void find_ways(leading *l, int a)
-{
-  int n = l->c->whole->q->n_darts, head = 0, tail = 0, length = 0;
-  for (int d = 0; d < n; d++)
-    l->way[d] = (double)INFINITY;
-  l->way[a] = 0;
-  l->over[a] = -1;
-  go_on(l, a, &tail, &length);
-  for (; length > 0; length--) {
-    int d = l->queue[head];
-    head = (head + 1) % n;
-    l->waiting[d] = false;
-    go_on(l, d, &tail, &length);
-  }
-}
-
-/* A type that wants to turn too and can turn into d, -1 = none; a wants to once itself. */
-static int partner_of(const leading *l, int d, int a)
-{
-  const thr_programme *p = l->c->whole;
-  for (int k = p->first[d]; k < p->first[d + 1]; k++) {
-    const thr_pair_type *t = &p->q->pair[p->incident[k]];
-    int u = t->dart[0] + t->dart[1] - d;
-    if (!t->self && p->most[p->first_pair + p->incident[k]] != 0 && l->surplus[u] > (u == a)) return u;
-  }
-  return -1;
-}
-
-/* Leads one orbit of type a on, on the least way, to one more that wants it or to a terminal. False if there is none. */
-static bool lead_one(leading *l, int a)
-{
-  int end = -1;
-  find_ways(l, a);
-  for (int d = 0; d < l->c->whole->q->n_darts; d++)
-    if (d != a && isfinite(l->way[d]) && (end < 0 || l->way[d] < l->way[end]) &&
-        (terminal_of(l, d) >= 0 || partner_of(l, d, a) >= 0))
-      end = d;
-  if (end < 0) return false;
-  int partner = partner_of(l, end, a);
-  l->surplus[a]--;
-  if (partner >= 0)
-    l->surplus[partner]--;
-  else
-    l->small[terminal_of(l, end)]++;
-  for (int d = end; d != a; d = l->before[d])
-    l->small[l->over[d]]++;
-  return true;
-}
-
-/* *found = false if some cannot be led on, or a copy type occurs too often then. */
-static thr_status lead_on(const thr_contraction *c, const bool *barred, int *small, bool *found, thr_err *err)
-{
-  leading l = {0};
-  thr_status st = leading_init(&l, c, barred, small, err);
-  int n = c->whole->q->n_darts;
-  if (!st) {
-    memset(l.over, 0, (size_t)n * sizeof *l.over);
-    find_surplus(&l, l.over);
-  }
-  for (int d = 0; d < n && *found && !st; d++)
-    while (l.surplus[d] > 0 && *found)
-      *found = lead_one(&l, d);
-  for (int k = 0; k < c->p.first_pair && !st; k++)
-    *found = *found && small[k] <= c->p.most[k];
-  leading_destroy(&l);
-  return st;
+  free(surplus);
+  return THR_OK;
 }
 
 /* ---- all ---- */
@@ -409,7 +271,10 @@ thr_status thr_contraction_start(const thr_contraction *c, thr_contraction_kind 
   memset(small, 0, (size_t)c->p.n * sizeof *small);
   *found = take_copies(c, kind, barred, small);
   if (*found && kind != THR_CONTRACTION_TWICE) st = add_join(&r, &c->p, limits, small, found, &least, err);
-  return !st && *found ? lead_on(c, barred, small, found, err) : st;
+  if (!st && *found) st = end_surplus(c, small, found, err);
+  for (int k = 0; k < c->p.first_pair && !st; k++)
+    *found = *found && small[k] <= c->p.most[k];
+  return st;
 }
 
 double thr_contraction_tie(const thr_contraction *c, thr_aim aim)
