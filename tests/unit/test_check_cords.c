@@ -50,7 +50,7 @@ START_TEST(the_longest_cord_has_its_detour)
   thr_plan p;
   thr_cords_claim found;
   thr_err err = {0};
-  thr_status st = thr_cords_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err);
+  thr_status st = length_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err);
   if (st == THR_OK || st == THR_ELIMIT) {
     ck_assert_msg(thr_check_cords(&f, &o, p.cord, p.n_cords, NULL, 0, &found, &err) == THR_OK, "%s", err.text);
     double longest = 0, base = 0;
