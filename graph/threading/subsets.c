@@ -382,6 +382,15 @@ static thr_status find_parts(thr_subsets *x, measure by, int k, uint32_t set, th
   return THR_OK;
 }
 
+/* Is there a walk of this cost for each item? Where all may be had again, there are enough walks then, else too few. */
+static bool each_fits(const thr_subsets *x, double limit)
+{
+  bool fits = true;
+  for (int i = 0; i < x->m->n_items && !x->m->once; i++)
+    fits &= !(x->m->required >> i & 1) || x->f[UINT32_C(1) << i] <= limit;
+  return fits;
+}
+
 thr_status thr_subsets_find(thr_subsets *x, int at_least, int most, bool fewest, double limit, int *n, double *cost, thr_err *err)
 {
   const measure by = {true, limit};
@@ -391,6 +400,7 @@ thr_status thr_subsets_find(thr_subsets *x, int at_least, int most, bool fewest,
   uint32_t all = 0, best_set = 0;
   *cost = INFINITY;
   *n = 0;
+  if (!each_fits(x, limit)) return THR_OK;
   thr_status st = make_room(x, levels, err);
   for (int k = 1; k <= levels && !st && !(fewest && best_k); k++) {
     if (k > 1 && !fill(x, by, k - 1)) {

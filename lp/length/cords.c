@@ -25,6 +25,7 @@ typedef struct {
   int *passes;     /* [n_edges] */
   bool least;      /* the passes are the shortest that hold the cords */
   bool certain;    /* the longest cord is as short as can be: the solver's word */
+  bool asked;      /* max_length: the table was, for any number of cords */
 } several;
 
 static void several_destroy(several *x)
@@ -113,15 +114,16 @@ static thr_status tell(const several *x, thr_err *err)
   return st;
 }
 
-/* What the table knows better, where the framework is small: with a goal only if it was missed. n: cords that were wanted. */
-static thr_status make_exact(several *x, int n, double goal, thr_err *err)
+/* What the table knows better, where the framework is small. With a goal only if it was missed, and then the fewest cords. */
+static thr_status make_exact(several *x, double goal, thr_err *err)
 {
   const thr_plan_options *o = x->o;
   thr_walks *w = &x->walks;
   bool certain, counts = o->ends == THR_ENDS_COUNTS;
   thr_share_ask ask = {counts ? w->n_walks : o->cords_least, counts ? w->n_walks : o->cords, true, INFINITY};
-  if (goal > 0 && within(thr_walks_longest(w), goal)) return THR_OK;
-  if (goal > 0) ask = (thr_share_ask){ask.least, counts ? ask.most : n, false, goal};
+  if (goal > 0 && (x->asked || within(thr_walks_longest(w), goal))) return THR_OK;
+  if (goal > 0) ask = (thr_share_ask){ask.least, ask.most, false, goal};
+  x->asked = goal > 0;
   thr_status st = thr_share_table(&x->share, 0, &ask, x->limits, w, x->passes, &certain, err);
   x->certain &= certain;
   return st;
@@ -173,7 +175,7 @@ static thr_status share_out(several *x, int n, const thr_certificate *c, bool ev
     st = x->o->ends == THR_ENDS_CLOSED ? make_closed(x, n, even, passes, err) : thr_share_cut(&x->share, n, even, &x->walks, err);
   if (!st && even) st = tell(x, err);
   if (!st && even) st = thr_balance_walks(&x->share, &x->walks, goal, x->limits, x->passes, err);
-  if (!st && even) st = make_exact(x, n, goal, err);
+  if (!st && even) st = make_exact(x, goal, err);
   if (!st && even) st = straighten(x, passes, err);
   free(passes);
   return st;

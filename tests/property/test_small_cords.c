@@ -238,9 +238,52 @@ START_TEST(tables_and_walks_agree)
 }
 END_TEST
 
+START_TEST(every_allocation_may_fail)
+{
+  thr_frame f = wheel_make(4);
+  thr_plan_options o = options_for(_i ? THR_ENDS_CLOSED : THR_ENDS_ANY, 1);
+  int component[5] = {0};
+  thr_status st = THR_ENOMEM;
+  o.joint = _i ? THR_JOINT_TUBE : THR_JOINT_SOLID;
+  o.capacity = _i ? 0 : 2;
+  for (long k = 1; st != THR_OK; k++) {
+    thr_small_cords c;
+    bool certain;
+    const thr_small_ask ask = {.least = 2, .most = 3, .even = true, .limit = INFINITY};
+    thr_alloc_fail_at(k);
+    st = thr_small_cords_find(&f, &o, component, 0, &ask, &(thr_limits){0}, &c, &certain, NULL);
+    thr_alloc_fail_at(0);
+    ck_assert(st == THR_ENOMEM ? c.n == 0 && !certain : st == THR_OK && c.n >= 2);
+    thr_small_cords_destroy(&c);
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* A cube has 12 edges, more than the walks of the oracle. All 8 nodes are odd, four stay so where two cords end: two edges are
+ * passed twice. */
+START_TEST(a_cube_and_two_cords_by_hand)
+{
+  thr_frame f = solid_make(CUBE);
+  thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+  int component[8] = {0};
+  thr_small_cords c;
+  bool certain;
+  const thr_small_ask ask = {.least = 2, .most = 2, .even = true, .limit = INFINITY};
+  ck_assert_int_eq(thr_small_cords_find(&f, &o, component, 0, &ask, &(thr_limits){0}, &c, &certain, NULL), THR_OK);
+  ck_assert(certain && c.n == 2);
+  ck_assert_int_eq(c.n_passes[0] + c.n_passes[1], 14);
+  ck_assert_int_eq(c.n_passes[0], 7);
+  thr_small_cords_destroy(&c);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 int main(void)
 {
   Suite *s = suite_create("small cords");
   ADD_EXAMPLES(s, 60, tables_and_walks_agree, 40);
+  ADD_TEST(s, 10, a_cube_and_two_cords_by_hand);
+  ADD_LOOP(s, 60, every_allocation_may_fail, 0, 2);
   return run_suite(s);
 }

@@ -21,6 +21,7 @@ typedef struct {
   thr_walks walks;          /* result */
   double work;              /* that searches for short cords may still do: about a second of linear programmes */
   bool least, certain;      /* the passes are the shortest, the longest cord as short as can be: the solver's word */
+  bool asked;               /* max_length: the table was, for any number of cords */
 } several;
 
 static void several_destroy(several *x)
@@ -117,9 +118,12 @@ static thr_status even_out(several *x, double goal, thr_walks *w, thr_err *err)
 {
   bool certain;
   const int n = w->n_walks;
-  thr_share_ask ask = {n, n, goal == 0, goal > 0 ? goal : INFINITY};
+  const bool counts = x->o->ends == THR_ENDS_COUNTS;
+  thr_share_ask ask = {n, n, true, INFINITY};
+  if (goal > 0) ask = (thr_share_ask){counts ? n : x->o->cords_least, counts ? n : x->o->cords, false, goal};
   thr_status st = thr_balance_walks(&x->share, w, goal, x->limits, x->passes, err);
-  if (st || (goal > 0 && within(thr_walks_longest(w), goal))) return st;
+  if (st || (goal > 0 && (x->asked || within(thr_walks_longest(w), goal)))) return st;
+  x->asked = goal > 0;
   st = thr_share_table(&x->share, 0, &ask, x->limits, w, x->passes, &certain, err);
   if (!st) x->certain &= certain;
   return st;
