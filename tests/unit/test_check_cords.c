@@ -1,6 +1,5 @@
 /* Claims about several cords in the checker: how short the longest can be, how few there can be, how they are counted. */
 #include "graph/check/check_parts.h"
-#include "lp/length/cords.h"
 #include "tests/support.h"
 
 #include <math.h>

@@ -1,6 +1,5 @@
 /* Certificates of length in the checker: prices and cuts added up another way, and certificates that are none. */
 #include "graph/check/check_parts.h"
-#include "lp/length/cords.h"
 #include "tests/support.h"
 
 #include <math.h>

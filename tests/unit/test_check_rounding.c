@@ -1,7 +1,6 @@
 /* What rounding takes off a bound in the checker, worked out another way. */
 #include "graph/check/check_parts.h"
 #include "graph/angle.h"
-#include "lp/length/cords.h"
 #include "tests/support.h"
 
 #include <math.h>

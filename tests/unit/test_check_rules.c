@@ -1,6 +1,5 @@
 /* Rules of the checker about a plan as a whole, and that no claim outlives a failure before it. */
 #include "graph/check/check_parts.h"
-#include "lp/length/cords.h"
 #include "tests/support.h"
 
 #include <stdio.h>

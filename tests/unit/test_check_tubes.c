@@ -1,7 +1,6 @@
 /* Tube joints in the checker: which nodes are tied, and what proofs of tied length prove. */
 #include "graph/check/check_parts.h"
 #include "graph/plan/junction.h"
-#include "lp/length/cords.h"
 #include "tests/support.h"
 
 #include <math.h>
