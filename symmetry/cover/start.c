@@ -232,8 +232,9 @@ static thr_status end_surplus(const thr_contraction *c, int *small, bool *found,
 {
   const thr_programme *whole = c->whole, *p = &c->p;
   const thr_quotient *q = whole->q;
-  int *surplus = thr_calloc(2 * (size_t)q->n_darts, sizeof *surplus), *sum = surplus + q->n_darts;
+  int *surplus = thr_calloc(2 * (size_t)q->n_darts, sizeof *surplus);
   if (!surplus) return thr_nomem(err);
+  int *sum = surplus + q->n_darts;
   for (int i = 0; i < 2 * q->n_copies; i++) {
     int d = q->copy[i / 2].dart[i % 2];
     if (d < 0) continue;

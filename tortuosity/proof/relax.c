@@ -244,7 +244,7 @@ static thr_status load(thr_relax *r, thr_err *err)
 
 thr_status thr_relax_solve(thr_relax *r, const thr_limits *limits, thr_err *err)
 {
-  thr_lp_outcome outcome;
+  thr_lp_outcome outcome = THR_LP_STOPPED;
   bool first = !r->projected && thr_lp_rows(r->lp) == r->n_equations; /* its basis is not feasible for the first odd sets */
   thr_status st = first ? THR_OK : load(r, err);
   if (!st) st = thr_lp_solve(r->lp, limits, &outcome, err);
