@@ -81,7 +81,7 @@ static thr_status try_items(thr_items *p, const thr_small_ask *ask, const thr_li
   if (!st && small) st = solve(&p->m, ask, limits, work, out, v, err);
   if (st || *v != BETTER) return st;
   st = thr_items_refine(p, out->n, out->half, out->n_passes, &keep, &more, err);
-  if (!keep) *v = more ? MORE_COUNTS : NOT_KNOWN;
+  if (!st && !keep) *v = more ? MORE_COUNTS : NOT_KNOWN;
   return st;
 }
 
