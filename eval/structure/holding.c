@@ -10,6 +10,7 @@
 
 #include "graph/angle.h"
 #include "graph/disjoint.h"
+#include "graph/scratch.h"
 #include "lp/solver/interior.h"
 #include "graph/vector.h"
 #include "lp/solver/lp.h"
@@ -50,12 +51,14 @@ typedef struct {
   double (*wrench)[6]; /* [n_bodies] of the cords at a pull of 1 */
   int *row;            /* [n_bodies] first of a body's six rows, -1 = held in place */
   int (*tie)[2];       /* [n_ties] bodies whose copies of the pull are equal */
+  thr_scratch own;     /* the arrays */
 } structure;
 
 typedef struct {
   int n_columns, capacity;
   double *rhs, *cost, *value;
   int *start, *row;
+  thr_scratch own; /* the arrays */
 } programme;
 
 typedef struct {
@@ -180,12 +183,7 @@ static void set_ties(structure *s, int *parent)
 
 static void structure_destroy(structure *s)
 {
-  free(s->contact);
-  free(s->body);
-  free(s->origin);
-  free(s->wrench);
-  free(s->row);
-  free(s->tie);
+  thr_scratch_free(&s->own);
 }
 
 /* From s->b, f, physics, press, most and merged. */
@@ -193,36 +191,30 @@ static thr_status structure_make(structure *s, double widen, thr_err *err)
 {
   const thr_beads *b = s->b;
   size_t n = (size_t)b->n_beads;
-  int *parent = thr_calloc(n, sizeof *parent);
-  s->contact = thr_calloc((size_t)(b->n_faces + b->n_feet) * CORNERS, sizeof *s->contact);
-  s->body = thr_calloc(n, sizeof *s->body);
-  s->origin = thr_calloc(n, sizeof *s->origin);
-  s->wrench = thr_calloc(n, sizeof *s->wrench);
-  s->row = thr_calloc(n, sizeof *s->row);
-  s->tie = thr_calloc(n, sizeof *s->tie);
-  bool all = parent && s->contact && s->body && s->origin && s->wrench && s->row && s->tie;
-  if (all) {
-    set_bodies(s, parent);
-    set_wrenches(s);
-    set_units(s);
-    set_ties(s, parent);
-    set_contacts(s, widen);
+  int *parent = thr_scratch_array(&s->own, n, sizeof *parent);
+  s->contact = thr_scratch_array(&s->own, (size_t)(b->n_faces + b->n_feet) * CORNERS, sizeof *s->contact);
+  s->body = thr_scratch_array(&s->own, n, sizeof *s->body);
+  s->origin = thr_scratch_array(&s->own, n, sizeof *s->origin);
+  s->wrench = thr_scratch_array(&s->own, n, sizeof *s->wrench);
+  s->row = thr_scratch_array(&s->own, n, sizeof *s->row);
+  s->tie = thr_scratch_array(&s->own, n, sizeof *s->tie);
+  if (thr_scratch_check(&s->own, err)) {
+    structure_destroy(s);
+    return THR_ENOMEM;
   }
-  free(parent);
-  if (all) return THR_OK;
-  structure_destroy(s);
-  return thr_nomem(err);
+  set_bodies(s, parent);
+  set_wrenches(s);
+  set_units(s);
+  set_ties(s, parent);
+  set_contacts(s, widen);
+  return THR_OK;
 }
 
 /* ---- the programme ---- */
 
 static void programme_destroy(programme *p)
 {
-  free(p->rhs);
-  free(p->cost);
-  free(p->value);
-  free(p->start);
-  free(p->row);
+  thr_scratch_free(&p->own);
 }
 
 static void entry(programme *p, int row, double value)
@@ -310,14 +302,14 @@ static thr_status programme_make(const structure *s, bool hands, programme *p, t
   size_t columns = rays + n + (hands ? 2 * (size_t)s->n_rows : 0);
   size_t entries = 12 * rays + 6 * n + 2 * (size_t)s->n_ties + 2 * (size_t)s->n_rows;
   *p = (programme){0};
-  p->rhs = thr_calloc((size_t)s->n_rows + (size_t)s->n_ties, sizeof *p->rhs);
-  p->cost = thr_calloc(columns, sizeof *p->cost);
-  p->start = thr_calloc(columns + 1, sizeof *p->start);
-  p->row = thr_calloc(entries, sizeof *p->row);
-  p->value = thr_calloc(entries, sizeof *p->value);
-  if (!p->rhs || !p->cost || !p->start || !p->row || !p->value) {
+  p->rhs = thr_scratch_array(&p->own, (size_t)s->n_rows + (size_t)s->n_ties, sizeof *p->rhs);
+  p->cost = thr_scratch_array(&p->own, columns, sizeof *p->cost);
+  p->start = thr_scratch_array(&p->own, columns + 1, sizeof *p->start);
+  p->row = thr_scratch_array(&p->own, entries, sizeof *p->row);
+  p->value = thr_scratch_array(&p->own, entries, sizeof *p->value);
+  if (thr_scratch_check(&p->own, err)) {
     programme_destroy(p);
-    return thr_nomem(err);
+    return THR_ENOMEM;
   }
   for (int v = 0; v < s->b->n_beads; v++)
     weigh(s, v, p->rhs);

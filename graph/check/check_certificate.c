@@ -5,11 +5,11 @@
 #include "graph/plan/plan.h"
 #include "graph/plan/prices.h"
 #include "graph/plan/request.h"
+#include "graph/scratch.h"
 #include "graph/status.h"
 
 #include <inttypes.h>
 #include <math.h>
-#include <stdlib.h>
 
 typedef thr_wide wide;
 
@@ -34,6 +34,7 @@ typedef struct {
   int *own;               /* [n_nodes] cut of the present tree whose own node this is, else -1; no tree's between trees */
   int64_t *price;         /* [n_nodes] of a place for a cord end there */
   int *loop, *work;       /* [n_edges] in the order of edge, once they are asked for: thr_prices_loops */
+  thr_scratch scratch;    /* the arrays */
 } workspace;
 
 /* The cuts of one certificate as a forest. Arrays of n_cuts. */
@@ -44,33 +45,27 @@ typedef struct {
   int *heavy, *head; /* child with the largest size, or -1; uppermost cut from which heavy children lead here */
   wide *depth;       /* sum of the values from the root to here */
   bool *odd;         /* is the number of odd nodes in the set? */
+  thr_scratch own;   /* the arrays */
 } forest;
 
 static void forest_destroy(forest *t)
 {
-  free(t->first);
-  free(t->next);
-  free(t->root);
-  free(t->size);
-  free(t->heavy);
-  free(t->head);
-  free(t->depth);
-  free(t->odd);
+  thr_scratch_free(&t->own);
 }
 
 static thr_status forest_init(forest *t, const thr_certificate *c, thr_err *err)
 {
   size_t n = (size_t)c->n_cuts;
   *t = (forest){.c = c};
-  t->first = thr_calloc(n, sizeof *t->first);
-  t->next = thr_calloc(n, sizeof *t->next);
-  t->root = thr_calloc(n, sizeof *t->root);
-  t->size = thr_calloc(n, sizeof *t->size);
-  t->heavy = thr_calloc(n, sizeof *t->heavy);
-  t->head = thr_calloc(n, sizeof *t->head);
-  t->depth = thr_calloc(n, sizeof *t->depth);
-  t->odd = thr_calloc(n, sizeof *t->odd);
-  if (!t->first || !t->next || !t->root || !t->size || !t->heavy || !t->head || !t->depth || !t->odd) return thr_nomem(err);
+  t->first = thr_scratch_array(&t->own, n, sizeof *t->first);
+  t->next = thr_scratch_array(&t->own, n, sizeof *t->next);
+  t->root = thr_scratch_array(&t->own, n, sizeof *t->root);
+  t->size = thr_scratch_array(&t->own, n, sizeof *t->size);
+  t->heavy = thr_scratch_array(&t->own, n, sizeof *t->heavy);
+  t->head = thr_scratch_array(&t->own, n, sizeof *t->head);
+  t->depth = thr_scratch_array(&t->own, n, sizeof *t->depth);
+  t->odd = thr_scratch_array(&t->own, n, sizeof *t->odd);
+  if (thr_scratch_check(&t->own, err)) return THR_ENOMEM;
   for (int i = 0; i < c->n_cuts; i++)
     t->first[i] = t->next[i] = t->heavy[i] = -1;
   return THR_OK;
@@ -317,9 +312,9 @@ static thr_status check_numbers(const workspace *k, const thr_certificate *c, th
 static thr_status find_loops(workspace *k, int component, thr_err *err)
 {
   const int first = k->edge_start[component], n = k->edge_start[component + 1] - first;
-  if (!k->loop) k->loop = thr_calloc((size_t)k->f->n_edges, sizeof *k->loop);
-  if (!k->work) k->work = thr_calloc(2 * (size_t)k->f->n_nodes, sizeof *k->work);
-  if (!k->loop || !k->work) return thr_nomem(err);
+  if (!k->loop) k->loop = thr_scratch_array(&k->scratch, (size_t)k->f->n_edges, sizeof *k->loop);
+  if (!k->work) k->work = thr_scratch_array(&k->scratch, 2 * (size_t)k->f->n_nodes, sizeof *k->work);
+  if (thr_scratch_check(&k->scratch, err)) return THR_ENOMEM;
   thr_prices_loops(k->f, k->edge + first, n, k->work, k->loop + first);
   return THR_OK;
 }
@@ -347,21 +342,7 @@ static thr_status run_certificate(workspace *k, const thr_certificate *c, thr_ch
 
 static void workspace_destroy(workspace *k)
 {
-  free(k->start);
-  free(k->node);
-  free(k->edge_start);
-  free(k->edge);
-  free(k->cords);
-  free(k->odd);
-  free(k->far_start);
-  free(k->far);
-  free(k->far_edge);
-  free(k->held);
-  free(k->shared);
-  free(k->own);
-  free(k->price);
-  free(k->loop);
-  free(k->work);
+  thr_scratch_free(&k->scratch);
 }
 
 /* Groups nodes and edges by component: counting sort, shifted by one place so that filling leaves the starts right. */
@@ -403,21 +384,20 @@ static thr_status workspace_init(workspace *k, const thr_frame *f, const thr_pla
 {
   size_t n = (size_t)f->n_nodes, m = (size_t)f->n_edges;
   *k = (workspace){.f = f, .o = o, .w = w};
-  k->start = thr_calloc(n + 2, sizeof *k->start);
-  k->node = thr_calloc(n, sizeof *k->node);
-  k->edge_start = thr_calloc(n + 2, sizeof *k->edge_start);
-  k->edge = thr_calloc(m, sizeof *k->edge);
-  k->cords = thr_calloc((size_t)w->n_components, sizeof *k->cords);
-  k->odd = thr_calloc(n, sizeof *k->odd);
-  k->far_start = thr_calloc(n + 1, sizeof *k->far_start);
-  k->far = thr_calloc(m, sizeof *k->far);
-  k->far_edge = thr_calloc(m, sizeof *k->far_edge);
-  k->held = thr_calloc(n, sizeof *k->held);
-  k->shared = thr_calloc(m, sizeof *k->shared);
-  k->own = thr_calloc(n, sizeof *k->own);
-  k->price = thr_calloc(n, sizeof *k->price);
-  if (!k->start || !k->node || !k->edge_start || !k->edge || !k->cords || !k->odd || !k->own || !k->price) return thr_nomem(err);
-  if (!k->far_start || !k->far || !k->far_edge || !k->held || !k->shared) return thr_nomem(err);
+  k->start = thr_scratch_array(&k->scratch, n + 2, sizeof *k->start);
+  k->node = thr_scratch_array(&k->scratch, n, sizeof *k->node);
+  k->edge_start = thr_scratch_array(&k->scratch, n + 2, sizeof *k->edge_start);
+  k->edge = thr_scratch_array(&k->scratch, m, sizeof *k->edge);
+  k->cords = thr_scratch_array(&k->scratch, (size_t)w->n_components, sizeof *k->cords);
+  k->odd = thr_scratch_array(&k->scratch, n, sizeof *k->odd);
+  k->far_start = thr_scratch_array(&k->scratch, n + 1, sizeof *k->far_start);
+  k->far = thr_scratch_array(&k->scratch, m, sizeof *k->far);
+  k->far_edge = thr_scratch_array(&k->scratch, m, sizeof *k->far_edge);
+  k->held = thr_scratch_array(&k->scratch, n, sizeof *k->held);
+  k->shared = thr_scratch_array(&k->scratch, m, sizeof *k->shared);
+  k->own = thr_scratch_array(&k->scratch, n, sizeof *k->own);
+  k->price = thr_scratch_array(&k->scratch, n, sizeof *k->price);
+  if (thr_scratch_check(&k->scratch, err)) return THR_ENOMEM;
   group(k);
   point(k);
   thr_check_most_cords(f, o, w, k->cords);

@@ -1,6 +1,7 @@
 /* Candidate pairs by truncated searches, by a Voronoi diagram, and along a tree. */
 #include "lp/matching/candidates.h"
 #include "graph/disjoint.h"
+#include "graph/scratch.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -50,10 +51,11 @@ static void sort_by_end(const pair *from, pair *to, int n, int side, int *start,
 
 thr_status thr_pairs_tidy(thr_pairs *pairs, int from, int n_odd, thr_err *err)
 {
+  thr_scratch own = {0};
   int n = pairs->count - from;
-  pair *a = thr_calloc((size_t)n, sizeof *a), *b = thr_calloc((size_t)n, sizeof *b);
-  int *start = thr_calloc((size_t)n_odd + 1, sizeof *start);
-  thr_status st = a && b && start ? THR_OK : thr_nomem(err);
+  pair *a = thr_scratch_array(&own, (size_t)n, sizeof *a), *b = thr_scratch_array(&own, (size_t)n, sizeof *b);
+  int *start = thr_scratch_array(&own, (size_t)n_odd + 1, sizeof *start);
+  thr_status st = thr_scratch_check(&own, err);
   if (st) goto done;
   for (int k = 0; k < n; k++)
     a[k] = (pair){{pairs->end[from + k][0], pairs->end[from + k][1]}, pairs->weight[from + k]};
@@ -69,9 +71,7 @@ thr_status thr_pairs_tidy(thr_pairs *pairs, int from, int n_odd, thr_err *err)
     }
   }
 done:
-  free(a);
-  free(b);
-  free(start);
+  thr_scratch_free(&own);
   return st;
 }
 
@@ -283,11 +283,12 @@ static thr_status pair_up(const pair *edge, tree_node *node, int *stack, int n, 
 /* Adds the pairs along a lightest spanning tree of the pairs that are there. */
 static thr_status add_fallback(thr_pairs *pairs, int n_odd, thr_err *err)
 {
+  thr_scratch own = {0};
   size_t n = (size_t)n_odd, m = (size_t)pairs->count;
-  pair *edge = thr_calloc(m, sizeof *edge);
-  tree_node *node = thr_calloc(n, sizeof *node);
-  int *parent = thr_calloc(n, sizeof *parent);
-  thr_status st = edge && node && parent ? THR_OK : thr_nomem(err);
+  pair *edge = thr_scratch_array(&own, m, sizeof *edge);
+  tree_node *node = thr_scratch_array(&own, n, sizeof *node);
+  int *parent = thr_scratch_array(&own, n, sizeof *parent);
+  thr_status st = thr_scratch_check(&own, err);
   if (st) goto done;
   for (size_t k = 0; k < m; k++)
     edge[k] = (pair){{pairs->end[k][0], pairs->end[k][1]}, pairs->weight[k]};
@@ -303,9 +304,7 @@ static thr_status add_fallback(thr_pairs *pairs, int n_odd, thr_err *err)
   }
   st = pair_up(edge, node, parent, n_odd, pairs, err); /* parent has served and is as long as the stack */
 done:
-  free(edge);
-  free(node);
-  free(parent);
+  thr_scratch_free(&own);
   return st;
 }
 

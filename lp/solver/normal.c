@@ -1,5 +1,6 @@
 /* Least degree by explicit elimination: what is left of a row's neighbours when it goes is its column of the factor. */
 #include "lp/solver/normal.h"
+#include "graph/scratch.h"
 #include "graph/sort.h"
 
 #include <math.h>
@@ -15,6 +16,7 @@ struct thr_normal {
   int *owner;              /* [entries of A] column */
   int *head, *next, *at;   /* columns that update the next column: lists, and where in them */
   double *work;            /* [n_rows] */
+  thr_scratch own;         /* the arrays */
 };
 
 void thr_columns_times(const thr_columns *a, const double *x, double *y)
@@ -131,9 +133,9 @@ static thr_status make_factor(thr_normal *n, const set *row, const int *order, t
     entries += (size_t)row[i].count;
   if (entries > INT32_MAX / 2)
     return thr_fail(err, THR_EINPUT, "the equations are too many: their factors need %zu numbers", entries);
-  n->row = thr_calloc(entries, sizeof *n->row);
-  n->value = thr_calloc(entries, sizeof *n->value);
-  if (!n->row || !n->value) return thr_nomem(err);
+  n->row = thr_scratch_array(&n->own, entries, sizeof *n->row);
+  n->value = thr_scratch_array(&n->own, entries, sizeof *n->value);
+  if (thr_scratch_check(&n->own, err)) return THR_ENOMEM;
   for (int s = 0; s < m; s++) {
     const set *from = &row[order[s]];
     int *to = n->row + n->start[s];
@@ -148,19 +150,17 @@ static thr_status make_factor(thr_normal *n, const set *row, const int *order, t
 static thr_status allocate(thr_normal *n, thr_err *err)
 {
   size_t m = (size_t)n->a.n_rows, entries = (size_t)n->a.start[n->a.n_columns];
-  n->place = thr_calloc(m, sizeof *n->place);
-  n->start = thr_calloc(m + 1, sizeof *n->start);
-  n->pivot = thr_calloc(m, sizeof *n->pivot);
-  n->by_start = thr_calloc(m + 2, sizeof *n->by_start);
-  n->by_item = thr_calloc(entries, sizeof *n->by_item);
-  n->owner = thr_calloc(entries, sizeof *n->owner);
-  n->head = thr_calloc(m, sizeof *n->head);
-  n->next = thr_calloc(m, sizeof *n->next);
-  n->at = thr_calloc(m, sizeof *n->at);
-  n->work = thr_calloc(m, sizeof *n->work);
-  if (!n->place || !n->start || !n->pivot || !n->by_start || !n->by_item || !n->owner || !n->head || !n->next || !n->at ||
-      !n->work)
-    return thr_nomem(err);
+  n->place = thr_scratch_array(&n->own, m, sizeof *n->place);
+  n->start = thr_scratch_array(&n->own, m + 1, sizeof *n->start);
+  n->pivot = thr_scratch_array(&n->own, m, sizeof *n->pivot);
+  n->by_start = thr_scratch_array(&n->own, m + 2, sizeof *n->by_start);
+  n->by_item = thr_scratch_array(&n->own, entries, sizeof *n->by_item);
+  n->owner = thr_scratch_array(&n->own, entries, sizeof *n->owner);
+  n->head = thr_scratch_array(&n->own, m, sizeof *n->head);
+  n->next = thr_scratch_array(&n->own, m, sizeof *n->next);
+  n->at = thr_scratch_array(&n->own, m, sizeof *n->at);
+  n->work = thr_scratch_array(&n->own, m, sizeof *n->work);
+  if (thr_scratch_check(&n->own, err)) return THR_ENOMEM;
   for (int j = 0; j < n->a.n_columns; j++)
     for (int k = n->a.start[j]; k < n->a.start[j + 1]; k++)
       n->owner[k] = j;
@@ -206,18 +206,7 @@ thr_status thr_normal_create(thr_normal **n, const thr_columns *a, thr_err *err)
 void thr_normal_destroy(thr_normal *n)
 {
   if (!n) return;
-  free(n->place);
-  free(n->start);
-  free(n->row);
-  free(n->value);
-  free(n->pivot);
-  free(n->by_start);
-  free(n->by_item);
-  free(n->owner);
-  free(n->head);
-  free(n->next);
-  free(n->at);
-  free(n->work);
+  thr_scratch_free(&n->own);
   free(n);
 }
 

@@ -10,6 +10,7 @@
 #include "lp/tjoin/cutbasis.h"
 #include "graph/disjoint.h"
 #include "graph/plan/plan.h"
+#include "graph/scratch.h"
 
 #include <stdlib.h>
 
@@ -23,22 +24,21 @@ typedef struct {
   int *tree;          /* [n_cuts] the outermost cut round it, or itself */
   int *first, *holds; /* cuts that name node v: holds[first[v] .. first[v + 1] - 1], in one tree each */
   bool nested;        /* no node is named twice */
+  thr_scratch own;    /* the arrays */
 } places;
 
 static void places_destroy(places *s)
 {
-  free(s->tree);
-  free(s->first);
-  free(s->holds);
+  thr_scratch_free(&s->own);
 }
 
 static thr_status places_init(places *s, const thr_tjoin_problem *p, const thr_tjoin *t, thr_err *err)
 {
   size_t n = (size_t)p->n_nodes, named = 0;
   *s = (places){.p = p, .t = t, .nested = true};
-  s->tree = thr_calloc((size_t)t->n_cuts, sizeof *s->tree);
-  s->first = thr_calloc(n + 2, sizeof *s->first);
-  if (!s->tree || !s->first) return thr_nomem(err);
+  s->tree = thr_scratch_array(&s->own, (size_t)t->n_cuts, sizeof *s->tree);
+  s->first = thr_scratch_array(&s->own, n + 2, sizeof *s->first);
+  if (thr_scratch_check(&s->own, err)) return THR_ENOMEM;
   for (int i = t->n_cuts - 1; i >= 0; i--) {
     s->tree[i] = t->cut[i].parent < 0 ? i : s->tree[t->cut[i].parent];
     named += (size_t)t->cut[i].n_nodes;
@@ -47,8 +47,8 @@ static thr_status places_init(places *s, const thr_tjoin_problem *p, const thr_t
   }
   for (size_t v = 1; v <= n; v++)
     s->first[v + 1] += s->first[v];
-  s->holds = thr_calloc(named, sizeof *s->holds);
-  if (!s->holds) return thr_nomem(err);
+  s->holds = thr_scratch_array(&s->own, named, sizeof *s->holds);
+  if (thr_scratch_check(&s->own, err)) return THR_ENOMEM;
   for (int i = 0; i < t->n_cuts; i++)
     for (int k = 0; k < t->cut[i].n_nodes; k++)
       s->holds[s->first[t->cut[i].node[k] + 1]++] = i;
@@ -150,17 +150,12 @@ typedef struct {
   int *tied;            /* [2 n_cuts + 1] disjoint sets: duals that stand or fall together; 0 = the ground, then two a cut */
   int *next;            /* [n_cuts] ring of the cuts tied together */
   int *round;           /* [2 n_cuts + 1] of a root of tied: last round in which its cuts were changed */
+  thr_scratch own;      /* the arrays */
 } basis;
 
 static void basis_destroy(basis *b)
 {
-  free(b->leaving);
-  free(b->leave);
-  free(b->reach);
-  free(b->grown);
-  free(b->tied);
-  free(b->next);
-  free(b->round);
+  thr_scratch_free(&b->own);
 }
 
 /* Innermost and outermost cut that hold node v, or -1. */
@@ -196,18 +191,18 @@ static thr_status basis_init(basis *b, thr_err *err)
   const thr_cut *cut = b->s->t->cut;
   int n = b->s->t->n_cuts;
   size_t cuts = (size_t)n;
-  b->leaving = thr_calloc(cuts + 2, sizeof *b->leaving);
-  b->reach = thr_calloc(cuts, sizeof *b->reach);
-  b->grown = thr_calloc(cuts, sizeof *b->grown);
-  b->tied = thr_calloc(2 * cuts + 1, sizeof *b->tied);
-  b->next = thr_calloc(cuts, sizeof *b->next);
-  b->round = thr_calloc(2 * cuts + 1, sizeof *b->round);
-  if (!b->leaving || !b->reach || !b->grown || !b->tied || !b->next || !b->round) return thr_nomem(err);
+  b->leaving = thr_scratch_array(&b->own, cuts + 2, sizeof *b->leaving);
+  b->reach = thr_scratch_array(&b->own, cuts, sizeof *b->reach);
+  b->grown = thr_scratch_array(&b->own, cuts, sizeof *b->grown);
+  b->tied = thr_scratch_array(&b->own, 2 * cuts + 1, sizeof *b->tied);
+  b->next = thr_scratch_array(&b->own, cuts, sizeof *b->next);
+  b->round = thr_scratch_array(&b->own, 2 * cuts + 1, sizeof *b->round);
+  if (thr_scratch_check(&b->own, err)) return THR_ENOMEM;
   list_leaving(b);
   for (int i = 1; i <= n; i++)
     b->leaving[i + 1] += b->leaving[i];
-  b->leave = thr_calloc((size_t)b->leaving[n + 1], sizeof *b->leave);
-  if (!b->leave) return thr_nomem(err);
+  b->leave = thr_scratch_array(&b->own, (size_t)b->leaving[n + 1], sizeof *b->leave);
+  if (thr_scratch_check(&b->own, err)) return THR_ENOMEM;
   list_leaving(b);
   for (int k = 0; k < 2 * n + 1; k++)
     b->tied[k] = k;
@@ -362,9 +357,10 @@ static thr_status span_levels(const places *s, bool *edge, bool *slack, thr_err 
  */
 static thr_status span_by_join(const places *s, bool *edge, bool *slack, thr_err *err)
 {
+  thr_scratch own = {0};
   size_t n = (size_t)s->t->n_cuts;
-  int *joined = thr_calloc(n, sizeof *joined), *by = thr_calloc(n, sizeof *by), at[2];
-  thr_status st = joined && by ? THR_OK : thr_nomem(err);
+  int *joined = thr_scratch_array(&own, n, sizeof *joined), *by = thr_scratch_array(&own, n, sizeof *by), at[2];
+  thr_status st = thr_scratch_check(&own, err);
   for (int e = 0; e < s->p->n_edges && !st; e++)
     for (int k = 0; s->t->in_join[e] && ends_in_tree(s, e, k, at); k++)
       while (at[0] != at[1]) {
@@ -376,8 +372,7 @@ static thr_status span_by_join(const places *s, bool *edge, bool *slack, thr_err
     slack[i] = joined[i] != 1 || edge[by[i]];
     if (!slack[i]) edge[by[i]] = true;
   }
-  free(joined);
-  free(by);
+  thr_scratch_free(&own);
   return st;
 }
 

@@ -1,5 +1,6 @@
 /* Nodes of a forest of cuts move between lists; whole sets are never written out. */
 #include "lp/tjoin/cuts.h"
+#include "graph/scratch.h"
 #include "graph/sort.h"
 
 #include <stdlib.h>
@@ -73,34 +74,29 @@ typedef struct {
   int *met, *met_by;        /* at a root, own nodes of the cut met_by that are in its tree */
   int *outer;               /* [n_nodes] root of the last tree that was looked at and holds the node, -1 = none */
   tree *by_size;
+  thr_scratch own; /* the arrays */
 } nesting;
 
 static void nesting_destroy(nesting *s)
 {
-  free(s->root);
-  free(s->first);
-  free(s->next);
-  free(s->total);
-  free(s->met);
-  free(s->met_by);
-  free(s->outer);
-  free(s->by_size);
+  thr_scratch_free(&s->own);
 }
 
 static thr_status nesting_init(nesting *s, const thr_cuts *c, thr_err *err)
 {
   size_t n = (size_t)c->n;
-  int *order = thr_calloc(n, sizeof *order);
-  *s = (nesting){.root = thr_calloc(n, sizeof *s->root),
-                 .first = thr_calloc(n, sizeof *s->first),
-                 .next = thr_calloc(n, sizeof *s->next),
-                 .total = thr_calloc(n, sizeof *s->total),
-                 .met = thr_calloc(n, sizeof *s->met),
-                 .met_by = thr_calloc(n, sizeof *s->met_by),
-                 .outer = thr_calloc((size_t)c->n_nodes, sizeof *s->outer),
-                 .by_size = thr_calloc(n, sizeof *s->by_size)};
-  bool ok = order && s->root && s->first && s->next && s->total && s->met && s->met_by && s->outer && s->by_size;
-  thr_status st = ok ? children_first(c, order, err) : thr_nomem(err);
+  *s = (nesting){0};
+  int *order = thr_scratch_array(&s->own, n, sizeof *order);
+  s->root = thr_scratch_array(&s->own, n, sizeof *s->root);
+  s->first = thr_scratch_array(&s->own, n, sizeof *s->first);
+  s->next = thr_scratch_array(&s->own, n, sizeof *s->next);
+  s->total = thr_scratch_array(&s->own, n, sizeof *s->total);
+  s->met = thr_scratch_array(&s->own, n, sizeof *s->met);
+  s->met_by = thr_scratch_array(&s->own, n, sizeof *s->met_by);
+  s->outer = thr_scratch_array(&s->own, (size_t)c->n_nodes, sizeof *s->outer);
+  s->by_size = thr_scratch_array(&s->own, n, sizeof *s->by_size);
+  thr_status st = thr_scratch_check(&s->own, err);
+  if (!st) st = children_first(c, order, err);
   for (int i = 0; i < c->n && !st; i++)
     s->first[i] = s->met_by[i] = -1;
   for (int v = 0; v < c->n_nodes && !st; v++)
@@ -112,7 +108,6 @@ static thr_status nesting_init(nesting *s, const thr_cuts *c, thr_err *err)
     s->first[root] = i;
     s->total[root] += c->cut[i].n_nodes;
   }
-  free(order);
   return st;
 }
 

@@ -1,6 +1,7 @@
 /* The search for the price of an end, on T-joins with a hub. */
 #include "lp/tjoin/endjoin.h"
 #include "graph/disjoint.h"
+#include "graph/scratch.h"
 #include "lp/tjoin/cuts.h"
 
 #include <assert.h>
@@ -201,30 +202,26 @@ typedef struct {
   int n_trails, n_steps;
   int *start, *step; /* trail i, from the hub back to it: edges step[start[i] .. start[i + 1] - 1] */
   int64_t *change;   /* [n_trails] of the weight, if few takes over the trail */
+  thr_scratch own;   /* the arrays */
 } difference;
 
 static void difference_destroy(difference *d)
 {
-  free(d->first);
-  free(d->incident);
-  free(d->next);
-  free(d->used);
-  free(d->start);
-  free(d->step);
-  free(d->change);
+  thr_scratch_free(&d->own);
 }
 
 static thr_status difference_init(difference *d, const search *s, thr_err *err)
 {
   size_t n = (size_t)s->hub + 1, m = (size_t)s->n_edges;
-  *d = (difference){.first = thr_calloc(n + 2, sizeof *d->first),
-                    .incident = thr_calloc(2 * m, sizeof *d->incident),
-                    .next = thr_calloc(n, sizeof *d->next),
-                    .used = thr_calloc(m, sizeof *d->used),
-                    .start = thr_calloc(n + 1, sizeof *d->start),
-                    .step = thr_calloc(m, sizeof *d->step),
-                    .change = thr_calloc(n, sizeof *d->change)};
-  if (!d->first || !d->incident || !d->next || !d->used || !d->start || !d->step || !d->change) return thr_nomem(err);
+  *d = (difference){0};
+  d->first = thr_scratch_array(&d->own, n + 2, sizeof *d->first);
+  d->incident = thr_scratch_array(&d->own, 2 * m, sizeof *d->incident);
+  d->next = thr_scratch_array(&d->own, n, sizeof *d->next);
+  d->used = thr_scratch_array(&d->own, m, sizeof *d->used);
+  d->start = thr_scratch_array(&d->own, n + 1, sizeof *d->start);
+  d->step = thr_scratch_array(&d->own, m, sizeof *d->step);
+  d->change = thr_scratch_array(&d->own, n, sizeof *d->change);
+  if (thr_scratch_check(&d->own, err)) return THR_ENOMEM;
   for (size_t e = 0; e < m; e++) {
     d->used[e] = s->few.t.in_join[e] == s->many.t.in_join[e];
     for (int i = 0; i < 2 && !d->used[e]; i++)

@@ -3,6 +3,7 @@
 #include "graph/framework/cuttree.h"
 #include "graph/disjoint.h"
 #include "graph/random.h"
+#include "graph/scratch.h"
 #include "graph/sort.h"
 
 #include <math.h>
@@ -155,7 +156,8 @@ typedef struct {
   double *radius;   /* [n] by root: how far its ball may grow */
   int *order;       /* [n] nodes as settled */
   int settled;
-  reached *heap; /* [2 * n_edges + n] */
+  reached *heap;   /* [2 * n_edges + n] */
+  thr_scratch own; /* the arrays */
 } voronoi;
 
 static void grow_balls(const thr_oddcut_graph *g, const double *reduced_cost, int *parent, voronoi *z)
@@ -226,23 +228,18 @@ static thr_status add_balls(const thr_oddcut_graph *g, const voronoi *z, const i
 static thr_status voronoi_init(voronoi *z, const thr_tjoin_problem *p, thr_err *err)
 {
   size_t n = (size_t)p->n_nodes;
-  z->distance = thr_calloc(n, sizeof *z->distance);
-  z->owner = thr_calloc(n, sizeof *z->owner);
-  z->odd_root = thr_calloc(n, sizeof *z->odd_root);
-  z->radius = thr_calloc(n, sizeof *z->radius);
-  z->order = thr_calloc(n, sizeof *z->order);
-  z->heap = thr_calloc(2 * (size_t)p->n_edges + n, sizeof *z->heap);
-  return z->distance && z->owner && z->odd_root && z->radius && z->order && z->heap ? THR_OK : thr_nomem(err);
+  z->distance = thr_scratch_array(&z->own, n, sizeof *z->distance);
+  z->owner = thr_scratch_array(&z->own, n, sizeof *z->owner);
+  z->odd_root = thr_scratch_array(&z->own, n, sizeof *z->odd_root);
+  z->radius = thr_scratch_array(&z->own, n, sizeof *z->radius);
+  z->order = thr_scratch_array(&z->own, n, sizeof *z->order);
+  z->heap = thr_scratch_array(&z->own, 2 * (size_t)p->n_edges + n, sizeof *z->heap);
+  return thr_scratch_check(&z->own, err);
 }
 
 static void voronoi_destroy(voronoi *z)
 {
-  free(z->distance);
-  free(z->owner);
-  free(z->odd_root);
-  free(z->radius);
-  free(z->order);
-  free(z->heap);
+  thr_scratch_free(&z->own);
 }
 
 /* Components of {e : x_e > threshold}; x NULL: single nodes. */
@@ -257,12 +254,14 @@ static void components(const thr_tjoin_problem *p, const double *x, double thres
 thr_status thr_oddcut_moats(const thr_oddcut_graph *g, const double *x, double threshold, const double *reduced_cost,
                             thr_pool *pool, thr_err *err)
 {
+  thr_scratch own = {0};
   const thr_tjoin_problem *p = g->p;
   size_t n = (size_t)p->n_nodes;
   voronoi z = {0};
-  int *parent = thr_calloc(n, sizeof *parent), *start = thr_calloc(n + 2, sizeof *start),
-      *by_owner = thr_calloc(n, sizeof *by_owner);
-  thr_status st = parent && start && by_owner ? voronoi_init(&z, p, err) : thr_nomem(err);
+  int *parent = thr_scratch_array(&own, n, sizeof *parent), *start = thr_scratch_array(&own, n + 2, sizeof *start),
+      *by_owner = thr_scratch_array(&own, n, sizeof *by_owner);
+  thr_status st = thr_scratch_check(&own, err);
+  if (!st) st = voronoi_init(&z, p, err);
   if (st) goto done;
   components(p, x, threshold, parent);
   for (int v = 0; v < p->n_nodes; v++)
@@ -280,9 +279,7 @@ thr_status thr_oddcut_moats(const thr_oddcut_graph *g, const double *x, double t
   st = add_balls(g, &z, start, by_owner, pool, err);
 done:
   voronoi_destroy(&z);
-  free(parent);
-  free(start);
-  free(by_owner);
+  thr_scratch_free(&own);
   return st;
 }
 
@@ -295,30 +292,27 @@ typedef struct {
   double *capacity;
   int (*tree)[2];
   double *flow;
-  int *parent; /* disjoint sets over the tree without one edge */
-  bool *side;  /* [n] */
+  int *parent;     /* disjoint sets over the tree without one edge */
+  bool *side;      /* [n] */
+  thr_scratch own; /* the arrays */
 } shrunk;
 
 static void shrunk_destroy(shrunk *s)
 {
-  free(s->edge);
-  free(s->capacity);
-  free(s->tree);
-  free(s->flow);
-  free(s->parent);
-  free(s->side);
+  thr_scratch_free(&s->own);
 }
 
 static thr_status shrunk_init(shrunk *s, int n, int m, thr_err *err)
 {
   size_t nodes = (size_t)n, edges = (size_t)m;
-  *s = (shrunk){.edge = thr_calloc(edges, sizeof *s->edge),
-                .capacity = thr_calloc(edges, sizeof *s->capacity),
-                .tree = thr_calloc(nodes, sizeof *s->tree),
-                .flow = thr_calloc(nodes, sizeof *s->flow),
-                .parent = thr_calloc(nodes, sizeof *s->parent),
-                .side = thr_calloc(nodes, sizeof *s->side)};
-  return s->edge && s->capacity && s->tree && s->flow && s->parent && s->side ? THR_OK : thr_nomem(err);
+  *s = (shrunk){0};
+  s->edge = thr_scratch_array(&s->own, edges, sizeof *s->edge);
+  s->capacity = thr_scratch_array(&s->own, edges, sizeof *s->capacity);
+  s->tree = thr_scratch_array(&s->own, nodes, sizeof *s->tree);
+  s->flow = thr_scratch_array(&s->own, nodes, sizeof *s->flow);
+  s->parent = thr_scratch_array(&s->own, nodes, sizeof *s->parent);
+  s->side = thr_scratch_array(&s->own, nodes, sizeof *s->side);
+  return thr_scratch_check(&s->own, err);
 }
 
 /* Adds the side of tree edge i, in framework nodes: those whose shrunk node is still joined to tree[i][0]. */
@@ -373,14 +367,13 @@ thr_status thr_oddcut_exact(const thr_oddcut_graph *g, const double *x, thr_pool
 {
   const thr_tjoin_problem *p = g->p;
   size_t n = (size_t)p->n_nodes;
-  thr_status st = THR_OK;
-  int *parent = thr_calloc(n, sizeof *parent), *block = thr_calloc(n, sizeof *block),
-      *shrunk_of = thr_calloc(n, sizeof *shrunk_of);
-  int *list = thr_calloc(n, sizeof *list), *start = thr_calloc(n + 2, sizeof *start), *node = thr_calloc(n, sizeof *node);
-  if (!parent || !block || !shrunk_of || !list || !start || !node) {
-    st = thr_nomem(err);
-    goto done;
-  }
+  thr_scratch own = {0};
+  int *parent = thr_scratch_array(&own, n, sizeof *parent), *block = thr_scratch_array(&own, n, sizeof *block),
+      *shrunk_of = thr_scratch_array(&own, n, sizeof *shrunk_of);
+  int *list = thr_scratch_array(&own, n, sizeof *list), *start = thr_scratch_array(&own, n + 2, sizeof *start),
+      *node = thr_scratch_array(&own, n, sizeof *node);
+  thr_status st = thr_scratch_check(&own, err);
+  if (st) goto done;
   components(p, x, tolerance, parent);
   components(p, x, 1 - tolerance, block);
   for (int v = 0; v < p->n_nodes; v++)
@@ -392,11 +385,6 @@ thr_status thr_oddcut_exact(const thr_oddcut_graph *g, const double *x, thr_pool
   for (int root = 0; root < p->n_nodes && !st; root++)
     st = separate_component(g, x, node + start[root], start[root + 1] - start[root], block, shrunk_of, list, pool, err);
 done:
-  free(parent);
-  free(block);
-  free(shrunk_of);
-  free(list);
-  free(start);
-  free(node);
+  thr_scratch_free(&own);
   return st;
 }

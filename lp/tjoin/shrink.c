@@ -1,41 +1,30 @@
 /* Bridges by depth-first search, then series and parallel edges until none is left. */
 #include "lp/tjoin/shrink.h"
 #include "graph/disjoint.h"
+#include "graph/scratch.h"
 #include "lp/tjoin/oddcut.h"
 
-#include <stdlib.h>
 
 void thr_shrinking_destroy(thr_shrinking *s)
 {
-  free(s->edge);
-  free(s->weight);
-  free(s->odd);
-  free(s->origin);
-  free(s->kept);
-  free(s->block);
-  free(s->order);
-  free(s->up);
-  free(s->odd_bridge);
-  free(s->step);
+  thr_scratch_free(&s->own);
   *s = (thr_shrinking){0};
 }
 
 static thr_status allocate(thr_shrinking *s, thr_err *err)
 {
   size_t n = (size_t)s->p->n_nodes, m = (size_t)s->p->n_edges;
-  s->edge = thr_calloc(m, sizeof *s->edge);
-  s->weight = thr_calloc(m, sizeof *s->weight);
-  s->odd = thr_calloc(n, sizeof *s->odd);
-  s->origin = thr_calloc(m, sizeof *s->origin);
-  s->kept = thr_calloc(n, sizeof *s->kept);
-  s->block = thr_calloc(n, sizeof *s->block);
-  s->order = thr_calloc(n, sizeof *s->order);
-  s->up = thr_calloc(n, sizeof *s->up);
-  s->odd_bridge = thr_calloc(n, sizeof *s->odd_bridge);
-  s->step = thr_calloc(n, sizeof *s->step);
-  return s->edge && s->weight && s->odd && s->origin && s->kept && s->block && s->order && s->up && s->odd_bridge && s->step
-             ? THR_OK
-             : thr_nomem(err);
+  s->edge = thr_scratch_array(&s->own, m, sizeof *s->edge);
+  s->weight = thr_scratch_array(&s->own, m, sizeof *s->weight);
+  s->odd = thr_scratch_array(&s->own, n, sizeof *s->odd);
+  s->origin = thr_scratch_array(&s->own, m, sizeof *s->origin);
+  s->kept = thr_scratch_array(&s->own, n, sizeof *s->kept);
+  s->block = thr_scratch_array(&s->own, n, sizeof *s->block);
+  s->order = thr_scratch_array(&s->own, n, sizeof *s->order);
+  s->up = thr_scratch_array(&s->own, n, sizeof *s->up);
+  s->odd_bridge = thr_scratch_array(&s->own, n, sizeof *s->odd_bridge);
+  s->step = thr_scratch_array(&s->own, n, sizeof *s->step);
+  return thr_scratch_check(&s->own, err);
 }
 
 static int other_end(const int (*edge)[2], int e, int v)
@@ -100,12 +89,13 @@ static void judge_edges(thr_shrinking *s, bridge_search *b)
 static thr_status find_blocks(thr_shrinking *s, thr_err *err)
 {
   size_t n = (size_t)s->p->n_nodes;
-  bridge_search b = {.number = thr_calloc(n, sizeof *b.number),
-                     .low = thr_calloc(n, sizeof *b.low),
-                     .cursor = thr_calloc(n, sizeof *b.cursor),
-                     .parity = thr_calloc(n, sizeof *b.parity),
-                     .parent = thr_calloc(n, sizeof *b.parent)};
-  thr_status st = b.number && b.low && b.cursor && b.parity && b.parent ? THR_OK : thr_nomem(err);
+  thr_scratch own = {0};
+  bridge_search b = {.number = thr_scratch_array(&own, n, sizeof *b.number),
+                     .low = thr_scratch_array(&own, n, sizeof *b.low),
+                     .cursor = thr_scratch_array(&own, n, sizeof *b.cursor),
+                     .parity = thr_scratch_array(&own, n, sizeof *b.parity),
+                     .parent = thr_scratch_array(&own, n, sizeof *b.parent)};
+  thr_status st = thr_scratch_check(&own, err);
   if (!st) st = thr_oddcut_graph_init(&b.graph, s->p, err);
   if (!st) {
     for (int v = 0; v < s->p->n_nodes; v++) {
@@ -129,11 +119,7 @@ static thr_status find_blocks(thr_shrinking *s, thr_err *err)
       }
   }
   thr_oddcut_graph_destroy(&b.graph);
-  free(b.number);
-  free(b.low);
-  free(b.cursor);
-  free(b.parity);
-  free(b.parent);
+  thr_scratch_free(&own);
   return st;
 }
 
@@ -150,6 +136,7 @@ typedef struct {
   bool *queued;         /* [n_blocks] */
   int *queue;           /* [n_queued] blocks of degree 1 or 2 */
   int n_queued;
+  thr_scratch own; /* the arrays */
 } shrinker;
 
 static void consider(shrinker *r, int v)
@@ -256,27 +243,20 @@ static void take_middle(shrinker *r, int v)
 static thr_status shrinker_init(shrinker *r, thr_err *err)
 {
   size_t m = (size_t)r->s->p->n_edges, n = (size_t)r->s->n_blocks;
-  r->next = thr_calloc(2 * m, sizeof *r->next);
-  r->previous = thr_calloc(2 * m, sizeof *r->previous);
-  r->ring = thr_calloc(n, sizeof *r->ring);
-  r->degree = thr_calloc(n, sizeof *r->degree);
-  r->gone = thr_calloc(m, sizeof *r->gone);
-  r->out = thr_calloc(n, sizeof *r->out);
-  r->queued = thr_calloc(n, sizeof *r->queued);
-  r->queue = thr_calloc(n, sizeof *r->queue);
-  return r->next && r->previous && r->ring && r->degree && r->gone && r->out && r->queued && r->queue ? THR_OK : thr_nomem(err);
+  r->next = thr_scratch_array(&r->own, 2 * m, sizeof *r->next);
+  r->previous = thr_scratch_array(&r->own, 2 * m, sizeof *r->previous);
+  r->ring = thr_scratch_array(&r->own, n, sizeof *r->ring);
+  r->degree = thr_scratch_array(&r->own, n, sizeof *r->degree);
+  r->gone = thr_scratch_array(&r->own, m, sizeof *r->gone);
+  r->out = thr_scratch_array(&r->own, n, sizeof *r->out);
+  r->queued = thr_scratch_array(&r->own, n, sizeof *r->queued);
+  r->queue = thr_scratch_array(&r->own, n, sizeof *r->queue);
+  return thr_scratch_check(&r->own, err);
 }
 
 static void shrinker_destroy(shrinker *r)
 {
-  free(r->next);
-  free(r->previous);
-  free(r->ring);
-  free(r->degree);
-  free(r->gone);
-  free(r->out);
-  free(r->queued);
-  free(r->queue);
+  thr_scratch_free(&r->own);
 }
 
 /* Rings of all edges but the bridges, the lightest of each set of parallel ones. */

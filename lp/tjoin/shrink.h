@@ -10,6 +10,7 @@
 #define THR_SHRINK_H
 
 #include "graph/status.h"
+#include "graph/scratch.h"
 #include "lp/tjoin/tjoin.h"
 
 /* One node taken out. The lighter or only edge, or the first, is a. */
@@ -39,6 +40,7 @@ typedef struct {
                        that leads up from each, -1 from the first */
   bool *odd_bridge; /* [p->n_nodes] does that edge alone connect an odd number of odd nodes to the rest? Then it is in the join */
   thr_shrink_step *step; /* [n_steps] in order; node, x and y are blocks */
+  thr_scratch own;       /* the arrays */
 } thr_shrinking;
 
 /* Near-linear. Release with thr_shrinking_destroy. */

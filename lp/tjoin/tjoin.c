@@ -1,6 +1,7 @@
 /* The cutting-plane loop: solve, separate, round to a join, turn the dual into an exact certificate. */
 #include "lp/tjoin/tjoin.h"
 #include "graph/disjoint.h"
+#include "graph/scratch.h"
 #include "lp/model/pool.h"
 #include "lp/tjoin/cuts.h"
 #include "lp/solver/lp.h"
@@ -31,6 +32,7 @@ typedef struct {
   bool *leaf_used;      /* [n_leaves] */
   wide *slack;          /* [n_edges] */
   thr_tjoin best;
+  thr_scratch own; /* the arrays */
 } solver;
 
 static thr_status solver_init(solver *s, const thr_tjoin_problem *p, const thr_limits *limits, thr_err *err)
@@ -40,21 +42,19 @@ static thr_status solver_init(solver *s, const thr_tjoin_problem *p, const thr_l
   thr_status st = thr_oddcut_graph_init(&s->graph, p, err);
   if (!st) st = thr_pool_init(&s->pool, p->n_edges, err);
   if (st) return st;
-  s->cost = thr_calloc(m, sizeof *s->cost);
-  s->whole = thr_calloc(m, sizeof *s->whole);
-  s->x = thr_calloc(m, sizeof *s->x);
-  s->reduced_cost = thr_calloc(m, sizeof *s->reduced_cost);
-  s->key = thr_calloc(m, sizeof *s->key);
-  s->order = thr_calloc(m, sizeof *s->order);
-  s->parent = thr_calloc(n, sizeof *s->parent);
-  s->tree_join = thr_calloc(m, sizeof *s->tree_join);
-  s->leaf_used = thr_calloc((size_t)p->n_leaves, sizeof *s->leaf_used);
-  s->slack = thr_calloc(m, sizeof *s->slack);
+  s->cost = thr_scratch_array(&s->own, m, sizeof *s->cost);
+  s->whole = thr_scratch_array(&s->own, m, sizeof *s->whole);
+  s->x = thr_scratch_array(&s->own, m, sizeof *s->x);
+  s->reduced_cost = thr_scratch_array(&s->own, m, sizeof *s->reduced_cost);
+  s->key = thr_scratch_array(&s->own, m, sizeof *s->key);
+  s->order = thr_scratch_array(&s->own, m, sizeof *s->order);
+  s->parent = thr_scratch_array(&s->own, n, sizeof *s->parent);
+  s->tree_join = thr_scratch_array(&s->own, m, sizeof *s->tree_join);
+  s->leaf_used = thr_scratch_array(&s->own, (size_t)p->n_leaves, sizeof *s->leaf_used);
+  s->slack = thr_scratch_array(&s->own, m, sizeof *s->slack);
   s->best.in_join = thr_calloc(m, sizeof *s->best.in_join);
   s->best.length = INT64_MAX;
-  if (!s->cost || !s->whole || !s->x || !s->reduced_cost || !s->key || !s->order || !s->parent || !s->tree_join ||
-      !s->leaf_used || !s->slack || !s->best.in_join)
-    return thr_nomem(err);
+  if (!s->best.in_join || thr_scratch_check(&s->own, err)) return thr_nomem(err);
   double sum = 0;
   for (size_t e = 0; e < m; e++)
     sum += s->whole[e] = (double)p->weight[e];
@@ -69,18 +69,9 @@ static void solver_destroy(solver *s)
   thr_lp_destroy(s->lp);
   thr_pool_destroy(&s->pool);
   thr_oddcut_graph_destroy(&s->graph);
-  free(s->cost);
-  free(s->whole);
-  free(s->x);
-  free(s->reduced_cost);
-  free(s->key);
+  thr_scratch_free(&s->own);
   free(s->dual);
   free(s->value);
-  free(s->order);
-  free(s->parent);
-  free(s->tree_join);
-  free(s->leaf_used);
-  free(s->slack);
 }
 
 void thr_tjoin_destroy(thr_tjoin *t)
@@ -129,11 +120,12 @@ static void spanning_tree(solver *s)
 /* Keeps of the tree the edges that separate an odd number of odd nodes: the only T-join in it. Leaves inwards. */
 static thr_status prune_tree(solver *s, thr_err *err)
 {
+  thr_scratch own = {0};
   const thr_tjoin_problem *p = s->p;
   size_t n = (size_t)p->n_nodes;
-  int *degree = thr_calloc(n, sizeof *degree), *stack = thr_calloc(n, sizeof *stack), top = 0;
-  bool *odd = thr_calloc(n, sizeof *odd), *done = thr_calloc((size_t)p->n_edges, sizeof *done);
-  thr_status st = degree && stack && odd && done ? THR_OK : thr_nomem(err);
+  int *degree = thr_scratch_array(&own, n, sizeof *degree), *stack = thr_scratch_array(&own, n, sizeof *stack), top = 0;
+  bool *odd = thr_scratch_array(&own, n, sizeof *odd), *done = thr_scratch_array(&own, (size_t)p->n_edges, sizeof *done);
+  thr_status st = thr_scratch_check(&own, err);
   if (st) goto done;
   memcpy(odd, p->odd, n * sizeof *odd);
   for (int e = 0; e < p->n_edges; e++)
@@ -157,10 +149,7 @@ static thr_status prune_tree(solver *s, thr_err *err)
     }
   }
 done:
-  free(degree);
-  free(stack);
-  free(odd);
-  free(done);
+  thr_scratch_free(&own);
   return st;
 }
 

@@ -1,5 +1,6 @@
 /* Orbits of copies, darts and turns under a group. */
 #include "symmetry/group/quotient.h"
+#include "graph/scratch.h"
 #include "symmetry/group/isometry.h"
 
 #include <assert.h>
@@ -21,6 +22,7 @@ typedef struct {
   int n_normal, n_at;    /* how many */
   thr_subgroup *s_class; /* [n_layers] least conjugate of each layer's stabilizers */
   int classes_capacity;
+  thr_scratch own; /* the arrays */
 } build;
 
 static int image(const thr_quotient *q, int i, int half)
@@ -465,13 +467,13 @@ static thr_status build_init(build *b, thr_err *err)
 {
   const thr_quotient *q = b->q;
   size_t order = (size_t)q->group->order, halves = 2 * (size_t)q->f->n_edges;
-  b->position = thr_calloc(order, sizeof *b->position);
-  b->latest = thr_calloc(halves, sizeof *b->latest);
-  b->set = thr_calloc(order, sizeof *b->set);
-  b->least = thr_calloc(order, sizeof *b->least);
-  b->normal = thr_calloc((size_t)q->h->order, sizeof *b->normal);
-  b->at = thr_calloc((size_t)q->h->order, sizeof *b->at);
-  if (!b->position || !b->latest || !b->set || !b->least || !b->normal || !b->at) return thr_nomem(err);
+  b->position = thr_scratch_array(&b->own, order, sizeof *b->position);
+  b->latest = thr_scratch_array(&b->own, halves, sizeof *b->latest);
+  b->set = thr_scratch_array(&b->own, order, sizeof *b->set);
+  b->least = thr_scratch_array(&b->own, order, sizeof *b->least);
+  b->normal = thr_scratch_array(&b->own, (size_t)q->h->order, sizeof *b->normal);
+  b->at = thr_scratch_array(&b->own, (size_t)q->h->order, sizeof *b->at);
+  if (thr_scratch_check(&b->own, err)) return THR_ENOMEM;
   memset(b->position, -1, order * sizeof *b->position);
   memset(b->latest, -1, halves * sizeof *b->latest);
   for (int i = 0; i < q->h->order; i++)
@@ -484,13 +486,8 @@ static void build_destroy(build *b)
   for (int l = 0; b->s_class && l < b->q->n_layers; l++)
     thr_subgroup_destroy(&b->s_class[l]);
   free(b->s_class);
-  free(b->position);
-  free(b->latest);
+  thr_scratch_free(&b->own);
   free(b->before);
-  free(b->set);
-  free(b->least);
-  free(b->normal);
-  free(b->at);
 }
 
 thr_status thr_quotient_make(thr_quotient *q, const thr_frame *f, const thr_group *g, const thr_subgroup *h, int most,

@@ -4,6 +4,7 @@
 #include "graph/angle.h"
 #include "graph/io/json.h"
 #include "graph/io/writer.h"
+#include "graph/scratch.h"
 #include "graph/sort.h"
 
 #include <limits.h>
@@ -98,6 +99,36 @@ START_TEST(grow_doubles_and_keeps_on_failure)
 END_TEST
 
 /* ---- text ---- */
+
+/* With the k-th allocation failing: an array that is missing, all after it missing too, and said once. */
+START_TEST(scratch_is_checked_once)
+{
+  for (int k = 1; k <= 4; k++) {
+    thr_scratch own = {0};
+    thr_err err = {0};
+    thr_alloc_fail_once(k);
+    int *some = thr_scratch_array(&own, 10, sizeof *some);
+    double *none = thr_scratch_array(&own, 0, sizeof *none), *more = thr_scratch_array(&own, 1000, sizeof *more);
+    thr_alloc_fail_at(0);
+    ck_assert(!some == (k == 1) && !none == (k <= 2) && !more == (k <= 3));
+    ck_assert_int_eq(thr_scratch_check(&own, &err), k <= 3 ? THR_ENOMEM : THR_OK);
+    for (int i = 0; more && i < 1000; i++)
+      ck_assert(more[i] == 0);
+    thr_scratch_free(&own);
+    ck_assert_int_eq(thr_scratch_check(&own, NULL), THR_OK);
+  }
+}
+END_TEST
+
+START_TEST(scratch_is_never_too_large)
+{
+  thr_scratch own = {0};
+  ck_assert_ptr_null(thr_scratch_array(&own, SIZE_MAX / 8 + 1, 8));
+  ck_assert_ptr_null(thr_scratch_array(&own, SIZE_MAX - 4, 1));
+  ck_assert_int_eq(thr_scratch_check(&own, NULL), THR_ENOMEM);
+  thr_scratch_free(&own);
+}
+END_TEST
 
 START_TEST(doubles_are_short_and_read_back)
 {
@@ -449,6 +480,8 @@ int main(void)
   ADD_TEST(s, 10, error_text_is_one_bounded_line);
   ADD_TEST(s, 10, allocation_fails_where_told);
   ADD_TEST(s, 10, grow_doubles_and_keeps_on_failure);
+  ADD_TEST(s, 10, scratch_is_checked_once);
+  ADD_TEST(s, 10, scratch_is_never_too_large);
   ADD_TEST(s, 10, doubles_are_short_and_read_back);
   ADD_TEST(s, 10, strings_are_escaped);
   ADD_TEST(s, 60, every_letter_is_kept_or_a_blank);
