@@ -172,7 +172,7 @@ validate: ## measure the pull force against theory (a few minutes), write docs/v
 	+@$(MAKE) --no-print-directory $(JOBS) BUILD=release $(OUT)/release/validate
 	@$(OUT)/release/validate docs/validation.md
 
-memory: ## every command with every allocation failing once (hours; SAMPLES=N: N allocations of each command)
+memory: ## every command with an allocation of each distinct stack of calls failing (hours; SAMPLES=N: N of each command)
 	+@tools/install-packages.sh $(BUILD_PACKAGES)
 	+@$(MAKE) --no-print-directory $(JOBS) BUILD=release all $(OUT)/release/tests/memory/fail_malloc.so
 	@tests/memory/run.sh $(OUT)/release/thread $(OUT)/release/tests/memory/fail_malloc.so $(OUT)/memory $(or $(SAMPLES),0)

@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static long fail_at;     /* 0: never; 1: the next allocation fails */
-static bool fails_later; /* .. and so does each one after it */
+static _Thread_local long fail_at;     /* 0: never; 1: the next allocation fails */
+static _Thread_local bool fails_later; /* .. and so does each one after it */
 
 thr_status thr_fail(thr_err *err, thr_status code, const char *format, ...)
 {

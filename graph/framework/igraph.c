@@ -11,6 +11,7 @@
 #include "graph/text.h"
 
 #include <igraph.h>
+#include <pthread.h>
 
 #include <string.h>
 
@@ -49,6 +50,26 @@ static thr_status failed(igraph_error_t code, thr_err *err)
   return thr_fail(err, THR_ESOLVER, "igraph: %s", lib.igraph_strerror(code));
 }
 
+/* igraph keeps its stack of what to release in static variables: one thread at a time, from enter to leave. */
+static pthread_mutex_t one_thread = PTHREAD_MUTEX_INITIALIZER;
+
+static thr_status enter(igraph_error_handler_t **old, thr_err *err)
+{
+  pthread_mutex_lock(&one_thread);
+  thr_status st = load(err);
+  if (st)
+    pthread_mutex_unlock(&one_thread);
+  else
+    *old = lib.igraph_set_error_handler(lib.igraph_error_handler_ignore);
+  return st;
+}
+
+static void leave(igraph_error_handler_t *old)
+{
+  lib.igraph_set_error_handler(old);
+  pthread_mutex_unlock(&one_thread);
+}
+
 /* Initializes ends with those of the m edges, one after the other. */
 static igraph_error_t list_ends(igraph_vector_int_t *ends, int m, const int (*edge)[2])
 {
@@ -85,9 +106,9 @@ no_flows:
 
 thr_status thr_cut_tree(int n, int m, const int (*edge)[2], const double *capacity, int (*tree)[2], double *flow, thr_err *err)
 {
-  thr_status st = load(err);
+  igraph_error_handler_t *old;
+  thr_status st = enter(&old, err);
   if (st) return st;
-  igraph_error_handler_t *old = lib.igraph_set_error_handler(lib.igraph_error_handler_ignore);
   igraph_vector_int_t ends;
   igraph_vector_t weights;
   igraph_error_t code = list_ends(&ends, m, edge);
@@ -100,7 +121,7 @@ thr_status thr_cut_tree(int n, int m, const int (*edge)[2], const double *capaci
 no_weights:
   lib.igraph_vector_int_destroy(&ends);
 no_ends:
-  lib.igraph_set_error_handler(old);
+  leave(old);
   return code ? failed(code, err) : THR_OK;
 }
 
@@ -119,9 +140,9 @@ static igraph_error_t count_coloured(const igraph_t *g, const int *colour, igrap
 
 thr_status thr_automorphism_count(int n, int m, const int (*edge)[2], const int *colour, char **digits, thr_err *err)
 {
-  thr_status st = load(err);
+  igraph_error_handler_t *old;
+  thr_status st = enter(&old, err);
   if (st) return st;
-  igraph_error_handler_t *old = lib.igraph_set_error_handler(lib.igraph_error_handler_ignore);
   igraph_vector_int_t ends;
   igraph_t g;
   igraph_bliss_info_t info = {0};
@@ -133,9 +154,9 @@ thr_status thr_automorphism_count(int n, int m, const int (*edge)[2], const int 
 no_graph:
   lib.igraph_vector_int_destroy(&ends);
 no_ends:
-  lib.igraph_set_error_handler(old);
   *digits = code ? NULL : thr_strdup(info.group_size);
   lib.igraph_free(info.group_size);
+  leave(old);
   if (code) return failed(code, err);
   return *digits ? THR_OK : thr_nomem(err);
 }

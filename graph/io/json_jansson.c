@@ -17,7 +17,7 @@ static const thr_json *wrap(const json_t *v)
   return (const thr_json *)(const void *)v;
 }
 
-static bool ran_out; /* of memory, since the last parse began */
+static _Thread_local bool ran_out; /* of memory, since the last parse began */
 
 /* jansson's memory comes from where all memory comes from, so that tests can make it fail. */
 static void *allocate(size_t n)

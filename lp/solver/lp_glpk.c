@@ -22,9 +22,10 @@ struct thr_lp {
   double *exact; /* the numbers of the last solve if that was in a child, exact or by branch and bound, else NULL; owned */
 };
 
-static int generation;
-static jmp_buf escape;
-static char message[160]; /* GLPK's last words */
+/* Of the thread, as GLPK's environment is. */
+static _Thread_local int generation;
+static _Thread_local jmp_buf escape;
+static _Thread_local char message[160]; /* GLPK's last words */
 
 static int keep_text(void *unused, const char *text)
 {

@@ -1,6 +1,6 @@
 /* Automorphisms by Traces (McKay & Piperno 2014). The only file that knows nauty.
  *
- * nauty's callback has no user pointer and its failures end the program: one target at a time, and alloc_error, which nauty calls
+ * nauty's callback has no user pointer and its failures end the program: one target at a time in a thread, and alloc_error, which nauty calls
  * when memory runs out, is replaced by a jump back (the program's definition goes before the shared library's). Sparse nauty
  * itself is not used: it overruns its buffers on stars. */
 #include "graph/framework/frame.h"
@@ -26,8 +26,8 @@ typedef struct {
   thr_status status; /* why not all were collected */
 } collector;
 
-static collector *collecting;
-static jmp_buf escape;
+static _Thread_local collector *collecting;
+static _Thread_local jmp_buf escape;
 
 /* Called by nauty, instead of its own. */
 void alloc_error(const char *what)

@@ -26,7 +26,7 @@ try() { # FOLDER SETTINGS.. -- COMMAND..: in a fresh folder with the inputs
   mkdir "$here"
   ln -s "$folder"/inputs/* "$here"
   : >"$folder/record"
-  (cd "$here" && exec timeout -s KILL 120 env FAIL_FILE="$folder/record" "${settings[@]}" LD_PRELOAD="$library" "$program" "$@") \
+  (cd "$here" && exec timeout -s KILL 600 env FAIL_FILE="$folder/record" "${settings[@]}" LD_PRELOAD="$library" "$program" "$@") \
     >"$here.out" 2>"$here.err" </dev/null
 }
 
