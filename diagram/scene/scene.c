@@ -1,6 +1,7 @@
 /* Paper, beads and passes: the parts of the scene that everything else is placed against. */
 #include "diagram/scene/scene.h"
 #include "graph/angle.h"
+#include "graph/scratch.h"
 #include "graph/text.h"
 
 #include <math.h>
@@ -133,50 +134,32 @@ void thr_scene_destroy(thr_scene *s)
   thr_places_destroy(&s->places);
   thr_boxes_destroy(&s->boxes);
   free(s->copy);
-  free(s->at);
-  free(s->twin);
-  free(s->angle);
-  free(s->around);
-  free(s->rank);
-  free(s->gap);
-  free(s->lane);
-  free(s->bead);
-  free(s->pass);
-  free(s->first_pass);
-  free(s->first_on);
-  free(s->on);
-  free(s->mark);
+  thr_scratch_free(&s->own);
   free(s->seam);
   free(s->seam_labelled);
-  free(s->id);
-  free(s->named);
-  free(s->name_at);
   *s = (thr_scene){0};
 }
 
 static thr_status allocate(thr_scene *s, thr_err *err)
 {
   size_t n = (size_t)s->layout->n_points, m = (size_t)s->frame->n_edges, c = (size_t)s->plan->n_cords, p = (size_t)s->n_passes;
-  s->at = thr_calloc(n, sizeof *s->at);
-  s->twin = thr_calloc(n, sizeof *s->twin);
-  s->angle = thr_calloc(2 * m, sizeof *s->angle);
-  s->around = thr_calloc(2 * m, sizeof *s->around);
-  s->rank = thr_calloc(2 * m, sizeof *s->rank);
-  s->gap = thr_calloc(2 * m, sizeof *s->gap);
-  s->lane = thr_calloc(m, sizeof *s->lane);
-  s->bead = thr_calloc(m, sizeof *s->bead);
-  s->pass = thr_calloc(p, sizeof *s->pass);
-  s->first_pass = thr_calloc(c + 1, sizeof *s->first_pass);
-  s->first_on = thr_calloc(m + 2, sizeof *s->first_on);
-  s->on = thr_calloc(p, sizeof *s->on);
-  s->mark = thr_calloc(c, sizeof *s->mark);
-  s->id = thr_calloc(c, sizeof *s->id);
-  s->named = thr_calloc(n, sizeof *s->named);
-  s->name_at = thr_calloc(n, sizeof *s->name_at);
-  return s->at && s->twin && s->angle && s->around && s->rank && s->gap && s->lane && s->bead && s->pass && s->first_pass &&
-                 s->first_on && s->on && s->mark && s->id && s->named && s->name_at
-             ? THR_OK
-             : thr_nomem(err);
+  s->at = thr_scratch_array(&s->own, n, sizeof *s->at);
+  s->twin = thr_scratch_array(&s->own, n, sizeof *s->twin);
+  s->angle = thr_scratch_array(&s->own, 2 * m, sizeof *s->angle);
+  s->around = thr_scratch_array(&s->own, 2 * m, sizeof *s->around);
+  s->rank = thr_scratch_array(&s->own, 2 * m, sizeof *s->rank);
+  s->gap = thr_scratch_array(&s->own, 2 * m, sizeof *s->gap);
+  s->lane = thr_scratch_array(&s->own, m, sizeof *s->lane);
+  s->bead = thr_scratch_array(&s->own, m, sizeof *s->bead);
+  s->pass = thr_scratch_array(&s->own, p, sizeof *s->pass);
+  s->first_pass = thr_scratch_array(&s->own, c + 1, sizeof *s->first_pass);
+  s->first_on = thr_scratch_array(&s->own, m + 2, sizeof *s->first_on);
+  s->on = thr_scratch_array(&s->own, p, sizeof *s->on);
+  s->mark = thr_scratch_array(&s->own, c, sizeof *s->mark);
+  s->id = thr_scratch_array(&s->own, c, sizeof *s->id);
+  s->named = thr_scratch_array(&s->own, n, sizeof *s->named);
+  s->name_at = thr_scratch_array(&s->own, n, sizeof *s->name_at);
+  return thr_scratch_check(&s->own, err);
 }
 
 thr_status thr_scene_check_cords(const thr_plan *p, int *n_passes, thr_err *err)

@@ -13,6 +13,7 @@
 #include "graph/framework/frame.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/plan.h"
+#include "graph/scratch.h"
 #include "graph/status.h"
 
 /* Sizes in the picture, all in mm. */
@@ -97,6 +98,7 @@ typedef struct {
   double caption[2][2]; /* of two panels: middle of what is written over each */
   thr_box extent;       /* of everything above */
   thr_boxes boxes;
+  thr_scratch own; /* the arrays */
 } thr_scene;
 
 /* Everything up to the labels, copies of cords pale and without numbers if wanted. layout and plan are borrowed and must outlive

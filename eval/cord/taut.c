@@ -5,10 +5,10 @@
  * dozen for 20 nodes and for 7,000. */
 #include "eval/cord/taut.h"
 #include "graph/angle.h"
+#include "graph/scratch.h"
 #include "graph/vector.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const double NO_CLEARANCE = 1e-9; /* of the shortest edge */
@@ -49,6 +49,7 @@ typedef struct {
   double *push, *push_step;    /* [n + 1] multiplier of |z| <= 1, rad */
   piece *piece, *moved_piece;  /* [n] */
   block *block;                /* [n + 1] */
+  thr_scratch own;             /* the arrays */
 } path;
 
 static double slack(const double z[2])
@@ -92,10 +93,8 @@ static opening make_opening(const double u[3], const double w[3], double short_e
       in_turn[i] = (i == k) - normal[k] * normal[i];
     scale_to_unit(in_turn);
   }
-  for (int k = 0; k < 3; k++) {
-    axis[0][k] = in_turn[k];
-    axis[1][k] = normal[(k + 1) % 3] * in_turn[(k + 2) % 3] - normal[(k + 2) % 3] * in_turn[(k + 1) % 3];
-  }
+  memcpy(axis[0], in_turn, sizeof in_turn);
+  thr_cross(normal, in_turn, axis[1]);
   return o;
 }
 
@@ -112,37 +111,27 @@ static void open_to(const opening *o, double radius, double turn, double axis[2]
 
 static void path_destroy(path *p)
 {
-  free(p->straight);
-  free(p->opening);
-  free(p->axis);
-  free(p->z);
-  free(p->moved);
-  free(p->push);
-  free(p->push_step);
-  free(p->piece);
-  free(p->moved_piece);
-  free(p->block);
+  thr_scratch_free(&p->own);
   *p = (path){0};
 }
 
 static thr_status path_make(path *p, const thr_frame *f, const thr_cord *c, double clearance, thr_err *err)
 {
   size_t n = (size_t)c->n_passes;
-  *p = (path){.n = c->n_passes,
-              .straight = thr_calloc(n, sizeof *p->straight),
-              .opening = thr_calloc(n + 1, sizeof *p->opening),
-              .axis = thr_calloc(n + 1, sizeof *p->axis),
-              .z = thr_calloc(n + 1, sizeof *p->z),
-              .moved = thr_calloc(n + 1, sizeof *p->moved),
-              .push = thr_calloc(n + 1, sizeof *p->push),
-              .push_step = thr_calloc(n + 1, sizeof *p->push_step),
-              .piece = thr_calloc(n, sizeof *p->piece),
-              .moved_piece = thr_calloc(n, sizeof *p->moved_piece),
-              .block = thr_calloc(n + 1, sizeof *p->block)};
-  if (!p->straight || !p->opening || !p->axis || !p->z || !p->moved || !p->push || !p->push_step || !p->piece ||
-      !p->moved_piece || !p->block) {
+  *p = (path){.n = c->n_passes};
+  p->straight = thr_scratch_array(&p->own, n, sizeof *p->straight);
+  p->opening = thr_scratch_array(&p->own, n + 1, sizeof *p->opening);
+  p->axis = thr_scratch_array(&p->own, n + 1, sizeof *p->axis);
+  p->z = thr_scratch_array(&p->own, n + 1, sizeof *p->z);
+  p->moved = thr_scratch_array(&p->own, n + 1, sizeof *p->moved);
+  p->push = thr_scratch_array(&p->own, n + 1, sizeof *p->push);
+  p->push_step = thr_scratch_array(&p->own, n + 1, sizeof *p->push_step);
+  p->piece = thr_scratch_array(&p->own, n, sizeof *p->piece);
+  p->moved_piece = thr_scratch_array(&p->own, n, sizeof *p->moved_piece);
+  p->block = thr_scratch_array(&p->own, n + 1, sizeof *p->block);
+  if (thr_scratch_check(&p->own, err)) {
     path_destroy(p);
-    return thr_nomem(err);
+    return THR_ENOMEM;
   }
   for (int i = 0; i < p->n; i++) {
     edge_vector(f, c->half[i], p->straight[i]);

@@ -2,10 +2,10 @@
 #include "eval/structure/beads.h"
 #include "graph/angle.h"
 #include "graph/framework/units.h"
+#include "graph/scratch.h"
 #include "graph/vector.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static void cross(const double a[3], const double b[3], double out[3])
@@ -17,17 +17,16 @@ static void cross(const double a[3], const double b[3], double out[3])
 static thr_status allocate(thr_beads *b, thr_err *err)
 {
   size_t n = (size_t)b->n_beads, m = (size_t)b->n_faces, feet = (size_t)b->n_feet;
-  b->centre = thr_calloc(n, sizeof *b->centre);
-  b->mass_centre = thr_calloc(n, sizeof *b->mass_centre);
-  b->mass = thr_calloc(n, sizeof *b->mass);
-  b->fixed = thr_calloc(n, sizeof *b->fixed);
-  b->middle = thr_calloc(m, sizeof *b->middle);
-  b->axis = thr_calloc(m, sizeof *b->axis);
-  b->corner = thr_calloc(m, sizeof *b->corner);
-  b->foot = thr_calloc(feet, sizeof *b->foot);
-  b->foot_point = thr_calloc(feet, sizeof *b->foot_point);
-  bool all = b->centre && b->mass_centre && b->mass && b->fixed && b->middle && b->axis && b->corner && b->foot && b->foot_point;
-  return all ? THR_OK : thr_nomem(err);
+  b->centre = thr_scratch_array(&b->own, n, sizeof *b->centre);
+  b->mass_centre = thr_scratch_array(&b->own, n, sizeof *b->mass_centre);
+  b->mass = thr_scratch_array(&b->own, n, sizeof *b->mass);
+  b->fixed = thr_scratch_array(&b->own, n, sizeof *b->fixed);
+  b->middle = thr_scratch_array(&b->own, m, sizeof *b->middle);
+  b->axis = thr_scratch_array(&b->own, m, sizeof *b->axis);
+  b->corner = thr_scratch_array(&b->own, m, sizeof *b->corner);
+  b->foot = thr_scratch_array(&b->own, feet, sizeof *b->foot);
+  b->foot_point = thr_scratch_array(&b->own, feet, sizeof *b->foot_point);
+  return thr_scratch_check(&b->own, err);
 }
 
 /* The framework's feet, or its lowest nodes if it has none. */
@@ -174,15 +173,7 @@ thr_status thr_beads_make(const thr_frame *f, const thr_physics *physics, thr_be
 void thr_beads_destroy(thr_beads *b)
 {
   if (!b) return;
-  free(b->centre);
-  free(b->mass_centre);
-  free(b->mass);
-  free(b->fixed);
-  free(b->middle);
-  free(b->axis);
-  free(b->corner);
-  free(b->foot);
-  free(b->foot_point);
+  thr_scratch_free(&b->own);
   *b = (thr_beads){0};
 }
 

@@ -12,6 +12,7 @@
 #include "graph/framework/frame.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
+#include "graph/scratch.h"
 #include "graph/status.h"
 
 /* Units here are SI: m, kg, N. */
@@ -31,6 +32,7 @@ typedef struct {
                                  width below the foot's node: each foot has its own patch of level ground at its underside */
   bool *fixed;                /* [n_beads] held in place: such beads need no equilibrium. All false until thr_beads_clamp */
   double size;                /* m: diagonal of the bounding box, for tolerances */
+  thr_scratch own;            /* the arrays */
 } thr_beads;
 
 /* physics must be resolved. One side of every arm's square section is horizontal; a vertical arm's sides are along x and y. Faces

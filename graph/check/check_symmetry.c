@@ -4,6 +4,7 @@
 #include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
+#include "graph/scratch.h"
 #include "graph/status.h"
 
 #include <stdlib.h>
@@ -82,19 +83,12 @@ typedef struct {
   path *cord, *moved;   /* [n_cords] in the order of the cords, each pointing into form[0] and form[1] */
   path *sorted, *other; /* [n_cords] the same by their nodes */
   int *start;           /* [n_cords] of a cord in run and form */
+  thr_scratch own;      /* the arrays */
 } paths;
 
 static void paths_destroy(paths *s)
 {
-  free(s->run);
-  free(s->form[0]);
-  free(s->form[1]);
-  free(s->scratch);
-  free(s->cord);
-  free(s->moved);
-  free(s->sorted);
-  free(s->other);
-  free(s->start);
+  thr_scratch_free(&s->own);
 }
 
 /* Does it not matter where the cord starts? Of a closed one, where its ends may be anywhere and tie nothing. */
@@ -113,17 +107,16 @@ static thr_status paths_init(paths *s, const thr_plan *p, thr_err *err)
     if (nodes > longest) longest = nodes;
   }
   *s = (paths){.p = p};
-  s->run = thr_calloc(all, sizeof *s->run);
-  s->form[0] = thr_calloc(all, sizeof *s->form[0]);
-  s->form[1] = thr_calloc(all, sizeof *s->form[1]);
-  s->scratch = thr_calloc(longest, sizeof *s->scratch);
-  s->cord = thr_calloc(n, sizeof *s->cord);
-  s->moved = thr_calloc(n, sizeof *s->moved);
-  s->sorted = thr_calloc(n, sizeof *s->sorted);
-  s->other = thr_calloc(n, sizeof *s->other);
-  s->start = thr_calloc(n, sizeof *s->start);
-  bool ok = s->run && s->form[0] && s->form[1] && s->scratch && s->cord && s->moved && s->sorted && s->other && s->start;
-  return ok ? THR_OK : thr_nomem(err);
+  s->run = thr_scratch_array(&s->own, all, sizeof *s->run);
+  s->form[0] = thr_scratch_array(&s->own, all, sizeof *s->form[0]);
+  s->form[1] = thr_scratch_array(&s->own, all, sizeof *s->form[1]);
+  s->scratch = thr_scratch_array(&s->own, longest, sizeof *s->scratch);
+  s->cord = thr_scratch_array(&s->own, n, sizeof *s->cord);
+  s->moved = thr_scratch_array(&s->own, n, sizeof *s->moved);
+  s->sorted = thr_scratch_array(&s->own, n, sizeof *s->sorted);
+  s->other = thr_scratch_array(&s->own, n, sizeof *s->other);
+  s->start = thr_scratch_array(&s->own, n, sizeof *s->start);
+  return thr_scratch_check(&s->own, err);
 }
 
 static void fill_paths(paths *s)
