@@ -36,6 +36,7 @@ typedef struct {
   int code; /* exit code, or - signal */
   double cpu, wall, cpu_at_signal;
   long memory; /* KiB: the largest process */
+  bool sent;   /* the signal, before the end */
   char message[400];
 } result;
 
@@ -108,7 +109,7 @@ static result run(char *const argv[], int signal, double delay, double most)
   struct rusage u;
   result r = {0};
   int status;
-  bool done = false, sent = false;
+  bool done = false;
   double began = now();
   snprintf(log, sizeof log, "%s/log.txt", folder);
   pid_t pid = fork();
@@ -116,8 +117,8 @@ static result run(char *const argv[], int signal, double delay, double most)
   setpgid(pid, pid);
   while (!done) {
     nanosleep(&(struct timespec){.tv_nsec = TICK * 1000000L}, NULL);
-    if (signal && !sent && now() - began >= delay) {
-      sent = true;
+    if (signal && !r.sent && now() - began >= delay) {
+      r.sent = true;
       r.cpu_at_signal = cpu_of(pid);
       kill(pid, signal);
     }
@@ -230,7 +231,7 @@ static void try_plan(const char *name, char *const argv[], const char *plan, int
   result r, checked;
   unlink(plan);
   r = run(argv, signal, delay, signal ? after_signal : cpu_limit);
-  const char *what = judge(&r, plan, signal && r.cpu_at_signal > 0);
+  const char *what = judge(&r, plan, r.sent);
   if (!what && is_there(plan) && (what = check(plan, &checked))) r = checked;
   report(name, what, &r);
 }
