@@ -33,8 +33,9 @@ static double value_of(const thr_plan *p)
   for (int i = 0; i < p->n_cords; i++)
     longest = fmax(longest, thr_cord_length(&p->frame, &p->cord[i]));
   if (thr_wants_symmetry(&p->options)) return p->symmetry.steps;
+  if (thr_wants_balance(&p->options)) return longest;
   if (thr_wants_turning(&p->options)) return thr_wants_largest(&p->options) ? p->metrics.max_turning : p->metrics.turning;
-  return thr_wants_balance(&p->options) ? longest : p->metrics.length;
+  return p->metrics.length;
 }
 
 /* Cords in the component that has most, and in the one that has fewest; false without memory. */

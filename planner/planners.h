@@ -20,4 +20,9 @@ thr_status thr_planner_prove_tied(thr_plan *plan, const thr_limits *limits, thr_
 /* Cords that take no search, sound but long, for whoever keeps the best so far; nothing where nobody listens. */
 void thr_planner_tell_at_once(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits);
 
+/* Is more asked of the turning's plan than its search knows, and the planner that composes it then (planner/mixed.c). */
+bool thr_planner_is_mixed(const thr_plan_options *o);
+thr_status thr_planner_mixed(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
+                             thr_err *err) THR_MUST_CHECK;
+
 #endif

@@ -19,7 +19,6 @@ static thr_status make_length(const thr_plan *p, const thr_limits *limits, thr_r
   thr_plan_options o = p->options;
   o.aims = thr_aims_shortest;
   o.turning = thr_plan_options_default().turning;
-  if (o.ends != THR_ENDS_COUNTS) o.cords_least = o.cords;
   return close_rival(r, thr_plan_make(&p->frame, &o, limits, &r->plan, NULL, &r->why), err);
 }
 

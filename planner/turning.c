@@ -251,6 +251,7 @@ thr_status thr_planner_turning(const thr_frame *f, const thr_plan_options *o, co
   thr_status st = THR_OK;
   (void)report;
   *plan = (thr_plan){0};
+  if (thr_planner_is_mixed(o)) return thr_planner_mixed(f, o, limits, plan, err);
   thr_planner_tell_first(f, o, limits);
   if (thr_wants_largest(o) && o->cords > 1 && o->ends != THR_ENDS_COUNTS) st = thr_even_seed(f, o, limits, &seed, err);
   if (!st) st = thr_tortuosity_plan_from(f, o, seed.n_cords ? &seed : NULL, limits, plan, err);

@@ -40,12 +40,6 @@ const char *const crossing_value[N_CHOICES][CROSSING_VALUES] = {
 
 /* What is about turning or symmetry alone, and how cords are counted. */
 const crossing_refused crossing_refusals[] = {
-    {BY_OBJECTIVE, TORTUOSITY, BY_LIMIT, 1},
-    {BY_OBJECTIVE, TORTUOSITY, BY_BALANCE, 1},
-    {BY_OBJECTIVE, TORTUOSITY, BY_CORDS, CORDS_1_TO_3},
-    {BY_OBJECTIVE, TORTUOSITY, BY_CORDS, CORDS_2_TO_4},
-    {BY_OBJECTIVE, TORTUOSITY, BY_CORDS, CORDS_UP_TO_8},
-    {BY_OBJECTIVE, TORTUOSITY, BY_CORDS, CORDS_AUTO},
     {BY_OBJECTIVE, TORTUOSITY, BY_PREFER, 1},
     {BY_OBJECTIVE, TORTUOSITY, BY_PREFER, 2},
     {BY_OBJECTIVE, TORTUOSITY, BY_PREFER, 3},
@@ -90,6 +84,36 @@ const crossing_refused crossing_refusals[] = {
     {BY_TOUR, 2, BY_CORDS, CORDS_2},
     {BY_TOUR, 1, BY_CORDS, CORDS_3},
     {BY_TOUR, 2, BY_CORDS, CORDS_3},
+    {BY_SLACK, 1, BY_LIMIT, 1},
+    {BY_SLACK, 1, BY_BALANCE, 1},
+    {BY_SLACK, 1, BY_CORDS, CORDS_1_TO_3},
+    {BY_SLACK, 1, BY_CORDS, CORDS_2_TO_4},
+    {BY_SLACK, 1, BY_CORDS, CORDS_UP_TO_8},
+    {BY_SLACK, 1, BY_CORDS, CORDS_AUTO},
+    {BY_SLACK, 2, BY_LIMIT, 1},
+    {BY_SLACK, 2, BY_BALANCE, 1},
+    {BY_SLACK, 2, BY_CORDS, CORDS_1_TO_3},
+    {BY_SLACK, 2, BY_CORDS, CORDS_2_TO_4},
+    {BY_SLACK, 2, BY_CORDS, CORDS_UP_TO_8},
+    {BY_SLACK, 2, BY_CORDS, CORDS_AUTO},
+    {BY_SLACK, 3, BY_LIMIT, 1},
+    {BY_SLACK, 3, BY_BALANCE, 1},
+    {BY_SLACK, 3, BY_CORDS, CORDS_1_TO_3},
+    {BY_SLACK, 3, BY_CORDS, CORDS_2_TO_4},
+    {BY_SLACK, 3, BY_CORDS, CORDS_UP_TO_8},
+    {BY_SLACK, 3, BY_CORDS, CORDS_AUTO},
+    {BY_TOUR, 1, BY_CORDS, CORDS_1_TO_3},
+    {BY_TOUR, 2, BY_CORDS, CORDS_1_TO_3},
+    {BY_TOUR, 1, BY_CORDS, CORDS_2_TO_4},
+    {BY_TOUR, 2, BY_CORDS, CORDS_2_TO_4},
+    {BY_TOUR, 1, BY_CORDS, CORDS_UP_TO_8},
+    {BY_TOUR, 2, BY_CORDS, CORDS_UP_TO_8},
+    {BY_TOUR, 1, BY_CORDS, CORDS_AUTO},
+    {BY_TOUR, 2, BY_CORDS, CORDS_AUTO},
+    {BY_TOUR, 1, BY_LIMIT, 1},
+    {BY_TOUR, 2, BY_LIMIT, 1},
+    {BY_TOUR, 1, BY_BALANCE, 1},
+    {BY_TOUR, 2, BY_BALANCE, 1},
     {BY_TOUR, 1, BY_SLACK, 2},
     {BY_TOUR, 2, BY_SLACK, 2},
     {BY_TOUR, 1, BY_SLACK, 3},
@@ -124,7 +148,6 @@ static int only_with(crossing_choice c, int value)
   if (value == 0) return -1;
   if (c == BY_SLACK || c == BY_COST || c == BY_MINIMIZE || c == BY_TOUR) return TORTUOSITY;
   if (c == BY_PREFER || c == BY_GEOMETRIC) return SYMMETRY;
-  if (c == BY_LIMIT || c == BY_BALANCE || (c == BY_CORDS && value > CORDS_3)) return LENGTH;
   return -1;
 }
 
@@ -185,7 +208,7 @@ void crossing_choose(rng *r, const crossing_tally *t, const char *only, int *val
         try[c] = rng_below(r, 3) ? rng_below(r, crossing_values((crossing_choice)c)) : 0;
       if (try[BY_OBJECTIVE] != TORTUOSITY) try[BY_SLACK] = try[BY_COST] = try[BY_MINIMIZE] = try[BY_TOUR] = 0;
       if (try[BY_OBJECTIVE] != SYMMETRY) try[BY_PREFER] = try[BY_GEOMETRIC] = 0;
-      if (try[BY_OBJECTIVE] != LENGTH) try[BY_LIMIT] = try[BY_BALANCE] = 0;
+      if (try[BY_OBJECTIVE] == SYMMETRY) try[BY_LIMIT] = try[BY_BALANCE] = 0;
     } while (crossing_is_refused(try) || !wanted(try, only));
     double found = score(t, try);
     if (found <= best) continue;
@@ -492,7 +515,7 @@ static void say_turning(crossing_case *c)
   const int *v = c->value;
   c->o.turning.length_slack = slack[v[BY_SLACK]];
   c->o.turning.cost = (thr_turn_cost)v[BY_COST];
-  if (v[BY_MINIMIZE] && v[BY_OBJECTIVE] == TORTUOSITY) c->o.aims.aim[0] = THR_AIM_MAX_TURNING;
+  if (v[BY_MINIMIZE] && v[BY_OBJECTIVE] == TORTUOSITY) c->o.aims.aim[c->o.aims.n - 1] = THR_AIM_MAX_TURNING;
   c->o.turning.tour = (thr_tour)v[BY_TOUR];
   if (v[BY_SLACK]) say(c, " --length-slack %s", crossing_value[BY_SLACK][v[BY_SLACK]]);
   if (v[BY_COST]) say(c, " --turn-cost %s", crossing_value[BY_COST][v[BY_COST]]);
@@ -502,10 +525,11 @@ static void say_turning(crossing_case *c)
 
 static void say_options(crossing_case *c, const sketch *s, rng *r)
 {
-  static const char *const aims[] = {"length", "turning", "overlap,steps"};
+  enum { BALANCED = 3 };
+  static const char *const aims[] = {"length", "turning", "overlap,steps", "longest", "longest,turning", "longest"};
   const int *v = c->value;
   c->o = thr_plan_options_default();
-  want(&c->o, v[BY_BALANCE] ? "longest" : aims[v[BY_OBJECTIVE]]);
+  want(&c->o, aims[v[BY_BALANCE] ? BALANCED + v[BY_OBJECTIVE] : v[BY_OBJECTIVE]]);
   c->o.joint = v[BY_JOINT] ? THR_JOINT_TUBE : THR_JOINT_SOLID;
   c->o.cover = 1 + v[BY_COVER];
   c->o.capacity = v[BY_CAPACITY];

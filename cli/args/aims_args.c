@@ -57,5 +57,5 @@ void aims_args_apply(const aims_args *a, const turning_args *turning, const symm
   o->symmetry = own && thr_wants_symmetry(o) ? symmetry->options : usual.symmetry;
   if (own && thr_wants_symmetry(o)) memcpy(o->aims.aim, symmetry->prefer, sizeof symmetry->prefer);
   if (own && thr_wants_turning(o) && turning->largest) o->aims.aim[0] = THR_AIM_MAX_TURNING;
-  if (own && thr_wants_length(o) && cords->balance) o->aims = (thr_aims){2, {THR_AIM_LONGEST, THR_AIM_LENGTH}};
+  if (own && !thr_wants_symmetry(o) && cords->balance) o->aims = (thr_aims){2, {THR_AIM_LONGEST, o->aims.aim[0]}};
 }

@@ -83,7 +83,8 @@ bool cords_option(cords_args *a, int option, const char *value, bool *ok)
 
 const char *cords_args_refused(const cords_args *a, const thr_plan_options *wanted, bool rival)
 {
-  if (thr_wants_length(wanted)) return NULL;
+  bool least = wanted->turning.tour == THR_TOUR_LEAST; /* classical tours take no wishes */
+  if (thr_wants_length(wanted) || (thr_wants_turning(wanted) && least)) return NULL;
   if (a->max_length > 0) return "--max-length";
   if (a->balance) return "--balance";
   if (a->automatic) return "--cords auto";
@@ -105,6 +106,12 @@ int cords_args_check(const cords_args *a, const turning_args *turning, const thr
   if (a->automatic && a->max_length == 0) return cli_usage("plan", "--cords auto: as many as needed for what? Give --max-length");
   if (a->capacity > 0 && a->capacity < a->cover)
     return cli_usage("plan", "--capacity %d leaves no room for --cover %d", a->capacity, a->cover);
+  bool mixed = thr_wants_turning(wanted) && (a->max_length > 0 || a->balance || a->least != a->most);
+  if (mixed && turning->options.length_slack >= 0)
+    return cli_usage("plan", "--length-slack: not with --balance, --max-length or a range of --cords");
+  if (mixed && (turning->frontier || turning->compare))
+    return cli_usage("plan", "%s: not with --balance, --max-length or a range of --cords",
+                     turning->frontier ? "--frontier" : "--compare-shortest");
   if (turning->options.tour == THR_TOUR_LEAST) return -1;
   if (a->most > 1) return cli_usage("plan", "--tour %s makes one cord in each component, not --cords %d", tour, a->most);
   if (a->joint == THR_JOINT_TUBE) return cli_usage("plan", "--tour %s ties no joints: no --joint tube", tour);

@@ -147,15 +147,15 @@ static thr_status read_list(const char *text, list *l, thr_err *err)
   return st;
 }
 
-/* Takes an aim out of the list: where it was, -1 if it is not there. */
-static int take_out(thr_aims *a, thr_aim aim)
+/* Takes an aim out of the list; false if it is not there. */
+static bool take_out(thr_aims *a, thr_aim aim)
 {
   int at = 0;
   while (at < a->n && a->aim[at] != aim)
     at++;
-  if (at == a->n) return -1;
+  if (at == a->n) return false;
   memmove(&a->aim[at], &a->aim[at + 1], (size_t)(--a->n - at) * sizeof *a->aim);
-  return at;
+  return true;
 }
 
 /* Length and overlap are one but for a constant. */
@@ -179,15 +179,15 @@ static thr_status settle_symmetric(list *l, thr_plan_options *o, thr_err *err)
   return THR_OK;
 }
 
-/* Length before turning is a limit on it. */
+/* Length before turning is a limit on it; the longest cord is made short first. */
 static thr_status settle_turning(list *l, thr_err *err)
 {
   if (l->named[THR_AIM_TURNING] && l->named[THR_AIM_MAX_TURNING])
     return thr_fail(err, THR_EINPUT, "turning or max-turning, not both");
-  if (l->named[THR_AIM_LONGEST]) return thr_fail(err, THR_EINPUT, "longest does not go with turning and max-turning");
-  int at = take_out(&l->aims, THR_AIM_LENGTH);
-  if (at > 0) return thr_fail(err, THR_EINPUT, "length comes before turning: it is what limits the cord");
-  if (at == 0 && l->slack < 0) l->slack = 0;
+  thr_aim last = l->aims.aim[l->aims.n - 1];
+  if (last == THR_AIM_LENGTH || last == THR_AIM_LONGEST)
+    return thr_fail(err, THR_EINPUT, "%s comes before turning and max-turning", thr_aim_name(last));
+  if (take_out(&l->aims, THR_AIM_LENGTH) && l->slack < 0) l->slack = 0;
   return THR_OK;
 }
 
@@ -234,7 +234,8 @@ void thr_aims_write(const thr_plan_options *o, thr_text *out)
     thr_text_append(out, "length,");
   for (int i = 0; i < o->aims.n; i++) {
     thr_text_printf(out, i ? ",%s" : "%s", thr_aim_name(o->aims.aim[i]));
-    if (turning && o->turning.cost != THR_TURN_ANGLE) thr_text_printf(out, ":%s", thr_turn_cost_name(o->turning.cost));
+    if (turning && o->aims.aim[i] != THR_AIM_LONGEST && o->turning.cost != THR_TURN_ANGLE)
+      thr_text_printf(out, ":%s", thr_turn_cost_name(o->turning.cost));
   }
 }
 

@@ -293,7 +293,7 @@ static bool piece_front(const judged *j, int k, double longest, double limit_tur
   cords_of(j, k, &least, &most);
   if (!walks_piece_init(&w, &j->c.f, &j->c.o, k, BACK_AT_LEAVES, j->c.o.turning.cost, longest, most_states)) return false;
   double *in = calloc((size_t)w.n_states, sizeof *in), *out = calloc((size_t)w.n_states, sizeof *out);
-  double(*pair)[2] = calloc((size_t)w.n_states, sizeof *pair);
+  double(*pair)[2] = calloc((size_t)w.n_states * (size_t)(most - least + 1), sizeof *pair);
   ck_assert(in != NULL && out != NULL && pair != NULL);
   walks_begin(&w, in);
   for (int i = 1; i <= most; i++) {
@@ -301,9 +301,9 @@ static bool piece_front(const judged *j, int k, double longest, double limit_tur
     walks_one_more(&w, by_turn, limit_turn, in, out);
     in = out;
     out = swap;
+    for (long s = 0; s < w.n_states && i >= least; s++)
+      if (in[s] < INFINITY && walks_complete(&w, s)) pair[n][0] = walks_length(&w, s), pair[n++][1] = in[s];
   }
-  for (long s = 0; s < w.n_states; s++)
-    if (in[s] < INFINITY && walks_complete(&w, s)) pair[n][0] = walks_length(&w, s), pair[n++][1] = in[s];
   front_sort(f, pair, n);
   free(in);
   free(out);
@@ -808,7 +808,7 @@ START_TEST(refused_together)
   int value[N_CHOICES] = {0};
   rng r = rng_make((uint64_t)_i + 1);
   char path[128], said[OUTPUT];
-  bool turning = p->a == BY_TOUR;
+  bool turning = p->a == BY_TOUR || p->a == BY_SLACK;
   open_folder();
   snprintf(path, sizeof path, "%s/frame.json", folder);
   if (turning) value[BY_OBJECTIVE] = 1;

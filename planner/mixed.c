@@ -1,0 +1,264 @@
+/* Plans that turn little and keep to what the search for them does not know: a range of numbers of cords, cords of limited
+ * length, or first of all a short longest cord. Every number is planned without the limit; whichever of those cords, and of the
+ * cords of the least length, keep to it and serve the aims best are the plan. What is proved without the limit holds with it. */
+#include "graph/check/check.h"
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/junction.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/status.h"
+#include "lp/length/cords.h"
+#include "lp/length/postman.h"
+#include "planner/dispatch.h"
+#include "planner/planners.h"
+#include "planner/turning.h"
+#include "tortuosity/tie/tube.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct {
+  const thr_frame *f;
+  const thr_plan_options *o;
+  const thr_limits *limits;
+  double shortest;        /* length of the shortest cords, of any length each */
+  thr_plan best;          /* cords that serve the aims best so far; none yet: n_cords is 0 */
+  thr_turning_claim tree; /* whose bound is the highest so far */
+} mixed;
+
+static void mixed_destroy(mixed *m)
+{
+  thr_plan_destroy(&m->best);
+  thr_turning_proof_destroy(&m->tree.tree);
+}
+
+bool thr_planner_is_mixed(const thr_plan_options *o)
+{
+  bool range = o->cords_least < o->cords && o->ends != THR_ENDS_COUNTS;
+  return o->turning.tour == THR_TOUR_LEAST && (o->max_length > 0 || thr_wants_balance(o) || range);
+}
+
+/* ---- the best of several ---- */
+
+static double longest_of(const thr_plan *p)
+{
+  double longest = 0;
+  for (int i = 0; i < p->n_cords; i++)
+    longest = fmax(longest, thr_cord_length(&p->frame, &p->cord[i]));
+  return longest;
+}
+
+/* What an aim makes of cords. */
+static double value_of(const mixed *m, thr_aim aim, const thr_plan *p)
+{
+  double sum = 0, most = 0;
+  if (aim == THR_AIM_LONGEST) return longest_of(p);
+  for (int i = 0; i < p->n_cords; i++) {
+    double price = thr_cord_price(m->f, m->o, &p->cord[i]);
+    sum += price;
+    most = fmax(most, price);
+  }
+  return aim == THR_AIM_MAX_TURNING ? most : sum;
+}
+
+static bool is_better(const mixed *m, const thr_plan *p)
+{
+  if (m->best.n_cords == 0) return true;
+  for (int i = 0; i < m->o->aims.n; i++) {
+    double a = value_of(m, m->o->aims.aim[i], p), b = value_of(m, m->o->aims.aim[i], &m->best);
+    if (fabs(a - b) > 1e-9 * fmax(a, b)) return a < b;
+  }
+  return false;
+}
+
+/* Takes a plan whose cords are short enough and better. */
+static void offer(mixed *m, thr_plan *p)
+{
+  bool fits = m->o->max_length == 0 || longest_of(p) <= m->o->max_length * (1 + 1e-12);
+  fits = fits && thr_plan_within_slack(m->o, p->metrics.length, m->shortest);
+  if (p->n_cords == 0 || !fits || !is_better(m, p)) return;
+  thr_plan_destroy(&m->best);
+  m->best = *p;
+  *p = (thr_plan){0};
+  thr_limits_found(m->limits, m->best.cord, m->best.n_cords, NULL);
+}
+
+/* ---- turning ---- */
+
+/* What the tree of p proves of any plan with the request's numbers of cords: the better one is kept. */
+static thr_status keep_tree(mixed *m, thr_plan *p, thr_err *err)
+{
+  thr_turning_claim found, claim = p->turning;
+  thr_err why = {0};
+  if (!claim.present) return THR_OK;
+  thr_status st = thr_check_turning(m->f, m->o, p->cord, p->n_cords, &claim, &found, &why);
+  if (st == THR_EVIOLATED) return THR_OK; /* of one number of cords only, as rows for a single closed cord are */
+  if (st) return thr_fail(err, st, "%s", why.text);
+  if ((m->tree.present && found.lower_bound <= m->tree.lower_bound)) return THR_OK;
+  thr_turning_proof_destroy(&m->tree.tree);
+  m->tree = found;
+  m->tree.tree = p->turning.tree;
+  p->turning.tree = (thr_turning_proof){0};
+  return THR_OK;
+}
+
+static thr_status try_number(mixed *m, int n, const thr_limits *share, thr_err *err)
+{
+  thr_plan p;
+  thr_err why = {0};
+  thr_plan_options o = *m->o;
+  thr_limits quiet = *share;
+  quiet.found = NULL; /* its cords may be too long */
+  o.aims = (thr_aims){1, {thr_wants_largest(m->o) ? THR_AIM_MAX_TURNING : THR_AIM_TURNING}};
+  o.max_length = 0;
+  if (o.ends != THR_ENDS_COUNTS) o.cords = o.cords_least = n;
+  thr_status st = thr_tortuosity_plan(m->f, &o, &quiet, &p, &why);
+  if (st && st != THR_ELIMIT) return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* others may do */
+  st = keep_tree(m, &p, err);
+  if (!st) offer(m, &p);
+  thr_plan_destroy(&p);
+  return st;
+}
+
+/* Most cords first: open ones turn less the more they are. */
+static thr_status try_numbers(mixed *m, thr_err *err)
+{
+  enum { MOST_NUMBERS = 12 };
+  const thr_plan_options *o = m->o;
+  int last = o->cords, numbers = o->ends == THR_ENDS_COUNTS ? 1 : o->cords - o->cords_least + 1;
+  thr_status st = THR_OK;
+  if (numbers > MOST_NUMBERS && m->best.n_cords > 0) { /* those about as many as the shortest are */
+    last = m->best.n_cords + MOST_NUMBERS / 2 < o->cords ? m->best.n_cords + MOST_NUMBERS / 2 : o->cords;
+  }
+  if (numbers > MOST_NUMBERS) numbers = MOST_NUMBERS;
+  for (int i = 0; i < numbers && !st; i++) {
+    const thr_limits share = thr_limits_part(m->limits, 1.0 / (numbers - i));
+    if (last - i >= o->cords_least) st = try_number(m, last - i, &share, err);
+  }
+  return st;
+}
+
+/* ---- length ---- */
+
+/* Cords of the least length: with the limit, or even, as one of the plans to choose from; without either for their proof. */
+static thr_status plan_length(const mixed *m, bool limited, thr_plan *p, thr_err *why)
+{
+  thr_plan_options o = *m->o;
+  thr_limits share = thr_dispatch_share(m->limits, THR_STEP_BY_LENGTH);
+  share.found = NULL;
+  o.aims = thr_aims_shortest;
+  o.turning = thr_plan_options_default().turning;
+  if (limited && thr_wants_balance(m->o)) o.aims = (thr_aims){2, {THR_AIM_LONGEST, THR_AIM_LENGTH}};
+  if (!limited) o.max_length = 0;
+  thr_status st = thr_planner_length(m->f, &o, &share, p, NULL, why);
+  return st == THR_ELIMIT ? THR_OK : st;
+}
+
+/* The proof of the length of p, which is moved, is one of these cords' as well: they are of the same request. */
+static thr_status prove_length(thr_plan *plan, thr_plan *p, thr_err *err)
+{
+  const thr_frame *f = &plan->frame;
+  const thr_plan_options *o = &plan->options;
+  thr_length_proof *from = &p->proof;
+  if (o->joint == THR_JOINT_TUBE) {
+    thr_tube t = {.proof = from->tied};
+    from->tied = (thr_turning_proof){0};
+    thr_status st = thr_tied_least(f, o, &t.proof, &t.bound, err);
+    if (!st) thr_tube_prove(&t, plan->metrics.length, &plan->proof);
+    thr_tube_destroy(&t);
+    return st ? st : thr_check_tied_cords(f, o, plan->cord, plan->n_cords, &plan->proof.tied, &plan->cords_claim, err);
+  }
+  thr_shortest s = {.n_certificates = from->n_certificates, .certificate = from->certificate};
+  s.confirmed.confirmed = from->confirmed;
+  s.confirmed.skipped = from->unconfirmed;
+  from->certificate = NULL;
+  from->n_certificates = 0;
+  thr_status st = thr_postman_prove(f, o, plan->cord, plan->n_cords, &s, &plan->proof, err);
+  thr_shortest_destroy(&s);
+  return st ? st
+            : thr_check_cords(f, o, plan->cord, plan->n_cords, plan->proof.certificate, plan->proof.n_certificates,
+                              &plan->cords_claim, err);
+}
+
+/* ---- the plan ---- */
+
+/* No claim where the cords are of another kind than the tree is about. */
+static thr_status prove_turning(mixed *m, thr_plan *plan, thr_err *err)
+{
+  thr_err why = {0};
+  if (!m->tree.present) return THR_OK;
+  thr_turning_claim found;
+  thr_status st = thr_check_turning(&plan->frame, &plan->options, plan->cord, plan->n_cords, &m->tree, &found, &why);
+  if (st == THR_EVIOLATED) return THR_OK;
+  if (st) return thr_fail(err, st, "%s", why.text);
+  plan->turning = found;
+  plan->turning.tree = m->tree.tree;
+  m->tree.tree = (thr_turning_proof){0};
+  return THR_OK;
+}
+
+static thr_status assemble(mixed *m, thr_plan *shortest, thr_plan *plan, thr_err *err)
+{
+  thr_status st = thr_plan_request(plan, m->f, m->o, err);
+  if (st) return st;
+  plan->cord = m->best.cord;
+  plan->n_cords = m->best.n_cords;
+  m->best.cord = NULL;
+  m->best.n_cords = 0;
+  st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
+  if (!st) st = prove_length(plan, shortest, err);
+  if (!st) st = prove_turning(m, plan, err);
+  plan->proof.slack_open = !thr_plan_within_slack(m->o, plan->metrics.length, plan->proof.lower_bound);
+  return st;
+}
+
+static thr_status verdict(const thr_plan *p, thr_err *err)
+{
+  const thr_turning_claim *c = &p->turning;
+  bool largest = thr_wants_largest(&p->options);
+  if (thr_wants_balance(&p->options) && !p->cords_claim.longest_optimal)
+    return thr_fail(err, THR_ELIMIT, "the longest cord is proved to be within %.3g %% of the shortest possible",
+                    100 * (p->cords_claim.longest - p->cords_claim.longest_bound) / p->cords_claim.longest);
+  if (!c->present) return thr_fail(err, THR_ELIMIT, "nothing is proved of the turning");
+  if (p->proof.slack_open)
+    return thr_fail(err, THR_ELIMIT, "the least length is not proved: the cords may be %.3g %% longer, more than --length-slack",
+                    100 * (p->metrics.length / p->proof.lower_bound - 1));
+  if (largest ? c->largest_optimal : c->optimal) return THR_OK;
+  return thr_fail(err, THR_ELIMIT, "the turning is proved to be within %.3g %% of the least",
+                  largest ? 100 * (c->largest - c->largest_bound) / c->largest : 100 * c->gap);
+}
+
+thr_status thr_planner_mixed(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
+                             thr_err *err)
+{
+  mixed m = {.f = f, .o = o, .limits = limits};
+  thr_plan shortest = {0}, limited = {0};
+  thr_err why = {0};
+  *plan = (thr_plan){0};
+  thr_status st = plan_length(&m, false, &shortest, &why);
+  m.shortest = shortest.metrics.length;
+  if (!st && (o->max_length > 0 || thr_wants_balance(o))) {
+    thr_status found = plan_length(&m, true, &limited, &why);
+    if (!found) offer(&m, &limited);
+    if (found == THR_ENOMEM) st = found;
+  }
+  if (st) {
+    thr_fail(err, st, "%s", why.text);
+  } else if (!(st = try_numbers(&m, err))) {
+    const thr_length_proof proof = shortest.proof;
+    shortest.proof = (thr_length_proof){0};
+    offer(&m, &shortest);
+    shortest.proof = proof;
+    if (m.best.n_cords == 0)
+      st = thr_fail(err, THR_EINFEASIBLE, "%s", why.code ? why.text : "no plan with so many cords was found");
+  }
+  if (!st) st = assemble(&m, &shortest, plan, err);
+  if (!st) st = verdict(plan, err);
+  if (st && st != THR_ELIMIT) thr_plan_destroy(plan);
+  thr_plan_destroy(&shortest);
+  thr_plan_destroy(&limited);
+  mixed_destroy(&m);
+  return st;
+}
