@@ -6,13 +6,11 @@
 
 extern const thr_format thr_json_format, thr_obj_format, thr_csv_format;
 
-static const thr_format *const formats[] = {&thr_json_format, &thr_obj_format, &thr_csv_format};
-
-enum { N_FORMATS = sizeof formats / sizeof *formats };
+static const thr_format *const formats[] = {&thr_json_format, &thr_obj_format, &thr_csv_format, NULL};
 
 const thr_format *thr_format_named(const char *name)
 {
-  for (int i = 0; i < N_FORMATS; i++)
+  for (int i = 0; formats[i]; i++)
     if (strcmp(formats[i]->name, name) == 0) return formats[i];
   return NULL;
 }
@@ -27,7 +25,7 @@ static thr_span ending_of(const char *path)
 /* NULL if there is none. */
 static const thr_format *with_ending(thr_span ending)
 {
-  for (int i = 0; i < N_FORMATS; i++)
+  for (int i = 0; formats[i]; i++)
     for (const char *const *known = formats[i]->ending; *known; known++)
       if (thr_span_is(ending, *known)) return formats[i];
   return NULL;
@@ -47,32 +45,24 @@ thr_status thr_format_by_name(const char *name, const thr_format **format, thr_e
 
 static const thr_format *beginning_with(thr_span line)
 {
-  for (int i = 0; i < N_FORMATS; i++)
+  for (int i = 0; formats[i]; i++)
     if (formats[i]->begins && formats[i]->begins(line)) return formats[i];
   return NULL;
-}
-
-static const thr_format *without_beginning(void)
-{
-  int i = 0;
-  while (formats[i]->begins)
-    i++;
-  return formats[i];
 }
 
 const thr_format *thr_format_by_text(const char *text, size_t n)
 {
   thr_scan scan;
   thr_span line = {0};
-  const thr_format *format = NULL;
   /* a text with NUL bytes is left to the reader, who says so */
-  bool more = !thr_scan_start(&scan, text, n, "", NULL);
-  while (more && (more = thr_scan_line(&scan, &line))) {
+  if (thr_scan_start(&scan, text, n, "", NULL)) return &thr_csv_format;
+  while (thr_scan_line(&scan, &line)) {
     line = thr_span_trim(line);
-    more = line.n == 0 || line.s[0] == '#';
-    if (!more) format = beginning_with(line);
+    if (line.n == 0 || line.s[0] == '#') continue;
+    const thr_format *format = beginning_with(line);
+    return format ? format : &thr_csv_format;
   }
-  return format ? format : without_beginning();
+  return &thr_csv_format;
 }
 
 const thr_format *thr_format_of_path(const char *path)

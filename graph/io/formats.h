@@ -11,8 +11,8 @@
 struct thr_format {
   const char *name;
   const char *ending[3]; /* of files' names, without the dot, NULL after the last; the first is the one that is written */
-  /* Does a text of this format begin with such a line? Blank lines and # comments before it are left out. NULL: the format that
-   * is taken where no other begins so. */
+  /* Does a text of this format begin with such a line? Blank lines and # comments before it are left out. NULL: it is not
+   * told by that; what begins like nothing else is CSV. */
   bool (*begins)(thr_span line);
   /* The contract of thr_draft_parse. */
   thr_status (*parse)(thr_draft *d, thr_read_report *r, const char *text, size_t n, const char *name, thr_err *err);

@@ -964,7 +964,7 @@ START_TEST(steps_are_the_same_in_all_directions)
     ck_assert_double_eq_tol(thr_turn_price(&f, THR_TURN_SINE, 0, 2), sin(angle / 2), 1e-9);
     ck_assert_double_eq(thr_turn_price(&f, THR_TURN_STEP, 0, 1), 1);
     ck_assert_double_eq(thr_turn_cost_of(THR_TURN_STEP, angle), off[k % 6] >= -1e-6);
-    ck_assert_double_eq_tol(thr_turn_price(&f, THR_TURN_ANGLE, 2, 3), 3.14159265358979, 1e-12);
+    ck_assert_double_eq_tol(thr_turn_price(&f, THR_TURN_ANGLE, 2, 3), THR_PI, 1e-12);
     thr_frame_destroy(&f);
   }
 }
