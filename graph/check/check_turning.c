@@ -286,6 +286,7 @@ static thr_status judge_tree(const walked *w, const thr_turning_claim *claim, th
   found->gap = found->optimal ? 0 : (found->price - bound) / found->price;
   found->largest_bound = found->lower_bound / w->cords_most;
   found->largest_optimal = found->largest <= found->largest_bound + tolerance;
+  if (found->largest_optimal) found->largest_bound = found->largest;
   return THR_OK;
 }
 
