@@ -18,35 +18,36 @@ static struct {
   double value, at; /* of the last one: what is minimized, thr_clock() */
 } best;
 
-void best_begin(const thr_frame *f, const thr_plan_options *o)
+void best_begin(const thr_frame *frame, const thr_plan_options *options)
 {
-  best.f = f;
-  best.o = o;
+  best.f = frame;
+  best.o = options;
   best.value = INFINITY;
   best.at = -INFINITY;
 }
 
 /* What is minimized first. */
-static double value_of(const thr_plan *p)
+static double value_of(const thr_plan *plan)
 {
   double longest = 0;
-  for (int i = 0; i < p->n_cords; i++)
-    longest = fmax(longest, thr_cord_length(&p->frame, &p->cord[i]));
-  if (thr_wants_symmetry(&p->options)) return p->symmetry.steps;
-  if (thr_wants_balance(&p->options)) return longest;
-  if (thr_wants_turning(&p->options)) return thr_wants_largest(&p->options) ? p->metrics.max_turning : p->metrics.turning;
-  return p->metrics.length;
+  for (int i = 0; i < plan->n_cords; i++)
+    longest = fmax(longest, thr_cord_length(&plan->frame, &plan->cord[i]));
+  if (thr_wants_symmetry(&plan->options)) return plan->symmetry.steps;
+  if (thr_wants_balance(&plan->options)) return longest;
+  if (thr_wants_turning(&plan->options))
+    return thr_wants_largest(&plan->options) ? plan->metrics.max_turning : plan->metrics.turning;
+  return plan->metrics.length;
 }
 
 /* Cords in the component that has most, and in the one that has fewest; false without memory. */
-static bool count_cords(const thr_plan *p, int *fewest, int *most)
+static bool count_cords(const thr_plan *plan, int *fewest, int *most)
 {
-  int *count = thr_calloc((size_t)p->frame.n_nodes, sizeof *count);
+  int *count = thr_calloc((size_t)plan->frame.n_nodes, sizeof *count);
   *most = 0;
-  for (int i = 0; count && i < p->n_cords; i++)
-    count[p->cord[i].component]++;
+  for (int i = 0; count && i < plan->n_cords; i++)
+    count[plan->cord[i].component]++;
   *fewest = count ? count[0] : 0;
-  for (int k = 0; count && k < p->frame.n_nodes; k++) {
+  for (int k = 0; count && k < plan->frame.n_nodes; k++) {
     if (count[k] > *most) *most = count[k];
     if (count[k] > 0 && count[k] < *fewest) *fewest = count[k]; /* components are numbered without gaps, and all have cords */
   }
@@ -55,49 +56,50 @@ static bool count_cords(const thr_plan *p, int *fewest, int *most)
 }
 
 /* As many cords as asked for, none too long? Of a symmetric plan they are as many as they are. */
-static bool fits(thr_plan *p)
+static bool fits(thr_plan *plan)
 {
   int fewest, most;
-  if (!count_cords(p, &fewest, &most) || most > MOST_CORDS) return false;
-  if (thr_wants_symmetry(&p->options)) p->options.cords = most;
-  bool few_enough = most <= p->options.cords, enough = fewest >= p->options.cords_least;
-  for (int i = 0; p->options.max_length > 0 && i < p->n_cords; i++)
-    few_enough = few_enough && thr_cord_length(&p->frame, &p->cord[i]) <= p->options.max_length * (1 + 1e-12);
-  return few_enough && (enough || thr_wants_symmetry(&p->options) || p->options.ends == THR_ENDS_COUNTS);
+  if (!count_cords(plan, &fewest, &most) || most > MOST_CORDS) return false;
+  if (thr_wants_symmetry(&plan->options)) plan->options.cords = most;
+  bool few_enough = most <= plan->options.cords, enough = fewest >= plan->options.cords_least;
+  for (int i = 0; plan->options.max_length > 0 && i < plan->n_cords; i++)
+    few_enough = few_enough && thr_cord_length(&plan->frame, &plan->cord[i]) <= plan->options.max_length * (1 + 1e-12);
+  return few_enough && (enough || thr_wants_symmetry(&plan->options) || plan->options.ends == THR_ENDS_COUNTS);
 }
 
 /* Every cord a copy of itself, by the identity. */
-static thr_status identity_record(const thr_plan *p, thr_symmetry_record *r)
+static thr_status identity_record(const thr_plan *plan, thr_symmetry_record *record)
 {
-  *r = (thr_symmetry_record){.present = true, .order = 1, .n_images = 1, .unique_paths = p->n_cords};
-  r->image = thr_calloc((size_t)p->frame.n_nodes, sizeof *r->image);
-  r->unique = thr_calloc((size_t)p->n_cords, sizeof *r->unique);
-  r->element = thr_calloc((size_t)p->n_cords, sizeof *r->element);
-  if (!r->image || !r->unique || !r->element) return THR_ENOMEM;
-  for (int v = 0; v < p->frame.n_nodes; v++)
-    r->image[v] = v;
-  for (int i = 0; i < p->n_cords; i++) {
-    r->unique[i] = i;
-    r->steps += p->cord[i].n_passes;
+  *record = (thr_symmetry_record){.present = true, .order = 1, .n_images = 1, .unique_paths = plan->n_cords};
+  record->image = thr_calloc((size_t)plan->frame.n_nodes, sizeof *record->image);
+  record->unique = thr_calloc((size_t)plan->n_cords, sizeof *record->unique);
+  record->element = thr_calloc((size_t)plan->n_cords, sizeof *record->element);
+  if (!record->image || !record->unique || !record->element) return THR_ENOMEM;
+  for (int v = 0; v < plan->frame.n_nodes; v++)
+    record->image[v] = v;
+  for (int i = 0; i < plan->n_cords; i++) {
+    record->unique[i] = i;
+    record->steps += plan->cord[i].n_passes;
   }
   return THR_OK;
 }
 
-static bool is_wanted(thr_plan *p)
+static bool is_wanted(thr_plan *plan)
 {
-  if (!fits(p) || thr_plan_measure(&p->frame, &p->options, p->cord, p->n_cords, &p->metrics, NULL)) return false;
-  return value_of(p) < best.value * (1 - 1e-9) && thr_check_plan(p, NULL) == THR_OK;
+  if (!fits(plan) || thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, NULL))
+    return false;
+  return value_of(plan) < best.value * (1 - 1e-9) && thr_check_plan(plan, NULL) == THR_OK;
 }
 
-/* p: of borrowed parts. */
-static void keep_better(thr_plan *p, double now)
+/* plan: of borrowed parts. */
+static void keep_better(thr_plan *plan, double now)
 {
-  thr_text t = {0};
-  if (!is_wanted(p)) return;
-  thr_plan_write(p, &t);
-  guard_keep(&t);
-  thr_text_destroy(&t);
-  best.value = value_of(p);
+  thr_text text = {0};
+  if (!is_wanted(plan)) return;
+  thr_plan_write(plan, &text);
+  guard_keep(&text);
+  thr_text_destroy(&text);
+  best.value = value_of(plan);
   best.at = now;
 }
 
@@ -107,16 +109,16 @@ void best_found(void *user, const thr_cord *cord, int n_cords, const thr_symmetr
   double now = thr_clock();
   thr_symmetry_record own = {0};
   if (!best.f || n_cords == 0 || now - best.at < OFTEN) return;
-  thr_plan p = {.frame = *best.f, .options = *best.o, .n_cords = n_cords};
-  p.cord = thr_calloc((size_t)n_cords, sizeof *p.cord);
-  for (int i = 0; p.cord && i < n_cords; i++) {
-    p.cord[i] = cord[i];
-    thr_cord_id(i, p.cord[i].id);
+  thr_plan plan = {.frame = *best.f, .options = *best.o, .n_cords = n_cords};
+  plan.cord = thr_calloc((size_t)n_cords, sizeof *plan.cord);
+  for (int i = 0; plan.cord && i < n_cords; i++) {
+    plan.cord[i] = cord[i];
+    thr_cord_id(i, plan.cord[i].id);
   }
-  bool copies = thr_wants_symmetry(best.o), sound = p.cord != NULL;
-  if (sound && copies && !symmetry) sound = !*best.o->symmetry.group && identity_record(&p, &own) == THR_OK;
-  if (copies) p.symmetry = symmetry ? *symmetry : own;
-  if (sound) keep_better(&p, now);
+  bool copies = thr_wants_symmetry(best.o), sound = plan.cord != NULL;
+  if (sound && copies && !symmetry) sound = !*best.o->symmetry.group && identity_record(&plan, &own) == THR_OK;
+  if (copies) plan.symmetry = symmetry ? *symmetry : own;
+  if (sound) keep_better(&plan, now);
   thr_symmetry_record_destroy(&own);
-  free(p.cord);
+  free(plan.cord);
 }

@@ -170,70 +170,70 @@ static void note_count(int n, const char *one, const char *many, const char *wha
   if (n) cli_note("note: %d %s %s", n, n == 1 ? one : many, what);
 }
 
-static void note_report(const thr_read_report *r)
+static void note_report(const thr_read_report *report)
 {
-  note_count(r->welded_nodes, "node", "nodes", "merged into another within the weld tolerance");
-  note_count(r->zero_length_edges, "edge of zero length", "edges of zero length", "dropped");
-  note_count(r->duplicate_edges, "edge that was there already", "edges that were there already", "dropped");
-  note_count(r->isolated_nodes, "node without an edge", "nodes without an edge", "dropped");
-  if (r->skipped_records)
-    cli_note("note: %d %s not used (the first is %s)", r->skipped_records, r->skipped_records == 1 ? "record" : "records",
-             r->skipped_kind);
+  note_count(report->welded_nodes, "node", "nodes", "merged into another within the weld tolerance");
+  note_count(report->zero_length_edges, "edge of zero length", "edges of zero length", "dropped");
+  note_count(report->duplicate_edges, "edge that was there already", "edges that were there already", "dropped");
+  note_count(report->isolated_nodes, "node without an edge", "nodes without an edge", "dropped");
+  if (report->skipped_records)
+    cli_note("note: %d %s not used (the first is %s)", report->skipped_records,
+             report->skipped_records == 1 ? "record" : "records", report->skipped_kind);
 }
 
 /* Disconnected frameworks are planned part by part; the user must hear it. */
-static int note_components(const thr_frame *f, thr_err *err)
+static int note_components(const thr_frame *frame, thr_err *err)
 {
-  int count, *component = thr_calloc((size_t)f->n_nodes, sizeof *component);
+  int count, *component = thr_calloc((size_t)frame->n_nodes, sizeof *component);
   if (!component) return thr_nomem(err);
-  thr_status st = thr_frame_components(f, component, &count, err);
+  thr_status st = thr_frame_components(frame, component, &count, err);
   if (!st && count > 1) cli_note("note: the framework is in %d separate components; each gets its own cord", count);
   free(component);
   return st;
 }
 
-int cli_read_frame(const char *path, const cli_frame_args *a, thr_frame *f)
+int cli_read_frame(const char *path, const cli_frame_args *a, thr_frame *frame)
 {
   thr_err err = {0};
   thr_read_report report = {0};
   char pair[1024] = "";
-  thr_status st = thr_frame_read(f, &report, path, &a->read, pair, sizeof pair, &err);
+  thr_status st = thr_frame_read(frame, &report, path, &a->read, pair, sizeof pair, &err);
   if (pair[0]) cli_note("note: read together with %s", pair); /* before an error that may name that file */
   if (st) return cli_fail(&err);
   note_report(&report);
-  if (note_components(f, &err)) {
-    thr_frame_destroy(f);
+  if (note_components(frame, &err)) {
+    thr_frame_destroy(frame);
     return cli_fail(&err);
   }
   if (a->feet && strcmp(a->feet, "lowest") == 0) {
-    thr_frame_feet_lowest(f);
+    thr_frame_feet_lowest(frame);
   } else if (a->feet) {
-    memset(f->foot, 0, (size_t)f->n_nodes * sizeof *f->foot);
-    if (!cli_mark_nodes(f, a->feet, "--feet", f->foot)) {
-      thr_frame_destroy(f);
+    memset(frame->foot, 0, (size_t)frame->n_nodes * sizeof *frame->foot);
+    if (!cli_mark_nodes(frame, a->feet, "--feet", frame->foot)) {
+      thr_frame_destroy(frame);
       return EXIT_INPUT;
     }
   }
   return EXIT_OK;
 }
 
-static bool mark_node(const thr_frame *f, const char *name, const char *option, bool *mark)
+static bool mark_node(const thr_frame *frame, const char *name, const char *option, bool *mark)
 {
-  int v = thr_frame_find(f, name);
+  int v = thr_frame_find(frame, name);
   if (v < 0) {
-    cli_error("%s: there is no file and no node called %s; the first node is %s", option, name, f->name[0]);
+    cli_error("%s: there is no file and no node called %s; the first node is %s", option, name, frame->name[0]);
     return false;
   }
   mark[v] = true;
   return true;
 }
 
-bool cli_mark_nodes(const thr_frame *f, const char *list, const char *option, bool *mark)
+bool cli_mark_nodes(const thr_frame *frame, const char *list, const char *option, bool *mark)
 {
   thr_err err = {0};
   thr_text text = {0};
   struct stat s;
-  if (thr_frame_find(f, list) >= 0) return mark_node(f, list, option, mark); /* "(0, 1)" is one COMPAS key */
+  if (thr_frame_find(frame, list) >= 0) return mark_node(frame, list, option, mark); /* "(0, 1)" is one COMPAS key */
   if (stat(list, &s) == 0 && S_ISREG(s.st_mode)) {
     if (thr_text_read(&text, list, &err)) {
       cli_fail(&err);
@@ -245,7 +245,7 @@ bool cli_mark_nodes(const thr_frame *f, const char *list, const char *option, bo
   bool ok = true, some = false;
   for (char *save = NULL, *name = text.data ? strtok_r(text.data, ", \t\r\n;", &save) : NULL; name && ok;
        name = strtok_r(NULL, ", \t\r\n;", &save)) {
-    ok = mark_node(f, name, option, mark);
+    ok = mark_node(frame, name, option, mark);
     some = true;
   }
   if (ok && !some) {
@@ -256,26 +256,26 @@ bool cli_mark_nodes(const thr_frame *f, const char *list, const char *option, bo
   return ok;
 }
 
-int cli_resolve_ends(const char *ends, const thr_frame *f, thr_plan_options *o)
+int cli_resolve_ends(const char *ends, const thr_frame *frame, thr_plan_options *options)
 {
   for (int kind = THR_ENDS_CLOSED; kind < THR_ENDS_NODES; kind++)
     if (strcmp(ends, thr_ends_name(kind)) == 0) {
-      o->ends = (thr_ends)kind;
+      options->ends = (thr_ends)kind;
       return EXIT_OK;
     }
-  o->ends = THR_ENDS_NODES;
-  if (!(o->end_node = thr_calloc((size_t)f->n_nodes, sizeof *o->end_node))) {
+  options->ends = THR_ENDS_NODES;
+  if (!(options->end_node = thr_calloc((size_t)frame->n_nodes, sizeof *options->end_node))) {
     cli_error("out of memory");
     return EXIT_INTERNAL;
   }
-  return cli_mark_nodes(f, ends, "--ends", o->end_node) ? EXIT_OK : EXIT_INPUT;
+  return cli_mark_nodes(frame, ends, "--ends", options->end_node) ? EXIT_OK : EXIT_INPUT;
 }
 
-int cli_read_plan(const char *path, thr_plan *p)
+int cli_read_plan(const char *path, thr_plan *plan)
 {
   thr_err err = {0}, found = {0};
-  if (thr_plan_read(p, path, &err)) return cli_fail(&err);
-  thr_status st = thr_check_plan(p, &found);
+  if (thr_plan_read(plan, path, &err)) return cli_fail(&err);
+  thr_status st = thr_check_plan(plan, &found);
   if (st)
     cli_error(st == THR_EVIOLATED ? "warning: %s does not hold: %s" : "warning: %s could not be checked: %s", path, found.text);
   return EXIT_OK;
@@ -318,18 +318,18 @@ int cli_in_folder(const char *folder, const char *file, char *out, size_t size)
   return EXIT_OK;
 }
 
-int cli_write(thr_text *t, const char *path)
+int cli_write(thr_text *text, const char *path)
 {
   thr_err err = {0};
-  thr_status st = thr_text_write(t, path, &err);
-  thr_text_destroy(t);
+  thr_status st = thr_text_write(text, path, &err);
+  thr_text_destroy(text);
   return st ? cli_fail(&err) : EXIT_OK;
 }
 
-int cli_write_drawn(thr_status st, thr_text *t, const char *path, const thr_err *err)
+int cli_write_drawn(thr_status st, thr_text *text, const char *path, const thr_err *err)
 {
-  if (st == THR_OK) return cli_write(t, path);
-  thr_text_destroy(t);
+  if (st == THR_OK) return cli_write(text, path);
+  thr_text_destroy(text);
   return cli_fail(err);
 }
 
@@ -431,17 +431,17 @@ void cli_heed_signals(void)
 thr_limits cli_limits(double seconds)
 {
   static watch seen;
-  thr_limits l = {.interrupted = &interrupted, .user = &seen};
+  thr_limits limits = {.interrupted = &interrupted, .user = &seen};
   seen = (watch){0};
   cli_heed_signals();
-  if (seconds > 0) l.deadline = thr_clock() + seconds;
-  if (guard_deadline() > 0 && (l.deadline == 0 || l.deadline > guard_deadline())) l.deadline = guard_deadline();
+  if (seconds > 0) limits.deadline = thr_clock() + seconds;
+  if (guard_deadline() > 0 && (limits.deadline == 0 || limits.deadline > guard_deadline())) limits.deadline = guard_deadline();
   if (cli_verbose)
-    l.progress = log_progress;
+    limits.progress = log_progress;
   else if (!cli_quiet && isatty(STDERR_FILENO))
-    l.progress = show_progress;
-  if (!cli_quiet && isatty(STDERR_FILENO)) l.advance = show_advance;
-  return l;
+    limits.progress = show_progress;
+  if (!cli_quiet && isatty(STDERR_FILENO)) limits.advance = show_advance;
+  return limits;
 }
 
 void cli_wipe_line(void)
@@ -462,8 +462,8 @@ const char *cli_plural(int n, const char *one, const char *many)
   return n == 1 ? one : many;
 }
 
-const char *cli_cuts_word(const thr_plan *p, int n)
+const char *cli_cuts_word(const thr_plan *plan, int n)
 {
-  bool tube = p->options.joint == THR_JOINT_TUBE;
+  bool tube = plan->options.joint == THR_JOINT_TUBE;
   return cli_plural(n, tube ? "odd set or junction" : "odd cut", tube ? "odd sets and junctions" : "odd cuts");
 }

@@ -89,17 +89,17 @@ cli_frame_args cli_frame_args_default(void);
 bool cli_frame_option(cli_frame_args *a, const char *command, int option, const char *value, bool *ok);
 
 /* Reads, says on stderr what was merged, dropped or odd, and sets the feet. Returns EXIT_OK or prints and returns the code. */
-int cli_read_frame(const char *path, const cli_frame_args *a, thr_frame *f);
+int cli_read_frame(const char *path, const cli_frame_args *a, thr_frame *frame);
 
 /* Marks one node by its name, the nodes in a list of names, or those in a file of names; false prints why. */
-bool cli_mark_nodes(const thr_frame *f, const char *list, const char *option, bool *mark);
+bool cli_mark_nodes(const thr_frame *frame, const char *list, const char *option, bool *mark);
 
-/* --ends closed, any, feet, or nodes as above: sets o->ends and, for nodes, o->end_node, which the caller frees. Returns EXIT_OK
- * or prints and returns the code. */
-int cli_resolve_ends(const char *ends, const thr_frame *f, thr_plan_options *o);
+/* --ends closed, any, feet, or nodes as above: sets options->ends and, for nodes, options->end_node, which the caller frees.
+ * Returns EXIT_OK or prints and returns the code. */
+int cli_resolve_ends(const char *ends, const thr_frame *frame, thr_plan_options *options);
 
 /* Reads a plan; one that does not hold is still read, with a warning. Returns EXIT_OK or prints and returns the code. */
-int cli_read_plan(const char *path, thr_plan *p);
+int cli_read_plan(const char *path, thr_plan *plan);
 
 /* File name of a path without folder and extension ("frame" for "-"). */
 void cli_stem(const char *path, char *out, size_t size);
@@ -108,10 +108,10 @@ void cli_stem(const char *path, char *out, size_t size);
 int cli_in_folder(const char *folder, const char *file, char *out, size_t size);
 
 /* Writes and destroys the text; prints and returns the code on failure. */
-int cli_write(thr_text *t, const char *path);
+int cli_write(thr_text *text, const char *path);
 
 /* The same for what was drawn, unless that failed with st: then err is printed. */
-int cli_write_drawn(thr_status st, thr_text *t, const char *path, const thr_err *err);
+int cli_write_drawn(thr_status st, thr_text *text, const char *path, const thr_err *err);
 
 /* ---- long computations ---- */
 
@@ -129,6 +129,6 @@ void cli_wipe_line(void);    /* the same for one that another process has left *
 const char *cli_plural(int n, const char *one, const char *many);
 
 /* What the n multipliers of the plan's proof of length stand on: "odd cut", "odd cuts", "odd sets and junctions". */
-const char *cli_cuts_word(const thr_plan *p, int n);
+const char *cli_cuts_word(const thr_plan *plan, int n);
 
 #endif

@@ -48,45 +48,45 @@ const char *drawings_file(int i)
 typedef thr_status with_motion(const thr_plan *p, const char *const *motion, thr_text *t, thr_err *err);
 
 /* A document that says what moves a path to its copies. */
-static thr_status describe(const thr_plan *p, with_motion *document_of, thr_text *t, thr_err *err)
+static thr_status describe(const thr_plan *plan, with_motion *document_of, thr_text *text, thr_err *err)
 {
   cli_copies copies;
-  thr_status st = cli_copies_describe(p, &copies, err);
-  if (!st) st = document_of(p, copies.motion, t, err);
+  thr_status st = cli_copies_describe(plan, &copies, err);
+  if (!st) st = document_of(plan, copies.motion, text, err);
   cli_copies_destroy(&copies);
   return st;
 }
 
-static int write_overview(const thr_plan *p, const char *path, const drawings_args *a)
+static int write_overview(const thr_plan *plan, const char *path, const drawings_args *a)
 {
   thr_err err = {0};
   thr_text svg = {0};
   cli_copies copies;
-  thr_overview_options o = thr_overview_options_default();
-  o.pitch_mm = a->pitch_mm;
-  o.colour = a->colour;
-  thr_status st = cli_copies_describe(p, &copies, &err);
-  o.motion = copies.motion;
-  if (!st) st = thr_overview_svg(p, &o, &svg, &err);
+  thr_overview_options options = thr_overview_options_default();
+  options.pitch_mm = a->pitch_mm;
+  options.colour = a->colour;
+  thr_status st = cli_copies_describe(plan, &copies, &err);
+  options.motion = copies.motion;
+  if (!st) st = thr_overview_svg(plan, &options, &svg, &err);
   cli_copies_destroy(&copies);
   return cli_write_drawn(st, &svg, path, &err);
 }
 
 /* Says how many pages there will be before it draws them. An interrupt that has ended the planning does not end this. */
-static int write_sheets(const thr_plan *p, const char *path, const drawings_args *a)
+static int write_sheets(const thr_plan *plan, const char *path, const drawings_args *a)
 {
   thr_err err = {0};
   thr_text pdf = {0};
   thr_sheets *sheets = NULL;
   cli_copies copies;
-  thr_sheets_options o = thr_sheets_options_default();
+  thr_sheets_options options = thr_sheets_options_default();
   thr_limits limits = cli_limits(0);
   if (thr_limits_stop(&limits)) limits.interrupted = NULL;
-  o.page = (thr_page_size)a->page;
-  o.middle = a->middle;
-  thr_status st = cli_copies_describe(p, &copies, &err);
-  o.motion = copies.motion;
-  if (!st) st = thr_sheets_make(&sheets, p, &o, &limits, &err);
+  options.page = (thr_page_size)a->page;
+  options.middle = a->middle;
+  thr_status st = cli_copies_describe(plan, &copies, &err);
+  options.motion = copies.motion;
+  if (!st) st = thr_sheets_make(&sheets, plan, &options, &limits, &err);
   if (!st) {
     int n = thr_sheets_pages(sheets);
     cli_note("%s: %d %s", documents[SHEETS].file, n, cli_plural(n, "page", "pages"));
@@ -114,36 +114,36 @@ bool drawings_option(drawings_args *a, const char *command, int option, const ch
   return true;
 }
 
-int drawings_write(const thr_plan *p, int i, const char *path, const drawings_args *a)
+int drawings_write(const thr_plan *plan, int i, const char *path, const drawings_args *a)
 {
   thr_err err = {0};
-  thr_text t = {0};
+  thr_text text = {0};
   thr_status st;
   switch ((document)i) {
-  case OVERVIEW: return write_overview(p, path, a);
-  case SHEETS: return write_sheets(p, path, a);
-  case STEPS: st = describe(p, thr_steps_text, &t, &err); break;
-  case VIEWER: st = describe(p, thr_viewer_html, &t, &err); break;
-  case STEPS_TABLE: st = thr_table_steps(p, &t, &err); break;
-  case CORDS_TABLE: st = describe(p, thr_table_cords, &t, &err); break;
-  case BEADS_TABLE: st = thr_table_beads(p, &t, &err); break;
-  case OBJ: st = thr_polylines_obj(p, &t, &err); break;
-  default: st = thr_polylines_gltf(p, &t, &err);
+  case OVERVIEW: return write_overview(plan, path, a);
+  case SHEETS: return write_sheets(plan, path, a);
+  case STEPS: st = describe(plan, thr_steps_text, &text, &err); break;
+  case VIEWER: st = describe(plan, thr_viewer_html, &text, &err); break;
+  case STEPS_TABLE: st = thr_table_steps(plan, &text, &err); break;
+  case CORDS_TABLE: st = describe(plan, thr_table_cords, &text, &err); break;
+  case BEADS_TABLE: st = thr_table_beads(plan, &text, &err); break;
+  case OBJ: st = thr_polylines_obj(plan, &text, &err); break;
+  default: st = thr_polylines_gltf(plan, &text, &err);
   }
-  return cli_write_drawn(st, &t, path, &err);
+  return cli_write_drawn(st, &text, path, &err);
 }
 
-bool drawings_no_sheets(const thr_plan *p, const drawings_args *a)
+bool drawings_no_sheets(const thr_plan *plan, const drawings_args *a)
 {
-  return a->quick && p->frame.n_edges > DRAWINGS_SHEETS_BEADS;
+  return a->quick && plan->frame.n_edges > DRAWINGS_SHEETS_BEADS;
 }
 
-void drawings_names(const thr_plan *p, const drawings_args *a, char names[DRAWINGS_NAMES])
+void drawings_names(const thr_plan *plan, const drawings_args *a, char names[DRAWINGS_NAMES])
 {
   int n = 0;
   names[0] = '\0';
   for (int i = 0; i < N_DOCUMENTS && n < DRAWINGS_NAMES; i++)
-    if (i != SHEETS || !drawings_no_sheets(p, a))
+    if (i != SHEETS || !drawings_no_sheets(plan, a))
       n += snprintf(names + n, (size_t)(DRAWINGS_NAMES - n), "%s%s", n ? " " : "", documents[i].file);
 }
 
@@ -162,16 +162,16 @@ static bool too_late(int k)
   return true;
 }
 
-int drawings_write_all(const thr_plan *p, const char *folder, const drawings_args *a)
+int drawings_write_all(const thr_plan *plan, const char *folder, const drawings_args *a)
 {
   int code = EXIT_OK;
   for (int k = 0; k < N_DOCUMENTS && !code; k++) {
     int i = nth_document(k);
     char path[1200];
-    if (i == SHEETS && drawings_no_sheets(p, a)) break;
+    if (i == SHEETS && drawings_no_sheets(plan, a)) break;
     if (too_late(k)) return EXIT_LIMIT;
     code = cli_in_folder(folder, documents[i].file, path, sizeof path);
-    if (!code) code = drawings_write(p, i, path, a);
+    if (!code) code = drawings_write(plan, i, path, a);
   }
   return code;
 }

@@ -38,16 +38,16 @@ enum { OPTION_PAGE = 2000, OPTION_FROM }; /* beyond the options that commands nu
 bool drawings_option(drawings_args *a, const char *command, int option, const char *value, bool *ok);
 
 /* Writes document i of the plan to path ("-" = stdout). Returns EXIT_OK or prints and returns the code. */
-int drawings_write(const thr_plan *p, int i, const char *path, const drawings_args *a);
+int drawings_write(const thr_plan *plan, int i, const char *path, const drawings_args *a);
 
 /* Writes all of them into folder, which is made if needed, under their usual names; stops at the first that fails,
  * and with EXIT_LIMIT, printed, where the time of the command is over. */
-int drawings_write_all(const thr_plan *p, const char *folder, const drawings_args *a);
+int drawings_write_all(const thr_plan *plan, const char *folder, const drawings_args *a);
 
 /* Does that leave out the step sheets? */
-bool drawings_no_sheets(const thr_plan *p, const drawings_args *a);
+bool drawings_no_sheets(const thr_plan *plan, const drawings_args *a);
 
 /* The file names of what it writes: "overview.svg steps.txt". */
-void drawings_names(const thr_plan *p, const drawings_args *a, char names[DRAWINGS_NAMES]);
+void drawings_names(const thr_plan *plan, const drawings_args *a, char names[DRAWINGS_NAMES]);
 
 #endif

@@ -65,9 +65,9 @@ static void send(thr_message m, const char *bytes)
   if (to_parent >= 0 && !thr_message_send(to_parent, m, bytes)) to_parent = -1;
 }
 
-void guard_keep(const thr_text *t)
+void guard_keep(const thr_text *text)
 {
-  if (!t->failed) send((thr_message){.kind = KEEP, .length = t->length}, t->data);
+  if (!text->failed) send((thr_message){.kind = KEEP, .length = text->length}, text->data);
 }
 
 void guard_writing(void)

@@ -61,7 +61,7 @@ void guard_allow(double seconds);
 /* In the child; nothing without one. kept: replaces what was handed over before. Between writing and written nothing ends the
  * child but a second signal. No memory: what the parent is to say if the child fails now; false if there is no parent. Ending:
  * the child exits with this code by itself, not a library. */
-void guard_keep(const thr_text *t);
+void guard_keep(const thr_text *text);
 void guard_writing(void);
 void guard_written(int code);
 bool guard_no_memory(void);

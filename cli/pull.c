@@ -93,7 +93,7 @@ static const char *method_name(int i)
 
 bool pull_option(pull_args *a, const char *command, int option, const char *value, bool *ok)
 {
-  thr_eval_options *o = &a->options;
+  thr_eval_options *options = &a->options;
   double seed;
   int law, methods = strcmp(command, "compare") == 0 ? PULL_ALL_METHODS + 1 : THR_N_METHODS;
   *ok = true;
@@ -101,7 +101,7 @@ bool pull_option(pull_args *a, const char *command, int option, const char *valu
   case OPTION_PULL_METHOD: *ok = cli_choose(command, "--method", value, method_name, methods, &a->method); return true;
   case OPTION_PULL_LAW:
     *ok = cli_choose(command, "--law", value, thr_law_name, THR_N_LAWS, &law);
-    if (*ok) o->law = (thr_law)law;
+    if (*ok) options->law = (thr_law)law;
     return true;
   case OPTION_PULL_END:
     *ok = check_pull(command, value);
@@ -113,18 +113,18 @@ bool pull_option(pull_args *a, const char *command, int option, const char *valu
       cli_usage(command, "--seed %s: expected a whole number", value);
       *ok = false;
     }
-    if (*ok) o->seed = (uint64_t)seed;
+    if (*ok) options->seed = (uint64_t)seed;
     return true;
-  case OPTION_PULL_TIME_STEP: *ok = cli_double(command, "--time-step", value, 0.01, 10, &o->time_step); return true;
-  case OPTION_PULL_ITERATIONS: *ok = cli_double(command, "--iterations", value, 0.1, 100, &o->iterations); return true;
-  case OPTION_PULL_START: *ok = cli_double(command, "--start", value, 1e-9, 1e12, &o->start); return true;
-  case 'j': *ok = cli_int(command, "--processes", value, 1, 1024, &o->processes); return true;
+  case OPTION_PULL_TIME_STEP: *ok = cli_double(command, "--time-step", value, 0.01, 10, &options->time_step); return true;
+  case OPTION_PULL_ITERATIONS: *ok = cli_double(command, "--iterations", value, 0.1, 100, &options->iterations); return true;
+  case OPTION_PULL_START: *ok = cli_double(command, "--start", value, 1e-9, 1e12, &options->start); return true;
+  case 'j': *ok = cli_int(command, "--processes", value, 1, 1024, &options->processes); return true;
   case OPTION_PULL_CACHE:
     if (!(*ok = *value != '\0')) cli_usage(command, "--cache: an empty name is no folder; --no-cache does without");
-    o->cache = value;
+    options->cache = value;
     return true;
   case OPTION_PULL_NO_CACHE: a->no_cache = true; return true;
-  case OPTION_PULL_NO_DYNAMICS: o->dynamics = false; return true;
+  case OPTION_PULL_NO_DYNAMICS: options->dynamics = false; return true;
   case OPTION_PULL_JSON: a->json = true; return true;
   default: return false;
   }
@@ -144,43 +144,43 @@ int pull_check(const pull_args *a, const char *command)
 }
 
 /* The pull of each cord of a plan; *out is owned by the caller, NULL if all are pulled alike. */
-static int resolve_pulls(const pull_args *a, const char *path, const thr_plan *p, thr_eval_options *o, thr_pull **out)
+static int resolve_pulls(const pull_args *a, const char *path, const thr_plan *plan, thr_eval_options *options, thr_pull **out)
 {
   const char *list = a->pull;
   char id[12];
   thr_pull pull = THR_PULL_BOTH;
   bool ok;
   *out = NULL;
-  if (pull_by_name(list, strlen(list), &o->pull)) return EXIT_OK;
-  if (!(*out = thr_calloc((size_t)p->n_cords, sizeof **out))) {
+  if (pull_by_name(list, strlen(list), &options->pull)) return EXIT_OK;
+  if (!(*out = thr_calloc((size_t)plan->n_cords, sizeof **out))) {
     cli_error("out of memory");
     return EXIT_INTERNAL;
   }
-  for (int i = 0; i < p->n_cords; i++)
+  for (int i = 0; i < plan->n_cords; i++)
     (*out)[i] = THR_PULL_BOTH;
   while (next_pull(&list, id, &pull, &ok)) {
     int i = 0;
-    while (i < p->n_cords && strcmp(p->cord[i].id, id) != 0)
+    while (i < plan->n_cords && strcmp(plan->cord[i].id, id) != 0)
       i++;
-    if (i == p->n_cords) {
-      cli_error("--pull %s: %s has no cord %s; the last of its cords is %s", a->pull, path, id, p->cord[p->n_cords - 1].id);
+    if (i == plan->n_cords) {
+      cli_error("--pull %s: %s has no cord %s; the last of its cords is %s", a->pull, path, id, plan->cord[plan->n_cords - 1].id);
       return EXIT_INPUT;
     }
     (*out)[i] = pull;
   }
-  o->cord_pull = *out;
+  options->cord_pull = *out;
   return EXIT_OK;
 }
 
 /* Sizes that were not said follow from the edges: a very short one makes every cord thin. Once is enough. */
-static void note_thin_cord(const thr_frame *f, const thr_physics *asked, const thr_physics *resolved)
+static void note_thin_cord(const thr_frame *frame, const thr_physics *asked, const thr_physics *resolved)
 {
   static bool said;
   double mm = 1, shortest = INFINITY;
   int edge = 0;
-  if (said || asked->cord_diameter > 0 || thr_units_in_mm(f->units, &mm, NULL)) return;
-  for (int e = 0; e < f->n_edges; e++) {
-    const double *a = f->xyz[f->edge[e][0]], *b = f->xyz[f->edge[e][1]];
+  if (said || asked->cord_diameter > 0 || thr_units_in_mm(frame->units, &mm, NULL)) return;
+  for (int e = 0; e < frame->n_edges; e++) {
+    const double *a = frame->xyz[frame->edge[e][0]], *b = frame->xyz[frame->edge[e][1]];
     double length = mm * hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
     if (length < shortest) {
       shortest = length;
@@ -190,37 +190,37 @@ static void note_thin_cord(const thr_frame *f, const thr_physics *asked, const t
   if (fabs(resolved->cord_diameter - shortest / 4) > 1e-9 * shortest) return;
   said = true;
   cli_note("note: the cord is taken to be %.3g mm thick, as the edge from %s to %s is only %.3g mm long; --cord-diameter says it",
-           resolved->cord_diameter, f->name[f->edge[edge][0]], f->name[f->edge[edge][1]], shortest);
+           resolved->cord_diameter, frame->name[frame->edge[edge][0]], frame->name[frame->edge[edge][1]], shortest);
 }
 
-int pull_eval(const pull_args *a, const char *path, const thr_plan *p, thr_method method, thr_eval *out)
+int pull_eval(const pull_args *a, const char *path, const thr_plan *plan, thr_method method, thr_eval *out)
 {
   thr_err err = {0}, found = {0};
-  thr_eval_options o = a->options;
+  thr_eval_options options = a->options;
   thr_pull *pulls = NULL;
   *out = (thr_eval){0};
-  o.physics = p->options.physics;
-  if (!o.cache && a->cache[0]) o.cache = a->cache;
-  if (a->no_cache) o.cache = NULL;
-  int code = cli_physics_apply(&a->physics, &o.physics);
-  if (!code) code = resolve_pulls(a, path, p, &o, &pulls);
+  options.physics = plan->options.physics;
+  if (!options.cache && a->cache[0]) options.cache = a->cache;
+  if (a->no_cache) options.cache = NULL;
+  int code = cli_physics_apply(&a->physics, &options.physics);
+  if (!code) code = resolve_pulls(a, path, plan, &options, &pulls);
   if (code) {
     free(pulls);
     return code;
   }
   thr_limits limits = cli_limits(0);
-  thr_status st = thr_eval_plan(&p->frame, p->cord, p->n_cords, method, &o, &limits, out, &found);
+  thr_status st = thr_eval_plan(&plan->frame, plan->cord, plan->n_cords, method, &options, &limits, out, &found);
   free(pulls);
   cli_progress_end();
   if (st == THR_ELIMIT) {
-    int kept = o.cache && !out->cache_failed ? out->joints_measured : 0;
+    int kept = options.cache && !out->cache_failed ? out->joints_measured : 0;
     if (method == THR_JOINT)
       cli_note("note: %s: %d %s kept in the cache for the next run", path, kept, cli_plural(kept, "joint is", "joints are"));
     return EXIT_LIMIT;
   }
   if (!st) {
-    if (method != THR_CAPSTAN) note_thin_cord(&p->frame, &o.physics, &out->record.physics);
-    if (out->cache_failed) cli_note("note: measured joints could not be kept in %s; --cache names another folder", o.cache);
+    if (method != THR_CAPSTAN) note_thin_cord(&plan->frame, &options.physics, &out->record.physics);
+    if (out->cache_failed) cli_note("note: measured joints could not be kept in %s; --cache names another folder", options.cache);
     return EXIT_OK;
   }
   thr_fail(&err, st, "%s: %s", path, found.text);
@@ -232,14 +232,14 @@ double pull_percent(double error)
   return 100 * expm1(error);
 }
 
-void pull_unknown_cords(const thr_plan *p, const thr_evaluation *e, thr_text *t)
+void pull_unknown_cords(const thr_plan *plan, const thr_evaluation *evaluation, thr_text *text)
 {
   enum { MOST = 12 };
   int n = 0;
-  for (int i = 0; i < e->n_cords; i++) {
-    if (e->cord[i].known) continue;
-    if (n < MOST) thr_text_printf(t, "%s%s", n ? ", " : "", p->cord[i].id);
+  for (int i = 0; i < evaluation->n_cords; i++) {
+    if (evaluation->cord[i].known) continue;
+    if (n < MOST) thr_text_printf(text, "%s%s", n ? ", " : "", plan->cord[i].id);
     n++;
   }
-  if (n > MOST) thr_text_printf(t, " and %d more", n - MOST);
+  if (n > MOST) thr_text_printf(text, " and %d more", n - MOST);
 }

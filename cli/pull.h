@@ -71,12 +71,12 @@ int pull_check(const pull_args *a, const char *command);
 
 /* Evaluates a plan by one method with a progress bar and Ctrl-C; path is for messages. Returns EXIT_OK; EXIT_LIMIT after a stop,
  * with out holding what is known; or prints and returns the code. */
-int pull_eval(const pull_args *a, const char *path, const thr_plan *p, thr_method method, thr_eval *out);
+int pull_eval(const pull_args *a, const char *path, const thr_plan *plan, thr_method method, thr_eval *out);
 
 /* A relative error from an exponent's, in percent. */
 double pull_percent(double error);
 
 /* "A, C, D and 4 more": the cords that are not known. */
-void pull_unknown_cords(const thr_plan *p, const thr_evaluation *e, thr_text *t);
+void pull_unknown_cords(const thr_plan *plan, const thr_evaluation *evaluation, thr_text *text);
 
 #endif

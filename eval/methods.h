@@ -10,15 +10,15 @@
 #include "graph/status.h"
 
 /* Closed form over the turning angles (capstan.c). */
-thr_status thr_capstan_method(const thr_frame *f, const thr_cord *cord, const thr_eval_options *o, const thr_limits *limits,
-                              thr_eval *out, thr_err *err) THR_MUST_CHECK;
+thr_status thr_capstan_method(const thr_frame *frame, const thr_cord *cord, const thr_eval_options *options,
+                              const thr_limits *limits, thr_eval *out, thr_err *err) THR_MUST_CHECK;
 /* Joints measured in Bullet, composed along the taut path (joint.c). */
-thr_status thr_joint_method(const thr_frame *f, const thr_cord *cord, const thr_eval_options *o, const thr_limits *limits,
-                            thr_eval *out, thr_err *err) THR_MUST_CHECK;
+thr_status thr_joint_method(const thr_frame *frame, const thr_cord *cord, const thr_eval_options *options,
+                            const thr_limits *limits, thr_eval *out, thr_err *err) THR_MUST_CHECK;
 /* Limit analysis, confirmed by Bullet (structure.c): every cord is pulled at its harder end with the holding pull. If that
  * is 0, so are forces, tensions and losses, and Bullet has nothing to show unless a start is given. THR_EINFEASIBLE if no pull
  * holds it, THR_ESOLVER if that is not decided; at an end of the band the one is INFINITY, the other NAN. */
-thr_status thr_structure_method(const thr_frame *f, const thr_cord *cord, const thr_eval_options *o, const thr_limits *limits,
-                                thr_eval *out, thr_err *err) THR_MUST_CHECK;
+thr_status thr_structure_method(const thr_frame *frame, const thr_cord *cord, const thr_eval_options *options,
+                                const thr_limits *limits, thr_eval *out, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -11,28 +11,29 @@ double thr_clock(void)
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-double thr_limits_left(const thr_limits *l, double most)
+double thr_limits_left(const thr_limits *limits, double most)
 {
-  if ((l->interrupted && *l->interrupted) || (l->work && *l->work <= 0)) return 0;
-  if (l->deadline == 0) return most;
-  double left = l->deadline - thr_clock();
+  if ((limits->interrupted && *limits->interrupted) || (limits->work && *limits->work <= 0)) return 0;
+  if (limits->deadline == 0) return most;
+  double left = limits->deadline - thr_clock();
   return left < 0 ? 0 : left < most ? left : most;
 }
 
-thr_limits thr_limits_part(const thr_limits *l, double part)
+thr_limits thr_limits_part(const thr_limits *limits, double part)
 {
-  thr_limits some = *l;
-  double now = thr_clock(), left = l->deadline - now;
-  if (l->deadline > 0) some.deadline = now + part * (left > 0 ? left : 0);
+  thr_limits some = *limits;
+  double now = thr_clock(), left = limits->deadline - now;
+  if (limits->deadline > 0) some.deadline = now + part * (left > 0 ? left : 0);
   return some;
 }
 
-bool thr_limits_stop(const thr_limits *l)
+bool thr_limits_stop(const thr_limits *limits)
 {
-  return thr_limits_left(l, 1) <= 0;
+  return thr_limits_left(limits, 1) <= 0;
 }
 
-void thr_limits_found(const thr_limits *l, const struct thr_cord *cord, int n_cords, const struct thr_symmetry_record *symmetry)
+void thr_limits_found(const thr_limits *limits, const struct thr_cord *cord, int n_cords,
+                      const struct thr_symmetry_record *symmetry)
 {
-  if (l->found && n_cords > 0) l->found(l->user, cord, n_cords, symmetry);
+  if (limits->found && n_cords > 0) limits->found(limits->user, cord, n_cords, symmetry);
 }

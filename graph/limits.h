@@ -28,17 +28,18 @@ typedef struct {
 /* Seconds on a clock that never goes back; only differences mean anything. */
 double thr_clock(void);
 
-bool thr_limits_stop(const thr_limits *l);
+bool thr_limits_stop(const thr_limits *limits);
 
 /* Seconds left, at most `most` and at least 0. */
-double thr_limits_left(const thr_limits *l, double most);
+double thr_limits_left(const thr_limits *limits, double most);
 
 /* The same with only a part of the time that is left, 0 .. 1. */
-thr_limits thr_limits_part(const thr_limits *l, double part);
+thr_limits thr_limits_part(const thr_limits *limits, double part);
 
 /* Cords of the whole framework that may be what is asked for, as soon as there are some and whenever there are better ones: they
  * are what is left if the search has to be ended. Who listens finds out itself whether they are; symmetry: of cords that are
  * copies of each other, else NULL. Nothing is taken over. */
-void thr_limits_found(const thr_limits *l, const struct thr_cord *cord, int n_cords, const struct thr_symmetry_record *symmetry);
+void thr_limits_found(const thr_limits *limits, const struct thr_cord *cord, int n_cords,
+                      const struct thr_symmetry_record *symmetry);
 
 #endif

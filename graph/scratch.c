@@ -10,29 +10,29 @@ struct thr_scratch_array {
   max_align_t data[];
 };
 
-void *thr_scratch_array(thr_scratch *s, size_t n, size_t size)
+void *thr_scratch_array(thr_scratch *scratch, size_t n, size_t size)
 {
   const size_t head = sizeof(struct thr_scratch_array);
   struct thr_scratch_array *made = NULL;
-  if (!s->failed && n <= (SIZE_MAX - head) / (size ? size : 1)) made = thr_calloc(1, head + n * size);
-  s->failed = !made;
+  if (!scratch->failed && n <= (SIZE_MAX - head) / (size ? size : 1)) made = thr_calloc(1, head + n * size);
+  scratch->failed = !made;
   if (!made) return NULL;
-  made->before = s->last;
-  s->last = made;
+  made->before = scratch->last;
+  scratch->last = made;
   return made->data;
 }
 
-thr_status thr_scratch_check(const thr_scratch *s, thr_err *err)
+thr_status thr_scratch_check(const thr_scratch *scratch, thr_err *err)
 {
-  return s->failed ? thr_nomem(err) : THR_OK;
+  return scratch->failed ? thr_nomem(err) : THR_OK;
 }
 
-void thr_scratch_free(thr_scratch *s)
+void thr_scratch_free(thr_scratch *scratch)
 {
-  while (s->last) {
-    struct thr_scratch_array *before = s->last->before;
-    free(s->last);
-    s->last = before;
+  while (scratch->last) {
+    struct thr_scratch_array *before = scratch->last->before;
+    free(scratch->last);
+    scratch->last = before;
   }
-  s->failed = false;
+  scratch->failed = false;
 }

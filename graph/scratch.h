@@ -19,12 +19,12 @@ typedef struct {
 
 /* Zeroed array of n elements of size bytes, as thr_calloc gives it: an allocation of its own, so that tests and sanitizers see
  * each one. NULL when memory runs out, and from then on. Never freed or made longer by itself. */
-void *thr_scratch_array(thr_scratch *s, size_t n, size_t size) THR_MUST_CHECK;
+void *thr_scratch_array(thr_scratch *scratch, size_t n, size_t size) THR_MUST_CHECK;
 
 /* THR_ENOMEM if any of the arrays so far is missing. */
-thr_status thr_scratch_check(const thr_scratch *s, thr_err *err) THR_MUST_CHECK;
+thr_status thr_scratch_check(const thr_scratch *scratch, thr_err *err) THR_MUST_CHECK;
 
 /* Frees them all; it is empty then. */
-void thr_scratch_free(thr_scratch *s);
+void thr_scratch_free(thr_scratch *scratch);
 
 #endif

@@ -17,66 +17,66 @@ enum { MAX_INPUT_BYTES = 1 << 30 };
 
 #define NO_NAME "an empty name is no file; name one, or - for stdin or stdout"
 
-static bool reserve(thr_text *t, size_t extra)
+static bool reserve(thr_text *text, size_t extra)
 {
-  if (t->failed) return false;
-  if (t->length + extra + 1 <= t->capacity) return true;
-  size_t wanted = t->capacity ? t->capacity : 256;
-  while (wanted < t->length + extra + 1)
+  if (text->failed) return false;
+  if (text->length + extra + 1 <= text->capacity) return true;
+  size_t wanted = text->capacity ? text->capacity : 256;
+  while (wanted < text->length + extra + 1)
     wanted *= 2;
-  char *data = thr_realloc(t->data, wanted, 1);
+  char *data = thr_realloc(text->data, wanted, 1);
   if (!data) {
-    t->failed = true;
+    text->failed = true;
     return false;
   }
-  t->data = data;
-  t->capacity = wanted;
+  text->data = data;
+  text->capacity = wanted;
   return true;
 }
 
-void thr_text_append_bytes(thr_text *t, const char *s, size_t n)
+void thr_text_append_bytes(thr_text *text, const char *s, size_t n)
 {
-  if (!reserve(t, n)) return;
-  memcpy(t->data + t->length, s, n);
-  t->length += n;
-  t->data[t->length] = '\0';
+  if (!reserve(text, n)) return;
+  memcpy(text->data + text->length, s, n);
+  text->length += n;
+  text->data[text->length] = '\0';
 }
 
-void thr_text_append(thr_text *t, const char *s)
+void thr_text_append(thr_text *text, const char *s)
 {
-  thr_text_append_bytes(t, s, strlen(s));
+  thr_text_append_bytes(text, s, strlen(s));
 }
 
-void thr_text_printf(thr_text *t, const char *format, ...)
+void thr_text_printf(thr_text *text, const char *format, ...)
 {
   va_list args, again;
   va_start(args, format);
   va_copy(again, args);
   int n = vsnprintf(NULL, 0, format, args);
   va_end(args);
-  if (n >= 0 && reserve(t, (size_t)n)) {
-    vsnprintf(t->data + t->length, (size_t)n + 1, format, again);
-    t->length += (size_t)n;
+  if (n >= 0 && reserve(text, (size_t)n)) {
+    vsnprintf(text->data + text->length, (size_t)n + 1, format, again);
+    text->length += (size_t)n;
   }
   va_end(again);
 }
 
-void thr_text_double(thr_text *t, double value)
+void thr_text_double(thr_text *text, double value)
 {
   char digits[40];
   for (int precision = 15; precision <= 17; precision++) {
     snprintf(digits, sizeof digits, "%.*g", precision, value == 0 ? 0.0 : value);
     if (strtod(digits, NULL) == value) break;
   }
-  thr_text_append(t, digits);
+  thr_text_append(text, digits);
 }
 
-void thr_text_json_number(thr_text *t, double value)
+void thr_text_json_number(thr_text *text, double value)
 {
   if (isfinite(value))
-    thr_text_double(t, value);
+    thr_text_double(text, value);
   else
-    thr_text_append(t, "null");
+    thr_text_append(text, "null");
 }
 
 /* ---- letters of foreign text ---- */
@@ -139,13 +139,13 @@ void thr_text_copy_clean(char *to, size_t size, const char *s)
   thr_text_clean(to);
 }
 
-void thr_text_append_clean(thr_text *t, const char *s)
+void thr_text_append_clean(thr_text *text, const char *s)
 {
-  size_t start = t->length;
-  thr_text_append(t, s);
-  if (t->failed) return;
-  thr_text_clean(t->data + start);
-  t->length = start + strlen(t->data + start);
+  size_t start = text->length;
+  thr_text_append(text, s);
+  if (text->failed) return;
+  thr_text_clean(text->data + start);
+  text->length = start + strlen(text->data + start);
 }
 
 bool thr_text_is_utf8(const char *s, size_t n)
@@ -163,41 +163,41 @@ int thr_text_columns(const char *s, size_t n)
   return columns;
 }
 
-void thr_text_json_string(thr_text *t, const char *s)
+void thr_text_json_string(thr_text *text, const char *s)
 {
-  thr_text_append(t, "\"");
+  thr_text_append(text, "\"");
   for (size_t left = strlen(s), length = 0; left > 0; left -= length, s += length) {
     uint32_t code = letter_at(s, left, &length);
     if (code == '"' || code == '\\')
-      thr_text_printf(t, "\\%c", (int)code);
+      thr_text_printf(text, "\\%c", (int)code);
     else if (code == BROKEN_LETTER || is_control(code))
-      thr_text_printf(t, "\\u%04x", code == BROKEN_LETTER ? 0xfffdu : (unsigned)code);
+      thr_text_printf(text, "\\u%04x", code == BROKEN_LETTER ? 0xfffdu : (unsigned)code);
     else
-      thr_text_append_bytes(t, s, length);
+      thr_text_append_bytes(text, s, length);
   }
-  thr_text_append(t, "\"");
+  thr_text_append(text, "\"");
 }
 
-void thr_text_xml(thr_text *t, const char *s)
+void thr_text_xml(thr_text *text, const char *s)
 {
   for (size_t left = strlen(s), length = 0; left > 0; left -= length, s += length) {
     uint32_t code = letter_at(s, left, &length);
     switch (code) {
-    case '&': thr_text_append(t, "&amp;"); break;
-    case '<': thr_text_append(t, "&lt;"); break;
-    case '>': thr_text_append(t, "&gt;"); break;
-    case '"': thr_text_append(t, "&quot;"); break;
-    case '\'': thr_text_append(t, "&apos;"); break;
-    case BROKEN_LETTER: thr_text_append(t, "\xEF\xBF\xBD"); break;
-    default: thr_text_append_bytes(t, is_control(code) ? " " : s, is_control(code) ? 1 : length);
+    case '&': thr_text_append(text, "&amp;"); break;
+    case '<': thr_text_append(text, "&lt;"); break;
+    case '>': thr_text_append(text, "&gt;"); break;
+    case '"': thr_text_append(text, "&quot;"); break;
+    case '\'': thr_text_append(text, "&apos;"); break;
+    case BROKEN_LETTER: thr_text_append(text, "\xEF\xBF\xBD"); break;
+    default: thr_text_append_bytes(text, is_control(code) ? " " : s, is_control(code) ? 1 : length);
     }
   }
 }
 
-void thr_text_destroy(thr_text *t)
+void thr_text_destroy(thr_text *text)
 {
-  free(t->data);
-  *t = (thr_text){0};
+  free(text->data);
+  *text = (thr_text){0};
 }
 
 static thr_status write_failed(const char *path, thr_err *err)
@@ -205,9 +205,9 @@ static thr_status write_failed(const char *path, thr_err *err)
   return thr_fail(err, THR_EIO, "%s: cannot write: %s", path, strerror(errno));
 }
 
-static thr_status write_stdout(const thr_text *t, thr_err *err)
+static thr_status write_stdout(const thr_text *text, thr_err *err)
 {
-  if (t->length && fwrite(t->data, 1, t->length, stdout) != t->length) return write_failed("stdout", err);
+  if (text->length && fwrite(text->data, 1, text->length, stdout) != text->length) return write_failed("stdout", err);
   return fflush(stdout) == 0 ? THR_OK : write_failed("stdout", err);
 }
 
@@ -217,9 +217,9 @@ static bool reach_disk(int fd)
   return fsync(fd) == 0 || errno == EINVAL || errno == ENOTSUP || errno == ENOSYS;
 }
 
-static bool write_all(FILE *f, const thr_text *t)
+static bool write_all(FILE *f, const thr_text *text)
 {
-  bool ok = t->length == 0 || fwrite(t->data, 1, t->length, f) == t->length;
+  bool ok = text->length == 0 || fwrite(text->data, 1, text->length, f) == text->length;
   ok = fflush(f) == 0 && reach_disk(fileno(f)) && ok;
   int why = errno;
   bool closed = fclose(f) == 0;
@@ -243,7 +243,7 @@ static void folder_reaches_disk(const char *path, size_t folder)
 }
 
 /* A new file beside path, which then takes path's place; mode is what path is to have. */
-static thr_status replace_file(const thr_text *t, const char *path, mode_t mode, thr_err *err)
+static thr_status replace_file(const thr_text *text, const char *path, mode_t mode, thr_err *err)
 {
   static const char name[] = ".thread-XXXXXX"; /* short: the folder may allow no longer name than path's */
   const char *slash = strrchr(path, '/');
@@ -255,7 +255,7 @@ static thr_status replace_file(const thr_text *t, const char *path, mode_t mode,
   thr_status st = THR_OK;
   int fd = mkstemp(temporary);
   FILE *f = fd >= 0 && fchmod(fd, mode) == 0 ? fdopen(fd, "wb") : NULL;
-  if (!f || !write_all(f, t) || rename(temporary, path) != 0) {
+  if (!f || !write_all(f, text) || rename(temporary, path) != 0) {
     st = write_failed(path, err);
     if (!f && fd >= 0) close(fd);
     if (fd >= 0) unlink(temporary);
@@ -267,7 +267,7 @@ static thr_status replace_file(const thr_text *t, const char *path, mode_t mode,
 }
 
 /* The same with the signals held back that would leave the temporary file behind. */
-static thr_status replace_undisturbed(const thr_text *t, const char *path, mode_t mode, thr_err *err)
+static thr_status replace_undisturbed(const thr_text *text, const char *path, mode_t mode, thr_err *err)
 {
   sigset_t held, before;
   sigemptyset(&held);
@@ -275,37 +275,37 @@ static thr_status replace_undisturbed(const thr_text *t, const char *path, mode_
   for (size_t i = 0; i < sizeof signals / sizeof *signals; i++)
     sigaddset(&held, signals[i]);
   sigprocmask(SIG_BLOCK, &held, &before);
-  thr_status st = replace_file(t, path, mode, err);
+  thr_status st = replace_file(text, path, mode, err);
   sigprocmask(SIG_SETMASK, &before, NULL);
   return st;
 }
 
-thr_status thr_text_write(const thr_text *t, const char *path, thr_err *err)
+thr_status thr_text_write(const thr_text *text, const char *path, thr_err *err)
 {
-  if (t->failed) return thr_nomem(err);
-  if (strcmp(path, "-") == 0) return write_stdout(t, err);
+  if (text->failed) return thr_nomem(err);
+  if (strcmp(path, "-") == 0) return write_stdout(text, err);
   if (!*path) return thr_fail(err, THR_EIO, NO_NAME);
   struct stat target;
   bool exists = stat(path, &target) == 0;
   if (exists && S_ISDIR(target.st_mode)) return thr_fail(err, THR_EIO, "%s: is a folder; give the name of a file", path);
   if (exists && !S_ISREG(target.st_mode)) { /* a device or pipe (/dev/stdout) must be written through, not replaced */
     FILE *f = fopen(path, "wb");
-    return f && write_all(f, t) ? THR_OK : write_failed(path, err);
+    return f && write_all(f, text) ? THR_OK : write_failed(path, err);
   }
   if (!exists) {
     mode_t mask = umask(0);
     umask(mask);
-    return replace_undisturbed(t, path, 0666 & ~mask, err);
+    return replace_undisturbed(text, path, 0666 & ~mask, err);
   }
   if (access(path, W_OK) != 0) return write_failed(path, err); /* rename would not ask */
   char *real = realpath(path, NULL);                           /* a link stays a link */
   if (!real) return write_failed(path, err);
-  thr_status st = replace_undisturbed(t, real, target.st_mode & 07777, err);
+  thr_status st = replace_undisturbed(text, real, target.st_mode & 07777, err);
   free(real);
   return st;
 }
 
-thr_status thr_text_read(thr_text *t, const char *path, thr_err *err)
+thr_status thr_text_read(thr_text *text, const char *path, thr_err *err)
 {
   bool is_stdin = strcmp(path, "-") == 0;
   if (!*path) return thr_fail(err, THR_EIO, NO_NAME);
@@ -313,16 +313,16 @@ thr_status thr_text_read(thr_text *t, const char *path, thr_err *err)
   if (!f) return thr_fail(err, THR_EIO, "%s: cannot open: %s", path, strerror(errno));
   char block[1 << 16];
   size_t n;
-  while (!t->failed && t->length <= MAX_INPUT_BYTES && (n = fread(block, 1, sizeof block, f)) > 0)
-    thr_text_append_bytes(t, block, n);
+  while (!text->failed && text->length <= MAX_INPUT_BYTES && (n = fread(block, 1, sizeof block, f)) > 0)
+    thr_text_append_bytes(text, block, n);
   thr_status st = THR_OK;
   if (ferror(f))
     st = thr_fail(err, THR_EIO, "%s: cannot read: %s", path, strerror(errno));
-  else if (t->failed)
+  else if (text->failed)
     st = thr_nomem(err);
-  else if (t->length > MAX_INPUT_BYTES)
+  else if (text->length > MAX_INPUT_BYTES)
     st = thr_fail(err, THR_EINPUT, "%s: larger than 1 GiB; split it", path);
   if (!is_stdin) fclose(f);
-  if (st) thr_text_destroy(t);
+  if (st) thr_text_destroy(text);
   return st;
 }

@@ -12,15 +12,15 @@ typedef struct {
   bool failed;
 } thr_text;
 
-void thr_text_printf(thr_text *t, const char *format, ...) THR_PRINTF(2, 3);
-void thr_text_append(thr_text *t, const char *s);
-void thr_text_append_bytes(thr_text *t, const char *s, size_t n);
+void thr_text_printf(thr_text *text, const char *format, ...) THR_PRINTF(2, 3);
+void thr_text_append(thr_text *text, const char *s);
+void thr_text_append_bytes(thr_text *text, const char *s, size_t n);
 
 /* Shortest decimal that reads back as the same double; "-0" is written as 0. Finite numbers only. */
-void thr_text_double(thr_text *t, double value);
+void thr_text_double(thr_text *text, double value);
 
 /* The same as JSON, which has no word for what is not finite: null. */
-void thr_text_json_number(thr_text *t, double value);
+void thr_text_json_number(thr_text *text, double value);
 
 /* Foreign text (of a file, a file's name, the command line) made harmless in place, so that it stays on its line, in its
  * direction and in its field wherever it is printed, drawn or written: control characters (C0, DEL, C1), marks of writing
@@ -30,7 +30,7 @@ void thr_text_json_number(thr_text *t, double value);
 void thr_text_clean(char *s);
 
 /* Appends it so. */
-void thr_text_append_clean(thr_text *t, const char *s);
+void thr_text_append_clean(thr_text *text, const char *s);
 
 /* Copies it so, as many whole letters as fit into size bytes. O(size). */
 void thr_text_copy_clean(char *to, size_t size, const char *s);
@@ -48,19 +48,19 @@ int thr_text_columns(const char *s, size_t n);
 
 /* JSON string in quotes, valid whatever the bytes: what thr_text_clean takes for a control character is escaped (a program that
  * reads it gets it back), what is no UTF-8 is U+FFFD. */
-void thr_text_json_string(thr_text *t, const char *s);
+void thr_text_json_string(thr_text *text, const char *s);
 
 /* XML text with the five entities, cleaned; what is no UTF-8 is U+FFFD. */
-void thr_text_xml(thr_text *t, const char *s);
+void thr_text_xml(thr_text *text, const char *s);
 
-void thr_text_destroy(thr_text *t);
+void thr_text_destroy(thr_text *text);
 
 /* Writes the text to path through a temporary file in the same folder and rename, so that path is either the
  * old file or the whole new one, and after a loss of power as well: the file is on the disk before it takes the name; "-" is
  * stdout. THR_EIO with the path and the reason; THR_ENOMEM if an append failed. */
-thr_status thr_text_write(const thr_text *t, const char *path, thr_err *err) THR_MUST_CHECK;
+thr_status thr_text_write(const thr_text *text, const char *path, thr_err *err) THR_MUST_CHECK;
 
 /* Reads a whole file ("-" is stdin) into an empty text. At most 1 GiB. */
-thr_status thr_text_read(thr_text *t, const char *path, thr_err *err) THR_MUST_CHECK;
+thr_status thr_text_read(thr_text *text, const char *path, thr_err *err) THR_MUST_CHECK;
 
 #endif

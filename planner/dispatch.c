@@ -32,17 +32,17 @@ thr_objective thr_dispatch_objective(int i)
   return objectives[i].id;
 }
 
-static int row_of(const thr_plan_options *o)
+static int row_of(const thr_plan_options *options)
 {
   int i = 0;
-  while (objectives[i].id != thr_aims_objective(o))
+  while (objectives[i].id != thr_aims_objective(options))
     i++;
   return i;
 }
 
-thr_planner *thr_dispatch(const thr_plan_options *o)
+thr_planner *thr_dispatch(const thr_plan_options *options)
 {
-  return objectives[row_of(o)].plan;
+  return objectives[row_of(options)].plan;
 }
 
 thr_limits thr_dispatch_share(const thr_limits *limits, thr_step step)
@@ -50,9 +50,9 @@ thr_limits thr_dispatch_share(const thr_limits *limits, thr_step step)
   return thr_limits_part(limits, part[step]);
 }
 
-double thr_dispatch_usual_seconds(const thr_plan_options *o)
+double thr_dispatch_usual_seconds(const thr_plan_options *options)
 {
-  return o->joint == THR_JOINT_TUBE ? tube_seconds : objectives[row_of(o)].seconds;
+  return options->joint == THR_JOINT_TUBE ? tube_seconds : objectives[row_of(options)].seconds;
 }
 
 double thr_dispatch_search_seconds(double seconds, bool drawn, bool compared)

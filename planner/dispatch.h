@@ -17,7 +17,7 @@ typedef thr_status thr_planner(const thr_frame *f, const thr_plan_options *o, co
 const char *thr_dispatch_name(int i);
 thr_objective thr_dispatch_objective(int i);
 
-thr_planner *thr_dispatch(const thr_plan_options *o);
+thr_planner *thr_dispatch(const thr_plan_options *options);
 
 /* Steps of a plan that have a part of the time to themselves, of what is left when their turn comes. */
 typedef enum {
@@ -35,7 +35,7 @@ typedef enum {
 thr_limits thr_dispatch_share(const thr_limits *limits, thr_step step);
 
 /* Seconds for a plan if nobody says how many; 0 = any time. */
-double thr_dispatch_usual_seconds(const thr_plan_options *o);
+double thr_dispatch_usual_seconds(const thr_plan_options *options);
 
 /* What of the seconds that everything may take is for the search: the rest is for checking and writing, for drawing, or for the
  * plans that it is held against. */

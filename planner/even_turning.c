@@ -9,45 +9,48 @@
 #include <stdlib.h>
 #include <string.h>
 
-thr_status thr_even_seed(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *seed, thr_err *err)
+thr_status thr_even_seed(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits, thr_plan *seed,
+                         thr_err *err)
 {
-  thr_symmetries s;
-  thr_plan_options so = *o;
+  thr_symmetries symmetries;
+  thr_plan_options so = *options;
   thr_err why = {0};
   const thr_limits share = thr_dispatch_share(limits, THR_STEP_SEED);
   so.symmetry = thr_plan_options_default().symmetry;
   so.aims = thr_aims_symmetric;
-  thr_status st = thr_symmetries_find(f, &so, &share, &s, &why);
-  int row = st && st != THR_ELIMIT ? -1 : thr_symmetries_even(&s, o->cords);
-  if (row >= 0) st = thr_symmetries_plan(&s, row, f, &so, &share, seed, &why);
-  thr_symmetries_destroy(&s);
+  thr_status st = thr_symmetries_find(frame, &so, &share, &symmetries, &why);
+  int row = st && st != THR_ELIMIT ? -1 : thr_symmetries_even(&symmetries, options->cords);
+  if (row >= 0) st = thr_symmetries_plan(&symmetries, row, frame, &so, &share, seed, &why);
+  thr_symmetries_destroy(&symmetries);
   return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* what else fails leaves no seed */
 }
 
-/* Are they cords of the task: as many in every component as l has, over passes and ends that it allows? Given numbers of ends no
- * other objective's plan keeps to. */
-static thr_status seed_fits(const thr_frame *f, const thr_least *l, const thr_plan *seed, bool *fits, thr_err *err)
+/* Are they cords of the task: as many in every component as least has, over passes and ends that it allows? Given numbers of ends
+ * no other objective's plan keeps to. */
+static thr_status seed_fits(const thr_frame *frame, const thr_least *least, const thr_plan *seed, bool *fits, thr_err *err)
 {
-  int *count = thr_calloc((size_t)f->n_nodes, sizeof *count); /* cords of a component: l's less the seed's */
-  bool *tied = thr_calloc((size_t)f->n_nodes, sizeof *tied), open = l->end_allowed != NULL;
+  int *count = thr_calloc((size_t)frame->n_nodes, sizeof *count); /* cords of a component: least's less the seed's */
+  bool *tied = thr_calloc((size_t)frame->n_nodes, sizeof *tied), open = least->end_allowed != NULL;
   thr_status st = count && tied ? THR_OK : thr_nomem(err);
   double length = 0;
-  *fits = !l->task.end_count && seed->n_cords == l->n_cords && seed->frame.n_nodes == f->n_nodes &&
-          seed->options.cover == l->task.cover && seed->metrics.most_passes <= l->task.most_passes;
-  if (!st && *fits) st = thr_junction_tied(f, seed->cord, seed->n_cords, !open, tied, err);
+  *fits = !least->task.end_count && seed->n_cords == least->n_cords && seed->frame.n_nodes == frame->n_nodes &&
+          seed->options.cover == least->task.cover && seed->metrics.most_passes <= least->task.most_passes;
+  if (!st && *fits) st = thr_junction_tied(frame, seed->cord, seed->n_cords, !open, tied, err);
   *fits &= !st;
-  for (int i = 0; *fits && i < l->n_cords; i++) {
-    const thr_cord *c = &seed->cord[i];
-    count[l->cord[i].component]++;
-    count[c->component]--;
-    length += thr_cord_length(f, c);
-    *fits = open ? l->end_allowed[thr_cord_start(f, c)] && l->end_allowed[thr_cord_end(f, c)] : c->closed;
-    for (int k = 0; k + 1 < c->n_passes && *fits; k++) /* the search never turns back where it need not */
-      *fits = c->half[k + 1] != (c->half[k] ^ 1) || (thr_degree(f, thr_head(f, c->half[k])) == 1 && !l->task.tube);
+  for (int i = 0; *fits && i < least->n_cords; i++) {
+    const thr_cord *cord = &seed->cord[i];
+    count[least->cord[i].component]++;
+    count[cord->component]--;
+    length += thr_cord_length(frame, cord);
+    *fits =
+        open ? least->end_allowed[thr_cord_start(frame, cord)] && least->end_allowed[thr_cord_end(frame, cord)] : cord->closed;
+    for (int k = 0; k + 1 < cord->n_passes && *fits; k++) /* the search never turns back where it need not */
+      *fits = cord->half[k + 1] != (cord->half[k] ^ 1) ||
+              (thr_degree(frame, thr_head(frame, cord->half[k])) == 1 && !least->task.tube);
   }
-  for (int v = 0; v < f->n_nodes && *fits; v++)
-    *fits = count[v] == 0 && (tied[v] || !l->task.tube);
-  *fits &= l->length_limit < 0 || length <= l->length_limit * (1 + 1e-12);
+  for (int v = 0; v < frame->n_nodes && *fits; v++)
+    *fits = count[v] == 0 && (tied[v] || !least->task.tube);
+  *fits &= least->length_limit < 0 || length <= least->length_limit * (1 + 1e-12);
   free(count);
   free(tied);
   return st;
@@ -64,24 +67,25 @@ static thr_status copy_cords(const thr_cord *from, int n, thr_cord **to, thr_err
   return THR_OK;
 }
 
-thr_status thr_even_turning(const thr_frame *f, const thr_plan *seed, const thr_limits *limits, thr_least *l, thr_err *err)
+thr_status thr_even_turning(const thr_frame *frame, const thr_plan *seed, const thr_limits *limits, thr_least *least,
+                            thr_err *err)
 {
   bool fits = false;
   thr_max_turning own = {.largest = INFINITY}, other = own;
-  thr_least from = *l; /* with the seed's cords; all else stays l's */
+  thr_least from = *least; /* with the seed's cords; all else stays least's */
   from.cord = NULL;
-  thr_status st = seed ? seed_fits(f, l, seed, &fits, err) : THR_OK;
+  thr_status st = seed ? seed_fits(frame, least, seed, &fits, err) : THR_OK;
   if (!st && fits) {
     const thr_limits share = thr_dispatch_share(limits, THR_STEP_EVEN_SEED);
     st = copy_cords(seed->cord, seed->n_cords, &from.cord, err);
-    if (!st) st = thr_max_turning_improve(f, &share, &from, &other, err);
+    if (!st) st = thr_max_turning_improve(frame, &share, &from, &other, err);
   }
-  if (!st && !(other.largest <= other.bound * (1 + 1e-9))) st = thr_max_turning_improve(f, limits, l, &own, err);
+  if (!st && !(other.largest <= other.bound * (1 + 1e-9))) st = thr_max_turning_improve(frame, limits, least, &own, err);
   if (!st && other.largest < own.largest) {
-    thr_cord *cord = l->cord;
-    *l = from;
+    thr_cord *cord = least->cord;
+    *least = from;
     from.cord = cord;
   }
-  thr_cords_destroy(from.cord, l->n_cords);
+  thr_cords_destroy(from.cord, least->n_cords);
   return st;
 }

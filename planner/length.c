@@ -23,16 +23,16 @@ typedef thr_status component_planner(const thr_frame *f, const thr_plan_options 
 /* ---- several components ---- */
 
 /* One component by itself, in its part of the time: it may need more cords than another, or hold fewer. */
-static thr_status plan_component(const thr_components *c, int k, component_planner *one, const thr_limits *limits, thr_plan *made,
-                                 thr_cords_word *all, thr_err *err)
+static thr_status plan_component(const thr_components *components, int k, component_planner *one, const thr_limits *limits,
+                                 thr_plan *made, thr_cords_word *all, thr_err *err)
 {
   thr_plan asked;
   thr_cords_word word = {0};
   thr_err why = {0};
-  thr_status st = thr_component_take(c, k, &asked, err);
+  thr_status st = thr_component_take(components, k, &asked, err);
   if (st) return st;
-  const int *first = c->first_edge;
-  thr_limits share = thr_limits_part(limits, (double)(first[k + 1] - first[k]) / (first[c->n] - first[k]));
+  const int *first = components->first_edge;
+  thr_limits share = thr_limits_part(limits, (double)(first[k + 1] - first[k]) / (first[components->n] - first[k]));
   share.found = NULL; /* cords of a component are no plan */
   st = one(&asked.frame, &asked.options, &share, made, &word, &why);
   thr_plan_destroy(&asked);
@@ -42,13 +42,13 @@ static thr_status plan_component(const thr_components *c, int k, component_plann
 }
 
 /* The certificates of the components' plans, and how often GLPK agreed. */
-static thr_status take_certificates(const thr_components *c, thr_plan *made, thr_length_proof *proof, thr_err *err)
+static thr_status take_certificates(const thr_components *components, thr_plan *made, thr_length_proof *proof, thr_err *err)
 {
   *proof = (thr_length_proof){.present = true};
-  if (!(proof->certificate = thr_calloc((size_t)c->n, sizeof *proof->certificate))) return thr_nomem(err);
-  proof->n_certificates = c->n;
-  for (int k = 0; k < c->n; k++) {
-    thr_component_give_certificate(c, k, &made[k], &proof->certificate[k]);
+  if (!(proof->certificate = thr_calloc((size_t)components->n, sizeof *proof->certificate))) return thr_nomem(err);
+  proof->n_certificates = components->n;
+  for (int k = 0; k < components->n; k++) {
+    thr_component_give_certificate(components, k, &made[k], &proof->certificate[k]);
     proof->confirmed += made[k].proof.confirmed;
     proof->unconfirmed += made[k].proof.unconfirmed;
   }
@@ -59,27 +59,27 @@ static thr_status take_certificates(const thr_components *c, thr_plan *made, thr
 static thr_status plan_components(component_planner *one, const thr_limits *limits, thr_plan *plan, thr_cords_word *word,
                                   thr_err *err)
 {
-  thr_components c;
-  thr_status st = thr_components_init(&c, &plan->frame, &plan->options, err);
+  thr_components components;
+  thr_status st = thr_components_init(&components, &plan->frame, &plan->options, err);
   if (st) return st;
-  thr_plan *made = thr_calloc((size_t)c.n, sizeof *made);
+  thr_plan *made = thr_calloc((size_t)components.n, sizeof *made);
   if (!made) st = thr_nomem(err);
   *word = (thr_cords_word){true, thr_wants_balance(&plan->options)};
-  for (int k = 0; k < c.n && !st; k++)
-    st = plan_component(&c, k, one, limits, &made[k], word, err);
-  if (!st) st = thr_components_join(&c, made, plan, err);
-  if (!st && plan->options.joint == THR_JOINT_SOLID) st = take_certificates(&c, made, &plan->proof, err);
-  for (int k = 0; made && k < c.n; k++)
+  for (int k = 0; k < components.n && !st; k++)
+    st = plan_component(&components, k, one, limits, &made[k], word, err);
+  if (!st) st = thr_components_join(&components, made, plan, err);
+  if (!st && plan->options.joint == THR_JOINT_SOLID) st = take_certificates(&components, made, &plan->proof, err);
+  for (int k = 0; made && k < components.n; k++)
     thr_plan_destroy(&made[k]);
   free(made);
-  thr_components_destroy(&c);
+  thr_components_destroy(&components);
   return st;
 }
 
-static thr_status count_components(const thr_frame *f, int *n, thr_err *err)
+static thr_status count_components(const thr_frame *frame, int *n, thr_err *err)
 {
-  int *component = thr_calloc((size_t)f->n_nodes, sizeof *component);
-  thr_status st = component ? thr_frame_components(f, component, n, err) : thr_nomem(err);
+  int *component = thr_calloc((size_t)frame->n_nodes, sizeof *component);
+  thr_status st = component ? thr_frame_components(frame, component, n, err) : thr_nomem(err);
   free(component);
   return st;
 }
@@ -89,34 +89,35 @@ static thr_status count_components(const thr_frame *f, int *n, thr_err *err)
 /* What the components' certificates prove of all cords together. */
 static thr_status prove_solid(thr_plan *plan, thr_err *err)
 {
-  const thr_frame *f = &plan->frame;
-  const thr_plan_options *o = &plan->options;
+  const thr_frame *frame = &plan->frame;
+  const thr_plan_options *options = &plan->options;
   thr_length_proof *proof = &plan->proof;
   thr_err found = {0};
-  thr_status st = thr_plan_measure(f, o, plan->cord, plan->n_cords, &plan->metrics, err);
+  thr_status st = thr_plan_measure(frame, options, plan->cord, plan->n_cords, &plan->metrics, err);
   if (st) return st;
-  st = thr_check_length_proof(f, o, plan->cord, plan->n_cords, proof->certificate, proof->n_certificates, &proof->optimal,
-                              &proof->lower_bound, &found);
+  st = thr_check_length_proof(frame, options, plan->cord, plan->n_cords, proof->certificate, proof->n_certificates,
+                              &proof->optimal, &proof->lower_bound, &found);
   if (!st)
-    st = thr_check_cords(f, o, plan->cord, plan->n_cords, proof->certificate, proof->n_certificates, &plan->cords_claim, &found);
+    st = thr_check_cords(frame, options, plan->cord, plan->n_cords, proof->certificate, proof->n_certificates, &plan->cords_claim,
+                         &found);
   proof->gap = (plan->metrics.length - proof->lower_bound) / plan->metrics.length;
   return thr_check_own(st, &found, err);
 }
 
 /* One cord in each component is a problem that falls apart by itself. */
-static bool one_each(const thr_plan_options *o)
+static bool one_each(const thr_plan_options *options)
 {
-  return o->cords == 1 && o->max_length == 0 && o->ends != THR_ENDS_COUNTS;
+  return options->cords == 1 && options->max_length == 0 && options->ends != THR_ENDS_COUNTS;
 }
 
-static thr_status plan_solid(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
+static thr_status plan_solid(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits, thr_plan *plan,
                              thr_cords_word *word, thr_err *err)
 {
   int n = 1;
-  thr_status st = one_each(o) ? THR_OK : count_components(f, &n, err);
+  thr_status st = one_each(options) ? THR_OK : count_components(frame, &n, err);
   if (st) return st;
-  if (n == 1) return thr_cords_plan(f, o, limits, plan, word, err);
-  st = thr_plan_request(plan, f, o, err);
+  if (n == 1) return thr_cords_plan(frame, options, limits, plan, word, err);
+  st = thr_plan_request(plan, frame, options, err);
   if (!st) st = plan_components(thr_cords_plan, limits, plan, word, err);
   if (!st) st = prove_solid(plan, err);
   if (!st) return thr_cords_judge(plan, &(thr_err){0}, err);
@@ -127,32 +128,33 @@ static thr_status plan_solid(const thr_frame *f, const thr_plan_options *o, cons
 /* ---- tube joints ---- */
 
 /* The proof of tied length is one for the whole framework. */
-static thr_status prove_tied(thr_tube *t, thr_plan *plan, thr_err *err)
+static thr_status prove_tied(thr_tube *tube, thr_plan *plan, thr_err *err)
 {
-  const thr_frame *f = &plan->frame;
-  const thr_plan_options *o = &plan->options;
-  thr_status st = thr_plan_measure(f, o, plan->cord, plan->n_cords, &plan->metrics, err);
-  if (!st) thr_tube_prove(t, plan->metrics.length, &plan->proof);
-  if (st || one_each(o)) return st;
-  return thr_check_tied_cords(f, o, plan->cord, plan->n_cords, &plan->proof.tied, &plan->cords_claim, err);
+  const thr_frame *frame = &plan->frame;
+  const thr_plan_options *options = &plan->options;
+  thr_status st = thr_plan_measure(frame, options, plan->cord, plan->n_cords, &plan->metrics, err);
+  if (!st) thr_tube_prove(tube, plan->metrics.length, &plan->proof);
+  if (st || one_each(options)) return st;
+  return thr_check_tied_cords(frame, options, plan->cord, plan->n_cords, &plan->proof.tied, &plan->cords_claim, err);
 }
 
-static thr_status plan_tied(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
+static thr_status plan_tied(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits, thr_plan *plan,
                             thr_cords_word *word, thr_err *err)
 {
-  thr_tube t = {0};
+  thr_tube tube = {0};
   thr_err why = {0};
   int n;
-  const thr_limits part = thr_wants_balance(o) || o->max_length > 0 ? thr_dispatch_share(limits, THR_STEP_TIED) : *limits;
-  thr_status proved = thr_tube_shortest(f, o, &part, &t, &why);
+  const thr_limits part =
+      thr_wants_balance(options) || options->max_length > 0 ? thr_dispatch_share(limits, THR_STEP_TIED) : *limits;
+  thr_status proved = thr_tube_shortest(frame, options, &part, &tube, &why);
   if (proved && proved != THR_ELIMIT) return thr_fail(err, proved, "%s", why.text);
-  thr_status st = thr_plan_request(plan, f, o, err);
-  if (!st) st = count_components(f, &n, err);
+  thr_status st = thr_plan_request(plan, frame, options, err);
+  if (!st) st = count_components(frame, &n, err);
   if (!st)
-    st = n > 1 && thr_tube_shares(o) ? plan_components(plan_tied, limits, plan, word, err)
-                                     : thr_tube_cords(&t, limits, plan, word, err);
-  if (!st) st = prove_tied(&t, plan, err);
-  thr_tube_destroy(&t);
+    st = n > 1 && thr_tube_shares(options) ? plan_components(plan_tied, limits, plan, word, err)
+                                           : thr_tube_cords(&tube, limits, plan, word, err);
+  if (!st) st = prove_tied(&tube, plan, err);
+  thr_tube_destroy(&tube);
   if (!st) return thr_cords_judge(plan, &(thr_err){0}, err);
   thr_plan_destroy(plan);
   return st;
@@ -160,46 +162,47 @@ static thr_status plan_tied(const thr_frame *f, const thr_plan_options *o, const
 
 /* ---- the planner ---- */
 
-thr_status thr_planner_length(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
+thr_status thr_planner_length(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits, thr_plan *plan,
                               thr_report *report, thr_err *err)
 {
   thr_cords_word word = {0};
   *plan = (thr_plan){0};
-  thr_status st = (o->joint == THR_JOINT_TUBE ? plan_tied : plan_solid)(f, o, limits, plan, &word, err);
+  thr_status st = (options->joint == THR_JOINT_TUBE ? plan_tied : plan_solid)(frame, options, limits, plan, &word, err);
   if (report) report->word = word;
   return st;
 }
 
-void thr_planner_tell_first(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits)
+void thr_planner_tell_first(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits)
 {
-  thr_plan_options length = *o;
+  thr_plan_options length = *options;
   thr_limits share = thr_dispatch_share(limits, THR_STEP_FIRST);
   thr_plan p = {0};
-  thr_tube t = {0};
+  thr_tube tube = {0};
   if (!limits->found) return;
   share.found = NULL;
   length.aims = thr_aims_shortest;
   length.confirm = THR_CONFIRM_NEVER;
-  thr_status st = o->joint == THR_JOINT_TUBE ? thr_tube_some(f, &length, &share, &t, NULL)
-                                             : thr_planner_length(f, &length, &share, &p, NULL, NULL);
-  if (!st || st == THR_ELIMIT) thr_limits_found(limits, t.cord ? t.cord : p.cord, t.cord ? t.n_cords : p.n_cords, NULL);
+  thr_status st = options->joint == THR_JOINT_TUBE ? thr_tube_some(frame, &length, &share, &tube, NULL)
+                                                   : thr_planner_length(frame, &length, &share, &p, NULL, NULL);
+  if (!st || st == THR_ELIMIT)
+    thr_limits_found(limits, tube.cord ? tube.cord : p.cord, tube.cord ? tube.n_cords : p.n_cords, NULL);
   thr_plan_destroy(&p);
-  thr_tube_destroy(&t);
+  thr_tube_destroy(&tube);
 }
 
 /* Closed cords are as long as one in every component. */
 thr_status thr_planner_prove_tied(thr_plan *plan, const thr_limits *limits, thr_err *err)
 {
-  thr_tube t;
-  thr_plan_options o = plan->options;
+  thr_tube tube;
+  thr_plan_options options = plan->options;
   thr_err why = {0};
-  if (o.ends == THR_ENDS_CLOSED) o.cords = 1;
-  thr_status st = thr_tube_shortest(&plan->frame, &o, limits, &t, &why);
+  if (options.ends == THR_ENDS_CLOSED) options.cords = 1;
+  thr_status st = thr_tube_shortest(&plan->frame, &options, limits, &tube, &why);
   if (st == THR_OK || st == THR_ELIMIT)
-    st = thr_tied_least(&plan->frame, &plan->options, &t.proof, &t.bound, err);
+    st = thr_tied_least(&plan->frame, &plan->options, &tube.proof, &tube.bound, err);
   else
     st = thr_fail(err, st, "%s", why.text);
-  if (!st) thr_tube_prove(&t, plan->metrics.length, &plan->proof);
-  thr_tube_destroy(&t);
+  if (!st) thr_tube_prove(&tube, plan->metrics.length, &plan->proof);
+  thr_tube_destroy(&tube);
   return st;
 }

@@ -34,91 +34,91 @@ static void mixed_destroy(mixed *m)
   thr_turning_proof_destroy(&m->tree.tree);
 }
 
-bool thr_planner_is_mixed(const thr_plan_options *o)
+bool thr_planner_is_mixed(const thr_plan_options *options)
 {
-  bool range = o->cords_least < o->cords && o->ends != THR_ENDS_COUNTS;
-  return o->turning.tour == THR_TOUR_LEAST && (o->max_length > 0 || thr_wants_balance(o) || range);
+  bool range = options->cords_least < options->cords && options->ends != THR_ENDS_COUNTS;
+  return options->turning.tour == THR_TOUR_LEAST && (options->max_length > 0 || thr_wants_balance(options) || range);
 }
 
 /* ---- the best of several ---- */
 
-static double longest_of(const thr_plan *p)
+static double longest_of(const thr_plan *plan)
 {
   double longest = 0;
-  for (int i = 0; i < p->n_cords; i++)
-    longest = fmax(longest, thr_cord_length(&p->frame, &p->cord[i]));
+  for (int i = 0; i < plan->n_cords; i++)
+    longest = fmax(longest, thr_cord_length(&plan->frame, &plan->cord[i]));
   return longest;
 }
 
 /* What an aim makes of cords. */
-static double value_of(const mixed *m, thr_aim aim, const thr_plan *p)
+static double value_of(const mixed *m, thr_aim aim, const thr_plan *plan)
 {
   double sum = 0, most = 0;
-  if (aim == THR_AIM_LONGEST) return longest_of(p);
-  for (int i = 0; i < p->n_cords; i++) {
-    double price = thr_cord_price(m->f, m->o, &p->cord[i]);
+  if (aim == THR_AIM_LONGEST) return longest_of(plan);
+  for (int i = 0; i < plan->n_cords; i++) {
+    double price = thr_cord_price(m->f, m->o, &plan->cord[i]);
     sum += price;
     most = fmax(most, price);
   }
   return aim == THR_AIM_MAX_TURNING ? most : sum;
 }
 
-static bool is_better(const mixed *m, const thr_plan *p)
+static bool is_better(const mixed *m, const thr_plan *plan)
 {
   if (m->best.n_cords == 0) return true;
   for (int i = 0; i < m->o->aims.n; i++) {
-    double a = value_of(m, m->o->aims.aim[i], p), b = value_of(m, m->o->aims.aim[i], &m->best);
+    double a = value_of(m, m->o->aims.aim[i], plan), b = value_of(m, m->o->aims.aim[i], &m->best);
     if (fabs(a - b) > 1e-9 * fmax(a, b)) return a < b;
   }
   return false;
 }
 
 /* Takes a plan whose cords are short enough and better. */
-static void offer(mixed *m, thr_plan *p)
+static void offer(mixed *m, thr_plan *plan)
 {
-  bool fits = m->o->max_length == 0 || longest_of(p) <= m->o->max_length * (1 + 1e-12);
-  fits = fits && thr_plan_within_slack(m->o, p->metrics.length, m->shortest);
-  if (p->n_cords == 0 || !fits || !is_better(m, p)) return;
+  bool fits = m->o->max_length == 0 || longest_of(plan) <= m->o->max_length * (1 + 1e-12);
+  fits = fits && thr_plan_within_slack(m->o, plan->metrics.length, m->shortest);
+  if (plan->n_cords == 0 || !fits || !is_better(m, plan)) return;
   thr_plan_destroy(&m->best);
-  m->best = *p;
-  *p = (thr_plan){0};
+  m->best = *plan;
+  *plan = (thr_plan){0};
   thr_limits_found(m->limits, m->best.cord, m->best.n_cords, NULL);
 }
 
 /* ---- turning ---- */
 
-/* What the tree of p proves of any plan with the request's numbers of cords: the better one is kept. */
-static thr_status keep_tree(mixed *m, thr_plan *p, thr_err *err)
+/* What the tree of plan proves of any plan with the request's numbers of cords: the better one is kept. */
+static thr_status keep_tree(mixed *m, thr_plan *plan, thr_err *err)
 {
-  thr_turning_claim found, claim = p->turning;
+  thr_turning_claim found, claim = plan->turning;
   thr_err why = {0};
   if (!claim.present) return THR_OK;
-  thr_status st = thr_check_turning(m->f, m->o, p->cord, p->n_cords, &claim, &found, &why);
+  thr_status st = thr_check_turning(m->f, m->o, plan->cord, plan->n_cords, &claim, &found, &why);
   if (st == THR_EVIOLATED) return THR_OK; /* of one number of cords only, as rows for a single closed cord are */
   if (st) return thr_fail(err, st, "%s", why.text);
   if ((m->tree.present && found.lower_bound <= m->tree.lower_bound)) return THR_OK;
   thr_turning_proof_destroy(&m->tree.tree);
   m->tree = found;
-  m->tree.tree = p->turning.tree;
-  p->turning.tree = (thr_turning_proof){0};
+  m->tree.tree = plan->turning.tree;
+  plan->turning.tree = (thr_turning_proof){0};
   return THR_OK;
 }
 
 static thr_status try_number(mixed *m, int n, const thr_limits *share, thr_err *err)
 {
-  thr_plan p;
+  thr_plan plan;
   thr_err why = {0};
-  thr_plan_options o = *m->o;
+  thr_plan_options options = *m->o;
   thr_limits quiet = *share;
   quiet.found = NULL; /* its cords may be too long */
-  o.aims = (thr_aims){1, {thr_wants_largest(m->o) ? THR_AIM_MAX_TURNING : THR_AIM_TURNING}};
-  o.max_length = 0;
-  if (o.ends != THR_ENDS_COUNTS) o.cords = o.cords_least = n;
-  thr_status st = thr_tortuosity_plan(m->f, &o, &quiet, &p, &why);
+  options.aims = (thr_aims){1, {thr_wants_largest(m->o) ? THR_AIM_MAX_TURNING : THR_AIM_TURNING}};
+  options.max_length = 0;
+  if (options.ends != THR_ENDS_COUNTS) options.cords = options.cords_least = n;
+  thr_status st = thr_tortuosity_plan(m->f, &options, &quiet, &plan, &why);
   if (st && st != THR_ELIMIT) return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* others may do */
-  st = keep_tree(m, &p, err);
-  if (!st) offer(m, &p);
-  thr_plan_destroy(&p);
+  st = keep_tree(m, &plan, err);
+  if (!st) offer(m, &plan);
+  thr_plan_destroy(&plan);
   return st;
 }
 
@@ -126,16 +126,16 @@ static thr_status try_number(mixed *m, int n, const thr_limits *share, thr_err *
 static thr_status try_numbers(mixed *m, thr_err *err)
 {
   enum { MOST_NUMBERS = 12 };
-  const thr_plan_options *o = m->o;
-  int last = o->cords, numbers = o->ends == THR_ENDS_COUNTS ? 1 : o->cords - o->cords_least + 1;
+  const thr_plan_options *options = m->o;
+  int last = options->cords, numbers = options->ends == THR_ENDS_COUNTS ? 1 : options->cords - options->cords_least + 1;
   thr_status st = THR_OK;
   if (numbers > MOST_NUMBERS && m->best.n_cords > 0) { /* those about as many as the shortest are */
-    last = m->best.n_cords + MOST_NUMBERS / 2 < o->cords ? m->best.n_cords + MOST_NUMBERS / 2 : o->cords;
+    last = m->best.n_cords + MOST_NUMBERS / 2 < options->cords ? m->best.n_cords + MOST_NUMBERS / 2 : options->cords;
   }
   if (numbers > MOST_NUMBERS) numbers = MOST_NUMBERS;
   for (int i = 0; i < numbers && !st; i++) {
     const thr_limits share = thr_limits_part(m->limits, 1.0 / (numbers - i));
-    if (last - i >= o->cords_least) st = try_number(m, last - i, &share, err);
+    if (last - i >= options->cords_least) st = try_number(m, last - i, &share, err);
   }
   return st;
 }
@@ -143,42 +143,42 @@ static thr_status try_numbers(mixed *m, thr_err *err)
 /* ---- length ---- */
 
 /* Cords of the least length: with the limit, or even, as one of the plans to choose from; without either for their proof. */
-static thr_status plan_length(const mixed *m, bool limited, thr_plan *p, thr_err *why)
+static thr_status plan_length(const mixed *m, bool limited, thr_plan *plan, thr_err *why)
 {
-  thr_plan_options o = *m->o;
+  thr_plan_options options = *m->o;
   thr_limits share = thr_dispatch_share(m->limits, THR_STEP_BY_LENGTH);
   share.found = NULL;
-  o.aims = thr_aims_shortest;
-  o.turning = thr_plan_options_default().turning;
-  if (limited && thr_wants_balance(m->o)) o.aims = (thr_aims){2, {THR_AIM_LONGEST, THR_AIM_LENGTH}};
-  if (!limited) o.max_length = 0;
-  thr_status st = thr_planner_length(m->f, &o, &share, p, NULL, why);
+  options.aims = thr_aims_shortest;
+  options.turning = thr_plan_options_default().turning;
+  if (limited && thr_wants_balance(m->o)) options.aims = (thr_aims){2, {THR_AIM_LONGEST, THR_AIM_LENGTH}};
+  if (!limited) options.max_length = 0;
+  thr_status st = thr_planner_length(m->f, &options, &share, plan, NULL, why);
   return st == THR_ELIMIT ? THR_OK : st;
 }
 
 /* The proof of the length of p, which is moved, is one of these cords' as well: they are of the same request. */
 static thr_status prove_length(thr_plan *plan, thr_plan *p, thr_err *err)
 {
-  const thr_frame *f = &plan->frame;
-  const thr_plan_options *o = &plan->options;
+  const thr_frame *frame = &plan->frame;
+  const thr_plan_options *options = &plan->options;
   thr_length_proof *from = &p->proof;
-  if (o->joint == THR_JOINT_TUBE) {
-    thr_tube t = {.proof = from->tied};
+  if (options->joint == THR_JOINT_TUBE) {
+    thr_tube tube = {.proof = from->tied};
     from->tied = (thr_turning_proof){0};
-    thr_status st = thr_tied_least(f, o, &t.proof, &t.bound, err);
-    if (!st) thr_tube_prove(&t, plan->metrics.length, &plan->proof);
-    thr_tube_destroy(&t);
-    return st ? st : thr_check_tied_cords(f, o, plan->cord, plan->n_cords, &plan->proof.tied, &plan->cords_claim, err);
+    thr_status st = thr_tied_least(frame, options, &tube.proof, &tube.bound, err);
+    if (!st) thr_tube_prove(&tube, plan->metrics.length, &plan->proof);
+    thr_tube_destroy(&tube);
+    return st ? st : thr_check_tied_cords(frame, options, plan->cord, plan->n_cords, &plan->proof.tied, &plan->cords_claim, err);
   }
   thr_shortest s = {.n_certificates = from->n_certificates, .certificate = from->certificate};
   s.confirmed.confirmed = from->confirmed;
   s.confirmed.skipped = from->unconfirmed;
   from->certificate = NULL;
   from->n_certificates = 0;
-  thr_status st = thr_postman_prove(f, o, plan->cord, plan->n_cords, &s, &plan->proof, err);
+  thr_status st = thr_postman_prove(frame, options, plan->cord, plan->n_cords, &s, &plan->proof, err);
   thr_shortest_destroy(&s);
   return st ? st
-            : thr_check_cords(f, o, plan->cord, plan->n_cords, plan->proof.certificate, plan->proof.n_certificates,
+            : thr_check_cords(frame, options, plan->cord, plan->n_cords, plan->proof.certificate, plan->proof.n_certificates,
                               &plan->cords_claim, err);
 }
 
@@ -214,32 +214,32 @@ static thr_status assemble(mixed *m, thr_plan *shortest, thr_plan *plan, thr_err
   return st;
 }
 
-static thr_status verdict(const thr_plan *p, thr_err *err)
+static thr_status verdict(const thr_plan *plan, thr_err *err)
 {
-  const thr_turning_claim *c = &p->turning;
-  bool largest = thr_wants_largest(&p->options);
-  if (thr_wants_balance(&p->options) && !p->cords_claim.longest_optimal)
+  const thr_turning_claim *claim = &plan->turning;
+  bool largest = thr_wants_largest(&plan->options);
+  if (thr_wants_balance(&plan->options) && !plan->cords_claim.longest_optimal)
     return thr_fail(err, THR_ELIMIT, "the longest cord is proved to be within %.3g %% of the shortest possible",
-                    100 * (p->cords_claim.longest - p->cords_claim.longest_bound) / p->cords_claim.longest);
-  if (!c->present) return thr_fail(err, THR_ELIMIT, "nothing is proved of the turning");
-  if (p->proof.slack_open)
+                    100 * (plan->cords_claim.longest - plan->cords_claim.longest_bound) / plan->cords_claim.longest);
+  if (!claim->present) return thr_fail(err, THR_ELIMIT, "nothing is proved of the turning");
+  if (plan->proof.slack_open)
     return thr_fail(err, THR_ELIMIT, "the least length is not proved: the cords may be %.3g %% longer, more than --length-slack",
-                    100 * (p->metrics.length / p->proof.lower_bound - 1));
-  if (largest ? c->largest_optimal : c->optimal) return THR_OK;
+                    100 * (plan->metrics.length / plan->proof.lower_bound - 1));
+  if (largest ? claim->largest_optimal : claim->optimal) return THR_OK;
   return thr_fail(err, THR_ELIMIT, "the turning is proved to be within %.3g %% of the least",
-                  largest ? 100 * (c->largest - c->largest_bound) / c->largest : 100 * c->gap);
+                  largest ? 100 * (claim->largest - claim->largest_bound) / claim->largest : 100 * claim->gap);
 }
 
-thr_status thr_planner_mixed(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
+thr_status thr_planner_mixed(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits, thr_plan *plan,
                              thr_err *err)
 {
-  mixed m = {.f = f, .o = o, .limits = limits};
+  mixed m = {.f = frame, .o = options, .limits = limits};
   thr_plan shortest = {0}, limited = {0};
   thr_err why = {0};
   *plan = (thr_plan){0};
   thr_status st = plan_length(&m, false, &shortest, &why);
   m.shortest = shortest.metrics.length;
-  if (!st && (o->max_length > 0 || thr_wants_balance(o))) {
+  if (!st && (options->max_length > 0 || thr_wants_balance(options))) {
     thr_status found = plan_length(&m, true, &limited, &why);
     if (!found) offer(&m, &limited);
     if (found == THR_ENOMEM) st = found;

@@ -8,10 +8,10 @@
 
 #include <stdio.h>
 
-void thr_report_destroy(thr_report *r)
+void thr_report_destroy(thr_report *report)
 {
-  thr_symmetries_destroy(&r->symmetries);
-  *r = (thr_report){0};
+  thr_symmetries_destroy(&report->symmetries);
+  *report = (thr_report){0};
 }
 
 static thr_status sign(thr_plan *plan, thr_err *err)

@@ -22,7 +22,7 @@ typedef struct {
   thr_symmetries symmetries; /* of a symmetric plan: the groups and their threadings, without the cords that the plan has taken */
 } thr_report;
 
-void thr_report_destroy(thr_report *r);
+void thr_report_destroy(thr_report *report);
 
 /* Plans what is requested within the limits, which are all that bounds the time: request->time_limit is only recorded. The plan's
  * claims are what graph/check/check.c says of its proofs. limits->found hears of cords as soon as there are some. report: NULL =

@@ -7,42 +7,42 @@
 #include <math.h>
 
 /* Where there is no such plan that is said; what else fails is an error. */
-static thr_status close_rival(thr_rival *r, thr_status st, thr_err *err)
+static thr_status close_rival(thr_rival *rival, thr_status st, thr_err *err)
 {
-  r->made = !st || st == THR_ELIMIT;
-  return r->made || st == THR_EINFEASIBLE || st == THR_EINPUT ? THR_OK : thr_fail(err, st, "%s", r->why.text);
+  rival->made = !st || st == THR_ELIMIT;
+  return rival->made || st == THR_EINFEASIBLE || st == THR_EINPUT ? THR_OK : thr_fail(err, st, "%s", rival->why.text);
 }
 
-/* As many cords as p's options say. */
-static thr_status make_length(const thr_plan *p, const thr_limits *limits, thr_rival *r, thr_err *err)
+/* As many cords as plan's options say. */
+static thr_status make_length(const thr_plan *plan, const thr_limits *limits, thr_rival *rival, thr_err *err)
 {
-  thr_plan_options o = p->options;
-  o.aims = thr_aims_shortest;
-  o.turning = thr_plan_options_default().turning;
-  return close_rival(r, thr_plan_make(&p->frame, &o, limits, &r->plan, NULL, &r->why), err);
+  thr_plan_options options = plan->options;
+  options.aims = thr_aims_shortest;
+  options.turning = thr_plan_options_default().turning;
+  return close_rival(rival, thr_plan_make(&plan->frame, &options, limits, &rival->plan, NULL, &rival->why), err);
 }
 
-static bool is_tour(const thr_plan *p)
+static bool is_tour(const thr_plan *plan)
 {
-  return p->options.turning.tour != THR_TOUR_LEAST;
+  return plan->options.turning.tour != THR_TOUR_LEAST;
 }
 
 /* Of a classical tour, whose passes are the shortest, the least turning with the same limit on the length. */
-static thr_status make_corner(const thr_plan *p, const thr_limits *limits, thr_rival *r, thr_err *err)
+static thr_status make_corner(const thr_plan *plan, const thr_limits *limits, thr_rival *rival, thr_err *err)
 {
-  thr_plan_options o = p->options;
-  if (!is_tour(p)) o.turning.length_slack = o.turning.length_slack == 0 ? -1 : 0;
-  o.turning.tour = THR_TOUR_LEAST;
-  o.turning.ignore_pairings = false;
-  return close_rival(r, thr_tortuosity_plan(&p->frame, &o, limits, &r->plan, &r->why), err);
+  thr_plan_options options = plan->options;
+  if (!is_tour(plan)) options.turning.length_slack = options.turning.length_slack == 0 ? -1 : 0;
+  options.turning.tour = THR_TOUR_LEAST;
+  options.turning.ignore_pairings = false;
+  return close_rival(rival, thr_tortuosity_plan(&plan->frame, &options, limits, &rival->plan, &rival->why), err);
 }
 
-static thr_status make_frontier(const thr_plan *p, int points, const thr_limits *limits, thr_rivals *out, thr_err *err)
+static thr_status make_frontier(const thr_plan *plan, int points, const thr_limits *limits, thr_rivals *out, thr_err *err)
 {
   thr_limits own = *limits;
   thr_err why = {0};
-  if (own.deadline == 0 && p->options.time_limit > 0) own.deadline = thr_clock() + p->options.time_limit;
-  thr_status st = thr_tortuosity_frontier(&p->frame, &p->options, points, &own, &out->frontier, &why);
+  if (own.deadline == 0 && plan->options.time_limit > 0) own.deadline = thr_clock() + plan->options.time_limit;
+  thr_status st = thr_tortuosity_frontier(&plan->frame, &plan->options, points, &own, &out->frontier, &why);
   if (st == THR_EINFEASIBLE) out->no_frontier = why;
   return st && st != THR_ELIMIT && st != THR_EINFEASIBLE ? thr_fail(err, st, "%s", why.text) : THR_OK;
 }
@@ -50,13 +50,14 @@ static thr_status make_frontier(const thr_plan *p, int points, const thr_limits 
 /* s, for the shortest passes where the search has used up its time: stopped at once, they would not be the shortest. */
 static const double grace = 0.3;
 
-thr_status thr_rivals_make(const thr_plan *p, bool optima, int frontier, const thr_limits *limits, thr_rivals *out, thr_err *err)
+thr_status thr_rivals_make(const thr_plan *plan, bool optima, int frontier, const thr_limits *limits, thr_rivals *out,
+                           thr_err *err)
 {
   thr_limits own = *limits;
-  bool shortest = p->options.turning.length_slack == 0;
-  *out = (thr_rivals){.corner = {.title = is_tour(p) ? "least turning"
-                                          : shortest ? "any length"
-                                                     : "shortest cord",
+  bool shortest = plan->options.turning.length_slack == 0;
+  *out = (thr_rivals){.corner = {.title = is_tour(plan) ? "least turning"
+                                          : shortest    ? "any length"
+                                                        : "shortest cord",
                                  .key = "corner"},
                       .length = {.title = "--objective length", .key = "length_plan"}};
   if (limits->interrupted && *limits->interrupted) { /* whoever stopped the plan wants to see it now */
@@ -65,17 +66,18 @@ thr_status thr_rivals_make(const thr_plan *p, bool optima, int frontier, const t
     if (frontier) thr_fail(&out->no_frontier, THR_ELIMIT, "the search was stopped");
     return THR_OK;
   }
-  bool tube = p->options.joint == THR_JOINT_TUBE; /* its shortest cords are an integer programme, solved already for the proof */
+  bool tube =
+      plan->options.joint == THR_JOINT_TUBE; /* its shortest cords are an integer programme, solved already for the proof */
   if (own.deadline > 0) own.deadline = fmax(own.deadline, thr_clock() + grace);
-  thr_status st = optima || !tube ? make_length(p, &own, &out->length, err) : THR_OK;
-  if (!st && optima) st = make_corner(p, limits, &out->corner, err);
-  if (!st && frontier) st = make_frontier(p, frontier, limits, out, err);
+  thr_status st = optima || !tube ? make_length(plan, &own, &out->length, err) : THR_OK;
+  if (!st && optima) st = make_corner(plan, limits, &out->corner, err);
+  if (!st && frontier) st = make_frontier(plan, frontier, limits, out, err);
   return st;
 }
 
-void thr_rivals_destroy(thr_rivals *r)
+void thr_rivals_destroy(thr_rivals *rivals)
 {
-  thr_plan_destroy(&r->corner.plan);
-  thr_plan_destroy(&r->length.plan);
-  thr_frontier_destroy(&r->frontier);
+  thr_plan_destroy(&rivals->corner.plan);
+  thr_plan_destroy(&rivals->length.plan);
+  thr_frontier_destroy(&rivals->frontier);
 }

@@ -28,6 +28,6 @@ typedef struct {
  * Release with thr_rivals_destroy. */
 thr_status thr_rivals_make(const thr_plan *p, bool optima, int frontier, const thr_limits *limits, thr_rivals *out,
                            thr_err *err) THR_MUST_CHECK;
-void thr_rivals_destroy(thr_rivals *r);
+void thr_rivals_destroy(thr_rivals *rivals);
 
 #endif

@@ -14,18 +14,18 @@
 #include <math.h>
 #include <stdlib.h>
 
-static thr_least_options search_options(const thr_plan_options *o)
+static thr_least_options search_options(const thr_plan_options *options)
 {
   thr_least_options lo = thr_least_options_default();
-  lo.cover = o->cover;
-  lo.capacity = o->capacity;
-  lo.tube = o->joint == THR_JOINT_TUBE;
-  lo.ends = o->ends;
-  lo.end_node = o->end_node;
-  lo.end_count = o->end_count;
-  lo.cords = o->cords;
-  lo.cost = o->turning.cost;
-  lo.length_slack = o->turning.length_slack;
+  lo.cover = options->cover;
+  lo.capacity = options->capacity;
+  lo.tube = options->joint == THR_JOINT_TUBE;
+  lo.ends = options->ends;
+  lo.end_node = options->end_node;
+  lo.end_count = options->end_count;
+  lo.cords = options->cords;
+  lo.cost = options->turning.cost;
+  lo.length_slack = options->turning.length_slack;
   return lo;
 }
 
@@ -33,37 +33,38 @@ static thr_least_options search_options(const thr_plan_options *o)
 
 /* Among cords that turn no more, shorter ones: the search once more with a price on length that is far below any turn's. What
  * is proved of the turning stays; that no shorter cords turn as little is not proved. */
-static thr_status shorten(const thr_frame *f, const thr_least_options *lo, const thr_limits *limits, thr_least *l, thr_err *err)
+static thr_status shorten(const thr_frame *frame, const thr_least_options *lo, const thr_limits *limits, thr_least *least,
+                          thr_err *err)
 {
   const double small = 1e-6; /* price of a mean edge's length; a U-turn costs 1 or more */
   thr_least_options with_length = *lo;
   thr_least other;
-  if (!l->optimal || l->length <= l->shortest * (1 + 1e-9)) return THR_OK;
-  with_length.price_per_length = small * f->n_edges / thr_frame_total_length(f);
+  if (!least->optimal || least->length <= least->shortest * (1 + 1e-9)) return THR_OK;
+  with_length.price_per_length = small * frame->n_edges / thr_frame_total_length(frame);
   thr_err unused = {0};
-  thr_status st = thr_least_turning(f, &with_length, limits, &other, &unused);
+  thr_status st = thr_least_turning(frame, &with_length, limits, &other, &unused);
   if (st == THR_ENOMEM) return thr_fail(err, st, "%s", unused.text);
   if (st && st != THR_ELIMIT) return THR_OK; /* what is proved stands without it */
-  double price = other.price - with_length.price_per_length * (other.length - thr_turning_base_length(f, lo->cover));
-  if (price <= l->price + 1e-9 && other.length < l->length * (1 - 1e-9)) {
-    thr_cord *cord = l->cord;
-    l->cord = other.cord;
+  double price = other.price - with_length.price_per_length * (other.length - thr_turning_base_length(frame, lo->cover));
+  if (price <= least->price + 1e-9 && other.length < least->length * (1 - 1e-9)) {
+    thr_cord *cord = least->cord;
+    least->cord = other.cord;
     other.cord = cord;
-    l->length = other.length;
-    l->turning = other.turning;
+    least->length = other.length;
+    least->turning = other.turning;
   }
   thr_least_destroy(&other);
   return THR_OK;
 }
 
 /* The least turning and, with time left, the shorter of those that turn equally little. */
-static thr_status find_least(const thr_frame *f, const thr_least_options *lo, const thr_limits *limits, thr_least *l,
+static thr_status find_least(const thr_frame *frame, const thr_least_options *lo, const thr_limits *limits, thr_least *least,
                              thr_err *err)
 {
-  thr_status found = thr_least_turning(f, lo, limits, l, err);
+  thr_status found = thr_least_turning(frame, lo, limits, least, err);
   if (found) return found;
-  thr_status st = shorten(f, lo, limits, l, err);
-  if (st) thr_least_destroy(l);
+  thr_status st = shorten(frame, lo, limits, least, err);
+  if (st) thr_least_destroy(least);
   return st;
 }
 
@@ -81,24 +82,24 @@ static void shortest_destroy(shortest_plan *s)
   thr_tube_destroy(&s->tube);
 }
 
-static thr_status find_shortest(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, shortest_plan *s,
-                                thr_err *err)
+static thr_status find_shortest(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits,
+                                shortest_plan *s, thr_err *err)
 {
   const thr_limits share = thr_dispatch_share(limits, THR_STEP_SHORTEST);
   *s = (shortest_plan){0};
-  thr_plan_options any = *o;
-  if (o->ends == THR_ENDS_CLOSED) { /* no closed cords are shorter than one, which the search cuts up */
+  thr_plan_options any = *options;
+  if (options->ends == THR_ENDS_CLOSED) { /* no closed cords are shorter than one, which the search cuts up */
     any.aims = thr_aims_shortest;
     any.cords_least = 1;
   }
-  if (o->joint == THR_JOINT_TUBE) return thr_tube_shortest(f, &any, &share, &s->tube, err);
-  return thr_postman_shortest(f, o, limits, &s->solid, err);
+  if (options->joint == THR_JOINT_TUBE) return thr_tube_shortest(frame, &any, &share, &s->tube, err);
+  return thr_postman_shortest(frame, options, limits, &s->solid, err);
 }
 
 /* From the shortest tied cords, which may need more passes than are looked at otherwise. */
-static void begin_with(const thr_frame *f, const thr_tube *t, thr_least_options *lo)
+static void begin_with(const thr_frame *frame, const thr_tube *t, thr_least_options *lo)
 {
-  int most = thr_turning_most_passes(f, lo->cover);
+  int most = thr_turning_most_passes(frame, lo->cover);
   lo->start = t->cord;
   lo->n_start = t->n_cords;
   lo->most_passes = t->most_passes > most ? t->most_passes : most;
@@ -106,165 +107,167 @@ static void begin_with(const thr_frame *f, const thr_tube *t, thr_least_options 
 
 /* Cords of a plan for the least length, where the shortest passes alone may not hold them: as many ends as given, as many closed
  * cords as asked for that tie the nodes. None if there is no such plan: the search may find what that did not. */
-static thr_status cords_by_length(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_cord **cord,
-                                  int *n, thr_err *err)
+static thr_status cords_by_length(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits,
+                                  thr_cord **cord, int *n, thr_err *err)
 {
-  thr_plan_options length = *o;
+  thr_plan_options length = *options;
   const thr_limits share = thr_dispatch_share(limits, THR_STEP_BY_LENGTH);
   thr_err why = {0};
-  thr_plan p = {0};
+  thr_plan plan = {0};
   length.aims = thr_aims_shortest;
-  thr_status st = thr_planner_length(f, &length, &share, &p, NULL, &why);
-  *cord = p.cord;
-  *n = p.n_cords;
-  p.cord = NULL;
-  p.n_cords = 0;
-  thr_plan_destroy(&p);
+  thr_status st = thr_planner_length(frame, &length, &share, &plan, NULL, &why);
+  *cord = plan.cord;
+  *n = plan.n_cords;
+  plan.cord = NULL;
+  plan.n_cords = 0;
+  thr_plan_destroy(&plan);
   return st == THR_ENOMEM ? thr_nomem(err) : THR_OK;
 }
 
 /* Begins with the cords of the shortest plan where that has as many. */
-static thr_status find_from_shortest(const thr_frame *f, const thr_plan_options *o, const shortest_plan *s,
-                                     const thr_limits *limits, thr_least *l, thr_err *err)
+static thr_status find_from_shortest(const thr_frame *frame, const thr_plan_options *options, const shortest_plan *s,
+                                     const thr_limits *limits, thr_least *least, thr_err *err)
 {
-  thr_least_options lo = search_options(o);
+  thr_least_options lo = search_options(options);
   thr_cord *cord = NULL;
   int n = 0;
   thr_status st = THR_OK;
-  if (lo.tube ? o->ends == THR_ENDS_CLOSED && o->cords > 1 : o->ends == THR_ENDS_COUNTS)
-    st = cords_by_length(f, o, limits, &cord, &n, err);
-  else if (!lo.tube && o->cords == 1)
-    st = thr_postman_cords(f, o, s->solid.passes, &cord, &n, err);
-  if (lo.tube) begin_with(f, &s->tube, &lo);
+  if (lo.tube ? options->ends == THR_ENDS_CLOSED && options->cords > 1 : options->ends == THR_ENDS_COUNTS)
+    st = cords_by_length(frame, options, limits, &cord, &n, err);
+  else if (!lo.tube && options->cords == 1)
+    st = thr_postman_cords(frame, options, s->solid.passes, &cord, &n, err);
+  if (lo.tube) begin_with(frame, &s->tube, &lo);
   if (n > 0) {
     lo.start = cord;
     lo.n_start = n;
   }
-  if (!st) st = find_least(f, &lo, limits, l, err);
+  if (!st) st = find_least(frame, &lo, limits, least, err);
   thr_cords_destroy(cord, n);
   return st;
 }
 
-static thr_status find_cords(const thr_frame *f, const thr_plan_options *o, const shortest_plan *s, const thr_plan *seed,
-                             const thr_limits *limits, thr_least *l, thr_err *err)
+static thr_status find_cords(const thr_frame *frame, const thr_plan_options *options, const shortest_plan *s,
+                             const thr_plan *seed, const thr_limits *limits, thr_least *least, thr_err *err)
 {
-  const thr_least_options lo = search_options(o);
-  if (o->turning.tour != THR_TOUR_LEAST)
-    return thr_baseline_tour(f, &lo, o->turning.tour, o->turning.ignore_pairings, limits, l, err);
-  if (!thr_wants_largest(o)) return find_from_shortest(f, o, s, limits, l, err);
+  const thr_least_options lo = search_options(options);
+  if (options->turning.tour != THR_TOUR_LEAST)
+    return thr_baseline_tour(frame, &lo, options->turning.tour, options->turning.ignore_pairings, limits, least, err);
+  if (!thr_wants_largest(options)) return find_from_shortest(frame, options, s, limits, least, err);
   const thr_limits first = thr_dispatch_share(limits, THR_STEP_LEAST);
-  thr_status st = find_from_shortest(f, o, s, &first, l, err);
+  thr_status st = find_from_shortest(frame, options, s, &first, least, err);
   if (st && st != THR_ELIMIT) return st;
-  st = thr_even_turning(f, seed, limits, l, err);
-  if (st) thr_least_destroy(l);
+  st = thr_even_turning(frame, seed, limits, least, err);
+  if (st) thr_least_destroy(least);
   return st;
 }
 
 /* ---- claims ---- */
 
-/* What the checker says of cords and the proof of l, which found then holds. */
-static thr_status judge(const thr_frame *f, const thr_plan_options *o, const thr_cord *cord, int n_cords, thr_least *l,
-                        thr_turning_claim *found, thr_err *err)
+/* What the checker says of cords and the proof of least, which found then holds. */
+static thr_status judge(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord, int n_cords,
+                        thr_least *least, thr_turning_claim *found, thr_err *err)
 {
-  thr_turning_claim claim = {.most_passes = l->task.most_passes, .length_limit = l->length_limit, .tree = l->proof};
+  thr_turning_claim claim = {.most_passes = least->task.most_passes, .length_limit = least->length_limit, .tree = least->proof};
   thr_err text = {0};
-  l->proof = (thr_turning_proof){0};
-  thr_status st = thr_check_turning(f, o, cord, n_cords, &claim, found, &text);
+  least->proof = (thr_turning_proof){0};
+  thr_status st = thr_check_turning(frame, options, cord, n_cords, &claim, found, &text);
   found->tree = claim.tree;
   return thr_check_own(st, &text, err);
 }
 
-/* Takes cords and proof of l, and the certificates or the proof of s. */
-static thr_status assemble(const thr_frame *f, const thr_plan_options *o, thr_least *l, shortest_plan *s, thr_plan *plan,
-                           thr_err *err)
+/* Takes cords and proof of least, and the certificates or the proof of s. */
+static thr_status assemble(const thr_frame *frame, const thr_plan_options *options, thr_least *least, shortest_plan *s,
+                           thr_plan *plan, thr_err *err)
 {
-  thr_status st = thr_plan_request(plan, f, o, err);
+  thr_status st = thr_plan_request(plan, frame, options, err);
   if (st) return st;
-  plan->cord = l->cord;
-  plan->n_cords = l->n_cords;
-  l->cord = NULL;
+  plan->cord = least->cord;
+  plan->n_cords = least->n_cords;
+  least->cord = NULL;
   st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
-  if (!st && o->joint == THR_JOINT_TUBE)
+  if (!st && options->joint == THR_JOINT_TUBE)
     thr_tube_prove(&s->tube, plan->metrics.length, &plan->proof);
   else if (!st)
     st = thr_postman_prove(&plan->frame, &plan->options, plan->cord, plan->n_cords, &s->solid, &plan->proof, err);
-  plan->proof.slack_open = !thr_plan_within_slack(o, plan->metrics.length, plan->proof.lower_bound);
-  if (!st && o->turning.tour == THR_TOUR_LEAST)
-    st = judge(&plan->frame, &plan->options, plan->cord, plan->n_cords, l, &plan->turning, err);
+  plan->proof.slack_open = !thr_plan_within_slack(options, plan->metrics.length, plan->proof.lower_bound);
+  if (!st && options->turning.tour == THR_TOUR_LEAST)
+    st = judge(&plan->frame, &plan->options, plan->cord, plan->n_cords, least, &plan->turning, err);
   return st;
 }
 
 /* The search's own reason; none if it only just believes that it is proved, and the checker does not. */
-static const char *why_open(const thr_least *l)
+static const char *why_open(const thr_least *least)
 {
-  return l->open ? l->open : "rounding left a gap";
+  return least->open ? least->open : "rounding left a gap";
 }
 
 /* What was to be minimized, and how far the proof got. */
-static thr_status verdict(const thr_plan *p, const thr_least *l, thr_err *err)
+static thr_status verdict(const thr_plan *plan, const thr_least *least, thr_err *err)
 {
-  const thr_turning_claim *c = &p->turning;
-  if (!c->present) return THR_OK;
-  if (p->proof.slack_open)
+  const thr_turning_claim *claim = &plan->turning;
+  if (!claim->present) return THR_OK;
+  if (plan->proof.slack_open)
     return thr_fail(err, THR_ELIMIT, "the least length is not proved: the cords may be %.3g %% longer, more than --length-slack",
-                    100 * (p->metrics.length / p->proof.lower_bound - 1));
-  if (thr_wants_largest(&p->options) && !c->largest_optimal)
+                    100 * (plan->metrics.length / plan->proof.lower_bound - 1));
+  if (thr_wants_largest(&plan->options) && !claim->largest_optimal)
     return thr_fail(err, THR_ELIMIT, "the largest turning of a cord is proved to be within %.3g %% of the least",
-                    100 * (c->largest - c->largest_bound) / c->largest);
-  if (!thr_wants_largest(&p->options) && !c->optimal)
-    return thr_fail(err, THR_ELIMIT, "%s: the turning is proved to be within %.3g %% of the least", why_open(l), 100 * c->gap);
+                    100 * (claim->largest - claim->largest_bound) / claim->largest);
+  if (!thr_wants_largest(&plan->options) && !claim->optimal)
+    return thr_fail(err, THR_ELIMIT, "%s: the turning is proved to be within %.3g %% of the least", why_open(least),
+                    100 * claim->gap);
   return THR_OK;
 }
 
-thr_status thr_tortuosity_plan_from(const thr_frame *f, const thr_plan_options *o, const thr_plan *seed, const thr_limits *limits,
-                                    thr_plan *plan, thr_err *err)
+thr_status thr_tortuosity_plan_from(const thr_frame *frame, const thr_plan_options *options, const thr_plan *seed,
+                                    const thr_limits *limits, thr_plan *plan, thr_err *err)
 {
   shortest_plan shortest = {0};
-  thr_least l = {0};
+  thr_least least = {0};
   thr_err unproved = {0}; /* of the search's steps; the plan's own verdict is what counts */
   *plan = (thr_plan){0};
-  thr_status st = find_shortest(f, o, limits, &shortest, &unproved);
-  if (!st || st == THR_ELIMIT) st = find_cords(f, o, &shortest, seed, limits, &l, &unproved);
+  thr_status st = find_shortest(frame, options, limits, &shortest, &unproved);
+  if (!st || st == THR_ELIMIT) st = find_cords(frame, options, &shortest, seed, limits, &least, &unproved);
   if (st && st != THR_ELIMIT)
     st = thr_fail(err, st, "%s", unproved.text);
   else
-    st = assemble(f, o, &l, &shortest, plan, err);
-  if (!st) st = verdict(plan, &l, err);
+    st = assemble(frame, options, &least, &shortest, plan, err);
+  if (!st) st = verdict(plan, &least, err);
   if (st && st != THR_ELIMIT) thr_plan_destroy(plan);
-  thr_least_destroy(&l);
+  thr_least_destroy(&least);
   shortest_destroy(&shortest);
   return st;
 }
 
-thr_status thr_tortuosity_plan(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
+thr_status thr_tortuosity_plan(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits, thr_plan *plan,
                                thr_err *err)
 {
-  return thr_tortuosity_plan_from(f, o, NULL, limits, plan, err);
+  return thr_tortuosity_plan_from(frame, options, NULL, limits, plan, err);
 }
 
 /* Symmetric cords turn alike: where they are as many as asked for, the one that turns most may be at its bound at once. They keep
  * to no given numbers of ends. */
-thr_status thr_planner_turning(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
+thr_status thr_planner_turning(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits, thr_plan *plan,
                                thr_report *report, thr_err *err)
 {
   thr_plan seed = {0};
   thr_status st = THR_OK;
   (void)report;
   *plan = (thr_plan){0};
-  if (thr_planner_is_mixed(o)) return thr_planner_mixed(f, o, limits, plan, err);
-  thr_planner_tell_first(f, o, limits);
-  if (thr_wants_largest(o) && o->cords > 1 && o->ends != THR_ENDS_COUNTS) st = thr_even_seed(f, o, limits, &seed, err);
-  if (!st) st = thr_tortuosity_plan_from(f, o, seed.n_cords ? &seed : NULL, limits, plan, err);
+  if (thr_planner_is_mixed(options)) return thr_planner_mixed(frame, options, limits, plan, err);
+  thr_planner_tell_first(frame, options, limits);
+  if (thr_wants_largest(options) && options->cords > 1 && options->ends != THR_ENDS_COUNTS)
+    st = thr_even_seed(frame, options, limits, &seed, err);
+  if (!st) st = thr_tortuosity_plan_from(frame, options, seed.n_cords ? &seed : NULL, limits, plan, err);
   thr_plan_destroy(&seed);
   return st;
 }
 
 /* ---- the trade-off ---- */
 
-void thr_frontier_destroy(thr_frontier *f)
+void thr_frontier_destroy(thr_frontier *frontier)
 {
-  free(f->point);
-  *f = (thr_frontier){0};
+  free(frontier->point);
+  *frontier = (thr_frontier){0};
 }
 
 typedef struct {
@@ -277,47 +280,47 @@ typedef struct {
   thr_frontier *out;
 } sweep;
 
-static double largest_turning(const thr_frame *f, const thr_plan_options *o, const thr_least *l)
+static double largest_turning(const thr_frame *frame, const thr_plan_options *options, const thr_least *least)
 {
   double largest = 0;
-  for (int i = 0; i < l->n_cords; i++)
-    largest = fmax(largest, thr_cord_turning(f, &l->cord[i], o->ends == THR_ENDS_CLOSED));
+  for (int i = 0; i < least->n_cords; i++)
+    largest = fmax(largest, thr_cord_turning(frame, &least->cord[i], options->ends == THR_ENDS_CLOSED));
   return largest;
 }
 
 /* The least turning with that much more cord than the shortest (< 0: any length), as one more point if there is a plan. */
 static thr_status add_point(sweep *s, double slack, thr_err *err)
 {
-  thr_least l = {0};
+  thr_least least = {0};
   thr_least_options lo = search_options(s->o);
   const thr_limits share = thr_limits_part(&s->limits, 1.0 / s->left--);
   thr_err unused = {0};
   lo.length_slack = slack;
   begin_with(s->f, &s->start.tube, &lo);
-  thr_status st = find_least(s->f, &lo, &share, &l, &unused);
+  thr_status st = find_least(s->f, &lo, &share, &least, &unused);
   if (st == THR_EINFEASIBLE) return THR_OK;
   if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", unused.text);
-  s->shortest = l.shortest;
+  s->shortest = least.shortest;
   thr_turning_claim found;
-  st = judge(s->f, s->o, l.cord, l.n_cords, &l, &found, err);
+  st = judge(s->f, s->o, least.cord, least.n_cords, &least, &found, err);
   if (!st)
-    s->out->point[s->out->n++] = (thr_frontier_point){.length = l.length,
-                                                      .overlap = l.length - thr_turning_base_length(s->f, s->o->cover),
+    s->out->point[s->out->n++] = (thr_frontier_point){.length = least.length,
+                                                      .overlap = least.length - thr_turning_base_length(s->f, s->o->cover),
                                                       .price = found.price,
                                                       .lower_bound = found.lower_bound,
-                                                      .open = found.optimal ? NULL : why_open(&l),
-                                                      .turning = l.turning,
-                                                      .max_turning = largest_turning(s->f, s->o, &l)};
+                                                      .open = found.optimal ? NULL : why_open(&least),
+                                                      .turning = least.turning,
+                                                      .max_turning = largest_turning(s->f, s->o, &least)};
   thr_turning_proof_destroy(&found.tree);
-  thr_least_destroy(&l);
+  thr_least_destroy(&least);
   return st;
 }
 
 static int by_length(const void *a, const void *b)
 {
-  const thr_frontier_point *x = a, *y = b;
-  if (x->length != y->length) return x->length < y->length ? -1 : 1;
-  return (x->price > y->price) - (x->price < y->price);
+  const thr_frontier_point *frontier_point = a, *y = b;
+  if (frontier_point->length != y->length) return frontier_point->length < y->length ? -1 : 1;
+  return (frontier_point->price > y->price) - (frontier_point->price < y->price);
 }
 
 /* Leaves the points that turn less than every shorter one. */
@@ -334,15 +337,15 @@ static void drop_dominated(thr_frontier *out)
   out->n = kept;
 }
 
-thr_status thr_tortuosity_frontier(const thr_frame *f, const thr_plan_options *o, int most, const thr_limits *limits,
+thr_status thr_tortuosity_frontier(const thr_frame *frame, const thr_plan_options *options, int most, const thr_limits *limits,
                                    thr_frontier *out, thr_err *err)
 {
-  sweep s = {.f = f, .o = o, .limits = *limits, .left = most, .out = out};
+  sweep s = {.f = frame, .o = options, .limits = *limits, .left = most, .out = out};
   *out = (thr_frontier){0};
   if (most < 2) return thr_fail(err, THR_EINPUT, "a trade-off has at least 2 points");
   if (!(out->point = thr_calloc((size_t)most, sizeof *out->point))) return thr_nomem(err);
   thr_err unproved = {0};
-  thr_status st = o->joint == THR_JOINT_TUBE ? find_shortest(f, o, limits, &s.start, &unproved) : THR_OK;
+  thr_status st = options->joint == THR_JOINT_TUBE ? find_shortest(frame, options, limits, &s.start, &unproved) : THR_OK;
   if (st && st != THR_ELIMIT) thr_fail(err, st, "%s", unproved.text);
   if (!st || st == THR_ELIMIT) st = add_point(&s, 0, err);
   if (!st) st = add_point(&s, -1, err);

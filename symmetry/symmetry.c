@@ -16,12 +16,12 @@ enum { MOST_CORDS = 1000 }; /* that a plan may have in a component */
 
 /* ---- which rows, and the choice ---- */
 
-static thr_status check_asked(const thr_symmetries *t, const char *group, thr_err *err)
+static thr_status check_asked(const thr_symmetries *symmetries, const char *group, thr_err *err)
 {
-  for (int i = 0; i < t->n; i++)
-    if (thr_symmetry_asked(t, i, group)) return THR_OK;
+  for (int i = 0; i < symmetries->n; i++)
+    if (thr_symmetry_asked(symmetries, i, group)) return THR_OK;
   return thr_fail(err, THR_EINPUT, "there is no group %s: they are numbered 1 to %d, and `thread symmetries` lists their names",
-                  group, t->n);
+                  group, symmetries->n);
 }
 
 /* 1 % of a millionth is rounding. */
@@ -42,16 +42,17 @@ static bool is_better(const thr_symmetry_row *a, const thr_symmetry_row *b, bool
   return by < 0;
 }
 
-static void choose(thr_symmetries *t)
+static void choose(thr_symmetries *symmetries)
 {
-  t->chosen = -1;
-  for (int pass = 0; pass < 2 && t->chosen < 0; pass++) {
-    t->within = pass == 0;
-    for (int i = 0; i < t->n; i++) {
-      const thr_symmetry_row *row = &t->row[i];
-      bool within = compare(row->metrics.length, t->shortest * (1 + thr_symmetry_slack)) <= 0;
-      if (row->n_cords == 0 || (t->within && !within)) continue;
-      if (t->chosen < 0 || is_better(row, &t->row[t->chosen], t->within)) t->chosen = i;
+  symmetries->chosen = -1;
+  for (int pass = 0; pass < 2 && symmetries->chosen < 0; pass++) {
+    symmetries->within = pass == 0;
+    for (int i = 0; i < symmetries->n; i++) {
+      const thr_symmetry_row *row = &symmetries->row[i];
+      bool within = compare(row->metrics.length, symmetries->shortest * (1 + thr_symmetry_slack)) <= 0;
+      if (row->n_cords == 0 || (symmetries->within && !within)) continue;
+      if (symmetries->chosen < 0 || is_better(row, &symmetries->row[symmetries->chosen], symmetries->within))
+        symmetries->chosen = i;
     }
   }
 }
@@ -59,57 +60,58 @@ static void choose(thr_symmetries *t)
 /* ---- all rows ---- */
 
 /* The shortest cords, one in each component, for whoever keeps the best so far. */
-static thr_status tell_shortest(const thr_frame *f, const thr_plan_options *o, const thr_shortest *s, const thr_limits *limits,
-                                thr_err *err)
+static thr_status tell_shortest(const thr_frame *frame, const thr_plan_options *options, const thr_shortest *shortest,
+                                const thr_limits *limits, thr_err *err)
 {
   int n = 0;
   thr_cord *cord = NULL;
   if (!limits->found) return THR_OK;
-  thr_status st = thr_postman_cords(f, o, s->passes, &cord, &n, err);
+  thr_status st = thr_postman_cords(frame, options, shortest->passes, &cord, &n, err);
   if (!st) thr_limits_found(limits, cord, n, NULL);
   thr_cords_destroy(cord, n);
   return st;
 }
 
 /* With one cord per component, if that can be. */
-static thr_status find_shortest(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_symmetries *t,
-                                thr_err *err)
+static thr_status find_shortest(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits,
+                                thr_symmetries *symmetries, thr_err *err)
 {
-  thr_shortest s;
+  thr_shortest shortest;
   thr_err why = {0};
-  thr_plan_options few = *o;
+  thr_plan_options few = *options;
   const thr_limits share = thr_limits_part(limits, 0.25);
-  if (o->joint == THR_JOINT_TUBE)
-    return thr_symmetry_shortest_tied(f, o, o->ends != THR_ENDS_CLOSED, &share, &t->shortest, &t->shortest_optimal, err);
+  if (options->joint == THR_JOINT_TUBE)
+    return thr_symmetry_shortest_tied(frame, options, options->ends != THR_ENDS_CLOSED, &share, &symmetries->shortest,
+                                      &symmetries->shortest_optimal, err);
   few.cords = 1;
-  thr_status st = thr_postman_shortest(f, &few, &share, &s, &why);
-  if (st == THR_EINFEASIBLE && o->ends != THR_ENDS_CLOSED) { /* capacities may ask for more cords */
+  thr_status st = thr_postman_shortest(frame, &few, &share, &shortest, &why);
+  if (st == THR_EINFEASIBLE && options->ends != THR_ENDS_CLOSED) { /* capacities may ask for more cords */
     few.cords = MOST_CORDS;
-    st = thr_postman_shortest(f, &few, &share, &s, &why);
+    st = thr_postman_shortest(frame, &few, &share, &shortest, &why);
   }
   if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", why.text);
-  t->shortest = s.length;
-  t->shortest_optimal = s.optimal;
-  st = few.cords == 1 ? tell_shortest(f, &few, &s, limits, err) : THR_OK;
-  thr_shortest_destroy(&s);
+  symmetries->shortest = shortest.length;
+  symmetries->shortest_optimal = shortest.optimal;
+  st = few.cords == 1 ? tell_shortest(frame, &few, &shortest, limits, err) : THR_OK;
+  thr_shortest_destroy(&shortest);
   return st;
 }
 
 /* What was asked for and could not be had. */
-static thr_status verdict(const thr_symmetries *t, const char *group, thr_err *err)
+static thr_status verdict(const thr_symmetries *symmetries, const char *group, thr_err *err)
 {
   int unsolved = 0, loose = 0, asked = 0;
   const thr_symmetry_row *none = NULL, *open = NULL;
-  for (int i = 0; i < t->n; i++) {
-    thr_status why = t->row[i].why.code;
-    if (!thr_symmetry_asked(t, i, group)) continue;
+  for (int i = 0; i < symmetries->n; i++) {
+    thr_status why = symmetries->row[i].why.code;
+    if (!thr_symmetry_asked(symmetries, i, group)) continue;
     asked++;
     unsolved += why == THR_ELIMIT || why == THR_ESOLVER;
-    loose += t->row[i].solved && why == THR_ELIMIT;
-    if (!open && (why == THR_ESOLVER || (why == THR_ELIMIT && !t->row[i].solved))) open = &t->row[i];
-    if (why) none = &t->row[i];
+    loose += symmetries->row[i].solved && why == THR_ELIMIT;
+    if (!open && (why == THR_ESOLVER || (why == THR_ELIMIT && !symmetries->row[i].solved))) open = &symmetries->row[i];
+    if (why) none = &symmetries->row[i];
   }
-  if (none && t->chosen < 0 && !unsolved) return thr_fail(err, none->why.code, "%s", none->why.text);
+  if (none && symmetries->chosen < 0 && !unsolved) return thr_fail(err, none->why.code, "%s", none->why.text);
   if (!unsolved) return THR_OK;
   if (loose == unsolved)
     return thr_fail(err, THR_ELIMIT, "%d of %d %s solved, but not optimal by the solver's word: %s", loose, asked,
@@ -119,47 +121,47 @@ static thr_status verdict(const thr_symmetries *t, const char *group, thr_err *e
 }
 
 /* What a symmetric threading cannot be asked for. */
-static thr_status check_request(const thr_plan_options *o, thr_err *err)
+static thr_status check_request(const thr_plan_options *options, thr_err *err)
 {
-  const char *what = o->max_length > 0            ? "a largest length of the cords"
-                     : thr_wants_balance(o)       ? "cords of balanced length"
-                     : o->ends == THR_ENDS_COUNTS ? "a number of cord ends for each node"
-                                                  : NULL;
+  const char *what = options->max_length > 0            ? "a largest length of the cords"
+                     : thr_wants_balance(options)       ? "cords of balanced length"
+                     : options->ends == THR_ENDS_COUNTS ? "a number of cord ends for each node"
+                                                        : NULL;
   return what ? thr_fail(err, THR_EINPUT, "symmetric threadings do not know %s", what) : THR_OK;
 }
 
-thr_status thr_symmetries_find(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_symmetries *out,
-                               thr_err *err)
+thr_status thr_symmetries_find(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits,
+                               thr_symmetries *out, thr_err *err)
 {
   *out = (thr_symmetries){.chosen = -1};
-  thr_status st = check_request(o, err);
-  if (!st) st = find_shortest(f, o, limits, out, err);
+  thr_status st = check_request(options, err);
+  if (!st) st = find_shortest(frame, options, limits, out, err);
   const thr_limits share = thr_limits_part(limits, 0.3);
-  if (!st) st = thr_symmetry_groups(f, o, &share, out, err);
-  if (!st) st = check_asked(out, o->symmetry.group, err);
-  if (!st) st = thr_symmetry_solve(f, o, limits, out, err);
+  if (!st) st = thr_symmetry_groups(frame, options, &share, out, err);
+  if (!st) st = check_asked(out, options->symmetry.group, err);
+  if (!st) st = thr_symmetry_solve(frame, options, limits, out, err);
   if (!st) {
     choose(out);
-    st = verdict(out, o->symmetry.group, err);
+    st = verdict(out, options->symmetry.group, err);
   }
   if (st && st != THR_ELIMIT) thr_symmetries_destroy(out);
   return st;
 }
 
-void thr_symmetries_destroy(thr_symmetries *t)
+void thr_symmetries_destroy(thr_symmetries *symmetries)
 {
-  for (int i = 0; i < t->n; i++) {
-    thr_subgroup_destroy(&t->row[i].elements);
-    thr_cords_destroy(t->row[i].cord, t->row[i].n_cords);
-    thr_symmetry_record_destroy(&t->row[i].record);
+  for (int i = 0; i < symmetries->n; i++) {
+    thr_subgroup_destroy(&symmetries->row[i].elements);
+    thr_cords_destroy(symmetries->row[i].cord, symmetries->row[i].n_cords);
+    thr_symmetry_record_destroy(&symmetries->row[i].record);
   }
-  for (int k = 0; k < t->n_groups; k++) {
-    thr_group_destroy(&t->group[k].all);
-    free(t->group[k].isometry);
+  for (int k = 0; k < symmetries->n_groups; k++) {
+    thr_group_destroy(&symmetries->group[k].all);
+    free(symmetries->group[k].isometry);
   }
-  free(t->row);
-  free(t->group);
-  *t = (thr_symmetries){.chosen = -1};
+  free(symmetries->row);
+  free(symmetries->group);
+  *symmetries = (thr_symmetries){.chosen = -1};
 }
 
 /* ---- plans ---- */
@@ -184,64 +186,66 @@ static void count_cords(const thr_symmetry_row *row, int *least, int *most)
 
 static thr_status prove(thr_plan *plan, const thr_limits *limits, thr_err *err)
 {
-  thr_shortest s = {0};
+  thr_shortest shortest = {0};
   thr_err why = {0};
-  thr_status st = thr_postman_shortest(&plan->frame, &plan->options, limits, &s, &why);
+  thr_status st = thr_postman_shortest(&plan->frame, &plan->options, limits, &shortest, &why);
   if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", why.text);
-  st = thr_postman_prove(&plan->frame, &plan->options, plan->cord, plan->n_cords, &s, &plan->proof, err);
-  thr_shortest_destroy(&s);
+  st = thr_postman_prove(&plan->frame, &plan->options, plan->cord, plan->n_cords, &shortest, &plan->proof, err);
+  thr_shortest_destroy(&shortest);
   return st;
 }
 
-thr_status thr_symmetries_plan(thr_symmetries *t, int row, const thr_frame *f, const thr_plan_options *o,
+thr_status thr_symmetries_plan(thr_symmetries *symmetries, int row, const thr_frame *frame, const thr_plan_options *options,
                                const thr_limits *limits, thr_plan *plan, thr_err *err)
 {
-  thr_symmetry_row *r = &t->row[row];
-  thr_plan_options with = *o;
+  thr_symmetry_row *symmetry_row = &symmetries->row[row];
+  thr_plan_options with = *options;
   int least;
   *plan = (thr_plan){0};
-  if (!thr_wants_symmetry(o)) with.aims = thr_aims_symmetric;
-  count_cords(r, &least, &with.cords);
+  if (!thr_wants_symmetry(options)) with.aims = thr_aims_symmetric;
+  count_cords(symmetry_row, &least, &with.cords);
   if (with.cords > MOST_CORDS)
     return thr_fail(err, THR_EINFEASIBLE, "group %d makes %d cords in one component, more than %d", row + 1, with.cords,
                     MOST_CORDS);
-  thr_status st = thr_plan_request(plan, f, &with, err);
+  thr_status st = thr_plan_request(plan, frame, &with, err);
   if (!st) {
-    plan->cord = r->cord;
-    plan->n_cords = r->n_cords;
-    plan->metrics = r->metrics;
-    plan->symmetry = r->record;
-    r->cord = NULL;
-    r->record = (thr_symmetry_record){.order = r->record.order, .steps = r->record.steps, .unique_paths = r->record.unique_paths};
-    if (o->joint == THR_JOINT_SOLID) st = prove(plan, limits, err);
+    plan->cord = symmetry_row->cord;
+    plan->n_cords = symmetry_row->n_cords;
+    plan->metrics = symmetry_row->metrics;
+    plan->symmetry = symmetry_row->record;
+    symmetry_row->cord = NULL;
+    symmetry_row->record = (thr_symmetry_record){.order = symmetry_row->record.order,
+                                                 .steps = symmetry_row->record.steps,
+                                                 .unique_paths = symmetry_row->record.unique_paths};
+    if (options->joint == THR_JOINT_SOLID) st = prove(plan, limits, err);
   }
-  if (!st && r->why.code) st = thr_fail(err, r->why.code, "%s", r->why.text);
+  if (!st && symmetry_row->why.code) st = thr_fail(err, symmetry_row->why.code, "%s", symmetry_row->why.text);
   if (st && st != THR_ELIMIT) thr_plan_destroy(plan);
   return st;
 }
 
-thr_status thr_symmetry_plan(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_symmetries *table,
-                             thr_plan *plan, thr_err *err)
+thr_status thr_symmetry_plan(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits,
+                             thr_symmetries *table, thr_plan *plan, thr_err *err)
 {
-  thr_symmetries t;
+  thr_symmetries symmetries;
   thr_err early = {0}, own = {0};
   *plan = (thr_plan){0};
-  thr_status found = thr_symmetries_find(f, o, limits, &t, &early), st = found;
-  if (t.chosen >= 0) st = thr_symmetries_plan(&t, t.chosen, f, o, limits, plan, &own);
+  thr_status found = thr_symmetries_find(frame, options, limits, &symmetries, &early), st = found;
+  if (symmetries.chosen >= 0) st = thr_symmetries_plan(&symmetries, symmetries.chosen, frame, options, limits, plan, &own);
   if (st == THR_OK) st = found;
-  if (!table || (st && st != THR_ELIMIT)) thr_symmetries_destroy(&t);
-  if (table) *table = t;
+  if (!table || (st && st != THR_ELIMIT)) thr_symmetries_destroy(&symmetries);
+  if (table) *table = symmetries;
   return st ? thr_fail(err, st, "%s", found ? early.text : own.text) : THR_OK;
 }
 
-int thr_symmetries_even(const thr_symmetries *t, int cords)
+int thr_symmetries_even(const thr_symmetries *symmetries, int cords)
 {
   int best = -1, least, most;
-  for (int i = 0; i < t->n; i++) {
-    if (t->row[i].n_cords == 0 || !t->row[i].cord) continue;
-    count_cords(&t->row[i], &least, &most);
+  for (int i = 0; i < symmetries->n; i++) {
+    if (symmetries->row[i].n_cords == 0 || !symmetries->row[i].cord) continue;
+    count_cords(&symmetries->row[i], &least, &most);
     if (least != cords || most != cords) continue;
-    if (best < 0 || t->row[i].metrics.max_turning < t->row[best].metrics.max_turning) best = i;
+    if (best < 0 || symmetries->row[i].metrics.max_turning < symmetries->row[best].metrics.max_turning) best = i;
   }
   return best;
 }

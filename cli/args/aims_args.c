@@ -33,29 +33,30 @@ static const char *spelled(const aims_args *a, const turning_args *turning, cons
 int aims_args_settle(aims_args *a, turning_args *turning, symmetry_args *symmetry, cords_args *cords)
 {
   thr_err err = {0};
-  thr_plan_options o = thr_plan_options_default();
+  thr_plan_options options = thr_plan_options_default();
   const char *other = spelled(a, turning, symmetry, cords);
   if (!a->aims) return -1;
   if (other) return cli_usage("plan", "--aims says all that is minimized: no %s beside it", other);
-  if (thr_aims_parse(a->aims, &o, &err)) return cli_usage("plan", "--aims %s: %s", a->aims, err.text);
-  a->objective = thr_aims_objective(&o);
-  turning->largest = thr_wants_largest(&o);
-  turning->options.cost = o.turning.cost;
-  turning->options.length_slack = o.turning.length_slack;
-  cords->balance = thr_wants_balance(&o);
-  thr_aims_order(&o, symmetry->prefer);
+  if (thr_aims_parse(a->aims, &options, &err)) return cli_usage("plan", "--aims %s: %s", a->aims, err.text);
+  a->objective = thr_aims_objective(&options);
+  turning->largest = thr_wants_largest(&options);
+  turning->options.cost = options.turning.cost;
+  turning->options.length_slack = options.turning.length_slack;
+  cords->balance = thr_wants_balance(&options);
+  thr_aims_order(&options, symmetry->prefer);
   return -1;
 }
 
 void aims_args_apply(const aims_args *a, const turning_args *turning, const symmetry_args *symmetry, const cords_args *cords,
-                     thr_objective objective, thr_plan_options *o)
+                     thr_objective objective, thr_plan_options *options)
 {
   const thr_plan_options usual = thr_plan_options_default();
   bool own = objective == a->objective;
-  o->aims = thr_aims_of(objective);
-  o->turning = own && thr_wants_turning(o) ? turning->options : usual.turning;
-  o->symmetry = own && thr_wants_symmetry(o) ? symmetry->options : usual.symmetry;
-  if (own && thr_wants_symmetry(o)) memcpy(o->aims.aim, symmetry->prefer, sizeof symmetry->prefer);
-  if (own && thr_wants_turning(o) && turning->largest) o->aims.aim[0] = THR_AIM_MAX_TURNING;
-  if (own && !thr_wants_symmetry(o) && cords->balance) o->aims = (thr_aims){2, {THR_AIM_LONGEST, o->aims.aim[0]}};
+  options->aims = thr_aims_of(objective);
+  options->turning = own && thr_wants_turning(options) ? turning->options : usual.turning;
+  options->symmetry = own && thr_wants_symmetry(options) ? symmetry->options : usual.symmetry;
+  if (own && thr_wants_symmetry(options)) memcpy(options->aims.aim, symmetry->prefer, sizeof symmetry->prefer);
+  if (own && thr_wants_turning(options) && turning->largest) options->aims.aim[0] = THR_AIM_MAX_TURNING;
+  if (own && !thr_wants_symmetry(options) && cords->balance)
+    options->aims = (thr_aims){2, {THR_AIM_LONGEST, options->aims.aim[0]}};
 }

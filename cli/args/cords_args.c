@@ -122,19 +122,19 @@ int cords_args_check(const cords_args *a, const turning_args *turning, const thr
 
 /* The node whose name is before the last colon of text[0 .. n-1], -1 if there is none; *number: what is after it. Names may hold
  * colons themselves: what is a node's name as a whole has no number. */
-static int counted_node(const thr_frame *f, const char *text, int n, char number[256])
+static int counted_node(const thr_frame *frame, const char *text, int n, char number[256])
 {
   char word[256], *colon;
   if (n >= (int)sizeof word) return -1;
   snprintf(word, sizeof word, "%.*s", n, text);
-  if (thr_frame_find(f, word) >= 0 || !(colon = strrchr(word, ':'))) return -1;
+  if (thr_frame_find(frame, word) >= 0 || !(colon = strrchr(word, ':'))) return -1;
   snprintf(number, 256, "%s", colon + 1);
   *colon = '\0';
-  return thr_frame_find(f, word);
+  return thr_frame_find(frame, word);
 }
 
 /* "A:2,B:1" into counts. -1 if no node comes with a number; EXIT_OK; or prints what is wrong and returns the code. */
-static int parse_counts(const thr_frame *f, const char *ends, int *counts)
+static int parse_counts(const thr_frame *frame, const char *ends, int *counts)
 {
   const char *word = ends, *end, *alone = NULL;
   bool some = false;
@@ -142,7 +142,7 @@ static int parse_counts(const thr_frame *f, const char *ends, int *counts)
     char number[256], *rest;
     end = word + strcspn(word, ",");
     more = *end;
-    int n = (int)(end - word), v = counted_node(f, word, n, number);
+    int n = (int)(end - word), v = counted_node(frame, word, n, number);
     if (v < 0) {
       alone = alone ? alone : word;
       continue;
@@ -152,7 +152,7 @@ static int parse_counts(const thr_frame *f, const char *ends, int *counts)
     if (rest == number || *rest || count < 1 || count > 2 * MOST_CORDS)
       return cli_usage("plan", "--ends %.*s: expected a number of cord ends from 1 to %d after the colon", n, word,
                        2 * MOST_CORDS);
-    if (counts[v]) return cli_usage("plan", "--ends %s: node %s comes twice", ends, f->name[v]);
+    if (counts[v]) return cli_usage("plan", "--ends %s: node %s comes twice", ends, frame->name[v]);
     counts[v] = (int)count;
   }
   if (!some) return -1;
@@ -163,22 +163,22 @@ static int parse_counts(const thr_frame *f, const char *ends, int *counts)
 }
 
 /* Cords of the components that the ends belong to: *most and *least of any. */
-static int count_cords(const thr_frame *f, const int *counts, int *least, int *most)
+static int count_cords(const thr_frame *frame, const int *counts, int *least, int *most)
 {
   thr_err err = {0};
-  int n, code = EXIT_OK, *component = thr_calloc((size_t)f->n_nodes, sizeof *component);
-  int *sum = thr_calloc((size_t)f->n_nodes, sizeof *sum), *first = thr_calloc((size_t)f->n_nodes, sizeof *first);
-  thr_status st = component && sum && first ? thr_frame_components(f, component, &n, &err) : thr_nomem(&err);
+  int n, code = EXIT_OK, *component = thr_calloc((size_t)frame->n_nodes, sizeof *component);
+  int *sum = thr_calloc((size_t)frame->n_nodes, sizeof *sum), *first = thr_calloc((size_t)frame->n_nodes, sizeof *first);
+  thr_status st = component && sum && first ? thr_frame_components(frame, component, &n, &err) : thr_nomem(&err);
   *least = MOST_CORDS;
   *most = 0;
-  for (int v = f->n_nodes - 1; v >= 0 && !st; v--) {
+  for (int v = frame->n_nodes - 1; v >= 0 && !st; v--) {
     sum[component[v]] += counts[v];
     first[component[v]] = v;
   }
   for (int k = 0; !st && !code && k < n; k++) {
     if (sum[k] % 2 || sum[k] == 0) {
       cli_error("--ends: the component with node %s has %d %s; cords have two each, and every component needs one",
-                f->name[first[k]], sum[k], cli_plural(sum[k], "cord end", "cord ends"));
+                frame->name[first[k]], sum[k], cli_plural(sum[k], "cord end", "cord ends"));
       code = EXIT_INFEASIBLE;
     }
     if (sum[k] / 2 < *least) *least = sum[k] / 2;
@@ -190,68 +190,68 @@ static int count_cords(const thr_frame *f, const int *counts, int *least, int *m
   return st ? cli_fail(&err) : code;
 }
 
-static int apply_counts(const cords_args *a, const thr_frame *f, thr_plan_options *o)
+static int apply_counts(const cords_args *a, const thr_frame *frame, thr_plan_options *options)
 {
   int least, most, code;
-  if (thr_wants_symmetry(o)) return cli_usage("plan", "--ends NAME:N: not with --objective symmetry");
-  if ((code = count_cords(f, o->end_count, &least, &most))) return code;
-  if (o->turning.tour != THR_TOUR_LEAST && most > 1)
+  if (thr_wants_symmetry(options)) return cli_usage("plan", "--ends NAME:N: not with --objective symmetry");
+  if ((code = count_cords(frame, options->end_count, &least, &most))) return code;
+  if (options->turning.tour != THR_TOUR_LEAST && most > 1)
     return cli_usage("plan", "--tour %s makes one cord in each component, not the %d of --ends %s",
-                     thr_tour_name(o->turning.tour), most, a->ends);
+                     thr_tour_name(options->turning.tour), most, a->ends);
   if (most > MOST_CORDS || (a->most && (most > a->most || least < a->least))) {
     cli_error("--ends %s: these are the ends of %d %s in a component; --cords says otherwise", a->ends,
               most > a->most ? most : least, cli_plural(most > a->most ? most : least, "cord", "cords"));
     return EXIT_INFEASIBLE;
   }
-  o->ends = THR_ENDS_COUNTS;
-  o->cords_least = least;
-  o->cords = most;
+  options->ends = THR_ENDS_COUNTS;
+  options->cords_least = least;
+  options->cords = most;
   return EXIT_OK;
 }
 
 /* ---- together ---- */
 
 /* Cord and bore say how many passes fit, where both were given. A symmetric plan is not held to that. */
-static int apply_bore(thr_plan_options *o)
+static int apply_bore(thr_plan_options *options)
 {
-  const thr_physics *p = &o->physics;
-  if (p->bore == 0 || p->cord_diameter == 0 || thr_wants_symmetry(o)) return EXIT_OK;
-  int fit = thr_bore_fits(p->bore, p->cord_diameter);
-  if (fit < o->cover) {
+  const thr_physics *physics = &options->physics;
+  if (physics->bore == 0 || physics->cord_diameter == 0 || thr_wants_symmetry(options)) return EXIT_OK;
+  int fit = thr_bore_fits(physics->bore, physics->cord_diameter);
+  if (fit < options->cover) {
     cli_error("%d %s of a cord of %g mm %s through a bore of %g mm; --cover asks for %d", fit, cli_plural(fit, "pass", "passes"),
-              p->cord_diameter, fit == 1 ? "fits" : "fit", p->bore, o->cover);
+              physics->cord_diameter, fit == 1 ? "fits" : "fit", physics->bore, options->cover);
     return EXIT_INFEASIBLE;
   }
-  if (o->capacity == 0 || fit < o->capacity) o->capacity = fit;
+  if (options->capacity == 0 || fit < options->capacity) options->capacity = fit;
   return EXIT_OK;
 }
 
-static void apply_number(const cords_args *a, thr_plan_options *o)
+static void apply_number(const cords_args *a, thr_plan_options *options)
 {
   bool free_number = a->most == 0 && a->max_length > 0;
-  o->cords = a->most ? a->most : free_number ? MOST_CORDS : 1;
-  o->cords_least = a->most ? a->least : 1;
+  options->cords = a->most ? a->most : free_number ? MOST_CORDS : 1;
+  options->cords_least = a->most ? a->least : 1;
 }
 
-int cords_args_apply(const cords_args *a, const thr_frame *f, thr_plan_options *o)
+int cords_args_apply(const cords_args *a, const thr_frame *frame, thr_plan_options *options)
 {
-  o->cover = a->cover;
-  o->capacity = a->capacity;
-  o->joint = a->joint;
-  o->engine = a->engine;
-  o->confirm = a->confirm;
-  o->max_length = a->max_length;
-  int code = apply_bore(o);
+  options->cover = a->cover;
+  options->capacity = a->capacity;
+  options->joint = a->joint;
+  options->engine = a->engine;
+  options->confirm = a->confirm;
+  options->max_length = a->max_length;
+  int code = apply_bore(options);
   if (code) return code;
-  apply_number(a, o);
-  if (!(o->end_count = thr_calloc((size_t)f->n_nodes, sizeof *o->end_count))) {
+  apply_number(a, options);
+  if (!(options->end_count = thr_calloc((size_t)frame->n_nodes, sizeof *options->end_count))) {
     cli_error("out of memory");
     return EXIT_INTERNAL;
   }
-  code = parse_counts(f, a->ends, o->end_count);
-  if (code == EXIT_OK) return apply_counts(a, f, o);
+  code = parse_counts(frame, a->ends, options->end_count);
+  if (code == EXIT_OK) return apply_counts(a, frame, options);
   if (code > 0) return code;
-  free(o->end_count);
-  o->end_count = NULL;
-  return cli_resolve_ends(a->ends, f, o);
+  free(options->end_count);
+  options->end_count = NULL;
+  return cli_resolve_ends(a->ends, frame, options);
 }

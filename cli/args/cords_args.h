@@ -63,8 +63,8 @@ int cords_args_check(const cords_args *a, const turning_args *turning, const thr
  * which may have another number of cords. */
 const char *cords_args_refused(const cords_args *a, const thr_plan_options *wanted, bool rival);
 
-/* Lays them over *o, which holds cord and beads already, for this framework. Returns EXIT_OK or prints and returns the code. The
- * caller frees o->end_node and o->end_count. */
-int cords_args_apply(const cords_args *a, const thr_frame *f, thr_plan_options *o);
+/* Lays them over *options, which holds cord and beads already, for this framework. Returns EXIT_OK or prints and returns the
+ * code. The caller frees options->end_node and options->end_count. */
+int cords_args_apply(const cords_args *a, const thr_frame *frame, thr_plan_options *options);
 
 #endif

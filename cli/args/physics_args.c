@@ -50,9 +50,9 @@ static void print_help(void)
   puts("      --physics FILE         these as JSON: {\"mu\": 0.25, \"bore\": 3}, with _ for -\n"
        "      --preset NAME          a set of values (--presets: what each rests on):");
   for (int i = 0; i < thr_physics_n_presets; i++) {
-    const thr_physics *p = &thr_physics_presets[i].physics;
-    printf("                               %-14s mu %g (%g to %g), density %g\n", thr_physics_presets[i].name, p->mu, p->mu_low,
-           p->mu_high, p->density);
+    const thr_physics *physics = &thr_physics_presets[i].physics;
+    printf("                               %-14s mu %g (%g to %g), density %g\n", thr_physics_presets[i].name, physics->mu,
+           physics->mu_low, physics->mu_high, physics->density);
   }
   puts("  Presets and files count before single quantities, whatever the order.");
 }
@@ -74,16 +74,16 @@ static void print_wrapped(const char *words)
 static void print_presets(void)
 {
   for (int i = 0; i < thr_physics_n_presets; i++) {
-    const thr_physics_preset *p = &thr_physics_presets[i];
-    printf("%s%s\n", i ? "\n" : "", p->name);
+    const thr_physics_preset *preset = &thr_physics_presets[i];
+    printf("%s%s\n", i ? "\n" : "", preset->name);
     for (int k = 0; k < thr_physics_n_fields; k++) {
       char name[MOST_LETTERS];
-      double value = thr_physics_get(&p->physics, &thr_physics_fields[k]);
+      double value = thr_physics_get(&preset->physics, &thr_physics_fields[k]);
       option_name(k, name);
       if (!(value > 0)) continue;
       printf("  %-14s %g%s%s\n", name, value, *thr_physics_fields[k].unit ? " " : "", thr_physics_fields[k].unit);
     }
-    print_wrapped(p->source);
+    print_wrapped(preset->source);
   }
 }
 
@@ -136,16 +136,17 @@ int cli_physics_option(cli_physics *a, int argc, char **argv, const char *comman
   }
 }
 
-int cli_physics_apply(const cli_physics *a, thr_physics *p)
+int cli_physics_apply(const cli_physics *a, thr_physics *physics)
 {
   thr_err err = {0};
   thr_status st = THR_OK;
   for (int i = 0; i < a->n && !st; i++) {
-    if (a->given[i].option == OPTION_PRESET) st = thr_physics_set_preset(p, a->given[i].value, &err);
-    if (a->given[i].option == OPTION_FILE) st = thr_physics_read(p, a->given[i].value, &err);
+    if (a->given[i].option == OPTION_PRESET) st = thr_physics_set_preset(physics, a->given[i].value, &err);
+    if (a->given[i].option == OPTION_FILE) st = thr_physics_read(physics, a->given[i].value, &err);
   }
   for (int i = 0; i < a->n && !st; i++)
     if (a->given[i].option >= OPTION_QUANTITY)
-      st = thr_physics_set(p, &thr_physics_fields[a->given[i].option - OPTION_QUANTITY], strtod(a->given[i].value, NULL), &err);
+      st = thr_physics_set(physics, &thr_physics_fields[a->given[i].option - OPTION_QUANTITY], strtod(a->given[i].value, NULL),
+                           &err);
   return st ? cli_fail(&err) : EXIT_OK;
 }

@@ -21,8 +21,8 @@ typedef struct {
 int cli_physics_option(cli_physics *a, int argc, char **argv, const char *command, const char *letters, const struct option *own,
                        const char *help, int *done);
 
-/* Lays what was given over *p: presets and files first, then single quantities, each in the order given. Returns EXIT_OK or
+/* Lays what was given over *physics: presets and files first, then single quantities, each in the order given. Returns EXIT_OK or
  * prints and returns the code. */
-int cli_physics_apply(const cli_physics *a, thr_physics *p);
+int cli_physics_apply(const cli_physics *a, thr_physics *physics);
 
 #endif

@@ -39,20 +39,20 @@ static bool parse_prefer(const char *command, const char *value, thr_aim prefer[
 
 bool symmetry_option(symmetry_args *a, const char *command, int option, const char *value, bool *ok)
 {
-  thr_symmetry_options *o = &a->options;
+  thr_symmetry_options *options = &a->options;
   const char *name;
   switch (option) {
   case OPTION_SYMMETRY_GROUP:
     name = "--group";
-    *ok = *value && strlen(value) < sizeof o->group;
+    *ok = *value && strlen(value) < sizeof options->group;
     if (*ok)
-      snprintf(o->group, sizeof o->group, "%s", value);
+      snprintf(options->group, sizeof options->group, "%s", value);
     else
       cli_usage(command, "--group %s: expected a number or a name from `thread symmetries`", value);
     break;
   case OPTION_SYMMETRY_GEOMETRIC:
     name = "--geometric";
-    *ok = cli_double(command, name, value, 0, 1, &o->geometric);
+    *ok = cli_double(command, name, value, 0, 1, &options->geometric);
     break;
   case OPTION_SYMMETRY_PREFER:
     name = "--prefer";

@@ -28,12 +28,12 @@ static bool slack(const char *text, double *out)
 
 bool turning_option(turning_args *a, int option, const char *value, bool *ok)
 {
-  thr_turning_options *o = &a->options;
+  thr_turning_options *options = &a->options;
   const char *name = NULL;
   int i = 0;
   switch (option) {
   case OPTION_TURNING_SLACK:
-    *ok = slack(value, &o->length_slack);
+    *ok = slack(value, &options->length_slack);
     a->spelled = name = "--length-slack";
     break;
   case OPTION_TURNING_MINIMIZE:
@@ -43,17 +43,17 @@ bool turning_option(turning_args *a, int option, const char *value, bool *ok)
     break;
   case OPTION_TURNING_COST:
     *ok = cli_choose("plan", "--turn-cost", value, thr_turn_cost_name, THR_N_TURN_COSTS, &i);
-    if (*ok) o->cost = (thr_turn_cost)i;
+    if (*ok) options->cost = (thr_turn_cost)i;
     a->spelled = name = "--turn-cost";
     break;
   case OPTION_TURNING_TOUR:
     *ok = cli_choose("plan", "--tour", value, thr_tour_name, THR_N_TOURS, &i);
-    if (*ok) o->tour = (thr_tour)i;
+    if (*ok) options->tour = (thr_tour)i;
     name = "--tour";
     break;
   case OPTION_TURNING_PAIRINGS:
     *ok = cli_choose("plan", "--pairings", value, thr_pairings_name, 2, &i);
-    o->ignore_pairings = i == 1;
+    options->ignore_pairings = i == 1;
     a->pairings = true;
     name = "--pairings";
     break;
@@ -75,12 +75,12 @@ bool turning_option(turning_args *a, int option, const char *value, bool *ok)
 /* What would be ignored is refused. */
 int turning_args_check(const turning_args *a, const thr_plan_options *wanted)
 {
-  const thr_turning_options *o = &a->options;
+  const thr_turning_options *options = &a->options;
   if (!thr_wants_turning(wanted) && a->given) return cli_usage("plan", "%s needs --objective tortuosity", a->given);
-  if (o->tour == THR_TOUR_LEAST)
+  if (options->tour == THR_TOUR_LEAST)
     return a->pairings ? cli_usage("plan", "--pairings is for --tour fleury and --tour hierholzer") : -1;
-  const char *tour = thr_tour_name(o->tour);
-  if (o->length_slack > 0) return cli_usage("plan", "--tour %s takes the shortest passes: no --length-slack but 0", tour);
+  const char *tour = thr_tour_name(options->tour);
+  if (options->length_slack > 0) return cli_usage("plan", "--tour %s takes the shortest passes: no --length-slack but 0", tour);
   if (a->largest) return cli_usage("plan", "--tour %s minimizes nothing: no --minimize max-turning", tour);
   if (a->frontier) return cli_usage("plan", "--tour %s minimizes nothing: no --frontier", tour);
   return -1;

@@ -30,149 +30,151 @@ static const struct option table[] = {
     CLI_COMMON_OPTIONS, GUARD_OPTIONS, {"json", no_argument, NULL, OPTION_JSON}, {NULL, 0, NULL, 0}};
 
 /* Of a plan for the least turning, whether its length is the shortest or not: that is another claim. */
-static void put_turning(thr_text *t, const thr_plan *p)
+static void put_turning(thr_text *text, const thr_plan *plan)
 {
-  const thr_turning_claim *c = &p->turning;
-  int branchings = c->tree.n_nodes / 2;
-  const char *cost = thr_turn_cost_name(p->options.turning.cost);
-  bool angles = p->options.turning.cost == THR_TURN_ANGLE;
-  if (!thr_wants_turning(&p->options)) return;
-  thr_text_printf(t, "; turning %.3f deg: ", thr_degrees(p->metrics.turning));
-  if (!c->present) {
-    thr_text_append(t, "no claim of optimality");
+  const thr_turning_claim *claim = &plan->turning;
+  int branchings = claim->tree.n_nodes / 2;
+  const char *cost = thr_turn_cost_name(plan->options.turning.cost);
+  bool angles = plan->options.turning.cost == THR_TURN_ANGLE;
+  if (!thr_wants_turning(&plan->options)) return;
+  thr_text_printf(text, "; turning %.3f deg: ", thr_degrees(plan->metrics.turning));
+  if (!claim->present) {
+    thr_text_append(text, "no claim of optimality");
     return;
   }
-  if (!angles) thr_text_printf(t, "price %.9g (%s), ", c->price, cost);
-  if (c->optimal)
-    thr_text_append(t, "optimal, proof verified");
+  if (!angles) thr_text_printf(text, "price %.9g (%s), ", claim->price, cost);
+  if (claim->optimal)
+    thr_text_append(text, "optimal, proof verified");
   else
-    thr_text_printf(t, "lower bound %.*f verified, gap %.3g %%", angles ? 3 : 6,
-                    angles ? thr_degrees(c->lower_bound) : c->lower_bound, 100 * c->gap);
-  thr_text_printf(t, " (%d %s", branchings, cli_plural(branchings, "branching", "branchings"));
-  thr_text_append(t, ")");
-  if (c->largest_optimal && p->n_cords > 1) thr_text_append(t, "; largest cord: bound attained");
+    thr_text_printf(text, "lower bound %.*f verified, gap %.3g %%", angles ? 3 : 6,
+                    angles ? thr_degrees(claim->lower_bound) : claim->lower_bound, 100 * claim->gap);
+  thr_text_printf(text, " (%d %s", branchings, cli_plural(branchings, "branching", "branchings"));
+  thr_text_append(text, ")");
+  if (claim->largest_optimal && plan->n_cords > 1) thr_text_append(text, "; largest cord: bound attained");
 }
 
-static void put_symmetry(thr_text *t, const thr_plan *p)
+static void put_symmetry(thr_text *text, const thr_plan *plan)
 {
-  const thr_symmetry_record *s = &p->symmetry;
-  if (!s->present) return;
-  thr_text_printf(t, "; group %s%sof order %d, %d unique %s, %g learned steps, verified", s->name, s->name[0] ? " " : "",
-                  s->order, s->unique_paths, cli_plural(s->unique_paths, "path", "paths"), s->steps);
+  const thr_symmetry_record *record = &plan->symmetry;
+  if (!record->present) return;
+  thr_text_printf(text, "; group %s%sof order %d, %d unique %s, %g learned steps, verified", record->name,
+                  record->name[0] ? " " : "", record->order, record->unique_paths,
+                  cli_plural(record->unique_paths, "path", "paths"), record->steps);
 }
 
 /* What was verified of several cords, where the plan asked for it. */
-static void put_cords(thr_text *t, const thr_plan *p)
+static void put_cords(thr_text *text, const thr_plan *plan)
 {
-  const thr_cords_claim *c = &p->cords_claim;
-  if (c->present && thr_wants_balance(&p->options)) {
-    thr_text_printf(t, "; longest cord %.6f %s: ", c->longest, p->frame.units);
-    if (c->longest_optimal)
-      thr_text_append(t, "optimal, verified");
+  const thr_cords_claim *claim = &plan->cords_claim;
+  if (claim->present && thr_wants_balance(&plan->options)) {
+    thr_text_printf(text, "; longest cord %.6f %s: ", claim->longest, plan->frame.units);
+    if (claim->longest_optimal)
+      thr_text_append(text, "optimal, verified");
     else
-      thr_text_printf(t, "lower bound %.6f verified, gap %.3g %%", c->longest_bound,
-                      100 * (c->longest - c->longest_bound) / c->longest);
+      thr_text_printf(text, "lower bound %.6f verified, gap %.3g %%", claim->longest_bound,
+                      100 * (claim->longest - claim->longest_bound) / claim->longest);
   }
-  if (c->present && c->fewest > 0)
-    thr_text_printf(t, c->fewest_optimal ? "; no fewer than %d cords, verified" : "; at least %d cords, verified", c->fewest);
-  if (p->options.joint == THR_JOINT_TUBE) thr_text_append(t, "; every joint tied");
+  if (claim->present && claim->fewest > 0)
+    thr_text_printf(text, claim->fewest_optimal ? "; no fewer than %d cords, verified" : "; at least %d cords, verified",
+                    claim->fewest);
+  if (plan->options.joint == THR_JOINT_TUBE) thr_text_append(text, "; every joint tied");
 }
 
-static void put_verdict(thr_text *t, const char *path, const thr_plan *p)
+static void put_verdict(thr_text *text, const char *path, const thr_plan *plan)
 {
-  const thr_metrics *m = &p->metrics;
-  const char *units = p->frame.units;
-  int cuts = thr_length_proof_cuts(&p->proof);
-  thr_text_append_clean(t, path);
-  thr_text_printf(t, ": %d %s, %d passes, every edge covered, length %.6f %s: ", p->n_cords,
-                  cli_plural(p->n_cords, "cord", "cords"), m->passes, m->length, units);
-  if (!p->proof.present)
-    thr_text_append(t, "no claim of optimality");
-  else if (p->proof.optimal)
-    thr_text_printf(t, "optimal, certificate verified (%d %s)", cuts, cli_cuts_word(p, cuts));
+  const thr_metrics *metrics = &plan->metrics;
+  const char *units = plan->frame.units;
+  int cuts = thr_length_proof_cuts(&plan->proof);
+  thr_text_append_clean(text, path);
+  thr_text_printf(text, ": %d %s, %d passes, every edge covered, length %.6f %s: ", plan->n_cords,
+                  cli_plural(plan->n_cords, "cord", "cords"), metrics->passes, metrics->length, units);
+  if (!plan->proof.present)
+    thr_text_append(text, "no claim of optimality");
+  else if (plan->proof.optimal)
+    thr_text_printf(text, "optimal, certificate verified (%d %s)", cuts, cli_cuts_word(plan, cuts));
   else
-    thr_text_printf(t, "lower bound %.6f verified, gap %.3g %%", p->proof.lower_bound, 100 * p->proof.gap);
-  put_cords(t, p);
-  put_turning(t, p);
-  put_symmetry(t, p);
-  thr_text_append(t, "\n");
-  terms_put(t, p);
+    thr_text_printf(text, "lower bound %.6f verified, gap %.3g %%", plan->proof.lower_bound, 100 * plan->proof.gap);
+  put_cords(text, plan);
+  put_turning(text, plan);
+  put_symmetry(text, plan);
+  thr_text_append(text, "\n");
+  terms_put(text, plan);
 }
 
-static void put_turning_json(thr_writer *w, const thr_plan *p)
+static void put_turning_json(thr_writer *writer, const thr_plan *plan)
 {
-  const thr_turning_claim *c = &p->turning;
-  thr_write_number(w, "turning", p->metrics.turning);
-  if (!c->present) return;
-  thr_write_string(w, "turning_status", c->optimal ? "optimal" : "bound");
-  thr_write_number(w, "price", c->price);
-  thr_write_number(w, "price_lower_bound", c->lower_bound);
-  thr_write_number(w, "turning_gap", c->gap);
-  if (c->length_limit >= 0) thr_write_number(w, "length_limit", c->length_limit);
+  const thr_turning_claim *claim = &plan->turning;
+  thr_write_number(writer, "turning", plan->metrics.turning);
+  if (!claim->present) return;
+  thr_write_string(writer, "turning_status", claim->optimal ? "optimal" : "bound");
+  thr_write_number(writer, "price", claim->price);
+  thr_write_number(writer, "price_lower_bound", claim->lower_bound);
+  thr_write_number(writer, "turning_gap", claim->gap);
+  if (claim->length_limit >= 0) thr_write_number(writer, "length_limit", claim->length_limit);
 }
 
-static void put_cords_json(thr_writer *w, const thr_cords_claim *c)
+static void put_cords_json(thr_writer *writer, const thr_cords_claim *claim)
 {
-  thr_write_number(w, "longest", c->longest);
-  thr_write_number(w, "longest_lower_bound", c->longest_bound);
-  if (c->fewest > 0) thr_write_int(w, "fewest_cords", c->fewest);
+  thr_write_number(writer, "longest", claim->longest);
+  thr_write_number(writer, "longest_lower_bound", claim->longest_bound);
+  if (claim->fewest > 0) thr_write_int(writer, "fewest_cords", claim->fewest);
 }
 
-static void put_symmetry_json(thr_writer *w, const thr_symmetry_record *s)
+static void put_symmetry_json(thr_writer *writer, const thr_symmetry_record *record)
 {
-  thr_write_int(w, "group_order", s->order);
-  thr_write_int(w, "unique_paths", s->unique_paths);
-  thr_write_number(w, "learned_steps", s->steps);
+  thr_write_int(writer, "group_order", record->order);
+  thr_write_int(writer, "unique_paths", record->unique_paths);
+  thr_write_number(writer, "learned_steps", record->steps);
 }
 
-static void put_claims_json(thr_writer *w, const thr_plan *p)
+static void put_claims_json(thr_writer *writer, const thr_plan *plan)
 {
-  thr_write_number(w, "length", p->metrics.length);
-  if (p->proof.present) {
-    thr_write_string(w, "status", p->proof.optimal ? "optimal" : "bound");
-    thr_write_number(w, "lower_bound", p->proof.lower_bound);
-    thr_write_number(w, "gap", p->proof.gap);
+  thr_write_number(writer, "length", plan->metrics.length);
+  if (plan->proof.present) {
+    thr_write_string(writer, "status", plan->proof.optimal ? "optimal" : "bound");
+    thr_write_number(writer, "lower_bound", plan->proof.lower_bound);
+    thr_write_number(writer, "gap", plan->proof.gap);
   }
-  if (p->cords_claim.present) put_cords_json(w, &p->cords_claim);
-  if (thr_wants_turning(&p->options)) put_turning_json(w, p);
-  if (p->symmetry.present) put_symmetry_json(w, &p->symmetry);
-  terms_put_json(w, p);
+  if (plan->cords_claim.present) put_cords_json(writer, &plan->cords_claim);
+  if (thr_wants_turning(&plan->options)) put_turning_json(writer, plan);
+  if (plan->symmetry.present) put_symmetry_json(writer, &plan->symmetry);
+  terms_put_json(writer, plan);
 }
 
-static void put_json(thr_text *t, const char *path, const thr_plan *p, const thr_err *err)
+static void put_json(thr_text *text, const char *path, const thr_plan *plan, const thr_err *err)
 {
-  thr_writer w = {.out = t};
-  thr_write_object(&w, NULL);
-  thr_write_string(&w, "plan", path);
-  thr_write_bool(&w, "ok", !err->code);
+  thr_writer writer = {.out = text};
+  thr_write_object(&writer, NULL);
+  thr_write_string(&writer, "plan", path);
+  thr_write_bool(&writer, "ok", !err->code);
   if (err->code)
-    thr_write_string(&w, err->code == THR_EVIOLATED ? "violation" : "error", err->text);
+    thr_write_string(&writer, err->code == THR_EVIOLATED ? "violation" : "error", err->text);
   else
-    put_claims_json(&w, p);
-  thr_write_close(&w);
-  thr_text_append(t, "\n");
+    put_claims_json(&writer, plan);
+  thr_write_close(&writer);
+  thr_text_append(text, "\n");
 }
 
 static int check_one(const char *path, bool json)
 {
-  thr_plan p;
-  thr_text t = {0};
+  thr_plan plan;
+  thr_text text = {0};
   thr_err err = {0}, found = {0};
   const char *name = strcmp(path, "-") == 0 ? "stdin" : path;
-  thr_status st = thr_plan_read(&p, path, &err);
-  if (!st && (st = thr_check_plan(&p, &found))) thr_fail(&err, st, "%s: %s", name, found.text);
+  thr_status st = thr_plan_read(&plan, path, &err);
+  if (!st && (st = thr_check_plan(&plan, &found))) thr_fail(&err, st, "%s: %s", name, found.text);
   int code = st == THR_OK ? EXIT_OK : EXIT_VIOLATION;
   if (st && st != THR_EVIOLATED) code = cli_fail(&err);
   if (json)
-    put_json(&t, name, &p, &err);
+    put_json(&text, name, &plan, &err);
   else if (code > EXIT_VIOLATION)
     ; /* said already */
   else if (st)
     cli_error("%s", err.text);
   else if (!cli_quiet)
-    put_verdict(&t, name, &p);
-  thr_plan_destroy(&p);
-  int written = cli_write(&t, "-");
+    put_verdict(&text, name, &plan);
+  thr_plan_destroy(&plan);
+  int written = cli_write(&text, "-");
   return code ? code : written;
 }
 

@@ -58,7 +58,7 @@ static bool wanted(const pull_args *a, thr_method i)
 /* Fills value and interval of plan i; leaves it unknown if it is. */
 static void rank_plan(ranking *r, int by, const entry *e, int i)
 {
-  const thr_holding *h = &e->eval[THR_STRUCTURE].holding;
+  const thr_holding *holding = &e->eval[THR_STRUCTURE].holding;
   double rough = e->index[0], fine = e->index[1];
   switch (by) {
   case CAPSTAN:
@@ -73,7 +73,7 @@ static void rank_plan(ranking *r, int by, const entry *e, int i)
     break;
   case HOLDING:
     r->value[i] = r->low[i] = compare_largest(e, THR_STRUCTURE);
-    r->high[i] = h->upper >= h->lower ? h->upper : INFINITY;
+    r->high[i] = holding->upper >= holding->lower ? holding->upper : INFINITY;
     break;
   default:
     r->value[i] = isnan(fine) ? NAN : rough;
@@ -131,32 +131,32 @@ static bool find_disagreement(const ranking *r, int count, int which[2], int pai
   return false;
 }
 
-static void put_agreement(const ranking *r, int count, const char *const *name, thr_text *t)
+static void put_agreement(const ranking *r, int count, const char *const *name, thr_text *text)
 {
   int which[2], pair[2];
   if (count < 2) return;
   if (find_disagreement(r, count, which, pair))
-    thr_text_printf(t, "the rankings disagree: %s needs less than %s by %s, more by %s\n", name[pair[0]], name[pair[1]],
+    thr_text_printf(text, "the rankings disagree: %s needs less than %s by %s, more by %s\n", name[pair[0]], name[pair[1]],
                     r[which[0]].key, r[which[1]].key);
   else
-    thr_text_append(t, "the rankings agree, ties aside\n");
+    thr_text_append(text, "the rankings agree, ties aside\n");
 }
 
 /* ---- output ---- */
 
-static void put_head(thr_text *t, const entry *e, int n)
+static void put_head(thr_text *text, const entry *e, int n)
 {
-  thr_text_printf(t, "%-32s", "");
+  thr_text_printf(text, "%-32s", "");
   for (int i = 0; i < n; i++) {
     size_t letters = strlen(e[i].path);
-    thr_text_printf(t, letters > 16 ? " ..%s " : " %16s ", letters > 16 ? e[i].path + letters - 14 : e[i].path);
+    thr_text_printf(text, letters > 16 ? " ..%s " : " %16s ", letters > 16 ? e[i].path + letters - 14 : e[i].path);
   }
-  thr_text_printf(t, "\n%-32s", "objective");
+  thr_text_printf(text, "\n%-32s", "objective");
   for (int i = 0; i < n; i++)
-    thr_text_printf(t, " %16s ", thr_objective_name(thr_aims_objective(&e[i].plan.options)));
-  thr_text_printf(t, "\n%-32s", "ends");
+    thr_text_printf(text, " %16s ", thr_objective_name(thr_aims_objective(&e[i].plan.options)));
+  thr_text_printf(text, "\n%-32s", "ends");
   for (int i = 0; i < n; i++)
-    thr_text_printf(t, " %16s ", thr_ends_name(e[i].plan.options.ends));
+    thr_text_printf(text, " %16s ", thr_ends_name(e[i].plan.options.ends));
 }
 
 static bool same_physics(const thr_physics *a, const thr_physics *b)
@@ -166,71 +166,73 @@ static bool same_physics(const thr_physics *a, const thr_physics *b)
   return true;
 }
 
-static void put_text(thr_text *t, const pull_args *a, const entry *e, int n, const ranking *r, int count, const char *const *name)
+static void put_text(thr_text *text, const pull_args *a, const entry *e, int n, const ranking *r, int count,
+                     const char *const *name)
 {
   const thr_physics *first = &e[0].eval[THR_CAPSTAN].record.physics;
   bool same = true;
-  put_head(t, e, n);
+  put_head(text, e, n);
   for (int k = 0; k < compare_n_rows; k++) {
     if (!wanted(a, compare_rows[k].method) || !compare_is_shown(e, n, &compare_rows[k])) continue;
-    thr_text_printf(t, "\n%-32s", compare_rows[k].label);
+    thr_text_printf(text, "\n%-32s", compare_rows[k].label);
     for (int i = 0; i < n; i++)
-      compare_put_cell(t, &compare_rows[k], compare_rows[k].value(&e[i]), compare_is_best(e, n, &compare_rows[k], i));
+      compare_put_cell(text, &compare_rows[k], compare_rows[k].value(&e[i]), compare_is_best(e, n, &compare_rows[k], i));
   }
   for (int i = 1; i < n; i++)
     same = same && same_physics(first, &e[i].eval[THR_CAPSTAN].record.physics);
-  thr_text_printf(t, "\n\n* best of the row. Pull: seating tension %g N, pulled at: %s, mu = ", first->seating, a->pull);
+  thr_text_printf(text, "\n\n* best of the row. Pull: seating tension %g N, pulled at: %s, mu = ", first->seating, a->pull);
   if (same)
-    thr_text_printf(t, "%g\n", first->mu);
+    thr_text_printf(text, "%g\n", first->mu);
   else
-    thr_text_append(t, "each plan's own\n");
+    thr_text_append(text, "each plan's own\n");
   if (n < 2) return;
-  thr_text_append(t, "\n");
+  thr_text_append(text, "\n");
   for (int k = 0; k < count; k++)
-    ranking_put_text(&r[k], name, t);
-  put_agreement(r, count, name, t);
+    ranking_put_text(&r[k], name, text);
+  put_agreement(r, count, name, text);
 }
 
-static void put_plan_json(thr_writer *w, const pull_args *a, const entry *e, int n, int i)
+static void put_plan_json(thr_writer *writer, const pull_args *a, const entry *e, int n, int i)
 {
-  thr_write_line(w, 1);
-  thr_write_object(w, NULL);
-  thr_write_string(w, "plan", e[i].path);
-  thr_write_hash(w, "framework", thr_frame_hash(&e[i].plan.frame));
-  thr_write_string(w, "objective", thr_objective_name(thr_aims_objective(&e[i].plan.options)));
-  thr_write_string(w, "ends", thr_ends_name(e[i].plan.options.ends));
-  thr_physics_write(&e[i].eval[THR_CAPSTAN].record.physics, w, "physics");
+  thr_write_line(writer, 1);
+  thr_write_object(writer, NULL);
+  thr_write_string(writer, "plan", e[i].path);
+  thr_write_hash(writer, "framework", thr_frame_hash(&e[i].plan.frame));
+  thr_write_string(writer, "objective", thr_objective_name(thr_aims_objective(&e[i].plan.options)));
+  thr_write_string(writer, "ends", thr_ends_name(e[i].plan.options.ends));
+  thr_physics_write(&e[i].eval[THR_CAPSTAN].record.physics, writer, "physics");
   for (int k = 0; k < compare_n_rows; k++)
-    if (wanted(a, compare_rows[k].method)) thr_write_number(w, compare_rows[k].key, compare_rows[k].value(&e[i]));
-  thr_write_array(w, "best");
+    if (wanted(a, compare_rows[k].method)) thr_write_number(writer, compare_rows[k].key, compare_rows[k].value(&e[i]));
+  thr_write_array(writer, "best");
   for (int k = 0; k < compare_n_rows; k++)
-    if (compare_is_best(e, n, &compare_rows[k], i)) thr_write_string(w, NULL, compare_rows[k].key);
-  thr_write_close(w);
-  thr_write_close(w);
+    if (compare_is_best(e, n, &compare_rows[k], i)) thr_write_string(writer, NULL, compare_rows[k].key);
+  thr_write_close(writer);
+  thr_write_close(writer);
 }
 
-static void put_json(thr_text *t, const pull_args *a, const entry *e, int n, const ranking *r, int count, const char *const *name)
+static void put_json(thr_text *text, const pull_args *a, const entry *e, int n, const ranking *r, int count,
+                     const char *const *name)
 {
   int which[2], pair[2];
-  thr_writer w = {.out = t};
-  thr_write_object(&w, NULL);
-  thr_write_array(&w, "plans");
+  thr_writer writer = {.out = text};
+  thr_write_object(&writer, NULL);
+  thr_write_array(&writer, "plans");
   for (int i = 0; i < n; i++)
-    put_plan_json(&w, a, e, n, i);
-  thr_write_line(&w, 0);
-  thr_write_close(&w);
-  thr_write_line(&w, 0);
-  thr_write_array(&w, "rankings");
+    put_plan_json(&writer, a, e, n, i);
+  thr_write_line(&writer, 0);
+  thr_write_close(&writer);
+  thr_write_line(&writer, 0);
+  thr_write_array(&writer, "rankings");
   for (int k = 0; k < count; k++) {
-    thr_write_line(&w, 1);
-    ranking_put_json(&r[k], name, &w);
+    thr_write_line(&writer, 1);
+    ranking_put_json(&r[k], name, &writer);
   }
-  thr_write_line(&w, 0);
-  thr_write_close(&w);
-  thr_write_line(&w, 0);
-  thr_write_bool(&w, "agree", !find_disagreement(r, count, which, pair));
-  thr_write_close(&w);
-  thr_text_append(t, "\n");
+  thr_write_line(&writer, 0);
+  thr_write_close(&writer);
+  thr_write_line(&writer, 0);
+  thr_write_bool(&writer, "agree", !find_disagreement(r, count, which, pair));
+  thr_write_close(&writer);
+  thr_text_append(text, "\n");
 }
 
 /* ---- work ---- */
@@ -285,31 +287,31 @@ static thr_status settle_plan(void *user, int job, void *result, thr_err *err)
 {
   const simulation *s = user;
   const entry *e = &s->e[s->plan[job / 2]];
-  const thr_evaluation *r = &e->eval[THR_STRUCTURE].record;
-  const thr_settle_options o = {.start = s->start,
-                                .time_step = s->args->options.time_step * (job & 1 ? 0.5 : 1),
-                                .iterations = s->args->options.iterations * (job & 1 ? 2 : 1),
-                                .seed = s->args->options.seed};
-  thr_beads b = {0};
+  const thr_evaluation *evaluation = &e->eval[THR_STRUCTURE].record;
+  const thr_settle_options options = {.start = s->start,
+                                      .time_step = s->args->options.time_step * (job & 1 ? 0.5 : 1),
+                                      .iterations = s->args->options.iterations * (job & 1 ? 2 : 1),
+                                      .seed = s->args->options.seed};
+  thr_beads beads = {0};
   thr_settle out = {0};
-  double **tension = thr_calloc((size_t)r->n_cords, sizeof *tension);
-  thr_status st = tension ? thr_beads_make(&e->plan.frame, &r->physics, &b, err) : thr_nomem(err);
-  for (int i = 0; i < r->n_cords && !st; i++) { /* of a pull of 1 */
-    if (!(tension[i] = thr_calloc((size_t)r->cord[i].n_passes, sizeof **tension))) st = thr_nomem(err);
-    for (int k = 0; k < r->cord[i].n_passes && !st; k++)
-      tension[i][k] = r->cord[i].tension[k] / r->cord[i].force;
+  double **tension = thr_calloc((size_t)evaluation->n_cords, sizeof *tension);
+  thr_status st = tension ? thr_beads_make(&e->plan.frame, &evaluation->physics, &beads, err) : thr_nomem(err);
+  for (int i = 0; i < evaluation->n_cords && !st; i++) { /* of a pull of 1 */
+    if (!(tension[i] = thr_calloc((size_t)evaluation->cord[i].n_passes, sizeof **tension))) st = thr_nomem(err);
+    for (int k = 0; k < evaluation->cord[i].n_passes && !st; k++)
+      tension[i][k] = evaluation->cord[i].tension[k] / evaluation->cord[i].force;
   }
   if (!st)
-    st = thr_settle_run(&b, &e->plan.frame, e->plan.cord, r->n_cords, (const double *const *)tension, &r->physics, &o, s->limits,
-                        &out, err);
-  thr_settle_judge(&out, o.start, e->eval[THR_STRUCTURE].holding.upper);
+    st = thr_settle_run(&beads, &e->plan.frame, e->plan.cord, evaluation->n_cords, (const double *const *)tension,
+                        &evaluation->physics, &options, s->limits, &out, err);
+  thr_settle_judge(&out, options.start, e->eval[THR_STRUCTURE].holding.upper);
   bool known = out.status == THR_SETTLE_FELL || out.status == THR_SETTLE_HELD;
   *(double *)result = st ? NAN : known ? out.index : out.status == THR_SETTLE_CREPT ? CREPT : NAN;
   thr_settle_destroy(&out);
-  for (int i = 0; i < r->n_cords && tension; i++)
+  for (int i = 0; i < evaluation->n_cords && tension; i++)
     free(tension[i]);
   free(tension);
-  thr_beads_destroy(&b);
+  thr_beads_destroy(&beads);
   return st;
 }
 
@@ -379,7 +381,7 @@ static int settle(const pull_args *a, entry *e, int n)
 static int print(const pull_args *a, const entry *e, int n)
 {
   thr_err err = {0};
-  thr_text t = {0};
+  thr_text text = {0};
   ranking r[N_RANKINGS] = {{0}};
   int count = 0;
   const char **name = thr_calloc((size_t)n, sizeof *name);
@@ -387,12 +389,12 @@ static int print(const pull_args *a, const entry *e, int n)
   if (!st) {
     for (int i = 0; i < n; i++)
       name[i] = e[i].path;
-    (a->json ? put_json : put_text)(&t, a, e, n, r, count, name);
+    (a->json ? put_json : put_text)(&text, a, e, n, r, count, name);
   }
   for (int i = 0; i < N_RANKINGS; i++)
     ranking_destroy(&r[i]);
   free(name);
-  return st ? cli_fail(&err) : cli_write(&t, "-");
+  return st ? cli_fail(&err) : cli_write(&text, "-");
 }
 
 static int compare(const pull_args *a, char **path, int n, entry *e)

@@ -70,7 +70,7 @@ static bool is_misnamed(const char *output, int type)
 }
 
 /* One document to output, a file, a folder or NULL. */
-static int draw_one(const thr_plan *p, int type, const char *output, const drawings_args *a)
+static int draw_one(const thr_plan *plan, int type, const char *output, const drawings_args *a)
 {
   char inside[1200];
   int code = EXIT_OK;
@@ -79,7 +79,7 @@ static int draw_one(const thr_plan *p, int type, const char *output, const drawi
     code = cli_in_folder(output, drawings_file(type), inside, sizeof inside);
     output = inside;
   }
-  return code ? code : drawings_write(p, type, output, a);
+  return code ? code : drawings_write(plan, type, output, a);
 }
 
 int cmd_draw(int argc, char **argv)
@@ -109,16 +109,16 @@ int cmd_draw(int argc, char **argv)
     return cli_usage("draw", "%s: --type %s makes %s; say which type", output, type_name(type), drawings_file(type));
   if (optind + 1 != argc) return cli_usage("draw", optind == argc ? "which plan?" : "one plan at a time");
   if (guard_fork(&guard, &end)) return guard_conclude(&end, all ? "not all documents are drawn" : "nothing is drawn");
-  thr_plan p;
-  int code = cli_read_plan(argv[optind], &p);
+  thr_plan plan;
+  int code = cli_read_plan(argv[optind], &plan);
   if (code) return code;
   if (all) {
     char names[DRAWINGS_NAMES];
-    drawings_names(&p, &a, names);
-    code = drawings_write_all(&p, output ? output : ".", &a);
+    drawings_names(&plan, &a, names);
+    code = drawings_write_all(&plan, output ? output : ".", &a);
     if (!code && !output) cli_note("drawn in the current folder: %s", names);
   } else
-    code = draw_one(&p, type, output, &a);
-  thr_plan_destroy(&p);
+    code = draw_one(&plan, type, output, &a);
+  thr_plan_destroy(&plan);
   return code;
 }

@@ -104,34 +104,36 @@ static int parse(int argc, char **argv, arguments *a)
 
 /* ---- text ---- */
 
-static const char *method_words(const thr_evaluation *r, bool refused)
+static const char *method_words(const thr_evaluation *evaluation, bool refused)
 {
-  switch (r->method) {
+  switch (evaluation->method) {
   case THR_JOINT:
     return refused ? "joints measured in simulation, some turns by closed form, composed along the path of the tight cord"
                    : "joints measured in simulation, composed along the path of the tight cord";
   case THR_STRUCTURE: return "structure: least pull at which rigid beads can stand while the cord is drawn in (limit analysis)";
   default:
-    return r->law == THR_LAW_MITRE ? "mitred beads, closed form; --method joint measures joints in simulation"
-                                   : "capstan law, closed form; --method joint measures joints in simulation";
+    return evaluation->law == THR_LAW_MITRE ? "mitred beads, closed form; --method joint measures joints in simulation"
+                                            : "capstan law, closed form; --method joint measures joints in simulation";
   }
 }
 
-static void put_heading(thr_text *t, const thr_evaluation *r, bool refused, const char *pulled)
+static void put_heading(thr_text *text, const thr_evaluation *evaluation, bool refused, const char *pulled)
 {
-  const thr_physics *p = &r->physics;
-  thr_text_printf(t, "%s\nmu = %g (band %g to %g), ", method_words(r, refused), p->mu, p->mu_low, p->mu_high);
-  if (r->method == THR_STRUCTURE) {
-    thr_text_printf(t, "bead on bead %g, foot on ground %g, ", p->mu_bead, p->mu_ground);
-    if (p->bead_mass > 0)
-      thr_text_printf(t, "beads of %g g, ", p->bead_mass);
+  const thr_physics *physics = &evaluation->physics;
+  thr_text_printf(text, "%s\nmu = %g (band %g to %g), ", method_words(evaluation, refused), physics->mu, physics->mu_low,
+                  physics->mu_high);
+  if (evaluation->method == THR_STRUCTURE) {
+    thr_text_printf(text, "bead on bead %g, foot on ground %g, ", physics->mu_bead, physics->mu_ground);
+    if (physics->bead_mass > 0)
+      thr_text_printf(text, "beads of %g g, ", physics->bead_mass);
     else
-      thr_text_printf(t, "density %g g/cm3, ", p->density);
+      thr_text_printf(text, "density %g g/cm3, ", physics->density);
   } else {
-    thr_text_printf(t, "seating tension %g N, ", p->seating);
+    thr_text_printf(text, "seating tension %g N, ", physics->seating);
   }
-  if (r->method == THR_JOINT) thr_text_printf(t, "cord %.4g mm in bores of %.4g mm, ", p->cord_diameter, p->bore);
-  thr_text_printf(t, "pulled at: %s\n\n", pulled);
+  if (evaluation->method == THR_JOINT)
+    thr_text_printf(text, "cord %.4g mm in bores of %.4g mm, ", physics->cord_diameter, physics->bore);
+  thr_text_printf(text, "pulled at: %s\n\n", pulled);
 }
 
 /* Measured numbers get fewer digits. */
@@ -140,398 +142,406 @@ static int digits(thr_method method)
   return method == THR_JOINT ? 4 : 6;
 }
 
-static void put_cell(thr_text *t, int width, int n_digits, double value, bool there)
+static void put_cell(thr_text *text, int width, int n_digits, double value, bool there)
 {
   char cell[40] = "-";
   if (there) snprintf(cell, sizeof cell, "%.*g", n_digits, value);
-  thr_text_printf(t, " %*s", width, cell);
+  thr_text_printf(text, " %*s", width, cell);
 }
 
 /* What would round to all of it is not all of it. */
-static void put_loss(thr_text *t, double loss)
+static void put_loss(thr_text *text, double loss)
 {
   if (loss >= 0.99995 && loss < 1)
-    thr_text_append(t, "  >99.99 %");
+    thr_text_append(text, "  >99.99 %");
   else
-    thr_text_printf(t, " %7.2f %%", 100 * loss);
+    thr_text_printf(text, " %7.2f %%", 100 * loss);
 }
 
 /* The error of the turns that were measured; if there are others, the pull's is more. */
-static void put_error(thr_text *t, const thr_eval_cord *c)
+static void put_error(thr_text *text, const thr_eval_cord *cord)
 {
   char cell[40];
-  snprintf(cell, sizeof cell, "%s%.2f", c->refused > 0 ? ">" : "", pull_percent(c->error));
-  thr_text_printf(t, " %6s %%", cell);
+  snprintf(cell, sizeof cell, "%s%.2f", cord->refused > 0 ? ">" : "", pull_percent(cord->error));
+  thr_text_printf(text, " %6s %%", cell);
 }
 
-static void put_cord(thr_text *t, const char *id, const thr_eval_cord *c, thr_method method)
+static void put_cord(thr_text *text, const char *id, const thr_eval_cord *cord, thr_method method)
 {
-  thr_text_printf(t, "%-5s %8.1f deg", id, thr_degrees(c->turning));
-  if (method == THR_JOINT) thr_text_printf(t, " %8.1f deg", thr_degrees(c->taut_turning));
-  put_cell(t, 12, digits(method), c->force, true);
-  put_cell(t, 13, digits(method), c->other_force, c->pull == THR_PULL_BOTH);
-  put_loss(t, c->loss);
-  thr_text_printf(t, " %10.4g J", c->work);
-  if (method == THR_JOINT) put_error(t, c);
-  thr_text_printf(t, "  %d of %d\n", c->slackest + 1, c->n_passes);
+  thr_text_printf(text, "%-5s %8.1f deg", id, thr_degrees(cord->turning));
+  if (method == THR_JOINT) thr_text_printf(text, " %8.1f deg", thr_degrees(cord->taut_turning));
+  put_cell(text, 12, digits(method), cord->force, true);
+  put_cell(text, 13, digits(method), cord->other_force, cord->pull == THR_PULL_BOTH);
+  put_loss(text, cord->loss);
+  thr_text_printf(text, " %10.4g J", cord->work);
+  if (method == THR_JOINT) put_error(text, cord);
+  thr_text_printf(text, "  %d of %d\n", cord->slackest + 1, cord->n_passes);
 }
 
-static void put_cords(thr_text *t, const thr_plan *p, const thr_evaluation *r)
+static void put_cords(thr_text *text, const thr_plan *plan, const thr_evaluation *evaluation)
 {
-  bool joint = r->method == THR_JOINT;
-  thr_text_printf(t, "%-5s %12s%s %12s %13s %9s %12s%s  %s\n", "cord", "turning", joint ? "    when tight" : "", "pull (N)",
+  bool joint = evaluation->method == THR_JOINT;
+  thr_text_printf(text, "%-5s %12s%s %12s %13s %9s %12s%s  %s\n", "cord", "turning", joint ? "    when tight" : "", "pull (N)",
                   "other end (N)", "loss", "work per m", joint ? "   error +-" : "", "slackest pass");
-  for (int i = 0; i < r->n_cords; i++) {
-    if (r->cord[i].known)
-      put_cord(t, p->cord[i].id, &r->cord[i], r->method);
+  for (int i = 0; i < evaluation->n_cords; i++) {
+    if (evaluation->cord[i].known)
+      put_cord(text, plan->cord[i].id, &evaluation->cord[i], evaluation->method);
     else
-      thr_text_printf(t, "%-5s not known: stopped before\n", p->cord[i].id);
+      thr_text_printf(text, "%-5s not known: stopped before\n", plan->cord[i].id);
   }
 }
 
-static void put_band_end(thr_text *t, const thr_evaluation *r, double end, bool unit)
+static void put_band_end(thr_text *text, const thr_evaluation *evaluation, double end, bool unit)
 {
-  bool mitre = r->method == THR_CAPSTAN && r->law == THR_LAW_MITRE;
+  bool mitre = evaluation->method == THR_CAPSTAN && evaluation->law == THR_LAW_MITRE;
   if (isfinite(end))
-    thr_text_printf(t, unit ? " %.4g N" : " %.4g", end);
+    thr_text_printf(text, unit ? " %.4g N" : " %.4g", end);
   else if (isnan(end))
-    thr_text_append(t, " not decided");
+    thr_text_append(text, " not decided");
   else
-    thr_text_append(t, r->method == THR_STRUCTURE ? " no pull holds" : mitre ? " no pull, by the mitre law" : " over 1e300 N");
+    thr_text_append(text, evaluation->method == THR_STRUCTURE ? " no pull holds"
+                          : mitre                             ? " no pull, by the mitre law"
+                                                              : " over 1e300 N");
 }
 
 /* The largest pull over the band of mu; an end of it may be past what a number can hold, or hold nothing at any pull. */
-static void put_band(thr_text *t, const thr_evaluation *r, const double band[2])
+static void put_band(thr_text *text, const thr_evaluation *evaluation, const double band[2])
 {
-  const thr_physics *p = &r->physics;
-  if (p->mu_low == p->mu_high) return;
-  thr_text_printf(t, "between mu %g and %g (%s):", p->mu_low, p->mu_high,
-                  r->method == THR_STRUCTURE ? "limit analysis" : "closed form");
+  const thr_physics *physics = &evaluation->physics;
+  if (physics->mu_low == physics->mu_high) return;
+  thr_text_printf(text, "between mu %g and %g (%s):", physics->mu_low, physics->mu_high,
+                  evaluation->method == THR_STRUCTURE ? "limit analysis" : "closed form");
   if (isnan(band[0]) && isnan(band[1])) {
-    thr_text_append(t, " not known\n");
+    thr_text_append(text, " not known\n");
     return;
   }
-  put_band_end(t, r, band[0], !isfinite(band[1]));
-  thr_text_append(t, " ..");
-  put_band_end(t, r, band[1], true);
-  thr_text_append(t, "\n");
+  put_band_end(text, evaluation, band[0], !isfinite(band[1]));
+  thr_text_append(text, " ..");
+  put_band_end(text, evaluation, band[1], true);
+  thr_text_append(text, "\n");
 }
 
-static void put_sums(thr_text *t, const thr_plan *p, const thr_eval *e)
+static void put_sums(thr_text *text, const thr_plan *plan, const thr_eval *eval)
 {
-  const thr_evaluation *r = &p->evaluation;
-  thr_text_printf(t, "\nlargest pull %.*g N, all pulls together %.*g N", digits(r->method), r->largest, digits(r->method),
-                  r->total);
-  if (e->refused)
-    thr_text_printf(t, ", error at least %.2f %%", pull_percent(e->error));
-  else if (e->error > 0)
-    thr_text_printf(t, ", error of each at most %.2f %%", pull_percent(e->error));
-  thr_text_append(t, "\n");
-  put_band(t, r, e->band);
-  if (!e->complete) {
-    thr_text_append(t, "stopped; not known: ");
-    pull_unknown_cords(p, r, t);
-    thr_text_append(t, "; the pulls above are those of the other cords\n");
+  const thr_evaluation *evaluation = &plan->evaluation;
+  thr_text_printf(text, "\nlargest pull %.*g N, all pulls together %.*g N", digits(evaluation->method), evaluation->largest,
+                  digits(evaluation->method), evaluation->total);
+  if (eval->refused)
+    thr_text_printf(text, ", error at least %.2f %%", pull_percent(eval->error));
+  else if (eval->error > 0)
+    thr_text_printf(text, ", error of each at most %.2f %%", pull_percent(eval->error));
+  thr_text_append(text, "\n");
+  put_band(text, evaluation, eval->band);
+  if (!eval->complete) {
+    thr_text_append(text, "stopped; not known: ");
+    pull_unknown_cords(plan, evaluation, text);
+    thr_text_append(text, "; the pulls above are those of the other cords\n");
   }
 }
 
-static int turns_of(const thr_plan *p)
+static int turns_of(const thr_plan *plan)
 {
   int n = 0;
-  for (int i = 0; i < p->n_cords; i++)
-    n += p->cord[i].n_passes - 1;
+  for (int i = 0; i < plan->n_cords; i++)
+    n += plan->cord[i].n_passes - 1;
   return n;
 }
 
-static void put_reason(thr_text *t, int n, const char *why)
+static void put_reason(thr_text *text, int n, const char *why)
 {
-  if (n) thr_text_printf(t, "  %d: %s\n", n, why);
+  if (n) thr_text_printf(text, "  %d: %s\n", n, why);
 }
 
-static void put_joint(thr_text *t, const thr_plan *p, const thr_eval *e)
+static void put_joint(thr_text *text, const thr_plan *plan, const thr_eval *eval)
 {
   char sharp[80];
   snprintf(sharp, sizeof sharp, "sharper than %.0f degrees, the sharpest that was validated", thr_degrees(thr_drag_largest_turn));
-  if (e->refused) thr_text_printf(t, "%d of %d turns by closed form, whose error is not known:\n", e->refused, turns_of(p));
-  put_reason(t, e->refused_sharp, sharp);
-  put_reason(t, e->refused_unsettled, "the cord did not slide steadily; try a smaller --time-step or more --iterations");
-  put_reason(t, e->refused_outside, "out of the simulation's range; try a wider --bore or a smaller --mu");
-  if (e->interpolation > 0)
-    thr_text_printf(t, "measured angles, left out one by one, are predicted by their neighbours within %.2g %% of the exponent\n",
-                    100 * e->interpolation);
+  if (eval->refused)
+    thr_text_printf(text, "%d of %d turns by closed form, whose error is not known:\n", eval->refused, turns_of(plan));
+  put_reason(text, eval->refused_sharp, sharp);
+  put_reason(text, eval->refused_unsettled, "the cord did not slide steadily; try a smaller --time-step or more --iterations");
+  put_reason(text, eval->refused_outside, "out of the simulation's range; try a wider --bore or a smaller --mu");
+  if (eval->interpolation > 0)
+    thr_text_printf(text,
+                    "measured angles, left out one by one, are predicted by their neighbours within %.2g %% of the exponent\n",
+                    100 * eval->interpolation);
 }
 
-static void put_settle(thr_text *t, const thr_plan *p, const thr_settle *s, double equilibrium)
+static void put_settle(thr_text *text, const thr_plan *plan, const thr_settle *settle, double equilibrium)
 {
-  if (s->status == THR_SETTLE_CREPT) {
-    thr_text_printf(t,
+  if (settle->status == THR_SETTLE_CREPT) {
+    thr_text_printf(text,
                     "simulation     a bead moved at a pull of more than %.6g N, at which an equilibrium exists: the contacts\n"
                     "               crept. No ranking index; try a smaller --start, or a smaller --time-step with more\n"
                     "               --iterations\n",
                     equilibrium);
     return;
   }
-  if (s->status == THR_SETTLE_TOO_LARGE) {
-    thr_text_printf(t, "simulation     left out: more than %d beads\n", thr_settle_largest);
+  if (settle->status == THR_SETTLE_TOO_LARGE) {
+    thr_text_printf(text, "simulation     left out: more than %d beads\n", thr_settle_largest);
     return;
   }
-  if (s->status == THR_SETTLE_NEVER_SETTLED) {
-    thr_text_append(t, "simulation     never came to rest under the pull at its start: nothing is known of the fall (nor with\n"
-                       "               time step and iterations halved twice). Try a smaller --start, or a smaller --time-step\n"
-                       "               with more --iterations\n");
+  if (settle->status == THR_SETTLE_NEVER_SETTLED) {
+    thr_text_append(text,
+                    "simulation     never came to rest under the pull at its start: nothing is known of the fall (nor with\n"
+                    "               time step and iterations halved twice). Try a smaller --start, or a smaller --time-step\n"
+                    "               with more --iterations\n");
     return;
   }
-  if (s->status == THR_SETTLE_FELL && s->first_bead >= 0)
-    thr_text_printf(t, "simulation     bead %s moves first; widest gap %.3g mm before, %.3g mm after\n",
-                    p->frame.name[s->first_bead], s->gap_before, s->gap_after);
+  if (settle->status == THR_SETTLE_FELL && settle->first_bead >= 0)
+    thr_text_printf(text, "simulation     bead %s moves first; widest gap %.3g mm before, %.3g mm after\n",
+                    plan->frame.name[settle->first_bead], settle->gap_before, settle->gap_after);
   else
-    thr_text_printf(t, "simulation     stands until the pull is gone; widest gap %.3g mm\n", s->gap_before);
-  if (s->finer < 1)
-    thr_text_printf(t, "               it came to rest only with time step and iterations times %g: weaker evidence\n", s->finer);
-  thr_text_printf(t,
+    thr_text_printf(text, "simulation     stands until the pull is gone; widest gap %.3g mm\n", settle->gap_before);
+  if (settle->finer < 1)
+    thr_text_printf(text, "               it came to rest only with time step and iterations times %g: weaker evidence\n",
+                    settle->finer);
+  thr_text_printf(text,
                   "ranking index  %.3g of the pull at its start; only its order among plans that begin at one --start means\n"
                   "               anything: no newtons (friction contacts creep)\n",
-                  s->index);
+                  settle->index);
 }
 
 /* By itself only if an equilibrium without any pull was found. */
-static void put_holding(thr_text *t, const thr_holding *h)
+static void put_holding(thr_text *text, const thr_holding *holding)
 {
-  if (h->lower > 0)
-    thr_text_printf(t,
+  if (holding->lower > 0)
+    thr_text_printf(text,
                     "\nholding pull   below %.6g N nothing can hold it while the cord is being drawn in (proved, residual %.1g)",
-                    h->lower, h->residual);
-  else if (h->upper == 0)
-    thr_text_append(t, "\nholding pull   0 N: it stands by itself");
+                    holding->lower, holding->residual);
+  else if (holding->upper == 0)
+    thr_text_append(text, "\nholding pull   0 N: it stands by itself");
   else
-    thr_text_append(t, "\nholding pull   it may stand by itself: not excluded, not shown");
-  if (h->upper > 0 && isfinite(h->upper)) thr_text_printf(t, "; at %.6g N an equilibrium exists", h->upper);
-  if (!isfinite(h->upper)) thr_text_append(t, "; no equilibrium was found at any pull");
-  thr_text_append(t, "\n");
-  if (h->lower > 0)
+    thr_text_append(text, "\nholding pull   it may stand by itself: not excluded, not shown");
+  if (holding->upper > 0 && isfinite(holding->upper)) thr_text_printf(text, "; at %.6g N an equilibrium exists", holding->upper);
+  if (!isfinite(holding->upper)) thr_text_append(text, "; no equilibrium was found at any pull");
+  thr_text_append(text, "\n");
+  if (holding->lower > 0)
     thr_text_append(
-        t, "               (a cord that was pulled and let go keeps tension inside: it may hold at a hundredth of it)\n");
+        text, "               (a cord that was pulled and let go keeps tension inside: it may hold at a hundredth of it)\n");
 }
 
-static void put_structure(thr_text *t, const arguments *a, const thr_plan *p, const thr_eval *e, bool stopped)
+static void put_structure(thr_text *text, const arguments *a, const thr_plan *plan, const thr_eval *eval, bool stopped)
 {
-  const thr_holding *h = &e->holding;
-  if (!h->present) return;
-  put_holding(t, h);
-  if (h->first_bead >= 0)
-    thr_text_printf(t, "just below     bead %s moves fastest (collapse mechanism)\n", p->frame.name[h->first_bead]);
+  const thr_holding *holding = &eval->holding;
+  if (!holding->present) return;
+  put_holding(text, holding);
+  if (holding->first_bead >= 0)
+    thr_text_printf(text, "just below     bead %s moves fastest (collapse mechanism)\n", plan->frame.name[holding->first_bead]);
   if (!a->pull.options.dynamics) return;
-  if (e->settle.present)
-    put_settle(t, p, &e->settle, h->upper);
-  else if (p->frame.n_nodes > thr_settle_largest)
-    thr_text_printf(t, "simulation     left out: more than %d beads\n", thr_settle_largest);
+  if (eval->settle.present)
+    put_settle(text, plan, &eval->settle, holding->upper);
+  else if (plan->frame.n_nodes > thr_settle_largest)
+    thr_text_printf(text, "simulation     left out: more than %d beads\n", thr_settle_largest);
   else if (stopped)
-    thr_text_append(t, "simulation     stopped: not known\n");
+    thr_text_append(text, "simulation     stopped: not known\n");
 }
 
-static void put_tension(thr_text *t, const thr_plan *p, const thr_evaluation *r)
+static void put_tension(thr_text *text, const thr_plan *plan, const thr_evaluation *evaluation)
 {
-  for (int i = 0; i < p->n_cords; i++) {
-    const thr_cord *c = &p->cord[i];
-    if (!r->cord[i].known) continue;
-    thr_text_printf(t, "\n%-5s %6s  %-12s %-12s %12s\n", "cord", "pass", "from", "to", "tension (N)");
-    for (int k = 0; k < c->n_passes; k++)
-      thr_text_printf(t, "%-5s %6d  %-12s %-12s %12.6g\n", c->id, k + 1, p->frame.name[thr_tail(&p->frame, c->half[k])],
-                      p->frame.name[thr_head(&p->frame, c->half[k])], r->cord[i].tension[k]);
+  for (int i = 0; i < plan->n_cords; i++) {
+    const thr_cord *cord = &plan->cord[i];
+    if (!evaluation->cord[i].known) continue;
+    thr_text_printf(text, "\n%-5s %6s  %-12s %-12s %12s\n", "cord", "pass", "from", "to", "tension (N)");
+    for (int k = 0; k < cord->n_passes; k++)
+      thr_text_printf(text, "%-5s %6d  %-12s %-12s %12.6g\n", cord->id, k + 1,
+                      plan->frame.name[thr_tail(&plan->frame, cord->half[k])],
+                      plan->frame.name[thr_head(&plan->frame, cord->half[k])], evaluation->cord[i].tension[k]);
   }
 }
 
-static void put_text(thr_text *t, const arguments *a, const thr_plan *p, const thr_eval *e, bool stopped)
+static void put_text(thr_text *text, const arguments *a, const thr_plan *plan, const thr_eval *eval, bool stopped)
 {
-  const thr_evaluation *r = &p->evaluation;
-  put_heading(t, r, e->refused > 0, a->pull.pull);
-  put_cords(t, p, r);
-  put_sums(t, p, e);
-  if (r->method == THR_JOINT) put_joint(t, p, e);
-  if (r->method == THR_STRUCTURE) put_structure(t, a, p, e, stopped);
-  if (a->tension) put_tension(t, p, r);
+  const thr_evaluation *evaluation = &plan->evaluation;
+  put_heading(text, evaluation, eval->refused > 0, a->pull.pull);
+  put_cords(text, plan, evaluation);
+  put_sums(text, plan, eval);
+  if (evaluation->method == THR_JOINT) put_joint(text, plan, eval);
+  if (evaluation->method == THR_STRUCTURE) put_structure(text, a, plan, eval, stopped);
+  if (a->tension) put_tension(text, plan, evaluation);
 }
 
 /* ---- JSON ---- */
 
 /* Its name, or null if there is none. */
-static void put_bead(thr_writer *w, const char *key, const thr_frame *f, int bead)
+static void put_bead(thr_writer *writer, const char *key, const thr_frame *frame, int bead)
 {
   if (bead >= 0)
-    thr_write_string(w, key, f->name[bead]);
+    thr_write_string(writer, key, frame->name[bead]);
   else
-    thr_write_null(w, key);
+    thr_write_null(writer, key);
 }
 
-static void put_json_holding(thr_writer *w, const thr_frame *f, const thr_holding *h)
+static void put_json_holding(thr_writer *writer, const thr_frame *frame, const thr_holding *holding)
 {
-  thr_write_line(w, 1);
-  thr_write_object(w, "holding");
-  thr_write_number(w, "lower", h->lower);
-  thr_write_number(w, "upper", h->upper);
-  thr_write_number(w, "residual", h->residual);
-  put_bead(w, "first_bead", f, h->first_bead);
-  thr_write_string(w, "holds", "while the cord is being drawn in");
-  thr_write_close(w);
+  thr_write_line(writer, 1);
+  thr_write_object(writer, "holding");
+  thr_write_number(writer, "lower", holding->lower);
+  thr_write_number(writer, "upper", holding->upper);
+  thr_write_number(writer, "residual", holding->residual);
+  put_bead(writer, "first_bead", frame, holding->first_bead);
+  thr_write_string(writer, "holds", "while the cord is being drawn in");
+  thr_write_close(writer);
 }
 
-static void put_json_simulation(thr_writer *w, const thr_frame *f, const thr_settle *s)
+static void put_json_simulation(thr_writer *writer, const thr_frame *frame, const thr_settle *settle)
 {
   static const char *const status[] = {"fell", "held", "never settled", "too large", "crept"};
-  const bool ranked = s->status == THR_SETTLE_FELL || s->status == THR_SETTLE_HELD;
-  thr_write_line(w, 1);
-  thr_write_object(w, "simulation");
-  thr_write_string(w, "status", status[s->status]);
-  thr_write_number(w, "ranking_index", ranked ? s->index : NAN);
-  put_bead(w, "first_bead", f, s->first_bead);
-  thr_write_number(w, "gap_before_mm", s->gap_before);
-  thr_write_number(w, "gap_after_mm", s->gap_after);
-  thr_write_number(w, "drift_mm", s->drift);
-  thr_write_number(w, "finer", s->finer);
-  thr_write_close(w);
+  const bool ranked = settle->status == THR_SETTLE_FELL || settle->status == THR_SETTLE_HELD;
+  thr_write_line(writer, 1);
+  thr_write_object(writer, "simulation");
+  thr_write_string(writer, "status", status[settle->status]);
+  thr_write_number(writer, "ranking_index", ranked ? settle->index : NAN);
+  put_bead(writer, "first_bead", frame, settle->first_bead);
+  thr_write_number(writer, "gap_before_mm", settle->gap_before);
+  thr_write_number(writer, "gap_after_mm", settle->gap_after);
+  thr_write_number(writer, "drift_mm", settle->drift);
+  thr_write_number(writer, "finer", settle->finer);
+  thr_write_close(writer);
 }
 
-static void put_json_joints(thr_writer *w, const thr_eval *e)
+static void put_json_joints(thr_writer *writer, const thr_eval *eval)
 {
-  thr_write_int(w, "refused_sharp", e->refused_sharp);
-  thr_write_int(w, "refused_unsettled", e->refused_unsettled);
-  thr_write_int(w, "refused_outside", e->refused_outside);
-  thr_write_line(w, 1);
-  thr_write_object(w, "joints");
-  thr_write_int(w, "unsettled", e->joints_unsettled);
-  thr_write_number(w, "interpolation", e->interpolation);
-  thr_write_close(w);
+  thr_write_int(writer, "refused_sharp", eval->refused_sharp);
+  thr_write_int(writer, "refused_unsettled", eval->refused_unsettled);
+  thr_write_int(writer, "refused_outside", eval->refused_outside);
+  thr_write_line(writer, 1);
+  thr_write_object(writer, "joints");
+  thr_write_int(writer, "unsettled", eval->joints_unsettled);
+  thr_write_number(writer, "interpolation", eval->interpolation);
+  thr_write_close(writer);
 }
 
-static void put_json(thr_text *t, const thr_plan *p, const thr_eval *e, bool stopped)
+static void put_json(thr_text *text, const thr_plan *plan, const thr_eval *eval, bool stopped)
 {
-  thr_writer w = {.out = t};
-  thr_write_object(&w, NULL);
-  thr_write_hash(&w, "framework", thr_frame_hash(&p->frame));
-  thr_write_bool(&w, "complete", e->complete && !stopped);
-  thr_evaluation_write(&p->evaluation, &w, "evaluation");
-  thr_write_line(&w, 1);
-  thr_write_array(&w, "band");
-  thr_write_number(&w, NULL, e->band[0]);
-  thr_write_number(&w, NULL, e->band[1]);
-  thr_write_close(&w);
-  thr_write_number(&w, "error", e->error);
-  thr_write_int(&w, "refused", e->refused);
-  if (p->evaluation.method == THR_JOINT) put_json_joints(&w, e);
-  if (e->holding.present) put_json_holding(&w, &p->frame, &e->holding);
-  if (e->holding.present && e->settle.present) put_json_simulation(&w, &p->frame, &e->settle);
-  thr_write_close(&w);
-  thr_text_append(t, "\n");
+  thr_writer writer = {.out = text};
+  thr_write_object(&writer, NULL);
+  thr_write_hash(&writer, "framework", thr_frame_hash(&plan->frame));
+  thr_write_bool(&writer, "complete", eval->complete && !stopped);
+  thr_evaluation_write(&plan->evaluation, &writer, "evaluation");
+  thr_write_line(&writer, 1);
+  thr_write_array(&writer, "band");
+  thr_write_number(&writer, NULL, eval->band[0]);
+  thr_write_number(&writer, NULL, eval->band[1]);
+  thr_write_close(&writer);
+  thr_write_number(&writer, "error", eval->error);
+  thr_write_int(&writer, "refused", eval->refused);
+  if (plan->evaluation.method == THR_JOINT) put_json_joints(&writer, eval);
+  if (eval->holding.present) put_json_holding(&writer, &plan->frame, &eval->holding);
+  if (eval->holding.present && eval->settle.present) put_json_simulation(&writer, &plan->frame, &eval->settle);
+  thr_write_close(&writer);
+  thr_text_append(text, "\n");
 }
 
 /* ---- outputs ---- */
 
-static int write_plot(const thr_plan *p, const char *path)
+static int write_plot(const thr_plan *plan, const char *path)
 {
   thr_err err = {0};
   thr_text svg = {0};
-  thr_tension_options o = thr_tension_options_default();
-  return thr_tension_svg(p, &o, &svg, &err) ? cli_fail(&err) : cli_write(&svg, path);
+  thr_tension_options options = thr_tension_options_default();
+  return thr_tension_svg(plan, &options, &svg, &err) ? cli_fail(&err) : cli_write(&svg, path);
 }
 
 /* Poses come in m and with the ground at 0; the picture wants units of the framework. */
-static thr_status draw_still(const thr_plan *p, const thr_settle *s, thr_text *svg, thr_err *err)
+static thr_status draw_still(const thr_plan *plan, const thr_settle *settle, thr_text *svg, thr_err *err)
 {
   double mm = 1;
-  size_t n = (size_t)s->n_beads;
+  size_t n = (size_t)settle->n_beads;
   double(*pose)[7] = thr_calloc(2 * n, sizeof *pose);
-  thr_status st = pose ? thr_units_in_mm(p->frame.units, &mm, err) : thr_nomem(err);
+  thr_status st = pose ? thr_units_in_mm(plan->frame.units, &mm, err) : thr_nomem(err);
   for (size_t v = 0; v < 2 * n && !st; v++) {
-    memcpy(pose[v], v < n ? s->before[v] : s->after[v - n], sizeof *pose);
+    memcpy(pose[v], v < n ? settle->before[v] : settle->after[v - n], sizeof *pose);
     for (int k = 0; k < 3; k++)
       pose[v][k] *= 1000 / mm;
   }
   char note[160];
   snprintf(note, sizeof note, "%s",
-           s->status == THR_SETTLE_HELD ? "It stands until the pull is gone."
-                                        : "Before: under the pull at the start. After: the pull let off until it fell.");
+           settle->status == THR_SETTLE_HELD ? "It stands until the pull is gone."
+                                             : "Before: under the pull at the start. After: the pull let off until it fell.");
   const thr_still still = {.title = "The structure in simulation",
                            .note = note,
-                           .width = p->evaluation.physics.bead_diameter / mm,
+                           .width = plan->evaluation.physics.bead_diameter / mm,
                            .before = (const double(*)[7])pose,
                            .after = (const double(*)[7])(pose ? pose + n : NULL),
-                           .first_bead = s->first_bead,
-                           .gap_before = s->gap_before,
-                           .gap_after = s->gap_after};
-  if (!st) st = thr_still_svg(&p->frame, &still, svg, err);
+                           .first_bead = settle->first_bead,
+                           .gap_before = settle->gap_before,
+                           .gap_after = settle->gap_after};
+  if (!st) st = thr_still_svg(&plan->frame, &still, svg, err);
   free(pose);
   return st;
 }
 
-static int write_still(const thr_plan *p, const thr_settle *s, bool stopped, const char *path)
+static int write_still(const thr_plan *plan, const thr_settle *settle, bool stopped, const char *path)
 {
   thr_err err = {0};
   thr_text svg = {0};
-  if (stopped && !s->present) {
+  if (stopped && !settle->present) {
     cli_error("%s: not written: stopped before the simulation was done", path);
     return EXIT_OK; /* what stopped it has a code of its own */
   }
-  if (!s->present || !s->before || !s->after || s->status == THR_SETTLE_TOO_LARGE || s->status == THR_SETTLE_NEVER_SETTLED) {
+  if (!settle->present || !settle->before || !settle->after || settle->status == THR_SETTLE_TOO_LARGE ||
+      settle->status == THR_SETTLE_NEVER_SETTLED) {
     cli_error("%s: nothing to draw: %s", path,
-              s->present && s->status == THR_SETTLE_NEVER_SETTLED ? "the simulation never came to rest"
-                                                                  : "there was no simulation");
+              settle->present && settle->status == THR_SETTLE_NEVER_SETTLED ? "the simulation never came to rest"
+                                                                            : "there was no simulation");
     return EXIT_INPUT;
   }
-  return draw_still(p, s, &svg, &err) ? cli_fail(&err) : cli_write(&svg, path);
+  return draw_still(plan, settle, &svg, &err) ? cli_fail(&err) : cli_write(&svg, path);
 }
 
-static int write_outputs(const arguments *a, const thr_plan *p, const thr_eval *e, bool stopped)
+static int write_outputs(const arguments *a, const thr_plan *plan, const thr_eval *eval, bool stopped)
 {
-  thr_text t = {0};
+  thr_text text = {0};
   int code = EXIT_OK;
   if (a->output) {
-    thr_plan_write(p, &t);
-    code = cli_write(&t, a->output);
+    thr_plan_write(plan, &text);
+    code = cli_write(&text, a->output);
   }
-  if (!code && a->plot) code = write_plot(p, a->plot);
-  if (!code && a->still) code = write_still(p, &e->settle, stopped, a->still);
+  if (!code && a->plot) code = write_plot(plan, a->plot);
+  if (!code && a->still) code = write_still(plan, &eval->settle, stopped, a->still);
   const char *const out[] = {a->output, a->plot, a->still};
   for (int i = 0; i < 3; i++)
     if (out[i] && strcmp(out[i], "-") == 0) return code;
   if (a->pull.json)
-    put_json(&t, p, e, stopped);
+    put_json(&text, plan, eval, stopped);
   else
-    put_text(&t, a, p, e, stopped);
-  int printed = cli_write(&t, "-");
+    put_text(&text, a, plan, eval, stopped);
+  int printed = cli_write(&text, "-");
   return code ? code : printed;
 }
 
-static bool any_known(const thr_evaluation *e)
+static bool any_known(const thr_evaluation *evaluation)
 {
-  for (int i = 0; i < e->n_cords; i++)
-    if (e->cord[i].known) return true;
+  for (int i = 0; i < evaluation->n_cords; i++)
+    if (evaluation->cord[i].known) return true;
   return false;
 }
 
 int cmd_eval(int argc, char **argv)
 {
   arguments a;
-  thr_plan p;
-  thr_eval e;
+  thr_plan plan;
+  thr_eval eval;
   guard_end end;
   int code = parse(argc, argv, &a);
   if (code >= 0) return code;
   if (guard_fork(&a.guard, &end)) return guard_conclude(&end, "no result");
-  if ((code = cli_read_plan(a.path, &p))) return code;
-  code = pull_eval(&a.pull, a.path, &p, (thr_method)a.pull.method, &e);
-  bool known = (code == EXIT_OK || code == EXIT_LIMIT) && any_known(&e.record);
+  if ((code = cli_read_plan(a.path, &plan))) return code;
+  code = pull_eval(&a.pull, a.path, &plan, (thr_method)a.pull.method, &eval);
+  bool known = (code == EXIT_OK || code == EXIT_LIMIT) && any_known(&eval.record);
   if (known) { /* the plan takes the record over, so that one thing is written, drawn and printed */
-    thr_evaluation_destroy(&p.evaluation);
-    p.evaluation = e.record;
-    e.record = (thr_evaluation){0};
-    int written = write_outputs(&a, &p, &e, code == EXIT_LIMIT);
+    thr_evaluation_destroy(&plan.evaluation);
+    plan.evaluation = eval.record;
+    eval.record = (thr_evaluation){0};
+    int written = write_outputs(&a, &plan, &eval, code == EXIT_LIMIT);
     if (written) code = written;
-    if (p.evaluation.method == THR_JOINT && code == EXIT_OK) /* on stderr: results do not depend on it */
-      cli_note("note: %d %s measured, %d from the cache", e.joints_measured, cli_plural(e.joints_measured, "joint", "joints"),
-               e.joints_cached);
+    if (plan.evaluation.method == THR_JOINT && code == EXIT_OK) /* on stderr: results do not depend on it */
+      cli_note("note: %d %s measured, %d from the cache", eval.joints_measured,
+               cli_plural(eval.joints_measured, "joint", "joints"), eval.joints_cached);
   }
   if (code == EXIT_LIMIT) cli_error(known ? "stopped: only a part is known" : "stopped before any cord was known");
-  thr_eval_destroy(&e);
-  thr_plan_destroy(&p);
+  thr_eval_destroy(&eval);
+  thr_plan_destroy(&plan);
   return code;
 }

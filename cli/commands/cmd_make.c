@@ -49,17 +49,18 @@ typedef struct {
   const char *output, *size, *rings, *pitch, *rise;
 } arguments;
 
-static bool apply(const arguments *a, thr_make_options *o)
+static bool apply(const arguments *a, thr_make_options *options)
 {
-  bool has_rise = o->shape == THR_MAKE_DOME || o->shape == THR_MAKE_HONEYCOMB;
-  if ((a->rings && o->shape != THR_MAKE_TUBE) || (a->rise && !has_rise)) {
-    cli_usage("make", "a %s has no %s", shape_name[o->shape], a->rings && o->shape != THR_MAKE_TUBE ? "--rings" : "--rise");
+  bool has_rise = options->shape == THR_MAKE_DOME || options->shape == THR_MAKE_HONEYCOMB;
+  if ((a->rings && options->shape != THR_MAKE_TUBE) || (a->rise && !has_rise)) {
+    cli_usage("make", "a %s has no %s", shape_name[options->shape],
+              a->rings && options->shape != THR_MAKE_TUBE ? "--rings" : "--rise");
     return false;
   }
-  if (a->size && !cli_int("make", "--size", a->size, 1, 1000000, &o->size)) return false;
-  if (a->rings && !cli_int("make", "--rings", a->rings, 1, 1000000, &o->rings)) return false;
-  if (a->pitch && !cli_double("make", "--pitch", a->pitch, 1e-6, 1e9, &o->pitch)) return false;
-  return !a->rise || cli_double("make", "--rise", a->rise, 0, 100, &o->rise);
+  if (a->size && !cli_int("make", "--size", a->size, 1, 1000000, &options->size)) return false;
+  if (a->rings && !cli_int("make", "--rings", a->rings, 1, 1000000, &options->rings)) return false;
+  if (a->pitch && !cli_double("make", "--pitch", a->pitch, 1e-6, 1e9, &options->pitch)) return false;
+  return !a->rise || cli_double("make", "--rise", a->rise, 0, 100, &options->rise);
 }
 
 /* JSON on stdout and for names without an ending; nothing is written in a format that its name does not say. */
@@ -69,20 +70,20 @@ static bool known_ending(const char *output)
   return !dot || thr_format_of_path(output);
 }
 
-static int make(const thr_make_options *o, const char *output)
+static int make(const thr_make_options *options, const char *output)
 {
   thr_err err = {0};
   thr_draft draft = {0};
-  thr_frame f = {0};
+  thr_frame frame = {0};
   thr_read_report report = {0};
-  thr_text t = {0};
-  thr_status st = thr_make(&draft, o, &err);
-  if (!st) st = thr_draft_build(&draft, -1, &f, &report, &err);
-  if (!st) thr_frame_write(&f, thr_format_of_path(output), &t);
+  thr_text text = {0};
+  thr_status st = thr_make(&draft, options, &err);
+  if (!st) st = thr_draft_build(&draft, -1, &frame, &report, &err);
+  if (!st) thr_frame_write(&frame, thr_format_of_path(output), &text);
   thr_draft_destroy(&draft);
-  thr_frame_destroy(&f);
+  thr_frame_destroy(&frame);
   if (st == THR_EINPUT) return cli_usage("make", "%s", err.text);
-  return st ? cli_fail(&err) : cli_write(&t, output);
+  return st ? cli_fail(&err) : cli_write(&text, output);
 }
 
 int cmd_make(int argc, char **argv)
@@ -105,6 +106,6 @@ int cmd_make(int argc, char **argv)
   if (shape < 0)
     return cli_usage("make", "there is no shape %s; there are dome, geodesic, sphere, tube and honeycomb", argv[optind]);
   if (!known_ending(a.output)) return cli_usage("make", "%s: the ending must be .json, .obj or .csv", a.output);
-  thr_make_options o = thr_make_options_default((thr_shape)shape);
-  return apply(&a, &o) ? make(&o, a.output) : EXIT_USAGE;
+  thr_make_options options = thr_make_options_default((thr_shape)shape);
+  return apply(&a, &options) ? make(&options, a.output) : EXIT_USAGE;
 }

@@ -138,106 +138,107 @@ static int parse(int argc, char **argv, arguments *a)
 }
 
 /* What is asked of an objective: what is about turning or symmetry concerns only one of them. */
-static void ask(const arguments *a, thr_objective objective, thr_plan_options *o)
+static void ask(const arguments *a, thr_objective objective, thr_plan_options *options)
 {
-  aims_args_apply(&a->aims, &a->turning, &a->symmetry, &a->cords, objective, o);
-  o->joint = a->cords.joint;
-  o->time_limit = a->guard.seconds < 0 ? thr_dispatch_usual_seconds(o) : a->guard.seconds;
+  aims_args_apply(&a->aims, &a->turning, &a->symmetry, &a->cords, objective, options);
+  options->joint = a->cords.joint;
+  options->time_limit = a->guard.seconds < 0 ? thr_dispatch_usual_seconds(options) : a->guard.seconds;
 }
 
 /* What was said of cord and beads must fit the framework; if nothing was, a framework of any size will do. */
-static int apply_physics(const arguments *a, const thr_frame *f, thr_plan_options *o)
+static int apply_physics(const arguments *a, const thr_frame *framework, thr_plan_options *options)
 {
   thr_err err = {0};
   thr_physics resolved;
-  int code = cli_physics_apply(&a->pull.physics, &o->physics);
+  int code = cli_physics_apply(&a->pull.physics, &options->physics);
   if (code || a->pull.physics.n == 0) return code;
-  return thr_physics_resolve(&o->physics, f, &resolved, &err) ? cli_fail(&err) : EXIT_OK;
+  return thr_physics_resolve(&options->physics, framework, &resolved, &err) ? cli_fail(&err) : EXIT_OK;
 }
 
 /* ---- the other objectives ---- */
 
 /* code: why its pull is not known, EXIT_OK if it is. */
-static void put_pull_json(thr_writer *w, thr_objective objective, const thr_eval *e, int code)
+static void put_pull_json(thr_writer *writer, thr_objective objective, const thr_eval *eval, int code)
 {
-  thr_write_object(w, NULL);
-  thr_write_string(w, "objective", thr_objective_name(objective));
-  thr_write_number(w, "pull", code == EXIT_OK ? e->record.largest : NAN);
+  thr_write_object(writer, NULL);
+  thr_write_string(writer, "objective", thr_objective_name(objective));
+  thr_write_number(writer, "pull", code == EXIT_OK ? eval->record.largest : NAN);
   if (code == EXIT_OK) {
-    thr_write_number(w, "error", e->error);
-    thr_write_int(w, "refused", e->refused);
+    thr_write_number(writer, "error", eval->error);
+    thr_write_int(writer, "refused", eval->refused);
   }
-  thr_write_close(w);
+  thr_write_close(writer);
 }
 
-static void put_pull(thr_text *t, const arguments *a, thr_objective objective, const thr_plan *p, const thr_eval *e, int code)
+static void put_pull(thr_text *text, const arguments *a, thr_objective objective, const thr_plan *p, const thr_eval *eval,
+                     int code)
 {
-  thr_text_printf(t, "  %-12s", thr_objective_name(objective));
+  thr_text_printf(text, "  %-12s", thr_objective_name(objective));
   if (code == EXIT_OK) {
-    thr_text_printf(t, e->refused ? "%12.4g N (error at least %.3g %%" : "%12.4g N (+-%.3g %%", e->record.largest,
-                    pull_percent(e->error));
-    if (e->refused) thr_text_printf(t, ": %d %s by closed form", e->refused, cli_plural(e->refused, "turn", "turns"));
-    thr_text_printf(t, ")%s", objective == a->aims.objective ? "   this plan" : "");
-    if (thr_wants_symmetry(&p->options)) thr_text_printf(t, "   %d %s", p->n_cords, cli_plural(p->n_cords, "cord", "cords"));
+    thr_text_printf(text, eval->refused ? "%12.4g N (error at least %.3g %%" : "%12.4g N (+-%.3g %%", eval->record.largest,
+                    pull_percent(eval->error));
+    if (eval->refused) thr_text_printf(text, ": %d %s by closed form", eval->refused, cli_plural(eval->refused, "turn", "turns"));
+    thr_text_printf(text, ")%s", objective == a->aims.objective ? "   this plan" : "");
+    if (thr_wants_symmetry(&p->options)) thr_text_printf(text, "   %d %s", p->n_cords, cli_plural(p->n_cords, "cord", "cords"));
   } else {
-    thr_text_printf(t, "%14s", "not known");
+    thr_text_printf(text, "%14s", "not known");
   }
-  thr_text_append(t, "\n");
+  thr_text_append(text, "\n");
 }
 
-static int put_objective(thr_writer *w, const arguments *a, thr_objective objective, const thr_plan *p)
+static int put_objective(thr_writer *writer, const arguments *a, thr_objective objective, const thr_plan *p)
 {
-  thr_eval e;
-  int code = pull_eval(&a->pull, thr_objective_name(objective), p, THR_JOINT, &e);
+  thr_eval eval;
+  int code = pull_eval(&a->pull, thr_objective_name(objective), p, THR_JOINT, &eval);
   if (a->json)
-    put_pull_json(w, objective, &e, code);
+    put_pull_json(writer, objective, &eval, code);
   else
-    put_pull(w->out, a, objective, p, &e, code);
-  thr_eval_destroy(&e);
+    put_pull(writer->out, a, objective, p, &eval, code);
+  thr_eval_destroy(&eval);
   return code;
 }
 
 /* An objective that cannot do what this plan was asked for. */
-static int put_refused(thr_writer *w, const arguments *a, thr_objective objective, const char *option)
+static int put_refused(thr_writer *writer, const arguments *a, thr_objective objective, const char *option)
 {
   if (a->json)
-    put_pull_json(w, objective, NULL, EXIT_USAGE);
+    put_pull_json(writer, objective, NULL, EXIT_USAGE);
   else
-    thr_text_printf(w->out, "  %-12s%14s   not with %s\n", thr_objective_name(objective), "-", option);
+    thr_text_printf(writer->out, "  %-12s%14s   not with %s\n", thr_objective_name(objective), "-", option);
   return EXIT_OK;
 }
 
-static int plan_and_put(thr_writer *w, const arguments *a, thr_objective objective, const thr_plan *p, double deadline)
+static int plan_and_put(thr_writer *writer, const arguments *a, thr_objective objective, const thr_plan *p, double deadline)
 {
   thr_err err = {0};
   thr_plan other = {0};
-  if (objective == a->aims.objective) return put_objective(w, a, objective, p);
-  thr_plan_options o = p->options;
-  ask(a, objective, &o);
-  const char *refused = cords_args_refused(&a->cords, &o, true);
-  if (refused) return put_refused(w, a, objective, refused);
-  thr_limits limits = cli_limits(o.time_limit);
+  if (objective == a->aims.objective) return put_objective(writer, a, objective, p);
+  thr_plan_options options = p->options;
+  ask(a, objective, &options);
+  const char *refused = cords_args_refused(&a->cords, &options, true);
+  if (refused) return put_refused(writer, a, objective, refused);
+  thr_limits limits = cli_limits(options.time_limit);
   if (deadline > 0) limits.deadline = deadline;
-  thr_status st = thr_plan_make(&p->frame, &o, &limits, &other, NULL, &err);
+  thr_status st = thr_plan_make(&p->frame, &options, &limits, &other, NULL, &err);
   cli_progress_end();
-  int code = st && st != THR_ELIMIT ? cli_fail(&err) : put_objective(w, a, objective, &other);
+  int code = st && st != THR_ELIMIT ? cli_fail(&err) : put_objective(writer, a, objective, &other);
   thr_plan_destroy(&other);
   return code;
 }
 
 /* Pull of this plan beside that of the plans for the other objectives. */
-static int put_comparison(thr_writer *w, const arguments *a, const thr_plan *p, double deadline)
+static int put_comparison(thr_writer *writer, const arguments *a, const thr_plan *p, double deadline)
 {
   int code = EXIT_OK;
   if (a->json)
-    thr_write_array(w, "objectives");
+    thr_write_array(writer, "objectives");
   else
-    thr_text_append(w->out, "\nlargest pull by objective, joints measured in simulation\n");
+    thr_text_append(writer->out, "\nlargest pull by objective, joints measured in simulation\n");
   for (int i = 0; i < THR_N_OBJECTIVES; i++) {
-    int done = plan_and_put(w, a, thr_dispatch_objective(i), p, deadline);
+    int done = plan_and_put(writer, a, thr_dispatch_objective(i), p, deadline);
     if (!code) code = done;
   }
-  if (a->json) thr_write_close(w);
+  if (a->json) thr_write_close(writer);
   return code;
 }
 
@@ -254,71 +255,72 @@ static double deadline_of(const arguments *a)
 }
 
 /* Seconds for the search: of a time that was asked for what the rest leaves. */
-static double time_of_plan(const arguments *a, const thr_plan_options *o)
+static double time_of_plan(const arguments *a, const thr_plan_options *options)
 {
   bool more = a->turning.compare || a->turning.frontier || a->compare;
-  return a->guard.seconds <= 0 ? o->time_limit : thr_dispatch_search_seconds(o->time_limit, a->draw || !a->output, more);
+  return a->guard.seconds <= 0 ? options->time_limit
+                               : thr_dispatch_search_seconds(options->time_limit, a->draw || !a->output, more);
 }
 
-static void put_plan(thr_writer *w, const arguments *a, const planned *x, const thr_rivals *r)
+static void put_plan(thr_writer *writer, const arguments *a, const planned *x, const thr_rivals *rivals)
 {
   if (a->json)
-    plan_put_json(w, &x->plan, r, x->report.word);
+    plan_put_json(writer, &x->plan, rivals, x->report.word);
   else
-    plan_put_summary(w->out, &x->plan, r, x->report.word);
+    plan_put_summary(writer->out, &x->plan, rivals, x->report.word);
 }
 
-static int put_turning(thr_writer *w, const arguments *a, const planned *x)
+static int put_turning(thr_writer *writer, const arguments *a, const planned *x)
 {
-  thr_rivals r = {0};
+  thr_rivals rivals = {0};
   thr_err err = {0};
   thr_limits limits = cli_limits(0);
   limits.deadline = deadline_of(a);
-  thr_status st = thr_rivals_make(&x->plan, a->turning.compare, a->turning.frontier, &limits, &r, &err);
+  thr_status st = thr_rivals_make(&x->plan, a->turning.compare, a->turning.frontier, &limits, &rivals, &err);
   cli_progress_end();
-  if (r.no_frontier.code) cli_note("no frontier: %s", r.no_frontier.text);
-  put_plan(w, a, x, &r);
-  thr_rivals_destroy(&r);
+  if (rivals.no_frontier.code) cli_note("no frontier: %s", rivals.no_frontier.text);
+  put_plan(writer, a, x, &rivals);
+  thr_rivals_destroy(&rivals);
   return st ? cli_fail(&err) : EXIT_OK;
 }
 
-static void put_symmetry(thr_writer *w, const arguments *a, const planned *x)
+static void put_symmetry(thr_writer *writer, const arguments *a, const planned *x)
 {
   enum { ROWS = 8 };
   const thr_plan *p = &x->plan;
   if (!a->json) {
-    symmetry_put_head(w->out, &p->frame, &p->options, &x->report.symmetries);
-    symmetry_put_table(w->out, &p->options, &x->report.symmetries, ROWS);
-    thr_text_append(w->out, "\n");
+    symmetry_put_head(writer->out, &p->frame, &p->options, &x->report.symmetries);
+    symmetry_put_table(writer->out, &p->options, &x->report.symmetries, ROWS);
+    thr_text_append(writer->out, "\n");
   }
-  put_plan(w, a, x, NULL);
+  put_plan(writer, a, x, NULL);
   if (!a->json) return;
-  thr_write_object(w, "symmetries");
-  symmetry_put_table_json(w, &p->options, &x->report.symmetries);
-  thr_write_close(w);
+  thr_write_object(writer, "symmetries");
+  symmetry_put_table_json(writer, &p->options, &x->report.symmetries);
+  thr_write_close(writer);
 }
 
 static int print_summary(const arguments *a, const planned *x)
 {
-  thr_text t = {0};
-  thr_writer w = {.out = &t};
+  thr_text text = {0};
+  thr_writer writer = {.out = &text};
   int code = EXIT_OK;
-  if (a->json) thr_write_object(&w, NULL);
+  if (a->json) thr_write_object(&writer, NULL);
   if (thr_wants_turning(&x->plan.options))
-    code = put_turning(&w, a, x);
+    code = put_turning(&writer, a, x);
   else if (thr_wants_symmetry(&x->plan.options))
-    put_symmetry(&w, a, x);
+    put_symmetry(&writer, a, x);
   else
-    put_plan(&w, a, x, NULL);
+    put_plan(&writer, a, x, NULL);
   if (a->compare) {
-    int done = put_comparison(&w, a, &x->plan, deadline_of(a));
+    int done = put_comparison(&writer, a, &x->plan, deadline_of(a));
     if (!code) code = done;
   }
   if (a->json) {
-    thr_write_close(&w);
-    thr_text_append(&t, "\n");
+    thr_write_close(&writer);
+    thr_text_append(&text, "\n");
   }
-  int written = cli_write(&t, "-");
+  int written = cli_write(&text, "-");
   return code ? code : written;
 }
 
@@ -340,12 +342,12 @@ static int find_places(const arguments *a, places *to)
 }
 
 /* What is written is first read back and checked as a whole, as by thread check: a plan that it would refuse is not left. */
-static int check_text(const thr_text *t, const char *path)
+static int check_text(const thr_text *text, const char *path)
 {
   thr_plan p = {0};
   thr_err err = {0};
-  if (t->failed) return EXIT_OK; /* writing says so */
-  thr_status st = thr_plan_parse(&p, t->data, t->length, strcmp(path, "-") == 0 ? "stdout" : path, &err);
+  if (text->failed) return EXIT_OK; /* writing says so */
+  thr_status st = thr_plan_parse(&p, text->data, text->length, strcmp(path, "-") == 0 ? "stdout" : path, &err);
   if (!st) st = thr_check_plan(&p, &err);
   thr_plan_destroy(&p);
   if (st == THR_OK) return EXIT_OK;
@@ -357,15 +359,15 @@ static int check_text(const thr_text *t, const char *path)
 /* From here on the plan is what this run leaves, with this exit code. */
 static int write_plan(const thr_plan *p, const char *path, int code)
 {
-  thr_text t = {0};
-  thr_plan_write(p, &t);
-  int refused = check_text(&t, path);
+  thr_text text = {0};
+  thr_plan_write(p, &text);
+  int refused = check_text(&text, path);
   if (refused) {
-    thr_text_destroy(&t);
+    thr_text_destroy(&text);
     return refused;
   }
   guard_writing();
-  int written = cli_write(&t, path);
+  int written = cli_write(&text, path);
   guard_written(written ? written : code);
   return written;
 }
@@ -374,18 +376,18 @@ static int write_plan(const thr_plan *p, const char *path, int code)
 static int print_places(const arguments *a, const thr_plan *p, const char *plan_path, const char *folder)
 {
   char names[DRAWINGS_NAMES];
-  thr_text t = {0};
-  thr_text_append(&t, a->compare || thr_wants_turning(&p->options) ? "\n" : "");
-  thr_text_append(&t, "plan     ");
-  thr_text_append_clean(&t, plan_path);
+  thr_text text = {0};
+  thr_text_append(&text, a->compare || thr_wants_turning(&p->options) ? "\n" : "");
+  thr_text_append(&text, "plan     ");
+  thr_text_append_clean(&text, plan_path);
   drawings_names(p, &a->drawings, names);
   if (folder) {
-    thr_text_append(&t, "\ndrawn    in ");
-    thr_text_append_clean(&t, folder);
-    thr_text_printf(&t, ": %s", names);
+    thr_text_append(&text, "\ndrawn    in ");
+    thr_text_append_clean(&text, folder);
+    thr_text_printf(&text, ": %s", names);
   }
-  thr_text_append(&t, "\n");
-  return cli_write(&t, "-");
+  thr_text_append(&text, "\n");
+  return cli_write(&text, "-");
 }
 
 /* code: of the plan. */
@@ -407,34 +409,35 @@ static int write_outputs(const arguments *a, const planned *x, int planned_code)
 }
 
 /* Time that nobody asked for is the search's alone. */
-static thr_status make_plan(const arguments *a, const thr_frame *f, const thr_plan_options *o, planned *x, thr_err *err)
+static thr_status make_plan(const arguments *a, const thr_frame *framework, const thr_plan_options *options, planned *x,
+                            thr_err *err)
 {
-  if (a->guard.seconds < 0) guard_allow(o->time_limit > 0 ? 1 + 1.1 * o->time_limit : 0);
-  thr_limits limits = cli_limits(time_of_plan(a, o));
-  best_begin(f, o);
+  if (a->guard.seconds < 0) guard_allow(options->time_limit > 0 ? 1 + 1.1 * options->time_limit : 0);
+  thr_limits limits = cli_limits(time_of_plan(a, options));
+  best_begin(framework, options);
   limits.found = best_found;
-  thr_status st = thr_plan_make(f, o, &limits, &x->plan, &x->report, err);
+  thr_status st = thr_plan_make(framework, options, &limits, &x->plan, &x->report, err);
   cli_progress_end();
   if (a->guard.seconds < 0) guard_allow(0);
   return st;
 }
 
-static int plan_frame(const arguments *a, const thr_frame *f)
+static int plan_frame(const arguments *a, const thr_frame *framework)
 {
   thr_err err = {0};
   planned x = {0};
-  thr_plan_options o = thr_plan_options_default();
-  ask(a, a->aims.objective, &o);
-  int code = apply_physics(a, f, &o);
-  if (!code) code = cords_args_apply(&a->cords, f, &o);
+  thr_plan_options options = thr_plan_options_default();
+  ask(a, a->aims.objective, &options);
+  int code = apply_physics(a, framework, &options);
+  if (!code) code = cords_args_apply(&a->cords, framework, &options);
   if (code == EXIT_OK) {
-    thr_status st = make_plan(a, f, &o, &x, &err);
+    thr_status st = make_plan(a, framework, &options, &x, &err);
     if (guard_deadline() > 0) best_found(NULL, x.plan.cord, x.plan.n_cords, x.plan.symmetry.present ? &x.plan.symmetry : NULL);
     if (st == THR_OK || (st == THR_ELIMIT && x.plan.n_cords > 0)) code = write_outputs(a, &x, st ? EXIT_LIMIT : EXIT_OK);
     if (code == EXIT_OK && st) code = cli_fail(&err);
   }
-  free(o.end_node);
-  free(o.end_count);
+  free(options.end_node);
+  free(options.end_count);
   thr_plan_destroy(&x.plan);
   thr_report_destroy(&x.report);
   return code;
@@ -459,13 +462,13 @@ static int conclude(const arguments *a, guard_end *end)
 int cmd_plan(int argc, char **argv)
 {
   arguments a;
-  thr_frame f;
+  thr_frame framework;
   guard_end end;
   int code = parse(argc, argv, &a);
   if (code >= 0) return code;
   if (guard_fork(&a.guard, &end)) return conclude(&a, &end);
-  if ((code = cli_read_frame(a.path, &a.frame, &f))) return code;
-  code = plan_frame(&a, &f);
-  thr_frame_destroy(&f);
+  if ((code = cli_read_frame(a.path, &a.frame, &framework))) return code;
+  code = plan_frame(&a, &framework);
+  thr_frame_destroy(&framework);
   return code;
 }

@@ -101,46 +101,46 @@ static int parse(int argc, char **argv, arguments *a)
   return -1;
 }
 
-static void put_json(thr_text *t, const arguments *a, const thr_frame *f, const thr_symmetries *s)
+static void put_json(thr_text *text, const arguments *a, const thr_frame *framework, const thr_symmetries *symmetries)
 {
-  thr_writer w = {.out = t};
-  thr_write_object(&w, NULL);
-  thr_write_hash(&w, "framework", thr_frame_hash(f));
-  thr_write_int(&w, "nodes", f->n_nodes);
-  thr_write_int(&w, "edges", f->n_edges);
-  thr_write_string(&w, "units", f->units);
-  thr_write_string(&w, "ends", thr_ends_name(a->plan.ends));
-  thr_write_int(&w, "cover", a->plan.cover);
-  thr_write_string(&w, "joint", thr_joint_name(a->plan.joint));
-  symmetry_put_table_json(&w, &a->plan, s);
-  thr_write_close(&w);
-  thr_text_append(t, "\n");
+  thr_writer writer = {.out = text};
+  thr_write_object(&writer, NULL);
+  thr_write_hash(&writer, "framework", thr_frame_hash(framework));
+  thr_write_int(&writer, "nodes", framework->n_nodes);
+  thr_write_int(&writer, "edges", framework->n_edges);
+  thr_write_string(&writer, "units", framework->units);
+  thr_write_string(&writer, "ends", thr_ends_name(a->plan.ends));
+  thr_write_int(&writer, "cover", a->plan.cover);
+  thr_write_string(&writer, "joint", thr_joint_name(a->plan.joint));
+  symmetry_put_table_json(&writer, &a->plan, symmetries);
+  thr_write_close(&writer);
+  thr_text_append(text, "\n");
 }
 
-static int print(const arguments *a, const thr_frame *f, const thr_symmetries *s)
+static int print(const arguments *a, const thr_frame *framework, const thr_symmetries *symmetries)
 {
-  thr_text t = {0};
+  thr_text text = {0};
   if (a->json) {
-    put_json(&t, a, f, s);
+    put_json(&text, a, framework, symmetries);
   } else {
-    symmetry_put_head(&t, f, &a->plan, s);
-    symmetry_put_table(&t, &a->plan, s, s->n);
+    symmetry_put_head(&text, framework, &a->plan, symmetries);
+    symmetry_put_table(&text, &a->plan, symmetries, symmetries->n);
   }
-  return cli_write(&t, "-");
+  return cli_write(&text, "-");
 }
 
-static int list_symmetries(arguments *a, const thr_frame *f)
+static int list_symmetries(arguments *a, const thr_frame *framework)
 {
   thr_err err = {0};
-  thr_symmetries s;
-  int code = cli_resolve_ends(a->ends, f, &a->plan);
+  thr_symmetries symmetries;
+  int code = cli_resolve_ends(a->ends, framework, &a->plan);
   if (code == EXIT_OK) {
     const thr_limits limits = cli_limits(a->plan.time_limit);
-    thr_status st = thr_symmetries_find(f, &a->plan, &limits, &s, &err);
+    thr_status st = thr_symmetries_find(framework, &a->plan, &limits, &symmetries, &err);
     cli_progress_end();
-    if (!st || st == THR_ELIMIT) code = print(a, f, &s);
+    if (!st || st == THR_ELIMIT) code = print(a, framework, &symmetries);
     if (code == EXIT_OK && st) code = cli_fail(&err);
-    thr_symmetries_destroy(&s);
+    thr_symmetries_destroy(&symmetries);
   }
   free(a->plan.end_node);
   return code;
@@ -149,13 +149,13 @@ static int list_symmetries(arguments *a, const thr_frame *f)
 int cmd_symmetries(int argc, char **argv)
 {
   arguments a;
-  thr_frame f;
+  thr_frame framework;
   guard_end end;
   int code = parse(argc, argv, &a);
   if (code >= 0) return code;
   if (guard_fork(&a.guard, &end)) return guard_conclude(&end, "no threadings");
-  if ((code = cli_read_frame(a.path, &a.frame, &f))) return code;
-  code = list_symmetries(&a, &f);
-  thr_frame_destroy(&f);
+  if ((code = cli_read_frame(a.path, &a.frame, &framework))) return code;
+  code = list_symmetries(&a, &framework);
+  thr_frame_destroy(&framework);
   return code;
 }

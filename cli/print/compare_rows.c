@@ -117,10 +117,10 @@ static double joint_refused(const compare_entry *e)
 }
 static double taut_turning(const compare_entry *e)
 {
-  const thr_evaluation *r = &e->eval[THR_JOINT].record;
+  const thr_evaluation *evaluation = &e->eval[THR_JOINT].record;
   double sum = 0;
-  for (int i = 0; i < r->n_cords; i++)
-    sum += r->cord[i].taut_turning;
+  for (int i = 0; i < evaluation->n_cords; i++)
+    sum += evaluation->cord[i].taut_turning;
   return is_known(e, THR_JOINT) ? thr_degrees(sum) : NAN;
 }
 static double holding(const compare_entry *e)
@@ -183,7 +183,7 @@ bool compare_is_shown(const compare_entry *e, int n, const compare_row *r)
   return !r->optional;
 }
 
-void compare_put_cell(thr_text *t, const compare_row *r, double value, bool best)
+void compare_put_cell(thr_text *text, const compare_row *r, double value, bool best)
 {
   char cell[40];
   if (isnan(value))
@@ -196,5 +196,5 @@ void compare_put_cell(thr_text *t, const compare_row *r, double value, bool best
     snprintf(cell, sizeof cell, "%.*g", -r->decimals, value);
   else
     snprintf(cell, sizeof cell, "%.*f", r->decimals, value);
-  thr_text_printf(t, " %16s%s", cell, best ? "*" : " ");
+  thr_text_printf(text, " %16s%s", cell, best ? "*" : " ");
 }

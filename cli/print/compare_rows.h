@@ -37,6 +37,6 @@ bool compare_is_best(const compare_entry *e, int n, const compare_row *r, int i)
 bool compare_is_shown(const compare_entry *e, int n, const compare_row *r);
 
 /* A space, 16 columns, and the mark of the best. */
-void compare_put_cell(thr_text *t, const compare_row *r, double value, bool best);
+void compare_put_cell(thr_text *text, const compare_row *r, double value, bool best);
 
 #endif

@@ -38,38 +38,38 @@ static const char *seen_from(const double axis[3])
 }
 
 /* "turned by 90 degrees clockwise from above". The axis points upwards, x to the right or y to the back. */
-static void say_turn(const thr_isometry *o, char words[72])
+static void say_turn(const thr_isometry *isometry, char words[72])
 {
-  double angle = fabs(o->angle) * 180 / THR_PI;
-  const char *way = o->angle > 0 ? "counter-clockwise" : "clockwise", *from = seen_from(o->axis);
+  double angle = fabs(isometry->angle) * 180 / THR_PI;
+  const char *way = isometry->angle > 0 ? "counter-clockwise" : "clockwise", *from = seen_from(isometry->axis);
   bool half = angle > 180 - 1e-6;
-  if (half && fabs(o->axis[2]) < LEVEL)
-    snprintf(words, 72, "turned over%s", about(o->axis));
+  if (half && fabs(isometry->axis[2]) < LEVEL)
+    snprintf(words, 72, "turned over%s", about(isometry->axis));
   else if (half)
-    snprintf(words, 72, "turned by 180 degrees%s", about(o->axis));
+    snprintf(words, 72, "turned by 180 degrees%s", about(isometry->axis));
   else if (*from)
     snprintf(words, 72, "turned by %.4g degrees %s%s", angle, way, from);
   else
-    snprintf(words, 72, "turned by %.4g degrees%s", angle, about(o->axis));
+    snprintf(words, 72, "turned by %.4g degrees%s", angle, about(isometry->axis));
 }
 
 /* Of a permutation of the nodes; "" if no motion is near. */
-static void say_motion(const thr_frame *f, const int *image, char words[104])
+static void say_motion(const thr_frame *frame, const int *image, char words[104])
 {
-  thr_isometry o;
+  thr_isometry isometry;
   char turn[72];
-  thr_isometry_of(f, image, thr_symmetry_near, &o);
-  switch (o.kind) {
+  thr_isometry_of(frame, image, thr_symmetry_near, &isometry);
+  switch (isometry.kind) {
   case THR_ISO_IDENTITY: snprintf(words, 104, "in the same place"); break;
   case THR_ISO_ROTATION:
-    say_turn(&o, turn);
+    say_turn(&isometry, turn);
     snprintf(words, 104, "%s", turn);
     break;
-  case THR_ISO_MIRROR: snprintf(words, 104, "mirrored%s", across(o.axis)); break;
+  case THR_ISO_MIRROR: snprintf(words, 104, "mirrored%s", across(isometry.axis)); break;
   case THR_ISO_INVERSION: snprintf(words, 104, "inverted (mirrored at the middle point)"); break;
   case THR_ISO_ROTOREFLECTION:
-    say_turn(&o, turn);
-    snprintf(words, 104, "mirrored%s and %s", across(o.axis), turn);
+    say_turn(&isometry, turn);
+    snprintf(words, 104, "mirrored%s and %s", across(isometry.axis), turn);
     break;
   default: words[0] = '\0';
   }
@@ -96,19 +96,19 @@ void cli_copies_destroy(cli_copies *c)
   *c = (cli_copies){0};
 }
 
-thr_status cli_copies_describe(const thr_plan *p, cli_copies *out, thr_err *err)
+thr_status cli_copies_describe(const thr_plan *plan, cli_copies *out, thr_err *err)
 {
-  const thr_symmetry_record *r = &p->symmetry;
-  cli_copies c = {.motion = thr_calloc((size_t)p->n_cords, sizeof *c.motion),
-                  .words = thr_calloc((size_t)r->n_images, sizeof *c.words)};
-  bool *hit = thr_calloc((size_t)p->frame.n_nodes, sizeof *hit);
+  const thr_symmetry_record *record = &plan->symmetry;
+  cli_copies c = {.motion = thr_calloc((size_t)plan->n_cords, sizeof *c.motion),
+                  .words = thr_calloc((size_t)record->n_images, sizeof *c.words)};
+  bool *hit = thr_calloc((size_t)plan->frame.n_nodes, sizeof *hit);
   thr_status st = c.motion && c.words && hit ? THR_OK : thr_nomem(err);
-  for (int i = 0; i < r->n_images && !st; i++) {
-    const int *image = r->image + (size_t)i * (size_t)p->frame.n_nodes;
-    if (is_permutation(image, p->frame.n_nodes, hit)) say_motion(&p->frame, image, c.words[i]);
+  for (int i = 0; i < record->n_images && !st; i++) {
+    const int *image = record->image + (size_t)i * (size_t)plan->frame.n_nodes;
+    if (is_permutation(image, plan->frame.n_nodes, hit)) say_motion(&plan->frame, image, c.words[i]);
   }
-  for (int i = 0; i < p->n_cords && r->present && !st; i++)
-    if (r->unique[i] != i && c.words[r->element[i]][0]) c.motion[i] = c.words[r->element[i]];
+  for (int i = 0; i < plan->n_cords && record->present && !st; i++)
+    if (record->unique[i] != i && c.words[record->element[i]][0]) c.motion[i] = c.words[record->element[i]];
   free(hit);
   if (st) cli_copies_destroy(&c);
   *out = c;

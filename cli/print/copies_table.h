@@ -12,7 +12,7 @@ typedef struct {
 
 /* Of each image the motion in space that is nearest to it, if it is within thr_symmetry_near. Plans that are not symmetric have
  * no words. Release with cli_copies_destroy. O(images * n). */
-thr_status cli_copies_describe(const thr_plan *p, cli_copies *out, thr_err *err) THR_MUST_CHECK;
+thr_status cli_copies_describe(const thr_plan *plan, cli_copies *out, thr_err *err) THR_MUST_CHECK;
 void cli_copies_destroy(cli_copies *c);
 
 #endif

@@ -9,10 +9,11 @@
 #include "lp/length/cords.h"
 #include "planner/rivals.h"
 
-/* r: for a plan of the least turning, what it is held against; NULL for others. word: what is known beyond what is verified. */
-void plan_put_summary(thr_text *t, const thr_plan *p, const thr_rivals *r, thr_cords_word word);
+/* rivals: for a plan of the least turning, what it is held against; NULL for others. word: what is known beyond what is verified.
+ */
+void plan_put_summary(thr_text *text, const thr_plan *plan, const thr_rivals *rivals, thr_cords_word word);
 
 /* The same as members of an object that is left open. */
-void plan_put_json(thr_writer *w, const thr_plan *p, const thr_rivals *r, thr_cords_word word);
+void plan_put_json(thr_writer *writer, const thr_plan *plan, const thr_rivals *rivals, thr_cords_word word);
 
 #endif

@@ -62,52 +62,52 @@ void ranking_make(ranking *r)
 }
 
 /* +-0.4 %, or from .. to. */
-static void put_interval(const ranking *r, int i, thr_text *t)
+static void put_interval(const ranking *r, int i, thr_text *text)
 {
   double low = r->low[i], high = r->high[i];
   if (!isfinite(high))
-    thr_text_printf(t, " (at least %.4g%s%s%s)", low, r->unit, r->open ? ": " : "", r->open ? r->open : "");
+    thr_text_printf(text, " (at least %.4g%s%s%s)", low, r->unit, r->open ? ": " : "", r->open ? r->open : "");
   else if (r->error && r->value[i] > 0)
-    thr_text_printf(t, " (+-%.3g %%)", 100 * (high / r->value[i] - 1));
+    thr_text_printf(text, " (+-%.3g %%)", 100 * (high / r->value[i] - 1));
   else if (!r->error && high > low * (1 + 1e-5))
-    thr_text_printf(t, " (%.4g .. %.4g%s)", low, high, r->unit);
+    thr_text_printf(text, " (%.4g .. %.4g%s)", low, high, r->unit);
 }
 
-void ranking_put_text(const ranking *r, const char *const *name, thr_text *t)
+void ranking_put_text(const ranking *r, const char *const *name, thr_text *text)
 {
   int widest = 0;
   for (int i = 0; i < r->n; i++)
     if ((int)strlen(name[i]) > widest) widest = (int)strlen(name[i]);
-  thr_text_printf(t, "ranking by %s\n", r->title);
+  thr_text_printf(text, "ranking by %s\n", r->title);
   for (int k = 0; k < r->n_ranked; k++) {
     int i = r->order[k];
-    thr_text_printf(t, "  %d. %-*s %.4g%s", r->rank[i], widest, name[i], r->value[i], r->unit);
-    put_interval(r, i, t);
+    thr_text_printf(text, "  %d. %-*s %.4g%s", r->rank[i], widest, name[i], r->value[i], r->unit);
+    put_interval(r, i, text);
     if (k > 0)
-      thr_text_append(t, r->rank[i] == r->rank[r->order[k - 1]] ? "  tie, within the error" : "  more, beyond the error");
-    thr_text_append(t, "\n");
+      thr_text_append(text, r->rank[i] == r->rank[r->order[k - 1]] ? "  tie, within the error" : "  more, beyond the error");
+    thr_text_append(text, "\n");
   }
   for (int i = 0; i < r->n; i++)
-    if (!r->rank[i]) thr_text_printf(t, "  -  %-*s not known\n", widest, name[i]);
+    if (!r->rank[i]) thr_text_printf(text, "  -  %-*s not known\n", widest, name[i]);
 }
 
-void ranking_put_json(const ranking *r, const char *const *name, thr_writer *w)
+void ranking_put_json(const ranking *r, const char *const *name, thr_writer *writer)
 {
-  thr_write_object(w, NULL);
-  thr_write_string(w, "by", r->key);
-  thr_write_array(w, "order");
+  thr_write_object(writer, NULL);
+  thr_write_string(writer, "by", r->key);
+  thr_write_array(writer, "order");
   for (int k = 0; k < r->n_ranked; k++) {
     int i = r->order[k];
-    thr_write_object(w, NULL);
-    thr_write_string(w, "plan", name[i]);
-    thr_write_number(w, "value", r->value[i]);
-    thr_write_number(w, "low", r->low[i]);
-    thr_write_number(w, "high", r->high[i]);
-    thr_write_int(w, "rank", r->rank[i]);
-    thr_write_close(w);
+    thr_write_object(writer, NULL);
+    thr_write_string(writer, "plan", name[i]);
+    thr_write_number(writer, "value", r->value[i]);
+    thr_write_number(writer, "low", r->low[i]);
+    thr_write_number(writer, "high", r->high[i]);
+    thr_write_int(writer, "rank", r->rank[i]);
+    thr_write_close(writer);
   }
-  thr_write_close(w);
-  thr_write_close(w);
+  thr_write_close(writer);
+  thr_write_close(writer);
 }
 
 static bool surely_less(const ranking *r, int i, int k)

@@ -26,8 +26,8 @@ void ranking_destroy(ranking *r);
 void ranking_make(ranking *r);
 
 /* "1. lines.json  12.3 N (+-0.4 %)" .. and whether each is more than those before. */
-void ranking_put_text(const ranking *r, const char *const *name, thr_text *t);
-void ranking_put_json(const ranking *r, const char *const *name, thr_writer *w);
+void ranking_put_text(const ranking *r, const char *const *name, thr_text *text);
+void ranking_put_json(const ranking *r, const char *const *name, thr_writer *writer);
 
 /* A pair of plans that the two put in opposite orders, beyond what their intervals allow; false if there is none. */
 bool ranking_disagree(const ranking *a, const ranking *b, int pair[2]);

@@ -13,17 +13,17 @@
 /* ---- words ---- */
 
 /* "8", "1.2e+40". */
-static void put_order(thr_text *t, double mantissa, int exponent)
+static void put_order(thr_text *text, double mantissa, int exponent)
 {
   double digits = floor(log10(mantissa));
   if (exponent == 0 && mantissa < 1e15)
-    thr_text_printf(t, "%.0f", mantissa);
+    thr_text_printf(text, "%.0f", mantissa);
   else
-    thr_text_printf(t, "%.3ge+%d", mantissa / pow(10, digits), exponent + (int)digits);
+    thr_text_printf(text, "%.3ge+%d", mantissa / pow(10, digits), exponent + (int)digits);
 }
 
 /* "identity, 3 rotations, 4 mirrors". */
-static void put_kinds(thr_text *t, const thr_symmetry_row *row)
+static void put_kinds(thr_text *text, const thr_symmetry_row *row)
 {
   static const char *const word[][2] = {[THR_ISO_ROTATION] = {"rotation", "rotations"},
                                         [THR_ISO_MIRROR] = {"mirror", "mirrors"},
@@ -31,21 +31,21 @@ static void put_kinds(thr_text *t, const thr_symmetry_row *row)
                                         [THR_ISO_ROTOREFLECTION] = {"rotoreflection", "rotoreflections"},
                                         [THR_ISO_NONE] = {"of the graph only", "of the graph only"}};
   const char *comma = "";
-  if (row->order == 1) thr_text_append(t, "identity");
+  if (row->order == 1) thr_text_append(text, "identity");
   for (int k = THR_ISO_IDENTITY + 1; k <= THR_ISO_NONE; k++) {
     if (row->kinds[k] == 0) continue;
-    thr_text_printf(t, "%s%d %s", comma, row->kinds[k], cli_plural(row->kinds[k], word[k][0], word[k][1]));
+    thr_text_printf(text, "%s%d %s", comma, row->kinds[k], cli_plural(row->kinds[k], word[k][0], word[k][1]));
     comma = ", ";
   }
 }
 
 /* "C4v", or what else to call it. */
-static void put_name(thr_text *t, const thr_symmetry_row *row)
+static void put_name(thr_text *text, const thr_symmetry_row *row)
 {
   if (*row->name)
-    thr_text_append(t, row->name);
+    thr_text_append(text, row->name);
   else
-    thr_text_printf(t, "order %d of the graph", row->order);
+    thr_text_printf(text, "order %d of the graph", row->order);
 }
 
 /* Paths and the copies of each, itself among them: "2 x 4", or "3 x 4-8" if some have more than others. */
@@ -59,7 +59,7 @@ static void copies_of(const thr_symmetry_row *row, char out[40])
 }
 
 /* The solver's word, which no checker verifies: "optimal", or the first aim that may not be as low as can be. */
-static const char *solvers_word(const thr_plan_options *o, const thr_symmetry_row *row)
+static const char *solvers_word(const thr_plan_options *options, const thr_symmetry_row *row)
 {
   static const char *const no[] = {[THR_AIM_OVERLAP] = "not overlap",
                                    [THR_AIM_STEPS] = "not steps",
@@ -67,7 +67,7 @@ static const char *solvers_word(const thr_plan_options *o, const thr_symmetry_ro
                                    [THR_AIM_TURNING] = "not turning"};
   thr_aim order[THR_N_AIMS];
   if (row->why.code == THR_OK) return "optimal";
-  thr_aims_order(o, order);
+  thr_aims_order(options, order);
   for (int k = 0; k < THR_N_AIMS - 1; k++) {
     thr_aim aim = order[k];
     if (row->value[aim] > row->bound[aim] + 1e-6 * fmax(1, fabs(row->value[aim]))) return no[aim];
@@ -77,143 +77,146 @@ static const char *solvers_word(const thr_plan_options *o, const thr_symmetry_ro
 
 /* ---- text ---- */
 
-void symmetry_put_head(thr_text *t, const thr_frame *f, const thr_plan_options *o, const thr_symmetries *s)
+void symmetry_put_head(thr_text *text, const thr_frame *frame, const thr_plan_options *options, const thr_symmetries *symmetries)
 {
-  bool shape = o->symmetry.geometric >= 0;
-  double kept = shape ? s->keep_lengths[0] : s->mantissa;
-  int exponent = shape ? (int)s->keep_lengths[1] : s->exponent;
+  bool shape = options->symmetry.geometric >= 0;
+  double kept = shape ? symmetries->keep_lengths[0] : symmetries->mantissa;
+  int exponent = shape ? (int)symmetries->keep_lengths[1] : symmetries->exponent;
   const char *automorphisms = exponent == 0 && kept == 1 ? "automorphism" : "automorphisms";
   if (shape)
-    thr_text_printf(t, "%.0f %s within %g, of ", s->mantissa, s->mantissa == 1 ? "isometry" : "isometries",
-                    o->symmetry.geometric);
-  put_order(t, kept, exponent);
-  thr_text_printf(t, " %s by nauty %s%s", automorphisms, thr_nauty_version(), shape ? " that keep edge lengths" : "");
-  thr_text_printf(t, "; %d %s of %d nodes, %d of %d edges; %d %s of groups%s\n", s->node_orbits,
-                  cli_plural(s->node_orbits, "orbit", "orbits"), f->n_nodes, s->edge_orbits, f->n_edges, s->n,
-                  cli_plural(s->n, "class", "classes"), s->listed ? "" : ", not all:");
-  if (!s->listed) thr_text_printf(t, "%s\n", s->note);
+    thr_text_printf(text, "%.0f %s within %g, of ", symmetries->mantissa, symmetries->mantissa == 1 ? "isometry" : "isometries",
+                    options->symmetry.geometric);
+  put_order(text, kept, exponent);
+  thr_text_printf(text, " %s by nauty %s%s", automorphisms, thr_nauty_version(), shape ? " that keep edge lengths" : "");
+  thr_text_printf(text, "; %d %s of %d nodes, %d of %d edges; %d %s of groups%s\n", symmetries->node_orbits,
+                  cli_plural(symmetries->node_orbits, "orbit", "orbits"), frame->n_nodes, symmetries->edge_orbits, frame->n_edges,
+                  symmetries->n, cli_plural(symmetries->n, "class", "classes"), symmetries->listed ? "" : ", not all:");
+  if (!symmetries->listed) thr_text_printf(text, "%s\n", symmetries->note);
   double base = 0;
-  for (int e = 0; e < f->n_edges; e++)
-    base += thr_plan_cover(f, o, e) * f->length[e];
-  thr_text_printf(t, "ends: %s; %d %s per edge%s; the shortest plan with one cord in each component has %.1f %% overlap%s\n\n",
-                  thr_ends_name(o->ends), o->cover, cli_plural(o->cover, "pass", "passes"),
-                  o->joint == THR_JOINT_TUBE ? "; joints: tube" : "", 100 * (s->shortest - base) / base,
-                  s->shortest_optimal ? "" : " (not proved)");
+  for (int e = 0; e < frame->n_edges; e++)
+    base += thr_plan_cover(frame, options, e) * frame->length[e];
+  thr_text_printf(text, "ends: %s; %d %s per edge%s; the shortest plan with one cord in each component has %.1f %% overlap%s\n\n",
+                  thr_ends_name(options->ends), options->cover, cli_plural(options->cover, "pass", "passes"),
+                  options->joint == THR_JOINT_TUBE ? "; joints: tube" : "", 100 * (symmetries->shortest - base) / base,
+                  symmetries->shortest_optimal ? "" : " (not proved)");
 }
 
-static void put_row(thr_text *t, const thr_plan_options *o, const thr_symmetries *s, int i)
+static void put_row(thr_text *text, const thr_plan_options *options, const thr_symmetries *symmetries, int i)
 {
-  const thr_symmetry_row *row = &s->row[i];
-  const thr_metrics *m = &row->metrics;
+  const thr_symmetry_row *row = &symmetries->row[i];
+  const thr_metrics *metrics = &row->metrics;
   char copies[40], factor[24];
-  thr_text_printf(t, "%c %4d %6d  %-6s ", i == s->chosen ? '*' : ' ', i + 1, row->order, *row->name ? row->name : "graph");
+  thr_text_printf(text, "%c %4d %6d  %-6s ", i == symmetries->chosen ? '*' : ' ', i + 1, row->order,
+                  *row->name ? row->name : "graph");
   if (row->n_cords > 0) {
     copies_of(row, copies);
-    thr_text_printf(t, "%7.1f %% %11s %8.6g %6d %8.0f deg %8.0f deg %12s %11s", 100 * m->overlap / m->base_length, copies,
-                    row->record.steps, row->n_cords, thr_degrees(m->turning), thr_degrees(m->max_turning),
-                    turning_factor(turning_capstan(o->physics.mu, m->max_turning), factor), solvers_word(o, row));
+    thr_text_printf(text, "%7.1f %% %11s %8.6g %6d %8.0f deg %8.0f deg %12s %11s", 100 * metrics->overlap / metrics->base_length,
+                    copies, row->record.steps, row->n_cords, thr_degrees(metrics->turning), thr_degrees(metrics->max_turning),
+                    turning_factor(turning_capstan(options->physics.mu, metrics->max_turning), factor),
+                    solvers_word(options, row));
   } else {
     bool open = row->why.code == THR_ELIMIT || row->why.code == THR_ESOLVER;
-    thr_text_printf(t, "  %-79.79s", open ? row->why.text : row->why.code ? "no threading" : "not asked for");
+    thr_text_printf(text, "  %-79.79s", open ? row->why.text : row->why.code ? "no threading" : "not asked for");
   }
-  thr_text_printf(t, " %8.3f  ", row->residual);
-  put_kinds(t, row);
-  thr_text_append(t, "\n");
+  thr_text_printf(text, " %8.3f  ", row->residual);
+  put_kinds(text, row);
+  thr_text_append(text, "\n");
 }
 
-static void put_reason(thr_text *t, const thr_plan_options *o, const thr_symmetries *s)
+static void put_reason(thr_text *text, const thr_plan_options *options, const thr_symmetries *symmetries)
 {
   double percent = 100 * thr_symmetry_slack;
-  const thr_symmetry_row *row = &s->row[s->chosen];
-  thr_text_printf(t, "* group %d, ", s->chosen + 1);
-  put_name(t, row);
-  if (*o->symmetry.group)
-    thr_text_printf(t, ": asked for as --group %s", o->symmetry.group);
-  else if (s->within)
-    thr_text_printf(t, ": the fewest learned steps (%g) with at most %g %% more cord than the shortest plan", row->record.steps,
-                    percent);
+  const thr_symmetry_row *row = &symmetries->row[symmetries->chosen];
+  thr_text_printf(text, "* group %d, ", symmetries->chosen + 1);
+  put_name(text, row);
+  if (*options->symmetry.group)
+    thr_text_printf(text, ": asked for as --group %s", options->symmetry.group);
+  else if (symmetries->within)
+    thr_text_printf(text, ": the fewest learned steps (%g) with at most %g %% more cord than the shortest plan",
+                    row->record.steps, percent);
   else
-    thr_text_printf(t, ": the least cord; none has at most %g %% more than the shortest plan", percent);
-  thr_text_append(t, "\n");
+    thr_text_printf(text, ": the least cord; none has at most %g %% more than the shortest plan", percent);
+  thr_text_append(text, "\n");
 }
 
-void symmetry_put_table(thr_text *t, const thr_plan_options *o, const thr_symmetries *s, int most)
+void symmetry_put_table(thr_text *text, const thr_plan_options *options, const thr_symmetries *symmetries, int most)
 {
-  int first = 0, last = s->n;
-  bool only = *o->symmetry.group != '\0';
-  if (s->n > most && !only) {
-    first = s->chosen - most / 2 < 0 ? 0 : s->chosen - most / 2;
-    if (first > s->n - most) first = s->n - most;
+  int first = 0, last = symmetries->n;
+  bool only = *options->symmetry.group != '\0';
+  if (symmetries->n > most && !only) {
+    first = symmetries->chosen - most / 2 < 0 ? 0 : symmetries->chosen - most / 2;
+    if (first > symmetries->n - most) first = symmetries->n - most;
     last = first + most;
   }
-  thr_text_printf(t, "%6s %6s  %-6s %9s %11s %8s %6s %12s %12s %12s %11s %8s  %s\n", "number", "order", "group", "overlap",
+  thr_text_printf(text, "%6s %6s  %-6s %9s %11s %8s %6s %12s %12s %12s %11s %8s  %s\n", "number", "order", "group", "overlap",
                   "unique x", "steps", "cords", "turning", "largest", "capstan", "solver says", "residual", "elements");
-  if (first > 0) thr_text_printf(t, "    ..  %d larger\n", first);
+  if (first > 0) thr_text_printf(text, "    ..  %d larger\n", first);
   for (int i = first; i < last; i++)
-    if (!only || s->row[i].n_cords > 0 || s->row[i].why.code) put_row(t, o, s, i);
-  if (last < s->n) thr_text_printf(t, "    ..  %d smaller\n", s->n - last);
-  if (s->chosen >= 0) put_reason(t, o, s);
+    if (!only || symmetries->row[i].n_cords > 0 || symmetries->row[i].why.code) put_row(text, options, symmetries, i);
+  if (last < symmetries->n) thr_text_printf(text, "    ..  %d smaller\n", symmetries->n - last);
+  if (symmetries->chosen >= 0) put_reason(text, options, symmetries);
 }
 
 /* ---- copies ---- */
 
-static void put_isometry(thr_text *t, const thr_plan *p, int image)
+static void put_isometry(thr_text *text, const thr_plan *plan, int image)
 {
   thr_isometry iso;
-  thr_isometry_of(&p->frame, &p->symmetry.image[(size_t)image * (size_t)p->frame.n_nodes], thr_symmetry_near, &iso);
-  thr_text_append(t, iso.name);
+  thr_isometry_of(&plan->frame, &plan->symmetry.image[(size_t)image * (size_t)plan->frame.n_nodes], thr_symmetry_near, &iso);
+  thr_text_append(text, iso.name);
 }
 
-static void put_copies_of(thr_text *t, const thr_plan *p, int path)
+static void put_copies_of(thr_text *text, const thr_plan *plan, int path)
 {
   enum { MOST = 24 };
-  const thr_symmetry_record *r = &p->symmetry;
+  const thr_symmetry_record *record = &plan->symmetry;
   int n = 0;
-  thr_text_printf(t, "         %s: unique", p->cord[path].id);
-  for (int i = 0; i < p->n_cords; i++)
-    if (i != path && r->unique[i] == path && n++ < MOST) thr_text_printf(t, n == 1 ? "; %s" : ", %s", p->cord[i].id);
-  if (n > MOST) thr_text_printf(t, " and %d more", n - MOST);
-  if (n > 0) thr_text_printf(t, ": %s of %s by ", cli_plural(n, "copy", "copies"), p->cord[path].id);
+  thr_text_printf(text, "         %s: unique", plan->cord[path].id);
+  for (int i = 0; i < plan->n_cords; i++)
+    if (i != path && record->unique[i] == path && n++ < MOST) thr_text_printf(text, n == 1 ? "; %s" : ", %s", plan->cord[i].id);
+  if (n > MOST) thr_text_printf(text, " and %d more", n - MOST);
+  if (n > 0) thr_text_printf(text, ": %s of %s by ", cli_plural(n, "copy", "copies"), plan->cord[path].id);
   n = 0;
-  for (int i = 0; i < p->n_cords; i++)
-    if (i != path && r->unique[i] == path && n++ < MOST) {
-      if (n > 1) thr_text_append(t, ", ");
-      put_isometry(t, p, r->element[i]);
+  for (int i = 0; i < plan->n_cords; i++)
+    if (i != path && record->unique[i] == path && n++ < MOST) {
+      if (n > 1) thr_text_append(text, ", ");
+      put_isometry(text, plan, record->element[i]);
     }
-  thr_text_append(t, n > MOST ? ", ..\n" : "\n");
+  thr_text_append(text, n > MOST ? ", ..\n" : "\n");
 }
 
-void symmetry_put_paths(thr_text *t, const thr_plan *p)
+void symmetry_put_paths(thr_text *text, const thr_plan *plan)
 {
   enum { MOST = 12 };
-  const thr_symmetry_record *r = &p->symmetry;
+  const thr_symmetry_record *record = &plan->symmetry;
   int n = 0;
-  thr_text_printf(t, "\npaths    %d unique, %g learned %s of %d passes", r->unique_paths, r->steps,
-                  r->steps == 1 ? "step" : "steps", p->metrics.passes);
-  thr_text_printf(t, "; group %s%s of order %d\n", *r->name ? r->name : "of the graph", *r->name ? "" : ",", r->order);
-  for (int i = 0; i < p->n_cords; i++)
-    if (r->unique[i] == i && n++ < MOST) put_copies_of(t, p, i);
-  if (n > MOST) thr_text_printf(t, "         .. and %d more unique paths\n", n - MOST);
+  thr_text_printf(text, "\npaths    %d unique, %g learned %s of %d passes", record->unique_paths, record->steps,
+                  record->steps == 1 ? "step" : "steps", plan->metrics.passes);
+  thr_text_printf(text, "; group %s%s of order %d\n", *record->name ? record->name : "of the graph", *record->name ? "" : ",",
+                  record->order);
+  for (int i = 0; i < plan->n_cords; i++)
+    if (record->unique[i] == i && n++ < MOST) put_copies_of(text, plan, i);
+  if (n > MOST) thr_text_printf(text, "         .. and %d more unique paths\n", n - MOST);
 }
 
 /* ---- JSON ---- */
 
-static void put_order_json(thr_writer *w, const char *key, double mantissa, int exponent)
+static void put_order_json(thr_writer *writer, const char *key, double mantissa, int exponent)
 {
   thr_text digits = {0};
   put_order(&digits, mantissa, exponent);
-  thr_write_printf(w, key, "%s", digits.data ? digits.data : "0");
-  w->out->failed |= digits.failed;
+  thr_write_printf(writer, key, "%s", digits.data ? digits.data : "0");
+  writer->out->failed |= digits.failed;
   thr_text_destroy(&digits);
 }
 
 /* Text, or null if there is none. */
-static void put_name_json(thr_writer *w, const char *name)
+static void put_name_json(thr_writer *writer, const char *name)
 {
   if (*name)
-    thr_write_string(w, "name", name);
+    thr_write_string(writer, "name", name);
   else
-    thr_write_null(w, "name");
+    thr_write_null(writer, "name");
 }
 
 static const char *row_status(const thr_symmetry_row *row)
@@ -226,27 +229,27 @@ static const char *row_status(const thr_symmetry_row *row)
   }
 }
 
-static void put_threading_json(thr_writer *w, const thr_plan_options *o, const thr_symmetry_row *row)
+static void put_threading_json(thr_writer *writer, const thr_plan_options *options, const thr_symmetry_row *row)
 {
-  const thr_metrics *m = &row->metrics;
-  thr_write_number(w, "overlap", m->overlap);
-  thr_write_number(w, "overlap_percent", 100 * m->overlap / m->base_length);
-  thr_write_number(w, "length", m->length);
-  thr_write_int(w, "unique_paths", row->record.unique_paths);
-  thr_write_int(w, "least_copies", row->least_copies);
-  thr_write_int(w, "most_copies", row->most_copies);
-  thr_write_int(w, "cords", row->n_cords);
-  thr_write_number(w, "steps", row->record.steps);
-  thr_write_number(w, "turning", m->turning);
-  thr_write_number(w, "max_turning", m->max_turning);
-  thr_write_number(w, "max_capstan", turning_capstan(o->physics.mu, m->max_turning));
-  thr_write_object(w, "bound");
+  const thr_metrics *metrics = &row->metrics;
+  thr_write_number(writer, "overlap", metrics->overlap);
+  thr_write_number(writer, "overlap_percent", 100 * metrics->overlap / metrics->base_length);
+  thr_write_number(writer, "length", metrics->length);
+  thr_write_int(writer, "unique_paths", row->record.unique_paths);
+  thr_write_int(writer, "least_copies", row->least_copies);
+  thr_write_int(writer, "most_copies", row->most_copies);
+  thr_write_int(writer, "cords", row->n_cords);
+  thr_write_number(writer, "steps", row->record.steps);
+  thr_write_number(writer, "turning", metrics->turning);
+  thr_write_number(writer, "max_turning", metrics->max_turning);
+  thr_write_number(writer, "max_capstan", turning_capstan(options->physics.mu, metrics->max_turning));
+  thr_write_object(writer, "bound");
   for (int a = 0; a < THR_N_AIMS; a++)
-    thr_write_number(w, thr_aim_name(a), row->bound[a]);
-  thr_write_close(w);
+    thr_write_number(writer, thr_aim_name(a), row->bound[a]);
+  thr_write_close(writer);
 }
 
-static void put_row_json(thr_writer *w, const thr_plan_options *o, const thr_symmetries *s, int i)
+static void put_row_json(thr_writer *writer, const thr_plan_options *options, const thr_symmetries *symmetries, int i)
 {
   static const char *const kind[] = {[THR_ISO_IDENTITY] = "identity",
                                      [THR_ISO_ROTATION] = "rotation",
@@ -254,63 +257,63 @@ static void put_row_json(thr_writer *w, const thr_plan_options *o, const thr_sym
                                      [THR_ISO_INVERSION] = "inversion",
                                      [THR_ISO_ROTOREFLECTION] = "rotoreflection",
                                      [THR_ISO_NONE] = "none"};
-  const thr_symmetry_row *row = &s->row[i];
-  thr_write_line(w, 1);
-  thr_write_object(w, NULL);
-  thr_write_int(w, "number", i + 1);
-  thr_write_int(w, "order", row->order);
-  put_name_json(w, row->name);
-  thr_write_number(w, "conjugates", row->conjugates > 0 ? (double)row->conjugates : NAN);
-  thr_write_number(w, "residual", row->residual);
-  thr_write_object(w, "elements");
+  const thr_symmetry_row *row = &symmetries->row[i];
+  thr_write_line(writer, 1);
+  thr_write_object(writer, NULL);
+  thr_write_int(writer, "number", i + 1);
+  thr_write_int(writer, "order", row->order);
+  put_name_json(writer, row->name);
+  thr_write_number(writer, "conjugates", row->conjugates > 0 ? (double)row->conjugates : NAN);
+  thr_write_number(writer, "residual", row->residual);
+  thr_write_object(writer, "elements");
   for (int k = 0; k <= THR_ISO_NONE; k++)
-    thr_write_int(w, kind[k], row->kinds[k]);
-  thr_write_close(w);
-  thr_write_string(w, "status", row_status(row));
-  if (row->why.code) thr_write_string(w, "why", row->why.text);
-  if (row->n_cords > 0) put_threading_json(w, o, row);
-  thr_write_close(w);
+    thr_write_int(writer, kind[k], row->kinds[k]);
+  thr_write_close(writer);
+  thr_write_string(writer, "status", row_status(row));
+  if (row->why.code) thr_write_string(writer, "why", row->why.text);
+  if (row->n_cords > 0) put_threading_json(writer, options, row);
+  thr_write_close(writer);
 }
 
-void symmetry_put_table_json(thr_writer *w, const thr_plan_options *o, const thr_symmetries *s)
+void symmetry_put_table_json(thr_writer *writer, const thr_plan_options *options, const thr_symmetries *symmetries)
 {
-  const bool geometric = o->symmetry.geometric >= 0;
-  put_order_json(w, "order", s->mantissa, s->exponent);
-  thr_write_int(w, "node_orbits", s->node_orbits);
-  thr_write_int(w, "edge_orbits", s->edge_orbits);
-  thr_write_bool(w, "listed", s->listed);
-  thr_write_string(w, "note", s->note);
-  thr_write_number(w, "geometric", geometric ? o->symmetry.geometric : NAN);
-  if (geometric) put_order_json(w, "length_keeping", s->keep_lengths[0], (int)s->keep_lengths[1]);
-  thr_write_number(w, "mu", o->physics.mu);
-  thr_write_number(w, "shortest", s->shortest);
-  thr_write_string(w, "shortest_status", s->shortest_optimal ? "optimal" : "bound");
-  thr_write_number(w, "chosen", s->chosen >= 0 ? (double)s->chosen + 1 : NAN);
-  thr_write_bool(w, "within_slack", s->within);
-  thr_write_array(w, "groups");
-  for (int i = 0; i < s->n; i++)
-    put_row_json(w, o, s, i);
-  thr_write_close(w);
+  const bool geometric = options->symmetry.geometric >= 0;
+  put_order_json(writer, "order", symmetries->mantissa, symmetries->exponent);
+  thr_write_int(writer, "node_orbits", symmetries->node_orbits);
+  thr_write_int(writer, "edge_orbits", symmetries->edge_orbits);
+  thr_write_bool(writer, "listed", symmetries->listed);
+  thr_write_string(writer, "note", symmetries->note);
+  thr_write_number(writer, "geometric", geometric ? options->symmetry.geometric : NAN);
+  if (geometric) put_order_json(writer, "length_keeping", symmetries->keep_lengths[0], (int)symmetries->keep_lengths[1]);
+  thr_write_number(writer, "mu", options->physics.mu);
+  thr_write_number(writer, "shortest", symmetries->shortest);
+  thr_write_string(writer, "shortest_status", symmetries->shortest_optimal ? "optimal" : "bound");
+  thr_write_number(writer, "chosen", symmetries->chosen >= 0 ? (double)symmetries->chosen + 1 : NAN);
+  thr_write_bool(writer, "within_slack", symmetries->within);
+  thr_write_array(writer, "groups");
+  for (int i = 0; i < symmetries->n; i++)
+    put_row_json(writer, options, symmetries, i);
+  thr_write_close(writer);
 }
 
-void symmetry_put_json(thr_writer *w, const thr_plan *p)
+void symmetry_put_json(thr_writer *writer, const thr_plan *plan)
 {
-  const thr_symmetry_record *r = &p->symmetry;
-  thr_write_object(w, "group");
-  thr_write_int(w, "order", r->order);
-  put_name_json(w, r->name);
-  thr_write_close(w);
-  thr_write_int(w, "unique_paths", r->unique_paths);
-  thr_write_number(w, "steps", r->steps);
-  thr_write_array(w, "copies");
-  for (int i = 0; i < p->n_cords; i++) {
+  const thr_symmetry_record *record = &plan->symmetry;
+  thr_write_object(writer, "group");
+  thr_write_int(writer, "order", record->order);
+  put_name_json(writer, record->name);
+  thr_write_close(writer);
+  thr_write_int(writer, "unique_paths", record->unique_paths);
+  thr_write_number(writer, "steps", record->steps);
+  thr_write_array(writer, "copies");
+  for (int i = 0; i < plan->n_cords; i++) {
     thr_text by = {0};
-    put_isometry(&by, p, r->element[i]);
-    thr_write_object(w, NULL);
-    thr_write_string(w, "cord", p->cord[i].id);
-    thr_write_string(w, "of", p->cord[r->unique[i]].id);
-    thr_write_words(w, "by", &by);
-    thr_write_close(w);
+    put_isometry(&by, plan, record->element[i]);
+    thr_write_object(writer, NULL);
+    thr_write_string(writer, "cord", plan->cord[i].id);
+    thr_write_string(writer, "of", plan->cord[record->unique[i]].id);
+    thr_write_words(writer, "by", &by);
+    thr_write_close(writer);
   }
-  thr_write_close(w);
+  thr_write_close(writer);
 }

@@ -8,9 +8,9 @@
 
 /* Indented lines: what plans the claims are about (ends, passes, cords, joints, lengths), what is proved of the length slack,
  * and which statements of the plan nobody can verify, if there are any. */
-void terms_put(thr_text *t, const thr_plan *p);
+void terms_put(thr_text *text, const thr_plan *plan);
 
 /* The same as members of a JSON object, from ", " on. */
-void terms_put_json(thr_writer *w, const thr_plan *p);
+void terms_put_json(thr_writer *writer, const thr_plan *plan);
 
 #endif

@@ -15,17 +15,17 @@ double turning_capstan(double mu, double turning);
 
 /* Largest pull of a plan by the closed form, times the tension at the slackest point: INFINITY beyond 1e300, NAN if not known.
  * cord (NULL or [n_cords]) receives that of each. */
-double turning_pull(const thr_plan *p, double *cord);
+double turning_pull(const thr_plan *plan, double *cord);
 
 /* "65.9 x", "1.2e+34 x", "> 1e300 x"; "-" for NAN. */
 const char *turning_factor(double value, char out[24]);
 
 /* What is proved of the turning; then the table; then the frontier, if there is one. */
-void turning_put_status(thr_text *t, const thr_plan *p, const thr_rivals *r);
-void turning_put_table(thr_text *t, const thr_plan *p, const thr_rivals *r);
-void turning_put_frontier(thr_text *t, const thr_plan *p, const thr_rivals *r);
+void turning_put_status(thr_text *text, const thr_plan *plan, const thr_rivals *rivals);
+void turning_put_table(thr_text *text, const thr_plan *plan, const thr_rivals *rivals);
+void turning_put_frontier(thr_text *text, const thr_plan *plan, const thr_rivals *rivals);
 
 /* All of that as members of an object, each with a comma before it. */
-void turning_put_json(thr_writer *w, const thr_plan *p, const thr_rivals *r);
+void turning_put_json(thr_writer *writer, const thr_plan *plan, const thr_rivals *rivals);
 
 #endif

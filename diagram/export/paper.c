@@ -75,9 +75,9 @@ void thr_page_mm(thr_page_size s, double size[2])
 
 static cairo_status_t append(void *out, const unsigned char *bytes, unsigned int n)
 {
-  thr_text *t = out;
-  thr_text_append_bytes(t, (const char *)bytes, n);
-  return t->failed ? CAIRO_STATUS_WRITE_ERROR : CAIRO_STATUS_SUCCESS;
+  thr_text *text = out;
+  thr_text_append_bytes(text, (const char *)bytes, n);
+  return text->failed ? CAIRO_STATUS_WRITE_ERROR : CAIRO_STATUS_SUCCESS;
 }
 
 static thr_status failed(cairo_status_t status, thr_err *err)
@@ -95,14 +95,14 @@ static void describe(cairo_surface_t *surface, const char *title)
   lib.cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_MOD_DATE, epoch);
 }
 
-thr_status thr_paper_open(thr_paper **p, thr_page_size size, const char *title, thr_text *out, thr_err *err)
+thr_status thr_paper_open(thr_paper **paper, thr_page_size size, const char *title, thr_text *out, thr_err *err)
 {
   double mm[2];
-  *p = NULL;
+  *paper = NULL;
   thr_status st = load(err);
   if (st) return st;
   thr_page_mm(size, mm);
-  thr_paper *new = *p = thr_calloc(1, sizeof *new);
+  thr_paper *new = *paper = thr_calloc(1, sizeof *new);
   if (!new) return thr_nomem(err);
   new->width = mm[0] / POINT;
   new->height = mm[1] / POINT;
@@ -114,29 +114,29 @@ thr_status thr_paper_open(thr_paper **p, thr_page_size size, const char *title, 
   return THR_OK;
 }
 
-thr_status thr_paper_add(thr_paper *p, const thr_text *svg, thr_err *err)
+thr_status thr_paper_add(thr_paper *paper, const thr_text *svg, thr_err *err)
 {
   GError *why = NULL;
   thr_status st = THR_OK;
   if (svg->failed) return thr_nomem(err);
   RsvgHandle *page = lib.rsvg_handle_new_from_data((const guint8 *)(svg->data ? svg->data : ""), svg->length, &why);
-  RsvgRectangle whole = {0, 0, p->width, p->height};
-  if (!page || !lib.rsvg_handle_render_document(page, p->cairo, &whole, &why))
+  RsvgRectangle whole = {0, 0, paper->width, paper->height};
+  if (!page || !lib.rsvg_handle_render_document(page, paper->cairo, &whole, &why))
     st = thr_fail(err, THR_ESOLVER, "librsvg cannot draw a page: %s", why ? why->message : "no reason given");
   if (page) lib.g_object_unref(page);
   if (why) lib.g_error_free(why);
-  lib.cairo_show_page(p->cairo);
-  cairo_status_t status = lib.cairo_status(p->cairo);
+  lib.cairo_show_page(paper->cairo);
+  cairo_status_t status = lib.cairo_status(paper->cairo);
   return !st && status ? failed(status, err) : st;
 }
 
-thr_status thr_paper_close(thr_paper *p, thr_err *err)
+thr_status thr_paper_close(thr_paper *paper, thr_err *err)
 {
-  if (!p) return THR_OK;
-  lib.cairo_destroy(p->cairo);
-  lib.cairo_surface_finish(p->surface);
-  cairo_status_t status = lib.cairo_surface_status(p->surface);
-  lib.cairo_surface_destroy(p->surface);
-  free(p);
+  if (!paper) return THR_OK;
+  lib.cairo_destroy(paper->cairo);
+  lib.cairo_surface_finish(paper->surface);
+  cairo_status_t status = lib.cairo_surface_status(paper->surface);
+  lib.cairo_surface_destroy(paper->surface);
+  free(paper);
   return status ? failed(status, err) : THR_OK;
 }

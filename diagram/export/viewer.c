@@ -33,12 +33,12 @@ typedef struct {
 
 /* ---- the framework ---- */
 
-static void put_point(thr_writer *w, int digits, const double at[3])
+static void put_point(thr_writer *writer, int digits, const double at[3])
 {
-  thr_write_array(w, NULL);
+  thr_write_array(writer, NULL);
   for (int i = 0; i < 3; i++)
-    thr_write_printf(w, NULL, "%.*g", digits, at[i]);
-  thr_write_close(w);
+    thr_write_printf(writer, NULL, "%.*g", digits, at[i]);
+  thr_write_close(writer);
 }
 
 /* The next member of the whole, on a line of its own. */
@@ -50,66 +50,66 @@ static thr_writer *next_line(viewer *s)
 
 static void put_nodes(viewer *s)
 {
-  const thr_frame *f = s->f;
-  thr_writer *w = &s->out;
+  const thr_frame *frame = s->f;
+  thr_writer *writer = &s->out;
   thr_write_array(next_line(s), "nodes");
-  for (int v = 0; v < f->n_nodes; v++)
-    put_point(w, 7, f->xyz[v]);
-  thr_write_close(w);
+  for (int v = 0; v < frame->n_nodes; v++)
+    put_point(writer, 7, frame->xyz[v]);
+  thr_write_close(writer);
   thr_write_array(next_line(s), "outward");
-  for (int v = 0; v < f->n_nodes; v++)
-    put_point(w, 3, s->guide.outward[v]);
-  thr_write_close(w);
+  for (int v = 0; v < frame->n_nodes; v++)
+    put_point(writer, 3, s->guide.outward[v]);
+  thr_write_close(writer);
   thr_write_array(next_line(s), "labels");
-  for (int v = 0; v < f->n_nodes; v++)
-    thr_write_string(w, NULL, s->guide.label[v]);
-  thr_write_close(w);
+  for (int v = 0; v < frame->n_nodes; v++)
+    thr_write_string(writer, NULL, s->guide.label[v]);
+  thr_write_close(writer);
   thr_write_array(next_line(s), "places");
-  for (int v = 0; v < f->n_nodes; v++) {
+  for (int v = 0; v < frame->n_nodes; v++) {
     thr_text place = {0};
     thr_guide_place(&s->guide, v, &place);
-    thr_write_words(w, NULL, &place);
+    thr_write_words(writer, NULL, &place);
   }
-  thr_write_close(w);
+  thr_write_close(writer);
   thr_write_array(next_line(s), "feet");
-  for (int v = 0; v < f->n_nodes; v++)
-    if (f->foot && f->foot[v]) thr_write_int(w, NULL, v);
-  thr_write_close(w);
+  for (int v = 0; v < frame->n_nodes; v++)
+    if (frame->foot && frame->foot[v]) thr_write_int(writer, NULL, v);
+  thr_write_close(writer);
 }
 
 static void put_edges(viewer *s)
 {
-  const thr_frame *f = s->f;
+  const thr_frame *frame = s->f;
   thr_write_array(next_line(s), "edges");
-  for (int e = 0; e < f->n_edges; e++)
-    thr_write_ints(&s->out, NULL, f->edge[e], 2);
+  for (int e = 0; e < frame->n_edges; e++)
+    thr_write_ints(&s->out, NULL, frame->edge[e], 2);
   thr_write_close(&s->out);
   thr_write_array(next_line(s), "lengths");
-  for (int e = 0; e < f->n_edges; e++)
-    thr_write_printf(&s->out, NULL, "%.7g", f->length[e]);
+  for (int e = 0; e < frame->n_edges; e++)
+    thr_write_printf(&s->out, NULL, "%.7g", frame->length[e]);
   thr_write_close(&s->out);
 }
 
 /* ---- the cords ---- */
 
-static void put_tension(viewer *s, const thr_eval_cord *r)
+static void put_tension(viewer *s, const thr_eval_cord *cord)
 {
-  thr_writer *w = &s->out;
+  thr_writer *writer = &s->out;
   char text[32], words[64], hex[8];
-  thr_svg_force(r->force, text);
-  snprintf(words, sizeof words, "pull at %s: %s", r->pull == THR_PULL_BOTH ? "both ends" : thr_pull_name(r->pull), text);
-  thr_write_line(w, 1);
-  thr_write_string(w, "pull", words);
-  thr_write_array(w, "tension");
-  for (int k = 0; k < r->n_passes; k++)
-    thr_write_printf(w, NULL, "%.4g", r->tension[k]);
-  thr_write_close(w);
-  thr_write_array(w, "taut");
-  for (int k = 0; k < r->n_passes; k++) {
-    thr_tension_colour(s->range, r->tension[k], hex);
-    thr_write_string(w, NULL, hex);
+  thr_svg_force(cord->force, text);
+  snprintf(words, sizeof words, "pull at %s: %s", cord->pull == THR_PULL_BOTH ? "both ends" : thr_pull_name(cord->pull), text);
+  thr_write_line(writer, 1);
+  thr_write_string(writer, "pull", words);
+  thr_write_array(writer, "tension");
+  for (int k = 0; k < cord->n_passes; k++)
+    thr_write_printf(writer, NULL, "%.4g", cord->tension[k]);
+  thr_write_close(writer);
+  thr_write_array(writer, "taut");
+  for (int k = 0; k < cord->n_passes; k++) {
+    thr_tension_colour(s->range, cord->tension[k], hex);
+    thr_write_string(writer, NULL, hex);
   }
-  thr_write_close(w);
+  thr_write_close(writer);
 }
 
 static void put_turns(viewer *s, const thr_cord *cord)
@@ -130,89 +130,89 @@ static void put_turns(viewer *s, const thr_cord *cord)
 static void put_cord(viewer *s, int c)
 {
   const thr_cord *cord = &s->plan->cord[c];
-  thr_writer *w = &s->out;
+  thr_writer *writer = &s->out;
   thr_colour colour = thr_palette(s->copy[c].path);
   char words[192] = "";
   if (s->copy[c].of != c) thr_copies_words(s->plan, s->copy, c, s->motion, words);
   thr_write_object(next_line(s), NULL);
-  thr_write_string(w, "id", cord->id);
-  thr_write_bool(w, "closed", cord->closed);
-  thr_write_int(w, "of", s->copy[c].of);
-  thr_write_int(w, "path", s->copy[c].path);
-  thr_write_string(w, "how", words);
-  thr_write_string(w, "colour", colour.hex);
-  thr_write_string(w, "pale", colour.pale);
+  thr_write_string(writer, "id", cord->id);
+  thr_write_bool(writer, "closed", cord->closed);
+  thr_write_int(writer, "of", s->copy[c].of);
+  thr_write_int(writer, "path", s->copy[c].path);
+  thr_write_string(writer, "how", words);
+  thr_write_string(writer, "colour", colour.hex);
+  thr_write_string(writer, "pale", colour.pale);
   thr_svg_length(thr_cord_length(s->f, cord), s->f->units, words);
-  thr_write_string(w, "length", words);
-  thr_write_line(w, 1);
-  thr_write_ints(w, "half", cord->half, cord->n_passes);
+  thr_write_string(writer, "length", words);
+  thr_write_line(writer, 1);
+  thr_write_ints(writer, "half", cord->half, cord->n_passes);
   put_turns(s, cord);
   if (s->tension && s->plan->evaluation.cord[c].known) put_tension(s, &s->plan->evaluation.cord[c]);
-  thr_write_close(w);
+  thr_write_close(writer);
 }
 
 /* ---- the whole ---- */
 
 static void put_ticks(viewer *s)
 {
-  thr_writer *w = &s->out;
+  thr_writer *writer = &s->out;
   double tick[TICKS];
   char text[32];
   int n = thr_svg_ticks(s->range[0], s->range[1], s->range[0] > 0, TICKS, tick);
-  thr_write_array(w, "ticks");
+  thr_write_array(writer, "ticks");
   for (int i = 0; i < n; i++) {
     thr_svg_force(tick[i], text);
-    thr_write_array(w, NULL);
-    thr_write_printf(w, NULL, "%.7g", tick[i]);
-    thr_write_string(w, NULL, text);
-    thr_write_close(w);
+    thr_write_array(writer, NULL);
+    thr_write_printf(writer, NULL, "%.7g", tick[i]);
+    thr_write_string(writer, NULL, text);
+    thr_write_close(writer);
   }
-  thr_write_close(w);
+  thr_write_close(writer);
 }
 
 static void put_scale(viewer *s)
 {
-  thr_writer *w = &s->out;
+  thr_writer *writer = &s->out;
   char hex[8];
   thr_write_object(next_line(s), "scale");
-  thr_write_string(w, "method", thr_tension_method_words(&s->plan->evaluation));
-  thr_write_printf(w, "low", "%.7g", s->range[0]);
-  thr_write_printf(w, "high", "%.7g", s->range[1]);
+  thr_write_string(writer, "method", thr_tension_method_words(&s->plan->evaluation));
+  thr_write_printf(writer, "low", "%.7g", s->range[0]);
+  thr_write_printf(writer, "high", "%.7g", s->range[1]);
   put_ticks(s);
-  thr_write_array(w, "ramp");
+  thr_write_array(writer, "ramp");
   for (int i = 0; i <= RAMP; i++) { /* the colours are even over the logarithm */
     double part = (double)i / RAMP;
     thr_tension_colour(s->range, s->range[0] * pow(s->range[1] / s->range[0], part), hex);
-    thr_write_string(w, NULL, hex);
+    thr_write_string(writer, NULL, hex);
   }
-  thr_write_close(w);
-  thr_write_close(w);
+  thr_write_close(writer);
+  thr_write_close(writer);
 }
 
 static void put_head(viewer *s)
 {
   const thr_plan *p = s->plan;
-  thr_writer *w = &s->out;
-  thr_write_string(w, "format", "thread-viewer");
-  thr_write_int(w, "version", 1);
-  thr_write_hash(w, "frame", thr_frame_hash(s->f));
-  thr_write_string(w, "units", s->f->units);
-  thr_write_string(w, "seen", thr_layout_words(s->guide.layout.kind));
-  thr_write_bool(w, "sides", s->guide.sides);
-  thr_write_int(w, "paths", thr_copies_paths(s->copy, p->n_cords));
+  thr_writer *writer = &s->out;
+  thr_write_string(writer, "format", "thread-viewer");
+  thr_write_int(writer, "version", 1);
+  thr_write_hash(writer, "frame", thr_frame_hash(s->f));
+  thr_write_string(writer, "units", s->f->units);
+  thr_write_string(writer, "seen", thr_layout_words(s->guide.layout.kind));
+  thr_write_bool(writer, "sides", s->guide.sides);
+  thr_write_int(writer, "paths", thr_copies_paths(s->copy, p->n_cords));
   thr_write_array(next_line(s), "nth");
   for (int i = 1; i <= s->most; i++) {
     char nth[16];
     thr_guide_ordinal(i, nth);
-    thr_write_string(w, NULL, nth);
+    thr_write_string(writer, NULL, nth);
   }
-  thr_write_close(w);
+  thr_write_close(writer);
   /* one cord on its own changes its colour on the way, as in the overview */
   thr_write_int(next_line(s), "run", p->n_cords == 1 ? THR_COLOUR_PASSES : 0);
-  thr_write_array(w, "palette");
+  thr_write_array(writer, "palette");
   for (int i = 0; i < THR_COLOURS; i++)
-    thr_write_string(w, NULL, thr_palette(i).hex);
-  thr_write_close(w);
+    thr_write_string(writer, NULL, thr_palette(i).hex);
+  thr_write_close(writer);
 }
 
 static void put_plan(viewer *s)

@@ -39,48 +39,48 @@ bool thr_layout_to_scale(thr_layout_kind kind)
   return kind == THR_LAYOUT_PLAN || kind == THR_LAYOUT_FRONT || kind == THR_LAYOUT_SIDE || kind == THR_LAYOUT_PLANE;
 }
 
-void thr_layout_destroy(thr_layout *l)
+void thr_layout_destroy(thr_layout *layout)
 {
-  free(l->xy);
-  free(l->node);
-  thr_frame_destroy(&l->paper);
-  *l = (thr_layout){0};
+  free(layout->xy);
+  free(layout->node);
+  thr_frame_destroy(&layout->paper);
+  *layout = (thr_layout){0};
 }
 
 thr_status thr_layout_copy(thr_layout *to, const thr_layout *from, thr_err *err)
 {
-  thr_layout l = *from;
+  thr_layout layout = *from;
   size_t n = (size_t)from->n_points;
   thr_status st = THR_OK;
-  l.paper = (thr_frame){0};
-  l.xy = thr_calloc(n, sizeof *l.xy);
-  l.node = from->node ? thr_calloc(n, sizeof *l.node) : NULL;
-  if (!l.xy || (from->node && !l.node)) st = thr_nomem(err);
+  layout.paper = (thr_frame){0};
+  layout.xy = thr_calloc(n, sizeof *layout.xy);
+  layout.node = from->node ? thr_calloc(n, sizeof *layout.node) : NULL;
+  if (!layout.xy || (from->node && !layout.node)) st = thr_nomem(err);
   if (!st && from->node)
-    st = thr_layout_join(&l.paper, from->n_points, from->paper.n_edges, (const int(*)[2])from->paper.edge, err);
+    st = thr_layout_join(&layout.paper, from->n_points, from->paper.n_edges, (const int(*)[2])from->paper.edge, err);
   if (st) {
-    thr_layout_destroy(&l);
+    thr_layout_destroy(&layout);
     return st;
   }
-  if (n) memcpy(l.xy, from->xy, n * sizeof *l.xy);
-  if (l.node) memcpy(l.node, from->node, n * sizeof *l.node);
-  *to = l;
+  if (n) memcpy(layout.xy, from->xy, n * sizeof *layout.xy);
+  if (layout.node) memcpy(layout.node, from->node, n * sizeof *layout.node);
+  *to = layout;
   return THR_OK;
 }
 
 thr_status thr_layout_join(thr_frame *paper, int n_points, int n_edges, const int (*edge)[2], thr_err *err)
 {
-  thr_frame p = {.n_nodes = n_points, .n_edges = n_edges};
-  p.edge = thr_calloc((size_t)p.n_edges, sizeof *p.edge);
-  p.first = thr_calloc((size_t)n_points + 1, sizeof *p.first);
-  p.half = thr_calloc(2 * (size_t)p.n_edges, sizeof *p.half);
-  if (!p.edge || !p.first || !p.half) {
-    thr_frame_destroy(&p);
+  thr_frame frame = {.n_nodes = n_points, .n_edges = n_edges};
+  frame.edge = thr_calloc((size_t)frame.n_edges, sizeof *frame.edge);
+  frame.first = thr_calloc((size_t)n_points + 1, sizeof *frame.first);
+  frame.half = thr_calloc(2 * (size_t)frame.n_edges, sizeof *frame.half);
+  if (!frame.edge || !frame.first || !frame.half) {
+    thr_frame_destroy(&frame);
     return thr_nomem(err);
   }
-  memcpy(p.edge, edge, (size_t)p.n_edges * sizeof *p.edge);
-  thr_frame_index(&p);
-  *paper = p;
+  memcpy(frame.edge, edge, (size_t)frame.n_edges * sizeof *frame.edge);
+  thr_frame_index(&frame);
+  *paper = frame;
   return THR_OK;
 }
 
@@ -91,21 +91,21 @@ bool thr_layout_better(const thr_layout *a, const thr_layout *b)
   return a->ratio > CLEARLY * b->ratio;
 }
 
-void thr_layout_keep_better(thr_layout *best, thr_layout *l)
+void thr_layout_keep_better(thr_layout *best, thr_layout *layout)
 {
-  if (!best->xy || thr_layout_better(l, best)) {
+  if (!best->xy || thr_layout_better(layout, best)) {
     thr_layout t = *best;
-    *best = *l;
-    *l = t;
+    *best = *layout;
+    *layout = t;
   }
-  thr_layout_destroy(l);
+  thr_layout_destroy(layout);
 }
 
-static void project(thr_layout *l, const thr_frame *f, const double right[3], const double up[3])
+static void project(thr_layout *layout, const thr_frame *frame, const double right[3], const double up[3])
 {
-  for (int v = 0; v < f->n_nodes; v++) {
-    l->xy[v][0] = thr_dot(f->xyz[v], right);
-    l->xy[v][1] = thr_dot(f->xyz[v], up);
+  for (int v = 0; v < frame->n_nodes; v++) {
+    layout->xy[v][0] = thr_dot(frame->xyz[v], right);
+    layout->xy[v][1] = thr_dot(frame->xyz[v], up);
   }
 }
 
@@ -133,14 +133,14 @@ static void rotate(double a[3][3], double vec[3][3], int p, int q)
 }
 
 /* Unit normal of the least-squares plane, towards the viewer: upwards, or for a wall from the front or the side. */
-static void plane_normal(const thr_frame *f, double normal[3])
+static void plane_normal(const thr_frame *frame, double normal[3])
 {
   double mean[3], a[3][3] = {{0}}, vec[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  thr_layout_mean_point(f, mean);
-  for (int v = 0; v < f->n_nodes; v++)
+  thr_layout_mean_point(frame, mean);
+  for (int v = 0; v < frame->n_nodes; v++)
     for (int i = 0; i < 3; i++)
       for (int j = 0; j < 3; j++)
-        a[i][j] += (f->xyz[v][i] - mean[i]) * (f->xyz[v][j] - mean[j]);
+        a[i][j] += (frame->xyz[v][i] - mean[i]) * (frame->xyz[v][j] - mean[j]);
   for (int sweep = 0; sweep < 30; sweep++) {
     rotate(a, vec, 0, 1);
     rotate(a, vec, 0, 2);
@@ -156,10 +156,10 @@ static void plane_normal(const thr_frame *f, double normal[3])
     normal[i] = -normal[i];
 }
 
-static void project_plane(thr_layout *l, const thr_frame *f)
+static void project_plane(thr_layout *layout, const thr_frame *frame)
 {
   double n[3], up[3], right[3];
-  plane_normal(f, n);
+  plane_normal(frame, n);
   /* near the horizontal, "higher up the page" would turn the sheet for a trifle: keep y up */
   const double top[3] = {0, n[2] > 0.95, n[2] <= 0.95};
   double along = thr_dot(top, n);
@@ -169,88 +169,88 @@ static void project_plane(thr_layout *l, const thr_frame *f)
   for (int i = 0; i < 3; i++)
     up[i] /= size;
   thr_cross(up, n, right);
-  project(l, f, right, up);
+  project(layout, frame, right, up);
 }
 
 /* ---- candidates ---- */
 
-static thr_status place(thr_layout *l, const thr_frame *f, thr_err *err)
+static thr_status place(thr_layout *layout, const thr_frame *frame, thr_err *err)
 {
   static const double x[3] = {1, 0, 0}, y[3] = {0, 1, 0}, z[3] = {0, 0, 1};
-  switch (l->kind) {
-  case THR_LAYOUT_PLAN: project(l, f, x, y); return THR_OK;
-  case THR_LAYOUT_FRONT: project(l, f, x, z); return THR_OK;
-  case THR_LAYOUT_SIDE: project(l, f, y, z); return THR_OK;
-  case THR_LAYOUT_PLANE: project_plane(l, f); return THR_OK;
-  case THR_LAYOUT_UNROLLED_X: return thr_layout_unroll(l, f, 0, err);
-  case THR_LAYOUT_UNROLLED_Y: return thr_layout_unroll(l, f, 1, err);
-  case THR_LAYOUT_UNROLLED_Z: return thr_layout_unroll(l, f, 2, err);
-  case THR_LAYOUT_SPREAD: return thr_layout_spread(l, f, err);
-  default: return thr_fail(err, THR_EINPUT, "layout kind %d cannot be made from coordinates", (int)l->kind);
+  switch (layout->kind) {
+  case THR_LAYOUT_PLAN: project(layout, frame, x, y); return THR_OK;
+  case THR_LAYOUT_FRONT: project(layout, frame, x, z); return THR_OK;
+  case THR_LAYOUT_SIDE: project(layout, frame, y, z); return THR_OK;
+  case THR_LAYOUT_PLANE: project_plane(layout, frame); return THR_OK;
+  case THR_LAYOUT_UNROLLED_X: return thr_layout_unroll(layout, frame, 0, err);
+  case THR_LAYOUT_UNROLLED_Y: return thr_layout_unroll(layout, frame, 1, err);
+  case THR_LAYOUT_UNROLLED_Z: return thr_layout_unroll(layout, frame, 2, err);
+  case THR_LAYOUT_SPREAD: return thr_layout_spread(layout, frame, err);
+  default: return thr_fail(err, THR_EINPUT, "layout kind %d cannot be made from coordinates", (int)layout->kind);
   }
 }
 
-thr_status thr_layout_make(thr_layout *out, const thr_frame *f, thr_layout_kind kind, thr_err *err)
+thr_status thr_layout_make(thr_layout *out, const thr_frame *frame, thr_layout_kind kind, thr_err *err)
 {
-  thr_layout l = {.n_nodes = f->n_nodes, .n_points = f->n_nodes, .kind = kind};
+  thr_layout layout = {.n_nodes = frame->n_nodes, .n_points = frame->n_nodes, .kind = kind};
   *out = (thr_layout){0};
-  for (int v = 0; v < f->n_nodes; v++)
+  for (int v = 0; v < frame->n_nodes; v++)
     for (int i = 0; i < 3; i++)
-      if (!(fabs(f->xyz[v][i]) < MAX_COORDINATE))
-        return thr_fail(err, THR_EINPUT, "node %d lies at %g: too far to be drawn", v, f->xyz[v][i]);
-  if (kind == THR_LAYOUT_PANELS) return thr_layout_panels(out, f, err);
-  l.xy = thr_calloc((size_t)f->n_nodes, sizeof *l.xy);
-  if (!l.xy) return thr_nomem(err);
-  thr_status st = place(&l, f, err);
-  if (!st) st = thr_layout_measure(&l, f, err);
-  if (st) thr_layout_destroy(&l);
-  *out = l;
+      if (!(fabs(frame->xyz[v][i]) < MAX_COORDINATE))
+        return thr_fail(err, THR_EINPUT, "node %d lies at %g: too far to be drawn", v, frame->xyz[v][i]);
+  if (kind == THR_LAYOUT_PANELS) return thr_layout_panels(out, frame, err);
+  layout.xy = thr_calloc((size_t)frame->n_nodes, sizeof *layout.xy);
+  if (!layout.xy) return thr_nomem(err);
+  thr_status st = place(&layout, frame, err);
+  if (!st) st = thr_layout_measure(&layout, frame, err);
+  if (st) thr_layout_destroy(&layout);
+  *out = layout;
   return st;
 }
 
-thr_status thr_layout_adopt(thr_layout *out, const thr_frame *f, const double (*xy)[2], thr_err *err)
+thr_status thr_layout_adopt(thr_layout *out, const thr_frame *frame, const double (*xy)[2], thr_err *err)
 {
-  thr_layout l = {.n_nodes = f->n_nodes, .n_points = f->n_nodes, .kind = THR_LAYOUT_DRAWN};
-  for (int v = 0; v < f->n_nodes; v++)
+  thr_layout layout = {.n_nodes = frame->n_nodes, .n_points = frame->n_nodes, .kind = THR_LAYOUT_DRAWN};
+  for (int v = 0; v < frame->n_nodes; v++)
     if (!(fabs(xy[v][0]) < MAX_COORDINATE && fabs(xy[v][1]) < MAX_COORDINATE))
       return thr_fail(err, THR_EINPUT, "node %d of the layout has no finite place on paper", v);
-  l.xy = thr_calloc((size_t)f->n_nodes, sizeof *l.xy);
-  if (!l.xy) return thr_nomem(err);
-  if (f->n_nodes) memcpy(l.xy, xy, (size_t)f->n_nodes * sizeof *l.xy);
-  thr_status st = thr_layout_measure(&l, f, err);
-  if (st) thr_layout_destroy(&l);
-  *out = l;
+  layout.xy = thr_calloc((size_t)frame->n_nodes, sizeof *layout.xy);
+  if (!layout.xy) return thr_nomem(err);
+  if (frame->n_nodes) memcpy(layout.xy, xy, (size_t)frame->n_nodes * sizeof *layout.xy);
+  thr_status st = thr_layout_measure(&layout, frame, err);
+  if (st) thr_layout_destroy(&layout);
+  *out = layout;
   return st;
 }
 
 /* Is a single picture good enough that two panels would only be a nuisance? */
-static bool legible(const thr_layout *l)
+static bool legible(const thr_layout *layout)
 {
-  return !l->crossings && !l->squeezed && l->ratio >= LEGIBLE;
+  return !layout->crossings && !layout->squeezed && layout->ratio >= LEGIBLE;
 }
 
 /* Replaces *best by what the drawing algorithm makes of it, or of its own circle, if that is better. */
-static thr_status try_drawing(thr_layout *best, const thr_frame *f, bool circle, thr_err *err)
+static thr_status try_drawing(thr_layout *best, const thr_frame *frame, bool circle, thr_err *err)
 {
-  thr_layout l = {0};
-  double(*xy)[2] = thr_calloc((size_t)f->n_nodes, sizeof *xy);
+  thr_layout layout = {0};
+  double(*xy)[2] = thr_calloc((size_t)frame->n_nodes, sizeof *xy);
   if (!xy) return thr_nomem(err);
-  memcpy(xy, best->xy, (size_t)f->n_nodes * sizeof *xy);
-  thr_status st = thr_kamada_kawai(f->n_nodes, f->n_edges, (const int(*)[2])f->edge, f->length, circle, xy, err);
-  if (!st) st = thr_layout_adopt(&l, f, (const double(*)[2])xy, err);
-  if (!st) thr_layout_keep_better(best, &l);
+  memcpy(xy, best->xy, (size_t)frame->n_nodes * sizeof *xy);
+  thr_status st = thr_kamada_kawai(frame->n_nodes, frame->n_edges, (const int(*)[2])frame->edge, frame->length, circle, xy, err);
+  if (!st) st = thr_layout_adopt(&layout, frame, (const double(*)[2])xy, err);
+  if (!st) thr_layout_keep_better(best, &layout);
   free(xy);
   return st;
 }
 
-thr_status thr_layout_choose(thr_layout *out, const thr_frame *f, const thr_layout *extra, int n_extra, thr_err *err)
+thr_status thr_layout_choose(thr_layout *out, const thr_frame *frame, const thr_layout *extra, int n_extra, thr_err *err)
 {
   thr_layout best = {0}, l = {0};
   thr_status st = THR_OK;
   for (int kind = THR_LAYOUT_PLAN; kind < THR_LAYOUT_DRAWN; kind++) {
     thr_err flat = {0};
     if (kind == THR_LAYOUT_PANELS && legible(&best)) break;
-    st = thr_layout_make(&l, f, (thr_layout_kind)kind, kind == THR_LAYOUT_PLAN ? err : &flat);
+    st = thr_layout_make(&l, frame, (thr_layout_kind)kind, kind == THR_LAYOUT_PLAN ? err : &flat);
     if (st == THR_EINPUT && kind != THR_LAYOUT_PLAN) continue;
     if (st) {
       st = kind == THR_LAYOUT_PLAN ? st : thr_fail(err, st, "%s", flat.text);
@@ -259,9 +259,9 @@ thr_status thr_layout_choose(thr_layout *out, const thr_frame *f, const thr_layo
     thr_layout_keep_better(&best, &l);
     if (kind == THR_LAYOUT_PLAN && best.crossings == 0 && best.ratio >= 1 / CLEARLY) break;
   }
-  bool tangled = best.crossings && f->n_nodes <= THR_LAYOUT_DRAWN_NODES;
-  st = tangled ? try_drawing(&best, f, false, err) : THR_OK;
-  if (tangled && !st) st = try_drawing(&best, f, true, err);
+  bool tangled = best.crossings && frame->n_nodes <= THR_LAYOUT_DRAWN_NODES;
+  st = tangled ? try_drawing(&best, frame, false, err) : THR_OK;
+  if (tangled && !st) st = try_drawing(&best, frame, true, err);
   if (st) goto done;
   for (int i = 0; i < n_extra; i++) {
     if (!thr_layout_better(&extra[i], &best)) continue;
@@ -289,14 +289,14 @@ static int by_angle(const void *a, const void *b)
   return p->half - q->half;
 }
 
-thr_status thr_layout_around(const thr_frame *f, const double *angle, int *around, thr_err *err)
+thr_status thr_layout_around(const thr_frame *frame, const double *angle, int *around, thr_err *err)
 {
-  spoke *k = thr_calloc((size_t)f->n_edges * 2, sizeof *k);
+  spoke *k = thr_calloc((size_t)frame->n_edges * 2, sizeof *k);
   if (!k) return thr_nomem(err);
-  for (int v = 0; v < f->n_nodes; v++) {
-    int first = f->first[v], degree = thr_degree(f, v);
+  for (int v = 0; v < frame->n_nodes; v++) {
+    int first = frame->first[v], degree = thr_degree(frame, v);
     for (int i = 0; i < degree; i++)
-      k[i] = (spoke){angle[f->half[first + i]], f->half[first + i]};
+      k[i] = (spoke){angle[frame->half[first + i]], frame->half[first + i]};
     qsort(k, (size_t)degree, sizeof *k, by_angle);
     for (int i = 0; i < degree; i++)
       around[first + i] = k[i].half;

@@ -45,28 +45,28 @@ typedef struct {
 
 /* What edges join on paper: the framework's nodes, or the layout's points. Either is a frame to ask for ends and half-edges; of a
  * layout's points no more is known. */
-static inline const thr_frame *thr_layout_paper(const thr_layout *l, const thr_frame *f)
+static inline const thr_frame *thr_layout_paper(const thr_layout *layout, const thr_frame *frame)
 {
-  return l->node ? &l->paper : f;
+  return layout->node ? &layout->paper : frame;
 }
 
-static inline int thr_layout_node(const thr_layout *l, int point)
+static inline int thr_layout_node(const thr_layout *layout, int point)
 {
-  return l->node ? l->node[point] : point;
+  return layout->node ? layout->node[point] : point;
 }
 
 /* Makes and measures one candidate other than THR_LAYOUT_DRAWN. THR_EINPUT if the frame has no such view (a flat
  * frame has nothing to unroll, one with an opening as wide as THR_LAYOUT_OPEN no two halves). */
-thr_status thr_layout_make(thr_layout *l, const thr_frame *f, thr_layout_kind kind, thr_err *err) THR_MUST_CHECK;
+thr_status thr_layout_make(thr_layout *layout, const thr_frame *frame, thr_layout_kind kind, thr_err *err) THR_MUST_CHECK;
 
-/* Takes over coordinates made elsewhere (igraph's Kamada-Kawai, a file): copies xy[f->n_nodes], measures, kind =
+/* Takes over coordinates made elsewhere (igraph's Kamada-Kawai, a file): copies xy[frame->n_nodes], measures, kind =
  * THR_LAYOUT_DRAWN. Coordinates must be finite (THR_EINPUT). */
-thr_status thr_layout_adopt(thr_layout *l, const thr_frame *f, const double (*xy)[2], thr_err *err) THR_MUST_CHECK;
+thr_status thr_layout_adopt(thr_layout *layout, const thr_frame *frame, const double (*xy)[2], thr_err *err) THR_MUST_CHECK;
 
 /* Fills crossings, estimated, squeezed, median and ratio from xy. Two edges without a common node count as crossing when
  * they come nearer than 2 % of the median; two edges at a node when they leave it within 1 degree of each other.
  * Hash grid: O(m + pairs that are near), and O(m log m) at most: beyond that crossings are estimated. */
-thr_status thr_layout_measure(thr_layout *l, const thr_frame *f, thr_err *err) THR_MUST_CHECK;
+thr_status thr_layout_measure(thr_layout *layout, const thr_frame *frame, thr_err *err) THR_MUST_CHECK;
 
 /* The layout to draw, by crossings + squeezed, then ratio; of nearly equal candidates (ratio within a quarter) the
  * earlier kind wins, so a plan view with no crossing and a ratio of 0.8 or more is always taken, and one of 0.5 unless
@@ -74,14 +74,14 @@ thr_status thr_layout_measure(thr_layout *l, const thr_frame *f, thr_err *err) T
  * ratio under 0.5; a drawing by the algorithm of Kamada & Kawai (graph/framework/drawing.h), for up to THR_LAYOUT_DRAWN_NODES
  * nodes, only when all others have faults. extra[n_extra] are further measured candidates (NULL and 0 for none), only used if
  * they are better; the best is copied. */
-thr_status thr_layout_choose(thr_layout *best, const thr_frame *f, const thr_layout *extra, int n_extra,
+thr_status thr_layout_choose(thr_layout *best, const thr_frame *frame, const thr_layout *extra, int n_extra,
                              thr_err *err) THR_MUST_CHECK;
 
 /* Is one candidate clearly better than another? The order of thr_layout_choose. */
 bool thr_layout_better(const thr_layout *a, const thr_layout *b);
 
 thr_status thr_layout_copy(thr_layout *to, const thr_layout *from, thr_err *err) THR_MUST_CHECK;
-void thr_layout_destroy(thr_layout *l);
+void thr_layout_destroy(thr_layout *layout);
 
 const char *thr_layout_words(thr_layout_kind kind); /* for the reader of a diagram: "seen from outside (from above)", .. */
 

@@ -29,28 +29,28 @@ typedef struct {
   int *turn;  /* [n_edges] when an edge's pairs are counted */
 } grid;
 
-static double edge_length(const thr_layout *l, const thr_frame *paper, int e)
+static double edge_length(const thr_layout *layout, const thr_frame *paper, int e)
 {
-  const double *a = l->xy[paper->edge[e][0]], *b = l->xy[paper->edge[e][1]];
+  const double *a = layout->xy[paper->edge[e][0]], *b = layout->xy[paper->edge[e][1]];
   return hypot(b[0] - a[0], b[1] - a[1]);
 }
 
-static thr_status measure_lengths(thr_layout *l, const thr_frame *f, double *mean, thr_err *err)
+static thr_status measure_lengths(thr_layout *layout, const thr_frame *frame, double *mean, thr_err *err)
 {
-  double *length = thr_calloc((size_t)f->n_edges, sizeof *length);
+  double *length = thr_calloc((size_t)frame->n_edges, sizeof *length);
   if (!length) return thr_nomem(err);
   *mean = 0;
-  for (int e = 0; e < f->n_edges; e++) {
-    length[e] = edge_length(l, f, e);
-    *mean += length[e] / f->n_edges;
+  for (int e = 0; e < frame->n_edges; e++) {
+    length[e] = edge_length(layout, frame, e);
+    *mean += length[e] / frame->n_edges;
   }
-  thr_sort_doubles(length, (size_t)f->n_edges);
-  l->median = f->n_edges ? length[f->n_edges / 2] : 0;
-  l->ratio = l->median > 0 ? length[0] / l->median : 0;
-  l->squeezed = 0;
-  while (l->squeezed < f->n_edges && length[l->squeezed] < SQUEEZED * l->median)
-    l->squeezed++;
-  if (!(l->median > 0)) l->squeezed = f->n_edges;
+  thr_sort_doubles(length, (size_t)frame->n_edges);
+  layout->median = frame->n_edges ? length[frame->n_edges / 2] : 0;
+  layout->ratio = layout->median > 0 ? length[0] / layout->median : 0;
+  layout->squeezed = 0;
+  while (layout->squeezed < frame->n_edges && length[layout->squeezed] < SQUEEZED * layout->median)
+    layout->squeezed++;
+  if (!(layout->median > 0)) layout->squeezed = frame->n_edges;
   free(length);
   return THR_OK;
 }
@@ -217,7 +217,7 @@ static double part_counted(int m, int n)
   return m < n ? 1 - (double)(n - m) / n * (n - m - 1) / (n - 1) : 1;
 }
 
-static void count_crossings(const grid *g, int *seen, thr_layout *l)
+static void count_crossings(const grid *g, int *seen, thr_layout *layout)
 {
   int n = g->f->n_edges, step = choose_step(n), done = 0;
   double most = fmax(FREE, PAIRS * n * (1 + log2(n + 1.0)));
@@ -226,28 +226,28 @@ static void count_crossings(const grid *g, int *seen, thr_layout *l)
     g->turn[edge_of_turn(k, step, n)] = k;
   for (; done < n && (double)pairs < most; done++)
     pairs += count_edge(g, edge_of_turn(done, step, n), seen, &crossings);
-  l->estimated = done < n;
-  l->crossings = n ? (long)nearbyint((double)crossings / part_counted(done, n)) : 0;
+  layout->estimated = done < n;
+  layout->crossings = n ? (long)nearbyint((double)crossings / part_counted(done, n)) : 0;
 }
 
-thr_status thr_layout_measure(thr_layout *l, const thr_frame *frame, thr_err *err)
+thr_status thr_layout_measure(thr_layout *layout, const thr_frame *frame, thr_err *err)
 {
-  const thr_frame *f = thr_layout_paper(l, frame);
+  const thr_frame *framework = thr_layout_paper(layout, frame);
   double mean = 0;
   int *seen = NULL;
-  thr_status st = measure_lengths(l, f, &mean, err);
+  thr_status st = measure_lengths(layout, framework, &mean, err);
   if (st) return st;
-  grid g = {.f = f, .xy = (const double(*)[2])l->xy, .near = NEAR * l->median};
+  grid g = {.f = framework, .xy = (const double(*)[2])layout->xy, .near = NEAR * layout->median};
   size_grid(&g, mean);
   st = fill_grid(&g, err);
   if (st) goto done;
-  seen = thr_calloc((size_t)f->n_edges, sizeof *seen);
-  g.turn = thr_calloc((size_t)f->n_edges, sizeof *g.turn);
+  seen = thr_calloc((size_t)framework->n_edges, sizeof *seen);
+  g.turn = thr_calloc((size_t)framework->n_edges, sizeof *g.turn);
   if (!seen || !g.turn) {
     st = thr_nomem(err);
     goto done;
   }
-  count_crossings(&g, seen, l);
+  count_crossings(&g, seen, layout);
 done:
   free(g.first);
   free(g.entry);

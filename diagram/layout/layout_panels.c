@@ -23,53 +23,53 @@ static bool on_right(const double (*unit)[3], const int edge[2], int axis, doubl
 }
 
 /* Gives every node a point in each panel that has an edge of it; left[v], right[v]: those points, -1 = none. */
-static void split_nodes(thr_layout *l, const thr_frame *f, int (*edge)[2], const bool *right, int (*point)[2])
+static void split_nodes(thr_layout *layout, const thr_frame *frame, int (*edge)[2], const bool *right, int (*point)[2])
 {
-  for (int v = 0; v < f->n_nodes; v++)
+  for (int v = 0; v < frame->n_nodes; v++)
     point[v][0] = point[v][1] = -1;
-  for (int e = 0; e < f->n_edges; e++)
+  for (int e = 0; e < frame->n_edges; e++)
     for (int k = 0; k < 2; k++)
-      point[f->edge[e][k]][right[e]] = 0;
-  l->n_points = f->n_nodes;
-  for (int v = 0; v < f->n_nodes; v++) {
+      point[frame->edge[e][k]][right[e]] = 0;
+  layout->n_points = frame->n_nodes;
+  for (int v = 0; v < frame->n_nodes; v++) {
     bool first = point[v][0] < 0, second = point[v][1] == 0;
-    l->node[v] = v;
+    layout->node[v] = v;
     point[v][first] = v;
     if (first || !second) continue;
-    l->node[l->n_points] = v;
-    point[v][1] = l->n_points++;
+    layout->node[layout->n_points] = v;
+    point[v][1] = layout->n_points++;
   }
-  for (int e = 0; e < f->n_edges; e++)
+  for (int e = 0; e < frame->n_edges; e++)
     for (int k = 0; k < 2; k++)
-      edge[e][k] = point[f->edge[e][k]][right[e]];
+      edge[e][k] = point[frame->edge[e][k]][right[e]];
 }
 
 /* Lays out the nodes that have a point in a panel, about the origin. */
-static void lay_panel(thr_layout *l, const double (*unit)[3], const int (*point)[2], bool right, double radius)
+static void lay_panel(thr_layout *layout, const double (*unit)[3], const int (*point)[2], bool right, double radius)
 {
-  int across = (l->axis + 1) % 3, up = (l->axis + 2) % 3;
+  int across = (layout->axis + 1) % 3, up = (layout->axis + 2) % 3;
   double sign = right ? -1 : 1;
-  for (int v = 0; v < l->n_nodes; v++) {
+  for (int v = 0; v < layout->n_nodes; v++) {
     if (point[v][right] < 0) continue;
-    double *at = l->xy[point[v][right]], x = sign * unit[v][across], y = unit[v][up], rho = hypot(x, y);
-    double r = radius * atan2(rho, sign * unit[v][l->axis]);
+    double *at = layout->xy[point[v][right]], x = sign * unit[v][across], y = unit[v][up], rho = hypot(x, y);
+    double r = radius * atan2(rho, sign * unit[v][layout->axis]);
     at[0] = rho > 0 ? r * x / rho : 0;
     at[1] = rho > 0 ? r * y / rho : 0;
   }
 }
 
 /* Moves the right panel beside the left one. */
-static void move_apart(thr_layout *l, const int (*point)[2])
+static void move_apart(thr_layout *layout, const int (*point)[2])
 {
   double reach = -HUGE_VAL, start = HUGE_VAL;
-  for (int v = 0; v < l->n_nodes; v++) {
-    if (point[v][0] >= 0) reach = fmax(reach, l->xy[point[v][0]][0]);
-    if (point[v][1] >= 0) start = fmin(start, l->xy[point[v][1]][0]);
+  for (int v = 0; v < layout->n_nodes; v++) {
+    if (point[v][0] >= 0) reach = fmax(reach, layout->xy[point[v][0]][0]);
+    if (point[v][1] >= 0) start = fmin(start, layout->xy[point[v][1]][0]);
   }
-  l->middle[0][0] = l->middle[0][1] = l->middle[1][1] = 0;
-  l->middle[1][0] = reach - start + APART * l->median;
-  for (int v = 0; v < l->n_nodes; v++)
-    if (point[v][1] >= 0) l->xy[point[v][1]][0] += l->middle[1][0];
+  layout->middle[0][0] = layout->middle[0][1] = layout->middle[1][1] = 0;
+  layout->middle[1][0] = reach - start + APART * layout->median;
+  for (int v = 0; v < layout->n_nodes; v++)
+    if (point[v][1] >= 0) layout->xy[point[v][1]][0] += layout->middle[1][0];
 }
 
 /* Scratch of one layout. */
@@ -81,80 +81,80 @@ typedef struct {
   double radius;     /* mean distance of the nodes from the middle */
 } halves;
 
-/* Makes the layout with the cut at one polar angle; *l stays empty if all edges are in one panel. */
-static thr_status cut_at(thr_layout *l, const thr_frame *f, halves *h, int axis, double angle, thr_err *err)
+/* Makes the layout with the cut at one polar angle; *layout stays empty if all edges are in one panel. */
+static thr_status cut_at(thr_layout *layout, const thr_frame *frame, halves *h, int axis, double angle, thr_err *err)
 {
   int n_right = 0;
-  for (int e = 0; e < f->n_edges; e++)
-    n_right += h->right[e] = on_right((const double(*)[3])h->unit, f->edge[e], axis, cos(angle));
-  if (n_right == 0 || n_right == f->n_edges) return THR_OK;
-  *l = (thr_layout){.n_nodes = f->n_nodes, .kind = THR_LAYOUT_PANELS, .axis = axis};
-  l->xy = thr_calloc(2 * (size_t)f->n_nodes, sizeof *l->xy);
-  l->node = thr_calloc(2 * (size_t)f->n_nodes, sizeof *l->node);
-  thr_status st = l->xy && l->node ? THR_OK : thr_nomem(err);
+  for (int e = 0; e < frame->n_edges; e++)
+    n_right += h->right[e] = on_right((const double(*)[3])h->unit, frame->edge[e], axis, cos(angle));
+  if (n_right == 0 || n_right == frame->n_edges) return THR_OK;
+  *layout = (thr_layout){.n_nodes = frame->n_nodes, .kind = THR_LAYOUT_PANELS, .axis = axis};
+  layout->xy = thr_calloc(2 * (size_t)frame->n_nodes, sizeof *layout->xy);
+  layout->node = thr_calloc(2 * (size_t)frame->n_nodes, sizeof *layout->node);
+  thr_status st = layout->xy && layout->node ? THR_OK : thr_nomem(err);
   if (st) goto done;
-  split_nodes(l, f, h->edge, h->right, h->point);
-  if ((st = thr_layout_join(&l->paper, l->n_points, f->n_edges, (const int(*)[2])h->edge, err))) goto done;
+  split_nodes(layout, frame, h->edge, h->right, h->point);
+  if ((st = thr_layout_join(&layout->paper, layout->n_points, frame->n_edges, (const int(*)[2])h->edge, err))) goto done;
   for (int right = 0; right < 2; right++)
-    lay_panel(l, (const double(*)[3])h->unit, (const int(*)[2])h->point, right, h->radius);
-  l->median = f->n_edges ? 2 * h->radius : 0; /* enough to keep them apart while they are measured */
-  move_apart(l, (const int(*)[2])h->point);
-  if ((st = thr_layout_measure(l, f, err))) goto done;
-  lay_panel(l, (const double(*)[3])h->unit, (const int(*)[2])h->point, true, h->radius);
-  move_apart(l, (const int(*)[2])h->point);
+    lay_panel(layout, (const double(*)[3])h->unit, (const int(*)[2])h->point, right, h->radius);
+  layout->median = frame->n_edges ? 2 * h->radius : 0; /* enough to keep them apart while they are measured */
+  move_apart(layout, (const int(*)[2])h->point);
+  if ((st = thr_layout_measure(layout, frame, err))) goto done;
+  lay_panel(layout, (const double(*)[3])h->unit, (const int(*)[2])h->point, true, h->radius);
+  move_apart(layout, (const int(*)[2])h->point);
 done:
-  if (st) thr_layout_destroy(l);
+  if (st) thr_layout_destroy(layout);
   return st;
 }
 
-static thr_status find_halves(halves *h, const thr_frame *f, thr_err *err)
+static thr_status find_halves(halves *h, const thr_frame *frame, thr_err *err)
 {
   double middle[3], centre[3];
-  thr_status st = thr_layout_directions(f, &h->unit, err);
+  thr_status st = thr_layout_directions(frame, &h->unit, err);
   if (st) return st;
-  if (thr_layout_opening((const double(*)[3])h->unit, f->n_nodes, middle) > THR_LAYOUT_OPEN)
+  if (thr_layout_opening((const double(*)[3])h->unit, frame->n_nodes, middle) > THR_LAYOUT_OPEN)
     return thr_fail(err, THR_EINPUT, "the framework is open: it has no two halves");
-  h->point = thr_calloc((size_t)f->n_nodes, sizeof *h->point);
-  h->edge = thr_calloc((size_t)f->n_edges, sizeof *h->edge);
-  h->right = thr_calloc((size_t)f->n_edges, sizeof *h->right);
+  h->point = thr_calloc((size_t)frame->n_nodes, sizeof *h->point);
+  h->edge = thr_calloc((size_t)frame->n_edges, sizeof *h->edge);
+  h->right = thr_calloc((size_t)frame->n_edges, sizeof *h->right);
   if (!h->point || !h->edge || !h->right) return thr_nomem(err);
-  thr_layout_fit_sphere(f, centre);
-  for (int v = 0; v < f->n_nodes; v++) {
-    double d[3] = {f->xyz[v][0] - centre[0], f->xyz[v][1] - centre[1], f->xyz[v][2] - centre[2]};
-    h->radius += sqrt(thr_dot(d, d)) / f->n_nodes;
+  thr_layout_fit_sphere(frame, centre);
+  for (int v = 0; v < frame->n_nodes; v++) {
+    double d[3] = {frame->xyz[v][0] - centre[0], frame->xyz[v][1] - centre[1], frame->xyz[v][2] - centre[2]};
+    h->radius += sqrt(thr_dot(d, d)) / frame->n_nodes;
   }
   return THR_OK;
 }
 
 /* Distance from the middle of a panel to its farthest point, the larger of both. */
-static double reach(const thr_layout *l, const int (*point)[2])
+static double reach(const thr_layout *layout, const int (*point)[2])
 {
   double far = 0;
-  for (int v = 0; v < l->n_nodes; v++)
+  for (int v = 0; v < layout->n_nodes; v++)
     for (int right = 0; right < 2; right++) {
-      const double *at = point[v][right] < 0 ? l->middle[right] : l->xy[point[v][right]];
-      far = fmax(far, hypot(at[0] - l->middle[right][0], at[1] - l->middle[right][1]));
+      const double *at = point[v][right] < 0 ? layout->middle[right] : layout->xy[point[v][right]];
+      far = fmax(far, hypot(at[0] - layout->middle[right][0], at[1] - layout->middle[right][1]));
     }
   return far;
 }
 
-thr_status thr_layout_panels(thr_layout *out, const thr_frame *f, thr_err *err)
+thr_status thr_layout_panels(thr_layout *out, const thr_frame *frame, thr_err *err)
 {
   static const int axes[3] = {2, 0, 1}, cuts[CUTS] = {4, 3, 5, 2, 6, 1, 7, 0, 8}; /* from above first, the equator first */
   halves h = {0};
   thr_layout best = {0}, l = {0};
   double least = 0;
-  thr_status st = find_halves(&h, f, err);
-  int n = f->n_edges > MANY_EDGES ? 2 : 3 * CUTS;
+  thr_status st = find_halves(&h, frame, err);
+  int n = frame->n_edges > MANY_EDGES ? 2 : 3 * CUTS;
   for (int i = 0; i < n && !st; i++) {
-    st = cut_at(&l, f, &h, axes[i / CUTS], FIRST_CUT + cuts[i % CUTS] * CUT_STEP, err);
+    st = cut_at(&l, frame, &h, axes[i / CUTS], FIRST_CUT + cuts[i % CUTS] * CUT_STEP, err);
     if (st || !l.xy) continue;
     double far = reach(&l, (const int(*)[2])h.point);
     /* fewest faults, then clearly the larger ratio, then the smaller sheet */
     if (!best.xy || thr_layout_better(&l, &best) || (!thr_layout_better(&best, &l) && far < SMALLER * least)) {
-      thr_layout t = best;
+      thr_layout layout = best;
       best = l;
-      l = t;
+      l = layout;
       least = far;
     }
     thr_layout_destroy(&l);

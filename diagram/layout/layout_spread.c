@@ -84,7 +84,7 @@ static double spread_radius(double cos_theta, double squeeze)
 
 /* Stereographic projection of a polyhedron inscribed in a sphere, from a point beyond one face only, crosses no edges
  * (it is a Schlegel diagram). A rim of few nodes needs a larger radius: its chords must pass outside of all others. */
-static void lay_spread(thr_layout *l, const double (*unit)[3], const double opening[3], flattening how)
+static void lay_spread(thr_layout *layout, const double (*unit)[3], const double opening[3], flattening how)
 {
   const double axis[3] = {-opening[0], -opening[1], -opening[2]}, top[3] = {0, fabs(axis[2]) > 0.7, fabs(axis[2]) <= 0.7};
   double up[3], along = thr_dot(top, axis), size = 0, right[3];
@@ -95,25 +95,27 @@ static void lay_spread(thr_layout *l, const double (*unit)[3], const double open
     up[i] /= size;
   thr_cross(up, axis, right);
   double inner = 0;
-  for (int v = 0; v < l->n_nodes; v++)
+  for (int v = 0; v < layout->n_nodes; v++)
     if (thr_dot(unit[v], axis) > how.rim_from) inner = fmax(inner, spread_radius(thr_dot(unit[v], axis), how.squeeze));
-  for (int v = 0; v < l->n_nodes; v++) {
+  for (int v = 0; v < layout->n_nodes; v++) {
     double x = thr_dot(unit[v], right), y = thr_dot(unit[v], up), rho = hypot(x, y);
     double height = thr_dot(unit[v], axis), r = spread_radius(height, how.squeeze);
     if (how.rim > 0 && height <= how.rim_from) r = how.rim * inner;
-    l->xy[v][0] = rho > 0 ? r * x / rho : 0;
-    l->xy[v][1] = rho > 0 ? r * y / rho : 0;
+    layout->xy[v][0] = rho > 0 ? r * x / rho : 0;
+    layout->xy[v][1] = rho > 0 ? r * y / rho : 0;
   }
 }
 
-thr_status thr_layout_directions(const thr_frame *f, double (**unit)[3], thr_err *err)
+thr_status thr_layout_directions(const thr_frame *frame, double (**unit)[3], thr_err *err)
 {
   double centre[3];
-  if (!thr_layout_fit_sphere(f, centre)) return thr_fail(err, THR_EINPUT, "the framework is flat: there is nothing to spread");
-  *unit = thr_calloc((size_t)f->n_nodes, sizeof **unit);
+  if (!thr_layout_fit_sphere(frame, centre))
+    return thr_fail(err, THR_EINPUT, "the framework is flat: there is nothing to spread");
+  *unit = thr_calloc((size_t)frame->n_nodes, sizeof **unit);
   if (!*unit) return thr_nomem(err);
-  for (int v = 0; v < f->n_nodes; v++) {
-    double d[3] = {f->xyz[v][0] - centre[0], f->xyz[v][1] - centre[1], f->xyz[v][2] - centre[2]}, size = sqrt(thr_dot(d, d));
+  for (int v = 0; v < frame->n_nodes; v++) {
+    double d[3] = {frame->xyz[v][0] - centre[0], frame->xyz[v][1] - centre[1], frame->xyz[v][2] - centre[2]},
+           size = sqrt(thr_dot(d, d));
     for (int i = 0; i < 3; i++)
       (*unit)[v][i] = size > 0 ? d[i] / size : 0;
   }
@@ -127,36 +129,36 @@ double thr_layout_opening(const double (*unit)[3], int n, double middle[3])
 }
 
 /* How well a sheet is used: the median edge over the farthest node. */
-static double compactness(const thr_layout *l)
+static double compactness(const thr_layout *layout)
 {
   double far = 0;
-  for (int v = 0; v < l->n_nodes; v++)
-    far = fmax(far, hypot(l->xy[v][0], l->xy[v][1]));
-  return far > 0 ? l->median / far : 0;
+  for (int v = 0; v < layout->n_nodes; v++)
+    far = fmax(far, hypot(layout->xy[v][0], layout->xy[v][1]));
+  return far > 0 ? layout->median / far : 0;
 }
 
 /* Tries squeezes and rims; fewest faults, then the largest edges for the sheet. */
-thr_status thr_layout_spread(thr_layout *l, const thr_frame *f, thr_err *err)
+thr_status thr_layout_spread(thr_layout *layout, const thr_frame *frame, thr_err *err)
 {
   static const double squeeze[] = {0.01, 0.5, 1, 2, 4, 8}, rim[] = {0, 1.2, 1.5, 2.1, 2.5, 3.2};
   double opening[3] = {0, 0, -1}, (*unit)[3] = NULL, best_use = 0;
   thr_layout best = {0};
-  thr_status st = thr_layout_directions(f, &unit, err);
+  thr_status st = thr_layout_directions(frame, &unit, err);
   if (st || !unit) return st;
-  double rim_from = -cos(1.2 * thr_layout_opening((const double(*)[3])unit, f->n_nodes, opening));
-  int n = f->n_edges > 20000 ? 6 : 36;
+  double rim_from = -cos(1.2 * thr_layout_opening((const double(*)[3])unit, frame->n_nodes, opening));
+  int n = frame->n_edges > 20000 ? 6 : 36;
   for (int i = 0; i < n && !st; i++) {
-    lay_spread(l, (const double(*)[3])unit, opening, (flattening){squeeze[i % 6], rim[i / 6], rim_from});
-    st = thr_layout_measure(l, f, err);
-    double use = compactness(l) * fmin(l->ratio, 0.4);
-    long now = l->crossings + l->squeezed, then = best.crossings + best.squeezed;
+    lay_spread(layout, (const double(*)[3])unit, opening, (flattening){squeeze[i % 6], rim[i / 6], rim_from});
+    st = thr_layout_measure(layout, frame, err);
+    double use = compactness(layout) * fmin(layout->ratio, 0.4);
+    long now = layout->crossings + layout->squeezed, then = best.crossings + best.squeezed;
     if (st || (best.xy && (now > then || (now == then && use <= best_use)))) continue;
     thr_layout_destroy(&best);
-    st = thr_layout_copy(&best, l, err);
+    st = thr_layout_copy(&best, layout, err);
     best_use = use;
-    if (l->estimated) break; /* a tangle this large stays one */
+    if (layout->estimated) break; /* a tangle this large stays one */
   }
-  if (!st) memcpy(l->xy, best.xy, (size_t)f->n_nodes * sizeof *l->xy);
+  if (!st) memcpy(layout->xy, best.xy, (size_t)frame->n_nodes * sizeof *layout->xy);
   thr_layout_destroy(&best);
   free(unit);
   return st;

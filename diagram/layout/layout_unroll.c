@@ -10,12 +10,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-void thr_layout_mean_point(const thr_frame *f, double mean[3])
+void thr_layout_mean_point(const thr_frame *frame, double mean[3])
 {
   mean[0] = mean[1] = mean[2] = 0;
-  for (int v = 0; v < f->n_nodes; v++)
+  for (int v = 0; v < frame->n_nodes; v++)
     for (int i = 0; i < 3; i++)
-      mean[i] += f->xyz[v][i] / f->n_nodes;
+      mean[i] += frame->xyz[v][i] / frame->n_nodes;
 }
 
 /* Solves the symmetric 4 x 4 system in place by elimination with pivoting; false when it is singular. */
@@ -41,20 +41,20 @@ static bool solve4(double a[4][5])
 }
 
 /* |p|^2 = 2 c.p + k, about the mean point and in units of the diagonal so that the pivot test means something. */
-bool thr_layout_fit_sphere(const thr_frame *f, double centre[3])
+bool thr_layout_fit_sphere(const thr_frame *frame, double centre[3])
 {
-  double mean[3], a[4][5] = {{0}}, size = thr_frame_diagonal(f);
-  thr_layout_mean_point(f, mean);
+  double mean[3], a[4][5] = {{0}}, size = thr_frame_diagonal(frame);
+  thr_layout_mean_point(frame, mean);
   if (!(size > 0)) return false;
-  for (int v = 0; v < f->n_nodes; v++) {
+  for (int v = 0; v < frame->n_nodes; v++) {
     double row[5] = {0, 0, 0, 1, 0};
     for (int i = 0; i < 3; i++) {
-      row[i] = (f->xyz[v][i] - mean[i]) / size;
+      row[i] = (frame->xyz[v][i] - mean[i]) / size;
       row[4] += row[i] * row[i];
     }
     for (int i = 0; i < 4; i++)
       for (int j = 0; j < 5; j++)
-        a[i][j] += row[i] * row[j] / f->n_nodes;
+        a[i][j] += row[i] * row[j] / frame->n_nodes;
   }
   if (!solve4(a)) return false;
   double radius2 = 0;
@@ -116,15 +116,15 @@ static double arc_at(const station *s, int count, double theta, int *at)
   return a->arc + (b->arc - a->arc) * (theta - a->theta) / (b->theta - a->theta);
 }
 
-static double mean_length(const thr_frame *f)
+static double mean_length(const thr_frame *frame)
 {
   double sum = 0;
-  for (int e = 0; e < f->n_edges; e++) {
-    const double *a = f->xyz[f->edge[e][0]], *b = f->xyz[f->edge[e][1]];
+  for (int e = 0; e < frame->n_edges; e++) {
+    const double *a = frame->xyz[frame->edge[e][0]], *b = frame->xyz[frame->edge[e][1]];
     double d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
     sum += sqrt(thr_dot(d, d));
   }
-  return sum / f->n_edges;
+  return sum / frame->n_edges;
 }
 
 /* Nodes in polar coordinates about the axis, sorted from the crown, and the mean meridian through them. */
@@ -135,61 +135,61 @@ typedef struct {
   double mean_length; /* of edges */
 } meridian;
 
-static thr_status make_meridian(meridian *m, const thr_frame *f, int axis, thr_err *err)
+static thr_status make_meridian(meridian *m, const thr_frame *frame, int axis, thr_err *err)
 {
   int right = (axis + 1) % 3, up = (axis + 2) % 3;
   double centre[3], radius = 0;
-  if (!thr_layout_fit_sphere(f, centre)) {
+  if (!thr_layout_fit_sphere(frame, centre)) {
     if (axis != 2) return thr_fail(err, THR_EINPUT, "the framework is flat: there is nothing to unroll");
     /* seen from far below, the polar angle of a flat frame is its distance from the middle */
-    thr_layout_mean_point(f, centre);
-    centre[2] -= 2 * THR_LAYOUT_FLAT * thr_frame_diagonal(f);
+    thr_layout_mean_point(frame, centre);
+    centre[2] -= 2 * THR_LAYOUT_FLAT * thr_frame_diagonal(frame);
   }
-  m->n = f->n_nodes;
+  m->n = frame->n_nodes;
   m->node = thr_calloc((size_t)m->n, sizeof *m->node);
   m->station = thr_calloc((size_t)m->n, sizeof *m->station);
   if (!m->node || !m->station) return thr_nomem(err);
   for (int v = 0; v < m->n; v++) {
-    double x = f->xyz[v][right] - centre[right], y = f->xyz[v][up] - centre[up], z = f->xyz[v][axis] - centre[axis];
+    double x = frame->xyz[v][right] - centre[right], y = frame->xyz[v][up] - centre[up], z = frame->xyz[v][axis] - centre[axis];
     double rho = hypot(x, y);
     m->node[v] = (polar){atan2(rho, z), rho, z, rho > 0 ? x / rho : 0, rho > 0 ? y / rho : 0, v};
     radius += hypot(rho, z) / m->n;
   }
   qsort(m->node, (size_t)m->n, sizeof *m->node, by_theta);
-  m->mean_length = mean_length(f);
+  m->mean_length = mean_length(frame);
   m->n_stations = mean_meridian(m->node, m->n, 0.5 * m->mean_length / (radius > 0 ? radius : 1), m->station);
   return THR_OK;
 }
 
 /* Lays the nodes at their arc lengths, all but a node at the crown itself pushed outwards by opening. */
-static void lay_rings(thr_layout *l, const meridian *m, double opening)
+static void lay_rings(thr_layout *layout, const meridian *m, double opening)
 {
   int at = 0;
   for (int i = 0; i < m->n; i++) {
     const polar *p = &m->node[i];
     double r = arc_at(m->station, m->n_stations, p->theta, &at);
     if (r > 0.1 * m->mean_length) r += opening;
-    l->xy[p->node][0] = r * p->x;
-    l->xy[p->node][1] = r * p->y;
+    layout->xy[p->node][0] = r * p->x;
+    layout->xy[p->node][1] = r * p->y;
   }
 }
 
 /* Azimuthal-equidistant about the axis (0 = x, 1 = y, 2 = z), seen from its positive end. Paper directions keep the frame
  * right-handed: x-y for z, y-z for x, z-x for y. Where many meridians meet at the crown its rings are opened up. */
-thr_status thr_layout_unroll(thr_layout *l, const thr_frame *f, int axis, thr_err *err)
+thr_status thr_layout_unroll(thr_layout *layout, const thr_frame *frame, int axis, thr_err *err)
 {
   static const double opening[] = {0, 1, 2, 3};
   meridian m = {0};
   thr_layout best = {0}, now = {0};
-  thr_status st = make_meridian(&m, f, axis, err);
+  thr_status st = make_meridian(&m, frame, axis, err);
   for (int i = 0; i < 4 && !st; i++) {
-    lay_rings(l, &m, opening[i] * m.mean_length);
-    st = thr_layout_measure(l, f, err);
-    if (!st) st = thr_layout_copy(&now, l, err);
+    lay_rings(layout, &m, opening[i] * m.mean_length);
+    st = thr_layout_measure(layout, frame, err);
+    if (!st) st = thr_layout_copy(&now, layout, err);
     if (!st) thr_layout_keep_better(&best, &now);
-    if (l->estimated) break; /* a tangle this large stays one */
+    if (layout->estimated) break; /* a tangle this large stays one */
   }
-  if (!st) memcpy(l->xy, best.xy, (size_t)f->n_nodes * sizeof *l->xy);
+  if (!st) memcpy(layout->xy, best.xy, (size_t)frame->n_nodes * sizeof *layout->xy);
   thr_layout_destroy(&best);
   free(m.node);
   free(m.station);

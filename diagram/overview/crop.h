@@ -22,9 +22,9 @@ typedef struct {
   bool made[THR_CROP_SCALES];
 } thr_crops;
 
-/* Plan and layout are borrowed and must outlive x. */
-void thr_crops_make(thr_crops *x, const thr_plan *p, const thr_layout *l);
-void thr_crops_destroy(thr_crops *x);
+/* Plan and layout are borrowed and must outlive crops. */
+void thr_crops_make(thr_crops *crops, const thr_plan *p, const thr_layout *l);
+void thr_crops_destroy(thr_crops *crops);
 
 /* What a picture shows: passes in their state (see thr_draw_state), beads that hold cord. Arrays are borrowed. */
 typedef struct {
@@ -48,32 +48,32 @@ typedef struct {
 
 /* The largest scale at which the passes drawn now fit in room (width and height, mm) with a ring of their neighbours around them.
  * A window is at least as large as least, if there is room for that. O(n_now), and O(n log n) the first time. */
-thr_status thr_crop_fit(thr_crops *x, const thr_crop *c, const double room[2], const double least[2], thr_crop_view *view,
+thr_status thr_crop_fit(thr_crops *crops, const thr_crop *crop, const double room[2], const double least[2], thr_crop_view *view,
                         thr_err *err) THR_MUST_CHECK;
 
 /* Appends the picture with its top left corner at a point of the page: clipped, in frames, each pass that is drawn now with its
  * number and arrow, names at the places that they come to. It is a group of class "view-NUMBER" and brings its style. shown
  * receives what of the scene each window shows. The view's scale is below THR_CROP_SCALES. O(n). */
-thr_status thr_crop_draw(thr_crops *x, const thr_crop *c, const thr_crop_view *view, const double at[2], thr_box shown[2],
-                         thr_text *t, thr_err *err) THR_MUST_CHECK;
+thr_status thr_crop_draw(thr_crops *crops, const thr_crop *crop, const thr_crop_view *view, const double at[2], thr_box shown[2],
+                         thr_text *text, thr_err *err) THR_MUST_CHECK;
 
 /* Appends where that is in the whole, within the paper and in its right upper corner: all beads as thin lines, the passes drawn
  * now, a frame around what is shown. Needs no states; the picture must have been drawn. O(n). */
-void thr_crop_locate(const thr_crops *x, const thr_crop *c, const thr_crop_view *view, const thr_box shown[2], thr_box paper,
-                     thr_text *t);
+void thr_crop_locate(const thr_crops *crops, const thr_crop *crop, const thr_crop_view *view, const thr_box shown[2],
+                     thr_box paper, thr_text *text);
 
 /* Appends the whole plan, at the largest scale that fits in the paper, with the numbers that this scale has room for; passes in
  * their state (NULL: all now). Brings the style of the document. O(n log n). THR_ELIMIT if it was interrupted. */
 thr_status thr_crop_whole(const thr_plan *p, const thr_layout *l, const unsigned char *state, thr_box paper,
-                          const thr_limits *limits, thr_text *t, thr_err *err) THR_MUST_CHECK;
+                          const thr_limits *limits, thr_text *text, thr_err *err) THR_MUST_CHECK;
 
 /* Places numbers, arrows and names of the passes drawn now that lie in the panel where they hide least in a window of the scene;
  * all others have none then (crop_labels.c). */
-thr_status thr_crop_label(thr_scene *s, const thr_crop *c, int panel, thr_box window, thr_err *err) THR_MUST_CHECK;
+thr_status thr_crop_label(thr_scene *s, const thr_crop *crop, int panel, thr_box window, thr_err *err) THR_MUST_CHECK;
 
 /* Appends the beads in a window of the scene: capsules, in few elements, for pages would take ten times as long with one for each
  * (crop_beads.c). filled: as in thr_crop. O(n log n). */
-thr_status thr_crop_beads(const thr_scene *s, const bool *filled, const thr_box *window, thr_text *t,
+thr_status thr_crop_beads(const thr_scene *s, const bool *filled, const thr_box *window, thr_text *text,
                           thr_err *err) THR_MUST_CHECK;
 
 /* Panel that pass i is drawn in: 0, or with two panels 1 for the right one. */

@@ -24,12 +24,13 @@ static int by_look(const void *a, const void *b)
   return p->width != q->width ? p->width - q->width : p->edge - q->edge;
 }
 
-static capsule capsule_of(const thr_scene *s, int e, bool filled)
+static capsule capsule_of(const thr_scene *scene, int e, bool filled)
 {
-  capsule c = {.width = (int)fmax(nearbyint(10 * s->bead[e]), 1), .filled = filled, .edge = e};
-  double along[2], length = thr_scene_edge_length(s, e), near = s->gap[2 * e], far = s->gap[2 * e + 1], radius = 0.05 * c.width;
-  const double *a = s->at[s->paper->edge[e][0]];
-  thr_scene_direction(s, 2 * e, along);
+  capsule c = {.width = (int)fmax(nearbyint(10 * scene->bead[e]), 1), .filled = filled, .edge = e};
+  double along[2], length = thr_scene_edge_length(scene, e), near = scene->gap[2 * e], far = scene->gap[2 * e + 1],
+                   radius = 0.05 * c.width;
+  const double *a = scene->at[scene->paper->edge[e][0]];
+  thr_scene_direction(scene, 2 * e, along);
   double reach = fmax(0.5 * (length - near - far) - radius, 0), middle = 0.5 * (length + near - far);
   for (int k = 0; k < 2; k++)
     for (int i = 0; i < 2; i++)
@@ -37,20 +38,20 @@ static capsule capsule_of(const thr_scene *s, int e, bool filled)
   return c;
 }
 
-static bool is_seen(const capsule *c, const thr_box *w)
+static bool is_seen(const capsule *c, const thr_box *box)
 {
   double radius = 0.05 * c->width;
-  return fmin(c->end[0][0], c->end[1][0]) - radius <= w->x1 && fmax(c->end[0][0], c->end[1][0]) + radius >= w->x0 &&
-         fmin(c->end[0][1], c->end[1][1]) - radius <= w->y1 && fmax(c->end[0][1], c->end[1][1]) + radius >= w->y0;
+  return fmin(c->end[0][0], c->end[1][0]) - radius <= box->x1 && fmax(c->end[0][0], c->end[1][0]) + radius >= box->x0 &&
+         fmin(c->end[0][1], c->end[1][1]) - radius <= box->y1 && fmax(c->end[0][1], c->end[1][1]) + radius >= box->y0;
 }
 
-thr_status thr_crop_beads(const thr_scene *s, const bool *filled, const thr_box *window, thr_text *t, thr_err *err)
+thr_status thr_crop_beads(const thr_scene *scene, const bool *filled, const thr_box *window, thr_text *text, thr_err *err)
 {
-  capsule *c = thr_calloc((size_t)s->frame->n_edges, sizeof *c);
+  capsule *c = thr_calloc((size_t)scene->frame->n_edges, sizeof *c);
   int n = 0;
   if (!c) return thr_nomem(err);
-  for (int e = 0; e < s->frame->n_edges; e++) {
-    c[n] = capsule_of(s, e, filled && filled[e]);
+  for (int e = 0; e < scene->frame->n_edges; e++) {
+    c[n] = capsule_of(scene, e, filled && filled[e]);
     n += is_seen(&c[n], window);
   }
   qsort(c, (size_t)n, sizeof *c, by_look);
@@ -64,7 +65,7 @@ thr_status thr_crop_beads(const thr_scene *s, const bool *filled, const thr_box 
     if (data.failed)
       st = thr_nomem(err);
     else
-      thr_draw_capsules(s, 0.1 * c[i].width, c[i].filled, data.data, t);
+      thr_draw_capsules(scene, 0.1 * c[i].width, c[i].filled, data.data, text);
     thr_text_destroy(&data);
   }
   free(c);

@@ -20,10 +20,10 @@ typedef struct {
   thr_boxes boxes;
 } labelling;
 
-static void along(const thr_scene_pass *p, double part, double at[2])
+static void along(const thr_scene_pass *pass, double part, double at[2])
 {
   for (int k = 0; k < 2; k++)
-    at[k] = p->from[k] + part * (p->to[k] - p->from[k]);
+    at[k] = pass->from[k] + part * (pass->to[k] - pass->from[k]);
 }
 
 static bool inside(thr_box outer, thr_box box)
@@ -46,20 +46,20 @@ static thr_status box_line(labelling *l, const double a[2], const double b[2], d
 /* Where cords run and marks are. Earlier cords count as beads do: a name may lie on them if there is no better place. */
 static thr_status box_strands(labelling *l, thr_err *err)
 {
-  const thr_scene *s = l->s;
+  const thr_scene *scene = l->s;
   thr_status st = THR_OK;
-  double half = 0.5 * s->size.cord + s->size.casing;
-  for (int i = 0; i < s->n_passes && !st; i++) {
-    const thr_scene_pass *p = &s->pass[i];
-    thr_box own = {fmin(p->from[0], p->to[0]), fmin(p->from[1], p->to[1]), fmax(p->from[0], p->to[0]),
-                   fmax(p->from[1], p->to[1])};
-    const thr_box *w = &l->window;
-    bool seen = own.x0 <= w->x1 && own.x1 >= w->x0 && own.y0 <= w->y1 && own.y1 >= w->y0;
+  double half = 0.5 * scene->size.cord + scene->size.casing;
+  for (int i = 0; i < scene->n_passes && !st; i++) {
+    const thr_scene_pass *pass = &scene->pass[i];
+    thr_box own = {fmin(pass->from[0], pass->to[0]), fmin(pass->from[1], pass->to[1]), fmax(pass->from[0], pass->to[0]),
+                   fmax(pass->from[1], pass->to[1])};
+    const thr_box *box = &l->window;
+    bool seen = own.x0 <= box->x1 && own.x1 >= box->x0 && own.y0 <= box->y1 && own.y1 >= box->y0;
     if (!seen || l->c->state[i] == THR_DRAW_HIDDEN) continue;
     int kind = l->c->state[i] == THR_DRAW_NOW ? THR_BOX_CORD : THR_BOX_BEAD;
-    const thr_mark *mark[2] = {thr_scene_mark_before(s, i), thr_scene_mark_after(s, i)};
-    st = box_line(l, p->from, p->to, half, kind, err);
-    if (!st) st = box_line(l, thr_scene_turn_start(s, i), p->from, half, kind, err);
+    const thr_mark *mark[2] = {thr_scene_mark_before(scene, i), thr_scene_mark_after(scene, i)};
+    st = box_line(l, pass->from, pass->to, half, kind, err);
+    if (!st) st = box_line(l, thr_scene_turn_start(scene, i), pass->from, half, kind, err);
     for (int k = 0; k < 2 && !st; k++)
       if (mark[k])
         st = thr_boxes_add(&l->boxes, thr_box_around(mark[k]->at[0], mark[k]->at[1], mark[k]->half[0], mark[k]->half[1]),
@@ -68,11 +68,11 @@ static thr_status box_strands(labelling *l, thr_err *err)
   return st;
 }
 
-static thr_box pill_box(const thr_scene *s, int i, const double at[2])
+static thr_box pill_box(const thr_scene *scene, int i, const double at[2])
 {
   char text[32];
-  thr_scene_number(s, i, text);
-  return thr_box_around(at[0], at[1], 0.5 * thr_scene_pill_width(s, text) + 0.2, 0.5 * thr_scene_pill_height(s) + 0.2);
+  thr_scene_number(scene, i, text);
+  return thr_box_around(at[0], at[1], 0.5 * thr_scene_pill_width(scene, text) + 0.2, 0.5 * thr_scene_pill_height(scene) + 0.2);
 }
 
 /* Keeps the place if its box is in the window and costs less: what it would hide, dearest first. */
@@ -91,79 +91,82 @@ static void judge(labelling *l, thr_box box, const double at[2], double penalty,
 static thr_status place_number(labelling *l, int i, thr_err *err)
 {
   static const double at_part[] = {0.30, 0.22, 0.38, 0.46, 0.54, 0.14, 0.62, 0.70, 0.80, 0.90};
-  thr_scene_pass *p = &l->s->pass[i];
+  thr_scene_pass *pass = &l->s->pass[i];
   double least = HUGE_VAL, at[2], high = thr_scene_pill_height(l->s);
   for (int k = 0; k < (int)(sizeof at_part / sizeof at_part[0]) && least > 0; k++) {
-    along(p, at_part[k], at);
-    judge(l, pill_box(l->s, i, at), at, 1e-3 * k, &least, p->pill);
+    along(pass, at_part[k], at);
+    judge(l, pill_box(l->s, i, at), at, 1e-3 * k, &least, pass->pill);
   }
   for (int k = 0; k < 48 && least > 1; k++) {
     double turn = 0.5235987755982988 * (k % 12), reach = 0.6 * (1 + k / 12) * high;
-    along(p, at_part[0], at);
+    along(pass, at_part[0], at);
     at[0] += 1.5 * reach * cos(turn);
     at[1] += reach * sin(turn);
-    judge(l, pill_box(l->s, i, at), at, 1 + 0.01 * k, &least, p->pill);
+    judge(l, pill_box(l->s, i, at), at, 1 + 0.01 * k, &least, pass->pill);
   }
-  p->numbered = least < HUGE_VAL;
-  return p->numbered ? thr_boxes_add(&l->boxes, pill_box(l->s, i, p->pill), THR_BOX_NUMBER, err) : THR_OK;
+  pass->numbered = least < HUGE_VAL;
+  return pass->numbered ? thr_boxes_add(&l->boxes, pill_box(l->s, i, pass->pill), THR_BOX_NUMBER, err) : THR_OK;
 }
 
 static void place_arrow(labelling *l, int i)
 {
   static const double at_part[] = {0.68, 0.76, 0.60, 0.84, 0.52, 0.92, 0.44, 0.30, 0.20, 0.10};
-  thr_scene_pass *p = &l->s->pass[i];
-  double least = HUGE_VAL, at[2], length = hypot(p->to[0] - p->from[0], p->to[1] - p->from[1]);
-  p->arrow_size = fmin(l->s->size.arrow, 0.8 * length);
+  thr_scene_pass *pass = &l->s->pass[i];
+  double least = HUGE_VAL, at[2], length = hypot(pass->to[0] - pass->from[0], pass->to[1] - pass->from[1]);
+  pass->arrow_size = fmin(l->s->size.arrow, 0.8 * length);
   for (int k = 0; k < (int)(sizeof at_part / sizeof at_part[0]) && least > 0; k++) {
-    along(p, at_part[k], at);
-    thr_box box = thr_box_around(at[0], at[1], 0.45 * p->arrow_size, 0.45 * p->arrow_size);
+    along(pass, at_part[k], at);
+    thr_box box = thr_box_around(at[0], at[1], 0.45 * pass->arrow_size, 0.45 * pass->arrow_size);
     double hidden = thr_boxes_overlap(&l->boxes, box, THR_BOX_MARK | THR_BOX_NUMBER, least);
     if (hidden >= least) continue;
     least = hidden;
-    p->arrow[0] = at[0];
-    p->arrow[1] = at[1];
+    pass->arrow[0] = at[0];
+    pass->arrow[1] = at[1];
   }
-  if (l->c->backward) p->arrow_size = -p->arrow_size;
+  if (l->c->backward) pass->arrow_size = -pass->arrow_size;
 }
 
 /* Around a point where it hides least; nowhere if that hides too much. */
 static thr_status place_name(labelling *l, int v, thr_err *err)
 {
-  thr_scene *s = l->s;
+  thr_scene *scene = l->s;
   char name[48];
-  if (s->named[v]) return THR_OK;
-  thr_scene_place_name(s, v, name);
-  double half_width = 0.5 * thr_scene_text_width(name, s->size.text), half_height = 0.42 * s->size.text, least = HUGE_VAL;
+  if (scene->named[v]) return THR_OK;
+  thr_scene_place_name(scene, v, name);
+  double half_width = 0.5 * thr_scene_text_width(name, scene->size.text), half_height = 0.42 * scene->size.text, least = HUGE_VAL;
   for (int ring = 0; ring < 4; ring++)
     for (int k = 0; k < 16 && least > 0.05; k++) {
       double turn = 0.39269908169872414 * (k + 0.5), c = cos(turn), w = sin(turn);
-      double d = (0.1 + 0.1 * ring) * s->size.pitch + fmin(half_width / fmax(fabs(c), 1e-9), half_height / fmax(fabs(w), 1e-9));
-      double at[2] = {s->at[v][0] + d * c, s->at[v][1] + d * w};
+      double d =
+          (0.1 + 0.1 * ring) * scene->size.pitch + fmin(half_width / fmax(fabs(c), 1e-9), half_height / fmax(fabs(w), 1e-9));
+      double at[2] = {scene->at[v][0] + d * c, scene->at[v][1] + d * w};
       thr_box box = thr_box_around(at[0], at[1], half_width, half_height);
       double hidden = 20 * thr_boxes_overlap(&l->boxes, box, THR_BOX_CORD | THR_BOX_ARROW, HUGE_VAL) +
                       4 * thr_boxes_overlap(&l->boxes, box, THR_BOX_BEAD, HUGE_VAL);
-      judge(l, box, at, hidden + 0.02 * ring, &least, s->name_at[v]);
+      judge(l, box, at, hidden + 0.02 * ring, &least, scene->name_at[v]);
     }
-  s->named[v] = least < 60;
-  if (!s->named[v]) return THR_OK;
-  return thr_boxes_add(&l->boxes, thr_box_around(s->name_at[v][0], s->name_at[v][1], half_width, half_height), THR_BOX_NAME, err);
+  scene->named[v] = least < 60;
+  if (!scene->named[v]) return THR_OK;
+  return thr_boxes_add(&l->boxes, thr_box_around(scene->name_at[v][0], scene->name_at[v][1], half_width, half_height),
+                       THR_BOX_NAME, err);
 }
 
 /* Beads, and the pads of feet. */
 static thr_status box_beads(labelling *l, thr_err *err)
 {
-  const thr_scene *s = l->s;
+  const thr_scene *scene = l->s;
   thr_status st = THR_OK;
-  for (int v = 0; v < s->layout->n_points && !st; v++)
-    if (s->frame->foot[thr_layout_node(s->layout, v)] &&
-        inside(l->window, (thr_box){s->at[v][0], s->at[v][1], s->at[v][0], s->at[v][1]}))
-      st = thr_boxes_add(&l->boxes, thr_box_around(s->at[v][0], s->at[v][1], s->size.foot, s->size.foot), THR_BOX_BEAD, err);
-  for (int i = 0; i < s->n_passes && !st; i++) {
-    const thr_scene_pass *p = &s->pass[i];
-    if (p->lane || !inside(l->window, (thr_box){p->from[0], p->from[1], p->from[0], p->from[1]})) continue;
-    double middle[2] = {0.5 * (p->from[0] + p->to[0]), 0.5 * (p->from[1] + p->to[1])};
-    st = box_line(l, p->from, middle, 0.5 * s->bead[p->half >> 1], THR_BOX_BEAD, err);
-    if (!st) st = box_line(l, middle, p->to, 0.5 * s->bead[p->half >> 1], THR_BOX_BEAD, err);
+  for (int v = 0; v < scene->layout->n_points && !st; v++)
+    if (scene->frame->foot[thr_layout_node(scene->layout, v)] &&
+        inside(l->window, (thr_box){scene->at[v][0], scene->at[v][1], scene->at[v][0], scene->at[v][1]}))
+      st = thr_boxes_add(&l->boxes, thr_box_around(scene->at[v][0], scene->at[v][1], scene->size.foot, scene->size.foot),
+                         THR_BOX_BEAD, err);
+  for (int i = 0; i < scene->n_passes && !st; i++) {
+    const thr_scene_pass *pass = &scene->pass[i];
+    if (pass->lane || !inside(l->window, (thr_box){pass->from[0], pass->from[1], pass->from[0], pass->from[1]})) continue;
+    double middle[2] = {0.5 * (pass->from[0] + pass->to[0]), 0.5 * (pass->from[1] + pass->to[1])};
+    st = box_line(l, pass->from, middle, 0.5 * scene->bead[pass->half >> 1], THR_BOX_BEAD, err);
+    if (!st) st = box_line(l, middle, pass->to, 0.5 * scene->bead[pass->half >> 1], THR_BOX_BEAD, err);
   }
   return st;
 }
@@ -172,12 +175,12 @@ static thr_status box_beads(labelling *l, thr_err *err)
  */
 static thr_status place_caption(labelling *l, thr_err *err)
 {
-  thr_scene *s = l->s;
-  double *at = s->caption[l->panel], *other = s->caption[1 - l->panel], least = HUGE_VAL;
-  if (!s->layout->node) return THR_OK;
+  thr_scene *scene = l->s;
+  double *at = scene->caption[l->panel], *other = scene->caption[1 - l->panel], least = HUGE_VAL;
+  if (!scene->layout->node) return THR_OK;
   const thr_box *w = &l->window;
-  double half[2] = {0.5 * thr_scene_text_width(thr_scene_caption(s, l->panel), CAPTION * s->size.text),
-                    0.5 * CAPTION * s->size.text};
+  double half[2] = {0.5 * thr_scene_text_width(thr_scene_caption(scene, l->panel), CAPTION * scene->size.text),
+                    0.5 * CAPTION * scene->size.text};
   for (int k = 0; k < 6; k++) {
     double x[3] = {w->x0 + half[0] + EDGE, 0.5 * (w->x0 + w->x1), w->x1 - half[0] - EDGE};
     double y = k < 3 ? w->y0 + half[1] + EDGE : w->y1 - half[1] - EDGE;
@@ -201,34 +204,35 @@ static bool is_mine(const labelling *l, int i)
 
 static thr_status place_labels(labelling *l, thr_err *err)
 {
-  thr_scene *s = l->s;
-  const thr_crop *c = l->c;
+  thr_scene *scene = l->s;
+  const thr_crop *crop = l->c;
   thr_status st = box_strands(l, err);
   if (!st) st = place_caption(l, err);
-  for (int k = 0; k < c->n_now && !st; k++)
-    if (is_mine(l, c->now[k])) st = place_number(l, c->now[k], err);
-  for (int k = 0; k < c->n_now && !st; k++) {
-    if (!is_mine(l, c->now[k])) continue;
-    place_arrow(l, c->now[k]);
-    const double *at = s->pass[c->now[k]].arrow;
-    st = thr_boxes_add(&l->boxes, thr_box_around(at[0], at[1], 0.5 * s->size.arrow, 0.5 * s->size.arrow), THR_BOX_ARROW, err);
+  for (int k = 0; k < crop->n_now && !st; k++)
+    if (is_mine(l, crop->now[k])) st = place_number(l, crop->now[k], err);
+  for (int k = 0; k < crop->n_now && !st; k++) {
+    if (!is_mine(l, crop->now[k])) continue;
+    place_arrow(l, crop->now[k]);
+    const double *at = scene->pass[crop->now[k]].arrow;
+    st = thr_boxes_add(&l->boxes, thr_box_around(at[0], at[1], 0.5 * scene->size.arrow, 0.5 * scene->size.arrow), THR_BOX_ARROW,
+                       err);
   }
   if (!st) st = box_beads(l, err);
-  for (int k = 0; k < c->n_now && !st; k++) {
-    int h = s->pass[c->now[k]].half;
-    if (is_mine(l, c->now[k])) st = place_name(l, thr_tail(s->paper, h), err);
-    if (!st && is_mine(l, c->now[k])) st = place_name(l, thr_head(s->paper, h), err);
+  for (int k = 0; k < crop->n_now && !st; k++) {
+    int h = scene->pass[crop->now[k]].half;
+    if (is_mine(l, crop->now[k])) st = place_name(l, thr_tail(scene->paper, h), err);
+    if (!st && is_mine(l, crop->now[k])) st = place_name(l, thr_head(scene->paper, h), err);
   }
   return st;
 }
 
-thr_status thr_crop_label(thr_scene *s, const thr_crop *c, int panel, thr_box window, thr_err *err)
+thr_status thr_crop_label(thr_scene *scene, const thr_crop *crop, int panel, thr_box window, thr_err *err)
 {
-  labelling l = {.s = s, .c = c, .panel = panel, .window = window};
-  for (int i = 0; i < s->n_passes; i++)
-    s->pass[i].numbered = false;
-  for (int v = 0; v < s->layout->n_points; v++)
-    s->named[v] = false;
+  labelling l = {.s = scene, .c = crop, .panel = panel, .window = window};
+  for (int i = 0; i < scene->n_passes; i++)
+    scene->pass[i].numbered = false;
+  for (int v = 0; v < scene->layout->n_points; v++)
+    scene->named[v] = false;
   thr_status st = thr_boxes_init(&l.boxes, window, 6, err);
   if (!st) st = place_labels(&l, err);
   thr_boxes_destroy(&l.boxes);

@@ -24,28 +24,30 @@ typedef struct {
 } thr_draw_style;
 
 /* Appends the <style> element for everything below, within elements of a class: "thread" is that of a whole document. */
-void thr_draw_css(const thr_scene *s, const char *scope, thr_text *t);
+void thr_draw_css(const thr_scene *scene, const char *scope, thr_text *text);
 
 /* Appends the groups "feet", "beads", one per cord ("cord-A", with a group "A-17" per pass), "ends", with panels "seams",
  * "places" and "numbers" (see thr_overview_svg). Letters and numbers of a grid only with grid. */
-void thr_draw_scene(const thr_scene *s, const thr_draw_style *style, const thr_box *grid, thr_text *t);
+void thr_draw_scene(const thr_scene *scene, const thr_draw_style *style, const thr_box *grid, thr_text *text);
 
 /* Are letters and numbers of places wanted on all four sides of the whole picture? */
-bool thr_draw_grid_both(const thr_scene *s);
+bool thr_draw_grid_both(const thr_scene *scene);
 
 /* Pieces that the legend shows, too. A mark's ring has a colour of its own; pale: of a copy. */
-void thr_draw_mark(const thr_scene *s, const thr_mark *m, bool end, bool pale, const char *ring, double x, double y, thr_text *t);
-void thr_draw_pill(const thr_scene *s, const char *number, const char *colour, double x, double y, thr_text *t);
-void thr_draw_seam(const thr_scene *s, const thr_mark *m, const char *colour, thr_text *t); /* to or from the other panel */
-void thr_draw_sharp(const thr_scene *s, double x, double y, thr_text *t);                   /* the sign of a sharp turn */
-void thr_draw_foot_pad(const thr_scene *s, double x, double y, thr_text *t);                /* under a node that is a foot */
+void thr_draw_mark(const thr_scene *scene, const thr_mark *mark, bool end, bool pale, const char *ring, double x, double y,
+                   thr_text *text);
+void thr_draw_pill(const thr_scene *scene, const char *number, const char *colour, double x, double y, thr_text *text);
+void thr_draw_seam(const thr_scene *scene, const thr_mark *mark, const char *colour,
+                   thr_text *text);                                                 /* to or from the other panel */
+void thr_draw_sharp(const thr_scene *scene, double x, double y, thr_text *text);    /* the sign of a sharp turn */
+void thr_draw_foot_pad(const thr_scene *scene, double x, double y, thr_text *text); /* under a node that is a foot */
 
 /* Appends beads of a width in mm, as lines with round ends: data are the path's. filled: they hold cord already. Outlines are
  * thr_draw_outline mm wide. */
-void thr_draw_capsules(const thr_scene *s, double width, bool filled, const char *data, thr_text *t);
-double thr_draw_outline(const thr_scene *s);
+void thr_draw_capsules(const thr_scene *scene, double width, bool filled, const char *data, thr_text *text);
+double thr_draw_outline(const thr_scene *scene);
 
 /* Appends the attribute that dashes a cord's line; nothing for a full line (NULL). */
-void thr_draw_dash(const thr_scene *s, const double *dash, thr_text *t);
+void thr_draw_dash(const thr_scene *scene, const double *dash, thr_text *text);
 
 #endif

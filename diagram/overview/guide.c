@@ -27,45 +27,45 @@ static int by_label(const void *a, const void *b)
 }
 
 /* Adds the node's number to each of those that share a label. */
-static void tell_apart(thr_guide *g, named *k)
+static void tell_apart(thr_guide *guide, named *k)
 {
-  int n = g->f->n_nodes;
+  int n = guide->f->n_nodes;
   for (int v = 0; v < n; v++)
-    k[v] = (named){g->label[v], v};
+    k[v] = (named){guide->label[v], v};
   qsort(k, (size_t)n, sizeof *k, by_label);
   for (int i = 0, next; i < n; i = next) {
     for (next = i + 1; next < n && strcmp(k[next].label, k[i].label) == 0;)
       next++;
     for (int j = i; j < next && next - i > 1; j++) {
-      char *label = g->label[k[j].node];
+      char *label = guide->label[k[j].node];
       size_t length = strlen(label);
       snprintf(label + length, THR_LABEL - length, "#%d", k[j].node);
     }
   }
 }
 
-static thr_status name_nodes(thr_guide *g, thr_err *err)
+static thr_status name_nodes(thr_guide *guide, thr_err *err)
 {
-  named *k = thr_calloc((size_t)g->f->n_nodes, sizeof *k);
+  named *k = thr_calloc((size_t)guide->f->n_nodes, sizeof *k);
   if (!k) return thr_nomem(err);
-  for (int v = 0; v < g->f->n_nodes; v++) {
-    thr_places_name(&g->places, g->f, v, g->label[v]);
-    for (char *c = g->label[v]; *c; c++)
+  for (int v = 0; v < guide->f->n_nodes; v++) {
+    thr_places_name(&guide->places, guide->f, v, guide->label[v]);
+    for (char *c = guide->label[v]; *c; c++)
       if (isspace((unsigned char)*c)) *c = '_';
   }
-  tell_apart(g, k);
+  tell_apart(guide, k);
   free(k);
   return THR_OK;
 }
 
-void thr_guide_place(const thr_guide *g, int v, thr_text *t)
+void thr_guide_place(const thr_guide *guide, int v, thr_text *text)
 {
-  const char *own = g->f->name && g->f->name[v] ? g->f->name[v] : NULL;
-  thr_text_printf(t, "%s%s", g->f->foot && g->f->foot[v] ? "foot " : "", g->label[v]);
-  if (!g->places.n_columns || !own || strcmp(own, g->label[v]) == 0) return;
+  const char *own = guide->f->name && guide->f->name[v] ? guide->f->name[v] : NULL;
+  thr_text_printf(text, "%s%s", guide->f->foot && guide->f->foot[v] ? "foot " : "", guide->label[v]);
+  if (!guide->places.n_columns || !own || strcmp(own, guide->label[v]) == 0) return;
   char name[41];
   thr_text_copy_clean(name, sizeof name, own);
-  thr_text_printf(t, " (node %s)", name);
+  thr_text_printf(text, " (node %s)", name);
 }
 
 void thr_guide_ordinal(int n, char word[16])
@@ -86,33 +86,34 @@ const char *thr_deed_words(thr_deed d)
   return words[d];
 }
 
-thr_status thr_held_make(thr_held *h, int n_edges, thr_err *err)
+thr_status thr_held_make(thr_held *held, int n_edges, thr_err *err)
 {
-  *h = (thr_held){.cords = thr_calloc((size_t)n_edges, sizeof *h->cords), .last = thr_calloc((size_t)n_edges, sizeof *h->last)};
-  return h->cords && h->last ? THR_OK : thr_nomem(err);
+  *held = (thr_held){.cords = thr_calloc((size_t)n_edges, sizeof *held->cords),
+                     .last = thr_calloc((size_t)n_edges, sizeof *held->last)};
+  return held->cords && held->last ? THR_OK : thr_nomem(err);
 }
 
-void thr_held_destroy(thr_held *h)
+void thr_held_destroy(thr_held *held)
 {
-  free(h->cords);
-  free(h->last);
-  *h = (thr_held){0};
+  free(held->cords);
+  free(held->last);
+  *held = (thr_held){0};
 }
 
-thr_deed thr_held_pass(thr_held *h, int half)
+thr_deed thr_held_pass(thr_held *held, int half)
 {
-  int e = half >> 1, before = h->last[e];
-  h->last[e] = half;
-  if (h->cords[e]++ == 0) return THR_PICK_UP;
+  int e = half >> 1, before = held->last[e];
+  held->last[e] = half;
+  if (held->cords[e]++ == 0) return THR_PICK_UP;
   return before == half ? THR_PASS_THROUGH : THR_PASS_BACK;
 }
 
 /* ---- sides ---- */
 
 /* Unit vector along half-edge h in space; false if it has no length. */
-static bool direction(const thr_frame *f, int h, double d[3])
+static bool direction(const thr_frame *frame, int h, double d[3])
 {
-  const double *a = f->xyz[thr_tail(f, h)], *b = f->xyz[thr_head(f, h)];
+  const double *a = frame->xyz[thr_tail(frame, h)], *b = frame->xyz[thr_head(frame, h)];
   for (int i = 0; i < 3; i++)
     d[i] = b[i] - a[i];
   double length = sqrt(thr_dot(d, d));
@@ -123,24 +124,24 @@ static bool direction(const thr_frame *f, int h, double d[3])
 
 /* Adds up what two edges that are neighbours around a node, counter-clockwise on paper, say about the side that one sees there.
  */
-static void add_corner(const thr_frame *f, int h, int g, double sweep, double normal[3])
+static void add_corner(const thr_frame *frame, int h, int g, double sweep, double normal[3])
 {
   double a[3], b[3], cross[3];
-  if (!(sweep > 0 && sweep < THR_PI - 1e-6) || !direction(f, h, a) || !direction(f, g, b)) return;
+  if (!(sweep > 0 && sweep < THR_PI - 1e-6) || !direction(frame, h, a) || !direction(frame, g, b)) return;
   thr_cross(a, b, cross);
   for (int i = 0; i < 3; i++)
     normal[i] += cross[i];
 }
 
 /* From how edges follow each other around the nodes on paper: which way faces the viewer there. */
-static thr_status find_outward(thr_guide *g, thr_err *err)
+static thr_status find_outward(thr_guide *guide, thr_err *err)
 {
-  const thr_frame *f = g->f, *paper = thr_layout_paper(&g->layout, f);
-  double *angle = thr_calloc(2 * (size_t)f->n_edges, sizeof *angle);
-  int *around = thr_calloc(2 * (size_t)f->n_edges, sizeof *around);
+  const thr_frame *frame = guide->f, *paper = thr_layout_paper(&guide->layout, frame);
+  double *angle = thr_calloc(2 * (size_t)frame->n_edges, sizeof *angle);
+  int *around = thr_calloc(2 * (size_t)frame->n_edges, sizeof *around);
   thr_status st = angle && around ? THR_OK : thr_nomem(err);
-  for (int h = 0; h < 2 * f->n_edges && !st; h++) {
-    const double *a = g->layout.xy[thr_tail(paper, h)], *b = g->layout.xy[thr_head(paper, h)];
+  for (int h = 0; h < 2 * frame->n_edges && !st; h++) {
+    const double *a = guide->layout.xy[thr_tail(paper, h)], *b = guide->layout.xy[thr_head(paper, h)];
     angle[h] = atan2(b[1] - a[1], b[0] - a[0]);
   }
   if (!st) st = thr_layout_around(paper, angle, around, err);
@@ -148,11 +149,12 @@ static thr_status find_outward(thr_guide *g, thr_err *err)
     int degree = thr_degree(paper, p), *at = around + paper->first[p];
     for (int i = 0; i < degree; i++) {
       int next = at[(i + 1) % degree];
-      add_corner(f, at[i], next, thr_scene_sweep(angle[at[i]], angle[next]), g->outward[thr_layout_node(&g->layout, p)]);
+      add_corner(frame, at[i], next, thr_scene_sweep(angle[at[i]], angle[next]),
+                 guide->outward[thr_layout_node(&guide->layout, p)]);
     }
   }
-  for (int v = 0; v < f->n_nodes && !st; v++) {
-    double *normal = g->outward[v];
+  for (int v = 0; v < frame->n_nodes && !st; v++) {
+    double *normal = guide->outward[v];
     double length = sqrt(thr_dot(normal, normal));
     for (int i = 0; i < 3; i++)
       normal[i] = length > 1e-6 ? normal[i] / length : 0;
@@ -162,48 +164,48 @@ static thr_status find_outward(thr_guide *g, thr_err *err)
   return st;
 }
 
-thr_status thr_guide_make(thr_guide *g, const thr_frame *f, thr_err *err)
+thr_status thr_guide_make(thr_guide *guide, const thr_frame *frame, thr_err *err)
 {
-  *g = (thr_guide){.f = f};
-  g->outward = thr_calloc((size_t)f->n_nodes, sizeof *g->outward);
-  g->label = thr_calloc((size_t)f->n_nodes, sizeof *g->label);
-  if (!g->outward || !g->label) return thr_nomem(err);
-  thr_status st = thr_layout_choose(&g->layout, f, NULL, 0, err);
-  if (!st && thr_layout_to_scale(g->layout.kind))
-    st = thr_places_find(&g->places, f, (const double(*)[2])g->layout.xy, g->layout.median, err);
-  g->sides = !g->layout.crossings && !g->layout.estimated && g->layout.kind != THR_LAYOUT_DRAWN;
-  if (!st && g->sides) st = find_outward(g, err);
-  return st ? st : name_nodes(g, err);
+  *guide = (thr_guide){.f = frame};
+  guide->outward = thr_calloc((size_t)frame->n_nodes, sizeof *guide->outward);
+  guide->label = thr_calloc((size_t)frame->n_nodes, sizeof *guide->label);
+  if (!guide->outward || !guide->label) return thr_nomem(err);
+  thr_status st = thr_layout_choose(&guide->layout, frame, NULL, 0, err);
+  if (!st && thr_layout_to_scale(guide->layout.kind))
+    st = thr_places_find(&guide->places, frame, (const double(*)[2])guide->layout.xy, guide->layout.median, err);
+  guide->sides = !guide->layout.crossings && !guide->layout.estimated && guide->layout.kind != THR_LAYOUT_DRAWN;
+  if (!st && guide->sides) st = find_outward(guide, err);
+  return st ? st : name_nodes(guide, err);
 }
 
-void thr_guide_destroy(thr_guide *g)
+void thr_guide_destroy(thr_guide *guide)
 {
-  thr_layout_destroy(&g->layout);
-  thr_places_destroy(&g->places);
-  free(g->outward);
-  free(g->label);
-  *g = (thr_guide){0};
+  thr_layout_destroy(&guide->layout);
+  thr_places_destroy(&guide->places);
+  free(guide->outward);
+  free(guide->label);
+  *guide = (thr_guide){0};
 }
 
 /* ---- turns ---- */
 
-thr_way thr_guide_way(const thr_guide *g, int in, int out)
+thr_way thr_guide_way(const thr_guide *guide, int in, int out)
 {
-  double a[3], b[3], cross[3], *n = g->outward[thr_tail(g->f, out)];
+  double a[3], b[3], cross[3], *n = guide->outward[thr_tail(guide->f, out)];
   if (out == (in ^ 1)) return THR_WAY_BACK;
-  if (thr_turn_angle(g->f, in, out) < THR_GUIDE_STRAIGHT) return THR_WAY_STRAIGHT;
-  if (!g->sides || thr_dot(n, n) == 0 || !direction(g->f, in, a) || !direction(g->f, out, b)) return THR_WAY_TURN;
+  if (thr_turn_angle(guide->f, in, out) < THR_GUIDE_STRAIGHT) return THR_WAY_STRAIGHT;
+  if (!guide->sides || thr_dot(n, n) == 0 || !direction(guide->f, in, a) || !direction(guide->f, out, b)) return THR_WAY_TURN;
   thr_cross(a, b, cross);
   double turn = atan2(thr_dot(n, cross), thr_dot(a, b) - thr_dot(a, n) * thr_dot(b, n));
   if (fabs(turn) < AHEAD) return THR_WAY_OVER;
   return fabs(turn) > THR_PI - AHEAD ? THR_WAY_TURN : turn > 0 ? THR_WAY_LEFT : THR_WAY_RIGHT;
 }
 
-void thr_guide_say(const thr_guide *g, int in, int out, thr_text *t)
+void thr_guide_say(const thr_guide *guide, int in, int out, thr_text *text)
 {
   static const char *const word[] = {"straight on", "turn left", "turn right", "over the curve", "turn", "turn back"};
-  thr_way way = thr_guide_way(g, in, out);
-  thr_text_append(t, word[way]);
+  thr_way way = thr_guide_way(guide, in, out);
+  thr_text_append(text, word[way]);
   if (way != THR_WAY_STRAIGHT && way != THR_WAY_BACK)
-    thr_text_printf(t, " %.0f degrees", thr_turn_angle(g->f, in, out) * 180 / THR_PI);
+    thr_text_printf(text, " %.0f degrees", thr_turn_angle(guide->f, in, out) * 180 / THR_PI);
 }

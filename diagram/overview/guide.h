@@ -25,11 +25,11 @@ typedef struct {
 } thr_guide;
 
 /* Lays the framework out as the overview does. O(n log n). Release with thr_guide_destroy, after a failure too. */
-thr_status thr_guide_make(thr_guide *g, const thr_frame *f, thr_err *err) THR_MUST_CHECK;
-void thr_guide_destroy(thr_guide *g);
+thr_status thr_guide_make(thr_guide *guide, const thr_frame *frame, thr_err *err) THR_MUST_CHECK;
+void thr_guide_destroy(thr_guide *guide);
 
 /* Appends "foot A1 (node 17)": the node's own name where it is called by its place. */
-void thr_guide_place(const thr_guide *g, int v, thr_text *t);
+void thr_guide_place(const thr_guide *guide, int v, thr_text *text);
 
 /* How half-edge out goes on from half-edge in (head(in) = tail(out)). */
 typedef enum {
@@ -41,10 +41,10 @@ typedef enum {
   THR_WAY_BACK  /* into the same edge */
 } thr_way;
 
-thr_way thr_guide_way(const thr_guide *g, int in, int out);
+thr_way thr_guide_way(const thr_guide *guide, int in, int out);
 
 /* Appends "straight on", "turn left 90 degrees", "over the curve 24 degrees", "turn back". */
-void thr_guide_say(const thr_guide *g, int in, int out, thr_text *t);
+void thr_guide_say(const thr_guide *guide, int in, int out, thr_text *text);
 
 /* What a pass does with the bead of its edge. */
 typedef enum {
@@ -61,11 +61,11 @@ typedef struct {
   int *last;  /* [n_edges] half-edge of the latest pass, if cords > 0 */
 } thr_held;
 
-thr_status thr_held_make(thr_held *h, int n_edges, thr_err *err) THR_MUST_CHECK;
-void thr_held_destroy(thr_held *h);
+thr_status thr_held_make(thr_held *held, int n_edges, thr_err *err) THR_MUST_CHECK;
+void thr_held_destroy(thr_held *held);
 
 /* Takes the needle over a half-edge. */
-thr_deed thr_held_pass(thr_held *h, int half);
+thr_deed thr_held_pass(thr_held *held, int half);
 
 /* "second", "third", "4th", "21st" */
 void thr_guide_ordinal(int n, char word[16]);

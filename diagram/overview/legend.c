@@ -28,15 +28,15 @@ static const char *plural(int n)
   return n == 1 ? "" : "s";
 }
 
-void thr_legend_title(const thr_scene *s, const char *given, char title[160])
+void thr_legend_title(const thr_scene *scene, const char *given, char title[160])
 {
-  int n = s->plan->n_cords, paths = s->copy ? thr_copies_paths(s->copy, n) : n, beads = s->frame->n_edges;
+  int n = scene->plan->n_cords, paths = scene->copy ? thr_copies_paths(scene->copy, n) : n, beads = scene->frame->n_edges;
   char size[64];
-  snprintf(size, sizeof size, "%d bead%s, %d pass%s", beads, plural(beads), s->n_passes, s->n_passes == 1 ? "" : "es");
+  snprintf(size, sizeof size, "%d bead%s, %d pass%s", beads, plural(beads), scene->n_passes, scene->n_passes == 1 ? "" : "es");
   if (given && *given)
     snprintf(title, 160, "%.159s", given);
   else if (n == 1)
-    snprintf(title, 160, "Cord %s: %s", s->id[0], size);
+    snprintf(title, 160, "Cord %s: %s", scene->id[0], size);
   else if (paths < n)
     snprintf(title, 160, "%d cords, %d path%s to learn: %s", n, paths, plural(paths), size);
   else
@@ -48,11 +48,11 @@ static double degrees(double angle)
   return angle * 90 / THR_SCENE_SHARP;
 }
 
-static int count_feet(const thr_frame *f)
+static int count_feet(const thr_frame *frame)
 {
   int n = 0;
-  for (int v = 0; v < f->n_nodes; v++)
-    n += f->foot && f->foot[v];
+  for (int v = 0; v < frame->n_nodes; v++)
+    n += frame->foot && frame->foot[v];
   return n;
 }
 
@@ -62,147 +62,148 @@ static double two_digits(double x)
   return unit > 1 ? unit * nearbyint(x / unit) : x;
 }
 
-static double write_view(const thr_scene *s, double x, double y, double width, thr_text *t)
+static double write_view(const thr_scene *scene, double x, double y, double width, thr_text *text)
 {
   char line[512], number[40];
-  const thr_layout *l = s->layout;
-  y = thr_svg_wrap(t, x, y, TEXT_SIZE, width, " font-weight=\"bold\"", thr_layout_words(l->kind));
-  if (s->n_seams && !thr_scene_labels_seams(s))
-    y = thr_svg_wrap(t, x, y, TEXT_SIZE, width, "",
+  const thr_layout *layout = scene->layout;
+  y = thr_svg_wrap(text, x, y, TEXT_SIZE, width, " font-weight=\"bold\"", thr_layout_words(layout->kind));
+  if (scene->n_seams && !thr_scene_labels_seams(scene))
+    y = thr_svg_wrap(text, x, y, TEXT_SIZE, width, "",
                      "At a place on the rim the cord may go on in the other half, at the place of the same name.");
-  if (thr_scene_labels_seams(s)) {
+  if (thr_scene_labels_seams(scene)) {
     snprintf(
         line, sizeof line,
         "\"to 17\" where the cord leaves a half and \"from 16\" where it comes out on the other: at places of the same name.");
-    y = thr_svg_wrap(t, x, y, TEXT_SIZE, width, "", line);
+    y = thr_svg_wrap(text, x, y, TEXT_SIZE, width, "", line);
   }
-  if (s->unlabelled) {
+  if (scene->unlabelled) {
     snprintf(line, sizeof line, "%d such place%s without a label for want of room: look for the number of the next pass.",
-             s->unlabelled, s->unlabelled == 1 ? " is" : "s are");
-    y = thr_svg_wrap(t, x, y, TEXT_SIZE, width, "", line);
+             scene->unlabelled, scene->unlabelled == 1 ? " is" : "s are");
+    y = thr_svg_wrap(text, x, y, TEXT_SIZE, width, "", line);
   }
-  if (!l->crossings && !l->estimated) return y;
-  snprintf(number, sizeof number, l->estimated ? "about %.0f" : "%.0f",
-           l->estimated ? two_digits((double)l->crossings) : (double)l->crossings);
+  if (!layout->crossings && !layout->estimated) return y;
+  snprintf(number, sizeof number, layout->estimated ? "about %.0f" : "%.0f",
+           layout->estimated ? two_digits((double)layout->crossings) : (double)layout->crossings);
   snprintf(
       line, sizeof line,
       "In this layout %s pair%s of beads cross or touch that do not in space: at these places follow the arrows and numbers.",
-      number, plural(l->crossings == 1 ? 1 : 2));
-  return thr_svg_wrap(t, x, y, TEXT_SIZE, width, " fill=\"#A03000\"", line);
+      number, plural(layout->crossings == 1 ? 1 : 2));
+  return thr_svg_wrap(text, x, y, TEXT_SIZE, width, " fill=\"#A03000\"", line);
 }
 
-double thr_legend_heading(const thr_scene *s, const char *title, double x, double y, double width, thr_text *t)
+double thr_legend_heading(const thr_scene *scene, const char *title, double x, double y, double width, thr_text *text)
 {
   char line[512], length[64], numbers[160];
-  const thr_frame *f = s->frame;
+  const thr_frame *frame = scene->frame;
   double total = 0;
-  for (int c = 0; c < s->plan->n_cords; c++)
-    total += thr_cord_length(f, &s->plan->cord[c]);
-  thr_svg_length(total, f->units, length);
-  y = thr_svg_wrap(t, x, y + TITLE_SIZE, TITLE_SIZE, width, " font-weight=\"bold\"", title);
-  int feet = count_feet(f);
-  snprintf(line, sizeof line, "%d nodes, %d bead%s (edge%s), %d %s; %d cord%s, %d pass%s, %s of cord.", f->n_nodes, f->n_edges,
-           plural(f->n_edges), plural(f->n_edges), feet, feet == 1 ? "foot" : "feet", s->plan->n_cords, plural(s->plan->n_cords),
-           s->n_passes, s->n_passes == 1 ? "" : "es", length);
-  y = thr_svg_wrap(t, x, y, TEXT_SIZE, width, "", line);
-  y = write_view(s, x, y, width, t);
-  if (s->number_step == 1)
-    snprintf(numbers, sizeof numbers, "Every pass%s is numbered", s->copy ? " of a path to learn" : "");
+  for (int c = 0; c < scene->plan->n_cords; c++)
+    total += thr_cord_length(frame, &scene->plan->cord[c]);
+  thr_svg_length(total, frame->units, length);
+  y = thr_svg_wrap(text, x, y + TITLE_SIZE, TITLE_SIZE, width, " font-weight=\"bold\"", title);
+  int feet = count_feet(frame);
+  snprintf(line, sizeof line, "%d nodes, %d bead%s (edge%s), %d %s; %d cord%s, %d pass%s, %s of cord.", frame->n_nodes,
+           frame->n_edges, plural(frame->n_edges), plural(frame->n_edges), feet, feet == 1 ? "foot" : "feet",
+           scene->plan->n_cords, plural(scene->plan->n_cords), scene->n_passes, scene->n_passes == 1 ? "" : "es", length);
+  y = thr_svg_wrap(text, x, y, TEXT_SIZE, width, "", line);
+  y = write_view(scene, x, y, width, text);
+  if (scene->number_step == 1)
+    snprintf(numbers, sizeof numbers, "Every pass%s is numbered", scene->copy ? " of a path to learn" : "");
   else
-    snprintf(numbers, sizeof numbers, "Every %dth pass is numbered, and each %s's first and last", s->number_step,
-             s->copy ? "path" : "cord");
-  const char *pale = s->copy ? " Pale and thin: copies of a path." : "";
-  if (s->dropped)
-    snprintf(line, sizeof line, "%s, except %d where there is no room.%s", numbers, s->dropped, pale);
+    snprintf(numbers, sizeof numbers, "Every %dth pass is numbered, and each %s's first and last", scene->number_step,
+             scene->copy ? "path" : "cord");
+  const char *pale = scene->copy ? " Pale and thin: copies of a path." : "";
+  if (scene->dropped)
+    snprintf(line, sizeof line, "%s, except %d where there is no room.%s", numbers, scene->dropped, pale);
   else
     snprintf(line, sizeof line, "%s.%s", numbers, pale);
-  y = thr_svg_wrap(t, x, y, TEXT_SIZE, width, "", line);
-  if (!s->places.n_columns && s->size.pitch < THR_SCENE_NAMED)
-    return thr_svg_wrap(t, x, y, TEXT_SIZE, width, "",
-                        s->layout->node ? "Only places on the rims have names at this scale."
-                                        : "Places have no names at this scale.");
-  if (!s->nameless) return y;
-  snprintf(line, sizeof line, "%d place%s no name for want of room.", s->nameless, s->nameless == 1 ? " has" : "s have");
-  return thr_svg_wrap(t, x, y, TEXT_SIZE, width, "", line);
+  y = thr_svg_wrap(text, x, y, TEXT_SIZE, width, "", line);
+  if (!scene->places.n_columns && scene->size.pitch < THR_SCENE_NAMED)
+    return thr_svg_wrap(text, x, y, TEXT_SIZE, width, "",
+                        scene->layout->node ? "Only places on the rims have names at this scale."
+                                            : "Places have no names at this scale.");
+  if (!scene->nameless) return y;
+  snprintf(line, sizeof line, "%d place%s no name for want of room.", scene->nameless, scene->nameless == 1 ? " has" : "s have");
+  return thr_svg_wrap(text, x, y, TEXT_SIZE, width, "", line);
 }
 
 /* A round length whose bar is 20 to 50 mm on paper. */
-static double write_scale_bar(const thr_scene *s, double x, double y, double width, thr_text *t)
+static double write_scale_bar(const thr_scene *scene, double x, double y, double width, thr_text *text)
 {
   char length[64], line[160];
-  double most = 50 / s->scale, unit = pow(10, floor(log10(most)));
-  double value = most >= 5 * unit ? 5 * unit : most >= 2 * unit ? 2 * unit : unit, bar = value * s->scale;
-  if (s->layout->kind == THR_LAYOUT_SPREAD || s->layout->kind == THR_LAYOUT_DRAWN || !(bar > 1 && bar < 60)) return y;
-  thr_text_printf(t, "<g id=\"scale\"><path class=\"bar\" d=\"M%.2f %.2fv-2.00M%.2f %.2fh%.2fM%.2f %.2fv-2.00\"/>\n", x, y, x,
+  double most = 50 / scene->scale, unit = pow(10, floor(log10(most)));
+  double value = most >= 5 * unit ? 5 * unit : most >= 2 * unit ? 2 * unit : unit, bar = value * scene->scale;
+  if (scene->layout->kind == THR_LAYOUT_SPREAD || scene->layout->kind == THR_LAYOUT_DRAWN || !(bar > 1 && bar < 60)) return y;
+  thr_text_printf(text, "<g id=\"scale\"><path class=\"bar\" d=\"M%.2f %.2fv-2.00M%.2f %.2fh%.2fM%.2f %.2fv-2.00\"/>\n", x, y, x,
                   y - 1, bar, x + bar, y);
   if (value >= 1e6 || value < 1e-3)
     snprintf(length, sizeof length, "%.0e", value);
   else
     snprintf(length, sizeof length, "%.*f", value < 1 ? (int)ceil(-log10(value) - 1e-9) : 0, value);
-  snprintf(line, sizeof line, "%s %.15s%s", length, s->frame->units,
-           thr_layout_to_scale(s->layout->kind) ? " of the framework, as seen here"
-                                                : " of the framework, from the middle outwards");
-  y = thr_svg_wrap(t, x + bar + 3, y, TEXT_SIZE, width - bar - 3, "", line) - 1.45 * TEXT_SIZE;
-  thr_text_append(t, "</g>\n");
+  snprintf(line, sizeof line, "%s %.15s%s", length, scene->frame->units,
+           thr_layout_to_scale(scene->layout->kind) ? " of the framework, as seen here"
+                                                    : " of the framework, from the middle outwards");
+  y = thr_svg_wrap(text, x + bar + 3, y, TEXT_SIZE, width - bar - 3, "", line) - 1.45 * TEXT_SIZE;
+  thr_text_append(text, "</g>\n");
   return y + ROW + 2;
 }
 
 /* One line of signs: start, end, bead, number, foot. */
-static double write_key(const thr_scene *s, double x, double y, thr_text *t)
+static double write_key(const thr_scene *scene, double x, double y, thr_text *text)
 {
-  thr_mark m = s->mark[0][0];
+  thr_mark mark = scene->mark[0][0];
   char colour[8] = "#000";
-  if (s->n_passes) thr_scene_colour(s, 0, colour);
-  const char *ring = s->plan->n_cords > 1 && !s->tension ? colour : "#111";
+  if (scene->n_passes) thr_scene_colour(scene, 0, colour);
+  const char *ring = scene->plan->n_cords > 1 && !scene->tension ? colour : "#111";
   double line = y + 0.36 * TEXT_SIZE;
-  thr_draw_mark(s, &m, false, false, ring, x + m.radius, y, t);
-  thr_svg_text(t, x += 2 * m.radius + 1.5, line, TEXT_SIZE, "", "start");
+  thr_draw_mark(scene, &mark, false, false, ring, x + mark.radius, y, text);
+  thr_svg_text(text, x += 2 * mark.radius + 1.5, line, TEXT_SIZE, "", "start");
   x += 16;
-  m = s->mark[0][1];
-  thr_draw_mark(s, &m, true, false, ring, x, y, t);
-  thr_svg_text(t, x += m.radius + 1.5, line, TEXT_SIZE, "", "end");
+  mark = scene->mark[0][1];
+  thr_draw_mark(scene, &mark, true, false, ring, x, y, text);
+  thr_svg_text(text, x += mark.radius + 1.5, line, TEXT_SIZE, "", "end");
   x += 14;
-  thr_draw_pill(s, s->plan->n_cords > 1 ? "A1" : "1", colour, x, y, t);
-  thr_svg_text(t, x += 5, line, TEXT_SIZE, "", "number of a pass");
+  thr_draw_pill(scene, scene->plan->n_cords > 1 ? "A1" : "1", colour, x, y, text);
+  thr_svg_text(text, x += 5, line, TEXT_SIZE, "", "number of a pass");
   x += 38;
-  thr_text_printf(t, "<rect class=\"bead\" x=\"%.2f\" y=\"%.2f\" width=\"9.00\" height=\"4.00\" rx=\"1.20\"/>\n", x - 4, y - 2);
-  thr_svg_text(t, x += 7, line, TEXT_SIZE, "", "bead");
-  if (!count_feet(s->frame)) return y + ROW + 2;
-  thr_text_printf(t, "<rect class=\"foot\" x=\"%.2f\" y=\"%.2f\" width=\"4.00\" height=\"4.00\"/>\n", x + 14, y - 2);
-  thr_svg_text(t, x + 20, line, TEXT_SIZE, "", "foot");
+  thr_text_printf(text, "<rect class=\"bead\" x=\"%.2f\" y=\"%.2f\" width=\"9.00\" height=\"4.00\" rx=\"1.20\"/>\n", x - 4,
+                  y - 2);
+  thr_svg_text(text, x += 7, line, TEXT_SIZE, "", "bead");
+  if (!count_feet(scene->frame)) return y + ROW + 2;
+  thr_text_printf(text, "<rect class=\"foot\" x=\"%.2f\" y=\"%.2f\" width=\"4.00\" height=\"4.00\"/>\n", x + 14, y - 2);
+  thr_svg_text(text, x + 20, line, TEXT_SIZE, "", "foot");
   return y + ROW + 2;
 }
 
-static void write_swatch(const thr_scene *s, int c, const char *colour, double x, double y, thr_text *t)
+static void write_swatch(const thr_scene *scene, int c, const char *colour, double x, double y, thr_text *text)
 {
   char rim[8];
-  bool rimmed = thr_scene_rim(s, c, colour, rim);
-  thr_text_printf(t, "<g class=\"swatch%s\" data-for=\"%s\" stroke=\"%s\" fill=\"%s\">", thr_scene_is_copy(s, c) ? " copy" : "",
-                  s->id[c], colour, colour);
+  bool rimmed = thr_scene_rim(scene, c, colour, rim);
+  thr_text_printf(text, "<g class=\"swatch%s\" data-for=\"%s\" stroke=\"%s\" fill=\"%s\">",
+                  thr_scene_is_copy(scene, c) ? " copy" : "", scene->id[c], colour, colour);
   if (rimmed) {
-    thr_text_printf(t, "<path class=\"rim\" stroke=\"%s\" d=\"M%.2f %.2fh%.2f\"", rim, x, y, SWATCH - 3);
-    thr_draw_dash(s, thr_scene_dash(s, c), t);
-    thr_text_append(t, "/>");
+    thr_text_printf(text, "<path class=\"rim\" stroke=\"%s\" d=\"M%.2f %.2fh%.2f\"", rim, x, y, SWATCH - 3);
+    thr_draw_dash(scene, thr_scene_dash(scene, c), text);
+    thr_text_append(text, "/>");
   }
-  thr_text_printf(t, "<path class=\"cord\" d=\"M%.2f %.2fh%.2f\"", x, y, SWATCH - 3);
-  thr_draw_dash(s, thr_scene_dash(s, c), t);
-  thr_text_append(t, "/>");
-  if (s->turning) {
+  thr_text_printf(text, "<path class=\"cord\" d=\"M%.2f %.2fh%.2f\"", x, y, SWATCH - 3);
+  thr_draw_dash(scene, thr_scene_dash(scene, c), text);
+  thr_text_append(text, "/>");
+  if (scene->turning) {
     char straight[8];
     thr_turning_colour(0, straight);
-    thr_text_printf(t, "<path class=\"turn\" stroke=\"%s\" d=\"M%.2f %.2fh%.2f\"/>", straight, x, y, SWATCH - 3);
+    thr_text_printf(text, "<path class=\"turn\" stroke=\"%s\" d=\"M%.2f %.2fh%.2f\"/>", straight, x, y, SWATCH - 3);
   }
-  thr_text_append(t, "<path class=\"arrow\"");
-  if (rimmed) thr_text_printf(t, " fill=\"%s\"", rim);
-  thr_text_printf(t, " d=\"M%.2f %.2fl-3.00 -1.20v2.40z\"/></g>", x + SWATCH - 5, y);
+  thr_text_append(text, "<path class=\"arrow\"");
+  if (rimmed) thr_text_printf(text, " fill=\"%s\"", rim);
+  thr_text_printf(text, " d=\"M%.2f %.2fl-3.00 -1.20v2.40z\"/></g>", x + SWATCH - 5, y);
 }
 
 /* Which passes of a single cord have colour k: "passes 1-20, 121-140, .. (blue)". */
-static void ranges_of_colour(const thr_scene *s, int k, char line[320])
+static void ranges_of_colour(const thr_scene *scene, int k, char line[320])
 {
   int period = THR_COLOURS * THR_COLOUR_PASSES, shown = 0, n = snprintf(line, 320, "passes ");
-  for (int from = k * THR_COLOUR_PASSES + 1; from <= s->n_passes; from += period) {
-    int to = from + THR_COLOUR_PASSES - 1 < s->n_passes ? from + THR_COLOUR_PASSES - 1 : s->n_passes;
+  for (int from = k * THR_COLOUR_PASSES + 1; from <= scene->n_passes; from += period) {
+    int to = from + THR_COLOUR_PASSES - 1 < scene->n_passes ? from + THR_COLOUR_PASSES - 1 : scene->n_passes;
     if (shown++ == 3) {
       n += snprintf(line + n, (size_t)(320 - n), ", and so on");
       break;
@@ -213,10 +214,10 @@ static void ranges_of_colour(const thr_scene *s, int k, char line[320])
 }
 
 /* "Cord A: 86 passes through 84 beads, 2413 mm, from A3 to C1"; seen[e] = c + 1 marks beads met. */
-static void describe_cord(const thr_scene *s, int c, int *seen, char line[320])
+static void describe_cord(const thr_scene *scene, int c, int *seen, char line[320])
 {
-  const thr_cord *cord = &s->plan->cord[c];
-  const thr_frame *f = s->frame;
+  const thr_cord *cord = &scene->plan->cord[c];
+  const thr_frame *frame = scene->frame;
   char length[64], from[48], to[48], where[128];
   int beads = 0;
   for (int i = 0; i < cord->n_passes; i++) {
@@ -224,24 +225,24 @@ static void describe_cord(const thr_scene *s, int c, int *seen, char line[320])
     beads += seen[e] != c + 1;
     seen[e] = c + 1;
   }
-  thr_svg_length(thr_cord_length(f, cord), f->units, length);
-  thr_places_name(&s->places, f, thr_cord_start(f, cord), from);
-  thr_places_name(&s->places, f, thr_cord_end(f, cord), to);
-  if (thr_cord_start(f, cord) == thr_cord_end(f, cord))
+  thr_svg_length(thr_cord_length(frame, cord), frame->units, length);
+  thr_places_name(&scene->places, frame, thr_cord_start(frame, cord), from);
+  thr_places_name(&scene->places, frame, thr_cord_end(frame, cord), to);
+  if (thr_cord_start(frame, cord) == thr_cord_end(frame, cord))
     snprintf(where, sizeof where, "from %s and back to it", from);
   else
     snprintf(where, sizeof where, "from %s to %s", from, to);
-  snprintf(line, 320, "Cord %s: %d pass%s through %d bead%s, %s, %s", s->id[c], cord->n_passes, cord->n_passes == 1 ? "" : "es",
-           beads, plural(beads), length, where);
+  snprintf(line, 320, "Cord %s: %d pass%s through %d bead%s, %s, %s", scene->id[c], cord->n_passes,
+           cord->n_passes == 1 ? "" : "es", beads, plural(beads), length, where);
 }
 
 /* "1200 DEG of turning, sharpest turn 120 DEG, 14 over 60 DEG, 3 over 90 DEG": of the cords from first to before end. */
-static void describe_turning(const thr_scene *s, int first, int end, char line[160])
+static void describe_turning(const thr_scene *scene, int first, int end, char line[160])
 {
   double sum = 0, sharpest = 0;
   int over_60 = 0, over_90 = 0;
-  for (int i = s->first_pass[first]; i < s->first_pass[end]; i++) {
-    double angle = s->pass[i].turned;
+  for (int i = scene->first_pass[first]; i < scene->first_pass[end]; i++) {
+    double angle = scene->pass[i].turned;
     sum += fmax(angle, 0);
     sharpest = fmax(sharpest, angle);
     over_60 += thr_turn_over(angle, THR_SCENE_SHARP * 2 / 3);
@@ -273,69 +274,69 @@ static double ramp_value(const ramp *r, double part)
   return r->logarithmic ? r->low * pow(r->high / r->low, part) : r->low + part * (r->high - r->low);
 }
 
-static double write_ramp(const thr_scene *s, const ramp *r, double x, double y, thr_text *t)
+static double write_ramp(const thr_scene *scene, const ramp *r, double x, double y, thr_text *text)
 {
   enum { STEPS = 48 };
   const double high = 4;
   char number[32], hex[8];
-  thr_text_printf(t, "<g id=\"%s\" shape-rendering=\"crispEdges\">\n", r->id);
+  thr_text_printf(text, "<g id=\"%s\" shape-rendering=\"crispEdges\">\n", r->id);
   for (int i = 0; i < STEPS; i++) {
-    r->colour(s, ramp_value(r, (i + 0.5) / STEPS), hex);
-    thr_text_printf(t, "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"%s\"/>\n", x + RAMP / STEPS * i, y,
+    r->colour(scene, ramp_value(r, (i + 0.5) / STEPS), hex);
+    thr_text_printf(text, "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"%s\"/>\n", x + RAMP / STEPS * i, y,
                     RAMP / STEPS, high, hex);
   }
-  thr_text_append(t, "</g>\n");
+  thr_text_append(text, "</g>\n");
   for (int i = 0; i < r->n_ticks; i++) {
     double at = thr_svg_round(x + ramp_part(r, r->tick[i]) * RAMP);
-    thr_text_printf(t, "<path class=\"bar\" d=\"M%.2f %.2fv1.20\"/>\n", at, y + high);
+    thr_text_printf(text, "<path class=\"bar\" d=\"M%.2f %.2fv1.20\"/>\n", at, y + high);
     snprintf(number, sizeof number, "%.10g", r->tick[i]);
-    thr_svg_text(t, at, y + high + 1.8 + TEXT_SIZE, TEXT_SIZE, " class=\"middle\"", number);
+    thr_svg_text(text, at, y + high + 1.8 + TEXT_SIZE, TEXT_SIZE, " class=\"middle\"", number);
   }
   return y + high + 2 * ROW + 1;
 }
 
-static void colour_of_tension(const thr_scene *s, double newton, char hex[8])
+static void colour_of_tension(const thr_scene *scene, double newton, char hex[8])
 {
-  thr_tension_colour(s->tension_range, newton, hex);
+  thr_tension_colour(scene->tension_range, newton, hex);
 }
 
-static void colour_of_turn(const thr_scene *s, double degrees_turned, char hex[8])
+static void colour_of_turn(const thr_scene *scene, double degrees_turned, char hex[8])
 {
-  (void)s;
+  (void)scene;
   thr_turning_colour(degrees_turned / degrees(1), hex);
 }
 
 /* The scale of the colours of tension, with its method in words. */
-static double write_tension_scale(const thr_scene *s, double x, double y, double width, thr_text *t)
+static double write_tension_scale(const thr_scene *scene, double x, double y, double width, thr_text *text)
 {
   char line[320];
-  const double *range = s->tension_range;
+  const double *range = scene->tension_range;
   ramp r = {.id = "tension-scale", .low = range[0], .high = range[1], .colour = colour_of_tension};
   r.logarithmic = range[0] > 0 && range[1] > range[0];
   if (!r.logarithmic) r.high = r.low;
   r.n_ticks = thr_svg_ticks(range[0], range[1], r.logarithmic, MOST_TICKS, r.tick);
   snprintf(line, sizeof line, "Colour: tension in newton, on a logarithmic scale, by method %s (%s); mu = %g.",
-           thr_method_name(s->tension->method), thr_tension_method_words(s->tension), s->tension->physics.mu);
-  y = thr_svg_wrap(t, x, y, TEXT_SIZE, width, "", line);
-  return write_ramp(s, &r, x, y - 0.5 * TEXT_SIZE, t);
+           thr_method_name(scene->tension->method), thr_tension_method_words(scene->tension), scene->tension->physics.mu);
+  y = thr_svg_wrap(text, x, y, TEXT_SIZE, width, "", line);
+  return write_ramp(scene, &r, x, y - 0.5 * TEXT_SIZE, text);
 }
 
 /* The sign of a sharp turn with its meaning, if there is one. */
-static void write_sharp_key(const thr_scene *s, double x, double y, thr_text *t)
+static void write_sharp_key(const thr_scene *scene, double x, double y, thr_text *text)
 {
   int marked = 0, sharp = 0;
-  for (int i = 0; i < s->n_passes; i++) {
-    marked += s->pass[i].sharp;
-    sharp += thr_turn_over(s->pass[i].turned, THR_SCENE_SHARP);
+  for (int i = 0; i < scene->n_passes; i++) {
+    marked += scene->pass[i].sharp;
+    sharp += thr_turn_over(scene->pass[i].turned, THR_SCENE_SHARP);
   }
   if (!marked) return;
-  thr_draw_sharp(s, x, y, t);
-  thr_svg_text(t, x + thr_scene_sharp_size(s) + 1.5, y + 0.36 * TEXT_SIZE, TEXT_SIZE, "",
+  thr_draw_sharp(scene, x, y, text);
+  thr_svg_text(text, x + thr_scene_sharp_size(scene) + 1.5, y + 0.36 * TEXT_SIZE, TEXT_SIZE, "",
                marked < sharp ? "over 90" DEGREE " (not all)" : "over 90" DEGREE);
 }
 
 /* The scale of the colours of turns, below the sum over all cords. */
-static double write_turning_scale(const thr_scene *s, double x, double y, double width, thr_text *t)
+static double write_turning_scale(const thr_scene *scene, double x, double y, double width, thr_text *text)
 {
   char line[200], sum[160];
   ramp r = {.id = "turning-scale", .high = 180, .colour = colour_of_turn};
@@ -343,25 +344,25 @@ static double write_turning_scale(const thr_scene *s, double x, double y, double
     r.tick[r.n_ticks] = 30 * r.n_ticks;
     r.n_ticks++;
   }
-  describe_turning(s, 0, s->plan->n_cords, sum);
-  snprintf(line, sizeof line, "%s%s.", s->plan->n_cords > 1 ? "All cords: " : "", sum);
-  y = thr_svg_wrap(t, x, y, TEXT_SIZE, width, "", line);
+  describe_turning(scene, 0, scene->plan->n_cords, sum);
+  snprintf(line, sizeof line, "%s%s.", scene->plan->n_cords > 1 ? "All cords: " : "", sum);
+  y = thr_svg_wrap(text, x, y, TEXT_SIZE, width, "", line);
   snprintf(line, sizeof line, "Colour: turn between two beads, in degrees (0 = straight); %s.",
-           s->plan->options.ends == THR_ENDS_CLOSED ? "ends: closing turn" : "ends do not turn");
-  y = thr_svg_wrap(t, x, y, TEXT_SIZE, width, "", line) - 0.5 * TEXT_SIZE;
-  write_sharp_key(s, x + RAMP + 8, y + 2, t);
-  return write_ramp(s, &r, x, y, t);
+           scene->plan->options.ends == THR_ENDS_CLOSED ? "ends: closing turn" : "ends do not turn");
+  y = thr_svg_wrap(text, x, y, TEXT_SIZE, width, "", line) - 0.5 * TEXT_SIZE;
+  write_sharp_key(scene, x + RAMP + 8, y + 2, text);
+  return write_ramp(scene, &r, x, y, text);
 }
 
 /* "Cord B: repeat A from foot G1, turned by 90 degrees" */
-static void describe_copy(const thr_scene *s, int c, char line[320])
+static void describe_copy(const thr_scene *scene, int c, char line[320])
 {
   char from[48], words[192];
-  int start = thr_cord_start(s->frame, &s->plan->cord[c]);
-  thr_places_name(&s->places, s->frame, start, from);
-  thr_copies_words(s->plan, s->copy, c, s->motion, words);
-  snprintf(line, 320, "Cord %s: repeat %s from %s%s%s", s->id[c], s->id[s->copy[c].of],
-           s->frame->foot && s->frame->foot[start] ? "foot " : "", from, words);
+  int start = thr_cord_start(scene->frame, &scene->plan->cord[c]);
+  thr_places_name(&scene->places, scene->frame, start, from);
+  thr_copies_words(scene->plan, scene->copy, c, scene->motion, words);
+  snprintf(line, 320, "Cord %s: repeat %s from %s%s%s", scene->id[c], scene->id[scene->copy[c].of],
+           scene->frame->foot && scene->frame->foot[start] ? "foot " : "", from, words);
 }
 
 /* A row of the legend: of a cord, or of a colour of the only cord, or of the copies of a cord that have no row. */
@@ -372,20 +373,20 @@ typedef struct {
 
 /* One row per cord, each unique path followed by its copies; of too many copies the first; or one per colour. Returns how many.
  */
-static int list_rows(const thr_scene *s, row *rows)
+static int list_rows(const thr_scene *scene, row *rows)
 {
   enum { MOST_COPIES = 48, FEWEST = 2 };
-  int n = 0, cords = s->plan->n_cords, colours = (s->n_passes + THR_COLOUR_PASSES - 1) / THR_COLOUR_PASSES;
-  int most = s->copy ? MOST_COPIES / thr_copies_paths(s->copy, cords) : 0;
+  int n = 0, cords = scene->plan->n_cords, colours = (scene->n_passes + THR_COLOUR_PASSES - 1) / THR_COLOUR_PASSES;
+  int most = scene->copy ? MOST_COPIES / thr_copies_paths(scene->copy, cords) : 0;
   if (most < FEWEST) most = FEWEST;
   if (cords == 1 && colours > THR_COLOURS) colours = THR_COLOURS;
   for (int i = 0; i < (cords == 1 ? colours : cords); i++) {
-    if (thr_scene_is_copy(s, i)) continue;
+    if (thr_scene_is_copy(scene, i)) continue;
     rows[n++] = (row){i, 0};
-    int copies = s->copy ? thr_copies_count(s->copy, cords, i) : 0, shown = 0;
+    int copies = scene->copy ? thr_copies_count(scene->copy, cords, i) : 0, shown = 0;
     int rows_left = copies == most + 1 ? copies : most; /* a row that says "1 more" may as well be that copy's */
     for (int c = 0; c < cords && shown < copies && shown < rows_left; c++) {
-      if (c == i || s->copy[c].of != i) continue;
+      if (c == i || scene->copy[c].of != i) continue;
       rows[n++] = (row){c, 0};
       shown++;
     }
@@ -394,39 +395,40 @@ static int list_rows(const thr_scene *s, row *rows)
   return n;
 }
 
-static void describe_row(const thr_scene *s, row r, int *seen, char line[320])
+static void describe_row(const thr_scene *scene, row r, int *seen, char line[320])
 {
-  if (s->plan->n_cords == 1)
-    ranges_of_colour(s, r.cord, line);
+  if (scene->plan->n_cords == 1)
+    ranges_of_colour(scene, r.cord, line);
   else if (r.more)
-    snprintf(line, 320, "and %d more cop%s of %s", r.more, r.more == 1 ? "y" : "ies", s->id[r.cord]);
-  else if (thr_scene_is_copy(s, r.cord))
-    describe_copy(s, r.cord, line);
+    snprintf(line, 320, "and %d more cop%s of %s", r.more, r.more == 1 ? "y" : "ies", scene->id[r.cord]);
+  else if (thr_scene_is_copy(scene, r.cord))
+    describe_copy(scene, r.cord, line);
   else
-    describe_cord(s, r.cord, seen, line);
+    describe_cord(scene, r.cord, seen, line);
 }
 
 /* Of cord c, or of colour c of the only cord. */
-static const char *row_colour(const thr_scene *s, int c)
+static const char *row_colour(const thr_scene *scene, int c)
 {
-  if (s->tension) return "#555";
-  return s->plan->n_cords == 1 ? thr_palette(c).hex : thr_scene_cord_colour(s, c);
+  if (scene->tension) return "#555";
+  return scene->plan->n_cords == 1 ? thr_palette(c).hex : thr_scene_cord_colour(scene, c);
 }
 
 /* The rows of the legend in columns that fit the width; cords whose turning is shown have a second line. */
-static double write_rows(const thr_scene *s, const row *rows, int n, double x, double y, double width, int *seen, thr_text *t)
+static double write_rows(const thr_scene *scene, const row *rows, int n, double x, double y, double width, int *seen,
+                         thr_text *text)
 {
   char line[320], turning[160] = "";
-  bool single = s->plan->n_cords == 1;
+  bool single = scene->plan->n_cords == 1;
   int widest = 1;
   for (int i = 0; i < n; i++) {
-    describe_row(s, rows[i], seen, line);
-    if (s->turning) describe_turning(s, rows[i].cord, rows[i].cord + 1, turning);
+    describe_row(scene, rows[i], seen, line);
+    if (scene->turning) describe_turning(scene, rows[i].cord, rows[i].cord + 1, turning);
     int w = thr_text_columns(line, SIZE_MAX), other = thr_text_columns(turning, SIZE_MAX);
     widest = w > widest ? w : widest;
     widest = other > widest ? other : widest;
   }
-  memset(seen, 0, (size_t)s->frame->n_edges * sizeof *seen);
+  memset(seen, 0, (size_t)scene->frame->n_edges * sizeof *seen);
   double column = SWATCH + 0.58 * TEXT_SIZE * widest + 6;
   int columns = (int)fmax(1, floor((width + 6) / column)), down = (n + columns - 1) / columns;
   double room = fmin(column - SWATCH, width - SWATCH), base = y, bottom = y;
@@ -434,12 +436,12 @@ static double write_rows(const thr_scene *s, const row *rows, int n, double x, d
     int at = i / down, c = rows[i].cord; /* rows run down, then across */
     double left = x + at * column;
     if (i % down == 0) base = y;
-    describe_row(s, rows[i], seen, line);
-    if (!rows[i].more) write_swatch(s, single ? 0 : c, row_colour(s, c), left, base - 1.1, t);
-    base = thr_svg_wrap(t, left + SWATCH, base, TEXT_SIZE, room, "", line);
-    if (s->turning) {
-      describe_turning(s, c, c + 1, turning);
-      base = thr_svg_wrap(t, left + SWATCH, base, TEXT_SIZE, room, "", turning);
+    describe_row(scene, rows[i], seen, line);
+    if (!rows[i].more) write_swatch(scene, single ? 0 : c, row_colour(scene, c), left, base - 1.1, text);
+    base = thr_svg_wrap(text, left + SWATCH, base, TEXT_SIZE, room, "", line);
+    if (scene->turning) {
+      describe_turning(scene, c, c + 1, turning);
+      base = thr_svg_wrap(text, left + SWATCH, base, TEXT_SIZE, room, "", turning);
     }
     base += ROW - 1.45 * TEXT_SIZE;
     bottom = fmax(bottom, base);
@@ -447,28 +449,29 @@ static double write_rows(const thr_scene *s, const row *rows, int n, double x, d
   return bottom;
 }
 
-thr_status thr_legend_foot(const thr_scene *s, double x, double y, double width, thr_text *t, double *bottom, thr_err *err)
+thr_status thr_legend_foot(const thr_scene *scene, double x, double y, double width, thr_text *text, double *bottom, thr_err *err)
 {
   char line[320];
   *bottom = y;
-  int *seen = thr_calloc((size_t)s->frame->n_edges, sizeof *seen), most = 2 * s->plan->n_cords + THR_COLOURS;
+  int *seen = thr_calloc((size_t)scene->frame->n_edges, sizeof *seen), most = 2 * scene->plan->n_cords + THR_COLOURS;
   row *rows = thr_calloc((size_t)most, sizeof *rows);
   thr_status st = seen && rows ? THR_OK : thr_nomem(err);
   if (st) goto done;
-  thr_text_append(t, "<g id=\"legend\">\n");
-  y = write_scale_bar(s, x, y + 3, width, t);
-  if (s->plan->n_cords) {
-    y = write_key(s, x, y, t);
+  thr_text_append(text, "<g id=\"legend\">\n");
+  y = write_scale_bar(scene, x, y + 3, width, text);
+  if (scene->plan->n_cords) {
+    y = write_key(scene, x, y, text);
     y += 2;
-    if (s->plan->n_cords == 1) {
-      describe_cord(s, 0, seen, line);
-      y = thr_svg_wrap(t, x, y, TEXT_SIZE, width, "", line) + 0.6;
+    if (scene->plan->n_cords == 1) {
+      describe_cord(scene, 0, seen, line);
+      y = thr_svg_wrap(text, x, y, TEXT_SIZE, width, "", line) + 0.6;
     }
-    if (s->tension) y = write_tension_scale(s, x, y + 1, width, t);
-    if (s->turning) y = write_turning_scale(s, x, y + 1, width, t);
-    if (!(s->tension || s->turning) || s->plan->n_cords > 1) y = write_rows(s, rows, list_rows(s, rows), x, y, width, seen, t);
+    if (scene->tension) y = write_tension_scale(scene, x, y + 1, width, text);
+    if (scene->turning) y = write_turning_scale(scene, x, y + 1, width, text);
+    if (!(scene->tension || scene->turning) || scene->plan->n_cords > 1)
+      y = write_rows(scene, rows, list_rows(scene, rows), x, y, width, seen, text);
   }
-  thr_text_append(t, "</g>\n");
+  thr_text_append(text, "</g>\n");
   *bottom = y;
 done:
   free(seen);

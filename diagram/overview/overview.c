@@ -25,28 +25,28 @@ const char *thr_overview_colour_name(int c)
 }
 
 /* Puts heading, drawing and legend below each other and the whole into svg. */
-static thr_status write_sheet(const thr_scene *s, const char *given, thr_text *svg, thr_err *err)
+static thr_status write_sheet(const thr_scene *scene, const char *given, thr_text *svg, thr_err *err)
 {
   thr_text body = {0};
   char title[160], description[512];
-  double room = s->places.n_columns ? PLACE_ROOM : 0, other = thr_draw_grid_both(s) ? PLACE_ROOM : 0, bottom;
-  double drawn = s->extent.x1 - s->extent.x0 + room + other, width = fmax(drawn, THR_LEGEND_WIDTH);
-  thr_legend_title(s, given, title);
-  double y = thr_legend_heading(s, title, MARGIN, MARGIN, width, &body);
+  double room = scene->places.n_columns ? PLACE_ROOM : 0, other = thr_draw_grid_both(scene) ? PLACE_ROOM : 0, bottom;
+  double drawn = scene->extent.x1 - scene->extent.x0 + room + other, width = fmax(drawn, THR_LEGEND_WIDTH);
+  thr_legend_title(scene, given, title);
+  double y = thr_legend_heading(scene, title, MARGIN, MARGIN, width, &body);
   y += other;
   thr_text_printf(&body, "<g id=\"drawing\" transform=\"translate(%.2f %.2f)\">\n",
-                  thr_svg_round(MARGIN + 0.5 * (width - drawn) + room - s->extent.x0), thr_svg_round(y - s->extent.y0));
-  thr_draw_scene(s, &(thr_draw_style){0}, &s->extent, &body);
+                  thr_svg_round(MARGIN + 0.5 * (width - drawn) + room - scene->extent.x0), thr_svg_round(y - scene->extent.y0));
+  thr_draw_scene(scene, &(thr_draw_style){0}, &scene->extent, &body);
   thr_text_append(&body, "</g>\n");
-  y += s->extent.y1 - s->extent.y0 + room;
-  thr_status st = thr_legend_foot(s, MARGIN, y + 2, width, &body, &bottom, err);
+  y += scene->extent.y1 - scene->extent.y0 + room;
+  thr_status st = thr_legend_foot(scene, MARGIN, y + 2, width, &body, &bottom, err);
   if (st) goto done;
   double w = width + 2 * MARGIN, h = bottom + MARGIN;
   snprintf(description, sizeof description,
            "Overview of a threading plan. Each group cord-ID holds the passes of a cord in order. %s",
-           thr_layout_words(s->layout->kind));
+           thr_layout_words(scene->layout->kind));
   thr_svg_open(svg, w, h, title, description);
-  thr_draw_css(s, "thread", svg);
+  thr_draw_css(scene, "thread", svg);
   thr_text_printf(svg, "<rect width=\"%.2f\" height=\"%.2f\" fill=\"#fff\"/>\n", w, h);
   if (body.data) thr_text_append_bytes(svg, body.data, body.length);
   thr_text_append(svg, "</svg>\n");
@@ -56,31 +56,33 @@ done:
   return st;
 }
 
-thr_status thr_overview_svg(const thr_plan *p, const thr_overview_options *o, thr_text *svg, thr_err *err)
+thr_status thr_overview_svg(const thr_plan *plan, const thr_overview_options *options, thr_text *svg, thr_err *err)
 {
   thr_layout own = {0};
-  thr_scene s = {0};
+  thr_scene scene = {0};
   thr_text out = {0};
   thr_status st = THR_OK;
-  if (o->pitch_mm != 0 && !(o->pitch_mm >= 2 && o->pitch_mm <= 200))
-    return thr_fail(err, THR_EINPUT, "a pitch of %g mm: choose 2 to 200, or 0 for automatic", o->pitch_mm);
-  if (o->layout && o->layout->n_nodes != p->frame.n_nodes)
-    return thr_fail(err, THR_EINPUT, "the layout has %d nodes, the framework %d", o->layout->n_nodes, p->frame.n_nodes);
-  if (!p->n_cords) return thr_fail(err, THR_EINPUT, "the plan has no cord to draw");
-  if (o->colour == THR_COLOUR_TENSION && (st = thr_tension_usable(p, err))) return st;
-  if (!o->layout) st = thr_layout_choose(&own, &p->frame, NULL, 0, err);
-  if (!st) st = thr_scene_build(&s, p, o->layout ? o->layout : &own, o->pitch_mm, o->colour == THR_COLOUR_CORD, err);
-  if (!st) s.motion = o->motion;
-  if (!st && o->colour == THR_COLOUR_TENSION) {
-    s.tension = &p->evaluation;
-    thr_evaluation_range(s.tension, s.tension_range);
+  if (options->pitch_mm != 0 && !(options->pitch_mm >= 2 && options->pitch_mm <= 200))
+    return thr_fail(err, THR_EINPUT, "a pitch of %g mm: choose 2 to 200, or 0 for automatic", options->pitch_mm);
+  if (options->layout && options->layout->n_nodes != plan->frame.n_nodes)
+    return thr_fail(err, THR_EINPUT, "the layout has %d nodes, the framework %d", options->layout->n_nodes, plan->frame.n_nodes);
+  if (!plan->n_cords) return thr_fail(err, THR_EINPUT, "the plan has no cord to draw");
+  if (options->colour == THR_COLOUR_TENSION && (st = thr_tension_usable(plan, err))) return st;
+  if (!options->layout) st = thr_layout_choose(&own, &plan->frame, NULL, 0, err);
+  if (!st)
+    st = thr_scene_build(&scene, plan, options->layout ? options->layout : &own, options->pitch_mm,
+                         options->colour == THR_COLOUR_CORD, err);
+  if (!st) scene.motion = options->motion;
+  if (!st && options->colour == THR_COLOUR_TENSION) {
+    scene.tension = &plan->evaluation;
+    thr_evaluation_range(scene.tension, scene.tension_range);
   }
-  if (!st && o->colour == THR_COLOUR_TURNING) st = thr_scene_find_turns(&s, err);
-  if (!st) st = write_sheet(&s, o->title, &out, err);
+  if (!st && options->colour == THR_COLOUR_TURNING) st = thr_scene_find_turns(&scene, err);
+  if (!st) st = write_sheet(&scene, options->title, &out, err);
   if (!st) thr_text_append_bytes(svg, out.data, out.length);
   if (!st && svg->failed) st = thr_nomem(err);
   thr_text_destroy(&out);
-  thr_scene_destroy(&s);
+  thr_scene_destroy(&scene);
   thr_layout_destroy(&own);
   return st;
 }

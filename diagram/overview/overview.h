@@ -31,6 +31,7 @@ thr_overview_options thr_overview_options_default(void);
  * with few arrows; the legend says how they repeat their path. The same plan and options give the same bytes. THR_EINPUT with the
  * cord and pass for cords that name edges out of range or whose passes do not meet, for a pitch or layout that does not fit, and
  * for colours of tension without an evaluation. O(n log n + pairs of cords that share an edge). svg is unchanged on failure. */
-thr_status thr_overview_svg(const thr_plan *p, const thr_overview_options *o, thr_text *svg, thr_err *err) THR_MUST_CHECK;
+thr_status thr_overview_svg(const thr_plan *plan, const thr_overview_options *options, thr_text *svg,
+                            thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -30,24 +30,24 @@ typedef struct {
 static void put_wrapped(steps *s, const char *prefix, thr_text *words)
 {
   int indent = thr_text_columns(prefix, SIZE_MAX), column = indent;
-  thr_text *t = s->out;
-  thr_text_append(t, prefix);
+  thr_text *text = s->out;
+  thr_text_append(text, prefix);
   for (const char *w = words->data ? words->data : ""; *w;) {
     size_t length = strcspn(w, " ");
     int wide = thr_text_columns(w, length);
     if (column > indent && column + 1 + wide > COLUMNS) {
-      thr_text_printf(t, "\n%*s", indent, "");
+      thr_text_printf(text, "\n%*s", indent, "");
       column = indent;
     } else if (column > indent) {
-      thr_text_append(t, " ");
+      thr_text_append(text, " ");
       column++;
     }
-    thr_text_append_bytes(t, w, length);
+    thr_text_append_bytes(text, w, length);
     column += wide;
     w += length + (w[length] == ' ');
   }
-  thr_text_append(t, "\n");
-  if (words->failed) t->failed = true;
+  thr_text_append(text, "\n");
+  if (words->failed) text->failed = true;
   thr_text_destroy(words);
 }
 
@@ -61,28 +61,28 @@ static void put_line(steps *s, const char *line)
 /* ---- paths ---- */
 
 /* Does pass k of a cord go straight on from the one before? */
-static bool is_straight(const steps *s, const thr_cord *c, int k)
+static bool is_straight(const steps *s, const thr_cord *cord, int k)
 {
-  return k > 0 && thr_guide_way(&s->guide, c->half[k - 1], c->half[k]) == THR_WAY_STRAIGHT;
+  return k > 0 && thr_guide_way(&s->guide, cord->half[k - 1], cord->half[k]) == THR_WAY_STRAIGHT;
 }
 
 /* One row: the passes from first on that go straight on through beads that hold as many cords. Returns the pass after it. */
-static int put_row(steps *s, const thr_cord *c, int first)
+static int put_row(steps *s, const thr_cord *cord, int first)
 {
   thr_text words = {0};
   char range[32], prefix[64], nth[16];
-  int k = first, times = s->held.cords[c->half[k] >> 1] + 1, digits = snprintf(range, sizeof range, "%d", c->n_passes);
+  int k = first, times = s->held.cords[cord->half[k] >> 1] + 1, digits = snprintf(range, sizeof range, "%d", cord->n_passes);
   if (k == 0)
     thr_text_append(&words, "go");
   else
-    thr_guide_say(&s->guide, c->half[k - 1], c->half[k], &words);
-  bool straight = is_straight(s, c, k);
-  thr_text_printf(&words, " to %s", s->guide.label[thr_head(s->f, c->half[k])]);
-  thr_held_pass(&s->held, c->half[k++]);
-  for (; k < c->n_passes && is_straight(s, c, k) && s->held.cords[c->half[k] >> 1] + 1 == times; k++) {
+    thr_guide_say(&s->guide, cord->half[k - 1], cord->half[k], &words);
+  bool straight = is_straight(s, cord, k);
+  thr_text_printf(&words, " to %s", s->guide.label[thr_head(s->f, cord->half[k])]);
+  thr_held_pass(&s->held, cord->half[k++]);
+  for (; k < cord->n_passes && is_straight(s, cord, k) && s->held.cords[cord->half[k] >> 1] + 1 == times; k++) {
     if (k == first + 1 && !straight) thr_text_append(&words, ", straight on to");
-    thr_text_printf(&words, " %s", s->guide.label[thr_head(s->f, c->half[k])]);
-    thr_held_pass(&s->held, c->half[k]);
+    thr_text_printf(&words, " %s", s->guide.label[thr_head(s->f, cord->half[k])]);
+    thr_held_pass(&s->held, cord->half[k]);
   }
   thr_guide_ordinal(times, nth);
   if (times > 1) thr_text_printf(&words, " (%s pass)", nth);
@@ -95,17 +95,17 @@ static int put_row(steps *s, const thr_cord *c, int first)
   return k;
 }
 
-static void put_rows(steps *s, const thr_cord *c)
+static void put_rows(steps *s, const thr_cord *cord)
 {
   thr_text words = {0};
   char indent[INDENT + 1];
-  int start = thr_cord_start(s->f, c), end = thr_cord_end(s->f, c);
+  int start = thr_cord_start(s->f, cord), end = thr_cord_end(s->f, cord);
   snprintf(indent, sizeof indent, "%*s", INDENT, "");
   thr_text_append(&words, "start at ");
   thr_guide_place(&s->guide, start, &words);
   put_wrapped(s, indent, &words);
-  for (int k = 0; k < c->n_passes;)
-    k = put_row(s, c, k);
+  for (int k = 0; k < cord->n_passes;)
+    k = put_row(s, cord, k);
   thr_text_append(&words, "the needle comes out at ");
   thr_guide_place(&s->guide, end, &words);
   if (start == end) thr_text_append(&words, ", where it began");
@@ -113,17 +113,17 @@ static void put_rows(steps *s, const thr_cord *c)
 }
 
 /* ", 17 passes through 15 beads, 510.0 mm". A bead is counted at its first pass. */
-static void put_measure(const steps *s, const thr_cord *c, int *seen, int mark, thr_text *t)
+static void put_measure(const steps *s, const thr_cord *cord, int *seen, int mark, thr_text *text)
 {
   char length[64];
   int beads = 0;
-  for (int k = 0; k < c->n_passes; k++) {
-    beads += seen[c->half[k] >> 1] != mark;
-    seen[c->half[k] >> 1] = mark;
+  for (int k = 0; k < cord->n_passes; k++) {
+    beads += seen[cord->half[k] >> 1] != mark;
+    seen[cord->half[k] >> 1] = mark;
   }
-  thr_svg_length(thr_cord_length(s->f, c), s->f->units, length);
-  thr_text_printf(t, ", %d pass%s through %d bead%s, %s", c->n_passes, c->n_passes == 1 ? "" : "es", beads, beads == 1 ? "" : "s",
-                  length);
+  thr_svg_length(thr_cord_length(s->f, cord), s->f->units, length);
+  thr_text_printf(text, ", %d pass%s through %d bead%s, %s", cord->n_passes, cord->n_passes == 1 ? "" : "es", beads,
+                  beads == 1 ? "" : "s", length);
 }
 
 /* ---- copies ---- */

@@ -14,6 +14,6 @@
  * "Cord B: the same, ..", or listed in full if no motion in space makes them. motion: as in thr_overview_options. The same plan
  * gives the same bytes. THR_EINPUT for a plan without cords and for cords that do not fit the framework. O(n log n). out is
  * unchanged on failure. */
-thr_status thr_steps_text(const thr_plan *p, const char *const *motion, thr_text *out, thr_err *err) THR_MUST_CHECK;
+thr_status thr_steps_text(const thr_plan *plan, const char *const *motion, thr_text *out, thr_err *err) THR_MUST_CHECK;
 
 #endif

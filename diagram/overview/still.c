@@ -188,32 +188,32 @@ static void measure(view *w)
   w->scale = PANEL / fmax(w->high[0] - w->low[0], w->high[1] - w->low[1]);
 }
 
-static void write_polygon(const view *w, const double at[4][2], const char *attributes, thr_text *t)
+static void write_polygon(const view *w, const double at[4][2], const char *attributes, thr_text *text)
 {
-  thr_text_printf(t, "<path%s d=\"", attributes);
+  thr_text_printf(text, "<path%s d=\"", attributes);
   for (int i = 0; i < 4; i++) {
     double p[2] = {(at[i][0] - w->low[0]) * w->scale, (w->high[1] - at[i][1]) * w->scale};
     if (i)
-      thr_svg_line(t, p);
+      thr_svg_line(text, p);
     else
-      thr_svg_move(t, p);
+      thr_svg_move(text, p);
   }
-  thr_text_append(t, "z\"/>\n");
+  thr_text_append(text, "z\"/>\n");
 }
 
-static void write_panel(view *w, const char *id, const double (*pose)[7], double x, double y, thr_text *t)
+static void write_panel(view *w, const char *id, const double (*pose)[7], double x, double y, thr_text *text)
 {
   double corner[4][2];
   char attributes[32];
-  thr_text_printf(t, "<g id=\"%s\" class=\"panel\" clip-path=\"url(#panel)\" transform=\"translate(%.2f %.2f)\">\n", id, x, y);
+  thr_text_printf(text, "<g id=\"%s\" class=\"panel\" clip-path=\"url(#panel)\" transform=\"translate(%.2f %.2f)\">\n", id, x, y);
   ground_corners(w, corner);
-  write_polygon(w, (const double(*)[2])corner, " class=\"ground\"", t);
+  write_polygon(w, (const double(*)[2])corner, " class=\"ground\"", text);
   int n = collect(w, pose);
   for (int i = 0; i < n; i++) {
     snprintf(attributes, sizeof attributes, " fill=\"%s\"", w->face[i].hex);
-    write_polygon(w, (const double(*)[2])w->face[i].at, attributes, t);
+    write_polygon(w, (const double(*)[2])w->face[i].at, attributes, text);
   }
-  thr_text_append(t, "</g>\n");
+  thr_text_append(text, "</g>\n");
 }
 
 static void caption(const view *w, bool after, char line[200])
@@ -223,7 +223,7 @@ static void caption(const view *w, bool after, char line[200])
   if (after && s->first_bead >= 0) snprintf(line + n, (size_t)(200 - n), "; bead %.60s moved first", w->f->name[s->first_bead]);
 }
 
-static void write_sheet(view *w, thr_text *t)
+static void write_sheet(view *w, thr_text *text)
 {
   const char *title = w->still->title && *w->still->title ? w->still->title : "Before and after";
   thr_text body = {0};
@@ -240,38 +240,38 @@ static void write_sheet(view *w, thr_text *t)
   if (w->still->note) bottom = thr_svg_wrap(&body, MARGIN, bottom + 1, TEXT_SIZE, width, "", w->still->note);
   width += 2 * MARGIN;
   bottom += MARGIN - TEXT_SIZE;
-  thr_svg_open(t, width, bottom, title, "Rigid beads before and after, seen from one side, drawn back to front.");
-  thr_text_append(t, "<style>\n.thread text{stroke:none;fill:#222;font-family:'DejaVu Sans',Verdana,sans-serif}\n"
-                     ".thread .panel{stroke:#4a4030;stroke-width:0.12;stroke-linejoin:round}\n"
-                     ".thread .ground{fill:#eef0ea;stroke:#9aa08c;stroke-width:0.25}\n</style>\n");
-  thr_text_printf(t, "<clipPath id=\"panel\"><rect x=\"-0.50\" y=\"-0.50\" width=\"%.2f\" height=\"%.2f\"/></clipPath>\n",
+  thr_svg_open(text, width, bottom, title, "Rigid beads before and after, seen from one side, drawn back to front.");
+  thr_text_append(text, "<style>\n.thread text{stroke:none;fill:#222;font-family:'DejaVu Sans',Verdana,sans-serif}\n"
+                        ".thread .panel{stroke:#4a4030;stroke-width:0.12;stroke-linejoin:round}\n"
+                        ".thread .ground{fill:#eef0ea;stroke:#9aa08c;stroke-width:0.25}\n</style>\n");
+  thr_text_printf(text, "<clipPath id=\"panel\"><rect x=\"-0.50\" y=\"-0.50\" width=\"%.2f\" height=\"%.2f\"/></clipPath>\n",
                   wide + 1, high + 1);
-  thr_text_printf(t, "<rect width=\"%.2f\" height=\"%.2f\" fill=\"#fff\"/>\n", width, bottom);
-  if (body.data) thr_text_append_bytes(t, body.data, body.length);
-  thr_text_append(t, "</svg>\n");
-  t->failed = t->failed || body.failed;
+  thr_text_printf(text, "<rect width=\"%.2f\" height=\"%.2f\" fill=\"#fff\"/>\n", width, bottom);
+  if (body.data) thr_text_append_bytes(text, body.data, body.length);
+  thr_text_append(text, "</svg>\n");
+  text->failed = text->failed || body.failed;
   thr_text_destroy(&body);
 }
 
-static thr_status check(const thr_frame *f, const thr_still *s, thr_err *err)
+static thr_status check(const thr_frame *frame, const thr_still *s, thr_err *err)
 {
   if (!(s->width > 0) || !isfinite(s->width)) return thr_fail(err, THR_EINPUT, "arms %g wide cannot be drawn", s->width);
-  if (s->first_bead < -1 || s->first_bead >= f->n_nodes)
-    return thr_fail(err, THR_EINPUT, "bead %d is not one of the %d", s->first_bead, f->n_nodes);
-  for (int v = 0; v < f->n_nodes; v++)
+  if (s->first_bead < -1 || s->first_bead >= frame->n_nodes)
+    return thr_fail(err, THR_EINPUT, "bead %d is not one of the %d", s->first_bead, frame->n_nodes);
+  for (int v = 0; v < frame->n_nodes; v++)
     for (int k = 0; k < 7; k++)
       if (!(fabs(s->before[v][k]) < 1e100 && fabs(s->after[v][k]) < 1e100))
-        return thr_fail(err, THR_EINPUT, "bead %s has no place in space to be drawn at", f->name[v]);
+        return thr_fail(err, THR_EINPUT, "bead %s has no place in space to be drawn at", frame->name[v]);
   return THR_OK;
 }
 
-thr_status thr_still_svg(const thr_frame *f, const thr_still *s, thr_text *svg, thr_err *err)
+thr_status thr_still_svg(const thr_frame *frame, const thr_still *s, thr_text *svg, thr_err *err)
 {
-  view w = {.f = f, .still = s};
+  view w = {.f = frame, .still = s};
   thr_text out = {0};
-  thr_status st = check(f, s, err);
+  thr_status st = check(frame, s, err);
   if (st) return st;
-  if (!(w.face = thr_calloc((size_t)f->n_edges * 10, sizeof *w.face))) return thr_nomem(err);
+  if (!(w.face = thr_calloc((size_t)frame->n_edges * 10, sizeof *w.face))) return thr_nomem(err);
   look(&w);
   measure(&w);
   write_sheet(&w, &out);

@@ -22,6 +22,6 @@ typedef struct {
 /* Appends the picture to svg: both panels seen from one side, to one scale, faces shaded and drawn back to front; ends of arms
  * are pale, so that gaps show. What has gone far away is cut off at the panel's edge. The same input gives the same bytes.
  * THR_EINPUT for poses that are not finite, a width <= 0 or a bead out of range. O(n log n). svg is unchanged on failure. */
-thr_status thr_still_svg(const thr_frame *f, const thr_still *s, thr_text *svg, thr_err *err) THR_MUST_CHECK;
+thr_status thr_still_svg(const thr_frame *frame, const thr_still *still, thr_text *svg, thr_err *err) THR_MUST_CHECK;
 
 #endif

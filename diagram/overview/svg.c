@@ -10,27 +10,28 @@ double thr_svg_round(double value)
   return value == 0 ? 0 : value;
 }
 
-void thr_svg_open(thr_text *t, double width, double height, const char *title, const char *description)
+void thr_svg_open(thr_text *text, double width, double height, const char *title, const char *description)
 {
-  thr_text_printf(t,
+  thr_text_printf(text,
                   "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"thread\" "
                   "width=\"%.2fmm\" height=\"%.2fmm\" viewBox=\"0 0 %.2f %.2f\" role=\"img\" aria-labelledby=\"title "
                   "desc\">\n<title id=\"title\">",
                   width, height, width, height);
-  thr_text_xml(t, title);
-  thr_text_append(t, "</title>\n<desc id=\"desc\">");
-  thr_text_xml(t, description);
-  thr_text_append(t, "</desc>\n");
+  thr_text_xml(text, title);
+  thr_text_append(text, "</title>\n<desc id=\"desc\">");
+  thr_text_xml(text, description);
+  thr_text_append(text, "</desc>\n");
 }
 
-void thr_svg_text(thr_text *t, double x, double y, double size, const char *attributes, const char *s)
+void thr_svg_text(thr_text *text, double x, double y, double size, const char *attributes, const char *s)
 {
-  thr_text_printf(t, "<text x=\"%.2f\" y=\"%.2f\" font-size=\"%.2f\"%s>", thr_svg_round(x), thr_svg_round(y), size, attributes);
-  thr_text_xml(t, s);
-  thr_text_append(t, "</text>\n");
+  thr_text_printf(text, "<text x=\"%.2f\" y=\"%.2f\" font-size=\"%.2f\"%s>", thr_svg_round(x), thr_svg_round(y), size,
+                  attributes);
+  thr_text_xml(text, s);
+  thr_text_append(text, "</text>\n");
 }
 
-double thr_svg_wrap(thr_text *t, double x, double y, double size, double width, const char *attributes, const char *words)
+double thr_svg_wrap(thr_text *text, double x, double y, double size, double width, const char *attributes, const char *words)
 {
   char line[512];
   int n = 0, fits = (int)(width / (0.58 * size));
@@ -48,7 +49,7 @@ double thr_svg_wrap(thr_text *t, double x, double y, double size, double width, 
     while (n > 1 && thr_text_is_inside(words[n]))
       n--;
     snprintf(line, sizeof line, "%.*s", n, words);
-    thr_svg_text(t, x, y, size, attributes, line);
+    thr_svg_text(text, x, y, size, attributes, line);
     y += 1.45 * size;
     words += n;
     while (*words == ' ')
@@ -57,19 +58,19 @@ double thr_svg_wrap(thr_text *t, double x, double y, double size, double width, 
   return y;
 }
 
-void thr_svg_move(thr_text *t, const double at[2])
+void thr_svg_move(thr_text *text, const double at[2])
 {
-  thr_text_printf(t, "M%.2f %.2f", thr_svg_round(at[0]), thr_svg_round(at[1]));
+  thr_text_printf(text, "M%.2f %.2f", thr_svg_round(at[0]), thr_svg_round(at[1]));
 }
 
-void thr_svg_line(thr_text *t, const double at[2])
+void thr_svg_line(thr_text *text, const double at[2])
 {
-  thr_text_printf(t, "L%.2f %.2f", thr_svg_round(at[0]), thr_svg_round(at[1]));
+  thr_text_printf(text, "L%.2f %.2f", thr_svg_round(at[0]), thr_svg_round(at[1]));
 }
 
-void thr_svg_curve(thr_text *t, const double a[2], const double b[2], const double at[2])
+void thr_svg_curve(thr_text *text, const double a[2], const double b[2], const double at[2])
 {
-  thr_text_printf(t, "C%.2f %.2f %.2f %.2f %.2f %.2f", thr_svg_round(a[0]), thr_svg_round(a[1]), thr_svg_round(b[0]),
+  thr_text_printf(text, "C%.2f %.2f %.2f %.2f %.2f %.2f", thr_svg_round(a[0]), thr_svg_round(a[1]), thr_svg_round(b[0]),
                   thr_svg_round(b[1]), thr_svg_round(at[0]), thr_svg_round(at[1]));
 }
 

@@ -8,17 +8,17 @@
 double thr_svg_round(double value);
 
 /* The document up to its description, in mm; title and description are escaped. Close it with </svg>. */
-void thr_svg_open(thr_text *t, double width, double height, const char *title, const char *description);
+void thr_svg_open(thr_text *text, double width, double height, const char *title, const char *description);
 
 /* <text> at the baseline point; attributes is put in as it is ("" for none), e.g. " text-anchor=\"middle\"". */
-void thr_svg_text(thr_text *t, double x, double y, double size, const char *attributes, const char *s);
+void thr_svg_text(thr_text *text, double x, double y, double size, const char *attributes, const char *s);
 
 /* The same in lines of at most width mm (estimated for a wide face), broken at spaces; returns the y of the next line. */
-double thr_svg_wrap(thr_text *t, double x, double y, double size, double width, const char *attributes, const char *words);
+double thr_svg_wrap(thr_text *text, double x, double y, double size, double width, const char *attributes, const char *words);
 
-void thr_svg_move(thr_text *t, const double at[2]);
-void thr_svg_line(thr_text *t, const double at[2]);
-void thr_svg_curve(thr_text *t, const double a[2], const double b[2], const double at[2]);
+void thr_svg_move(thr_text *text, const double at[2]);
+void thr_svg_line(thr_text *text, const double at[2]);
+void thr_svg_curve(thr_text *text, const double a[2], const double b[2], const double at[2]);
 
 /* A length in the frame's units with about four digits: "2413 mm", "12.35 m". */
 void thr_svg_length(double value, const char *units, char text[64]);

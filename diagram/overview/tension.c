@@ -34,39 +34,41 @@ thr_tension_options thr_tension_options_default(void)
   return (thr_tension_options){.title = NULL, .passes = false};
 }
 
-static int refused_turns(const thr_evaluation *e)
+static int refused_turns(const thr_evaluation *evaluation)
 {
   int n = 0;
-  for (int c = 0; c < e->n_cords; c++)
-    n += e->cord[c].refused;
+  for (int c = 0; c < evaluation->n_cords; c++)
+    n += evaluation->cord[c].refused;
   return n;
 }
 
-const char *thr_tension_method_words(const thr_evaluation *e)
+const char *thr_tension_method_words(const thr_evaluation *evaluation)
 {
-  switch (e->method) {
+  switch (evaluation->method) {
   case THR_JOINT:
-    return refused_turns(e) > 0 ? "joints measured in simulation, some turns by closed form, composed along the taut path"
-                                : "joints measured in simulation, composed along the taut path";
+    return refused_turns(evaluation) > 0
+               ? "joints measured in simulation, some turns by closed form, composed along the taut path"
+               : "joints measured in simulation, composed along the taut path";
   case THR_STRUCTURE: return "limit analysis: the least pull at which the structure can stand";
-  default: return e->law == THR_LAW_MITRE ? "closed form: mitred beads" : "closed form: capstan law";
+  default: return evaluation->law == THR_LAW_MITRE ? "closed form: mitred beads" : "closed form: capstan law";
   }
 }
 
 thr_status thr_tension_usable(const thr_plan *p, thr_err *err)
 {
-  const thr_evaluation *e = &p->evaluation;
+  const thr_evaluation *evaluation = &p->evaluation;
   bool known = false;
-  if (!e->present)
+  if (!evaluation->present)
     return thr_fail(err, THR_EINPUT,
                     "the plan says nothing about tension: evaluate it first, with `thread eval plan.json -o plan.json`");
-  if (e->n_cords != p->n_cords)
-    return thr_fail(err, THR_EINPUT, "the evaluation has %d cords, the plan %d: evaluate it again", e->n_cords, p->n_cords);
-  for (int c = 0; c < e->n_cords; c++) {
-    const thr_eval_cord *r = &e->cord[c];
-    if (!r->known) continue;
+  if (evaluation->n_cords != p->n_cords)
+    return thr_fail(err, THR_EINPUT, "the evaluation has %d cords, the plan %d: evaluate it again", evaluation->n_cords,
+                    p->n_cords);
+  for (int c = 0; c < evaluation->n_cords; c++) {
+    const thr_eval_cord *cord = &evaluation->cord[c];
+    if (!cord->known) continue;
     known = true;
-    if (r->n_passes != p->cord[c].n_passes || !r->tension || r->slackest < 0 || r->slackest >= r->n_passes)
+    if (cord->n_passes != p->cord[c].n_passes || !cord->tension || cord->slackest < 0 || cord->slackest >= cord->n_passes)
       return thr_fail(err, THR_EINPUT, "the evaluation of cord %s does not fit its %d passes: evaluate the plan again",
                       p->cord[c].id, p->cord[c].n_passes);
   }
@@ -113,53 +115,53 @@ static void choose_axes(plot *s)
   }
 }
 
-static void write_x_axis(const plot *s, bool labelled, thr_text *t)
+static void write_x_axis(const plot *s, bool labelled, thr_text *text)
 {
   double tick[MOST_TICKS];
   char number[32];
   int n = thr_svg_ticks(0, s->most, false, s->small ? 4 : MOST_TICKS, tick);
   for (int i = 0; i < n; i++) {
     double x = thr_svg_round(place_x(s, tick[i]));
-    thr_text_printf(t, "<path class=\"axis\" d=\"M%.2f %.2fv1.20\"/>\n", x, s->y + s->height);
+    thr_text_printf(text, "<path class=\"axis\" d=\"M%.2f %.2fv1.20\"/>\n", x, s->y + s->height);
     if (!labelled) continue;
     snprintf(number, sizeof number, "%.10g", tick[i]);
-    thr_svg_text(t, x, s->y + s->height + 1.6 + SMALL, SMALL, " class=\"middle\"", number);
+    thr_svg_text(text, x, s->y + s->height + 1.6 + SMALL, SMALL, " class=\"middle\"", number);
   }
 }
 
-static void write_y_axis(const plot *s, bool labelled, thr_text *t)
+static void write_y_axis(const plot *s, bool labelled, thr_text *text)
 {
   double tick[MOST_TICKS];
   char number[32];
   int n = thr_svg_ticks(s->low, s->high, s->logarithmic, s->small ? FEW_TICKS : MOST_TICKS, tick);
   for (int i = 0; i < n; i++) {
     double y = thr_svg_round(place_y(s, tick[i]));
-    thr_text_printf(t, "<path class=\"grid\" d=\"M%.2f %.2fh%.2f\"/>\n", s->x, y, s->width);
+    thr_text_printf(text, "<path class=\"grid\" d=\"M%.2f %.2fh%.2f\"/>\n", s->x, y, s->width);
     if (!labelled) continue;
     snprintf(number, sizeof number, "%.10g", tick[i]);
-    thr_svg_text(t, s->x - 1.4, y + 0.36 * SMALL, SMALL, " class=\"end\"", number);
+    thr_svg_text(text, s->x - 1.4, y + 0.36 * SMALL, SMALL, " class=\"end\"", number);
   }
 }
 
-static void write_panel(const plot *s, bool left, bool bottom, thr_text *t)
+static void write_panel(const plot *s, bool left, bool bottom, thr_text *text)
 {
-  write_y_axis(s, left, t);
-  write_x_axis(s, bottom, t);
-  thr_text_printf(t, "<rect class=\"axis\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/>\n", s->x, s->y, s->width,
+  write_y_axis(s, left, text);
+  write_x_axis(s, bottom, text);
+  thr_text_printf(text, "<rect class=\"axis\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/>\n", s->x, s->y, s->width,
                   s->height);
   if (s->seating)
-    thr_text_printf(t, "<path class=\"seating\" d=\"M%.2f %.2fh%.2f\"/>\n", s->x,
+    thr_text_printf(text, "<path class=\"seating\" d=\"M%.2f %.2fh%.2f\"/>\n", s->x,
                     thr_svg_round(place_y(s, s->e->physics.seating)), s->width);
 }
 
-static void write_axis_titles(const plot *s, thr_text *t)
+static void write_axis_titles(const plot *s, thr_text *text)
 {
   char words[80];
   if (s->passes)
     snprintf(words, sizeof words, "pass");
   else
     snprintf(words, sizeof words, "along the cord, %.15s", s->plan->frame.units);
-  thr_svg_text(t, s->x + 0.5 * s->width, s->y + s->height + 6 + TEXT_SIZE, TEXT_SIZE, " class=\"middle\"", words);
+  thr_svg_text(text, s->x + 0.5 * s->width, s->y + s->height + 6 + TEXT_SIZE, TEXT_SIZE, " class=\"middle\"", words);
 }
 
 /* ---- cords ---- */
@@ -167,17 +169,17 @@ static void write_axis_titles(const plot *s, thr_text *t)
 /* Do the lines of two cords lie on each other? */
 static bool coincide(const plot *s, int a, int b)
 {
-  const thr_eval_cord *p = &s->e->cord[a], *q = &s->e->cord[b];
-  if (p->n_passes != q->n_passes) return false;
-  for (int k = 0; k < p->n_passes; k++) {
-    if (fabs(place_y(s, p->tension[k]) - place_y(s, q->tension[k])) > 0.3 * LINE) return false;
-    if (fabs(step_of(s, a, k) - step_of(s, b, k)) > 1e-3 * s->most / p->n_passes) return false;
+  const thr_eval_cord *cord = &s->e->cord[a], *q = &s->e->cord[b];
+  if (cord->n_passes != q->n_passes) return false;
+  for (int k = 0; k < cord->n_passes; k++) {
+    if (fabs(place_y(s, cord->tension[k]) - place_y(s, q->tension[k])) > 0.3 * LINE) return false;
+    if (fabs(step_of(s, a, k) - step_of(s, b, k)) > 1e-3 * s->most / cord->n_passes) return false;
   }
   return true;
 }
 
 /* Of lines that coincide in one panel the later ones are dashed over the first, in turn, so that every colour shows. */
-static bool write_turns(const plot *s, int c, thr_text *t)
+static bool write_turns(const plot *s, int c, thr_text *text)
 {
   int before = 0, all = 1;
   for (int i = 0; i < s->n_shown && !s->small; i++) {
@@ -186,88 +188,88 @@ static bool write_turns(const plot *s, int c, thr_text *t)
     before += s->shown[i] < c;
   }
   if (before == 0) return false;
-  thr_text_printf(t, " stroke-dasharray=\"2.00 %.2f\" stroke-dashoffset=\"%.2f\"", 2.0 * (all - 1), -2.0 * before);
+  thr_text_printf(text, " stroke-dasharray=\"2.00 %.2f\" stroke-dashoffset=\"%.2f\"", 2.0 * (all - 1), -2.0 * before);
   return true;
 }
 
-static void write_dash(const double *dash, thr_text *t)
+static void write_dash(const double *dash, thr_text *text)
 {
   if (!dash) return;
-  thr_text_append(t, " stroke-dasharray=\"");
+  thr_text_append(text, " stroke-dasharray=\"");
   for (int i = 0; dash[i] > 0; i++)
-    thr_text_printf(t, "%s%.2f", i ? " " : "", dash[i] * LINE);
-  thr_text_append(t, "\"");
+    thr_text_printf(text, "%s%.2f", i ? " " : "", dash[i] * LINE);
+  thr_text_append(text, "\"");
 }
 
 /* A step per pass; runs of the same height on paper are one. */
-static void write_steps(const plot *s, int c, thr_text *t)
+static void write_steps(const plot *s, int c, thr_text *text)
 {
-  const thr_eval_cord *r = &s->e->cord[c];
-  double along = 0, height = thr_svg_round(place_y(s, r->tension[0]));
-  thr_text_printf(t, "<path class=\"line\" stroke=\"%s\"", thr_palette(c).hex);
-  if (!write_turns(s, c, t)) write_dash(thr_palette_dash(c / THR_COLOURS), t);
-  thr_text_printf(t, " d=\"M%.2f %.2f", thr_svg_round(place_x(s, 0)), height);
-  for (int k = 0; k < r->n_passes; k++) {
-    double next = thr_svg_round(place_y(s, r->tension[k]));
-    if (next != height) thr_text_printf(t, "H%.2fV%.2f", thr_svg_round(place_x(s, along)), next);
+  const thr_eval_cord *cord = &s->e->cord[c];
+  double along = 0, height = thr_svg_round(place_y(s, cord->tension[0]));
+  thr_text_printf(text, "<path class=\"line\" stroke=\"%s\"", thr_palette(c).hex);
+  if (!write_turns(s, c, text)) write_dash(thr_palette_dash(c / THR_COLOURS), text);
+  thr_text_printf(text, " d=\"M%.2f %.2f", thr_svg_round(place_x(s, 0)), height);
+  for (int k = 0; k < cord->n_passes; k++) {
+    double next = thr_svg_round(place_y(s, cord->tension[k]));
+    if (next != height) thr_text_printf(text, "H%.2fV%.2f", thr_svg_round(place_x(s, along)), next);
     height = next;
     along += step_of(s, c, k);
   }
-  thr_text_printf(t, "H%.2f\"/>\n", thr_svg_round(place_x(s, along)));
+  thr_text_printf(text, "H%.2f\"/>\n", thr_svg_round(place_x(s, along)));
 }
 
-static void write_pulled_end(const plot *s, int c, double along, double tension, double way, thr_text *t)
+static void write_pulled_end(const plot *s, int c, double along, double tension, double way, thr_text *text)
 {
   double x = thr_svg_round(place_x(s, along)), y = thr_svg_round(place_y(s, tension));
-  thr_text_printf(t, "<path class=\"pulled\" fill=\"%s\" d=\"M%.2f %.2fl%.2f %.2fv%.2fz\"/>\n", thr_palette(c).hex,
+  thr_text_printf(text, "<path class=\"pulled\" fill=\"%s\" d=\"M%.2f %.2fl%.2f %.2fv%.2fz\"/>\n", thr_palette(c).hex,
                   x + way * SIGN * 1.2, y, -way * SIGN * 1.8, -SIGN, 2 * SIGN);
 }
 
-static void write_cord_marks(const plot *s, int c, thr_text *t)
+static void write_cord_marks(const plot *s, int c, thr_text *text)
 {
-  const thr_eval_cord *r = &s->e->cord[c];
+  const thr_eval_cord *cord = &s->e->cord[c];
   double along = 0, slackest = 0;
-  for (int k = 0; k < r->n_passes; k++) {
-    if (k == r->slackest) slackest = along + 0.5 * step_of(s, c, k);
+  for (int k = 0; k < cord->n_passes; k++) {
+    if (k == cord->slackest) slackest = along + 0.5 * step_of(s, c, k);
     along += step_of(s, c, k);
   }
-  thr_text_printf(t, "<circle class=\"slackest\" stroke=\"%s\" cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\"/>\n", thr_palette(c).hex,
-                  thr_svg_round(place_x(s, slackest)), thr_svg_round(place_y(s, r->tension[r->slackest])), 0.7 * SIGN);
-  if (r->pull != THR_PULL_END) write_pulled_end(s, c, 0, r->tension[0], -1, t);
-  if (r->pull != THR_PULL_START) write_pulled_end(s, c, along, r->tension[r->n_passes - 1], 1, t);
+  thr_text_printf(text, "<circle class=\"slackest\" stroke=\"%s\" cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\"/>\n", thr_palette(c).hex,
+                  thr_svg_round(place_x(s, slackest)), thr_svg_round(place_y(s, cord->tension[cord->slackest])), 0.7 * SIGN);
+  if (cord->pull != THR_PULL_END) write_pulled_end(s, c, 0, cord->tension[0], -1, text);
+  if (cord->pull != THR_PULL_START) write_pulled_end(s, c, along, cord->tension[cord->n_passes - 1], 1, text);
 }
 
-static void write_cord(const plot *s, int c, thr_text *t)
+static void write_cord(const plot *s, int c, thr_text *text)
 {
   char id[12];
   thr_cord_id(c, id);
-  thr_text_printf(t, "<g id=\"cord-%s\">\n", id);
-  write_steps(s, c, t);
-  write_cord_marks(s, c, t);
-  thr_text_append(t, "</g>\n");
+  thr_text_printf(text, "<g id=\"cord-%s\">\n", id);
+  write_steps(s, c, text);
+  write_cord_marks(s, c, text);
+  thr_text_append(text, "</g>\n");
 }
 
 /* "A: 39.7 and 39.3 N" */
 static void label_cord(const plot *s, int c, char label[96])
 {
-  const thr_eval_cord *r = &s->e->cord[c];
+  const thr_eval_cord *cord = &s->e->cord[c];
   char force[32], other[32];
-  thr_svg_force(r->force, force);
-  thr_svg_force(r->other_force, other);
-  if (r->pull == THR_PULL_BOTH)
+  thr_svg_force(cord->force, force);
+  thr_svg_force(cord->other_force, other);
+  if (cord->pull == THR_PULL_BOTH)
     snprintf(label, 96, "%.11s: %.*s and %s", s->plan->cord[c].id, (int)strcspn(force, " "), force, other);
   else
     snprintf(label, 96, "%.11s: %s", s->plan->cord[c].id, force);
 }
 
 /* Labels beside the panel at the height of the lines' ends, pushed apart where they would touch. */
-static void write_line_labels(const plot *s, thr_text *t)
+static void write_line_labels(const plot *s, thr_text *text)
 {
   double at[THR_TENSION_LINES], room = 1.5 * TEXT_SIZE;
   int order[THR_TENSION_LINES];
   for (int i = 0; i < s->n_shown; i++) {
-    const thr_eval_cord *r = &s->e->cord[s->shown[i]];
-    double y = place_y(s, r->tension[r->n_passes - 1]);
+    const thr_eval_cord *cord = &s->e->cord[s->shown[i]];
+    double y = place_y(s, cord->tension[cord->n_passes - 1]);
     int k = i;
     for (; k > 0 && at[order[k - 1]] > y; k--)
       order[k] = order[k - 1];
@@ -283,124 +285,125 @@ static void write_line_labels(const plot *s, thr_text *t)
     int c = s->shown[i];
     double x = s->x + s->width + 4;
     label_cord(s, c, label);
-    thr_text_printf(t, "<path class=\"line\" stroke=\"%s\"", thr_palette(c).hex);
-    write_dash(thr_palette_dash(c / THR_COLOURS), t);
-    thr_text_printf(t, " d=\"M%.2f %.2fh5.00\"/>\n", x, thr_svg_round(at[i]));
-    thr_svg_text(t, x + 6.5, at[i] + 0.36 * TEXT_SIZE, TEXT_SIZE, "", label);
+    thr_text_printf(text, "<path class=\"line\" stroke=\"%s\"", thr_palette(c).hex);
+    write_dash(thr_palette_dash(c / THR_COLOURS), text);
+    thr_text_printf(text, " d=\"M%.2f %.2fh5.00\"/>\n", x, thr_svg_round(at[i]));
+    thr_svg_text(text, x + 6.5, at[i] + 0.36 * TEXT_SIZE, TEXT_SIZE, "", label);
   }
 }
 
 /* ---- sheet ---- */
 
-static double write_one_panel(plot *s, double y, thr_text *t)
+static double write_one_panel(plot *s, double y, thr_text *text)
 {
   s->x = MARGIN + LEFT;
   s->y = y + TEXT_SIZE;
   s->width = WIDTH - LEFT - LABELS;
   s->height = PANEL_HEIGHT;
-  thr_svg_text(t, MARGIN, y, TEXT_SIZE, "", s->logarithmic ? "tension, N (logarithmic)" : "tension, N");
-  write_panel(s, true, true, t);
+  thr_svg_text(text, MARGIN, y, TEXT_SIZE, "", s->logarithmic ? "tension, N (logarithmic)" : "tension, N");
+  write_panel(s, true, true, text);
   for (int i = 0; i < s->n_shown; i++)
-    write_cord(s, s->shown[i], t);
-  write_line_labels(s, t);
-  write_axis_titles(s, t);
+    write_cord(s, s->shown[i], text);
+  write_line_labels(s, text);
+  write_axis_titles(s, text);
   return s->y + s->height + 15;
 }
 
-static double write_small_panels(plot *s, double y, thr_text *t)
+static double write_small_panels(plot *s, double y, thr_text *text)
 {
   double gap = 5;
   s->width = (WIDTH - LEFT - (COLUMNS - 1) * gap) / COLUMNS;
   s->height = SMALL_HEIGHT;
-  thr_svg_text(t, MARGIN, y, TEXT_SIZE, "", s->logarithmic ? "tension, N (logarithmic)" : "tension, N");
+  thr_svg_text(text, MARGIN, y, TEXT_SIZE, "", s->logarithmic ? "tension, N (logarithmic)" : "tension, N");
   y += 3;
   for (int i = 0; i < s->n_shown; i++) {
     char label[96];
     int row = i / COLUMNS;
     s->x = MARGIN + LEFT + i % COLUMNS * (s->width + gap);
     s->y = y + SMALL_GAP - 3 + row * (SMALL_HEIGHT + SMALL_GAP);
-    write_panel(s, i % COLUMNS == 0, i + COLUMNS >= s->n_shown, t);
+    write_panel(s, i % COLUMNS == 0, i + COLUMNS >= s->n_shown, text);
     label_cord(s, s->shown[i], label);
-    thr_svg_text(t, s->x, s->y - 2, TEXT_SIZE, "", label);
-    write_cord(s, s->shown[i], t);
+    thr_svg_text(text, s->x, s->y - 2, TEXT_SIZE, "", label);
+    write_cord(s, s->shown[i], text);
   }
   int rows = (s->n_shown + COLUMNS - 1) / COLUMNS;
   double bottom = y - 3 + rows * (SMALL_HEIGHT + SMALL_GAP);
   s->y = bottom - SMALL_HEIGHT;
   s->x = MARGIN + LEFT;
   s->width = WIDTH - LEFT;
-  write_axis_titles(s, t);
+  write_axis_titles(s, text);
   return bottom + 15;
 }
 
-static double write_heading(const plot *s, const char *title, thr_text *t)
+static double write_heading(const plot *s, const char *title, thr_text *text)
 {
-  const thr_evaluation *e = s->e;
+  const thr_evaluation *evaluation = s->e;
   char line[400], largest[32], total[32], seating[48] = "";
-  double y = thr_svg_wrap(t, MARGIN, MARGIN + TITLE_SIZE, TITLE_SIZE, WIDTH, " font-weight=\"bold\"", title), error = 0;
-  for (int c = 0; c < e->n_cords; c++)
-    error = fmax(error, e->cord[c].error);
-  if (s->seating) snprintf(seating, sizeof seating, ", seating tension %g N", e->physics.seating);
-  snprintf(line, sizeof line, "Method %s (%s); mu = %g%s.", thr_method_name(e->method), thr_tension_method_words(e),
-           e->physics.mu, seating);
-  y = thr_svg_wrap(t, MARGIN, y, TEXT_SIZE, WIDTH, "", line);
-  thr_svg_force(e->largest, largest);
-  thr_svg_force(e->total, total);
+  double y = thr_svg_wrap(text, MARGIN, MARGIN + TITLE_SIZE, TITLE_SIZE, WIDTH, " font-weight=\"bold\"", title), error = 0;
+  for (int c = 0; c < evaluation->n_cords; c++)
+    error = fmax(error, evaluation->cord[c].error);
+  if (s->seating) snprintf(seating, sizeof seating, ", seating tension %g N", evaluation->physics.seating);
+  snprintf(line, sizeof line, "Method %s (%s); mu = %g%s.", thr_method_name(evaluation->method),
+           thr_tension_method_words(evaluation), evaluation->physics.mu, seating);
+  y = thr_svg_wrap(text, MARGIN, y, TEXT_SIZE, WIDTH, "", line);
+  thr_svg_force(evaluation->largest, largest);
+  thr_svg_force(evaluation->total, total);
   snprintf(line, sizeof line, "Largest pull %s, all pulled ends together %s", largest, total);
-  if (refused_turns(e) > 0)
+  if (refused_turns(evaluation) > 0)
     snprintf(line + strlen(line), sizeof line - strlen(line), ", error at least %.3g %%: %d of the turns by closed form",
-             100 * expm1(error), refused_turns(e));
+             100 * expm1(error), refused_turns(evaluation));
   else if (error > 0)
     snprintf(line + strlen(line), sizeof line - strlen(line), ", each within %.3g %%", 100 * expm1(error));
   snprintf(line + strlen(line), sizeof line - strlen(line), ".");
-  y = thr_svg_wrap(t, MARGIN, y, TEXT_SIZE, WIDTH, "", line);
+  y = thr_svg_wrap(text, MARGIN, y, TEXT_SIZE, WIDTH, "", line);
   line[0] = '\0';
-  if (s->n_known < e->n_cords)
-    snprintf(line, sizeof line, "The evaluation was stopped: %d of %d cords are not known. ", e->n_cords - s->n_known,
-             e->n_cords);
+  if (s->n_known < evaluation->n_cords)
+    snprintf(line, sizeof line, "The evaluation was stopped: %d of %d cords are not known. ", evaluation->n_cords - s->n_known,
+             evaluation->n_cords);
   if (s->n_shown < s->n_known)
     snprintf(line + strlen(line), sizeof line - strlen(line), "Shown: the %d cords with the largest pull, of %d.", s->n_shown,
              s->n_known);
-  if (line[0]) y = thr_svg_wrap(t, MARGIN, y, TEXT_SIZE, WIDTH, " fill=\"#A03000\"", line);
+  if (line[0]) y = thr_svg_wrap(text, MARGIN, y, TEXT_SIZE, WIDTH, " fill=\"#A03000\"", line);
   return y + 3;
 }
 
-static double write_key(const plot *s, double y, thr_text *t)
+static double write_key(const plot *s, double y, thr_text *text)
 {
   double x = MARGIN + LEFT, base = y + 0.36 * TEXT_SIZE;
-  thr_text_printf(t, "<path class=\"pulled\" fill=\"#555\" d=\"M%.2f %.2fl-2.70 -1.50v3.00z\"/>\n", x + 2.7, y);
-  thr_svg_text(t, x + 5, base, TEXT_SIZE, "", "pulled end");
+  thr_text_printf(text, "<path class=\"pulled\" fill=\"#555\" d=\"M%.2f %.2fl-2.70 -1.50v3.00z\"/>\n", x + 2.7, y);
+  thr_svg_text(text, x + 5, base, TEXT_SIZE, "", "pulled end");
   x += 35;
-  thr_text_printf(t, "<circle class=\"slackest\" stroke=\"#555\" cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\"/>\n", x, y, 0.7 * SIGN);
-  thr_svg_text(t, x + 3.5, base, TEXT_SIZE, "", "slackest pass");
+  thr_text_printf(text, "<circle class=\"slackest\" stroke=\"#555\" cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\"/>\n", x, y, 0.7 * SIGN);
+  thr_svg_text(text, x + 3.5, base, TEXT_SIZE, "", "slackest pass");
   x += 38;
   if (s->seating) {
-    thr_text_printf(t, "<path class=\"seating\" d=\"M%.2f %.2fh8.00\"/>\n", x, y);
-    thr_svg_text(t, x + 10, base, TEXT_SIZE, "", "seating tension");
+    thr_text_printf(text, "<path class=\"seating\" d=\"M%.2f %.2fh8.00\"/>\n", x, y);
+    thr_svg_text(text, x + 10, base, TEXT_SIZE, "", "seating tension");
   }
   return y + TEXT_SIZE;
 }
 
-static void write_style(thr_text *t)
+static void write_style(thr_text *text)
 {
-  thr_text_append(t, "<style>\n.thread text{stroke:none;fill:#222;font-family:'DejaVu Sans',Verdana,sans-serif}\n"
-                     ".thread .middle{text-anchor:middle}.thread .end{text-anchor:end}\n"
-                     ".thread .axis{fill:none;stroke:#444;stroke-width:0.25}.thread .grid{stroke:#ddd;stroke-width:0.20}\n");
-  thr_text_printf(t, ".thread .line{fill:none;stroke-width:%.2f;stroke-linejoin:round}\n", LINE);
-  thr_text_append(t, ".thread .seating{fill:none;stroke:#444;stroke-width:0.25;stroke-dasharray:1.2 0.8}\n"
-                     ".thread .slackest{fill:#fff;stroke-width:0.50}.thread .pulled{stroke:#fff;stroke-width:0.20}\n</style>\n");
+  thr_text_append(text, "<style>\n.thread text{stroke:none;fill:#222;font-family:'DejaVu Sans',Verdana,sans-serif}\n"
+                        ".thread .middle{text-anchor:middle}.thread .end{text-anchor:end}\n"
+                        ".thread .axis{fill:none;stroke:#444;stroke-width:0.25}.thread .grid{stroke:#ddd;stroke-width:0.20}\n");
+  thr_text_printf(text, ".thread .line{fill:none;stroke-width:%.2f;stroke-linejoin:round}\n", LINE);
+  thr_text_append(text,
+                  ".thread .seating{fill:none;stroke:#444;stroke-width:0.25;stroke-dasharray:1.2 0.8}\n"
+                  ".thread .slackest{fill:#fff;stroke-width:0.50}.thread .pulled{stroke:#fff;stroke-width:0.20}\n</style>\n");
 }
 
 /* Known cords; of too many those with the largest force, the lower index first among equals. */
 static thr_status choose_cords(plot *s, thr_err *err)
 {
-  const thr_evaluation *e = s->e;
+  const thr_evaluation *evaluation = s->e;
   if (!(s->shown = thr_calloc(THR_TENSION_PANELS, sizeof *s->shown))) return thr_nomem(err);
-  for (int c = 0; c < e->n_cords; c++) {
-    if (!e->cord[c].known) continue;
+  for (int c = 0; c < evaluation->n_cords; c++) {
+    if (!evaluation->cord[c].known) continue;
     s->n_known++;
     int k = s->n_shown < THR_TENSION_PANELS ? s->n_shown++ : THR_TENSION_PANELS;
-    while (k > 0 && e->cord[s->shown[k - 1]].force < e->cord[c].force) {
+    while (k > 0 && evaluation->cord[s->shown[k - 1]].force < evaluation->cord[c].force) {
       if (k < THR_TENSION_PANELS) s->shown[k] = s->shown[k - 1];
       k--;
     }
@@ -438,16 +441,16 @@ static thr_status write_sheet(plot *s, const char *given, thr_text *svg, thr_err
   return st;
 }
 
-thr_status thr_tension_svg(const thr_plan *p, const thr_tension_options *o, thr_text *svg, thr_err *err)
+thr_status thr_tension_svg(const thr_plan *p, const thr_tension_options *options, thr_text *svg, thr_err *err)
 {
-  plot s = {.plan = p, .e = &p->evaluation, .passes = o->passes, .seating = p->evaluation.method != THR_STRUCTURE};
+  plot s = {.plan = p, .e = &p->evaluation, .passes = options->passes, .seating = p->evaluation.method != THR_STRUCTURE};
   thr_text out = {0};
   thr_status st = thr_tension_usable(p, err);
   if (!st) st = choose_cords(&s, err);
   if (st) return st;
   s.small = s.n_shown > THR_TENSION_LINES;
   choose_axes(&s);
-  st = write_sheet(&s, o->title, &out, err);
+  st = write_sheet(&s, options->title, &out, err);
   if (!st) thr_text_append_bytes(svg, out.data, out.length);
   if (!st && svg->failed) st = thr_nomem(err);
   thr_text_destroy(&out);

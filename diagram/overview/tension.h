@@ -17,17 +17,17 @@ thr_tension_options thr_tension_options_default(void);
 /* Cords that get a panel of their own when there are too many for one panel; those with the largest force. */
 enum { THR_TENSION_LINES = 6, THR_TENSION_PANELS = 48 };
 
-/* Appends the plot of p->evaluation to svg: a step per pass, one line per cord, all axes alike, logarithmic where the tensions
+/* Appends the plot of plan->evaluation to svg: a step per pass, one line per cord, all axes alike, logarithmic where the tensions
  * differ by more than a factor of 20. Sizes are physical (mm); no text is under 7 pt. Elements: <g id="cord-A"> holds a cord's
  * line, its pulled ends and its slackest pass; cords are called by index as in the overview. The same plan and options give the
  * same bytes. THR_EINPUT if the plan has no evaluation, no known cord, or one that does not fit its cords. O(n). svg is unchanged
  * on failure. */
-thr_status thr_tension_svg(const thr_plan *p, const thr_tension_options *o, thr_text *svg, thr_err *err) THR_MUST_CHECK;
+thr_status thr_tension_svg(const thr_plan *plan, const thr_tension_options *options, thr_text *svg, thr_err *err) THR_MUST_CHECK;
 
 /* THR_EINPUT with advice unless the plan's evaluation is there and has a tension per pass of every known cord. */
-thr_status thr_tension_usable(const thr_plan *p, thr_err *err) THR_MUST_CHECK;
+thr_status thr_tension_usable(const thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 
 /* "joints measured in simulation, .. ": what a method's tensions are. */
-const char *thr_tension_method_words(const thr_evaluation *e);
+const char *thr_tension_method_words(const thr_evaluation *evaluation);
 
 #endif

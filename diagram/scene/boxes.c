@@ -11,12 +11,12 @@ thr_box thr_box_around(double x, double y, double half_width, double half_height
   return (thr_box){x - half_width, y - half_height, x + half_width, y + half_height};
 }
 
-void thr_box_extend(thr_box *b, thr_box other)
+void thr_box_extend(thr_box *box, thr_box other)
 {
-  b->x0 = fmin(b->x0, other.x0);
-  b->y0 = fmin(b->y0, other.y0);
-  b->x1 = fmax(b->x1, other.x1);
-  b->y1 = fmax(b->y1, other.y1);
+  box->x0 = fmin(box->x0, other.x0);
+  box->y0 = fmin(box->y0, other.y0);
+  box->x1 = fmax(box->x1, other.x1);
+  box->y1 = fmax(box->y1, other.y1);
 }
 
 thr_status thr_boxes_init(thr_boxes *b, thr_box bounds, double cell, thr_err *err)

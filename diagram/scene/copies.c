@@ -5,9 +5,9 @@
 #include <stdlib.h>
 
 /* Node k of a cord: where its pass k leaves, or for the last one where the cord ends. */
-static int node_at(const thr_frame *f, const thr_cord *c, int k)
+static int node_at(const thr_frame *frame, const thr_cord *c, int k)
 {
-  return k < c->n_passes ? thr_tail(f, c->half[k]) : thr_head(f, c->half[c->n_passes - 1]);
+  return k < c->n_passes ? thr_tail(frame, c->half[k]) : thr_head(frame, c->half[c->n_passes - 1]);
 }
 
 /* What is compared: the nodes of a unique path under an image, in either direction and for closed ones from any start. */
@@ -46,17 +46,18 @@ static int find_start(const pair *x, int *failure)
   return -1;
 }
 
-const int *thr_copies_image(const thr_plan *p, int c)
+const int *thr_copies_image(const thr_plan *plan, int c)
 {
-  return p->symmetry.image + (size_t)p->symmetry.element[c] * (size_t)p->frame.n_nodes;
+  return plan->symmetry.image + (size_t)plan->symmetry.element[c] * (size_t)plan->frame.n_nodes;
 }
 
 /* Finds how cord c runs through its unique path; leaves *copy as it is if it does not. */
-static void find_copy(const thr_plan *p, int c, int *failure, thr_copy *copy)
+static void find_copy(const thr_plan *plan, int c, int *failure, thr_copy *copy)
 {
-  int u = p->symmetry.unique[c];
-  const thr_cord *path = &p->cord[u], *cord = &p->cord[c];
-  pair x = {.f = &p->frame, .path = path, .cord = cord, .image = thr_copies_image(p, c), .n = cord->n_passes + !cord->closed};
+  int u = plan->symmetry.unique[c];
+  const thr_cord *path = &plan->cord[u], *cord = &plan->cord[c];
+  pair x = {
+      .f = &plan->frame, .path = path, .cord = cord, .image = thr_copies_image(plan, c), .n = cord->n_passes + !cord->closed};
   if (path->n_passes != cord->n_passes || path->closed != cord->closed) return;
   for (int backward = 0; backward < 2; backward++) {
     x.backward = backward;
@@ -69,21 +70,21 @@ static void find_copy(const thr_plan *p, int c, int *failure, thr_copy *copy)
   }
 }
 
-thr_status thr_copies_find(const thr_plan *p, thr_copy *copy, thr_err *err)
+thr_status thr_copies_find(const thr_plan *plan, thr_copy *copy, thr_err *err)
 {
-  const thr_symmetry_record *r = &p->symmetry;
+  const thr_symmetry_record *record = &plan->symmetry;
   int longest = 0, paths = 0;
-  for (int c = 0; c < p->n_cords; c++) {
+  for (int c = 0; c < plan->n_cords; c++) {
     copy[c] = (thr_copy){.of = c};
-    if (p->cord[c].n_passes > longest) longest = p->cord[c].n_passes;
+    if (plan->cord[c].n_passes > longest) longest = plan->cord[c].n_passes;
   }
-  int *failure = r->present ? thr_calloc((size_t)longest + 1, sizeof *failure) : NULL;
-  if (r->present && !failure) return thr_nomem(err);
-  for (int c = 0; c < p->n_cords && r->present; c++)
-    if (r->unique[c] != c && r->unique[r->unique[c]] == r->unique[c]) find_copy(p, c, failure, &copy[c]);
-  for (int c = 0; c < p->n_cords; c++)
+  int *failure = record->present ? thr_calloc((size_t)longest + 1, sizeof *failure) : NULL;
+  if (record->present && !failure) return thr_nomem(err);
+  for (int c = 0; c < plan->n_cords && record->present; c++)
+    if (record->unique[c] != c && record->unique[record->unique[c]] == record->unique[c]) find_copy(plan, c, failure, &copy[c]);
+  for (int c = 0; c < plan->n_cords; c++)
     if (copy[c].of == c) copy[c].path = paths++;
-  for (int c = 0; c < p->n_cords; c++)
+  for (int c = 0; c < plan->n_cords; c++)
     copy[c].path = copy[copy[c].of].path;
   free(failure);
   return THR_OK;
@@ -105,10 +106,10 @@ int thr_copies_count(const thr_copy *copy, int n_cords, int of)
   return n;
 }
 
-void thr_copies_words(const thr_plan *p, const thr_copy *copy, int c, const char *const *motion, char words[192])
+void thr_copies_words(const thr_plan *plan, const thr_copy *copy, int c, const char *const *motion, char words[192])
 {
   const thr_copy *how = &copy[c];
-  int first = how->backward ? p->cord[how->of].n_passes - 1 : 0, n = 0;
+  int first = how->backward ? plan->cord[how->of].n_passes - 1 : 0, n = 0;
   words[0] = '\0';
   if (motion) n = snprintf(words, 192, ", %.103s", motion[c] ? motion[c] : "renumbered by the framework's symmetry (no motion)");
   if (how->backward) n += snprintf(words + n, (size_t)(192 - n), ", threaded backwards");

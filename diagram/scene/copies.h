@@ -15,18 +15,18 @@ typedef struct {
   bool backward;
 } thr_copy;
 
-/* Fills copy[p->n_cords] from p->symmetry, which is not trusted: a cord that is not the image that it is said to be is a path of
- * its own, and so is every cord of a plan that is not symmetric. O(passes). */
-thr_status thr_copies_find(const thr_plan *p, thr_copy *copy, thr_err *err) THR_MUST_CHECK;
+/* Fills copy[plan->n_cords] from plan->symmetry, which is not trusted: a cord that is not the image that it is said to be is a
+ * path of its own, and so is every cord of a plan that is not symmetric. O(passes). */
+thr_status thr_copies_find(const thr_plan *plan, thr_copy *copy, thr_err *err) THR_MUST_CHECK;
 
 int thr_copies_paths(const thr_copy *copy, int n_cords);         /* different unique paths */
 int thr_copies_count(const thr_copy *copy, int n_cords, int of); /* cords that are copies of one */
 
 /* How copy c repeats its path, to be put behind a name or a place: ", turned by 90 degrees, threaded backwards". motion[c]: what
  * moves the path there, NULL if no motion in space does; motion NULL: not known. */
-void thr_copies_words(const thr_plan *p, const thr_copy *copy, int c, const char *const *motion, char words[192]);
+void thr_copies_words(const thr_plan *plan, const thr_copy *copy, int c, const char *const *motion, char words[192]);
 
-/* The image that maps the unique path of cord c to it: [n_nodes], of p->symmetry. c is a copy. */
-const int *thr_copies_image(const thr_plan *p, int c);
+/* The image that maps the unique path of cord c to it: [n_nodes], of plan->symmetry. c is a copy. */
+const int *thr_copies_image(const thr_plan *plan, int c);
 
 #endif

@@ -17,10 +17,10 @@ static const int STEPS[] = {1, 5, 10, 20, 50, 100, 200, 500, 1000};
 enum { COPY_ARROWS = 4 }; /* a copy has an arrow on every so many passes, on the first one too */
 enum { N_STEPS = sizeof STEPS / sizeof STEPS[0] };
 
-static void along(const thr_scene_pass *p, double t, double at[2])
+static void along(const thr_scene_pass *pass, double t, double at[2])
 {
   for (int k = 0; k < 2; k++)
-    at[k] = p->from[k] + t * (p->to[k] - p->from[k]);
+    at[k] = pass->from[k] + t * (pass->to[k] - pass->from[k]);
 }
 
 static thr_box arrow_box(const double at[2], double size)
@@ -28,12 +28,12 @@ static thr_box arrow_box(const double at[2], double size)
   return thr_box_around(at[0], at[1], 0.5 * size, 0.5 * size);
 }
 
-static thr_box pill_box(const thr_scene *s, int i, const double at[2])
+static thr_box pill_box(const thr_scene *scene, int i, const double at[2])
 {
   char text[32];
-  thr_scene_number(s, i, text);
+  thr_scene_number(scene, i, text);
   /* the same size as overview.c draws, with a hair of air */
-  return thr_box_around(at[0], at[1], 0.5 * thr_scene_pill_width(s, text) + 0.15, 0.5 * thr_scene_pill_height(s) + 0.15);
+  return thr_box_around(at[0], at[1], 0.5 * thr_scene_pill_width(scene, text) + 0.15, 0.5 * thr_scene_pill_height(scene) + 0.15);
 }
 
 /* Every pass from a pitch of 20 mm, every tenth from 8; below that so many that numbers stay 80 mm of cord apart. */
@@ -48,173 +48,174 @@ static int choose_step(double pitch)
 }
 
 /* First and last passes of a cord matter most, then round numbers; of a copy none. */
-static int importance(const thr_scene *s, int i)
+static int importance(const thr_scene *scene, int i)
 {
-  int number = s->pass[i].number;
-  if (thr_scene_is_copy(s, s->pass[i].cord)) return -1;
-  if (number == 1 || !thr_scene_continues(s, i)) return 0;
-  if (number % s->number_step) return -1;
-  return number % (10 * s->number_step) == 0 ? 1 : number % (5 * s->number_step) == 0 ? 2 : 3;
+  int number = scene->pass[i].number;
+  if (thr_scene_is_copy(scene, scene->pass[i].cord)) return -1;
+  if (number == 1 || !thr_scene_continues(scene, i)) return 0;
+  if (number % scene->number_step) return -1;
+  return number % (10 * scene->number_step) == 0 ? 1 : number % (5 * scene->number_step) == 0 ? 2 : 3;
 }
 
 /* Moves a number that must be there off the pass to the nearest free place around it, if there is one. */
-static void move_aside(thr_scene *s, int i)
+static void move_aside(thr_scene *scene, int i)
 {
-  thr_scene_pass *p = &s->pass[i];
+  thr_scene_pass *pass = &scene->pass[i];
   for (int ring = 1; ring <= 4; ring++)
     for (int k = 0; k < 12; k++) {
-      double turn = k * 0.5235987755982988, reach = 0.6 * ring * thr_scene_pill_height(s);
-      double at[2] = {p->pill[0] + 1.5 * reach * cos(turn), p->pill[1] + reach * sin(turn)};
-      if (thr_boxes_overlap(&s->boxes, pill_box(s, i, at), TAKEN, 1e-9) > 0) continue;
-      p->pill[0] = at[0];
-      p->pill[1] = at[1];
+      double turn = k * 0.5235987755982988, reach = 0.6 * ring * thr_scene_pill_height(scene);
+      double at[2] = {pass->pill[0] + 1.5 * reach * cos(turn), pass->pill[1] + reach * sin(turn)};
+      if (thr_boxes_overlap(&scene->boxes, pill_box(scene, i, at), TAKEN, 1e-9) > 0) continue;
+      pass->pill[0] = at[0];
+      pass->pill[1] = at[1];
       return;
     }
 }
 
 /* Puts the number of pass i in the first place that is free, preferring one that hides no arrow. must: put it in the
  * least bad place if none is free. */
-static thr_status place_number(thr_scene *s, int i, bool must, thr_err *err)
+static thr_status place_number(thr_scene *scene, int i, bool must, thr_err *err)
 {
-  thr_scene_pass *p = &s->pass[i];
+  thr_scene_pass *pass = &scene->pass[i];
   double least = HUGE_VAL, at[2];
   for (int k = 0; k < MAX_PLACES && least > 0; k++) {
-    along(p, NUMBER_AT[k], at);
-    thr_box box = pill_box(s, i, at);
-    double taken = thr_boxes_overlap(&s->boxes, box, TAKEN, must ? HUGE_VAL : 1e-9);
-    double cost = (taken > 0 ? MUCH + 1000 * taken : 0) + thr_boxes_overlap(&s->boxes, box, THR_BOX_ARROW, least);
+    along(pass, NUMBER_AT[k], at);
+    thr_box box = pill_box(scene, i, at);
+    double taken = thr_boxes_overlap(&scene->boxes, box, TAKEN, must ? HUGE_VAL : 1e-9);
+    double cost = (taken > 0 ? MUCH + 1000 * taken : 0) + thr_boxes_overlap(&scene->boxes, box, THR_BOX_ARROW, least);
     if (cost >= least || (taken > 0 && !must)) continue;
     least = cost;
-    p->pill[0] = at[0];
-    p->pill[1] = at[1];
-    p->numbered = true;
+    pass->pill[0] = at[0];
+    pass->pill[1] = at[1];
+    pass->numbered = true;
   }
-  if (must && least >= MUCH) move_aside(s, i);
-  if (!p->numbered) s->dropped++;
-  return p->numbered ? thr_boxes_add(&s->boxes, pill_box(s, i, p->pill), THR_BOX_NUMBER, err) : THR_OK;
+  if (must && least >= MUCH) move_aside(scene, i);
+  if (!pass->numbered) scene->dropped++;
+  return pass->numbered ? thr_boxes_add(&scene->boxes, pill_box(scene, i, pass->pill), THR_BOX_NUMBER, err) : THR_OK;
 }
 
-static bool wants_arrow(const thr_scene *s, int i)
+static bool wants_arrow(const thr_scene *scene, int i)
 {
-  const thr_scene_pass *p = &s->pass[i];
-  return !thr_scene_is_copy(s, p->cord) || (p->number - 1) % COPY_ARROWS == 0;
+  const thr_scene_pass *pass = &scene->pass[i];
+  return !thr_scene_is_copy(scene, pass->cord) || (pass->number - 1) % COPY_ARROWS == 0;
 }
 
 /* Puts every arrow where neither a number nor a mark hides it. */
-static void place_arrow(thr_scene *s, int i)
+static void place_arrow(thr_scene *scene, int i)
 {
-  thr_scene_pass *p = &s->pass[i];
-  double least = HUGE_VAL, at[2], length = hypot(p->to[0] - p->from[0], p->to[1] - p->from[1]);
-  p->arrow_size = fmin(s->size.arrow, 0.8 * length);
-  if (p->arrow_size < 0.4 * s->size.arrow || p->arrow_size < SEEN || !wants_arrow(s, i)) p->arrow_size = 0;
-  if (p->arrow_size == 0) return;
+  thr_scene_pass *pass = &scene->pass[i];
+  double least = HUGE_VAL, at[2], length = hypot(pass->to[0] - pass->from[0], pass->to[1] - pass->from[1]);
+  pass->arrow_size = fmin(scene->size.arrow, 0.8 * length);
+  if (pass->arrow_size < 0.4 * scene->size.arrow || pass->arrow_size < SEEN || !wants_arrow(scene, i)) pass->arrow_size = 0;
+  if (pass->arrow_size == 0) return;
   for (int k = 0; k < MAX_PLACES && least > 0; k++) {
-    along(p, ARROW_AT[k], at);
-    double hidden = thr_boxes_overlap(&s->boxes, arrow_box(at, 0.9 * p->arrow_size), TAKEN, least);
+    along(pass, ARROW_AT[k], at);
+    double hidden = thr_boxes_overlap(&scene->boxes, arrow_box(at, 0.9 * pass->arrow_size), TAKEN, least);
     if (hidden >= least) continue;
     least = hidden;
-    p->arrow[0] = at[0];
-    p->arrow[1] = at[1];
+    pass->arrow[0] = at[0];
+    pass->arrow[1] = at[1];
   }
 }
 
-static thr_status place_numbers(thr_scene *s, thr_err *err)
+static thr_status place_numbers(thr_scene *scene, thr_err *err)
 {
   thr_status st = THR_OK;
   double at[2];
-  s->number_step = choose_step(s->size.pitch);
-  for (int i = 0; i < s->n_passes && s->size.arrow >= SEEN && !st; i++) {
-    along(&s->pass[i], ARROW_AT[0], at);
-    if (wants_arrow(s, i)) st = thr_boxes_add(&s->boxes, arrow_box(at, s->size.arrow), THR_BOX_ARROW, err);
+  scene->number_step = choose_step(scene->size.pitch);
+  for (int i = 0; i < scene->n_passes && scene->size.arrow >= SEEN && !st; i++) {
+    along(&scene->pass[i], ARROW_AT[0], at);
+    if (wants_arrow(scene, i)) st = thr_boxes_add(&scene->boxes, arrow_box(at, scene->size.arrow), THR_BOX_ARROW, err);
   }
   for (int level = 0; level < 4; level++)
-    for (int i = 0; i < s->n_passes && !st; i++)
-      if (importance(s, i) == level) st = place_number(s, i, level == 0, err);
-  for (int i = 0; i < s->n_passes && !st; i++)
-    place_arrow(s, i);
+    for (int i = 0; i < scene->n_passes && !st; i++)
+      if (importance(scene, i) == level) st = place_number(scene, i, level == 0, err);
+  for (int i = 0; i < scene->n_passes && !st; i++)
+    place_arrow(scene, i);
   return st;
 }
 
 /* ---- names of nodes ---- */
 
 /* Looks for room for the name at point v between its beads: at a share of the way from each to the next, at so many distances. */
-static thr_status place_name(thr_scene *s, int v, double share, int distances, thr_err *err)
+static thr_status place_name(thr_scene *scene, int v, double share, int distances, thr_err *err)
 {
-  const thr_frame *f = s->paper;
+  const thr_frame *frame = scene->paper;
   char name[48];
-  thr_scene_place_name(s, v, name);
-  double half_width = 0.5 * thr_scene_text_width(name, s->size.text), half_height = 0.42 * s->size.text;
-  int first = f->first[v], degree = thr_degree(f, v);
+  thr_scene_place_name(scene, v, name);
+  double half_width = 0.5 * thr_scene_text_width(name, scene->size.text), half_height = 0.42 * scene->size.text;
+  int first = frame->first[v], degree = thr_degree(frame, v);
   for (int i = 0; i < degree; i++) {
-    int h = s->around[first + i], g = s->around[first + (i + 1) % degree];
-    double wide = degree > 1 ? thr_scene_sweep(s->angle[h], s->angle[g]) : 6.28, off = s->angle[h] + share * wide;
+    int h = scene->around[first + i], g = scene->around[first + (i + 1) % degree];
+    double wide = degree > 1 ? thr_scene_sweep(scene->angle[h], scene->angle[g]) : 6.28, off = scene->angle[h] + share * wide;
     double c = cos(off), w = sin(off);
     for (int k = 0; k < distances; k++) {
-      double d = (0.14 + 0.08 * k) * s->size.pitch + fmin(half_width / fmax(fabs(c), 1e-9), half_height / fmax(fabs(w), 1e-9));
-      thr_box box = thr_box_around(s->at[v][0] + d * c, s->at[v][1] + d * w, half_width, half_height);
-      if (d > 0.6 * s->size.pitch + half_width || thr_boxes_overlap(&s->boxes, box, ~0, 1e-9) > 0) continue;
-      s->named[v] = true;
-      s->name_at[v][0] = s->at[v][0] + d * c;
-      s->name_at[v][1] = s->at[v][1] + d * w;
-      return thr_boxes_add(&s->boxes, box, THR_BOX_NAME, err);
+      double d =
+          (0.14 + 0.08 * k) * scene->size.pitch + fmin(half_width / fmax(fabs(c), 1e-9), half_height / fmax(fabs(w), 1e-9));
+      thr_box box = thr_box_around(scene->at[v][0] + d * c, scene->at[v][1] + d * w, half_width, half_height);
+      if (d > 0.6 * scene->size.pitch + half_width || thr_boxes_overlap(&scene->boxes, box, ~0, 1e-9) > 0) continue;
+      scene->named[v] = true;
+      scene->name_at[v][0] = scene->at[v][0] + d * c;
+      scene->name_at[v][1] = scene->at[v][1] + d * w;
+      return thr_boxes_add(&scene->boxes, box, THR_BOX_NAME, err);
     }
   }
   return THR_OK;
 }
 
 /* Names near the middle between two beads first; then where there is any room. */
-static thr_status place_names(thr_scene *s, thr_err *err)
+static thr_status place_names(thr_scene *scene, thr_err *err)
 {
   static const double share[] = {0.5, 0.5, 0.35, 0.65, 0.2, 0.8};
-  thr_status st = s->layout->node ? THR_OK : thr_scene_box_strands(s, err);
+  thr_status st = scene->layout->node ? THR_OK : thr_scene_box_strands(scene, err);
   for (int k = 0; k < 6; k++)
-    for (int v = 0; v < s->layout->n_points && !st; v++)
-      if (s->twin[v] < 0 && !s->named[v]) st = place_name(s, v, share[k], k ? 9 : 4, err);
-  s->nameless = 0;
-  for (int v = 0; v < s->layout->n_nodes; v++)
-    s->nameless += !s->named[v];
+    for (int v = 0; v < scene->layout->n_points && !st; v++)
+      if (scene->twin[v] < 0 && !scene->named[v]) st = place_name(scene, v, share[k], k ? 9 : 4, err);
+  scene->nameless = 0;
+  for (int v = 0; v < scene->layout->n_nodes; v++)
+    scene->nameless += !scene->named[v];
   return st;
 }
 
-static void measure_extent(thr_scene *s)
+static void measure_extent(thr_scene *scene)
 {
-  s->extent = (thr_box){0, 0, s->width, s->height};
-  for (int i = 0; i < s->boxes.n_boxes; i++)
-    thr_box_extend(&s->extent, s->boxes.item[i].box);
-  double edge = 0.5 * s->size.bead;
-  s->extent.x0 -= edge;
-  s->extent.y0 -= edge;
-  s->extent.x1 += edge;
-  s->extent.y1 += edge;
+  scene->extent = (thr_box){0, 0, scene->width, scene->height};
+  for (int i = 0; i < scene->boxes.n_boxes; i++)
+    thr_box_extend(&scene->extent, scene->boxes.item[i].box);
+  double edge = 0.5 * scene->size.bead;
+  scene->extent.x0 -= edge;
+  scene->extent.y0 -= edge;
+  scene->extent.x1 += edge;
+  scene->extent.y1 += edge;
 }
 
-const char *thr_scene_caption(const thr_scene *s, int panel)
+const char *thr_scene_caption(const thr_scene *scene, int panel)
 {
   static const char *const words[3][2] = {
       {"from the +x end", "from the -x end"}, {"from the +y end", "from the -y end"}, {"from above", "from below"}};
-  return words[s->layout->axis][panel];
+  return words[scene->layout->axis][panel];
 }
 
 /* Over each panel, above everything else. */
-static thr_status place_captions(thr_scene *s, thr_err *err)
+static thr_status place_captions(thr_scene *scene, thr_err *err)
 {
   thr_status st = THR_OK;
-  double top = s->extent.y0 - 2 * s->size.text;
+  double top = scene->extent.y0 - 2 * scene->size.text;
   for (int panel = 0; panel < 2 && !st; panel++) {
-    s->caption[panel][0] = (s->layout->middle[panel][0] - s->origin[0]) * s->scale;
-    s->caption[panel][1] = top;
-    double half_width = 0.5 * thr_scene_text_width(thr_scene_caption(s, panel), CAPTION * s->size.text);
-    st = thr_boxes_add(&s->boxes, thr_box_around(s->caption[panel][0], top, half_width, CAPTION * s->size.text), THR_BOX_NAME,
-                       err);
+    scene->caption[panel][0] = (scene->layout->middle[panel][0] - scene->origin[0]) * scene->scale;
+    scene->caption[panel][1] = top;
+    double half_width = 0.5 * thr_scene_text_width(thr_scene_caption(scene, panel), CAPTION * scene->size.text);
+    st = thr_boxes_add(&scene->boxes, thr_box_around(scene->caption[panel][0], top, half_width, CAPTION * scene->size.text),
+                       THR_BOX_NAME, err);
   }
-  measure_extent(s);
+  measure_extent(scene);
   return st;
 }
 
-thr_status thr_scene_place_labels(thr_scene *s, thr_err *err)
+thr_status thr_scene_place_labels(thr_scene *scene, thr_err *err)
 {
-  thr_status st = place_numbers(s, err);
-  if (!st && !s->places.n_columns && s->size.pitch >= THR_SCENE_NAMED) st = place_names(s, err);
-  if (!st) measure_extent(s);
-  return !st && s->layout->node ? place_captions(s, err) : st;
+  thr_status st = place_numbers(scene, err);
+  if (!st && !scene->places.n_columns && scene->size.pitch >= THR_SCENE_NAMED) st = place_names(scene, err);
+  if (!st) measure_extent(scene);
+  return !st && scene->layout->node ? place_captions(scene, err) : st;
 }

@@ -56,19 +56,19 @@ static int cluster(const double (*xy)[2], int n, int axis, double median, keyed 
 }
 
 /* Nine of ten edges along a row or a column, and every place taken once. */
-static bool grid_like(const thr_places *p, const thr_frame *f, bool *taken)
+static bool grid_like(const thr_places *p, const thr_frame *frame, bool *taken)
 {
   int along = 0;
-  for (int e = 0; e < f->n_edges; e++) {
-    int a = f->edge[e][0], b = f->edge[e][1];
+  for (int e = 0; e < frame->n_edges; e++) {
+    int a = frame->edge[e][0], b = frame->edge[e][1];
     along += p->column[a] == p->column[b] || p->row[a] == p->row[b];
   }
-  for (int v = 0; v < f->n_nodes; v++) {
+  for (int v = 0; v < frame->n_nodes; v++) {
     bool *t = &taken[p->row[v] * p->n_columns + p->column[v]];
     if (*t) return false;
     *t = true;
   }
-  return along * 10L >= f->n_edges * 9L;
+  return along * 10L >= frame->n_edges * 9L;
 }
 
 /* Splits "AB12" into letters and digits; false for anything else or longer than 7 bytes of either. */
@@ -83,11 +83,11 @@ static bool split_name(const char *name, char letter[8], char number[8])
 }
 
 /* Takes letters and numbers from the nodes' names if all of them agree with rows and columns. */
-static bool take_names(thr_places *p, const thr_frame *f)
+static bool take_names(thr_places *p, const thr_frame *frame)
 {
-  for (int v = 0; v < f->n_nodes; v++) {
+  for (int v = 0; v < frame->n_nodes; v++) {
     char letter[8], number[8], *l = p->letter[p->column[v]], *n = p->number[p->row[v]];
-    if (!f->name || !f->name[v] || !split_name(f->name[v], letter, number)) return false;
+    if (!frame->name || !frame->name[v] || !split_name(frame->name[v], letter, number)) return false;
     if ((*l && strcmp(l, letter) != 0) || (*n && strcmp(n, number) != 0)) return false;
     snprintf(l, 8, "%s", letter);
     snprintf(n, 8, "%s", number);
@@ -119,23 +119,23 @@ static thr_status allocate(thr_places *p, int n, thr_err *err)
   return p->x && p->y && p->letter && p->number && p->column && p->row ? THR_OK : thr_nomem(err);
 }
 
-thr_status thr_places_find(thr_places *out, const thr_frame *f, const double (*xy)[2], double median, thr_err *err)
+thr_status thr_places_find(thr_places *out, const thr_frame *frame, const double (*xy)[2], double median, thr_err *err)
 {
   thr_places p = {0};
   bool found = false, *taken = NULL;
-  keyed *k = thr_calloc((size_t)f->n_nodes, sizeof *k);
-  thr_status st = k ? allocate(&p, f->n_nodes, err) : thr_nomem(err);
+  keyed *k = thr_calloc((size_t)frame->n_nodes, sizeof *k);
+  thr_status st = k ? allocate(&p, frame->n_nodes, err) : thr_nomem(err);
   if (st) goto done;
-  p.n_columns = cluster(xy, f->n_nodes, 0, median, k, p.column, p.x);
-  p.n_rows = p.n_columns > 1 ? cluster(xy, f->n_nodes, 1, median, k, p.row, p.y) : 0;
-  if (p.n_rows < 2 || (long)p.n_rows * p.n_columns > 3L * f->n_nodes) goto done;
+  p.n_columns = cluster(xy, frame->n_nodes, 0, median, k, p.column, p.x);
+  p.n_rows = p.n_columns > 1 ? cluster(xy, frame->n_nodes, 1, median, k, p.row, p.y) : 0;
+  if (p.n_rows < 2 || (long)p.n_rows * p.n_columns > 3L * frame->n_nodes) goto done;
   taken = thr_calloc((size_t)p.n_rows * (size_t)p.n_columns, sizeof *taken);
   if (!taken) {
     st = thr_nomem(err);
     goto done;
   }
-  found = grid_like(&p, f, taken);
-  if (found && !take_names(&p, f)) make_names(&p);
+  found = grid_like(&p, frame, taken);
+  if (found && !take_names(&p, frame)) make_names(&p);
 done:
   free(k);
   free(taken);
@@ -144,12 +144,12 @@ done:
   return st;
 }
 
-void thr_places_name(const thr_places *p, const thr_frame *f, int v, char name[48])
+void thr_places_name(const thr_places *p, const thr_frame *frame, int v, char name[48])
 {
   if (p->n_columns)
     snprintf(name, 48, "%s%s", p->letter[p->column[v]], p->number[p->row[v]]);
-  else if (f->name && f->name[v])
-    thr_text_copy_clean(name, 41, f->name[v]);
+  else if (frame->name && frame->name[v])
+    thr_text_copy_clean(name, 41, frame->name[v]);
   else
     snprintf(name, 48, "%d", v);
 }

@@ -13,14 +13,15 @@ typedef struct {
   int *column, *row;               /* [n_nodes] */
 } thr_places;
 
-/* Finds the grid in xy[f->n_nodes] (+y up, median edge length given). Grid-like: coordinates fall into clusters no wider
+/* Finds the grid in xy[frame->n_nodes] (+y up, median edge length given). Grid-like: coordinates fall into clusters no wider
  * than a tenth of the median, nine of ten edges stay in a row or column, no two nodes share a place, and at least a
  * third of the places is taken; otherwise places is {0}. Names like "C4" that agree with the picture are taken over. O(n log n).
  */
-thr_status thr_places_find(thr_places *p, const thr_frame *f, const double (*xy)[2], double median, thr_err *err) THR_MUST_CHECK;
+thr_status thr_places_find(thr_places *p, const thr_frame *frame, const double (*xy)[2], double median,
+                           thr_err *err) THR_MUST_CHECK;
 void thr_places_destroy(thr_places *p);
 
 /* "C4" on a grid, else the node's name, cut to 40 bytes. */
-void thr_places_name(const thr_places *p, const thr_frame *f, int v, char name[48]);
+void thr_places_name(const thr_places *p, const thr_frame *frame, int v, char name[48]);
 
 #endif

@@ -14,10 +14,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static thr_status check(const thr_plan *p, int *n_passes, thr_err *err)
+static thr_status check(const thr_plan *plan, int *n_passes, thr_err *err)
 {
-  thr_status st = thr_scene_check_cords(p, n_passes, err);
-  return !st && !p->n_cords ? thr_fail(err, THR_EINPUT, "the plan has no cord to draw") : st;
+  thr_status st = thr_scene_check_cords(plan, n_passes, err);
+  return !st && !plan->n_cords ? thr_fail(err, THR_EINPUT, "the plan has no cord to draw") : st;
 }
 
 /* Takes text over into out, if all went well. Destroys it. */
@@ -29,22 +29,23 @@ static thr_status take_over(thr_text *text, thr_status st, thr_text *out, thr_er
   return st;
 }
 
-thr_status thr_polylines_obj(const thr_plan *p, thr_text *out, thr_err *err)
+thr_status thr_polylines_obj(const thr_plan *plan, thr_text *out, thr_err *err)
 {
   int n;
-  thr_text t = {0};
-  thr_status st = check(p, &n, err);
+  thr_text text = {0};
+  thr_status st = check(plan, &n, err);
   if (st) return st;
-  thr_text_printf(&t, "# thread plan: %d cord%s, %d passes\n", p->n_cords, p->n_cords == 1 ? "" : "s", n);
-  thr_obj_write_nodes(&p->frame, &t);
-  for (int c = 0; c < p->n_cords; c++) {
+  thr_text_printf(&text, "# thread plan: %d cord%s, %d passes\n", plan->n_cords, plan->n_cords == 1 ? "" : "s", n);
+  thr_obj_write_nodes(&plan->frame, &text);
+  for (int c = 0; c < plan->n_cords; c++) {
     char id[12];
-    thr_scene_cord_id(p, c, id);
-    thr_text_printf(&t, "o cord-%s\n", id);
-    for (int k = 0; k < p->cord[c].n_passes; k++)
-      thr_text_printf(&t, "l %d %d\n", thr_tail(&p->frame, p->cord[c].half[k]) + 1, thr_head(&p->frame, p->cord[c].half[k]) + 1);
+    thr_scene_cord_id(plan, c, id);
+    thr_text_printf(&text, "o cord-%s\n", id);
+    for (int k = 0; k < plan->cord[c].n_passes; k++)
+      thr_text_printf(&text, "l %d %d\n", thr_tail(&plan->frame, plan->cord[c].half[k]) + 1,
+                      thr_head(&plan->frame, plan->cord[c].half[k]) + 1);
   }
-  return take_over(&t, THR_OK, out, err);
+  return take_over(&text, THR_OK, out, err);
 }
 
 /* ---- glTF ---- */
@@ -85,9 +86,9 @@ static void put_float(base64 *b, float value)
 }
 
 /* In metres, y upwards. */
-static thr_status position(const thr_frame *f, int v, double metres, float at[3], thr_err *err)
+static thr_status position(const thr_frame *frame, int v, double metres, float at[3], thr_err *err)
 {
-  const double *a = f->xyz[v], turned[3] = {a[0] * metres, a[2] * metres, -a[1] * metres};
+  const double *a = frame->xyz[v], turned[3] = {a[0] * metres, a[2] * metres, -a[1] * metres};
   for (int i = 0; i < 3; i++) {
     if (!(fabs(turned[i]) <= FLT_MAX))
       return thr_fail(err, THR_EINPUT, "node %d lies too far away for glTF's numbers; move the framework or set its --units", v);
@@ -97,14 +98,14 @@ static thr_status position(const thr_frame *f, int v, double metres, float at[3]
 }
 
 /* A node has twelve bytes, full groups of three: base64 needs no padding. */
-static thr_status put_strip(const thr_plan *p, int c, double metres, base64 *b, strip *s, thr_err *err)
+static thr_status put_strip(const thr_plan *plan, int c, double metres, base64 *b, strip *s, thr_err *err)
 {
-  const thr_cord *cord = &p->cord[c];
+  const thr_cord *cord = &plan->cord[c];
   float at[3] = {0};
   *s = (strip){.count = cord->n_passes + 1};
   for (int k = 0; k < s->count; k++) {
-    int v = k ? thr_head(&p->frame, cord->half[k - 1]) : thr_cord_start(&p->frame, cord);
-    thr_status st = position(&p->frame, v, metres, at, err);
+    int v = k ? thr_head(&plan->frame, cord->half[k - 1]) : thr_cord_start(&plan->frame, cord);
+    thr_status st = position(&plan->frame, v, metres, at, err);
     if (st) return st;
     for (int i = 0; i < 3; i++) {
       s->low[i] = k ? fminf(s->low[i], at[i]) : at[i];
@@ -115,12 +116,12 @@ static thr_status put_strip(const thr_plan *p, int c, double metres, base64 *b, 
   return THR_OK;
 }
 
-static void put_corner(thr_writer *w, const char *key, const float corner[3])
+static void put_corner(thr_writer *writer, const char *key, const float corner[3])
 {
-  thr_write_array(w, key);
+  thr_write_array(writer, key);
   for (int i = 0; i < 3; i++)
-    thr_write_printf(w, NULL, "%.9g", (double)corner[i]);
-  thr_write_close(w);
+    thr_write_printf(writer, NULL, "%.9g", (double)corner[i]);
+  thr_write_close(writer);
 }
 
 static double linear(const char *hex)
@@ -130,153 +131,154 @@ static double linear(const char *hex)
   return value <= 0.04045 ? value / 12.92 : pow((value + 0.055) / 1.055, 2.4);
 }
 
-static void put_material(thr_writer *w, const thr_plan *p, const thr_copy *copy, int c)
+static void put_material(thr_writer *writer, const thr_plan *plan, const thr_copy *copy, int c)
 {
-  bool symmetric = thr_copies_paths(copy, p->n_cords) < p->n_cords;
+  bool symmetric = thr_copies_paths(copy, plan->n_cords) < plan->n_cords;
   thr_colour colour = thr_palette(symmetric ? copy[c].path : c);
   const char *hex = copy[c].of == c ? colour.hex : colour.pale;
-  thr_write_object(w, "pbrMetallicRoughness");
-  thr_write_array(w, "baseColorFactor");
+  thr_write_object(writer, "pbrMetallicRoughness");
+  thr_write_array(writer, "baseColorFactor");
   for (int i = 1; i < 7; i += 2)
-    thr_write_printf(w, NULL, "%.4f", linear(hex + i));
-  thr_write_int(w, NULL, 1);
-  thr_write_close(w);
-  thr_write_int(w, "metallicFactor", 0);
-  thr_write_int(w, "roughnessFactor", 1);
-  thr_write_close(w);
+    thr_write_printf(writer, NULL, "%.4f", linear(hex + i));
+  thr_write_int(writer, NULL, 1);
+  thr_write_close(writer);
+  thr_write_int(writer, "metallicFactor", 0);
+  thr_write_int(writer, "roughnessFactor", 1);
+  thr_write_close(writer);
 }
 
-static void put_primitive(thr_writer *w, int c)
+static void put_primitive(thr_writer *writer, int c)
 {
-  thr_write_array(w, "primitives");
-  thr_write_object(w, NULL);
-  thr_write_object(w, "attributes");
-  thr_write_int(w, "POSITION", c);
-  thr_write_close(w);
-  thr_write_int(w, "mode", LINE_STRIP);
-  thr_write_int(w, "material", c);
-  thr_write_close(w);
-  thr_write_close(w);
+  thr_write_array(writer, "primitives");
+  thr_write_object(writer, NULL);
+  thr_write_object(writer, "attributes");
+  thr_write_int(writer, "POSITION", c);
+  thr_write_close(writer);
+  thr_write_int(writer, "mode", LINE_STRIP);
+  thr_write_int(writer, "material", c);
+  thr_write_close(writer);
+  thr_write_close(writer);
 }
 
-static void put_accessor(thr_writer *w, int c, const strip *s)
+static void put_accessor(thr_writer *writer, int c, const strip *s)
 {
-  thr_write_int(w, "bufferView", c);
-  thr_write_int(w, "componentType", FLOAT);
-  thr_write_int(w, "count", s->count);
-  thr_write_string(w, "type", "VEC3");
-  put_corner(w, "min", s->low);
-  put_corner(w, "max", s->high);
+  thr_write_int(writer, "bufferView", c);
+  thr_write_int(writer, "componentType", FLOAT);
+  thr_write_int(writer, "count", s->count);
+  thr_write_string(writer, "type", "VEC3");
+  put_corner(writer, "min", s->low);
+  put_corner(writer, "max", s->high);
 }
 
-static void put_view(thr_writer *w, const strip *s, int64_t offset)
+static void put_view(thr_writer *writer, const strip *s, int64_t offset)
 {
-  thr_write_int(w, "buffer", 0);
-  thr_write_int(w, "byteOffset", offset);
-  thr_write_int(w, "byteLength", 12 * (int64_t)s->count);
-  thr_write_int(w, "target", ARRAY_BUFFER);
+  thr_write_int(writer, "buffer", 0);
+  thr_write_int(writer, "byteOffset", offset);
+  thr_write_int(writer, "byteLength", 12 * (int64_t)s->count);
+  thr_write_int(writer, "target", ARRAY_BUFFER);
 }
 
 typedef enum { NODES, MESHES, MATERIALS, ACCESSORS, VIEWS, N_LISTS } list;
 
 /* One element per cord of a list; bytes before it in the buffer: offset. */
-static void put_element(thr_writer *w, const thr_plan *p, const thr_copy *copy, list what, int c, const strip *s, int64_t offset)
+static void put_element(thr_writer *writer, const thr_plan *plan, const thr_copy *copy, list what, int c, const strip *s,
+                        int64_t offset)
 {
   char id[12], name[24];
-  thr_scene_cord_id(p, c, id);
+  thr_scene_cord_id(plan, c, id);
   snprintf(name, sizeof name, "cord-%s", id);
-  thr_write_line(w, 0);
-  thr_write_object(w, NULL);
-  if (what <= MATERIALS) thr_write_string(w, "name", name);
+  thr_write_line(writer, 0);
+  thr_write_object(writer, NULL);
+  if (what <= MATERIALS) thr_write_string(writer, "name", name);
   switch (what) {
-  case NODES: thr_write_int(w, "mesh", c); break;
-  case MESHES: put_primitive(w, c); break;
-  case MATERIALS: put_material(w, p, copy, c); break;
-  case ACCESSORS: put_accessor(w, c, s); break;
-  default: put_view(w, s, offset);
+  case NODES: thr_write_int(writer, "mesh", c); break;
+  case MESHES: put_primitive(writer, c); break;
+  case MATERIALS: put_material(writer, plan, copy, c); break;
+  case ACCESSORS: put_accessor(writer, c, s); break;
+  default: put_view(writer, s, offset);
   }
-  thr_write_close(w);
+  thr_write_close(writer);
 }
 
-static void put_lists(thr_writer *w, const thr_plan *p, const thr_copy *copy, const strip *s)
+static void put_lists(thr_writer *writer, const thr_plan *plan, const thr_copy *copy, const strip *s)
 {
   static const char *const key[N_LISTS] = {"nodes", "meshes", "materials", "accessors", "bufferViews"};
   for (int what = 0; what < N_LISTS; what++) {
     int64_t offset = 0;
-    thr_write_line(w, 0);
-    thr_write_array(w, key[what]);
-    for (int c = 0; c < p->n_cords; c++) {
-      put_element(w, p, copy, (list)what, c, &s[c], offset);
+    thr_write_line(writer, 0);
+    thr_write_array(writer, key[what]);
+    for (int c = 0; c < plan->n_cords; c++) {
+      put_element(writer, plan, copy, (list)what, c, &s[c], offset);
       offset += 12 * (int64_t)s[c].count;
     }
-    thr_write_close(w);
+    thr_write_close(writer);
   }
 }
 
-static void put_head(thr_writer *w, const thr_plan *p, double metres)
+static void put_head(thr_writer *writer, const thr_plan *plan, double metres)
 {
-  thr_write_line(w, 0);
-  thr_write_object(w, "asset");
-  thr_write_string(w, "version", "2.0");
-  thr_write_string(w, "generator", "thread");
-  thr_write_object(w, "extras");
-  thr_write_string(w, "unit", p->frame.units);
-  thr_write_number(w, "metres_per_unit", metres);
-  thr_write_close(w);
-  thr_write_close(w);
-  thr_write_line(w, 0);
-  thr_write_int(w, "scene", 0);
-  thr_write_line(w, 0);
-  thr_write_array(w, "scenes");
-  thr_write_object(w, NULL);
-  thr_write_array(w, "nodes");
-  for (int c = 0; c < p->n_cords; c++)
-    thr_write_int(w, NULL, c);
-  thr_write_close(w);
-  thr_write_close(w);
-  thr_write_close(w);
+  thr_write_line(writer, 0);
+  thr_write_object(writer, "asset");
+  thr_write_string(writer, "version", "2.0");
+  thr_write_string(writer, "generator", "thread");
+  thr_write_object(writer, "extras");
+  thr_write_string(writer, "unit", plan->frame.units);
+  thr_write_number(writer, "metres_per_unit", metres);
+  thr_write_close(writer);
+  thr_write_close(writer);
+  thr_write_line(writer, 0);
+  thr_write_int(writer, "scene", 0);
+  thr_write_line(writer, 0);
+  thr_write_array(writer, "scenes");
+  thr_write_object(writer, NULL);
+  thr_write_array(writer, "nodes");
+  for (int c = 0; c < plan->n_cords; c++)
+    thr_write_int(writer, NULL, c);
+  thr_write_close(writer);
+  thr_write_close(writer);
+  thr_write_close(writer);
 }
 
 /* Takes over the address of the n points. */
-static void put_buffers(thr_writer *w, int64_t n, thr_text *address)
+static void put_buffers(thr_writer *writer, int64_t n, thr_text *address)
 {
-  thr_write_line(w, 0);
-  thr_write_array(w, "buffers");
-  thr_write_object(w, NULL);
-  thr_write_int(w, "byteLength", 12 * n);
-  thr_write_words(w, "uri", address);
-  thr_write_close(w);
-  thr_write_close(w);
+  thr_write_line(writer, 0);
+  thr_write_array(writer, "buffers");
+  thr_write_object(writer, NULL);
+  thr_write_int(writer, "byteLength", 12 * n);
+  thr_write_words(writer, "uri", address);
+  thr_write_close(writer);
+  thr_write_close(writer);
 }
 
-thr_status thr_polylines_gltf(const thr_plan *p, thr_text *out, thr_err *err)
+thr_status thr_polylines_gltf(const thr_plan *plan, thr_text *out, thr_err *err)
 {
   int n;
   double mm;
-  thr_text t = {0}, data = {0};
-  thr_writer w = {.out = &t};
+  thr_text text = {0}, data = {0};
+  thr_writer writer = {.out = &text};
   base64 bytes = {.out = &data};
-  thr_status st = check(p, &n, err);
+  thr_status st = check(plan, &n, err);
   if (st) return st;
-  thr_copy *copy = thr_calloc((size_t)p->n_cords, sizeof *copy);
-  strip *s = thr_calloc((size_t)p->n_cords, sizeof *s);
+  thr_copy *copy = thr_calloc((size_t)plan->n_cords, sizeof *copy);
+  strip *s = thr_calloc((size_t)plan->n_cords, sizeof *s);
   if (!copy || !s) st = thr_nomem(err);
-  if (!st) st = thr_copies_find(p, copy, err);
-  double metres = thr_units_in_mm(p->frame.units, &mm, NULL) ? 0.001 : mm / 1000;
+  if (!st) st = thr_copies_find(plan, copy, err);
+  double metres = thr_units_in_mm(plan->frame.units, &mm, NULL) ? 0.001 : mm / 1000;
   thr_text_append(&data, "data:application/octet-stream;base64,");
-  for (int c = 0; c < p->n_cords && !st; c++)
-    st = put_strip(p, c, metres, &bytes, &s[c], err);
+  for (int c = 0; c < plan->n_cords && !st; c++)
+    st = put_strip(plan, c, metres, &bytes, &s[c], err);
   if (!st) {
-    thr_write_object(&w, NULL);
-    put_head(&w, p, metres);
-    put_lists(&w, p, copy, s);
-    put_buffers(&w, (int64_t)n + p->n_cords, &data);
-    thr_write_line(&w, 0);
-    thr_write_close(&w);
-    thr_text_append(&t, "\n");
+    thr_write_object(&writer, NULL);
+    put_head(&writer, plan, metres);
+    put_lists(&writer, plan, copy, s);
+    put_buffers(&writer, (int64_t)n + plan->n_cords, &data);
+    thr_write_line(&writer, 0);
+    thr_write_close(&writer);
+    thr_text_append(&text, "\n");
   }
   thr_text_destroy(&data);
   free(copy);
   free(s);
-  return take_over(&t, st, out, err);
+  return take_over(&text, st, out, err);
 }

@@ -10,12 +10,12 @@
 
 /* Wavefront OBJ in the framework's units and axes: all nodes, then per cord an object with a two-vertex l record per pass, in
  * order (Blender takes no more than the first two vertices of an l for an edge). The reader of frameworks reads it back. */
-thr_status thr_polylines_obj(const thr_plan *p, thr_text *out, thr_err *err) THR_MUST_CHECK;
+thr_status thr_polylines_obj(const thr_plan *plan, thr_text *out, thr_err *err) THR_MUST_CHECK;
 
 /* glTF 2.0 (Khronos 2021) in one JSON file with its buffer inside: a node, a mesh of one LINE_STRIP and a material per cord, in
  * metres, y upwards: (x, y, z) of the framework becomes (x, z, -y), a quarter turn about x. Units that thr_units_in_mm does not
  * know count as mm; asset.extras says how many metres a unit was. Colours as in the overview. THR_EINPUT also for coordinates
  * that are too large for its 32-bit numbers. */
-thr_status thr_polylines_gltf(const thr_plan *p, thr_text *out, thr_err *err) THR_MUST_CHECK;
+thr_status thr_polylines_gltf(const thr_plan *plan, thr_text *out, thr_err *err) THR_MUST_CHECK;
 
 #endif

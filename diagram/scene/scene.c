@@ -21,20 +21,20 @@ double thr_scene_text_width(const char *text, double font_size)
   return font_size * (0.64 * thr_text_columns(text, SIZE_MAX) + 0.11 * capitals);
 }
 
-double thr_scene_pill_height(const thr_scene *s)
+double thr_scene_pill_height(const thr_scene *scene)
 {
-  return 1.4 * s->size.text;
+  return 1.4 * scene->size.text;
 }
 
-double thr_scene_pill_width(const thr_scene *s, const char *text)
+double thr_scene_pill_width(const thr_scene *scene, const char *text)
 {
-  return fmax(thr_scene_text_width(text, s->size.text) + 0.6 * s->size.text, thr_scene_pill_height(s));
+  return fmax(thr_scene_text_width(text, scene->size.text) + 0.6 * scene->size.text, thr_scene_pill_height(scene));
 }
 
-void thr_scene_number(const thr_scene *s, int pass, char text[32])
+void thr_scene_number(const thr_scene *scene, int pass, char text[32])
 {
-  const thr_scene_pass *p = &s->pass[pass];
-  snprintf(text, 32, "%s%d", s->plan->n_cords > 1 ? s->id[p->cord] : "", p->number);
+  const thr_scene_pass *scene_pass = &scene->pass[pass];
+  snprintf(text, 32, "%s%d", scene->plan->n_cords > 1 ? scene->id[scene_pass->cord] : "", scene_pass->number);
 }
 
 double thr_scene_sweep(double a, double b)
@@ -43,138 +43,141 @@ double thr_scene_sweep(double a, double b)
   return d < 0 ? d + 2 * THR_PI : d;
 }
 
-bool thr_scene_is_copy(const thr_scene *s, int c)
+bool thr_scene_is_copy(const thr_scene *scene, int c)
 {
-  return s->copy && s->copy[c].of != c;
+  return scene->copy && scene->copy[c].of != c;
 }
 
-int thr_scene_hue(const thr_scene *s, int c)
+int thr_scene_hue(const thr_scene *scene, int c)
 {
-  return s->copy ? s->copy[c].path : c;
+  return scene->copy ? scene->copy[c].path : c;
 }
 
-const char *thr_scene_cord_colour(const thr_scene *s, int c)
+const char *thr_scene_cord_colour(const thr_scene *scene, int c)
 {
-  thr_colour colour = thr_palette(thr_scene_hue(s, c));
-  return thr_scene_is_copy(s, c) ? colour.pale : colour.hex;
+  thr_colour colour = thr_palette(thr_scene_hue(scene, c));
+  return thr_scene_is_copy(scene, c) ? colour.pale : colour.hex;
 }
 
-void thr_scene_colour(const thr_scene *s, int i, char hex[8])
+void thr_scene_colour(const thr_scene *scene, int i, char hex[8])
 {
-  const thr_scene_pass *p = &s->pass[i];
-  const thr_eval_cord *known = s->tension && s->tension->cord[p->cord].known ? &s->tension->cord[p->cord] : NULL;
+  const thr_scene_pass *pass = &scene->pass[i];
+  const thr_eval_cord *known =
+      scene->tension && scene->tension->cord[pass->cord].known ? &scene->tension->cord[pass->cord] : NULL;
   if (known)
-    thr_tension_colour(s->tension_range, known->tension[p->number - 1], hex);
-  else if (s->tension)
+    thr_tension_colour(scene->tension_range, known->tension[pass->number - 1], hex);
+  else if (scene->tension)
     snprintf(hex, 8, "#999999");
-  else if (s->turning && s->plan->n_cords == 1)
+  else if (scene->turning && scene->plan->n_cords == 1)
     snprintf(hex, 8, "#666666");
   else
     snprintf(hex, 8, "%s",
-             s->plan->n_cords > 1 ? thr_scene_cord_colour(s, p->cord) : thr_palette((p->number - 1) / THR_COLOUR_PASSES).hex);
+             scene->plan->n_cords > 1 ? thr_scene_cord_colour(scene, pass->cord)
+                                      : thr_palette((pass->number - 1) / THR_COLOUR_PASSES).hex);
 }
 
-bool thr_scene_rim(const thr_scene *s, int c, const char *colour, char rim[8])
+bool thr_scene_rim(const thr_scene *scene, int c, const char *colour, char rim[8])
 {
-  return !s->turning && !thr_scene_is_copy(s, c) && thr_palette_rim(colour, rim);
+  return !scene->turning && !thr_scene_is_copy(scene, c) && thr_palette_rim(colour, rim);
 }
 
-const double *thr_scene_dash(const thr_scene *s, int c)
+const double *thr_scene_dash(const thr_scene *scene, int c)
 {
-  int hues = s->copy ? thr_copies_paths(s->copy, s->plan->n_cords) : s->plan->n_cords;
-  return hues > THR_COLOURS ? thr_palette_dash(thr_scene_hue(s, c) / THR_COLOURS) : NULL;
+  int hues = scene->copy ? thr_copies_paths(scene->copy, scene->plan->n_cords) : scene->plan->n_cords;
+  return hues > THR_COLOURS ? thr_palette_dash(thr_scene_hue(scene, c) / THR_COLOURS) : NULL;
 }
 
-bool thr_scene_continues(const thr_scene *s, int i)
+bool thr_scene_continues(const thr_scene *scene, int i)
 {
-  return i + 1 < s->first_pass[s->pass[i].cord + 1];
+  return i + 1 < scene->first_pass[scene->pass[i].cord + 1];
 }
 
-const thr_mark *thr_scene_mark_before(const thr_scene *s, int i)
+const thr_mark *thr_scene_mark_before(const thr_scene *scene, int i)
 {
-  const thr_scene_pass *p = &s->pass[i];
-  if (p->number == 1) return &s->mark[p->cord][0];
-  return p->seam >= 0 ? &s->seam[p->seam][1] : NULL;
+  const thr_scene_pass *pass = &scene->pass[i];
+  if (pass->number == 1) return &scene->mark[pass->cord][0];
+  return pass->seam >= 0 ? &scene->seam[pass->seam][1] : NULL;
 }
 
-const thr_mark *thr_scene_mark_after(const thr_scene *s, int i)
+const thr_mark *thr_scene_mark_after(const thr_scene *scene, int i)
 {
-  const thr_scene_pass *p = &s->pass[i];
-  if (!thr_scene_continues(s, i)) return &s->mark[p->cord][1];
-  return p[1].seam >= 0 ? &s->seam[p[1].seam][0] : NULL;
+  const thr_scene_pass *pass = &scene->pass[i];
+  if (!thr_scene_continues(scene, i)) return &scene->mark[pass->cord][1];
+  return pass[1].seam >= 0 ? &scene->seam[pass[1].seam][0] : NULL;
 }
 
-const double *thr_scene_turn_start(const thr_scene *s, int i)
+const double *thr_scene_turn_start(const thr_scene *scene, int i)
 {
-  const thr_mark *m = thr_scene_mark_before(s, i);
-  return m ? m->at : s->pass[i - 1].to;
+  const thr_mark *mark = thr_scene_mark_before(scene, i);
+  return mark ? mark->at : scene->pass[i - 1].to;
 }
 
-void thr_scene_place_name(const thr_scene *s, int point, char name[48])
+void thr_scene_place_name(const thr_scene *scene, int point, char name[48])
 {
-  thr_places_name(&s->places, s->frame, thr_layout_node(s->layout, point), name);
+  thr_places_name(&scene->places, scene->frame, thr_layout_node(scene->layout, point), name);
 }
 
-double thr_scene_edge_length(const thr_scene *s, int e)
+double thr_scene_edge_length(const thr_scene *scene, int e)
 {
-  const double *a = s->at[s->paper->edge[e][0]], *b = s->at[s->paper->edge[e][1]];
+  const double *a = scene->at[scene->paper->edge[e][0]], *b = scene->at[scene->paper->edge[e][1]];
   return hypot(b[0] - a[0], b[1] - a[1]);
 }
 
-void thr_scene_direction(const thr_scene *s, int h, double d[2])
+void thr_scene_direction(const thr_scene *scene, int h, double d[2])
 {
-  const double *a = s->at[thr_tail(s->paper, h)], *b = s->at[thr_head(s->paper, h)];
+  const double *a = scene->at[thr_tail(scene->paper, h)], *b = scene->at[thr_head(scene->paper, h)];
   double length = hypot(b[0] - a[0], b[1] - a[1]);
   d[0] = length > 0 ? (b[0] - a[0]) / length : h & 1 ? -1 : 1;
   d[1] = length > 0 ? (b[1] - a[1]) / length : 0;
 }
 
-void thr_scene_destroy(thr_scene *s)
+void thr_scene_destroy(thr_scene *scene)
 {
-  thr_places_destroy(&s->places);
-  thr_boxes_destroy(&s->boxes);
-  free(s->copy);
-  thr_scratch_free(&s->own);
-  free(s->seam);
-  free(s->seam_labelled);
-  *s = (thr_scene){0};
+  thr_places_destroy(&scene->places);
+  thr_boxes_destroy(&scene->boxes);
+  free(scene->copy);
+  thr_scratch_free(&scene->own);
+  free(scene->seam);
+  free(scene->seam_labelled);
+  *scene = (thr_scene){0};
 }
 
-static thr_status allocate(thr_scene *s, thr_err *err)
+static thr_status allocate(thr_scene *scene, thr_err *err)
 {
-  size_t n = (size_t)s->layout->n_points, m = (size_t)s->frame->n_edges, c = (size_t)s->plan->n_cords, p = (size_t)s->n_passes;
-  s->at = thr_scratch_array(&s->own, n, sizeof *s->at);
-  s->twin = thr_scratch_array(&s->own, n, sizeof *s->twin);
-  s->angle = thr_scratch_array(&s->own, 2 * m, sizeof *s->angle);
-  s->around = thr_scratch_array(&s->own, 2 * m, sizeof *s->around);
-  s->rank = thr_scratch_array(&s->own, 2 * m, sizeof *s->rank);
-  s->gap = thr_scratch_array(&s->own, 2 * m, sizeof *s->gap);
-  s->lane = thr_scratch_array(&s->own, m, sizeof *s->lane);
-  s->bead = thr_scratch_array(&s->own, m, sizeof *s->bead);
-  s->pass = thr_scratch_array(&s->own, p, sizeof *s->pass);
-  s->first_pass = thr_scratch_array(&s->own, c + 1, sizeof *s->first_pass);
-  s->first_on = thr_scratch_array(&s->own, m + 2, sizeof *s->first_on);
-  s->on = thr_scratch_array(&s->own, p, sizeof *s->on);
-  s->mark = thr_scratch_array(&s->own, c, sizeof *s->mark);
-  s->id = thr_scratch_array(&s->own, c, sizeof *s->id);
-  s->named = thr_scratch_array(&s->own, n, sizeof *s->named);
-  s->name_at = thr_scratch_array(&s->own, n, sizeof *s->name_at);
-  return thr_scratch_check(&s->own, err);
+  size_t n = (size_t)scene->layout->n_points, m = (size_t)scene->frame->n_edges, c = (size_t)scene->plan->n_cords,
+         p = (size_t)scene->n_passes;
+  scene->at = thr_scratch_array(&scene->own, n, sizeof *scene->at);
+  scene->twin = thr_scratch_array(&scene->own, n, sizeof *scene->twin);
+  scene->angle = thr_scratch_array(&scene->own, 2 * m, sizeof *scene->angle);
+  scene->around = thr_scratch_array(&scene->own, 2 * m, sizeof *scene->around);
+  scene->rank = thr_scratch_array(&scene->own, 2 * m, sizeof *scene->rank);
+  scene->gap = thr_scratch_array(&scene->own, 2 * m, sizeof *scene->gap);
+  scene->lane = thr_scratch_array(&scene->own, m, sizeof *scene->lane);
+  scene->bead = thr_scratch_array(&scene->own, m, sizeof *scene->bead);
+  scene->pass = thr_scratch_array(&scene->own, p, sizeof *scene->pass);
+  scene->first_pass = thr_scratch_array(&scene->own, c + 1, sizeof *scene->first_pass);
+  scene->first_on = thr_scratch_array(&scene->own, m + 2, sizeof *scene->first_on);
+  scene->on = thr_scratch_array(&scene->own, p, sizeof *scene->on);
+  scene->mark = thr_scratch_array(&scene->own, c, sizeof *scene->mark);
+  scene->id = thr_scratch_array(&scene->own, c, sizeof *scene->id);
+  scene->named = thr_scratch_array(&scene->own, n, sizeof *scene->named);
+  scene->name_at = thr_scratch_array(&scene->own, n, sizeof *scene->name_at);
+  return thr_scratch_check(&scene->own, err);
 }
 
-thr_status thr_scene_check_cords(const thr_plan *p, int *n_passes, thr_err *err)
+thr_status thr_scene_check_cords(const thr_plan *plan, int *n_passes, thr_err *err)
 {
-  const thr_frame *f = &p->frame;
+  const thr_frame *frame = &plan->frame;
   long total = 0;
-  for (int c = 0; c < p->n_cords; c++) {
-    const thr_cord *cord = &p->cord[c];
+  for (int c = 0; c < plan->n_cords; c++) {
+    const thr_cord *cord = &plan->cord[c];
     if (cord->n_passes < 1) return thr_fail(err, THR_EINPUT, "cord %.11s has no pass", cord->id);
     for (int i = 0; i < cord->n_passes; i++) {
       int h = cord->half[i];
-      if (h < 0 || h >= 2 * f->n_edges)
+      if (h < 0 || h >= 2 * frame->n_edges)
         return thr_fail(err, THR_EINPUT, "cord %.11s: pass %d names edge %d, but there are %d", cord->id, i + 1, h / 2,
-                        f->n_edges);
-      if (i && thr_head(f, cord->half[i - 1]) != thr_tail(f, h))
+                        frame->n_edges);
+      if (i && thr_head(frame, cord->half[i - 1]) != thr_tail(frame, h))
         return thr_fail(err, THR_EINPUT, "cord %.11s: pass %d does not start where pass %d ends", cord->id, i + 1, i);
     }
     total += cord->n_passes;
@@ -185,192 +188,196 @@ thr_status thr_scene_check_cords(const thr_plan *p, int *n_passes, thr_err *err)
 }
 
 /* Which cords are copies, if any is. */
-static thr_status find_copies(thr_scene *s, thr_err *err)
+static thr_status find_copies(thr_scene *scene, thr_err *err)
 {
-  int n = s->plan->n_cords;
+  int n = scene->plan->n_cords;
   thr_copy *copy = thr_calloc((size_t)n, sizeof *copy);
   if (!copy) return thr_nomem(err);
-  thr_status st = thr_copies_find(s->plan, copy, err);
+  thr_status st = thr_copies_find(scene->plan, copy, err);
   if (!st && thr_copies_paths(copy, n) < n)
-    s->copy = copy;
+    scene->copy = copy;
   else
     free(copy);
   return st;
 }
 
 /* Flattens the cords into passes and sorts these by edge; within an edge by pass. */
-void thr_scene_cord_id(const thr_plan *p, int c, char id[12])
+void thr_scene_cord_id(const thr_plan *plan, int c, char id[12])
 {
-  size_t letters = strspn(p->cord[c].id, "ABCDEFGHIJKLMNOPQRSTUVWXYZ");
-  if (letters && !p->cord[c].id[letters])
-    snprintf(id, 12, "%.11s", p->cord[c].id);
+  size_t letters = strspn(plan->cord[c].id, "ABCDEFGHIJKLMNOPQRSTUVWXYZ");
+  if (letters && !plan->cord[c].id[letters])
+    snprintf(id, 12, "%.11s", plan->cord[c].id);
   else
     thr_cord_id(c, id);
 }
 
-static void collect_passes(thr_scene *s)
+static void collect_passes(thr_scene *scene)
 {
   int n = 0;
-  for (int c = 0; c < s->plan->n_cords; c++) {
-    const thr_cord *cord = &s->plan->cord[c];
-    s->first_pass[c] = n;
+  for (int c = 0; c < scene->plan->n_cords; c++) {
+    const thr_cord *cord = &scene->plan->cord[c];
+    scene->first_pass[c] = n;
     for (int i = 0; i < cord->n_passes; i++) {
-      s->pass[n++] = (thr_scene_pass){.cord = c, .number = i + 1, .half = cord->half[i], .seam = -1};
-      s->first_on[(cord->half[i] >> 1) + 2]++;
+      scene->pass[n++] = (thr_scene_pass){.cord = c, .number = i + 1, .half = cord->half[i], .seam = -1};
+      scene->first_on[(cord->half[i] >> 1) + 2]++;
     }
-    thr_scene_cord_id(s->plan, c, s->id[c]);
+    thr_scene_cord_id(scene->plan, c, scene->id[c]);
   }
-  s->first_pass[s->plan->n_cords] = n;
-  for (int e = 0; e < s->frame->n_edges; e++)
-    s->first_on[e + 2] += s->first_on[e + 1];
+  scene->first_pass[scene->plan->n_cords] = n;
+  for (int e = 0; e < scene->frame->n_edges; e++)
+    scene->first_on[e + 2] += scene->first_on[e + 1];
   for (int i = 0; i < n; i++) {
-    int *at = &s->first_on[(s->pass[i].half >> 1) + 1];
-    s->on[(*at)++] = i;
+    int *at = &scene->first_on[(scene->pass[i].half >> 1) + 1];
+    scene->on[(*at)++] = i;
   }
 }
 
-static void choose_sizes(thr_scene *s)
+static void choose_sizes(thr_scene *scene)
 {
-  double u = s->size.pitch;
-  s->size.lane = 0.115 * u;
-  s->size.cord = fmin(0.045 * u, 1.6);
-  s->size.casing = fmin(0.025 * u, 0.8);
-  s->size.bead = 0.28 * u;
-  s->size.gap = 0.15 * u;
-  s->size.foot = fmax(0.16 * u, 0.5);
-  s->size.arrow = fmin(0.14 * u, 5);
-  s->size.text = u > 28 ? 3 : 2.5;
+  double u = scene->size.pitch;
+  scene->size.lane = 0.115 * u;
+  scene->size.cord = fmin(0.045 * u, 1.6);
+  scene->size.casing = fmin(0.025 * u, 0.8);
+  scene->size.bead = 0.28 * u;
+  scene->size.gap = 0.15 * u;
+  scene->size.foot = fmax(0.16 * u, 0.5);
+  scene->size.arrow = fmin(0.14 * u, 5);
+  scene->size.text = u > 28 ? 3 : 2.5;
 }
 
 /* Chooses the scale and puts the nodes on paper. */
-static thr_status place_nodes(thr_scene *s, double pitch_mm, thr_err *err)
+static thr_status place_nodes(thr_scene *scene, double pitch_mm, thr_err *err)
 {
-  const thr_layout *l = s->layout;
+  const thr_layout *layout = scene->layout;
   double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
-  for (int v = 0; v < l->n_points; v++)
+  for (int v = 0; v < layout->n_points; v++)
     for (int i = 0; i < 2; i++) {
-      low[i] = fmin(low[i], l->xy[v][i]);
-      high[i] = fmax(high[i], l->xy[v][i]);
+      low[i] = fmin(low[i], layout->xy[v][i]);
+      high[i] = fmax(high[i], layout->xy[v][i]);
     }
   double extent = fmax(high[0] - low[0], high[1] - low[1]);
-  double unit = l->median > 1e-9 * extent ? l->median : extent / sqrt(s->frame->n_edges);
+  double unit = layout->median > 1e-9 * extent ? layout->median : extent / sqrt(scene->frame->n_edges);
   if (!(unit > 0)) unit = 1;
   /* a layout with many short edges gets a larger sheet, so that these have room too */
-  double wanted = AUTO_PITCH * fmax(1, fmin(1.4, 0.6 / fmax(l->ratio, 0.01)));
-  wanted *= fmax(1, fmin(1.5, 0.8 + 0.17 * s->n_passes / s->frame->n_edges)); /* and so does one with many lanes */
+  double wanted = AUTO_PITCH * fmax(1, fmin(1.4, 0.6 / fmax(layout->ratio, 0.01)));
+  wanted *= fmax(1, fmin(1.5, 0.8 + 0.17 * scene->n_passes / scene->frame->n_edges)); /* and so does one with many lanes */
   double relative = fmax((high[0] - low[0]) / MAX_WIDTH, (high[1] - low[1]) / MAX_HEIGHT) / unit;
-  s->size.pitch = pitch_mm > 0 ? pitch_mm : fmin(wanted, relative > 0 ? 1 / relative : wanted);
-  s->scale = s->size.pitch / unit;
-  s->width = (high[0] - low[0]) * s->scale;
-  s->height = (high[1] - low[1]) * s->scale;
-  if (!(s->width < 1e5 && s->height < 1e5))
-    return thr_fail(err, THR_EINPUT, "a pitch of %g mm needs a sheet %.0f mm wide; choose a smaller one", s->size.pitch,
-                    fmax(s->width, s->height));
-  s->origin[0] = low[0];
-  s->origin[1] = high[1];
-  for (int v = 0; v < l->n_points; v++) {
-    s->at[v][0] = (l->xy[v][0] - low[0]) * s->scale;
-    s->at[v][1] = (high[1] - l->xy[v][1]) * s->scale;
+  scene->size.pitch = pitch_mm > 0 ? pitch_mm : fmin(wanted, relative > 0 ? 1 / relative : wanted);
+  scene->scale = scene->size.pitch / unit;
+  scene->width = (high[0] - low[0]) * scene->scale;
+  scene->height = (high[1] - low[1]) * scene->scale;
+  if (!(scene->width < 1e5 && scene->height < 1e5))
+    return thr_fail(err, THR_EINPUT, "a pitch of %g mm needs a sheet %.0f mm wide; choose a smaller one", scene->size.pitch,
+                    fmax(scene->width, scene->height));
+  scene->origin[0] = low[0];
+  scene->origin[1] = high[1];
+  for (int v = 0; v < layout->n_points; v++) {
+    scene->at[v][0] = (layout->xy[v][0] - low[0]) * scene->scale;
+    scene->at[v][1] = (high[1] - layout->xy[v][1]) * scene->scale;
   }
-  choose_sizes(s);
+  choose_sizes(scene);
   return THR_OK;
 }
 
 /* Sorts the half-edges around every node. */
-static thr_status sort_around(thr_scene *s, thr_err *err)
+static thr_status sort_around(thr_scene *scene, thr_err *err)
 {
-  const thr_frame *f = s->paper;
-  for (int h = 0; h < 2 * f->n_edges; h++) {
+  const thr_frame *frame = scene->paper;
+  for (int h = 0; h < 2 * frame->n_edges; h++) {
     double d[2];
-    thr_scene_direction(s, h, d);
-    s->angle[h] = atan2(d[1], d[0]);
+    thr_scene_direction(scene, h, d);
+    scene->angle[h] = atan2(d[1], d[0]);
   }
-  thr_status st = thr_layout_around(f, s->angle, s->around, err);
-  for (int v = 0; v < f->n_nodes && !st; v++)
-    for (int i = 0; i < thr_degree(f, v); i++)
-      s->rank[s->around[f->first[v] + i]] = i;
+  thr_status st = thr_layout_around(frame, scene->angle, scene->around, err);
+  for (int v = 0; v < frame->n_nodes && !st; v++)
+    for (int i = 0; i < thr_degree(frame, v); i++)
+      scene->rank[scene->around[frame->first[v] + i]] = i;
   return st;
 }
 
 /* Widths: lanes get closer where there are many or the edge is short. */
-static void size_beads(thr_scene *s)
+static void size_beads(thr_scene *scene)
 {
-  for (int e = 0; e < s->frame->n_edges; e++) {
-    int n = s->first_on[e + 1] - s->first_on[e];
-    double room = fmin(0.62 * s->size.pitch, fmax(0.6 * thr_scene_edge_length(s, e), 0.2 * s->size.pitch));
-    s->lane[e] = n > 1 ? fmin(s->size.lane, room / (n - 1)) : s->size.lane;
-    double wide = (n > 1 ? (n - 1) * s->lane[e] : 0) + 0.2 * s->size.pitch;
-    s->bead[e] = fmax(wide, fmin(s->size.bead, fmax(0.55 * thr_scene_edge_length(s, e), 0.17 * s->size.pitch)));
+  for (int e = 0; e < scene->frame->n_edges; e++) {
+    int n = scene->first_on[e + 1] - scene->first_on[e];
+    double room = fmin(0.62 * scene->size.pitch, fmax(0.6 * thr_scene_edge_length(scene, e), 0.2 * scene->size.pitch));
+    scene->lane[e] = n > 1 ? fmin(scene->size.lane, room / (n - 1)) : scene->size.lane;
+    double wide = (n > 1 ? (n - 1) * scene->lane[e] : 0) + 0.2 * scene->size.pitch;
+    scene->bead[e] = fmax(wide, fmin(scene->size.bead, fmax(0.55 * thr_scene_edge_length(scene, e), 0.17 * scene->size.pitch)));
   }
 }
 
 /* How far from the node half-edge h may start so that its bead clears the bead of its neighbour other. */
-static double clearance(const thr_scene *s, int h, int other)
+static double clearance(const thr_scene *scene, int h, int other)
 {
-  double a = thr_scene_sweep(s->angle[h], s->angle[other]);
+  double a = thr_scene_sweep(scene->angle[h], scene->angle[other]);
   if (a > THR_PI) a = 2 * THR_PI - a;
   if (a > 2.6) return 0;
   if (a < 0.05) a = 0.05;
-  return 0.5 * (s->bead[other >> 1] + s->bead[h >> 1] * cos(a)) / sin(a);
+  return 0.5 * (scene->bead[other >> 1] + scene->bead[h >> 1] * cos(a)) / sin(a);
 }
 
-static void size_gaps(thr_scene *s)
+static void size_gaps(thr_scene *scene)
 {
-  const thr_frame *f = s->paper;
-  for (int v = 0; v < f->n_nodes; v++) {
-    int first = f->first[v], degree = thr_degree(f, v);
+  const thr_frame *frame = scene->paper;
+  for (int v = 0; v < frame->n_nodes; v++) {
+    int first = frame->first[v], degree = thr_degree(frame, v);
     for (int i = 0; i < degree; i++) {
-      int h = s->around[first + i];
-      double gap = s->size.gap;
+      int h = scene->around[first + i];
+      double gap = scene->size.gap;
       if (degree > 1) {
-        gap = fmax(gap, 0.95 * clearance(s, h, s->around[first + (i + 1) % degree]));
-        gap = fmax(gap, 0.95 * clearance(s, h, s->around[first + (i + degree - 1) % degree]));
+        gap = fmax(gap, 0.95 * clearance(scene, h, scene->around[first + (i + 1) % degree]));
+        gap = fmax(gap, 0.95 * clearance(scene, h, scene->around[first + (i + degree - 1) % degree]));
       }
-      s->gap[h] = fmin(fmin(gap, s->size.pitch), SHORT * thr_scene_edge_length(s, h >> 1));
+      scene->gap[h] = fmin(fmin(gap, scene->size.pitch), SHORT * thr_scene_edge_length(scene, h >> 1));
     }
   }
 }
 
 /* Tells the boxes where the beads are: small squares along each. */
-static thr_status box_beads(thr_scene *s, thr_err *err)
+static thr_status box_beads(thr_scene *scene, thr_err *err)
 {
-  double u = s->size.pitch;
-  thr_status st = thr_boxes_init(&s->boxes, (thr_box){-u, -u, s->width + u, s->height + u}, fmax(0.5 * u, 4), err);
-  for (int e = 0; e < s->frame->n_edges && !st; e++) {
-    double d[2], half = 0.5 * s->bead[e], length = thr_scene_edge_length(s, e) - s->gap[2 * e] - s->gap[2 * e + 1];
-    const double *a = s->at[s->paper->edge[e][0]];
-    thr_scene_direction(s, 2 * e, d);
-    int n = (int)fmin(ceil(length / s->bead[e]) + 1, 64);
+  double u = scene->size.pitch;
+  thr_status st = thr_boxes_init(&scene->boxes, (thr_box){-u, -u, scene->width + u, scene->height + u}, fmax(0.5 * u, 4), err);
+  for (int e = 0; e < scene->frame->n_edges && !st; e++) {
+    double d[2], half = 0.5 * scene->bead[e],
+                 length = thr_scene_edge_length(scene, e) - scene->gap[2 * e] - scene->gap[2 * e + 1];
+    const double *a = scene->at[scene->paper->edge[e][0]];
+    thr_scene_direction(scene, 2 * e, d);
+    int n = (int)fmin(ceil(length / scene->bead[e]) + 1, 64);
     for (int i = 0; i < n && !st; i++) {
-      double t = s->gap[2 * e] + (n > 1 ? fmin(half, 0.5 * length) + i * fmax(length - 2 * half, 0) / (n - 1) : 0.5 * length);
-      st = thr_boxes_add(&s->boxes, thr_box_around(a[0] + t * d[0], a[1] + t * d[1], 0.9 * half, 0.9 * half), THR_BOX_BEAD, err);
+      double t = scene->gap[2 * e] + (n > 1 ? fmin(half, 0.5 * length) + i * fmax(length - 2 * half, 0) / (n - 1) : 0.5 * length);
+      st = thr_boxes_add(&scene->boxes, thr_box_around(a[0] + t * d[0], a[1] + t * d[1], 0.9 * half, 0.9 * half), THR_BOX_BEAD,
+                         err);
     }
   }
   return st;
 }
 
-thr_status thr_scene_build(thr_scene *s, const thr_plan *p, const thr_layout *l, double pitch_mm, bool pale_copies, thr_err *err)
+thr_status thr_scene_build(thr_scene *scene, const thr_plan *plan, const thr_layout *layout, double pitch_mm, bool pale_copies,
+                           thr_err *err)
 {
-  *s = (thr_scene){.plan = p, .frame = &p->frame, .layout = l, .paper = thr_layout_paper(l, &p->frame)};
-  thr_status st = thr_scene_check_cords(p, &s->n_passes, err);
-  if (!st) st = allocate(s, err);
-  if (!st && pale_copies) st = find_copies(s, err);
+  *scene = (thr_scene){.plan = plan, .frame = &plan->frame, .layout = layout, .paper = thr_layout_paper(layout, &plan->frame)};
+  thr_status st = thr_scene_check_cords(plan, &scene->n_passes, err);
+  if (!st) st = allocate(scene, err);
+  if (!st && pale_copies) st = find_copies(scene, err);
   if (st) goto done;
-  collect_passes(s);
-  if ((st = place_nodes(s, pitch_mm, err))) goto done;
-  if (thr_layout_to_scale(l->kind)) st = thr_places_find(&s->places, s->frame, (const double(*)[2])l->xy, l->median, err);
+  collect_passes(scene);
+  if ((st = place_nodes(scene, pitch_mm, err))) goto done;
+  if (thr_layout_to_scale(layout->kind))
+    st = thr_places_find(&scene->places, scene->frame, (const double(*)[2])layout->xy, layout->median, err);
   if (st) goto done;
-  if ((st = sort_around(s, err))) goto done;
-  size_beads(s);
-  size_gaps(s);
-  if ((st = box_beads(s, err))) goto done;
-  if ((st = thr_scene_place_marks(s, err))) goto done;
-  if ((st = thr_scene_place_seams(s, err))) goto done;
-  if ((st = thr_scene_order_lanes(s, err))) goto done;
-  thr_scene_lay_strands(s);
-  if ((st = thr_scene_name_seams(s, err))) goto done;
-  st = thr_scene_place_labels(s, err);
+  if ((st = sort_around(scene, err))) goto done;
+  size_beads(scene);
+  size_gaps(scene);
+  if ((st = box_beads(scene, err))) goto done;
+  if ((st = thr_scene_place_marks(scene, err))) goto done;
+  if ((st = thr_scene_place_seams(scene, err))) goto done;
+  if ((st = thr_scene_order_lanes(scene, err))) goto done;
+  thr_scene_lay_strands(scene);
+  if ((st = thr_scene_name_seams(scene, err))) goto done;
+  st = thr_scene_place_labels(scene, err);
 done:
-  if (st) thr_scene_destroy(s);
+  if (st) thr_scene_destroy(scene);
   return st;
 }

@@ -103,9 +103,9 @@ typedef struct {
 
 /* Everything up to the labels, copies of cords pale and without numbers if wanted. layout and plan are borrowed and must outlive
  * the scene. */
-thr_status thr_scene_build(thr_scene *s, const thr_plan *p, const thr_layout *l, double pitch_mm, bool pale_copies,
+thr_status thr_scene_build(thr_scene *scene, const thr_plan *p, const thr_layout *l, double pitch_mm, bool pale_copies,
                            thr_err *err) THR_MUST_CHECK;
-void thr_scene_destroy(thr_scene *s);
+void thr_scene_destroy(thr_scene *scene);
 
 /* THR_EINPUT for half-edges out of range and consecutive passes that do not meet; counts the passes of all cords. */
 thr_status thr_scene_check_cords(const thr_plan *p, int *n_passes, thr_err *err) THR_MUST_CHECK;
@@ -114,86 +114,86 @@ thr_status thr_scene_check_cords(const thr_plan *p, int *n_passes, thr_err *err)
 void thr_scene_cord_id(const thr_plan *p, int c, char id[12]);
 
 /* Is cord c drawn as a copy? Which of the hues has it: those of unique paths and copies are alike. */
-bool thr_scene_is_copy(const thr_scene *s, int c);
-int thr_scene_hue(const thr_scene *s, int c);
+bool thr_scene_is_copy(const thr_scene *scene, int c);
+int thr_scene_hue(const thr_scene *scene, int c);
 
 /* Its colour as "#rrggbb", where colours tell the cords apart. */
-const char *thr_scene_cord_colour(const thr_scene *s, int c);
+const char *thr_scene_cord_colour(const thr_scene *scene, int c);
 
 /* Colour of pass i as "#rrggbb": of its cord; when there is one cord only, of its twenty passes, or grey if turning is shown. Or
  * of its tension (grey if not known). */
-void thr_scene_colour(const thr_scene *s, int i, char hex[8]);
+void thr_scene_colour(const thr_scene *scene, int i, char hex[8]);
 enum { THR_COLOUR_PASSES = 20 };
 
 /* Is cord c, in a colour, lined with a darker rim (see thr_palette_rim)? Copies are meant to be pale, and turns have colours that
  * need none. */
-bool thr_scene_rim(const thr_scene *s, int c, const char *colour, char rim[8]);
+bool thr_scene_rim(const thr_scene *scene, int c, const char *colour, char rim[8]);
 
 /* Smallest pitch at which places that are not in a grid are named, mm. */
 static const double THR_SCENE_NAMED = 8;
 
 /* Dash pattern of cord c (see thr_palette_dash). */
-const double *thr_scene_dash(const thr_scene *s, int c);
+const double *thr_scene_dash(const thr_scene *scene, int c);
 
 /* The steps of thr_scene_build, in order. */
-thr_status thr_scene_place_marks(thr_scene *s, thr_err *err) THR_MUST_CHECK;
-thr_status thr_scene_place_seams(thr_scene *s, thr_err *err) THR_MUST_CHECK;
-thr_status thr_scene_order_lanes(thr_scene *s, thr_err *err) THR_MUST_CHECK;
-void thr_scene_lay_strands(thr_scene *s);
-thr_status thr_scene_name_seams(thr_scene *s, thr_err *err) THR_MUST_CHECK;
-thr_status thr_scene_place_labels(thr_scene *s, thr_err *err) THR_MUST_CHECK;
+thr_status thr_scene_place_marks(thr_scene *scene, thr_err *err) THR_MUST_CHECK;
+thr_status thr_scene_place_seams(thr_scene *scene, thr_err *err) THR_MUST_CHECK;
+thr_status thr_scene_order_lanes(thr_scene *scene, thr_err *err) THR_MUST_CHECK;
+void thr_scene_lay_strands(thr_scene *scene);
+thr_status thr_scene_name_seams(thr_scene *scene, thr_err *err) THR_MUST_CHECK;
+thr_status thr_scene_place_labels(thr_scene *scene, thr_err *err) THR_MUST_CHECK;
 
 /* Tells the boxes where the strands run through nodes and where the feet are, so that names keep off them. */
-thr_status thr_scene_box_strands(thr_scene *s, thr_err *err) THR_MUST_CHECK;
+thr_status thr_scene_box_strands(thr_scene *scene, thr_err *err) THR_MUST_CHECK;
 
 /* After these, to show turning: finds the turns' angles, and places for the signs of those sharper than THR_SCENE_SHARP. */
-thr_status thr_scene_find_turns(thr_scene *s, thr_err *err) THR_MUST_CHECK;
+thr_status thr_scene_find_turns(thr_scene *scene, thr_err *err) THR_MUST_CHECK;
 static const double THR_SCENE_SHARP = 1.57079632679489661923; /* rad */
 
 /* Angle of the turn from pass i to the next, rad; that of a closed cord's last pass closes it. -1 = none. */
-double thr_scene_turn_after(const thr_scene *s, int i);
+double thr_scene_turn_after(const thr_scene *scene, int i);
 
 /* Half the diagonal of the sign of a sharp turn, mm. */
-double thr_scene_sharp_size(const thr_scene *s);
+double thr_scene_sharp_size(const thr_scene *scene);
 
 /* Point at t of the Bezier curve from a by b and c to d. */
 void thr_scene_curve_at(const double a[2], const double b[2], const double c[2], const double d[2], double t, double at[2]);
 
 /* Unit vector along half-edge h on paper; (1, 0) if it has no length there. */
-void thr_scene_direction(const thr_scene *s, int h, double d[2]);
-double thr_scene_edge_length(const thr_scene *s, int e);
+void thr_scene_direction(const thr_scene *scene, int h, double d[2]);
+double thr_scene_edge_length(const thr_scene *scene, int e);
 
 /* Angle in [0, 2 pi) by which one turns, with rising angle, from direction a to direction b. */
 double thr_scene_sweep(double a, double b);
 
 /* Is pass i followed by pass i + 1 of the same cord? */
-bool thr_scene_continues(const thr_scene *s, int i);
+bool thr_scene_continues(const thr_scene *scene, int i);
 
 /* The mark that pass i comes from, or NULL: it comes from the pass before. The mark that it goes to, or NULL: to the next pass.
  */
-const thr_mark *thr_scene_mark_before(const thr_scene *s, int i);
-const thr_mark *thr_scene_mark_after(const thr_scene *s, int i);
+const thr_mark *thr_scene_mark_before(const thr_scene *scene, int i);
+const thr_mark *thr_scene_mark_after(const thr_scene *scene, int i);
 
 /* Where the curve starts that leads to pass i: the end of the pass before, or a mark. */
-const double *thr_scene_turn_start(const thr_scene *s, int i);
+const double *thr_scene_turn_start(const thr_scene *scene, int i);
 
 /* Are cords labelled where they go over to the other panel? Not at a small scale, where only the places on the rims are named. */
-bool thr_scene_labels_seams(const thr_scene *s);
+bool thr_scene_labels_seams(const thr_scene *scene);
 
 /* What is written over panel 0 or 1: "from above". */
-const char *thr_scene_caption(const thr_scene *s, int panel);
+const char *thr_scene_caption(const thr_scene *scene, int panel);
 
 /* The name of the place that a point of the layout shows. */
-void thr_scene_place_name(const thr_scene *s, int point, char name[48]);
+void thr_scene_place_name(const thr_scene *scene, int point, char name[48]);
 
 /* Estimated width of a text in mm. */
 double thr_scene_text_width(const char *text, double font_size);
 
 /* Size of the pill behind a number, mm. */
-double thr_scene_pill_width(const thr_scene *s, const char *text);
-double thr_scene_pill_height(const thr_scene *s);
+double thr_scene_pill_width(const thr_scene *scene, const char *text);
+double thr_scene_pill_height(const thr_scene *scene);
 
 /* The text of a pass's number: "17", or "A17" when there are several cords. */
-void thr_scene_number(const thr_scene *s, int pass, char text[32]);
+void thr_scene_number(const thr_scene *scene, int pass, char text[32]);
 
 #endif

@@ -15,17 +15,17 @@ void thr_scene_curve_at(const double a[2], const double b[2], const double c[2],
 }
 
 /* End of the lane of pass i at its start or its end, and there the unit direction of travel. */
-static void lane_end(const thr_scene *s, int i, bool end, double at[2])
+static void lane_end(const thr_scene *scene, int i, bool end, double at[2])
 {
-  const thr_scene_pass *p = &s->pass[i];
-  const thr_frame *f = s->paper;
-  int e = p->half >> 1, n = s->first_on[e + 1] - s->first_on[e], tail = end ? p->half ^ 1 : p->half;
-  double d[2], out[2], offset = (p->lane - 0.5 * (n - 1)) * s->lane[e];
-  const double *o = s->at[thr_tail(f, tail)];
-  thr_scene_direction(s, 2 * e, d);
-  thr_scene_direction(s, tail, out);
+  const thr_scene_pass *pass = &scene->pass[i];
+  const thr_frame *frame = scene->paper;
+  int e = pass->half >> 1, n = scene->first_on[e + 1] - scene->first_on[e], tail = end ? pass->half ^ 1 : pass->half;
+  double d[2], out[2], offset = (pass->lane - 0.5 * (n - 1)) * scene->lane[e];
+  const double *o = scene->at[thr_tail(frame, tail)];
+  thr_scene_direction(scene, 2 * e, d);
+  thr_scene_direction(scene, tail, out);
   for (int k = 0; k < 2; k++)
-    at[k] = o[k] + s->gap[tail] * out[k];
+    at[k] = o[k] + scene->gap[tail] * out[k];
   at[0] -= offset * d[1];
   at[1] += offset * d[0];
 }
@@ -60,76 +60,77 @@ static void bend(const double p[2], const double d[2], const double q[2], const 
 }
 
 /* The curve between a mark and a lane: leaves the mark towards the node, or along the lane if it sits on the node. */
-static void stub(const thr_scene *s, const thr_mark *m, const double lane[2], const double into[2], double turn[2][2])
+static void stub(const thr_scene *scene, const thr_mark *mark, const double lane[2], const double into[2], double turn[2][2])
 {
-  const double *o = s->at[m->point];
-  double length = hypot(lane[0] - m->at[0], lane[1] - m->at[1]);
+  const double *o = scene->at[mark->point];
+  double length = hypot(lane[0] - mark->at[0], lane[1] - mark->at[1]);
   for (int k = 0; k < 2; k++) {
-    turn[0][k] = m->beside ? m->at[k] + 0.6 * (o[k] - m->at[k]) : m->at[k];
-    turn[1][k] = lane[k] - fmin(0.5 * length, s->size.gap) * into[k];
+    turn[0][k] = mark->beside ? mark->at[k] + 0.6 * (o[k] - mark->at[k]) : mark->at[k];
+    turn[1][k] = lane[k] - fmin(0.5 * length, scene->size.gap) * into[k];
   }
 }
 
-static void lay_turn(thr_scene *s, int i)
+static void lay_turn(thr_scene *scene, int i)
 {
-  thr_scene_pass *p = &s->pass[i];
+  thr_scene_pass *pass = &scene->pass[i];
   double d[2], g[2];
-  thr_scene_direction(s, p->half, g);
-  const thr_mark *m = thr_scene_mark_before(s, i);
-  if (m) {
-    stub(s, m, p->from, g, p->turn);
+  thr_scene_direction(scene, pass->half, g);
+  const thr_mark *mark = thr_scene_mark_before(scene, i);
+  if (mark) {
+    stub(scene, mark, pass->from, g, pass->turn);
     return;
   }
-  thr_scene_direction(s, p[-1].half, d);
-  bend(p[-1].to, d, p->from, g, fmin(s->gap[p->half], s->gap[p[-1].half ^ 1]), p->turn);
+  thr_scene_direction(scene, pass[-1].half, d);
+  bend(pass[-1].to, d, pass->from, g, fmin(scene->gap[pass->half], scene->gap[pass[-1].half ^ 1]), pass->turn);
 }
 
-void thr_scene_lay_strands(thr_scene *s)
+void thr_scene_lay_strands(thr_scene *scene)
 {
-  for (int i = 0; i < s->n_passes; i++) {
-    lane_end(s, i, false, s->pass[i].from);
-    lane_end(s, i, true, s->pass[i].to);
+  for (int i = 0; i < scene->n_passes; i++) {
+    lane_end(scene, i, false, scene->pass[i].from);
+    lane_end(scene, i, true, scene->pass[i].to);
   }
-  for (int i = 0; i < s->n_passes; i++) {
-    thr_scene_pass *p = &s->pass[i];
-    lay_turn(s, i);
-    const thr_mark *m = thr_scene_mark_after(s, i);
-    if (!m) continue;
+  for (int i = 0; i < scene->n_passes; i++) {
+    thr_scene_pass *pass = &scene->pass[i];
+    lay_turn(scene, i);
+    const thr_mark *mark = thr_scene_mark_after(scene, i);
+    if (!mark) continue;
     double back[2], turn[2][2];
-    thr_scene_direction(s, p->half ^ 1, back);
-    stub(s, m, p->to, back, turn);
+    thr_scene_direction(scene, pass->half ^ 1, back);
+    stub(scene, mark, pass->to, back, turn);
     for (int k = 0; k < 2; k++) {
-      p->leave[0][k] = turn[1][k];
-      p->leave[1][k] = turn[0][k];
+      pass->leave[0][k] = turn[1][k];
+      pass->leave[1][k] = turn[0][k];
     }
   }
 }
 
 /* Boxes along a curve through a node, as dense as the line is wide. */
-static thr_status box_curve(thr_scene *s, const double a[2], const double b[2], const double c[2], const double d[2],
+static thr_status box_curve(thr_scene *scene, const double a[2], const double b[2], const double c[2], const double d[2],
                             thr_err *err)
 {
   thr_status st = THR_OK;
-  double at[2], half = 0.5 * s->size.cord + s->size.casing;
+  double at[2], half = 0.5 * scene->size.cord + scene->size.casing;
   int n = 2 + (int)fmin(hypot(d[0] - a[0], d[1] - a[1]) / half, 30);
   for (int k = 1; k < n && !st; k++) {
     thr_scene_curve_at(a, b, c, d, (double)k / n, at);
-    st = thr_boxes_add(&s->boxes, thr_box_around(at[0], at[1], half, half), THR_BOX_CORD, err);
+    st = thr_boxes_add(&scene->boxes, thr_box_around(at[0], at[1], half, half), THR_BOX_CORD, err);
   }
   return st;
 }
 
-thr_status thr_scene_box_strands(thr_scene *s, thr_err *err)
+thr_status thr_scene_box_strands(thr_scene *scene, thr_err *err)
 {
   thr_status st = THR_OK;
-  for (int i = 0; i < s->n_passes && !st; i++) {
-    const thr_scene_pass *p = &s->pass[i];
-    const thr_mark *m = thr_scene_mark_after(s, i);
-    st = box_curve(s, thr_scene_turn_start(s, i), p->turn[0], p->turn[1], p->from, err);
-    if (!st && m) st = box_curve(s, p->to, p->leave[0], p->leave[1], m->at, err);
+  for (int i = 0; i < scene->n_passes && !st; i++) {
+    const thr_scene_pass *pass = &scene->pass[i];
+    const thr_mark *mark = thr_scene_mark_after(scene, i);
+    st = box_curve(scene, thr_scene_turn_start(scene, i), pass->turn[0], pass->turn[1], pass->from, err);
+    if (!st && mark) st = box_curve(scene, pass->to, pass->leave[0], pass->leave[1], mark->at, err);
   }
-  for (int v = 0; v < s->layout->n_points && !st; v++)
-    if (s->frame->foot && s->frame->foot[thr_layout_node(s->layout, v)])
-      st = thr_boxes_add(&s->boxes, thr_box_around(s->at[v][0], s->at[v][1], s->size.foot, s->size.foot), THR_BOX_FOOT, err);
+  for (int v = 0; v < scene->layout->n_points && !st; v++)
+    if (scene->frame->foot && scene->frame->foot[thr_layout_node(scene->layout, v)])
+      st = thr_boxes_add(&scene->boxes, thr_box_around(scene->at[v][0], scene->at[v][1], scene->size.foot, scene->size.foot),
+                         THR_BOX_FOOT, err);
   return st;
 }

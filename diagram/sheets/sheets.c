@@ -20,27 +20,27 @@ thr_sheets_options thr_sheets_options_default(void)
   return (thr_sheets_options){.page = THR_PAGE_A4, .middle = false, .motion = NULL};
 }
 
-void thr_sheets_destroy(thr_sheets *s)
+void thr_sheets_destroy(thr_sheets *sheets)
 {
-  if (!s) return;
-  thr_guide_destroy(&s->guide);
-  thr_supplies_destroy(&s->supplies);
-  thr_crops_destroy(&s->crops);
-  free(s->copy);
-  free(s->edge_kind);
-  free(s->node_kind);
-  free(s->edge_sort);
-  free(s->move);
-  free(s->first_move);
-  free(s->first_pass);
-  free(s->fold);
-  free(s->threaded);
-  free(s->moved);
-  for (int i = 0; i < s->n_pages; i++)
-    thr_text_destroy(&s->page[i]);
-  free(s->page);
-  free(s->locator);
-  free(s);
+  if (!sheets) return;
+  thr_guide_destroy(&sheets->guide);
+  thr_supplies_destroy(&sheets->supplies);
+  thr_crops_destroy(&sheets->crops);
+  free(sheets->copy);
+  free(sheets->edge_kind);
+  free(sheets->node_kind);
+  free(sheets->edge_sort);
+  free(sheets->move);
+  free(sheets->first_move);
+  free(sheets->first_pass);
+  free(sheets->fold);
+  free(sheets->threaded);
+  free(sheets->moved);
+  for (int i = 0; i < sheets->n_pages; i++)
+    thr_text_destroy(&sheets->page[i]);
+  free(sheets->page);
+  free(sheets->locator);
+  free(sheets);
 }
 
 static int most(const int *a, int n)
@@ -51,104 +51,105 @@ static int most(const int *a, int n)
   return high;
 }
 
-static thr_status find_sorts(thr_sheets *s, thr_err *err)
+static thr_status find_sorts(thr_sheets *sheets, thr_err *err)
 {
-  int n = s->f->n_edges;
+  int n = sheets->f->n_edges;
   thr_bead *bead = thr_calloc((size_t)n, sizeof *bead);
-  s->edge_sort = thr_calloc((size_t)n, sizeof *s->edge_sort);
-  bool made = bead && s->edge_sort;
-  if (made) thr_sheets_beads(s, bead);
+  sheets->edge_sort = thr_calloc((size_t)n, sizeof *sheets->edge_sort);
+  bool made = bead && sheets->edge_sort;
+  if (made) thr_sheets_beads(sheets, bead);
   for (int i = 0; i < n && made; i++)
-    s->edge_sort[bead[i].item] = bead[i].sort;
+    sheets->edge_sort[bead[i].item] = bead[i].sort;
   free(bead);
   return made ? THR_OK : thr_nomem(err);
 }
 
 /* All that pages are made from. */
-static thr_status prepare(thr_sheets *s, thr_err *err)
+static thr_status prepare(thr_sheets *sheets, thr_err *err)
 {
-  const thr_plan *p = s->plan;
-  thr_status st = thr_supplies_make(&s->supplies, p, err);
-  if (!st) st = thr_supplies_find_sizes(&s->supplies, err);
+  const thr_plan *plan = sheets->plan;
+  thr_status st = thr_supplies_make(&sheets->supplies, plan, err);
+  if (!st) st = thr_supplies_find_sizes(&sheets->supplies, err);
   if (st) return st;
-  s->copy = thr_calloc((size_t)p->n_cords, sizeof *s->copy);
-  s->edge_kind = thr_calloc((size_t)s->f->n_edges, sizeof *s->edge_kind);
-  s->node_kind = thr_calloc((size_t)s->f->n_nodes, sizeof *s->node_kind);
-  if (!s->copy || !s->edge_kind || !s->node_kind) return thr_nomem(err);
-  st = thr_copies_find(p, s->copy, err);
-  if (!st) st = thr_kinds_find(s->f, s->edge_kind, s->node_kind, err);
-  if (!st) st = find_sorts(s, err);
-  if (!st) st = thr_guide_make(&s->guide, s->f, err);
-  if (!st) st = thr_sheets_plan_moves(s, err);
+  sheets->copy = thr_calloc((size_t)plan->n_cords, sizeof *sheets->copy);
+  sheets->edge_kind = thr_calloc((size_t)sheets->f->n_edges, sizeof *sheets->edge_kind);
+  sheets->node_kind = thr_calloc((size_t)sheets->f->n_nodes, sizeof *sheets->node_kind);
+  if (!sheets->copy || !sheets->edge_kind || !sheets->node_kind) return thr_nomem(err);
+  st = thr_copies_find(plan, sheets->copy, err);
+  if (!st) st = thr_kinds_find(sheets->f, sheets->edge_kind, sheets->node_kind, err);
+  if (!st) st = find_sorts(sheets, err);
+  if (!st) st = thr_guide_make(&sheets->guide, sheets->f, err);
+  if (!st) st = thr_sheets_plan_moves(sheets, err);
   if (st) return st;
-  s->edge_kinds = most(s->edge_kind, s->f->n_edges);
-  s->node_kinds = most(s->node_kind, s->f->n_nodes);
-  thr_crops_make(&s->crops, p, &s->guide.layout);
+  sheets->edge_kinds = most(sheets->edge_kind, sheets->f->n_edges);
+  sheets->node_kinds = most(sheets->node_kind, sheets->f->n_nodes);
+  thr_crops_make(&sheets->crops, plan, &sheets->guide.layout);
   return THR_OK;
 }
 
 /* The title page knows where all others are: it is made last and put first. */
-static void lay_out(thr_sheets *s)
+static void lay_out(thr_sheets *sheets)
 {
   int first[THR_SHEET_PARTS];
-  first[THR_SHEET_PREPARE] = s->n_pages;
-  thr_sheets_prepare(s);
-  first[THR_SHEET_STEPS] = s->n_pages;
-  for (int c = 0; c < s->plan->n_cords && !s->st; c++) {
-    if (s->copy[c].of != c) continue;
-    thr_sheets_steps(s, c);
-    thr_sheets_copies(s, c);
+  first[THR_SHEET_PREPARE] = sheets->n_pages;
+  thr_sheets_prepare(sheets);
+  first[THR_SHEET_STEPS] = sheets->n_pages;
+  for (int c = 0; c < sheets->plan->n_cords && !sheets->st; c++) {
+    if (sheets->copy[c].of != c) continue;
+    thr_sheets_steps(sheets, c);
+    thr_sheets_copies(sheets, c);
   }
-  first[THR_SHEET_LAST] = s->n_pages;
-  thr_sheets_last(s);
-  thr_sheets_front(s, first);
-  if (s->st) return;
-  thr_text title = s->page[s->n_pages - 1];
-  memmove(s->page + 1, s->page, (size_t)(s->n_pages - 1) * sizeof *s->page);
-  s->page[0] = title;
-  for (int i = 0; i < s->n_pages; i++)
-    if (s->page[i].failed) thr_sheets_fail(s, thr_nomem(NULL), NULL);
+  first[THR_SHEET_LAST] = sheets->n_pages;
+  thr_sheets_last(sheets);
+  thr_sheets_front(sheets, first);
+  if (sheets->st) return;
+  thr_text title = sheets->page[sheets->n_pages - 1];
+  memmove(sheets->page + 1, sheets->page, (size_t)(sheets->n_pages - 1) * sizeof *sheets->page);
+  sheets->page[0] = title;
+  for (int i = 0; i < sheets->n_pages; i++)
+    if (sheets->page[i].failed) thr_sheets_fail(sheets, thr_nomem(NULL), NULL);
 }
 
-thr_status thr_sheets_make(thr_sheets **out, const thr_plan *p, const thr_sheets_options *o, const thr_limits *limits,
+thr_status thr_sheets_make(thr_sheets **out, const thr_plan *plan, const thr_sheets_options *options, const thr_limits *limits,
                            thr_err *err)
 {
-  thr_sheets *s = *out = thr_calloc(1, sizeof *s);
-  if (!s) return thr_nomem(err);
-  s->plan = p;
-  s->f = &p->frame;
-  s->o = *o;
-  s->limits = limits;
-  thr_page_mm(o->page, s->size);
-  thr_status st = prepare(s, &s->why);
+  thr_sheets *sheets = *out = thr_calloc(1, sizeof *sheets);
+  if (!sheets) return thr_nomem(err);
+  sheets->plan = plan;
+  sheets->f = &plan->frame;
+  sheets->o = *options;
+  sheets->limits = limits;
+  thr_page_mm(options->page, sheets->size);
+  thr_status st = prepare(sheets, &sheets->why);
   if (st)
-    s->st = st;
+    sheets->st = st;
   else
-    lay_out(s);
-  s->limits = NULL;
-  if (!s->st) return THR_OK;
-  st = s->why.code ? thr_fail(err, s->st, "%s", s->why.text) : thr_nomem(err);
-  thr_sheets_destroy(s);
+    lay_out(sheets);
+  sheets->limits = NULL;
+  if (!sheets->st) return THR_OK;
+  st = sheets->why.code ? thr_fail(err, sheets->st, "%s", sheets->why.text) : thr_nomem(err);
+  thr_sheets_destroy(sheets);
   *out = NULL;
   return st;
 }
 
-int thr_sheets_pages(const thr_sheets *s)
+int thr_sheets_pages(const thr_sheets *sheets)
 {
-  return s->n_pages;
+  return sheets->n_pages;
 }
 
-static void title_of(const thr_sheets *s, char title[96])
+static void title_of(const thr_sheets *sheets, char title[96])
 {
-  int n = s->plan->n_cords;
-  snprintf(title, 96, "Step sheets: %d bead%s, %d cord%s", s->f->n_edges, s->f->n_edges == 1 ? "" : "s", n, n == 1 ? "" : "s");
+  int n = sheets->plan->n_cords;
+  snprintf(title, 96, "Step sheets: %d bead%s, %d cord%s", sheets->f->n_edges, sheets->f->n_edges == 1 ? "" : "s", n,
+           n == 1 ? "" : "s");
 }
 
 /* From which side the pictures are seen: as much of it as two lines take. */
-static void put_view(const thr_sheets *s, double foot, thr_text *svg)
+static void put_view(const thr_sheets *sheets, double foot, thr_text *svg)
 {
-  const char *words = thr_layout_words(s->guide.layout.kind);
-  double width = thr_sheets_width(s) - 24;
+  const char *words = thr_layout_words(sheets->guide.layout.kind);
+  double width = thr_sheets_width(sheets) - 24;
   int lines = thr_sheets_lines(words, width, THR_SHEET_SMALL);
   for (double y = foot - (lines > 1 ? 1.4 * THR_SHEET_SMALL : 0); *words && y < foot + 0.1; y += 1.4 * THR_SHEET_SMALL) {
     size_t n = thr_sheets_fit(words, width, THR_SHEET_SMALL);
@@ -159,19 +160,19 @@ static void put_view(const thr_sheets *s, double foot, thr_text *svg)
   }
 }
 
-thr_status thr_sheets_svg(const thr_sheets *s, int i, thr_text *svg, thr_err *err)
+thr_status thr_sheets_svg(const thr_sheets *sheets, int i, thr_text *svg, thr_err *err)
 {
   char line[128], title[96];
-  const thr_text *body = &s->page[i];
-  double foot = s->size[1] - THR_SHEET_MARGIN;
-  title_of(s, title);
-  thr_svg_open(svg, s->size[0], s->size[1], title, "A page of step sheets.");
+  const thr_text *body = &sheets->page[i];
+  double foot = sheets->size[1] - THR_SHEET_MARGIN;
+  title_of(sheets, title);
+  thr_svg_open(svg, sheets->size[0], sheets->size[1], title, "A page of step sheets.");
   thr_text_append(svg, "<style>.thread text{fill:#222;font-family:'DejaVu Sans',Verdana,sans-serif}</style>\n");
   if (body->data) thr_text_append_bytes(svg, body->data, body->length);
-  thr_sheets_locate(s, i, svg);
-  put_view(s, foot, svg);
-  snprintf(line, sizeof line, "page %d of %d", i + 1, s->n_pages);
-  thr_svg_text(svg, s->size[0] - THR_SHEET_MARGIN, foot, THR_SHEET_SMALL, " text-anchor=\"end\" style=\"fill:#666\"", line);
+  thr_sheets_locate(sheets, i, svg);
+  put_view(sheets, foot, svg);
+  snprintf(line, sizeof line, "page %d of %d", i + 1, sheets->n_pages);
+  thr_svg_text(svg, sheets->size[0] - THR_SHEET_MARGIN, foot, THR_SHEET_SMALL, " text-anchor=\"end\" style=\"fill:#666\"", line);
   thr_text_append(svg, "</svg>\n");
   return svg->failed ? thr_nomem(err) : THR_OK;
 }
@@ -201,20 +202,20 @@ static thr_status check_room(thr_err *err)
 /* In a child process: librsvg, cairo and GLib end the program when memory runs out. */
 static thr_status make_pdf(void *user, const thr_limits *limits, thr_sender *to, thr_err *err)
 {
-  const thr_sheets *s = *(const thr_sheets **)user;
+  const thr_sheets *sheets = *(const thr_sheets **)user;
   thr_paper *paper = NULL;
   thr_text out = {0};
   char title[96];
-  title_of(s, title);
-  thr_status st = thr_paper_open(&paper, s->o.page, title, &out, err);
-  for (int i = 0; i < s->n_pages && !st; i++) {
+  title_of(sheets, title);
+  thr_status st = thr_paper_open(&paper, sheets->o.page, title, &out, err);
+  for (int i = 0; i < sheets->n_pages && !st; i++) {
     thr_text svg = {0};
-    if (limits->advance) limits->advance(limits->user, "step sheets", (double)i / s->n_pages);
+    if (limits->advance) limits->advance(limits->user, "step sheets", (double)i / sheets->n_pages);
     if (thr_limits_stop(limits))
-      st = thr_fail(err, THR_ELIMIT, "interrupted at page %d of %d of the step sheets", i + 1, s->n_pages);
+      st = thr_fail(err, THR_ELIMIT, "interrupted at page %d of %d of the step sheets", i + 1, sheets->n_pages);
     bound_page();
     if (!st) st = check_room(err);
-    if (!st) st = thr_sheets_svg(s, i, &svg, err);
+    if (!st) st = thr_sheets_svg(sheets, i, &svg, err);
     if (!st) st = thr_paper_add(paper, &svg, err);
     thr_text_destroy(&svg);
   }
@@ -225,10 +226,10 @@ static thr_status make_pdf(void *user, const thr_limits *limits, thr_sender *to,
   return st;
 }
 
-thr_status thr_sheets_pdf(const thr_sheets *s, const thr_limits *limits, thr_text *pdf, thr_err *err)
+thr_status thr_sheets_pdf(const thr_sheets *sheets, const thr_limits *limits, thr_text *pdf, thr_err *err)
 {
   const thr_child child = {
-      .what = "the step sheets as PDF", .advice = "free memory, or draw without them (-T svg)", .run = make_pdf, .user = &s};
+      .what = "the step sheets as PDF", .advice = "free memory, or draw without them (-T svg)", .run = make_pdf, .user = &sheets};
   thr_text out = {0};
   thr_status st = thr_child_run(&child, limits, &out, err);
   if (!st) thr_text_append_bytes(pdf, out.data, out.length);

@@ -29,19 +29,19 @@ typedef struct thr_sheets thr_sheets;
  * has at most one edge between two nodes). Places are called as in the overview. Nothing is smaller than 7 pt. Text is set in
  * DejaVu Sans (Debian: fonts-dejavu-core). The plan is borrowed and must outlive the sheets. THR_EINPUT for a plan without cords,
  * for cords that do not fit the framework, and for sizes of cord and beads that do not fit it. O(n log n) for each of the few
- * scales that pictures have, and O(n) a page. Tells limits->advance how far it is; THR_ELIMIT if it was interrupted. *s is NULL
- * on failure. */
-thr_status thr_sheets_make(thr_sheets **s, const thr_plan *p, const thr_sheets_options *o, const thr_limits *limits,
+ * scales that pictures have, and O(n) a page. Tells limits->advance how far it is; THR_ELIMIT if it was interrupted. *sheets is
+ * NULL on failure. */
+thr_status thr_sheets_make(thr_sheets **sheets, const thr_plan *plan, const thr_sheets_options *options, const thr_limits *limits,
                            thr_err *err) THR_MUST_CHECK;
-void thr_sheets_destroy(thr_sheets *s);
+void thr_sheets_destroy(thr_sheets *sheets);
 
-int thr_sheets_pages(const thr_sheets *s);
+int thr_sheets_pages(const thr_sheets *sheets);
 
 /* A page as a whole SVG document in mm, i from 0. Appended to svg; THR_ENOMEM. */
-thr_status thr_sheets_svg(const thr_sheets *s, int i, thr_text *svg, thr_err *err) THR_MUST_CHECK;
+thr_status thr_sheets_svg(const thr_sheets *sheets, int i, thr_text *svg, thr_err *err) THR_MUST_CHECK;
 
 /* Appends all pages as one PDF; tells limits->advance how far it is. The same plan, options and fonts give the same bytes.
  * THR_ELIMIT if it was interrupted. pdf is unchanged on failure. */
-thr_status thr_sheets_pdf(const thr_sheets *s, const thr_limits *limits, thr_text *pdf, thr_err *err) THR_MUST_CHECK;
+thr_status thr_sheets_pdf(const thr_sheets *sheets, const thr_limits *limits, thr_text *pdf, thr_err *err) THR_MUST_CHECK;
 
 #endif

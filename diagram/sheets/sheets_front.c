@@ -16,20 +16,21 @@ static const char *plural(int n)
   return n == 1 ? "" : "s";
 }
 
-static void put_counts(thr_sheets *s)
+static void put_counts(thr_sheets *sheets)
 {
   char line[320], length[64];
-  const thr_frame *f = s->f;
+  const thr_frame *frame = sheets->f;
   double total = 0;
   int feet = 0;
-  for (int c = 0; c < s->plan->n_cords; c++)
-    total += thr_cord_length(f, &s->plan->cord[c]);
-  for (int v = 0; v < f->n_nodes; v++)
-    feet += f->foot[v];
-  thr_svg_length(total, f->units, length);
-  snprintf(line, sizeof line, "%d beads (edges) between %d nodes, %d %s; %d cord%s, %d passes, %s of cord.", f->n_edges,
-           f->n_nodes, feet, feet == 1 ? "foot" : "feet", s->plan->n_cords, plural(s->plan->n_cords), s->n_moves, length);
-  thr_sheets_paragraph(s, 0, line);
+  for (int c = 0; c < sheets->plan->n_cords; c++)
+    total += thr_cord_length(frame, &sheets->plan->cord[c]);
+  for (int v = 0; v < frame->n_nodes; v++)
+    feet += frame->foot[v];
+  thr_svg_length(total, frame->units, length);
+  snprintf(line, sizeof line, "%d beads (edges) between %d nodes, %d %s; %d cord%s, %d passes, %s of cord.", frame->n_edges,
+           frame->n_nodes, feet, feet == 1 ? "foot" : "feet", sheets->plan->n_cords, plural(sheets->plan->n_cords),
+           sheets->n_moves, length);
+  thr_sheets_paragraph(sheets, 0, line);
 }
 
 /* What the plan says that is proved: "as little as possible", or how far from it. */
@@ -43,43 +44,45 @@ static void put_proof(char *line, size_t size, const char *of_what, bool present
     snprintf(line, size, "at most %.3g %% of its %s could be saved.", 100 * gap, of_what);
 }
 
-static void put_goal(thr_sheets *s)
+static void put_goal(thr_sheets *sheets)
 {
-  const thr_plan *p = s->plan;
+  const thr_plan *plan = sheets->plan;
   char line[320], proof[128];
-  if (thr_wants_turning(&p->options)) {
-    put_proof(proof, sizeof proof, "turning", p->turning.present, p->turning.optimal, p->turning.gap);
+  if (thr_wants_turning(&plan->options)) {
+    put_proof(proof, sizeof proof, "turning", plan->turning.present, plan->turning.optimal, plan->turning.gap);
     snprintf(line, sizeof line, "Goal: as little turning as possible; %s", proof);
-  } else if (thr_wants_symmetry(&p->options)) {
-    int paths = thr_copies_paths(s->copy, p->n_cords);
-    put_proof(proof, sizeof proof, "cord", p->proof.present, p->proof.optimal, p->proof.gap);
+  } else if (thr_wants_symmetry(&plan->options)) {
+    int paths = thr_copies_paths(sheets->copy, plan->n_cords);
+    put_proof(proof, sizeof proof, "cord", plan->proof.present, plan->proof.optimal, plan->proof.gap);
     snprintf(line, sizeof line, "Goal: cords that repeat each other: %d path%s to learn, %d cop%s; %s", paths, plural(paths),
-             p->n_cords - paths, p->n_cords - paths == 1 ? "y" : "ies", proof);
+             plan->n_cords - paths, plan->n_cords - paths == 1 ? "y" : "ies", proof);
   } else {
-    put_proof(proof, sizeof proof, "cord", p->proof.present, p->proof.optimal, p->proof.gap);
+    put_proof(proof, sizeof proof, "cord", plan->proof.present, plan->proof.optimal, plan->proof.gap);
     snprintf(line, sizeof line, "Goal: as little cord as possible; %s", proof);
   }
-  thr_sheets_paragraph(s, 0, line);
+  thr_sheets_paragraph(sheets, 0, line);
 }
 
 /* The title page is page 1. */
-static void put_contents(thr_sheets *s, const int *first)
+static void put_contents(thr_sheets *sheets, const int *first)
 {
   char line[160];
-  snprintf(line, sizeof line, "%d pages. Prepare first: from page %d. Steps: from page %d. Last: from page %d.", s->n_pages,
+  snprintf(line, sizeof line, "%d pages. Prepare first: from page %d. Steps: from page %d. Last: from page %d.", sheets->n_pages,
            first[THR_SHEET_PREPARE] + 2, first[THR_SHEET_STEPS] + 2, first[THR_SHEET_LAST] + 2);
-  thr_sheets_paragraph(s, 0, line);
+  thr_sheets_paragraph(sheets, 0, line);
 }
 
-void thr_sheets_front(thr_sheets *s, const int *first)
+void thr_sheets_front(thr_sheets *sheets, const int *first)
 {
-  thr_sheets_page(s, "Step sheets", "");
-  if (s->st) return;
-  put_counts(s);
-  put_goal(s);
-  put_contents(s, first);
-  if (s->plan->n_cords == 1) thr_sheets_paragraph(s, 0, "The colour changes every twenty passes, here and in the steps.");
-  thr_box paper = {THR_SHEET_MARGIN, s->y, s->size[0] - THR_SHEET_MARGIN, thr_sheets_bottom(s)};
-  thr_status st = thr_crop_whole(s->plan, &s->guide.layout, NULL, paper, s->limits, thr_sheets_out(s), &s->why);
-  if (st) thr_sheets_fail(s, st, NULL);
+  thr_sheets_page(sheets, "Step sheets", "");
+  if (sheets->st) return;
+  put_counts(sheets);
+  put_goal(sheets);
+  put_contents(sheets, first);
+  if (sheets->plan->n_cords == 1)
+    thr_sheets_paragraph(sheets, 0, "The colour changes every twenty passes, here and in the steps.");
+  thr_box paper = {THR_SHEET_MARGIN, sheets->y, sheets->size[0] - THR_SHEET_MARGIN, thr_sheets_bottom(sheets)};
+  thr_status st =
+      thr_crop_whole(sheets->plan, &sheets->guide.layout, NULL, paper, sheets->limits, thr_sheets_out(sheets), &sheets->why);
+  if (st) thr_sheets_fail(sheets, st, NULL);
 }

@@ -33,16 +33,16 @@ static double degrees(double angle)
   return thr_degrees(angle);
 }
 
-static const thr_eval_cord *known_of(const thr_sheets *s, int c)
+static const thr_eval_cord *known_of(const thr_sheets *sheets, int c)
 {
-  const thr_evaluation *e = &s->plan->evaluation;
-  return e->present && e->cord[c].known ? &e->cord[c] : NULL;
+  const thr_evaluation *evaluation = &sheets->plan->evaluation;
+  return evaluation->present && evaluation->cord[c].known ? &evaluation->cord[c] : NULL;
 }
 
 /* Which end(s) to pull and how hard. */
-static void put_force(const thr_sheets *s, const thr_eval_cord *known, int start, int end, char (*cell)[96])
+static void put_force(const thr_sheets *sheets, const thr_eval_cord *known, int start, int end, char (*cell)[96])
 {
-  const char *from = s->guide.label[start], *to = s->guide.label[end];
+  const char *from = sheets->guide.label[start], *to = sheets->guide.label[end];
   char force[32], other[32];
   thr_svg_force(known->force, force);
   thr_svg_force(known->other_force, other);
@@ -58,101 +58,101 @@ static void put_force(const thr_sheets *s, const thr_eval_cord *known, int start
   snprintf(cell[3], 96, "%.1f %%", 100 * known->loss);
 }
 
-static void put_cord(thr_sheets *s, const pull *p, const double *x)
+static void put_cord(thr_sheets *sheets, const pull *p, const double *x)
 {
   char cell[CELLS][96] = {""};
-  const thr_cord *cord = &s->plan->cord[p->cord];
-  const thr_eval_cord *known = known_of(s, p->cord);
-  int start = thr_cord_start(s->f, cord), end = thr_cord_end(s->f, cord);
-  thr_sheets_cord_words(s, p->cord, cell[0]);
+  const thr_cord *cord = &sheets->plan->cord[p->cord];
+  const thr_eval_cord *known = known_of(sheets, p->cord);
+  int start = thr_cord_start(sheets->f, cord), end = thr_cord_end(sheets->f, cord);
+  thr_sheets_cord_words(sheets, p->cord, cell[0]);
   if (known) {
-    put_force(s, known, start, end, cell);
+    put_force(sheets, known, start, end, cell);
     int h = cord->half[known->slackest];
-    snprintf(cell[4], 96, "pass %d, %.20s - %.20s", known->slackest + 1, s->guide.label[thr_tail(s->f, h)],
-             s->guide.label[thr_head(s->f, h)]);
+    snprintf(cell[4], 96, "pass %d, %.20s - %.20s", known->slackest + 1, sheets->guide.label[thr_tail(sheets->f, h)],
+             sheets->guide.label[thr_head(sheets->f, h)]);
   } else {
-    if (s->plan->evaluation.present) snprintf(cell[2], 96, "not known");
-    snprintf(cell[1], 96, "both, at %.30s and %.30s", s->guide.label[start], s->guide.label[end]);
+    if (sheets->plan->evaluation.present) snprintf(cell[2], 96, "not known");
+    snprintf(cell[1], 96, "both, at %.30s and %.30s", sheets->guide.label[start], sheets->guide.label[end]);
   }
-  snprintf(cell[5], 96, "%.0f", degrees(thr_cord_turning(s->f, cord, s->plan->options.ends == THR_ENDS_CLOSED)));
-  thr_sheets_cells(s, CELLS, x, cell, false);
+  snprintf(cell[5], 96, "%.0f", degrees(thr_cord_turning(sheets->f, cord, sheets->plan->options.ends == THR_ENDS_CLOSED)));
+  thr_sheets_cells(sheets, CELLS, x, cell, false);
 }
 
-static void put_pulling(thr_sheets *s, pull *p)
+static void put_pulling(thr_sheets *sheets, pull *p)
 {
   static const double x[CELLS] = {0, 38, -116, -130, 134, -186};
-  const thr_evaluation *e = &s->plan->evaluation;
+  const thr_evaluation *evaluation = &sheets->plan->evaluation;
   char line[320], head[CELLS][96] = {"cord", "pull at its", "", "", "", "turning"};
-  int n = s->plan->n_cords;
+  int n = sheets->plan->n_cords;
   for (int c = 0; c < n; c++) {
-    const thr_eval_cord *known = known_of(s, c);
-    double force = known ? fmax(known->force, known->other_force) : thr_cord_turning(s->f, &s->plan->cord[c], false);
+    const thr_eval_cord *known = known_of(sheets, c);
+    double force = known ? fmax(known->force, known->other_force) : thr_cord_turning(sheets->f, &sheets->plan->cord[c], false);
     p[c] = (pull){c, known != NULL, force};
   }
   qsort(p, (size_t)n, sizeof *p, by_hardness);
-  thr_sheets_title(s, n > 1 ? "Pull the cords tight, in this order" : "Pull the cord tight");
-  for (int i = 2; e->present && i < 5; i++)
+  thr_sheets_title(sheets, n > 1 ? "Pull the cords tight, in this order" : "Pull the cord tight");
+  for (int i = 2; evaluation->present && i < 5; i++)
     snprintf(head[i], 96, "%s", (const char *const[]){"force", "lost", "slackest"}[i - 2]);
-  if (e->present)
+  if (evaluation->present)
     snprintf(line, sizeof line,
              "Forces were worked out by method %s for friction mu = %.3g, so that a tension of %.3g N reaches the slackest pass. "
              "Lost: what friction takes off on the way there. Hardest first.",
-             thr_method_name(e->method), e->physics.mu, e->physics.seating);
+             thr_method_name(evaluation->method), evaluation->physics.mu, evaluation->physics.seating);
   else
     snprintf(line, sizeof line,
              "Forces are not known: the plan was not evaluated (thread eval). Friction grows with the turning of a cord; the "
              "cord that "
              "turns most is the first in the list. Pulling at both ends halves the way that slack has to go.");
-  thr_sheets_paragraph(s, 0, line);
-  thr_sheets_paragraph(s, 0, "How cords that share beads hinder each other has not been worked out. Turning in degrees.");
-  s->y += 1.5;
-  thr_sheets_cells(s, CELLS, x, head, true);
+  thr_sheets_paragraph(sheets, 0, line);
+  thr_sheets_paragraph(sheets, 0, "How cords that share beads hinder each other has not been worked out. Turning in degrees.");
+  sheets->y += 1.5;
+  thr_sheets_cells(sheets, CELLS, x, head, true);
   for (int i = 0; i < n; i++)
-    put_cord(s, &p[i], x);
+    put_cord(sheets, &p[i], x);
 }
 
-static void put_knots(thr_sheets *s)
+static void put_knots(thr_sheets *sheets)
 {
   char line[320];
-  thr_sheets_title(s, "Knots");
-  if (s->supplies.mm > 0)
+  thr_sheets_title(sheets, "Knots");
+  if (sheets->supplies.mm > 0)
     snprintf(line, sizeof line,
              "An overhand knot at each end, drawn up to its bead; it takes %.0f mm of this cord. Cut the tails only when all "
              "cords are "
              "tight.",
-             ceil(THR_SUPPLIES_KNOT * s->supplies.cord));
+             ceil(THR_SUPPLIES_KNOT * sheets->supplies.cord));
   else
     snprintf(line, sizeof line,
              "An overhand knot at each end, drawn up to its bead. Cut the tails only when all cords are tight.");
-  thr_sheets_paragraph(s, 0, line);
+  thr_sheets_paragraph(sheets, 0, line);
 }
 
-static void put_checks(thr_sheets *s)
+static void put_checks(thr_sheets *sheets)
 {
   char line[320];
   int most = 0;
-  for (int e = 0; e < s->f->n_edges; e++)
-    most = s->supplies.passes[e] > most ? s->supplies.passes[e] : most;
-  thr_sheets_title(s, "Check list");
-  snprintf(line, sizeof line, "All %d beads are on a cord, none is left over.", s->f->n_edges);
-  thr_sheets_tick(s, line);
-  snprintf(line, sizeof line, "All %d ends of cord come out where the cut list says.", 2 * s->plan->n_cords);
-  thr_sheets_tick(s, line);
+  for (int e = 0; e < sheets->f->n_edges; e++)
+    most = sheets->supplies.passes[e] > most ? sheets->supplies.passes[e] : most;
+  thr_sheets_title(sheets, "Check list");
+  snprintf(line, sizeof line, "All %d beads are on a cord, none is left over.", sheets->f->n_edges);
+  thr_sheets_tick(sheets, line);
+  snprintf(line, sizeof line, "All %d ends of cord come out where the cut list says.", 2 * sheets->plan->n_cords);
+  thr_sheets_tick(sheets, line);
   snprintf(line, sizeof line, "No bead holds fewer or more cords than the table of beads says (%d at most).", most);
-  thr_sheets_tick(s, line);
-  thr_sheets_tick(s, "No cord can be drawn further at its ends; no bead turns or gapes; all knots sit on their beads.");
+  thr_sheets_tick(sheets, line);
+  thr_sheets_tick(sheets, "No cord can be drawn further at its ends; no bead turns or gapes; all knots sit on their beads.");
 }
 
-void thr_sheets_last(thr_sheets *s)
+void thr_sheets_last(thr_sheets *sheets)
 {
-  pull *p = thr_calloc((size_t)s->plan->n_cords, sizeof *p);
+  pull *p = thr_calloc((size_t)sheets->plan->n_cords, sizeof *p);
   if (!p) {
-    thr_sheets_fail(s, thr_nomem(&s->why), NULL);
+    thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
     return;
   }
-  thr_sheets_page(s, "Last", "Last (continued)");
-  put_pulling(s, p);
-  put_knots(s);
-  put_checks(s);
+  thr_sheets_page(sheets, "Last", "Last (continued)");
+  put_pulling(sheets, p);
+  put_knots(sheets);
+  put_checks(sheets);
   free(p);
 }

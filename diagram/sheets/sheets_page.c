@@ -11,26 +11,26 @@
 
 static const double HEADING = 5, BOX = 2.8; /* mm */
 
-void thr_sheets_fail(thr_sheets *s, thr_status st, const thr_err *why)
+void thr_sheets_fail(thr_sheets *sheets, thr_status st, const thr_err *why)
 {
-  if (s->st) return;
-  s->st = st;
-  if (why) s->why = *why;
+  if (sheets->st) return;
+  sheets->st = st;
+  if (why) sheets->why = *why;
 }
 
-thr_text *thr_sheets_out(thr_sheets *s)
+thr_text *thr_sheets_out(thr_sheets *sheets)
 {
-  return &s->page[s->n_pages - 1];
+  return &sheets->page[sheets->n_pages - 1];
 }
 
-double thr_sheets_width(const thr_sheets *s)
+double thr_sheets_width(const thr_sheets *sheets)
 {
-  return s->size[0] - 2 * THR_SHEET_MARGIN;
+  return sheets->size[0] - 2 * THR_SHEET_MARGIN;
 }
 
-double thr_sheets_bottom(const thr_sheets *s)
+double thr_sheets_bottom(const thr_sheets *sheets)
 {
-  return s->size[1] - THR_SHEET_MARGIN - THR_SHEET_FOOT;
+  return sheets->size[1] - THR_SHEET_MARGIN - THR_SHEET_FOOT;
 }
 
 /* ---- lines ---- */
@@ -81,15 +81,16 @@ static double line_height(double size)
   return size == THR_SHEET_TEXT ? THR_SHEET_LINE : 1.45 * size;
 }
 
-double thr_sheets_text(thr_sheets *s, double x, double y, double size, double width, const char *attributes, const char *words)
+double thr_sheets_text(thr_sheets *sheets, double x, double y, double size, double width, const char *attributes,
+                       const char *words)
 {
-  while (*words && !s->st) {
+  while (*words && !sheets->st) {
     size_t n = thr_sheets_fit(words, width, size);
     char line[512];
     n = n < sizeof line ? n : sizeof line - 1;
     memcpy(line, words, n);
     line[n] = '\0';
-    thr_svg_text(thr_sheets_out(s), x, y, size, attributes, line);
+    thr_svg_text(thr_sheets_out(sheets), x, y, size, attributes, line);
     words += n;
     words += strspn(words, " ");
     y += line_height(size);
@@ -99,85 +100,88 @@ double thr_sheets_text(thr_sheets *s, double x, double y, double size, double wi
 
 /* ---- pages ---- */
 
-void thr_sheets_page(thr_sheets *s, const char *heading, const char *running)
+void thr_sheets_page(thr_sheets *sheets, const char *heading, const char *running)
 {
-  if (s->st) return;
-  thr_status st = thr_grow(&s->page, s->n_pages, &s->pages_capacity, sizeof *s->page, &s->why);
+  if (sheets->st) return;
+  thr_status st = thr_grow(&sheets->page, sheets->n_pages, &sheets->pages_capacity, sizeof *sheets->page, &sheets->why);
   if (st) {
-    thr_sheets_fail(s, st, NULL);
+    thr_sheets_fail(sheets, st, NULL);
     return;
   }
-  s->page[s->n_pages++] = (thr_text){0};
-  thr_text copy = {0}; /* heading may be s->running */
+  sheets->page[sheets->n_pages++] = (thr_text){0};
+  thr_text copy = {0}; /* heading may be sheets->running */
   thr_text_append(&copy, running);
-  s->y = THR_SHEET_MARGIN + HEADING;
-  s->y = thr_sheets_text(s, THR_SHEET_MARGIN, s->y, HEADING, thr_sheets_width(s), " font-weight=\"bold\"", heading) + 1;
-  if (copy.failed) thr_sheets_fail(s, thr_nomem(&s->why), NULL);
-  size_t n = copy.length < sizeof s->running ? copy.length : sizeof s->running - 1;
-  if (n) memcpy(s->running, copy.data, n);
-  s->running[n] = '\0';
+  sheets->y = THR_SHEET_MARGIN + HEADING;
+  sheets->y =
+      thr_sheets_text(sheets, THR_SHEET_MARGIN, sheets->y, HEADING, thr_sheets_width(sheets), " font-weight=\"bold\"", heading) +
+      1;
+  if (copy.failed) thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
+  size_t n = copy.length < sizeof sheets->running ? copy.length : sizeof sheets->running - 1;
+  if (n) memcpy(sheets->running, copy.data, n);
+  sheets->running[n] = '\0';
   thr_text_destroy(&copy);
 }
 
-bool thr_sheets_room(thr_sheets *s, double height)
+bool thr_sheets_room(thr_sheets *sheets, double height)
 {
-  if (s->st || s->y + height <= thr_sheets_bottom(s)) return false;
-  thr_sheets_page(s, s->running, s->running);
+  if (sheets->st || sheets->y + height <= thr_sheets_bottom(sheets)) return false;
+  thr_sheets_page(sheets, sheets->running, sheets->running);
   return true;
 }
 
 /* ---- flowing text ---- */
 
-void thr_sheets_title(thr_sheets *s, const char *words)
+void thr_sheets_title(thr_sheets *sheets, const char *words)
 {
-  if (!thr_sheets_room(s, 5 * THR_SHEET_LINE)) s->y += 3; /* with some of what it is the title of */
-  s->y = thr_sheets_text(s, THR_SHEET_MARGIN, s->y, 3.6, thr_sheets_width(s), " font-weight=\"bold\"", words) + 0.5;
+  if (!thr_sheets_room(sheets, 5 * THR_SHEET_LINE)) sheets->y += 3; /* with some of what it is the title of */
+  sheets->y =
+      thr_sheets_text(sheets, THR_SHEET_MARGIN, sheets->y, 3.6, thr_sheets_width(sheets), " font-weight=\"bold\"", words) + 0.5;
 }
 
 /* Line by line, so that a long paragraph may go over to other pages. */
-static void flow(thr_sheets *s, double x, const char *words)
+static void flow(thr_sheets *sheets, double x, const char *words)
 {
-  double width = thr_sheets_width(s) + THR_SHEET_MARGIN - x;
-  while (*words && !s->st) {
+  double width = thr_sheets_width(sheets) + THR_SHEET_MARGIN - x;
+  while (*words && !sheets->st) {
     size_t n = thr_sheets_fit(words, width, THR_SHEET_TEXT);
     char line[512];
     n = n < sizeof line ? n : sizeof line - 1;
     memcpy(line, words, n);
     line[n] = '\0';
-    thr_sheets_room(s, 0);
-    s->y = thr_sheets_text(s, x, s->y, THR_SHEET_TEXT, 2 * width, "", line);
+    thr_sheets_room(sheets, 0);
+    sheets->y = thr_sheets_text(sheets, x, sheets->y, THR_SHEET_TEXT, 2 * width, "", line);
     words += n;
     words += strspn(words, " ");
   }
 }
 
-void thr_sheets_paragraph(thr_sheets *s, double indent, const char *words)
+void thr_sheets_paragraph(thr_sheets *sheets, double indent, const char *words)
 {
-  flow(s, THR_SHEET_MARGIN + indent, words);
+  flow(sheets, THR_SHEET_MARGIN + indent, words);
 }
 
-void thr_sheets_box(thr_text *t, double x, double y)
+void thr_sheets_box(thr_text *text, double x, double y)
 {
   thr_text_printf(
-      t, "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"#fff\" stroke=\"#222\" stroke-width=\"0.25\"/>\n", x,
-      y - 0.9 * BOX, BOX, BOX);
+      text, "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"#fff\" stroke=\"#222\" stroke-width=\"0.25\"/>\n",
+      x, y - 0.9 * BOX, BOX, BOX);
 }
 
-void thr_sheets_tick(thr_sheets *s, const char *words)
+void thr_sheets_tick(thr_sheets *sheets, const char *words)
 {
-  thr_sheets_room(s, 2 * THR_SHEET_LINE);
-  if (!s->st) thr_sheets_box(thr_sheets_out(s), THR_SHEET_MARGIN, s->y);
-  flow(s, THR_SHEET_MARGIN + 5, words);
+  thr_sheets_room(sheets, 2 * THR_SHEET_LINE);
+  if (!sheets->st) thr_sheets_box(thr_sheets_out(sheets), THR_SHEET_MARGIN, sheets->y);
+  flow(sheets, THR_SHEET_MARGIN + 5, words);
 }
 
-void thr_sheets_cells(thr_sheets *s, int n, const double *x, char (*cell)[96], bool bold)
+void thr_sheets_cells(thr_sheets *sheets, int n, const double *x, char (*cell)[96], bool bold)
 {
-  thr_sheets_room(s, 0);
-  for (int i = 0; i < n && !s->st; i++) {
+  thr_sheets_room(sheets, 0);
+  for (int i = 0; i < n && !sheets->st; i++) {
     char attributes[64] = "";
     if (x[i] < 0) strcat(attributes, " text-anchor=\"end\"");
     if (bold) strcat(attributes, " font-weight=\"bold\"");
-    thr_svg_text(thr_sheets_out(s), THR_SHEET_MARGIN + fabs(x[i]), s->y, THR_SHEET_SMALL, attributes, cell[i]);
+    thr_svg_text(thr_sheets_out(sheets), THR_SHEET_MARGIN + fabs(x[i]), sheets->y, THR_SHEET_SMALL, attributes, cell[i]);
   }
-  s->y += 4.1;
+  sheets->y += 4.1;
 }

@@ -71,19 +71,19 @@ struct thr_sheets {
 };
 
 /* Keeps the first failure. */
-void thr_sheets_fail(thr_sheets *s, thr_status st, const thr_err *why);
+void thr_sheets_fail(thr_sheets *sheets, thr_status st, const thr_err *why);
 
 /* ---- pages (sheets_page.c) ---- */
 
-thr_text *thr_sheets_out(thr_sheets *s); /* of the page being filled */
-double thr_sheets_width(const thr_sheets *s);
-double thr_sheets_bottom(const thr_sheets *s); /* y below which nothing is written */
+thr_text *thr_sheets_out(thr_sheets *sheets); /* of the page being filled */
+double thr_sheets_width(const thr_sheets *sheets);
+double thr_sheets_bottom(const thr_sheets *sheets); /* y below which nothing is written */
 
 /* Begins a page with a heading; running is what pages say that it flows over to. */
-void thr_sheets_page(thr_sheets *s, const char *heading, const char *running);
+void thr_sheets_page(thr_sheets *sheets, const char *heading, const char *running);
 
 /* Goes on to another page unless there is room for a height of so many mm. Returns whether it did. */
-bool thr_sheets_room(thr_sheets *s, double height);
+bool thr_sheets_room(thr_sheets *sheets, double height);
 
 /* Bytes of words that fit in a line of width mm at a font size, broken at blanks. */
 size_t thr_sheets_fit(const char *words, double width, double size);
@@ -91,35 +91,37 @@ int thr_sheets_lines(const char *words, double width, double size);
 
 /* Text at a point, in no more lines than are needed, THR_SHEET_LINE or 1.45 font sizes apart; returns the y of the line after it.
  */
-double thr_sheets_text(thr_sheets *s, double x, double y, double size, double width, const char *attributes, const char *words);
+double thr_sheets_text(thr_sheets *sheets, double x, double y, double size, double width, const char *attributes,
+                       const char *words);
 
 /* Flowing text: a heading within the page, a paragraph, a paragraph with a box to tick. */
-void thr_sheets_title(thr_sheets *s, const char *words);
-void thr_sheets_paragraph(thr_sheets *s, double indent, const char *words);
-void thr_sheets_tick(thr_sheets *s, const char *words);
-void thr_sheets_box(thr_text *t, double x, double y); /* the box alone, its line at y */
+void thr_sheets_title(thr_sheets *sheets, const char *words);
+void thr_sheets_paragraph(thr_sheets *sheets, double indent, const char *words);
+void thr_sheets_tick(thr_sheets *sheets, const char *words);
+void thr_sheets_box(thr_text *text, double x, double y); /* the box alone, its line at y */
 
 /* A row of a table; x: where columns begin, from the margin; < 0: where they end, right-aligned at -x. bold: a heading. */
-void thr_sheets_cells(thr_sheets *s, int n, const double *x, char (*cell)[96], bool bold);
+void thr_sheets_cells(thr_sheets *sheets, int n, const double *x, char (*cell)[96], bool bold);
 
 /* ---- what is on them ---- */
 
-thr_status thr_sheets_plan_moves(thr_sheets *s, thr_err *err) THR_MUST_CHECK; /* sheets_moves.c */
-void thr_sheets_locate(const thr_sheets *s, int page, thr_text *t); /* sheets_steps.c: the locators of a page of the booklet */
+thr_status thr_sheets_plan_moves(thr_sheets *sheets, thr_err *err) THR_MUST_CHECK; /* sheets_moves.c */
+void thr_sheets_locate(const thr_sheets *sheets, int page,
+                       thr_text *text); /* sheets_steps.c: the locators of a page of the booklet */
 /* sheets_front.c: the title page; first[THR_SHEET_PARTS]: pages before each part, this one not counted. */
 typedef enum { THR_SHEET_PREPARE, THR_SHEET_STEPS, THR_SHEET_LAST, THR_SHEET_PARTS } thr_sheet_part;
-void thr_sheets_front(thr_sheets *s, const int *first);
-void thr_sheets_beads(const thr_sheets *s, thr_bead *b); /* all edges in the order of thr_beads_sort */
-void thr_sheets_prepare(thr_sheets *s);                  /* sheets_prepare.c */
-void thr_sheets_steps(thr_sheets *s, int c);             /* sheets_steps.c: of a path */
-void thr_sheets_copies(thr_sheets *s, int c);            /* sheets_copies.c: of a path, if it has any */
-void thr_sheets_last(thr_sheets *s);                     /* sheets_last.c */
+void thr_sheets_front(thr_sheets *sheets, const int *first);
+void thr_sheets_beads(const thr_sheets *sheets, thr_bead *b); /* all edges in the order of thr_beads_sort */
+void thr_sheets_prepare(thr_sheets *sheets);                  /* sheets_prepare.c */
+void thr_sheets_steps(thr_sheets *sheets, int c);             /* sheets_steps.c: of a path */
+void thr_sheets_copies(thr_sheets *sheets, int c);            /* sheets_copies.c: of a path, if it has any */
+void thr_sheets_last(thr_sheets *sheets);                     /* sheets_last.c */
 
 /* Words of a cord: "Cord A (blue)", with its dash if it has one; colour as "#rrggbb" for a row of passes. */
-void thr_sheets_cord_words(const thr_sheets *s, int c, char words[96]);
+void thr_sheets_cord_words(const thr_sheets *sheets, int c, char words[96]);
 
 /* One row: the moves from first on, before end, that go on ahead and do alike with their beads. Appends its words and returns
  * the move after it. */
-int thr_sheets_run(const thr_sheets *s, int first, int end, thr_text *words);
+int thr_sheets_run(const thr_sheets *sheets, int first, int end, thr_text *words);
 
 #endif

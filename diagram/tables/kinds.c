@@ -51,13 +51,13 @@ static double sine(const bead *b, int i, int j)
   return area > 0 ? sqrt(thr_dot(cross, cross)) / area : 0;
 }
 
-static void bead_make(const thr_frame *f, int v, bead *b)
+static void bead_make(const thr_frame *frame, int v, bead *b)
 {
   *b = (bead){0};
-  for (int i = f->first[v]; i < f->first[v + 1]; i++) {
-    const double *from = f->xyz[v], *to = f->xyz[thr_head(f, f->half[i])];
+  for (int i = frame->first[v]; i < frame->first[v + 1]; i++) {
+    const double *from = frame->xyz[v], *to = frame->xyz[thr_head(frame, frame->half[i])];
     double d[3] = {to[0] - from[0], to[1] - from[1], to[2] - from[2]}, apart = sqrt(thr_dot(d, d));
-    b->length[b->n] = f->length[f->half[i] >> 1] / 2;
+    b->length[b->n] = frame->length[frame->half[i] >> 1] / 2;
     for (int k = 0; k < 3; k++)
       b->tip[b->n][k] = apart > 0 ? d[k] / apart * b->length[b->n] : 0;
     b->n++;
@@ -152,26 +152,26 @@ static double sway(int arms, double tolerance)
   return tolerance * (arms + arms * (arms - 1.0)) * (1 + 1e-9);
 }
 
-static thr_status find_nodes(const thr_frame *f, double tolerance, int *node, keyed *k, thr_err *err)
+static thr_status find_nodes(const thr_frame *frame, double tolerance, int *node, keyed *k, thr_err *err)
 {
-  int n = f->n_nodes, kinds = 0;
+  int n = frame->n_nodes, kinds = 0;
   int *model = thr_calloc((size_t)n, sizeof *model); /* place in k of the first of every kind */
   if (!model) return thr_nomem(err);
   bead b, other;
   for (int v = 0; v < n; v++) {
-    k[v] = (keyed){.item = v, .group = thr_degree(f, v)};
+    k[v] = (keyed){.item = v, .group = thr_degree(frame, v)};
     if (k[v].group > THR_KINDS_ARMS) continue;
-    bead_make(f, v, &b);
+    bead_make(frame, v, &b);
     k[v].size = bead_size(&b);
   }
   qsort(k, (size_t)n, sizeof *k, by_size);
   for (int i = 0; i < n; i++) {
     int found = -1, arms = k[i].group;
-    if (arms <= THR_KINDS_ARMS) bead_make(f, k[i].item, &b);
+    if (arms <= THR_KINDS_ARMS) bead_make(frame, k[i].item, &b);
     for (int m = kinds - 1; m >= 0 && found < 0 && arms <= THR_KINDS_ARMS; m--) {
       const keyed *like = &k[model[m]];
       if (like->group != arms || k[i].size - like->size > sway(arms, tolerance)) break;
-      bead_make(f, like->item, &other);
+      bead_make(frame, like->item, &other);
       if (alike(&other, &b, tolerance)) found = m;
     }
     if (found < 0) {
@@ -188,12 +188,12 @@ static thr_status find_nodes(const thr_frame *f, double tolerance, int *node, ke
 /* ---- edges ---- */
 
 /* *median receives their median length. */
-static void sort_edges(const thr_frame *f, keyed *k, double *median)
+static void sort_edges(const thr_frame *frame, keyed *k, double *median)
 {
-  for (int e = 0; e < f->n_edges; e++)
-    k[e] = (keyed){.size = f->length[e], .item = e};
-  qsort(k, (size_t)f->n_edges, sizeof *k, by_size);
-  *median = k[f->n_edges / 2].size;
+  for (int e = 0; e < frame->n_edges; e++)
+    k[e] = (keyed){.size = frame->length[e], .item = e};
+  qsort(k, (size_t)frame->n_edges, sizeof *k, by_size);
+  *median = k[frame->n_edges / 2].size;
 }
 
 static void find_edges(int n, const keyed *k, double tolerance, int *edge, int *next)
@@ -210,17 +210,17 @@ static void find_edges(int n, const keyed *k, double tolerance, int *edge, int *
   renumber(edge, n, next);
 }
 
-thr_status thr_kinds_find(const thr_frame *f, int *edge, int *node, thr_err *err)
+thr_status thr_kinds_find(const thr_frame *frame, int *edge, int *node, thr_err *err)
 {
-  int most = f->n_edges > f->n_nodes ? f->n_edges : f->n_nodes;
+  int most = frame->n_edges > frame->n_nodes ? frame->n_edges : frame->n_nodes;
   double median;
   keyed *k = thr_calloc((size_t)most, sizeof *k);
-  int *next = thr_calloc((size_t)f->n_edges, sizeof *next);
+  int *next = thr_calloc((size_t)frame->n_edges, sizeof *next);
   thr_status st = k && next ? THR_OK : thr_nomem(err);
   if (!st) {
-    sort_edges(f, k, &median);
-    find_edges(f->n_edges, k, THR_KINDS_TOLERANCE * median, edge, next);
-    st = find_nodes(f, THR_KINDS_TOLERANCE * median, node, k, err);
+    sort_edges(frame, k, &median);
+    find_edges(frame->n_edges, k, THR_KINDS_TOLERANCE * median, edge, next);
+    st = find_nodes(frame, THR_KINDS_TOLERANCE * median, node, k, err);
   }
   free(k);
   free(next);

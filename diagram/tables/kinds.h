@@ -16,6 +16,6 @@ enum { THR_KINDS_ARMS = 16 };
  * arms on each other all arms' tips meet within the tolerance. What is alike is measured against the first of a kind. Edges
  * whose length is not that between their nodes have arms of half that length. O(n log n) but for beads of nearly equal size
  * whose angles differ: these are compared with each other. */
-thr_status thr_kinds_find(const thr_frame *f, int *edge, int *node, thr_err *err) THR_MUST_CHECK;
+thr_status thr_kinds_find(const thr_frame *frame, int *edge, int *node, thr_err *err) THR_MUST_CHECK;
 
 #endif

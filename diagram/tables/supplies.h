@@ -17,19 +17,19 @@ typedef struct {
 
 /* Counts passes; THR_EINPUT for a plan without cords and for cords that do not fit the framework. Release with
  * thr_supplies_destroy, after a failure too. O(passes). */
-thr_status thr_supplies_make(thr_supplies *s, const thr_plan *p, thr_err *err) THR_MUST_CHECK;
-void thr_supplies_destroy(thr_supplies *s);
+thr_status thr_supplies_make(thr_supplies *supplies, const thr_plan *p, thr_err *err) THR_MUST_CHECK;
+void thr_supplies_destroy(thr_supplies *supplies);
 
 /* Cord and bores as the plan was evaluated, else as asked for or worked out: mm, cord and bore. Where nothing was said of them, a
  * framework whose size is not known, or is no bead's, leaves them open. THR_EINPUT for sizes that do not fit the framework. */
-thr_status thr_supplies_find_sizes(thr_supplies *s, thr_err *err) THR_MUST_CHECK;
+thr_status thr_supplies_find_sizes(thr_supplies *supplies, thr_err *err) THR_MUST_CHECK;
 
 /* Bore that the passes of edge e need, in cord diameters (graph/framework/bore.h); and of the node's widest one. */
-double thr_supplies_bore(thr_supplies *s, int e);
-double thr_supplies_node_bore(thr_supplies *s, int v);
+double thr_supplies_bore(thr_supplies *supplies, int e);
+double thr_supplies_node_bore(thr_supplies *supplies, int v);
 
 /* A bore of so many cord diameters in mm, rounded up: a hundredth of a mm too narrow is too narrow. 0 if mm is not known. */
-double thr_supplies_bore_mm(const thr_supplies *s, double cords);
+double thr_supplies_bore_mm(const thr_supplies *supplies, double cords);
 
 /* What is cut off beside the way through the middles of the beads. At each of a cord's two ends (a closed cord has them too) a
  * tail to hold and pull it by: six inches are what bead weavers leave to tie and weave in. And a knot: a tight overhand knot
@@ -47,7 +47,7 @@ typedef struct {
   double cut;                 /* all of these */
 } thr_cut_length;
 
-thr_cut_length thr_supplies_cut(thr_supplies *s, int c);
+thr_cut_length thr_supplies_cut(thr_supplies *supplies, int c);
 
 /* Beads that are bored for as many cords are of a sort: of a kind (diagram/tables/kinds.h) there may be several. */
 typedef struct {

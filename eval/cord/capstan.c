@@ -20,57 +20,59 @@ static double turn_exponent(thr_law law, double mu, double angle)
   return lost < 1 ? -log1p(-lost) : INFINITY;
 }
 
-static thr_status fill_exponents(const thr_frame *f, const thr_cord *c, thr_law law, double mu, double *exponent, thr_err *err)
+static thr_status fill_exponents(const thr_frame *frame, const thr_cord *cord, thr_law law, double mu, double *exponent,
+                                 thr_err *err)
 {
-  for (int k = 0; k + 1 < c->n_passes; k++) {
-    double angle = thr_turn_angle(f, c->half[k], c->half[k + 1]);
+  for (int k = 0; k + 1 < cord->n_passes; k++) {
+    double angle = thr_turn_angle(frame, cord->half[k], cord->half[k + 1]);
     exponent[k] = turn_exponent(law, mu, angle);
     if (!isfinite(exponent[k]))
       return thr_fail(err, THR_EINPUT,
                       "cord %s: by the mitre law no pull overcomes mu = %g at the turn after pass %d (mu sin(theta / 2) = %.3g, "
                       "must be below 1); use a smaller mu or the capstan law",
-                      c->id, mu, k + 1, mu * sin(angle / 2));
+                      cord->id, mu, k + 1, mu * sin(angle / 2));
   }
   return THR_OK;
 }
 
 /* Raises *largest to the cord's larger end force if mu were another, by the same law; INFINITY where it has no answer. */
-static thr_status raise_to_force_at(const thr_frame *f, const thr_cord *c, const thr_evaluation *r, thr_pull pull, double mu,
-                                    double *exponent, double *largest, thr_err *err)
+static thr_status raise_to_force_at(const thr_frame *frame, const thr_cord *cord, const thr_evaluation *evaluation, thr_pull pull,
+                                    double mu, double *exponent, double *largest, thr_err *err)
 {
   thr_eval_cord other = {.force = INFINITY};
-  thr_status st = fill_exponents(f, c, r->law, mu, exponent, NULL);
-  if (!st) st = thr_profile_cord(&other, c->id, c->n_passes, exponent, pull, r->physics.seating, NULL);
+  thr_status st = fill_exponents(frame, cord, evaluation->law, mu, exponent, NULL);
+  if (!st) st = thr_profile_cord(&other, cord->id, cord->n_passes, exponent, pull, evaluation->physics.seating, NULL);
   free(other.tension);
   if (st == THR_ENOMEM) return thr_nomem(err);
   *largest = fmax(*largest, other.force);
   return THR_OK;
 }
 
-static thr_status eval_cord(const thr_frame *f, const thr_cord *c, const thr_evaluation *r, thr_eval_cord *out, double band[2],
-                            thr_err *err)
+static thr_status eval_cord(const thr_frame *frame, const thr_cord *cord, const thr_evaluation *evaluation, thr_eval_cord *out,
+                            double band[2], thr_err *err)
 {
-  const thr_physics *p = &r->physics;
-  double *exponent = thr_calloc((size_t)c->n_passes, sizeof *exponent);
+  const thr_physics *physics = &evaluation->physics;
+  double *exponent = thr_calloc((size_t)cord->n_passes, sizeof *exponent);
   if (!exponent) return thr_nomem(err);
-  thr_status st = fill_exponents(f, c, r->law, p->mu, exponent, err);
-  if (!st) st = thr_profile_cord(out, c->id, c->n_passes, exponent, out->pull, p->seating, err);
-  if (!st) st = raise_to_force_at(f, c, r, out->pull, p->mu_low, exponent, &band[0], err);
-  if (!st) st = raise_to_force_at(f, c, r, out->pull, p->mu_high, exponent, &band[1], err);
-  out->turning = out->taut_turning = thr_cord_turning(f, c, false);
+  thr_status st = fill_exponents(frame, cord, evaluation->law, physics->mu, exponent, err);
+  if (!st) st = thr_profile_cord(out, cord->id, cord->n_passes, exponent, out->pull, physics->seating, err);
+  if (!st) st = raise_to_force_at(frame, cord, evaluation, out->pull, physics->mu_low, exponent, &band[0], err);
+  if (!st) st = raise_to_force_at(frame, cord, evaluation, out->pull, physics->mu_high, exponent, &band[1], err);
+  out->turning = out->taut_turning = thr_cord_turning(frame, cord, false);
   out->known = st == THR_OK;
   free(exponent);
   return st;
 }
 
-thr_status thr_capstan_method(const thr_frame *f, const thr_cord *cord, const thr_eval_options *o, const thr_limits *limits,
-                              thr_eval *out, thr_err *err)
+thr_status thr_capstan_method(const thr_frame *frame, const thr_cord *cord, const thr_eval_options *options,
+                              const thr_limits *limits, thr_eval *out, thr_err *err)
 {
-  (void)o;
-  thr_evaluation *r = &out->record;
-  for (int i = 0; i < r->n_cords; i++) {
-    if (thr_limits_stop(limits)) return thr_fail(err, THR_ELIMIT, "stopped after %d of %d cords were evaluated", i, r->n_cords);
-    thr_status st = eval_cord(f, &cord[i], r, &r->cord[i], out->band, err);
+  (void)options;
+  thr_evaluation *evaluation = &out->record;
+  for (int i = 0; i < evaluation->n_cords; i++) {
+    if (thr_limits_stop(limits))
+      return thr_fail(err, THR_ELIMIT, "stopped after %d of %d cords were evaluated", i, evaluation->n_cords);
+    thr_status st = eval_cord(frame, &cord[i], evaluation, &evaluation->cord[i], out->band, err);
     if (st) return st;
   }
   return THR_OK;

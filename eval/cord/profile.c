@@ -25,8 +25,8 @@ static int slackest_pass(int n_passes, const double *exponent, thr_pull pull)
   return slackest;
 }
 
-thr_status thr_profile_cord(thr_eval_cord *c, const char *id, int n_passes, const double *exponent, thr_pull pull, double seating,
-                            thr_err *err)
+thr_status thr_profile_cord(thr_eval_cord *cord, const char *id, int n_passes, const double *exponent, thr_pull pull,
+                            double seating, thr_err *err)
 {
   int slackest = slackest_pass(n_passes, exponent, pull);
   double *tension = thr_calloc((size_t)n_passes, sizeof *tension);
@@ -49,13 +49,13 @@ thr_status thr_profile_cord(thr_eval_cord *c, const char *id, int n_passes, cons
                     "use a smaller mu, or a plan with more cords",
                     id, fmax(from, to), seating);
   }
-  c->n_passes = n_passes;
-  c->pull = pull;
-  c->force = pull == THR_PULL_START ? at_start : pull == THR_PULL_END ? at_end : fmax(at_start, at_end);
-  c->other_force = pull == THR_PULL_BOTH ? fmin(at_start, at_end) : 0;
-  c->loss = 1 - seating / c->force;
-  c->work = c->force + c->other_force;
-  c->slackest = slackest;
-  c->tension = tension;
+  cord->n_passes = n_passes;
+  cord->pull = pull;
+  cord->force = pull == THR_PULL_START ? at_start : pull == THR_PULL_END ? at_end : fmax(at_start, at_end);
+  cord->other_force = pull == THR_PULL_BOTH ? fmin(at_start, at_end) : 0;
+  cord->loss = 1 - seating / cord->force;
+  cord->work = cord->force + cord->other_force;
+  cord->slackest = slackest;
+  cord->tension = tension;
   return THR_OK;
 }

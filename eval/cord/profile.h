@@ -10,12 +10,12 @@
 #include "graph/plan/evaluation.h"
 #include "graph/status.h"
 
-/* exponent[n_passes - 1] >= 0: ln of the ratio of the tensions on both sides of the turn after pass k. Allocates c->tension such
- * that the slackest pass holds seating, and fills n_passes, pull, force, other_force, loss, work, slackest; leaves the other
+/* exponent[n_passes - 1] >= 0: ln of the ratio of the tensions on both sides of the turn after pass k. Allocates cord->tension
+ * such that the slackest pass holds seating, and fills n_passes, pull, force, other_force, loss, work, slackest; leaves the other
  * members. Pulled at one end the tension falls at every turn towards the other; pulled at both, the slackest is the pass with
  * exponents from both ends most nearly equal. THR_EINPUT if an exponent total is past 700 (what a double can hold): names the
  * cord, advises more cords. O(n). */
-thr_status thr_profile_cord(thr_eval_cord *c, const char *id, int n_passes, const double *exponent, thr_pull pull, double seating,
-                            thr_err *err) THR_MUST_CHECK;
+thr_status thr_profile_cord(thr_eval_cord *cord, const char *id, int n_passes, const double *exponent, thr_pull pull,
+                            double seating, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -69,10 +69,10 @@ static double scale_to_unit(double a[3])
   return norm * largest;
 }
 
-static double edge_vector(const thr_frame *f, int half, double d[3])
+static double edge_vector(const thr_frame *frame, int half, double d[3])
 {
   for (int k = 0; k < 3; k++)
-    d[k] = f->xyz[thr_head(f, half)][k] - f->xyz[thr_tail(f, half)][k];
+    d[k] = frame->xyz[thr_head(frame, half)][k] - frame->xyz[thr_tail(frame, half)][k];
   double unit[3] = {d[0], d[1], d[2]};
   return scale_to_unit(unit);
 }
@@ -115,10 +115,10 @@ static void path_destroy(path *p)
   *p = (path){0};
 }
 
-static thr_status path_make(path *p, const thr_frame *f, const thr_cord *c, double clearance, thr_err *err)
+static thr_status path_make(path *p, const thr_frame *frame, const thr_cord *cord, double clearance, thr_err *err)
 {
-  size_t n = (size_t)c->n_passes;
-  *p = (path){.n = c->n_passes};
+  size_t n = (size_t)cord->n_passes;
+  *p = (path){.n = cord->n_passes};
   p->straight = thr_scratch_array(&p->own, n, sizeof *p->straight);
   p->opening = thr_scratch_array(&p->own, n + 1, sizeof *p->opening);
   p->axis = thr_scratch_array(&p->own, n + 1, sizeof *p->axis);
@@ -134,7 +134,7 @@ static thr_status path_make(path *p, const thr_frame *f, const thr_cord *c, doub
     return THR_ENOMEM;
   }
   for (int i = 0; i < p->n; i++) {
-    edge_vector(f, c->half[i], p->straight[i]);
+    edge_vector(frame, cord->half[i], p->straight[i]);
     for (int k = 0; k < 3; k++)
       p->straight[i][k] /= clearance;
   }
@@ -373,27 +373,27 @@ static thr_status settle(path *p, double radius, const char *id, double *turn, t
                   change, MAX_ROUNDS);
 }
 
-static void nominal_path(const thr_frame *f, const thr_cord *c, double *turn, double (*point)[3], double *length)
+static void nominal_path(const thr_frame *frame, const thr_cord *cord, double *turn, double (*point)[3], double *length)
 {
   double sum = 0;
-  for (int i = 0; i < c->n_passes; i++) {
+  for (int i = 0; i < cord->n_passes; i++) {
     double d[3];
-    sum += edge_vector(f, c->half[i], d);
-    if (i + 1 < c->n_passes) turn[i] = thr_turn_angle(f, c->half[i], c->half[i + 1]);
+    sum += edge_vector(frame, cord->half[i], d);
+    if (i + 1 < cord->n_passes) turn[i] = thr_turn_angle(frame, cord->half[i], cord->half[i + 1]);
   }
-  for (int i = 0; i <= c->n_passes && point; i++)
-    memcpy(point[i], f->xyz[i ? thr_head(f, c->half[i - 1]) : thr_tail(f, c->half[0])], sizeof *point);
+  for (int i = 0; i <= cord->n_passes && point; i++)
+    memcpy(point[i], frame->xyz[i ? thr_head(frame, cord->half[i - 1]) : thr_tail(frame, cord->half[0])], sizeof *point);
   if (length) *length = sum;
 }
 
-static void taut_points(const path *p, const thr_frame *f, const thr_cord *c, double clearance, double (*point)[3],
+static void taut_points(const path *p, const thr_frame *frame, const thr_cord *cord, double clearance, double (*point)[3],
                         double *length)
 {
   double sum = 0;
   for (int i = 0; i < p->n; i++)
     sum += p->piece[i].length;
   for (int i = 0; i <= p->n && point; i++) {
-    const double *node = f->xyz[i ? thr_head(f, c->half[i - 1]) : thr_tail(f, c->half[0])];
+    const double *node = frame->xyz[i ? thr_head(frame, cord->half[i - 1]) : thr_tail(frame, cord->half[0])];
     offset(p, (const double(*)[2])p->z, i, point[i]);
     for (int k = 0; k < 3; k++)
       point[i][k] = node[k] + clearance * point[i][k];
@@ -401,26 +401,26 @@ static void taut_points(const path *p, const thr_frame *f, const thr_cord *c, do
   if (length) *length = clearance * sum;
 }
 
-thr_status thr_taut_path(const thr_frame *f, const thr_cord *c, double radius, double clearance, double *turn, double (*point)[3],
-                         double *length, thr_err *err)
+thr_status thr_taut_path(const thr_frame *frame, const thr_cord *cord, double radius, double clearance, double *turn,
+                         double (*point)[3], double *length, thr_err *err)
 {
   double shortest = INFINITY;
   if (length) *length = 0;
   if (!(radius >= 0) || !isfinite(radius) || !(clearance >= 0) || !isfinite(clearance))
     return thr_fail(err, THR_EINPUT, "cord radius %g, clearance %g: both must be 0 or more; is the bore wider than the cord?",
                     radius, clearance);
-  for (int i = 0; i < c->n_passes; i++) {
+  for (int i = 0; i < cord->n_passes; i++) {
     double d[3];
-    shortest = fmin(shortest, edge_vector(f, c->half[i], d));
+    shortest = fmin(shortest, edge_vector(frame, cord->half[i], d));
   }
   if (!(shortest > 0))
-    return thr_fail(err, THR_EINPUT, "cord %s: an edge joins two nodes at one place; weld them (--weld)", c->id);
-  nominal_path(f, c, turn, point, length);
+    return thr_fail(err, THR_EINPUT, "cord %s: an edge joins two nodes at one place; weld them (--weld)", cord->id);
+  nominal_path(frame, cord, turn, point, length);
   if (clearance < NO_CLEARANCE * shortest) return THR_OK;
   path p;
-  thr_status st = path_make(&p, f, c, clearance, err);
-  if (!st) st = settle(&p, radius / clearance, c->id, turn, err);
-  if (!st) taut_points(&p, f, c, clearance, point, length);
+  thr_status st = path_make(&p, frame, cord, clearance, err);
+  if (!st) st = settle(&p, radius / clearance, cord->id, turn, err);
+  if (!st) taut_points(&p, frame, cord, clearance, point, length);
   path_destroy(&p);
   return st;
 }

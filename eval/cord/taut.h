@@ -30,7 +30,7 @@
  * to be within 1e-9 of the shortest, relative, and no turn is out of balance by more than 1e-10 rad. The openings follow the
  * turns in a few rounds, until none changes by 1e-7 rad. THR_EINPUT for a bad radius or clearance or an edge between two nodes at
  * one place; THR_ESOLVER if that is not reached. */
-thr_status thr_taut_path(const thr_frame *f, const thr_cord *c, double radius, double clearance, double *turn, double (*point)[3],
-                         double *length, thr_err *err) THR_MUST_CHECK;
+thr_status thr_taut_path(const thr_frame *frame, const thr_cord *cord, double radius, double clearance, double *turn,
+                         double (*point)[3], double *length, thr_err *err) THR_MUST_CHECK;
 
 #endif

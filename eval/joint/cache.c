@@ -24,29 +24,30 @@ static uint64_t fnv1a(const char *s, size_t n)
   return h;
 }
 
-void thr_cache_key(const thr_drag *d, thr_text *key)
+void thr_cache_key(const thr_drag *drag, thr_text *key)
 {
-  assert(d->n_turns == 1);
+  assert(drag->n_turns == 1);
   thr_text_printf(key, "joint measured by thread\nprotocol %s\nbullet %d\n", thr_drag_protocol(), thr_bullet_version());
-  thr_text_printf(key, "turn %.17g\ntwist %.17g\nsegment %.17g\nbore %.17g\nmu %.17g\n", d->turn[0], d->twist ? d->twist[0] : 0,
-                  d->segment, d->bore, d->mu);
-  thr_text_printf(key, "seed %" PRIu64 "\ntime_step %.17g\niterations %.17g\nspacing %.17g\nsides %d\n", d->seed, d->time_step,
-                  d->iterations, d->spacing, d->sides);
+  thr_text_printf(key, "turn %.17g\ntwist %.17g\nsegment %.17g\nbore %.17g\nmu %.17g\n", drag->turn[0],
+                  drag->twist ? drag->twist[0] : 0, drag->segment, drag->bore, drag->mu);
+  thr_text_printf(key, "seed %" PRIu64 "\ntime_step %.17g\niterations %.17g\nspacing %.17g\nsides %d\n", drag->seed,
+                  drag->time_step, drag->iterations, drag->spacing, drag->sides);
 }
 
-void thr_cache_write(const thr_text *key, const thr_drag_result *r, thr_text *out)
+void thr_cache_write(const thr_text *key, const thr_drag_result *result, thr_text *out)
 {
   size_t begin = out->length;
   if (key->failed) out->failed = true;
   thr_text_append_bytes(out, key->data, key->length);
-  thr_text_printf(out, "status %d\nratio %.17g\ndrift %.17g\nscatter %.17g\ntaut %.17g\nsteps %.17g\n", r->status, r->ratio,
-                  r->drift, r->scatter, r->taut, r->steps);
+  thr_text_printf(out, "status %d\nratio %.17g\ndrift %.17g\nscatter %.17g\ntaut %.17g\nsteps %.17g\n", result->status,
+                  result->ratio, result->drift, result->scatter, result->taut, result->steps);
   if (!out->failed) thr_text_printf(out, "check %016" PRIx64 "\n", fnv1a(out->data + begin, out->length - begin));
 }
 
-static bool finite_result(const thr_drag_result *r)
+static bool finite_result(const thr_drag_result *result)
 {
-  return isfinite(r->ratio) && isfinite(r->drift) && isfinite(r->scatter) && isfinite(r->taut) && isfinite(r->steps);
+  return isfinite(result->ratio) && isfinite(result->drift) && isfinite(result->scatter) && isfinite(result->taut) &&
+         isfinite(result->steps);
 }
 
 bool thr_cache_parse(const char *text, size_t n, const thr_text *key, thr_drag_result *out)
@@ -57,20 +58,20 @@ bool thr_cache_parse(const char *text, size_t n, const thr_text *key, thr_drag_r
   memcpy(values, text + key->length, n - key->length);
   values[n - key->length] = 0;
 
-  thr_drag_result r;
+  thr_drag_result result;
   double status; /* an integer of any length would overflow %d */
-  if (sscanf(values, "status %lf ratio %lf drift %lf scatter %lf taut %lf steps %lf", &status, &r.ratio, &r.drift, &r.scatter,
-             &r.taut, &r.steps) != 6)
+  if (sscanf(values, "status %lf ratio %lf drift %lf scatter %lf taut %lf steps %lf", &status, &result.ratio, &result.drift,
+             &result.scatter, &result.taut, &result.steps) != 6)
     return false;
   if (status != THR_DRAG_SETTLED && status != THR_DRAG_UNSETTLED && status != THR_DRAG_OUT_OF_RANGE) return false;
-  r.status = (int)status;
-  if (!finite_result(&r)) return false;
+  result.status = (int)status;
+  if (!finite_result(&result)) return false;
 
   thr_text again = {0}; /* writing it again covers spelling, order, checksum and what may follow */
-  thr_cache_write(key, &r, &again);
+  thr_cache_write(key, &result, &again);
   bool same = !again.failed && again.length == n && memcmp(again.data, text, n) == 0;
   thr_text_destroy(&again);
-  if (same) *out = r;
+  if (same) *out = result;
   return same;
 }
 
@@ -102,12 +103,12 @@ static ssize_t read_small(const char *path, char *data)
   return n < MAX_FILE ? n : -1;
 }
 
-bool thr_cache_load(const char *folder, const thr_drag *d, thr_drag_result *out)
+bool thr_cache_load(const char *folder, const thr_drag *drag, thr_drag_result *out)
 {
   char data[MAX_FILE];
   thr_text key = {0}, path = {0};
   bool found = false;
-  thr_cache_key(d, &key);
+  thr_cache_key(drag, &key);
   if (file_name(folder, &key, &path)) {
     ssize_t n = read_small(path.data, data);
     found = n >= 0 && thr_cache_parse(data, (size_t)n, &key, out);
@@ -128,14 +129,14 @@ static void make_folders(char *path)
   }
 }
 
-thr_status thr_cache_store(const char *folder, const thr_drag *d, const thr_drag_result *r, thr_err *err)
+thr_status thr_cache_store(const char *folder, const thr_drag *drag, const thr_drag_result *result, thr_err *err)
 {
   struct stat info;
   thr_text key = {0}, path = {0}, text = {0};
   thr_status st;
-  thr_cache_key(d, &key);
-  thr_cache_write(&key, r, &text);
-  if (!finite_result(r))
+  thr_cache_key(drag, &key);
+  thr_cache_write(&key, result, &text);
+  if (!finite_result(result))
     st = thr_fail(err, THR_EINPUT, "a measurement that is not finite is not kept");
   else if (!file_name(folder, &key, &path))
     st = thr_nomem(err);

@@ -144,15 +144,15 @@ static double spacing_of(const thr_drag *d)
   return d->spacing * fmin(protocol.spacing, polygon > 0 ? sqrt(protocol.polygon / polygon) : INFINITY);
 }
 
-double thr_drag_error(const thr_drag *d, const thr_drag_result *r)
+double thr_drag_error(const thr_drag *d, const thr_drag_result *result)
 {
   double turn = 0, spacing = spacing_of(d), inertia = protocol.density * protocol.speed * protocol.speed;
   for (int i = 0; i < d->n_turns; i++)
     turn += d->turn[i];
   double log_law = d->mu * turn;
   double polygon = log_law * spacing * spacing * (1 + d->mu * d->mu) / 12, impacts = inertia * turn * spacing / 2;
-  double facets = largest_turn(d) > thr_drag_round_turn(d->bore) ? fmax(0, log(r->ratio) - log_law) * WEDGE_DOUBT : 0;
-  return fabs(r->drift) + 2 * r->scatter + fmax(polygon + impacts, inertia * (1 - exp(-log_law))) + facets;
+  double facets = largest_turn(d) > thr_drag_round_turn(d->bore) ? fmax(0, log(result->ratio) - log_law) * WEDGE_DOUBT : 0;
+  return fabs(result->drift) + 2 * result->scatter + fmax(polygon + impacts, inertia * (1 - exp(-log_law))) + facets;
 }
 
 static thr_status check(const thr_drag *d, thr_err *err)
@@ -530,14 +530,14 @@ static thr_status simulate(run *r, const thr_limits *limits, thr_drag_result *ou
 static thr_status build(run *r, bool *fits, thr_err *err)
 {
   const thr_drag *d = r->d;
-  thr_world_options o = {.time_step = r->spacing / protocol.speed / (double)r->block,
-                         .iterations = (int)ceil(protocol.iterations * d->iterations * protocol.spacing / r->spacing),
-                         .erp = protocol.erp,
-                         .erp2 = protocol.erp,
-                         .split_impulse = true,
-                         .warm_start = true};
+  thr_world_options options = {.time_step = r->spacing / protocol.speed / (double)r->block,
+                               .iterations = (int)ceil(protocol.iterations * d->iterations * protocol.spacing / r->spacing),
+                               .erp = protocol.erp,
+                               .erp2 = protocol.erp,
+                               .split_impulse = true,
+                               .warm_start = true};
   thr_status s = make_joints(r, err);
-  if (s == THR_OK) s = thr_world_create(&r->world, &o, err);
+  if (s == THR_OK) s = thr_world_create(&r->world, &options, err);
   for (int i = 0; s == THR_OK && i < d->n_turns; i++)
     for (int side = -1; s == THR_OK && side <= 1; side += 2)
       s = add_channel(r, &r->joint[i], side, err);

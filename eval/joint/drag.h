@@ -51,13 +51,13 @@ double thr_drag_round_turn(double bore);
 
 /* Relative error of a measured ratio: drift, twice the scatter, and bounds of what they do not show (the chain's polygon, its
  * inertia and impacts, the flat sides of the bore where the cord wedges). */
-double thr_drag_error(const thr_drag *d, const thr_drag_result *r);
+double thr_drag_error(const thr_drag *drag, const thr_drag_result *result);
 
 /* Changes whenever a number of the protocol does: part of the cache's key. */
 const char *thr_drag_protocol(void);
 
 /* Measures. THR_EINPUT for absurd values, THR_ELIMIT when stopped. Deterministic on one machine. 0.1 to 0.3 s a joint up to mu
  * 0.5, up to 10 s beyond or where the cord wedges. Channels of more turns must not cross one another. */
-thr_status thr_drag_measure(const thr_drag *d, const thr_limits *limits, thr_drag_result *out, thr_err *err) THR_MUST_CHECK;
+thr_status thr_drag_measure(const thr_drag *drag, const thr_limits *limits, thr_drag_result *out, thr_err *err) THR_MUST_CHECK;
 
 #endif

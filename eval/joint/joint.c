@@ -98,11 +98,11 @@ static void ask_for(table *t, double turn)
   if (p.part > 0 && t->n > 2) t->at[p.i > 0 ? p.i - 1 : 2].needed = true; /* a third, to judge interpolation by */
 }
 
-static void ask_for_cord(table *t, const thr_frame *f, const thr_cord *c, const double *taut)
+static void ask_for_cord(table *t, const thr_frame *frame, const thr_cord *cord, const double *taut)
 {
-  for (int k = 0; k + 1 < c->n_passes; k++) {
+  for (int k = 0; k + 1 < cord->n_passes; k++) {
     if (taut[k] < STRAIGHT) continue;
-    ask_for(t, thr_turn_angle(f, c->half[k], c->half[k + 1]));
+    ask_for(t, thr_turn_angle(frame, cord->half[k], cord->half[k + 1]));
     ask_for(t, taut[k]);
   }
 }
@@ -134,7 +134,7 @@ static void keep_job(void *user, int job, const void *result)
 }
 
 /* Every needed joint from the cache or by measuring it. */
-static thr_status measure_joints(work *w, const thr_eval_options *o, const thr_limits *limits, thr_eval *out, thr_err *err)
+static thr_status measure_joints(work *w, const thr_eval_options *options, const thr_limits *limits, thr_eval *out, thr_err *err)
 {
   table *t = w->table;
   thr_work jobs = {.result_size = sizeof(thr_drag_result),
@@ -154,7 +154,8 @@ static thr_status measure_joints(work *w, const thr_eval_options *o, const thr_l
   }
   thr_drag_result *results = thr_calloc((size_t)jobs.n_jobs, sizeof *results);
   bool *finished = thr_calloc((size_t)jobs.n_jobs, sizeof *finished);
-  thr_status st = results && finished ? thr_workers_run(&jobs, o->processes, limits, results, finished, err) : thr_nomem(err);
+  thr_status st =
+      results && finished ? thr_workers_run(&jobs, options->processes, limits, results, finished, err) : thr_nomem(err);
   for (int i = 0; i < jobs.n_jobs && finished; i++)
     out->joints_measured += finished[i];
   free(results);
@@ -258,43 +259,45 @@ static bool angle_measured(const table *t, double turn)
   return p.i < 0 || (t->at[p.i].known && (p.part == 0 || t->at[p.i + 1].known));
 }
 
-static bool cord_measured(const table *t, const thr_frame *f, const thr_cord *c, const double *taut)
+static bool cord_measured(const table *t, const thr_frame *frame, const thr_cord *cord, const double *taut)
 {
-  for (int k = 0; k + 1 < c->n_passes; k++)
-    if (taut[k] >= STRAIGHT && (!angle_measured(t, taut[k]) || !angle_measured(t, thr_turn_angle(f, c->half[k], c->half[k + 1]))))
+  for (int k = 0; k + 1 < cord->n_passes; k++)
+    if (taut[k] >= STRAIGHT &&
+        (!angle_measured(t, taut[k]) || !angle_measured(t, thr_turn_angle(frame, cord->half[k], cord->half[k + 1]))))
       return false;
   return true;
 }
 
 /* An end's force hangs on the turns between it and the slackest pass; their errors may all have one sign. */
-static double error_from_slackest(const thr_eval_cord *c, const double *error)
+static double error_from_slackest(const thr_eval_cord *cord, const double *error)
 {
   double side[2] = {0};
-  for (int k = 0; k + 1 < c->n_passes; k++)
-    side[k >= c->slackest] += error[k];
+  for (int k = 0; k + 1 < cord->n_passes; k++)
+    side[k >= cord->slackest] += error[k];
   return fmax(side[0], side[1]);
 }
 
 /* Leaves the cord's record as it is if some joint of it is not known. Adds its refused turns to out, its others to *measured. */
-static thr_status fill_cord(thr_eval *out, thr_eval_cord *c, const thr_frame *f, const thr_cord *cord, const table *t,
+static thr_status fill_cord(thr_eval *out, thr_eval_cord *eval_cord, const thr_frame *frame, const thr_cord *cord, const table *t,
                             const double *taut, int *measured, thr_err *err)
 {
   int count[SHARP + 1] = {0};
-  if (!cord_measured(t, f, cord, taut)) return THR_OK;
+  if (!cord_measured(t, frame, cord, taut)) return THR_OK;
   double *exponent = thr_calloc((size_t)cord->n_passes, sizeof *exponent);
   double *error = thr_calloc((size_t)cord->n_passes, sizeof *error);
   thr_status st = exponent && error ? THR_OK : thr_nomem(err);
   for (int k = 0; k + 1 < cord->n_passes && !st; k++) {
-    double nominal = thr_turn_angle(f, cord->half[k], cord->half[k + 1]);
+    double nominal = thr_turn_angle(frame, cord->half[k], cord->half[k + 1]);
     verdict v = exponent_of(t, nominal, taut[k], &exponent[k], &error[k]);
     count[v] += taut[k] >= STRAIGHT;
-    c->turning += nominal;
-    c->taut_turning += taut[k];
+    eval_cord->turning += nominal;
+    eval_cord->taut_turning += taut[k];
   }
-  if (!st) st = thr_profile_cord(c, cord->id, cord->n_passes, exponent, c->pull, out->record.physics.seating, err);
-  if (!st) c->error = error_from_slackest(c, error);
-  c->known = !st;
-  c->refused = count[SHARP] + count[OUTSIDE] + count[UNSETTLED];
+  if (!st)
+    st = thr_profile_cord(eval_cord, cord->id, cord->n_passes, exponent, eval_cord->pull, out->record.physics.seating, err);
+  if (!st) eval_cord->error = error_from_slackest(eval_cord, error);
+  eval_cord->known = !st;
+  eval_cord->refused = count[SHARP] + count[OUTSIDE] + count[UNSETTLED];
   out->refused_sharp += count[SHARP];
   out->refused_outside += count[OUTSIDE];
   out->refused_unsettled += count[UNSETTLED];
@@ -322,9 +325,9 @@ static thr_status raise_to_closed_form(const thr_cord *cord, thr_pull pull, cons
 }
 
 /* No turn was measured: because none costs anything, or because all were refused. */
-static thr_status check_any_measured(const thr_eval *e, const thr_drag *d, double largest_turn, thr_err *err)
+static thr_status check_any_measured(const thr_eval *eval, const thr_drag *d, double largest_turn, thr_err *err)
 {
-  int sharp = e->refused_sharp, outside = e->refused_outside, unsettled = e->refused_unsettled;
+  int sharp = eval->refused_sharp, outside = eval->refused_outside, unsettled = eval->refused_unsettled;
   char why[3][120] = {{0}};
   if (sharp + outside + unsettled == 0) return THR_OK;
   if (sharp) snprintf(why[0], sizeof why[0], "; %d sharper than %.0f degrees", sharp, largest_turn * (180 / THR_PI));
@@ -336,23 +339,24 @@ static thr_status check_any_measured(const thr_eval *e, const thr_drag *d, doubl
                   outside || unsettled ? "a smaller --mu, or " : "");
 }
 
-static thr_status compose(const thr_frame *f, const thr_cord *cord, const thr_eval_options *o, const thr_limits *limits, work *w,
-                          double *const *taut, thr_eval *out, thr_err *err)
+static thr_status compose(const thr_frame *frame, const thr_cord *cord, const thr_eval_options *options, const thr_limits *limits,
+                          work *w, double *const *taut, thr_eval *out, thr_err *err)
 {
   const thr_physics *physics = &out->record.physics;
   thr_err stop = {0};
   int measured = 0;
   for (int i = 0; i < out->record.n_cords; i++)
-    ask_for_cord(w->table, f, &cord[i], taut[i]);
-  thr_status stopped = measure_joints(w, o, limits, out, &stop), st = THR_OK;
+    ask_for_cord(w->table, frame, &cord[i], taut[i]);
+  thr_status stopped = measure_joints(w, options, limits, out, &stop), st = THR_OK;
   if (stopped && stopped != THR_ELIMIT) return thr_fail(err, stopped, "%s", stop.text);
   table_finish(w, out);
   for (int i = 0; i < out->record.n_cords && !st; i++) {
-    thr_eval_cord *c = &out->record.cord[i];
-    st = fill_cord(out, c, f, &cord[i], w->table, taut[i], &measured, err);
-    if (st || !c->known) continue;
-    st = raise_to_closed_form(&cord[i], c->pull, taut[i], physics->mu_low, physics->seating, &out->band[0], err);
-    if (!st) st = raise_to_closed_form(&cord[i], c->pull, taut[i], physics->mu_high, physics->seating, &out->band[1], err);
+    thr_eval_cord *eval_cord = &out->record.cord[i];
+    st = fill_cord(out, eval_cord, frame, &cord[i], w->table, taut[i], &measured, err);
+    if (st || !eval_cord->known) continue;
+    st = raise_to_closed_form(&cord[i], eval_cord->pull, taut[i], physics->mu_low, physics->seating, &out->band[0], err);
+    if (!st)
+      st = raise_to_closed_form(&cord[i], eval_cord->pull, taut[i], physics->mu_high, physics->seating, &out->band[1], err);
   }
   if (!st && stopped) return thr_fail(err, stopped, "%s", stop.text);
   if (!st && measured == 0) st = check_any_measured(out, &w->drag, w->source->largest_turn, err);
@@ -360,16 +364,16 @@ static thr_status compose(const thr_frame *f, const thr_cord *cord, const thr_ev
 }
 
 /* Taut turns of every cord: taut[i] is allocated here. */
-static thr_status taut_turns(const thr_frame *f, const thr_cord *cord, int n_cords, const thr_physics *physics,
+static thr_status taut_turns(const thr_frame *frame, const thr_cord *cord, int n_cords, const thr_physics *physics,
                              const thr_limits *limits, double **taut, thr_err *err)
 {
   double mm;
-  if (thr_units_in_mm(f->units, &mm, NULL)) mm = 1; /* as thr_physics_resolve took them: all sizes come from the framework */
+  if (thr_units_in_mm(frame->units, &mm, NULL)) mm = 1; /* as thr_physics_resolve took them: all sizes come from the framework */
   for (int i = 0; i < n_cords; i++) {
     if (thr_limits_stop(limits)) return thr_fail(err, THR_ELIMIT, "stopped before the taut path of cord %s", cord[i].id);
     if (!(taut[i] = thr_calloc((size_t)cord[i].n_passes, sizeof **taut))) return thr_nomem(err);
-    thr_status st = thr_taut_path(f, &cord[i], physics->cord_diameter / 2 / mm, (physics->bore - physics->cord_diameter) / 2 / mm,
-                                  taut[i], NULL, NULL, err);
+    thr_status st = thr_taut_path(frame, &cord[i], physics->cord_diameter / 2 / mm,
+                                  (physics->bore - physics->cord_diameter) / 2 / mm, taut[i], NULL, NULL, err);
     if (st) return st;
   }
   return THR_OK;
@@ -391,27 +395,27 @@ static thr_status check_bore(const thr_joint_source *source, double ratio, const
       ratio < source->least_bore ? "wider" : "narrower");
 }
 
-thr_status thr_joint_compose(const thr_frame *f, const thr_cord *cord, const thr_eval_options *o, const thr_limits *limits,
-                             const thr_joint_source *source, thr_eval *out, thr_err *err)
+thr_status thr_joint_compose(const thr_frame *frame, const thr_cord *cord, const thr_eval_options *options,
+                             const thr_limits *limits, const thr_joint_source *source, thr_eval *out, thr_err *err)
 {
   const thr_physics *physics = &out->record.physics;
   const int n_cords = out->record.n_cords;
   table t = {0};
-  work w = {.source = source, .cache = o->cache, .table = &t};
+  work w = {.source = source, .cache = options->cache, .table = &t};
   w.drag = (thr_drag){.n_turns = 1,
                       .bore = quantized(physics->bore / physics->cord_diameter),
                       .mu = quantized(physics->mu),
-                      .seed = o->seed,
-                      .time_step = o->time_step,
-                      .iterations = o->iterations,
+                      .seed = options->seed,
+                      .time_step = options->time_step,
+                      .iterations = options->iterations,
                       .spacing = 1};
   thr_status st = check_bore(source, w.drag.bore, physics, err);
   if (st) return st;
   double **taut = thr_calloc((size_t)n_cords, sizeof *taut);
-  st = taut ? taut_turns(f, cord, n_cords, physics, limits, taut, err) : thr_nomem(err);
+  st = taut ? taut_turns(frame, cord, n_cords, physics, limits, taut, err) : thr_nomem(err);
   if (!st) st = table_make(&t, source->largest_turn, physics->mu, err);
   if (!st && !(w.job = thr_calloc((size_t)t.n, sizeof *w.job))) st = thr_nomem(err);
-  if (!st) st = compose(f, cord, o, limits, &w, taut, out, err);
+  if (!st) st = compose(frame, cord, options, limits, &w, taut, out, err);
   for (int i = 0; i < n_cords && taut; i++)
     free(taut[i]);
   free(taut);
@@ -420,13 +424,13 @@ thr_status thr_joint_compose(const thr_frame *f, const thr_cord *cord, const thr
   return st;
 }
 
-thr_status thr_joint_method(const thr_frame *f, const thr_cord *cord, const thr_eval_options *o, const thr_limits *limits,
-                            thr_eval *out, thr_err *err)
+thr_status thr_joint_method(const thr_frame *frame, const thr_cord *cord, const thr_eval_options *options,
+                            const thr_limits *limits, thr_eval *out, thr_err *err)
 {
   const thr_joint_source bullet = {.measure = thr_drag_measure,
                                    .error = thr_drag_error,
                                    .largest_turn = thr_drag_largest_turn,
                                    .least_bore = thr_drag_least_bore,
                                    .largest_bore = thr_drag_largest_bore};
-  return thr_joint_compose(f, cord, o, limits, &bullet, out, err);
+  return thr_joint_compose(frame, cord, options, limits, &bullet, out, err);
 }

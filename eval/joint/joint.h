@@ -41,7 +41,8 @@ extern const double thr_joint_step;
  * other turns' only. THR_EINPUT if the bore is out of the source's range, or if every turn that costs anything is refused, so
  * that nothing was measured. O(passes) but for the joints.
  */
-thr_status thr_joint_compose(const thr_frame *f, const thr_cord *cord, const thr_eval_options *o, const thr_limits *limits,
-                             const thr_joint_source *source, thr_eval *out, thr_err *err) THR_MUST_CHECK;
+thr_status thr_joint_compose(const thr_frame *frame, const thr_cord *cord, const thr_eval_options *options,
+                             const thr_limits *limits, const thr_joint_source *source, thr_eval *out,
+                             thr_err *err) THR_MUST_CHECK;
 
 #endif

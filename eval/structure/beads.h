@@ -39,10 +39,10 @@ typedef struct {
  * are in the middle of the straight line between the nodes, also where the framework gives its own lengths. Mass: bead_mass, or
  * density x (volume of the arms less their bores), the arms' overlap at the node taken off (the text in beads.c says how).
  * THR_EINPUT for sizes out of range. Release with thr_beads_destroy. O(n). */
-thr_status thr_beads_make(const thr_frame *f, const thr_physics *physics, thr_beads *out, thr_err *err) THR_MUST_CHECK;
-void thr_beads_destroy(thr_beads *b);
+thr_status thr_beads_make(const thr_frame *frame, const thr_physics *physics, thr_beads *out, thr_err *err) THR_MUST_CHECK;
+void thr_beads_destroy(thr_beads *beads);
 
 /* Holds the beads with fixed[n_beads] true in place and takes the ground away (n_feet = 0): for cantilevers and the like. */
-void thr_beads_clamp(thr_beads *b, const bool *fixed);
+void thr_beads_clamp(thr_beads *beads, const bool *fixed);
 
 #endif

@@ -106,26 +106,26 @@ static void add_contact(structure *s, int bead, int other, const double at[3], c
 /* widen: factor on friction, to put the pyramids round the cones. */
 static void set_contacts(structure *s, double widen)
 {
-  const thr_beads *b = s->b;
+  const thr_beads *beads = s->b;
   const double up[3] = {0, 0, 1};
   s->n_contacts = 0;
-  for (int e = 0; e < b->n_faces; e++)
+  for (int e = 0; e < beads->n_faces; e++)
     for (int i = 0; i < CORNERS && !inside(s, e); i++)
-      add_contact(s, s->f->edge[e][1], s->f->edge[e][0], b->corner[e][i], b->axis[e], widen * s->physics->mu_bead);
-  for (int k = 0; k < b->n_feet; k++)
+      add_contact(s, s->f->edge[e][1], s->f->edge[e][0], beads->corner[e][i], beads->axis[e], widen * s->physics->mu_bead);
+  for (int k = 0; k < beads->n_feet; k++)
     for (int i = 0; i < CORNERS; i++)
-      add_contact(s, b->foot[k], -1, b->foot_point[k][i], up, widen * s->physics->mu_ground);
+      add_contact(s, beads->foot[k], -1, beads->foot_point[k][i], up, widen * s->physics->mu_ground);
 }
 
 static void set_units(structure *s)
 {
-  const thr_beads *b = s->b;
+  const thr_beads *beads = s->b;
   double mass = 0, square = 0;
   int n = 0, bodies = 0;
-  for (int v = 0; v < b->n_beads; v++)
-    if (!b->fixed[v]) mass += b->mass[v], n++;
+  for (int v = 0; v < beads->n_beads; v++)
+    if (!beads->fixed[v]) mass += beads->mass[v], n++;
   s->weight = n && mass * s->physics->gravity > 0 ? mass * s->physics->gravity / n : 1;
-  s->length = b->width;
+  s->length = beads->width;
   for (int v = 0; v < s->n_bodies; v++)
     if (s->row[v] >= 0) {
       square += thr_dot(s->wrench[v], s->wrench[v]) + thr_dot(s->wrench[v] + 3, s->wrench[v] + 3) / (s->length * s->length);
@@ -137,16 +137,16 @@ static void set_units(structure *s)
 /* Numbers the bodies by their lowest beads. parent[n_beads]: scratch. */
 static void set_bodies(structure *s, int *parent)
 {
-  const thr_beads *b = s->b;
-  for (int v = 0; v < b->n_beads; v++)
+  const thr_beads *beads = s->b;
+  for (int v = 0; v < beads->n_beads; v++)
     parent[v] = v;
-  for (int e = 0; e < b->n_faces && s->merged; e++)
+  for (int e = 0; e < beads->n_faces && s->merged; e++)
     if (s->press[e] > s->most) thr_disjoint_join(parent, s->f->edge[e][0], s->f->edge[e][1]);
-  for (int v = 0; v < b->n_beads; v++) {
+  for (int v = 0; v < beads->n_beads; v++) {
     int root = thr_disjoint_find(parent, v);
-    if (root == v) memcpy(s->origin[s->n_bodies], b->mass_centre[v], sizeof *s->origin);
+    if (root == v) memcpy(s->origin[s->n_bodies], beads->mass_centre[v], sizeof *s->origin);
     s->body[v] = root == v ? s->n_bodies++ : s->body[root];
-    if (b->fixed[v]) s->row[s->body[v]] = -1;
+    if (beads->fixed[v]) s->row[s->body[v]] = -1;
   }
   for (int v = 0; v < s->n_bodies; v++)
     if (s->row[v] == 0) s->row[v] = s->n_rows, s->n_rows += 6;
@@ -186,13 +186,13 @@ static void structure_destroy(structure *s)
   thr_scratch_free(&s->own);
 }
 
-/* From s->b, f, physics, press, most and merged. */
+/* From s->beads, f, physics, press, most and merged. */
 static thr_status structure_make(structure *s, double widen, thr_err *err)
 {
-  const thr_beads *b = s->b;
-  size_t n = (size_t)b->n_beads;
+  const thr_beads *beads = s->b;
+  size_t n = (size_t)beads->n_beads;
   int *parent = thr_scratch_array(&s->own, n, sizeof *parent);
-  s->contact = thr_scratch_array(&s->own, (size_t)(b->n_faces + b->n_feet) * CORNERS, sizeof *s->contact);
+  s->contact = thr_scratch_array(&s->own, (size_t)(beads->n_faces + beads->n_feet) * CORNERS, sizeof *s->contact);
   s->body = thr_scratch_array(&s->own, n, sizeof *s->body);
   s->origin = thr_scratch_array(&s->own, n, sizeof *s->origin);
   s->wrench = thr_scratch_array(&s->own, n, sizeof *s->wrench);
@@ -352,9 +352,9 @@ static thr_status solve(const structure *s, bool hands, const thr_limits *limits
   if (st) return st;
   out->x = thr_calloc((size_t)p.n_columns, sizeof *out->x);
   out->dual = thr_calloc((size_t)rows, sizeof *out->dual);
-  const thr_equations e = {{rows, p.n_columns, p.start, p.row, p.value}, p.rhs, p.cost};
+  const thr_equations equations = {{rows, p.n_columns, p.start, p.row, p.value}, p.rhs, p.cost};
   thr_interior found = {.x = out->x, .dual = out->dual};
-  st = out->x && out->dual ? thr_interior_solve(&e, limits, &found, err) : thr_nomem(err);
+  st = out->x && out->dual ? thr_interior_solve(&equations, limits, &found, err) : thr_nomem(err);
   out->outcome = found.outcome;
   if (!st && out->outcome == THR_LP_STOPPED) st = thr_fail(err, THR_ELIMIT, "stopped before the holding pull was found");
   if (!st) st = finish(&p, rows, out, err);
@@ -399,17 +399,17 @@ static double least_opening(const structure *s, const double (*velocity)[6])
  * it makes up for the solver's rounding. */
 static void flight(const structure *s, double (*velocity)[6])
 {
-  const thr_beads *b = s->b;
+  const thr_beads *beads = s->b;
   double from[3] = {0};
-  for (int v = 0; v < b->n_beads; v++)
+  for (int v = 0; v < beads->n_beads; v++)
     for (int k = 0; k < 3; k++)
-      from[k] += b->centre[v][k] / b->n_beads;
-  from[2] -= 2 * b->size * (1 + s->physics->mu_ground);
-  for (int v = b->n_beads - 1; v >= 0; v--)
-    if (b->fixed[v]) memcpy(from, b->centre[v], sizeof from);
-  for (int v = 0; v < b->n_beads; v++)
+      from[k] += beads->centre[v][k] / beads->n_beads;
+  from[2] -= 2 * beads->size * (1 + s->physics->mu_ground);
+  for (int v = beads->n_beads - 1; v >= 0; v--)
+    if (beads->fixed[v]) memcpy(from, beads->centre[v], sizeof from);
+  for (int v = 0; v < beads->n_beads; v++)
     for (int k = 0; k < 3; k++)
-      velocity[v][k] = s->row[s->body[v]] < 0 ? 0 : (s->origin[s->body[v]][k] - from[k]) / b->size;
+      velocity[v][k] = s->row[s->body[v]] < 0 ? 0 : (s->origin[s->body[v]][k] - from[k]) / beads->size;
 }
 
 static void scale(const structure *s, double (*velocity)[6], double factor)
@@ -424,19 +424,19 @@ static double translation(const double velocity[6])
   return sqrt(thr_dot(velocity, velocity));
 }
 
-static double largest_translation(const thr_beads *b, const double (*velocity)[6])
+static double largest_translation(const thr_beads *beads, const double (*velocity)[6])
 {
   double largest = 0;
-  for (int v = 0; v < b->n_beads; v++)
+  for (int v = 0; v < beads->n_beads; v++)
     largest = fmax(largest, translation(velocity[v]));
   return largest;
 }
 
 /* The lowest bead among the fastest: those that symmetry makes equal differ by what the solver leaves open. */
-static int fastest(const thr_beads *b, const double (*velocity)[6])
+static int fastest(const thr_beads *beads, const double (*velocity)[6])
 {
-  double largest = largest_translation(b, velocity);
-  for (int v = 0; v < b->n_beads; v++)
+  double largest = largest_translation(beads, velocity);
+  for (int v = 0; v < beads->n_beads; v++)
     if (largest > 0 && translation(velocity[v]) >= 0.99 * largest) return v;
   return -1;
 }
@@ -683,7 +683,7 @@ void thr_holding_press(const thr_cord *cord, int n_cords, const double *const *t
       press[cord[i].half[k] >> 1] += tension[i][k];
 }
 
-static thr_status hold(const task *t, bool want_upper, thr_holding *h, thr_err *err)
+static thr_status hold(const task *t, bool want_upper, thr_holding *holding, thr_err *err)
 {
   answer a = {0}, above = {0};
   double most;
@@ -691,12 +691,12 @@ static thr_status hold(const task *t, bool want_upper, thr_holding *h, thr_err *
   if (!st && want_upper) st = pull_of(t, most, false, 1, &above, err);
   if (!st) {
     assert(a.velocity);
-    h->present = true;
-    h->lower = a.lower;
-    h->upper = above.pull;
-    h->residual = a.residual;
-    h->first_bead = a.lower > 0 ? fastest(t->b, (const double(*)[6])a.velocity) : -1;
-    h->velocity = a.velocity;
+    holding->present = true;
+    holding->lower = a.lower;
+    holding->upper = above.pull;
+    holding->residual = a.residual;
+    holding->first_bead = a.lower > 0 ? fastest(t->b, (const double(*)[6])a.velocity) : -1;
+    holding->velocity = a.velocity;
     a.velocity = NULL;
   }
   answer_destroy(&a);
@@ -704,11 +704,11 @@ static thr_status hold(const task *t, bool want_upper, thr_holding *h, thr_err *
   return st;
 }
 
-thr_status thr_holding_pull(const thr_beads *b, const thr_frame *f, const thr_physics *physics, const double *press,
+thr_status thr_holding_pull(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
                             bool want_upper, const thr_limits *limits, thr_holding *out, thr_err *err)
 {
-  task t = {.b = b, .f = f, .physics = physics, .press = press, .limits = limits, .least = INFINITY};
-  for (int e = 0; e < b->n_faces; e++) {
+  task t = {.b = beads, .f = frame, .physics = physics, .press = press, .limits = limits, .least = INFINITY};
+  for (int e = 0; e < beads->n_faces; e++) {
     if (press[e] > 0) t.least = fmin(t.least, press[e]);
     t.largest = fmax(t.largest, press[e]);
   }
@@ -716,9 +716,9 @@ thr_status thr_holding_pull(const thr_beads *b, const thr_frame *f, const thr_ph
   return hold(&t, want_upper, out, err);
 }
 
-void thr_holding_destroy(thr_holding *h)
+void thr_holding_destroy(thr_holding *holding)
 {
-  if (!h) return;
-  free(h->velocity);
-  *h = (thr_holding){0};
+  if (!holding) return;
+  free(holding->velocity);
+  *holding = (thr_holding){0};
 }

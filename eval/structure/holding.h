@@ -36,8 +36,8 @@ void thr_holding_press(const thr_cord *cord, int n_cords, const double *const *t
 
 /* press: thr_holding_press, from 0. THR_EINFEASIBLE if no pull holds it, by a mechanism verified here (says which bead fails:
  * e.g. feet slide); THR_ESOLVER if neither was decided, because tensions span too many powers of ten; THR_ELIMIT when stopped. */
-thr_status thr_holding_pull(const thr_beads *b, const thr_frame *f, const thr_physics *physics, const double *press,
+thr_status thr_holding_pull(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
                             bool want_upper, const thr_limits *limits, thr_holding *out, thr_err *err) THR_MUST_CHECK;
-void thr_holding_destroy(thr_holding *h);
+void thr_holding_destroy(thr_holding *holding);
 
 #endif

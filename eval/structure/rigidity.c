@@ -23,9 +23,9 @@ static void matrix_destroy(matrix *a)
   free(a->value);
 }
 
-static void unit_along(const thr_frame *f, int h, double u[3])
+static void unit_along(const thr_frame *frame, int h, double u[3])
 {
-  const double *from = f->xyz[thr_tail(f, h)], *to = f->xyz[thr_head(f, h)];
+  const double *from = frame->xyz[thr_tail(frame, h)], *to = frame->xyz[thr_head(frame, h)];
   double size = hypot(hypot(to[0] - from[0], to[1] - from[1]), to[2] - from[2]);
   for (int i = 0; i < 3; i++)
     u[i] = (to[i] - from[i]) / size;
@@ -37,24 +37,24 @@ typedef struct {
   const double (*axis)[3];
 } velocities;
 
-static thr_status matrix_make(matrix *a, const thr_frame *f, const velocities *s, thr_err *err)
+static thr_status matrix_make(matrix *a, const thr_frame *frame, const velocities *s, thr_err *err)
 {
   size_t columns = 0, entries = 0, n = 0;
-  for (int v = 0; v < f->n_nodes; v++) {
+  for (int v = 0; v < frame->n_nodes; v++) {
     columns += (size_t)s->n_axes[v];
-    entries += (size_t)s->n_axes[v] * (size_t)thr_degree(f, v);
+    entries += (size_t)s->n_axes[v] * (size_t)thr_degree(frame, v);
   }
   *a = (matrix){.n_columns = (int)columns,
                 .start = thr_calloc(columns + 1, sizeof *a->start),
                 .row = thr_calloc(entries, sizeof *a->row),
                 .value = thr_calloc(entries, sizeof *a->value)};
   if (!a->start || !a->row || !a->value) return thr_nomem(err);
-  for (int v = 0, j = 0; v < f->n_nodes; v++)
+  for (int v = 0, j = 0; v < frame->n_nodes; v++)
     for (int i = 0; i < s->n_axes[v]; i++) {
-      for (int k = f->first[v]; k < f->first[v + 1]; k++) {
+      for (int k = frame->first[v]; k < frame->first[v + 1]; k++) {
         double u[3];
-        unit_along(f, f->half[k], u);
-        a->row[n] = f->half[k] >> 1;
+        unit_along(frame, frame->half[k], u);
+        a->row[n] = frame->half[k] >> 1;
         a->value[n++] = thr_dot(u, s->axis[3 * v + i]);
       }
       a->start[++j] = (int)n;
@@ -62,14 +62,14 @@ static thr_status matrix_make(matrix *a, const thr_frame *f, const velocities *s
   return THR_OK;
 }
 
-static thr_status rank_of(const thr_frame *f, const velocities *s, int *rank, bool *unclear, thr_err *err)
+static thr_status rank_of(const thr_frame *frame, const velocities *s, int *rank, bool *unclear, thr_err *err)
 {
   matrix a;
   int coarse = 0;
   *rank = 0;
-  thr_status st = matrix_make(&a, f, s, err);
-  if (!st) st = thr_rank(f->n_edges, a.n_columns, a.start, a.row, a.value, ROUNDING, rank, err);
-  if (!st) st = thr_rank(f->n_edges, a.n_columns, a.start, a.row, a.value, DOUBT, &coarse, err);
+  thr_status st = matrix_make(&a, frame, s, err);
+  if (!st) st = thr_rank(frame->n_edges, a.n_columns, a.start, a.row, a.value, ROUNDING, rank, err);
+  if (!st) st = thr_rank(frame->n_edges, a.n_columns, a.start, a.row, a.value, DOUBT, &coarse, err);
   *unclear |= !st && coarse != *rank;
   matrix_destroy(&a);
   return st;
@@ -100,12 +100,12 @@ static void widen(span *s, const double u[3])
   s->dimension++;
 }
 
-static void find_spans(const thr_frame *f, const int *component, span *piece)
+static void find_spans(const thr_frame *frame, const int *component, span *piece)
 {
-  for (int e = 0; e < f->n_edges; e++) {
+  for (int e = 0; e < frame->n_edges; e++) {
     double u[3];
-    unit_along(f, 2 * e, u);
-    widen(&piece[component[f->edge[e][0]]], u);
+    unit_along(frame, 2 * e, u);
+    widen(&piece[component[frame->edge[e][0]]], u);
   }
 }
 
@@ -149,7 +149,7 @@ static void all_directions(work *w)
 
 static thr_status count_motions(work *w, thr_rigidity *out, thr_err *err)
 {
-  const thr_frame *f = w->f;
+  const thr_frame *frame = w->f;
   int freedom, feet = 0;
   all_directions(w);
   out->flat = true;
@@ -158,15 +158,15 @@ static thr_status count_motions(work *w, thr_rigidity *out, thr_err *err)
     out->flat &= w->piece[k].dimension == 2;
   }
   thr_status st = freedoms(w, &freedom, &out->unclear, err);
-  out->rank = 3 * f->n_nodes - freedom;
+  out->rank = 3 * frame->n_nodes - freedom;
   out->motions = freedom - out->rigid_motions;
-  out->self_stresses = f->n_edges - out->rank;
-  for (int v = 0; v < f->n_nodes; v++)
-    if (f->foot[v]) w->n_axes[v] = 0, feet++;
+  out->self_stresses = frame->n_edges - out->rank;
+  for (int v = 0; v < frame->n_nodes; v++)
+    if (frame->foot[v]) w->n_axes[v] = 0, feet++;
   out->pinned = freedom;
   if (!st && feet > 0) st = freedoms(w, &out->pinned, &out->unclear, err);
   if (st || !out->flat) return st;
-  for (int v = 0; v < f->n_nodes; v++) {
+  for (int v = 0; v < frame->n_nodes; v++) {
     w->n_axes[v] = 2;
     memcpy(w->axis[3 * v], w->piece[w->component[v]].basis, 2 * sizeof *w->axis);
   }
@@ -175,19 +175,19 @@ static thr_status count_motions(work *w, thr_rigidity *out, thr_err *err)
   return st;
 }
 
-thr_status thr_rigidity_find(const thr_frame *f, thr_rigidity *out, thr_err *err)
+thr_status thr_rigidity_find(const thr_frame *frame, thr_rigidity *out, thr_err *err)
 {
-  size_t n = (size_t)f->n_nodes;
+  size_t n = (size_t)frame->n_nodes;
   *out = (thr_rigidity){0};
-  work w = {.f = f,
+  work w = {.f = frame,
             .component = thr_calloc(n, sizeof *w.component),
             .piece = thr_calloc(n, sizeof *w.piece),
             .n_axes = thr_calloc(n, sizeof *w.n_axes),
             .axis = thr_calloc(3 * n, sizeof *w.axis)};
   thr_status st = w.component && w.piece && w.n_axes && w.axis ? THR_OK : thr_nomem(err);
-  if (!st) st = thr_frame_components(f, w.component, &w.n_pieces, err);
+  if (!st) st = thr_frame_components(frame, w.component, &w.n_pieces, err);
   if (!st) {
-    find_spans(f, w.component, w.piece);
+    find_spans(frame, w.component, w.piece);
     st = count_motions(&w, out, err);
   }
   free(w.component);

@@ -27,6 +27,6 @@ typedef struct {
 
 /* Rows of the matrix are unit vectors along the edges; a part of 1e-9 that is left of a column counts as rounding, and where 1e-6
  * would give another rank, that is said. Own lengths do not matter. Time of a few sparse QR factorizations. */
-thr_status thr_rigidity_find(const thr_frame *f, thr_rigidity *out, thr_err *err) THR_MUST_CHECK;
+thr_status thr_rigidity_find(const thr_frame *frame, thr_rigidity *out, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -117,20 +117,20 @@ static void look(model *m)
   }
 }
 
-static double mean_edge(const thr_beads *b, const thr_frame *f)
+static double mean_edge(const thr_beads *beads, const thr_frame *frame)
 {
   double sum = 0;
-  for (int e = 0; e < b->n_faces; e++)
-    sum += distance(b->centre[f->edge[e][0]], b->centre[f->edge[e][1]]);
-  return sum / b->n_faces;
+  for (int e = 0; e < beads->n_faces; e++)
+    sum += distance(beads->centre[frame->edge[e][0]], beads->centre[frame->edge[e][1]]);
+  return sum / beads->n_faces;
 }
 
-static double mean_mass(const thr_beads *b)
+static double mean_mass(const thr_beads *beads)
 {
   double sum = 0;
-  for (int v = 0; v < b->n_beads; v++)
-    sum += b->mass[v];
-  return sum / b->n_beads;
+  for (int v = 0; v < beads->n_beads; v++)
+    sum += beads->mass[v];
+  return sum / beads->n_beads;
 }
 
 /* ---- the world ---- */
@@ -144,14 +144,14 @@ typedef struct {
 
 static void arm_box(const model *m, int v, int e, boxes *out)
 {
-  const thr_beads *b = m->b;
-  double side[2][3], length = distance(b->centre[v], b->middle[e]) / m->unit, width = b->width / m->unit;
+  const thr_beads *beads = m->b;
+  double side[2][3], length = distance(beads->centre[v], beads->middle[e]) / m->unit, width = beads->width / m->unit;
   for (int k = 0; k < 3; k++) {
-    side[0][k] = (b->corner[e][1][k] - b->corner[e][0][k]) / b->width;
-    side[1][k] = (b->corner[e][2][k] - b->corner[e][1][k]) / b->width;
-    out->place[out->n][k] = (0.5 * (b->centre[v][k] + b->middle[e][k]) - b->mass_centre[v][k]) / m->unit;
+    side[0][k] = (beads->corner[e][1][k] - beads->corner[e][0][k]) / beads->width;
+    side[1][k] = (beads->corner[e][2][k] - beads->corner[e][1][k]) / beads->width;
+    out->place[out->n][k] = (0.5 * (beads->centre[v][k] + beads->middle[e][k]) - beads->mass_centre[v][k]) / m->unit;
   }
-  quaternion_of(side[0], side[1], b->axis[e], out->place[out->n] + 3);
+  quaternion_of(side[0], side[1], beads->axis[e], out->place[out->n] + 3);
   memcpy(out->half[out->n], (const double[3]){0.5 * width, 0.5 * width, 0.5 * length}, sizeof *out->half);
   out->tag[out->n++] = e;
 }
@@ -252,30 +252,30 @@ static thr_status depth(const model *m, int *out, thr_err *err)
   return THR_OK;
 }
 
-static thr_status build(model *m, const thr_physics *physics, const thr_settle_options *o, double finer, thr_err *err)
+static thr_status build(model *m, const thr_physics *physics, const thr_settle_options *options, double finer, thr_err *err)
 {
   int iterations;
   thr_status s = depth(m, &iterations, err);
   if (s != THR_OK) return s;
   iterations *= ITERATIONS_PER_BEAD;
   if (iterations < LEAST_ITERATIONS) iterations = LEAST_ITERATIONS;
-  thr_world_options w = {.time_step = m->dt,
-                         .iterations = (int)ceil(o->iterations * finer * iterations),
-                         .gravity = {0, 0, physics->gravity > 0 ? -1 : 0},
-                         .cached_friction = true,
-                         .erp = -1,
-                         .erp2 = -1,
-                         .cfm = -1,
-                         .slop = SLOP,
-                         .warm_start = false};
+  thr_world_options world_options = {.time_step = m->dt,
+                                     .iterations = (int)ceil(options->iterations * finer * iterations),
+                                     .gravity = {0, 0, physics->gravity > 0 ? -1 : 0},
+                                     .cached_friction = true,
+                                     .erp = -1,
+                                     .erp2 = -1,
+                                     .cfm = -1,
+                                     .slop = SLOP,
+                                     .warm_start = false};
   int most = 1;
   for (int v = 0; v < m->b->n_beads; v++)
     most = thr_degree(m->f, v) + 1 > most ? thr_degree(m->f, v) + 1 : most;
   boxes parts = {.half = thr_calloc((size_t)most, sizeof *parts.half),
                  .place = thr_calloc((size_t)most, sizeof *parts.place),
                  .tag = thr_calloc((size_t)most, sizeof *parts.tag)};
-  s = parts.half && parts.place && parts.tag ? thr_world_create(&m->world, &w, err) : thr_nomem(err);
-  uint64_t random = o->seed;
+  s = parts.half && parts.place && parts.tag ? thr_world_create(&m->world, &world_options, err) : thr_nomem(err);
+  uint64_t random = options->seed;
   for (int i = 0; s == THR_OK && i < m->b->n_feet; i++)
     s = add_ground(m, i, physics, err);
   for (int v = 0; s == THR_OK && v < m->b->n_beads; v++)
@@ -446,12 +446,12 @@ static thr_status fall(model *m, thr_err *err)
 }
 
 /* In a fresh world, whose time step and iterations are the options' times finer. */
-static thr_status attempt(model *m, const thr_physics *physics, const thr_settle_options *o, double finer, double start,
+static thr_status attempt(model *m, const thr_physics *physics, const thr_settle_options *options, double finer, double start,
                           thr_settle *out, thr_err *err)
 {
-  m->dt = TIME_STEP * o->time_step * finer;
+  m->dt = TIME_STEP * options->time_step * finer;
   m->steps = 0;
-  thr_status s = build(m, physics, o, finer, err);
+  thr_status s = build(m, physics, options, finer, err);
   if (s != THR_OK) return s;
   m->all = steps_of(m, SETTLE_TIME + RAMP_TIME + REST_TIME + AFTER_TIME);
   m->pull = start;
@@ -463,7 +463,7 @@ static thr_status attempt(model *m, const thr_physics *physics, const thr_settle
   return s;
 }
 
-static thr_status run(model *m, const thr_physics *physics, const thr_settle_options *o, double start, thr_settle *out,
+static thr_status run(model *m, const thr_physics *physics, const thr_settle_options *options, double start, thr_settle *out,
                       thr_err *err)
 {
   thr_status s = THR_OK;
@@ -472,7 +472,7 @@ static thr_status run(model *m, const thr_physics *physics, const thr_settle_opt
   for (int i = 0; s == THR_OK && i < ATTEMPTS && out->status == THR_SETTLE_NEVER_SETTLED; i++) {
     thr_world_destroy(m->world);
     m->world = NULL;
-    s = attempt(m, physics, o, finer, start, out, err);
+    s = attempt(m, physics, options, finer, start, out, err);
     out->finer = finer;
     finer *= FINER;
   }
@@ -486,14 +486,14 @@ static void sum_tension(model *m, const thr_cord *cord, int n_cords, const doubl
       m->tension[cord[i].half[k] >> 1] += tension[i][k];
 }
 
-static thr_status check(const thr_settle_options *o, thr_err *err)
+static thr_status check(const thr_settle_options *options, thr_err *err)
 {
-  if (!(o->start > 0 && o->start <= 1e12))
-    return thr_fail(err, THR_EINPUT, "structure: start pull %g N: give more than 0 and at most 1e12", o->start);
-  if (!(o->time_step >= 1e-3 && o->time_step <= 10))
-    return thr_fail(err, THR_EINPUT, "structure: time step factor %g: give 0.001 to 10", o->time_step);
-  if (!(o->iterations >= 0.01 && o->iterations <= 1000))
-    return thr_fail(err, THR_EINPUT, "structure: iterations factor %g: give 0.01 to 1000", o->iterations);
+  if (!(options->start > 0 && options->start <= 1e12))
+    return thr_fail(err, THR_EINPUT, "structure: start pull %g N: give more than 0 and at most 1e12", options->start);
+  if (!(options->time_step >= 1e-3 && options->time_step <= 10))
+    return thr_fail(err, THR_EINPUT, "structure: time step factor %g: give 0.001 to 10", options->time_step);
+  if (!(options->iterations >= 0.01 && options->iterations <= 1000))
+    return thr_fail(err, THR_EINPUT, "structure: iterations factor %g: give 0.01 to 1000", options->iterations);
   return THR_OK;
 }
 
@@ -504,19 +504,19 @@ void thr_settle_judge(thr_settle *s, double start, double equilibrium)
   s->index = 0;
 }
 
-thr_status thr_settle_run(const thr_beads *b, const thr_frame *f, const thr_cord *cord, int n_cords, const double *const *tension,
-                          const thr_physics *physics, const thr_settle_options *o, const thr_limits *limits, thr_settle *out,
-                          thr_err *err)
+thr_status thr_settle_run(const thr_beads *beads, const thr_frame *frame, const thr_cord *cord, int n_cords,
+                          const double *const *tension, const thr_physics *physics, const thr_settle_options *options,
+                          const thr_limits *limits, thr_settle *out, thr_err *err)
 {
   *out = (thr_settle){0};
-  thr_status s = check(o, err);
+  thr_status s = check(options, err);
   if (s != THR_OK) return s;
-  *out = (thr_settle){.present = true, .first_bead = -1, .n_beads = b->n_beads, .status = THR_SETTLE_TOO_LARGE};
-  if (b->n_beads > thr_settle_largest) return THR_OK;
-  size_t n = (size_t)b->n_beads;
-  double mass = mean_mass(b), gravity = physics->gravity > 0 ? physics->gravity : 9.81;
-  model m = {.b = b, .f = f, .limits = limits, .unit = mean_edge(b, f)};
-  m.tension = thr_calloc((size_t)b->n_faces, sizeof *m.tension);
+  *out = (thr_settle){.present = true, .first_bead = -1, .n_beads = beads->n_beads, .status = THR_SETTLE_TOO_LARGE};
+  if (beads->n_beads > thr_settle_largest) return THR_OK;
+  size_t n = (size_t)beads->n_beads;
+  double mass = mean_mass(beads), gravity = physics->gravity > 0 ? physics->gravity : 9.81;
+  model m = {.b = beads, .f = frame, .limits = limits, .unit = mean_edge(beads, frame)};
+  m.tension = thr_calloc((size_t)beads->n_faces, sizeof *m.tension);
   m.body = thr_calloc(n, sizeof *m.body);
   m.now = thr_calloc(n, sizeof *m.now);
   m.home = thr_calloc(n, sizeof *m.home);
@@ -525,7 +525,7 @@ thr_status thr_settle_run(const thr_beads *b, const thr_frame *f, const thr_cord
   s = m.tension && m.body && m.now && m.home && out->before && out->after ? THR_OK : thr_nomem(err);
   if (s == THR_OK) {
     sum_tension(&m, cord, n_cords, tension);
-    s = run(&m, physics, o, o->start / (mass * gravity), out, err);
+    s = run(&m, physics, options, options->start / (mass * gravity), out, err);
   }
   thr_world_destroy(m.world);
   free(m.tension);

@@ -55,11 +55,11 @@ extern const int thr_settle_largest;
 
 /* Limit analysis has found an equilibrium at the pull `equilibrium` (N; INFINITY: at none), and so at every larger one, since
  * more tension only presses the faces more. If the structure fell above it, its contacts crept: status CREPT, no index. */
-void thr_settle_judge(thr_settle *s, double start, double equilibrium);
+void thr_settle_judge(thr_settle *settle, double start, double equilibrium);
 
-thr_status thr_settle_run(const thr_beads *b, const thr_frame *f, const thr_cord *cord, int n_cords, const double *const *tension,
-                          const thr_physics *physics, const thr_settle_options *o, const thr_limits *limits, thr_settle *out,
-                          thr_err *err) THR_MUST_CHECK;
-void thr_settle_destroy(thr_settle *s);
+thr_status thr_settle_run(const thr_beads *beads, const thr_frame *frame, const thr_cord *cord, int n_cords,
+                          const double *const *tension, const thr_physics *physics, const thr_settle_options *options,
+                          const thr_limits *limits, thr_settle *out, thr_err *err) THR_MUST_CHECK;
+void thr_settle_destroy(thr_settle *settle);
 
 #endif

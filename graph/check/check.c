@@ -13,11 +13,11 @@ bool thr_check_close(double a, double b, double whole)
   return fabs(a - b) <= 1e-9 * whole;
 }
 
-double thr_check_angle(const thr_frame *f, int in, int out)
+double thr_check_angle(const thr_frame *frame, int in, int out)
 {
   double unit[2][3], sum = 0, difference = 0;
   for (int k = 0; k < 2; k++) {
-    thr_direction(f, k ? out : in, unit[k]);
+    thr_direction(frame, k ? out : in, unit[k]);
     double size = sqrt(thr_dot(unit[k], unit[k]));
     for (int i = 0; i < 3; i++)
       unit[k][i] /= size;
@@ -31,87 +31,90 @@ double thr_check_angle(const thr_frame *f, int in, int out)
 
 /* ---- cords ---- */
 
-static thr_status check_walk(const thr_frame *f, const thr_cord *c, thr_err *err)
+static thr_status check_walk(const thr_frame *frame, const thr_cord *cord, thr_err *err)
 {
-  for (int i = 0; i + 1 < c->n_passes; i++)
-    if (thr_head(f, c->half[i]) != thr_tail(f, c->half[i + 1]))
-      return thr_fail(err, THR_EVIOLATED, "cord %s, pass %d: ends at node %d, but pass %d starts at node %d", c->id, i + 1,
-                      thr_head(f, c->half[i]), i + 2, thr_tail(f, c->half[i + 1]));
-  bool meets = thr_cord_start(f, c) == thr_cord_end(f, c);
-  if (c->closed != meets)
-    return thr_fail(err, THR_EVIOLATED, "cord %s: said to be %s, but runs from node %d to node %d", c->id,
-                    c->closed ? "closed" : "open", thr_cord_start(f, c), thr_cord_end(f, c));
+  for (int i = 0; i + 1 < cord->n_passes; i++)
+    if (thr_head(frame, cord->half[i]) != thr_tail(frame, cord->half[i + 1]))
+      return thr_fail(err, THR_EVIOLATED, "cord %s, pass %d: ends at node %d, but pass %d starts at node %d", cord->id, i + 1,
+                      thr_head(frame, cord->half[i]), i + 2, thr_tail(frame, cord->half[i + 1]));
+  bool meets = thr_cord_start(frame, cord) == thr_cord_end(frame, cord);
+  if (cord->closed != meets)
+    return thr_fail(err, THR_EVIOLATED, "cord %s: said to be %s, but runs from node %d to node %d", cord->id,
+                    cord->closed ? "closed" : "open", thr_cord_start(frame, cord), thr_cord_end(frame, cord));
   return THR_OK;
 }
 
-static thr_status check_ends(const thr_frame *f, const thr_plan_options *o, const thr_cord *c, thr_err *err)
+static thr_status check_ends(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord, thr_err *err)
 {
-  if (o->ends == THR_ENDS_CLOSED && !c->closed)
-    return thr_fail(err, THR_EVIOLATED, "cord %s: open, but the plan's options say closed", c->id);
-  int end[2] = {thr_cord_start(f, c), thr_cord_end(f, c)};
+  if (options->ends == THR_ENDS_CLOSED && !cord->closed)
+    return thr_fail(err, THR_EVIOLATED, "cord %s: open, but the plan's options say closed", cord->id);
+  int end[2] = {thr_cord_start(frame, cord), thr_cord_end(frame, cord)};
   for (int i = 0; i < 2; i++)
-    if (!thr_plan_end_allowed(f, o, end[i]))
-      return thr_fail(err, THR_EVIOLATED, "cord %s: %s at node %d, where no cord end is allowed", c->id, i ? "ends" : "starts",
+    if (!thr_plan_end_allowed(frame, options, end[i]))
+      return thr_fail(err, THR_EVIOLATED, "cord %s: %s at node %d, where no cord end is allowed", cord->id, i ? "ends" : "starts",
                       end[i]);
   return THR_OK;
 }
 
 /* Every edge has the passes that it needs, and no more than fit. */
-static thr_status check_cover(const thr_frame *f, const thr_plan_options *o, const int *passes, thr_err *err)
+static thr_status check_cover(const thr_frame *frame, const thr_plan_options *options, const int *passes, thr_err *err)
 {
-  for (int e = 0; e < f->n_edges; e++) {
-    int least = thr_plan_cover(f, o, e), most = thr_plan_capacity(f, o, e);
+  for (int e = 0; e < frame->n_edges; e++) {
+    int least = thr_plan_cover(frame, options, e), most = thr_plan_capacity(frame, options, e);
     if (passes[e] < least)
-      return thr_fail(err, THR_EVIOLATED, "edge %d (nodes %d and %d): %d of %d passes", e, f->edge[e][0], f->edge[e][1],
+      return thr_fail(err, THR_EVIOLATED, "edge %d (nodes %d and %d): %d of %d passes", e, frame->edge[e][0], frame->edge[e][1],
                       passes[e], least);
     if (passes[e] > most)
-      return thr_fail(err, THR_EVIOLATED, "edge %d (nodes %d and %d): %d passes, but only %d fit", e, f->edge[e][0],
-                      f->edge[e][1], passes[e], most);
+      return thr_fail(err, THR_EVIOLATED, "edge %d (nodes %d and %d): %d passes, but only %d fit", e, frame->edge[e][0],
+                      frame->edge[e][1], passes[e], most);
   }
   return THR_OK;
 }
 
 /* THR_ENDS_COUNTS: at every node as many cord ends as asked for. */
-static thr_status check_end_counts(const thr_frame *f, const thr_plan_options *o, const thr_cord *cord, int n_cords, thr_err *err)
+static thr_status check_end_counts(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord, int n_cords,
+                                   thr_err *err)
 {
-  if (o->ends != THR_ENDS_COUNTS) return THR_OK;
-  int *count = thr_calloc((size_t)f->n_nodes, sizeof *count);
+  if (options->ends != THR_ENDS_COUNTS) return THR_OK;
+  int *count = thr_calloc((size_t)frame->n_nodes, sizeof *count);
   thr_status st = count ? THR_OK : thr_nomem(err);
   for (int i = 0; i < n_cords && !st; i++) {
-    count[thr_cord_start(f, &cord[i])]++;
-    count[thr_cord_end(f, &cord[i])]++;
+    count[thr_cord_start(frame, &cord[i])]++;
+    count[thr_cord_end(frame, &cord[i])]++;
   }
-  for (int v = 0; v < f->n_nodes && !st; v++)
-    if (count[v] != o->end_count[v])
+  for (int v = 0; v < frame->n_nodes && !st; v++)
+    if (count[v] != options->end_count[v])
       st = thr_fail(err, THR_EVIOLATED, "node %d: has %d cord %s; the plan's options say %d", v, count[v],
-                    count[v] == 1 ? "end" : "ends", o->end_count[v]);
+                    count[v] == 1 ? "end" : "ends", options->end_count[v]);
   free(count);
   return st;
 }
 
-static thr_status check_lengths(const thr_frame *f, const thr_plan_options *o, const thr_cord *cord, int n_cords, thr_err *err)
+static thr_status check_lengths(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord, int n_cords,
+                                thr_err *err)
 {
-  for (int i = 0; i < n_cords && o->max_length > 0; i++) {
-    double length = thr_cord_length(f, &cord[i]);
-    if (length > o->max_length && !thr_check_close(length, o->max_length, length))
+  for (int i = 0; i < n_cords && options->max_length > 0; i++) {
+    double length = thr_cord_length(frame, &cord[i]);
+    if (length > options->max_length && !thr_check_close(length, options->max_length, length))
       return thr_fail(err, THR_EVIOLATED, "cord %s: %.12g long; the plan's options allow %.12g", cord[i].id, length,
-                      o->max_length);
+                      options->max_length);
   }
   return THR_OK;
 }
 
 /* THR_JOINT_TUBE: no cord turns back into its edge, and the turns tie the edges of every node together. */
-static thr_status check_joints(const thr_frame *f, const thr_plan_options *o, const thr_cord *cord, int n_cords, thr_err *err)
+static thr_status check_joints(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord, int n_cords,
+                               thr_err *err)
 {
-  if (o->joint != THR_JOINT_TUBE) return THR_OK;
+  if (options->joint != THR_JOINT_TUBE) return THR_OK;
   for (int i = 0; i < n_cords; i++)
-    for (int k = 0; k < thr_cord_turns(o, &cord[i]); k++)
+    for (int k = 0; k < thr_cord_turns(options, &cord[i]); k++)
       if (cord[i].half[(k + 1) % cord[i].n_passes] >> 1 == cord[i].half[k] >> 1)
         return thr_fail(err, THR_EVIOLATED, "cord %s, pass %d: turns back at node %d, which ties no tube joint", cord[i].id,
-                        k + 1, thr_head(f, cord[i].half[k]));
-  bool *tied = thr_calloc((size_t)f->n_nodes, sizeof *tied);
-  thr_status st = tied ? thr_junction_tied(f, cord, n_cords, o->ends == THR_ENDS_CLOSED, tied, err) : thr_nomem(err);
-  for (int v = 0; v < f->n_nodes && !st; v++)
+                        k + 1, thr_head(frame, cord[i].half[k]));
+  bool *tied = thr_calloc((size_t)frame->n_nodes, sizeof *tied);
+  thr_status st = tied ? thr_junction_tied(frame, cord, n_cords, options->ends == THR_ENDS_CLOSED, tied, err) : thr_nomem(err);
+  for (int v = 0; v < frame->n_nodes && !st; v++)
     if (!tied[v])
       st = thr_fail(err, THR_EVIOLATED, "node %d: the cords do not tie its edges together, as the plan's tube joints need", v);
   free(tied);
@@ -119,99 +122,99 @@ static thr_status check_joints(const thr_frame *f, const thr_plan_options *o, co
 }
 
 /* Counts the passes that the cords make. */
-static thr_status check_cords(const thr_frame *f, const thr_plan_options *o, const int *component, const thr_cord *cord,
+static thr_status check_cords(const thr_frame *frame, const thr_plan_options *options, const int *component, const thr_cord *cord,
                               int n_cords, int *passes, thr_err *err)
 {
   thr_status st;
   for (int i = 0; i < n_cords; i++) {
     const thr_cord *c = &cord[i];
-    if ((st = check_walk(f, c, err))) return st;
-    if ((st = check_ends(f, o, c, err))) return st;
-    if (component[thr_cord_start(f, c)] != c->component)
+    if ((st = check_walk(frame, c, err))) return st;
+    if ((st = check_ends(frame, options, c, err))) return st;
+    if (component[thr_cord_start(frame, c)] != c->component)
       return thr_fail(err, THR_EVIOLATED, "cord %s: said to be in component %d, but runs in component %d", c->id, c->component,
-                      component[thr_cord_start(f, c)]);
+                      component[thr_cord_start(frame, c)]);
     for (int k = 0; k < c->n_passes; k++)
       passes[c->half[k] >> 1]++;
   }
-  if ((st = check_cover(f, o, passes, err))) return st;
-  if ((st = check_end_counts(f, o, cord, n_cords, err))) return st;
-  if ((st = check_lengths(f, o, cord, n_cords, err))) return st;
-  return check_joints(f, o, cord, n_cords, err);
+  if ((st = check_cover(frame, options, passes, err))) return st;
+  if ((st = check_end_counts(frame, options, cord, n_cords, err))) return st;
+  if ((st = check_lengths(frame, options, cord, n_cords, err))) return st;
+  return check_joints(frame, options, cord, n_cords, err);
 }
 
-static void walked_destroy(thr_check_walked *w)
+static void walked_destroy(thr_check_walked *check_walked)
 {
-  free(w->component);
-  free(w->passes);
-  *w = (thr_check_walked){0};
+  free(check_walked->component);
+  free(check_walked->passes);
+  *check_walked = (thr_check_walked){0};
 }
 
-/* Without passes yet. On failure w is empty. */
-static thr_status walked_init(thr_check_walked *w, const thr_frame *f, thr_err *err)
+/* Without passes yet. On failure check_walked is empty. */
+static thr_status walked_init(thr_check_walked *check_walked, const thr_frame *frame, thr_err *err)
 {
-  *w = (thr_check_walked){.component = thr_calloc((size_t)f->n_nodes, sizeof *w->component),
-                          .passes = thr_calloc((size_t)f->n_edges, sizeof *w->passes)};
-  thr_status st = w->component && w->passes ? THR_OK : thr_nomem(err);
-  if (!st) st = thr_frame_components(f, w->component, &w->n_components, err);
-  if (st) walked_destroy(w);
+  *check_walked = (thr_check_walked){.component = thr_calloc((size_t)frame->n_nodes, sizeof *check_walked->component),
+                                     .passes = thr_calloc((size_t)frame->n_edges, sizeof *check_walked->passes)};
+  thr_status st = check_walked->component && check_walked->passes ? THR_OK : thr_nomem(err);
+  if (!st) st = thr_frame_components(frame, check_walked->component, &check_walked->n_components, err);
+  if (st) walked_destroy(check_walked);
   return st;
 }
 
 /* The same from cords, which are checked on the way. */
-static thr_status walked_from_cords(thr_check_walked *w, const thr_frame *f, const thr_plan_options *o, const thr_cord *cord,
-                                    int n_cords, thr_err *err)
+static thr_status walked_from_cords(thr_check_walked *check_walked, const thr_frame *frame, const thr_plan_options *options,
+                                    const thr_cord *cord, int n_cords, thr_err *err)
 {
-  thr_status st = walked_init(w, f, err);
-  if (!st) st = check_cords(f, o, w->component, cord, n_cords, w->passes, err);
-  if (st) walked_destroy(w);
+  thr_status st = walked_init(check_walked, frame, err);
+  if (!st) st = check_cords(frame, options, check_walked->component, cord, n_cords, check_walked->passes, err);
+  if (st) walked_destroy(check_walked);
   return st;
 }
 
 /* As many cords in every component as the options say; of a symmetric plan, in the one that has most. */
-static thr_status check_cord_count(const thr_check_walked *w, const thr_plan_options *o, const thr_cord *cord, int n_cords,
-                                   thr_err *err)
+static thr_status check_cord_count(const thr_check_walked *check_walked, const thr_plan_options *options, const thr_cord *cord,
+                                   int n_cords, thr_err *err)
 {
-  int *count = thr_calloc((size_t)w->n_components, sizeof *count);
+  int *count = thr_calloc((size_t)check_walked->n_components, sizeof *count);
   thr_status st = count ? THR_OK : thr_nomem(err);
   for (int i = 0; i < n_cords && !st; i++)
     count[cord[i].component]++;
-  int first = 0, end = w->n_components, least = thr_wants_symmetry(o) ? o->cords : o->cords_least;
-  for (int k = 0; k < w->n_components && !st && thr_wants_symmetry(o); k++) {
+  int first = 0, end = check_walked->n_components, least = thr_wants_symmetry(options) ? options->cords : options->cords_least;
+  for (int k = 0; k < check_walked->n_components && !st && thr_wants_symmetry(options); k++) {
     if (count[k] > count[first]) first = k;
     end = first + 1;
   }
   for (int k = first; k < end && !st; k++) {
     const char *cords = count[k] == 1 ? "cord" : "cords";
-    if (count[k] >= least && count[k] <= o->cords) continue;
-    if (least == o->cords)
+    if (count[k] >= least && count[k] <= options->cords) continue;
+    if (least == options->cords)
       st = thr_fail(err, THR_EVIOLATED, "component %d: has %d %s; the plan's options say %d", k, count[k], cords, least);
     else
       st = thr_fail(err, THR_EVIOLATED, "component %d: has %d %s; the plan's options say %d to %d", k, count[k], cords, least,
-                    o->cords);
+                    options->cords);
   }
   free(count);
   return st;
 }
 
-static double length_of(const thr_frame *f, const int *passes)
+static double length_of(const thr_frame *frame, const int *passes)
 {
   double sum = 0;
-  for (int e = 0; e < f->n_edges; e++)
-    sum += passes[e] * f->length[e];
+  for (int e = 0; e < frame->n_edges; e++)
+    sum += passes[e] * frame->length[e];
   return sum;
 }
 
-static double base_length_of(const thr_frame *f, const thr_plan_options *o)
+static double base_length_of(const thr_frame *frame, const thr_plan_options *options)
 {
   double sum = 0;
-  for (int e = 0; e < f->n_edges; e++)
-    sum += thr_plan_cover(f, o, e) * f->length[e];
+  for (int e = 0; e < frame->n_edges; e++)
+    sum += thr_plan_cover(frame, options, e) * frame->length[e];
   return sum;
 }
 
 /* What the verdicts prove of passes with this length. */
-static void sum_verdicts(const thr_frame *f, const thr_plan_options *o, const thr_check_verdict *verdict, int n, double length,
-                         bool *optimal, double *lower_bound)
+static void sum_verdicts(const thr_frame *frame, const thr_plan_options *options, const thr_check_verdict *verdict, int n,
+                         double length, bool *optimal, double *lower_bound)
 {
   double extra = 0;
   *optimal = true;
@@ -219,16 +222,17 @@ static void sum_verdicts(const thr_frame *f, const thr_plan_options *o, const th
     *optimal &= verdict[i].optimal;
     extra += verdict[i].extra;
   }
-  *lower_bound = *optimal ? length : fmin(length, base_length_of(f, o) + extra);
+  *lower_bound = *optimal ? length : fmin(length, base_length_of(frame, options) + extra);
 }
 
 /* Verifies the certificates for passes that were checked already. *verdict is for the caller to free; NULL on failure. */
-static thr_status judge_certificates(const thr_frame *f, const thr_plan_options *o, const thr_check_walked *w,
-                                     const thr_certificate *certificate, int n, thr_check_verdict **verdict, thr_err *err)
+static thr_status judge_certificates(const thr_frame *frame, const thr_plan_options *options,
+                                     const thr_check_walked *check_walked, const thr_certificate *certificate, int n,
+                                     thr_check_verdict **verdict, thr_err *err)
 {
-  *verdict = thr_calloc((size_t)w->n_components, sizeof **verdict);
+  *verdict = thr_calloc((size_t)check_walked->n_components, sizeof **verdict);
   if (!*verdict) return thr_nomem(err);
-  thr_status st = thr_check_certificates(f, o, w, certificate, n, *verdict, err);
+  thr_status st = thr_check_certificates(frame, options, check_walked, certificate, n, *verdict, err);
   if (st) {
     free(*verdict);
     *verdict = NULL;
@@ -237,89 +241,94 @@ static thr_status judge_certificates(const thr_frame *f, const thr_plan_options 
 }
 
 /* For passes of this length. */
-static thr_status check_proof(const thr_frame *f, const thr_plan_options *o, const thr_check_walked *w, double length,
-                              const thr_certificate *certificate, int n, bool *optimal, double *lower_bound, thr_err *err)
+static thr_status check_proof(const thr_frame *frame, const thr_plan_options *options, const thr_check_walked *check_walked,
+                              double length, const thr_certificate *certificate, int n, bool *optimal, double *lower_bound,
+                              thr_err *err)
 {
   thr_check_verdict *verdict;
-  thr_status st = judge_certificates(f, o, w, certificate, n, &verdict, err);
-  if (!st) sum_verdicts(f, o, verdict, n, length, optimal, lower_bound);
+  thr_status st = judge_certificates(frame, options, check_walked, certificate, n, &verdict, err);
+  if (!st) sum_verdicts(frame, options, verdict, n, length, optimal, lower_bound);
   free(verdict);
   return st;
 }
 
-thr_status thr_check_length_proof(const thr_frame *f, const thr_plan_options *o, const thr_cord *cord, int n_cords,
+thr_status thr_check_length_proof(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord, int n_cords,
                                   const thr_certificate *certificate, int n_certificates, bool *optimal, double *lower_bound,
                                   thr_err *err)
 {
-  thr_check_walked w;
+  thr_check_walked check_walked;
   double length = 0;
-  thr_status st = walked_from_cords(&w, f, o, cord, n_cords, err);
-  if (!st) st = check_cord_count(&w, o, cord, n_cords, err);
+  thr_status st = walked_from_cords(&check_walked, frame, options, cord, n_cords, err);
+  if (!st) st = check_cord_count(&check_walked, options, cord, n_cords, err);
   for (int i = 0; i < n_cords; i++)
-    length += thr_cord_length(f, &cord[i]);
-  if (!st) st = check_proof(f, o, &w, length, certificate, n_certificates, optimal, lower_bound, err);
-  walked_destroy(&w);
+    length += thr_cord_length(frame, &cord[i]);
+  if (!st) st = check_proof(frame, options, &check_walked, length, certificate, n_certificates, optimal, lower_bound, err);
+  walked_destroy(&check_walked);
   return st;
 }
 
-thr_status thr_check_cords(const thr_frame *f, const thr_plan_options *o, const thr_cord *cord, int n_cords,
+thr_status thr_check_cords(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord, int n_cords,
                            const thr_certificate *certificate, int n_certificates, thr_cords_claim *found, thr_err *err)
 {
-  thr_check_walked w;
+  thr_check_walked check_walked;
   thr_check_verdict *verdict = NULL;
   *found = (thr_cords_claim){0};
-  thr_status st = walked_from_cords(&w, f, o, cord, n_cords, err);
-  if (!st) st = check_cord_count(&w, o, cord, n_cords, err);
-  if (!st && certificate) st = judge_certificates(f, o, &w, certificate, n_certificates, &verdict, err);
-  if (!st) st = thr_check_several(f, o, &w, cord, n_cords, certificate, verdict, NULL, found, err);
+  thr_status st = walked_from_cords(&check_walked, frame, options, cord, n_cords, err);
+  if (!st) st = check_cord_count(&check_walked, options, cord, n_cords, err);
+  if (!st && certificate) st = judge_certificates(frame, options, &check_walked, certificate, n_certificates, &verdict, err);
+  if (!st) st = thr_check_several(frame, options, &check_walked, cord, n_cords, certificate, verdict, NULL, found, err);
   free(verdict);
-  walked_destroy(&w);
+  walked_destroy(&check_walked);
   return st;
 }
 
-thr_status thr_check_tied_cords(const thr_frame *f, const thr_plan_options *o, const thr_cord *cord, int n_cords,
+thr_status thr_check_tied_cords(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord, int n_cords,
                                 const thr_turning_proof *tied, thr_cords_claim *found, thr_err *err)
 {
-  thr_check_walked w;
+  thr_check_walked check_walked;
   *found = (thr_cords_claim){0};
-  thr_status st = walked_from_cords(&w, f, o, cord, n_cords, err);
-  if (!st) st = check_cord_count(&w, o, cord, n_cords, err);
-  if (!st) st = thr_check_several(f, o, &w, cord, n_cords, NULL, NULL, tied, found, err);
-  walked_destroy(&w);
+  thr_status st = walked_from_cords(&check_walked, frame, options, cord, n_cords, err);
+  if (!st) st = check_cord_count(&check_walked, options, cord, n_cords, err);
+  if (!st) st = thr_check_several(frame, options, &check_walked, cord, n_cords, NULL, NULL, tied, found, err);
+  walked_destroy(&check_walked);
   return st;
 }
 
 /* Passes that cords can run through: every edge covered with room, and where they are odd in number a cord may end. */
-static thr_status check_passes(const thr_frame *f, const thr_plan_options *o, const thr_check_walked *w, thr_err *err)
+static thr_status check_passes(const thr_frame *frame, const thr_plan_options *options, const thr_check_walked *check_walked,
+                               thr_err *err)
 {
-  int most = o->ends == THR_ENDS_CLOSED ? 0 : 2 * o->cords;
-  thr_status st = check_cover(f, o, w->passes, err);
-  int *odd = thr_calloc((size_t)w->n_components, sizeof *odd);
+  int most = options->ends == THR_ENDS_CLOSED ? 0 : 2 * options->cords;
+  thr_status st = check_cover(frame, options, check_walked->passes, err);
+  int *odd = thr_calloc((size_t)check_walked->n_components, sizeof *odd);
   if (!st && !odd) st = thr_nomem(err);
-  for (int v = 0; v < f->n_nodes && !st; v++) {
-    int sum = 0, ends = o->ends == THR_ENDS_COUNTS ? o->end_count[v] : 0;
-    for (int i = f->first[v]; i < f->first[v + 1]; i++)
-      sum += w->passes[f->half[i] >> 1];
-    if (o->ends == THR_ENDS_COUNTS && (sum - ends) % 2)
+  for (int v = 0; v < frame->n_nodes && !st; v++) {
+    int sum = 0, ends = options->ends == THR_ENDS_COUNTS ? options->end_count[v] : 0;
+    for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
+      sum += check_walked->passes[frame->half[i] >> 1];
+    if (options->ends == THR_ENDS_COUNTS && (sum - ends) % 2)
       st = thr_fail(err, THR_EVIOLATED, "node %d: %d passes do not go with %d cord %s", v, sum, ends, ends == 1 ? "end" : "ends");
-    else if (o->ends != THR_ENDS_COUNTS && sum % 2 && (!thr_plan_end_allowed(f, o, v) || ++odd[w->component[v]] > most))
+    else if (options->ends != THR_ENDS_COUNTS && sum % 2 &&
+             (!thr_plan_end_allowed(frame, options, v) || ++odd[check_walked->component[v]] > most))
       st = thr_fail(err, THR_EVIOLATED, "node %d: %d passes, an odd number, but no cord can end there", v, sum);
   }
   free(odd);
   return st;
 }
 
-thr_status thr_check_length_of_passes(const thr_frame *f, const thr_plan_options *o, const int *passes,
+thr_status thr_check_length_of_passes(const thr_frame *frame, const thr_plan_options *options, const int *passes,
                                       const thr_certificate *certificate, int n_certificates, bool *optimal, double *lower_bound,
                                       thr_err *err)
 {
-  thr_check_walked w;
-  thr_status st = walked_init(&w, f, err);
+  thr_check_walked check_walked;
+  thr_status st = walked_init(&check_walked, frame, err);
   if (st) return st;
-  memcpy(w.passes, passes, (size_t)f->n_edges * sizeof *passes);
-  st = check_passes(f, o, &w, err);
-  if (!st) st = check_proof(f, o, &w, length_of(f, w.passes), certificate, n_certificates, optimal, lower_bound, err);
-  walked_destroy(&w);
+  memcpy(check_walked.passes, passes, (size_t)frame->n_edges * sizeof *passes);
+  st = check_passes(frame, options, &check_walked, err);
+  if (!st)
+    st = check_proof(frame, options, &check_walked, length_of(frame, check_walked.passes), certificate, n_certificates, optimal,
+                     lower_bound, err);
+  walked_destroy(&check_walked);
   return st;
 }
 
@@ -332,95 +341,96 @@ static thr_status metric(const char *name, double stated, double found, double w
 }
 
 /* Metrics from the cords alone; passes[n_edges] as check_cords counted them. */
-static thr_metrics recompute(const thr_plan *p, const int *passes)
+static thr_metrics recompute(const thr_plan *plan, const int *passes)
 {
-  const thr_frame *f = &p->frame;
-  thr_metrics m = {0};
-  for (int e = 0; e < f->n_edges; e++) {
-    int cover = thr_plan_cover(f, &p->options, e);
-    m.base_length += f->length[e] * cover;
-    m.overlap += f->length[e] * (passes[e] - cover);
-    m.length += f->length[e] * passes[e];
-    m.passes += passes[e];
-    if (passes[e] > m.most_passes) m.most_passes = passes[e];
+  const thr_frame *frame = &plan->frame;
+  thr_metrics metrics = {0};
+  for (int e = 0; e < frame->n_edges; e++) {
+    int cover = thr_plan_cover(frame, &plan->options, e);
+    metrics.base_length += frame->length[e] * cover;
+    metrics.overlap += frame->length[e] * (passes[e] - cover);
+    metrics.length += frame->length[e] * passes[e];
+    metrics.passes += passes[e];
+    if (passes[e] > metrics.most_passes) metrics.most_passes = passes[e];
   }
-  for (int i = 0; i < p->n_cords; i++) {
-    const thr_cord *c = &p->cord[i];
+  for (int i = 0; i < plan->n_cords; i++) {
+    const thr_cord *cord = &plan->cord[i];
     double turning = 0;
-    for (int k = p->options.ends == THR_ENDS_CLOSED ? 0 : 1; k < c->n_passes; k++) {
-      int in = c->half[k ? k - 1 : c->n_passes - 1], out = c->half[k];
-      double angle = thr_check_angle(f, in, out);
+    for (int k = plan->options.ends == THR_ENDS_CLOSED ? 0 : 1; k < cord->n_passes; k++) {
+      int in = cord->half[k ? k - 1 : cord->n_passes - 1], out = cord->half[k];
+      double angle = thr_check_angle(frame, in, out);
       turning += angle;
-      m.worst_turn = fmax(m.worst_turn, angle);
-      m.u_turns += in >> 1 == out >> 1;
+      metrics.worst_turn = fmax(metrics.worst_turn, angle);
+      metrics.u_turns += in >> 1 == out >> 1;
     }
-    m.turning += turning;
-    m.max_turning = fmax(m.max_turning, turning);
+    metrics.turning += turning;
+    metrics.max_turning = fmax(metrics.max_turning, turning);
   }
-  return m;
+  return metrics;
 }
 
-static thr_status check_metrics(const thr_plan *p, const int *passes, thr_err *err)
+static thr_status check_metrics(const thr_plan *plan, const int *passes, thr_err *err)
 {
-  thr_metrics m = recompute(p, passes);
-  const thr_metrics *s = &p->metrics;
+  thr_metrics metrics = recompute(plan, passes);
+  const thr_metrics *s = &plan->metrics;
   thr_status st;
-  if ((st = metric("length", s->length, m.length, m.length, err))) return st;
-  if ((st = metric("base_length", s->base_length, m.base_length, m.length, err))) return st;
-  if ((st = metric("overlap", s->overlap, m.overlap, m.length, err))) return st;
-  if ((st = metric("passes", s->passes, m.passes, 0, err))) return st;
-  if ((st = metric("most_passes", s->most_passes, m.most_passes, 0, err))) return st;
-  if ((st = metric("turning", s->turning, m.turning, 1 + m.turning, err))) return st;
-  if ((st = metric("max_turning", s->max_turning, m.max_turning, 1 + m.turning, err))) return st;
-  if ((st = metric("worst_turn", s->worst_turn, m.worst_turn, 1 + m.turning, err))) return st;
-  return metric("u_turns", s->u_turns, m.u_turns, 0, err);
+  if ((st = metric("length", s->length, metrics.length, metrics.length, err))) return st;
+  if ((st = metric("base_length", s->base_length, metrics.base_length, metrics.length, err))) return st;
+  if ((st = metric("overlap", s->overlap, metrics.overlap, metrics.length, err))) return st;
+  if ((st = metric("passes", s->passes, metrics.passes, 0, err))) return st;
+  if ((st = metric("most_passes", s->most_passes, metrics.most_passes, 0, err))) return st;
+  if ((st = metric("turning", s->turning, metrics.turning, 1 + metrics.turning, err))) return st;
+  if ((st = metric("max_turning", s->max_turning, metrics.max_turning, 1 + metrics.turning, err))) return st;
+  if ((st = metric("worst_turn", s->worst_turn, metrics.worst_turn, 1 + metrics.turning, err))) return st;
+  return metric("u_turns", s->u_turns, metrics.u_turns, 0, err);
 }
 
 /* *proved: no cords with these options are shorter. */
-static thr_status check_length_claim(const thr_plan *p, const thr_check_walked *w, const thr_check_verdict *verdict,
+static thr_status check_length_claim(const thr_plan *plan, const thr_check_walked *check_walked, const thr_check_verdict *verdict,
                                      double *proved, thr_err *err)
 {
   bool optimal;
-  double lower_bound, length = length_of(&p->frame, w->passes);
-  const thr_length_proof *claim = &p->proof;
-  if (p->options.joint == THR_JOINT_TUBE) {
-    thr_status st = thr_tied_least(&p->frame, &p->options, &claim->tied, &lower_bound, err);
+  double lower_bound, length = length_of(&plan->frame, check_walked->passes);
+  const thr_length_proof *claim = &plan->proof;
+  if (plan->options.joint == THR_JOINT_TUBE) {
+    thr_status st = thr_tied_least(&plan->frame, &plan->options, &claim->tied, &lower_bound, err);
     if (st) return st;
     if (lower_bound > length && !thr_check_close(lower_bound, length, length))
       return thr_fail(err, THR_EVIOLATED, "proof.length: the tree proves %.12g, which is more than the length %.12g", lower_bound,
                       length);
     optimal = thr_check_close(lower_bound, length, length);
   } else {
-    sum_verdicts(&p->frame, &p->options, verdict, w->n_components, length, &optimal, &lower_bound);
+    sum_verdicts(&plan->frame, &plan->options, verdict, check_walked->n_components, length, &optimal, &lower_bound);
   }
   *proved = lower_bound;
-  if (!claim->slack_open && !thr_plan_within_slack(&p->options, length, lower_bound))
+  if (!claim->slack_open && !thr_plan_within_slack(&plan->options, length, lower_bound))
     return thr_fail(err, THR_EVIOLATED,
                     "options.turning.length_slack: at most %.12g above the least length, but the cords are %.12g long and only "
                     "%.12g is proved",
-                    p->options.turning.length_slack, length, lower_bound);
+                    plan->options.turning.length_slack, length, lower_bound);
   if (claim->optimal && !optimal)
     return thr_fail(err, THR_EVIOLATED, "proof.length: says optimal, but the certificate only proves %.12g of %.12g", lower_bound,
-                    p->metrics.length);
-  if (claim->optimal && !thr_check_close(claim->lower_bound, p->metrics.length, p->metrics.length))
+                    plan->metrics.length);
+  if (claim->optimal && !thr_check_close(claim->lower_bound, plan->metrics.length, plan->metrics.length))
     return thr_fail(err, THR_EVIOLATED, "proof.length: says optimal, but its lower bound %.12g is not the length %.12g",
-                    claim->lower_bound, p->metrics.length);
+                    claim->lower_bound, plan->metrics.length);
   if (claim->lower_bound > lower_bound && !thr_check_close(claim->lower_bound, lower_bound, lower_bound))
     return thr_fail(err, THR_EVIOLATED, "proof.length.lower_bound: stated %.12g, but the certificate proves %.12g",
                     claim->lower_bound, lower_bound);
-  if (!thr_check_close(claim->gap, (p->metrics.length - claim->lower_bound) / p->metrics.length, 1))
+  if (!thr_check_close(claim->gap, (plan->metrics.length - claim->lower_bound) / plan->metrics.length, 1))
     return thr_fail(err, THR_EVIOLATED, "proof.length.gap: stated %.12g, but length and lower bound give %.12g", claim->gap,
-                    (p->metrics.length - claim->lower_bound) / p->metrics.length);
+                    (plan->metrics.length - claim->lower_bound) / plan->metrics.length);
   return THR_OK;
 }
 
-static thr_status check_cords_claim(const thr_plan *p, const thr_check_walked *w, const thr_check_verdict *verdict, thr_err *err)
+static thr_status check_cords_claim(const thr_plan *plan, const thr_check_walked *check_walked, const thr_check_verdict *verdict,
+                                    thr_err *err)
 {
-  const thr_cords_claim *claim = &p->cords_claim;
+  const thr_cords_claim *claim = &plan->cords_claim;
   thr_cords_claim found;
-  const thr_turning_proof *tied = p->options.joint == THR_JOINT_TUBE && p->proof.present ? &p->proof.tied : NULL;
-  thr_status st =
-      thr_check_several(&p->frame, &p->options, w, p->cord, p->n_cords, p->proof.certificate, verdict, tied, &found, err);
+  const thr_turning_proof *tied = plan->options.joint == THR_JOINT_TUBE && plan->proof.present ? &plan->proof.tied : NULL;
+  thr_status st = thr_check_several(&plan->frame, &plan->options, check_walked, plan->cord, plan->n_cords,
+                                    plan->proof.certificate, verdict, tied, &found, err);
   if (st) return st;
   const double whole = found.longest;
   if (!thr_check_close(claim->longest, found.longest, whole))
@@ -436,35 +446,36 @@ static thr_status check_cords_claim(const thr_plan *p, const thr_check_walked *w
   if (claim->fewest > found.fewest)
     return thr_fail(err, THR_EVIOLATED, "proof.cords.fewest.lower_bound: stated %d, but only %d is proved", claim->fewest,
                     found.fewest);
-  if (claim->fewest_optimal && (claim->fewest != p->n_cords || claim->fewest == 0))
+  if (claim->fewest_optimal && (claim->fewest != plan->n_cords || claim->fewest == 0))
     return thr_fail(err, THR_EVIOLATED, "proof.cords.fewest: says optimal, but there are %d cords and its bound is %d",
-                    p->n_cords, claim->fewest);
+                    plan->n_cords, claim->fewest);
   return THR_OK;
 }
 
 /* *proved: as for check_length_claim; left alone without one. */
-static thr_status check_claims(const thr_plan *p, const thr_check_walked *w, double *proved, thr_err *err)
+static thr_status check_claims(const thr_plan *plan, const thr_check_walked *check_walked, double *proved, thr_err *err)
 {
   thr_check_verdict *verdict = NULL;
   thr_status st = THR_OK;
-  if (p->proof.present && (p->options.joint == THR_JOINT_TUBE) != (p->proof.tied.n_nodes > 0))
+  if (plan->proof.present && (plan->options.joint == THR_JOINT_TUBE) != (plan->proof.tied.n_nodes > 0))
     return thr_fail(err, THR_EVIOLATED, "proof.length: has a %s, but the plan's joints are %s",
-                    p->proof.tied.n_nodes > 0 ? "proof" : "certificate", thr_joint_name(p->options.joint));
-  if (p->proof.present && p->options.joint == THR_JOINT_SOLID)
-    st = judge_certificates(&p->frame, &p->options, w, p->proof.certificate, p->proof.n_certificates, &verdict, err);
-  if (!st && p->proof.present) st = check_length_claim(p, w, verdict, proved, err);
-  if (!st && p->cords_claim.present) st = check_cords_claim(p, w, verdict, err);
+                    plan->proof.tied.n_nodes > 0 ? "proof" : "certificate", thr_joint_name(plan->options.joint));
+  if (plan->proof.present && plan->options.joint == THR_JOINT_SOLID)
+    st = judge_certificates(&plan->frame, &plan->options, check_walked, plan->proof.certificate, plan->proof.n_certificates,
+                            &verdict, err);
+  if (!st && plan->proof.present) st = check_length_claim(plan, check_walked, verdict, proved, err);
+  if (!st && plan->cords_claim.present) st = check_cords_claim(plan, check_walked, verdict, err);
   free(verdict);
   return st;
 }
 
-static thr_status check_names(const thr_plan *p, thr_err *err)
+static thr_status check_names(const thr_plan *plan, thr_err *err)
 {
-  for (int i = 0; i < p->n_cords; i++) {
+  for (int i = 0; i < plan->n_cords; i++) {
     char id[12];
     thr_cord_id(i, id);
-    if (strcmp(p->cord[i].id, id) != 0)
-      return thr_fail(err, THR_EVIOLATED, "cord number %d is called %s; expected %s", i + 1, p->cord[i].id, id);
+    if (strcmp(plan->cord[i].id, id) != 0)
+      return thr_fail(err, THR_EVIOLATED, "cord number %d is called %s; expected %s", i + 1, plan->cord[i].id, id);
   }
   return THR_OK;
 }
@@ -475,20 +486,20 @@ thr_status thr_check_own(thr_status st, const thr_err *found, thr_err *err)
   return st ? thr_fail(err, st, "%s", found->text) : THR_OK;
 }
 
-thr_status thr_check_plan(const thr_plan *p, thr_err *err)
+thr_status thr_check_plan(const thr_plan *plan, thr_err *err)
 {
-  thr_check_walked w;
+  thr_check_walked check_walked;
   double least_length = 0;
-  thr_status st = check_names(p, err);
+  thr_status st = check_names(plan, err);
   if (st) return st;
-  if ((st = walked_from_cords(&w, &p->frame, &p->options, p->cord, p->n_cords, err))) return st;
-  if (p->proof.present || p->cords_claim.present || !thr_wants_length(&p->options))
-    st = check_cord_count(&w, &p->options, p->cord, p->n_cords, err);
-  if (!st) st = check_metrics(p, w.passes, err);
-  if (!st && p->symmetry.present) st = thr_check_symmetry(p, err);
-  if (!st) st = check_claims(p, &w, &least_length, err);
-  if (!st && p->turning.present) st = thr_check_turning_claim(p, least_length, err);
-  if (!st && p->evaluation.present) st = thr_check_evaluation(p, err);
-  walked_destroy(&w);
+  if ((st = walked_from_cords(&check_walked, &plan->frame, &plan->options, plan->cord, plan->n_cords, err))) return st;
+  if (plan->proof.present || plan->cords_claim.present || !thr_wants_length(&plan->options))
+    st = check_cord_count(&check_walked, &plan->options, plan->cord, plan->n_cords, err);
+  if (!st) st = check_metrics(plan, check_walked.passes, err);
+  if (!st && plan->symmetry.present) st = thr_check_symmetry(plan, err);
+  if (!st) st = check_claims(plan, &check_walked, &least_length, err);
+  if (!st && plan->turning.present) st = thr_check_turning_claim(plan, least_length, err);
+  if (!st && plan->evaluation.present) st = thr_check_evaluation(plan, err);
+  walked_destroy(&check_walked);
   return st;
 }

@@ -13,9 +13,9 @@
 
 typedef thr_wide wide;
 
-int64_t thr_certificate_weight(const thr_frame *f, const thr_certificate *c, int e)
+int64_t thr_certificate_weight(const thr_frame *frame, const thr_certificate *certificate, int e)
 {
-  return (int64_t)nearbyint(f->length[e] * c->scale);
+  return (int64_t)nearbyint(frame->length[e] * certificate->scale);
 }
 
 /* Work space over the framework. Each component has one certificate: what is filled in at its nodes and edges stays. */
@@ -53,10 +53,10 @@ static void forest_destroy(forest *t)
   thr_scratch_free(&t->own);
 }
 
-static thr_status forest_init(forest *t, const thr_certificate *c, thr_err *err)
+static thr_status forest_init(forest *t, const thr_certificate *certificate, thr_err *err)
 {
-  size_t n = (size_t)c->n_cuts;
-  *t = (forest){.c = c};
+  size_t n = (size_t)certificate->n_cuts;
+  *t = (forest){.c = certificate};
   t->first = thr_scratch_array(&t->own, n, sizeof *t->first);
   t->next = thr_scratch_array(&t->own, n, sizeof *t->next);
   t->root = thr_scratch_array(&t->own, n, sizeof *t->root);
@@ -66,28 +66,28 @@ static thr_status forest_init(forest *t, const thr_certificate *c, thr_err *err)
   t->depth = thr_scratch_array(&t->own, n, sizeof *t->depth);
   t->odd = thr_scratch_array(&t->own, n, sizeof *t->odd);
   if (thr_scratch_check(&t->own, err)) return THR_ENOMEM;
-  for (int i = 0; i < c->n_cuts; i++)
+  for (int i = 0; i < certificate->n_cuts; i++)
     t->first[i] = t->next[i] = t->heavy[i] = -1;
   return THR_OK;
 }
 
-static thr_status check_cut(const workspace *k, const thr_certificate *c, int i, thr_err *err)
+static thr_status check_cut(const workspace *k, const thr_certificate *certificate, int i, thr_err *err)
 {
-  const thr_cut *cut = &c->cut[i];
+  const thr_cut *cut = &certificate->cut[i];
   if (cut->value < 0)
-    return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: multiplier %" PRId64 " is negative", c->component,
-                    i, cut->value);
-  if (cut->parent != -1 && (cut->parent <= i || cut->parent >= c->n_cuts))
-    return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: its parent %d is not a later cut", c->component, i,
-                    cut->parent);
+    return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: multiplier %" PRId64 " is negative",
+                    certificate->component, i, cut->value);
+  if (cut->parent != -1 && (cut->parent <= i || cut->parent >= certificate->n_cuts))
+    return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: its parent %d is not a later cut",
+                    certificate->component, i, cut->parent);
   for (int j = 0; j < cut->n_nodes; j++) {
     int v = cut->node[j];
     if (j > 0 && v <= cut->node[j - 1])
-      return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: nodes are not ascending at %d", c->component, i,
-                      v);
-    if (k->w->component[v] != c->component)
-      return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: node %d is in component %d", c->component, i, v,
-                      k->w->component[v]);
+      return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: nodes are not ascending at %d",
+                      certificate->component, i, v);
+    if (k->w->component[v] != certificate->component)
+      return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: node %d is in component %d",
+                      certificate->component, i, v, k->w->component[v]);
   }
   return THR_OK;
 }
@@ -95,25 +95,25 @@ static thr_status check_cut(const workspace *k, const thr_certificate *c, int i,
 /* Children come before their parents: sizes and parities go up, roots, depths and heavy paths down. */
 static thr_status forest_fill(forest *t, const workspace *k, thr_err *err)
 {
-  const thr_certificate *c = t->c;
-  for (int i = 0; i < c->n_cuts; i++) {
-    thr_status st = check_cut(k, c, i, err);
+  const thr_certificate *certificate = t->c;
+  for (int i = 0; i < certificate->n_cuts; i++) {
+    thr_status st = check_cut(k, certificate, i, err);
     if (st) return st;
-    int p = c->cut[i].parent;
-    for (int j = 0; j < c->cut[i].n_nodes; j++)
-      t->odd[i] ^= k->odd[c->cut[i].node[j]];
+    int p = certificate->cut[i].parent;
+    for (int j = 0; j < certificate->cut[i].n_nodes; j++)
+      t->odd[i] ^= k->odd[certificate->cut[i].node[j]];
     if (!t->odd[i])
-      return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: holds an even number of odd nodes", c->component,
-                      i);
+      return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: holds an even number of odd nodes",
+                      certificate->component, i);
     t->size[i]++;
     if (p < 0) continue;
     t->odd[p] ^= true;
     t->size[p] += t->size[i];
     if (t->heavy[p] < 0 || t->size[i] > t->size[t->heavy[p]]) t->heavy[p] = i;
   }
-  for (int i = c->n_cuts - 1; i >= 0; i--) {
-    int p = c->cut[i].parent, root = p < 0 ? i : t->root[p];
-    t->depth[i] = c->cut[i].value + (p < 0 ? 0 : t->depth[p]);
+  for (int i = certificate->n_cuts - 1; i >= 0; i--) {
+    int p = certificate->cut[i].parent, root = p < 0 ? i : t->root[p];
+    t->depth[i] = certificate->cut[i].value + (p < 0 ? 0 : t->depth[p]);
     t->head[i] = p >= 0 && t->heavy[p] == i ? t->head[p] : i;
     t->root[i] = root;
     t->next[i] = t->first[root];
@@ -166,41 +166,42 @@ static void load_tree(workspace *k, const forest *t, int root)
 }
 
 /* Edge number j of all, by component. */
-static thr_priced priced(const workspace *k, const thr_certificate *c, int j)
+static thr_priced priced(const workspace *k, const thr_certificate *certificate, int j)
 {
   int e = k->edge[j];
   bool closed = k->o->ends == THR_ENDS_CLOSED;
-  wide of = closed ? (c->n_prices ? c->place_price[0] : 0) : (wide)k->price[k->f->edge[e][0]] + k->price[k->f->edge[e][1]];
-  return thr_prices_edge(k->f, k->o, e, (wide)thr_certificate_weight(k->f, c, e) * c->denominator, of,
-                         closed && c->n_prices && k->loop ? k->loop[j] : 2); /* find_loops comes first */
+  wide of = closed ? (certificate->n_prices ? certificate->place_price[0] : 0)
+                   : (wide)k->price[k->f->edge[e][0]] + k->price[k->f->edge[e][1]];
+  return thr_prices_edge(k->f, k->o, e, (wide)thr_certificate_weight(k->f, certificate, e) * certificate->denominator, of,
+                         closed && certificate->n_prices && k->loop ? k->loop[j] : 2); /* find_loops comes first */
 }
 
 /* Prices at nodes, the parity of nodes at these prices, and in *places, which is 0 before, what all that adds to the bound. */
-static thr_status apply_prices(workspace *k, const thr_certificate *c, wide *places, thr_err *err)
+static thr_status apply_prices(workspace *k, const thr_certificate *certificate, wide *places, thr_err *err)
 {
-  const thr_frame *f = k->f;
-  const thr_plan_options *o = k->o;
-  int first = k->start[c->component], n = k->start[c->component + 1] - first;
-  if (c->n_prices == 0) return THR_OK;
-  if (c->n_prices != thr_prices_number(o, n))
-    return thr_fail(err, THR_EVIOLATED, "certificate of component %d: %d place prices; expected %d", c->component, c->n_prices,
-                    thr_prices_number(o, n));
-  for (int i = 0; i < c->n_prices; i++)
-    if (c->place_price[i] < 0)
-      return thr_fail(err, THR_EVIOLATED, "certificate of component %d: place price %" PRId64 " is negative", c->component,
-                      c->place_price[i]);
-  for (int i = 0; i < n && o->ends != THR_ENDS_CLOSED; i++) {
+  const thr_frame *frame = k->f;
+  const thr_plan_options *options = k->o;
+  int first = k->start[certificate->component], n = k->start[certificate->component + 1] - first;
+  if (certificate->n_prices == 0) return THR_OK;
+  if (certificate->n_prices != thr_prices_number(options, n))
+    return thr_fail(err, THR_EVIOLATED, "certificate of component %d: %d place prices; expected %d", certificate->component,
+                    certificate->n_prices, thr_prices_number(options, n));
+  for (int i = 0; i < certificate->n_prices; i++)
+    if (certificate->place_price[i] < 0)
+      return thr_fail(err, THR_EVIOLATED, "certificate of component %d: place price %" PRId64 " is negative",
+                      certificate->component, certificate->place_price[i]);
+  for (int i = 0; i < n && options->ends != THR_ENDS_CLOSED; i++) {
     int v = k->node[first + i];
-    if (thr_plan_end_allowed(f, o, v)) k->price[v] = c->place_price[o->ends == THR_ENDS_COUNTS ? i : 0];
-    if (o->ends == THR_ENDS_COUNTS) *places += (wide)k->price[v] * o->end_count[v];
+    if (thr_plan_end_allowed(frame, options, v)) k->price[v] = certificate->place_price[options->ends == THR_ENDS_COUNTS ? i : 0];
+    if (options->ends == THR_ENDS_COUNTS) *places += (wide)k->price[v] * options->end_count[v];
   }
-  if (o->ends != THR_ENDS_COUNTS) *places = 2 * (wide)o->cords_least * c->place_price[0];
-  for (int j = k->edge_start[c->component]; j < k->edge_start[c->component + 1]; j++) {
-    const int *end = f->edge[k->edge[j]];
-    thr_priced p = priced(k, c, j);
+  if (options->ends != THR_ENDS_COUNTS) *places = 2 * (wide)options->cords_least * certificate->place_price[0];
+  for (int j = k->edge_start[certificate->component]; j < k->edge_start[certificate->component + 1]; j++) {
+    const int *end = frame->edge[k->edge[j]];
+    thr_priced p = priced(k, certificate, j);
     if (p.room && p.endless)
       return thr_fail(err, THR_EVIOLATED, "certificate of component %d: place prices make edge %d cheaper the more it is passed",
-                      c->component, k->edge[j]);
+                      certificate->component, k->edge[j]);
     bool odd = p.room && p.odd < p.even;
     *places += (odd ? p.odd : p.even) - p.held;
     k->odd[end[0]] ^= odd;
@@ -209,103 +210,109 @@ static thr_status apply_prices(workspace *k, const thr_certificate *c, wide *pla
   return THR_OK;
 }
 
-static thr_status check_loads(const workspace *k, const thr_certificate *c, thr_err *err)
+static thr_status check_loads(const workspace *k, const thr_certificate *certificate, thr_err *err)
 {
-  for (int j = k->edge_start[c->component]; j < k->edge_start[c->component + 1]; j++) {
+  for (int j = k->edge_start[certificate->component]; j < k->edge_start[certificate->component + 1]; j++) {
     int e = k->edge[j];
     wide load = k->held[k->f->edge[e][0]] + k->held[k->f->edge[e][1]] - 2 * k->shared[e];
-    thr_priced p = priced(k, c, j);
+    thr_priced p = priced(k, certificate, j);
     if (p.room && load > (p.odd > p.even ? p.odd - p.even : p.even - p.odd))
       return thr_fail(err, THR_EVIOLATED, "certificate of component %d: the cuts over edge %d add up to more than its weight",
-                      c->component, e);
+                      certificate->component, e);
   }
   if (!thr_check_ends_free(k->o)) return THR_OK;
-  for (int j = k->start[c->component]; j < k->start[c->component + 1]; j++) {
+  for (int j = k->start[certificate->component]; j < k->start[certificate->component + 1]; j++) {
     int v = k->node[j];
-    if (thr_plan_end_allowed(k->f, k->o, v) && k->held[v] > c->end_price)
+    if (thr_plan_end_allowed(k->f, k->o, v) && k->held[v] > certificate->end_price)
       return thr_fail(err, THR_EVIOLATED, "certificate of component %d: the cuts round node %d add up to more than the end price",
-                      c->component, v);
+                      certificate->component, v);
   }
   return THR_OK;
 }
 
 /* Least weight of extra passes that leave so many ends; weights are integers, and nothing fits between the bound and the next. */
-static wide least_weight(const thr_certificate *c, wide places, int64_t ends)
+static wide least_weight(const thr_certificate *certificate, wide places, int64_t ends)
 {
-  wide proved = c->sum + places - (wide)ends * c->end_price;
-  return proved > 0 ? (proved + c->denominator - 1) / c->denominator : 0;
+  wide proved = certificate->sum + places - (wide)ends * certificate->end_price;
+  return proved > 0 ? (proved + certificate->denominator - 1) / certificate->denominator : 0;
 }
 
 /* Least weight of extra passes that leave so many ends, as a length: what rounding may have added is taken off. Passes x cost
  * at least (1 - r) w x / scale less what each edge's rounding adds above its part r, whatever r is; two of them are tried. */
-double thr_check_extra(const thr_certificate *c, const thr_check_verdict *v, int64_t ends)
+double thr_check_extra(const thr_certificate *certificate, const thr_check_verdict *check_verdict, int64_t ends)
 {
-  double weight = (double)least_weight(c, v->places, ends) / c->scale;
-  return fmax(0, fmax(weight - v->rounding, weight * (1 - THR_CHECK_ROUNDING) - v->rounding_above));
+  double weight = (double)least_weight(certificate, check_verdict->places, ends) / certificate->scale;
+  return fmax(0, fmax(weight - check_verdict->rounding, weight * (1 - THR_CHECK_ROUNDING) - check_verdict->rounding_above));
 }
 
 /* Extra passes of an edge in some shortest plan, at the most. Two passes less leave parity and ends as they are; and where more
  * passes than 2 cords run over an edge, one cord has three of them, and can do without two. */
-static int most_extra(const workspace *k, const thr_certificate *c, int e)
+static int most_extra(const workspace *k, const thr_certificate *certificate, int e)
 {
   int cover = thr_plan_cover(k->f, k->o, e), room = thr_plan_capacity(k->f, k->o, e) - cover;
-  int most = c->n_prices > 0 && 2 * k->cords[c->component] - cover > 1 ? 2 * k->cords[c->component] - cover : 1;
+  int most = certificate->n_prices > 0 && 2 * k->cords[certificate->component] - cover > 1
+                 ? 2 * k->cords[certificate->component] - cover
+                 : 1;
   return most < room ? most : room;
 }
 
 /* What rounding an edge's length up to its weight may add to a bound. */
-static void charge_rounding(const workspace *k, const thr_certificate *c, int e, thr_check_verdict *out)
+static void charge_rounding(const workspace *k, const thr_certificate *certificate, int e, thr_check_verdict *out)
 {
-  double weight = (double)thr_certificate_weight(k->f, c, e) / c->scale, added = weight - k->f->length[e];
-  int most = most_extra(k, c, e);
+  double weight = (double)thr_certificate_weight(k->f, certificate, e) / certificate->scale, added = weight - k->f->length[e];
+  int most = most_extra(k, certificate, e);
   out->rounding += fmax(0, added) * most;
   out->rounding_above += fmax(0, added - THR_CHECK_ROUNDING * weight) * most;
 }
 
 /* Compares the stated sums with the true ones, and says what they prove. */
-static thr_status judge(const workspace *k, const thr_certificate *c, wide sum, wide places, thr_check_verdict *out, thr_err *err)
+static thr_status judge(const workspace *k, const thr_certificate *certificate, wide sum, wide places, thr_check_verdict *out,
+                        thr_err *err)
 {
   bool weightless = false; /* a scale may round what passes cost to nothing */
   wide join = 0;
   double total = 0, extra = 0;
   *out = (thr_check_verdict){.places = places};
-  for (int j = k->edge_start[c->component]; j < k->edge_start[c->component + 1]; j++) {
+  for (int j = k->edge_start[certificate->component]; j < k->edge_start[certificate->component + 1]; j++) {
     int e = k->edge[j], more = k->w->passes[e] - thr_plan_cover(k->f, k->o, e);
-    int64_t weight = thr_certificate_weight(k->f, c, e);
+    int64_t weight = thr_certificate_weight(k->f, certificate, e);
     join += (wide)weight * more;
     weightless |= more > 0 && weight == 0;
     extra += k->f->length[e] * more;
     total += k->f->length[e];
-    charge_rounding(k, c, e, out);
+    charge_rounding(k, certificate, e, out);
   }
-  if (sum != c->sum)
+  if (sum != certificate->sum)
     return thr_fail(err, THR_EVIOLATED, "certificate of component %d: the multipliers do not add up to the stated sum %" PRId64,
-                    c->component, c->sum);
-  if (join != c->join)
+                    certificate->component, certificate->sum);
+  if (join != certificate->join)
     return thr_fail(err, THR_EVIOLATED, "certificate of component %d: the extra passes do not weigh the stated %" PRId64,
-                    c->component, c->join);
+                    certificate->component, certificate->join);
   int64_t ends = thr_check_ends_free(k->o) ? 2 * (int64_t)k->o->cords : 0;
-  if (least_weight(c, places, ends) > join)
+  if (least_weight(certificate, places, ends) > join)
     return thr_fail(err, THR_EVIOLATED,
-                    "certificate of component %d: its bound is above the weight of the plan's own extra passes", c->component);
-  out->extra = thr_check_extra(c, out, ends);
-  bool attained = !weightless && least_weight(c, places, ends) >= join;
+                    "certificate of component %d: its bound is above the weight of the plan's own extra passes",
+                    certificate->component);
+  out->extra = thr_check_extra(certificate, out, ends);
+  bool attained = !weightless && least_weight(certificate, places, ends) >= join;
   out->optimal = extra == 0 || (attained && extra - out->extra <= 1e-9 * total);
   return THR_OK;
 }
 
-static thr_status check_numbers(const workspace *k, const thr_certificate *c, thr_err *err)
+static thr_status check_numbers(const workspace *k, const thr_certificate *certificate, thr_err *err)
 {
-  if (!(c->scale > 0) || c->denominator < 1)
-    return thr_fail(err, THR_EVIOLATED, "certificate of component %d: scale and denominator must be positive", c->component);
-  for (int j = k->edge_start[c->component]; j < k->edge_start[c->component + 1]; j++) {
+  if (!(certificate->scale > 0) || certificate->denominator < 1)
+    return thr_fail(err, THR_EVIOLATED, "certificate of component %d: scale and denominator must be positive",
+                    certificate->component);
+  for (int j = k->edge_start[certificate->component]; j < k->edge_start[certificate->component + 1]; j++) {
     int e = k->edge[j];
-    if (!(k->f->length[e] * c->scale < 1e18))
-      return thr_fail(err, THR_EVIOLATED, "certificate of component %d: scale is too large for edge %d", c->component, e);
+    if (!(k->f->length[e] * certificate->scale < 1e18))
+      return thr_fail(err, THR_EVIOLATED, "certificate of component %d: scale is too large for edge %d", certificate->component,
+                      e);
   }
-  if (c->end_price < 0 || (c->end_price > 0 && !thr_check_ends_free(k->o)))
+  if (certificate->end_price < 0 || (certificate->end_price > 0 && !thr_check_ends_free(k->o)))
     return thr_fail(err, THR_EVIOLATED, "certificate of component %d: an end price of %" PRId64 " does not fit ends %s",
-                    c->component, c->end_price, thr_ends_name(k->o->ends));
+                    certificate->component, certificate->end_price, thr_ends_name(k->o->ends));
   return THR_OK;
 }
 
@@ -319,23 +326,23 @@ static thr_status find_loops(workspace *k, int component, thr_err *err)
   return THR_OK;
 }
 
-static thr_status run_certificate(workspace *k, const thr_certificate *c, thr_check_verdict *out, thr_err *err)
+static thr_status run_certificate(workspace *k, const thr_certificate *certificate, thr_check_verdict *out, thr_err *err)
 {
   forest t = {0};
   wide sum = 0, places = 0;
-  thr_status st = check_numbers(k, c, err);
-  if (!st && c->n_prices > 0 && k->o->ends == THR_ENDS_CLOSED) st = find_loops(k, c->component, err);
-  if (!st) st = apply_prices(k, c, &places, err);
-  if (!st) st = forest_init(&t, c, err);
+  thr_status st = check_numbers(k, certificate, err);
+  if (!st && certificate->n_prices > 0 && k->o->ends == THR_ENDS_CLOSED) st = find_loops(k, certificate->component, err);
+  if (!st) st = apply_prices(k, certificate, &places, err);
+  if (!st) st = forest_init(&t, certificate, err);
   if (!st) st = forest_fill(&t, k, err);
-  for (int i = 0; i < c->n_cuts && !st; i++) {
-    sum += c->cut[i].value;
+  for (int i = 0; i < certificate->n_cuts && !st; i++) {
+    sum += certificate->cut[i].value;
     if (t.root[i] != i) continue;
     st = mark_tree(k, &t, i, err);
     if (!st) load_tree(k, &t, i);
   }
-  if (!st) st = check_loads(k, c, err);
-  if (!st) st = judge(k, c, sum, places, out, err);
+  if (!st) st = check_loads(k, certificate, err);
+  if (!st) st = judge(k, certificate, sum, places, out, err);
   forest_destroy(&t);
   return st;
 }
@@ -348,47 +355,47 @@ static void workspace_destroy(workspace *k)
 /* Groups nodes and edges by component: counting sort, shifted by one place so that filling leaves the starts right. */
 static void group(workspace *k)
 {
-  const thr_frame *f = k->f;
+  const thr_frame *frame = k->f;
   const int *component = k->w->component;
-  for (int v = 0; v < f->n_nodes; v++)
+  for (int v = 0; v < frame->n_nodes; v++)
     k->start[component[v] + 2]++;
-  for (int e = 0; e < f->n_edges; e++)
-    k->edge_start[component[f->edge[e][0]] + 2]++;
-  for (int i = 1; i <= f->n_nodes; i++) {
+  for (int e = 0; e < frame->n_edges; e++)
+    k->edge_start[component[frame->edge[e][0]] + 2]++;
+  for (int i = 1; i <= frame->n_nodes; i++) {
     k->start[i + 1] += k->start[i];
     k->edge_start[i + 1] += k->edge_start[i];
   }
-  for (int v = 0; v < f->n_nodes; v++)
+  for (int v = 0; v < frame->n_nodes; v++)
     k->node[k->start[component[v] + 1]++] = v;
-  for (int e = 0; e < f->n_edges; e++)
-    k->edge[k->edge_start[component[f->edge[e][0]] + 1]++] = e;
+  for (int e = 0; e < frame->n_edges; e++)
+    k->edge[k->edge_start[component[frame->edge[e][0]] + 1]++] = e;
 }
 
 /* Every edge at its end with fewer edges. */
 static void point(workspace *k)
 {
-  const thr_frame *f = k->f;
-  for (int v = 0, n = 0; v < f->n_nodes; v++) {
-    for (int i = f->first[v]; i < f->first[v + 1]; i++) {
-      int other = thr_head(f, f->half[i]), more = thr_degree(f, other) - thr_degree(f, v);
+  const thr_frame *frame = k->f;
+  for (int v = 0, n = 0; v < frame->n_nodes; v++) {
+    for (int i = frame->first[v]; i < frame->first[v + 1]; i++) {
+      int other = thr_head(frame, frame->half[i]), more = thr_degree(frame, other) - thr_degree(frame, v);
       if (more < 0 || (more == 0 && other < v)) continue;
       k->far[n] = other;
-      k->far_edge[n++] = f->half[i] >> 1;
+      k->far_edge[n++] = frame->half[i] >> 1;
     }
     k->far_start[v + 1] = n;
   }
 }
 
-static thr_status workspace_init(workspace *k, const thr_frame *f, const thr_plan_options *o, const thr_check_walked *w,
-                                 thr_err *err)
+static thr_status workspace_init(workspace *k, const thr_frame *frame, const thr_plan_options *options,
+                                 const thr_check_walked *check_walked, thr_err *err)
 {
-  size_t n = (size_t)f->n_nodes, m = (size_t)f->n_edges;
-  *k = (workspace){.f = f, .o = o, .w = w};
+  size_t n = (size_t)frame->n_nodes, m = (size_t)frame->n_edges;
+  *k = (workspace){.f = frame, .o = options, .w = check_walked};
   k->start = thr_scratch_array(&k->scratch, n + 2, sizeof *k->start);
   k->node = thr_scratch_array(&k->scratch, n, sizeof *k->node);
   k->edge_start = thr_scratch_array(&k->scratch, n + 2, sizeof *k->edge_start);
   k->edge = thr_scratch_array(&k->scratch, m, sizeof *k->edge);
-  k->cords = thr_scratch_array(&k->scratch, (size_t)w->n_components, sizeof *k->cords);
+  k->cords = thr_scratch_array(&k->scratch, (size_t)check_walked->n_components, sizeof *k->cords);
   k->odd = thr_scratch_array(&k->scratch, n, sizeof *k->odd);
   k->far_start = thr_scratch_array(&k->scratch, n + 1, sizeof *k->far_start);
   k->far = thr_scratch_array(&k->scratch, m, sizeof *k->far);
@@ -400,24 +407,25 @@ static thr_status workspace_init(workspace *k, const thr_frame *f, const thr_pla
   if (thr_scratch_check(&k->scratch, err)) return THR_ENOMEM;
   group(k);
   point(k);
-  thr_check_most_cords(f, o, w, k->cords);
-  for (int v = 0; v < f->n_nodes; v++) {
+  thr_check_most_cords(frame, options, check_walked, k->cords);
+  for (int v = 0; v < frame->n_nodes; v++) {
     k->own[v] = -1;
-    k->odd[v] = o->ends == THR_ENDS_COUNTS && o->end_count[v] % 2;
+    k->odd[v] = options->ends == THR_ENDS_COUNTS && options->end_count[v] % 2;
   }
-  for (int e = 0; e < f->n_edges; e++)
+  for (int e = 0; e < frame->n_edges; e++)
     for (int i = 0; i < 2; i++)
-      k->odd[f->edge[e][i]] ^= thr_plan_cover(f, o, e) % 2;
+      k->odd[frame->edge[e][i]] ^= thr_plan_cover(frame, options, e) % 2;
   return THR_OK;
 }
 
-thr_status thr_check_certificates(const thr_frame *f, const thr_plan_options *o, const thr_check_walked *w,
+thr_status thr_check_certificates(const thr_frame *frame, const thr_plan_options *options, const thr_check_walked *check_walked,
                                   const thr_certificate *certificate, int n, thr_check_verdict *verdict, thr_err *err)
 {
   workspace k;
-  if (n != w->n_components)
-    return thr_fail(err, THR_EVIOLATED, "%d certificates for %d components; expected one per component", n, w->n_components);
-  thr_status st = workspace_init(&k, f, o, w, err);
+  if (n != check_walked->n_components)
+    return thr_fail(err, THR_EVIOLATED, "%d certificates for %d components; expected one per component", n,
+                    check_walked->n_components);
+  thr_status st = workspace_init(&k, frame, options, check_walked, err);
   for (int i = 0; i < n && !st; i++) {
     if (certificate[i].component != i)
       st = thr_fail(err, THR_EVIOLATED, "certificate %d is for component %d; expected one per component in order", i,

@@ -33,12 +33,12 @@ static void ways_destroy(ways *w)
   free(w->touched);
 }
 
-static thr_status ways_init(ways *w, const thr_frame *f, thr_err *err)
+static thr_status ways_init(ways *w, const thr_frame *frame, thr_err *err)
 {
-  size_t n = (size_t)f->n_nodes;
-  *w = (ways){.f = f};
+  size_t n = (size_t)frame->n_nodes;
+  *w = (ways){.f = frame};
   w->distance = thr_calloc(n, sizeof *w->distance);
-  w->waiting = thr_calloc(2 * (size_t)f->n_edges + n, sizeof *w->waiting);
+  w->waiting = thr_calloc(2 * (size_t)frame->n_edges + n, sizeof *w->waiting);
   w->touched = thr_calloc(n, sizeof *w->touched);
   if (!w->distance || !w->waiting || !w->touched) return thr_nomem(err);
   for (size_t v = 0; v < n; v++)
@@ -85,15 +85,15 @@ static void spread(ways *w, int target)
 /* ---- the shortest cord over the worst edge ---- */
 
 /* From where a cord may end over the edge to where one may end. */
-static double open_detour(ways *w, const thr_plan_options *o)
+static double open_detour(ways *w, const thr_plan_options *options)
 {
-  const thr_frame *f = w->f;
+  const thr_frame *frame = w->f;
   double worst = 0;
-  for (int v = 0; v < f->n_nodes; v++)
-    if (thr_plan_end_allowed(f, o, v)) reach(w, v, 0);
+  for (int v = 0; v < frame->n_nodes; v++)
+    if (thr_plan_end_allowed(frame, options, v)) reach(w, v, 0);
   spread(w, -1);
-  for (int e = 0; e < f->n_edges; e++)
-    worst = fmax(worst, w->distance[f->edge[e][0]] + f->length[e] + w->distance[f->edge[e][1]]);
+  for (int e = 0; e < frame->n_edges; e++)
+    worst = fmax(worst, w->distance[frame->edge[e][0]] + frame->length[e] + w->distance[frame->edge[e][1]]);
   return worst;
 }
 
@@ -114,14 +114,14 @@ static int longest_first(const void *pa, const void *pb)
 static thr_status closed_detour(ways *w, double *worst, thr_err *err)
 {
   enum { STEPS = 1 << 24 };
-  const thr_frame *f = w->f;
-  measured *by_length = thr_calloc((size_t)f->n_edges, sizeof *by_length);
+  const thr_frame *frame = w->f;
+  measured *by_length = thr_calloc((size_t)frame->n_edges, sizeof *by_length);
   if (!by_length) return thr_nomem(err);
-  for (int e = 0; e < f->n_edges; e++)
-    by_length[e] = (measured){f->length[e], e};
-  qsort(by_length, (size_t)f->n_edges, sizeof *by_length, longest_first);
-  for (int i = 0; i < f->n_edges && 2 * by_length[i].length > *worst && w->steps < STEPS; i++) {
-    int *end = f->edge[by_length[i].edge];
+  for (int e = 0; e < frame->n_edges; e++)
+    by_length[e] = (measured){frame->length[e], e};
+  qsort(by_length, (size_t)frame->n_edges, sizeof *by_length, longest_first);
+  for (int i = 0; i < frame->n_edges && 2 * by_length[i].length > *worst && w->steps < STEPS; i++) {
+    int *end = frame->edge[by_length[i].edge];
     reach(w, end[0], 0);
     spread(w, end[1]);
     *worst = fmax(*worst, by_length[i].length + w->distance[end[1]]);
@@ -134,14 +134,14 @@ static thr_status closed_detour(ways *w, double *worst, thr_err *err)
 }
 
 /* Raises *worst to the shortest cord over the worst edge. */
-static thr_status detour(const thr_frame *f, const thr_plan_options *o, double *worst, thr_err *err)
+static thr_status detour(const thr_frame *frame, const thr_plan_options *options, double *worst, thr_err *err)
 {
   ways w;
-  thr_status st = ways_init(&w, f, err);
-  if (!st && o->ends == THR_ENDS_CLOSED)
+  thr_status st = ways_init(&w, frame, err);
+  if (!st && options->ends == THR_ENDS_CLOSED)
     st = closed_detour(&w, worst, err);
   else if (!st)
-    *worst = fmax(*worst, open_detour(&w, o));
+    *worst = fmax(*worst, open_detour(&w, options));
   ways_destroy(&w);
   return st;
 }
@@ -153,31 +153,33 @@ typedef struct {
   int least, most;     /* cords that it may have */
 } part;
 
-void thr_check_most_cords(const thr_frame *f, const thr_plan_options *o, const thr_check_walked *w, int *cords)
+void thr_check_most_cords(const thr_frame *frame, const thr_plan_options *options, const thr_check_walked *check_walked,
+                          int *cords)
 {
-  for (int c = 0; c < w->n_components; c++)
-    cords[c] = o->ends == THR_ENDS_COUNTS ? 0 : o->cords;
-  if (o->ends != THR_ENDS_COUNTS) return;
-  for (int v = 0; v < f->n_nodes; v++)
-    cords[w->component[v]] += o->end_count[v];
-  for (int c = 0; c < w->n_components; c++)
+  for (int c = 0; c < check_walked->n_components; c++)
+    cords[c] = options->ends == THR_ENDS_COUNTS ? 0 : options->cords;
+  if (options->ends != THR_ENDS_COUNTS) return;
+  for (int v = 0; v < frame->n_nodes; v++)
+    cords[check_walked->component[v]] += options->end_count[v];
+  for (int c = 0; c < check_walked->n_components; c++)
     cords[c] /= 2;
 }
 
-static thr_status parts_of(const thr_frame *f, const thr_plan_options *o, const thr_check_walked *w, part **parts, thr_err *err)
+static thr_status parts_of(const thr_frame *frame, const thr_plan_options *options, const thr_check_walked *check_walked,
+                           part **parts, thr_err *err)
 {
-  part *part_of = thr_calloc((size_t)w->n_components, sizeof *part_of);
+  part *part_of = thr_calloc((size_t)check_walked->n_components, sizeof *part_of);
   if (!(*parts = part_of)) return thr_nomem(err);
-  for (int e = 0; e < f->n_edges; e++) {
-    part *p = &part_of[w->component[f->edge[e][0]]];
-    p->base += f->length[e] * thr_plan_cover(f, o, e);
-    p->length += f->length[e] * w->passes[e];
+  for (int e = 0; e < frame->n_edges; e++) {
+    part *p = &part_of[check_walked->component[frame->edge[e][0]]];
+    p->base += frame->length[e] * thr_plan_cover(frame, options, e);
+    p->length += frame->length[e] * check_walked->passes[e];
   }
-  int *most = thr_calloc((size_t)w->n_components, sizeof *most);
-  if (most) thr_check_most_cords(f, o, w, most);
-  for (int c = 0; c < w->n_components && most; c++) {
+  int *most = thr_calloc((size_t)check_walked->n_components, sizeof *most);
+  if (most) thr_check_most_cords(frame, options, check_walked, most);
+  for (int c = 0; c < check_walked->n_components && most; c++) {
     part_of[c].most = most[c];
-    part_of[c].least = o->ends == THR_ENDS_COUNTS ? most[c] : thr_plan_cords_least(o);
+    part_of[c].least = options->ends == THR_ENDS_COUNTS ? most[c] : thr_plan_cords_least(options);
   }
   free(most);
   if (most) return THR_OK;
@@ -187,89 +189,91 @@ static thr_status parts_of(const thr_frame *f, const thr_plan_options *o, const 
 }
 
 /* No so many cords through the component are shorter together. */
-static double least_length(const thr_plan_options *o, const part *p, int cords, const thr_certificate *c,
-                           const thr_check_verdict *v)
+static double least_length(const thr_plan_options *options, const part *p, int cords, const thr_certificate *certificate,
+                           const thr_check_verdict *check_verdict)
 {
-  if (!v) return p->base;
-  double any = v->optimal ? p->length : p->base + v->extra;
-  return thr_check_ends_free(o) ? fmax(any, p->base + thr_check_extra(c, v, 2 * (int64_t)cords)) : any;
+  if (!check_verdict) return p->base;
+  double any = check_verdict->optimal ? p->length : p->base + check_verdict->extra;
+  return thr_check_ends_free(options) ? fmax(any, p->base + thr_check_extra(certificate, check_verdict, 2 * (int64_t)cords))
+                                      : any;
 }
 
 /* Is this more cord than so many of the greatest length? */
-static bool too_long(double length, int cords, const thr_plan_options *o)
+static bool too_long(double length, int cords, const thr_plan_options *options)
 {
-  return length > cords * o->max_length * (1 + 2e-9);
+  return length > cords * options->max_length * (1 + 2e-9);
 }
 
 /* ---- tube joints: the proof is one of all components together ---- */
 
 /* No cords, from least to most in every component, are shorter together. */
-static thr_status tied_length(const thr_frame *f, const thr_plan_options *o, const thr_turning_proof *tied, int least, int most,
-                              double *length, thr_err *err)
+static thr_status tied_length(const thr_frame *frame, const thr_plan_options *options, const thr_turning_proof *tied, int least,
+                              int most, double *length, thr_err *err)
 {
-  thr_plan_options other = *o;
+  thr_plan_options other = *options;
   other.cords_least = least;
   other.cords = most;
-  return thr_tied_least(f, &other, tied, length, err);
+  return thr_tied_least(frame, &other, tied, length, err);
 }
 
 /* fewest: a lower bound on the cords of one component with free ends, raised as far as the proof goes, one by one: it may rule
  * out a number and not the one below. */
-static thr_status rule_out(const thr_frame *f, const thr_plan_options *o, const thr_turning_proof *tied, int *fewest,
+static thr_status rule_out(const thr_frame *frame, const thr_plan_options *options, const thr_turning_proof *tied, int *fewest,
                            thr_err *err)
 {
   thr_status st = THR_OK;
   bool excluded = true;
-  while (!st && excluded && *fewest < o->cords) {
+  while (!st && excluded && *fewest < options->cords) {
     double length;
-    st = tied_length(f, o, tied, *fewest, *fewest, &length, err);
-    excluded = too_long(length, *fewest, o);
+    st = tied_length(frame, options, tied, *fewest, *fewest, &length, err);
+    excluded = too_long(length, *fewest, options);
     if (!st && excluded) ++*fewest;
   }
   return st;
 }
 
-static thr_status check_tied(const thr_frame *f, const thr_plan_options *o, const thr_turning_proof *tied, const part *parts,
-                             int n_parts, double *bound, thr_cords_claim *found, thr_err *err)
+static thr_status check_tied(const thr_frame *frame, const thr_plan_options *options, const thr_turning_proof *tied,
+                             const part *parts, int n_parts, double *bound, thr_cords_claim *found, thr_err *err)
 {
   double length;
   int64_t most = 0;
-  thr_status st = tied_length(f, o, tied, o->cords_least, o->cords, &length, err);
+  thr_status st = tied_length(frame, options, tied, options->cords_least, options->cords, &length, err);
   for (int c = 0; c < n_parts; c++)
     most += parts[c].most;
   *bound = fmax(*bound, length / (double)most);
-  if (st || o->max_length <= 0) return st;
-  double cords = ceil(length / o->max_length * (1 - 2e-9));
+  if (st || options->max_length <= 0) return st;
+  double cords = ceil(length / options->max_length * (1 - 2e-9));
   if (cords > found->fewest) found->fewest = cords < (double)most ? (int)cords : (int)most;
-  return n_parts == 1 && thr_check_ends_free(o) ? rule_out(f, o, tied, &found->fewest, err) : THR_OK;
+  return n_parts == 1 && thr_check_ends_free(options) ? rule_out(frame, options, tied, &found->fewest, err) : THR_OK;
 }
 
-thr_status thr_check_several(const thr_frame *f, const thr_plan_options *o, const thr_check_walked *w, const thr_cord *cord,
-                             int n_cords, const thr_certificate *certificate, const thr_check_verdict *verdict,
-                             const thr_turning_proof *tied, thr_cords_claim *found, thr_err *err)
+thr_status thr_check_several(const thr_frame *frame, const thr_plan_options *options, const thr_check_walked *check_walked,
+                             const thr_cord *cord, int n_cords, const thr_certificate *certificate,
+                             const thr_check_verdict *verdict, const thr_turning_proof *tied, thr_cords_claim *found,
+                             thr_err *err)
 {
   part *parts;
-  double bound = 0, unit = thr_plan_unit(f); /* cords have whole numbers of it */
+  double bound = 0, unit = thr_plan_unit(frame); /* cords have whole numbers of it */
   *found = (thr_cords_claim){.present = true};
-  thr_status st = parts_of(f, o, w, &parts, err);
+  thr_status st = parts_of(frame, options, check_walked, &parts, err);
   if (st) return st;
   for (int i = 0; i < n_cords; i++)
-    found->longest = fmax(found->longest, thr_cord_length(f, &cord[i]));
-  for (int c = 0; c < w->n_components; c++) {
+    found->longest = fmax(found->longest, thr_cord_length(frame, &cord[i]));
+  for (int c = 0; c < check_walked->n_components; c++) {
     const part *p = &parts[c];
     const thr_certificate *proof = verdict ? &certificate[c] : NULL;
-    const thr_check_verdict *v = verdict ? &verdict[c] : NULL;
-    bound = fmax(bound, least_length(o, p, p->most, proof, v) / p->most);
+    const thr_check_verdict *check_verdict = verdict ? &verdict[c] : NULL;
+    bound = fmax(bound, least_length(options, p, p->most, proof, check_verdict) / p->most);
     int least = p->least;
-    while (least < p->most && too_long(least_length(o, p, least, proof, v), least, o))
+    while (least < p->most && too_long(least_length(options, p, least, proof, check_verdict), least, options))
       least++;
     found->fewest += least;
   }
-  if (tied) st = check_tied(f, o, tied, parts, w->n_components, &bound, found, err);
+  if (tied) st = check_tied(frame, options, tied, parts, check_walked->n_components, &bound, found, err);
   free(parts);
   if (st) return st;
-  if (!(o->max_length > 0 && o->cords_least < o->cords)) found->fewest = 0;
-  st = detour(f, o, &bound, err);
+  if (!(options->max_length > 0 && options->cords_least < options->cords)) found->fewest = 0;
+  st = detour(frame, options, &bound, err);
   if (unit > 0) bound = unit * ceil(bound / unit * (1 - 2e-9));
   if (bound > found->longest && !thr_check_close(bound, found->longest, found->longest))
     return thr_fail(err, THR_EVIOLATED, "proof: the longest cord of any plan would have %.12g or more, but this plan's has %.12g",

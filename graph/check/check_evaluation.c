@@ -26,33 +26,34 @@ static thr_status evaluated(const cord_claim *k, const char *name, double stated
 /* The numbers that follow from the tensions. */
 static thr_status check_forces(const cord_claim *k, thr_err *err)
 {
-  const thr_eval_cord *c = k->c;
-  double at_start = c->tension[0], at_end = c->tension[c->n_passes - 1], least = c->tension[c->slackest];
-  double force = c->pull == THR_PULL_START ? at_start : c->pull == THR_PULL_END ? at_end : fmax(at_start, at_end);
-  double other = c->pull == THR_PULL_BOTH ? fmin(at_start, at_end) : 0;
+  const thr_eval_cord *eval_cord = k->c;
+  double at_start = eval_cord->tension[0], at_end = eval_cord->tension[eval_cord->n_passes - 1],
+         least = eval_cord->tension[eval_cord->slackest];
+  double force = eval_cord->pull == THR_PULL_START ? at_start : eval_cord->pull == THR_PULL_END ? at_end : fmax(at_start, at_end);
+  double other = eval_cord->pull == THR_PULL_BOTH ? fmin(at_start, at_end) : 0;
   thr_status st;
-  if ((st = evaluated(k, "force", c->force, force, err))) return st;
-  if ((st = evaluated(k, "other_force", c->other_force, other, err))) return st;
-  if ((st = evaluated(k, "work", c->work, force + other, err))) return st;
+  if ((st = evaluated(k, "force", eval_cord->force, force, err))) return st;
+  if ((st = evaluated(k, "other_force", eval_cord->other_force, other, err))) return st;
+  if ((st = evaluated(k, "work", eval_cord->work, force + other, err))) return st;
   double loss = force > 0 ? 1 - least / force : 0;
-  if (!thr_check_close(c->loss, loss, 1))
-    return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: loss: stated %.12g, but the tensions give %.12g", k->id, c->loss,
-                    loss);
-  for (int i = 0; i < c->n_passes; i++)
-    if (c->tension[i] < least)
+  if (!thr_check_close(eval_cord->loss, loss, 1))
+    return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: loss: stated %.12g, but the tensions give %.12g", k->id,
+                    eval_cord->loss, loss);
+  for (int i = 0; i < eval_cord->n_passes; i++)
+    if (eval_cord->tension[i] < least)
       return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: pass %d is slacker than pass %d, which is said to be slackest",
-                      k->id, i + 1, c->slackest + 1);
+                      k->id, i + 1, eval_cord->slackest + 1);
   return THR_OK;
 }
 
 /* A cord that slides towards a pulled end gets tighter on the way, or stays as it is. */
 static thr_status check_rise(const cord_claim *k, thr_err *err)
 {
-  const thr_eval_cord *c = k->c;
-  for (int i = 0; i + 1 < c->n_passes; i++) {
-    bool to_end = i >= c->slackest;
-    if (to_end ? c->pull == THR_PULL_START : c->pull == THR_PULL_END) continue;
-    double rise = to_end ? c->tension[i + 1] - c->tension[i] : c->tension[i] - c->tension[i + 1];
+  const thr_eval_cord *eval_cord = k->c;
+  for (int i = 0; i + 1 < eval_cord->n_passes; i++) {
+    bool to_end = i >= eval_cord->slackest;
+    if (to_end ? eval_cord->pull == THR_PULL_START : eval_cord->pull == THR_PULL_END) continue;
+    double rise = to_end ? eval_cord->tension[i + 1] - eval_cord->tension[i] : eval_cord->tension[i] - eval_cord->tension[i + 1];
     if (rise < 0)
       return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: the tension falls between pass %d and %d, towards a pulled end",
                       k->id, i + 1, i + 2);
@@ -72,72 +73,72 @@ static double law_exponent(const cord_claim *k, int i)
 /* Does the slackest pass lie where the pull is least? from receives the exponents before it, total those of the whole cord. */
 static bool slackest_is_best(const cord_claim *k, double *from, double *total)
 {
-  const thr_eval_cord *c = k->c;
+  const thr_eval_cord *eval_cord = k->c;
   double before = 0, best = INFINITY;
   *from = *total = 0;
-  for (int i = 0; i < c->n_passes; i++)
+  for (int i = 0; i < eval_cord->n_passes; i++)
     *total += law_exponent(k, i);
-  for (int i = 0; i < c->n_passes; i++) {
-    if (i == c->slackest) *from = before;
+  for (int i = 0; i < eval_cord->n_passes; i++) {
+    if (i == eval_cord->slackest) *from = before;
     best = fmin(best, fmax(before, *total - before));
     before += law_exponent(k, i);
   }
-  if (c->pull == THR_PULL_START) return c->slackest == c->n_passes - 1;
-  if (c->pull == THR_PULL_END) return c->slackest == 0;
+  if (eval_cord->pull == THR_PULL_START) return eval_cord->slackest == eval_cord->n_passes - 1;
+  if (eval_cord->pull == THR_PULL_END) return eval_cord->slackest == 0;
   return fmax(*from, *total - *from) <= best + 1e-9 * (1 + *total);
 }
 
 /* Method capstan: the slackest pass holds the seating tension, and every other has what the law gives. */
 static thr_status check_law(const cord_claim *k, thr_err *err)
 {
-  const thr_eval_cord *c = k->c;
+  const thr_eval_cord *eval_cord = k->c;
   double from, total, before = 0, seating = k->e->physics.seating;
-  thr_status st = evaluated(k, "tension of the slackest pass", c->tension[c->slackest], seating, err);
+  thr_status st = evaluated(k, "tension of the slackest pass", eval_cord->tension[eval_cord->slackest], seating, err);
   if (st) return st;
   if (!slackest_is_best(k, &from, &total))
     return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: pass %d is not where its tension is least", k->id,
-                    c->slackest + 1);
-  for (int i = 0; i < c->n_passes; i++) {
+                    eval_cord->slackest + 1);
+  for (int i = 0; i < eval_cord->n_passes; i++) {
     double expected = log(seating) + fabs(before - from);
-    if (!thr_check_close(log(c->tension[i]), expected, 1 + total))
+    if (!thr_check_close(log(eval_cord->tension[i]), expected, 1 + total))
       return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: pass %d: stated %.12g N, but the %s law gives %.12g N", k->id,
-                      i + 1, c->tension[i], thr_law_name(k->e->law), exp(expected));
+                      i + 1, eval_cord->tension[i], thr_law_name(k->e->law), exp(expected));
     before += law_exponent(k, i);
   }
   return THR_OK;
 }
 
-static thr_status check_cord_evaluation(const thr_plan *p, int i, thr_err *err)
+static thr_status check_cord_evaluation(const thr_plan *plan, int i, thr_err *err)
 {
-  const thr_evaluation *e = &p->evaluation;
-  const thr_cord *cord = &p->cord[i];
-  const thr_eval_cord *c = &e->cord[i];
-  const cord_claim k = {&p->frame, cord, e, c, cord->id};
+  const thr_evaluation *evaluation = &plan->evaluation;
+  const thr_cord *cord = &plan->cord[i];
+  const thr_eval_cord *eval_cord = &evaluation->cord[i];
+  const cord_claim k = {&plan->frame, cord, evaluation, eval_cord, cord->id};
   double turning = 0;
   for (int j = 0; j + 1 < cord->n_passes; j++)
-    turning += thr_check_angle(&p->frame, cord->half[j], cord->half[j + 1]);
-  if (!thr_check_close(c->turning, turning, 1 + turning))
+    turning += thr_check_angle(&plan->frame, cord->half[j], cord->half[j + 1]);
+  if (!thr_check_close(eval_cord->turning, turning, 1 + turning))
     return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: turning: stated %.12g, but the cord turns by %.12g", k.id,
-                    c->turning, turning);
-  if (!(c->taut_turning >= 0) || (e->method != THR_JOINT && c->taut_turning != c->turning))
-    return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: taut_turning: %.12g; expected %s", k.id, c->taut_turning,
-                    e->method == THR_JOINT ? "0 or more" : "the turning, for this method");
-  if (!(c->error >= 0) || (e->method == THR_CAPSTAN && (c->error > 0 || c->refused > 0)))
+                    eval_cord->turning, turning);
+  if (!(eval_cord->taut_turning >= 0) || (evaluation->method != THR_JOINT && eval_cord->taut_turning != eval_cord->turning))
+    return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: taut_turning: %.12g; expected %s", k.id, eval_cord->taut_turning,
+                    evaluation->method == THR_JOINT ? "0 or more" : "the turning, for this method");
+  if (!(eval_cord->error >= 0) || (evaluation->method == THR_CAPSTAN && (eval_cord->error > 0 || eval_cord->refused > 0)))
     return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: error and refused: no such error is possible with this method",
                     k.id);
   thr_status st = check_forces(&k, err);
   if (!st) st = check_rise(&k, err);
-  if (!st && e->method == THR_CAPSTAN) st = check_law(&k, err);
+  if (!st && evaluation->method == THR_CAPSTAN) st = check_law(&k, err);
   return st;
 }
 
 /* Are all sizes filled in, and do they fit the framework? */
-static thr_status check_physics(const thr_plan *p, thr_err *err)
+static thr_status check_physics(const thr_plan *plan, thr_err *err)
 {
   thr_physics again;
   thr_err found = {0};
-  const thr_physics *stated = &p->evaluation.physics;
-  thr_status st = thr_physics_resolve(stated, &p->frame, &again, &found);
+  const thr_physics *stated = &plan->evaluation.physics;
+  thr_status st = thr_physics_resolve(stated, &plan->frame, &again, &found);
   if (st == THR_ENOMEM) return thr_nomem(err);
   if (st) return thr_fail(err, THR_EVIOLATED, "evaluation.physics: %s", found.text);
   for (int i = 0; i < thr_physics_n_fields; i++)
@@ -147,23 +148,24 @@ static thr_status check_physics(const thr_plan *p, thr_err *err)
   return THR_OK;
 }
 
-thr_status thr_check_evaluation(const thr_plan *p, thr_err *err)
+thr_status thr_check_evaluation(const thr_plan *plan, thr_err *err)
 {
-  const thr_evaluation *e = &p->evaluation;
+  const thr_evaluation *evaluation = &plan->evaluation;
   double largest = 0, total = 0;
-  thr_status st = check_physics(p, err);
+  thr_status st = check_physics(plan, err);
   if (st) return st;
-  if (!(e->time_step > 0) || !(e->iterations > 0))
+  if (!(evaluation->time_step > 0) || !(evaluation->iterations > 0))
     return thr_fail(err, THR_EVIOLATED, "evaluation: time_step and iterations must be positive");
-  for (int i = 0; i < e->n_cords; i++) {
-    if (!e->cord[i].known) continue;
-    if ((st = check_cord_evaluation(p, i, err))) return st;
-    largest = fmax(largest, e->cord[i].force);
-    total += e->cord[i].work;
+  for (int i = 0; i < evaluation->n_cords; i++) {
+    if (!evaluation->cord[i].known) continue;
+    if ((st = check_cord_evaluation(plan, i, err))) return st;
+    largest = fmax(largest, evaluation->cord[i].force);
+    total += evaluation->cord[i].work;
   }
-  if (!thr_check_close(e->largest, largest, largest))
-    return thr_fail(err, THR_EVIOLATED, "evaluation.largest: stated %.12g, but the cords give %.12g", e->largest, largest);
-  if (!thr_check_close(e->total, total, total))
-    return thr_fail(err, THR_EVIOLATED, "evaluation.total: stated %.12g, but the cords give %.12g", e->total, total);
+  if (!thr_check_close(evaluation->largest, largest, largest))
+    return thr_fail(err, THR_EVIOLATED, "evaluation.largest: stated %.12g, but the cords give %.12g", evaluation->largest,
+                    largest);
+  if (!thr_check_close(evaluation->total, total, total))
+    return thr_fail(err, THR_EVIOLATED, "evaluation.total: stated %.12g, but the cords give %.12g", evaluation->total, total);
   return THR_OK;
 }

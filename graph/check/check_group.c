@@ -14,42 +14,43 @@ enum { MOST_ELEMENTS = 1024 };
 /* ---- single permutations ---- */
 
 /* Is the row a permutation that keeps edges, feet and where cords may end? hit: [n_nodes] all false, and again after it. */
-static thr_status check_automorphism(const thr_plan *p, const int *image, const char *what, int number, bool *hit, thr_err *err)
+static thr_status check_automorphism(const thr_plan *plan, const int *image, const char *what, int number, bool *hit,
+                                     thr_err *err)
 {
-  const thr_frame *f = &p->frame;
-  const thr_plan_options *o = &p->options;
+  const thr_frame *frame = &plan->frame;
+  const thr_plan_options *options = &plan->options;
   bool bijective = true;
-  for (int v = 0; v < f->n_nodes && bijective; v++) {
-    bijective = image[v] >= 0 && image[v] < f->n_nodes && !hit[image[v]];
+  for (int v = 0; v < frame->n_nodes && bijective; v++) {
+    bijective = image[v] >= 0 && image[v] < frame->n_nodes && !hit[image[v]];
     if (bijective) hit[image[v]] = true;
   }
-  for (int v = 0; v < f->n_nodes; v++)
+  for (int v = 0; v < frame->n_nodes; v++)
     hit[v] = false;
   if (!bijective) return thr_fail(err, THR_EVIOLATED, "symmetry.%s[%d]: not a permutation of the nodes", what, number);
-  for (int v = 0; v < f->n_nodes; v++) {
-    if (f->foot[v] != f->foot[image[v]])
+  for (int v = 0; v < frame->n_nodes; v++) {
+    if (frame->foot[v] != frame->foot[image[v]])
       return thr_fail(err, THR_EVIOLATED, "symmetry.%s[%d]: takes node %d to %d, but only one of them is a foot", what, number, v,
                       image[v]);
-    if (thr_plan_end_allowed(f, o, v) != thr_plan_end_allowed(f, o, image[v]))
+    if (thr_plan_end_allowed(frame, options, v) != thr_plan_end_allowed(frame, options, image[v]))
       return thr_fail(err, THR_EVIOLATED, "symmetry.%s[%d]: takes node %d to %d, but a cord may end at only one of them", what,
                       number, v, image[v]);
   }
-  for (int e = 0; e < f->n_edges; e++) {
-    int a = image[f->edge[e][0]], b = image[f->edge[e][1]];
-    if (thr_frame_edge_between(f, a, b) < 0)
+  for (int e = 0; e < frame->n_edges; e++) {
+    int a = image[frame->edge[e][0]], b = image[frame->edge[e][1]];
+    if (thr_frame_edge_between(frame, a, b) < 0)
       return thr_fail(err, THR_EVIOLATED, "symmetry.%s[%d]: takes edge %d to nodes %d and %d, which no edge joins", what, number,
                       e, a, b);
   }
   return THR_OK;
 }
 
-static thr_status check_automorphisms(const thr_plan *p, const int *image, int n, const char *what, thr_err *err)
+static thr_status check_automorphisms(const thr_plan *plan, const int *image, int n, const char *what, thr_err *err)
 {
-  size_t n_nodes = (size_t)p->frame.n_nodes;
+  size_t n_nodes = (size_t)plan->frame.n_nodes;
   bool *hit = thr_calloc(n_nodes, sizeof *hit);
   thr_status st = hit ? THR_OK : thr_nomem(err);
   for (int i = 0; i < n && !st; i++)
-    st = check_automorphism(p, image + (size_t)i * n_nodes, what, i, hit, err);
+    st = check_automorphism(plan, image + (size_t)i * n_nodes, what, i, hit, err);
   free(hit);
   return st;
 }
@@ -93,28 +94,28 @@ static thr_status make_room(elements *g, int most, thr_err *err)
 }
 
 /* All products of the generators, one more than the stated order at most. */
-static thr_status list_elements(elements *g, const thr_symmetry_record *r, int n_nodes, thr_err *err)
+static thr_status list_elements(elements *g, const thr_symmetry_record *record, int n_nodes, thr_err *err)
 {
   g->n = n_nodes;
   memset(g->slot, -1, sizeof g->slot);
-  thr_status st = make_room(g, r->order + 1, err);
+  thr_status st = make_room(g, record->order + 1, err);
   if (st) return st;
   for (int v = 0; v < n_nodes; v++)
     g->image[v] = v;
   *find(g, g->image) = g->order++;
   for (int i = 0; i < g->order; i++)
-    for (int k = 0; k < r->n_generators; k++) {
-      if ((st = make_room(g, r->order + 1, err))) return st;
+    for (int k = 0; k < record->n_generators; k++) {
+      if ((st = make_room(g, record->order + 1, err))) return st;
       int *last = g->image + (size_t)g->order * (size_t)n_nodes;
       for (int v = 0; v < n_nodes; v++)
-        last[v] = element(g, i)[r->generator[(size_t)k * (size_t)n_nodes + (size_t)v]];
+        last[v] = element(g, i)[record->generator[(size_t)k * (size_t)n_nodes + (size_t)v]];
       int *number = find(g, last);
       if (*number < 0) *number = g->order++;
-      if (g->order > r->order)
-        return thr_fail(err, THR_EVIOLATED, "symmetry.order: stated %d, but the generators make more elements", r->order);
+      if (g->order > record->order)
+        return thr_fail(err, THR_EVIOLATED, "symmetry.order: stated %d, but the generators make more elements", record->order);
     }
-  if (g->order < r->order)
-    return thr_fail(err, THR_EVIOLATED, "symmetry.order: stated %d, but the generators make only %d elements", r->order,
+  if (g->order < record->order)
+    return thr_fail(err, THR_EVIOLATED, "symmetry.order: stated %d, but the generators make only %d elements", record->order,
                     g->order);
   return THR_OK;
 }
@@ -206,40 +207,40 @@ static census census_of_name(const char *name)
 }
 
 /* Of the group, its elements being motions of the framework. A name, and the option to keep to isometries, say that they are. */
-static thr_status take_census(const elements *g, const thr_plan *p, census *c, thr_err *err)
+static thr_status take_census(const elements *g, const thr_plan *plan, census *c, thr_err *err)
 {
-  double within = p->options.symmetry.geometric;
+  double within = plan->options.symmetry.geometric;
   *c = (census){.order = g->order};
   for (int i = 0; i < g->order; i++) {
     int order = order_of_element(element(g, i), g->n);
-    thr_motion m;
-    thr_procrustes(&p->frame, element(g, i), &m);
-    if (*p->symmetry.name && m.residual > THR_ISOMETRY_NEAR + THR_ISOMETRY_ROUNDING)
+    thr_motion motion;
+    thr_procrustes(&plan->frame, element(g, i), &motion);
+    if (*plan->symmetry.name && motion.residual > THR_ISOMETRY_NEAR + THR_ISOMETRY_ROUNDING)
       return thr_fail(err, THR_EVIOLATED,
                       "symmetry.name: \"%s\", but an element of order %d is no isometry: it moves the nodes past their images by "
                       "%.3g of the framework's size",
-                      p->symmetry.name, order, m.residual);
-    if (within >= 0 && m.farthest > within + 2 * THR_ISOMETRY_ROUNDING)
+                      plan->symmetry.name, order, motion.residual);
+    if (within >= 0 && motion.farthest > within + 2 * THR_ISOMETRY_ROUNDING)
       return thr_fail(
           err, THR_EVIOLATED,
           "options.symmetry.geometric: isometries within %.12g, but an element of order %d moves a node past its image "
           "by %.12g of the framework's size",
-          within, order, m.farthest);
+          within, order, motion.farthest);
     if (order > c->longest) c->longest = order;
-    if (m.proper && order > c->turn) c->turn = order;
+    if (motion.proper && order > c->turn) c->turn = order;
     c->involutions += order == 2;
-    c->improper += !m.proper;
-    c->flat |= m.flat;
-    c->inversions += order == 2 && m.q[0][0] + m.q[1][1] + m.q[2][2] < -2;
+    c->improper += !motion.proper;
+    c->flat |= motion.flat;
+    c->inversions += order == 2 && motion.q[0][0] + motion.q[1][1] + motion.q[2][2] < -2;
   }
   return THR_OK;
 }
 
-static thr_status check_name(const elements *g, const thr_plan *p, thr_err *err)
+static thr_status check_name(const elements *g, const thr_plan *plan, thr_err *err)
 {
-  const char *name = p->symmetry.name;
+  const char *name = plan->symmetry.name;
   census stated = census_of_name(name), found;
-  thr_status st = take_census(g, p, &found, err);
+  thr_status st = take_census(g, plan, &found, err);
   if (st || !*name) return st;
   if (stated.order != found.order)
     return thr_fail(err, THR_EVIOLATED, "symmetry.name: \"%s\" is not the name of a point group of order %d", name, found.order);
@@ -258,38 +259,38 @@ static thr_status check_name(const elements *g, const thr_plan *p, thr_err *err)
 }
 
 /* A group that was asked for by name is the plan's; a row's number says nothing that could be verified. */
-static thr_status check_asked(const thr_plan *p, thr_err *err)
+static thr_status check_asked(const thr_plan *plan, thr_err *err)
 {
-  const char *asked = p->options.symmetry.group;
-  if (!*asked || strspn(asked, "0123456789") == strlen(asked) || strcmp(asked, p->symmetry.name) == 0) return THR_OK;
+  const char *asked = plan->options.symmetry.group;
+  if (!*asked || strspn(asked, "0123456789") == strlen(asked) || strcmp(asked, plan->symmetry.name) == 0) return THR_OK;
   return thr_fail(err, THR_EVIOLATED, "options.symmetry.group: \"%s\" was asked for, but the plan's group is \"%s\"", asked,
-                  p->symmetry.name);
+                  plan->symmetry.name);
 }
 
-static thr_status check_record(elements *g, const thr_plan *p, thr_err *err)
+static thr_status check_record(elements *g, const thr_plan *plan, thr_err *err)
 {
-  const thr_symmetry_record *r = &p->symmetry;
-  if (r->order < 1 || r->order > MOST_ELEMENTS)
-    return thr_fail(err, THR_EVIOLATED, "symmetry.order: %d; expected 1 to %d", r->order, MOST_ELEMENTS);
-  thr_status st = check_automorphisms(p, r->generator, r->n_generators, "generators", err);
-  if (!st) st = check_automorphisms(p, r->image, r->n_images, "images", err);
-  if (!st) st = list_elements(g, r, p->frame.n_nodes, err);
-  for (int i = 0; i < r->n_images && !st; i++) {
-    int number = *find(g, r->image + (size_t)i * (size_t)g->n);
+  const thr_symmetry_record *record = &plan->symmetry;
+  if (record->order < 1 || record->order > MOST_ELEMENTS)
+    return thr_fail(err, THR_EVIOLATED, "symmetry.order: %d; expected 1 to %d", record->order, MOST_ELEMENTS);
+  thr_status st = check_automorphisms(plan, record->generator, record->n_generators, "generators", err);
+  if (!st) st = check_automorphisms(plan, record->image, record->n_images, "images", err);
+  if (!st) st = list_elements(g, record, plan->frame.n_nodes, err);
+  for (int i = 0; i < record->n_images && !st; i++) {
+    int number = *find(g, record->image + (size_t)i * (size_t)g->n);
     if (number < 0) st = thr_fail(err, THR_EVIOLATED, "symmetry.images[%d]: not an element of the group", i);
     if (i == 0 && number > 0) st = thr_fail(err, THR_EVIOLATED, "symmetry.images[0]: not the identity");
   }
-  if (!st) st = check_name(g, p, err);
-  if (!st) st = check_asked(p, err);
+  if (!st) st = check_name(g, plan, err);
+  if (!st) st = check_asked(plan, err);
   return st;
 }
 
-thr_status thr_check_group(const thr_plan *p, thr_check_elements *out, thr_err *err)
+thr_status thr_check_group(const thr_plan *plan, thr_check_elements *out, thr_err *err)
 {
   elements *g = thr_calloc(1, sizeof *g);
   *out = (thr_check_elements){0};
   if (!g) return thr_nomem(err);
-  thr_status st = check_record(g, p, err);
+  thr_status st = check_record(g, plan, err);
   if (!st)
     *out = (thr_check_elements){g->n, g->order, g->image};
   else

@@ -15,7 +15,7 @@
 bool thr_check_close(double a, double b, double whole);
 
 /* Turning angle by Kahan's formula on unit vectors, rad: another way than the one that made the plan. */
-double thr_check_angle(const thr_frame *f, int in, int out);
+double thr_check_angle(const thr_frame *frame, int in, int out);
 
 /* Components and passes, worked out once for everything that is checked. */
 typedef struct {
@@ -25,9 +25,9 @@ typedef struct {
 } thr_check_walked;
 
 /* Cord ends at allowed nodes, their number at each being free? */
-static inline bool thr_check_ends_free(const thr_plan_options *o)
+static inline bool thr_check_ends_free(const thr_plan_options *options)
 {
-  return o->ends != THR_ENDS_CLOSED && o->ends != THR_ENDS_COUNTS;
+  return options->ends != THR_ENDS_CLOSED && options->ends != THR_ENDS_COUNTS;
 }
 
 /* Part of a bound that may be taken off it for rounding, instead of so much for every extra pass. */
@@ -43,28 +43,30 @@ typedef struct {
   thr_wide places;       /* what the prices of places add to the cuts' values */
 } thr_check_verdict;
 
-/* Cords that each component has at most: cords[w->n_components]. Given numbers of ends say how many. O(nodes). */
-void thr_check_most_cords(const thr_frame *f, const thr_plan_options *o, const thr_check_walked *w, int *cords);
+/* Cords that each component has at most: cords[check_walked->n_components]. Given numbers of ends say how many. O(nodes). */
+void thr_check_most_cords(const thr_frame *frame, const thr_plan_options *options, const thr_check_walked *check_walked,
+                          int *cords);
 
 /* Verifies the certificates, which must be one per component in order, for passes that were checked already:
- * verdict[w->n_components]. O(nodes + edges, and for each node in a list of the cuts its edges, or sqrt(edges) if that is less,
- * times log(cuts)). */
-thr_status thr_check_certificates(const thr_frame *f, const thr_plan_options *o, const thr_check_walked *w,
+ * verdict[check_walked->n_components]. O(nodes + edges, and for each node in a list of the cuts its edges, or sqrt(edges) if that
+ * is less, times log(cuts)). */
+thr_status thr_check_certificates(const thr_frame *frame, const thr_plan_options *options, const thr_check_walked *check_walked,
                                   const thr_certificate *certificate, int n, thr_check_verdict *verdict,
                                   thr_err *err) THR_MUST_CHECK;
 
 /* Least extra cord of that component, in units, with so many cord ends, by a certificate with this verdict. */
-double thr_check_extra(const thr_certificate *c, const thr_check_verdict *v, int64_t ends);
+double thr_check_extra(const thr_certificate *certificate, const thr_check_verdict *check_verdict, int64_t ends);
 
 /* What can be claimed of several cords that were checked already: fills found. verdict NULL: no certificates; tied: the proof
  * of tube joints, or NULL. */
-thr_status thr_check_several(const thr_frame *f, const thr_plan_options *o, const thr_check_walked *w, const thr_cord *cord,
-                             int n_cords, const thr_certificate *certificate, const thr_check_verdict *verdict,
-                             const thr_turning_proof *tied, thr_cords_claim *found, thr_err *err) THR_MUST_CHECK;
+thr_status thr_check_several(const thr_frame *frame, const thr_plan_options *options, const thr_check_walked *check_walked,
+                             const thr_cord *cord, int n_cords, const thr_certificate *certificate,
+                             const thr_check_verdict *verdict, const thr_turning_proof *tied, thr_cords_claim *found,
+                             thr_err *err) THR_MUST_CHECK;
 
 /* Verifies the plan's claim about its turning, which must be present, with cords and length proof that were checked already.
  * least_length: what the latter proves. */
-thr_status thr_check_turning_claim(const thr_plan *p, double least_length, thr_err *err) THR_MUST_CHECK;
+thr_status thr_check_turning_claim(const thr_plan *plan, double least_length, thr_err *err) THR_MUST_CHECK;
 
 /* The elements of a symmetric plan's group as images of the nodes. */
 typedef struct {
@@ -73,12 +75,12 @@ typedef struct {
 } thr_check_elements;
 
 /* Verifies what the record says of the group itself: generators, images, order and name. On failure out is empty. */
-thr_status thr_check_group(const thr_plan *p, thr_check_elements *out, thr_err *err) THR_MUST_CHECK;
+thr_status thr_check_group(const thr_plan *plan, thr_check_elements *out, thr_err *err) THR_MUST_CHECK;
 
 /* Verifies the plan's record of its symmetry, which must be present, with cords that were checked already. */
-thr_status thr_check_symmetry(const thr_plan *p, thr_err *err) THR_MUST_CHECK;
+thr_status thr_check_symmetry(const thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 
 /* Verifies the plan's evaluation, which must be present, with cords that were checked already. */
-thr_status thr_check_evaluation(const thr_plan *p, thr_err *err) THR_MUST_CHECK;
+thr_status thr_check_evaluation(const thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 
 #endif

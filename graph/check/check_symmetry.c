@@ -92,21 +92,21 @@ static void paths_destroy(paths *s)
 }
 
 /* Does it not matter where the cord starts? Of a closed one, where its ends may be anywhere and tie nothing. */
-static bool runs_round(const thr_plan *p, const thr_cord *c)
+static bool runs_round(const thr_plan *plan, const thr_cord *c)
 {
-  const thr_plan_options *o = &p->options;
-  return c->closed && (o->ends == THR_ENDS_CLOSED || (o->ends == THR_ENDS_ANY && o->joint == THR_JOINT_SOLID));
+  const thr_plan_options *options = &plan->options;
+  return c->closed && (options->ends == THR_ENDS_CLOSED || (options->ends == THR_ENDS_ANY && options->joint == THR_JOINT_SOLID));
 }
 
-static thr_status paths_init(paths *s, const thr_plan *p, thr_err *err)
+static thr_status paths_init(paths *s, const thr_plan *plan, thr_err *err)
 {
-  size_t n = (size_t)p->n_cords, all = 0, longest = 0;
-  for (int i = 0; i < p->n_cords; i++) {
-    size_t nodes = (size_t)p->cord[i].n_passes + !runs_round(p, &p->cord[i]);
+  size_t n = (size_t)plan->n_cords, all = 0, longest = 0;
+  for (int i = 0; i < plan->n_cords; i++) {
+    size_t nodes = (size_t)plan->cord[i].n_passes + !runs_round(plan, &plan->cord[i]);
     all += nodes;
     if (nodes > longest) longest = nodes;
   }
-  *s = (paths){.p = p};
+  *s = (paths){.p = plan};
   s->run = thr_scratch_array(&s->own, all, sizeof *s->run);
   s->form[0] = thr_scratch_array(&s->own, all, sizeof *s->form[0]);
   s->form[1] = thr_scratch_array(&s->own, all, sizeof *s->form[1]);
@@ -121,13 +121,13 @@ static thr_status paths_init(paths *s, const thr_plan *p, thr_err *err)
 
 static void fill_paths(paths *s)
 {
-  const thr_plan *p = s->p;
-  for (int i = 0, next = 0; i < p->n_cords; i++) {
-    const thr_cord *c = &p->cord[i];
-    bool closed = runs_round(p, c);
+  const thr_plan *plan = s->p;
+  for (int i = 0, next = 0; i < plan->n_cords; i++) {
+    const thr_cord *c = &plan->cord[i];
+    bool closed = runs_round(plan, c);
     int n = c->n_passes + !closed, *run = s->run + next;
     for (int k = 0; k < n; k++)
-      run[k] = k < c->n_passes ? thr_tail(&p->frame, c->half[k]) : thr_cord_end(&p->frame, c);
+      run[k] = k < c->n_passes ? thr_tail(&plan->frame, c->half[k]) : thr_cord_end(&plan->frame, c);
     normalize(run, n, closed, s->form[0] + next);
     s->start[i] = next;
     s->cord[i] = (path){s->form[0] + next, n, i, closed};
@@ -135,7 +135,7 @@ static void fill_paths(paths *s)
     s->sorted[i] = s->cord[i];
     next += n;
   }
-  qsort(s->sorted, (size_t)p->n_cords, sizeof *s->sorted, by_nodes);
+  qsort(s->sorted, (size_t)plan->n_cords, sizeof *s->sorted, by_nodes);
 }
 
 /* Sets moved[i] to the image of cord i. */
@@ -171,18 +171,18 @@ static thr_status check_permuted(paths *s, const int *image, int number, thr_err
 
 static thr_status check_copy(paths *s, int i, thr_err *err)
 {
-  const thr_plan *p = s->p;
-  const thr_symmetry_record *r = &p->symmetry;
-  int u = r->unique[i], x = r->element[i];
-  const char *id = p->cord[i].id;
-  if (u < 0 || u >= p->n_cords || x < 0 || x >= r->n_images)
+  const thr_plan *plan = s->p;
+  const thr_symmetry_record *record = &plan->symmetry;
+  int u = record->unique[i], x = record->element[i];
+  const char *id = plan->cord[i].id;
+  if (u < 0 || u >= plan->n_cords || x < 0 || x >= record->n_images)
     return thr_fail(err, THR_EVIOLATED, "symmetry.cords[%d]: there is no such cord or image", i);
-  if (r->unique[u] != u)
+  if (record->unique[u] != u)
     return thr_fail(err, THR_EVIOLATED, "symmetry.cords[%d]: cord %s is said to be a copy of %s, which is a copy itself", i, id,
-                    p->cord[u].id);
+                    plan->cord[u].id);
   if (u == i && x != 0) return thr_fail(err, THR_EVIOLATED, "symmetry.cords[%d]: a unique path is its own image 0", i);
-  if (compare(move(s, u, r->image + (size_t)x * (size_t)p->frame.n_nodes), &s->cord[i]) != 0)
-    return thr_fail(err, THR_EVIOLATED, "symmetry.cords[%d]: cord %s is not image %d of cord %s", i, id, x, p->cord[u].id);
+  if (compare(move(s, u, record->image + (size_t)x * (size_t)plan->frame.n_nodes), &s->cord[i]) != 0)
+    return thr_fail(err, THR_EVIOLATED, "symmetry.cords[%d]: cord %s is not image %d of cord %s", i, id, x, plan->cord[u].id);
   return THR_OK;
 }
 
@@ -223,21 +223,21 @@ static int ways_to_read(paths *s, const path *c)
   return c->n / period_of(c->node, c->n, s->scratch) * (1 + backward);
 }
 
-static const int *element(const thr_check_elements *g, int i)
+static const int *element(const thr_check_elements *check_elements, int i)
 {
-  return g->image + (size_t)i * (size_t)g->n;
+  return check_elements->image + (size_t)i * (size_t)check_elements->n;
 }
 
 /* Passes of unique path u over the number of ways in which the group maps it to itself: as many elements as fix all its nodes do
  * so in the same way. No other unique path may be an image. */
-static thr_status add_steps(paths *s, const thr_check_elements *g, int u, double *steps, thr_err *err)
+static thr_status add_steps(paths *s, const thr_check_elements *check_elements, int u, double *steps, thr_err *err)
 {
-  const thr_symmetry_record *r = &s->p->symmetry;
+  const thr_symmetry_record *record = &s->p->symmetry;
   int mapped = 0, fixed = 0;
-  for (int i = 0; i < g->order; i++) {
-    const path *image = move(s, u, element(g, i));
+  for (int i = 0; i < check_elements->order; i++) {
+    const path *image = move(s, u, element(check_elements, i));
     mapped += compare(image, &s->cord[u]) == 0;
-    fixed += keeps_nodes(s, u, element(g, i));
+    fixed += keeps_nodes(s, u, element(check_elements, i));
     int low = 0, high = s->p->n_cords; /* the first cord that runs so, and those after it */
     while (low < high) {
       int middle = low + (high - low) / 2;
@@ -247,50 +247,50 @@ static thr_status add_steps(paths *s, const thr_check_elements *g, int u, double
         high = middle;
     }
     for (; low < s->p->n_cords && compare(&s->sorted[low], image) == 0; low++)
-      if (r->unique[s->sorted[low].cord] != u)
+      if (record->unique[s->sorted[low].cord] != u)
         return thr_fail(err, THR_EVIOLATED, "symmetry.cords[%d]: cord %s is an image of cord %s, but said to be one of cord %s",
                         s->sorted[low].cord, s->p->cord[s->sorted[low].cord].id, s->p->cord[u].id,
-                        s->p->cord[r->unique[s->sorted[low].cord]].id);
+                        s->p->cord[record->unique[s->sorted[low].cord]].id);
   }
   *steps += (double)s->p->cord[u].n_passes * fixed / mapped / ways_to_read(s, &s->cord[u]);
   return THR_OK;
 }
 
-static thr_status check_copies(paths *s, const thr_check_elements *g, thr_err *err)
+static thr_status check_copies(paths *s, const thr_check_elements *check_elements, thr_err *err)
 {
-  const thr_symmetry_record *r = &s->p->symmetry;
+  const thr_symmetry_record *record = &s->p->symmetry;
   int unique_paths = 0;
   double steps = 0;
   thr_status st = THR_OK;
   for (int i = 0; i < s->p->n_cords && !st; i++)
     st = check_copy(s, i, err);
   for (int i = 0; i < s->p->n_cords && !st; i++) {
-    if (r->unique[i] != i) continue;
-    st = add_steps(s, g, i, &steps, err);
+    if (record->unique[i] != i) continue;
+    st = add_steps(s, check_elements, i, &steps, err);
     unique_paths++;
   }
   if (st) return st;
-  if (r->unique_paths != unique_paths)
-    return thr_fail(err, THR_EVIOLATED, "symmetry.unique_paths: stated %d, but there are %d", r->unique_paths, unique_paths);
-  if (!thr_check_close(r->steps, steps, steps))
-    return thr_fail(err, THR_EVIOLATED, "symmetry.steps: stated %.12g, but the unique paths give %.12g", r->steps, steps);
+  if (record->unique_paths != unique_paths)
+    return thr_fail(err, THR_EVIOLATED, "symmetry.unique_paths: stated %d, but there are %d", record->unique_paths, unique_paths);
+  if (!thr_check_close(record->steps, steps, steps))
+    return thr_fail(err, THR_EVIOLATED, "symmetry.steps: stated %.12g, but the unique paths give %.12g", record->steps, steps);
   return THR_OK;
 }
 
 /* ---- the whole record ---- */
 
-thr_status thr_check_symmetry(const thr_plan *p, thr_err *err)
+thr_status thr_check_symmetry(const thr_plan *plan, thr_err *err)
 {
-  const thr_symmetry_record *r = &p->symmetry;
+  const thr_symmetry_record *record = &plan->symmetry;
   paths s = {0};
-  thr_check_elements g = {0};
-  thr_status st = thr_check_group(p, &g, err);
-  if (!st) st = paths_init(&s, p, err);
+  thr_check_elements check_elements = {0};
+  thr_status st = thr_check_group(plan, &check_elements, err);
+  if (!st) st = paths_init(&s, plan, err);
   if (!st) fill_paths(&s);
-  for (int k = 0; k < r->n_generators && !st; k++)
-    st = check_permuted(&s, r->generator + (size_t)k * (size_t)p->frame.n_nodes, k, err);
-  if (!st) st = check_copies(&s, &g, err);
+  for (int k = 0; k < record->n_generators && !st; k++)
+    st = check_permuted(&s, record->generator + (size_t)k * (size_t)plan->frame.n_nodes, k, err);
+  if (!st) st = check_copies(&s, &check_elements, err);
   paths_destroy(&s);
-  free(g.image);
+  free(check_elements.image);
   return st;
 }

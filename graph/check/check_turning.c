@@ -30,49 +30,49 @@ static void node_points_destroy(node_points *k)
 }
 
 /* Angles by a formula of the checker's own; steps, which have a threshold, by the one definition that there is. */
-static double price_of(const thr_frame *f, thr_turn_cost cost, int in, int out)
+static double price_of(const thr_frame *frame, thr_turn_cost cost, int in, int out)
 {
-  if (cost == THR_TURN_STEP) return thr_turn_price(f, cost, in, out);
-  return thr_turn_cost_of(cost, in == (out ^ 1) ? THR_PI : thr_check_angle(f, in, out));
+  if (cost == THR_TURN_STEP) return thr_turn_price(frame, cost, in, out);
+  return thr_turn_cost_of(cost, in == (out ^ 1) ? THR_PI : thr_check_angle(frame, in, out));
 }
 
 /* Nothing turns where a cord ends; only where an edge is the only one may a cord turn back. */
-static void set_prices(node_points *k, const thr_frame *f, thr_turn_cost cost, int v)
+static void set_prices(node_points *k, const thr_frame *frame, thr_turn_cost cost, int v)
 {
-  int d = thr_degree(f, v), n = k->n_kinds;
-  const int *half = f->half + f->first[v];
+  int d = thr_degree(frame, v), n = k->n_kinds;
+  const int *half = frame->half + frame->first[v];
   for (int i = 0; i < n; i++)
     for (int j = 0; j < n; j++) {
       bool forbidden = i == j && (i == d || d > 1);
-      k->price[i * n + j] = forbidden ? INFINITY : i == d || j == d ? 0 : price_of(f, cost, half[i] ^ 1, half[j]);
+      k->price[i * n + j] = forbidden ? INFINITY : i == d || j == d ? 0 : price_of(frame, cost, half[i] ^ 1, half[j]);
     }
 }
 
-static thr_status node_points_init(node_points *k, const thr_frame *f, thr_turn_cost cost, int v, const int *passes, int ends,
+static thr_status node_points_init(node_points *k, const thr_frame *frame, thr_turn_cost cost, int v, const int *passes, int ends,
                                    thr_err *err)
 {
   enum { LARGEST = 1 << 16 }; /* some milliseconds */
-  int d = thr_degree(f, v);
+  int d = thr_degree(frame, v);
   size_t n = (size_t)d + 1;
   *k = (node_points){.n_kinds = d + (ends > 0), .size = 1};
   k->count = thr_calloc(n, sizeof *k->count);
   k->stride = thr_calloc(n, sizeof *k->stride);
   if (!k->count || !k->stride) return thr_nomem(err);
   for (int i = 0; i < k->n_kinds; i++) {
-    k->count[i] = i < d ? passes[f->half[f->first[v] + i] >> 1] : ends;
+    k->count[i] = i < d ? passes[frame->half[frame->first[v] + i] >> 1] : ends;
     k->stride[i] = k->size;
     k->size = k->size > LARGEST / (k->count[i] + 1) ? LARGEST + 1 : k->size * (k->count[i] + 1);
   }
   if (k->size > LARGEST) k->size = 0;
   if (k->size == 0) return THR_OK;
   if (!(k->price = thr_calloc(n * n, sizeof *k->price))) return thr_nomem(err);
-  set_prices(k, f, cost, v);
+  set_prices(k, frame, cost, v);
   return THR_OK;
 }
 
 /* Least price of a turn from half-edge i of the d at a node to another. No turn costs more than a sharper one, so only the
  * straightest are priced: those whose cosines are the same but for rounding. */
-static double cheapest_turn(const thr_frame *f, thr_turn_cost cost, const int *half, int d, double (*unit)[3], int i)
+static double cheapest_turn(const thr_frame *frame, thr_turn_cost cost, const int *half, int d, double (*unit)[3], int i)
 {
   double straight = -INFINITY, least = INFINITY;
   for (int pass = 0; pass < 2; pass++)
@@ -82,28 +82,28 @@ static double cheapest_turn(const thr_frame *f, thr_turn_cost cost, const int *h
       if (pass == 0)
         straight = fmax(straight, cosine);
       else if (cosine >= straight - 1e-12)
-        least = fmin(least, price_of(f, cost, half[i] ^ 1, half[j]));
+        least = fmin(least, price_of(frame, cost, half[i] ^ 1, half[j]));
     }
   return least;
 }
 
 /* A bound where the table would be too large: every pass pays at least half of its cheapest turn, unless it goes on to a cord
  * end, of which there are so many. */
-static thr_status half_prices(const thr_frame *f, thr_turn_cost cost, int v, const int *passes, int ends, double *sum,
+static thr_status half_prices(const thr_frame *frame, thr_turn_cost cost, int v, const int *passes, int ends, double *sum,
                               thr_err *err)
 {
-  int d = thr_degree(f, v);
-  const int *half = f->half + f->first[v];
+  int d = thr_degree(frame, v);
+  const int *half = frame->half + frame->first[v];
   double half_sum = 0, most = 0, (*unit)[3] = thr_calloc((size_t)d, sizeof *unit);
   if (!unit) return thr_nomem(err);
   for (int i = 0; i < d; i++) {
-    const double *from = f->xyz[v], *to = f->xyz[thr_head(f, half[i])];
+    const double *from = frame->xyz[v], *to = frame->xyz[thr_head(frame, half[i])];
     double size = hypot(hypot(to[0] - from[0], to[1] - from[1]), to[2] - from[2]);
     for (int k = 0; k < 3; k++)
       unit[i][k] = (to[k] - from[k]) / size;
   }
   for (int i = 0; i < d && d > 1; i++) {
-    double least = cheapest_turn(f, cost, half, d, unit, i) / 2;
+    double least = cheapest_turn(frame, cost, half, d, unit, i) / 2;
     half_sum += passes[half[i] >> 1] * least;
     most = fmax(most, least);
   }
@@ -130,14 +130,15 @@ static double cheapest(const node_points *k, double *table)
   return table[k->size - 1];
 }
 
-static thr_status pair_node(const thr_frame *f, thr_turn_cost cost, int v, const int *passes, int ends, double *sum, thr_err *err)
+static thr_status pair_node(const thr_frame *frame, thr_turn_cost cost, int v, const int *passes, int ends, double *sum,
+                            thr_err *err)
 {
   node_points k;
-  thr_status st = node_points_init(&k, f, cost, v, passes, ends, err);
+  thr_status st = node_points_init(&k, frame, cost, v, passes, ends, err);
   double *table = st || !k.size ? NULL : thr_calloc((size_t)k.size, sizeof *table);
   if (!st && k.size && !table) st = thr_nomem(err);
   if (!st && table) *sum += cheapest(&k, table);
-  if (!st && !table) st = half_prices(f, cost, v, passes, ends, sum, err);
+  if (!st && !table) st = half_prices(frame, cost, v, passes, ends, sum, err);
   free(table);
   node_points_destroy(&k);
   return st;
@@ -176,23 +177,23 @@ static thr_status count_cords(walked *w, thr_err *err)
   return THR_OK;
 }
 
-static thr_status walked_init(walked *w, const thr_frame *f, const thr_plan_options *o, const thr_cord *cord, int n_cords,
-                              thr_err *err)
+static thr_status walked_init(walked *w, const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord,
+                              int n_cords, thr_err *err)
 {
-  size_t n = (size_t)f->n_nodes;
-  *w = (walked){.f = f, .o = o, .cord = cord, .n_cords = n_cords};
-  w->passes = thr_calloc((size_t)f->n_edges, sizeof *w->passes);
+  size_t n = (size_t)frame->n_nodes;
+  *w = (walked){.f = frame, .o = options, .cord = cord, .n_cords = n_cords};
+  w->passes = thr_calloc((size_t)frame->n_edges, sizeof *w->passes);
   w->ends = thr_calloc(n, sizeof *w->ends);
   w->end_allowed = thr_calloc(n, sizeof *w->end_allowed);
   if (!w->passes || !w->ends || !w->end_allowed) return thr_nomem(err);
-  for (int v = 0; v < f->n_nodes; v++)
-    w->end_allowed[v] = thr_plan_end_allowed(f, o, v);
+  for (int v = 0; v < frame->n_nodes; v++)
+    w->end_allowed[v] = thr_plan_end_allowed(frame, options, v);
   for (int i = 0; i < n_cords; i++) {
     for (int k = 0; k < cord[i].n_passes; k++)
       w->passes[cord[i].half[k] >> 1]++;
-    if (o->ends == THR_ENDS_CLOSED) continue;
-    w->ends[thr_cord_start(f, &cord[i])]++;
-    w->ends[thr_cord_end(f, &cord[i])]++;
+    if (options->ends == THR_ENDS_CLOSED) continue;
+    w->ends[thr_cord_start(frame, &cord[i])]++;
+    w->ends[thr_cord_end(frame, &cord[i])]++;
   }
   return count_cords(w, err);
 }
@@ -219,7 +220,7 @@ static thr_status price_cord(const walked *w, const thr_cord *c, double *price, 
 /* Adds to *found, which is zeros, what follows from the cords; and they must be of the kind that the proof is about. */
 static thr_status judge_cords(const walked *w, thr_turning_claim *found, thr_err *err)
 {
-  const thr_frame *f = w->f;
+  const thr_frame *frame = w->f;
   double length = 0;
   for (int i = 0; i < w->n_cords; i++) {
     double price;
@@ -228,8 +229,8 @@ static thr_status judge_cords(const walked *w, thr_turning_claim *found, thr_err
     found->price += price;
     found->largest = fmax(found->largest, price);
   }
-  for (int e = 0; e < f->n_edges; e++) {
-    length += w->passes[e] * f->length[e];
+  for (int e = 0; e < frame->n_edges; e++) {
+    length += w->passes[e] * frame->length[e];
     if (w->passes[e] > found->most_passes)
       return thr_fail(err, THR_EVIOLATED, "proof.turning: %d passes over edge %d; the proof is about plans with at most %d",
                       w->passes[e], e, found->most_passes);
@@ -237,8 +238,8 @@ static thr_status judge_cords(const walked *w, thr_turning_claim *found, thr_err
   if (found->length_limit >= 0 && length > found->length_limit && !thr_check_close(length, found->length_limit, length))
     return thr_fail(err, THR_EVIOLATED, "proof.turning: the cords are %.12g long; the proof is about plans of at most %.12g",
                     length, found->length_limit);
-  for (int v = 0; v < f->n_nodes; v++) {
-    thr_status st = pair_node(f, w->o->turning.cost, v, w->passes, w->ends[v], &found->pairing_bound, err);
+  for (int v = 0; v < frame->n_nodes; v++) {
+    thr_status st = pair_node(frame, w->o->turning.cost, v, w->passes, w->ends[v], &found->pairing_bound, err);
     if (st) return st;
   }
   return THR_OK;
@@ -248,10 +249,10 @@ static thr_status judge_cords(const walked *w, thr_turning_claim *found, thr_err
 
 /* What every closed cord costs: a closed curve in space turns by at least a full turn (Fenchel 1929), and sin(x / 2) >= x / pi up
  * to pi. */
-static double closed_price(const thr_plan_options *o)
+static double closed_price(const thr_plan_options *options)
 {
-  if (o->ends != THR_ENDS_CLOSED || o->turning.cost == THR_TURN_STEP) return 0;
-  return o->turning.cost == THR_TURN_ANGLE ? 2 * THR_PI : 2;
+  if (options->ends != THR_ENDS_CLOSED || options->turning.cost == THR_TURN_STEP) return 0;
+  return options->turning.cost == THR_TURN_ANGLE ? 2 * THR_PI : 2;
 }
 
 static thr_status judge_tree(const walked *w, const thr_turning_claim *claim, thr_turning_claim *found, thr_err *err)
@@ -290,16 +291,16 @@ static thr_status judge_tree(const walked *w, const thr_turning_claim *claim, th
   return THR_OK;
 }
 
-thr_status thr_check_turning(const thr_frame *f, const thr_plan_options *o, const thr_cord *cord, int n_cords,
+thr_status thr_check_turning(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord, int n_cords,
                              const thr_turning_claim *claim, thr_turning_claim *found, thr_err *err)
 {
   walked w;
   *found = (thr_turning_claim){.present = true, .most_passes = claim->most_passes, .length_limit = claim->length_limit};
-  int least_most = thr_turning_most_passes(f, o->cover);
+  int least_most = thr_turning_most_passes(frame, options->cover);
   if (claim->most_passes < least_most)
     return thr_fail(err, THR_EVIOLATED, "proof.turning.most_passes: %d; a proof is about plans with up to %d passes over an edge",
                     claim->most_passes, least_most);
-  thr_status st = walked_init(&w, f, o, cord, n_cords, err);
+  thr_status st = walked_init(&w, frame, options, cord, n_cords, err);
   if (!st) st = judge_cords(&w, found, err);
   if (!st) st = judge_tree(&w, claim, found, err);
   walked_destroy(&w);
@@ -320,34 +321,34 @@ static thr_status not_above(const char *name, double said, double found, thr_err
   return said <= found ? THR_OK : stated(name, said, found, 1 + found, err);
 }
 
-static thr_status check_optimal(const thr_turning_claim *c, const thr_turning_claim *found, double whole, thr_err *err)
+static thr_status check_optimal(const thr_turning_claim *claim, const thr_turning_claim *found, double whole, thr_err *err)
 {
-  if (c->optimal && !found->optimal)
+  if (claim->optimal && !found->optimal)
     return thr_fail(err, THR_EVIOLATED, "proof.turning: says optimal, but the tree only proves %.12g of %.12g",
                     found->lower_bound, found->price);
-  if (c->largest_optimal && !found->largest_optimal)
+  if (claim->largest_optimal && !found->largest_optimal)
     return thr_fail(err, THR_EVIOLATED, "proof.turning.largest: says optimal, but only %.12g of %.12g is proved",
                     found->largest_bound, found->largest);
-  if (c->optimal && !thr_check_close(c->lower_bound, c->price, whole))
+  if (claim->optimal && !thr_check_close(claim->lower_bound, claim->price, whole))
     return thr_fail(err, THR_EVIOLATED, "proof.turning: says optimal, but its lower bound %.12g is not the price %.12g",
-                    c->lower_bound, c->price);
-  if (c->largest_optimal && !thr_check_close(c->largest_bound, c->largest, whole))
+                    claim->lower_bound, claim->price);
+  if (claim->largest_optimal && !thr_check_close(claim->largest_bound, claim->largest, whole))
     return thr_fail(err, THR_EVIOLATED, "proof.turning.largest: says optimal, but its lower bound %.12g is not the price %.12g",
-                    c->largest_bound, c->largest);
+                    claim->largest_bound, claim->largest);
   return THR_OK;
 }
 
 /* The limit on the length must let in everything that the options allow: that part above the least length that is proved. (A plan
  * with a weak proof of length may have a lower limit: what is said of its turning names the limit.) */
-static thr_status check_limit(const thr_plan *p, double least_length, thr_err *err)
+static thr_status check_limit(const thr_plan *plan, double least_length, thr_err *err)
 {
-  double slack = p->options.turning.length_slack, limit = p->turning.length_limit;
+  double slack = plan->options.turning.length_slack, limit = plan->turning.length_limit;
   if (slack < 0) {
     if (limit < 0) return THR_OK;
     return thr_fail(err, THR_EVIOLATED, "proof.turning.length_limit: %.12g, but the options allow any length", limit);
   }
   if (limit < 0) return THR_OK; /* more than asked for */
-  if (!p->proof.present)
+  if (!plan->proof.present)
     return thr_fail(err, THR_EVIOLATED, "proof.turning.length_limit: nothing says what the least length is (no proof.length)");
   double needed = (1 + slack) * least_length;
   if (limit >= needed * (1 - 5e-12)) return THR_OK; /* the proof allows 1e-11 more: thr_turning_extra_limit */
@@ -355,22 +356,22 @@ static thr_status check_limit(const thr_plan *p, double least_length, thr_err *e
                   limit, needed);
 }
 
-thr_status thr_check_turning_claim(const thr_plan *p, double least_length, thr_err *err)
+thr_status thr_check_turning_claim(const thr_plan *plan, double least_length, thr_err *err)
 {
-  const thr_turning_claim *c = &p->turning;
+  const thr_turning_claim *claim = &plan->turning;
   thr_turning_claim found;
-  if (p->options.turning.tour != THR_TOUR_LEAST)
+  if (plan->options.turning.tour != THR_TOUR_LEAST)
     return thr_fail(err, THR_EVIOLATED, "proof.turning: a classical tour claims nothing about its turning");
-  thr_status st = check_limit(p, least_length, err);
-  if (!st) st = thr_check_turning(&p->frame, &p->options, p->cord, p->n_cords, c, &found, err);
+  thr_status st = check_limit(plan, least_length, err);
+  if (!st) st = thr_check_turning(&plan->frame, &plan->options, plan->cord, plan->n_cords, claim, &found, err);
   if (st) return st;
   double whole = 1 + found.price;
-  if ((st = stated("price", c->price, found.price, whole, err))) return st;
-  if ((st = stated("largest.price", c->largest, found.largest, whole, err))) return st;
-  if ((st = not_above("pairing_bound", c->pairing_bound, found.pairing_bound, err))) return st;
-  if ((st = not_above("lower_bound", c->lower_bound, found.lower_bound, err))) return st;
-  if ((st = not_above("largest.lower_bound", c->largest_bound, found.largest_bound, err))) return st;
-  double gap = found.price > 0 ? (c->price - c->lower_bound) / found.price : 0;
-  if ((st = stated("gap", c->gap, gap, 1, err))) return st;
-  return check_optimal(c, &found, whole, err);
+  if ((st = stated("price", claim->price, found.price, whole, err))) return st;
+  if ((st = stated("largest.price", claim->largest, found.largest, whole, err))) return st;
+  if ((st = not_above("pairing_bound", claim->pairing_bound, found.pairing_bound, err))) return st;
+  if ((st = not_above("lower_bound", claim->lower_bound, found.lower_bound, err))) return st;
+  if ((st = not_above("largest.lower_bound", claim->largest_bound, found.largest_bound, err))) return st;
+  double gap = found.price > 0 ? (claim->price - claim->lower_bound) / found.price : 0;
+  if ((st = stated("gap", claim->gap, gap, 1, err))) return st;
+  return check_optimal(claim, &found, whole, err);
 }

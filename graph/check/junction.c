@@ -10,11 +10,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-thr_status thr_junction_tied(const thr_frame *f, const thr_cord *cord, int n_cords, bool closing_turns, bool *tied, thr_err *err)
+thr_status thr_junction_tied(const thr_frame *frame, const thr_cord *cord, int n_cords, bool closing_turns, bool *tied,
+                             thr_err *err)
 {
-  int *parent = thr_calloc(2 * (size_t)f->n_edges, sizeof *parent); /* of half-edges, each the edge as seen from its node */
+  int *parent = thr_calloc(2 * (size_t)frame->n_edges, sizeof *parent); /* of half-edges, each the edge as seen from its node */
   if (!parent) return thr_nomem(err);
-  for (int h = 0; h < 2 * f->n_edges; h++)
+  for (int h = 0; h < 2 * frame->n_edges; h++)
     parent[h] = h;
   for (int i = 0; i < n_cords; i++) {
     const thr_cord *c = &cord[i];
@@ -22,52 +23,52 @@ thr_status thr_junction_tied(const thr_frame *f, const thr_cord *cord, int n_cor
       thr_disjoint_join(parent, c->half[k] ^ 1, c->half[k + 1]);
     if (closing_turns && c->closed) thr_disjoint_join(parent, c->half[c->n_passes - 1] ^ 1, c->half[0]);
   }
-  for (int v = 0; v < f->n_nodes; v++) {
+  for (int v = 0; v < frame->n_nodes; v++) {
     tied[v] = true;
-    for (int i = f->first[v] + 1; i < f->first[v + 1]; i++)
-      tied[v] &= thr_disjoint_find(parent, f->half[i]) == thr_disjoint_find(parent, f->half[i - 1]);
+    for (int i = frame->first[v] + 1; i < frame->first[v + 1]; i++)
+      tied[v] &= thr_disjoint_find(parent, frame->half[i]) == thr_disjoint_find(parent, frame->half[i - 1]);
   }
   free(parent);
   return THR_OK;
 }
 
-void thr_tied_task(const thr_frame *f, const thr_plan_options *o, bool *end_allowed, thr_turning_task *task)
+void thr_tied_task(const thr_frame *frame, const thr_plan_options *options, bool *end_allowed, thr_turning_task *task)
 {
-  bool closed = o->ends == THR_ENDS_CLOSED;
-  int cover = 1, degree = 1, cords = closed ? 1 : o->cords;
+  bool closed = options->ends == THR_ENDS_CLOSED;
+  int cover = 1, degree = 1, cords = closed ? 1 : options->cords;
   double longest = 0;
-  for (int e = 0; e < f->n_edges; e++) {
-    longest = fmax(longest, f->length[e]);
-    if (thr_plan_cover(f, o, e) > cover) cover = thr_plan_cover(f, o, e);
+  for (int e = 0; e < frame->n_edges; e++) {
+    longest = fmax(longest, frame->length[e]);
+    if (thr_plan_cover(frame, options, e) > cover) cover = thr_plan_cover(frame, options, e);
   }
-  for (int v = 0; v < f->n_nodes; v++) {
-    end_allowed[v] = thr_plan_end_allowed(f, o, v);
-    if (thr_degree(f, v) > degree) degree = thr_degree(f, v);
+  for (int v = 0; v < frame->n_nodes; v++) {
+    end_allowed[v] = thr_plan_end_allowed(frame, options, v);
+    if (thr_degree(frame, v) > degree) degree = thr_degree(frame, v);
   }
-  *task = (thr_turning_task){.cover = o->cover,
-                             .capacity = o->capacity,
+  *task = (thr_turning_task){.cover = options->cover,
+                             .capacity = options->capacity,
                              .most_passes = 2 * (cover + degree + 2 * cords) + 1,
                              .cords = cords,
-                             .cords_least = closed ? 1 : thr_plan_cords_least(o),
+                             .cords_least = closed ? 1 : thr_plan_cords_least(options),
                              .end_allowed = closed ? NULL : end_allowed,
-                             .end_count = o->ends == THR_ENDS_COUNTS ? o->end_count : NULL,
+                             .end_count = options->ends == THR_ENDS_COUNTS ? options->end_count : NULL,
                              .tube = true,
                              .free_turns = true,
-                             .price_per_length = fmin(f->n_edges / thr_frame_total_length(f), 5e3 / longest),
+                             .price_per_length = fmin(frame->n_edges / thr_frame_total_length(frame), 5e3 / longest),
                              .extra_limit = -1};
 }
 
-thr_status thr_tied_least(const thr_frame *f, const thr_plan_options *o, const thr_turning_proof *proof, double *least,
+thr_status thr_tied_least(const thr_frame *frame, const thr_plan_options *options, const thr_turning_proof *proof, double *least,
                           thr_err *err)
 {
   thr_turning_task task;
   double extra = 0;
-  bool *end_allowed = thr_calloc((size_t)f->n_nodes, sizeof *end_allowed);
+  bool *end_allowed = thr_calloc((size_t)frame->n_nodes, sizeof *end_allowed);
   *least = 0;
   if (!end_allowed) return thr_nomem(err);
-  thr_tied_task(f, o, end_allowed, &task);
-  thr_status st = thr_turning_proof_check(f, &task, proof, &extra, err);
-  if (!st) *least = thr_turning_base_length(f, o->cover) + extra / task.price_per_length;
+  thr_tied_task(frame, options, end_allowed, &task);
+  thr_status st = thr_turning_proof_check(frame, &task, proof, &extra, err);
+  if (!st) *least = thr_turning_base_length(frame, options->cover) + extra / task.price_per_length;
   free(end_allowed);
   return st;
 }

@@ -4,15 +4,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-void thr_components_destroy(thr_components *p)
+void thr_components_destroy(thr_components *components)
 {
-  free(p->component);
-  free(p->local);
-  free(p->first_node);
-  free(p->node);
-  free(p->first_edge);
-  free(p->edge);
-  *p = (thr_components){0};
+  free(components->component);
+  free(components->local);
+  free(components->first_node);
+  free(components->node);
+  free(components->first_edge);
+  free(components->edge);
+  *components = (thr_components){0};
 }
 
 /* Items in order of their keys, of which there are n: a counting sort. */
@@ -29,135 +29,140 @@ static void sort_by(const int *key, int n_items, int *first, int n, int *item)
   first[0] = 0;
 }
 
-static thr_status sort_all(thr_components *p, thr_err *err)
+static thr_status sort_all(thr_components *components, thr_err *err)
 {
-  const thr_frame *f = p->f;
-  size_t n = (size_t)p->n + 1;
-  int *of_edge = thr_calloc((size_t)f->n_edges, sizeof *of_edge);
-  p->first_node = thr_calloc(n, sizeof *p->first_node);
-  p->first_edge = thr_calloc(n, sizeof *p->first_edge);
-  p->node = thr_calloc((size_t)f->n_nodes, sizeof *p->node);
-  p->edge = thr_calloc((size_t)f->n_edges, sizeof *p->edge);
-  p->local = thr_calloc((size_t)f->n_nodes, sizeof *p->local);
-  thr_status st = of_edge && p->first_node && p->first_edge && p->node && p->edge && p->local ? THR_OK : thr_nomem(err);
+  const thr_frame *frame = components->f;
+  size_t n = (size_t)components->n + 1;
+  int *of_edge = thr_calloc((size_t)frame->n_edges, sizeof *of_edge);
+  components->first_node = thr_calloc(n, sizeof *components->first_node);
+  components->first_edge = thr_calloc(n, sizeof *components->first_edge);
+  components->node = thr_calloc((size_t)frame->n_nodes, sizeof *components->node);
+  components->edge = thr_calloc((size_t)frame->n_edges, sizeof *components->edge);
+  components->local = thr_calloc((size_t)frame->n_nodes, sizeof *components->local);
+  thr_status st =
+      of_edge && components->first_node && components->first_edge && components->node && components->edge && components->local
+          ? THR_OK
+          : thr_nomem(err);
   if (!st) {
-    for (int e = 0; e < f->n_edges; e++)
-      of_edge[e] = p->component[f->edge[e][0]];
-    sort_by(p->component, f->n_nodes, p->first_node, p->n, p->node);
-    sort_by(of_edge, f->n_edges, p->first_edge, p->n, p->edge);
-    for (int i = 0; i < f->n_nodes; i++)
-      p->local[p->node[i]] = i - p->first_node[p->component[p->node[i]]];
+    for (int e = 0; e < frame->n_edges; e++)
+      of_edge[e] = components->component[frame->edge[e][0]];
+    sort_by(components->component, frame->n_nodes, components->first_node, components->n, components->node);
+    sort_by(of_edge, frame->n_edges, components->first_edge, components->n, components->edge);
+    for (int i = 0; i < frame->n_nodes; i++)
+      components->local[components->node[i]] = i - components->first_node[components->component[components->node[i]]];
   }
   free(of_edge);
   return st;
 }
 
-thr_status thr_components_init(thr_components *p, const thr_frame *f, const thr_plan_options *o, thr_err *err)
+thr_status thr_components_init(thr_components *components, const thr_frame *frame, const thr_plan_options *options, thr_err *err)
 {
-  *p = (thr_components){.f = f, .o = o, .component = thr_calloc((size_t)f->n_nodes, sizeof *p->component)};
-  thr_status st = p->component ? thr_frame_components(f, p->component, &p->n, err) : thr_nomem(err);
-  if (!st) st = sort_all(p, err);
-  if (st) thr_components_destroy(p);
+  *components =
+      (thr_components){.f = frame, .o = options, .component = thr_calloc((size_t)frame->n_nodes, sizeof *components->component)};
+  thr_status st =
+      components->component ? thr_frame_components(frame, components->component, &components->n, err) : thr_nomem(err);
+  if (!st) st = sort_all(components, err);
+  if (st) thr_components_destroy(components);
   return st;
 }
 
 /* ---- taking one out ---- */
 
-static thr_status allocate(const thr_components *p, thr_frame *t, thr_plan_options *o, thr_err *err)
+static thr_status allocate(const thr_components *components, thr_frame *frame, thr_plan_options *options, thr_err *err)
 {
-  size_t n = (size_t)t->n_nodes, m = (size_t)t->n_edges;
-  bool good = (t->xyz = thr_calloc(n, sizeof *t->xyz)) && (t->foot = thr_calloc(n, sizeof *t->foot)) &&
-              (t->name = thr_calloc(n, sizeof *t->name)) && (t->first = thr_calloc(n + 1, sizeof *t->first)) &&
-              (t->edge = thr_calloc(m, sizeof *t->edge)) && (t->length = thr_calloc(m, sizeof *t->length)) &&
-              (t->half = thr_calloc(2 * m, sizeof *t->half));
-  if (p->f->cover) good = good && (t->cover = thr_calloc(m, sizeof *t->cover));
-  if (p->f->capacity) good = good && (t->capacity = thr_calloc(m, sizeof *t->capacity));
-  if (p->o->end_node) good = good && (o->end_node = thr_calloc(n, sizeof *o->end_node));
-  if (p->o->end_count) good = good && (o->end_count = thr_calloc(n, sizeof *o->end_count));
+  size_t n = (size_t)frame->n_nodes, m = (size_t)frame->n_edges;
+  bool good = (frame->xyz = thr_calloc(n, sizeof *frame->xyz)) && (frame->foot = thr_calloc(n, sizeof *frame->foot)) &&
+              (frame->name = thr_calloc(n, sizeof *frame->name)) && (frame->first = thr_calloc(n + 1, sizeof *frame->first)) &&
+              (frame->edge = thr_calloc(m, sizeof *frame->edge)) && (frame->length = thr_calloc(m, sizeof *frame->length)) &&
+              (frame->half = thr_calloc(2 * m, sizeof *frame->half));
+  if (components->f->cover) good = good && (frame->cover = thr_calloc(m, sizeof *frame->cover));
+  if (components->f->capacity) good = good && (frame->capacity = thr_calloc(m, sizeof *frame->capacity));
+  if (components->o->end_node) good = good && (options->end_node = thr_calloc(n, sizeof *options->end_node));
+  if (components->o->end_count) good = good && (options->end_count = thr_calloc(n, sizeof *options->end_count));
   return good ? THR_OK : thr_nomem(err);
 }
 
-static thr_status copy_nodes(const thr_components *p, int k, thr_frame *t, thr_plan_options *o, thr_err *err)
+static thr_status copy_nodes(const thr_components *components, int k, thr_frame *frame, thr_plan_options *options, thr_err *err)
 {
-  for (int i = 0; i < t->n_nodes; i++) {
-    int v = p->node[p->first_node[k] + i];
-    memcpy(t->xyz[i], p->f->xyz[v], sizeof t->xyz[i]);
-    t->foot[i] = p->f->foot[v];
-    if (o->end_node) o->end_node[i] = p->o->end_node[v];
-    if (o->end_count) o->end_count[i] = p->o->end_count[v];
-    if (!(t->name[i] = thr_strdup(p->f->name[v]))) return thr_nomem(err);
+  for (int i = 0; i < frame->n_nodes; i++) {
+    int v = components->node[components->first_node[k] + i];
+    memcpy(frame->xyz[i], components->f->xyz[v], sizeof frame->xyz[i]);
+    frame->foot[i] = components->f->foot[v];
+    if (options->end_node) options->end_node[i] = components->o->end_node[v];
+    if (options->end_count) options->end_count[i] = components->o->end_count[v];
+    if (!(frame->name[i] = thr_strdup(components->f->name[v]))) return thr_nomem(err);
   }
   return THR_OK;
 }
 
-static void copy_edges(const thr_components *p, int k, thr_frame *t)
+static void copy_edges(const thr_components *components, int k, thr_frame *frame)
 {
-  for (int i = 0; i < t->n_edges; i++) {
-    int e = p->edge[p->first_edge[k] + i];
+  for (int i = 0; i < frame->n_edges; i++) {
+    int e = components->edge[components->first_edge[k] + i];
     for (int side = 0; side < 2; side++)
-      t->edge[i][side] = p->local[p->f->edge[e][side]];
-    t->length[i] = p->f->length[e];
-    if (t->cover) t->cover[i] = p->f->cover[e];
-    if (t->capacity) t->capacity[i] = p->f->capacity[e];
+      frame->edge[i][side] = components->local[components->f->edge[e][side]];
+    frame->length[i] = components->f->length[e];
+    if (frame->cover) frame->cover[i] = components->f->cover[e];
+    if (frame->capacity) frame->capacity[i] = components->f->capacity[e];
   }
 }
 
-thr_status thr_component_take(const thr_components *p, int k, thr_plan *out, thr_err *err)
+thr_status thr_component_take(const thr_components *components, int k, thr_plan *out, thr_err *err)
 {
-  *out = (thr_plan){.options = *p->o};
+  *out = (thr_plan){.options = *components->o};
   out->options.end_node = NULL;
   out->options.end_count = NULL;
-  thr_frame *t = &out->frame;
-  t->n_nodes = p->first_node[k + 1] - p->first_node[k];
-  t->n_edges = p->first_edge[k + 1] - p->first_edge[k];
-  t->own_lengths = p->f->own_lengths;
-  memcpy(t->units, p->f->units, sizeof t->units);
-  thr_status st = allocate(p, t, &out->options, err);
-  if (!st) st = copy_nodes(p, k, t, &out->options, err);
+  thr_frame *frame = &out->frame;
+  frame->n_nodes = components->first_node[k + 1] - components->first_node[k];
+  frame->n_edges = components->first_edge[k + 1] - components->first_edge[k];
+  frame->own_lengths = components->f->own_lengths;
+  memcpy(frame->units, components->f->units, sizeof frame->units);
+  thr_status st = allocate(components, frame, &out->options, err);
+  if (!st) st = copy_nodes(components, k, frame, &out->options, err);
   if (st) {
     thr_plan_destroy(out);
     return st;
   }
-  copy_edges(p, k, t);
-  thr_frame_index(t);
+  copy_edges(components, k, frame);
+  thr_frame_index(frame);
   return THR_OK;
 }
 
 /* ---- putting them together ---- */
 
-static void give_cords(const thr_components *p, int k, thr_plan *component, thr_plan *whole)
+static void give_cords(const thr_components *components, int k, thr_plan *component, thr_plan *whole)
 {
   for (int i = 0; i < component->n_cords; i++) {
-    thr_cord *c = &whole->cord[whole->n_cords];
-    *c = component->cord[i];
+    thr_cord *cord = &whole->cord[whole->n_cords];
+    *cord = component->cord[i];
     component->cord[i].half = NULL;
-    c->component = k;
-    thr_cord_id(whole->n_cords++, c->id);
-    for (int j = 0; j < c->n_passes; j++)
-      c->half[j] = 2 * p->edge[p->first_edge[k] + (c->half[j] >> 1)] + (c->half[j] & 1);
+    cord->component = k;
+    thr_cord_id(whole->n_cords++, cord->id);
+    for (int j = 0; j < cord->n_passes; j++)
+      cord->half[j] = 2 * components->edge[components->first_edge[k] + (cord->half[j] >> 1)] + (cord->half[j] & 1);
   }
 }
 
-thr_status thr_components_join(const thr_components *p, thr_plan *component, thr_plan *whole, thr_err *err)
+thr_status thr_components_join(const thr_components *components, thr_plan *component, thr_plan *whole, thr_err *err)
 {
   size_t n = 0;
-  for (int k = 0; k < p->n; k++)
+  for (int k = 0; k < components->n; k++)
     n += (size_t)component[k].n_cords;
   if (!(whole->cord = thr_calloc(n, sizeof *whole->cord))) return thr_nomem(err);
-  for (int k = 0; k < p->n; k++)
-    give_cords(p, k, &component[k], whole);
+  for (int k = 0; k < components->n; k++)
+    give_cords(components, k, &component[k], whole);
   return THR_OK;
 }
 
-void thr_component_give_certificate(const thr_components *p, int k, thr_plan *component, thr_certificate *c)
+void thr_component_give_certificate(const thr_components *components, int k, thr_plan *component, thr_certificate *certificate)
 {
   if (component->proof.n_certificates != 1) return;
   thr_certificate *own = &component->proof.certificate[0];
-  thr_certificate_destroy(c);
-  *c = *own;
+  thr_certificate_destroy(certificate);
+  *certificate = *own;
   *own = (thr_certificate){0};
-  c->component = k;
-  for (int i = 0; i < c->n_cuts; i++)
-    for (int j = 0; j < c->cut[i].n_nodes; j++)
-      c->cut[i].node[j] = p->node[p->first_node[k] + c->cut[i].node[j]];
+  certificate->component = k;
+  for (int i = 0; i < certificate->n_cuts; i++)
+    for (int j = 0; j < certificate->cut[i].n_nodes; j++)
+      certificate->cut[i].node[j] = components->node[components->first_node[k] + certificate->cut[i].node[j]];
 }

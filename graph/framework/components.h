@@ -17,19 +17,21 @@ typedef struct {
   int *first_node, *node, *first_edge, *edge;
 } thr_components;
 
-/* O(nodes + edges). On failure p is empty. */
-thr_status thr_components_init(thr_components *p, const thr_frame *f, const thr_plan_options *o, thr_err *err) THR_MUST_CHECK;
-void thr_components_destroy(thr_components *p);
+/* O(nodes + edges). On failure components is empty. */
+thr_status thr_components_init(thr_components *components, const thr_frame *frame, const thr_plan_options *options,
+                               thr_err *err) THR_MUST_CHECK;
+void thr_components_destroy(thr_components *components);
 
 /* Component k alone, with what is asked of it, as an empty plan; nodes and edges keep their order. O(component). On failure out
  * is empty.
  */
-thr_status thr_component_take(const thr_components *p, int k, thr_plan *out, thr_err *err) THR_MUST_CHECK;
+thr_status thr_component_take(const thr_components *components, int k, thr_plan *out, thr_err *err) THR_MUST_CHECK;
 
 /* Moves the cords of component[n], plans of all components, into those of the whole, which has none yet. */
-thr_status thr_components_join(const thr_components *p, thr_plan *component, thr_plan *whole, thr_err *err) THR_MUST_CHECK;
+thr_status thr_components_join(const thr_components *components, thr_plan *component, thr_plan *whole,
+                               thr_err *err) THR_MUST_CHECK;
 
-/* Moves the certificate of a plan of component k, if it has one, into c. */
-void thr_component_give_certificate(const thr_components *p, int k, thr_plan *component, thr_certificate *c);
+/* Moves the certificate of a plan of component k, if it has one, into certificate. */
+void thr_component_give_certificate(const thr_components *components, int k, thr_plan *component, thr_certificate *certificate);
 
 #endif

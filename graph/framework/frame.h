@@ -22,17 +22,17 @@ typedef struct {
   int *half;        /* [2 * n_edges] */
 } thr_frame;
 
-static inline int thr_tail(const thr_frame *f, int h)
+static inline int thr_tail(const thr_frame *frame, int h)
 {
-  return f->edge[h >> 1][h & 1];
+  return frame->edge[h >> 1][h & 1];
 }
-static inline int thr_head(const thr_frame *f, int h)
+static inline int thr_head(const thr_frame *frame, int h)
 {
-  return f->edge[h >> 1][1 - (h & 1)];
+  return frame->edge[h >> 1][1 - (h & 1)];
 }
-static inline int thr_degree(const thr_frame *f, int v)
+static inline int thr_degree(const thr_frame *frame, int v)
 {
-  return f->first[v + 1] - f->first[v];
+  return frame->first[v + 1] - frame->first[v];
 }
 
 /* What a reader collects before welding: nodes in file order, edges as node indices. Fill it with the two add
@@ -55,15 +55,15 @@ typedef struct {
 
 /* Appends a node; name may be NULL and is copied and cleaned (thr_text_clean). Coordinates must be finite and below 1e100
  * (THR_EINPUT otherwise). */
-thr_status thr_draft_add_node(thr_draft *d, const double xyz[3], const char *name, bool foot, thr_err *err) THR_MUST_CHECK;
+thr_status thr_draft_add_node(thr_draft *draft, const double xyz[3], const char *name, bool foot, thr_err *err) THR_MUST_CHECK;
 /* Appends an edge between node indices that exist already (THR_EINPUT otherwise). length 0 = Euclidean. */
-thr_status thr_draft_add_edge(thr_draft *d, int a, int b, double length, thr_err *err) THR_MUST_CHECK;
+thr_status thr_draft_add_edge(thr_draft *draft, int a, int b, double length, thr_err *err) THR_MUST_CHECK;
 /* Of the edge added last: passes that it needs (1 .. 100, 0 = not said) and that fit through it (cover .. 100, 0 = no limit).
  * THR_EINPUT otherwise. */
-thr_status thr_draft_edge_passes(thr_draft *d, int cover, int capacity, thr_err *err) THR_MUST_CHECK;
+thr_status thr_draft_edge_passes(thr_draft *draft, int cover, int capacity, thr_err *err) THR_MUST_CHECK;
 /* Says what one unit of the coordinates is: a word that thr_units_find knows, kept as its short name. THR_EINPUT otherwise. */
-thr_status thr_draft_set_units(thr_draft *d, const char *units, thr_err *err) THR_MUST_CHECK;
-void thr_draft_destroy(thr_draft *d);
+thr_status thr_draft_set_units(thr_draft *draft, const char *units, thr_err *err) THR_MUST_CHECK;
+void thr_draft_destroy(thr_draft *draft);
 
 /* What was done to the file's data, and what is odd about it. */
 typedef struct {
@@ -83,42 +83,42 @@ typedef struct {
  * one counts. Nodes and edges keep file order.
  * THR_EINPUT if no edge is left, a length is out of range, or two nodes that are left have one name. The draft is unchanged. O(n
  * log n) as long as few nodes lie within the tolerance of each other along one fixed skew direction; quadratic in those. */
-thr_status thr_draft_build(const thr_draft *d, double tolerance, thr_frame *frame, thr_read_report *report,
+thr_status thr_draft_build(const thr_draft *draft, double tolerance, thr_frame *frame, thr_read_report *report,
                            thr_err *err) THR_MUST_CHECK;
 
-void thr_frame_destroy(thr_frame *f);
+void thr_frame_destroy(thr_frame *frame);
 thr_status thr_frame_copy(thr_frame *to, const thr_frame *from, thr_err *err) THR_MUST_CHECK;
 
 /* Fills first and half, which are allocated and zero, from the edges. O(n + m). */
-void thr_frame_index(thr_frame *f);
+void thr_frame_index(thr_frame *frame);
 
 /* Index of the node with this name, or -1. O(n). */
-int thr_frame_find(const thr_frame *f, const char *name);
+int thr_frame_find(const thr_frame *frame, const char *name);
 
 /* Is every node called by its index, as readers call nodes without a name? Then writers leave the names out. */
-bool thr_frame_names_are_indices(const thr_frame *f);
+bool thr_frame_names_are_indices(const thr_frame *frame);
 
 /* Edge between two nodes, or -1. O(degree). */
-int thr_frame_edge_between(const thr_frame *f, int a, int b);
+int thr_frame_edge_between(const thr_frame *frame, int a, int b);
 
 /* Marks as feet the nodes within 1e-6 of the diagonal of the lowest z, and no others. */
-void thr_frame_feet_lowest(thr_frame *f);
+void thr_frame_feet_lowest(thr_frame *frame);
 
 /* Direction of a half-edge, from tail to head, with its largest component scaled to 1 or -1: products neither overflow nor
  * vanish. */
-void thr_direction(const thr_frame *f, int half, double d[3]);
+void thr_direction(const thr_frame *frame, int half, double d[3]);
 
-double thr_frame_total_length(const thr_frame *f);
-double thr_frame_diagonal(const thr_frame *f); /* of the bounding box, in units */
+double thr_frame_total_length(const thr_frame *frame);
+double thr_frame_diagonal(const thr_frame *frame); /* of the bounding box, in units */
 
 /* 64-bit FNV-1a over counts, coordinates, edges, lengths, feet and, if there are any, covers and capacities: names a framework in
  * outputs. Not for security. */
-uint64_t thr_frame_hash(const thr_frame *f);
+uint64_t thr_frame_hash(const thr_frame *frame);
 
 /* Component number of every node (0, 1, .. by lowest node) in component[n_nodes]; *count receives how many. */
-thr_status thr_frame_components(const thr_frame *f, int *component, int *count, thr_err *err) THR_MUST_CHECK;
+thr_status thr_frame_components(const thr_frame *frame, int *component, int *count, thr_err *err) THR_MUST_CHECK;
 
 /* Marks bridges (edges whose removal disconnects their component) in is_bridge[n_edges]. Iterative DFS, O(n + m). */
-thr_status thr_frame_bridges(const thr_frame *f, bool *is_bridge, thr_err *err) THR_MUST_CHECK;
+thr_status thr_frame_bridges(const thr_frame *frame, bool *is_bridge, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -27,30 +27,30 @@ static void node_name(int letter, int number, char name[24])
   snprintf(name + n, 24 - (size_t)n, "%d", number + 1);
 }
 
-static thr_status add_node(thr_draft *d, double x, double y, double z, int letter, int number, bool foot, thr_err *err)
+static thr_status add_node(thr_draft *draft, double x, double y, double z, int letter, int number, bool foot, thr_err *err)
 {
   char name[24];
   node_name(letter, number, name);
-  return thr_draft_add_node(d, (double[3]){x, y, z}, name, foot, err);
+  return thr_draft_add_node(draft, (double[3]){x, y, z}, name, foot, err);
 }
 
 /* ---- square-grid dome: z = crown * (1 - r^2 / R^2), zero at the four corners, which are the feet ---- */
 
-static thr_status make_dome(thr_draft *d, const thr_make_options *o, thr_err *err)
+static thr_status make_dome(thr_draft *draft, const thr_make_options *options, thr_err *err)
 {
-  int n = o->size, half = n - 1; /* in half pitches, so that even sides have integer places too */
-  double crown = o->rise * 0.5 * half * o->pitch;
+  int n = options->size, half = n - 1; /* in half pitches, so that even sides have integer places too */
+  double crown = options->rise * 0.5 * half * options->pitch;
   thr_status st = THR_OK;
   for (int column = 0; column < n; column++)
     for (int row = 0; row < n && !st; row++) {
       int x = 2 * column - half, y = 2 * row - half;
       bool corner = (column == 0 || column == n - 1) && (row == 0 || row == n - 1);
       double height = 1 - (double)(x * x + y * y) / (2.0 * half * half);
-      st = add_node(d, 0.5 * x * o->pitch, 0.5 * y * o->pitch, crown * height, column, row, corner, err);
+      st = add_node(draft, 0.5 * x * options->pitch, 0.5 * y * options->pitch, crown * height, column, row, corner, err);
     }
   for (int v = 0; v < n * n && !st; v++) {
-    if (v % n < n - 1) st = thr_draft_add_edge(d, v, v + 1, 0, err);
-    if (!st && v / n < n - 1) st = thr_draft_add_edge(d, v, v + n, 0, err);
+    if (v % n < n - 1) st = thr_draft_add_edge(draft, v, v + 1, 0, err);
+    if (!st && v / n < n - 1) st = thr_draft_add_edge(draft, v, v + n, 0, err);
   }
   return st;
 }
@@ -84,22 +84,22 @@ static void circle_point(int i, int n, double *x, double *y)
 
 /* ---- tube: rings of nodes straight above each other; the lowest ring are the feet ---- */
 
-static thr_status make_tube(thr_draft *d, const thr_make_options *o, thr_err *err)
+static thr_status make_tube(thr_draft *draft, const thr_make_options *options, thr_err *err)
 {
-  int n = o->size;
-  double radius = 0.5 * o->pitch / sin(THR_PI / n); /* neighbours on a ring are one pitch apart */
+  int n = options->size;
+  double radius = 0.5 * options->pitch / sin(THR_PI / n); /* neighbours on a ring are one pitch apart */
   thr_status st = THR_OK;
-  for (int ring = 0; ring < o->rings; ring++)
+  for (int ring = 0; ring < options->rings; ring++)
     for (int i = 0; i < n && !st; i++) {
       double x, y;
       circle_point(i, n, &x, &y);
-      st = add_node(d, radius * x, radius * y, ring * o->pitch, ring, i, ring == 0, err);
+      st = add_node(draft, radius * x, radius * y, ring * options->pitch, ring, i, ring == 0, err);
     }
-  for (int ring = 0; ring < o->rings; ring++)
+  for (int ring = 0; ring < options->rings; ring++)
     for (int i = 0; i < n && !st; i++) {
       int v = ring * n + i;
-      st = thr_draft_add_edge(d, v, ring * n + (i + 1) % n, 0, err);
-      if (!st && ring + 1 < o->rings) st = thr_draft_add_edge(d, v, v + n, 0, err);
+      st = thr_draft_add_edge(draft, v, ring * n + (i + 1) % n, 0, err);
+      if (!st && ring + 1 < options->rings) st = thr_draft_add_edge(draft, v, v + n, 0, err);
     }
   return st;
 }
@@ -164,70 +164,70 @@ static void row_point(const icosahedron *k, int f, int r, int i, double xyz[3])
 }
 
 /* Joins a row of 5m nodes (m = 0: the pole) to the row of 5(m + 1) beside it, farther from the pole. */
-static thr_status join_growing(thr_draft *d, int near, int m, int far, thr_err *err)
+static thr_status join_growing(thr_draft *draft, int near, int m, int far, thr_err *err)
 {
   int n = 5 * (m + 1);
   thr_status st = THR_OK;
   for (int i = 0; m == 0 && i < n && !st; i++)
-    st = thr_draft_add_edge(d, near, far + i, 0, err);
+    st = thr_draft_add_edge(draft, near, far + i, 0, err);
   for (int i = 0; i < 5 * m && !st; i++) {
     int here = i / m * (m + 1) + i % m; /* same place in the same sector */
-    if (i % m == 0) st = thr_draft_add_edge(d, near + i, far + (here + n - 1) % n, 0, err);
-    if (!st) st = thr_draft_add_edge(d, near + i, far + here, 0, err);
-    if (!st) st = thr_draft_add_edge(d, near + i, far + here + 1, 0, err);
+    if (i % m == 0) st = thr_draft_add_edge(draft, near + i, far + (here + n - 1) % n, 0, err);
+    if (!st) st = thr_draft_add_edge(draft, near + i, far + here, 0, err);
+    if (!st) st = thr_draft_add_edge(draft, near + i, far + here + 1, 0, err);
   }
   return st;
 }
 
 /* Joins two rows of n nodes each. */
-static thr_status join_equal(thr_draft *d, int near, int far, int n, thr_err *err)
+static thr_status join_equal(thr_draft *draft, int near, int far, int n, thr_err *err)
 {
   thr_status st = THR_OK;
   for (int i = 0; i < n && !st; i++) {
-    st = thr_draft_add_edge(d, near + i, far + (i + n - 1) % n, 0, err);
-    if (!st) st = thr_draft_add_edge(d, near + i, far + i, 0, err);
+    st = thr_draft_add_edge(draft, near + i, far + (i + n - 1) % n, 0, err);
+    if (!st) st = thr_draft_add_edge(draft, near + i, far + i, 0, err);
   }
   return st;
 }
 
 /* Scales the unit sphere's draft so that the mean edge is one pitch. */
-static void scale_to_pitch(thr_draft *d, double pitch)
+static void scale_to_pitch(thr_draft *draft, double pitch)
 {
   double sum = 0;
-  for (int e = 0; e < d->n_edges; e++) {
-    const double *a = d->node[d->edge[e].a].xyz, *b = d->node[d->edge[e].b].xyz;
+  for (int e = 0; e < draft->n_edges; e++) {
+    const double *a = draft->node[draft->edge[e].a].xyz, *b = draft->node[draft->edge[e].b].xyz;
     sum += sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
   }
-  double radius = pitch / (sum / d->n_edges);
-  for (int v = 0; v < d->n_nodes; v++)
+  double radius = pitch / (sum / draft->n_edges);
+  for (int v = 0; v < draft->n_nodes; v++)
     for (int i = 0; i < 3; i++)
-      d->node[v].xyz[i] *= radius;
+      draft->node[v].xyz[i] *= radius;
 }
 
 /* Rows 0 .. last; the last row are the feet, unless it is the south pole. */
-static thr_status make_rows(thr_draft *d, const thr_make_options *o, int last, thr_err *err)
+static thr_status make_rows(thr_draft *draft, const thr_make_options *options, int last, thr_err *err)
 {
   const icosahedron k = make_icosahedron();
-  int f = o->size, start = 0, before = 0;
+  int f = options->size, start = 0, before = 0;
   thr_status st = THR_OK;
   for (int r = 0; r <= last && !st; before = start, start += row_size(f, r), r++) {
     int n = row_size(f, r), m = n / 5;
     for (int i = 0; i < n && !st; i++) {
       double p[3];
       row_point(&k, f, r, i, p);
-      st = add_node(d, p[0], p[1], p[2], r, i, r == last && r < 3 * f, err);
+      st = add_node(draft, p[0], p[1], p[2], r, i, r == last && r < 3 * f, err);
     }
     for (int i = 0; i < n && n > 1 && !st; i++)
-      st = thr_draft_add_edge(d, start + i, start + (i + 1) % n, 0, err);
+      st = thr_draft_add_edge(draft, start + i, start + (i + 1) % n, 0, err);
     if (st || r == 0) continue;
     if (r <= f)
-      st = join_growing(d, before, m - 1, start, err);
+      st = join_growing(draft, before, m - 1, start, err);
     else if (r <= 2 * f)
-      st = join_equal(d, before, start, n, err);
+      st = join_equal(draft, before, start, n, err);
     else
-      st = join_growing(d, start, m, before, err);
+      st = join_growing(draft, start, m, before, err);
   }
-  if (!st) scale_to_pitch(d, o->pitch);
+  if (!st) scale_to_pitch(draft, options->pitch);
   return st;
 }
 
@@ -255,28 +255,29 @@ static int64_t zigzag_square(int x, int y)
   return 3 * (int64_t)x * x + (int64_t)y * y;
 }
 
-static thr_status make_honeycomb(thr_draft *d, const thr_make_options *o, thr_err *err)
+static thr_status make_honeycomb(thr_draft *draft, const thr_make_options *options, thr_err *err)
 {
-  int rings = o->size, x, y, start = 0;
+  int rings = options->size, x, y, start = 0;
   int64_t rim = 0;
   thr_status st = THR_OK;
   zigzag_place(rings, 0, 1, &x, &y); /* the top row's first peak is one of the farthest nodes */
   rim = zigzag_square(x, y);
-  double crown = o->rise * 0.5 * sqrt((double)rim) * o->pitch;
+  double crown = options->rise * 0.5 * sqrt((double)rim) * options->pitch;
   for (int k = 0; k < 2 * rings; k++)
     for (int t = 0; t < zigzag_size(rings, k) && !st; t++) {
       zigzag_place(rings, k, t, &x, &y);
       int64_t square = zigzag_square(x, y);
       double height = 1 - (double)square / (double)rim;
-      st = add_node(d, 0.5 * sqrt(3) * x * o->pitch, 0.5 * y * o->pitch, crown * height, k, t, square == rim, err);
+      st =
+          add_node(draft, 0.5 * sqrt(3) * x * options->pitch, 0.5 * y * options->pitch, crown * height, k, t, square == rim, err);
     }
   for (int k = 0; k < 2 * rings; start += zigzag_size(rings, k), k++) {
     int n = zigzag_size(rings, k), next = k + 1 < 2 * rings ? zigzag_size(rings, k + 1) : 0;
     for (int t = 0; t < n && !st; t++) {
-      if (t + 1 < n) st = thr_draft_add_edge(d, start + t, start + t + 1, 0, err);
+      if (t + 1 < n) st = thr_draft_add_edge(draft, start + t, start + t + 1, 0, err);
       bool low = (t % 2 == 0) == (k < rings);
       int below = t + (next - n) / 2; /* same x in the next row */
-      if (!st && low && next) st = thr_draft_add_edge(d, start + t, start + n + below, 0, err);
+      if (!st && low && next) st = thr_draft_add_edge(draft, start + t, start + n + below, 0, err);
     }
   }
   return st;
@@ -290,7 +291,7 @@ static thr_status check_size(const char *what, int size, int least, int most, th
   return thr_fail(err, THR_EINPUT, "%s is %d; it must be %d to %d for this shape", what, size, least, most);
 }
 
-static thr_status check_options(const thr_make_options *o, thr_err *err)
+static thr_status check_options(const thr_make_options *options, thr_err *err)
 {
   /* the largest sizes within MAX_NODES: n^2, 5f^2 + 5f + 1 or so, 10f^2 + 2, 6R^2 nodes */
   static const struct {
@@ -300,26 +301,26 @@ static thr_status check_options(const thr_make_options *o, thr_err *err)
               [THR_MAKE_TUBE] = {3, MAX_NODES / 2},
               [THR_MAKE_SPHERE] = {1, 447},
               [THR_MAKE_HONEYCOMB] = {1, 577}};
-  thr_status st = check_size("size", o->size, size[o->shape].least, size[o->shape].most, err);
-  if (!st && o->shape == THR_MAKE_TUBE) st = check_size("rings", o->rings, 2, MAX_NODES / o->size, err);
-  if (!st && !(o->pitch > 0 && isfinite(o->pitch)))
-    st = thr_fail(err, THR_EINPUT, "pitch is %g; it must be a positive length in mm", o->pitch);
-  if (!st && !(o->rise >= 0 && isfinite(o->rise)))
-    st = thr_fail(err, THR_EINPUT, "rise is %g; it must be 0 or more, as a fraction of the half span", o->rise);
+  thr_status st = check_size("size", options->size, size[options->shape].least, size[options->shape].most, err);
+  if (!st && options->shape == THR_MAKE_TUBE) st = check_size("rings", options->rings, 2, MAX_NODES / options->size, err);
+  if (!st && !(options->pitch > 0 && isfinite(options->pitch)))
+    st = thr_fail(err, THR_EINPUT, "pitch is %g; it must be a positive length in mm", options->pitch);
+  if (!st && !(options->rise >= 0 && isfinite(options->rise)))
+    st = thr_fail(err, THR_EINPUT, "rise is %g; it must be 0 or more, as a fraction of the half span", options->rise);
   return st;
 }
 
-thr_status thr_make(thr_draft *draft, const thr_make_options *o, thr_err *err)
+thr_status thr_make(thr_draft *draft, const thr_make_options *options, thr_err *err)
 {
-  thr_status st = check_options(o, err);
+  thr_status st = check_options(options, err);
   if (st) return st;
   snprintf(draft->units, sizeof draft->units, "mm");
-  switch (o->shape) {
-  case THR_MAKE_DOME: st = make_dome(draft, o, err); break;
-  case THR_MAKE_TUBE: st = make_tube(draft, o, err); break;
-  case THR_MAKE_GEODESIC: st = make_rows(draft, o, o->size + (o->size + 1) / 2, err); break;
-  case THR_MAKE_SPHERE: st = make_rows(draft, o, 3 * o->size, err); break;
-  case THR_MAKE_HONEYCOMB: st = make_honeycomb(draft, o, err); break;
+  switch (options->shape) {
+  case THR_MAKE_DOME: st = make_dome(draft, options, err); break;
+  case THR_MAKE_TUBE: st = make_tube(draft, options, err); break;
+  case THR_MAKE_GEODESIC: st = make_rows(draft, options, options->size + (options->size + 1) / 2, err); break;
+  case THR_MAKE_SPHERE: st = make_rows(draft, options, 3 * options->size, err); break;
+  case THR_MAKE_HONEYCOMB: st = make_honeycomb(draft, options, err); break;
   }
   if (st) thr_draft_destroy(draft);
   return st;

@@ -19,6 +19,6 @@ typedef struct {
 thr_make_options thr_make_options_default(thr_shape shape);
 
 /* THR_EINPUT with the option's name for a size out of range; at most 2 million nodes. */
-thr_status thr_make(thr_draft *draft, const thr_make_options *o, thr_err *err) THR_MUST_CHECK;
+thr_status thr_make(thr_draft *draft, const thr_make_options *options, thr_err *err) THR_MUST_CHECK;
 
 #endif

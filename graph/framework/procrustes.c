@@ -8,17 +8,17 @@
 /* Singular values are sums of squares: their ratio is that of the thicknesses squared. */
 static const double FLAT = 1e-8;
 
-void thr_frame_extent(const thr_frame *f, double centroid[3], double *size)
+void thr_frame_extent(const thr_frame *frame, double centroid[3], double *size)
 {
   double sum = 0;
   for (int i = 0; i < 3; i++) {
     centroid[i] = 0;
-    for (int v = 0; v < f->n_nodes; v++)
-      centroid[i] += f->xyz[v][i] / f->n_nodes;
+    for (int v = 0; v < frame->n_nodes; v++)
+      centroid[i] += frame->xyz[v][i] / frame->n_nodes;
   }
-  for (int v = 0; v < f->n_nodes; v++)
+  for (int v = 0; v < frame->n_nodes; v++)
     for (int i = 0; i < 3; i++)
-      sum += (f->xyz[v][i] - centroid[i]) * (f->xyz[v][i] - centroid[i]) / f->n_nodes;
+      sum += (frame->xyz[v][i] - centroid[i]) * (frame->xyz[v][i] - centroid[i]) / frame->n_nodes;
   *size = sqrt(sum);
 }
 
@@ -113,36 +113,36 @@ static void polar(double h[3][3], double q[3][3], bool *flat)
       q[i][j] = h[0][i] * v[0][j] + h[1][i] * v[1][j] + h[2][i] * v[2][j];
 }
 
-static void measure(const thr_frame *f, const int *image, const double centroid[3], double size, thr_motion *m)
+static void measure(const thr_frame *frame, const int *image, const double centroid[3], double size, thr_motion *motion)
 {
   double sum = 0, most = 0;
-  for (int v = 0; v < f->n_nodes; v++) {
+  for (int v = 0; v < frame->n_nodes; v++) {
     double square = 0;
     for (int i = 0; i < 3; i++) {
       double moved = 0;
       for (int j = 0; j < 3; j++)
-        moved += m->q[i][j] * (f->xyz[v][j] - centroid[j]);
-      moved -= f->xyz[image[v]][i] - centroid[i];
+        moved += motion->q[i][j] * (frame->xyz[v][j] - centroid[j]);
+      moved -= frame->xyz[image[v]][i] - centroid[i];
       square += moved * moved;
     }
-    sum += square / f->n_nodes;
+    sum += square / frame->n_nodes;
     if (square > most) most = square;
   }
-  m->residual = size > 0 ? sqrt(sum) / size : 0;
-  m->farthest = size > 0 ? sqrt(most) / size : 0;
+  motion->residual = size > 0 ? sqrt(sum) / size : 0;
+  motion->farthest = size > 0 ? sqrt(most) / size : 0;
 }
 
-void thr_procrustes(const thr_frame *f, const int *image, thr_motion *out)
+void thr_procrustes(const thr_frame *frame, const int *image, thr_motion *out)
 {
   double centroid[3], size, h[3][3] = {{0}}, across[3];
-  thr_frame_extent(f, centroid, &size);
+  thr_frame_extent(frame, centroid, &size);
   double scale = size > 0 ? 1 / size : 0;
-  for (int v = 0; v < f->n_nodes; v++)
+  for (int v = 0; v < frame->n_nodes; v++)
     for (int i = 0; i < 3; i++)
       for (int j = 0; j < 3; j++) /* rows: h[j] collects the images of direction j */
-        h[j][i] += (f->xyz[image[v]][i] - centroid[i]) * scale * (f->xyz[v][j] - centroid[j]) * scale;
+        h[j][i] += (frame->xyz[image[v]][i] - centroid[i]) * scale * (frame->xyz[v][j] - centroid[j]) * scale;
   polar(h, out->q, &out->flat);
   thr_cross(out->q[0], out->q[1], across);
   out->proper = thr_dot(across, out->q[2]) > 0;
-  measure(f, image, centroid, size, out);
+  measure(frame, image, centroid, size, out);
 }

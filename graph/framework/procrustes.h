@@ -19,10 +19,10 @@ typedef struct {
 #define THR_ISOMETRY_ROUNDING 1e-9
 
 /* Centroid, and as size the root mean square distance of the nodes from it. */
-void thr_frame_extent(const thr_frame *f, double centroid[3], double *size);
+void thr_frame_extent(const thr_frame *frame, double centroid[3], double *size);
 
 /* Best q about the centroid; image: [n_nodes], any node numbers. Where the nodes span no more than a plane (thinner than a
  * ten-thousandth of the size), a rotation is taken, on a line the least one. O(n). */
-void thr_procrustes(const thr_frame *f, const int *image, thr_motion *out);
+void thr_procrustes(const thr_frame *frame, const int *image, thr_motion *out);
 
 #endif

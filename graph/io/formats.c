@@ -71,7 +71,7 @@ const thr_format *thr_format_of_path(const char *path)
   return format && format->write ? format : NULL;
 }
 
-void thr_frame_write(const thr_frame *f, const thr_format *format, thr_text *out)
+void thr_frame_write(const thr_frame *frame, const thr_format *format, thr_text *out)
 {
-  (format ? format : &thr_json_format)->write(f, out);
+  (format ? format : &thr_json_format)->write(frame, out);
 }

@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const json_t *peek(const thr_json *v)
+static const json_t *peek(const thr_json *value)
 {
-  return (const json_t *)(const void *)v;
+  return (const json_t *)(const void *)value;
 }
 
 static const thr_json *wrap(const json_t *v)
@@ -64,10 +64,10 @@ void thr_json_destroy(thr_json *doc)
   json_decref((json_t *)(void *)doc);
 }
 
-thr_json_type thr_json_typeof(const thr_json *v)
+thr_json_type thr_json_typeof(const thr_json *value)
 {
-  if (!v) return THR_JSON_NULL;
-  switch (json_typeof(peek(v))) {
+  if (!value) return THR_JSON_NULL;
+  switch (json_typeof(peek(value))) {
   case JSON_OBJECT: return THR_JSON_OBJECT;
   case JSON_ARRAY: return THR_JSON_ARRAY;
   case JSON_STRING: return THR_JSON_STRING;
@@ -84,10 +84,10 @@ const thr_json *thr_json_get(const thr_json *object, const char *key)
   return object ? wrap(json_object_get(peek(object), key)) : NULL;
 }
 
-int thr_json_size(const thr_json *v)
+int thr_json_size(const thr_json *value)
 {
-  if (!v) return 0;
-  return (int)(json_is_array(peek(v)) ? json_array_size(peek(v)) : json_object_size(peek(v)));
+  if (!value) return 0;
+  return (int)(json_is_array(peek(value)) ? json_array_size(peek(value)) : json_object_size(peek(value)));
 }
 
 const thr_json *thr_json_at(const thr_json *array, int i)
@@ -95,36 +95,36 @@ const thr_json *thr_json_at(const thr_json *array, int i)
   return array && i >= 0 ? wrap(json_array_get(peek(array), (size_t)i)) : NULL;
 }
 
-const char *thr_json_string(const thr_json *v)
+const char *thr_json_string(const thr_json *value)
 {
-  return v ? json_string_value(peek(v)) : NULL;
+  return value ? json_string_value(peek(value)) : NULL;
 }
 
-bool thr_json_number(const thr_json *v, double *out)
+bool thr_json_number(const thr_json *value, double *out)
 {
-  if (!v || !json_is_number(peek(v))) return false;
-  double x = json_number_value(peek(v));
+  if (!value || !json_is_number(peek(value))) return false;
+  double x = json_number_value(peek(value));
   if (!isfinite(x)) return false;
   *out = x;
   return true;
 }
 
-bool thr_json_int(const thr_json *v, int64_t *out)
+bool thr_json_int(const thr_json *value, int64_t *out)
 {
-  if (v && json_is_integer(peek(v))) {
-    *out = (int64_t)json_integer_value(peek(v));
+  if (value && json_is_integer(peek(value))) {
+    *out = (int64_t)json_integer_value(peek(value));
     return true;
   }
   double x;
-  if (!thr_json_number(v, &x) || x != floor(x) || fabs(x) > 9007199254740992.0) return false;
+  if (!thr_json_number(value, &x) || x != floor(x) || fabs(x) > 9007199254740992.0) return false;
   *out = (int64_t)x;
   return true;
 }
 
-bool thr_json_true(const thr_json *v)
+bool thr_json_true(const thr_json *value)
 {
   double x;
-  return v && (json_is_true(peek(v)) || (thr_json_number(v, &x) && x != 0));
+  return value && (json_is_true(peek(value)) || (thr_json_number(value, &x) && x != 0));
 }
 
 bool thr_json_next(const thr_json *object, void **iter, const char **key, const thr_json **value)

@@ -59,32 +59,32 @@ static thr_status find_partner(const char *path, thr_csv_content content, char *
 }
 
 /* Parses the nodes in one text and the edges in the file at edges_path (nodes_first), or the other way round. */
-static thr_status parse_with(thr_draft *d, const thr_text *text, const char *path, const char *other_path, bool nodes_first,
+static thr_status parse_with(thr_draft *draft, const thr_text *text, const char *path, const char *other_path, bool nodes_first,
                              thr_err *err)
 {
   thr_text other = {0};
   thr_status st = thr_text_read(&other, other_path, err);
-  if (!st && nodes_first) st = thr_csv_parse_pair(d, text, path, &other, other_path, err);
-  if (!st && !nodes_first) st = thr_csv_parse_pair(d, &other, other_path, text, path, err);
+  if (!st && nodes_first) st = thr_csv_parse_pair(draft, text, path, &other, other_path, err);
+  if (!st && !nodes_first) st = thr_csv_parse_pair(draft, &other, other_path, text, path, err);
   thr_text_destroy(&other);
   return st;
 }
 
-static thr_status parse_csv_file(thr_draft *d, const thr_format *format, const thr_text *text, const char *path, const char *name,
-                                 char *pair_path, size_t pair_size, thr_err *err)
+static thr_status parse_csv_file(thr_draft *draft, const thr_format *format, const thr_text *text, const char *path,
+                                 const char *name, char *pair_path, size_t pair_size, thr_err *err)
 {
   thr_csv_content content;
   thr_read_report unused = {0};
   char *partner = NULL;
-  thr_status st = thr_csv_scan(d, text->data, text->length, name, &content, err);
+  thr_status st = thr_csv_scan(draft, text->data, text->length, name, &content, err);
   if (st || content == THR_CSV_WHOLE) return st;
-  thr_draft_destroy(d);
+  thr_draft_destroy(draft);
   st = find_partner(path, content, &partner, err);
   if (!st && partner) {
     if (pair_path) snprintf(pair_path, pair_size, "%s", partner);
-    st = parse_with(d, text, path, partner, content == THR_CSV_NODES_ONLY, err);
+    st = parse_with(draft, text, path, partner, content == THR_CSV_NODES_ONLY, err);
   } else if (!st) {
-    st = format->parse(d, &unused, text->data, text->length, name, err); /* says what is missing */
+    st = format->parse(draft, &unused, text->data, text->length, name, err); /* says what is missing */
   }
   free(partner);
   return st;
@@ -92,11 +92,11 @@ static thr_status parse_csv_file(thr_draft *d, const thr_format *format, const t
 
 /* ---- files ---- */
 
-thr_status thr_frame_read(thr_frame *frame, thr_read_report *report, const char *path, const thr_read_options *o, char *pair_path,
-                          size_t pair_size, thr_err *err)
+thr_status thr_frame_read(thr_frame *frame, thr_read_report *report, const char *path, const thr_read_options *options,
+                          char *pair_path, size_t pair_size, thr_err *err)
 {
   thr_text text = {0};
-  thr_draft d = {0};
+  thr_draft draft = {0};
   const thr_format *format = NULL;
   thr_err build = {0};
   const char *name = strcmp(path, "-") == 0 ? "stdin" : path;
@@ -108,19 +108,19 @@ thr_status thr_frame_read(thr_frame *frame, thr_read_report *report, const char 
   if (!st) st = thr_text_read(&text, path, err);
   if (!st) st = find_format(text.data, text.length, name, &format, err);
   if (st) goto done;
-  if (o->edges_path)
-    st = parse_with(&d, &text, name, o->edges_path, true, err);
+  if (options->edges_path)
+    st = parse_with(&draft, &text, name, options->edges_path, true, err);
   else if (format->pairs)
-    st = parse_csv_file(&d, format, &text, path, name, pair_path, pair_size, err);
+    st = parse_csv_file(&draft, format, &text, path, name, pair_path, pair_size, err);
   else
-    st = format->parse(&d, report, text.data, text.length, name, err);
+    st = format->parse(&draft, report, text.data, text.length, name, err);
   if (st) goto done;
-  if (o->units) st = thr_draft_set_units(&d, o->units, &build);
-  if (!st) st = thr_draft_build(&d, o->weld, frame, report, &build);
+  if (options->units) st = thr_draft_set_units(&draft, options->units, &build);
+  if (!st) st = thr_draft_build(&draft, options->weld, frame, report, &build);
   if (st) thr_fail(err, st, "%s: %s", name, build.text);
 done:
   if (st) *report = (thr_read_report){0};
-  thr_draft_destroy(&d);
+  thr_draft_destroy(&draft);
   thr_text_destroy(&text);
   return st;
 }

@@ -24,8 +24,8 @@ thr_read_options thr_read_options_default(void);
  * A nodes-only CSV whose name contains "nodes" finds the file named "edges" beside it (and the other way round);
  * pair_path (capacity pair_size, may be NULL) receives that file's name, else "".
  * Errors are "path:line: what; what to do". */
-thr_status thr_frame_read(thr_frame *frame, thr_read_report *report, const char *path, const thr_read_options *o, char *pair_path,
-                          size_t pair_size, thr_err *err) THR_MUST_CHECK;
+thr_status thr_frame_read(thr_frame *frame, thr_read_report *report, const char *path, const thr_read_options *options,
+                          char *pair_path, size_t pair_size, thr_err *err) THR_MUST_CHECK;
 
 /* Parses one text into a draft; format: NULL = the one that the name's ending or, failing that, the text says. On failure the
  * draft is empty. What the fuzzers call. CSV text with nodes only or edges only gives THR_EINPUT that says so: use
@@ -39,14 +39,14 @@ thr_status thr_csv_parse_pair(thr_draft *draft, const thr_text *nodes, const cha
 
 /* What a JSON document says of the edge added last: cover and capacity, NULL or null = nothing. THR_EINPUT: why not, without the
  * place. */
-thr_status thr_json_edge_passes(thr_draft *d, const thr_json *cover, const thr_json *capacity, thr_err *err) THR_MUST_CHECK;
+thr_status thr_json_edge_passes(thr_draft *draft, const thr_json *cover, const thr_json *capacity, thr_err *err) THR_MUST_CHECK;
 
 /* Appends the framework in a format; NULL is JSON (JSON: our own frame; OBJ: v + two-vertex l records, feet as a comment line
  * "# feet: .." that thr_obj_parse reads back; CSV: six columns per edge). */
-void thr_frame_write(const thr_frame *f, const thr_format *format, thr_text *out);
+void thr_frame_write(const thr_frame *frame, const thr_format *format, thr_text *out);
 
 /* Of an OBJ file the comments on units and feet and the v records: vertex v + 1 is node v. */
-void thr_obj_write_nodes(const thr_frame *f, thr_text *out);
+void thr_obj_write_nodes(const thr_frame *frame, thr_text *out);
 
 /* The format that the path's ending says; NULL if it says none that can be written. */
 const thr_format *thr_format_of_path(const char *path);

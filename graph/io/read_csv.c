@@ -421,23 +421,23 @@ static thr_status read_table(csv *t, const char *text, size_t n, const char *nam
   return st;
 }
 
-thr_status thr_csv_scan(thr_draft *d, const char *text, size_t n, const char *name, thr_csv_content *content, thr_err *err)
+thr_status thr_csv_scan(thr_draft *draft, const char *text, size_t n, const char *name, thr_csv_content *content, thr_err *err)
 {
-  csv t = {.expected = ANY_TABLE, .d = d, .err = err};
+  csv t = {.expected = ANY_TABLE, .d = draft, .err = err};
   thr_status st = read_table(&t, text, n, name, content);
   thr_names_destroy(&t.names);
   thr_text_destroy(&t.scratch);
-  if (st) thr_draft_destroy(d);
+  if (st) thr_draft_destroy(draft);
   return st;
 }
 
-static thr_status parse(thr_draft *d, thr_read_report *r, const char *text, size_t n, const char *name, thr_err *err)
+static thr_status parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n, const char *name, thr_err *err)
 {
   thr_csv_content content;
-  (void)r; /* every row is used */
-  thr_status st = thr_csv_scan(d, text, n, name, &content, err);
+  (void)report; /* every row is used */
+  thr_status st = thr_csv_scan(draft, text, n, name, &content, err);
   if (st || content == THR_CSV_WHOLE) return st;
-  thr_draft_destroy(d);
+  thr_draft_destroy(draft);
   return content == THR_CSV_NODES_ONLY
              ? thr_fail(err, THR_EINPUT, "%s: nodes but no edges; add rows that name two nodes, or give the table of edges too",
                         name)

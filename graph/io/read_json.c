@@ -118,12 +118,12 @@ static thr_status count_of(const thr_json *v, const char *what, int *count, thr_
   return THR_OK;
 }
 
-thr_status thr_json_edge_passes(thr_draft *d, const thr_json *cover, const thr_json *capacity, thr_err *err)
+thr_status thr_json_edge_passes(thr_draft *draft, const thr_json *cover, const thr_json *capacity, thr_err *err)
 {
   int least = 0, most = 0;
   thr_status st = count_of(cover, "cover", &least, err);
   if (!st) st = count_of(capacity, "capacity", &most, err);
-  return st ? st : thr_draft_edge_passes(d, least, most, err);
+  return st ? st : thr_draft_edge_passes(draft, least, most, err);
 }
 
 static thr_status read_passes(reader *r, const where *at, const thr_json *cover, const thr_json *capacity)
@@ -158,58 +158,58 @@ static thr_status read_units(reader *r, const where *up, const char *key, const 
 /* ---- names ---- */
 
 /* Appends a name without the quotes of a Python string. */
-static void append_key(thr_text *t, const char *key)
+static void append_key(thr_text *text, const char *key)
 {
   size_t n = strlen(key);
   bool quoted = n >= 2 && (key[0] == '\'' || key[0] == '"') && key[n - 1] == key[0];
-  thr_text_append_bytes(t, key + quoted, n - 2 * (size_t)quoted);
+  thr_text_append_bytes(text, key + quoted, n - 2 * (size_t)quoted);
 }
 
-static void append_name(thr_text *t, const thr_json *v)
+static void append_name(thr_text *text, const thr_json *v)
 {
   int64_t whole;
   double x;
   if (thr_json_string(v))
-    thr_text_append(t, thr_json_string(v));
+    thr_text_append(text, thr_json_string(v));
   else if (thr_json_int(v, &whole))
-    thr_text_printf(t, "%lld", (long long)whole);
+    thr_text_printf(text, "%lld", (long long)whole);
   else if (thr_json_number(v, &x))
-    thr_text_double(t, x);
+    thr_text_double(text, x);
 }
 
 /* What a value calls a node: a string, a number, or a tuple of these, written (a, b) as Python does. The result is
  * valid until the next call. */
 static thr_status name_of(reader *r, const where *at, const thr_json *v, const char **name)
 {
-  thr_text *t = &r->scratch;
-  t->length = 0;
-  thr_text_append(t, "");
+  thr_text *text = &r->scratch;
+  text->length = 0;
+  thr_text_append(text, "");
   if (is_array(v)) {
-    thr_text_append(t, "(");
+    thr_text_append(text, "(");
     for (int i = 0; i < thr_json_size(v); i++) {
-      thr_text_append(t, i ? ", " : "");
-      append_name(t, thr_json_at(v, i));
+      thr_text_append(text, i ? ", " : "");
+      append_name(text, thr_json_at(v, i));
     }
-    thr_text_append(t, ")");
+    thr_text_append(text, ")");
   } else {
-    append_name(t, v);
+    append_name(text, v);
   }
-  if (t->failed) return thr_nomem(r->err);
-  thr_text_clean(t->data); /* as the draft keeps it */
-  *name = t->data;
-  return t->length ? THR_OK : bad(r, at, "not a node's name; use a string or a whole number");
+  if (text->failed) return thr_nomem(r->err);
+  thr_text_clean(text->data); /* as the draft keeps it */
+  *name = text->data;
+  return text->length ? THR_OK : bad(r, at, "not a node's name; use a string or a whole number");
 }
 
 static thr_status key_name(reader *r, const where *at, const char *key, const char **name)
 {
-  thr_text *t = &r->scratch;
-  t->length = 0;
-  thr_text_append(t, "");
-  append_key(t, key);
-  if (t->failed) return thr_nomem(r->err);
-  thr_text_clean(t->data);
-  *name = t->data;
-  return t->length ? THR_OK : bad(r, at, "an empty name");
+  thr_text *text = &r->scratch;
+  text->length = 0;
+  thr_text_append(text, "");
+  append_key(text, key);
+  if (text->failed) return thr_nomem(r->err);
+  thr_text_clean(text->data);
+  *name = text->data;
+  return text->length ? THR_OK : bad(r, at, "an empty name");
 }
 
 static thr_status find_node(reader *r, const where *at, const char *name, int *node)
@@ -263,24 +263,25 @@ static thr_status read_own_nodes(reader *r, const where *at, const thr_json *nod
   return THR_OK;
 }
 
-/* The member of o that says something of every edge, if there is one. */
-static thr_status edge_list(reader *r, const where *up, const thr_json *o, const char *key, int n_edges, const thr_json **list)
+/* The member of object that says something of every edge, if there is one. */
+static thr_status edge_list(reader *r, const where *up, const thr_json *object, const char *key, int n_edges,
+                            const thr_json **list)
 {
   where here = {up, key, 0};
-  *list = thr_json_get(o, key);
+  *list = thr_json_get(object, key);
   if (!*list || (is_array(*list) && thr_json_size(*list) == n_edges)) return THR_OK;
   return bad(r, &here, "not one for each edge");
 }
 
-static thr_status read_own_edges(reader *r, const where *up, const thr_json *o)
+static thr_status read_own_edges(reader *r, const where *up, const thr_json *object)
 {
   const char *key;
-  const thr_json *edges = MEMBER(o, &key, "edges", "lines"), *lengths, *covers, *capacities;
+  const thr_json *edges = MEMBER(object, &key, "edges", "lines"), *lengths, *covers, *capacities;
   where list = {up, key, 0}, length_list = {up, "lengths", 0};
   if (edges && !is_array(edges)) return bad(r, &list, "not a list of node pairs");
-  thr_status listed = edge_list(r, up, o, "lengths", thr_json_size(edges), &lengths);
-  if (!listed) listed = edge_list(r, up, o, "covers", thr_json_size(edges), &covers);
-  if (!listed) listed = edge_list(r, up, o, "capacities", thr_json_size(edges), &capacities);
+  thr_status listed = edge_list(r, up, object, "lengths", thr_json_size(edges), &lengths);
+  if (!listed) listed = edge_list(r, up, object, "covers", thr_json_size(edges), &covers);
+  if (!listed) listed = edge_list(r, up, object, "capacities", thr_json_size(edges), &capacities);
   if (listed) return listed;
   for (int e = 0; e < thr_json_size(edges); e++) {
     where here = {&list, NULL, e}, length_here = {&length_list, NULL, e};
@@ -315,30 +316,30 @@ static thr_status read_feet(reader *r, const where *up, const thr_json *feet)
   return THR_OK;
 }
 
-static thr_status read_own(reader *r, const where *at, const thr_json *o)
+static thr_status read_own(reader *r, const where *at, const thr_json *object)
 {
   const char *node_key;
-  const thr_json *nodes = MEMBER(o, &node_key, "nodes", "vertices");
-  const thr_json *faces = thr_json_get(o, "faces");
+  const thr_json *nodes = MEMBER(object, &node_key, "nodes", "vertices");
+  const thr_json *faces = thr_json_get(object, "faces");
   double version;
   where node_list = {at, node_key, 0}, face_list = {at, "faces", 0};
-  if (thr_json_number(thr_json_get(o, "version"), &version) && version > 1 && thr_json_get(o, "format"))
+  if (thr_json_number(thr_json_get(object, "version"), &version) && version > 1 && thr_json_get(object, "format"))
     return bad(r, at, "written by a newer version of this program; this one reads version 1");
   if (!is_array(nodes)) return bad(r, &node_list, "not a list of points [x, y, z]");
-  thr_status st = read_units(r, at, "units", thr_json_get(o, "units"));
-  if (!st) st = read_own_nodes(r, &node_list, nodes, thr_json_get(o, "names"));
-  if (!st) st = read_own_edges(r, at, o);
+  thr_status st = read_units(r, at, "units", thr_json_get(object, "units"));
+  if (!st) st = read_own_nodes(r, &node_list, nodes, thr_json_get(object, "names"));
+  if (!st) st = read_own_edges(r, at, object);
   for (int i = 0; i < thr_json_size(faces) && !st; i++) {
     where here = {&face_list, NULL, i};
     st = read_polygon(r, &here, thr_json_at(faces, i));
   }
-  return st ? st : read_feet(r, at, thr_json_get(o, "feet"));
+  return st ? st : read_feet(r, at, thr_json_get(object, "feet"));
 }
 
-static thr_status read_plan(reader *r, const where *at, const thr_json *o)
+static thr_status read_plan(reader *r, const where *at, const thr_json *object)
 {
   where here = {at, "framework", 0};
-  const thr_json *frame = thr_json_get(o, "framework");
+  const thr_json *frame = thr_json_get(object, "framework");
   return is_object(frame) ? read_own(r, &here, frame) : bad(r, &here, "missing from the plan");
 }
 
@@ -467,16 +468,16 @@ static thr_status read_compas_faces(reader *r, const where *list, const thr_json
   return st;
 }
 
-static thr_status read_compas(reader *r, const where *at, const thr_json *o)
+static thr_status read_compas(reader *r, const where *at, const thr_json *object)
 {
   const char *node_key, *default_key, *edge_key;
-  const thr_json *nodes = MEMBER(o, &node_key, "node", "vertex");
-  const thr_json *defaults = MEMBER(o, &default_key, "default_node_attributes", "default_vertex_attributes", "dna", "dva");
-  const thr_json *edges = MEMBER(o, &edge_key, "edge", "adjacency"), *faces = thr_json_get(o, "face");
+  const thr_json *nodes = MEMBER(object, &node_key, "node", "vertex");
+  const thr_json *defaults = MEMBER(object, &default_key, "default_node_attributes", "default_vertex_attributes", "dna", "dva");
+  const thr_json *edges = MEMBER(object, &edge_key, "edge", "adjacency"), *faces = thr_json_get(object, "face");
   where node_list = {at, node_key, 0}, face_list = {at, "face", 0};
   thr_status st = read_compas_nodes(r, &node_list, nodes, defaults);
   if (!st) st = thr_names_build(&r->names, r->d, r->file, r->err);
-  if (!st && thr_json_size(edges) == 0 && thr_json_size(faces) == 0) edges = MEMBER(o, &edge_key, "adjacency", "halfedge");
+  if (!st && thr_json_size(edges) == 0 && thr_json_size(faces) == 0) edges = MEMBER(object, &edge_key, "adjacency", "halfedge");
   where edge_list = {at, edge_key, 0};
   bool both_ways = strcmp(edge_key, "edge") != 0;
   if (!st) st = read_compas_edges(r, &edge_list, edges, both_ways);
@@ -566,12 +567,13 @@ static thr_status read_assembly_elements(reader *r, const where *list, const thr
   return st;
 }
 
-static thr_status read_assembly(reader *r, const where *at, const thr_json *o)
+static thr_status read_assembly(reader *r, const where *at, const thr_json *object)
 {
   const char *node_key, *element_key, *unit_key;
-  const thr_json *nodes = MEMBER(o, &node_key, "node_list", "nodes");
-  const thr_json *elements = MEMBER(o, &element_key, "element_list", "elements"), *supports = thr_json_get(o, "supports");
-  const thr_json *units = MEMBER(o, &unit_key, "unit", "units");
+  const thr_json *nodes = MEMBER(object, &node_key, "node_list", "nodes");
+  const thr_json *elements = MEMBER(object, &element_key, "element_list", "elements"),
+                 *supports = thr_json_get(object, "supports");
+  const thr_json *units = MEMBER(object, &unit_key, "unit", "units");
   where node_list = {at, node_key, 0}, element_list = {at, element_key, 0}, support_list = {at, "supports", 0};
   thr_status st = read_units(r, at, unit_key, units);
   if (!st) st = read_assembly_nodes(r, &node_list, nodes);
@@ -599,10 +601,10 @@ static thr_status read_link(reader *r, const where *at, const thr_json *link)
   return st ? st : read_passes(r, at, thr_json_get(link, "cover"), thr_json_get(link, "capacity"));
 }
 
-static thr_status read_node_link(reader *r, const where *at, const thr_json *o)
+static thr_status read_node_link(reader *r, const where *at, const thr_json *object)
 {
   const char *link_key;
-  const thr_json *nodes = thr_json_get(o, "nodes"), *links = MEMBER(o, &link_key, "links", "edges");
+  const thr_json *nodes = thr_json_get(object, "nodes"), *links = MEMBER(object, &link_key, "links", "edges");
   where node_list = {at, "nodes", 0}, link_list = {at, link_key, 0};
   thr_status st = THR_OK;
   for (int i = 0; i < thr_json_size(nodes) && !st; i++) {
@@ -682,24 +684,25 @@ static thr_status search(reader *r, const where *at, const thr_json *v)
   return st;
 }
 
-static thr_status parse(thr_draft *d, thr_read_report *r, const char *text, size_t n, const char *name, thr_err *err)
+static thr_status parse(thr_draft *draft, thr_read_report *read_report, const char *text, size_t n, const char *name,
+                        thr_err *err)
 {
   thr_json *doc;
   thr_status st = thr_json_parse(&doc, text, n, name, err);
   if (st) return st;
-  reader reading = {.file = name, .d = d, .report = r, .err = err};
+  reader reading = {.file = name, .d = draft, .report = read_report, .err = err};
   where top = {0};
   st = search(&reading, &top, doc);
   if (!st && !reading.found)
     st = thr_fail(err, THR_EINPUT, "%s: no framework in this JSON; docs/formats.md shows the forms that are read", name);
-  if (!st) st = thr_sides_finish(&reading.sides, d, err);
+  if (!st) st = thr_sides_finish(&reading.sides, draft, err);
   thr_names_destroy(&reading.names);
   thr_sides_destroy(&reading.sides);
   thr_text_destroy(&reading.scratch);
   thr_json_destroy(doc);
   if (st) {
-    thr_draft_destroy(d);
-    *r = (thr_read_report){0};
+    thr_draft_destroy(draft);
+    *read_report = (thr_read_report){0};
   }
   return st;
 }

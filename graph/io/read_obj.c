@@ -187,9 +187,10 @@ static thr_status mark_feet(obj *o)
   return THR_OK;
 }
 
-static thr_status parse(thr_draft *d, thr_read_report *r, const char *text, size_t n, const char *name, thr_err *err)
+static thr_status parse(thr_draft *draft, thr_read_report *read_report, const char *text, size_t n, const char *name,
+                        thr_err *err)
 {
-  obj o = {.d = d, .report = r, .err = err};
+  obj o = {.d = draft, .report = read_report, .err = err};
   thr_span line;
   thr_status st = thr_scan_start(&o.scan, text, n, name, err);
   while (!st && thr_scan_line(&o.scan, &line)) {
@@ -198,17 +199,17 @@ static thr_status parse(thr_draft *d, thr_read_report *r, const char *text, size
     }
     st = read_record(&o, line);
   }
-  if (!st) st = thr_sides_finish(&o.sides, d, err);
+  if (!st) st = thr_sides_finish(&o.sides, draft, err);
   if (!st) st = mark_feet(&o);
-  if (!st && d->n_edges == 0)
+  if (!st && draft->n_edges == 0)
     st = thr_fail(err, THR_EINPUT, "%s: no l, f or degree-1 curv record; export lines or polylines%s%s", name,
-                  r->skipped_records ? ", not " : "", r->skipped_records ? r->skipped_kind : "");
+                  read_report->skipped_records ? ", not " : "", read_report->skipped_records ? read_report->skipped_kind : "");
   thr_sides_destroy(&o.sides);
   free(o.corner);
   free(o.foot);
   if (st) {
-    thr_draft_destroy(d);
-    *r = (thr_read_report){0};
+    thr_draft_destroy(draft);
+    *read_report = (thr_read_report){0};
   }
   return st;
 }

@@ -10,57 +10,57 @@
 
 /* ---- lines ---- */
 
-thr_status thr_scan_start(thr_scan *s, const char *text, size_t n, const char *name, thr_err *err)
+thr_status thr_scan_start(thr_scan *scan, const char *text, size_t n, const char *name, thr_err *err)
 {
-  *s = (thr_scan){name, text, text, 1, 1};
+  *scan = (thr_scan){name, text, text, 1, 1};
   if (n == 0) return THR_OK; /* an empty file's text is NULL */
-  s->end += n;
-  const char *nul = memchr(s->at, '\0', n);
+  scan->end += n;
+  const char *nul = memchr(scan->at, '\0', n);
   if (nul) {
-    for (const char *c = s->at; c < nul; c++)
-      s->line += *c == '\n';
-    return thr_scan_fail(s, err, "a NUL byte, so this is not plain text; save the file as UTF-8 text");
+    for (const char *c = scan->at; c < nul; c++)
+      scan->line += *c == '\n';
+    return thr_scan_fail(scan, err, "a NUL byte, so this is not plain text; save the file as UTF-8 text");
   }
-  if (n >= 3 && memcmp(s->at, "\xef\xbb\xbf", 3) == 0) s->at += 3;
+  if (n >= 3 && memcmp(scan->at, "\xef\xbb\xbf", 3) == 0) scan->at += 3;
   return THR_OK;
 }
 
-/* Moves past the line at s->at and returns its end. */
-static const char *skip_line(thr_scan *s)
+/* Moves past the line at scan->at and returns its end. */
+static const char *skip_line(thr_scan *scan)
 {
-  const char *c = s->at;
-  while (c < s->end && *c != '\n' && *c != '\r')
+  const char *c = scan->at;
+  while (c < scan->end && *c != '\n' && *c != '\r')
     c++;
-  s->at = c;
-  if (s->at < s->end) s->at += *c == '\r' && c + 1 < s->end && c[1] == '\n' ? 2 : 1;
-  s->next++;
+  scan->at = c;
+  if (scan->at < scan->end) scan->at += *c == '\r' && c + 1 < scan->end && c[1] == '\n' ? 2 : 1;
+  scan->next++;
   return c;
 }
 
-bool thr_scan_line(thr_scan *s, thr_span *line)
+bool thr_scan_line(thr_scan *scan, thr_span *line)
 {
-  if (s->at >= s->end) return false;
-  s->line = s->next;
-  line->s = s->at;
-  line->n = (size_t)(skip_line(s) - line->s);
+  if (scan->at >= scan->end) return false;
+  scan->line = scan->next;
+  line->s = scan->at;
+  line->n = (size_t)(skip_line(scan) - line->s);
   return true;
 }
 
-bool thr_scan_extend(thr_scan *s, thr_span *line)
+bool thr_scan_extend(thr_scan *scan, thr_span *line)
 {
-  if (s->at >= s->end) return false;
-  line->n = (size_t)(skip_line(s) - line->s);
+  if (scan->at >= scan->end) return false;
+  line->n = (size_t)(skip_line(scan) - line->s);
   return true;
 }
 
-thr_status thr_scan_fail(const thr_scan *s, thr_err *err, const char *format, ...)
+thr_status thr_scan_fail(const thr_scan *scan, thr_err *err, const char *format, ...)
 {
   char what[400];
   va_list args;
   va_start(args, format);
   vsnprintf(what, sizeof what, format, args);
   va_end(args);
-  return thr_fail(err, THR_EINPUT, "%s:%d: %s", s->name, s->line, what);
+  return thr_fail(err, THR_EINPUT, "%s:%d: %s", scan->name, scan->line, what);
 }
 
 /* ---- words and numbers ---- */
@@ -157,14 +157,14 @@ static int by_name(const void *pa, const void *pb)
   return order ? order : (a->node > b->node) - (a->node < b->node);
 }
 
-thr_status thr_names_build(thr_names *t, const thr_draft *d, const char *file, thr_err *err)
+thr_status thr_names_build(thr_names *names, const thr_draft *draft, const char *file, thr_err *err)
 {
-  struct thr_named *entry = thr_calloc((size_t)d->n_nodes, sizeof *entry);
+  struct thr_named *entry = thr_calloc((size_t)draft->n_nodes, sizeof *entry);
   if (!entry) return thr_nomem(err);
-  for (int v = 0; v < d->n_nodes; v++)
-    entry[v] = (struct thr_named){d->node[v].name, v};
-  qsort(entry, (size_t)d->n_nodes, sizeof *entry, by_name);
-  for (int i = 1; i < d->n_nodes; i++)
+  for (int v = 0; v < draft->n_nodes; v++)
+    entry[v] = (struct thr_named){draft->node[v].name, v};
+  qsort(entry, (size_t)draft->n_nodes, sizeof *entry, by_name);
+  for (int i = 1; i < draft->n_nodes; i++)
     if (strcmp(entry[i - 1].name, entry[i].name) == 0) {
       thr_status st =
           thr_fail(err, THR_EINPUT, "%s: two nodes are called '%.40s' (number %d and number %d); give each its own name", file,
@@ -172,19 +172,19 @@ thr_status thr_names_build(thr_names *t, const thr_draft *d, const char *file, t
       free(entry);
       return st;
     }
-  *t = (thr_names){d->n_nodes, entry};
+  *names = (thr_names){draft->n_nodes, entry};
   return THR_OK;
 }
 
-int thr_names_find(const thr_names *t, thr_span name)
+int thr_names_find(const thr_names *names, thr_span name)
 {
-  int low = 0, high = t->n;
+  int low = 0, high = names->n;
   while (low < high) {
     int middle = low + (high - low) / 2;
-    const char *here = t->entry[middle].name;
+    const char *here = names->entry[middle].name;
     int order = strncmp(here, name.s, name.n);
     if (order == 0 && here[name.n]) order = 1;
-    if (order == 0) return t->entry[middle].node;
+    if (order == 0) return names->entry[middle].node;
     if (order < 0)
       low = middle + 1;
     else
@@ -193,21 +193,21 @@ int thr_names_find(const thr_names *t, thr_span name)
   return -1;
 }
 
-void thr_names_destroy(thr_names *t)
+void thr_names_destroy(thr_names *names)
 {
-  free(t->entry);
-  *t = (thr_names){0};
+  free(names->entry);
+  *names = (thr_names){0};
 }
 
 /* ---- sides of faces ---- */
 
-thr_status thr_sides_add(thr_sides *t, const int *corner, int n, thr_err *err)
+thr_status thr_sides_add(thr_sides *sides, const int *corner, int n, thr_err *err)
 {
   for (int i = 0; i < (n > 2 ? n : n - 1); i++) {
-    thr_status st = thr_grow(&t->ends, t->n, &t->capacity, sizeof *t->ends, err);
+    thr_status st = thr_grow(&sides->ends, sides->n, &sides->capacity, sizeof *sides->ends, err);
     if (st) return st;
-    t->ends[t->n][0] = corner[i];
-    t->ends[t->n++][1] = corner[(i + 1) % n];
+    sides->ends[sides->n][0] = corner[i];
+    sides->ends[sides->n++][1] = corner[(i + 1) % n];
   }
   return THR_OK;
 }
@@ -224,41 +224,41 @@ static int by_ends(const void *pa, const void *pb)
   return (a->index > b->index) - (a->index < b->index);
 }
 
-thr_status thr_sides_finish(thr_sides *t, thr_draft *d, thr_err *err)
+thr_status thr_sides_finish(thr_sides *sides, thr_draft *draft, thr_err *err)
 {
   thr_status st = THR_OK;
-  keyed_side *key = thr_calloc((size_t)t->n, sizeof *key);
-  bool *again = thr_calloc((size_t)t->n, sizeof *again);
+  keyed_side *key = thr_calloc((size_t)sides->n, sizeof *key);
+  bool *again = thr_calloc((size_t)sides->n, sizeof *again);
   if (!key || !again) {
     st = thr_nomem(err);
     goto done;
   }
-  for (int i = 0; i < t->n; i++) {
-    int a = t->ends[i][0], b = t->ends[i][1];
+  for (int i = 0; i < sides->n; i++) {
+    int a = sides->ends[i][0], b = sides->ends[i][1];
     key[i] = (keyed_side){a < b ? a : b, a < b ? b : a, i};
   }
-  qsort(key, (size_t)t->n, sizeof *key, by_ends);
-  for (int i = 1; i < t->n; i++)
+  qsort(key, (size_t)sides->n, sizeof *key, by_ends);
+  for (int i = 1; i < sides->n; i++)
     again[key[i].index] = key[i].low == key[i - 1].low && key[i].high == key[i - 1].high;
-  for (int i = 0; i < t->n && !st; i++)
-    if (!again[i]) st = thr_draft_add_edge(d, t->ends[i][0], t->ends[i][1], 0, err);
+  for (int i = 0; i < sides->n && !st; i++)
+    if (!again[i]) st = thr_draft_add_edge(draft, sides->ends[i][0], sides->ends[i][1], 0, err);
 done:
   free(key);
   free(again);
   return st;
 }
 
-void thr_sides_destroy(thr_sides *t)
+void thr_sides_destroy(thr_sides *sides)
 {
-  free(t->ends);
-  *t = (thr_sides){0};
+  free(sides->ends);
+  *sides = (thr_sides){0};
 }
 
 /* ---- draft and report ---- */
 
-void thr_report_skip(thr_read_report *r, thr_span keyword)
+void thr_report_skip(thr_read_report *report, thr_span keyword)
 {
-  if (r->skipped_records++) return;
-  snprintf(r->skipped_kind, sizeof r->skipped_kind, "%.*s", keyword.n < 31 ? (int)keyword.n : 31, keyword.s);
-  thr_text_clean(r->skipped_kind);
+  if (report->skipped_records++) return;
+  snprintf(report->skipped_kind, sizeof report->skipped_kind, "%.*s", keyword.n < 31 ? (int)keyword.n : 31, keyword.s);
+  thr_text_clean(report->skipped_kind);
 }

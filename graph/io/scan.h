@@ -20,13 +20,13 @@ typedef struct {
 } thr_scan;
 
 /* Starts at the text's first line, after a byte-order mark. THR_EINPUT if the text has NUL bytes. */
-thr_status thr_scan_start(thr_scan *s, const char *text, size_t n, const char *name, thr_err *err) THR_MUST_CHECK;
+thr_status thr_scan_start(thr_scan *scan, const char *text, size_t n, const char *name, thr_err *err) THR_MUST_CHECK;
 /* Next line without its end (LF, CRLF or CR); false at the end of the text. */
-bool thr_scan_line(thr_scan *s, thr_span *line);
-/* Makes line longer by the line after it; s->line stays. False at the end of the text. */
-bool thr_scan_extend(thr_scan *s, thr_span *line);
+bool thr_scan_line(thr_scan *scan, thr_span *line);
+/* Makes line longer by the line after it; scan->line stays. False at the end of the text. */
+bool thr_scan_extend(thr_scan *scan, thr_span *line);
 /* THR_EINPUT with "name:line: " before the text. */
-thr_status thr_scan_fail(const thr_scan *s, thr_err *err, const char *format, ...) THR_PRINTF(3, 4);
+thr_status thr_scan_fail(const thr_scan *scan, thr_err *err, const char *format, ...) THR_PRINTF(3, 4);
 
 thr_span thr_span_of(const char *s);
 thr_span thr_span_trim(thr_span t);                  /* without blanks at both ends */
@@ -49,9 +49,9 @@ typedef struct {
 } thr_names;
 
 /* Every node of the draft needs a name; THR_EINPUT if two have the same. O(n log n). */
-thr_status thr_names_build(thr_names *t, const thr_draft *d, const char *file, thr_err *err) THR_MUST_CHECK;
-int thr_names_find(const thr_names *t, thr_span name); /* -1 if there is none. O(log n) */
-void thr_names_destroy(thr_names *t);
+thr_status thr_names_build(thr_names *names, const thr_draft *draft, const char *file, thr_err *err) THR_MUST_CHECK;
+int thr_names_find(const thr_names *names, thr_span name); /* -1 if there is none. O(log n) */
+void thr_names_destroy(thr_names *names);
 
 /* Sides of faces: most belong to two faces, which is no oddity to report, so each goes to the draft once. */
 typedef struct {
@@ -60,22 +60,22 @@ typedef struct {
 } thr_sides;
 
 /* Collects the sides of one polygon; two nodes make one side. */
-thr_status thr_sides_add(thr_sides *t, const int *corner, int n, thr_err *err) THR_MUST_CHECK;
+thr_status thr_sides_add(thr_sides *sides, const int *corner, int n, thr_err *err) THR_MUST_CHECK;
 /* Appends each different side to the draft, in order of first appearance. O(n log n). */
-thr_status thr_sides_finish(thr_sides *t, thr_draft *d, thr_err *err) THR_MUST_CHECK;
-void thr_sides_destroy(thr_sides *t);
+thr_status thr_sides_finish(thr_sides *sides, thr_draft *draft, thr_err *err) THR_MUST_CHECK;
+void thr_sides_destroy(thr_sides *sides);
 
 /* Counts a record that is known or harmless but not used. */
-void thr_report_skip(thr_read_report *r, thr_span keyword);
+void thr_report_skip(thr_read_report *report, thr_span keyword);
 
 /* CSV with word of what the table lacks, so that the other half of a pair can be looked for. */
 typedef enum { THR_CSV_WHOLE, THR_CSV_NODES_ONLY, THR_CSV_EDGES_ONLY } thr_csv_content;
-thr_status thr_csv_scan(thr_draft *d, const char *text, size_t n, const char *name, thr_csv_content *content,
+thr_status thr_csv_scan(thr_draft *draft, const char *text, size_t n, const char *name, thr_csv_content *content,
                         thr_err *err) THR_MUST_CHECK;
 
 /* The writers of write.c. */
-void thr_json_frame_write(const thr_frame *f, thr_text *out);
-void thr_obj_write(const thr_frame *f, thr_text *out);
-void thr_csv_write(const thr_frame *f, thr_text *out);
+void thr_json_frame_write(const thr_frame *frame, thr_text *out);
+void thr_obj_write(const thr_frame *frame, thr_text *out);
+void thr_csv_write(const thr_frame *frame, thr_text *out);
 
 #endif

@@ -5,116 +5,116 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-static void break_line(thr_writer *w)
+static void break_line(thr_writer *writer)
 {
-  thr_text_printf(w->out, "\n%*s", w->line - 1, "");
-  w->line = 0;
+  thr_text_printf(writer->out, "\n%*s", writer->line - 1, "");
+  writer->line = 0;
 }
 
 /* What stands before a value. */
-static void begin(thr_writer *w, const char *key)
+static void begin(thr_writer *writer, const char *key)
 {
-  const bool tight = w->compact || (w->tight & 1);
-  if (w->some) thr_text_append(w->out, tight || w->line ? "," : ", ");
-  if (w->line) break_line(w);
-  w->some = true;
+  const bool tight = writer->compact || (writer->tight & 1);
+  if (writer->some) thr_text_append(writer->out, tight || writer->line ? "," : ", ");
+  if (writer->line) break_line(writer);
+  writer->some = true;
   if (!key) return;
-  thr_text_json_string(w->out, key);
-  thr_text_append(w->out, w->compact ? ":" : ": ");
+  thr_text_json_string(writer->out, key);
+  thr_text_append(writer->out, writer->compact ? ":" : ": ");
 }
 
-static void enter(thr_writer *w, const char *key, bool array, bool tight)
+static void enter(thr_writer *writer, const char *key, bool array, bool tight)
 {
-  begin(w, key);
-  thr_text_append(w->out, array ? "[" : "{");
-  w->array = w->array << 1 | array;
-  w->tight = w->tight << 1 | tight;
-  w->some = false;
+  begin(writer, key);
+  thr_text_append(writer->out, array ? "[" : "{");
+  writer->array = writer->array << 1 | array;
+  writer->tight = writer->tight << 1 | tight;
+  writer->some = false;
 }
 
-void thr_write_object(thr_writer *w, const char *key)
+void thr_write_object(thr_writer *writer, const char *key)
 {
-  enter(w, key, false, false);
+  enter(writer, key, false, false);
 }
 
-void thr_write_array(thr_writer *w, const char *key)
+void thr_write_array(thr_writer *writer, const char *key)
 {
-  enter(w, key, true, false);
+  enter(writer, key, true, false);
 }
 
-void thr_write_row(thr_writer *w, const char *key)
+void thr_write_row(thr_writer *writer, const char *key)
 {
-  enter(w, key, true, true);
+  enter(writer, key, true, true);
 }
 
-void thr_write_close(thr_writer *w)
+void thr_write_close(thr_writer *writer)
 {
-  if (w->line) break_line(w);
-  thr_text_append(w->out, w->array & 1 ? "]" : "}");
-  w->array >>= 1;
-  w->tight >>= 1;
-  w->some = true;
+  if (writer->line) break_line(writer);
+  thr_text_append(writer->out, writer->array & 1 ? "]" : "}");
+  writer->array >>= 1;
+  writer->tight >>= 1;
+  writer->some = true;
 }
 
-void thr_write_line(thr_writer *w, int blanks)
+void thr_write_line(thr_writer *writer, int blanks)
 {
-  w->line = blanks + 1;
+  writer->line = blanks + 1;
 }
 
-void thr_write_int(thr_writer *w, const char *key, int64_t value)
+void thr_write_int(thr_writer *writer, const char *key, int64_t value)
 {
-  thr_write_printf(w, key, "%" PRId64, value);
+  thr_write_printf(writer, key, "%" PRId64, value);
 }
 
-void thr_write_number(thr_writer *w, const char *key, double value)
+void thr_write_number(thr_writer *writer, const char *key, double value)
 {
-  begin(w, key);
-  thr_text_json_number(w->out, value);
+  begin(writer, key);
+  thr_text_json_number(writer->out, value);
 }
 
-void thr_write_bool(thr_writer *w, const char *key, bool value)
+void thr_write_bool(thr_writer *writer, const char *key, bool value)
 {
-  thr_write_printf(w, key, value ? "true" : "false");
+  thr_write_printf(writer, key, value ? "true" : "false");
 }
 
-void thr_write_null(thr_writer *w, const char *key)
+void thr_write_null(thr_writer *writer, const char *key)
 {
-  thr_write_printf(w, key, "null");
+  thr_write_printf(writer, key, "null");
 }
 
-void thr_write_string(thr_writer *w, const char *key, const char *value)
+void thr_write_string(thr_writer *writer, const char *key, const char *value)
 {
-  begin(w, key);
-  thr_text_json_string(w->out, value);
+  begin(writer, key);
+  thr_text_json_string(writer->out, value);
 }
 
-void thr_write_hash(thr_writer *w, const char *key, uint64_t value)
+void thr_write_hash(thr_writer *writer, const char *key, uint64_t value)
 {
-  thr_write_printf(w, key, "\"%016" PRIx64 "\"", value);
+  thr_write_printf(writer, key, "\"%016" PRIx64 "\"", value);
 }
 
-void thr_write_ints(thr_writer *w, const char *key, const int *value, int n)
+void thr_write_ints(thr_writer *writer, const char *key, const int *value, int n)
 {
-  thr_write_row(w, key);
+  thr_write_row(writer, key);
   for (int i = 0; i < n; i++)
-    thr_write_int(w, NULL, value[i]);
-  thr_write_close(w);
+    thr_write_int(writer, NULL, value[i]);
+  thr_write_close(writer);
 }
 
-void thr_write_words(thr_writer *w, const char *key, thr_text *words)
+void thr_write_words(thr_writer *writer, const char *key, thr_text *words)
 {
-  thr_write_string(w, key, words->data && !words->failed ? words->data : "");
-  if (words->failed) w->out->failed = true;
+  thr_write_string(writer, key, words->data && !words->failed ? words->data : "");
+  if (words->failed) writer->out->failed = true;
   thr_text_destroy(words);
 }
 
-void thr_write_printf(thr_writer *w, const char *key, const char *format, ...)
+void thr_write_printf(thr_writer *writer, const char *key, const char *format, ...)
 {
   char value[64];
   va_list arguments;
   va_start(arguments, format);
   vsnprintf(value, sizeof value, format, arguments);
   va_end(arguments);
-  begin(w, key);
-  thr_text_append(w->out, value);
+  begin(writer, key);
+  thr_text_append(writer->out, value);
 }

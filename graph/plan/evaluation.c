@@ -28,33 +28,33 @@ const char *thr_pull_name(thr_pull p)
   return pull_name[p];
 }
 
-void thr_evaluation_sum(thr_evaluation *e)
+void thr_evaluation_sum(thr_evaluation *evaluation)
 {
-  e->largest = e->total = 0;
-  for (int i = 0; i < e->n_cords; i++) {
-    e->largest = fmax(e->largest, e->cord[i].force);
-    e->total += e->cord[i].force + e->cord[i].other_force;
+  evaluation->largest = evaluation->total = 0;
+  for (int i = 0; i < evaluation->n_cords; i++) {
+    evaluation->largest = fmax(evaluation->largest, evaluation->cord[i].force);
+    evaluation->total += evaluation->cord[i].force + evaluation->cord[i].other_force;
   }
 }
 
-void thr_evaluation_destroy(thr_evaluation *e)
+void thr_evaluation_destroy(thr_evaluation *evaluation)
 {
-  for (int i = 0; i < e->n_cords; i++)
-    free(e->cord[i].tension);
-  free(e->cord);
-  *e = (thr_evaluation){0};
+  for (int i = 0; i < evaluation->n_cords; i++)
+    free(evaluation->cord[i].tension);
+  free(evaluation->cord);
+  *evaluation = (thr_evaluation){0};
 }
 
-bool thr_evaluation_range(const thr_evaluation *e, double range[2])
+bool thr_evaluation_range(const thr_evaluation *evaluation, double range[2])
 {
   bool known = false;
   range[0] = INFINITY;
   range[1] = 0;
-  for (int i = 0; i < e->n_cords; i++)
-    for (int k = 0; e->cord[i].known && k < e->cord[i].n_passes; k++) {
+  for (int i = 0; i < evaluation->n_cords; i++)
+    for (int k = 0; evaluation->cord[i].known && k < evaluation->cord[i].n_passes; k++) {
       known = true;
-      range[0] = fmin(range[0], e->cord[i].tension[k]);
-      range[1] = fmax(range[1], e->cord[i].tension[k]);
+      range[0] = fmin(range[0], evaluation->cord[i].tension[k]);
+      range[1] = fmax(range[1], evaluation->cord[i].tension[k]);
     }
   if (!known) range[0] = 0;
   return known;
@@ -77,75 +77,75 @@ void thr_tension_colour(const double range[2], double tension, char hex[8])
 
 /* ---- writing ---- */
 
-static void put_tension(thr_writer *w, const thr_eval_cord *c, const double range[2])
+static void put_tension(thr_writer *writer, const thr_eval_cord *cord, const double range[2])
 {
-  thr_write_line(w, 5);
-  thr_write_row(w, "tension");
-  for (int k = 0; k < c->n_passes; k++)
-    thr_write_number(w, NULL, c->tension[k]);
-  thr_write_close(w);
-  thr_write_line(w, 5);
-  thr_write_row(w, "colours");
-  for (int k = 0; k < c->n_passes; k++) {
+  thr_write_line(writer, 5);
+  thr_write_row(writer, "tension");
+  for (int k = 0; k < cord->n_passes; k++)
+    thr_write_number(writer, NULL, cord->tension[k]);
+  thr_write_close(writer);
+  thr_write_line(writer, 5);
+  thr_write_row(writer, "colours");
+  for (int k = 0; k < cord->n_passes; k++) {
     char hex[8];
-    thr_tension_colour(range, c->tension[k], hex);
-    thr_write_string(w, NULL, hex);
+    thr_tension_colour(range, cord->tension[k], hex);
+    thr_write_string(writer, NULL, hex);
   }
-  thr_write_close(w);
+  thr_write_close(writer);
 }
 
-static void put_cord(thr_writer *w, const thr_eval_cord *c, int i, const double range[2])
+static void put_cord(thr_writer *writer, const thr_eval_cord *cord, int i, const double range[2])
 {
   char id[12];
   thr_cord_id(i, id);
-  thr_write_line(w, 4);
-  thr_write_object(w, NULL);
-  thr_write_string(w, "id", id);
-  thr_write_bool(w, "known", c->known);
-  thr_write_string(w, "pull", thr_pull_name(c->pull));
-  if (c->known) {
-    thr_write_number(w, "turning", c->turning);
-    thr_write_number(w, "taut_turning", c->taut_turning);
-    thr_write_line(w, 5);
-    thr_write_number(w, "force", c->force);
-    thr_write_number(w, "other_force", c->other_force);
-    thr_write_number(w, "loss", c->loss);
-    thr_write_number(w, "work", c->work);
-    thr_write_number(w, "error", c->error);
-    thr_write_int(w, "slackest", c->slackest);
-    thr_write_int(w, "refused", c->refused);
-    put_tension(w, c, range);
+  thr_write_line(writer, 4);
+  thr_write_object(writer, NULL);
+  thr_write_string(writer, "id", id);
+  thr_write_bool(writer, "known", cord->known);
+  thr_write_string(writer, "pull", thr_pull_name(cord->pull));
+  if (cord->known) {
+    thr_write_number(writer, "turning", cord->turning);
+    thr_write_number(writer, "taut_turning", cord->taut_turning);
+    thr_write_line(writer, 5);
+    thr_write_number(writer, "force", cord->force);
+    thr_write_number(writer, "other_force", cord->other_force);
+    thr_write_number(writer, "loss", cord->loss);
+    thr_write_number(writer, "work", cord->work);
+    thr_write_number(writer, "error", cord->error);
+    thr_write_int(writer, "slackest", cord->slackest);
+    thr_write_int(writer, "refused", cord->refused);
+    put_tension(writer, cord, range);
   }
-  thr_write_close(w);
+  thr_write_close(writer);
 }
 
-void thr_evaluation_write(const thr_evaluation *e, thr_writer *w, const char *key)
+void thr_evaluation_write(const thr_evaluation *evaluation, thr_writer *writer, const char *key)
 {
   double range[2];
-  thr_evaluation_range(e, range);
-  thr_write_object(w, key);
-  thr_write_string(w, "method", thr_method_name(e->method));
-  if (e->method == THR_CAPSTAN) thr_write_string(w, "law", thr_law_name(e->law));
-  thr_write_line(w, 2);
-  thr_physics_write(&e->physics, w, "physics");
-  thr_write_line(w, 2);
-  thr_write_printf(w, "seed", "%" PRIu64, e->seed);
-  thr_write_number(w, "time_step", e->time_step);
-  thr_write_number(w, "iterations", e->iterations);
-  thr_write_number(w, "largest", e->largest);
-  thr_write_number(w, "total", e->total);
-  thr_write_line(w, 2);
-  thr_write_object(w, "scale");
-  thr_write_number(w, "low", range[0]);
-  thr_write_number(w, "high", range[1]);
-  thr_write_close(w);
-  thr_write_line(w, 2);
-  thr_write_array(w, "cords");
-  for (int i = 0; i < e->n_cords; i++)
-    put_cord(w, &e->cord[i], i, range);
-  thr_write_line(w, 2);
-  thr_write_close(w);
-  thr_write_close(w);
+  thr_evaluation_range(evaluation, range);
+  thr_write_object(writer, key);
+  thr_write_string(writer, "method", thr_method_name(evaluation->method));
+  if (evaluation->method == THR_CAPSTAN) thr_write_string(writer, "law", thr_law_name(evaluation->law));
+  thr_write_line(writer, 2);
+  thr_physics_write(&evaluation->physics, writer, "physics");
+  thr_write_line(writer, 2);
+  thr_write_printf(writer, "seed", "%" PRIu64, evaluation->seed);
+  thr_write_number(writer, "time_step", evaluation->time_step);
+  thr_write_number(writer, "iterations", evaluation->iterations);
+  thr_write_number(writer, "largest", evaluation->largest);
+  thr_write_number(writer, "total", evaluation->total);
+  thr_write_line(writer, 2);
+  thr_write_object(writer, "scale");
+  thr_write_number(writer, "low", range[0]);
+  thr_write_number(writer, "high", range[1]);
+  thr_write_close(writer);
+  thr_write_line(writer, 2);
+  thr_write_array(writer, "cords");
+  for (int i = 0; i < evaluation->n_cords; i++)
+    put_cord(writer, &evaluation->cord[i], i, range);
+  thr_write_line(writer, 2);
+  thr_write_close(writer);
+  thr_write_close(writer);
 }
 
 /* ---- reading: every failure is "place.member: what" ---- */
@@ -161,26 +161,26 @@ static thr_status bad(const reader *r, const char *key, const char *what)
 }
 
 /* known ends with NULL. */
-static thr_status only_members(const reader *r, const thr_json *o, const char *const *known)
+static thr_status only_members(const reader *r, const thr_json *object, const char *const *known)
 {
-  const char *key = thr_json_unknown(o, known);
+  const char *key = thr_json_unknown(object, known);
   return key ? bad(r, key, "this version does not know it and cannot check it") : THR_OK;
 }
 
-static thr_status get_double(const reader *r, const thr_json *o, const char *key, double *out)
+static thr_status get_double(const reader *r, const thr_json *object, const char *key, double *out)
 {
-  return thr_json_number(thr_json_get(o, key), out) ? THR_OK : bad(r, key, "missing or not a finite number");
+  return thr_json_number(thr_json_get(object, key), out) ? THR_OK : bad(r, key, "missing or not a finite number");
 }
 
-static thr_status get_int(const reader *r, const thr_json *o, const char *key, int64_t high, int64_t *out)
+static thr_status get_int(const reader *r, const thr_json *object, const char *key, int64_t high, int64_t *out)
 {
-  if (thr_json_int(thr_json_get(o, key), out) && *out >= 0 && *out <= high) return THR_OK;
+  if (thr_json_int(thr_json_get(object, key), out) && *out >= 0 && *out <= high) return THR_OK;
   return thr_fail(r->err, THR_EVIOLATED, "%s.%s: missing or not an integer from 0 to %" PRId64, r->place, key, high);
 }
 
-static thr_status get_word(const reader *r, const thr_json *o, const char *key, const char *const *word, int n, int *out)
+static thr_status get_word(const reader *r, const thr_json *object, const char *key, const char *const *word, int n, int *out)
 {
-  const char *value = thr_json_string(thr_json_get(o, key));
+  const char *value = thr_json_string(thr_json_get(object, key));
   for (*out = 0; value && *out < n; ++*out)
     if (strcmp(value, word[*out]) == 0) return THR_OK;
   *out = 0;
@@ -198,89 +198,89 @@ static bool same_colour(const char *a, const char *b)
   return true;
 }
 
-static thr_status read_tension(const reader *r, const thr_json *o, thr_eval_cord *c)
+static thr_status read_tension(const reader *r, const thr_json *object, thr_eval_cord *cord)
 {
-  const thr_json *list = thr_json_get(o, "tension"), *colours = thr_json_get(o, "colours");
+  const thr_json *list = thr_json_get(object, "tension"), *colours = thr_json_get(object, "colours");
   int n = thr_json_size(list);
   if (thr_json_typeof(list) != THR_JSON_ARRAY || n < 1) return bad(r, "tension", "missing or empty");
   if (thr_json_typeof(colours) != THR_JSON_ARRAY || thr_json_size(colours) != n) return bad(r, "colours", "not one per tension");
-  if (!(c->tension = thr_calloc((size_t)n, sizeof *c->tension))) return thr_nomem(r->err);
-  c->n_passes = n;
+  if (!(cord->tension = thr_calloc((size_t)n, sizeof *cord->tension))) return thr_nomem(r->err);
+  cord->n_passes = n;
   for (int k = 0; k < n; k++)
-    if (!thr_json_number(thr_json_at(list, k), &c->tension[k]) || !(c->tension[k] >= 0))
+    if (!thr_json_number(thr_json_at(list, k), &cord->tension[k]) || !(cord->tension[k] >= 0))
       return thr_fail(r->err, THR_EVIOLATED, "%s.tension[%d]: not a number from 0 on", r->place, k);
   return THR_OK;
 }
 
-static thr_status read_cord(const reader *r, const thr_json *o, int i, thr_eval_cord *c)
+static thr_status read_cord(const reader *r, const thr_json *object, int i, thr_eval_cord *cord)
 {
   static const char *const all[] = {"id",   "known", "pull",     "turning", "taut_turning", "force",   "other_force", "loss",
                                     "work", "error", "slackest", "refused", "tension",      "colours", NULL};
   static const char *const unknown[] = {"id", "known", "pull", NULL};
   char name[12];
   thr_cord_id(i, name);
-  const char *id = thr_json_string(thr_json_get(o, "id"));
-  const thr_json *known = thr_json_get(o, "known");
+  const char *id = thr_json_string(thr_json_get(object, "id"));
+  const thr_json *known = thr_json_get(object, "known");
   int pull;
   int64_t slackest = 0, refused = 0;
   if (!id || strcmp(id, name) != 0) return bad(r, "id", "not the plan's cord with this number");
   if (thr_json_typeof(known) != THR_JSON_BOOL) return bad(r, "known", "missing; expected true or false");
-  c->known = thr_json_true(known);
-  thr_status st = only_members(r, o, c->known ? all : unknown);
-  if (!st) st = get_word(r, o, "pull", pull_name, THR_N_PULLS, &pull);
+  cord->known = thr_json_true(known);
+  thr_status st = only_members(r, object, cord->known ? all : unknown);
+  if (!st) st = get_word(r, object, "pull", pull_name, THR_N_PULLS, &pull);
   if (st) return st;
-  c->pull = (thr_pull)pull;
-  if (!c->known) return THR_OK;
+  cord->pull = (thr_pull)pull;
+  if (!cord->known) return THR_OK;
   const struct {
     const char *key;
     double *to;
-  } number[] = {{"turning", &c->turning}, {"taut_turning", &c->taut_turning},
-                {"force", &c->force},     {"other_force", &c->other_force},
-                {"loss", &c->loss},       {"work", &c->work},
-                {"error", &c->error}};
+  } number[] = {{"turning", &cord->turning}, {"taut_turning", &cord->taut_turning},
+                {"force", &cord->force},     {"other_force", &cord->other_force},
+                {"loss", &cord->loss},       {"work", &cord->work},
+                {"error", &cord->error}};
   for (size_t k = 0; k < sizeof number / sizeof *number && !st; k++)
-    st = get_double(r, o, number[k].key, number[k].to);
-  if (!st) st = read_tension(r, o, c);
-  if (!st) st = get_int(r, o, "slackest", c->n_passes - 1, &slackest);
-  if (!st) st = get_int(r, o, "refused", c->n_passes - 1, &refused);
-  c->slackest = (int)slackest;
-  c->refused = (int)refused;
+    st = get_double(r, object, number[k].key, number[k].to);
+  if (!st) st = read_tension(r, object, cord);
+  if (!st) st = get_int(r, object, "slackest", cord->n_passes - 1, &slackest);
+  if (!st) st = get_int(r, object, "refused", cord->n_passes - 1, &refused);
+  cord->slackest = (int)slackest;
+  cord->refused = (int)refused;
   return st;
 }
 
-static thr_status read_cords(const reader *r, const thr_json *o, thr_evaluation *e)
+static thr_status read_cords(const reader *r, const thr_json *object, thr_evaluation *evaluation)
 {
-  const thr_json *list = thr_json_get(o, "cords");
+  const thr_json *list = thr_json_get(object, "cords");
   int n = thr_json_size(list);
   if (thr_json_typeof(list) != THR_JSON_ARRAY || n < 1) return bad(r, "cords", "missing or empty");
-  if (!(e->cord = thr_calloc((size_t)n, sizeof *e->cord))) return thr_nomem(r->err);
-  e->n_cords = n;
+  if (!(evaluation->cord = thr_calloc((size_t)n, sizeof *evaluation->cord))) return thr_nomem(r->err);
+  evaluation->n_cords = n;
   for (int i = 0; i < n; i++) {
     char place[256];
     snprintf(place, sizeof place, "%.200s.cords[%d]", r->place, i);
-    thr_status st = read_cord(&(reader){place, r->err}, thr_json_at(list, i), i, &e->cord[i]);
+    thr_status st = read_cord(&(reader){place, r->err}, thr_json_at(list, i), i, &evaluation->cord[i]);
     if (st) return st;
   }
   return THR_OK;
 }
 
 /* Scale and colours are no members of the record: they must follow from the tensions. */
-static thr_status check_colours(const reader *r, const thr_json *o, const thr_evaluation *e)
+static thr_status check_colours(const reader *r, const thr_json *object, const thr_evaluation *evaluation)
 {
   static const char *const known[] = {"low", "high", NULL};
   double range[2], stated[2];
-  const thr_json *scale = thr_json_get(o, "scale"), *cords = thr_json_get(o, "cords");
+  const thr_json *scale = thr_json_get(object, "scale"), *cords = thr_json_get(object, "cords");
   thr_status st = only_members(r, scale, known);
   if (!st) st = get_double(r, scale, "low", &stated[0]);
   if (!st) st = get_double(r, scale, "high", &stated[1]);
   if (st) return st;
-  thr_evaluation_range(e, range);
+  thr_evaluation_range(evaluation, range);
   if (stated[0] != range[0] || stated[1] != range[1]) return bad(r, "scale", "not the least and largest tension");
-  for (int i = 0; i < e->n_cords; i++) {
+  for (int i = 0; i < evaluation->n_cords; i++) {
     const thr_json *colours = thr_json_get(thr_json_at(cords, i), "colours");
-    for (int k = 0; e->cord[i].known && k < e->cord[i].n_passes; k++) {
+    for (int k = 0; evaluation->cord[i].known && k < evaluation->cord[i].n_passes; k++) {
       char hex[8];
-      thr_tension_colour(range, e->cord[i].tension[k], hex);
+      thr_tension_colour(range, evaluation->cord[i].tension[k], hex);
       if (!same_colour(thr_json_string(thr_json_at(colours, k)), hex))
         return thr_fail(r->err, THR_EVIOLATED, "%s.cords[%d].colours[%d]: expected %s for this tension", r->place, i, k, hex);
     }
@@ -288,7 +288,7 @@ static thr_status check_colours(const reader *r, const thr_json *o, const thr_ev
   return THR_OK;
 }
 
-static thr_status read_members(const reader *r, const thr_json *o, thr_evaluation *e)
+static thr_status read_members(const reader *r, const thr_json *object, thr_evaluation *evaluation)
 {
   static const char *const known[] = {"method",  "law",   "physics", "seed",  "time_step", "iterations",
                                       "largest", "total", "scale",   "cords", NULL};
@@ -296,35 +296,36 @@ static thr_status read_members(const reader *r, const thr_json *o, thr_evaluatio
   int method = 0, law = 0;
   int64_t seed = 0;
   thr_err found = {0};
-  thr_status st = only_members(r, o, known);
-  if (!st) st = get_word(r, o, "method", method_name, THR_N_METHODS, &method);
+  thr_status st = only_members(r, object, known);
+  if (!st) st = get_word(r, object, "method", method_name, THR_N_METHODS, &method);
   if (st) return st;
   if (method == THR_CAPSTAN)
-    st = get_word(r, o, "law", law_name, THR_N_LAWS, &law);
-  else if (thr_json_get(o, "law"))
+    st = get_word(r, object, "law", law_name, THR_N_LAWS, &law);
+  else if (thr_json_get(object, "law"))
     st = bad(r, "law", "only the method capstan goes by a law");
   if (st) return st;
-  *e = (thr_evaluation){.present = true, .method = (thr_method)method, .law = (thr_law)law, .physics = thr_physics_default()};
+  *evaluation =
+      (thr_evaluation){.present = true, .method = (thr_method)method, .law = (thr_law)law, .physics = thr_physics_default()};
   snprintf(place, sizeof place, "%.200s.physics", r->place);
-  if (thr_physics_from_json(&e->physics, thr_json_get(o, "physics"), place, &found))
+  if (thr_physics_from_json(&evaluation->physics, thr_json_get(object, "physics"), place, &found))
     return thr_fail(r->err, THR_EVIOLATED, "%s", found.text);
-  if ((st = get_int(r, o, "seed", INT64_C(1) << 53, &seed))) return st;
-  e->seed = (uint64_t)seed;
-  if ((st = get_double(r, o, "time_step", &e->time_step))) return st;
-  if ((st = get_double(r, o, "iterations", &e->iterations))) return st;
-  if ((st = get_double(r, o, "largest", &e->largest))) return st;
-  if ((st = get_double(r, o, "total", &e->total))) return st;
-  if ((st = read_cords(r, o, e))) return st;
-  return check_colours(r, o, e);
+  if ((st = get_int(r, object, "seed", INT64_C(1) << 53, &seed))) return st;
+  evaluation->seed = (uint64_t)seed;
+  if ((st = get_double(r, object, "time_step", &evaluation->time_step))) return st;
+  if ((st = get_double(r, object, "iterations", &evaluation->iterations))) return st;
+  if ((st = get_double(r, object, "largest", &evaluation->largest))) return st;
+  if ((st = get_double(r, object, "total", &evaluation->total))) return st;
+  if ((st = read_cords(r, object, evaluation))) return st;
+  return check_colours(r, object, evaluation);
 }
 
-thr_status thr_evaluation_from_json(thr_evaluation *e, const thr_json *object, const char *place, thr_err *err)
+thr_status thr_evaluation_from_json(thr_evaluation *evaluation, const thr_json *object, const char *place, thr_err *err)
 {
   thr_evaluation read = {0};
   const reader r = {place, err};
   thr_status st = thr_json_typeof(object) == THR_JSON_OBJECT ? read_members(&r, object, &read)
                                                              : thr_fail(err, THR_EVIOLATED, "%s: not an object", place);
   if (st) thr_evaluation_destroy(&read);
-  *e = read;
+  *evaluation = read;
   return st;
 }

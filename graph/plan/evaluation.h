@@ -50,23 +50,24 @@ const char *thr_law_name(int l);       /* "capstan", "mitre" */
 const char *thr_pull_name(thr_pull p); /* "start", "end", "both" */
 
 /* Largest and total from the cords; those that are not known count as 0. */
-void thr_evaluation_sum(thr_evaluation *e);
-void thr_evaluation_destroy(thr_evaluation *e);
+void thr_evaluation_sum(thr_evaluation *evaluation);
+void thr_evaluation_destroy(thr_evaluation *evaluation);
 
 /* Least and largest tension of any pass, N; false, and both 0, if no cord is known. */
-bool thr_evaluation_range(const thr_evaluation *e, double range[2]);
+bool thr_evaluation_range(const thr_evaluation *evaluation, double range[2]);
 
 /* Colour of a tension: a perceptually even, colour-blind safe ramp over the logarithm of range, pale = slack, dark = tight.
  * Out of range: the nearer end; a range of one value: pale. "#rrggbb". O(1). */
 void thr_tension_colour(const double range[2], double tension, char hex[8]);
 
 /* The member "evaluation" of plan.json, written after "metrics". */
-void thr_evaluation_write(const thr_evaluation *e, thr_writer *w, const char *key);
+void thr_evaluation_write(const thr_evaluation *evaluation, thr_writer *writer, const char *key);
 /* Reads it with its shape checked: known members only, one record per cord with its id, finite numbers, tensions of 0 or more,
  * one colour per tension, scale and colours as they follow from the tensions. place names file and member for messages;
  * THR_EVIOLATED. n_passes is that of the tension list, 0 for a cord that is not known: the reader of the plan compares and fills
  * it in. thr_check_plan verifies the rest: forces, losses, slackest pass and sums from the tensions, no fall towards a pulled
  * end, turning and (method capstan) every tension from the cords. Release with thr_evaluation_destroy. O(passes). */
-thr_status thr_evaluation_from_json(thr_evaluation *e, const thr_json *object, const char *place, thr_err *err) THR_MUST_CHECK;
+thr_status thr_evaluation_from_json(thr_evaluation *evaluation, const thr_json *object, const char *place,
+                                    thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -95,10 +95,10 @@ const thr_physics_field *thr_physics_find(const char *key)
   return NULL;
 }
 
-double thr_physics_get(const thr_physics *p, const thr_physics_field *field)
+double thr_physics_get(const thr_physics *physics, const thr_physics_field *field)
 {
   double value;
-  memcpy(&value, (const char *)p + field->offset, sizeof value);
+  memcpy(&value, (const char *)physics + field->offset, sizeof value);
   return value;
 }
 
@@ -110,11 +110,11 @@ static const thr_physics_preset *find_preset(const char *name)
 }
 
 /* A preset's band is about the preset's cord and bead, not about a mu that somebody measured. */
-static void drop_preset_band(thr_physics *p)
+static void drop_preset_band(thr_physics *physics)
 {
-  const thr_physics_preset *from = find_preset(p->preset);
-  if (!from || p->mu_low != from->physics.mu_low || p->mu_high != from->physics.mu_high) return;
-  p->mu_low = p->mu_high = 0;
+  const thr_physics_preset *from = find_preset(physics->preset);
+  if (!from || physics->mu_low != from->physics.mu_low || physics->mu_high != from->physics.mu_high) return;
+  physics->mu_low = physics->mu_high = 0;
 }
 
 /* "expected 0 to 2", "expected more than 0 N, up to 1e+09 N". */
@@ -127,23 +127,23 @@ static void describe_range(const thr_physics_field *field, char *text, size_t n)
     snprintf(text, n, "expected %g to %g%s%s", field->low, field->high, space, field->unit);
 }
 
-thr_status thr_physics_set(thr_physics *p, const thr_physics_field *field, double value, thr_err *err)
+thr_status thr_physics_set(thr_physics *physics, const thr_physics_field *field, double value, thr_err *err)
 {
   if (!(value >= field->low && value <= field->high) || (field->positive && !(value > 0))) {
     char range[96];
     describe_range(field, range, sizeof range);
     return thr_fail(err, THR_EINPUT, "%s: %g is out of range; %s", field->key, value, range);
   }
-  if (field == &thr_physics_fields[MU] && value != p->mu) drop_preset_band(p);
-  memcpy((char *)p + field->offset, &value, sizeof value);
+  if (field == &thr_physics_fields[MU] && value != physics->mu) drop_preset_band(physics);
+  memcpy((char *)physics + field->offset, &value, sizeof value);
   return THR_OK;
 }
 
-thr_status thr_physics_set_preset(thr_physics *p, const char *name, thr_err *err)
+thr_status thr_physics_set_preset(thr_physics *physics, const char *name, thr_err *err)
 {
   const thr_physics_preset *preset = find_preset(name);
   if (preset) {
-    *p = preset->physics;
+    *physics = preset->physics;
     return THR_OK;
   }
   char known[160] = "";
@@ -173,12 +173,12 @@ static thr_status only_fields(const thr_json *object, thr_err *err)
   return THR_OK;
 }
 
-static thr_status set_from_json(thr_physics *p, const thr_json *object, thr_err *err)
+static thr_status set_from_json(thr_physics *physics, const thr_json *object, thr_err *err)
 {
   if (thr_json_typeof(object) != THR_JSON_OBJECT) return thr_fail(err, THR_EINPUT, "not an object; expected {\"mu\": 0.2, ..}");
   thr_status st = only_fields(object, err);
   const char *preset = thr_json_string(thr_json_get(object, "preset"));
-  if (!st && preset) st = thr_physics_set_preset(p, preset, err);
+  if (!st && preset) st = thr_physics_set_preset(physics, preset, err);
   for (int i = 0; i < thr_physics_n_fields && !st; i++) {
     const thr_physics_field *field = &thr_physics_fields[i];
     const thr_json *v = thr_json_get(object, field->key);
@@ -186,42 +186,42 @@ static thr_status set_from_json(thr_physics *p, const thr_json *object, thr_err 
     char range[96];
     if (!v) continue;
     describe_range(field, range, sizeof range);
-    st = thr_json_number(v, &value) ? thr_physics_set(p, field, value, err)
+    st = thr_json_number(v, &value) ? thr_physics_set(physics, field, value, err)
                                     : thr_fail(err, THR_EINPUT, "%s: not a finite number; %s", field->key, range);
   }
   return st;
 }
 
-thr_status thr_physics_from_json(thr_physics *p, const thr_json *object, const char *place, thr_err *err)
+thr_status thr_physics_from_json(thr_physics *physics, const thr_json *object, const char *place, thr_err *err)
 {
-  thr_physics read = *p;
+  thr_physics read = *physics;
   thr_err found = {0};
   thr_status st = set_from_json(&read, object, &found);
   if (st) return thr_fail(err, st, "%s: %s", place, found.text);
-  *p = read;
+  *physics = read;
   return THR_OK;
 }
 
-thr_status thr_physics_read(thr_physics *p, const char *path, thr_err *err)
+thr_status thr_physics_read(thr_physics *physics, const char *path, thr_err *err)
 {
   thr_text text = {0};
   thr_json *doc = NULL;
   const char *name = strcmp(path, "-") == 0 ? "stdin" : path;
   thr_status st = thr_text_read(&text, path, err);
   if (!st) st = thr_json_parse(&doc, text.data, text.length, name, err);
-  if (!st) st = thr_physics_from_json(p, doc, name, err);
+  if (!st) st = thr_physics_from_json(physics, doc, name, err);
   thr_json_destroy(doc);
   thr_text_destroy(&text);
   return st;
 }
 
-void thr_physics_write(const thr_physics *p, thr_writer *w, const char *key)
+void thr_physics_write(const thr_physics *physics, thr_writer *writer, const char *key)
 {
-  thr_write_object(w, key);
-  if (*p->preset) thr_write_string(w, "preset", p->preset);
+  thr_write_object(writer, key);
+  if (*physics->preset) thr_write_string(writer, "preset", physics->preset);
   for (int i = 0; i < thr_physics_n_fields; i++)
-    thr_write_number(w, thr_physics_fields[i].key, thr_physics_get(p, &thr_physics_fields[i]));
-  thr_write_close(w);
+    thr_write_number(writer, thr_physics_fields[i].key, thr_physics_get(physics, &thr_physics_fields[i]));
+  thr_write_close(writer);
 }
 
 /* ---- against a framework ---- */
@@ -237,18 +237,18 @@ typedef struct {
   int shortest_edge;
 } edges;
 
-static thr_status measure_edges(const thr_frame *f, double mm, edges *out, thr_err *err)
+static thr_status measure_edges(const thr_frame *frame, double mm, edges *out, thr_err *err)
 {
-  double *length = thr_calloc((size_t)f->n_edges, sizeof *length);
+  double *length = thr_calloc((size_t)frame->n_edges, sizeof *length);
   if (!length) return thr_nomem(err);
   *out = (edges){.shortest = INFINITY};
-  for (int e = 0; e < f->n_edges; e++) {
-    const double *a = f->xyz[f->edge[e][0]], *b = f->xyz[f->edge[e][1]];
+  for (int e = 0; e < frame->n_edges; e++) {
+    const double *a = frame->xyz[frame->edge[e][0]], *b = frame->xyz[frame->edge[e][1]];
     length[e] = mm * hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
     if (length[e] < out->shortest) *out = (edges){.shortest = length[e], .shortest_edge = e};
   }
-  qsort(length, (size_t)f->n_edges, sizeof *length, by_value);
-  out->median = length[f->n_edges / 2];
+  qsort(length, (size_t)frame->n_edges, sizeof *length, by_value);
+  out->median = length[frame->n_edges / 2];
   free(length);
   if (out->shortest >= 1e-6 && out->median <= 1e8) return THR_OK;
   return thr_fail(err, THR_EINPUT, "edges from %g mm, half of them over %g mm, are no beads' size; set the units with --units",
@@ -261,59 +261,59 @@ static double rounded(double mu)
   return nearbyint(mu * 1e9) / 1e9;
 }
 
-static void fill_in(thr_physics *p, const edges *e)
+static void fill_in(thr_physics *physics, const edges *e)
 {
-  if (p->mu_low == 0) p->mu_low = fmin(p->mu, rounded(p->mu / 2));
-  if (p->mu_high == 0) p->mu_high = fmax(p->mu, rounded(1.5 * p->mu));
-  if (p->cord_diameter == 0) p->cord_diameter = fmin(e->median / 20, e->shortest / 4);
-  if (p->bore == 0) p->bore = 2 * p->cord_diameter;
-  if (p->bead_diameter == 0) p->bead_diameter = fmax(0.35 * e->median, 1.5 * p->bore);
+  if (physics->mu_low == 0) physics->mu_low = fmin(physics->mu, rounded(physics->mu / 2));
+  if (physics->mu_high == 0) physics->mu_high = fmax(physics->mu, rounded(1.5 * physics->mu));
+  if (physics->cord_diameter == 0) physics->cord_diameter = fmin(e->median / 20, e->shortest / 4);
+  if (physics->bore == 0) physics->bore = 2 * physics->cord_diameter;
+  if (physics->bead_diameter == 0) physics->bead_diameter = fmax(0.35 * e->median, 1.5 * physics->bore);
 }
 
-static thr_status check_sizes(const thr_physics *p, const thr_frame *f, const edges *e, thr_err *err)
+static thr_status check_sizes(const thr_physics *physics, const thr_frame *frame, const edges *e, thr_err *err)
 {
-  if (!(p->bore > p->cord_diameter))
+  if (!(physics->bore > physics->cord_diameter))
     return thr_fail(err, THR_EINPUT, "bore: a cord of %g mm does not fit into %g mm; raise --bore or lower --cord-diameter",
-                    p->cord_diameter, p->bore);
-  if (!(p->bead_diameter > p->bore))
+                    physics->cord_diameter, physics->bore);
+  if (!(physics->bead_diameter > physics->bore))
     return thr_fail(err, THR_EINPUT, "bead_diameter: %g mm leaves no wall round a bore of %g mm; raise it or lower --bore",
-                    p->bead_diameter, p->bore);
-  if (!(e->shortest > p->bore)) {
-    const int *end = f->edge[e->shortest_edge];
+                    physics->bead_diameter, physics->bore);
+  if (!(e->shortest > physics->bore)) {
+    const int *end = frame->edge[e->shortest_edge];
     return thr_fail(err, THR_EINPUT,
                     "edge %d (nodes %.40s and %.40s) is %g mm long, shorter than the bore of %g mm; set the framework's --units, "
                     "or lower --bore or --cord-diameter",
-                    e->shortest_edge, f->name[end[0]], f->name[end[1]], e->shortest, p->bore);
+                    e->shortest_edge, frame->name[end[0]], frame->name[end[1]], e->shortest, physics->bore);
   }
   return THR_OK;
 }
 
-static thr_status check_values(const thr_physics *p, thr_err *err)
+static thr_status check_values(const thr_physics *physics, thr_err *err)
 {
-  thr_physics copy = *p;
+  thr_physics copy = *physics;
   for (int i = 0; i < thr_physics_n_fields; i++) {
-    thr_status st = thr_physics_set(&copy, &thr_physics_fields[i], thr_physics_get(p, &thr_physics_fields[i]), err);
+    thr_status st = thr_physics_set(&copy, &thr_physics_fields[i], thr_physics_get(physics, &thr_physics_fields[i]), err);
     if (st) return st;
   }
-  if (p->density == 0 && p->bead_mass == 0)
+  if (physics->density == 0 && physics->bead_mass == 0)
     return thr_fail(err, THR_EINPUT, "density: beads without mass; set --density or --bead-mass");
   return THR_OK;
 }
 
-thr_status thr_physics_resolve(const thr_physics *p, const thr_frame *f, thr_physics *out, thr_err *err)
+thr_status thr_physics_resolve(const thr_physics *physics, const thr_frame *frame, thr_physics *out, thr_err *err)
 {
-  thr_physics r = *p;
+  thr_physics r = *physics;
   edges e;
   double mm;
   *out = (thr_physics){0};
-  thr_status st = check_values(p, err);
-  bool sized = p->cord_diameter > 0 || p->bore > 0 || p->bead_diameter > 0;
-  thr_status known = thr_units_in_mm(f->units, &mm, !st && sized ? err : NULL);
+  thr_status st = check_values(physics, err);
+  bool sized = physics->cord_diameter > 0 || physics->bore > 0 || physics->bead_diameter > 0;
+  thr_status known = thr_units_in_mm(frame->units, &mm, !st && sized ? err : NULL);
   if (!st && sized) st = known;
-  if (!st) st = measure_edges(f, known ? 1 : mm, &e, err);
+  if (!st) st = measure_edges(frame, known ? 1 : mm, &e, err);
   if (st) return st;
   fill_in(&r, &e);
-  if ((st = check_sizes(&r, f, &e, err))) return st;
+  if ((st = check_sizes(&r, frame, &e, err))) return st;
   if (!(r.mu_low <= r.mu && r.mu <= r.mu_high))
     return thr_fail(err, THR_EINPUT, "mu_low: the band %g to %g does not hold mu = %g; set --mu-low and --mu-high", r.mu_low,
                     r.mu_high, r.mu);

@@ -64,12 +64,12 @@ thr_status thr_physics_from_json(thr_physics *p, const thr_json *object, const c
 /* A file that holds one such object. */
 thr_status thr_physics_read(thr_physics *p, const char *path, thr_err *err) THR_MUST_CHECK;
 /* That object, on one line. */
-void thr_physics_write(const thr_physics *p, thr_writer *w, const char *key);
+void thr_physics_write(const thr_physics *p, thr_writer *writer, const char *key);
 
 /* Fills in what is 0 = "work it out" and checks that the parts fit: bore > cord, bead > bore, shortest edge > bore,
  * mu_low <= mu <= mu_high, some mass. THR_EINPUT says which value does not fit and what to change. Edges are measured between
  * their nodes. With units that thr_units_in_mm does not know, sizes that were asked for in mm are an error; else a unit counts as
  * a mm, and what needs a true size must ask thr_units_in_mm itself. Resolving twice changes nothing. O(m log m). */
-thr_status thr_physics_resolve(const thr_physics *p, const thr_frame *f, thr_physics *out, thr_err *err) THR_MUST_CHECK;
+thr_status thr_physics_resolve(const thr_physics *p, const thr_frame *frame, thr_physics *out, thr_err *err) THR_MUST_CHECK;
 
 #endif

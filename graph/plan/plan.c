@@ -7,22 +7,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-void thr_certificate_destroy(thr_certificate *c)
+void thr_certificate_destroy(thr_certificate *certificate)
 {
-  for (int i = 0; i < c->n_cuts; i++)
-    free(c->cut[i].node);
-  free(c->cut);
-  free(c->place_price);
-  *c = (thr_certificate){0};
+  for (int i = 0; i < certificate->n_cuts; i++)
+    free(certificate->cut[i].node);
+  free(certificate->cut);
+  free(certificate->place_price);
+  *certificate = (thr_certificate){0};
 }
 
-void thr_symmetry_record_destroy(thr_symmetry_record *r)
+void thr_symmetry_record_destroy(thr_symmetry_record *record)
 {
-  free(r->generator);
-  free(r->image);
-  free(r->unique);
-  free(r->element);
-  *r = (thr_symmetry_record){0};
+  free(record->generator);
+  free(record->image);
+  free(record->unique);
+  free(record->element);
+  *record = (thr_symmetry_record){0};
 }
 
 void thr_cords_destroy(thr_cord *cord, int n)
@@ -32,38 +32,38 @@ void thr_cords_destroy(thr_cord *cord, int n)
   free(cord);
 }
 
-void thr_plan_destroy(thr_plan *p)
+void thr_plan_destroy(thr_plan *plan)
 {
-  thr_cords_destroy(p->cord, p->n_cords);
-  for (int i = 0; i < p->proof.n_certificates; i++)
-    thr_certificate_destroy(&p->proof.certificate[i]);
-  free(p->proof.certificate);
-  thr_turning_proof_destroy(&p->proof.tied);
-  thr_turning_proof_destroy(&p->turning.tree);
-  thr_symmetry_record_destroy(&p->symmetry);
-  thr_evaluation_destroy(&p->evaluation);
-  free(p->options.end_node);
-  free(p->options.end_count);
-  free(p->generator);
-  thr_frame_destroy(&p->frame);
-  *p = (thr_plan){0};
+  thr_cords_destroy(plan->cord, plan->n_cords);
+  for (int i = 0; i < plan->proof.n_certificates; i++)
+    thr_certificate_destroy(&plan->proof.certificate[i]);
+  free(plan->proof.certificate);
+  thr_turning_proof_destroy(&plan->proof.tied);
+  thr_turning_proof_destroy(&plan->turning.tree);
+  thr_symmetry_record_destroy(&plan->symmetry);
+  thr_evaluation_destroy(&plan->evaluation);
+  free(plan->options.end_node);
+  free(plan->options.end_count);
+  free(plan->generator);
+  thr_frame_destroy(&plan->frame);
+  *plan = (thr_plan){0};
 }
 
-thr_status thr_plan_request(thr_plan *p, const thr_frame *f, const thr_plan_options *o, thr_err *err)
+thr_status thr_plan_request(thr_plan *plan, const thr_frame *frame, const thr_plan_options *options, thr_err *err)
 {
-  thr_status st = thr_frame_copy(&p->frame, f, err);
+  thr_status st = thr_frame_copy(&plan->frame, frame, err);
   if (st) return st;
-  size_t n = (size_t)f->n_nodes;
-  p->options = *o;
-  p->options.end_node = NULL;
-  p->options.end_count = NULL;
-  if (o->end_node) {
-    if (!(p->options.end_node = thr_calloc(n, sizeof *p->options.end_node))) return thr_nomem(err);
-    memcpy(p->options.end_node, o->end_node, n * sizeof *p->options.end_node);
+  size_t n = (size_t)frame->n_nodes;
+  plan->options = *options;
+  plan->options.end_node = NULL;
+  plan->options.end_count = NULL;
+  if (options->end_node) {
+    if (!(plan->options.end_node = thr_calloc(n, sizeof *plan->options.end_node))) return thr_nomem(err);
+    memcpy(plan->options.end_node, options->end_node, n * sizeof *plan->options.end_node);
   }
-  if (o->end_count) {
-    if (!(p->options.end_count = thr_calloc(n, sizeof *p->options.end_count))) return thr_nomem(err);
-    memcpy(p->options.end_count, o->end_count, n * sizeof *p->options.end_count);
+  if (options->end_count) {
+    if (!(plan->options.end_count = thr_calloc(n, sizeof *plan->options.end_count))) return thr_nomem(err);
+    memcpy(plan->options.end_count, options->end_count, n * sizeof *plan->options.end_count);
   }
   return THR_OK;
 }
@@ -100,60 +100,60 @@ static double common_step(double a, double b, double rounding)
   return a;
 }
 
-double thr_plan_unit(const thr_frame *f)
+double thr_plan_unit(const thr_frame *frame)
 {
   enum { STEPS_MOST = 1000 };
   double longest = 0, unit = 0;
-  for (int e = 0; e < f->n_edges; e++)
-    longest = fmax(longest, f->length[e]);
-  for (int e = 0; e < f->n_edges; e++) {
-    unit = common_step(fmax(unit, f->length[e]), fmin(unit, f->length[e]), 1e-12 * longest);
+  for (int e = 0; e < frame->n_edges; e++)
+    longest = fmax(longest, frame->length[e]);
+  for (int e = 0; e < frame->n_edges; e++) {
+    unit = common_step(fmax(unit, frame->length[e]), fmin(unit, frame->length[e]), 1e-12 * longest);
     if (unit * STEPS_MOST < longest) return 0;
   }
   if (unit > 0) unit = longest / round(longest / unit);
-  for (int e = 0; e < f->n_edges; e++)
-    if (fabs(f->length[e] - unit * round(f->length[e] / unit)) > 1e-10 * f->length[e]) return 0;
+  for (int e = 0; e < frame->n_edges; e++)
+    if (fabs(frame->length[e] - unit * round(frame->length[e] / unit)) > 1e-10 * frame->length[e]) return 0;
   return unit;
 }
 
-int thr_cord_start(const thr_frame *f, const thr_cord *c)
+int thr_cord_start(const thr_frame *frame, const thr_cord *cord)
 {
-  return thr_tail(f, c->half[0]);
+  return thr_tail(frame, cord->half[0]);
 }
 
-int thr_cord_end(const thr_frame *f, const thr_cord *c)
+int thr_cord_end(const thr_frame *frame, const thr_cord *cord)
 {
-  return thr_head(f, c->half[c->n_passes - 1]);
+  return thr_head(frame, cord->half[cord->n_passes - 1]);
 }
 
-double thr_cord_length(const thr_frame *f, const thr_cord *c)
+double thr_cord_length(const thr_frame *frame, const thr_cord *cord)
 {
   double sum = 0;
-  for (int i = 0; i < c->n_passes; i++)
-    sum += f->length[c->half[i] >> 1];
+  for (int i = 0; i < cord->n_passes; i++)
+    sum += frame->length[cord->half[i] >> 1];
   return sum;
 }
 
-double thr_turn_angle(const thr_frame *f, int in, int out)
+double thr_turn_angle(const thr_frame *frame, int in, int out)
 {
   double a[3], b[3];
-  thr_direction(f, in, a);
-  thr_direction(f, out, b);
+  thr_direction(frame, in, a);
+  thr_direction(frame, out, b);
   return thr_angle_between(a, b);
 }
 
-double thr_cord_turning(const thr_frame *f, const thr_cord *c, bool with_closure)
+double thr_cord_turning(const thr_frame *frame, const thr_cord *cord, bool with_closure)
 {
   double sum = 0;
-  for (int i = 0; i + 1 < c->n_passes; i++)
-    sum += thr_turn_angle(f, c->half[i], c->half[i + 1]);
-  if (with_closure && c->closed) sum += thr_turn_angle(f, c->half[c->n_passes - 1], c->half[0]);
+  for (int i = 0; i + 1 < cord->n_passes; i++)
+    sum += thr_turn_angle(frame, cord->half[i], cord->half[i + 1]);
+  if (with_closure && cord->closed) sum += thr_turn_angle(frame, cord->half[cord->n_passes - 1], cord->half[0]);
   return sum;
 }
 
-int thr_cord_turns(const thr_plan_options *o, const thr_cord *c)
+int thr_cord_turns(const thr_plan_options *options, const thr_cord *cord)
 {
-  return o->ends == THR_ENDS_CLOSED ? c->n_passes : c->n_passes - 1;
+  return options->ends == THR_ENDS_CLOSED ? cord->n_passes : cord->n_passes - 1;
 }
 
 bool thr_turn_over(double turn, double angle)
@@ -161,54 +161,55 @@ bool thr_turn_over(double turn, double angle)
   return turn > angle + 1e-9;
 }
 
-int thr_plan_turns_over(const thr_plan *p, double angle)
+int thr_plan_turns_over(const thr_plan *plan, double angle)
 {
   int n = 0;
-  for (int i = 0; i < p->n_cords; i++) {
-    const thr_cord *c = &p->cord[i];
-    for (int k = 0; k < thr_cord_turns(&p->options, c); k++)
-      n += thr_turn_over(thr_turn_angle(&p->frame, c->half[k], c->half[(k + 1) % c->n_passes]), angle);
+  for (int i = 0; i < plan->n_cords; i++) {
+    const thr_cord *cord = &plan->cord[i];
+    for (int k = 0; k < thr_cord_turns(&plan->options, cord); k++)
+      n += thr_turn_over(thr_turn_angle(&plan->frame, cord->half[k], cord->half[(k + 1) % cord->n_passes]), angle);
   }
   return n;
 }
 
-double thr_cord_price(const thr_frame *f, const thr_plan_options *o, const thr_cord *c)
+double thr_cord_price(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord)
 {
   double sum = 0;
-  for (int k = 0; k < thr_cord_turns(o, c); k++)
-    sum += thr_turn_price(f, o->turning.cost, c->half[k], c->half[(k + 1) % c->n_passes]);
+  for (int k = 0; k < thr_cord_turns(options, cord); k++)
+    sum += thr_turn_price(frame, options->turning.cost, cord->half[k], cord->half[(k + 1) % cord->n_passes]);
   return sum;
 }
 
-static void measure_cord(const thr_frame *f, const thr_plan_options *o, const thr_cord *c, int *passes, thr_metrics *m)
+static void measure_cord(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord, int *passes,
+                         thr_metrics *metrics)
 {
-  double turning = thr_cord_turning(f, c, o->ends == THR_ENDS_CLOSED);
-  m->length += thr_cord_length(f, c);
-  m->passes += c->n_passes;
-  m->turning += turning;
-  if (turning > m->max_turning) m->max_turning = turning;
-  for (int i = 0; i < c->n_passes; i++)
-    if (++passes[c->half[i] >> 1] > m->most_passes) m->most_passes = passes[c->half[i] >> 1];
-  for (int i = 0; i < thr_cord_turns(o, c); i++) {
-    int next = c->half[(i + 1) % c->n_passes];
-    double angle = thr_turn_angle(f, c->half[i], next);
-    if (angle > m->worst_turn) m->worst_turn = angle;
-    if (next == (c->half[i] ^ 1)) m->u_turns++;
+  double turning = thr_cord_turning(frame, cord, options->ends == THR_ENDS_CLOSED);
+  metrics->length += thr_cord_length(frame, cord);
+  metrics->passes += cord->n_passes;
+  metrics->turning += turning;
+  if (turning > metrics->max_turning) metrics->max_turning = turning;
+  for (int i = 0; i < cord->n_passes; i++)
+    if (++passes[cord->half[i] >> 1] > metrics->most_passes) metrics->most_passes = passes[cord->half[i] >> 1];
+  for (int i = 0; i < thr_cord_turns(options, cord); i++) {
+    int next = cord->half[(i + 1) % cord->n_passes];
+    double angle = thr_turn_angle(frame, cord->half[i], next);
+    if (angle > metrics->worst_turn) metrics->worst_turn = angle;
+    if (next == (cord->half[i] ^ 1)) metrics->u_turns++;
   }
 }
 
-thr_status thr_plan_measure(const thr_frame *f, const thr_plan_options *o, const thr_cord *cord, int n_cords, thr_metrics *m,
-                            thr_err *err)
+thr_status thr_plan_measure(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord, int n_cords,
+                            thr_metrics *metrics, thr_err *err)
 {
-  *m = (thr_metrics){0};
-  int *passes = thr_calloc((size_t)f->n_edges, sizeof *passes);
+  *metrics = (thr_metrics){0};
+  int *passes = thr_calloc((size_t)frame->n_edges, sizeof *passes);
   if (!passes) return thr_nomem(err);
   for (int i = 0; i < n_cords; i++)
-    measure_cord(f, o, &cord[i], passes, m);
-  for (int e = 0; e < f->n_edges; e++) {
-    int cover = thr_plan_cover(f, o, e);
-    m->base_length += cover * f->length[e];
-    m->overlap += (passes[e] - cover) * f->length[e]; /* not a difference of two sums: exactly 0 without overlap */
+    measure_cord(frame, options, &cord[i], passes, metrics);
+  for (int e = 0; e < frame->n_edges; e++) {
+    int cover = thr_plan_cover(frame, options, e);
+    metrics->base_length += cover * frame->length[e];
+    metrics->overlap += (passes[e] - cover) * frame->length[e]; /* not a difference of two sums: exactly 0 without overlap */
   }
   free(passes);
   return THR_OK;

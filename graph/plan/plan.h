@@ -107,7 +107,7 @@ typedef struct thr_symmetry_record {
   int unique_paths; /* number of different values of unique */
 } thr_symmetry_record;
 
-void thr_symmetry_record_destroy(thr_symmetry_record *r);
+void thr_symmetry_record_destroy(thr_symmetry_record *record);
 
 typedef struct {
   double length;      /* of all cords, in units */
@@ -135,11 +135,12 @@ typedef struct {
   thr_turning_claim turning;
 } thr_plan;
 
-void thr_plan_destroy(thr_plan *p);
+void thr_plan_destroy(thr_plan *plan);
 void thr_cords_destroy(thr_cord *cord, int n); /* cord[n] and their half arrays; NULL ok */
 
 /* Copies framework and options into an empty plan. */
-thr_status thr_plan_request(thr_plan *p, const thr_frame *f, const thr_plan_options *o, thr_err *err) THR_MUST_CHECK;
+thr_status thr_plan_request(thr_plan *plan, const thr_frame *framework, const thr_plan_options *wishes,
+                            thr_err *err) THR_MUST_CHECK;
 void thr_cord_id(int i, char id[12]); /* 0 -> "A", 25 -> "Z", 26 -> "AA" */
 void thr_certificate_destroy(thr_certificate *c);
 
@@ -147,40 +148,40 @@ int thr_length_proof_cuts(const thr_length_proof *proof); /* odd cuts, or odd se
 
 /* The longest step that every edge is a whole number of, as is every cord then, within 1e-10 of it; 0: none of a thousandth of
  * the longest edge or more. O(edges). */
-double thr_plan_unit(const thr_frame *f);
+double thr_plan_unit(const thr_frame *framework);
 /* First and last node of a cord (equal for a closed one). */
-int thr_cord_start(const thr_frame *f, const thr_cord *c);
-int thr_cord_end(const thr_frame *f, const thr_cord *c);
-double thr_cord_length(const thr_frame *f, const thr_cord *c);
+int thr_cord_start(const thr_frame *framework, const thr_cord *c);
+int thr_cord_end(const thr_frame *framework, const thr_cord *c);
+double thr_cord_length(const thr_frame *framework, const thr_cord *c);
 
 /* Turning angle in rad between arriving over half-edge in and leaving over half-edge out (head(in) = tail(out)):
  * 0 = straight on, pi = U-turn. */
-double thr_turn_angle(const thr_frame *f, int in, int out);
+double thr_turn_angle(const thr_frame *framework, int in, int out);
 
 /* Sum of the turning angles inside a cord, rad; with_closure adds the turn between a closed cord's last and first pass. */
-double thr_cord_turning(const thr_frame *f, const thr_cord *c, bool with_closure);
+double thr_cord_turning(const thr_frame *framework, const thr_cord *c, bool with_closure);
 
 /* Turns of a cord that count: with THR_ENDS_CLOSED as many as passes (the last one closes it), else one less. Turn k goes from
  * pass k to pass k + 1 (or 0). */
-int thr_cord_turns(const thr_plan_options *o, const thr_cord *c);
+int thr_cord_turns(const thr_plan_options *wishes, const thr_cord *c);
 
 /* Is a turn sharper than angle (both in rad), by more than 1e-9? */
 bool thr_turn_over(double turn, double angle);
 
 /* Turns of all cords that are sharper than angle (rad). */
-int thr_plan_turns_over(const thr_plan *p, double angle);
+int thr_plan_turns_over(const thr_plan *plan, double angle);
 
 /* Price of the turns of a cord. */
-double thr_cord_price(const thr_frame *f, const thr_plan_options *o, const thr_cord *c);
+double thr_cord_price(const thr_frame *framework, const thr_plan_options *wishes, const thr_cord *c);
 
 /* Computes metrics from frame, options (cover, ends) and cords alone. */
-thr_status thr_plan_measure(const thr_frame *f, const thr_plan_options *o, const thr_cord *cord, int n_cords, thr_metrics *m,
-                            thr_err *err) THR_MUST_CHECK;
+thr_status thr_plan_measure(const thr_frame *framework, const thr_plan_options *wishes, const thr_cord *cord, int n_cords,
+                            thr_metrics *m, thr_err *err) THR_MUST_CHECK;
 
 /* JSON of a plan; and back. Errors are "name: place: what": THR_EINPUT for what is not a plan at all, THR_EVIOLATED for
  * cords, metrics and proofs that contradict the framework (a pass whose edge does not join its two nodes). */
-void thr_plan_write(const thr_plan *p, thr_text *out);
-thr_status thr_plan_read(thr_plan *p, const char *path, thr_err *err) THR_MUST_CHECK;
-thr_status thr_plan_parse(thr_plan *p, const char *text, size_t n, const char *name, thr_err *err) THR_MUST_CHECK;
+void thr_plan_write(const thr_plan *plan, thr_text *out);
+thr_status thr_plan_read(thr_plan *plan, const char *path, thr_err *err) THR_MUST_CHECK;
+thr_status thr_plan_parse(thr_plan *plan, const char *text, size_t n, const char *name, thr_err *err) THR_MUST_CHECK;
 
 #endif

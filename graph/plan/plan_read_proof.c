@@ -15,167 +15,173 @@ static const char *status_name(int i)
   return i ? "optimal" : "bound";
 }
 
-static thr_status read_cut(const thr_field_reader *r, const thr_json *v, int i, int n_cuts, const thr_frame *f, thr_cut *cut)
+static thr_status read_cut(const thr_field_reader *field_reader, const thr_json *value, int i, int n_cuts, const thr_frame *frame,
+                           thr_cut *cut)
 {
   static const char *const known[] = {"value", "nodes", "parent", NULL};
   const thr_json *nodes;
-  thr_status st = thr_field_only(r, v, "proof.length.certificate.cuts", known);
+  thr_status st = thr_field_only(field_reader, value, "proof.length.certificate.cuts", known);
   if (!st)
-    st = thr_field_int64(r, v, "value", INT64_MIN, INT64_MAX, &cut->value); /* the checker says what a negative one means */
+    st = thr_field_int64(field_reader, value, "value", INT64_MIN, INT64_MAX,
+                         &cut->value); /* the checker says what a negative one means */
   cut->parent = -1;
-  if (!st && thr_json_get(v, "parent")) st = thr_field_int(r, v, "parent", i + 1, n_cuts - 1, &cut->parent);
-  if (!st) st = thr_field_need(r, v, "nodes", THR_JSON_ARRAY, &nodes);
+  if (!st && thr_json_get(value, "parent")) st = thr_field_int(field_reader, value, "parent", i + 1, n_cuts - 1, &cut->parent);
+  if (!st) st = thr_field_need(field_reader, value, "nodes", THR_JSON_ARRAY, &nodes);
   if (st) return st;
   int n = thr_json_size(nodes);
-  if (!(cut->node = thr_calloc((size_t)n, sizeof *cut->node))) return thr_nomem(r->err);
+  if (!(cut->node = thr_calloc((size_t)n, sizeof *cut->node))) return thr_nomem(field_reader->err);
   cut->n_nodes = n;
   for (int j = 0; j < n; j++)
-    if ((st = thr_field_index(r, nodes, j, f->n_nodes, "proof.length.certificate: cuts: nodes", &cut->node[j]))) return st;
+    if ((st = thr_field_index(field_reader, nodes, j, frame->n_nodes, "proof.length.certificate: cuts: nodes", &cut->node[j])))
+      return st;
   return THR_OK;
 }
 
-static thr_status read_prices(const thr_field_reader *r, const thr_json *v, thr_certificate *c)
+static thr_status read_prices(const thr_field_reader *field_reader, const thr_json *value, thr_certificate *certificate)
 {
   const thr_json *list;
-  thr_status st = thr_field_need(r, v, "place_prices", THR_JSON_ARRAY, &list);
+  thr_status st = thr_field_need(field_reader, value, "place_prices", THR_JSON_ARRAY, &list);
   if (st) return st;
   int n = thr_json_size(list);
-  if (!(c->place_price = thr_calloc((size_t)n, sizeof *c->place_price))) return thr_nomem(r->err);
-  c->n_prices = n;
+  if (!(certificate->place_price = thr_calloc((size_t)n, sizeof *certificate->place_price))) return thr_nomem(field_reader->err);
+  certificate->n_prices = n;
   for (int i = 0; i < n; i++)
-    if (!thr_json_int(thr_json_at(list, i), &c->place_price[i])) /* the checker says what a negative one means */
-      return thr_field_bad(r, "proof.length.certificate: place_prices", "not all are integers");
+    if (!thr_json_int(thr_json_at(list, i), &certificate->place_price[i])) /* the checker says what a negative one means */
+      return thr_field_bad(field_reader, "proof.length.certificate: place_prices", "not all are integers");
   return THR_OK;
 }
 
-static thr_status read_certificate(const thr_field_reader *r, const thr_json *v, const thr_frame *f, thr_certificate *c)
+static thr_status read_certificate(const thr_field_reader *field_reader, const thr_json *value, const thr_frame *frame,
+                                   thr_certificate *certificate)
 {
   static const char *const known[] = {"component", "scale", "denominator",  "end_price", "join",
                                       "sum",       "cuts",  "place_prices", NULL};
   const thr_json *cuts;
-  thr_status st = thr_field_only(r, v, "proof.length.certificate", known);
-  if (!st) st = thr_field_int(r, v, "component", 0, f->n_nodes - 1, &c->component);
-  if (!st) st = thr_field_double(r, v, "scale", &c->scale);
-  if (!st) st = thr_field_int64(r, v, "denominator", 1, INT64_C(1) << 40, &c->denominator);
-  if (!st) st = thr_field_int64(r, v, "end_price", 0, INT64_MAX, &c->end_price);
-  if (!st) st = thr_field_int64(r, v, "join", 0, INT64_C(1) << 60, &c->join);
-  if (!st) st = thr_field_int64(r, v, "sum", 0, INT64_MAX, &c->sum);
-  if (!st && thr_json_get(v, "place_prices")) st = read_prices(r, v, c);
-  if (!st) st = thr_field_need(r, v, "cuts", THR_JSON_ARRAY, &cuts);
+  thr_status st = thr_field_only(field_reader, value, "proof.length.certificate", known);
+  if (!st) st = thr_field_int(field_reader, value, "component", 0, frame->n_nodes - 1, &certificate->component);
+  if (!st) st = thr_field_double(field_reader, value, "scale", &certificate->scale);
+  if (!st) st = thr_field_int64(field_reader, value, "denominator", 1, INT64_C(1) << 40, &certificate->denominator);
+  if (!st) st = thr_field_int64(field_reader, value, "end_price", 0, INT64_MAX, &certificate->end_price);
+  if (!st) st = thr_field_int64(field_reader, value, "join", 0, INT64_C(1) << 60, &certificate->join);
+  if (!st) st = thr_field_int64(field_reader, value, "sum", 0, INT64_MAX, &certificate->sum);
+  if (!st && thr_json_get(value, "place_prices")) st = read_prices(field_reader, value, certificate);
+  if (!st) st = thr_field_need(field_reader, value, "cuts", THR_JSON_ARRAY, &cuts);
   if (st) return st;
   int n = thr_json_size(cuts);
-  if (!(c->cut = thr_calloc((size_t)n, sizeof *c->cut))) return thr_nomem(r->err);
-  c->n_cuts = n;
+  if (!(certificate->cut = thr_calloc((size_t)n, sizeof *certificate->cut))) return thr_nomem(field_reader->err);
+  certificate->n_cuts = n;
   for (int i = 0; i < n; i++)
-    if ((st = read_cut(r, thr_json_at(cuts, i), i, n, f, &c->cut[i]))) return st;
+    if ((st = read_cut(field_reader, thr_json_at(cuts, i), i, n, frame, &certificate->cut[i]))) return st;
   return THR_OK;
 }
 
-static thr_status get_status(const thr_field_reader *r, const thr_json *v, const char *place, bool *optimal)
+static thr_status get_status(const thr_field_reader *field_reader, const thr_json *value, const char *place, bool *optimal)
 {
   int status;
-  thr_status st = thr_field_name(r, v, place, "status", 2, status_name, &status);
+  thr_status st = thr_field_name(field_reader, value, place, "status", 2, status_name, &status);
   *optimal = status == 1;
   return st;
 }
 
 /* "open", or nothing: then the limit on the length that the options set is one that is proved. */
-static thr_status read_slack(const thr_field_reader *r, const thr_json *v, bool *open)
+static thr_status read_slack(const thr_field_reader *field_reader, const thr_json *value, bool *open)
 {
-  const thr_json *slack = thr_json_get(v, "slack");
+  const thr_json *slack = thr_json_get(value, "slack");
   const char *word = thr_json_string(slack);
-  if (slack && (!word || strcmp(word, "open") != 0)) return thr_field_bad(r, "proof.length.slack", "not \"open\"");
+  if (slack && (!word || strcmp(word, "open") != 0)) return thr_field_bad(field_reader, "proof.length.slack", "not \"open\"");
   *open = slack != NULL;
   return THR_OK;
 }
 
-static thr_status read_length_proof(const thr_field_reader *r, const thr_json *v, const thr_frame *f, thr_length_proof *proof)
+static thr_status read_length_proof(const thr_field_reader *field_reader, const thr_json *value, const thr_frame *frame,
+                                    thr_length_proof *proof)
 {
   static const char *const solid[] = {"status", "lower_bound", "slack", "gap", "method", "certificate", NULL};
   static const char *const tube[] = {"status", "lower_bound", "slack", "gap", "method", "proof", NULL};
-  const thr_json *list, *tied = thr_json_get(v, "proof");
-  thr_status st = thr_field_only(r, v, "proof.length", tied ? tube : solid);
-  if (!st) st = get_status(r, v, "proof.length", &proof->optimal);
-  if (!st) st = thr_field_amount(r, v, "lower_bound", &proof->lower_bound);
-  if (!st) st = read_slack(r, v, &proof->slack_open);
-  if (!st) st = thr_field_amount(r, v, "gap", &proof->gap);
+  const thr_json *list, *tied = thr_json_get(value, "proof");
+  thr_status st = thr_field_only(field_reader, value, "proof.length", tied ? tube : solid);
+  if (!st) st = get_status(field_reader, value, "proof.length", &proof->optimal);
+  if (!st) st = thr_field_amount(field_reader, value, "lower_bound", &proof->lower_bound);
+  if (!st) st = read_slack(field_reader, value, &proof->slack_open);
+  if (!st) st = thr_field_amount(field_reader, value, "gap", &proof->gap);
   if (!st) proof->present = true;
   if (!st && tied) {
     char place[256];
-    snprintf(place, sizeof place, "%s: proof.length.proof", r->name);
-    return thr_turning_proof_from_json(&proof->tied, f, tied, place, r->err);
+    snprintf(place, sizeof place, "%s: proof.length.proof", field_reader->name);
+    return thr_turning_proof_from_json(&proof->tied, frame, tied, place, field_reader->err);
   }
-  if (!st) st = thr_field_need(r, v, "certificate", THR_JSON_ARRAY, &list);
+  if (!st) st = thr_field_need(field_reader, value, "certificate", THR_JSON_ARRAY, &list);
   if (st) return st;
   int n = thr_json_size(list);
-  if (!(proof->certificate = thr_calloc((size_t)n, sizeof *proof->certificate))) return thr_nomem(r->err);
+  if (!(proof->certificate = thr_calloc((size_t)n, sizeof *proof->certificate))) return thr_nomem(field_reader->err);
   proof->n_certificates = n;
   for (int i = 0; i < n; i++)
-    if ((st = read_certificate(r, thr_json_at(list, i), f, &proof->certificate[i]))) return st;
+    if ((st = read_certificate(field_reader, thr_json_at(list, i), frame, &proof->certificate[i]))) return st;
   return THR_OK;
 }
 
-static thr_status read_largest(const thr_field_reader *r, const thr_json *o, thr_turning_claim *c)
+static thr_status read_largest(const thr_field_reader *field_reader, const thr_json *object, thr_turning_claim *claim)
 {
   static const char *const known[] = {"status", "price", "lower_bound", NULL};
-  const thr_json *v;
-  thr_status st = thr_field_need(r, o, "largest", THR_JSON_OBJECT, &v);
-  if (!st) st = thr_field_only(r, v, "proof.turning.largest", known);
-  if (!st) st = get_status(r, v, "proof.turning.largest", &c->largest_optimal);
-  if (!st) st = thr_field_amount(r, v, "price", &c->largest);
-  if (!st) st = thr_field_amount(r, v, "lower_bound", &c->largest_bound);
+  const thr_json *value;
+  thr_status st = thr_field_need(field_reader, object, "largest", THR_JSON_OBJECT, &value);
+  if (!st) st = thr_field_only(field_reader, value, "proof.turning.largest", known);
+  if (!st) st = get_status(field_reader, value, "proof.turning.largest", &claim->largest_optimal);
+  if (!st) st = thr_field_amount(field_reader, value, "price", &claim->largest);
+  if (!st) st = thr_field_amount(field_reader, value, "lower_bound", &claim->largest_bound);
   return st;
 }
 
-static thr_status read_turning_claim(const thr_field_reader *r, const thr_json *v, const thr_frame *f, thr_turning_claim *c)
+static thr_status read_turning_claim(const thr_field_reader *field_reader, const thr_json *value, const thr_frame *frame,
+                                     thr_turning_claim *claim)
 {
   static const char *const known[] = {"status",       "price",  "lower_bound", "gap", "pairing_bound", "largest", "most_passes",
                                       "length_limit", "method", "proof",       NULL};
   char place[256];
-  thr_status st = thr_field_only(r, v, "proof.turning", known);
-  if (!st) st = get_status(r, v, "proof.turning", &c->optimal);
-  if (!st) st = thr_field_amount(r, v, "price", &c->price);
-  if (!st) st = thr_field_amount(r, v, "lower_bound", &c->lower_bound);
-  if (!st) st = thr_field_amount(r, v, "gap", &c->gap);
-  if (!st) st = thr_field_amount(r, v, "pairing_bound", &c->pairing_bound);
-  if (!st) st = read_largest(r, v, c);
-  if (!st) st = thr_field_int(r, v, "most_passes", 1, INT32_MAX, &c->most_passes);
-  if (!st) st = thr_field_or_null(r, v, "length_limit", &c->length_limit);
+  thr_status st = thr_field_only(field_reader, value, "proof.turning", known);
+  if (!st) st = get_status(field_reader, value, "proof.turning", &claim->optimal);
+  if (!st) st = thr_field_amount(field_reader, value, "price", &claim->price);
+  if (!st) st = thr_field_amount(field_reader, value, "lower_bound", &claim->lower_bound);
+  if (!st) st = thr_field_amount(field_reader, value, "gap", &claim->gap);
+  if (!st) st = thr_field_amount(field_reader, value, "pairing_bound", &claim->pairing_bound);
+  if (!st) st = read_largest(field_reader, value, claim);
+  if (!st) st = thr_field_int(field_reader, value, "most_passes", 1, INT32_MAX, &claim->most_passes);
+  if (!st) st = thr_field_or_null(field_reader, value, "length_limit", &claim->length_limit);
   if (st) return st;
-  snprintf(place, sizeof place, "%.200s: proof.turning.proof", r->name);
-  c->present = true;
-  return thr_turning_proof_from_json(&c->tree, f, thr_json_get(v, "proof"), place, r->err);
+  snprintf(place, sizeof place, "%.200s: proof.turning.proof", field_reader->name);
+  claim->present = true;
+  return thr_turning_proof_from_json(&claim->tree, frame, thr_json_get(value, "proof"), place, field_reader->err);
 }
 
-static thr_status read_cords_claim(const thr_field_reader *r, const thr_json *o, thr_cords_claim *c)
+static thr_status read_cords_claim(const thr_field_reader *field_reader, const thr_json *object, thr_cords_claim *claim)
 {
   static const char *const known[] = {"longest", "fewest", NULL}, *const of_longest[] = {"status", "length", "lower_bound", NULL},
                            *const of_fewest[] = {"status", "lower_bound", NULL};
-  const thr_json *longest, *fewest = thr_json_get(o, "fewest");
-  thr_status st = thr_field_only(r, o, "proof.cords", known);
-  if (!st) st = thr_field_need(r, o, "longest", THR_JSON_OBJECT, &longest);
-  if (!st) st = thr_field_only(r, longest, "proof.cords.longest", of_longest);
-  if (!st) st = get_status(r, longest, "proof.cords.longest", &c->longest_optimal);
-  if (!st) st = thr_field_amount(r, longest, "length", &c->longest);
-  if (!st) st = thr_field_amount(r, longest, "lower_bound", &c->longest_bound);
-  if (!st) c->present = true;
+  const thr_json *longest, *fewest = thr_json_get(object, "fewest");
+  thr_status st = thr_field_only(field_reader, object, "proof.cords", known);
+  if (!st) st = thr_field_need(field_reader, object, "longest", THR_JSON_OBJECT, &longest);
+  if (!st) st = thr_field_only(field_reader, longest, "proof.cords.longest", of_longest);
+  if (!st) st = get_status(field_reader, longest, "proof.cords.longest", &claim->longest_optimal);
+  if (!st) st = thr_field_amount(field_reader, longest, "length", &claim->longest);
+  if (!st) st = thr_field_amount(field_reader, longest, "lower_bound", &claim->longest_bound);
+  if (!st) claim->present = true;
   if (st || !fewest) return st;
-  st = thr_field_only(r, fewest, "proof.cords.fewest", of_fewest);
-  if (!st) st = get_status(r, fewest, "proof.cords.fewest", &c->fewest_optimal);
-  return st ? st : thr_field_int(r, fewest, "lower_bound", 1, INT32_MAX, &c->fewest);
+  st = thr_field_only(field_reader, fewest, "proof.cords.fewest", of_fewest);
+  if (!st) st = get_status(field_reader, fewest, "proof.cords.fewest", &claim->fewest_optimal);
+  return st ? st : thr_field_int(field_reader, fewest, "lower_bound", 1, INT32_MAX, &claim->fewest);
 }
 
 /* A proof says that nothing with the plan's options is better: one of turning goes with the objective that asks for it. */
-thr_status thr_plan_read_proofs(const thr_field_reader *r, const thr_json *doc, thr_plan *p)
+thr_status thr_plan_read_proofs(const thr_field_reader *field_reader, const thr_json *doc, thr_plan *plan)
 {
   static const char *const of_length[] = {"length", "cords", NULL}, *const of_turning[] = {"length", "cords", "turning", NULL};
   const thr_json *all;
-  thr_status st = thr_field_need(r, doc, "proof", THR_JSON_OBJECT, &all);
-  if (!st) st = thr_field_only(r, all, "proof", thr_wants_turning(&p->options) ? of_turning : of_length);
+  thr_status st = thr_field_need(field_reader, doc, "proof", THR_JSON_OBJECT, &all);
+  if (!st) st = thr_field_only(field_reader, all, "proof", thr_wants_turning(&plan->options) ? of_turning : of_length);
   const thr_json *length = thr_json_get(all, "length"), *turning = thr_json_get(all, "turning"),
                  *cords = thr_json_get(all, "cords");
-  if (!st && length) st = read_length_proof(r, length, &p->frame, &p->proof);
-  if (!st && cords) st = read_cords_claim(r, cords, &p->cords_claim);
-  if (!st && turning) st = read_turning_claim(r, turning, &p->frame, &p->turning);
+  if (!st && length) st = read_length_proof(field_reader, length, &plan->frame, &plan->proof);
+  if (!st && cords) st = read_cords_claim(field_reader, cords, &plan->cords_claim);
+  if (!st && turning) st = read_turning_claim(field_reader, turning, &plan->frame, &plan->turning);
   return st;
 }

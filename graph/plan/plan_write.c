@@ -9,304 +9,305 @@
 #include "graph/text.h"
 
 /* A number that means nothing below 0. */
-static void put_or_null(thr_writer *w, const char *key, double value)
+static void put_or_null(thr_writer *writer, const char *key, double value)
 {
   if (value < 0)
-    thr_write_null(w, key);
+    thr_write_null(writer, key);
   else
-    thr_write_number(w, key, value);
+    thr_write_number(writer, key, value);
 }
 
 /* A line of its own for the next member of the plan. */
-static void put_line(thr_writer *w)
+static void put_line(thr_writer *writer)
 {
-  thr_write_line(w, 0);
+  thr_write_line(writer, 0);
 }
 
 /* ---- the framework ---- */
 
-static void put_marked(thr_writer *w, const char *key, const bool *mark, int n)
+static void put_marked(thr_writer *writer, const char *key, const bool *mark, int n)
 {
-  thr_write_row(w, key);
+  thr_write_row(writer, key);
   for (int v = 0; v < n; v++)
-    if (mark[v]) thr_write_int(w, NULL, v);
-  thr_write_close(w);
+    if (mark[v]) thr_write_int(writer, NULL, v);
+  thr_write_close(writer);
 }
 
 /* Covers or capacities; a capacity of 0 is none. */
-static void put_passes(thr_writer *w, const char *key, const int *passes, int n)
+static void put_passes(thr_writer *writer, const char *key, const int *passes, int n)
 {
-  thr_write_line(w, 2);
-  thr_write_row(w, key);
+  thr_write_line(writer, 2);
+  thr_write_row(writer, key);
   for (int e = 0; e < n; e++)
     if (passes[e] > 0)
-      thr_write_int(w, NULL, passes[e]);
+      thr_write_int(writer, NULL, passes[e]);
     else
-      thr_write_null(w, NULL);
-  thr_write_close(w);
+      thr_write_null(writer, NULL);
+  thr_write_close(writer);
 }
 
-static void put_nodes(thr_writer *w, const thr_frame *f)
+static void put_nodes(thr_writer *writer, const thr_frame *frame)
 {
-  thr_write_line(w, 2);
-  thr_write_array(w, "nodes");
-  for (int v = 0; v < f->n_nodes; v++) {
-    thr_write_line(w, 4);
-    thr_write_row(w, NULL);
+  thr_write_line(writer, 2);
+  thr_write_array(writer, "nodes");
+  for (int v = 0; v < frame->n_nodes; v++) {
+    thr_write_line(writer, 4);
+    thr_write_row(writer, NULL);
     for (int i = 0; i < 3; i++)
-      thr_write_number(w, NULL, f->xyz[v][i]);
-    thr_write_close(w);
+      thr_write_number(writer, NULL, frame->xyz[v][i]);
+    thr_write_close(writer);
   }
-  thr_write_line(w, 2);
-  thr_write_close(w);
+  thr_write_line(writer, 2);
+  thr_write_close(writer);
 }
 
-static void put_edges(thr_writer *w, const thr_frame *f)
+static void put_edges(thr_writer *writer, const thr_frame *frame)
 {
-  thr_write_line(w, 2);
-  thr_write_row(w, "edges");
-  for (int e = 0; e < f->n_edges; e++) {
-    if (e && e % 12 == 0) thr_write_line(w, 4);
-    thr_write_ints(w, NULL, f->edge[e], 2);
+  thr_write_line(writer, 2);
+  thr_write_row(writer, "edges");
+  for (int e = 0; e < frame->n_edges; e++) {
+    if (e && e % 12 == 0) thr_write_line(writer, 4);
+    thr_write_ints(writer, NULL, frame->edge[e], 2);
   }
-  thr_write_close(w);
+  thr_write_close(writer);
 }
 
-static void put_lengths(thr_writer *w, const thr_frame *f)
+static void put_lengths(thr_writer *writer, const thr_frame *frame)
 {
-  thr_write_line(w, 2);
-  thr_write_row(w, "lengths");
-  for (int e = 0; e < f->n_edges; e++)
-    thr_write_number(w, NULL, f->length[e]);
-  thr_write_close(w);
+  thr_write_line(writer, 2);
+  thr_write_row(writer, "lengths");
+  for (int e = 0; e < frame->n_edges; e++)
+    thr_write_number(writer, NULL, frame->length[e]);
+  thr_write_close(writer);
 }
 
-static void put_names(thr_writer *w, const thr_frame *f)
+static void put_names(thr_writer *writer, const thr_frame *frame)
 {
-  thr_write_line(w, 2);
-  thr_write_row(w, "names");
-  for (int v = 0; v < f->n_nodes; v++)
-    thr_write_string(w, NULL, f->name[v]);
-  thr_write_close(w);
+  thr_write_line(writer, 2);
+  thr_write_row(writer, "names");
+  for (int v = 0; v < frame->n_nodes; v++)
+    thr_write_string(writer, NULL, frame->name[v]);
+  thr_write_close(writer);
 }
 
-static void put_frame(thr_writer *w, const thr_frame *f)
+static void put_frame(thr_writer *writer, const thr_frame *frame)
 {
-  put_line(w);
-  thr_write_object(w, "framework");
-  thr_write_line(w, 2);
-  thr_write_string(w, "units", f->units);
-  thr_write_line(w, 2);
-  thr_write_hash(w, "hash", thr_frame_hash(f));
-  put_nodes(w, f);
-  put_edges(w, f);
-  if (f->own_lengths) put_lengths(w, f);
-  if (f->cover) put_passes(w, "covers", f->cover, f->n_edges);
-  if (f->capacity) put_passes(w, "capacities", f->capacity, f->n_edges);
-  if (!thr_frame_names_are_indices(f)) put_names(w, f);
-  thr_write_line(w, 2);
-  put_marked(w, "feet", f->foot, f->n_nodes);
-  put_line(w);
-  thr_write_close(w);
+  put_line(writer);
+  thr_write_object(writer, "framework");
+  thr_write_line(writer, 2);
+  thr_write_string(writer, "units", frame->units);
+  thr_write_line(writer, 2);
+  thr_write_hash(writer, "hash", thr_frame_hash(frame));
+  put_nodes(writer, frame);
+  put_edges(writer, frame);
+  if (frame->own_lengths) put_lengths(writer, frame);
+  if (frame->cover) put_passes(writer, "covers", frame->cover, frame->n_edges);
+  if (frame->capacity) put_passes(writer, "capacities", frame->capacity, frame->n_edges);
+  if (!thr_frame_names_are_indices(frame)) put_names(writer, frame);
+  thr_write_line(writer, 2);
+  put_marked(writer, "feet", frame->foot, frame->n_nodes);
+  put_line(writer);
+  thr_write_close(writer);
 }
 
 /* ---- options ---- */
 
-static void put_turning_options(thr_writer *w, const thr_plan_options *asked)
+static void put_turning_options(thr_writer *writer, const thr_plan_options *asked)
 {
-  const thr_turning_options *o = &asked->turning;
-  thr_write_object(w, "turning");
-  thr_write_string(w, "cost", thr_turn_cost_name(o->cost));
-  put_or_null(w, "length_slack", o->length_slack);
-  thr_write_string(w, "minimize", thr_minimize_name(thr_wants_largest(asked)));
-  thr_write_string(w, "tour", thr_tour_name(o->tour));
-  thr_write_string(w, "pairings", thr_pairings_name(o->ignore_pairings));
-  thr_write_close(w);
-  thr_write_line(w, 2);
+  const thr_turning_options *options = &asked->turning;
+  thr_write_object(writer, "turning");
+  thr_write_string(writer, "cost", thr_turn_cost_name(options->cost));
+  put_or_null(writer, "length_slack", options->length_slack);
+  thr_write_string(writer, "minimize", thr_minimize_name(thr_wants_largest(asked)));
+  thr_write_string(writer, "tour", thr_tour_name(options->tour));
+  thr_write_string(writer, "pairings", thr_pairings_name(options->ignore_pairings));
+  thr_write_close(writer);
+  thr_write_line(writer, 2);
 }
 
-static void put_symmetry_options(thr_writer *w, const thr_plan_options *asked)
+static void put_symmetry_options(thr_writer *writer, const thr_plan_options *asked)
 {
-  const thr_symmetry_options *o = &asked->symmetry;
+  const thr_symmetry_options *options = &asked->symmetry;
   thr_aim order[THR_N_AIMS];
   thr_aims_order(asked, order);
-  thr_write_object(w, "symmetry");
-  if (o->group[0])
-    thr_write_string(w, "group", o->group);
+  thr_write_object(writer, "symmetry");
+  if (options->group[0])
+    thr_write_string(writer, "group", options->group);
   else
-    thr_write_null(w, "group");
-  put_or_null(w, "geometric", o->geometric);
-  thr_write_array(w, "prefer");
+    thr_write_null(writer, "group");
+  put_or_null(writer, "geometric", options->geometric);
+  thr_write_array(writer, "prefer");
   for (int i = 0; i < THR_N_AIMS; i++)
-    thr_write_string(w, NULL, thr_aim_name(order[i]));
-  thr_write_close(w);
-  thr_write_close(w);
-  thr_write_line(w, 2);
+    thr_write_string(writer, NULL, thr_aim_name(order[i]));
+  thr_write_close(writer);
+  thr_write_close(writer);
+  thr_write_line(writer, 2);
 }
 
 /* Where cord ends may be, or how many there are. */
-static void put_ends(thr_writer *w, const thr_plan *p)
+static void put_ends(thr_writer *writer, const thr_plan *plan)
 {
-  const thr_plan_options *o = &p->options;
-  thr_write_string(w, "ends", thr_ends_name(o->ends));
-  if (o->ends == THR_ENDS_NODES) put_marked(w, "end_nodes", o->end_node, p->frame.n_nodes);
-  if (o->ends != THR_ENDS_COUNTS) return;
-  thr_write_row(w, "end_counts");
-  for (int v = 0; v < p->frame.n_nodes; v++)
-    if (o->end_count[v]) thr_write_ints(w, NULL, (const int[]){v, o->end_count[v]}, 2);
-  thr_write_close(w);
+  const thr_plan_options *options = &plan->options;
+  thr_write_string(writer, "ends", thr_ends_name(options->ends));
+  if (options->ends == THR_ENDS_NODES) put_marked(writer, "end_nodes", options->end_node, plan->frame.n_nodes);
+  if (options->ends != THR_ENDS_COUNTS) return;
+  thr_write_row(writer, "end_counts");
+  for (int v = 0; v < plan->frame.n_nodes; v++)
+    if (options->end_count[v]) thr_write_ints(writer, NULL, (const int[]){v, options->end_count[v]}, 2);
+  thr_write_close(writer);
 }
 
-static void put_number_of_cords(thr_writer *w, const thr_plan_options *o)
+static void put_number_of_cords(thr_writer *writer, const thr_plan_options *options)
 {
-  if (o->cords_least == o->cords) {
-    thr_write_int(w, "cords", o->cords);
+  if (options->cords_least == options->cords) {
+    thr_write_int(writer, "cords", options->cords);
     return;
   }
-  thr_write_object(w, "cords");
-  thr_write_int(w, "least", o->cords_least);
-  thr_write_int(w, "most", o->cords);
-  thr_write_close(w);
+  thr_write_object(writer, "cords");
+  thr_write_int(writer, "least", options->cords_least);
+  thr_write_int(writer, "most", options->cords);
+  thr_write_close(writer);
 }
 
-static void put_options(thr_writer *w, const thr_plan *p)
+static void put_options(thr_writer *writer, const thr_plan *plan)
 {
-  const thr_plan_options *o = &p->options;
-  put_line(w);
-  thr_write_object(w, "options");
-  thr_write_string(w, "objective", thr_objective_name(thr_aims_objective(o)));
-  thr_write_string(w, "joint", thr_joint_name(o->joint));
-  thr_write_int(w, "cover", o->cover);
-  if (o->capacity > 0) thr_write_int(w, "capacity", o->capacity);
-  put_number_of_cords(w, o);
-  if (o->max_length > 0) thr_write_number(w, "max_length", o->max_length);
-  if (thr_wants_balance(o)) thr_write_bool(w, "balance", true);
-  put_ends(w, p);
-  if (thr_wants_turning(o)) put_turning_options(w, o);
-  if (thr_wants_symmetry(o)) put_symmetry_options(w, o);
-  if (o->engine != THR_ENGINE_AUTO) thr_write_string(w, "engine", thr_engine_name(o->engine));
-  if (thr_wants_length(o) && o->confirm != THR_CONFIRM_AUTO) thr_write_string(w, "confirm", thr_confirm_name(o->confirm));
-  thr_write_number(w, "time_limit", o->time_limit);
-  thr_write_line(w, 2);
-  thr_physics_write(&o->physics, w, "physics");
-  thr_write_close(w);
+  const thr_plan_options *options = &plan->options;
+  put_line(writer);
+  thr_write_object(writer, "options");
+  thr_write_string(writer, "objective", thr_objective_name(thr_aims_objective(options)));
+  thr_write_string(writer, "joint", thr_joint_name(options->joint));
+  thr_write_int(writer, "cover", options->cover);
+  if (options->capacity > 0) thr_write_int(writer, "capacity", options->capacity);
+  put_number_of_cords(writer, options);
+  if (options->max_length > 0) thr_write_number(writer, "max_length", options->max_length);
+  if (thr_wants_balance(options)) thr_write_bool(writer, "balance", true);
+  put_ends(writer, plan);
+  if (thr_wants_turning(options)) put_turning_options(writer, options);
+  if (thr_wants_symmetry(options)) put_symmetry_options(writer, options);
+  if (options->engine != THR_ENGINE_AUTO) thr_write_string(writer, "engine", thr_engine_name(options->engine));
+  if (thr_wants_length(options) && options->confirm != THR_CONFIRM_AUTO)
+    thr_write_string(writer, "confirm", thr_confirm_name(options->confirm));
+  thr_write_number(writer, "time_limit", options->time_limit);
+  thr_write_line(writer, 2);
+  thr_physics_write(&options->physics, writer, "physics");
+  thr_write_close(writer);
 }
 
 /* ---- cords ---- */
 
-static void put_cord(thr_writer *w, const thr_frame *f, const thr_cord *c)
+static void put_cord(thr_writer *writer, const thr_frame *frame, const thr_cord *cord)
 {
-  thr_write_line(w, 2);
-  thr_write_object(w, NULL);
-  thr_write_string(w, "id", c->id);
-  thr_write_int(w, "component", c->component);
-  thr_write_bool(w, "closed", c->closed);
-  thr_write_line(w, 3);
-  thr_write_row(w, "nodes");
-  thr_write_int(w, NULL, thr_cord_start(f, c));
-  for (int k = 0; k < c->n_passes; k++)
-    thr_write_int(w, NULL, thr_head(f, c->half[k]));
-  thr_write_close(w);
-  thr_write_line(w, 3);
-  thr_write_row(w, "edges");
-  for (int k = 0; k < c->n_passes; k++)
-    thr_write_int(w, NULL, c->half[k] >> 1);
-  thr_write_close(w);
-  thr_write_close(w);
+  thr_write_line(writer, 2);
+  thr_write_object(writer, NULL);
+  thr_write_string(writer, "id", cord->id);
+  thr_write_int(writer, "component", cord->component);
+  thr_write_bool(writer, "closed", cord->closed);
+  thr_write_line(writer, 3);
+  thr_write_row(writer, "nodes");
+  thr_write_int(writer, NULL, thr_cord_start(frame, cord));
+  for (int k = 0; k < cord->n_passes; k++)
+    thr_write_int(writer, NULL, thr_head(frame, cord->half[k]));
+  thr_write_close(writer);
+  thr_write_line(writer, 3);
+  thr_write_row(writer, "edges");
+  for (int k = 0; k < cord->n_passes; k++)
+    thr_write_int(writer, NULL, cord->half[k] >> 1);
+  thr_write_close(writer);
+  thr_write_close(writer);
 }
 
-static void put_cords(thr_writer *w, const thr_plan *p)
+static void put_cords(thr_writer *writer, const thr_plan *plan)
 {
-  put_line(w);
-  thr_write_array(w, "cords");
-  for (int i = 0; i < p->n_cords; i++)
-    put_cord(w, &p->frame, &p->cord[i]);
-  put_line(w);
-  thr_write_close(w);
+  put_line(writer);
+  thr_write_array(writer, "cords");
+  for (int i = 0; i < plan->n_cords; i++)
+    put_cord(writer, &plan->frame, &plan->cord[i]);
+  put_line(writer);
+  thr_write_close(writer);
 }
 
-static void put_images(thr_writer *w, const char *key, const int *image, int n, int n_nodes)
+static void put_images(thr_writer *writer, const char *key, const int *image, int n, int n_nodes)
 {
-  thr_write_line(w, 2);
-  thr_write_array(w, key);
+  thr_write_line(writer, 2);
+  thr_write_array(writer, key);
   for (int i = 0; i < n; i++) {
-    thr_write_line(w, 4);
-    thr_write_ints(w, NULL, image + (size_t)i * (size_t)n_nodes, n_nodes);
+    thr_write_line(writer, 4);
+    thr_write_ints(writer, NULL, image + (size_t)i * (size_t)n_nodes, n_nodes);
   }
-  thr_write_close(w);
+  thr_write_close(writer);
 }
 
-static void put_symmetry(thr_writer *w, const thr_plan *p)
+static void put_symmetry(thr_writer *writer, const thr_plan *plan)
 {
-  const thr_symmetry_record *r = &p->symmetry;
-  put_line(w);
-  thr_write_object(w, "symmetry");
-  thr_write_int(w, "order", r->order);
-  thr_write_string(w, "name", r->name);
-  put_images(w, "generators", r->generator, r->n_generators, p->frame.n_nodes);
-  put_images(w, "images", r->image, r->n_images, p->frame.n_nodes);
-  thr_write_line(w, 2);
-  thr_write_array(w, "cords");
-  for (int i = 0; i < p->n_cords; i++) {
-    if (i && i % 4 == 0) thr_write_line(w, 4);
-    thr_write_object(w, NULL);
-    thr_write_int(w, "of", r->unique[i]);
-    thr_write_int(w, "image", r->element[i]);
-    thr_write_close(w);
+  const thr_symmetry_record *record = &plan->symmetry;
+  put_line(writer);
+  thr_write_object(writer, "symmetry");
+  thr_write_int(writer, "order", record->order);
+  thr_write_string(writer, "name", record->name);
+  put_images(writer, "generators", record->generator, record->n_generators, plan->frame.n_nodes);
+  put_images(writer, "images", record->image, record->n_images, plan->frame.n_nodes);
+  thr_write_line(writer, 2);
+  thr_write_array(writer, "cords");
+  for (int i = 0; i < plan->n_cords; i++) {
+    if (i && i % 4 == 0) thr_write_line(writer, 4);
+    thr_write_object(writer, NULL);
+    thr_write_int(writer, "of", record->unique[i]);
+    thr_write_int(writer, "image", record->element[i]);
+    thr_write_close(writer);
   }
-  thr_write_close(w);
-  thr_write_line(w, 2);
-  thr_write_number(w, "steps", r->steps);
-  thr_write_int(w, "unique_paths", r->unique_paths);
-  thr_write_close(w);
+  thr_write_close(writer);
+  thr_write_line(writer, 2);
+  thr_write_number(writer, "steps", record->steps);
+  thr_write_int(writer, "unique_paths", record->unique_paths);
+  thr_write_close(writer);
 }
 
-static void put_metrics(thr_writer *w, const thr_metrics *m)
+static void put_metrics(thr_writer *writer, const thr_metrics *metrics)
 {
-  put_line(w);
-  thr_write_object(w, "metrics");
-  thr_write_number(w, "length", m->length);
-  thr_write_number(w, "base_length", m->base_length);
-  thr_write_number(w, "overlap", m->overlap);
-  thr_write_int(w, "passes", m->passes);
-  thr_write_int(w, "most_passes", m->most_passes);
-  thr_write_line(w, 2);
-  thr_write_number(w, "turning", m->turning);
-  thr_write_number(w, "max_turning", m->max_turning);
-  thr_write_number(w, "worst_turn", m->worst_turn);
-  thr_write_int(w, "u_turns", m->u_turns);
-  thr_write_close(w);
+  put_line(writer);
+  thr_write_object(writer, "metrics");
+  thr_write_number(writer, "length", metrics->length);
+  thr_write_number(writer, "base_length", metrics->base_length);
+  thr_write_number(writer, "overlap", metrics->overlap);
+  thr_write_int(writer, "passes", metrics->passes);
+  thr_write_int(writer, "most_passes", metrics->most_passes);
+  thr_write_line(writer, 2);
+  thr_write_number(writer, "turning", metrics->turning);
+  thr_write_number(writer, "max_turning", metrics->max_turning);
+  thr_write_number(writer, "worst_turn", metrics->worst_turn);
+  thr_write_int(writer, "u_turns", metrics->u_turns);
+  thr_write_close(writer);
 }
 
 /* ---- proofs ---- */
 
-static void put_certificate(thr_writer *w, const thr_certificate *c)
+static void put_certificate(thr_writer *writer, const thr_certificate *certificate)
 {
-  thr_write_object(w, NULL);
-  thr_write_int(w, "component", c->component);
-  thr_write_number(w, "scale", c->scale);
-  thr_write_int(w, "denominator", c->denominator);
-  thr_write_int(w, "end_price", c->end_price);
-  thr_write_int(w, "join", c->join);
-  thr_write_int(w, "sum", c->sum);
-  if (c->n_prices) {
-    thr_write_array(w, "place_prices");
-    for (int i = 0; i < c->n_prices; i++)
-      thr_write_int(w, NULL, c->place_price[i]);
-    thr_write_close(w);
+  thr_write_object(writer, NULL);
+  thr_write_int(writer, "component", certificate->component);
+  thr_write_number(writer, "scale", certificate->scale);
+  thr_write_int(writer, "denominator", certificate->denominator);
+  thr_write_int(writer, "end_price", certificate->end_price);
+  thr_write_int(writer, "join", certificate->join);
+  thr_write_int(writer, "sum", certificate->sum);
+  if (certificate->n_prices) {
+    thr_write_array(writer, "place_prices");
+    for (int i = 0; i < certificate->n_prices; i++)
+      thr_write_int(writer, NULL, certificate->place_price[i]);
+    thr_write_close(writer);
   }
-  thr_write_line(w, 4);
-  thr_write_array(w, "cuts");
-  for (int k = 0; k < c->n_cuts; k++) {
-    thr_write_line(w, 6);
-    thr_write_object(w, NULL);
-    thr_write_int(w, "value", c->cut[k].value);
-    thr_write_ints(w, "nodes", c->cut[k].node, c->cut[k].n_nodes);
-    if (c->cut[k].parent >= 0) thr_write_int(w, "parent", c->cut[k].parent);
-    thr_write_close(w);
+  thr_write_line(writer, 4);
+  thr_write_array(writer, "cuts");
+  for (int k = 0; k < certificate->n_cuts; k++) {
+    thr_write_line(writer, 6);
+    thr_write_object(writer, NULL);
+    thr_write_int(writer, "value", certificate->cut[k].value);
+    thr_write_ints(writer, "nodes", certificate->cut[k].node, certificate->cut[k].n_nodes);
+    if (certificate->cut[k].parent >= 0) thr_write_int(writer, "parent", certificate->cut[k].parent);
+    thr_write_close(writer);
   }
-  thr_write_close(w);
-  thr_write_close(w);
+  thr_write_close(writer);
+  thr_write_close(writer);
 }
 
 static const char *status_name(bool optimal)
@@ -314,107 +315,107 @@ static const char *status_name(bool optimal)
   return optimal ? "optimal" : "bound";
 }
 
-static void put_length_proof(thr_writer *w, const thr_plan *p)
+static void put_length_proof(thr_writer *writer, const thr_plan *plan)
 {
-  const thr_length_proof *proof = &p->proof;
-  const bool tube = p->options.joint == THR_JOINT_TUBE;
-  thr_write_object(w, "length");
-  thr_write_string(w, "status", status_name(proof->optimal));
-  thr_write_number(w, "lower_bound", proof->lower_bound);
-  if (proof->slack_open) thr_write_string(w, "slack", "open");
-  thr_write_number(w, "gap", proof->gap);
-  thr_write_line(w, 2);
-  thr_write_string(w, "method",
+  const thr_length_proof *proof = &plan->proof;
+  const bool tube = plan->options.joint == THR_JOINT_TUBE;
+  thr_write_object(writer, "length");
+  thr_write_string(writer, "status", status_name(proof->optimal));
+  thr_write_number(writer, "lower_bound", proof->lower_bound);
+  if (proof->slack_open) thr_write_string(writer, "slack", "open");
+  thr_write_number(writer, "gap", proof->gap);
+  thr_write_line(writer, 2);
+  thr_write_string(writer, "method",
                    tube ? "multipliers of odd sets and junctions over a tree of branchings"
                         : "odd-cut packing (Edmonds & Johnson 1973)");
-  thr_write_line(w, 2);
+  thr_write_line(writer, 2);
   if (tube) {
-    thr_turning_proof_write(&proof->tied, &p->frame, w, "proof");
+    thr_turning_proof_write(&proof->tied, &plan->frame, writer, "proof");
   } else {
-    thr_write_array(w, "certificate");
+    thr_write_array(writer, "certificate");
     for (int i = 0; i < proof->n_certificates; i++) {
-      thr_write_line(w, 4);
-      put_certificate(w, &proof->certificate[i]);
+      thr_write_line(writer, 4);
+      put_certificate(writer, &proof->certificate[i]);
     }
-    thr_write_line(w, 2);
-    thr_write_close(w);
+    thr_write_line(writer, 2);
+    thr_write_close(writer);
   }
-  thr_write_close(w);
+  thr_write_close(writer);
 }
 
-static void put_turning_proof(thr_writer *w, const thr_plan *p)
+static void put_turning_proof(thr_writer *writer, const thr_plan *plan)
 {
-  const thr_turning_claim *c = &p->turning;
-  thr_write_object(w, "turning");
-  thr_write_string(w, "status", status_name(c->optimal));
-  thr_write_number(w, "price", c->price);
-  thr_write_number(w, "lower_bound", c->lower_bound);
-  thr_write_number(w, "gap", c->gap);
-  thr_write_number(w, "pairing_bound", c->pairing_bound);
-  thr_write_line(w, 2);
-  thr_write_object(w, "largest");
-  thr_write_string(w, "status", status_name(c->largest_optimal));
-  thr_write_number(w, "price", c->largest);
-  thr_write_number(w, "lower_bound", c->largest_bound);
-  thr_write_close(w);
-  thr_write_line(w, 2);
-  thr_write_int(w, "most_passes", c->most_passes);
-  put_or_null(w, "length_limit", c->length_limit);
-  thr_write_line(w, 2);
-  thr_write_string(w, "method", "multipliers of odd sets, groups and partitions over a tree of branchings");
-  thr_write_line(w, 2);
-  thr_turning_proof_write(&c->tree, &p->frame, w, "proof");
-  thr_write_close(w);
+  const thr_turning_claim *claim = &plan->turning;
+  thr_write_object(writer, "turning");
+  thr_write_string(writer, "status", status_name(claim->optimal));
+  thr_write_number(writer, "price", claim->price);
+  thr_write_number(writer, "lower_bound", claim->lower_bound);
+  thr_write_number(writer, "gap", claim->gap);
+  thr_write_number(writer, "pairing_bound", claim->pairing_bound);
+  thr_write_line(writer, 2);
+  thr_write_object(writer, "largest");
+  thr_write_string(writer, "status", status_name(claim->largest_optimal));
+  thr_write_number(writer, "price", claim->largest);
+  thr_write_number(writer, "lower_bound", claim->largest_bound);
+  thr_write_close(writer);
+  thr_write_line(writer, 2);
+  thr_write_int(writer, "most_passes", claim->most_passes);
+  put_or_null(writer, "length_limit", claim->length_limit);
+  thr_write_line(writer, 2);
+  thr_write_string(writer, "method", "multipliers of odd sets, groups and partitions over a tree of branchings");
+  thr_write_line(writer, 2);
+  thr_turning_proof_write(&claim->tree, &plan->frame, writer, "proof");
+  thr_write_close(writer);
 }
 
-static void put_cords_claim(thr_writer *w, const thr_cords_claim *c)
+static void put_cords_claim(thr_writer *writer, const thr_cords_claim *claim)
 {
-  thr_write_object(w, "cords");
-  thr_write_object(w, "longest");
-  thr_write_string(w, "status", status_name(c->longest_optimal));
-  thr_write_number(w, "length", c->longest);
-  thr_write_number(w, "lower_bound", c->longest_bound);
-  thr_write_close(w);
-  if (c->fewest > 0) {
-    thr_write_object(w, "fewest");
-    thr_write_string(w, "status", status_name(c->fewest_optimal));
-    thr_write_int(w, "lower_bound", c->fewest);
-    thr_write_close(w);
+  thr_write_object(writer, "cords");
+  thr_write_object(writer, "longest");
+  thr_write_string(writer, "status", status_name(claim->longest_optimal));
+  thr_write_number(writer, "length", claim->longest);
+  thr_write_number(writer, "lower_bound", claim->longest_bound);
+  thr_write_close(writer);
+  if (claim->fewest > 0) {
+    thr_write_object(writer, "fewest");
+    thr_write_string(writer, "status", status_name(claim->fewest_optimal));
+    thr_write_int(writer, "lower_bound", claim->fewest);
+    thr_write_close(writer);
   }
-  thr_write_close(w);
+  thr_write_close(writer);
 }
 
-static void put_proofs(thr_writer *w, const thr_plan *p)
+static void put_proofs(thr_writer *writer, const thr_plan *plan)
 {
-  put_line(w);
-  thr_write_object(w, "proof");
-  if (p->proof.present) put_length_proof(w, p);
-  if (p->proof.present && p->cords_claim.present) thr_write_line(w, 2);
-  if (p->cords_claim.present) put_cords_claim(w, &p->cords_claim);
-  if ((p->proof.present || p->cords_claim.present) && p->turning.present) thr_write_line(w, 2);
-  if (p->turning.present) put_turning_proof(w, p);
-  thr_write_close(w);
+  put_line(writer);
+  thr_write_object(writer, "proof");
+  if (plan->proof.present) put_length_proof(writer, plan);
+  if (plan->proof.present && plan->cords_claim.present) thr_write_line(writer, 2);
+  if (plan->cords_claim.present) put_cords_claim(writer, &plan->cords_claim);
+  if ((plan->proof.present || plan->cords_claim.present) && plan->turning.present) thr_write_line(writer, 2);
+  if (plan->turning.present) put_turning_proof(writer, plan);
+  thr_write_close(writer);
 }
 
-void thr_plan_write(const thr_plan *p, thr_text *t)
+void thr_plan_write(const thr_plan *plan, thr_text *text)
 {
-  thr_writer w = {.out = t};
-  thr_write_object(&w, NULL);
-  put_line(&w);
-  thr_write_string(&w, "format", "thread-plan");
-  put_line(&w);
-  thr_write_int(&w, "version", 1);
-  put_line(&w);
-  thr_write_string(&w, "generator", p->generator ? p->generator : "");
-  put_frame(&w, &p->frame);
-  put_options(&w, p);
-  put_cords(&w, p);
-  if (p->symmetry.present) put_symmetry(&w, p);
-  put_metrics(&w, &p->metrics);
-  put_line(&w);
-  if (p->evaluation.present) thr_evaluation_write(&p->evaluation, &w, "evaluation");
-  put_proofs(&w, p);
-  put_line(&w);
-  thr_write_close(&w);
-  thr_text_append(t, "\n");
+  thr_writer writer = {.out = text};
+  thr_write_object(&writer, NULL);
+  put_line(&writer);
+  thr_write_string(&writer, "format", "thread-plan");
+  put_line(&writer);
+  thr_write_int(&writer, "version", 1);
+  put_line(&writer);
+  thr_write_string(&writer, "generator", plan->generator ? plan->generator : "");
+  put_frame(&writer, &plan->frame);
+  put_options(&writer, plan);
+  put_cords(&writer, plan);
+  if (plan->symmetry.present) put_symmetry(&writer, plan);
+  put_metrics(&writer, &plan->metrics);
+  put_line(&writer);
+  if (plan->evaluation.present) thr_evaluation_write(&plan->evaluation, &writer, "evaluation");
+  put_proofs(&writer, plan);
+  put_line(&writer);
+  thr_write_close(&writer);
+  thr_text_append(text, "\n");
 }

@@ -29,50 +29,50 @@ thr_aims thr_aims_of(thr_objective objective)
   return objective == THR_SYMMETRY ? thr_aims_symmetric : objective == THR_TORTUOSITY ? thr_aims_straightest : thr_aims_shortest;
 }
 
-bool thr_aims_have(const thr_plan_options *o, thr_aim aim)
+bool thr_aims_have(const thr_plan_options *options, thr_aim aim)
 {
-  for (int i = 0; i < o->aims.n; i++)
-    if (o->aims.aim[i] == aim) return true;
+  for (int i = 0; i < options->aims.n; i++)
+    if (options->aims.aim[i] == aim) return true;
   return false;
 }
 
-thr_objective thr_aims_objective(const thr_plan_options *o)
+thr_objective thr_aims_objective(const thr_plan_options *options)
 {
-  if (thr_aims_have(o, THR_AIM_STEPS) || thr_aims_have(o, THR_AIM_PATHS)) return THR_SYMMETRY;
-  return thr_aims_have(o, THR_AIM_TURNING) || thr_aims_have(o, THR_AIM_MAX_TURNING) ? THR_TORTUOSITY : THR_LENGTH;
+  if (thr_aims_have(options, THR_AIM_STEPS) || thr_aims_have(options, THR_AIM_PATHS)) return THR_SYMMETRY;
+  return thr_aims_have(options, THR_AIM_TURNING) || thr_aims_have(options, THR_AIM_MAX_TURNING) ? THR_TORTUOSITY : THR_LENGTH;
 }
 
-bool thr_wants_length(const thr_plan_options *o)
+bool thr_wants_length(const thr_plan_options *options)
 {
-  return thr_aims_objective(o) == THR_LENGTH;
+  return thr_aims_objective(options) == THR_LENGTH;
 }
 
-bool thr_wants_turning(const thr_plan_options *o)
+bool thr_wants_turning(const thr_plan_options *options)
 {
-  return thr_aims_objective(o) == THR_TORTUOSITY;
+  return thr_aims_objective(options) == THR_TORTUOSITY;
 }
 
-bool thr_wants_symmetry(const thr_plan_options *o)
+bool thr_wants_symmetry(const thr_plan_options *options)
 {
-  return thr_aims_objective(o) == THR_SYMMETRY;
+  return thr_aims_objective(options) == THR_SYMMETRY;
 }
 
-bool thr_wants_balance(const thr_plan_options *o)
+bool thr_wants_balance(const thr_plan_options *options)
 {
-  return thr_aims_have(o, THR_AIM_LONGEST);
+  return thr_aims_have(options, THR_AIM_LONGEST);
 }
 
-bool thr_wants_largest(const thr_plan_options *o)
+bool thr_wants_largest(const thr_plan_options *options)
 {
-  return thr_aims_have(o, THR_AIM_MAX_TURNING);
+  return thr_aims_have(options, THR_AIM_MAX_TURNING);
 }
 
-void thr_aims_order(const thr_plan_options *o, thr_aim order[THR_N_AIMS])
+void thr_aims_order(const thr_plan_options *options, thr_aim order[THR_N_AIMS])
 {
   bool taken[THR_N_AIMS] = {false};
   int n = 0;
-  for (int i = 0; i < o->aims.n; i++) {
-    thr_aim aim = o->aims.aim[i];
+  for (int i = 0; i < options->aims.n; i++) {
+    thr_aim aim = options->aims.aim[i];
     if (aim < THR_N_AIMS) taken[order[n++] = aim] = true;
   }
   for (int aim = 0; aim < THR_N_AIMS; aim++)
@@ -167,14 +167,14 @@ static void rename_aim(list *l, thr_aim from, thr_aim to)
   l->named[from] = false;
 }
 
-static thr_status settle_symmetric(list *l, thr_plan_options *o, thr_err *err)
+static thr_status settle_symmetric(list *l, thr_plan_options *options, thr_err *err)
 {
   if (l->named[THR_AIM_LONGEST] || l->named[THR_AIM_MAX_TURNING])
     return thr_fail(err, THR_EINPUT, "symmetric plans, which steps and paths ask for, do not know longest and max-turning");
   if (l->priced) return thr_fail(err, THR_EINPUT, "of symmetric plans the turning is that of its angles: no cost of turns");
   rename_aim(l, THR_AIM_LENGTH, THR_AIM_OVERLAP);
-  o->aims = l->aims;
-  thr_aims_order(o, l->aims.aim);
+  options->aims = l->aims;
+  thr_aims_order(options, l->aims.aim);
   l->aims.n = THR_N_AIMS;
   return THR_OK;
 }
@@ -199,7 +199,7 @@ static thr_status settle_length(list *l, thr_err *err)
   return THR_OK;
 }
 
-static thr_status settle(list *l, thr_plan_options *o, thr_err *err)
+static thr_status settle(list *l, thr_plan_options *options, thr_err *err)
 {
   bool symmetric = l->named[THR_AIM_STEPS] || l->named[THR_AIM_PATHS];
   bool turning = !symmetric && (l->named[THR_AIM_TURNING] || l->named[THR_AIM_MAX_TURNING]);
@@ -207,35 +207,35 @@ static thr_status settle(list *l, thr_plan_options *o, thr_err *err)
     return thr_fail(err, THR_EINPUT, "length and overlap are the same aim");
   if (l->limited && !turning)
     return thr_fail(err, THR_EINPUT, "length+%g%%: cord beyond the least length is for turning or max-turning", 100 * l->slack);
-  if (symmetric) return settle_symmetric(l, o, err);
+  if (symmetric) return settle_symmetric(l, options, err);
   rename_aim(l, THR_AIM_OVERLAP, THR_AIM_LENGTH);
   return turning ? settle_turning(l, err) : settle_length(l, err);
 }
 
-thr_status thr_aims_parse(const char *text, thr_plan_options *o, thr_err *err)
+thr_status thr_aims_parse(const char *text, thr_plan_options *options, thr_err *err)
 {
   list l = {.slack = -1};
-  thr_plan_options trial = *o;
+  thr_plan_options trial = *options;
   thr_status st = read_list(text, &l, err);
   if (!st) st = settle(&l, &trial, err);
   if (st) return st;
-  o->aims = l.aims;
-  o->turning.cost = l.cost;
-  o->turning.length_slack = l.slack;
+  options->aims = l.aims;
+  options->turning.cost = l.cost;
+  options->turning.length_slack = l.slack;
   return THR_OK;
 }
 
-void thr_aims_write(const thr_plan_options *o, thr_text *out)
+void thr_aims_write(const thr_plan_options *options, thr_text *out)
 {
-  bool turning = thr_wants_turning(o), limited = turning && o->turning.length_slack >= 0;
-  if (limited && o->turning.length_slack > 0)
-    thr_text_printf(out, "length+%.15g%%,", 100 * o->turning.length_slack);
+  bool turning = thr_wants_turning(options), limited = turning && options->turning.length_slack >= 0;
+  if (limited && options->turning.length_slack > 0)
+    thr_text_printf(out, "length+%.15g%%,", 100 * options->turning.length_slack);
   else if (limited)
     thr_text_append(out, "length,");
-  for (int i = 0; i < o->aims.n; i++) {
-    thr_text_printf(out, i ? ",%s" : "%s", thr_aim_name(o->aims.aim[i]));
-    if (turning && o->aims.aim[i] != THR_AIM_LONGEST && o->turning.cost != THR_TURN_ANGLE)
-      thr_text_printf(out, ":%s", thr_turn_cost_name(o->turning.cost));
+  for (int i = 0; i < options->aims.n; i++) {
+    thr_text_printf(out, i ? ",%s" : "%s", thr_aim_name(options->aims.aim[i]));
+    if (turning && options->aims.aim[i] != THR_AIM_LONGEST && options->turning.cost != THR_TURN_ANGLE)
+      thr_text_printf(out, ":%s", thr_turn_cost_name(options->turning.cost));
   }
 }
 
@@ -294,34 +294,34 @@ const char *thr_confirm_name(int c)
 
 /* ---- options and framework together ---- */
 
-bool thr_plan_within_slack(const thr_plan_options *o, double length, double least)
+bool thr_plan_within_slack(const thr_plan_options *options, double length, double least)
 {
-  bool asked = thr_wants_turning(o) && o->turning.length_slack >= 0;
-  return !asked || length <= (1 + o->turning.length_slack) * least * (1 + 2e-9);
+  bool asked = thr_wants_turning(options) && options->turning.length_slack >= 0;
+  return !asked || length <= (1 + options->turning.length_slack) * least * (1 + 2e-9);
 }
 
-int thr_plan_cords_least(const thr_plan_options *o)
+int thr_plan_cords_least(const thr_plan_options *options)
 {
-  return thr_wants_symmetry(o) ? 1 : o->cords_least;
+  return thr_wants_symmetry(options) ? 1 : options->cords_least;
 }
 
-int thr_plan_cover(const thr_frame *f, const thr_plan_options *o, int e)
+int thr_plan_cover(const thr_frame *frame, const thr_plan_options *options, int e)
 {
-  return f->cover && f->cover[e] > o->cover ? f->cover[e] : o->cover;
+  return frame->cover && frame->cover[e] > options->cover ? frame->cover[e] : options->cover;
 }
 
-int thr_plan_capacity(const thr_frame *f, const thr_plan_options *o, int e)
+int thr_plan_capacity(const thr_frame *frame, const thr_plan_options *options, int e)
 {
-  int own = f->capacity && f->capacity[e] > 0 ? f->capacity[e] : INT_MAX;
-  return o->capacity > 0 && o->capacity < own ? o->capacity : own;
+  int own = frame->capacity && frame->capacity[e] > 0 ? frame->capacity[e] : INT_MAX;
+  return options->capacity > 0 && options->capacity < own ? options->capacity : own;
 }
 
-bool thr_plan_end_allowed(const thr_frame *f, const thr_plan_options *o, int v)
+bool thr_plan_end_allowed(const thr_frame *frame, const thr_plan_options *options, int v)
 {
-  switch (o->ends) {
-  case THR_ENDS_FEET: return f->foot[v];
-  case THR_ENDS_NODES: return o->end_node[v];
-  case THR_ENDS_COUNTS: return o->end_count[v] > 0;
+  switch (options->ends) {
+  case THR_ENDS_FEET: return frame->foot[v];
+  case THR_ENDS_NODES: return options->end_node[v];
+  case THR_ENDS_COUNTS: return options->end_count[v] > 0;
   default: return true;
   }
 }

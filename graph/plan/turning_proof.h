@@ -42,7 +42,7 @@ double thr_turn_cost_of(thr_turn_cost cost, double angle);
 
 /* Price of arriving over half-edge in and leaving over half-edge out. For steps only this: angles near 90 degrees may round to
  * either side. */
-double thr_turn_price(const thr_frame *f, thr_turn_cost cost, int in, int out);
+double thr_turn_price(const thr_frame *frame, thr_turn_cost cost, int in, int out);
 
 /* What the least turning is asked among. */
 typedef struct {
@@ -61,17 +61,17 @@ typedef struct {
 } thr_turning_task;
 
 /* Passes of edge e at least, when every edge has cover: the framework may ask for more. */
-int thr_turning_cover(const thr_frame *f, int cover, int e);
+int thr_turning_cover(const thr_frame *frame, int cover, int e);
 
 /* The length of all passes that must be. */
-double thr_turning_base_length(const thr_frame *f, int cover);
+double thr_turning_base_length(const thr_frame *frame, int cover);
 
 /* Passes over any edge up to which the least turning is looked for, and proved: 4 * the largest cover + 4. */
-int thr_turning_most_passes(const thr_frame *f, int cover);
+int thr_turning_most_passes(const thr_frame *frame, int cover);
 
 /* extra_limit for a limit on the length of all cords (< 0 = none): a little more than the difference, so that no rounding shuts
  * out a plan of just that length. */
-double thr_turning_extra_limit(const thr_frame *f, int cover, double length_limit);
+double thr_turning_extra_limit(const thr_frame *frame, int cover, double length_limit);
 
 /* The columns of the model, numbered turns, extras, ends, backs. */
 typedef struct {
@@ -97,21 +97,21 @@ typedef struct {
 enum { THR_TURNING_BITS = 44, THR_LENGTH_BITS = 40 };
 
 /* THR_EINPUT for more columns than an int counts, or a task out of range. Memory: sum of the squares of the degrees. */
-thr_status thr_turning_columns_init(thr_turning_columns *c, const thr_frame *f, const thr_turning_task *task,
+thr_status thr_turning_columns_init(thr_turning_columns *turning_columns, const thr_frame *frame, const thr_turning_task *task,
                                     thr_err *err) THR_MUST_CHECK;
-void thr_turning_columns_destroy(thr_turning_columns *c);
+void thr_turning_columns_destroy(thr_turning_columns *turning_columns);
 
 /* Column of the turn between two half-edges that leave one node (a != b). */
-int thr_turning_column(const thr_turning_columns *c, int a, int b);
+int thr_turning_column(const thr_turning_columns *turning_columns, int a, int b);
 
 /* Has a component cord ends? O(nodes). */
-bool thr_turning_open(const thr_turning_columns *c, int component);
+bool thr_turning_open(const thr_turning_columns *turning_columns, int component);
 
 /* Largest value that a column takes in any plan. */
-int thr_turning_most(const thr_turning_columns *c, int column);
+int thr_turning_most(const thr_turning_columns *turning_columns, int column);
 
 /* Takes over a new extra_limit of the task. */
-void thr_turning_limit(thr_turning_columns *c);
+void thr_turning_limit(thr_turning_columns *turning_columns);
 
 /* A set with its multiplier, in units of 2^-THR_TURNING_BITS. */
 typedef struct {
@@ -135,12 +135,12 @@ typedef struct {
 
 /* At node v: how many blocks meet. *odd receives how many of them have an odd number of passes there as long as none is extra;
  * even[i] whether the i-th half-edge of v is in a block with an even number. O(degree^2). */
-int thr_turning_blocks_at(const thr_turning_columns *c, const int *block, int v, int *odd, bool *even);
+int thr_turning_blocks_at(const thr_turning_columns *turning_columns, const int *block, int v, int *odd, bool *even);
 
 /* Connections between the blocks that closed cords make at least: the sum over the components of max(0, blocks - cords).
  * -1: a block number is out of range or not in use, or a block lies in two components. scratch: [n_edges + n_components].
  * O(edges). */
-int thr_turning_connections(const thr_turning_columns *c, const int *block, int *scratch);
+int thr_turning_connections(const thr_turning_columns *turning_columns, const int *block, int *scratch);
 
 /* Multipliers at a leaf; units of 2^-THR_TURNING_BITS. All arrays are owned. */
 typedef struct {
@@ -154,7 +154,7 @@ typedef struct {
   thr_turning_junction *junction;
 } thr_turning_dual;
 
-void thr_turning_dual_destroy(thr_turning_dual *d);
+void thr_turning_dual_destroy(thr_turning_dual *turning_dual);
 
 /* A node of the tree: an inner one says that its column is at most value (low) or at least value + 1 (high). */
 typedef struct {
@@ -170,28 +170,28 @@ typedef struct {
   thr_turning_dual *dual; /* owned; ends [n_ends] */
 } thr_turning_proof;
 
-void thr_turning_proof_destroy(thr_turning_proof *p);
+void thr_turning_proof_destroy(thr_turning_proof *proof);
 
 /* Bound that multipliers prove while column j lies in [low[j], high[j]] (both NULL: 0 to thr_turning_most), in units of
  * 2^-THR_TURNING_BITS, rounded down; INT64_MAX if nothing does. On failure INT64_MIN: THR_EVIOLATED for a negative multiplier, an
  * index out of range, an even odd set, a group that need not be connected to the rest. O(columns + sum of the squares of the
  * degrees over the sets). */
-thr_status thr_turning_dual_bound(const thr_turning_columns *c, const thr_turning_dual *d, const int *low, const int *high,
-                                  int64_t *bound, thr_err *err) THR_MUST_CHECK;
+thr_status thr_turning_dual_bound(const thr_turning_columns *turning_columns, const thr_turning_dual *turning_dual,
+                                  const int *low, const int *high, int64_t *bound, thr_err *err) THR_MUST_CHECK;
 
 /* Checks the tree and all leaves; *bound is the price that no plan of the task undercuts (>= 0). Arrays come from a reader:
  * nothing in them is trusted. THR_EVIOLATED with the place. Each multipliers' bound once, and O(depth) for every leaf. */
-thr_status thr_turning_proof_check(const thr_frame *f, const thr_turning_task *task, const thr_turning_proof *p, double *bound,
-                                   thr_err *err) THR_MUST_CHECK;
+thr_status thr_turning_proof_check(const thr_frame *frame, const thr_turning_task *task, const thr_turning_proof *proof,
+                                   double *bound, thr_err *err) THR_MUST_CHECK;
 
 /* The same with the columns of the task at hand. */
-thr_status thr_turning_proof_check_columns(const thr_turning_columns *c, const thr_turning_proof *p, double *bound,
-                                           thr_err *err) THR_MUST_CHECK;
+thr_status thr_turning_proof_check_columns(const thr_turning_columns *turning_columns, const thr_turning_proof *proof,
+                                           double *bound, thr_err *err) THR_MUST_CHECK;
 
 /* JSON of a proof, one object; and back, strictly: unknown, missing or mistyped members and indices that the framework does not
  * have are THR_EVIOLATED, "place: what". Whether it proves anything is for thr_turning_proof_check. */
-void thr_turning_proof_write(const thr_turning_proof *p, const thr_frame *f, thr_writer *w, const char *key);
-thr_status thr_turning_proof_from_json(thr_turning_proof *p, const thr_frame *f, const thr_json *v, const char *place,
+void thr_turning_proof_write(const thr_turning_proof *proof, const thr_frame *frame, thr_writer *writer, const char *key);
+thr_status thr_turning_proof_from_json(thr_turning_proof *proof, const thr_frame *frame, const thr_json *v, const char *place,
                                        thr_err *err) THR_MUST_CHECK;
 
 #endif

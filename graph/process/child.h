@@ -27,6 +27,6 @@ thr_status thr_child_send(thr_sender *to, const thr_text *answer, thr_err *err) 
  * THR_ELIMIT. A child that dies is THR_ESOLVER. Whatever the status, *answer (empty before) holds what was sent last and arrived
  * whole, of length 0 if there is none; the caller frees it. What the child took of limits->work is taken here, unless it was
  * killed or died. */
-thr_status thr_child_run(const thr_child *c, const thr_limits *limits, thr_text *answer, thr_err *err) THR_MUST_CHECK;
+thr_status thr_child_run(const thr_child *child, const thr_limits *limits, thr_text *answer, thr_err *err) THR_MUST_CHECK;
 
 #endif

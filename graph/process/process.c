@@ -109,7 +109,7 @@ static bool open_pipes(int result[2], int words[2])
   return false;
 }
 
-thr_status thr_process_start(thr_process *p, bool (*run)(void *user, int fd), void *user, thr_err *err)
+thr_status thr_process_start(thr_process *process, bool (*run)(void *user, int fd), void *user, thr_err *err)
 {
   int result[2], words[2];
   sigset_t all, old;
@@ -129,7 +129,7 @@ thr_status thr_process_start(thr_process *p, bool (*run)(void *user, int fd), vo
   close(result[WRITE]);
   close(words[WRITE]);
   if (pid > 0) {
-    *p = (thr_process){.pid = pid, .pipe = result[READ], .words = words[READ]};
+    *process = (thr_process){.pid = pid, .pipe = result[READ], .words = words[READ]};
     return THR_OK;
   }
   close(result[READ]);
@@ -152,23 +152,23 @@ static void first_line(int words, char *line, size_t size)
 }
 
 /* Its wait status, or -1 if somebody else has waited for it. */
-static int reap(thr_process *p, char *line, size_t size)
+static int reap(thr_process *process, char *line, size_t size)
 {
   int status;
   pid_t got;
-  close(p->pipe);
-  while ((got = waitpid(p->pid, &status, 0)) < 0 && errno == EINTR)
+  close(process->pipe);
+  while ((got = waitpid(process->pid, &status, 0)) < 0 && errno == EINTR)
     continue;
-  first_line(p->words, line, size);
-  close(p->words);
-  *p = (thr_process){0};
+  first_line(process->words, line, size);
+  close(process->words);
+  *process = (thr_process){0};
   return got < 0 ? -1 : status;
 }
 
-thr_status thr_process_end(thr_process *p, const char *who, const char *advice, thr_err *err)
+thr_status thr_process_end(thr_process *process, const char *who, const char *advice, thr_err *err)
 {
   char line[200];
-  int status = reap(p, line, sizeof line);
+  int status = reap(process, line, sizeof line);
   const char *opening = *line ? " (it said: " : "", *closing = *line ? ")" : "", *comma = advice ? "; " : "";
   if (!advice) advice = "";
   if (status != -1 && WIFSIGNALED(status))
@@ -188,18 +188,18 @@ static double cpu_time(pid_t pid)
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-bool thr_process_stuck(thr_process *p)
+bool thr_process_stuck(thr_process *process)
 {
-  double cpu = cpu_time(p->pid);
-  p->looks = cpu == p->cpu ? p->looks + 1 : 0;
-  p->cpu = cpu;
-  return p->looks >= STUCK;
+  double cpu = cpu_time(process->pid);
+  process->looks = cpu == process->cpu ? process->looks + 1 : 0;
+  process->cpu = cpu;
+  return process->looks >= STUCK;
 }
 
-void thr_process_kill(thr_process *p)
+void thr_process_kill(thr_process *process)
 {
   char line[2];
-  if (!p->pid) return;
-  kill(p->pid, SIGKILL);
-  reap(p, line, sizeof line);
+  if (!process->pid) return;
+  kill(process->pid, SIGKILL);
+  reap(process, line, sizeof line);
 }

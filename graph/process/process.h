@@ -20,7 +20,7 @@ typedef struct {
 
 /* Forks. The child calls run(user, fd) and ends; nothing else of the program runs in it, neither buffered output nor exit
  * handlers of the parent. run returns whether its writing succeeded. THR_ESOLVER if the system gives no pipe or process. */
-thr_status thr_process_start(thr_process *p, bool (*run)(void *user, int fd), void *user, thr_err *err) THR_MUST_CHECK;
+thr_status thr_process_start(thr_process *process, bool (*run)(void *user, int fd), void *user, thr_err *err) THR_MUST_CHECK;
 
 /* Writes n bytes, in spite of signals. */
 bool thr_process_send(int fd, const char *data, size_t n);
@@ -39,18 +39,18 @@ bool thr_message_send(int fd, thr_message m, const char *bytes);
 ssize_t thr_messages_receive(int fd, thr_text *arrived, void (*take)(void *user, const thr_message *m, const char *bytes),
                              void *user);
 
-/* Waits for the end, closes the pipes and leaves *p empty. THR_ESOLVER if the child did not end by run returning true: the text
- * begins with `who`, says the signal and what was printed, and ends with `advice` (NULL: none). */
-thr_status thr_process_end(thr_process *p, const char *who, const char *advice, thr_err *err);
+/* Waits for the end, closes the pipes and leaves *process empty. THR_ESOLVER if the child did not end by run returning true: the
+ * text begins with `who`, says the signal and what was printed, and ends with `advice` (NULL: none). */
+thr_status thr_process_end(thr_process *process, const char *who, const char *advice, thr_err *err);
 
 /* In a child: it is killed when its parent dies, whose process it was told; at once if that is dead already. */
 void thr_process_die_with(pid_t parent);
 
 /* Has it slept for some 20 s of such calls, one every 0.1 s? A library that waits for itself, as GLib does where memory is out
  * while it holds a lock, never ends. */
-bool thr_process_stuck(thr_process *p);
+bool thr_process_stuck(thr_process *process);
 
 /* Ends it at once, whatever it does, and closes the pipes; nothing if there is no child. */
-void thr_process_kill(thr_process *p);
+void thr_process_kill(thr_process *process);
 
 #endif

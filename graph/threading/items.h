@@ -33,19 +33,19 @@ typedef struct {
 
 /* Component k, component[n_nodes], without capacities or cuts. With turning U-turns are only at nodes with one edge, with tube
  * joints nowhere. */
-thr_status thr_items_init(thr_items *p, const thr_frame *f, const thr_plan_options *o, const int *component, int k, bool turning,
-                          thr_err *err) THR_MUST_CHECK;
-void thr_items_destroy(thr_items *p);
+thr_status thr_items_init(thr_items *items, const thr_frame *frame, const thr_plan_options *options, const int *component, int k,
+                          bool turning, thr_err *err) THR_MUST_CHECK;
+void thr_items_destroy(thr_items *items);
 
 /* Makes the model. *small false: it has too many items. */
-thr_status thr_items_model(thr_items *p, bool *small, thr_err *err) THR_MUST_CHECK;
+thr_status thr_items_model(thr_items *items, bool *small, thr_err *err) THR_MUST_CHECK;
 
 /* The framework's half-edge that a state is. */
-int thr_items_half(const thr_items *p, int state);
+int thr_items_half(const thr_items *items, int state);
 
 /* Of walks of such a model, n_passes[i] states each. *keep: they keep the capacities and tie the nodes. Else what they miss
  * counts from now on; *more: there was something to add. */
-thr_status thr_items_refine(thr_items *p, int n_walks, int *const *state, const int *n_passes, bool *keep, bool *more,
+thr_status thr_items_refine(thr_items *items, int n_walks, int *const *state, const int *n_passes, bool *keep, bool *more,
                             thr_err *err) THR_MUST_CHECK;
 
 #endif

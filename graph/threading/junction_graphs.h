@@ -18,8 +18,9 @@ typedef struct {
 } thr_junction_graphs;
 
 /* The turns of the walks, with those that close cyclic ones. O(passes + sum of the squares of the degrees), also in memory. */
-thr_status thr_junction_graphs_init(thr_junction_graphs *t, const thr_frame *f, const thr_walks *w, thr_err *err) THR_MUST_CHECK;
-void thr_junction_graphs_destroy(thr_junction_graphs *t);
+thr_status thr_junction_graphs_init(thr_junction_graphs *graphs, const thr_frame *frame, const thr_walks *walks,
+                                    thr_err *err) THR_MUST_CHECK;
+void thr_junction_graphs_destroy(thr_junction_graphs *graphs);
 
 /* Turns that come and go; at most THR_MOST_CHANGED. */
 enum { THR_MOST_CHANGED = 16 };
@@ -32,10 +33,10 @@ typedef struct {
 } thr_turn_change;
 
 /* in or out < 0: a cord end, where nothing turns. */
-void thr_turn_change_note(thr_turn_change *c, int in, int out, int by);
+void thr_turn_change_note(thr_turn_change *change, int in, int out, int by);
 
 /* Does every node that the change is about stay tied (one that was not before is no worse for it), and does nothing turn back? */
-bool thr_junction_graphs_allow(thr_junction_graphs *t, const thr_turn_change *c);
-void thr_junction_graphs_make(thr_junction_graphs *t, const thr_turn_change *c);
+bool thr_junction_graphs_allow(thr_junction_graphs *graphs, const thr_turn_change *change);
+void thr_junction_graphs_make(thr_junction_graphs *graphs, const thr_turn_change *change);
 
 #endif

@@ -4,24 +4,24 @@
 #include <limits.h>
 #include <stdlib.h>
 
-static void add_copy(thr_multigraph *g, int *n, int half, int a, int b)
+static void add_copy(thr_multigraph *multigraph, int *n, int half, int a, int b)
 {
-  g->half[*n] = half;
-  g->tail[(*n)++] = a;
-  g->half[*n] = half < 0 ? -1 : half ^ 1;
-  g->tail[(*n)++] = b;
+  multigraph->half[*n] = half;
+  multigraph->tail[(*n)++] = a;
+  multigraph->half[*n] = half < 0 ? -1 : half ^ 1;
+  multigraph->tail[(*n)++] = b;
 }
 
-thr_status thr_multigraph_init(thr_multigraph *g, const thr_frame *f, int n_more, const int *passes, const int (*end)[2],
-                               int n_ends, thr_err *err)
+thr_status thr_multigraph_init(thr_multigraph *multigraph, const thr_frame *frame, int n_more, const int *passes,
+                               const int (*end)[2], int n_ends, thr_err *err)
 {
-  *g = (thr_multigraph){0};
+  *multigraph = (thr_multigraph){0};
   int64_t copies = n_ends;
-  for (int e = 0; e < f->n_edges; e++)
+  for (int e = 0; e < frame->n_edges; e++)
     copies += passes[e];
   if (copies > INT_MAX / 4) return thr_fail(err, THR_EINPUT, "more than %d passes; use a smaller --cover", INT_MAX / 4);
   size_t n_darts = 2 * (size_t)copies;
-  thr_multigraph m = {.n_darts = (int)n_darts, .n_nodes = f->n_nodes + n_more};
+  thr_multigraph m = {.n_darts = (int)n_darts, .n_nodes = frame->n_nodes + n_more};
   m.half = thr_calloc(n_darts, sizeof *m.half);
   m.tail = thr_calloc(n_darts, sizeof *m.tail);
   m.dart = thr_calloc(n_darts, sizeof *m.dart);
@@ -31,9 +31,9 @@ thr_status thr_multigraph_init(thr_multigraph *g, const thr_frame *f, int n_more
     return thr_nomem(err);
   }
   int n = 0;
-  for (int e = 0; e < f->n_edges; e++)
+  for (int e = 0; e < frame->n_edges; e++)
     for (int k = 0; k < passes[e]; k++)
-      add_copy(&m, &n, 2 * e, f->edge[e][0], f->edge[e][1]);
+      add_copy(&m, &n, 2 * e, frame->edge[e][0], frame->edge[e][1]);
   for (int i = 0; i < n_ends; i++)
     add_copy(&m, &n, -1, end[i][0], end[i][1]);
   /* Counting sort by tail; the array is shifted by one place so that filling leaves first[] right. */
@@ -43,15 +43,15 @@ thr_status thr_multigraph_init(thr_multigraph *g, const thr_frame *f, int n_more
     m.first[v + 1] += m.first[v];
   for (int d = 0; d < n; d++)
     m.dart[m.first[m.tail[d] + 1]++] = d;
-  *g = m;
+  *multigraph = m;
   return THR_OK;
 }
 
-void thr_multigraph_destroy(thr_multigraph *g)
+void thr_multigraph_destroy(thr_multigraph *multigraph)
 {
-  free(g->half);
-  free(g->tail);
-  free(g->first);
-  free(g->dart);
-  *g = (thr_multigraph){0};
+  free(multigraph->half);
+  free(multigraph->tail);
+  free(multigraph->first);
+  free(multigraph->dart);
+  *multigraph = (thr_multigraph){0};
 }

@@ -19,9 +19,9 @@ typedef struct {
 /* passes[e] copies of each edge (0 leaves an edge out), and n_ends virtual edges between end[i][0] and end[i][1], which may also
  * be one of n_more nodes that have numbers from the framework's number of nodes on. O(n + darts). Release with
  * thr_multigraph_destroy. */
-thr_status thr_multigraph_init(thr_multigraph *g, const thr_frame *f, int n_more, const int *passes, const int (*end)[2],
-                               int n_ends, thr_err *err) THR_MUST_CHECK;
-void thr_multigraph_destroy(thr_multigraph *g);
+thr_status thr_multigraph_init(thr_multigraph *multigraph, const thr_frame *frame, int n_more, const int *passes,
+                               const int (*end)[2], int n_ends, thr_err *err) THR_MUST_CHECK;
+void thr_multigraph_destroy(thr_multigraph *multigraph);
 
 /* Pairs a and b in an array in which every member names its mate. */
 static inline void thr_set_pair(int *mate, int a, int b)

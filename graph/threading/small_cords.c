@@ -5,13 +5,13 @@
 #include <math.h>
 #include <stdlib.h>
 
-void thr_small_cords_destroy(thr_small_cords *x)
+void thr_small_cords_destroy(thr_small_cords *cords)
 {
-  for (int i = 0; x->half && i < x->n; i++)
-    free(x->half[i]);
-  free(x->half);
-  free(x->n_passes);
-  *x = (thr_small_cords){0};
+  for (int i = 0; cords->half && i < cords->n; i++)
+    free(cords->half[i]);
+  free(cords->half);
+  free(cords->n_passes);
+  *cords = (thr_small_cords){0};
 }
 
 static bool less(double a, double b)
@@ -31,7 +31,7 @@ static bool is_better(const thr_small_ask *ask, int n, double dearest, double su
 }
 
 /* n cords, as states. */
-static thr_status take_cords(thr_subsets *t, int n, thr_small_cords *out, double *dearest, thr_err *err)
+static thr_status take_cords(thr_subsets *subsets, int n, thr_small_cords *out, double *dearest, thr_err *err)
 {
   thr_status st = THR_OK;
   *dearest = 0;
@@ -40,7 +40,7 @@ static thr_status take_cords(thr_subsets *t, int n, thr_small_cords *out, double
   if (!out->half || !out->n_passes) return thr_nomem(err);
   for (; out->n < n && !st; out->n++) {
     double cost;
-    st = thr_subsets_walk(t, out->n, &out->half[out->n], &out->n_passes[out->n], &cost, err);
+    st = thr_subsets_walk(subsets, out->n, &out->half[out->n], &out->n_passes[out->n], &cost, err);
     *dearest = fmax(*dearest, cost);
   }
   return st;
@@ -50,62 +50,62 @@ typedef enum { NOT_KNOWN, NONE_BETTER, BETTER, MORE_COUNTS } verdict;
 
 /* Of the model as it is: out receives what is better than the known cords. *work: what tables may still take, and what is left.
  */
-static thr_status solve(const thr_subsets_model *m, const thr_small_ask *ask, const thr_limits *limits, double *work,
+static thr_status solve(const thr_subsets_model *subsets_model, const thr_small_ask *ask, const thr_limits *limits, double *work,
                         thr_small_cords *out, verdict *v, thr_err *err)
 {
-  thr_subsets *t;
+  thr_subsets *subsets;
   const double rounding = ask->turning ? 1e-9 : 0;
   double limit = ask->limit, sum, dearest;
   int n = -1;
-  thr_status st = thr_subsets_create(m, limits, work, &t, err);
-  if (st || !t) return st;
-  if (ask->even) st = thr_subsets_dearest(t, ask->least, ask->most, &limit, err);
+  thr_status st = thr_subsets_create(subsets_model, limits, work, &subsets, err);
+  if (st || !subsets) return st;
+  if (ask->even) st = thr_subsets_dearest(subsets, ask->least, ask->most, &limit, err);
   if (!st && ask->even && isinf(limit)) n = 0;
   if (!st && !isnan(limit) && n < 0)
-    st = thr_subsets_find(t, ask->least, ask->most, ask->limit < INFINITY, limit * (1 + 1e-12) + rounding, &n, &sum, err);
+    st = thr_subsets_find(subsets, ask->least, ask->most, ask->limit < INFINITY, limit * (1 + 1e-12) + rounding, &n, &sum, err);
   if (!st && n >= 0) *v = NONE_BETTER;
   if (!st && n > 0) {
-    st = take_cords(t, n, out, &dearest, err);
+    st = take_cords(subsets, n, out, &dearest, err);
     if (!st && is_better(ask, n, dearest, sum)) *v = BETTER;
   }
-  thr_subsets_destroy(t);
+  thr_subsets_destroy(subsets);
   return st;
 }
 
-static thr_status try_items(thr_items *p, const thr_small_ask *ask, const thr_limits *limits, double *work, thr_small_cords *out,
-                            verdict *v, thr_err *err)
+static thr_status try_items(thr_items *items, const thr_small_ask *ask, const thr_limits *limits, double *work,
+                            thr_small_cords *out, verdict *v, thr_err *err)
 {
   bool small, keep, more;
   *v = NOT_KNOWN;
-  thr_status st = thr_items_model(p, &small, err);
-  if (!st && small) st = solve(&p->m, ask, limits, work, out, v, err);
+  thr_status st = thr_items_model(items, &small, err);
+  if (!st && small) st = solve(&items->m, ask, limits, work, out, v, err);
   if (st || *v != BETTER) return st;
-  st = thr_items_refine(p, out->n, out->half, out->n_passes, &keep, &more, err);
+  st = thr_items_refine(items, out->n, out->half, out->n_passes, &keep, &more, err);
   if (!st && !keep) *v = more ? MORE_COUNTS : NOT_KNOWN;
   return st;
 }
 
-thr_status thr_small_cords_find(const thr_frame *f, const thr_plan_options *o, const int *component, int k,
+thr_status thr_small_cords_find(const thr_frame *frame, const thr_plan_options *options, const int *component, int k,
                                 const thr_small_ask *ask, const thr_limits *limits, thr_small_cords *out, bool *certain,
                                 thr_err *err)
 {
-  thr_items p;
+  thr_items items;
   thr_err why = {0};
   verdict v = MORE_COUNTS;
   double work = 2e9; /* two seconds or so */
   *out = (thr_small_cords){0};
   *certain = false;
-  thr_status st = thr_items_init(&p, f, o, component, k, ask->turning, err);
+  thr_status st = thr_items_init(&items, frame, options, component, k, ask->turning, err);
   if (st) return st;
   while (!st && v == MORE_COUNTS) {
     thr_small_cords_destroy(out);
-    st = try_items(&p, ask, limits, &work, out, &v, &why);
+    st = try_items(&items, ask, limits, &work, out, &v, &why);
   }
   if (st || v != BETTER) thr_small_cords_destroy(out);
   for (int i = 0; i < out->n; i++)
     for (int j = 0; j < out->n_passes[i]; j++)
-      out->half[i][j] = thr_items_half(&p, out->half[i][j]);
-  thr_items_destroy(&p);
+      out->half[i][j] = thr_items_half(&items, out->half[i][j]);
+  thr_items_destroy(&items);
   *certain = !st && (v == BETTER || v == NONE_BETTER);
   return st && st != THR_ELIMIT ? thr_fail(err, st, "%s", why.text) : THR_OK;
 }

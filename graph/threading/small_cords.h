@@ -27,12 +27,12 @@ typedef struct {
   int *n_passes, **half; /* half-edges of each; owned */
 } thr_small_cords;
 
-void thr_small_cords_destroy(thr_small_cords *x);
+void thr_small_cords_destroy(thr_small_cords *cords);
 
 /* Of component k, component[n_nodes]; of the options ends, covers, capacities and joint. out: cords that are better than those
  * known, and as asked for; else none. *certain: nothing is better than those or, without them, than the known ones; or there
  * are none at all. Not certain: too many items, or stopped by the limits. */
-thr_status thr_small_cords_find(const thr_frame *f, const thr_plan_options *o, const int *component, int k,
+thr_status thr_small_cords_find(const thr_frame *frame, const thr_plan_options *options, const int *component, int k,
                                 const thr_small_ask *ask, const thr_limits *limits, thr_small_cords *out, bool *certain,
                                 thr_err *err) THR_MUST_CHECK;
 

@@ -6,93 +6,93 @@
 
 thr_splice thr_splice_of(bool cyclic, const thr_walk *a, const thr_walk *b)
 {
-  thr_splice s = {.cyclic = cyclic, .row = {{a->half, a->n, false}}};
+  thr_splice splice = {.cyclic = cyclic, .row = {{a->half, a->n, false}}};
   if (b) {
-    s.row[1].half = b->half;
-    s.row[1].n = b->n;
+    splice.row[1].half = b->half;
+    splice.row[1].n = b->n;
   }
-  return s;
+  return splice;
 }
 
-void thr_splice_add(thr_splice *s, int row, const int *half, int n)
+void thr_splice_add(thr_splice *splice, int row, const int *half, int n)
 {
-  s->row[row].half = half;
-  s->row[row].n = n;
-  s->row[row].added = true;
+  splice->row[row].half = half;
+  splice->row[row].n = n;
+  splice->row[row].added = true;
 }
 
-void thr_splice_put(thr_splice *s, int row, int from, int end, bool backwards)
+void thr_splice_put(thr_splice *splice, int row, int from, int end, bool backwards)
 {
   if (end <= from) return;
-  s->section[s->n].row = row;
-  s->section[s->n].from = from;
-  s->section[s->n].end = end;
-  s->section[s->n++].backwards = backwards;
+  splice->section[splice->n].row = row;
+  splice->section[splice->n].from = from;
+  splice->section[splice->n].end = end;
+  splice->section[splice->n++].backwards = backwards;
 }
 
-void thr_splice_next(thr_splice *s)
+void thr_splice_next(thr_splice *splice)
 {
-  s->first = s->n;
+  splice->first = splice->n;
 }
 
 /* ---- turns ---- */
 
-static int half_at(const thr_splice *s, int i, bool last)
+static int half_at(const thr_splice *splice, int i, bool last)
 {
-  int from = s->section[i].from, end = s->section[i].end - 1;
-  const int *half = s->row[s->section[i].row].half;
-  return s->section[i].backwards ? half[last ? from : end] ^ 1 : half[last ? end : from];
+  int from = splice->section[i].from, end = splice->section[i].end - 1;
+  const int *half = splice->row[splice->section[i].row].half;
+  return splice->section[i].backwards ? half[last ? from : end] ^ 1 : half[last ? end : from];
 }
 
 /* Does section i begin a walk? */
-static bool begins(const thr_splice *s, int i)
+static bool begins(const thr_splice *splice, int i)
 {
-  return i == 0 || i == s->first;
+  return i == 0 || i == splice->first;
 }
 
 /* The section that comes before, round a closed walk. */
-static int before(const thr_splice *s, int i)
+static int before(const thr_splice *splice, int i)
 {
-  if (!begins(s, i)) return i - 1;
-  return i == 0 && s->first > 0 ? s->first - 1 : s->n - 1;
+  if (!begins(splice, i)) return i - 1;
+  return i == 0 && splice->first > 0 ? splice->first - 1 : splice->n - 1;
 }
 
 /* Is the turn from the last pass of a closed walk into its first there before and afterwards? */
-static bool closing_stays(const thr_splice *s, int i)
+static bool closing_stays(const thr_splice *splice, int i)
 {
-  int b = before(s, i), row = s->section[i].row;
-  return b != i && s->section[b].row == row && s->section[i].from == 0 && s->section[b].end == s->row[row].n &&
-         !s->section[i].backwards && !s->section[b].backwards;
+  int b = before(splice, i), row = splice->section[i].row;
+  return b != i && splice->section[b].row == row && splice->section[i].from == 0 &&
+         splice->section[b].end == splice->row[row].n && !splice->section[i].backwards && !splice->section[b].backwards;
 }
 
-thr_turn_change thr_splice_turns(const thr_splice *s)
+thr_turn_change thr_splice_turns(const thr_splice *splice)
 {
-  thr_turn_change c = {.n = 0};
-  for (int i = 0; i < s->n; i++) {
-    int from = s->section[i].from, row = s->section[i].row;
-    const int *half = s->row[row].half;
-    if (s->row[row].added) continue;
+  thr_turn_change change = {.n = 0};
+  for (int i = 0; i < splice->n; i++) {
+    int from = splice->section[i].from, row = splice->section[i].row;
+    const int *half = splice->row[row].half;
+    if (splice->row[row].added) continue;
     if (from > 0)
-      thr_turn_change_note(&c, half[from - 1], half[from], -1);
-    else if (s->cyclic && !closing_stays(s, i))
-      thr_turn_change_note(&c, half[s->row[row].n - 1], half[0], -1);
+      thr_turn_change_note(&change, half[from - 1], half[from], -1);
+    else if (splice->cyclic && !closing_stays(splice, i))
+      thr_turn_change_note(&change, half[splice->row[row].n - 1], half[0], -1);
   }
-  for (int i = 0; i < s->n; i++)
-    if (s->cyclic ? !closing_stays(s, i) : !begins(s, i))
-      thr_turn_change_note(&c, half_at(s, before(s, i), true), half_at(s, i, false), 1);
-  return c;
+  for (int i = 0; i < splice->n; i++)
+    if (splice->cyclic ? !closing_stays(splice, i) : !begins(splice, i))
+      thr_turn_change_note(&change, half_at(splice, before(splice, i), true), half_at(splice, i, false), 1);
+  return change;
 }
 
-static void make_turns(const thr_splice *s, thr_junction_graphs *ties)
+static void make_turns(const thr_splice *splice, thr_junction_graphs *ties)
 {
-  thr_turn_change c = thr_splice_turns(s);
-  thr_junction_graphs_make(ties, &c);
-  for (int i = 0; i < s->n; i++) {
-    const int *half = s->row[s->section[i].row].half;
-    for (int k = s->section[i].from + 1; s->row[s->section[i].row].added && k < s->section[i].end; k++) {
-      c.n = 0;
-      thr_turn_change_note(&c, half[k - 1], half[k], 1);
-      thr_junction_graphs_make(ties, &c);
+  thr_turn_change change = thr_splice_turns(splice);
+  thr_junction_graphs_make(ties, &change);
+  for (int i = 0; i < splice->n; i++) {
+    const int *half = splice->row[splice->section[i].row].half;
+    for (int k = splice->section[i].from + 1; splice->row[splice->section[i].row].added && k < splice->section[i].end; k++) {
+      change.n = 0;
+      thr_turn_change_note(&change, half[k - 1], half[k], 1);
+      thr_junction_graphs_make(ties, &change);
     }
   }
 }
@@ -100,20 +100,21 @@ static void make_turns(const thr_splice *s, thr_junction_graphs *ties)
 /* ---- walks ---- */
 
 /* The walk of sections i .. end - 1. */
-static thr_status join(const thr_splice *s, const thr_frame *f, int i, int end, thr_walk *out, thr_err *err)
+static thr_status join(const thr_splice *splice, const thr_frame *frame, int i, int end, thr_walk *out, thr_err *err)
 {
-  *out = (thr_walk){.cyclic = s->cyclic};
+  *out = (thr_walk){.cyclic = splice->cyclic};
   int n = 0;
   for (int k = i; k < end; k++)
-    n += s->section[k].end - s->section[k].from;
+    n += splice->section[k].end - splice->section[k].from;
   if (!(out->half = thr_calloc((size_t)n, sizeof *out->half))) return thr_nomem(err);
   for (; i < end; i++) {
-    int size = s->section[i].end - s->section[i].from;
-    memcpy(out->half + out->n, s->row[s->section[i].row].half + s->section[i].from, (size_t)size * sizeof *out->half);
-    if (s->section[i].backwards) thr_walk_reverse(out->half + out->n, size);
+    int size = splice->section[i].end - splice->section[i].from;
+    memcpy(out->half + out->n, splice->row[splice->section[i].row].half + splice->section[i].from,
+           (size_t)size * sizeof *out->half);
+    if (splice->section[i].backwards) thr_walk_reverse(out->half + out->n, size);
     out->n += size;
   }
-  out->length = thr_walk_length(f, out->half, n);
+  out->length = thr_walk_length(frame, out->half, n);
   return THR_OK;
 }
 
@@ -123,34 +124,34 @@ static void take_place(thr_walk *old, const thr_walk *new)
   *old = *new;
 }
 
-thr_status thr_splice_make(const thr_splice *s, const thr_frame *f, thr_walks *w, int a, int b, thr_junction_graphs *ties,
-                           int *passes, thr_err *err)
+thr_status thr_splice_make(const thr_splice *splice, const thr_frame *frame, thr_walks *walks, int a, int b,
+                           thr_junction_graphs *ties, int *passes, thr_err *err)
 {
   thr_walk one = {0}, two = {0};
-  int first = s->first > 0 ? s->first : s->n;
-  thr_status st = join(s, f, 0, first, &one, err);
-  if (!st && first < s->n) st = join(s, f, first, s->n, &two, err);
-  if (!st && b < 0 && two.half) st = thr_walks_add(w, f, two, err);
+  int first = splice->first > 0 ? splice->first : splice->n;
+  thr_status st = join(splice, frame, 0, first, &one, err);
+  if (!st && first < splice->n) st = join(splice, frame, first, splice->n, &two, err);
+  if (!st && b < 0 && two.half) st = thr_walks_add(walks, frame, two, err);
   if (st) {
     free(one.half);
     return st;
   }
-  if (ties) make_turns(s, ties);
-  for (int i = 0; i < s->n; i++)
-    for (int k = s->section[i].from; s->row[s->section[i].row].added && k < s->section[i].end; k++)
-      passes[s->row[s->section[i].row].half[k] >> 1]++;
-  take_place(&w->walk[a], &one);
-  if (b >= 0) take_place(&w->walk[b], two.half ? &two : &w->walk[w->n_walks - 1]);
-  if (b >= 0 && !two.half) w->n_walks--;
+  if (ties) make_turns(splice, ties);
+  for (int i = 0; i < splice->n; i++)
+    for (int k = splice->section[i].from; splice->row[splice->section[i].row].added && k < splice->section[i].end; k++)
+      passes[splice->row[splice->section[i].row].half[k] >> 1]++;
+  take_place(&walks->walk[a], &one);
+  if (b >= 0) take_place(&walks->walk[b], two.half ? &two : &walks->walk[walks->n_walks - 1]);
+  if (b >= 0 && !two.half) walks->n_walks--;
   return THR_OK;
 }
 
-thr_status thr_splice_cut(thr_walks *w, const thr_frame *f, int i, int at, thr_err *err)
+thr_status thr_splice_cut(thr_walks *walks, const thr_frame *frame, int i, int at, thr_err *err)
 {
-  const thr_walk *x = &w->walk[i];
-  thr_splice s = thr_splice_of(false, x, NULL);
-  thr_splice_put(&s, 0, 0, at, false);
-  thr_splice_next(&s);
-  thr_splice_put(&s, 0, at, x->n, false);
-  return thr_splice_make(&s, f, w, i, -1, NULL, NULL, err);
+  const thr_walk *walk = &walks->walk[i];
+  thr_splice splice = thr_splice_of(false, walk, NULL);
+  thr_splice_put(&splice, 0, 0, at, false);
+  thr_splice_next(&splice);
+  thr_splice_put(&splice, 0, at, walk->n, false);
+  return thr_splice_make(&splice, frame, walks, i, -1, NULL, NULL, err);
 }

@@ -34,24 +34,24 @@ typedef struct {
 thr_splice thr_splice_of(bool cyclic, const thr_walk *a, const thr_walk *b);
 
 /* The new passes half[n], borrowed, as row number row. */
-void thr_splice_add(thr_splice *s, int row, const int *half, int n);
+void thr_splice_add(thr_splice *splice, int row, const int *half, int n);
 
 /* Passes from .. end - 1 of a row come next; none are no section. */
-void thr_splice_put(thr_splice *s, int row, int from, int end, bool backwards);
+void thr_splice_put(thr_splice *splice, int row, int from, int end, bool backwards);
 
 /* The second walk begins. */
-void thr_splice_next(thr_splice *s);
+void thr_splice_next(thr_splice *splice);
 
 /* Turns where the rows are cut, and where sections meet; those inside new passes are left out. */
-thr_turn_change thr_splice_turns(const thr_splice *s);
+thr_turn_change thr_splice_turns(const thr_splice *splice);
 
-/* The walk or walks afterwards take the place of walks a and b of w; b < 0: the second is added, and where there is no second
+/* The walk or walks afterwards take the place of walks a and b of walks; b < 0: the second is added, and where there is no second
  * one, b is removed and its number is that of the last. ties: gets and loses the turns (NULL ok); passes[n_edges]: gets the new
  * passes (NULL where there are none). On failure nothing has changed. */
-thr_status thr_splice_make(const thr_splice *s, const thr_frame *f, thr_walks *w, int a, int b, thr_junction_graphs *ties,
-                           int *passes, thr_err *err) THR_MUST_CHECK;
+thr_status thr_splice_make(const thr_splice *splice, const thr_frame *frame, thr_walks *walks, int a, int b,
+                           thr_junction_graphs *ties, int *passes, thr_err *err) THR_MUST_CHECK;
 
 /* Open walk number i keeps its passes before number at; the others become a new walk, the last. */
-thr_status thr_splice_cut(thr_walks *w, const thr_frame *f, int i, int at, thr_err *err) THR_MUST_CHECK;
+thr_status thr_splice_cut(thr_walks *walks, const thr_frame *frame, int i, int at, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -29,29 +29,29 @@ struct thr_subsets {
   uint32_t *part; /* [n_parts] of what was found last: the items of every walk that is not the cheapest of all */
 };
 
-void thr_subsets_destroy(thr_subsets *x)
+void thr_subsets_destroy(thr_subsets *subsets)
 {
-  if (!x) return;
-  free(x->row);
-  free(x->plain);
-  free(x->cost);
-  free(x->before);
-  free(x->reached);
-  free(x->f);
-  free(x->last);
-  free(x->own_run);
-  free(x->like);
-  free(x->g);
-  free(x->part);
-  free(x);
+  if (!subsets) return;
+  free(subsets->row);
+  free(subsets->plain);
+  free(subsets->cost);
+  free(subsets->before);
+  free(subsets->reached);
+  free(subsets->f);
+  free(subsets->last);
+  free(subsets->own_run);
+  free(subsets->like);
+  free(subsets->g);
+  free(subsets->part);
+  free(subsets);
 }
 
 /* ---- one walk ---- */
 
 /* May the run at hand enter this state? */
-static bool in_run(const thr_subsets *x, int state)
+static bool in_run(const thr_subsets *subsets, int state)
 {
-  return !x->m->closed || state >= x->run;
+  return !subsets->m->closed || state >= subsets->run;
 }
 
 static uint32_t lowest(uint32_t set)
@@ -59,57 +59,57 @@ static uint32_t lowest(uint32_t set)
   return set & (~set + 1);
 }
 
-static double *costs_at(const thr_subsets *x, uint32_t set)
+static double *costs_at(const thr_subsets *subsets, uint32_t set)
 {
-  return x->cost + (size_t)x->row[set] * (size_t)x->m->n_states;
+  return subsets->cost + (size_t)subsets->row[set] * (size_t)subsets->m->n_states;
 }
 
-static int entry_of(const thr_subsets *x, uint32_t set, int state)
+static int entry_of(const thr_subsets *subsets, uint32_t set, int state)
 {
-  return x->row[set] * x->m->n_states + state;
+  return subsets->row[set] * subsets->m->n_states + state;
 }
 
 /* *set with what the step collects. False: it is all collected. */
-static bool collect(const thr_subsets_model *m, const thr_subsets_step *step, uint32_t *set)
+static bool collect(const thr_subsets_model *subsets_model, const thr_subsets_step *step, uint32_t *set)
 {
   for (int i = 0; i < 2; i++) {
     const uint32_t left = step->one_of[i] & ~*set;
-    if (!left && (step->one_of[i] & m->once)) return false;
+    if (!left && (step->one_of[i] & subsets_model->once)) return false;
     *set |= lowest(left);
   }
   *set |= step->gains;
   return true;
 }
 
-static void reach(thr_subsets *x, uint32_t set, int state, double cost, int before)
+static void reach(thr_subsets *subsets, uint32_t set, int state, double cost, int before)
 {
-  double *costs = costs_at(x, set);
-  if (x->reached[x->row[set]] != x->run + 1) {
-    x->reached[x->row[set]] = x->run + 1;
-    for (int i = 0; i < x->m->n_states; i++)
+  double *costs = costs_at(subsets, set);
+  if (subsets->reached[subsets->row[set]] != subsets->run + 1) {
+    subsets->reached[subsets->row[set]] = subsets->run + 1;
+    for (int i = 0; i < subsets->m->n_states; i++)
       costs[i] = INFINITY;
   }
   if (cost >= costs[state]) return;
   costs[state] = cost;
-  x->before[entry_of(x, set, state)] = before;
+  subsets->before[entry_of(subsets, set, state)] = before;
 }
 
-static void leave(thr_subsets *x, const int *first, uint32_t set, int state)
+static void leave(thr_subsets *subsets, const int *first, uint32_t set, int state)
 {
-  const thr_subsets_model *m = x->m;
-  const int entry = entry_of(x, set, state);
+  const thr_subsets_model *subsets_model = subsets->m;
+  const int entry = entry_of(subsets, set, state);
   for (int i = first[state]; i < first[state + 1]; i++) {
     uint32_t all = set;
-    if (in_run(x, m->step[i].to) && collect(m, &m->step[i], &all))
-      reach(x, all, m->step[i].to, x->cost[entry] + m->step[i].cost, entry);
+    if (in_run(subsets, subsets_model->step[i].to) && collect(subsets_model, &subsets_model->step[i], &all))
+      reach(subsets, all, subsets_model->step[i].to, subsets->cost[entry] + subsets_model->step[i].cost, entry);
   }
 }
 
 /* Dijkstra among the states at one set. done[n_states] is scratch. */
-static void settle(thr_subsets *x, const int *first, uint32_t set, bool *done)
+static void settle(thr_subsets *subsets, const int *first, uint32_t set, bool *done)
 {
-  const int n = x->m->n_states;
-  const double *row = costs_at(x, set);
+  const int n = subsets->m->n_states;
+  const double *row = costs_at(subsets, set);
   memset(done, 0, (size_t)n * sizeof *done);
   for (int next = 0; next >= 0;) {
     next = -1;
@@ -117,145 +117,151 @@ static void settle(thr_subsets *x, const int *first, uint32_t set, bool *done)
       if (!done[i] && row[i] < INFINITY && (next < 0 || row[i] < row[next])) next = i;
     if (next < 0) break;
     done[next] = true;
-    leave(x, first, set, next);
+    leave(subsets, first, set, next);
   }
 }
 
 /* Walks that end at this set, or with what the end collects. */
-static void finish(thr_subsets *x, uint32_t set)
+static void finish(thr_subsets *subsets, uint32_t set)
 {
-  const thr_subsets_model *m = x->m;
-  for (int i = 0; i < m->n_ends; i++) {
-    const thr_subsets_step *s = &m->end[i];
-    const int entry = entry_of(x, set, s->from);
+  const thr_subsets_model *subsets_model = subsets->m;
+  for (int i = 0; i < subsets_model->n_ends; i++) {
+    const thr_subsets_step *subsets_step = &subsets_model->end[i];
+    const int entry = entry_of(subsets, set, subsets_step->from);
     uint32_t all = set;
-    if ((m->closed && s->to != x->run) || !collect(m, s, &all) || x->cost[entry] + s->cost >= x->f[all]) continue;
-    x->f[all] = x->cost[entry] + s->cost;
-    x->last[all] = entry;
-    x->own_run[all] = x->run;
+    if ((subsets_model->closed && subsets_step->to != subsets->run) || !collect(subsets_model, subsets_step, &all) ||
+        subsets->cost[entry] + subsets_step->cost >= subsets->f[all])
+      continue;
+    subsets->f[all] = subsets->cost[entry] + subsets_step->cost;
+    subsets->last[all] = entry;
+    subsets->own_run[all] = subsets->run;
   }
 }
 
 /* All walks of a run: open ones from anywhere, closed ones from state number run. */
-static bool make_run(thr_subsets *x, int run, const int *first, bool *done)
+static bool make_run(thr_subsets *subsets, int run, const int *first, bool *done)
 {
-  const thr_subsets_model *m = x->m;
-  x->run = run;
-  for (int i = 0; i < m->n_starts; i++) {
+  const thr_subsets_model *subsets_model = subsets->m;
+  subsets->run = run;
+  for (int i = 0; i < subsets_model->n_starts; i++) {
     uint32_t set = 0;
-    if ((!m->closed || m->start[i].to == run) && collect(m, &m->start[i], &set))
-      reach(x, set, m->start[i].to, m->start[i].cost, -1);
+    if ((!subsets_model->closed || subsets_model->start[i].to == run) && collect(subsets_model, &subsets_model->start[i], &set))
+      reach(subsets, set, subsets_model->start[i].to, subsets_model->start[i].cost, -1);
   }
-  for (uint32_t set = 0; set < x->n_sets; set++) {
-    if (x->row[set] < 0 || x->reached[x->row[set]] != run + 1) continue;
-    if (thr_limits_stop(x->limits)) return false;
-    settle(x, first, set, done);
-    finish(x, set);
+  for (uint32_t set = 0; set < subsets->n_sets; set++) {
+    if (subsets->row[set] < 0 || subsets->reached[subsets->row[set]] != run + 1) continue;
+    if (thr_limits_stop(subsets->limits)) return false;
+    settle(subsets, first, set, done);
+    finish(subsets, set);
   }
   return true;
 }
 
 /* f of all sets, and where collecting more costs less, that: of items that may be had again. */
-static void take_larger(thr_subsets *x)
+static void take_larger(thr_subsets *subsets)
 {
-  for (uint32_t set = 0; set < x->n_sets; set++) {
-    x->f[set] = x->f[x->plain[set]];
-    x->like[set] = x->plain[set];
+  for (uint32_t set = 0; set < subsets->n_sets; set++) {
+    subsets->f[set] = subsets->f[subsets->plain[set]];
+    subsets->like[set] = subsets->plain[set];
   }
-  for (int i = 0; i < x->m->n_items; i++) {
+  for (int i = 0; i < subsets->m->n_items; i++) {
     const uint32_t item = UINT32_C(1) << i;
-    for (uint32_t set = 0; set < x->n_sets; set++) {
-      if ((set & item) || (x->m->once & item) || x->f[set | item] >= x->f[set]) continue;
-      x->f[set] = x->f[set | item];
-      x->like[set] = x->like[set | item];
+    for (uint32_t set = 0; set < subsets->n_sets; set++) {
+      if ((set & item) || (subsets->m->once & item) || subsets->f[set | item] >= subsets->f[set]) continue;
+      subsets->f[set] = subsets->f[set | item];
+      subsets->like[set] = subsets->like[set | item];
     }
   }
 }
 
 /* The runs from .. end - 1. *all: they were made. */
-static thr_status make_runs(thr_subsets *x, int from, int end, bool *all, thr_err *err)
+static thr_status make_runs(thr_subsets *subsets, int from, int end, bool *all, thr_err *err)
 {
-  const thr_subsets_model *m = x->m;
-  int *first = thr_calloc((size_t)m->n_states + 1, sizeof *first);
-  bool *done = thr_calloc((size_t)m->n_states, sizeof *done);
+  const thr_subsets_model *subsets_model = subsets->m;
+  int *first = thr_calloc((size_t)subsets_model->n_states + 1, sizeof *first);
+  bool *done = thr_calloc((size_t)subsets_model->n_states, sizeof *done);
   thr_status st = first && done ? THR_OK : thr_nomem(err);
   *all = !st;
-  for (int i = 0; i < m->n_steps && !st; i++)
-    first[m->step[i].from + 1]++;
-  for (int i = 0; i < m->n_states && !st; i++)
+  for (int i = 0; i < subsets_model->n_steps && !st; i++)
+    first[subsets_model->step[i].from + 1]++;
+  for (int i = 0; i < subsets_model->n_states && !st; i++)
     first[i + 1] += first[i];
   for (int run = from; run < end && *all; run++)
-    *all = make_run(x, run, first, done);
+    *all = make_run(subsets, run, first, done);
   free(first);
   free(done);
   return st;
 }
 
 /* Gives rows to the sets that have the first items of every group. */
-static thr_status number_sets(thr_subsets *x, thr_err *err)
+static thr_status number_sets(thr_subsets *subsets, thr_err *err)
 {
-  const thr_subsets_model *m = x->m;
-  x->row = thr_calloc(x->n_sets, sizeof *x->row);
-  x->plain = thr_calloc(x->n_sets, sizeof *x->plain);
-  if (!x->row || !x->plain) return thr_nomem(err);
-  for (uint32_t set = 0; set < x->n_sets; set++) {
+  const thr_subsets_model *subsets_model = subsets->m;
+  subsets->row = thr_calloc(subsets->n_sets, sizeof *subsets->row);
+  subsets->plain = thr_calloc(subsets->n_sets, sizeof *subsets->plain);
+  if (!subsets->row || !subsets->plain) return thr_nomem(err);
+  for (uint32_t set = 0; set < subsets->n_sets; set++) {
     double parts = 1;
-    for (int i = 0, before = 0; i < m->n_items; i++) {
-      if (m->first[i] == i) before = 0;
+    for (int i = 0, before = 0; i < subsets_model->n_items; i++) {
+      if (subsets_model->first[i] == i) before = 0;
       if (!(set >> i & 1)) continue;
-      x->plain[set] |= UINT32_C(1) << (m->first[i] + before++);
+      subsets->plain[set] |= UINT32_C(1) << (subsets_model->first[i] + before++);
       parts *= 2;
     }
-    x->row[set] = x->plain[set] == set ? x->n_rows++ : -1;
-    if (x->plain[set] == set) x->pairs += parts;
+    subsets->row[set] = subsets->plain[set] == set ? subsets->n_rows++ : -1;
+    if (subsets->plain[set] == set) subsets->pairs += parts;
   }
   return THR_OK;
 }
 
 /* A last item of a group that is required wholly: what is left of the group has the same row without it. */
-static void choose_item(thr_subsets *x)
+static void choose_item(thr_subsets *subsets)
 {
-  const thr_subsets_model *m = x->m;
-  for (int i = 0; i < m->n_items && !x->item; i++)
-    if ((m->required >> i & 1) && (i + 1 == m->n_items || m->first[i + 1] == i + 1)) x->item = UINT32_C(1) << i;
+  const thr_subsets_model *subsets_model = subsets->m;
+  for (int i = 0; i < subsets_model->n_items && !subsets->item; i++)
+    if ((subsets_model->required >> i & 1) && (i + 1 == subsets_model->n_items || subsets_model->first[i + 1] == i + 1))
+      subsets->item = UINT32_C(1) << i;
 }
 
-static thr_status make_table(thr_subsets *x, bool *all, thr_err *err)
+static thr_status make_table(thr_subsets *subsets, bool *all, thr_err *err)
 {
-  const size_t n = x->n_sets, entries = (size_t)x->n_rows * (size_t)x->m->n_states;
-  x->cost = thr_calloc(entries, sizeof *x->cost);
-  x->before = thr_calloc(entries, sizeof *x->before);
-  x->reached = thr_calloc((size_t)x->n_rows, sizeof *x->reached);
-  x->f = thr_calloc(n, sizeof *x->f);
-  x->last = thr_calloc(n, sizeof *x->last);
-  x->own_run = thr_calloc(n, sizeof *x->own_run);
-  x->like = thr_calloc(n, sizeof *x->like);
-  if (!x->cost || !x->before || !x->reached || !x->f || !x->last || !x->own_run || !x->like) return thr_nomem(err);
+  const size_t n = subsets->n_sets, entries = (size_t)subsets->n_rows * (size_t)subsets->m->n_states;
+  subsets->cost = thr_calloc(entries, sizeof *subsets->cost);
+  subsets->before = thr_calloc(entries, sizeof *subsets->before);
+  subsets->reached = thr_calloc((size_t)subsets->n_rows, sizeof *subsets->reached);
+  subsets->f = thr_calloc(n, sizeof *subsets->f);
+  subsets->last = thr_calloc(n, sizeof *subsets->last);
+  subsets->own_run = thr_calloc(n, sizeof *subsets->own_run);
+  subsets->like = thr_calloc(n, sizeof *subsets->like);
+  if (!subsets->cost || !subsets->before || !subsets->reached || !subsets->f || !subsets->last || !subsets->own_run ||
+      !subsets->like)
+    return thr_nomem(err);
   for (size_t i = 0; i < n; i++)
-    x->f[i] = INFINITY;
-  thr_status st = make_runs(x, 0, x->m->closed ? x->m->n_states : 1, all, err);
-  if (!st && *all) take_larger(x);
+    subsets->f[i] = INFINITY;
+  thr_status st = make_runs(subsets, 0, subsets->m->closed ? subsets->m->n_states : 1, all, err);
+  if (!st && *all) take_larger(subsets);
   return st;
 }
 
-thr_status thr_subsets_create(const thr_subsets_model *m, const thr_limits *limits, double *work, thr_subsets **out, thr_err *err)
+thr_status thr_subsets_create(const thr_subsets_model *subsets_model, const thr_limits *limits, double *work, thr_subsets **out,
+                              thr_err *err)
 {
   const double most_entries = 1e7;
   bool all = false;
   *out = NULL;
-  if (m->n_items > THR_SUBSETS_MOST_ITEMS) return THR_OK;
-  thr_subsets *x = thr_calloc(1, sizeof *x);
-  if (!x) return thr_nomem(err);
-  *x = (thr_subsets){.m = m, .limits = limits, .n_sets = UINT32_C(1) << m->n_items, .work = work};
-  thr_status st = number_sets(x, err);
-  choose_item(x);
-  const double entries = (double)x->n_rows * m->n_states;
-  *work -= entries * m->n_states;
-  if (!st && entries <= most_entries && *work >= 0) st = make_table(x, &all, err);
+  if (subsets_model->n_items > THR_SUBSETS_MOST_ITEMS) return THR_OK;
+  thr_subsets *subsets = thr_calloc(1, sizeof *subsets);
+  if (!subsets) return thr_nomem(err);
+  *subsets = (thr_subsets){.m = subsets_model, .limits = limits, .n_sets = UINT32_C(1) << subsets_model->n_items, .work = work};
+  thr_status st = number_sets(subsets, err);
+  choose_item(subsets);
+  const double entries = (double)subsets->n_rows * subsets_model->n_states;
+  *work -= entries * subsets_model->n_states;
+  if (!st && entries <= most_entries && *work >= 0) st = make_table(subsets, &all, err);
   if (!st && all)
-    *out = x;
+    *out = subsets;
   else
-    thr_subsets_destroy(x);
+    thr_subsets_destroy(subsets);
   return st;
 }
 
@@ -267,12 +273,12 @@ typedef struct {
 } measure;
 
 /* g_k of a set, from the level below. *part: the walk's that holds this one item of it (none of no items). */
-static double best_part(const thr_subsets *x, measure by, const double *below, uint32_t set, uint32_t item, uint32_t *part)
+static double best_part(const thr_subsets *subsets, measure by, const double *below, uint32_t set, uint32_t item, uint32_t *part)
 {
   const uint32_t rest = set ^ item;
   double best = INFINITY;
   for (uint32_t t = rest;; t = (t - 1) & rest) {
-    const double one = x->f[t | item], others = below[rest ^ t];
+    const double one = subsets->f[t | item], others = below[rest ^ t];
     const double all = by.sum ? one + others : one > others ? one : others;
     if (all < best && one <= by.limit) {
       best = all;
@@ -283,57 +289,61 @@ static double best_part(const thr_subsets *x, measure by, const double *below, u
 }
 
 /* Room for levels 0 .. n - 1, of which level 0 is made. */
-static thr_status make_room(thr_subsets *x, int n, thr_err *err)
+static thr_status make_room(thr_subsets *subsets, int n, thr_err *err)
 {
-  if (n > x->n_levels) {
-    double *g = thr_realloc(x->g, (size_t)n * x->n_sets, sizeof *g);
+  if (n > subsets->n_levels) {
+    double *g = thr_realloc(subsets->g, (size_t)n * subsets->n_sets, sizeof *g);
     if (!g) return thr_nomem(err);
-    x->g = g;
-    x->n_levels = n;
+    subsets->g = g;
+    subsets->n_levels = n;
   }
-  for (uint32_t set = 0; set < x->n_sets; set++)
-    x->g[set] = set ? INFINITY : 0;
+  for (uint32_t set = 0; set < subsets->n_sets; set++)
+    subsets->g[set] = set ? INFINITY : 0;
   return THR_OK;
 }
 
-static double *level(const thr_subsets *x, int k)
+static double *level(const thr_subsets *subsets, int k)
 {
-  return x->g + (size_t)k * x->n_sets;
+  return subsets->g + (size_t)k * subsets->n_sets;
 }
 
 /* Level k from the one below, of sets without the first walk's item. False: it takes too long. */
-static bool fill(thr_subsets *x, measure by, int k)
+static bool fill(thr_subsets *subsets, measure by, int k)
 {
   uint32_t part;
-  *x->work -= x->pairs / 4;
-  if (*x->work < 0) return false;
-  for (uint32_t set = 0; set < x->n_sets; set++) {
-    if (set % 1024 == 0 && thr_limits_stop(x->limits)) return false;
-    if (set & x->item) continue;
-    double *g = &level(x, k)[set];
-    if (x->row[set] < 0) /* fewer in number, so that is known */
-      *g = level(x, k)[x->plain[set]];
+  *subsets->work -= subsets->pairs / 4;
+  if (*subsets->work < 0) return false;
+  for (uint32_t set = 0; set < subsets->n_sets; set++) {
+    if (set % 1024 == 0 && thr_limits_stop(subsets->limits)) return false;
+    if (set & subsets->item) continue;
+    double *g = &level(subsets, k)[set];
+    if (subsets->row[set] < 0) /* fewer in number, so that is known */
+      *g = level(subsets, k)[subsets->plain[set]];
     else
-      *g = k > 1 ? best_part(x, by, level(x, k - 1), set, lowest(set), &part) : x->f[set] <= by.limit ? x->f[set] : INFINITY;
+      *g = k > 1                         ? best_part(subsets, by, level(subsets, k - 1), set, lowest(set), &part)
+           : subsets->f[set] <= by.limit ? subsets->f[set]
+                                         : INFINITY;
   }
   return true;
 }
 
 /* What the first walk collects of a set that suffices. */
-static uint32_t first_item(const thr_subsets *x, uint32_t set)
+static uint32_t first_item(const thr_subsets *subsets, uint32_t set)
 {
-  return x->item ? x->item : lowest(set);
+  return subsets->item ? subsets->item : lowest(set);
 }
 
 /* Least of k walks that collect what is required, from level k - 1; *all: what they collect. */
-static double least(const thr_subsets *x, measure by, int k, uint32_t *all)
+static double least(const thr_subsets *subsets, measure by, int k, uint32_t *all)
 {
-  const uint32_t required = x->m->required, others = x->m->once & ~required;
+  const uint32_t required = subsets->m->required, others = subsets->m->once & ~required;
   uint32_t part;
   double best = INFINITY;
   for (uint32_t more = others;; more = (more - 1) & others) {
-    const bool plain = x->row[required | more] >= 0;
-    double cost = plain ? best_part(x, by, level(x, k - 1), required | more, first_item(x, required | more), &part) : INFINITY;
+    const bool plain = subsets->row[required | more] >= 0;
+    double cost =
+        plain ? best_part(subsets, by, level(subsets, k - 1), required | more, first_item(subsets, required | more), &part)
+              : INFINITY;
     if (cost < best) {
       best = cost;
       *all = required | more;
@@ -343,96 +353,97 @@ static double least(const thr_subsets *x, measure by, int k, uint32_t *all)
 }
 
 /* More walks than items: the others are the cheapest of all. */
-static int walks_with_items(const thr_subsets *x, int n)
+static int walks_with_items(const thr_subsets *subsets, int n)
 {
-  return n < x->m->n_items ? n : x->m->n_items;
+  return n < subsets->m->n_items ? n : subsets->m->n_items;
 }
 
-thr_status thr_subsets_dearest(thr_subsets *x, int at_least, int most, double *cost, thr_err *err)
+thr_status thr_subsets_dearest(thr_subsets *subsets, int at_least, int most, double *cost, thr_err *err)
 {
   const measure by = {false, INFINITY};
-  const int levels = walks_with_items(x, most);
+  const int levels = walks_with_items(subsets, most);
   uint32_t all;
   *cost = INFINITY;
-  thr_status st = make_room(x, levels, err);
+  thr_status st = make_room(subsets, levels, err);
   for (int k = 1; k <= levels && !st; k++) {
-    if (k > 1 && !fill(x, by, k - 1)) {
+    if (k > 1 && !fill(subsets, by, k - 1)) {
       *cost = NAN;
       return THR_OK;
     }
     if (k < at_least && k < levels) continue;
-    double dearest = least(x, by, k, &all);
-    if (k < at_least && x->f[0] > dearest) dearest = x->f[0];
+    double dearest = least(subsets, by, k, &all);
+    if (k < at_least && subsets->f[0] > dearest) dearest = subsets->f[0];
     if (dearest < *cost) *cost = dearest;
   }
   return st;
 }
 
 /* The parts of k walks with items, from the levels below. */
-static thr_status find_parts(thr_subsets *x, measure by, int k, uint32_t set, thr_err *err)
+static thr_status find_parts(thr_subsets *subsets, measure by, int k, uint32_t set, thr_err *err)
 {
-  free(x->part);
-  x->n_parts = k;
-  x->part = thr_calloc((size_t)k, sizeof *x->part);
-  if (!x->part) return thr_nomem(err);
+  free(subsets->part);
+  subsets->n_parts = k;
+  subsets->part = thr_calloc((size_t)k, sizeof *subsets->part);
+  if (!subsets->part) return thr_nomem(err);
   for (int i = 0; i < k; i++) {
-    best_part(x, by, level(x, k - 1 - i), set, i ? lowest(set) : first_item(x, set), &x->part[i]);
-    set &= ~x->part[i];
+    best_part(subsets, by, level(subsets, k - 1 - i), set, i ? lowest(set) : first_item(subsets, set), &subsets->part[i]);
+    set &= ~subsets->part[i];
   }
   return THR_OK;
 }
 
 /* Is there a walk of this cost for each item? Where all may be had again, there are enough walks then, else too few. */
-static bool each_fits(const thr_subsets *x, double limit)
+static bool each_fits(const thr_subsets *subsets, double limit)
 {
   bool fits = true;
-  for (int i = 0; i < x->m->n_items && !x->m->once; i++)
-    fits &= !(x->m->required >> i & 1) || x->f[UINT32_C(1) << i] <= limit;
+  for (int i = 0; i < subsets->m->n_items && !subsets->m->once; i++)
+    fits &= !(subsets->m->required >> i & 1) || subsets->f[UINT32_C(1) << i] <= limit;
   return fits;
 }
 
-thr_status thr_subsets_find(thr_subsets *x, int at_least, int most, bool fewest, double limit, int *n, double *cost, thr_err *err)
+thr_status thr_subsets_find(thr_subsets *subsets, int at_least, int most, bool fewest, double limit, int *n, double *cost,
+                            thr_err *err)
 {
   const measure by = {true, limit};
-  const int levels = walks_with_items(x, most);
-  const double more = x->f[0] <= limit ? x->f[0] : INFINITY; /* one more walk */
+  const int levels = walks_with_items(subsets, most);
+  const double more = subsets->f[0] <= limit ? subsets->f[0] : INFINITY; /* one more walk */
   int best_k = 0;
   uint32_t all = 0, best_set = 0;
   *cost = INFINITY;
   *n = 0;
-  if (!each_fits(x, limit)) return THR_OK;
-  thr_status st = make_room(x, levels, err);
+  if (!each_fits(subsets, limit)) return THR_OK;
+  thr_status st = make_room(subsets, levels, err);
   for (int k = 1; k <= levels && !st && !(fewest && best_k); k++) {
-    if (k > 1 && !fill(x, by, k - 1)) {
+    if (k > 1 && !fill(subsets, by, k - 1)) {
       *n = -1;
       return THR_OK;
     }
     if (k < at_least && k < levels) continue;
     int others = k < at_least ? at_least - k : 0;
-    double sum = least(x, by, k, &all) + (others ? others * more : 0);
+    double sum = least(subsets, by, k, &all) + (others ? others * more : 0);
     if (!(sum < *cost * (1 - 1e-12))) continue;
     *cost = sum;
     *n = k + others;
     best_k = k;
     best_set = all;
   }
-  return st || !best_k ? st : find_parts(x, by, best_k, best_set, err);
+  return st || !best_k ? st : find_parts(subsets, by, best_k, best_set, err);
 }
 
-thr_status thr_subsets_walk(thr_subsets *x, int i, int **state, int *n, double *cost, thr_err *err)
+thr_status thr_subsets_walk(thr_subsets *subsets, int i, int **state, int *n, double *cost, thr_err *err)
 {
-  const uint32_t set = x->like[i < x->n_parts ? x->part[i] : 0];
-  const int run = x->own_run[set];
+  const uint32_t set = subsets->like[i < subsets->n_parts ? subsets->part[i] : 0];
+  const int run = subsets->own_run[set];
   bool all = true;
-  thr_status st = x->run == run ? THR_OK : make_runs(x, run, run + 1, &all, err);
+  thr_status st = subsets->run == run ? THR_OK : make_runs(subsets, run, run + 1, &all, err);
   *n = 0;
   *state = NULL;
-  *cost = x->f[set];
+  *cost = subsets->f[set];
   if (st || !all) return st ? st : thr_fail(err, THR_ELIMIT, "stopped");
-  for (int entry = x->last[set]; entry >= 0; entry = x->before[entry])
+  for (int entry = subsets->last[set]; entry >= 0; entry = subsets->before[entry])
     ++*n;
   if (!(*state = thr_calloc((size_t)*n, sizeof **state))) return thr_nomem(err);
-  for (int entry = x->last[set], at = *n; entry >= 0; entry = x->before[entry])
-    (*state)[--at] = entry % x->m->n_states;
+  for (int entry = subsets->last[set], at = *n; entry >= 0; entry = subsets->before[entry])
+    (*state)[--at] = entry % subsets->m->n_states;
   return THR_OK;
 }

@@ -39,22 +39,22 @@ typedef struct {
 typedef struct thr_subsets thr_subsets;
 
 /* Fills f of the model, which is borrowed. *work: how often states and parts of sets may be looked at, which this and the
- * functions below take from. *x is NULL if that or the limits stopped it, or there are more than 10 million sets and
+ * functions below take from. *subsets is NULL if that or the limits stopped it, or there are more than 10 million sets and
  * states: 18 items have room for 38 states. 12 bytes each. */
-thr_status thr_subsets_create(const thr_subsets_model *m, const thr_limits *limits, double *work, thr_subsets **x,
-                              thr_err *err) THR_MUST_CHECK;
-void thr_subsets_destroy(thr_subsets *x);
+thr_status thr_subsets_create(const thr_subsets_model *subsets_model, const thr_limits *limits, double *work,
+                              thr_subsets **subsets, thr_err *err) THR_MUST_CHECK;
+void thr_subsets_destroy(thr_subsets *subsets);
 
 /* Least cost of the dearest of least .. most walks that collect enough together; INFINITY: there are none, NAN: too long to find
  * out. */
-thr_status thr_subsets_dearest(thr_subsets *x, int least, int most, double *cost, thr_err *err) THR_MUST_CHECK;
+thr_status thr_subsets_dearest(thr_subsets *subsets, int least, int most, double *cost, thr_err *err) THR_MUST_CHECK;
 
 /* The cheapest least .. most walks together of which none costs more than limit; fewest: as few as there are in the first place.
  * *n = 0: there are none, -1: too long to find out. */
-thr_status thr_subsets_find(thr_subsets *x, int least, int most, bool fewest, double limit, int *n, double *cost,
+thr_status thr_subsets_find(thr_subsets *subsets, int least, int most, bool fewest, double limit, int *n, double *cost,
                             thr_err *err) THR_MUST_CHECK;
 
 /* States of walk i of those found last, and its cost: *state is the caller's to free. THR_ELIMIT: stopped. */
-thr_status thr_subsets_walk(thr_subsets *x, int i, int **state, int *n, double *cost, thr_err *err) THR_MUST_CHECK;
+thr_status thr_subsets_walk(thr_subsets *subsets, int i, int **state, int *n, double *cost, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -5,65 +5,66 @@
 #include <stdlib.h>
 #include <string.h>
 
-void thr_threading_destroy(thr_threading *t)
+void thr_threading_destroy(thr_threading *threading)
 {
-  free(t->first);
-  free(t->place);
-  free(t->at);
-  free(t->total);
-  free(t->parent);
+  free(threading->first);
+  free(threading->place);
+  free(threading->at);
+  free(threading->total);
+  free(threading->parent);
 }
 
-thr_status thr_threading_init(thr_threading *t, const thr_frame *f, const thr_multigraph *g, int *mate, thr_pair_price *price,
-                              const void *of, bool tied, thr_err *err)
+thr_status thr_threading_init(thr_threading *threading, const thr_frame *frame, const thr_multigraph *multigraph, int *mate,
+                              thr_pair_price *price, const void *of, bool tied, thr_err *err)
 {
-  size_t passes = (size_t)g->n_darts / 2; /* no fewer than cords, or places */
-  *t = (thr_threading){.f = f, .g = g, .mate = mate, .price = price, .of = of, .tied = tied};
-  t->first = thr_calloc(passes + 1, sizeof *t->first);
-  t->place = thr_calloc(passes, sizeof *t->place);
-  t->at = thr_calloc((size_t)g->n_darts, sizeof *t->at);
-  t->total = thr_calloc(passes, sizeof *t->total);
-  t->parent = thr_calloc((size_t)f->n_edges, sizeof *t->parent);
-  return t->first && t->place && t->at && t->total && t->parent ? THR_OK : thr_nomem(err);
+  size_t passes = (size_t)multigraph->n_darts / 2; /* no fewer than cords, or places */
+  *threading = (thr_threading){.f = frame, .g = multigraph, .mate = mate, .price = price, .of = of, .tied = tied};
+  threading->first = thr_calloc(passes + 1, sizeof *threading->first);
+  threading->place = thr_calloc(passes, sizeof *threading->place);
+  threading->at = thr_calloc((size_t)multigraph->n_darts, sizeof *threading->at);
+  threading->total = thr_calloc(passes, sizeof *threading->total);
+  threading->parent = thr_calloc((size_t)frame->n_edges, sizeof *threading->parent);
+  return threading->first && threading->place && threading->at && threading->total && threading->parent ? THR_OK : thr_nomem(err);
 }
 
 /* ---- tracing ---- */
 
 enum { NOT_SEEN = -1, END = -2 };
 
-static double price_of(const thr_threading *t, int a, int b)
+static double price_of(const thr_threading *threading, int a, int b)
 {
-  return t->price ? t->price(t->of, a, b) : 0;
+  return threading->price ? threading->price(threading->of, a, b) : 0;
 }
 
-static void follow_cord(thr_threading *t, int start)
+static void follow_cord(thr_threading *threading, int start)
 {
-  int k = t->n_cords++, d = start, first = t->first[k] = t->n_places;
+  int k = threading->n_cords++, d = start, first = threading->first[k] = threading->n_places;
   double sum = 0;
-  if (t->mate[start] < 0) t->at[start] = END;
-  for (int next; (next = t->mate[d ^ 1]) >= 0; d = next) {
-    thr_place *p = &t->place[t->n_places];
-    *p = (thr_place){k, t->n_places - first, d ^ 1, next, sum, price_of(t, d ^ 1, next)};
-    t->at[p->in] = t->at[p->out] = t->n_places++;
+  if (threading->mate[start] < 0) threading->at[start] = END;
+  for (int next; (next = threading->mate[d ^ 1]) >= 0; d = next) {
+    thr_place *p = &threading->place[threading->n_places];
+    *p = (thr_place){k, threading->n_places - first, d ^ 1, next, sum, price_of(threading, d ^ 1, next)};
+    threading->at[p->in] = threading->at[p->out] = threading->n_places++;
     sum += p->price;
     if (next == start) break;
   }
-  if (t->mate[d ^ 1] < 0) t->at[d ^ 1] = END;
-  t->total[k] = sum;
+  if (threading->mate[d ^ 1] < 0) threading->at[d ^ 1] = END;
+  threading->total[k] = sum;
 }
 
-bool thr_threading_follow(thr_threading *t, int most)
+bool thr_threading_follow(thr_threading *threading, int most)
 {
-  const thr_multigraph *g = t->g;
-  t->n_cords = t->n_places = 0;
-  for (int d = 0; d < g->n_darts; d++)
-    t->at[d] = NOT_SEEN;
-  for (int i = g->first[t->f->n_nodes]; i < g->n_darts; i++)
-    if (t->mate[g->dart[i]] < 0 && t->at[g->dart[i]] == NOT_SEEN) follow_cord(t, g->dart[i]);
-  bool all = t->n_cords <= most;
-  for (int d = 0; d < g->n_darts && all; d++)
-    if (t->at[d] == NOT_SEEN && (all = t->n_cords < most)) follow_cord(t, d);
-  t->first[t->n_cords] = t->n_places;
+  const thr_multigraph *multigraph = threading->g;
+  threading->n_cords = threading->n_places = 0;
+  for (int d = 0; d < multigraph->n_darts; d++)
+    threading->at[d] = NOT_SEEN;
+  for (int i = multigraph->first[threading->f->n_nodes]; i < multigraph->n_darts; i++)
+    if (threading->mate[multigraph->dart[i]] < 0 && threading->at[multigraph->dart[i]] == NOT_SEEN)
+      follow_cord(threading, multigraph->dart[i]);
+  bool all = threading->n_cords <= most;
+  for (int d = 0; d < multigraph->n_darts && all; d++)
+    if (threading->at[d] == NOT_SEEN && (all = threading->n_cords < most)) follow_cord(threading, d);
+  threading->first[threading->n_cords] = threading->n_places;
   return all;
 }
 
@@ -73,96 +74,97 @@ static void label_cord(const int *mate, int start, int label, int *cord)
     cord[d] = cord[d ^ 1] = label;
 }
 
-int thr_threading_label(const thr_multigraph *g, const int *mate, int *cord)
+int thr_threading_label(const thr_multigraph *multigraph, const int *mate, int *cord)
 {
   int n = 0;
-  for (int d = 0; d < g->n_darts; d++)
+  for (int d = 0; d < multigraph->n_darts; d++)
     cord[d] = -1;
-  for (int d = 0; d < g->n_darts; d++)
+  for (int d = 0; d < multigraph->n_darts; d++)
     if (mate[d] < 0 && cord[d] < 0) label_cord(mate, d, n++, cord);
-  for (int d = 0; d < g->n_darts; d++)
+  for (int d = 0; d < multigraph->n_darts; d++)
     if (cord[d] < 0) label_cord(mate, d, n++, cord);
   return n;
 }
 
 /* ---- pairs changed, and taken back ---- */
 
-int thr_threading_places(const thr_threading *t, int v, int *place)
+int thr_threading_places(const thr_threading *threading, int v, int *place)
 {
-  const thr_multigraph *g = t->g;
+  const thr_multigraph *multigraph = threading->g;
   int n = 0;
-  for (int i = g->first[v]; i < g->first[v + 1]; i++) {
-    int p = t->at[g->dart[i]];
-    if (t->place[p].in == g->dart[i]) place[n++] = p;
+  for (int i = multigraph->first[v]; i < multigraph->first[v + 1]; i++) {
+    int p = threading->at[multigraph->dart[i]];
+    if (threading->place[p].in == multigraph->dart[i]) place[n++] = p;
   }
   return n;
 }
 
-bool thr_threading_tied(const thr_threading *t, int v)
+bool thr_threading_tied(const thr_threading *threading, int v)
 {
-  const thr_frame *f = t->f;
-  const thr_multigraph *g = t->g;
-  int apart = thr_degree(f, v) - 1;
-  for (int i = f->first[v]; i < f->first[v + 1]; i++)
-    t->parent[f->half[i] >> 1] = f->half[i] >> 1;
-  for (int i = g->first[v]; i < g->first[v + 1] && apart > 0; i++) {
-    int a = g->dart[i], b = t->mate[a];
-    if (b > a && g->half[a] >= 0 && g->half[b] >= 0) apart -= thr_disjoint_join(t->parent, g->half[a] >> 1, g->half[b] >> 1);
+  const thr_frame *frame = threading->f;
+  const thr_multigraph *multigraph = threading->g;
+  int apart = thr_degree(frame, v) - 1;
+  for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
+    threading->parent[frame->half[i] >> 1] = frame->half[i] >> 1;
+  for (int i = multigraph->first[v]; i < multigraph->first[v + 1] && apart > 0; i++) {
+    int a = multigraph->dart[i], b = threading->mate[a];
+    if (b > a && multigraph->half[a] >= 0 && multigraph->half[b] >= 0)
+      apart -= thr_disjoint_join(threading->parent, multigraph->half[a] >> 1, multigraph->half[b] >> 1);
   }
   return apart == 0;
 }
 
-void thr_threading_pair(thr_threading *t, int a, int b, int c, int d, thr_broken *old)
+void thr_threading_pair(thr_threading *threading, int a, int b, int c, int d, thr_broken *old)
 {
   for (int i = 0; i < 2 && old; i++) {
     int one = i ? b : a;
     old->pair[old->n][0] = one;
-    old->pair[old->n++][1] = t->mate[one];
+    old->pair[old->n++][1] = threading->mate[one];
   }
-  thr_set_pair(t->mate, a, b);
-  thr_set_pair(t->mate, c, d);
+  thr_set_pair(threading->mate, a, b);
+  thr_set_pair(threading->mate, c, d);
 }
 
-void thr_threading_take_back(thr_threading *t, thr_broken *old)
+void thr_threading_take_back(thr_threading *threading, thr_broken *old)
 {
   while (old->n > 0) {
     old->n--;
-    thr_set_pair(t->mate, old->pair[old->n][0], old->pair[old->n][1]);
+    thr_set_pair(threading->mate, old->pair[old->n][0], old->pair[old->n][1]);
   }
 }
 
-bool thr_threading_keep(thr_threading *t, thr_broken *old)
+bool thr_threading_keep(thr_threading *threading, thr_broken *old)
 {
   bool tied = true;
-  for (int i = 0; i < old->n && t->tied && tied; i += 2)
-    tied = thr_threading_tied(t, t->g->tail[old->pair[i][0]]);
-  if (!tied) thr_threading_take_back(t, old);
+  for (int i = 0; i < old->n && threading->tied && tied; i += 2)
+    tied = thr_threading_tied(threading, threading->g->tail[old->pair[i][0]]);
+  if (!tied) thr_threading_take_back(threading, old);
   return tied;
 }
 
 /* ---- exchanges of two places ---- */
 
-thr_exchange thr_threading_exchange(const thr_threading *t, int i, int k, bool crossed)
+thr_exchange thr_threading_exchange(const thr_threading *threading, int i, int k, bool crossed)
 {
-  const thr_place *p = &t->place[i], *q = &t->place[k];
+  const thr_place *p = &threading->place[i], *q = &threading->place[k];
   int b = crossed ? q->in : q->out, d = crossed ? q->out : q->in, change = crossed ? 0 : 1;
-  if (p->cord != q->cord) change = thr_threading_closed(t, p->cord) || thr_threading_closed(t, q->cord) ? -1 : 0;
-  double old = p->price + q->price, now = price_of(t, p->in, b) + price_of(t, p->out, d);
+  if (p->cord != q->cord) change = thr_threading_closed(threading, p->cord) || thr_threading_closed(threading, q->cord) ? -1 : 0;
+  double old = p->price + q->price, now = price_of(threading, p->in, b) + price_of(threading, p->out, d);
   return (thr_exchange){{p->in, b, p->out, d}, now - old, change};
 }
 
-void thr_threading_make(thr_threading *t, const thr_exchange *x, thr_broken *old)
+void thr_threading_make(thr_threading *threading, const thr_exchange *x, thr_broken *old)
 {
-  thr_threading_pair(t, x->made[0], x->made[1], x->made[2], x->made[3], old);
+  thr_threading_pair(threading, x->made[0], x->made[1], x->made[2], x->made[3], old);
 }
 
-bool thr_threading_allows(thr_threading *t, const thr_exchange *x)
+bool thr_threading_allows(thr_threading *threading, const thr_exchange *x)
 {
   thr_broken old = {0};
   if (x->extra >= THR_FORBIDDEN / 2) return false;
-  if (!t->tied) return true;
-  thr_threading_make(t, x, &old);
-  if (!thr_threading_keep(t, &old)) return false;
-  thr_threading_take_back(t, &old);
+  if (!threading->tied) return true;
+  thr_threading_make(threading, x, &old);
+  if (!thr_threading_keep(threading, &old)) return false;
+  thr_threading_take_back(threading, &old);
   return true;
 }

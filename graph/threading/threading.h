@@ -42,30 +42,30 @@ typedef struct {
   int *parent;      /* [n_edges] scratch */
 } thr_threading;
 
-/* Nothing is followed yet. On failure t is to be destroyed too. */
-thr_status thr_threading_init(thr_threading *t, const thr_frame *f, const thr_multigraph *g, int *mate, thr_pair_price *price,
-                              const void *of, bool tied, thr_err *err) THR_MUST_CHECK;
-void thr_threading_destroy(thr_threading *t);
+/* Nothing is followed yet. On failure threading is to be destroyed too. */
+thr_status thr_threading_init(thr_threading *threading, const thr_frame *frame, const thr_multigraph *multigraph, int *mate,
+                              thr_pair_price *price, const void *of, bool tied, thr_err *err) THR_MUST_CHECK;
+void thr_threading_destroy(thr_threading *threading);
 
 /* All places from the pairs: open cords from the lower of their last half-edges, in that order, then closed ones from their
  * lowest. false: there are more than most cords, not all of which are followed. O(darts). */
-bool thr_threading_follow(thr_threading *t, int most);
+bool thr_threading_follow(thr_threading *threading, int most);
 
 /* The same half-edges without an order: cord[n_darts] receives the number of the cord of each. Returns how many cords there are.
  */
-int thr_threading_label(const thr_multigraph *g, const int *mate, int *cord);
+int thr_threading_label(const thr_multigraph *multigraph, const int *mate, int *cord);
 
 /* Does cord k come back to its start, where no end is? */
-static inline bool thr_threading_closed(const thr_threading *t, int k)
+static inline bool thr_threading_closed(const thr_threading *threading, int k)
 {
-  return t->g->half[t->place[t->first[k]].in] >= 0;
+  return threading->g->half[threading->place[threading->first[k]].in] >= 0;
 }
 
 /* The places at node v, each once, in the order of the half-edges that cords arrive against. */
-int thr_threading_places(const thr_threading *t, int v, int *place);
+int thr_threading_places(const thr_threading *threading, int v, int *place);
 
 /* Do the pairs at node v tie its edges? One with a single edge is tied. */
-bool thr_threading_tied(const thr_threading *t, int v);
+bool thr_threading_tied(const thr_threading *threading, int v);
 
 /* Pairs that were broken up, to be made again. {0}: none. */
 typedef struct {
@@ -73,11 +73,11 @@ typedef struct {
 } thr_broken;
 
 /* Pairs a with b and c with d, where a and b were paired with c and d, in either order. old: notes what they were (NULL: no). */
-void thr_threading_pair(thr_threading *t, int a, int b, int c, int d, thr_broken *old);
-void thr_threading_take_back(thr_threading *t, thr_broken *old);
+void thr_threading_pair(thr_threading *threading, int a, int b, int c, int d, thr_broken *old);
+void thr_threading_take_back(thr_threading *threading, thr_broken *old);
 
 /* Takes the pairs back unless they leave all nodes tied that must be. */
-bool thr_threading_keep(thr_threading *t, thr_broken *old);
+bool thr_threading_keep(thr_threading *threading, thr_broken *old);
 
 /* Two places of one node, paired anew: half-edges made[0] with made[1], made[2] with made[3]. */
 typedef struct {
@@ -88,12 +88,12 @@ typedef struct {
 
 /* crossed: arriving with arriving, which runs a part of one cord the other way round; else arriving with leaving, which cuts it
  * in two. Two open cords exchange their ends; others become one, either way. */
-thr_exchange thr_threading_exchange(const thr_threading *t, int i, int k, bool crossed);
+thr_exchange thr_threading_exchange(const thr_threading *threading, int i, int k, bool crossed);
 
 /* Is nothing forbidden by it, and does its node stay tied if it must be? */
-bool thr_threading_allows(thr_threading *t, const thr_exchange *x);
+bool thr_threading_allows(thr_threading *threading, const thr_exchange *x);
 
 /* Afterwards the cords are to be followed again. */
-void thr_threading_make(thr_threading *t, const thr_exchange *x, thr_broken *old);
+void thr_threading_make(thr_threading *threading, const thr_exchange *x, thr_broken *old);
 
 #endif

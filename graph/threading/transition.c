@@ -11,25 +11,26 @@
 
 enum { EXACT_DARTS = 12 }; /* largest node paired at least price: 2^12 subsets */
 
-static bool same_pass_back(const thr_multigraph *g, int a, int b)
+static bool same_pass_back(const thr_multigraph *multigraph, int a, int b)
 {
-  return g->half[a] == g->half[b]; /* both leave over one edge, or both are cord ends */
+  return multigraph->half[a] == multigraph->half[b]; /* both leave over one edge, or both are cord ends */
 }
 
-double thr_transition_price(const thr_frame *f, const thr_multigraph *g, int a, int b)
+double thr_transition_price(const thr_frame *frame, const thr_multigraph *multigraph, int a, int b)
 {
-  double price = same_pass_back(g, a, b) ? THR_U_TURN_PRICE : 0;
-  if (g->half[a] < 0 || g->half[b] < 0) return price;
-  return price + thr_turn_angle(f, g->half[a] ^ 1, g->half[b]);
+  double price = same_pass_back(multigraph, a, b) ? THR_U_TURN_PRICE : 0;
+  if (multigraph->half[a] < 0 || multigraph->half[b] < 0) return price;
+  return price + thr_turn_angle(frame, multigraph->half[a] ^ 1, multigraph->half[b]);
 }
 
-static thr_status pair_exactly(const thr_frame *f, const thr_multigraph *g, const int *dart, int n, int *mate, thr_err *err)
+static thr_status pair_exactly(const thr_frame *frame, const thr_multigraph *multigraph, const int *dart, int n, int *mate,
+                               thr_err *err)
 {
   double price[EXACT_DARTS * EXACT_DARTS] = {0};
   int pair[EXACT_DARTS];
   for (int i = 0; i < n; i++)
     for (int j = 0; j < n; j++)
-      price[i * n + j] = i == j ? 0 : thr_transition_price(f, g, dart[i], dart[j]);
+      price[i * n + j] = i == j ? 0 : thr_transition_price(frame, multigraph, dart[i], dart[j]);
   thr_status st = thr_pairing_best(n, price, pair, err);
   for (int i = 0; i < n && !st; i++)
     mate[dart[i]] = dart[pair[i]];
@@ -44,15 +45,15 @@ static void pair_by_halves(const int *dart, int n, int *mate)
     thr_set_pair(mate, dart[i], dart[i + n / 2]);
 }
 
-thr_status thr_transition_pair(const thr_frame *f, const thr_multigraph *g, int *mate, thr_err *err)
+thr_status thr_transition_pair(const thr_frame *frame, const thr_multigraph *multigraph, int *mate, thr_err *err)
 {
   thr_status st = THR_OK;
-  for (int v = 0; v < g->n_nodes && !st; v++) {
-    const int *dart = g->dart + g->first[v];
-    int n = g->first[v + 1] - g->first[v];
-    if (n % 2) return thr_fail(err, THR_EINPUT, "node %s has an odd number (%d) of passes and ends", f->name[v], n);
+  for (int v = 0; v < multigraph->n_nodes && !st; v++) {
+    const int *dart = multigraph->dart + multigraph->first[v];
+    int n = multigraph->first[v + 1] - multigraph->first[v];
+    if (n % 2) return thr_fail(err, THR_EINPUT, "node %s has an odd number (%d) of passes and ends", frame->name[v], n);
     if (n <= EXACT_DARTS)
-      st = pair_exactly(f, g, dart, n, mate, err);
+      st = pair_exactly(frame, multigraph, dart, n, mate, err);
     else
       pair_by_halves(dart, n, mate);
   }
@@ -90,21 +91,21 @@ static int by_extra(const void *pa, const void *pb)
   return (x->c > y->c) - (x->c < y->c);
 }
 
-static exchange best_exchange(const thr_frame *f, const thr_multigraph *g, const int *mate, int a, int c)
+static exchange best_exchange(const thr_frame *frame, const thr_multigraph *multigraph, const int *mate, int a, int c)
 {
   int b = mate[a], d = mate[c];
-  double old = thr_transition_price(f, g, a, b) + thr_transition_price(f, g, c, d);
-  double straight = thr_transition_price(f, g, a, c) + thr_transition_price(f, g, b, d) - old;
-  double cross = thr_transition_price(f, g, a, d) + thr_transition_price(f, g, b, c) - old;
+  double old = thr_transition_price(frame, multigraph, a, b) + thr_transition_price(frame, multigraph, c, d);
+  double straight = thr_transition_price(frame, multigraph, a, c) + thr_transition_price(frame, multigraph, b, d) - old;
+  double cross = thr_transition_price(frame, multigraph, a, d) + thr_transition_price(frame, multigraph, b, c) - old;
   return (exchange){straight <= cross ? straight : cross, a, c, cross < straight};
 }
 
 /* Exchanges between different circuits at node v: all of them at a small node; at a large one each pair with the next. */
-static thr_status collect(const thr_frame *f, const thr_multigraph *g, const int *mate, const int *circuit, int v, exchanges *x,
-                          thr_err *err)
+static thr_status collect(const thr_frame *frame, const thr_multigraph *multigraph, const int *mate, const int *circuit, int v,
+                          exchanges *x, thr_err *err)
 {
-  int n = g->first[v + 1] - g->first[v];
-  const int *dart = g->dart + g->first[v];
+  int n = multigraph->first[v + 1] - multigraph->first[v];
+  const int *dart = multigraph->dart + multigraph->first[v];
   for (int i = 0; i < n; i++) {
     if (mate[dart[i]] < dart[i]) continue;
     for (int j = i + 1, seen = 0; j < n && (n <= EXACT_DARTS || seen < 1); j++) {
@@ -113,7 +114,7 @@ static thr_status collect(const thr_frame *f, const thr_multigraph *g, const int
       if (circuit[dart[i]] == circuit[dart[j]]) continue;
       thr_status st = thr_grow(&x->list, x->count, &x->capacity, sizeof *x->list, err);
       if (st) return st;
-      x->list[x->count++] = best_exchange(f, g, mate, dart[i], dart[j]);
+      x->list[x->count++] = best_exchange(frame, multigraph, mate, dart[i], dart[j]);
     }
   }
   return THR_OK;
@@ -136,25 +137,25 @@ static int apply_cheapest(exchanges *x, int *mate, const int *circuit, int *pare
   return applied;
 }
 
-thr_status thr_transition_join(const thr_frame *f, const thr_multigraph *g, int *mate, thr_err *err)
+thr_status thr_transition_join(const thr_frame *frame, const thr_multigraph *multigraph, int *mate, thr_err *err)
 {
   thr_status st = THR_OK;
   exchanges x = {0};
-  int *circuit = thr_calloc((size_t)g->n_darts, sizeof *circuit);
-  int *parent = thr_calloc((size_t)g->n_darts, sizeof *parent);
-  bool *moved = thr_calloc((size_t)g->n_darts, sizeof *moved);
+  int *circuit = thr_calloc((size_t)multigraph->n_darts, sizeof *circuit);
+  int *parent = thr_calloc((size_t)multigraph->n_darts, sizeof *parent);
+  bool *moved = thr_calloc((size_t)multigraph->n_darts, sizeof *moved);
   if (!circuit || !parent || !moved) {
     st = thr_nomem(err);
     goto done;
   }
   do {
     x.count = 0;
-    thr_threading_label(g, mate, circuit);
-    memset(moved, 0, (size_t)g->n_darts * sizeof *moved);
-    for (int d = 0; d < g->n_darts; d++)
+    thr_threading_label(multigraph, mate, circuit);
+    memset(moved, 0, (size_t)multigraph->n_darts * sizeof *moved);
+    for (int d = 0; d < multigraph->n_darts; d++)
       parent[d] = d;
-    for (int v = 0; v < g->n_nodes; v++)
-      if ((st = collect(f, g, mate, circuit, v, &x, err))) goto done;
+    for (int v = 0; v < multigraph->n_nodes; v++)
+      if ((st = collect(frame, multigraph, mate, circuit, v, &x, err))) goto done;
   } while (apply_cheapest(&x, mate, circuit, parent, moved) > 0);
 done:
   free(x.list);

@@ -12,17 +12,17 @@
 /* Price of continuing from dart a to dart b at their node: the turning angle in rad (0 for a cord end), and
  * THR_U_TURN_PRICE more for a U-turn or for joining two cord ends, which would leave a cord without a pass. */
 #define THR_U_TURN_PRICE 1000.0
-double thr_transition_price(const thr_frame *f, const thr_multigraph *g, int a, int b);
+double thr_transition_price(const thr_frame *frame, const thr_multigraph *multigraph, int a, int b);
 
 /* Pairs the darts at every node. Up to 12 darts: least total price, by dynamic programming over subsets, so a node has
  * a U-turn only where no pairing is without one. More darts: no U-turn where one can be avoided, price not minimized;
  * linear. Every degree must be even (THR_EINPUT otherwise). */
-thr_status thr_transition_pair(const thr_frame *f, const thr_multigraph *g, int *mate, thr_err *err) THR_MUST_CHECK;
+thr_status thr_transition_pair(const thr_frame *frame, const thr_multigraph *multigraph, int *mate, thr_err *err) THR_MUST_CHECK;
 
 /* Exchanges pairs (a b)(c d) -> (a c)(b d) or (a d)(b c) at nodes where two circuits meet, cheapest first, until each
  * component of the multigraph is one circuit. Adds no U-turn where the pairs at hand have none:
  * if both new pairings had one, an old pair would have been one. O(p log p) a round for p pairs of pairs, few rounds. */
-thr_status thr_transition_join(const thr_frame *f, const thr_multigraph *g, int *mate, thr_err *err) THR_MUST_CHECK;
+thr_status thr_transition_join(const thr_frame *frame, const thr_multigraph *multigraph, int *mate, thr_err *err) THR_MUST_CHECK;
 
 /* The cord from dart start on, until it comes back there or ends (mate < 0): its darts into out, room for n_darts / 2, *count how
  * many. Linear. */

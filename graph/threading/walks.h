@@ -21,29 +21,30 @@ typedef struct {
   thr_walk *walk; /* owned */
 } thr_walks;
 
-void thr_walks_destroy(thr_walks *w);
+void thr_walks_destroy(thr_walks *walks);
 
 /* As few walks as pass every edge of each component passes[e] times, paired for little turning: a cyclic one where all nodes have
  * an even number of passes, else open ones between those that have not. out[n_components]; near-linear in passes. */
-thr_status thr_walks_trace(const thr_frame *f, const int *passes, const int *component, int n_components, thr_walks *out,
+thr_status thr_walks_trace(const thr_frame *frame, const int *passes, const int *component, int n_components, thr_walks *out,
                            thr_err *err) THR_MUST_CHECK;
 
 /* Appends a walk, which is taken over, or released on failure. Its length is worked out. */
-thr_status thr_walks_add(thr_walks *w, const thr_frame *f, thr_walk walk, thr_err *err) THR_MUST_CHECK;
+thr_status thr_walks_add(thr_walks *walks, const thr_frame *frame, thr_walk walk, thr_err *err) THR_MUST_CHECK;
 
 /* Appends a copy of half[n]. */
-thr_status thr_walks_copy(thr_walks *w, const thr_frame *f, const int *half, int n, bool cyclic, thr_err *err) THR_MUST_CHECK;
+thr_status thr_walks_copy(thr_walks *walks, const thr_frame *frame, const int *half, int n, bool cyclic,
+                          thr_err *err) THR_MUST_CHECK;
 
 /* The number of passes that the walks make of each edge is added to passes[n_edges]. */
-void thr_walks_count(const thr_walks *w, int *passes);
+void thr_walks_count(const thr_walks *walks, int *passes);
 
-double thr_walk_length(const thr_frame *f, const int *half, int n);
+double thr_walk_length(const thr_frame *frame, const int *half, int n);
 
 /* Of the longest walk; 0 if there are none. */
-double thr_walks_longest(const thr_walks *w);
+double thr_walks_longest(const thr_walks *walks);
 
 /* The node before pass number at; with at = n, after the last one. */
-int thr_walk_node(const thr_frame *f, const thr_walk *w, int at);
+int thr_walk_node(const thr_frame *frame, const thr_walk *w, int at);
 
 /* The half-edge before pass number at of a cyclic walk, or of an open one if at > 0. */
 static inline int thr_walk_before(const thr_walk *w, int at)
@@ -58,7 +59,7 @@ void thr_walk_reverse(int *half, int n);
 thr_status thr_walk_rotate(thr_walk *w, int at, thr_err *err) THR_MUST_CHECK;
 
 /* Price of going on from half-edge in with out: the turn in rad, and much more for a turn back. */
-double thr_walk_turn(const thr_frame *f, int in, int out);
+double thr_walk_turn(const thr_frame *frame, int in, int out);
 
 /* The visits that walks pay to nodes, walk by walk, at positions 0 .. n of each; the last position of a cyclic one is listed, but
  * is no visit. */
@@ -76,15 +77,15 @@ typedef struct {
 
 /* Of walks w[0 .. n_walks - 1]. first: [n_nodes] of -1, borrowed and changed until thr_walk_visits_forget; NULL: one of its own.
  * O(positions), and O(nodes) for one of its own. */
-thr_status thr_walk_visits_init(thr_walk_visits *x, const thr_frame *f, const thr_walk *w, int n_walks, int *first,
+thr_status thr_walk_visits_init(thr_walk_visits *visits, const thr_frame *frame, const thr_walk *w, int n_walks, int *first,
                                 thr_err *err) THR_MUST_CHECK;
-void thr_walk_visits_forget(const thr_walk_visits *x);
-void thr_walk_visits_destroy(thr_walk_visits *x);
+void thr_walk_visits_forget(const thr_walk_visits *visits);
+void thr_walk_visits_destroy(thr_walk_visits *visits);
 
 /* Moves the walks into cords cord[0 .. n_walks - 1] of component k, numbered from first on: open ones from their lower end,
  * cyclic ones from where closing leaves out most (graph/threading/tour.h). */
-thr_status thr_walks_cords(thr_walks *w, const thr_frame *f, const thr_plan_options *o, int k, int first, thr_cord *cord,
-                           thr_err *err) THR_MUST_CHECK;
+thr_status thr_walks_cords(thr_walks *walks, const thr_frame *frame, const thr_plan_options *options, int k, int first,
+                           thr_cord *cord, thr_err *err) THR_MUST_CHECK;
 
 /* Moves the walks walks[n_components] into the cords of plan, whose frame and options are set, component by component. */
 thr_status thr_walks_plan(thr_walks *walks, int n_components, thr_plan *plan, thr_err *err) THR_MUST_CHECK;

@@ -12,38 +12,38 @@ enum {
   PARTNERS = 12         /* shorter walks that a walk is compared with while it cannot be made shorter otherwise */
 };
 
-static bool stop(const thr_balance *b)
+static bool stop(const thr_balance *balance)
 {
-  return b->steps <= 0 || thr_limits_stop(b->limits);
+  return balance->steps <= 0 || thr_limits_stop(balance->limits);
 }
 
-static int longest(const thr_walks *w)
+static int longest(const thr_walks *walks)
 {
   int best = 0;
-  for (int i = 1; i < w->n_walks; i++)
-    if (w->walk[i].length > w->walk[best].length) best = i;
+  for (int i = 1; i < walks->n_walks; i++)
+    if (walks->walk[i].length > walks->walk[best].length) best = i;
   return best;
 }
 
-static double mean(const thr_walks *w)
+static double mean(const thr_walks *walks)
 {
   double sum = 0;
-  for (int i = 0; i < w->n_walks; i++)
-    sum += w->walk[i].length;
-  return sum / w->n_walks;
+  for (int i = 0; i < walks->n_walks; i++)
+    sum += walks->walk[i].length;
+  return sum / walks->n_walks;
 }
 
-static bool done(const thr_balance *b)
+static bool done(const thr_balance *balance)
 {
-  double most = b->w->walk[longest(b->w)].length;
-  return most <= b->goal || most <= mean(b->w) * (1 + 1e-12);
+  double most = balance->w->walk[longest(balance->w)].length;
+  return most <= balance->goal || most <= mean(balance->w) * (1 + 1e-12);
 }
 
 /* What the longer of two walks must fall below for an exchange to be worth it: a part of what is too much, so that a few
  * exchanges lead to the end. */
-static double worth(const thr_balance *b, double length)
+static double worth(const thr_balance *balance, double length)
 {
-  double too_much = fmax(length - fmax(b->goal, mean(b->w)), 0);
+  double too_much = fmax(length - fmax(balance->goal, mean(balance->w)), 0);
   return length - fmax(1e-9 * length, too_much / 64);
 }
 
@@ -60,44 +60,44 @@ static int by_length(const void *pa, const void *pb)
   return (a->walk > b->walk) - (a->walk < b->walk);
 }
 
-static void rank(const thr_walks *w, ranked *order)
+static void rank(const thr_walks *walks, ranked *order)
 {
-  for (int i = 0; i < w->n_walks; i++)
-    order[i] = (ranked){w->walk[i].length, i};
-  qsort(order, (size_t)w->n_walks, sizeof *order, by_length);
+  for (int i = 0; i < walks->n_walks; i++)
+    order[i] = (ranked){walks->walk[i].length, i};
+  qsort(order, (size_t)walks->n_walks, sizeof *order, by_length);
 }
 
 /* The best exchange of walk p with a shorter one; two tries with cyclic ones, which meet at a random node. */
-static thr_status exchange_with_shorter(thr_balance *b, const ranked *order, int p, bool *made, thr_err *err)
+static thr_status exchange_with_shorter(thr_balance *balance, const ranked *order, int p, bool *made, thr_err *err)
 {
-  thr_exchange best = {.longer = worth(b, b->w->walk[p].length)};
-  int with = -1, tries = b->w->walk[p].cyclic ? 2 : 1;
+  thr_exchange best = {.longer = worth(balance, balance->w->walk[p].length)};
+  int with = -1, tries = balance->w->walk[p].cyclic ? 2 : 1;
   thr_status st = THR_OK;
-  for (int k = b->w->n_walks - 1; k >= 0 && order[k].walk != p && !st && b->steps > 0; k--)
+  for (int k = balance->w->n_walks - 1; k >= 0 && order[k].walk != p && !st && balance->steps > 0; k--)
     for (int t = 0; t < tries && !st; t++) {
       thr_exchange x;
       int q = order[k].walk;
-      if (b->w->walk[p].cyclic && with >= 0) continue; /* only the last one found is at hand */
-      st = thr_balance_find(b, p, q, &x, err);
+      if (balance->w->walk[p].cyclic && with >= 0) continue; /* only the last one found is at hand */
+      st = thr_balance_find(balance, p, q, &x, err);
       if (st || x.longer >= best.longer) continue;
       best = x;
       with = q;
-      if (b->w->walk[p].cyclic) break;
+      if (balance->w->walk[p].cyclic) break;
     }
   *made = !st && with >= 0;
-  return *made ? thr_balance_make(b, p, with, &best, err) : st;
+  return *made ? thr_balance_make(balance, p, with, &best, err) : st;
 }
 
 /* Every walk exchanges with shorter ones, again and again. */
-static thr_status sweep(thr_balance *b, ranked *order, thr_err *err)
+static thr_status sweep(thr_balance *balance, ranked *order, thr_err *err)
 {
   thr_status st = THR_OK;
-  for (bool any = true; any && !st && !stop(b) && !done(b);) {
+  for (bool any = true; any && !st && !stop(balance) && !done(balance);) {
     any = false;
-    rank(b->w, order);
-    for (int i = 0; i + 1 < b->w->n_walks && !st && !stop(b); i++) {
+    rank(balance->w, order);
+    for (int i = 0; i + 1 < balance->w->n_walks && !st && !stop(balance); i++) {
       bool made;
-      st = exchange_with_shorter(b, order, order[i].walk, &made, err);
+      st = exchange_with_shorter(balance, order, order[i].walk, &made, err);
       any |= made;
       if (made) break; /* the order is no longer right */
     }
@@ -106,67 +106,68 @@ static thr_status sweep(thr_balance *b, ranked *order, thr_err *err)
 }
 
 /* The longest and another one in another order, so that other exchanges are possible. */
-static thr_status shuffle(thr_balance *b, const ranked *order, thr_err *err)
+static thr_status shuffle(thr_balance *balance, const ranked *order, thr_err *err)
 {
-  int n = b->w->n_walks, p = order[0].walk, q = order[1 + (int)(thr_random(&b->random) % (uint64_t)(n - 1))].walk;
-  thr_status st = thr_balance_shuffle(b, p, err);
-  if (!st) st = thr_balance_shuffle(b, q, err);
+  int n = balance->w->n_walks, p = order[0].walk, q = order[1 + (int)(thr_random(&balance->random) % (uint64_t)(n - 1))].walk;
+  thr_status st = thr_balance_shuffle(balance, p, err);
+  if (!st) st = thr_balance_shuffle(balance, q, err);
   return st;
 }
 
-static thr_status detour(thr_balance *b, const ranked *order, bool *made, thr_err *err)
+static thr_status detour(thr_balance *balance, const ranked *order, bool *made, thr_err *err)
 {
   thr_status st = THR_OK;
   int p = order[0].walk, tried = 0;
   *made = false;
-  for (int k = b->w->n_walks - 1; k > 0 && tried < PARTNERS && !*made && !st && !stop(b); k--, tried++)
-    st = thr_balance_detour(b, p, order[k].walk, worth(b, b->w->walk[p].length), made, err);
+  for (int k = balance->w->n_walks - 1; k > 0 && tried < PARTNERS && !*made && !st && !stop(balance); k--, tried++)
+    st = thr_balance_detour(balance, p, order[k].walk, worth(balance, balance->w->walk[p].length), made, err);
   return st;
 }
 
 /* Rounds of shuffles and exchanges; after some in vain a detour. */
-static thr_status search(thr_balance *b, ranked *order, thr_err *err)
+static thr_status search(thr_balance *balance, ranked *order, thr_err *err)
 {
   enum { IN_VAIN = 24, STUCK = 20 };
-  thr_status st = sweep(b, order, err);
-  for (int vain = 0, stuck = 0; stuck < STUCK && !st && !stop(b) && !done(b);) {
-    double most = b->w->walk[longest(b->w)].length;
+  thr_status st = sweep(balance, order, err);
+  for (int vain = 0, stuck = 0; stuck < STUCK && !st && !stop(balance) && !done(balance);) {
+    double most = balance->w->walk[longest(balance->w)].length;
     bool made = false;
-    rank(b->w, order);
-    if (vain == IN_VAIN) st = detour(b, order, &made, err);
+    rank(balance->w, order);
+    if (vain == IN_VAIN) st = detour(balance, order, &made, err);
     if (vain == IN_VAIN) stuck += !made;
-    if (!made && !st) st = shuffle(b, order, err);
-    if (!st) st = sweep(b, order, err);
-    bool better = b->w->walk[longest(b->w)].length < worth(b, most);
+    if (!made && !st) st = shuffle(balance, order, err);
+    if (!st) st = sweep(balance, order, err);
+    bool better = balance->w->walk[longest(balance->w)].length < worth(balance, most);
     vain = better || vain == IN_VAIN ? 0 : vain + 1;
     if (better) stuck = 0;
   }
   return st;
 }
 
-thr_status thr_balance_walks(const thr_share *s, thr_walks *w, double goal, const thr_limits *limits, int *passes, thr_err *err)
+thr_status thr_balance_walks(const thr_share *share, thr_walks *walks, double goal, const thr_limits *limits, int *passes,
+                             thr_err *err)
 {
   int64_t all = 0;
-  size_t n = (size_t)s->f->n_nodes;
-  if (w->n_walks < 2) return THR_OK;
-  for (int i = 0; i < w->n_walks; i++)
-    all += w->walk[i].n;
-  thr_balance b = {.s = s, .limits = limits, .w = w, .passes = passes, .goal = goal, .random = 1};
-  b.steps = STEPS_LEAST + STEPS_PER_PASS * all;
-  b.first = thr_calloc(n, sizeof *b.first);
-  ranked *order = thr_calloc((size_t)w->n_walks, sizeof *order);
+  size_t n = (size_t)share->f->n_nodes;
+  if (walks->n_walks < 2) return THR_OK;
+  for (int i = 0; i < walks->n_walks; i++)
+    all += walks->walk[i].n;
+  thr_balance balance = {.s = share, .limits = limits, .w = walks, .passes = passes, .goal = goal, .random = 1};
+  balance.steps = STEPS_LEAST + STEPS_PER_PASS * all;
+  balance.first = thr_calloc(n, sizeof *balance.first);
+  ranked *order = thr_calloc((size_t)walks->n_walks, sizeof *order);
   thr_junction_graphs ties = {0};
-  thr_status st = b.first && order ? THR_OK : thr_nomem(err);
-  if (!st && s->o->joint == THR_JOINT_TUBE) {
-    st = thr_junction_graphs_init(&ties, s->f, w, err);
-    b.ties = &ties;
+  thr_status st = balance.first && order ? THR_OK : thr_nomem(err);
+  if (!st && share->o->joint == THR_JOINT_TUBE) {
+    st = thr_junction_graphs_init(&ties, share->f, walks, err);
+    balance.ties = &ties;
   }
   if (!st) {
-    memset(b.first, 0xff, n * sizeof *b.first);
-    st = search(&b, order, err);
+    memset(balance.first, 0xff, n * sizeof *balance.first);
+    st = search(&balance, order, err);
   }
-  free(b.first);
-  free(b.merged);
+  free(balance.first);
+  free(balance.merged);
   free(order);
   thr_junction_graphs_destroy(&ties);
   return st;

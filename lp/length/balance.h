@@ -33,7 +33,7 @@ typedef struct {
 /* Exchanges until no walk is longer than goal, none helps, or the limits stop it. passes[n_edges] are those of all components and
  * change where cords take detours. With tube joints the walks tie all nodes of the component before and after. Work in proportion
  * to passes, at most some hundred times as much. The same input gives the same walks. Failure (THR_ENOMEM) leaves valid walks. */
-thr_status thr_balance_walks(const thr_share *s, thr_walks *w, double goal, const thr_limits *limits, int *passes,
+thr_status thr_balance_walks(const thr_share *share, thr_walks *walks, double goal, const thr_limits *limits, int *passes,
                              thr_err *err) THR_MUST_CHECK;
 
 /* ---- internal to lp/balance*.c ---- */
@@ -57,15 +57,15 @@ typedef struct {
 enum { THR_MOST_VISITS = 32 }; /* of a node, that each of its visits is compared with: hubs are not quadratic */
 
 /* The exchange between two walks that leaves them most equal. */
-thr_status thr_balance_find(thr_balance *b, int p, int q, thr_exchange *best, thr_err *err) THR_MUST_CHECK;
+thr_status thr_balance_find(thr_balance *balance, int p, int q, thr_exchange *best, thr_err *err) THR_MUST_CHECK;
 
 /* Makes it: right after it was found. */
-thr_status thr_balance_make(thr_balance *b, int p, int q, const thr_exchange *x, thr_err *err) THR_MUST_CHECK;
+thr_status thr_balance_make(thr_balance *balance, int p, int q, const thr_exchange *x, thr_err *err) THR_MUST_CHECK;
 
 /* Turns round random closed sections of a walk: its passes and ends stay, their order changes. */
-thr_status thr_balance_shuffle(thr_balance *b, int p, thr_err *err) THR_MUST_CHECK;
+thr_status thr_balance_shuffle(thr_balance *balance, int p, thr_err *err) THR_MUST_CHECK;
 
 /* Walk p gives a section to walk q, which gets there over extra passes, if that leaves both shorter than below. */
-thr_status thr_balance_detour(thr_balance *b, int p, int q, double below, bool *made, thr_err *err) THR_MUST_CHECK;
+thr_status thr_balance_detour(thr_balance *balance, int p, int q, double below, bool *made, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -52,18 +52,18 @@ static bool within(double length, double limit)
 /* ---- sharing out ---- */
 
 /* A closed cord through its passes again: its ends are where they were, where leaving out a turn saves most. */
-static thr_status open_again(const several *x, thr_walk *w, int node, thr_err *err)
+static thr_status open_again(const several *x, thr_walk *walk, int node, thr_err *err)
 {
   int best = -1;
   double most = -1;
-  for (int i = 0; i < w->n; i++) {
-    double turn = thr_walk_turn(x->f, w->half[i ? i - 1 : w->n - 1], w->half[i]);
-    if (thr_walk_node(x->f, w, i) != node || turn < most + 1e-9) continue;
+  for (int i = 0; i < walk->n; i++) {
+    double turn = thr_walk_turn(x->f, walk->half[i ? i - 1 : walk->n - 1], walk->half[i]);
+    if (thr_walk_node(x->f, walk, i) != node || turn < most + 1e-9) continue;
     best = i;
     most = turn;
   }
-  w->cyclic = false;
-  return thr_walk_rotate(w, best, err);
+  walk->cyclic = false;
+  return thr_walk_rotate(walk, best, err);
 }
 
 /* Evening out takes the passes of a cord in any order: the same passes again with little turning. Each cord costs a look at the
@@ -71,24 +71,24 @@ static thr_status open_again(const several *x, thr_walk *w, int node, thr_err *e
 static thr_status straighten(several *x, int *passes, thr_err *err)
 {
   const double most = 1e8;
-  const thr_frame *f = x->f;
+  const thr_frame *frame = x->f;
   thr_status st = THR_OK;
-  if ((double)x->walks.n_walks * f->n_edges > most) return THR_OK;
+  if ((double)x->walks.n_walks * frame->n_edges > most) return THR_OK;
   for (int i = 0; i < x->walks.n_walks && !st; i++) {
-    thr_walk *w = &x->walks.walk[i];
+    thr_walk *walk = &x->walks.walk[i];
     thr_walks one = {0};
-    int node = thr_walk_node(f, w, 0);
-    bool cyclic = w->cyclic;
-    memset(passes, 0, (size_t)f->n_edges * sizeof *passes);
-    for (int j = 0; j < w->n; j++)
-      passes[w->half[j] >> 1]++;
-    st = thr_walks_trace(f, passes, x->component, 1, &one, err);
+    int node = thr_walk_node(frame, walk, 0);
+    bool cyclic = walk->cyclic;
+    memset(passes, 0, (size_t)frame->n_edges * sizeof *passes);
+    for (int j = 0; j < walk->n; j++)
+      passes[walk->half[j] >> 1]++;
+    st = thr_walks_trace(frame, passes, x->component, 1, &one, err);
     if (st) break;
-    free(w->half);
-    *w = one.walk[0];
+    free(walk->half);
+    *walk = one.walk[0];
     one.walk[0].half = NULL;
     thr_walks_destroy(&one);
-    if (w->cyclic && !cyclic) st = open_again(x, w, node, err);
+    if (walk->cyclic && !cyclic) st = open_again(x, walk, node, err);
   }
   return st;
 }
@@ -96,20 +96,20 @@ static thr_status straighten(several *x, int *passes, thr_err *err)
 /* The walks as they are, for whoever keeps the best cords so far. */
 static thr_status tell(const several *x, thr_err *err)
 {
-  thr_plan p = {.frame = *x->f, .options = *x->o};
+  thr_plan plan = {.frame = *x->f, .options = *x->o};
   thr_walks copy = {0};
   thr_status st = THR_OK;
   if (!x->limits->found) return THR_OK;
   for (int i = 0; i < x->walks.n_walks && !st; i++) {
-    thr_walk w = x->walks.walk[i];
-    size_t bytes = (size_t)w.n * sizeof *w.half;
-    w.half = thr_calloc((size_t)w.n, sizeof *w.half);
-    if (w.half) memcpy(w.half, x->walks.walk[i].half, bytes);
-    st = w.half ? thr_walks_add(&copy, x->f, w, err) : thr_nomem(err);
+    thr_walk walk = x->walks.walk[i];
+    size_t bytes = (size_t)walk.n * sizeof *walk.half;
+    walk.half = thr_calloc((size_t)walk.n, sizeof *walk.half);
+    if (walk.half) memcpy(walk.half, x->walks.walk[i].half, bytes);
+    st = walk.half ? thr_walks_add(&copy, x->f, walk, err) : thr_nomem(err);
   }
-  if (!st) st = thr_walks_plan(&copy, 1, &p, err);
-  if (!st) thr_limits_found(x->limits, p.cord, p.n_cords, NULL);
-  thr_cords_destroy(p.cord, p.n_cords);
+  if (!st) st = thr_walks_plan(&copy, 1, &plan, err);
+  if (!st) thr_limits_found(x->limits, plan.cord, plan.n_cords, NULL);
+  thr_cords_destroy(plan.cord, plan.n_cords);
   thr_walks_destroy(&copy);
   return st;
 }
@@ -117,10 +117,10 @@ static thr_status tell(const several *x, thr_err *err)
 /* What the table knows better, where the framework is small. With a goal only if it was missed, and then the fewest cords. */
 static thr_status make_exact(several *x, double goal, thr_err *err)
 {
-  const thr_plan_options *o = x->o;
+  const thr_plan_options *options = x->o;
   thr_walks *w = &x->walks;
-  bool certain, counts = o->ends == THR_ENDS_COUNTS;
-  thr_share_ask ask = {counts ? w->n_walks : o->cords_least, counts ? w->n_walks : o->cords, true, INFINITY};
+  bool certain, counts = options->ends == THR_ENDS_COUNTS;
+  thr_share_ask ask = {counts ? w->n_walks : options->cords_least, counts ? w->n_walks : options->cords, true, INFINITY};
   if (goal > 0 && (x->asked || within(thr_walks_longest(w), goal))) return THR_OK;
   if (goal > 0) ask = (thr_share_ask){ask.least, ask.most, false, goal};
   x->asked = goal > 0;
@@ -156,19 +156,19 @@ static thr_status make_closed(several *x, int n, bool even, int *scratch, thr_er
 }
 
 /* Room for the ends of n cords; without it there are none. */
-static thr_status make_places(several *x, int n, const thr_certificate *c, thr_err *err)
+static thr_status make_places(several *x, int n, const thr_certificate *certificate, thr_err *err)
 {
   bool changed;
   thr_err why = {0};
-  thr_status st = thr_share_places(&x->share, 0, n, c, x->limits, x->passes, &changed, &why);
+  thr_status st = thr_share_places(&x->share, 0, n, certificate, x->limits, x->passes, &changed, &why);
   return st ? thr_fail(err, st == THR_ELIMIT ? THR_EINFEASIBLE : st, "%s", why.text) : THR_OK;
 }
 
 /* n walks through the passes. */
-static thr_status share_out(several *x, int n, const thr_certificate *c, bool even, double goal, thr_err *err)
+static thr_status share_out(several *x, int n, const thr_certificate *certificate, bool even, double goal, thr_err *err)
 {
   int *passes = thr_calloc((size_t)x->f->n_edges, sizeof *passes);
-  thr_status st = passes ? make_places(x, n, c, err) : thr_nomem(err);
+  thr_status st = passes ? make_places(x, n, certificate, err) : thr_nomem(err);
   thr_walks_destroy(&x->walks);
   if (!st) st = thr_walks_trace(x->f, x->passes, x->component, 1, &x->walks, err);
   if (!st)
@@ -205,11 +205,11 @@ static int counted_cords(const several *x)
 
 static int choose_number(const several *x)
 {
-  const thr_plan_options *o = x->o;
-  if (o->ends == THR_ENDS_COUNTS) return counted_cords(x);
-  if (!thr_wants_balance(o)) return o->cords_least;
+  const thr_plan_options *options = x->o;
+  if (options->ends == THR_ENDS_COUNTS) return counted_cords(x);
+  if (!thr_wants_balance(options)) return options->cords_least;
   int room = most_cords(x);
-  return room < o->cords_least ? o->cords_least : room < o->cords ? room : o->cords;
+  return room < options->cords_least ? options->cords_least : room < options->cords ? room : options->cords;
 }
 
 /* ---- no cord longer than a limit ---- */
@@ -222,30 +222,30 @@ static double length_of(const several *x, const int *passes)
   return length;
 }
 
-thr_status thr_cords_reach(const thr_frame *f, const thr_plan_options *o, thr_err *err)
+thr_status thr_cords_reach(const thr_frame *frame, const thr_plan_options *options, thr_err *err)
 {
   thr_ways w;
-  bool closed = o->ends == THR_ENDS_CLOSED;
-  double limit = o->max_length;
-  thr_status st = thr_ways_init(&w, f, err);
-  for (int v = 0; v < f->n_nodes && !st && !closed; v++)
-    if (thr_plan_end_allowed(f, o, v)) st = thr_ways_start(&w, v, err);
-  if (!st) st = thr_ways_spread(&w, o, NULL, 0, INFINITY, NULL, err);
-  for (int e = 0; e < f->n_edges && !st; e++) {
-    const int *end = f->edge[e];
-    if (closed && within(2 * f->length[e], limit)) continue;
+  bool closed = options->ends == THR_ENDS_CLOSED;
+  double limit = options->max_length;
+  thr_status st = thr_ways_init(&w, frame, err);
+  for (int v = 0; v < frame->n_nodes && !st && !closed; v++)
+    if (thr_plan_end_allowed(frame, options, v)) st = thr_ways_start(&w, v, err);
+  if (!st) st = thr_ways_spread(&w, options, NULL, 0, INFINITY, NULL, err);
+  for (int e = 0; e < frame->n_edges && !st; e++) {
+    const int *end = frame->edge[e];
+    if (closed && within(2 * frame->length[e], limit)) continue;
     if (closed) { /* there, and the shortest way back */
       thr_ways_clear(&w);
       st = thr_ways_start(&w, end[0], err);
-      if (!st) st = thr_ways_spread(&w, o, NULL, 0, f->length[e], NULL, err);
+      if (!st) st = thr_ways_spread(&w, options, NULL, 0, frame->length[e], NULL, err);
       if (st) break;
     }
-    double least = (closed ? 0 : w.far[end[0]]) + f->length[e] + w.far[end[1]];
+    double least = (closed ? 0 : w.far[end[0]]) + frame->length[e] + w.far[end[1]];
     if (!within(least, limit))
       st = thr_fail(err, THR_EINFEASIBLE,
-                    "no cord of at most %g %s can pass the edge between nodes %s and %s: %s over it takes %g %s", limit, f->units,
-                    f->name[end[0]], f->name[end[1]],
-                    closed ? "the shortest circuit" : "the shortest way between places where cords may end", least, f->units);
+                    "no cord of at most %g %s can pass the edge between nodes %s and %s: %s over it takes %g %s", limit,
+                    frame->units, frame->name[end[0]], frame->name[end[1]],
+                    closed ? "the shortest circuit" : "the shortest way between places where cords may end", least, frame->units);
   }
   thr_ways_destroy(&w);
   return st;
@@ -255,25 +255,25 @@ thr_status thr_cords_reach(const thr_frame *f, const thr_plan_options *o, thr_er
  * passes. */
 static thr_status try_number(several *x, int n, thr_shortest *best, double *length, bool *done, thr_err *err)
 {
-  thr_plan_options o = *x->o;
-  thr_shortest s;
-  o.cords = n;
+  thr_plan_options options = *x->o;
+  thr_shortest shortest;
+  options.cords = n;
   thr_err why = {0};
-  thr_status st = thr_postman_shortest(x->f, &o, x->limits, &s, &why);
+  thr_status st = thr_postman_shortest(x->f, &options, x->limits, &shortest, &why);
   if (st == THR_EINFEASIBLE) return THR_OK; /* full edges make more cords end than n: the largest number was found possible */
   if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", why.text);
   st = THR_OK;
-  *length = length_of(x, s.passes);
+  *length = length_of(x, shortest.passes);
   if (*length <= n * x->o->max_length * (1 + 1e-9)) {
-    memcpy(x->passes, s.passes, (size_t)x->f->n_edges * sizeof *x->passes);
-    st = share_out(x, n, s.certificate, true, x->o->max_length, err);
+    memcpy(x->passes, shortest.passes, (size_t)x->f->n_edges * sizeof *x->passes);
+    st = share_out(x, n, shortest.certificate, true, x->o->max_length, err);
     *done = !st && within(thr_walks_longest(&x->walks), x->o->max_length);
   } else {
     thr_certificate swap = best->certificate[0];
-    best->certificate[0] = s.certificate[0];
-    s.certificate[0] = swap;
+    best->certificate[0] = shortest.certificate[0];
+    shortest.certificate[0] = swap;
   }
-  thr_shortest_destroy(&s);
+  thr_shortest_destroy(&shortest);
   return st;
 }
 
@@ -310,24 +310,24 @@ static thr_status grow(several *x, thr_shortest *best, thr_err *err)
 
 /* ---- the plan ---- */
 
-static thr_status make(several *x, thr_shortest *s, thr_err *err)
+static thr_status make(several *x, thr_shortest *shortest, thr_err *err)
 {
-  memcpy(x->passes, s->passes, (size_t)x->f->n_edges * sizeof *x->passes);
-  if (x->o->max_length > 0) return grow(x, s, err);
-  return share_out(x, choose_number(x), s->certificate, thr_wants_balance(x->o), 0, err);
+  memcpy(x->passes, shortest->passes, (size_t)x->f->n_edges * sizeof *x->passes);
+  if (x->o->max_length > 0) return grow(x, shortest, err);
+  return share_out(x, choose_number(x), shortest->certificate, thr_wants_balance(x->o), 0, err);
 }
 
 thr_status thr_cords_judge(const thr_plan *plan, const thr_err *unproved, thr_err *err)
 {
-  const thr_plan_options *o = &plan->options;
-  const thr_cords_claim *c = &plan->cords_claim;
+  const thr_plan_options *options = &plan->options;
+  const thr_cords_claim *claim = &plan->cords_claim;
   const char *why = unproved->code ? unproved->text : "", *colon = unproved->code ? ": " : "";
-  if (thr_wants_balance(o) && !c->longest_optimal)
+  if (thr_wants_balance(options) && !claim->longest_optimal)
     return thr_fail(err, THR_ELIMIT, "%s%sthe longest cord is proved to be within %.3g %% of the shortest possible", why, colon,
-                    100 * (c->longest - c->longest_bound) / c->longest);
-  if (!thr_wants_balance(o) && o->max_length > 0 && c->fewest && !c->fewest_optimal)
-    return thr_fail(err, THR_ELIMIT, "%s%sat least %d cords are needed; these are %d", why, colon, c->fewest, plan->n_cords);
-  if (thr_wants_balance(o) || (o->max_length > 0 && c->fewest) || plan->proof.optimal) return THR_OK;
+                    100 * (claim->longest - claim->longest_bound) / claim->longest);
+  if (!thr_wants_balance(options) && options->max_length > 0 && claim->fewest && !claim->fewest_optimal)
+    return thr_fail(err, THR_ELIMIT, "%s%sat least %d cords are needed; these are %d", why, colon, claim->fewest, plan->n_cords);
+  if (thr_wants_balance(options) || (options->max_length > 0 && claim->fewest) || plan->proof.optimal) return THR_OK;
   return thr_fail(err, THR_ELIMIT, "%s%sthe cords are proved to be within %.3g %% of the shortest", why, colon,
                   100 * plan->proof.gap);
 }
@@ -335,57 +335,57 @@ thr_status thr_cords_judge(const thr_plan *plan, const thr_err *unproved, thr_er
 /* Where the cords need more passes than a join has, what proves more of that. */
 static thr_status prove_places(const several *x, thr_plan *plan, thr_err *err)
 {
-  const thr_frame *f = &plan->frame;
+  const thr_frame *frame = &plan->frame;
   thr_length_proof *proof = &plan->proof;
   thr_err found = {0};
   if (proof->optimal) return THR_OK;
   thr_status st = thr_share_prices(&x->share, 0, x->limits, &proof->certificate[0], err);
   if (st) return st;
   proof->unconfirmed += proof->certificate[0].n_prices > 0; /* GLPK was asked about other passes */
-  st = thr_check_length_proof(f, &plan->options, plan->cord, plan->n_cords, proof->certificate, proof->n_certificates,
+  st = thr_check_length_proof(frame, &plan->options, plan->cord, plan->n_cords, proof->certificate, proof->n_certificates,
                               &proof->optimal, &proof->lower_bound, &found);
   proof->gap = (plan->metrics.length - proof->lower_bound) / plan->metrics.length;
   return thr_check_own(st, &found, err);
 }
 
-static thr_status prove(const several *x, thr_plan *plan, thr_shortest *s, thr_err *err)
+static thr_status prove(const several *x, thr_plan *plan, thr_shortest *shortest, thr_err *err)
 {
-  const thr_frame *f = &plan->frame;
-  const thr_plan_options *o = &plan->options;
-  thr_status st = thr_plan_measure(f, o, plan->cord, plan->n_cords, &plan->metrics, err);
-  if (!st) st = thr_postman_prove(f, o, plan->cord, plan->n_cords, s, &plan->proof, err);
+  const thr_frame *frame = &plan->frame;
+  const thr_plan_options *options = &plan->options;
+  thr_status st = thr_plan_measure(frame, options, plan->cord, plan->n_cords, &plan->metrics, err);
+  if (!st) st = thr_postman_prove(frame, options, plan->cord, plan->n_cords, shortest, &plan->proof, err);
   if (!st) st = prove_places(x, plan, err);
   if (!st)
-    st = thr_check_cords(f, o, plan->cord, plan->n_cords, plan->proof.certificate, plan->proof.n_certificates, &plan->cords_claim,
-                         err);
+    st = thr_check_cords(frame, options, plan->cord, plan->n_cords, plan->proof.certificate, plan->proof.n_certificates,
+                         &plan->cords_claim, err);
   return st;
 }
 
-thr_status thr_cords_plan(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
+thr_status thr_cords_plan(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits, thr_plan *plan,
                           thr_cords_word *word, thr_err *err)
 {
-  thr_shortest s = {0};
+  thr_shortest shortest = {0};
   thr_err why = {0};
   several x = {.limits = limits};
   *plan = (thr_plan){0};
   if (word) *word = (thr_cords_word){0};
-  bool one = o->cords == 1 && o->max_length == 0 && o->ends != THR_ENDS_COUNTS;
-  if (one) return thr_postman_plan(f, o, limits, plan, err);
-  thr_status proved = thr_postman_shortest(f, o, limits, &s, &why);
+  bool one = options->cords == 1 && options->max_length == 0 && options->ends != THR_ENDS_COUNTS;
+  if (one) return thr_postman_plan(frame, options, limits, plan, err);
+  thr_status proved = thr_postman_shortest(frame, options, limits, &shortest, &why);
   if (proved && proved != THR_ELIMIT) return thr_fail(err, proved, "%s", why.text);
-  thr_status st = thr_plan_request(plan, f, o, err);
+  thr_status st = thr_plan_request(plan, frame, options, err);
   x.f = &plan->frame;
   x.o = &plan->options;
   if (!st) st = several_init(&x, err);
-  if (!st) st = make(&x, &s, err);
+  if (!st) st = make(&x, &shortest, err);
   if (!st) st = thr_walks_plan(&x.walks, 1, plan, err);
-  if (!st) st = prove(&x, plan, &s, err);
-  if (word) *word = (thr_cords_word){x.least, x.certain && thr_wants_balance(o)};
+  if (!st) st = prove(&x, plan, &shortest, err);
+  if (word) *word = (thr_cords_word){x.least, x.certain && thr_wants_balance(options)};
   if (st)
     thr_plan_destroy(plan);
   else
     st = thr_cords_judge(plan, &why, err);
   several_destroy(&x);
-  thr_shortest_destroy(&s);
+  thr_shortest_destroy(&shortest);
   return st;
 }

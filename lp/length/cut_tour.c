@@ -48,20 +48,20 @@ static thr_status trace_tours(cutting *x, thr_err *err)
 
 static thr_status cutting_init(cutting *x, thr_err *err)
 {
-  const thr_frame *f = x->f;
-  thr_status st = thr_ways_init(&x->home, f, err);
-  x->component = thr_calloc((size_t)f->n_nodes, sizeof *x->component);
-  x->left = thr_calloc((size_t)f->n_edges, sizeof *x->left);
+  const thr_frame *frame = x->f;
+  thr_status st = thr_ways_init(&x->home, frame, err);
+  x->component = thr_calloc((size_t)frame->n_nodes, sizeof *x->component);
+  x->left = thr_calloc((size_t)frame->n_edges, sizeof *x->left);
   if (!st && (!x->component || !x->left)) st = thr_nomem(err);
-  if (!st) st = thr_frame_components(f, x->component, &x->n_components, err);
+  if (!st) st = thr_frame_components(frame, x->component, &x->n_components, err);
   if (st) return st;
   x->tour = thr_calloc((size_t)x->n_components, sizeof *x->tour);
   x->cords = thr_calloc((size_t)x->n_components, sizeof *x->cords);
   if (!x->tour || !x->cords) return thr_nomem(err);
-  for (int e = 0; e < f->n_edges; e++)
-    x->left[e] = thr_plan_cover(f, x->o, e);
-  for (int v = 0; v < f->n_nodes && !st && !closed_cords(x); v++)
-    if (thr_plan_end_allowed(f, x->o, v)) st = thr_ways_start(&x->home, v, err);
+  for (int e = 0; e < frame->n_edges; e++)
+    x->left[e] = thr_plan_cover(frame, x->o, e);
+  for (int v = 0; v < frame->n_nodes && !st && !closed_cords(x); v++)
+    if (thr_plan_end_allowed(frame, x->o, v)) st = thr_ways_start(&x->home, v, err);
   if (!st) st = thr_ways_spread(&x->home, x->o, NULL, 0, INFINITY, NULL, err);
   return st ? st : trace_tours(x, err);
 }
@@ -75,17 +75,17 @@ static thr_status begin_at(cutting *x, int v, thr_err *err)
   return st ? st : thr_ways_spread(&x->home, x->o, NULL, 0, x->o->max_length, NULL, err);
 }
 
-/* Where the section of tour w that begins at pass `from` ends: after the last pass that still has to be made with which the cord
- * is no longer than it may be; `from`: there is none. */
-static int section_end(const cutting *x, const thr_walk *w, int from)
+/* Where the section of tour walk that begins at pass `from` ends: after the last pass that still has to be made with which the
+ * cord is no longer than it may be; `from`: there is none. */
+static int section_end(const cutting *x, const thr_walk *walk, int from)
 {
-  const thr_frame *f = x->f;
-  double most = x->o->max_length * (1 + 1e-12), length = x->home.far[thr_walk_node(f, w, from)];
+  const thr_frame *frame = x->f;
+  double most = x->o->max_length * (1 + 1e-12), length = x->home.far[thr_walk_node(frame, walk, from)];
   int end = from;
-  for (int i = from; i < w->n && length <= most; i++) {
-    int e = w->half[i] >> 1;
-    length += f->length[e];
-    if (x->left[e] > 0 && length + x->home.far[thr_head(f, w->half[i])] <= most) end = i + 1;
+  for (int i = from; i < walk->n && length <= most; i++) {
+    int e = walk->half[i] >> 1;
+    length += frame->length[e];
+    if (x->left[e] > 0 && length + x->home.far[thr_head(frame, walk->half[i])] <= most) end = i + 1;
   }
   return end;
 }
@@ -104,16 +104,16 @@ static void way_home(const thr_ways *g, int v, int *half)
     *half++ = g->over[v] ^ 1;
 }
 
-/* Passes from .. end - 1 of w, and the ways to and from them. */
-static thr_status add_cord(cutting *x, thr_walks *to, const thr_walk *w, int from, int end, thr_err *err)
+/* Passes from .. end - 1 of walk, and the ways to and from them. */
+static thr_status add_cord(cutting *x, thr_walks *to, const thr_walk *walk, int from, int end, thr_err *err)
 {
-  int a = thr_walk_node(x->f, w, from), b = thr_walk_node(x->f, w, end);
+  int a = thr_walk_node(x->f, walk, from), b = thr_walk_node(x->f, walk, end);
   int n_to = way_length(&x->home, a), n_back = way_length(&x->home, b), section = end - from;
   thr_walk cord = {n_to + section + n_back, NULL, 0, closed_cords(x)};
   if (!(cord.half = thr_calloc((size_t)cord.n, sizeof *cord.half))) return thr_nomem(err);
   way_home(&x->home, a, cord.half);
   thr_walk_reverse(cord.half, n_to);
-  memcpy(cord.half + n_to, w->half + from, (size_t)section * sizeof *cord.half);
+  memcpy(cord.half + n_to, walk->half + from, (size_t)section * sizeof *cord.half);
   way_home(&x->home, b, cord.half + n_to + section);
   for (int i = 0; i < cord.n; i++)
     x->left[cord.half[i] >> 1]--;
@@ -124,38 +124,38 @@ static thr_status add_cord(cutting *x, thr_walks *to, const thr_walk *w, int fro
 static thr_status cut(cutting *x, int k, bool *found, thr_err *err)
 {
   thr_status st = THR_OK;
-  const thr_walk *w = x->tour[k].walk;
+  const thr_walk *walk = x->tour[k].walk;
   *found = true;
-  for (int i = 0, end; i < w->n && !st && *found; i = end) {
+  for (int i = 0, end; i < walk->n && !st && *found; i = end) {
     end = i + 1;
-    if (x->left[w->half[i] >> 1] <= 0) continue;
-    st = begin_at(x, thr_walk_node(x->f, w, i), err);
-    if (!st) end = section_end(x, w, i);
+    if (x->left[walk->half[i] >> 1] <= 0) continue;
+    st = begin_at(x, thr_walk_node(x->f, walk, i), err);
+    if (!st) end = section_end(x, walk, i);
     *found = end > i && x->cords[k].n_walks < x->o->cords;
-    if (!st && *found) st = add_cord(x, &x->cords[k], w, i, end, err);
+    if (!st && *found) st = add_cord(x, &x->cords[k], walk, i, end, err);
   }
   *found &= x->cords[k].n_walks >= x->o->cords_least;
   return st;
 }
 
-thr_status thr_cut_tour(const thr_frame *f, const thr_plan_options *o, thr_cord **cord, int *n_cords, thr_err *err)
+thr_status thr_cut_tour(const thr_frame *frame, const thr_plan_options *options, thr_cord **cord, int *n_cords, thr_err *err)
 {
-  cutting x = {.f = f, .o = o};
-  thr_plan p = {.frame = *f, .options = *o};
+  cutting x = {.f = frame, .o = options};
+  thr_plan plan = {.frame = *frame, .options = *options};
   bool found = true;
   *cord = NULL;
   *n_cords = 0;
-  if (o->ends == THR_ENDS_COUNTS) return THR_OK;
+  if (options->ends == THR_ENDS_COUNTS) return THR_OK;
   thr_status st = cutting_init(&x, err);
   for (int k = 0; k < x.n_components && !st && found; k++)
     st = cut(&x, k, &found, err);
-  if (!st && found) st = thr_walks_plan(x.cords, x.n_components, &p, err);
+  if (!st && found) st = thr_walks_plan(x.cords, x.n_components, &plan, err);
   cutting_destroy(&x);
   if (st) {
-    thr_cords_destroy(p.cord, p.n_cords);
+    thr_cords_destroy(plan.cord, plan.n_cords);
   } else {
-    *cord = p.cord;
-    *n_cords = p.n_cords;
+    *cord = plan.cord;
+    *n_cords = plan.n_cords;
   }
   return st;
 }

@@ -75,13 +75,13 @@ static void instance_destroy(instance *in)
 
 /* Greatest length that all lengths are whole multiples of, as far as Euclid's algorithm can tell; remainders far below the
  * shortest length count as none. */
-static double common_measure(const thr_frame *f, const int *edge, int n)
+static double common_measure(const thr_frame *frame, const int *edge, int n)
 {
-  double measure = f->length[edge[0]], shortest = measure;
+  double measure = frame->length[edge[0]], shortest = measure;
   for (int i = 1; i < n; i++)
-    shortest = fmin(shortest, f->length[edge[i]]);
+    shortest = fmin(shortest, frame->length[edge[i]]);
   for (int i = 1; i < n; i++)
-    for (double a = f->length[edge[i]], b = measure; b > 0;) {
+    for (double a = frame->length[edge[i]], b = measure; b > 0;) {
       double r = fmod(a, b);
       if (r < 1e-6 * shortest || b - r < 1e-6 * shortest) r = 0;
       measure = a = b;
@@ -93,17 +93,17 @@ static double common_measure(const thr_frame *f, const int *edge, int n)
 /* A scale under which lengths round to integers. If the lengths have a common measure (all beads equal: the normal case; or
  * whole millimetres), it is the unit: then ties are exact and weights small. Otherwise a power of 2 that gives the weights
  * their sum: powers of 2 keep exact what is exact. */
-static double choose_scale(const thr_frame *f, const int *edge, int n)
+static double choose_scale(const thr_frame *frame, const int *edge, int n)
 {
-  double sum = 0, units = 0, measure = common_measure(f, edge, n), most = weight_sum(n);
+  double sum = 0, units = 0, measure = common_measure(frame, edge, n), most = weight_sum(n);
   for (int i = 0; i < n; i++) {
-    sum += f->length[edge[i]];
-    units += nearbyint(f->length[edge[i]] / measure);
+    sum += frame->length[edge[i]];
+    units += nearbyint(frame->length[edge[i]] / measure);
   }
   double finest = exp2(floor(log2(most / sum))), scale = units / sum;
   if (units > most) return finest;
   for (int i = 0; i < n; i++) {
-    double length = f->length[edge[i]];
+    double length = frame->length[edge[i]];
     if (fabs(length - nearbyint(length * scale) / scale) > 1e-12 * length) return finest;
   }
   return scale;
@@ -143,11 +143,11 @@ static thr_status radius(const postman *m, int d, const thr_certificate *c, int6
 
 static thr_status instance_init(const postman *m, int d, const thr_certificate *c, instance *in, thr_err *err)
 {
-  const thr_frame *f = m->f;
+  const thr_frame *frame = m->f;
   int first = m->start[d], halves = 0;
   *in = (instance){.n_nodes = m->start[d + 1] - first};
   for (int j = 0; j < in->n_nodes; j++)
-    halves += thr_degree(f, m->node[first + j]);
+    halves += thr_degree(frame, m->node[first + j]);
   in->edge = thr_calloc((size_t)halves, sizeof *in->edge);
   in->weight = thr_calloc((size_t)halves, sizeof *in->weight);
   in->frame_edge = thr_calloc((size_t)halves, sizeof *in->frame_edge);
@@ -157,14 +157,14 @@ static thr_status instance_init(const postman *m, int d, const thr_certificate *
   for (int j = 0; j < in->n_nodes; j++) {
     int v = m->node[first + j];
     in->odd[j] = m->odd[v];
-    in->end_allowed[j] = ends_free(m) && thr_plan_end_allowed(f, m->o, v);
-    for (int i = f->first[v]; i < f->first[v + 1]; i++) {
-      int h = f->half[i];
+    in->end_allowed[j] = ends_free(m) && thr_plan_end_allowed(frame, m->o, v);
+    for (int i = frame->first[v]; i < frame->first[v + 1]; i++) {
+      int h = frame->half[i];
       if (h % 2 || !has_room(m, h >> 1)) continue; /* each edge once, from its first node */
       in->frame_edge[in->n_edges] = h / 2;
-      in->weight[in->n_edges] = thr_certificate_weight(f, c, h / 2);
+      in->weight[in->n_edges] = thr_certificate_weight(frame, c, h / 2);
       in->edge[in->n_edges][0] = j;
-      in->edge[in->n_edges++][1] = m->local[thr_head(f, h)];
+      in->edge[in->n_edges++][1] = m->local[thr_head(frame, h)];
     }
   }
   return THR_OK;
@@ -204,35 +204,35 @@ static void take_join(postman *m, const instance *in, const bool *in_join, thr_c
 
 static thr_status solve_closed(postman *m, int d, const instance *in, thr_certificate *c, thr_err *err)
 {
-  thr_tjoin t;
-  thr_tjoin_problem p = {in->n_nodes, in->n_edges, (const int(*)[2])in->edge, in->weight, in->odd, 0};
-  thr_status st = thr_tjoin_shrunk(&p, m->o->engine, m->limits, &t, err), taken = THR_OK;
-  if (!st) st = thr_confirmations_add(counter(m), &p, &t, err);
+  thr_tjoin tjoin;
+  thr_tjoin_problem tjoin_problem = {in->n_nodes, in->n_edges, (const int(*)[2])in->edge, in->weight, in->odd, 0};
+  thr_status st = thr_tjoin_shrunk(&tjoin_problem, m->o->engine, m->limits, &tjoin, err), taken = THR_OK;
+  if (!st) st = thr_confirmations_add(counter(m), &tjoin_problem, &tjoin, err);
   if (!st || st == THR_ELIMIT) {
-    take_join(m, in, t.in_join, c);
-    taken = take_cuts(m, d, &t.cut, &t.n_cuts, c->denominator / THR_DUAL_DENOMINATOR, c, err);
+    take_join(m, in, tjoin.in_join, c);
+    taken = take_cuts(m, d, &tjoin.cut, &tjoin.n_cuts, c->denominator / THR_DUAL_DENOMINATOR, c, err);
   }
-  thr_tjoin_destroy(&t);
+  thr_tjoin_destroy(&tjoin);
   return taken ? taken : st;
 }
 
 static thr_status solve_open(postman *m, int d, const instance *in, thr_certificate *c, thr_err *err)
 {
-  thr_endjoin j = {0};
-  thr_endjoin_problem p = {.graph = {in->n_nodes, in->n_edges, (const int(*)[2])in->edge, in->weight, in->odd, 0},
-                           .end_allowed = in->end_allowed,
-                           .engine = m->o->engine,
-                           .count = counter(m),
-                           .n_ends = 2 * m->o->cords};
-  thr_status st = radius(m, d, c, &p.far, err), taken = THR_OK;
-  p.far++;
-  if (!st) st = thr_endjoin_solve(&p, m->limits, &j, err);
+  thr_endjoin endjoin = {0};
+  thr_endjoin_problem endjoin_problem = {.graph = {in->n_nodes, in->n_edges, (const int(*)[2])in->edge, in->weight, in->odd, 0},
+                                         .end_allowed = in->end_allowed,
+                                         .engine = m->o->engine,
+                                         .count = counter(m),
+                                         .n_ends = 2 * m->o->cords};
+  thr_status st = radius(m, d, c, &endjoin_problem.far, err), taken = THR_OK;
+  endjoin_problem.far++;
+  if (!st) st = thr_endjoin_solve(&endjoin_problem, m->limits, &endjoin, err);
   if (!st || st == THR_ELIMIT) {
-    take_join(m, in, j.in_join, c);
-    c->end_price = j.end_price;
-    taken = take_cuts(m, d, &j.cut, &j.n_cuts, 1, c, err);
+    take_join(m, in, endjoin.in_join, c);
+    c->end_price = endjoin.end_price;
+    taken = take_cuts(m, d, &endjoin.cut, &endjoin.n_cuts, 1, c, err);
   }
-  thr_endjoin_destroy(&j);
+  thr_endjoin_destroy(&endjoin);
   return taken ? taken : st;
 }
 
@@ -253,12 +253,12 @@ static thr_status solve_domain(postman *m, int d, thr_err *err)
 
 static thr_status check_room(const postman *m, thr_err *err)
 {
-  const thr_frame *f = m->f;
-  for (int e = 0; e < f->n_edges; e++) {
-    int least = thr_plan_cover(f, m->o, e), most = thr_plan_capacity(f, m->o, e);
+  const thr_frame *frame = m->f;
+  for (int e = 0; e < frame->n_edges; e++) {
+    int least = thr_plan_cover(frame, m->o, e), most = thr_plan_capacity(frame, m->o, e);
     if (least > most)
       return thr_fail(err, THR_EINFEASIBLE, "edge %s-%s needs %d passes, but only %d fit; lower --cover or raise its capacity",
-                      f->name[f->edge[e][0]], f->name[f->edge[e][1]], least, most);
+                      frame->name[frame->edge[e][0]], frame->name[frame->edge[e][1]], least, most);
   }
   return THR_OK;
 }
@@ -266,29 +266,29 @@ static thr_status check_room(const postman *m, thr_err *err)
 /* A full edge that leaves the part, to be named. */
 static thr_status no_room(const postman *m, int part, const char *why, thr_err *err)
 {
-  const thr_frame *f = m->f;
+  const thr_frame *frame = m->f;
   int e = 0;
-  while (e + 1 < f->n_edges && (m->part[f->edge[e][0]] == part) == (m->part[f->edge[e][1]] == part))
+  while (e + 1 < frame->n_edges && (m->part[frame->edge[e][0]] == part) == (m->part[frame->edge[e][1]] == part))
     e++;
   return thr_fail(err, THR_EINFEASIBLE,
                   "edge %s-%s is full with %d %s, as is every edge out of the part with node %s, which needs one more pass %s",
-                  f->name[f->edge[e][0]], f->name[f->edge[e][1]], thr_plan_cover(f, m->o, e),
-                  thr_plan_cover(f, m->o, e) == 1 ? "pass" : "passes", f->name[part], why);
+                  frame->name[frame->edge[e][0]], frame->name[frame->edge[e][1]], thr_plan_cover(frame, m->o, e),
+                  thr_plan_cover(frame, m->o, e) == 1 ? "pass" : "passes", frame->name[part], why);
 }
 
 /* Extra passes cannot leave a part: where the odd nodes in it are odd in number, a cord has to end. */
 static thr_status check_parts(const postman *m, thr_err *err)
 {
-  const thr_frame *f = m->f;
-  size_t n = (size_t)f->n_nodes;
+  const thr_frame *frame = m->f;
+  size_t n = (size_t)frame->n_nodes;
   bool *odd = thr_calloc(n, sizeof *odd), *open = thr_calloc(n, sizeof *open);
   int *ends = thr_calloc(n, sizeof *ends);
   thr_status st = odd && open && ends ? THR_OK : thr_nomem(err);
-  for (int v = 0; v < f->n_nodes && !st; v++) {
+  for (int v = 0; v < frame->n_nodes && !st; v++) {
     odd[m->part[v]] ^= m->odd[v];
-    open[m->part[v]] |= ends_free(m) && thr_plan_end_allowed(f, m->o, v);
+    open[m->part[v]] |= ends_free(m) && thr_plan_end_allowed(frame, m->o, v);
   }
-  for (int v = 0; v < f->n_nodes && !st; v++) {
+  for (int v = 0; v < frame->n_nodes && !st; v++) {
     if (!odd[v]) continue; /* only roots are marked */
     if (!open[v])
       st = no_room(m, v, "to make their number even", err);
@@ -304,15 +304,15 @@ static thr_status check_parts(const postman *m, thr_err *err)
 /* In every component cords can end somewhere; ends that are given have their cords. */
 static thr_status check_ends(const postman *m, thr_err *err)
 {
-  const thr_frame *f = m->f;
+  const thr_frame *frame = m->f;
   int *ends = thr_calloc((size_t)m->n_components, sizeof *ends), *first = thr_calloc((size_t)m->n_components, sizeof *first);
   thr_status st = ends && first ? THR_OK : thr_nomem(err);
-  for (int v = f->n_nodes - 1; v >= 0 && !st; v--) {
+  for (int v = frame->n_nodes - 1; v >= 0 && !st; v--) {
     first[m->component[v]] = v;
-    ends[m->component[v]] += m->o->ends == THR_ENDS_COUNTS ? m->o->end_count[v] : thr_plan_end_allowed(f, m->o, v);
+    ends[m->component[v]] += m->o->ends == THR_ENDS_COUNTS ? m->o->end_count[v] : thr_plan_end_allowed(frame, m->o, v);
   }
   for (int k = 0; k < m->n_components && !st; k++) {
-    const char *name = f->name[first[k]];
+    const char *name = frame->name[first[k]];
     if (ends[k] == 0)
       st = thr_fail(err, THR_EINFEASIBLE,
                     "the component with node %s has no node where a cord may end; name one with --feet (try --feet lowest) or "
@@ -361,23 +361,23 @@ static void group(int n_items, const int *key, int n_keys, int *start, int *item
 /* Parts and domains; leaves in key[n_nodes] the number of each node's domain. */
 static void find_domains(postman *m, int *key)
 {
-  const thr_frame *f = m->f;
-  for (int v = 0; v < f->n_nodes; v++)
+  const thr_frame *frame = m->f;
+  for (int v = 0; v < frame->n_nodes; v++)
     m->part[v] = m->domain[v] = v;
-  for (int e = 0; e < f->n_edges; e++) {
+  for (int e = 0; e < frame->n_edges; e++) {
     if (!has_room(m, e)) continue;
-    thr_disjoint_join(m->part, f->edge[e][0], f->edge[e][1]);
-    thr_disjoint_join(m->domain, f->edge[e][0], f->edge[e][1]);
+    thr_disjoint_join(m->part, frame->edge[e][0], frame->edge[e][1]);
+    thr_disjoint_join(m->domain, frame->edge[e][0], frame->edge[e][1]);
   }
   for (int k = 0; k < m->n_components; k++)
     key[k] = -1; /* a node of this component where cords may end */
-  for (int v = 0; v < f->n_nodes && ends_free(m); v++) {
-    if (!thr_plan_end_allowed(f, m->o, v)) continue;
+  for (int v = 0; v < frame->n_nodes && ends_free(m); v++) {
+    if (!thr_plan_end_allowed(frame, m->o, v)) continue;
     int *end = &key[m->component[v]];
     if (*end >= 0) thr_disjoint_join(m->domain, *end, v);
     *end = v;
   }
-  for (int v = 0; v < f->n_nodes; v++) {
+  for (int v = 0; v < frame->n_nodes; v++) {
     m->part[v] = thr_disjoint_find(m->part, v);
     int root = thr_disjoint_find(m->domain, v); /* the lowest: it has its number already */
     key[v] = root == v ? m->n_domains++ : key[root];
@@ -414,27 +414,27 @@ static void start_certificates(postman *m)
 
 static thr_status postman_init(postman *m, thr_err *err)
 {
-  const thr_frame *f = m->f;
-  size_t most = (size_t)(f->n_nodes > f->n_edges ? f->n_nodes : f->n_edges);
+  const thr_frame *frame = m->f;
+  size_t most = (size_t)(frame->n_nodes > frame->n_edges ? frame->n_nodes : frame->n_edges);
   int *key = thr_calloc(most, sizeof *key);
-  m->component = thr_calloc((size_t)f->n_nodes, sizeof *m->component);
-  thr_status st = key && m->component ? thr_frame_components(f, m->component, &m->n_components, err) : thr_nomem(err);
+  m->component = thr_calloc((size_t)frame->n_nodes, sizeof *m->component);
+  thr_status st = key && m->component ? thr_frame_components(frame, m->component, &m->n_components, err) : thr_nomem(err);
   if (!st) st = postman_allocate(m, err);
   if (!st) {
-    for (int e = 0; e < f->n_edges; e++)
-      key[e] = m->component[f->edge[e][0]];
-    group(f->n_edges, key, m->n_components, m->edge_start, m->edge);
+    for (int e = 0; e < frame->n_edges; e++)
+      key[e] = m->component[frame->edge[e][0]];
+    group(frame->n_edges, key, m->n_components, m->edge_start, m->edge);
     find_domains(m, key);
-    group(f->n_nodes, key, m->n_domains, m->start, m->node);
+    group(frame->n_nodes, key, m->n_domains, m->start, m->node);
     for (int d = 0; d < m->n_domains; d++)
       for (int j = m->start[d]; j < m->start[d + 1]; j++)
         m->local[m->node[j]] = j - m->start[d];
-    for (int v = 0; v < f->n_nodes; v++)
+    for (int v = 0; v < frame->n_nodes; v++)
       m->odd[v] = m->o->ends == THR_ENDS_COUNTS && m->o->end_count[v] % 2;
-    for (int e = 0; e < f->n_edges; e++) {
-      m->passes[e] = thr_plan_cover(f, m->o, e);
+    for (int e = 0; e < frame->n_edges; e++) {
+      m->passes[e] = thr_plan_cover(frame, m->o, e);
       for (int i = 0; i < 2; i++)
-        m->odd[f->edge[e][i]] ^= m->passes[e] % 2 != 0;
+        m->odd[frame->edge[e][i]] ^= m->passes[e] % 2 != 0;
     }
     start_certificates(m);
   }
@@ -456,10 +456,10 @@ static thr_status judge(postman *m, thr_shortest *out, thr_err *err)
                        &found, err);
 }
 
-thr_status thr_postman_shortest(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_shortest *out,
-                                thr_err *err)
+thr_status thr_postman_shortest(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits,
+                                thr_shortest *out, thr_err *err)
 {
-  postman m = {.f = f, .o = o, .limits = limits};
+  postman m = {.f = frame, .o = options, .limits = limits};
   *out = (thr_shortest){0};
   thr_err unproved = {0}; /* why the first unproved domain is not proved */
   thr_status st = postman_init(&m, err);
@@ -485,11 +485,11 @@ thr_status thr_postman_shortest(const thr_frame *f, const thr_plan_options *o, c
   return st;
 }
 
-void thr_shortest_destroy(thr_shortest *s)
+void thr_shortest_destroy(thr_shortest *shortest)
 {
-  for (int k = 0; s->certificate && k < s->n_certificates; k++)
-    thr_certificate_destroy(&s->certificate[k]);
-  free(s->certificate);
-  free(s->passes);
-  *s = (thr_shortest){0};
+  for (int k = 0; shortest->certificate && k < shortest->n_certificates; k++)
+    thr_certificate_destroy(&shortest->certificate[k]);
+  free(shortest->certificate);
+  free(shortest->passes);
+  *shortest = (thr_shortest){0};
 }

@@ -11,42 +11,43 @@
 #include <stdlib.h>
 
 /* The certificates' joins: what these cords weigh beyond the cover. */
-static thr_status weigh_joins(const thr_frame *f, const thr_plan_options *o, const thr_cord *cord, int n_cords, thr_shortest *s,
-                              thr_err *err)
+static thr_status weigh_joins(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord, int n_cords,
+                              thr_shortest *shortest, thr_err *err)
 {
-  int n_components, *component = thr_calloc((size_t)f->n_nodes, sizeof *component);
-  thr_status st = component ? thr_frame_components(f, component, &n_components, err) : thr_nomem(err);
-  for (int k = 0; k < s->n_certificates; k++)
-    s->certificate[k].join = 0;
-  for (int e = 0; e < f->n_edges && !st; e++) {
-    thr_certificate *c = &s->certificate[component[f->edge[e][0]]];
-    c->join -= thr_plan_cover(f, o, e) * thr_certificate_weight(f, c, e);
+  int n_components, *component = thr_calloc((size_t)frame->n_nodes, sizeof *component);
+  thr_status st = component ? thr_frame_components(frame, component, &n_components, err) : thr_nomem(err);
+  for (int k = 0; k < shortest->n_certificates; k++)
+    shortest->certificate[k].join = 0;
+  for (int e = 0; e < frame->n_edges && !st; e++) {
+    thr_certificate *certificate = &shortest->certificate[component[frame->edge[e][0]]];
+    certificate->join -= thr_plan_cover(frame, options, e) * thr_certificate_weight(frame, certificate, e);
   }
   for (int i = 0; i < n_cords && !st; i++)
     for (int k = 0; k < cord[i].n_passes; k++) {
-      thr_certificate *c = &s->certificate[cord[i].component];
-      c->join += thr_certificate_weight(f, c, cord[i].half[k] >> 1);
+      thr_certificate *certificate = &shortest->certificate[cord[i].component];
+      certificate->join += thr_certificate_weight(frame, certificate, cord[i].half[k] >> 1);
     }
   free(component);
   return st;
 }
 
-thr_status thr_postman_prove(const thr_frame *f, const thr_plan_options *o, const thr_cord *cord, int n_cords, thr_shortest *s,
-                             thr_length_proof *proof, thr_err *err)
+thr_status thr_postman_prove(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord, int n_cords,
+                             thr_shortest *shortest, thr_length_proof *proof, thr_err *err)
 {
   thr_err found = {0};
   double length = 0;
-  *proof = (thr_length_proof){.present = true, .confirmed = s->confirmed.confirmed, .unconfirmed = s->confirmed.skipped};
-  thr_status st = weigh_joins(f, o, cord, n_cords, s, err);
+  *proof =
+      (thr_length_proof){.present = true, .confirmed = shortest->confirmed.confirmed, .unconfirmed = shortest->confirmed.skipped};
+  thr_status st = weigh_joins(frame, options, cord, n_cords, shortest, err);
   if (st) return st;
-  proof->certificate = s->certificate;
-  proof->n_certificates = s->n_certificates;
-  s->certificate = NULL;
-  s->n_certificates = 0;
+  proof->certificate = shortest->certificate;
+  proof->n_certificates = shortest->n_certificates;
+  shortest->certificate = NULL;
+  shortest->n_certificates = 0;
   for (int i = 0; i < n_cords; i++)
-    length += thr_cord_length(f, &cord[i]);
-  st = thr_check_own(thr_check_length_proof(f, o, cord, n_cords, proof->certificate, proof->n_certificates, &proof->optimal,
-                                            &proof->lower_bound, &found),
+    length += thr_cord_length(frame, &cord[i]);
+  st = thr_check_own(thr_check_length_proof(frame, options, cord, n_cords, proof->certificate, proof->n_certificates,
+                                            &proof->optimal, &proof->lower_bound, &found),
                      &found, err);
   proof->gap = (length - proof->lower_bound) / length;
   return st;
@@ -55,30 +56,30 @@ thr_status thr_postman_prove(const thr_frame *f, const thr_plan_options *o, cons
 /* ---- one cord per component ---- */
 
 /* Where the passes leave an odd number: the two ends of each component's cord, else -1 and -1. */
-static void find_ends(const thr_frame *f, const int *component, int n_components, const int *passes, int (*ends)[2])
+static void find_ends(const thr_frame *frame, const int *component, int n_components, const int *passes, int (*ends)[2])
 {
   for (int k = 0; k < n_components; k++)
     ends[k][0] = ends[k][1] = -1;
-  for (int v = 0; v < f->n_nodes; v++) {
+  for (int v = 0; v < frame->n_nodes; v++) {
     int sum = 0, *end = ends[component[v]];
-    for (int i = f->first[v]; i < f->first[v + 1]; i++)
-      sum += passes[f->half[i] >> 1];
+    for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
+      sum += passes[frame->half[i] >> 1];
     if (sum % 2) end[end[0] >= 0] = v;
   }
 }
 
-thr_status thr_postman_cords(const thr_frame *f, const thr_plan_options *o, const int *passes, thr_cord **cord, int *n_cords,
-                             thr_err *err)
+thr_status thr_postman_cords(const thr_frame *frame, const thr_plan_options *options, const int *passes, thr_cord **cord,
+                             int *n_cords, thr_err *err)
 {
-  int n_components = 0, *component = thr_calloc((size_t)f->n_nodes, sizeof *component), (*ends)[2] = NULL;
+  int n_components = 0, *component = thr_calloc((size_t)frame->n_nodes, sizeof *component), (*ends)[2] = NULL;
   *cord = NULL;
   *n_cords = 0;
-  thr_status st = component ? thr_frame_components(f, component, &n_components, err) : thr_nomem(err);
+  thr_status st = component ? thr_frame_components(frame, component, &n_components, err) : thr_nomem(err);
   if (!st && !(ends = thr_calloc((size_t)n_components, sizeof *ends))) st = thr_nomem(err);
   if (!st && !(*cord = thr_calloc((size_t)n_components, sizeof **cord))) st = thr_nomem(err);
   if (!st) {
-    find_ends(f, component, n_components, passes, ends);
-    st = thr_tour_cords(f, o, component, n_components, passes, (const int(*)[2])ends, *cord, err);
+    find_ends(frame, component, n_components, passes, ends);
+    st = thr_tour_cords(frame, options, component, n_components, passes, (const int(*)[2])ends, *cord, err);
   }
   if (!st) {
     *n_cords = n_components;
@@ -92,25 +93,27 @@ thr_status thr_postman_cords(const thr_frame *f, const thr_plan_options *o, cons
 }
 
 /* Cords through the passes; then metrics, and the proof as far as the checker follows it. */
-static thr_status assemble(const thr_frame *f, const thr_plan_options *o, thr_shortest *s, thr_plan *plan, thr_err *err)
+static thr_status assemble(const thr_frame *frame, const thr_plan_options *options, thr_shortest *shortest, thr_plan *plan,
+                           thr_err *err)
 {
-  thr_status st = thr_plan_request(plan, f, o, err);
-  if (!st) st = thr_postman_cords(&plan->frame, &plan->options, s->passes, &plan->cord, &plan->n_cords, err);
+  thr_status st = thr_plan_request(plan, frame, options, err);
+  if (!st) st = thr_postman_cords(&plan->frame, &plan->options, shortest->passes, &plan->cord, &plan->n_cords, err);
   if (!st) st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
-  if (!st) st = thr_postman_prove(&plan->frame, &plan->options, plan->cord, plan->n_cords, s, &plan->proof, err);
+  if (!st) st = thr_postman_prove(&plan->frame, &plan->options, plan->cord, plan->n_cords, shortest, &plan->proof, err);
   return st;
 }
 
-thr_status thr_postman_plan(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan, thr_err *err)
+thr_status thr_postman_plan(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits, thr_plan *plan,
+                            thr_err *err)
 {
-  thr_shortest s = {0};
+  thr_shortest shortest = {0};
   thr_err local = {0};
   *plan = (thr_plan){0};
-  if (o->cords > 1) return thr_fail(err, THR_EINPUT, "--cords above 1 needs --objective tortuosity in this version");
-  thr_status proved = thr_postman_shortest(f, o, limits, &s, &local), st = THR_OK;
-  if (!proved || proved == THR_ELIMIT) st = assemble(f, o, &s, plan, err);
+  if (options->cords > 1) return thr_fail(err, THR_EINPUT, "--cords above 1 needs --objective tortuosity in this version");
+  thr_status proved = thr_postman_shortest(frame, options, limits, &shortest, &local), st = THR_OK;
+  if (!proved || proved == THR_ELIMIT) st = assemble(frame, options, &shortest, plan, err);
   if (!st && proved) st = thr_fail(err, proved, "%s", local.text);
   if (st && st != THR_ELIMIT) thr_plan_destroy(plan);
-  thr_shortest_destroy(&s);
+  thr_shortest_destroy(&shortest);
   return st;
 }

@@ -27,21 +27,21 @@ static bool may_cut(const places *p, int v)
 /* Every cut adds two ends: what the counts ask for beyond the ends that the walks have. */
 static thr_status count_cuts(places *p, int *cuts, thr_err *err)
 {
-  const thr_frame *f = p->s->f;
+  const thr_frame *frame = p->s->f;
   *cuts = 0;
-  if (!(p->left = thr_calloc((size_t)f->n_nodes, sizeof *p->left))) return thr_nomem(err);
-  const int k = p->s->component[thr_tail(f, p->w->walk[0].half[0])];
-  for (int v = 0; v < f->n_nodes; v++)
+  if (!(p->left = thr_calloc((size_t)frame->n_nodes, sizeof *p->left))) return thr_nomem(err);
+  const int k = p->s->component[thr_tail(frame, p->w->walk[0].half[0])];
+  for (int v = 0; v < frame->n_nodes; v++)
     if (p->s->component[v] == k) p->left[v] = p->s->o->end_count[v];
   for (int i = 0; i < p->w->n_walks; i++) {
     const thr_walk *x = &p->w->walk[i];
     if (x->cyclic) continue;
-    p->left[thr_tail(f, x->half[0])]--;
-    p->left[thr_head(f, x->half[x->n - 1])]--;
+    p->left[thr_tail(frame, x->half[0])]--;
+    p->left[thr_head(frame, x->half[x->n - 1])]--;
   }
-  for (int v = 0; v < f->n_nodes; v++) {
+  for (int v = 0; v < frame->n_nodes; v++) {
     if (p->left[v] < 0 || p->left[v] % 2)
-      return thr_fail(err, THR_ESOLVER, "the passes do not leave as many ends at node %s as asked for", f->name[v]);
+      return thr_fail(err, THR_ESOLVER, "the passes do not leave as many ends at node %s as asked for", frame->name[v]);
     p->left[v] /= 2;
     *cuts += p->left[v];
   }
@@ -50,16 +50,16 @@ static thr_status count_cuts(places *p, int *cuts, thr_err *err)
 
 static thr_status find_places(places *p, thr_err *err)
 {
-  const thr_frame *f = p->s->f;
+  const thr_frame *frame = p->s->f;
   p->n = 0;
   for (int i = 0; i < p->w->n_walks; i++) {
     const thr_walk *x = &p->w->walk[i];
     for (int at = x->cyclic ? 0 : 1; at < x->n; at++) {
-      int v = thr_tail(f, x->half[at]);
+      int v = thr_tail(frame, x->half[at]);
       if (!may_cut(p, v)) continue;
       thr_status st = thr_grow(&p->list, p->n, &p->capacity, sizeof *p->list, err);
       if (st) return st;
-      p->list[p->n++] = (place){thr_walk_turn(f, thr_walk_before(x, at), x->half[at]), i, at, v};
+      p->list[p->n++] = (place){thr_walk_turn(frame, thr_walk_before(x, at), x->half[at]), i, at, v};
     }
   }
   return THR_OK;
@@ -104,9 +104,9 @@ static thr_status cut_all(places *p, thr_err *err)
 
 static thr_status too_few(const places *p, int wanted, thr_err *err)
 {
-  const thr_frame *f = p->s->f;
+  const thr_frame *frame = p->s->f;
   return thr_fail(err, THR_EINFEASIBLE, "the component with node %s has too few places for the ends of %d cords",
-                  f->name[thr_tail(f, p->w->walk[0].half[0])], wanted);
+                  frame->name[thr_tail(frame, p->w->walk[0].half[0])], wanted);
 }
 
 static thr_status cut_sharpest(places *p, int cuts, int wanted, thr_err *err)
@@ -169,14 +169,14 @@ static thr_status cut_longest(places *p, int cuts, int wanted, thr_err *err)
   return st;
 }
 
-thr_status thr_share_cut(const thr_share *s, int n, bool even, thr_walks *w, thr_err *err)
+thr_status thr_share_cut(const thr_share *share, int n, bool even, thr_walks *walks, thr_err *err)
 {
-  places p = {.s = s, .w = w};
-  bool counts = s->o->ends == THR_ENDS_COUNTS;
+  places p = {.s = share, .w = walks};
+  bool counts = share->o->ends == THR_ENDS_COUNTS;
   int open = 0, cuts = 0;
   thr_status st = THR_OK;
-  for (int i = 0; i < w->n_walks; i++)
-    open += !w->walk[i].cyclic;
+  for (int i = 0; i < walks->n_walks; i++)
+    open += !walks->walk[i].cyclic;
   if (counts) st = count_cuts(&p, &cuts, err);
   if (!counts && n > open) cuts = n - open;
   if (!st && cuts) st = even && !counts ? cut_longest(&p, cuts, n, err) : cut_sharpest(&p, cuts, open + cuts, err);

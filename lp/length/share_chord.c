@@ -18,98 +18,99 @@ typedef struct {
   int from, end;
 } chord;
 
-/* The ways from the node before each pass of w to its other nodes, over edges with room for two more passes. */
-static thr_status best_chord(thr_ways *x, const thr_share *s, const thr_walk *w, const int *passes, chord *best, thr_err *err)
+/* The ways from the node before each pass of walk to its other nodes, over edges with room for two more passes. */
+static thr_status best_chord(thr_ways *x, const thr_share *share, const thr_walk *walk, const int *passes, chord *best,
+                             thr_err *err)
 {
   thr_status st = THR_OK;
-  *best = (chord){w->length * (1 - 1e-9), 0, 0};
-  for (int i = 0; i < w->n && !st; i++) {
+  *best = (chord){walk->length * (1 - 1e-9), 0, 0};
+  for (int i = 0; i < walk->n && !st; i++) {
     double part = 0;
     thr_ways_clear(x);
-    st = thr_ways_start(x, thr_walk_node(s->f, w, i), err);
-    if (!st) st = thr_ways_spread(x, s->o, passes, 2, w->length / 2, NULL, err);
-    for (int j = i + 1; j < w->n && !st; j++) {
-      part += s->f->length[w->half[j - 1] >> 1];
-      double longer = fmax(part, w->length - part) + x->far[thr_walk_node(s->f, w, j)];
+    st = thr_ways_start(x, thr_walk_node(share->f, walk, i), err);
+    if (!st) st = thr_ways_spread(x, share->o, passes, 2, walk->length / 2, NULL, err);
+    for (int j = i + 1; j < walk->n && !st; j++) {
+      part += share->f->length[walk->half[j - 1] >> 1];
+      double longer = fmax(part, walk->length - part) + x->far[thr_walk_node(share->f, walk, j)];
       if (longer < best->longer) *best = (chord){longer, i, j};
     }
   }
   return st;
 }
 
-thr_status thr_share_chord(const thr_share *s, thr_walks *w, int i, int from, int end, const int *way, int n,
+thr_status thr_share_chord(const thr_share *share, thr_walks *walks, int i, int from, int end, const int *way, int n,
                            thr_junction_graphs *ties, int *passes, thr_err *err)
 {
-  const thr_walk *old = &w->walk[i];
-  thr_splice x = thr_splice_of(true, old, NULL);
-  thr_splice_add(&x, 1, way, n);
-  thr_splice_put(&x, 0, 0, from, false);
-  thr_splice_put(&x, 1, 0, n, false);
-  thr_splice_put(&x, 0, end, old->n, false);
-  thr_splice_next(&x);
-  thr_splice_put(&x, 0, from, end, false);
-  thr_splice_put(&x, 1, 0, n, true);
-  return thr_splice_make(&x, s->f, w, i, -1, ties, passes, err);
+  const thr_walk *old = &walks->walk[i];
+  thr_splice splice = thr_splice_of(true, old, NULL);
+  thr_splice_add(&splice, 1, way, n);
+  thr_splice_put(&splice, 0, 0, from, false);
+  thr_splice_put(&splice, 1, 0, n, false);
+  thr_splice_put(&splice, 0, end, old->n, false);
+  thr_splice_next(&splice);
+  thr_splice_put(&splice, 0, from, end, false);
+  thr_splice_put(&splice, 1, 0, n, true);
+  return thr_splice_make(&splice, share->f, walks, i, -1, ties, passes, err);
 }
 
 /* Walk i and a new one become the halves. */
-static thr_status split(thr_ways *x, const thr_share *s, int i, const chord *c, int *passes, thr_walks *w, thr_err *err)
+static thr_status split(thr_ways *x, const thr_share *share, int i, const chord *c, int *passes, thr_walks *walks, thr_err *err)
 {
-  const thr_frame *f = s->f;
-  int *way = thr_calloc((size_t)f->n_nodes, sizeof *way);
+  const thr_frame *frame = share->f;
+  int *way = thr_calloc((size_t)frame->n_nodes, sizeof *way);
   if (!way) return thr_nomem(err);
   thr_ways_clear(x);
-  thr_status st = thr_ways_start(x, thr_walk_node(f, &w->walk[i], c->from), err);
-  if (!st) st = thr_ways_spread(x, s->o, passes, 2, w->walk[i].length / 2, NULL, err);
-  int n = st ? 0 : thr_ways_path(x, thr_walk_node(f, &w->walk[i], c->end), way);
-  if (!st) st = thr_share_chord(s, w, i, c->from, c->end, way, n, NULL, passes, err);
+  thr_status st = thr_ways_start(x, thr_walk_node(frame, &walks->walk[i], c->from), err);
+  if (!st) st = thr_ways_spread(x, share->o, passes, 2, walks->walk[i].length / 2, NULL, err);
+  int n = st ? 0 : thr_ways_path(x, thr_walk_node(frame, &walks->walk[i], c->end), way);
+  if (!st) st = thr_share_chord(share, walks, i, c->from, c->end, way, n, NULL, passes, err);
   free(way);
   return st;
 }
 
 /* Walk i becomes a walk there and back over every edge that it passes, if that is shorter; *made: it was, and there was room. */
-static thr_status dissolve(const thr_share *s, int i, int n, int *passes, thr_walks *w, bool *made, thr_err *err)
+static thr_status dissolve(const thr_share *share, int i, int n, int *passes, thr_walks *walks, bool *made, thr_err *err)
 {
-  const thr_frame *f = s->f;
-  const thr_walk *x = &w->walk[i];
-  int size = x->n;
-  *made = size > 1 && w->n_walks + size - 1 <= n;
+  const thr_frame *frame = share->f;
+  const thr_walk *walk = &walks->walk[i];
+  int size = walk->n;
+  *made = size > 1 && walks->n_walks + size - 1 <= n;
   for (int k = 0; k < size && *made; k++) {
-    int e = x->half[k] >> 1;
-    *made = 2 * f->length[e] < x->length * (1 - 1e-9) && thr_plan_capacity(f, s->o, e) > passes[e];
+    int e = walk->half[k] >> 1;
+    *made = 2 * frame->length[e] < walk->length * (1 - 1e-9) && thr_plan_capacity(frame, share->o, e) > passes[e];
   }
   if (!*made) return THR_OK;
   thr_status st = THR_OK;
   for (int k = 1; k < size && !st; k++) {
-    int h = w->walk[i].half[k];
+    int h = walks->walk[i].half[k];
     passes[h >> 1]++;
-    st = thr_walks_copy(w, f, (const int[]){h, h ^ 1}, 2, true, err);
+    st = thr_walks_copy(walks, frame, (const int[]){h, h ^ 1}, 2, true, err);
   }
   if (st) return st;
-  thr_walk *first = &w->walk[i]; /* keeps its first pass */
+  thr_walk *first = &walks->walk[i]; /* keeps its first pass */
   first->half[1] = first->half[0] ^ 1;
   first->n = 2;
-  first->length = thr_walk_length(f, first->half, first->n);
+  first->length = thr_walk_length(frame, first->half, first->n);
   passes[first->half[0] >> 1]++;
   return THR_OK;
 }
 
-thr_status thr_share_chords(const thr_share *s, int n, int *passes, thr_walks *w, thr_err *err)
+thr_status thr_share_chords(const thr_share *share, int n, int *passes, thr_walks *walks, thr_err *err)
 {
   thr_ways x;
   chord best;
   bool more = true;
-  thr_status st = thr_ways_init(&x, s->f, err);
-  while (!st && more && w->n_walks < n) {
+  thr_status st = thr_ways_init(&x, share->f, err);
+  while (!st && more && walks->n_walks < n) {
     int longest = 0;
-    for (int i = 1; i < w->n_walks; i++)
-      if (w->walk[i].length > w->walk[longest].length) longest = i;
-    st = best_chord(&x, s, &w->walk[longest], passes, &best, err);
+    for (int i = 1; i < walks->n_walks; i++)
+      if (walks->walk[i].length > walks->walk[longest].length) longest = i;
+    st = best_chord(&x, share, &walks->walk[longest], passes, &best, err);
     more = best.end > best.from;
     if (!st && more)
-      st = split(&x, s, longest, &best, passes, w, err);
+      st = split(&x, share, longest, &best, passes, walks, err);
     else if (!st)
-      st = dissolve(s, longest, n, passes, w, &more, err);
+      st = dissolve(share, longest, n, passes, walks, &more, err);
   }
   thr_ways_destroy(&x);
   return st;

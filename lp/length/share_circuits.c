@@ -13,9 +13,9 @@
 
 enum { MOST_VISITS = 32 }; /* of a node, that each of its visits is compared with: hubs are not quadratic */
 
-static double turn_at(const thr_frame *f, const thr_walk *x, int at)
+static double turn_at(const thr_frame *frame, const thr_walk *x, int at)
 {
-  return thr_walk_turn(f, thr_walk_before(x, at), x->half[at]);
+  return thr_walk_turn(frame, thr_walk_before(x, at), x->half[at]);
 }
 
 /* ---- splitting ---- */
@@ -26,78 +26,81 @@ typedef struct {
 } section;
 
 /* Turning that is added by making a walk of its own of passes from .. end - 1. */
-static double split_price(const thr_frame *f, const thr_walk *x, int from, int end)
+static double split_price(const thr_frame *frame, const thr_walk *x, int from, int end)
 {
-  return thr_walk_turn(f, thr_walk_before(x, from), x->half[end]) + thr_walk_turn(f, x->half[end - 1], x->half[from]) -
-         turn_at(f, x, from) - turn_at(f, x, end);
+  return thr_walk_turn(frame, thr_walk_before(x, from), x->half[end]) + thr_walk_turn(frame, x->half[end - 1], x->half[from]) -
+         turn_at(frame, x, from) - turn_at(frame, x, end);
 }
 
 /* Passes from .. end - 1 as a walk of their own. */
 static thr_splice split_off(const thr_walk *x, int from, int end)
 {
-  thr_splice s = thr_splice_of(true, x, NULL);
-  thr_splice_put(&s, 0, 0, from, false);
-  thr_splice_put(&s, 0, end, x->n, false);
-  thr_splice_next(&s);
-  thr_splice_put(&s, 0, from, end, false);
-  return s;
+  thr_splice splice = thr_splice_of(true, x, NULL);
+  thr_splice_put(&splice, 0, 0, from, false);
+  thr_splice_put(&splice, 0, end, x->n, false);
+  thr_splice_next(&splice);
+  thr_splice_put(&splice, 0, from, end, false);
+  return splice;
 }
 
 static bool stays_tied(thr_junction_graphs *ties, const thr_walk *x, int from, int end)
 {
-  thr_splice s = split_off(x, from, end);
-  thr_turn_change c = thr_splice_turns(&s);
-  return thr_junction_graphs_allow(ties, &c);
+  thr_splice splice = split_off(x, from, end);
+  thr_turn_change change = thr_splice_turns(&splice);
+  return thr_junction_graphs_allow(ties, &change);
 }
 
 /* The section to split off: that which adds least turning, or, of walk number only, that which is nearest to half of it. */
-static thr_status best_section(const thr_share *s, const thr_walks *w, thr_junction_graphs *ties, int only, section *best,
+static thr_status best_section(const thr_share *share, const thr_walks *walks, thr_junction_graphs *ties, int only, section *best,
                                thr_err *err)
 {
-  thr_walk_visits x;
+  thr_walk_visits visits;
   *best = (section){INFINITY, -1, 0, 0};
-  thr_status st = thr_walk_visits_init(&x, s->f, w->walk, w->n_walks, NULL, err);
-  for (int j = 0; j < x.n && !st; j++) {
-    const thr_walk *y = &w->walk[x.walk[j]];
-    if (only >= 0 && x.walk[j] != only) continue;
-    for (int i = x.next[j], seen = 0; i >= 0 && x.walk[i] == x.walk[j] && seen < MOST_VISITS; i = x.next[i], seen++) {
-      double score = only >= 0 ? fabs(x.sum[j] - x.sum[i] - y->length / 2) : split_price(s->f, y, x.at[i], x.at[j]);
-      if (score < best->score - 1e-9 && (!ties || stays_tied(ties, y, x.at[i], x.at[j])))
-        *best = (section){score, x.walk[j], x.at[i], x.at[j]};
+  thr_status st = thr_walk_visits_init(&visits, share->f, walks->walk, walks->n_walks, NULL, err);
+  for (int j = 0; j < visits.n && !st; j++) {
+    const thr_walk *y = &walks->walk[visits.walk[j]];
+    if (only >= 0 && visits.walk[j] != only) continue;
+    for (int i = visits.next[j], seen = 0; i >= 0 && visits.walk[i] == visits.walk[j] && seen < MOST_VISITS;
+         i = visits.next[i], seen++) {
+      double score =
+          only >= 0 ? fabs(visits.sum[j] - visits.sum[i] - y->length / 2) : split_price(share->f, y, visits.at[i], visits.at[j]);
+      if (score < best->score - 1e-9 && (!ties || stays_tied(ties, y, visits.at[i], visits.at[j])))
+        *best = (section){score, visits.walk[j], visits.at[i], visits.at[j]};
     }
   }
-  thr_walk_visits_destroy(&x);
+  thr_walk_visits_destroy(&visits);
   return st;
 }
 
 /* The longest walk first that has a node twice. */
-static thr_status best_half(const thr_share *s, const thr_walks *w, thr_junction_graphs *ties, section *best, thr_err *err)
+static thr_status best_half(const thr_share *share, const thr_walks *walks, thr_junction_graphs *ties, section *best,
+                            thr_err *err)
 {
   thr_status st = THR_OK;
-  bool *tried = thr_calloc((size_t)w->n_walks, sizeof *tried);
+  bool *tried = thr_calloc((size_t)walks->n_walks, sizeof *tried);
   if (!tried) return thr_nomem(err);
   *best = (section){INFINITY, -1, 0, 0};
-  for (int round = 0; round < w->n_walks && best->walk < 0 && !st; round++) {
+  for (int round = 0; round < walks->n_walks && best->walk < 0 && !st; round++) {
     int longest = -1;
-    for (int i = 0; i < w->n_walks; i++)
-      if (!tried[i] && (longest < 0 || w->walk[i].length > w->walk[longest].length)) longest = i;
+    for (int i = 0; i < walks->n_walks; i++)
+      if (!tried[i] && (longest < 0 || walks->walk[i].length > walks->walk[longest].length)) longest = i;
     tried[longest] = true;
-    st = best_section(s, w, ties, longest, best, err);
+    st = best_section(share, walks, ties, longest, best, err);
   }
   free(tried);
   return st;
 }
 
-thr_status thr_share_split(const thr_share *s, int n, bool even, thr_junction_graphs *ties, thr_walks *w, thr_err *err)
+thr_status thr_share_split(const thr_share *share, int n, bool even, thr_junction_graphs *ties, thr_walks *walks, thr_err *err)
 {
   thr_status st = THR_OK;
-  while (w->n_walks < n && !st) {
+  while (walks->n_walks < n && !st) {
     section best;
-    st = even ? best_half(s, w, ties, &best, err) : best_section(s, w, ties, -1, &best, err);
+    st = even ? best_half(share, walks, ties, &best, err) : best_section(share, walks, ties, -1, &best, err);
     if (!st && best.walk < 0) break;
     if (st) break;
-    thr_splice x = split_off(&w->walk[best.walk], best.from, best.end);
-    st = thr_splice_make(&x, s->f, w, best.walk, -1, ties, NULL, err);
+    thr_splice splice = split_off(&walks->walk[best.walk], best.from, best.end);
+    st = thr_splice_make(&splice, share->f, walks, best.walk, -1, ties, NULL, err);
   }
   return st;
 }
@@ -138,7 +141,7 @@ static int way_back(peeling *p, int h, int most)
   return found;
 }
 
-static thr_status peel(peeling *p, int h, int back, thr_walks *w, thr_err *err)
+static thr_status peel(peeling *p, int h, int back, thr_walks *walks, thr_err *err)
 {
   thr_walk x = {back + 1, thr_calloc((size_t)back + 1, sizeof *x.half), 0, true};
   if (!x.half) return thr_nomem(err);
@@ -149,11 +152,11 @@ static thr_status peel(peeling *p, int h, int back, thr_walks *w, thr_err *err)
   }
   for (int i = 0; i <= back; i++)
     p->left[x.half[i] >> 1]--;
-  return thr_walks_add(w, p->f, x, err);
+  return thr_walks_add(walks, p->f, x, err);
 }
 
 /* As many circuits as short ones make, pairs of passes over one edge first: no more are possible without them. */
-static thr_status peel_all(peeling *p, thr_walks *w, thr_err *err)
+static thr_status peel_all(peeling *p, thr_walks *walks, thr_err *err)
 {
   enum { SHORT = 8 };
   thr_status st = THR_OK;
@@ -161,19 +164,19 @@ static thr_status peel_all(peeling *p, thr_walks *w, thr_err *err)
     for (int e = 0; e < p->f->n_edges && !st; e++)
       for (int back = 1; p->left[e] > 0 && back && !st;) {
         back = way_back(p, 2 * e, most < SHORT ? most : p->f->n_nodes);
-        if (back) st = peel(p, 2 * e, back, w, err);
+        if (back) st = peel(p, 2 * e, back, walks, err);
       }
   return st;
 }
 
-static thr_status short_circuits(const thr_share *s, const thr_walks *w, thr_walks *out, thr_err *err)
+static thr_status short_circuits(const thr_share *share, const thr_walks *walks, thr_walks *out, thr_err *err)
 {
-  size_t n = (size_t)s->f->n_nodes;
-  peeling p = {s->f, thr_calloc((size_t)s->f->n_edges, sizeof *p.left), thr_calloc(n, sizeof *p.queue),
+  size_t n = (size_t)share->f->n_nodes;
+  peeling p = {share->f, thr_calloc((size_t)share->f->n_edges, sizeof *p.left), thr_calloc(n, sizeof *p.queue),
                thr_calloc(n, sizeof *p.from), thr_calloc(n, sizeof *p.depth)};
   *out = (thr_walks){0};
   thr_status st = p.left && p.queue && p.from && p.depth ? THR_OK : thr_nomem(err);
-  if (!st) thr_walks_count(w, p.left);
+  if (!st) thr_walks_count(walks, p.left);
   if (!st) st = peel_all(&p, out, err);
   if (st) thr_walks_destroy(out);
   free(p.left);
@@ -192,71 +195,71 @@ typedef struct {
 } junction;
 
 /* Cheapest way to put walk b, from its pass number at_b on, before pass at_a of walk a. */
-static void offer_junction(const thr_frame *f, const thr_walks *w, int a, int at_a, int b, int at_b, junction *best)
+static void offer_junction(const thr_frame *frame, const thr_walks *walks, int a, int at_a, int b, int at_b, junction *best)
 {
-  const thr_walk *x = &w->walk[a], *y = &w->walk[b];
+  const thr_walk *x = &walks->walk[a], *y = &walks->walk[b];
   int in = thr_walk_before(x, at_a), out = x->half[at_a], in_b = thr_walk_before(y, at_b), out_b = y->half[at_b];
-  double old = thr_walk_turn(f, in, out) + thr_walk_turn(f, in_b, out_b);
-  double along = thr_walk_turn(f, in, out_b) + thr_walk_turn(f, in_b, out) - old;
-  double against = thr_walk_turn(f, in, in_b ^ 1) + thr_walk_turn(f, out_b ^ 1, out) - old;
+  double old = thr_walk_turn(frame, in, out) + thr_walk_turn(frame, in_b, out_b);
+  double along = thr_walk_turn(frame, in, out_b) + thr_walk_turn(frame, in_b, out) - old;
+  double against = thr_walk_turn(frame, in, in_b ^ 1) + thr_walk_turn(frame, out_b ^ 1, out) - old;
   double price = fmin(along, against);
   if (price < best->price - 1e-9) *best = (junction){price, a, at_a, b, at_b, against < along - 1e-9};
 }
 
-static thr_status best_junction(const thr_share *s, const thr_walks *w, junction *best, thr_err *err)
+static thr_status best_junction(const thr_share *share, const thr_walks *walks, junction *best, thr_err *err)
 {
-  thr_walk_visits x;
+  thr_walk_visits visits;
   *best = (junction){.price = INFINITY, .a = -1};
-  thr_status st = thr_walk_visits_init(&x, s->f, w->walk, w->n_walks, NULL, err);
+  thr_status st = thr_walk_visits_init(&visits, share->f, walks->walk, walks->n_walks, NULL, err);
   if (st) return st;
-  for (int j = 0; j < x.n; j++)
-    for (int i = x.next[j], seen = 0; i >= 0 && seen < MOST_VISITS; i = x.next[i])
-      if (x.walk[i] != x.walk[j]) {
-        offer_junction(s->f, w, x.walk[i], x.at[i], x.walk[j], x.at[j], best);
+  for (int j = 0; j < visits.n; j++)
+    for (int i = visits.next[j], seen = 0; i >= 0 && seen < MOST_VISITS; i = visits.next[i])
+      if (visits.walk[i] != visits.walk[j]) {
+        offer_junction(share->f, walks, visits.walk[i], visits.at[i], visits.walk[j], visits.at[j], best);
         seen++;
       }
-  thr_walk_visits_destroy(&x);
+  thr_walk_visits_destroy(&visits);
   return THR_OK;
 }
 
 /* Walk b goes into walk a, and its number is that of the last. */
-static thr_status merge(const thr_share *s, thr_walks *w, const junction *j, thr_err *err)
+static thr_status merge(const thr_share *share, thr_walks *walks, const junction *j, thr_err *err)
 {
-  const thr_walk *a = &w->walk[j->a], *b = &w->walk[j->b];
-  thr_splice x = thr_splice_of(true, a, b);
-  thr_splice_put(&x, 0, 0, j->at_a, false);
-  thr_splice_put(&x, 1, j->against ? 0 : j->at_b, j->against ? j->at_b : b->n, j->against);
-  thr_splice_put(&x, 1, j->against ? j->at_b : 0, j->against ? b->n : j->at_b, j->against);
-  thr_splice_put(&x, 0, j->at_a, a->n, false);
-  return thr_splice_make(&x, s->f, w, j->a, j->b, NULL, NULL, err);
+  const thr_walk *a = &walks->walk[j->a], *b = &walks->walk[j->b];
+  thr_splice splice = thr_splice_of(true, a, b);
+  thr_splice_put(&splice, 0, 0, j->at_a, false);
+  thr_splice_put(&splice, 1, j->against ? 0 : j->at_b, j->against ? j->at_b : b->n, j->against);
+  thr_splice_put(&splice, 1, j->against ? j->at_b : 0, j->against ? b->n : j->at_b, j->against);
+  thr_splice_put(&splice, 0, j->at_a, a->n, false);
+  return thr_splice_make(&splice, share->f, walks, j->a, j->b, NULL, NULL, err);
 }
 
-thr_status thr_share_merge(const thr_share *s, int n, thr_walks *w, thr_err *err)
+thr_status thr_share_merge(const thr_share *share, int n, thr_walks *walks, thr_err *err)
 {
   thr_status st = THR_OK;
-  while (w->n_walks > n && !st) {
+  while (walks->n_walks > n && !st) {
     junction best;
-    st = best_junction(s, w, &best, err);
+    st = best_junction(share, walks, &best, err);
     if (!st && best.a < 0) return thr_fail(err, THR_ESOLVER, "circuits of one component that do not meet");
-    if (!st) st = merge(s, w, &best, err);
+    if (!st) st = merge(share, walks, &best, err);
   }
   return st;
 }
 
-thr_status thr_share_circuits(const thr_share *s, int n, bool even, thr_walks *w, bool *enough, thr_err *err)
+thr_status thr_share_circuits(const thr_share *share, int n, bool even, thr_walks *walks, bool *enough, thr_err *err)
 {
   thr_walks many;
-  thr_status st = thr_share_split(s, n, even, NULL, w, err);
-  *enough = w->n_walks >= n;
+  thr_status st = thr_share_split(share, n, even, NULL, walks, err);
+  *enough = walks->n_walks >= n;
   if (st || *enough) return st;
-  if ((st = short_circuits(s, w, &many, err))) return st;
-  bool better = many.n_walks > w->n_walks;
+  if ((st = short_circuits(share, walks, &many, err))) return st;
+  bool better = many.n_walks > walks->n_walks;
   if (better) {
-    thr_walks keep = *w;
-    *w = many;
+    thr_walks keep = *walks;
+    *walks = many;
     many = keep;
-    *enough = w->n_walks >= n;
-    st = thr_share_merge(s, n, w, err);
+    *enough = walks->n_walks >= n;
+    st = thr_share_merge(share, n, walks, err);
   }
   thr_walks_destroy(&many);
   return st;
@@ -264,16 +267,16 @@ thr_status thr_share_circuits(const thr_share *s, int n, bool even, thr_walks *w
 
 /* ---- pairs of passes ---- */
 
-thr_status thr_share_more(const thr_share *s, int k, int n, int *passes, thr_walks *w, bool *found, thr_err *err)
+thr_status thr_share_more(const thr_share *share, int k, int n, int *passes, thr_walks *walks, bool *found, thr_err *err)
 {
-  const thr_frame *f = s->f;
+  const thr_frame *frame = share->f;
   thr_status st = THR_OK;
   *found = true;
-  while (w->n_walks < n && !st) {
+  while (walks->n_walks < n && !st) {
     int best = -1;
-    for (int e = 0; e < f->n_edges; e++)
-      if (s->component[f->edge[e][0]] == k && passes[e] + 2 <= thr_plan_capacity(f, s->o, e) &&
-          (best < 0 || f->length[e] < f->length[best]))
+    for (int e = 0; e < frame->n_edges; e++)
+      if (share->component[frame->edge[e][0]] == k && passes[e] + 2 <= thr_plan_capacity(frame, share->o, e) &&
+          (best < 0 || frame->length[e] < frame->length[best]))
         best = e;
     *found = best >= 0;
     if (!*found) return THR_OK;
@@ -282,7 +285,7 @@ thr_status thr_share_more(const thr_share *s, int k, int n, int *passes, thr_wal
     pair.half[0] = 2 * best;
     pair.half[1] = pair.half[0] ^ 1;
     passes[best] += 2;
-    st = thr_walks_add(w, f, pair, err);
+    st = thr_walks_add(walks, frame, pair, err);
   }
   return st;
 }

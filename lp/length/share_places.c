@@ -44,53 +44,53 @@ static void ports_destroy(ports *p)
   free(p->weight);
 }
 
-static int passes_at(const thr_frame *f, const int *passes, int v)
+static int passes_at(const thr_frame *frame, const int *passes, int v)
 {
   int sum = 0;
-  for (int i = f->first[v]; i < f->first[v + 1]; i++)
-    sum += passes[f->half[i] >> 1];
+  for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
+    sum += passes[frame->half[i] >> 1];
   return sum;
 }
 
-static int covers_at(const thr_share *s, int v)
+static int covers_at(const thr_share *share, int v)
 {
   int sum = 0;
-  for (int i = s->f->first[v]; i < s->f->first[v + 1]; i++)
-    sum += thr_plan_cover(s->f, s->o, s->f->half[i] >> 1);
+  for (int i = share->f->first[v]; i < share->f->first[v + 1]; i++)
+    sum += thr_plan_cover(share->f, share->o, share->f->half[i] >> 1);
   return sum;
 }
 
-static bool enough_places(const thr_share *s, int k, int n, const int *passes)
+static bool enough_places(const thr_share *share, int k, int n, const int *passes)
 {
   int free_places = 0;
-  for (int v = 0; v < s->f->n_nodes; v++) {
-    if (s->component[v] != k || !thr_plan_end_allowed(s->f, s->o, v)) continue;
-    int at = passes_at(s->f, passes, v);
-    if (s->o->ends == THR_ENDS_COUNTS && at < s->o->end_count[v]) return false;
+  for (int v = 0; v < share->f->n_nodes; v++) {
+    if (share->component[v] != k || !thr_plan_end_allowed(share->f, share->o, v)) continue;
+    int at = passes_at(share->f, passes, v);
+    if (share->o->ends == THR_ENDS_COUNTS && at < share->o->end_count[v]) return false;
     if (free_places < INT_MAX / 2) free_places += at;
   }
-  return s->o->ends == THR_ENDS_COUNTS || free_places >= 2 * n;
+  return share->o->ends == THR_ENDS_COUNTS || free_places >= 2 * n;
 }
 
 /* Groups, and the passes that they need beyond the cover. */
 static void find_groups(ports *p, int n)
 {
-  const thr_share *s = p->s;
-  bool counts = s->o->ends == THR_ENDS_COUNTS;
+  const thr_share *share = p->s;
+  bool counts = share->o->ends == THR_ENDS_COUNTS;
   int joint = -1; /* the group of all places where ends are free to be */
-  for (int v = 0; v < s->f->n_nodes; v++) {
+  for (int v = 0; v < share->f->n_nodes; v++) {
     p->group[v] = -1;
-    if (s->component[v] != p->k) continue;
-    bool end = thr_plan_end_allowed(s->f, s->o, v);
+    if (share->component[v] != p->k) continue;
+    bool end = thr_plan_end_allowed(share->f, share->o, v);
     int g = !counts && end && joint >= 0 ? joint : p->n_groups++;
     if (!counts && end && joint < 0) {
       joint = g;
       p->need[g] = 2 * n;
     } else if (counts) {
-      p->need[g] = s->o->end_count[v];
+      p->need[g] = share->o->end_count[v];
     }
     p->group[v] = g;
-    p->need[g] -= covers_at(s, v);
+    p->need[g] -= covers_at(share, v);
   }
   for (int g = 0; g < p->n_groups; g++)
     if (p->need[g] < 0) p->need[g] = -p->need[g] % 2;
@@ -99,13 +99,13 @@ static void find_groups(ports *p, int n)
 /* More than so many extra passes of an edge are more than its groups need. */
 static thr_status count_ports(ports *p, thr_err *err)
 {
-  const thr_share *s = p->s;
+  const thr_share *share = p->s;
   int64_t edges = 0;
-  for (int e = 0; e < s->f->n_edges; e++) {
-    int a = p->group[s->f->edge[e][0]], b = p->group[s->f->edge[e][1]];
+  for (int e = 0; e < share->f->n_edges; e++) {
+    int a = p->group[share->f->edge[e][0]], b = p->group[share->f->edge[e][1]];
     if (a < 0) continue;
     int most = a == b ? (p->need[a] + 1) / 2 : p->need[a] > p->need[b] ? p->need[a] : p->need[b];
-    int room = thr_plan_capacity(s->f, s->o, e) - thr_plan_cover(s->f, s->o, e);
+    int room = thr_plan_capacity(share->f, share->o, e) - thr_plan_cover(share->f, share->o, e);
     if (most < 1) most = 1;
     p->copies[e] = most < room ? most : room;
     p->n_ports[a] += p->copies[e];
@@ -141,7 +141,7 @@ static void add_edge(ports *p, int *n, int a, int b, int64_t weight)
 
 static thr_status build(ports *p, thr_err *err)
 {
-  const thr_frame *f = p->s->f;
+  const thr_frame *frame = p->s->f;
   int n = 0;
   for (int g = 0; g < p->n_groups; g++) {
     if (p->n_ports[g] < p->need[g]) return no_room(p, g, err);
@@ -151,10 +151,10 @@ static thr_status build(ports *p, thr_err *err)
   p->edge = thr_calloc((size_t)p->n_edges, sizeof *p->edge);
   p->weight = thr_calloc((size_t)p->n_edges, sizeof *p->weight);
   if (!p->edge || !p->weight) return thr_nomem(err);
-  for (int e = 0; e < f->n_edges; e++)
+  for (int e = 0; e < frame->n_edges; e++)
     for (int i = 0; i < p->copies[e]; i++) {
-      int a = p->top[p->group[f->edge[e][0]]]++, b = p->top[p->group[f->edge[e][1]]]++;
-      add_edge(p, &n, a, b, thr_certificate_weight(f, p->c, e));
+      int a = p->top[p->group[frame->edge[e][0]]]++, b = p->top[p->group[frame->edge[e][1]]]++;
+      add_edge(p, &n, a, b, thr_certificate_weight(frame, p->c, e));
     }
   for (int g = 0; g < p->n_groups; g++)
     for (int core = p->first[g] + p->n_ports[g]; core < p->first[g + 1]; core++)
@@ -178,37 +178,37 @@ static thr_status ports_init(ports *p, int n, thr_err *err)
   return st ? st : build(p, err);
 }
 
-static void take(const ports *p, const thr_matching *m, int *passes)
+static void take(const ports *p, const thr_matching *matching, int *passes)
 {
-  const thr_share *s = p->s;
-  for (int e = 0, n = 0; e < s->f->n_edges; e++) {
-    if (p->group[s->f->edge[e][0]] < 0) continue;
-    passes[e] = thr_plan_cover(s->f, s->o, e);
+  const thr_share *share = p->s;
+  for (int e = 0, n = 0; e < share->f->n_edges; e++) {
+    if (p->group[share->f->edge[e][0]] < 0) continue;
+    passes[e] = thr_plan_cover(share->f, share->o, e);
     for (int i = 0; i < p->copies[e]; i++, n++)
-      passes[e] += m->mate_edge[p->edge[n][0]] == n;
+      passes[e] += matching->mate_edge[p->edge[n][0]] == n;
   }
 }
 
-thr_status thr_share_places(const thr_share *s, int k, int n, const thr_certificate *c, const thr_limits *limits, int *passes,
-                            bool *changed, thr_err *err)
+thr_status thr_share_places(const thr_share *share, int k, int n, const thr_certificate *certificate, const thr_limits *limits,
+                            int *passes, bool *changed, thr_err *err)
 {
-  ports p = {.s = s, .c = c, .k = k};
-  thr_matching m = {0};
+  ports p = {.s = share, .c = certificate, .k = k};
+  thr_matching matching = {0};
   *changed = false;
-  if (s->o->ends == THR_ENDS_CLOSED || enough_places(s, k, n, passes)) return THR_OK;
+  if (share->o->ends == THR_ENDS_CLOSED || enough_places(share, k, n, passes)) return THR_OK;
   thr_err why = {0};
   thr_status st = ports_init(&p, n, &why);
   if (!st) {
     thr_matching_problem problem = {p.first[p.n_groups], p.n_edges, (const int(*)[2])p.edge, p.weight};
-    st = thr_matching_solve(&problem, limits, &m, &why);
+    st = thr_matching_solve(&problem, limits, &matching, &why);
     if (st == THR_EINFEASIBLE) why = (thr_err){0};
   }
-  if (!st) take(&p, &m, passes);
+  if (!st) take(&p, &matching, passes);
   *changed = !st;
   if (st == THR_EINFEASIBLE && !why.code)
     thr_fail(&why, st, "the capacities of the edges leave no room for as many cord ends as asked for");
   if (st) thr_fail(err, st, "%s", why.text);
-  thr_matching_destroy(&m);
+  thr_matching_destroy(&matching);
   ports_destroy(&p);
   return st;
 }

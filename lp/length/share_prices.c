@@ -60,8 +60,8 @@ static int64_t choose_unit(const pricing *p)
 
 static thr_status pricing_init(pricing *p, int k, thr_err *err)
 {
-  const thr_frame *f = p->s->f;
-  size_t n = (size_t)f->n_nodes, m = (size_t)f->n_edges;
+  const thr_frame *frame = p->s->f;
+  size_t n = (size_t)frame->n_nodes, m = (size_t)frame->n_edges;
   p->edge = thr_calloc(m, sizeof *p->edge);
   p->node = thr_calloc(n, sizeof *p->node);
   p->loop = thr_calloc(m, sizeof *p->loop);
@@ -69,20 +69,20 @@ static thr_status pricing_init(pricing *p, int k, thr_err *err)
   p->part = thr_calloc(n + 1, sizeof *p->part);
   p->place = thr_calloc(n + 1, sizeof *p->place);
   if (!p->edge || !p->node || !p->loop || !p->local || !p->part || !p->place) return thr_nomem(err);
-  for (int v = 0; v < f->n_nodes; v++)
+  for (int v = 0; v < frame->n_nodes; v++)
     if (p->s->component[v] == k) {
       p->local[v] = p->n_nodes;
       p->node[p->n_nodes++] = v;
     }
   for (int i = 0; i < p->n_nodes && !p->closed && !p->counts; i++)
-    if (thr_plan_end_allowed(f, p->s->o, p->node[i])) p->local[p->node[i]] = p->n_nodes;
+    if (thr_plan_end_allowed(frame, p->s->o, p->node[i])) p->local[p->node[i]] = p->n_nodes;
   for (int v = 0; v <= p->n_nodes; v++)
     p->part[v] = v;
-  for (int e = 0; e < f->n_edges; e++) {
-    const int *end = f->edge[e];
+  for (int e = 0; e < frame->n_edges; e++) {
+    const int *end = frame->edge[e];
     if (p->s->component[end[0]] != k) continue;
     p->edge[p->n_edges++] = e;
-    if (thr_plan_capacity(f, p->s->o, e) > thr_plan_cover(f, p->s->o, e))
+    if (thr_plan_capacity(frame, p->s->o, e) > thr_plan_cover(frame, p->s->o, e))
       thr_disjoint_join(p->part, p->local[end[0]], p->local[end[1]]);
   }
   for (int v = 0; v <= p->n_nodes; v++)
@@ -90,7 +90,7 @@ static thr_status pricing_init(pricing *p, int k, thr_err *err)
   p->unit = choose_unit(p);
   if (!p->closed) return THR_OK;
   int *work = thr_calloc(2 * n, sizeof *work);
-  if (work) thr_prices_loops(f, p->edge, p->n_edges, work, p->loop);
+  if (work) thr_prices_loops(frame, p->edge, p->n_edges, work, p->loop);
   free(work);
   return work ? THR_OK : thr_nomem(err);
 }
@@ -104,14 +104,15 @@ static int ends_of(const pricing *p, int e)
 
 static thr_priced edge_at(const pricing *p, int i)
 {
-  const thr_certificate *c = &p->trial;
+  const thr_certificate *certificate = &p->trial;
   int e = p->edge[i];
-  thr_wide of = p->closed ? c->place_price[0] : 0;
+  thr_wide of = p->closed ? certificate->place_price[0] : 0;
   for (int s = 0; s < 2 && !p->closed; s++) {
     int v = p->local[p->s->f->edge[e][s]];
-    if (p->counts || v == p->n_nodes) of += c->place_price[p->counts ? v : 0];
+    if (p->counts || v == p->n_nodes) of += certificate->place_price[p->counts ? v : 0];
   }
-  return thr_prices_edge(p->s->f, p->s->o, e, (thr_wide)thr_certificate_weight(p->s->f, c, e) * c->denominator, of, p->loop[i]);
+  return thr_prices_edge(p->s->f, p->s->o, e,
+                         (thr_wide)thr_certificate_weight(p->s->f, certificate, e) * certificate->denominator, of, p->loop[i]);
 }
 
 /* The highest price at which no edge is cheaper the more it is passed; or all that there is to be had. *usual: where to look
@@ -170,9 +171,9 @@ static thr_status problem_init(problem *q, pricing *p, int part, const bool *odd
   for (int i = 0; i < p->n_edges; i++) {
     const int *end = p->s->f->edge[p->edge[i]];
     int a = p->local[end[0]], b = p->local[end[1]];
-    thr_priced e = edge_at(p, i);
-    if (!e.room || a == b || p->part[a] != part) continue;
-    thr_wide more = e.odd > e.even ? e.odd - e.even : e.even - e.odd;
+    thr_priced priced = edge_at(p, i);
+    if (!priced.room || a == b || p->part[a] != part) continue;
+    thr_wide more = priced.odd > priced.even ? priced.odd - priced.even : priced.even - priced.odd;
     q->edge[q->n_edges][0] = p->place[a];
     q->edge[q->n_edges][1] = p->place[b];
     q->number[q->n_edges] = i;
@@ -182,33 +183,33 @@ static thr_status problem_init(problem *q, pricing *p, int part, const bool *odd
 }
 
 /* Adds the cuts of a part's join, which are moved, to the trial. */
-static thr_status take_cuts(pricing *p, const problem *q, thr_tjoin *t, thr_err *err)
+static thr_status take_cuts(pricing *p, const problem *q, thr_tjoin *tjoin, thr_err *err)
 {
-  thr_certificate *c = &p->trial;
-  thr_cuts cuts = {t->n_cuts, q->n_nodes, t->cut};
+  thr_certificate *certificate = &p->trial;
+  thr_cuts cuts = {tjoin->n_cuts, q->n_nodes, tjoin->cut};
   thr_status st = THR_OK;
-  t->cut = NULL;
-  t->n_cuts = 0;
+  tjoin->cut = NULL;
+  tjoin->n_cuts = 0;
   if (q->node[q->n_nodes - 1] < 0) {
     st = thr_cuts_avoid_last(&cuts, err);
     if (!st) st = thr_cuts_nest(&cuts, err);
   }
-  thr_cut *all = st ? NULL : thr_realloc(c->cut, (size_t)c->n_cuts + (size_t)cuts.n, sizeof *all);
+  thr_cut *all = st ? NULL : thr_realloc(certificate->cut, (size_t)certificate->n_cuts + (size_t)cuts.n, sizeof *all);
   if (!st && !all) st = thr_nomem(err);
-  if (all) c->cut = all;
+  if (all) certificate->cut = all;
   for (int i = 0; i < cuts.n && !st; i++) {
-    thr_cut *to = &c->cut[c->n_cuts + i];
+    thr_cut *to = &certificate->cut[certificate->n_cuts + i];
     *to = cuts.cut[i];
-    if (to->parent >= 0) to->parent += c->n_cuts;
+    if (to->parent >= 0) to->parent += certificate->n_cuts;
     for (int j = 0; j < to->n_nodes; j++)
       to->node[j] = q->node[to->node[j]]; /* which ascend */
-    c->sum += to->value;
+    certificate->sum += to->value;
   }
   if (st) {
     thr_cuts_destroy(&cuts);
     return st;
   }
-  c->n_cuts += cuts.n;
+  certificate->n_cuts += cuts.n;
   free(cuts.cut);
   return THR_OK;
 }
@@ -242,18 +243,18 @@ static thr_status solve_part(pricing *p, int part, const bool *odd, bool *in_joi
 /* Odd nodes at the trial's price, and what it is worth before any cuts. */
 static void count_odd(const pricing *p, bool *odd, thr_wide *bound)
 {
-  const thr_plan_options *o = p->s->o;
-  *bound = p->counts ? 0 : 2 * (thr_wide)o->cords_least * p->trial.place_price[0];
+  const thr_plan_options *options = p->s->o;
+  *bound = p->counts ? 0 : 2 * (thr_wide)options->cords_least * p->trial.place_price[0];
   for (int v = 0; v < p->n_nodes && p->counts; v++) {
-    *bound += (thr_wide)o->end_count[p->node[v]] * p->trial.place_price[v];
-    odd[v] ^= o->end_count[p->node[v]] % 2;
+    *bound += (thr_wide)options->end_count[p->node[v]] * p->trial.place_price[v];
+    odd[v] ^= options->end_count[p->node[v]] % 2;
   }
   for (int i = 0; i < p->n_edges; i++) {
-    thr_priced e = edge_at(p, i);
-    bool flip = e.room && e.odd < e.even;
-    *bound += (flip ? e.odd : e.even) - e.held;
+    thr_priced priced = edge_at(p, i);
+    bool flip = priced.room && priced.odd < priced.even;
+    *bound += (flip ? priced.odd : priced.even) - priced.held;
     for (int s = 0; s < 2; s++)
-      odd[p->local[p->s->f->edge[p->edge[i]][s]]] ^= flip ^ (thr_plan_cover(p->s->f, o, p->edge[i]) % 2);
+      odd[p->local[p->s->f->edge[p->edge[i]][s]]] ^= flip ^ (thr_plan_cover(p->s->f, options, p->edge[i]) % 2);
   }
   bool sum = false;
   for (int v = 0; v < p->n_nodes; v++)
@@ -278,30 +279,31 @@ static void measure(const pricing *p, const bool *in_join, double *weight, doubl
   }
 }
 
-/* The bound at prices[n], in units; c becomes the trial where that is better. */
+/* The bound at prices[n], in units; certificate becomes the trial where that is better. */
 static thr_status try_prices(pricing *p, const int64_t *price, int n_prices, double *weight, double *places, bool *stopped,
                              thr_err *err)
 {
-  thr_certificate *c = &p->trial;
+  thr_certificate *certificate = &p->trial;
   size_t n = (size_t)p->n_nodes + 1, m = (size_t)p->n_edges;
   bool *odd = thr_calloc(n, sizeof *odd), *in_join = thr_calloc(m, sizeof *in_join);
-  thr_certificate_destroy(c);
-  *c = (thr_certificate){p->c->component, p->c->scale, p->unit * THR_DUAL_DENOMINATOR, .join = p->c->join, .n_prices = n_prices};
-  c->place_price = thr_calloc((size_t)n_prices, sizeof *c->place_price);
-  thr_status st = odd && in_join && c->place_price ? THR_OK : thr_nomem(err);
+  thr_certificate_destroy(certificate);
+  *certificate =
+      (thr_certificate){p->c->component, p->c->scale, p->unit * THR_DUAL_DENOMINATOR, .join = p->c->join, .n_prices = n_prices};
+  certificate->place_price = thr_calloc((size_t)n_prices, sizeof *certificate->place_price);
+  thr_status st = odd && in_join && certificate->place_price ? THR_OK : thr_nomem(err);
   if (!st) {
     thr_wide bound;
     for (int i = 0; i < n_prices; i++)
-      c->place_price[i] = price[i] * THR_DUAL_DENOMINATOR;
+      certificate->place_price[i] = price[i] * THR_DUAL_DENOMINATOR;
     count_odd(p, odd, &bound);
     for (int v = 0; v <= p->n_nodes && !st && !*stopped; v++)
       if (p->part[v] == v) st = solve_part(p, v, odd, in_join, stopped, err);
-    bound += c->sum;
+    bound += certificate->sum;
     if (!st) measure(p, in_join, weight, places);
-    if (!st && bound * p->c->denominator > p->bound * c->denominator) {
+    if (!st && bound * p->c->denominator > p->bound * certificate->denominator) {
       thr_certificate keep = *p->c;
-      *p->c = *c;
-      *c = keep;
+      *p->c = *certificate;
+      *certificate = keep;
       p->bound = bound;
     }
   }
@@ -374,7 +376,7 @@ static void programme_destroy(programme *q)
 static thr_status find_short(programme *q, thr_err *err)
 {
   const pricing *p = q->p;
-  const thr_frame *f = p->s->f;
+  const thr_frame *frame = p->s->f;
   size_t n = (size_t)p->n_nodes;
   q->node = thr_calloc(n, sizeof *q->node);
   q->local = thr_calloc(n, sizeof *q->local);
@@ -384,8 +386,8 @@ static thr_status find_short(programme *q, thr_err *err)
   if (!q->node || !q->local || !q->column || !q->value || !q->x) return thr_nomem(err);
   for (int v = 0; v < p->n_nodes; v++) {
     int places = 0, u = p->node[v];
-    for (int i = f->first[u]; i < f->first[u + 1]; i++)
-      places += thr_plan_cover(f, p->s->o, f->half[i] >> 1);
+    for (int i = frame->first[u]; i < frame->first[u + 1]; i++)
+      places += thr_plan_cover(frame, p->s->o, frame->half[i] >> 1);
     q->local[v] = places < p->s->o->end_count[u] ? q->n : -1;
     if (q->local[v] >= 0) q->node[q->n++] = v;
   }
@@ -396,7 +398,7 @@ static thr_status find_short(programme *q, thr_err *err)
 static thr_status build(programme *q, thr_err *err)
 {
   const pricing *p = q->p;
-  const thr_frame *f = p->s->f;
+  const thr_frame *frame = p->s->f;
   double *cost = thr_calloc((size_t)q->n + 1, sizeof *cost), *upper = thr_calloc((size_t)q->n + 1, sizeof *upper);
   thr_status st = cost && upper ? THR_OK : thr_nomem(err);
   int64_t usual;
@@ -407,12 +409,12 @@ static thr_status build(programme *q, thr_err *err)
   for (int i = 0; i < p->n_edges && !st; i++) {
     int n = 0, e = p->edge[i];
     for (int s = 0; s < 2; s++) {
-      q->column[n] = q->local[p->local[f->edge[e][s]]];
+      q->column[n] = q->local[p->local[frame->edge[e][s]]];
       q->value[n] = -1;
       n += q->column[n] >= 0;
     }
-    if (n > 0 && thr_plan_capacity(f, p->s->o, e) == INT_MAX)
-      st = thr_lp_add_row(q->lp, n, q->column, q->value, -(double)thr_certificate_weight(f, p->c, e), err);
+    if (n > 0 && thr_plan_capacity(frame, p->s->o, e) == INT_MAX)
+      st = thr_lp_add_row(q->lp, n, q->column, q->value, -(double)thr_certificate_weight(frame, p->c, e), err);
   }
   free(cost);
   free(upper);
@@ -480,13 +482,16 @@ static thr_status search_each(pricing *p, thr_err *err)
   return st;
 }
 
-thr_status thr_share_prices(const thr_share *s, int k, const thr_limits *limits, thr_certificate *c, thr_err *err)
+thr_status thr_share_prices(const thr_share *share, int k, const thr_limits *limits, thr_certificate *certificate, thr_err *err)
 {
   thr_limits quiet = *limits; /* a bound at a price is not one on the weight */
   quiet.progress = NULL;
-  pricing p = {
-      .s = s, .limits = &quiet, .closed = s->o->ends == THR_ENDS_CLOSED, .counts = s->o->ends == THR_ENDS_COUNTS, .c = c};
-  p.bound = (thr_wide)c->sum - 2 * (thr_wide)s->o->cords * c->end_price;
+  pricing p = {.s = share,
+               .limits = &quiet,
+               .closed = share->o->ends == THR_ENDS_CLOSED,
+               .counts = share->o->ends == THR_ENDS_COUNTS,
+               .c = certificate};
+  p.bound = (thr_wide)certificate->sum - 2 * (thr_wide)share->o->cords * certificate->end_price;
   if (proved(&p) || thr_limits_stop(limits)) return THR_OK;
   thr_status st = pricing_init(&p, k, err);
   if (!st && p.n_edges <= MOST_EDGES) st = p.counts ? search_each(&p, err) : search(&p, err);

@@ -14,10 +14,10 @@ typedef struct {
   double limit;    /* of each cord, INFINITY = none: then the fewest */
 } thr_share_ask;
 
-/* Puts such cords of component k in place of w where w is worse, or is none: the options' ends, covers, capacities, joint. w and
- * passes become the best known; *certain: nothing is better, or there is nothing (w is then as it was). Components that are too
- * large, and what the limits stop, leave w as it is. */
-thr_status thr_share_table(const thr_share *s, int k, const thr_share_ask *ask, const thr_limits *limits, thr_walks *w,
+/* Puts such cords of component k in place of walks where walks is worse, or is none: the options' ends, covers, capacities,
+ * joint. walks and passes become the best known; *certain: nothing is better, or there is nothing (w is then as it was).
+ * Components that are too large, and what the limits stop, leave walks as it is. */
+thr_status thr_share_table(const thr_share *share, int k, const thr_share_ask *ask, const thr_limits *limits, thr_walks *walks,
                            int *passes, bool *certain, thr_err *err) THR_MUST_CHECK;
 
 #endif

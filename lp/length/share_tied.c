@@ -27,16 +27,16 @@ static thr_status split_shuffled(splitting *x, int n, thr_err *err)
 {
   enum { ROUNDS = 12 };
   size_t nodes = (size_t)x->s->f->n_nodes;
-  thr_balance b = {.s = x->s, .w = x->w, .ties = &x->ties, .passes = x->passes, .random = 1};
-  if (!(b.first = thr_calloc(nodes, sizeof *b.first))) return thr_nomem(err);
-  memset(b.first, 0xff, nodes * sizeof *b.first);
+  thr_balance balance = {.s = x->s, .w = x->w, .ties = &x->ties, .passes = x->passes, .random = 1};
+  if (!(balance.first = thr_calloc(nodes, sizeof *balance.first))) return thr_nomem(err);
+  memset(balance.first, 0xff, nodes * sizeof *balance.first);
   thr_status st = thr_share_split(x->s, n, x->even, &x->ties, x->w, err);
   for (int round = 0; round < ROUNDS && !st && x->w->n_walks < n; round++) {
     for (int i = 0; i < x->w->n_walks && !st; i++)
-      st = thr_balance_shuffle(&b, i, err);
+      st = thr_balance_shuffle(&balance, i, err);
     if (!st) st = thr_share_split(x->s, n, x->even, &x->ties, x->w, err);
   }
-  free(b.first);
+  free(balance.first);
   return st;
 }
 
@@ -55,36 +55,37 @@ static bool passes_at(const thr_walk *x, int at, int e)
 }
 
 /* Chords over half-edge h, between visits of one walk. */
-static void offer_chords(const splitting *x, const thr_walk_visits *v, int only, int h, chord *best)
+static void offer_chords(const splitting *x, const thr_walk_visits *visits, int only, int h, chord *best)
 {
-  const thr_frame *f = x->s->f;
-  for (int i = v->first[thr_tail(f, h)], seen = 0; i >= 0 && seen < THR_MOST_VISITS; i = v->next[i], seen++) {
-    const thr_walk *y = &x->w->walk[v->walk[i]];
-    if ((only >= 0 && v->walk[i] != only) || passes_at(y, v->at[i], h >> 1)) continue;
-    for (int j = v->first[thr_head(f, h)], others = 0; j >= 0 && others < THR_MOST_VISITS; j = v->next[j], others++) {
-      if (v->walk[j] != v->walk[i] || v->at[j] < v->at[i] || passes_at(y, v->at[j], h >> 1)) continue;
-      double part = thr_walk_length(f, y->half + v->at[i], v->at[j] - v->at[i]);
+  const thr_frame *frame = x->s->f;
+  for (int i = visits->first[thr_tail(frame, h)], seen = 0; i >= 0 && seen < THR_MOST_VISITS; i = visits->next[i], seen++) {
+    const thr_walk *y = &x->w->walk[visits->walk[i]];
+    if ((only >= 0 && visits->walk[i] != only) || passes_at(y, visits->at[i], h >> 1)) continue;
+    for (int j = visits->first[thr_head(frame, h)], others = 0; j >= 0 && others < THR_MOST_VISITS;
+         j = visits->next[j], others++) {
+      if (visits->walk[j] != visits->walk[i] || visits->at[j] < visits->at[i] || passes_at(y, visits->at[j], h >> 1)) continue;
+      double part = thr_walk_length(frame, y->half + visits->at[i], visits->at[j] - visits->at[i]);
       double price = x->even ? fmax(part, y->length - part) : 0;
-      price += f->length[h >> 1];
-      if (price < best->price) *best = (chord){price, v->walk[i], v->at[i], v->at[j], h};
+      price += frame->length[h >> 1];
+      if (price < best->price) *best = (chord){price, visits->walk[i], visits->at[i], visits->at[j], h};
     }
   }
 }
 
 static thr_status best_chord(const splitting *x, chord *best, thr_err *err)
 {
-  thr_walk_visits v;
-  const thr_frame *f = x->s->f;
+  thr_walk_visits visits;
+  const thr_frame *frame = x->s->f;
   int only = -1;
   *best = (chord){.price = INFINITY};
   for (int i = 0; i < x->w->n_walks && x->even; i++)
     if (only < 0 || x->w->walk[i].length > x->w->walk[only].length) only = i;
-  thr_status st = thr_walk_visits_init(&v, f, x->w->walk, x->w->n_walks, NULL, err);
+  thr_status st = thr_walk_visits_init(&visits, frame, x->w->walk, x->w->n_walks, NULL, err);
   if (st) return st;
-  for (int h = 0; h < 2 * f->n_edges; h++)
-    if (x->passes[h >> 1] <= thr_plan_capacity(f, x->s->o, h >> 1) - 2 && (x->even || f->length[h >> 1] < best->price))
-      offer_chords(x, &v, only, h, best);
-  thr_walk_visits_destroy(&v);
+  for (int h = 0; h < 2 * frame->n_edges; h++)
+    if (x->passes[h >> 1] <= thr_plan_capacity(frame, x->s->o, h >> 1) - 2 && (x->even || frame->length[h >> 1] < best->price))
+      offer_chords(x, &visits, only, h, best);
+  thr_walk_visits_destroy(&visits);
   return THR_OK;
 }
 
@@ -122,18 +123,19 @@ static bool on_way(const thr_ways *g, int v, int e)
 static thr_status best_circuit(const splitting *x, thr_ways *g, int component, circuit *best, thr_err *err)
 {
   const double most = 5e7; /* edges looked at */
-  const thr_frame *f = x->s->f;
+  const thr_frame *frame = x->s->f;
   thr_status st = THR_OK;
-  int step = 1 + (int)((double)f->n_nodes * f->n_edges / most);
+  int step = 1 + (int)((double)frame->n_nodes * frame->n_edges / most);
   *best = (circuit){INFINITY, -1, -1};
-  for (int v = 0; v < f->n_nodes && !st; v += best->start < 0 ? 1 : step) {
+  for (int v = 0; v < frame->n_nodes && !st; v += best->start < 0 ? 1 : step) {
     if (x->s->component[v] != component) continue;
     st = spread_from(x, g, v, best->length, err);
-    for (int e = 0; e < f->n_edges && !st; e++) {
-      int a = f->edge[e][0], b = f->edge[e][1];
-      double length = g->far[a] + g->far[b] + f->length[e];
+    for (int e = 0; e < frame->n_edges && !st; e++) {
+      int a = frame->edge[e][0], b = frame->edge[e][1];
+      double length = g->far[a] + g->far[b] + frame->length[e];
       if (!(length < best->length) || on_way(g, a, e) || on_way(g, b, e)) continue;
-      if (x->passes[e] < thr_plan_capacity(f, x->s->o, e) && leaves_by(g, a) != leaves_by(g, b)) *best = (circuit){length, v, e};
+      if (x->passes[e] < thr_plan_capacity(frame, x->s->o, e) && leaves_by(g, a) != leaves_by(g, b))
+        *best = (circuit){length, v, e};
     }
   }
   return st;
@@ -141,13 +143,13 @@ static thr_status best_circuit(const splitting *x, thr_ways *g, int component, c
 
 static thr_status add_circuit(splitting *x, thr_ways *g, const circuit *c, thr_err *err)
 {
-  const thr_frame *f = x->s->f;
+  const thr_frame *frame = x->s->f;
   thr_status st = spread_from(x, g, c->start, c->length, err);
   if (st) return st;
-  thr_walk new = {0, thr_calloc(2 * (size_t)f->n_nodes + 1, sizeof *new.half), 0, true};
+  thr_walk new = {0, thr_calloc(2 * (size_t)frame->n_nodes + 1, sizeof *new.half), 0, true};
   if (!new.half) return thr_nomem(err);
-  int there = thr_ways_path(g, f->edge[c->edge][0], new.half);
-  int back = thr_ways_path(g, f->edge[c->edge][1], new.half + there + 1);
+  int there = thr_ways_path(g, frame->edge[c->edge][0], new.half);
+  int back = thr_ways_path(g, frame->edge[c->edge][1], new.half + there + 1);
   new.half[there] = 2 * c->edge;
   thr_walk_reverse(new.half + there + 1, back);
   new.n = there + 1 + back;
@@ -157,7 +159,7 @@ static thr_status add_circuit(splitting *x, thr_ways *g, const circuit *c, thr_e
     thr_junction_graphs_make(&x->ties, &change);
     x->passes[new.half[i] >> 1]++;
   }
-  return thr_walks_add(x->w, f, new, err);
+  return thr_walks_add(x->w, frame, new, err);
 }
 
 static bool must_more(const splitting *x, int n)
@@ -181,17 +183,17 @@ static thr_status add_one(splitting *x, thr_ways *g, int n, bool *made, thr_err 
   return *made ? add_circuit(x, g, &round, err) : THR_OK;
 }
 
-thr_status thr_share_tied(const thr_share *s, int n, bool even, int *passes, thr_walks *w, bool *found, thr_err *err)
+thr_status thr_share_tied(const thr_share *share, int n, bool even, int *passes, thr_walks *walks, bool *found, thr_err *err)
 {
   thr_ways g = {0};
-  splitting x = {.s = s, .w = w, .passes = passes, .even = even};
+  splitting x = {.s = share, .w = walks, .passes = passes, .even = even};
   bool made = true;
-  thr_status st = thr_junction_graphs_init(&x.ties, s->f, w, err);
-  if (!st) st = thr_ways_init(&g, s->f, err);
+  thr_status st = thr_junction_graphs_init(&x.ties, share->f, walks, err);
+  if (!st) st = thr_ways_init(&g, share->f, err);
   if (!st) st = split_shuffled(&x, n, err);
-  while (!st && made && w->n_walks < n) {
+  while (!st && made && walks->n_walks < n) {
     st = add_one(&x, &g, n, &made, err);
-    if (!st) st = thr_share_split(s, n, even, &x.ties, w, err);
+    if (!st) st = thr_share_split(share, n, even, &x.ties, walks, err);
   }
   *found = !must_more(&x, n);
   thr_ways_destroy(&g);

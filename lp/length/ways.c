@@ -5,11 +5,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-thr_status thr_ways_init(thr_ways *x, const thr_frame *f, thr_err *err)
+thr_status thr_ways_init(thr_ways *x, const thr_frame *frame, thr_err *err)
 {
-  size_t n = (size_t)f->n_nodes;
-  *x = (thr_ways){.f = f,
-                  .unit = thr_frame_total_length(f) * 0x1p-50,
+  size_t n = (size_t)frame->n_nodes;
+  *x = (thr_ways){.f = frame,
+                  .unit = thr_frame_total_length(frame) * 0x1p-50,
                   .far = thr_calloc(n, sizeof *x->far),
                   .over = thr_calloc(n, sizeof *x->over)};
   if (!x->far || !x->over) return thr_nomem(err);
@@ -45,19 +45,20 @@ thr_status thr_ways_start(thr_ways *x, int v, thr_err *err)
   return reach(x, v, 0, -1, err);
 }
 
-thr_status thr_ways_spread(thr_ways *x, const thr_plan_options *o, const int *passes, int room, double most, int64_t *steps,
+thr_status thr_ways_spread(thr_ways *x, const thr_plan_options *options, const int *passes, int room, double most, int64_t *steps,
                            thr_err *err)
 {
-  const thr_frame *f = x->f;
+  const thr_frame *frame = x->f;
   thr_status st = THR_OK;
   while (x->queue.count > 0 && !st) {
     thr_queued at = thr_queue_pop(&x->queue);
     if (-at.key > (int64_t)(x->far[at.place] / x->unit)) continue; /* a shorter way was found since */
     if (steps) *steps -= 4;
-    for (int i = f->first[at.place]; i < f->first[at.place + 1] && !st; i++) {
-      int h = f->half[i], e = h >> 1;
-      double far = x->far[at.place] + f->length[e];
-      if (far <= most && (!passes || thr_plan_capacity(f, o, e) - passes[e] >= room)) st = reach(x, thr_head(f, h), far, h, err);
+    for (int i = frame->first[at.place]; i < frame->first[at.place + 1] && !st; i++) {
+      int h = frame->half[i], e = h >> 1;
+      double far = x->far[at.place] + frame->length[e];
+      if (far <= most && (!passes || thr_plan_capacity(frame, options, e) - passes[e] >= room))
+        st = reach(x, thr_head(frame, h), far, h, err);
     }
   }
   return st;

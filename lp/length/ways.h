@@ -16,7 +16,7 @@ typedef struct {
   thr_queue queue; /* entry is owned */
 } thr_ways;
 
-thr_status thr_ways_init(thr_ways *x, const thr_frame *f, thr_err *err) THR_MUST_CHECK;
+thr_status thr_ways_init(thr_ways *x, const thr_frame *frame, thr_err *err) THR_MUST_CHECK;
 void thr_ways_destroy(thr_ways *x);
 
 /* Forgets all starts and ways. */
@@ -25,7 +25,7 @@ thr_status thr_ways_start(thr_ways *x, int v, thr_err *err) THR_MUST_CHECK;
 
 /* From the starts, over edges whose capacity leaves room for so many passes beyond passes[n_edges] (NULL: over all), no further
  * than most. What it costs is taken off *steps (NULL ok). O(m log m). */
-thr_status thr_ways_spread(thr_ways *x, const thr_plan_options *o, const int *passes, int room, double most, int64_t *steps,
+thr_status thr_ways_spread(thr_ways *x, const thr_plan_options *options, const int *passes, int room, double most, int64_t *steps,
                            thr_err *err) THR_MUST_CHECK;
 
 /* The half-edges of the shortest way to v, from its start on, into half[n_nodes]; returns how many. */

@@ -43,14 +43,14 @@ typedef struct {
 /* THR_EINFEASIBLE: no perfect matching exists. THR_ELIMIT: the limits stopped it. THR_EINPUT: a node, a weight or the total is
  * out of range. Whenever it fails, out is empty. O(n (m + n) log m) at worst, about O(m log m) on candidate pairs of a planar
  * framework. Release with thr_matching_destroy. */
-thr_status thr_matching_solve(const thr_matching_problem *p, const thr_limits *limits, thr_matching *out,
+thr_status thr_matching_solve(const thr_matching_problem *matching_problem, const thr_limits *limits, thr_matching *out,
                               thr_err *err) THR_MUST_CHECK;
 
-/* The same after edges were added: p has the nodes and edges of the problem that m solves, in the same order, and more edges
- * after them; m may be empty. Goes on from m's duals and gives up only what loads new edges too much. Fails as above, m being
- * empty then. */
-thr_status thr_matching_again(const thr_matching_problem *p, const thr_limits *limits, thr_matching *m,
+/* The same after edges were added: matching_problem has the nodes and edges of the problem that matching solves, in the same
+ * order, and more edges after them; matching may be empty. Goes on from matching's duals and gives up only what loads new edges
+ * too much. Fails as above, matching being empty then. */
+thr_status thr_matching_again(const thr_matching_problem *matching_problem, const thr_limits *limits, thr_matching *matching,
                               thr_err *err) THR_MUST_CHECK;
-void thr_matching_destroy(thr_matching *m);
+void thr_matching_destroy(thr_matching *matching);
 
 #endif

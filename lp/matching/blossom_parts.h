@@ -101,9 +101,9 @@ struct thr_matching_state {
 };
 
 /* The top blossom round a node: the sets' union is by size (thr_blossom_shrink), so that opening a blossom moves few nodes. */
-static inline int top_of_node(thr_matching_state *s, int v)
+static inline int top_of_node(thr_matching_state *matching_state, int v)
 {
-  blossom_node *node = s->node;
+  blossom_node *node = matching_state->node;
   for (int up; (up = node[v].up) >= 0;) {
     if (node[up].up < 0) return ~node[up].up;
     v = node[v].up = node[up].up;
@@ -111,80 +111,81 @@ static inline int top_of_node(thr_matching_state *s, int v)
   return ~node[v].up;
 }
 
-static inline bool is_top(const thr_matching_state *s, int b)
+static inline bool is_top(const thr_matching_state *matching_state, int b)
 {
-  return s->b[b].parent < 0;
+  return matching_state->b[b].parent < 0;
 }
 
 /* ---- blossom_queue.c ---- */
 
 /* Empties the queue and sets the clock to 0. */
-void thr_blossom_reset(thr_matching_state *s);
+void thr_blossom_reset(thr_matching_state *matching_state);
 
-/* Events at s->end_time or later are forgotten. Out of memory: s->status. */
-void thr_blossom_push(thr_matching_state *s, int64_t time, int dart);
+/* Events at matching_state->end_time or later are forgotten. Out of memory: matching_state->status. */
+void thr_blossom_push(thr_matching_state *matching_state, int64_t time, int dart);
 
-/* When the next event is due, at most s->end_time; if that is before s->end_time, thr_blossom_pop takes it. */
-int64_t thr_blossom_due(thr_matching_state *s);
-int thr_blossom_pop(thr_matching_state *s);
+/* When the next event is due, at most matching_state->end_time; if that is before matching_state->end_time, thr_blossom_pop takes
+ * it. */
+int64_t thr_blossom_due(thr_matching_state *matching_state);
+int thr_blossom_pop(thr_matching_state *matching_state);
 
 /* ---- blossom_search.c ---- */
 
 /* A half-integral matching on top of the start's duals: grows a tree from each exposed node in turn, until it can be matched or
  * closes an odd cycle, which becomes an exposed blossom with dual 0. When another tree meets that, it is opened again. */
-thr_status thr_blossom_match_halves(thr_matching_state *s) THR_MUST_CHECK;
+thr_status thr_blossom_match_halves(thr_matching_state *matching_state) THR_MUST_CHECK;
 
 /* Grows trees from all exposed top blossoms at once until none is left. */
-thr_status thr_blossom_match_all(thr_matching_state *s) THR_MUST_CHECK;
+thr_status thr_blossom_match_all(thr_matching_state *matching_state) THR_MUST_CHECK;
 
 /* ---- blossom_tree.c ---- */
 
 /* A free top blossom becomes outer (not yet looking out; as many steps as it has nodes), or inner, entered by a dart. */
-void thr_blossom_make_outer(thr_matching_state *s, int b, int tree);
-void thr_blossom_make_inner(thr_matching_state *s, int b, int tree, int dart);
+void thr_blossom_make_outer(thr_matching_state *matching_state, int b, int tree);
+void thr_blossom_make_inner(thr_matching_state *matching_state, int b, int tree, int dart);
 
 /* Frees an outer or inner blossom, with dual and offset as they are now; and takes it out of the list of its tree. */
-void thr_blossom_settle(thr_matching_state *s, int b);
-void thr_blossom_leave(thr_matching_state *s, int b);
+void thr_blossom_settle(thr_matching_state *matching_state, int b);
+void thr_blossom_leave(thr_matching_state *matching_state, int b);
 
 /* Queues the darts that leave b, which is outer or has just become part of outer blossom top. */
-void thr_blossom_look_out(thr_matching_state *s, int b, int top);
+void thr_blossom_look_out(thr_matching_state *matching_state, int b, int top);
 
 /* Queues the darts that come from outer blossoms into b, which has just become free. */
-void thr_blossom_look_back(thr_matching_state *s, int b);
+void thr_blossom_look_back(thr_matching_state *matching_state, int b);
 
 /* The free blossom that a dart leads to, and its mate, join the tree of the outer one that it leaves. */
-void thr_blossom_attach(thr_matching_state *s, int dart);
+void thr_blossom_attach(thr_matching_state *matching_state, int dart);
 
 /* Matches an outer blossom by a dart (-1: exposes it) and changes over all pairs from there to the root. */
-void thr_blossom_change_pairs(thr_matching_state *s, int b, int dart);
+void thr_blossom_change_pairs(thr_matching_state *matching_state, int b, int dart);
 
 /* ---- blossom_shrink.c ---- */
 
 /* Makes one outer blossom of the cycle that a tight dart between two outer ones of a tree closes. Children that were inner keep
  * that label: their nodes have not looked out yet. */
-int thr_blossom_shrink(thr_matching_state *s, int dart);
+int thr_blossom_shrink(thr_matching_state *matching_state, int dart);
 
 /* Makes free top blossoms of the children of a free one with dual 0, matched as it is. */
-void thr_blossom_open(thr_matching_state *s, int b);
+void thr_blossom_open(thr_matching_state *matching_state, int b);
 
 /* The same with an inner one: its children join the tree or become free. */
-void thr_blossom_expand(thr_matching_state *s, int b);
+void thr_blossom_expand(thr_matching_state *matching_state, int b);
 
 /* Pairs the other blossoms of base's cycle. */
-void thr_blossom_match_children(thr_matching_state *s, int base);
+void thr_blossom_match_children(thr_matching_state *matching_state, int base);
 
 /* ---- blossom_start.c ---- */
 
 /* Duals without blossoms that load no edge too much, and a matching along tight edges. */
-thr_status thr_blossom_start(thr_matching_state *s) THR_MUST_CHECK;
+thr_status thr_blossom_start(thr_matching_state *matching_state) THR_MUST_CHECK;
 
 /* Makes room for an edge that may be loaded too much: opens what blossoms it must, lowers the moat of one end. O(depth and size
  * of those blossoms). */
-thr_status thr_blossom_make_room(thr_matching_state *s, int edge) THR_MUST_CHECK;
+thr_status thr_blossom_make_room(thr_matching_state *matching_state, int edge) THR_MUST_CHECK;
 
 /* Failures with their texts. */
-thr_status thr_blossom_infeasible(const thr_matching_state *s);
-thr_status thr_blossom_too_large(const thr_matching_state *s);
+thr_status thr_blossom_infeasible(const thr_matching_state *matching_state);
+thr_status thr_blossom_too_large(const thr_matching_state *matching_state);
 
 #endif

@@ -4,59 +4,60 @@
 #include "graph/status.h"
 #include "lp/matching/blossom_parts.h"
 
-static int bucket_of(const thr_matching_state *s, int64_t time)
+static int bucket_of(const thr_matching_state *matching_state, int64_t time)
 {
-  uint64_t differ = (uint64_t)(time ^ s->queue_time);
+  uint64_t differ = (uint64_t)(time ^ matching_state->queue_time);
   return differ ? 64 - __builtin_clzll(differ) : 0;
 }
 
-static void put(thr_matching_state *s, blossom_event e)
+static void put(thr_matching_state *matching_state, blossom_event e)
 {
-  int k = bucket_of(s, e.time);
-  blossom_bucket *to = &s->bucket[k];
-  if (to->count == to->capacity && !s->status) s->status = thr_grow(&to->event, to->count, &to->capacity, sizeof e, s->err);
-  if (s->status) return;
+  int k = bucket_of(matching_state, e.time);
+  blossom_bucket *to = &matching_state->bucket[k];
+  if (to->count == to->capacity && !matching_state->status)
+    matching_state->status = thr_grow(&to->event, to->count, &to->capacity, sizeof e, matching_state->err);
+  if (matching_state->status) return;
   to->event[to->count++] = e;
-  s->filled |= UINT64_C(1) << k;
+  matching_state->filled |= UINT64_C(1) << k;
 }
 
-void thr_blossom_push(thr_matching_state *s, int64_t time, int dart)
+void thr_blossom_push(thr_matching_state *matching_state, int64_t time, int dart)
 {
-  if (time < s->end_time) put(s, (blossom_event){time, dart});
+  if (time < matching_state->end_time) put(matching_state, (blossom_event){time, dart});
 }
 
-int64_t thr_blossom_due(thr_matching_state *s)
+int64_t thr_blossom_due(thr_matching_state *matching_state)
 {
-  if (!s->filled) return s->end_time;
-  int k = __builtin_ctzll(s->filled);
-  blossom_bucket *from = &s->bucket[k];
+  if (!matching_state->filled) return matching_state->end_time;
+  int k = __builtin_ctzll(matching_state->filled);
+  blossom_bucket *from = &matching_state->bucket[k];
   if (k) {
     int64_t least = from->event[0].time;
     for (int i = 1; i < from->count; i++)
       if (from->event[i].time < least) least = from->event[i].time;
-    if (least >= s->end_time) return s->end_time;
-    s->queue_time = least;
+    if (least >= matching_state->end_time) return matching_state->end_time;
+    matching_state->queue_time = least;
     int count = from->count;
     from->count = 0;
-    s->filled &= s->filled - 1;
+    matching_state->filled &= matching_state->filled - 1;
     for (int i = 0; i < count; i++)
-      put(s, from->event[i]);
+      put(matching_state, from->event[i]);
   }
-  return s->queue_time < s->end_time ? s->queue_time : s->end_time;
+  return matching_state->queue_time < matching_state->end_time ? matching_state->queue_time : matching_state->end_time;
 }
 
-int thr_blossom_pop(thr_matching_state *s)
+int thr_blossom_pop(thr_matching_state *matching_state)
 {
-  blossom_bucket *from = &s->bucket[0];
-  if (from->count == 1) s->filled &= ~UINT64_C(1);
+  blossom_bucket *from = &matching_state->bucket[0];
+  if (from->count == 1) matching_state->filled &= ~UINT64_C(1);
   return from->event[--from->count].dart;
 }
 
-void thr_blossom_reset(thr_matching_state *s)
+void thr_blossom_reset(thr_matching_state *matching_state)
 {
-  for (; s->filled; s->filled &= s->filled - 1)
-    s->bucket[__builtin_ctzll(s->filled)].count = 0;
-  s->time = s->queue_time = 0;
-  s->end_time = INT64_MAX;
-  s->end_dart = -1;
+  for (; matching_state->filled; matching_state->filled &= matching_state->filled - 1)
+    matching_state->bucket[__builtin_ctzll(matching_state->filled)].count = 0;
+  matching_state->time = matching_state->queue_time = 0;
+  matching_state->end_time = INT64_MAX;
+  matching_state->end_dart = -1;
 }

@@ -77,46 +77,47 @@ done:
 
 /* ---- the diagram ---- */
 
-thr_status thr_flood_run(const thr_network *net, const int64_t *start, int64_t floor, thr_flood *f, thr_err *err)
+thr_status thr_flood_run(const thr_network *net, const int64_t *start, int64_t floor, thr_flood *flood, thr_err *err)
 {
   size_t n = (size_t)net->n_places;
   thr_queue queue = {0};
-  *f = (thr_flood){
-      .depth = thr_calloc(n, sizeof *f->depth), .root = thr_calloc(n, sizeof *f->root), .order = thr_calloc(n, sizeof *f->order)};
-  thr_status st = f->depth && f->root && f->order ? THR_OK : thr_nomem(err);
+  *flood = (thr_flood){.depth = thr_calloc(n, sizeof *flood->depth),
+                       .root = thr_calloc(n, sizeof *flood->root),
+                       .order = thr_calloc(n, sizeof *flood->order)};
+  thr_status st = flood->depth && flood->root && flood->order ? THR_OK : thr_nomem(err);
   for (size_t v = 0; v < n && !st; v++) {
-    f->depth[v] = floor;
-    f->root[v] = -1;
+    flood->depth[v] = floor;
+    flood->root[v] = -1;
   }
   for (int i = 0; i < net->n_odd && !st; i++) {
-    f->depth[net->odd[i]] = start[i];
-    f->root[net->odd[i]] = i;
+    flood->depth[net->odd[i]] = start[i];
+    flood->root[net->odd[i]] = i;
     if (start[i] > floor) st = thr_queue_push(&queue, (thr_queued){start[i], net->odd[i]}, err);
   }
   while (queue.count && !st) {
     thr_queued at = thr_queue_pop(&queue);
-    if (at.key != f->depth[at.place]) continue; /* reached deeper since */
-    f->order[f->n_reached++] = at.place;
+    if (at.key != flood->depth[at.place]) continue; /* reached deeper since */
+    flood->order[flood->n_reached++] = at.place;
     for (int k = net->first[at.place]; k < net->first[at.place + 1] && !st; k++) {
       const thr_arc *arc = &net->arc[k];
       int64_t depth = at.key - 2 * arc->weight;
-      if (depth <= f->depth[arc->head]) continue;
-      f->depth[arc->head] = depth;
-      f->root[arc->head] = f->root[at.place];
+      if (depth <= flood->depth[arc->head]) continue;
+      flood->depth[arc->head] = depth;
+      flood->root[arc->head] = flood->root[at.place];
       st = thr_queue_push(&queue, (thr_queued){depth, arc->head}, err);
     }
   }
   free(queue.entry);
-  if (st) thr_flood_destroy(f);
+  if (st) thr_flood_destroy(flood);
   return st;
 }
 
-void thr_flood_destroy(thr_flood *f)
+void thr_flood_destroy(thr_flood *flood)
 {
-  free(f->depth);
-  free(f->root);
-  free(f->order);
-  *f = (thr_flood){0};
+  free(flood->depth);
+  free(flood->root);
+  free(flood->order);
+  *flood = (thr_flood){0};
 }
 
 /* ---- the nearest ---- */
@@ -224,17 +225,18 @@ static thr_status merge_near(const thr_network *net, const thr_limits *limits, c
 
 static thr_status add_neighbours(const thr_network *net, thr_pairs *pairs, thr_err *err)
 {
-  thr_flood f = {0};
+  thr_flood flood = {0};
   int64_t *start = thr_calloc((size_t)net->n_odd, sizeof *start);
-  thr_status st = start ? thr_flood_run(net, start, INT64_MIN, &f, err) : thr_nomem(err);
+  thr_status st = start ? thr_flood_run(net, start, INT64_MIN, &flood, err) : thr_nomem(err);
   for (int v = 0; v < net->n_places && !st; v++)
     for (int k = net->first[v]; k < net->first[v + 1] && !st; k++) {
       int w = net->arc[k].head;
-      if (v < w && f.root[v] != f.root[w])
-        st = thr_pairs_add(pairs, f.root[v], f.root[w], net->arc[k].weight - f.depth[v] / 2 - f.depth[w] / 2, err);
+      if (v < w && flood.root[v] != flood.root[w])
+        st =
+            thr_pairs_add(pairs, flood.root[v], flood.root[w], net->arc[k].weight - flood.depth[v] / 2 - flood.depth[w] / 2, err);
     }
   free(start);
-  thr_flood_destroy(&f);
+  thr_flood_destroy(&flood);
   return st ? st : thr_pairs_tidy(pairs, 0, net->n_odd, err);
 }
 

@@ -42,8 +42,9 @@ typedef struct {
 
 /* Depths in halves of a weight. start[n_odd]: of the odd places; places at or below the floor are not reached and keep it as
  * depth (INT64_MIN: all are reached). O(m log m). Release with thr_flood_destroy. */
-thr_status thr_flood_run(const thr_network *net, const int64_t *start, int64_t floor, thr_flood *f, thr_err *err) THR_MUST_CHECK;
-void thr_flood_destroy(thr_flood *f);
+thr_status thr_flood_run(const thr_network *net, const int64_t *start, int64_t floor, thr_flood *flood,
+                         thr_err *err) THR_MUST_CHECK;
+void thr_flood_destroy(thr_flood *flood);
 
 /* Candidates to begin with: of every odd place the nearest others; those whose Voronoi cells touch; and pairs along a lightest
  * spanning tree of these, which make a perfect matching (on a connected graph). reach[n_odd] receives how far the nearest of each

@@ -36,11 +36,11 @@ thr_status thr_hubs_find(const thr_network *net, thr_hubs *hubs, thr_err *err)
     thr_network alone = *net; /* all grows from this hub */
     alone.odd = &hub[k];
     alone.n_odd = 1;
-    thr_flood f = {0};
-    st = thr_flood_run(&alone, &none, INT64_MIN, &f, err);
+    thr_flood flood = {0};
+    st = thr_flood_run(&alone, &none, INT64_MIN, &flood, err);
     for (int i = 0; i < net->n_odd && !st; i++)
-      hubs->way[k * net->n_odd + i] = -f.depth[net->odd[i]] / 2;
-    thr_flood_destroy(&f);
+      hubs->way[k * net->n_odd + i] = -flood.depth[net->odd[i]] / 2;
+    thr_flood_destroy(&flood);
   }
   if (st) thr_hubs_destroy(hubs);
   return st;

@@ -36,9 +36,9 @@ static void solver_destroy(solver *s)
   free(s->start);
 }
 
-static thr_status solver_init(solver *s, const thr_tjoin_problem *p, thr_err *err)
+static thr_status solver_init(solver *s, const thr_tjoin_problem *tjoin_problem, thr_err *err)
 {
-  thr_status st = thr_network_init(&s->net, p, err);
+  thr_status st = thr_network_init(&s->net, tjoin_problem, err);
   if (st) return st;
   s->raised = thr_calloc((size_t)s->net.n_odd, sizeof *s->raised);
   s->start = thr_calloc((size_t)s->net.n_odd, sizeof *s->start);
@@ -55,12 +55,12 @@ static thr_status solver_init(solver *s, const thr_tjoin_problem *p, thr_err *er
 static thr_status match(solver *s, thr_err *err)
 {
   enum { ODD_PER_NEW_PAIR = 20 };
-  thr_matching_problem p = {s->net.n_odd, s->pairs.count, (const int(*)[2])s->pairs.end, s->pairs.weight};
+  thr_matching_problem matching_problem = {s->net.n_odd, s->pairs.count, (const int(*)[2])s->pairs.end, s->pairs.weight};
   int added = s->pairs.count - s->matched;
   s->matched = s->pairs.count;
-  if (added <= s->net.n_odd / ODD_PER_NEW_PAIR) return thr_matching_again(&p, s->limits, &s->matching, err);
+  if (added <= s->net.n_odd / ODD_PER_NEW_PAIR) return thr_matching_again(&matching_problem, s->limits, &s->matching, err);
   thr_matching_destroy(&s->matching);
-  return thr_matching_solve(&p, s->limits, &s->matching, err);
+  return thr_matching_solve(&matching_problem, s->limits, &s->matching, err);
 }
 
 /* The moats of the nest, as far as they reach. */
@@ -249,11 +249,11 @@ static thr_status join_all(const solver *s, bool *in_join, thr_err *err)
 
 /* ---- results ---- */
 
-static void weigh(const thr_tjoin_problem *p, thr_tjoin *out)
+static void weigh(const thr_tjoin_problem *tjoin_problem, thr_tjoin *out)
 {
   out->length = 0;
-  for (int e = 0; e < p->n_edges; e++)
-    if (out->in_join[e]) out->length += p->weight[e];
+  for (int e = 0; e < tjoin_problem->n_edges; e++)
+    if (out->in_join[e]) out->length += tjoin_problem->weight[e];
 }
 
 static thr_status take_result(solver *s, thr_tjoin *out, thr_err *err)
@@ -290,35 +290,35 @@ static thr_status take_quick_result(solver *s, thr_tjoin *out, thr_err *err)
   return THR_OK;
 }
 
-thr_status thr_moat_fits(const thr_tjoin_problem *p, bool *fits, thr_err *err)
+thr_status thr_moat_fits(const thr_tjoin_problem *tjoin_problem, bool *fits, thr_err *err)
 {
   double sum = 0, most = (double)THR_MOAT_WEIGHTS_MOST;
   thr_status st = THR_OK;
   *fits = true;
-  for (int e = 0; e < p->n_edges; e++) {
-    sum += (double)p->weight[e];
-    *fits &= p->weight[e] <= THR_MOAT_WEIGHTS_MOST;
+  for (int e = 0; e < tjoin_problem->n_edges; e++) {
+    sum += (double)tjoin_problem->weight[e];
+    *fits &= tjoin_problem->weight[e] <= THR_MOAT_WEIGHTS_MOST;
   }
-  if (*fits && sum > most) st = thr_network_tree_weight(p, &sum, err);
+  if (*fits && sum > most) st = thr_network_tree_weight(tjoin_problem, &sum, err);
   *fits &= sum <= most;
   return st;
 }
 
-static thr_status check_weights(const thr_tjoin_problem *p, thr_err *err)
+static thr_status check_weights(const thr_tjoin_problem *tjoin_problem, thr_err *err)
 {
   bool fits;
-  thr_status st = thr_moat_fits(p, &fits, err);
+  thr_status st = thr_moat_fits(tjoin_problem, &fits, err);
   return st || fits ? st : thr_fail(err, THR_EINPUT, "weights are too large for exact sums of 64 bits");
 }
 
-thr_status thr_moat_solve(const thr_tjoin_problem *p, const thr_limits *limits, thr_tjoin *out, thr_err *err)
+thr_status thr_moat_solve(const thr_tjoin_problem *tjoin_problem, const thr_limits *limits, thr_tjoin *out, thr_err *err)
 {
   solver s = {.limits = limits};
   thr_err stopped = {0};
   *out = (thr_tjoin){0};
-  thr_status st = check_weights(p, err), limit = THR_OK;
-  if (!st && !(out->in_join = thr_calloc((size_t)p->n_edges, sizeof *out->in_join))) st = thr_nomem(err);
-  if (!st) st = solver_init(&s, p, &stopped);
+  thr_status st = check_weights(tjoin_problem, err), limit = THR_OK;
+  if (!st && !(out->in_join = thr_calloc((size_t)tjoin_problem->n_edges, sizeof *out->in_join))) st = thr_nomem(err);
+  if (!st) st = solver_init(&s, tjoin_problem, &stopped);
   if (!st && s.net.n_odd) st = solve_rounds(&s, &stopped);
   if (!st) {
     st = take_result(&s, out, err);

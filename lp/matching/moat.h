@@ -19,12 +19,13 @@
 
 /* Do 64 bits hold all sums? No weight may be more than THR_MOAT_WEIGHTS_MOST, nor a lightest spanning tree, which bounds join and
  * ways. O(edges); O(edges log edges) where all weights together are more. */
-thr_status thr_moat_fits(const thr_tjoin_problem *p, bool *fits, thr_err *err) THR_MUST_CHECK;
+thr_status thr_moat_fits(const thr_tjoin_problem *tjoin_problem, bool *fits, thr_err *err) THR_MUST_CHECK;
 
 /* The same contract as thr_tjoin_solve, for T-joins on a connected graph, except that weights must fit (THR_EINPUT) and that what
  * out holds after THR_ELIMIT is quick, not good: the join of a lightest spanning tree, and a ball round each odd node. The cuts
  * are a forest, every node is named in it at most once, and sum = length
  * * THR_DUAL_DENOMINATOR. About O(m log m) on frameworks. */
-thr_status thr_moat_solve(const thr_tjoin_problem *p, const thr_limits *limits, thr_tjoin *out, thr_err *err) THR_MUST_CHECK;
+thr_status thr_moat_solve(const thr_tjoin_problem *tjoin_problem, const thr_limits *limits, thr_tjoin *out,
+                          thr_err *err) THR_MUST_CHECK;
 
 #endif

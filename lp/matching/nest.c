@@ -87,9 +87,9 @@ static void find_depths(thr_nest *nest)
   }
 }
 
-thr_status thr_nest_init(thr_nest *nest, int n_odd, const thr_matching *m, bool *raised, thr_err *err)
+thr_status thr_nest_init(thr_nest *nest, int n_odd, const thr_matching *matching, bool *raised, thr_err *err)
 {
-  thr_status st = allocate(nest, n_odd, m->n_blossoms, err);
+  thr_status st = allocate(nest, n_odd, matching->n_blossoms, err);
   if (st) return st;
   int *chain = thr_calloc((size_t)nest->n_sets, sizeof *chain);
   if (!chain) {
@@ -97,14 +97,14 @@ thr_status thr_nest_init(thr_nest *nest, int n_odd, const thr_matching *m, bool 
     return thr_nomem(err);
   }
   for (int s = 0; s < nest->n_sets; s++) {
-    int up = s < n_odd ? m->node_blossom[s] : m->blossom_parent[s - n_odd];
+    int up = s < n_odd ? matching->node_blossom[s] : matching->blossom_parent[s - n_odd];
     nest->parent[s] = up < 0 ? -1 : n_odd + up;
-    nest->width[s] = s < n_odd ? m->dual[s] : m->blossom_dual[s - n_odd];
+    nest->width[s] = s < n_odd ? matching->dual[s] : matching->blossom_dual[s - n_odd];
   }
   link_up(nest);
   for (int i = 0; i < n_odd; i++) {
     raised[i] = nest->width[i] < 0;
-    if (raised[i]) raise_width(nest, i, m->mate[i], chain);
+    if (raised[i]) raise_width(nest, i, matching->mate[i], chain);
   }
   free(chain);
   find_depths(nest);
@@ -198,16 +198,16 @@ static int set_at(const thr_nest *nest, int i, int64_t depth)
 /* Places by set, in the order in which the flood came; nodes by place, ascending. */
 static void sort_places(cutter *c)
 {
-  const thr_flood *f = c->f;
-  for (int k = 0; k < f->n_reached; k++) {
-    int v = f->order[k];
-    c->set[v] = set_at(c->nest, f->root[v], f->depth[v]);
+  const thr_flood *flood = c->f;
+  for (int k = 0; k < flood->n_reached; k++) {
+    int v = flood->order[k];
+    c->set[v] = set_at(c->nest, flood->root[v], flood->depth[v]);
     c->first[c->set[v] + 2]++;
   }
   for (int s = 1; s <= c->nest->n_sets; s++)
     c->first[s + 1] += c->first[s];
-  for (int k = 0; k < f->n_reached; k++)
-    c->list[c->first[c->set[f->order[k]] + 1]++] = f->order[k];
+  for (int k = 0; k < flood->n_reached; k++)
+    c->list[c->first[c->set[flood->order[k]] + 1]++] = flood->order[k];
   for (int v = 0; v < c->net->p->n_nodes; v++)
     c->first_node[c->net->place[v] + 2]++;
   for (int v = 1; v <= c->net->n_places; v++)
@@ -264,10 +264,10 @@ static void hand_on(cutter *c, int s)
   c->open[up] = c->open[s];
 }
 
-thr_status thr_nest_cuts(const thr_nest *nest, const thr_network *net, const thr_flood *f, thr_cut **cut, int *n_cuts,
+thr_status thr_nest_cuts(const thr_nest *nest, const thr_network *net, const thr_flood *flood, thr_cut **cut, int *n_cuts,
                          int64_t *sum, thr_err *err)
 {
-  cutter c = {.nest = nest, .net = net, .f = f};
+  cutter c = {.nest = nest, .net = net, .f = flood};
   thr_status st = cutter_init(&c, err);
   if (!st) sort_places(&c);
   for (int s = 0; s < nest->n_sets && !st; s++) {

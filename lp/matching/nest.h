@@ -31,7 +31,7 @@ typedef struct {
  * those around i first, from the inside outwards, then those around k from the outside inwards. That spoils no pair (i, j) unless
  * the duals were too large for (j, k) by way of i already, the way over i being at least as long as the shortest. raised[n_odd]
  * receives what was changed. O(n_sets + the sets passed). */
-thr_status thr_nest_init(thr_nest *nest, int n_odd, const thr_matching *m, bool *raised, thr_err *err) THR_MUST_CHECK;
+thr_status thr_nest_init(thr_nest *nest, int n_odd, const thr_matching *matching, bool *raised, thr_err *err) THR_MUST_CHECK;
 
 /* Every odd place alone, with these widths. */
 thr_status thr_nest_of_balls(thr_nest *nest, int n_odd, const int64_t *width, thr_err *err) THR_MUST_CHECK;
@@ -46,7 +46,7 @@ void thr_nest_depths(const thr_nest *nest, int64_t *start);
 /* The moats as odd cuts of the problem's nodes, in units of 1 / THR_DUAL_DENOMINATOR, from the flood that starts at the odd
  * places' depths with floor 0: a forest (thr_cut.parent) in which every node is named once. O(nodes + cuts). On failure nothing
  * is allocated. */
-thr_status thr_nest_cuts(const thr_nest *nest, const thr_network *net, const thr_flood *f, thr_cut **cut, int *n_cuts,
+thr_status thr_nest_cuts(const thr_nest *nest, const thr_network *net, const thr_flood *flood, thr_cut **cut, int *n_cuts,
                          int64_t *sum, thr_err *err) THR_MUST_CHECK;
 
 #endif

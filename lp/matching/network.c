@@ -8,12 +8,12 @@
 /* Numbers the places by their lowest node. */
 static void number_places(thr_network *net, int *parent)
 {
-  const thr_tjoin_problem *p = net->p;
-  for (int v = 0; v < p->n_nodes; v++)
+  const thr_tjoin_problem *tjoin_problem = net->p;
+  for (int v = 0; v < tjoin_problem->n_nodes; v++)
     parent[v] = v;
-  for (int e = 0; e < p->n_edges; e++)
-    if (p->weight[e] == 0) thr_disjoint_join(parent, p->edge[e][0], p->edge[e][1]);
-  for (int v = 0; v < p->n_nodes; v++) {
+  for (int e = 0; e < tjoin_problem->n_edges; e++)
+    if (tjoin_problem->weight[e] == 0) thr_disjoint_join(parent, tjoin_problem->edge[e][0], tjoin_problem->edge[e][1]);
+  for (int v = 0; v < tjoin_problem->n_nodes; v++) {
     int root = thr_disjoint_find(parent, v); /* the lowest */
     net->place[v] = root == v ? net->n_places++ : net->place[root];
   }
@@ -28,11 +28,11 @@ static bool between_places(const thr_network *net, int e, int place[2])
 
 static thr_status fill_arcs(thr_network *net, thr_err *err)
 {
-  const thr_tjoin_problem *p = net->p;
+  const thr_tjoin_problem *tjoin_problem = net->p;
   int at[2];
   net->first = thr_calloc((size_t)net->n_places + 2, sizeof *net->first);
   if (!net->first) return thr_nomem(err);
-  for (int e = 0; e < p->n_edges; e++) {
+  for (int e = 0; e < tjoin_problem->n_edges; e++) {
     if (!between_places(net, e, at)) continue;
     net->first[at[0] + 2]++;
     net->first[at[1] + 2]++;
@@ -42,10 +42,10 @@ static thr_status fill_arcs(thr_network *net, thr_err *err)
     net->first[v + 1] += net->first[v];
   net->arc = thr_calloc((size_t)net->n_arcs, sizeof *net->arc);
   if (!net->arc) return thr_nomem(err);
-  for (int e = 0; e < p->n_edges; e++) {
+  for (int e = 0; e < tjoin_problem->n_edges; e++) {
     if (!between_places(net, e, at)) continue;
-    net->arc[net->first[at[0] + 1]++] = (thr_arc){p->weight[e], at[1], e};
-    net->arc[net->first[at[1] + 1]++] = (thr_arc){p->weight[e], at[0], e};
+    net->arc[net->first[at[0] + 1]++] = (thr_arc){tjoin_problem->weight[e], at[1], e};
+    net->arc[net->first[at[1] + 1]++] = (thr_arc){tjoin_problem->weight[e], at[0], e};
   }
   return THR_OK;
 }
@@ -65,11 +65,11 @@ static thr_status list_odd(thr_network *net, thr_err *err)
   return THR_OK;
 }
 
-thr_status thr_network_init(thr_network *net, const thr_tjoin_problem *p, thr_err *err)
+thr_status thr_network_init(thr_network *net, const thr_tjoin_problem *tjoin_problem, thr_err *err)
 {
-  *net = (thr_network){.p = p};
-  int *parent = thr_calloc((size_t)p->n_nodes, sizeof *parent);
-  net->place = thr_calloc((size_t)p->n_nodes, sizeof *net->place);
+  *net = (thr_network){.p = tjoin_problem};
+  int *parent = thr_calloc((size_t)tjoin_problem->n_nodes, sizeof *parent);
+  net->place = thr_calloc((size_t)tjoin_problem->n_nodes, sizeof *net->place);
   thr_status st = parent && net->place ? THR_OK : thr_nomem(err);
   if (!st) number_places(net, parent);
   free(parent);
@@ -111,20 +111,20 @@ static int by_weight(const void *pa, const void *pb)
 }
 
 /* A lightest spanning forest, of all edges or of those of weight 0. *edge is allocated, *n of them. */
-static thr_status find_forest(const thr_tjoin_problem *p, bool any_weight, int **edge, int *n, thr_err *err)
+static thr_status find_forest(const thr_tjoin_problem *tjoin_problem, bool any_weight, int **edge, int *n, thr_err *err)
 {
-  int *parent = thr_calloc((size_t)p->n_nodes, sizeof *parent), count = 0;
-  weighed *list = thr_calloc((size_t)p->n_edges, sizeof *list);
+  int *parent = thr_calloc((size_t)tjoin_problem->n_nodes, sizeof *parent), count = 0;
+  weighed *list = thr_calloc((size_t)tjoin_problem->n_edges, sizeof *list);
   *n = 0;
-  *edge = thr_calloc((size_t)p->n_nodes, sizeof **edge);
+  *edge = thr_calloc((size_t)tjoin_problem->n_nodes, sizeof **edge);
   thr_status st = parent && list && *edge ? THR_OK : thr_nomem(err);
-  for (int v = 0; v < p->n_nodes && !st; v++)
+  for (int v = 0; v < tjoin_problem->n_nodes && !st; v++)
     parent[v] = v;
-  for (int e = 0; e < p->n_edges && !st; e++)
-    if (any_weight || p->weight[e] == 0) list[count++] = (weighed){p->weight[e], e};
+  for (int e = 0; e < tjoin_problem->n_edges && !st; e++)
+    if (any_weight || tjoin_problem->weight[e] == 0) list[count++] = (weighed){tjoin_problem->weight[e], e};
   if (!st) qsort(list, (size_t)count, sizeof *list, by_weight);
   for (int k = 0; k < count && !st; k++) {
-    const int *end = p->edge[list[k].edge];
+    const int *end = tjoin_problem->edge[list[k].edge];
     if (thr_disjoint_join(parent, end[0], end[1])) (*edge)[(*n)++] = list[k].edge;
   }
   free(parent);
@@ -132,39 +132,39 @@ static thr_status find_forest(const thr_tjoin_problem *p, bool any_weight, int *
   return st;
 }
 
-thr_status thr_network_tree_weight(const thr_tjoin_problem *p, double *weight, thr_err *err)
+thr_status thr_network_tree_weight(const thr_tjoin_problem *tjoin_problem, double *weight, thr_err *err)
 {
   int *edge, n;
   *weight = 0;
-  thr_status st = find_forest(p, true, &edge, &n, err);
+  thr_status st = find_forest(tjoin_problem, true, &edge, &n, err);
   for (int k = 0; k < n && !st; k++)
-    *weight += (double)p->weight[edge[k]];
+    *weight += (double)tjoin_problem->weight[edge[k]];
   free(edge);
   return st;
 }
 
-static void stand(const thr_tjoin_problem *p, const bool *in_join, const int *edge, int n, forest *f)
+static void stand(const thr_tjoin_problem *tjoin_problem, const bool *in_join, const int *edge, int n, forest *f)
 {
-  memcpy(f->wrong, p->odd, (size_t)p->n_nodes * sizeof *f->wrong);
-  for (int e = 0; e < p->n_edges; e++)
-    if (in_join[e]) f->wrong[p->edge[e][0]] ^= true, f->wrong[p->edge[e][1]] ^= true;
+  memcpy(f->wrong, tjoin_problem->odd, (size_t)tjoin_problem->n_nodes * sizeof *f->wrong);
+  for (int e = 0; e < tjoin_problem->n_edges; e++)
+    if (in_join[e]) f->wrong[tjoin_problem->edge[e][0]] ^= true, f->wrong[tjoin_problem->edge[e][1]] ^= true;
   for (int k = 0; k < n; k++)
     for (int i = 0; i < 2; i++) {
-      int v = p->edge[edge[k]][i];
+      int v = tjoin_problem->edge[edge[k]][i];
       f->degree[v]++;
       f->across[v] ^= edge[k];
     }
 }
 
-static void pass_on(const thr_tjoin_problem *p, bool *in_join, forest *f)
+static void pass_on(const thr_tjoin_problem *tjoin_problem, bool *in_join, forest *f)
 {
   int top = 0;
-  for (int v = 0; v < p->n_nodes; v++)
+  for (int v = 0; v < tjoin_problem->n_nodes; v++)
     if (f->degree[v] == 1) f->stack[top++] = v;
   while (top) {
     int v = f->stack[--top], e = f->across[v];
     if (f->degree[v] == 0) continue; /* the last of its tree */
-    int w = p->edge[e][0] == v ? p->edge[e][1] : p->edge[e][0];
+    int w = tjoin_problem->edge[e][0] == v ? tjoin_problem->edge[e][1] : tjoin_problem->edge[e][0];
     in_join[e] ^= f->wrong[v];
     f->wrong[w] ^= f->wrong[v];
     f->across[w] ^= e;

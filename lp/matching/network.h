@@ -30,7 +30,7 @@ typedef struct {
 } thr_network;
 
 /* O(nodes + edges). Release with thr_network_destroy. */
-thr_status thr_network_init(thr_network *net, const thr_tjoin_problem *p, thr_err *err) THR_MUST_CHECK;
+thr_status thr_network_init(thr_network *net, const thr_tjoin_problem *tjoin_problem, thr_err *err) THR_MUST_CHECK;
 void thr_network_destroy(thr_network *net);
 
 /* Makes a T-join of the problem from any set of edges: changes it along a forest of edges of weight 0, which is enough where
@@ -38,7 +38,7 @@ void thr_network_destroy(thr_network *net);
 thr_status thr_network_mend(const thr_network *net, bool any_weight, bool *in_join, thr_err *err) THR_MUST_CHECK;
 
 /* Of a lightest spanning tree: there is a T-join that weighs no more, and no two nodes are farther apart. O(edges log edges). */
-thr_status thr_network_tree_weight(const thr_tjoin_problem *p, double *weight, thr_err *err) THR_MUST_CHECK;
+thr_status thr_network_tree_weight(const thr_tjoin_problem *tjoin_problem, double *weight, thr_err *err) THR_MUST_CHECK;
 
 /* ---- a queue for Dijkstra's method ---- */
 

@@ -51,11 +51,11 @@ static double rounded(const thr_tree *t, double bound)
 
 static bool before(const thr_tree *t, int a, int b)
 {
-  const thr_tree_node *p = &t->node[a], *q = &t->node[b];
-  double x = rounded(t, p->bound), y = rounded(t, q->bound);
+  const thr_tree_node *node = &t->node[a], *q = &t->node[b];
+  double x = rounded(t, node->bound), y = rounded(t, q->bound);
   if (x != y) return x < y;
-  if (p->depth != q->depth) return p->depth > q->depth;
-  return (a - 1) / 2 == (b - 1) / 2 ? p->first : a > b; /* nodes 2 k + 1 and 2 k + 2 are siblings */
+  if (node->depth != q->depth) return node->depth > q->depth;
+  return (a - 1) / 2 == (b - 1) / 2 ? node->first : a > b; /* nodes 2 k + 1 and 2 k + 2 are siblings */
 }
 
 static thr_status push(thr_tree *t, int node, thr_err *err)
@@ -127,7 +127,7 @@ thr_status thr_tree_enter(thr_tree *t, const thr_tree_calls *calls, int node, th
 
 /* ---- the search ---- */
 
-static thr_status split(thr_tree *t, int node, thr_tree_branch b, thr_err *err)
+static thr_status split(thr_tree *t, int node, thr_tree_branch branch, thr_err *err)
 {
   if (t->n_nodes + 2 > t->most_nodes) {
     t->stopped = true;
@@ -139,10 +139,10 @@ static thr_status split(thr_tree *t, int node, thr_tree_branch b, thr_err *err)
     thr_tree_node *parent = &t->node[node], *child = &t->node[t->n_nodes];
     *child = (thr_tree_node){.parent = node,
                              .depth = parent->depth + 1,
-                             .column = b.column,
-                             .value = b.value,
+                             .column = branch.column,
+                             .value = branch.value,
                              .high = side == 1,
-                             .first = b.high == (side == 1),
+                             .first = branch.high == (side == 1),
                              .bound = parent->bound,
                              .proof = parent->proof};
     parent->child[side] = t->n_nodes++;

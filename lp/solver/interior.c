@@ -144,16 +144,16 @@ typedef struct {
 static quality measure(state *s)
 {
   const point *at = &s->at;
-  const thr_equations *e = s->e;
-  thr_columns_times(&e->a, at->x, s->p);
+  const thr_equations *equations = s->e;
+  thr_columns_times(&equations->a, at->x, s->p);
   for (int i = 0; i < s->m; i++)
-    s->p[i] = e->rhs[i] - s->p[i];
-  thr_columns_transposed(&e->a, at->y, s->q);
+    s->p[i] = equations->rhs[i] - s->p[i];
+  thr_columns_transposed(&equations->a, at->y, s->q);
   for (int j = 0; j < s->n; j++)
-    s->q[j] = e->cost[j] - at->z[j] - s->q[j];
-  quality k = {.primal = product(e->cost, at->x, s->n), .dual = product(e->rhs, at->y, s->m)};
-  k.missing[0] = largest(s->p, s->m) / (DBL_MIN + largest(e->rhs, s->m));
-  k.missing[1] = largest(s->q, s->n) / (DBL_MIN + largest(e->cost, s->n));
+    s->q[j] = equations->cost[j] - at->z[j] - s->q[j];
+  quality k = {.primal = product(equations->cost, at->x, s->n), .dual = product(equations->rhs, at->y, s->m)};
+  k.missing[0] = largest(s->p, s->m) / (DBL_MIN + largest(equations->rhs, s->m));
+  k.missing[1] = largest(s->q, s->n) / (DBL_MIN + largest(equations->cost, s->n));
   double gap = fabs(k.primal - k.dual) / (NOTHING + fmax(fabs(k.primal), fabs(k.dual)));
   k.error = fmax(gap, fmax(k.missing[0], k.missing[1]));
   return k;
@@ -266,9 +266,9 @@ static void run(state *s, const thr_limits *limits, thr_interior *out)
   }
 }
 
-thr_status thr_interior_solve(const thr_equations *e, const thr_limits *limits, thr_interior *out, thr_err *err)
+thr_status thr_interior_solve(const thr_equations *equations, const thr_limits *limits, thr_interior *out, thr_err *err)
 {
-  state s = {.e = e, .m = e->a.n_rows, .n = e->a.n_columns};
+  state s = {.e = equations, .m = equations->a.n_rows, .n = equations->a.n_columns};
   thr_status st = state_make(&s, err);
   if (!st) run(&s, limits, out);
   thr_normal_destroy(s.normal);

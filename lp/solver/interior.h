@@ -32,6 +32,7 @@ typedef struct {
 /* For optima near 1: one below 1e-6 counts as 0. Values are approximate (error 1e-8) and from the middle of the optimal face, not
  * a corner: callers check them. No column may be long: each makes a square block of A A^T. Equations may depend on each other.
  * Deterministic. Fails only for want of memory; stopping is an outcome. Some tens of sparse factorizations. */
-thr_status thr_interior_solve(const thr_equations *e, const thr_limits *limits, thr_interior *out, thr_err *err) THR_MUST_CHECK;
+thr_status thr_interior_solve(const thr_equations *equations, const thr_limits *limits, thr_interior *out,
+                              thr_err *err) THR_MUST_CHECK;
 
 #endif

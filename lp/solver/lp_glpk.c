@@ -465,7 +465,7 @@ static size_t count_numbers(const thr_lp *lp)
 }
 
 /* They, and a byte for each row and column that says where it stands in the basis. */
-static thr_status put_solution(const thr_lp *lp, thr_lp_outcome outcome, thr_text *t, thr_err *err)
+static thr_status put_solution(const thr_lp *lp, thr_lp_outcome outcome, thr_text *text, thr_err *err)
 {
   int n = glp_get_num_cols(lp->problem), m = glp_get_num_rows(lp->problem);
   double *number = thr_calloc(count_numbers(lp), sizeof *number);
@@ -474,13 +474,13 @@ static thr_status put_solution(const thr_lp *lp, thr_lp_outcome outcome, thr_tex
   number[OBJECTIVE] = thr_lp_objective(lp);
   thr_lp_primal(lp, number + VALUES);
   thr_lp_dual(lp, number + VALUES + n);
-  thr_text_append_bytes(t, (const char *)number, count_numbers(lp) * sizeof *number);
+  thr_text_append_bytes(text, (const char *)number, count_numbers(lp) * sizeof *number);
   free(number);
   for (int i = 1; i <= m + n; i++) {
     const char stand = (char)(i <= m ? glp_get_row_stat(lp->problem, i) : glp_get_col_stat(lp->problem, i - m));
-    thr_text_append_bytes(t, &stand, 1);
+    thr_text_append_bytes(text, &stand, 1);
   }
-  return t->failed ? thr_nomem(err) : THR_OK;
+  return text->failed ? thr_nomem(err) : THR_OK;
 }
 
 typedef struct {
@@ -492,11 +492,11 @@ static thr_status solve_and_send(void *user, const thr_limits *limits, thr_sende
 {
   const child_job *job = user;
   thr_lp_outcome outcome;
-  thr_text t = {0};
+  thr_text text = {0};
   thr_status st = job->solve(job->lp, limits, &outcome, err);
-  if (!st) st = put_solution(job->lp, outcome, &t, err);
-  if (!st) st = thr_child_send(to, &t, err);
-  thr_text_destroy(&t);
+  if (!st) st = put_solution(job->lp, outcome, &text, err);
+  if (!st) st = thr_child_send(to, &text, err);
+  thr_text_destroy(&text);
   return st;
 }
 
@@ -515,17 +515,17 @@ static void do_stand(void *argument)
     glp_set_col_stat(c->problem, j + 1, c->stand[m + j]);
 }
 
-static thr_status take_solution(thr_lp *lp, const thr_text *t, thr_lp_outcome *outcome, thr_err *err)
+static thr_status take_solution(thr_lp *lp, const thr_text *text, thr_lp_outcome *outcome, thr_err *err)
 {
   size_t n = count_numbers(lp);
   double *number = thr_calloc(n, sizeof *number);
-  stand_call c = {lp->problem, t->data + n * sizeof *number};
+  stand_call c = {lp->problem, text->data + n * sizeof *number};
   thr_status st = number ? guarded(do_stand, &c, err) : thr_nomem(err);
   if (st) {
     free(number);
     return st;
   }
-  memcpy(number, t->data, n * sizeof *number);
+  memcpy(number, text->data, n * sizeof *number);
   *outcome = (thr_lp_outcome)(int)number[OUTCOME];
   lp->integer = false;
   if (*outcome == THR_LP_OPTIMAL) lp->primal = false;

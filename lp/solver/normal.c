@@ -44,16 +44,16 @@ typedef struct {
 } set;
 
 /* Neighbours of every row: the rows that share a column with it. by_start, by_item in order of rows still. */
-static thr_status neighbours(const thr_normal *n, set *row, thr_err *err)
+static thr_status neighbours(const thr_normal *normal, set *row, thr_err *err)
 {
-  const thr_columns *a = &n->a;
+  const thr_columns *a = &normal->a;
   int m = a->n_rows, *seen = thr_calloc((size_t)m, sizeof *seen), *list = thr_calloc((size_t)m, sizeof *list);
   thr_status st = seen && list ? THR_OK : thr_nomem(err);
   for (int i = 0; i < m && !st; i++) {
     int count = 0;
     seen[i] = i + 1;
-    for (int k = n->by_start[i]; k < n->by_start[i + 1]; k++) {
-      int j = n->owner[n->by_item[k]];
+    for (int k = normal->by_start[i]; k < normal->by_start[i + 1]; k++) {
+      int j = normal->owner[normal->by_item[k]];
       for (int l = a->start[j]; l < a->start[j + 1]; l++)
         if (seen[a->row[l]] != i + 1) seen[a->row[l]] = i + 1, list[count++] = a->row[l];
     }
@@ -90,17 +90,17 @@ static thr_status merge(set *row, int u, int v, int *room, thr_err *err)
 }
 
 /* Takes the rows out by least degree, the lowest first among equals. */
-static thr_status eliminate(thr_normal *n, set *row, int *order, thr_err *err)
+static thr_status eliminate(thr_normal *normal, set *row, int *order, thr_err *err)
 {
-  int m = n->a.n_rows, *room = thr_calloc((size_t)m, sizeof *room);
+  int m = normal->a.n_rows, *room = thr_calloc((size_t)m, sizeof *room);
   thr_status st = room ? THR_OK : thr_nomem(err);
   for (int i = 0; i < m; i++)
-    n->place[i] = -1;
+    normal->place[i] = -1;
   for (int step = 0; step < m && !st; step++) {
     int v = -1;
     for (int i = 0; i < m; i++)
-      if (n->place[i] < 0 && (v < 0 || row[i].count < row[v].count)) v = i;
-    n->place[v] = step;
+      if (normal->place[i] < 0 && (v < 0 || row[i].count < row[v].count)) v = i;
+    normal->place[v] = step;
     order[step] = v;
     for (int k = 0; k < row[v].count && !st; k++)
       st = merge(row, row[v].item[k], v, room, err);
@@ -112,74 +112,74 @@ static thr_status eliminate(thr_normal *n, set *row, int *order, thr_err *err)
 /* ---- making ---- */
 
 /* Entries of A by row, or by the row's place once there is one. */
-static void sort_entries(thr_normal *n, bool by_place)
+static void sort_entries(thr_normal *normal, bool by_place)
 {
-  const thr_columns *a = &n->a;
+  const thr_columns *a = &normal->a;
   int entries = a->start[a->n_columns];
-  memset(n->by_start, 0, ((size_t)a->n_rows + 2) * sizeof *n->by_start);
+  memset(normal->by_start, 0, ((size_t)a->n_rows + 2) * sizeof *normal->by_start);
   for (int k = 0; k < entries; k++)
-    n->by_start[(by_place ? n->place[a->row[k]] : a->row[k]) + 2]++;
+    normal->by_start[(by_place ? normal->place[a->row[k]] : a->row[k]) + 2]++;
   for (int i = 2; i < a->n_rows + 2; i++)
-    n->by_start[i] += n->by_start[i - 1];
+    normal->by_start[i] += normal->by_start[i - 1];
   for (int k = 0; k < entries; k++)
-    n->by_item[n->by_start[(by_place ? n->place[a->row[k]] : a->row[k]) + 1]++] = k;
+    normal->by_item[normal->by_start[(by_place ? normal->place[a->row[k]] : a->row[k]) + 1]++] = k;
 }
 
-static thr_status make_factor(thr_normal *n, const set *row, const int *order, thr_err *err)
+static thr_status make_factor(thr_normal *normal, const set *row, const int *order, thr_err *err)
 {
-  int m = n->a.n_rows;
+  int m = normal->a.n_rows;
   size_t entries = 0;
   for (int i = 0; i < m; i++)
     entries += (size_t)row[i].count;
   if (entries > INT32_MAX / 2)
     return thr_fail(err, THR_EINPUT, "the equations are too many: their factors need %zu numbers", entries);
-  n->row = thr_scratch_array(&n->own, entries, sizeof *n->row);
-  n->value = thr_scratch_array(&n->own, entries, sizeof *n->value);
-  if (thr_scratch_check(&n->own, err)) return THR_ENOMEM;
+  normal->row = thr_scratch_array(&normal->own, entries, sizeof *normal->row);
+  normal->value = thr_scratch_array(&normal->own, entries, sizeof *normal->value);
+  if (thr_scratch_check(&normal->own, err)) return THR_ENOMEM;
   for (int s = 0; s < m; s++) {
     const set *from = &row[order[s]];
-    int *to = n->row + n->start[s];
-    n->start[s + 1] = n->start[s] + from->count;
+    int *to = normal->row + normal->start[s];
+    normal->start[s + 1] = normal->start[s] + from->count;
     for (int k = 0; k < from->count; k++)
-      to[k] = n->place[from->item[k]];
+      to[k] = normal->place[from->item[k]];
     thr_sort_ints(to, (size_t)from->count);
   }
   return THR_OK;
 }
 
-static thr_status allocate(thr_normal *n, thr_err *err)
+static thr_status allocate(thr_normal *normal, thr_err *err)
 {
-  size_t m = (size_t)n->a.n_rows, entries = (size_t)n->a.start[n->a.n_columns];
-  n->place = thr_scratch_array(&n->own, m, sizeof *n->place);
-  n->start = thr_scratch_array(&n->own, m + 1, sizeof *n->start);
-  n->pivot = thr_scratch_array(&n->own, m, sizeof *n->pivot);
-  n->by_start = thr_scratch_array(&n->own, m + 2, sizeof *n->by_start);
-  n->by_item = thr_scratch_array(&n->own, entries, sizeof *n->by_item);
-  n->owner = thr_scratch_array(&n->own, entries, sizeof *n->owner);
-  n->head = thr_scratch_array(&n->own, m, sizeof *n->head);
-  n->next = thr_scratch_array(&n->own, m, sizeof *n->next);
-  n->at = thr_scratch_array(&n->own, m, sizeof *n->at);
-  n->work = thr_scratch_array(&n->own, m, sizeof *n->work);
-  if (thr_scratch_check(&n->own, err)) return THR_ENOMEM;
-  for (int j = 0; j < n->a.n_columns; j++)
-    for (int k = n->a.start[j]; k < n->a.start[j + 1]; k++)
-      n->owner[k] = j;
+  size_t m = (size_t)normal->a.n_rows, entries = (size_t)normal->a.start[normal->a.n_columns];
+  normal->place = thr_scratch_array(&normal->own, m, sizeof *normal->place);
+  normal->start = thr_scratch_array(&normal->own, m + 1, sizeof *normal->start);
+  normal->pivot = thr_scratch_array(&normal->own, m, sizeof *normal->pivot);
+  normal->by_start = thr_scratch_array(&normal->own, m + 2, sizeof *normal->by_start);
+  normal->by_item = thr_scratch_array(&normal->own, entries, sizeof *normal->by_item);
+  normal->owner = thr_scratch_array(&normal->own, entries, sizeof *normal->owner);
+  normal->head = thr_scratch_array(&normal->own, m, sizeof *normal->head);
+  normal->next = thr_scratch_array(&normal->own, m, sizeof *normal->next);
+  normal->at = thr_scratch_array(&normal->own, m, sizeof *normal->at);
+  normal->work = thr_scratch_array(&normal->own, m, sizeof *normal->work);
+  if (thr_scratch_check(&normal->own, err)) return THR_ENOMEM;
+  for (int j = 0; j < normal->a.n_columns; j++)
+    for (int k = normal->a.start[j]; k < normal->a.start[j + 1]; k++)
+      normal->owner[k] = j;
   return THR_OK;
 }
 
-static thr_status find_factor(thr_normal *n, thr_err *err)
+static thr_status find_factor(thr_normal *normal, thr_err *err)
 {
-  size_t m = (size_t)n->a.n_rows;
+  size_t m = (size_t)normal->a.n_rows;
   set *row = thr_calloc(m, sizeof *row);
   int *order = thr_calloc(m, sizeof *order);
   thr_status st = row && order ? THR_OK : thr_nomem(err);
   if (!st) {
-    sort_entries(n, false);
-    st = neighbours(n, row, err);
+    sort_entries(normal, false);
+    st = neighbours(normal, row, err);
   }
-  if (!st) st = eliminate(n, row, order, err);
-  if (!st) st = make_factor(n, row, order, err);
-  if (!st) sort_entries(n, true);
+  if (!st) st = eliminate(normal, row, order, err);
+  if (!st) st = make_factor(normal, row, order, err);
+  if (!st) sort_entries(normal, true);
   for (size_t i = 0; i < m && row; i++)
     free(row[i].item);
   free(row);
@@ -187,9 +187,9 @@ static thr_status find_factor(thr_normal *n, thr_err *err)
   return st;
 }
 
-thr_status thr_normal_create(thr_normal **n, const thr_columns *a, thr_err *err)
+thr_status thr_normal_create(thr_normal **normal, const thr_columns *a, thr_err *err)
 {
-  *n = NULL;
+  *normal = NULL;
   thr_normal *made = thr_calloc(1, sizeof *made);
   if (!made) return thr_nomem(err);
   made->a = *a;
@@ -199,84 +199,84 @@ thr_status thr_normal_create(thr_normal **n, const thr_columns *a, thr_err *err)
     thr_normal_destroy(made);
     return st;
   }
-  *n = made;
+  *normal = made;
   return THR_OK;
 }
 
-void thr_normal_destroy(thr_normal *n)
+void thr_normal_destroy(thr_normal *normal)
 {
-  if (!n) return;
-  thr_scratch_free(&n->own);
-  free(n);
+  if (!normal) return;
+  thr_scratch_free(&normal->own);
+  free(normal);
 }
 
 /* ---- factors ---- */
 
 /* Column i of A D A^T from the diagonal down, into work. */
-static void load_column(thr_normal *n, const double *weights, int i)
+static void load_column(thr_normal *normal, const double *weights, int i)
 {
-  const thr_columns *a = &n->a;
-  for (int k = n->by_start[i]; k < n->by_start[i + 1]; k++) {
-    int j = n->owner[n->by_item[k]];
-    double factor = a->value[n->by_item[k]] * weights[j];
+  const thr_columns *a = &normal->a;
+  for (int k = normal->by_start[i]; k < normal->by_start[i + 1]; k++) {
+    int j = normal->owner[normal->by_item[k]];
+    double factor = a->value[normal->by_item[k]] * weights[j];
     for (int l = a->start[j]; l < a->start[j + 1]; l++)
-      if (n->place[a->row[l]] >= i) n->work[n->place[a->row[l]]] += factor * a->value[l];
+      if (normal->place[a->row[l]] >= i) normal->work[normal->place[a->row[l]]] += factor * a->value[l];
   }
 }
 
 /* Column k waits for the row of its next entry. */
-static void enlist(thr_normal *n, int k)
+static void enlist(thr_normal *normal, int k)
 {
-  if (n->at[k] == n->start[k + 1]) return;
-  int i = n->row[n->at[k]];
-  n->next[k] = n->head[i];
-  n->head[i] = k;
+  if (normal->at[k] == normal->start[k + 1]) return;
+  int i = normal->row[normal->at[k]];
+  normal->next[k] = normal->head[i];
+  normal->head[i] = k;
 }
 
-void thr_normal_factor(thr_normal *n, const double *weights)
+void thr_normal_factor(thr_normal *normal, const double *weights)
 {
-  int m = n->a.n_rows;
+  int m = normal->a.n_rows;
   for (int i = 0; i < m; i++)
-    n->head[i] = -1, n->work[i] = 0;
+    normal->head[i] = -1, normal->work[i] = 0;
   for (int i = 0; i < m; i++) {
-    load_column(n, weights, i);
-    double whole = n->work[i];
-    for (int k = n->head[i], after; k >= 0; k = after) {
-      after = n->next[k];
-      double factor = n->value[n->at[k]];
-      for (int l = n->at[k]; l < n->start[k + 1]; l++)
-        n->work[n->row[l]] -= factor * n->value[l];
-      n->at[k]++;
-      enlist(n, k);
+    load_column(normal, weights, i);
+    double whole = normal->work[i];
+    for (int k = normal->head[i], after; k >= 0; k = after) {
+      after = normal->next[k];
+      double factor = normal->value[normal->at[k]];
+      for (int l = normal->at[k]; l < normal->start[k + 1]; l++)
+        normal->work[normal->row[l]] -= factor * normal->value[l];
+      normal->at[k]++;
+      enlist(normal, k);
     }
-    bool depends = !(n->work[i] > 1e-14 * whole);
-    n->pivot[i] = depends ? 0 : sqrt(n->work[i]);
-    n->work[i] = 0;
-    for (int l = n->start[i]; l < n->start[i + 1]; l++) {
-      n->value[l] = depends ? 0 : n->work[n->row[l]] / n->pivot[i];
-      n->work[n->row[l]] = 0;
+    bool depends = !(normal->work[i] > 1e-14 * whole);
+    normal->pivot[i] = depends ? 0 : sqrt(normal->work[i]);
+    normal->work[i] = 0;
+    for (int l = normal->start[i]; l < normal->start[i + 1]; l++) {
+      normal->value[l] = depends ? 0 : normal->work[normal->row[l]] / normal->pivot[i];
+      normal->work[normal->row[l]] = 0;
     }
-    n->at[i] = n->start[i];
-    enlist(n, i);
+    normal->at[i] = normal->start[i];
+    enlist(normal, i);
   }
 }
 
-void thr_normal_solve(thr_normal *n, const double *r, double *y)
+void thr_normal_solve(thr_normal *normal, const double *r, double *y)
 {
-  int m = n->a.n_rows;
-  double *w = n->work;
+  int m = normal->a.n_rows;
+  double *w = normal->work;
   for (int i = 0; i < m; i++)
-    w[n->place[i]] = r[i];
+    w[normal->place[i]] = r[i];
   for (int i = 0; i < m; i++) {
-    w[i] = n->pivot[i] > 0 ? w[i] / n->pivot[i] : 0;
-    for (int l = n->start[i]; l < n->start[i + 1]; l++)
-      w[n->row[l]] -= n->value[l] * w[i];
+    w[i] = normal->pivot[i] > 0 ? w[i] / normal->pivot[i] : 0;
+    for (int l = normal->start[i]; l < normal->start[i + 1]; l++)
+      w[normal->row[l]] -= normal->value[l] * w[i];
   }
   for (int i = m - 1; i >= 0; i--) {
-    for (int l = n->start[i]; l < n->start[i + 1]; l++)
-      w[i] -= n->value[l] * w[n->row[l]];
-    w[i] = n->pivot[i] > 0 ? w[i] / n->pivot[i] : 0;
+    for (int l = normal->start[i]; l < normal->start[i + 1]; l++)
+      w[i] -= normal->value[l] * w[normal->row[l]];
+    w[i] = normal->pivot[i] > 0 ? w[i] / normal->pivot[i] : 0;
   }
   for (int i = 0; i < m; i++)
-    y[i] = w[n->place[i]];
+    y[i] = w[normal->place[i]];
 }

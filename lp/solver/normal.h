@@ -21,14 +21,14 @@ typedef struct {
 typedef struct thr_normal thr_normal;
 
 /* Finds the order and makes room for the factors. A is borrowed until thr_normal_destroy (NULL ok). */
-thr_status thr_normal_create(thr_normal **n, const thr_columns *a, thr_err *err) THR_MUST_CHECK;
-void thr_normal_destroy(thr_normal *n);
+thr_status thr_normal_create(thr_normal **normal, const thr_columns *a, thr_err *err) THR_MUST_CHECK;
+void thr_normal_destroy(thr_normal *normal);
 
 /* Factors for weights[n_columns] > 0. Rows that depend on others get no part in the solution. */
-void thr_normal_factor(thr_normal *n, const double *weights);
+void thr_normal_factor(thr_normal *normal, const double *weights);
 
 /* y[n_rows] from r[n_rows], by the factors alone: rounding is the caller's to improve. */
-void thr_normal_solve(thr_normal *n, const double *r, double *y);
+void thr_normal_solve(thr_normal *normal, const double *r, double *y);
 
 void thr_columns_times(const thr_columns *a, const double *x, double *y);      /* y = A x */
 void thr_columns_transposed(const thr_columns *a, const double *y, double *x); /* x = A^T y */

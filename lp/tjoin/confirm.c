@@ -19,66 +19,69 @@ struct thr_confirm_job {
   int64_t length; /* of the join */
 };
 
-static void job_destroy(thr_confirm_job *j)
+static void job_destroy(thr_confirm_job *confirm_job)
 {
-  thr_cut_programme_destroy(&j->programme);
-  free(j->weight);
+  thr_cut_programme_destroy(&confirm_job->programme);
+  free(confirm_job->weight);
 }
 
-void thr_confirmations_destroy(thr_confirmations *c)
+void thr_confirmations_destroy(thr_confirmations *confirmations)
 {
-  for (int i = 0; i < c->n_jobs; i++)
-    job_destroy(&c->job[i]);
-  free(c->job);
-  c->job = NULL;
-  c->n_jobs = c->capacity = 0;
+  for (int i = 0; i < confirmations->n_jobs; i++)
+    job_destroy(&confirmations->job[i]);
+  free(confirmations->job);
+  confirmations->job = NULL;
+  confirmations->n_jobs = confirmations->capacity = 0;
 }
 
-thr_status thr_confirmations_add(thr_confirmations *c, const thr_tjoin_problem *p, const thr_tjoin *t, thr_err *err)
+thr_status thr_confirmations_add(thr_confirmations *confirmations, const thr_tjoin_problem *tjoin_problem, const thr_tjoin *tjoin,
+                                 thr_err *err)
 {
-  if (!c) return THR_OK;
-  if (t->length == 0) { /* nothing is lighter than nothing */
-    c->confirmed++;
+  if (!confirmations) return THR_OK;
+  if (tjoin->length == 0) { /* nothing is lighter than nothing */
+    confirmations->confirmed++;
     return THR_OK;
   }
-  if (t->n_cuts == 0 || (!c->always && p->n_edges > THR_CONFIRM_EDGES)) {
-    c->skipped++;
+  if (tjoin->n_cuts == 0 || (!confirmations->always && tjoin_problem->n_edges > THR_CONFIRM_EDGES)) {
+    confirmations->skipped++;
     return THR_OK;
   }
-  thr_status st = thr_grow(&c->job, c->n_jobs, &c->capacity, sizeof *c->job, err);
+  thr_status st = thr_grow(&confirmations->job, confirmations->n_jobs, &confirmations->capacity, sizeof *confirmations->job, err);
   if (st) return st;
-  thr_confirm_job j = {.n_edges = p->n_edges, .length = t->length};
-  j.weight = thr_calloc((size_t)p->n_edges, sizeof *j.weight);
-  st = j.weight ? thr_cut_programme_init(&j.programme, p, t, err) : thr_nomem(err);
+  thr_confirm_job confirm_job = {.n_edges = tjoin_problem->n_edges, .length = tjoin->length};
+  confirm_job.weight = thr_calloc((size_t)tjoin_problem->n_edges, sizeof *confirm_job.weight);
+  st = confirm_job.weight ? thr_cut_programme_init(&confirm_job.programme, tjoin_problem, tjoin, err) : thr_nomem(err);
   if (st) {
-    free(j.weight);
+    free(confirm_job.weight);
     return st;
   }
-  for (int e = 0; e < p->n_edges; e++)
-    j.weight[e] = (double)p->weight[e]; /* whole numbers: exact */
-  c->job[c->n_jobs++] = j;
+  for (int e = 0; e < tjoin_problem->n_edges; e++)
+    confirm_job.weight[e] = (double)tjoin_problem->weight[e]; /* whole numbers: exact */
+  confirmations->job[confirmations->n_jobs++] = confirm_job;
   return THR_OK;
 }
 
 /* ---- in the child ---- */
 
-static thr_status solve_on_cuts(const thr_confirm_job *j, const thr_limits *limits, thr_lp_outcome *outcome, double *value,
-                                thr_err *err)
+static thr_status solve_on_cuts(const thr_confirm_job *confirm_job, const thr_limits *limits, thr_lp_outcome *outcome,
+                                double *value, thr_err *err)
 {
-  const thr_cut_programme *c = &j->programme;
-  double *cost = thr_calloc((size_t)c->n_columns, sizeof *cost), sum = 0;
-  bool *slack = thr_calloc((size_t)c->n_rows, sizeof *slack); /* none: they are columns */
+  const thr_cut_programme *cut_programme = &confirm_job->programme;
+  double *cost = thr_calloc((size_t)cut_programme->n_columns, sizeof *cost), sum = 0;
+  bool *slack = thr_calloc((size_t)cut_programme->n_rows, sizeof *slack); /* none: they are columns */
   thr_lp *lp = NULL;
   *outcome = THR_LP_STOPPED;
   thr_status st = cost && slack ? THR_OK : thr_nomem(err);
-  for (int e = 0; e < j->n_edges && !st; e++)
-    sum += j->weight[e];
-  for (int e = 0; e < j->n_edges && !st; e++)
-    cost[e] = j->weight[e] * j->n_edges / sum; /* about 1 */
-  if (!st) st = thr_lp_create_equations(&lp, c->n_rows, c->rhs, c->n_columns, cost, NULL, c->start, c->row, c->value, err);
-  if (!st) st = thr_lp_set_basis(lp, slack, c->basic, err);
+  for (int e = 0; e < confirm_job->n_edges && !st; e++)
+    sum += confirm_job->weight[e];
+  for (int e = 0; e < confirm_job->n_edges && !st; e++)
+    cost[e] = confirm_job->weight[e] * confirm_job->n_edges / sum; /* about 1 */
+  if (!st)
+    st = thr_lp_create_equations(&lp, cut_programme->n_rows, cut_programme->rhs, cut_programme->n_columns, cost, NULL,
+                                 cut_programme->start, cut_programme->row, cut_programme->value, err);
+  if (!st) st = thr_lp_set_basis(lp, slack, cut_programme->basic, err);
   if (!st) st = thr_lp_solve(lp, limits, outcome, err);
-  if (!st) memcpy(cost, j->weight, (size_t)j->n_edges * sizeof *cost);
+  if (!st) memcpy(cost, confirm_job->weight, (size_t)confirm_job->n_edges * sizeof *cost);
   if (!st && *outcome == THR_LP_OPTIMAL) st = thr_lp_set_costs(lp, cost, err);
   if (!st && *outcome == THR_LP_OPTIMAL) st = thr_lp_solve_exact_here(lp, limits, outcome, err);
   if (!st && *outcome == THR_LP_OPTIMAL) *value = thr_lp_objective(lp);
@@ -93,22 +96,22 @@ typedef struct {
   bool refuted; /* the next one */
 } verdicts;
 
-static thr_status confirm(const thr_confirm_job *j, const thr_limits *limits, verdicts *v, thr_err *err)
+static thr_status confirm(const thr_confirm_job *confirm_job, const thr_limits *limits, verdicts *v, thr_err *err)
 {
   thr_lp_outcome outcome;
   thr_err failure = {0};
   double value = 0;
-  thr_status st = solve_on_cuts(j, limits, &outcome, &value, &failure);
+  thr_status st = solve_on_cuts(confirm_job, limits, &outcome, &value, &failure);
   if (st == THR_ENOMEM) return thr_nomem(err);
   if (st || outcome == THR_LP_STOPPED || outcome == THR_LP_UNDECIDED) { /* a library's failure says nothing about the join */
     v->skipped++;
     return THR_OK;
   }
-  v->refuted = outcome != THR_LP_OPTIMAL || value > (double)j->length || value <= (double)j->length - 1;
+  v->refuted = outcome != THR_LP_OPTIMAL || value > (double)confirm_job->length || value <= (double)confirm_job->length - 1;
   if (v->refuted)
     return thr_fail(err, THR_ESOLVER,
                     "GLPK's exact method finds %.17g on the cuts of a join that weighs %.17g; please report this", value,
-                    (double)j->length);
+                    (double)confirm_job->length);
   v->confirmed++;
   return THR_OK;
 }
@@ -116,51 +119,51 @@ static thr_status confirm(const thr_confirm_job *j, const thr_limits *limits, ve
 /* Sends what is known after every join. */
 static thr_status confirm_all(void *user, const thr_limits *limits, thr_sender *to, thr_err *err)
 {
-  const thr_confirmations *c = user;
+  const thr_confirmations *confirmations = user;
   verdicts v = {0};
   thr_status st = THR_OK;
-  for (int i = 0; i < c->n_jobs && !st; i++) {
+  for (int i = 0; i < confirmations->n_jobs && !st; i++) {
     double work = 1e8; /* about a second */
     thr_limits own = *limits;
-    thr_text t = {0};
+    thr_text text = {0};
     own.progress = NULL;
-    if (!c->always) own.work = &work;
-    st = confirm(&c->job[i], &own, &v, err);
-    thr_text_append_bytes(&t, (const char *)&v, sizeof v);
-    thr_status sent = thr_child_send(to, &t, err);
+    if (!confirmations->always) own.work = &work;
+    st = confirm(&confirmations->job[i], &own, &v, err);
+    thr_text_append_bytes(&text, (const char *)&v, sizeof v);
+    thr_status sent = thr_child_send(to, &text, err);
     if (!st) st = sent;
-    thr_text_destroy(&t);
+    thr_text_destroy(&text);
   }
   return st;
 }
 
 /* ---- in the parent ---- */
 
-thr_status thr_confirmations_run(thr_confirmations *c, const thr_limits *limits, thr_err *err)
+thr_status thr_confirmations_run(thr_confirmations *confirmations, const thr_limits *limits, thr_err *err)
 {
-  if (!c || c->n_jobs == 0) return THR_OK;
-  const thr_child child = {.what = "GLPK's exact method", .run = confirm_all, .user = c};
+  if (!confirmations || confirmations->n_jobs == 0) return THR_OK;
+  const thr_child child = {.what = "GLPK's exact method", .run = confirm_all, .user = confirmations};
   thr_text answer = {0};
   thr_err failure = {0};
   verdicts v = {0};
   thr_status st = thr_limits_stop(limits) ? THR_ELIMIT : thr_child_run(&child, limits, &answer, &failure);
   if (answer.length == sizeof v) memcpy(&v, answer.data, sizeof v);
   thr_text_destroy(&answer);
-  c->confirmed += v.confirmed;
-  c->skipped += c->n_jobs - v.confirmed;
-  thr_confirmations_destroy(c);
+  confirmations->confirmed += v.confirmed;
+  confirmations->skipped += confirmations->n_jobs - v.confirmed;
+  thr_confirmations_destroy(confirmations);
   if (st == THR_ENOMEM || v.refuted) return thr_fail(err, st, "%s", failure.text);
   return THR_OK; /* a child that died or was stopped has confirmed what it had confirmed */
 }
 
-thr_status thr_tjoin_confirm(const thr_tjoin_problem *p, const thr_tjoin *t, const thr_limits *limits, thr_confirmation *out,
-                             thr_err *err)
+thr_status thr_tjoin_confirm(const thr_tjoin_problem *tjoin_problem, const thr_tjoin *tjoin, const thr_limits *limits,
+                             thr_confirmation *out, thr_err *err)
 {
-  thr_confirmations c = {.always = true};
+  thr_confirmations confirmations = {.always = true};
   *out = THR_CONFIRM_SKIPPED;
-  thr_status st = thr_confirmations_add(&c, p, t, err);
-  if (!st) st = thr_confirmations_run(&c, limits, err);
-  if (!st && c.confirmed) *out = THR_CONFIRMED;
-  thr_confirmations_destroy(&c);
+  thr_status st = thr_confirmations_add(&confirmations, tjoin_problem, tjoin, err);
+  if (!st) st = thr_confirmations_run(&confirmations, limits, err);
+  if (!st && confirmations.confirmed) *out = THR_CONFIRMED;
+  thr_confirmations_destroy(&confirmations);
   return st;
 }

@@ -32,26 +32,26 @@ static void places_destroy(places *s)
   thr_scratch_free(&s->own);
 }
 
-static thr_status places_init(places *s, const thr_tjoin_problem *p, const thr_tjoin *t, thr_err *err)
+static thr_status places_init(places *s, const thr_tjoin_problem *tjoin_problem, const thr_tjoin *tjoin, thr_err *err)
 {
-  size_t n = (size_t)p->n_nodes, named = 0;
-  *s = (places){.p = p, .t = t, .nested = true};
-  s->tree = thr_scratch_array(&s->own, (size_t)t->n_cuts, sizeof *s->tree);
+  size_t n = (size_t)tjoin_problem->n_nodes, named = 0;
+  *s = (places){.p = tjoin_problem, .t = tjoin, .nested = true};
+  s->tree = thr_scratch_array(&s->own, (size_t)tjoin->n_cuts, sizeof *s->tree);
   s->first = thr_scratch_array(&s->own, n + 2, sizeof *s->first);
   if (thr_scratch_check(&s->own, err)) return THR_ENOMEM;
-  for (int i = t->n_cuts - 1; i >= 0; i--) {
-    s->tree[i] = t->cut[i].parent < 0 ? i : s->tree[t->cut[i].parent];
-    named += (size_t)t->cut[i].n_nodes;
-    for (int k = 0; k < t->cut[i].n_nodes; k++)
-      s->nested &= s->first[t->cut[i].node[k] + 2]++ == 0;
+  for (int i = tjoin->n_cuts - 1; i >= 0; i--) {
+    s->tree[i] = tjoin->cut[i].parent < 0 ? i : s->tree[tjoin->cut[i].parent];
+    named += (size_t)tjoin->cut[i].n_nodes;
+    for (int k = 0; k < tjoin->cut[i].n_nodes; k++)
+      s->nested &= s->first[tjoin->cut[i].node[k] + 2]++ == 0;
   }
   for (size_t v = 1; v <= n; v++)
     s->first[v + 1] += s->first[v];
   s->holds = thr_scratch_array(&s->own, named, sizeof *s->holds);
   if (thr_scratch_check(&s->own, err)) return THR_ENOMEM;
-  for (int i = 0; i < t->n_cuts; i++)
-    for (int k = 0; k < t->cut[i].n_nodes; k++)
-      s->holds[s->first[t->cut[i].node[k] + 1]++] = i;
+  for (int i = 0; i < tjoin->n_cuts; i++)
+    for (int k = 0; k < tjoin->cut[i].n_nodes; k++)
+      s->holds[s->first[tjoin->cut[i].node[k] + 1]++] = i;
   return THR_OK;
 }
 
@@ -87,14 +87,14 @@ static int step_out(const thr_cut *cut, int at[2])
 
 /* ---- columns ---- */
 
-static void add_entry(thr_cut_programme *c, int *n, int row, double value)
+static void add_entry(thr_cut_programme *cut_programme, int *n, int row, double value)
 {
-  c->row[*n] = row;
-  c->value[(*n)++] = value;
+  cut_programme->row[*n] = row;
+  cut_programme->value[(*n)++] = value;
 }
 
 /* An edge stands in the equations of the innermost cuts that it leaves, at either end, and of the one that holds all of them. */
-static void add_edge(thr_cut_programme *c, const places *s, int e, int *n)
+static void add_edge(thr_cut_programme *cut_programme, const places *s, int e, int *n)
 {
   int at[2];
   for (int k = 0; ends_in_tree(s, e, k, at); k++) {
@@ -103,38 +103,38 @@ static void add_edge(thr_cut_programme *c, const places *s, int e, int *n)
       step_out(s->t->cut, at);
     for (int i = 0; i < 2; i++) {
       if (inner[i] == at[0]) continue;
-      add_entry(c, n, inner[i], 1);
+      add_entry(cut_programme, n, inner[i], 1);
       leaves++;
     }
-    if (leaves > 0 && at[0] >= 0) add_entry(c, n, at[0], -leaves);
+    if (leaves > 0 && at[0] >= 0) add_entry(cut_programme, n, at[0], -leaves);
   }
 }
 
-static thr_status columns_init(thr_cut_programme *c, const places *s, thr_err *err)
+static thr_status columns_init(thr_cut_programme *cut_programme, const places *s, thr_err *err)
 {
   const thr_cut *cut = s->t->cut;
-  size_t most = 2 * (size_t)c->n_rows;
+  size_t most = 2 * (size_t)cut_programme->n_rows;
   int n = 0;
   for (int e = 0; e < s->p->n_edges; e++)
     for (int i = 0; i < 2; i++)
       most += 3 * (size_t)(s->first[s->p->edge[e][i] + 1] - s->first[s->p->edge[e][i]]);
-  c->rhs = thr_calloc((size_t)c->n_rows, sizeof *c->rhs);
-  c->start = thr_calloc((size_t)c->n_columns + 1, sizeof *c->start);
-  c->row = thr_calloc(most, sizeof *c->row);
-  c->value = thr_calloc(most, sizeof *c->value);
-  if (!c->rhs || !c->start || !c->row || !c->value) return thr_nomem(err);
+  cut_programme->rhs = thr_calloc((size_t)cut_programme->n_rows, sizeof *cut_programme->rhs);
+  cut_programme->start = thr_calloc((size_t)cut_programme->n_columns + 1, sizeof *cut_programme->start);
+  cut_programme->row = thr_calloc(most, sizeof *cut_programme->row);
+  cut_programme->value = thr_calloc(most, sizeof *cut_programme->value);
+  if (!cut_programme->rhs || !cut_programme->start || !cut_programme->row || !cut_programme->value) return thr_nomem(err);
   for (int e = 0; e < s->p->n_edges; e++) {
-    add_edge(c, s, e, &n);
-    c->start[e + 1] = n;
+    add_edge(cut_programme, s, e, &n);
+    cut_programme->start[e + 1] = n;
   }
-  for (int i = 0; i < c->n_rows; i++) {
-    add_entry(c, &n, i, -1);
-    c->rhs[i] += 1;
+  for (int i = 0; i < cut_programme->n_rows; i++) {
+    add_entry(cut_programme, &n, i, -1);
+    cut_programme->rhs[i] += 1;
     if (cut[i].parent >= 0) {
-      add_entry(c, &n, cut[i].parent, 1);
-      c->rhs[cut[i].parent] -= 1;
+      add_entry(cut_programme, &n, cut[i].parent, 1);
+      cut_programme->rhs[cut[i].parent] -= 1;
     }
-    c->start[s->p->n_edges + i + 1] = n;
+    cut_programme->start[s->p->n_edges + i + 1] = n;
   }
   return THR_OK;
 }
@@ -257,11 +257,12 @@ static int64_t level_ends(const places *s, int e, int end[2])
 /* The join's edges, then others. */
 static void tie_tight_edges(basis *b)
 {
-  const thr_tjoin_problem *p = b->s->p;
+  const thr_tjoin_problem *tjoin_problem = b->s->p;
   for (int in_join = 1; in_join >= 0; in_join--)
-    for (int e = 0; e < p->n_edges; e++) {
+    for (int e = 0; e < tjoin_problem->n_edges; e++) {
       int end[2];
-      if (b->s->t->in_join[e] != in_join || level_ends(b->s, e, end) != (wide)p->weight[e] * THR_DUAL_DENOMINATOR) continue;
+      if (b->s->t->in_join[e] != in_join || level_ends(b->s, e, end) != (wide)tjoin_problem->weight[e] * THR_DUAL_DENOMINATOR)
+        continue;
       if (end[0] >= 0 || end[1] >= 0) b->edge[e] = tie(b, end[0], end[1]);
     }
 }
@@ -286,15 +287,15 @@ static int64_t reach_of(const basis *b, int v)
 /* What comes first in the component of cut i if i grows (v[0]) or shrinks (v[1]). */
 static void find_events(basis *b, int i, event v[2])
 {
-  const thr_tjoin_problem *p = b->s->p;
+  const thr_tjoin_problem *tjoin_problem = b->s->p;
   int up = change(b, i, false), down = change(b, i, true), c = i;
   v[0] = v[1] = (event){INT64_MAX, -1, -1};
   do {
     bool with_other = change(b, c, false) != up; /* c grows when i shrinks */
     bring_forward(&v[!with_other], b->s->t->cut[c].value + b->grown[c], c, -1);
     for (int k = b->leaving[c]; k < b->leaving[c + 1]; k++) {
-      int e = b->leave[k], x = p->edge[e][0], y = p->edge[e][1];
-      wide slack = (wide)p->weight[e] * THR_DUAL_DENOMINATOR - reach_of(b, x) - reach_of(b, y);
+      int e = b->leave[k], x = tjoin_problem->edge[e][0], y = tjoin_problem->edge[e][1];
+      wide slack = (wide)tjoin_problem->weight[e] * THR_DUAL_DENOMINATOR - reach_of(b, x) - reach_of(b, y);
       int there = change(b, outermost(b->s, outermost(b->s, x) == c ? y : x), false);
       if (there != up && there != down)
         bring_forward(&v[with_other], slack, c, e);
@@ -376,29 +377,31 @@ static thr_status span_by_join(const places *s, bool *edge, bool *slack, thr_err
   return st;
 }
 
-void thr_cut_programme_destroy(thr_cut_programme *c)
+void thr_cut_programme_destroy(thr_cut_programme *cut_programme)
 {
-  free(c->rhs);
-  free(c->start);
-  free(c->row);
-  free(c->value);
-  free(c->basic);
-  *c = (thr_cut_programme){0};
+  free(cut_programme->rhs);
+  free(cut_programme->start);
+  free(cut_programme->row);
+  free(cut_programme->value);
+  free(cut_programme->basic);
+  *cut_programme = (thr_cut_programme){0};
 }
 
-thr_status thr_cut_programme_init(thr_cut_programme *c, const thr_tjoin_problem *p, const thr_tjoin *t, thr_err *err)
+thr_status thr_cut_programme_init(thr_cut_programme *cut_programme, const thr_tjoin_problem *tjoin_problem,
+                                  const thr_tjoin *tjoin, thr_err *err)
 {
   places s;
-  *c = (thr_cut_programme){.n_rows = t->n_cuts, .n_columns = p->n_edges + t->n_cuts};
-  c->basic = thr_calloc((size_t)c->n_columns, sizeof *c->basic);
-  thr_status st = places_init(&s, p, t, err);
-  if (!st && !c->basic) st = thr_nomem(err);
-  if (!st) st = columns_init(c, &s, err);
+  *cut_programme = (thr_cut_programme){.n_rows = tjoin->n_cuts, .n_columns = tjoin_problem->n_edges + tjoin->n_cuts};
+  cut_programme->basic = thr_calloc((size_t)cut_programme->n_columns, sizeof *cut_programme->basic);
+  thr_status st = places_init(&s, tjoin_problem, tjoin, err);
+  if (!st && !cut_programme->basic) st = thr_nomem(err);
+  if (!st) st = columns_init(cut_programme, &s, err);
   if (!st) { /* proved to the last unit: every cut is left by one edge of the join */
-    bool exact = t->sum == (wide)t->length * THR_DUAL_DENOMINATOR;
-    st = (exact && s.nested ? span_levels : span_by_join)(&s, c->basic, c->basic + p->n_edges, err);
+    bool exact = tjoin->sum == (wide)tjoin->length * THR_DUAL_DENOMINATOR;
+    st = (exact && s.nested ? span_levels : span_by_join)(&s, cut_programme->basic, cut_programme->basic + tjoin_problem->n_edges,
+                                                          err);
   }
   places_destroy(&s);
-  if (st) thr_cut_programme_destroy(c);
+  if (st) thr_cut_programme_destroy(cut_programme);
   return st;
 }

@@ -22,13 +22,13 @@ typedef struct {
   bool *basic; /* [n_columns] n_rows of them, a nonsingular matrix */
 } thr_cut_programme;
 
-/* If the cuts prove t to the last unit and no node is named twice, as those of lp/matching/moat.h, the point of the basis is the
- * join (without edges of weight 0 that leave no set). Where the duals are not unique they are moved until they are a vertex:
+/* If the cuts prove tjoin to the last unit and no node is named twice, as those of lp/matching/moat.h, the point of the basis is
+ * the join (without edges of weight 0 that leave no set). Where the duals are not unique they are moved until they are a vertex:
  * mostly the basis is optimal as well; it need not be where sets inside of others hang by too few tight edges, as after
  * shrinking. Otherwise it is a basis with as much of the join as has cuts for itself. O(edges * depth + edges log cuts). Children
- * must come before their parents in t's forest. On failure nothing is allocated. Release with thr_cut_programme_destroy. */
-thr_status thr_cut_programme_init(thr_cut_programme *c, const thr_tjoin_problem *p, const thr_tjoin *t,
-                                  thr_err *err) THR_MUST_CHECK;
-void thr_cut_programme_destroy(thr_cut_programme *c);
+ * must come before their parents in tjoin's forest. On failure nothing is allocated. Release with thr_cut_programme_destroy. */
+thr_status thr_cut_programme_init(thr_cut_programme *cut_programme, const thr_tjoin_problem *tjoin_problem,
+                                  const thr_tjoin *tjoin, thr_err *err) THR_MUST_CHECK;
+void thr_cut_programme_destroy(thr_cut_programme *cut_programme);
 
 #endif

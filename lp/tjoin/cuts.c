@@ -5,47 +5,47 @@
 
 #include <stdlib.h>
 
-void thr_cuts_destroy(thr_cuts *c)
+void thr_cuts_destroy(thr_cuts *cuts)
 {
-  for (int i = 0; c->cut && i < c->n; i++)
-    free(c->cut[i].node);
-  free(c->cut);
-  *c = (thr_cuts){0};
+  for (int i = 0; cuts->cut && i < cuts->n; i++)
+    free(cuts->cut[i].node);
+  free(cuts->cut);
+  *cuts = (thr_cuts){0};
 }
 
 /* order[n]: children before their parents. */
-static thr_status children_first(const thr_cuts *c, int *order, thr_err *err)
+static thr_status children_first(const thr_cuts *cuts, int *order, thr_err *err)
 {
-  int *left = thr_calloc((size_t)c->n, sizeof *left), count = 0;
+  int *left = thr_calloc((size_t)cuts->n, sizeof *left), count = 0;
   if (!left) return thr_nomem(err);
-  for (int i = 0; i < c->n; i++)
-    if (c->cut[i].parent >= 0) left[c->cut[i].parent]++;
-  for (int i = 0; i < c->n; i++)
-    for (int at = i; at >= 0 && left[at] == 0; at = c->cut[at].parent) {
+  for (int i = 0; i < cuts->n; i++)
+    if (cuts->cut[i].parent >= 0) left[cuts->cut[i].parent]++;
+  for (int i = 0; i < cuts->n; i++)
+    for (int at = i; at >= 0 && left[at] == 0; at = cuts->cut[at].parent) {
       order[count++] = at;
       left[at] = -1; /* listed */
-      if (c->cut[at].parent >= 0) left[c->cut[at].parent]--;
+      if (cuts->cut[at].parent >= 0) left[cuts->cut[at].parent]--;
     }
   free(left);
   return THR_OK;
 }
 
-static thr_status reorder(thr_cuts *c, thr_err *err)
+static thr_status reorder(thr_cuts *cuts, thr_err *err)
 {
-  size_t n = (size_t)c->n;
+  size_t n = (size_t)cuts->n;
   int *order = thr_calloc(n, sizeof *order), *place = thr_calloc(n, sizeof *place);
   thr_cut *sorted = thr_calloc(n, sizeof *sorted);
-  thr_status st = order && place && sorted ? children_first(c, order, err) : thr_nomem(err);
-  for (int i = 0; i < c->n && !st; i++)
+  thr_status st = order && place && sorted ? children_first(cuts, order, err) : thr_nomem(err);
+  for (int i = 0; i < cuts->n && !st; i++)
     place[order[i]] = i;
-  for (int i = 0; i < c->n && !st; i++) {
+  for (int i = 0; i < cuts->n && !st; i++) {
     thr_cut *to = &sorted[place[i]];
-    *to = c->cut[i];
+    *to = cuts->cut[i];
     if (to->parent >= 0) to->parent = place[to->parent];
   }
   if (!st) {
-    free(c->cut);
-    c->cut = sorted;
+    free(cuts->cut);
+    cuts->cut = sorted;
     sorted = NULL;
   }
   free(order);
@@ -82,9 +82,9 @@ static void nesting_destroy(nesting *s)
   thr_scratch_free(&s->own);
 }
 
-static thr_status nesting_init(nesting *s, const thr_cuts *c, thr_err *err)
+static thr_status nesting_init(nesting *s, const thr_cuts *cuts, thr_err *err)
 {
-  size_t n = (size_t)c->n;
+  size_t n = (size_t)cuts->n;
   *s = (nesting){0};
   int *order = thr_scratch_array(&s->own, n, sizeof *order);
   s->root = thr_scratch_array(&s->own, n, sizeof *s->root);
@@ -93,28 +93,28 @@ static thr_status nesting_init(nesting *s, const thr_cuts *c, thr_err *err)
   s->total = thr_scratch_array(&s->own, n, sizeof *s->total);
   s->met = thr_scratch_array(&s->own, n, sizeof *s->met);
   s->met_by = thr_scratch_array(&s->own, n, sizeof *s->met_by);
-  s->outer = thr_scratch_array(&s->own, (size_t)c->n_nodes, sizeof *s->outer);
+  s->outer = thr_scratch_array(&s->own, (size_t)cuts->n_nodes, sizeof *s->outer);
   s->by_size = thr_scratch_array(&s->own, n, sizeof *s->by_size);
   thr_status st = thr_scratch_check(&s->own, err);
-  if (!st) st = children_first(c, order, err);
-  for (int i = 0; i < c->n && !st; i++)
+  if (!st) st = children_first(cuts, order, err);
+  for (int i = 0; i < cuts->n && !st; i++)
     s->first[i] = s->met_by[i] = -1;
-  for (int v = 0; v < c->n_nodes && !st; v++)
+  for (int v = 0; v < cuts->n_nodes && !st; v++)
     s->outer[v] = -1;
-  for (int k = c->n - 1; k >= 0 && !st; k--) {
-    int i = order[k], p = c->cut[i].parent, root = p < 0 ? i : s->root[p];
+  for (int k = cuts->n - 1; k >= 0 && !st; k--) {
+    int i = order[k], p = cuts->cut[i].parent, root = p < 0 ? i : s->root[p];
     s->root[i] = root;
     s->next[i] = s->first[root];
     s->first[root] = i;
-    s->total[root] += c->cut[i].n_nodes;
+    s->total[root] += cuts->cut[i].n_nodes;
   }
   return st;
 }
 
 /* Trees all of whose nodes are own nodes of this cut, and in no tree looked at later, become its children. */
-static void adopt(thr_cuts *c, nesting *s, int to)
+static void adopt(thr_cuts *cuts, nesting *s, int to)
 {
-  thr_cut *cut = &c->cut[to];
+  thr_cut *cut = &cuts->cut[to];
   int kept = 0;
   for (int j = 0; j < cut->n_nodes; j++) {
     int inner = s->outer[cut->node[j]];
@@ -127,47 +127,47 @@ static void adopt(thr_cuts *c, nesting *s, int to)
     int v = cut->node[j], inner = s->outer[v];
     s->outer[v] = s->root[to];
     if (inner >= 0 && s->met[inner] == s->total[inner])
-      c->cut[inner].parent = to;
+      cuts->cut[inner].parent = to;
     else
       cut->node[kept++] = v;
   }
   cut->n_nodes = kept;
 }
 
-thr_status thr_cuts_nest(thr_cuts *c, thr_err *err)
+thr_status thr_cuts_nest(thr_cuts *cuts, thr_err *err)
 {
   nesting s;
   int n_trees = 0;
-  thr_status st = nesting_init(&s, c, err);
-  for (int i = 0; i < c->n && !st; i++)
-    if (c->cut[i].parent < 0) s.by_size[n_trees++] = (tree){s.total[i], i};
+  thr_status st = nesting_init(&s, cuts, err);
+  for (int i = 0; i < cuts->n && !st; i++)
+    if (cuts->cut[i].parent < 0) s.by_size[n_trees++] = (tree){s.total[i], i};
   if (!st && n_trees > 0) qsort(s.by_size, (size_t)n_trees, sizeof *s.by_size, smaller_first);
   for (int k = 0; k < n_trees && !st; k++)
     for (int i = s.first[s.by_size[k].root]; i >= 0; i = s.next[i])
-      adopt(c, &s, i);
+      adopt(cuts, &s, i);
   nesting_destroy(&s);
-  return st ? st : reorder(c, err);
+  return st ? st : reorder(cuts, err);
 }
 
 /* ---- the other side ---- */
 
 /* Marks all nodes of the tree as member; list of its cuts by next, as in nesting. */
-static void mark_tree(const thr_cuts *c, const nesting *s, int root, bool member, bool *is_member)
+static void mark_tree(const thr_cuts *cuts, const nesting *s, int root, bool member, bool *is_member)
 {
   for (int i = s->first[root]; i >= 0; i = s->next[i])
-    for (int j = 0; j < c->cut[i].n_nodes; j++)
-      is_member[c->cut[i].node[j]] = member;
+    for (int j = 0; j < cuts->cut[i].n_nodes; j++)
+      is_member[cuts->cut[i].node[j]] = member;
 }
 
 /* The nodes outside of the tree. */
-static thr_status outside(const thr_cuts *c, const nesting *s, int root, bool *is_member, thr_cut *out, thr_err *err)
+static thr_status outside(const thr_cuts *cuts, const nesting *s, int root, bool *is_member, thr_cut *out, thr_err *err)
 {
-  out->node = thr_calloc((size_t)(c->n_nodes - s->total[root]), sizeof *out->node);
+  out->node = thr_calloc((size_t)(cuts->n_nodes - s->total[root]), sizeof *out->node);
   if (!out->node) return thr_nomem(err);
-  mark_tree(c, s, root, true, is_member);
-  for (int v = 0; v < c->n_nodes; v++)
+  mark_tree(cuts, s, root, true, is_member);
+  for (int v = 0; v < cuts->n_nodes; v++)
     if (!is_member[v]) out->node[out->n_nodes++] = v;
-  mark_tree(c, s, root, false, is_member);
+  mark_tree(cuts, s, root, false, is_member);
   return THR_OK;
 }
 
@@ -189,21 +189,21 @@ static void chains_destroy(chains *h, int n)
   free(h->fresh);
 }
 
-static thr_status chains_init(chains *h, const thr_cuts *c, const nesting *s, thr_err *err)
+static thr_status chains_init(chains *h, const thr_cuts *cuts, const nesting *s, thr_err *err)
 {
-  size_t n = (size_t)c->n;
+  size_t n = (size_t)cuts->n;
   *h = (chains){.holds = thr_calloc(n, sizeof *h->holds),
                 .inner = thr_calloc(n, sizeof *h->inner),
-                .is_member = thr_calloc((size_t)c->n_nodes, sizeof *h->is_member),
+                .is_member = thr_calloc((size_t)cuts->n_nodes, sizeof *h->is_member),
                 .fresh = thr_calloc(n, sizeof *h->fresh)};
   if (!h->holds || !h->inner || !h->is_member || !h->fresh) return thr_nomem(err);
-  for (int i = 0; i < c->n; i++)
+  for (int i = 0; i < cuts->n; i++)
     h->inner[i] = -1;
-  for (int i = 0; i < c->n; i++) {
-    const thr_cut *cut = &c->cut[i];
-    if (cut->n_nodes > 0 && cut->node[cut->n_nodes - 1] == c->n_nodes - 1) h->holds[i] = true;
+  for (int i = 0; i < cuts->n; i++) {
+    const thr_cut *cut = &cuts->cut[i];
+    if (cut->n_nodes > 0 && cut->node[cut->n_nodes - 1] == cuts->n_nodes - 1) h->holds[i] = true;
     if (!h->holds[i]) continue;
-    thr_status st = cut->parent < 0 ? outside(c, s, i, h->is_member, &h->fresh[i], err) : THR_OK;
+    thr_status st = cut->parent < 0 ? outside(cuts, s, i, h->is_member, &h->fresh[i], err) : THR_OK;
     if (st) return st;
     if (cut->parent < 0) continue;
     h->holds[cut->parent] = true;
@@ -214,34 +214,34 @@ static thr_status chains_init(chains *h, const thr_cuts *c, const nesting *s, th
 
 /* They become B1 .. Bk, where Bi is all but Ai: Bk in .. in B1. What is in A(i+1) but not in Ai, own nodes and children, is in Bi
  * but not in B(i+1); what is in A1 is in none. */
-static void turn_chains(thr_cuts *c, chains *h)
+static void turn_chains(thr_cuts *cuts, chains *h)
 {
-  for (int i = 0; i < c->n; i++) {
-    thr_cut *cut = &c->cut[i];
+  for (int i = 0; i < cuts->n; i++) {
+    thr_cut *cut = &cuts->cut[i];
     if (!h->holds[i] && cut->parent >= 0 && h->holds[cut->parent]) cut->parent = h->inner[cut->parent];
   }
-  for (int lowest = 0; lowest < c->n; lowest++) {
+  for (int lowest = 0; lowest < cuts->n; lowest++) {
     if (!h->holds[lowest] || h->inner[lowest] >= 0) continue;
-    free(c->cut[lowest].node);
+    free(cuts->cut[lowest].node);
     for (int i = lowest, outer; i >= 0; i = outer) {
-      thr_cut *from = (outer = c->cut[i].parent) >= 0 ? &c->cut[outer] : &h->fresh[i];
-      c->cut[i].node = from->node;
-      c->cut[i].n_nodes = from->n_nodes;
-      c->cut[i].parent = h->inner[i];
+      thr_cut *from = (outer = cuts->cut[i].parent) >= 0 ? &cuts->cut[outer] : &h->fresh[i];
+      cuts->cut[i].node = from->node;
+      cuts->cut[i].n_nodes = from->n_nodes;
+      cuts->cut[i].parent = h->inner[i];
       from->node = NULL;
     }
   }
 }
 
-thr_status thr_cuts_avoid_last(thr_cuts *c, thr_err *err)
+thr_status thr_cuts_avoid_last(thr_cuts *cuts, thr_err *err)
 {
   nesting s;
   chains h = {0};
-  thr_status st = nesting_init(&s, c, err);
-  if (!st) st = chains_init(&h, c, &s, err);
-  if (!st) turn_chains(c, &h);
-  if (!st) c->n_nodes--;
-  chains_destroy(&h, c->n);
+  thr_status st = nesting_init(&s, cuts, err);
+  if (!st) st = chains_init(&h, cuts, &s, err);
+  if (!st) turn_chains(cuts, &h);
+  if (!st) cuts->n_nodes--;
+  chains_destroy(&h, cuts->n);
   nesting_destroy(&s);
   return st;
 }
@@ -249,61 +249,61 @@ thr_status thr_cuts_avoid_last(thr_cuts *c, thr_err *err)
 /* ---- fewer cuts ---- */
 
 /* Appends the nodes of the dropped cuts to to[i], the next cut round i that stays. more[n] is all 0. */
-static thr_status pass_nodes_on(thr_cuts *c, const bool *drop, const int *to, int *more, thr_err *err)
+static thr_status pass_nodes_on(thr_cuts *cuts, const bool *drop, const int *to, int *more, thr_err *err)
 {
-  for (int i = 0; i < c->n; i++)
-    if (drop[i] && to[i] >= 0) more[to[i]] += c->cut[i].n_nodes;
-  for (int i = 0; i < c->n; i++) {
+  for (int i = 0; i < cuts->n; i++)
+    if (drop[i] && to[i] >= 0) more[to[i]] += cuts->cut[i].n_nodes;
+  for (int i = 0; i < cuts->n; i++) {
     if (more[i] == 0) continue;
-    int *node = thr_realloc(c->cut[i].node, (size_t)c->cut[i].n_nodes + (size_t)more[i], sizeof *node);
+    int *node = thr_realloc(cuts->cut[i].node, (size_t)cuts->cut[i].n_nodes + (size_t)more[i], sizeof *node);
     if (!node) return thr_nomem(err);
-    c->cut[i].node = node;
+    cuts->cut[i].node = node;
   }
-  for (int i = 0; i < c->n; i++) {
-    thr_cut *from = &c->cut[i];
+  for (int i = 0; i < cuts->n; i++) {
+    thr_cut *from = &cuts->cut[i];
     if (!drop[i] || to[i] < 0) continue;
-    thr_cut *outer = &c->cut[to[i]];
+    thr_cut *outer = &cuts->cut[to[i]];
     for (int j = 0; j < from->n_nodes; j++)
       outer->node[outer->n_nodes++] = from->node[j];
   }
-  for (int i = 0; i < c->n; i++)
-    thr_sort_ints(c->cut[i].node, (size_t)c->cut[i].n_nodes);
+  for (int i = 0; i < cuts->n; i++)
+    thr_sort_ints(cuts->cut[i].node, (size_t)cuts->cut[i].n_nodes);
   return THR_OK;
 }
 
-thr_status thr_cuts_drop(thr_cuts *c, const bool *drop, thr_err *err)
+thr_status thr_cuts_drop(thr_cuts *cuts, const bool *drop, thr_err *err)
 {
-  size_t n = (size_t)c->n;
+  size_t n = (size_t)cuts->n;
   int *to = thr_calloc(n, sizeof *to), *more = thr_calloc(n, sizeof *more), *place = more, kept = 0;
   thr_status st = to && more ? THR_OK : thr_nomem(err);
-  for (int i = c->n - 1; i >= 0 && !st; i--) {
-    int p = c->cut[i].parent;
+  for (int i = cuts->n - 1; i >= 0 && !st; i--) {
+    int p = cuts->cut[i].parent;
     to[i] = p >= 0 && drop[p] ? to[p] : p;
   }
-  if (!st) st = pass_nodes_on(c, drop, to, more, err);
-  for (int i = 0; i < c->n && !st; i++) {
+  if (!st) st = pass_nodes_on(cuts, drop, to, more, err);
+  for (int i = 0; i < cuts->n && !st; i++) {
     if (drop[i]) {
-      free(c->cut[i].node);
+      free(cuts->cut[i].node);
       continue;
     }
-    c->cut[kept] = c->cut[i];
-    c->cut[kept].parent = to[i];
+    cuts->cut[kept] = cuts->cut[i];
+    cuts->cut[kept].parent = to[i];
     place[i] = kept++;
   }
   for (int i = 0; i < kept; i++)
-    if (c->cut[i].parent >= 0) c->cut[i].parent = place[c->cut[i].parent];
-  if (!st) c->n = kept;
+    if (cuts->cut[i].parent >= 0) cuts->cut[i].parent = place[cuts->cut[i].parent];
+  if (!st) cuts->n = kept;
   free(to);
   free(more);
   return st;
 }
 
-thr_status thr_cuts_held(const thr_cuts *c, int64_t *held, thr_err *err)
+thr_status thr_cuts_held(const thr_cuts *cuts, int64_t *held, thr_err *err)
 {
-  int64_t *depth = thr_calloc((size_t)c->n, sizeof *depth);
+  int64_t *depth = thr_calloc((size_t)cuts->n, sizeof *depth);
   if (!depth) return thr_nomem(err);
-  for (int i = c->n - 1; i >= 0; i--) {
-    const thr_cut *cut = &c->cut[i];
+  for (int i = cuts->n - 1; i >= 0; i--) {
+    const thr_cut *cut = &cuts->cut[i];
     depth[i] = cut->value + (cut->parent >= 0 ? depth[cut->parent] : 0);
     for (int j = 0; j < cut->n_nodes; j++)
       held[cut->node[j]] += depth[i];

@@ -17,21 +17,21 @@ typedef struct {
   thr_cut *cut; /* owned */
 } thr_cuts;
 
-void thr_cuts_destroy(thr_cuts *c);
+void thr_cuts_destroy(thr_cuts *cuts);
 
 /* Makes trees children of cuts whose own nodes hold them, smaller ones first, while they stay disjoint; laminar sets end up as
  * one forest without any node twice, sets that cross as trees of their own. Then puts children before their parents: the
  * parents given may be in any order. O(size log n) in the size of the forest. */
-thr_status thr_cuts_nest(thr_cuts *c, thr_err *err) THR_MUST_CHECK;
+thr_status thr_cuts_nest(thr_cuts *cuts, thr_err *err) THR_MUST_CHECK;
 
 /* Replaces every set that holds the last node by its complement, and takes that node away. The total of odd nodes must be even.
  * Parents must come after their children, and need not do so afterwards. O(size + nodes * trees with such sets). */
-thr_status thr_cuts_avoid_last(thr_cuts *c, thr_err *err) THR_MUST_CHECK;
+thr_status thr_cuts_avoid_last(thr_cuts *cuts, thr_err *err) THR_MUST_CHECK;
 
 /* Removes the cuts marked in drop[n]; their children go to the next cut round them that stays. */
-thr_status thr_cuts_drop(thr_cuts *c, const bool *drop, thr_err *err) THR_MUST_CHECK;
+thr_status thr_cuts_drop(thr_cuts *cuts, const bool *drop, thr_err *err) THR_MUST_CHECK;
 
 /* held[v] += the values of the sets that hold node v. Parents must come after their children. */
-thr_status thr_cuts_held(const thr_cuts *c, int64_t *held, thr_err *err) THR_MUST_CHECK;
+thr_status thr_cuts_held(const thr_cuts *cuts, int64_t *held, thr_err *err) THR_MUST_CHECK;
 
 #endif

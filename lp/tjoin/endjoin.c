@@ -62,20 +62,20 @@ static thr_status find_pieces(search *s, thr_err *err)
 
 static thr_status search_init(search *s, thr_err *err)
 {
-  const thr_tjoin_problem *g = &s->p->graph;
-  s->hub = g->n_nodes;
-  s->n_edges = g->n_edges;
-  for (int v = 0; v < g->n_nodes; v++)
+  const thr_tjoin_problem *tjoin_problem = &s->p->graph;
+  s->hub = tjoin_problem->n_nodes;
+  s->n_edges = tjoin_problem->n_edges;
+  for (int v = 0; v < tjoin_problem->n_nodes; v++)
     s->n_edges += s->p->end_allowed[v];
   s->edge = thr_calloc((size_t)s->n_edges, sizeof *s->edge);
   s->weight = thr_calloc((size_t)s->n_edges, sizeof *s->weight);
-  s->odd = thr_calloc((size_t)g->n_nodes + 1, sizeof *s->odd);
+  s->odd = thr_calloc((size_t)tjoin_problem->n_nodes + 1, sizeof *s->odd);
   if (!s->edge || !s->weight || !s->odd) return thr_nomem(err);
-  memcpy(s->odd, g->odd, (size_t)g->n_nodes * sizeof *s->odd);
-  memcpy(s->edge, g->edge, (size_t)g->n_edges * sizeof *s->edge);
-  for (int e = 0; e < g->n_edges; e++)
-    s->weight[e] = 2 * g->weight[e];
-  for (int v = 0, e = g->n_edges; v < g->n_nodes; v++) {
+  memcpy(s->odd, tjoin_problem->odd, (size_t)tjoin_problem->n_nodes * sizeof *s->odd);
+  memcpy(s->edge, tjoin_problem->edge, (size_t)tjoin_problem->n_edges * sizeof *s->edge);
+  for (int e = 0; e < tjoin_problem->n_edges; e++)
+    s->weight[e] = 2 * tjoin_problem->weight[e];
+  for (int v = 0, e = tjoin_problem->n_edges; v < tjoin_problem->n_nodes; v++) {
     if (!s->p->end_allowed[v]) continue;
     s->edge[e][0] = v;
     s->edge[e++][1] = s->hub;
@@ -99,8 +99,8 @@ static thr_status solve_at(search *s, int64_t price, point *at, thr_err *err)
   *at = (point){.price = price};
   for (int e = s->p->graph.n_edges; e < s->n_edges; e++)
     s->weight[e] = price;
-  thr_tjoin_problem p = {s->hub + 1, s->n_edges, (const int(*)[2])s->edge, s->weight, s->odd, 0};
-  thr_status st = thr_tjoin_shrunk(&p, s->p->engine, s->limits, &at->t, err);
+  thr_tjoin_problem tjoin_problem = {s->hub + 1, s->n_edges, (const int(*)[2])s->edge, s->weight, s->odd, 0};
+  thr_status st = thr_tjoin_shrunk(&tjoin_problem, s->p->engine, s->limits, &at->t, err);
   if (!st || st == THR_ELIMIT) weigh(s, at);
   return st;
 }
@@ -118,8 +118,8 @@ static thr_status solve_fewest(search *s, point *at, thr_err *err)
     memcpy(weight, s->weight, (size_t)m * sizeof *weight);
     for (int i = 0; i < n_pieces; i++)
       memcpy(edge[m + i], s->edge[s->end_of_piece[i]], sizeof *edge);
-    thr_tjoin_problem p = {s->hub + 1, m + n_pieces, (const int(*)[2])edge, weight, s->odd, 0};
-    limit = thr_tjoin_shrunk(&p, s->p->engine, s->limits, &at->t, err);
+    thr_tjoin_problem tjoin_problem = {s->hub + 1, m + n_pieces, (const int(*)[2])edge, weight, s->odd, 0};
+    limit = thr_tjoin_shrunk(&tjoin_problem, s->p->engine, s->limits, &at->t, err);
     if (limit && limit != THR_ELIMIT) st = limit;
   }
   free(edge);
@@ -294,27 +294,28 @@ static thr_status take_over(search *s, bool *last, thr_err *err)
 /* ---- the result ---- */
 
 /* Sets of the graph alone, and the price that they ask for. */
-static thr_status finish(const thr_endjoin_problem *p, thr_cuts *cuts, thr_endjoin *out, thr_err *err)
+static thr_status finish(const thr_endjoin_problem *endjoin_problem, thr_cuts *cuts, thr_endjoin *out, thr_err *err)
 {
   int64_t *held = thr_calloc((size_t)cuts->n_nodes, sizeof *held);
   thr_status st = held ? thr_cuts_avoid_last(cuts, err) : thr_nomem(err);
   if (!st) st = thr_cuts_nest(cuts, err);
   if (!st) st = thr_cuts_held(cuts, held, err);
-  for (int v = 0; v < p->graph.n_nodes && !st; v++)
-    if (p->end_allowed[v] && held[v] > out->end_price) out->end_price = held[v];
+  for (int v = 0; v < endjoin_problem->graph.n_nodes && !st; v++)
+    if (endjoin_problem->end_allowed[v] && held[v] > out->end_price) out->end_price = held[v];
   for (int i = 0; i < cuts->n && !st; i++)
     out->sum += cuts->cut[i].value;
   free(held);
   return st;
 }
 
-/* Moves the cuts of t into out, which holds the join already. */
-static thr_status take_cuts(const thr_endjoin_problem *p, int n_nodes, thr_tjoin *t, thr_endjoin *out, thr_err *err)
+/* Moves the cuts of tjoin into out, which holds the join already. */
+static thr_status take_cuts(const thr_endjoin_problem *endjoin_problem, int n_nodes, thr_tjoin *tjoin, thr_endjoin *out,
+                            thr_err *err)
 {
-  thr_cuts cuts = {t->n_cuts, n_nodes, t->cut};
-  t->cut = NULL;
-  t->n_cuts = 0;
-  thr_status st = finish(p, &cuts, out, err);
+  thr_cuts cuts = {tjoin->n_cuts, n_nodes, tjoin->cut};
+  tjoin->cut = NULL;
+  tjoin->n_cuts = 0;
+  thr_status st = finish(endjoin_problem, &cuts, out, err);
   out->cut = cuts.cut;
   out->n_cuts = cuts.n;
   if (st) thr_endjoin_destroy(out);
@@ -326,8 +327,8 @@ static thr_status confirm(search *s, const point *at, thr_err *err)
 {
   for (int e = s->p->graph.n_edges; e < s->n_edges; e++)
     s->weight[e] = at->price;
-  thr_tjoin_problem p = {s->hub + 1, s->n_edges, (const int(*)[2])s->edge, s->weight, s->odd, 0};
-  return at->no_hub ? THR_OK : thr_confirmations_add(s->p->count, &p, &at->t, err);
+  thr_tjoin_problem tjoin_problem = {s->hub + 1, s->n_edges, (const int(*)[2])s->edge, s->weight, s->odd, 0};
+  return at->no_hub ? THR_OK : thr_confirmations_add(s->p->count, &tjoin_problem, &at->t, err);
 }
 
 static thr_status take(search *s, point *join, point *proof, thr_endjoin *out, thr_err *err)
@@ -406,26 +407,26 @@ static thr_status run(search *s, thr_endjoin *out, thr_err *err)
 /* The cuts of a join with two leaves a and b, the last nodes, as cuts with a hub, both being the same. The leaves are alike, so
  * every set with only one of them can be had once with each, at half the value; and then {a} and {b} alone at these values load
  * no edge more. These two need not be kept: as cuts with a price they say nothing. */
-static thr_status join_leaves(thr_cuts *c, thr_err *err)
+static thr_status join_leaves(thr_cuts *cuts, thr_err *err)
 {
-  const int a = c->n_nodes - 2, b = a + 1;
-  int *leaves = thr_calloc((size_t)c->n, sizeof *leaves); /* 1 = holds a, 2 = holds b */
-  bool *drop = thr_calloc((size_t)c->n, sizeof *drop);
+  const int a = cuts->n_nodes - 2, b = a + 1;
+  int *leaves = thr_calloc((size_t)cuts->n, sizeof *leaves); /* 1 = holds a, 2 = holds b */
+  bool *drop = thr_calloc((size_t)cuts->n, sizeof *drop);
   thr_status st = leaves && drop ? THR_OK : thr_nomem(err);
-  for (int i = 0; i < c->n && !st; i++) {
-    const thr_cut *cut = &c->cut[i];
+  for (int i = 0; i < cuts->n && !st; i++) {
+    const thr_cut *cut = &cuts->cut[i];
     for (int j = cut->n_nodes - 1; j >= 0 && cut->node[j] >= a; j--)
       leaves[i] |= cut->node[j] == a ? 1 : 2;
     if (cut->parent >= 0) leaves[cut->parent] |= leaves[i];
     drop[i] = leaves[i] == 1 || leaves[i] == 2;
   }
-  if (!st) st = thr_cuts_drop(c, drop, err);
-  for (int i = 0; i < c->n && !st; i++) {
-    thr_cut *cut = &c->cut[i];
+  if (!st) st = thr_cuts_drop(cuts, drop, err);
+  for (int i = 0; i < cuts->n && !st; i++) {
+    thr_cut *cut = &cuts->cut[i];
     cut->value *= 2;
     if (cut->n_nodes > 0 && cut->node[cut->n_nodes - 1] == b) cut->n_nodes--;
   }
-  c->n_nodes = b;
+  cuts->n_nodes = b;
   free(leaves);
   free(drop);
   return st;
@@ -434,66 +435,67 @@ static thr_status join_leaves(thr_cuts *c, thr_err *err)
 /* s has the graph and its hub edges: a copy of these for the other leaf, and one between the two. */
 static thr_status solve_two(search *s, thr_endjoin *out, thr_err *err)
 {
-  const thr_tjoin_problem *g = &s->p->graph;
-  int n = g->n_nodes, m = s->n_edges, all = 2 * m - g->n_edges + 1, (*edge)[2] = thr_calloc((size_t)all, sizeof *edge);
+  const thr_tjoin_problem *tjoin_problem = &s->p->graph;
+  int n = tjoin_problem->n_nodes, m = s->n_edges, all = 2 * m - tjoin_problem->n_edges + 1,
+      (*edge)[2] = thr_calloc((size_t)all, sizeof *edge);
   int64_t *weight = thr_calloc((size_t)all, sizeof *weight);
   bool *odd = thr_calloc((size_t)n + 2, sizeof *odd);
-  thr_tjoin t = {0};
+  thr_tjoin tjoin = {0};
   thr_status st = edge && weight && odd ? THR_OK : thr_nomem(err), limit = THR_OK;
   if (!st) {
-    memcpy(odd, g->odd, (size_t)n * sizeof *odd);
+    memcpy(odd, tjoin_problem->odd, (size_t)n * sizeof *odd);
     odd[n] = odd[n + 1] = true;
     for (int e = 0; e < all - 1; e++) {
-      memcpy(edge[e], s->edge[e < m ? e : e - m + g->n_edges], sizeof *edge);
+      memcpy(edge[e], s->edge[e < m ? e : e - m + tjoin_problem->n_edges], sizeof *edge);
       edge[e][1] += e >= m;
-      weight[e] = e < g->n_edges ? g->weight[e] : s->p->far;
+      weight[e] = e < tjoin_problem->n_edges ? tjoin_problem->weight[e] : s->p->far;
     }
     edge[all - 1][0] = n, edge[all - 1][1] = n + 1;
     weight[all - 1] = 2 * s->p->far;
     thr_tjoin_problem p = {n + 2, all, (const int(*)[2])edge, weight, odd, 2};
-    limit = thr_tjoin_shrunk(&p, s->p->engine, s->limits, &t, err);
+    limit = thr_tjoin_shrunk(&p, s->p->engine, s->limits, &tjoin, err);
     if (limit == THR_ELIMIT) { /* whose quick joins need not respect the leaves */
-      thr_tjoin_destroy(&t);
-      limit = thr_tjoin_solve(&p, s->limits, &t, err);
+      thr_tjoin_destroy(&tjoin);
+      limit = thr_tjoin_solve(&p, s->limits, &tjoin, err);
     }
     if (limit && limit != THR_ELIMIT) st = limit;
-    if (!st && !limit) st = thr_confirmations_add(s->p->count, &p, &t, err);
+    if (!st && !limit) st = thr_confirmations_add(s->p->count, &p, &tjoin, err);
   }
   if (!st) {
-    thr_cuts cuts = {t.n_cuts, n + 2, t.cut};
+    thr_cuts cuts = {tjoin.n_cuts, n + 2, tjoin.cut};
     st = join_leaves(&cuts, err);
-    t.n_cuts = cuts.n;
-    *out = (thr_endjoin){.in_join = t.in_join};
-    t.in_join = NULL;
-    if (!st) st = take_cuts(s->p, n + 1, &t, out, err);
+    tjoin.n_cuts = cuts.n;
+    *out = (thr_endjoin){.in_join = tjoin.in_join};
+    tjoin.in_join = NULL;
+    if (!st) st = take_cuts(s->p, n + 1, &tjoin, out, err);
     if (st) thr_endjoin_destroy(out);
   }
-  thr_tjoin_destroy(&t);
+  thr_tjoin_destroy(&tjoin);
   free(edge);
   free(weight);
   free(odd);
   return st ? st : limit;
 }
 
-thr_status thr_endjoin_solve(const thr_endjoin_problem *p, const thr_limits *limits, thr_endjoin *out, thr_err *err)
+thr_status thr_endjoin_solve(const thr_endjoin_problem *endjoin_problem, const thr_limits *limits, thr_endjoin *out, thr_err *err)
 {
   thr_limits quiet = *limits; /* bounds at a price are none on the join */
   quiet.progress = NULL;
-  search s = {.p = p, .limits = limits};
+  search s = {.p = endjoin_problem, .limits = limits};
   *out = (thr_endjoin){0};
   thr_status st = search_init(&s, err);
-  bool two = p->n_ends == 2 && s.n_pieces == 1;
+  bool two = endjoin_problem->n_ends == 2 && s.n_pieces == 1;
   if (!two) s.limits = &quiet;
   if (!st) st = two ? solve_two(&s, out, err) : run(&s, out, err);
   search_destroy(&s);
   return st;
 }
 
-void thr_endjoin_destroy(thr_endjoin *j)
+void thr_endjoin_destroy(thr_endjoin *endjoin)
 {
-  for (int i = 0; i < j->n_cuts; i++)
-    free(j->cut[i].node);
-  free(j->cut);
-  free(j->in_join);
-  *j = (thr_endjoin){0};
+  for (int i = 0; i < endjoin->n_cuts; i++)
+    free(endjoin->cut[i].node);
+  free(endjoin->cut);
+  free(endjoin->in_join);
+  *endjoin = (thr_endjoin){0};
 }

@@ -43,8 +43,8 @@ typedef struct {
  * join itself by taking over cycles from the one with too many. Two ends in a connected graph take no search: two odd leaves,
  * joined to every node where an end is allowed, and the same price follows from their cuts. THR_OK: optimal. THR_ELIMIT: out
  * holds a join and a bound, each valid by itself. Otherwise out is empty. */
-thr_status thr_endjoin_solve(const thr_endjoin_problem *p, const thr_limits *limits, thr_endjoin *out,
+thr_status thr_endjoin_solve(const thr_endjoin_problem *endjoin_problem, const thr_limits *limits, thr_endjoin *out,
                              thr_err *err) THR_MUST_CHECK;
-void thr_endjoin_destroy(thr_endjoin *j);
+void thr_endjoin_destroy(thr_endjoin *endjoin);
 
 #endif

@@ -16,7 +16,7 @@
 /* As thr_tjoin_solve, by either engine: THR_ENGINE_LP is lp/tjoin/tjoin.h, THR_ENGINE_MATCHING lp/matching/moat.h (weights that
  * do not fit: THR_EINPUT). The problem is shrunk before (lp/tjoin/shrink.h) where that pays: always for the linear programme, for
  * the matching if it loses many nodes. */
-thr_status thr_tjoin_shrunk(const thr_tjoin_problem *p, thr_engine engine, const thr_limits *limits, thr_tjoin *out,
+thr_status thr_tjoin_shrunk(const thr_tjoin_problem *tjoin_problem, thr_engine engine, const thr_limits *limits, thr_tjoin *out,
                             thr_err *err) THR_MUST_CHECK;
 
 enum { THR_CONFIRM_EDGES = 10000 }; /* problems up to this size are confirmed well within a second */
@@ -32,19 +32,19 @@ typedef struct {
   thr_confirm_job *job; /* owned, until they are run */
 } thr_confirmations;
 
-/* Remembers a T-join as optimal and to be asked about; c NULL: nothing is done. O(entries of its cuts). */
-thr_status thr_confirmations_add(thr_confirmations *c, const thr_tjoin_problem *p, const thr_tjoin *t,
+/* Remembers a T-join as optimal and to be asked about; confirmations NULL: nothing is done. O(entries of its cuts). */
+thr_status thr_confirmations_add(thr_confirmations *confirmations, const thr_tjoin_problem *tjoin_problem, const thr_tjoin *tjoin,
                                  thr_err *err) THR_MUST_CHECK;
 
 /* Asks about all that were added, in a child process, and counts. THR_ESOLVER: GLPK finds another minimum, so that a join or GLPK
  * is wrong. A library that fails, or a child that dies, confirms nothing, but is no error. */
-thr_status thr_confirmations_run(thr_confirmations *c, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
-void thr_confirmations_destroy(thr_confirmations *c);
+thr_status thr_confirmations_run(thr_confirmations *confirmations, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
+void thr_confirmations_destroy(thr_confirmations *confirmations);
 
 typedef enum { THR_CONFIRMED, THR_CONFIRM_SKIPPED } thr_confirmation;
 
 /* The same for one, whatever its size. */
-thr_status thr_tjoin_confirm(const thr_tjoin_problem *p, const thr_tjoin *t, const thr_limits *limits, thr_confirmation *out,
-                             thr_err *err) THR_MUST_CHECK;
+thr_status thr_tjoin_confirm(const thr_tjoin_problem *tjoin_problem, const thr_tjoin *tjoin, const thr_limits *limits,
+                             thr_confirmation *out, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -27,20 +27,20 @@ typedef struct {
   void *user;
 } thr_oddcut_graph;
 
-thr_status thr_oddcut_graph_init(thr_oddcut_graph *g, const thr_tjoin_problem *p, thr_err *err) THR_MUST_CHECK;
-void thr_oddcut_graph_destroy(thr_oddcut_graph *g);
+thr_status thr_oddcut_graph_init(thr_oddcut_graph *graph, const thr_tjoin_problem *tjoin_problem, thr_err *err) THR_MUST_CHECK;
+void thr_oddcut_graph_destroy(thr_oddcut_graph *graph);
 
 /* Adds the row of a node set if the set is odd, proper and new. */
-thr_status thr_oddcut_add(const thr_oddcut_graph *g, thr_pool *pool, const int *node, int n, thr_err *err) THR_MUST_CHECK;
+thr_status thr_oddcut_add(const thr_oddcut_graph *graph, thr_pool *pool, const int *node, int n, thr_err *err) THR_MUST_CHECK;
 
 /* Moats: from every odd component of the support {e : x_e > threshold}, nested balls under the reduced costs until balls of two
  * components meet (simultaneous Dijkstra; a warm start of the primal-dual method). The component itself is the
  * first ball. x NULL: every node is its own component. O(m log n) + output. */
-thr_status thr_oddcut_moats(const thr_oddcut_graph *g, const double *x, double threshold, const double *reduced_cost,
+thr_status thr_oddcut_moats(const thr_oddcut_graph *graph, const double *x, double threshold, const double *reduced_cost,
                             thr_pool *pool, thr_err *err) THR_MUST_CHECK;
 
 /* Exact separation: in every component of the support, the odd cuts of a Gomory-Hu tree with x(cut) < 1. Padberg & Rao:
  * if any odd cut is violated, one of these is. Edges with x >= 1 lie in no violated cut and are contracted first. */
-thr_status thr_oddcut_exact(const thr_oddcut_graph *g, const double *x, thr_pool *pool, thr_err *err) THR_MUST_CHECK;
+thr_status thr_oddcut_exact(const thr_oddcut_graph *graph, const double *x, thr_pool *pool, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -4,27 +4,26 @@
 #include "graph/scratch.h"
 #include "lp/tjoin/oddcut.h"
 
-
-void thr_shrinking_destroy(thr_shrinking *s)
+void thr_shrinking_destroy(thr_shrinking *shrinking)
 {
-  thr_scratch_free(&s->own);
-  *s = (thr_shrinking){0};
+  thr_scratch_free(&shrinking->own);
+  *shrinking = (thr_shrinking){0};
 }
 
-static thr_status allocate(thr_shrinking *s, thr_err *err)
+static thr_status allocate(thr_shrinking *shrinking, thr_err *err)
 {
-  size_t n = (size_t)s->p->n_nodes, m = (size_t)s->p->n_edges;
-  s->edge = thr_scratch_array(&s->own, m, sizeof *s->edge);
-  s->weight = thr_scratch_array(&s->own, m, sizeof *s->weight);
-  s->odd = thr_scratch_array(&s->own, n, sizeof *s->odd);
-  s->origin = thr_scratch_array(&s->own, m, sizeof *s->origin);
-  s->kept = thr_scratch_array(&s->own, n, sizeof *s->kept);
-  s->block = thr_scratch_array(&s->own, n, sizeof *s->block);
-  s->order = thr_scratch_array(&s->own, n, sizeof *s->order);
-  s->up = thr_scratch_array(&s->own, n, sizeof *s->up);
-  s->odd_bridge = thr_scratch_array(&s->own, n, sizeof *s->odd_bridge);
-  s->step = thr_scratch_array(&s->own, n, sizeof *s->step);
-  return thr_scratch_check(&s->own, err);
+  size_t n = (size_t)shrinking->p->n_nodes, m = (size_t)shrinking->p->n_edges;
+  shrinking->edge = thr_scratch_array(&shrinking->own, m, sizeof *shrinking->edge);
+  shrinking->weight = thr_scratch_array(&shrinking->own, m, sizeof *shrinking->weight);
+  shrinking->odd = thr_scratch_array(&shrinking->own, n, sizeof *shrinking->odd);
+  shrinking->origin = thr_scratch_array(&shrinking->own, m, sizeof *shrinking->origin);
+  shrinking->kept = thr_scratch_array(&shrinking->own, n, sizeof *shrinking->kept);
+  shrinking->block = thr_scratch_array(&shrinking->own, n, sizeof *shrinking->block);
+  shrinking->order = thr_scratch_array(&shrinking->own, n, sizeof *shrinking->order);
+  shrinking->up = thr_scratch_array(&shrinking->own, n, sizeof *shrinking->up);
+  shrinking->odd_bridge = thr_scratch_array(&shrinking->own, n, sizeof *shrinking->odd_bridge);
+  shrinking->step = thr_scratch_array(&shrinking->own, n, sizeof *shrinking->step);
+  return thr_scratch_check(&shrinking->own, err);
 }
 
 static int other_end(const int (*edge)[2], int e, int v)
@@ -43,52 +42,52 @@ typedef struct {
   int *parent;  /* [n_nodes] disjoint sets: blocks */
 } bridge_search;
 
-/* A depth-first search tree: s->order, s->up and numbers. */
-static void visit_all(thr_shrinking *s, bridge_search *b)
+/* A depth-first search tree: shrinking->order, shrinking->up and numbers. */
+static void visit_all(thr_shrinking *shrinking, bridge_search *b)
 {
-  const thr_tjoin_problem *p = s->p;
+  const thr_tjoin_problem *tjoin_problem = shrinking->p;
   int n = 0, v = 0;
-  s->up[0] = -1;
+  shrinking->up[0] = -1;
   b->number[0] = 0;
-  s->order[n++] = 0;
+  shrinking->order[n++] = 0;
   for (;;) {
     if (b->cursor[v] == b->graph.first[v + 1]) {
-      if (s->up[v] < 0) return;
-      v = other_end(p->edge, s->up[v], v);
+      if (shrinking->up[v] < 0) return;
+      v = other_end(tjoin_problem->edge, shrinking->up[v], v);
       continue;
     }
-    int e = b->graph.incident[b->cursor[v]++], w = other_end(p->edge, e, v);
+    int e = b->graph.incident[b->cursor[v]++], w = other_end(tjoin_problem->edge, e, v);
     if (b->number[w] >= 0) continue;
-    s->up[w] = e;
+    shrinking->up[w] = e;
     b->number[w] = n;
-    s->order[n++] = w;
+    shrinking->order[n++] = w;
     v = w;
   }
 }
 
 /* An edge up from a subtree is a bridge if no other leads out of it. */
-static void judge_edges(thr_shrinking *s, bridge_search *b)
+static void judge_edges(thr_shrinking *shrinking, bridge_search *b)
 {
-  const thr_tjoin_problem *p = s->p;
-  for (int i = p->n_nodes - 1; i >= 0; i--) {
-    int v = s->order[i];
+  const thr_tjoin_problem *tjoin_problem = shrinking->p;
+  for (int i = tjoin_problem->n_nodes - 1; i >= 0; i--) {
+    int v = shrinking->order[i];
     for (int k = b->graph.first[v]; k < b->graph.first[v + 1]; k++) {
-      int e = b->graph.incident[k], w = other_end(p->edge, e, v);
-      if (e != s->up[v] && b->number[w] < b->low[v]) b->low[v] = b->number[w];
+      int e = b->graph.incident[k], w = other_end(tjoin_problem->edge, e, v);
+      if (e != shrinking->up[v] && b->number[w] < b->low[v]) b->low[v] = b->number[w];
     }
-    if (s->up[v] < 0) continue;
-    int above = other_end(p->edge, s->up[v], v);
+    if (shrinking->up[v] < 0) continue;
+    int above = other_end(tjoin_problem->edge, shrinking->up[v], v);
     b->parity[above] ^= b->parity[v];
     if (b->low[v] < b->low[above]) b->low[above] = b->low[v];
     if (b->low[v] < i) continue;
-    s->odd_bridge[v] = b->parity[v];
+    shrinking->odd_bridge[v] = b->parity[v];
     thr_disjoint_join(b->parent, v, above);
   }
 }
 
-static thr_status find_blocks(thr_shrinking *s, thr_err *err)
+static thr_status find_blocks(thr_shrinking *shrinking, thr_err *err)
 {
-  size_t n = (size_t)s->p->n_nodes;
+  size_t n = (size_t)shrinking->p->n_nodes;
   thr_scratch own = {0};
   bridge_search b = {.number = thr_scratch_array(&own, n, sizeof *b.number),
                      .low = thr_scratch_array(&own, n, sizeof *b.low),
@@ -96,26 +95,26 @@ static thr_status find_blocks(thr_shrinking *s, thr_err *err)
                      .parity = thr_scratch_array(&own, n, sizeof *b.parity),
                      .parent = thr_scratch_array(&own, n, sizeof *b.parent)};
   thr_status st = thr_scratch_check(&own, err);
-  if (!st) st = thr_oddcut_graph_init(&b.graph, s->p, err);
+  if (!st) st = thr_oddcut_graph_init(&b.graph, shrinking->p, err);
   if (!st) {
-    for (int v = 0; v < s->p->n_nodes; v++) {
+    for (int v = 0; v < shrinking->p->n_nodes; v++) {
       b.number[v] = -1;
-      b.low[v] = s->p->n_nodes;
+      b.low[v] = shrinking->p->n_nodes;
       b.cursor[v] = b.graph.first[v];
-      b.parity[v] = s->p->odd[v];
+      b.parity[v] = shrinking->p->odd[v];
       b.parent[v] = v;
     }
-    visit_all(s, &b);
-    judge_edges(s, &b);
-    for (int v = 0; v < s->p->n_nodes; v++) { /* the lowest of a block is its root */
+    visit_all(shrinking, &b);
+    judge_edges(shrinking, &b);
+    for (int v = 0; v < shrinking->p->n_nodes; v++) { /* the lowest of a block is its root */
       int root = thr_disjoint_find(b.parent, v);
-      s->block[v] = root == v ? s->n_blocks++ : s->block[root];
-      s->odd[s->block[v]] ^= s->p->odd[v];
+      shrinking->block[v] = root == v ? shrinking->n_blocks++ : shrinking->block[root];
+      shrinking->odd[shrinking->block[v]] ^= shrinking->p->odd[v];
     }
-    for (int v = 0; v < s->p->n_nodes; v++)
-      if (s->odd_bridge[v]) {
-        s->odd[s->block[v]] ^= true;
-        s->odd[s->block[other_end(s->p->edge, s->up[v], v)]] ^= true;
+    for (int v = 0; v < shrinking->p->n_nodes; v++)
+      if (shrinking->odd_bridge[v]) {
+        shrinking->odd[shrinking->block[v]] ^= true;
+        shrinking->odd[shrinking->block[other_end(shrinking->p->edge, shrinking->up[v], v)]] ^= true;
       }
   }
   thr_oddcut_graph_destroy(&b.graph);
@@ -200,43 +199,44 @@ static void drop_parallel(shrinker *r, int e)
 
 static void take_leaf(shrinker *r, int v)
 {
-  thr_shrinking *s = r->s;
+  thr_shrinking *shrinking = r->s;
   int h = r->ring[v], a = h / 2, x = far_end(r, h);
-  s->step[s->n_steps++] =
-      (thr_shrink_step){.kind = THR_SHRINK_LEAF, .odd = s->odd[v], .node = v, .a = a, .x = x, .weight_a = s->weight[a]};
-  s->odd[x] ^= s->odd[v];
+  shrinking->step[shrinking->n_steps++] = (thr_shrink_step){
+      .kind = THR_SHRINK_LEAF, .odd = shrinking->odd[v], .node = v, .a = a, .x = x, .weight_a = shrinking->weight[a]};
+  shrinking->odd[x] ^= shrinking->odd[v];
   drop(r, a);
 }
 
 static void take_middle(shrinker *r, int v)
 {
-  thr_shrinking *s = r->s;
+  thr_shrinking *shrinking = r->s;
   int h = r->ring[v], k = r->next[h];
   if (far_end(r, h) == far_end(r, k)) {
     r->out[v] = false; /* it will come back as a leaf */
     drop_heavier(r, h / 2, k / 2);
     return;
   }
-  if (s->odd[v] && s->weight[k / 2] < s->weight[h / 2]) {
+  if (shrinking->odd[v] && shrinking->weight[k / 2] < shrinking->weight[h / 2]) {
     int lighter = k;
     k = h;
     h = lighter;
   }
   int a = h / 2, b = k / 2, x = far_end(r, h), y = far_end(r, k);
-  s->step[s->n_steps++] = (thr_shrink_step){.kind = s->odd[v] ? THR_SHRINK_ODD : THR_SHRINK_EVEN,
-                                            .node = v,
-                                            .a = a,
-                                            .b = b,
-                                            .x = x,
-                                            .y = y,
-                                            .weight_a = s->weight[a],
-                                            .weight_b = s->weight[b]};
-  int stays = s->odd[v] ? k : h, goes = s->odd[v] ? a : b;
-  s->weight[stays / 2] = s->odd[v] ? s->weight[b] - s->weight[a] : s->weight[a] + s->weight[b];
-  s->odd[x] ^= s->odd[v];
+  shrinking->step[shrinking->n_steps++] = (thr_shrink_step){.kind = shrinking->odd[v] ? THR_SHRINK_ODD : THR_SHRINK_EVEN,
+                                                            .node = v,
+                                                            .a = a,
+                                                            .b = b,
+                                                            .x = x,
+                                                            .y = y,
+                                                            .weight_a = shrinking->weight[a],
+                                                            .weight_b = shrinking->weight[b]};
+  int stays = shrinking->odd[v] ? k : h, goes = shrinking->odd[v] ? a : b;
+  shrinking->weight[stays / 2] =
+      shrinking->odd[v] ? shrinking->weight[b] - shrinking->weight[a] : shrinking->weight[a] + shrinking->weight[b];
+  shrinking->odd[x] ^= shrinking->odd[v];
   drop(r, goes);
   detach(r, stays);
-  attach(r, stays, s->odd[v] ? x : y);
+  attach(r, stays, shrinking->odd[v] ? x : y);
   drop_parallel(r, stays / 2);
 }
 
@@ -262,28 +262,28 @@ static void shrinker_destroy(shrinker *r)
 /* Rings of all edges but the bridges, the lightest of each set of parallel ones. */
 static void fill_rings(shrinker *r)
 {
-  thr_shrinking *s = r->s;
-  for (int v = 0; v < s->n_blocks; v++)
+  thr_shrinking *shrinking = r->s;
+  for (int v = 0; v < shrinking->n_blocks; v++)
     r->ring[v] = -1;
-  for (int e = 0; e < s->p->n_edges; e++) {
-    int a = s->block[s->p->edge[e][0]], b = s->block[s->p->edge[e][1]];
-    s->weight[e] = s->p->weight[e];
+  for (int e = 0; e < shrinking->p->n_edges; e++) {
+    int a = shrinking->block[shrinking->p->edge[e][0]], b = shrinking->block[shrinking->p->edge[e][1]];
+    shrinking->weight[e] = shrinking->p->weight[e];
     r->gone[e] = a == b;
     if (a == b) continue;
     attach(r, 2 * e, a);
     attach(r, 2 * e + 1, b);
   }
-  int *last = s->kept; /* not used yet: the last edge seen to a block */
-  for (int v = 0; v < s->n_blocks; v++)
+  int *last = shrinking->kept; /* not used yet: the last edge seen to a block */
+  for (int v = 0; v < shrinking->n_blocks; v++)
     last[v] = -1;
-  for (int v = 0; v < s->n_blocks; v++) {
+  for (int v = 0; v < shrinking->n_blocks; v++) {
     int left = r->degree[v];
     for (int h = r->ring[v]; left > 0; left--) {
       int e = h / 2, w = far_end(r, h), f = last[w];
       h = r->next[h];
       last[w] = e;
-      if (f < 0 || r->gone[f] || (s->edge[f][0] != v && s->edge[f][1] != v)) continue;
-      if (s->weight[f] <= s->weight[e]) last[w] = f;
+      if (f < 0 || r->gone[f] || (shrinking->edge[f][0] != v && shrinking->edge[f][1] != v)) continue;
+      if (shrinking->weight[f] <= shrinking->weight[e]) last[w] = f;
       drop_heavier(r, e, f);
     }
   }
@@ -309,37 +309,37 @@ static void shrink_blocks(shrinker *r)
 /* What is left, numbered anew. */
 static void collect(shrinker *r)
 {
-  thr_shrinking *s = r->s;
+  thr_shrinking *shrinking = r->s;
   int n = 0, m = 0, *number = r->degree; /* which has served */
-  for (int v = 0; v < s->n_blocks; v++) {
+  for (int v = 0; v < shrinking->n_blocks; v++) {
     if (r->out[v]) continue;
     number[v] = n;
-    s->odd[n] = s->odd[v];
-    s->kept[n++] = v;
+    shrinking->odd[n] = shrinking->odd[v];
+    shrinking->kept[n++] = v;
   }
-  for (int e = 0; e < s->p->n_edges; e++) {
+  for (int e = 0; e < shrinking->p->n_edges; e++) {
     if (r->gone[e]) continue;
-    s->origin[m] = e;
-    s->weight[m] = s->weight[e];
-    s->edge[m][0] = number[s->edge[e][0]];
-    s->edge[m++][1] = number[s->edge[e][1]];
+    shrinking->origin[m] = e;
+    shrinking->weight[m] = shrinking->weight[e];
+    shrinking->edge[m][0] = number[shrinking->edge[e][0]];
+    shrinking->edge[m++][1] = number[shrinking->edge[e][1]];
   }
-  s->reduced =
-      (thr_tjoin_problem){.n_nodes = n, .n_edges = m, .edge = (const int(*)[2])s->edge, .weight = s->weight, .odd = s->odd};
+  shrinking->reduced = (thr_tjoin_problem){
+      .n_nodes = n, .n_edges = m, .edge = (const int(*)[2])shrinking->edge, .weight = shrinking->weight, .odd = shrinking->odd};
 }
 
-thr_status thr_shrinking_init(thr_shrinking *s, const thr_tjoin_problem *p, thr_err *err)
+thr_status thr_shrinking_init(thr_shrinking *shrinking, const thr_tjoin_problem *tjoin_problem, thr_err *err)
 {
-  *s = (thr_shrinking){.p = p};
-  shrinker r = {.s = s};
-  thr_status st = allocate(s, err);
-  if (!st) st = find_blocks(s, err);
+  *shrinking = (thr_shrinking){.p = tjoin_problem};
+  shrinker r = {.s = shrinking};
+  thr_status st = allocate(shrinking, err);
+  if (!st) st = find_blocks(shrinking, err);
   if (!st) st = shrinker_init(&r, err);
   if (!st) {
     shrink_blocks(&r);
     collect(&r);
   }
   shrinker_destroy(&r);
-  if (st) thr_shrinking_destroy(s);
+  if (st) thr_shrinking_destroy(shrinking);
   return st;
 }

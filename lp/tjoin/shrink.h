@@ -44,11 +44,11 @@ typedef struct {
 } thr_shrinking;
 
 /* Near-linear. Release with thr_shrinking_destroy. */
-thr_status thr_shrinking_init(thr_shrinking *s, const thr_tjoin_problem *p, thr_err *err) THR_MUST_CHECK;
-void thr_shrinking_destroy(thr_shrinking *s);
+thr_status thr_shrinking_init(thr_shrinking *shrinking, const thr_tjoin_problem *tjoin_problem, thr_err *err) THR_MUST_CHECK;
+void thr_shrinking_destroy(thr_shrinking *shrinking);
 
 /* Join and cuts of the reduced problem, optimal or not, become join and cuts of p: out, whose bound and weight are larger by the
  * same amount. small is emptied. */
-thr_status thr_shrinking_lift(const thr_shrinking *s, thr_tjoin *small, thr_tjoin *out, thr_err *err) THR_MUST_CHECK;
+thr_status thr_shrinking_lift(const thr_shrinking *shrinking, thr_tjoin *small, thr_tjoin *out, thr_err *err) THR_MUST_CHECK;
 
 #endif

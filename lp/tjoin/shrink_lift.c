@@ -161,38 +161,39 @@ static thr_status lift_steps(lifter *l, thr_err *err)
 
 static thr_status take_reduced(lifter *l, const thr_tjoin *small, thr_err *err)
 {
-  const thr_shrinking *s = l->s;
+  const thr_shrinking *shrinking = l->s;
   thr_status st = THR_OK;
   int number;
   l->sum = small->sum;
-  for (int v = 0; v < s->n_blocks; v++)
+  for (int v = 0; v < shrinking->n_blocks; v++)
     l->first[v] = -1;
-  for (int k = 0; k < s->reduced.n_edges; k++)
-    l->in_join[s->origin[k]] = small->in_join[k];
+  for (int k = 0; k < shrinking->reduced.n_edges; k++)
+    l->in_join[shrinking->origin[k]] = small->in_join[k];
   for (int i = 0; i < small->n_cuts && !st; i++) {
     const thr_cut *c = &small->cut[i];
     st = add_moat(l, c->parent, 0, c->value, &number, err);
     for (int k = 0; k < c->n_nodes && !st; k++)
-      st = add_place(l, s->kept[c->node[k]], i, err);
+      st = add_place(l, shrinking->kept[c->node[k]], i, err);
   }
   for (int i = small->n_cuts - 1; i >= 0 && !st; i--) /* parents come after their children */
     l->moat[i].tree = l->moat[i].parent < 0 ? l->n_trees++ : l->moat[l->moat[i].parent].tree;
   return st;
 }
 
-/* Bridges: each has the side below it as a set, in one tree of cuts. at[p->n_nodes] receives a node's place in that. */
+/* Bridges: each has the side below it as a set, in one tree of cuts. at[tjoin_problem->n_nodes] receives a node's place in that.
+ */
 static thr_status add_bridges(lifter *l, int *at, thr_err *err)
 {
-  const thr_shrinking *s = l->s;
-  const thr_tjoin_problem *p = s->p;
+  const thr_shrinking *shrinking = l->s;
+  const thr_tjoin_problem *tjoin_problem = shrinking->p;
   int tree = l->n_trees++;
   thr_status st = THR_OK;
-  for (int i = 0; i < p->n_nodes && !st; i++) {
-    int v = s->order[i], e = s->up[v];
-    at[v] = e < 0 ? -1 : at[p->edge[e][0] == v ? p->edge[e][1] : p->edge[e][0]];
-    if (!s->odd_bridge[v]) continue;
+  for (int i = 0; i < tjoin_problem->n_nodes && !st; i++) {
+    int v = shrinking->order[i], e = shrinking->up[v];
+    at[v] = e < 0 ? -1 : at[tjoin_problem->edge[e][0] == v ? tjoin_problem->edge[e][1] : tjoin_problem->edge[e][0]];
+    if (!shrinking->odd_bridge[v]) continue;
     l->in_join[e] = true;
-    int64_t value = p->weight[e] * THR_DUAL_DENOMINATOR;
+    int64_t value = tjoin_problem->weight[e] * THR_DUAL_DENOMINATOR;
     if (value == 0) continue;
     l->sum += value;
     st = add_moat(l, at[v], tree, value, &at[v], err);
@@ -203,12 +204,12 @@ static thr_status add_bridges(lifter *l, int *at, thr_err *err)
 /* The cuts with the nodes of the problem: its own, as blocks and bridges say. */
 static thr_status write_cuts(const lifter *l, const int *at, thr_cuts *cuts, thr_err *err)
 {
-  const thr_shrinking *s = l->s;
-  cuts->n_nodes = s->p->n_nodes;
+  const thr_shrinking *shrinking = l->s;
+  cuts->n_nodes = shrinking->p->n_nodes;
   cuts->cut = thr_calloc((size_t)l->n_moats, sizeof *cuts->cut);
   if (!cuts->cut) return thr_nomem(err);
-  for (int v = 0; v < s->p->n_nodes; v++) {
-    for (int k = l->first[s->block[v]]; k >= 0; k = l->place[k].next)
+  for (int v = 0; v < shrinking->p->n_nodes; v++) {
+    for (int k = l->first[shrinking->block[v]]; k >= 0; k = l->place[k].next)
       cuts->cut[l->place[k].cut].n_nodes++;
     if (at[v] >= 0) cuts->cut[at[v]].n_nodes++;
   }
@@ -220,8 +221,8 @@ static thr_status write_cuts(const lifter *l, const int *at, thr_cuts *cuts, thr
     if (!c->node) return thr_nomem(err);
     c->n_nodes = 0;
   }
-  for (int v = 0; v < s->p->n_nodes; v++) {
-    for (int k = l->first[s->block[v]]; k >= 0; k = l->place[k].next) {
+  for (int v = 0; v < shrinking->p->n_nodes; v++) {
+    for (int k = l->first[shrinking->block[v]]; k >= 0; k = l->place[k].next) {
       thr_cut *c = &cuts->cut[l->place[k].cut];
       c->node[c->n_nodes++] = v;
     }
@@ -230,14 +231,14 @@ static thr_status write_cuts(const lifter *l, const int *at, thr_cuts *cuts, thr
   return thr_cuts_nest(cuts, err);
 }
 
-thr_status thr_shrinking_lift(const thr_shrinking *s, thr_tjoin *small, thr_tjoin *out, thr_err *err)
+thr_status thr_shrinking_lift(const thr_shrinking *shrinking, thr_tjoin *small, thr_tjoin *out, thr_err *err)
 {
-  lifter l = {.s = s, .moats_capacity = small->n_cuts + 1, .places_capacity = s->n_blocks};
+  lifter l = {.s = shrinking, .moats_capacity = small->n_cuts + 1, .places_capacity = shrinking->n_blocks};
   thr_cuts cuts = {0};
-  int *at = thr_calloc((size_t)s->p->n_nodes, sizeof *at);
+  int *at = thr_calloc((size_t)shrinking->p->n_nodes, sizeof *at);
   *out = (thr_tjoin){0};
-  l.in_join = out->in_join = thr_calloc((size_t)s->p->n_edges, sizeof *out->in_join);
-  l.first = thr_calloc((size_t)s->n_blocks, sizeof *l.first);
+  l.in_join = out->in_join = thr_calloc((size_t)shrinking->p->n_edges, sizeof *out->in_join);
+  l.first = thr_calloc((size_t)shrinking->n_blocks, sizeof *l.first);
   l.moat = thr_calloc((size_t)l.moats_capacity, sizeof *l.moat);
   l.place = thr_calloc((size_t)l.places_capacity, sizeof *l.place);
   thr_status st = at && out->in_join && l.first && l.moat && l.place ? THR_OK : thr_nomem(err);
@@ -245,8 +246,8 @@ thr_status thr_shrinking_lift(const thr_shrinking *s, thr_tjoin *small, thr_tjoi
   if (!st) st = lift_steps(&l, err);
   if (!st) st = add_bridges(&l, at, err);
   if (!st) st = write_cuts(&l, at, &cuts, err);
-  for (int e = 0; e < s->p->n_edges && !st; e++)
-    if (out->in_join[e]) out->length += s->p->weight[e];
+  for (int e = 0; e < shrinking->p->n_edges && !st; e++)
+    if (out->in_join[e]) out->length += shrinking->p->weight[e];
   free(at);
   free(l.first);
   free(l.moat);

@@ -35,12 +35,12 @@ typedef struct {
   thr_scratch own; /* the arrays */
 } solver;
 
-static thr_status solver_init(solver *s, const thr_tjoin_problem *p, const thr_limits *limits, thr_err *err)
+static thr_status solver_init(solver *s, const thr_tjoin_problem *tjoin_problem, const thr_limits *limits, thr_err *err)
 {
-  size_t n = (size_t)p->n_nodes, m = (size_t)p->n_edges;
-  *s = (solver){.p = p, .limits = limits};
-  thr_status st = thr_oddcut_graph_init(&s->graph, p, err);
-  if (!st) st = thr_pool_init(&s->pool, p->n_edges, err);
+  size_t n = (size_t)tjoin_problem->n_nodes, m = (size_t)tjoin_problem->n_edges;
+  *s = (solver){.p = tjoin_problem, .limits = limits};
+  thr_status st = thr_oddcut_graph_init(&s->graph, tjoin_problem, err);
+  if (!st) st = thr_pool_init(&s->pool, tjoin_problem->n_edges, err);
   if (st) return st;
   s->cost = thr_scratch_array(&s->own, m, sizeof *s->cost);
   s->whole = thr_scratch_array(&s->own, m, sizeof *s->whole);
@@ -50,18 +50,18 @@ static thr_status solver_init(solver *s, const thr_tjoin_problem *p, const thr_l
   s->order = thr_scratch_array(&s->own, m, sizeof *s->order);
   s->parent = thr_scratch_array(&s->own, n, sizeof *s->parent);
   s->tree_join = thr_scratch_array(&s->own, m, sizeof *s->tree_join);
-  s->leaf_used = thr_scratch_array(&s->own, (size_t)p->n_leaves, sizeof *s->leaf_used);
+  s->leaf_used = thr_scratch_array(&s->own, (size_t)tjoin_problem->n_leaves, sizeof *s->leaf_used);
   s->slack = thr_scratch_array(&s->own, m, sizeof *s->slack);
   s->best.in_join = thr_calloc(m, sizeof *s->best.in_join);
   s->best.length = INT64_MAX;
   if (!s->best.in_join || thr_scratch_check(&s->own, err)) return thr_nomem(err);
   double sum = 0;
   for (size_t e = 0; e < m; e++)
-    sum += s->whole[e] = (double)p->weight[e];
+    sum += s->whole[e] = (double)tjoin_problem->weight[e];
   s->unit = sum > 0 ? sum / (double)m : 1;
   for (size_t e = 0; e < m; e++)
-    s->cost[e] = s->reduced_cost[e] = (double)p->weight[e] / s->unit;
-  return thr_lp_create(&s->lp, p->n_edges, s->cost, NULL, err);
+    s->cost[e] = s->reduced_cost[e] = (double)tjoin_problem->weight[e] / s->unit;
+  return thr_lp_create(&s->lp, tjoin_problem->n_edges, s->cost, NULL, err);
 }
 
 static void solver_destroy(solver *s)
@@ -74,13 +74,13 @@ static void solver_destroy(solver *s)
   free(s->value);
 }
 
-void thr_tjoin_destroy(thr_tjoin *t)
+void thr_tjoin_destroy(thr_tjoin *tjoin)
 {
-  for (int i = 0; i < t->n_cuts; i++)
-    free(t->cut[i].node);
-  free(t->cut);
-  free(t->in_join);
-  *t = (thr_tjoin){0};
+  for (int i = 0; i < tjoin->n_cuts; i++)
+    free(tjoin->cut[i].node);
+  free(tjoin->cut);
+  free(tjoin->in_join);
+  *tjoin = (thr_tjoin){0};
 }
 
 /* ---- rounding: the T-join of a spanning tree that prefers edges of large x ---- */
@@ -97,23 +97,23 @@ static int by_key(const void *pa, const void *pb)
 /* Marks in s->tree_join the edges of a spanning tree, cheapest keys first (a leaf joined to a leaf stays apart). */
 static void spanning_tree(solver *s)
 {
-  const thr_tjoin_problem *p = s->p;
-  int first_leaf = p->n_nodes - p->n_leaves;
-  for (int e = 0; e < p->n_edges; e++) {
+  const thr_tjoin_problem *tjoin_problem = s->p;
+  int first_leaf = tjoin_problem->n_nodes - tjoin_problem->n_leaves;
+  for (int e = 0; e < tjoin_problem->n_edges; e++) {
     s->order[e] = e;
     s->tree_join[e] = false;
   }
   sort_key = s->key;
-  qsort(s->order, (size_t)p->n_edges, sizeof *s->order, by_key);
-  memset(s->leaf_used, 0, (size_t)p->n_leaves * sizeof *s->leaf_used);
-  for (int v = 0; v < p->n_nodes; v++)
+  qsort(s->order, (size_t)tjoin_problem->n_edges, sizeof *s->order, by_key);
+  memset(s->leaf_used, 0, (size_t)tjoin_problem->n_leaves * sizeof *s->leaf_used);
+  for (int v = 0; v < tjoin_problem->n_nodes; v++)
     s->parent[v] = v;
-  for (int i = 0; i < p->n_edges; i++) {
-    int e = s->order[i], a = p->edge[e][0], b = p->edge[e][1];
+  for (int i = 0; i < tjoin_problem->n_edges; i++) {
+    int e = s->order[i], a = tjoin_problem->edge[e][0], b = tjoin_problem->edge[e][1];
     if ((a >= first_leaf && s->leaf_used[a - first_leaf]) || (b >= first_leaf && s->leaf_used[b - first_leaf])) continue;
     if (a >= first_leaf) s->leaf_used[a - first_leaf] = true;
     if (b >= first_leaf) s->leaf_used[b - first_leaf] = true;
-    s->tree_join[e] = thr_disjoint_join(s->parent, p->edge[e][0], p->edge[e][1]);
+    s->tree_join[e] = thr_disjoint_join(s->parent, tjoin_problem->edge[e][0], tjoin_problem->edge[e][1]);
   }
 }
 
@@ -121,24 +121,25 @@ static void spanning_tree(solver *s)
 static thr_status prune_tree(solver *s, thr_err *err)
 {
   thr_scratch own = {0};
-  const thr_tjoin_problem *p = s->p;
-  size_t n = (size_t)p->n_nodes;
+  const thr_tjoin_problem *tjoin_problem = s->p;
+  size_t n = (size_t)tjoin_problem->n_nodes;
   int *degree = thr_scratch_array(&own, n, sizeof *degree), *stack = thr_scratch_array(&own, n, sizeof *stack), top = 0;
-  bool *odd = thr_scratch_array(&own, n, sizeof *odd), *done = thr_scratch_array(&own, (size_t)p->n_edges, sizeof *done);
+  bool *odd = thr_scratch_array(&own, n, sizeof *odd),
+       *done = thr_scratch_array(&own, (size_t)tjoin_problem->n_edges, sizeof *done);
   thr_status st = thr_scratch_check(&own, err);
   if (st) goto done;
-  memcpy(odd, p->odd, n * sizeof *odd);
-  for (int e = 0; e < p->n_edges; e++)
+  memcpy(odd, tjoin_problem->odd, n * sizeof *odd);
+  for (int e = 0; e < tjoin_problem->n_edges; e++)
     for (int i = 0; s->tree_join[e] && i < 2; i++)
-      degree[p->edge[e][i]]++;
-  for (int v = 0; v < p->n_nodes; v++)
+      degree[tjoin_problem->edge[e][i]]++;
+  for (int v = 0; v < tjoin_problem->n_nodes; v++)
     if (degree[v] == 1) stack[top++] = v;
   while (top) {
     int v = stack[--top];
     for (int k = s->graph.first[v]; k < s->graph.first[v + 1]; k++) {
       int e = s->graph.incident[k];
       if (!s->tree_join[e] || done[e]) continue;
-      int w = p->edge[e][0] == v ? p->edge[e][1] : p->edge[e][0];
+      int w = tjoin_problem->edge[e][0] == v ? tjoin_problem->edge[e][1] : tjoin_problem->edge[e][0];
       done[e] = true;
       if (odd[v])
         odd[w] = !odd[w];
@@ -156,16 +157,16 @@ done:
 /* Keeps the T-join of the spanning tree under s->key if it is the best so far. */
 static thr_status try_tree(solver *s, thr_err *err)
 {
-  const thr_tjoin_problem *p = s->p;
+  const thr_tjoin_problem *tjoin_problem = s->p;
   spanning_tree(s);
   thr_status st = prune_tree(s, err);
   if (st) return st;
   int64_t length = 0;
-  for (int e = 0; e < p->n_edges; e++)
-    if (s->tree_join[e]) length += p->weight[e];
+  for (int e = 0; e < tjoin_problem->n_edges; e++)
+    if (s->tree_join[e]) length += tjoin_problem->weight[e];
   if (length < s->best.length) {
     s->best.length = length;
-    memcpy(s->best.in_join, s->tree_join, (size_t)p->n_edges * sizeof *s->tree_join);
+    memcpy(s->best.in_join, s->tree_join, (size_t)tjoin_problem->n_edges * sizeof *s->tree_join);
   }
   return THR_OK;
 }
@@ -189,9 +190,9 @@ static thr_status round_to_join(solver *s, thr_err *err)
  * Fills s->value, returns their sum. */
 static int64_t integer_dual(solver *s, bool greedy)
 {
-  const thr_tjoin_problem *p = s->p;
-  for (int e = 0; e < p->n_edges; e++)
-    s->slack[e] = (wide)p->weight[e] * THR_DUAL_DENOMINATOR;
+  const thr_tjoin_problem *tjoin_problem = s->p;
+  for (int e = 0; e < tjoin_problem->n_edges; e++)
+    s->slack[e] = (wide)tjoin_problem->weight[e] * THR_DUAL_DENOMINATOR;
   for (int i = 0; i < s->solved; i++) {
     double y = s->dual[i] * s->unit * THR_DUAL_DENOMINATOR;
     s->value[i] = y > 1 ? (int64_t)fmin(y, 4e18) : 0;
@@ -377,22 +378,22 @@ static thr_status run(solver *s, thr_err *err)
   return thr_fail(err, THR_ELIMIT, "the odd-cut bound and the best join do not meet; please report this framework");
 }
 
-thr_status thr_tjoin_solve(const thr_tjoin_problem *p, const thr_limits *limits, thr_tjoin *out, thr_err *err)
+thr_status thr_tjoin_solve(const thr_tjoin_problem *tjoin_problem, const thr_limits *limits, thr_tjoin *out, thr_err *err)
 {
   solver s;
   *out = (thr_tjoin){0};
   int n_odd = 0;
-  for (int v = 0; v < p->n_nodes; v++)
-    n_odd += p->odd[v];
+  for (int v = 0; v < tjoin_problem->n_nodes; v++)
+    n_odd += tjoin_problem->odd[v];
   if (n_odd == 0) { /* the empty join needs no proof */
-    out->in_join = thr_calloc((size_t)p->n_edges, sizeof *out->in_join);
+    out->in_join = thr_calloc((size_t)tjoin_problem->n_edges, sizeof *out->in_join);
     out->optimal = true;
     return out->in_join ? THR_OK : thr_nomem(err);
   }
-  thr_status st = solver_init(&s, p, limits, err);
+  thr_status st = solver_init(&s, tjoin_problem, limits, err);
   if (!st) st = run(&s, err);
   if (!st || st == THR_ELIMIT) {
-    thr_cuts forest = {s.best.n_cuts, p->n_nodes, s.best.cut};
+    thr_cuts forest = {s.best.n_cuts, tjoin_problem->n_nodes, s.best.cut};
     if (thr_cuts_nest(&forest, err)) st = THR_ENOMEM;
     s.best.cut = forest.cut;
   }

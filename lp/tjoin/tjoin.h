@@ -35,7 +35,8 @@ typedef struct {
 
 /* THR_OK: optimal and certified in exact integer arithmetic. THR_ELIMIT: the limits or a failing library stopped it, or bound and
  * join do not meet; out holds the best of both so far (each valid by itself). Otherwise out is empty. */
-thr_status thr_tjoin_solve(const thr_tjoin_problem *p, const thr_limits *limits, thr_tjoin *out, thr_err *err) THR_MUST_CHECK;
-void thr_tjoin_destroy(thr_tjoin *t);
+thr_status thr_tjoin_solve(const thr_tjoin_problem *tjoin_problem, const thr_limits *limits, thr_tjoin *out,
+                           thr_err *err) THR_MUST_CHECK;
+void thr_tjoin_destroy(thr_tjoin *tjoin);
 
 #endif

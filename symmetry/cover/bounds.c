@@ -16,12 +16,12 @@ enum { MOST_TYPES = 500000 }; /* of the framework without symmetry */
 static thr_status by_join(const thr_programme *p, thr_aim tie, const thr_limits *limits, double *bound, double *weight,
                           thr_err *err)
 {
-  thr_contraction c;
-  thr_status st = thr_contraction_init(&c, p, true, err);
+  thr_contraction contraction;
+  thr_status st = thr_contraction_init(&contraction, p, true, err);
   if (st) return st;
-  *weight = thr_contraction_tie(&c, tie);
-  st = thr_contraction_bound(&c, tie, limits, bound, err);
-  thr_contraction_destroy(&c);
+  *weight = thr_contraction_tie(&contraction, tie);
+  st = thr_contraction_bound(&contraction, tie, limits, bound, err);
+  thr_contraction_destroy(&contraction);
   return st;
 }
 
@@ -32,7 +32,7 @@ static void raise_bound(const thr_programme *p, thr_aim aim, double proved, doub
 
 thr_status thr_bounds_overlap(const thr_programme *p, const thr_limits *limits, double *bound, thr_err *err)
 {
-  const thr_quotient *q = p->q;
+  const thr_quotient *quotient = p->q;
   int identity = 0;
   const thr_subgroup alone = {1, &identity};
   double proved, weight;
@@ -40,8 +40,8 @@ thr_status thr_bounds_overlap(const thr_programme *p, const thr_limits *limits, 
   thr_programme any = {0};
   thr_status st = by_join(p, THR_AIM_OVERLAP, limits, &proved, &weight, err);
   if (!st) raise_bound(p, THR_AIM_OVERLAP, proved, bound);
-  if (st || q->h->order == 1) return st;
-  st = thr_quotient_make(&all, q->f, q->group, &alone, MOST_TYPES, limits, &(thr_err){0});
+  if (st || quotient->h->order == 1) return st;
+  st = thr_quotient_make(&all, quotient->f, quotient->group, &alone, MOST_TYPES, limits, &(thr_err){0});
   if (st == THR_ELIMIT) return THR_OK; /* then the join under the group is all that is known */
   if (st) return thr_nomem(err);
   if (!st) st = thr_programme_init(&any, &all, p->o, err);
@@ -63,15 +63,16 @@ thr_status thr_bounds_tie(const thr_programme *p, thr_aim tie, double overlap, c
 
 thr_status thr_bounds_paths(const thr_programme *p, double *bound, thr_err *err)
 {
-  const thr_quotient *q = p->q;
-  int n = q->f->n_nodes, count = 0, orbits = 0, *component = thr_calloc((size_t)n, sizeof *component);
+  const thr_quotient *quotient = p->q;
+  int n = quotient->f->n_nodes, count = 0, orbits = 0, *component = thr_calloc((size_t)n, sizeof *component);
   int *set = thr_calloc((size_t)n, sizeof *set);
-  thr_status st = component && set ? thr_frame_components(q->f, component, &count, err) : thr_nomem(err);
+  thr_status st = component && set ? thr_frame_components(quotient->f, component, &count, err) : thr_nomem(err);
   for (int c = 0; c < count && !st; c++)
     set[c] = c;
-  for (int i = 0; i < q->h->order && !st; i++)
+  for (int i = 0; i < quotient->h->order && !st; i++)
     for (int v = 0; v < n; v++)
-      thr_disjoint_join(set, component[v], component[q->group->image[(size_t)q->h->element[i] * (size_t)n + (size_t)v]]);
+      thr_disjoint_join(set, component[v],
+                        component[quotient->group->image[(size_t)quotient->h->element[i] * (size_t)n + (size_t)v]]);
   for (int c = 0; c < count && !st; c++)
     orbits += set[c] == c;
   if (!st) raise_bound(p, THR_AIM_PATHS, orbits, bound);

@@ -17,12 +17,12 @@
 typedef enum { PLAIN, ALONG, REPEATS } manner;
 
 /* False of an aim and itself. */
-static bool comes_before(const thr_cover_options *o, thr_aim a, thr_aim b)
+static bool comes_before(const thr_cover_options *options, thr_aim a, thr_aim b)
 {
   int k = 0;
-  while (o->prefer[k] != a && o->prefer[k] != b)
+  while (options->prefer[k] != a && options->prefer[k] != b)
     k++;
-  return a != b && o->prefer[k] == a;
+  return a != b && options->prefer[k] == a;
 }
 
 /* Does a plan count less of an aim before this one than the programme does? Then it may have this at the price of that. */
@@ -36,65 +36,67 @@ static bool loosened(const thr_programme *p, thr_aim aim, bool repeats)
 /* Sets manner[component], for each component of the framework. scratch: [n_nodes] zeros. */
 static void find_manners(const thr_programme *p, const int *component, int count, int *scratch, manner *m)
 {
-  const thr_frame *f = p->q->f;
+  const thr_frame *frame = p->q->f;
   int *nodes = scratch, least = p->o->ends == THR_ENDS_CLOSED ? 2 : 1; /* an end, or two nodes to turn back at */
-  for (int v = 0; v < f->n_nodes; v++)
+  for (int v = 0; v < frame->n_nodes; v++)
     nodes[component[v]]++;
   for (int k = 0; k < count; k++)
     m[k] = nodes[k] == 2 ? ALONG : PLAIN;
   memset(scratch, 0, (size_t)count * sizeof *scratch);
-  for (int v = 0; v < f->n_nodes; v++)
-    if (thr_degree(f, v) == 1 && !thr_programme_end_allowed(p, v) && ++scratch[component[v]] >= least && m[component[v]] == PLAIN)
+  for (int v = 0; v < frame->n_nodes; v++)
+    if (thr_degree(frame, v) == 1 && !thr_programme_end_allowed(p, v) && ++scratch[component[v]] >= least &&
+        m[component[v]] == PLAIN)
       m[component[v]] = REPEATS;
   for (int k = 0; k < count; k++)
     if (m[k] == REPEATS && p->o->ends == THR_ENDS_CLOSED) m[k] = ALONG;
-  for (int v = 0; v < f->n_nodes; v++)
-    if (thr_degree(f, v) > 2 && m[component[v]] == ALONG) m[component[v]] = REPEATS;
-  for (int e = 0; e < f->n_edges; e++)
-    if (p->cover[p->q->edge_orbit[e]] > 1) m[component[f->edge[e][0]]] = REPEATS;
+  for (int v = 0; v < frame->n_nodes; v++)
+    if (thr_degree(frame, v) > 2 && m[component[v]] == ALONG) m[component[v]] = REPEATS;
+  for (int e = 0; e < frame->n_edges; e++)
+    if (p->cover[p->q->edge_orbit[e]] > 1) m[component[frame->edge[e][0]]] = REPEATS;
 }
 
 /* ---- learned steps ---- */
 
 /* Of edge orbits in components that are not plain: passes that any threading has to learn, each orbit once or, if an element
  * turns its edges round, by half; and what the cover has there. */
-static void count_steps(const thr_quotient *q, const thr_cover *c, const int *component, const manner *m, bool plain,
+static void count_steps(const thr_quotient *quotient, const thr_cover *cover, const int *component, const manner *m, bool plain,
                         double *fewest, double *has)
 {
-  const thr_frame *f = q->f;
+  const thr_frame *frame = quotient->f;
   *fewest = *has = 0;
-  for (int e = 0, orbit = 0; e < f->n_edges; e++) {
-    if (q->edge_orbit[e] != orbit) continue; /* orbits are numbered as their first edges come */
+  for (int e = 0, orbit = 0; e < frame->n_edges; e++) {
+    if (quotient->edge_orbit[e] != orbit) continue; /* orbits are numbered as their first edges come */
     orbit++;
-    if (!plain && m[component[f->edge[e][0]]] == PLAIN) continue;
+    if (!plain && m[component[frame->edge[e][0]]] == PLAIN) continue;
     bool reversed = false;
-    for (int i = 0; i < q->h->order && !reversed; i++)
-      reversed = q->half_image[2 * ((size_t)i * (size_t)f->n_edges + (size_t)e)] == 2 * e + 1;
+    for (int i = 0; i < quotient->h->order && !reversed; i++)
+      reversed = quotient->half_image[2 * ((size_t)i * (size_t)frame->n_edges + (size_t)e)] == 2 * e + 1;
     *fewest += reversed ? 0.5 : 1;
   }
-  for (int k = 0; k < q->n_copies; k++)
-    if (plain || m[component[f->edge[q->copy[k].edge][0]]] != PLAIN) *has += c->copies[k] * (q->copy[k].fold ? 0.5 : 1);
+  for (int k = 0; k < quotient->n_copies; k++)
+    if (plain || m[component[frame->edge[quotient->copy[k].edge][0]]] != PLAIN)
+      *has += cover->copies[k] * (quotient->copy[k].fold ? 0.5 : 1);
 }
 
 /* Are the aims before steps, and steps, as low as can be? Then so they are in each component and its images. */
-static bool steps_proved(const thr_programme *p, const thr_cover *c)
+static bool steps_proved(const thr_programme *p, const thr_cover *cover)
 {
   bool proved = true;
   for (int k = 0; proved; k++) {
     thr_aim aim = p->o->prefer[k];
-    proved = c->value[aim] <= c->bound[aim] + thr_programme_tolerance(p, aim);
+    proved = cover->value[aim] <= cover->bound[aim] + thr_programme_tolerance(p, aim);
     if (aim == THR_AIM_STEPS) break;
   }
   return proved;
 }
 
-static double bound_steps(const thr_programme *p, const thr_cover *c, const int *component, const manner *m, bool repeats)
+static double bound_steps(const thr_programme *p, const thr_cover *cover, const int *component, const manner *m, bool repeats)
 {
   double all, fewest, has, known;
-  count_steps(p->q, c, component, m, true, &all, &known);
-  count_steps(p->q, c, component, m, false, &fewest, &has);
-  if (loosened(p, THR_AIM_STEPS, repeats) || (repeats && !steps_proved(p, c))) return all;
-  return fmax(all, (repeats ? c->value : c->bound)[THR_AIM_STEPS] - has + fewest);
+  count_steps(p->q, cover, component, m, true, &all, &known);
+  count_steps(p->q, cover, component, m, false, &fewest, &has);
+  if (loosened(p, THR_AIM_STEPS, repeats) || (repeats && !steps_proved(p, cover))) return all;
+  return fmax(all, (repeats ? cover->value : cover->bound)[THR_AIM_STEPS] - has + fewest);
 }
 
 /* ---- turning ---- */
@@ -104,61 +106,62 @@ static double bound_steps(const thr_programme *p, const thr_cover *c, const int 
  * one turn of every cord, and the cords are no more than half the turns of an orbit, or than the turns of a fold. */
 static double most_left_out(const thr_programme *p)
 {
-  const thr_quotient *q = p->q;
+  const thr_quotient *quotient = p->q;
   double plain = 0, folded = 0;
   bool folds = false;
   for (int k = 0; k < p->first_pair; k++)
-    folds = folds || (q->copy[k].fold && p->most[k] != 0);
-  for (int y = 0; y < q->n_pairs; y++) {
-    const thr_pair_type *t = &q->pair[y];
+    folds = folds || (quotient->copy[k].fold && p->most[k] != 0);
+  for (int y = 0; y < quotient->n_pairs; y++) {
+    const thr_pair_type *type = &quotient->pair[y];
     double sharpest = 0;
     if (p->most[p->first_pair + y] == 0) continue;
-    folds = folds || t->self;
-    for (int i = 0; i < q->h->order; i++) {
-      const int *to = &q->half_image[(size_t)i * 2 * (size_t)q->f->n_edges];
-      sharpest = fmax(sharpest, thr_turn_angle(q->f, to[t->half[0]] ^ 1, to[t->half[1]]));
+    folds = folds || type->self;
+    for (int i = 0; i < quotient->h->order; i++) {
+      const int *to = &quotient->half_image[(size_t)i * 2 * (size_t)quotient->f->n_edges];
+      sharpest = fmax(sharpest, thr_turn_angle(quotient->f, to[type->half[0]] ^ 1, to[type->half[1]]));
     }
-    if (!t->self) plain = fmax(plain, t->turns * (sharpest - t->angle));
-    folded = fmax(folded, (t->self ? 1 : 0.5) * t->turns * sharpest);
+    if (!type->self) plain = fmax(plain, type->turns * (sharpest - type->angle));
+    folded = fmax(folded, (type->self ? 1 : 0.5) * type->turns * sharpest);
   }
   return folds ? fmax(plain, folded) : plain;
 }
 
 /* Orbits of closed cords that a cover has at most: as many as paths, or as its copies could make. */
-static double most_closed(const thr_programme *p, const thr_cover *c, bool paths_known)
+static double most_closed(const thr_programme *p, const thr_cover *cover, bool paths_known)
 {
   double copies = 0;
   for (int k = 0; k < p->first_pair; k++)
     copies += p->most[k];
-  return paths_known ? fmin(copies, c->value[THR_AIM_PATHS]) : copies;
+  return paths_known ? fmin(copies, cover->value[THR_AIM_PATHS]) : copies;
 }
 
-static thr_status bound_turning(const thr_programme *p, const thr_cover *c, bool repeats, double *bound, thr_err *err)
+static thr_status bound_turning(const thr_programme *p, const thr_cover *cover, bool repeats, double *bound, thr_err *err)
 {
   double any[THR_N_AIMS];
   bool paths = comes_before(p->o, THR_AIM_PATHS, THR_AIM_TURNING);
-  *bound = c->bound[THR_AIM_TURNING];
+  *bound = cover->bound[THR_AIM_TURNING];
   if (loosened(p, THR_AIM_TURNING, repeats)) { /* threadings with more of them in the programme count, too */
-    memcpy(any, c->value, sizeof any);
+    memcpy(any, cover->value, sizeof any);
     any[THR_AIM_PATHS] = 1e30;
     thr_status st = thr_turning_quick_bound(p, any, bound, err);
     if (st) return st;
   }
-  if (p->o->ends == THR_ENDS_ANY && !p->open) *bound = fmax(0, *bound - most_closed(p, c, paths && !repeats) * most_left_out(p));
+  if (p->o->ends == THR_ENDS_ANY && !p->open)
+    *bound = fmax(0, *bound - most_closed(p, cover, paths && !repeats) * most_left_out(p));
   return THR_OK;
 }
 
 /* ---- all ---- */
 
-static thr_status make(const thr_programme *p, const thr_cover *c, const int *component, int count, manner *m, int *scratch,
+static thr_status make(const thr_programme *p, const thr_cover *cover, const int *component, int count, manner *m, int *scratch,
                        thr_claims *out, thr_err *err)
 {
   find_manners(p, component, count, scratch, m);
-  memcpy(out->least, c->bound, sizeof out->least);
+  memcpy(out->least, cover->bound, sizeof out->least);
   for (int k = 0; k < count; k++)
     out->repeats = out->repeats || m[k] == REPEATS;
-  out->least[THR_AIM_STEPS] = bound_steps(p, c, component, m, out->repeats);
-  thr_status st = bound_turning(p, c, out->repeats, &out->least[THR_AIM_TURNING], err);
+  out->least[THR_AIM_STEPS] = bound_steps(p, cover, component, m, out->repeats);
+  thr_status st = bound_turning(p, cover, out->repeats, &out->least[THR_AIM_TURNING], err);
   if (!st && loosened(p, THR_AIM_OVERLAP, out->repeats)) {
     out->least[THR_AIM_OVERLAP] = 0;
     st = thr_bounds_overlap(p, &(thr_limits){0}, &out->least[THR_AIM_OVERLAP], err);
@@ -170,16 +173,17 @@ static thr_status make(const thr_programme *p, const thr_cover *c, const int *co
   return st;
 }
 
-thr_status thr_claims_make(const thr_quotient *q, const thr_cover_options *o, const thr_cover *c, thr_claims *out, thr_err *err)
+thr_status thr_claims_make(const thr_quotient *quotient, const thr_cover_options *options, const thr_cover *cover,
+                           thr_claims *out, thr_err *err)
 {
-  size_t n = (size_t)q->f->n_nodes;
+  size_t n = (size_t)quotient->f->n_nodes;
   int count = 0, *component = thr_calloc(n, sizeof *component), *scratch = thr_calloc(n, sizeof *scratch);
   manner *m = thr_calloc(n, sizeof *m);
   thr_programme p = {0};
   *out = (thr_claims){0};
-  thr_status st = component && scratch && m ? thr_frame_components(q->f, component, &count, err) : thr_nomem(err);
-  if (!st) st = thr_programme_init(&p, q, o, err);
-  if (!st) st = make(&p, c, component, count, m, scratch, out, err);
+  thr_status st = component && scratch && m ? thr_frame_components(quotient->f, component, &count, err) : thr_nomem(err);
+  if (!st) st = thr_programme_init(&p, quotient, options, err);
+  if (!st) st = make(&p, cover, component, count, m, scratch, out, err);
   thr_programme_destroy(&p);
   free(component);
   free(scratch);

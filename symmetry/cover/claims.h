@@ -17,8 +17,8 @@ typedef struct {
   double least[THR_N_AIMS]; /* of every threading under H with the aims before at most at the cover's values */
 } thr_claims;
 
-/* c: with a cover. O(order * edges + types); and a T-join where overlap comes after an aim that a plan counts otherwise. */
-thr_status thr_claims_make(const thr_quotient *q, const thr_cover_options *o, const thr_cover *c, thr_claims *out,
-                           thr_err *err) THR_MUST_CHECK;
+/* cover: with a cover. O(order * edges + types); and a T-join where overlap comes after an aim that a plan counts otherwise. */
+thr_status thr_claims_make(const thr_quotient *quotient, const thr_cover_options *options, const thr_cover *cover,
+                           thr_claims *out, thr_err *err) THR_MUST_CHECK;
 
 #endif

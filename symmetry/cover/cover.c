@@ -13,34 +13,36 @@
 #include <stdlib.h>
 #include <string.h>
 
-void thr_cover_destroy(thr_cover *c)
+void thr_cover_destroy(thr_cover *cover)
 {
-  free(c->copies);
-  free(c->pairs);
-  free(c->ends);
-  *c = (thr_cover){0};
+  free(cover->copies);
+  free(cover->pairs);
+  free(cover->ends);
+  *cover = (thr_cover){0};
 }
 
-bool thr_cover_all_open(const thr_cover_options *o)
+bool thr_cover_all_open(const thr_cover_options *options)
 {
-  return o->ends == THR_ENDS_FEET || o->ends == THR_ENDS_NODES || (o->ends == THR_ENDS_ANY && o->tube);
+  return options->ends == THR_ENDS_FEET || options->ends == THR_ENDS_NODES || (options->ends == THR_ENDS_ANY && options->tube);
 }
 
 /* A component of the framework without a node where its cords may end. */
 static thr_status check_ends(const thr_programme *p, thr_err *err)
 {
-  const thr_quotient *q = p->q;
-  int count = 0, *component = thr_calloc((size_t)q->f->n_nodes, sizeof *component);
-  bool *has_end = thr_calloc((size_t)q->f->n_nodes, sizeof *has_end);
-  thr_status st = component && has_end ? thr_frame_components(q->f, component, &count, err) : thr_nomem(err);
-  for (int d = 0; d < q->n_darts && !st; d++) {
+  const thr_quotient *quotient = p->q;
+  int count = 0, *component = thr_calloc((size_t)quotient->f->n_nodes, sizeof *component);
+  bool *has_end = thr_calloc((size_t)quotient->f->n_nodes, sizeof *has_end);
+  thr_status st = component && has_end ? thr_frame_components(quotient->f, component, &count, err) : thr_nomem(err);
+  for (int d = 0; d < quotient->n_darts && !st; d++) {
     if (p->most[p->first_end + d] == 0) continue;
-    for (int i = 0; i < q->h->order; i++)
-      has_end[component[thr_tail(q->f, q->half_image[(size_t)i * 2 * (size_t)q->f->n_edges + (size_t)q->dart[d].half])]] = true;
+    for (int i = 0; i < quotient->h->order; i++)
+      has_end[component[thr_tail(
+          quotient->f, quotient->half_image[(size_t)i * 2 * (size_t)quotient->f->n_edges + (size_t)quotient->dart[d].half])]] =
+          true;
   }
-  for (int v = 0; v < q->f->n_nodes && p->open && !st; v++)
+  for (int v = 0; v < quotient->f->n_nodes && p->open && !st; v++)
     if (!has_end[component[v]])
-      st = thr_fail(err, THR_EINFEASIBLE, "no cord may end in the component of node %s, with ends %s", q->f->name[v],
+      st = thr_fail(err, THR_EINFEASIBLE, "no cord may end in the component of node %s, with ends %s", quotient->f->name[v],
                     thr_ends_name(p->o->ends));
   free(component);
   free(has_end);
@@ -49,7 +51,7 @@ static thr_status check_ends(const thr_programme *p, thr_err *err)
 
 static thr_status hand_over(thr_search *s, thr_cover *out, thr_err *err)
 {
-  const thr_quotient *q = s->p->q;
+  const thr_quotient *quotient = s->p->q;
   double quick;
   thr_status st = thr_turning_quick_bound(s->p, s->worth, &quick, err);
   if (st) return st;
@@ -57,13 +59,13 @@ static thr_status hand_over(thr_search *s, thr_cover *out, thr_err *err)
   memcpy(out->value, s->worth, sizeof out->value);
   for (int a = 0; a < THR_N_AIMS; a++)
     out->bound[a] = fmin(s->bound[a], s->worth[a]); /* a later aim may win by rounding in an earlier one */
-  out->copies = thr_calloc((size_t)q->n_copies, sizeof *out->copies);
-  out->pairs = thr_calloc((size_t)q->n_pairs, sizeof *out->pairs);
-  out->ends = thr_calloc((size_t)q->n_darts, sizeof *out->ends);
+  out->copies = thr_calloc((size_t)quotient->n_copies, sizeof *out->copies);
+  out->pairs = thr_calloc((size_t)quotient->n_pairs, sizeof *out->pairs);
+  out->ends = thr_calloc((size_t)quotient->n_darts, sizeof *out->ends);
   if (!out->copies || !out->pairs || !out->ends) return thr_nomem(err);
-  memcpy(out->copies, s->best, (size_t)q->n_copies * sizeof *s->best);
-  if (q->n_pairs > 0) memcpy(out->pairs, s->best + s->p->first_pair, (size_t)q->n_pairs * sizeof *s->best);
-  memcpy(out->ends, s->best + s->p->first_end, (size_t)q->n_darts * sizeof *s->best);
+  memcpy(out->copies, s->best, (size_t)quotient->n_copies * sizeof *s->best);
+  if (quotient->n_pairs > 0) memcpy(out->pairs, s->best + s->p->first_pair, (size_t)quotient->n_pairs * sizeof *s->best);
+  memcpy(out->ends, s->best + s->p->first_end, (size_t)quotient->n_darts * sizeof *s->best);
   return THR_OK;
 }
 
@@ -88,50 +90,51 @@ static thr_status offer_improved(thr_search *s, thr_err *err)
 }
 
 /* Lifts a start with tube joints, for which it gets more copies where need be; *failed as thr_contraction_lift has it. */
-static thr_status lift_tied(thr_search *s, thr_contraction *c, const bool *barred, int *small, int *failed, thr_err *err)
+static thr_status lift_tied(thr_search *s, thr_contraction *contraction, const bool *barred, int *small, int *failed,
+                            thr_err *err)
 {
   enum { ROUNDS = 8 };
   const thr_ties *ties = s->p->ties;
   bool *loose = thr_calloc((size_t)ties->n, sizeof *loose), enough = true;
-  thr_status st = loose ? thr_contraction_fasten(c, barred, NULL, small, &enough, err) : thr_nomem(err);
+  thr_status st = loose ? thr_contraction_fasten(contraction, barred, NULL, small, &enough, err) : thr_nomem(err);
   *failed = 1;
   for (int round = 0; round < ROUNDS && enough && *failed && !st; round++) {
-    memset(c->keep, 0, (size_t)s->p->q->n_darts * sizeof *c->keep);
-    if (round > 0) st = thr_contraction_fasten(c, barred, loose, small, &enough, err);
-    if (!st && enough) st = thr_contraction_lift(c, small, s->other, failed, err);
+    memset(contraction->keep, 0, (size_t)s->p->q->n_darts * sizeof *contraction->keep);
+    if (round > 0) st = thr_contraction_fasten(contraction, barred, loose, small, &enough, err);
+    if (!st && enough) st = thr_contraction_lift(contraction, small, s->other, failed, err);
     for (int i = 0; i < ties->n && !st; i++)
       loose[i] = false;
     for (int d = 0; d < s->p->q->n_darts && !st; d++)
-      if (c->keep[d] && ties->star[d] >= 0) loose[ties->star[d]] = true;
+      if (contraction->keep[d] && ties->star[d] >= 0) loose[ties->star[d]] = true;
   }
   free(loose);
   return st;
 }
 
-static thr_status try_start(thr_search *s, thr_contraction *c, thr_contraction_kind kind, const bool *barred, int *small,
-                            thr_err *err)
+static thr_status try_start(thr_search *s, thr_contraction *contraction, thr_contraction_kind kind, const bool *barred,
+                            int *small, thr_err *err)
 {
   bool made;
   int failed = 0;
   s->valid = s->lifted = false;
-  thr_status st = thr_contraction_start(c, kind, barred, s->limits, small, &made, err);
+  thr_status st = thr_contraction_start(contraction, kind, barred, s->limits, small, &made, err);
   if (!st && made && s->p->ties)
-    st = lift_tied(s, c, barred, small, &failed, err);
+    st = lift_tied(s, contraction, barred, small, &failed, err);
   else if (!st && made)
-    st = thr_contraction_lift(c, small, s->other, &failed, err);
+    st = thr_contraction_lift(contraction, small, s->other, &failed, err);
   s->lifted = !st && made && !failed;
   if (s->lifted) st = offer_joined(s, err);
-  memset(c->keep, 0, (size_t)s->p->q->n_darts * sizeof *c->keep);
+  memset(contraction->keep, 0, (size_t)s->p->q->n_darts * sizeof *contraction->keep);
   return st;
 }
 
 static bool is_freest(const thr_programme *p, int copy)
 {
-  const thr_copy_type *t = p->q->copy;
-  for (int k = copy - 1; k >= 0 && t[k].edge == t[copy].edge; k--)
-    if (p->most[k] != 0 && t[k].passes > t[copy].passes) return false;
-  for (int k = copy + 1; k < p->q->n_copies && t[k].edge == t[copy].edge; k++)
-    if (p->most[k] != 0 && t[k].passes > t[copy].passes) return false;
+  const thr_copy_type *type = p->q->copy;
+  for (int k = copy - 1; k >= 0 && type[k].edge == type[copy].edge; k--)
+    if (p->most[k] != 0 && type[k].passes > type[copy].passes) return false;
+  for (int k = copy + 1; k < p->q->n_copies && type[k].edge == type[copy].edge; k++)
+    if (p->most[k] != 0 && type[k].passes > type[copy].passes) return false;
   return true;
 }
 
@@ -160,22 +163,22 @@ static thr_status bar(thr_search *s, bool all, bool *barred, bool *more, thr_err
 static thr_status start(thr_search *s, thr_err *err)
 {
   const thr_programme *p = s->p;
-  thr_contraction c;
-  thr_status st = thr_contraction_init(&c, p, true, err);
+  thr_contraction contraction;
+  thr_status st = thr_contraction_init(&contraction, p, true, err);
   if (st) return st;
-  int *small = thr_calloc((size_t)c.p.n, sizeof *small);
+  int *small = thr_calloc((size_t)contraction.p.n, sizeof *small);
   bool *barred = thr_calloc((size_t)p->first_pair, sizeof *barred);
-  st = small && barred ? try_start(s, &c, THR_CONTRACTION_LEAST, barred, small, err) : thr_nomem(err);
+  st = small && barred ? try_start(s, &contraction, THR_CONTRACTION_LEAST, barred, small, err) : thr_nomem(err);
   for (bool more = !s->found || (p->open && !thr_search_beaten(s, THR_AIM_OVERLAP, s->bound[THR_AIM_OVERLAP])); more && !st;) {
-    st = try_start(s, &c, THR_CONTRACTION_PLAIN, barred, small, err);
+    st = try_start(s, &contraction, THR_CONTRACTION_PLAIN, barred, small, err);
     more = !s->valid;
     if (!st && more) st = bar(s, !s->lifted, barred, &more, err);
   }
-  if (!s->found && !st) st = try_start(s, &c, THR_CONTRACTION_TWICE, barred, small, err);
+  if (!s->found && !st) st = try_start(s, &contraction, THR_CONTRACTION_TWICE, barred, small, err);
   if (s->found && !st && !p->o->quick) st = offer_improved(s, err);
   free(small);
   free(barred);
-  thr_contraction_destroy(&c);
+  thr_contraction_destroy(&contraction);
   return st;
 }
 
@@ -210,7 +213,7 @@ static void take_bounds(thr_search *s, const thr_search *small, int n)
 
 /* What the best so far turns at least, with the aims before turning as they are, in half the time that is left. small: a search
  * of the contraction, whose programme goes on if it keeps no aim lower than that. */
-static thr_status bound_turning(thr_search *s, const thr_contraction *c, thr_search *small, thr_err *err)
+static thr_status bound_turning(thr_search *s, const thr_contraction *contraction, thr_search *small, thr_err *err)
 {
   const thr_limits limits = thr_limits_part(s->limits, 0.5);
   thr_relaxation own = {0};
@@ -219,14 +222,14 @@ static thr_status bound_turning(thr_search *s, const thr_contraction *c, thr_sea
     thr_aim aim = s->p->o->prefer[k];
     fits = fits && s->worth[aim] <= small->worth[aim] + thr_programme_tolerance(s->p, aim);
   }
-  thr_status st = thr_turning_bound(c, fits ? &small->r : &own, fits ? small->kept : 0, s->best, s->worth, &limits,
+  thr_status st = thr_turning_bound(contraction, fits ? &small->r : &own, fits ? small->kept : 0, s->best, s->worth, &limits,
                                     &s->bound[THR_AIM_TURNING], err);
   thr_relaxation_destroy(&own);
   return st == THR_ELIMIT ? THR_OK : st;
 }
 
 /* What is known of the whole programme: the best cover, and bounds, which hold for the contracted one, too. */
-static thr_status begin_with(thr_search *small, const thr_search *s, const thr_contraction *c, thr_err *err)
+static thr_status begin_with(thr_search *small, const thr_search *s, const thr_contraction *contraction, thr_err *err)
 {
   bool same = true; /* are the aims before at their least for certain? */
   for (int k = 0; k < THR_N_AIMS && same && s->p->o->prefer[k] != THR_AIM_TURNING; k++) {
@@ -235,47 +238,47 @@ static thr_status begin_with(thr_search *small, const thr_search *s, const thr_c
     same = thr_search_beaten(s, aim, s->bound[aim]);
   }
   if (!s->found) return THR_OK;
-  thr_contraction_lower(c, s->best, small->other);
+  thr_contraction_lower(contraction, s->best, small->other);
   return thr_search_offer(small, err);
 }
 
 /* How many aims come before turning; a quick search leaves out what comes after steps, and paths. */
-static int aims_before_turning(const thr_cover_options *o)
+static int aims_before_turning(const thr_cover_options *options)
 {
   int all = 0, quick = 0;
-  for (; o->prefer[all] != THR_AIM_TURNING; all++)
-    if (o->prefer[all] != THR_AIM_PATHS) quick = all + 1;
-  return o->quick ? quick : all;
+  for (; options->prefer[all] != THR_AIM_TURNING; all++)
+    if (options->prefer[all] != THR_AIM_PATHS) quick = all + 1;
+  return options->quick ? quick : all;
 }
 
 /* The aims before turning in the contracted programme, whose cells are left as they are where its solution cannot be lifted. */
 static thr_status search_contracted(thr_search *s, thr_err *err)
 {
   static const double part = 0.7; /* of the time: the rest is for lifting and for turning */
-  thr_contraction c;
+  thr_contraction contraction;
   const thr_limits limits = thr_limits_part(s->limits, part);
   const bool quick = s->p->o->quick;
   int n = aims_before_turning(s->p->o), failed = 1;
-  thr_status st = thr_contraction_init(&c, s->p, false, err);
+  thr_status st = thr_contraction_init(&contraction, s->p, false, err);
   if (st) return st;
   while (failed > 0 && !st) {
     thr_search small;
-    st = thr_search_init(&small, &c.p, &limits, err);
+    st = thr_search_init(&small, &contraction.p, &limits, err);
     if (st) break;
-    st = begin_with(&small, s, &c, err);
-    small.extra = c.p.q->n_darts; /* for the bound on turning */
+    st = begin_with(&small, s, &contraction, err);
+    small.extra = contraction.p.q->n_darts; /* for the bound on turning */
     thr_status searched = st ? st : thr_search_aims(&small, n, err);
     if (searched && searched != THR_ELIMIT) st = searched;
     failed = 0;
-    if (!st && small.found) st = thr_contraction_lift(&c, small.best, s->other, &failed, err);
+    if (!st && small.found) st = thr_contraction_lift(&contraction, small.best, s->other, &failed, err);
     if (!st && small.found && !failed) st = offer_joined(s, err);
     if (!st && !failed) take_bounds(s, &small, n);
-    if (!st && !failed && s->found && !quick) st = bound_turning(s, &c, &small, err);
+    if (!st && !failed && s->found && !quick) st = bound_turning(s, &contraction, &small, err);
     if (!st && s->found && !failed && !quick) st = offer_improved(s, err);
     thr_search_destroy(&small);
-    if (!st && failed) st = thr_contraction_make(&c, err);
+    if (!st && failed) st = thr_contraction_make(&contraction, err);
   }
-  thr_contraction_destroy(&c);
+  thr_contraction_destroy(&contraction);
   return st;
 }
 
@@ -284,7 +287,7 @@ static thr_status search_whole(thr_search *s, thr_err *err)
 {
   static const double part = 0.8;
   const thr_limits *all = s->limits, most = thr_limits_part(s->limits, part);
-  thr_contraction c;
+  thr_contraction contraction;
   thr_search none = {0};
   int n = aims_before_turning(s->p->o);
   s->limits = &most;
@@ -292,18 +295,18 @@ static thr_status search_whole(thr_search *s, thr_err *err)
   s->limits = all;
   if (!st) return thr_search_aims(s, THR_N_AIMS, err);
   if (st != THR_ELIMIT || !s->found || s->bound[THR_AIM_TURNING] > 0) return st;
-  thr_status made = thr_contraction_init(&c, s->p, false, err);
+  thr_status made = thr_contraction_init(&contraction, s->p, false, err);
   if (made) return made;
-  made = bound_turning(s, &c, &none, err);
+  made = bound_turning(s, &contraction, &none, err);
   thr_relaxation_destroy(&none.r);
-  thr_contraction_destroy(&c);
+  thr_contraction_destroy(&contraction);
   return made ? made : st;
 }
 
 /* What was found and proved before, or a first cover. */
 static thr_status begin(thr_search *s, const thr_cover *known, thr_err *err)
 {
-  const thr_quotient *q = s->p->q;
+  const thr_quotient *quotient = s->p->q;
   thr_status st = THR_OK;
   if (!known->copies) {
     st = bound_first(s, err);
@@ -311,9 +314,9 @@ static thr_status begin(thr_search *s, const thr_cover *known, thr_err *err)
     return !st && s->found ? bound_ties(s, err) : st;
   }
   memcpy(s->bound, known->bound, sizeof s->bound);
-  memcpy(s->other, known->copies, (size_t)q->n_copies * sizeof *s->other);
-  if (q->n_pairs > 0) memcpy(s->other + s->p->first_pair, known->pairs, (size_t)q->n_pairs * sizeof *s->other);
-  memcpy(s->other + s->p->first_end, known->ends, (size_t)q->n_darts * sizeof *s->other);
+  memcpy(s->other, known->copies, (size_t)quotient->n_copies * sizeof *s->other);
+  if (quotient->n_pairs > 0) memcpy(s->other + s->p->first_pair, known->pairs, (size_t)quotient->n_pairs * sizeof *s->other);
+  memcpy(s->other + s->p->first_end, known->ends, (size_t)quotient->n_darts * sizeof *s->other);
   st = thr_search_offer(s, err);
   return !st && s->found && !s->p->o->quick ? offer_improved(s, err) : st;
 }
@@ -321,8 +324,9 @@ static thr_status begin(thr_search *s, const thr_cover *known, thr_err *err)
 /* Why the search has not done what it was to do. */
 static thr_status stopped(const thr_search *s, const char *what, thr_err *err)
 {
-  const thr_limits *l = s->limits;
-  const char *why = l->interrupted && *l->interrupted ? "the search was stopped before it could" : "the time was too short to";
+  const thr_limits *limits = s->limits;
+  const char *why =
+      limits->interrupted && *limits->interrupted ? "the search was stopped before it could" : "the time was too short to";
   return thr_fail(err, THR_ELIMIT, "%s %s", why, what);
 }
 
@@ -342,31 +346,31 @@ static thr_status search_all(thr_search *s, const thr_cover *known, thr_cover *o
   return stopped(s, "prove that no symmetric cover is better", err);
 }
 
-thr_status thr_cover_improve(const thr_quotient *q, const thr_cover_options *o, const thr_limits *limits, thr_cover *known,
-                             thr_err *err)
+thr_status thr_cover_improve(const thr_quotient *quotient, const thr_cover_options *options, const thr_limits *limits,
+                             thr_cover *known, thr_err *err)
 {
   thr_programme p = {0};
-  thr_cover c = {0};
+  thr_cover cover = {0};
   thr_search s = {0};
   thr_limits first = *limits;
-  thr_status st = thr_programme_init(&p, q, o, err);
-  if (first.deadline > 0) first.deadline = fmax(first.deadline, o->start_by);
+  thr_status st = thr_programme_init(&p, quotient, options, err);
+  if (first.deadline > 0) first.deadline = fmax(first.deadline, options->start_by);
   p.limits = &first;
   if (!st) st = check_ends(&p, err);
-  if (!st && o->tube) st = thr_programme_tie(&p, err);
+  if (!st && options->tube) st = thr_programme_tie(&p, err);
   if (!st) st = thr_search_init(&s, &p, limits, err);
-  if (!st) st = search_all(&s, known, &c, err);
+  if (!st) st = search_all(&s, known, &cover, err);
   thr_search_destroy(&s);
   thr_programme_destroy(&p);
-  if (st && st != THR_ELIMIT) thr_cover_destroy(&c);
+  if (st && st != THR_ELIMIT) thr_cover_destroy(&cover);
   thr_cover_destroy(known);
-  *known = c;
+  *known = cover;
   return st;
 }
 
-thr_status thr_cover_find(const thr_quotient *q, const thr_cover_options *o, const thr_limits *limits, thr_cover *out,
-                          thr_err *err)
+thr_status thr_cover_find(const thr_quotient *quotient, const thr_cover_options *options, const thr_limits *limits,
+                          thr_cover *out, thr_err *err)
 {
   *out = (thr_cover){0};
-  return thr_cover_improve(q, o, limits, out, err);
+  return thr_cover_improve(quotient, options, limits, out, err);
 }

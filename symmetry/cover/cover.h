@@ -28,7 +28,7 @@ typedef struct {
 
 /* Is every cord open? With tube joints also if ends may be anywhere: where a closed cord comes out it ties nothing, so that its
  * ends are ends like others, which the group maps to ends. */
-bool thr_cover_all_open(const thr_cover_options *o);
+bool thr_cover_all_open(const thr_cover_options *options);
 
 /* value[aim]: overlap in units of length; learned steps (passes of the unique paths, a folded path's half, a folded edge as 1/2);
  * unique paths (orbits of cords); turning in rad of all cords. bound[aim]: no symmetric cover is better in that, with the aims
@@ -54,18 +54,18 @@ typedef struct {
  * element that moves no node of a component maps its cords to themselves. THR_OK or THR_ELIMIT (out holds the best found, with
  * bounds; if there is none yet, out is empty); THR_EINFEASIBLE: a component has no node where a cord may end (named), or there is
  * none within the capacities; otherwise out is empty. */
-thr_status thr_cover_find(const thr_quotient *q, const thr_cover_options *o, const thr_limits *limits, thr_cover *out,
-                          thr_err *err) THR_MUST_CHECK;
+thr_status thr_cover_find(const thr_quotient *quotient, const thr_cover_options *options, const thr_limits *limits,
+                          thr_cover *out, thr_err *err) THR_MUST_CHECK;
 void thr_cover_destroy(thr_cover *c);
 
-/* The same, going on from what was found and proved before for the same q and o, but for o->quick; c is replaced. An empty c: as
- * thr_cover_find. */
-thr_status thr_cover_improve(const thr_quotient *q, const thr_cover_options *o, const thr_limits *limits, thr_cover *c,
-                             thr_err *err) THR_MUST_CHECK;
+/* The same, going on from what was found and proved before for the same quotient and options, but for options->quick; c is
+ * replaced. An empty c: as thr_cover_find. */
+thr_status thr_cover_improve(const thr_quotient *quotient, const thr_cover_options *options, const thr_limits *limits,
+                             thr_cover *c, thr_err *err) THR_MUST_CHECK;
 
 /* The cords of a cover: copies and pairs made concrete, orbit by orbit, and traced. record: which cord is a copy of which, and
  * the element that maps it there (graph/plan/plan.h). cord is allocated, [*n_cords], owned by the caller. */
-thr_status thr_cover_cords(const thr_quotient *q, const thr_cover_options *o, const thr_cover *c, thr_cord **cord, int *n_cords,
-                           thr_symmetry_record *record, thr_err *err) THR_MUST_CHECK;
+thr_status thr_cover_cords(const thr_quotient *quotient, const thr_cover_options *options, const thr_cover *c, thr_cord **cord,
+                           int *n_cords, thr_symmetry_record *record, thr_err *err) THR_MUST_CHECK;
 
 #endif

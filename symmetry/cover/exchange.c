@@ -20,9 +20,11 @@ static int pair_between(const thr_programme *p, int a, int b, bool self)
 {
   int best = -1;
   for (int k = p->first[a]; k < p->first[a + 1]; k++) {
-    const thr_pair_type *t = &p->q->pair[p->incident[k]];
+    const thr_pair_type *pair_type = &p->q->pair[p->incident[k]];
     int j = p->first_pair + p->incident[k];
-    if (p->most[j] == 0 || t->self != self || t->dart[0] + t->dart[1] != a + b || (t->dart[0] != a && t->dart[1] != a)) continue;
+    if (p->most[j] == 0 || pair_type->self != self || pair_type->dart[0] + pair_type->dart[1] != a + b ||
+        (pair_type->dart[0] != a && pair_type->dart[1] != a))
+      continue;
     if (best < 0 || p->cost[THR_AIM_TURNING][j] < p->cost[THR_AIM_TURNING][best]) best = j;
   }
   return best;
@@ -86,9 +88,10 @@ static bool against(visitor *v, int j, int a, int b, int c, thr_err *err, thr_st
   if (with < 0) return true;
   for (int k = p->first[c]; k < p->first[c + 1]; k++) {
     int y = p->first_pair + p->incident[k];
-    const thr_pair_type *t = &p->q->pair[p->incident[k]];
+    const thr_pair_type *pair_type = &p->q->pair[p->incident[k]];
     if (v->value[y] <= 0) continue;
-    int in = t->self ? pair_between(p, b, b, true) : pair_between(p, b, t->dart[0] + t->dart[1] - c, false);
+    int in =
+        pair_type->self ? pair_between(p, b, b, true) : pair_between(p, b, pair_type->dart[0] + pair_type->dart[1] - c, false);
     if (!offer(v, j, y, with, in, a, c, err, st)) return false;
   }
   return v->value[end] <= 0 || p->most[p->first_end + b] == 0 || offer(v, j, end, with, p->first_end + b, a, c, err, st);
@@ -98,11 +101,11 @@ static bool against(visitor *v, int j, int a, int b, int c, thr_err *err, thr_st
 static thr_status visit_turn(visitor *v, int y, thr_err *err)
 {
   const thr_programme *p = v->p;
-  const thr_pair_type *t = &p->q->pair[y];
+  const thr_pair_type *pair_type = &p->q->pair[y];
   thr_status st = THR_OK;
-  bool go_on = !t->self;
+  bool go_on = !pair_type->self;
   for (int i = 0; i < 2 && go_on; i++) {
-    int a = t->dart[i], b = t->dart[1 - i], last = -1;
+    int a = pair_type->dart[i], b = pair_type->dart[1 - i], last = -1;
     for (int k = p->first[a]; k < p->first[a + 1] && go_on; k++) {
       const thr_pair_type *r = &p->q->pair[p->incident[k]];
       int c = r->dart[0] + r->dart[1] - a;
@@ -144,15 +147,16 @@ static int by_turning(const void *a, const void *b)
 /* Joins two sets if one is in need. The sums of both stay with the root. */
 static void join_sets(visitor *v, const exchange *x)
 {
-  thr_programme_parts *s = &v->parts;
-  int a = thr_disjoint_find(s->root, x->type[0]), b = thr_disjoint_find(s->root, x->type[1]);
+  thr_programme_parts *programme_parts = &v->parts;
+  int a = thr_disjoint_find(programme_parts->root, x->type[0]), b = thr_disjoint_find(programme_parts->root, x->type[1]);
   if (a == b || !possible(v->p, x, v->value, v->parent) || (!in_need(v, a) && !in_need(v, b))) return;
-  int terminals = s->terminals[a] + s->terminals[b], ends = s->ends[a] + s->ends[b];
+  int terminals = programme_parts->terminals[a] + programme_parts->terminals[b],
+      ends = programme_parts->ends[a] + programme_parts->ends[b];
   apply(x, 1, v->value);
-  thr_disjoint_join(s->root, a, b);
-  a = thr_disjoint_find(s->root, a);
-  s->terminals[a] = terminals;
-  s->ends[a] = ends;
+  thr_disjoint_join(programme_parts->root, a, b);
+  a = thr_disjoint_find(programme_parts->root, a);
+  programme_parts->terminals[a] = terminals;
+  programme_parts->ends[a] = ends;
 }
 
 static int count_in_need(const visitor *v)
@@ -193,14 +197,15 @@ thr_status thr_programme_mend(const thr_programme *p, int *value, thr_err *err)
 thr_status thr_programme_open(const thr_programme *p, int *value, thr_err *err)
 {
   visitor v = {.p = p, .value = value};
-  thr_programme_parts *s = &v.parts;
+  thr_programme_parts *programme_parts = &v.parts;
   thr_status st = visitor_init(&v, err);
-  if (!st) st = thr_programme_parts_init(s, p, err);
-  if (!st) thr_programme_parts_find(s, p, value);
+  if (!st) st = thr_programme_parts_init(programme_parts, p, err);
+  if (!st) thr_programme_parts_find(programme_parts, p, value);
   for (int y = 0; y < p->q->n_pairs && p->open && !st; y++) {
     const int *d = p->q->pair[y].dart;
-    int root = s->root[d[0]], star = p->ties ? p->ties->star[d[0]] : -1, end[2] = {p->first_end + d[0], p->first_end + d[1]};
-    if (value[p->first_pair + y] == 0 || p->q->pair[y].self || s->ends[root] > 0 || p->most[end[0]] == 0) continue;
+    int root = programme_parts->root[d[0]], star = p->ties ? p->ties->star[d[0]] : -1,
+        end[2] = {p->first_end + d[0], p->first_end + d[1]};
+    if (value[p->first_pair + y] == 0 || p->q->pair[y].self || programme_parts->ends[root] > 0 || p->most[end[0]] == 0) continue;
     value[p->first_pair + y]--;
     if (star >= 0 && !thr_ties_tied(p->ties, star, value + p->first_pair, v.parent)) {
       value[p->first_pair + y]++;
@@ -208,9 +213,9 @@ thr_status thr_programme_open(const thr_programme *p, int *value, thr_err *err)
     }
     value[end[0]]++;
     value[end[1]]++;
-    s->ends[root] += 2;
+    programme_parts->ends[root] += 2;
   }
-  thr_programme_parts_destroy(s);
+  thr_programme_parts_destroy(programme_parts);
   free(v.parent);
   return st;
 }
@@ -232,9 +237,10 @@ static void take_cheapest(visitor *v)
 {
   const thr_programme *p = v->p;
   for (int y = 0; y < p->q->n_pairs; y++) {
-    const thr_pair_type *t = &p->q->pair[y];
-    int from = p->first_pair + y, to = pair_between(p, t->dart[0], t->dart[1], t->self), moved = v->value[from];
-    int star = p->ties ? p->ties->star[t->dart[0]] : -1;
+    const thr_pair_type *pair_type = &p->q->pair[y];
+    int from = p->first_pair + y, to = pair_between(p, pair_type->dart[0], pair_type->dart[1], pair_type->self),
+        moved = v->value[from];
+    int star = p->ties ? p->ties->star[pair_type->dart[0]] : -1;
     if (moved == 0 || to < 0 || to == from) continue;
     bool tied = star >= 0 && thr_ties_tied(p->ties, star, v->value + p->first_pair, v->parent);
     v->value[from] = 0;

@@ -36,23 +36,24 @@ static void network_destroy(network *w)
 
 static void make_arcs(network *w)
 {
-  const thr_strands *s = w->s;
-  for (int o = 0; o < s->n_orbits; o++) {
-    int copies = 2 * s->type[o], turns = copies + 1, other = s->other[o], partner = s->partner[o];
+  const thr_strands *strands = w->s;
+  for (int o = 0; o < strands->n_orbits; o++) {
+    int copies = 2 * strands->type[o], turns = copies + 1, other = strands->other[o], partner = strands->partner[o];
     const arc none = {{-1, -1}, -1};
     w->arc[o] = (arc){{copies, turns}, -1};
-    w->arc[s->n_orbits + o] = other < o ? none : (arc){{other == o ? w->source : copies, 2 * s->type[other]}, -1};
+    w->arc[strands->n_orbits + o] = other < o ? none : (arc){{other == o ? w->source : copies, 2 * strands->type[other]}, -1};
     arc turn = none;
     if (partner < 0) turn = (arc){{turns, w->sink}, -1};
     if (partner == o) turn = (arc){{w->source, turns}, -1};
-    if (partner > o) turn = (arc){{turns, 2 * s->type[partner] + 1}, -1};
-    w->arc[2 * s->n_orbits + o] = turn;
+    if (partner > o) turn = (arc){{turns, 2 * strands->type[partner] + 1}, -1};
+    w->arc[2 * strands->n_orbits + o] = turn;
   }
 }
 
-static thr_status network_init(network *w, const thr_strands *s, thr_err *err)
+static thr_status network_init(network *w, const thr_strands *strands, thr_err *err)
 {
-  *w = (network){.s = s, .source = 2 * s->q->n_darts, .sink = 2 * s->q->n_darts + 1, .n_arcs = 3 * s->n_orbits};
+  *w = (network){
+      .s = strands, .source = 2 * strands->q->n_darts, .sink = 2 * strands->q->n_darts + 1, .n_arcs = 3 * strands->n_orbits};
   w->n_nodes = w->sink + 1;
   w->arc = thr_calloc((size_t)w->n_arcs, sizeof *w->arc);
   w->first = thr_calloc((size_t)w->n_nodes + 2, sizeof *w->first);
@@ -134,22 +135,22 @@ static bool leads_away(const network *w, int o)
 
 /* Orbits that arrive where their turn arrives, too, change places with those of their type where both lead away. waiting: first
  * of a type that has no such partner yet; next: [n_orbits] the one after it. */
-static void match(const network *w, thr_strands *s, int *wrong, int *next)
+static void match(const network *w, thr_strands *strands, int *wrong, int *next)
 {
   int *waiting = w->queue;
-  for (int t = 0; t < s->q->n_darts; t++)
+  for (int t = 0; t < strands->q->n_darts; t++)
     waiting[t] = -1;
-  for (int o = 0; o < s->n_orbits; o++) {
+  for (int o = 0; o < strands->n_orbits; o++) {
     wrong[o] = arrives(w, o) - leads_away(w, o);
     if (wrong[o] <= 0) continue;
-    next[o] = waiting[s->type[o]];
-    waiting[s->type[o]] = o;
+    next[o] = waiting[strands->type[o]];
+    waiting[strands->type[o]] = o;
   }
-  for (int o = 0; o < s->n_orbits; o++) {
-    int other = waiting[s->type[o]];
+  for (int o = 0; o < strands->n_orbits; o++) {
+    int other = waiting[strands->type[o]];
     if (wrong[o] >= 0 || other < 0) continue;
-    waiting[s->type[o]] = next[other];
-    thr_strands_exchange(s, o, other);
+    waiting[strands->type[o]] = next[other];
+    thr_strands_exchange(strands, o, other);
   }
 }
 
@@ -167,14 +168,14 @@ static thr_status direct(network *w, thr_err *err)
   return THR_OK;
 }
 
-thr_status thr_strands_open(thr_strands *s, thr_err *err)
+thr_status thr_strands_open(thr_strands *strands, thr_err *err)
 {
   network w;
-  int *wrong = thr_calloc((size_t)s->n_orbits, sizeof *wrong), *next = thr_calloc((size_t)s->n_orbits, sizeof *next);
-  thr_status st = network_init(&w, s, err);
+  int *wrong = thr_calloc((size_t)strands->n_orbits, sizeof *wrong), *next = thr_calloc((size_t)strands->n_orbits, sizeof *next);
+  thr_status st = network_init(&w, strands, err);
   if (!st && (!wrong || !next)) st = thr_nomem(err);
   if (!st) st = direct(&w, err);
-  if (!st) match(&w, s, wrong, next);
+  if (!st) match(&w, strands, wrong, next);
   network_destroy(&w);
   free(wrong);
   free(next);

@@ -22,29 +22,29 @@ bool thr_programme_end_allowed(const thr_programme *p, int v)
 
 static thr_status find_node_orbits(thr_programme *p, thr_err *err)
 {
-  const thr_quotient *q = p->q;
-  int n = q->f->n_nodes;
+  const thr_quotient *quotient = p->q;
+  int n = quotient->f->n_nodes;
   for (int v = 0; v < n; v++)
     p->node_orbit[v] = v;
-  for (int i = 0; i < q->h->order; i++) {
-    const int *to = &q->group->image[(size_t)q->h->element[i] * (size_t)n];
+  for (int i = 0; i < quotient->h->order; i++) {
+    const int *to = &quotient->group->image[(size_t)quotient->h->element[i] * (size_t)n];
     for (int v = 0; v < n; v++)
       if (to[v] < p->node_orbit[v]) p->node_orbit[v] = to[v];
   }
   for (int v = 0; v < n; v++)
     if (thr_programme_end_allowed(p, v) != thr_programme_end_allowed(p, p->node_orbit[v]))
       return thr_fail(err, THR_EINPUT, "the group moves node %s, where cords may end, to node %s, where they may not",
-                      q->f->name[thr_programme_end_allowed(p, v) ? v : p->node_orbit[v]],
-                      q->f->name[thr_programme_end_allowed(p, v) ? p->node_orbit[v] : v]);
+                      quotient->f->name[thr_programme_end_allowed(p, v) ? v : p->node_orbit[v]],
+                      quotient->f->name[thr_programme_end_allowed(p, v) ? p->node_orbit[v] : v]);
   return THR_OK;
 }
 
 /* What the edges of an orbit need and may have, which is the same for all. */
 static thr_status find_passes(thr_programme *p, thr_err *err)
 {
-  const thr_quotient *q = p->q;
-  for (int e = 0; e < q->f->n_edges; e++) {
-    int orbit = q->edge_orbit[e], cover = p->o->edge_cover ? p->o->edge_cover[e] : p->o->cover;
+  const thr_quotient *quotient = p->q;
+  for (int e = 0; e < quotient->f->n_edges; e++) {
+    int orbit = quotient->edge_orbit[e], cover = p->o->edge_cover ? p->o->edge_cover[e] : p->o->cover;
     int capacity = p->o->edge_capacity ? p->o->edge_capacity[e] : INT_MAX;
     bool first = p->cover[orbit] == 0;
     if (!first && (p->cover[orbit] != cover || p->capacity[orbit] != capacity))
@@ -57,45 +57,45 @@ static thr_status find_passes(thr_programme *p, thr_err *err)
 
 static void fill_copies(thr_programme *p)
 {
-  const thr_quotient *q = p->q;
-  for (int c = 0; c < q->n_copies; c++) {
-    const thr_copy_type *t = &q->copy[c];
-    int most = 2 * p->cover[t->edge_orbit] + 2, fit = p->capacity[t->edge_orbit] / t->passes;
+  const thr_quotient *quotient = p->q;
+  for (int c = 0; c < quotient->n_copies; c++) {
+    const thr_copy_type *type = &quotient->copy[c];
+    int most = 2 * p->cover[type->edge_orbit] + 2, fit = p->capacity[type->edge_orbit] / type->passes;
     for (int i = 0; i < 2 && p->o->tube; i++) /* one less than its tubes: so many kinds of turns can tie a node */
-      most += 2 * (thr_degree(q->f, q->f->edge[t->edge][i]) - 1);
+      most += 2 * (thr_degree(quotient->f, quotient->f->edge[type->edge][i]) - 1);
     p->most[c] = fit < most ? fit : most;
-    p->join[c][0] = t->dart[0];
-    p->join[c][1] = t->fold ? q->n_darts : t->dart[1];
-    p->cost[THR_AIM_OVERLAP][c] = t->passes * q->orbit_length[t->edge_orbit];
-    p->cost[THR_AIM_STEPS][c] = t->fold ? 0.5 : 1;
-    p->cost[THR_AIM_PATHS][c] = t->fold ? 0.5 : 0;
+    p->join[c][0] = type->dart[0];
+    p->join[c][1] = type->fold ? quotient->n_darts : type->dart[1];
+    p->cost[THR_AIM_OVERLAP][c] = type->passes * quotient->orbit_length[type->edge_orbit];
+    p->cost[THR_AIM_STEPS][c] = type->fold ? 0.5 : 1;
+    p->cost[THR_AIM_PATHS][c] = type->fold ? 0.5 : 0;
   }
 }
 
 static void fill_pairs(thr_programme *p)
 {
-  const thr_quotient *q = p->q;
-  for (int y = 0; y < q->n_pairs; y++) {
-    const thr_pair_type *t = &q->pair[y];
+  const thr_quotient *quotient = p->q;
+  for (int y = 0; y < quotient->n_pairs; y++) {
+    const thr_pair_type *type = &quotient->pair[y];
     int j = p->first_pair + y;
-    bool u_turn = t->half[0] == t->half[1];
-    p->most[j] = u_turn && (p->o->tube || thr_programme_end_allowed(p, thr_tail(q->f, t->half[0]))) ? 0 : -1;
-    p->join[j][0] = t->dart[0];
-    p->join[j][1] = t->self ? q->n_darts : t->dart[1];
-    p->cost[THR_AIM_PATHS][j] = t->self ? 0.5 : 0;
-    p->cost[THR_AIM_TURNING][j] = t->turns * t->angle;
+    bool u_turn = type->half[0] == type->half[1];
+    p->most[j] = u_turn && (p->o->tube || thr_programme_end_allowed(p, thr_tail(quotient->f, type->half[0]))) ? 0 : -1;
+    p->join[j][0] = type->dart[0];
+    p->join[j][1] = type->self ? quotient->n_darts : type->dart[1];
+    p->cost[THR_AIM_PATHS][j] = type->self ? 0.5 : 0;
+    p->cost[THR_AIM_TURNING][j] = type->turns * type->angle;
   }
 }
 
 static void fill_darts(thr_programme *p)
 {
-  const thr_quotient *q = p->q;
-  for (int d = 0; d < q->n_darts; d++) {
+  const thr_quotient *quotient = p->q;
+  for (int d = 0; d < quotient->n_darts; d++) {
     int t = p->first_end + d, z = p->first_circle + d;
-    p->most[t] = thr_programme_end_allowed(p, thr_tail(q->f, q->dart[d].half)) ? -1 : 0;
+    p->most[t] = thr_programme_end_allowed(p, thr_tail(quotient->f, quotient->dart[d].half)) ? -1 : 0;
     p->most[z] = !p->open;
     p->join[t][0] = p->join[z][0] = p->join[z][1] = d;
-    p->join[t][1] = q->n_darts;
+    p->join[t][1] = quotient->n_darts;
     p->cost[THR_AIM_PATHS][t] = 0.5;
     p->cost[THR_AIM_PATHS][z] = 1;
   }
@@ -103,17 +103,17 @@ static void fill_darts(thr_programme *p)
 
 static void list_pairs(thr_programme *p)
 {
-  const thr_quotient *q = p->q;
+  const thr_quotient *quotient = p->q;
   for (int pass = 0; pass < 2; pass++) {
-    for (int y = 0; y < q->n_pairs; y++)
-      for (int i = 0; i < (q->pair[y].dart[0] == q->pair[y].dart[1] ? 1 : 2); i++) {
-        int d = q->pair[y].dart[i];
+    for (int y = 0; y < quotient->n_pairs; y++)
+      for (int i = 0; i < (quotient->pair[y].dart[0] == quotient->pair[y].dart[1] ? 1 : 2); i++) {
+        int d = quotient->pair[y].dart[i];
         if (pass == 0)
           p->first[d + 2]++;
         else
           p->incident[p->first[d + 1]++] = y;
       }
-    for (int d = 1; pass == 0 && d <= q->n_darts; d++)
+    for (int d = 1; pass == 0 && d <= quotient->n_darts; d++)
       p->first[d + 1] += p->first[d];
   }
 }
@@ -152,13 +152,13 @@ static double common_unit(const double *cost, int n, double scale)
   return unit;
 }
 
-thr_status thr_programme_init(thr_programme *p, const thr_quotient *q, const thr_cover_options *o, thr_err *err)
+thr_status thr_programme_init(thr_programme *p, const thr_quotient *quotient, const thr_cover_options *options, thr_err *err)
 {
-  *p = (thr_programme){.q = q, .o = o, .open = thr_cover_all_open(o)};
-  p->first_pair = q->n_copies;
-  p->first_end = p->first_pair + q->n_pairs;
-  p->first_circle = p->first_end + q->n_darts;
-  p->n = p->first_circle + q->n_darts;
+  *p = (thr_programme){.q = quotient, .o = options, .open = thr_cover_all_open(options)};
+  p->first_pair = quotient->n_copies;
+  p->first_end = p->first_pair + quotient->n_pairs;
+  p->first_circle = p->first_end + quotient->n_darts;
+  p->n = p->first_circle + quotient->n_darts;
   thr_status st = allocate(p, err);
   if (!st) st = find_node_orbits(p, err);
   if (!st) st = find_passes(p, err);
@@ -173,8 +173,8 @@ thr_status thr_programme_init(thr_programme *p, const thr_quotient *q, const thr
     thr_programme_destroy(p);
     return st;
   }
-  for (int i = 0; i < q->n_edge_orbits; i++)
-    p->constant[THR_AIM_OVERLAP] -= p->cover[i] * q->orbit_length[i];
+  for (int i = 0; i < quotient->n_edge_orbits; i++)
+    p->constant[THR_AIM_OVERLAP] -= p->cover[i] * quotient->orbit_length[i];
   for (int a = 0; a < THR_N_AIMS; a++) {
     for (int j = 0; j < p->n; j++)
       p->scale[a] = fmax(p->scale[a], p->cost[a][j]);
@@ -220,51 +220,52 @@ bool thr_programme_terminal(const thr_programme *p, int column)
 bool thr_programme_loop(const thr_programme *p, int dart)
 {
   for (int k = p->first[dart]; k < p->first[dart + 1]; k++) {
-    const thr_pair_type *t = &p->q->pair[p->incident[k]];
-    if (!t->self && t->dart[0] == t->dart[1] && p->most[p->first_pair + p->incident[k]] != 0) return true;
+    const thr_pair_type *type = &p->q->pair[p->incident[k]];
+    if (!type->self && type->dart[0] == type->dart[1] && p->most[p->first_pair + p->incident[k]] != 0) return true;
   }
   return false;
 }
 
 /* ---- connected sets ---- */
 
-thr_status thr_programme_parts_init(thr_programme_parts *s, const thr_programme *p, thr_err *err)
+thr_status thr_programme_parts_init(thr_programme_parts *programme_parts, const thr_programme *p, thr_err *err)
 {
   size_t n = (size_t)p->q->n_darts;
-  s->root = thr_calloc(n, sizeof *s->root);
-  s->terminals = thr_calloc(n, sizeof *s->terminals);
-  s->ends = thr_calloc(n, sizeof *s->ends);
-  s->copies = thr_calloc(n, sizeof *s->copies);
-  return s->root && s->terminals && s->ends && s->copies ? THR_OK : thr_nomem(err);
+  programme_parts->root = thr_calloc(n, sizeof *programme_parts->root);
+  programme_parts->terminals = thr_calloc(n, sizeof *programme_parts->terminals);
+  programme_parts->ends = thr_calloc(n, sizeof *programme_parts->ends);
+  programme_parts->copies = thr_calloc(n, sizeof *programme_parts->copies);
+  return programme_parts->root && programme_parts->terminals && programme_parts->ends && programme_parts->copies ? THR_OK
+                                                                                                                 : thr_nomem(err);
 }
 
-void thr_programme_parts_destroy(thr_programme_parts *s)
+void thr_programme_parts_destroy(thr_programme_parts *programme_parts)
 {
-  free(s->root);
-  free(s->terminals);
-  free(s->ends);
-  free(s->copies);
-  *s = (thr_programme_parts){0};
+  free(programme_parts->root);
+  free(programme_parts->terminals);
+  free(programme_parts->ends);
+  free(programme_parts->copies);
+  *programme_parts = (thr_programme_parts){0};
 }
 
-void thr_programme_parts_find(thr_programme_parts *s, const thr_programme *p, const int *value)
+void thr_programme_parts_find(thr_programme_parts *programme_parts, const thr_programme *p, const int *value)
 {
   int n = p->q->n_darts;
   for (int d = 0; d < n; d++) {
-    s->root[d] = d;
-    s->terminals[d] = s->ends[d] = s->copies[d] = 0;
+    programme_parts->root[d] = d;
+    programme_parts->terminals[d] = programme_parts->ends[d] = programme_parts->copies[d] = 0;
   }
   for (int j = 0; j < p->first_end; j++)
-    if (value[j] > 0 && !thr_programme_terminal(p, j)) thr_disjoint_join(s->root, p->join[j][0], p->join[j][1]);
+    if (value[j] > 0 && !thr_programme_terminal(p, j)) thr_disjoint_join(programme_parts->root, p->join[j][0], p->join[j][1]);
   for (int j = 0; j < p->first_circle; j++) {
-    int root = thr_disjoint_find(s->root, p->join[j][0]);
-    if (thr_programme_terminal(p, j)) s->terminals[root] += value[j];
-    if (j >= p->first_end) s->ends[root] += value[j];
-    if (j < p->first_pair) s->copies[root] += value[j];
+    int root = thr_disjoint_find(programme_parts->root, p->join[j][0]);
+    if (thr_programme_terminal(p, j)) programme_parts->terminals[root] += value[j];
+    if (j >= p->first_end) programme_parts->ends[root] += value[j];
+    if (j < p->first_pair) programme_parts->copies[root] += value[j];
   }
   for (int d = n - 1; d >= 0; d--) { /* a root comes before the rest of its set */
-    int root = thr_disjoint_find(s->root, d);
-    s->root[d] = s->copies[root] > 0 ? root : -1;
+    int root = thr_disjoint_find(programme_parts->root, d);
+    programme_parts->root[d] = programme_parts->copies[root] > 0 ? root : -1;
   }
 }
 
@@ -295,13 +296,13 @@ int thr_programme_compare(const thr_programme *p, const double *a, const double 
 /* Has no edge more passes than its capacity? */
 static bool fits_capacity(const thr_programme *p, const int *value)
 {
-  const thr_quotient *q = p->q;
+  const thr_quotient *quotient = p->q;
   bool fits = true;
-  for (int c = 0, end; c < q->n_copies; c = end) {
+  for (int c = 0, end; c < quotient->n_copies; c = end) {
     long passes = 0;
-    for (end = c; end < q->n_copies && q->copy[end].edge == q->copy[c].edge; end++)
-      passes += (long)value[end] * q->copy[end].passes;
-    fits = fits && passes <= p->capacity[q->copy[c].edge_orbit];
+    for (end = c; end < quotient->n_copies && quotient->copy[end].edge == quotient->copy[c].edge; end++)
+      passes += (long)value[end] * quotient->copy[end].passes;
+    fits = fits && passes <= p->capacity[quotient->copy[c].edge_orbit];
   }
   return fits;
 }
@@ -320,10 +321,10 @@ static thr_status all_tied(const thr_programme *p, const int *value, bool *valid
 thr_status thr_programme_value(const thr_programme *p, const int *value, double worth[THR_N_AIMS], bool *valid, thr_err *err)
 {
   size_t n = (size_t)p->q->n_darts;
-  thr_programme_parts s = {0};
+  thr_programme_parts programme_parts = {0};
   bool *copy_side = thr_calloc(n, sizeof *copy_side), *pair_side = thr_calloc(n, sizeof *pair_side), unmatched = false;
   double *x = thr_calloc((size_t)p->n, sizeof *x);
-  thr_status st = copy_side && pair_side && x ? thr_programme_parts_init(&s, p, err) : thr_nomem(err);
+  thr_status st = copy_side && pair_side && x ? thr_programme_parts_init(&programme_parts, p, err) : thr_nomem(err);
   for (int a = 0; a < THR_N_AIMS; a++) {
     worth[a] = p->constant[a];
     for (int j = 0; j < p->first_circle; j++)
@@ -332,18 +333,18 @@ thr_status thr_programme_value(const thr_programme *p, const int *value, double 
   *valid = fits_capacity(p, value);
   if (!st && p->ties) st = all_tied(p, value, valid, err);
   if (!st) {
-    thr_programme_parts_find(&s, p, value);
+    thr_programme_parts_find(&programme_parts, p, value);
     for (int d = 0; d < p->q->n_darts; d++) {
-      if (s.root[d] != d) continue;
-      if (s.terminals[d] == 0) worth[THR_AIM_PATHS]++;
-      if (p->open && s.ends[d] == 0) *valid = false;
+      if (programme_parts.root[d] != d) continue;
+      if (programme_parts.terminals[d] == 0) worth[THR_AIM_PATHS]++;
+      if (p->open && programme_parts.ends[d] == 0) *valid = false;
     }
   }
   for (int j = 0; j < p->n && !st; j++)
     x[j] = value[j];
   if (!st && p->open) st = thr_programme_folds(p, x, copy_side, pair_side, &unmatched, err);
   *valid = *valid && !unmatched;
-  thr_programme_parts_destroy(&s);
+  thr_programme_parts_destroy(&programme_parts);
   free(copy_side);
   free(pair_side);
   free(x);

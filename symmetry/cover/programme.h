@@ -35,7 +35,8 @@ typedef struct {
   thr_ties *ties;           /* that a solution has to have; NULL = none; owned */
 } thr_programme;
 
-thr_status thr_programme_init(thr_programme *p, const thr_quotient *q, const thr_cover_options *o, thr_err *err) THR_MUST_CHECK;
+thr_status thr_programme_init(thr_programme *p, const thr_quotient *quotient, const thr_cover_options *options,
+                              thr_err *err) THR_MUST_CHECK;
 void thr_programme_destroy(thr_programme *p);
 
 /* Every node is to be tied from now on, where o->tube asks for it of the whole programme; p without ties is what is left of the
@@ -63,9 +64,9 @@ typedef struct {
   int *root, *terminals, *ends, *copies;
 } thr_programme_parts;
 
-thr_status thr_programme_parts_init(thr_programme_parts *s, const thr_programme *p, thr_err *err) THR_MUST_CHECK;
-void thr_programme_parts_find(thr_programme_parts *s, const thr_programme *p, const int *value);
-void thr_programme_parts_destroy(thr_programme_parts *s);
+thr_status thr_programme_parts_init(thr_programme_parts *programme_parts, const thr_programme *p, thr_err *err) THR_MUST_CHECK;
+void thr_programme_parts_find(thr_programme_parts *programme_parts, const thr_programme *p, const int *value);
+void thr_programme_parts_destroy(thr_programme_parts *programme_parts);
 
 /* In symmetry/cover/folds.c. Of any point that keeps the equations: a set of dart types whose folds outnumber its ends and what
  * leaves it, marked in side[n_darts] (a minimum cut between folds and ends); *found = false if there is none. Copies and turns

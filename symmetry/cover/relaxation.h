@@ -33,39 +33,39 @@ typedef struct {
   double *weight; /* [problem.n_edges] scratch */
 } thr_relaxation;
 
-/* extra: columns for symmetry/cover/turning_bound.h. THR_ELIMIT: stopped; r is empty. */
-thr_status thr_relaxation_init(thr_relaxation *r, const thr_programme *p, int extra, const thr_limits *limits,
+/* extra: columns for symmetry/cover/turning_bound.h. THR_ELIMIT: stopped; relaxation is empty. */
+thr_status thr_relaxation_init(thr_relaxation *relaxation, const thr_programme *p, int extra, const thr_limits *limits,
                                thr_err *err) THR_MUST_CHECK;
-void thr_relaxation_destroy(thr_relaxation *r);
+void thr_relaxation_destroy(thr_relaxation *relaxation);
 
-/* Adds the row that r->pool has put together, with this right side, to the pool and to the programme. */
-thr_status thr_relaxation_add_row(thr_relaxation *r, double lower, thr_err *err) THR_MUST_CHECK;
+/* Adds the row that relaxation->pool has put together, with this right side, to the pool and to the programme. */
+thr_status thr_relaxation_add_row(thr_relaxation *relaxation, double lower, thr_err *err) THR_MUST_CHECK;
 
 /* The same if x violates it and it is new, counted in *added. */
-thr_status thr_relaxation_add_violated(thr_relaxation *r, double lower, int *added, thr_err *err) THR_MUST_CHECK;
+thr_status thr_relaxation_add_violated(thr_relaxation *relaxation, double lower, int *added, thr_err *err) THR_MUST_CHECK;
 
 /* In symmetry/cover/tie_rows.c, for tube joints. Between the b blocks of any partition of the tubes at a node there are b - 1
  * turns: at first between all tubes; then for the blocks that turns join with more than some value of x, and where there are few
  * tubes for any two blocks. */
-thr_status thr_relaxation_tie_first(thr_relaxation *r, thr_err *err) THR_MUST_CHECK;
-thr_status thr_relaxation_tie(thr_relaxation *r, int *added, thr_err *err) THR_MUST_CHECK;
+thr_status thr_relaxation_tie_first(thr_relaxation *relaxation, thr_err *err) THR_MUST_CHECK;
+thr_status thr_relaxation_tie(thr_relaxation *relaxation, int *added, thr_err *err) THR_MUST_CHECK;
 
 /* What is minimized from now on. */
-thr_status thr_relaxation_aim(thr_relaxation *r, thr_aim aim, thr_err *err) THR_MUST_CHECK;
+thr_status thr_relaxation_aim(thr_relaxation *relaxation, thr_aim aim, thr_err *err) THR_MUST_CHECK;
 
 /* Keeps the present aim at most at this value. */
-thr_status thr_relaxation_fix(thr_relaxation *r, double value, thr_err *err) THR_MUST_CHECK;
+thr_status thr_relaxation_fix(thr_relaxation *relaxation, double value, thr_err *err) THR_MUST_CHECK;
 
 /* Solves with the present rows and bounds; integer: with whole columns only, by GLPK's own branch and bound. */
-thr_status thr_relaxation_solve(thr_relaxation *r, bool integer, const thr_limits *limits, thr_lp_outcome *outcome,
+thr_status thr_relaxation_solve(thr_relaxation *relaxation, bool integer, const thr_limits *limits, thr_lp_outcome *outcome,
                                 thr_err *err) THR_MUST_CHECK;
 
 /* Adds rows that x violates: odd sets, ties, connected sets, sets with too many folds. They hold for every cover,
  * whatever the bounds in force. *added = 0 if there are none. THR_ELIMIT: stopped. */
-thr_status thr_relaxation_separate(thr_relaxation *r, const thr_limits *limits, int *added, thr_err *err) THR_MUST_CHECK;
+thr_status thr_relaxation_separate(thr_relaxation *relaxation, const thr_limits *limits, int *added, thr_err *err) THR_MUST_CHECK;
 
 /* The column to branch on where x is not whole: copies of edges with several types, other copies, ends, turns; of these the most
  * undecided. */
-int thr_relaxation_branch(const thr_relaxation *r);
+int thr_relaxation_branch(const thr_relaxation *relaxation);
 
 #endif

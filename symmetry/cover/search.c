@@ -67,21 +67,21 @@ bool thr_search_beaten(const thr_search *s, thr_aim aim, double bound)
  * stopped. */
 static thr_status solve_node(thr_search *s, thr_aim aim, bool root, bool integer, bool *open, thr_err *err)
 {
-  thr_relaxation *r = &s->r;
+  thr_relaxation *relaxation = &s->r;
   *open = false;
   for (int added = 1; added > 0;) {
     thr_lp_outcome outcome;
-    thr_status st = thr_relaxation_solve(r, integer, s->limits, &outcome, err);
+    thr_status st = thr_relaxation_solve(relaxation, integer, s->limits, &outcome, err);
     if (st) return st;
     if (outcome == THR_LP_STOPPED) return THR_ELIMIT;
     if (outcome != THR_LP_OPTIMAL) return THR_OK;
-    if (root) s->bound[aim] = fmax(s->bound[aim], r->objective);
-    if (r->whole) st = consider(s, err);
-    if (!st && thr_search_beaten(s, aim, r->objective)) return THR_OK;
-    if (!st) st = thr_relaxation_separate(r, s->limits, &added, err);
+    if (root) s->bound[aim] = fmax(s->bound[aim], relaxation->objective);
+    if (relaxation->whole) st = consider(s, err);
+    if (!st && thr_search_beaten(s, aim, relaxation->objective)) return THR_OK;
+    if (!st) st = thr_relaxation_separate(relaxation, s->limits, &added, err);
     if (st) return st;
   }
-  *open = !r->whole;
+  *open = !relaxation->whole;
   return THR_OK;
 }
 
@@ -132,18 +132,18 @@ static thr_status solve(void *user, int i, thr_tree_branch *branch, thr_err *err
 {
   aim_search *a = user;
   thr_search *s = a->s;
-  thr_tree_node *n = &a->tree.node[i];
-  const thr_relaxation *r = &s->r;
+  thr_tree_node *node = &a->tree.node[i];
+  const thr_relaxation *relaxation = &s->r;
   bool open;
-  s->bound[a->aim] = fmax(s->bound[a->aim], n->bound);
+  s->bound[a->aim] = fmax(s->bound[a->aim], node->bound);
   thr_status st = solve_node(s, a->aim, i == 0, false, &open, err);
   if (!st && open && i == 0 && s->p->ties) st = solve_whole(s, a->aim, &open, err);
   a->tree.enough = enough(s, a->aim);
   if (st || !open) return st;
-  n->bound = r->objective;
-  branch->column = thr_relaxation_branch(r);
-  branch->value = (int)floor(r->x[branch->column]);
-  branch->high = r->x[branch->column] - branch->value > 0.5 + 1e-6;
+  node->bound = relaxation->objective;
+  branch->column = thr_relaxation_branch(relaxation);
+  branch->value = (int)floor(relaxation->x[branch->column]);
+  branch->high = relaxation->x[branch->column] - branch->value > 0.5 + 1e-6;
   return THR_OK;
 }
 

@@ -38,22 +38,26 @@ static void solver_destroy(solver *s)
   free(s->edge_capacity);
 }
 
-static thr_status solver_init(solver *s, const thr_frame *f, const thr_plan_options *o, thr_symmetries *t, thr_err *err)
+static thr_status solver_init(solver *s, const thr_frame *frame, const thr_plan_options *options, thr_symmetries *symmetries,
+                              thr_err *err)
 {
-  *s = (solver){.f = f, .o = o, .t = t, .how = {.cover = o->cover, .ends = o->ends, .end_node = o->end_node}};
-  s->how.tube = o->joint == THR_JOINT_TUBE;
-  thr_aims_order(o, s->how.prefer);
-  s->edge_cover = thr_calloc((size_t)f->n_edges, sizeof *s->edge_cover);
-  s->edge_capacity = thr_calloc((size_t)f->n_edges, sizeof *s->edge_capacity);
-  s->cover = thr_calloc((size_t)t->n, sizeof *s->cover);
+  *s = (solver){.f = frame,
+                .o = options,
+                .t = symmetries,
+                .how = {.cover = options->cover, .ends = options->ends, .end_node = options->end_node}};
+  s->how.tube = options->joint == THR_JOINT_TUBE;
+  thr_aims_order(options, s->how.prefer);
+  s->edge_cover = thr_calloc((size_t)frame->n_edges, sizeof *s->edge_cover);
+  s->edge_capacity = thr_calloc((size_t)frame->n_edges, sizeof *s->edge_capacity);
+  s->cover = thr_calloc((size_t)symmetries->n, sizeof *s->cover);
   if (!s->edge_cover || !s->edge_capacity || !s->cover) {
     solver_destroy(s);
     return thr_nomem(err);
   }
-  for (int e = 0; e < f->n_edges; e++) {
-    s->edge_cover[e] = thr_plan_cover(f, o, e);
-    s->edge_capacity[e] = thr_plan_capacity(f, o, e);
-    s->base += s->edge_cover[e] * f->length[e];
+  for (int e = 0; e < frame->n_edges; e++) {
+    s->edge_cover[e] = thr_plan_cover(frame, options, e);
+    s->edge_capacity[e] = thr_plan_capacity(frame, options, e);
+    s->base += s->edge_cover[e] * frame->length[e];
   }
   s->how.edge_cover = s->edge_cover;
   s->how.edge_capacity = s->edge_capacity;
@@ -79,12 +83,12 @@ static thr_status count_copies(thr_symmetry_row *row, thr_err *err)
 }
 
 /* What the plan has, and what is proved of that. */
-static thr_status restate(const thr_quotient *q, const thr_cover_options *o, const thr_cover *c, thr_symmetry_row *row,
-                          thr_err *err)
+static thr_status restate(const thr_quotient *quotient, const thr_cover_options *options, const thr_cover *c,
+                          thr_symmetry_row *row, thr_err *err)
 {
   thr_claims claims;
   bool weaker = false;
-  thr_status st = thr_claims_make(q, o, c, &claims, err);
+  thr_status st = thr_claims_make(quotient, options, c, &claims, err);
   if (st) return st;
   row->value[THR_AIM_STEPS] = row->record.steps;
   row->value[THR_AIM_PATHS] = row->record.unique_paths;
@@ -100,18 +104,19 @@ static thr_status restate(const thr_quotient *q, const thr_cover_options *o, con
                                  : "a plan does not count the turn where a closed cord comes out, the search does");
 }
 
-static thr_status take_cover(const solver *s, const thr_quotient *q, const thr_cover *c, thr_symmetry_row *row, thr_err *err)
+static thr_status take_cover(const solver *s, const thr_quotient *quotient, const thr_cover *c, thr_symmetry_row *row,
+                             thr_err *err)
 {
   memcpy(row->value, c->value, sizeof row->value);
   memcpy(row->bound, c->bound, sizeof row->bound);
   row->solved = c->optimal;
   if (!c->copies) return THR_OK; /* out of time before there was any */
-  thr_status st = thr_cover_cords(q, &s->how, c, &row->cord, &row->n_cords, &row->record, err);
+  thr_status st = thr_cover_cords(quotient, &s->how, c, &row->cord, &row->n_cords, &row->record, err);
   if (st) return st;
   snprintf(row->record.name, sizeof row->record.name, "%s", row->name);
   st = count_copies(row, err);
-  if (!st) st = thr_plan_measure(q->f, s->o, row->cord, row->n_cords, &row->metrics, err);
-  return st ? st : restate(q, &s->how, c, row, err);
+  if (!st) st = thr_plan_measure(quotient->f, s->o, row->cord, row->n_cords, &row->metrics, err);
+  return st ? st : restate(quotient, &s->how, c, row, err);
 }
 
 /* What a row can do without a threading is to say why; all else is a failure. */
@@ -121,12 +126,12 @@ static bool is_said(thr_status st)
 }
 
 /* The cords of a cover for whoever keeps the best so far; what fails here shows again when the row is made. */
-static void tell(const thr_quotient *q, const thr_cover_options *how, const thr_cover *c, const thr_limits *limits)
+static void tell(const thr_quotient *quotient, const thr_cover_options *how, const thr_cover *c, const thr_limits *limits)
 {
   int n;
   thr_cord *cord;
   thr_symmetry_record record = {0};
-  if (!limits->found || !c->copies || thr_cover_cords(q, how, c, &cord, &n, &record, NULL)) return;
+  if (!limits->found || !c->copies || thr_cover_cords(quotient, how, c, &cord, &n, &record, NULL)) return;
   thr_limits_found(limits, cord, n, &record);
   thr_symmetry_record_destroy(&record);
   thr_cords_destroy(cord, n);
@@ -136,49 +141,49 @@ static void tell(const thr_quotient *q, const thr_cover_options *how, const thr_
 static thr_status solve(solver *s, int i, bool quick, const thr_limits *limits, thr_err *err)
 {
   thr_symmetry_row *row = &s->t->row[i];
-  thr_quotient q = {0};
+  thr_quotient quotient = {0};
   row->why = (thr_err){0};
   s->how.quick = quick;
   thr_limits first = *limits;
   if (s->end > 0) s->how.start_by = fmin(thr_clock() + MOMENT, s->end + LATEST);
   if (s->end > 0) first.deadline = s->cover[i].copies ? s->end + LATEST : fmax(first.deadline, s->how.start_by);
-  thr_status st = thr_quotient_make(&q, s->f, &s->t->group[row->group].all, &row->elements, MOST_TYPES, &first, &row->why);
+  thr_status st = thr_quotient_make(&quotient, s->f, &s->t->group[row->group].all, &row->elements, MOST_TYPES, &first, &row->why);
   if (!st) {
-    st = thr_cover_improve(&q, &s->how, limits, &s->cover[i], &row->why);
-    if (!st || st == THR_ELIMIT) tell(&q, &s->how, &s->cover[i], limits);
+    st = thr_cover_improve(&quotient, &s->how, limits, &s->cover[i], &row->why);
+    if (!st || st == THR_ELIMIT) tell(&quotient, &s->how, &s->cover[i], limits);
     if (!quick && (!st || st == THR_ELIMIT)) {
-      thr_status made = take_cover(s, &q, &s->cover[i], row, &row->why);
+      thr_status made = take_cover(s, &quotient, &s->cover[i], row, &row->why);
       if (made) st = made;
     }
   }
   if (st) thr_fail(&row->why, st, "stopped early"); /* if no one said why */
   if (!quick) thr_cover_destroy(&s->cover[i]);
-  thr_quotient_destroy(&q);
+  thr_quotient_destroy(&quotient);
   return st && !is_said(st) ? thr_fail(err, st, "%s", row->why.text) : THR_OK;
 }
 
 /* ---- the shortest of all ---- */
 
-thr_status thr_symmetry_shortest_tied(const thr_frame *f, const thr_plan_options *o, bool few, const thr_limits *limits,
+thr_status thr_symmetry_shortest_tied(const thr_frame *frame, const thr_plan_options *options, bool few, const thr_limits *limits,
                                       double *length, bool *optimal, thr_err *err)
 {
   static const thr_aim cords_first[] = {THR_AIM_PATHS, THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_TURNING};
   thr_symmetries none = {0};
   int identity = 0;
   const thr_subgroup alone = {1, &identity};
-  thr_group g = {0};
-  thr_quotient q = {0};
+  thr_group group = {0};
+  thr_quotient quotient = {0};
   thr_cover c = {0};
   thr_err why = {0};
   solver s;
-  thr_status st = solver_init(&s, f, o, &none, err);
+  thr_status st = solver_init(&s, frame, options, &none, err);
   if (st) return st;
   s.how.quick = true;
   if (few) memcpy(s.how.prefer, cords_first, sizeof cords_first);
-  st = thr_group_generate(f->n_nodes, NULL, 0, 1, &g, err);
-  if (!st) st = thr_quotient_make(&q, f, &g, &alone, MOST_TYPES, limits, &why);
-  if (!st) st = thr_cover_find(&q, &s.how, limits, &c, &why);
-  if (!st || st == THR_ELIMIT) tell(&q, &s.how, &c, limits);
+  st = thr_group_generate(frame->n_nodes, NULL, 0, 1, &group, err);
+  if (!st) st = thr_quotient_make(&quotient, frame, &group, &alone, MOST_TYPES, limits, &why);
+  if (!st) st = thr_cover_find(&quotient, &s.how, limits, &c, &why);
+  if (!st || st == THR_ELIMIT) tell(&quotient, &s.how, &c, limits);
   *optimal = false;
   *length = s.base;
   if (!st || st == THR_ELIMIT) {
@@ -190,19 +195,19 @@ thr_status thr_symmetry_shortest_tied(const thr_frame *f, const thr_plan_options
     thr_fail(err, st, "%s", why.text);
   }
   thr_cover_destroy(&c);
-  thr_quotient_destroy(&q);
-  thr_group_destroy(&g);
+  thr_quotient_destroy(&quotient);
+  thr_group_destroy(&group);
   solver_destroy(&s);
   return st;
 }
 
 /* ---- whose turn it is ---- */
 
-bool thr_symmetry_asked(const thr_symmetries *t, int row, const char *group)
+bool thr_symmetry_asked(const thr_symmetries *symmetries, int row, const char *group)
 {
   char number[16];
   snprintf(number, sizeof number, "%d", row + 1);
-  return !*group || strcmp(number, group) == 0 || strcmp(t->row[row].name, group) == 0;
+  return !*group || strcmp(number, group) == 0 || strcmp(symmetries->row[row].name, group) == 0;
 }
 
 /* Is there, for all that is known, a better default choice under this group than the best so far? */
@@ -245,11 +250,11 @@ static thr_status solve_round(solver *s, turn r, const thr_limits *limits, thr_e
   return st;
 }
 
-thr_status thr_symmetry_solve(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_symmetries *t,
-                              thr_err *err)
+thr_status thr_symmetry_solve(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits,
+                              thr_symmetries *symmetries, thr_err *err)
 {
   solver s;
-  thr_status st = solver_init(&s, f, o, t, err);
+  thr_status st = solver_init(&s, frame, options, symmetries, err);
   if (st) return st;
   s.end = limits->deadline;
   for (int r = limits->deadline > 0 ? FIRST : PROOFS; r < N_ROUNDS && !st; r++)

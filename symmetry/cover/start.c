@@ -27,25 +27,25 @@ static int needed(const thr_programme *p, int copy, int *over)
 /* Orbits of the freest copies with which every dart type that they have occurs 2 * ((cover + 1) / 2) times. */
 static int evenly(const thr_programme *p, int copy)
 {
-  const thr_copy_type *t = &p->q->copy[copy];
-  int half = (p->cover[t->edge_orbit] + 1) / 2;
-  return !t->fold && t->dart[0] == t->dart[1] ? half : 2 * half;
+  const thr_copy_type *type = &p->q->copy[copy];
+  int half = (p->cover[type->edge_orbit] + 1) / 2;
+  return !type->fold && type->dart[0] == type->dart[1] ? half : 2 * half;
 }
 
 /* One copy type for every edge orbit: that with least overlap, without folds if possible, or else the freest. False if capacities
  * leave none of this kind. */
-static bool take_copies(const thr_contraction *c, thr_contraction_kind kind, const bool *barred, int *small)
+static bool take_copies(const thr_contraction *contraction, thr_contraction_kind kind, const bool *barred, int *small)
 {
-  const thr_programme *p = c->whole;
-  const thr_quotient *q = p->q;
-  for (int k = 0, end; k < q->n_copies; k = end) {
+  const thr_programme *p = contraction->whole;
+  const thr_quotient *quotient = p->q;
+  for (int k = 0, end; k < quotient->n_copies; k = end) {
     int best = -1, over, least = 0;
-    for (end = k; end < q->n_copies && q->copy[end].edge == q->copy[k].edge; end++) {
-      if (p->most[end] == 0 || barred[end] || (kind != THR_CONTRACTION_LEAST && q->copy[end].fold)) continue;
+    for (end = k; end < quotient->n_copies && quotient->copy[end].edge == quotient->copy[k].edge; end++) {
+      if (p->most[end] == 0 || barred[end] || (kind != THR_CONTRACTION_LEAST && quotient->copy[end].fold)) continue;
       needed(p, end, &over);
-      bool better = best < 0 || q->copy[end].passes > q->copy[best].passes;
+      bool better = best < 0 || quotient->copy[end].passes > quotient->copy[best].passes;
       if (best >= 0 && kind != THR_CONTRACTION_TWICE)
-        better = over < least || (over == least && q->copy[best].fold && !q->copy[end].fold);
+        better = over < least || (over == least && quotient->copy[best].fold && !quotient->copy[end].fold);
       if (!better) continue;
       best = end;
       least = over;
@@ -68,17 +68,17 @@ static double price(const thr_programme *p, const double *part, int j)
 /* The copies that every cover has. Returns what it is worth for certain without any others. */
 static double take_certain(const thr_programme *p, const double *part, int *small)
 {
-  const thr_quotient *q = p->q;
+  const thr_quotient *quotient = p->q;
   double worth = 0;
   for (int a = 0; a < THR_N_AIMS; a++)
     worth += part[a] * p->constant[a];
-  for (int k = 0, end; k < q->n_copies; k = end) {
+  for (int k = 0, end; k < quotient->n_copies; k = end) {
     double least = (double)INFINITY;
-    for (end = k; end < q->n_copies && q->copy[end].edge == q->copy[k].edge; end++) {
+    for (end = k; end < quotient->n_copies && quotient->copy[end].edge == quotient->copy[k].edge; end++) {
       small[end] = p->least[end];
-      double pass = price(p, part, end) / q->copy[end].passes;
+      double pass = price(p, part, end) / quotient->copy[end].passes;
       if (p->most[end] != 0)
-        least = fmin(least, fmax(p->cover[p->q->copy[end].edge_orbit], small[end] * q->copy[end].passes) * pass);
+        least = fmin(least, fmax(p->cover[p->q->copy[end].edge_orbit], small[end] * quotient->copy[end].passes) * pass);
     }
     worth += least;
   }
@@ -185,7 +185,7 @@ static thr_status add_join(const request *r, const thr_programme *p, const thr_l
                            double *least, thr_err *err)
 {
   join g;
-  thr_tjoin t = {0};
+  thr_tjoin tjoin = {0};
   bool any = false;
   thr_status st = join_init(&g, p, err);
   *found = !st;
@@ -198,13 +198,13 @@ static thr_status add_join(const request *r, const thr_programme *p, const thr_l
   }
   if (!st && *found && any) {
     thr_err why = {0};
-    st = thr_tjoin_shrunk(&g.problem, THR_ENGINE_AUTO, limits, &t, &why);
+    st = thr_tjoin_shrunk(&g.problem, THR_ENGINE_AUTO, limits, &tjoin, &why);
     st = st && st != THR_ELIMIT ? thr_fail(err, st, "%s", why.text) : THR_OK; /* the best so far will do */
-    *least = (double)t.sum / THR_DUAL_DENOMINATOR * g.unit;
+    *least = (double)tjoin.sum / THR_DUAL_DENOMINATOR * g.unit;
   }
-  for (int e = 0; t.in_join && e < g.problem.n_edges; e++)
-    if (g.column[e] >= 0) small[g.column[e]] += t.in_join[e];
-  thr_tjoin_destroy(&t);
+  for (int e = 0; tjoin.in_join && e < g.problem.n_edges; e++)
+    if (g.column[e] >= 0) small[g.column[e]] += tjoin.in_join[e];
+  thr_tjoin_destroy(&tjoin);
   join_destroy(&g);
   return st;
 }
@@ -213,10 +213,10 @@ static thr_status add_join(const request *r, const thr_programme *p, const thr_l
 
 /* Column of the contracted programme in which a dart orbit of type d may end: a cord end, or a self pair unless every cord is to
  * be open (it might lack an end then); -1 = none. */
-static int terminal_of(const thr_contraction *c, int d)
+static int terminal_of(const thr_contraction *contraction, int d)
 {
-  const thr_programme *whole = c->whole, *p = &c->p;
-  int cell = c->becomes[d];
+  const thr_programme *whole = contraction->whole, *p = &contraction->p;
+  int cell = contraction->becomes[d];
   if (whole->most[whole->first_end + d] != 0) return p->first_end + cell;
   for (int k = whole->first[d]; k < whole->first[d + 1] && !whole->open; k++) {
     if (!whole->q->pair[whole->incident[k]].self) continue;
@@ -228,29 +228,29 @@ static int terminal_of(const thr_contraction *c, int d)
 
 /* Dart orbits that outnumber all others of their cell cannot turn: they end, where they may; *found = false if some may not.
  * Those of the whole programme. */
-static thr_status end_surplus(const thr_contraction *c, int *small, bool *found, thr_err *err)
+static thr_status end_surplus(const thr_contraction *contraction, int *small, bool *found, thr_err *err)
 {
-  const thr_programme *whole = c->whole, *p = &c->p;
-  const thr_quotient *q = whole->q;
-  int *surplus = thr_calloc(2 * (size_t)q->n_darts, sizeof *surplus);
+  const thr_programme *whole = contraction->whole, *p = &contraction->p;
+  const thr_quotient *quotient = whole->q;
+  int *surplus = thr_calloc(2 * (size_t)quotient->n_darts, sizeof *surplus);
   if (!surplus) return thr_nomem(err);
-  int *sum = surplus + q->n_darts;
-  for (int i = 0; i < 2 * q->n_copies; i++) {
-    int d = q->copy[i / 2].dart[i % 2];
+  int *sum = surplus + quotient->n_darts;
+  for (int i = 0; i < 2 * quotient->n_copies; i++) {
+    int d = quotient->copy[i / 2].dart[i % 2];
     if (d < 0) continue;
     surplus[d] += 2 * small[i / 2];
-    sum[c->root[d]] += small[i / 2];
+    sum[contraction->root[d]] += small[i / 2];
   }
-  for (int d = 0; d < q->n_darts; d++) {
-    int cell = c->becomes[d];
-    if (c->root[d] != d) continue;
+  for (int d = 0; d < quotient->n_darts; d++) {
+    int cell = contraction->becomes[d];
+    if (contraction->root[d] != d) continue;
     sum[d] += small[p->first_end + cell]; /* terminals go where most is left */
     for (int k = p->first[cell]; k < p->first[cell + 1]; k++)
       if (p->q->pair[p->incident[k]].self) sum[d] += small[p->first_pair + p->incident[k]];
   }
-  for (int d = 0; d < q->n_darts; d++) {
-    int terminal = terminal_of(c, d);
-    surplus[d] -= sum[c->root[d]];
+  for (int d = 0; d < quotient->n_darts; d++) {
+    int terminal = terminal_of(contraction, d);
+    surplus[d] -= sum[contraction->root[d]];
     if (surplus[d] <= 0 || thr_programme_loop(whole, d)) continue;
     *found = *found && terminal >= 0;
     if (terminal >= 0) small[terminal] += surplus[d];
@@ -261,38 +261,39 @@ static thr_status end_surplus(const thr_contraction *c, int *small, bool *found,
 
 /* ---- all ---- */
 
-thr_status thr_contraction_start(const thr_contraction *c, thr_contraction_kind kind, const bool *barred,
+thr_status thr_contraction_start(const thr_contraction *contraction, thr_contraction_kind kind, const bool *barred,
                                  const thr_limits *limits, int *small, bool *found, thr_err *err)
 {
   request r = {.part = {[THR_AIM_OVERLAP] = 1}, .barred = barred, .folds = kind == THR_CONTRACTION_LEAST};
-  r.part[THR_AIM_STEPS] = thr_contraction_tie(c, THR_AIM_STEPS);
-  r.part[THR_AIM_PATHS] = thr_contraction_tie(c, THR_AIM_PATHS) / 16;
+  r.part[THR_AIM_STEPS] = thr_contraction_tie(contraction, THR_AIM_STEPS);
+  r.part[THR_AIM_PATHS] = thr_contraction_tie(contraction, THR_AIM_PATHS) / 16;
   double least;
   thr_status st = THR_OK;
-  memset(small, 0, (size_t)c->p.n * sizeof *small);
-  *found = take_copies(c, kind, barred, small);
-  if (*found && kind != THR_CONTRACTION_TWICE) st = add_join(&r, &c->p, limits, small, found, &least, err);
-  if (!st && *found) st = end_surplus(c, small, found, err);
-  for (int k = 0; k < c->p.first_pair && !st; k++)
-    *found = *found && small[k] <= c->p.most[k];
+  memset(small, 0, (size_t)contraction->p.n * sizeof *small);
+  *found = take_copies(contraction, kind, barred, small);
+  if (*found && kind != THR_CONTRACTION_TWICE) st = add_join(&r, &contraction->p, limits, small, found, &least, err);
+  if (!st && *found) st = end_surplus(contraction, small, found, err);
+  for (int k = 0; k < contraction->p.first_pair && !st; k++)
+    *found = *found && small[k] <= contraction->p.most[k];
   return st;
 }
 
-double thr_contraction_tie(const thr_contraction *c, thr_aim aim)
+double thr_contraction_tie(const thr_contraction *contraction, thr_aim aim)
 {
-  return 1e-5 * c->p.scale[THR_AIM_OVERLAP] / c->p.scale[aim];
+  return 1e-5 * contraction->p.scale[THR_AIM_OVERLAP] / contraction->p.scale[aim];
 }
 
-thr_status thr_contraction_bound(const thr_contraction *c, thr_aim tie, const thr_limits *limits, double *bound, thr_err *err)
+thr_status thr_contraction_bound(const thr_contraction *contraction, thr_aim tie, const thr_limits *limits, double *bound,
+                                 thr_err *err)
 {
   request r = {.part = {[THR_AIM_OVERLAP] = 1}, .folds = true, .certain = true};
   bool found;
   double least;
-  int *small = thr_calloc((size_t)c->p.n, sizeof *small);
+  int *small = thr_calloc((size_t)contraction->p.n, sizeof *small);
   if (!small) return thr_nomem(err);
-  if (tie != THR_AIM_OVERLAP) r.part[tie] = thr_contraction_tie(c, tie);
-  *bound = take_certain(&c->p, r.part, small);
-  thr_status st = add_join(&r, &c->p, limits, small, &found, &least, err);
+  if (tie != THR_AIM_OVERLAP) r.part[tie] = thr_contraction_tie(contraction, tie);
+  *bound = take_certain(&contraction->p, r.part, small);
+  thr_status st = add_join(&r, &contraction->p, limits, small, &found, &least, err);
   *bound += least;
   free(small);
   return st;

@@ -25,22 +25,23 @@ typedef struct {
 } thr_ties;
 
 /* node_orbit: [n_nodes] the lowest node of each node's orbit. O(order * (pair types * degree + nodes)). */
-thr_status thr_ties_init(thr_ties *t, const thr_quotient *q, const int *node_orbit, thr_err *err) THR_MUST_CHECK;
-void thr_ties_destroy(thr_ties *t);
+thr_status thr_ties_init(thr_ties *ties, const thr_quotient *quotient, const int *node_orbit, thr_err *err) THR_MUST_CHECK;
+void thr_ties_destroy(thr_ties *ties);
 
-/* Of a contraction q: pair type y of the whole becomes pair[y] (-1: none), whose links are known if keep[y]; node_orbit as above.
+/* Of a contraction quotient: pair type y of the whole becomes pair[y] (-1: none), whose links are known if keep[y]; node_orbit as
+ * above.
  */
-thr_status thr_ties_contract(thr_ties *t, const thr_ties *whole, int whole_pairs, const thr_quotient *q, const int *node_orbit,
-                             const int *pair, const bool *keep, thr_err *err) THR_MUST_CHECK;
+thr_status thr_ties_contract(thr_ties *ties, const thr_ties *whole, int whole_pairs, const thr_quotient *quotient,
+                             const int *node_orbit, const int *pair, const bool *keep, thr_err *err) THR_MUST_CHECK;
 
 /* Blocks of a star's tubes that known turns join of which there are more than `least`; value[n_pairs]: of the pair types.
  * block[degree] receives 0 .. blocks - 1. Returns their number. */
-int thr_ties_blocks(const thr_ties *t, int star, const double *value, double least, int *block);
+int thr_ties_blocks(const thr_ties *ties, int star, const double *value, double least, int *block);
 
 /* Turns in one orbit of pair type y that go between different blocks; all that are only counted. */
-int thr_ties_between(const thr_ties *t, int y, const int *block);
+int thr_ties_between(const thr_ties *ties, int y, const int *block);
 
-/* Is the star tied by whole numbers of turns, as far as is known? parent: [t->most] scratch. */
-bool thr_ties_tied(const thr_ties *t, int star, const int *value, int *parent);
+/* Is the star tied by whole numbers of turns, as far as is known? parent: [ties->most] scratch. */
+bool thr_ties_tied(const thr_ties *ties, int star, const int *value, int *parent);
 
 #endif

@@ -34,10 +34,11 @@ static double room_for(const thr_programme *p, const double *u, int d)
 {
   double room = INFINITY;
   for (int k = p->first[d]; k < p->first[d + 1]; k++) {
-    const thr_pair_type *t = &p->q->pair[p->incident[k]];
+    const thr_pair_type *pair_type = &p->q->pair[p->incident[k]];
     double price = p->cost[THR_AIM_TURNING][p->first_pair + p->incident[k]];
     if (!allowed(p, p->incident[k])) continue;
-    if (!t->self) price = t->dart[0] == t->dart[1] ? price / 2 : price - u[t->dart[0] + t->dart[1] - d];
+    if (!pair_type->self)
+      price = pair_type->dart[0] == pair_type->dart[1] ? price / 2 : price - u[pair_type->dart[0] + pair_type->dart[1] - d];
     room = fmin(room, price);
   }
   if (isinf(room)) return may_end(p, d) ? 0 : 10 * p->scale[THR_AIM_TURNING];
@@ -58,16 +59,16 @@ static void start_ascent(const thr_programme *p, bool free_ends, double *u)
 /* What the copies pay at least: u is of their darts. Of several copy types of an edge orbit any mixture that covers it. */
 static double paid(const thr_programme *p, const double *u)
 {
-  const thr_quotient *q = p->q;
+  const thr_quotient *quotient = p->q;
   double sum = 0;
-  for (int c = 0, end; c < q->n_copies; c = end) {
+  for (int c = 0, end; c < quotient->n_copies; c = end) {
     double alone = 0, mixed = INFINITY;
-    for (end = c; end < q->n_copies && q->copy[end].edge == q->copy[c].edge; end++) {
-      const thr_copy_type *t = &q->copy[end];
-      double price = u[t->dart[0]] + (t->fold ? 0 : u[t->dart[1]]);
+    for (end = c; end < quotient->n_copies && quotient->copy[end].edge == quotient->copy[c].edge; end++) {
+      const thr_copy_type *copy_type = &quotient->copy[end];
+      double price = u[copy_type->dart[0]] + (copy_type->fold ? 0 : u[copy_type->dart[1]]);
       alone = price * p->least[end];
-      int cover = p->cover[t->edge_orbit];
-      if (p->most[end] != 0) mixed = fmin(mixed, price * cover / (t->passes < cover ? t->passes : cover));
+      int cover = p->cover[copy_type->edge_orbit];
+      if (p->most[end] != 0) mixed = fmin(mixed, price * cover / (copy_type->passes < cover ? copy_type->passes : cover));
     }
     sum += end == c + 1 ? alone : mixed;
   }
@@ -244,18 +245,18 @@ static thr_status find_most(master *m, const double *worth, thr_err *err)
   return THR_OK;
 }
 
-static thr_status master_init(master *m, const thr_contraction *c, thr_relaxation *r, int kept, const double *worth,
-                              const thr_limits *limits, thr_err *err)
+static thr_status master_init(master *m, const thr_contraction *contraction, thr_relaxation *relaxation, int kept,
+                              const double *worth, const thr_limits *limits, thr_err *err)
 {
-  const thr_aim *prefer = c->whole->o->prefer;
-  *m = (master){.c = c, .r = r};
+  const thr_aim *prefer = contraction->whole->o->prefer;
+  *m = (master){.c = contraction, .r = relaxation};
   thr_status st = list_cells(m, err);
   if (!st) st = make_room(m, err);
   if (!st) st = find_most(m, worth, err);
-  if (!st && !r->p) st = thr_relaxation_init(r, &c->p, c->p.q->n_darts, limits, err);
+  if (!st && !relaxation->p) st = thr_relaxation_init(relaxation, &contraction->p, contraction->p.q->n_darts, limits, err);
   for (int k = kept; !st && prefer[k] != THR_AIM_TURNING; k++) {
-    st = thr_relaxation_aim(r, prefer[k], err);
-    if (!st) st = thr_relaxation_fix(r, worth[prefer[k]], err);
+    st = thr_relaxation_aim(relaxation, prefer[k], err);
+    if (!st) st = thr_relaxation_fix(relaxation, worth[prefer[k]], err);
   }
   return st ? st : set_costs(m, err);
 }
@@ -265,12 +266,12 @@ static thr_status master_init(master *m, const thr_contraction *c, thr_relaxatio
 /* Darts by type, of copies x. */
 static void count_darts(master *m, const double *x)
 {
-  const thr_quotient *q = m->c->whole->q;
-  for (int d = 0; d < q->n_darts; d++)
+  const thr_quotient *quotient = m->c->whole->q;
+  for (int d = 0; d < quotient->n_darts; d++)
     m->used[d] = 0;
-  for (int k = 0; k < q->n_copies; k++)
-    for (int i = 0; i < (q->copy[k].fold ? 1 : 2); i++)
-      m->used[q->copy[k].dart[i]] += x[k];
+  for (int k = 0; k < quotient->n_copies; k++)
+    for (int i = 0; i < (quotient->copy[k].fold ? 1 : 2); i++)
+      m->used[quotient->copy[k].dart[i]] += x[k];
 }
 
 static int put(master *m, int n, int row, double value)
@@ -292,12 +293,12 @@ static int fill_cell(master *m, int i)
   int types = m->first_type[i + 1] - m->first_type[i], columns = 0, n = 0;
   double price = 4 * p->scale[THR_AIM_TURNING]; /* of what does not fit: a cover never pays it */
   for (int k = m->first_pair[i]; k < m->first_pair[i + 1]; k++) {
-    const thr_pair_type *t = &p->q->pair[m->pair[k]];
-    int a = m->place[t->dart[0]], b = m->place[t->dart[1]];
+    const thr_pair_type *pair_type = &p->q->pair[m->pair[k]];
+    int a = m->place[pair_type->dart[0]], b = m->place[pair_type->dart[1]];
     m->start[columns] = n;
     m->cost[columns++] = p->cost[THR_AIM_TURNING][p->first_pair + m->pair[k]];
-    n = put(m, n, a, t->self || a != b ? 1 : 2);
-    if (t->self || a != b) n = put(m, n, t->self ? types + 1 : b, 1);
+    n = put(m, n, a, pair_type->self || a != b ? 1 : 2);
+    if (pair_type->self || a != b) n = put(m, n, pair_type->self ? types + 1 : b, 1);
   }
   for (int k = 0; k < types && may_end(p, m->type[m->first_type[i]]); k++) {
     m->start[columns] = n;
@@ -452,11 +453,11 @@ static thr_status start_basis(master *m, int cuts, const bool *cut, thr_err *err
 }
 
 /* Copies by dart type: copy[first[d] .. first[d + 1] - 1] / 2. */
-static void list_copies(const thr_quotient *q, int *in, int *first, int *copy)
+static void list_copies(const thr_quotient *quotient, int *in, int *first, int *copy)
 {
-  for (int k = 0; k < 2 * q->n_copies; k++)
-    in[k] = q->copy[k / 2].dart[k % 2]; /* a fold's second is -1 */
-  bucket(2 * q->n_copies, in, q->n_darts, first, copy);
+  for (int k = 0; k < 2 * quotient->n_copies; k++)
+    in[k] = quotient->copy[k / 2].dart[k % 2]; /* a fold's second is -1 */
+  bucket(2 * quotient->n_copies, in, quotient->n_darts, first, copy);
 }
 
 /* Every cell's cut that the multipliers of the quick bound give: no programme whose columns cost that much says less. */
@@ -478,38 +479,39 @@ static thr_status add_quick_cuts(master *m, const int *first, const int *copy, t
 static thr_status add_first_cuts(master *m, const int *cover, const int *first, const int *copy, bool solved,
                                  const thr_limits *limits, thr_err *err)
 {
-  const thr_contraction *c = m->c;
+  const thr_contraction *contraction = m->c;
   int before, added = 0;
-  double *x = thr_calloc((size_t)c->p.n + (size_t)m->r->extra, sizeof *x);
+  double *x = thr_calloc((size_t)contraction->p.n + (size_t)m->r->extra, sizeof *x);
   bool *cut = thr_calloc((size_t)m->r->extra, sizeof *cut);
   thr_status st = x && cut ? add_quick_cuts(m, first, copy, err) : thr_nomem(err);
   before = thr_lp_rows(m->r->lp);
   if (!st) {
     contract_cover(m, cover, x);
     for (int i = 0; i < m->n; i++) /* every cell gets one, whatever it costs */
-      x[c->p.n + c->becomes[m->type[m->first_type[i]]]] = -1;
+      x[contraction->p.n + contraction->becomes[m->type[m->first_type[i]]]] = -1;
     st = add_cuts(m, x, first, copy, limits, &added, err);
   }
   for (int i = 0; i < m->n && !st; i++)
-    cut[c->becomes[m->type[m->first_type[i]]]] = true;
+    cut[contraction->becomes[m->type[m->first_type[i]]]] = true;
   if (!st && solved) st = start_basis(m, thr_lp_rows(m->r->lp) - before, cut, err);
   free(x);
   free(cut);
   return st;
 }
 
-thr_status thr_turning_bound(const thr_contraction *c, thr_relaxation *r, int kept, const int *cover,
+thr_status thr_turning_bound(const thr_contraction *contraction, thr_relaxation *relaxation, int kept, const int *cover,
                              const double worth[THR_N_AIMS], const thr_limits *limits, double *bound, thr_err *err)
 {
-  const thr_quotient *q = c->whole->q;
-  bool solved = r->p;
+  const thr_quotient *quotient = contraction->whole->q;
+  bool solved = relaxation->p;
   master m;
-  int *in = thr_calloc(2 * (size_t)q->n_copies, sizeof *in);
-  int *first = thr_calloc((size_t)q->n_darts + 2, sizeof *first), *copy = thr_calloc(2 * (size_t)q->n_copies, sizeof *copy);
-  thr_status st = master_init(&m, c, r, kept, worth, limits, err);
+  int *in = thr_calloc(2 * (size_t)quotient->n_copies, sizeof *in);
+  int *first = thr_calloc((size_t)quotient->n_darts + 2, sizeof *first),
+      *copy = thr_calloc(2 * (size_t)quotient->n_copies, sizeof *copy);
+  thr_status st = master_init(&m, contraction, relaxation, kept, worth, limits, err);
   if (!st && (!in || !first || !copy)) st = thr_nomem(err);
   if (!st) {
-    list_copies(q, in, first, copy);
+    list_copies(quotient, in, first, copy);
     st = add_first_cuts(&m, cover, first, copy, solved, limits, err);
   }
   if (!st) st = raise_bound(&m, first, copy, limits, bound, err);

@@ -21,10 +21,11 @@ thr_status thr_turning_quick_bound(const thr_programme *p, const double worth[TH
 /* Of the covers with the aims before turning at most at worth: the linear programme of the contraction, whose columns are the
  * copies and, for every cell, what its turns cost. The latter is bounded from below by the multipliers of the cell's own little
  * programme, which is solved again wherever a solution says less (Benders, Numerische Mathematik 4, 1962; one cut per cell), at
- * first for cover[c->whole->n], a solution. The value is that of the linear programme over all pair columns with odd sets of
- * whole cells. r: of c->p with c->p.q->n_darts extra columns, the first `kept` aims kept at no more than worth, which it goes on
- * from; or empty, then it is made. *bound only grows. THR_ELIMIT: the limits stopped it; *bound is proved all the same. */
-thr_status thr_turning_bound(const thr_contraction *c, thr_relaxation *r, int kept, const int *cover,
+ * first for cover[contraction->whole->n], a solution. The value is that of the linear programme over all pair columns with odd
+ * sets of whole cells. relaxation: of contraction->p with contraction->p.q->n_darts extra columns, the first `kept` aims kept at
+ * no more than worth, which it goes on from; or empty, then it is made. *bound only grows. THR_ELIMIT: the limits stopped it;
+ * *bound is proved all the same. */
+thr_status thr_turning_bound(const thr_contraction *contraction, thr_relaxation *relaxation, int kept, const int *cover,
                              const double worth[THR_N_AIMS], const thr_limits *limits, double *bound,
                              thr_err *err) THR_MUST_CHECK;
 

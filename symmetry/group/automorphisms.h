@@ -30,13 +30,13 @@ typedef struct {
 /* By nauty's Traces, edges with colours by subdivision. Deterministic: the same generators on every call. The framework has an
  * edge. THR_ELIMIT: more generators than can be held (2^26 images; thousands of equal components). THR_ESOLVER: nauty gave up
  * (said why). Not re-entrant. */
-thr_status thr_automorphisms_find(const thr_frame *f, const thr_automorphism_options *o, thr_automorphisms *out,
+thr_status thr_automorphisms_find(const thr_frame *frame, const thr_automorphism_options *options, thr_automorphisms *out,
                                   thr_err *err) THR_MUST_CHECK;
 
 /* The same in a child process, which the limits can end, as Traces cannot be stopped; without limits that stop anything, here.
  * *all = false: it was not done in time, and out has the identity alone. */
-thr_status thr_automorphisms_within(const thr_frame *f, const thr_automorphism_options *o, const thr_limits *limits, bool *all,
-                                    thr_automorphisms *out, thr_err *err) THR_MUST_CHECK;
+thr_status thr_automorphisms_within(const thr_frame *frame, const thr_automorphism_options *options, const thr_limits *limits,
+                                    bool *all, thr_automorphisms *out, thr_err *err) THR_MUST_CHECK;
 
 /* Fills the orbits from the generators. */
 thr_status thr_automorphisms_orbits(thr_automorphisms *a, thr_err *err) THR_MUST_CHECK;

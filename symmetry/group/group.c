@@ -101,49 +101,49 @@ static thr_status list_elements(listing *l, thr_err *err)
 }
 
 /* number[element as listed] is its number in the group; listed: [order] scratch. */
-static void fill_products(const listing *l, const int *number, int *listed, thr_group *g)
+static void fill_products(const listing *l, const int *number, int *listed, thr_group *group)
 {
-  for (int a = 0; a < g->order; a++) {
-    int *row = &g->product[(size_t)number[a] * (size_t)g->order];
+  for (int a = 0; a < group->order; a++) {
+    int *row = &group->product[(size_t)number[a] * (size_t)group->order];
     listed[0] = a; /* a * h, for every h */
-    for (int h = 1; h < g->order; h++)
+    for (int h = 1; h < group->order; h++)
       listed[h] = l->times[(size_t)listed[l->from[h]] * (size_t)l->n_generators + (size_t)l->by[h]];
-    for (int h = 0; h < g->order; h++)
+    for (int h = 0; h < group->order; h++)
       row[number[h]] = number[listed[h]];
   }
 }
 
-static void fill_orders(thr_group *g)
+static void fill_orders(thr_group *group)
 {
-  for (int a = 0; a < g->order; a++) {
+  for (int a = 0; a < group->order; a++) {
     int k = 1, last = 0, power = a;
     for (; power != 0; k++) {
       last = power;
-      power = g->product[(size_t)power * (size_t)g->order + (size_t)a];
+      power = group->product[(size_t)power * (size_t)group->order + (size_t)a];
     }
-    g->power_order[a] = k;
-    g->inverse[a] = last; /* the power before the identity; of the identity: itself */
+    group->power_order[a] = k;
+    group->inverse[a] = last; /* the power before the identity; of the identity: itself */
   }
 }
 
 /* Takes the list of images over. */
-static thr_status tabulate(listing *l, thr_group *g, thr_err *err)
+static thr_status tabulate(listing *l, thr_group *group, thr_err *err)
 {
   size_t order = (size_t)l->order;
   int *listed = thr_calloc(order, sizeof *listed), *number = thr_calloc(order, sizeof *number);
-  *g = (thr_group){.degree = l->degree, .order = l->order, .image = l->image};
+  *group = (thr_group){.degree = l->degree, .order = l->order, .image = l->image};
   l->image = NULL;
-  g->product = thr_calloc(order * order, sizeof *g->product);
-  g->inverse = thr_calloc(order, sizeof *g->inverse);
-  g->power_order = thr_calloc(order, sizeof *g->power_order);
+  group->product = thr_calloc(order * order, sizeof *group->product);
+  group->inverse = thr_calloc(order, sizeof *group->inverse);
+  group->power_order = thr_calloc(order, sizeof *group->power_order);
   thr_status st = THR_OK;
-  if (!listed || !number || !g->product || !g->inverse || !g->power_order) st = thr_nomem(err);
-  if (!st) st = thr_rows_sort(g->image, g->order, g->degree, listed, err);
+  if (!listed || !number || !group->product || !group->inverse || !group->power_order) st = thr_nomem(err);
+  if (!st) st = thr_rows_sort(group->image, group->order, group->degree, listed, err);
   if (!st) {
-    for (int a = 0; a < g->order; a++)
+    for (int a = 0; a < group->order; a++)
       number[listed[a]] = a;
-    fill_products(l, number, listed, g);
-    fill_orders(g);
+    fill_products(l, number, listed, group);
+    fill_orders(group);
   }
   free(listed);
   free(number);
@@ -171,23 +171,23 @@ static thr_status check_generators(int degree, const int *generator, int n, thr_
 thr_status thr_group_generate(int degree, const int *generator, int n_generators, int cap, thr_group *out, thr_err *err)
 {
   listing l = {.degree = degree, .generator = generator, .n_generators = n_generators};
-  thr_group g = {0};
+  thr_group group = {0};
   l.cap = cap < 1 ? 1 : cap > THR_GROUP_CAP ? THR_GROUP_CAP : cap;
   thr_status st = check_generators(degree, generator, n_generators, err);
   if (!st) st = listing_init(&l, err);
   if (!st) st = list_elements(&l, err);
-  if (!st) st = tabulate(&l, &g, err);
+  if (!st) st = tabulate(&l, &group, err);
   listing_destroy(&l);
-  if (st) thr_group_destroy(&g);
-  *out = g;
+  if (st) thr_group_destroy(&group);
+  *out = group;
   return st;
 }
 
-void thr_group_destroy(thr_group *g)
+void thr_group_destroy(thr_group *group)
 {
-  free(g->image);
-  free(g->product);
-  free(g->inverse);
-  free(g->power_order);
-  *g = (thr_group){0};
+  free(group->image);
+  free(group->product);
+  free(group->inverse);
+  free(group->power_order);
+  *group = (thr_group){0};
 }

@@ -25,7 +25,7 @@ typedef struct {
  * THR_GROUP_CAP); THR_EINPUT: a generator is no permutation; out is then empty. O(order * (n_generators * degree + order)). */
 thr_status thr_group_generate(int degree, const int *generator, int n_generators, int cap, thr_group *out,
                               thr_err *err) THR_MUST_CHECK;
-void thr_group_destroy(thr_group *g);
+void thr_group_destroy(thr_group *group);
 
 /* A set of elements, by number. */
 typedef struct {
@@ -39,7 +39,7 @@ bool thr_subgroup_has(const thr_subgroup *s, int element); /* O(log order) */
 
 /* A few elements that generate s: greedily, the lowest that is not yet generated. Returns how many: at most 10, since each at
  * least doubles the order. */
-int thr_subgroup_generators(const thr_group *g, const thr_subgroup *s, int generator[16]);
+int thr_subgroup_generators(const thr_group *group, const thr_subgroup *s, int generator[16]);
 
 /* One representative of every class of conjugate subgroups: by descending order, then by elements. */
 typedef struct {
@@ -52,7 +52,7 @@ typedef struct {
 /* Every subgroup is reached from the trivial one by adding one element at a time; conjugates of those met are kept and
  * recognized. The representative is the first of its class in the order above. At most `most` classes (with 2 or more, the whole
  * group and the trivial one are among them). O(classes * order * (order + order of the subgroups)). */
-thr_status thr_subgroup_classes_find(const thr_group *g, int most, thr_subgroup_classes *out, thr_err *err) THR_MUST_CHECK;
-void thr_subgroup_classes_destroy(thr_subgroup_classes *c);
+thr_status thr_subgroup_classes_find(const thr_group *group, int most, thr_subgroup_classes *out, thr_err *err) THR_MUST_CHECK;
+void thr_subgroup_classes_destroy(thr_subgroup_classes *classes);
 
 #endif

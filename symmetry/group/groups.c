@@ -21,9 +21,9 @@ typedef struct {
   int capacity; /* rows that the table has room for */
 } offer;
 
-static const int *image_of(const thr_symmetries *t, int group, int element)
+static const int *image_of(const thr_symmetries *symmetries, int group, int element)
 {
-  const thr_group *g = &t->group[group].all;
+  const thr_group *g = &symmetries->group[group].all;
   return &g->image[(size_t)element * (size_t)g->degree];
 }
 
@@ -41,12 +41,12 @@ static void describe(const offer *x, thr_symmetry_row *row, thr_isometry *scratc
 }
 
 /* The same permutations? Elements are numbered by their images in any group. */
-static bool same_row(const thr_symmetries *t, const thr_symmetry_row *a, const thr_symmetry_row *b)
+static bool same_row(const thr_symmetries *symmetries, const thr_symmetry_row *a, const thr_symmetry_row *b)
 {
   if (a->order != b->order) return false;
   for (int i = 0; i < a->order; i++)
-    if (memcmp(image_of(t, a->group, a->elements.element[i]), image_of(t, b->group, b->elements.element[i]),
-               (size_t)t->group[a->group].all.degree * sizeof(int)) != 0)
+    if (memcmp(image_of(symmetries, a->group, a->elements.element[i]), image_of(symmetries, b->group, b->elements.element[i]),
+               (size_t)symmetries->group[a->group].all.degree * sizeof(int)) != 0)
       return false;
   return true;
 }
@@ -54,19 +54,20 @@ static bool same_row(const thr_symmetries *t, const thr_symmetry_row *a, const t
 /* Takes the elements over, on failure too. */
 static thr_status add_row(offer *x, int group, thr_subgroup *elements, int conjugates, thr_err *err)
 {
-  thr_symmetries *t = x->t;
+  thr_symmetries *symmetries = x->t;
   thr_symmetry_row row = {.order = elements->order, .conjugates = conjugates, .group = group, .elements = *elements};
   *elements = (thr_subgroup){0};
-  for (int i = 0; i < t->n; i++)
-    if (same_row(t, &t->row[i], &row)) {
+  for (int i = 0; i < symmetries->n; i++)
+    if (same_row(symmetries, &symmetries->row[i], &row)) {
       thr_subgroup_destroy(&row.elements);
       return THR_OK;
     }
   thr_isometry *scratch = thr_calloc((size_t)row.order, sizeof *scratch);
-  thr_status st = scratch ? thr_grow(&t->row, t->n, &x->capacity, sizeof *t->row, err) : thr_nomem(err);
+  thr_status st =
+      scratch ? thr_grow(&symmetries->row, symmetries->n, &x->capacity, sizeof *symmetries->row, err) : thr_nomem(err);
   if (!st) {
     describe(x, &row, scratch);
-    t->row[t->n++] = row;
+    symmetries->row[symmetries->n++] = row;
   } else {
     thr_subgroup_destroy(&row.elements);
   }
@@ -77,28 +78,29 @@ static thr_status add_row(offer *x, int group, thr_subgroup *elements, int conju
 /* Takes the group over as one more of the table, on failure too. */
 static thr_status add_group(offer *x, thr_group *g, thr_err *err)
 {
-  thr_symmetries *t = x->t;
-  thr_symmetry_group *group = thr_realloc(t->group, (size_t)t->n_groups + 1, sizeof *group), added = {.all = *g};
+  thr_symmetries *symmetries = x->t;
+  thr_symmetry_group *group = thr_realloc(symmetries->group, (size_t)symmetries->n_groups + 1, sizeof *group),
+                     added = {.all = *g};
   *g = (thr_group){0};
-  if (group) t->group = group;
+  if (group) symmetries->group = group;
   if (!group || !(added.isometry = thr_calloc((size_t)added.all.order, sizeof *added.isometry))) {
     thr_group_destroy(&added.all);
     return thr_nomem(err);
   }
-  t->group[t->n_groups++] = added;
+  symmetries->group[symmetries->n_groups++] = added;
   for (int a = 0; a < added.all.order; a++)
-    thr_isometry_of(x->f, image_of(t, t->n_groups - 1, a), thr_symmetry_near, &added.isometry[a]);
+    thr_isometry_of(x->f, image_of(symmetries, symmetries->n_groups - 1, a), thr_symmetry_near, &added.isometry[a]);
   return THR_OK;
 }
 
 /* Asked for isometries: are all of these within the tolerance? Products of some that are need not be. */
-static bool keeps_shape(const offer *x, int group, const thr_subgroup *g)
+static bool keeps_shape(const offer *x, int group, const thr_subgroup *subgroup)
 {
   double tolerance = x->o->symmetry.geometric;
-  for (int i = 0; i < g->order && tolerance >= 0; i++) {
-    thr_motion m;
-    thr_procrustes(x->f, image_of(x->t, group, g->element[i]), &m);
-    if (m.farthest > tolerance + THR_ISOMETRY_ROUNDING) return false;
+  for (int i = 0; i < subgroup->order && tolerance >= 0; i++) {
+    thr_motion motion;
+    thr_procrustes(x->f, image_of(x->t, group, subgroup->element[i]), &motion);
+    if (motion.farthest > tolerance + THR_ISOMETRY_ROUNDING) return false;
   }
   return true;
 }
@@ -106,13 +108,13 @@ static bool keeps_shape(const offer *x, int group, const thr_subgroup *g)
 /* A row for each class of subgroups of the group that was added last; without `partly` none if there are too many. */
 static thr_status add_classes(offer *x, bool partly, bool *complete, thr_err *err)
 {
-  thr_subgroup_classes c = {0};
+  thr_subgroup_classes classes = {0};
   int group = x->t->n_groups - 1;
-  thr_status st = thr_subgroup_classes_find(&x->t->group[group].all, THR_SYMMETRY_CLASSES, &c, err);
-  *complete = c.complete;
-  for (int k = 0; k < c.n && !st && (partly || c.complete); k++)
-    if (keeps_shape(x, group, &c.subgroup[k])) st = add_row(x, group, &c.subgroup[k], c.conjugates[k], err);
-  thr_subgroup_classes_destroy(&c);
+  thr_status st = thr_subgroup_classes_find(&x->t->group[group].all, THR_SYMMETRY_CLASSES, &classes, err);
+  *complete = classes.complete;
+  for (int k = 0; k < classes.n && !st && (partly || classes.complete); k++)
+    if (keeps_shape(x, group, &classes.subgroup[k])) st = add_row(x, group, &classes.subgroup[k], classes.conjugates[k], err);
+  thr_subgroup_classes_destroy(&classes);
   return st;
 }
 
@@ -121,20 +123,20 @@ static thr_status add_classes(offer *x, bool partly, bool *complete, thr_err *er
 /* generator: [n_generators * n_nodes] images of the nodes. */
 static thr_status count_orbits(offer *x, const int *generator, int n_generators, thr_err *err)
 {
-  const thr_frame *f = x->f;
-  int *node = thr_calloc((size_t)f->n_nodes, sizeof *node), *edge = thr_calloc((size_t)f->n_edges, sizeof *edge);
-  x->t->node_orbits = f->n_nodes;
-  x->t->edge_orbits = f->n_edges;
-  for (int v = 0; node && v < f->n_nodes; v++)
+  const thr_frame *frame = x->f;
+  int *node = thr_calloc((size_t)frame->n_nodes, sizeof *node), *edge = thr_calloc((size_t)frame->n_edges, sizeof *edge);
+  x->t->node_orbits = frame->n_nodes;
+  x->t->edge_orbits = frame->n_edges;
+  for (int v = 0; node && v < frame->n_nodes; v++)
     node[v] = v;
-  for (int e = 0; edge && e < f->n_edges; e++)
+  for (int e = 0; edge && e < frame->n_edges; e++)
     edge[e] = e;
   for (int g = 0; node && edge && g < n_generators; g++) {
-    const int *to = &generator[(size_t)g * (size_t)f->n_nodes];
-    for (int v = 0; v < f->n_nodes; v++)
+    const int *to = &generator[(size_t)g * (size_t)frame->n_nodes];
+    for (int v = 0; v < frame->n_nodes; v++)
       x->t->node_orbits -= thr_disjoint_join(node, v, to[v]);
-    for (int e = 0; e < f->n_edges; e++)
-      x->t->edge_orbits -= thr_disjoint_join(edge, e, thr_edge_joining(f, to[f->edge[e][0]], to[f->edge[e][1]]));
+    for (int e = 0; e < frame->n_edges; e++)
+      x->t->edge_orbits -= thr_disjoint_join(edge, e, thr_edge_joining(frame, to[frame->edge[e][0]], to[frame->edge[e][1]]));
   }
   thr_status st = node && edge ? THR_OK : thr_nomem(err);
   free(node);
@@ -158,15 +160,15 @@ static bool keeps_request(const offer *x, const int *image)
   return true;
 }
 
-static bool has_element(const thr_group *g, const int *image)
+static bool has_element(const thr_group *group, const int *image)
 {
-  int low = 0, high = g->order; /* the images ascend */
+  int low = 0, high = group->order; /* the images ascend */
   while (low < high) {
     int middle = (low + high) / 2, i = 0;
-    const int *at = &g->image[(size_t)middle * (size_t)g->degree];
-    while (i < g->degree && at[i] == image[i])
+    const int *at = &group->image[(size_t)middle * (size_t)group->degree];
+    while (i < group->degree && at[i] == image[i])
       i++;
-    if (i == g->degree) return true;
+    if (i == group->degree) return true;
     if (at[i] < image[i])
       low = middle + 1;
     else
@@ -176,19 +178,19 @@ static bool has_element(const thr_group *g, const int *image)
 }
 
 /* The group that the rows of images generate, each a generator only if the earlier ones do not make it. */
-static thr_status generate(const offer *x, const int *image, int count, thr_group *g, thr_err *err)
+static thr_status generate(const offer *x, const int *image, int count, thr_group *group, thr_err *err)
 {
   enum { MOST = 16 }; /* each at least doubles the group: 2^10 is the cap */
   int n = x->f->n_nodes, used = 0, *generator = thr_calloc((size_t)MOST * (size_t)n, sizeof *generator);
-  *g = (thr_group){0};
+  *group = (thr_group){0};
   if (!generator) return thr_nomem(err);
-  thr_status st = thr_group_generate(n, generator, 0, THR_GROUP_CAP, g, err);
+  thr_status st = thr_group_generate(n, generator, 0, THR_GROUP_CAP, group, err);
   for (int i = 0; i < count && !st; i++) {
     const int *row = &image[(size_t)i * (size_t)n];
-    if (!keeps_request(x, row) || has_element(g, row)) continue;
+    if (!keeps_request(x, row) || has_element(group, row)) continue;
     memcpy(&generator[(size_t)used++ * (size_t)n], row, (size_t)n * sizeof *row);
-    thr_group_destroy(g);
-    st = thr_group_generate(n, generator, used, THR_GROUP_CAP, g, err);
+    thr_group_destroy(group);
+    st = thr_group_generate(n, generator, used, THR_GROUP_CAP, group, err);
   }
   free(generator);
   return st;
@@ -198,17 +200,17 @@ static thr_status generate(const offer *x, const int *image, int count, thr_grou
 static thr_status add_isometries(offer *x, const thr_automorphism_options *colours, double tolerance, bool *all, thr_err *err)
 {
   thr_err why = {0};
-  thr_group g = {0};
+  thr_group group = {0};
   int *image = NULL, count = 0;
   thr_status st = thr_isometries_find(x->f, colours, tolerance, THR_GROUP_CAP, x->limits, &image, &count, &why);
-  if (!st) st = generate(x, image, count, &g, &why);
+  if (!st) st = generate(x, image, count, &group, &why);
   free(image);
   *all = !st;
   if (st == THR_ELIMIT)
-    st = generate(x, NULL, 0, &g, err);
+    st = generate(x, NULL, 0, &group, err);
   else if (st)
     thr_fail(err, st, "%s", why.text);
-  return st ? st : add_group(x, &g, err);
+  return st ? st : add_group(x, &group, err);
 }
 
 /* Those among all automorphisms of a, which are no more than can be listed, as one more group of the table. */
@@ -294,22 +296,23 @@ static thr_status find_shape(offer *x, bool *all, thr_err *err)
 
 static thr_status offer_isometries(offer *x, thr_err *err)
 {
-  thr_symmetries *t = x->t;
+  thr_symmetries *symmetries = x->t;
   bool all, complete = true;
   double tolerance = x->o->symmetry.geometric;
   thr_status st = find_shape(x, &all, err);
   if (!st) st = add_classes(x, true, &complete, err);
   if (st) return st;
-  t->mantissa = t->group[0].all.order;
-  t->listed = all && complete;
+  symmetries->mantissa = symmetries->group[0].all.order;
+  symmetries->listed = all && complete;
   if (!all && thr_limits_stop(x->limits))
-    snprintf(t->note, sizeof t->note, "too little time to look for isometries: only the identity");
+    snprintf(symmetries->note, sizeof symmetries->note, "too little time to look for isometries: only the identity");
   else if (!all)
-    snprintf(t->note, sizeof t->note, "more than %d isometries within %g, too many to list: only the identity", THR_GROUP_CAP,
-             tolerance);
+    snprintf(symmetries->note, sizeof symmetries->note, "more than %d isometries within %g, too many to list: only the identity",
+             THR_GROUP_CAP, tolerance);
   else if (!complete)
-    snprintf(t->note, sizeof t->note, "more than %d classes of subgroups: the first of them", THR_SYMMETRY_CLASSES);
-  return count_orbits(x, t->group[0].all.image, t->group[0].all.order, err);
+    snprintf(symmetries->note, sizeof symmetries->note, "more than %d classes of subgroups: the first of them",
+             THR_SYMMETRY_CLASSES);
+  return count_orbits(x, symmetries->group[0].all.image, symmetries->group[0].all.order, err);
 }
 
 /* ---- a group that is too large ---- */
@@ -317,14 +320,14 @@ static thr_status offer_isometries(offer *x, thr_err *err)
 /* The subgroups of what one or two generators make, if that is small. */
 static thr_status add_small(offer *x, const int *generator, int n, thr_err *err)
 {
-  thr_group g;
+  thr_group group;
   thr_err why = {0};
   bool complete;
   int before = x->t->n;
-  thr_status st = thr_group_generate(x->f->n_nodes, generator, n, THR_SYMMETRY_EXTRA_ORDER, &g, &why);
+  thr_status st = thr_group_generate(x->f->n_nodes, generator, n, THR_SYMMETRY_EXTRA_ORDER, &group, &why);
   if (st == THR_ELIMIT) return THR_OK;
   if (st) return thr_fail(err, st, "%s", why.text);
-  st = add_group(x, &g, err);
+  st = add_group(x, &group, err);
   if (!st) st = add_classes(x, false, &complete, err);
   if (st || x->t->n > before) return st;
   x->t->n_groups--; /* nothing new */
@@ -352,30 +355,30 @@ static thr_status add_extra(offer *x, const thr_automorphisms *a, int most, thr_
   return st;
 }
 
-static void drop_rows(thr_symmetries *t, int most)
+static void drop_rows(thr_symmetries *symmetries, int most)
 {
-  while (t->n > most)
-    thr_subgroup_destroy(&t->row[--t->n].elements);
+  while (symmetries->n > most)
+    thr_subgroup_destroy(&symmetries->row[--symmetries->n].elements);
 }
 
 /* Instead of all subgroups. */
 static thr_status offer_some(offer *x, const thr_automorphisms *a, thr_err *err)
 {
-  thr_symmetries *t = x->t;
+  thr_symmetries *symmetries = x->t;
   bool all, complete = true;
-  int first = t->n_groups;
+  int first = symmetries->n_groups;
   const thr_automorphism_options orbits = {.node_colour = a->orbit};
   thr_status st = add_isometries(x, &orbits, thr_symmetry_near, &all, err);
   if (!st) st = add_classes(x, true, &complete, err);
   if (st) return st;
   if (thr_limits_stop(x->limits)) {
-    snprintf(t->note, sizeof t->note, "too many to list, and too little time to look for more than these");
+    snprintf(symmetries->note, sizeof symmetries->note, "too many to list, and too little time to look for more than these");
     return THR_OK;
   }
-  int isometries = t->group[first].all.order, most = t->n + THR_SYMMETRY_EXTRA;
+  int isometries = symmetries->group[first].all.order, most = symmetries->n + THR_SYMMETRY_EXTRA;
   st = add_extra(x, a, most, err);
-  drop_rows(t, most);
-  snprintf(t->note, sizeof t->note,
+  drop_rows(symmetries, most);
+  snprintf(symmetries->note, sizeof symmetries->note,
            "too many to list. Instead: %s %d%s within %g %% of an isometry%s, and small groups that one "
            "or two generators make",
            all ? "the" : "more than", all ? isometries : THR_GROUP_CAP, all ? "" : " that are", 100 * thr_symmetry_near,
@@ -387,9 +390,9 @@ static thr_status offer_some(offer *x, const thr_automorphisms *a, thr_err *err)
 
 static thr_status offer_automorphisms(offer *x, thr_err *err)
 {
-  thr_symmetries *t = x->t;
+  thr_symmetries *symmetries = x->t;
   thr_automorphisms a;
-  thr_group g = {0};
+  thr_group group = {0};
   bool all = true;
   int *node = thr_calloc((size_t)x->f->n_nodes, sizeof *node), *edge = thr_calloc((size_t)x->f->n_edges, sizeof *edge);
   thr_status st = node && edge ? colour_passes(x, edge, err) : thr_nomem(err);
@@ -400,18 +403,18 @@ static thr_status offer_automorphisms(offer *x, thr_err *err)
   free(node);
   free(edge);
   if (st) return st;
-  t->mantissa = a.mantissa;
-  t->exponent = a.exponent;
+  symmetries->mantissa = a.mantissa;
+  symmetries->exponent = a.exponent;
   st = count_orbits(x, a.generator, a.n_generators, err);
   if (!st && a.exponent == 0 && a.mantissa <= THR_GROUP_CAP) {
-    st = thr_group_generate(a.n, a.generator, a.n_generators, THR_GROUP_CAP, &g, err);
-    if (!st) st = add_group(x, &g, err);
-    if (!st) st = add_classes(x, false, &t->listed, err);
+    st = thr_group_generate(a.n, a.generator, a.n_generators, THR_GROUP_CAP, &group, err);
+    if (!st) st = add_group(x, &group, err);
+    if (!st) st = add_classes(x, false, &symmetries->listed, err);
   }
-  if (!st && !t->listed) st = offer_some(x, &a, err);
+  if (!st && !symmetries->listed) st = offer_some(x, &a, err);
   if (!st && !all) {
-    t->listed = false;
-    snprintf(t->note, sizeof t->note, "too little time to find the automorphisms: only the identity");
+    symmetries->listed = false;
+    snprintf(symmetries->note, sizeof symmetries->note, "too little time to find the automorphisms: only the identity");
   }
   thr_automorphisms_destroy(&a);
   return st;
@@ -420,22 +423,22 @@ static thr_status offer_automorphisms(offer *x, thr_err *err)
 /* ---- all ---- */
 
 /* By descending order, those of one order as they were found. */
-static void sort_rows(thr_symmetries *t)
+static void sort_rows(thr_symmetries *symmetries)
 {
-  for (int i = 1; i < t->n; i++) {
-    thr_symmetry_row row = t->row[i];
+  for (int i = 1; i < symmetries->n; i++) {
+    thr_symmetry_row row = symmetries->row[i];
     int k = i;
-    for (; k > 0 && t->row[k - 1].order < row.order; k--)
-      t->row[k] = t->row[k - 1];
-    t->row[k] = row;
+    for (; k > 0 && symmetries->row[k - 1].order < row.order; k--)
+      symmetries->row[k] = symmetries->row[k - 1];
+    symmetries->row[k] = row;
   }
 }
 
-thr_status thr_symmetry_groups(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_symmetries *t,
-                               thr_err *err)
+thr_status thr_symmetry_groups(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits,
+                               thr_symmetries *symmetries, thr_err *err)
 {
-  offer x = {.f = f, .o = o, .t = t, .limits = limits};
-  thr_status st = o->symmetry.geometric >= 0 ? offer_isometries(&x, err) : offer_automorphisms(&x, err);
-  sort_rows(t);
+  offer x = {.f = frame, .o = options, .t = symmetries, .limits = limits};
+  thr_status st = options->symmetry.geometric >= 0 ? offer_isometries(&x, err) : offer_automorphisms(&x, err);
+  sort_rows(symmetries);
   return st;
 }

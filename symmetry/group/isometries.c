@@ -150,8 +150,8 @@ static thr_status fill_cells(search *s, thr_err *err)
 
 static thr_status search_init(search *s, thr_err *err)
 {
-  const thr_frame *f = s->f;
-  size_t n = (size_t)f->n_nodes;
+  const thr_frame *frame = s->f;
+  size_t n = (size_t)frame->n_nodes;
   s->x = thr_calloc(n, sizeof *s->x);
   s->radius = thr_calloc(n, sizeof *s->radius);
   s->kind = thr_calloc(n, sizeof *s->kind);
@@ -160,14 +160,14 @@ static thr_status search_init(search *s, thr_err *err)
   s->next = thr_calloc(n, sizeof *s->next);
   s->hit = thr_calloc(n, sizeof *s->hit);
   if (!s->x || !s->radius || !s->kind || !s->like || !s->image || !s->next || !s->hit) return thr_nomem(err);
-  thr_frame_extent(f, s->centroid, &s->size);
-  for (int v = 0; v < f->n_nodes; v++) {
+  thr_frame_extent(frame, s->centroid, &s->size);
+  for (int v = 0; v < frame->n_nodes; v++) {
     for (int i = 0; i < 3; i++)
-      s->x[v][i] = (f->xyz[v][i] - s->centroid[i]) / s->size;
+      s->x[v][i] = (frame->xyz[v][i] - s->centroid[i]) / s->size;
     s->radius[v] = sqrt(thr_dot(s->x[v], s->x[v]));
     s->most = fmax(s->most, s->radius[v]);
     int64_t colour = s->colours->node_colour ? s->colours->node_colour[v] : 0;
-    s->kind[v] = colour * (INT64_C(1) << 32) + 2 * (int64_t)thr_degree(f, v) + f->foot[v];
+    s->kind[v] = colour * (INT64_C(1) << 32) + 2 * (int64_t)thr_degree(frame, v) + frame->foot[v];
     s->like[v] = (likeness){s->kind[v], v, s->radius[v]};
   }
   qsort(s->like, n, sizeof *s->like, by_likeness);
@@ -225,22 +225,22 @@ static bool match(search *s, double q[3][3], int *image)
   return true;
 }
 
-int thr_edge_joining(const thr_frame *f, int a, int b)
+int thr_edge_joining(const thr_frame *frame, int a, int b)
 {
-  bool fewer = thr_degree(f, a) <= thr_degree(f, b);
-  return thr_frame_edge_between(f, fewer ? a : b, fewer ? b : a);
+  bool fewer = thr_degree(frame, a) <= thr_degree(frame, b);
+  return thr_frame_edge_between(frame, fewer ? a : b, fewer ? b : a);
 }
 
 static bool is_automorphism(search *s)
 {
-  const thr_frame *f = s->f;
-  memset(s->hit, 0, (size_t)f->n_nodes * sizeof *s->hit);
-  for (int v = 0; v < f->n_nodes; v++) {
+  const thr_frame *frame = s->f;
+  memset(s->hit, 0, (size_t)frame->n_nodes * sizeof *s->hit);
+  for (int v = 0; v < frame->n_nodes; v++) {
     if (s->hit[s->image[v]]) return false;
     s->hit[s->image[v]] = true;
   }
-  for (int e = 0; e < f->n_edges; e++) {
-    int to = thr_edge_joining(f, s->image[f->edge[e][0]], s->image[f->edge[e][1]]);
+  for (int e = 0; e < frame->n_edges; e++) {
+    int to = thr_edge_joining(frame, s->image[frame->edge[e][0]], s->image[frame->edge[e][1]]);
     s->work++;
     if (to < 0 || (s->colours->edge_colour && s->colours->edge_colour[to] != s->colours->edge_colour[e])) return false;
   }
@@ -278,10 +278,10 @@ static thr_status try_motion(search *s, double q[3][3], int cap, thr_err *err)
   if (!match(s, q, s->image) || is_known(s)) return THR_OK;
   if (s->tried++ / TRIES > cap + 256) return too_many(s, err);
   for (int round = 0; round < ROUNDS; round++) {
-    thr_motion m;
-    thr_procrustes(s->f, s->image, &m);
-    if (m.farthest <= s->tolerance && is_automorphism(s)) return keep(s, cap, err);
-    if (!match(s, m.q, s->next) || memcmp(s->next, s->image, row) == 0) return THR_OK;
+    thr_motion motion;
+    thr_procrustes(s->f, s->image, &motion);
+    if (motion.farthest <= s->tolerance && is_automorphism(s)) return keep(s, cap, err);
+    if (!match(s, motion.q, s->next) || memcmp(s->next, s->image, row) == 0) return THR_OK;
     memcpy(s->image, s->next, row);
   }
   return THR_OK;
@@ -350,16 +350,16 @@ static thr_status try_all(search *s, int cap, thr_err *err)
   return st;
 }
 
-thr_status thr_isometries_find(const thr_frame *f, const thr_automorphism_options *colours, double tolerance, int cap,
+thr_status thr_isometries_find(const thr_frame *frame, const thr_automorphism_options *colours, double tolerance, int cap,
                                const thr_limits *limits, int **out, int *count, thr_err *err)
 {
   const thr_automorphism_options none = {0};
-  search s = {.f = f, .limits = limits, .colours = colours ? colours : &none, .tolerance = tolerance + THR_ISOMETRY_ROUNDING};
+  search s = {.f = frame, .limits = limits, .colours = colours ? colours : &none, .tolerance = tolerance + THR_ISOMETRY_ROUNDING};
   *out = NULL;
   *count = 0;
   thr_status st = search_init(&s, err);
   if (!st) st = s.second < 0 ? try_line(&s, cap, err) : try_all(&s, cap, err);
-  if (!st) st = thr_rows_sort(s.found, s.count, f->n_nodes, NULL, err);
+  if (!st) st = thr_rows_sort(s.found, s.count, frame->n_nodes, NULL, err);
   search_destroy(&s);
   if (st) {
     free(s.found);
@@ -372,17 +372,17 @@ thr_status thr_isometries_find(const thr_frame *f, const thr_automorphism_option
 
 /* ---- the isometries among listed automorphisms ---- */
 
-thr_status thr_isometries_among(const thr_frame *f, const int *image, int n, double tolerance, int **out, int *count,
+thr_status thr_isometries_among(const thr_frame *frame, const int *image, int n, double tolerance, int **out, int *count,
                                 thr_err *err)
 {
-  size_t row = (size_t)f->n_nodes;
+  size_t row = (size_t)frame->n_nodes;
   *count = 0;
   *out = thr_calloc((size_t)n * row, sizeof **out);
   if (!*out) return thr_nomem(err);
   for (int i = 0; i < n; i++) {
-    thr_motion m;
-    thr_procrustes(f, image + (size_t)i * row, &m);
-    if (m.farthest <= tolerance + THR_ISOMETRY_ROUNDING)
+    thr_motion motion;
+    thr_procrustes(frame, image + (size_t)i * row, &motion);
+    if (motion.farthest <= tolerance + THR_ISOMETRY_ROUNDING)
       memcpy(*out + (size_t)(*count)++ * row, image + (size_t)i * row, row * sizeof *image);
   }
   return THR_OK;
@@ -402,17 +402,17 @@ static int by_length(const void *a, const void *b)
   return (p->edge > q->edge) - (p->edge < q->edge);
 }
 
-thr_status thr_length_colours(const thr_frame *f, double tolerance, int *colour, thr_err *err)
+thr_status thr_length_colours(const thr_frame *frame, double tolerance, int *colour, thr_err *err)
 {
-  measured *m = thr_calloc((size_t)f->n_edges, sizeof *m);
+  measured *m = thr_calloc((size_t)frame->n_edges, sizeof *m);
   double centroid[3], size;
   if (!m) return thr_nomem(err);
-  thr_frame_extent(f, centroid, &size);
-  for (int e = 0; e < f->n_edges; e++)
-    m[e] = (measured){f->length[e], e};
-  qsort(m, (size_t)f->n_edges, sizeof *m, by_length);
+  thr_frame_extent(frame, centroid, &size);
+  for (int e = 0; e < frame->n_edges; e++)
+    m[e] = (measured){frame->length[e], e};
+  qsort(m, (size_t)frame->n_edges, sizeof *m, by_length);
   double step = 2 * (tolerance + 2 * THR_ISOMETRY_ROUNDING) * size; /* an isometry moves either end by the tolerance at most */
-  for (int i = 0, last = 0; i < f->n_edges; i++) {
+  for (int i = 0, last = 0; i < frame->n_edges; i++) {
     last += i > 0 && m[i].length - m[i - 1].length > step;
     colour[m[i].edge] = last;
   }

@@ -72,57 +72,57 @@ static int common_divisor(int a, int b)
 }
 
 /* "C5^2": two fifths of a turn. */
-static void name_turn(thr_isometry *o, char letter, int part, int of)
+static void name_turn(thr_isometry *isometry, char letter, int part, int of)
 {
   int d = common_divisor(of, part);
   if (part == d)
-    snprintf(o->name, sizeof o->name, "%c%d", letter, of / d);
+    snprintf(isometry->name, sizeof isometry->name, "%c%d", letter, of / d);
   else
-    snprintf(o->name, sizeof o->name, "%c%d^%d", letter, of / d, part / d);
+    snprintf(isometry->name, sizeof isometry->name, "%c%d^%d", letter, of / d, part / d);
 }
 
 /* A q whose order^th power is not near the identity, or an earlier power is, only looks like an isometry: nodes that lie within
  * the tolerance of each other change places. */
-static void classify(thr_isometry *o, double q[3][3], bool proper)
+static void classify(thr_isometry *isometry, double q[3][3], bool proper)
 {
-  int order = o->order;
+  int order = isometry->order;
   double angle;
-  decompose(q, proper, o->axis, &angle);
+  decompose(q, proper, isometry->axis, &angle);
   int part = (int)lround(fabs(angle) * order / (2 * THR_PI)), d = common_divisor(order, part), own = order / d;
   if (!proper && own % 2 == 1) own *= 2;
   if (own != order) return;
   double snapped = copysign(2 * THR_PI * part / order, angle);
   if (!proper && part == 0) {
-    o->kind = THR_ISO_MIRROR;
-    snprintf(o->name, sizeof o->name, "mirror");
+    isometry->kind = THR_ISO_MIRROR;
+    snprintf(isometry->name, sizeof isometry->name, "mirror");
   } else if (!proper && 2 * part == order) {
-    o->kind = THR_ISO_INVERSION;
-    snprintf(o->name, sizeof o->name, "inversion");
+    isometry->kind = THR_ISO_INVERSION;
+    snprintf(isometry->name, sizeof isometry->name, "inversion");
   } else {
-    o->kind = proper ? THR_ISO_ROTATION : THR_ISO_ROTOREFLECTION;
-    o->angle = 2 * part == order ? THR_PI : snapped;
-    name_turn(o, proper ? 'C' : 'S', part, order);
+    isometry->kind = proper ? THR_ISO_ROTATION : THR_ISO_ROTOREFLECTION;
+    isometry->angle = 2 * part == order ? THR_PI : snapped;
+    name_turn(isometry, proper ? 'C' : 'S', part, order);
   }
-  if (o->kind == THR_ISO_INVERSION) memset(o->axis, 0, sizeof o->axis);
+  if (isometry->kind == THR_ISO_INVERSION) memset(isometry->axis, 0, sizeof isometry->axis);
 }
 
-void thr_isometry_of(const thr_frame *f, const int *image, double tolerance, thr_isometry *out)
+void thr_isometry_of(const thr_frame *frame, const int *image, double tolerance, thr_isometry *out)
 {
-  thr_isometry o = {.kind = THR_ISO_NONE, .order = order_of(image, f->n_nodes)};
-  thr_motion m;
-  thr_procrustes(f, image, &m);
-  o.residual = m.residual;
-  if (o.order == 1) {
-    o.kind = THR_ISO_IDENTITY;
-    snprintf(o.name, sizeof o.name, "identity");
-  } else if (o.residual <= tolerance) {
-    classify(&o, m.q, m.proper);
+  thr_isometry isometry = {.kind = THR_ISO_NONE, .order = order_of(image, frame->n_nodes)};
+  thr_motion motion;
+  thr_procrustes(frame, image, &motion);
+  isometry.residual = motion.residual;
+  if (isometry.order == 1) {
+    isometry.kind = THR_ISO_IDENTITY;
+    snprintf(isometry.name, sizeof isometry.name, "identity");
+  } else if (isometry.residual <= tolerance) {
+    classify(&isometry, motion.q, motion.proper);
   }
-  if (o.kind == THR_ISO_NONE) {
-    memset(o.axis, 0, sizeof o.axis);
-    snprintf(o.name, sizeof o.name, "order %d", o.order);
+  if (isometry.kind == THR_ISO_NONE) {
+    memset(isometry.axis, 0, sizeof isometry.axis);
+    snprintf(isometry.name, sizeof isometry.name, "order %d", isometry.order);
   }
-  *out = o;
+  *out = isometry;
 }
 
 /* ---- Schoenflies ---- */
@@ -138,14 +138,14 @@ static census count(const thr_isometry *element, int n)
 {
   census c = {.principal = 1};
   for (int i = 0; i < n; i++) {
-    const thr_isometry *o = &element[i];
-    bool proper = o->kind == THR_ISO_ROTATION || o->kind == THR_ISO_IDENTITY;
+    const thr_isometry *isometry = &element[i];
+    bool proper = isometry->kind == THR_ISO_ROTATION || isometry->kind == THR_ISO_IDENTITY;
     c.rotations += proper;
     c.improper += !proper;
-    c.mirrors += o->kind == THR_ISO_MIRROR;
-    c.inversions += o->kind == THR_ISO_INVERSION;
-    c.threefold += proper && o->order == 3;
-    if (proper && o->order > c.principal) c.principal = o->order;
+    c.mirrors += isometry->kind == THR_ISO_MIRROR;
+    c.inversions += isometry->kind == THR_ISO_INVERSION;
+    c.threefold += proper && isometry->order == 3;
+    if (proper && isometry->order > c.principal) c.principal = isometry->order;
   }
   return c;
 }

@@ -38,10 +38,10 @@ typedef struct {
  * angle is snapped to the fraction of a turn that the permutation's order asks for. The kind is THR_ISO_NONE above `tolerance`,
  * and for a permutation whose order its motion has not (nodes within tolerance of each other that change places); axis and angle
  * are then 0. image: [n_nodes], a permutation. O(n) and its cycles. */
-void thr_isometry_of(const thr_frame *f, const int *image, double tolerance, thr_isometry *out);
+void thr_isometry_of(const thr_frame *frame, const int *image, double tolerance, thr_isometry *out);
 
 /* Edge between nodes a and b; -1: none. O(the smaller of their degrees): images of a hub's edges are looked up in no time. */
-int thr_edge_joining(const thr_frame *f, int a, int b);
+int thr_edge_joining(const thr_frame *frame, int a, int b);
 
 /* Every automorphism that is an isometry within tolerance (of every node's distance from its image, as a part of the framework's
  * size: the root mean square distance of the nodes from their centroid), found from the coordinates: at most cap. Rows of images
@@ -50,18 +50,18 @@ int thr_edge_joining(const thr_frame *f, int a, int b);
  * matching of each motion is found; and within a tolerance above rounding the rows need not make a group. The framework has an
  * edge. THR_ELIMIT: more than cap, or far more motions fit than that, or stopped by the limits. O(n + edges) per motion tried,
  * about a second at most. */
-thr_status thr_isometries_find(const thr_frame *f, const thr_automorphism_options *colours, double tolerance, int cap,
+thr_status thr_isometries_find(const thr_frame *frame, const thr_automorphism_options *colours, double tolerance, int cap,
                                const thr_limits *limits, int **out, int *count, thr_err *err) THR_MUST_CHECK;
 
 /* Those of n automorphisms (rows of images) that are isometries within tolerance, as above, in their order. O(n * n_nodes). */
-thr_status thr_isometries_among(const thr_frame *f, const int *image, int n, double tolerance, int **out, int *count,
+thr_status thr_isometries_among(const thr_frame *frame, const int *image, int n, double tolerance, int **out, int *count,
                                 thr_err *err) THR_MUST_CHECK;
 
 /* Colours of edges, 0, 1, .. by ascending length, that no isometry within tolerance mixes up: it changes a distance by 2 *
  * tolerance * size at most, so lengths that differ by no more have one colour, and so have those linked by others in between.
  * Lengths are those of the cord, which a file may give otherwise than the coordinates; then only isometries that keep them so
  * keep the colours. colour: [n_edges]. O(m log m). */
-thr_status thr_length_colours(const thr_frame *f, double tolerance, int *colour, thr_err *err) THR_MUST_CHECK;
+thr_status thr_length_colours(const thr_frame *frame, double tolerance, int *colour, thr_err *err) THR_MUST_CHECK;
 
 /* What kind of point group a set of named elements is, Schoenflies: "C1", "Cs", "Ci", "C4", "C4v", "C4h", "D4", "D4d", "D4h",
  * "S4", "T", "Td", "Th", "O", "Oh", "I", "Ih"; "" if some element is no isometry (topological only) or they are no group.

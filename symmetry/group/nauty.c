@@ -1,8 +1,8 @@
 /* Automorphisms by Traces (McKay & Piperno 2014). The only file that knows nauty.
  *
- * nauty's callback has no user pointer and its failures end the program: one target at a time in a thread, and alloc_error, which nauty calls
- * when memory runs out, is replaced by a jump back (the program's definition goes before the shared library's). Sparse nauty
- * itself is not used: it overruns its buffers on stars. */
+ * nauty's callback has no user pointer and its failures end the program: one target at a time in a thread, and alloc_error, which
+ * nauty calls when memory runs out, is replaced by a jump back (the program's definition goes before the shared library's).
+ * Sparse nauty itself is not used: it overruns its buffers on stars. */
 #include "graph/framework/frame.h"
 #include "graph/status.h"
 #include "symmetry/group/automorphisms.h"
@@ -90,15 +90,15 @@ static int colour_of(const int *colour, int i)
   return colour ? colour[i] : 0;
 }
 
-static thr_status fill_colours(coloured *c, const thr_frame *f, const thr_automorphism_options *o, thr_err *err)
+static thr_status fill_colours(coloured *c, const thr_frame *frame, const thr_automorphism_options *options, thr_err *err)
 {
   point *p = thr_calloc((size_t)c->n, sizeof *p);
   if (!p) return thr_nomem(err);
   for (int i = 0; i < c->n; i++) {
-    int e = i - f->n_nodes;
+    int e = i - frame->n_nodes;
     p[i].index = i;
-    p[i].kind = e >= 0 ? 2 : f->foot[i] ? 1 : 0;
-    p[i].colour = e >= 0 ? colour_of(o->edge_colour, e) : colour_of(o->node_colour, i);
+    p[i].kind = e >= 0 ? 2 : frame->foot[i] ? 1 : 0;
+    p[i].colour = e >= 0 ? colour_of(options->edge_colour, e) : colour_of(options->node_colour, i);
   }
   qsort(p, (size_t)c->n, sizeof *p, by_colour);
   for (int i = 0; i < c->n; i++) {
@@ -109,20 +109,20 @@ static thr_status fill_colours(coloured *c, const thr_frame *f, const thr_automo
   return THR_OK;
 }
 
-static void fill_graph(coloured *c, const thr_frame *f)
+static void fill_graph(coloured *c, const thr_frame *frame)
 {
   size_t at = 0;
-  for (int v = 0; v < f->n_nodes; v++) {
+  for (int v = 0; v < frame->n_nodes; v++) {
     c->graph.v[v] = at;
-    c->graph.d[v] = thr_degree(f, v);
-    for (int i = f->first[v]; i < f->first[v + 1]; i++)
-      c->graph.e[at++] = c->n > f->n_nodes ? f->n_nodes + (f->half[i] >> 1) : thr_head(f, f->half[i]);
+    c->graph.d[v] = thr_degree(frame, v);
+    for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
+      c->graph.e[at++] = c->n > frame->n_nodes ? frame->n_nodes + (frame->half[i] >> 1) : thr_head(frame, frame->half[i]);
   }
-  for (int i = f->n_nodes; i < c->n; i++) {
+  for (int i = frame->n_nodes; i < c->n; i++) {
     c->graph.v[i] = at;
     c->graph.d[i] = 2;
-    c->graph.e[at++] = f->edge[i - f->n_nodes][0];
-    c->graph.e[at++] = f->edge[i - f->n_nodes][1];
+    c->graph.e[at++] = frame->edge[i - frame->n_nodes][0];
+    c->graph.e[at++] = frame->edge[i - frame->n_nodes][1];
   }
   c->graph.nv = c->n;
   c->graph.nde = at;
@@ -135,15 +135,15 @@ static bool all_equal(const int *colour, int n)
   return true;
 }
 
-static thr_status coloured_init(coloured *c, const thr_frame *f, const thr_automorphism_options *o, thr_err *err)
+static thr_status coloured_init(coloured *c, const thr_frame *frame, const thr_automorphism_options *options, thr_err *err)
 {
-  bool subdivide = o->edge_colour && !all_equal(o->edge_colour, f->n_edges);
+  bool subdivide = options->edge_colour && !all_equal(options->edge_colour, frame->n_edges);
   SG_INIT(c->graph);
-  if (subdivide && f->n_edges > NAUTY_INFINITY - 1 - f->n_nodes)
+  if (subdivide && frame->n_edges > NAUTY_INFINITY - 1 - frame->n_nodes)
     return thr_fail(err, THR_ELIMIT, "nauty: more than %d nodes and edges", NAUTY_INFINITY);
-  c->n = f->n_nodes + (subdivide ? f->n_edges : 0);
+  c->n = frame->n_nodes + (subdivide ? frame->n_edges : 0);
   c->graph.vlen = c->graph.dlen = (size_t)c->n;
-  c->graph.elen = (subdivide ? 4 : 2) * (size_t)f->n_edges;
+  c->graph.elen = (subdivide ? 4 : 2) * (size_t)frame->n_edges;
   c->graph.v = thr_calloc(c->graph.vlen, sizeof *c->graph.v);
   c->graph.d = thr_calloc(c->graph.dlen, sizeof *c->graph.d);
   c->graph.e = thr_calloc(c->graph.elen, sizeof *c->graph.e);
@@ -151,8 +151,8 @@ static thr_status coloured_init(coloured *c, const thr_frame *f, const thr_autom
   c->ptn = thr_calloc((size_t)c->n, sizeof *c->ptn);
   c->orbits = thr_calloc((size_t)c->n, sizeof *c->orbits);
   if (!c->graph.v || !c->graph.d || !c->graph.e || !c->lab || !c->ptn || !c->orbits) return thr_nomem(err);
-  fill_graph(c, f);
-  return fill_colours(c, f, o, err);
+  fill_graph(c, frame);
+  return fill_colours(c, frame, options, err);
 }
 
 /* Is there memory for a run? Asked for and given back. */
@@ -213,12 +213,13 @@ thr_status thr_automorphisms_orbits(thr_automorphisms *a, thr_err *err)
   return THR_OK;
 }
 
-thr_status thr_automorphisms_find(const thr_frame *f, const thr_automorphism_options *o, thr_automorphisms *out, thr_err *err)
+thr_status thr_automorphisms_find(const thr_frame *frame, const thr_automorphism_options *options, thr_automorphisms *out,
+                                  thr_err *err)
 {
   coloured c = {0};
-  thr_automorphisms a = {.n = f->n_nodes, .mantissa = 1};
+  thr_automorphisms a = {.n = frame->n_nodes, .mantissa = 1};
   collector k = {.out = &a};
-  thr_status st = coloured_init(&c, f, o, err);
+  thr_status st = coloured_init(&c, frame, options, err);
   if (!st && c.n > 0) st = run_traces(&c, &k, err);
   if (!st) normalize_order(&a);
   if (!st) st = thr_automorphisms_orbits(&a, err);

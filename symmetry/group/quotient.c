@@ -25,19 +25,19 @@ typedef struct {
   thr_scratch own; /* the arrays */
 } build;
 
-static int image(const thr_quotient *q, int i, int half)
+static int image(const thr_quotient *quotient, int i, int half)
 {
-  return q->half_image[(size_t)i * 2 * (size_t)q->f->n_edges + (size_t)half];
+  return quotient->half_image[(size_t)i * 2 * (size_t)quotient->f->n_edges + (size_t)half];
 }
 
-static int product(const thr_group *g, int a, int b)
+static int product(const thr_group *group, int a, int b)
 {
-  return g->product[(size_t)a * (size_t)g->order + (size_t)b];
+  return group->product[(size_t)a * (size_t)group->order + (size_t)b];
 }
 
-static int conjugated(const thr_group *g, int by, int a)
+static int conjugated(const thr_group *group, int by, int a)
 {
-  return product(g, product(g, by, a), g->inverse[by]);
+  return product(group, product(group, by, a), group->inverse[by]);
 }
 
 static thr_status too_many(const build *b, thr_err *err)
@@ -58,50 +58,50 @@ static thr_status check_time(const build *b, thr_err *err)
 
 /* ---- images and orbits ---- */
 
-static int half_between(const thr_frame *f, int from, int to)
+static int half_between(const thr_frame *frame, int from, int to)
 {
-  int e = thr_edge_joining(f, from, to);
-  return e < 0 ? -1 : 2 * e + (f->edge[e][1] == from);
+  int e = thr_edge_joining(frame, from, to);
+  return e < 0 ? -1 : 2 * e + (frame->edge[e][1] == from);
 }
 
 static thr_status map_halves(const build *b, thr_err *err)
 {
-  thr_quotient *q = b->q;
-  const thr_frame *f = q->f;
-  size_t halves = 2 * (size_t)f->n_edges;
-  q->half_image = thr_calloc((size_t)q->h->order * halves, sizeof *q->half_image);
-  if (!q->half_image) return thr_nomem(err);
-  for (int i = 0; i < q->h->order; i++) {
+  thr_quotient *quotient = b->q;
+  const thr_frame *frame = quotient->f;
+  size_t halves = 2 * (size_t)frame->n_edges;
+  quotient->half_image = thr_calloc((size_t)quotient->h->order * halves, sizeof *quotient->half_image);
+  if (!quotient->half_image) return thr_nomem(err);
+  for (int i = 0; i < quotient->h->order; i++) {
     thr_status st = check_time(b, err);
     if (st) return st;
-    const int *to = &q->group->image[(size_t)q->h->element[i] * (size_t)q->group->degree];
-    for (int h = 0; h < 2 * f->n_edges; h += 2) {
-      int half = half_between(f, to[thr_tail(f, h)], to[thr_head(f, h)]);
-      if (half < 0) return thr_fail(err, THR_EINPUT, "element %d of the group is no automorphism", q->h->element[i]);
-      q->half_image[(size_t)i * halves + (size_t)h] = half;
-      q->half_image[(size_t)i * halves + (size_t)h + 1] = half ^ 1;
+    const int *to = &quotient->group->image[(size_t)quotient->h->element[i] * (size_t)quotient->group->degree];
+    for (int h = 0; h < 2 * frame->n_edges; h += 2) {
+      int half = half_between(frame, to[thr_tail(frame, h)], to[thr_head(frame, h)]);
+      if (half < 0) return thr_fail(err, THR_EINPUT, "element %d of the group is no automorphism", quotient->h->element[i]);
+      quotient->half_image[(size_t)i * halves + (size_t)h] = half;
+      quotient->half_image[(size_t)i * halves + (size_t)h + 1] = half ^ 1;
     }
   }
   return THR_OK;
 }
 
-static thr_status find_edge_orbits(thr_quotient *q, thr_err *err)
+static thr_status find_edge_orbits(thr_quotient *quotient, thr_err *err)
 {
-  size_t m = (size_t)q->f->n_edges;
-  q->edge_orbit = thr_calloc(m, sizeof *q->edge_orbit);
-  q->orbit_size = thr_calloc(m, sizeof *q->orbit_size);
-  q->orbit_length = thr_calloc(m, sizeof *q->orbit_length);
-  if (!q->edge_orbit || !q->orbit_size || !q->orbit_length) return thr_nomem(err);
-  memset(q->edge_orbit, -1, m * sizeof *q->edge_orbit);
-  for (int e = 0; e < q->f->n_edges; e++) {
-    if (q->edge_orbit[e] >= 0) continue;
-    int orbit = q->n_edge_orbits++;
-    for (int i = 0; i < q->h->order; i++) {
-      int to = image(q, i, 2 * e) >> 1;
-      if (q->edge_orbit[to] >= 0) continue;
-      q->edge_orbit[to] = orbit;
-      q->orbit_size[orbit]++;
-      q->orbit_length[orbit] += q->f->length[to];
+  size_t m = (size_t)quotient->f->n_edges;
+  quotient->edge_orbit = thr_calloc(m, sizeof *quotient->edge_orbit);
+  quotient->orbit_size = thr_calloc(m, sizeof *quotient->orbit_size);
+  quotient->orbit_length = thr_calloc(m, sizeof *quotient->orbit_length);
+  if (!quotient->edge_orbit || !quotient->orbit_size || !quotient->orbit_length) return thr_nomem(err);
+  memset(quotient->edge_orbit, -1, m * sizeof *quotient->edge_orbit);
+  for (int e = 0; e < quotient->f->n_edges; e++) {
+    if (quotient->edge_orbit[e] >= 0) continue;
+    int orbit = quotient->n_edge_orbits++;
+    for (int i = 0; i < quotient->h->order; i++) {
+      int to = image(quotient, i, 2 * e) >> 1;
+      if (quotient->edge_orbit[to] >= 0) continue;
+      quotient->edge_orbit[to] = orbit;
+      quotient->orbit_size[orbit]++;
+      quotient->orbit_length[orbit] += quotient->f->length[to];
     }
   }
   return THR_OK;
@@ -116,12 +116,12 @@ static bool less_set(const bool *a, const bool *b, int n)
   return false;
 }
 
-/* Marks the conjugates of s by an element in set[order of G]. */
-static void mark_conjugate(const thr_group *g, int by, const thr_subgroup *s, bool *set)
+/* Marks the conjugates of subgroup by an element in set[order of G]. */
+static void mark_conjugate(const thr_group *group, int by, const thr_subgroup *subgroup, bool *set)
 {
-  memset(set, 0, (size_t)g->order * sizeof *set);
-  for (int k = 0; k < s->order; k++)
-    set[conjugated(g, by, s->element[k])] = true;
+  memset(set, 0, (size_t)group->order * sizeof *set);
+  for (int k = 0; k < subgroup->order; k++)
+    set[conjugated(group, by, subgroup->element[k])] = true;
 }
 
 static thr_status collect(const bool *set, int order, thr_subgroup *out, thr_err *err)
@@ -136,29 +136,29 @@ static thr_status collect(const bool *set, int order, thr_subgroup *out, thr_err
   return THR_OK;
 }
 
-static bool holds_exactly(const bool *set, int order, const thr_subgroup *s)
+static bool holds_exactly(const bool *set, int order, const thr_subgroup *subgroup)
 {
   int n = 0;
   for (int g = 0; g < order; g++)
     n += set[g];
-  for (int k = 0; k < s->order && n == s->order; k++)
-    if (!set[s->element[k]]) return false;
-  return n == s->order;
+  for (int k = 0; k < subgroup->order && n == subgroup->order; k++)
+    if (!set[subgroup->element[k]]) return false;
+  return n == subgroup->order;
 }
 
-/* Leaves the least conjugate of s in b->least, by elements that move half to where no element moves it lower (half < 0: by any
- * element). Returns that lowest image. */
-static int least_conjugate(const build *b, int half, const thr_subgroup *s)
+/* Leaves the least conjugate of subgroup in b->least, by elements that move half to where no element moves it lower (half < 0: by
+ * any element). Returns that lowest image. */
+static int least_conjugate(const build *b, int half, const thr_subgroup *subgroup)
 {
-  const thr_quotient *q = b->q;
-  int order = q->group->order, lowest = half;
-  for (int i = 0; half >= 0 && i < q->h->order; i++)
-    if (image(q, i, half) < lowest) lowest = image(q, i, half);
+  const thr_quotient *quotient = b->q;
+  int order = quotient->group->order, lowest = half;
+  for (int i = 0; half >= 0 && i < quotient->h->order; i++)
+    if (image(quotient, i, half) < lowest) lowest = image(quotient, i, half);
   bool first = true;
-  for (int i = 0; i < q->h->order; i++) {
-    if (half >= 0 && image(q, i, half) != lowest) continue;
-    if (!first && s->order == 1) break;
-    mark_conjugate(q->group, q->h->element[i], s, b->set);
+  for (int i = 0; i < quotient->h->order; i++) {
+    if (half >= 0 && image(quotient, i, half) != lowest) continue;
+    if (!first && subgroup->order == 1) break;
+    mark_conjugate(quotient->group, quotient->h->element[i], subgroup, b->set);
     if (first || less_set(b->set, b->least, order)) memcpy(b->least, b->set, (size_t)order * sizeof *b->least);
     first = false;
   }
@@ -168,48 +168,48 @@ static int least_conjugate(const build *b, int half, const thr_subgroup *s)
 /* ---- darts ---- */
 
 /* Type of the dart (half, s), or -1; leaves the canonical stabilizer in b->least and its half-edge in *lowest. */
-static int find_dart(const build *b, int half, const thr_subgroup *s, int *lowest)
+static int find_dart(const build *b, int half, const thr_subgroup *subgroup, int *lowest)
 {
-  *lowest = least_conjugate(b, half, s);
+  *lowest = least_conjugate(b, half, subgroup);
   for (int d = b->latest[*lowest]; d >= 0; d = b->before[d])
     if (holds_exactly(b->least, b->q->group->order, &b->q->dart[d].stabilizer)) return d;
   return -1;
 }
 
-static thr_status find_layer(build *b, const thr_subgroup *s, int *layer, thr_err *err)
+static thr_status find_layer(build *b, const thr_subgroup *subgroup, int *layer, thr_err *err)
 {
-  thr_quotient *q = b->q;
-  int order = q->group->order;
-  least_conjugate(b, -1, s);
-  for (*layer = 0; *layer < q->n_layers; ++*layer)
+  thr_quotient *quotient = b->q;
+  int order = quotient->group->order;
+  least_conjugate(b, -1, subgroup);
+  for (*layer = 0; *layer < quotient->n_layers; ++*layer)
     if (holds_exactly(b->least, order, &b->s_class[*layer])) return THR_OK;
-  thr_status st = thr_grow(&b->s_class, q->n_layers, &b->classes_capacity, sizeof *b->s_class, err);
-  if (!st) st = collect(b->least, order, &b->s_class[q->n_layers], err);
-  if (!st) q->n_layers++;
+  thr_status st = thr_grow(&b->s_class, quotient->n_layers, &b->classes_capacity, sizeof *b->s_class, err);
+  if (!st) st = collect(b->least, order, &b->s_class[quotient->n_layers], err);
+  if (!st) quotient->n_layers++;
   return st;
 }
 
-static thr_status add_dart(build *b, int half, const thr_subgroup *s, int *dart, thr_err *err)
+static thr_status add_dart(build *b, int half, const thr_subgroup *subgroup, int *dart, thr_err *err)
 {
-  thr_quotient *q = b->q;
+  thr_quotient *quotient = b->q;
   int lowest;
   thr_status st = check_time(b, err);
   if (st) return st;
-  *dart = find_dart(b, half, s, &lowest);
+  *dart = find_dart(b, half, subgroup, &lowest);
   if (*dart >= 0) return THR_OK;
   if (full(b)) return too_many(b, err);
-  assert(s->order > 0);
-  thr_dart_type made = {.half = lowest, .darts = q->h->order / s->order};
-  st = thr_grow(&q->dart, q->n_darts, &b->darts_capacity, sizeof *q->dart, err);
-  if (!st) st = thr_grow(&b->before, q->n_darts, &b->before_capacity, sizeof *b->before, err);
-  if (!st) st = collect(b->least, q->group->order, &made.stabilizer, err);
+  assert(subgroup->order > 0);
+  thr_dart_type made = {.half = lowest, .darts = quotient->h->order / subgroup->order};
+  st = thr_grow(&quotient->dart, quotient->n_darts, &b->darts_capacity, sizeof *quotient->dart, err);
+  if (!st) st = thr_grow(&b->before, quotient->n_darts, &b->before_capacity, sizeof *b->before, err);
+  if (!st) st = collect(b->least, quotient->group->order, &made.stabilizer, err);
   if (!st) st = find_layer(b, &made.stabilizer, &made.layer, err);
   if (st) {
     thr_subgroup_destroy(&made.stabilizer);
     return st;
   }
-  *dart = q->n_darts++;
-  q->dart[*dart] = made;
+  *dart = quotient->n_darts++;
+  quotient->dart[*dart] = made;
   b->before[*dart] = b->latest[lowest];
   b->latest[lowest] = *dart;
   return THR_OK;
@@ -220,15 +220,15 @@ static thr_status add_dart(build *b, int half, const thr_subgroup *s, int *dart,
 /* The elements of H that map edge e to itself, as a group of their own: element k of it is (*element)[k]. */
 static thr_status edge_stabilizer(const build *b, int e, thr_group *own, int **element, thr_err *err)
 {
-  const thr_quotient *q = b->q;
-  int n = 0, *number = thr_calloc((size_t)q->group->order, sizeof *number);
-  *element = thr_calloc((size_t)q->h->order, sizeof **element);
+  const thr_quotient *quotient = b->q;
+  int n = 0, *number = thr_calloc((size_t)quotient->group->order, sizeof *number);
+  *element = thr_calloc((size_t)quotient->h->order, sizeof **element);
   *own = (thr_group){0};
   thr_status st = number && *element ? THR_OK : thr_nomem(err);
-  for (int i = 0; i < q->h->order && !st; i++)
-    if (image(q, i, 2 * e) >> 1 == e) {
-      number[q->h->element[i]] = n;
-      (*element)[n++] = q->h->element[i];
+  for (int i = 0; i < quotient->h->order && !st; i++)
+    if (image(quotient, i, 2 * e) >> 1 == e) {
+      number[quotient->h->element[i]] = n;
+      (*element)[n++] = quotient->h->element[i];
     }
   own->order = n;
   if (!st) {
@@ -237,43 +237,50 @@ static thr_status edge_stabilizer(const build *b, int e, thr_group *own, int **e
     if (!own->product || !own->inverse) st = thr_nomem(err);
   }
   for (int i = 0; i < n && !st; i++) {
-    own->inverse[i] = number[q->group->inverse[(*element)[i]]];
+    own->inverse[i] = number[quotient->group->inverse[(*element)[i]]];
     for (int k = 0; k < n; k++)
-      own->product[i * n + k] = number[product(q->group, (*element)[i], (*element)[k])];
+      own->product[i * n + k] = number[product(quotient->group, (*element)[i], (*element)[k])];
   }
   free(number);
   return st;
 }
 
-/* The elements of k that do not turn edge e round. */
-static thr_status keepers(const build *b, int e, const thr_subgroup *k, thr_subgroup *out, thr_err *err)
+/* The elements of subgroup that do not turn edge e round. */
+static thr_status keepers(const build *b, int e, const thr_subgroup *subgroup, thr_subgroup *out, thr_err *err)
 {
-  *out = (thr_subgroup){0, thr_calloc((size_t)k->order, sizeof(int))};
+  *out = (thr_subgroup){0, thr_calloc((size_t)subgroup->order, sizeof(int))};
   if (!out->element) return thr_nomem(err);
-  for (int i = 0; i < k->order; i++)
-    if (image(b->q, b->position[k->element[i]], 2 * e) == 2 * e) out->element[out->order++] = k->element[i];
+  for (int i = 0; i < subgroup->order; i++)
+    if (image(b->q, b->position[subgroup->element[i]], 2 * e) == 2 * e) out->element[out->order++] = subgroup->element[i];
   return THR_OK;
 }
 
-/* Takes over k. stabilizers: of e in H. */
-static thr_status add_copy(build *b, int e, int stabilizers, thr_subgroup *k, thr_err *err)
+/* Takes over subgroup. stabilizers: of e in H. */
+static thr_status add_copy(build *b, int e, int stabilizers, thr_subgroup *subgroup, thr_err *err)
 {
-  thr_quotient *q = b->q;
-  thr_copy_type c = {q->edge_orbit[e], e, stabilizers / k->order, q->h->order / k->order, false, {-1, -1}, 0, *k};
+  thr_quotient *quotient = b->q;
+  thr_copy_type copy_type = {quotient->edge_orbit[e],
+                             e,
+                             stabilizers / subgroup->order,
+                             quotient->h->order / subgroup->order,
+                             false,
+                             {-1, -1},
+                             0,
+                             *subgroup};
   thr_subgroup s = {0};
-  *k = (thr_subgroup){0};
-  thr_status st = full(b) ? too_many(b, err) : keepers(b, e, &c.stabilizer, &s, err);
-  if (!st) st = thr_grow(&q->copy, q->n_copies, &b->copies_capacity, sizeof *q->copy, err);
-  if (!st) st = add_dart(b, 2 * e, &s, &c.dart[0], err);
-  c.fold = s.order < c.stabilizer.order;
-  if (!st && !c.fold) st = add_dart(b, 2 * e + 1, &s, &c.dart[1], err);
+  *subgroup = (thr_subgroup){0};
+  thr_status st = full(b) ? too_many(b, err) : keepers(b, e, &copy_type.stabilizer, &s, err);
+  if (!st) st = thr_grow(&quotient->copy, quotient->n_copies, &b->copies_capacity, sizeof *quotient->copy, err);
+  if (!st) st = add_dart(b, 2 * e, &s, &copy_type.dart[0], err);
+  copy_type.fold = s.order < copy_type.stabilizer.order;
+  if (!st && !copy_type.fold) st = add_dart(b, 2 * e + 1, &s, &copy_type.dart[1], err);
   thr_subgroup_destroy(&s);
   if (st) {
-    thr_subgroup_destroy(&c.stabilizer);
+    thr_subgroup_destroy(&copy_type.stabilizer);
     return st;
   }
-  c.layer = q->dart[c.dart[0]].layer;
-  q->copy[q->n_copies++] = c;
+  copy_type.layer = quotient->dart[copy_type.dart[0]].layer;
+  quotient->copy[quotient->n_copies++] = copy_type;
   return THR_OK;
 }
 
@@ -305,54 +312,55 @@ typedef struct {
 
 static int by_half(const void *a, const void *b)
 {
-  const thr_dart_type *p = &((const numbered *)a)->type, *q = &((const numbered *)b)->type;
-  if (p->half != q->half) return p->half < q->half ? -1 : 1;
-  if (p->stabilizer.order != q->stabilizer.order) return p->stabilizer.order > q->stabilizer.order ? -1 : 1;
-  for (int k = 0; k < p->stabilizer.order; k++)
-    if (p->stabilizer.element[k] != q->stabilizer.element[k]) return p->stabilizer.element[k] < q->stabilizer.element[k] ? -1 : 1;
+  const thr_dart_type *dart_type = &((const numbered *)a)->type, *q = &((const numbered *)b)->type;
+  if (dart_type->half != q->half) return dart_type->half < q->half ? -1 : 1;
+  if (dart_type->stabilizer.order != q->stabilizer.order) return dart_type->stabilizer.order > q->stabilizer.order ? -1 : 1;
+  for (int k = 0; k < dart_type->stabilizer.order; k++)
+    if (dart_type->stabilizer.element[k] != q->stabilizer.element[k])
+      return dart_type->stabilizer.element[k] < q->stabilizer.element[k] ? -1 : 1;
   return 0;
 }
 
 /* Numbers layers by their first dart, the trivial one first; becomes: [n_layers] scratch. */
-static void number_layers(thr_quotient *q, int *becomes)
+static void number_layers(thr_quotient *quotient, int *becomes)
 {
   int next = 0;
-  for (int d = 0; d < q->n_darts; d++)
-    if (q->dart[d].stabilizer.order == 1) next = 1;
-  for (int l = 0; l < q->n_layers; l++)
+  for (int d = 0; d < quotient->n_darts; d++)
+    if (quotient->dart[d].stabilizer.order == 1) next = 1;
+  for (int l = 0; l < quotient->n_layers; l++)
     becomes[l] = -1;
-  for (int d = 0; d < q->n_darts; d++) {
-    int *layer = &q->dart[d].layer;
-    if (becomes[*layer] < 0) becomes[*layer] = q->dart[d].stabilizer.order == 1 ? 0 : next++;
+  for (int d = 0; d < quotient->n_darts; d++) {
+    int *layer = &quotient->dart[d].layer;
+    if (becomes[*layer] < 0) becomes[*layer] = quotient->dart[d].stabilizer.order == 1 ? 0 : next++;
     *layer = becomes[*layer];
   }
-  for (int c = 0; c < q->n_copies; c++)
-    q->copy[c].layer = becomes[q->copy[c].layer];
+  for (int c = 0; c < quotient->n_copies; c++)
+    quotient->copy[c].layer = becomes[quotient->copy[c].layer];
 }
 
 static thr_status sort_darts(build *b, thr_err *err)
 {
-  thr_quotient *q = b->q;
-  size_t n = (size_t)q->n_darts;
+  thr_quotient *quotient = b->q;
+  size_t n = (size_t)quotient->n_darts;
   numbered *list = thr_calloc(n, sizeof *list);
   int *becomes = thr_calloc(n, sizeof *becomes); /* at most as many layers as darts */
   thr_status st = list && becomes ? THR_OK : thr_nomem(err);
   if (!st) {
-    for (int d = 0; d < q->n_darts; d++)
-      list[d] = (numbered){q->dart[d], d};
+    for (int d = 0; d < quotient->n_darts; d++)
+      list[d] = (numbered){quotient->dart[d], d};
     qsort(list, n, sizeof *list, by_half);
-    memset(b->latest, -1, 2 * (size_t)q->f->n_edges * sizeof *b->latest);
+    memset(b->latest, -1, 2 * (size_t)quotient->f->n_edges * sizeof *b->latest);
     assert(b->before || n == 0);
-    for (int d = 0; d < q->n_darts; d++) {
-      q->dart[d] = list[d].type;
+    for (int d = 0; d < quotient->n_darts; d++) {
+      quotient->dart[d] = list[d].type;
       becomes[list[d].was] = d;
-      b->before[d] = b->latest[q->dart[d].half];
-      b->latest[q->dart[d].half] = d;
+      b->before[d] = b->latest[quotient->dart[d].half];
+      b->latest[quotient->dart[d].half] = d;
     }
-    for (int c = 0; c < q->n_copies; c++)
+    for (int c = 0; c < quotient->n_copies; c++)
       for (int i = 0; i < 2; i++)
-        if (q->copy[c].dart[i] >= 0) q->copy[c].dart[i] = becomes[q->copy[c].dart[i]];
-    number_layers(q, becomes);
+        if (quotient->copy[c].dart[i] >= 0) quotient->copy[c].dart[i] = becomes[quotient->copy[c].dart[i]];
+    number_layers(quotient, becomes);
   }
   free(list);
   free(becomes);
@@ -361,19 +369,19 @@ static thr_status sort_darts(build *b, thr_err *err)
 
 /* ---- turns ---- */
 
-static double mean_angle(const thr_quotient *q, int a, int b)
+static double mean_angle(const thr_quotient *quotient, int a, int b)
 {
   double sum = 0;
-  for (int i = 0; i < q->h->order; i++)
-    sum += thr_turn_angle(q->f, image(q, i, a) ^ 1, image(q, i, b));
-  return sum / q->h->order;
+  for (int i = 0; i < quotient->h->order; i++)
+    sum += thr_turn_angle(quotient->f, image(quotient, i, a) ^ 1, image(quotient, i, b));
+  return sum / quotient->h->order;
 }
 
-static bool normalizes(const build *b, int i, const thr_subgroup *s)
+static bool normalizes(const build *b, int i, const thr_subgroup *subgroup)
 {
-  const thr_quotient *q = b->q;
-  for (int k = 0; k < s->order; k++)
-    if (!thr_subgroup_has(s, conjugated(q->group, q->h->element[i], s->element[k]))) return false;
+  const thr_quotient *quotient = b->q;
+  for (int k = 0; k < subgroup->order; k++)
+    if (!thr_subgroup_has(subgroup, conjugated(quotient->group, quotient->h->element[i], subgroup->element[k]))) return false;
   return true;
 }
 
@@ -387,66 +395,67 @@ static int lowest_by_normal(const build *b, int half)
   return lowest;
 }
 
-/* An element that exchanges the darts (a, s) and (b2, s), without being in s itself; -1 = none. */
-static int find_exchange(const build *b, int a, int b2, const thr_subgroup *s)
+/* An element that exchanges the darts (a, s) and (b2, s), without being in subgroup itself; -1 = none. */
+static int find_exchange(const build *b, int a, int b2, const thr_subgroup *subgroup)
 {
-  const thr_quotient *q = b->q;
+  const thr_quotient *quotient = b->q;
   for (int k = 0; k < b->n_at; k++) {
-    int i = b->at[k], g = q->h->element[i];
-    if (image(q, i, a) == b2 && image(q, i, b2) == a && !thr_subgroup_has(s, g) && thr_subgroup_has(s, product(q->group, g, g)) &&
-        normalizes(b, i, s))
+    int i = b->at[k], g = quotient->h->element[i];
+    if (image(quotient, i, a) == b2 && image(quotient, i, b2) == a && !thr_subgroup_has(subgroup, g) &&
+        thr_subgroup_has(subgroup, product(quotient->group, g, g)) && normalizes(b, i, subgroup))
       return g;
   }
   return -1;
 }
 
-/* Is the turn from half-edge a to b2, both with stabilizer s and of one type, to be listed as seen from a? The turn seen the
- * other way round is the same one: the lower of the two stands for both. */
-static bool lower_side(const build *b, int a, int b2, const thr_subgroup *s)
+/* Is the turn from half-edge a to b2, both with stabilizer subgroup and of one type, to be listed as seen from a? The turn seen
+ * the other way round is the same one: the lower of the two stands for both. */
+static bool lower_side(const build *b, int a, int b2, const thr_subgroup *subgroup)
 {
   for (int k = 0; k < b->n_at; k++)
-    if (image(b->q, b->at[k], b2) == a && normalizes(b, b->at[k], s)) return b2 <= lowest_by_normal(b, image(b->q, b->at[k], a));
+    if (image(b->q, b->at[k], b2) == a && normalizes(b, b->at[k], subgroup))
+      return b2 <= lowest_by_normal(b, image(b->q, b->at[k], a));
   return false;
 }
 
 static thr_status add_pair(build *b, int d, int other, int half, int element, thr_err *err)
 {
-  thr_quotient *q = b->q;
+  thr_quotient *quotient = b->q;
   if (full(b)) return too_many(b, err);
-  thr_status st = thr_grow(&q->pair, q->n_pairs, &b->pairs_capacity, sizeof *q->pair, err);
+  thr_status st = thr_grow(&quotient->pair, quotient->n_pairs, &b->pairs_capacity, sizeof *quotient->pair, err);
   if (st) return st;
-  thr_pair_type p = {{d, other}, {q->dart[d].half, half}, element >= 0, q->dart[d].darts, 0, element};
-  if (p.self) p.turns /= 2;
-  p.angle = mean_angle(q, p.half[0], half);
-  q->pair[q->n_pairs++] = p;
+  thr_pair_type pair_type = {{d, other}, {quotient->dart[d].half, half}, element >= 0, quotient->dart[d].darts, 0, element};
+  if (pair_type.self) pair_type.turns /= 2;
+  pair_type.angle = mean_angle(quotient, pair_type.half[0], half);
+  quotient->pair[quotient->n_pairs++] = pair_type;
   return THR_OK;
 }
 
 /* The turns from the representative of dart type d to darts of its own and later types. */
 static thr_status add_pairs(build *b, int d, thr_err *err)
 {
-  const thr_quotient *q = b->q;
-  const thr_frame *f = q->f;
-  const thr_subgroup *s = &q->dart[d].stabilizer;
-  int a = q->dart[d].half, v = thr_tail(f, a), lowest;
+  const thr_quotient *quotient = b->q;
+  const thr_frame *frame = quotient->f;
+  const thr_subgroup *subgroup = &quotient->dart[d].stabilizer;
+  int a = quotient->dart[d].half, v = thr_tail(frame, a), lowest;
   thr_status st = check_time(b, err);
   b->n_at = b->n_normal = 0;
-  for (int i = 0; i < q->h->order; i++) {
-    if (thr_tail(f, image(q, i, a)) != v) continue;
+  for (int i = 0; i < quotient->h->order; i++) {
+    if (thr_tail(frame, image(quotient, i, a)) != v) continue;
     b->at[b->n_at++] = i;
-    if (image(q, i, a) == a && normalizes(b, i, s)) b->normal[b->n_normal++] = i;
+    if (image(quotient, i, a) == a && normalizes(b, i, subgroup)) b->normal[b->n_normal++] = i;
   }
-  for (int k = f->first[v]; k < f->first[v + 1] && !st; k++) {
-    int half = f->half[k];
-    bool fixed = (half == a) == (thr_degree(f, v) == 1) && lowest_by_normal(b, half) == half;
-    for (int i = 0; i < s->order && fixed; i++)
-      fixed = image(q, b->position[s->element[i]], half) == half;
+  for (int k = frame->first[v]; k < frame->first[v + 1] && !st; k++) {
+    int half = frame->half[k];
+    bool fixed = (half == a) == (thr_degree(frame, v) == 1) && lowest_by_normal(b, half) == half;
+    for (int i = 0; i < subgroup->order && fixed; i++)
+      fixed = image(quotient, b->position[subgroup->element[i]], half) == half;
     if (!fixed) continue;
-    int other = find_dart(b, half, s, &lowest);
+    int other = find_dart(b, half, subgroup, &lowest);
     assert(other >= 0); /* a subgroup of the edge's stabilizer, so it made a copy type */
-    if (other < d || (other == d && !lower_side(b, a, half, s))) continue;
+    if (other < d || (other == d && !lower_side(b, a, half, subgroup))) continue;
     st = add_pair(b, d, other, half, -1, err);
-    int element = other == d ? find_exchange(b, a, half, s) : -1;
+    int element = other == d ? find_exchange(b, a, half, subgroup) : -1;
     if (!st && element >= 0) st = add_pair(b, d, d, half, element, err);
   }
   return st;
@@ -454,8 +463,9 @@ static thr_status add_pairs(build *b, int d, thr_err *err)
 
 static int by_darts(const void *a, const void *b)
 {
-  const thr_pair_type *p = a, *q = b;
-  int key[4] = {p->dart[0] - q->dart[0], p->dart[1] - q->dart[1], p->half[1] - q->half[1], p->self - q->self};
+  const thr_pair_type *pair_type = a, *q = b;
+  int key[4] = {pair_type->dart[0] - q->dart[0], pair_type->dart[1] - q->dart[1], pair_type->half[1] - q->half[1],
+                pair_type->self - q->self};
   for (int i = 0; i < 4; i++)
     if (key[i] != 0) return key[i];
   return 0;
@@ -465,19 +475,19 @@ static int by_darts(const void *a, const void *b)
 
 static thr_status build_init(build *b, thr_err *err)
 {
-  const thr_quotient *q = b->q;
-  size_t order = (size_t)q->group->order, halves = 2 * (size_t)q->f->n_edges;
+  const thr_quotient *quotient = b->q;
+  size_t order = (size_t)quotient->group->order, halves = 2 * (size_t)quotient->f->n_edges;
   b->position = thr_scratch_array(&b->own, order, sizeof *b->position);
   b->latest = thr_scratch_array(&b->own, halves, sizeof *b->latest);
   b->set = thr_scratch_array(&b->own, order, sizeof *b->set);
   b->least = thr_scratch_array(&b->own, order, sizeof *b->least);
-  b->normal = thr_scratch_array(&b->own, (size_t)q->h->order, sizeof *b->normal);
-  b->at = thr_scratch_array(&b->own, (size_t)q->h->order, sizeof *b->at);
+  b->normal = thr_scratch_array(&b->own, (size_t)quotient->h->order, sizeof *b->normal);
+  b->at = thr_scratch_array(&b->own, (size_t)quotient->h->order, sizeof *b->at);
   if (thr_scratch_check(&b->own, err)) return THR_ENOMEM;
   memset(b->position, -1, order * sizeof *b->position);
   memset(b->latest, -1, halves * sizeof *b->latest);
-  for (int i = 0; i < q->h->order; i++)
-    b->position[q->h->element[i]] = i;
+  for (int i = 0; i < quotient->h->order; i++)
+    b->position[quotient->h->element[i]] = i;
   return THR_OK;
 }
 
@@ -490,52 +500,52 @@ static void build_destroy(build *b)
   free(b->before);
 }
 
-thr_status thr_quotient_make(thr_quotient *q, const thr_frame *f, const thr_group *g, const thr_subgroup *h, int most,
-                             const thr_limits *limits, thr_err *err)
+thr_status thr_quotient_make(thr_quotient *quotient, const thr_frame *frame, const thr_group *group, const thr_subgroup *subgroup,
+                             int most, const thr_limits *limits, thr_err *err)
 {
-  *q = (thr_quotient){.f = f, .group = g, .h = h};
-  build b = {.q = q, .limits = limits, .most = most};
-  if (g->degree != f->n_nodes) {
-    *q = (thr_quotient){0};
-    thr_fail(err, THR_EINPUT, "the group permutes %d nodes, the framework has %d", g->degree, f->n_nodes);
+  *quotient = (thr_quotient){.f = frame, .group = group, .h = subgroup};
+  build b = {.q = quotient, .limits = limits, .most = most};
+  if (group->degree != frame->n_nodes) {
+    *quotient = (thr_quotient){0};
+    thr_fail(err, THR_EINPUT, "the group permutes %d nodes, the framework has %d", group->degree, frame->n_nodes);
     return THR_EINPUT;
   }
   thr_status st = build_init(&b, err);
   if (!st) st = map_halves(&b, err);
-  if (!st) st = find_edge_orbits(q, err);
-  for (int e = 0, orbit = 0; e < f->n_edges && !st; e++)
-    if (q->edge_orbit[e] == orbit) {
+  if (!st) st = find_edge_orbits(quotient, err);
+  for (int e = 0, orbit = 0; e < frame->n_edges && !st; e++)
+    if (quotient->edge_orbit[e] == orbit) {
       st = add_copies(&b, e, err);
       orbit++;
     }
   if (!st) st = sort_darts(&b, err);
-  for (int d = 0; d < q->n_darts && !st; d++)
+  for (int d = 0; d < quotient->n_darts && !st; d++)
     st = add_pairs(&b, d, err);
-  if (!st && q->n_pairs > 0) qsort(q->pair, (size_t)q->n_pairs, sizeof *q->pair, by_darts);
+  if (!st && quotient->n_pairs > 0) qsort(quotient->pair, (size_t)quotient->n_pairs, sizeof *quotient->pair, by_darts);
   build_destroy(&b);
-  if (st) thr_quotient_destroy(q);
+  if (st) thr_quotient_destroy(quotient);
   return st;
 }
 
-thr_status thr_quotient_init(thr_quotient *q, const thr_frame *f, const thr_group *g, const thr_subgroup *h, int most,
-                             thr_err *err)
+thr_status thr_quotient_init(thr_quotient *quotient, const thr_frame *frame, const thr_group *group, const thr_subgroup *subgroup,
+                             int most, thr_err *err)
 {
   const thr_limits none = {0};
-  return thr_quotient_make(q, f, g, h, most, &none, err);
+  return thr_quotient_make(quotient, frame, group, subgroup, most, &none, err);
 }
 
-void thr_quotient_destroy(thr_quotient *q)
+void thr_quotient_destroy(thr_quotient *quotient)
 {
-  for (int c = 0; c < q->n_copies; c++)
-    thr_subgroup_destroy(&q->copy[c].stabilizer);
-  for (int d = 0; d < q->n_darts; d++)
-    thr_subgroup_destroy(&q->dart[d].stabilizer);
-  free(q->half_image);
-  free(q->edge_orbit);
-  free(q->orbit_size);
-  free(q->orbit_length);
-  free(q->copy);
-  free(q->dart);
-  free(q->pair);
-  *q = (thr_quotient){0};
+  for (int c = 0; c < quotient->n_copies; c++)
+    thr_subgroup_destroy(&quotient->copy[c].stabilizer);
+  for (int d = 0; d < quotient->n_darts; d++)
+    thr_subgroup_destroy(&quotient->dart[d].stabilizer);
+  free(quotient->half_image);
+  free(quotient->edge_orbit);
+  free(quotient->orbit_size);
+  free(quotient->orbit_length);
+  free(quotient->copy);
+  free(quotient->dart);
+  free(quotient->pair);
+  *quotient = (thr_quotient){0};
 }

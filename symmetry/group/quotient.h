@@ -64,12 +64,12 @@ typedef struct {
 
 /* All types, in a fixed order (by edge, then by descending stabilizer; by half-edge; by darts and half-edges). THR_ELIMIT: more
  * than `most` types (frameworks with many interchangeable parts); out is empty. */
-thr_status thr_quotient_init(thr_quotient *q, const thr_frame *f, const thr_group *g, const thr_subgroup *h, int most,
-                             thr_err *err) THR_MUST_CHECK;
+thr_status thr_quotient_init(thr_quotient *quotient, const thr_frame *frame, const thr_group *g, const thr_subgroup *subgroup,
+                             int most, thr_err *err) THR_MUST_CHECK;
 
 /* The same; THR_ELIMIT also when the limits say so. */
-thr_status thr_quotient_make(thr_quotient *q, const thr_frame *f, const thr_group *g, const thr_subgroup *h, int most,
-                             const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
-void thr_quotient_destroy(thr_quotient *q);
+thr_status thr_quotient_make(thr_quotient *quotient, const thr_frame *frame, const thr_group *g, const thr_subgroup *subgroup,
+                             int most, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
+void thr_quotient_destroy(thr_quotient *quotient);
 
 #endif

@@ -30,26 +30,26 @@ static bool same(const set *a, const set *b)
   return memcmp(a->bit, b->bit, sizeof a->bit) == 0;
 }
 
-static int product(const thr_group *g, int a, int b)
+static int product(const thr_group *group, int a, int b)
 {
-  return g->product[(size_t)a * (size_t)g->order + (size_t)b];
+  return group->product[(size_t)a * (size_t)group->order + (size_t)b];
 }
 
 /* Adds everything that the generators make. s holds the identity alone or, with the last generator left out of the list, a group
  * that the others generate: then only cosets of it are added. O(order of the result * generators). */
-static void close_set(const thr_group *g, set *s, const int *generator, int n)
+static void close_set(const thr_group *group, set *s, const int *generator, int n)
 {
   int member[THR_GROUP_CAP], count = 0, core[THR_GROUP_CAP], n_core = 0;
-  for (int a = 0; a < g->order; a++)
+  for (int a = 0; a < group->order; a++)
     if (has(s, a)) core[n_core++] = a;
   member[count++] = 0; /* one of each coset of the core */
   for (int i = 0; i < count; i++)
     for (int k = 0; k < n; k++) {
-      int a = product(g, generator[k], member[i]);
+      int a = product(group, generator[k], member[i]);
       if (has(s, a)) continue;
       member[count++] = a;
       for (int j = 0; j < n_core; j++)
-        add(s, product(g, a, core[j]));
+        add(s, product(group, a, core[j]));
     }
 }
 
@@ -60,7 +60,7 @@ static set trivial(void)
   return s;
 }
 
-static thr_status copy_elements(const thr_group *g, const set *s, thr_subgroup *out, thr_err *err)
+static thr_status copy_elements(const thr_group *group, const set *s, thr_subgroup *out, thr_err *err)
 {
   int n = 0;
   *out = (thr_subgroup){.order = s->order, .element = thr_calloc((size_t)s->order, sizeof(int))};
@@ -68,46 +68,46 @@ static thr_status copy_elements(const thr_group *g, const set *s, thr_subgroup *
     *out = (thr_subgroup){0};
     return thr_nomem(err);
   }
-  for (int a = 0; a < g->order; a++)
+  for (int a = 0; a < group->order; a++)
     if (has(s, a)) out->element[n++] = a;
   return THR_OK;
 }
 
-void thr_subgroup_destroy(thr_subgroup *s)
+void thr_subgroup_destroy(thr_subgroup *subgroup)
 {
-  free(s->element);
-  *s = (thr_subgroup){0};
+  free(subgroup->element);
+  *subgroup = (thr_subgroup){0};
 }
 
-bool thr_subgroup_has(const thr_subgroup *s, int element)
+bool thr_subgroup_has(const thr_subgroup *subgroup, int element)
 {
-  int low = 0, high = s->order;
+  int low = 0, high = subgroup->order;
   while (low < high) {
     int middle = low + (high - low) / 2;
-    if (s->element[middle] < element)
+    if (subgroup->element[middle] < element)
       low = middle + 1;
     else
       high = middle;
   }
-  return low < s->order && s->element[low] == element;
+  return low < subgroup->order && subgroup->element[low] == element;
 }
 
 /* Each generator at least doubles the order, so that ten reach the cap. */
-static int few_generators(const thr_group *g, const int *element, int n, int generator[MOST_GENERATORS])
+static int few_generators(const thr_group *group, const int *element, int n, int generator[MOST_GENERATORS])
 {
   set made = trivial();
   int count = 0;
   for (int i = 0; i < n && made.order < n; i++) {
     if (has(&made, element[i])) continue;
     generator[count++] = element[i];
-    close_set(g, &made, generator, count);
+    close_set(group, &made, generator, count);
   }
   return count;
 }
 
-int thr_subgroup_generators(const thr_group *g, const thr_subgroup *s, int generator[16])
+int thr_subgroup_generators(const thr_group *group, const thr_subgroup *subgroup, int generator[16])
 {
-  return few_generators(g, s->element, s->order, generator);
+  return few_generators(group, subgroup->element, subgroup->order, generator);
 }
 
 /* ---- classes ---- */
@@ -171,11 +171,11 @@ static thr_status add_if_new(atlas *t, const set *s, thr_err *err)
 }
 
 /* The elements b * a * b^-1 of s. */
-static set conjugate(const thr_group *g, const set *s, int b)
+static set conjugate(const thr_group *group, const set *s, int b)
 {
   set c = {{0}, 0};
-  for (int a = 0; a < g->order; a++)
-    if (has(s, a)) add(&c, product(g, product(g, b, a), g->inverse[b]));
+  for (int a = 0; a < group->order; a++)
+    if (has(s, a)) add(&c, product(group, product(group, b, a), group->inverse[b]));
   return c;
 }
 
@@ -215,20 +215,20 @@ static thr_status add_class(atlas *t, const set *s, bool *complete, thr_err *err
 /* The groups that the least of class k and one more element generate. */
 static thr_status extend(atlas *t, int k, bool *complete, thr_err *err)
 {
-  const thr_group *g = t->g;
+  const thr_group *group = t->g;
   set from = t->class[k].least, tried = from;
   int element[THR_GROUP_CAP] = {0}, generator[MOST_GENERATORS], n = 0;
-  for (int a = 0; a < g->order; a++)
+  for (int a = 0; a < group->order; a++)
     if (has(&from, a)) element[n++] = a;
-  int count = few_generators(g, element, n, generator);
+  int count = few_generators(group, element, n, generator);
   assert(count < MOST_GENERATORS);
-  for (int a = 0; a < g->order; a++) {
+  for (int a = 0; a < group->order; a++) {
     if (has(&tried, a)) continue;
     for (int i = 0; i < n; i++) /* the whole coset generates the same */
-      add(&tried, product(g, a, element[i]));
+      add(&tried, product(group, a, element[i]));
     set made = from;
     generator[count] = a;
-    close_set(g, &made, generator, count + 1);
+    close_set(group, &made, generator, count + 1);
     if (t->slot[find_slot(t, &made)] >= 0) continue;
     thr_status st = add_class(t, &made, complete, err);
     if (st || !*complete) return st;
@@ -256,31 +256,31 @@ static thr_status hand_over(atlas *t, thr_subgroup_classes *out, thr_err *err)
   return st;
 }
 
-thr_status thr_subgroup_classes_find(const thr_group *g, int most, thr_subgroup_classes *out, thr_err *err)
+thr_status thr_subgroup_classes_find(const thr_group *group, int most, thr_subgroup_classes *out, thr_err *err)
 {
-  atlas t = {.g = g, .most = most < 1 ? 1 : most};
-  thr_subgroup_classes c = {.complete = true};
+  atlas t = {.g = group, .most = most < 1 ? 1 : most};
+  thr_subgroup_classes classes = {.complete = true};
   set least = trivial(), whole = {{0}, 0};
-  for (int a = 0; a < g->order; a++)
+  for (int a = 0; a < group->order; a++)
     add(&whole, a);
-  thr_status st = add_class(&t, &whole, &c.complete, err);
-  if (!st && g->order > 1) st = add_class(&t, &least, &c.complete, err);
-  for (int k = 1; k < t.n_classes && c.complete && !st; k++)
-    st = extend(&t, k, &c.complete, err);
-  if (!st) st = hand_over(&t, &c, err);
+  thr_status st = add_class(&t, &whole, &classes.complete, err);
+  if (!st && group->order > 1) st = add_class(&t, &least, &classes.complete, err);
+  for (int k = 1; k < t.n_classes && classes.complete && !st; k++)
+    st = extend(&t, k, &classes.complete, err);
+  if (!st) st = hand_over(&t, &classes, err);
   free(t.all);
   free(t.slot);
   free(t.class);
-  if (st) thr_subgroup_classes_destroy(&c);
-  *out = c;
+  if (st) thr_subgroup_classes_destroy(&classes);
+  *out = classes;
   return st;
 }
 
-void thr_subgroup_classes_destroy(thr_subgroup_classes *c)
+void thr_subgroup_classes_destroy(thr_subgroup_classes *classes)
 {
-  for (int k = 0; k < c->n; k++)
-    thr_subgroup_destroy(&c->subgroup[k]);
-  free(c->subgroup);
-  free(c->conjugates);
-  *c = (thr_subgroup_classes){0};
+  for (int k = 0; k < classes->n; k++)
+    thr_subgroup_destroy(&classes->subgroup[k]);
+  free(classes->subgroup);
+  free(classes->conjugates);
+  *classes = (thr_subgroup_classes){0};
 }

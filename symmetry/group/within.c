@@ -21,14 +21,14 @@ typedef struct {
   double mantissa;
 } head;
 
-static void put_generator(thr_text *t, const int *image, int n)
+static void put_generator(thr_text *text, const int *image, int n)
 {
   int moved = 0;
   for (int v = 0; v < n; v++)
     moved += image[v] != v;
-  thr_text_append_bytes(t, (const char *)&moved, sizeof moved);
+  thr_text_append_bytes(text, (const char *)&moved, sizeof moved);
   for (int v = 0; v < n; v++)
-    if (image[v] != v) thr_text_append_bytes(t, (const char *)(const int[]){v, image[v]}, 2 * sizeof v);
+    if (image[v] != v) thr_text_append_bytes(text, (const char *)(const int[]){v, image[v]}, 2 * sizeof v);
 }
 
 /* Fills image[n] from what put_generator wrote; returns what follows. */
@@ -51,27 +51,27 @@ static thr_status run(void *user, const thr_limits *limits, thr_sender *to, thr_
   (void)limits;
   const job *j = user;
   thr_automorphisms a;
-  thr_text t = {0};
+  thr_text text = {0};
   thr_status st = thr_automorphisms_find(j->f, j->o, &a, err);
   const head h = {a.n_generators, a.exponent, a.mantissa};
   if (st) return st;
-  thr_text_append_bytes(&t, (const char *)&h, sizeof h);
+  thr_text_append_bytes(&text, (const char *)&h, sizeof h);
   for (int g = 0; g < a.n_generators; g++)
-    put_generator(&t, a.generator + (size_t)g * (size_t)a.n, a.n);
-  st = thr_child_send(to, &t, err);
-  thr_text_destroy(&t);
+    put_generator(&text, a.generator + (size_t)g * (size_t)a.n, a.n);
+  st = thr_child_send(to, &text, err);
+  thr_text_destroy(&text);
   thr_automorphisms_destroy(&a);
   return st;
 }
 
 /* The answer of the child; an empty one is the identity alone. */
-static thr_status take(const thr_text *t, const thr_frame *f, thr_automorphisms *out, thr_err *err)
+static thr_status take(const thr_text *text, const thr_frame *frame, thr_automorphisms *out, thr_err *err)
 {
   head h = {0, 0, 1};
-  if (t->length) memcpy(&h, t->data, sizeof h);
-  thr_automorphisms a = {.n = f->n_nodes, .n_generators = h.n_generators, .mantissa = h.mantissa, .exponent = h.exponent};
+  if (text->length) memcpy(&h, text->data, sizeof h);
+  thr_automorphisms a = {.n = frame->n_nodes, .n_generators = h.n_generators, .mantissa = h.mantissa, .exponent = h.exponent};
   size_t n = (size_t)a.n;
-  const char *data = t->data + (t->length ? sizeof h : 0);
+  const char *data = text->data + (text->length ? sizeof h : 0);
   a.generator = thr_calloc((size_t)h.n_generators * n, sizeof *a.generator);
   for (int g = 0; a.generator && g < h.n_generators; g++)
     data = take_generator(data, a.generator + (size_t)g * n, a.n);
@@ -81,19 +81,19 @@ static thr_status take(const thr_text *t, const thr_frame *f, thr_automorphisms 
   return st;
 }
 
-thr_status thr_automorphisms_within(const thr_frame *f, const thr_automorphism_options *o, const thr_limits *limits, bool *all,
-                                    thr_automorphisms *out, thr_err *err)
+thr_status thr_automorphisms_within(const thr_frame *frame, const thr_automorphism_options *options, const thr_limits *limits,
+                                    bool *all, thr_automorphisms *out, thr_err *err)
 {
-  job j = {f, o};
+  job j = {frame, options};
   const thr_child child = {.what = "automorphisms", .run = run, .user = &j};
   thr_text answer = {0};
   thr_err why = {0};
   *all = true;
   *out = (thr_automorphisms){0};
-  if (limits->deadline == 0 && !limits->interrupted) return thr_automorphisms_find(f, o, out, err);
+  if (limits->deadline == 0 && !limits->interrupted) return thr_automorphisms_find(frame, options, out, err);
   thr_status st = thr_child_run(&child, limits, &answer, &why);
   *all = !(st == THR_ELIMIT && thr_limits_stop(limits));
-  st = st && *all ? thr_fail(err, st, "%s", why.text) : take(&answer, f, out, err);
+  st = st && *all ? thr_fail(err, st, "%s", why.text) : take(&answer, frame, out, err);
   thr_text_destroy(&answer);
   return st;
 }

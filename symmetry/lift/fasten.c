@@ -26,19 +26,19 @@ static int darts_of(const fastening *x, int d)
 
 static void count_darts(fastening *x, const bool *failed)
 {
-  const thr_contraction *c = x->c;
-  const thr_quotient *q = c->whole->q;
+  const thr_contraction *contraction = x->c;
+  const thr_quotient *quotient = contraction->whole->q;
   for (int i = 0; i < x->ties->n; i++)
     x->lack[i] = failed && failed[i] ? 2 : 2 * ((long)x->ties->degree[i] - 1);
-  for (int i = 0; i < 2 * q->n_copies; i++) {
-    int d = q->copy[i / 2].dart[i % 2];
-    if (i % 2 == 0) x->passes[q->copy[i / 2].edge_orbit] += (long)x->small[i / 2] * q->copy[i / 2].passes;
+  for (int i = 0; i < 2 * quotient->n_copies; i++) {
+    int d = quotient->copy[i / 2].dart[i % 2];
+    if (i % 2 == 0) x->passes[quotient->copy[i / 2].edge_orbit] += (long)x->small[i / 2] * quotient->copy[i / 2].passes;
     if (d < 0 || x->ties->star[d] < 0 || (failed && failed[x->ties->star[d]])) continue;
     x->lack[x->ties->star[d]] -= (long)x->small[i / 2] * darts_of(x, d);
   }
-  for (int d = 0; d < q->n_darts; d++) /* an end is no turn */
-    if (c->root[d] == d && x->ties->star[d] >= 0 && !(failed && failed[x->ties->star[d]]))
-      x->lack[x->ties->star[d]] += (long)x->small[c->p.first_end + c->becomes[d]] * darts_of(x, d);
+  for (int d = 0; d < quotient->n_darts; d++) /* an end is no turn */
+    if (contraction->root[d] == d && x->ties->star[d] >= 0 && !(failed && failed[x->ties->star[d]]))
+      x->lack[x->ties->star[d]] += (long)x->small[contraction->p.first_end + contraction->becomes[d]] * darts_of(x, d);
 }
 
 /* How many at once: both ends in one cell keep its number even. */
@@ -66,22 +66,22 @@ static long gain_of(const fastening *x, int k)
 static bool fits(const fastening *x, int k)
 {
   const thr_programme *p = x->c->whole;
-  const thr_copy_type *t = &p->q->copy[k];
+  const thr_copy_type *type = &p->q->copy[k];
   int step = step_of(x, k);
-  long passes = x->passes[t->edge_orbit] + (long)step * t->passes;
-  return !x->barred[k] && x->small[k] <= p->most[k] - step && passes <= p->capacity[t->edge_orbit] &&
-         passes <= p->cover[t->edge_orbit] + x->beyond;
+  long passes = x->passes[type->edge_orbit] + (long)step * type->passes;
+  return !x->barred[k] && x->small[k] <= p->most[k] - step && passes <= p->capacity[type->edge_orbit] &&
+         passes <= p->cover[type->edge_orbit] + x->beyond;
 }
 
 static void add_copy(fastening *x, int k)
 {
-  const thr_copy_type *t = &x->c->whole->q->copy[k];
+  const thr_copy_type *type = &x->c->whole->q->copy[k];
   int step = step_of(x, k);
   x->small[k] += step;
-  x->passes[t->edge_orbit] += (long)step * t->passes;
+  x->passes[type->edge_orbit] += (long)step * type->passes;
   for (int i = 0; i < 2; i++)
-    if (t->dart[i] >= 0 && x->ties->star[t->dart[i]] >= 0)
-      x->lack[x->ties->star[t->dart[i]]] -= (long)step * darts_of(x, t->dart[i]);
+    if (type->dart[i] >= 0 && x->ties->star[type->dart[i]] >= 0)
+      x->lack[x->ties->star[type->dart[i]]] -= (long)step * darts_of(x, type->dart[i]);
 }
 
 static bool add_copies(fastening *x)
@@ -108,12 +108,12 @@ static bool add_copies(fastening *x)
   return false;
 }
 
-thr_status thr_contraction_fasten(const thr_contraction *c, const bool *barred, const bool *failed, int *small, bool *found,
-                                  thr_err *err)
+thr_status thr_contraction_fasten(const thr_contraction *contraction, const bool *barred, const bool *failed, int *small,
+                                  bool *found, thr_err *err)
 {
-  fastening x = {.c = c, .ties = c->whole->ties, .barred = barred, .small = small};
+  fastening x = {.c = contraction, .ties = contraction->whole->ties, .barred = barred, .small = small};
   x.lack = thr_calloc((size_t)x.ties->n, sizeof *x.lack);
-  x.passes = thr_calloc((size_t)c->whole->q->n_edge_orbits, sizeof *x.passes);
+  x.passes = thr_calloc((size_t)contraction->whole->q->n_edge_orbits, sizeof *x.passes);
   thr_status st = x.lack && x.passes ? THR_OK : thr_nomem(err);
   if (!st) {
     count_darts(&x, failed);

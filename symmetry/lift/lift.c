@@ -33,11 +33,11 @@ static void lifting_destroy(lifting *x)
   free(x->next);
 }
 
-static thr_status lifting_init(lifting *x, const thr_contraction *c, const int *small, int *value, thr_err *err)
+static thr_status lifting_init(lifting *x, const thr_contraction *contraction, const int *small, int *value, thr_err *err)
 {
-  const thr_quotient *q = c->whole->q;
-  size_t n = (size_t)q->n_darts, tubes = c->whole->ties ? (size_t)c->whole->ties->most : 0;
-  *x = (lifting){.c = c, .value = value, .left = thr_calloc(n, sizeof *x->left)};
+  const thr_quotient *quotient = contraction->whole->q;
+  size_t n = (size_t)quotient->n_darts, tubes = contraction->whole->ties ? (size_t)contraction->whole->ties->most : 0;
+  *x = (lifting){.c = contraction, .value = value, .left = thr_calloc(n, sizeof *x->left)};
   x->first = thr_calloc(n + 2, sizeof *x->first);
   x->types = thr_calloc(n, sizeof *x->types);
   x->selves = thr_calloc(n, sizeof *x->selves);
@@ -45,18 +45,18 @@ static thr_status lifting_init(lifting *x, const thr_contraction *c, const int *
   x->parent = thr_calloc(tubes, sizeof *x->parent);
   x->next = thr_calloc(tubes, sizeof *x->next);
   if (!x->left || !x->first || !x->types || !x->selves || !x->failed || !x->parent || !x->next) return thr_nomem(err);
-  memset(value, 0, (size_t)c->whole->n * sizeof *value);
-  for (int k = 0; k < q->n_copies; k++) {
+  memset(value, 0, (size_t)contraction->whole->n * sizeof *value);
+  for (int k = 0; k < quotient->n_copies; k++) {
     value[k] = small[k];
-    for (int i = 0; i < (q->copy[k].fold ? 1 : 2); i++)
-      x->left[q->copy[k].dart[i]] += small[k];
+    for (int i = 0; i < (quotient->copy[k].fold ? 1 : 2); i++)
+      x->left[quotient->copy[k].dart[i]] += small[k];
   }
-  for (int d = 0; d < q->n_darts; d++)
-    x->first[c->root[d] + 2]++;
-  for (int d = 1; d < q->n_darts; d++)
+  for (int d = 0; d < quotient->n_darts; d++)
+    x->first[contraction->root[d] + 2]++;
+  for (int d = 1; d < quotient->n_darts; d++)
     x->first[d + 1] += x->first[d];
-  for (int d = 0; d < q->n_darts; d++)
-    x->types[x->first[c->root[d] + 1]++] = d;
+  for (int d = 0; d < quotient->n_darts; d++)
+    x->types[x->first[contraction->root[d] + 1]++] = d;
   return THR_OK;
 }
 
@@ -178,16 +178,16 @@ static bool pair_rest(lifting *x)
 
 /* ---- tubes ---- */
 
-static bool cell_kept(const thr_contraction *c, int y)
+static bool cell_kept(const thr_contraction *contraction, int y)
 {
-  return c->keep[c->root[c->whole->q->pair[y].dart[0]]];
+  return contraction->keep[contraction->root[contraction->whole->q->pair[y].dart[0]]];
 }
 
-static int join_tubes(const thr_ties *t, int y, int *parent)
+static int join_tubes(const thr_ties *ties, int y, int *parent)
 {
   int n = 0;
-  for (int k = t->join[y]; k < t->join[y + 1]; k++)
-    n += thr_disjoint_join(parent, t->link[k][0], t->link[k][1]);
+  for (int k = ties->join[y]; k < ties->join[y + 1]; k++)
+    n += thr_disjoint_join(parent, ties->link[k][0], ties->link[k][1]);
   return n;
 }
 
@@ -195,19 +195,19 @@ static int join_tubes(const thr_ties *t, int y, int *parent)
 static bool leaves_room(lifting *x, int star, int y)
 {
   const thr_programme *p = x->c->whole;
-  const thr_ties *t = p->ties;
+  const thr_ties *ties = p->ties;
   int blocks = 0, open = 0;
-  memcpy(x->next, x->parent, (size_t)t->degree[star] * sizeof *x->next);
-  join_tubes(t, y, x->next);
-  for (int i = 0; i < t->degree[star]; i++)
+  memcpy(x->next, x->parent, (size_t)ties->degree[star] * sizeof *x->next);
+  join_tubes(ties, y, x->next);
+  for (int i = 0; i < ties->degree[star]; i++)
     blocks += x->next[i] == i;
   use(x, p->first_pair + y, 1);
   bool good = can_go_on(x);
-  for (int i = t->first[star]; i < t->first[star + 1] && good && blocks > 1; i++) {
-    int other = t->pair[i], j = p->first_pair + other;
+  for (int i = ties->first[star]; i < ties->first[star + 1] && good && blocks > 1; i++) {
+    int other = ties->pair[i], j = p->first_pair + other;
     if (cell_kept(x->c, other) || !is_left(x, j)) continue;
-    for (int k = t->join[other]; k < t->join[other + 1]; k++) { /* -1 - root: this block can be joined */
-      int a = t->link[k][0], b = t->link[k][1];
+    for (int k = ties->join[other]; k < ties->join[other + 1]; k++) { /* -1 - root: this block can be joined */
+      int a = ties->link[k][0], b = ties->link[k][1];
       while (x->next[a] >= 0 && x->next[a] != a)
         a = x->next[a];
       while (x->next[b] >= 0 && x->next[b] != b)
@@ -217,7 +217,7 @@ static bool leaves_room(lifting *x, int star, int y)
       x->next[b] = -1 - b;
     }
   }
-  for (int i = 0; i < t->degree[star]; i++)
+  for (int i = 0; i < ties->degree[star]; i++)
     open += x->next[i] < 0;
   use(x, p->first_pair + y, -1);
   return good && (blocks == 1 || open == blocks);
@@ -226,115 +226,120 @@ static bool leaves_room(lifting *x, int star, int y)
 /* How many joins of tubes turn y would add. */
 static int count_joins(lifting *x, int star, int y)
 {
-  const thr_ties *t = x->c->whole->ties;
+  const thr_ties *ties = x->c->whole->ties;
   bool any = false;
-  for (int k = t->join[y]; k < t->join[y + 1]; k++)
-    any = any || thr_disjoint_find(x->parent, t->link[k][0]) != thr_disjoint_find(x->parent, t->link[k][1]);
+  for (int k = ties->join[y]; k < ties->join[y + 1]; k++)
+    any = any || thr_disjoint_find(x->parent, ties->link[k][0]) != thr_disjoint_find(x->parent, ties->link[k][1]);
   if (!any) return 0;
-  memcpy(x->next, x->parent, (size_t)t->degree[star] * sizeof *x->next);
-  return join_tubes(t, y, x->next);
+  memcpy(x->next, x->parent, (size_t)ties->degree[star] * sizeof *x->next);
+  return join_tubes(ties, y, x->next);
 }
 
 /* Joins the tubes of a star with turns of the cells that are not kept: those that join most, of several the cheapest. */
 static void tie_star(lifting *x, int star, const int *small)
 {
-  const thr_contraction *c = x->c;
-  const thr_programme *p = c->whole;
-  const thr_ties *t = p->ties;
+  const thr_contraction *contraction = x->c;
+  const thr_programme *p = contraction->whole;
+  const thr_ties *ties = p->ties;
   const double *cost = p->cost[THR_AIM_TURNING] + p->first_pair;
-  for (int i = 0; i < t->degree[star]; i++)
+  for (int i = 0; i < ties->degree[star]; i++)
     x->parent[i] = i;
-  for (int i = t->first[star]; i < t->first[star + 1]; i++) {
-    int y = t->pair[i];
-    if ((cell_kept(c, y) ? small[c->p.first_pair + c->pair[y]] : x->value[p->first_pair + y]) > 0) join_tubes(t, y, x->parent);
+  for (int i = ties->first[star]; i < ties->first[star + 1]; i++) {
+    int y = ties->pair[i];
+    if ((cell_kept(contraction, y) ? small[contraction->p.first_pair + contraction->pair[y]] : x->value[p->first_pair + y]) > 0)
+      join_tubes(ties, y, x->parent);
   }
   for (int best = 0; best >= 0;) {
     int most = 0;
     best = -1;
-    for (int i = t->first[star]; i < t->first[star + 1]; i++) {
-      int y = t->pair[i], j = p->first_pair + y;
-      if (cell_kept(c, y) || !is_left(x, j)) continue;
+    for (int i = ties->first[star]; i < ties->first[star + 1]; i++) {
+      int y = ties->pair[i], j = p->first_pair + y;
+      if (cell_kept(contraction, y) || !is_left(x, j)) continue;
       int joins = count_joins(x, star, y);
       if (joins == 0 || joins < most || (joins == most && cost[y] >= cost[best])) continue;
       if (stop(x)) return;
-      enter_cell(x, c->root[p->q->pair[y].dart[0]]);
+      enter_cell(x, contraction->root[p->q->pair[y].dart[0]]);
       if (!leaves_room(x, star, y)) continue;
       most = joins;
       best = y;
     }
     if (best < 0) break;
     use(x, p->first_pair + best, 1);
-    join_tubes(t, best, x->parent);
+    join_tubes(ties, best, x->parent);
   }
 }
 
 /* Is the star not tied? Then its cells have failed. */
 static void check_star(lifting *x, int star, const int *small)
 {
-  const thr_contraction *c = x->c;
-  const thr_ties *t = c->whole->ties;
+  const thr_contraction *contraction = x->c;
+  const thr_ties *ties = contraction->whole->ties;
   bool tied = true;
-  for (int i = 0; i < t->degree[star]; i++)
+  for (int i = 0; i < ties->degree[star]; i++)
     x->parent[i] = i;
-  for (int i = t->first[star]; i < t->first[star + 1]; i++) {
-    int y = t->pair[i];
-    if ((cell_kept(c, y) ? small[c->p.first_pair + c->pair[y]] : x->value[c->whole->first_pair + y]) > 0)
-      join_tubes(t, y, x->parent);
+  for (int i = ties->first[star]; i < ties->first[star + 1]; i++) {
+    int y = ties->pair[i];
+    if ((cell_kept(contraction, y) ? small[contraction->p.first_pair + contraction->pair[y]]
+                                   : x->value[contraction->whole->first_pair + y]) > 0)
+      join_tubes(ties, y, x->parent);
   }
-  for (int i = 1; i < t->degree[star]; i++)
+  for (int i = 1; i < ties->degree[star]; i++)
     tied = tied && thr_disjoint_find(x->parent, i) == thr_disjoint_find(x->parent, 0);
-  for (int i = t->first[star]; i < t->first[star + 1] && !tied; i++)
-    x->failed[c->root[c->whole->q->pair[t->pair[i]].dart[0]]] = true;
+  for (int i = ties->first[star]; i < ties->first[star + 1] && !tied; i++)
+    x->failed[contraction->root[contraction->whole->q->pair[ties->pair[i]].dart[0]]] = true;
 }
 
 /* ---- all ---- */
 
 /* A cell that is left as it is has its turns already. */
-static void copy_kept(const thr_contraction *c, const int *small, int *value)
+static void copy_kept(const thr_contraction *contraction, const int *small, int *value)
 {
-  const thr_quotient *q = c->whole->q;
-  for (int y = 0; y < q->n_pairs; y++)
-    if (c->keep[c->root[q->pair[y].dart[0]]]) value[c->whole->first_pair + y] = small[c->p.first_pair + c->pair[y]];
-  for (int d = 0; d < q->n_darts; d++)
-    if (c->keep[c->root[d]]) value[c->whole->first_end + d] = small[c->p.first_end + c->becomes[d]];
+  const thr_quotient *quotient = contraction->whole->q;
+  for (int y = 0; y < quotient->n_pairs; y++)
+    if (contraction->keep[contraction->root[quotient->pair[y].dart[0]]])
+      value[contraction->whole->first_pair + y] = small[contraction->p.first_pair + contraction->pair[y]];
+  for (int d = 0; d < quotient->n_darts; d++)
+    if (contraction->keep[contraction->root[d]])
+      value[contraction->whole->first_end + d] = small[contraction->p.first_end + contraction->becomes[d]];
 }
 
-void thr_contraction_lower(const thr_contraction *c, const int *value, int *small)
+void thr_contraction_lower(const thr_contraction *contraction, const int *value, int *small)
 {
-  const thr_quotient *q = c->whole->q;
-  memset(small, 0, (size_t)c->p.n * sizeof *small);
-  memcpy(small, value, (size_t)q->n_copies * sizeof *small);
-  for (int y = 0; y < q->n_pairs; y++)
-    if (c->pair[y] >= 0) small[c->p.first_pair + c->pair[y]] += value[c->whole->first_pair + y];
-  for (int d = 0; d < q->n_darts; d++)
-    small[c->p.first_end + c->becomes[d]] += value[c->whole->first_end + d];
+  const thr_quotient *quotient = contraction->whole->q;
+  memset(small, 0, (size_t)contraction->p.n * sizeof *small);
+  memcpy(small, value, (size_t)quotient->n_copies * sizeof *small);
+  for (int y = 0; y < quotient->n_pairs; y++)
+    if (contraction->pair[y] >= 0)
+      small[contraction->p.first_pair + contraction->pair[y]] += value[contraction->whole->first_pair + y];
+  for (int d = 0; d < quotient->n_darts; d++)
+    small[contraction->p.first_end + contraction->becomes[d]] += value[contraction->whole->first_end + d];
 }
 
-thr_status thr_contraction_lift(thr_contraction *c, const int *small, int *value, int *kept, thr_err *err)
+thr_status thr_contraction_lift(thr_contraction *contraction, const int *small, int *value, int *kept, thr_err *err)
 {
-  const int n = c->whole->q->n_darts, stars = c->whole->ties ? c->whole->ties->n : 0;
+  const int n = contraction->whole->q->n_darts, stars = contraction->whole->ties ? contraction->whole->ties->n : 0;
   lifting x;
   *kept = 0;
-  thr_status st = lifting_init(&x, c, small, value, err);
+  thr_status st = lifting_init(&x, contraction, small, value, err);
   for (int d = 0; d < n && !st; d++) {
     enter_cell(&x, d);
-    if (!c->keep[d] && x.n > 0) x.failed[d] = !end_trails(&x, small);
+    if (!contraction->keep[d] && x.n > 0) x.failed[d] = !end_trails(&x, small);
   }
   for (int i = 0; i < stars && !st; i++)
     tie_star(&x, i, small);
   for (int d = 0; d < n && !st; d++) {
     enter_cell(&x, d);
-    if (!c->keep[d] && x.n > 0) x.failed[d] = x.failed[d] || !pair_rest(&x);
+    if (!contraction->keep[d] && x.n > 0) x.failed[d] = x.failed[d] || !pair_rest(&x);
   }
   for (int i = 0; i < stars && !st; i++)
     check_star(&x, i, small);
   for (int d = 0; d < n && !st; d++) {
-    if (c->keep[d] || !x.failed[d]) continue;
-    c->keep[d] = true;
+    if (contraction->keep[d] || !x.failed[d]) continue;
+    contraction->keep[d] = true;
     ++*kept;
   }
   if (x.stopped && !st) st = THR_ELIMIT;
-  if (!st && *kept == 0) copy_kept(c, small, value);
+  if (!st && *kept == 0) copy_kept(contraction, small, value);
   lifting_destroy(&x);
   return st;
 }

@@ -6,168 +6,172 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int product(const thr_quotient *q, int a, int b)
+static int product(const thr_quotient *quotient, int a, int b)
 {
-  return q->group->product[(size_t)a * (size_t)q->group->order + (size_t)b];
+  return quotient->group->product[(size_t)a * (size_t)quotient->group->order + (size_t)b];
 }
 
-static int inverse(const thr_quotient *q, int a)
+static int inverse(const thr_quotient *quotient, int a)
 {
-  return q->group->inverse[a];
+  return quotient->group->inverse[a];
 }
 
-static int half_image(const thr_quotient *q, int place, int h)
+static int half_image(const thr_quotient *quotient, int place, int h)
 {
-  return q->half_image[(size_t)place * 2 * (size_t)q->f->n_edges + (size_t)h];
+  return quotient->half_image[(size_t)place * 2 * (size_t)quotient->f->n_edges + (size_t)h];
 }
 
 /* Is t a t^-1 = b, for subgroups of one order? */
-static bool conjugates(const thr_quotient *q, int t, const thr_subgroup *a, const thr_subgroup *b)
+static bool conjugates(const thr_quotient *quotient, int t, const thr_subgroup *a, const thr_subgroup *b)
 {
   for (int i = 0; i < a->order; i++)
-    if (!thr_subgroup_has(b, product(q, product(q, t, a->element[i]), inverse(q, t)))) return false;
+    if (!thr_subgroup_has(b, product(quotient, product(quotient, t, a->element[i]), inverse(quotient, t)))) return false;
   return true;
 }
 
 /* Lowest element of H that takes half-edge a with stabilizer A to b with B; -1 if none does. */
-static int carrier(const thr_quotient *q, int a, const thr_subgroup *A, int b, const thr_subgroup *B)
+static int carrier(const thr_quotient *quotient, int a, const thr_subgroup *A, int b, const thr_subgroup *B)
 {
   if (A->order != B->order) return -1;
-  for (int i = 0; i < q->h->order; i++)
-    if (half_image(q, i, a) == b && conjugates(q, q->h->element[i], A, B)) return q->h->element[i];
+  for (int i = 0; i < quotient->h->order; i++)
+    if (half_image(quotient, i, a) == b && conjugates(quotient, quotient->h->element[i], A, B)) return quotient->h->element[i];
   return -1;
 }
 
 /* ---- darts ---- */
 
-static int coset_of(const thr_strands *s, int type, int x)
+static int coset_of(const thr_strands *strands, int type, int x)
 {
-  return s->coset[(size_t)s->row[type] * (size_t)s->q->h->order + (size_t)s->place[x]];
+  return strands->coset[(size_t)strands->row[type] * (size_t)strands->q->h->order + (size_t)strands->place[x]];
 }
 
 /* Element of the coset that dart d is. */
-static int element_of(const thr_strands *s, int d)
+static int element_of(const thr_strands *strands, int d)
 {
-  int o = s->orbit[d];
-  return s->chosen[(size_t)s->row[s->type[o]] * (size_t)s->q->h->order + (size_t)(d - s->first[o])];
+  int o = strands->orbit[d];
+  return strands->chosen[(size_t)strands->row[strands->type[o]] * (size_t)strands->q->h->order + (size_t)(d - strands->first[o])];
 }
 
-static int dart_of(const thr_strands *s, int o, int x)
+static int dart_of(const thr_strands *strands, int o, int x)
 {
-  return s->first[o] + coset_of(s, s->type[o], x);
+  return strands->first[o] + coset_of(strands, strands->type[o], x);
 }
 
-int thr_strands_half(const thr_strands *s, int d)
+int thr_strands_half(const thr_strands *strands, int d)
 {
-  return half_image(s->q, s->place[element_of(s, d)], s->q->dart[s->type[s->orbit[d]]].half);
+  return half_image(strands->q, strands->place[element_of(strands, d)], strands->q->dart[strands->type[strands->orbit[d]]].half);
 }
 
-int thr_strands_across(const thr_strands *s, int d)
+int thr_strands_across(const thr_strands *strands, int d)
 {
-  int o = s->orbit[d];
-  return dart_of(s, s->other[o], product(s->q, element_of(s, d), s->over[o]));
+  int o = strands->orbit[d];
+  return dart_of(strands, strands->other[o], product(strands->q, element_of(strands, d), strands->over[o]));
 }
 
-int thr_strands_mate(const thr_strands *s, int d)
+int thr_strands_mate(const thr_strands *strands, int d)
 {
-  int o = s->orbit[d];
-  return s->partner[o] < 0 ? -1 : dart_of(s, s->partner[o], product(s->q, element_of(s, d), s->turn[o]));
+  int o = strands->orbit[d];
+  return strands->partner[o] < 0
+             ? -1
+             : dart_of(strands, strands->partner[o], product(strands->q, element_of(strands, d), strands->turn[o]));
 }
 
-int thr_strands_image(const thr_strands *s, int x, int d)
+int thr_strands_image(const thr_strands *strands, int x, int d)
 {
-  return dart_of(s, s->orbit[d], product(s->q, x, element_of(s, d)));
+  return dart_of(strands, strands->orbit[d], product(strands->q, x, element_of(strands, d)));
 }
 
 /* ---- tables ---- */
 
-void thr_strands_destroy(thr_strands *s)
+void thr_strands_destroy(thr_strands *strands)
 {
-  free(s->type);
-  free(s->first);
-  free(s->orbit);
-  free(s->other);
-  free(s->over);
-  free(s->partner);
-  free(s->turn);
-  free(s->place);
-  free(s->row);
-  free(s->coset);
-  free(s->chosen);
-  *s = (thr_strands){0};
+  free(strands->type);
+  free(strands->first);
+  free(strands->orbit);
+  free(strands->other);
+  free(strands->over);
+  free(strands->partner);
+  free(strands->turn);
+  free(strands->place);
+  free(strands->row);
+  free(strands->coset);
+  free(strands->chosen);
+  *strands = (thr_strands){0};
 }
 
 /* Rows of the two tables for the types that copies of the cover have; returns how many. */
-static int number_rows(thr_strands *s, const thr_cover *c)
+static int number_rows(thr_strands *strands, const thr_cover *cover)
 {
-  const thr_quotient *q = s->q;
+  const thr_quotient *quotient = strands->q;
   int rows = 0;
-  for (int t = 0; t < q->n_darts; t++)
-    s->row[t] = -1;
-  for (int i = 0; i < q->n_copies; i++)
-    for (int side = 0; side < 2 && c->copies[i] > 0; side++) {
-      int t = q->copy[i].dart[side];
-      if (t >= 0 && s->row[t] < 0) s->row[t] = rows++;
+  for (int t = 0; t < quotient->n_darts; t++)
+    strands->row[t] = -1;
+  for (int i = 0; i < quotient->n_copies; i++)
+    for (int side = 0; side < 2 && cover->copies[i] > 0; side++) {
+      int t = quotient->copy[i].dart[side];
+      if (t >= 0 && strands->row[t] < 0) strands->row[t] = rows++;
     }
   return rows;
 }
 
-static void list_cosets(thr_strands *s, int t)
+static void list_cosets(thr_strands *strands, int t)
 {
-  const thr_quotient *q = s->q;
-  const thr_subgroup *S = &q->dart[t].stabilizer;
-  size_t start = (size_t)s->row[t] * (size_t)q->h->order;
-  int *coset = s->coset + start, n = 0;
-  for (int i = 0; i < q->h->order; i++)
+  const thr_quotient *quotient = strands->q;
+  const thr_subgroup *S = &quotient->dart[t].stabilizer;
+  size_t start = (size_t)strands->row[t] * (size_t)quotient->h->order;
+  int *coset = strands->coset + start, n = 0;
+  for (int i = 0; i < quotient->h->order; i++)
     coset[i] = -1;
-  for (int i = 0; i < q->h->order; i++) {
+  for (int i = 0; i < quotient->h->order; i++) {
     if (coset[i] >= 0) continue;
     for (int k = 0; k < S->order; k++)
-      coset[s->place[product(q, q->h->element[i], S->element[k])]] = n;
-    s->chosen[start + (size_t)n++] = q->h->element[i];
+      coset[strands->place[product(quotient, quotient->h->element[i], S->element[k])]] = n;
+    strands->chosen[start + (size_t)n++] = quotient->h->element[i];
   }
 }
 
-static thr_status make_tables(thr_strands *s, const thr_cover *c, thr_err *err)
+static thr_status make_tables(thr_strands *strands, const thr_cover *cover, thr_err *err)
 {
-  const thr_quotient *q = s->q;
-  s->place = thr_calloc((size_t)q->group->order, sizeof *s->place);
-  s->row = thr_calloc((size_t)q->n_darts, sizeof *s->row);
-  if (!s->place || !s->row) return thr_nomem(err);
-  for (int x = 0; x < q->group->order; x++)
-    s->place[x] = -1;
-  for (int i = 0; i < q->h->order; i++)
-    s->place[q->h->element[i]] = i;
-  size_t room = (size_t)number_rows(s, c) * (size_t)q->h->order;
-  s->coset = thr_calloc(room, sizeof *s->coset);
-  s->chosen = thr_calloc(room, sizeof *s->chosen);
-  if (!s->coset || !s->chosen) return thr_nomem(err);
-  for (int t = 0; t < q->n_darts; t++)
-    if (s->row[t] >= 0) list_cosets(s, t);
+  const thr_quotient *quotient = strands->q;
+  strands->place = thr_calloc((size_t)quotient->group->order, sizeof *strands->place);
+  strands->row = thr_calloc((size_t)quotient->n_darts, sizeof *strands->row);
+  if (!strands->place || !strands->row) return thr_nomem(err);
+  for (int x = 0; x < quotient->group->order; x++)
+    strands->place[x] = -1;
+  for (int i = 0; i < quotient->h->order; i++)
+    strands->place[quotient->h->element[i]] = i;
+  size_t room = (size_t)number_rows(strands, cover) * (size_t)quotient->h->order;
+  strands->coset = thr_calloc(room, sizeof *strands->coset);
+  strands->chosen = thr_calloc(room, sizeof *strands->chosen);
+  if (!strands->coset || !strands->chosen) return thr_nomem(err);
+  for (int t = 0; t < quotient->n_darts; t++)
+    if (strands->row[t] >= 0) list_cosets(strands, t);
   return THR_OK;
 }
 
 /* ---- orbits of darts, linked over the edges ---- */
 
 /* The lowest element of a fold's K that turns its edge round. */
-static int turner(const thr_strands *s, const thr_copy_type *c)
+static int turner(const thr_strands *strands, const thr_copy_type *type)
 {
   int i = 0;
-  while (i + 1 < c->stabilizer.order && half_image(s->q, s->place[c->stabilizer.element[i]], 2 * c->edge) == 2 * c->edge)
+  while (i + 1 < type->stabilizer.order &&
+         half_image(strands->q, strands->place[type->stabilizer.element[i]], 2 * type->edge) == 2 * type->edge)
     i++;
-  return c->stabilizer.element[i];
+  return type->stabilizer.element[i];
 }
 
 /* Lowest element of H that takes the copy's end at half-edge 2 e to the representative of its type. Of a fold, whose K turns the
  * half-edge round, S goes into K. */
-static int fold_carrier(const thr_quotient *q, const thr_copy_type *c)
+static int fold_carrier(const thr_quotient *quotient, const thr_copy_type *type)
 {
-  const thr_dart_type *d = &q->dart[c->dart[0]];
-  for (int i = 0; i < q->h->order; i++) {
-    int x = q->h->element[i];
-    bool fits = half_image(q, i, 2 * c->edge) == d->half;
-    for (int k = 0; k < d->stabilizer.order && fits; k++)
-      fits = thr_subgroup_has(&c->stabilizer, product(q, product(q, inverse(q, x), d->stabilizer.element[k]), x));
+  const thr_dart_type *dart_type = &quotient->dart[type->dart[0]];
+  for (int i = 0; i < quotient->h->order; i++) {
+    int x = quotient->h->element[i];
+    bool fits = half_image(quotient, i, 2 * type->edge) == dart_type->half;
+    for (int k = 0; k < dart_type->stabilizer.order && fits; k++)
+      fits = thr_subgroup_has(&type->stabilizer,
+                              product(quotient, product(quotient, inverse(quotient, x), dart_type->stabilizer.element[k]), x));
     if (fits) return x;
   }
   return -1;
@@ -175,59 +179,61 @@ static int fold_carrier(const thr_quotient *q, const thr_copy_type *c)
 
 /* Elements over of the two dart orbits of a copy type. The dart at end i of the copy K is the coset of t[i]^-1, where t[i] takes
  * it to its type's representative. */
-static thr_status link_copy(const thr_strands *s, const thr_copy_type *c, int over[2], thr_err *err)
+static thr_status link_copy(const thr_strands *strands, const thr_copy_type *type, int over[2], thr_err *err)
 {
-  const thr_quotient *q = s->q;
+  const thr_quotient *quotient = strands->q;
   int t[2], back;
   for (int i = 0; i < 2; i++) {
-    const thr_dart_type *d = &q->dart[c->dart[c->fold ? 0 : i]];
-    t[i] = c->fold ? fold_carrier(q, c) : carrier(q, 2 * c->edge + i, &c->stabilizer, d->half, &d->stabilizer);
-    if (t[i] < 0) return thr_fail(err, THR_ESOLVER, "edge %d: its darts are not of their types", c->edge);
+    const thr_dart_type *dart_type = &quotient->dart[type->dart[type->fold ? 0 : i]];
+    t[i] = type->fold ? fold_carrier(quotient, type)
+                      : carrier(quotient, 2 * type->edge + i, &type->stabilizer, dart_type->half, &dart_type->stabilizer);
+    if (t[i] < 0) return thr_fail(err, THR_ESOLVER, "edge %d: its darts are not of their types", type->edge);
   }
-  back = inverse(q, t[1]);
-  if (c->fold) back = product(q, turner(s, c), back);
-  over[0] = product(q, t[0], back);
-  over[1] = inverse(q, over[0]);
+  back = inverse(quotient, t[1]);
+  if (type->fold) back = product(quotient, turner(strands, type), back);
+  over[0] = product(quotient, t[0], back);
+  over[1] = inverse(quotient, over[0]);
   return THR_OK;
 }
 
-static thr_status orbits_init(thr_strands *s, const thr_cover *c, thr_err *err)
+static thr_status orbits_init(thr_strands *strands, const thr_cover *cover, thr_err *err)
 {
-  const thr_quotient *q = s->q;
-  for (int i = 0; i < q->n_copies; i++)
-    s->n_orbits += c->copies[i] * (q->copy[i].fold ? 1 : 2);
-  size_t n = (size_t)s->n_orbits;
-  s->type = thr_calloc(n, sizeof *s->type);
-  s->first = thr_calloc(n + 1, sizeof *s->first);
-  s->other = thr_calloc(n, sizeof *s->other);
-  s->over = thr_calloc(n, sizeof *s->over);
-  s->partner = thr_calloc(n, sizeof *s->partner);
-  s->turn = thr_calloc(n, sizeof *s->turn);
-  return s->type && s->first && s->other && s->over && s->partner && s->turn ? THR_OK : thr_nomem(err);
+  const thr_quotient *quotient = strands->q;
+  for (int i = 0; i < quotient->n_copies; i++)
+    strands->n_orbits += cover->copies[i] * (quotient->copy[i].fold ? 1 : 2);
+  size_t n = (size_t)strands->n_orbits;
+  strands->type = thr_calloc(n, sizeof *strands->type);
+  strands->first = thr_calloc(n + 1, sizeof *strands->first);
+  strands->other = thr_calloc(n, sizeof *strands->other);
+  strands->over = thr_calloc(n, sizeof *strands->over);
+  strands->partner = thr_calloc(n, sizeof *strands->partner);
+  strands->turn = thr_calloc(n, sizeof *strands->turn);
+  return strands->type && strands->first && strands->other && strands->over && strands->partner && strands->turn ? THR_OK
+                                                                                                                 : thr_nomem(err);
 }
 
-static thr_status make_orbits(thr_strands *s, const thr_cover *c, thr_err *err)
+static thr_status make_orbits(thr_strands *strands, const thr_cover *cover, thr_err *err)
 {
-  const thr_quotient *q = s->q;
-  thr_status st = orbits_init(s, c, err);
-  for (int i = 0, o = 0; i < q->n_copies && !st; i++) {
-    int sides = q->copy[i].fold ? 1 : 2, over[2] = {0};
-    if (c->copies[i] > 0) st = link_copy(s, &q->copy[i], over, err);
-    for (int k = 0; k < c->copies[i] && !st; k++, o += sides)
+  const thr_quotient *quotient = strands->q;
+  thr_status st = orbits_init(strands, cover, err);
+  for (int i = 0, o = 0; i < quotient->n_copies && !st; i++) {
+    int sides = quotient->copy[i].fold ? 1 : 2, over[2] = {0};
+    if (cover->copies[i] > 0) st = link_copy(strands, &quotient->copy[i], over, err);
+    for (int k = 0; k < cover->copies[i] && !st; k++, o += sides)
       for (int side = 0; side < sides; side++) {
-        s->type[o + side] = q->copy[i].dart[side];
-        s->other[o + side] = o + sides - 1 - side;
-        s->over[o + side] = over[side];
+        strands->type[o + side] = quotient->copy[i].dart[side];
+        strands->other[o + side] = o + sides - 1 - side;
+        strands->over[o + side] = over[side];
       }
   }
-  for (int o = 0; o < s->n_orbits && !st; o++)
-    s->first[o + 1] = s->first[o] + q->dart[s->type[o]].darts;
+  for (int o = 0; o < strands->n_orbits && !st; o++)
+    strands->first[o + 1] = strands->first[o] + quotient->dart[strands->type[o]].darts;
   if (st) return st;
-  s->n_darts = s->first[s->n_orbits];
-  if (!(s->orbit = thr_calloc((size_t)s->n_darts, sizeof *s->orbit))) return thr_nomem(err);
-  for (int o = 0; o < s->n_orbits; o++)
-    for (int d = s->first[o]; d < s->first[o + 1]; d++)
-      s->orbit[d] = o;
+  strands->n_darts = strands->first[strands->n_orbits];
+  if (!(strands->orbit = thr_calloc((size_t)strands->n_darts, sizeof *strands->orbit))) return thr_nomem(err);
+  for (int o = 0; o < strands->n_orbits; o++)
+    for (int d = strands->first[o]; d < strands->first[o + 1]; d++)
+      strands->orbit[d] = o;
   return THR_OK;
 }
 
@@ -244,16 +250,16 @@ static void type_lists_destroy(type_lists *l)
   free(l->next);
 }
 
-static thr_status type_lists_init(type_lists *l, const thr_strands *s, thr_err *err)
+static thr_status type_lists_init(type_lists *l, const thr_strands *strands, thr_err *err)
 {
-  l->head = thr_calloc((size_t)s->q->n_darts, sizeof *l->head);
-  l->next = thr_calloc((size_t)s->n_orbits, sizeof *l->next);
+  l->head = thr_calloc((size_t)strands->q->n_darts, sizeof *l->head);
+  l->next = thr_calloc((size_t)strands->n_orbits, sizeof *l->next);
   if (!l->head || !l->next) return thr_nomem(err);
-  for (int t = 0; t < s->q->n_darts; t++)
+  for (int t = 0; t < strands->q->n_darts; t++)
     l->head[t] = -1;
-  for (int o = s->n_orbits - 1; o >= 0; o--) {
-    l->next[o] = l->head[s->type[o]];
-    l->head[s->type[o]] = o;
+  for (int o = strands->n_orbits - 1; o >= 0; o--) {
+    l->next[o] = l->head[strands->type[o]];
+    l->head[strands->type[o]] = o;
   }
   return THR_OK;
 }
@@ -266,40 +272,40 @@ static int take(type_lists *l, int type)
 }
 
 /* Element turn of a pair type: takes the dart type's representative to its partner. */
-static int pair_element(const thr_quotient *q, const thr_pair_type *p)
+static int pair_element(const thr_quotient *quotient, const thr_pair_type *type)
 {
-  if (p->self) return p->element;
-  const thr_dart_type *a = &q->dart[p->dart[0]], *b = &q->dart[p->dart[1]];
-  return carrier(q, b->half, &b->stabilizer, p->half[1], &a->stabilizer);
+  if (type->self) return type->element;
+  const thr_dart_type *a = &quotient->dart[type->dart[0]], *b = &quotient->dart[type->dart[1]];
+  return carrier(quotient, b->half, &b->stabilizer, type->half[1], &a->stabilizer);
 }
 
-static thr_status pair_orbits(thr_strands *s, type_lists *unpaired, const thr_pair_type *p, int count, thr_err *err)
+static thr_status pair_orbits(thr_strands *strands, type_lists *unpaired, const thr_pair_type *type, int count, thr_err *err)
 {
-  int turn = count > 0 ? pair_element(s->q, p) : 0;
+  int turn = count > 0 ? pair_element(strands->q, type) : 0;
   for (int k = 0; k < count; k++) {
-    int a = take(unpaired, p->dart[0]), b = p->self ? a : take(unpaired, p->dart[1]);
+    int a = take(unpaired, type->dart[0]), b = type->self ? a : take(unpaired, type->dart[1]);
     if (turn < 0 || a < 0 || b < 0) return thr_fail(err, THR_ESOLVER, "a turn of the cover joins no two of its passes");
-    s->partner[a] = b;
-    s->turn[a] = turn;
-    s->partner[b] = a;
-    if (b != a) s->turn[b] = inverse(s->q, turn);
+    strands->partner[a] = b;
+    strands->turn[a] = turn;
+    strands->partner[b] = a;
+    if (b != a) strands->turn[b] = inverse(strands->q, turn);
   }
   return THR_OK;
 }
 
-static thr_status make_pairs(thr_strands *s, const thr_cover *c, thr_err *err)
+static thr_status make_pairs(thr_strands *strands, const thr_cover *cover, thr_err *err)
 {
-  const thr_quotient *q = s->q;
+  const thr_quotient *quotient = strands->q;
   type_lists unpaired = {0};
-  thr_status st = type_lists_init(&unpaired, s, err);
-  for (int i = 0; i < q->n_pairs && !st; i++)
-    st = pair_orbits(s, &unpaired, &q->pair[i], c->pairs[i], err);
-  for (int t = 0; t < q->n_darts && !st; t++) {
+  thr_status st = type_lists_init(&unpaired, strands, err);
+  for (int i = 0; i < quotient->n_pairs && !st; i++)
+    st = pair_orbits(strands, &unpaired, &quotient->pair[i], cover->pairs[i], err);
+  for (int t = 0; t < quotient->n_darts && !st; t++) {
     int ends = 0;
     for (int o = take(&unpaired, t); o >= 0; o = take(&unpaired, t), ends++)
-      s->partner[o] = -1;
-    if (ends != c->ends[t])
-      st = thr_fail(err, THR_ESOLVER, "a cover with %d cord ends of a kind instead of %d", ends, c->ends[t]);
+      strands->partner[o] = -1;
+    if (ends != cover->ends[t])
+      st = thr_fail(err, THR_ESOLVER, "a cover with %d cord ends of a kind instead of %d", ends, cover->ends[t]);
   }
   type_lists_destroy(&unpaired);
   return st;
@@ -326,16 +332,16 @@ static void join(trails *t, int a, int b)
   t->folds[root(t, ra)] = folds;
 }
 
-static void find_trails(const thr_strands *s, trails *t)
+static void find_trails(const thr_strands *strands, trails *t)
 {
-  for (int o = 0; o < s->n_orbits; o++) {
+  for (int o = 0; o < strands->n_orbits; o++) {
     t->parent[o] = o;
-    t->ends[o] = s->partner[o] < 0;
-    t->folds[o] = (s->partner[o] == o) + (s->other[o] == o);
+    t->ends[o] = strands->partner[o] < 0;
+    t->folds[o] = (strands->partner[o] == o) + (strands->other[o] == o);
   }
-  for (int o = 0; o < s->n_orbits; o++) {
-    join(t, o, s->other[o]);
-    if (s->partner[o] >= 0) join(t, o, s->partner[o]);
+  for (int o = 0; o < strands->n_orbits; o++) {
+    join(t, o, strands->other[o]);
+    if (strands->partner[o] >= 0) join(t, o, strands->partner[o]);
   }
 }
 
@@ -344,116 +350,117 @@ static bool is_circle(const trails *t, int at_root)
   return t->ends[at_root] + t->folds[at_root] == 0;
 }
 
-void thr_strands_exchange(thr_strands *s, int a, int b)
+void thr_strands_exchange(thr_strands *strands, int a, int b)
 {
-  int pa = s->partner[a], pb = s->partner[b], turn = s->turn[a];
-  s->turn[a] = s->turn[b];
-  s->turn[b] = turn;
+  int pa = strands->partner[a], pb = strands->partner[b], turn = strands->turn[a];
+  strands->turn[a] = strands->turn[b];
+  strands->turn[b] = turn;
   if (pa == b) return; /* with each other */
-  s->partner[a] = pb == b ? a : pb;
-  s->partner[b] = pa == a ? b : pa;
-  if (pa >= 0 && pa != a) s->partner[pa] = b;
-  if (pb >= 0 && pb != b) s->partner[pb] = a;
+  strands->partner[a] = pb == b ? a : pb;
+  strands->partner[b] = pa == a ? b : pa;
+  if (pa >= 0 && pa != a) strands->partner[pa] = b;
+  if (pb >= 0 && pb != b) strands->partner[pb] = a;
 }
 
 /* Joins circles to whatever trail shares a type with them. */
-static void join_circles(thr_strands *s, trails *t, const type_lists *all)
+static void join_circles(thr_strands *strands, trails *t, const type_lists *all)
 {
-  for (int type = 0; type < s->q->n_darts; type++) {
+  for (int type = 0; type < strands->q->n_darts; type++) {
     int a = all->head[type];
     for (int b = a < 0 ? -1 : all->next[a]; b >= 0; b = all->next[b]) {
       int ra = root(t, a), rb = root(t, b);
       if (ra == rb || (!is_circle(t, ra) && !is_circle(t, rb))) continue;
-      thr_strands_exchange(s, a, b);
+      thr_strands_exchange(strands, a, b);
       join(t, ra, rb);
     }
   }
 }
 
-static thr_status all_have_ends(const thr_strands *s, const trails *t, thr_err *err)
+static thr_status all_have_ends(const thr_strands *strands, const trails *t, thr_err *err)
 {
-  for (int o = 0; o < s->n_orbits; o++)
+  for (int o = 0; o < strands->n_orbits; o++)
     if (t->ends[root(t, o)] == 0) {
-      int e = s->q->dart[s->type[o]].half >> 1;
+      int e = strands->q->dart[strands->type[o]].half >> 1;
       return thr_fail(err, THR_ESOLVER, "the cords over edge %d and its images would be closed, where ends are asked for", e);
     }
   return THR_OK;
 }
 
 /* Passes from a dart of a closed cord round to it again. */
-static int walk_length(const thr_strands *s, int start)
+static int walk_length(const thr_strands *strands, int start)
 {
   int n = 0, d = start;
   do {
-    d = thr_strands_mate(s, thr_strands_across(s, d));
+    d = thr_strands_mate(strands, thr_strands_across(strands, d));
     n++;
   } while (d >= 0 && d != start);
   return n;
 }
 
 /* Could orbit o be paired by this element instead, at the same two half-edges? A fold must stay one. */
-static bool may_turn(const thr_strands *s, int o, int turn)
+static bool may_turn(const thr_strands *strands, int o, int turn)
 {
-  const thr_quotient *q = s->q;
-  const thr_dart_type *a = &q->dart[s->type[o]], *b = &q->dart[s->type[s->partner[o]]];
-  if (half_image(q, s->place[turn], b->half) != half_image(q, s->place[s->turn[o]], b->half)) return false;
-  if (!conjugates(q, turn, &b->stabilizer, &a->stabilizer)) return false;
-  return s->partner[o] != o ||
-         (!thr_subgroup_has(&a->stabilizer, turn) && thr_subgroup_has(&a->stabilizer, product(q, turn, turn)));
+  const thr_quotient *quotient = strands->q;
+  const thr_dart_type *a = &quotient->dart[strands->type[o]], *b = &quotient->dart[strands->type[strands->partner[o]]];
+  if (half_image(quotient, strands->place[turn], b->half) != half_image(quotient, strands->place[strands->turn[o]], b->half))
+    return false;
+  if (!conjugates(quotient, turn, &b->stabilizer, &a->stabilizer)) return false;
+  return strands->partner[o] != o ||
+         (!thr_subgroup_has(&a->stabilizer, turn) && thr_subgroup_has(&a->stabilizer, product(quotient, turn, turn)));
 }
 
-static void set_turn(thr_strands *s, int o, int turn)
+static void set_turn(thr_strands *strands, int o, int turn)
 {
-  s->turn[o] = turn;
-  if (s->partner[o] != o) s->turn[s->partner[o]] = inverse(s->q, turn);
+  strands->turn[o] = turn;
+  if (strands->partner[o] != o) strands->turn[strands->partner[o]] = inverse(strands->q, turn);
 }
 
 /* Of the partners that orbit o has in the other orbit at the same half-edge, takes the one with the longest cord. */
-static void lengthen(thr_strands *s, int o, int start, int *best)
+static void lengthen(thr_strands *strands, int o, int start, int *best)
 {
-  const thr_quotient *q = s->q;
-  int type = s->type[s->partner[o]], kept = s->turn[o];
-  size_t row = (size_t)s->row[type] * (size_t)q->h->order;
-  for (int k = 0; k < q->dart[type].darts; k++) {
-    int turn = s->chosen[row + (size_t)k];
-    if (coset_of(s, type, turn) == coset_of(s, type, kept) || !may_turn(s, o, turn)) continue;
-    set_turn(s, o, turn);
-    int length = walk_length(s, s->first[start]);
+  const thr_quotient *quotient = strands->q;
+  int type = strands->type[strands->partner[o]], kept = strands->turn[o];
+  size_t row = (size_t)strands->row[type] * (size_t)quotient->h->order;
+  for (int k = 0; k < quotient->dart[type].darts; k++) {
+    int turn = strands->chosen[row + (size_t)k];
+    if (coset_of(strands, type, turn) == coset_of(strands, type, kept) || !may_turn(strands, o, turn)) continue;
+    set_turn(strands, o, turn);
+    int length = walk_length(strands, strands->first[start]);
     if (length > *best) {
       *best = length;
       kept = turn;
     } else
-      set_turn(s, o, kept);
+      set_turn(strands, o, kept);
   }
 }
 
 /* The lengths of closed cords depend on where the walk round the quotient's trail comes back. */
-static void lengthen_cords(thr_strands *s, const trails *t)
+static void lengthen_cords(thr_strands *strands, const trails *t)
 {
-  for (int start = 0; start < s->n_orbits; start++) {
+  for (int start = 0; start < strands->n_orbits; start++) {
     if (root(t, start) != start || t->ends[start]) continue;
-    int best = walk_length(s, s->first[start]);
-    for (int o = start; o < s->n_orbits; o++)
-      if (root(t, o) == start && s->partner[o] <= o) lengthen(s, o, start, &best);
+    int best = walk_length(strands, strands->first[start]);
+    for (int o = start; o < strands->n_orbits; o++)
+      if (root(t, o) == start && strands->partner[o] <= o) lengthen(strands, o, start, &best);
   }
 }
 
-static thr_status arrange(thr_strands *s, bool all_open, thr_err *err)
+static thr_status arrange(thr_strands *strands, bool all_open, thr_err *err)
 {
-  size_t n = (size_t)s->n_orbits;
+  size_t n = (size_t)strands->n_orbits;
   trails t = {0};
   type_lists all = {0};
-  thr_status st = type_lists_init(&all, s, err);
+  thr_status st = type_lists_init(&all, strands, err);
   t.parent = thr_calloc(n, sizeof *t.parent);
   t.ends = thr_calloc(n, sizeof *t.ends);
   t.folds = thr_calloc(n, sizeof *t.folds);
   if (!st && (!t.parent || !t.ends || !t.folds)) st = thr_nomem(err);
-  if (!st && all_open) st = thr_strands_open(s, err);
+  if (!st && all_open) st = thr_strands_open(strands, err);
   if (!st) {
-    find_trails(s, &t);
-    join_circles(s, &t, &all);
-    if (all_open) st = all_have_ends(s, &t, err);
-    if (!st) lengthen_cords(s, &t);
+    find_trails(strands, &t);
+    join_circles(strands, &t, &all);
+    if (all_open) st = all_have_ends(strands, &t, err);
+    if (!st) lengthen_cords(strands, &t);
   }
   type_lists_destroy(&all);
   free(t.parent);
@@ -462,13 +469,14 @@ static thr_status arrange(thr_strands *s, bool all_open, thr_err *err)
   return st;
 }
 
-thr_status thr_strands_init(thr_strands *s, const thr_quotient *q, const thr_cover *c, bool all_open, thr_err *err)
+thr_status thr_strands_init(thr_strands *strands, const thr_quotient *quotient, const thr_cover *cover, bool all_open,
+                            thr_err *err)
 {
-  *s = (thr_strands){.q = q};
-  thr_status st = make_tables(s, c, err);
-  if (!st) st = make_orbits(s, c, err);
-  if (!st) st = make_pairs(s, c, err);
-  if (!st) st = arrange(s, all_open, err);
-  if (st) thr_strands_destroy(s);
+  *strands = (thr_strands){.q = quotient};
+  thr_status st = make_tables(strands, cover, err);
+  if (!st) st = make_orbits(strands, cover, err);
+  if (!st) st = make_pairs(strands, cover, err);
+  if (!st) st = arrange(strands, all_open, err);
+  if (st) thr_strands_destroy(strands);
   return st;
 }

@@ -32,20 +32,20 @@ typedef struct {
  * at no price. Then fewest cords: of the ways to pair two orbits, those with which closed cords are long. all_open: no trail may
  * be closed; THR_ESOLVER if that cannot be. Also THR_ESOLVER: counts that do not balance. O(orbits * H + cosets * (H + S)), and a
  * walk along its cord for each choice in a closed one. */
-thr_status thr_strands_init(thr_strands *s, const thr_quotient *q, const thr_cover *c, bool all_open,
+thr_status thr_strands_init(thr_strands *strands, const thr_quotient *quotient, const thr_cover *cover, bool all_open,
                             thr_err *err) THR_MUST_CHECK;
-void thr_strands_destroy(thr_strands *s);
+void thr_strands_destroy(thr_strands *strands);
 
 /* Two orbits of one type exchange what they are paired with. */
-void thr_strands_exchange(thr_strands *s, int a, int b);
+void thr_strands_exchange(thr_strands *strands, int a, int b);
 
-/* Exchanges orbits so that no trail of the quotient runs between two folds. THR_ESOLVER, s unchanged: there are not enough ends
- * within reach of the folds. O(folds * orbits). */
-thr_status thr_strands_open(thr_strands *s, thr_err *err) THR_MUST_CHECK;
+/* Exchanges orbits so that no trail of the quotient runs between two folds. THR_ESOLVER, strands unchanged: there are not enough
+ * ends within reach of the folds. O(folds * orbits). */
+thr_status thr_strands_open(thr_strands *strands, thr_err *err) THR_MUST_CHECK;
 
-int thr_strands_half(const thr_strands *s, int d);         /* half-edge that dart d lies over and leaves along */
-int thr_strands_across(const thr_strands *s, int d);       /* the other dart of its copy */
-int thr_strands_mate(const thr_strands *s, int d);         /* the dart paired with it at its node; -1: a cord ends */
-int thr_strands_image(const thr_strands *s, int x, int d); /* under element x of H */
+int thr_strands_half(const thr_strands *strands, int d);         /* half-edge that dart d lies over and leaves along */
+int thr_strands_across(const thr_strands *strands, int d);       /* the other dart of its copy */
+int thr_strands_mate(const thr_strands *strands, int d);         /* the dart paired with it at its node; -1: a cord ends */
+int thr_strands_image(const thr_strands *strands, int x, int d); /* under element x of H */
 
 #endif

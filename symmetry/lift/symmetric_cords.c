@@ -63,9 +63,9 @@ static int ways(const tracer *t, const traced *a, int x, const traced *b, int en
 /* Lowest element that maps cord a to b, or -1. */
 static int element_between(const tracer *t, const traced *a, const traced *b)
 {
-  const thr_subgroup *h = t->s.q->h;
-  for (int i = 0; i < h->order; i++)
-    if (ways(t, a, h->element[i], b, 1) > 0) return h->element[i];
+  const thr_subgroup *subgroup = t->s.q->h;
+  for (int i = 0; i < subgroup->order; i++)
+    if (ways(t, a, subgroup->element[i], b, 1) > 0) return subgroup->element[i];
   return -1;
 }
 
@@ -80,11 +80,11 @@ static bool fixes(const tracer *t, const traced *a, int x)
  * its nodes do so in the same ways. */
 static double steps_of(const tracer *t, const traced *a)
 {
-  const thr_subgroup *h = t->s.q->h;
+  const thr_subgroup *subgroup = t->s.q->h;
   int mapped = 0, fixed = 0;
-  for (int i = 0; i < h->order; i++) {
-    mapped += ways(t, a, h->element[i], a, 2 * a->n_passes);
-    fixed += fixes(t, a, h->element[i]);
+  for (int i = 0; i < subgroup->order; i++) {
+    mapped += ways(t, a, subgroup->element[i], a, 2 * a->n_passes);
+    fixed += fixes(t, a, subgroup->element[i]);
   }
   return (double)a->n_passes * fixed / mapped;
 }
@@ -171,7 +171,7 @@ static thr_status classify_last(tracer *t, thr_err *err)
 /* The cord from dart d on and its images under H, unless it is walked already. */
 static thr_status add_orbit(tracer *t, int d, bool open, thr_err *err)
 {
-  const thr_quotient *q = t->s.q;
+  const thr_quotient *quotient = t->s.q;
   if (t->walked[d]) return THR_OK;
   int n = trace(t, d);
   if (!open) start_sharpest(t, n);
@@ -179,11 +179,11 @@ static thr_status add_orbit(tracer *t, int d, bool open, thr_err *err)
   if (!st) st = classify_last(t, err);
   if (st) return st;
   int of = t->cord[t->n_cords - 1].of, element = t->cord[t->n_cords - 1].element;
-  for (int i = 1; i < q->h->order && !st; i++) {
-    int x = q->h->element[i];
+  for (int i = 1; i < quotient->h->order && !st; i++) {
+    int x = quotient->h->element[i];
     if (t->walked[thr_strands_image(&t->s, x, t->walk[0])]) continue;
     st = add_cord(t, t->walk, n, x, err);
-    if (!st) make_image(t, of, q->group->product[(size_t)x * (size_t)q->group->order + (size_t)element]);
+    if (!st) make_image(t, of, quotient->group->product[(size_t)x * (size_t)quotient->group->order + (size_t)element]);
   }
   return st;
 }
@@ -233,11 +233,11 @@ static void tracer_destroy(tracer *t)
   thr_strands_destroy(&t->s);
 }
 
-static thr_status tracer_init(tracer *t, const thr_quotient *q, const thr_cover *c, bool all_open, const int *component,
-                              thr_err *err)
+static thr_status tracer_init(tracer *t, const thr_quotient *quotient, const thr_cover *cover, bool all_open,
+                              const int *component, thr_err *err)
 {
-  *t = (tracer){.f = q->f, .component = component};
-  thr_status st = thr_strands_init(&t->s, q, c, all_open, err);
+  *t = (tracer){.f = quotient->f, .component = component};
+  thr_status st = thr_strands_init(&t->s, quotient, cover, all_open, err);
   if (st) return st;
   size_t n = (size_t)t->s.n_darts;
   t->walked = thr_calloc(n, sizeof *t->walked);
@@ -263,52 +263,52 @@ static thr_status order_cords(const tracer *t, int n_components, int **place, th
   return st;
 }
 
-static void copy_image(const thr_quotient *q, int x, int *to)
+static void copy_image(const thr_quotient *quotient, int x, int *to)
 {
-  for (int v = 0; v < q->f->n_nodes; v++)
-    to[v] = q->group->image[(size_t)x * (size_t)q->group->degree + (size_t)v];
+  for (int v = 0; v < quotient->f->n_nodes; v++)
+    to[v] = quotient->group->image[(size_t)x * (size_t)quotient->group->degree + (size_t)v];
 }
 
 /* Generators of H, and the elements that make copies: number[x] becomes the image's number. */
-static thr_status record_elements(const tracer *t, int *number, thr_symmetry_record *r, thr_err *err)
+static thr_status record_elements(const tracer *t, int *number, thr_symmetry_record *record, thr_err *err)
 {
-  const thr_quotient *q = t->s.q;
-  size_t n = (size_t)q->f->n_nodes;
+  const thr_quotient *quotient = t->s.q;
+  size_t n = (size_t)quotient->f->n_nodes;
   int generator[16];
   for (int i = 0; i < t->n_cords; i++)
     number[t->cord[i].element] = 1;
   number[0] = 1;
-  for (int x = 0; x < q->group->order; x++)
-    if (number[x]) number[x] = r->n_images++;
-  r->order = q->h->order;
-  r->n_generators = thr_subgroup_generators(q->group, q->h, generator);
-  r->generator = thr_calloc((size_t)r->n_generators * n, sizeof *r->generator);
-  r->image = thr_calloc((size_t)r->n_images * n, sizeof *r->image);
-  if (!r->generator || !r->image) return thr_nomem(err);
-  for (int i = 0; i < r->n_generators; i++)
-    copy_image(q, generator[i], r->generator + (size_t)i * n);
-  copy_image(q, 0, r->image);
-  for (int x = 1; x < q->group->order; x++)
-    if (number[x]) copy_image(q, x, r->image + (size_t)number[x] * n);
+  for (int x = 0; x < quotient->group->order; x++)
+    if (number[x]) number[x] = record->n_images++;
+  record->order = quotient->h->order;
+  record->n_generators = thr_subgroup_generators(quotient->group, quotient->h, generator);
+  record->generator = thr_calloc((size_t)record->n_generators * n, sizeof *record->generator);
+  record->image = thr_calloc((size_t)record->n_images * n, sizeof *record->image);
+  if (!record->generator || !record->image) return thr_nomem(err);
+  for (int i = 0; i < record->n_generators; i++)
+    copy_image(quotient, generator[i], record->generator + (size_t)i * n);
+  copy_image(quotient, 0, record->image);
+  for (int x = 1; x < quotient->group->order; x++)
+    if (number[x]) copy_image(quotient, x, record->image + (size_t)number[x] * n);
   return THR_OK;
 }
 
-static thr_status make_record(const tracer *t, const int *place, thr_symmetry_record *r, thr_err *err)
+static thr_status make_record(const tracer *t, const int *place, thr_symmetry_record *record, thr_err *err)
 {
   size_t n = (size_t)t->n_cords;
   int *number = thr_calloc((size_t)t->s.q->group->order, sizeof *number);
-  r->unique = thr_calloc(n, sizeof *r->unique);
-  r->element = thr_calloc(n, sizeof *r->element);
-  thr_status st = number && r->unique && r->element ? THR_OK : thr_nomem(err);
-  if (!st) st = record_elements(t, number, r, err);
+  record->unique = thr_calloc(n, sizeof *record->unique);
+  record->element = thr_calloc(n, sizeof *record->element);
+  thr_status st = number && record->unique && record->element ? THR_OK : thr_nomem(err);
+  if (!st) st = record_elements(t, number, record, err);
   for (int i = 0; i < t->n_cords && !st; i++) {
-    r->unique[place[i]] = place[t->unique[t->cord[i].of]];
-    r->element[place[i]] = number[t->cord[i].element];
+    record->unique[place[i]] = place[t->unique[t->cord[i].of]];
+    record->element[place[i]] = number[t->cord[i].element];
   }
   for (int u = 0; u < t->n_unique && !st; u++)
-    r->steps += steps_of(t, &t->cord[t->unique[u]]);
-  r->unique_paths = t->n_unique;
-  r->present = true;
+    record->steps += steps_of(t, &t->cord[t->unique[u]]);
+  record->unique_paths = t->n_unique;
+  record->present = true;
   free(number);
   return st;
 }
@@ -327,17 +327,17 @@ static thr_status make_cords(tracer *t, const int *place, thr_cord **cord, thr_e
   return THR_OK;
 }
 
-thr_status thr_cover_cords(const thr_quotient *q, const thr_cover_options *o, const thr_cover *c, thr_cord **cord, int *n_cords,
-                           thr_symmetry_record *record, thr_err *err)
+thr_status thr_cover_cords(const thr_quotient *quotient, const thr_cover_options *options, const thr_cover *cover,
+                           thr_cord **cord, int *n_cords, thr_symmetry_record *record, thr_err *err)
 {
-  int n_components, *place = NULL, *component = thr_calloc((size_t)q->f->n_nodes, sizeof *component);
+  int n_components, *place = NULL, *component = thr_calloc((size_t)quotient->f->n_nodes, sizeof *component);
   tracer t = {0};
   *cord = NULL;
   *n_cords = 0;
   *record = (thr_symmetry_record){0};
-  thr_status st = component ? thr_frame_components(q->f, component, &n_components, err) : thr_nomem(err);
-  if (!st) st = tracer_init(&t, q, c, thr_cover_all_open(o), component, err);
-  t.open = thr_cover_all_open(o);
+  thr_status st = component ? thr_frame_components(quotient->f, component, &n_components, err) : thr_nomem(err);
+  if (!st) st = tracer_init(&t, quotient, cover, thr_cover_all_open(options), component, err);
+  t.open = thr_cover_all_open(options);
   if (!st) st = trace_all(&t, err);
   if (!st) st = order_cords(&t, n_components, &place, err);
   if (!st) st = make_record(&t, place, record, err);

@@ -33,11 +33,11 @@ static void circuits_destroy(circuits *s)
 
 static void follow(circuits *s)
 {
-  const thr_turning_columns *c = s->j->c;
+  const thr_turning_columns *turning_columns = s->j->c;
   thr_threading_follow(&s->t, s->t.g->n_darts);
-  memset(s->count, 0, (size_t)c->n_components * sizeof *s->count);
+  memset(s->count, 0, (size_t)turning_columns->n_components * sizeof *s->count);
   for (int k = 0; k < s->t.n_cords; k++)
-    s->count[c->component[s->t.g->tail[s->t.place[s->t.first[k]].in]]]++;
+    s->count[turning_columns->component[s->t.g->tail[s->t.place[s->t.first[k]].in]]]++;
 }
 
 static thr_status circuits_init(circuits *s, thr_join *j, const thr_limits *limits, thr_err *err)
@@ -82,10 +82,10 @@ static void consider_node(circuits *s, int v, int change, thr_exchange *best)
  * infinite if there is none. */
 static thr_exchange cheapest(circuits *s, int component, int change)
 {
-  const thr_turning_columns *c = s->j->c;
+  const thr_turning_columns *turning_columns = s->j->c;
   thr_exchange best = {.extra = INFINITY};
-  for (int v = 0; v < c->f->n_nodes; v++) {
-    if (c->component[v] != component) continue;
+  for (int v = 0; v < turning_columns->f->n_nodes; v++) {
+    if (turning_columns->component[v] != component) continue;
     consider_node(s, v, change, &best);
     if (isfinite(best.extra) && thr_limits_stop(s->limits)) break;
   }
@@ -153,10 +153,10 @@ static bool improve_at(circuits *s, int v)
 
 static void improve(circuits *s)
 {
-  const thr_frame *f = s->j->c->f;
+  const thr_frame *frame = s->j->c->f;
   for (bool changed = true; changed && !thr_limits_stop(s->limits);) {
     changed = false;
-    for (int v = 0; v < f->n_nodes; v++)
+    for (int v = 0; v < frame->n_nodes; v++)
       while (!thr_limits_stop(s->limits) && improve_at(s, v))
         changed = true;
   }
@@ -191,23 +191,24 @@ static void adder_destroy(adder *s)
   thr_walk_search_destroy(&s->walks);
 }
 
-static thr_status adder_init(adder *s, const thr_turning_columns *c, int *passes, int n_cords, thr_err *err)
+static thr_status adder_init(adder *s, const thr_turning_columns *turning_columns, int *passes, int n_cords, thr_err *err)
 {
-  *s = (adder){.c = c, .n_cords = n_cords, .passes = passes};
+  *s = (adder){.c = turning_columns, .n_cords = n_cords, .passes = passes};
   s->cord = thr_calloc((size_t)n_cords, sizeof *s->cord);
-  return s->cord ? thr_walk_search_init(&s->walks, c, err) : thr_nomem(err);
+  return s->cord ? thr_walk_search_init(&s->walks, turning_columns, err) : thr_nomem(err);
 }
 
 /* Price of the walk found last; infinite if it needs more passes than allowed. */
 static double walk_price(const adder *s)
 {
-  const thr_turning_task *t = s->c->task;
-  const thr_walk_search *w = &s->walks;
+  const thr_turning_task *turning_task = s->c->task;
+  const thr_walk_search *walk_search = &s->walks;
   double price = 0;
-  if (!thr_walk_search_add(w, s->passes)) return INFINITY;
-  for (int i = 0; i < w->n; i++) {
-    int h = w->half[i];
-    price += thr_turn_price(s->c->f, t->cost, h, w->half[(i + 1) % w->n]) + t->price_per_length * s->c->f->length[h >> 1];
+  if (!thr_walk_search_add(walk_search, s->passes)) return INFINITY;
+  for (int i = 0; i < walk_search->n; i++) {
+    int h = walk_search->half[i];
+    price += thr_turn_price(s->c->f, turning_task->cost, h, walk_search->half[(i + 1) % walk_search->n]) +
+             turning_task->price_per_length * s->c->f->length[h >> 1];
     s->passes[h >> 1]--;
   }
   return price;
@@ -217,10 +218,10 @@ static double walk_price(const adder *s)
 static thr_status take_walk(adder *s, thr_err *err)
 {
   thr_cord *c = &s->cord[s->made];
-  const thr_walk_search *w = &s->walks;
-  if (!(c->half = thr_calloc((size_t)w->n, sizeof *c->half))) return thr_nomem(err);
-  memcpy(c->half, w->half, (size_t)w->n * sizeof *c->half);
-  c->n_passes = w->n;
+  const thr_walk_search *walk_search = &s->walks;
+  if (!(c->half = thr_calloc((size_t)walk_search->n, sizeof *c->half))) return thr_nomem(err);
+  memcpy(c->half, walk_search->half, (size_t)walk_search->n * sizeof *c->half);
+  c->n_passes = walk_search->n;
   s->made++;
   return THR_OK;
 }
@@ -228,11 +229,11 @@ static thr_status take_walk(adder *s, thr_err *err)
 /* One more closed cord in the component. */
 static thr_status add_walk(adder *s, int component, const thr_limits *limits, bool *found, thr_err *err)
 {
-  const thr_frame *f = s->c->f;
+  const thr_frame *frame = s->c->f;
   double least = INFINITY;
   int best = -1;
-  for (int h = 0; h < 2 * f->n_edges; h += 2) {
-    if (s->c->component[thr_tail(f, h)] != component) continue;
+  for (int h = 0; h < 2 * frame->n_edges; h += 2) {
+    if (s->c->component[thr_tail(frame, h)] != component) continue;
     thr_walk_search_closed(&s->walks, h);
     double price = walk_price(s);
     if (price < least - 1e-12) least = price, best = h;
@@ -263,24 +264,24 @@ static thr_status copy_circuit(adder *s, const thr_threading *from, int k, thr_e
 
 thr_status thr_circuits_add(const thr_join *j, const thr_limits *limits, thr_join *out, int *passes, bool *found, thr_err *err)
 {
-  const thr_turning_columns *c = j->c;
-  int cords = c->task->cords;
+  const thr_turning_columns *turning_columns = j->c;
+  int cords = turning_columns->task->cords;
   circuits from;
   adder s = {0};
   thr_join same = *j; /* following does not change it */
   *out = (thr_join){0};
   thr_status st = circuits_init(&from, &same, limits, err);
   *found = !st;
-  for (int k = 0; k < c->n_components && !st; k++)
+  for (int k = 0; k < turning_columns->n_components && !st; k++)
     *found &= from.count[k] <= cords;
-  if (*found) st = adder_init(&s, c, passes, cords * c->n_components, err);
-  if (!st && *found) memset(passes, 0, (size_t)c->f->n_edges * sizeof *passes);
+  if (*found) st = adder_init(&s, turning_columns, passes, cords * turning_columns->n_components, err);
+  if (!st && *found) memset(passes, 0, (size_t)turning_columns->f->n_edges * sizeof *passes);
   for (int k = 0; k < from.t.n_cords && !st && *found; k++)
     st = copy_circuit(&s, &from.t, k, err);
-  for (int k = 0; k < c->n_components && !st && *found; k++)
+  for (int k = 0; k < turning_columns->n_components && !st && *found; k++)
     for (; from.count[k] < cords && !st && *found; from.count[k]++)
       st = add_walk(&s, k, limits, found, err);
-  if (!st && *found) st = thr_join_from_cords(out, c, s.cord, s.n_cords, err);
+  if (!st && *found) st = thr_join_from_cords(out, turning_columns, s.cord, s.n_cords, err);
   circuits_destroy(&from);
   adder_destroy(&s);
   return st;
@@ -301,17 +302,18 @@ static thr_status cover_edges(adder *s, int first, bool *found, thr_err *err)
   return THR_OK;
 }
 
-thr_status thr_circuits_cover(const thr_turning_columns *c, int first, thr_join *out, int *passes, bool *found, thr_err *err)
+thr_status thr_circuits_cover(const thr_turning_columns *turning_columns, int first, thr_join *out, int *passes, bool *found,
+                              thr_err *err)
 {
   adder s;
   int most = 0;
   *out = (thr_join){0};
   *found = true;
-  for (int e = 0; e < c->f->n_edges; e++)
-    most += c->cover[e];
-  thr_status st = adder_init(&s, c, passes, most, err);
+  for (int e = 0; e < turning_columns->f->n_edges; e++)
+    most += turning_columns->cover[e];
+  thr_status st = adder_init(&s, turning_columns, passes, most, err);
   if (!st) st = cover_edges(&s, first, found, err);
-  if (!st && *found) st = thr_join_from_cords(out, c, s.cord, s.made, err);
+  if (!st && *found) st = thr_join_from_cords(out, turning_columns, s.cord, s.made, err);
   adder_destroy(&s);
   return st;
 }

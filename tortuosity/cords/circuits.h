@@ -28,7 +28,7 @@ thr_status thr_circuits_add(const thr_join *j, const thr_limits *limits, thr_joi
 
 /* Circuits of few edges through every edge, as many as that takes: the walk through edge number first, through the next edge that
  * is not in one yet (cover times), and so on. *found and out as above. O(edges * sum of the squares of the degrees) at worst. */
-thr_status thr_circuits_cover(const thr_turning_columns *c, int first, thr_join *out, int *passes, bool *found,
+thr_status thr_circuits_cover(const thr_turning_columns *turning_columns, int first, thr_join *out, int *passes, bool *found,
                               thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -9,11 +9,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-double thr_extra_length(const thr_turning_columns *c, const int *passes)
+double thr_extra_length(const thr_turning_columns *turning_columns, const int *passes)
 {
   double sum = 0;
-  for (int e = 0; e < c->f->n_edges; e++)
-    sum += (passes[e] - c->cover[e]) * c->f->length[e];
+  for (int e = 0; e < turning_columns->f->n_edges; e++)
+    sum += (passes[e] - turning_columns->cover[e]) * turning_columns->f->length[e];
   return sum;
 }
 
@@ -38,18 +38,20 @@ static void instance_destroy(instance *in)
   free(in->odd);
 }
 
-static thr_status instance_init(instance *in, const thr_turning_columns *c, int k, bool given, thr_err *err)
+static thr_status instance_init(instance *in, const thr_turning_columns *turning_columns, int k, bool given, thr_err *err)
 {
-  const thr_frame *f = c->f;
-  size_t n = (size_t)f->n_nodes;
+  const thr_frame *frame = turning_columns->f;
+  size_t n = (size_t)frame->n_nodes;
   int allowed = 0;
-  *in = (instance){.c = c, .k = k, .n_slots = c->task->end_allowed && !given ? 2 * c->task->cords : 0};
+  *in = (instance){.c = turning_columns,
+                   .k = k,
+                   .n_slots = turning_columns->task->end_allowed && !given ? 2 * turning_columns->task->cords : 0};
   in->local = thr_calloc(n, sizeof *in->local);
   in->node = thr_calloc(n, sizeof *in->node);
   if (!in->local || !in->node) return thr_nomem(err);
-  for (int v = 0; v < f->n_nodes; v++) {
-    if (c->component[v] != k) continue;
-    allowed += c->task->end_allowed && c->task->end_allowed[v];
+  for (int v = 0; v < frame->n_nodes; v++) {
+    if (turning_columns->component[v] != k) continue;
+    allowed += turning_columns->task->end_allowed && turning_columns->task->end_allowed[v];
     in->local[v] = in->n_nodes;
     in->node[in->n_nodes++] = v;
   }
@@ -58,9 +60,9 @@ static thr_status instance_init(instance *in, const thr_turning_columns *c, int 
         err, THR_EINFEASIBLE,
         "the component with node %s has no node where a cord may end; name one with --feet (try --feet lowest) or --ends, or use "
         "--ends closed",
-        f->name[in->node[0]]);
-  for (int e = 0; e < f->n_edges; e++)
-    in->n_own += c->component[f->edge[e][0]] == k;
+        frame->name[in->node[0]]);
+  for (int e = 0; e < frame->n_edges; e++)
+    in->n_own += turning_columns->component[frame->edge[e][0]] == k;
   size_t edges = (size_t)in->n_own + (size_t)in->n_slots * ((size_t)allowed + (size_t)in->n_slots);
   if (edges > (1u << 20)) return thr_fail(err, THR_EINPUT, "too many cords for so many nodes where they may end");
   in->edge = thr_calloc(edges, sizeof *in->edge);
@@ -79,11 +81,11 @@ static void add_edge(instance *in, int a, int b, int64_t weight, int what)
 }
 
 /* Passes that the edges at node v need. */
-static int covers_at(const thr_turning_columns *c, int v)
+static int covers_at(const thr_turning_columns *turning_columns, int v)
 {
   int sum = 0;
-  for (int i = c->f->first[v]; i < c->f->first[v + 1]; i++)
-    sum += c->cover[c->f->half[i] >> 1];
+  for (int i = turning_columns->f->first[v]; i < turning_columns->f->first[v + 1]; i++)
+    sum += turning_columns->cover[turning_columns->f->half[i] >> 1];
   return sum;
 }
 
@@ -91,13 +93,13 @@ static int covers_at(const thr_turning_columns *c, int v)
  * takes. */
 static void fill(instance *in, const double *weight, const double *end_weight, const int *ends)
 {
-  const thr_frame *f = in->c->f;
+  const thr_frame *frame = in->c->f;
   assert(in->edge && in->weight && in->what && in->odd);
   const double whole = exp2(fmin(44, floor(50 - log2(2 + 2.0 * in->n_slots * (in->n_nodes + in->n_slots)))));
   double sum = 0, most = 0;
   int full = 0; /* edges with no room for an extra pass: each dearer than all others together */
-  for (int e = 0; e < f->n_edges; e++) {
-    if (in->c->component[f->edge[e][0]] != in->k) continue;
+  for (int e = 0; e < frame->n_edges; e++) {
+    if (in->c->component[frame->edge[e][0]] != in->k) continue;
     full += in->c->most[e] == in->c->cover[e];
     if (in->c->most[e] > in->c->cover[e]) sum += weight[e];
   }
@@ -107,10 +109,10 @@ static void fill(instance *in, const double *weight, const double *end_weight, c
   for (int i = 0; end_weight && i < in->n_nodes; i++)
     most = fmax(most, end_weight[in->node[i]]);
   for (int i = 0; i < in->n_nodes; i++)
-    for (int k = f->first[in->node[i]]; k < f->first[in->node[i] + 1]; k++) {
-      int h = f->half[k];
+    for (int k = frame->first[in->node[i]]; k < frame->first[in->node[i] + 1]; k++) {
+      int h = frame->half[k];
       if (h % 2 == 0)
-        add_edge(in, i, in->local[thr_head(f, h)],
+        add_edge(in, i, in->local[thr_head(frame, h)],
                  (int64_t)nearbyint((in->c->most[h >> 1] > in->c->cover[h >> 1] ? weight[h >> 1] : dear) * scale), h >> 1);
     }
   int64_t slot = (int64_t)whole + 1;
@@ -139,33 +141,35 @@ static int closing_node(const instance *in, const double *end_weight)
 }
 
 /* The least join, or, stopped, one that keeps the slots at one edge each, which the matching's quick join need not. */
-static thr_status solve_join(const thr_tjoin_problem *p, const thr_limits *limits, thr_tjoin *t, thr_err *err)
+static thr_status solve_join(const thr_tjoin_problem *tjoin_problem, const thr_limits *limits, thr_tjoin *tjoin, thr_err *err)
 {
   thr_err stopped = {0};
   thr_limits quiet = *limits; /* the join's best and bound are not those of the turning */
   quiet.progress = NULL;
-  thr_status st = thr_tjoin_shrunk(p, THR_ENGINE_AUTO, &quiet, t, &stopped);
-  if (st == THR_ELIMIT && p->n_leaves) {
-    thr_tjoin_destroy(t);
-    st = thr_tjoin_solve(p, &quiet, t, &stopped);
+  thr_status st = thr_tjoin_shrunk(tjoin_problem, THR_ENGINE_AUTO, &quiet, tjoin, &stopped);
+  if (st == THR_ELIMIT && tjoin_problem->n_leaves) {
+    thr_tjoin_destroy(tjoin);
+    st = thr_tjoin_solve(tjoin_problem, &quiet, tjoin, &stopped);
   }
   if (st == THR_ELIMIT) return THR_OK; /* a join is a join */
   return st ? thr_fail(err, st, "%s", stopped.text) : THR_OK;
 }
 
-static thr_status solve_component(const thr_turning_columns *c, int k, const double *weight, const double *end_weight, bool given,
-                                  const thr_limits *limits, int *passes, int *ends, thr_err *err)
+static thr_status solve_component(const thr_turning_columns *turning_columns, int k, const double *weight,
+                                  const double *end_weight, bool given, const thr_limits *limits, int *passes, int *ends,
+                                  thr_err *err)
 {
   instance in;
-  thr_tjoin t = {0};
-  thr_status st = instance_init(&in, c, k, given, err);
+  thr_tjoin tjoin = {0};
+  thr_status st = instance_init(&in, turning_columns, k, given, err);
   if (!st) {
     fill(&in, weight, end_weight, ends);
-    thr_tjoin_problem p = {in.n_nodes + in.n_slots, in.n_edges, (const int(*)[2])in.edge, in.weight, in.odd, in.n_slots};
-    st = solve_join(&p, limits, &t, err);
+    thr_tjoin_problem tjoin_problem = {
+        in.n_nodes + in.n_slots, in.n_edges, (const int(*)[2])in.edge, in.weight, in.odd, in.n_slots};
+    st = solve_join(&tjoin_problem, limits, &tjoin, err);
   }
   for (int i = 0; !st && i < in.n_edges; i++) {
-    if (!t.in_join[i]) continue;
+    if (!tjoin.in_join[i]) continue;
     if (i < in.n_own)
       passes[in.what[i]]++;
     else if (in.what[i] >= 0)
@@ -173,7 +177,7 @@ static thr_status solve_component(const thr_turning_columns *c, int k, const dou
     else
       ends[closing_node(&in, end_weight)] += 2;
   }
-  thr_tjoin_destroy(&t);
+  thr_tjoin_destroy(&tjoin);
   instance_destroy(&in);
   return st;
 }
@@ -181,28 +185,28 @@ static thr_status solve_component(const thr_turning_columns *c, int k, const dou
 /* ---- ends that the passes hold ---- */
 
 /* Passes at node v less the cord ends there. */
-static int room_at(const thr_frame *f, int v, const int *passes, const int *ends)
+static int room_at(const thr_frame *frame, int v, const int *passes, const int *ends)
 {
   int room = -ends[v];
-  for (int i = f->first[v]; i < f->first[v + 1]; i++)
-    room += passes[f->half[i] >> 1];
+  for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
+    room += passes[frame->half[i] >> 1];
   return room;
 }
 
 /* Moves two ends at a time, so that every node stays even, from where there are more than passes to the node with most room.
  * Returns how many have none; they are left out. */
-static int move_ends(const thr_turning_columns *c, int k, const int *passes, int *ends)
+static int move_ends(const thr_turning_columns *turning_columns, int k, const int *passes, int *ends)
 {
-  const thr_frame *f = c->f;
+  const thr_frame *frame = turning_columns->f;
   int homeless = 0;
-  for (int v = 0; v < f->n_nodes; v++) {
-    if (c->component[v] != k || !c->task->end_allowed[v]) continue;
-    int over = -room_at(f, v, passes, ends);
+  for (int v = 0; v < frame->n_nodes; v++) {
+    if (turning_columns->component[v] != k || !turning_columns->task->end_allowed[v]) continue;
+    int over = -room_at(frame, v, passes, ends);
     for (; over > 0; over -= 2) {
       int best = -1, most = 1;
-      for (int u = 0; u < f->n_nodes; u++) {
-        if (c->component[u] != k || !c->task->end_allowed[u]) continue;
-        int room = room_at(f, u, passes, ends);
+      for (int u = 0; u < frame->n_nodes; u++) {
+        if (turning_columns->component[u] != k || !turning_columns->task->end_allowed[u]) continue;
+        int room = room_at(frame, u, passes, ends);
         if (room > most) most = room, best = u;
       }
       ends[v] -= 2;
@@ -217,54 +221,54 @@ static int move_ends(const thr_turning_columns *c, int k, const int *passes, int
 
 /* No more ends at a node than passes: others have room, or there are more passes, along the shortest walk between nodes where
  * cords may end. Where none is left within most_passes there are ends too many, which no pairing holds. */
-static thr_status fit_ends(const thr_turning_columns *c, int k, int *passes, int *ends, thr_err *err)
+static thr_status fit_ends(const thr_turning_columns *turning_columns, int k, int *passes, int *ends, thr_err *err)
 {
-  int homeless = move_ends(c, k, passes, ends), last = -1;
+  int homeless = move_ends(turning_columns, k, passes, ends), last = -1;
   if (homeless == 0) return THR_OK;
-  thr_walk_search w;
-  thr_status st = thr_walk_search_init(&w, c, err);
+  thr_walk_search walk_search;
+  thr_status st = thr_walk_search_init(&walk_search, turning_columns, err);
   for (; homeless > 0 && !st; homeless -= 2) {
-    thr_walk_search_open(&w, k, passes);
-    if (!thr_walk_search_add(&w, passes)) break;
-    ends[thr_tail(c->f, w.half[0])]++;
-    ends[thr_head(c->f, w.half[w.n - 1])]++;
+    thr_walk_search_open(&walk_search, k, passes);
+    if (!thr_walk_search_add(&walk_search, passes)) break;
+    ends[thr_tail(turning_columns->f, walk_search.half[0])]++;
+    ends[thr_head(turning_columns->f, walk_search.half[walk_search.n - 1])]++;
   }
-  for (int v = 0; v < c->f->n_nodes && homeless > 0; v++)
-    if (c->component[v] == k && c->task->end_allowed[v]) last = v;
+  for (int v = 0; v < turning_columns->f->n_nodes && homeless > 0; v++)
+    if (turning_columns->component[v] == k && turning_columns->task->end_allowed[v]) last = v;
   if (last >= 0) ends[last] += homeless;
-  thr_walk_search_destroy(&w);
+  thr_walk_search_destroy(&walk_search);
   return st;
 }
 
-thr_status thr_extra_passes(const thr_turning_columns *c, const double *weight, const double *end_weight, bool given,
-                            const thr_limits *limits, int *passes, int *ends, thr_err *err)
+thr_status thr_extra_passes(const thr_turning_columns *turning_columns, const double *weight, const double *end_weight,
+                            bool given, const thr_limits *limits, int *passes, int *ends, thr_err *err)
 {
   thr_status st = THR_OK;
-  for (int e = 0; e < c->f->n_edges; e++)
-    passes[e] = c->cover[e];
-  const int *count = c->task->end_count;
+  for (int e = 0; e < turning_columns->f->n_edges; e++)
+    passes[e] = turning_columns->cover[e];
+  const int *count = turning_columns->task->end_count;
   given |= count != NULL;
-  for (int v = 0; v < c->f->n_nodes && (!given || count); v++)
+  for (int v = 0; v < turning_columns->f->n_nodes && (!given || count); v++)
     ends[v] = count ? count[v] : 0;
-  for (int k = 0; k < c->n_components && !st; k++)
-    st = solve_component(c, k, weight, end_weight, given, limits, passes, ends, err);
-  for (int k = 0; k < c->n_components && !st && c->task->end_allowed && !count; k++)
-    st = fit_ends(c, k, passes, ends, err);
+  for (int k = 0; k < turning_columns->n_components && !st; k++)
+    st = solve_component(turning_columns, k, weight, end_weight, given, limits, passes, ends, err);
+  for (int k = 0; k < turning_columns->n_components && !st && turning_columns->task->end_allowed && !count; k++)
+    st = fit_ends(turning_columns, k, passes, ends, err);
   return st;
 }
 
-void thr_extra_spread_ends(const thr_turning_columns *c, int *ends)
+void thr_extra_spread_ends(const thr_turning_columns *turning_columns, int *ends)
 {
-  const thr_frame *f = c->f;
-  for (int v = 0; v < f->n_nodes; v++)
+  const thr_frame *frame = turning_columns->f;
+  for (int v = 0; v < frame->n_nodes; v++)
     ends[v] = 0;
-  for (int k = 0; k < c->n_components && c->task->end_allowed; k++)
-    for (int i = 0; i < 2 * c->task->cords; i++) {
+  for (int k = 0; k < turning_columns->n_components && turning_columns->task->end_allowed; k++)
+    for (int i = 0; i < 2 * turning_columns->task->cords; i++) {
       int best = -1;
-      for (int v = 0; v < f->n_nodes; v++) {
-        int own = covers_at(c, v) + ends[v];
-        if (c->component[v] != k || !c->task->end_allowed[v]) continue;
-        int than = best < 0 ? 0 : covers_at(c, best) + ends[best];
+      for (int v = 0; v < frame->n_nodes; v++) {
+        int own = covers_at(turning_columns, v) + ends[v];
+        if (turning_columns->component[v] != k || !turning_columns->task->end_allowed[v]) continue;
+        int than = best < 0 ? 0 : covers_at(turning_columns, best) + ends[best];
         if (best < 0 || ends[v] - own % 2 < ends[best] - than % 2) best = v;
       }
       if (best >= 0) ends[best]++;

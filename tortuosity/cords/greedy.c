@@ -52,17 +52,17 @@ static void greedy_destroy(greedy *s)
 
 static thr_status greedy_init(greedy *s, thr_join *j, int apart, const thr_limits *limits, thr_err *err)
 {
-  const thr_multigraph *g = &j->g;
-  size_t n = (size_t)g->n_nodes;
+  const thr_multigraph *multigraph = &j->g;
+  size_t n = (size_t)multigraph->n_nodes;
   *s = (greedy){.j = j, .limits = thr_limits_part(limits, 0.3)};
   for (int v = 0; v < j->c->f->n_nodes; v++) {
-    int darts = g->first[v + 1] - g->first[v];
+    int darts = multigraph->first[v + 1] - multigraph->first[v];
     if (darts > s->most) s->most = darts;
     if (darts > s->most_few && darts <= THR_HUB) s->most_few = darts;
   }
   size_t k = (size_t)s->most, few = (size_t)s->most_few;
-  s->place = thr_calloc((size_t)g->n_darts, sizeof *s->place);
-  s->link = thr_calloc((size_t)g->n_darts, sizeof *s->link);
+  s->place = thr_calloc((size_t)multigraph->n_darts, sizeof *s->place);
+  s->link = thr_calloc((size_t)multigraph->n_darts, sizeof *s->link);
   s->stamp = thr_calloc(n, sizeof *s->stamp);
   s->class = thr_calloc(n, sizeof *s->class);
   s->queue = thr_calloc(n, sizeof *s->queue);
@@ -77,11 +77,11 @@ static thr_status greedy_init(greedy *s, thr_join *j, int apart, const thr_limit
     return thr_nomem(err);
   for (int i = 0; i < j->c->n_components; i++)
     s->spare[i] = apart;
-  for (int d = 0; d < g->n_darts; d++)
+  for (int d = 0; d < multigraph->n_darts; d++)
     s->link[d] = d ^ 1;
-  for (int v = 0; v < g->n_nodes; v++)
-    for (int i = g->first[v]; i < g->first[v + 1]; i++)
-      s->place[g->dart[i]] = i - g->first[v];
+  for (int v = 0; v < multigraph->n_nodes; v++)
+    for (int i = multigraph->first[v]; i < multigraph->first[v + 1]; i++)
+      s->place[multigraph->dart[i]] = i - multigraph->first[v];
   return THR_OK;
 }
 
@@ -121,9 +121,9 @@ static int by_regret(const void *pa, const void *pb)
 /* The cheapest pairing of node v, by itself, into pair; hubs come last, as if no other pairing of them cost more. */
 static thr_status pair_node(greedy *s, int v, thr_err *err)
 {
-  const thr_multigraph *g = &s->j->g;
-  const int *dart = g->dart + g->first[v];
-  int n = g->first[v + 1] - g->first[v];
+  const thr_multigraph *multigraph = &s->j->g;
+  const int *dart = multigraph->dart + multigraph->first[v];
+  int n = multigraph->first[v + 1] - multigraph->first[v];
   s->order[v] = (ranked){-1, v};
   if (n > THR_HUB) return thr_hub_pair(s->j, v, &s->limits, s->pair, err);
   fill_prices(s, dart, n);
@@ -135,11 +135,11 @@ static thr_status pair_node(greedy *s, int v, thr_err *err)
 /* The best pairing of every node into mate, and the nodes by decreasing regret. */
 static thr_status rank_nodes(greedy *s, thr_err *err)
 {
-  const thr_multigraph *g = &s->j->g;
+  const thr_multigraph *multigraph = &s->j->g;
   thr_status st = THR_OK;
   for (int v = 0; v < s->j->c->f->n_nodes && !st; v++) {
-    const int *dart = g->dart + g->first[v];
-    int n = g->first[v + 1] - g->first[v];
+    const int *dart = multigraph->dart + multigraph->first[v];
+    int n = multigraph->first[v + 1] - multigraph->first[v];
     st = pair_node(s, v, err);
     for (int i = 0; i < n && !st; i++)
       s->j->mate[dart[i]] = dart[s->pair[i]];
@@ -152,13 +152,13 @@ static thr_status rank_nodes(greedy *s, thr_err *err)
  * or nothing is left to see. */
 static void find_ports(greedy *s, int v, const int *dart, int n)
 {
-  const thr_multigraph *g = &s->j->g;
+  const thr_multigraph *multigraph = &s->j->g;
   int left = n, head = 0, tail = 0, now = ++s->searches;
   s->stamp[v] = now;
   for (int i = 0; i < n; i++)
     s->port[i] = i;
   for (int i = 0; i < n; i++) {
-    int far = s->link[dart[i]], w = g->tail[far];
+    int far = s->link[dart[i]], w = multigraph->tail[far];
     if (w == v) {
       left -= thr_disjoint_join(s->port, i, s->place[far]);
     } else if (s->stamp[w] == now) {
@@ -171,8 +171,8 @@ static void find_ports(greedy *s, int v, const int *dart, int n)
   }
   while (head < tail && left > 1) {
     int u = s->queue[head++];
-    for (int i = g->first[u]; i < g->first[u + 1]; i++) {
-      int w = g->tail[s->link[g->dart[i]]];
+    for (int i = multigraph->first[u]; i < multigraph->first[u + 1]; i++) {
+      int w = multigraph->tail[s->link[multigraph->dart[i]]];
       if (w == v) continue;
       if (s->stamp[w] == now) {
         left -= thr_disjoint_join(s->port, s->class[u], s -> class[w]);
@@ -263,9 +263,9 @@ static thr_status pair_joined(greedy *s, int v, int n, int pieces, thr_err *err)
 /* Gives node v the cheapest pairing that keeps enough connected, and joins the chains that it pairs. */
 static thr_status settle_node(greedy *s, int v, thr_err *err)
 {
-  const thr_multigraph *g = &s->j->g;
-  const int *dart = g->dart + g->first[v];
-  int n = g->first[v + 1] - g->first[v];
+  const thr_multigraph *multigraph = &s->j->g;
+  const int *dart = multigraph->dart + multigraph->first[v];
+  int n = multigraph->first[v + 1] - multigraph->first[v];
   for (int i = 0; i < n; i++)
     s->pair[i] = s->place[s->j->mate[dart[i]]];
   find_ports(s, v, dart, n);

@@ -33,11 +33,11 @@ static thr_status tour_init(tour *t, thr_join *j, thr_err *err)
 /* Pairs the ends of cord after cord at end node v: the far end of one with the near end of the next. */
 static void close_ring(tour *t, int v)
 {
-  const thr_multigraph *g = &t->j->g;
+  const thr_multigraph *multigraph = &t->j->g;
   const int *mate = t->j->mate;
   int *ring = t->ring.mate, first = -1, far = -1;
-  for (int i = g->first[v]; i < g->first[v + 1]; i++) {
-    int near = g->dart[i], d = near;
+  for (int i = multigraph->first[v]; i < multigraph->first[v + 1]; i++) {
+    int near = multigraph->dart[i], d = near;
     if (ring[near] >= 0 || near == far) continue;
     while (mate[d ^ 1] >= 0)
       d = mate[d ^ 1];
@@ -52,11 +52,11 @@ static void close_ring(tour *t, int v)
 
 static void follow(tour *t)
 {
-  const thr_multigraph *g = &t->j->g;
-  memcpy(t->ring.mate, t->j->mate, (size_t)g->n_darts * sizeof *t->ring.mate);
-  for (int v = t->j->c->f->n_nodes; v < g->n_nodes; v++)
+  const thr_multigraph *multigraph = &t->j->g;
+  memcpy(t->ring.mate, t->j->mate, (size_t)multigraph->n_darts * sizeof *t->ring.mate);
+  for (int v = t->j->c->f->n_nodes; v < multigraph->n_nodes; v++)
     close_ring(t, v);
-  thr_threading_follow(&t->ring, g->n_darts);
+  thr_threading_follow(&t->ring, multigraph->n_darts);
 }
 
 static void make(tour *t, const thr_exchange *x)
@@ -77,15 +77,15 @@ static bool reverse_part(tour *t, int i, int k)
 /* The cheapest way to join the part i < .. < k, once cut off, to the rest again, at any node. The cut itself does not count. */
 static thr_exchange cheapest_joint(const tour *t, int i, int k, double most, const thr_limits *limits, int *list)
 {
-  const thr_threading *r = &t->ring;
+  const thr_threading *threading = &t->ring;
   thr_exchange best = {.extra = most};
   for (int p = i + 1; p < k && (p % 64 || !thr_limits_stop(limits)); p++) {
-    int v = r->g->tail[r->place[p].in];
-    if (v >= r->f->n_nodes) continue;
-    int n = thr_threading_places(r, v, list);
+    int v = threading->g->tail[threading->place[p].in];
+    if (v >= threading->f->n_nodes) continue;
+    int n = thr_threading_places(threading, v, list);
     for (int y = 0; y < n; y++)
       for (int crossed = 1; crossed >= 0 && (list[y] < i || list[y] > k); crossed--) {
-        thr_exchange x = thr_threading_exchange(r, p, list[y], crossed);
+        thr_exchange x = thr_threading_exchange(threading, p, list[y], crossed);
         if (x.extra < best.extra - 1e-12) best = x;
       }
   }

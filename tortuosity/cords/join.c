@@ -11,32 +11,33 @@
 /* ---- the multigraph ---- */
 
 /* pair[i]: node of the i-th cord end and the end node of its component; returns how many. */
-static int list_ends(const thr_turning_columns *c, const int *ends, int (*pair)[2])
+static int list_ends(const thr_turning_columns *turning_columns, const int *ends, int (*pair)[2])
 {
   int n = 0;
-  for (int v = 0; v < c->f->n_nodes; v++)
+  for (int v = 0; v < turning_columns->f->n_nodes; v++)
     for (int k = 0; k < ends[v]; k++, n++) {
       if (!pair) continue;
       pair[n][0] = v;
-      pair[n][1] = c->f->n_nodes + c->component[v];
+      pair[n][1] = turning_columns->f->n_nodes + turning_columns->component[v];
     }
   return n;
 }
 
-thr_status thr_join_init(thr_join *j, const thr_turning_columns *c, const int *passes, const int *ends, thr_err *err)
+thr_status thr_join_init(thr_join *j, const thr_turning_columns *turning_columns, const int *passes, const int *ends,
+                         thr_err *err)
 {
-  const thr_frame *f = c->f;
-  *j = (thr_join){.c = c};
-  int n = ends ? list_ends(c, ends, NULL) : 0, (*pair)[2] = thr_calloc((size_t)n, sizeof *pair);
+  const thr_frame *frame = turning_columns->f;
+  *j = (thr_join){.c = turning_columns};
+  int n = ends ? list_ends(turning_columns, ends, NULL) : 0, (*pair)[2] = thr_calloc((size_t)n, sizeof *pair);
   if (!pair) return thr_nomem(err);
-  if (ends) list_ends(c, ends, pair);
-  thr_status st = thr_multigraph_init(&j->g, f, c->n_components, passes, (const int(*)[2])pair, n, err);
+  if (ends) list_ends(turning_columns, ends, pair);
+  thr_status st = thr_multigraph_init(&j->g, frame, turning_columns->n_components, passes, (const int(*)[2])pair, n, err);
   if (!st && !(j->mate = thr_calloc((size_t)j->g.n_darts, sizeof *j->mate))) st = thr_nomem(err);
   for (int d = 0; d < j->g.n_darts && !st; d++)
     j->mate[d] = -1;
-  for (int v = 0; v < f->n_nodes && !st; v++)
+  for (int v = 0; v < frame->n_nodes && !st; v++)
     if ((j->g.first[v + 1] - j->g.first[v]) % 2)
-      st = thr_fail(err, THR_EINPUT, "node %s has an odd number of passes and ends", f->name[v]);
+      st = thr_fail(err, THR_EINPUT, "node %s has an odd number of passes and ends", frame->name[v]);
   free(pair);
   if (st) thr_join_destroy(j);
   return st;
@@ -77,9 +78,9 @@ static double pair_price(const void *of, int a, int b)
   return thr_join_price(of, a, b);
 }
 
-thr_status thr_join_threading(thr_join *j, thr_threading *t, thr_err *err)
+thr_status thr_join_threading(thr_join *j, thr_threading *threading, thr_err *err)
 {
-  return thr_threading_init(t, j->c->f, &j->g, j->mate, pair_price, j, j->c->task->tube, err);
+  return thr_threading_init(threading, j->c->f, &j->g, j->mate, pair_price, j, j->c->task->tube, err);
 }
 
 void thr_join_measure(thr_join *j)
@@ -107,13 +108,13 @@ static int take(int *head, const int *next)
 
 static void pair_columns(thr_join *j, const int *x, stock *s)
 {
-  const thr_turning_columns *c = j->c;
-  for (int k = 0; k < c->n_columns; k++) {
-    if (k >= c->first_extra && k < c->first_end) continue;
+  const thr_turning_columns *turning_columns = j->c;
+  for (int k = 0; k < turning_columns->n_columns; k++) {
+    if (k >= turning_columns->first_extra && k < turning_columns->first_end) continue;
     for (int i = 0; i < x[k]; i++) {
-      int half_a = c->half[k][0], half_b = c->half[k][1];
+      int half_a = turning_columns->half[k][0], half_b = turning_columns->half[k][1];
       int a = take(&s->head[half_a], s->next);
-      int b = take(half_b >= 0 ? &s->head[half_b] : &s->end_first[thr_tail(c->f, half_a)], s->next);
+      int b = take(half_b >= 0 ? &s->head[half_b] : &s->end_first[thr_tail(turning_columns->f, half_a)], s->next);
       if (a >= 0 && b >= 0) thr_set_pair(j->mate, a, b);
     }
   }
@@ -122,9 +123,11 @@ static void pair_columns(thr_join *j, const int *x, stock *s)
 /* Equal passes change their partners at one node if that joins two circuits: same turns, fewer circuits. */
 static void join_equal_passes(thr_join *j, const int *cord, int *parent)
 {
-  thr_multigraph *g = &j->g;
-  for (int d = 0; d + 2 < g->n_darts; d += 2) {
-    if (g->half[d] < 0 || g->half[d] != g->half[d + 2] || !thr_disjoint_join(parent, cord[d], cord[d + 2])) continue;
+  thr_multigraph *multigraph = &j->g;
+  for (int d = 0; d + 2 < multigraph->n_darts; d += 2) {
+    if (multigraph->half[d] < 0 || multigraph->half[d] != multigraph->half[d + 2] ||
+        !thr_disjoint_join(parent, cord[d], cord[d + 2]))
+      continue;
     int a = j->mate[d], b = j->mate[d + 2];
     thr_set_pair(j->mate, d, b);
     thr_set_pair(j->mate, d + 2, a);
@@ -135,16 +138,16 @@ static void join_equal_passes(thr_join *j, const int *cord, int *parent)
  * set then? first: [n_components] scratch. */
 static bool join_all(thr_join *j, const int *cord, int n_cords, int *parent, int *first)
 {
-  const thr_turning_columns *c = j->c;
+  const thr_turning_columns *turning_columns = j->c;
   bool single = true;
   for (int i = 0; i < n_cords; i++)
     parent[i] = i;
-  for (int k = 0; k < c->n_components; k++)
+  for (int k = 0; k < turning_columns->n_components; k++)
     first[k] = -1;
   for (int d = j->g.n_darts - 1; d >= 0; d--) {
     int v = j->g.tail[d];
-    if (v >= c->f->n_nodes) continue;
-    int *f = &first[c->component[v]];
+    if (v >= turning_columns->f->n_nodes) continue;
+    int *f = &first[turning_columns->component[v]];
     if (*f < 0)
       *f = cord[d];
     else if (j->g.half[d] < 0) /* virtual ones have the highest numbers */
@@ -152,35 +155,35 @@ static bool join_all(thr_join *j, const int *cord, int n_cords, int *parent, int
   }
   join_equal_passes(j, cord, parent);
   for (int d = 0; d < j->g.n_darts && single; d++)
-    if (j->g.tail[d] < c->f->n_nodes)
-      single = thr_disjoint_find(parent, cord[d]) == thr_disjoint_find(parent, first[c->component[j->g.tail[d]]]);
+    if (j->g.tail[d] < turning_columns->f->n_nodes)
+      single = thr_disjoint_find(parent, cord[d]) == thr_disjoint_find(parent, first[turning_columns->component[j->g.tail[d]]]);
   return single;
 }
 
 thr_status thr_join_columns(thr_join *j, const int *x, bool *single, thr_err *err)
 {
-  const thr_frame *f = j->c->f;
+  const thr_frame *frame = j->c->f;
   size_t darts = (size_t)j->g.n_darts;
-  stock s = {thr_calloc(2 * (size_t)f->n_edges, sizeof *s.head), thr_calloc(darts, sizeof *s.next),
-             thr_calloc((size_t)f->n_nodes, sizeof *s.end_first)};
+  stock s = {thr_calloc(2 * (size_t)frame->n_edges, sizeof *s.head), thr_calloc(darts, sizeof *s.next),
+             thr_calloc((size_t)frame->n_nodes, sizeof *s.end_first)};
   int *cord = thr_calloc(darts, sizeof *cord), *parent = thr_calloc(darts, sizeof *parent);
   int *first = thr_calloc((size_t)j->c->n_components, sizeof *first);
   thr_status st = s.head && s.next && s.end_first && cord && parent && first ? THR_OK : thr_nomem(err);
   *single = false;
   if (!st) {
-    for (int h = 0; h < 2 * f->n_edges; h++)
+    for (int h = 0; h < 2 * frame->n_edges; h++)
       s.head[h] = -1;
-    for (int v = 0; v < f->n_nodes; v++)
+    for (int v = 0; v < frame->n_nodes; v++)
       s.end_first[v] = -1;
     for (int d = j->g.n_darts - 1; d >= 0; d--) {
-      if (j->g.tail[d] >= f->n_nodes) continue;
+      if (j->g.tail[d] >= frame->n_nodes) continue;
       int *head = j->g.half[d] >= 0 ? &s.head[j->g.half[d]] : &s.end_first[j->g.tail[d]];
       s.next[d] = *head;
       *head = d;
     }
     pair_columns(j, x, &s);
     for (int d = 0; d < j->g.n_darts && !st; d++)
-      if (j->mate[d] < 0 && j->g.tail[d] < f->n_nodes) st = thr_fail(err, THR_ESOLVER, "turns do not fit the passes");
+      if (j->mate[d] < 0 && j->g.tail[d] < frame->n_nodes) st = thr_fail(err, THR_ESOLVER, "turns do not fit the passes");
   }
   if (!st) {
     *single = join_all(j, cord, thr_threading_label(&j->g, j->mate, cord), parent, first);
@@ -197,13 +200,14 @@ thr_status thr_join_columns(thr_join *j, const int *x, bool *single, thr_err *er
 
 /* ---- tied ---- */
 
-thr_status thr_join_tie(thr_join *j, const thr_turning_columns *c, const int *passes, const int *ends, bool *found, thr_err *err)
+thr_status thr_join_tie(thr_join *j, const thr_turning_columns *turning_columns, const int *passes, const int *ends, bool *found,
+                        thr_err *err)
 {
   bool single;
-  int *x = thr_calloc((size_t)c->n_columns, sizeof *x);
+  int *x = thr_calloc((size_t)turning_columns->n_columns, sizeof *x);
   *j = (thr_join){0};
-  thr_status st = x ? thr_tie_pair(c, passes, ends, x, found, err) : thr_nomem(err);
-  if (!st && *found) st = thr_join_init(j, c, passes, ends, err);
+  thr_status st = x ? thr_tie_pair(turning_columns, passes, ends, x, found, err) : thr_nomem(err);
+  if (!st && *found) st = thr_join_init(j, turning_columns, passes, ends, err);
   if (!st && *found) st = thr_join_columns(j, x, &single, err);
   if (st) thr_join_destroy(j);
   free(x);
@@ -213,11 +217,11 @@ thr_status thr_join_tie(thr_join *j, const thr_turning_columns *c, const int *pa
 /* ---- from cords ---- */
 
 /* Takes the next free copy of an edge (or virtual edge at a node) and gives the dart that runs along half-edge h. */
-static int next_copy(const thr_multigraph *g, int *cursor, int h)
+static int next_copy(const thr_multigraph *multigraph, int *cursor, int h)
 {
   int d = cursor[h >> 1];
   cursor[h >> 1] += 2;
-  return g->half[d] == h ? d : d ^ 1;
+  return multigraph->half[d] == h ? d : d ^ 1;
 }
 
 /* first_copy[e] = first dart of edge e; after the edges, of the virtual edges at node v. */
@@ -228,40 +232,41 @@ static void find_copies(const thr_join *j, int *first_copy)
     first_copy[j->g.half[d] >= 0 ? j->g.half[d] >> 1 : m + j->g.tail[d]] = d;
 }
 
-static void pair_cord(thr_join *j, const thr_cord *c, int *cursor)
+static void pair_cord(thr_join *j, const thr_cord *cord, int *cursor)
 {
-  const thr_frame *f = j->c->f;
+  const thr_frame *frame = j->c->f;
   bool open = j->c->task->end_allowed != NULL;
   int first = -1, last = -1;
   if (open) {
-    int *from = &cursor[f->n_edges + thr_tail(f, c->half[0])];
+    int *from = &cursor[frame->n_edges + thr_tail(frame, cord->half[0])];
     last = *from;
     *from += 2;
   }
-  for (int i = 0; i < c->n_passes; i++) {
-    int d = next_copy(&j->g, cursor, c->half[i]);
+  for (int i = 0; i < cord->n_passes; i++) {
+    int d = next_copy(&j->g, cursor, cord->half[i]);
     if (first < 0) first = d;
     if (last >= 0) thr_set_pair(j->mate, last, d);
     last = d ^ 1;
   }
-  thr_set_pair(j->mate, last, open ? cursor[f->n_edges + thr_head(f, c->half[c->n_passes - 1])] : first);
-  if (open) cursor[f->n_edges + thr_head(f, c->half[c->n_passes - 1])] += 2;
+  thr_set_pair(j->mate, last, open ? cursor[frame->n_edges + thr_head(frame, cord->half[cord->n_passes - 1])] : first);
+  if (open) cursor[frame->n_edges + thr_head(frame, cord->half[cord->n_passes - 1])] += 2;
 }
 
-thr_status thr_join_from_cords(thr_join *j, const thr_turning_columns *c, const thr_cord *cord, int n_cords, thr_err *err)
+thr_status thr_join_from_cords(thr_join *j, const thr_turning_columns *turning_columns, const thr_cord *cord, int n_cords,
+                               thr_err *err)
 {
-  const thr_frame *f = c->f;
-  size_t m = (size_t)f->n_edges, n = (size_t)f->n_nodes;
+  const thr_frame *frame = turning_columns->f;
+  size_t m = (size_t)frame->n_edges, n = (size_t)frame->n_nodes;
   int *count = thr_calloc(m + n, sizeof *count), *cursor = thr_calloc(m + n, sizeof *cursor);
   thr_status st = count && cursor ? THR_OK : thr_nomem(err);
   for (int i = 0; i < n_cords && !st; i++) {
     for (int k = 0; k < cord[i].n_passes; k++)
       count[cord[i].half[k] >> 1]++;
-    if (!c->task->end_allowed) continue;
-    count[m + (size_t)thr_cord_start(f, &cord[i])]++;
-    count[m + (size_t)thr_cord_end(f, &cord[i])]++;
+    if (!turning_columns->task->end_allowed) continue;
+    count[m + (size_t)thr_cord_start(frame, &cord[i])]++;
+    count[m + (size_t)thr_cord_end(frame, &cord[i])]++;
   }
-  if (!st) st = thr_join_init(j, c, count, count + m, err);
+  if (!st) st = thr_join_init(j, turning_columns, count, count + m, err);
   if (!st) {
     find_copies(j, cursor);
     for (int i = 0; i < n_cords; i++)

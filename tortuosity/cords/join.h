@@ -26,10 +26,10 @@ typedef struct {
 } thr_join;
 
 /* passes[e] >= 1; ends[v] cord ends at node v (NULL = none). THR_EINPUT if a node has an odd number of both. */
-thr_status thr_join_init(thr_join *j, const thr_turning_columns *c, const int *passes, const int *ends,
+thr_status thr_join_init(thr_join *j, const thr_turning_columns *turning_columns, const int *passes, const int *ends,
                          thr_err *err) THR_MUST_CHECK;
 /* The same from cords, paired as they run. A closed cord under open ends has both at its start. */
-thr_status thr_join_from_cords(thr_join *j, const thr_turning_columns *c, const thr_cord *cord, int n_cords,
+thr_status thr_join_from_cords(thr_join *j, const thr_turning_columns *turning_columns, const thr_cord *cord, int n_cords,
                                thr_err *err) THR_MUST_CHECK;
 void thr_join_destroy(thr_join *j);
 
@@ -44,8 +44,8 @@ int thr_join_count(const thr_join *j);
 static const double thr_join_forbidden = THR_FORBIDDEN;
 double thr_join_price(const thr_join *j, int a, int b);
 
-/* The cords of j, whose pairs change with them; nothing is followed yet. On failure t is to be destroyed too. */
-thr_status thr_join_threading(thr_join *j, thr_threading *t, thr_err *err) THR_MUST_CHECK;
+/* The cords of j, whose pairs change with them; nothing is followed yet. On failure threading is to be destroyed too. */
+thr_status thr_join_threading(thr_join *j, thr_threading *threading, thr_err *err) THR_MUST_CHECK;
 
 /* Sets price from mate. */
 void thr_join_measure(thr_join *j);
@@ -63,7 +63,7 @@ thr_status thr_join_columns(thr_join *j, const int *x, bool *single, thr_err *er
 
 /* Tube joints: pairs that tie every node (tortuosity/tie/tie.h), for passes and ends (NULL = closed cords) as in thr_join_init.
  * The circuits are as many as it happens. *found is false, and j empty, if a node cannot be tied. */
-thr_status thr_join_tie(thr_join *j, const thr_turning_columns *c, const int *passes, const int *ends, bool *found,
+thr_status thr_join_tie(thr_join *j, const thr_turning_columns *turning_columns, const int *passes, const int *ends, bool *found,
                         thr_err *err) THR_MUST_CHECK;
 
 /* Cords of a joined multigraph, each half array allocated for the caller: component by component, open ones from the lower

@@ -12,33 +12,35 @@
 #include <stdlib.h>
 #include <string.h>
 
-static thr_status make_cord(const thr_threading *t, int k, thr_cord *c, thr_err *err)
+static thr_status make_cord(const thr_threading *threading, int k, thr_cord *cord, thr_err *err)
 {
-  const thr_frame *f = t->f;
-  const thr_place *place = t->place + t->first[k];
-  bool open = !thr_threading_closed(t, k);
-  int n = t->first[k + 1] - t->first[k] - open;
+  const thr_frame *frame = threading->f;
+  const thr_place *place = threading->place + threading->first[k];
+  bool open = !thr_threading_closed(threading, k);
+  int n = threading->first[k + 1] - threading->first[k] - open;
   if (n < 1) return thr_fail(err, THR_ESOLVER, "a cord without a pass");
-  if (!(c->half = thr_calloc((size_t)n, sizeof *c->half))) return thr_nomem(err);
+  if (!(cord->half = thr_calloc((size_t)n, sizeof *cord->half))) return thr_nomem(err);
   for (int i = 0; i < n; i++) /* a closed one as it was traced: its first place comes after its first pass */
-    c->half[i] = t->g->half[place[open ? i : (i + n - 1) % n].out];
-  thr_walk w = {n, c->half, 0, !open};
-  if (open && thr_walk_node(f, &w, 0) > thr_walk_node(f, &w, n)) thr_walk_reverse(c->half, n);
-  thr_status st = open ? THR_OK : thr_walk_rotate(&w, thr_tour_start(f, NULL, c->half, n), err); /* its ends come out there */
-  c->half = w.half;
-  c->n_passes = n;
-  c->closed = thr_walk_node(f, &w, 0) == thr_walk_node(f, &w, n);
+    cord->half[i] = threading->g->half[place[open ? i : (i + n - 1) % n].out];
+  thr_walk walk = {n, cord->half, 0, !open};
+  if (open && thr_walk_node(frame, &walk, 0) > thr_walk_node(frame, &walk, n)) thr_walk_reverse(cord->half, n);
+  thr_status st =
+      open ? THR_OK : thr_walk_rotate(&walk, thr_tour_start(frame, NULL, cord->half, n), err); /* its ends come out there */
+  cord->half = walk.half;
+  cord->n_passes = n;
+  cord->closed = thr_walk_node(frame, &walk, 0) == thr_walk_node(frame, &walk, n);
   return st;
 }
 
 /* Component by component. */
-static thr_status make_cords(const thr_threading *t, const thr_turning_columns *c, thr_cord *cord, thr_err *err)
+static thr_status make_cords(const thr_threading *threading, const thr_turning_columns *turning_columns, thr_cord *cord,
+                             thr_err *err)
 {
   thr_status st = THR_OK;
-  for (int component = 0, made = 0; component < c->n_components; component++)
-    for (int k = 0; k < t->n_cords && !st; k++) {
-      if (c->component[t->g->tail[t->place[t->first[k]].in]] != component) continue;
-      st = make_cord(t, k, &cord[made], err);
+  for (int component = 0, made = 0; component < turning_columns->n_components; component++)
+    for (int k = 0; k < threading->n_cords && !st; k++) {
+      if (turning_columns->component[threading->g->tail[threading->place[threading->first[k]].in]] != component) continue;
+      st = make_cord(threading, k, &cord[made], err);
       cord[made].component = component;
       thr_cord_id(made, cord[made].id);
       made++;
@@ -48,14 +50,15 @@ static thr_status make_cords(const thr_threading *t, const thr_turning_columns *
 
 thr_status thr_join_cords(const thr_join *j, thr_cord *cord, int n_cords, thr_err *err)
 {
-  thr_threading t;
+  thr_threading threading;
   thr_join same = *j; /* following does not change it */
   memset(cord, 0, (size_t)n_cords * sizeof *cord);
-  thr_status st = thr_join_threading(&same, &t, err);
-  if (!st) thr_threading_follow(&t, INT_MAX);
-  if (!st && t.n_cords != n_cords) st = thr_fail(err, THR_ESOLVER, "%d cords instead of the %d asked for", t.n_cords, n_cords);
-  if (!st) st = make_cords(&t, j->c, cord, err);
-  thr_threading_destroy(&t);
+  thr_status st = thr_join_threading(&same, &threading, err);
+  if (!st) thr_threading_follow(&threading, INT_MAX);
+  if (!st && threading.n_cords != n_cords)
+    st = thr_fail(err, THR_ESOLVER, "%d cords instead of the %d asked for", threading.n_cords, n_cords);
+  if (!st) st = make_cords(&threading, j->c, cord, err);
+  thr_threading_destroy(&threading);
   for (int i = 0; st && i < n_cords; i++) {
     free(cord[i].half);
     cord[i] = (thr_cord){0};

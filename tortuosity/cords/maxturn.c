@@ -32,17 +32,17 @@ typedef struct {
 /* Exchanges and annealing from j, which becomes the best or is released. */
 static thr_status improve_from(search *x, thr_join *j, int steps, thr_err *err)
 {
-  thr_threading t;
-  thr_evener s = {&t, thr_join_count(j), x->scale, 1};
+  thr_threading threading;
+  thr_evener evener = {&threading, thr_join_count(j), x->scale, 1};
   int *best = thr_calloc((size_t)j->g.n_darts, sizeof *best);
-  thr_status st = thr_join_threading(j, &t, err);
+  thr_status st = thr_join_threading(j, &threading, err);
   if (!st && !best) st = thr_nomem(err);
-  if (!st && thr_evener_follow(&s)) {
-    s.state = thr_random(&x->state);
-    thr_evener_even(&s, x->limits);
-    thr_evener_anneal(&s, x->limits, s.n_cords > 1 ? steps : 0, x->bound, best);
-    thr_evener_even(&s, x->limits);
-    double value = thr_evener_value(&s);
+  if (!st && thr_evener_follow(&evener)) {
+    evener.state = thr_random(&x->state);
+    thr_evener_even(&evener, x->limits);
+    thr_evener_anneal(&evener, x->limits, evener.n_cords > 1 ? steps : 0, x->bound, best);
+    thr_evener_even(&evener, x->limits);
+    double value = thr_evener_value(&evener);
     if (value < x->value * (1 - 1e-12)) {
       thr_join_destroy(&x->best);
       x->best = *j;
@@ -50,7 +50,7 @@ static thr_status improve_from(search *x, thr_join *j, int steps, thr_err *err)
       x->value = value;
     }
   }
-  thr_threading_destroy(&t);
+  thr_threading_destroy(&threading);
   free(best);
   thr_join_destroy(j);
   return st;
@@ -59,17 +59,19 @@ static thr_status improve_from(search *x, thr_join *j, int steps, thr_err *err)
 /* The ends of the best cords; one of them moves to another node where it may be, or two to the same one. */
 static void move_ends(search *x)
 {
-  const thr_turning_columns *c = x->c;
-  const thr_multigraph *g = &x->best.g;
-  int n = c->f->n_nodes, virtual_darts = g->n_darts - g->first[n], to = -1, moves = 1 + thr_random_below(&x->state, 2);
+  const thr_turning_columns *turning_columns = x->c;
+  const thr_multigraph *multigraph = &x->best.g;
+  int n = turning_columns->f->n_nodes, virtual_darts = multigraph->n_darts - multigraph->first[n], to = -1,
+      moves = 1 + thr_random_below(&x->state, 2);
   memset(x->ends, 0, (size_t)n * sizeof *x->ends);
-  for (int d = 0; d < g->n_darts; d += 2)
-    if (g->half[d] < 0) x->ends[g->tail[d]]++;
+  for (int d = 0; d < multigraph->n_darts; d += 2)
+    if (multigraph->half[d] < 0) x->ends[multigraph->tail[d]]++;
   for (int i = 0; i < moves; i++) {
-    int end = g->tail[g->dart[g->first[n] + thr_random_below(&x->state, virtual_darts)] ^ 1];
-    while (to < 0 || !c->task->end_allowed[to] || (i == 0 && c->component[to] != c->component[end]))
+    int end = multigraph->tail[multigraph->dart[multigraph->first[n] + thr_random_below(&x->state, virtual_darts)] ^ 1];
+    while (to < 0 || !turning_columns->task->end_allowed[to] ||
+           (i == 0 && turning_columns->component[to] != turning_columns->component[end]))
       to = thr_random_below(&x->state, n);
-    if (x->ends[end] == 0 || c->component[to] != c->component[end]) continue;
+    if (x->ends[end] == 0 || turning_columns->component[to] != turning_columns->component[end]) continue;
     x->ends[end]--;
     x->ends[to]++;
   }
@@ -78,13 +80,13 @@ static void move_ends(search *x)
 /* Ends anywhere. */
 static void scatter_ends(search *x)
 {
-  const thr_turning_columns *c = x->c;
-  int n = c->f->n_nodes;
+  const thr_turning_columns *turning_columns = x->c;
+  int n = turning_columns->f->n_nodes;
   memset(x->ends, 0, (size_t)n * sizeof *x->ends);
-  for (int k = 0; k < c->n_components; k++)
-    for (int placed = 0; placed < 2 * c->task->cords;) {
+  for (int k = 0; k < turning_columns->n_components; k++)
+    for (int placed = 0; placed < 2 * turning_columns->task->cords;) {
       int v = thr_random_below(&x->state, n);
-      if (c->component[v] != k || !c->task->end_allowed[v]) continue;
+      if (turning_columns->component[v] != k || !turning_columns->task->end_allowed[v]) continue;
       x->ends[v]++;
       placed++;
     }
@@ -93,62 +95,65 @@ static void scatter_ends(search *x)
 /* Ends far apart, over all nodes where they may be or, if that is allowed, over the feet alone: often a symmetric choice. */
 static void spread_ends(search *x, bool at_feet)
 {
-  const thr_frame *f = x->c->f;
+  const thr_frame *frame = x->c->f;
   thr_turning_task task = *x->c->task;
-  thr_turning_columns c = *x->c; /* with the other task, nothing more */
+  thr_turning_columns turning_columns = *x->c; /* with the other task, nothing more */
   int total = 0;
-  for (int v = 0; v < f->n_nodes; v++)
-    at_feet &= !f->foot[v] || task.end_allowed[v];
-  if (at_feet) task.end_allowed = f->foot;
-  c.task = &task;
-  thr_extra_spread_ends(&c, x->ends);
-  for (int v = 0; v < f->n_nodes; v++)
+  for (int v = 0; v < frame->n_nodes; v++)
+    at_feet &= !frame->foot[v] || task.end_allowed[v];
+  if (at_feet) task.end_allowed = frame->foot;
+  turning_columns.task = &task;
+  thr_extra_spread_ends(&turning_columns, x->ends);
+  for (int v = 0; v < frame->n_nodes; v++)
     total += x->ends[v];
-  if (total < 2 * task.cords * c.n_components) thr_extra_spread_ends(x->c, x->ends); /* a component without feet */
+  if (total < 2 * task.cords * turning_columns.n_components) thr_extra_spread_ends(x->c, x->ends); /* a component without feet */
 }
 
 /* The shortest passes for x->ends, or nearly. */
 static thr_status make_passes(search *x, bool shortest, thr_err *err)
 {
-  const thr_turning_columns *c = x->c;
-  for (int e = 0; e < c->f->n_edges; e++)
-    x->weight[e] = c->f->length[e] * (shortest ? 1 : 1 + thr_random_unit(&x->state));
-  return thr_extra_passes(c, x->weight, NULL, c->task->end_allowed != NULL, x->limits, x->passes, x->ends, err);
+  const thr_turning_columns *turning_columns = x->c;
+  for (int e = 0; e < turning_columns->f->n_edges; e++)
+    x->weight[e] = turning_columns->f->length[e] * (shortest ? 1 : 1 + thr_random_unit(&x->state));
+  return thr_extra_passes(turning_columns, x->weight, NULL, turning_columns->task->end_allowed != NULL, x->limits, x->passes,
+                          x->ends, err);
 }
 
 /* The same for tube joints: few passes with which every node can be tied, then others at which it turns less. */
 static thr_status make_tied_passes(search *x, bool shortest, bool *found, thr_err *err)
 {
-  const thr_turning_columns *c = x->c;
-  const thr_frame *f = c->f;
-  for (int e = 0; e < f->n_edges; e++)
-    x->point[c->first_extra + e] = shortest ? 0 : thr_random_unit(&x->state) / 2 + (thr_random_below(&x->state, f->n_edges) == 0);
-  for (int v = 0; v < f->n_nodes; v++) {
-    int column = c->end_column[f->half[f->first[v]]];
+  const thr_turning_columns *turning_columns = x->c;
+  const thr_frame *frame = turning_columns->f;
+  for (int e = 0; e < frame->n_edges; e++)
+    x->point[turning_columns->first_extra + e] =
+        shortest ? 0 : thr_random_unit(&x->state) / 2 + (thr_random_below(&x->state, frame->n_edges) == 0);
+  for (int v = 0; v < frame->n_nodes; v++) {
+    int column = turning_columns->end_column[frame->half[frame->first[v]]];
     if (column >= 0) x->point[column] = x->ends[v];
   }
-  thr_status st = thr_tie_round(c, x->point, x->passes, x->ends, found, err);
-  bool fewer_turns = *found && c->task->extra_limit != 0 && thr_random_below(&x->state, 2);
-  return st || !fewer_turns ? st : thr_tie_improve(c, x->limits, x->passes, x->ends, err);
+  thr_status st = thr_tie_round(turning_columns, x->point, x->passes, x->ends, found, err);
+  bool fewer_turns = *found && turning_columns->task->extra_limit != 0 && thr_random_below(&x->state, 2);
+  return st || !fewer_turns ? st : thr_tie_improve(turning_columns, x->limits, x->passes, x->ends, err);
 }
 
 static bool within_limits(const search *x)
 {
-  const thr_turning_columns *c = x->c;
-  for (int e = 0; e < c->f->n_edges; e++)
-    if (x->passes[e] > c->most[e]) return false;
-  return c->task->extra_limit < 0 || thr_extra_length(c, x->passes) <= c->task->extra_limit;
+  const thr_turning_columns *turning_columns = x->c;
+  for (int e = 0; e < turning_columns->f->n_edges; e++)
+    if (x->passes[e] > turning_columns->most[e]) return false;
+  return turning_columns->task->extra_limit < 0 ||
+         thr_extra_length(turning_columns, x->passes) <= turning_columns->task->extra_limit;
 }
 
 /* Cords for x->passes and x->ends, to start from. If none are found, j is to be destroyed too. */
 static thr_status make_cords(const search *x, thr_join *j, bool *found, thr_err *err)
 {
-  const thr_turning_task *t = x->c->task;
-  bool open = t->end_allowed != NULL;
-  thr_status st = t->tube ? thr_join_tie(j, x->c, x->passes, x->ends, found, err)
-                          : thr_join_init(j, x->c, x->passes, open ? x->ends : NULL, err);
-  if (!st && !t->tube) {
-    st = thr_join_greedy(j, open ? 0 : t->cords - 1, x->limits, err);
+  const thr_turning_task *turning_task = x->c->task;
+  bool open = turning_task->end_allowed != NULL;
+  thr_status st = turning_task->tube ? thr_join_tie(j, x->c, x->passes, x->ends, found, err)
+                                     : thr_join_init(j, x->c, x->passes, open ? x->ends : NULL, err);
+  if (!st && !turning_task->tube) {
+    st = thr_join_greedy(j, open ? 0 : turning_task->cords - 1, x->limits, err);
     *found = !st;
     if (!st && open) st = thr_improve(j, x->limits, err);
   }
@@ -173,13 +178,13 @@ static thr_status try_passes(search *x, bool shortest, int steps, thr_err *err)
 /* Is there nothing left to try? */
 static thr_status is_finished(const search *x, bool *done, thr_err *err)
 {
-  thr_threading t;
+  thr_threading threading;
   thr_join j = x->best; /* only followed */
-  thr_evener s = {&t, thr_join_count(&j), x->scale, 1};
-  thr_status st = thr_join_threading(&j, &t, err);
-  if (!st) thr_evener_follow(&s);
-  *done = st || s.n_cords == 1 || thr_limits_stop(x->limits) || thr_evener_largest(&s) <= x->bound * (1 + 1e-9);
-  thr_threading_destroy(&t);
+  thr_evener evener = {&threading, thr_join_count(&j), x->scale, 1};
+  thr_status st = thr_join_threading(&j, &threading, err);
+  if (!st) thr_evener_follow(&evener);
+  *done = st || evener.n_cords == 1 || thr_limits_stop(x->limits) || thr_evener_largest(&evener) <= x->bound * (1 + 1e-9);
+  thr_threading_destroy(&threading);
   return st;
 }
 
@@ -201,7 +206,7 @@ static thr_status copy_best(const search *x, thr_join *j, thr_err *err)
 static thr_status run(search *x, thr_err *err)
 {
   enum { ROUNDS = 48, LAST = 2, MORE = 4000 };
-  const thr_turning_columns *c = x->c;
+  const thr_turning_columns *turning_columns = x->c;
   double darts = x->best.g.n_darts;
   int rounds = ROUNDS + MORE / x->best.g.n_darts;
   int steps = (int)fmax(2000, fmin(1000 * darts, 4e7 / darts));
@@ -211,7 +216,7 @@ static thr_status run(search *x, thr_err *err)
   if (!st) st = improve_from(x, &j, steps, err);
   if (!st) st = is_finished(x, &done, err);
   for (int i = 0; i < rounds && !st && !done; i++) {
-    if (c->task->end_allowed && !c->task->end_count) {
+    if (turning_columns->task->end_allowed && !turning_columns->task->end_count) {
       if (i < 2)
         spread_ends(x, i == 0);
       else if (i % 4 == 3 && i > ROUNDS)
@@ -231,10 +236,10 @@ static thr_status run(search *x, thr_err *err)
 }
 
 /* The cords of j take the place of the plan's. */
-static thr_status take_cords(const thr_frame *f, const thr_join *j, thr_least *plan, thr_err *err)
+static thr_status take_cords(const thr_frame *frame, const thr_join *j, thr_least *plan, thr_err *err)
 {
   thr_least made = {.task = plan->task, .end_allowed = plan->end_allowed};
-  thr_status st = thr_least_cords(f, j, &made, err);
+  thr_status st = thr_least_cords(frame, j, &made, err);
   if (st) {
     free(made.cord);
     return st;
@@ -248,33 +253,34 @@ static thr_status take_cords(const thr_frame *f, const thr_join *j, thr_least *p
   return THR_OK;
 }
 
-static double price_of(const thr_frame *f, const thr_least *plan, const thr_cord *cord)
+static double price_of(const thr_frame *frame, const thr_least *plan, const thr_cord *cord)
 {
   double price = 0;
   for (int k = 0; k < cord->n_passes - (plan->end_allowed != NULL); k++)
-    price += thr_turn_price(f, plan->task.cost, cord->half[k], cord->half[(k + 1) % cord->n_passes]);
+    price += thr_turn_price(frame, plan->task.cost, cord->half[k], cord->half[(k + 1) % cord->n_passes]);
   return price;
 }
 
-static double largest_price(const thr_frame *f, const thr_least *plan)
+static double largest_price(const thr_frame *frame, const thr_least *plan)
 {
   double largest = 0;
   for (int i = 0; i < plan->n_cords; i++)
-    largest = fmax(largest, price_of(f, plan, &plan->cord[i]));
+    largest = fmax(largest, price_of(frame, plan, &plan->cord[i]));
   return largest;
 }
 
-static thr_status search_init(search *x, const thr_turning_columns *c, const thr_limits *limits, const thr_least *plan,
-                              double largest, double bound, thr_err *err)
+static thr_status search_init(search *x, const thr_turning_columns *turning_columns, const thr_limits *limits,
+                              const thr_least *plan, double largest, double bound, thr_err *err)
 {
-  size_t m = (size_t)c->f->n_edges;
-  *x = (search){.c = c, .limits = limits, .bound = bound, .scale = fmax(1e-9, largest), .value = INFINITY, .state = 1};
+  size_t m = (size_t)turning_columns->f->n_edges;
+  *x = (search){
+      .c = turning_columns, .limits = limits, .bound = bound, .scale = fmax(1e-9, largest), .value = INFINITY, .state = 1};
   x->passes = thr_calloc(m, sizeof *x->passes);
   x->weight = thr_calloc(m, sizeof *x->weight);
-  x->point = thr_calloc((size_t)c->n_columns, sizeof *x->point);
-  x->ends = thr_calloc((size_t)c->f->n_nodes, sizeof *x->ends);
+  x->point = thr_calloc((size_t)turning_columns->n_columns, sizeof *x->point);
+  x->ends = thr_calloc((size_t)turning_columns->f->n_nodes, sizeof *x->ends);
   if (!x->passes || !x->weight || !x->point || !x->ends) return thr_nomem(err);
-  return thr_join_from_cords(&x->best, c, plan->cord, plan->n_cords, err);
+  return thr_join_from_cords(&x->best, turning_columns, plan->cord, plan->n_cords, err);
 }
 
 static void search_destroy(search *x)
@@ -286,24 +292,24 @@ static void search_destroy(search *x)
   free(x->ends);
 }
 
-thr_status thr_max_turning_improve(const thr_frame *f, const thr_limits *limits, thr_least *plan, thr_max_turning *out,
+thr_status thr_max_turning_improve(const thr_frame *frame, const thr_limits *limits, thr_least *plan, thr_max_turning *out,
                                    thr_err *err)
 {
-  thr_turning_columns c = {0};
+  thr_turning_columns turning_columns = {0};
   search x = {0};
   bool found = false;
   *out = (thr_max_turning){.bound = plan->bound / plan->n_cords};
-  thr_status st = thr_turning_columns_init(&c, f, &plan->task, err);
-  if (!st) st = search_init(&x, &c, limits, plan, largest_price(f, plan), out->bound, err);
+  thr_status st = thr_turning_columns_init(&turning_columns, frame, &plan->task, err);
+  if (!st) st = search_init(&x, &turning_columns, limits, plan, largest_price(frame, plan), out->bound, err);
   if (!st && out->bound < x.scale * (1 - 1e-9))
-    st = thr_max_turning_small(&c, plan->cord, plan->n_cords, limits, &x.best, &found, err);
+    st = thr_max_turning_small(&turning_columns, plan->cord, plan->n_cords, limits, &x.best, &found, err);
   if (!st && !found) st = run(&x, err);
   if (!st) {
     thr_join_measure(&x.best);
-    st = take_cords(f, &x.best, plan, err);
+    st = take_cords(frame, &x.best, plan, err);
   }
-  if (!st) out->largest = largest_price(f, plan);
+  if (!st) out->largest = largest_price(frame, plan);
   search_destroy(&x);
-  thr_turning_columns_destroy(&c);
+  thr_turning_columns_destroy(&turning_columns);
   return st;
 }

@@ -25,7 +25,7 @@ typedef struct {
  * leave every node tied. Cords, prices, turning and
  * length of plan change; its proof (of the sum) still holds, its claim of optimality (of the sum) may not. Stops when the largest
  * is at the bound, when the count is used up, or by the limits (no error). The same input gives the same cords. */
-thr_status thr_max_turning_improve(const thr_frame *f, const thr_limits *limits, thr_least *plan, thr_max_turning *out,
+thr_status thr_max_turning_improve(const thr_frame *frame, const thr_limits *limits, thr_least *plan, thr_max_turning *out,
                                    thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -25,24 +25,25 @@ static void table_destroy(table *x)
   free(x->o.end_count);
 }
 
-static thr_status table_init(table *x, const thr_turning_columns *c, const thr_cord *cord, int n_cords, thr_err *err)
+static thr_status table_init(table *x, const thr_turning_columns *turning_columns, const thr_cord *cord, int n_cords,
+                             thr_err *err)
 {
-  const thr_turning_task *t = c->task;
-  const size_t n = (size_t)c->f->n_nodes;
-  *x = (table){.c = c, .o = thr_plan_options_default(), .n_cords = n_cords};
-  x->o.joint = t->tube ? THR_JOINT_TUBE : THR_JOINT_SOLID;
-  x->o.cover = t->cover;
-  x->o.capacity = t->capacity;
-  x->o.turning.cost = t->cost;
-  x->o.ends = t->end_count ? THR_ENDS_COUNTS : t->end_allowed ? THR_ENDS_NODES : THR_ENDS_CLOSED;
+  const thr_turning_task *turning_task = turning_columns->task;
+  const size_t n = (size_t)turning_columns->f->n_nodes;
+  *x = (table){.c = turning_columns, .o = thr_plan_options_default(), .n_cords = n_cords};
+  x->o.joint = turning_task->tube ? THR_JOINT_TUBE : THR_JOINT_SOLID;
+  x->o.cover = turning_task->cover;
+  x->o.capacity = turning_task->capacity;
+  x->o.turning.cost = turning_task->cost;
+  x->o.ends = turning_task->end_count ? THR_ENDS_COUNTS : turning_task->end_allowed ? THR_ENDS_NODES : THR_ENDS_CLOSED;
   x->o.end_node = thr_calloc(n, sizeof *x->o.end_node);
   x->o.end_count = thr_calloc(n, sizeof *x->o.end_count);
   x->cord = thr_calloc((size_t)n_cords, sizeof *x->cord);
-  x->small = thr_calloc((size_t)c->n_components, sizeof *x->small);
+  x->small = thr_calloc((size_t)turning_columns->n_components, sizeof *x->small);
   if (!x->o.end_node || !x->o.end_count || !x->cord || !x->small) return thr_nomem(err);
-  for (int v = 0; v < c->f->n_nodes; v++) {
-    x->o.end_node[v] = t->end_allowed && t->end_allowed[v];
-    x->o.end_count[v] = t->end_count ? t->end_count[v] : 0;
+  for (int v = 0; v < turning_columns->f->n_nodes; v++) {
+    x->o.end_node[v] = turning_task->end_allowed && turning_task->end_allowed[v];
+    x->o.end_count[v] = turning_task->end_count ? turning_task->end_count[v] : 0;
   }
   for (int i = 0; i < n_cords; i++)
     x->cord[i] = cord[i];
@@ -81,30 +82,31 @@ static thr_status improve_component(table *x, int k, const thr_limits *limits, b
 /* Do the cords keep to what else the task says? */
 static thr_status keep_limits(const table *x, bool *keep, thr_err *err)
 {
-  const thr_turning_columns *c = x->c;
-  int *passes = thr_calloc((size_t)c->f->n_edges, sizeof *passes);
+  const thr_turning_columns *turning_columns = x->c;
+  int *passes = thr_calloc((size_t)turning_columns->f->n_edges, sizeof *passes);
   if (!passes) return thr_nomem(err);
   for (int i = 0; i < x->n_cords; i++)
     for (int j = 0; j < x->cord[i].n_passes; j++)
       passes[x->cord[i].half[j] >> 1]++;
-  *keep = c->task->extra_limit < 0 || thr_extra_length(c, passes) <= c->task->extra_limit;
-  for (int e = 0; e < c->f->n_edges; e++)
-    *keep &= passes[e] <= c->most[e];
+  *keep =
+      turning_columns->task->extra_limit < 0 || thr_extra_length(turning_columns, passes) <= turning_columns->task->extra_limit;
+  for (int e = 0; e < turning_columns->f->n_edges; e++)
+    *keep &= passes[e] <= turning_columns->most[e];
   free(passes);
   return THR_OK;
 }
 
-thr_status thr_max_turning_small(const thr_turning_columns *c, const thr_cord *cord, int n_cords, const thr_limits *limits,
-                                 thr_join *j, bool *found, thr_err *err)
+thr_status thr_max_turning_small(const thr_turning_columns *turning_columns, const thr_cord *cord, int n_cords,
+                                 const thr_limits *limits, thr_join *j, bool *found, thr_err *err)
 {
   table x;
   thr_join new = {0};
   *found = true;
-  thr_status st = table_init(&x, c, cord, n_cords, err);
-  for (int k = 0; k < c->n_components && !st && *found; k++)
+  thr_status st = table_init(&x, turning_columns, cord, n_cords, err);
+  for (int k = 0; k < turning_columns->n_components && !st && *found; k++)
     st = improve_component(&x, k, limits, found, err);
   if (!st && *found) st = keep_limits(&x, found, err);
-  if (!st && *found) st = thr_join_from_cords(&new, c, x.cord, n_cords, err);
+  if (!st && *found) st = thr_join_from_cords(&new, turning_columns, x.cord, n_cords, err);
   if (!st && *found) {
     thr_join_destroy(j);
     *j = new;

@@ -11,7 +11,7 @@
 /* Cords of which the one that turns most turns least, as many in every component as the n_cords given ones are, which they are or
  * improve. *found false: a component is too large, or the table's cords pass an edge too often or are too long for the task; then
  * j is as it was. */
-thr_status thr_max_turning_small(const thr_turning_columns *c, const thr_cord *cord, int n_cords, const thr_limits *limits,
-                                 thr_join *j, bool *found, thr_err *err) THR_MUST_CHECK;
+thr_status thr_max_turning_small(const thr_turning_columns *turning_columns, const thr_cord *cord, int n_cords,
+                                 const thr_limits *limits, thr_join *j, bool *found, thr_err *err) THR_MUST_CHECK;
 
 #endif

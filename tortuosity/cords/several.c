@@ -10,96 +10,96 @@
 #include <stdlib.h>
 
 /* Where the shortest passes do not hold as many closed cords: the same even number over all edges, which holds many. */
-static thr_status even_passes(thr_branch *b, int *passes, thr_err *err)
+static thr_status even_passes(thr_branch *branch, int *passes, thr_err *err)
 {
-  const thr_turning_task *t = b->c->task;
+  const thr_turning_task *turning_task = branch->c->task;
   thr_status st = THR_OK;
-  for (int n = t->cover + t->cover % 2; n <= t->most_passes && !b->found && !st; n += 2) {
-    for (int e = 0; e < b->c->f->n_edges; e++)
-      passes[e] = n > b->c->cover[e] ? n : b->c->cover[e] + b->c->cover[e] % 2;
-    st = thr_branch_try(b, passes, NULL, err);
+  for (int n = turning_task->cover + turning_task->cover % 2; n <= turning_task->most_passes && !branch->found && !st; n += 2) {
+    for (int e = 0; e < branch->c->f->n_edges; e++)
+      passes[e] = n > branch->c->cover[e] ? n : branch->c->cover[e] + branch->c->cover[e] % 2;
+    st = thr_branch_try(branch, passes, NULL, err);
   }
   return st;
 }
 
 /* Short circuits through all edges, from edge number first on; fewer than asked for get more, more are joined. */
-static thr_status try_cover(thr_branch *b, int first, int *passes, thr_err *err)
+static thr_status try_cover(thr_branch *branch, int first, int *passes, thr_err *err)
 {
   thr_join few, j = {0};
   bool found;
-  thr_status st = thr_circuits_cover(b->c, first, &few, passes, &found, err);
+  thr_status st = thr_circuits_cover(branch->c, first, &few, passes, &found, err);
   if (st || !found) return st;
   const int *all = passes;
-  st = thr_circuits_add(&few, b->limits, &j, b->passes, &found, err);
+  st = thr_circuits_add(&few, branch->limits, &j, branch->passes, &found, err);
   if (!st && found) {
     thr_join_destroy(&few);
     few = j;
-    all = b->passes;
+    all = branch->passes;
   }
-  if (!st) return thr_branch_try_circuits(b, &few, all, err);
+  if (!st) return thr_branch_try_circuits(branch, &few, all, err);
   thr_join_destroy(&few);
   return st;
 }
 
 /* Tube joints: nodes that few passes tie stay tied by whatever further cords run through them. */
-static thr_status try_tied(thr_branch *b, int *passes, thr_err *err)
+static thr_status try_tied(thr_branch *branch, int *passes, thr_err *err)
 {
-  const thr_turning_columns *c = b->c;
+  const thr_turning_columns *turning_columns = branch->c;
   thr_join few, j = {0};
   bool found;
-  thr_status st = thr_tie_round(c, NULL, passes, b->ends, &found, err);
-  if (!st && found) st = thr_join_tie(&few, c, passes, NULL, &found, err);
+  thr_status st = thr_tie_round(turning_columns, NULL, passes, branch->ends, &found, err);
+  if (!st && found) st = thr_join_tie(&few, turning_columns, passes, NULL, &found, err);
   if (st || !found) return st;
-  st = thr_circuits_add(&few, b->limits, &j, b->passes, &found, err);
+  st = thr_circuits_add(&few, branch->limits, &j, branch->passes, &found, err);
   thr_join_destroy(&few);
-  return st || !found ? st : thr_branch_try_circuits(b, &j, b->passes, err);
+  return st || !found ? st : thr_branch_try_circuits(branch, &j, branch->passes, err);
 }
 
-static thr_status try_covers(thr_branch *b, int *passes, thr_err *err)
+static thr_status try_covers(thr_branch *branch, int *passes, thr_err *err)
 {
   enum { MANY = 200, FEW = 30 };
-  int m = b->c->f->n_edges, starts = m > MANY ? 0 : m > FEW ? 1 : m;
+  int m = branch->c->f->n_edges, starts = m > MANY ? 0 : m > FEW ? 1 : m;
   thr_status st = THR_OK;
-  for (int first = 0; first < starts && !st && !thr_limits_stop(b->limits); first++)
-    st = try_cover(b, first, passes, err);
+  for (int first = 0; first < starts && !st && !thr_limits_stop(branch->limits); first++)
+    st = try_cover(branch, first, passes, err);
   return st;
 }
 
-static bool all_even(const thr_frame *f, const int *passes)
+static bool all_even(const thr_frame *frame, const int *passes)
 {
-  for (int v = 0; v < f->n_nodes; v++) {
+  for (int v = 0; v < frame->n_nodes; v++) {
     int at = 0;
-    for (int i = f->first[v]; i < f->first[v + 1]; i++)
-      at += passes[f->half[i] >> 1];
+    for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
+      at += passes[frame->half[i] >> 1];
     if (at % 2) return false;
   }
   return true;
 }
 
 /* All choices of few extra passes, counted up like a number with a digit for every edge. */
-static thr_status try_all_passes(thr_branch *b, int *passes, thr_err *err)
+static thr_status try_all_passes(thr_branch *branch, int *passes, thr_err *err)
 {
   enum { TINY = 8, EXTRA = 3 };
-  const int m = b->c->f->n_edges, *cover = b->c->cover;
+  const int m = branch->c->f->n_edges, *cover = branch->c->cover;
   thr_status st = THR_OK;
   if (m > TINY) return THR_OK;
   for (int e = 0; e < m; e++)
     passes[e] = cover[e];
-  for (int e = 0; e < m && !st && !thr_limits_stop(b->limits);) {
-    if (all_even(b->c->f, passes)) st = thr_branch_try(b, passes, NULL, err);
+  for (int e = 0; e < m && !st && !thr_limits_stop(branch->limits);) {
+    if (all_even(branch->c->f, passes)) st = thr_branch_try(branch, passes, NULL, err);
     for (e = 0; e < m && ++passes[e] > cover[e] + EXTRA; e++)
       passes[e] = cover[e];
   }
   return st;
 }
 
-thr_status thr_several_plans(thr_branch *b, thr_err *err)
+thr_status thr_several_plans(thr_branch *branch, thr_err *err)
 {
-  int *passes = thr_calloc((size_t)b->c->f->n_edges, sizeof *passes);
+  int *passes = thr_calloc((size_t)branch->c->f->n_edges, sizeof *passes);
   if (!passes) return thr_nomem(err);
-  thr_status st = b->c->task->tube ? try_tied(b, passes, err) : try_covers(b, passes, err);
-  if (!st) st = even_passes(b, passes, err);
-  if (!st) st = try_all_passes(b, passes, err);
+  thr_status st = branch->c->task->tube ? try_tied(branch, passes, err) : try_covers(branch, passes, err);
+  if (!st) st = even_passes(branch, passes, err);
+  if (!st) st = try_all_passes(branch, passes, err);
   free(passes);
   return st;
 }

@@ -12,6 +12,6 @@
  * passes over all edges; and in very small ones all choices of at most 3 extra passes of every edge. A framework of n edges that
  * is small takes n covers, each of O(n^2) exchanges at worst. With tube joints, whose nodes circuits alone do not tie, tied cords
  * take the place of the covers: of few passes, and the circuits missing through passes of their own. */
-thr_status thr_several_plans(thr_branch *b, thr_err *err) THR_MUST_CHECK;
+thr_status thr_several_plans(thr_branch *branch, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -39,20 +39,21 @@ static void ascent_destroy(ascent *a)
   free(a->via);
 }
 
-static int largest_degree(const thr_frame *f)
+static int largest_degree(const thr_frame *frame)
 {
   int most = 1;
-  for (int v = 0; v < f->n_nodes; v++)
-    if (thr_degree(f, v) > most) most = thr_degree(f, v);
+  for (int v = 0; v < frame->n_nodes; v++)
+    if (thr_degree(frame, v) > most) most = thr_degree(frame, v);
   return most;
 }
 
-static thr_status ascent_init(ascent *a, const thr_turning_columns *c, thr_err *err)
+static thr_status ascent_init(ascent *a, const thr_turning_columns *turning_columns, thr_err *err)
 {
-  int m = c->f->n_edges, degree = largest_degree(c->f);
-  *a = (ascent){.c = c, .m = m, .n = 2 * m + 1, .scale = 1 / sqrt(m)};
-  double *room = a->room = thr_calloc((size_t)c->n_columns + 10 * (size_t)m + 4 * (size_t)a->n + (size_t)degree, sizeof *room);
-  a->via = thr_calloc((size_t)degree + (size_t)c->n_ends, sizeof *a->via);
+  int m = turning_columns->f->n_edges, degree = largest_degree(turning_columns->f);
+  *a = (ascent){.c = turning_columns, .m = m, .n = 2 * m + 1, .scale = 1 / sqrt(m)};
+  double *room = a->room =
+      thr_calloc((size_t)turning_columns->n_columns + 10 * (size_t)m + 4 * (size_t)a->n + (size_t)degree, sizeof *room);
+  a->via = thr_calloc((size_t)degree + (size_t)turning_columns->n_ends, sizeof *a->via);
   if (!room || !a->via) {
     ascent_destroy(a);
     return thr_nomem(err);
@@ -66,8 +67,8 @@ static thr_status ascent_init(ascent *a, const thr_turning_columns *c, thr_err *
     *multipliers[i] = room;
   a->key = room;
   a->price = room + degree;
-  for (int j = 0; j < c->n_columns; j++)
-    a->price[j] = ldexp((double)c->weight[j], -THR_TURNING_BITS);
+  for (int j = 0; j < turning_columns->n_columns; j++)
+    a->price[j] = ldexp((double)turning_columns->weight[j], -THR_TURNING_BITS);
   return THR_OK;
 }
 
@@ -133,13 +134,13 @@ static double add_tree(ascent *a, int v)
 /* All turns that are cheaper than nothing. */
 static double add_gains(ascent *a)
 {
-  const thr_turning_columns *c = a->c;
+  const thr_turning_columns *turning_columns = a->c;
   double value = 0;
-  for (int j = 0; j < c->first_extra; j++) {
-    int g = c->half[j][0], h = c->half[j][1];
+  for (int j = 0; j < turning_columns->first_extra; j++) {
+    int g = turning_columns->half[j][0], h = turning_columns->half[j][1];
     double price = a->price[j] - a->potential[g] - a->potential[h];
     if (price >= 0) continue;
-    int most = thr_turning_most(c, j);
+    int most = thr_turning_most(turning_columns, j);
     value += most * price;
     a->count[g] += most;
     a->count[h] += most;
@@ -150,18 +151,18 @@ static double add_gains(ascent *a)
 /* The ends, all where the potential is largest. */
 static double add_ends(ascent *a)
 {
-  const thr_turning_columns *c = a->c;
+  const thr_turning_columns *turning_columns = a->c;
   double value = 0;
-  for (int k = 0; k < c->n_ends; k++)
+  for (int k = 0; k < turning_columns->n_ends; k++)
     a->end_at[k] = -1;
-  for (int j = c->first_end; j < c->first_back; j++) {
-    int h = c->half[j][0], *at = &a->end_at[c->end_group[thr_tail(c->f, h)]];
+  for (int j = turning_columns->first_end; j < turning_columns->first_back; j++) {
+    int h = turning_columns->half[j][0], *at = &a->end_at[turning_columns->end_group[thr_tail(turning_columns->f, h)]];
     if (*at < 0 || a->potential[h] > a->potential[*at]) *at = h;
   }
-  for (int k = 0; k < c->n_ends; k++) {
+  for (int k = 0; k < turning_columns->n_ends; k++) {
     int h = a->end_at[k];
     if (h < 0) continue;
-    int ends = c->supply[k][a->potential[h] > 0];
+    int ends = turning_columns->supply[k][a->potential[h] > 0];
     value -= ends * a->potential[h];
     a->count[h] += ends;
     a->ends[h] += ends;
@@ -172,22 +173,22 @@ static double add_ends(ascent *a)
 /* The bound at u; rise receives its slope there. */
 static double bound_at(ascent *a, const double *u)
 {
-  const thr_turning_columns *c = a->c;
+  const thr_turning_columns *turning_columns = a->c;
   int m = a->m;
-  double value = set_potentials(a, u), longer = 0, limit = ldexp((double)c->extra_limit, -THR_LENGTH_BITS);
+  double value = set_potentials(a, u), longer = 0, limit = ldexp((double)turning_columns->extra_limit, -THR_LENGTH_BITS);
   memset(a->count, 0, 2 * (size_t)m * sizeof *a->count);
   memset(a->ends, 0, 2 * (size_t)m * sizeof *a->ends);
-  for (int v = 0; v < c->f->n_nodes; v++)
+  for (int v = 0; v < turning_columns->f->n_nodes; v++)
     value += add_tree(a, v);
   value += add_gains(a) + add_ends(a);
   for (int e = 0; e < m; e++) {
-    double forth = a->count[2 * e], back = a->count[2 * e + 1], few = 2 * c->cover[e] - forth - back;
+    double forth = a->count[2 * e], back = a->count[2 * e + 1], few = 2 * turning_columns->cover[e] - forth - back;
     a->rise[e] = back - forth;
     a->rise[m + e] = few;
     longer -= few / 2 * length_of(a, e);
   }
-  a->rise[2 * m] = c->extra_limit < 0 ? 0 : a->scale * (longer - limit);
-  return c->extra_limit < 0 ? value : value - a->scale * u[2 * m] * limit;
+  a->rise[2 * m] = turning_columns->extra_limit < 0 ? 0 : a->scale * (longer - limit);
+  return turning_columns->extra_limit < 0 ? value : value - a->scale * u[2 * m] * limit;
 }
 
 /* ---- steps ---- */
@@ -265,31 +266,32 @@ static int by_price(const void *x, const void *y)
 }
 
 /* The edges in the parts of parent, as the block of a junction. */
-static thr_status keep_junction(thr_turning_dual *d, int *capacity, int v, int degree, int *parent, int64_t value, thr_err *err)
+static thr_status keep_junction(thr_turning_dual *dual, int *capacity, int v, int degree, int *parent, int64_t value,
+                                thr_err *err)
 {
-  thr_status st = thr_grow(&d->junction, d->n_junctions, capacity, sizeof *d->junction, err);
+  thr_status st = thr_grow(&dual->junction, dual->n_junctions, capacity, sizeof *dual->junction, err);
   if (st) return st;
-  thr_turning_junction j = {v, thr_calloc((size_t)degree, sizeof *j.block), value};
-  if (!j.block) return thr_nomem(err);
+  thr_turning_junction turning_junction = {v, thr_calloc((size_t)degree, sizeof *turning_junction.block), value};
+  if (!turning_junction.block) return thr_nomem(err);
   for (int i = 0, n = 0; i < degree; i++) { /* the lowest of a part is its root */
     int root = thr_disjoint_find(parent, i);
-    j.block[i] = root == i ? n++ : j.block[root];
+    turning_junction.block[i] = root == i ? n++ : turning_junction.block[root];
   }
-  d->junction[d->n_junctions++] = j;
+  dual->junction[dual->n_junctions++] = turning_junction;
   return THR_OK;
 }
 
-static int64_t left_of(const thr_turning_columns *c, const thr_turning_dual *d, int g, int h)
+static int64_t left_of(const thr_turning_columns *turning_columns, const thr_turning_dual *dual, int g, int h)
 {
-  return c->weight[thr_turning_column(c, g, h)] - d->potential[g] - d->potential[h];
+  return turning_columns->weight[thr_turning_column(turning_columns, g, h)] - dual->potential[g] - dual->potential[h];
 }
 
 /* Prim's tree at node v, its turns into list[degree - 1]. */
-static void find_tree(const thr_turning_columns *c, const thr_turning_dual *d, int v, turn *list)
+static void find_tree(const thr_turning_columns *turning_columns, const thr_turning_dual *dual, int v, turn *list)
 {
-  const int *half = c->f->half + c->f->first[v], degree = thr_degree(c->f, v);
+  const int *half = turning_columns->f->half + turning_columns->f->first[v], degree = thr_degree(turning_columns->f, v);
   for (int i = 1; i < degree; i++) /* from each that is not in the tree, the cheapest into it */
-    list[i - 1] = (turn){left_of(c, d, half[0], half[i]), 0, i};
+    list[i - 1] = (turn){left_of(turning_columns, dual, half[0], half[i]), 0, i};
   for (int joined = 0; joined < degree - 1; joined++) {
     int next = joined;
     for (int i = joined; i < degree - 1; i++)
@@ -298,7 +300,7 @@ static void find_tree(const thr_turning_columns *c, const thr_turning_dual *d, i
     list[next] = list[joined];
     list[joined] = t;
     for (int i = joined + 1; i < degree - 1; i++) {
-      int64_t price = left_of(c, d, half[t.b], half[list[i].b]);
+      int64_t price = left_of(turning_columns, dual, half[t.b], half[list[i].b]);
       if (price < list[i].price) list[i] = (turn){price, t.b, list[i].b};
     }
   }
@@ -306,30 +308,30 @@ static void find_tree(const thr_turning_columns *c, const thr_turning_dual *d, i
 
 /* Junctions of a node at most: all that its tree has prices, but where nodes of very many edges would make the proof slow to
  * check, which looks at all turns of a node for every junction there. */
-static int most_junctions(const thr_frame *f)
+static int most_junctions(const thr_frame *frame)
 {
   const double checked = 2e7;
   enum { LEAST = 8 };
   double turns = 1;
-  for (int v = 0; v < f->n_nodes; v++)
-    turns += (double)thr_degree(f, v) * thr_degree(f, v);
-  return checked / turns > f->n_edges ? f->n_edges : (int)fmax(LEAST, checked / turns);
+  for (int v = 0; v < frame->n_nodes; v++)
+    turns += (double)thr_degree(frame, v) * thr_degree(frame, v);
+  return checked / turns > frame->n_edges ? frame->n_edges : (int)fmax(LEAST, checked / turns);
 }
 
 /* The cheapest tree at node v: what every part must still be joined for, from one price of the tree to a later one. */
-static thr_status prove_tree(const thr_turning_columns *c, thr_turning_dual *d, int *capacity, int v, int most, turn *list,
-                             int *parent, thr_err *err)
+static thr_status prove_tree(const thr_turning_columns *turning_columns, thr_turning_dual *dual, int *capacity, int v, int most,
+                             turn *list, int *parent, thr_err *err)
 {
-  const int degree = thr_degree(c->f, v), each = (degree - 2) / most + 1;
+  const int degree = thr_degree(turning_columns->f, v), each = (degree - 2) / most + 1;
   int64_t paid = 0;
   thr_status st = THR_OK;
   for (int i = 0; i < degree; i++)
     parent[i] = i;
-  find_tree(c, d, v, list);
+  find_tree(turning_columns, dual, v, list);
   qsort(list, degree > 0 ? (size_t)degree - 1 : 0, sizeof *list, by_price);
   for (int i = 0; i < degree - 1 && !st; i++) {
     if (list[i].price > paid && i % each == 0) {
-      st = keep_junction(d, capacity, v, degree, parent, list[i].price - paid, err);
+      st = keep_junction(dual, capacity, v, degree, parent, list[i].price - paid, err);
       paid = list[i].price;
     }
     thr_disjoint_join(parent, list[i].a, list[i].b);
@@ -337,68 +339,68 @@ static thr_status prove_tree(const thr_turning_columns *c, thr_turning_dual *d, 
   return st;
 }
 
-static thr_status prove_trees(const thr_turning_columns *c, thr_turning_dual *d, thr_err *err)
+static thr_status prove_trees(const thr_turning_columns *turning_columns, thr_turning_dual *dual, thr_err *err)
 {
-  size_t most = (size_t)largest_degree(c->f);
-  int capacity = 0, junctions = most_junctions(c->f);
+  size_t most = (size_t)largest_degree(turning_columns->f);
+  int capacity = 0, junctions = most_junctions(turning_columns->f);
   turn *list = thr_calloc(most, sizeof *list);
   int *parent = thr_calloc(most, sizeof *parent);
   thr_status st = list && parent ? THR_OK : thr_nomem(err);
-  for (int v = 0; v < c->f->n_nodes && !st; v++)
-    st = prove_tree(c, d, &capacity, v, junctions, list, parent, err);
+  for (int v = 0; v < turning_columns->f->n_nodes && !st; v++)
+    st = prove_tree(turning_columns, dual, &capacity, v, junctions, list, parent, err);
   free(list);
   free(parent);
   return st;
 }
 
 /* The potentials at best, the second of every edge such that its extra passes cost nothing or more. */
-static void round_potentials(ascent *a, thr_turning_dual *d)
+static void round_potentials(ascent *a, thr_turning_dual *dual)
 {
-  const thr_turning_columns *c = a->c;
+  const thr_turning_columns *turning_columns = a->c;
   set_potentials(a, a->best);
-  d->length = c->extra_limit < 0 ? 0 : thr_relax_whole(a->scale * a->best[2 * a->m]);
+  dual->length = turning_columns->extra_limit < 0 ? 0 : thr_relax_whole(a->scale * a->best[2 * a->m]);
   for (int e = 0; e < a->m; e++) {
-    int64_t longer = (int64_t)((double)d->length * length_of(a, e));
-    d->potential[2 * e] = thr_relax_whole(a->potential[2 * e]);
-    d->potential[2 * e + 1] =
-        thr_relax_whole(2 * a->best[a->m + e]) - c->weight[c->first_extra + e] - longer - d->potential[2 * e];
+    int64_t longer = (int64_t)((double)dual->length * length_of(a, e));
+    dual->potential[2 * e] = thr_relax_whole(a->potential[2 * e]);
+    dual->potential[2 * e + 1] = thr_relax_whole(2 * a->best[a->m + e]) -
+                                 turning_columns->weight[turning_columns->first_extra + e] - longer - dual->potential[2 * e];
   }
-  for (int k = 0; k < c->n_ends; k++)
+  for (int k = 0; k < turning_columns->n_ends; k++)
     a->end_at[k] = -1;
-  for (int j = c->first_end; j < c->first_back; j++) { /* no end is cheaper than nothing */
-    int h = c->half[j][0], k = c->end_group[thr_tail(c->f, h)];
-    if (a->end_at[k] < 0 || -d->potential[h] < d->ends[k]) d->ends[k] = -d->potential[h];
+  for (int j = turning_columns->first_end; j < turning_columns->first_back; j++) { /* no end is cheaper than nothing */
+    int h = turning_columns->half[j][0], k = turning_columns->end_group[thr_tail(turning_columns->f, h)];
+    if (a->end_at[k] < 0 || -dual->potential[h] < dual->ends[k]) dual->ends[k] = -dual->potential[h];
     a->end_at[k] = h;
   }
 }
 
 static void fill_mean(const ascent *a, double *mean)
 {
-  const thr_turning_columns *c = a->c;
-  memset(mean, 0, (size_t)c->n_columns * sizeof *mean);
+  const thr_turning_columns *turning_columns = a->c;
+  memset(mean, 0, (size_t)turning_columns->n_columns * sizeof *mean);
   for (int e = 0; e < a->m; e++)
-    mean[c->first_extra + e] = fmax(0, (a->mean[2 * e] + a->mean[2 * e + 1]) / 2 - c->cover[e]);
-  for (int j = c->first_end; j < c->first_back; j++)
-    mean[j] = a->mean_ends[c->half[j][0]];
+    mean[turning_columns->first_extra + e] = fmax(0, (a->mean[2 * e] + a->mean[2 * e + 1]) / 2 - turning_columns->cover[e]);
+  for (int j = turning_columns->first_end; j < turning_columns->first_back; j++)
+    mean[j] = a->mean_ends[turning_columns->half[j][0]];
 }
 
-thr_status thr_ascent_run(const thr_turning_columns *c, double target, const thr_limits *limits, thr_turning_dual *d,
-                          double *mean, thr_err *err)
+thr_status thr_ascent_run(const thr_turning_columns *turning_columns, double target, const thr_limits *limits,
+                          thr_turning_dual *dual, double *mean, thr_err *err)
 {
   ascent a;
-  *d = (thr_turning_dual){0};
-  thr_status st = ascent_init(&a, c, err);
+  *dual = (thr_turning_dual){0};
+  thr_status st = ascent_init(&a, turning_columns, err);
   if (st) return st;
-  d->potential = thr_calloc(2 * (size_t)a.m, sizeof *d->potential);
-  d->ends = thr_calloc((size_t)c->n_ends, sizeof *d->ends);
-  if (!d->potential || !d->ends) st = thr_nomem(err);
+  dual->potential = thr_calloc(2 * (size_t)a.m, sizeof *dual->potential);
+  dual->ends = thr_calloc((size_t)turning_columns->n_ends, sizeof *dual->ends);
+  if (!dual->potential || !dual->ends) st = thr_nomem(err);
   if (!st) {
     climb(&a, target, limits);
     fill_mean(&a, mean);
-    round_potentials(&a, d);
-    st = prove_trees(c, d, err);
+    round_potentials(&a, dual);
+    st = prove_trees(turning_columns, dual, err);
   }
-  if (st) thr_turning_dual_destroy(d);
+  if (st) thr_turning_dual_destroy(dual);
   ascent_destroy(&a);
   return st;
 }

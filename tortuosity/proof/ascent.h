@@ -12,10 +12,10 @@
 #include "graph/plan/turning_proof.h"
 #include "graph/status.h"
 
-/* d: the best multipliers found, with the junctions that prove the trees. mean[n_columns]: how often the mean takes every extra
- * pass and end; other columns 0. target: no bound above it is worth having. Stops early by the limits, but never without a bound.
- * Some 1,000 steps of O(columns). Release d with thr_turning_dual_destroy. */
-thr_status thr_ascent_run(const thr_turning_columns *c, double target, const thr_limits *limits, thr_turning_dual *d,
-                          double *mean, thr_err *err) THR_MUST_CHECK;
+/* dual: the best multipliers found, with the junctions that prove the trees. mean[n_columns]: how often the mean takes every
+ * extra pass and end; other columns 0. target: no bound above it is worth having. Stops early by the limits, but never without a
+ * bound. Some 1,000 steps of O(columns). Release dual with thr_turning_dual_destroy. */
+thr_status thr_ascent_run(const thr_turning_columns *turning_columns, double target, const thr_limits *limits,
+                          thr_turning_dual *dual, double *mean, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -20,57 +20,59 @@ enum { DENSE = 200000, DENSE_PER_EDGE = 20 };
 /* Tying a node of more edges once takes seconds: it is not done again for a plan that may be better. */
 enum { TIED_DEGREE = 1000 };
 
-thr_status thr_branch_init(thr_branch *b, const thr_turning_columns *c, int most_nodes, const thr_limits *limits, thr_err *err)
+thr_status thr_branch_init(thr_branch *branch, const thr_turning_columns *turning_columns, int most_nodes,
+                           const thr_limits *limits, thr_err *err)
 {
-  size_t n = (size_t)c->f->n_nodes, m = (size_t)c->f->n_edges;
-  const int room = 50 + 1000000 / c->f->n_edges; /* every leaf of the proof has two multipliers per edge */
-  *b = (thr_branch){.c = c,
-                    .limits = limits,
-                    .most_nodes = most_nodes < room ? most_nodes : room,
-                    .best_price = INT64_MAX,
-                    .best_length = INFINITY};
-  b->several = !c->task->end_allowed && c->task->cords > 1;
-  b->dense = !c->task->free_turns && c->first_extra > DENSE && c->first_extra / DENSE_PER_EDGE > c->f->n_edges;
-  b->passes = thr_calloc(m, sizeof *b->passes);
-  b->ends = thr_calloc(n, sizeof *b->ends);
-  b->whole = thr_calloc((size_t)c->n_columns, sizeof *b->whole);
-  b->weight = thr_calloc(m, sizeof *b->weight);
-  b->end_weight = thr_calloc(n, sizeof *b->end_weight);
-  if (b->passes && b->ends && b->whole && b->weight && b->end_weight) return THR_OK;
-  thr_branch_destroy(b);
+  size_t n = (size_t)turning_columns->f->n_nodes, m = (size_t)turning_columns->f->n_edges;
+  const int room = 50 + 1000000 / turning_columns->f->n_edges; /* every leaf of the proof has two multipliers per edge */
+  *branch = (thr_branch){.c = turning_columns,
+                         .limits = limits,
+                         .most_nodes = most_nodes < room ? most_nodes : room,
+                         .best_price = INT64_MAX,
+                         .best_length = INFINITY};
+  branch->several = !turning_columns->task->end_allowed && turning_columns->task->cords > 1;
+  branch->dense = !turning_columns->task->free_turns && turning_columns->first_extra > DENSE &&
+                  turning_columns->first_extra / DENSE_PER_EDGE > turning_columns->f->n_edges;
+  branch->passes = thr_calloc(m, sizeof *branch->passes);
+  branch->ends = thr_calloc(n, sizeof *branch->ends);
+  branch->whole = thr_calloc((size_t)turning_columns->n_columns, sizeof *branch->whole);
+  branch->weight = thr_calloc(m, sizeof *branch->weight);
+  branch->end_weight = thr_calloc(n, sizeof *branch->end_weight);
+  if (branch->passes && branch->ends && branch->whole && branch->weight && branch->end_weight) return THR_OK;
+  thr_branch_destroy(branch);
   return thr_nomem(err);
 }
 
-void thr_branch_destroy(thr_branch *b)
+void thr_branch_destroy(thr_branch *branch)
 {
-  for (int i = 0; i < b->n_duals; i++)
-    thr_turning_dual_destroy(&b->dual[i]);
-  free(b->dual);
-  thr_tree_destroy(&b->tree);
-  free(b->passes);
-  free(b->ends);
-  free(b->whole);
-  free(b->weight);
-  free(b->end_weight);
-  if (b->found) thr_join_destroy(&b->best);
-  if (b->relax.c) thr_relax_destroy(&b->relax);
-  *b = (thr_branch){0};
+  for (int i = 0; i < branch->n_duals; i++)
+    thr_turning_dual_destroy(&branch->dual[i]);
+  free(branch->dual);
+  thr_tree_destroy(&branch->tree);
+  free(branch->passes);
+  free(branch->ends);
+  free(branch->whole);
+  free(branch->weight);
+  free(branch->end_weight);
+  if (branch->found) thr_join_destroy(&branch->best);
+  if (branch->relax.c) thr_relax_destroy(&branch->relax);
+  *branch = (thr_branch){0};
 }
 
 /* Price of all passes that must be. */
-static double base_price(const thr_turning_columns *c)
+static double base_price(const thr_turning_columns *turning_columns)
 {
   double sum = 0;
-  for (int e = 0; e < c->f->n_edges; e++)
-    sum += c->cover[e] * (double)c->weight[c->first_extra + e];
+  for (int e = 0; e < turning_columns->f->n_edges; e++)
+    sum += turning_columns->cover[e] * (double)turning_columns->weight[turning_columns->first_extra + e];
   return sum;
 }
 
-int64_t thr_branch_tolerance(const thr_branch *b)
+int64_t thr_branch_tolerance(const thr_branch *branch)
 {
-  double u_turn = thr_turn_cost_of(b->c->task->cost, THR_PI);
-  if (b->c->task->free_turns) return (int64_t)(0.3e-9 * ((double)b->best_price + base_price(b->c)));
-  return (int64_t)ldexp(1e-9 * u_turn * b->best_passes, THR_TURNING_BITS);
+  double u_turn = thr_turn_cost_of(branch->c->task->cost, THR_PI);
+  if (branch->c->task->free_turns) return (int64_t)(0.3e-9 * ((double)branch->best_price + base_price(branch->c)));
+  return (int64_t)ldexp(1e-9 * u_turn * branch->best_passes, THR_TURNING_BITS);
 }
 
 static double fraction(double x)
@@ -79,17 +81,19 @@ static double fraction(double x)
 }
 
 /* Column to branch on: extras first, then ends, then the rest; the one nearest a half. -1: the point is whole. */
-static int most_fractional(const thr_branch *b)
+static int most_fractional(const thr_branch *branch)
 {
-  const thr_turning_columns *c = b->c;
-  const int range[4][2] = {
-      {c->first_extra, c->first_end}, {c->first_end, c->first_back}, {0, c->first_extra}, {c->first_back, c->n_columns}};
+  const thr_turning_columns *turning_columns = branch->c;
+  const int range[4][2] = {{turning_columns->first_extra, turning_columns->first_end},
+                           {turning_columns->first_end, turning_columns->first_back},
+                           {0, turning_columns->first_extra},
+                           {turning_columns->first_back, turning_columns->n_columns}};
   for (int r = 0; r < 4; r++) {
     int best = -1;
     double most = integral;
     for (int k = range[r][0]; k < range[r][1]; k++)
-      if (fraction(b->relax.x[k]) > most + 1e-9) {
-        most = fraction(b->relax.x[k]);
+      if (fraction(branch->relax.x[k]) > most + 1e-9) {
+        most = fraction(branch->relax.x[k]);
         best = k;
       }
     if (best >= 0) return best;
@@ -100,158 +104,160 @@ static int most_fractional(const thr_branch *b)
 /* ---- nodes ---- */
 
 /* Takes multipliers over, for node i if they prove more than it has. */
-static thr_status keep_dual(thr_branch *b, int i, thr_turning_dual d, const int *low, const int *high, thr_err *err)
+static thr_status keep_dual(thr_branch *branch, int i, thr_turning_dual dual, const int *low, const int *high, thr_err *err)
 {
   int64_t bound;
-  thr_status st = thr_turning_dual_bound(b->c, &d, low, high, &bound, err);
-  thr_tree_node *n = &b->tree.node[i];
-  if (!st && (n->proof < 0 || (double)bound > n->bound)) {
-    st = thr_grow(&b->dual, b->n_duals, &b->duals_capacity, sizeof *b->dual, err);
+  thr_status st = thr_turning_dual_bound(branch->c, &dual, low, high, &bound, err);
+  thr_tree_node *node = &branch->tree.node[i];
+  if (!st && (node->proof < 0 || (double)bound > node->bound)) {
+    st = thr_grow(&branch->dual, branch->n_duals, &branch->duals_capacity, sizeof *branch->dual, err);
     if (!st) {
-      n->bound = (double)bound;
-      n->proof = b->n_duals;
-      b->dual[b->n_duals++] = d;
+      node->bound = (double)bound;
+      node->proof = branch->n_duals;
+      branch->dual[branch->n_duals++] = dual;
       return THR_OK;
     }
   }
-  thr_turning_dual_destroy(&d);
+  thr_turning_dual_destroy(&dual);
   return st;
 }
 
 /* The multipliers of the last solve. */
-static thr_status certify(thr_branch *b, int i, thr_err *err)
+static thr_status certify(thr_branch *branch, int i, thr_err *err)
 {
-  thr_turning_dual d;
-  thr_status st = thr_relax_dual(&b->relax, &d, err);
-  return st ? st : keep_dual(b, i, d, b->tree.low, b->tree.high, err);
+  thr_turning_dual dual;
+  thr_status st = thr_relax_dual(&branch->relax, &dual, err);
+  return st ? st : keep_dual(branch, i, dual, branch->tree.low, branch->tree.high, err);
 }
 
 /* A node of this bound is closed. */
-static double enough(const thr_branch *b)
+static double enough(const thr_branch *branch)
 {
-  return b->found ? (double)(b->best_price - thr_branch_tolerance(b)) : INFINITY;
+  return branch->found ? (double)(branch->best_price - thr_branch_tolerance(branch)) : INFINITY;
 }
 
-static bool closed(const thr_branch *b, int i)
+static bool closed(const thr_branch *branch, int i)
 {
-  return b->tree.node[i].bound >= enough(b);
+  return branch->tree.node[i].bound >= enough(branch);
 }
 
-static int largest_degree(const thr_frame *f)
+static int largest_degree(const thr_frame *frame)
 {
   int most = 0;
-  for (int v = 0; v < f->n_nodes; v++)
-    if (thr_degree(f, v) > most) most = thr_degree(f, v);
+  for (int v = 0; v < frame->n_nodes; v++)
+    if (thr_degree(frame, v) > most) most = thr_degree(frame, v);
   return most;
 }
 
 /* Tube joints: the bound of the ascent, and from the mean of its solutions passes to begin with. */
-static thr_status climb(thr_branch *b, int root, thr_err *err)
+static thr_status climb(thr_branch *branch, int root, thr_err *err)
 {
-  const thr_limits some = thr_limits_part(b->limits, 0.4);
-  double target = b->found ? ldexp((double)b->best_price, -THR_TURNING_BITS) : INFINITY;
-  thr_turning_dual d = {0};
+  const thr_limits some = thr_limits_part(branch->limits, 0.4);
+  double target = branch->found ? ldexp((double)branch->best_price, -THR_TURNING_BITS) : INFINITY;
+  thr_turning_dual dual = {0};
   bool found = false;
-  double *mean = thr_calloc((size_t)b->c->n_columns, sizeof *mean);
-  const thr_limits half = thr_limits_part(b->limits, b->dense ? 0.5 : 1);
-  thr_status st = mean ? thr_ascent_run(b->c, target, &half, &d, mean, err) : thr_nomem(err);
-  if (!st) st = keep_dual(b, root, d, NULL, NULL, err);
-  bool more = !b->found || (!closed(b, root) && !thr_limits_stop(b->limits) && largest_degree(b->c->f) <= TIED_DEGREE);
-  if (!st && more) st = thr_tie_round(b->c, mean, b->passes, b->ends, &found, err);
-  if (!st && found) st = thr_tie_improve(b->c, &some, b->passes, b->ends, err);
-  if (!st && found) st = thr_branch_try(b, b->passes, b->ends, err);
+  double *mean = thr_calloc((size_t)branch->c->n_columns, sizeof *mean);
+  const thr_limits half = thr_limits_part(branch->limits, branch->dense ? 0.5 : 1);
+  thr_status st = mean ? thr_ascent_run(branch->c, target, &half, &dual, mean, err) : thr_nomem(err);
+  if (!st) st = keep_dual(branch, root, dual, NULL, NULL, err);
+  bool more = !branch->found ||
+              (!closed(branch, root) && !thr_limits_stop(branch->limits) && largest_degree(branch->c->f) <= TIED_DEGREE);
+  if (!st && more) st = thr_tie_round(branch->c, mean, branch->passes, branch->ends, &found, err);
+  if (!st && found) st = thr_tie_improve(branch->c, &some, branch->passes, branch->ends, err);
+  if (!st && found) st = thr_branch_try(branch, branch->passes, branch->ends, err);
   free(mean);
   return st;
 }
 
-static thr_status init_tree(thr_branch *b, thr_err *err)
+static thr_status init_tree(thr_branch *branch, thr_err *err)
 {
-  size_t n = (size_t)b->c->n_columns;
+  size_t n = (size_t)branch->c->n_columns;
   int *least = thr_calloc(n, sizeof *least);
   if (!least) return thr_nomem(err);
   for (size_t k = 0; k < n; k++)
-    b->whole[k] = thr_turning_most(b->c, (int)k);
-  thr_status st = thr_tree_init(&b->tree, b->c->n_columns, least, b->whole, err);
-  b->tree.most_nodes = b->most_nodes;
+    branch->whole[k] = thr_turning_most(branch->c, (int)k);
+  thr_status st = thr_tree_init(&branch->tree, branch->c->n_columns, least, branch->whole, err);
+  branch->tree.most_nodes = branch->most_nodes;
   free(least);
   return st;
 }
 
-thr_status thr_branch_begin(thr_branch *b, thr_err *err)
+thr_status thr_branch_begin(thr_branch *branch, thr_err *err)
 {
-  thr_turning_dual d;
-  thr_status st = init_tree(b, err);
-  if (st || b->c->task->free_turns || b->c->task->tube) return st;
-  const thr_limits some = thr_limits_part(b->limits, 0.2);
-  st = thr_nodes_bound(b->c, &some, &d, err);
-  return st ? st : keep_dual(b, 0, d, NULL, NULL, err);
+  thr_turning_dual dual;
+  thr_status st = init_tree(branch, err);
+  if (st || branch->c->task->free_turns || branch->c->task->tube) return st;
+  const thr_limits some = thr_limits_part(branch->limits, 0.2);
+  st = thr_nodes_bound(branch->c, &some, &dual, err);
+  return st ? st : keep_dual(branch, 0, dual, NULL, NULL, err);
 }
 
 /* Where every open node's bound is above the best price, or none is open, that price is the bound: a plan has it. */
-static void report(const thr_branch *b)
+static void report(const thr_branch *branch)
 {
-  if (!b->limits->progress) return;
-  double least = fmin((double)b->best_price, thr_tree_bound(&b->tree));
-  b->limits->progress(b->limits->user, "turning", ldexp((double)b->best_price, -THR_TURNING_BITS),
-                      ldexp(least, -THR_TURNING_BITS));
+  if (!branch->limits->progress) return;
+  double least = fmin((double)branch->best_price, thr_tree_bound(&branch->tree));
+  branch->limits->progress(branch->limits->user, "turning", ldexp((double)branch->best_price, -THR_TURNING_BITS),
+                           ldexp(least, -THR_TURNING_BITS));
 }
 
 /* Rounds of rows until none is violated, the bound is good enough, or rounds stop paying. */
-static thr_status solve_node(thr_branch *b, int i, const thr_limits *limits, thr_err *err)
+static thr_status solve_node(thr_branch *branch, int i, const thr_limits *limits, thr_err *err)
 {
   enum { PATIENCE = 12 };
   double risen = -INFINITY;
   int idle = 0;
   for (int added = 1; added;) {
-    thr_status st = thr_relax_solve(&b->relax, limits, err);
+    thr_status st = thr_relax_solve(&branch->relax, limits, err);
     if (st) return st;
-    b->rounds++;
-    bool whole = b->relax.solved && b->relax.artificial < integral && most_fractional(b) < 0;
-    if ((st = whole ? thr_branch_try_whole(b, err) : b->relax.solved ? thr_branch_try_rounded(b, err) : THR_OK)) return st;
-    double target = ldexp((double)(b->best_price - thr_branch_tolerance(b)), -THR_TURNING_BITS);
-    if (!b->relax.solved) b->tree.stopped = true;
-    if (b->relax.objective >= target || b->tree.stopped) break;
-    idle = b->relax.objective > risen + 1e-3 * (target - risen) ? 0 : idle + 1;
-    if (idle == 0) risen = b->relax.objective;
+    branch->rounds++;
+    bool whole = branch->relax.solved && branch->relax.artificial < integral && most_fractional(branch) < 0;
+    if ((st = whole ? thr_branch_try_whole(branch, err) : branch->relax.solved ? thr_branch_try_rounded(branch, err) : THR_OK))
+      return st;
+    double target = ldexp((double)(branch->best_price - thr_branch_tolerance(branch)), -THR_TURNING_BITS);
+    if (!branch->relax.solved) branch->tree.stopped = true;
+    if (branch->relax.objective >= target || branch->tree.stopped) break;
+    idle = branch->relax.objective > risen + 1e-3 * (target - risen) ? 0 : idle + 1;
+    if (idle == 0) risen = branch->relax.objective;
     if (idle > PATIENCE && !whole) break;
-    if ((st = thr_relax_separate(&b->relax, limits, &added, err))) return st;
-    b->tree.stopped |= thr_limits_stop(limits);
+    if ((st = thr_relax_separate(&branch->relax, limits, &added, err))) return st;
+    branch->tree.stopped |= thr_limits_stop(limits);
   }
-  return certify(b, i, err);
+  return certify(branch, i, err);
 }
 
 /* Tube joints: the relaxation of a large framework is not solved in the time that there is, and hardly better than the ascent; of
  * any it says little of where good plans are. So some rows, then annealing, then the rest of the rows. */
-static thr_status solve_tied_root(thr_branch *b, int i, thr_err *err)
+static thr_status solve_tied_root(thr_branch *branch, int i, thr_err *err)
 {
   enum { ROUNDS = 3, LARGE = 5000 };
-  bool large = b->c->first_extra > LARGE, unsolved = large;
-  thr_limits some = thr_limits_part(b->limits, 0.4);
-  thr_status st = large ? THR_OK : solve_node(b, i, &some, err);
-  unsolved |= b->tree.stopped;
-  if (st || closed(b, i)) return st;
-  some = thr_limits_part(b->limits, large ? 0.9 : 0.6);
-  if (b->found) st = thr_branch_anneal(b, &some, ROUNDS, err);
-  b->tree.stopped = thr_limits_stop(b->limits);
-  return st || !unsolved || b->tree.stopped || closed(b, i) ? st : solve_node(b, i, b->limits, err);
+  bool large = branch->c->first_extra > LARGE, unsolved = large;
+  thr_limits some = thr_limits_part(branch->limits, 0.4);
+  thr_status st = large ? THR_OK : solve_node(branch, i, &some, err);
+  unsolved |= branch->tree.stopped;
+  if (st || closed(branch, i)) return st;
+  some = thr_limits_part(branch->limits, large ? 0.9 : 0.6);
+  if (branch->found) st = thr_branch_anneal(branch, &some, ROUNDS, err);
+  branch->tree.stopped = thr_limits_stop(branch->limits);
+  return st || !unsolved || branch->tree.stopped || closed(branch, i) ? st : solve_node(branch, i, branch->limits, err);
 }
 
 static thr_status set_bounds(void *user, int column, int low, int high, thr_err *err)
 {
-  thr_branch *b = user;
-  return thr_relax_set(&b->relax, column, low, high, err);
+  thr_branch *branch = user;
+  return thr_relax_set(&branch->relax, column, low, high, err);
 }
 
 /* A node's bound and plans; then the column to branch on. */
 static thr_status solve(void *user, int i, thr_tree_branch *branch, thr_err *err)
 {
   thr_branch *b = user;
-  const thr_turning_task *t = b->c->task;
-  bool root = i == 0, tied_root = root && t->tube && !t->free_turns;
+  const thr_turning_task *turning_task = b->c->task;
+  bool root = i == 0, tied_root = root && turning_task->tube && !turning_task->free_turns;
   thr_status st = tied_root ? solve_tied_root(b, i, err) : solve_node(b, i, b->limits, err);
   if (st) return st;
   report(b);
-  if (root && b->found && !t->tube && !b->tree.stopped && !closed(b, i))
+  if (root && b->found && !turning_task->tube && !b->tree.stopped && !closed(b, i))
     st = thr_cycles_improve(b, (int)fmin(2000, 1e6 / b->c->f->n_edges), err);
   b->tree.enough = enough(b);
   branch->column = most_fractional(b);
@@ -259,46 +265,46 @@ static thr_status solve(void *user, int i, thr_tree_branch *branch, thr_err *err
   return st;
 }
 
-static double covers(const thr_turning_columns *c)
+static double covers(const thr_turning_columns *turning_columns)
 {
   double sum = 0;
-  for (int e = 0; e < c->f->n_edges; e++)
-    sum += c->cover[e];
+  for (int e = 0; e < turning_columns->f->n_edges; e++)
+    sum += turning_columns->cover[e];
   return sum;
 }
 
 /* No programme: the bound of the nodes, or of the ascent, and the plans that there are. */
-static thr_status settle_for_bound(thr_branch *b, bool tied, thr_err *err)
+static thr_status settle_for_bound(thr_branch *branch, bool tied, thr_err *err)
 {
-  thr_status st = tied ? climb(b, 0, err) : THR_OK;
-  b->tree.stopped = true;
+  thr_status st = tied ? climb(branch, 0, err) : THR_OK;
+  branch->tree.stopped = true;
   return st;
 }
 
-thr_status thr_branch_run(thr_branch *b, thr_err *err)
+thr_status thr_branch_run(thr_branch *branch, thr_err *err)
 {
   const int root = 0;
-  bool tied = b->c->task->tube && !b->c->task->free_turns;
-  double penalty = 10 + (b->found ? ldexp((double)b->best_price, -THR_TURNING_BITS) : 10 * covers(b->c));
-  if (!b->c->task->free_turns) penalty += 2 * b->c->task->price_per_length * thr_frame_total_length(b->c->f);
-  thr_status st = b->tree.n_nodes ? THR_OK : thr_branch_begin(b, err);
-  if (!st && b->dense) return settle_for_bound(b, tied, err);
-  if (!st && !b->projected && !b->c->task->free_turns && b->found && !tied && closed(b, root)) return THR_OK;
-  if (!st) st = thr_relax_init(&b->relax, b->c, b->projected, penalty, b->limits, err);
-  if (!st && tied) st = climb(b, root, err);
-  const thr_tree_calls calls = {b, NULL, set_bounds, solve};
-  b->tree.enough = enough(b);
-  return st ? st : thr_tree_run(&b->tree, &calls, err);
+  bool tied = branch->c->task->tube && !branch->c->task->free_turns;
+  double penalty = 10 + (branch->found ? ldexp((double)branch->best_price, -THR_TURNING_BITS) : 10 * covers(branch->c));
+  if (!branch->c->task->free_turns) penalty += 2 * branch->c->task->price_per_length * thr_frame_total_length(branch->c->f);
+  thr_status st = branch->tree.n_nodes ? THR_OK : thr_branch_begin(branch, err);
+  if (!st && branch->dense) return settle_for_bound(branch, tied, err);
+  if (!st && !branch->projected && !branch->c->task->free_turns && branch->found && !tied && closed(branch, root)) return THR_OK;
+  if (!st) st = thr_relax_init(&branch->relax, branch->c, branch->projected, penalty, branch->limits, err);
+  if (!st && tied) st = climb(branch, root, err);
+  const thr_tree_calls calls = {branch, NULL, set_bounds, solve};
+  branch->tree.enough = enough(branch);
+  return st ? st : thr_tree_run(&branch->tree, &calls, err);
 }
 
 /* What the proof is to prove: what closes the search, or what all leaves prove but a thousandth of the gap, for which very many
  * leaves may be left out where the bound hardly rises. */
-static double worth_proving(const thr_branch *b)
+static double worth_proving(const thr_branch *branch)
 {
-  double target = enough(b), least = target;
-  for (int i = 0; i < b->tree.n_nodes; i++)
-    if (!b->tree.node[i].child[0]) least = fmin(least, b->tree.node[i].bound);
-  return least - (b->found ? (target - least) / 1000 : 0);
+  double target = enough(branch), least = target;
+  for (int i = 0; i < branch->tree.n_nodes; i++)
+    if (!branch->tree.node[i].child[0]) least = fmin(least, branch->tree.node[i].bound);
+  return least - (branch->found ? (target - least) / 1000 : 0);
 }
 
 /* place[i]: number of node i in the proof, -1 = not needed, because a node above it proves enough. */
@@ -313,43 +319,43 @@ static int place_nodes(const thr_tree *t, double enough, int *place)
   return n;
 }
 
-static thr_turning_node proof_node(const thr_branch *b, const thr_tree_node *n, const int *place)
+static thr_turning_node proof_node(const thr_branch *branch, const thr_tree_node *node, const int *place)
 {
-  const thr_tree_node *child = &b->tree.node[n->child[0]];
-  return (thr_turning_node){.low = place[n->child[0]],
-                            .high = place[n->child[1]],
-                            .a = b->c->half[child->column][0],
-                            .b = b->c->half[child->column][1],
+  const thr_tree_node *child = &branch->tree.node[node->child[0]];
+  return (thr_turning_node){.low = place[node->child[0]],
+                            .high = place[node->child[1]],
+                            .a = branch->c->half[child->column][0],
+                            .b = branch->c->half[child->column][1],
                             .value = child->value,
                             .dual = -1};
 }
 
-thr_status thr_branch_proof(thr_branch *b, thr_turning_proof *p, thr_err *err)
+thr_status thr_branch_proof(thr_branch *branch, thr_turning_proof *proof, thr_err *err)
 {
-  *p = (thr_turning_proof){.n_ends = b->c->n_ends};
-  const thr_tree *t = &b->tree;
-  p->node = thr_calloc((size_t)t->n_nodes, sizeof *p->node);
-  p->dual = thr_calloc((size_t)b->n_duals, sizeof *p->dual);
-  int *moved = thr_calloc((size_t)b->n_duals, sizeof *moved), *place = thr_calloc((size_t)t->n_nodes, sizeof *place);
-  thr_status st = p->node && p->dual && moved && place ? THR_OK : thr_nomem(err);
-  double needed = worth_proving(b);
-  if (!st) p->n_nodes = place_nodes(t, needed, place);
+  *proof = (thr_turning_proof){.n_ends = branch->c->n_ends};
+  const thr_tree *t = &branch->tree;
+  proof->node = thr_calloc((size_t)t->n_nodes, sizeof *proof->node);
+  proof->dual = thr_calloc((size_t)branch->n_duals, sizeof *proof->dual);
+  int *moved = thr_calloc((size_t)branch->n_duals, sizeof *moved), *place = thr_calloc((size_t)t->n_nodes, sizeof *place);
+  thr_status st = proof->node && proof->dual && moved && place ? THR_OK : thr_nomem(err);
+  double needed = worth_proving(branch);
+  if (!st) proof->n_nodes = place_nodes(t, needed, place);
   for (int i = 0; i < t->n_nodes && !st; i++) {
-    const thr_tree_node *n = &t->node[i];
+    const thr_tree_node *node = &t->node[i];
     if (place[i] < 0) continue;
-    if (n->child[0] && n->bound < needed) {
-      p->node[place[i]] = proof_node(b, n, place);
+    if (node->child[0] && node->bound < needed) {
+      proof->node[place[i]] = proof_node(branch, node, place);
       continue;
     }
-    if (!moved[n->proof]) {
-      p->dual[p->n_duals] = b->dual[n->proof];
-      b->dual[n->proof] = (thr_turning_dual){0};
-      moved[n->proof] = ++p->n_duals;
+    if (!moved[node->proof]) {
+      proof->dual[proof->n_duals] = branch->dual[node->proof];
+      branch->dual[node->proof] = (thr_turning_dual){0};
+      moved[node->proof] = ++proof->n_duals;
     }
-    p->node[place[i]] = (thr_turning_node){.dual = moved[n->proof] - 1};
+    proof->node[place[i]] = (thr_turning_node){.dual = moved[node->proof] - 1};
   }
   free(moved);
   free(place);
-  if (st) thr_turning_proof_destroy(p);
+  if (st) thr_turning_proof_destroy(proof);
   return st;
 }

@@ -38,42 +38,42 @@ typedef struct {
   bool dense; /* so many turns that there is no programme of them */
 } thr_branch;
 
-thr_status thr_branch_init(thr_branch *b, const thr_turning_columns *c, int most_nodes, const thr_limits *limits,
-                           thr_err *err) THR_MUST_CHECK;
-void thr_branch_destroy(thr_branch *b);
+thr_status thr_branch_init(thr_branch *branch, const thr_turning_columns *turning_columns, int most_nodes,
+                           const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
+void thr_branch_destroy(thr_branch *branch);
 
 /* Cords for these passes and ends, kept if they are the best so far. */
-thr_status thr_branch_try(thr_branch *b, const int *passes, const int *ends, thr_err *err) THR_MUST_CHECK;
+thr_status thr_branch_try(thr_branch *branch, const int *passes, const int *ends, thr_err *err) THR_MUST_CHECK;
 
 /* Several closed cords in a component: circuits j, cut apart and joined until they are as many as asked for; the same. j is taken
  * over or released. */
-thr_status thr_branch_try_circuits(thr_branch *b, thr_join *j, const int *passes, thr_err *err) THR_MUST_CHECK;
+thr_status thr_branch_try_circuits(thr_branch *branch, thr_join *j, const int *passes, thr_err *err) THR_MUST_CHECK;
 
 /* The cords of a plan, improved by exchanges; the same. */
-thr_status thr_branch_try_cords(thr_branch *b, const thr_cord *cord, int n_cords, thr_err *err) THR_MUST_CHECK;
+thr_status thr_branch_try_cords(thr_branch *branch, const thr_cord *cord, int n_cords, thr_err *err) THR_MUST_CHECK;
 
 /* The plan of a point of whole numbers, if it hangs together; and, of any point, that of the extra passes and ends nearest to it
  * that a T-join or walks make. */
-thr_status thr_branch_try_whole(thr_branch *b, thr_err *err) THR_MUST_CHECK;
-thr_status thr_branch_try_rounded(thr_branch *b, thr_err *err) THR_MUST_CHECK;
+thr_status thr_branch_try_whole(thr_branch *branch, thr_err *err) THR_MUST_CHECK;
+thr_status thr_branch_try_rounded(thr_branch *branch, thr_err *err) THR_MUST_CHECK;
 
 /* Passes and ends of the best plan, which must have been found. */
-void thr_branch_best(const thr_branch *b, int *passes, int *ends);
+void thr_branch_best(const thr_branch *branch, int *passes, int *ends);
 
 /* Tube joints: from the best plan by annealing (tortuosity/tie/tie.h), kept if that turns less. */
-thr_status thr_branch_anneal(thr_branch *b, const thr_limits *limits, int rounds, thr_err *err) THR_MUST_CHECK;
+thr_status thr_branch_anneal(thr_branch *branch, const thr_limits *limits, int rounds, thr_err *err) THR_MUST_CHECK;
 
 /* The bound of the nodes by themselves, before anything else: what there is where time is short. thr_branch_run does it if nobody
  * has. */
-thr_status thr_branch_begin(thr_branch *b, thr_err *err) THR_MUST_CHECK;
+thr_status thr_branch_begin(thr_branch *branch, thr_err *err) THR_MUST_CHECK;
 
 /* Until the tree is closed, or stopped. */
-thr_status thr_branch_run(thr_branch *b, thr_err *err) THR_MUST_CHECK;
+thr_status thr_branch_run(thr_branch *branch, thr_err *err) THR_MUST_CHECK;
 
 /* The tree with the multipliers of its leaves, which are moved. */
-thr_status thr_branch_proof(thr_branch *b, thr_turning_proof *p, thr_err *err) THR_MUST_CHECK;
+thr_status thr_branch_proof(thr_branch *branch, thr_turning_proof *proof, thr_err *err) THR_MUST_CHECK;
 
 /* How far bound and price may be apart and still count as equal. */
-int64_t thr_branch_tolerance(const thr_branch *b);
+int64_t thr_branch_tolerance(const thr_branch *branch);
 
 #endif

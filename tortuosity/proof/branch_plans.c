@@ -17,235 +17,238 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool within_limits(const thr_turning_columns *c, const int *passes)
+static bool within_limits(const thr_turning_columns *turning_columns, const int *passes)
 {
-  const thr_turning_task *t = c->task;
-  for (int e = 0; e < c->f->n_edges; e++)
-    if (passes[e] > c->most[e]) return false;
-  return t->extra_limit < 0 || thr_extra_length(c, passes) <= t->extra_limit;
+  const thr_turning_task *turning_task = turning_columns->task;
+  for (int e = 0; e < turning_columns->f->n_edges; e++)
+    if (passes[e] > turning_columns->most[e]) return false;
+  return turning_task->extra_limit < 0 || thr_extra_length(turning_columns, passes) <= turning_task->extra_limit;
 }
 
 /* Price of the extra passes, in units of 2^-THR_TURNING_BITS. */
-static int64_t price_of_passes(const thr_branch *b, const int *passes)
+static int64_t price_of_passes(const thr_branch *branch, const int *passes)
 {
   int64_t price = 0;
-  for (int e = 0; e < b->c->f->n_edges; e++)
-    price += (passes[e] - b->c->cover[e]) * b->c->weight[b->c->first_extra + e];
+  for (int e = 0; e < branch->c->f->n_edges; e++)
+    price += (passes[e] - branch->c->cover[e]) * branch->c->weight[branch->c->first_extra + e];
   return price;
 }
 
 /* For whoever keeps the best cords so far. */
-static thr_status tell(const thr_branch *b, const thr_join *j, thr_err *err)
+static thr_status tell(const thr_branch *branch, const thr_join *j, thr_err *err)
 {
   int n = thr_join_count(j);
-  if (!b->limits->found) return THR_OK;
+  if (!branch->limits->found) return THR_OK;
   thr_cord *cord = thr_calloc((size_t)n, sizeof *cord);
   thr_status st = cord ? thr_join_cords(j, cord, n, err) : thr_nomem(err);
-  if (!st) thr_limits_found(b->limits, cord, n, NULL);
+  if (!st) thr_limits_found(branch->limits, cord, n, NULL);
   thr_cords_destroy(cord, n);
   return st;
 }
 
 /* Takes over a joined multigraph if it is the best so far; releases it otherwise. */
-static thr_status keep_better(thr_branch *b, thr_join *j, const int *passes, thr_err *err)
+static thr_status keep_better(thr_branch *branch, thr_join *j, const int *passes, thr_err *err)
 {
   bool forbidden = j->price >= thr_join_forbidden;
   int64_t price = forbidden ? INT64_MAX : (int64_t)nearbyint(ldexp(j->price, THR_TURNING_BITS));
-  if (!forbidden) price += price_of_passes(b, passes);
-  double length = thr_extra_length(b->c, passes);
-  bool by_length = b->shortest && fabs(length - b->best_length) > 1e-9 * (1 + length);
-  if (forbidden || (by_length ? length > b->best_length : price >= b->best_price)) {
+  if (!forbidden) price += price_of_passes(branch, passes);
+  double length = thr_extra_length(branch->c, passes);
+  bool by_length = branch->shortest && fabs(length - branch->best_length) > 1e-9 * (1 + length);
+  if (forbidden || (by_length ? length > branch->best_length : price >= branch->best_price)) {
     thr_join_destroy(j);
     return THR_OK;
   }
-  if (b->found) thr_join_destroy(&b->best);
-  b->best = *j;
-  b->found = true;
-  b->best_price = price;
-  b->best_length = length;
-  b->best_passes = 0;
-  for (int e = 0; e < b->c->f->n_edges; e++)
-    b->best_passes += passes[e];
-  return tell(b, &b->best, err);
+  if (branch->found) thr_join_destroy(&branch->best);
+  branch->best = *j;
+  branch->found = true;
+  branch->best_price = price;
+  branch->best_length = length;
+  branch->best_passes = 0;
+  for (int e = 0; e < branch->c->f->n_edges; e++)
+    branch->best_passes += passes[e];
+  return tell(branch, &branch->best, err);
 }
 
 /* Is there a plan, and no time for another? */
-static bool late(const thr_branch *b)
+static bool late(const thr_branch *branch)
 {
-  return b->found && thr_limits_stop(b->limits);
+  return branch->found && thr_limits_stop(branch->limits);
 }
 
-thr_status thr_branch_try_circuits(thr_branch *b, thr_join *j, const int *passes, thr_err *err)
+thr_status thr_branch_try_circuits(thr_branch *branch, thr_join *j, const int *passes, thr_err *err)
 {
-  bool found = !late(b) && within_limits(b->c, passes);
-  thr_status st = found ? thr_circuits_make(j, b->limits, &found, err) : THR_OK;
-  if (!st && found) return keep_better(b, j, passes, err);
+  bool found = !late(branch) && within_limits(branch->c, passes);
+  thr_status st = found ? thr_circuits_make(j, branch->limits, &found, err) : THR_OK;
+  if (!st && found) return keep_better(branch, j, passes, err);
   thr_join_destroy(j);
   return st;
 }
 
 /* Several closed cords in a component, from the greedy's circuits: one, or up to so many more. */
-static thr_status try_greedy(thr_branch *b, const int *passes, int apart, thr_err *err)
+static thr_status try_greedy(thr_branch *branch, const int *passes, int apart, thr_err *err)
 {
   thr_join j;
-  thr_status st = thr_join_init(&j, b->c, passes, NULL, err);
+  thr_status st = thr_join_init(&j, branch->c, passes, NULL, err);
   if (st) return st;
-  st = thr_join_greedy(&j, apart, b->limits, err);
-  if (!st) return thr_branch_try_circuits(b, &j, passes, err);
+  st = thr_join_greedy(&j, apart, branch->limits, err);
+  if (!st) return thr_branch_try_circuits(branch, &j, passes, err);
   thr_join_destroy(&j);
   return st;
 }
 
 /* The greedy's circuits, and what is missing to the number asked for through passes of its own. */
-static thr_status try_added(thr_branch *b, const int *passes, thr_err *err)
+static thr_status try_added(thr_branch *branch, const int *passes, thr_err *err)
 {
   thr_join j, more = {0};
   bool found = false;
-  int *all = thr_calloc((size_t)b->c->f->n_edges, sizeof *all);
+  int *all = thr_calloc((size_t)branch->c->f->n_edges, sizeof *all);
   if (!all) return thr_nomem(err);
-  thr_status st = thr_join_init(&j, b->c, passes, NULL, err);
+  thr_status st = thr_join_init(&j, branch->c, passes, NULL, err);
   if (!st) {
-    st = thr_join_greedy(&j, b->c->task->cords - 1, b->limits, err);
-    if (!st) st = thr_circuits_add(&j, b->limits, &more, all, &found, err);
+    st = thr_join_greedy(&j, branch->c->task->cords - 1, branch->limits, err);
+    if (!st) st = thr_circuits_add(&j, branch->limits, &more, all, &found, err);
     thr_join_destroy(&j);
   }
-  if (!st && found) st = thr_branch_try_circuits(b, &more, all, err);
+  if (!st && found) st = thr_branch_try_circuits(branch, &more, all, err);
   free(all);
   return st;
 }
 
 /* Closed cords, several in a component. */
-static thr_status try_several(thr_branch *b, const int *passes, thr_err *err)
+static thr_status try_several(thr_branch *branch, const int *passes, thr_err *err)
 {
-  const int apart[] = {0, b->c->task->cords - 1, INT_MAX};
+  const int apart[] = {0, branch->c->task->cords - 1, INT_MAX};
   thr_status st = THR_OK;
-  for (int i = 0; i < 3 && !st && !late(b); i++)
-    st = try_greedy(b, passes, apart[i], err);
-  return st || late(b) ? st : try_added(b, passes, err);
+  for (int i = 0; i < 3 && !st && !late(branch); i++)
+    st = try_greedy(branch, passes, apart[i], err);
+  return st || late(branch) ? st : try_added(branch, passes, err);
 }
 
 /* The turns and ends in whole, which fit the passes; kept if they hang together. */
-static thr_status try_columns(thr_branch *b, const int *passes, const int *ends, thr_err *err)
+static thr_status try_columns(thr_branch *branch, const int *passes, const int *ends, thr_err *err)
 {
   thr_join j;
   bool single; /* or as many circuits as asked for */
-  thr_status st = thr_join_init(&j, b->c, passes, ends, err);
+  thr_status st = thr_join_init(&j, branch->c, passes, ends, err);
   if (st) return st;
-  st = thr_join_columns(&j, b->whole, &single, err);
-  if (!st && b->several) st = thr_circuits_make(&j, b->limits, &single, err);
-  if (!st && single) return keep_better(b, &j, passes, err);
+  st = thr_join_columns(&j, branch->whole, &single, err);
+  if (!st && branch->several) st = thr_circuits_make(&j, branch->limits, &single, err);
+  if (!st && single) return keep_better(branch, &j, passes, err);
   thr_join_destroy(&j);
   return st;
 }
 
 /* Tube joints: every node tied, which joins all. */
-static thr_status try_tied(thr_branch *b, const int *passes, const int *ends, thr_err *err)
+static thr_status try_tied(thr_branch *branch, const int *passes, const int *ends, thr_err *err)
 {
   bool found;
-  if (price_of_passes(b, passes) >= b->best_price) return THR_OK; /* what turns cost comes on top */
-  thr_status st = thr_tie_pair(b->c, passes, ends, b->whole, &found, err);
-  return st || !found ? st : try_columns(b, passes, ends, err);
+  if (price_of_passes(branch, passes) >= branch->best_price) return THR_OK; /* what turns cost comes on top */
+  thr_status st = thr_tie_pair(branch->c, passes, ends, branch->whole, &found, err);
+  return st || !found ? st : try_columns(branch, passes, ends, err);
 }
 
-thr_status thr_branch_try(thr_branch *b, const int *passes, const int *ends, thr_err *err)
+thr_status thr_branch_try(thr_branch *branch, const int *passes, const int *ends, thr_err *err)
 {
   thr_join j;
-  if (late(b) || !within_limits(b->c, passes)) return THR_OK;
-  if (b->c->task->tube) return try_tied(b, passes, ends, err);
-  if (b->several) return try_several(b, passes, err);
-  thr_status st = thr_join_init(&j, b->c, passes, ends, err);
+  if (late(branch) || !within_limits(branch->c, passes)) return THR_OK;
+  if (branch->c->task->tube) return try_tied(branch, passes, ends, err);
+  if (branch->several) return try_several(branch, passes, err);
+  thr_status st = thr_join_init(&j, branch->c, passes, ends, err);
   if (st) return st;
-  st = thr_join_greedy(&j, 0, b->limits, err);
-  if (!st && !b->found && j.price < thr_join_forbidden) st = tell(b, &j, err); /* where improving it takes all the time */
-  if (!st) st = thr_improve(&j, b->limits, err);
-  if (!st) return keep_better(b, &j, passes, err);
+  st = thr_join_greedy(&j, 0, branch->limits, err);
+  if (!st && !branch->found && j.price < thr_join_forbidden)
+    st = tell(branch, &j, err); /* where improving it takes all the time */
+  if (!st) st = thr_improve(&j, branch->limits, err);
+  if (!st) return keep_better(branch, &j, passes, err);
   thr_join_destroy(&j);
   return st;
 }
 
-thr_status thr_branch_try_cords(thr_branch *b, const thr_cord *cord, int n_cords, thr_err *err)
+thr_status thr_branch_try_cords(thr_branch *branch, const thr_cord *cord, int n_cords, thr_err *err)
 {
   thr_join j = {0};
-  memset(b->passes, 0, (size_t)b->c->f->n_edges * sizeof *b->passes);
+  memset(branch->passes, 0, (size_t)branch->c->f->n_edges * sizeof *branch->passes);
   for (int i = 0; i < n_cords; i++)
     for (int k = 0; k < cord[i].n_passes; k++)
-      b->passes[cord[i].half[k] >> 1]++;
-  if (late(b) || !within_limits(b->c, b->passes)) return THR_OK;
-  thr_status st = thr_join_from_cords(&j, b->c, cord, n_cords, err);
-  if (!st && b->several) return thr_branch_try_circuits(b, &j, b->passes, err);
-  if (!st && !b->c->task->tube) st = thr_improve(&j, b->limits, err);
-  if (!st) return keep_better(b, &j, b->passes, err);
+      branch->passes[cord[i].half[k] >> 1]++;
+  if (late(branch) || !within_limits(branch->c, branch->passes)) return THR_OK;
+  thr_status st = thr_join_from_cords(&j, branch->c, cord, n_cords, err);
+  if (!st && branch->several) return thr_branch_try_circuits(branch, &j, branch->passes, err);
+  if (!st && !branch->c->task->tube) st = thr_improve(&j, branch->limits, err);
+  if (!st) return keep_better(branch, &j, branch->passes, err);
   thr_join_destroy(&j);
   return st;
 }
 
-void thr_branch_best(const thr_branch *b, int *passes, int *ends)
+void thr_branch_best(const thr_branch *branch, int *passes, int *ends)
 {
-  const thr_frame *f = b->c->f;
-  const thr_multigraph *g = &b->best.g;
-  memset(passes, 0, (size_t)f->n_edges * sizeof *passes);
-  memset(ends, 0, (size_t)f->n_nodes * sizeof *ends);
-  for (int d = 0; d < g->n_darts; d += 2)
-    if (g->half[d] >= 0)
-      passes[g->half[d] >> 1]++;
+  const thr_frame *frame = branch->c->f;
+  const thr_multigraph *multigraph = &branch->best.g;
+  memset(passes, 0, (size_t)frame->n_edges * sizeof *passes);
+  memset(ends, 0, (size_t)frame->n_nodes * sizeof *ends);
+  for (int d = 0; d < multigraph->n_darts; d += 2)
+    if (multigraph->half[d] >= 0)
+      passes[multigraph->half[d] >> 1]++;
     else
-      ends[g->tail[d]]++;
+      ends[multigraph->tail[d]]++;
 }
 
-thr_status thr_branch_anneal(thr_branch *b, const thr_limits *limits, int rounds, thr_err *err)
+thr_status thr_branch_anneal(thr_branch *branch, const thr_limits *limits, int rounds, thr_err *err)
 {
-  thr_branch_best(b, b->passes, b->ends);
-  thr_status st = thr_tie_anneal(b->c, limits, rounds, b->passes, b->ends, err);
-  return st ? st : thr_branch_try(b, b->passes, b->ends, err);
+  thr_branch_best(branch, branch->passes, branch->ends);
+  thr_status st = thr_tie_anneal(branch->c, limits, rounds, branch->passes, branch->ends, err);
+  return st ? st : thr_branch_try(branch, branch->passes, branch->ends, err);
 }
 
-static thr_status round_tied(thr_branch *b, thr_err *err)
+static thr_status round_tied(thr_branch *branch, thr_err *err)
 {
   bool found;
-  thr_status st = thr_tie_round(b->c, b->relax.x, b->passes, b->ends, &found, err);
-  bool now_and_then = (b->rounds & (b->rounds - 1)) == 0; /* it takes longer than most linear programmes */
-  if (!st && found && now_and_then && !b->c->task->free_turns && within_limits(b->c, b->passes))
-    st = thr_tie_improve(b->c, b->limits, b->passes, b->ends, err);
-  return st || !found ? st : thr_branch_try(b, b->passes, b->ends, err);
+  thr_status st = thr_tie_round(branch->c, branch->relax.x, branch->passes, branch->ends, &found, err);
+  bool now_and_then = (branch->rounds & (branch->rounds - 1)) == 0; /* it takes longer than most linear programmes */
+  if (!st && found && now_and_then && !branch->c->task->free_turns && within_limits(branch->c, branch->passes))
+    st = thr_tie_improve(branch->c, branch->limits, branch->passes, branch->ends, err);
+  return st || !found ? st : thr_branch_try(branch, branch->passes, branch->ends, err);
 }
 
 /* A point of whole numbers: its own pairs if they hang together; in any case the greedy for its passes and ends. */
-thr_status thr_branch_try_whole(thr_branch *b, thr_err *err)
+thr_status thr_branch_try_whole(thr_branch *branch, thr_err *err)
 {
-  const thr_turning_columns *c = b->c;
-  for (int k = 0; k < c->n_columns; k++)
-    b->whole[k] = (int)nearbyint(b->relax.x[k]);
-  memset(b->ends, 0, (size_t)c->f->n_nodes * sizeof *b->ends);
-  for (int e = 0; e < c->f->n_edges; e++)
-    b->passes[e] = c->cover[e] + b->whole[c->first_extra + e];
-  for (int k = c->first_end; k < c->first_back; k++)
-    b->ends[thr_tail(c->f, c->half[k][0])] += b->whole[k];
-  bool fit = !b->projected && within_limits(c, b->passes);
-  thr_status st = fit && c->task->tube ? thr_tie_holds(c, b->whole, &fit, err) : THR_OK;
-  if (!st && fit) st = try_columns(b, b->passes, b->ends, err);
-  if (!st && c->task->tube) return round_tied(b, err); /* nothing to round, but what bounds on columns keep from being even */
-  return st ? st : thr_branch_try(b, b->passes, b->ends, err);
+  const thr_turning_columns *turning_columns = branch->c;
+  for (int k = 0; k < turning_columns->n_columns; k++)
+    branch->whole[k] = (int)nearbyint(branch->relax.x[k]);
+  memset(branch->ends, 0, (size_t)turning_columns->f->n_nodes * sizeof *branch->ends);
+  for (int e = 0; e < turning_columns->f->n_edges; e++)
+    branch->passes[e] = turning_columns->cover[e] + branch->whole[turning_columns->first_extra + e];
+  for (int k = turning_columns->first_end; k < turning_columns->first_back; k++)
+    branch->ends[thr_tail(turning_columns->f, turning_columns->half[k][0])] += branch->whole[k];
+  bool fit = !branch->projected && within_limits(turning_columns, branch->passes);
+  thr_status st = fit && turning_columns->task->tube ? thr_tie_holds(turning_columns, branch->whole, &fit, err) : THR_OK;
+  if (!st && fit) st = try_columns(branch, branch->passes, branch->ends, err);
+  if (!st && turning_columns->task->tube)
+    return round_tied(branch, err); /* nothing to round, but what bounds on columns keep from being even */
+  return st ? st : thr_branch_try(branch, branch->passes, branch->ends, err);
 }
 
 /* The join of least weight where what the point uses is nearly free. */
-thr_status thr_branch_try_rounded(thr_branch *b, thr_err *err)
+thr_status thr_branch_try_rounded(thr_branch *branch, thr_err *err)
 {
-  const thr_turning_columns *c = b->c;
+  const thr_turning_columns *turning_columns = branch->c;
   uint64_t name = 1;
-  for (int e = 0; e < c->f->n_edges; e++) {
-    double z = b->relax.x[c->first_extra + e];
-    b->weight[e] = c->f->length[e] * (1.001 - fmin(1, z));
+  for (int e = 0; e < turning_columns->f->n_edges; e++) {
+    double z = branch->relax.x[turning_columns->first_extra + e];
+    branch->weight[e] = turning_columns->f->length[e] * (1.001 - fmin(1, z));
     name = (name ^ (uint64_t)(z * 4 + 0.5)) * UINT64_C(0x9e3779b97f4a7c15);
   }
-  for (int v = 0; v < c->f->n_nodes; v++)
-    b->end_weight[v] = 1;
-  for (int k = c->first_end; k < c->first_back; k++) {
-    b->end_weight[thr_tail(c->f, c->half[k][0])] -= fmin(1, b->relax.x[k]) / 2;
-    name = (name ^ (uint64_t)(b->relax.x[k] * 4 + 0.5)) * UINT64_C(0x9e3779b97f4a7c15);
+  for (int v = 0; v < turning_columns->f->n_nodes; v++)
+    branch->end_weight[v] = 1;
+  for (int k = turning_columns->first_end; k < turning_columns->first_back; k++) {
+    branch->end_weight[thr_tail(turning_columns->f, turning_columns->half[k][0])] -= fmin(1, branch->relax.x[k]) / 2;
+    name = (name ^ (uint64_t)(branch->relax.x[k] * 4 + 0.5)) * UINT64_C(0x9e3779b97f4a7c15);
   }
-  if (name == b->tried) return THR_OK;
-  b->tried = name;
-  if (c->task->tube) return round_tied(b, err);
-  thr_status st = thr_extra_passes(c, b->weight, b->end_weight, false, b->limits, b->passes, b->ends, err);
-  return st ? st : thr_branch_try(b, b->passes, b->ends, err);
+  if (name == branch->tried) return THR_OK;
+  branch->tried = name;
+  if (turning_columns->task->tube) return round_tied(branch, err);
+  thr_status st = thr_extra_passes(turning_columns, branch->weight, branch->end_weight, false, branch->limits, branch->passes,
+                                   branch->ends, err);
+  return st ? st : thr_branch_try(branch, branch->passes, branch->ends, err);
 }

@@ -9,47 +9,48 @@
 
 static const double tolerance = 1e-6;
 
-static int end_node(const thr_turning_columns *c, int column)
+static int end_node(const thr_turning_columns *turning_columns, int column)
 {
-  return c->f->n_edges + c->component[thr_tail(c->f, c->half[column][0])];
+  return turning_columns->f->n_edges + turning_columns->component[thr_tail(turning_columns->f, turning_columns->half[column][0])];
 }
 
 /* The two edges (or an edge and the ends of its component, numbered after the edges) that a column joins; false for others. */
-static bool joins(const thr_turning_columns *c, int j, int *a, int *b)
+static bool joins(const thr_turning_columns *turning_columns, int j, int *a, int *b)
 {
-  if (j >= c->first_back || (j >= c->first_extra && j < c->first_end)) return false;
-  *a = c->half[j][0] >> 1;
-  *b = j < c->first_extra ? c->half[j][1] >> 1 : end_node(c, j);
+  if (j >= turning_columns->first_back || (j >= turning_columns->first_extra && j < turning_columns->first_end)) return false;
+  *a = turning_columns->half[j][0] >> 1;
+  *b = j < turning_columns->first_extra ? turning_columns->half[j][1] >> 1 : end_node(turning_columns, j);
   return true;
 }
 
 /* ---- components ---- */
 
-thr_status thr_groups_support(const thr_groups_call *g, double threshold, int *added, thr_err *err)
+thr_status thr_groups_support(const thr_groups_call *call, double threshold, int *added, thr_err *err)
 {
-  const thr_turning_columns *c = g->c;
-  int m = c->f->n_edges, n = m + c->n_components, a, b;
+  const thr_turning_columns *turning_columns = call->c;
+  int m = turning_columns->f->n_edges, n = m + turning_columns->n_components, a, b;
   int *parent = thr_calloc((size_t)n, sizeof *parent), *start = thr_calloc((size_t)n + 2, sizeof *start);
-  int *list = thr_calloc((size_t)m, sizeof *list), *pieces = thr_calloc((size_t)c->n_components, sizeof *pieces);
+  int *list = thr_calloc((size_t)m, sizeof *list), *pieces = thr_calloc((size_t)turning_columns->n_components, sizeof *pieces);
   thr_status st = parent && start && list && pieces ? THR_OK : thr_nomem(err);
   for (int v = 0; v < n && !st; v++)
     parent[v] = v;
-  for (int j = 0; j < c->first_back && !st; j++)
-    if (joins(c, j, &a, &b) && g->x[j] > threshold) thr_disjoint_join(parent, a, b);
+  for (int j = 0; j < turning_columns->first_back && !st; j++)
+    if (joins(turning_columns, j, &a, &b) && call->x[j] > threshold) thr_disjoint_join(parent, a, b);
   for (int e = 0; e < m && !st; e++) {
     int root = thr_disjoint_find(parent, e);
     start[root + 2]++;
-    pieces[c->component[c->f->edge[e][0]]] += root == e; /* the lowest is the root: an edge, not the ends */
+    pieces[turning_columns->component[turning_columns->f->edge[e][0]]] +=
+        root == e; /* the lowest is the root: an edge, not the ends */
   }
   for (int v = 1; v <= n && !st; v++)
     start[v + 1] += start[v];
   for (int e = 0; e < m && !st; e++)
     list[start[thr_disjoint_find(parent, e) + 1]++] = e;
   for (int e = 0; e < m && !st; e++) {
-    int k = c->component[c->f->edge[e][0]];
+    int k = turning_columns->component[turning_columns->f->edge[e][0]];
     bool alone = pieces[k] == 1;
     if (thr_disjoint_find(parent, e) != e || alone) continue;
-    st = g->add(g->user, list + start[e], start[e + 1] - start[e], added, err);
+    st = call->add(call->user, list + start[e], start[e + 1] - start[e], added, err);
   }
   free(parent);
   free(start);
@@ -84,13 +85,13 @@ static void network_destroy(network *w)
   free(w->list);
 }
 
-static thr_status network_init(network *w, const thr_groups_call *g, thr_err *err)
+static thr_status network_init(network *w, const thr_groups_call *call, thr_err *err)
 {
-  const thr_turning_columns *c = g->c;
+  const thr_turning_columns *turning_columns = call->c;
   int links = 0, a, b;
-  for (int j = 0; j < c->first_back; j++)
-    links += joins(c, j, &a, &b) && g->x[j] > 1e-9;
-  *w = (network){.n = c->f->n_edges + c->n_components, .m = 2 * links};
+  for (int j = 0; j < turning_columns->first_back; j++)
+    links += joins(turning_columns, j, &a, &b) && call->x[j] > 1e-9;
+  *w = (network){.n = turning_columns->f->n_edges + turning_columns->n_components, .m = 2 * links};
   size_t n = (size_t)w->n, m = (size_t)w->m;
   w->first = thr_calloc(n + 2, sizeof *w->first);
   w->arc = thr_calloc(m, sizeof *w->arc);
@@ -104,11 +105,11 @@ static thr_status network_init(network *w, const thr_groups_call *g, thr_err *er
   w->list = thr_calloc(n, sizeof *w->list);
   if (!w->first || !w->arc || !w->to || !w->capacity || !w->flow || !w->block || !w->next || !w->by || !w->queue || !w->list)
     return thr_nomem(err);
-  for (int j = 0, k = 0; j < c->first_back; j++) {
-    if (!joins(c, j, &a, &b) || g->x[j] <= 1e-9) continue;
+  for (int j = 0, k = 0; j < turning_columns->first_back; j++) {
+    if (!joins(turning_columns, j, &a, &b) || call->x[j] <= 1e-9) continue;
     w->to[k] = b;
     w->to[k + 1] = a;
-    w->capacity[k] = w->capacity[k + 1] = g->x[j];
+    w->capacity[k] = w->capacity[k + 1] = call->x[j];
     w->first[a + 2]++;
     w->first[b + 2]++;
     k += 2;
@@ -167,7 +168,7 @@ static double augment(network *w, int s, int t)
 }
 
 /* A flow from t's block to the root's; tells of the group on t's side if it is less than 2. */
-static thr_status separate_from(network *w, const thr_groups_call *g, int t, int root, int *added, thr_err *err)
+static thr_status separate_from(network *w, const thr_groups_call *call, int t, int root, int *added, thr_err *err)
 {
   double total = 0;
   int reached = 0, n = 0;
@@ -180,32 +181,32 @@ static thr_status separate_from(network *w, const thr_groups_call *g, int t, int
   for (int i = 0; i < reached; i++) {
     int v = w->queue[i];
     do {
-      if (v < g->c->f->n_edges) w->list[n++] = v;
+      if (v < call->c->f->n_edges) w->list[n++] = v;
       v = w->next[v];
     } while (v != w->queue[i]);
   }
-  return g->add(g->user, w->list, n, added, err);
+  return call->add(call->user, w->list, n, added, err);
 }
 
-thr_status thr_groups_flow(const thr_groups_call *g, int *added, thr_err *err)
+thr_status thr_groups_flow(const thr_groups_call *call, int *added, thr_err *err)
 {
   enum { ENOUGH = 100 };
-  const thr_turning_columns *c = g->c;
+  const thr_turning_columns *turning_columns = call->c;
   network w;
-  int m = c->f->n_edges;
-  int *root = thr_calloc((size_t)c->n_components, sizeof *root);
-  thr_status st = network_init(&w, g, err);
+  int m = turning_columns->f->n_edges;
+  int *root = thr_calloc((size_t)turning_columns->n_components, sizeof *root);
+  thr_status st = network_init(&w, call, err);
   if (!st && !root) st = thr_nomem(err);
   for (int k = 0; k < w.m && !st; k += 2)
     if (w.capacity[k] >= 2 - tolerance) merge(&w, w.to[k], w.to[k + 1]);
-  for (int k = 0; k < c->n_components && !st; k++)
-    root[k] = thr_turning_open(c, k) ? m + k : -1;
+  for (int k = 0; k < turning_columns->n_components && !st; k++)
+    root[k] = thr_turning_open(turning_columns, k) ? m + k : -1;
   for (int e = 0; e < m && !st && *added < ENOUGH; e++) {
-    int k = c->component[c->f->edge[e][0]];
+    int k = turning_columns->component[turning_columns->f->edge[e][0]];
     if (root[k] < 0) root[k] = e;
     int from = thr_disjoint_find(w.block, e), to = thr_disjoint_find(w.block, root[k]);
     if (from == to) continue;
-    st = separate_from(&w, g, from, to, added, err);
+    st = separate_from(&w, call, from, to, added, err);
     merge(&w, from, to);
   }
   network_destroy(&w);

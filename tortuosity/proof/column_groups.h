@@ -20,11 +20,11 @@ typedef struct {
 } thr_groups_call;
 
 /* Connected components of the edges under turns with x > threshold. O(columns). *added grows by the groups used. */
-thr_status thr_groups_support(const thr_groups_call *g, double threshold, int *added, thr_err *err) THR_MUST_CHECK;
+thr_status thr_groups_support(const thr_groups_call *call, double threshold, int *added, thr_err *err) THR_MUST_CHECK;
 
 /* Exact: from a root in every component (its ends, or its first edge) a flow of 2 to every edge, which is then merged with the
  * root, so that a group that any flow misses separates two edges already on one side. Groups of less than 2 are the violated
  * ones. One flow per edge, each of few augmentations because the amounts are few multiples of 1/2, 1/3, .. */
-thr_status thr_groups_flow(const thr_groups_call *g, int *added, thr_err *err) THR_MUST_CHECK;
+thr_status thr_groups_flow(const thr_groups_call *call, int *added, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -21,20 +21,20 @@ static void put(matrix *m, int row, double value)
   m->value[m->n++] = value;
 }
 
-static void fill_matrix(const thr_relax *r, double penalty, matrix *m)
+static void fill_matrix(const thr_relax *relax, double penalty, matrix *m)
 {
-  const thr_turning_columns *c = r->c;
-  int darts = 2 * c->f->n_edges, j = 0;
-  for (; j < c->n_columns; j++) {
-    int a = c->half[j][0], b = c->half[j][1];
-    bool extra = j >= c->first_extra && j < c->first_end;
+  const thr_turning_columns *turning_columns = relax->c;
+  int darts = 2 * turning_columns->f->n_edges, j = 0;
+  for (; j < turning_columns->n_columns; j++) {
+    int a = turning_columns->half[j][0], b = turning_columns->half[j][1];
+    bool extra = j >= turning_columns->first_extra && j < turning_columns->first_end;
     m->start[j] = m->n;
-    m->cost[j] = ldexp((double)c->weight[j], -THR_TURNING_BITS);
+    m->cost[j] = ldexp((double)turning_columns->weight[j], -THR_TURNING_BITS);
     put(m, a, a == b ? 2 : extra ? -1 : 1);
     if (b >= 0 && a != b) put(m, b, extra ? -1 : 1);
-    if (b < 0) put(m, darts + c->end_group[thr_tail(c->f, a)], 1);
+    if (b < 0) put(m, darts + turning_columns->end_group[thr_tail(turning_columns->f, a)], 1);
   }
-  for (int i = 0; i < r->n_equations; i++)
+  for (int i = 0; i < relax->n_equations; i++)
     for (int sign = -1; sign <= 1; sign += 2) {
       m->start[j] = m->n;
       m->cost[j++] = penalty;
@@ -44,9 +44,9 @@ static void fill_matrix(const thr_relax *r, double penalty, matrix *m)
   m->cost[j++] = penalty;
   m->start[j] = m->n;
   for (int h = 0; h < darts; h++)
-    m->rhs[h] = c->cover[h >> 1];
-  for (int i = darts; i < r->n_equations; i++)
-    m->rhs[i] = c->supply[i - darts][0];
+    m->rhs[h] = turning_columns->cover[h >> 1];
+  for (int i = darts; i < relax->n_equations; i++)
+    m->rhs[i] = turning_columns->supply[i - darts][0];
 }
 
 static void matrix_destroy(matrix *m)
@@ -58,29 +58,29 @@ static void matrix_destroy(matrix *m)
   free(m->rhs);
 }
 
-static thr_status matrix_init(matrix *m, const thr_relax *r, double penalty, thr_err *err)
+static thr_status matrix_init(matrix *m, const thr_relax *relax, double penalty, thr_err *err)
 {
-  size_t n = (size_t)r->n_all, entries = 3 * (size_t)r->c->n_columns + 2 * (size_t)r->n_equations;
+  size_t n = (size_t)relax->n_all, entries = 3 * (size_t)relax->c->n_columns + 2 * (size_t)relax->n_equations;
   *m = (matrix){0};
   m->start = thr_calloc(n + 1, sizeof *m->start);
   m->row = thr_calloc(entries, sizeof *m->row);
   m->value = thr_calloc(entries, sizeof *m->value);
   m->cost = thr_calloc(n, sizeof *m->cost);
-  m->rhs = thr_calloc((size_t)r->n_equations, sizeof *m->rhs);
+  m->rhs = thr_calloc((size_t)relax->n_equations, sizeof *m->rhs);
   if (!m->start || !m->row || !m->value || !m->cost || !m->rhs) {
     matrix_destroy(m);
     return thr_nomem(err);
   }
-  fill_matrix(r, penalty, m);
+  fill_matrix(relax, penalty, m);
   return THR_OK;
 }
 
-thr_status thr_relax_create(thr_relax *r, double penalty, thr_err *err)
+thr_status thr_relax_create(thr_relax *relax, double penalty, thr_err *err)
 {
   matrix m;
-  thr_status st = matrix_init(&m, r, penalty, err);
+  thr_status st = matrix_init(&m, relax, penalty, err);
   if (st) return st;
-  st = thr_lp_create_equations(&r->lp, r->n_equations, m.rhs, r->n_all, m.cost, NULL, m.start, m.row, m.value, err);
+  st = thr_lp_create_equations(&relax->lp, relax->n_equations, m.rhs, relax->n_all, m.cost, NULL, m.start, m.row, m.value, err);
   matrix_destroy(&m);
   return st;
 }
@@ -102,48 +102,49 @@ static void crash_destroy(crash *k)
   free(k->back);
 }
 
-static thr_status crash_init(crash *k, const thr_relax *r, thr_err *err)
+static thr_status crash_init(crash *k, const thr_relax *relax, thr_err *err)
 {
-  const thr_turning_columns *c = r->c;
+  const thr_turning_columns *turning_columns = relax->c;
   size_t most = 1, turns;
-  for (int v = 0; v < c->f->n_nodes; v++)
-    if ((size_t)thr_degree(c->f, v) > most) most = (size_t)thr_degree(c->f, v);
+  for (int v = 0; v < turning_columns->f->n_nodes; v++)
+    if ((size_t)thr_degree(turning_columns->f, v) > most) most = (size_t)thr_degree(turning_columns->f, v);
   turns = most * most;
-  *k = (crash){.r = r};
+  *k = (crash){.r = relax};
   k->m.start = thr_calloc(turns + 1, sizeof *k->m.start);
   k->m.row = thr_calloc(2 * turns, sizeof *k->m.row);
   k->m.value = thr_calloc(2 * turns, sizeof *k->m.value);
   k->m.cost = thr_calloc(turns, sizeof *k->m.cost);
   k->m.rhs = thr_calloc(most, sizeof *k->m.rhs);
-  k->row_basic = thr_calloc((size_t)thr_lp_rows(r->lp), sizeof *k->row_basic);
-  k->column_basic = thr_calloc((size_t)r->n_all, sizeof *k->column_basic);
-  k->back = thr_calloc(2 * (size_t)c->f->n_edges, sizeof *k->back);
+  k->row_basic = thr_calloc((size_t)thr_lp_rows(relax->lp), sizeof *k->row_basic);
+  k->column_basic = thr_calloc((size_t)relax->n_all, sizeof *k->column_basic);
+  k->back = thr_calloc(2 * (size_t)turning_columns->f->n_edges, sizeof *k->back);
   if (!k->m.start || !k->m.row || !k->m.value || !k->m.cost || !k->m.rhs || !k->row_basic || !k->column_basic || !k->back)
     return thr_nomem(err);
-  for (int j = c->first_back; j < c->n_columns; j++)
-    k->back[c->half[j][0]] = j;
+  for (int j = turning_columns->first_back; j < turning_columns->n_columns; j++)
+    k->back[turning_columns->half[j][0]] = j;
   return THR_OK;
 }
 
 /* The cheapest turns at node v without extra passes and ends: what is basic there is basic in the whole. */
 static thr_status crash_node(crash *k, int v, const thr_limits *limits, thr_err *err)
 {
-  const thr_turning_columns *c = k->r->c;
-  const int *half = c->f->half + c->f->first[v];
-  int d = thr_degree(c->f, v), n = d == 1 ? 1 : d * (d - 1) / 2, first = d == 1 ? k->back[half[0]] : c->pair_first[v];
+  const thr_turning_columns *turning_columns = k->r->c;
+  const int *half = turning_columns->f->half + turning_columns->f->first[v];
+  int d = thr_degree(turning_columns->f, v), n = d == 1 ? 1 : d * (d - 1) / 2,
+      first = d == 1 ? k->back[half[0]] : turning_columns->pair_first[v];
   thr_lp *lp;
   thr_lp_outcome outcome = THR_LP_OPTIMAL;
   k->m.n = 0;
   for (int j = 0; j < n; j++) {
-    int a = c->half[first + j][0], b = c->half[first + j][1];
+    int a = turning_columns->half[first + j][0], b = turning_columns->half[first + j][1];
     k->m.start[j] = k->m.n;
-    k->m.cost[j] = ldexp((double)c->weight[first + j], -THR_TURNING_BITS);
-    put(&k->m, c->position[a], a == b ? 2 : 1);
-    if (a != b) put(&k->m, c->position[b], 1);
+    k->m.cost[j] = ldexp((double)turning_columns->weight[first + j], -THR_TURNING_BITS);
+    put(&k->m, turning_columns->position[a], a == b ? 2 : 1);
+    if (a != b) put(&k->m, turning_columns->position[b], 1);
   }
   k->m.start[n] = k->m.n;
   for (int i = 0; i < d; i++)
-    k->m.rhs[i] = c->cover[half[i] >> 1];
+    k->m.rhs[i] = turning_columns->cover[half[i] >> 1];
   thr_status st = thr_lp_create_equations(&lp, d, k->m.rhs, n, k->m.cost, NULL, k->m.start, k->m.row, k->m.value, err);
   if (!st) st = thr_lp_solve(lp, limits, &outcome, err);
   for (int i = 0; i < d && !st; i++)
@@ -154,23 +155,24 @@ static thr_status crash_node(crash *k, int v, const thr_limits *limits, thr_err 
   return st;
 }
 
-thr_status thr_relax_crash(thr_relax *r, const thr_limits *limits, thr_err *err)
+thr_status thr_relax_crash(thr_relax *relax, const thr_limits *limits, thr_err *err)
 {
-  const thr_turning_columns *c = r->c;
-  int darts = 2 * c->f->n_edges;
+  const thr_turning_columns *turning_columns = relax->c;
+  int darts = 2 * turning_columns->f->n_edges;
   crash k;
-  thr_status st = crash_init(&k, r, err);
-  for (int v = 0; v < c->f->n_nodes && !st; v++)
-    if (thr_degree(c->f, v) == 1 && c->task->tube)
-      k.column_basic[c->end_column[c->f->half[c->f->first[v]]]] = true; /* all that can be there */
-    else if (thr_degree(c->f, v) > 0)
+  thr_status st = crash_init(&k, relax, err);
+  for (int v = 0; v < turning_columns->f->n_nodes && !st; v++)
+    if (thr_degree(turning_columns->f, v) == 1 && turning_columns->task->tube)
+      k.column_basic[turning_columns->end_column[turning_columns->f->half[turning_columns->f->first[v]]]] =
+          true; /* all that can be there */
+    else if (thr_degree(turning_columns->f, v) > 0)
       st = crash_node(&k, v, limits, err);
-  for (int i = darts; !st && i < thr_lp_rows(r->lp); i++)
-    if (i < darts + c->n_ends && c->task->end_allowed)
-      k.column_basic[c->n_columns + 2 * i + 1] = true; /* no ends yet: the artificial column makes up for them */
+  for (int i = darts; !st && i < thr_lp_rows(relax->lp); i++)
+    if (i < darts + turning_columns->n_ends && turning_columns->task->end_allowed)
+      k.column_basic[turning_columns->n_columns + 2 * i + 1] = true; /* no ends yet: the artificial column makes up for them */
     else
       k.row_basic[i] = true;
-  if (!st) st = thr_lp_set_basis(r->lp, k.row_basic, k.column_basic, err);
+  if (!st) st = thr_lp_set_basis(relax->lp, k.row_basic, k.column_basic, err);
   crash_destroy(&k);
   return st;
 }

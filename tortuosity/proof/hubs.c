@@ -36,8 +36,11 @@ static int place_of(const hub *h, int i)
 
 static thr_status hub_init(hub *h, const thr_join *j, int v, thr_err *err)
 {
-  const thr_multigraph *g = &j->g;
-  *h = (hub){.j = j, .dart = g->dart + g->first[v], .n = g->first[v + 1] - g->first[v], .degree = thr_degree(j->c->f, v)};
+  const thr_multigraph *multigraph = &j->g;
+  *h = (hub){.j = j,
+             .dart = multigraph->dart + multigraph->first[v],
+             .n = multigraph->first[v + 1] - multigraph->first[v],
+             .degree = thr_degree(j->c->f, v)};
   h->sorted = thr_calloc((size_t)h->n, sizeof *h->sorted);
   h->first = thr_calloc((size_t)h->degree + 3, sizeof *h->first);
   if (!h->sorted || !h->first) return thr_nomem(err);
@@ -160,19 +163,19 @@ thr_status thr_hub_pair(const thr_join *j, int v, const thr_limits *limits, int 
 {
   hub h;
   near_pairs p = {0};
-  thr_matching m = {0};
+  thr_matching matching = {0};
   thr_err stopped = {0};
   thr_status st = hub_init(&h, j, v, err), found = THR_ELIMIT;
   if (!st) st = find_pairs(&h, &p, err);
   if (!st && !thr_limits_stop(limits)) {
     thr_matching_problem problem = {h.n, p.n, (const int(*)[2])p.edge, p.weight};
-    found = thr_matching_solve(&problem, limits, &m, &stopped);
+    found = thr_matching_solve(&problem, limits, &matching, &stopped);
     if (found && found != THR_ELIMIT) st = thr_fail(err, found, "%s", stopped.text);
   }
   for (int i = 0; i < h.n && !st && !found; i++)
-    pair[i] = m.mate[i];
+    pair[i] = matching.mate[i];
   if (!st && found) st = pair_greedily(&h, &p, pair, err);
-  thr_matching_destroy(&m);
+  thr_matching_destroy(&matching);
   free(p.edge);
   free(p.weight);
   hub_destroy(&h);

@@ -84,23 +84,24 @@ static thr_status find_worst(int d, const double *between, int *block, int *n_bl
   return st;
 }
 
-thr_status thr_junctions_separate(thr_relax *r, int *added, thr_err *err)
+thr_status thr_junctions_separate(thr_relax *relax, int *added, thr_err *err)
 {
-  const thr_turning_columns *c = r->c;
-  const thr_frame *f = c->f;
+  const thr_turning_columns *turning_columns = relax->c;
+  const thr_frame *frame = turning_columns->f;
   size_t most = 1;
-  for (int v = 0; v < f->n_nodes; v++)
-    if ((size_t)thr_degree(f, v) > most) most = (size_t)thr_degree(f, v);
+  for (int v = 0; v < frame->n_nodes; v++)
+    if ((size_t)thr_degree(frame, v) > most) most = (size_t)thr_degree(frame, v);
   double *between = thr_calloc(most * most, sizeof *between);
   int *block = thr_calloc(most, sizeof *block);
   thr_status st = between && block ? THR_OK : thr_nomem(err);
-  for (int v = 0; v < f->n_nodes && !st; v++) {
-    int d = thr_degree(f, v), blocks = 0;
+  for (int v = 0; v < frame->n_nodes && !st; v++) {
+    int d = thr_degree(frame, v), blocks = 0;
     for (int i = 0; i < d; i++)
       for (int k = i + 1; k < d; k++)
-        between[i * d + k] = r->x[thr_turning_column(c, f->half[f->first[v] + i], f->half[f->first[v] + k])];
+        between[i * d + k] =
+            relax->x[thr_turning_column(turning_columns, frame->half[frame->first[v] + i], frame->half[frame->first[v] + k])];
     if (d > 1) st = find_worst(d, between, block, &blocks, err);
-    if (!st && blocks > 1) st = thr_relax_add_junction(r, v, block, blocks, added, err);
+    if (!st && blocks > 1) st = thr_relax_add_junction(relax, v, block, blocks, added, err);
   }
   free(between);
   free(block);

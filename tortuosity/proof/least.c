@@ -15,36 +15,38 @@ thr_least_options thr_least_options_default(void)
   return (thr_least_options){.cover = 1, .ends = THR_ENDS_CLOSED, .length_slack = -1, .most_nodes = 10000};
 }
 
-void thr_least_destroy(thr_least *l)
+void thr_least_destroy(thr_least *least)
 {
-  thr_cords_destroy(l->cord, l->n_cords);
-  free(l->end_allowed);
-  thr_turning_proof_destroy(&l->proof);
-  *l = (thr_least){0};
+  thr_cords_destroy(least->cord, least->n_cords);
+  free(least->end_allowed);
+  thr_turning_proof_destroy(&least->proof);
+  *least = (thr_least){0};
 }
 
-thr_status thr_least_task(const thr_frame *f, const thr_least_options *o, thr_least *out, thr_err *err)
+thr_status thr_least_task(const thr_frame *frame, const thr_least_options *options, thr_least *out, thr_err *err)
 {
   enum { MOST_PASSES = 100000 }; /* prices in units of 2^-THR_TURNING_BITS must add up in 64 bits */
-  int cords = o->cords ? o->cords : 1;
-  if (o->cover > MOST_PASSES / f->n_edges)
+  int cords = options->cords ? options->cords : 1;
+  if (options->cover > MOST_PASSES / frame->n_edges)
     return thr_fail(err, THR_EINPUT, "%d passes of %d edges are more than the %d that the search for the least turning takes",
-                    o->cover, f->n_edges, MOST_PASSES);
-  if (o->ends != THR_ENDS_CLOSED) {
-    thr_plan_options plan = {.ends = o->ends, .end_node = (bool *)o->end_node, .end_count = (int *)o->end_count};
-    if (!(out->end_allowed = thr_calloc((size_t)f->n_nodes, sizeof *out->end_allowed))) return thr_nomem(err);
-    for (int v = 0; v < f->n_nodes; v++)
-      out->end_allowed[v] = thr_plan_end_allowed(f, &plan, v);
+                    options->cover, frame->n_edges, MOST_PASSES);
+  if (options->ends != THR_ENDS_CLOSED) {
+    thr_plan_options plan = {
+        .ends = options->ends, .end_node = (bool *)options->end_node, .end_count = (int *)options->end_count};
+    if (!(out->end_allowed = thr_calloc((size_t)frame->n_nodes, sizeof *out->end_allowed))) return thr_nomem(err);
+    for (int v = 0; v < frame->n_nodes; v++)
+      out->end_allowed[v] = thr_plan_end_allowed(frame, &plan, v);
   }
-  out->task = (thr_turning_task){.cover = o->cover,
-                                 .capacity = o->capacity,
-                                 .tube = o->tube,
-                                 .end_count = o->ends == THR_ENDS_COUNTS ? o->end_count : NULL,
-                                 .most_passes = o->most_passes ? o->most_passes : thr_turning_most_passes(f, o->cover),
+  out->task = (thr_turning_task){.cover = options->cover,
+                                 .capacity = options->capacity,
+                                 .tube = options->tube,
+                                 .end_count = options->ends == THR_ENDS_COUNTS ? options->end_count : NULL,
+                                 .most_passes =
+                                     options->most_passes ? options->most_passes : thr_turning_most_passes(frame, options->cover),
                                  .cords = cords,
                                  .end_allowed = out->end_allowed,
-                                 .cost = o->cost,
-                                 .price_per_length = o->price_per_length,
+                                 .cost = options->cost,
+                                 .price_per_length = options->price_per_length,
                                  .extra_limit = -1};
   return THR_OK;
 }
@@ -58,165 +60,167 @@ typedef struct {
 /* ---- the shortest plan, from which the slack is measured ---- */
 
 /* Cords of the best plan of a search, as a plan to begin with. */
-static thr_status take_start(const thr_branch *b, first_cords *start, thr_err *err)
+static thr_status take_start(const thr_branch *branch, first_cords *start, thr_err *err)
 {
-  int n = thr_join_count(&b->best);
+  int n = thr_join_count(&branch->best);
   if (!(start->cord = thr_calloc((size_t)n, sizeof *start->cord))) return thr_nomem(err);
   start->n = n;
-  return thr_join_cords(&b->best, start->cord, n, err);
+  return thr_join_cords(&branch->best, start->cord, n, err);
 }
 
 /* Several closed cords: the shortest passes if they hold them, or the shortest of all plans that the search begins with. */
-static thr_status find_several(const thr_turning_columns *c, const thr_limits *limits, const int *passes, first_cords *start,
-                               double *extra, thr_err *err)
+static thr_status find_several(const thr_turning_columns *turning_columns, const thr_limits *limits, const int *passes,
+                               first_cords *start, double *extra, thr_err *err)
 {
-  thr_branch b;
-  thr_status st = thr_branch_init(&b, c, 1, limits, err);
+  thr_branch branch;
+  thr_status st = thr_branch_init(&branch, turning_columns, 1, limits, err);
   if (st) return st;
-  b.shortest = true;
-  st = thr_branch_try(&b, passes, NULL, err);
-  if (!st && !b.found) st = thr_several_plans(&b, err);
-  if (!st && b.found) {
-    *extra = b.best_length;
-    st = take_start(&b, start, err);
+  branch.shortest = true;
+  st = thr_branch_try(&branch, passes, NULL, err);
+  if (!st && !branch.found) st = thr_several_plans(&branch, err);
+  if (!st && branch.found) {
+    *extra = branch.best_length;
+    st = take_start(&branch, start, err);
   }
-  thr_branch_destroy(&b);
+  thr_branch_destroy(&branch);
   return st;
 }
 
 /* Passes and ends of the cords to begin with. */
-static thr_status tied_passes(const thr_turning_columns *c, const thr_least_options *o, int *passes, int *ends, thr_err *err)
+static thr_status tied_passes(const thr_turning_columns *turning_columns, const thr_least_options *options, int *passes,
+                              int *ends, thr_err *err)
 {
-  thr_status st = thr_tie_possible(c, err);
-  memset(passes, 0, (size_t)c->f->n_edges * sizeof *passes);
-  memset(ends, 0, (size_t)c->f->n_nodes * sizeof *ends);
-  for (int i = 0; i < o->n_start; i++) {
-    for (int k = 0; k < o->start[i].n_passes; k++)
-      passes[o->start[i].half[k] >> 1]++;
-    if (!c->task->end_allowed) continue;
-    ends[thr_cord_start(c->f, &o->start[i])]++;
-    ends[thr_cord_end(c->f, &o->start[i])]++;
+  thr_status st = thr_tie_possible(turning_columns, err);
+  memset(passes, 0, (size_t)turning_columns->f->n_edges * sizeof *passes);
+  memset(ends, 0, (size_t)turning_columns->f->n_nodes * sizeof *ends);
+  for (int i = 0; i < options->n_start; i++) {
+    for (int k = 0; k < options->start[i].n_passes; k++)
+      passes[options->start[i].half[k] >> 1]++;
+    if (!turning_columns->task->end_allowed) continue;
+    ends[thr_cord_start(turning_columns->f, &options->start[i])]++;
+    ends[thr_cord_end(turning_columns->f, &options->start[i])]++;
   }
   return st;
 }
 
 /* Are there passes for all ends? The shortest may leave a node with fewer than it is to have ends. */
-static bool ends_fit(const thr_frame *f, const int *passes, const int *ends)
+static bool ends_fit(const thr_frame *frame, const int *passes, const int *ends)
 {
-  for (int v = 0; v < f->n_nodes; v++) {
+  for (int v = 0; v < frame->n_nodes; v++) {
     int room = -ends[v];
-    for (int i = f->first[v]; i < f->first[v + 1]; i++)
-      room += passes[f->half[i] >> 1];
+    for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
+      room += passes[frame->half[i] >> 1];
     if (room < 0) return false;
   }
   return true;
 }
 
 /* The shortest extra passes, and from the length of a plan with them, or nearly, the limit that the slack allows. */
-static thr_status find_shortest(thr_turning_columns *c, const thr_least_options *o, const thr_limits *limits, thr_least *out,
-                                int *passes, int *ends, first_cords *start, thr_err *err)
+static thr_status find_shortest(thr_turning_columns *turning_columns, const thr_least_options *options, const thr_limits *limits,
+                                thr_least *out, int *passes, int *ends, first_cords *start, thr_err *err)
 {
-  const thr_frame *f = c->f;
-  thr_status st =
-      o->tube ? tied_passes(c, o, passes, ends, err) : thr_extra_passes(c, f->length, NULL, false, limits, passes, ends, err);
-  double extra = st ? 0 : thr_extra_length(c, passes), base = thr_turning_base_length(f, o->cover), given = 0;
+  const thr_frame *frame = turning_columns->f;
+  thr_status st = options->tube ? tied_passes(turning_columns, options, passes, ends, err)
+                                : thr_extra_passes(turning_columns, frame->length, NULL, false, limits, passes, ends, err);
+  double extra = st ? 0 : thr_extra_length(turning_columns, passes), base = thr_turning_base_length(frame, options->cover),
+         given = 0;
   bool several = !out->end_allowed && out->task.cords > 1;
-  bool counts = o->n_start > 0 && (!several || o->n_start == out->task.cords * c->n_components);
-  if (!st && several) st = find_several(c, limits, passes, start, &extra, err);
-  for (int i = 0; i < o->n_start; i++)
-    given += thr_cord_length(f, &o->start[i]);
-  counts &= o->slack_from_start || given < (base + extra) * (1 - 1e-9) || !ends_fit(f, passes, ends);
+  bool counts = options->n_start > 0 && (!several || options->n_start == out->task.cords * turning_columns->n_components);
+  if (!st && several) st = find_several(turning_columns, limits, passes, start, &extra, err);
+  for (int i = 0; i < options->n_start; i++)
+    given += thr_cord_length(frame, &options->start[i]);
+  counts &= options->slack_from_start || given < (base + extra) * (1 - 1e-9) || !ends_fit(frame, passes, ends);
   out->shortest = counts ? given : base + extra;
-  out->length_limit = o->length_slack < 0 ? -1 : out->shortest * (1 + o->length_slack);
-  out->task.extra_limit = thr_turning_extra_limit(f, o->cover, out->length_limit);
-  thr_turning_limit(c);
+  out->length_limit = options->length_slack < 0 ? -1 : out->shortest * (1 + options->length_slack);
+  out->task.extra_limit = thr_turning_extra_limit(frame, options->cover, out->length_limit);
+  thr_turning_limit(turning_columns);
   return st;
 }
 
 /* First plans: the shortest passes, the plan to begin with, and those for ends far apart. */
-static thr_status first_plans(thr_branch *b, const thr_least_options *o, const first_cords *start, int *passes, int *ends,
-                              thr_err *err)
+static thr_status first_plans(thr_branch *branch, const thr_least_options *options, const first_cords *start, int *passes,
+                              int *ends, thr_err *err)
 {
-  thr_status st = thr_branch_try(b, passes, ends, err);
-  if (!st && o->start) st = thr_branch_try_cords(b, o->start, o->n_start, err);
-  if (!st && start->n) st = thr_branch_try_cords(b, start->cord, start->n, err);
-  if (!st && b->several) st = thr_several_plans(b, err);
-  if (st || !b->c->task->end_allowed || o->tube || b->c->task->end_count) return st;
-  thr_extra_spread_ends(b->c, ends);
-  st = thr_extra_passes(b->c, b->c->f->length, NULL, true, b->limits, passes, ends, err);
-  return st ? st : thr_branch_try(b, passes, ends, err);
+  thr_status st = thr_branch_try(branch, passes, ends, err);
+  if (!st && options->start) st = thr_branch_try_cords(branch, options->start, options->n_start, err);
+  if (!st && start->n) st = thr_branch_try_cords(branch, start->cord, start->n, err);
+  if (!st && branch->several) st = thr_several_plans(branch, err);
+  if (st || !branch->c->task->end_allowed || options->tube || branch->c->task->end_count) return st;
+  thr_extra_spread_ends(branch->c, ends);
+  st = thr_extra_passes(branch->c, branch->c->f->length, NULL, true, branch->limits, passes, ends, err);
+  return st ? st : thr_branch_try(branch, passes, ends, err);
 }
 
-static void measure(const thr_frame *f, thr_least *out)
+static void measure(const thr_frame *frame, thr_least *out)
 {
   out->price = out->turning = out->length = 0;
   for (int i = 0; i < out->n_cords; i++) {
     const thr_cord *c = &out->cord[i];
     int turns = c->n_passes - (out->end_allowed != NULL);
-    out->length += thr_cord_length(f, c);
+    out->length += thr_cord_length(frame, c);
     for (int k = 0; k < turns; k++) {
       int next = c->half[(k + 1) % c->n_passes];
-      out->turning += thr_turn_price(f, THR_TURN_ANGLE, c->half[k], next);
-      out->price += thr_turn_price(f, out->task.cost, c->half[k], next);
+      out->turning += thr_turn_price(frame, THR_TURN_ANGLE, c->half[k], next);
+      out->price += thr_turn_price(frame, out->task.cost, c->half[k], next);
     }
   }
-  out->price += out->task.price_per_length * (out->length - thr_turning_base_length(f, out->task.cover));
+  out->price += out->task.price_per_length * (out->length - thr_turning_base_length(frame, out->task.cover));
 }
 
-thr_status thr_least_cords(const thr_frame *f, const thr_join *j, thr_least *out, thr_err *err)
+thr_status thr_least_cords(const thr_frame *frame, const thr_join *j, thr_least *out, thr_err *err)
 {
   int n = thr_join_count(j);
   if (!(out->cord = thr_calloc((size_t)n, sizeof *out->cord))) return thr_nomem(err);
   thr_status st = thr_join_cords(j, out->cord, n, err);
   if (st) return st;
   out->n_cords = n;
-  measure(f, out);
+  measure(frame, out);
   return THR_OK;
 }
 
-static const char *why_open(const thr_branch *b)
+static const char *why_open(const thr_branch *branch)
 {
-  if (b->dense) return "too many turns for a linear programme, so the bound is that of the nodes by themselves";
-  if (b->tree.stopped) return "stopped early";
-  return b->several ? "what it costs to have no fewer cords is not part of the bound" : "rounding left a gap";
+  if (branch->dense) return "too many turns for a linear programme, so the bound is that of the nodes by themselves";
+  if (branch->tree.stopped) return "stopped early";
+  return branch->several ? "what it costs to have no fewer cords is not part of the bound" : "rounding left a gap";
 }
 
-void thr_least_judge(thr_least *l, const char *why)
+void thr_least_judge(thr_least *least, const char *why)
 {
   double passes = 0;
-  for (int i = 0; i < l->n_cords; i++)
-    passes += l->cord[i].n_passes;
+  for (int i = 0; i < least->n_cords; i++)
+    passes += least->cord[i].n_passes;
   /* twice what thr_branch_tolerance allows, for the roundings of the proof */
-  l->optimal = l->bound >= l->price - 2e-9 * thr_turn_cost_of(l->task.cost, THR_PI) * passes;
-  l->open = l->optimal ? NULL : why;
+  least->optimal = least->bound >= least->price - 2e-9 * thr_turn_cost_of(least->task.cost, THR_PI) * passes;
+  least->open = least->optimal ? NULL : why;
 }
 
-static thr_status finish(const thr_frame *f, thr_branch *b, thr_least *out, thr_err *err)
+static thr_status finish(const thr_frame *frame, thr_branch *branch, thr_least *out, thr_err *err)
 {
-  thr_status st = thr_least_cords(f, &b->best, out, err);
+  thr_status st = thr_least_cords(frame, &branch->best, out, err);
   if (st) return st;
-  out->rounds = b->rounds;
-  if ((st = thr_branch_proof(b, &out->proof, err))) return st;
+  out->rounds = branch->rounds;
+  if ((st = thr_branch_proof(branch, &out->proof, err))) return st;
   thr_err found = {0};
-  st = thr_turning_proof_check_columns(b->c, &out->proof, &out->bound, &found);
+  st = thr_turning_proof_check_columns(branch->c, &out->proof, &out->bound, &found);
   if (st == THR_EVIOLATED) return thr_fail(err, THR_ESOLVER, "the proof does not pass its own check: %s", found.text);
   if (st) return thr_fail(err, st, "%s", found.text);
-  thr_least_judge(out, why_open(b));
+  thr_least_judge(out, why_open(branch));
   return THR_OK;
 }
 
 /* The search may have missed one: no claim that there is none. */
-static thr_status not_found(const thr_branch *b, thr_err *err)
+static thr_status not_found(const thr_branch *branch, thr_err *err)
 {
-  const thr_turning_task *t = b->c->task;
-  if (b->several)
+  const thr_turning_task *turning_task = branch->c->task;
+  if (branch->several)
     thr_fail(err, THR_EINFEASIBLE,
              "no plan with %d closed cords in every component and at most %d passes of every edge was found; "
              "ask for fewer cords, or allow more passes or more length",
-             t->cords, t->most_passes);
+             turning_task->cords, turning_task->most_passes);
   else
     thr_fail(err, THR_EINFEASIBLE, "no plan with at most %d passes of every edge was found; allow more passes or more length",
-             t->most_passes);
+             turning_task->most_passes);
   return THR_EINFEASIBLE;
 }
 
@@ -225,34 +229,35 @@ static thr_status not_found(const thr_branch *b, thr_err *err)
 enum { CHECKS = 6, CHECKS_TIED = 20 };
 
 /* The limits less so many seconds, but half of what is left at most. */
-static thr_limits without(const thr_limits *l, double seconds)
+static thr_limits without(const thr_limits *limits, double seconds)
 {
-  thr_limits less = *l;
-  if (l->deadline > 0) less.deadline -= fmin(seconds, thr_limits_left(l, INFINITY) / 2);
+  thr_limits less = *limits;
+  if (limits->deadline > 0) less.deadline -= fmin(seconds, thr_limits_left(limits, INFINITY) / 2);
   return less;
 }
 
-static thr_status search(const thr_frame *f, const thr_least_options *o, const thr_limits *limits, thr_least *out, thr_err *err)
+static thr_status search(const thr_frame *frame, const thr_least_options *options, const thr_limits *limits, thr_least *out,
+                         thr_err *err)
 {
   thr_least made = {0};
-  thr_turning_columns c = {0};
-  thr_branch b = {0};
+  thr_turning_columns turning_columns = {0};
+  thr_branch branch = {0};
   first_cords start = {0};
   *out = (thr_least){0};
-  int *passes = thr_calloc((size_t)f->n_edges, sizeof *passes), *ends = thr_calloc((size_t)f->n_nodes, sizeof *ends);
-  thr_status st = passes && ends ? thr_least_task(f, o, &made, err) : thr_nomem(err);
+  int *passes = thr_calloc((size_t)frame->n_edges, sizeof *passes), *ends = thr_calloc((size_t)frame->n_nodes, sizeof *ends);
+  thr_status st = passes && ends ? thr_least_task(frame, options, &made, err) : thr_nomem(err);
   const double begun = thr_clock();
   thr_limits inner = *limits;
-  if (!st) st = thr_turning_columns_init(&c, f, &made.task, err);
+  if (!st) st = thr_turning_columns_init(&turning_columns, frame, &made.task, err);
   const double each = thr_clock() - begun;
-  if (!st) st = find_shortest(&c, o, limits, &made, passes, ends, &start, err);
-  if (!st) st = thr_branch_init(&b, &c, o->most_nodes, &inner, err);
-  if (b.dense) inner = without(limits, (o->tube ? CHECKS_TIED : CHECKS) * each);
-  if (!st) st = thr_branch_begin(&b, err);
-  if (!st) st = first_plans(&b, o, &start, passes, ends, err);
-  if (!st) st = thr_branch_run(&b, err);
-  if (!st && !b.found) st = not_found(&b, err);
-  if (!st) st = finish(f, &b, &made, err);
+  if (!st) st = find_shortest(&turning_columns, options, limits, &made, passes, ends, &start, err);
+  if (!st) st = thr_branch_init(&branch, &turning_columns, options->most_nodes, &inner, err);
+  if (branch.dense) inner = without(limits, (options->tube ? CHECKS_TIED : CHECKS) * each);
+  if (!st) st = thr_branch_begin(&branch, err);
+  if (!st) st = first_plans(&branch, options, &start, passes, ends, err);
+  if (!st) st = thr_branch_run(&branch, err);
+  if (!st && !branch.found) st = not_found(&branch, err);
+  if (!st) st = finish(frame, &branch, &made, err);
   if (!st) {
     *out = made;
     made = (thr_least){0};
@@ -261,8 +266,8 @@ static thr_status search(const thr_frame *f, const thr_least_options *o, const t
                     100 * (out->price - out->bound) / out->price);
   }
   thr_least_destroy(&made);
-  thr_branch_destroy(&b);
-  thr_turning_columns_destroy(&c);
+  thr_branch_destroy(&branch);
+  thr_turning_columns_destroy(&turning_columns);
   thr_cords_destroy(start.cord, start.n);
   free(passes);
   free(ends);
@@ -270,52 +275,52 @@ static thr_status search(const thr_frame *f, const thr_least_options *o, const t
 }
 
 /* Price of a unit of length that outweighs turns, within what 64 bits hold of all passes. */
-static double dear_length(const thr_frame *f, int cover)
+static double dear_length(const thr_frame *frame, int cover)
 {
   const double most = 2e5;
-  double passes = (double)f->n_edges * thr_turning_most_passes(f, cover);
-  return fmin(100, most / passes) * f->n_edges / thr_frame_total_length(f);
+  double passes = (double)frame->n_edges * thr_turning_most_passes(frame, cover);
+  return fmin(100, most / passes) * frame->n_edges / thr_frame_total_length(frame);
 }
 
 /* The shortest passes hold no such plan, as they would turn back or are full: the slack is measured from a plan of least length.
  */
-static thr_status search_from_shortest(const thr_frame *f, const thr_least_options *o, const thr_limits *limits, thr_least *out,
-                                       thr_err *err)
+static thr_status search_from_shortest(const thr_frame *frame, const thr_least_options *options, const thr_limits *limits,
+                                       thr_least *out, thr_err *err)
 {
   thr_least shortest;
-  thr_least_options again = *o;
+  thr_least_options again = *options;
   thr_err found = {0};
   again.length_slack = -1;
   again.cost = THR_TURN_ANGLE;
-  again.price_per_length = dear_length(f, o->cover);
-  thr_status st = search(f, &again, limits, &shortest, &found);
+  again.price_per_length = dear_length(frame, options->cover);
+  thr_status st = search(frame, &again, limits, &shortest, &found);
   if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", found.text);
-  again = *o;
+  again = *options;
   again.start = shortest.cord;
   again.n_start = shortest.n_cords;
   again.slack_from_start = true;
-  st = search(f, &again, limits, out, err);
+  st = search(frame, &again, limits, out, err);
   thr_least_destroy(&shortest);
   return st;
 }
 
 /* Once more where the plan found is shorter than the one that its slack was measured from. */
-thr_status thr_least_turning(const thr_frame *f, const thr_least_options *o, const thr_limits *limits, thr_least *out,
+thr_status thr_least_turning(const thr_frame *frame, const thr_least_options *options, const thr_limits *limits, thr_least *out,
                              thr_err *err)
 {
   thr_err found = {0};
-  thr_status st = search(f, o, limits, out, &found);
-  if (st == THR_EINFEASIBLE && o->length_slack >= 0 && !o->tube && !o->slack_from_start) {
+  thr_status st = search(frame, options, limits, out, &found);
+  if (st == THR_EINFEASIBLE && options->length_slack >= 0 && !options->tube && !options->slack_from_start) {
     found = (thr_err){0};
-    st = search_from_shortest(f, o, limits, out, &found);
+    st = search_from_shortest(frame, options, limits, out, &found);
   }
-  while ((!st || st == THR_ELIMIT) && o->length_slack >= 0 && out->length < out->shortest * (1 - 1e-9)) {
-    thr_least_options again = *o;
+  while ((!st || st == THR_ELIMIT) && options->length_slack >= 0 && out->length < out->shortest * (1 - 1e-9)) {
+    thr_least_options again = *options;
     thr_least shorter = {0};
     again.start = out->cord;
     again.n_start = out->n_cords;
     found = (thr_err){0};
-    st = search(f, &again, limits, &shorter, &found);
+    st = search(frame, &again, limits, &shorter, &found);
     thr_least_destroy(out);
     *out = shorter;
   }

@@ -54,16 +54,16 @@ typedef struct {
 /* THR_OK: optimal. THR_ELIMIT: the limits or the size of the tree stopped it; out holds the best plan, its bound and the proof of
  * that. THR_EINFEASIBLE: no node for an end, or no plan within most_passes and
  * length found (with several closed cords that proves nothing). Otherwise out is empty. */
-thr_status thr_least_turning(const thr_frame *f, const thr_least_options *o, const thr_limits *limits, thr_least *out,
+thr_status thr_least_turning(const thr_frame *frame, const thr_least_options *options, const thr_limits *limits, thr_least *out,
                              thr_err *err) THR_MUST_CHECK;
-void thr_least_destroy(thr_least *l);
+void thr_least_destroy(thr_least *least);
 
 /* Steps that other makers of cords share: the task of the options, and cords with price, turning and length from a joined
  * multigraph. */
-thr_status thr_least_task(const thr_frame *f, const thr_least_options *o, thr_least *out, thr_err *err) THR_MUST_CHECK;
-thr_status thr_least_cords(const thr_frame *f, const thr_join *j, thr_least *out, thr_err *err) THR_MUST_CHECK;
+thr_status thr_least_task(const thr_frame *frame, const thr_least_options *options, thr_least *out, thr_err *err) THR_MUST_CHECK;
+thr_status thr_least_cords(const thr_frame *frame, const thr_join *j, thr_least *out, thr_err *err) THR_MUST_CHECK;
 
 /* Sets optimal from price and bound, and open: why, if it is not. */
-void thr_least_judge(thr_least *l, const char *why);
+void thr_least_judge(thr_least *least, const char *why);
 
 #endif

@@ -39,22 +39,22 @@ static thr_status add_turn(assignment *a, int i, int j, int64_t weight, thr_err 
   return st ? st : add_edge(a, j, i, weight, err);
 }
 
-static bool is_near(const thr_nearest *s, int i, int j)
+static bool is_near(const thr_nearest *nearest, int i, int j)
 {
-  for (int k = 0; k < s->n; k++)
-    if (s->partner[i * s->n + k] == j) return true;
+  for (int k = 0; k < nearest->n; k++)
+    if (nearest->partner[i * nearest->n + k] == j) return true;
   return false;
 }
 
 /* The cheapest turns; and each half-edge with itself for twice its cheapest turn, which covers it alone. */
-static thr_status first_edges(assignment *a, const thr_nearest *s, thr_err *err)
+static thr_status first_edges(assignment *a, const thr_nearest *nearest, thr_err *err)
 {
   thr_status st = THR_OK;
-  for (int i = 0; i < s->degree && !st; i++) {
-    st = add_edge(a, i, i, 2 * s->weight[i * s->n], err);
-    for (int k = 0; k < s->n && !st; k++) {
-      int j = s->partner[i * s->n + k];
-      if (i < j || !is_near(s, j, i)) st = add_turn(a, i, j, s->weight[i * s->n + k], err);
+  for (int i = 0; i < nearest->degree && !st; i++) {
+    st = add_edge(a, i, i, 2 * nearest->weight[i * nearest->n], err);
+    for (int k = 0; k < nearest->n && !st; k++) {
+      int j = nearest->partner[i * nearest->n + k];
+      if (i < j || !is_near(nearest, j, i)) st = add_turn(a, i, j, nearest->weight[i * nearest->n + k], err);
     }
   }
   return st;
@@ -110,46 +110,48 @@ static void repair(assignment *a)
     }
 }
 
-static void take_shares(assignment *a, const thr_matching *m)
+static void take_shares(assignment *a, const thr_matching *matching)
 {
   for (int i = 0; i < a->degree; i++) {
-    int64_t both = m->dual[i] + m->dual[a->degree + i]; /* in halves of a weight, for each of two copies */
+    int64_t both = matching->dual[i] + matching->dual[a->degree + i]; /* in halves of a weight, for each of two copies */
     a->share[i] = both > 0 ? both / 4 : 0;
   }
 }
 
 /* Matching and pricing until no turn is overloaded; where that is stopped, from half of every cheapest turn. */
-static thr_status assign(assignment *a, const thr_nearest *s, thr_err *err)
+static thr_status assign(assignment *a, const thr_nearest *nearest, thr_err *err)
 {
-  thr_matching m = {0};
+  thr_matching matching = {0};
   thr_err stopped = {0};
   bool complete = false;
-  thr_status st = first_edges(a, s, err);
+  thr_status st = first_edges(a, nearest, err);
   for (int i = 0; i < a->degree && !st; i++)
-    a->share[i] = s->weight[i * s->n] / 2;
+    a->share[i] = nearest->weight[i * nearest->n] / 2;
   for (int round = 0; round < ROUNDS && !complete && !st && !thr_limits_stop(a->limits); round++) {
-    thr_matching_problem p = {2 * a->degree, a->n_edges, (const int(*)[2])a->edge, a->weight};
-    thr_status found = round ? thr_matching_again(&p, a->limits, &m, &stopped) : thr_matching_solve(&p, a->limits, &m, &stopped);
+    thr_matching_problem matching_problem = {2 * a->degree, a->n_edges, (const int(*)[2])a->edge, a->weight};
+    thr_status found = round ? thr_matching_again(&matching_problem, a->limits, &matching, &stopped)
+                             : thr_matching_solve(&matching_problem, a->limits, &matching, &stopped);
     if (found == THR_ELIMIT) break;
     st = found ? thr_fail(err, found, "%s", stopped.text) : THR_OK;
-    if (!st) take_shares(a, &m);
+    if (!st) take_shares(a, &matching);
     if (!st) st = price_turns(a, &complete, err);
   }
   if (!st && !complete) repair(a);
   if (!st && !complete) raise_shares(a);
-  thr_matching_destroy(&m);
+  thr_matching_destroy(&matching);
   return st;
 }
 
-static thr_status solve_node(const thr_turning_columns *c, int v, const thr_limits *limits, int64_t *potential, thr_err *err)
+static thr_status solve_node(const thr_turning_columns *turning_columns, int v, const thr_limits *limits, int64_t *potential,
+                             thr_err *err)
 {
-  assignment a = {.c = c, .limits = limits, .v = v, .degree = thr_degree(c->f, v)};
+  assignment a = {.c = turning_columns, .limits = limits, .v = v, .degree = thr_degree(turning_columns->f, v)};
   thr_nearest near = {0};
-  thr_status st = thr_nearest_find(c, v, NEAREST, &near, err);
+  thr_status st = thr_nearest_find(turning_columns, v, NEAREST, &near, err);
   if (!st && !(a.share = thr_calloc((size_t)a.degree, sizeof *a.share))) st = thr_nomem(err);
   if (!st) st = assign(&a, &near, err);
   for (int i = 0; i < a.degree && !st; i++)
-    potential[c->f->half[c->f->first[v] + i]] = a.share[i];
+    potential[turning_columns->f->half[turning_columns->f->first[v] + i]] = a.share[i];
   thr_nearest_destroy(&near);
   free(a.edge);
   free(a.weight);
@@ -158,64 +160,66 @@ static thr_status solve_node(const thr_turning_columns *c, int v, const thr_limi
 }
 
 /* An end takes the place of half a turn: what that saves at most is owed to every end. */
-static void charge_ends(const thr_turning_columns *c, thr_turning_dual *d)
+static void charge_ends(const thr_turning_columns *turning_columns, thr_turning_dual *dual)
 {
-  for (int j = c->first_end; j < c->first_back; j++) {
-    int h = c->half[j][0], k = c->end_group[thr_tail(c->f, h)];
-    if (-d->potential[h] < d->ends[k]) d->ends[k] = -d->potential[h];
+  for (int j = turning_columns->first_end; j < turning_columns->first_back; j++) {
+    int h = turning_columns->half[j][0], k = turning_columns->end_group[thr_tail(turning_columns->f, h)];
+    if (-dual->potential[h] < dual->ends[k]) dual->ends[k] = -dual->potential[h];
   }
 }
 
-static bool is_odd(const thr_turning_columns *c, int v)
+static bool is_odd(const thr_turning_columns *turning_columns, int v)
 {
   int sum = 0;
-  for (int i = c->f->first[v]; i < c->f->first[v + 1]; i++)
-    sum += c->cover[c->f->half[i] >> 1];
+  for (int i = turning_columns->f->first[v]; i < turning_columns->f->first[v + 1]; i++)
+    sum += turning_columns->cover[turning_columns->f->half[i] >> 1];
   return sum % 2 != 0;
 }
 
 /* A node of odd passes needs one more, or an end: what the multipliers leave of the cheapest extra pass, half of it where that
  * serves another such node too. */
-static int64_t pass_left(const thr_turning_columns *c, const thr_turning_dual *d, const bool *odd, int v)
+static int64_t pass_left(const thr_turning_columns *turning_columns, const thr_turning_dual *dual, const bool *odd, int v)
 {
   int64_t least = INT64_MAX;
-  for (int i = c->f->first[v]; i < c->f->first[v + 1]; i++) {
-    int h = c->f->half[i];
-    int64_t extra = c->weight[c->first_extra + (h >> 1)] + d->potential[h] + d->potential[h ^ 1];
-    if (odd[thr_head(c->f, h)]) extra /= 2;
-    if (c->most[h >> 1] > c->cover[h >> 1] && extra < least) least = extra;
+  for (int i = turning_columns->f->first[v]; i < turning_columns->f->first[v + 1]; i++) {
+    int h = turning_columns->f->half[i];
+    int64_t extra =
+        turning_columns->weight[turning_columns->first_extra + (h >> 1)] + dual->potential[h] + dual->potential[h ^ 1];
+    if (odd[thr_head(turning_columns->f, h)]) extra /= 2;
+    if (turning_columns->most[h >> 1] > turning_columns->cover[h >> 1] && extra < least) least = extra;
   }
   return least < INT64_MAX ? least : 0;
 }
 
 /* What the multipliers leave of the cheapest end at node v. */
-static int64_t end_left(const thr_turning_columns *c, const thr_turning_dual *d, int v)
+static int64_t end_left(const thr_turning_columns *turning_columns, const thr_turning_dual *dual, int v)
 {
   int64_t least = INT64_MAX;
-  for (int i = c->f->first[v]; i < c->f->first[v + 1]; i++) {
-    int h = c->f->half[i];
-    int64_t end = -d->potential[h] - d->ends[c->end_group[v]];
-    if (c->end_column[h] >= 0 && end < least) least = end;
+  for (int i = turning_columns->f->first[v]; i < turning_columns->f->first[v + 1]; i++) {
+    int h = turning_columns->f->half[i];
+    int64_t end = -dual->potential[h] - dual->ends[turning_columns->end_group[v]];
+    if (turning_columns->end_column[h] >= 0 && end < least) least = end;
   }
   return least;
 }
 
 /* Where that proves more, ends cost so much more that no odd node gains by one. price: [n_nodes] of parity, without ends. */
-static thr_status charge_parity(const thr_turning_columns *c, thr_turning_dual *d, int64_t *price, thr_err *err)
+static thr_status charge_parity(const thr_turning_columns *turning_columns, thr_turning_dual *dual, int64_t *price, thr_err *err)
 {
-  int64_t *more = thr_calloc((size_t)c->n_ends, sizeof *more), *gain = thr_calloc((size_t)c->n_ends, sizeof *gain);
+  int64_t *more = thr_calloc((size_t)turning_columns->n_ends, sizeof *more),
+          *gain = thr_calloc((size_t)turning_columns->n_ends, sizeof *gain);
   thr_status st = more && gain ? THR_OK : thr_nomem(err);
-  for (int v = 0; v < c->f->n_nodes && !st; v++) {
-    int64_t lack = price[v] - end_left(c, d, v);
-    int k = c->end_group[v];
+  for (int v = 0; v < turning_columns->f->n_nodes && !st; v++) {
+    int64_t lack = price[v] - end_left(turning_columns, dual, v);
+    int k = turning_columns->end_group[v];
     if (lack <= 0) continue;
     gain[k] += lack;
     if (lack > more[k]) more[k] = lack;
   }
-  for (int k = 0; k < c->n_ends && !st; k++)
-    if (more[k] > 0 && gain[k] / more[k] > c->supply[k][1]) d->ends[k] -= more[k];
-  for (int v = 0; v < c->f->n_nodes && !st; v++) {
-    int64_t end = end_left(c, d, v);
+  for (int k = 0; k < turning_columns->n_ends && !st; k++)
+    if (more[k] > 0 && gain[k] / more[k] > turning_columns->supply[k][1]) dual->ends[k] -= more[k];
+  for (int v = 0; v < turning_columns->f->n_nodes && !st; v++) {
+    int64_t end = end_left(turning_columns, dual, v);
     if (end < price[v]) price[v] = end;
   }
   free(more);
@@ -224,48 +228,50 @@ static thr_status charge_parity(const thr_turning_columns *c, thr_turning_dual *
 }
 
 /* The half-edges of a node as an odd set. */
-static thr_status add_set(const thr_turning_columns *c, thr_turning_dual *d, int v, int64_t value, thr_err *err)
+static thr_status add_set(const thr_turning_columns *turning_columns, thr_turning_dual *dual, int v, int64_t value, thr_err *err)
 {
-  int n = thr_degree(c->f, v), *member = thr_calloc((size_t)n, sizeof *member);
+  int n = thr_degree(turning_columns->f, v), *member = thr_calloc((size_t)n, sizeof *member);
   if (!member) return thr_nomem(err);
   for (int i = 0; i < n; i++)
-    member[i] = c->f->half[c->f->first[v] + i];
+    member[i] = turning_columns->f->half[turning_columns->f->first[v] + i];
   thr_sort_ints(member, (size_t)n);
-  d->odd[d->n_odd++] = (thr_turning_set){n, member, value};
+  dual->odd[dual->n_odd++] = (thr_turning_set){n, member, value};
   return THR_OK;
 }
 
-static thr_status add_parity(const thr_turning_columns *c, thr_turning_dual *d, thr_err *err)
+static thr_status add_parity(const thr_turning_columns *turning_columns, thr_turning_dual *dual, thr_err *err)
 {
-  size_t n = (size_t)c->f->n_nodes;
+  size_t n = (size_t)turning_columns->f->n_nodes;
   bool *odd = thr_calloc(n, sizeof *odd);
   int64_t *price = thr_calloc(n, sizeof *price);
-  d->odd = thr_calloc(n, sizeof *d->odd);
-  thr_status st = odd && price && d->odd ? THR_OK : thr_nomem(err);
-  for (int v = 0; v < c->f->n_nodes && !st; v++)
-    odd[v] = is_odd(c, v);
-  for (int v = 0; v < c->f->n_nodes && !st; v++)
-    price[v] = odd[v] ? pass_left(c, d, odd, v) : 0;
-  if (!st) st = charge_parity(c, d, price, err);
-  for (int v = 0; v < c->f->n_nodes && !st; v++)
-    if (price[v] > 0) st = add_set(c, d, v, price[v], err);
+  dual->odd = thr_calloc(n, sizeof *dual->odd);
+  thr_status st = odd && price && dual->odd ? THR_OK : thr_nomem(err);
+  for (int v = 0; v < turning_columns->f->n_nodes && !st; v++)
+    odd[v] = is_odd(turning_columns, v);
+  for (int v = 0; v < turning_columns->f->n_nodes && !st; v++)
+    price[v] = odd[v] ? pass_left(turning_columns, dual, odd, v) : 0;
+  if (!st) st = charge_parity(turning_columns, dual, price, err);
+  for (int v = 0; v < turning_columns->f->n_nodes && !st; v++)
+    if (price[v] > 0) st = add_set(turning_columns, dual, v, price[v], err);
   free(odd);
   free(price);
   return st;
 }
 
-thr_status thr_nodes_bound(const thr_turning_columns *c, const thr_limits *limits, thr_turning_dual *d, thr_err *err)
+thr_status thr_nodes_bound(const thr_turning_columns *turning_columns, const thr_limits *limits, thr_turning_dual *dual,
+                           thr_err *err)
 {
-  const thr_frame *f = c->f;
-  *d = (thr_turning_dual){.potential = thr_calloc(2 * (size_t)f->n_edges, sizeof *d->potential),
-                          .ends = thr_calloc((size_t)c->n_ends, sizeof *d->ends)};
-  thr_status st = d->potential && d->ends ? THR_OK : thr_nomem(err);
-  for (int v = 0; v < f->n_nodes && !st; v++)
-    if (thr_degree(f, v) > 1) st = solve_node(c, v, limits, d->potential, err);
-  for (int j = c->first_back; j < c->n_columns && !st; j++) /* where a cord turns back its edge is passed twice */
-    d->potential[c->half[j][0]] = c->weight[j] / 2;
-  if (!st) charge_ends(c, d);
-  if (!st && !c->task->end_count) st = add_parity(c, d, err);
-  if (st) thr_turning_dual_destroy(d);
+  const thr_frame *frame = turning_columns->f;
+  *dual = (thr_turning_dual){.potential = thr_calloc(2 * (size_t)frame->n_edges, sizeof *dual->potential),
+                             .ends = thr_calloc((size_t)turning_columns->n_ends, sizeof *dual->ends)};
+  thr_status st = dual->potential && dual->ends ? THR_OK : thr_nomem(err);
+  for (int v = 0; v < frame->n_nodes && !st; v++)
+    if (thr_degree(frame, v) > 1) st = solve_node(turning_columns, v, limits, dual->potential, err);
+  for (int j = turning_columns->first_back; j < turning_columns->n_columns && !st;
+       j++) /* where a cord turns back its edge is passed twice */
+    dual->potential[turning_columns->half[j][0]] = turning_columns->weight[j] / 2;
+  if (!st) charge_ends(turning_columns, dual);
+  if (!st && !turning_columns->task->end_count) st = add_parity(turning_columns, dual, err);
+  if (st) thr_turning_dual_destroy(dual);
   return st;
 }

@@ -42,20 +42,20 @@ static void splitter_destroy(splitter *s)
   free(s->pair_first);
 }
 
-static int passes_of(const thr_relax *r, int half)
+static int passes_of(const thr_relax *relax, int half)
 {
-  return r->c->cover[half >> 1] + (int)nearbyint(r->x[r->c->first_extra + (half >> 1)]);
+  return relax->c->cover[half >> 1] + (int)nearbyint(relax->x[relax->c->first_extra + (half >> 1)]);
 }
 
-static thr_status splitter_init(splitter *s, thr_relax *r, thr_err *err)
+static thr_status splitter_init(splitter *s, thr_relax *relax, thr_err *err)
 {
-  const thr_frame *f = r->c->f;
-  size_t n = (size_t)f->n_nodes, m = (size_t)f->n_edges, all = 0;
-  *s = (splitter){.r = r};
-  for (int v = 0; v < f->n_nodes; v++) {
+  const thr_frame *frame = relax->c->f;
+  size_t n = (size_t)frame->n_nodes, m = (size_t)frame->n_edges, all = 0;
+  *s = (splitter){.r = relax};
+  for (int v = 0; v < frame->n_nodes; v++) {
     int passes = 0;
-    for (int i = f->first[v]; i < f->first[v + 1]; i++)
-      passes += passes_of(r, f->half[i]);
+    for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
+      passes += passes_of(relax, frame->half[i]);
     if (passes > s->most) s->most = passes;
     all += (size_t)passes / 2;
   }
@@ -66,7 +66,7 @@ static thr_status splitter_init(splitter *s, thr_relax *r, thr_err *err)
   s->order = thr_calloc(n, sizeof *s->order);
   s->parent = thr_calloc(m, sizeof *s->parent);
   s->block = thr_calloc(m, sizeof *s->block);
-  s->scratch = thr_calloc(m + (size_t)r->c->n_components, sizeof *s->scratch);
+  s->scratch = thr_calloc(m + (size_t)relax->c->n_components, sizeof *s->scratch);
   s->pair = thr_calloc(all, sizeof *s->pair);
   s->pair_first = thr_calloc(n + 1, sizeof *s->pair_first);
   bool ok = s->price && s->half && s->mate && s->order && s->parent && s->block && s->scratch && s->pair && s->pair_first;
@@ -90,19 +90,21 @@ static double regret_of(const splitter *s, int n)
 /* Pairs the passes of node v: by price, or by how much x uses the turns. */
 static thr_status pair_node(splitter *s, int v, bool by_point, thr_err *err)
 {
-  const thr_turning_columns *c = s->r->c;
-  const thr_frame *f = c->f;
+  const thr_turning_columns *turning_columns = s->r->c;
+  const thr_frame *frame = turning_columns->f;
   int n = 0, *at = &s->pair_first[v + 1];
   *at = s->pair_first[v];
-  for (int i = f->first[v]; i < f->first[v + 1]; i++)
-    for (int k = passes_of(s->r, f->half[i]); k > 0; k--)
-      s->half[n++] = f->half[i];
+  for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
+    for (int k = passes_of(s->r, frame->half[i]); k > 0; k--)
+      s->half[n++] = frame->half[i];
   s->order[v] = (ranked){-1, v};
-  if (n % 2 || n > THR_PAIRING_EXACT || thr_degree(f, v) < 2) return THR_OK;
+  if (n % 2 || n > THR_PAIRING_EXACT || thr_degree(frame, v) < 2) return THR_OK;
   for (int i = 0; i < n; i++)
     for (int k = 0; k < n; k++) {
-      int j = s->half[i] == s->half[k] ? -1 : thr_turning_column(c, s->half[i], s->half[k]);
-      s->price[i * n + k] = j < 0 ? 1e6 : by_point ? 1 - s->r->x[j] : ldexp((double)c->weight[j], -THR_TURNING_BITS);
+      int j = s->half[i] == s->half[k] ? -1 : thr_turning_column(turning_columns, s->half[i], s->half[k]);
+      s->price[i * n + k] = j < 0      ? 1e6
+                            : by_point ? 1 - s->r->x[j]
+                                       : ldexp((double)turning_columns->weight[j], -THR_TURNING_BITS);
     }
   thr_status st = thr_pairing_best(n, s->price, s->mate, err);
   if (st) return st;
@@ -135,20 +137,20 @@ static thr_status offer(splitter *s, int *added, bool *more, thr_err *err)
 
 static void make_whole(splitter *s, int v)
 {
-  const thr_frame *f = s->r->c->f;
-  for (int i = f->first[v]; i + 1 < f->first[v + 1]; i++)
-    thr_disjoint_join(s->parent, f->half[i] >> 1, f->half[i + 1] >> 1);
+  const thr_frame *frame = s->r->c->f;
+  for (int i = frame->first[v]; i + 1 < frame->first[v + 1]; i++)
+    thr_disjoint_join(s->parent, frame->half[i] >> 1, frame->half[i + 1] >> 1);
 }
 
 /* All nodes paired; then whole again, those of least regret first. */
 static thr_status go_through(splitter *s, int *added, thr_err *err)
 {
-  const thr_frame *f = s->r->c->f;
-  int n = f->n_nodes, step = 1 + n / LEVELS, waited = 0;
+  const thr_frame *frame = s->r->c->f;
+  int n = frame->n_nodes, step = 1 + n / LEVELS, waited = 0;
   bool more = true;
   thr_status st = THR_OK;
   qsort(s->order, (size_t)n, sizeof *s->order, by_regret);
-  for (int e = 0; e < f->n_edges; e++)
+  for (int e = 0; e < frame->n_edges; e++)
     s->parent[e] = e;
   for (int k = 0; k < s->pair_first[n]; k++)
     thr_disjoint_join(s->parent, s->pair[k][0], s->pair[k][1]);
@@ -164,13 +166,13 @@ static thr_status go_through(splitter *s, int *added, thr_err *err)
   return st;
 }
 
-thr_status thr_partitions_separate(thr_relax *r, int *added, thr_err *err)
+thr_status thr_partitions_separate(thr_relax *relax, int *added, thr_err *err)
 {
   splitter s;
-  thr_status st = splitter_init(&s, r, err);
+  thr_status st = splitter_init(&s, relax, err);
   for (int by_point = 0; by_point < 2 && !st; by_point++) {
     s.pair_first[0] = 0;
-    for (int v = 0; v < r->c->f->n_nodes && !st; v++)
+    for (int v = 0; v < relax->c->f->n_nodes && !st; v++)
       st = pair_node(&s, v, by_point, err);
     if (!st) st = go_through(&s, added, err);
   }

@@ -11,13 +11,13 @@
 #include "graph/status.h"
 #include "tortuosity/proof/relax.h"
 
-thr_status thr_project_create(thr_relax *r, double penalty, thr_err *err) THR_MUST_CHECK;
-thr_status thr_project_graph(thr_relax *r, thr_err *err) THR_MUST_CHECK;
+thr_status thr_project_create(thr_relax *relax, double penalty, thr_err *err) THR_MUST_CHECK;
+thr_status thr_project_graph(thr_relax *relax, thr_err *err) THR_MUST_CHECK;
 
 /* Adds rows that x violates. */
-thr_status thr_project_separate(thr_relax *r, const thr_limits *limits, int *added, thr_err *err) THR_MUST_CHECK;
+thr_status thr_project_separate(thr_relax *relax, const thr_limits *limits, int *added, thr_err *err) THR_MUST_CHECK;
 
 /* The multipliers of the last solve as those of the whole model: a node's row is its junction of single edges. */
-thr_status thr_project_dual(const thr_relax *r, thr_turning_dual *d, thr_err *err) THR_MUST_CHECK;
+thr_status thr_project_dual(const thr_relax *relax, thr_turning_dual *dual, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -50,44 +50,44 @@ typedef struct {
 
 /* penalty: price of one unit of an artificial column, more than any plan costs. projected: without turns, which must be free, and
  * with tube joints. */
-thr_status thr_relax_init(thr_relax *r, const thr_turning_columns *c, bool projected, double penalty, const thr_limits *limits,
-                          thr_err *err) THR_MUST_CHECK;
-void thr_relax_destroy(thr_relax *r);
+thr_status thr_relax_init(thr_relax *relax, const thr_turning_columns *turning_columns, bool projected, double penalty,
+                          const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
+void thr_relax_destroy(thr_relax *relax);
 
 /* Puts bounds on a column, for the next solve. */
-thr_status thr_relax_set(thr_relax *r, int column, int low, int high, thr_err *err) THR_MUST_CHECK;
+thr_status thr_relax_set(thr_relax *relax, int column, int low, int high, thr_err *err) THR_MUST_CHECK;
 
 /* Solves with the present rows; fills x, dual, objective. solved is false if the limits stopped it (x and dual are usable). */
-thr_status thr_relax_solve(thr_relax *r, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
+thr_status thr_relax_solve(thr_relax *relax, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
 
 /* Adds rows that x violates; *added = 0 if there are none (exact separation). */
-thr_status thr_relax_separate(thr_relax *r, const thr_limits *limits, int *added, thr_err *err) THR_MUST_CHECK;
+thr_status thr_relax_separate(thr_relax *relax, const thr_limits *limits, int *added, thr_err *err) THR_MUST_CHECK;
 
 /* The multipliers of the last solve as integers. Release with thr_turning_dual_destroy. */
-thr_status thr_relax_dual(const thr_relax *r, thr_turning_dual *d, thr_err *err) THR_MUST_CHECK;
+thr_status thr_relax_dual(const thr_relax *relax, thr_turning_dual *turning_dual, thr_err *err) THR_MUST_CHECK;
 
 /* A multiplier in units of 2^-THR_TURNING_BITS; far below -1e4 or above 1e4 it would be useless. */
 int64_t thr_relax_whole(double value);
 
 /* The linear programme of the equations alone, in tortuosity/proof/equations.c. */
-thr_status thr_relax_create(thr_relax *r, double penalty, thr_err *err) THR_MUST_CHECK;
+thr_status thr_relax_create(thr_relax *relax, double penalty, thr_err *err) THR_MUST_CHECK;
 
 /* Starts the simplex method where every node by itself has its cheapest turns, without extra passes and ends: most of what the
  * slack basis would need as many pivots for as there are rows. Where the limits stop it the basis is a worse one. */
-thr_status thr_relax_crash(thr_relax *r, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
+thr_status thr_relax_crash(thr_relax *relax, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
 
 /* Adds the row of a node's blocks (copied; n of them, 0 .. n - 1) if x violates it. */
-thr_status thr_relax_add_junction(thr_relax *r, int v, int *block, int n, int *added, thr_err *err) THR_MUST_CHECK;
+thr_status thr_relax_add_junction(thr_relax *relax, int v, int *block, int n, int *added, thr_err *err) THR_MUST_CHECK;
 
 /* Junction rows that x violates, in tortuosity/proof/junctions.c: the worst of every node. *added grows. */
-thr_status thr_junctions_separate(thr_relax *r, int *added, thr_err *err) THR_MUST_CHECK;
+thr_status thr_junctions_separate(thr_relax *relax, int *added, thr_err *err) THR_MUST_CHECK;
 
 /* Adds the row of a partition (block as in graph/plan/turning_proof.h, copied, which needs so many connections) if x violates it
  * and it is new. */
-thr_status thr_relax_add_partition(thr_relax *r, int *block, int connections, int *added, thr_err *err) THR_MUST_CHECK;
+thr_status thr_relax_add_partition(thr_relax *relax, int *block, int connections, int *added, thr_err *err) THR_MUST_CHECK;
 
 /* Adds the sets that moats find, or that are found exactly, and that x violates; x and reduced begin with the pool's first
  * column. *added grows. */
-thr_status thr_relax_odd(thr_relax *r, bool exact, int *added, thr_err *err) THR_MUST_CHECK;
+thr_status thr_relax_odd(thr_relax *relax, bool exact, int *added, thr_err *err) THR_MUST_CHECK;
 
 #endif

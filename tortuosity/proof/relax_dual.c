@@ -22,23 +22,23 @@ static thr_status copy_members(int **to, const thr_row *row, thr_err *err)
   return THR_OK;
 }
 
-static thr_status copy_cuts(const thr_relax *r, thr_turning_dual *d, thr_err *err)
+static thr_status copy_cuts(const thr_relax *relax, thr_turning_dual *dual, thr_err *err)
 {
   thr_status st = THR_OK;
-  for (int i = 0; i < r->pool.count && !st; i++) {
-    int64_t value = thr_relax_whole(r->dual[r->n_equations + i]);
-    const thr_row *row = &r->pool.row[i];
+  for (int i = 0; i < relax->pool.count && !st; i++) {
+    int64_t value = thr_relax_whole(relax->dual[relax->n_equations + i]);
+    const thr_row *row = &relax->pool.row[i];
     if (value <= 0) continue;
     if (row->kind == THR_RELAX_ODD || row->kind == THR_RELAX_GROUP) {
-      thr_turning_set *to = row->kind == THR_RELAX_ODD ? &d->odd[d->n_odd++] : &d->group[d->n_groups++];
+      thr_turning_set *to = row->kind == THR_RELAX_ODD ? &dual->odd[dual->n_odd++] : &dual->group[dual->n_groups++];
       *to = (thr_turning_set){.n = row->n_members, .value = value};
       st = copy_members(&to->member, row, err);
     } else if (row->kind == THR_RELAX_PARTITION) {
-      thr_turning_partition *to = &d->partition[d->n_partitions++];
+      thr_turning_partition *to = &dual->partition[dual->n_partitions++];
       to->value = value;
       st = copy_members(&to->block, row, err);
     } else {
-      thr_turning_junction *to = &d->junction[d->n_junctions++];
+      thr_turning_junction *to = &dual->junction[dual->n_junctions++];
       *to = (thr_turning_junction){.node = row->index, .value = value};
       st = copy_members(&to->block, row, err);
     }
@@ -46,27 +46,28 @@ static thr_status copy_cuts(const thr_relax *r, thr_turning_dual *d, thr_err *er
   return st;
 }
 
-thr_status thr_relax_dual(const thr_relax *r, thr_turning_dual *d, thr_err *err)
+thr_status thr_relax_dual(const thr_relax *relax, thr_turning_dual *dual, thr_err *err)
 {
-  const thr_turning_columns *c = r->c;
-  int darts = 2 * c->f->n_edges, used[THR_RELAX_JUNCTION + 1] = {0};
-  *d = (thr_turning_dual){0};
-  if (r->projected) return thr_project_dual(r, d, err);
-  for (int i = 0; i < r->pool.count; i++)
-    used[r->pool.row[i].kind] += thr_relax_whole(r->dual[r->n_equations + i]) > 0;
-  d->potential = thr_calloc((size_t)darts, sizeof *d->potential);
-  d->ends = thr_calloc((size_t)c->n_ends, sizeof *d->ends);
-  d->odd = thr_calloc((size_t)used[THR_RELAX_ODD], sizeof *d->odd);
-  d->group = thr_calloc((size_t)used[THR_RELAX_GROUP], sizeof *d->group);
-  d->partition = thr_calloc((size_t)used[THR_RELAX_PARTITION], sizeof *d->partition);
-  d->junction = thr_calloc((size_t)used[THR_RELAX_JUNCTION], sizeof *d->junction);
-  thr_status st = d->potential && d->ends && d->odd && d->group && d->partition && d->junction ? THR_OK : thr_nomem(err);
+  const thr_turning_columns *turning_columns = relax->c;
+  int darts = 2 * turning_columns->f->n_edges, used[THR_RELAX_JUNCTION + 1] = {0};
+  *dual = (thr_turning_dual){0};
+  if (relax->projected) return thr_project_dual(relax, dual, err);
+  for (int i = 0; i < relax->pool.count; i++)
+    used[relax->pool.row[i].kind] += thr_relax_whole(relax->dual[relax->n_equations + i]) > 0;
+  dual->potential = thr_calloc((size_t)darts, sizeof *dual->potential);
+  dual->ends = thr_calloc((size_t)turning_columns->n_ends, sizeof *dual->ends);
+  dual->odd = thr_calloc((size_t)used[THR_RELAX_ODD], sizeof *dual->odd);
+  dual->group = thr_calloc((size_t)used[THR_RELAX_GROUP], sizeof *dual->group);
+  dual->partition = thr_calloc((size_t)used[THR_RELAX_PARTITION], sizeof *dual->partition);
+  dual->junction = thr_calloc((size_t)used[THR_RELAX_JUNCTION], sizeof *dual->junction);
+  thr_status st =
+      dual->potential && dual->ends && dual->odd && dual->group && dual->partition && dual->junction ? THR_OK : thr_nomem(err);
   for (int h = 0; h < darts && !st; h++)
-    d->potential[h] = thr_relax_whole(r->dual[h]);
-  for (int i = 0; c->task->end_allowed && i < c->n_ends && !st; i++)
-    d->ends[i] = thr_relax_whole(r->dual[darts + i]);
-  if (!st && c->extra_limit >= 0) d->length = thr_relax_whole(fmax(0, r->dual[r->n_equations - 1]));
-  if (!st) st = copy_cuts(r, d, err);
-  if (st) thr_turning_dual_destroy(d);
+    dual->potential[h] = thr_relax_whole(relax->dual[h]);
+  for (int i = 0; turning_columns->task->end_allowed && i < turning_columns->n_ends && !st; i++)
+    dual->ends[i] = thr_relax_whole(relax->dual[darts + i]);
+  if (!st && turning_columns->extra_limit >= 0) dual->length = thr_relax_whole(fmax(0, relax->dual[relax->n_equations - 1]));
+  if (!st) st = copy_cuts(relax, dual, err);
+  if (st) thr_turning_dual_destroy(dual);
   return st;
 }

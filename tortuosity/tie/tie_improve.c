@@ -67,14 +67,14 @@ static void cool(thr_walker *w, uint64_t *state, const thr_limits *limits, best_
   }
 }
 
-static thr_status improve(const thr_turning_columns *c, const thr_limits *limits, int rounds, int *passes, int *ends,
-                          thr_err *err)
+static thr_status improve(const thr_turning_columns *turning_columns, const thr_limits *limits, int rounds, int *passes,
+                          int *ends, thr_err *err)
 {
-  size_t m = (size_t)c->f->n_edges, n = (size_t)c->f->n_nodes;
+  size_t m = (size_t)turning_columns->f->n_edges, n = (size_t)turning_columns->f->n_nodes;
   thr_walker w;
   uint64_t state = 1;
   best_plan best = {.total = INFINITY};
-  thr_status st = thr_walker_init(&w, c, passes, ends, err);
+  thr_status st = thr_walker_init(&w, turning_columns, passes, ends, err);
   if (st) return st;
   best.passes = thr_calloc(m + n, sizeof *best.passes);
   if (!best.passes) {
@@ -95,13 +95,14 @@ static thr_status improve(const thr_turning_columns *c, const thr_limits *limits
   return THR_OK;
 }
 
-thr_status thr_tie_improve(const thr_turning_columns *c, const thr_limits *limits, int *passes, int *ends, thr_err *err)
+thr_status thr_tie_improve(const thr_turning_columns *turning_columns, const thr_limits *limits, int *passes, int *ends,
+                           thr_err *err)
 {
-  return improve(c, limits, 0, passes, ends, err);
+  return improve(turning_columns, limits, 0, passes, ends, err);
 }
 
-thr_status thr_tie_anneal(const thr_turning_columns *c, const thr_limits *limits, int rounds, int *passes, int *ends,
-                          thr_err *err)
+thr_status thr_tie_anneal(const thr_turning_columns *turning_columns, const thr_limits *limits, int rounds, int *passes,
+                          int *ends, thr_err *err)
 {
-  return improve(c, limits, rounds, passes, ends, err);
+  return improve(turning_columns, limits, rounds, passes, ends, err);
 }

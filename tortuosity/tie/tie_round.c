@@ -36,10 +36,10 @@ static void router_destroy(router *r)
   free(r->heap);
 }
 
-static thr_status router_init(router *r, const thr_turning_columns *c, int *passes, int *ends, thr_err *err)
+static thr_status router_init(router *r, const thr_turning_columns *turning_columns, int *passes, int *ends, thr_err *err)
 {
-  size_t n = (size_t)c->f->n_nodes, m = (size_t)c->f->n_edges;
-  *r = (router){.c = c, .passes = passes, .ends = ends};
+  size_t n = (size_t)turning_columns->f->n_nodes, m = (size_t)turning_columns->f->n_edges;
+  *r = (router){.c = turning_columns, .passes = passes, .ends = ends};
   r->sum = thr_calloc(n, sizeof *r->sum);
   r->need = thr_calloc(n, sizeof *r->need);
   r->weight = thr_calloc(m, sizeof *r->weight);
@@ -89,10 +89,10 @@ static bool fits(const router *r, int v, int e, int more)
 /* Half-edges out of node v, from half-edge in (or -1: the walk starts). */
 static thr_status step(router *r, int v, int in, double before, thr_err *err)
 {
-  const thr_frame *f = r->c->f;
+  const thr_frame *frame = r->c->f;
   thr_status st = THR_OK;
-  for (int i = f->first[v]; i < f->first[v + 1] && !st; i++) {
-    int out = f->half[i], e = out >> 1;
+  for (int i = frame->first[v]; i < frame->first[v + 1] && !st; i++) {
+    int out = frame->half[i], e = out >> 1;
     bool back = in >= 0 && out == (in ^ 1);
     if (r->passes[e] + 1 + back > r->c->most[e] || (in < 0 && !fits(r, v, e, 1)) || (back && !fits(r, v, e, 2))) continue;
     st = push(r, out, in, before + r->weight[e], err);
@@ -103,7 +103,7 @@ static thr_status step(router *r, int v, int in, double before, thr_err *err)
 /* Last half-edge of the shortest walk from node v to one that needs it, -1 = none. */
 static thr_status walk_from(router *r, int v, int *last, thr_err *err)
 {
-  const thr_frame *f = r->c->f;
+  const thr_frame *frame = r->c->f;
   r->n_heap = 0;
   r->searches++;
   *last = -1;
@@ -111,7 +111,7 @@ static thr_status walk_from(router *r, int v, int *last, thr_err *err)
   while (!st && r->n_heap > 0) {
     reached at = pop(r);
     if (at.length > r->length[at.half]) continue;
-    int w = thr_head(f, at.half);
+    int w = thr_head(frame, at.half);
     if (r->need[w] > (w == v) && fits(r, w, at.half >> 1, 1)) {
       *last = at.half;
       return THR_OK;
@@ -159,15 +159,15 @@ static thr_status serve(router *r, int v, bool *found, thr_err *err)
 /* Room for an end more at node v, beyond what its passes take already. */
 static int end_wish(const router *r, const double *x, int v, double *wish)
 {
-  const thr_turning_columns *c = r->c;
-  const thr_frame *f = c->f;
-  int cover = c->cover[f->half[f->first[v]] >> 1];
-  if (c->end_column[f->half[f->first[v]]] < 0) return 0;
+  const thr_turning_columns *turning_columns = r->c;
+  const thr_frame *frame = turning_columns->f;
+  int cover = turning_columns->cover[frame->half[frame->first[v]] >> 1];
+  if (turning_columns->end_column[frame->half[frame->first[v]]] < 0) return 0;
   *wish = 0;
-  for (int i = f->first[v]; i < f->first[v + 1]; i++)
-    if (x) *wish += x[c->end_column[f->half[i]]];
-  if (!x) *wish = thr_degree(f, v) == 1 ? cover : (r->sum[v] % 2) * 0.5;
-  int least = thr_degree(f, v) == 1 ? cover : 0, whole = (int)floor(*wish + 1e-6);
+  for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
+    if (x) *wish += x[turning_columns->end_column[frame->half[i]]];
+  if (!x) *wish = thr_degree(frame, v) == 1 ? cover : (r->sum[v] % 2) * 0.5;
+  int least = thr_degree(frame, v) == 1 ? cover : 0, whole = (int)floor(*wish + 1e-6);
   return whole > least ? whole : least;
 }
 
@@ -175,16 +175,18 @@ static int end_wish(const router *r, const double *x, int v, double *wish)
  * even. */
 static void place_ends(router *r, const double *x, int k)
 {
-  const thr_turning_columns *c = r->c;
+  const thr_turning_columns *turning_columns = r->c;
   int placed = 0;
   double wish;
-  for (int v = 0; v < c->f->n_nodes; v++)
-    if (c->end_group[v] == k) placed += r->ends[v] = end_wish(r, x, v, &wish);
-  while (placed < c->supply[k][0] || placed % 2) {
+  for (int v = 0; v < turning_columns->f->n_nodes; v++)
+    if (turning_columns->end_group[v] == k) placed += r->ends[v] = end_wish(r, x, v, &wish);
+  while (placed < turning_columns->supply[k][0] || placed % 2) {
     int best = -1;
     double most = -INFINITY;
-    for (int v = 0; v < c->f->n_nodes; v++) {
-      if (c->end_group[v] != k || c->end_column[c->f->half[c->f->first[v]]] < 0) continue;
+    for (int v = 0; v < turning_columns->f->n_nodes; v++) {
+      if (turning_columns->end_group[v] != k ||
+          turning_columns->end_column[turning_columns->f->half[turning_columns->f->first[v]]] < 0)
+        continue;
       end_wish(r, x, v, &wish);
       wish -= r->ends[v];
       if (wish > most + 1e-9) most = wish, best = v;
@@ -197,47 +199,48 @@ static void place_ends(router *r, const double *x, int k)
 
 static void start_at(router *r, const double *x)
 {
-  const thr_turning_columns *c = r->c;
-  const thr_frame *f = c->f;
-  for (int e = 0; e < f->n_edges; e++) {
-    double extra = x ? x[c->first_extra + e] : 0;
-    r->passes[e] = c->cover[e] + (int)floor(extra + 1e-6);
-    r->weight[e] = f->length[e] * (1.001 - (extra - floor(extra + 1e-6)));
+  const thr_turning_columns *turning_columns = r->c;
+  const thr_frame *frame = turning_columns->f;
+  for (int e = 0; e < frame->n_edges; e++) {
+    double extra = x ? x[turning_columns->first_extra + e] : 0;
+    r->passes[e] = turning_columns->cover[e] + (int)floor(extra + 1e-6);
+    r->weight[e] = frame->length[e] * (1.001 - (extra - floor(extra + 1e-6)));
     for (int side = 0; side < 2; side++)
-      r->sum[f->edge[e][side]] += r->passes[e];
+      r->sum[frame->edge[e][side]] += r->passes[e];
   }
-  for (int v = 0; v < f->n_nodes; v++)
-    r->ends[v] = c->task->end_count ? c->task->end_count[v] : 0;
-  for (int k = 0; k < c->n_ends && c->task->end_allowed && !c->task->end_count; k++)
+  for (int v = 0; v < frame->n_nodes; v++)
+    r->ends[v] = turning_columns->task->end_count ? turning_columns->task->end_count[v] : 0;
+  for (int k = 0; k < turning_columns->n_ends && turning_columns->task->end_allowed && !turning_columns->task->end_count; k++)
     place_ends(r, x, k);
-  for (int v = 0; v < f->n_nodes; v++)
-    r->need[v] = thr_tie_need(c, v, r->passes, r->ends);
+  for (int v = 0; v < frame->n_nodes; v++)
+    r->need[v] = thr_tie_need(turning_columns, v, r->passes, r->ends);
 }
 
 /* Takes two passes off where the nodes stay tied. */
 static void spare(router *r)
 {
-  const thr_turning_columns *c = r->c;
-  for (int e = 0; e < c->f->n_edges; e++)
-    while (r->passes[e] >= c->cover[e] + 2) {
+  const thr_turning_columns *turning_columns = r->c;
+  for (int e = 0; e < turning_columns->f->n_edges; e++)
+    while (r->passes[e] >= turning_columns->cover[e] + 2) {
       r->passes[e] -= 2;
       update(r, e);
-      if (r->need[c->f->edge[e][0]] == 0 && r->need[c->f->edge[e][1]] == 0) continue;
+      if (r->need[turning_columns->f->edge[e][0]] == 0 && r->need[turning_columns->f->edge[e][1]] == 0) continue;
       r->passes[e] += 2;
       update(r, e);
       break;
     }
 }
 
-thr_status thr_tie_round(const thr_turning_columns *c, const double *x, int *passes, int *ends, bool *found, thr_err *err)
+thr_status thr_tie_round(const thr_turning_columns *turning_columns, const double *x, int *passes, int *ends, bool *found,
+                         thr_err *err)
 {
   router r;
-  thr_status st = router_init(&r, c, passes, ends, err);
+  thr_status st = router_init(&r, turning_columns, passes, ends, err);
   *found = true;
   if (!st) start_at(&r, x);
-  for (int v = 0; v < c->f->n_nodes && !st && *found; v++) /* nodes with few ways out first would be no better */
+  for (int v = 0; v < turning_columns->f->n_nodes && !st && *found; v++) /* nodes with few ways out first would be no better */
     st = serve(&r, v, found, err);
-  for (int v = 0; v < c->f->n_nodes && !st && *found; v++)
+  for (int v = 0; v < turning_columns->f->n_nodes && !st && *found; v++)
     *found = r.need[v] == 0;
   if (!st && *found) spare(&r);
   router_destroy(&r);

@@ -31,8 +31,9 @@ static bool room(const thr_walker *w, int e, int by)
 
 static bool may_end(const thr_walker *w, int v)
 {
-  const thr_turning_columns *c = w->c;
-  return !c->task->end_count && c->end_column[c->f->half[c->f->first[v]]] >= 0;
+  const thr_turning_columns *turning_columns = w->c;
+  return !turning_columns->task->end_count &&
+         turning_columns->end_column[turning_columns->f->half[turning_columns->f->first[v]]] >= 0;
 }
 
 static double weight_of(const thr_walker *w, int e)
@@ -50,17 +51,17 @@ static uint64_t mixed(uint64_t z)
 
 static double price_node(thr_walker *w, int v)
 {
-  const thr_frame *f = w->c->f;
+  const thr_frame *frame = w->c->f;
   uint64_t name = mixed((uint64_t)v + 1);
-  for (int i = f->first[v]; i < f->first[v + 1]; i++)
-    name = mixed(name + (uint64_t)w->passes[f->half[i] >> 1]);
+  for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
+    name = mixed(name + (uint64_t)w->passes[frame->half[i] >> 1]);
   name = mixed(name + (uint64_t)w->ends[v]);
-  thr_walk_known *k = &w->known[name >> (64 - KNOWN_BITS)];
-  if (k->name != name) {
+  thr_walk_known *known = &w->known[name >> (64 - KNOWN_BITS)];
+  if (known->name != name) {
     thr_knot_tie(&w->knot, v, w->passes, w->ends);
-    *k = (thr_walk_known){name, w->knot.turning};
+    *known = (thr_walk_known){name, w->knot.turning};
   }
-  return k->price;
+  return known->price;
 }
 
 static void forget(thr_walker *w, int v)
@@ -72,15 +73,15 @@ static void forget(thr_walker *w, int v)
 
 void thr_walker_reset(thr_walker *w)
 {
-  const thr_turning_columns *c = w->c;
+  const thr_turning_columns *turning_columns = w->c;
   w->total = w->extra = 0;
-  for (int v = 0; v < c->f->n_nodes; v++) {
+  for (int v = 0; v < turning_columns->f->n_nodes; v++) {
     w->total += w->price[v] = price_node(w, v);
     forget(w, v);
   }
-  for (int e = 0; e < c->f->n_edges; e++) {
-    w->total += (w->passes[e] - c->cover[e]) * weight_of(w, e);
-    w->extra += (w->passes[e] - c->cover[e]) * c->f->length[e];
+  for (int e = 0; e < turning_columns->f->n_edges; e++) {
+    w->total += (w->passes[e] - turning_columns->cover[e]) * weight_of(w, e);
+    w->extra += (w->passes[e] - turning_columns->cover[e]) * turning_columns->f->length[e];
   }
 }
 
@@ -98,21 +99,22 @@ static size_t place_tables(thr_walker *w)
 
 static int most_at_a_node(const thr_walker *w)
 {
-  const thr_frame *f = w->c->f;
+  const thr_frame *frame = w->c->f;
   int most = 0;
-  for (int v = 0; v < f->n_nodes; v++) {
+  for (int v = 0; v < frame->n_nodes; v++) {
     int n = w->ends[v];
-    for (int i = f->first[v]; i < f->first[v + 1]; i++)
-      n += w->passes[f->half[i] >> 1];
+    for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
+      n += w->passes[frame->half[i] >> 1];
     if (n > most) most = n;
   }
   return most;
 }
 
-thr_status thr_walker_init(thr_walker *w, const thr_turning_columns *c, int *passes, int *ends, thr_err *err)
+thr_status thr_walker_init(thr_walker *w, const thr_turning_columns *turning_columns, int *passes, int *ends, thr_err *err)
 {
-  size_t n = (size_t)c->f->n_nodes, steps = 4 * (size_t)c->f->n_edges + 2 * (size_t)c->n_ends + 2 * n;
-  *w = (thr_walker){.c = c, .passes = passes, .ends = ends, .last = -1};
+  size_t n = (size_t)turning_columns->f->n_nodes,
+         steps = 4 * (size_t)turning_columns->f->n_edges + 2 * (size_t)turning_columns->n_ends + 2 * n;
+  *w = (thr_walker){.c = turning_columns, .passes = passes, .ends = ends, .last = -1};
   w->price = thr_calloc(n, sizeof *w->price);
   w->known = thr_calloc((size_t)1 << KNOWN_BITS, sizeof *w->known);
   w->first = thr_calloc(n, sizeof *w->first);
@@ -121,7 +123,7 @@ thr_status thr_walker_init(thr_walker *w, const thr_turning_columns *c, int *pas
   w->label = thr_calloc(THR_WALK_LABELS, sizeof *w->label);
   bool all = w->price && w->known && w->first && w->seen && w->reached && w->label;
   if (all) all = (w->change = thr_calloc(place_tables(w), sizeof *w->change)) != NULL;
-  thr_status st = all ? thr_knot_init(&w->knot, c, most_at_a_node(w) + SPARE, err) : thr_nomem(err);
+  thr_status st = all ? thr_knot_init(&w->knot, turning_columns, most_at_a_node(w) + SPARE, err) : thr_nomem(err);
   if (st)
     thr_walker_destroy(w);
   else
@@ -161,11 +163,11 @@ static int place_after(const thr_walker *w, int step, int v)
 
 static void bump(thr_walker *w, int v, int place, int by)
 {
-  const thr_frame *f = w->c->f;
-  if (place == thr_degree(f, v))
+  const thr_frame *frame = w->c->f;
+  if (place == thr_degree(frame, v))
     w->ends[v] += by;
   else
-    w->passes[f->half[f->first[v] + place] >> 1] += by;
+    w->passes[frame->half[frame->first[v] + place] >> 1] += by;
 }
 
 /* What it changes at node v if the passes (or ends) of two places there change by a and b. */
@@ -215,35 +217,35 @@ static void close_walk(thr_walker *w, int l, int v, int place)
 
 static void step_from_node(thr_walker *w, int l, int v, int start)
 {
-  const thr_turning_columns *c = w->c;
-  const thr_frame *f = c->f;
+  const thr_turning_columns *turning_columns = w->c;
+  const thr_frame *frame = turning_columns->f;
   const thr_walk_label from = w->label[l];
-  int place = place_after(w, from.step, v), sign = sign_of(from.step), d = thr_degree(f, v);
+  int place = place_after(w, from.step, v), sign = sign_of(from.step), d = thr_degree(frame, v);
   for (int j = 0; j < d; j++) {
-    int h = f->half[f->first[v] + j], e = h >> 1, to = thr_head(f, h);
+    int h = frame->half[frame->first[v] + j], e = h >> 1, to = thr_head(frame, h);
     if (j == place || e == w->label[0].step >> 2 || (to != start && passed(w, l, to))) continue;
     for (int by = 1; by >= -1; by -= 2)
       if (room(w, e, by))
         reach(w, l, 2 * h + (by < 0), from.gain + change_at(w, v, place, sign, j, by) + by * weight_of(w, e),
-              from.longer + by * f->length[e]);
+              from.longer + by * frame->length[e]);
   }
   if (place == d || !may_end(w, v)) return;
   for (int q = l; q >= 0; q = w->label[q].before)
     if (node_after(w, w->label[q].step) < 0) return; /* once in a walk */
   for (int by = 1; by >= -1; by -= 2)
     if (w->ends[v] + by >= 0)
-      reach(w, l, first_to_ends(w) + 2 * c->end_group[v] + (by < 0), from.gain + change_at(w, v, place, sign, d, by),
-            from.longer);
+      reach(w, l, first_to_ends(w) + 2 * turning_columns->end_group[v] + (by < 0),
+            from.gain + change_at(w, v, place, sign, d, by), from.longer);
 }
 
 /* An end more at one node is one less at another. Which nodes come first is a matter of turns. */
 static void step_from_ends(thr_walker *w, int l, int start)
 {
-  const thr_turning_columns *c = w->c;
+  const thr_turning_columns *turning_columns = w->c;
   const thr_walk_label from = w->label[l];
-  int n = c->f->n_nodes, group = (from.step - first_to_ends(w)) >> 1, by = -sign_of(from.step);
+  int n = turning_columns->f->n_nodes, group = (from.step - first_to_ends(w)) >> 1, by = -sign_of(from.step);
   for (int i = 0, v = w->searches % n; i < n; i++, v = v + 1 < n ? v + 1 : 0)
-    if (c->end_group[v] == group && may_end(w, v) && w->ends[v] + by >= 0 && (v == start || !passed(w, l, v)))
+    if (turning_columns->end_group[v] == group && may_end(w, v) && w->ends[v] + by >= 0 && (v == start || !passed(w, l, v)))
       reach(w, l, first_from_ends(w) + 2 * v + (by < 0), from.gain, from.longer);
 }
 
@@ -303,10 +305,12 @@ void thr_walker_take(thr_walker *w)
 
 bool thr_walker_double(thr_walker *w, int edge, int by)
 {
-  const thr_turning_columns *c = w->c;
-  const int *node = c->f->edge[edge];
+  const thr_turning_columns *turning_columns = w->c;
+  const int *node = turning_columns->f->edge[edge];
   if (!room(w, edge, 2 * by)) return false;
-  if (c->task->extra_limit >= 0 && w->extra + 2 * by * c->f->length[edge] > c->task->extra_limit) return false;
+  if (turning_columns->task->extra_limit >= 0 &&
+      w->extra + 2 * by * turning_columns->f->length[edge] > turning_columns->task->extra_limit)
+    return false;
   change_edge(w, edge, 2 * by);
   double change = 2 * by * weight_of(w, edge);
   for (int side = 0; side < 2; side++)

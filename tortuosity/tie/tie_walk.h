@@ -46,7 +46,8 @@ typedef struct {
 
 /* For passes and ends with which every node can be tied; else total is INFINITY. Memory: a number for every two steps at a node
  * of up to 40 edges. */
-thr_status thr_walker_init(thr_walker *w, const thr_turning_columns *c, int *passes, int *ends, thr_err *err) THR_MUST_CHECK;
+thr_status thr_walker_init(thr_walker *w, const thr_turning_columns *turning_columns, int *passes, int *ends,
+                           thr_err *err) THR_MUST_CHECK;
 void thr_walker_destroy(thr_walker *w);
 
 /* The cheapest closed walk found that begins with a step over a half-edge and changes the price by less than allowed; no sum on

@@ -49,15 +49,15 @@ static bool closed_cords(const several *x)
 /* ---- a number of cords ---- */
 
 /* The cords as walks; out is empty before. */
-static thr_status walks_of(const several *x, const thr_tube *t, thr_walks *out, thr_err *err)
+static thr_status walks_of(const several *x, const thr_tube *tube, thr_walks *out, thr_err *err)
 {
   thr_status st = THR_OK;
-  for (int i = 0; i < t->n_cords && !st; i++) {
-    const thr_cord *c = &t->cord[i];
-    thr_walk w = {c->n_passes, thr_calloc((size_t)c->n_passes, sizeof *w.half), 0, closed_cords(x)};
-    if (!w.half) return thr_nomem(err);
-    memcpy(w.half, c->half, (size_t)c->n_passes * sizeof *w.half);
-    st = thr_walks_add(out, x->f, w, err);
+  for (int i = 0; i < tube->n_cords && !st; i++) {
+    const thr_cord *cord = &tube->cord[i];
+    thr_walk walk = {cord->n_passes, thr_calloc((size_t)cord->n_passes, sizeof *walk.half), 0, closed_cords(x)};
+    if (!walk.half) return thr_nomem(err);
+    memcpy(walk.half, cord->half, (size_t)cord->n_passes * sizeof *walk.half);
+    st = thr_walks_add(out, x->f, walk, err);
   }
   return st;
 }
@@ -65,19 +65,20 @@ static thr_status walks_of(const several *x, const thr_tube *t, thr_walks *out, 
 /* Short walks: exactly n open ones, or as many as the counts say; of closed ones, one. */
 static thr_status short_walks(several *x, int n, thr_walks *out, thr_err *err)
 {
-  thr_plan_options o = *x->o;
+  thr_plan_options options = *x->o;
   thr_limits some = *x->limits;
-  thr_tube t = {0};
+  thr_tube tube = {0};
   thr_err why = {0};
-  if (closed_cords(x) || o.ends == THR_ENDS_COUNTS || x->shortest->n_cords == n) return walks_of(x, x->shortest, out, err);
-  o.cords = o.cords_least = n;
+  if (closed_cords(x) || options.ends == THR_ENDS_COUNTS || x->shortest->n_cords == n) return walks_of(x, x->shortest, out, err);
+  options.cords = options.cords_least = n;
   some.work = &x->work;
-  thr_status st = x->work > 0 ? thr_tube_shortest(x->f, &o, &some, &t, &why) : thr_tube_some(x->f, &o, x->limits, &t, &why);
+  thr_status st =
+      x->work > 0 ? thr_tube_shortest(x->f, &options, &some, &tube, &why) : thr_tube_some(x->f, &options, x->limits, &tube, &why);
   if (st == THR_OK || st == THR_ELIMIT)
-    st = walks_of(x, &t, out, err);
+    st = walks_of(x, &tube, out, err);
   else
     st = thr_fail(err, st, "%s", why.text);
-  thr_tube_destroy(&t);
+  thr_tube_destroy(&tube);
   return st;
 }
 
@@ -237,45 +238,45 @@ static thr_status grow(several *x, thr_err *err)
 /* ---- the plan ---- */
 
 /* Is more asked for than the shortest length? */
-static bool lengths_asked(const thr_plan_options *o)
+static bool lengths_asked(const thr_plan_options *options)
 {
-  return thr_wants_balance(o) || o->max_length > 0;
+  return thr_wants_balance(options) || options->max_length > 0;
 }
 
-bool thr_tube_shares(const thr_plan_options *o)
+bool thr_tube_shares(const thr_plan_options *options)
 {
-  return lengths_asked(o) || (o->ends == THR_ENDS_CLOSED && o->cords_least > 1);
+  return lengths_asked(options) || (options->ends == THR_ENDS_CLOSED && options->cords_least > 1);
 }
 
-static void move_cords(thr_tube *t, thr_plan *plan)
+static void move_cords(thr_tube *tube, thr_plan *plan)
 {
-  plan->cord = t->cord;
-  plan->n_cords = t->n_cords;
-  t->cord = NULL;
-  t->n_cords = 0;
+  plan->cord = tube->cord;
+  plan->n_cords = tube->n_cords;
+  tube->cord = NULL;
+  tube->n_cords = 0;
 }
 
 static thr_status make_some(several *x, thr_plan *plan, thr_err *err)
 {
-  const thr_plan_options *o = x->o;
-  thr_status st = o->max_length > 0      ? grow(x, err)
-                  : thr_wants_balance(o) ? make_even(x, err)
-                                         : make_number(x, o->cords_least, false, err);
+  const thr_plan_options *options = x->o;
+  thr_status st = options->max_length > 0      ? grow(x, err)
+                  : thr_wants_balance(options) ? make_even(x, err)
+                                               : make_number(x, options->cords_least, false, err);
   return st ? st : thr_walks_plan(&x->walks, 1, plan, err);
 }
 
-thr_status thr_tube_cords(thr_tube *t, const thr_limits *limits, thr_plan *plan, thr_cords_word *word, thr_err *err)
+thr_status thr_tube_cords(thr_tube *tube, const thr_limits *limits, thr_plan *plan, thr_cords_word *word, thr_err *err)
 {
-  const thr_plan_options *o = &plan->options;
-  several x = {.f = &plan->frame, .o = o, .limits = limits, .shortest = t};
+  const thr_plan_options *options = &plan->options;
+  several x = {.f = &plan->frame, .o = options, .limits = limits, .shortest = tube};
   *word = (thr_cords_word){0};
-  if (!thr_tube_shares(o)) {
-    move_cords(t, plan);
+  if (!thr_tube_shares(options)) {
+    move_cords(tube, plan);
     return THR_OK;
   }
   thr_status st = several_init(&x, err);
   if (!st) st = make_some(&x, plan, err);
-  if (!st) *word = (thr_cords_word){x.least && !lengths_asked(o), x.certain && thr_wants_balance(o)};
+  if (!st) *word = (thr_cords_word){x.least && !lengths_asked(options), x.certain && thr_wants_balance(options)};
   several_destroy(&x);
   return st;
 }

@@ -39,37 +39,37 @@ static void first_destroy(first *x)
 
 static thr_status first_init(first *x, thr_err *err)
 {
-  const thr_frame *f = x->f;
-  if (!(x->component = thr_calloc((size_t)f->n_nodes, sizeof *x->component))) return thr_nomem(err);
-  thr_status st = thr_frame_components(f, x->component, &x->n_components, err);
+  const thr_frame *frame = x->f;
+  if (!(x->component = thr_calloc((size_t)frame->n_nodes, sizeof *x->component))) return thr_nomem(err);
+  thr_status st = thr_frame_components(frame, x->component, &x->n_components, err);
   if (st) return st;
-  int *passes = thr_calloc((size_t)f->n_edges, sizeof *passes);
+  int *passes = thr_calloc((size_t)frame->n_edges, sizeof *passes);
   if (!passes) return thr_nomem(err);
-  for (int e = 0; e < f->n_edges; e++)
+  for (int e = 0; e < frame->n_edges; e++)
     passes[e] = x->passes;
-  st = thr_multigraph_init(&x->g, f, 0, passes, NULL, 0, err);
+  st = thr_multigraph_init(&x->g, frame, 0, passes, NULL, 0, err);
   free(passes);
   if (st) return st;
   x->mate = thr_calloc((size_t)x->g.n_darts, sizeof *x->mate);
   x->walk = thr_calloc((size_t)x->g.n_darts, sizeof *x->walk);
   x->walks = thr_calloc((size_t)x->n_components, sizeof *x->walks);
-  x->mark = thr_calloc((size_t)f->n_nodes, sizeof *x->mark);
+  x->mark = thr_calloc((size_t)frame->n_nodes, sizeof *x->mark);
   return x->mate && x->walk && x->walks && x->mark ? THR_OK : thr_nomem(err);
 }
 
 /* Do these options and this framework have such cords? Sets the number of passes. */
 static bool is_possible(first *x)
 {
-  const thr_plan_options *o = x->o;
-  bool closed = o->ends == THR_ENDS_CLOSED;
-  if (o->ends == THR_ENDS_COUNTS || (closed && o->max_length > 0)) return false;
+  const thr_plan_options *options = x->o;
+  bool closed = options->ends == THR_ENDS_CLOSED;
+  if (options->ends == THR_ENDS_COUNTS || (closed && options->max_length > 0)) return false;
   x->passes = 2;
   for (int e = 0; e < x->f->n_edges; e++)
-    if (thr_plan_cover(x->f, o, e) > x->passes) x->passes = thr_plan_cover(x->f, o, e);
+    if (thr_plan_cover(x->f, options, e) > x->passes) x->passes = thr_plan_cover(x->f, options, e);
   x->passes += x->passes % 2;
-  int more = closed ? o->cords_least - 1 : 0;
+  int more = closed ? options->cords_least - 1 : 0;
   for (int e = 0; e < x->f->n_edges; e++)
-    if (thr_plan_capacity(x->f, o, e) - more < x->passes) return false;
+    if (thr_plan_capacity(x->f, options, e) - more < x->passes) return false;
   for (int v = 0; v < x->f->n_nodes; v++)
     if (thr_degree(x->f, v) < 2) return false;
   return true;
@@ -78,10 +78,10 @@ static bool is_possible(first *x)
 /* The darts of a node stand edge by edge: the second of every two of an edge goes on in the first of two of the next edge. */
 static void pair_in_rings(first *x)
 {
-  const thr_multigraph *g = &x->g;
-  for (int v = 0; v < g->n_nodes; v++) {
-    const int *dart = g->dart + g->first[v];
-    int n = g->first[v + 1] - g->first[v];
+  const thr_multigraph *multigraph = &x->g;
+  for (int v = 0; v < multigraph->n_nodes; v++) {
+    const int *dart = multigraph->dart + multigraph->first[v];
+    int n = multigraph->first[v + 1] - multigraph->first[v];
     for (int i = 1; i < n; i += 2) {
       int next = (i - 1 + x->passes) % n;
       x->mate[dart[i]] = dart[next];
@@ -101,17 +101,17 @@ static void exchange(int *mate, int a, int b)
 
 static thr_status join_circuits(first *x, thr_err *err)
 {
-  const thr_multigraph *g = &x->g;
-  int copies = g->n_darts / 2, *circuit = thr_calloc((size_t)copies, sizeof *circuit);
+  const thr_multigraph *multigraph = &x->g;
+  int copies = multigraph->n_darts / 2, *circuit = thr_calloc((size_t)copies, sizeof *circuit);
   if (!circuit) return thr_nomem(err);
   for (int c = 0; c < copies; c++)
     circuit[c] = c;
-  for (int d = 0; d < g->n_darts; d++)
+  for (int d = 0; d < multigraph->n_darts; d++)
     thr_disjoint_join(circuit, d / 2, x->mate[d] / 2);
-  for (int v = 0; v < g->n_nodes; v++)
-    for (int i = g->first[v]; i + 1 < g->first[v + 1]; i++) {
-      int a = g->dart[i], b = g->dart[i + 1];
-      if (g->half[a] == g->half[b] && thr_disjoint_join(circuit, a / 2, b / 2)) exchange(x->mate, a, b);
+  for (int v = 0; v < multigraph->n_nodes; v++)
+    for (int i = multigraph->first[v]; i + 1 < multigraph->first[v + 1]; i++) {
+      int a = multigraph->dart[i], b = multigraph->dart[i + 1];
+      if (multigraph->half[a] == multigraph->half[b] && thr_disjoint_join(circuit, a / 2, b / 2)) exchange(x->mate, a, b);
     }
   free(circuit);
   return THR_OK;
@@ -180,13 +180,14 @@ static thr_status add_circuit(first *x, const thr_ways *g, int e, int n, thr_err
 /* The edge of every component that closes the shortest circuit with the ways to its nodes. */
 static void find_circuits(const first *x, const thr_ways *g, int *best)
 {
-  const thr_frame *f = x->f;
+  const thr_frame *frame = x->f;
   for (int k = 0; k < x->n_components; k++)
     best[k] = -1;
-  for (int e = 0; e < f->n_edges; e++) {
-    int a = f->edge[e][0], b = f->edge[e][1], *at = &best[x->component[a]];
+  for (int e = 0; e < frame->n_edges; e++) {
+    int a = frame->edge[e][0], b = frame->edge[e][1], *at = &best[x->component[a]];
     if (g->over[a] >> 1 == e || g->over[b] >> 1 == e) continue;
-    if (*at < 0 || f->length[e] + g->far[a] + g->far[b] < f->length[*at] + g->far[f->edge[*at][0]] + g->far[f->edge[*at][1]])
+    if (*at < 0 ||
+        frame->length[e] + g->far[a] + g->far[b] < frame->length[*at] + g->far[frame->edge[*at][0]] + g->far[frame->edge[*at][1]])
       *at = e;
   }
 }
@@ -231,20 +232,20 @@ static int next_place(const first *x, const thr_walk *w, int from, double least,
 /* The circuit of component k cut into pieces; *n counts them. */
 static thr_status cut_circuit(first *x, int k, int *n, thr_err *err)
 {
-  const thr_plan_options *o = x->o;
+  const thr_plan_options *options = x->o;
   thr_walks *w = &x->walks[k];
   int start = 0;
-  while (start < w->walk[0].n && !thr_plan_end_allowed(x->f, o, thr_walk_node(x->f, &w->walk[0], start)))
+  while (start < w->walk[0].n && !thr_plan_end_allowed(x->f, options, thr_walk_node(x->f, &w->walk[0], start)))
     start++;
   *n = 0;
   if (start == w->walk[0].n) return THR_OK;
   thr_status st = thr_walk_rotate(&w->walk[0], start, err);
   x->mark[thr_walk_node(x->f, &w->walk[0], 0)] = true;
-  for (int last = 0, wanted = o->cords_least; !st && w->walk[last].n > 0; last++) {
+  for (int last = 0, wanted = options->cords_least; !st && w->walk[last].n > 0; last++) {
     thr_walk *rest = &w->walk[last];
     double part = rest->length / (wanted > last ? wanted - last : 1);
-    int at =
-        o->max_length > 0 ? next_place(x, rest, 0, INFINITY, o->max_length) : next_place(x, rest, 0, part * (1 - 1e-9), INFINITY);
+    int at = options->max_length > 0 ? next_place(x, rest, 0, INFINITY, options->max_length)
+                                     : next_place(x, rest, 0, part * (1 - 1e-9), INFINITY);
     if (at < 0) return THR_OK;
     *n = last + 1;
     if (at == rest->n) return THR_OK;
@@ -267,10 +268,10 @@ static thr_status cut_circuits(first *x, bool *found, thr_err *err)
   return st;
 }
 
-thr_status thr_tube_first(const thr_frame *f, const thr_plan_options *o, thr_cord **cord, int *n_cords, thr_err *err)
+thr_status thr_tube_first(const thr_frame *frame, const thr_plan_options *options, thr_cord **cord, int *n_cords, thr_err *err)
 {
-  first x = {.f = f, .o = o};
-  thr_plan p = {.frame = *f, .options = *o};
+  first x = {.f = frame, .o = options};
+  thr_plan plan = {.frame = *frame, .options = *options};
   bool found = true;
   *cord = NULL;
   *n_cords = 0;
@@ -279,14 +280,15 @@ thr_status thr_tube_first(const thr_frame *f, const thr_plan_options *o, thr_cor
   if (!st) pair_in_rings(&x);
   if (!st) st = join_circuits(&x, err);
   if (!st) st = take_circuits(&x, err);
-  if (!st) st = o->ends == THR_ENDS_CLOSED ? add_circuits(&x, o->cords_least - 1, err) : cut_circuits(&x, &found, err);
-  if (!st && found) st = thr_walks_plan(x.walks, x.n_components, &p, err);
+  if (!st)
+    st = options->ends == THR_ENDS_CLOSED ? add_circuits(&x, options->cords_least - 1, err) : cut_circuits(&x, &found, err);
+  if (!st && found) st = thr_walks_plan(x.walks, x.n_components, &plan, err);
   first_destroy(&x);
   if (st) {
-    thr_cords_destroy(p.cord, p.n_cords);
+    thr_cords_destroy(plan.cord, plan.n_cords);
   } else {
-    *cord = p.cord;
-    *n_cords = p.n_cords;
+    *cord = plan.cord;
+    *n_cords = plan.n_cords;
   }
   return st;
 }

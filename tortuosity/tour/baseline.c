@@ -57,10 +57,10 @@ static int head_of(const walker *w, int d)
 /* An unused dart that leaves v, or -1. */
 static int unused_at(walker *w, int v)
 {
-  const thr_multigraph *g = &w->j->g;
-  while (w->cursor[v] < g->first[v + 1] && w->used[g->dart[w->cursor[v]]])
+  const thr_multigraph *multigraph = &w->j->g;
+  while (w->cursor[v] < multigraph->first[v + 1] && w->used[multigraph->dart[w->cursor[v]]])
     w->cursor[v]++;
-  return w->cursor[v] < g->first[v + 1] ? g->dart[w->cursor[v]] : -1;
+  return w->cursor[v] < multigraph->first[v + 1] ? multigraph->dart[w->cursor[v]] : -1;
 }
 
 /* What Hierholzer walks after dart d, or -1. */
@@ -95,15 +95,15 @@ static int hierholzer(walker *w, int start)
 /* Can v be reached from the head of dart d over unused passes other than d's? */
 static bool leads_back(walker *w, int d, int v)
 {
-  const thr_multigraph *g = &w->j->g;
+  const thr_multigraph *multigraph = &w->j->g;
   int head = 0, tail = 0, now = ++w->searches;
   w->stamp[head_of(w, d)] = now;
   w->queue[tail++] = head_of(w, d);
   while (head < tail) {
     int u = w->queue[head++];
     if (u == v) return true;
-    for (int i = g->first[u]; i < g->first[u + 1]; i++) {
-      int e = g->dart[i], to = head_of(w, e);
+    for (int i = multigraph->first[u]; i < multigraph->first[u + 1]; i++) {
+      int e = multigraph->dart[i], to = head_of(w, e);
       if (w->used[e] || (e | 1) == (d | 1) || w->stamp[to] == now) continue;
       w->stamp[to] = now;
       w->queue[tail++] = to;
@@ -123,15 +123,15 @@ static double rank_of(const walker *w, int d, int e)
  * are bridges, so two looks do. */
 static int next_but_bridges(walker *w, int d)
 {
-  const thr_multigraph *g = &w->j->g;
+  const thr_multigraph *multigraph = &w->j->g;
   int v = head_of(w, d), bridge = -1, at = -1, left;
   do {
     double best = INFINITY;
     bridge = at;
     at = -1;
     left = 0;
-    for (int i = g->first[v]; i < g->first[v + 1]; i++) {
-      int e = g->dart[i];
+    for (int i = multigraph->first[v]; i < multigraph->first[v + 1]; i++) {
+      int e = multigraph->dart[i];
       if (w->used[e]) continue;
       left++;
       double rank = rank_of(w, d, e);
@@ -164,17 +164,17 @@ static void take_pairs(walker *w, int n)
 /* The cheapest pairing of the passes and ends at every node, and of the two ends of a cord. */
 static thr_status pair_nodes(walker *w, thr_err *err)
 {
-  const thr_multigraph *g = &w->j->g;
+  const thr_multigraph *multigraph = &w->j->g;
   int most = 0;
-  for (int v = 0; v < g->n_nodes; v++)
-    if (g->first[v + 1] - g->first[v] > most) most = g->first[v + 1] - g->first[v];
+  for (int v = 0; v < multigraph->n_nodes; v++)
+    if (multigraph->first[v + 1] - multigraph->first[v] > most) most = multigraph->first[v + 1] - multigraph->first[v];
   double *price = thr_calloc((size_t)most * (size_t)most, sizeof *price);
   int *mate = thr_calloc((size_t)most, sizeof *mate);
-  w->partner = thr_calloc((size_t)g->n_darts, sizeof *w->partner);
+  w->partner = thr_calloc((size_t)multigraph->n_darts, sizeof *w->partner);
   thr_status st = price && mate && w->partner ? THR_OK : thr_nomem(err);
-  for (int v = 0; v < g->n_nodes && !st; v++) {
-    const int *dart = g->dart + g->first[v];
-    int n = g->first[v + 1] - g->first[v];
+  for (int v = 0; v < multigraph->n_nodes && !st; v++) {
+    const int *dart = multigraph->dart + multigraph->first[v];
+    int n = multigraph->first[v + 1] - multigraph->first[v];
     for (int i = 0; i < n; i++)
       for (int k = 0; k < n; k++)
         price[i * n + k] = i == k ? 0 : thr_join_price(w->j, dart[i], dart[k]);
@@ -206,34 +206,35 @@ static thr_status walk_all(thr_join *j, thr_tour tour, bool ignore_pairings, thr
 }
 
 /* A join takes full edges only where there is none without. */
-static thr_status check_room(const thr_turning_columns *c, const int *passes, thr_err *err)
+static thr_status check_room(const thr_turning_columns *turning_columns, const int *passes, thr_err *err)
 {
-  const thr_frame *f = c->f;
-  for (int e = 0; e < f->n_edges; e++)
-    if (passes[e] > c->most[e])
+  const thr_frame *frame = turning_columns->f;
+  for (int e = 0; e < frame->n_edges; e++)
+    if (passes[e] > turning_columns->most[e])
       return thr_fail(err, THR_EINFEASIBLE, "edge %s-%s is full with %d %s, and one cord in each component would need one more",
-                      f->name[f->edge[e][0]], f->name[f->edge[e][1]], c->most[e], c->most[e] == 1 ? "pass" : "passes");
+                      frame->name[frame->edge[e][0]], frame->name[frame->edge[e][1]], turning_columns->most[e],
+                      turning_columns->most[e] == 1 ? "pass" : "passes");
   return THR_OK;
 }
 
-thr_status thr_baseline_tour(const thr_frame *f, const thr_least_options *o, thr_tour tour, bool ignore_pairings,
+thr_status thr_baseline_tour(const thr_frame *frame, const thr_least_options *options, thr_tour tour, bool ignore_pairings,
                              const thr_limits *limits, thr_least *out, thr_err *err)
 {
   thr_least made = {0};
-  thr_turning_columns c = {0};
+  thr_turning_columns turning_columns = {0};
   thr_join j = {0};
   *out = (thr_least){0};
   if (tour != THR_TOUR_FLEURY && tour != THR_TOUR_HIERHOLZER)
     return thr_fail(err, THR_EINPUT, "the least turning is no classical tour; name fleury or hierholzer");
-  if (o->cords > 1) return thr_fail(err, THR_EINPUT, "the classical tours make one cord per component; leave --cords out");
-  int *passes = thr_calloc((size_t)f->n_edges, sizeof *passes), *ends = thr_calloc((size_t)f->n_nodes, sizeof *ends);
-  thr_status st = passes && ends ? thr_least_task(f, o, &made, err) : thr_nomem(err);
-  if (!st) st = thr_turning_columns_init(&c, f, &made.task, err);
-  if (!st) st = thr_extra_passes(&c, f->length, NULL, false, limits, passes, ends, err);
-  if (!st) st = check_room(&c, passes, err);
-  if (!st) st = thr_join_init(&j, &c, passes, made.end_allowed ? ends : NULL, err);
+  if (options->cords > 1) return thr_fail(err, THR_EINPUT, "the classical tours make one cord per component; leave --cords out");
+  int *passes = thr_calloc((size_t)frame->n_edges, sizeof *passes), *ends = thr_calloc((size_t)frame->n_nodes, sizeof *ends);
+  thr_status st = passes && ends ? thr_least_task(frame, options, &made, err) : thr_nomem(err);
+  if (!st) st = thr_turning_columns_init(&turning_columns, frame, &made.task, err);
+  if (!st) st = thr_extra_passes(&turning_columns, frame->length, NULL, false, limits, passes, ends, err);
+  if (!st) st = check_room(&turning_columns, passes, err);
+  if (!st) st = thr_join_init(&j, &turning_columns, passes, made.end_allowed ? ends : NULL, err);
   if (!st) st = walk_all(&j, tour, ignore_pairings, err);
-  if (!st) st = thr_least_cords(f, &j, &made, err);
+  if (!st) st = thr_least_cords(frame, &j, &made, err);
   if (!st) {
     made.shortest = made.length;
     *out = made;
@@ -241,7 +242,7 @@ thr_status thr_baseline_tour(const thr_frame *f, const thr_least_options *o, thr
   }
   thr_least_destroy(&made);
   thr_join_destroy(&j);
-  thr_turning_columns_destroy(&c);
+  thr_turning_columns_destroy(&turning_columns);
   free(passes);
   free(ends);
   return st;

@@ -22,7 +22,7 @@
  * Fills out like thr_least_turning, without proof, bound or claim (bound 0, optimal false). U-turns may occur anywhere if
  * pairings are ignored, and where a walk is spliced in. One cord per component; length_slack and most_nodes are not looked at.
  * THR_EINPUT for THR_TOUR_LEAST and several cords. Fleury's bridges are found by search: O(passes^2) at worst. */
-thr_status thr_baseline_tour(const thr_frame *f, const thr_least_options *o, thr_tour tour, bool ignore_pairings,
+thr_status thr_baseline_tour(const thr_frame *frame, const thr_least_options *options, thr_tour tour, bool ignore_pairings,
                              const thr_limits *limits, thr_least *out, thr_err *err) THR_MUST_CHECK;
 
 #endif
