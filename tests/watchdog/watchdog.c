@@ -21,7 +21,8 @@
 #include <unistd.h>
 
 static const double cpu_limit = 3;         /* s, with --time-limit 2 */
-static const double plan_by = 0.5;         /* CPU s, with --time-limit 2: there is some plan after that */
+static const double plan_by = 0.5;         /* CPU s, with --time-limit 2: there is some plan after that .. */
+static const double time_used = 1.5;       /* s: .. if it was the time that ended the search, not the size of the problem */
 static const double after_signal = 1;      /* s */
 static const double started = 0.05;        /* s: before, a signal may meet a process that is still being loaded */
 static const long memory_limit = 1L << 20; /* KiB */
@@ -177,7 +178,8 @@ static const char *judge(const result *r, const char *plan, bool interrupted)
   if (r->memory > memory_limit) return "more than 1 GB";
   if (r->code < 0 && interrupted && r->cpu < started && !written) return NULL;
   if (r->code != 0 && r->code != 4 && r->code != 5) return "exit code";
-  if (plan && !written && (r->code == 0 || (r->code == 5 && !interrupted && r->cpu >= plan_by))) return "no plan";
+  bool had_time = r->code == 5 && !interrupted && r->cpu >= plan_by && r->wall >= time_used;
+  if (plan && !written && (r->code == 0 || had_time)) return "no plan";
   if (r->code == 4 && written) return "exit code 4";
   if (!written && r->code != 0 && strncmp(r->message, "thread: ", 8) != 0) return "no message";
   return NULL;
