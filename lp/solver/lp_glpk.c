@@ -1,6 +1,7 @@
 /* The only file that knows GLPK. GLPK aborts on misuse and when memory runs out: every call runs under guarded(), whose
  * error hook jumps out. After that GLPK's environment must be freed, which kills every problem of the process; each
  * thr_lp remembers in which generation of the environment it was born. */
+#define _POSIX_C_SOURCE 200809L
 #include "graph/limits.h"
 #include "graph/status.h"
 #include "graph/text.h"
@@ -10,6 +11,7 @@
 #include <glpk.h>
 #include <limits.h>
 #include <math.h>
+#include <pthread.h>
 #include <setjmp.h>
 #include <stdlib.h>
 #include <string.h>
@@ -45,11 +47,35 @@ static void jump_out(void *unused)
   longjmp(escape, 1);
 }
 
+/* GLPK's environment belongs to the thread that made it, and nobody else frees it: it goes with the thread. */
+static pthread_key_t thread_end;
+static pthread_once_t once = PTHREAD_ONCE_INIT;
+static bool has_key;
+
+static void free_environment(void *unused)
+{
+  (void)unused;
+  glp_free_env();
+}
+
+static void make_key(void)
+{
+  has_key = pthread_key_create(&thread_end, free_environment) == 0;
+}
+
+static void free_with_the_thread(void)
+{
+  static const bool used = true;
+  pthread_once(&once, make_key);
+  if (has_key && !pthread_getspecific(thread_end)) pthread_setspecific(thread_end, &used); /* without memory for it, it is kept */
+}
+
 /* Runs call(argument) with GLPK's aborts turned into THR_ESOLVER. The hooks are set anew each time because igraph,
  * which shares the library, may have set its own. */
 static thr_status guarded(void (*call)(void *), void *argument, thr_err *err)
 {
   message[0] = '\0';
+  free_with_the_thread();
   glp_term_out(GLP_ON); /* through keep_text: an abort's reason passes here */
   glp_term_hook(keep_text, NULL);
   if (setjmp(escape)) {
