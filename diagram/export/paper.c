@@ -58,6 +58,7 @@ struct thr_paper {
   cairo_surface_t *surface;
   cairo_t *cairo;
   double width, height; /* pt */
+  const thr_text *out;  /* borrowed */
 };
 
 const char *thr_page_name(int s)
@@ -104,6 +105,7 @@ thr_status thr_paper_open(thr_paper **paper, thr_page_size size, const char *tit
   thr_page_mm(size, mm);
   thr_paper *new = *paper = thr_calloc(1, sizeof *new);
   if (!new) return thr_nomem(err);
+  new->out = out;
   new->width = mm[0] / POINT;
   new->height = mm[1] / POINT;
   new->surface = lib.cairo_pdf_surface_create_for_stream(append, out, new->width, new->height);
@@ -130,13 +132,40 @@ thr_status thr_paper_add(thr_paper *paper, const thr_text *svg, thr_err *err)
   return !st && status ? failed(status, err) : st;
 }
 
+/* Is every object of a PDF where its table of objects (xref) says? Where cairo has no memory for the stream of a font, it goes on
+ * without, says nothing, and the font is an object that is not there. */
+static bool holds_all(const thr_text *pdf)
+{
+  static const char keyword[] = "startxref";
+  enum { ENTRY = 20 }; /* bytes: ten digits of the place, five, n or f, the end of the line */
+  char head[32];
+  size_t last = sizeof keyword - 1, at = pdf->length, place = 0;
+  if (pdf->length <= last) return false;
+  for (at -= last; at > 0 && memcmp(pdf->data + at, keyword, last) != 0; at--) {
+  }
+  int n = 0, used = 0;
+  if (at > 0 && sscanf(pdf->data + at + last, "%zu", &place) != 1) return false;
+  if (at == 0 || place >= at || sscanf(pdf->data + place, "xref 0 %d %n", &n, &used) != 1 || n < 1) return false;
+  place += (size_t)used;
+  if (at < place || (at - place) / ENTRY < (size_t)n) return false;
+  for (int i = 1; i < n; i++) {
+    size_t object = strtoul(pdf->data + place + (size_t)i * ENTRY, NULL, 10);
+    int length = snprintf(head, sizeof head, "%d 0 obj", i);
+    if (pdf->data[place + (size_t)i * ENTRY + 17] != 'n') continue;
+    if (object + (size_t)length > at || memcmp(pdf->data + object, head, (size_t)length) != 0) return false;
+  }
+  return true;
+}
+
 thr_status thr_paper_close(thr_paper *paper, thr_err *err)
 {
   if (!paper) return THR_OK;
+  const thr_text *out = paper->out;
   lib.cairo_destroy(paper->cairo);
   lib.cairo_surface_finish(paper->surface);
   cairo_status_t status = lib.cairo_surface_status(paper->surface);
   lib.cairo_surface_destroy(paper->surface);
   free(paper);
-  return status ? failed(status, err) : THR_OK;
+  if (status) return failed(status, err);
+  return holds_all(out) ? THR_OK : thr_nomem(err);
 }
