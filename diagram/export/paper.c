@@ -4,7 +4,9 @@
 
 #include <cairo-pdf.h>
 #include <librsvg/rsvg.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #ifdef __SANITIZE_ADDRESS__
 /* fontconfig keeps what it has read of fonts until the process ends, where the leak checker cannot see it. */
@@ -132,29 +134,42 @@ thr_status thr_paper_add(thr_paper *paper, const thr_text *svg, thr_err *err)
   return !st && status ? failed(status, err) : st;
 }
 
+/* Where text stands last; NULL if it does not. */
+static const char *last_of(const thr_text *pdf, const char *text)
+{
+  size_t length = strlen(text);
+  for (size_t at = pdf->length; at >= length; at--)
+    if (memcmp(pdf->data + at - length, text, length) == 0) return pdf->data + at - length;
+  return NULL;
+}
+
 /* Is every object of a PDF where its table of objects (xref) says? Where cairo has no memory for the stream of a font, it goes on
- * without, says nothing, and the font is an object that is not there. */
+ * without, says nothing, and the font is an object that is not there. Newer versions of cairo have no such table: true. */
 static bool holds_all(const thr_text *pdf)
 {
-  static const char keyword[] = "startxref";
-  enum { ENTRY = 20 }; /* bytes: ten digits of the place, five, n or f, the end of the line */
-  char head[32];
-  size_t last = sizeof keyword - 1, at = pdf->length, place = 0;
-  if (pdf->length <= last) return false;
-  for (at -= last; at > 0 && memcmp(pdf->data + at, keyword, last) != 0; at--) {
-  }
+  enum { ENTRY = 20, KIND = 17 }; /* bytes: ten digits of the place, five, n or f, the end of the line */
+  const char *start = last_of(pdf, "startxref");
+  size_t place = 0, end = start ? (size_t)(start - pdf->data) : 0;
   int n = 0, used = 0;
-  if (at > 0 && sscanf(pdf->data + at + last, "%zu", &place) != 1) return false;
-  if (at == 0 || place >= at || sscanf(pdf->data + place, "xref 0 %d %n", &n, &used) != 1 || n < 1) return false;
+  if (!start || sscanf(start, "startxref %zu", &place) != 1 || place >= pdf->length) return false;
+  if (strncmp(pdf->data + place, "xref", 4) != 0) return true;
+  if (sscanf(pdf->data + place, "xref 0 %d %n", &n, &used) != 1 || n < 1) return false;
   place += (size_t)used;
-  if (at < place || (at - place) / ENTRY < (size_t)n) return false;
+  if (end < place || (end - place) / ENTRY < (size_t)n) return false;
   for (int i = 1; i < n; i++) {
-    size_t object = strtoul(pdf->data + place + (size_t)i * ENTRY, NULL, 10);
+    char head[32];
+    const char *entry = pdf->data + place + (size_t)i * ENTRY;
+    size_t object = strtoul(entry, NULL, 10);
     int length = snprintf(head, sizeof head, "%d 0 obj", i);
-    if (pdf->data[place + (size_t)i * ENTRY + 17] != 'n') continue;
-    if (object + (size_t)length > at || memcmp(pdf->data + object, head, (size_t)length) != 0) return false;
+    if (entry[KIND] == 'n' && (object >= end || strncmp(pdf->data + object, head, (size_t)length) != 0)) return false;
   }
   return true;
+}
+
+/* Where fontconfig finds no font, or has no memory to look for one, pages are drawn without their words. */
+static bool has_fonts(const thr_text *pdf)
+{
+  return last_of(pdf, "/FontFile") || last_of(pdf, "/ObjStm"); /* in there it would be compressed */
 }
 
 thr_status thr_paper_close(thr_paper *paper, thr_err *err)
@@ -167,5 +182,8 @@ thr_status thr_paper_close(thr_paper *paper, thr_err *err)
   lib.cairo_surface_destroy(paper->surface);
   free(paper);
   if (status) return failed(status, err);
-  return holds_all(out) ? THR_OK : thr_nomem(err);
+  if (!holds_all(out)) return thr_nomem(err);
+  return has_fonts(out)
+             ? THR_OK
+             : thr_fail(err, THR_ESOLVER, "no font was found for the words of the PDF; install one, as fonts-dejavu-core");
 }
