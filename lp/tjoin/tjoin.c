@@ -85,7 +85,7 @@ void thr_tjoin_destroy(thr_tjoin *tjoin)
 
 /* ---- rounding: the T-join of a spanning tree that prefers edges of large x ---- */
 
-static const double *sort_key; /* qsort has no user pointer; like GLPK, not for threads */
+static _Thread_local const double *sort_key; /* qsort has no user pointer */
 
 static int by_key(const void *pa, const void *pb)
 {
