@@ -14,11 +14,11 @@ static const double OFTEN = 0.2; /* s between two plans that are kept */
 
 static struct {
   const thr_frame *f;
-  const thr_plan_options *o;
+  const thr_request *o;
   double value, at; /* of the last one: what is minimized, thr_clock() */
 } best;
 
-void best_begin(const thr_frame *frame, const thr_plan_options *options)
+void best_begin(const thr_frame *frame, const thr_request *options)
 {
   best.f = frame;
   best.o = options;

@@ -7,7 +7,7 @@
 #include "graph/plan/request.h"
 
 /* What cords must be: those of a plan for this framework with these options. Both stay as they are until the search is over. */
-void best_begin(const thr_frame *frame, const thr_plan_options *options);
+void best_begin(const thr_frame *frame, const thr_request *options);
 
 /* For thr_limits.found: keeps the cords if they pass the checker and are better than the last ones, a few times a second at most.
  * O(size of a plan). */

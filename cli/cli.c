@@ -256,7 +256,7 @@ bool cli_mark_nodes(const thr_frame *frame, const char *list, const char *option
   return ok;
 }
 
-int cli_resolve_ends(const char *ends, const thr_frame *frame, thr_plan_options *options)
+int cli_resolve_ends(const char *ends, const thr_frame *frame, thr_request *options)
 {
   for (int kind = THR_ENDS_CLOSED; kind < THR_ENDS_NODES; kind++)
     if (strcmp(ends, thr_ends_name(kind)) == 0) {

@@ -96,7 +96,7 @@ bool cli_mark_nodes(const thr_frame *frame, const char *list, const char *option
 
 /* --ends closed, any, feet, or nodes as above: sets options->ends and, for nodes, options->end_node, which the caller frees.
  * Returns EXIT_OK or prints and returns the code. */
-int cli_resolve_ends(const char *ends, const thr_frame *frame, thr_plan_options *options);
+int cli_resolve_ends(const char *ends, const thr_frame *frame, thr_request *options);
 
 /* Reads a plan; one that does not hold is still read, with a warning. Returns EXIT_OK or prints and returns the code. */
 int cli_read_plan(const char *path, thr_plan *plan);

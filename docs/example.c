@@ -18,7 +18,7 @@ int main(int argc, char **argv) /* example FRAME [PLAN ..] */
     thr_plan plan = {0};
     thr_text text = {0};
     const thr_limits limits = {.deadline = thr_clock() + 20};
-    thr_plan_options request = thr_plan_options_default();
+    thr_request request = thr_request_default();
     st = thr_aims_parse(aims[i], &request, &err);
     if (!st) st = thr_plan_make(&frame, &request, &limits, &plan, NULL, &err);
     if (plan.n_cords > 0) st = thr_check_plan(&plan, &err); /* proved least or not, it holds its bounds */

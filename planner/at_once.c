@@ -12,9 +12,9 @@
 #include <stdlib.h>
 
 /* One cord through every edge an even number of times; *n = 0 where there is no room for that. */
-static thr_status even_cords(const thr_frame *frame, const thr_plan_options *options, thr_cord **cord, int *n, thr_err *err)
+static thr_status even_cords(const thr_frame *frame, const thr_request *options, thr_cord **cord, int *n, thr_err *err)
 {
-  thr_plan_options one = *options;
+  thr_request one = *options;
   thr_status st = THR_OK;
   bool room = true;
   int *passes = thr_calloc((size_t)frame->n_edges, sizeof *passes);
@@ -29,7 +29,7 @@ static thr_status even_cords(const thr_frame *frame, const thr_plan_options *opt
   return st;
 }
 
-void thr_planner_tell_at_once(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits)
+void thr_planner_tell_at_once(const thr_frame *frame, const thr_request *options, const thr_limits *limits)
 {
   enum { MOST_EDGES = 200000 }; /* beyond, writing it takes longer than it is worth */
   thr_cord *cord = NULL;

@@ -32,7 +32,7 @@ thr_objective thr_dispatch_objective(int i)
   return objectives[i].id;
 }
 
-static int row_of(const thr_plan_options *options)
+static int row_of(const thr_request *options)
 {
   int i = 0;
   while (objectives[i].id != thr_aims_objective(options))
@@ -40,7 +40,7 @@ static int row_of(const thr_plan_options *options)
   return i;
 }
 
-thr_planner *thr_dispatch(const thr_plan_options *options)
+thr_planner *thr_dispatch(const thr_request *options)
 {
   return objectives[row_of(options)].plan;
 }
@@ -50,7 +50,7 @@ thr_limits thr_dispatch_share(const thr_limits *limits, thr_step step)
   return thr_limits_part(limits, part[step]);
 }
 
-double thr_dispatch_usual_seconds(const thr_plan_options *options)
+double thr_dispatch_usual_seconds(const thr_request *options)
 {
   return options->joint == THR_JOINT_TUBE ? tube_seconds : objectives[row_of(options)].seconds;
 }

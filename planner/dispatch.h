@@ -10,14 +10,14 @@
 #include "planner/plan.h"
 
 /* A planner: fills an empty plan and an empty report, with the statuses of thr_plan_make. */
-typedef thr_status thr_planner(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
+typedef thr_status thr_planner(const thr_frame *f, const thr_request *o, const thr_limits *limits, thr_plan *plan,
                                thr_report *report, thr_err *err);
 
 /* The name of the i-th of THR_N_OBJECTIVES, in the order in which a user reads them, and which it is. */
 const char *thr_dispatch_name(int i);
 thr_objective thr_dispatch_objective(int i);
 
-thr_planner *thr_dispatch(const thr_plan_options *options);
+thr_planner *thr_dispatch(const thr_request *options);
 
 /* Steps of a plan that have a part of the time to themselves, of what is left when their turn comes. */
 typedef enum {
@@ -35,7 +35,7 @@ typedef enum {
 thr_limits thr_dispatch_share(const thr_limits *limits, thr_step step);
 
 /* Seconds for a plan if nobody says how many; 0 = any time. */
-double thr_dispatch_usual_seconds(const thr_plan_options *options);
+double thr_dispatch_usual_seconds(const thr_request *options);
 
 /* What of the seconds that everything may take is for the search: the rest is for checking and writing, for drawing, or for the
  * plans that it is held against. */

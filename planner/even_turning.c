@@ -9,14 +9,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-thr_status thr_even_seed(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits, thr_plan *seed,
+thr_status thr_even_seed(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *seed,
                          thr_err *err)
 {
   thr_symmetries symmetries;
-  thr_plan_options so = *options;
+  thr_request so = *options;
   thr_err why = {0};
   const thr_limits share = thr_dispatch_share(limits, THR_STEP_SEED);
-  so.symmetry = thr_plan_options_default().symmetry;
+  so.symmetry = thr_request_default().symmetry;
   so.aims = thr_aims_symmetric;
   thr_status st = thr_symmetries_find(frame, &so, &share, &symmetries, &why);
   int row = st && st != THR_ELIMIT ? -1 : thr_symmetries_even(&symmetries, options->cords);

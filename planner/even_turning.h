@@ -10,7 +10,7 @@
 #include "tortuosity/proof/least.h"
 
 /* A symmetric plan with as many cords in every component as options.cords, if there is one; else seed stays empty. */
-thr_status thr_even_seed(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits, thr_plan *seed,
+thr_status thr_even_seed(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *seed,
                          thr_err *err) THR_MUST_CHECK;
 
 /* Replaces the cords of least by the better of what comes of its own and of the seed's (NULL = none), which is tried first. */

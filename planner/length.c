@@ -17,7 +17,7 @@
 
 #include <stdlib.h>
 
-typedef thr_status component_planner(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *plan,
+typedef thr_status component_planner(const thr_frame *f, const thr_request *o, const thr_limits *limits, thr_plan *plan,
                                      thr_cords_word *word, thr_err *err);
 
 /* ---- several components ---- */
@@ -90,7 +90,7 @@ static thr_status count_components(const thr_frame *frame, int *n, thr_err *err)
 static thr_status prove_solid(thr_plan *plan, thr_err *err)
 {
   const thr_frame *frame = &plan->frame;
-  const thr_plan_options *options = &plan->options;
+  const thr_request *options = &plan->options;
   thr_length_proof *proof = &plan->proof;
   thr_err found = {0};
   thr_status st = thr_plan_measure(frame, options, plan->cord, plan->n_cords, &plan->metrics, err);
@@ -105,12 +105,12 @@ static thr_status prove_solid(thr_plan *plan, thr_err *err)
 }
 
 /* One cord in each component is a problem that falls apart by itself. */
-static bool one_each(const thr_plan_options *options)
+static bool one_each(const thr_request *options)
 {
   return options->cords == 1 && options->max_length == 0 && options->ends != THR_ENDS_COUNTS;
 }
 
-static thr_status plan_solid(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits, thr_plan *plan,
+static thr_status plan_solid(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
                              thr_cords_word *word, thr_err *err)
 {
   int n = 1;
@@ -131,14 +131,14 @@ static thr_status plan_solid(const thr_frame *frame, const thr_plan_options *opt
 static thr_status prove_tied(thr_tube *tube, thr_plan *plan, thr_err *err)
 {
   const thr_frame *frame = &plan->frame;
-  const thr_plan_options *options = &plan->options;
+  const thr_request *options = &plan->options;
   thr_status st = thr_plan_measure(frame, options, plan->cord, plan->n_cords, &plan->metrics, err);
   if (!st) thr_tube_prove(tube, plan->metrics.length, &plan->proof);
   if (st || one_each(options)) return st;
   return thr_check_tied_cords(frame, options, plan->cord, plan->n_cords, &plan->proof.tied, &plan->cords_claim, err);
 }
 
-static thr_status plan_tied(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits, thr_plan *plan,
+static thr_status plan_tied(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
                             thr_cords_word *word, thr_err *err)
 {
   thr_tube tube = {0};
@@ -162,7 +162,7 @@ static thr_status plan_tied(const thr_frame *frame, const thr_plan_options *opti
 
 /* ---- the planner ---- */
 
-thr_status thr_planner_length(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits, thr_plan *plan,
+thr_status thr_planner_length(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
                               thr_report *report, thr_err *err)
 {
   thr_cords_word word = {0};
@@ -172,9 +172,9 @@ thr_status thr_planner_length(const thr_frame *frame, const thr_plan_options *op
   return st;
 }
 
-void thr_planner_tell_first(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits)
+void thr_planner_tell_first(const thr_frame *frame, const thr_request *options, const thr_limits *limits)
 {
-  thr_plan_options length = *options;
+  thr_request length = *options;
   thr_limits share = thr_dispatch_share(limits, THR_STEP_FIRST);
   thr_plan p = {0};
   thr_tube tube = {0};
@@ -194,7 +194,7 @@ void thr_planner_tell_first(const thr_frame *frame, const thr_plan_options *opti
 thr_status thr_planner_prove_tied(thr_plan *plan, const thr_limits *limits, thr_err *err)
 {
   thr_tube tube;
-  thr_plan_options options = plan->options;
+  thr_request options = plan->options;
   thr_err why = {0};
   if (options.ends == THR_ENDS_CLOSED) options.cords = 1;
   thr_status st = thr_tube_shortest(&plan->frame, &options, limits, &tube, &why);

@@ -21,9 +21,8 @@
 
 typedef struct {
   const thr_frame *f;
-  const thr_plan_options *o;
+  const thr_request *o;
   const thr_limits *limits;
-  double shortest;        /* length of the shortest cords, of any length each */
   thr_plan best;          /* cords that serve the aims best so far; none yet: n_cords is 0 */
   thr_turning_claim tree; /* whose bound is the highest so far */
 } mixed;
@@ -34,7 +33,7 @@ static void mixed_destroy(mixed *m)
   thr_turning_proof_destroy(&m->tree.tree);
 }
 
-bool thr_planner_is_mixed(const thr_plan_options *options)
+bool thr_planner_is_mixed(const thr_request *options)
 {
   bool range = options->cords_least < options->cords && options->ends != THR_ENDS_COUNTS;
   return options->turning.tour == THR_TOUR_LEAST && (options->max_length > 0 || thr_wants_balance(options) || range);
@@ -77,7 +76,6 @@ static bool is_better(const mixed *m, const thr_plan *plan)
 static void offer(mixed *m, thr_plan *plan)
 {
   bool fits = m->o->max_length == 0 || longest_of(plan) <= m->o->max_length * (1 + 1e-12);
-  fits = fits && thr_plan_within_slack(m->o, plan->metrics.length, m->shortest);
   if (plan->n_cords == 0 || !fits || !is_better(m, plan)) return;
   thr_plan_destroy(&m->best);
   m->best = *plan;
@@ -108,7 +106,7 @@ static thr_status try_number(mixed *m, int n, const thr_limits *share, thr_err *
 {
   thr_plan plan;
   thr_err why = {0};
-  thr_plan_options options = *m->o;
+  thr_request options = *m->o;
   thr_limits quiet = *share;
   quiet.found = NULL; /* its cords may be too long */
   options.aims = (thr_aims){1, {thr_wants_largest(m->o) ? THR_AIM_MAX_TURNING : THR_AIM_TURNING}};
@@ -126,7 +124,7 @@ static thr_status try_number(mixed *m, int n, const thr_limits *share, thr_err *
 static thr_status try_numbers(mixed *m, thr_err *err)
 {
   enum { MOST_NUMBERS = 12 };
-  const thr_plan_options *options = m->o;
+  const thr_request *options = m->o;
   int last = options->cords, numbers = options->ends == THR_ENDS_COUNTS ? 1 : options->cords - options->cords_least + 1;
   thr_status st = THR_OK;
   if (numbers > MOST_NUMBERS && m->best.n_cords > 0) { /* those about as many as the shortest are */
@@ -145,11 +143,11 @@ static thr_status try_numbers(mixed *m, thr_err *err)
 /* Cords of the least length: with the limit, or even, as one of the plans to choose from; without either for their proof. */
 static thr_status plan_length(const mixed *m, bool limited, thr_plan *plan, thr_err *why)
 {
-  thr_plan_options options = *m->o;
+  thr_request options = *m->o;
   thr_limits share = thr_dispatch_share(m->limits, THR_STEP_BY_LENGTH);
   share.found = NULL;
   options.aims = thr_aims_shortest;
-  options.turning = thr_plan_options_default().turning;
+  options.turning = thr_request_default().turning;
   if (limited && thr_wants_balance(m->o)) options.aims = (thr_aims){2, {THR_AIM_LONGEST, THR_AIM_LENGTH}};
   if (!limited) options.max_length = 0;
   thr_status st = thr_planner_length(m->f, &options, &share, plan, NULL, why);
@@ -160,7 +158,7 @@ static thr_status plan_length(const mixed *m, bool limited, thr_plan *plan, thr_
 static thr_status prove_length(thr_plan *plan, thr_plan *p, thr_err *err)
 {
   const thr_frame *frame = &plan->frame;
-  const thr_plan_options *options = &plan->options;
+  const thr_request *options = &plan->options;
   thr_length_proof *from = &p->proof;
   if (options->joint == THR_JOINT_TUBE) {
     thr_tube tube = {.proof = from->tied};
@@ -210,7 +208,6 @@ static thr_status assemble(mixed *m, thr_plan *shortest, thr_plan *plan, thr_err
   st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
   if (!st) st = prove_length(plan, shortest, err);
   if (!st) st = prove_turning(m, plan, err);
-  plan->proof.slack_open = !thr_plan_within_slack(m->o, plan->metrics.length, plan->proof.lower_bound);
   return st;
 }
 
@@ -222,15 +219,12 @@ static thr_status verdict(const thr_plan *plan, thr_err *err)
     return thr_fail(err, THR_ELIMIT, "the longest cord is proved to be within %.3g %% of the shortest possible",
                     100 * (plan->cords_claim.longest - plan->cords_claim.longest_bound) / plan->cords_claim.longest);
   if (!claim->present) return thr_fail(err, THR_ELIMIT, "nothing is proved of the turning");
-  if (plan->proof.slack_open)
-    return thr_fail(err, THR_ELIMIT, "the least length is not proved: the cords may be %.3g %% longer, more than --length-slack",
-                    100 * (plan->metrics.length / plan->proof.lower_bound - 1));
   if (largest ? claim->largest_optimal : claim->optimal) return THR_OK;
   return thr_fail(err, THR_ELIMIT, "the turning is proved to be within %.3g %% of the least",
                   largest ? 100 * (claim->largest - claim->largest_bound) / claim->largest : 100 * claim->gap);
 }
 
-thr_status thr_planner_mixed(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits, thr_plan *plan,
+thr_status thr_planner_mixed(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
                              thr_err *err)
 {
   mixed m = {.f = frame, .o = options, .limits = limits};
@@ -238,7 +232,6 @@ thr_status thr_planner_mixed(const thr_frame *frame, const thr_plan_options *opt
   thr_err why = {0};
   *plan = (thr_plan){0};
   thr_status st = plan_length(&m, false, &shortest, &why);
-  m.shortest = shortest.metrics.length;
   if (!st && (options->max_length > 0 || thr_wants_balance(options))) {
     thr_status found = plan_length(&m, true, &limited, &why);
     if (!found) offer(&m, &limited);

@@ -22,7 +22,7 @@ static thr_status sign(thr_plan *plan, thr_err *err)
   return (plan->generator = thr_strdup(versions)) ? THR_OK : thr_nomem(err);
 }
 
-thr_status thr_plan_make(const thr_frame *frame, const thr_plan_options *request, const thr_limits *limits, thr_plan *plan,
+thr_status thr_plan_make(const thr_frame *frame, const thr_request *request, const thr_limits *limits, thr_plan *plan,
                          thr_report *report, thr_err *err)
 {
   thr_report own = {0};

@@ -1,6 +1,6 @@
 /* One way to make a plan: what is wanted goes in, a plan with its proofs comes out (planner/dispatch.c says who plans it).
  *
- *   thr_plan_options request = thr_plan_options_default();
+ *   thr_request request = thr_request_default();
  *   if (!thr_aims_parse("length+5%,turning", &request, &err) &&
  *       !thr_plan_make(&frame, &request, &(thr_limits){0}, &plan, NULL, &err))
  *     thr_plan_write(&plan, &text);
@@ -29,7 +29,7 @@ void thr_report_destroy(thr_report *report);
  * not wanted. THR_OK: what was to be least is proved to be. THR_ELIMIT: the plan is valid and holds its bounds, or it is
  * empty because no cords were found in time. THR_EINFEASIBLE: there is no plan, or none was found (said). THR_EINPUT: wishes that
  * do not go together (said). Otherwise the plan is empty; the report must be released in any case. */
-thr_status thr_plan_make(const thr_frame *frame, const thr_plan_options *request, const thr_limits *limits, thr_plan *plan,
+thr_status thr_plan_make(const thr_frame *frame, const thr_request *request, const thr_limits *limits, thr_plan *plan,
                          thr_report *report, thr_err *err) THR_MUST_CHECK;
 
 #endif

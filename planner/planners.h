@@ -12,17 +12,17 @@
 thr_planner thr_planner_length, thr_planner_turning, thr_planner_symmetric;
 
 /* Some cords that tie the joints, or the shortest, for whoever keeps the best so far: sooner than a search has any. */
-void thr_planner_tell_first(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits);
+void thr_planner_tell_first(const thr_frame *frame, const thr_request *options, const thr_limits *limits);
 
 /* What the cords of a plan with tube joints are proved to be as to their length. */
 thr_status thr_planner_prove_tied(thr_plan *plan, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
 
 /* Cords that take no search, sound but long, for whoever keeps the best so far; nothing where nobody listens. */
-void thr_planner_tell_at_once(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits);
+void thr_planner_tell_at_once(const thr_frame *frame, const thr_request *options, const thr_limits *limits);
 
 /* Is more asked of the turning's plan than its search knows, and the planner that composes it then (planner/mixed.c). */
-bool thr_planner_is_mixed(const thr_plan_options *options);
-thr_status thr_planner_mixed(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits, thr_plan *plan,
+bool thr_planner_is_mixed(const thr_request *options);
+thr_status thr_planner_mixed(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
                              thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -16,9 +16,9 @@ static thr_status close_rival(thr_rival *rival, thr_status st, thr_err *err)
 /* As many cords as plan's options say. */
 static thr_status make_length(const thr_plan *plan, const thr_limits *limits, thr_rival *rival, thr_err *err)
 {
-  thr_plan_options options = plan->options;
+  thr_request options = plan->options;
   options.aims = thr_aims_shortest;
-  options.turning = thr_plan_options_default().turning;
+  options.turning = thr_request_default().turning;
   return close_rival(rival, thr_plan_make(&plan->frame, &options, limits, &rival->plan, NULL, &rival->why), err);
 }
 
@@ -30,7 +30,7 @@ static bool is_tour(const thr_plan *plan)
 /* Of a classical tour, whose passes are the shortest, the least turning with the same limit on the length. */
 static thr_status make_corner(const thr_plan *plan, const thr_limits *limits, thr_rival *rival, thr_err *err)
 {
-  thr_plan_options options = plan->options;
+  thr_request options = plan->options;
   if (!is_tour(plan)) options.turning.length_slack = options.turning.length_slack == 0 ? -1 : 0;
   options.turning.tour = THR_TOUR_LEAST;
   options.turning.ignore_pairings = false;

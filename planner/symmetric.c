@@ -9,8 +9,8 @@
 #include "planner/planners.h"
 #include "symmetry/symmetry.h"
 
-thr_status thr_planner_symmetric(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits,
-                                 thr_plan *plan, thr_report *report, thr_err *err)
+thr_status thr_planner_symmetric(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
+                                 thr_report *report, thr_err *err)
 {
   thr_symmetries *table = report ? &report->symmetries : NULL;
   thr_err unproved = {0};

@@ -14,7 +14,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-static thr_least_options search_options(const thr_plan_options *options)
+static thr_least_options search_options(const thr_request *options)
 {
   thr_least_options lo = thr_least_options_default();
   lo.cover = options->cover;
@@ -82,12 +82,12 @@ static void shortest_destroy(shortest_plan *s)
   thr_tube_destroy(&s->tube);
 }
 
-static thr_status find_shortest(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits,
-                                shortest_plan *s, thr_err *err)
+static thr_status find_shortest(const thr_frame *frame, const thr_request *options, const thr_limits *limits, shortest_plan *s,
+                                thr_err *err)
 {
   const thr_limits share = thr_dispatch_share(limits, THR_STEP_SHORTEST);
   *s = (shortest_plan){0};
-  thr_plan_options any = *options;
+  thr_request any = *options;
   if (options->ends == THR_ENDS_CLOSED) { /* no closed cords are shorter than one, which the search cuts up */
     any.aims = thr_aims_shortest;
     any.cords_least = 1;
@@ -107,10 +107,10 @@ static void begin_with(const thr_frame *frame, const thr_tube *t, thr_least_opti
 
 /* Cords of a plan for the least length, where the shortest passes alone may not hold them: as many ends as given, as many closed
  * cords as asked for that tie the nodes. None if there is no such plan: the search may find what that did not. */
-static thr_status cords_by_length(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits,
-                                  thr_cord **cord, int *n, thr_err *err)
+static thr_status cords_by_length(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_cord **cord,
+                                  int *n, thr_err *err)
 {
-  thr_plan_options length = *options;
+  thr_request length = *options;
   const thr_limits share = thr_dispatch_share(limits, THR_STEP_BY_LENGTH);
   thr_err why = {0};
   thr_plan plan = {0};
@@ -125,7 +125,7 @@ static thr_status cords_by_length(const thr_frame *frame, const thr_plan_options
 }
 
 /* Begins with the cords of the shortest plan where that has as many. */
-static thr_status find_from_shortest(const thr_frame *frame, const thr_plan_options *options, const shortest_plan *s,
+static thr_status find_from_shortest(const thr_frame *frame, const thr_request *options, const shortest_plan *s,
                                      const thr_limits *limits, thr_least *least, thr_err *err)
 {
   thr_least_options lo = search_options(options);
@@ -146,8 +146,8 @@ static thr_status find_from_shortest(const thr_frame *frame, const thr_plan_opti
   return st;
 }
 
-static thr_status find_cords(const thr_frame *frame, const thr_plan_options *options, const shortest_plan *s,
-                             const thr_plan *seed, const thr_limits *limits, thr_least *least, thr_err *err)
+static thr_status find_cords(const thr_frame *frame, const thr_request *options, const shortest_plan *s, const thr_plan *seed,
+                             const thr_limits *limits, thr_least *least, thr_err *err)
 {
   const thr_least_options lo = search_options(options);
   if (options->turning.tour != THR_TOUR_LEAST)
@@ -164,8 +164,8 @@ static thr_status find_cords(const thr_frame *frame, const thr_plan_options *opt
 /* ---- claims ---- */
 
 /* What the checker says of cords and the proof of least, which found then holds. */
-static thr_status judge(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord, int n_cords,
-                        thr_least *least, thr_turning_claim *found, thr_err *err)
+static thr_status judge(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords, thr_least *least,
+                        thr_turning_claim *found, thr_err *err)
 {
   thr_turning_claim claim = {.most_passes = least->task.most_passes, .length_limit = least->length_limit, .tree = least->proof};
   thr_err text = {0};
@@ -176,8 +176,8 @@ static thr_status judge(const thr_frame *frame, const thr_plan_options *options,
 }
 
 /* Takes cords and proof of least, and the certificates or the proof of s. */
-static thr_status assemble(const thr_frame *frame, const thr_plan_options *options, thr_least *least, shortest_plan *s,
-                           thr_plan *plan, thr_err *err)
+static thr_status assemble(const thr_frame *frame, const thr_request *options, thr_least *least, shortest_plan *s, thr_plan *plan,
+                           thr_err *err)
 {
   thr_status st = thr_plan_request(plan, frame, options, err);
   if (st) return st;
@@ -218,7 +218,7 @@ static thr_status verdict(const thr_plan *plan, const thr_least *least, thr_err 
   return THR_OK;
 }
 
-thr_status thr_tortuosity_plan_from(const thr_frame *frame, const thr_plan_options *options, const thr_plan *seed,
+thr_status thr_tortuosity_plan_from(const thr_frame *frame, const thr_request *options, const thr_plan *seed,
                                     const thr_limits *limits, thr_plan *plan, thr_err *err)
 {
   shortest_plan shortest = {0};
@@ -238,7 +238,7 @@ thr_status thr_tortuosity_plan_from(const thr_frame *frame, const thr_plan_optio
   return st;
 }
 
-thr_status thr_tortuosity_plan(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits, thr_plan *plan,
+thr_status thr_tortuosity_plan(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
                                thr_err *err)
 {
   return thr_tortuosity_plan_from(frame, options, NULL, limits, plan, err);
@@ -246,7 +246,7 @@ thr_status thr_tortuosity_plan(const thr_frame *frame, const thr_plan_options *o
 
 /* Symmetric cords turn alike: where they are as many as asked for, the one that turns most may be at its bound at once. They keep
  * to no given numbers of ends. */
-thr_status thr_planner_turning(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits, thr_plan *plan,
+thr_status thr_planner_turning(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
                                thr_report *report, thr_err *err)
 {
   thr_plan seed = {0};
@@ -275,7 +275,7 @@ void thr_frontier_destroy(thr_frontier *frontier)
 
 typedef struct {
   const thr_frame *f;
-  const thr_plan_options *o;
+  const thr_request *o;
   thr_limits limits;
   int left; /* searches that the time is for */
   double shortest;
@@ -283,7 +283,7 @@ typedef struct {
   thr_frontier *out;
 } sweep;
 
-static double largest_turning(const thr_frame *frame, const thr_plan_options *options, const thr_least *least)
+static double largest_turning(const thr_frame *frame, const thr_request *options, const thr_least *least)
 {
   double largest = 0;
   for (int i = 0; i < least->n_cords; i++)
@@ -340,7 +340,7 @@ static void drop_dominated(thr_frontier *out)
   out->n = kept;
 }
 
-thr_status thr_tortuosity_frontier(const thr_frame *frame, const thr_plan_options *options, int most, const thr_limits *limits,
+thr_status thr_tortuosity_frontier(const thr_frame *frame, const thr_request *options, int most, const thr_limits *limits,
                                    thr_frontier *out, thr_err *err)
 {
   sweep s = {.f = frame, .o = options, .limits = *limits, .left = most, .out = out};

@@ -16,12 +16,12 @@
  * THR_OK: what was to be minimized is proved optimal, or the tour is a classical one. THR_ELIMIT: the plan is valid and holds its
  * bound and gap. THR_EINFEASIBLE: no node for a cord end in a component (named), or no plan within the limits on passes and
  * length. THR_EINPUT: options that do not go together (said). Otherwise the plan is empty. */
-thr_status thr_tortuosity_plan(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits, thr_plan *plan,
+thr_status thr_tortuosity_plan(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
                                thr_err *err) THR_MUST_CHECK;
 
 /* The same with a second start for the aim max-turning: the cords of seed (NULL = none), another plan of the framework, if
  * they are as many in every component and keep to the options. A symmetric plan may attain the bound at once (docs/method.md). */
-thr_status thr_tortuosity_plan_from(const thr_frame *frame, const thr_plan_options *options, const thr_plan *seed,
+thr_status thr_tortuosity_plan_from(const thr_frame *frame, const thr_request *options, const thr_plan *seed,
                                     const thr_limits *limits, thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 
 /* A plan of the trade-off between length and turning: nothing that is no longer turns less than lower_bound. */
@@ -41,7 +41,7 @@ typedef struct {
  * on the length are evenly spaced between the two. Each point gets an equal share of the time. Where the frontier has few points
  * (beads of equal length) all of them may be found; a limit that no plan is found for is left out. THR_ELIMIT: some are not
  * proved. Release with thr_frontier_destroy. */
-thr_status thr_tortuosity_frontier(const thr_frame *frame, const thr_plan_options *options, int most, const thr_limits *limits,
+thr_status thr_tortuosity_frontier(const thr_frame *frame, const thr_request *options, int most, const thr_limits *limits,
                                    thr_frontier *out, thr_err *err) THR_MUST_CHECK;
 void thr_frontier_destroy(thr_frontier *frontier);
 

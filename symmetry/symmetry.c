@@ -60,7 +60,7 @@ static void choose(thr_symmetries *symmetries)
 /* ---- all rows ---- */
 
 /* The shortest cords, one in each component, for whoever keeps the best so far. */
-static thr_status tell_shortest(const thr_frame *frame, const thr_plan_options *options, const thr_shortest *shortest,
+static thr_status tell_shortest(const thr_frame *frame, const thr_request *options, const thr_shortest *shortest,
                                 const thr_limits *limits, thr_err *err)
 {
   int n = 0;
@@ -73,12 +73,12 @@ static thr_status tell_shortest(const thr_frame *frame, const thr_plan_options *
 }
 
 /* With one cord per component, if that can be. */
-static thr_status find_shortest(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits,
+static thr_status find_shortest(const thr_frame *frame, const thr_request *options, const thr_limits *limits,
                                 thr_symmetries *symmetries, thr_err *err)
 {
   thr_shortest shortest;
   thr_err why = {0};
-  thr_plan_options few = *options;
+  thr_request few = *options;
   const thr_limits share = thr_limits_part(limits, 0.25);
   if (options->joint == THR_JOINT_TUBE)
     return thr_symmetry_shortest_tied(frame, options, options->ends != THR_ENDS_CLOSED, &share, &symmetries->shortest,
@@ -121,7 +121,7 @@ static thr_status verdict(const thr_symmetries *symmetries, const char *group, t
 }
 
 /* What a symmetric threading cannot be asked for. */
-static thr_status check_request(const thr_plan_options *options, thr_err *err)
+static thr_status check_request(const thr_request *options, thr_err *err)
 {
   const char *what = options->max_length > 0            ? "a largest length of the cords"
                      : thr_wants_balance(options)       ? "cords of balanced length"
@@ -130,8 +130,8 @@ static thr_status check_request(const thr_plan_options *options, thr_err *err)
   return what ? thr_fail(err, THR_EINPUT, "symmetric threadings do not know %s", what) : THR_OK;
 }
 
-thr_status thr_symmetries_find(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits,
-                               thr_symmetries *out, thr_err *err)
+thr_status thr_symmetries_find(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_symmetries *out,
+                               thr_err *err)
 {
   *out = (thr_symmetries){.chosen = -1};
   thr_status st = check_request(options, err);
@@ -195,11 +195,11 @@ static thr_status prove(thr_plan *plan, const thr_limits *limits, thr_err *err)
   return st;
 }
 
-thr_status thr_symmetries_plan(thr_symmetries *symmetries, int row, const thr_frame *frame, const thr_plan_options *options,
+thr_status thr_symmetries_plan(thr_symmetries *symmetries, int row, const thr_frame *frame, const thr_request *options,
                                const thr_limits *limits, thr_plan *plan, thr_err *err)
 {
   thr_symmetry_row *symmetry_row = &symmetries->row[row];
-  thr_plan_options with = *options;
+  thr_request with = *options;
   int least;
   *plan = (thr_plan){0};
   if (!thr_wants_symmetry(options)) with.aims = thr_aims_symmetric;
@@ -224,8 +224,8 @@ thr_status thr_symmetries_plan(thr_symmetries *symmetries, int row, const thr_fr
   return st;
 }
 
-thr_status thr_symmetry_plan(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits,
-                             thr_symmetries *table, thr_plan *plan, thr_err *err)
+thr_status thr_symmetry_plan(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_symmetries *table,
+                             thr_plan *plan, thr_err *err)
 {
   thr_symmetries symmetries;
   thr_err early = {0}, own = {0};

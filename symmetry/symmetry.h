@@ -82,20 +82,20 @@ typedef struct {
  * that was asked for is solved. THR_ELIMIT: some are not (their row says so); out holds the rest. THR_EINPUT: no row of that
  * number or name, or a largest length, balance or numbers of ends are asked for. THR_EINFEASIBLE: no threading with these ends.
  * Otherwise out is empty. */
-thr_status thr_symmetries_find(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits,
-                               thr_symmetries *out, thr_err *err) THR_MUST_CHECK;
+thr_status thr_symmetries_find(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_symmetries *out,
+                               thr_err *err) THR_MUST_CHECK;
 void thr_symmetries_destroy(thr_symmetries *symmetries);
 
 /* The plan of a row that has cords, which it takes out of the table: with its record, metrics and, with solid beads, the proof of
  * length for as many cords in every component as the component with most has (with tube joints it is the caller's to add). THR_OK
  * or THR_ELIMIT (the row is not proved best for its group); otherwise the plan is empty. */
-thr_status thr_symmetries_plan(thr_symmetries *symmetries, int row, const thr_frame *frame, const thr_plan_options *options,
+thr_status thr_symmetries_plan(thr_symmetries *symmetries, int row, const thr_frame *frame, const thr_request *options,
                                const thr_limits *limits, thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 
 /* Both: the plan of the chosen row; table (NULL = not wanted) receives the table, without that row's cords. THR_ELIMIT also if
  * not every row was solved, so that another might be chosen; with an empty plan if no row has a threading yet. */
-thr_status thr_symmetry_plan(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits,
-                             thr_symmetries *table, thr_plan *plan, thr_err *err) THR_MUST_CHECK;
+thr_status thr_symmetry_plan(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_symmetries *table,
+                             thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 
 /* The row with exactly `cords` cords in every component whose cord that turns most turns least; -1 = none. */
 int thr_symmetries_even(const thr_symmetries *symmetries, int cords);

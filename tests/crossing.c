@@ -528,7 +528,7 @@ static void say_options(crossing_case *c, const sketch *s, rng *r)
   enum { BALANCED = 3 };
   static const char *const aims[] = {"length", "turning", "overlap,steps", "longest", "longest,turning", "longest"};
   const int *v = c->value;
-  c->o = thr_plan_options_default();
+  c->o = thr_request_default();
   want(&c->o, aims[v[BY_BALANCE] ? BALANCED + v[BY_OBJECTIVE] : v[BY_OBJECTIVE]]);
   c->o.joint = v[BY_JOINT] ? THR_JOINT_TUBE : THR_JOINT_SOLID;
   c->o.cover = 1 + v[BY_COVER];

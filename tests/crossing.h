@@ -48,7 +48,7 @@ extern const int n_crossing_refusals;
 typedef struct {
   int value[N_CHOICES];
   thr_frame f;
-  thr_plan_options o;   /* as asked for */
+  thr_request o;        /* as asked for */
   char frame_path[256]; /* the file that f was read from */
   char arguments[1024]; /* of thread plan, after the frame */
 } crossing_case;

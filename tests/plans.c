@@ -16,7 +16,7 @@ thr_plan symmetric_plan(thr_frame f, thr_ends ends, int cover, const char *group
   thr_plan p = {0};
   thr_err err = {0};
   thr_limits none = {0};
-  thr_plan_options o = options_for(ends, cover);
+  thr_request o = options_for(ends, cover);
   want(&o, "overlap,steps");
   snprintf(o.symmetry.group, sizeof o.symmetry.group, "%s", group);
   thr_status st = thr_symmetry_plan(&f, &o, &none, NULL, &p, &err);
@@ -28,7 +28,7 @@ thr_plan symmetric_plan(thr_frame f, thr_ends ends, int cover, const char *group
 /* Takes the framework. */
 static thr_plan three_cords(thr_frame f)
 {
-  thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+  thr_request o = options_for(THR_ENDS_ANY, 1);
   o.cords = o.cords_least = 3;
   thr_plan p = plan_of_cords(&f, &o);
   thr_frame_destroy(&f);

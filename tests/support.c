@@ -105,7 +105,7 @@ void rng_shuffle(rng *r, int *a, int n)
 
 /* ---- requests ---- */
 
-void want(thr_plan_options *o, const char *aims)
+void want(thr_request *o, const char *aims)
 {
   thr_err err = {0};
   const thr_turning_options turning = o->turning;
@@ -113,7 +113,7 @@ void want(thr_plan_options *o, const char *aims)
   o->turning = turning;
 }
 
-thr_status length_plan(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *p, thr_cords_word *word,
+thr_status length_plan(const thr_frame *f, const thr_request *o, const thr_limits *limits, thr_plan *p, thr_cords_word *word,
                        thr_err *err)
 {
   thr_report r = {0};
@@ -443,15 +443,15 @@ thr_frame shuffled_frame(rng *r, const thr_frame *f, int *to)
 
 /* ---- plans ---- */
 
-thr_plan_options options_for(thr_ends ends, int cover)
+thr_request options_for(thr_ends ends, int cover)
 {
-  thr_plan_options o = thr_plan_options_default();
+  thr_request o = thr_request_default();
   o.ends = ends;
   o.cover = cover;
   return o;
 }
 
-thr_plan plan_make(const thr_frame *f, const thr_plan_options *o)
+thr_plan plan_make(const thr_frame *f, const thr_request *o)
 {
   thr_plan p;
   thr_err err = {0};
@@ -463,11 +463,11 @@ thr_plan plan_make(const thr_frame *f, const thr_plan_options *o)
 
 thr_plan plan_simple(const thr_frame *f, thr_ends ends, int cover)
 {
-  thr_plan_options o = options_for(ends, cover);
+  thr_request o = options_for(ends, cover);
   return plan_make(f, &o);
 }
 
-static bool allowed(const thr_frame *f, const thr_plan_options *o, int v)
+static bool allowed(const thr_frame *f, const thr_request *o, int v)
 {
   if (o->ends == THR_ENDS_FEET) return f->foot[v];
   if (o->ends == THR_ENDS_NODES) return o->end_node[v];
@@ -532,7 +532,7 @@ static void cut_walk(thr_plan *p, const int *walk, int n, int n_links)
   }
 }
 
-thr_plan plan_of_cords(const thr_frame *f, const thr_plan_options *o)
+thr_plan plan_of_cords(const thr_frame *f, const thr_request *o)
 {
   thr_plan p = {0};
   thr_shortest s;
@@ -641,20 +641,20 @@ thr_status judge_plan(const thr_plan *p, thr_err *err)
 /* ---- oracles ---- */
 
 /* Passes that an edge needs, and may it have more? */
-static int needed(const thr_frame *f, const thr_plan_options *o, int e)
+static int needed(const thr_frame *f, const thr_request *o, int e)
 {
   int own = f->cover ? f->cover[e] : 1;
   return own > o->cover ? own : o->cover;
 }
 
-static bool roomy(const thr_frame *f, const thr_plan_options *o, int e)
+static bool roomy(const thr_frame *f, const thr_request *o, int e)
 {
   int n = needed(f, o, e), own = f->capacity ? f->capacity[e] : 0;
   return (o->capacity == 0 || o->capacity > n) && (own == 0 || own > n);
 }
 
 /* Is the number of passes at v that its edges need, together with the ends that it is to have, odd? */
-static bool odd_need(const thr_frame *f, const thr_plan_options *o, int v)
+static bool odd_need(const thr_frame *f, const thr_request *o, int v)
 {
   int sum = o->ends == THR_ENDS_COUNTS ? o->end_count[v] : 0;
   for (int e = 0; e < f->n_edges; e++)
@@ -663,13 +663,13 @@ static bool odd_need(const thr_frame *f, const thr_plan_options *o, int v)
 }
 
 /* Ends of cords in a component, as many as may be anywhere. */
-static int ends_of(const thr_plan_options *o)
+static int ends_of(const thr_request *o)
 {
   return o->ends == THR_ENDS_CLOSED || o->ends == THR_ENDS_COUNTS ? 0 : 2 * o->cords;
 }
 
 /* May cords end so that exactly the nodes of this set are left odd? */
-static bool ends_fit(const thr_frame *f, const thr_plan_options *o, uint64_t odd)
+static bool ends_fit(const thr_frame *f, const thr_request *o, uint64_t odd)
 {
   int n = 0;
   bool any = false;
@@ -682,7 +682,7 @@ static bool ends_fit(const thr_frame *f, const thr_plan_options *o, uint64_t odd
   return any && n <= ends_of(o);
 }
 
-double least_extra_by_subsets(const thr_frame *f, const thr_plan_options *o)
+double least_extra_by_subsets(const thr_frame *f, const thr_request *o)
 {
   ck_assert(f->n_nodes <= 64 && f->n_edges <= 20);
   double best = INFINITY;
@@ -703,7 +703,7 @@ double least_extra_by_subsets(const thr_frame *f, const thr_plan_options *o)
 }
 
 /* Floyd and Warshall, over edges with room; [n * n], freed by the caller. */
-static double *distances(const thr_frame *f, const thr_plan_options *o)
+static double *distances(const thr_frame *f, const thr_request *o)
 {
   int n = f->n_nodes;
   double *d = calloc((size_t)(n * n), sizeof *d);
@@ -744,7 +744,7 @@ static double pair_subsets(const double *d, int n, const int *odd, int k, const 
   return found;
 }
 
-double least_extra_by_matching(const thr_frame *f, const thr_plan_options *o)
+double least_extra_by_matching(const thr_frame *f, const thr_request *o)
 {
   int odd[18], k = 0, n = f->n_nodes;
   double end[18], *d = distances(f, o);
@@ -819,7 +819,7 @@ static bool *written_out(const thr_certificate *c, int n)
 static int verdict_of_sets(const thr_plan *p, const thr_certificate *c, const bool *in, const int *component, const int *passes)
 {
   const thr_frame *f = &p->frame;
-  const thr_plan_options *o = &p->options;
+  const thr_request *o = &p->options;
   int n = f->n_nodes;
   bool more = false, weightless = false;
   big sum = 0, join = 0, d = c->denominator;

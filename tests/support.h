@@ -54,10 +54,10 @@ void rng_shuffle(rng *r, int *a, int n);
 /* ---- requests ---- */
 
 /* Asks for these aims, a list as thr_aims_parse reads; prices of turns and the slack of the length stay as they are. */
-void want(thr_plan_options *o, const char *aims);
+void want(thr_request *o, const char *aims);
 
 /* A plan of the least length, as the planner makes it. word: NULL = not wanted. */
-thr_status length_plan(const thr_frame *f, const thr_plan_options *o, const thr_limits *limits, thr_plan *p, thr_cords_word *word,
+thr_status length_plan(const thr_frame *f, const thr_request *o, const thr_limits *limits, thr_plan *p, thr_cords_word *word,
                        thr_err *err);
 
 /* ---- frameworks ---- */
@@ -94,13 +94,13 @@ thr_frame shuffled_frame(rng *r, const thr_frame *f, int *to);
 
 /* ---- plans ---- */
 
-thr_plan_options options_for(thr_ends ends, int cover);
-thr_plan plan_make(const thr_frame *f, const thr_plan_options *o);
+thr_request options_for(thr_ends ends, int cover);
+thr_plan plan_make(const thr_frame *f, const thr_request *o);
 thr_plan plan_simple(const thr_frame *f, thr_ends ends, int cover);
 
 /* Plan of o->cords cords through the shortest passes of a connected framework with ends; the proof is the postman's. Its cords
  * are a walk's pieces, cut where an end may be: fails if there are too few such places. */
-thr_plan plan_of_cords(const thr_frame *f, const thr_plan_options *o);
+thr_plan plan_of_cords(const thr_frame *f, const thr_request *o);
 
 /* Appends so many closed cords there and back over an edge, and counts them in *n. */
 void add_loops(thr_cord *cord, int *n, int edge, int count);
@@ -123,10 +123,10 @@ thr_status judge_plan(const thr_plan *p, thr_err *err);
 
 /* Least length of extra passes with which o's cords cover the component of node 0 and end as o allows, by trying every
  * subset of edges (at most 20). INFINITY if no end is allowed. */
-double least_extra_by_subsets(const thr_frame *f, const thr_plan_options *o);
+double least_extra_by_subsets(const thr_frame *f, const thr_request *o);
 
 /* The same by all-pairs shortest paths and a perfect matching over subsets of at most 18 odd nodes. */
-double least_extra_by_matching(const thr_frame *f, const thr_plan_options *o);
+double least_extra_by_matching(const thr_frame *f, const thr_request *o);
 
 /* U-turns that no pairing avoids, given the cords' passes and ends: at each node, what one edge has beyond the rest. */
 int forced_u_turns(const thr_plan *p);

@@ -11,7 +11,7 @@
 /* A component and one choice of which edges have an extra pass. */
 typedef struct {
   const thr_frame *f;
-  const thr_plan_options *o;
+  const thr_request *o;
   int n_edges, edge[TRUTH_EDGES];              /* of the component, by ascending length */
   signed char circuits[1 << TRUTH_EDGES];      /* most circuits that a set of edges falls into; -1: a node has an odd number */
   int passes[TRUTH_EDGES], least[TRUTH_EDGES]; /* by edge of the framework: as chosen; of the best choice */
@@ -31,7 +31,7 @@ static int room(const piece *p, int e)
   return (own < all ? own : all) - p->passes[e];
 }
 
-static bool may_end(const thr_frame *f, const thr_plan_options *o, int v)
+static bool may_end(const thr_frame *f, const thr_request *o, int v)
 {
   switch (o->ends) {
   case THR_ENDS_CLOSED: return false;
@@ -174,7 +174,7 @@ static double piece_length(piece *p)
   return p->best;
 }
 
-double truth_length(const thr_frame *f, const thr_plan_options *o, int *passes)
+double truth_length(const thr_frame *f, const thr_request *o, int *passes)
 {
   int component[TRUTH_NODES], n;
   double sum = 0;
@@ -268,7 +268,7 @@ static void walk_from(truth_table *t, int first, const double price[MOST_HALF][M
     }
 }
 
-truth_table truth_table_make(const thr_frame *f, const thr_plan_options *o, int most)
+truth_table truth_table_make(const thr_frame *f, const thr_request *o, int most)
 {
   truth_table t = {.f = f, .o = o, .most = most, .size = 1};
   double price[MOST_HALF][MOST_HALF];

@@ -10,12 +10,12 @@ enum { TRUTH_NODES = 8, TRUTH_EDGES = 8, TRUTH_TABLE_EDGES = 6 }; /* at most, in
  * passes[n_edges] that have it (NULL ok). INFINITY if there are none. Given numbers of ends: of passes that were found, perhaps
  * not the least. Passes hold K closed cords if they fall into K circuits, else if the nodes where ends may be have 2 K passes,
  * and at most 2 K nodes, all of these, an odd number. O(2^edges * (3^edges + cords)). */
-double truth_length(const thr_frame *f, const thr_plan_options *o, int *passes);
+double truth_length(const thr_frame *f, const thr_request *o, int *passes);
 
 /* Tables over all numbers of passes of the edges of one component, up to `most` each and cord. */
 typedef struct {
   const thr_frame *f;
-  const thr_plan_options *o;
+  const thr_request *o;
   int most, size;     /* entries: (most + 1)^edges */
   double *length;     /* [size] of the passes */
   long double *price; /* [size] least price of the turns of one cord that runs so, turning back only at nodes with one edge;
@@ -24,7 +24,7 @@ typedef struct {
 } truth_table;
 
 /* Ends closed, any, feet or nodes; connected frameworks of at most TRUTH_TABLE_EDGES edges. */
-truth_table truth_table_make(const thr_frame *f, const thr_plan_options *o, int most);
+truth_table truth_table_make(const thr_frame *f, const thr_request *o, int most);
 void truth_table_destroy(truth_table *t);
 
 /* Of n cords that keep cover and capacity: the least sum of their prices with no more length in all than length_limit (< 0 =

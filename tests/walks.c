@@ -69,7 +69,7 @@ static const partitions *table_of(int d)
 
 /* ---- what is asked ---- */
 
-bool walks_may_end(const thr_frame *f, const thr_plan_options *o, int v)
+bool walks_may_end(const thr_frame *f, const thr_request *o, int v)
 {
   switch (o->ends) {
   case THR_ENDS_FEET: return f->foot[v];
@@ -79,12 +79,12 @@ bool walks_may_end(const thr_frame *f, const thr_plan_options *o, int v)
   }
 }
 
-int walks_cover(const thr_frame *f, const thr_plan_options *o, int e)
+int walks_cover(const thr_frame *f, const thr_request *o, int e)
 {
   return f->cover && f->cover[e] > o->cover ? f->cover[e] : o->cover;
 }
 
-int walks_capacity(const thr_frame *f, const thr_plan_options *o, int e)
+int walks_capacity(const thr_frame *f, const thr_request *o, int e)
 {
   int most = o->capacity > 0 ? o->capacity : INT_MAX;
   return f->capacity && f->capacity[e] > 0 && f->capacity[e] < most ? f->capacity[e] : most;
@@ -149,7 +149,7 @@ static bool take_nodes(walks_piece *w, const thr_frame *f, int k, int *local)
   return true;
 }
 
-static bool take_edges(walks_piece *w, const thr_frame *f, const thr_plan_options *o, const int *local)
+static bool take_edges(walks_piece *w, const thr_frame *f, const thr_request *o, const int *local)
 {
   for (int e = 0; e < f->n_edges; e++) {
     if (local[f->edge[e][0]] < 0) continue;
@@ -223,7 +223,7 @@ static bool take_strides(walks_piece *w, long most_states)
   return n <= most_states;
 }
 
-bool walks_piece_init(walks_piece *w, const thr_frame *f, const thr_plan_options *o, int k, walks_back back, thr_turn_cost cost,
+bool walks_piece_init(walks_piece *w, const thr_frame *f, const thr_request *o, int k, walks_back back, thr_turn_cost cost,
                       double count_all, long most_states)
 {
   int local[64];

@@ -30,7 +30,7 @@ typedef struct {
 
 /* Piece number k of the framework, its turns priced as by cost. count_all: passes are counted up to those of a plan no longer
  * than that (INFINITY: only as needed). False if it is too large for this oracle, with most_states states at most. */
-bool walks_piece_init(walks_piece *w, const thr_frame *f, const thr_plan_options *o, int k, walks_back back, thr_turn_cost cost,
+bool walks_piece_init(walks_piece *w, const thr_frame *f, const thr_request *o, int k, walks_back back, thr_turn_cost cost,
                       double count_all, long most_states);
 
 /* What is minimized: w_length * length + w_turn * price of turns. */
@@ -56,8 +56,8 @@ double walks_least(const walks_piece *w, const double *cost);
 double walks_price(const thr_frame *f, thr_turn_cost cost, int in, int out);
 
 /* May a cord end at v, and the passes that e needs and takes (INT_MAX: any), read off the options. */
-bool walks_may_end(const thr_frame *f, const thr_plan_options *o, int v);
-int walks_cover(const thr_frame *f, const thr_plan_options *o, int e);
-int walks_capacity(const thr_frame *f, const thr_plan_options *o, int e);
+bool walks_may_end(const thr_frame *f, const thr_request *o, int v);
+int walks_cover(const thr_frame *f, const thr_request *o, int e);
+int walks_capacity(const thr_frame *f, const thr_request *o, int e);
 
 #endif

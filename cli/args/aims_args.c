@@ -33,7 +33,7 @@ static const char *spelled(const aims_args *a, const turning_args *turning, cons
 int aims_args_settle(aims_args *a, turning_args *turning, symmetry_args *symmetry, cords_args *cords)
 {
   thr_err err = {0};
-  thr_plan_options options = thr_plan_options_default();
+  thr_request options = thr_request_default();
   const char *other = spelled(a, turning, symmetry, cords);
   if (!a->aims) return -1;
   if (other) return cli_usage("plan", "--aims says all that is minimized: no %s beside it", other);
@@ -48,9 +48,9 @@ int aims_args_settle(aims_args *a, turning_args *turning, symmetry_args *symmetr
 }
 
 void aims_args_apply(const aims_args *a, const turning_args *turning, const symmetry_args *symmetry, const cords_args *cords,
-                     thr_objective objective, thr_plan_options *options)
+                     thr_objective objective, thr_request *options)
 {
-  const thr_plan_options usual = thr_plan_options_default();
+  const thr_request usual = thr_request_default();
   bool own = objective == a->objective;
   options->aims = thr_aims_of(objective);
   options->turning = own && thr_wants_turning(options) ? turning->options : usual.turning;

@@ -33,6 +33,6 @@ int aims_args_settle(aims_args *a, turning_args *turning, symmetry_args *symmetr
 
 /* Aims, turning and symmetry of a request for this objective: what was said of another concerns it not. */
 void aims_args_apply(const aims_args *a, const turning_args *turning, const symmetry_args *symmetry, const cords_args *cords,
-                     thr_objective objective, thr_plan_options *options);
+                     thr_objective objective, thr_request *options);
 
 #endif

@@ -12,7 +12,7 @@ enum { MOST_CORDS = 1000, MOST_PASSES = 100 };
 
 cords_args cords_args_default(void)
 {
-  const thr_plan_options usual = thr_plan_options_default();
+  const thr_request usual = thr_request_default();
   return (cords_args){.ends = "closed", .cover = usual.cover, .capacity = usual.capacity, .joint = usual.joint};
 }
 
@@ -81,7 +81,7 @@ bool cords_option(cords_args *a, int option, const char *value, bool *ok)
   }
 }
 
-const char *cords_args_refused(const cords_args *a, const thr_plan_options *wanted, bool rival)
+const char *cords_args_refused(const cords_args *a, const thr_request *wanted, bool rival)
 {
   bool least = wanted->turning.tour == THR_TOUR_LEAST; /* classical tours take no wishes */
   if (thr_wants_length(wanted) || (thr_wants_turning(wanted) && least)) return NULL;
@@ -93,7 +93,7 @@ const char *cords_args_refused(const cords_args *a, const thr_plan_options *want
   return a->most > 1 && !rival ? "--cords" : NULL;
 }
 
-int cords_args_check(const cords_args *a, const turning_args *turning, const thr_plan_options *wanted)
+int cords_args_check(const cords_args *a, const turning_args *turning, const thr_request *wanted)
 {
   const char *refused = cords_args_refused(a, wanted, false), *tour = thr_tour_name(turning->options.tour);
   if (refused) return cli_usage("plan", "%s: not with --objective %s", refused, thr_objective_name(thr_aims_objective(wanted)));
@@ -190,7 +190,7 @@ static int count_cords(const thr_frame *frame, const int *counts, int *least, in
   return st ? cli_fail(&err) : code;
 }
 
-static int apply_counts(const cords_args *a, const thr_frame *frame, thr_plan_options *options)
+static int apply_counts(const cords_args *a, const thr_frame *frame, thr_request *options)
 {
   int least, most, code;
   if (thr_wants_symmetry(options)) return cli_usage("plan", "--ends NAME:N: not with --objective symmetry");
@@ -212,7 +212,7 @@ static int apply_counts(const cords_args *a, const thr_frame *frame, thr_plan_op
 /* ---- together ---- */
 
 /* Cord and bore say how many passes fit, where both were given. A symmetric plan is not held to that. */
-static int apply_bore(thr_plan_options *options)
+static int apply_bore(thr_request *options)
 {
   const thr_physics *physics = &options->physics;
   if (physics->bore == 0 || physics->cord_diameter == 0 || thr_wants_symmetry(options)) return EXIT_OK;
@@ -226,14 +226,14 @@ static int apply_bore(thr_plan_options *options)
   return EXIT_OK;
 }
 
-static void apply_number(const cords_args *a, thr_plan_options *options)
+static void apply_number(const cords_args *a, thr_request *options)
 {
   bool free_number = a->most == 0 && a->max_length > 0;
   options->cords = a->most ? a->most : free_number ? MOST_CORDS : 1;
   options->cords_least = a->most ? a->least : 1;
 }
 
-int cords_args_apply(const cords_args *a, const thr_frame *frame, thr_plan_options *options)
+int cords_args_apply(const cords_args *a, const thr_frame *frame, thr_request *options)
 {
   options->cover = a->cover;
   options->capacity = a->capacity;

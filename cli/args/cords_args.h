@@ -41,7 +41,7 @@ enum {
 
 typedef struct {
   const char *ends;
-  int cover, capacity; /* as thr_plan_options */
+  int cover, capacity; /* as thr_request */
   int least, most;     /* cords; 0 = not said */
   bool automatic;      /* --cords auto */
   double max_length;   /* 0 = not said */
@@ -57,14 +57,14 @@ cords_args cords_args_default(void);
 bool cords_option(cords_args *a, int option, const char *value, bool *ok);
 
 /* Does what was asked make sense together, and with the aims of what is wanted? -1, or prints and returns the code. */
-int cords_args_check(const cords_args *a, const turning_args *turning, const thr_plan_options *wanted);
+int cords_args_check(const cords_args *a, const turning_args *turning, const thr_request *wanted);
 
 /* What of these options plans with such aims cannot do: a few words like "--balance", or NULL. rival: a plan to compare with,
  * which may have another number of cords. */
-const char *cords_args_refused(const cords_args *a, const thr_plan_options *wanted, bool rival);
+const char *cords_args_refused(const cords_args *a, const thr_request *wanted, bool rival);
 
 /* Lays them over *options, which holds cord and beads already, for this framework. Returns EXIT_OK or prints and returns the
  * code. The caller frees options->end_node and options->end_count. */
-int cords_args_apply(const cords_args *a, const thr_frame *frame, thr_plan_options *options);
+int cords_args_apply(const cords_args *a, const thr_frame *frame, thr_request *options);
 
 #endif

@@ -6,7 +6,7 @@
 
 symmetry_args symmetry_args_default(void)
 {
-  const thr_plan_options usual = thr_plan_options_default();
+  const thr_request usual = thr_request_default();
   symmetry_args a = {.options = usual.symmetry};
   thr_aims_order(&usual, a.prefer);
   return a;

@@ -9,7 +9,7 @@ enum { FRONTIER_POINTS = 9, FRONTIER_MOST = 1000 };
 
 turning_args turning_args_default(void)
 {
-  const thr_plan_options usual = thr_plan_options_default();
+  const thr_request usual = thr_request_default();
   return (turning_args){.options = usual.turning};
 }
 
@@ -73,7 +73,7 @@ bool turning_option(turning_args *a, int option, const char *value, bool *ok)
 }
 
 /* What would be ignored is refused. */
-int turning_args_check(const turning_args *a, const thr_plan_options *wanted)
+int turning_args_check(const turning_args *a, const thr_request *wanted)
 {
   const thr_turning_options *options = &a->options;
   if (!thr_wants_turning(wanted) && a->given) return cli_usage("plan", "%s needs --objective tortuosity", a->given);

@@ -53,6 +53,6 @@ turning_args turning_args_default(void);
 bool turning_option(turning_args *a, int option, const char *value, bool *ok);
 
 /* Does what was asked make sense together, and with the aims of what is wanted? -1, or prints and returns the code. */
-int turning_args_check(const turning_args *a, const thr_plan_options *wanted);
+int turning_args_check(const turning_args *a, const thr_request *wanted);
 
 #endif

@@ -87,7 +87,7 @@ typedef struct {
   cords_args cords;
   guard_limits guard; /* seconds < 0: as the objective has it */
   aims_args aims;
-  thr_plan_options wanted; /* aims, and what belongs to them */
+  thr_request wanted; /* aims, and what belongs to them */
   const char *path, *output, *draw;
   drawings_args drawings;
   bool json, compare;
@@ -138,7 +138,7 @@ static int parse(int argc, char **argv, arguments *a)
 }
 
 /* What is asked of an objective: what is about turning or symmetry concerns only one of them. */
-static void ask(const arguments *a, thr_objective objective, thr_plan_options *options)
+static void ask(const arguments *a, thr_objective objective, thr_request *options)
 {
   aims_args_apply(&a->aims, &a->turning, &a->symmetry, &a->cords, objective, options);
   options->joint = a->cords.joint;
@@ -146,7 +146,7 @@ static void ask(const arguments *a, thr_objective objective, thr_plan_options *o
 }
 
 /* What was said of cord and beads must fit the framework; if nothing was, a framework of any size will do. */
-static int apply_physics(const arguments *a, const thr_frame *framework, thr_plan_options *options)
+static int apply_physics(const arguments *a, const thr_frame *framework, thr_request *options)
 {
   thr_err err = {0};
   thr_physics resolved;
@@ -213,7 +213,7 @@ static int plan_and_put(thr_writer *writer, const arguments *a, thr_objective ob
   thr_err err = {0};
   thr_plan other = {0};
   if (objective == a->aims.objective) return put_objective(writer, a, objective, p);
-  thr_plan_options options = p->options;
+  thr_request options = p->options;
   ask(a, objective, &options);
   const char *refused = cords_args_refused(&a->cords, &options, true);
   if (refused) return put_refused(writer, a, objective, refused);
@@ -255,7 +255,7 @@ static double deadline_of(const arguments *a)
 }
 
 /* Seconds for the search: of a time that was asked for what the rest leaves. */
-static double time_of_plan(const arguments *a, const thr_plan_options *options)
+static double time_of_plan(const arguments *a, const thr_request *options)
 {
   bool more = a->turning.compare || a->turning.frontier || a->compare;
   return a->guard.seconds <= 0 ? options->time_limit
@@ -409,8 +409,7 @@ static int write_outputs(const arguments *a, const planned *x, int planned_code)
 }
 
 /* Time that nobody asked for is the search's alone. */
-static thr_status make_plan(const arguments *a, const thr_frame *framework, const thr_plan_options *options, planned *x,
-                            thr_err *err)
+static thr_status make_plan(const arguments *a, const thr_frame *framework, const thr_request *options, planned *x, thr_err *err)
 {
   if (a->guard.seconds < 0) guard_allow(options->time_limit > 0 ? 1 + 1.1 * options->time_limit : 0);
   thr_limits limits = cli_limits(time_of_plan(a, options));
@@ -426,7 +425,7 @@ static int plan_frame(const arguments *a, const thr_frame *framework)
 {
   thr_err err = {0};
   planned x = {0};
-  thr_plan_options options = thr_plan_options_default();
+  thr_request options = thr_request_default();
   ask(a, a->aims.objective, &options);
   int code = apply_physics(a, framework, &options);
   if (!code) code = cords_args_apply(&a->cords, framework, &options);

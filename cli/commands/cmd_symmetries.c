@@ -53,7 +53,7 @@ typedef struct {
   cli_frame_args frame;
   symmetry_args symmetry;
   guard_limits guard;
-  thr_plan_options plan;
+  thr_request plan;
   const char *path, *ends;
   bool json;
 } arguments;
@@ -73,7 +73,7 @@ static int parse(int argc, char **argv, arguments *a)
   *a = (arguments){.frame = cli_frame_args_default(),
                    .symmetry = symmetry_args_default(),
                    .guard = {.seconds = 20, .memory = guard_limits_default().memory},
-                   .plan = thr_plan_options_default(),
+                   .plan = thr_request_default(),
                    .ends = "closed"};
   while ((o = cli_next_option(argc, argv, "symmetries", ":" CLI_COMMON_LETTERS, table, help, &done)) != -1) {
     if (!cli_frame_option(&a->frame, "symmetries", o, optarg, &ok) &&

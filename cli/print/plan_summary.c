@@ -81,7 +81,7 @@ static int pieces_of(const thr_plan *plan)
 static void put_number(thr_text *text, const thr_plan *plan, int components)
 {
   enum { NO_LIMIT = 1000 };
-  const thr_plan_options *options = &plan->options;
+  const thr_request *options = &plan->options;
   const char *each = components > 1 ? " in each component" : "";
   if (thr_wants_symmetry(options) || options->ends == THR_ENDS_COUNTS)
     thr_text_printf(text, "; %d %s", plan->n_cords, cli_plural(plan->n_cords, "cord", "cords"));
@@ -97,7 +97,7 @@ static void put_number(thr_text *text, const thr_plan *plan, int components)
 
 static void put_head(thr_text *text, const thr_plan *plan)
 {
-  const thr_plan_options *options = &plan->options;
+  const thr_request *options = &plan->options;
   int components = pieces_of(plan);
   thr_text_printf(text, "%d nodes, %d %s, %d %s; %d %s per edge", plan->frame.n_nodes, plan->frame.n_edges,
                   cli_plural(plan->frame.n_edges, "edge", "edges"), components, cli_plural(components, "component", "components"),

@@ -59,7 +59,7 @@ static void copies_of(const thr_symmetry_row *row, char out[40])
 }
 
 /* The solver's word, which no checker verifies: "optimal", or the first aim that may not be as low as can be. */
-static const char *solvers_word(const thr_plan_options *options, const thr_symmetry_row *row)
+static const char *solvers_word(const thr_request *options, const thr_symmetry_row *row)
 {
   static const char *const no[] = {[THR_AIM_OVERLAP] = "not overlap",
                                    [THR_AIM_STEPS] = "not steps",
@@ -77,7 +77,7 @@ static const char *solvers_word(const thr_plan_options *options, const thr_symme
 
 /* ---- text ---- */
 
-void symmetry_put_head(thr_text *text, const thr_frame *frame, const thr_plan_options *options, const thr_symmetries *symmetries)
+void symmetry_put_head(thr_text *text, const thr_frame *frame, const thr_request *options, const thr_symmetries *symmetries)
 {
   bool shape = options->symmetry.geometric >= 0;
   double kept = shape ? symmetries->keep_lengths[0] : symmetries->mantissa;
@@ -101,7 +101,7 @@ void symmetry_put_head(thr_text *text, const thr_frame *frame, const thr_plan_op
                   symmetries->shortest_optimal ? "" : " (not proved)");
 }
 
-static void put_row(thr_text *text, const thr_plan_options *options, const thr_symmetries *symmetries, int i)
+static void put_row(thr_text *text, const thr_request *options, const thr_symmetries *symmetries, int i)
 {
   const thr_symmetry_row *row = &symmetries->row[i];
   const thr_metrics *metrics = &row->metrics;
@@ -123,7 +123,7 @@ static void put_row(thr_text *text, const thr_plan_options *options, const thr_s
   thr_text_append(text, "\n");
 }
 
-static void put_reason(thr_text *text, const thr_plan_options *options, const thr_symmetries *symmetries)
+static void put_reason(thr_text *text, const thr_request *options, const thr_symmetries *symmetries)
 {
   double percent = 100 * thr_symmetry_slack;
   const thr_symmetry_row *row = &symmetries->row[symmetries->chosen];
@@ -139,7 +139,7 @@ static void put_reason(thr_text *text, const thr_plan_options *options, const th
   thr_text_append(text, "\n");
 }
 
-void symmetry_put_table(thr_text *text, const thr_plan_options *options, const thr_symmetries *symmetries, int most)
+void symmetry_put_table(thr_text *text, const thr_request *options, const thr_symmetries *symmetries, int most)
 {
   int first = 0, last = symmetries->n;
   bool only = *options->symmetry.group != '\0';
@@ -229,7 +229,7 @@ static const char *row_status(const thr_symmetry_row *row)
   }
 }
 
-static void put_threading_json(thr_writer *writer, const thr_plan_options *options, const thr_symmetry_row *row)
+static void put_threading_json(thr_writer *writer, const thr_request *options, const thr_symmetry_row *row)
 {
   const thr_metrics *metrics = &row->metrics;
   thr_write_number(writer, "overlap", metrics->overlap);
@@ -249,7 +249,7 @@ static void put_threading_json(thr_writer *writer, const thr_plan_options *optio
   thr_write_close(writer);
 }
 
-static void put_row_json(thr_writer *writer, const thr_plan_options *options, const thr_symmetries *symmetries, int i)
+static void put_row_json(thr_writer *writer, const thr_request *options, const thr_symmetries *symmetries, int i)
 {
   static const char *const kind[] = {[THR_ISO_IDENTITY] = "identity",
                                      [THR_ISO_ROTATION] = "rotation",
@@ -275,7 +275,7 @@ static void put_row_json(thr_writer *writer, const thr_plan_options *options, co
   thr_write_close(writer);
 }
 
-void symmetry_put_table_json(thr_writer *writer, const thr_plan_options *options, const thr_symmetries *symmetries)
+void symmetry_put_table_json(thr_writer *writer, const thr_request *options, const thr_symmetries *symmetries)
 {
   const bool geometric = options->symmetry.geometric >= 0;
   put_order_json(writer, "order", symmetries->mantissa, symmetries->exponent);

@@ -37,7 +37,7 @@ static void put_ends(thr_text *text, const thr_plan *plan)
 
 static void put_passes(thr_text *text, const thr_plan *plan)
 {
-  const thr_plan_options *options = &plan->options;
+  const thr_request *options = &plan->options;
   thr_text_printf(text, "; %d %s of every edge or more", options->cover, cli_plural(options->cover, "pass", "passes"));
   if (plan->frame.cover) thr_text_append(text, ", as the framework says");
   if (options->capacity) thr_text_printf(text, ", at most %d", options->capacity);
@@ -47,7 +47,7 @@ static void put_passes(thr_text *text, const thr_plan *plan)
 
 static void put_number(thr_text *text, const thr_plan *plan)
 {
-  const thr_plan_options *options = &plan->options;
+  const thr_request *options = &plan->options;
   int components = components_of(plan), least = thr_plan_cords_least(options);
   if (options->ends == THR_ENDS_COUNTS)
     thr_text_printf(text, "; %d %s", plan->n_cords, cli_plural(plan->n_cords, "cord", "cords"));

@@ -44,7 +44,7 @@ static thr_status check_walk(const thr_frame *frame, const thr_cord *cord, thr_e
   return THR_OK;
 }
 
-static thr_status check_ends(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord, thr_err *err)
+static thr_status check_ends(const thr_frame *frame, const thr_request *options, const thr_cord *cord, thr_err *err)
 {
   if (options->ends == THR_ENDS_CLOSED && !cord->closed)
     return thr_fail(err, THR_EVIOLATED, "cord %s: open, but the plan's options say closed", cord->id);
@@ -57,7 +57,7 @@ static thr_status check_ends(const thr_frame *frame, const thr_plan_options *opt
 }
 
 /* Every edge has the passes that it needs, and no more than fit. */
-static thr_status check_cover(const thr_frame *frame, const thr_plan_options *options, const int *passes, thr_err *err)
+static thr_status check_cover(const thr_frame *frame, const thr_request *options, const int *passes, thr_err *err)
 {
   for (int e = 0; e < frame->n_edges; e++) {
     int least = thr_plan_cover(frame, options, e), most = thr_plan_capacity(frame, options, e);
@@ -72,7 +72,7 @@ static thr_status check_cover(const thr_frame *frame, const thr_plan_options *op
 }
 
 /* THR_ENDS_COUNTS: at every node as many cord ends as asked for. */
-static thr_status check_end_counts(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord, int n_cords,
+static thr_status check_end_counts(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
                                    thr_err *err)
 {
   if (options->ends != THR_ENDS_COUNTS) return THR_OK;
@@ -90,7 +90,7 @@ static thr_status check_end_counts(const thr_frame *frame, const thr_plan_option
   return st;
 }
 
-static thr_status check_lengths(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord, int n_cords,
+static thr_status check_lengths(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
                                 thr_err *err)
 {
   for (int i = 0; i < n_cords && options->max_length > 0; i++) {
@@ -103,7 +103,7 @@ static thr_status check_lengths(const thr_frame *frame, const thr_plan_options *
 }
 
 /* THR_JOINT_TUBE: no cord turns back into its edge, and the turns tie the edges of every node together. */
-static thr_status check_joints(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord, int n_cords,
+static thr_status check_joints(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
                                thr_err *err)
 {
   if (options->joint != THR_JOINT_TUBE) return THR_OK;
@@ -122,7 +122,7 @@ static thr_status check_joints(const thr_frame *frame, const thr_plan_options *o
 }
 
 /* Counts the passes that the cords make. */
-static thr_status check_cords(const thr_frame *frame, const thr_plan_options *options, const int *component, const thr_cord *cord,
+static thr_status check_cords(const thr_frame *frame, const thr_request *options, const int *component, const thr_cord *cord,
                               int n_cords, int *passes, thr_err *err)
 {
   thr_status st;
@@ -161,7 +161,7 @@ static thr_status walked_init(thr_check_walked *check_walked, const thr_frame *f
 }
 
 /* The same from cords, which are checked on the way. */
-static thr_status walked_from_cords(thr_check_walked *check_walked, const thr_frame *frame, const thr_plan_options *options,
+static thr_status walked_from_cords(thr_check_walked *check_walked, const thr_frame *frame, const thr_request *options,
                                     const thr_cord *cord, int n_cords, thr_err *err)
 {
   thr_status st = walked_init(check_walked, frame, err);
@@ -171,7 +171,7 @@ static thr_status walked_from_cords(thr_check_walked *check_walked, const thr_fr
 }
 
 /* As many cords in every component as the options say; of a symmetric plan, in the one that has most. */
-static thr_status check_cord_count(const thr_check_walked *check_walked, const thr_plan_options *options, const thr_cord *cord,
+static thr_status check_cord_count(const thr_check_walked *check_walked, const thr_request *options, const thr_cord *cord,
                                    int n_cords, thr_err *err)
 {
   int *count = thr_calloc((size_t)check_walked->n_components, sizeof *count);
@@ -204,7 +204,7 @@ static double length_of(const thr_frame *frame, const int *passes)
   return sum;
 }
 
-static double base_length_of(const thr_frame *frame, const thr_plan_options *options)
+static double base_length_of(const thr_frame *frame, const thr_request *options)
 {
   double sum = 0;
   for (int e = 0; e < frame->n_edges; e++)
@@ -213,7 +213,7 @@ static double base_length_of(const thr_frame *frame, const thr_plan_options *opt
 }
 
 /* What the verdicts prove of passes with this length. */
-static void sum_verdicts(const thr_frame *frame, const thr_plan_options *options, const thr_check_verdict *verdict, int n,
+static void sum_verdicts(const thr_frame *frame, const thr_request *options, const thr_check_verdict *verdict, int n,
                          double length, bool *optimal, double *lower_bound)
 {
   double extra = 0;
@@ -226,9 +226,8 @@ static void sum_verdicts(const thr_frame *frame, const thr_plan_options *options
 }
 
 /* Verifies the certificates for passes that were checked already. *verdict is for the caller to free; NULL on failure. */
-static thr_status judge_certificates(const thr_frame *frame, const thr_plan_options *options,
-                                     const thr_check_walked *check_walked, const thr_certificate *certificate, int n,
-                                     thr_check_verdict **verdict, thr_err *err)
+static thr_status judge_certificates(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,
+                                     const thr_certificate *certificate, int n, thr_check_verdict **verdict, thr_err *err)
 {
   *verdict = thr_calloc((size_t)check_walked->n_components, sizeof **verdict);
   if (!*verdict) return thr_nomem(err);
@@ -241,7 +240,7 @@ static thr_status judge_certificates(const thr_frame *frame, const thr_plan_opti
 }
 
 /* For passes of this length. */
-static thr_status check_proof(const thr_frame *frame, const thr_plan_options *options, const thr_check_walked *check_walked,
+static thr_status check_proof(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,
                               double length, const thr_certificate *certificate, int n, bool *optimal, double *lower_bound,
                               thr_err *err)
 {
@@ -252,7 +251,7 @@ static thr_status check_proof(const thr_frame *frame, const thr_plan_options *op
   return st;
 }
 
-thr_status thr_check_length_proof(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord, int n_cords,
+thr_status thr_check_length_proof(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
                                   const thr_certificate *certificate, int n_certificates, bool *optimal, double *lower_bound,
                                   thr_err *err)
 {
@@ -267,7 +266,7 @@ thr_status thr_check_length_proof(const thr_frame *frame, const thr_plan_options
   return st;
 }
 
-thr_status thr_check_cords(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord, int n_cords,
+thr_status thr_check_cords(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
                            const thr_certificate *certificate, int n_certificates, thr_cords_claim *found, thr_err *err)
 {
   thr_check_walked check_walked;
@@ -282,7 +281,7 @@ thr_status thr_check_cords(const thr_frame *frame, const thr_plan_options *optio
   return st;
 }
 
-thr_status thr_check_tied_cords(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord, int n_cords,
+thr_status thr_check_tied_cords(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
                                 const thr_turning_proof *tied, thr_cords_claim *found, thr_err *err)
 {
   thr_check_walked check_walked;
@@ -295,7 +294,7 @@ thr_status thr_check_tied_cords(const thr_frame *frame, const thr_plan_options *
 }
 
 /* Passes that cords can run through: every edge covered with room, and where they are odd in number a cord may end. */
-static thr_status check_passes(const thr_frame *frame, const thr_plan_options *options, const thr_check_walked *check_walked,
+static thr_status check_passes(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,
                                thr_err *err)
 {
   int most = options->ends == THR_ENDS_CLOSED ? 0 : 2 * options->cords;
@@ -316,7 +315,7 @@ static thr_status check_passes(const thr_frame *frame, const thr_plan_options *o
   return st;
 }
 
-thr_status thr_check_length_of_passes(const thr_frame *frame, const thr_plan_options *options, const int *passes,
+thr_status thr_check_length_of_passes(const thr_frame *frame, const thr_request *options, const int *passes,
                                       const thr_certificate *certificate, int n_certificates, bool *optimal, double *lower_bound,
                                       thr_err *err)
 {

@@ -15,7 +15,7 @@ int64_t thr_certificate_weight(const thr_frame *frame, const thr_certificate *ce
  * edge overloaded, no node with a cord end held beyond the end price, sum and join as stated. Gives the lower bound on the plan's
  * length: the length itself if every component is optimal. *optimal and *lower_bound are what a plan may claim. THR_EVIOLATED
  * with the place and the numbers. O(nodes + edges + size of the certificates * sqrt(edges) * log(cuts)) at worst. */
-thr_status thr_check_length_proof(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord, int n_cords,
+thr_status thr_check_length_proof(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
                                   const thr_certificate *certificate, int n_certificates, bool *optimal, double *lower_bound,
                                   thr_err *err) THR_MUST_CHECK;
 
@@ -24,24 +24,24 @@ thr_status thr_check_length_proof(const thr_frame *frame, const thr_plan_options
  * for a cord over any edge. Cords of at most max_length are too few where their least length, by the certificate with so many
  * ends, is more than they can have. As thr_check_length_proof, and a Dijkstra from the allowed ends; closed: one round the
  * longest edges each, up to 2^24 steps. */
-thr_status thr_check_cords(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord, int n_cords,
+thr_status thr_check_cords(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
                            const thr_certificate *certificate, int n_certificates, thr_cords_claim *found,
                            thr_err *err) THR_MUST_CHECK;
 
 /* The same with tube joints, by their proof of length (graph/plan/junction.h). */
-thr_status thr_check_tied_cords(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord, int n_cords,
+thr_status thr_check_tied_cords(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
                                 const thr_turning_proof *tied, thr_cords_claim *found, thr_err *err) THR_MUST_CHECK;
 
 /* What the tree of a claim proves about these cords (which must cover the framework as the options say): fills found but for its
  * tree. Of the claim only tree, most_passes and length_limit are read. Optimal: the bound meets the price within the rounding of
  * the sum. THR_EVIOLATED: the tree proves nothing, or the cords are not of the kind that the proof is about. O(leaves * columns),
  * and up to a million steps per node, some milliseconds, for the pairing bound. */
-thr_status thr_check_turning(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord, int n_cords,
+thr_status thr_check_turning(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
                              const thr_turning_claim *claim, thr_turning_claim *found, thr_err *err) THR_MUST_CHECK;
 
 /* The same for passes[n_edges] that no cords run through yet, *lower_bound then being one on their length. THR_EVIOLATED also
  * where cords cannot run so: too few passes of an edge, an odd number at a node where no cord can end. */
-thr_status thr_check_length_of_passes(const thr_frame *frame, const thr_plan_options *options, const int *passes,
+thr_status thr_check_length_of_passes(const thr_frame *frame, const thr_request *options, const int *passes,
                                       const thr_certificate *certificate, int n_certificates, bool *optimal, double *lower_bound,
                                       thr_err *err) THR_MUST_CHECK;
 

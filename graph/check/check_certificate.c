@@ -21,7 +21,7 @@ int64_t thr_certificate_weight(const thr_frame *frame, const thr_certificate *ce
 /* Work space over the framework. Each component has one certificate: what is filled in at its nodes and edges stays. */
 typedef struct {
   const thr_frame *f;
-  const thr_plan_options *o;
+  const thr_request *o;
   const thr_check_walked *w;
   int *start, *node;      /* nodes of component k: node[start[k] .. start[k + 1] - 1] */
   int *edge_start, *edge; /* its edges likewise */
@@ -180,7 +180,7 @@ static thr_priced priced(const workspace *k, const thr_certificate *certificate,
 static thr_status apply_prices(workspace *k, const thr_certificate *certificate, wide *places, thr_err *err)
 {
   const thr_frame *frame = k->f;
-  const thr_plan_options *options = k->o;
+  const thr_request *options = k->o;
   int first = k->start[certificate->component], n = k->start[certificate->component + 1] - first;
   if (certificate->n_prices == 0) return THR_OK;
   if (certificate->n_prices != thr_prices_number(options, n))
@@ -386,7 +386,7 @@ static void point(workspace *k)
   }
 }
 
-static thr_status workspace_init(workspace *k, const thr_frame *frame, const thr_plan_options *options,
+static thr_status workspace_init(workspace *k, const thr_frame *frame, const thr_request *options,
                                  const thr_check_walked *check_walked, thr_err *err)
 {
   size_t n = (size_t)frame->n_nodes, m = (size_t)frame->n_edges;
@@ -418,7 +418,7 @@ static thr_status workspace_init(workspace *k, const thr_frame *frame, const thr
   return THR_OK;
 }
 
-thr_status thr_check_certificates(const thr_frame *frame, const thr_plan_options *options, const thr_check_walked *check_walked,
+thr_status thr_check_certificates(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,
                                   const thr_certificate *certificate, int n, thr_check_verdict *verdict, thr_err *err)
 {
   workspace k;

@@ -85,7 +85,7 @@ static void spread(ways *w, int target)
 /* ---- the shortest cord over the worst edge ---- */
 
 /* From where a cord may end over the edge to where one may end. */
-static double open_detour(ways *w, const thr_plan_options *options)
+static double open_detour(ways *w, const thr_request *options)
 {
   const thr_frame *frame = w->f;
   double worst = 0;
@@ -134,7 +134,7 @@ static thr_status closed_detour(ways *w, double *worst, thr_err *err)
 }
 
 /* Raises *worst to the shortest cord over the worst edge. */
-static thr_status detour(const thr_frame *frame, const thr_plan_options *options, double *worst, thr_err *err)
+static thr_status detour(const thr_frame *frame, const thr_request *options, double *worst, thr_err *err)
 {
   ways w;
   thr_status st = ways_init(&w, frame, err);
@@ -153,8 +153,7 @@ typedef struct {
   int least, most;     /* cords that it may have */
 } part;
 
-void thr_check_most_cords(const thr_frame *frame, const thr_plan_options *options, const thr_check_walked *check_walked,
-                          int *cords)
+void thr_check_most_cords(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked, int *cords)
 {
   for (int c = 0; c < check_walked->n_components; c++)
     cords[c] = options->ends == THR_ENDS_COUNTS ? 0 : options->cords;
@@ -165,8 +164,8 @@ void thr_check_most_cords(const thr_frame *frame, const thr_plan_options *option
     cords[c] /= 2;
 }
 
-static thr_status parts_of(const thr_frame *frame, const thr_plan_options *options, const thr_check_walked *check_walked,
-                           part **parts, thr_err *err)
+static thr_status parts_of(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked, part **parts,
+                           thr_err *err)
 {
   part *part_of = thr_calloc((size_t)check_walked->n_components, sizeof *part_of);
   if (!(*parts = part_of)) return thr_nomem(err);
@@ -189,7 +188,7 @@ static thr_status parts_of(const thr_frame *frame, const thr_plan_options *optio
 }
 
 /* No so many cords through the component are shorter together. */
-static double least_length(const thr_plan_options *options, const part *p, int cords, const thr_certificate *certificate,
+static double least_length(const thr_request *options, const part *p, int cords, const thr_certificate *certificate,
                            const thr_check_verdict *check_verdict)
 {
   if (!check_verdict) return p->base;
@@ -199,7 +198,7 @@ static double least_length(const thr_plan_options *options, const part *p, int c
 }
 
 /* Is this more cord than so many of the greatest length? */
-static bool too_long(double length, int cords, const thr_plan_options *options)
+static bool too_long(double length, int cords, const thr_request *options)
 {
   return length > cords * options->max_length * (1 + 2e-9);
 }
@@ -207,10 +206,10 @@ static bool too_long(double length, int cords, const thr_plan_options *options)
 /* ---- tube joints: the proof is one of all components together ---- */
 
 /* No cords, from least to most in every component, are shorter together. */
-static thr_status tied_length(const thr_frame *frame, const thr_plan_options *options, const thr_turning_proof *tied, int least,
+static thr_status tied_length(const thr_frame *frame, const thr_request *options, const thr_turning_proof *tied, int least,
                               int most, double *length, thr_err *err)
 {
-  thr_plan_options other = *options;
+  thr_request other = *options;
   other.cords_least = least;
   other.cords = most;
   return thr_tied_least(frame, &other, tied, length, err);
@@ -218,7 +217,7 @@ static thr_status tied_length(const thr_frame *frame, const thr_plan_options *op
 
 /* fewest: a lower bound on the cords of one component with free ends, raised as far as the proof goes, one by one: it may rule
  * out a number and not the one below. */
-static thr_status rule_out(const thr_frame *frame, const thr_plan_options *options, const thr_turning_proof *tied, int *fewest,
+static thr_status rule_out(const thr_frame *frame, const thr_request *options, const thr_turning_proof *tied, int *fewest,
                            thr_err *err)
 {
   thr_status st = THR_OK;
@@ -232,8 +231,8 @@ static thr_status rule_out(const thr_frame *frame, const thr_plan_options *optio
   return st;
 }
 
-static thr_status check_tied(const thr_frame *frame, const thr_plan_options *options, const thr_turning_proof *tied,
-                             const part *parts, int n_parts, double *bound, thr_cords_claim *found, thr_err *err)
+static thr_status check_tied(const thr_frame *frame, const thr_request *options, const thr_turning_proof *tied, const part *parts,
+                             int n_parts, double *bound, thr_cords_claim *found, thr_err *err)
 {
   double length;
   int64_t most = 0;
@@ -247,7 +246,7 @@ static thr_status check_tied(const thr_frame *frame, const thr_plan_options *opt
   return n_parts == 1 && thr_check_ends_free(options) ? rule_out(frame, options, tied, &found->fewest, err) : THR_OK;
 }
 
-thr_status thr_check_several(const thr_frame *frame, const thr_plan_options *options, const thr_check_walked *check_walked,
+thr_status thr_check_several(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,
                              const thr_cord *cord, int n_cords, const thr_certificate *certificate,
                              const thr_check_verdict *verdict, const thr_turning_proof *tied, thr_cords_claim *found,
                              thr_err *err)

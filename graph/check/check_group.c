@@ -18,7 +18,7 @@ static thr_status check_automorphism(const thr_plan *plan, const int *image, con
                                      thr_err *err)
 {
   const thr_frame *frame = &plan->frame;
-  const thr_plan_options *options = &plan->options;
+  const thr_request *options = &plan->options;
   bool bijective = true;
   for (int v = 0; v < frame->n_nodes && bijective; v++) {
     bijective = image[v] >= 0 && image[v] < frame->n_nodes && !hit[image[v]];

@@ -25,7 +25,7 @@ typedef struct {
 } thr_check_walked;
 
 /* Cord ends at allowed nodes, their number at each being free? */
-static inline bool thr_check_ends_free(const thr_plan_options *options)
+static inline bool thr_check_ends_free(const thr_request *options)
 {
   return options->ends != THR_ENDS_CLOSED && options->ends != THR_ENDS_COUNTS;
 }
@@ -44,13 +44,12 @@ typedef struct {
 } thr_check_verdict;
 
 /* Cords that each component has at most: cords[check_walked->n_components]. Given numbers of ends say how many. O(nodes). */
-void thr_check_most_cords(const thr_frame *frame, const thr_plan_options *options, const thr_check_walked *check_walked,
-                          int *cords);
+void thr_check_most_cords(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked, int *cords);
 
 /* Verifies the certificates, which must be one per component in order, for passes that were checked already:
  * verdict[check_walked->n_components]. O(nodes + edges, and for each node in a list of the cuts its edges, or sqrt(edges) if that
  * is less, times log(cuts)). */
-thr_status thr_check_certificates(const thr_frame *frame, const thr_plan_options *options, const thr_check_walked *check_walked,
+thr_status thr_check_certificates(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,
                                   const thr_certificate *certificate, int n, thr_check_verdict *verdict,
                                   thr_err *err) THR_MUST_CHECK;
 
@@ -59,7 +58,7 @@ double thr_check_extra(const thr_certificate *certificate, const thr_check_verdi
 
 /* What can be claimed of several cords that were checked already: fills found. verdict NULL: no certificates; tied: the proof
  * of tube joints, or NULL. */
-thr_status thr_check_several(const thr_frame *frame, const thr_plan_options *options, const thr_check_walked *check_walked,
+thr_status thr_check_several(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,
                              const thr_cord *cord, int n_cords, const thr_certificate *certificate,
                              const thr_check_verdict *verdict, const thr_turning_proof *tied, thr_cords_claim *found,
                              thr_err *err) THR_MUST_CHECK;

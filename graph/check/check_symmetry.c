@@ -94,7 +94,7 @@ static void paths_destroy(paths *s)
 /* Does it not matter where the cord starts? Of a closed one, where its ends may be anywhere and tie nothing. */
 static bool runs_round(const thr_plan *plan, const thr_cord *c)
 {
-  const thr_plan_options *options = &plan->options;
+  const thr_request *options = &plan->options;
   return c->closed && (options->ends == THR_ENDS_CLOSED || (options->ends == THR_ENDS_ANY && options->joint == THR_JOINT_SOLID));
 }
 

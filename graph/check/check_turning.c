@@ -148,7 +148,7 @@ static thr_status pair_node(const thr_frame *frame, thr_turn_cost cost, int v, c
 
 typedef struct {
   const thr_frame *f;
-  const thr_plan_options *o;
+  const thr_request *o;
   const thr_cord *cord;
   int n_cords;
   int cords_least, cords_most; /* that a plan with these options has in all */
@@ -177,8 +177,8 @@ static thr_status count_cords(walked *w, thr_err *err)
   return THR_OK;
 }
 
-static thr_status walked_init(walked *w, const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord,
-                              int n_cords, thr_err *err)
+static thr_status walked_init(walked *w, const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
+                              thr_err *err)
 {
   size_t n = (size_t)frame->n_nodes;
   *w = (walked){.f = frame, .o = options, .cord = cord, .n_cords = n_cords};
@@ -249,7 +249,7 @@ static thr_status judge_cords(const walked *w, thr_turning_claim *found, thr_err
 
 /* What every closed cord costs: a closed curve in space turns by at least a full turn (Fenchel 1929), and sin(x / 2) >= x / pi up
  * to pi. */
-static double closed_price(const thr_plan_options *options)
+static double closed_price(const thr_request *options)
 {
   if (options->ends != THR_ENDS_CLOSED || options->turning.cost == THR_TURN_STEP) return 0;
   return options->turning.cost == THR_TURN_ANGLE ? 2 * THR_PI : 2;
@@ -291,7 +291,7 @@ static thr_status judge_tree(const walked *w, const thr_turning_claim *claim, th
   return THR_OK;
 }
 
-thr_status thr_check_turning(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord, int n_cords,
+thr_status thr_check_turning(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
                              const thr_turning_claim *claim, thr_turning_claim *found, thr_err *err)
 {
   walked w;

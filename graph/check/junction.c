@@ -32,7 +32,7 @@ thr_status thr_junction_tied(const thr_frame *frame, const thr_cord *cord, int n
   return THR_OK;
 }
 
-void thr_tied_task(const thr_frame *frame, const thr_plan_options *options, bool *end_allowed, thr_turning_task *task)
+void thr_tied_task(const thr_frame *frame, const thr_request *options, bool *end_allowed, thr_turning_task *task)
 {
   bool closed = options->ends == THR_ENDS_CLOSED;
   int cover = 1, degree = 1, cords = closed ? 1 : options->cords;
@@ -58,7 +58,7 @@ void thr_tied_task(const thr_frame *frame, const thr_plan_options *options, bool
                              .extra_limit = -1};
 }
 
-thr_status thr_tied_least(const thr_frame *frame, const thr_plan_options *options, const thr_turning_proof *proof, double *least,
+thr_status thr_tied_least(const thr_frame *frame, const thr_request *options, const thr_turning_proof *proof, double *least,
                           thr_err *err)
 {
   thr_turning_task task;

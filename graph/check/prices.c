@@ -7,20 +7,20 @@
 
 enum { LONGEST_LOOP = 10, MOST_STEPS = 1 << 24 };
 
-int thr_prices_number(const thr_plan_options *options, int n_nodes)
+int thr_prices_number(const thr_request *options, int n_nodes)
 {
   if (thr_wants_symmetry(options)) return 0;
   return options->ends == THR_ENDS_COUNTS ? n_nodes : 1;
 }
 
 /* Price of the places that n passes of an edge are. */
-static thr_wide price_of(const thr_plan_options *options, thr_wide of, int loop, int n)
+static thr_wide price_of(const thr_request *options, thr_wide of, int loop, int n)
 {
   if (options->ends != THR_ENDS_CLOSED) return of * n;
   return 2 * of * (n / 2) + (n % 2 ? (2 * of + loop - 1) / loop : 0);
 }
 
-thr_priced thr_prices_edge(const thr_frame *frame, const thr_plan_options *options, int e, thr_wide weight, thr_wide of, int loop)
+thr_priced thr_prices_edge(const thr_frame *frame, const thr_request *options, int e, thr_wide weight, thr_wide of, int loop)
 {
   int cover = thr_plan_cover(frame, options, e), most = thr_plan_capacity(frame, options, e);
   thr_priced priced = {

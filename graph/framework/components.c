@@ -55,7 +55,7 @@ static thr_status sort_all(thr_components *components, thr_err *err)
   return st;
 }
 
-thr_status thr_components_init(thr_components *components, const thr_frame *frame, const thr_plan_options *options, thr_err *err)
+thr_status thr_components_init(thr_components *components, const thr_frame *frame, const thr_request *options, thr_err *err)
 {
   *components =
       (thr_components){.f = frame, .o = options, .component = thr_calloc((size_t)frame->n_nodes, sizeof *components->component)};
@@ -68,7 +68,7 @@ thr_status thr_components_init(thr_components *components, const thr_frame *fram
 
 /* ---- taking one out ---- */
 
-static thr_status allocate(const thr_components *components, thr_frame *frame, thr_plan_options *options, thr_err *err)
+static thr_status allocate(const thr_components *components, thr_frame *frame, thr_request *options, thr_err *err)
 {
   size_t n = (size_t)frame->n_nodes, m = (size_t)frame->n_edges;
   bool good = (frame->xyz = thr_calloc(n, sizeof *frame->xyz)) && (frame->foot = thr_calloc(n, sizeof *frame->foot)) &&
@@ -82,7 +82,7 @@ static thr_status allocate(const thr_components *components, thr_frame *frame, t
   return good ? THR_OK : thr_nomem(err);
 }
 
-static thr_status copy_nodes(const thr_components *components, int k, thr_frame *frame, thr_plan_options *options, thr_err *err)
+static thr_status copy_nodes(const thr_components *components, int k, thr_frame *frame, thr_request *options, thr_err *err)
 {
   for (int i = 0; i < frame->n_nodes; i++) {
     int v = components->node[components->first_node[k] + i];

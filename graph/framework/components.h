@@ -11,14 +11,14 @@
  * edges. */
 typedef struct {
   const thr_frame *f; /* not owned, as are the options */
-  const thr_plan_options *o;
+  const thr_request *o;
   int n;
   int *component, *local; /* [n_nodes] component of a node, and its number in there */
   int *first_node, *node, *first_edge, *edge;
 } thr_components;
 
 /* O(nodes + edges). On failure components is empty. */
-thr_status thr_components_init(thr_components *components, const thr_frame *frame, const thr_plan_options *options,
+thr_status thr_components_init(thr_components *components, const thr_frame *frame, const thr_request *options,
                                thr_err *err) THR_MUST_CHECK;
 void thr_components_destroy(thr_components *components);
 

@@ -15,11 +15,11 @@
  * most_passes: no shortest plan needs more. Of more passes than covers in one direction along a stretch of edges, two that come
  * from different edges or ends and part again could be joined there and back, which saves the stretch twice; so all come from one
  * node where so many may start, or go to one. */
-void thr_tied_task(const thr_frame *frame, const thr_plan_options *options, bool *end_allowed, thr_turning_task *task);
+void thr_tied_task(const thr_frame *frame, const thr_request *options, bool *end_allowed, thr_turning_task *task);
 
 /* *least: no cords of the options with tube joints are shorter, in units of length. THR_EVIOLATED for a proof that does not
  * hold (nothing in it is trusted), THR_EINFEASIBLE if covers and capacities contradict each other. */
-thr_status thr_tied_least(const thr_frame *frame, const thr_plan_options *options, const thr_turning_proof *proof, double *least,
+thr_status thr_tied_least(const thr_frame *frame, const thr_request *options, const thr_turning_proof *proof, double *least,
                           thr_err *err) THR_MUST_CHECK;
 
 /* tied[v], for n_nodes nodes: is the graph connected whose nodes are the edges at v and whose edges are the turns that cords make

@@ -49,7 +49,7 @@ void thr_plan_destroy(thr_plan *plan)
   *plan = (thr_plan){0};
 }
 
-thr_status thr_plan_request(thr_plan *plan, const thr_frame *frame, const thr_plan_options *options, thr_err *err)
+thr_status thr_plan_request(thr_plan *plan, const thr_frame *frame, const thr_request *options, thr_err *err)
 {
   thr_status st = thr_frame_copy(&plan->frame, frame, err);
   if (st) return st;
@@ -151,7 +151,7 @@ double thr_cord_turning(const thr_frame *frame, const thr_cord *cord, bool with_
   return sum;
 }
 
-int thr_cord_turns(const thr_plan_options *options, const thr_cord *cord)
+int thr_cord_turns(const thr_request *options, const thr_cord *cord)
 {
   return options->ends == THR_ENDS_CLOSED ? cord->n_passes : cord->n_passes - 1;
 }
@@ -172,7 +172,7 @@ int thr_plan_turns_over(const thr_plan *plan, double angle)
   return n;
 }
 
-double thr_cord_price(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord)
+double thr_cord_price(const thr_frame *frame, const thr_request *options, const thr_cord *cord)
 {
   double sum = 0;
   for (int k = 0; k < thr_cord_turns(options, cord); k++)
@@ -180,7 +180,7 @@ double thr_cord_price(const thr_frame *frame, const thr_plan_options *options, c
   return sum;
 }
 
-static void measure_cord(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord, int *passes,
+static void measure_cord(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int *passes,
                          thr_metrics *metrics)
 {
   double turning = thr_cord_turning(frame, cord, options->ends == THR_ENDS_CLOSED);
@@ -198,7 +198,7 @@ static void measure_cord(const thr_frame *frame, const thr_plan_options *options
   }
 }
 
-thr_status thr_plan_measure(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord, int n_cords,
+thr_status thr_plan_measure(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
                             thr_metrics *metrics, thr_err *err)
 {
   *metrics = (thr_metrics){0};

@@ -123,7 +123,7 @@ typedef struct {
 
 typedef struct {
   thr_frame frame;
-  thr_plan_options options;
+  thr_request options;
   char *generator; /* versions of program and libraries, one line; owned */
   int n_cords;
   thr_cord *cord; /* owned */
@@ -139,8 +139,7 @@ void thr_plan_destroy(thr_plan *plan);
 void thr_cords_destroy(thr_cord *cord, int n); /* cord[n] and their half arrays; NULL ok */
 
 /* Copies framework and options into an empty plan. */
-thr_status thr_plan_request(thr_plan *plan, const thr_frame *framework, const thr_plan_options *wishes,
-                            thr_err *err) THR_MUST_CHECK;
+thr_status thr_plan_request(thr_plan *plan, const thr_frame *framework, const thr_request *wishes, thr_err *err) THR_MUST_CHECK;
 void thr_cord_id(int i, char id[12]); /* 0 -> "A", 25 -> "Z", 26 -> "AA" */
 void thr_certificate_destroy(thr_certificate *c);
 
@@ -163,7 +162,7 @@ double thr_cord_turning(const thr_frame *framework, const thr_cord *c, bool with
 
 /* Turns of a cord that count: with THR_ENDS_CLOSED as many as passes (the last one closes it), else one less. Turn k goes from
  * pass k to pass k + 1 (or 0). */
-int thr_cord_turns(const thr_plan_options *wishes, const thr_cord *c);
+int thr_cord_turns(const thr_request *wishes, const thr_cord *c);
 
 /* Is a turn sharper than angle (both in rad), by more than 1e-9? */
 bool thr_turn_over(double turn, double angle);
@@ -172,10 +171,10 @@ bool thr_turn_over(double turn, double angle);
 int thr_plan_turns_over(const thr_plan *plan, double angle);
 
 /* Price of the turns of a cord. */
-double thr_cord_price(const thr_frame *framework, const thr_plan_options *wishes, const thr_cord *c);
+double thr_cord_price(const thr_frame *framework, const thr_request *wishes, const thr_cord *c);
 
 /* Computes metrics from frame, options (cover, ends) and cords alone. */
-thr_status thr_plan_measure(const thr_frame *framework, const thr_plan_options *wishes, const thr_cord *cord, int n_cords,
+thr_status thr_plan_measure(const thr_frame *framework, const thr_request *wishes, const thr_cord *cord, int n_cords,
                             thr_metrics *m, thr_err *err) THR_MUST_CHECK;
 
 /* JSON of a plan; and back. Errors are "name: place: what": THR_EINPUT for what is not a plan at all, THR_EVIOLATED for

@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static thr_status read_turning_options(const thr_field_reader *field_reader, const thr_json *object, thr_plan_options *out)
+static thr_status read_turning_options(const thr_field_reader *field_reader, const thr_json *object, thr_request *out)
 {
   thr_turning_options *options = &out->turning;
   static const char *const known[] = {"cost", "length_slack", "minimize", "tour", "pairings", NULL};
@@ -48,7 +48,7 @@ static thr_status read_prefer(const thr_field_reader *field_reader, const thr_js
   return st;
 }
 
-static thr_status read_symmetry_options(const thr_field_reader *field_reader, const thr_json *object, thr_plan_options *out)
+static thr_status read_symmetry_options(const thr_field_reader *field_reader, const thr_json *object, thr_request *out)
 {
   thr_symmetry_options *options = &out->symmetry;
   static const char *const known[] = {"group", "geometric", "prefer", NULL};
@@ -68,7 +68,7 @@ static thr_status read_symmetry_options(const thr_field_reader *field_reader, co
 }
 
 /* Which options there are depends on the objective. */
-static thr_status read_objective(const thr_field_reader *field_reader, const thr_json *value, thr_plan_options *options)
+static thr_status read_objective(const thr_field_reader *field_reader, const thr_json *value, thr_request *options)
 {
   static const char *const own[THR_N_OBJECTIVES] = {"confirm", "turning", "symmetry"};
   const char *known[] = {"objective", "joint",      "cover",      "capacity", "cords",  "max_length", "balance", "ends",
@@ -85,7 +85,7 @@ static thr_status read_objective(const thr_field_reader *field_reader, const thr
 }
 
 /* A number: exactly so many; or least and most. */
-static thr_status read_cord_range(const thr_field_reader *field_reader, const thr_json *object, thr_plan_options *out)
+static thr_status read_cord_range(const thr_field_reader *field_reader, const thr_json *object, thr_request *out)
 {
   static const char *const known[] = {"least", "most", NULL};
   const thr_json *value = thr_json_get(object, "cords");
@@ -107,7 +107,7 @@ static void put_first(thr_aims *a, thr_aim aim)
 }
 
 /* What is not there is not asked for. */
-static thr_status read_limits(const thr_field_reader *field_reader, const thr_json *value, thr_plan_options *options)
+static thr_status read_limits(const thr_field_reader *field_reader, const thr_json *value, thr_request *options)
 {
   const thr_json *balance = thr_json_get(value, "balance");
   thr_status st = read_cord_range(field_reader, value, options);
@@ -125,7 +125,7 @@ static thr_status read_limits(const thr_field_reader *field_reader, const thr_js
 }
 
 /* How it was found. What is not there was left to the program. */
-static thr_status read_means(const thr_field_reader *field_reader, const thr_json *value, thr_plan_options *options)
+static thr_status read_means(const thr_field_reader *field_reader, const thr_json *value, thr_request *options)
 {
   int engine = THR_ENGINE_AUTO, confirm = THR_CONFIRM_AUTO;
   thr_status st = thr_field_double(field_reader, value, "time_limit", &options->time_limit);
@@ -175,14 +175,14 @@ static thr_status read_end_counts(const thr_field_reader *field_reader, const th
 }
 
 thr_status thr_plan_read_options(const thr_field_reader *field_reader, const thr_json *doc, const thr_frame *frame,
-                                 thr_plan_options *options)
+                                 thr_request *options)
 {
   char place[256];
   const thr_json *value;
   int kind;
   thr_status st = thr_field_need(field_reader, doc, "options", THR_JSON_OBJECT, &value);
   if (st) return st;
-  *options = thr_plan_options_default();
+  *options = thr_request_default();
   if ((st = read_objective(field_reader, value, options))) return st;
   if ((st = read_limits(field_reader, value, options))) return st;
   snprintf(place, sizeof place, "%.200s: options.physics", field_reader->name);

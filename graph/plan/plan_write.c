@@ -112,7 +112,7 @@ static void put_frame(thr_writer *writer, const thr_frame *frame)
 
 /* ---- options ---- */
 
-static void put_turning_options(thr_writer *writer, const thr_plan_options *asked)
+static void put_turning_options(thr_writer *writer, const thr_request *asked)
 {
   const thr_turning_options *options = &asked->turning;
   thr_write_object(writer, "turning");
@@ -125,7 +125,7 @@ static void put_turning_options(thr_writer *writer, const thr_plan_options *aske
   thr_write_line(writer, 2);
 }
 
-static void put_symmetry_options(thr_writer *writer, const thr_plan_options *asked)
+static void put_symmetry_options(thr_writer *writer, const thr_request *asked)
 {
   const thr_symmetry_options *options = &asked->symmetry;
   thr_aim order[THR_N_AIMS];
@@ -147,7 +147,7 @@ static void put_symmetry_options(thr_writer *writer, const thr_plan_options *ask
 /* Where cord ends may be, or how many there are. */
 static void put_ends(thr_writer *writer, const thr_plan *plan)
 {
-  const thr_plan_options *options = &plan->options;
+  const thr_request *options = &plan->options;
   thr_write_string(writer, "ends", thr_ends_name(options->ends));
   if (options->ends == THR_ENDS_NODES) put_marked(writer, "end_nodes", options->end_node, plan->frame.n_nodes);
   if (options->ends != THR_ENDS_COUNTS) return;
@@ -157,7 +157,7 @@ static void put_ends(thr_writer *writer, const thr_plan *plan)
   thr_write_close(writer);
 }
 
-static void put_number_of_cords(thr_writer *writer, const thr_plan_options *options)
+static void put_number_of_cords(thr_writer *writer, const thr_request *options)
 {
   if (options->cords_least == options->cords) {
     thr_write_int(writer, "cords", options->cords);
@@ -171,7 +171,7 @@ static void put_number_of_cords(thr_writer *writer, const thr_plan_options *opti
 
 static void put_options(thr_writer *writer, const thr_plan *plan)
 {
-  const thr_plan_options *options = &plan->options;
+  const thr_request *options = &plan->options;
   put_line(writer);
   thr_write_object(writer, "options");
   thr_write_string(writer, "objective", thr_objective_name(thr_aims_objective(options)));

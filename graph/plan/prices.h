@@ -28,12 +28,11 @@ typedef struct {
 
 /* Prices that a certificate must have, if any: of every place alike (1); THR_ENDS_COUNTS: one for every node of its component, in
  * order. None with symmetric plans, whose cords are not asked for by number. */
-int thr_prices_number(const thr_plan_options *options, int n_nodes);
+int thr_prices_number(const thr_request *options, int n_nodes);
 
 /* of: sum of the prices at the edge's two nodes where cords may end; THR_ENDS_CLOSED: the price of a place. weight: of the edge,
  * times the denominator. loop: as thr_prices_loops says. */
-thr_priced thr_prices_edge(const thr_frame *frame, const thr_plan_options *options, int e, thr_wide weight, thr_wide of,
-                           int loop);
+thr_priced thr_prices_edge(const thr_frame *frame, const thr_request *options, int e, thr_wide weight, thr_wide of, int loop);
 
 /* Number of edges of the shortest loop over each of edge[n], or fewer: no more than 10 are told apart, and 2^24 steps taken. loop
  * is indexed like edge. work[2 * n_nodes] is 0 at first, and may serve for other edges after that. */

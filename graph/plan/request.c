@@ -6,16 +6,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-thr_plan_options thr_plan_options_default(void)
+thr_request thr_request_default(void)
 {
-  return (thr_plan_options){.aims = thr_aims_shortest,
-                            .cover = 1,
-                            .cords = 1,
-                            .cords_least = 1,
-                            .turning = {.length_slack = -1},
-                            .symmetry = {.geometric = -1},
-                            .ends = THR_ENDS_CLOSED,
-                            .physics = thr_physics_default()};
+  return (thr_request){.aims = thr_aims_shortest,
+                       .cover = 1,
+                       .cords = 1,
+                       .cords_least = 1,
+                       .turning = {.length_slack = -1},
+                       .symmetry = {.geometric = -1},
+                       .ends = THR_ENDS_CLOSED,
+                       .physics = thr_physics_default()};
 }
 
 /* ---- what the aims come to ---- */
@@ -29,45 +29,45 @@ thr_aims thr_aims_of(thr_objective objective)
   return objective == THR_SYMMETRY ? thr_aims_symmetric : objective == THR_TORTUOSITY ? thr_aims_straightest : thr_aims_shortest;
 }
 
-bool thr_aims_have(const thr_plan_options *options, thr_aim aim)
+bool thr_aims_have(const thr_request *options, thr_aim aim)
 {
   for (int i = 0; i < options->aims.n; i++)
     if (options->aims.aim[i] == aim) return true;
   return false;
 }
 
-thr_objective thr_aims_objective(const thr_plan_options *options)
+thr_objective thr_aims_objective(const thr_request *options)
 {
   if (thr_aims_have(options, THR_AIM_STEPS) || thr_aims_have(options, THR_AIM_PATHS)) return THR_SYMMETRY;
   return thr_aims_have(options, THR_AIM_TURNING) || thr_aims_have(options, THR_AIM_MAX_TURNING) ? THR_TORTUOSITY : THR_LENGTH;
 }
 
-bool thr_wants_length(const thr_plan_options *options)
+bool thr_wants_length(const thr_request *options)
 {
   return thr_aims_objective(options) == THR_LENGTH;
 }
 
-bool thr_wants_turning(const thr_plan_options *options)
+bool thr_wants_turning(const thr_request *options)
 {
   return thr_aims_objective(options) == THR_TORTUOSITY;
 }
 
-bool thr_wants_symmetry(const thr_plan_options *options)
+bool thr_wants_symmetry(const thr_request *options)
 {
   return thr_aims_objective(options) == THR_SYMMETRY;
 }
 
-bool thr_wants_balance(const thr_plan_options *options)
+bool thr_wants_balance(const thr_request *options)
 {
   return thr_aims_have(options, THR_AIM_LONGEST);
 }
 
-bool thr_wants_largest(const thr_plan_options *options)
+bool thr_wants_largest(const thr_request *options)
 {
   return thr_aims_have(options, THR_AIM_MAX_TURNING);
 }
 
-void thr_aims_order(const thr_plan_options *options, thr_aim order[THR_N_AIMS])
+void thr_aims_order(const thr_request *options, thr_aim order[THR_N_AIMS])
 {
   bool taken[THR_N_AIMS] = {false};
   int n = 0;
@@ -167,7 +167,7 @@ static void rename_aim(list *l, thr_aim from, thr_aim to)
   l->named[from] = false;
 }
 
-static thr_status settle_symmetric(list *l, thr_plan_options *options, thr_err *err)
+static thr_status settle_symmetric(list *l, thr_request *options, thr_err *err)
 {
   if (l->named[THR_AIM_LONGEST] || l->named[THR_AIM_MAX_TURNING])
     return thr_fail(err, THR_EINPUT, "symmetric plans, which steps and paths ask for, do not know longest and max-turning");
@@ -199,7 +199,7 @@ static thr_status settle_length(list *l, thr_err *err)
   return THR_OK;
 }
 
-static thr_status settle(list *l, thr_plan_options *options, thr_err *err)
+static thr_status settle(list *l, thr_request *options, thr_err *err)
 {
   bool symmetric = l->named[THR_AIM_STEPS] || l->named[THR_AIM_PATHS];
   bool turning = !symmetric && (l->named[THR_AIM_TURNING] || l->named[THR_AIM_MAX_TURNING]);
@@ -212,10 +212,10 @@ static thr_status settle(list *l, thr_plan_options *options, thr_err *err)
   return turning ? settle_turning(l, err) : settle_length(l, err);
 }
 
-thr_status thr_aims_parse(const char *text, thr_plan_options *options, thr_err *err)
+thr_status thr_aims_parse(const char *text, thr_request *options, thr_err *err)
 {
   list l = {.slack = -1};
-  thr_plan_options trial = *options;
+  thr_request trial = *options;
   thr_status st = read_list(text, &l, err);
   if (!st) st = settle(&l, &trial, err);
   if (st) return st;
@@ -225,7 +225,7 @@ thr_status thr_aims_parse(const char *text, thr_plan_options *options, thr_err *
   return THR_OK;
 }
 
-void thr_aims_write(const thr_plan_options *options, thr_text *out)
+void thr_aims_write(const thr_request *options, thr_text *out)
 {
   bool turning = thr_wants_turning(options), limited = turning && options->turning.length_slack >= 0;
   if (limited && options->turning.length_slack > 0)
@@ -294,29 +294,29 @@ const char *thr_confirm_name(int c)
 
 /* ---- options and framework together ---- */
 
-bool thr_plan_within_slack(const thr_plan_options *options, double length, double least)
+bool thr_plan_within_slack(const thr_request *options, double length, double least)
 {
   bool asked = thr_wants_turning(options) && options->turning.length_slack >= 0;
   return !asked || length <= (1 + options->turning.length_slack) * least * (1 + 2e-9);
 }
 
-int thr_plan_cords_least(const thr_plan_options *options)
+int thr_plan_cords_least(const thr_request *options)
 {
   return thr_wants_symmetry(options) ? 1 : options->cords_least;
 }
 
-int thr_plan_cover(const thr_frame *frame, const thr_plan_options *options, int e)
+int thr_plan_cover(const thr_frame *frame, const thr_request *options, int e)
 {
   return frame->cover && frame->cover[e] > options->cover ? frame->cover[e] : options->cover;
 }
 
-int thr_plan_capacity(const thr_frame *frame, const thr_plan_options *options, int e)
+int thr_plan_capacity(const thr_frame *frame, const thr_request *options, int e)
 {
   int own = frame->capacity && frame->capacity[e] > 0 ? frame->capacity[e] : INT_MAX;
   return options->capacity > 0 && options->capacity < own ? options->capacity : own;
 }
 
-bool thr_plan_end_allowed(const thr_frame *frame, const thr_plan_options *options, int v)
+bool thr_plan_end_allowed(const thr_frame *frame, const thr_request *options, int v)
 {
   switch (options->ends) {
   case THR_ENDS_FEET: return frame->foot[v];

@@ -1,6 +1,6 @@
 /* The request: what a plan is asked to be, and what it is to have little of, first, second, ...
  *
- *   thr_plan_options o = thr_plan_options_default();
+ *   thr_request o = thr_request_default();
  *   thr_aims_parse("length+5%,turning:sine", &o, &err)   at most 5 % above the least length, and of that the least turning
  */
 #ifndef THR_REQUEST_H
@@ -98,9 +98,9 @@ typedef struct {
   double time_limit;   /* s, 0 = none */
   thr_engine engine;   /* changes no length */
   thr_confirm confirm; /* of the least length with THR_JOINT_SOLID only */
-} thr_plan_options;
+} thr_request;
 
-thr_plan_options thr_plan_options_default(void);
+thr_request thr_request_default(void);
 
 /* ---- aims ---- */
 
@@ -108,27 +108,27 @@ extern const thr_aims thr_aims_shortest, thr_aims_straightest; /* length; turnin
 extern const thr_aims thr_aims_symmetric;                      /* in the usual order: overlap, steps, paths, turning */
 thr_aims thr_aims_of(thr_objective objective);                 /* one of these */
 
-bool thr_aims_have(const thr_plan_options *options, thr_aim aim);
-thr_objective thr_aims_objective(const thr_plan_options *options);
+bool thr_aims_have(const thr_request *options, thr_aim aim);
+thr_objective thr_aims_objective(const thr_request *options);
 
 /* What the aims come to, for those who plan, check or print. */
-bool thr_wants_length(const thr_plan_options *options);   /* a short plan, and neither of the next two */
-bool thr_wants_turning(const thr_plan_options *options);  /* one that turns little */
-bool thr_wants_symmetry(const thr_plan_options *options); /* a symmetric one */
-bool thr_wants_balance(const thr_plan_options *options);  /* a short longest cord */
-bool thr_wants_largest(const thr_plan_options *options);  /* that the cord that turns most turns little */
+bool thr_wants_length(const thr_request *options);   /* a short plan, and neither of the next two */
+bool thr_wants_turning(const thr_request *options);  /* one that turns little */
+bool thr_wants_symmetry(const thr_request *options); /* a symmetric one */
+bool thr_wants_balance(const thr_request *options);  /* a short longest cord */
+bool thr_wants_largest(const thr_request *options);  /* that the cord that turns most turns little */
 
 /* The order of a symmetric plan's aims; the usual one where the aims name none of them. */
-void thr_aims_order(const thr_plan_options *options, thr_aim order[THR_N_AIMS]);
+void thr_aims_order(const thr_request *options, thr_aim order[THR_N_AIMS]);
 
 /* Reads a list of aims with commas: their names above; "length+5%" before turning or max-turning: at most so much above the
  * least length (also "length" alone: none); "turning:sine", "max-turning:step": what a turn costs. The list says all: what of
  * aims, length_slack and cost it leaves out becomes the default. THR_EINPUT: words that are no aims, or that do not go together.
  * On failure options is unchanged. */
-thr_status thr_aims_parse(const char *text, thr_plan_options *options, thr_err *err) THR_MUST_CHECK;
+thr_status thr_aims_parse(const char *text, thr_request *options, thr_err *err) THR_MUST_CHECK;
 
 /* Such a list, which says the same. */
-void thr_aims_write(const thr_plan_options *options, thr_text *out);
+void thr_aims_write(const thr_request *options, thr_text *out);
 
 /* ---- the rest ---- */
 
@@ -146,17 +146,17 @@ const char *thr_confirm_name(int c);        /* "auto", "always", "never" */
 
 /* Is the cord within the asked part above the least length (options.turning.length_slack), by this lower bound on that? True
  * where none was asked for. */
-bool thr_plan_within_slack(const thr_plan_options *options, double length, double least);
+bool thr_plan_within_slack(const thr_request *options, double length, double least);
 
-bool thr_plan_end_allowed(const thr_frame *frame, const thr_plan_options *options, int v);
+bool thr_plan_end_allowed(const thr_frame *frame, const thr_request *options, int v);
 
 /* Cords that every component has at least. Of a symmetric plan options.cords is the most in any, and the others may have
  * fewer: 1.
  */
-int thr_plan_cords_least(const thr_plan_options *options);
+int thr_plan_cords_least(const thr_request *options);
 
 /* Passes that edge e needs, and the most that it may have (INT_MAX: no limit): what options and framework say together. */
-int thr_plan_cover(const thr_frame *frame, const thr_plan_options *options, int e);
-int thr_plan_capacity(const thr_frame *frame, const thr_plan_options *options, int e);
+int thr_plan_cover(const thr_frame *frame, const thr_request *options, int e);
+int thr_plan_capacity(const thr_frame *frame, const thr_request *options, int e);
 
 #endif

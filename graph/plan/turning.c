@@ -47,7 +47,7 @@ double thr_turn_price(const thr_frame *frame, thr_turn_cost cost, int in, int ou
 
 int thr_turning_cover(const thr_frame *frame, int cover, int e)
 {
-  const thr_plan_options options = {.cover = cover};
+  const thr_request options = {.cover = cover};
   return thr_plan_cover(frame, &options, e);
 }
 
@@ -237,7 +237,7 @@ static thr_status fill_limits(thr_turning_columns *turning_columns, thr_err *err
 {
   const thr_frame *frame = turning_columns->f;
   const thr_turning_task *turning_task = turning_columns->task;
-  const thr_plan_options options = {.cover = turning_task->cover, .capacity = turning_task->capacity};
+  const thr_request options = {.cover = turning_task->cover, .capacity = turning_task->capacity};
   turning_columns->n_ends = turning_task->end_count ? frame->n_nodes : turning_columns->n_components;
   turning_columns->supply = thr_calloc((size_t)turning_columns->n_ends, sizeof *turning_columns->supply);
   if (!turning_columns->supply) return thr_nomem(err);

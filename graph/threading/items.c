@@ -296,7 +296,7 @@ static thr_status find_edges(thr_items *items, thr_err *err)
   return THR_OK;
 }
 
-thr_status thr_items_init(thr_items *items, const thr_frame *frame, const thr_plan_options *options, const int *component, int k,
+thr_status thr_items_init(thr_items *items, const thr_frame *frame, const thr_request *options, const int *component, int k,
                           bool turning, thr_err *err)
 {
   *items = (thr_items){.f = frame, .o = options, .component = component, .k = k, .turning = turning};

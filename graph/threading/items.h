@@ -17,7 +17,7 @@
 
 typedef struct {
   const thr_frame *f;
-  const thr_plan_options *o; /* joint, cover, capacity, ends */
+  const thr_request *o; /* joint, cover, capacity, ends */
   const int *component;
   int k;
   bool turning;  /* turns are what costs, as options.turning prices them, not length */
@@ -33,7 +33,7 @@ typedef struct {
 
 /* Component k, component[n_nodes], without capacities or cuts. With turning U-turns are only at nodes with one edge, with tube
  * joints nowhere. */
-thr_status thr_items_init(thr_items *items, const thr_frame *frame, const thr_plan_options *options, const int *component, int k,
+thr_status thr_items_init(thr_items *items, const thr_frame *frame, const thr_request *options, const int *component, int k,
                           bool turning, thr_err *err) THR_MUST_CHECK;
 void thr_items_destroy(thr_items *items);
 

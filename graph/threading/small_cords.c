@@ -85,7 +85,7 @@ static thr_status try_items(thr_items *items, const thr_small_ask *ask, const th
   return st;
 }
 
-thr_status thr_small_cords_find(const thr_frame *frame, const thr_plan_options *options, const int *component, int k,
+thr_status thr_small_cords_find(const thr_frame *frame, const thr_request *options, const int *component, int k,
                                 const thr_small_ask *ask, const thr_limits *limits, thr_small_cords *out, bool *certain,
                                 thr_err *err)
 {

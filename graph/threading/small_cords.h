@@ -32,7 +32,7 @@ void thr_small_cords_destroy(thr_small_cords *cords);
 /* Of component k, component[n_nodes]; of the options ends, covers, capacities and joint. out: cords that are better than those
  * known, and as asked for; else none. *certain: nothing is better than those or, without them, than the known ones; or there
  * are none at all. Not certain: too many items, or stopped by the limits. */
-thr_status thr_small_cords_find(const thr_frame *frame, const thr_plan_options *options, const int *component, int k,
+thr_status thr_small_cords_find(const thr_frame *frame, const thr_request *options, const int *component, int k,
                                 const thr_small_ask *ask, const thr_limits *limits, thr_small_cords *out, bool *certain,
                                 thr_err *err) THR_MUST_CHECK;
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int best_start(const thr_frame *frame, const thr_plan_options *options, const int *half, int n, int only)
+static int best_start(const thr_frame *frame, const thr_request *options, const int *half, int n, int only)
 {
   int best = 0;
   double best_score = -1;
@@ -21,13 +21,13 @@ static int best_start(const thr_frame *frame, const thr_plan_options *options, c
   return best;
 }
 
-int thr_tour_start(const thr_frame *frame, const thr_plan_options *options, const int *half, int n)
+int thr_tour_start(const thr_frame *frame, const thr_request *options, const int *half, int n)
 {
   return best_start(frame, options, half, n, -1);
 }
 
 /* Takes the only walk of walks as cord k with these ends. */
-static thr_status take_cord(const thr_frame *frame, const thr_plan_options *options, thr_walks *walks, int k, const int ends[2],
+static thr_status take_cord(const thr_frame *frame, const thr_request *options, thr_walks *walks, int k, const int ends[2],
                             thr_cord *cord, thr_err *err)
 {
   thr_walk *walk = walks->walk;
@@ -47,7 +47,7 @@ static thr_status take_cord(const thr_frame *frame, const thr_plan_options *opti
   return THR_OK;
 }
 
-thr_status thr_tour_cords(const thr_frame *frame, const thr_plan_options *options, const int *component, int n_components,
+thr_status thr_tour_cords(const thr_frame *frame, const thr_request *options, const int *component, int n_components,
                           const int *passes, const int (*ends)[2], thr_cord *cord, thr_err *err)
 {
   thr_walks *walks = thr_calloc((size_t)n_components, sizeof *walks);

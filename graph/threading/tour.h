@@ -12,11 +12,11 @@
  * end node that the options allow (a foot rather than another) where the turn that closing leaves out is sharpest.
  * cord[n_components] is filled; each half array is allocated for the caller, none on failure. THR_EINPUT if passes and
  * ends leave a node with an odd number of both. Near-linear in passes. */
-thr_status thr_tour_cords(const thr_frame *frame, const thr_plan_options *options, const int *component, int n_components,
+thr_status thr_tour_cords(const thr_frame *frame, const thr_request *options, const int *component, int n_components,
                           const int *passes, const int (*ends)[2], thr_cord *cord, thr_err *err) THR_MUST_CHECK;
 
 /* The pass from which the closed circuit half[0 .. n-1] had best start as a cord, as above; options NULL: at any node, the first
  * of its sharpest turns. */
-int thr_tour_start(const thr_frame *frame, const thr_plan_options *options, const int *half, int n);
+int thr_tour_start(const thr_frame *frame, const thr_request *options, const int *half, int n);
 
 #endif

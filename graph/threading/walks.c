@@ -245,8 +245,8 @@ void thr_walk_reverse(int *half, int n)
   }
 }
 
-thr_status thr_walks_cords(thr_walks *walks, const thr_frame *frame, const thr_plan_options *options, int k, int first,
-                           thr_cord *cord, thr_err *err)
+thr_status thr_walks_cords(thr_walks *walks, const thr_frame *frame, const thr_request *options, int k, int first, thr_cord *cord,
+                           thr_err *err)
 {
   for (int i = 0; i < walks->n_walks; i++) {
     thr_walk *walk = &walks->walk[i];

@@ -84,8 +84,8 @@ void thr_walk_visits_destroy(thr_walk_visits *visits);
 
 /* Moves the walks into cords cord[0 .. n_walks - 1] of component k, numbered from first on: open ones from their lower end,
  * cyclic ones from where closing leaves out most (graph/threading/tour.h). */
-thr_status thr_walks_cords(thr_walks *walks, const thr_frame *frame, const thr_plan_options *options, int k, int first,
-                           thr_cord *cord, thr_err *err) THR_MUST_CHECK;
+thr_status thr_walks_cords(thr_walks *walks, const thr_frame *frame, const thr_request *options, int k, int first, thr_cord *cord,
+                           thr_err *err) THR_MUST_CHECK;
 
 /* Moves the walks walks[n_components] into the cords of plan, whose frame and options are set, component by component. */
 thr_status thr_walks_plan(thr_walks *walks, int n_components, thr_plan *plan, thr_err *err) THR_MUST_CHECK;

@@ -17,7 +17,7 @@
 /* The framework is one component. */
 typedef struct {
   const thr_frame *f;
-  const thr_plan_options *o;
+  const thr_request *o;
   const thr_limits *limits;
   thr_share share;
   int *component;  /* [n_nodes] zeros: what the share says of every node */
@@ -117,7 +117,7 @@ static thr_status tell(const several *x, thr_err *err)
 /* What the table knows better, where the framework is small. With a goal only if it was missed, and then the fewest cords. */
 static thr_status make_exact(several *x, double goal, thr_err *err)
 {
-  const thr_plan_options *options = x->o;
+  const thr_request *options = x->o;
   thr_walks *w = &x->walks;
   bool certain, counts = options->ends == THR_ENDS_COUNTS;
   thr_share_ask ask = {counts ? w->n_walks : options->cords_least, counts ? w->n_walks : options->cords, true, INFINITY};
@@ -205,7 +205,7 @@ static int counted_cords(const several *x)
 
 static int choose_number(const several *x)
 {
-  const thr_plan_options *options = x->o;
+  const thr_request *options = x->o;
   if (options->ends == THR_ENDS_COUNTS) return counted_cords(x);
   if (!thr_wants_balance(options)) return options->cords_least;
   int room = most_cords(x);
@@ -222,7 +222,7 @@ static double length_of(const several *x, const int *passes)
   return length;
 }
 
-thr_status thr_cords_reach(const thr_frame *frame, const thr_plan_options *options, thr_err *err)
+thr_status thr_cords_reach(const thr_frame *frame, const thr_request *options, thr_err *err)
 {
   thr_ways w;
   bool closed = options->ends == THR_ENDS_CLOSED;
@@ -255,7 +255,7 @@ thr_status thr_cords_reach(const thr_frame *frame, const thr_plan_options *optio
  * passes. */
 static thr_status try_number(several *x, int n, thr_shortest *best, double *length, bool *done, thr_err *err)
 {
-  thr_plan_options options = *x->o;
+  thr_request options = *x->o;
   thr_shortest shortest;
   options.cords = n;
   thr_err why = {0};
@@ -319,7 +319,7 @@ static thr_status make(several *x, thr_shortest *shortest, thr_err *err)
 
 thr_status thr_cords_judge(const thr_plan *plan, const thr_err *unproved, thr_err *err)
 {
-  const thr_plan_options *options = &plan->options;
+  const thr_request *options = &plan->options;
   const thr_cords_claim *claim = &plan->cords_claim;
   const char *why = unproved->code ? unproved->text : "", *colon = unproved->code ? ": " : "";
   if (thr_wants_balance(options) && !claim->longest_optimal)
@@ -351,7 +351,7 @@ static thr_status prove_places(const several *x, thr_plan *plan, thr_err *err)
 static thr_status prove(const several *x, thr_plan *plan, thr_shortest *shortest, thr_err *err)
 {
   const thr_frame *frame = &plan->frame;
-  const thr_plan_options *options = &plan->options;
+  const thr_request *options = &plan->options;
   thr_status st = thr_plan_measure(frame, options, plan->cord, plan->n_cords, &plan->metrics, err);
   if (!st) st = thr_postman_prove(frame, options, plan->cord, plan->n_cords, shortest, &plan->proof, err);
   if (!st) st = prove_places(x, plan, err);
@@ -361,7 +361,7 @@ static thr_status prove(const several *x, thr_plan *plan, thr_shortest *shortest
   return st;
 }
 
-thr_status thr_cords_plan(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits, thr_plan *plan,
+thr_status thr_cords_plan(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
                           thr_cords_word *word, thr_err *err)
 {
   thr_shortest shortest = {0};

@@ -24,14 +24,14 @@ typedef struct {
  * - max_length: the fewest cords none of which is longer, as far as the search finds them.
  * word may be NULL. THR_OK: what was asked to be least is proved to be. THR_ELIMIT: the plan is valid and says its bounds.
  * THR_EINFEASIBLE: there is none, or none was found: the text says which, and why. Otherwise the plan is empty. */
-thr_status thr_cords_plan(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits, thr_plan *plan,
+thr_status thr_cords_plan(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
                           thr_cords_word *word, thr_err *err) THR_MUST_CHECK;
 
 /* ---- shared with tube joints, and with frameworks of several components (planner/length.c) ---- */
 
 /* THR_EINFEASIBLE, said: an edge that no cord within options.max_length can pass, coming from where it may end and going where it
  * may end. */
-thr_status thr_cords_reach(const thr_frame *frame, const thr_plan_options *options, thr_err *err) THR_MUST_CHECK;
+thr_status thr_cords_reach(const thr_frame *frame, const thr_request *options, thr_err *err) THR_MUST_CHECK;
 
 /* Is what was asked to be least proved to be, by the plan's claims? Else THR_ELIMIT, and how far it may be off; unproved: what is
  * to be said before that, if anything. */

@@ -10,7 +10,7 @@
 
 typedef struct {
   const thr_frame *f;
-  const thr_plan_options *o;
+  const thr_request *o;
   int n_components, *component;
   int *left;               /* [n_edges] passes still to be made */
   thr_walks *tour, *cords; /* [n_components] */
@@ -138,7 +138,7 @@ static thr_status cut(cutting *x, int k, bool *found, thr_err *err)
   return st;
 }
 
-thr_status thr_cut_tour(const thr_frame *frame, const thr_plan_options *options, thr_cord **cord, int *n_cords, thr_err *err)
+thr_status thr_cut_tour(const thr_frame *frame, const thr_request *options, thr_cord **cord, int *n_cords, thr_err *err)
 {
   cutting x = {.f = frame, .o = options};
   thr_plan plan = {.frame = *frame, .options = *options};

@@ -12,7 +12,7 @@
  * Frederickson, M. S. Hecht & C. E. Kim, "Approximation algorithms for some routing problems", SIAM J. Comput. 7, 1978).
  * Capacities are not looked at. *n_cords = 0: not by this way, which proves nothing. cord[*n_cords] is the caller's. Near-linear
  * in passes for open cords; for closed ones the ways from the start of each are looked for. */
-thr_status thr_cut_tour(const thr_frame *frame, const thr_plan_options *options, thr_cord **cord, int *n_cords,
+thr_status thr_cut_tour(const thr_frame *frame, const thr_request *options, thr_cord **cord, int *n_cords,
                         thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -19,7 +19,7 @@ static double weight_sum(int n)
 
 typedef struct {
   const thr_frame *f;
-  const thr_plan_options *o;
+  const thr_request *o;
   const thr_limits *limits;
   int n_components;
   int *component;               /* [n_nodes] */
@@ -456,8 +456,8 @@ static thr_status judge(postman *m, thr_shortest *out, thr_err *err)
                        &found, err);
 }
 
-thr_status thr_postman_shortest(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits,
-                                thr_shortest *out, thr_err *err)
+thr_status thr_postman_shortest(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_shortest *out,
+                                thr_err *err)
 {
   postman m = {.f = frame, .o = options, .limits = limits};
   *out = (thr_shortest){0};

@@ -30,28 +30,28 @@ typedef struct {
 /* What optimal and lower_bound say is what graph/check/check.c verifies, never what the solver hopes. THR_OK: optimal.
  * THR_ELIMIT: out is valid and holds its bound. THR_EINFEASIBLE: a component has no node where a cord end is allowed, or given
  * ends that are no cords', or an edge has no room (named). Otherwise out is empty. */
-thr_status thr_postman_shortest(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits,
-                                thr_shortest *out, thr_err *err) THR_MUST_CHECK;
+thr_status thr_postman_shortest(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_shortest *out,
+                                thr_err *err) THR_MUST_CHECK;
 void thr_shortest_destroy(thr_shortest *shortest);
 
 /* One cord per component through passes that leave at most two nodes of it with an odd number, paired for little turning
  * (graph/threading/tour.h). cord is allocated, [*n_cords] with their half arrays, for the caller; NULL on failure. Near-linear in
  * passes.
  */
-thr_status thr_postman_cords(const thr_frame *frame, const thr_plan_options *options, const int *passes, thr_cord **cord,
-                             int *n_cords, thr_err *err) THR_MUST_CHECK;
+thr_status thr_postman_cords(const thr_frame *frame, const thr_request *options, const int *passes, thr_cord **cord, int *n_cords,
+                             thr_err *err) THR_MUST_CHECK;
 
 /* What the certificates of shortest, which are moved, prove of these cords for the same framework and options: fills proof with
  * them, each join being that of the cords, and with what graph/check/check.c says. On failure (THR_ENOMEM, or THR_ESOLVER for
  * cords that do not pass the check) proof can still be released. */
-thr_status thr_postman_prove(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord, int n_cords,
+thr_status thr_postman_prove(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
                              thr_shortest *shortest, thr_length_proof *proof, thr_err *err) THR_MUST_CHECK;
 
 /* Makes a plan: one shortest cord per component of the framework, its certificates, metrics and proof. The options'
  * end_node is copied. The proof is what graph/check/check.c verifies, never what the solver hopes.
  * THR_OK: optimal. THR_ELIMIT: plan is valid and holds its bound and gap. THR_EINFEASIBLE: a component has no node where a
  * cord end is allowed (named). THR_EINPUT: more than one cord per component. Otherwise the plan is empty. */
-thr_status thr_postman_plan(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits, thr_plan *plan,
+thr_status thr_postman_plan(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
                             thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 
 /* The certificates' joins: what these cords weigh beyond the cover. */
-static thr_status weigh_joins(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord, int n_cords,
+static thr_status weigh_joins(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
                               thr_shortest *shortest, thr_err *err)
 {
   int n_components, *component = thr_calloc((size_t)frame->n_nodes, sizeof *component);
@@ -31,7 +31,7 @@ static thr_status weigh_joins(const thr_frame *frame, const thr_plan_options *op
   return st;
 }
 
-thr_status thr_postman_prove(const thr_frame *frame, const thr_plan_options *options, const thr_cord *cord, int n_cords,
+thr_status thr_postman_prove(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
                              thr_shortest *shortest, thr_length_proof *proof, thr_err *err)
 {
   thr_err found = {0};
@@ -68,8 +68,8 @@ static void find_ends(const thr_frame *frame, const int *component, int n_compon
   }
 }
 
-thr_status thr_postman_cords(const thr_frame *frame, const thr_plan_options *options, const int *passes, thr_cord **cord,
-                             int *n_cords, thr_err *err)
+thr_status thr_postman_cords(const thr_frame *frame, const thr_request *options, const int *passes, thr_cord **cord, int *n_cords,
+                             thr_err *err)
 {
   int n_components = 0, *component = thr_calloc((size_t)frame->n_nodes, sizeof *component), (*ends)[2] = NULL;
   *cord = NULL;
@@ -93,7 +93,7 @@ thr_status thr_postman_cords(const thr_frame *frame, const thr_plan_options *opt
 }
 
 /* Cords through the passes; then metrics, and the proof as far as the checker follows it. */
-static thr_status assemble(const thr_frame *frame, const thr_plan_options *options, thr_shortest *shortest, thr_plan *plan,
+static thr_status assemble(const thr_frame *frame, const thr_request *options, thr_shortest *shortest, thr_plan *plan,
                            thr_err *err)
 {
   thr_status st = thr_plan_request(plan, frame, options, err);
@@ -103,7 +103,7 @@ static thr_status assemble(const thr_frame *frame, const thr_plan_options *optio
   return st;
 }
 
-thr_status thr_postman_plan(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits, thr_plan *plan,
+thr_status thr_postman_plan(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
                             thr_err *err)
 {
   thr_shortest shortest = {0};

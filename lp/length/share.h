@@ -19,8 +19,8 @@
 /* Where cords may end, and how many ends there are. All is borrowed. */
 typedef struct {
   const thr_frame *f;
-  const thr_plan_options *o; /* ends, end_node, end_count */
-  const int *component;      /* [n_nodes] */
+  const thr_request *o; /* ends, end_node, end_count */
+  const int *component; /* [n_nodes] */
 } thr_share;
 
 /* Makes room for the ends of n cords in component k: where passes[n_edges], the shortest, leave too few places for them, they are

@@ -243,7 +243,7 @@ static thr_status solve_part(pricing *p, int part, const bool *odd, bool *in_joi
 /* Odd nodes at the trial's price, and what it is worth before any cuts. */
 static void count_odd(const pricing *p, bool *odd, thr_wide *bound)
 {
-  const thr_plan_options *options = p->s->o;
+  const thr_request *options = p->s->o;
   *bound = p->counts ? 0 : 2 * (thr_wide)options->cords_least * p->trial.place_price[0];
   for (int v = 0; v < p->n_nodes && p->counts; v++) {
     *bound += (thr_wide)options->end_count[p->node[v]] * p->trial.place_price[v];

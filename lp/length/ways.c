@@ -45,7 +45,7 @@ thr_status thr_ways_start(thr_ways *x, int v, thr_err *err)
   return reach(x, v, 0, -1, err);
 }
 
-thr_status thr_ways_spread(thr_ways *x, const thr_plan_options *options, const int *passes, int room, double most, int64_t *steps,
+thr_status thr_ways_spread(thr_ways *x, const thr_request *options, const int *passes, int room, double most, int64_t *steps,
                            thr_err *err)
 {
   const thr_frame *frame = x->f;

@@ -25,7 +25,7 @@ thr_status thr_ways_start(thr_ways *x, int v, thr_err *err) THR_MUST_CHECK;
 
 /* From the starts, over edges whose capacity leaves room for so many passes beyond passes[n_edges] (NULL: over all), no further
  * than most. What it costs is taken off *steps (NULL ok). O(m log m). */
-thr_status thr_ways_spread(thr_ways *x, const thr_plan_options *options, const int *passes, int room, double most, int64_t *steps,
+thr_status thr_ways_spread(thr_ways *x, const thr_request *options, const int *passes, int room, double most, int64_t *steps,
                            thr_err *err) THR_MUST_CHECK;
 
 /* The half-edges of the shortest way to v, from its start on, into half[n_nodes]; returns how many. */

@@ -20,7 +20,7 @@ static const double MOMENT = 0.05, LATEST = 0.2;
 /* What is known while the rows are solved. */
 typedef struct {
   const thr_frame *f;
-  const thr_plan_options *o;
+  const thr_request *o;
   thr_symmetries *t;
   thr_cover_options how;
   int *edge_cover, *edge_capacity; /* [n_edges] */
@@ -38,7 +38,7 @@ static void solver_destroy(solver *s)
   free(s->edge_capacity);
 }
 
-static thr_status solver_init(solver *s, const thr_frame *frame, const thr_plan_options *options, thr_symmetries *symmetries,
+static thr_status solver_init(solver *s, const thr_frame *frame, const thr_request *options, thr_symmetries *symmetries,
                               thr_err *err)
 {
   *s = (solver){.f = frame,
@@ -164,7 +164,7 @@ static thr_status solve(solver *s, int i, bool quick, const thr_limits *limits, 
 
 /* ---- the shortest of all ---- */
 
-thr_status thr_symmetry_shortest_tied(const thr_frame *frame, const thr_plan_options *options, bool few, const thr_limits *limits,
+thr_status thr_symmetry_shortest_tied(const thr_frame *frame, const thr_request *options, bool few, const thr_limits *limits,
                                       double *length, bool *optimal, thr_err *err)
 {
   static const thr_aim cords_first[] = {THR_AIM_PATHS, THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_TURNING};
@@ -250,7 +250,7 @@ static thr_status solve_round(solver *s, turn r, const thr_limits *limits, thr_e
   return st;
 }
 
-thr_status thr_symmetry_solve(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits,
+thr_status thr_symmetry_solve(const thr_frame *frame, const thr_request *options, const thr_limits *limits,
                               thr_symmetries *symmetries, thr_err *err)
 {
   solver s;

@@ -11,13 +11,13 @@
 
 /* Fills the rows that are asked for. With a deadline: first all rows, overlap and learned steps only; then, likewise, those that
  * may yet become the default choice; then what is left goes to all proofs, in equal shares. */
-thr_status thr_symmetry_solve(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits,
+thr_status thr_symmetry_solve(const thr_frame *frame, const thr_request *options, const thr_limits *limits,
                               thr_symmetries *symmetries, thr_err *err) THR_MUST_CHECK;
 
 /* What the shortest cords with tube joints need, in units: few, and the cords need not be closed: with one cord in each
  * component, or else as few as can be; otherwise any number of cords. Closed cords can always be joined to one. *optimal = false:
  * what the shortest that was found in time needs, or if none was, what the edges need. */
-thr_status thr_symmetry_shortest_tied(const thr_frame *frame, const thr_plan_options *options, bool few, const thr_limits *limits,
+thr_status thr_symmetry_shortest_tied(const thr_frame *frame, const thr_request *options, bool few, const thr_limits *limits,
                                       double *length, bool *optimal, thr_err *err) THR_MUST_CHECK;
 
 /* group: as in thr_symmetry_options. */

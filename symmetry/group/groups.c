@@ -15,7 +15,7 @@ const double thr_symmetry_near = THR_ISOMETRY_NEAR;
 
 typedef struct {
   const thr_frame *f;
-  const thr_plan_options *o;
+  const thr_request *o;
   thr_symmetries *t;
   const thr_limits *limits;
   int capacity; /* rows that the table has room for */
@@ -434,7 +434,7 @@ static void sort_rows(thr_symmetries *symmetries)
   }
 }
 
-thr_status thr_symmetry_groups(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits,
+thr_status thr_symmetry_groups(const thr_frame *frame, const thr_request *options, const thr_limits *limits,
                                thr_symmetries *symmetries, thr_err *err)
 {
   offer x = {.f = frame, .o = options, .t = symmetries, .limits = limits};

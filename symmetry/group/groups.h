@@ -13,7 +13,7 @@
 
 /* Fills the groups of the table and its rows, without threadings; fewer when the limits say so. On failure the table can still be
  * destroyed. */
-thr_status thr_symmetry_groups(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits,
+thr_status thr_symmetry_groups(const thr_frame *frame, const thr_request *options, const thr_limits *limits,
                                thr_symmetries *symmetries, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -16,7 +16,7 @@
 /* Options of every kind; lists of the framework's nodes are part of the structure. */
 typedef struct {
   thr_frame f;
-  thr_plan_options o;
+  thr_request o;
   bool end_node[TRUTH_NODES];
   int end_count[TRUTH_NODES];
   int n_components, component[TRUTH_NODES], loop[TRUTH_EDGES];
@@ -80,7 +80,7 @@ static void limit_edges(rng *r, thr_frame *f)
 static void choose_options(rng *r, request *q)
 {
   static const int many[] = {1, 2, 2, 3, 10, 100, 1000};
-  thr_plan_options *o = &q->o;
+  thr_request *o = &q->o;
   *o = options_for((thr_ends)rng_below(r, 5), rng_between(r, 1, 2));
   want(o, rng_below(r, 4) ? "length" : "steps");
   o->cords = many[rng_below(r, 7)];
@@ -129,7 +129,7 @@ static void request_make(rng *r, request *q)
     ck_assert_int_eq(thr_frame_components(&q->f, q->component, &q->n_components, NULL), THR_OK);
     if (q->o.ends == THR_ENDS_COUNTS && !counts_fit(q)) continue;
     if (q->f.n_edges > TRUTH_EDGES) continue;
-    thr_plan_options asked = q->o; /* of a symmetric plan the number of cords is not asked for, but came out */
+    thr_request asked = q->o; /* of a symmetric plan the number of cords is not asked for, but came out */
     if (thr_wants_symmetry(&q->o)) asked.cords_least = 1;
     bool fits = true;
     for (int e = 0; e < q->f.n_edges; e++)
@@ -504,7 +504,7 @@ static void find_truth_of_piece(asked *a, int k, int least)
   bool end_node[TRUTH_NODES];
   double shortest = INFINITY;
   thr_frame f = piece_of(q, k, to);
-  thr_plan_options o = q->o;
+  thr_request o = q->o;
   for (int v = 0; v < q->f.n_nodes; v++)
     if (to[v] >= 0) {
       f.foot[to[v]] = q->f.foot[v];
@@ -555,7 +555,7 @@ static void lengthen(rng *r, asked *a)
  * same read from another pass on or backward: all such ways are tried. */
 static double steps_of(const asked *a, const thr_cord *c)
 {
-  const thr_plan_options *o = &a->q.o;
+  const thr_request *o = &a->q.o;
   bool round = c->closed && (o->ends == THR_ENDS_CLOSED || o->ends == THR_ENDS_ANY);
   int n = c->n_passes, ways = 0;
   for (int back = 0; back < 2; back++)
@@ -630,7 +630,7 @@ static double longest_of(const thr_plan *p)
 /* Options that the plan keeps to as well, some of them much wider. */
 static void restate(rng *r, asked *a)
 {
-  thr_plan_options *o = &a->q.o;
+  thr_request *o = &a->q.o;
   double longest = longest_of(&a->plan);
   if (thr_wants_length(o) && !run_alike(&a->plan) && rng_below(r, 3) == 0) want(o, "overlap,steps");
   if (thr_wants_length(o) && rng_below(r, 4) == 0) want(o, "turning");
@@ -644,7 +644,7 @@ static void restate(rng *r, asked *a)
 /* The program's plan for exactly so many cords. */
 static bool plan_cords(const request *q, int cords, thr_plan *p)
 {
-  thr_plan_options o = q->o;
+  thr_request o = q->o;
   thr_limits limits = {.deadline = thr_clock() + 5};
   want(&o, "length");
   o.cords = o.cords_least = cords;
@@ -655,7 +655,7 @@ static bool plan_cords(const request *q, int cords, thr_plan *p)
 /* With given numbers of ends: even cords that the program finds. */
 static void find_witnesses(asked *a)
 {
-  thr_plan_options o = a->q.o;
+  thr_request o = a->q.o;
   thr_limits limits = {.deadline = thr_clock() + 5};
   thr_plan p;
   want(&o, "length");
@@ -694,7 +694,7 @@ static bool asked_make(rng *r, asked *a)
   }
   lengthen(r, a);
   restate(r, a);
-  thr_plan_options true_options = q->o;
+  thr_request true_options = q->o;
   if (thr_wants_symmetry(&q->o)) true_options.cords_least = 1, make_symmetric(a);
   a->plan.options.aims = q->o.aims;
   a->plan.options.cords = q->o.cords;

@@ -44,7 +44,7 @@ static void limit_edges(rng *r, thr_frame *f)
   }
 }
 
-static void choose_options(rng *r, target *t, thr_frame *f, thr_plan_options *o)
+static void choose_options(rng *r, target *t, thr_frame *f, thr_request *o)
 {
   limit_edges(r, f);
   static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET, THR_ENDS_NODES, THR_ENDS_COUNTS};
@@ -76,7 +76,7 @@ static int pieces_of(const thr_frame *f)
 static void find_task(target *t)
 {
   const thr_plan *p = &t->plan;
-  const thr_plan_options *o = &p->options;
+  const thr_request *o = &p->options;
   for (int v = 0; v < p->frame.n_nodes; v++)
     t->end_allowed[v] = thr_plan_end_allowed(&p->frame, o, v);
   t->n_pieces = pieces_of(&p->frame);
@@ -97,7 +97,7 @@ static void find_task(target *t)
 static long double least_price(const target *t)
 {
   const thr_plan *p = &t->plan;
-  const thr_plan_options *o = &p->options;
+  const thr_request *o = &p->options;
   long double sum = 0;
   for (int i = 0; i < p->n_cords; i++)
     for (int k = 0; k < thr_cord_turns(o, &p->cord[i]); k++)
@@ -153,7 +153,7 @@ static bool counts_fit(const thr_frame *f, const int *end_count)
 static bool target_make(rng *r, target *t, bool tied)
 {
   thr_err err = {0};
-  thr_plan_options o;
+  thr_request o;
   *t = (target){.tied = tied};
   bool apart = rng_below(r, 8) == 0;
   thr_frame f = apart ? bowtie_make(r) : any_frame(r);
@@ -538,7 +538,7 @@ typedef struct {
 static void take_proof_of_so_many(const target *t, candidate *c)
 {
   target own = *t;
-  thr_plan_options o = t->plan.options;
+  thr_request o = t->plan.options;
   thr_limits limits = {.deadline = thr_clock() + 5};
   o.cords = o.cords_least = t->plan.n_cords;
   *c = (candidate){.n_nodes = 1};
@@ -551,7 +551,7 @@ static void take_proof_of_so_many(const target *t, candidate *c)
 /* Sums and largest prices of all cords with few passes. */
 static void find_prices(target *t)
 {
-  const thr_plan_options *o = &t->plan.options;
+  const thr_request *o = &t->plan.options;
   truth_table table = truth_table_make(&t->plan.frame, o, 2);
   for (int n = o->cords_least; n <= o->cords; n++) {
     t->least = fminl(t->least, truth_price(&table, n, false, -1));
@@ -565,7 +565,7 @@ static void find_prices_of_plans(target *t)
 {
   for (int n = t->plan.options.cords_least; n <= t->plan.options.cords; n++)
     for (int largest = 0; largest < 2; largest++) {
-      thr_plan_options o = t->plan.options;
+      thr_request o = t->plan.options;
       thr_plan p;
       thr_limits limits = {.deadline = thr_clock() + 5};
       o.cords = o.cords_least = n;
@@ -581,7 +581,7 @@ static void find_prices_of_plans(target *t)
 /* The shortest cords, which turn more than they must, as a plan for the least turning of a range of numbers of cords. */
 static bool claim_target_make(rng *r, target *t)
 {
-  thr_plan_options o;
+  thr_request o;
   *t = (target){.least = INFINITY, .largest = INFINITY};
   thr_frame f = rng_below(r, 3) ? any_frame(r) : bowtie_make(r);
   choose_options(r, t, &f, &o);
@@ -683,9 +683,9 @@ typedef struct {
   int fewest;     /* fewest cords found, none longer than allowed */
 } tied_target;
 
-static bool tied_plan(const thr_frame *f, const thr_plan_options *o, int cords, bool balance, thr_plan *p)
+static bool tied_plan(const thr_frame *f, const thr_request *o, int cords, bool balance, thr_plan *p)
 {
-  thr_plan_options exactly = *o;
+  thr_request exactly = *o;
   thr_limits limits = {.deadline = thr_clock() + 5};
   exactly.cords = exactly.cords_least = cords;
   want(&exactly, balance ? "longest" : "length");
@@ -703,7 +703,7 @@ static double longest_of(const thr_plan *p)
 }
 
 /* Plans that the program finds for every number of cords are witnesses. */
-static void find_witnesses(tied_target *x, const thr_frame *f, const thr_plan_options *o)
+static void find_witnesses(tied_target *x, const thr_frame *f, const thr_request *o)
 {
   x->t.least = x->longest = INFINITY;
   x->fewest = INT_MAX;
@@ -720,7 +720,7 @@ static void find_witnesses(tied_target *x, const thr_frame *f, const thr_plan_op
 
 static bool tied_target_make(rng *r, tied_target *x)
 {
-  thr_plan_options o;
+  thr_request o;
   *x = (tied_target){.t = {.tied = true}};
   target *t = &x->t;
   thr_frame f = any_frame(r);

@@ -29,7 +29,7 @@ static const thr_aim orders[ORDERS][THR_N_AIMS] = {
 /* What a plan counts of a cover. */
 static void count(const thr_quotient *q, const thr_cover_options *o, const thr_cover *c, double has[THR_N_AIMS])
 {
-  thr_plan_options plan = options_for(o->ends, o->cover);
+  thr_request plan = options_for(o->ends, o->cover);
   thr_cord *cord;
   int n;
   thr_symmetry_record record;

@@ -486,7 +486,7 @@ static void check_stopped(const thr_quotient *q, const thr_cover_options *o, con
 static void check_claim(const thr_quotient *q, const thr_cover_options *o, const thr_cover *c, const thr_claims *claims,
                         const double has[THR_N_AIMS])
 {
-  thr_plan_options plan = options_for(o->ends, o->cover);
+  thr_request plan = options_for(o->ends, o->cover);
   thr_cord *cord;
   int n;
   thr_symmetry_record record;
@@ -834,7 +834,7 @@ START_TEST(trivial_group_is_route_inspection)
   rng r = rng_make(31);
   for (int i = 0; i < 60; i++) {
     thr_frame f = random_frame(&r, rng_between(&r, 4, 16), rng_between(&r, 0, 14), (length_kind)(i % LENGTH_KINDS));
-    thr_plan_options plan = options_for(THR_ENDS_CLOSED, 1 + i % 2);
+    thr_request plan = options_for(THR_ENDS_CLOSED, 1 + i % 2);
     thr_cover_options o = {
         .cover = plan.cover, .ends = THR_ENDS_CLOSED, .prefer = {THR_AIM_OVERLAP, THR_AIM_PATHS, THR_AIM_STEPS, THR_AIM_TURNING}};
     thr_limits limits = {.deadline = thr_clock() + 2};

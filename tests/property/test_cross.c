@@ -153,7 +153,7 @@ static void judge_ties(judged *j, const thr_plan *p)
 static void judge_threading(judged *j, const thr_plan *p)
 {
   const thr_frame *f = &j->c.f;
-  const thr_plan_options *o = &j->c.o;
+  const thr_request *o = &j->c.o;
   int passes[64] = {0}, ends[64] = {0}, cords[PIECES] = {0};
   for (int i = 0; i < p->n_cords; i++) {
     judge_walk(j, &p->cord[i], passes, ends);
@@ -209,7 +209,7 @@ static const walks_weights by_length = {1, 0}, by_turn = {0, 1};
 /* Cords of piece k, least and most, as the options say for this objective; with ends counted all of them are used. */
 static void cords_of(const judged *j, int k, int *least, int *most)
 {
-  const thr_plan_options *o = &j->c.o;
+  const thr_request *o = &j->c.o;
   int n, component[64], sum = 0;
   *least = thr_wants_symmetry(o) ? 1 : o->cords_least;
   *most = thr_wants_symmetry(o) || o->cords > MOST_CORDS ? MOST_CORDS : o->cords;
@@ -505,7 +505,7 @@ static double least_length(const judged *j, walks_back back)
 /* Is there a plan, its longest cord that part longer than allowed? 1, 0, or -1: not known. */
 static int exists(const judged *j, walks_back back, double part)
 {
-  const thr_plan_options *o = &j->c.o;
+  const thr_request *o = &j->c.o;
   double limit = o->max_length > 0 ? o->max_length * (1 + part) : -1, least = least_of(j, back, by_length, limit);
   return isnan(least) ? -1 : isfinite(least);
 }
@@ -634,7 +634,7 @@ static void close_folder(void)
 typedef struct {
   const char *nodes, *edges, *more; /* members of the frame */
   const char *arguments;
-  thr_plan_options o;
+  thr_request o;
   int end_count[12];
 } known_case;
 
@@ -695,7 +695,7 @@ static void write_frame(const char *path, const char *nodes, const char *edges, 
 }
 
 /* Judges one case with these options; the lists of o belong to the caller. */
-static void judge_given(const char *path, const thr_plan_options *o, const char *arguments)
+static void judge_given(const char *path, const thr_request *o, const char *arguments)
 {
   static judged j;
   counts n = {0};
@@ -716,7 +716,7 @@ static void judge_given(const char *path, const thr_plan_options *o, const char 
 START_TEST(what_was_wrong_once)
 {
   const known_case *k = &known[_i];
-  thr_plan_options o = k->o;
+  thr_request o = k->o;
   int end_count[12];
   char path[128];
   open_folder();
@@ -734,7 +734,7 @@ END_TEST
 START_TEST(symmetric_pieces_have_numbers_of_their_own)
 {
   rng r = rng_make((uint64_t)_i + 1);
-  thr_plan_options o = thr_plan_options_default();
+  thr_request o = thr_request_default();
   char path[128], nodes[400] = "";
   open_folder();
   snprintf(path, sizeof path, "%s/frame.json", folder);
@@ -779,7 +779,7 @@ START_TEST(steps_at_their_threshold)
 {
   enum { SPOKES = 4 };
   rng r = rng_make((uint64_t)_i + 1);
-  thr_plan_options o = thr_plan_options_default();
+  thr_request o = thr_request_default();
   char path[128], nodes[600] = "[0,0,0]";
   double x[3], y[3], size = 1 + 99 * rng_unit(&r), angle = acos(0) - 1e-6 * (1 + 1e-10 * rng_between(&r, -3, 3));
   open_folder();

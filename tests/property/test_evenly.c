@@ -15,7 +15,7 @@ enum { MOST_EDGES = 10, MOST_NODES = 8, MOST_POINTS = 64, MOST_CORDS = 8, MOST_S
 /* Points are what is paired: the two sides of every pass (2 p and 2 p + 1, at the nodes where it leaves), then the cord ends. */
 typedef struct {
   const thr_frame *f;
-  const thr_plan_options *o;
+  const thr_request *o;
   bool largest;   /* of the cord that turns most; else of all together */
   int most_extra; /* passes of an edge */
   double most_length;
@@ -157,7 +157,7 @@ static void pair_all(oracle *w)
 /* Ends at node v and after: left[k] of them in component k. */
 static void choose_ends(oracle *w, int v, int *left)
 {
-  const thr_plan_options *o = w->o;
+  const thr_request *o = w->o;
   if (v == w->f->n_nodes) {
     for (int k = 0; k < w->n_components; k++)
       if (left[k]) return;
@@ -195,8 +195,8 @@ static void choose_passes(oracle *w, int e, double length)
 }
 
 /* Least price of all turns, or of those of the cord that turns most, below `below`; or below. */
-static double least_by_enumeration(const thr_frame *f, const thr_plan_options *o, bool largest, int most_extra,
-                                   double most_length, double below)
+static double least_by_enumeration(const thr_frame *f, const thr_request *o, bool largest, int most_extra, double most_length,
+                                   double below)
 {
   oracle w = {.f = f, .o = o, .largest = largest, .most_extra = most_extra, .most_length = most_length, .best = below};
   ck_assert(f->n_edges <= MOST_EDGES && f->n_nodes <= MOST_NODES);
@@ -212,7 +212,7 @@ typedef struct {
 } tally;
 
 /* Never below the least of all, never a bound above it, never a false claim; how often the plan is the least is counted. */
-static void compare(const thr_frame *f, const thr_plan_options *o, int most_extra, tally *t)
+static void compare(const thr_frame *f, const thr_request *o, int most_extra, tally *t)
 {
   const thr_limits none = {0};
   thr_plan p;
@@ -243,9 +243,9 @@ static void compare(const thr_frame *f, const thr_plan_options *o, int most_extr
   thr_plan_destroy(&p);
 }
 
-static thr_plan_options request(rng *r, thr_joint joint, thr_ends ends, int cords, bool largest)
+static thr_request request(rng *r, thr_joint joint, thr_ends ends, int cords, bool largest)
 {
-  thr_plan_options o = options_for(ends, 1);
+  thr_request o = options_for(ends, 1);
   want(&o, "turning");
   o.joint = joint;
   o.cords = o.cords_least = cords;
@@ -264,7 +264,7 @@ START_TEST(cords_are_least)
   for (int k = 0; k < 48; k++) {
     thr_frame f = random_frame(&r, rng_between(&r, 3, 4), rng_between(&r, 1, 2), LENGTHS_EUCLID);
     bool largest = k % 4 > 0;
-    thr_plan_options o = request(&r, k % 5 ? THR_JOINT_TUBE : THR_JOINT_SOLID, kind[_i % 3], 1 + k % 3, largest);
+    thr_request o = request(&r, k % 5 ? THR_JOINT_TUBE : THR_JOINT_SOLID, kind[_i % 3], 1 + k % 3, largest);
     compare(&f, &o, 2, &t);
     thr_frame_destroy(&f);
   }
@@ -283,7 +283,7 @@ START_TEST(given_ends_in_every_piece)
   for (int k = 0; k < 8; k++) {
     thr_frame a = k % 2 ? ring_make(3) : path_make(3), b = random_frame(&r, 3, 1, LENGTHS_EUCLID), f = side_by_side(&a, &b);
     int end_count[MOST_NODES] = {0}, cords[2] = {1 + k / 4 % 2, 1 + k / 2 % 2};
-    thr_plan_options o = request(&r, k % 3 ? THR_JOINT_SOLID : THR_JOINT_TUBE, THR_ENDS_COUNTS, 1, _i % 2);
+    thr_request o = request(&r, k % 3 ? THR_JOINT_SOLID : THR_JOINT_TUBE, THR_ENDS_COUNTS, 1, _i % 2);
     for (int n = 2 * cords[0]; n > 0; n--)
       end_count[k % 2 ? rng_below(&r, 3) : 2 * (n % 2)]++;
     for (int n = 2 * cords[1]; n > 0; n--)
@@ -304,7 +304,7 @@ END_TEST
 
 /* ---- larger ones ---- */
 
-static thr_plan solve(const thr_frame *f, const thr_plan_options *o)
+static thr_plan solve(const thr_frame *f, const thr_request *o)
 {
   const thr_limits none = {0};
   thr_plan p;
@@ -321,7 +321,7 @@ START_TEST(domes_are_tied_and_evened_out)
 {
   rng r = rng_make(1);
   thr_frame f = shape_make(THR_MAKE_DOME, 4, 0);
-  thr_plan_options o = request(&r, THR_JOINT_TUBE, _i < 4 ? THR_ENDS_ANY : THR_ENDS_CLOSED, 1 + _i % 4, false);
+  thr_request o = request(&r, THR_JOINT_TUBE, _i < 4 ? THR_ENDS_ANY : THR_ENDS_CLOSED, 1 + _i % 4, false);
   o.turning.cost = THR_TURN_ANGLE;
   o.turning.length_slack = -1;
   thr_plan sum = solve(&f, &o);
@@ -352,7 +352,7 @@ START_TEST(false_claims_are_refused)
   rng r = rng_make(2);
   thr_frame a = ring_make(3), b = solid_make(TETRAHEDRON), f = side_by_side(&a, &b);
   int end_count[7] = {2, 0, 0, 1, 2, 1, 0};
-  thr_plan_options o = request(&r, _i ? THR_JOINT_TUBE : THR_JOINT_SOLID, THR_ENDS_COUNTS, 2, true);
+  thr_request o = request(&r, _i ? THR_JOINT_TUBE : THR_JOINT_SOLID, THR_ENDS_COUNTS, 2, true);
   o.end_count = end_count;
   o.cords_least = 1;
   thr_plan p = solve(&f, &o);
@@ -387,7 +387,7 @@ START_TEST(running_out_of_memory_leaves_nothing)
   rng r = rng_make(3);
   thr_frame f = solid_make(TETRAHEDRON);
   int end_count[4] = {2, 0, 1, 1};
-  thr_plan_options o = request(&r, _i < 3 ? THR_JOINT_TUBE : THR_JOINT_SOLID, kind[_i % 3], 2, true);
+  thr_request o = request(&r, _i < 3 ? THR_JOINT_TUBE : THR_JOINT_SOLID, kind[_i % 3], 2, true);
   thr_status st = THR_ENOMEM;
   o.turning.length_slack = _i % 2 ? 0.5 : -1;
   if (o.ends == THR_ENDS_COUNTS) o.end_count = end_count;

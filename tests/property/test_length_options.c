@@ -13,7 +13,7 @@ enum { EXTRA = 3, EDGES = 6, NODES = 5, PASSES = 8, INSTANCES = 250 };
 
 typedef struct {
   const thr_frame *f;
-  const thr_plan_options *o;
+  const thr_request *o;
   int passes[EDGES];
   signed char *circuits; /* [PASSES^EDGES] most circuits that these passes fall into, -1 = not known */
 } oracle;
@@ -69,7 +69,7 @@ static int most_circuits(oracle *x)
 static bool holds(oracle *x)
 {
   const thr_frame *f = x->f;
-  const thr_plan_options *o = x->o;
+  const thr_request *o = x->o;
   int at[NODES] = {0}, odd = 0, room = 0;
   for (int e = 0; e < f->n_edges; e++)
     for (int s = 0; s < 2; s++)
@@ -91,7 +91,7 @@ static bool holds(oracle *x)
 }
 
 /* Least length; INFINITY: no choice will do. */
-static double least_length(const thr_frame *f, const thr_plan_options *o, signed char *circuits)
+static double least_length(const thr_frame *f, const thr_request *o, signed char *circuits)
 {
   oracle x = {f, o, {0}, circuits};
   double best = INFINITY;
@@ -120,7 +120,7 @@ static double least_length(const thr_frame *f, const thr_plan_options *o, signed
 
 typedef struct {
   thr_frame f;
-  thr_plan_options o;
+  thr_request o;
   bool end_node[NODES];
   int end_count[NODES];
 } instance;
@@ -237,7 +237,7 @@ static void compare(rng *r, instance *x, signed char *circuits, int *accepted)
 {
   thr_plan p;
   thr_err err = {0};
-  const thr_plan_options *o = &x->o;
+  const thr_request *o = &x->o;
   double least = least_length(&x->f, o, circuits);
   thr_status st = length_plan(&x->f, o, &(thr_limits){0}, &p, NULL, &err);
   if (st == THR_EINFEASIBLE) {

@@ -34,7 +34,7 @@ static thr_plan example_plan(int i)
 {
   static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET};
   thr_frame f = example(i / 3);
-  thr_plan_options o = options_for(ends[i % 3], i % 7 == 0 ? 3 : 1);
+  thr_request o = options_for(ends[i % 3], i % 7 == 0 ? 3 : 1);
   thr_limits none = {0};
   thr_plan p;
   thr_status st = thr_postman_plan(&f, &o, &none, &p, NULL);
@@ -427,7 +427,7 @@ START_TEST(any_number_and_set_with_several_cords)
   rng r = rng_make((uint64_t)_i);
   int which = 11 + _i % 5; /* the random ones */
   thr_frame f = _i % 7 ? example(which) : solid_make(CUBE);
-  thr_plan_options o = options_for(_i % 7 ? ends[_i % 2] : THR_ENDS_ANY, 1);
+  thr_request o = options_for(_i % 7 ? ends[_i % 2] : THR_ENDS_ANY, 1);
   o.cords = 2 + _i % 3;
   thr_plan p = plan_of_cords(&f, &o);
   assert_plan_sound(&p);

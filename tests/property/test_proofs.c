@@ -13,7 +13,7 @@ __extension__ typedef __int128 wide;
 typedef struct {
   int n_pieces, first_node[PIECES + 1], first_edge[PIECES + 1];
   thr_frame piece[PIECES], whole;
-  thr_plan_options o, of_piece[PIECES];
+  thr_request o, of_piece[PIECES];
   bool end_node[MOST_NODES];
   int end_count[MOST_NODES];
   int passes[MOST_EDGES];

@@ -62,7 +62,7 @@ static void check_plan_of_row(const thr_symmetry_row *row, const thr_plan *p)
 }
 
 /* Asked for by number it is the same, if it is proved. */
-static void check_alone(const thr_frame *f, thr_plan_options o, int number, const thr_symmetry_row *row)
+static void check_alone(const thr_frame *f, thr_request o, int number, const thr_symmetry_row *row)
 {
   const thr_limits none = {0};
   thr_symmetries t;
@@ -81,7 +81,7 @@ START_TEST(rows_and_their_plans)
   thr_ends ends = (thr_ends)(_i % 3);
   const thr_limits none = {0};
   thr_frame f = frame_of(s);
-  thr_plan_options o = options_for(ends, 1);
+  thr_request o = options_for(ends, 1);
   thr_symmetries t;
   thr_err err = {0};
   want(&o, "overlap,steps");

@@ -19,7 +19,7 @@ static void furnish(rng *r, thr_frame *f)
   }
 }
 
-static bool fits(const thr_frame *f, const thr_plan_options *o)
+static bool fits(const thr_frame *f, const thr_request *o)
 {
   for (int e = 0; e < f->n_edges; e++) {
     int need = f->cover && f->cover[e] > o->cover ? f->cover[e] : o->cover;
@@ -28,7 +28,7 @@ static bool fits(const thr_frame *f, const thr_plan_options *o)
   return true;
 }
 
-static double need_length(const thr_frame *f, const thr_plan_options *o)
+static double need_length(const thr_frame *f, const thr_request *o)
 {
   double sum = 0;
   for (int e = 0; e < f->n_edges; e++)
@@ -37,7 +37,7 @@ static double need_length(const thr_frame *f, const thr_plan_options *o)
 }
 
 /* For every number of ends the certificate's bound is true. */
-static void assert_bounds(const thr_frame *f, thr_plan_options o, const thr_certificate *c, double tolerance)
+static void assert_bounds(const thr_frame *f, thr_request o, const thr_certificate *c, double tolerance)
 {
   if (o.ends == THR_ENDS_CLOSED || o.ends == THR_ENDS_COUNTS) return;
   for (o.cords = 1; o.cords <= 5; o.cords++) {
@@ -53,7 +53,7 @@ START_TEST(every_kind_of_request)
   rng r = rng_make((uint64_t)_i);
   for (int round = 0; round < 10; round++) {
     thr_frame f = random_frame(&r, rng_between(&r, 2, 7), rng_below(&r, 5), (length_kind)(round % LENGTH_KINDS));
-    thr_plan_options o = options_for(ends[_i % 5], rng_between(&r, 1, 4));
+    thr_request o = options_for(ends[_i % 5], rng_between(&r, 1, 4));
     bool end_node[7] = {false};
     int end_count[7] = {0}, sum = 0;
     furnish(&r, &f);
@@ -94,7 +94,7 @@ START_TEST(capacities_against_a_matching)
 {
   rng r = rng_make((uint64_t)_i + 7);
   thr_frame f = random_frame_few_odd(&r, 40, 30, (length_kind)(_i % LENGTH_KINDS), 10);
-  thr_plan_options o = options_for(_i % 3 ? THR_ENDS_ANY : THR_ENDS_CLOSED, 1);
+  thr_request o = options_for(_i % 3 ? THR_ENDS_ANY : THR_ENDS_CLOSED, 1);
   o.cords = 1 + _i % 4;
   f.capacity = calloc((size_t)f.n_edges, sizeof *f.capacity);
   for (int e = 0; e < f.n_edges; e++)
@@ -113,7 +113,7 @@ END_TEST
 /* ---- several cords ---- */
 
 /* Can one cord make these passes? */
-static bool one_cord(const thr_frame *f, const thr_plan_options *o, const int *passes, double *length)
+static bool one_cord(const thr_frame *f, const thr_request *o, const int *passes, double *length)
 {
   int n = f->n_nodes, part[8], sum[8] = {0}, odd = 0;
   bool any = false;
@@ -143,7 +143,7 @@ static bool one_cord(const thr_frame *f, const thr_plan_options *o, const int *p
 }
 
 /* The shortest longest cord of exactly k, by trying all ways to give every edge 0 to 2 passes of each. */
-static double least_longest(const thr_frame *f, const thr_plan_options *o, int k)
+static double least_longest(const thr_frame *f, const thr_request *o, int k)
 {
   int choice[8] = {0}, choices = k == 1 ? 3 : k == 2 ? 9 : 27, passes[3][8];
   double best = INFINITY;
@@ -173,7 +173,7 @@ START_TEST(bounds_on_several_cords_are_true)
   rng r = rng_make((uint64_t)_i + 31);
   int n = rng_between(&r, 3, 4);
   thr_frame f = random_frame(&r, n, 5 - n, (length_kind)(_i % LENGTH_KINDS));
-  thr_plan_options o = options_for(ends[_i % 3], 1);
+  thr_request o = options_for(ends[_i % 3], 1);
   double least[4] = {0};
   o.cords = o.ends == THR_ENDS_ANY ? rng_between(&r, 1, 2) : 1;
   thr_plan p = o.ends == THR_ENDS_CLOSED ? plan_make(&f, &o) : plan_of_cords(&f, &o);

@@ -12,7 +12,7 @@ enum { EDGES = 5, MOST = 3, CHOICES = 1024 }; /* passes of an edge by one cord: 
 
 /* A choice of passes is one cord's if it is connected, and odd at no node or at two where it may end, or even and somewhere where
  * it may end. */
-static bool is_cord(const thr_frame *f, const thr_plan_options *o, const int *passes)
+static bool is_cord(const thr_frame *f, const thr_request *o, const int *passes)
 {
   int at[EDGES + 1] = {0}, part[EDGES + 1], odd = 0, joined = 1;
   bool somewhere = o->ends == THR_ENDS_CLOSED;
@@ -45,7 +45,7 @@ typedef struct {
   double length[CHOICES];
 } choices;
 
-static void all_cords(const thr_frame *f, const thr_plan_options *o, choices *c)
+static void all_cords(const thr_frame *f, const thr_request *o, choices *c)
 {
   int count = 1;
   for (int e = 0; e < f->n_edges; e++)
@@ -63,7 +63,7 @@ static void all_cords(const thr_frame *f, const thr_plan_options *o, choices *c)
 }
 
 /* Two cords: the least length of the longer one. */
-static double least_longest(const thr_frame *f, const thr_plan_options *o)
+static double least_longest(const thr_frame *f, const thr_request *o)
 {
   static choices c;
   double best = INFINITY;
@@ -106,7 +106,7 @@ START_TEST(two_cords_of_small_ones_are_even)
   rng r = rng_make((uint64_t)_i + 400);
   for (int k = 0; k < 60; k++) {
     thr_frame f = small_frame(&r);
-    thr_plan_options o = options_for(ends[k % 3], rng_between(&r, 1, 2));
+    thr_request o = options_for(ends[k % 3], rng_between(&r, 1, 2));
     thr_cords_word word;
     thr_plan p;
     thr_err err = {0};
@@ -141,7 +141,7 @@ START_TEST(small_ones_need_as_few_cords_as_the_oracle)
   rng r = rng_make((uint64_t)_i + 900);
   for (int k = 0; k < 40; k++) {
     thr_frame f = small_frame(&r);
-    thr_plan_options o = options_for(ends[k % 3], 1);
+    thr_request o = options_for(ends[k % 3], 1);
     thr_plan one = plan_make(&f, &o), p;
     thr_err err = {0};
     o.cords = 1000;
@@ -192,7 +192,7 @@ START_TEST(cords_of_grids_are_even)
   f.own_lengths = true;
   for (int v = 0; v < f.n_nodes; v += 5)
     end_node[v] = true;
-  thr_plan_options o = options_for(ends[_i % 4], 1 + _i / 4 % 2);
+  thr_request o = options_for(ends[_i % 4], 1 + _i / 4 % 2);
   if (o.ends == THR_ENDS_NODES) o.end_node = end_node;
   o.cords = o.cords_least = 2 + _i % 5;
   want(&o, "longest");
@@ -221,7 +221,7 @@ END_TEST
 START_TEST(a_corridor_is_a_forced_detour)
 {
   thr_frame f = path_make(12);
-  thr_plan_options o = options_for(THR_ENDS_FEET, 1);
+  thr_request o = options_for(THR_ENDS_FEET, 1);
   thr_plan p;
   thr_err err = {0};
   o.cords = o.cords_least = 2;
@@ -246,7 +246,7 @@ START_TEST(detours_and_moved_ends_even_out)
   const int edge[][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {1, 4}, {4, 5}, {5, 6}, {6, 7}, {7, 4}};
   const double length[] = {10, 10, 10, 10, 1, 2, 2, 2, 2};
   thr_frame f = frame_make(8, xyz, 9, edge, length, NULL);
-  thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+  thr_request o = options_for(THR_ENDS_ANY, 1);
   thr_plan p;
   thr_err err = {0};
   o.cords = o.cords_least = 2;
@@ -261,7 +261,7 @@ END_TEST
 
 /* ---- memory ---- */
 
-static void fail_everywhere(const thr_frame *f, const thr_plan_options *o)
+static void fail_everywhere(const thr_frame *f, const thr_request *o)
 {
   for (long k = 1;; k++) {
     thr_plan p;
@@ -283,7 +283,7 @@ START_TEST(every_allocation_may_fail)
 {
   int end_count[16] = {3, 1};
   thr_frame grid = grid_make(3, 3), path = path_make(3), pieces = triangles_make(2);
-  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_request o = options_for(THR_ENDS_CLOSED, 1);
   o.cords = o.cords_least = _i == 0 || _i == 6 ? 3 : 2;
   want(&o, _i == 1 || _i == 2 ? "longest" : "length");
   if (_i == 2 || _i == 4) o.ends = THR_ENDS_ANY;

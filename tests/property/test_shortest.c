@@ -24,13 +24,13 @@ static void assert_proved(const thr_plan *p, double extra)
   assert_plan_sound(p);
 }
 
-static void compare_all_ends(rng *r, const thr_frame *f, double (*oracle)(const thr_frame *, const thr_plan_options *))
+static void compare_all_ends(rng *r, const thr_frame *f, double (*oracle)(const thr_frame *, const thr_request *))
 {
   bool end_node[64] = {false};
   for (int k = rng_between(r, 1, 4); k > 0; k--)
     end_node[rng_below(r, f->n_nodes)] = true;
   for (int i = 0; i < 4; i++) {
-    thr_plan_options o = options_for(all_ends[i], rng_between(r, 1, 3));
+    thr_request o = options_for(all_ends[i], rng_between(r, 1, 3));
     if (all_ends[i] == THR_ENDS_NODES) o.end_node = end_node;
     thr_plan p = plan_make(f, &o);
     assert_proved(&p, oracle(f, &o));
@@ -68,7 +68,7 @@ START_TEST(oracles_agree)
   for (int k = 0; k < 20; k++) {
     thr_frame f = random_frame(&r, rng_between(&r, 2, 8), rng_below(&r, 5), (length_kind)(k % LENGTH_KINDS));
     for (int i = 0; i < 3; i++) {
-      thr_plan_options o = options_for(all_ends[i], 1 + k % 3);
+      thr_request o = options_for(all_ends[i], 1 + k % 3);
       ck_assert_double_eq_tol(least_extra_by_subsets(&f, &o), least_extra_by_matching(&f, &o), 1e-9);
     }
     thr_frame_destroy(&f);
@@ -78,14 +78,14 @@ END_TEST
 
 /* ---- several cords in a component ---- */
 
-static void compare_cords(rng *r, const thr_frame *f, double (*oracle)(const thr_frame *, const thr_plan_options *))
+static void compare_cords(rng *r, const thr_frame *f, double (*oracle)(const thr_frame *, const thr_request *))
 {
   bool end_node[64] = {false};
   for (int k = rng_between(r, 1, 9); k > 0; k--)
     end_node[rng_below(r, f->n_nodes)] = true;
   for (int i = 0; i < 4; i++)
     for (int cords = 1; cords <= 4; cords++) {
-      thr_plan_options o = options_for(all_ends[i], rng_between(r, 1, 3));
+      thr_request o = options_for(all_ends[i], rng_between(r, 1, 3));
       double base = o.cover * thr_frame_total_length(f), bound;
       bool optimal;
       thr_shortest s;
@@ -139,7 +139,7 @@ START_TEST(enough_cords_need_no_extra_pass)
   for (int v = 0; v < f.n_nodes; v++)
     odd += thr_degree(&f, v) % 2;
   for (int i = 0; i < 4 && odd > 0; i++) {
-    thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+    thr_request o = options_for(THR_ENDS_ANY, 1);
     thr_shortest s;
     o.cords = odd / 2 + many[i];
     ck_assert_int_eq(thr_postman_shortest(&f, &o, &(thr_limits){0}, &s, NULL), THR_OK);
@@ -172,7 +172,7 @@ START_TEST(a_longer_plan_is_bounded_by_the_shortest)
   thr_frame f = random_frame(&r, n, rng_below(&r, 14 - n), LENGTHS_EQUAL);
   double bead = f.length[0];
   for (int cords = 0; cords <= 3; cords++) {
-    thr_plan_options o = options_for(cords ? THR_ENDS_ANY : THR_ENDS_CLOSED, 1);
+    thr_request o = options_for(cords ? THR_ENDS_ANY : THR_ENDS_CLOSED, 1);
     o.cords = cords > 1 && f.n_edges > 3 ? cords : 1;
     thr_plan p = cords ? plan_of_cords(&f, &o) : plan_make(&f, &o);
     thr_shortest s = {.certificate = p.proof.certificate, .n_certificates = 1};
@@ -310,7 +310,7 @@ static void assert_file_is_solved(const char *path)
     feet |= f.foot[v];
   for (int i = 0; i < 3; i++) {
     thr_plan p;
-    thr_plan_options o = options_for(all_ends[i], 1);
+    thr_request o = options_for(all_ends[i], 1);
     thr_limits none = {0};
     thr_err err = {0};
     thr_status st = thr_postman_plan(&f, &o, &none, &p, &err);

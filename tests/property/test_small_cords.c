@@ -13,7 +13,7 @@ enum { MOST_CORDS = 4 };
 
 typedef struct {
   thr_frame f;
-  thr_plan_options o;
+  thr_request o;
   bool turning;
   int cords;
   walks_piece w; /* the oracle's */
@@ -21,7 +21,7 @@ typedef struct {
 
 static void random_ends(rng *r, example *x)
 {
-  thr_plan_options *o = &x->o;
+  thr_request *o = &x->o;
   size_t n = (size_t)x->f.n_nodes;
   if (o->ends == THR_ENDS_NODES) {
     o->end_node = calloc(n, sizeof *o->end_node);
@@ -241,7 +241,7 @@ END_TEST
 START_TEST(every_allocation_may_fail)
 {
   thr_frame f = wheel_make(4);
-  thr_plan_options o = options_for(_i ? THR_ENDS_CLOSED : THR_ENDS_ANY, 1);
+  thr_request o = options_for(_i ? THR_ENDS_CLOSED : THR_ENDS_ANY, 1);
   int component[5] = {0};
   thr_status st = THR_ENOMEM;
   o.joint = _i ? THR_JOINT_TUBE : THR_JOINT_SOLID;
@@ -265,7 +265,7 @@ END_TEST
 START_TEST(a_cube_and_two_cords_by_hand)
 {
   thr_frame f = solid_make(CUBE);
-  thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+  thr_request o = options_for(THR_ENDS_ANY, 1);
   int component[8] = {0};
   thr_small_cords c;
   bool certain;

@@ -12,7 +12,7 @@ enum { MORE = 3, MOST_EDGES = 8, MOST_NODES = 8, MOST_ENDS = 6, MOST_DEGREE = MO
 
 typedef struct {
   const thr_frame *f;
-  const thr_plan_options *o;
+  const thr_request *o;
   double *known[MOST_NODES]; /* price of tying a node by extra passes and ends; < 0: not yet looked at */
   int passes[MOST_EDGES], component[MOST_NODES], n_components;
   bool turns; /* least price of the turns, not least length */
@@ -41,7 +41,7 @@ static double tie(oracle *w, int v, int ends)
 static double price_of_passes(oracle *w)
 {
   enum { MOST = MOST_NODES * MOST_ENDS };
-  const thr_plan_options *o = w->o;
+  const thr_request *o = w->o;
   double total = 0;
   for (int c = 0; c < w->n_components; c++) {
     double by_ends[MOST + 1] = {0}, least = INFINITY;
@@ -86,7 +86,7 @@ static void try_passes(oracle *w, int e, double length)
 
 /* The least length, or price of turns within a length, with at most MORE extra passes of every edge; INFINITY if there is none.
  */
-static double least_by_enumeration(const thr_frame *f, const thr_plan_options *o, bool turns, double most_length)
+static double least_by_enumeration(const thr_frame *f, const thr_request *o, bool turns, double most_length)
 {
   oracle w = {.f = f, .o = o, .turns = turns, .most_length = most_length, .best = INFINITY};
   ck_assert(f->n_edges <= MOST_EDGES && f->n_nodes <= MOST_NODES);
@@ -117,7 +117,7 @@ typedef struct {
   int solved, infeasible, open;
 } tally;
 
-static void compare(const thr_frame *f, const thr_plan_options *o, tally *t)
+static void compare(const thr_frame *f, const thr_request *o, tally *t)
 {
   const thr_limits none = {0};
   thr_plan p;
@@ -142,7 +142,7 @@ static void compare(const thr_frame *f, const thr_plan_options *o, tally *t)
 }
 
 /* The least turning of any length, or among the shortest. */
-static void compare_turning(const thr_frame *f, thr_plan_options *o, tally *t)
+static void compare_turning(const thr_frame *f, thr_request *o, tally *t)
 {
   const thr_limits none = {0};
   thr_plan p;
@@ -169,7 +169,7 @@ static void compare_turning(const thr_frame *f, thr_plan_options *o, tally *t)
 }
 
 /* Options at random: ends, cords, capacity, covers of single edges. */
-static void random_options(rng *r, thr_frame *f, thr_plan_options *o)
+static void random_options(rng *r, thr_frame *f, thr_request *o)
 {
   static const thr_ends kind[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET, THR_ENDS_COUNTS};
   *o = options_for(kind[rng_below(r, 4)], rng_between(r, 1, 2));
@@ -200,7 +200,7 @@ START_TEST(shortest_by_enumeration)
   for (int i = 0; i < EACH; i++) {
     int n = rng_between(&r, 3, 5);
     thr_frame f = random_frame(&r, n, rng_between(&r, 1, 7 - n + 1), (length_kind)rng_below(&r, LENGTH_KINDS));
-    thr_plan_options o = {0};
+    thr_request o = {0};
     if (f.n_edges <= 7 && small_degrees(&f, 4)) {
       random_options(&r, &f, &o);
       compare(&f, &o, &t);
@@ -220,7 +220,7 @@ START_TEST(least_turning_by_enumeration)
   tally t = {0};
   for (int i = 0; i < EACH; i++) {
     thr_frame f = random_frame(&r, rng_between(&r, 3, 4), rng_between(&r, 1, 3), (length_kind)rng_below(&r, LENGTH_KINDS));
-    thr_plan_options o = {0};
+    thr_request o = {0};
     random_options(&r, &f, &o);
     if (o.ends == THR_ENDS_CLOSED || o.ends == THR_ENDS_COUNTS) o.cords = 1;
     for (int v = 0; v < f.n_nodes && o.ends == THR_ENDS_COUNTS; v++) /* two ends */
@@ -241,7 +241,7 @@ END_TEST
 static thr_plan shortest(const thr_frame *f, thr_ends ends, int cover)
 {
   const thr_limits none = {0};
-  thr_plan_options o = options_for(ends, cover);
+  thr_request o = options_for(ends, cover);
   thr_plan p;
   thr_err err = {0};
   o.joint = THR_JOINT_TUBE;
@@ -300,7 +300,7 @@ START_TEST(what_cannot_be_tied_is_named)
 {
   const thr_limits none = {0};
   thr_frame f = star_make(3);
-  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_request o = options_for(THR_ENDS_CLOSED, 1);
   thr_plan p;
   thr_err err = {0};
   o.joint = THR_JOINT_TUBE;
@@ -334,7 +334,7 @@ START_TEST(altered_proofs_prove_no_more)
 {
   rng r = rng_make(77);
   thr_frame f = solid_make(OCTAHEDRON);
-  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_request o = options_for(THR_ENDS_CLOSED, 1);
   o.joint = THR_JOINT_TUBE;
   thr_plan p = shortest(&f, THR_ENDS_CLOSED, 1);
   for (int i = 0; i < 300; i++) {
@@ -397,7 +397,7 @@ START_TEST(every_allocation_fails_once)
 {
   const thr_limits none = {0};
   thr_frame f = solid_make(TETRAHEDRON);
-  thr_plan_options o = options_for(_i % 2 ? THR_ENDS_ANY : THR_ENDS_CLOSED, 1);
+  thr_request o = options_for(_i % 2 ? THR_ENDS_ANY : THR_ENDS_CLOSED, 1);
   thr_status st = THR_ENOMEM;
   long k = 0;
   o.joint = THR_JOINT_TUBE;

@@ -20,7 +20,7 @@ typedef struct {
 
 typedef struct {
   const thr_frame *f;
-  const thr_plan_options *o;
+  const thr_request *o;
   int pair[2 * EDGES][2 * EDGES]; /* bit of the turn between two half-edges that leave one node */
   int n, walked[EDGES], most_passes;
   shape *list;
@@ -57,7 +57,7 @@ static void keep(shapes *x, const shape *s)
 static void walk_on(shapes *x, shape *s, int first, int last, int passes)
 {
   const thr_frame *f = x->f;
-  const thr_plan_options *o = x->o;
+  const thr_request *o = x->o;
   int v = thr_head(f, last), start = thr_tail(f, first);
   if (o->ends == THR_ENDS_CLOSED && v == start && first >> 1 != last >> 1) {
     shape closed = *s;
@@ -87,7 +87,7 @@ static int by_length(const void *pa, const void *pb)
   return (a->length > b->length) - (a->length < b->length);
 }
 
-static void all_shapes(shapes *x, const thr_frame *f, const thr_plan_options *o)
+static void all_shapes(shapes *x, const thr_frame *f, const thr_request *o)
 {
   *x = (shapes){.f = f, .o = o, .most_passes = PASSES};
   x->list = calloc(SHAPES, sizeof *x->list);
@@ -197,7 +197,7 @@ static bool has_leaf(const thr_frame *f)
 }
 
 /* With closed cords few that have a node with one edge, where there are none. */
-static thr_frame small_frame(rng *r, const thr_plan_options *o)
+static thr_frame small_frame(rng *r, const thr_request *o)
 {
   for (;;) {
     int n = rng_between(r, 3, 4), most = o->cover == 1 ? 5 : 4;
@@ -209,16 +209,16 @@ static thr_frame small_frame(rng *r, const thr_plan_options *o)
   }
 }
 
-static thr_plan_options random_options(rng *r, int k)
+static thr_request random_options(rng *r, int k)
 {
   static const thr_ends kind[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET, THR_ENDS_CLOSED};
-  thr_plan_options o = options_for(kind[k % 4], rng_below(r, 4) ? 1 : 2);
+  thr_request o = options_for(kind[k % 4], rng_below(r, 4) ? 1 : 2);
   o.joint = THR_JOINT_TUBE;
   if (rng_below(r, 4) == 0) o.capacity = o.cover + rng_between(r, 1, 3);
   return o;
 }
 
-static void random_counts(rng *r, const thr_frame *f, thr_plan_options *o)
+static void random_counts(rng *r, const thr_frame *f, thr_request *o)
 {
   o->ends = THR_ENDS_COUNTS;
   o->end_count = calloc((size_t)f->n_nodes, sizeof *o->end_count);
@@ -267,7 +267,7 @@ typedef struct {
 static const double tolerance = 2e-5;
 
 /* Closed cords: as short together as any so many. */
-static void compare_closed(const thr_frame *f, const thr_plan_options *o, tally *t)
+static void compare_closed(const thr_frame *f, const thr_request *o, tally *t)
 {
   shapes x;
   thr_plan p;
@@ -301,7 +301,7 @@ START_TEST(closed_cords_by_enumeration)
   rng r = rng_make((uint64_t)_i + 4100);
   tally t = {0};
   for (int k = 0; k < 30; k++) {
-    thr_plan_options o = random_options(&r, 0);
+    thr_request o = random_options(&r, 0);
     thr_frame f = small_frame(&r, &o);
     o.cords_least = 1 + k % 3;
     o.cords = o.cords_least + rng_below(&r, 2);
@@ -314,7 +314,7 @@ START_TEST(closed_cords_by_enumeration)
 END_TEST
 
 /* The longest of two or three as short as of any. */
-static void compare_even(const thr_frame *f, const thr_plan_options *o, tally *t)
+static void compare_even(const thr_frame *f, const thr_request *o, tally *t)
 {
   shapes x;
   thr_plan p;
@@ -350,7 +350,7 @@ START_TEST(even_cords_by_enumeration)
   rng r = rng_make((uint64_t)_i + 4300);
   tally t = {0};
   for (int k = 0; k < 24; k++) {
-    thr_plan_options o = random_options(&r, k);
+    thr_request o = random_options(&r, k);
     want(&o, "longest");
     o.cords = o.cords_least = 2;
     thr_frame f = small_frame(&r, &o);
@@ -365,7 +365,7 @@ START_TEST(even_cords_by_enumeration)
 END_TEST
 
 /* As few as any of that length. */
-static void compare_limited(const thr_frame *f, thr_plan_options *o, double part, tally *t)
+static void compare_limited(const thr_frame *f, thr_request *o, double part, tally *t)
 {
   shapes x;
   thr_plan p;
@@ -400,7 +400,7 @@ START_TEST(limited_cords_by_enumeration)
   rng r = rng_make((uint64_t)_i + 4500);
   tally t = {0};
   for (int k = 0; k < 24; k++) {
-    thr_plan_options o = random_options(&r, k);
+    thr_request o = random_options(&r, k);
     o.cords = 1000;
     thr_frame f = small_frame(&r, &o);
     compare_limited(&f, &o, rng_unit(&r), &t);
@@ -417,7 +417,7 @@ END_TEST
 START_TEST(a_ring_takes_a_round_for_every_cord)
 {
   thr_frame f = ring_make(5);
-  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_request o = options_for(THR_ENDS_CLOSED, 1);
   thr_plan p;
   thr_cords_word word;
   thr_err err = {0};
@@ -453,7 +453,7 @@ START_TEST(cords_of_grids_are_even)
 {
   static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET};
   thr_frame f = uneven_grid(8 + _i % 3, 7, (uint64_t)_i + 1);
-  thr_plan_options o = options_for(ends[_i % 3], 1 + _i / 3 % 2);
+  thr_request o = options_for(ends[_i % 3], 1 + _i / 3 % 2);
   thr_plan p, q;
   thr_err err = {0};
   o.joint = THR_JOINT_TUBE;
@@ -481,7 +481,7 @@ START_TEST(cords_of_grids_keep_to_a_limit)
 {
   static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET};
   thr_frame f = uneven_grid(7 + _i % 3, 7, (uint64_t)_i + 50);
-  thr_plan_options o = options_for(ends[_i % 3], 1);
+  thr_request o = options_for(ends[_i % 3], 1);
   thr_plan p;
   thr_err err = {0};
   o.joint = THR_JOINT_TUBE;
@@ -500,7 +500,7 @@ END_TEST
 START_TEST(pieces_have_cords_of_their_own)
 {
   thr_frame one = uneven_grid(5, 5, 3), other = uneven_grid(3, 3, 4), f = side_by_side(&one, &other);
-  thr_plan_options o = options_for(_i % 2 ? THR_ENDS_ANY : THR_ENDS_CLOSED, 1);
+  thr_request o = options_for(_i % 2 ? THR_ENDS_ANY : THR_ENDS_CLOSED, 1);
   thr_plan p;
   thr_err err = {0};
   o.joint = THR_JOINT_TUBE;
@@ -534,7 +534,7 @@ START_TEST(every_allocation_may_fail)
                        : _i == 2 ? &wheel
                        : _i == 5 ? &pieces
                                  : &grid; /* which is too large for an integer programme */
-  thr_plan_options o = options_for(_i % 2 ? THR_ENDS_ANY : THR_ENDS_CLOSED, 1);
+  thr_request o = options_for(_i % 2 ? THR_ENDS_ANY : THR_ENDS_CLOSED, 1);
   thr_status st = THR_ENOMEM;
   o.joint = THR_JOINT_TUBE;
   o.cords = o.cords_least = 2;

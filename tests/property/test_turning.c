@@ -159,7 +159,7 @@ static void try_passes(oracle *o, const thr_turning_task *t, double extra, int e
     try_ends(o, t->end_allowed, 0, ends_in_all(o->f, t));
     return;
   }
-  const thr_plan_options limits = {.cover = t->cover, .capacity = t->capacity};
+  const thr_request limits = {.cover = t->cover, .capacity = t->capacity};
   int cover = thr_plan_cover(o->f, &limits, e), most = thr_plan_capacity(o->f, &limits, e);
   for (int m = cover; m <= t->most_passes && m <= most; m++) {
     o->passes[e] = m;

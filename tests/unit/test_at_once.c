@@ -8,10 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef thr_status method(const thr_frame *f, const thr_plan_options *o, thr_cord **cord, int *n_cords, thr_err *err);
+typedef thr_status method(const thr_frame *f, const thr_request *o, thr_cord **cord, int *n_cords, thr_err *err);
 
 /* How many cords there are; they are what the options ask for. */
-static int made(method *make, const thr_frame *f, const thr_plan_options *o)
+static int made(method *make, const thr_frame *f, const thr_request *o)
 {
   thr_plan p = {.frame = *f, .options = *o};
   thr_err err = {0};
@@ -27,9 +27,9 @@ static int made(method *make, const thr_frame *f, const thr_plan_options *o)
   return n;
 }
 
-static thr_plan_options asked(thr_joint joint, thr_ends ends, int cords, double max_length)
+static thr_request asked(thr_joint joint, thr_ends ends, int cords, double max_length)
 {
-  thr_plan_options o = thr_plan_options_default();
+  thr_request o = thr_request_default();
   o.joint = joint;
   o.ends = ends;
   o.cords = max_length > 0 ? 1000 : cords;
@@ -56,8 +56,7 @@ START_TEST(cords_that_tie)
   int components = _i == 2 ? 4 : 1;
   for (int cover = 1; cover <= 3; cover++)
     for (int cords = 1; cords <= 3; cords++) {
-      thr_plan_options closed = asked(THR_JOINT_TUBE, THR_ENDS_CLOSED, cords, 0),
-                       open = asked(THR_JOINT_TUBE, THR_ENDS_ANY, cords, 0);
+      thr_request closed = asked(THR_JOINT_TUBE, THR_ENDS_CLOSED, cords, 0), open = asked(THR_JOINT_TUBE, THR_ENDS_ANY, cords, 0);
       closed.cover = open.cover = cover;
       ck_assert_int_eq(made(thr_tube_first, &f, &closed), cords * components);
       ck_assert_int_eq(made(thr_tube_first, &f, &open), cords * components);
@@ -70,7 +69,7 @@ END_TEST
 START_TEST(tied_cords_of_limited_length)
 {
   thr_frame f = solid_make(ICOSAHEDRON);
-  thr_plan_options o = asked(THR_JOINT_TUBE, THR_ENDS_ANY, 1, 30);
+  thr_request o = asked(THR_JOINT_TUBE, THR_ENDS_ANY, 1, 30);
   int n = made(thr_tube_first, &f, &o);
   ck_assert_int_ge(n, 2);
   o.max_length = 60;
@@ -84,7 +83,7 @@ END_TEST
 START_TEST(cords_that_are_not_tied_this_way)
 {
   thr_frame star = star_make(3), cube = solid_make(CUBE);
-  thr_plan_options o = asked(THR_JOINT_TUBE, THR_ENDS_ANY, 1, 0);
+  thr_request o = asked(THR_JOINT_TUBE, THR_ENDS_ANY, 1, 0);
   ck_assert_int_eq(made(thr_tube_first, &star, &o), 0);
   o.capacity = 1;
   ck_assert_int_eq(made(thr_tube_first, &cube, &o), 0);
@@ -104,7 +103,7 @@ START_TEST(tours_are_cut)
   for (int i = 0; i < 3; i++)
     for (int cover = 1; cover <= 2; cover++)
       for (double limit = 1; limit < 100; limit *= 1.7) {
-        thr_plan_options o = asked(THR_JOINT_SOLID, ends[i], 1, limit);
+        thr_request o = asked(THR_JOINT_SOLID, ends[i], 1, limit);
         bool reached = thr_cords_reach(&f, &o, NULL) == THR_OK;
         o.cover = cover;
         ck_assert_int_eq(made(thr_cut_tour, &f, &o) > 0, reached);

@@ -61,7 +61,7 @@ START_TEST(tours_have_the_shortest_length)
   thr_frame f = random_frame(&r, 12, rng_below(&r, 12), LENGTHS_EUCLID);
   int cover = 1 + _i % 3;
   for (int ends = THR_ENDS_CLOSED; ends <= THR_ENDS_FEET; ends++) {
-    thr_plan_options o = options_for((thr_ends)ends, cover);
+    thr_request o = options_for((thr_ends)ends, cover);
     double shortest = cover * thr_frame_total_length(&f) + least_extra_by_matching(&f, &o);
     for (int k = 0; k < 4; k++) {
       thr_least l = tour_make(&f, (thr_ends)ends, cover, tours[k / 2], k % 2);

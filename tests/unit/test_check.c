@@ -477,7 +477,7 @@ END_TEST
 START_TEST(passes_without_cords)
 {
   thr_frame f = grid_make(4, 4);
-  thr_plan_options o = options_for(THR_ENDS_FEET, 1);
+  thr_request o = options_for(THR_ENDS_FEET, 1);
   thr_shortest s;
   thr_err err = {0};
   bool optimal;
@@ -502,7 +502,7 @@ START_TEST(many_nested_sets)
 {
   enum { N = 20001 };
   thr_frame f = path_make(N);
-  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_request o = options_for(THR_ENDS_CLOSED, 1);
   thr_plan p = {0};
   ck_assert_int_eq(thr_plan_request(&p, &f, &o, NULL), THR_OK);
   p.n_cords = 1;

@@ -11,7 +11,7 @@
 
 /* Shortest distances by Floyd and Warshall, and the longest of: what edge must be gone over from end to end or round; the cord
  * that all need, shared out; in whole units, if lengths have one. */
-static double longest_by_definition(const thr_frame *f, const thr_plan_options *o, double base, int most, double unit)
+static double longest_by_definition(const thr_frame *f, const thr_request *o, double base, int most, double unit)
 {
   double far[16][16], bound = base / most;
   for (int a = 0; a < f->n_nodes; a++)
@@ -43,7 +43,7 @@ START_TEST(the_longest_cord_has_its_detour)
   rng r = rng_make((uint64_t)_i + 1);
   length_kind kind = kinds[_i % 3];
   thr_frame f = random_frame(&r, rng_between(&r, 3, 9), rng_below(&r, 5), kind);
-  thr_plan_options o = options_for(ends[_i / 3 % 3], 1 + rng_below(&r, 2));
+  thr_request o = options_for(ends[_i / 3 % 3], 1 + rng_below(&r, 2));
   o.cords = 1 + rng_below(&r, 6);
   o.cords_least = 1 + rng_below(&r, o.cords);
   thr_plan p;
@@ -89,7 +89,7 @@ START_TEST(the_longest_closed_cord_has_its_detour)
   thr_cord *cord = calloc((size_t)m, sizeof *cord);
   for (int e = 0; e < m; e++)
     add_loops(cord, &n_cords, e, 1);
-  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_request o = options_for(THR_ENDS_CLOSED, 1);
   o.cords = o.cords_least = m;
   thr_cords_claim found;
   ck_assert_int_eq(thr_check_cords(&f, &o, cord, m, NULL, 0, &found, NULL), THR_OK);
@@ -109,7 +109,7 @@ START_TEST(the_worst_edge_may_be_the_last)
   int n = 0;
   for (int e = 0; e < 3; e++)
     add_loops(cord, &n, e, 1);
-  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_request o = options_for(THR_ENDS_CLOSED, 1);
   o.cords = o.cords_least = 3;
   thr_cords_claim found;
   ck_assert_int_eq(thr_check_cords(&f, &o, cord, 3, NULL, 0, &found, NULL), THR_OK);
@@ -133,7 +133,7 @@ START_TEST(bounds_are_whole_numbers_of_the_unit)
   const thr_check_walked w = {1, component, passes};
   const thr_certificate c = {.scale = 1, .denominator = 1};
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-    thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+    thr_request o = options_for(THR_ENDS_CLOSED, 1);
     const thr_check_verdict verdict = {.extra = cases[i].bound - 3};
     thr_cords_claim found;
     ck_assert_int_eq(thr_check_several(&f, &o, &w, &cord, 1, &c, &verdict, NULL, &found, NULL), THR_OK);
@@ -176,7 +176,7 @@ START_TEST(the_fewest_cords_have_room)
   add_loops(cord, &n, 1, 1);
   thr_cut cut[2] = {{-1, 1, (int[]){0}, 2}, {-1, 1, (int[]){2}, 4}};
   thr_certificate c = {.scale = 2, .denominator = 1, .join = 6, .sum = 6, .n_cuts = 2, .cut = cut};
-  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_request o = options_for(THR_ENDS_CLOSED, 1);
   o.cords = 2;
   o.cords_least = 1;
   ck_assert_int_eq(thr_check_length_proof(&f, &o, cord, 2, &c, 1, &optimal, &bound, NULL), THR_OK);
@@ -207,7 +207,7 @@ END_TEST
 START_TEST(ends_pay_for_extra_passes)
 {
   thr_frame f = solid_make(CUBE);
-  thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+  thr_request o = options_for(THR_ENDS_ANY, 1);
   o.cords = o.cords_least = 4;
   thr_plan p = plan_of_cords(&f, &o);
   thr_cords_claim found;
@@ -227,7 +227,7 @@ START_TEST(given_ends_are_those_of_half_as_many_cords)
   thr_frame f = solid_make(TETRAHEDRON);
   static const int walk[2][4] = {{0, 1, 2, 3}, {1, 3, 0, 2}};
   thr_cord cord[2];
-  thr_plan_options o = options_for(THR_ENDS_COUNTS, 1);
+  thr_request o = options_for(THR_ENDS_COUNTS, 1);
   o.end_count = end_count;
   for (int i = 0; i < 2; i++) {
     for (int k = 0; k < 3; k++) {
@@ -255,7 +255,7 @@ START_TEST(cords_are_counted_for_claims)
   thr_frame f = chain_make(2, length);
   for (int k = 0; k < 2; k++) {
     thr_plan p = {0};
-    thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+    thr_request o = options_for(THR_ENDS_CLOSED, 1);
     want(&o, aims[k]);
     ck_assert_int_eq(thr_plan_request(&p, &f, &o, NULL), THR_OK);
     p.cord = calloc(2, sizeof *p.cord);
@@ -280,7 +280,7 @@ START_TEST(a_cord_may_be_as_long_as_rounding_lets_it)
     thr_frame f = chain_make(2, length);
     int half[2] = {0, 2};
     thr_cord cord[2] = {{.id = "A", .n_passes = 1, .half = half}, {.id = "B", .n_passes = 1, .half = half + 1}};
-    thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+    thr_request o = options_for(THR_ENDS_ANY, 1);
     thr_cords_claim found;
     o.cords = 2, o.cords_least = 1;
     o.max_length = 1;
@@ -317,7 +317,7 @@ START_TEST(fewer_cords_have_fewer_ends)
     thr_cord_id(i, cord[i].id);
   }
   const thr_certificate c = {.scale = 1, .denominator = 1, .sum = 6, .end_price = 1, .n_cuts = 6, .cut = cut};
-  thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+  thr_request o = options_for(THR_ENDS_ANY, 1);
   o.cords = 3, o.cords_least = 1;
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     thr_cords_claim found;
@@ -341,7 +341,7 @@ START_TEST(weak_proofs_bound_the_longest)
   const thr_cord cord = {.id = "A", .closed = true, .n_passes = 4, .half = half};
   thr_cut cut = {-1, 1, (int[]){0}, 1};
   const thr_certificate c = {.scale = 1, .denominator = 1, .join = 2, .sum = 1, .n_cuts = 1, .cut = &cut};
-  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_request o = options_for(THR_ENDS_CLOSED, 1);
   thr_cords_claim found;
   ck_assert_int_eq(thr_check_cords(&f, &o, &cord, 1, &c, 1, &found, NULL), THR_OK);
   ck_assert_double_eq_tol(found.longest, 4, 1e-12);
@@ -370,7 +370,7 @@ START_TEST(bounds_beyond_the_plan_are_refused)
   const thr_check_walked w = {1, component, passes};
   const thr_certificate c = {.scale = 1, .denominator = 1};
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-    thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+    thr_request o = options_for(THR_ENDS_CLOSED, 1);
     const thr_check_verdict verdict = {.extra = (cases[i].part - 1) * all};
     thr_cords_claim found;
     thr_err err = {0};
@@ -403,7 +403,7 @@ START_TEST(symmetric_cords_are_counted_where_most_are)
     thr_certificate c[2] = {{.scale = 1, .denominator = 1}, {.component = 1, .scale = 1, .denominator = 1}};
     c[most].join = 3;
     for (int cords = 1; cords <= 3; cords++) {
-      thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+      thr_request o = options_for(THR_ENDS_CLOSED, 1);
       bool optimal;
       double bound;
       thr_err err = {0};
@@ -425,7 +425,7 @@ END_TEST
 START_TEST(cords_are_counted_in_every_component)
 {
   thr_frame f = triangles_make(2);
-  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_request o = options_for(THR_ENDS_CLOSED, 1);
   for (int twice = -1; twice < 2; twice++) {
     int half[3][3];
     thr_cord cord[3];

@@ -25,7 +25,7 @@ START_TEST(edges_at_their_price)
   thr_frame f = path_make(2);
   for (int k = 0; k < 200; k++) {
     bool closed = rng_below(&r, 2), limited = rng_below(&r, 3) > 0;
-    thr_plan_options o = options_for(closed ? THR_ENDS_CLOSED : THR_ENDS_FEET, 1 + rng_below(&r, 4));
+    thr_request o = options_for(closed ? THR_ENDS_CLOSED : THR_ENDS_FEET, 1 + rng_below(&r, 4));
     int room = rng_below(&r, 6), loop = rng_between(&r, 2, 10);
     int64_t weight = rng_below(&r, 20), of = rng_below(&r, 5) ? rng_below(&r, 30) : weight, best[2] = {INT64_MAX, INT64_MAX};
     if (limited) o.capacity = o.cover + room;
@@ -46,7 +46,7 @@ START_TEST(edges_at_their_price)
       ck_assert_int_eq(weight * p.passes[i] - places_price(closed, of, loop, o.cover + p.passes[i]) + held, best[i]);
     }
   }
-  thr_plan_options o = options_for(THR_ENDS_COUNTS, 1);
+  thr_request o = options_for(THR_ENDS_COUNTS, 1);
   ck_assert_int_eq(thr_prices_number(&o, 7), 7);
   want(&o, "overlap,steps");
   ck_assert_int_eq(thr_prices_number(&o, 7), 0);
@@ -103,7 +103,7 @@ START_TEST(cuts_add_up_over_edges)
       passes[m] = 2;
     }
   thr_frame f = frame_make(N, (const double(*)[3])xyz, m, (const int(*)[2])edge, length, NULL);
-  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_request o = options_for(THR_ENDS_CLOSED, 1);
   for (int less = -1; less < m; less++) {
     thr_err err = {0};
     bool optimal;
@@ -138,7 +138,7 @@ START_TEST(cuts_add_up_at_prices)
       int64_t price = 13;
       thr_cut cut = {-1, 1, &node, value};
       thr_certificate c = {.scale = 10, .denominator = 1, .sum = value, .n_cuts = 1, .cut = &cut};
-      thr_plan_options o = options_for(THR_ENDS_FEET, 1);
+      thr_request o = options_for(THR_ENDS_FEET, 1);
       bool optimal;
       double bound;
       thr_err err = {0};
@@ -170,7 +170,7 @@ START_TEST(nodes_of_cuts_ascend)
                {3, {0, 1, 1}, "ascending at 1"},
                {3, {0, 2, 1}, "ascending at 1"}};
   thr_frame f = chain_make(2, length);
-  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_request o = options_for(THR_ENDS_CLOSED, 1);
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     int node[3], passes[2] = {2, 2};
     memcpy(node, cases[i].node, sizeof node);
@@ -195,7 +195,7 @@ START_TEST(end_prices_hold_in_every_component)
   for (int v = 0; v < 6; v++)
     xyz[v][0] = v % 2, xyz[v][1] = v / 2;
   thr_frame f = frame_make(6, (const double(*)[3])xyz, 3, edge, NULL, NULL);
-  thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+  thr_request o = options_for(THR_ENDS_ANY, 1);
   for (int dear = -1; dear < 6; dear++) {
     thr_cut cut[3];
     thr_certificate c[3];
@@ -229,7 +229,7 @@ START_TEST(prices_change_the_parity_of_both_nodes)
   thr_cord *cord = calloc(2, sizeof *cord);
   int n = 0;
   add_loops(cord, &n, 0, 2);
-  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_request o = options_for(THR_ENDS_CLOSED, 1);
   o.cords = o.cords_least = 2;
   for (int v = 0; v < 2; v++)
     for (int64_t price = 0; price <= 8; price += 8) {
@@ -255,7 +255,7 @@ START_TEST(bounds_above_the_passes_are_refused)
   static const int passes[1] = {2};
   thr_frame f = chain_make(1, length);
   for (int cords = 1; cords <= 2; cords++) {
-    thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+    thr_request o = options_for(THR_ENDS_CLOSED, 1);
     int64_t price = 1;
     const thr_certificate c = {.scale = 1, .denominator = 1, .join = 1, .n_prices = 1, .place_price = &price};
     bool optimal;
@@ -276,7 +276,7 @@ START_TEST(certificates_weigh_their_own_component)
   static const double xyz[6][3] = {{0, 0, 0}, {1, 0, 0}, {0, 9, 0}, {2, 9, 0}, {0, 18, 0}, {4, 18, 0}};
   static const int edge[3][2] = {{0, 1}, {2, 3}, {4, 5}}, passes[3] = {2, 2, 2};
   thr_frame f = frame_make(6, xyz, 3, edge, NULL, NULL);
-  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_request o = options_for(THR_ENDS_CLOSED, 1);
   for (int wrong = -1; wrong < 3; wrong++) {
     int node[3] = {0, 2, 4};
     thr_cut cut[3];
@@ -317,7 +317,7 @@ START_TEST(certificates_have_a_scale)
   thr_cord *cord = calloc(1, sizeof *cord);
   int n = 0;
   add_loops(cord, &n, 0, 1);
-  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_request o = options_for(THR_ENDS_CLOSED, 1);
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     int64_t price = 0;
     thr_certificate c = {.scale = cases[i].scale, .denominator = cases[i].denominator, .join = 1, .place_price = &price};
@@ -341,7 +341,7 @@ START_TEST(proofs_are_those_of_the_joint)
   static const double length[1] = {1};
   thr_frame f = chain_make(1, length);
   thr_plan p = {0};
-  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_request o = options_for(THR_ENDS_CLOSED, 1);
   ck_assert_int_eq(thr_plan_request(&p, &f, &o, NULL), THR_OK);
   p.cord = calloc(1, sizeof *p.cord);
   add_loops(p.cord, &p.n_cords, 0, 1);
@@ -366,7 +366,7 @@ START_TEST(weightless_edges_passed_once_cost_nothing)
   static const double xyz[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 0.3, 0}, {-1, 0, 0}}, length[4] = {1, 0.3, 1, 1};
   static const int edge[4][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}};
   thr_frame f = frame_make(4, xyz, 4, edge, length, NULL);
-  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_request o = options_for(THR_ENDS_CLOSED, 1);
   thr_cut cut = {-1, 1, (int[]){3}, 1};
   thr_certificate c = {.scale = 1, .denominator = 1, .join = 1, .sum = 1, .n_cuts = 1, .cut = &cut};
   int passes[4] = {1, 1, 1, 2};

@@ -25,7 +25,7 @@ static double least_of_chain(const double *length, int n, int cords)
 static double best_bound(const double *length, int n, int cords, double scale, int cover, int over)
 {
   thr_frame f = chain_make(n, length);
-  thr_plan_options o = options_for(THR_ENDS_CLOSED, cover);
+  thr_request o = options_for(THR_ENDS_CLOSED, cover);
   thr_cord *cord = calloc((size_t)(cords + n), sizeof *cord);
   int n_cords = 0;
   double best = 0;
@@ -95,7 +95,7 @@ START_TEST(rounding_is_charged_once_without_prices)
   double bound;
   add_loops(cord, &n, 0, 2);
   for (int cover = 1; cover <= 3; cover += 2) {
-    thr_plan_options o = options_for(THR_ENDS_CLOSED, cover);
+    thr_request o = options_for(THR_ENDS_CLOSED, cover);
     thr_cut cut = {-1, 1, (int[]){0}, 1};
     int64_t price = 0;
     thr_certificate c = {.scale = 1, .denominator = 1, .join = 4 - cover, .sum = 1, .n_cuts = 1, .cut = &cut};
@@ -123,7 +123,7 @@ START_TEST(rounding_is_charged_for_twice_the_cords_less_the_cover)
       thr_cord *cord = calloc((size_t)cords, sizeof *cord);
       int n = 0;
       add_loops(cord, &n, 0, cords);
-      thr_plan_options o = options_for(THR_ENDS_CLOSED, cover);
+      thr_request o = options_for(THR_ENDS_CLOSED, cover);
       o.cords = o.cords_least = cords;
       thr_cut cut = {-1, 1, (int[]){0}, 1};
       int64_t price = 0;
@@ -152,7 +152,7 @@ START_TEST(one_cord_is_charged_for_one_pass)
   static const double length[1] = {0.51};
   thr_frame f = chain_make(1, length);
   thr_cord cord = {.id = "A", .closed = true, .n_passes = 6, .half = (int[]){0, 1, 0, 1, 0, 1}};
-  thr_plan_options o = options_for(THR_ENDS_CLOSED, 3);
+  thr_request o = options_for(THR_ENDS_CLOSED, 3);
   thr_cut cut = {-1, 1, (int[]){0}, 1};
   int64_t price = 0;
   thr_certificate c = {
@@ -184,7 +184,7 @@ START_TEST(rounding_of_what_is_passed_once_costs_little)
     length[e] = 1 - 4e-10;
   thr_frame f = frame_make(N + 1, (const double(*)[3])xyz, N + 1, (const int(*)[2])edge, length, NULL);
   thr_cord cord = {.id = "A", .closed = true, .n_passes = N + 2, .half = half};
-  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_request o = options_for(THR_ENDS_CLOSED, 1);
   thr_cut cut = {-1, 1, (int[]){N}, 1};
   thr_certificate c = {.scale = 1, .denominator = 1, .join = 1, .sum = 1, .n_cuts = 1, .cut = &cut};
   static const double part[] = {4e-10, 6e-10, 1e-7};
@@ -210,7 +210,7 @@ START_TEST(optimal_is_within_a_billionth)
     thr_frame f = chain_make(1, length);
     f.length[0] = length[0];
     thr_cord cord = {.id = "A", .closed = true, .n_passes = 2, .half = (int[]){0, 1}};
-    thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+    thr_request o = options_for(THR_ENDS_CLOSED, 1);
     thr_cut cut = {-1, 1, (int[]){0}, 1};
     thr_certificate c = {.scale = 1, .denominator = 1, .join = 1, .sum = 1, .n_cuts = 1, .cut = &cut};
     bool optimal;
@@ -233,7 +233,7 @@ START_TEST(a_gap_of_a_billionth_is_allowed)
   static const double length[4] = {333333330, 333333332, 333333333, 5};
   static const int edge[4][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}}, passes[4] = {1, 1, 1, 2};
   thr_frame f = frame_make(4, xyz, 4, edge, length, NULL);
-  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_request o = options_for(THR_ENDS_CLOSED, 1);
   for (int k = 0; k < 2; k++) {
     thr_cut cut = {-1, 1, (int[]){3}, 2};
     const thr_certificate c = {.scale = 0.5, .denominator = 1, .join = 2, .sum = 2, .n_cuts = 1, .cut = &cut};

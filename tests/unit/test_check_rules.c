@@ -21,7 +21,7 @@ START_TEST(failures_are_not_forgotten)
   thr_certificate c = {.scale = 1, .denominator = 1, .join = 3}, wrong = c;
   wrong.join = 2;
   for (int k = 0; k < 5; k++) {
-    thr_plan_options o = options_for(THR_ENDS_CLOSED, k == 1 ? 3 : 1);
+    thr_request o = options_for(THR_ENDS_CLOSED, k == 1 ? 3 : 1);
     o.cords = o.cords_least = k == 2 ? 1 : k == 3 ? 3 : 2;
     const thr_certificate *proof = k == 4 ? &wrong : &c;
     thr_status expected = k ? THR_EVIOLATED : THR_OK;
@@ -45,7 +45,7 @@ START_TEST(every_edge_is_covered_and_has_room)
 {
   static const double length[3] = {1, 1, 1};
   thr_frame f = chain_make(3, length);
-  thr_plan_options o = options_for(THR_ENDS_CLOSED, 2);
+  thr_request o = options_for(THR_ENDS_CLOSED, 2);
   o.capacity = 3;
   for (int e = -1; e < 3; e++)
     for (int more = -2; more <= 2; more += 4) {
@@ -74,7 +74,7 @@ START_TEST(cords_end_where_they_may_and_are_no_longer)
   for (int foot = -1; foot < 3; foot += 2)
     for (int back = 0; back < 2; back++) {
       const thr_cord cord = {.id = "A", .n_passes = 2, .half = half[back]};
-      thr_plan_options o = options_for(foot < 0 ? THR_ENDS_ANY : THR_ENDS_FEET, 1);
+      thr_request o = options_for(foot < 0 ? THR_ENDS_ANY : THR_ENDS_FEET, 1);
       thr_cords_claim found;
       thr_err err = {0};
       for (int v = 0; v < 3; v++)
@@ -84,7 +84,7 @@ START_TEST(cords_end_where_they_may_and_are_no_longer)
       assert_one_line(&err, foot < 0 ? "0.75 long; the plan's options allow 0.7" : back ? "ends at node 0" : "starts at node 0");
     }
   const thr_cord cord = {.id = "A", .n_passes = 2, .half = half[0]};
-  thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+  thr_request o = options_for(THR_ENDS_ANY, 1);
   thr_cords_claim found;
   o.max_length = 0.75;
   ck_assert_int_eq(thr_check_cords(&f, &o, &cord, 1, NULL, 0, &found, NULL), THR_OK);
@@ -101,13 +101,13 @@ START_TEST(passes_leave_ends_for_the_cords)
   bool optimal;
   double bound;
   for (int cords = 1; cords <= 3; cords++) {
-    thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+    thr_request o = options_for(THR_ENDS_ANY, 1);
     thr_certificate c = {.scale = 1, .denominator = 1};
     o.cords = o.cords_least = cords;
     ck_assert_int_eq(thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, NULL),
                      cords < 2 ? THR_EVIOLATED : THR_OK);
   }
-  thr_plan_options o = options_for(THR_ENDS_COUNTS, 1);
+  thr_request o = options_for(THR_ENDS_COUNTS, 1);
   thr_certificate c = {.scale = 1, .denominator = 1};
   o.cords = o.cords_least = 2;
   o.end_count = end_count;
@@ -125,7 +125,7 @@ START_TEST(every_odd_node_has_an_end)
   static const int passes[1] = {1};
   thr_frame f = chain_make(1, length);
   for (int foot = 0; foot < 2; foot++) {
-    thr_plan_options o = options_for(THR_ENDS_FEET, 1);
+    thr_request o = options_for(THR_ENDS_FEET, 1);
     const thr_certificate c = {.scale = 1, .denominator = 1};
     bool optimal;
     double bound;

@@ -17,7 +17,7 @@ START_TEST(tube_joints_are_tied)
   static const int half[6] = {0, 2, 4, 6, 8, 10};
   thr_frame f = frame_make(5, xyz, 6, edge, NULL, NULL);
   thr_plan p = {0};
-  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_request o = options_for(THR_ENDS_CLOSED, 1);
   o.cords = 2;
   o.joint = THR_JOINT_TUBE;
   ck_assert_int_eq(thr_plan_request(&p, &f, &o, NULL), THR_OK);
@@ -51,7 +51,7 @@ START_TEST(no_cord_of_tube_joints_turns_back_where_it_closes)
 {
   thr_frame f = path_make(2);
   thr_plan p = {0};
-  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_request o = options_for(THR_ENDS_CLOSED, 1);
   o.joint = THR_JOINT_TUBE;
   for (int ends = 0; ends < 2; ends++) {
     o.ends = ends ? THR_ENDS_ANY : THR_ENDS_CLOSED;
@@ -77,7 +77,7 @@ START_TEST(no_cord_of_tube_joints_turns_back_first)
   static const double length[2] = {1, 2};
   thr_frame f = chain_make(2, length);
   thr_plan p = {0};
-  thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+  thr_request o = options_for(THR_ENDS_ANY, 1);
   o.joint = THR_JOINT_TUBE;
   ck_assert_int_eq(thr_plan_request(&p, &f, &o, NULL), THR_OK);
   int n = 0;
@@ -151,7 +151,7 @@ START_TEST(proofs_of_tied_length_are_about_the_plan)
   int count[4] = {1, 0, 0, 1};
   f.foot[0] = true;
   for (int k = 0; k < 3; k++) {
-    thr_plan_options o = options_for(k == 0 ? THR_ENDS_CLOSED : k == 1 ? THR_ENDS_FEET : THR_ENDS_COUNTS, 2);
+    thr_request o = options_for(k == 0 ? THR_ENDS_CLOSED : k == 1 ? THR_ENDS_FEET : THR_ENDS_COUNTS, 2);
     o.cords = 3, o.cords_least = 2, o.capacity = 9;
     if (k == 2) o.end_count = count;
     thr_tied_task(&f, &o, allowed, &t);
@@ -167,7 +167,7 @@ START_TEST(proofs_of_tied_length_are_about_the_plan)
     for (int v = 0; v < 4; v++)
       ck_assert_int_eq(allowed[v], k == 0 ? true : k == 1 ? v == 0 : count[v] > 0);
   }
-  thr_plan_options o = options_for(THR_ENDS_FEET, 1);
+  thr_request o = options_for(THR_ENDS_FEET, 1);
   f.cover = calloc(3, sizeof *f.cover);
   for (int e = 0; e < 3; e++) {
     f.cover[0] = f.cover[1] = f.cover[2] = 1;
@@ -204,7 +204,7 @@ START_TEST(prices_of_tied_length_are_moderate)
   enum { N = 6000 };
   thr_frame f = path_make(N + 1);
   bool *allowed = calloc(N + 1, sizeof *allowed);
-  thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+  thr_request o = options_for(THR_ENDS_ANY, 1);
   thr_turning_task t;
   for (int at = 0; at < N; at += N - 1)
     for (double unit = 1e-6; unit < 1e7; unit *= 1000) {
@@ -243,7 +243,7 @@ START_TEST(the_fewest_cords_of_tube_joints)
   thr_turning_dual dual = {.potential = potential, .ends = ends, .n_junctions = 3, .junction = junction};
   thr_turning_node leaf = {0};
   thr_turning_proof proof = {1, 1, 1, &leaf, &dual};
-  thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+  thr_request o = options_for(THR_ENDS_ANY, 1);
   thr_cords_claim found;
   thr_err err = {0};
   o.joint = THR_JOINT_TUBE;
@@ -297,7 +297,7 @@ START_TEST(cords_have_too_few_ends_for_the_tips)
     thr_turning_dual dual = {.potential = potential, .ends = ends, .n_junctions = 1, .junction = &junction};
     thr_turning_node leaf = {0};
     thr_turning_proof proof = {1, 1, 1, &leaf, &dual};
-    thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+    thr_request o = options_for(THR_ENDS_ANY, 1);
     thr_cords_claim found;
     thr_err err = {0};
     o.joint = THR_JOINT_TUBE;
@@ -351,7 +351,7 @@ START_TEST(the_fewest_cords_of_two_components)
   thr_turning_dual dual = {.potential = potential, .ends = ends, .n_junctions = 6, .junction = junction};
   thr_turning_node leaf = {0};
   thr_turning_proof proof = {1, 1, 2, &leaf, &dual};
-  thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+  thr_request o = options_for(THR_ENDS_ANY, 1);
   o.joint = THR_JOINT_TUBE;
   o.cords = 3;
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -382,7 +382,7 @@ START_TEST(rounding_needs_no_cord_more)
   thr_turning_dual dual = {.potential = potential, .ends = ends, .junction = &junction};
   thr_turning_node leaf = {0};
   thr_turning_proof proof = {1, 1, 1, &leaf, &dual};
-  thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+  thr_request o = options_for(THR_ENDS_ANY, 1);
   o.joint = THR_JOINT_TUBE;
   o.cords_least = 1;
   for (int n = 3; n <= 4; n++) {
@@ -417,7 +417,7 @@ static void tied_pair_make(tied_pair *x, const double *length, double part)
 {
   static const int half[3] = {0, 2, 0};
   thr_frame f = chain_make(2, length);
-  thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+  thr_request o = options_for(THR_ENDS_ANY, 1);
   thr_plan *p = &x->plan;
   int64_t unit = (int64_t)floor(ldexp(part * (2 / (length[0] + length[1]) * length[0]), THR_TURNING_BITS)) / 2;
   *x = (tied_pair){.potential = {-unit, -unit, -unit, -unit}, .ends = {unit}, .block = {0, 1}};

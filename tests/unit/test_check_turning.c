@@ -49,7 +49,7 @@ static void empty_tree(thr_plan *p, int n_ends)
 static thr_plan plan_begin(thr_frame f, thr_ends ends, int cords, thr_turn_cost cost)
 {
   thr_plan p = {0};
-  thr_plan_options o = options_for(ends, 1);
+  thr_request o = options_for(ends, 1);
   int component[MOST_WALK], n;
   want(&o, "turning");
   o.cords = o.cords_least = cords;
@@ -388,7 +388,7 @@ static thr_plan bend_make(double turn, thr_turn_cost cost, int64_t weight)
 {
   const double angle[2] = {0, THR_PI - turn};
   static int ends[3] = {0, 1, 1};
-  thr_plan_options o;
+  thr_request o;
   thr_plan p = plan_begin(fan_make(2, angle), THR_ENDS_ANY, 1, cost);
   o = p.options;
   o.ends = THR_ENDS_COUNTS;

@@ -226,7 +226,7 @@ START_TEST(starts_are_least_joins)
   for (int run = 0; run < 30; run++) {
     setting s = setting_make(40, random_frame(&r, rng_between(&r, 3, 8), 6, (length_kind)(run % LENGTH_KINDS)));
     const thr_cover_options o = cover_options(ends[_i], 1 + run % 2);
-    thr_plan_options by_hand = options_for(ends[_i], o.cover);
+    thr_request by_hand = options_for(ends[_i], o.cover);
     by_hand.cords = 8; /* no more ends than nodes are of use */
     task t;
     double least = least_extra_by_subsets(&s.f, &by_hand), bound = -INFINITY;

@@ -52,7 +52,7 @@ enum { N_FRAMES = 14 };
 static thr_plan plan_of(const thr_frame *f, const thr_cover_options *c, thr_cord *cord, int n_cords, thr_symmetry_record *r)
 {
   thr_plan p = {0};
-  thr_plan_options o = options_for(c->ends, c->cover);
+  thr_request o = options_for(c->ends, c->cover);
   int *count = calloc((size_t)f->n_nodes, sizeof *count);
   ck_assert(count != NULL);
   want(&o, "overlap,steps");

@@ -314,7 +314,7 @@ static thr_plan symmetric_dome(const char *group)
   thr_frame f = shape_make(THR_MAKE_DOME, 6, 0);
   thr_plan p = {0};
   thr_limits none = {0};
-  thr_plan_options o = options_for(THR_ENDS_FEET, 1);
+  thr_request o = options_for(THR_ENDS_FEET, 1);
   want(&o, "overlap,steps");
   snprintf(o.symmetry.group, sizeof o.symmetry.group, "%s", group);
   ck_assert_int_eq(thr_symmetry_plan(&f, &o, &none, NULL, &p, NULL), THR_OK);

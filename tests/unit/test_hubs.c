@@ -99,7 +99,7 @@ START_TEST(nodes_prove_no_more_than_the_optimum)
 {
   rng r = rng_make((uint64_t)_i + 1);
   thr_frame f = random_frame(&r, rng_between(&r, 4, 9), rng_between(&r, 1, 9), LENGTHS_EUCLID);
-  thr_plan_options o = thr_plan_options_default();
+  thr_request o = thr_request_default();
   want(&o, "turning");
   o.ends = _i % 2 ? THR_ENDS_ANY : THR_ENDS_CLOSED;
   o.turning.cost = (thr_turn_cost)(_i % 3);
@@ -212,7 +212,7 @@ START_TEST(dense_frameworks_have_plans_and_bounds)
 {
   rng r = rng_make(1);
   thr_frame f = _i ? wheel_make(1500) : random_star(&r, 1500);
-  thr_plan_options o = thr_plan_options_default();
+  thr_request o = thr_request_default();
   want(&o, "turning");
   thr_limits limits = {.deadline = thr_clock() + 2};
   thr_err err = {0};

@@ -28,7 +28,7 @@ static thr_status run(work *w, const char *path, thr_ends ends, thr_err *err)
   thr_read_report report;
   thr_read_options read = thr_read_options_default();
   thr_limits none = {0};
-  thr_plan_options o = options_for(ends, 1);
+  thr_request o = options_for(ends, 1);
   thr_eval_options pull = thr_eval_options_default();
   thr_status st = thr_frame_read(&w->frame, &report, path, &read, NULL, 0, err);
   if (st) return st;

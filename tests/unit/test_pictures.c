@@ -420,7 +420,7 @@ static thr_plan bent_plan(int n_turns, const int *degrees)
     edge[k][0] = k;
     edge[k][1] = k + 1;
   }
-  thr_plan p = {.n_cords = 1, .cord = thr_calloc(1, sizeof(thr_cord)), .options = thr_plan_options_default()};
+  thr_plan p = {.n_cords = 1, .cord = thr_calloc(1, sizeof(thr_cord)), .options = thr_request_default()};
   ck_assert_ptr_nonnull(p.cord);
   p.frame = frame_make(n_turns + 2, (const double(*)[3])xyz, n_turns + 1, (const int(*)[2])edge, NULL, NULL);
   p.options.ends = THR_ENDS_ANY;

@@ -86,7 +86,7 @@ START_TEST(everything_survives_json)
   free(f.name[3]);
   f.name[3] = thr_strdup("K\"no\\ten \xc3\xa4");
   memcpy(f.units, "in", 3);
-  thr_plan_options o = options_for(THR_ENDS_NODES, 3);
+  thr_request o = options_for(THR_ENDS_NODES, 3);
   bool end_node[8] = {false, true, true, false, false, false, true, false};
   o.end_node = end_node;
   o.physics.mu = 1.0 / 3;

@@ -42,7 +42,7 @@ START_TEST(every_plan_comes_with_proofs)
 {
   const thr_joint joint = _i % 2 ? THR_JOINT_TUBE : THR_JOINT_SOLID;
   thr_frame f = solid_make(OCTAHEDRON);
-  thr_plan_options o = thr_plan_options_default();
+  thr_request o = thr_request_default();
   const thr_limits limits = {.deadline = thr_clock() + 5};
   thr_plan p;
   thr_report r;
@@ -80,7 +80,7 @@ static void hear(void *user, const thr_cord *cord, int n_cords, const thr_symmet
 START_TEST(some_cords_are_heard_of_early)
 {
   thr_frame f = solid_make(CUBE);
-  thr_plan_options o = thr_plan_options_default();
+  thr_request o = thr_request_default();
   const thr_limits limits = {.deadline = thr_clock() + 5, .found = hear};
   thr_plan p;
   thr_err e = {0};
@@ -96,7 +96,7 @@ END_TEST
 
 START_TEST(time_is_shared_out)
 {
-  thr_plan_options o = thr_plan_options_default();
+  thr_request o = thr_request_default();
   ck_assert_double_eq(thr_dispatch_usual_seconds(&o), 0);
   o.joint = THR_JOINT_TUBE;
   ck_assert_double_eq(thr_dispatch_usual_seconds(&o), 20);

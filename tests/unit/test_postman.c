@@ -122,7 +122,7 @@ START_TEST(lengths_of_very_different_size)
   for (int e = 0; e < f.n_edges; e++)
     f.length[e] = pow(10, rng_between(&r, -6, 6)) * (1 + rng_unit(&r));
   thr_plan p = plan_simple(&f, THR_ENDS_CLOSED, 1);
-  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_request o = options_for(THR_ENDS_CLOSED, 1);
   double base = thr_frame_total_length(&f);
   ck_assert_double_eq_tol(p.metrics.length, base + least_extra_by_matching(&f, &o), 1e-9 * base);
   assert_plan_sound(&p);
@@ -135,7 +135,7 @@ START_TEST(no_end_allowed_is_infeasible)
 {
   thr_frame f = triangles_make(3);
   f.foot[4] = false; /* the only foot of the second triangle */
-  thr_plan_options o = options_for(THR_ENDS_FEET, 1);
+  thr_request o = options_for(THR_ENDS_FEET, 1);
   thr_plan p;
   thr_limits none = {0};
   thr_err err = {0};
@@ -149,7 +149,7 @@ END_TEST
 START_TEST(a_plan_for_the_length_has_one_cord_a_piece)
 {
   thr_frame f = solid_make(CUBE);
-  thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+  thr_request o = options_for(THR_ENDS_ANY, 1);
   thr_plan p;
   thr_err err = {0};
   o.cords = 2;
@@ -165,7 +165,7 @@ START_TEST(cords_of_a_cube)
 {
   thr_frame f = solid_make(CUBE);
   for (int cords = 1; cords <= 6; cords++) {
-    thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+    thr_request o = options_for(THR_ENDS_ANY, 1);
     o.cords = cords;
     thr_plan p = plan_of_cords(&f, &o);
     ck_assert_double_eq_tol(p.metrics.length, 12 + (cords < 4 ? 4 - cords : 0), 1e-12);
@@ -186,7 +186,7 @@ START_TEST(every_allocation_with_ends_fails_once)
   static const int cords[] = {2, 3, 4, 1, 1};
   rng r = rng_make(5);
   thr_frame f = _i % 4 == 0 ? solid_make(CUBE) : random_frame(&r, 30, 30, _i == 2 ? LENGTHS_EQUAL : LENGTHS_RANDOM);
-  thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+  thr_request o = options_for(THR_ENDS_ANY, 1);
   thr_status st = THR_ENOMEM;
   o.cords = cords[_i];
   if (_i == 4) {
@@ -217,7 +217,7 @@ static thr_frame hard_frame(void)
   return random_frame(&r, 300, 300, LENGTHS_RANDOM);
 }
 
-static void assert_stopped_well(const thr_frame *f, const thr_plan_options *o, const thr_limits *l, double best)
+static void assert_stopped_well(const thr_frame *f, const thr_request *o, const thr_limits *l, double best)
 {
   thr_plan p;
   thr_err err = {0};
@@ -236,7 +236,7 @@ START_TEST(passed_deadline_leaves_a_valid_plan)
 {
   static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET};
   thr_frame f = hard_frame();
-  thr_plan_options o = options_for(ends[_i], 1);
+  thr_request o = options_for(ends[_i], 1);
   thr_plan best = plan_make(&f, &o);
   volatile sig_atomic_t pressed = 1;
   assert_stopped_well(&f, &o, &(thr_limits){.deadline = thr_clock() - 10}, best.metrics.length);
@@ -267,7 +267,7 @@ static void watch(void *user, const char *what, double best, double bound)
 START_TEST(passed_deadline_leaves_valid_passes)
 {
   thr_frame f = hard_frame();
-  thr_plan_options o = options_for(_i % 2 ? THR_ENDS_ANY : THR_ENDS_FEET, 1);
+  thr_request o = options_for(_i % 2 ? THR_ENDS_ANY : THR_ENDS_FEET, 1);
   thr_shortest best, s;
   o.cords = 2 + 3 * _i;
   ck_assert_int_eq(thr_postman_shortest(&f, &o, &(thr_limits){0}, &best, NULL), THR_OK);
@@ -287,7 +287,7 @@ END_TEST
 START_TEST(interrupt_between_rounds_leaves_a_valid_plan)
 {
   thr_frame f = hard_frame();
-  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_request o = options_for(THR_ENDS_CLOSED, 1);
   thr_plan best = plan_make(&f, &o);
   watcher w = {.stop_after = _i + 1};
   assert_stopped_well(&f, &o, &(thr_limits){.interrupted = &w.pressed, .progress = watch, .user = &w}, best.metrics.length);
@@ -300,7 +300,7 @@ END_TEST
 START_TEST(stopped_before_any_proof_with_many_components)
 {
   thr_frame f = triangles_make(50);
-  thr_plan_options o = options_for(THR_ENDS_FEET, 1);
+  thr_request o = options_for(THR_ENDS_FEET, 1);
   volatile sig_atomic_t pressed = 1;
   assert_stopped_well(&f, &o, &(thr_limits){.interrupted = &pressed}, 150);
   thr_frame_destroy(&f);
@@ -383,7 +383,7 @@ START_TEST(ends_anywhere_in_a_large_framework)
     f.length[e] = 10 + 20 * rng_unit(&r);
   double closed = INFINITY;
   for (int cords = 0; cords <= 3; cords++) { /* 0: a closed one */
-    thr_plan_options o = options_for(cords ? THR_ENDS_ANY : THR_ENDS_CLOSED, 1);
+    thr_request o = options_for(cords ? THR_ENDS_ANY : THR_ENDS_CLOSED, 1);
     thr_shortest s;
     thr_err err = {0};
     o.confirm = THR_CONFIRM_NEVER;
@@ -406,7 +406,7 @@ START_TEST(confirmation_as_asked)
   thr_frame f = grid_make(72, 72);
   ck_assert_int_gt(f.n_edges, THR_CONFIRM_EDGES);
   for (thr_confirm c = THR_CONFIRM_AUTO; c <= THR_CONFIRM_NEVER; c++) {
-    thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+    thr_request o = options_for(THR_ENDS_CLOSED, 1);
     thr_shortest s;
     o.confirm = c;
     ck_assert_int_eq(thr_postman_shortest(&f, &o, &(thr_limits){0}, &s, NULL), THR_OK);

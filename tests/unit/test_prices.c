@@ -64,7 +64,7 @@ END_TEST
 
 static thr_plan plan_with(const thr_frame *f, thr_ends ends, int cords, int *end_count)
 {
-  thr_plan_options o = options_for(ends, 1);
+  thr_request o = options_for(ends, 1);
   thr_plan p;
   thr_err err = {0};
   o.cords = o.cords_least = cords;

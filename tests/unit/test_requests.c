@@ -15,8 +15,7 @@ static void assert_violated(const thr_plan *p, const char *word)
   assert_one_line(&err, NULL);
 }
 
-static void set_cords(thr_plan *p, const thr_frame *f, const thr_plan_options *o, int n, const int *const *node,
-                      const int *length)
+static void set_cords(thr_plan *p, const thr_frame *f, const thr_request *o, int n, const int *const *node, const int *length)
 {
   *p = (thr_plan){0};
   ck_assert_int_eq(thr_plan_request(p, f, o, NULL), THR_OK);
@@ -46,7 +45,7 @@ START_TEST(everything_asked_for_survives_json)
   for (int e = 0; e < f.n_edges; e++)
     f.cover[e] = 1 + e % 2, f.capacity[e] = e % 3 ? 4 : 0;
   int end_count[9] = {1, 0, 1, 0, 0, 0, 2, 0, 0};
-  thr_plan_options o = options_for(THR_ENDS_COUNTS, 1);
+  thr_request o = options_for(THR_ENDS_COUNTS, 1);
   o.end_count = end_count;
   o.capacity = 3;
   o.cords_least = 2, o.cords = 5;
@@ -99,7 +98,7 @@ static void assert_refused(const char *text, const char *from, const char *to, c
 START_TEST(nonsense_is_refused)
 {
   thr_frame f = solid_make(CUBE);
-  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_request o = options_for(THR_ENDS_CLOSED, 1);
   thr_plan p = plan_make(&f, &o);
   thr_text t = plan_text(&p);
   static const struct {
@@ -155,7 +154,7 @@ END_TEST
 START_TEST(capacity_and_cover_of_edges)
 {
   thr_frame f = solid_make(CUBE);
-  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_request o = options_for(THR_ENDS_CLOSED, 1);
   thr_plan p = plan_make(&f, &o);
   p.options.capacity = 2;
   assert_plan_sound(&p);
@@ -186,7 +185,7 @@ END_TEST
 START_TEST(given_numbers_of_ends)
 {
   thr_frame f = solid_make(CUBE);
-  thr_plan_options o = options_for(THR_ENDS_COUNTS, 1);
+  thr_request o = options_for(THR_ENDS_COUNTS, 1);
   int end_count[8] = {1, 0, 0, 1, 0, 0, 0, 0};
   o.end_count = end_count;
   thr_plan p = plan_make(&f, &o);
@@ -212,7 +211,7 @@ END_TEST
 START_TEST(cords_that_are_too_long)
 {
   thr_frame f = solid_make(CUBE);
-  thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+  thr_request o = options_for(THR_ENDS_ANY, 1);
   o.cords = 4;
   thr_plan p = plan_of_cords(&f, &o);
   double longest = 0;
@@ -240,7 +239,7 @@ START_TEST(tube_joints)
     const char *word;
   } plans[] = {{tied, NULL}, {loose, "node 0: the cords do not tie"}, {back, "turns back at node 0"}};
   thr_frame f = frame_make(5, xyz, 6, edge, NULL, NULL);
-  thr_plan_options o = options_for(THR_ENDS_CLOSED, 2);
+  thr_request o = options_for(THR_ENDS_CLOSED, 2);
   for (int i = 0; i < 3; i++) {
     thr_plan p;
     o.joint = THR_JOINT_TUBE;
@@ -270,7 +269,7 @@ END_TEST
 static thr_plan two_squares(int n_cords)
 {
   thr_frame f = grid_make(3, 2);
-  thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+  thr_request o = options_for(THR_ENDS_ANY, 1);
   o.cords = n_cords;
   thr_plan p = plan_of_cords(&f, &o);
   thr_err err = {0};
@@ -353,7 +352,7 @@ START_TEST(the_longest_forced_detour)
 {
   thr_frame f = path_make(6);
   for (int ends = 0; ends < 3; ends++) {
-    thr_plan_options o = options_for(ends == 0 ? THR_ENDS_FEET : ends == 1 ? THR_ENDS_CLOSED : THR_ENDS_ANY, 1);
+    thr_request o = options_for(ends == 0 ? THR_ENDS_FEET : ends == 1 ? THR_ENDS_CLOSED : THR_ENDS_ANY, 1);
     thr_plan p = plan_make(&f, &o);
     p.options.cords = 10;
     thr_cords_claim found;
@@ -428,11 +427,11 @@ enum { N_LISTS = sizeof lists / sizeof *lists };
 
 START_TEST(aims_are_read_and_written)
 {
-  thr_plan_options o = thr_plan_options_default(), again = o;
+  thr_request o = thr_request_default(), again = o;
   thr_err err = {0};
   o.turning.cost = THR_TURN_SINE; /* which the list takes back */
   o.turning.length_slack = 3;
-  const thr_plan_options before = o;
+  const thr_request before = o;
   thr_status st = thr_aims_parse(lists[_i].list, &o, &err);
   if (!lists[_i].settled) {
     ck_assert_int_eq(st, THR_EINPUT);

@@ -11,14 +11,14 @@
 
 static const thr_limits no_limits = {0};
 
-static thr_plan_options asked(thr_ends ends, int cover)
+static thr_request asked(thr_ends ends, int cover)
 {
-  thr_plan_options o = options_for(ends, cover);
+  thr_request o = options_for(ends, cover);
   want(&o, "overlap,steps");
   return o;
 }
 
-static thr_symmetries table_of(const thr_frame *f, const thr_plan_options *o)
+static thr_symmetries table_of(const thr_frame *f, const thr_request *o)
 {
   thr_symmetries t;
   thr_err err = {0};
@@ -93,7 +93,7 @@ static void expect(const thr_symmetry_row *row, double percent, int paths, int c
 START_TEST(six_by_six_dome)
 {
   thr_frame f = shape_make(THR_MAKE_DOME, 6, 0);
-  thr_plan_options o = asked(THR_ENDS_FEET, 1);
+  thr_request o = asked(THR_ENDS_FEET, 1);
   thr_symmetries t = table_of(&f, &o);
   ck_assert(t.mantissa == 8 && t.exponent == 0 && t.listed && t.n == 8);
   ck_assert_int_eq(t.node_orbits, 6);
@@ -114,7 +114,7 @@ END_TEST
 START_TEST(eight_by_eight_dome_twice)
 {
   thr_frame f = shape_make(THR_MAKE_DOME, 8, 0);
-  thr_plan_options o = asked(THR_ENDS_FEET, 2);
+  thr_request o = asked(THR_ENDS_FEET, 2);
   thr_symmetries t = table_of(&f, &o);
   expect(row_of(&t, "C4v", 0), 0, 1, 8, 28);
   ck_assert_int_eq(t.chosen, 0);
@@ -128,7 +128,7 @@ END_TEST
 START_TEST(cube)
 {
   thr_frame f = no_feet(solid_make(CUBE));
-  thr_plan_options o = asked(THR_ENDS_CLOSED, 1);
+  thr_request o = asked(THR_ENDS_CLOSED, 1);
   thr_symmetries t = table_of(&f, &o);
   ck_assert(t.mantissa == 48 && t.n == 33);
   expect(row_of(&t, "Oh", 0), 100, 1, 6, 0.5);
@@ -168,7 +168,7 @@ START_TEST(plans_pass_the_checker)
     for (int ends = THR_ENDS_CLOSED; ends <= THR_ENDS_FEET; ends++)
       for (int cover = 1; cover <= 2; cover++) {
         thr_frame f = shape_make(made[i].shape, made[i].size, made[i].rings);
-        thr_plan_options o = asked((thr_ends)ends, cover);
+        thr_request o = asked((thr_ends)ends, cover);
         thr_symmetries t;
         thr_plan p;
         thr_err err = {0};
@@ -194,7 +194,7 @@ END_TEST
 START_TEST(groups_by_number_and_name)
 {
   thr_frame f = shape_make(THR_MAKE_DOME, 6, 0);
-  thr_plan_options o = asked(THR_ENDS_FEET, 1);
+  thr_request o = asked(THR_ENDS_FEET, 1);
   thr_symmetries t;
   thr_err err = {0};
   snprintf(o.symmetry.group, sizeof o.symmetry.group, "4");
@@ -219,7 +219,7 @@ START_TEST(noise)
   rng r = rng_make(5);
   thr_frame f = shape_make(THR_MAKE_DOME, 6, 0);
   double size = thr_frame_diagonal(&f);
-  thr_plan_options o = asked(THR_ENDS_FEET, 1);
+  thr_request o = asked(THR_ENDS_FEET, 1);
   thr_symmetries true_table = table_of(&f, &o), t;
   for (int v = 0; v < f.n_nodes; v++)
     for (int i = 0; i < 3; i++)
@@ -248,7 +248,7 @@ END_TEST
 
 static void expect_shape(thr_frame f, const char *name, double isometries, double keep_lengths)
 {
-  thr_plan_options o = asked(THR_ENDS_CLOSED, 1);
+  thr_request o = asked(THR_ENDS_CLOSED, 1);
   o.symmetry.geometric = 1e-3;
   thr_symmetries t = table_of(&f, &o);
   ck_assert(t.listed && t.mantissa == isometries && t.keep_lengths[0] == keep_lengths && t.keep_lengths[1] == 0);
@@ -279,7 +279,7 @@ START_TEST(end_nodes_are_kept)
 {
   thr_frame f = shape_make(THR_MAKE_DOME, 5, 0);
   bool *end_node = calloc((size_t)f.n_nodes, sizeof *end_node);
-  thr_plan_options o = asked(THR_ENDS_NODES, 1);
+  thr_request o = asked(THR_ENDS_NODES, 1);
   ck_assert(end_node != NULL);
   end_node[0] = true;
   o.end_node = end_node;
@@ -299,7 +299,7 @@ END_TEST
 START_TEST(huge_groups)
 {
   thr_frame f = no_feet(star_make(8));
-  thr_plan_options o = asked(THR_ENDS_ANY, 1);
+  thr_request o = asked(THR_ENDS_ANY, 1);
   thr_symmetries t = table_of(&f, &o);
   thr_plan p;
   thr_err err = {0};
@@ -329,7 +329,7 @@ START_TEST(closed_cords_do_not_turn_where_they_end)
   const double xyz[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   const int edge[4][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
   thr_frame f = no_feet(frame_make(4, xyz, 4, edge, NULL, NULL));
-  thr_plan_options o = asked(THR_ENDS_ANY, 1);
+  thr_request o = asked(THR_ENDS_ANY, 1);
   thr_symmetries t;
   ck_assert_int_eq(thr_symmetries_find(&f, &o, &no_limits, &t, NULL), THR_ELIMIT);
   const thr_symmetry_row *row = row_of(&t, "C2v", 1);
@@ -346,7 +346,7 @@ END_TEST
 START_TEST(there_and_back_is_learned_once)
 {
   thr_frame f = no_feet(path_make(5));
-  thr_plan_options o = asked(THR_ENDS_CLOSED, 1);
+  thr_request o = asked(THR_ENDS_CLOSED, 1);
   thr_symmetries t = table_of(&f, &o);
   ck_assert_int_eq(t.n, 2);
   for (int i = 0; i < 2; i++) {
@@ -361,7 +361,7 @@ END_TEST
 START_TEST(what_it_does_not_know)
 {
   thr_frame f = no_feet(path_make(4));
-  thr_plan_options plain = asked(THR_ENDS_CLOSED, 1), o[3] = {plain, plain, plain};
+  thr_request plain = asked(THR_ENDS_CLOSED, 1), o[3] = {plain, plain, plain};
   o[0].max_length = 100;
   want(&o[1], "longest");
   o[2].ends = THR_ENDS_COUNTS;
@@ -379,7 +379,7 @@ END_TEST
 START_TEST(too_many_isometries)
 {
   thr_frame f = no_feet(ring_make(600));
-  thr_plan_options o = asked(THR_ENDS_CLOSED, 1);
+  thr_request o = asked(THR_ENDS_CLOSED, 1);
   o.symmetry.geometric = 1e-6;
   thr_symmetries t = table_of(&f, &o);
   ck_assert(!t.listed && t.n == 1 && strstr(t.note, "too many"));
@@ -391,7 +391,7 @@ END_TEST
 START_TEST(no_time)
 {
   thr_frame f = shape_make(THR_MAKE_DOME, 6, 0);
-  thr_plan_options o = asked(THR_ENDS_FEET, 1);
+  thr_request o = asked(THR_ENDS_FEET, 1);
   const thr_limits over = {.deadline = thr_clock() - 1};
   thr_symmetries t;
   thr_plan p;
@@ -412,7 +412,7 @@ END_TEST
 START_TEST(no_node_for_an_end)
 {
   thr_frame f = no_feet(ring_make(5));
-  thr_plan_options o = asked(THR_ENDS_FEET, 1);
+  thr_request o = asked(THR_ENDS_FEET, 1);
   thr_symmetries t;
   thr_plan p;
   thr_err err = {0};
@@ -429,7 +429,7 @@ END_TEST
 START_TEST(seeds_for_the_largest_turning)
 {
   thr_frame f = shape_make(THR_MAKE_DOME, 8, 0);
-  thr_plan_options o = asked(THR_ENDS_FEET, 2), turning = options_for(THR_ENDS_FEET, 2);
+  thr_request o = asked(THR_ENDS_FEET, 2), turning = options_for(THR_ENDS_FEET, 2);
   thr_symmetries t = table_of(&f, &o);
   thr_plan seed, p;
   thr_err err = {0};
@@ -460,7 +460,7 @@ START_TEST(seeds_for_the_largest_turning)
 }
 END_TEST
 
-static void fail_each(const thr_frame *f, const thr_plan_options *o)
+static void fail_each(const thr_frame *f, const thr_request *o)
 {
   thr_status st = THR_ENOMEM;
   int k = 0;
@@ -484,7 +484,7 @@ static void fail_each(const thr_frame *f, const thr_plan_options *o)
 START_TEST(every_allocation_fails_once)
 {
   thr_frame f = no_feet(path_make(4)), star = no_feet(star_make(7));
-  thr_plan_options o = asked(THR_ENDS_ANY, 1);
+  thr_request o = asked(THR_ENDS_ANY, 1);
   fail_each(&f, &o);
   o.symmetry.geometric = 1e-6;
   fail_each(&f, &o);

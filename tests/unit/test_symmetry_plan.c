@@ -51,7 +51,7 @@ static thr_plan plan_known(const known *k)
 {
   thr_frame f = k->frame();
   thr_plan p = {0};
-  thr_plan_options o = options_for(k->ends, k->cover);
+  thr_request o = options_for(k->ends, k->cover);
   want(&o, "overlap,steps");
   o.cords = k->cords;
   ck_assert_int_eq(thr_plan_request(&p, &f, &o, NULL), THR_OK);

@@ -7,9 +7,9 @@
 #include <string.h>
 
 /* What is planned: of every objective and joint, several cords, cut trees, symmetries, linear programmes in children. */
-static void request_number(int i, thr_frame *f, thr_plan_options *o)
+static void request_number(int i, thr_frame *f, thr_request *o)
 {
-  *o = thr_plan_options_default();
+  *o = thr_request_default();
   o->confirm = THR_CONFIRM_NEVER; /* for a second at most: which second is not ours to say */
   *f = i % 2 ? solid_make(CUBE) : wheel_make(7);
   o->ends = i % 3 ? THR_ENDS_ANY : THR_ENDS_CLOSED;
@@ -27,7 +27,7 @@ enum { N_REQUESTS = 10 };
 static void plan_number(int i, thr_text *t)
 {
   thr_frame f;
-  thr_plan_options o;
+  thr_request o;
   thr_plan p;
   request_number(i, &f, &o);
   thr_status st = thr_plan_make(&f, &o, &(thr_limits){0}, &p, NULL, NULL);

@@ -11,15 +11,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-static thr_plan_options tied(thr_ends ends)
+static thr_request tied(thr_ends ends)
 {
-  thr_plan_options o = options_for(ends, 1);
+  thr_request o = options_for(ends, 1);
   want(&o, "overlap,steps");
   o.joint = THR_JOINT_TUBE;
   return o;
 }
 
-static thr_symmetries table_of(const thr_frame *f, const thr_plan_options *o, double seconds)
+static thr_symmetries table_of(const thr_frame *f, const thr_request *o, double seconds)
 {
   thr_symmetries t;
   thr_err err = {0};
@@ -31,7 +31,7 @@ static thr_symmetries table_of(const thr_frame *f, const thr_plan_options *o, do
 
 /* Every row with cords makes a plan that the checker accepts, in as many passes as ties need, and with no less than its bounds.
  */
-static int check_rows(const thr_frame *f, const thr_plan_options *o, thr_symmetries *t)
+static int check_rows(const thr_frame *f, const thr_request *o, thr_symmetries *t)
 {
   int made = 0;
   for (int i = 0; i < t->n; i++) {
@@ -61,7 +61,7 @@ START_TEST(published_lengths)
     double passes;
   } known[] = {{TETRAHEDRON, 8}, {CUBE, 16}, {OCTAHEDRON, 18}, {DODECAHEDRON, 40}};
   thr_frame f = no_feet(solid_make(known[_i].s));
-  thr_plan_options o = tied(THR_ENDS_CLOSED);
+  thr_request o = tied(THR_ENDS_CLOSED);
   thr_symmetries t = table_of(&f, &o, 20);
   ck_assert_double_eq_tol(t.shortest, known[_i].passes, 1e-6);
   ck_assert(t.shortest_optimal);
@@ -87,7 +87,7 @@ START_TEST(plans_pass_the_checker)
       {THR_MAKE_DOME, 3, 0}, {THR_MAKE_DOME, 4, 0}, {THR_MAKE_TUBE, 3, 2}, {THR_MAKE_TUBE, 4, 3}, {THR_MAKE_GEODESIC, 2, 0}};
   thr_frame f = shape_make(made[_i].shape, made[_i].size, made[_i].rings);
   for (int ends = THR_ENDS_CLOSED; ends <= THR_ENDS_FEET; ends++) {
-    thr_plan_options o = tied((thr_ends)ends);
+    thr_request o = tied((thr_ends)ends);
     thr_symmetries t = table_of(&f, &o, 6);
     ck_assert_int_ge(check_rows(&f, &o, &t), t.n / 2);
     ck_assert_int_ge(t.chosen, 0);
@@ -104,7 +104,7 @@ START_TEST(shortest_is_that_of_the_other_search)
   int compared = 0;
   for (int run = 0; run < 12; run++) {
     thr_frame f = random_frame(&r, rng_between(&r, 5, 9), rng_between(&r, 4, 9), (length_kind)(run % LENGTH_KINDS));
-    thr_plan_options o = tied(run % 2 ? THR_ENDS_ANY : THR_ENDS_CLOSED);
+    thr_request o = tied(run % 2 ? THR_ENDS_ANY : THR_ENDS_CLOSED);
     const thr_limits limits = {.deadline = thr_clock() + 10};
     thr_tube best;
     thr_symmetries t;
@@ -141,7 +141,7 @@ START_TEST(ends_are_mapped_to_ends)
 {
   static const int images[] = {0, 1, 2, 3, 2, 3, 0, 1};
   thr_frame f = no_feet(ring_make(4));
-  thr_plan_options o = tied(THR_ENDS_ANY);
+  thr_request o = tied(THR_ENDS_ANY);
   o.cords = 2;
   for (int start = 1; start < 4; start++) {
     thr_plan p = {0};
@@ -177,7 +177,7 @@ END_TEST
 START_TEST(what_cannot_be_tied_is_said)
 {
   thr_frame star = no_feet(star_make(3)), ring = no_feet(ring_make(4));
-  thr_plan_options o = tied(THR_ENDS_CLOSED);
+  thr_request o = tied(THR_ENDS_CLOSED);
   thr_symmetries t;
   thr_err err = {0};
   ck_assert_int_eq(thr_symmetries_find(&star, &o, &(thr_limits){0}, &t, &err), THR_EINFEASIBLE);
@@ -248,7 +248,7 @@ START_TEST(every_allocation_fails_once)
 {
   static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_FEET};
   thr_frame f = shape_make(THR_MAKE_TUBE, 3, 2);
-  thr_plan_options o = tied(ends[_i]);
+  thr_request o = tied(ends[_i]);
   thr_status st = THR_ENOMEM;
   int k = 0;
   memcpy(o.symmetry.group, "2", 2);

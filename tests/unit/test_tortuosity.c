@@ -108,7 +108,7 @@ END_TEST
 
 static thr_status make_plan(const thr_frame *f, int cords, double slack, thr_plan *p, thr_err *err)
 {
-  thr_plan_options o = thr_plan_options_default();
+  thr_request o = thr_request_default();
   const thr_limits limits = {0};
   want(&o, "turning");
   o.ends = THR_ENDS_CLOSED;
@@ -158,7 +158,7 @@ END_TEST
 
 static thr_status sweep(const thr_frame *f, int cords, thr_frontier *out, thr_err *err)
 {
-  thr_plan_options o = thr_plan_options_default();
+  thr_request o = thr_request_default();
   const thr_limits limits = {0};
   want(&o, "turning");
   o.ends = THR_ENDS_CLOSED;
@@ -241,7 +241,7 @@ START_TEST(no_bound_is_reported_above_the_best_price)
   for (uint64_t seed = 0; seed < 400; seed++) {
     rng r = rng_make(seed);
     thr_frame f = random_frame(&r, 14, 12, LENGTHS_EUCLID);
-    thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+    thr_request o = options_for(THR_ENDS_CLOSED, 1);
     thr_plan p;
     want(&o, "turning");
     ck_assert_int_eq(thr_tortuosity_plan(&f, &o, &limits, &p, NULL), THR_OK);

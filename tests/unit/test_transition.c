@@ -453,7 +453,7 @@ START_TEST(open_cord_runs_from_end_to_end)
   while ((end[0][1] = rng_below(&r, f.n_nodes)) == end[0][0])
     ;
   int *passes = even_passes(&r, &f, 1, end[0]), *component = constant(f.n_nodes, 0);
-  thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+  thr_request o = options_for(THR_ENDS_ANY, 1);
   thr_cord cord;
   ck_assert_int_eq(thr_tour_cords(&f, &o, component, 1, passes, (const int(*)[2])end, &cord, NULL), THR_OK);
   ck_assert(!cord.closed && thr_cord_start(&f, &cord) == end[0][0] && thr_cord_end(&f, &cord) == end[0][1]);
@@ -471,7 +471,7 @@ START_TEST(closed_cord_starts_where_told_or_at_a_foot)
   thr_frame f = random_frame(&r, rng_between(&r, 3, 20), rng_below(&r, 20), LENGTHS_EUCLID);
   int *passes = even_passes(&r, &f, 1, NULL), *component = constant(f.n_nodes, 0), v = rng_below(&r, f.n_nodes);
   int at[1][2] = {{v, v}}, anywhere[1][2] = {{-1, -1}};
-  thr_plan_options o = options_for(THR_ENDS_ANY, 1);
+  thr_request o = options_for(THR_ENDS_ANY, 1);
   thr_cord cord;
   ck_assert_int_eq(thr_tour_cords(&f, &o, component, 1, passes, (const int(*)[2])at, &cord, NULL), THR_OK);
   ck_assert(cord.closed && thr_cord_start(&f, &cord) == v && thr_cord_end(&f, &cord) == v);
@@ -491,7 +491,7 @@ START_TEST(odd_passes_are_refused)
 {
   thr_frame f = path_make(3);
   int passes[2] = {1, 1}, component[3] = {0}, ends[1][2] = {{-1, -1}};
-  thr_plan_options o = options_for(THR_ENDS_CLOSED, 1);
+  thr_request o = options_for(THR_ENDS_CLOSED, 1);
   thr_cord cord;
   thr_err err = {0};
   ck_assert_int_eq(thr_tour_cords(&f, &o, component, 1, passes, (const int(*)[2])ends, &cord, &err), THR_EINPUT);
@@ -519,7 +519,7 @@ START_TEST(wheel_of_2000_spokes)
 {
   thr_frame f = wheel_make(2000);
   int *passes = constant(f.n_edges, 2), component[2001] = {0}, ends[1][2] = {{-1, -1}};
-  thr_plan_options o = options_for(THR_ENDS_CLOSED, 2);
+  thr_request o = options_for(THR_ENDS_CLOSED, 2);
   thr_cord cord;
   thr_metrics m;
   ck_assert_int_eq(thr_tour_cords(&f, &o, component, 1, passes, (const int(*)[2])ends, &cord, NULL), THR_OK);

@@ -139,7 +139,7 @@ START_TEST(copies_are_named)
   thr_err err = {0};
   thr_limits none = {0};
   thr_frame f = shape_make(THR_MAKE_DOME, 6, 0);
-  thr_plan_options o = options_for(THR_ENDS_FEET, 1);
+  thr_request o = options_for(THR_ENDS_FEET, 1);
   want(&o, "overlap,steps");
   ck_assert_msg(thr_symmetry_plan(&f, &o, &none, NULL, &p, &err) == THR_OK, "%s", err.text);
   const char **motion = calloc((size_t)p.n_cords, sizeof *motion);

@@ -9,7 +9,7 @@
 
 typedef struct {
   const thr_turning_columns *c;
-  thr_plan_options o; /* what the task says, for the table */
+  thr_request o; /* what the task says, for the table */
   int n_cords;
   thr_cord *cord;         /* [n_cords] the best; half of the given ones, or of the table's */
   thr_small_cords *small; /* [c->n_components] the table's */
@@ -30,7 +30,7 @@ static thr_status table_init(table *x, const thr_turning_columns *turning_column
 {
   const thr_turning_task *turning_task = turning_columns->task;
   const size_t n = (size_t)turning_columns->f->n_nodes;
-  *x = (table){.c = turning_columns, .o = thr_plan_options_default(), .n_cords = n_cords};
+  *x = (table){.c = turning_columns, .o = thr_request_default(), .n_cords = n_cords};
   x->o.joint = turning_task->tube ? THR_JOINT_TUBE : THR_JOINT_SOLID;
   x->o.cover = turning_task->cover;
   x->o.capacity = turning_task->capacity;

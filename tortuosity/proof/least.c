@@ -31,8 +31,7 @@ thr_status thr_least_task(const thr_frame *frame, const thr_least_options *optio
     return thr_fail(err, THR_EINPUT, "%d passes of %d edges are more than the %d that the search for the least turning takes",
                     options->cover, frame->n_edges, MOST_PASSES);
   if (options->ends != THR_ENDS_CLOSED) {
-    thr_plan_options plan = {
-        .ends = options->ends, .end_node = (bool *)options->end_node, .end_count = (int *)options->end_count};
+    thr_request plan = {.ends = options->ends, .end_node = (bool *)options->end_node, .end_count = (int *)options->end_count};
     if (!(out->end_allowed = thr_calloc((size_t)frame->n_nodes, sizeof *out->end_allowed))) return thr_nomem(err);
     for (int v = 0; v < frame->n_nodes; v++)
       out->end_allowed[v] = thr_plan_end_allowed(frame, &plan, v);

@@ -16,7 +16,7 @@
 #include "tortuosity/cords/join.h"
 
 typedef struct {
-  int cover, capacity; /* as in thr_plan_options */
+  int cover, capacity; /* as in thr_request */
   bool tube;           /* tube joints; then start must be set, closed cords of any number */
   thr_ends ends;
   const bool *end_node; /* [n_nodes] THR_ENDS_NODES only; borrowed */

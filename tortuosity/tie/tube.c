@@ -43,8 +43,8 @@ static thr_status begin(thr_branch *branch, const thr_tube *tube, thr_err *err)
 
 /* One search, without turns or with them, from the cords in tube if there are any. Leaves its own in tube, and its proof if that
  * proves more. */
-static thr_status search(const thr_turning_columns *turning_columns, const thr_plan_options *options, bool projected,
-                         int most_nodes, const thr_limits *limits, thr_tube *tube, thr_err *err)
+static thr_status search(const thr_turning_columns *turning_columns, const thr_request *options, bool projected, int most_nodes,
+                         const thr_limits *limits, thr_tube *tube, thr_err *err)
 {
   thr_branch branch;
   thr_turning_proof proof = {0};
@@ -78,8 +78,8 @@ static bool proved(const thr_tube *tube)
   return tube->n_cords > 0 && tube->bound >= tube->length * (1 - 1e-9);
 }
 
-static thr_status search_both(const thr_turning_columns *turning_columns, const thr_plan_options *options,
-                              const thr_limits *limits, thr_tube *tube, thr_err *err)
+static thr_status search_both(const thr_turning_columns *turning_columns, const thr_request *options, const thr_limits *limits,
+                              thr_tube *tube, thr_err *err)
 {
   enum { NODES = 400, LARGE = 2000 };
   thr_status st = thr_tie_possible(turning_columns, err);
@@ -102,8 +102,8 @@ static thr_status only_begin(const thr_turning_columns *turning_columns, const t
 }
 
 /* With a search, or without. */
-static thr_status make(const thr_frame *frame, const thr_plan_options *options, bool searched, const thr_limits *limits,
-                       thr_tube *out, thr_err *err)
+static thr_status make(const thr_frame *frame, const thr_request *options, bool searched, const thr_limits *limits, thr_tube *out,
+                       thr_err *err)
 {
   thr_turning_columns turning_columns = {0};
   thr_turning_task task;
@@ -126,7 +126,7 @@ static thr_status make(const thr_frame *frame, const thr_plan_options *options, 
   return st;
 }
 
-thr_status thr_tube_shortest(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits, thr_tube *out,
+thr_status thr_tube_shortest(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_tube *out,
                              thr_err *err)
 {
   *out = (thr_tube){0};
@@ -139,7 +139,7 @@ thr_status thr_tube_shortest(const thr_frame *frame, const thr_plan_options *opt
                   100 * (out->length - out->bound) / out->length);
 }
 
-thr_status thr_tube_some(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits, thr_tube *out,
+thr_status thr_tube_some(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_tube *out,
                          thr_err *err)
 {
   return make(frame, options, false, limits, out, err);

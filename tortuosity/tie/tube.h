@@ -28,11 +28,11 @@ typedef struct {
  * the nodes. Closed: one in every component, which is no longer than any number of them. THR_OK: proved. THR_ELIMIT: out holds
  * cords, and what is proved. THR_EINFEASIBLE: a node or a component that no cords can tie (named), or none found. THR_EINPUT:
  * several closed cords for another plan than one of the least length. Otherwise out is empty. */
-thr_status thr_tube_shortest(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits, thr_tube *out,
+thr_status thr_tube_shortest(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_tube *out,
                              thr_err *err) THR_MUST_CHECK;
 
 /* Some such cords, without a search: bound is 0. Near-linear in passes as a rule. */
-thr_status thr_tube_some(const thr_frame *frame, const thr_plan_options *options, const thr_limits *limits, thr_tube *out,
+thr_status thr_tube_some(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_tube *out,
                          thr_err *err) THR_MUST_CHECK;
 void thr_tube_destroy(thr_tube *tube);
 

@@ -12,7 +12,7 @@
 /* The framework is one component. */
 typedef struct {
   const thr_frame *f;
-  const thr_plan_options *o;
+  const thr_request *o;
   const thr_limits *limits;
   thr_share share;
   int *component;           /* [n_nodes] zeros: what the share says of every node */
@@ -65,7 +65,7 @@ static thr_status walks_of(const several *x, const thr_tube *tube, thr_walks *ou
 /* Short walks: exactly n open ones, or as many as the counts say; of closed ones, one. */
 static thr_status short_walks(several *x, int n, thr_walks *out, thr_err *err)
 {
-  thr_plan_options options = *x->o;
+  thr_request options = *x->o;
   thr_limits some = *x->limits;
   thr_tube tube = {0};
   thr_err why = {0};
@@ -238,12 +238,12 @@ static thr_status grow(several *x, thr_err *err)
 /* ---- the plan ---- */
 
 /* Is more asked for than the shortest length? */
-static bool lengths_asked(const thr_plan_options *options)
+static bool lengths_asked(const thr_request *options)
 {
   return thr_wants_balance(options) || options->max_length > 0;
 }
 
-bool thr_tube_shares(const thr_plan_options *options)
+bool thr_tube_shares(const thr_request *options)
 {
   return lengths_asked(options) || (options->ends == THR_ENDS_CLOSED && options->cords_least > 1);
 }
@@ -258,7 +258,7 @@ static void move_cords(thr_tube *tube, thr_plan *plan)
 
 static thr_status make_some(several *x, thr_plan *plan, thr_err *err)
 {
-  const thr_plan_options *options = x->o;
+  const thr_request *options = x->o;
   thr_status st = options->max_length > 0      ? grow(x, err)
                   : thr_wants_balance(options) ? make_even(x, err)
                                                : make_number(x, options->cords_least, false, err);
@@ -267,7 +267,7 @@ static thr_status make_some(several *x, thr_plan *plan, thr_err *err)
 
 thr_status thr_tube_cords(thr_tube *tube, const thr_limits *limits, thr_plan *plan, thr_cords_word *word, thr_err *err)
 {
-  const thr_plan_options *options = &plan->options;
+  const thr_request *options = &plan->options;
   several x = {.f = &plan->frame, .o = options, .limits = limits, .shortest = tube};
   *word = (thr_cords_word){0};
   if (!thr_tube_shares(options)) {

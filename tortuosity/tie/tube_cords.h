@@ -13,7 +13,7 @@
 #include "tortuosity/tie/tube.h"
 
 /* Is more asked for than the shortest tied cords themselves: several closed ones, even ones, or none longer than a limit? */
-bool thr_tube_shares(const thr_plan_options *options);
+bool thr_tube_shares(const thr_request *options);
 
 /* Fills the cords of a plan that holds framework and options, and none yet, from the shortest tied cords (closed: one), which it
  * may take; where thr_tube_shares, the framework must be one component. As thr_cords_plan (lp/length/cords.h) without proofs:

@@ -16,7 +16,7 @@
 
 typedef struct {
   const thr_frame *f;
-  const thr_plan_options *o;
+  const thr_request *o;
   int n_components, *component;
   int passes; /* of every edge */
   thr_multigraph g;
@@ -60,7 +60,7 @@ static thr_status first_init(first *x, thr_err *err)
 /* Do these options and this framework have such cords? Sets the number of passes. */
 static bool is_possible(first *x)
 {
-  const thr_plan_options *options = x->o;
+  const thr_request *options = x->o;
   bool closed = options->ends == THR_ENDS_CLOSED;
   if (options->ends == THR_ENDS_COUNTS || (closed && options->max_length > 0)) return false;
   x->passes = 2;
@@ -232,7 +232,7 @@ static int next_place(const first *x, const thr_walk *w, int from, double least,
 /* The circuit of component k cut into pieces; *n counts them. */
 static thr_status cut_circuit(first *x, int k, int *n, thr_err *err)
 {
-  const thr_plan_options *options = x->o;
+  const thr_request *options = x->o;
   thr_walks *w = &x->walks[k];
   int start = 0;
   while (start < w->walk[0].n && !thr_plan_end_allowed(x->f, options, thr_walk_node(x->f, &w->walk[0], start)))
@@ -268,7 +268,7 @@ static thr_status cut_circuits(first *x, bool *found, thr_err *err)
   return st;
 }
 
-thr_status thr_tube_first(const thr_frame *frame, const thr_plan_options *options, thr_cord **cord, int *n_cords, thr_err *err)
+thr_status thr_tube_first(const thr_frame *frame, const thr_request *options, thr_cord **cord, int *n_cords, thr_err *err)
 {
   first x = {.f = frame, .o = options};
   thr_plan plan = {.frame = *frame, .options = *options};
