@@ -87,6 +87,19 @@ double thr_tree_bound(const thr_tree *t)
   return t->n_open > 0 ? fmin(at, t->node[t->open[0]].bound) : at;
 }
 
+int thr_tree_undecided(const double *x, int first, int end, double tolerance, const int *decided)
+{
+  int best = -1;
+  double most = tolerance;
+  for (int j = first; j < end; j++) {
+    double far = fabs(x[j] - nearbyint(x[j]));
+    if (far <= most + 1e-9 || (decided && decided[j] > 0)) continue;
+    most = far;
+    best = j;
+  }
+  return best;
+}
+
 /* ---- bounds on columns ---- */
 
 /* What the decisions of a node leave of a column. */

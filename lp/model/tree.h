@@ -66,6 +66,10 @@ thr_status thr_tree_enter(thr_tree *t, const thr_tree_calls *calls, int node, th
 
 bool thr_tree_closed(const thr_tree *t, int node);
 
+/* The column of first .. end - 1 to decide on at the point x: of those farther than the tolerance from a whole number the
+ * farthest, of equal ones the first; -1 = none. Columns of decided[] > 0 are left out (NULL = none is). */
+int thr_tree_undecided(const double *x, int first, int end, double tolerance, const int *decided);
+
 /* The least bound of the node being solved and of those to be solved. */
 double thr_tree_bound(const thr_tree *t);
 

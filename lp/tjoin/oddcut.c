@@ -388,3 +388,18 @@ done:
   thr_scratch_free(&own);
   return st;
 }
+
+/* ---- for a search ---- */
+
+thr_status thr_oddcut_separate(const thr_oddcut_graph *graph, const double *x, const double *reduced_cost,
+                               const double *threshold, int n, const double *point, thr_pool *pool, int *added, thr_err *err)
+{
+  const int before = pool->count;
+  thr_status st = THR_OK;
+  for (int i = 0; i < (n > 0 ? n : 1) && !st && pool->count == before; i++) {
+    st = n > 0 ? thr_oddcut_moats(graph, x, threshold[i], reduced_cost, pool, err) : thr_oddcut_exact(graph, x, pool, err);
+    if (!st && point) st = thr_pool_keep_violated(pool, before, point, tolerance, added, err);
+  }
+  if (!point) *added += pool->count - before;
+  return st;
+}

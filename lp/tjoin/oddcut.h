@@ -3,8 +3,8 @@
  * Mathematics of Operations Research 7, 1982): of a tree of minimum cuts the lightest edge with an odd number of odd nodes on
  * its sides. Every set becomes a row of a pool, its members those of the row:
  *
- *   st = thr_oddcut_moats(&graph, x, 1e-6, reduced_cost, &pool, err);
- *   if (!st && pool.count == before) st = thr_oddcut_exact(&graph, x, &pool, err);
+ *   st = thr_oddcut_separate(&graph, x, reduced_cost, threshold, 3, x, &pool, &added, err);
+ *   if (!st && added == 0) st = thr_oddcut_separate(&graph, x, NULL, NULL, 0, x, &pool, &added, err);
  *
  * Example: a triangle of odd nodes with x = 1/2 on its edges and 0 on the others that leave it breaks the row of the triangle. */
 #ifndef THR_ODDCUT_H
@@ -42,5 +42,11 @@ thr_status thr_oddcut_moats(const thr_oddcut_graph *graph, const double *x, doub
 /* Exact separation: in every component of the support, the odd cuts of a Gomory-Hu tree with x(cut) < 1. Padberg & Rao:
  * if any odd cut is violated, one of these is. Edges with x >= 1 lie in no violated cut and are contracted first. */
 thr_status thr_oddcut_exact(const thr_oddcut_graph *graph, const double *x, thr_pool *pool, thr_err *err) THR_MUST_CHECK;
+
+/* Keeps of the rows that these find those which the pool's `point` violates (NULL = all), counted in *added: moats with one of
+ * threshold[n] after the other until there are any, or with n = 0 the exact separation. */
+thr_status thr_oddcut_separate(const thr_oddcut_graph *graph, const double *x, const double *reduced_cost,
+                               const double *threshold, int n, const double *point, thr_pool *pool, int *added,
+                               thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -3,11 +3,11 @@
 #include "graph/disjoint.h"
 #include "graph/scratch.h"
 #include "lp/model/pool.h"
+#include "lp/model/search.h"
 #include "lp/tjoin/cuts.h"
 #include "lp/solver/lp.h"
 #include "lp/tjoin/oddcut.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,29 +18,39 @@ typedef struct {
   const thr_tjoin_problem *p;
   const thr_limits *limits;
   thr_oddcut_graph graph;
-  thr_pool pool;
-  thr_lp *lp;
+  thr_search search;
+  bool exact;                            /* GLPK's exact method, with the weights themselves as costs? */
   double unit;                           /* costs of the linear programme = weights / unit, so that they are about 1 */
   double *cost, *x, *reduced_cost, *key; /* [n_edges] */
-  double *whole;        /* [n_edges] the weights themselves: GLPK's exact method rounds costs that are no integers */
-  double *dual;         /* [pool.count at the last solve] */
-  int64_t *value;       /* the same, rounded to integers that load no edge too much */
-  int solved;           /* rows at the last solve */
-  double bound_at_drop; /* objective when rows were last dropped */
-  int *order, *parent;  /* [n_edges], [n_nodes] scratch of the rounding */
-  bool *tree_join;      /* [n_edges] */
-  bool *leaf_used;      /* [n_leaves] */
-  wide *slack;          /* [n_edges] */
+  double *whole;       /* [n_edges] the weights themselves: GLPK's exact method rounds costs that are no integers */
+  int64_t *value;      /* [search.pool.count] multipliers as integers that load no edge too much */
+  int *order, *parent; /* [n_edges], [n_nodes] scratch of the rounding */
+  bool *tree_join;     /* [n_edges] */
+  bool *leaf_used;     /* [n_leaves] */
+  wide *slack;         /* [n_edges] */
   thr_tjoin best;
   thr_scratch own; /* the arrays */
 } solver;
+
+/* Moats round the odd components of the support; failing that, of the support of larger values. */
+static thr_status find_moats(void *user, int *added, thr_err *err)
+{
+  static const double threshold[] = {1e-6, 0.2, 0.35, 0.51, 0.7};
+  solver *s = user;
+  return thr_oddcut_separate(&s->graph, s->x, s->reduced_cost, threshold, 5, NULL, &s->search.pool, added, err);
+}
+
+static thr_status find_exactly(void *user, int *added, thr_err *err)
+{
+  solver *s = user;
+  return thr_oddcut_separate(&s->graph, s->x, NULL, NULL, 0, NULL, &s->search.pool, added, err);
+}
 
 static thr_status solver_init(solver *s, const thr_tjoin_problem *tjoin_problem, const thr_limits *limits, thr_err *err)
 {
   size_t n = (size_t)tjoin_problem->n_nodes, m = (size_t)tjoin_problem->n_edges;
   *s = (solver){.p = tjoin_problem, .limits = limits};
   thr_status st = thr_oddcut_graph_init(&s->graph, tjoin_problem, err);
-  if (!st) st = thr_pool_init(&s->pool, tjoin_problem->n_edges, err);
   if (st) return st;
   s->cost = thr_scratch_array(&s->own, m, sizeof *s->cost);
   s->whole = thr_scratch_array(&s->own, m, sizeof *s->whole);
@@ -55,22 +65,23 @@ static thr_status solver_init(solver *s, const thr_tjoin_problem *tjoin_problem,
   s->best.in_join = thr_calloc(m, sizeof *s->best.in_join);
   s->best.length = INT64_MAX;
   if (!s->best.in_join || thr_scratch_check(&s->own, err)) return thr_nomem(err);
+  if ((st = thr_search_init(&s->search, tjoin_problem->n_edges, s->x, err))) return st;
+  thr_search_use(&s->search, (thr_separator){.find = find_moats, .user = s});
+  thr_search_use(&s->search, (thr_separator){.find = find_exactly, .user = s, .fallback = true});
   double sum = 0;
   for (size_t e = 0; e < m; e++)
     sum += s->whole[e] = (double)tjoin_problem->weight[e];
   s->unit = sum > 0 ? sum / (double)m : 1;
   for (size_t e = 0; e < m; e++)
     s->cost[e] = s->reduced_cost[e] = (double)tjoin_problem->weight[e] / s->unit;
-  return thr_lp_create(&s->lp, tjoin_problem->n_edges, s->cost, NULL, err);
+  return thr_lp_create(&s->search.lp, tjoin_problem->n_edges, s->cost, NULL, err);
 }
 
 static void solver_destroy(solver *s)
 {
-  thr_lp_destroy(s->lp);
-  thr_pool_destroy(&s->pool);
+  thr_search_destroy(&s->search);
   thr_oddcut_graph_destroy(&s->graph);
   thr_scratch_free(&s->own);
-  free(s->dual);
   free(s->value);
 }
 
@@ -187,22 +198,23 @@ static thr_status round_to_join(solver *s, thr_err *err)
 
 /* value = dual in units of 1/denominator of a weight, rounded down; then whatever still overloads an edge is taken back
  * from the cuts over it, and what slack is left is given out again: to cuts in use, or with greedy to any cut in turn.
- * Fills s->value, returns their sum. */
-static int64_t integer_dual(solver *s, bool greedy)
+ * dual: [search.pool.count], NULL = all 0. Fills s->value, returns their sum. */
+static int64_t integer_dual(solver *s, const double *dual, bool greedy)
 {
   const thr_tjoin_problem *tjoin_problem = s->p;
+  const thr_pool *pool = &s->search.pool;
   for (int e = 0; e < tjoin_problem->n_edges; e++)
     s->slack[e] = (wide)tjoin_problem->weight[e] * THR_DUAL_DENOMINATOR;
-  for (int i = 0; i < s->solved; i++) {
-    double y = s->dual[i] * s->unit * THR_DUAL_DENOMINATOR;
+  for (int i = 0; i < pool->count; i++) {
+    double y = dual ? dual[i] * s->unit * THR_DUAL_DENOMINATOR : 0;
     s->value[i] = y > 1 ? (int64_t)fmin(y, 4e18) : 0;
-    for (int k = 0; k < s->pool.row[i].n; k++)
-      s->slack[s->pool.row[i].column[k]] -= s->value[i];
+    for (int k = 0; k < pool->row[i].n; k++)
+      s->slack[pool->row[i].column[k]] -= s->value[i];
   }
   wide sum = 0;
   for (int pass = 0; pass < 2; pass++) /* first take back, then give out */
-    for (int i = 0; i < s->solved; i++) {
-      const thr_row *r = &s->pool.row[i];
+    for (int i = 0; i < pool->count; i++) {
+      const thr_row *r = &pool->row[i];
       wide least = s->slack[r->column[0]];
       for (int k = 1; k < r->n; k++)
         if (s->slack[r->column[k]] < least) least = s->slack[r->column[k]];
@@ -212,22 +224,23 @@ static int64_t integer_dual(solver *s, bool greedy)
       for (int k = 0; k < r->n; k++)
         s->slack[r->column[k]] -= least;
     }
-  for (int i = 0; i < s->solved; i++)
+  for (int i = 0; i < pool->count; i++)
     sum += s->value[i];
   return (int64_t)sum;
 }
 
 static thr_status store_cuts(solver *s, int64_t sum, thr_err *err)
 {
+  const thr_pool *pool = &s->search.pool;
   thr_tjoin *best = &s->best;
   for (int i = 0; i < best->n_cuts; i++)
     free(best->cut[i].node);
   free(best->cut);
   best->n_cuts = 0;
-  best->cut = thr_calloc((size_t)s->solved, sizeof *best->cut);
+  best->cut = thr_calloc((size_t)pool->count, sizeof *best->cut);
   if (!best->cut) return thr_nomem(err);
-  for (int i = 0; i < s->solved; i++) {
-    const thr_row *r = &s->pool.row[i];
+  for (int i = 0; i < pool->count; i++) {
+    const thr_row *r = &pool->row[i];
     if (s->value[i] == 0) continue;
     thr_cut *to = &best->cut[best->n_cuts];
     *to = (thr_cut){-1, r->n_members, thr_calloc((size_t)r->n_members, sizeof *to->node), s->value[i]};
@@ -239,81 +252,20 @@ static thr_status store_cuts(solver *s, int64_t sum, thr_err *err)
   return THR_OK;
 }
 
-/* Turns the dual of the last solve into a certificate and keeps it if its bound is the best; sets best.optimal. */
-static thr_status certify(solver *s, bool greedy, thr_err *err)
+/* Turns multipliers of the rows into a certificate and keeps it if its bound is the best; sets best.optimal. */
+static thr_status certify(solver *s, const double *dual, bool greedy, thr_err *err)
 {
-  int64_t sum = integer_dual(s, greedy);
+  int64_t *value = thr_realloc(s->value, (size_t)s->search.pool.count, sizeof *value);
+  if (!value) return thr_nomem(err);
+  s->value = value;
+  int64_t sum = integer_dual(s, dual, greedy);
   thr_status st = THR_OK;
   if (sum > s->best.sum || s->best.n_cuts == 0) st = store_cuts(s, sum, err);
   s->best.optimal = (wide)s->best.sum > ((wide)s->best.length - 1) * THR_DUAL_DENOMINATOR;
   return st;
 }
 
-/* ---- the loop ---- */
-
-/* Makes room for the multipliers of all cuts and sets them to 0. */
-static thr_status reserve_duals(solver *s, thr_err *err)
-{
-  size_t rows = (size_t)s->pool.count;
-  double *dual = thr_realloc(s->dual, rows, sizeof *dual);
-  if (!dual) return thr_nomem(err);
-  s->dual = dual;
-  int64_t *value = thr_realloc(s->value, rows, sizeof *value);
-  if (!value) return thr_nomem(err);
-  s->value = value;
-  memset(s->dual, 0, rows * sizeof *s->dual);
-  s->solved = s->pool.count;
-  return THR_OK;
-}
-
-/* cost_unit: what a cost of 1 in the last solve is worth in costs of s->cost. */
-static void read_duals(solver *s, double cost_unit)
-{
-  thr_lp_dual(s->lp, s->dual);
-  for (int i = 0; i < s->solved; i++)
-    s->dual[i] *= cost_unit;
-  memcpy(s->reduced_cost, s->cost, (size_t)s->p->n_edges * sizeof *s->cost);
-  for (int i = 0; i < s->solved; i++)
-    thr_row_charge(&s->pool.row[i], s->dual[i], s->reduced_cost);
-}
-
-static thr_status solve_rows(solver *s, bool exact, thr_lp_outcome *outcome, thr_err *err)
-{
-  thr_status st = thr_pool_load(&s->pool, thr_lp_rows(s->lp), -1, s->lp, err);
-  if (!st) st = reserve_duals(s, err);
-  if (!st && exact) st = thr_lp_set_costs(s->lp, s->whole, err);
-  if (!st) st = (exact ? thr_lp_solve_exact : thr_lp_solve)(s->lp, s->limits, outcome, err);
-  if (st) return st;
-  if (*outcome == THR_LP_INFEASIBLE || *outcome == THR_LP_UNBOUNDED)
-    return thr_fail(err, THR_ESOLVER, "GLPK found no optimum of an odd-cut relaxation, which always has one");
-  thr_lp_primal(s->lp, s->x);
-  read_duals(s, exact ? 1 / s->unit : 1);
-  return exact ? thr_lp_set_costs(s->lp, s->cost, err) : THR_OK;
-}
-
-/* Cuts that the point x violates: moats round the odd components of the support; failing that, of the support of larger
- * values; failing that, exactly. */
-static thr_status separate(solver *s, thr_err *err)
-{
-  static const double threshold[] = {1e-6, 0.2, 0.35, 0.51, 0.7};
-  int before = s->pool.count;
-  thr_status st = THR_OK;
-  for (size_t i = 0; i < sizeof threshold / sizeof *threshold && !st && s->pool.count == before; i++)
-    st = thr_oddcut_moats(&s->graph, s->x, threshold[i], s->reduced_cost, &s->pool, err);
-  if (!st && s->pool.count == before) st = thr_oddcut_exact(&s->graph, s->x, &s->pool, err);
-  return st;
-}
-
-/* Drops rows whose slack has been basic for a while, so that the linear programme stays small. Only after the bound has
- * risen: where it stands still (ties), the same rows would come back for ever. */
-static thr_status drop_idle(solver *s, thr_err *err)
-{
-  enum { PATIENCE = 6 };
-  bool any, risen = thr_lp_objective(s->lp) > s->bound_at_drop * (1 + 1e-9);
-  thr_status st = thr_pool_age(&s->pool, risen ? PATIENCE : INT_MAX, s->lp, &any, err);
-  if (!st && any) s->bound_at_drop = thr_lp_objective(s->lp);
-  return st;
-}
+/* ---- the search ---- */
 
 static void report(const solver *s, const char *what)
 {
@@ -322,59 +274,70 @@ static void report(const solver *s, const char *what)
   s->limits->progress(s->limits->user, what, (double)s->best.length, (double)s->best.sum / denominator);
 }
 
-/* The inexact method cannot tell joins apart whose weights differ by a unit, and so may stop at a point that looks
- * integral: the exact one goes on from there, with cuts of its own, until none is violated. */
-static thr_status solve_exactly(solver *s, thr_lp_outcome *outcome, thr_err *err)
+/* The exact method needs costs that are integers: the multipliers are brought back to those of s->cost. */
+static void reduce_costs(solver *s)
 {
-  for (int before = -1; before < s->pool.count;) {
-    before = s->pool.count;
-    thr_status st = solve_rows(s, true, outcome, err);
-    if (st || *outcome == THR_LP_STOPPED) return st;
-    if ((st = round_to_join(s, err))) return st;
-    if ((st = certify(s, false, err)) || s->best.optimal) return st;
-    if ((st = separate(s, err))) return st;
-  }
-  return THR_OK;
+  thr_search *search = &s->search;
+  for (int i = 0; s->exact && i < search->pool.count; i++)
+    search->dual[i] *= 1 / s->unit;
+  memcpy(s->reduced_cost, s->cost, (size_t)s->p->n_edges * sizeof *s->cost);
+  for (int i = 0; i < search->pool.count; i++)
+    thr_row_charge(&search->pool.row[i], search->dual[i], s->reduced_cost);
+}
+
+/* Joins from the point, and what its multipliers prove: also of an unfinished solve. */
+static thr_status look(void *user, thr_err *err)
+{
+  solver *s = user;
+  reduce_costs(s);
+  thr_status st = round_to_join(s, err);
+  if (!st) st = certify(s, s->search.dual, false, err);
+  if (!st) report(s, "odd cuts");
+  s->search.enough = s->best.optimal;
+  return st;
+}
+
+static thr_status solve_exact(void *user, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)
+{
+  solver *s = user;
+  thr_status st = thr_lp_set_costs(s->search.lp, s->whole, err);
+  if (!st) st = thr_lp_solve_exact(s->search.lp, limits, outcome, err);
+  return st ? st : thr_lp_set_costs(s->search.lp, s->cost, err);
 }
 
 /* Balls round the odd nodes, and what they prove before any linear programme is solved. */
 static thr_status start(solver *s, thr_err *err)
 {
-  thr_status st = thr_oddcut_moats(&s->graph, NULL, 0, s->reduced_cost, &s->pool, err);
-  if (!st) st = reserve_duals(s, err);
+  thr_status st = thr_oddcut_moats(&s->graph, NULL, 0, s->reduced_cost, &s->search.pool, err);
   if (!st) st = round_to_join(s, err);
-  return st ? st : certify(s, true, err);
+  return st ? st : certify(s, NULL, true, err);
 }
 
-/* Until bound and join meet, separation finds nothing, or the limits stop it. */
-static thr_status solve_inexactly(solver *s, thr_lp_outcome *outcome, thr_err *err)
+/* Until bound and join meet, separation finds nothing, or the limits stop it. The inexact method cannot tell joins apart whose
+ * weights differ by a unit, and so may stop at a point that looks integral: the exact one goes on from there, with cuts of its
+ * own. */
+static thr_status solve(solver *s, thr_err *err)
 {
-  for (int before = -1; before < s->pool.count;) {
-    thr_status st = solve_rows(s, false, outcome, err);
-    if (st) return st;
-    if ((st = round_to_join(s, err))) return st;
-    if ((st = certify(s, false, err))) return st; /* also of an unfinished solve: any multipliers can be made valid */
-    report(s, "odd cuts");
-    if (s->best.optimal || *outcome == THR_LP_STOPPED) return THR_OK;
-    if ((st = drop_idle(s, err))) return st;
-    before = s->pool.count;
-    if ((st = separate(s, err))) return st;
-  }
-  return THR_OK;
+  enum { PATIENCE = 6 };
+  static const char name[] = "an odd-cut relaxation";
+  const thr_search_calls calls = {.user = s, .name = name, .look = look, .patience = PATIENCE},
+                         exact = {.user = s, .name = name, .solve = solve_exact, .look = look};
+  thr_status st = thr_search_rounds(&s->search, &calls, s->limits, err);
+  if (st || s->best.optimal || s->search.outcome != THR_LP_OPTIMAL) return st;
+  s->exact = true;
+  return thr_search_rounds(&s->search, &exact, s->limits, err);
 }
 
 static thr_status run(solver *s, thr_err *err)
 {
-  thr_lp_outcome outcome = THR_LP_OPTIMAL;
   thr_err failure = {0};
   thr_status st = start(s, err);
   if (st || s->best.optimal) return st;
-  st = solve_inexactly(s, &outcome, &failure);
-  if (!st && !s->best.optimal && outcome == THR_LP_OPTIMAL) st = solve_exactly(s, &outcome, &failure);
+  st = solve(s, &failure);
   if (st == THR_ENOMEM) return thr_nomem(err);
   if (s->best.optimal) return THR_OK;
   if (st) return thr_fail(err, THR_ELIMIT, "%s", failure.text); /* join and bound stay good whatever a library does */
-  if (outcome == THR_LP_STOPPED) return thr_fail(err, THR_ELIMIT, "stopped early");
+  if (s->search.outcome == THR_LP_STOPPED) return thr_fail(err, THR_ELIMIT, "stopped early");
   return thr_fail(err, THR_ELIMIT, "the odd-cut bound and the best join do not meet; please report this framework");
 }
 

@@ -5,7 +5,7 @@
 #include "symmetry/cover/contraction.h"
 #include "symmetry/cover/programme.h"
 #include "symmetry/cover/relaxation.h"
-#include "symmetry/cover/search.h"
+#include "symmetry/cover/cover_search.h"
 #include "symmetry/cover/ties.h"
 #include "symmetry/cover/turning_bound.h"
 
@@ -49,7 +49,7 @@ static thr_status check_ends(const thr_programme *p, thr_err *err)
   return st;
 }
 
-static thr_status hand_over(thr_search *s, thr_cover *out, thr_err *err)
+static thr_status hand_over(thr_cover_search *s, thr_cover *out, thr_err *err)
 {
   const thr_quotient *quotient = s->p->q;
   double quick;
@@ -70,15 +70,15 @@ static thr_status hand_over(thr_search *s, thr_cover *out, thr_err *err)
 }
 
 /* Keeps a lifted solution, mended. */
-static thr_status offer_joined(thr_search *s, thr_err *err)
+static thr_status offer_joined(thr_cover_search *s, thr_err *err)
 {
   thr_status st = thr_programme_mend(s->p, s->other, err);
   if (!st) st = thr_programme_open(s->p, s->other, err);
-  return st ? st : thr_search_offer(s, err);
+  return st ? st : thr_cover_search_offer(s, err);
 }
 
 /* The best so far with its turns as cheap as they can be and joined again, and then by exchanges that leave it whole. */
-static thr_status offer_improved(thr_search *s, thr_err *err)
+static thr_status offer_improved(thr_cover_search *s, thr_err *err)
 {
   const thr_limits limits = thr_limits_part(s->limits, 0.5);
   memcpy(s->other, s->best, (size_t)s->p->n * sizeof *s->best);
@@ -86,11 +86,11 @@ static thr_status offer_improved(thr_search *s, thr_err *err)
   if (!st) st = offer_joined(s, err);
   memcpy(s->other, s->best, (size_t)s->p->n * sizeof *s->best);
   if (!st) st = thr_programme_improve(s->p, &limits, s->other, err);
-  return st ? st : thr_search_offer(s, err);
+  return st ? st : thr_cover_search_offer(s, err);
 }
 
 /* Lifts a start with tube joints, for which it gets more copies where need be; *failed as thr_contraction_lift has it. */
-static thr_status lift_tied(thr_search *s, thr_contraction *contraction, const bool *barred, int *small, int *failed,
+static thr_status lift_tied(thr_cover_search *s, thr_contraction *contraction, const bool *barred, int *small, int *failed,
                             thr_err *err)
 {
   enum { ROUNDS = 8 };
@@ -111,7 +111,7 @@ static thr_status lift_tied(thr_search *s, thr_contraction *contraction, const b
   return st;
 }
 
-static thr_status try_start(thr_search *s, thr_contraction *contraction, thr_contraction_kind kind, const bool *barred,
+static thr_status try_start(thr_cover_search *s, thr_contraction *contraction, thr_contraction_kind kind, const bool *barred,
                             int *small, thr_err *err)
 {
   bool made;
@@ -140,7 +140,7 @@ static bool is_freest(const thr_programme *p, int copy)
 
 /* Bars the copies in sets of s->other that need an end and have none, the freest excepted; if there are none of them, or all is
  * asked for, all but the freest. *more: are any barred that were not? */
-static thr_status bar(thr_search *s, bool all, bool *barred, bool *more, thr_err *err)
+static thr_status bar(thr_cover_search *s, bool all, bool *barred, bool *more, thr_err *err)
 {
   const thr_programme *p = s->p;
   thr_programme_parts parts = {0};
@@ -160,7 +160,7 @@ static thr_status bar(thr_search *s, bool all, bool *barred, bool *more, thr_err
 
 /* Covers that need no programme: with the least copies; where cords would be closed that may not be, with freer ones there; and
  * if need be, which serves always, with the freest twice. The best is improved. */
-static thr_status start(thr_search *s, thr_err *err)
+static thr_status start(thr_cover_search *s, thr_err *err)
 {
   const thr_programme *p = s->p;
   thr_contraction contraction;
@@ -169,7 +169,8 @@ static thr_status start(thr_search *s, thr_err *err)
   int *small = thr_calloc((size_t)contraction.p.n, sizeof *small);
   bool *barred = thr_calloc((size_t)p->first_pair, sizeof *barred);
   st = small && barred ? try_start(s, &contraction, THR_CONTRACTION_LEAST, barred, small, err) : thr_nomem(err);
-  for (bool more = !s->found || (p->open && !thr_search_beaten(s, THR_AIM_OVERLAP, s->bound[THR_AIM_OVERLAP])); more && !st;) {
+  for (bool more = !s->found || (p->open && !thr_cover_search_beaten(s, THR_AIM_OVERLAP, s->bound[THR_AIM_OVERLAP]));
+       more && !st;) {
     st = try_start(s, &contraction, THR_CONTRACTION_PLAIN, barred, small, err);
     more = !s->valid;
     if (!st && more) st = bar(s, !s->lifted, barred, &more, err);
@@ -183,37 +184,38 @@ static thr_status start(thr_search *s, thr_err *err)
 }
 
 /* What is known of overlap and paths without a cover. */
-static thr_status bound_first(thr_search *s, thr_err *err)
+static thr_status bound_first(thr_cover_search *s, thr_err *err)
 {
   thr_status st = thr_bounds_overlap(s->p, s->limits, &s->bound[THR_AIM_OVERLAP], err);
   return st ? st : thr_bounds_paths(s->p, &s->bound[THR_AIM_PATHS], err);
 }
 
 /* Steps and paths, where overlap is first and least for certain: it may not grow for them. */
-static thr_status bound_ties(thr_search *s, thr_err *err)
+static thr_status bound_ties(thr_cover_search *s, thr_err *err)
 {
   static const thr_aim tie[] = {THR_AIM_STEPS, THR_AIM_PATHS};
   thr_status st = THR_OK;
-  if (s->p->o->prefer[0] != THR_AIM_OVERLAP || !thr_search_beaten(s, THR_AIM_OVERLAP, s->bound[THR_AIM_OVERLAP])) return THR_OK;
+  if (s->p->o->prefer[0] != THR_AIM_OVERLAP || !thr_cover_search_beaten(s, THR_AIM_OVERLAP, s->bound[THR_AIM_OVERLAP]))
+    return THR_OK;
   for (size_t k = 0; k < sizeof tie / sizeof *tie && !st; k++)
-    if (!thr_search_beaten(s, tie[k], s->bound[tie[k]]))
+    if (!thr_cover_search_beaten(s, tie[k], s->bound[tie[k]]))
       st = thr_bounds_tie(s->p, tie[k], s->worth[THR_AIM_OVERLAP], s->limits, &s->bound[tie[k]], err);
   return st;
 }
 
 /* Bounds of the contracted programme: with the aims before at the same values. */
-static void take_bounds(thr_search *s, const thr_search *small, int n)
+static void take_bounds(thr_cover_search *s, const thr_cover_search *small, int n)
 {
   for (int k = 0; k < n; k++) {
     thr_aim aim = s->p->o->prefer[k];
     s->bound[aim] = fmax(s->bound[aim], small->bound[aim]);
-    if (!thr_search_beaten(s, aim, s->bound[aim])) break;
+    if (!thr_cover_search_beaten(s, aim, s->bound[aim])) break;
   }
 }
 
 /* What the best so far turns at least, with the aims before turning as they are, in half the time that is left. small: a search
  * of the contraction, whose programme goes on if it keeps no aim lower than that. */
-static thr_status bound_turning(thr_search *s, const thr_contraction *contraction, thr_search *small, thr_err *err)
+static thr_status bound_turning(thr_cover_search *s, const thr_contraction *contraction, thr_cover_search *small, thr_err *err)
 {
   const thr_limits limits = thr_limits_part(s->limits, 0.5);
   thr_relaxation own = {0};
@@ -229,17 +231,17 @@ static thr_status bound_turning(thr_search *s, const thr_contraction *contractio
 }
 
 /* What is known of the whole programme: the best cover, and bounds, which hold for the contracted one, too. */
-static thr_status begin_with(thr_search *small, const thr_search *s, const thr_contraction *contraction, thr_err *err)
+static thr_status begin_with(thr_cover_search *small, const thr_cover_search *s, const thr_contraction *contraction, thr_err *err)
 {
   bool same = true; /* are the aims before at their least for certain? */
   for (int k = 0; k < THR_N_AIMS && same && s->p->o->prefer[k] != THR_AIM_TURNING; k++) {
     thr_aim aim = s->p->o->prefer[k];
     small->bound[aim] = s->bound[aim];
-    same = thr_search_beaten(s, aim, s->bound[aim]);
+    same = thr_cover_search_beaten(s, aim, s->bound[aim]);
   }
   if (!s->found) return THR_OK;
   thr_contraction_lower(contraction, s->best, small->other);
-  return thr_search_offer(small, err);
+  return thr_cover_search_offer(small, err);
 }
 
 /* How many aims come before turning; a quick search leaves out what comes after steps, and paths. */
@@ -252,7 +254,7 @@ static int aims_before_turning(const thr_cover_options *options)
 }
 
 /* The aims before turning in the contracted programme, whose cells are left as they are where its solution cannot be lifted. */
-static thr_status search_contracted(thr_search *s, thr_err *err)
+static thr_status search_contracted(thr_cover_search *s, thr_err *err)
 {
   static const double part = 0.7; /* of the time: the rest is for lifting and for turning */
   thr_contraction contraction;
@@ -262,12 +264,12 @@ static thr_status search_contracted(thr_search *s, thr_err *err)
   thr_status st = thr_contraction_init(&contraction, s->p, false, err);
   if (st) return st;
   while (failed > 0 && !st) {
-    thr_search small;
-    st = thr_search_init(&small, &contraction.p, &limits, err);
+    thr_cover_search small;
+    st = thr_cover_search_init(&small, &contraction.p, &limits, err);
     if (st) break;
     st = begin_with(&small, s, &contraction, err);
     small.extra = contraction.p.q->n_darts; /* for the bound on turning */
-    thr_status searched = st ? st : thr_search_aims(&small, n, err);
+    thr_status searched = st ? st : thr_cover_search_aims(&small, n, err);
     if (searched && searched != THR_ELIMIT) st = searched;
     failed = 0;
     if (!st && small.found) st = thr_contraction_lift(&contraction, small.best, s->other, &failed, err);
@@ -275,7 +277,7 @@ static thr_status search_contracted(thr_search *s, thr_err *err)
     if (!st && !failed) take_bounds(s, &small, n);
     if (!st && !failed && s->found && !quick) st = bound_turning(s, &contraction, &small, err);
     if (!st && s->found && !failed && !quick) st = offer_improved(s, err);
-    thr_search_destroy(&small);
+    thr_cover_search_destroy(&small);
     if (!st && failed) st = thr_contraction_make(&contraction, err);
   }
   thr_contraction_destroy(&contraction);
@@ -283,17 +285,17 @@ static thr_status search_contracted(thr_search *s, thr_err *err)
 }
 
 /* All aims in the whole programme. If that ends early with a cover that the bound on turning does not hold for, it gets one. */
-static thr_status search_whole(thr_search *s, thr_err *err)
+static thr_status search_whole(thr_cover_search *s, thr_err *err)
 {
   static const double part = 0.8;
   const thr_limits *all = s->limits, most = thr_limits_part(s->limits, part);
   thr_contraction contraction;
-  thr_search none = {0};
+  thr_cover_search none = {0};
   int n = aims_before_turning(s->p->o);
   s->limits = &most;
-  thr_status st = thr_search_aims(s, n, err);
+  thr_status st = thr_cover_search_aims(s, n, err);
   s->limits = all;
-  if (!st) return thr_search_aims(s, THR_N_AIMS, err);
+  if (!st) return thr_cover_search_aims(s, THR_N_AIMS, err);
   if (st != THR_ELIMIT || !s->found || s->bound[THR_AIM_TURNING] > 0) return st;
   thr_status made = thr_contraction_init(&contraction, s->p, false, err);
   if (made) return made;
@@ -304,7 +306,7 @@ static thr_status search_whole(thr_search *s, thr_err *err)
 }
 
 /* What was found and proved before, or a first cover. */
-static thr_status begin(thr_search *s, const thr_cover *known, thr_err *err)
+static thr_status begin(thr_cover_search *s, const thr_cover *known, thr_err *err)
 {
   const thr_quotient *quotient = s->p->q;
   thr_status st = THR_OK;
@@ -317,12 +319,12 @@ static thr_status begin(thr_search *s, const thr_cover *known, thr_err *err)
   memcpy(s->other, known->copies, (size_t)quotient->n_copies * sizeof *s->other);
   if (quotient->n_pairs > 0) memcpy(s->other + s->p->first_pair, known->pairs, (size_t)quotient->n_pairs * sizeof *s->other);
   memcpy(s->other + s->p->first_end, known->ends, (size_t)quotient->n_darts * sizeof *s->other);
-  st = thr_search_offer(s, err);
+  st = thr_cover_search_offer(s, err);
   return !st && s->found && !s->p->o->quick ? offer_improved(s, err) : st;
 }
 
 /* Why the search has not done what it was to do. */
-static thr_status stopped(const thr_search *s, const char *what, thr_err *err)
+static thr_status stopped(const thr_cover_search *s, const char *what, thr_err *err)
 {
   const thr_limits *limits = s->limits;
   const char *why =
@@ -330,7 +332,7 @@ static thr_status stopped(const thr_search *s, const char *what, thr_err *err)
   return thr_fail(err, THR_ELIMIT, "%s %s", why, what);
 }
 
-static thr_status search_all(thr_search *s, const thr_cover *known, thr_cover *out, thr_err *err)
+static thr_status search_all(thr_cover_search *s, const thr_cover *known, thr_cover *out, thr_err *err)
 {
   thr_status st = begin(s, known, err);
   if (!st) st = search_contracted(s, err);
@@ -351,16 +353,16 @@ thr_status thr_cover_improve(const thr_quotient *quotient, const thr_cover_optio
 {
   thr_programme p = {0};
   thr_cover cover = {0};
-  thr_search s = {0};
+  thr_cover_search s = {0};
   thr_limits first = *limits;
   thr_status st = thr_programme_init(&p, quotient, options, err);
   if (first.deadline > 0) first.deadline = fmax(first.deadline, options->start_by);
   p.limits = &first;
   if (!st) st = check_ends(&p, err);
   if (!st && options->tube) st = thr_programme_tie(&p, err);
-  if (!st) st = thr_search_init(&s, &p, limits, err);
+  if (!st) st = thr_cover_search_init(&s, &p, limits, err);
   if (!st) st = search_all(&s, known, &cover, err);
-  thr_search_destroy(&s);
+  thr_cover_search_destroy(&s);
   thr_programme_destroy(&p);
   if (st && st != THR_ELIMIT) thr_cover_destroy(&cover);
   thr_cover_destroy(known);

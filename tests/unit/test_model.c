@@ -1,6 +1,8 @@
-/* Rows and tree of lp/model/ against all whole points of small covering problems: minimize cost x, A x >= lower, 0 <= x <= most.
+/* Rows, rounds and tree of lp/model/ against all whole points of small covering problems: minimize cost x, A x >= lower, 0 <= x
+ * <= most.
  */
 #include "lp/model/pool.h"
+#include "lp/model/search.h"
 #include "lp/model/tree.h"
 #include "tests/support.h"
 
@@ -191,77 +193,179 @@ END_TEST
 
 typedef struct {
   search s;
-  thr_pool pool;
-  thr_lp *lp;
+  thr_search cut;
+  double x[COLUMNS];
   rng r;
+  int asked, rounds; /* separators begun after others had found rows; looks */
+  bool whole;        /* what a look says */
 } cutting;
 
 static thr_status set_in_programme(void *user, int column, int low, int high, thr_err *err)
 {
   cutting *k = user;
   thr_status st = tell(&k->s, column, low, high, err);
-  return st ? st : thr_lp_set_bounds(k->lp, column, low, high, err);
+  return st ? st : thr_lp_set_bounds(k->cut.lp, column, low, high, err);
 }
 
-/* One row that x violates, begun anywhere. */
-static int separate(cutting *k, const double *x)
+/* One row that x violates, begun anywhere: of the even ones, or of the odd ones. */
+static thr_status find(cutting *k, int parity, int *added, thr_err *err)
 {
   const covering *c = k->s.c;
-  int added = 0;
-  for (int q = 0, first = rng_below(&k->r, ROWS); q < ROWS && !added; q++) {
+  thr_status st = THR_OK;
+  for (int q = 0, before = *added, first = rng_below(&k->r, ROWS); q < ROWS && *added == before && !st; q++) {
     int i = (first + q) % ROWS;
+    if (i % 2 != parity) continue;
     for (int j = 0; j < COLUMNS; j++) {
-      thr_pool_put(&k->pool, j, c->row[i][j] + 1); /* in two steps, which must add up */
-      thr_pool_put(&k->pool, j, -1);
+      thr_pool_put(&k->cut.pool, j, c->row[i][j] + 1); /* in two steps, which must add up */
+      thr_pool_put(&k->cut.pool, j, -1);
     }
-    ck_assert_int_eq(thr_pool_offer(&k->pool, (thr_row){.index = i, .lower = c->lower[i]}, x, 1e-6, &added, NULL), THR_OK);
+    st = thr_pool_offer(&k->cut.pool, (thr_row){.index = i, .lower = c->lower[i]}, k->x, 1e-6, added, err);
   }
-  return added;
+  return st;
+}
+
+static thr_status find_even(void *user, int *added, thr_err *err)
+{
+  ck_assert_int_eq(*added, 0);
+  return find(user, 0, added, err);
+}
+
+static thr_status find_odd(void *user, int *added, thr_err *err)
+{
+  cutting *k = user;
+  k->asked += *added > 0;
+  return find(k, 1, added, err);
+}
+
+static thr_status look(void *user, thr_err *err)
+{
+  (void)err;
+  cutting *k = user;
+  const thr_search *cut = &k->cut;
+  k->rounds++;
+  if (cut->outcome != THR_LP_OPTIMAL) return THR_OK;
+  ck_assert_int_eq(cut->pool.count, thr_lp_rows(cut->lp));
+  double paid = 0, reduced[COLUMNS];
+  for (int j = 0; j < COLUMNS; j++)
+    reduced[j] = k->s.c->cost[j];
+  for (int i = 0; i < cut->pool.count; i++) {
+    ck_assert_double_ge(thr_row_sum(&cut->pool.row[i], k->x), cut->pool.row[i].lower - 1e-6);
+    ck_assert_double_ge(cut->dual[i], -1e-9);
+    paid += cut->dual[i] * cut->pool.row[i].lower;
+    thr_row_charge(&cut->pool.row[i], cut->dual[i], reduced);
+  }
+  for (int j = 0; j < COLUMNS; j++) /* duality: what the rows and the bounds on columns pay */
+    paid += reduced[j] * (reduced[j] > 0 ? k->s.low[j] : k->s.high[j]);
+  ck_assert_double_eq_tol(paid, cut->objective, 1e-6);
+  k->cut.enough = cut->objective > k->s.tree.enough - 1 + 1e-6; /* prices are whole numbers */
+  return THR_OK;
 }
 
 static thr_status solve_by_programme(void *user, int node, thr_tree_branch *branch, thr_err *err)
 {
   cutting *k = user;
   thr_tree *t = &k->s.tree;
-  thr_limits none = {0};
-  double x[COLUMNS];
-  for (bool more = true, any; more;) {
-    thr_lp_outcome outcome;
-    ck_assert_int_eq(thr_pool_load(&k->pool, thr_lp_rows(k->lp), -1, k->lp, err), THR_OK);
-    ck_assert_int_eq(thr_lp_solve(k->lp, &none, &outcome, err), THR_OK);
-    if (outcome == THR_LP_INFEASIBLE) return THR_OK;
-    ck_assert_int_eq(outcome, THR_LP_OPTIMAL);
-    thr_lp_primal(k->lp, x);
-    for (int i = 0; i < k->pool.count; i++)
-      ck_assert_double_ge(thr_row_sum(&k->pool.row[i], x), k->pool.row[i].lower - 1e-6);
-    ck_assert_int_eq(thr_pool_age(&k->pool, 2, k->lp, &any, err), THR_OK);
-    ck_assert_int_eq(k->pool.count, thr_lp_rows(k->lp));
-    more = separate(k, x) > 0;
-  }
-  t->node[node].bound = fmax(t->node[node].bound, thr_lp_objective(k->lp) - 1e-6);
-  for (int j = 0; j < COLUMNS && branch->column < 0; j++)
-    if (fabs(x[j] - nearbyint(x[j])) > 1e-5) *branch = (thr_tree_branch){j, (int)floor(x[j]), false};
-  if (branch->column < 0) t->enough = fmin(t->enough, nearbyint(thr_lp_objective(k->lp)));
+  const thr_limits none = {0};
+  const thr_search_calls calls = {.user = k, .look = look, .patience = 2};
+  ck_assert_int_eq(thr_search_rounds(&k->cut, &calls, &none, err), THR_OK);
+  if (k->cut.outcome == THR_LP_INFEASIBLE || k->cut.enough) return THR_OK;
+  ck_assert_int_eq(k->cut.outcome, THR_LP_OPTIMAL);
+  t->node[node].bound = fmax(t->node[node].bound, k->cut.objective - 1e-6);
+  branch->column = thr_tree_undecided(k->x, 0, COLUMNS, 1e-5, NULL);
+  if (branch->column >= 0)
+    branch->value = (int)floor(k->x[branch->column]);
+  else
+    t->enough = fmin(t->enough, nearbyint(k->cut.objective));
   return THR_OK;
+}
+
+static void cutting_init(cutting *k, const covering *c, rng r, bool fallback)
+{
+  double cost[COLUMNS], most[COLUMNS] = {MOST, MOST, MOST, MOST, MOST};
+  *k = (cutting){.r = r};
+  for (int j = 0; j < COLUMNS; j++)
+    cost[j] = c->cost[j];
+  search_init(&k->s, c);
+  ck_assert_int_eq(thr_search_init(&k->cut, COLUMNS, k->x, NULL), THR_OK);
+  ck_assert_int_eq(thr_lp_create(&k->cut.lp, COLUMNS, cost, most, NULL), THR_OK);
+  thr_search_use(&k->cut, (thr_separator){.find = find_even, .user = k});
+  thr_search_use(&k->cut, (thr_separator){.find = find_odd, .user = k, .fallback = fallback, .slow = true});
+}
+
+static void cutting_destroy(cutting *k)
+{
+  thr_tree_destroy(&k->s.tree);
+  thr_search_destroy(&k->cut);
 }
 
 START_TEST(rows_found_on_the_way_lead_to_the_same_price)
 {
   rng r = rng_make((uint64_t)_i);
   const covering c = covering_make(&r);
-  cutting k = {.r = r};
-  double cost[COLUMNS], most[COLUMNS] = {MOST, MOST, MOST, MOST, MOST};
-  for (int j = 0; j < COLUMNS; j++)
-    cost[j] = c.cost[j];
-  search_init(&k.s, &c);
-  ck_assert_int_eq(thr_pool_init(&k.pool, COLUMNS, NULL), THR_OK);
-  ck_assert_int_eq(thr_lp_create(&k.lp, COLUMNS, cost, most, NULL), THR_OK);
-  const thr_tree_calls calls = {&k, NULL, set_in_programme, solve_by_programme};
-  ck_assert_int_eq(thr_tree_run(&k.s.tree, &calls, NULL), THR_OK);
-  ck_assert_double_eq(k.s.tree.enough, least_price(&c));
-  thr_tree_destroy(&k.s.tree);
-  thr_pool_destroy(&k.pool);
-  thr_lp_destroy(k.lp);
+  for (int fallback = 0; fallback < 2; fallback++) {
+    cutting k;
+    cutting_init(&k, &c, r, fallback);
+    const thr_tree_calls calls = {&k, NULL, set_in_programme, solve_by_programme};
+    ck_assert_int_eq(thr_tree_run(&k.s.tree, &calls, NULL), THR_OK);
+    ck_assert_double_eq(k.s.tree.enough, least_price(&c));
+    if (fallback) ck_assert_int_eq(k.asked, 0);
+    cutting_destroy(&k);
+  }
+}
+END_TEST
+
+static thr_status look_idly(void *user, thr_err *err)
+{
+  (void)err;
+  cutting *k = user;
+  k->rounds++;
+  k->cut.whole = k->whole;
+  return THR_OK;
+}
+
+START_TEST(rounds_end_where_they_are_told_to)
+{
+  rng r = rng_make((uint64_t)_i);
+  const covering c = covering_make(&r);
+  double work = 0;
+  const thr_limits none = {0}, over = {.work = &work};
+  cutting k;
+  for (int whole = 0; whole < 2; whole++) { /* which the number of rounds does not end */
+    cutting_init(&k, &c, r, true);
+    k.whole = whole;
+    const thr_search_calls calls = {.user = &k, .look = look_idly, .most_rounds = 2};
+    ck_assert_int_eq(thr_search_rounds(&k.cut, &calls, &none, NULL), THR_OK);
+    if (!whole) ck_assert_int_le(k.rounds, 2);
+    for (int i = 0; i < ROWS && (whole || k.rounds < 2); i++) {
+      double sum = 0;
+      for (int j = 0; j < COLUMNS; j++)
+        sum += c.row[i][j] * k.x[j];
+      ck_assert_double_ge(sum, c.lower[i] - 1e-5);
+    }
+    cutting_destroy(&k);
+  }
+  cutting_init(&k, &c, r, true);
+  const thr_search_calls calls = {.user = &k, .look = look_idly, .name = "a covering problem"};
+  ck_assert_int_eq(thr_search_rounds(&k.cut, &calls, &over, NULL), THR_OK);
+  ck_assert(k.cut.outcome == THR_LP_STOPPED && k.rounds == 1);
+  thr_err err = {0}; /* of no solution the name is told */
+  thr_pool_put(&k.cut.pool, 0, 1);
+  ck_assert_int_eq(thr_pool_add(&k.cut.pool, (thr_row){.lower = MOST + 1}, NULL), THR_OK);
+  ck_assert_int_eq(thr_search_rounds(&k.cut, &calls, &none, &err), THR_ESOLVER);
+  ck_assert_ptr_nonnull(strstr(err.text, "a covering problem"));
+  cutting_destroy(&k);
+}
+END_TEST
+
+START_TEST(the_most_undecided_column)
+{
+  const double x[] = {2, 0.3, 0.5, 1.5, 7};
+  const int decided[] = {0, 0, 1, 0, 0};
+  ck_assert_int_eq(thr_tree_undecided(x, 0, 5, 1e-6, NULL), 2); /* of equal ones the first */
+  ck_assert_int_eq(thr_tree_undecided(x, 0, 5, 1e-6, decided), 3);
+  ck_assert_int_eq(thr_tree_undecided(x, 0, 2, 1e-6, NULL), 1);
+  ck_assert_int_eq(thr_tree_undecided(x, 0, 2, 0.4, NULL), -1);
+  ck_assert_int_eq(thr_tree_undecided(x, 4, 5, 1e-6, NULL), -1);
 }
 END_TEST
 
@@ -325,11 +429,13 @@ END_TEST
 
 int main(void)
 {
-  Suite *s = suite_create("rows and tree");
+  Suite *s = suite_create("rows, rounds and tree");
   ADD_LOOP(s, 20, the_tree_finds_the_least_of_all_points, 0, 200);
   ADD_LOOP(s, 20, a_stopped_tree_knows_a_bound, 0, 50);
   ADD_TEST(s, 5, of_equal_bounds_the_deepest_the_youngest_the_preferred);
   ADD_LOOP(s, 20, rows_found_on_the_way_lead_to_the_same_price, 0, 200);
+  ADD_LOOP(s, 20, rounds_end_where_they_are_told_to, 0, 50);
+  ADD_TEST(s, 5, the_most_undecided_column);
   ADD_TEST(s, 5, a_row_is_known_until_it_is_dropped);
   ADD_TEST(s, 5, a_pool_of_thousands_knows_them_all);
   return run_suite(s);

@@ -1,31 +1,31 @@
 /* Branch and cut, one aim after the other. */
-#include "symmetry/cover/search.h"
+#include "symmetry/cover/cover_search.h"
 #include "lp/solver/lp.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-void thr_search_destroy(thr_search *s)
+void thr_cover_search_destroy(thr_cover_search *s)
 {
   thr_relaxation_destroy(&s->r);
   free(s->best);
   free(s->other);
 }
 
-thr_status thr_search_init(thr_search *s, const thr_programme *p, const thr_limits *limits, thr_err *err)
+thr_status thr_cover_search_init(thr_cover_search *s, const thr_programme *p, const thr_limits *limits, thr_err *err)
 {
-  *s = (thr_search){.p = p, .limits = limits};
+  *s = (thr_cover_search){.p = p, .limits = limits};
   s->best = thr_calloc((size_t)p->n, sizeof *s->best);
   s->other = thr_calloc((size_t)p->n, sizeof *s->other);
   if (s->best && s->other) return THR_OK;
-  thr_search_destroy(s);
-  *s = (thr_search){0};
+  thr_cover_search_destroy(s);
+  *s = (thr_cover_search){0};
   return thr_nomem(err);
 }
 
 /* Is this more in an aim before turning, so that a bound on turning that keeps those aims may not hold for it? */
-static bool loosens(const thr_search *s, const double *worth)
+static bool loosens(const thr_cover_search *s, const double *worth)
 {
   const thr_aim *prefer = s->p->o->prefer;
   bool more = false;
@@ -35,7 +35,7 @@ static bool loosens(const thr_search *s, const double *worth)
 }
 
 /* Keeps s->other if it can be made concrete and is better than the best so far. */
-thr_status thr_search_offer(thr_search *s, thr_err *err)
+thr_status thr_cover_search_offer(thr_cover_search *s, thr_err *err)
 {
   double worth[THR_N_AIMS];
   thr_status st = thr_programme_value(s->p, s->other, worth, &s->valid, err);
@@ -48,24 +48,24 @@ thr_status thr_search_offer(thr_search *s, thr_err *err)
 }
 
 /* Offers the whole point of the relaxation, as it is and mended. */
-static thr_status consider(thr_search *s, thr_err *err)
+static thr_status consider(thr_cover_search *s, thr_err *err)
 {
   for (int j = 0; j < s->p->n; j++)
     s->other[j] = (int)lround(s->r.x[j]);
-  thr_status st = thr_search_offer(s, err);
+  thr_status st = thr_cover_search_offer(s, err);
   if (!st) st = thr_programme_mend(s->p, s->other, err);
-  return st ? st : thr_search_offer(s, err);
+  return st ? st : thr_cover_search_offer(s, err);
 }
 
 /* Is the best so far as good as this bound? */
-bool thr_search_beaten(const thr_search *s, thr_aim aim, double bound)
+bool thr_cover_search_beaten(const thr_cover_search *s, thr_aim aim, double bound)
 {
   return s->found && s->worth[aim] <= bound + thr_programme_tolerance(s->p, aim);
 }
 
 /* Solves a node with all rows that its optima violate, integer: its whole ones. *open: it is to be branched on. THR_ELIMIT:
  * stopped. */
-static thr_status solve_node(thr_search *s, thr_aim aim, bool root, bool integer, bool *open, thr_err *err)
+static thr_status solve_node(thr_cover_search *s, thr_aim aim, bool root, bool integer, bool *open, thr_err *err)
 {
   thr_relaxation *relaxation = &s->r;
   *open = false;
@@ -77,7 +77,7 @@ static thr_status solve_node(thr_search *s, thr_aim aim, bool root, bool integer
     if (outcome != THR_LP_OPTIMAL) return THR_OK;
     if (root) s->bound[aim] = fmax(s->bound[aim], relaxation->objective);
     if (relaxation->whole) st = consider(s, err);
-    if (!st && thr_search_beaten(s, aim, relaxation->objective)) return THR_OK;
+    if (!st && thr_cover_search_beaten(s, aim, relaxation->objective)) return THR_OK;
     if (!st) st = thr_relaxation_separate(relaxation, s->limits, &added, err);
     if (st) return st;
   }
@@ -87,7 +87,7 @@ static thr_status solve_node(thr_search *s, thr_aim aim, bool root, bool integer
 
 /* The root once more, by GLPK, in half the time that is left: where ties leave many equally good points, its branching finds
  * whole ones sooner. */
-static thr_status solve_whole(thr_search *s, thr_aim aim, bool *open, thr_err *err)
+static thr_status solve_whole(thr_cover_search *s, thr_aim aim, bool *open, thr_err *err)
 {
   const thr_limits *all = s->limits;
   const thr_limits half = thr_limits_part(all, 0.5);
@@ -98,7 +98,7 @@ static thr_status solve_whole(thr_search *s, thr_aim aim, bool *open, thr_err *e
 }
 
 /* The relaxation for the aim of that number, with the aims before it kept. */
-static thr_status prepare(thr_search *s, int number, thr_err *err)
+static thr_status prepare(thr_cover_search *s, int number, thr_err *err)
 {
   const thr_aim *prefer = s->p->o->prefer;
   thr_status st = s->r.p ? THR_OK : thr_relaxation_init(&s->r, s->p, s->extra, s->limits, err);
@@ -111,12 +111,12 @@ static thr_status prepare(thr_search *s, int number, thr_err *err)
 
 /* The search for the best value of one aim. */
 typedef struct {
-  thr_search *s;
+  thr_cover_search *s;
   thr_aim aim;
   thr_tree tree;
 } aim_search;
 
-static double enough(const thr_search *s, thr_aim aim)
+static double enough(const thr_cover_search *s, thr_aim aim)
 {
   return s->found ? s->worth[aim] - thr_programme_tolerance(s->p, aim) : INFINITY;
 }
@@ -131,7 +131,7 @@ static thr_status set_bounds(void *user, int column, int low, int high, thr_err 
 static thr_status solve(void *user, int i, thr_tree_branch *branch, thr_err *err)
 {
   aim_search *a = user;
-  thr_search *s = a->s;
+  thr_cover_search *s = a->s;
   thr_tree_node *node = &a->tree.node[i];
   const thr_relaxation *relaxation = &s->r;
   bool open;
@@ -162,11 +162,11 @@ static thr_status init_tree(aim_search *a, thr_err *err)
 }
 
 /* Minimizes one aim by branch and cut. THR_ELIMIT: stopped; the bounds on columns are as before in any case. */
-static thr_status minimize(thr_search *s, int number, thr_err *err)
+static thr_status minimize(thr_cover_search *s, int number, thr_err *err)
 {
   aim_search a = {.s = s, .aim = s->p->o->prefer[number]};
   const thr_tree_calls calls = {&a, s->limits, set_bounds, solve};
-  if (thr_search_beaten(s, a.aim, s->bound[a.aim])) return THR_OK;
+  if (thr_cover_search_beaten(s, a.aim, s->bound[a.aim])) return THR_OK;
   thr_status st = prepare(s, number, err);
   if (!st) st = init_tree(&a, err);
   if (!st) st = thr_tree_run(&a.tree, &calls, err);
@@ -184,7 +184,7 @@ static thr_status minimize(thr_search *s, int number, thr_err *err)
 }
 
 /* The first so many aims, one after the other. */
-thr_status thr_search_aims(thr_search *s, int n, thr_err *err)
+thr_status thr_cover_search_aims(thr_cover_search *s, int n, thr_err *err)
 {
   thr_status st = THR_OK;
   for (int k = 0; k < n && !st; k++)
