@@ -18,7 +18,7 @@ thr_status thr_even_seed(const thr_frame *frame, const thr_request *options, con
   const thr_limits share = thr_dispatch_share(limits, THR_STEP_SEED);
   so.symmetry = thr_request_default().symmetry;
   so.aims = thr_aims_symmetric;
-  thr_status st = thr_symmetries_find(frame, &so, &share, &symmetries, &why);
+  thr_status st = thr_symmetries_find(frame, &so, false, &share, &symmetries, &why);
   int row = st && st != THR_ELIMIT ? -1 : thr_symmetries_even(&symmetries, options->cords);
   if (row >= 0) st = thr_symmetries_plan(&symmetries, row, frame, &so, &share, seed, &why);
   thr_symmetries_destroy(&symmetries);

@@ -104,7 +104,7 @@ static thr_status verdict(const thr_symmetries *symmetries, const char *group, t
   const thr_symmetry_row *none = NULL, *open = NULL;
   for (int i = 0; i < symmetries->n; i++) {
     thr_status why = symmetries->row[i].why.code;
-    if (!thr_symmetry_asked(symmetries, i, group)) continue;
+    if (!thr_symmetry_asked(symmetries, i, group) || symmetries->row[i].behind) continue;
     asked++;
     unsolved += why == THR_ELIMIT || why == THR_ESOLVER;
     loose += symmetries->row[i].solved && why == THR_ELIMIT;
@@ -113,9 +113,11 @@ static thr_status verdict(const thr_symmetries *symmetries, const char *group, t
   }
   if (none && symmetries->chosen < 0 && !unsolved) return thr_fail(err, none->why.code, "%s", none->why.text);
   if (!unsolved) return THR_OK;
+  if (loose == unsolved && asked == 1)
+    return thr_fail(err, THR_ELIMIT, "the group is solved, but not optimal by the solver's word: %s", none->why.text);
   if (loose == unsolved)
-    return thr_fail(err, THR_ELIMIT, "%d of %d %s solved, but not optimal by the solver's word: %s", loose, asked,
-                    asked == 1 ? "group is" : "groups are", none->why.text);
+    return thr_fail(err, THR_ELIMIT, "%d of %d groups are solved, but not optimal by the solver's word: %s", loose, asked,
+                    none->why.text);
   return thr_fail(err, THR_ELIMIT, "%d of %d %s not solved to the end: %s", unsolved - loose, asked,
                   asked == 1 ? "group was" : "groups were", open->why.text);
 }
@@ -130,8 +132,8 @@ static thr_status check_request(const thr_request *options, thr_err *err)
   return what ? thr_fail(err, THR_EINPUT, "symmetric threadings do not know %s", what) : THR_OK;
 }
 
-thr_status thr_symmetries_find(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_symmetries *out,
-                               thr_err *err)
+thr_status thr_symmetries_find(const thr_frame *frame, const thr_request *options, bool only_choice, const thr_limits *limits,
+                               thr_symmetries *out, thr_err *err)
 {
   *out = (thr_symmetries){.chosen = -1};
   thr_status st = check_request(options, err);
@@ -139,7 +141,7 @@ thr_status thr_symmetries_find(const thr_frame *frame, const thr_request *option
   const thr_limits share = thr_limits_part(limits, 0.3);
   if (!st) st = thr_symmetry_groups(frame, options, &share, out, err);
   if (!st) st = check_asked(out, options->symmetry.group, err);
-  if (!st) st = thr_symmetry_solve(frame, options, limits, out, err);
+  if (!st) st = thr_symmetry_solve(frame, options, only_choice, limits, out, err);
   if (!st) {
     choose(out);
     st = verdict(out, options->symmetry.group, err);
@@ -230,7 +232,7 @@ thr_status thr_symmetry_plan(const thr_frame *frame, const thr_request *options,
   thr_symmetries symmetries;
   thr_err early = {0}, own = {0};
   *plan = (thr_plan){0};
-  thr_status found = thr_symmetries_find(frame, options, limits, &symmetries, &early), st = found;
+  thr_status found = thr_symmetries_find(frame, options, true, limits, &symmetries, &early), st = found;
   if (symmetries.chosen >= 0) st = thr_symmetries_plan(&symmetries, symmetries.chosen, frame, options, limits, plan, &own);
   if (st == THR_OK) st = found;
   if (!table || (st && st != THR_ELIMIT)) thr_symmetries_destroy(&symmetries);

@@ -35,9 +35,10 @@ typedef struct {
   int kinds[THR_ISO_NONE + 1]; /* elements of each kind */
   double residual;             /* of the element that is farthest from an isometry (symmetry/group/isometry.h) */
   /* THR_OK: best, proved. THR_ELIMIT: not proved, or none found in time (then n_cords = 0). THR_EINFEASIBLE, THR_EINPUT,
-   * THR_ESOLVER: none, said why. code 0 and n_cords = 0: not asked for. */
+   * THR_ESOLVER: none, said why. code 0 and n_cords = 0: not asked for, or left out (behind). */
   thr_err why;
-  bool solved;                                 /* the programme was, to the end: if not THR_OK, it proves less than the best */
+  int behind;  /* number, from 1, of a row that is chosen rather than this one whatever threading it has; 0 = none */
+  bool solved; /* the programme was, to the end: if not THR_OK, it proves less than the best */
   double value[THR_N_AIMS], bound[THR_N_AIMS]; /* what the plan has; no threading under the group, as plans count, has less with
                                                   the aims before it at these values (symmetry/cover/claims.h) */
   int n_cords;
@@ -78,12 +79,13 @@ typedef struct {
  * isometries within it make, among the automorphisms that keep edge lengths (thr_length_colours).
  * options.symmetry.group: only the rows of that number or name are solved, and the best of them is chosen. Otherwise the default
  * choice: least learned steps among the rows with at most thr_symmetry_slack more cord than the shortest plan, or if there is
- * none the least cord; ties by overlap, cords, turning, number. Time is shared as symmetry/cover/solve.h says. THR_OK: every row
- * that was asked for is solved. THR_ELIMIT: some are not (their row says so); out holds the rest. THR_EINPUT: no row of that
- * number or name, or a largest length, balance or numbers of ends are asked for. THR_EINFEASIBLE: no threading with these ends.
- * Otherwise out is empty. */
-thr_status thr_symmetries_find(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_symmetries *out,
-                               thr_err *err) THR_MUST_CHECK;
+ * none the least cord; ties by overlap, cords, turning, number. Time is shared as symmetry/cover/solve.h says. only_choice: as
+ * soon as the choice is proved, rows that are not needed for it are left out. THR_OK: every other row that was asked for is
+ * solved. THR_ELIMIT: some are not (their row says so); out holds the rest. THR_EINPUT: no row of that number or name, or a
+ * largest length, balance or numbers of ends are asked for. THR_EINFEASIBLE: no threading with these ends. Otherwise out is
+ * empty. */
+thr_status thr_symmetries_find(const thr_frame *frame, const thr_request *options, bool only_choice, const thr_limits *limits,
+                               thr_symmetries *out, thr_err *err) THR_MUST_CHECK;
 void thr_symmetries_destroy(thr_symmetries *symmetries);
 
 /* The plan of a row that has cords, which it takes out of the table: with its record, metrics and, with solid beads, the proof of
@@ -92,8 +94,9 @@ void thr_symmetries_destroy(thr_symmetries *symmetries);
 thr_status thr_symmetries_plan(thr_symmetries *symmetries, int row, const thr_frame *frame, const thr_request *options,
                                const thr_limits *limits, thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 
-/* Both: the plan of the chosen row; table (NULL = not wanted) receives the table, without that row's cords. THR_ELIMIT also if
- * not every row was solved, so that another might be chosen; with an empty plan if no row has a threading yet. */
+/* Both, only as far as the choice needs: the plan of the chosen row; table (NULL = not wanted) receives the table, without that
+ * row's cords. THR_ELIMIT also if not every row was solved, so that another might be chosen; with an empty plan if no row has a
+ * threading yet. */
 thr_status thr_symmetry_plan(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_symmetries *table,
                              thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 

@@ -136,7 +136,7 @@ static int list_symmetries(arguments *a, const thr_frame *framework)
   int code = cli_resolve_ends(a->ends, framework, &a->plan);
   if (code == EXIT_OK) {
     const thr_limits limits = cli_limits(a->plan.time_limit);
-    thr_status st = thr_symmetries_find(framework, &a->plan, &limits, &symmetries, &err);
+    thr_status st = thr_symmetries_find(framework, &a->plan, false, &limits, &symmetries, &err);
     cli_progress_end();
     if (!st || st == THR_ELIMIT) code = print(a, framework, &symmetries);
     if (code == EXIT_OK && st) code = cli_fail(&err);

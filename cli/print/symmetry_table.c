@@ -116,7 +116,7 @@ static void put_row(thr_text *text, const thr_request *options, const thr_symmet
                     solvers_word(options, row));
   } else {
     bool open = row->why.code == THR_ELIMIT || row->why.code == THR_ESOLVER;
-    thr_text_printf(text, "  %-79.79s", open ? row->why.text : row->why.code ? "no threading" : "not asked for");
+    thr_text_printf(text, "  %-86.86s", open ? row->why.text : row->why.code ? "no threading" : "not asked for");
   }
   thr_text_printf(text, " %8.3f  ", row->residual);
   put_kinds(text, row);
@@ -139,22 +139,42 @@ static void put_reason(thr_text *text, const thr_request *options, const thr_sym
   thr_text_append(text, "\n");
 }
 
+static bool is_shown(const thr_request *options, const thr_symmetries *symmetries, int i)
+{
+  const thr_symmetry_row *row = &symmetries->row[i];
+  return !row->behind && (!*options->symmetry.group || row->n_cords > 0 || row->why.code);
+}
+
+/* Rows first .. last - 1 of those that are shown, the chosen one among them: at most `most`. */
+static void choose_window(const thr_request *options, const thr_symmetries *symmetries, int most, int *first, int *last)
+{
+  int n = 0, at = 0;
+  for (int i = 0; i < symmetries->n; i++) {
+    if (i == symmetries->chosen) at = n;
+    n += is_shown(options, symmetries, i);
+  }
+  *first = n <= most || at < most / 2 ? 0 : at - most / 2 > n - most ? n - most : at - most / 2;
+  *last = n < *first + most ? n : *first + most;
+}
+
 void symmetry_put_table(thr_text *text, const thr_request *options, const thr_symmetries *symmetries, int most)
 {
-  int first = 0, last = symmetries->n;
-  bool only = *options->symmetry.group != '\0';
-  if (symmetries->n > most && !only) {
-    first = symmetries->chosen - most / 2 < 0 ? 0 : symmetries->chosen - most / 2;
-    if (first > symmetries->n - most) first = symmetries->n - most;
-    last = first + most;
-  }
+  int first, last, behind = 0, at = 0;
+  choose_window(options, symmetries, *options->symmetry.group ? symmetries->n : most, &first, &last);
   thr_text_printf(text, "%6s %6s  %-6s %9s %11s %8s %6s %12s %12s %12s %11s %8s  %s\n", "number", "order", "group", "overlap",
                   "unique x", "steps", "cords", "turning", "largest", "capstan", "solver says", "residual", "elements");
   if (first > 0) thr_text_printf(text, "    ..  %d larger\n", first);
-  for (int i = first; i < last; i++)
-    if (!only || symmetries->row[i].n_cords > 0 || symmetries->row[i].why.code) put_row(text, options, symmetries, i);
-  if (last < symmetries->n) thr_text_printf(text, "    ..  %d smaller\n", symmetries->n - last);
+  for (int i = 0; i < symmetries->n; i++) {
+    behind += symmetries->row[i].behind > 0;
+    if (!is_shown(options, symmetries, i)) continue;
+    if (at >= first && at < last) put_row(text, options, symmetries, i);
+    at++;
+  }
+  if (last < at) thr_text_printf(text, "    ..  %d smaller\n", at - last);
   if (symmetries->chosen >= 0) put_reason(text, options, symmetries);
+  if (behind > 0)
+    thr_text_printf(text, "  %d other %s cannot be better; `thread symmetries` shows %s\n", behind,
+                    cli_plural(behind, "group", "groups"), cli_plural(behind, "it", "them"));
 }
 
 /* ---- copies ---- */
@@ -222,7 +242,7 @@ static void put_name_json(thr_writer *writer, const char *name)
 static const char *row_status(const thr_symmetry_row *row)
 {
   switch (row->why.code) {
-  case THR_OK: return row->n_cords > 0 ? "optimal by the solver's word" : "not asked for";
+  case THR_OK: return row->n_cords > 0 ? "optimal by the solver's word" : row->behind ? "not chosen" : "not asked for";
   case THR_ELIMIT: return row->n_cords > 0 ? "bound" : "stopped";
   case THR_EINFEASIBLE: return "infeasible";
   default: return "failed";
@@ -271,6 +291,7 @@ static void put_row_json(thr_writer *writer, const thr_request *options, const t
   thr_write_close(writer);
   thr_write_string(writer, "status", row_status(row));
   if (row->why.code) thr_write_string(writer, "why", row->why.text);
+  if (row->behind) thr_write_int(writer, "behind", row->behind);
   if (row->n_cords > 0) put_threading_json(writer, options, row);
   thr_write_close(writer);
 }

@@ -6,6 +6,7 @@
 #include "symmetry/group/group.h"
 #include "symmetry/group/quotient.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -24,7 +25,8 @@ typedef struct {
   thr_symmetries *t;
   thr_cover_options how;
   int *edge_cover, *edge_capacity; /* [n_edges] */
-  double base;                     /* cord that the edges need, units */
+  double base, passes;             /* cord that the edges need, units, and passes */
+  bool only_choice;                /* rows that will not be chosen in any case need no threading */
   double end;                      /* thr_clock() at which all must be done; 0 = any time */
   thr_cover *cover;                /* [t->n] so far */
 } solver;
@@ -58,6 +60,7 @@ static thr_status solver_init(solver *s, const thr_frame *frame, const thr_reque
     s->edge_cover[e] = thr_plan_cover(frame, options, e);
     s->edge_capacity[e] = thr_plan_capacity(frame, options, e);
     s->base += s->edge_cover[e] * frame->length[e];
+    s->passes += s->edge_cover[e];
   }
   s->how.edge_cover = s->edge_cover;
   s->how.edge_capacity = s->edge_capacity;
@@ -210,55 +213,121 @@ bool thr_symmetry_asked(const thr_symmetries *symmetries, int row, const char *g
   return !*group || strcmp(number, group) == 0 || strcmp(symmetries->row[row].name, group) == 0;
 }
 
-/* Is there, for all that is known, a better default choice under this group than the best so far? */
-static bool may_be_chosen(const solver *s, int row)
+/* What is known of a row's threading: of its plan, else of the cover so far; least: no threading under the group has less. */
+typedef struct {
+  bool there, made; /* made: the plan, whose steps count; a bare cover's may count otherwise */
+  double overlap, steps, least_overlap, least_steps;
+} standing;
+
+static standing standing_of(const solver *s, int i)
 {
-  double limit = s->t->shortest * (1 + thr_symmetry_slack) - s->base, steps = INFINITY, overlap = INFINITY;
-  const thr_cover *c = s->cover;
+  const thr_symmetry_row *row = &s->t->row[i];
+  const thr_cover *c = &s->cover[i];
+  const double steps = s->passes / row->order; /* a learned step has at most as many copies as the group has elements */
+  if (row->n_cords > 0)
+    return (standing){true, true, row->metrics.overlap, row->record.steps, row->metrics.overlap, row->record.steps};
+  return (standing){c->copies != NULL,
+                    false,
+                    c->value[THR_AIM_OVERLAP],
+                    c->value[THR_AIM_STEPS],
+                    fmax(0, c->bound[THR_AIM_OVERLAP]),
+                    fmax(steps, c->bound[THR_AIM_STEPS])};
+}
+
+/* Overlap up to which the default choice is by learned steps. */
+static double overlap_within(const solver *s)
+{
+  return s->t->shortest * (1 + thr_symmetry_slack) - s->base;
+}
+
+/* Is a sure to be chosen rather than b, whatever b becomes? Of a tie it is not: what breaks it is not known yet. */
+static bool is_ahead(const solver *s, const standing *a, const standing *b)
+{
+  const double within = overlap_within(s), same = 1e-8 * fmax(1, s->base);
+  if (a->overlap > within) return b->least_overlap > a->overlap + same;
+  if (b->least_overlap > within + same || b->least_steps > a->steps + 1e-6) return true;
+  return b->least_steps > a->steps - 1e-6 && b->least_overlap > a->overlap + same;
+}
+
+/* The row that is sure to be chosen rather than this one, -1 = none; made: only one with a plan counts, no bare cover. */
+static int row_ahead(const solver *s, int row, bool made)
+{
+  const standing own = standing_of(s, row);
   for (int i = 0; i < s->t->n; i++) {
-    if (!c[i].copies) continue;
-    overlap = fmin(overlap, c[i].value[THR_AIM_OVERLAP]);
-    if (c[i].value[THR_AIM_OVERLAP] <= limit) steps = fmin(steps, c[i].value[THR_AIM_STEPS]);
+    const standing other = standing_of(s, i);
+    if (i == row || !other.there || (made && !other.made) || !thr_symmetry_asked(s->t, i, s->o->symmetry.group)) continue;
+    if (is_ahead(s, &other, &own)) return i;
   }
-  if (!c[row].copies) return true;
-  if (isinf(steps)) return c[row].bound[THR_AIM_OVERLAP] < overlap - 1e-9 * s->base;
-  return c[row].bound[THR_AIM_OVERLAP] <= limit && c[row].bound[THR_AIM_STEPS] < steps - 1e-9;
+  return -1;
 }
 
 typedef enum { FIRST, CHOICE, PROOFS, N_ROUNDS } turn;
 
 static bool has_turn(const solver *s, turn r, int row)
 {
-  bool ended = s->t->row[row].why.code && s->t->row[row].why.code != THR_ELIMIT;
-  return thr_symmetry_asked(s->t, row, s->o->symmetry.group) && !ended && (r != CHOICE || may_be_chosen(s, row));
+  const thr_symmetry_row *of = &s->t->row[row];
+  bool ended = of->n_cords > 0 || (of->why.code && of->why.code != THR_ELIMIT);
+  if (ended || !thr_symmetry_asked(s->t, row, s->o->symmetry.group)) return false;
+  return (r != CHOICE && !s->only_choice) || row_ahead(s, row, r == PROOFS) < 0;
+}
+
+/* The row whose turn is next: with the fewest learned steps as far as known, -1 = none. *left: how many have one. */
+static int next_row(const solver *s, turn r, const bool *had, int *left)
+{
+  double fewest = INFINITY;
+  int next = -1;
+  *left = 0;
+  for (int i = 0; i < s->t->n; i++) {
+    if (had[i] || !has_turn(s, r, i)) continue;
+    const standing own = standing_of(s, i);
+    double steps = !own.there ? own.least_steps : own.overlap > overlap_within(s) ? (double)FLT_MAX : own.steps;
+    ++*left;
+    if (steps < fewest) next = i;
+    fewest = fmin(fewest, steps);
+  }
+  return next;
 }
 
 static thr_status solve_round(solver *s, turn r, const thr_limits *limits, thr_err *err)
 {
   static const double part[N_ROUNDS] = {0.5, 0.7, 1}; /* of the time that is left */
   const thr_limits all = thr_limits_part(limits, part[r]);
-  int n = 0, done = 0;
-  thr_status st = THR_OK;
-  for (int i = 0; i < s->t->n; i++)
-    n += has_turn(s, r, i);
-  for (int i = 0; i < s->t->n && !st && done < n; i++) {
-    if (!has_turn(s, r, i)) continue;
-    if (limits->advance) limits->advance(limits->user, "threading under each group", (r + (double)done / n) / N_ROUNDS);
-    const thr_limits share = thr_limits_part(&all, 1.0 / (n - done++));
+  bool *had = thr_calloc((size_t)s->t->n, sizeof *had);
+  thr_status st = had ? THR_OK : thr_nomem(err);
+  int left = 0;
+  for (int i; !st && (i = next_row(s, r, had, &left)) >= 0;) {
+    if (limits->advance) limits->advance(limits->user, "threading under each group", (r + 1 - (double)left / s->t->n) / N_ROUNDS);
+    const thr_limits share = thr_limits_part(&all, 1.0 / left);
+    had[i] = true;
     st = solve(s, i, r != PROOFS, &share, err);
   }
+  free(had);
   return st;
 }
 
-thr_status thr_symmetry_solve(const thr_frame *frame, const thr_request *options, const thr_limits *limits,
+/* Those that were not solved to the end because another is chosen in any case say so instead of that they were stopped. */
+static void note_behind(solver *s)
+{
+  for (int i = 0; i < s->t->n; i++) {
+    thr_symmetry_row *row = &s->t->row[i];
+    const int ahead = row->n_cords > 0 || !thr_symmetry_asked(s->t, i, s->o->symmetry.group) ? -1 : row_ahead(s, i, true);
+    if (ahead < 0 || (row->why.code && row->why.code != THR_ELIMIT)) continue;
+    row->why = (thr_err){0};
+    row->behind = ahead + 1;
+  }
+}
+
+thr_status thr_symmetry_solve(const thr_frame *frame, const thr_request *options, bool only_choice, const thr_limits *limits,
                               thr_symmetries *symmetries, thr_err *err)
 {
   solver s;
   thr_status st = solver_init(&s, frame, options, symmetries, err);
   if (st) return st;
   s.end = limits->deadline;
+  s.only_choice = only_choice;
   for (int r = limits->deadline > 0 ? FIRST : PROOFS; r < N_ROUNDS && !st; r++)
     st = solve_round(&s, (turn)r, limits, err);
+  if (only_choice) note_behind(&s);
   solver_destroy(&s);
   return st;
 }

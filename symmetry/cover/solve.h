@@ -10,8 +10,9 @@
 #include "symmetry/symmetry.h"
 
 /* Fills the rows that are asked for. With a deadline: first all rows, overlap and learned steps only; then, likewise, those that
- * may yet become the default choice; then what is left goes to all proofs, in equal shares. */
-thr_status thr_symmetry_solve(const thr_frame *frame, const thr_request *options, const thr_limits *limits,
+ * may yet become the default choice; then what is left goes to all proofs, in equal shares, those with the fewest learned steps
+ * first. only_choice: rows that another is sure to be chosen before are left out, and say which (thr_symmetry_row.behind). */
+thr_status thr_symmetry_solve(const thr_frame *frame, const thr_request *options, bool only_choice, const thr_limits *limits,
                               thr_symmetries *symmetries, thr_err *err) THR_MUST_CHECK;
 
 /* What the shortest cords with tube joints need, in units: few, and the cords need not be closed: with one cord in each

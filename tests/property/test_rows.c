@@ -67,11 +67,32 @@ static void check_alone(const thr_frame *f, thr_request o, int number, const thr
   const thr_limits none = {0};
   thr_symmetries t;
   snprintf(o.symmetry.group, sizeof o.symmetry.group, "%d", number);
-  ck_assert_int_ne(thr_symmetries_find(f, &o, &none, &t, NULL), THR_ENOMEM);
+  ck_assert_int_ne(thr_symmetries_find(f, &o, false, &none, &t, NULL), THR_ENOMEM);
   ck_assert_int_eq(t.chosen, number - 1);
   const thr_symmetry_row *alone = &t.row[t.chosen];
   ck_assert(alone->metrics.overlap == row->metrics.overlap && alone->metrics.turning == row->metrics.turning);
   ck_assert(alone->record.steps == row->record.steps && alone->n_cords == row->n_cords);
+  thr_symmetries_destroy(&t);
+}
+
+/* What is left out when only the choice is wanted could not be chosen: the table of all rows has the same. */
+static void check_choice(const thr_frame *f, const thr_request *o, const thr_symmetries *all)
+{
+  const thr_limits none = {0};
+  thr_symmetries t;
+  const double within = all->shortest * (1 + thr_symmetry_slack);
+  ck_assert_int_ne(thr_symmetries_find(f, o, true, &none, &t, NULL), THR_ENOMEM);
+  ck_assert(t.n == all->n && t.chosen == all->chosen && t.within == all->within);
+  const thr_symmetry_row *best = &all->row[all->chosen];
+  for (int i = 0; i < t.n; i++) {
+    const thr_symmetry_row *row = &all->row[i];
+    ck_assert((t.row[i].n_cords == 0) == (t.row[i].behind > 0));
+    if (!t.row[i].behind) continue;
+    ck_assert(t.row[t.row[i].behind - 1].n_cords > 0);
+    ck_assert(all->within ? row->metrics.length > within || row->record.steps > best->record.steps - 1e-9
+                          : row->metrics.overlap > best->metrics.overlap);
+  }
+  ck_assert(t.row[t.chosen].metrics.turning == best->metrics.turning && t.row[t.chosen].record.steps == best->record.steps);
   thr_symmetries_destroy(&t);
 }
 
@@ -85,13 +106,14 @@ START_TEST(rows_and_their_plans)
   thr_symmetries t;
   thr_err err = {0};
   want(&o, "overlap,steps");
-  thr_status found = thr_symmetries_find(&f, &o, &none, &t, &err);
+  thr_status found = thr_symmetries_find(&f, &o, false, &none, &t, &err);
   if (ends == THR_ENDS_FEET && !s->feet) {
     ck_assert_int_eq(found, THR_EINFEASIBLE);
     thr_frame_destroy(&f);
     return;
   }
   ck_assert_msg(found == THR_OK || found == THR_ELIMIT, "%s", err.text);
+  check_choice(&f, &o, &t);
   for (int i = 0; i < t.n; i++) {
     thr_symmetry_row *row = &t.row[i];
     thr_plan p;

@@ -22,7 +22,7 @@ static thr_symmetries table_of(const thr_frame *f, const thr_request *o)
 {
   thr_symmetries t;
   thr_err err = {0};
-  thr_status st = thr_symmetries_find(f, o, &no_limits, &t, &err);
+  thr_status st = thr_symmetries_find(f, o, false, &no_limits, &t, &err);
   bool solved = st == THR_OK || st == THR_ELIMIT; /* the latter where plans count less than the programme */
   for (int i = 0; i < t.n && st == THR_ELIMIT; i++)
     solved = solved && (t.row[i].why.code == THR_OK || (t.row[i].why.code == THR_ELIMIT && t.row[i].solved));
@@ -206,7 +206,7 @@ START_TEST(groups_by_number_and_name)
   ck_assert(t.chosen == 1 && t.row[2].n_cords == 8);
   thr_symmetries_destroy(&t);
   snprintf(o.symmetry.group, sizeof o.symmetry.group, "9");
-  ck_assert_int_eq(thr_symmetries_find(&f, &o, &no_limits, &t, &err), THR_EINPUT);
+  ck_assert_int_eq(thr_symmetries_find(&f, &o, false, &no_limits, &t, &err), THR_EINPUT);
   assert_one_line(&err, "1 to 8");
   ck_assert(t.n == 0 && t.row == NULL);
   thr_frame_destroy(&f);
@@ -331,7 +331,7 @@ START_TEST(closed_cords_do_not_turn_where_they_end)
   thr_frame f = no_feet(frame_make(4, xyz, 4, edge, NULL, NULL));
   thr_request o = asked(THR_ENDS_ANY, 1);
   thr_symmetries t;
-  ck_assert_int_eq(thr_symmetries_find(&f, &o, &no_limits, &t, NULL), THR_ELIMIT);
+  ck_assert_int_eq(thr_symmetries_find(&f, &o, false, &no_limits, &t, NULL), THR_ELIMIT);
   const thr_symmetry_row *row = row_of(&t, "C2v", 1);
   double quarter = acos(0);
   ck_assert(row->n_cords == 1 && row->cord[0].closed && row->why.code == THR_ELIMIT);
@@ -368,7 +368,7 @@ START_TEST(what_it_does_not_know)
   for (int i = 0; i < 3; i++) {
     thr_symmetries t;
     thr_err err = {0};
-    ck_assert_int_eq(thr_symmetries_find(&f, &o[i], &no_limits, &t, &err), THR_EINPUT);
+    ck_assert_int_eq(thr_symmetries_find(&f, &o[i], false, &no_limits, &t, &err), THR_EINPUT);
     ck_assert(strstr(err.text, "do not know") && t.n == 0);
   }
   thr_frame_destroy(&f);
@@ -396,7 +396,7 @@ START_TEST(no_time)
   thr_symmetries t;
   thr_plan p;
   thr_err err = {0};
-  ck_assert_int_eq(thr_symmetries_find(&f, &o, &over, &t, &err), THR_ELIMIT);
+  ck_assert_int_eq(thr_symmetries_find(&f, &o, false, &over, &t, &err), THR_ELIMIT);
   assert_one_line(&err, "the time was too short");
   ck_assert_int_eq(t.n, 8);
   for (int i = 0; i < t.n; i++)
@@ -416,7 +416,7 @@ START_TEST(no_node_for_an_end)
   thr_symmetries t;
   thr_plan p;
   thr_err err = {0};
-  ck_assert_int_eq(thr_symmetries_find(&f, &o, &no_limits, &t, &err), THR_EINFEASIBLE);
+  ck_assert_int_eq(thr_symmetries_find(&f, &o, false, &no_limits, &t, &err), THR_EINFEASIBLE);
   assert_one_line(&err, "no node");
   ck_assert_int_eq(thr_symmetry_plan(&f, &o, &no_limits, &t, &p, NULL), THR_EINFEASIBLE);
   ck_assert(p.n_cords == 0 && t.n == 0);

@@ -24,7 +24,7 @@ static thr_symmetries table_of(const thr_frame *f, const thr_request *o, double 
   thr_symmetries t;
   thr_err err = {0};
   const thr_limits limits = {.deadline = thr_clock() + seconds};
-  thr_status st = thr_symmetries_find(f, o, &limits, &t, &err);
+  thr_status st = thr_symmetries_find(f, o, false, &limits, &t, &err);
   ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", err.text);
   return t;
 }
@@ -109,7 +109,8 @@ START_TEST(shortest_is_that_of_the_other_search)
     thr_tube best;
     thr_symmetries t;
     o.symmetry.group[0] = '1';
-    thr_status found = thr_symmetries_find(&f, &o, &limits, &t, NULL), st = thr_tube_shortest(&f, &o, &limits, &best, NULL);
+    thr_status found = thr_symmetries_find(&f, &o, false, &limits, &t, NULL),
+               st = thr_tube_shortest(&f, &o, &limits, &best, NULL);
     if (!st && t.n > 0 && t.shortest_optimal) {
       ck_assert_double_eq_tol(t.shortest, best.length, 1e-6 * best.length);
       compared++;
@@ -180,12 +181,12 @@ START_TEST(what_cannot_be_tied_is_said)
   thr_request o = tied(THR_ENDS_CLOSED);
   thr_symmetries t;
   thr_err err = {0};
-  ck_assert_int_eq(thr_symmetries_find(&star, &o, &(thr_limits){0}, &t, &err), THR_EINFEASIBLE);
+  ck_assert_int_eq(thr_symmetries_find(&star, &o, false, &(thr_limits){0}, &t, &err), THR_EINFEASIBLE);
   ck_assert_msg(strstr(err.text, "one edge") != NULL, "%s", err.text);
   o = tied(THR_ENDS_ANY); /* a cord's two ends tie nothing, and every edge of the ring has one pass */
   o.capacity = 1;
   err = (thr_err){0};
-  ck_assert_int_eq(thr_symmetries_find(&ring, &o, &(thr_limits){0}, &t, &err), THR_EINFEASIBLE);
+  ck_assert_int_eq(thr_symmetries_find(&ring, &o, false, &(thr_limits){0}, &t, &err), THR_EINFEASIBLE);
   thr_frame_destroy(&star);
   thr_frame_destroy(&ring);
 }
