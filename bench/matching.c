@@ -12,6 +12,10 @@
 #include "lp/matching/blossom.h"
 #include "lp/matching/candidates.h"
 #include "lp/tjoin/engine.h"
+#include "graph/framework/frame.h"
+#include "graph/status.h"
+#include "lp/matching/network.h"
+#include "lp/tjoin/tjoin.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,5 +1,8 @@
 /* Small frameworks and options at random, by pairs. */
 #include "tests/crossing.h"
+#include "tests/frameworks.h"
+#include "graph/plan/turning_proof.h"
+#include "tests/plans.h"
 
 #include <math.h>
 #include <stdarg.h>

@@ -3,6 +3,8 @@
 #define THR_CROSSING_H
 
 #include "tests/support.h"
+#include "graph/framework/frame.h"
+#include "graph/plan/request.h"
 
 /* What a case chooses. */
 typedef enum {

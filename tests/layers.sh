@@ -186,7 +186,8 @@ check_structure() { # FILE..
     }' "$@"
 }
 
-# Whoever names a function or type of the house includes the header that declares it, or leaves that to its own header.
+# Whoever names a function or type of the house includes the header that declares it, or leaves that to its own header; tests to
+# the headers of tests/ that they include.
 check_uses() { # FILE..
   awk -v exceptions="$exceptions" "$with_exceptions"'
     function strip(s,    out, c, two, i, n) { # uses and sets in_comment; also strings go
@@ -220,7 +221,13 @@ check_uses() { # FILE..
       }
       if (depth == 0) held = held " "
     }
-    function included(file, header) { return index(includes[file] " ", " " header " ") }
+    function included(file, header,    i, n, list) { # in tests/ also by headers of tests
+      if (index(includes[file] " ", " " header " ")) return 1
+      if (file !~ /^tests\//) return 0
+      n = split(includes[file], list, " ")
+      for (i = 1; i <= n; i++) if (list[i] ~ /^tests\// && included(list[i], header)) return 1
+      return 0
+    }
     function own(file) { sub(/\.[a-z]+$/, ".h", file); return file }
     FNR == 1 { in_comment = 0; depth = 0; held = "" }
     /^[ \t]*#/ {
@@ -272,15 +279,16 @@ check_machine() { # every text file except build output and fuzz seeds
 }
 
 check_tree() {
-  local -a sources=() headers=()
+  local -a sources=() headers=() tests=()
   mapfile -t sources < <(for m in graph lp symmetry tortuosity planner eval diagram cli; do
     for f in "$m"/*.c "$m"/*.h "$m"/*.cpp "$m"/*/*.c "$m"/*/*.h "$m"/*/*.cpp; do [ -e "$f" ] && echo "$f"; done
   done)
-  for f in "${sources[@]}"; do case $f in *.h) headers+=("$f") ;; esac; done
+  mapfile -t tests < <(for f in tests/*.c tests/*.h tests/*/*.c tests/*/*.h bench/*.c; do [ -e "$f" ] && echo "$f"; done)
+  for f in "${sources[@]}" "${tests[@]}"; do case $f in *.h) headers+=("$f") ;; esac; done
   if [ ${#sources[@]} -gt 0 ]; then
     check_sources "${sources[@]}"
     check_structure "${sources[@]}"
-    check_uses "${sources[@]}"
+    check_uses "${sources[@]}" "${tests[@]}"
   fi
   [ ${#headers[@]} -eq 0 ] || check_guards "${headers[@]}"
   check_machine
@@ -368,6 +376,9 @@ self_test() {
   expect lp/c.c:2 lp/a.h "$guard"'static inline int thr_a(int x)\n{\n  return x;\n}\nint thr_b(void);\n#endif\n' lp/c.c '\nint x = thr_b();\n'
   expect lp/c.c:2 lp/a.h "$guard"'int thr_a;\n#endif\n' lp/b.h "$other"'#include "lp/a.h"\nvoid thr_b(void);\n#endif\n' lp/d.h '#ifndef THR_D_H\n#define THR_D_H\nint thr_d(void);\n#endif\n' lp/c.c '#include "lp/b.h"\nint x = thr_d();\n'
   expect ok lp/a.h "$guard"'int thr_a(int);\n#endif\n' lp/b.h "$other"'#include "lp/a.h"\n#endif\n' lp/b.c '#include "lp/b.h"\nint x = thr_a(1); /* thr_c */\n'
+  expect tests/unit/b.c:2 lp/a.h "$guard"'int thr_a(int);\n#endif\n' tests/unit/b.c '\nint x = thr_a(1);\n'
+  expect bench/b.c:1 lp/a.h "$guard"'typedef struct thr_a thr_a;\n#endif\n' bench/b.c 'thr_a *x;\n'
+  expect ok lp/a.h "$guard"'int thr_a(int);\n#endif\n' tests/b.h "$other"'#include "lp/a.h"\n#endif\n' tests/c.h '#ifndef THR_C_H\n#define THR_C_H\n#include "tests/b.h"\n#endif\n' tests/unit/b.c '#include "tests/c.h"\nint x = thr_a(1);\n'
   expect ok graph/framework/igraph.c '#include <igraph.h>\n#include <stdio.h>\n#include "graph/framework/frame.h"\n'
   expect ok lp/solver/lp_glpk.c '#include "graph/framework/frame.h"\n#include "lp/solver/lp.h"\n#include <glpk.h>\n'
   expect ok symmetry/group/nauty.c '#include "graph/framework/frame.h"\n#include <traces.h>\n'

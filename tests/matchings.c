@@ -1,4 +1,5 @@
 #include "tests/matchings.h"
+#include "graph/limits.h"
 
 #include <math.h>
 #include <stdlib.h>

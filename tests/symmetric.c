@@ -1,6 +1,7 @@
 /* Frameworks whose symmetries are known. */
 #include "tests/symmetric.h"
 #include "symmetry/group/automorphisms.h"
+#include "tests/frameworks.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,6 @@
 #include "tests/threadings.h"
 #include "tests/support.h"
+#include "tests/plans.h"
 
 #include <stdlib.h>
 

@@ -4,6 +4,7 @@
 #define THR_THREADINGS_H
 
 #include "graph/plan/plan.h"
+#include "graph/framework/frame.h"
 
 typedef enum { THREAD_LINES, THREAD_STAIRS, THREAD_SNAKE, N_THREADINGS } threading;
 

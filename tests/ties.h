@@ -1,6 +1,6 @@
 /* What it costs to tie a node, by trying all turns there: the oracle of the tests of tube joints. */
-#ifndef THR_TIES_H
-#define THR_TIES_H
+#ifndef THR_TEST_TIES_H
+#define THR_TEST_TIES_H
 
 #include "tests/support.h"
 

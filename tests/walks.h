@@ -3,10 +3,13 @@
  * only where there is a limit), for tube joints which edges of every node their turns tie together, and the ends at nodes where
  * their number is given. A cord is a walk from state to state; passes are not limited otherwise, so the least is that of all
  * plans. */
-#ifndef THR_WALKS_H
-#define THR_WALKS_H
+#ifndef THR_TEST_WALKS_H
+#define THR_TEST_WALKS_H
 
 #include "tests/support.h"
+#include "graph/framework/frame.h"
+#include "graph/plan/request.h"
+#include "graph/plan/turning_proof.h"
 
 enum { WALKS_EDGES = 8, WALKS_NODES = 9, WALKS_DEGREE = 5 };
 

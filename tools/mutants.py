@@ -35,7 +35,8 @@ LISTS = os.path.join("tools", "mutants")
 
 CERTIFICATES = ["unit/test_check_rounding", "unit/test_check_cuts", "unit/test_check_cords", "unit/test_check_tubes", "unit/test_check_rules",
                 "unit/test_prices", "unit/test_requests", "property/test_proofs", "unit/test_check", "property/test_several"]
-TURNING = ["unit/test_check_turning", "property/test_turning_bound", "unit/test_tortuosity:more_cords_than_the_shortest_passes_hold"]
+TURNING = ["unit/test_check_turning", "property/test_turning_bound", "unit/test_turning_proof",
+           "unit/test_turning_prices", "unit/test_tortuosity:more_cords_than_the_shortest_passes_hold"]
 ADVERSARY, ATTACKS = ["property/test_adversary"], "20000"  # attacks of each kind
 ADVERSARY_TURNING = ["property/test_adversary_turning"]
 SYMMETRY = ["unit/test_check_symmetry", "unit/test_symmetry_plan"]

@@ -4,6 +4,9 @@
 #define THR_FUZZ_H
 
 #include "graph/io/read.h"
+#include "graph/framework/frame.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -2,6 +2,8 @@
  * is read must be finite, and write the same file again. */
 #include "fuzz.h"
 #include "eval/joint/cache.h"
+#include "eval/joint/drag.h"
+#include "graph/text.h"
 
 #include <inttypes.h>
 

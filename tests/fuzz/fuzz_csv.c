@@ -1,5 +1,9 @@
 /* Fuzzes the CSV reader: one table, and a pair of tables if the byte | stands somewhere; and the guess of the format. */
 #include "fuzz.h"
+#include "graph/framework/frame.h"
+#include "graph/io/read.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 static void fuzz_pair(const uint8_t *data, size_t size, const uint8_t *cut)
 {

@@ -1,5 +1,6 @@
 /* Fuzzes the JSON reader, all dialects. */
 #include "fuzz.h"
+#include "graph/io/read.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {

@@ -2,6 +2,10 @@
  * same bytes with the same verdict. What the checker lets through is evaluated as well. */
 #include "eval/eval.h"
 #include "graph/check/check.h"
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -4,6 +4,9 @@
 #include "tests/attack.h"
 #include "tests/truth.h"
 #include "graph/plan/prices.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "graph/check/check.h"
 
 #include <limits.h>
 #include <math.h>

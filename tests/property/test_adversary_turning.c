@@ -6,6 +6,10 @@
 #include "tests/truth.h"
 #include "planner/turning.h"
 #include "tortuosity/tie/tube_cords.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "graph/check/check.h"
+#include "graph/plan/turning_proof.h"
 
 #include <limits.h>
 #include <math.h>

@@ -1,5 +1,6 @@
 /* Lightest perfect matchings against all perfect matchings on small graphs; on larger ones the duals are the proof. */
 #include "tests/matchings.h"
+#include "graph/limits.h"
 
 #include <stdlib.h>
 

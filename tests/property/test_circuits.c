@@ -3,6 +3,11 @@
 #include "graph/angle.h"
 #include "graph/framework/make.h"
 #include "tortuosity/cords/maxturn.h"
+#include "tests/frameworks.h"
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/turning_proof.h"
+#include "tortuosity/proof/least.h"
 
 #include <math.h>
 #include <stdlib.h>

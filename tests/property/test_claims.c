@@ -1,6 +1,9 @@
 /* What is claimed of rows must hold for threadings as plans count them, whatever comes first. */
 #include "symmetry/cover/claims.h"
 #include "tests/symmetric.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "symmetry/group/quotient.h"
 
 #include <string.h>
 

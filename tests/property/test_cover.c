@@ -7,6 +7,13 @@
 #include "symmetry/group/isometry.h"
 #include "symmetry/cover/turning_bound.h"
 #include "tests/symmetric.h"
+#include "tests/frameworks.h"
+#include "tests/oracles.h"
+#include "tests/plans.h"
+#include "symmetry/cover/contraction.h"
+#include "symmetry/cover/programme.h"
+#include "symmetry/cover/relaxation.h"
+#include "symmetry/group/quotient.h"
 
 #include <math.h>
 #include <stdlib.h>

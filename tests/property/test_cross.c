@@ -9,6 +9,9 @@
 
 #include "tests/crossing.h"
 #include "tests/walks.h"
+#include "tests/frameworks.h"
+#include "graph/plan/plan.h"
+#include "tests/plans.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -3,6 +3,9 @@
 #include "tests/symmetric.h"
 #include "graph/framework/make.h"
 #include "planner/turning.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "graph/plan/turning_proof.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,9 @@
 /* Shortest plans under every combination of cover, capacity, ends and number of cords, against all choices of extra passes. */
 #include "lp/length/cords.h"
 #include "tests/support.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "graph/check/check.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -6,6 +6,10 @@
 #include "lp/matching/moat.h"
 #include "lp/matching/nest.h"
 #include "lp/tjoin/shrink.h"
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "lp/matching/blossom.h"
+#include "lp/tjoin/tjoin.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,10 @@
 /* Certificates that no solver would make, on small frameworks of one or two pieces with requests of every kind: the checker takes
  * one if and only if plain sums over sets do, and what it takes proves no more than is true of all subsets of edges. */
 #include "tests/support.h"
+#include "tests/frameworks.h"
+#include "tests/oracles.h"
+#include "tests/plans.h"
+#include "graph/check/check.h"
 
 #include <math.h>
 #include <stdlib.h>

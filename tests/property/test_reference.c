@@ -2,7 +2,10 @@
 #include "graph/framework/make.h"
 #include "graph/angle.h"
 #include "tests/support.h"
+#include "tests/frameworks.h"
 #include "tortuosity/proof/least.h"
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,6 +2,8 @@
 #include "tests/symmetric.h"
 #include "graph/check/check.h"
 #include "symmetry/symmetry.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,8 @@
 /* The longest of several cords against all ways to share out passes in small frameworks; what must hold in larger ones. */
 #include "lp/length/cords.h"
 #include "tests/support.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
 
 #include <math.h>
 #include <stdlib.h>

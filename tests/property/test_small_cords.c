@@ -2,6 +2,8 @@
  * dearest, the fewest under a limit, for all ends, covers, capacities and joints. */
 #include "graph/threading/small_cords.h"
 #include "tests/support.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
 #include "tests/walks.h"
 
 #include <limits.h>

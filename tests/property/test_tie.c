@@ -4,6 +4,10 @@
 #include "tests/ties.h"
 #include "tortuosity/proof/ascent.h"
 #include "tortuosity/tie/tie_walk.h"
+#include "tests/frameworks.h"
+#include "graph/limits.h"
+#include "graph/plan/turning_proof.h"
+#include "tortuosity/tie/tie.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,6 +3,9 @@
 #include "graph/plan/junction.h"
 #include "planner/turning.h"
 #include "tortuosity/tie/tube.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "graph/plan/turning_proof.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,7 @@
 /* Several cords for tube joints against all ways to choose them in small frameworks; what must hold in larger ones. */
 #include "tests/support.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
 #include "tortuosity/tie/tube_cords.h"
 
 #include <math.h>

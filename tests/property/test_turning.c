@@ -6,6 +6,15 @@
 #include "tortuosity/cords/improve.h"
 #include "tortuosity/proof/least.h"
 #include "tortuosity/cords/maxturn.h"
+#include "tests/frameworks.h"
+#include "graph/io/json.h"
+#include "graph/io/writer.h"
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/threading/multigraph.h"
+#include "tortuosity/cords/join.h"
+#include "tests/plans.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,7 +3,10 @@
 #include "lp/length/cords.h"
 #include "lp/length/cut_tour.h"
 #include "tests/support.h"
+#include "tests/frameworks.h"
 #include "tortuosity/tie/tube_first.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
 
 #include <stdlib.h>
 #include <string.h>

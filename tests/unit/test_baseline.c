@@ -1,7 +1,11 @@
 /* The classical tours against a second Fleury on counts of passes, pairings by enumeration, and the shortest length. */
 #include "tests/support.h"
+#include "tests/frameworks.h"
+#include "tests/oracles.h"
+#include "tests/plans.h"
 #include "graph/framework/make.h"
 #include "tortuosity/tour/baseline.h"
+#include "tortuosity/proof/least.h"
 
 #include <math.h>
 #include <stdlib.h>

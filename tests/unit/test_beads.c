@@ -2,6 +2,8 @@
 #include "eval/structure/beads.h"
 #include "graph/angle.h"
 #include "tests/support.h"
+#include "tests/frameworks.h"
+#include "graph/plan/physics.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,6 @@
 /* The matching engine on known answers, on requests without one, and on what a caller may do to it. */
 #include "tests/matchings.h"
+#include "graph/limits.h"
 
 #include <stdlib.h>
 #include <string.h>

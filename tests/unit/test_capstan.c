@@ -1,8 +1,11 @@
 /* Method capstan: closed forms of both laws, symmetry, the best slackest pass by trying all, refusals. */
 #include "tests/support.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
 #include "eval/eval.h"
 #include "eval/cord/profile.h"
 #include "graph/angle.h"
+#include "graph/plan/evaluation.h"
 
 #include <math.h>
 #include <stdlib.h>

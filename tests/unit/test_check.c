@@ -1,6 +1,10 @@
 /* The checker against forged plans: each claim, altered once, is caught and named. Random alterations are in
  * tests/property/test_mutations.c. */
 #include "tests/support.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "graph/check/check.h"
+#include "lp/length/postman.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -21,23 +25,6 @@ static void fixture_destroy(fixture *x)
 {
   thr_plan_destroy(&x->plan);
   thr_frame_destroy(&x->frame);
-}
-
-/* Both in memory and after a round trip through JSON. */
-static void assert_violated(const thr_plan *p, const char *word)
-{
-  thr_err err = {0};
-  ck_assert_msg(thr_check_plan(p, &err) == THR_EVIOLATED, "%s", word);
-  assert_one_line(&err, word);
-  err = (thr_err){0};
-  ck_assert_int_eq(judge_plan(p, &err), THR_EVIOLATED);
-  assert_one_line(&err, NULL);
-}
-
-static void assert_holds(const thr_plan *p)
-{
-  thr_err err = {0};
-  ck_assert_msg(thr_check_plan(p, &err) == THR_OK, "%s", err.text);
 }
 
 /* A plan that is sound but longer than need be: the closed cord first goes along its first edge and back. */

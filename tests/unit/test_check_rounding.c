@@ -2,6 +2,9 @@
 #include "graph/check/check_parts.h"
 #include "graph/angle.h"
 #include "tests/support.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "graph/check/check.h"
 
 #include <math.h>
 #include <stdlib.h>

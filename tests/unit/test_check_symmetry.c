@@ -3,6 +3,8 @@
 #include "graph/framework/procrustes.h"
 #include "graph/angle.h"
 #include "tests/support.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -161,6 +163,24 @@ static thr_status name_it(thr_plan *p, const char *name, thr_err *err)
   return st;
 }
 
+/* A plan whose symmetries need not be isometries, without a record of them yet. */
+static thr_plan plan_with(thr_frame f, thr_ends ends, int n, thr_cord *cord)
+{
+  thr_plan p = {.frame = f, .options = options_for(ends, 1), .n_cords = n, .cord = cord};
+  want(&p.options, "overlap,steps");
+  p.options.symmetry.geometric = -1;
+  return p;
+}
+
+/* The record holds (word NULL), or the checker says of it in one line what contains word. */
+static void assert_symmetry(const thr_plan *p, const char *word)
+{
+  thr_err err = {0};
+  thr_status st = thr_check_symmetry(p, &err);
+  ck_assert_msg(st == (word ? THR_EVIOLATED : THR_OK), "%s", err.text);
+  if (word) assert_one_line(&err, word);
+}
+
 /* A group has its own name and no other's. */
 START_TEST(groups_have_one_name)
 {
@@ -204,8 +224,7 @@ START_TEST(orders_are_those_of_all_cycles)
   thr_frame f = frame_make(5, (const double(*)[3])xyz, 6, (const int(*)[2])edge, NULL, NULL);
   for (int v = 0; v < 5; v++)
     f.foot[v] = false;
-  thr_plan p = {.frame = f, .options = options_for(THR_ENDS_CLOSED, 1)};
-  p.options.symmetry.geometric = -1;
+  thr_plan p = plan_with(f, THR_ENDS_CLOSED, 0, NULL);
   p.symmetry =
       (thr_symmetry_record){.present = true, .order = 6, .n_generators = 1, .generator = six, .n_images = 1, .image = same};
   thr_err err;
@@ -226,8 +245,7 @@ START_TEST(names_of_flat_frameworks)
   int generator[8] = {1, 2, 3, 0, 0, 3, 2, 1}, same[4] = {0, 1, 2, 3};
   for (int v = 0; v < 4; v++)
     f.foot[v] = false;
-  thr_plan p = {.frame = f, .options = options_for(THR_ENDS_CLOSED, 1)};
-  p.options.symmetry.geometric = -1;
+  thr_plan p = plan_with(f, THR_ENDS_CLOSED, 0, NULL);
   p.symmetry =
       (thr_symmetry_record){.present = true, .order = 8, .n_generators = 2, .generator = generator, .n_images = 1, .image = same};
   for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
@@ -243,7 +261,7 @@ START_TEST(rings_turn_in_as_many_ways_as_they_have_nodes)
 {
   for (int n = 480; n < 520; n++) {
     thr_frame f = ring_make(n);
-    thr_plan p = {.frame = f, .options = options_for(THR_ENDS_CLOSED, 1)};
+    thr_plan p = plan_with(f, THR_ENDS_CLOSED, 0, NULL);
     int *next = calloc((size_t)n, sizeof *next), *same = calloc((size_t)n, sizeof *same);
     ck_assert(next && same);
     for (int v = 0; v < n; v++) {
@@ -251,7 +269,6 @@ START_TEST(rings_turn_in_as_many_ways_as_they_have_nodes)
       next[v] = (v + 1) % n;
       same[v] = v;
     }
-    p.options.symmetry.geometric = -1;
     p.symmetry = (thr_symmetry_record){.present = true, .n_generators = 1, .generator = next, .n_images = 1, .image = same};
     for (int off = -1; off <= 1; off++) {
       thr_err err;
@@ -270,7 +287,7 @@ START_TEST(groups_have_1024_elements_at_most)
 {
   for (int n = 1024; n <= 1025; n++) {
     thr_frame f = ring_make(n);
-    thr_plan p = {.frame = f, .options = options_for(THR_ENDS_CLOSED, 1)};
+    thr_plan p = plan_with(f, THR_ENDS_CLOSED, 0, NULL);
     int *next = calloc((size_t)n, sizeof *next), *same = calloc((size_t)n, sizeof *same);
     ck_assert(next && same);
     for (int v = 0; v < n; v++) {
@@ -299,8 +316,7 @@ START_TEST(spokes_are_permuted_in_all_ways)
   for (int v = 0; v < 7; v++)
     f.foot[v] = false;
   int generator[14] = {0, 2, 1, 3, 4, 5, 6, 0, 2, 3, 4, 5, 6, 1}, same[7] = {0, 1, 2, 3, 4, 5, 6};
-  thr_plan p = {.frame = f, .options = options_for(THR_ENDS_CLOSED, 1)};
-  p.options.symmetry.geometric = -1;
+  thr_plan p = plan_with(f, THR_ENDS_CLOSED, 0, NULL);
   for (int order = 719; order <= 721; order++) {
     thr_err err;
     p.symmetry = (thr_symmetry_record){
@@ -436,13 +452,10 @@ START_TEST(copies_may_start_anywhere_and_run_backward)
     exchange[v] = (v + 4) % 8, same[v] = v, same[8 + v] = exchange[v];
   thr_cord cord[2] = {cord_of(&two, 0, walk, n, 0, rng_below(&r, n), rng_below(&r, 2)),
                       cord_of(&two, 1, walk, n, 4, rng_below(&r, n), rng_below(&r, 2))};
-  thr_plan p = {.frame = two, .options = options_for(THR_ENDS_CLOSED, 1), .n_cords = 2, .cord = cord};
+  thr_plan p = plan_with(two, THR_ENDS_CLOSED, 2, cord);
   int unique[2] = {0, 0}, element[2] = {0, 1};
-  want(&p.options, "overlap,steps");
-  p.options.symmetry.geometric = -1;
   p.symmetry = (thr_symmetry_record){true, 2, "", 1, exchange, 2, same, unique, element, (double)n / count_readings(walk, n), 1};
-  thr_err err = {0};
-  ck_assert_msg(thr_check_symmetry(&p, &err) == THR_OK, "%s", err.text);
+  assert_symmetry(&p, NULL);
   p.symmetry.steps *= 1 + 2e-9;
   ck_assert_int_eq(thr_check_symmetry(&p, NULL), THR_EVIOLATED);
   p.symmetry.steps /= 1 + 2e-9;
@@ -459,9 +472,7 @@ START_TEST(copies_may_start_anywhere_and_run_backward)
   ck_assert_int_eq(thr_check_symmetry(&p, NULL), THR_EVIOLATED);
   element[0] = 0;
   memcpy(same, exchange, sizeof exchange); /* image 0 is the identity */
-  err = (thr_err){0};
-  ck_assert_int_eq(thr_check_symmetry(&p, &err), THR_EVIOLATED);
-  assert_one_line(&err, "not the identity");
+  assert_symmetry(&p, "not the identity");
   for (int v = 0; v < 8; v++)
     same[v] = v;
   int other[MOST_WALK * 3], at = rng_below(&r, n); /* the node that no walk comes to */
@@ -470,9 +481,7 @@ START_TEST(copies_may_start_anywhere_and_run_backward)
   for (int k = 0; k < 2; k++) {
     thr_cord kept = p.cord[k];
     p.cord[k] = cord_of(&two, k, other, n, 4 * k, rng_below(&r, n), rng_below(&r, 2));
-    err = (thr_err){0};
-    ck_assert_int_eq(thr_check_symmetry(&p, &err), THR_EVIOLATED);
-    assert_one_line(&err, "symmetry");
+    assert_symmetry(&p, "symmetry");
     free(p.cord[k].half);
     p.cord[k] = kept;
   }
@@ -497,12 +506,9 @@ START_TEST(walks_are_learned_whole)
     for (int start = 0; start < 2 * length[k]; start++) {
       int n = length[k], readings = count_readings(walk[k], n);
       thr_cord cord = cord_of(&f, 0, walk[k], n, 0, start / 2, start % 2);
-      thr_plan p = {.frame = f, .options = options_for(THR_ENDS_CLOSED, 1), .n_cords = 1, .cord = &cord};
-      want(&p.options, "overlap,steps");
-      p.options.symmetry.geometric = -1;
+      thr_plan p = plan_with(f, THR_ENDS_CLOSED, 1, &cord);
       p.symmetry = (thr_symmetry_record){true, 1, "", 0, same, 1, same, &zero, &zero, (double)n / readings, 1};
-      thr_err err = {0};
-      ck_assert_msg(thr_check_symmetry(&p, &err) == THR_OK, "walk %zu: %s", k, err.text);
+      assert_symmetry(&p, NULL);
       free(cord.half);
     }
   thr_frame_destroy(&f);
@@ -516,13 +522,9 @@ START_TEST(copies_are_as_long)
   int half[2] = {0, 2}, same[3] = {0, 1, 2}, unique[2] = {0, 0}, which[2] = {0, 0};
   for (int k = 0; k < 2; k++) {
     thr_cord cord[2] = {{.id = "A", .n_passes = 1 + k, .half = half}, {.id = "B", .n_passes = 2 - k, .half = half}};
-    thr_plan p = {.frame = f, .options = options_for(THR_ENDS_ANY, 1), .n_cords = 2, .cord = cord};
-    want(&p.options, "overlap,steps");
-    p.options.symmetry.geometric = -1;
+    thr_plan p = plan_with(f, THR_ENDS_ANY, 2, cord);
     p.symmetry = (thr_symmetry_record){true, 1, "", 0, same, 1, same, unique, which, 1 + k, 1};
-    thr_err err = {0};
-    ck_assert_int_eq(thr_check_symmetry(&p, &err), THR_EVIOLATED);
-    assert_one_line(&err, "cord B is not image 0 of cord A");
+    assert_symmetry(&p, "cord B is not image 0 of cord A");
   }
   thr_frame_destroy(&f);
 }
@@ -537,13 +539,9 @@ START_TEST(copies_come_to_the_same_nodes)
     thr_frame f = frame_make(3, xyz, 2, (const int(*)[2])edge, NULL, NULL);
     int half[2] = {0, 2}, same[3] = {0, 1, 2}, unique[2] = {0, 0}, which[2] = {0, 0};
     thr_cord cord[2] = {{.id = "A", .n_passes = 1, .half = half}, {.id = "B", .n_passes = 1, .half = half + 1}};
-    thr_plan p = {.frame = f, .options = options_for(THR_ENDS_ANY, 1), .n_cords = 2, .cord = cord};
-    want(&p.options, "overlap,steps");
-    p.options.symmetry.geometric = -1;
+    thr_plan p = plan_with(f, THR_ENDS_ANY, 2, cord);
     p.symmetry = (thr_symmetry_record){true, 1, "", 0, same, 1, same, unique, which, 1, 1};
-    thr_err err = {0};
-    ck_assert_int_eq(thr_check_symmetry(&p, &err), THR_EVIOLATED);
-    assert_one_line(&err, "cord B is not image 0 of cord A");
+    assert_symmetry(&p, "cord B is not image 0 of cord A");
     thr_frame_destroy(&f);
   }
 }
@@ -565,12 +563,9 @@ START_TEST(what_is_kept_is_learned_whole)
     }
     for (int v = 0; v < 4; v++)
       f.foot[v] = false;
-    thr_plan p = {.frame = f, .options = options_for(THR_ENDS_ANY, 1), .n_cords = 3, .cord = cord};
-    want(&p.options, "overlap,steps");
-    p.options.symmetry.geometric = -1;
+    thr_plan p = plan_with(f, THR_ENDS_ANY, 3, cord);
     p.symmetry = (thr_symmetry_record){true, 2, "", 1, exchange, 2, image, unique, which, 2, 2};
-    thr_err err = {0};
-    ck_assert_msg(thr_check_symmetry(&p, &err) == THR_OK, "%s", err.text);
+    assert_symmetry(&p, NULL);
     thr_frame_destroy(&f);
   }
 }
@@ -585,9 +580,7 @@ START_TEST(a_unique_path_is_its_own_image_0)
   int walk[3] = {0, 1, 2}, next[3] = {1, 2, 0}, image[6] = {0, 1, 2, 1, 2, 0}, zero = 0;
   thr_cord cord = cord_of(&f, 0, walk, 3, 0, 0, false);
   for (int which = 0; which < 2; which++) {
-    thr_plan p = {.frame = f, .options = options_for(THR_ENDS_CLOSED, 1), .n_cords = 1, .cord = &cord};
-    want(&p.options, "overlap,steps");
-    p.options.symmetry.geometric = -1;
+    thr_plan p = plan_with(f, THR_ENDS_CLOSED, 1, &cord);
     p.symmetry = (thr_symmetry_record){true, 3, "", 1, next, 2, image, &zero, &which, 1, 1};
     thr_err err = {0};
     ck_assert_msg(thr_check_symmetry(&p, &err) == (which ? THR_EVIOLATED : THR_OK), "%s", err.text);
@@ -595,9 +588,7 @@ START_TEST(a_unique_path_is_its_own_image_0)
     p.n_cords = p.symmetry.unique_paths = 0;
     p.symmetry.steps = 0;
     p.symmetry.order = 2;
-    err = (thr_err){0};
-    ck_assert_int_eq(thr_check_symmetry(&p, &err), THR_EVIOLATED);
-    assert_one_line(&err, "symmetry.order");
+    assert_symmetry(&p, "symmetry.order");
   }
   free(cord.half);
   thr_frame_destroy(&f);
@@ -613,13 +604,9 @@ START_TEST(cords_are_permuted)
   for (int k = 0; k < 2; k++) {
     int half[2] = {k ? 5 : 1, k ? 6 : 2};
     thr_cord cord = {.id = "A", .n_passes = 2, .half = half};
-    thr_plan p = {.frame = f, .options = options_for(THR_ENDS_ANY, 1), .n_cords = 1, .cord = &cord};
-    want(&p.options, "overlap,steps");
-    p.options.symmetry.geometric = -1;
+    thr_plan p = plan_with(f, THR_ENDS_ANY, 1, &cord);
     p.symmetry = (thr_symmetry_record){true, 2, "", 1, half_turn, 1, same, &zero, &zero, 2, 1};
-    thr_err err = {0};
-    ck_assert_int_eq(thr_check_symmetry(&p, &err), THR_EVIOLATED);
-    assert_one_line(&err, "symmetry.generators[0]: takes");
+    assert_symmetry(&p, "symmetry.generators[0]: takes");
   }
   thr_frame_destroy(&f);
 }
@@ -637,9 +624,7 @@ START_TEST(copies_are_of_unique_paths)
     thr_cord_id(i, cord[i].id);
     f.foot[i + 1] = false;
   }
-  thr_plan p = {.frame = f, .options = options_for(THR_ENDS_ANY, 1), .n_cords = 3, .cord = cord};
-  want(&p.options, "overlap,steps");
-  p.options.symmetry.geometric = -1;
+  thr_plan p = plan_with(f, THR_ENDS_ANY, 3, cord);
   p.symmetry = (thr_symmetry_record){.present = true,
                                      .order = 3,
                                      .n_generators = 1,
@@ -650,29 +635,20 @@ START_TEST(copies_are_of_unique_paths)
                                      .element = which,
                                      .unique_paths = 1,
                                      .steps = 1};
-  thr_err err = {0};
-  ck_assert_msg(thr_check_symmetry(&p, &err) == THR_OK, "%s", err.text);
+  assert_symmetry(&p, NULL);
   for (int i = 1; i < 3; i++) { /* one that is said to be a unique path, too */
     unique[i] = i, which[i] = 0;
     p.symmetry.unique_paths = 2, p.symmetry.steps = 2;
-    err = (thr_err){0};
-    ck_assert_int_eq(thr_check_symmetry(&p, &err), THR_EVIOLATED);
-    assert_one_line(&err, "is an image of cord A, but said to be one of cord");
+    assert_symmetry(&p, "is an image of cord A, but said to be one of cord");
     unique[i] = 0, which[i] = i;
     p.symmetry.unique_paths = 1, p.symmetry.steps = 1;
   }
-  err = (thr_err){0};
   unique[2] = which[2] = 1; /* image 1 of the second is the third, too */
-  ck_assert_int_eq(thr_check_symmetry(&p, &err), THR_EVIOLATED);
-  assert_one_line(&err, "which is a copy itself");
+  assert_symmetry(&p, "which is a copy itself");
   unique[2] = 3;
-  err = (thr_err){0};
-  ck_assert_int_eq(thr_check_symmetry(&p, &err), THR_EVIOLATED);
-  assert_one_line(&err, "there is no such cord or image");
+  assert_symmetry(&p, "there is no such cord or image");
   unique[2] = 0, which[2] = 3;
-  err = (thr_err){0};
-  ck_assert_int_eq(thr_check_symmetry(&p, &err), THR_EVIOLATED);
-  assert_one_line(&err, "there is no such cord or image");
+  assert_symmetry(&p, "there is no such cord or image");
   thr_frame_destroy(&f);
 }
 END_TEST
@@ -687,9 +663,7 @@ START_TEST(an_open_cord_is_no_copy_of_a_closed_one)
     half[k] = 2 * e + (f.edge[e][1] == k);
   }
   thr_cord cord[2] = {{.id = "A", .closed = true, .n_passes = 3, .half = half}, {.id = "B", .n_passes = 2, .half = half}};
-  thr_plan p = {.frame = f, .options = options_for(THR_ENDS_ANY, 1), .n_cords = 2, .cord = cord};
-  want(&p.options, "overlap,steps");
-  p.options.symmetry.geometric = -1;
+  thr_plan p = plan_with(f, THR_ENDS_ANY, 2, cord);
   p.symmetry = (thr_symmetry_record){.present = true,
                                      .order = 1,
                                      .generator = same,
@@ -699,14 +673,11 @@ START_TEST(an_open_cord_is_no_copy_of_a_closed_one)
                                      .element = which,
                                      .unique_paths = 1,
                                      .steps = 3};
-  thr_err err = {0};
-  ck_assert_int_eq(thr_check_symmetry(&p, &err), THR_EVIOLATED);
-  assert_one_line(&err, "cord B is not image 0 of cord A");
+  assert_symmetry(&p, "cord B is not image 0 of cord A");
   unique[1] = 1;
   p.symmetry.unique_paths = 2;
   p.symmetry.steps = 5;
-  err = (thr_err){0};
-  ck_assert_msg(thr_check_symmetry(&p, &err) == THR_OK, "%s", err.text);
+  assert_symmetry(&p, NULL);
   thr_frame_destroy(&f);
 }
 END_TEST
@@ -723,11 +694,10 @@ START_TEST(no_two_nodes_go_to_one)
         for (int i = 0; i < 3; i++)
           edge[i][0] = hub, edge[i][1] = (hub + 1 + i) % 4;
         thr_frame f = frame_make(4, xyz, 3, (const int(*)[2])edge, NULL, NULL);
-        thr_plan p = {.frame = f, .options = options_for(THR_ENDS_ANY, 1)};
+        thr_plan p = plan_with(f, THR_ENDS_ANY, 0, NULL);
         for (int k = 0; k < 4; k++)
           f.foot[k] = false;
         bad[v] = to;
-        p.options.symmetry.geometric = -1;
         p.symmetry = (thr_symmetry_record){.present = true,
                                            .order = 1 + (to != v),
                                            .n_generators = 2,
@@ -750,10 +720,9 @@ START_TEST(every_edge_goes_to_an_edge)
   int turned[2][3] = {{2, 0, 1}, {1, 2, 0}}, same[3] = {0, 1, 2};
   for (int k = 0; k < 4; k++) {
     thr_frame f = frame_make(3, xyz, 2, edge[k % 2], NULL, NULL);
-    thr_plan p = {.frame = f, .options = options_for(THR_ENDS_ANY, 1)};
+    thr_plan p = plan_with(f, THR_ENDS_ANY, 0, NULL);
     for (int v = 0; v < 3; v++)
       f.foot[v] = false;
-    p.options.symmetry.geometric = -1;
     p.symmetry = (thr_symmetry_record){
         .present = true, .order = 3, .n_generators = 1, .generator = turned[k / 2], .n_images = 1, .image = same};
     thr_err err;
@@ -770,12 +739,9 @@ START_TEST(a_cord_there_and_back_is_learned_once)
   thr_frame f = path_make(3);
   int half[4] = {0, 2, 3, 1}, same[3] = {0, 1, 2}, zero = 0;
   thr_cord cord = {.id = "A", .closed = true, .n_passes = 4, .half = half};
-  thr_plan p = {.frame = f, .options = options_for(THR_ENDS_FEET, 1), .n_cords = 1, .cord = &cord};
-  want(&p.options, "overlap,steps");
-  p.options.symmetry.geometric = -1;
+  thr_plan p = plan_with(f, THR_ENDS_FEET, 1, &cord);
   p.symmetry = (thr_symmetry_record){true, 1, "", 0, same, 1, same, &zero, &zero, 2, 1};
-  thr_err err = {0};
-  ck_assert_msg(thr_check_symmetry(&p, &err) == THR_OK, "%s", err.text);
+  assert_symmetry(&p, NULL);
   p.symmetry.steps = 4;
   ck_assert_int_eq(thr_check_symmetry(&p, NULL), THR_EVIOLATED);
   thr_frame_destroy(&f);

@@ -2,6 +2,10 @@
 #include "graph/check/check_parts.h"
 #include "graph/plan/junction.h"
 #include "tests/support.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "graph/check/check.h"
+#include "graph/plan/turning_proof.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -28,18 +32,15 @@ START_TEST(tube_joints_are_tied)
     memcpy(p.cord[i].half, half + 3 * i, 3 * sizeof(int));
   }
   p.n_cords = 2;
-  thr_err err = {0};
   ck_assert_int_eq(thr_plan_measure(&f, &o, p.cord, 2, &p.metrics, NULL), THR_OK);
-  ck_assert_int_eq(thr_check_plan(&p, &err), THR_EVIOLATED);
-  assert_one_line(&err, "node 0: the cords do not tie");
+  assert_violated(&p, "node 0: the cords do not tie");
   p.n_cords = 1; /* once through all: 2 -> 3 and 4 -> 1 at node 0, which ties 0-2 to 0-3 and 0-4 to 0-1, and not these pairs */
   memcpy(p.cord[0].half, half, sizeof half);
   p.cord[0].n_passes = 6;
   ck_assert_int_eq(thr_plan_measure(&f, &o, p.cord, 1, &p.metrics, NULL), THR_OK);
   ck_assert_int_eq(thr_check_plan(&p, NULL), THR_EVIOLATED);
   p.options.joint = THR_JOINT_SOLID;
-  err = (thr_err){0};
-  ck_assert_msg(thr_check_plan(&p, &err) == THR_OK, "%s", err.text);
+  assert_holds(&p);
   p.n_cords = 2;
   thr_plan_destroy(&p);
   thr_frame_destroy(&f);
@@ -88,9 +89,7 @@ START_TEST(no_cord_of_tube_joints_turns_back_first)
   memcpy(p.cord[0].half, (int[]){1, 0, 2}, 3 * sizeof(int));
   p.n_cords = 1;
   ck_assert_int_eq(thr_plan_measure(&f, &o, p.cord, 1, &p.metrics, NULL), THR_OK);
-  thr_err err = {0};
-  ck_assert_int_eq(thr_check_plan(&p, &err), THR_EVIOLATED);
-  assert_one_line(&err, "pass 1: turns back at node 0");
+  assert_violated(&p, "pass 1: turns back at node 0");
   thr_plan_destroy(&p);
   thr_frame_destroy(&f);
 }
@@ -461,7 +460,7 @@ START_TEST(optimal_tied_lengths_are_within_a_billionth)
     p->proof.lower_bound = 4 - 4 * off[k];
     p->proof.gap = off[k];
     err = (thr_err){0};
-    ck_assert_msg(thr_check_plan(p, &err) == THR_OK, "%s", err.text);
+    assert_holds(p);
     tied_pair_destroy(&x);
   }
 }
@@ -475,12 +474,11 @@ START_TEST(tied_lengths_are_proved_but_for_rounding)
     const double length[2] = {i / 10.0, 15 * (i / 10.0)};
     tied_pair x;
     double least;
-    thr_err err = {0};
     tied_pair_make(&x, length, 1);
     const thr_plan *p = &x.plan;
     ck_assert_int_eq(thr_tied_least(&p->frame, &p->options, &p->proof.tied, &least, NULL), THR_OK);
     above += least > 2 * length[0] + length[1];
-    ck_assert_msg(thr_check_plan(p, &err) == THR_OK, "%s", err.text);
+    assert_holds(p);
     tied_pair_destroy(&x);
   }
   ck_assert_int_gt(above, 0);

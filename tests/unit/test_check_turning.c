@@ -3,6 +3,10 @@
 #include "graph/check/check_parts.h"
 #include "graph/angle.h"
 #include "tests/support.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "graph/check/check.h"
+#include "graph/plan/turning_proof.h"
 
 #include <limits.h>
 #include <math.h>
@@ -93,21 +97,7 @@ static void state(thr_plan *p)
   p->turning = found_of(p);
   p->turning.tree = tree;
   ck_assert_int_eq(thr_plan_measure(&p->frame, &p->options, p->cord, p->n_cords, &p->metrics, NULL), THR_OK);
-  thr_err err = {0};
-  ck_assert_msg(thr_check_plan(p, &err) == THR_OK, "%s", err.text);
-}
-
-static void assert_violated(const thr_plan *p, const char *word)
-{
-  thr_err err = {0};
-  ck_assert_msg(thr_check_plan(p, &err) == THR_EVIOLATED, "%s", word);
-  assert_one_line(&err, word);
-}
-
-static void assert_holds(const thr_plan *p)
-{
-  thr_err err = {0};
-  ck_assert_msg(thr_check_plan(p, &err) == THR_OK, "%s", err.text);
+  assert_holds(p);
 }
 
 /* Unit spokes at these angles, in a plane that is askew, and away from the origin. Their tips are numbered as they come, the hub

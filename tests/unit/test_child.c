@@ -1,8 +1,10 @@
 /* One job in a child process: answers of any size, the best so far, deaths, limits, and no child that outlives its parent. */
 #define _POSIX_C_SOURCE 200809L
+#include "tests/processes.h"
 #include "tests/support.h"
 #include "graph/process/child.h"
 #include "graph/process/process.h"
+#include "graph/limits.h"
 
 #include <errno.h>
 #include <poll.h>
@@ -13,29 +15,6 @@
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
-
-static void pause_ms(long ms)
-{
-  struct timespec t = {.tv_sec = ms / 1000, .tv_nsec = ms % 1000 * 1000000}, left;
-  while (nanosleep(&t, &left) && errno == EINTR)
-    t = left;
-}
-
-static void assert_no_children(void)
-{
-  int status;
-  errno = 0;
-  ck_assert_int_eq(waitpid(-1, &status, WNOHANG), -1);
-  ck_assert_int_eq(errno, ECHILD);
-}
-
-static int open_files(void)
-{
-  int n = 0;
-  for (int fd = 0; fd < 256; fd++)
-    n += dup2(fd, fd) == fd;
-  return n;
-}
 
 static char byte_of(size_t i)
 {
@@ -174,13 +153,9 @@ START_TEST(without_pipes_it_says_so)
   thr_child c = {.what = "bytes", .run = send_many_bytes, .user = &n};
   thr_text answer = {0};
   thr_err err = {0};
-  struct rlimit few;
-  getrlimit(RLIMIT_NOFILE, &few);
-  few.rlim_cur = 3;
-  setrlimit(RLIMIT_NOFILE, &few);
+  allow_files(3);
   thr_status st = thr_child_run(&c, &(thr_limits){0}, &answer, &err);
-  few.rlim_cur = 64;
-  setrlimit(RLIMIT_NOFILE, &few);
+  allow_files(64);
   ck_assert_int_eq(st, THR_ESOLVER);
   assert_one_line(&err, "bytes: cannot start a worker");
 }
@@ -266,14 +241,6 @@ static thr_status stop_when_asked(void *user, const thr_limits *limits, thr_send
   while (!thr_limits_stop(limits))
     pause_ms(1);
   return send_word(to, "own last word", err) ? err->code : thr_fail(err, THR_ELIMIT, "stopped by itself");
-}
-
-static volatile sig_atomic_t interrupted;
-
-static void interrupt(int signal_number)
-{
-  (void)signal_number;
-  interrupted = 1;
 }
 
 /* With an interrupt after 0.2 s, or a deadline then. */

@@ -4,6 +4,11 @@
 #include "symmetry/cover/bounds.h"
 #include "symmetry/cover/contraction.h"
 #include "tests/symmetric.h"
+#include "tests/frameworks.h"
+#include "tests/oracles.h"
+#include "tests/plans.h"
+#include "symmetry/cover/programme.h"
+#include "symmetry/group/quotient.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,6 +2,8 @@
 #include "cli/print/copies_table.c"
 #include "graph/angle.h"
 #include "tests/symmetric.h"
+#include "tests/frameworks.h"
+#include "graph/plan/plan.h"
 
 #include <string.h>
 

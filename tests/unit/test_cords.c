@@ -2,6 +2,10 @@
 #include "tests/symmetric.h"
 #include "symmetry/group/automorphisms.h"
 #include "symmetry/cover/cover.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "graph/check/check.h"
+#include "symmetry/group/quotient.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,8 @@
 /* The seeds of the fuzzers. A seed that its reader refuses leads no fuzzer to what lies behind, and nobody would notice. */
 #include "tests/support.h"
+#include "tests/plans.h"
+#include "graph/check/check.h"
+#include "graph/plan/plan.h"
 
 #include <dirent.h>
 #include <stdio.h>

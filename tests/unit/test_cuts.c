@@ -1,6 +1,7 @@
 /* Forests of cuts against their sets written out. */
 #include "tests/support.h"
 #include "lp/tjoin/cuts.h"
+#include "graph/plan/plan.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -4,6 +4,9 @@
 #include "graph/framework/make.h"
 #include "symmetry/symmetry.h"
 #include "tests/symmetric.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "diagram/layout/layout.h"
 
 #include <check.h>
 #include <math.h>

@@ -3,6 +3,7 @@
 #include "tests/support.h"
 #include "eval/joint/drag.h"
 #include "graph/angle.h"
+#include "graph/limits.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,10 @@
 /* The record of an evaluation: colours, sums, JSON there and back, and what the checker sees. */
 #include "tests/support.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
 #include "eval/eval.h"
+#include "graph/check/check.h"
+#include "graph/plan/evaluation.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -227,8 +231,7 @@ START_TEST(the_checker_sees_every_alteration)
   thr_err err = {0};
   ck_assert_msg(judge_plan(&p, &err) == THR_OK, "%s", err.text);
   alterations[_i].alter(&p.evaluation);
-  ck_assert_int_eq(thr_check_plan(&p, &err), THR_EVIOLATED);
-  assert_one_line(&err, alterations[_i].word);
+  assert_violated(&p, alterations[_i].word);
   thr_plan_destroy(&p);
   thr_frame_destroy(&f);
 }
@@ -248,9 +251,7 @@ START_TEST(the_checker_sees_a_slackest_pass_that_is_not_best)
   c->work = c->force + c->other_force;
   c->loss = 1 - 2.5 / c->force;
   thr_evaluation_sum(&p.evaluation);
-  thr_err err = {0};
-  ck_assert_int_eq(thr_check_plan(&p, &err), THR_EVIOLATED);
-  assert_one_line(&err, "not where its tension is least");
+  assert_violated(&p, "not where its tension is least");
   thr_plan_destroy(&p);
   thr_frame_destroy(&f);
 }
@@ -291,26 +292,20 @@ START_TEST(the_checker_takes_any_tension_behind_the_slackest_pass)
     c->other_force = 0;
     c->loss = c->force > 0 ? 1 - c->tension[n - 3] / c->force : 0;
     thr_evaluation_sum(&p.evaluation);
-    thr_err err = {0};
-    ck_assert_msg(thr_check_plan(&p, &err) == THR_OK, "%s", err.text);
+    assert_holds(&p);
     double kept = c->tension[n - 1];
     c->tension[n - 1] = 0.99 * c->tension[n - 3] - (k == 3);
-    ck_assert_int_eq(thr_check_plan(&p, &err), THR_EVIOLATED);
-    assert_one_line(&err, "is slacker than");
+    assert_violated(&p, "is slacker than");
     c->tension[n - 1] = kept;
     if (k == 3) continue;
     c->pull = THR_PULL_BOTH; /* then it falls towards an end that is pulled */
     c->other_force = kept;
     c->work += kept;
-    err = (thr_err){0};
-    ck_assert_int_eq(thr_check_plan(&p, &err), THR_EVIOLATED);
-    assert_one_line(&err, "falls");
+    assert_violated(&p, "falls");
     c->pull = THR_PULL_START;
   }
   c->taut_turning = -0.1;
-  thr_err err = {0};
-  ck_assert_int_eq(thr_check_plan(&p, &err), THR_EVIOLATED);
-  assert_one_line(&err, "taut_turning");
+  assert_violated(&p, "taut_turning");
   thr_plan_destroy(&p);
   thr_frame_destroy(&f);
 }
@@ -323,31 +318,25 @@ START_TEST(the_checker_takes_any_tension_before_the_slackest_pass)
   thr_plan p = evaluated_plan(&f, THR_ENDS_CLOSED, THR_PULL_END, THR_LAW_CAPSTAN);
   thr_eval_cord *c = &p.evaluation.cord[0];
   const int n = c->n_passes;
-  thr_err err = {0};
   p.evaluation.method = THR_JOINT;
   c->slackest = 2;
   c->tension[0] = 1.2 * c->tension[2], c->tension[1] = 1.5 * c->tension[2];
   c->loss = 1 - c->tension[2] / c->force;
   c->taut_turning = 0;
-  ck_assert_msg(thr_check_plan(&p, &err) == THR_OK, "%s", err.text);
+  assert_holds(&p);
   double kept = c->tension[n - 2];
   c->tension[n - 2] = 1.01 * c->tension[n - 1];
-  ck_assert_int_eq(thr_check_plan(&p, &err), THR_EVIOLATED);
-  assert_one_line(&err, "falls");
+  assert_violated(&p, "falls");
   c->tension[n - 2] = kept;
   kept = c->tension[0];
   c->tension[0] = 0.99 * c->tension[2];
-  err = (thr_err){0};
-  ck_assert_int_eq(thr_check_plan(&p, &err), THR_EVIOLATED);
-  assert_one_line(&err, "pass 1 is slacker than pass 3");
+  assert_violated(&p, "pass 1 is slacker than pass 3");
   c->tension[0] = kept;
   c->pull = THR_PULL_BOTH;
   c->other_force = kept;
   c->work += kept;
   thr_evaluation_sum(&p.evaluation);
-  err = (thr_err){0};
-  ck_assert_int_eq(thr_check_plan(&p, &err), THR_EVIOLATED);
-  assert_one_line(&err, "falls between pass 1 and 2");
+  assert_violated(&p, "falls between pass 1 and 2");
   thr_plan_destroy(&p);
   thr_frame_destroy(&f);
 }
@@ -408,10 +397,8 @@ START_TEST(the_checker_takes_measured_tensions_that_rise)
   c->taut_turning *= 0.9;
   c->tension[3] = (c->tension[2] + c->tension[4]) / 2;
   assert_plan_sound(&p);
-  thr_err err = {0};
   c->tension[3] = c->tension[4] * 0.999;
-  ck_assert_int_eq(thr_check_plan(&p, &err), THR_EVIOLATED);
-  assert_one_line(&err, "falls");
+  assert_violated(&p, "falls");
   thr_plan_destroy(&p);
   thr_frame_destroy(&f);
 }

@@ -1,5 +1,6 @@
 /* Drafts, welding and the framework: small cases with known answers, and every allocation failing once. */
 #include "graph/framework/frame.h"
+#include "graph/status.h"
 
 #include <check.h>
 #include <math.h>

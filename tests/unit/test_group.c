@@ -6,6 +6,8 @@
 #include "symmetry/group/automorphisms.h"
 #include "symmetry/group/group.h"
 #include "symmetry/group/isometry.h"
+#include "tests/frameworks.h"
+#include "graph/limits.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,11 +1,17 @@
 /* Holding pull: closed forms of cantilever and friction, a plain programme solved by simplex, the mechanism checked as a
  * mechanism. */
 #include "tests/support.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
 #include "graph/angle.h"
 #include "tests/threadings.h"
 #include "eval/eval.h"
 #include "graph/framework/make.h"
 #include "lp/solver/lp.h"
+#include "eval/structure/beads.h"
+#include "eval/structure/holding.h"
+#include "graph/plan/evaluation.h"
+#include "graph/plan/physics.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,10 +3,17 @@
 #include "lp/solver/lp.h"
 #include "tests/matchings.h"
 #include "tests/support.h"
+#include "tests/plans.h"
+#include "tests/frameworks.h"
 #include "tortuosity/proof/hubs.h"
 #include "tortuosity/proof/nearest.h"
 #include "graph/threading/pairing.h"
 #include "planner/turning.h"
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/plan/turning_proof.h"
+#include "tortuosity/cords/join.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -7,6 +7,8 @@
 #include "symmetry/group/isometry.h"
 #include "graph/framework/procrustes.h"
 #include "graph/vector.h"
+#include "tests/frameworks.h"
+#include "graph/limits.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,6 +3,7 @@
 #include "graph/angle.h"
 #include "graph/framework/bore.h"
 #include "tests/symmetric.h"
+#include "tests/frameworks.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,6 +2,9 @@
 #include "diagram/scene/scene.h"
 #include "graph/angle.h"
 #include "tests/support.h"
+#include "tests/frameworks.h"
+#include "diagram/layout/layout.h"
+#include "graph/plan/plan.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,11 @@
 /* Contract of the linear programming interface, and of the cut tree. */
 #include "tests/support.h"
+#include "tests/frameworks.h"
 #include "graph/framework/cuttree.h"
 #include "lp/solver/interior.h"
+#include "graph/limits.h"
+#include "lp/solver/lp.h"
+#include "lp/solver/normal.h"
 
 #include <math.h>
 #include <stdlib.h>

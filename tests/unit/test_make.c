@@ -1,6 +1,9 @@
 /* Generators: counts from closed forms, Euler characteristic, symmetry, lengths; data/dome7.json is the default dome. */
 #include "graph/framework/make.h"
 #include "graph/io/read.h"
+#include "graph/framework/frame.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 #include <check.h>
 #include <math.h>

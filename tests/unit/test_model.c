@@ -5,6 +5,8 @@
 #include "lp/model/search.h"
 #include "lp/model/tree.h"
 #include "tests/support.h"
+#include "graph/limits.h"
+#include "lp/solver/lp.h"
 
 #include <math.h>
 #include <stdlib.h>

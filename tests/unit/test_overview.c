@@ -2,8 +2,11 @@
 #include "diagram/overview/overview.h"
 #include "diagram/scene/palette.h"
 #include "diagram/scene/places.h"
-#include "tests/plans.h"
+#include "tests/sample_plans.h"
 #include "tests/svg_tree.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "diagram/layout/layout.h"
 
 #include <math.h>
 #include <stdio.h>

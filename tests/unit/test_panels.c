@@ -4,6 +4,7 @@
 #include "graph/framework/drawing.h"
 #include "graph/framework/make.h"
 #include "tests/symmetric.h"
+#include "tests/frameworks.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -6,6 +6,10 @@
 #include "diagram/overview/tension.h"
 #include "graph/angle.h"
 #include "tests/support.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "graph/plan/evaluation.h"
+#include "graph/plan/physics.h"
 
 #include <math.h>
 #include <stdio.h>

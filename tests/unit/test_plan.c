@@ -1,5 +1,7 @@
 /* Plans: names, turning angles, metrics, JSON and what it refuses. */
 #include "tests/support.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
 #include "graph/angle.h"
 
 #include <math.h>

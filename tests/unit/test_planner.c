@@ -3,6 +3,8 @@
 #include "graph/check/check.h"
 #include "planner/dispatch.h"
 #include "tests/support.h"
+#include "tests/plans.h"
+#include "tests/frameworks.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,6 +14,10 @@
 int example_main(int argc, char **argv);
 #define main example_main
 #include "docs/example.c"
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "planner/plan.h"
 #undef main
 
 START_TEST(the_example_plans_for_every_objective)

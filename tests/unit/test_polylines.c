@@ -3,6 +3,7 @@
 #include "diagram/scene/polylines.h"
 #include "graph/io/json.h"
 #include "graph/io/read.h"
+#include "tests/sample_plans.h"
 #include "tests/plans.h"
 
 #include <math.h>

@@ -3,6 +3,8 @@
 #include "graph/check/check.h"
 #include "lp/length/cords.h"
 #include "tests/support.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -145,9 +147,7 @@ END_TEST
 
 static void assert_refused(const thr_plan *p, const char *word)
 {
-  thr_err err = {0};
-  ck_assert_int_eq(thr_check_plan(p, &err), THR_EVIOLATED);
-  assert_one_line(&err, word);
+  assert_violated(p, word);
 }
 
 START_TEST(forged_prices_are_refused)

@@ -3,6 +3,10 @@
 #include "symmetry/group/automorphisms.h"
 #include "symmetry/cover/cover.h"
 #include "tests/support.h"
+#include "tests/frameworks.h"
+#include "graph/limits.h"
+#include "symmetry/group/group.h"
+#include "symmetry/group/quotient.h"
 
 #include <math.h>
 

@@ -1,6 +1,9 @@
 /* Readers and writers: every dialect with a known answer, the stored frameworks' totals, error texts, round trips, and
  * every allocation failing once. */
 #include "graph/io/read.h"
+#include "graph/framework/frame.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 #include <check.h>
 #include <math.h>

@@ -1,19 +1,13 @@
 /* What a plan can ask for beside its objective: written, read back, and checked. */
 #include "tests/support.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "graph/check/check.h"
+#include "lp/length/postman.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static void assert_violated(const thr_plan *p, const char *word)
-{
-  thr_err err = {0};
-  ck_assert_msg(thr_check_plan(p, &err) == THR_EVIOLATED, "%s", word);
-  assert_one_line(&err, word);
-  err = (thr_err){0};
-  ck_assert_int_eq(judge_plan(p, &err), THR_EVIOLATED);
-  assert_one_line(&err, NULL);
-}
 
 static void set_cords(thr_plan *p, const thr_frame *f, const thr_request *o, int n, const int *const *node, const int *length)
 {

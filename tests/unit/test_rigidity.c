@@ -3,6 +3,7 @@
 #include "tests/symmetric.h"
 #include "eval/structure/rank.h"
 #include "eval/structure/rigidity.h"
+#include "tests/frameworks.h"
 
 #include <stdlib.h>
 

@@ -2,6 +2,11 @@
  * refused, and equal input gives equal bits. */
 #include "eval/structure/settle.h"
 #include "tests/support.h"
+#include "tests/frameworks.h"
+#include "eval/structure/beads.h"
+#include "graph/limits.h"
+#include "graph/plan/physics.h"
+#include "graph/plan/plan.h"
 
 #include <math.h>
 #include <stdlib.h>

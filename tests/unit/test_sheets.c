@@ -3,7 +3,10 @@
 #define _POSIX_C_SOURCE 200809L
 #include "diagram/overview/guide.h"
 #include "diagram/sheets/sheets.h"
-#include "tests/plans.h"
+#include "tests/sample_plans.h"
+#include "tests/frameworks.h"
+#include "diagram/export/paper.h"
+#include "graph/limits.h"
 
 #include <ctype.h>
 #include <stdio.h>

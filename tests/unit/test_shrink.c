@@ -1,6 +1,8 @@
 /* Shrinking of T-join problems: what is left of known graphs, and what comes back. */
 #include "tests/support.h"
 #include "lp/tjoin/shrink.h"
+#include "graph/limits.h"
+#include "lp/tjoin/tjoin.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -7,7 +7,10 @@
 #include "graph/framework/make.h"
 #include "graph/vector.h"
 #include "symmetry/symmetry.h"
+#include "tests/sample_plans.h"
+#include "tests/frameworks.h"
 #include "tests/plans.h"
+#include "symmetry/group/isometry.h"
 
 #include <check.h>
 #include <ctype.h>

@@ -3,6 +3,8 @@
 #include "graph/check/check.h"
 #include "symmetry/symmetry.h"
 #include "planner/turning.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,5 +1,9 @@
 /* Plans of symmetric threadings: known ones made by hand, what the checker says of every change to them, JSON. */
 #include "tests/symmetric.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "graph/check/check.h"
+#include "lp/length/postman.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -380,7 +384,7 @@ END_TEST
 
 /* ---- changes ---- */
 
-static void assert_violated(const thr_plan *p, const char *what, const char *word)
+static void assert_seen(const thr_plan *p, const char *what, const char *word)
 {
   thr_err err = {0};
   thr_status st = thr_check_plan(p, &err);
@@ -397,7 +401,7 @@ static void change_each(thr_plan *p, int *value, int n, int low, int high, const
       int kept = value[i];
       if (other == kept) continue;
       value[i] = other;
-      assert_violated(p, what, "symmetry.");
+      assert_seen(p, what, "symmetry.");
       value[i] = kept;
     }
 }
@@ -417,7 +421,7 @@ START_TEST(every_changed_number_is_refused)
   double kept = r->steps;
   for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
     r->steps = wrong[i];
-    assert_violated(&p, "steps", "symmetry.steps");
+    assert_seen(&p, "steps", "symmetry.steps");
   }
   r->steps = kept;
   assert_plan_sound(&p);
@@ -440,7 +444,7 @@ START_TEST(every_other_name_of_a_group_is_refused)
   }
   for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
     snprintf(p.symmetry.name, sizeof p.symmetry.name, "%s", others[i]);
-    assert_violated(&p, others[i], "symmetry.name");
+    assert_seen(&p, others[i], "symmetry.name");
   }
   thr_plan_destroy(&p);
 }
@@ -458,7 +462,7 @@ START_TEST(group_that_was_asked_for)
   }
   for (int i = 0; i < 2; i++) {
     snprintf(p.options.symmetry.group, sizeof p.options.symmetry.group, "%s", others[i]);
-    assert_violated(&p, others[i], "options.symmetry.group");
+    assert_seen(&p, others[i], "options.symmetry.group");
   }
   thr_plan_destroy(&p);
 }
@@ -481,14 +485,14 @@ START_TEST(names_and_tolerances_claim_isometries)
     if (i < 2)
       ck_assert_int_eq(thr_check_plan(&p, NULL), THR_OK);
     else
-      assert_violated(&p, "far", "no isometry");
+      assert_seen(&p, "far", "no isometry");
     p.symmetry.name[0] = '\0';
     ck_assert_int_eq(thr_check_plan(&p, NULL), THR_OK);
     p.options.symmetry.geometric = 1e-6;
     if (i == 0)
       ck_assert_int_eq(thr_check_plan(&p, NULL), THR_OK);
     else
-      assert_violated(&p, "near", "options.symmetry.geometric");
+      assert_seen(&p, "near", "options.symmetry.geometric");
     thr_plan_destroy(&p);
   }
 }
@@ -504,27 +508,27 @@ START_TEST(other_automorphisms_are_refused)
   quarter_turns(1, &p.frame, turn);
   quarter_turns(2, &p.frame, half);
   memcpy(generator, mirror, sizeof mirror); /* makes two elements */
-  assert_violated(&p, "mirror", "symmetry.order: stated 4, but the generators make only 2");
+  assert_seen(&p, "mirror", "symmetry.order: stated 4, but the generators make only 2");
   r->order = 2;
-  assert_violated(&p, "mirror", "symmetry.images[1]: not an element");
+  assert_seen(&p, "mirror", "symmetry.images[1]: not an element");
   r->n_images = 1;
   r->name[0] = '\0';
-  assert_violated(&p, "mirror", "symmetry.generators[0]: takes");
+  assert_seen(&p, "mirror", "symmetry.generators[0]: takes");
   r->n_images = 4;
   r->order = 4;
   memcpy(generator, half, sizeof half); /* half the group */
-  assert_violated(&p, "half turn", "only 2 elements");
+  assert_seen(&p, "half turn", "only 2 elements");
   r->order = 2;
-  assert_violated(&p, "half turn", "symmetry.images[1]");
+  assert_seen(&p, "half turn", "symmetry.images[1]");
   r->order = 4;
   memcpy(generator, turn, sizeof turn);
   r->n_generators = 2; /* one more that is of no use, then one that is of another group */
   memcpy(generator + 36, half, sizeof half);
   assert_plan_sound(&p);
   memcpy(generator + 36, mirror, sizeof mirror);
-  assert_violated(&p, "both", "more elements");
+  assert_seen(&p, "both", "more elements");
   r->order = 8;
-  assert_violated(&p, "both", "symmetry.generators[1]: takes");
+  assert_seen(&p, "both", "symmetry.generators[1]: takes");
   thr_plan_destroy(&p);
 }
 END_TEST
@@ -538,14 +542,14 @@ START_TEST(other_permutations_are_refused)
   for (int a = 0; a < 36; a++)
     for (int b = a + 1; b < 36; b++) {
       generator[a] = kept[b], generator[b] = kept[a];
-      assert_violated(&p, "swapped", "symmetry.generators[0]: takes");
+      assert_seen(&p, "swapped", "symmetry.generators[0]: takes");
       generator[a] = kept[a], generator[b] = kept[b];
     }
   thr_plan_destroy(&p);
   known k = {"",     star4,  THR_ENDS_ANY, 1,       2, 2, 2, 1, 1, 2, 4, "", {{{1, 0, 3, -1}}, {{2, 0, 4, -1}}},
              {0, 1}, {0, 0}, swap_tips,    identity};
   p = plan_known(&k);
-  assert_violated(&p, "star", "symmetry.generators[0]: takes cord A to a path");
+  assert_seen(&p, "star", "symmetry.generators[0]: takes cord A to a path");
   thr_plan_destroy(&p);
 }
 END_TEST
@@ -570,7 +574,7 @@ START_TEST(smaller_group_has_more_unique_paths)
   memcpy(r->element, none, sizeof none);
   r->unique_paths = 4;
   r->steps = 68;
-  assert_violated(&p, "all unique", "is an image of cord");
+  assert_seen(&p, "all unique", "is an image of cord");
   thr_plan_destroy(&p);
 }
 END_TEST
@@ -587,7 +591,7 @@ START_TEST(direction_and_start_do_not_matter)
   }
   assert_plan_sound(&p);
   c->half[0] ^= 1; /* no walk any more */
-  assert_violated(&p, "walk", "cord C");
+  assert_seen(&p, "walk", "cord C");
   thr_plan_destroy(&p);
   p = plan_known(&plans[3]);
   c = &p.cord[1];
@@ -613,7 +617,7 @@ START_TEST(start_matters_where_ends_are_chosen)
     int first = c->half[0];
     c->half[0] = c->half[1], c->half[1] = c->half[2], c->half[2] = first;
     if (chosen)
-      assert_violated(&p, "start", "symmetry.generators[0]");
+      assert_seen(&p, "start", "symmetry.generators[0]");
     else
       assert_plan_sound(&p);
     thr_plan_destroy(&p);
@@ -626,7 +630,7 @@ START_TEST(feet_and_end_nodes_are_kept)
 {
   thr_plan p = plan_known(&plans[0]);
   p.frame.foot[14] = true; /* in the middle, and the turn takes it to 15, which is none */
-  assert_violated(&p, "foot", "is a foot");
+  assert_seen(&p, "foot", "is a foot");
   p.frame.foot[14] = false;
   p.options.ends = THR_ENDS_NODES;
   p.options.end_node = calloc(36, sizeof *p.options.end_node);
@@ -634,7 +638,7 @@ START_TEST(feet_and_end_nodes_are_kept)
   p.options.end_node[0] = p.options.end_node[5] = p.options.end_node[30] = p.options.end_node[35] = true;
   assert_plan_sound(&p);
   p.options.end_node[14] = true;
-  assert_violated(&p, "end node", "a cord may end at only one");
+  assert_seen(&p, "end node", "a cord may end at only one");
   thr_plan_destroy(&p);
 }
 END_TEST
@@ -645,9 +649,9 @@ START_TEST(cords_are_counted)
   for (int i = 0; i < N_PLANS; i++) {
     thr_plan p = plan_known(&plans[i]);
     p.options.cords++;
-    assert_violated(&p, plans[i].name, "the plan's options say");
+    assert_seen(&p, plans[i].name, "the plan's options say");
     p.options.cords -= 2;
-    assert_violated(&p, plans[i].name, "the plan's options say");
+    assert_seen(&p, plans[i].name, "the plan's options say");
     thr_plan_destroy(&p);
   }
 }

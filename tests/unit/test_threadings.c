@@ -1,5 +1,7 @@
 /* The example threadings in data/ are what tests/threadings.c makes, and hold. */
 #include "tests/support.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
 #include "tests/threadings.h"
 
 #include <math.h>

@@ -2,6 +2,10 @@
 #define _POSIX_C_SOURCE 200809L
 #include "planner/plan.h"
 #include "tests/support.h"
+#include "tests/frameworks.h"
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
 
 #include <pthread.h>
 #include <string.h>

@@ -6,6 +6,9 @@
 #include "symmetry/cover/ties.h"
 #include "tests/symmetric.h"
 #include "tortuosity/tie/tube.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "symmetry/group/quotient.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -5,7 +5,10 @@
 #include "graph/framework/make.h"
 #include "symmetry/symmetry.h"
 #include "tests/support.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
 #include "tests/symmetric.h"
+#include "graph/plan/evaluation.h"
 
 #include <math.h>
 #include <stdlib.h>

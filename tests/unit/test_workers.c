@@ -1,7 +1,9 @@
 /* The pool of processes: order, failures, crashes, signals, limits, and nothing left behind. */
 #define _POSIX_C_SOURCE 200809L
+#include "tests/processes.h"
 #include "tests/support.h"
 #include "graph/process/workers.h"
+#include "graph/limits.h"
 
 #include <errno.h>
 #include <signal.h>
@@ -13,29 +15,6 @@
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
-
-static void pause_ms(long ms)
-{
-  struct timespec t = {.tv_sec = ms / 1000, .tv_nsec = ms % 1000 * 1000000};
-  nanosleep(&t, NULL);
-}
-
-static void assert_no_children(void)
-{
-  int status;
-  errno = 0;
-  ck_assert_int_eq(waitpid(-1, &status, WNOHANG), -1);
-  ck_assert_int_eq(errno, ECHILD);
-}
-
-/* Files open below 256. */
-static int open_files(void)
-{
-  int n = 0;
-  for (int fd = 0; fd < 256; fd++)
-    n += dup2(fd, fd) == fd;
-  return n;
-}
 
 enum { JOBS = 13 };
 
@@ -205,13 +184,9 @@ START_TEST(without_pipes_it_says_so)
   double results[2];
   bool finished[2];
   thr_err err = {0};
-  struct rlimit few;
-  getrlimit(RLIMIT_NOFILE, &few);
-  few.rlim_cur = 3; /* none but those that stand open */
-  setrlimit(RLIMIT_NOFILE, &few);
+  allow_files(3); /* none but those that stand open */
   ck_assert_int_eq(thr_workers_run(&w, 2, &limits, results, finished, &err), THR_ESOLVER);
-  few.rlim_cur = 64;
-  setrlimit(RLIMIT_NOFILE, &few);
+  allow_files(64);
   assert_one_line(&err, "cannot start a worker");
   assert_no_children();
 }
@@ -225,15 +200,11 @@ START_TEST(with_few_pipes_it_gets_there)
   double results[JOBS];
   bool finished[JOBS];
   thr_err err = {0};
-  struct rlimit few;
-  getrlimit(RLIMIT_NOFILE, &few);
   int spare = dup(0);
   close(spare);
-  few.rlim_cur = (rlim_t)spare + 6; /* two pipes while a process starts, two ends of them while it runs */
-  setrlimit(RLIMIT_NOFILE, &few);
+  allow_files(spare + 6); /* two pipes while a process starts, two ends of them while it runs */
   thr_status st = thr_workers_run(&w, 8, &limits, results, finished, &err);
-  few.rlim_cur = 64;
-  setrlimit(RLIMIT_NOFILE, &few);
+  allow_files(64);
   ck_assert_msg(!st, "%s", err.text);
   for (int i = 0; i < JOBS; i++)
     ck_assert(finished[i] && results[i] == i * i);
@@ -261,14 +232,6 @@ START_TEST(memory_that_runs_out_is_a_failure)
 END_TEST
 
 /* ---- limits and signals ---- */
-
-static volatile sig_atomic_t interrupted;
-
-static void interrupt(int signal_number)
-{
-  (void)signal_number;
-  interrupted = 1;
-}
 
 /* Job 0 is quick, the others would take a minute. */
 static thr_status sleep_long(void *user, int job, void *result, thr_err *err)

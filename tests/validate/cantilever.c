@@ -2,6 +2,11 @@
 #include "eval/structure/holding.h"
 #include "eval/structure/settle.h"
 #include "tests/validate/validate.h"
+#include "eval/structure/beads.h"
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/physics.h"
+#include "graph/plan/plan.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,6 +3,7 @@
 #include "graph/angle.h"
 #include "graph/framework/frame.h"
 #include "tests/validate/drags.h"
+#include "graph/plan/plan.h"
 
 #include <math.h>
 #include <stdio.h>

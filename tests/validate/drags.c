@@ -1,5 +1,6 @@
 #include "tests/validate/drags.h"
 #include "graph/process/workers.h"
+#include "graph/limits.h"
 
 #include <stdlib.h>
 #include <unistd.h>

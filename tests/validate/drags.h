@@ -4,6 +4,7 @@
 
 #include "eval/joint/drag.h"
 #include "tests/validate/validate.h"
+#include "graph/status.h"
 
 enum { MOST_TURNS = 20 };
 

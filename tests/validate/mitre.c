@@ -2,6 +2,10 @@
 #include "eval/eval.h"
 #include "graph/angle.h"
 #include "tests/validate/validate.h"
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/evaluation.h"
+#include "graph/plan/plan.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -2,6 +2,9 @@
 #include "eval/eval.h"
 #include "graph/process/workers.h"
 #include "tests/validate/validate.h"
+#include "graph/limits.h"
+#include "graph/plan/evaluation.h"
+#include "graph/plan/plan.h"
 
 #include <stdio.h>
 #include <unistd.h>

@@ -3,6 +3,7 @@
 #define THR_VALIDATE_H
 
 #include "tests/validate/report.h"
+#include "graph/status.h"
 
 thr_status validate_joint(report *r, thr_err *err);      /* capstan ratio, straight channel, convergence, seeds */
 thr_status validate_cord(report *r, thr_err *err);       /* 20 turns against the product over the taut path */

@@ -1,0 +1,261 @@
+/* Columns and rows of the turning bound, by definition: graph/plan/turning_proof.h says which equations and inequalities hold for
+ * every plan; here each is written down as a row over the columns, and what multipliers prove is added up row by row, exactly. */
+#include "tests/turning_rows.h"
+#include "graph/angle.h"
+#include "tests/support.h"
+#include "graph/plan/plan.h"
+
+#include <math.h>
+
+/* ---- columns ---- */
+
+static int least_of(int a, int b)
+{
+  return a < b ? a : b;
+}
+
+int rows_cover(const model *m, int e)
+{
+  int own = m->frame.cover ? m->frame.cover[e] : 1;
+  return own > m->task.cover ? own : m->task.cover;
+}
+
+static int room_of(const model *m, int e)
+{
+  int most = m->task.most_passes;
+  if (m->task.capacity > 0) most = least_of(most, m->task.capacity);
+  if (m->frame.capacity && m->frame.capacity[e] > 0) most = least_of(most, m->frame.capacity[e]);
+  return most;
+}
+
+static int64_t rounded_down(double price)
+{
+  return (int64_t)floor(price * 17592186044416.0); /* 2^44 */
+}
+
+int rows_supply(const model *m, int k, bool largest)
+{
+  const thr_turning_task *t = &m->task;
+  if (t->end_count) return t->end_count[k];
+  if (!t->end_allowed) return 0;
+  return 2 * (largest || t->cords_least == 0 ? t->cords : t->cords_least);
+}
+
+static int group_of(const model *m, int v)
+{
+  return m->task.end_count ? v : m->component[v];
+}
+
+static double price_of(const model *m, int a, int b)
+{
+  return m->task.free_turns ? 0 : thr_turn_cost_of(m->task.cost, thr_turn_angle(&m->frame, a ^ 1, b)); /* none near a quarter */
+}
+
+static void expect_column(model *m, int j, column_kind kind, int a, int b, double price, int most)
+{
+  const thr_turning_columns *c = &m->columns;
+  ck_assert_int_ge(j, 0);
+  ck_assert_int_lt(j, c->n_columns);
+  ck_assert_int_eq(m->column[j].most, -1); /* each column once */
+  m->column[j] = (column){kind, a, b, rounded_down(price), most, thr_tail(&m->frame, a)};
+  ck_assert_int_eq(c->half[j][0], a);
+  ck_assert_int_eq(c->half[j][1], b);
+  ck_assert_int_eq(c->weight[j], m->column[j].weight);
+  ck_assert_int_eq(thr_turning_most(c, j), most);
+}
+
+void rows_fill(model *m)
+{
+  const thr_frame *f = &m->frame;
+  const thr_turning_task *t = &m->task;
+  const thr_turning_columns *c = &m->columns;
+  int n = 0, back = c->first_back;
+  ck_assert_int_lt(c->n_columns, MOST);
+  for (int j = 0; j < MOST; j++)
+    m->column[j].most = -1;
+  for (int v = 0; v < f->n_nodes; v++)
+    for (int i = f->first[v]; i < f->first[v + 1]; i++) {
+      int a = f->half[i], room = room_of(m, a / 2);
+      for (int k = i + 1; k < f->first[v + 1]; k++, n++) {
+        int b = f->half[k], j = thr_turning_column(c, a, b);
+        ck_assert_int_eq(thr_turning_column(c, b, a), j);
+        ck_assert_int_lt(j, c->first_extra);
+        expect_column(m, j, TURN, a, b, price_of(m, a, b), least_of(room, room_of(m, b / 2)));
+      }
+      bool ends = t->end_allowed && t->end_allowed[v];
+      ck_assert_int_eq(c->end_column[a] >= 0, ends);
+      if (ends) {
+        ck_assert(c->end_column[a] >= c->first_end && c->end_column[a] < c->first_back);
+        expect_column(m, c->end_column[a], END, a, -1, 0, least_of(room, rows_supply(m, group_of(m, v), true)));
+      }
+      n += ends;
+      if (thr_degree(f, v) == 1 && !t->tube) {
+        expect_column(m, back++, BACK, a, a, thr_turn_cost_of(t->cost, acos(-1)), room / 2);
+        n++;
+      }
+    }
+  for (int e = 0; e < f->n_edges; e++, n++)
+    expect_column(m, c->first_extra + e, EXTRA, 2 * e, 2 * e + 1, t->price_per_length * f->length[e],
+                  room_of(m, e) - rows_cover(m, e));
+  ck_assert_int_eq(n, c->n_columns);
+  double longest = 0, limit = t->extra_limit;
+  for (int e = 0; e < f->n_edges; e++)
+    longest = fmax(longest, f->length[e]);
+  for (int e = 0; e < f->n_edges; e++)
+    ck_assert_int_eq(c->length[e], (int64_t)floor(f->length[e] / longest * 1099511627776.0)); /* 2^40 */
+  ck_assert_int_eq(c->extra_limit, limit < 0 ? -1 : 1 + (int64_t)ceil(limit / longest * 1099511627776.0));
+  for (int k = 0; k < m->n_components; k++)
+    ck_assert_int_eq(thr_turning_open(c, k), t->end_allowed && (!t->end_count || m->end_count[k ? f->n_nodes - 1 : 0] > 0));
+}
+
+/* ---- rows ---- */
+
+/* What all rows together take off the columns' prices, and their right sides. */
+typedef struct {
+  wide taken[MOST], constant;
+} sums;
+
+/* How often half-edge h is in the column. */
+static int times(const column *x, int h)
+{
+  return x->kind == EXTRA ? 0 : (x->a == h) + (x->b == h);
+}
+
+static void add_equations(const model *m, const thr_turning_dual *d, sums *s)
+{
+  for (int h = 0; h < 2 * m->frame.n_edges; h++) {
+    for (int j = 0; j < m->columns.n_columns; j++) {
+      const column *x = &m->column[j];
+      s->taken[j] += (wide)d->potential[h] * (x->kind == EXTRA ? -(x->a / 2 == h / 2) : times(x, h));
+    }
+    s->constant += (wide)d->potential[h] * rows_cover(m, h / 2);
+  }
+  int n = m->task.end_count ? m->frame.n_nodes : m->n_components;
+  for (int k = 0; k < n; k++) {
+    for (int j = 0; j < m->columns.n_columns; j++)
+      if (m->column[j].kind == END && group_of(m, m->column[j].node) == k) s->taken[j] += d->ends[k];
+    wide least = (wide)d->ends[k] * rows_supply(m, k, false), most = (wide)d->ends[k] * rows_supply(m, k, true);
+    s->constant += least < most ? least : most;
+  }
+}
+
+static bool holds(const thr_turning_set *set, int member)
+{
+  for (int i = 0; i < set->n; i++)
+    if (set->member[i] == member) return true;
+  return false;
+}
+
+/* Does the column leave a set of half-edges, and ends of groups? */
+static bool leaves(const model *m, const thr_turning_set *set, const column *x)
+{
+  bool a = holds(set, x->a);
+  if (x->kind == END) return a != holds(set, 2 * m->frame.n_edges + group_of(m, x->node));
+  return x->kind != BACK && a != holds(set, x->b);
+}
+
+static void add_sets(const model *m, const thr_turning_dual *d, sums *s)
+{
+  for (int i = 0; i < d->n_odd; i++) {
+    for (int j = 0; j < m->columns.n_columns; j++)
+      if (leaves(m, &d->odd[i], &m->column[j])) s->taken[j] += d->odd[i].value;
+    s->constant += d->odd[i].value;
+  }
+  for (int i = 0; i < d->n_groups; i++) {
+    const thr_turning_set *g = &d->group[i];
+    for (int j = 0; j < m->columns.n_columns; j++) {
+      const column *x = &m->column[j];
+      bool out = x->kind == TURN && holds(g, x->a / 2) != holds(g, x->b / 2);
+      if (out || (x->kind == END && holds(g, x->a / 2))) s->taken[j] += g->value;
+    }
+    s->constant += 2 * (wide)g->value;
+  }
+}
+
+static wide rounded_up(wide n, wide by)
+{
+  return n / by + (n % by > 0);
+}
+
+/* Passes, without extra ones, that the edges of a block make at a node. */
+static int passes_at(const model *m, const int *block, int v, int b)
+{
+  int sum = 0;
+  for (int i = m->frame.first[v]; i < m->frame.first[v + 1]; i++)
+    if (block[m->frame.half[i] / 2] == b) sum += rows_cover(m, m->frame.half[i] / 2);
+  return sum;
+}
+
+static void add_partition(const model *m, const thr_turning_partition *p, sums *s)
+{
+  const thr_frame *f = &m->frame;
+  int connections = 0, n_blocks[2] = {0, 0};
+  for (int b = 0; b < f->n_edges; b++)
+    for (int e = 0; e < f->n_edges; e++)
+      if (p->block[e] == b) {
+        n_blocks[m->component[f->edge[e][0]]]++;
+        break;
+      }
+  for (int k = 0; k < m->n_components; k++)
+    connections += n_blocks[k] > m->task.cords ? n_blocks[k] - m->task.cords : 0;
+  s->constant += (wide)p->value * connections;
+  for (int v = 0; v < f->n_nodes; v++) {
+    int meet = 0, odd = 0;
+    for (int b = 0; b < f->n_edges; b++) {
+      bool here = false;
+      for (int i = f->first[v]; i < f->first[v + 1]; i++)
+        here |= p->block[f->half[i] / 2] == b;
+      meet += here;
+      odd += here && passes_at(m, p->block, v, b) % 2;
+    }
+    if (meet < 2) continue;
+    wide share = rounded_up((wide)p->value * (meet - 1), meet), half = rounded_up((wide)p->value * (meet - 1), 2 * (wide)meet);
+    for (int j = 0; j < m->columns.n_columns; j++) {
+      const column *x = &m->column[j];
+      if (x->kind == TURN && x->node == v && p->block[x->a / 2] != p->block[x->b / 2]) s->taken[j] += share;
+      if (x->kind == EXTRA && (f->edge[x->a / 2][0] == v || f->edge[x->a / 2][1] == v) &&
+          passes_at(m, p->block, v, p->block[x->a / 2]) % 2 == 0)
+        s->taken[j] += half;
+    }
+    s->constant -= half * odd;
+  }
+}
+
+static int block_at(const model *m, const thr_turning_junction *p, int half)
+{
+  for (int i = 0;; i++)
+    if (m->frame.half[m->frame.first[p->node] + i] == half) return p->block[i];
+}
+
+static void add_junction(const model *m, const thr_turning_junction *p, sums *s)
+{
+  int blocks = 0;
+  for (int i = 0; i < thr_degree(&m->frame, p->node); i++)
+    blocks = p->block[i] >= blocks ? p->block[i] + 1 : blocks;
+  for (int j = 0; j < m->columns.n_columns; j++) {
+    const column *x = &m->column[j];
+    if (x->kind == TURN && x->node == p->node && block_at(m, p, x->a) != block_at(m, p, x->b)) s->taken[j] += p->value;
+  }
+  s->constant += (wide)p->value * (blocks - 1);
+}
+
+wide rows_bound(const model *m, const thr_turning_dual *d, const int *low, const int *high)
+{
+  const wide one = (wide)1 << THR_LENGTH_BITS;
+  sums s = {{0}, 0};
+  add_equations(m, d, &s);
+  add_sets(m, d, &s);
+  for (int i = 0; i < d->n_partitions; i++)
+    add_partition(m, &d->partition[i], &s);
+  for (int i = 0; i < d->n_junctions; i++)
+    add_junction(m, &d->junction[i], &s);
+  bool limited = m->columns.extra_limit >= 0;
+  wide total = s.constant * one - (limited ? (wide)d->length * m->columns.extra_limit : 0);
+  for (int j = 0; j < m->columns.n_columns; j++) {
+    const column *x = &m->column[j];
+    wide reduced = (x->weight - s.taken[j]) * one;
+    if (limited && x->kind == EXTRA) reduced += (wide)d->length * m->columns.length[x->a / 2];
+    total += reduced * (reduced < 0 ? high[j] : low[j]);
+  }
+  return total;
+}
