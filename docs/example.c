@@ -1,7 +1,7 @@
 /* The library without the program: plans a framework for each objective, checks the plans and writes them. */
 #include "graph/check/check.h"
 #include "graph/io/read.h"
-#include "planner/plan.h"
+#include "planner/make_plan.h"
 
 #include <stdio.h>
 

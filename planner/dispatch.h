@@ -7,7 +7,7 @@
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/status.h"
-#include "planner/plan.h"
+#include "planner/make_plan.h"
 
 /* A planner: fills an empty plan and an empty report, with the statuses of thr_plan_make. */
 typedef thr_status thr_planner(const thr_frame *f, const thr_request *o, const thr_limits *limits, thr_plan *plan,

@@ -10,7 +10,7 @@
 #include "graph/status.h"
 #include "lp/length/cords.h"
 #include "planner/dispatch.h"
-#include "planner/plan.h"
+#include "planner/make_plan.h"
 #include "planner/planners.h"
 #include "tortuosity/tie/tube.h"
 #include "tortuosity/tie/tube_cords.h"

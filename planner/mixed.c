@@ -13,7 +13,7 @@
 #include "lp/length/postman.h"
 #include "planner/dispatch.h"
 #include "planner/planners.h"
-#include "planner/turning.h"
+#include "planner/least_turning.h"
 #include "tortuosity/tie/tube.h"
 
 #include <math.h>

@@ -2,7 +2,7 @@
 #include "planner/rivals.h"
 #include "graph/plan/request.h"
 #include "planner/dispatch.h"
-#include "planner/plan.h"
+#include "planner/make_plan.h"
 
 #include <math.h>
 

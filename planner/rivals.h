@@ -5,7 +5,7 @@
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/status.h"
-#include "planner/turning.h"
+#include "planner/least_turning.h"
 
 /* A plan that another is held against. */
 typedef struct {

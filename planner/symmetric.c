@@ -5,7 +5,7 @@
 #include "graph/plan/request.h"
 #include "graph/status.h"
 #include "planner/dispatch.h"
-#include "planner/plan.h"
+#include "planner/make_plan.h"
 #include "planner/planners.h"
 #include "symmetry/symmetry.h"
 

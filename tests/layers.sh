@@ -26,28 +26,6 @@ checker_reaches='graph graph/framework graph/plan graph/check graph/io/json.h gr
 # At most so many files of a folder may include each other in a circle (x.c and x.h are one file).
 longest_circle=3
 
-# What is still so, to be mended: "circle file" of one of its files, "name file" of the later one, "uses file".
-exceptions='circle symmetry/cover/bounds.c
-name planner/plan.c
-name planner/turning.c'
-
-# For awk: allowed(rule, file) is true for an exception; report_stale says which are none any more.
-# shellcheck disable=SC2016
-with_exceptions='
-  BEGIN { n = split(exceptions, list, "\n"); for (i = 1; i <= n; i++) except[list[i]] = 1 }
-  { is_there[FILENAME] = 1 }
-  function allowed(rule, file) {
-    if (!((rule " " file) in except)) return 0
-    except[rule " " file] = 2
-    return 1
-  }
-  function report_stale(rules,    key, part) {
-    for (key in except) {
-      split(key, part, " ")
-      if (except[key] == 1 && index(rules, part[1]) && (part[2] in is_there)) print part[2] ":1: no exception any more: take \"" key "\" from tests/layers.sh"
-    }
-  }'
-
 # foreign and Linux headers: the only file that may include them. "*" also stands for a folder of headers.
 owners='igraph.h:graph/framework/igraph.c
 jansson.h:graph/io/json_jansson.c
@@ -135,7 +113,7 @@ check_sources() { # FILE..
 
 # What the quoted includes of all files say together: the checker's reach, names of files, circles.
 check_structure() { # FILE..
-  awk -v checker="$checker" -v reaches="$checker_reaches" -v longest="$longest_circle" -v exceptions="$exceptions" "$with_exceptions"'
+  awk -v checker="$checker" -v reaches="$checker_reaches" -v longest="$longest_circle" '
     function folder_of(file) { return file ~ /\// ? substr(file, 1, match(file, /\/[^\/]*$/) - 1) : "" }
     function stem_of(file) { sub(/\.[a-z]+$/, "", file); return file }
     function base_of(file) { sub(/.*\//, "", file); return file }
@@ -170,7 +148,7 @@ check_structure() { # FILE..
         known[stem] = 1; stems[++n_stems] = stem
         # a header and its code may stand in two folders
         if (base in first && base != "main" && !index(includes[stem ".c"] " ", " " first[base] ".h ") &&
-            !index(includes[first[base] ".c"] " ", " " stem ".h ") && !allowed("name", file[i]))
+            !index(includes[first[base] ".c"] " ", " " stem ".h "))
           print file[i] ":1: " first[base] " has the same name"
         if (!(base in first)) first[base] = stem
       }
@@ -180,16 +158,15 @@ check_structure() { # FILE..
         circle = base_of(stems[i]); size = 1
         for (k = i + 1; k <= n_stems; k++)
           if (((stems[i], stems[k]) in to) && ((stems[k], stems[i]) in to)) { circle = circle " " base_of(stems[k]); size++; told[stems[k]] = 1 }
-        if (size > longest && !allowed("circle", stems[i] ".c")) print stems[i] ".c:1: a circle of " size " files: " circle
+        if (size > longest) print stems[i] ".c:1: a circle of " size " files: " circle
       }
-      report_stale("name circle")
     }' "$@"
 }
 
 # Whoever names a function or type of the house includes the header that declares it, or leaves that to its own header; tests to
 # the headers of tests/ that they include.
 check_uses() { # FILE..
-  awk -v exceptions="$exceptions" "$with_exceptions"'
+  awk '
     function strip(s,    out, c, two, i, n) { # uses and sets in_comment; also strings go
       out = ""; n = length(s)
       for (i = 1; i <= n; i++) {
@@ -249,13 +226,12 @@ check_uses() { # FILE..
           m = split(where[names[i]], header, " "); good = m == 0
           for (k = 1; k <= m; k++)
             good = good || header[k] == file || header[k] == own(file) || included(file, header[k]) || included(own(file), header[k])
-          if (!good && !((file, header[1]) in told) && !allowed("uses", file)) {
+          if (!good && !((file, header[1]) in told)) {
             told[file, header[1]] = 1
             print file ":" used[file, names[i]] ": include \"" header[1] "\" for " names[i]
           }
         }
       }
-      report_stale("uses")
     }' "$@"
 }
 
@@ -331,7 +307,7 @@ self_test() {
   expect graph/a.c:1 graph/a.c '#include "lp/solver/lp.h"\n'
   expect lp/a.c:2 lp/a.c '\n#include "tortuosity/t.h"\n'
   expect tortuosity/a.c:1 tortuosity/a.c '#include "symmetry/s.h"\n'
-  expect tortuosity/a.c:1 tortuosity/a.c '#include "planner/plan.h"\n'
+  expect tortuosity/a.c:1 tortuosity/a.c '#include "planner/make_plan.h"\n'
   expect diagram/a.c:1 diagram/a.c '#include "lp/solver/lp.h"\n'
   expect eval/a.h:3 eval/a.h '#ifndef THR_A_H\n#define THR_A_H\n# include  "diagram/d.h"\n#endif\n'
   expect graph/a.c:1 graph/a.c '#include "frame.h"\n'

@@ -5,7 +5,7 @@
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
-#include "planner/plan.h"
+#include "planner/make_plan.h"
 #include "tests/frameworks.h"
 #include "lp/length/cords.h"
 

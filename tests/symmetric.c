@@ -2,6 +2,7 @@
 #include "tests/symmetric.h"
 #include "symmetry/group/automorphisms.h"
 #include "tests/frameworks.h"
+#include "symmetry/cover/cover_options.h"
 
 #include <math.h>
 #include <stdlib.h>

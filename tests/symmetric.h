@@ -8,6 +8,7 @@
 #include "symmetry/group/group.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/request.h"
+#include "symmetry/cover/cover_options.h"
 
 thr_frame shape_make(thr_shape shape, int size, int rings); /* as `thread make` does */
 thr_frame truncated_icosahedron(void);                      /* 60 nodes of degree 3, no feet */

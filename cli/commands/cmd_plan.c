@@ -16,7 +16,7 @@
 #include "graph/status.h"
 #include "graph/text.h"
 #include "planner/dispatch.h"
-#include "planner/plan.h"
+#include "planner/make_plan.h"
 #include "planner/rivals.h"
 
 #include <math.h>

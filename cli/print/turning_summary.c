@@ -5,7 +5,7 @@
 #include "graph/limits.h"
 #include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
-#include "planner/turning.h"
+#include "planner/least_turning.h"
 #include "graph/angle.h"
 
 #include <math.h>

@@ -7,6 +7,7 @@
 
 #include "graph/status.h"
 #include "symmetry/cover/cover.h"
+#include "symmetry/cover/cover_options.h"
 #include "symmetry/group/quotient.h"
 
 /* Cords can run alike where an edge needs several passes; a cord can run back the way it came from a node with one edge where no

@@ -21,11 +21,6 @@ void thr_cover_destroy(thr_cover *cover)
   *cover = (thr_cover){0};
 }
 
-bool thr_cover_all_open(const thr_cover_options *options)
-{
-  return options->ends == THR_ENDS_FEET || options->ends == THR_ENDS_NODES || (options->ends == THR_ENDS_ANY && options->tube);
-}
-
 /* A component of the framework without a node where its cords may end. */
 static thr_status check_ends(const thr_programme *p, thr_err *err)
 {

@@ -12,23 +12,8 @@
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/status.h"
+#include "symmetry/cover/cover_options.h"
 #include "symmetry/group/quotient.h"
-
-typedef struct {
-  int cover;     /* passes that every edge needs at least */
-  thr_ends ends; /* closed: every cord is closed. any: open or closed cords. feet, nodes: every cord is open, its ends there */
-  const bool *end_node; /* [n_nodes] THR_ENDS_NODES only; borrowed. Must be invariant under H (THR_EINPUT), as the next two */
-  thr_aim prefer[THR_N_AIMS]; /* what is minimized first, second, .. */
-  const int *edge_cover;      /* [n_edges] instead of cover; NULL = all alike; borrowed */
-  const int *edge_capacity;   /* [n_edges] passes that an edge may have at most, INT_MAX = any number; NULL = any; borrowed */
-  bool tube;                  /* tube joints: the turns tie the edges at every node (graph/plan/junction.h), none goes back */
-  double start_by;            /* thr_clock() until when a first cover is looked for, even after the limits' deadline */
-  bool quick;                 /* overlap and steps only, as far as they come before turning: the rest is as it comes */
-} thr_cover_options;
-
-/* Is every cord open? With tube joints also if ends may be anywhere: where a closed cord comes out it ties nothing, so that its
- * ends are ends like others, which the group maps to ends. */
-bool thr_cover_all_open(const thr_cover_options *options);
 
 /* value[aim]: overlap in units of length; learned steps (passes of the unique paths, a folded path's half, a folded edge as 1/2);
  * unique paths (orbits of cords); turning in rad of all cords. bound[aim]: no symmetric cover is better in that, with the aims

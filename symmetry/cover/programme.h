@@ -10,7 +10,7 @@
 #include "graph/limits.h"
 #include "graph/plan/request.h"
 #include "graph/status.h"
-#include "symmetry/cover/cover.h"
+#include "symmetry/cover/cover_options.h"
 #include "symmetry/cover/ties.h"
 #include "symmetry/group/quotient.h"
 

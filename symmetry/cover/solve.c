@@ -3,6 +3,7 @@
 #include "graph/plan/plan.h"
 #include "symmetry/cover/claims.h"
 #include "symmetry/cover/cover.h"
+#include "symmetry/cover/cover_options.h"
 #include "symmetry/group/group.h"
 #include "symmetry/group/quotient.h"
 

@@ -4,7 +4,7 @@
 #include "graph/plan/junction.h"
 #include "tests/attack.h"
 #include "tests/truth.h"
-#include "planner/turning.h"
+#include "planner/least_turning.h"
 #include "tortuosity/tie/tube_cords.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"

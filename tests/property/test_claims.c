@@ -4,6 +4,7 @@
 #include "tests/frameworks.h"
 #include "tests/plans.h"
 #include "symmetry/group/quotient.h"
+#include "symmetry/cover/cover_options.h"
 
 #include <string.h>
 

@@ -14,6 +14,7 @@
 #include "symmetry/cover/programme.h"
 #include "symmetry/cover/relaxation.h"
 #include "symmetry/group/quotient.h"
+#include "symmetry/cover/cover_options.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
  * frameworks against every choice of passes, ends and pairs. */
 #include "tests/symmetric.h"
 #include "graph/framework/make.h"
-#include "planner/turning.h"
+#include "planner/least_turning.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
 #include "graph/plan/turning_proof.h"

@@ -1,7 +1,7 @@
 /* The shortest cords for tube joints against all passes and all turns of small frameworks, and against published values. */
 #include "tests/ties.h"
 #include "graph/plan/junction.h"
-#include "planner/turning.h"
+#include "planner/least_turning.h"
 #include "tortuosity/tie/tube.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"

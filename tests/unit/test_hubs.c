@@ -8,7 +8,7 @@
 #include "tortuosity/proof/hubs.h"
 #include "tortuosity/proof/nearest.h"
 #include "graph/threading/pairing.h"
-#include "planner/turning.h"
+#include "planner/least_turning.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"

@@ -17,7 +17,7 @@ int example_main(int argc, char **argv);
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
-#include "planner/plan.h"
+#include "planner/make_plan.h"
 #undef main
 
 START_TEST(the_example_plans_for_every_objective)

@@ -7,6 +7,7 @@
 #include "graph/limits.h"
 #include "symmetry/group/group.h"
 #include "symmetry/group/quotient.h"
+#include "symmetry/cover/cover_options.h"
 
 #include <math.h>
 

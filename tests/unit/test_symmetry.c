@@ -2,7 +2,7 @@
 #include "tests/symmetric.h"
 #include "graph/check/check.h"
 #include "symmetry/symmetry.h"
-#include "planner/turning.h"
+#include "planner/least_turning.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
 

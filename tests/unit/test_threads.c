@@ -1,6 +1,6 @@
 /* Plans that are made in two threads at once are those that one thread makes. */
 #define _POSIX_C_SOURCE 200809L
-#include "planner/plan.h"
+#include "planner/make_plan.h"
 #include "tests/support.h"
 #include "tests/frameworks.h"
 #include "graph/limits.h"

@@ -5,7 +5,7 @@
 #include "tests/plans.h"
 #include "graph/angle.h"
 #include "tortuosity/proof/least.h"
-#include "planner/turning.h"
+#include "planner/least_turning.h"
 #include "graph/check/check.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* Request -> planner -> plan, with the versions of the libraries that made it. */
-#include "planner/plan.h"
+#include "planner/make_plan.h"
 #include "lp/solver/lp.h"
 #include "graph/framework/cuttree.h"
 #include "planner/dispatch.h"

@@ -5,8 +5,8 @@
  *       !thr_plan_make(&frame, &request, &(thr_limits){0}, &plan, NULL, &err))
  *     thr_plan_write(&plan, &text);
  */
-#ifndef THR_PLANNER_PLAN_H
-#define THR_PLANNER_PLAN_H
+#ifndef THR_MAKE_PLAN_H
+#define THR_MAKE_PLAN_H
 
 #include "graph/framework/frame.h"
 #include "graph/limits.h"

@@ -1,7 +1,7 @@
 /* Plans of the least turning: from the options of a plan to cords that turn least, and what is proved of them (thesis, chapter 6;
  * docs/method.md). Friction grows as exp(mu * angle), so this is the threading that pulls most easily. */
-#ifndef THR_PLANNER_TURNING_H
-#define THR_PLANNER_TURNING_H
+#ifndef THR_LEAST_TURNING_H
+#define THR_LEAST_TURNING_H
 
 #include "graph/framework/frame.h"
 #include "graph/limits.h"

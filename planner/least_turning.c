@@ -1,11 +1,11 @@
 /* Options -> the search's task -> cords -> plan with its claims; and the trade-off between length and turning. */
-#include "planner/turning.h"
+#include "planner/least_turning.h"
 #include "graph/check/check.h"
 #include "graph/plan/turning_proof.h"
 #include "lp/length/postman.h"
 #include "planner/dispatch.h"
 #include "planner/even_turning.h"
-#include "planner/plan.h"
+#include "planner/make_plan.h"
 #include "planner/planners.h"
 #include "tortuosity/proof/least.h"
 #include "tortuosity/tie/tube.h"
