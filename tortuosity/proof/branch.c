@@ -2,6 +2,7 @@
 #include "tortuosity/proof/branch.h"
 #include "graph/angle.h"
 #include "graph/framework/frame.h"
+#include "lp/model/search.h"
 #include "tortuosity/proof/ascent.h"
 #include "tortuosity/proof/cycles.h"
 #include "tortuosity/proof/nearest.h"
@@ -75,11 +76,6 @@ int64_t thr_branch_tolerance(const thr_branch *branch)
   return (int64_t)ldexp(1e-9 * u_turn * branch->best_passes, THR_TURNING_BITS);
 }
 
-static double fraction(double x)
-{
-  return fabs(x - nearbyint(x));
-}
-
 /* Column to branch on: extras first, then ends, then the rest; the one nearest a half. -1: the point is whole. */
 static int most_fractional(const thr_branch *branch)
 {
@@ -88,17 +84,10 @@ static int most_fractional(const thr_branch *branch)
                            {turning_columns->first_end, turning_columns->first_back},
                            {0, turning_columns->first_extra},
                            {turning_columns->first_back, turning_columns->n_columns}};
-  for (int r = 0; r < 4; r++) {
-    int best = -1;
-    double most = integral;
-    for (int k = range[r][0]; k < range[r][1]; k++)
-      if (fraction(branch->relax.x[k]) > most + 1e-9) {
-        most = fraction(branch->relax.x[k]);
-        best = k;
-      }
-    if (best >= 0) return best;
-  }
-  return -1;
+  int column = -1;
+  for (int r = 0; r < 4 && column < 0; r++)
+    column = thr_tree_undecided(branch->relax.x, range[r][0], range[r][1], integral, NULL);
+  return column;
 }
 
 /* ---- nodes ---- */
@@ -201,29 +190,29 @@ static void report(const thr_branch *branch)
                            ldexp(least, -THR_TURNING_BITS));
 }
 
-/* Rounds of rows until none is violated, the bound is good enough, or rounds stop paying. */
+/* A round: plans near the point, and whether its bound is good enough. */
+static thr_status look(void *user, thr_err *err)
+{
+  thr_branch *branch = user;
+  thr_search *search = &branch->relax.search;
+  bool solved = search->outcome == THR_LP_OPTIMAL;
+  thr_relax_look(&branch->relax);
+  branch->rounds++;
+  search->whole = solved && branch->relax.artificial < integral && most_fractional(branch) < 0;
+  thr_status st = search->whole ? thr_branch_try_whole(branch, err) : solved ? thr_branch_try_rounded(branch, err) : THR_OK;
+  double target = ldexp((double)(branch->best_price - thr_branch_tolerance(branch)), -THR_TURNING_BITS);
+  search->enough = search->objective >= target;
+  return st;
+}
+
+/* Rounds of rows until none is violated, the bound is good enough, or there were many. */
 static thr_status solve_node(thr_branch *branch, int i, const thr_limits *limits, thr_err *err)
 {
-  enum { PATIENCE = 12 };
-  double risen = -INFINITY;
-  int idle = 0;
-  for (int added = 1; added;) {
-    thr_status st = thr_relax_solve(&branch->relax, limits, err);
-    if (st) return st;
-    branch->rounds++;
-    bool whole = branch->relax.solved && branch->relax.artificial < integral && most_fractional(branch) < 0;
-    if ((st = whole ? thr_branch_try_whole(branch, err) : branch->relax.solved ? thr_branch_try_rounded(branch, err) : THR_OK))
-      return st;
-    double target = ldexp((double)(branch->best_price - thr_branch_tolerance(branch)), -THR_TURNING_BITS);
-    if (!branch->relax.solved) branch->tree.stopped = true;
-    if (branch->relax.objective >= target || branch->tree.stopped) break;
-    idle = branch->relax.objective > risen + 1e-3 * (target - risen) ? 0 : idle + 1;
-    if (idle == 0) risen = branch->relax.objective;
-    if (idle > PATIENCE && !whole) break;
-    if ((st = thr_relax_separate(&branch->relax, limits, &added, err))) return st;
-    branch->tree.stopped |= thr_limits_stop(limits);
-  }
-  return certify(branch, i, err);
+  enum { MOST_ROUNDS = 13 };
+  const thr_search_calls calls = {.user = branch, .name = "a turning relaxation", .look = look, .most_rounds = MOST_ROUNDS};
+  thr_status st = thr_search_rounds(&branch->relax.search, &calls, limits, err);
+  branch->tree.stopped |= branch->relax.search.outcome == THR_LP_STOPPED;
+  return st ? st : certify(branch, i, err);
 }
 
 /* Tube joints: the relaxation of a large framework is not solved in the time that there is, and hardly better than the ascent; of

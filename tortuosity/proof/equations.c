@@ -34,7 +34,7 @@ static void fill_matrix(const thr_relax *relax, double penalty, matrix *m)
     if (b >= 0 && a != b) put(m, b, extra ? -1 : 1);
     if (b < 0) put(m, darts + turning_columns->end_group[thr_tail(turning_columns->f, a)], 1);
   }
-  for (int i = 0; i < relax->n_equations; i++)
+  for (int i = 0; i < relax->search.n_fixed; i++)
     for (int sign = -1; sign <= 1; sign += 2) {
       m->start[j] = m->n;
       m->cost[j++] = penalty;
@@ -45,7 +45,7 @@ static void fill_matrix(const thr_relax *relax, double penalty, matrix *m)
   m->start[j] = m->n;
   for (int h = 0; h < darts; h++)
     m->rhs[h] = turning_columns->cover[h >> 1];
-  for (int i = darts; i < relax->n_equations; i++)
+  for (int i = darts; i < relax->search.n_fixed; i++)
     m->rhs[i] = turning_columns->supply[i - darts][0];
 }
 
@@ -60,13 +60,13 @@ static void matrix_destroy(matrix *m)
 
 static thr_status matrix_init(matrix *m, const thr_relax *relax, double penalty, thr_err *err)
 {
-  size_t n = (size_t)relax->n_all, entries = 3 * (size_t)relax->c->n_columns + 2 * (size_t)relax->n_equations;
+  size_t n = (size_t)relax->n_all, entries = 3 * (size_t)relax->c->n_columns + 2 * (size_t)relax->search.n_fixed;
   *m = (matrix){0};
   m->start = thr_calloc(n + 1, sizeof *m->start);
   m->row = thr_calloc(entries, sizeof *m->row);
   m->value = thr_calloc(entries, sizeof *m->value);
   m->cost = thr_calloc(n, sizeof *m->cost);
-  m->rhs = thr_calloc((size_t)relax->n_equations, sizeof *m->rhs);
+  m->rhs = thr_calloc((size_t)relax->search.n_fixed, sizeof *m->rhs);
   if (!m->start || !m->row || !m->value || !m->cost || !m->rhs) {
     matrix_destroy(m);
     return thr_nomem(err);
@@ -80,7 +80,8 @@ thr_status thr_relax_create(thr_relax *relax, double penalty, thr_err *err)
   matrix m;
   thr_status st = matrix_init(&m, relax, penalty, err);
   if (st) return st;
-  st = thr_lp_create_equations(&relax->lp, relax->n_equations, m.rhs, relax->n_all, m.cost, NULL, m.start, m.row, m.value, err);
+  st = thr_lp_create_equations(&relax->search.lp, relax->search.n_fixed, m.rhs, relax->n_all, m.cost, NULL, m.start, m.row,
+                               m.value, err);
   matrix_destroy(&m);
   return st;
 }
@@ -115,7 +116,7 @@ static thr_status crash_init(crash *k, const thr_relax *relax, thr_err *err)
   k->m.value = thr_calloc(2 * turns, sizeof *k->m.value);
   k->m.cost = thr_calloc(turns, sizeof *k->m.cost);
   k->m.rhs = thr_calloc(most, sizeof *k->m.rhs);
-  k->row_basic = thr_calloc((size_t)thr_lp_rows(relax->lp), sizeof *k->row_basic);
+  k->row_basic = thr_calloc((size_t)thr_lp_rows(relax->search.lp), sizeof *k->row_basic);
   k->column_basic = thr_calloc((size_t)relax->n_all, sizeof *k->column_basic);
   k->back = thr_calloc(2 * (size_t)turning_columns->f->n_edges, sizeof *k->back);
   if (!k->m.start || !k->m.row || !k->m.value || !k->m.cost || !k->m.rhs || !k->row_basic || !k->column_basic || !k->back)
@@ -167,12 +168,13 @@ thr_status thr_relax_crash(thr_relax *relax, const thr_limits *limits, thr_err *
           true; /* all that can be there */
     else if (thr_degree(turning_columns->f, v) > 0)
       st = crash_node(&k, v, limits, err);
-  for (int i = darts; !st && i < thr_lp_rows(relax->lp); i++)
+  for (int i = darts; !st && i < thr_lp_rows(relax->search.lp); i++)
     if (i < darts + turning_columns->n_ends && turning_columns->task->end_allowed)
       k.column_basic[turning_columns->n_columns + 2 * i + 1] = true; /* no ends yet: the artificial column makes up for them */
     else
       k.row_basic[i] = true;
-  if (!st) st = thr_lp_set_basis(relax->lp, k.row_basic, k.column_basic, err);
+  if (!st) st = thr_lp_set_basis(relax->search.lp, k.row_basic, k.column_basic, err);
+  relax->search.bare = true;
   crash_destroy(&k);
   return st;
 }

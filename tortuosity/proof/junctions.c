@@ -84,8 +84,9 @@ static thr_status find_worst(int d, const double *between, int *block, int *n_bl
   return st;
 }
 
-thr_status thr_junctions_separate(thr_relax *relax, int *added, thr_err *err)
+thr_status thr_junctions_separate(void *user, int *added, thr_err *err)
 {
+  thr_relax *relax = user;
   const thr_turning_columns *turning_columns = relax->c;
   const thr_frame *frame = turning_columns->f;
   size_t most = 1;

@@ -166,8 +166,9 @@ static thr_status go_through(splitter *s, int *added, thr_err *err)
   return st;
 }
 
-thr_status thr_partitions_separate(thr_relax *relax, int *added, thr_err *err)
+thr_status thr_partitions_separate(void *user, int *added, thr_err *err)
 {
+  thr_relax *relax = user;
   splitter s;
   thr_status st = splitter_init(&s, relax, err);
   for (int by_point = 0; by_point < 2 && !st; by_point++) {

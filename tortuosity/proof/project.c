@@ -14,9 +14,9 @@
 static int put_half(thr_relax *relax, int h, int sign)
 {
   const thr_turning_columns *turning_columns = relax->c;
-  thr_pool_put(&relax->pool, h >> 1, sign);
+  thr_pool_put(&relax->search.pool, h >> 1, sign);
   if (turning_columns->end_column[h] >= 0)
-    thr_pool_put(&relax->pool, turning_columns->end_column[h] - turning_columns->first_extra, -sign);
+    thr_pool_put(&relax->search.pool, turning_columns->end_column[h] - turning_columns->first_extra, -sign);
   return sign * turning_columns->cover[h >> 1];
 }
 
@@ -33,7 +33,7 @@ static int put_row(thr_relax *relax, thr_relax_kind kind, int k)
   if (kind != THR_RELAX_LEAST && kind != THR_RELAX_MOST) return lower;
   for (int j = turning_columns->first_end; j < turning_columns->first_back; j++)
     if (turning_columns->end_group[thr_tail(frame, turning_columns->half[j][0])] == k)
-      thr_pool_put(&relax->pool, j - turning_columns->first_extra, sign);
+      thr_pool_put(&relax->search.pool, j - turning_columns->first_extra, sign);
   return sign * turning_columns->supply[k][kind == THR_RELAX_MOST];
 }
 
@@ -41,7 +41,7 @@ static int put_row(thr_relax *relax, thr_relax_kind kind, int k)
 static thr_status add_row(thr_relax *relax, thr_relax_kind kind, int k, thr_err *err)
 {
   int lower = put_row(relax, kind, k);
-  return thr_pool_add(&relax->pool, (thr_row){.kind = (int)kind, .index = k, .lower = lower}, err);
+  return thr_pool_add(&relax->search.pool, (thr_row){.kind = (int)kind, .index = k, .lower = lower}, err);
 }
 
 /* The same if x violates it. */
@@ -49,7 +49,7 @@ static thr_status offer_row(thr_relax *relax, thr_relax_kind kind, int k, int *a
 {
   const double tolerance = 1e-6, *x = relax->x + relax->c->first_extra;
   int lower = put_row(relax, kind, k);
-  return thr_pool_offer(&relax->pool, (thr_row){.kind = (int)kind, .index = k, .lower = lower}, x, tolerance, added, err);
+  return thr_pool_offer(&relax->search.pool, (thr_row){.kind = (int)kind, .index = k, .lower = lower}, x, tolerance, added, err);
 }
 
 /* The rows to begin with: of every node, of the edges at nodes with no more than two. Those of the ends come later: what ends
@@ -75,7 +75,7 @@ thr_status thr_project_create(thr_relax *relax, double penalty, thr_err *err)
   for (int j = 0; j + 1 < n; j++)
     cost[j] = ldexp((double)turning_columns->weight[turning_columns->first_extra + j], -THR_TURNING_BITS);
   cost[n - 1] = penalty;
-  thr_status st = thr_lp_create(&relax->lp, n, cost, NULL, err);
+  thr_status st = thr_lp_create(&relax->search.lp, n, cost, NULL, err);
   free(cost);
   return st ? st : first_rows(relax, err);
 }
@@ -109,9 +109,9 @@ thr_status thr_project_graph(thr_relax *relax, thr_err *err)
 
 /* ---- separation ---- */
 
-/* Rows of the edges at their nodes. */
-static thr_status separate_sides(thr_relax *relax, int *added, thr_err *err)
+thr_status thr_project_sides(void *user, int *added, thr_err *err)
 {
+  thr_relax *relax = user;
   const thr_frame *frame = relax->c->f;
   thr_status st = THR_OK;
   for (int h = 0; h < 2 * frame->n_edges && !st; h++) {
@@ -122,24 +122,14 @@ static thr_status separate_sides(thr_relax *relax, int *added, thr_err *err)
   return st;
 }
 
-/* Rows of the numbers of ends. */
-static thr_status separate_ends(thr_relax *relax, int *added, thr_err *err)
+thr_status thr_project_ends(void *user, int *added, thr_err *err)
 {
+  thr_relax *relax = user;
   thr_status st = THR_OK;
   for (int k = 0; k < relax->c->n_ends && relax->c->task->end_allowed && !st; k++) {
     st = offer_row(relax, THR_RELAX_LEAST, k, added, err);
     if (!st) st = offer_row(relax, THR_RELAX_MOST, k, added, err);
   }
-  return st;
-}
-
-thr_status thr_project_separate(thr_relax *relax, const thr_limits *limits, int *added, thr_err *err)
-{
-  *added = 0;
-  thr_status st = separate_ends(relax, added, err);
-  if (!st) st = separate_sides(relax, added, err);
-  if (!st) st = thr_relax_odd(relax, false, added, err);
-  if (!st && *added == 0 && !thr_limits_stop(limits)) st = thr_relax_odd(relax, true, added, err);
   return st;
 }
 
@@ -206,12 +196,12 @@ thr_status thr_project_dual(const thr_relax *relax, thr_turning_dual *dual, thr_
   *dual = (thr_turning_dual){0};
   dual->potential = thr_calloc(2 * (size_t)turning_columns->f->n_edges, sizeof *dual->potential);
   dual->ends = thr_calloc((size_t)turning_columns->n_ends, sizeof *dual->ends);
-  dual->odd = thr_calloc((size_t)relax->pool.count, sizeof *dual->odd);
-  dual->junction = thr_calloc((size_t)relax->pool.count, sizeof *dual->junction);
+  dual->odd = thr_calloc((size_t)relax->search.pool.count, sizeof *dual->odd);
+  dual->junction = thr_calloc((size_t)relax->search.pool.count, sizeof *dual->junction);
   thr_status st = dual->potential && dual->ends && dual->odd && dual->junction ? THR_OK : thr_nomem(err);
-  for (int i = 0; i < relax->pool.count && !st; i++)
-    if (thr_relax_whole(relax->dual[i]) > 0)
-      st = add_multiplier(relax, dual, &relax->pool.row[i], thr_relax_whole(relax->dual[i]), err);
+  for (int i = 0; i < relax->search.pool.count && !st; i++)
+    if (thr_relax_whole(relax->search.dual[i]) > 0)
+      st = add_multiplier(relax, dual, &relax->search.pool.row[i], thr_relax_whole(relax->search.dual[i]), err);
   if (st) thr_turning_dual_destroy(dual);
   return st;
 }

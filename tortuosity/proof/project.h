@@ -6,7 +6,6 @@
 #ifndef THR_PROJECT_H
 #define THR_PROJECT_H
 
-#include "graph/limits.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/status.h"
 #include "tortuosity/proof/relax.h"
@@ -14,8 +13,9 @@
 thr_status thr_project_create(thr_relax *relax, double penalty, thr_err *err) THR_MUST_CHECK;
 thr_status thr_project_graph(thr_relax *relax, thr_err *err) THR_MUST_CHECK;
 
-/* Adds rows that x violates. */
-thr_status thr_project_separate(thr_relax *relax, const thr_limits *limits, int *added, thr_err *err) THR_MUST_CHECK;
+/* Separators, of a thr_relax: rows of the numbers of ends; of the edges at their nodes. */
+thr_status thr_project_ends(void *relax, int *added, thr_err *err) THR_MUST_CHECK;
+thr_status thr_project_sides(void *relax, int *added, thr_err *err) THR_MUST_CHECK;
 
 /* The multipliers of the last solve as those of the whole model: a node's row is its junction of single edges. */
 thr_status thr_project_dual(const thr_relax *relax, thr_turning_dual *dual, thr_err *err) THR_MUST_CHECK;

@@ -2,6 +2,9 @@
 #include "tortuosity/proof/relax.h"
 #include "graph/framework/frame.h"
 #include "graph/sort.h"
+#include "lp/model/pool.h"
+#include "lp/model/search.h"
+#include "lp/solver/lp.h"
 #include "tortuosity/proof/column_groups.h"
 #include "tortuosity/proof/partition.h"
 #include "tortuosity/proof/project.h"
@@ -33,8 +36,9 @@ static thr_status add_length_row(thr_relax *relax, thr_err *err)
   if (!st) {
     column[m] = relax->n_all - 1;
     value[m] = 1;
-    st = thr_lp_add_row(relax->lp, m + 1, column, value, -ldexp((double)turning_columns->extra_limit, -THR_LENGTH_BITS), err);
-    relax->n_equations++;
+    st = thr_lp_add_row(relax->search.lp, m + 1, column, value, -ldexp((double)turning_columns->extra_limit, -THR_LENGTH_BITS),
+                        err);
+    relax->search.n_fixed++;
   }
   free(column);
   free(value);
@@ -68,69 +72,36 @@ static thr_status add_node_sets(thr_relax *relax, thr_err *err)
   const thr_frame *frame = relax->c->f;
   thr_status st = THR_OK;
   for (int v = 0; v < frame->n_nodes && !st; v++)
-    st = thr_oddcut_add(&relax->graph, &relax->pool, frame->half + frame->first[v], thr_degree(frame, v), err);
+    st = thr_oddcut_add(&relax->graph, &relax->search.pool, frame->half + frame->first[v], thr_degree(frame, v), err);
   return st;
-}
-
-thr_status thr_relax_init(thr_relax *relax, const thr_turning_columns *turning_columns, bool projected, double penalty,
-                          const thr_limits *limits, thr_err *err)
-{
-  size_t n = (size_t)turning_columns->n_columns;
-  *relax = (thr_relax){.c = turning_columns, .projected = projected};
-  if (!projected)
-    relax->n_equations = 2 * turning_columns->f->n_edges + (turning_columns->task->end_allowed ? turning_columns->n_ends : 0);
-  relax->n_all = turning_columns->n_columns + 2 * relax->n_equations + 1;
-  relax->x = thr_calloc((size_t)relax->n_all, sizeof *relax->x);
-  relax->reduced = thr_calloc(n, sizeof *relax->reduced);
-  thr_status st = relax->x && relax->reduced ? THR_OK : thr_nomem(err);
-  if (!st)
-    st = thr_pool_init(&relax->pool,
-                       projected ? turning_columns->first_back - turning_columns->first_extra : turning_columns->n_columns, err);
-  if (!st) st = projected ? thr_project_create(relax, penalty, err) : thr_relax_create(relax, penalty, err);
-  if (!st && turning_columns->extra_limit >= 0) st = add_length_row(relax, err);
-  for (int j = turning_columns->first_extra; j < turning_columns->n_columns && !st; j++) /* turns: by their equations */
-    st = thr_lp_set_bounds(relax->lp, j - first_column(relax), 0, thr_turning_most(turning_columns, j), err);
-  if (!st && !projected) st = thr_relax_crash(relax, limits, err);
-  if (!st) st = projected ? thr_project_graph(relax, err) : init_graph(relax, err);
-  if (!st && !projected) st = add_node_sets(relax, err);
-  if (st) thr_relax_destroy(relax);
-  return st;
-}
-
-void thr_relax_destroy(thr_relax *relax)
-{
-  thr_lp_destroy(relax->lp);
-  free(relax->x);
-  free(relax->dual);
-  free(relax->reduced);
-  thr_pool_destroy(&relax->pool);
-  thr_oddcut_graph_destroy(&relax->graph);
-  free((void *)relax->problem.edge);
-  free((void *)relax->problem.odd);
-  *relax = (thr_relax){0};
 }
 
 thr_status thr_relax_set(thr_relax *relax, int column, int low, int high, thr_err *err)
 {
   bool unbounded = column < relax->c->first_extra && high == thr_turning_most(relax->c, column);
-  return thr_lp_set_bounds(relax->lp, column - first_column(relax), low, unbounded ? (double)INFINITY : high, err);
+  return thr_lp_set_bounds(relax->search.lp, column - first_column(relax), low, unbounded ? (double)INFINITY : high, err);
 }
 
 /* ---- rows ---- */
 
-thr_status thr_relax_odd(thr_relax *relax, bool exact, int *added, thr_err *err)
+/* Odd sets that x violates: by moats, or without thresholds exactly. */
+static thr_status find_odd(thr_relax *relax, const double *threshold, int n, int *added, thr_err *err)
+{
+  const double *x = relax->search.x;
+  if (!relax->any_odd) return THR_OK; /* all sets are even */
+  return thr_oddcut_separate(&relax->graph, x, relax->reduced + first_column(relax), threshold, n, x, &relax->search.pool, added,
+                             err);
+}
+
+thr_status thr_relax_odd(void *relax, int *added, thr_err *err)
 {
   static const double threshold[] = {1e-6, 0.2, 0.35, 0.51, 0.7};
-  const int before = relax->pool.count, first = first_column(relax);
-  const double *x = relax->x + first;
-  thr_status st = THR_OK;
-  if (!relax->any_odd) return THR_OK; /* all sets are even */
-  if (exact) st = thr_oddcut_exact(&relax->graph, x, &relax->pool, err);
-  for (size_t i = 0; i < sizeof threshold / sizeof *threshold && !exact && !st && relax->pool.count == before; i++) {
-    st = thr_oddcut_moats(&relax->graph, x, threshold[i], relax->reduced + first, &relax->pool, err);
-    if (!st) st = thr_pool_keep_violated(&relax->pool, before, x, tolerance, added, err);
-  }
-  return st || !exact ? st : thr_pool_keep_violated(&relax->pool, before, x, tolerance, added, err);
+  return find_odd(relax, threshold, 5, added, err);
+}
+
+thr_status thr_relax_odd_exactly(void *relax, int *added, thr_err *err)
+{
+  return find_odd(relax, NULL, 0, added, err);
 }
 
 /* ---- groups ---- */
@@ -143,8 +114,9 @@ static void put_crossing(thr_relax *relax, const int *edge, int n, const bool *i
   for (int k = 0; k < 2 * n; k++) {
     int h = 2 * edge[k / 2] + k % 2, v = thr_tail(frame, h);
     for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
-      if (!inside[frame->half[i] >> 1]) thr_pool_put(&relax->pool, thr_turning_column(turning_columns, h, frame->half[i]), 1);
-    if (turning_columns->end_column[h] >= 0) thr_pool_put(&relax->pool, turning_columns->end_column[h], 1);
+      if (!inside[frame->half[i] >> 1])
+        thr_pool_put(&relax->search.pool, thr_turning_column(turning_columns, h, frame->half[i]), 1);
+    if (turning_columns->end_column[h] >= 0) thr_pool_put(&relax->search.pool, turning_columns->end_column[h], 1);
   }
 }
 
@@ -161,11 +133,38 @@ static thr_status add_group(void *user, const int *edge, int n, int *added, thr_
     thr_sort_ints(group, (size_t)n);
     put_crossing(relax, group, n, inside);
     const thr_row row = {.kind = THR_RELAX_GROUP, .lower = 2, .member = group, .n_members = n};
-    st = thr_pool_offer(&relax->pool, row, relax->x, tolerance, added, err);
+    st = thr_pool_offer(&relax->search.pool, row, relax->x, tolerance, added, err);
   }
   free(inside);
   free(group);
   return st;
+}
+
+static thr_groups_call groups_of(thr_relax *relax)
+{
+  return (thr_groups_call){relax->c, relax->x, add_group, relax};
+}
+
+static thr_status find_groups(void *user, int *added, thr_err *err)
+{
+  const thr_groups_call groups = groups_of(user);
+  return thr_groups_support(&groups, tolerance, added, err);
+}
+
+/* Of turns that are made more than a little. */
+static thr_status find_thick_groups(void *user, int *added, thr_err *err)
+{
+  const thr_groups_call groups = groups_of(user);
+  thr_status st = THR_OK;
+  for (double threshold = 0.2; !st && !*added && threshold < 1; threshold += 0.25)
+    st = thr_groups_support(&groups, threshold, added, err);
+  return st;
+}
+
+static thr_status find_groups_exactly(void *user, int *added, thr_err *err)
+{
+  const thr_groups_call groups = groups_of(user);
+  return thr_groups_flow(&groups, added, err);
 }
 
 /* ---- partitions ---- */
@@ -185,8 +184,8 @@ static double put_partition(thr_relax *relax, const int *block, bool *even)
     for (int i = 0; i < thr_degree(frame, v); i++) {
       for (int j = i + 1; j < thr_degree(frame, v); j++)
         if (block[half[i] >> 1] != block[half[j] >> 1])
-          thr_pool_put(&relax->pool, thr_turning_column(turning_columns, half[i], half[j]), share);
-      if (even[i]) thr_pool_put(&relax->pool, turning_columns->first_extra + (half[i] >> 1), share / 2);
+          thr_pool_put(&relax->search.pool, thr_turning_column(turning_columns, half[i], half[j]), share);
+      if (even[i]) thr_pool_put(&relax->search.pool, turning_columns->first_extra + (half[i] >> 1), share / 2);
     }
   }
   return less;
@@ -198,7 +197,7 @@ thr_status thr_relax_add_partition(thr_relax *relax, int *block, int connections
   if (!even) return thr_nomem(err);
   double lower = connections - put_partition(relax, block, even);
   const thr_row row = {.kind = THR_RELAX_PARTITION, .lower = lower, .member = block, .n_members = relax->c->f->n_edges};
-  thr_status st = thr_pool_offer(&relax->pool, row, relax->x, 1e-4, added, err);
+  thr_status st = thr_pool_offer(&relax->search.pool, row, relax->x, 1e-4, added, err);
   free(even);
   return st;
 }
@@ -211,12 +210,12 @@ thr_status thr_relax_add_junction(thr_relax *relax, int v, int *block, int n, in
   const int *half = turning_columns->f->half + turning_columns->f->first[v], d = thr_degree(turning_columns->f, v);
   for (int a = 0; a < d; a++)
     for (int b = a + 1; b < d; b++)
-      if (block[a] != block[b]) thr_pool_put(&relax->pool, thr_turning_column(turning_columns, half[a], half[b]), 1);
+      if (block[a] != block[b]) thr_pool_put(&relax->search.pool, thr_turning_column(turning_columns, half[a], half[b]), 1);
   const thr_row row = {.kind = THR_RELAX_JUNCTION, .index = v, .lower = n - 1, .member = block, .n_members = d};
-  return thr_pool_offer(&relax->pool, row, relax->x, tolerance, added, err);
+  return thr_pool_offer(&relax->search.pool, row, relax->x, tolerance, added, err);
 }
 
-/* ---- solving ---- */
+/* ---- the search ---- */
 
 /* What the equations leave of the costs. */
 static void reduce_by_equations(thr_relax *relax)
@@ -225,72 +224,87 @@ static void reduce_by_equations(thr_relax *relax)
   int darts = 2 * turning_columns->f->n_edges;
   for (int j = 0; j < turning_columns->first_back; j++) {
     int a = turning_columns->half[j][0], b = turning_columns->half[j][1];
-    double sum = relax->dual[a] +
-                 (b >= 0 ? relax->dual[b] : relax->dual[darts + turning_columns->end_group[thr_tail(turning_columns->f, a)]]);
+    double sum = relax->search.dual[a] +
+                 (b >= 0 ? relax->search.dual[b]
+                         : relax->search.dual[darts + turning_columns->end_group[thr_tail(turning_columns->f, a)]]);
     relax->reduced[j] += j >= turning_columns->first_extra && j < turning_columns->first_end ? sum : -sum;
   }
 }
 
-static void reduce_costs(thr_relax *relax)
+void thr_relax_look(thr_relax *relax)
 {
   const thr_turning_columns *turning_columns = relax->c;
   int first = first_column(relax);
+  relax->artificial = 0;
+  for (int j = turning_columns->n_columns; j < relax->n_all; j++)
+    relax->artificial += relax->x[j];
   for (int j = first; j < turning_columns->first_back; j++)
     relax->reduced[j] = ldexp((double)turning_columns->weight[j], -THR_TURNING_BITS);
   if (!relax->projected) reduce_by_equations(relax);
-  for (int i = 0; i < relax->pool.count; i++)
-    thr_row_charge(&relax->pool.row[i], relax->dual[relax->n_equations + i], relax->reduced + first);
+  for (int i = 0; i < relax->search.pool.count; i++)
+    thr_row_charge(&relax->search.pool.row[i], relax->search.dual[relax->search.n_fixed + i], relax->reduced + first);
 }
 
-/* Adds the rows that are not in the programme yet. */
-static thr_status load(thr_relax *relax, thr_err *err)
+/* ---- all ---- */
+
+static void use(thr_relax *relax, thr_status (*find)(void *, int *, thr_err *), bool fallback, bool slow)
 {
-  int help = relax->projected ? relax->c->first_back - relax->c->first_extra : relax->n_all - 1;
-  return thr_pool_load(&relax->pool, thr_lp_rows(relax->lp) - relax->n_equations, help, relax->lp, err);
+  thr_search_use(&relax->search, (thr_separator){.find = find, .user = relax, .fallback = fallback, .slow = slow});
 }
 
-thr_status thr_relax_solve(thr_relax *relax, const thr_limits *limits, thr_err *err)
-{
-  thr_lp_outcome outcome = THR_LP_STOPPED;
-  bool first =
-      !relax->projected && thr_lp_rows(relax->lp) == relax->n_equations; /* its basis is not feasible for the first odd sets */
-  thr_status st = first ? THR_OK : load(relax, err);
-  if (!st) st = thr_lp_solve(relax->lp, limits, &outcome, err);
-  if (!st && first) st = load(relax, err);
-  if (!st && first && outcome == THR_LP_OPTIMAL) st = thr_lp_solve(relax->lp, limits, &outcome, err);
-  if (st) return st;
-  if (outcome == THR_LP_INFEASIBLE || outcome == THR_LP_UNBOUNDED)
-    return thr_fail(err, THR_ESOLVER, "GLPK found no optimum of a turning relaxation, which always has one");
-  double *dual = thr_realloc(relax->dual, (size_t)thr_lp_rows(relax->lp), sizeof *dual);
-  if (!dual) return thr_nomem(err);
-  relax->dual = dual;
-  relax->solved = outcome == THR_LP_OPTIMAL;
-  thr_lp_primal(relax->lp, relax->x + first_column(relax));
-  thr_lp_dual(relax->lp, relax->dual);
-  relax->objective = thr_lp_objective(relax->lp);
-  relax->artificial = 0;
-  for (int j = relax->c->n_columns; j < relax->n_all; j++)
-    relax->artificial += relax->x[j];
-  reduce_costs(relax);
-  return THR_OK;
-}
-
-thr_status thr_relax_separate(thr_relax *relax, const thr_limits *limits, int *added, thr_err *err)
+/* With tube joints tied nodes connect all; of closed cords several need not. */
+static void use_separators(thr_relax *relax)
 {
   const thr_turning_task *turning_task = relax->c->task;
-  bool connected = turning_task->end_allowed || turning_task->cords == 1;
-  thr_groups_call groups = {relax->c, relax->x, add_group, relax};
-  *added = 0;
-  if (relax->projected) return thr_project_separate(relax, limits, added, err);
-  thr_status st = turning_task->tube ? thr_junctions_separate(relax, added, err) : THR_OK;
-  if (!st && connected && !turning_task->tube)
-    st = thr_groups_support(&groups, tolerance, added, err); /* tied nodes connect all */
-  if (!st) st = thr_relax_odd(relax, false, added, err);
-  connected &= !turning_task->tube;
-  if (!st && !*added && !turning_task->end_allowed && !turning_task->tube) st = thr_partitions_separate(relax, added, err);
-  for (double threshold = 0.2; connected && !st && !*added && threshold < 1; threshold += 0.25)
-    st = thr_groups_support(&groups, threshold, added, err);
-  if (!st && !*added && connected && !thr_limits_stop(limits)) st = thr_groups_flow(&groups, added, err);
-  if (!st && !*added && !thr_limits_stop(limits)) st = thr_relax_odd(relax, true, added, err);
+  bool groups = !turning_task->tube && (turning_task->end_allowed || turning_task->cords == 1);
+  if (relax->projected) {
+    use(relax, thr_project_ends, false, false);
+    use(relax, thr_project_sides, false, false);
+  } else if (turning_task->tube) {
+    use(relax, thr_junctions_separate, false, false);
+  }
+  if (groups) use(relax, find_groups, false, false);
+  use(relax, thr_relax_odd, false, false);
+  if (!turning_task->end_allowed && !turning_task->tube) use(relax, thr_partitions_separate, true, false);
+  if (groups) use(relax, find_thick_groups, true, false);
+  if (groups) use(relax, find_groups_exactly, true, true);
+  use(relax, thr_relax_odd_exactly, true, true);
+}
+
+thr_status thr_relax_init(thr_relax *relax, const thr_turning_columns *turning_columns, bool projected, double penalty,
+                          const thr_limits *limits, thr_err *err)
+{
+  size_t n = (size_t)turning_columns->n_columns;
+  *relax = (thr_relax){.c = turning_columns, .projected = projected};
+  int equations = 2 * turning_columns->f->n_edges + (turning_columns->task->end_allowed ? turning_columns->n_ends : 0);
+  if (projected) equations = 0;
+  relax->n_all = turning_columns->n_columns + 2 * equations + 1;
+  relax->x = thr_calloc((size_t)relax->n_all, sizeof *relax->x);
+  relax->reduced = thr_calloc(n, sizeof *relax->reduced);
+  thr_status st = relax->x && relax->reduced ? THR_OK : thr_nomem(err);
+  int columns = projected ? turning_columns->first_back - turning_columns->first_extra : turning_columns->n_columns;
+  if (!st) st = thr_search_init(&relax->search, columns, relax->x + first_column(relax), err);
+  relax->search.n_fixed = equations;
+  relax->search.help = projected ? columns : relax->n_all - 1;
+  if (!st) st = projected ? thr_project_create(relax, penalty, err) : thr_relax_create(relax, penalty, err);
+  if (!st && turning_columns->extra_limit >= 0) st = add_length_row(relax, err);
+  for (int j = turning_columns->first_extra; j < turning_columns->n_columns && !st; j++) /* turns: by their equations */
+    st = thr_lp_set_bounds(relax->search.lp, j - first_column(relax), 0, thr_turning_most(turning_columns, j), err);
+  if (!st && !projected) st = thr_relax_crash(relax, limits, err);
+  if (!st) st = projected ? thr_project_graph(relax, err) : init_graph(relax, err);
+  if (!st && !projected) st = add_node_sets(relax, err);
+  if (!st) use_separators(relax);
+  if (st) thr_relax_destroy(relax);
   return st;
+}
+
+void thr_relax_destroy(thr_relax *relax)
+{
+  thr_search_destroy(&relax->search);
+  free(relax->x);
+  free(relax->reduced);
+  thr_oddcut_graph_destroy(&relax->graph);
+  free((void *)relax->problem.edge);
+  free((void *)relax->problem.odd);
+  *relax = (thr_relax){0};
 }

@@ -12,8 +12,7 @@
 #include "graph/limits.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/status.h"
-#include "lp/model/pool.h"
-#include "lp/solver/lp.h"
+#include "lp/model/search.h"
 #include "lp/tjoin/oddcut.h"
 #include "lp/tjoin/tjoin.h"
 
@@ -32,20 +31,16 @@ typedef enum {
 
 typedef struct {
   const thr_turning_columns *c;
-  thr_lp *lp;
-  bool projected;  /* the programme has no turns: its columns begin with the extra passes */
-  int n_equations; /* rows of half-edges, of ends, of the length limit */
-  int n_all;       /* columns with the artificial ones, which keep every branch feasible at a price */
-  double *x;       /* [n_all] of the last solve */
-  double *dual;    /* [rows at the last solve] */
-  double objective;
+  thr_search
+      search; /* fixed rows: of half-edges, of ends, of the length limit; without turns its columns begin with the extra passes */
+  bool projected;            /* the programme has no turns */
+  int n_all;                 /* columns with the artificial ones, which keep every branch feasible at a price */
+  double *x;                 /* [n_all] of the last solve */
   double artificial;         /* sum of the artificial columns */
   bool any_odd;              /* is there an odd set at all? */
-  bool solved;               /* x is an optimum of the present rows */
   thr_tjoin_problem problem; /* the graph whose nodes are half-edges and ends, whose edges are columns */
   thr_oddcut_graph graph;
-  thr_pool pool; /* the rows after the equations; without turns their columns begin with the extra passes */
-  double *reduced;
+  double *reduced; /* [n_columns] costs that the rows leave */
 } thr_relax;
 
 /* penalty: price of one unit of an artificial column, more than any plan costs. projected: without turns, which must be free, and
@@ -57,11 +52,8 @@ void thr_relax_destroy(thr_relax *relax);
 /* Puts bounds on a column, for the next solve. */
 thr_status thr_relax_set(thr_relax *relax, int column, int low, int high, thr_err *err) THR_MUST_CHECK;
 
-/* Solves with the present rows; fills x, dual, objective. solved is false if the limits stopped it (x and dual are usable). */
-thr_status thr_relax_solve(thr_relax *relax, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
-
-/* Adds rows that x violates; *added = 0 if there are none (exact separation). */
-thr_status thr_relax_separate(thr_relax *relax, const thr_limits *limits, int *added, thr_err *err) THR_MUST_CHECK;
+/* After a solve, also one that the limits stopped: fills artificial and reduced. */
+void thr_relax_look(thr_relax *relax);
 
 /* The multipliers of the last solve as integers. Release with thr_turning_dual_destroy. */
 thr_status thr_relax_dual(const thr_relax *relax, thr_turning_dual *turning_dual, thr_err *err) THR_MUST_CHECK;
@@ -79,15 +71,15 @@ thr_status thr_relax_crash(thr_relax *relax, const thr_limits *limits, thr_err *
 /* Adds the row of a node's blocks (copied; n of them, 0 .. n - 1) if x violates it. */
 thr_status thr_relax_add_junction(thr_relax *relax, int v, int *block, int n, int *added, thr_err *err) THR_MUST_CHECK;
 
-/* Junction rows that x violates, in tortuosity/proof/junctions.c: the worst of every node. *added grows. */
-thr_status thr_junctions_separate(thr_relax *relax, int *added, thr_err *err) THR_MUST_CHECK;
+/* A separator, of a thr_relax, in tortuosity/proof/junctions.c: of every node the junction row that x violates most. */
+thr_status thr_junctions_separate(void *relax, int *added, thr_err *err) THR_MUST_CHECK;
 
 /* Adds the row of a partition (block as in graph/plan/turning_proof.h, copied, which needs so many connections) if x violates it
  * and it is new. */
 thr_status thr_relax_add_partition(thr_relax *relax, int *block, int connections, int *added, thr_err *err) THR_MUST_CHECK;
 
-/* Adds the sets that moats find, or that are found exactly, and that x violates; x and reduced begin with the pool's first
- * column. *added grows. */
-thr_status thr_relax_odd(thr_relax *relax, bool exact, int *added, thr_err *err) THR_MUST_CHECK;
+/* Separators, of a thr_relax: odd sets that moats find, or that are found exactly. */
+thr_status thr_relax_odd(void *relax, int *added, thr_err *err) THR_MUST_CHECK;
+thr_status thr_relax_odd_exactly(void *relax, int *added, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -25,9 +25,9 @@ static thr_status copy_members(int **to, const thr_row *row, thr_err *err)
 static thr_status copy_cuts(const thr_relax *relax, thr_turning_dual *dual, thr_err *err)
 {
   thr_status st = THR_OK;
-  for (int i = 0; i < relax->pool.count && !st; i++) {
-    int64_t value = thr_relax_whole(relax->dual[relax->n_equations + i]);
-    const thr_row *row = &relax->pool.row[i];
+  for (int i = 0; i < relax->search.pool.count && !st; i++) {
+    int64_t value = thr_relax_whole(relax->search.dual[relax->search.n_fixed + i]);
+    const thr_row *row = &relax->search.pool.row[i];
     if (value <= 0) continue;
     if (row->kind == THR_RELAX_ODD || row->kind == THR_RELAX_GROUP) {
       thr_turning_set *to = row->kind == THR_RELAX_ODD ? &dual->odd[dual->n_odd++] : &dual->group[dual->n_groups++];
@@ -52,8 +52,8 @@ thr_status thr_relax_dual(const thr_relax *relax, thr_turning_dual *dual, thr_er
   int darts = 2 * turning_columns->f->n_edges, used[THR_RELAX_JUNCTION + 1] = {0};
   *dual = (thr_turning_dual){0};
   if (relax->projected) return thr_project_dual(relax, dual, err);
-  for (int i = 0; i < relax->pool.count; i++)
-    used[relax->pool.row[i].kind] += thr_relax_whole(relax->dual[relax->n_equations + i]) > 0;
+  for (int i = 0; i < relax->search.pool.count; i++)
+    used[relax->search.pool.row[i].kind] += thr_relax_whole(relax->search.dual[relax->search.n_fixed + i]) > 0;
   dual->potential = thr_calloc((size_t)darts, sizeof *dual->potential);
   dual->ends = thr_calloc((size_t)turning_columns->n_ends, sizeof *dual->ends);
   dual->odd = thr_calloc((size_t)used[THR_RELAX_ODD], sizeof *dual->odd);
@@ -63,10 +63,11 @@ thr_status thr_relax_dual(const thr_relax *relax, thr_turning_dual *dual, thr_er
   thr_status st =
       dual->potential && dual->ends && dual->odd && dual->group && dual->partition && dual->junction ? THR_OK : thr_nomem(err);
   for (int h = 0; h < darts && !st; h++)
-    dual->potential[h] = thr_relax_whole(relax->dual[h]);
+    dual->potential[h] = thr_relax_whole(relax->search.dual[h]);
   for (int i = 0; turning_columns->task->end_allowed && i < turning_columns->n_ends && !st; i++)
-    dual->ends[i] = thr_relax_whole(relax->dual[darts + i]);
-  if (!st && turning_columns->extra_limit >= 0) dual->length = thr_relax_whole(fmax(0, relax->dual[relax->n_equations - 1]));
+    dual->ends[i] = thr_relax_whole(relax->search.dual[darts + i]);
+  if (!st && turning_columns->extra_limit >= 0)
+    dual->length = thr_relax_whole(fmax(0, relax->search.dual[relax->search.n_fixed - 1]));
   if (!st) st = copy_cuts(relax, dual, err);
   if (st) thr_turning_dual_destroy(dual);
   return st;
