@@ -1,5 +1,6 @@
 /* Branch and cut, one aim after the other. */
 #include "symmetry/cover/cover_search.h"
+#include "lp/model/search.h"
 #include "lp/solver/lp.h"
 
 #include <math.h>
@@ -63,38 +64,53 @@ bool thr_cover_search_beaten(const thr_cover_search *s, thr_aim aim, double boun
   return s->found && s->worth[aim] <= bound + thr_programme_tolerance(s->p, aim);
 }
 
+/* The search for the best value of one aim. */
+typedef struct {
+  thr_cover_search *s;
+  thr_aim aim;
+  thr_tree tree;
+} aim_search;
+
+/* A round: the bound of the root, and whole points. */
+static thr_status look(void *user, thr_err *err)
+{
+  aim_search *a = user;
+  thr_cover_search *s = a->s;
+  thr_relaxation *relaxation = &s->r;
+  if (relaxation->search.outcome != THR_LP_OPTIMAL) return THR_OK;
+  thr_relaxation_look(relaxation);
+  if (a->tree.at == 0) s->bound[a->aim] = fmax(s->bound[a->aim], relaxation->objective);
+  thr_status st = relaxation->search.whole ? consider(s, err) : THR_OK;
+  relaxation->search.enough = thr_cover_search_beaten(s, a->aim, relaxation->objective);
+  return st;
+}
+
+/* With whole columns only, by GLPK's own branch and bound. */
+static thr_status solve_integer(void *user, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)
+{
+  const aim_search *a = user;
+  thr_status st = thr_lp_solve(a->s->r.search.lp, limits, outcome, err);
+  return st || *outcome != THR_LP_OPTIMAL ? st : thr_lp_solve_integer(a->s->r.search.lp, limits, outcome, err);
+}
+
 /* Solves a node with all rows that its optima violate, integer: its whole ones. *open: it is to be branched on. THR_ELIMIT:
  * stopped. */
-static thr_status solve_node(thr_cover_search *s, thr_aim aim, bool root, bool integer, bool *open, thr_err *err)
+static thr_status solve_node(aim_search *a, const thr_limits *limits, bool integer, bool *open, thr_err *err)
 {
-  thr_relaxation *relaxation = &s->r;
-  *open = false;
-  for (int added = 1; added > 0;) {
-    thr_lp_outcome outcome;
-    thr_status st = thr_relaxation_solve(relaxation, integer, s->limits, &outcome, err);
-    if (st) return st;
-    if (outcome == THR_LP_STOPPED) return THR_ELIMIT;
-    if (outcome != THR_LP_OPTIMAL) return THR_OK;
-    if (root) s->bound[aim] = fmax(s->bound[aim], relaxation->objective);
-    if (relaxation->whole) st = consider(s, err);
-    if (!st && thr_cover_search_beaten(s, aim, relaxation->objective)) return THR_OK;
-    if (!st) st = thr_relaxation_separate(relaxation, s->limits, &added, err);
-    if (st) return st;
-  }
-  *open = !relaxation->whole;
-  return THR_OK;
+  thr_search *search = &a->s->r.search;
+  const thr_search_calls calls = {.user = a, .solve = integer ? solve_integer : NULL, .look = look};
+  thr_status st = thr_search_rounds(search, &calls, limits, err);
+  *open = search->outcome == THR_LP_OPTIMAL && !search->enough && !search->whole;
+  return !st && search->outcome == THR_LP_STOPPED ? THR_ELIMIT : st;
 }
 
 /* The root once more, by GLPK, in half the time that is left: where ties leave many equally good points, its branching finds
  * whole ones sooner. */
-static thr_status solve_whole(thr_cover_search *s, thr_aim aim, bool *open, thr_err *err)
+static thr_status solve_whole(aim_search *a, bool *open, thr_err *err)
 {
-  const thr_limits *all = s->limits;
-  const thr_limits half = thr_limits_part(all, 0.5);
-  s->limits = &half;
-  thr_status st = solve_node(s, aim, true, true, open, err);
-  s->limits = all;
-  return st == THR_ELIMIT ? solve_node(s, aim, true, false, open, err) : st;
+  const thr_limits half = thr_limits_part(a->s->limits, 0.5);
+  thr_status st = solve_node(a, &half, true, open, err);
+  return st == THR_ELIMIT ? solve_node(a, a->s->limits, false, open, err) : st;
 }
 
 /* The relaxation for the aim of that number, with the aims before it kept. */
@@ -109,13 +125,6 @@ static thr_status prepare(thr_cover_search *s, int number, thr_err *err)
   return st ? st : thr_relaxation_aim(&s->r, prefer[number], err);
 }
 
-/* The search for the best value of one aim. */
-typedef struct {
-  thr_cover_search *s;
-  thr_aim aim;
-  thr_tree tree;
-} aim_search;
-
 static double enough(const thr_cover_search *s, thr_aim aim)
 {
   return s->found ? s->worth[aim] - thr_programme_tolerance(s->p, aim) : INFINITY;
@@ -124,7 +133,7 @@ static double enough(const thr_cover_search *s, thr_aim aim)
 static thr_status set_bounds(void *user, int column, int low, int high, thr_err *err)
 {
   aim_search *a = user;
-  return thr_lp_set_bounds(a->s->r.lp, column, low, high == THR_TREE_ANY ? (double)INFINITY : high, err);
+  return thr_lp_set_bounds(a->s->r.search.lp, column, low, high == THR_TREE_ANY ? (double)INFINITY : high, err);
 }
 
 /* A node's bound and its whole points; then the column to branch on, first towards the side that it is nearer to. */
@@ -136,8 +145,8 @@ static thr_status solve(void *user, int i, thr_tree_branch *branch, thr_err *err
   const thr_relaxation *relaxation = &s->r;
   bool open;
   s->bound[a->aim] = fmax(s->bound[a->aim], node->bound);
-  thr_status st = solve_node(s, a->aim, i == 0, false, &open, err);
-  if (!st && open && i == 0 && s->p->ties) st = solve_whole(s, a->aim, &open, err);
+  thr_status st = solve_node(a, s->limits, false, &open, err);
+  if (!st && open && i == 0 && s->p->ties) st = solve_whole(a, &open, err);
   a->tree.enough = enough(s, a->aim);
   if (st || !open) return st;
   node->bound = relaxation->objective;

@@ -1,5 +1,9 @@
 /* Rows and separation of the programme of a symmetric cover. */
 #include "symmetry/cover/relaxation.h"
+#include "lp/model/pool.h"
+#include "lp/model/search.h"
+#include "lp/model/tree.h"
+#include "lp/solver/lp.h"
 #include "symmetry/group/quotient.h"
 
 #include <limits.h>
@@ -16,24 +20,16 @@ enum { MOST_EXACT = 4000 };
 
 /* ---- rows ---- */
 
-/* Adds the rows of the pool that are not in the programme yet. */
-static thr_status load(thr_relaxation *relaxation, thr_err *err)
-{
-  thr_status st = thr_programme_check_time(relaxation->p);
-  return st ? st
-            : thr_pool_load(&relaxation->pool, thr_lp_rows(relaxation->lp) - relaxation->p->q->n_darts, -1, relaxation->lp, err);
-}
-
 thr_status thr_relaxation_add_row(thr_relaxation *relaxation, double lower, thr_err *err)
 {
-  thr_status st = thr_pool_add(&relaxation->pool, (thr_row){.lower = lower}, err);
-  return st ? st : load(relaxation, err);
+  thr_status st = thr_pool_add(&relaxation->search.pool, (thr_row){.lower = lower}, err);
+  return st ? st : thr_programme_check_time(relaxation->p);
 }
 
 thr_status thr_relaxation_add_violated(thr_relaxation *relaxation, double lower, int *added, thr_err *err)
 {
-  thr_status st = thr_pool_offer(&relaxation->pool, (thr_row){.lower = lower}, relaxation->x, tolerance, added, err);
-  return st ? st : load(relaxation, err);
+  thr_status st = thr_pool_offer(&relaxation->search.pool, (thr_row){.lower = lower}, relaxation->x, tolerance, added, err);
+  return st ? st : thr_programme_check_time(relaxation->p);
 }
 
 /* Dart types' equations: copies = turns + ends. */
@@ -61,13 +57,13 @@ static thr_status create_equations(thr_relaxation *relaxation, thr_err *err)
   }
   for (int j = p->n; j < columns && !st; j++)
     start[j + 1] = n;
-  if (!st) st = thr_lp_create_equations(&relaxation->lp, darts, rhs, columns, relaxation->x, NULL, start, row, value, err);
+  if (!st) st = thr_lp_create_equations(&relaxation->search.lp, darts, rhs, columns, relaxation->x, NULL, start, row, value, err);
   free(start);
   free(row);
   free(value);
   free(rhs);
   for (int j = 0; j < p->n && !st; j++)
-    st = thr_lp_set_bounds(relaxation->lp, j, p->least[j], p->most[j] < 0 ? (double)INFINITY : p->most[j], err);
+    st = thr_lp_set_bounds(relaxation->search.lp, j, p->least[j], p->most[j] < 0 ? (double)INFINITY : p->most[j], err);
   return st;
 }
 
@@ -90,11 +86,11 @@ static thr_status add_cover_rows(thr_relaxation *relaxation, thr_err *err)
         capacity = relaxation->p->capacity[quotient->copy[c].edge_orbit];
     if (end == c + 1) continue; /* a bound instead */
     for (int k = c; k < end; k++)
-      thr_pool_put(&relaxation->pool, k, quotient->copy[k].passes < cover ? quotient->copy[k].passes : cover);
+      thr_pool_put(&relaxation->search.pool, k, quotient->copy[k].passes < cover ? quotient->copy[k].passes : cover);
     st = thr_relaxation_add_row(relaxation, cover, err);
     if (st || capacity == INT_MAX) continue;
     for (int k = c; k < end; k++)
-      thr_pool_put(&relaxation->pool, k, -quotient->copy[k].passes);
+      thr_pool_put(&relaxation->search.pool, k, -quotient->copy[k].passes);
     st = thr_relaxation_add_row(relaxation, -capacity, err);
   }
   return st;
@@ -208,17 +204,17 @@ static double weigh(const thr_relaxation *relaxation, int edge)
   return fmax(0, sum - relaxation->p->cover[quotient->copy[j].edge_orbit]);
 }
 
-/* Adds the odd sets from first on that x violates; the others are forgotten. */
-static thr_status add_odd_rows(thr_relaxation *relaxation, const thr_limits *limits, int first, int *added, thr_err *err)
+/* Odd sets that x violates: by moats, or without thresholds exactly. */
+static thr_status add_odd(thr_relaxation *relaxation, const double *threshold, int n, int *added, thr_err *err)
 {
-  if (thr_limits_stop(limits)) return THR_ELIMIT;
-  thr_status st = thr_pool_keep_violated(&relaxation->pool, first, relaxation->x, tolerance, added, err);
-  return st ? st : load(relaxation, err);
+  return thr_oddcut_separate(&relaxation->graph, relaxation->weight, relaxation->metric, threshold, n, relaxation->x,
+                             &relaxation->search.pool, added, err);
 }
 
 /* The first sets: balls round the nodes, as far as their turns join their dart types, with odd numbers of darts. */
 static thr_status add_first_sets(thr_relaxation *relaxation, const thr_limits *limits, thr_err *err)
 {
+  const double half = 0.5;
   int added = 0;
   for (int k = 0; k < relaxation->problem.n_edges; k++) {
     int j = relaxation->column[k];
@@ -227,28 +223,25 @@ static thr_status add_first_sets(thr_relaxation *relaxation, const thr_limits *l
   }
   for (int j = 0; j < relaxation->p->n; j++) /* every odd set is violated */
     relaxation->x[j] = relaxation->p->least[j];
-  int before = relaxation->pool.count;
-  thr_status st = thr_oddcut_moats(&relaxation->graph, relaxation->weight, 0.5, relaxation->metric, &relaxation->pool, err);
-  return st ? st : add_odd_rows(relaxation, limits, before, &added, err);
+  thr_status st = add_odd(relaxation, &half, 1, &added, err);
+  return !st && thr_limits_stop(limits) ? THR_ELIMIT : st;
 }
 
-static thr_status separate_odd(thr_relaxation *relaxation, const thr_limits *limits, int *added, thr_err *err)
+static thr_status find_odd(void *user, int *added, thr_err *err)
 {
   static const double threshold[] = {1e-6, 0.3, 0.51};
-  thr_status st = THR_OK;
+  thr_relaxation *relaxation = user;
+  if (relaxation->search.whole) return THR_OK;
   for (int k = 0; k < relaxation->problem.n_edges; k++)
     relaxation->weight[k] = weigh(relaxation, k);
-  for (size_t i = 0; i < sizeof threshold / sizeof *threshold && !*added && !st; i++) {
-    int before = relaxation->pool.count;
-    st = thr_oddcut_moats(&relaxation->graph, relaxation->weight, threshold[i], relaxation->metric, &relaxation->pool, err);
-    if (!st) st = add_odd_rows(relaxation, limits, before, added, err);
-  }
-  if (!st && !*added && relaxation->problem.n_nodes <= MOST_EXACT) {
-    int before = relaxation->pool.count;
-    st = thr_oddcut_exact(&relaxation->graph, relaxation->weight, &relaxation->pool, err);
-    if (!st) st = add_odd_rows(relaxation, limits, before, added, err);
-  }
-  return st;
+  return add_odd(relaxation, threshold, 3, added, err);
+}
+
+static thr_status find_odd_exactly(void *user, int *added, thr_err *err)
+{
+  thr_relaxation *relaxation = user;
+  if (relaxation->search.whole || relaxation->problem.n_nodes > MOST_EXACT) return THR_OK;
+  return add_odd(relaxation, NULL, 0, added, err);
 }
 
 /* ---- connected sets ---- */
@@ -259,7 +252,8 @@ static void put_leaving(thr_relaxation *relaxation, const bool *inside, double f
   const thr_programme *p = relaxation->p;
   for (int j = 0; j < p->first_circle; j++) {
     bool a = inside[p->join[j][0]], terminal = thr_programme_terminal(p, j);
-    if (terminal ? a : a != inside[p->join[j][1]]) thr_pool_put(&relaxation->pool, j, terminal && j < p->first_end ? fold : 1);
+    if (terminal ? a : a != inside[p->join[j][1]])
+      thr_pool_put(&relaxation->search.pool, j, terminal && j < p->first_end ? fold : 1);
   }
 }
 
@@ -273,11 +267,11 @@ static thr_status add_connected(thr_relaxation *relaxation, const bool *inside, 
   for (int weak = 0; weak < 2 && *added == before; weak++) {
     put_leaving(relaxation, inside, 1);
     for (int d = 0; d < quotient->n_darts; d++)
-      if (inside[d]) thr_pool_put(&relaxation->pool, p->first_circle + d, 2);
+      if (inside[d]) thr_pool_put(&relaxation->search.pool, p->first_circle + d, 2);
     for (int k = start_of_orbit(quotient, c), end = end_of_orbit(quotient, k); k < end && !weak; k++)
       if (!inside[quotient->copy[k].dart[0]] && (quotient->copy[k].fold || !inside[quotient->copy[k].dart[1]]))
-        thr_pool_put(&relaxation->pool, k, 2);
-    if (weak) thr_pool_put(&relaxation->pool, c, -2.0 / p->most[c]);
+        thr_pool_put(&relaxation->search.pool, k, 2);
+    if (weak) thr_pool_put(&relaxation->search.pool, c, -2.0 / p->most[c]);
     thr_status st = thr_relaxation_add_violated(relaxation, weak ? 0 : 2, added, err);
     if (st) return st;
   }
@@ -285,9 +279,11 @@ static thr_status add_connected(thr_relaxation *relaxation, const bool *inside, 
 }
 
 /* Sets of the support that nothing leaves. */
-static thr_status separate_connected(thr_relaxation *relaxation, int *added, thr_err *err)
+static thr_status find_connected(void *user, int *added, thr_err *err)
 {
+  thr_relaxation *relaxation = user;
   const thr_programme *p = relaxation->p;
+  if (!relaxation->circles && !p->open) return THR_OK;
   const thr_quotient *quotient = p->q;
   thr_programme_parts programme_parts = {0};
   thr_status st = thr_programme_parts_init(&programme_parts, p, err);
@@ -323,8 +319,9 @@ static thr_status separate_connected(thr_relaxation *relaxation, int *added, thr
 }
 
 /* Every fold's trail ends in the set of thr_programme_folds or leaves it, over a copy, a turn or from copy to turn. */
-static thr_status separate_folds(thr_relaxation *relaxation, int *added, thr_err *err)
+static thr_status find_folds(void *user, int *added, thr_err *err)
 {
+  thr_relaxation *relaxation = user;
   const thr_programme *p = relaxation->p;
   size_t n = (size_t)p->q->n_darts;
   bool *copy_side = thr_calloc(n, sizeof *copy_side), *pair_side = thr_calloc(n, sizeof *pair_side), found = false;
@@ -334,11 +331,12 @@ static thr_status separate_folds(thr_relaxation *relaxation, int *added, thr_err
     const bool *inside = j < p->first_pair ? copy_side : pair_side;
     int a = p->join[j][0], b = p->join[j][1];
     if (thr_programme_terminal(p, j))
-      thr_pool_put(&relaxation->pool, j, !inside[a] ? 0 : j >= p->first_end ? 1 : -1);
+      thr_pool_put(&relaxation->search.pool, j, !inside[a] ? 0 : j >= p->first_end ? 1 : -1);
     else
-      thr_pool_put(&relaxation->pool, j, inside[a] != inside[b]);
+      thr_pool_put(&relaxation->search.pool, j, inside[a] != inside[b]);
     for (int i = 0; i < 2 && j < p->first_pair; i++)
-      if (p->join[j][i] < p->q->n_darts) thr_pool_put(&relaxation->pool, j, copy_side[p->join[j][i]] != pair_side[p->join[j][i]]);
+      if (p->join[j][i] < p->q->n_darts)
+        thr_pool_put(&relaxation->search.pool, j, copy_side[p->join[j][i]] != pair_side[p->join[j][i]]);
   }
   if (found && !st) st = thr_relaxation_add_violated(relaxation, 0, added, err);
   free(copy_side);
@@ -346,18 +344,17 @@ static thr_status separate_folds(thr_relaxation *relaxation, int *added, thr_err
   return st;
 }
 
-thr_status thr_relaxation_separate(thr_relaxation *relaxation, const thr_limits *limits, int *added, thr_err *err)
-{
-  thr_status st = THR_OK;
-  *added = 0;
-  if (!relaxation->whole) st = separate_odd(relaxation, limits, added, err);
-  if (!st && relaxation->p->ties) st = thr_relaxation_tie(relaxation, added, err);
-  if (!st && !*added && (relaxation->circles || relaxation->p->open)) st = separate_connected(relaxation, added, err);
-  if (!st && !*added && relaxation->p->open) st = separate_folds(relaxation, added, err);
-  return st;
-}
-
 /* ---- all ---- */
+
+static void use_separators(thr_relaxation *relaxation)
+{
+  thr_search *search = &relaxation->search;
+  thr_search_use(search, (thr_separator){.find = find_odd, .user = relaxation, .slow = true});
+  thr_search_use(search, (thr_separator){.find = find_odd_exactly, .user = relaxation, .fallback = true, .slow = true});
+  if (relaxation->p->ties) thr_search_use(search, (thr_separator){.find = thr_relaxation_tie, .user = relaxation});
+  thr_search_use(search, (thr_separator){.find = find_connected, .user = relaxation, .fallback = true});
+  if (relaxation->p->open) thr_search_use(search, (thr_separator){.find = find_folds, .user = relaxation, .fallback = true});
+}
 
 thr_status thr_relaxation_init(thr_relaxation *relaxation, const thr_programme *p, int extra, const thr_limits *limits,
                                thr_err *err)
@@ -365,20 +362,21 @@ thr_status thr_relaxation_init(thr_relaxation *relaxation, const thr_programme *
   *relaxation = (thr_relaxation){.p = p, .extra = extra};
   relaxation->x = thr_calloc((size_t)p->n + (size_t)extra, sizeof *relaxation->x);
   thr_status st = relaxation->x ? THR_OK : thr_nomem(err);
-  if (!st) st = thr_pool_init(&relaxation->pool, p->n + extra, err);
+  if (!st) st = thr_search_init(&relaxation->search, p->n + extra, relaxation->x, err);
+  relaxation->search.n_fixed = p->q->n_darts;
   if (!st) st = create_equations(relaxation, err);
   if (!st) st = add_cover_rows(relaxation, err);
   if (!st && p->ties) st = thr_relaxation_tie_first(relaxation, err);
   if (!st) st = init_graph(relaxation, err);
   if (!st) st = add_first_sets(relaxation, limits, err);
+  if (!st) use_separators(relaxation);
   if (st) thr_relaxation_destroy(relaxation);
   return st;
 }
 
 void thr_relaxation_destroy(thr_relaxation *relaxation)
 {
-  thr_lp_destroy(relaxation->lp);
-  thr_pool_destroy(&relaxation->pool);
+  thr_search_destroy(&relaxation->search);
   thr_oddcut_graph_destroy(&relaxation->graph);
   free((void *)relaxation->problem.edge);
   free((void *)relaxation->problem.odd);
@@ -399,7 +397,7 @@ thr_status thr_relaxation_aim(thr_relaxation *relaxation, thr_aim aim, thr_err *
     cost[j] = p->cost[aim][j] / p->scale[aim];
   relaxation->aim = aim;
   if (aim == THR_AIM_PATHS) relaxation->circles = true;
-  thr_status st = thr_lp_set_costs(relaxation->lp, cost, err);
+  thr_status st = thr_lp_set_costs(relaxation->search.lp, cost, err);
   free(cost);
   return st;
 }
@@ -409,47 +407,26 @@ thr_status thr_relaxation_fix(thr_relaxation *relaxation, double value, thr_err 
   const thr_programme *p = relaxation->p;
   double scale = p->scale[relaxation->aim];
   for (int j = 0; j < p->n; j++)
-    thr_pool_put(&relaxation->pool, j, -p->cost[relaxation->aim][j] / scale);
+    thr_pool_put(&relaxation->search.pool, j, -p->cost[relaxation->aim][j] / scale);
   return thr_relaxation_add_row(relaxation, -(value - p->constant[relaxation->aim]) / scale - slack, err);
 }
 
-thr_status thr_relaxation_solve(thr_relaxation *relaxation, bool integer, const thr_limits *limits, thr_lp_outcome *outcome,
-                                thr_err *err)
+void thr_relaxation_look(thr_relaxation *relaxation)
 {
   const thr_programme *p = relaxation->p;
-  thr_status st = thr_lp_solve(relaxation->lp, limits, outcome, err);
-  if (!st && *outcome == THR_LP_OPTIMAL && integer) st = thr_lp_solve_integer(relaxation->lp, limits, outcome, err);
-  if (st || *outcome != THR_LP_OPTIMAL) return st;
-  thr_lp_primal(relaxation->lp, relaxation->x);
-  relaxation->objective = thr_programme_round(
-      p, relaxation->aim, thr_lp_objective(relaxation->lp) * p->scale[relaxation->aim] + p->constant[relaxation->aim]);
-  relaxation->whole = true;
-  for (int j = 0; j < p->n && relaxation->whole; j++)
-    relaxation->whole = fabs(relaxation->x[j] - nearbyint(relaxation->x[j])) < fraction;
-  return THR_OK;
-}
-
-/* The most undecided of the columns from first on, several: without copy types that are alone in their edge orbit; -1 = all
- * whole. */
-static int most_undecided(const thr_relaxation *relaxation, int first, int end, bool several)
-{
-  int best = -1;
-  double most = 0.5 * fraction;
-  for (int j = first; j < end; j++) {
-    double far = fabs(relaxation->x[j] - nearbyint(relaxation->x[j]));
-    if (far <= most + 1e-9 || (several && relaxation->p->least[j] > 0)) continue;
-    most = far;
-    best = j;
-  }
-  return best;
+  thr_search *search = &relaxation->search;
+  relaxation->objective =
+      thr_programme_round(p, relaxation->aim, search->objective * p->scale[relaxation->aim] + p->constant[relaxation->aim]);
+  search->whole = thr_tree_undecided(relaxation->x, 0, p->n, fraction, NULL) < 0;
 }
 
 int thr_relaxation_branch(const thr_relaxation *relaxation)
 {
   const thr_programme *p = relaxation->p;
-  int j = most_undecided(relaxation, 0, p->first_pair, true); /* what the odd sets know least of */
-  if (j < 0) j = most_undecided(relaxation, 0, p->first_pair, false);
-  if (j < 0) j = most_undecided(relaxation, p->first_end, p->first_circle, false);
-  if (j < 0) j = most_undecided(relaxation, p->first_pair, p->first_end, false);
-  return j >= 0 ? j : most_undecided(relaxation, p->first_circle, p->n, false);
+  const int range[][2] = {
+      {0, p->first_pair}, {p->first_end, p->first_circle}, {p->first_pair, p->first_end}, {p->first_circle, p->n}};
+  int j = thr_tree_undecided(relaxation->x, 0, p->first_pair, fraction, p->least); /* what the odd sets know least of */
+  for (int k = 0; k < 4 && j < 0; k++)
+    j = thr_tree_undecided(relaxation->x, range[k][0], range[k][1], fraction, NULL);
+  return j;
 }

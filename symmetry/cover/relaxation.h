@@ -1,6 +1,8 @@
 /* The linear programme over the columns of symmetry/cover/programme.h, with rows added as a point violates them (branch and cut:
  * M. Padberg & G. Rinaldi, SIAM Review 33, 1991). Internal.
  *
+ * The rows hold for every cover, whatever the bounds in force: odd sets, ties, connected sets, sets with too many folds.
+ *
  * Example: copies over two edge orbits that share a node but no turn there break the row that asks for one. */
 #ifndef THR_RELAXATION_H
 #define THR_RELAXATION_H
@@ -8,25 +10,22 @@
 #include "graph/limits.h"
 #include "graph/plan/request.h"
 #include "graph/status.h"
-#include "lp/model/pool.h"
-#include "lp/solver/lp.h"
+#include "lp/model/search.h"
 #include "lp/tjoin/oddcut.h"
 #include "lp/tjoin/tjoin.h"
 #include "symmetry/cover/programme.h"
 
 typedef struct {
   const thr_programme *p;
-  int extra; /* columns after those of p, >= 0, in no row as yet and at no cost */
-  thr_lp *lp;
-  thr_aim aim;      /* minimized at present */
-  bool circles;     /* circles count from now on: paths are, or were, minimized */
-  double *x;        /* [p->n + extra] of the last solve */
-  double objective; /* of the last solve, in the aim's unit, with its constant; rounded up to what a cover can have */
-  bool whole;       /* is x integral? */
+  int extra;         /* columns after those of p, >= 0, in no row as yet and at no cost */
+  thr_search search; /* fixed rows: the equations; columns as x */
+  thr_aim aim;       /* minimized at present */
+  bool circles;      /* circles count from now on: paths are, or were, minimized */
+  double *x;         /* [p->n + extra] of the last solve */
+  double objective;  /* of the last solve, in the aim's unit, with its constant; rounded up to what a cover can have */
   /* odd sets */
   thr_tjoin_problem problem;
   thr_oddcut_graph graph;
-  thr_pool pool;  /* the rows after the equations */
   int *column;    /* [problem.n_edges] that the edge stands for */
   double *metric; /* [problem.n_edges] overlap that it costs, in parts of the largest */
   bool *surplus;  /* [problem.n_edges] or rather for the surplus of its edge orbit over the cover? */
@@ -38,17 +37,17 @@ thr_status thr_relaxation_init(thr_relaxation *relaxation, const thr_programme *
                                thr_err *err) THR_MUST_CHECK;
 void thr_relaxation_destroy(thr_relaxation *relaxation);
 
-/* Adds the row that relaxation->pool has put together, with this right side, to the pool and to the programme. */
+/* Adds the row that the pool of relaxation->search has put together, with this right side. THR_ELIMIT: stopped. */
 thr_status thr_relaxation_add_row(thr_relaxation *relaxation, double lower, thr_err *err) THR_MUST_CHECK;
 
 /* The same if x violates it and it is new, counted in *added. */
 thr_status thr_relaxation_add_violated(thr_relaxation *relaxation, double lower, int *added, thr_err *err) THR_MUST_CHECK;
 
 /* In symmetry/cover/tie_rows.c, for tube joints. Between the b blocks of any partition of the tubes at a node there are b - 1
- * turns: at first between all tubes; then for the blocks that turns join with more than some value of x, and where there are few
- * tubes for any two blocks. */
+ * turns: at first between all tubes; then, by a separator of a thr_relaxation, for the blocks that turns join with more than some
+ * value of x, and where there are few tubes for any two blocks. */
 thr_status thr_relaxation_tie_first(thr_relaxation *relaxation, thr_err *err) THR_MUST_CHECK;
-thr_status thr_relaxation_tie(thr_relaxation *relaxation, int *added, thr_err *err) THR_MUST_CHECK;
+thr_status thr_relaxation_tie(void *relaxation, int *added, thr_err *err) THR_MUST_CHECK;
 
 /* What is minimized from now on. */
 thr_status thr_relaxation_aim(thr_relaxation *relaxation, thr_aim aim, thr_err *err) THR_MUST_CHECK;
@@ -56,13 +55,8 @@ thr_status thr_relaxation_aim(thr_relaxation *relaxation, thr_aim aim, thr_err *
 /* Keeps the present aim at most at this value. */
 thr_status thr_relaxation_fix(thr_relaxation *relaxation, double value, thr_err *err) THR_MUST_CHECK;
 
-/* Solves with the present rows and bounds; integer: with whole columns only, by GLPK's own branch and bound. */
-thr_status thr_relaxation_solve(thr_relaxation *relaxation, bool integer, const thr_limits *limits, thr_lp_outcome *outcome,
-                                thr_err *err) THR_MUST_CHECK;
-
-/* Adds rows that x violates: odd sets, ties, connected sets, sets with too many folds. They hold for every cover,
- * whatever the bounds in force. *added = 0 if there are none. THR_ELIMIT: stopped. */
-thr_status thr_relaxation_separate(thr_relaxation *relaxation, const thr_limits *limits, int *added, thr_err *err) THR_MUST_CHECK;
+/* After a solve that found an optimum: fills objective, and search.whole: is x integral? */
+void thr_relaxation_look(thr_relaxation *relaxation);
 
 /* The column to branch on where x is not whole: copies of edges with several types, other copies, ends, turns; of these the most
  * undecided. */

@@ -15,7 +15,7 @@ static void put_blocks(thr_relaxation *relaxation, int star, const int *block, i
   const thr_ties *ties = relaxation->p->ties;
   for (int i = ties->first[star]; i < ties->first[star + 1]; i++) {
     int y = ties->pair[i], turns = thr_ties_between(ties, y, block);
-    thr_pool_put(&relaxation->pool, relaxation->p->first_pair + y, turns < blocks - 1 ? turns : blocks - 1);
+    thr_pool_put(&relaxation->search.pool, relaxation->p->first_pair + y, turns < blocks - 1 ? turns : blocks - 1);
   }
 }
 
@@ -69,14 +69,15 @@ static thr_status tie_star(thr_relaxation *relaxation, int star, int *block, int
     put_blocks(relaxation, star, block, blocks);
     st = thr_relaxation_add_violated(relaxation, blocks - 1, added, err);
   }
-  if (st || *added > before || relaxation->whole || ties->degree[star] > FEW || !find_cut(relaxation, star, block, best))
+  if (st || *added > before || relaxation->search.whole || ties->degree[star] > FEW || !find_cut(relaxation, star, block, best))
     return st;
   put_blocks(relaxation, star, best, 2);
   return thr_relaxation_add_violated(relaxation, 1, added, err);
 }
 
-thr_status thr_relaxation_tie(thr_relaxation *relaxation, int *added, thr_err *err)
+thr_status thr_relaxation_tie(void *user, int *added, thr_err *err)
 {
+  thr_relaxation *relaxation = user;
   const thr_ties *ties = relaxation->p->ties;
   thr_status st = THR_OK;
   int *block = thr_calloc((size_t)ties->most, sizeof *block), *best = thr_calloc((size_t)ties->most, sizeof *best);

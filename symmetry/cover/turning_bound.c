@@ -2,6 +2,7 @@
 #include "symmetry/cover/turning_bound.h"
 #include "graph/plan/request.h"
 #include "lp/model/pool.h"
+#include "lp/model/search.h"
 #include "lp/solver/lp.h"
 #include "symmetry/group/quotient.h"
 
@@ -124,9 +125,12 @@ typedef struct {
   int n;
   int *type, *first_type; /* type[first_type[i] .. first_type[i + 1] - 1] */
   int *pair, *first_pair;
-  int *place;    /* [n_darts] row of the type in its cell's programme */
-  double *used;  /* [n_darts] darts of the type, of the point that is looked at */
-  double *shift; /* [n_darts] multipliers */
+  int *place;        /* [n_darts] row of the type in its cell's programme */
+  double *used;      /* [n_darts] darts of the type, of the point that is looked at */
+  double *shift;     /* [n_darts] multipliers */
+  int *first, *copy; /* copies by dart type: copy[first[d] .. first[d + 1] - 1] / 2 */
+  const thr_limits *limits;
+  double bound; /* the best so far */
   /* one cell's programme; room for the largest */
   int *start, *row;
   double *value, *cost, *rhs, *dual;
@@ -141,6 +145,8 @@ static void master_destroy(master *m)
   free(m->place);
   free(m->used);
   free(m->shift);
+  free(m->first);
+  free(m->copy);
   free(m->start);
   free(m->row);
   free(m->value);
@@ -191,6 +197,21 @@ static thr_status list_cells(master *m, thr_err *err)
   return st;
 }
 
+static thr_status list_copies(master *m, thr_err *err)
+{
+  const thr_quotient *quotient = m->c->whole->q;
+  size_t both = 2 * (size_t)quotient->n_copies;
+  int *in = thr_calloc(both, sizeof *in);
+  m->first = thr_calloc((size_t)quotient->n_darts + 2, sizeof *m->first);
+  m->copy = thr_calloc(both, sizeof *m->copy);
+  thr_status st = in && m->first && m->copy ? THR_OK : thr_nomem(err);
+  for (int k = 0; k < 2 * quotient->n_copies && !st; k++)
+    in[k] = quotient->copy[k / 2].dart[k % 2]; /* a fold's second is -1 */
+  if (!st) bucket(2 * quotient->n_copies, in, quotient->n_darts, m->first, m->copy);
+  free(in);
+  return st;
+}
+
 /* Rows of a cell: its types, its ends, its self pairs; columns: its turns, ends by type, and two artificial ones per row. */
 static thr_status make_room(master *m, thr_err *err)
 {
@@ -224,7 +245,7 @@ static thr_status set_costs(master *m, thr_err *err)
       cost[small->first_pair + small->incident[k]] = 0;
     cost[small->n + d] = 1;
   }
-  thr_status st = thr_lp_set_costs(m->r->lp, cost, err);
+  thr_status st = thr_lp_set_costs(m->r->search.lp, cost, err);
   free(cost);
   return st;
 }
@@ -249,8 +270,9 @@ static thr_status master_init(master *m, const thr_contraction *contraction, thr
                               const double *worth, const thr_limits *limits, thr_err *err)
 {
   const thr_aim *prefer = contraction->whole->o->prefer;
-  *m = (master){.c = contraction, .r = relaxation};
+  *m = (master){.c = contraction, .r = relaxation, .limits = limits};
   thr_status st = list_cells(m, err);
+  if (!st) st = list_copies(m, err);
   if (!st) st = make_room(m, err);
   if (!st) st = find_most(m, worth, err);
   if (!st && !relaxation->p) st = thr_relaxation_init(relaxation, &contraction->p, contraction->p.q->n_darts, limits, err);
@@ -329,7 +351,7 @@ static void make_feasible(master *m, int columns, int rows)
 }
 
 /* Solves cell i at the point in m->used, with so many ends and self pairs. *value: what the multipliers say. */
-static thr_status solve_cell(master *m, int i, terminals at, double *value, terminals *mu, const thr_limits *limits, thr_err *err)
+static thr_status solve_cell(master *m, int i, terminals at, double *value, terminals *mu, thr_err *err)
 {
   int first = m->first_type[i], types = m->first_type[i + 1] - first, columns = fill_cell(m, i);
   thr_lp *lp = NULL;
@@ -339,7 +361,7 @@ static thr_status solve_cell(master *m, int i, terminals at, double *value, term
   m->rhs[types] = at.ends;
   m->rhs[types + 1] = at.self;
   thr_status st = thr_lp_create_equations(&lp, types + 2, m->rhs, columns, m->cost, NULL, m->start, m->row, m->value, err);
-  if (!st) st = thr_lp_solve(lp, limits, &outcome, err);
+  if (!st) st = thr_lp_solve(lp, m->limits, &outcome, err);
   if (!st && outcome != THR_LP_OPTIMAL) st = THR_ELIMIT; /* it always has an optimum */
   if (!st) {
     thr_lp_dual(lp, m->dual);
@@ -364,24 +386,23 @@ static int self_column(const master *m, int d)
   return -1;
 }
 
-/* The row of cell i with the multipliers in m->shift. first, copy: copies by dart type (list_copies). */
-static thr_status add_cut(master *m, int i, const int *first, const int *copy, terminals mu, thr_err *err)
+/* The row of cell i with the multipliers in m->shift. */
+static thr_status add_cut(master *m, int i, terminals mu, thr_err *err)
 {
   const thr_programme *small = &m->c->p;
   double scale = m->c->whole->scale[THR_AIM_TURNING];
   int d = m->c->becomes[m->type[m->first_type[i]]], self = self_column(m, d);
   for (int k = m->first_type[i]; k < m->first_type[i + 1]; k++)
-    for (int l = first[m->type[k]]; l < first[m->type[k] + 1]; l++)
-      thr_pool_put(&m->r->pool, copy[l] / 2, -m->shift[m->type[k]] / scale);
-  thr_pool_put(&m->r->pool, small->first_end + d, -mu.ends / scale);
-  if (self >= 0) thr_pool_put(&m->r->pool, self, -mu.self / scale);
-  thr_pool_put(&m->r->pool, small->n + d, 1);
+    for (int l = m->first[m->type[k]]; l < m->first[m->type[k] + 1]; l++)
+      thr_pool_put(&m->r->search.pool, m->copy[l] / 2, -m->shift[m->type[k]] / scale);
+  thr_pool_put(&m->r->search.pool, small->first_end + d, -mu.ends / scale);
+  if (self >= 0) thr_pool_put(&m->r->search.pool, self, -mu.self / scale);
+  thr_pool_put(&m->r->search.pool, small->n + d, 1);
   return thr_relaxation_add_row(m->r, 0, err);
 }
 
 /* Cuts for the cells that cost more than x says; x: [small->n + extra] of the contraction. */
-static thr_status add_cuts(master *m, const double *x, const int *first, const int *copy, const thr_limits *limits, int *added,
-                           thr_err *err)
+static thr_status add_cuts(master *m, const double *x, int *added, thr_err *err)
 {
   const thr_programme *small = &m->c->p;
   double scale = m->c->whole->scale[THR_AIM_TURNING];
@@ -391,10 +412,10 @@ static thr_status add_cuts(master *m, const double *x, const int *first, const i
     int d = m->c->becomes[m->type[m->first_type[i]]], self = self_column(m, d);
     double value;
     terminals mu;
-    st = thr_limits_stop(limits) ? THR_ELIMIT : THR_OK;
-    if (!st) st = solve_cell(m, i, (terminals){x[small->first_end + d], self < 0 ? 0 : x[self]}, &value, &mu, limits, err);
+    st = thr_limits_stop(m->limits) ? THR_ELIMIT : THR_OK;
+    if (!st) st = solve_cell(m, i, (terminals){x[small->first_end + d], self < 0 ? 0 : x[self]}, &value, &mu, err);
     if (st || value / scale <= x[small->n + d] + 1e-6) continue;
-    st = add_cut(m, i, first, copy, mu, err);
+    st = add_cut(m, i, mu, err);
     ++*added;
   }
   return st;
@@ -414,54 +435,56 @@ static void contract_cover(const master *m, const int *cover, double *x)
   }
 }
 
-/* Solves, cuts, and so on until nothing is violated. */
-static thr_status raise_bound(master *m, const int *first, const int *copy, const thr_limits *limits, double *bound, thr_err *err)
+static thr_status find_cuts(void *user, int *added, thr_err *err)
 {
+  master *m = user;
+  return add_cuts(m, m->r->x, added, err);
+}
+
+/* A round: what its multipliers prove. */
+static thr_status look(void *user, thr_err *err)
+{
+  master *m = user;
   const thr_programme *p = m->c->whole;
-  for (int added = 1; added > 0;) {
-    thr_lp_outcome outcome;
-    double value;
-    thr_status st = thr_relaxation_solve(m->r, false, limits, &outcome, err);
-    if (!st && outcome != THR_LP_OPTIMAL && outcome != THR_LP_STOPPED) return THR_OK; /* rounding: the known cover fits */
-    if (!st) st = thr_lp_proved(m->r->lp, m->most, &value, err);
-    if (st) return st;
-    value = made_safe(p, value * p->scale[THR_AIM_TURNING]);
-    *bound = fmax(*bound, value);
-    if (outcome == THR_LP_STOPPED) return THR_ELIMIT;
-    added = 0;
-    st = thr_relaxation_separate(m->r, limits, &added, err);
-    if (!st) st = add_cuts(m, m->r->x, first, copy, limits, &added, err);
-    if (st) return st;
-  }
-  return THR_OK;
+  double value;
+  if (m->r->search.outcome != THR_LP_OPTIMAL && m->r->search.outcome != THR_LP_STOPPED)
+    return THR_OK; /* rounding: the cover fits */
+  thr_relaxation_look(m->r);
+  thr_status st = thr_lp_proved(m->r->search.lp, m->most, &value, err);
+  if (!st) m->bound = fmax(m->bound, made_safe(p, value * p->scale[THR_AIM_TURNING]));
+  return st;
+}
+
+/* Solves, cuts, and so on until nothing is violated. */
+static thr_status raise_bound(master *m, thr_err *err)
+{
+  thr_search *search = &m->r->search;
+  const int separators = search->n_separators;
+  const thr_search_calls calls = {.user = m, .look = look};
+  thr_search_use(search, (thr_separator){.find = find_cuts, .user = m});
+  thr_status st = thr_search_rounds(search, &calls, m->limits, err);
+  search->n_separators = separators;
+  return !st && search->outcome == THR_LP_STOPPED ? THR_ELIMIT : st;
 }
 
 /* The last basis with the columns of the cells whose cuts are the last rows: those hold with equality at the known cover. */
 static thr_status start_basis(master *m, int cuts, const bool *cut, thr_err *err)
 {
-  int rows = thr_lp_rows(m->r->lp), n = m->c->p.n + m->r->extra;
+  int rows = thr_lp_rows(m->r->search.lp), n = m->c->p.n + m->r->extra;
   bool *row = thr_calloc((size_t)rows, sizeof *row), *column = thr_calloc((size_t)n, sizeof *column);
   thr_status st = row && column ? THR_OK : thr_nomem(err);
   for (int i = 0; i < rows - cuts && !st; i++)
-    row[i] = thr_lp_row_basic(m->r->lp, i);
+    row[i] = thr_lp_row_basic(m->r->search.lp, i);
   for (int j = 0; j < n && !st; j++)
-    column[j] = thr_lp_column_basic(m->r->lp, j) || (j >= m->c->p.n && cut[j - m->c->p.n]);
-  if (!st) st = thr_lp_set_basis(m->r->lp, row, column, err);
+    column[j] = thr_lp_column_basic(m->r->search.lp, j) || (j >= m->c->p.n && cut[j - m->c->p.n]);
+  if (!st) st = thr_lp_set_basis(m->r->search.lp, row, column, err);
   free(row);
   free(column);
   return st;
 }
 
-/* Copies by dart type: copy[first[d] .. first[d + 1] - 1] / 2. */
-static void list_copies(const thr_quotient *quotient, int *in, int *first, int *copy)
-{
-  for (int k = 0; k < 2 * quotient->n_copies; k++)
-    in[k] = quotient->copy[k / 2].dart[k % 2]; /* a fold's second is -1 */
-  bucket(2 * quotient->n_copies, in, quotient->n_darts, first, copy);
-}
-
 /* Every cell's cut that the multipliers of the quick bound give: no programme whose columns cost that much says less. */
-static thr_status add_quick_cuts(master *m, const int *first, const int *copy, thr_err *err)
+static thr_status add_quick_cuts(master *m, thr_err *err)
 {
   const thr_programme *p = m->c->whole;
   thr_status st = THR_OK;
@@ -470,30 +493,30 @@ static thr_status add_quick_cuts(master *m, const int *first, const int *copy, t
     double most = 0;
     for (int k = m->first_type[i]; k < m->first_type[i + 1]; k++)
       most = fmax(most, m->shift[m->type[k]]);
-    st = add_cut(m, i, first, copy, (terminals){-most, 0}, err);
+    st = add_cut(m, i, (terminals){-most, 0}, err);
   }
   return st;
 }
 
 /* Cuts at the known cover, and a basis with them if there was a solve before. */
-static thr_status add_first_cuts(master *m, const int *cover, const int *first, const int *copy, bool solved,
-                                 const thr_limits *limits, thr_err *err)
+static thr_status add_first_cuts(master *m, const int *cover, bool solved, thr_err *err)
 {
   const thr_contraction *contraction = m->c;
   int before, added = 0;
   double *x = thr_calloc((size_t)contraction->p.n + (size_t)m->r->extra, sizeof *x);
   bool *cut = thr_calloc((size_t)m->r->extra, sizeof *cut);
-  thr_status st = x && cut ? add_quick_cuts(m, first, copy, err) : thr_nomem(err);
-  before = thr_lp_rows(m->r->lp);
+  thr_status st = x && cut ? add_quick_cuts(m, err) : thr_nomem(err);
+  before = m->r->search.pool.count;
   if (!st) {
     contract_cover(m, cover, x);
     for (int i = 0; i < m->n; i++) /* every cell gets one, whatever it costs */
       x[contraction->p.n + contraction->becomes[m->type[m->first_type[i]]]] = -1;
-    st = add_cuts(m, x, first, copy, limits, &added, err);
+    st = add_cuts(m, x, &added, err);
   }
   for (int i = 0; i < m->n && !st; i++)
     cut[contraction->becomes[m->type[m->first_type[i]]]] = true;
-  if (!st && solved) st = start_basis(m, thr_lp_rows(m->r->lp) - before, cut, err);
+  if (!st && solved) st = thr_search_load(&m->r->search, err);
+  if (!st && solved) st = start_basis(m, m->r->search.pool.count - before, cut, err);
   free(x);
   free(cut);
   return st;
@@ -502,22 +525,13 @@ static thr_status add_first_cuts(master *m, const int *cover, const int *first, 
 thr_status thr_turning_bound(const thr_contraction *contraction, thr_relaxation *relaxation, int kept, const int *cover,
                              const double worth[THR_N_AIMS], const thr_limits *limits, double *bound, thr_err *err)
 {
-  const thr_quotient *quotient = contraction->whole->q;
   bool solved = relaxation->p;
   master m;
-  int *in = thr_calloc(2 * (size_t)quotient->n_copies, sizeof *in);
-  int *first = thr_calloc((size_t)quotient->n_darts + 2, sizeof *first),
-      *copy = thr_calloc(2 * (size_t)quotient->n_copies, sizeof *copy);
   thr_status st = master_init(&m, contraction, relaxation, kept, worth, limits, err);
-  if (!st && (!in || !first || !copy)) st = thr_nomem(err);
-  if (!st) {
-    list_copies(quotient, in, first, copy);
-    st = add_first_cuts(&m, cover, first, copy, solved, limits, err);
-  }
-  if (!st) st = raise_bound(&m, first, copy, limits, bound, err);
+  m.bound = *bound;
+  if (!st) st = add_first_cuts(&m, cover, solved, err);
+  if (!st) st = raise_bound(&m, err);
+  *bound = m.bound;
   master_destroy(&m);
-  free(in);
-  free(first);
-  free(copy);
   return st;
 }
