@@ -29,10 +29,10 @@ static void node_points_destroy(node_points *k)
   free(k->price);
 }
 
-/* Angles by a formula of the checker's own; steps, which have a threshold, by the one definition that there is. */
+/* Angles by a formula of the checker's own; costs with a threshold by the one definition that there is. */
 static double price_of(const thr_frame *frame, thr_turn_cost cost, int in, int out)
 {
-  if (cost == THR_TURN_STEP) return thr_turn_price(frame, cost, in, out);
+  if (thr_turn_counted(cost)) return thr_turn_price(frame, cost, in, out);
   return thr_turn_cost_of(cost, in == (out ^ 1) ? THR_PI : thr_check_angle(frame, in, out));
 }
 
@@ -247,14 +247,6 @@ static thr_status judge_cords(const walked *w, thr_turning_claim *found, thr_err
 
 /* ---- the claim ---- */
 
-/* What every closed cord costs: a closed curve in space turns by at least a full turn (Fenchel 1929), and sin(x / 2) >= x / pi up
- * to pi. */
-static double closed_price(const thr_request *options)
-{
-  if (options->ends != THR_ENDS_CLOSED || options->turning.cost == THR_TURN_STEP) return 0;
-  return options->turning.cost == THR_TURN_ANGLE ? 2 * THR_PI : 2;
-}
-
 static thr_status judge_tree(const walked *w, const thr_turning_claim *claim, thr_turning_claim *found, thr_err *err)
 {
   double bound, passes = 0, length = 0;
@@ -276,7 +268,7 @@ static thr_status judge_tree(const walked *w, const thr_turning_claim *claim, th
                                  .extra_limit = thr_turning_extra_limit(w->f, w->o->cover, limit)};
   thr_status st = thr_turning_proof_check(w->f, &task, &claim->tree, &bound, err);
   if (st) return st;
-  bound = fmax(bound, closed_price(w->o) * w->cords_least);
+  if (w->o->ends == THR_ENDS_CLOSED) bound = fmax(bound, thr_turn_closed(w->o->turning.cost) * w->cords_least);
   /* prices are sums of so many roundings: equal within 1e-9 of a U-turn for each pass, of an edge at most twice those it needs */
   double tolerance = 2e-9 * passes * thr_turn_cost_of(w->o->turning.cost, THR_PI);
   if (bound > found->price + tolerance)

@@ -129,7 +129,7 @@ static thr_status read_aim(char *word, list *l, thr_err *err)
   }
   if (mark != ':') return THR_OK;
   if ((aim != THR_AIM_TURNING && aim != THR_AIM_MAX_TURNING) || !read_cost(more, &l->cost))
-    return thr_fail(err, THR_EINPUT, "%s:%s: only turning and max-turning take a cost: angle, sine or step", word, more);
+    return thr_fail(err, THR_EINPUT, "%s:%s: only turning and max-turning take a cost: " THR_TURN_COSTS, word, more);
   l->priced = true;
   return THR_OK;
 }

@@ -12,23 +12,23 @@
 
 /* ---- prices ---- */
 
-const char *thr_turn_cost_name(int cost)
+static double its_angle(double angle)
 {
-  static const char *const name[] = {"angle", "sine", "step"};
-  return name[cost];
+  return angle;
 }
 
-double thr_turn_cost_of(thr_turn_cost cost, double angle)
+static double half_sine(double angle)
 {
-  switch (cost) {
-  case THR_TURN_SINE: return sin(angle / 2);
-  case THR_TURN_STEP: return angle >= THR_PI / 2 - 1e-6;
-  default: return angle;
-  }
+  return sin(angle / 2);
+}
+
+static double from_a_quarter(double angle)
+{
+  return angle >= THR_PI / 2 - 1e-6;
 }
 
 /* Is the turn one of 90 degrees or more, to 1e-6 rad? Then its cosine is at most sin 1e-6: in . out <= 0, or its square at most
- * 1e-12 |in|^2 |out|^2. Whoever prices steps asks here, for at the threshold two formulas would give two prices. */
+ * 1e-12 |in|^2 |out|^2. */
 static bool is_step(const thr_frame *frame, int in, int out)
 {
   double a[3], b[3];
@@ -39,10 +39,43 @@ static bool is_step(const thr_frame *frame, int in, int out)
   return dot <= 0 || dot * dot <= 1e-12 * squares;
 }
 
+/* All that there is to say of a cost of turns. No turn costs more than a sharper one. */
+static const struct {
+  const char *name;
+  double (*of)(double angle);
+  bool (*counts)(const thr_frame *frame, int in, int out); /* which turns cost 1, the others 0; NULL: the angle says the price */
+  double closed;                                           /* of a closed cord at least: a closed curve in space turns by 2 pi
+                                                              (Fenchel 1929), and sin(x / 2) >= x / pi up to pi */
+} costs[THR_N_TURN_COSTS] = {
+    [THR_TURN_ANGLE] = {"angle", its_angle, NULL, 2 * THR_PI},
+    [THR_TURN_SINE] = {"sine", half_sine, NULL, 2},
+    [THR_TURN_STEP] = {"step", from_a_quarter, is_step, 0},
+};
+
+const char *thr_turn_cost_name(int cost)
+{
+  return costs[cost].name;
+}
+
+double thr_turn_cost_of(thr_turn_cost cost, double angle)
+{
+  return costs[cost].of(angle);
+}
+
+bool thr_turn_counted(thr_turn_cost cost)
+{
+  return costs[cost].counts != NULL;
+}
+
 double thr_turn_price(const thr_frame *frame, thr_turn_cost cost, int in, int out)
 {
   if (in == (out ^ 1)) return thr_turn_cost_of(cost, THR_PI);
-  return cost == THR_TURN_STEP ? is_step(frame, in, out) : thr_turn_cost_of(cost, thr_turn_angle(frame, in, out));
+  return thr_turn_counted(cost) ? costs[cost].counts(frame, in, out) : thr_turn_cost_of(cost, thr_turn_angle(frame, in, out));
+}
+
+double thr_turn_closed(thr_turn_cost cost)
+{
+  return costs[cost].closed;
 }
 
 int thr_turning_cover(const thr_frame *frame, int cover, int e)
@@ -130,7 +163,7 @@ static void fill_turns(thr_turning_columns *turning_columns, int v, double (*out
     const double in[3] = {-out[i][0], -out[i][1], -out[i][2]};
     for (int j = i + 1; j < d; j++, column++) {
       double price = 0;
-      if (turning_task->cost == THR_TURN_STEP && !turning_task->free_turns)
+      if (thr_turn_counted(turning_task->cost) && !turning_task->free_turns)
         price = thr_turn_price(turning_columns->f, turning_task->cost, half[i] ^ 1, half[j]);
       else if (!turning_task->free_turns)
         price = thr_turn_cost_of(turning_task->cost, thr_angle_between(in, out[j]));

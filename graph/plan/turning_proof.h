@@ -37,12 +37,20 @@ typedef enum {
 
 enum { THR_N_TURN_COSTS = THR_TURN_STEP + 1 };
 
+#define THR_TURN_COSTS "angle|sine|step" /* their names, for messages; graph/plan/turning.c holds all else in one table */
+
 const char *thr_turn_cost_name(int cost); /* "angle", "sine", "step" */
 double thr_turn_cost_of(thr_turn_cost cost, double angle);
 
-/* Price of arriving over half-edge in and leaving over half-edge out. For steps only this: angles near 90 degrees may round to
- * either side. */
+/* Is it 1 for some turns and 0 for the others? Then only thr_turn_price says it: two formulas for an angle at the threshold may
+ * round to either side. */
+bool thr_turn_counted(thr_turn_cost cost);
+
+/* Price of arriving over half-edge in and leaving over half-edge out. */
 double thr_turn_price(const thr_frame *frame, thr_turn_cost cost, int in, int out);
+
+/* What every closed cord costs at least, on any framework. */
+double thr_turn_closed(thr_turn_cost cost);
 
 /* What the least turning is asked among. */
 typedef struct {
