@@ -16,6 +16,9 @@
 #include <unistd.h>
 
 bool cli_quiet, cli_verbose;
+static int processes; /* 0 = not said */
+
+enum { MOST_PROCESSES = 1024 };
 
 /* ---- messages ---- */
 
@@ -428,10 +431,22 @@ void cli_heed_signals(void)
   sigaction(SIGTERM, &act, NULL); /* what timeout and batch systems send */
 }
 
+int cli_processes(void)
+{
+  if (processes > 0) return processes;
+  long processors = sysconf(_SC_NPROCESSORS_ONLN);
+  return processors > 1 ? processors < MOST_PROCESSES ? (int)processors : MOST_PROCESSES : 1;
+}
+
+bool cli_processes_option(const char *command, const char *value)
+{
+  return cli_int(command, "--processes", value, 1, MOST_PROCESSES, &processes);
+}
+
 thr_limits cli_limits(double seconds)
 {
   static watch seen;
-  thr_limits limits = {.interrupted = &interrupted, .user = &seen};
+  thr_limits limits = {.interrupted = &interrupted, .user = &seen, .threads = cli_processes()};
   seen = (watch){0};
   cli_heed_signals();
   if (seconds > 0) limits.deadline = thr_clock() + seconds;

@@ -56,6 +56,17 @@ enum { OPTION_LONG_ONLY = 256 }; /* first value for options without a letter */
 int cli_next_option(int argc, char **argv, const char *command, const char *letters, const struct option *table, const char *help,
                     int *done);
 
+/* -j: how many things are done at a time, at first one per processor. It changes no result. false: the value was bad (printed).
+ */
+#define CLI_PROCESSES_LETTER "j:"
+#define CLI_PROCESSES_OPTION                                                                                                     \
+  {                                                                                                                              \
+    "processes", required_argument, NULL, 'j'                                                                                    \
+  }
+#define CLI_PROCESSES_HELP "  -j, --processes N    so many things at a time (default: one per processor); changes no result\n"
+bool cli_processes_option(const char *command, const char *value);
+int cli_processes(void);
+
 /* Numbers in options, checked against a range: false prints why (a usage error). */
 bool cli_double(const char *command, const char *option, const char *text, double low, double high, double *out);
 bool cli_int(const char *command, const char *option, const char *text, int low, int high, int *out);

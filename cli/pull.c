@@ -11,7 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 /* As the XDG base directory specification says: relative folders do not count. */
 static void default_cache(char cache[1024])
@@ -28,8 +27,7 @@ static void default_cache(char cache[1024])
 void pull_args_init(pull_args *a, thr_method method)
 {
   *a = (pull_args){.options = thr_eval_options_default(), .method = method, .pull = "both"};
-  long processors = sysconf(_SC_NPROCESSORS_ONLN);
-  a->options.processes = processors > 1 ? processors < 1024 ? (int)processors : 1024 : 1;
+  a->options.processes = cli_processes();
   default_cache(a->cache);
 }
 
@@ -118,7 +116,9 @@ bool pull_option(pull_args *a, const char *command, int option, const char *valu
   case OPTION_PULL_TIME_STEP: *ok = cli_double(command, "--time-step", value, 0.01, 10, &options->time_step); return true;
   case OPTION_PULL_ITERATIONS: *ok = cli_double(command, "--iterations", value, 0.1, 100, &options->iterations); return true;
   case OPTION_PULL_START: *ok = cli_double(command, "--start", value, 1e-9, 1e12, &options->start); return true;
-  case 'j': *ok = cli_int(command, "--processes", value, 1, 1024, &options->processes); return true;
+  case 'j':
+    if ((*ok = cli_processes_option(command, value))) options->processes = cli_processes();
+    return true;
   case OPTION_PULL_CACHE:
     if (!(*ok = *value != '\0')) cli_usage(command, "--cache: an empty name is no folder; --no-cache does without");
     options->cache = value;

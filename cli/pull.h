@@ -23,9 +23,9 @@ enum {
   OPTION_PULL_JSON,
   OPTION_PULL_FREE
 };
-#define PULL_LETTERS "j:"
+#define PULL_LETTERS CLI_PROCESSES_LETTER
 #define PULL_RUN_OPTIONS                                                                                                         \
-  {"processes", required_argument, NULL, 'j'}, {"cache", required_argument, NULL, OPTION_PULL_CACHE},                            \
+  CLI_PROCESSES_OPTION, {"cache", required_argument, NULL, OPTION_PULL_CACHE},                                                   \
   {                                                                                                                              \
     "no-cache", no_argument, NULL, OPTION_PULL_NO_CACHE                                                                          \
   }
@@ -39,7 +39,7 @@ enum {
     "json", no_argument, NULL, OPTION_PULL_JSON                                                                                  \
   }
 #define PULL_RUN_HELP                                                                                                            \
-  "  -j, --processes N    simulations at a time (default: one per processor); changes no result\n"                               \
+  CLI_PROCESSES_HELP                                                                                                             \
   "      --cache DIR      keep measured joints here (default: $XDG_CACHE_HOME/thread or ~/.cache/thread);  --no-cache\n"
 #define PULL_HELP(START)                                                                                                         \
   "      --law capstan|mitre   of method capstan: exp(mu x turning), or the mitred bead of the thesis (default: capstan)\n"      \

@@ -14,6 +14,7 @@ struct thr_symmetry_record;
 typedef struct {
   double deadline;                          /* thr_clock() at which to stop; 0 = none */
   const volatile sig_atomic_t *interrupted; /* set by a signal handler, or NULL */
+  int threads; /* in which independent parts may run (graph/process/threads.h); 0 = 1. The results do not depend on it */
   double
       *work; /* NULL, or what linear programmes may still do (lp/solver/lp.h): ends a search at the same place on any machine */
   /* called now and then with what is being done and the best value and proven bound so far (same unit) */

@@ -28,7 +28,7 @@ static const char help[] =
     "      --capacity N     at most N passes through any edge (default: what the framework file says, or any number)\n"
     "      --joint solid|tube   tube: only edges are beads, and cords tie them at every node (default: solid)\n" SYMMETRY_HELP
     "      --mu X           friction, for the capstan factor (default: 0.2)\n"
-    "      --time-limit S   for all groups together, 0 = no limit (default: 20)\n" GUARD_MEMORY_HELP
+    "      --time-limit S   for all groups together, 0 = no limit (default: 20)\n" GUARD_MEMORY_HELP CLI_PROCESSES_HELP
     "      --json           as JSON\n" CLI_FRAME_HELP
     "  -q, --quiet          no notes and no progress       -v, --verbose  what the solver does       -h, --help\n\n"
     "* marks the default choice of thread plan --objective symmetry. A step is a pass of a unique path: what is to be learned.\n"
@@ -46,6 +46,7 @@ static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       {"joint", required_argument, NULL, OPTION_JOINT},
                                       {"mu", required_argument, NULL, OPTION_MU},
                                       GUARD_OPTIONS,
+                                      CLI_PROCESSES_OPTION,
                                       {"json", no_argument, NULL, OPTION_JSON},
                                       {NULL, 0, NULL, 0}};
 
@@ -75,10 +76,11 @@ static int parse(int argc, char **argv, arguments *a)
                    .guard = {.seconds = 20, .memory = guard_limits_default().memory},
                    .plan = thr_request_default(),
                    .ends = "closed"};
-  while ((o = cli_next_option(argc, argv, "symmetries", ":" CLI_COMMON_LETTERS, table, help, &done)) != -1) {
+  while ((o = cli_next_option(argc, argv, "symmetries", ":" CLI_COMMON_LETTERS CLI_PROCESSES_LETTER, table, help, &done)) != -1) {
     if (!cli_frame_option(&a->frame, "symmetries", o, optarg, &ok) &&
         !symmetry_option(&a->symmetry, "symmetries", o, optarg, &ok) && !guard_option(&a->guard, "symmetries", o, optarg, &ok)) {
       switch (o) {
+      case 'j': ok = cli_processes_option("symmetries", optarg); break;
       case OPTION_ENDS: a->ends = optarg; break;
       case OPTION_COVER: ok = cli_int("symmetries", "--cover", optarg, 1, 100, &a->plan.cover); break;
       case OPTION_CAPACITY: ok = cli_int("symmetries", "--capacity", optarg, 1, 1000, &a->plan.capacity); break;

@@ -1,13 +1,13 @@
 /* Rows of the table: covers, the threadings made from them, and what is proved of those. */
 #include "symmetry/cover/solve.h"
 #include "graph/plan/plan.h"
+#include "graph/process/threads.h"
 #include "symmetry/cover/claims.h"
 #include "symmetry/cover/cover.h"
 #include "symmetry/cover/cover_options.h"
 #include "symmetry/group/group.h"
 #include "symmetry/group/quotient.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -142,19 +142,20 @@ static void tell(const thr_quotient *quotient, const thr_cover_options *how, con
 }
 
 /* Goes on with the row's cover; the last time it becomes the row's threading. */
-static thr_status solve(solver *s, int i, bool quick, const thr_limits *limits, thr_err *err)
+static thr_status solve(const solver *s, int i, bool quick, const thr_limits *limits, thr_err *err)
 {
   thr_symmetry_row *row = &s->t->row[i];
   thr_quotient quotient = {0};
+  thr_cover_options how = s->how;
   row->why = (thr_err){0};
-  s->how.quick = quick;
+  how.quick = quick;
   thr_limits first = *limits;
-  if (s->end > 0) s->how.start_by = fmin(thr_clock() + MOMENT, s->end + LATEST);
-  if (s->end > 0) first.deadline = s->cover[i].copies ? s->end + LATEST : fmax(first.deadline, s->how.start_by);
+  if (s->end > 0) how.start_by = fmin(thr_clock() + MOMENT, s->end + LATEST);
+  if (s->end > 0) first.deadline = s->cover[i].copies ? s->end + LATEST : fmax(first.deadline, how.start_by);
   thr_status st = thr_quotient_make(&quotient, s->f, &s->t->group[row->group].all, &row->elements, MOST_TYPES, &first, &row->why);
   if (!st) {
-    st = thr_cover_improve(&quotient, &s->how, limits, &s->cover[i], &row->why);
-    if (!st || st == THR_ELIMIT) tell(&quotient, &s->how, &s->cover[i], limits);
+    st = thr_cover_improve(&quotient, &how, limits, &s->cover[i], &row->why);
+    if (!st || st == THR_ELIMIT) tell(&quotient, &how, &s->cover[i], limits);
     if (!quick && (!st || st == THR_ELIMIT)) {
       thr_status made = take_cover(s, &quotient, &s->cover[i], row, &row->why);
       if (made) st = made;
@@ -272,37 +273,70 @@ static bool has_turn(const solver *s, turn r, int row)
   return (r != CHOICE && !s->only_choice) || row_ahead(s, row, r == PROOFS) < 0;
 }
 
-/* The row whose turn is next: with the fewest learned steps as far as known, -1 = none. *left: how many have one. */
-static int next_row(const solver *s, turn r, const bool *had, int *left)
+/* A row and its learned steps as far as known. */
+typedef struct {
+  int row;
+  double steps;
+} candidate;
+
+static int by_steps(const void *a, const void *b)
 {
-  double fewest = INFINITY;
-  int next = -1;
-  *left = 0;
-  for (int i = 0; i < s->t->n; i++) {
-    if (had[i] || !has_turn(s, r, i)) continue;
-    const standing own = standing_of(s, i);
-    double steps = !own.there ? own.least_steps : own.overlap > overlap_within(s) ? (double)FLT_MAX : own.steps;
-    ++*left;
-    if (steps < fewest) next = i;
-    fewest = fmin(fewest, steps);
-  }
-  return next;
+  const candidate *x = a, *y = b;
+  if (x->steps != y->steps) return x->steps < y->steps ? -1 : 1;
+  return (x->row > y->row) - (x->row < y->row);
 }
 
+/* The rows whose turn it is, those with the fewest learned steps first. */
+typedef struct {
+  solver *s;
+  turn r;
+  thr_limits all; /* of the round */
+  int n, threads;
+  candidate *next; /* [n] */
+  bool *had;       /* [rows] had their turn in this round */
+} queue;
+
+static void fill(queue *q)
+{
+  const solver *s = q->s;
+  q->n = 0;
+  for (int i = 0; i < s->t->n; i++) {
+    if (q->had[i] || !has_turn(s, q->r, i)) continue;
+    const standing own = standing_of(s, i);
+    const double steps = !own.there ? own.least_steps : own.overlap > overlap_within(s) ? INFINITY : own.steps;
+    q->next[q->n++] = (candidate){i, steps};
+  }
+  qsort(q->next, (size_t)q->n, sizeof *q->next, by_steps);
+}
+
+/* One of them, with its share of the time. */
+static thr_status solve_next(void *user, int job, const thr_limits *limits, thr_err *err)
+{
+  const queue *q = user;
+  thr_limits share = *limits;
+  const int left = q->n - job;
+  share.deadline = thr_limits_part(&q->all, left > q->threads ? (double)q->threads / left : 1).deadline;
+  if (limits->advance)
+    limits->advance(limits->user, "threading under each group", (q->r + 1 - (double)left / q->s->t->n) / N_ROUNDS);
+  q->had[q->next[job].row] = true;
+  return solve(q->s, q->next[job].row, q->r != PROOFS, &share, err);
+}
+
+/* All of them at once, or one after the other where what one comes to may leave the next one out. */
 static thr_status solve_round(solver *s, turn r, const thr_limits *limits, thr_err *err)
 {
   static const double part[N_ROUNDS] = {0.5, 0.7, 1}; /* of the time that is left */
-  const thr_limits all = thr_limits_part(limits, part[r]);
-  bool *had = thr_calloc((size_t)s->t->n, sizeof *had);
-  thr_status st = had ? THR_OK : thr_nomem(err);
-  int left = 0;
-  for (int i; !st && (i = next_row(s, r, had, &left)) >= 0;) {
-    if (limits->advance) limits->advance(limits->user, "threading under each group", (r + 1 - (double)left / s->t->n) / N_ROUNDS);
-    const thr_limits share = thr_limits_part(&all, 1.0 / left);
-    had[i] = true;
-    st = solve(s, i, r != PROOFS, &share, err);
+  queue q = {.s = s, .r = r, .all = thr_limits_part(limits, part[r]), .threads = limits->threads > 1 ? limits->threads : 1};
+  q.next = thr_calloc((size_t)s->t->n, sizeof *q.next);
+  q.had = thr_calloc((size_t)s->t->n, sizeof *q.had);
+  thr_status st = q.next && q.had ? THR_OK : thr_nomem(err);
+  if (!st) fill(&q);
+  while (!st && q.n > 0) {
+    st = thr_threads_run(s->only_choice ? 1 : q.n, solve_next, &q, limits, err);
+    if (!st) fill(&q);
   }
-  free(had);
+  free(q.next);
+  free(q.had);
   return st;
 }
 

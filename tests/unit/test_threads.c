@@ -1,4 +1,5 @@
-/* Plans that are made in two threads at once are those that one thread makes. */
+/* Plans that are made in two threads at once are those that one thread makes; jobs in many threads come to what they do in one.
+ */
 #define _POSIX_C_SOURCE 200809L
 #include "planner/make_plan.h"
 #include "tests/support.h"
@@ -6,6 +7,8 @@
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
+#include "graph/process/threads.h"
+#include "symmetry/symmetry.h"
 
 #include <pthread.h>
 #include <string.h>
@@ -72,9 +75,93 @@ START_TEST(two_threads_plan_as_one)
 }
 END_TEST
 
+/* ---- jobs ---- */
+
+enum { N_JOBS = 200 };
+
+typedef struct {
+  int value[N_JOBS], calls[N_JOBS], fails_from, said;
+} jobs;
+
+static void note_advance(void *user, const char *what, double done)
+{
+  jobs *j = user;
+  ck_assert_str_eq(what, "squares");
+  ck_assert(done >= 0 && done <= 1);
+  j->said++; /* by one thread at a time, or the count is wrong */
+}
+
+static thr_status square(void *user, int job, const thr_limits *limits, thr_err *err)
+{
+  jobs *j = user;
+  ck_assert_int_eq(limits->threads, 1);
+  for (int i = 0; i < 20; i++)
+    limits->advance(limits->user, "squares", (double)job / N_JOBS);
+  j->calls[job]++;
+  if (job >= j->fails_from) return thr_fail(err, THR_EINPUT, "job %d", job);
+  j->value[job] = job * job;
+  return THR_OK;
+}
+
+START_TEST(jobs_come_to_the_same)
+{
+  static const int threads[] = {0, 1, 2, 16, 1000};
+  jobs j = {.fails_from = N_JOBS};
+  const thr_limits limits = {.threads = threads[_i], .advance = note_advance, .user = &j};
+  ck_assert_int_eq(thr_threads_run(N_JOBS, square, &j, &limits, NULL), THR_OK);
+  for (int i = 0; i < N_JOBS; i++)
+    ck_assert(j.value[i] == i * i && j.calls[i] == 1);
+  ck_assert_int_eq(j.said, 20 * N_JOBS);
+  ck_assert_int_eq(thr_threads_run(0, square, &j, &limits, NULL), THR_OK);
+}
+END_TEST
+
+START_TEST(the_first_failure_is_told)
+{
+  static const int threads[] = {0, 1, 2, 16, 1000};
+  jobs j = {.fails_from = 50};
+  thr_err err = {0};
+  const thr_limits limits = {.threads = threads[_i], .advance = note_advance, .user = &j};
+  ck_assert_int_eq(thr_threads_run(N_JOBS, square, &j, &limits, &err), THR_EINPUT);
+  ck_assert_str_eq(err.text, "job 50");
+  for (int i = 0; i < 50; i++)
+    ck_assert(j.value[i] == i * i && j.calls[i] == 1);
+}
+END_TEST
+
+/* The table of symmetries has its rows solved in threads. */
+START_TEST(symmetries_do_not_depend_on_threads)
+{
+  thr_symmetries table[2];
+  thr_frame f = _i % 2 ? solid_make(CUBE) : grid_make(4, 4);
+  thr_request o = thr_request_default();
+  o.aims = thr_aims_symmetric;
+  o.ends = _i / 2 ? THR_ENDS_ANY : THR_ENDS_CLOSED;
+  for (int k = 0; k < 2; k++)
+    ck_assert_int_ne(thr_symmetries_find(&f, &o, false, &(thr_limits){.threads = k ? 3 : 1}, &table[k], NULL), THR_ENOMEM);
+  ck_assert_int_gt(table[0].n, 2);
+  ck_assert_int_eq(table[1].n, table[0].n);
+  ck_assert_int_eq(table[1].chosen, table[0].chosen);
+  for (int i = 0; i < table[0].n; i++) {
+    const thr_symmetry_row *a = &table[0].row[i], *b = &table[1].row[i];
+    ck_assert(a->n_cords == b->n_cords && a->metrics.length == b->metrics.length && a->metrics.turning == b->metrics.turning);
+    for (int c = 0; c < a->n_cords; c++) {
+      ck_assert_int_eq(a->cord[c].n_passes, b->cord[c].n_passes);
+      ck_assert_mem_eq(a->cord[c].half, b->cord[c].half, (size_t)a->cord[c].n_passes * sizeof *a->cord[c].half);
+    }
+  }
+  for (int k = 0; k < 2; k++)
+    thr_symmetries_destroy(&table[k]);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 int main(void)
 {
   Suite *s = suite_create("threads");
   ADD_TEST(s, 120, two_threads_plan_as_one);
+  ADD_EXAMPLES(s, 60, jobs_come_to_the_same, 5);
+  ADD_EXAMPLES(s, 60, the_first_failure_is_told, 5);
+  ADD_EXAMPLES(s, 60, symmetries_do_not_depend_on_threads, 4);
   return run_suite(s);
 }
