@@ -1,4 +1,5 @@
 /* Cords that take no search, where a plan may be such. */
+#include "graph/framework/components.h"
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
@@ -12,11 +13,15 @@
 #include <stdlib.h>
 
 /* One cord through every edge an even number of times; *n = 0 where there is no room for that. */
-static thr_status even_cords(const thr_frame *frame, const thr_request *options, thr_cord **cord, int *n, thr_err *err)
+static thr_status even_cord(const thr_frame *frame, const thr_request *options, const int *given, thr_cord **cord, int *n,
+                            thr_err *err)
 {
   thr_request one = *options;
   thr_status st = THR_OK;
   bool room = true;
+  (void)given;
+  *cord = NULL;
+  *n = 0;
   int *passes = thr_calloc((size_t)frame->n_edges, sizeof *passes);
   if (!passes) return thr_nomem(err);
   for (int e = 0; e < frame->n_edges && room; e++) {
@@ -37,7 +42,8 @@ void thr_planner_tell_at_once(const thr_frame *frame, const thr_request *options
   thr_err why = {0};
   if (!limits->found || frame->n_edges > MOST_EDGES) return;
   bool tube = options->joint == THR_JOINT_TUBE;
-  thr_status st = (tube ? thr_tube_first : options->max_length > 0 ? thr_cut_tour : even_cords)(frame, options, &cord, &n, &why);
+  thr_component_cords *make = tube ? thr_tube_first : options->max_length > 0 ? thr_cut_tour : even_cord;
+  thr_status st = thr_components_cords(frame, options, NULL, make, &cord, &n, &why);
   if (!st) thr_limits_found(limits, cord, n, NULL);
   thr_cords_destroy(cord, n);
 }

@@ -139,7 +139,7 @@ static void give_cords(const thr_components *components, int k, thr_plan *compon
     cord->component = k;
     thr_cord_id(whole->n_cords++, cord->id);
     for (int j = 0; j < cord->n_passes; j++)
-      cord->half[j] = 2 * components->edge[components->first_edge[k] + (cord->half[j] >> 1)] + (cord->half[j] & 1);
+      cord->half[j] = thr_component_half(components, k, cord->half[j]);
   }
 }
 
@@ -152,6 +152,48 @@ thr_status thr_components_join(const thr_components *components, thr_plan *compo
   for (int k = 0; k < components->n; k++)
     give_cords(components, k, &component[k], whole);
   return THR_OK;
+}
+
+static thr_status make_cords(const thr_components *components, int k, const int *passes, thr_component_cords *make,
+                             thr_plan *made, thr_err *err)
+{
+  thr_status st = thr_component_take(components, k, made, err);
+  if (st) return st;
+  int *part = thr_calloc((size_t)made->frame.n_edges, sizeof *part);
+  if (!part) return thr_nomem(err);
+  for (int e = 0; passes && e < made->frame.n_edges; e++)
+    part[e] = passes[components->edge[components->first_edge[k] + e]];
+  st = make(&made->frame, &made->options, passes ? part : NULL, &made->cord, &made->n_cords, err);
+  free(part);
+  return st;
+}
+
+thr_status thr_components_cords(const thr_frame *frame, const thr_request *options, const int *passes, thr_component_cords *make,
+                                thr_cord **cord, int *n_cords, thr_err *err)
+{
+  thr_components components;
+  thr_plan whole = {0}, *made = NULL;
+  bool all = true;
+  *cord = NULL;
+  *n_cords = 0;
+  thr_status st = thr_components_init(&components, frame, options, err);
+  if (!st && components.n == 1) {
+    thr_components_destroy(&components);
+    return make(frame, options, passes, cord, n_cords, err);
+  }
+  if (!st && !(made = thr_calloc((size_t)components.n, sizeof *made))) st = thr_nomem(err);
+  for (int k = 0; k < components.n && !st && all; k++) {
+    st = make_cords(&components, k, passes, make, &made[k], err);
+    all = made[k].n_cords > 0;
+  }
+  if (!st && all) st = thr_components_join(&components, made, &whole, err);
+  *cord = whole.cord;
+  *n_cords = whole.n_cords;
+  for (int k = 0; made && k < components.n; k++)
+    thr_plan_destroy(&made[k]);
+  free(made);
+  thr_components_destroy(&components);
+  return st;
 }
 
 void thr_component_give_certificate(const thr_components *components, int k, thr_plan *component, thr_certificate *certificate)

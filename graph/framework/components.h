@@ -31,6 +31,22 @@ thr_status thr_component_take(const thr_components *components, int k, thr_plan 
 thr_status thr_components_join(const thr_components *components, thr_plan *component, thr_plan *whole,
                                thr_err *err) THR_MUST_CHECK;
 
+/* Half-edge h of component k, in the whole. */
+static inline int thr_component_half(const thr_components *components, int k, int h)
+{
+  return 2 * components->edge[components->first_edge[k] + (h >> 1)] + (h & 1);
+}
+
+/* Makes cords of a framework of one component, with options of its own, and passes[n_edges] if there are any. *n_cords = 0: it
+ * made none. On failure there are none. */
+typedef thr_status thr_component_cords(const thr_frame *frame, const thr_request *options, const int *passes, thr_cord **cord,
+                                       int *n_cords, thr_err *err);
+
+/* The cords that make makes of every component, put together; none where it made none of one. passes[n_edges] are handed to it by
+ * component; NULL: none. O(nodes + edges), and what it takes to make them. */
+thr_status thr_components_cords(const thr_frame *frame, const thr_request *options, const int *passes, thr_component_cords *make,
+                                thr_cord **cord, int *n_cords, thr_err *err) THR_MUST_CHECK;
+
 /* Moves the certificate of a plan of component k, if it has one, into certificate. */
 void thr_component_give_certificate(const thr_components *components, int k, thr_plan *component, thr_certificate *certificate);
 

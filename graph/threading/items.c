@@ -9,12 +9,7 @@
 
 static int tail_of(const thr_items *items, int state)
 {
-  return items->f->edge[items->edge[state >> 1]][state & 1];
-}
-
-int thr_items_half(const thr_items *items, int state)
-{
-  return 2 * items->edge[state >> 1] + (state & 1);
+  return thr_tail(items->f, state);
 }
 
 static bool tube(const thr_items *items)
@@ -61,8 +56,7 @@ static bool is_cut_off(const thr_items *items, int i)
 static void add_passes(thr_items *items)
 {
   for (int i = 0; i < items->n_edges; i++) {
-    const int cover = thr_plan_cover(items->f, items->o, items->edge[i]),
-              capacity = thr_plan_capacity(items->f, items->o, items->edge[i]);
+    const int cover = thr_plan_cover(items->f, items->o, i), capacity = thr_plan_capacity(items->f, items->o, i);
     const bool counts = items->full >> i & 1;
     items->pass[i] = 0;
     if (!counts && cover == 1 && is_cut_off(items, i)) continue;
@@ -82,7 +76,6 @@ static void add_cuts(thr_items *items)
 static void add_ends(thr_items *items)
 {
   for (int v = 0; v < items->f->n_nodes; v++) {
-    if (items->component[v] != items->k) continue;
     items->end[v] = add_items(items, items->o->end_count[v]);
     items->m.once |= items->end[v];
     items->m.required |= items->end[v];
@@ -101,14 +94,13 @@ static thr_status add(thr_subsets_step **list, int *n, int *room, thr_subsets_st
 /* Of cords that turn as much the shorter ones win. */
 static double pass_cost(const thr_items *items, int state)
 {
-  const double little = 1e-11, length = items->f->length[items->edge[state >> 1]];
+  const double little = 1e-11, length = items->f->length[state >> 1];
   return items->turning ? little * length / items->longest : length;
 }
 
 static double turn_cost(const thr_items *items, int in, int out)
 {
-  return items->turning ? thr_turn_price(items->f, items->o->turning.cost, thr_items_half(items, in), thr_items_half(items, out))
-                        : 0;
+  return items->turning ? thr_turn_price(items->f, items->o->turning.cost, in, out) : 0;
 }
 
 static bool in_cut(const thr_items *items, int c, int state)
@@ -188,7 +180,7 @@ thr_status thr_items_model(thr_items *items, bool *small, thr_err *err)
 {
   forget_model(items);
   items->m = (thr_subsets_model){.n_states = 2 * items->n_edges, .closed = items->o->ends == THR_ENDS_CLOSED};
-  *small = items->edge != NULL;
+  *small = items->pass != NULL;
   if (!*small) return THR_OK;
   add_cuts(items);
   add_passes(items);
@@ -213,7 +205,7 @@ static thr_status find_full(const thr_items *items, int n_walks, int *const *sta
       passes[state[i][j] >> 1]++;
   *full = 0;
   for (int i = 0; i < items->n_edges; i++)
-    if (passes[i] > thr_plan_capacity(items->f, items->o, items->edge[i])) *full |= UINT32_C(1) << i;
+    if (passes[i] > thr_plan_capacity(items->f, items->o, i)) *full |= UINT32_C(1) << i;
   free(passes);
   return THR_OK;
 }
@@ -277,30 +269,24 @@ thr_status thr_items_refine(thr_items *items, int n_walks, int *const *state, co
 
 /* ---- all of it ---- */
 
-static thr_status find_edges(thr_items *items, thr_err *err)
+static thr_status make_room(thr_items *items, thr_err *err)
 {
   const thr_frame *frame = items->f;
-  for (int e = 0; e < frame->n_edges; e++)
-    items->n_edges += items->component[frame->edge[e][0]] == items->k;
+  items->n_edges = frame->n_edges;
   if (items->n_edges > THR_SUBSETS_MOST_ITEMS) return THR_OK;
-  items->edge = thr_calloc((size_t)items->n_edges, sizeof *items->edge);
   items->pass = thr_calloc((size_t)items->n_edges, sizeof *items->pass);
   items->end = thr_calloc((size_t)frame->n_nodes, sizeof *items->end);
   items->turn = thr_calloc(THR_SUBSETS_MOST_ITEMS, sizeof *items->turn);
-  if (!items->edge || !items->pass || !items->end || !items->turn) return thr_nomem(err);
-  for (int e = 0, i = 0; e < frame->n_edges; e++) {
-    if (items->component[frame->edge[e][0]] != items->k) continue;
-    items->edge[i++] = e;
+  if (!items->pass || !items->end || !items->turn) return thr_nomem(err);
+  for (int e = 0; e < frame->n_edges; e++)
     items->longest = fmax(items->longest, frame->length[e]);
-  }
   return THR_OK;
 }
 
-thr_status thr_items_init(thr_items *items, const thr_frame *frame, const thr_request *options, const int *component, int k,
-                          bool turning, thr_err *err)
+thr_status thr_items_init(thr_items *items, const thr_frame *frame, const thr_request *options, bool turning, thr_err *err)
 {
-  *items = (thr_items){.f = frame, .o = options, .component = component, .k = k, .turning = turning};
-  thr_status st = find_edges(items, err);
+  *items = (thr_items){.f = frame, .o = options, .turning = turning};
+  thr_status st = make_room(items, err);
   if (st) thr_items_destroy(items);
   return st;
 }
@@ -308,7 +294,6 @@ thr_status thr_items_init(thr_items *items, const thr_frame *frame, const thr_re
 void thr_items_destroy(thr_items *items)
 {
   forget_model(items);
-  free(items->edge);
   free(items->pass);
   free(items->end);
   free(items->turn);

@@ -1,4 +1,4 @@
-/* A small component of a framework as walks that collect items (graph/threading/subsets.h): states are its half-edges.
+/* A small framework of one component as walks that collect items (graph/threading/subsets.h): states are its half-edges.
  *
  * Items: each pass that an edge needs, and a cord end wherever ends are counted. What ties so many choices together that a table
  * for all would be large comes in only where cords were found that do without:
@@ -18,30 +18,25 @@
 typedef struct {
   const thr_frame *f;
   const thr_request *o; /* joint, cover, capacity, ends */
-  const int *component;
-  int k;
-  bool turning;  /* turns are what costs, as options.turning prices them, not length */
-  uint32_t full; /* edges whose capacities count, 1 << i */
+  bool turning;         /* turns are what costs, as options.turning prices them, not length */
+  uint32_t full;        /* edges whose capacities count, 1 << i */
   int n_cuts;
   uint64_t cut[THR_SUBSETS_MOST_ITEMS]; /* sets of states that leave one node */
-  double longest;                       /* edge of the component */
-  int n_edges, *edge;                   /* of the component; half-edge 2 * edge[i] + s is state 2 * i + s */
-  uint32_t *pass, *end;                 /* [n_edges], [f->n_nodes] their items */
-  uint32_t *turn;                       /* [n_cuts] its item */
+  double longest;                       /* edge */
+  int n_edges;
+  uint32_t *pass, *end; /* [n_edges], [f->n_nodes] their items */
+  uint32_t *turn;       /* [n_cuts] its item */
   thr_subsets_model m;
 } thr_items;
 
-/* Component k, component[n_nodes], without capacities or cuts. With turning U-turns are only at nodes with one edge, with tube
+/* Without capacities or cuts. With turning U-turns are only at nodes with one edge, with tube
  * joints nowhere. */
-thr_status thr_items_init(thr_items *items, const thr_frame *frame, const thr_request *options, const int *component, int k,
-                          bool turning, thr_err *err) THR_MUST_CHECK;
+thr_status thr_items_init(thr_items *items, const thr_frame *frame, const thr_request *options, bool turning,
+                          thr_err *err) THR_MUST_CHECK;
 void thr_items_destroy(thr_items *items);
 
 /* Makes the model. *small false: it has too many items. */
 thr_status thr_items_model(thr_items *items, bool *small, thr_err *err) THR_MUST_CHECK;
-
-/* The framework's half-edge that a state is. */
-int thr_items_half(const thr_items *items, int state);
 
 /* Of walks of such a model, n_passes[i] states each. *keep: they keep the capacities and tie the nodes. Else what they miss
  * counts from now on; *more: there was something to add. */

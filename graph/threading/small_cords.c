@@ -85,9 +85,8 @@ static thr_status try_items(thr_items *items, const thr_small_ask *ask, const th
   return st;
 }
 
-thr_status thr_small_cords_find(const thr_frame *frame, const thr_request *options, const int *component, int k,
-                                const thr_small_ask *ask, const thr_limits *limits, thr_small_cords *out, bool *certain,
-                                thr_err *err)
+thr_status thr_small_cords_find(const thr_frame *frame, const thr_request *options, const thr_small_ask *ask,
+                                const thr_limits *limits, thr_small_cords *out, bool *certain, thr_err *err)
 {
   thr_items items;
   thr_err why = {0};
@@ -95,16 +94,13 @@ thr_status thr_small_cords_find(const thr_frame *frame, const thr_request *optio
   double work = 2e9; /* two seconds or so */
   *out = (thr_small_cords){0};
   *certain = false;
-  thr_status st = thr_items_init(&items, frame, options, component, k, ask->turning, err);
+  thr_status st = thr_items_init(&items, frame, options, ask->turning, err);
   if (st) return st;
   while (!st && v == MORE_COUNTS) {
     thr_small_cords_destroy(out);
     st = try_items(&items, ask, limits, &work, out, &v, &why);
   }
   if (st || v != BETTER) thr_small_cords_destroy(out);
-  for (int i = 0; i < out->n; i++)
-    for (int j = 0; j < out->n_passes[i]; j++)
-      out->half[i][j] = thr_items_half(&items, out->half[i][j]);
   thr_items_destroy(&items);
   *certain = !st && (v == BETTER || v == NONE_BETTER);
   return st && st != THR_ELIMIT ? thr_fail(err, st, "%s", why.text) : THR_OK;

@@ -1,6 +1,6 @@
-/* All cords of a small component at once, exactly: shortest or turning least, together or the worst of them, or as few as a limit
- * allows. A table over subsets (graph/threading/subsets.h) of what cords collect (graph/threading/items.h), again with more items
- * as long as the cords that it finds do not keep to all that was asked.
+/* All cords of a small framework of one component at once, exactly: shortest or turning least, together or the worst of them, or
+ * as few as a limit allows. A table over subsets (graph/threading/subsets.h) of what cords collect (graph/threading/items.h),
+ * again with more items as long as the cords that it finds do not keep to all that was asked.
  *
  * Example: a ring of six edges of length 1, two open cords, ends anywhere: both are 3 long. */
 #ifndef THR_SMALL_CORDS_H
@@ -29,11 +29,10 @@ typedef struct {
 
 void thr_small_cords_destroy(thr_small_cords *cords);
 
-/* Of component k, component[n_nodes]; of the options ends, covers, capacities and joint. out: cords that are better than those
+/* Of the options ends, covers, capacities and joint. out: cords that are better than those
  * known, and as asked for; else none. *certain: nothing is better than those or, without them, than the known ones; or there
  * are none at all. Not certain: too many items, or stopped by the limits. */
-thr_status thr_small_cords_find(const thr_frame *frame, const thr_request *options, const int *component, int k,
-                                const thr_small_ask *ask, const thr_limits *limits, thr_small_cords *out, bool *certain,
-                                thr_err *err) THR_MUST_CHECK;
+thr_status thr_small_cords_find(const thr_frame *frame, const thr_request *options, const thr_small_ask *ask,
+                                const thr_limits *limits, thr_small_cords *out, bool *certain, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -1,9 +1,8 @@
-/* One cord through all passes of each component. */
+/* One cord through all passes. */
 #include "graph/threading/tour.h"
 #include "graph/threading/walks.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 static int best_start(const thr_frame *frame, const thr_request *options, const int *half, int n, int only)
 {
@@ -26,8 +25,8 @@ int thr_tour_start(const thr_frame *frame, const thr_request *options, const int
   return best_start(frame, options, half, n, -1);
 }
 
-/* Takes the only walk of walks as cord k with these ends. */
-static thr_status take_cord(const thr_frame *frame, const thr_request *options, thr_walks *walks, int k, const int ends[2],
+/* Takes the only walk of walks as a cord with these ends. */
+static thr_status take_cord(const thr_frame *frame, const thr_request *options, thr_walks *walks, const int ends[2],
                             thr_cord *cord, thr_err *err)
 {
   thr_walk *walk = walks->walk;
@@ -41,27 +40,19 @@ static thr_status take_cord(const thr_frame *frame, const thr_request *options, 
   if (!closed && start != ends[0]) thr_walk_reverse(walk->half, walk->n);
   if (closed) st = thr_walk_rotate(walk, best_start(frame, options, walk->half, walk->n, ends[0]), err);
   if (st) return st;
-  *cord = (thr_cord){.component = k, .closed = closed, .n_passes = walk->n, .half = walk->half};
-  thr_cord_id(k, cord->id);
+  *cord = (thr_cord){.closed = closed, .n_passes = walk->n, .half = walk->half};
+  thr_cord_id(0, cord->id);
   walk->half = NULL;
   return THR_OK;
 }
 
-thr_status thr_tour_cords(const thr_frame *frame, const thr_request *options, const int *component, int n_components,
-                          const int *passes, const int (*ends)[2], thr_cord *cord, thr_err *err)
+thr_status thr_tour_cord(const thr_frame *frame, const thr_request *options, const int *passes, const int ends[2], thr_cord *cord,
+                         thr_err *err)
 {
-  thr_walks *walks = thr_calloc((size_t)n_components, sizeof *walks);
-  memset(cord, 0, (size_t)n_components * sizeof *cord);
-  if (!walks) return thr_nomem(err);
-  thr_status st = thr_walks_trace(frame, passes, component, n_components, walks, err);
-  for (int k = 0; k < n_components; k++) {
-    if (!st) st = take_cord(frame, options, &walks[k], k, ends[k], &cord[k], err);
-    thr_walks_destroy(&walks[k]);
-  }
-  for (int k = 0; st && k < n_components; k++) {
-    free(cord[k].half);
-    cord[k].half = NULL;
-  }
-  free(walks);
+  thr_walks walks;
+  *cord = (thr_cord){0};
+  thr_status st = thr_walks_trace(frame, passes, &walks, err);
+  if (!st) st = take_cord(frame, options, &walks, ends, cord, err);
+  thr_walks_destroy(&walks);
   return st;
 }

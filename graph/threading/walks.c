@@ -65,27 +65,17 @@ double thr_walk_turn(const thr_frame *frame, int in, int out)
 
 /* ---- tracing ---- */
 
-/* Nodes with an odd number of passes, in twos of one component. */
-static thr_status pair_odd_nodes(const thr_frame *frame, const int *passes, const int *component, int n_components,
-                                 int (*pair)[2], int *n_pairs, thr_err *err)
+/* Nodes with an odd number of passes, in twos; returns how many twos. */
+static int pair_odd_nodes(const thr_frame *frame, const int *passes, int (*pair)[2])
 {
-  int *waiting = thr_calloc((size_t)n_components, sizeof *waiting); /* node + 1 */
-  *n_pairs = 0;
-  if (!waiting) return thr_nomem(err);
+  int n = 0;
   for (int v = 0; v < frame->n_nodes; v++) {
-    int sum = 0, *w = &waiting[component[v]];
+    int sum = 0;
     for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
       sum += passes[frame->half[i] >> 1];
-    if (sum % 2 == 0) continue;
-    if (*w) {
-      pair[*n_pairs][0] = *w - 1;
-      pair[*n_pairs][1] = v;
-      ++*n_pairs;
-    }
-    *w = *w ? 0 : v + 1;
+    if (sum % 2) pair[n / 2][n % 2] = v, n++;
   }
-  free(waiting);
-  return THR_OK;
+  return n / 2;
 }
 
 /* Cuts the circuit dart[0 .. n-1], which starts with a virtual dart if it has any, at those. */
@@ -107,50 +97,40 @@ static thr_status break_circuit(const thr_frame *frame, const thr_multigraph *mu
   return st;
 }
 
-/* start[k]: the dart to trace component k from, a virtual one if there are any; -1 if it has no darts. */
-static void find_starts(const thr_multigraph *multigraph, const int *component, int *start, int n_components)
+thr_status thr_walks_follow(thr_walks *walks, const thr_frame *frame, const thr_multigraph *multigraph, const int *mate,
+                            thr_err *err)
 {
-  for (int k = 0; k < n_components; k++)
-    start[k] = -1;
-  for (int d = 0; d < multigraph->n_darts; d++) {
-    int *s = &start[component[multigraph->tail[d]]];
-    if (*s < 0 || (multigraph->half[d] < 0 && multigraph->half[*s] >= 0)) *s = d;
-  }
-}
-
-static thr_status trace_circuits(const thr_frame *frame, const thr_multigraph *multigraph, const int *component, int n_components,
-                                 thr_walks *out, thr_err *err)
-{
-  int *mate = thr_calloc((size_t)multigraph->n_darts, sizeof *mate),
-      *walk = thr_calloc((size_t)multigraph->n_darts, sizeof *walk);
-  int *start = thr_calloc((size_t)n_components, sizeof *start), n;
-  thr_status st = mate && walk && start ? THR_OK : thr_nomem(err);
-  if (!st) st = thr_transition_pair(frame, multigraph, mate, err);
-  if (!st) st = thr_transition_join(frame, multigraph, mate, err);
-  if (!st) find_starts(multigraph, component, start, n_components);
-  for (int k = 0; k < n_components && !st; k++) {
-    if (start[k] < 0) continue;
-    thr_transition_trace(mate, start[k], walk, &n);
-    st = break_circuit(frame, multigraph, walk, n, &out[k], err);
-  }
-  free(mate);
+  int *walk = thr_calloc((size_t)multigraph->n_darts, sizeof *walk), n;
+  bool *seen = thr_calloc((size_t)multigraph->n_darts, sizeof *seen);
+  thr_status st = walk && seen ? THR_OK : thr_nomem(err);
+  for (int closed = 0; closed < 2; closed++)
+    for (int d = 0; d < multigraph->n_darts && !st; d++) {
+      if (seen[d] || (!closed && multigraph->half[d] >= 0)) continue;
+      thr_transition_trace(mate, d, walk, &n);
+      for (int i = 0; i < n; i++)
+        seen[walk[i]] = seen[walk[i] ^ 1] = true;
+      st = break_circuit(frame, multigraph, walk, n, walks, err);
+    }
   free(walk);
-  free(start);
+  free(seen);
   return st;
 }
 
-thr_status thr_walks_trace(const thr_frame *frame, const int *passes, const int *component, int n_components, thr_walks *out,
-                           thr_err *err)
+thr_status thr_walks_trace(const thr_frame *frame, const int *passes, thr_walks *out, thr_err *err)
 {
   thr_multigraph multigraph = {0};
-  int n_pairs = 0, (*pair)[2] = thr_calloc((size_t)frame->n_nodes / 2 + 1, sizeof *pair);
-  memset(out, 0, (size_t)n_components * sizeof *out);
-  thr_status st = pair ? pair_odd_nodes(frame, passes, component, n_components, pair, &n_pairs, err) : thr_nomem(err);
-  if (!st) st = thr_multigraph_init(&multigraph, frame, 0, passes, (const int(*)[2])pair, n_pairs, err);
-  if (!st) st = trace_circuits(frame, &multigraph, component, n_components, out, err);
-  for (int k = 0; k < n_components && st; k++)
-    thr_walks_destroy(&out[k]);
+  int *mate = NULL, (*pair)[2] = thr_calloc((size_t)frame->n_nodes / 2 + 1, sizeof *pair);
+  *out = (thr_walks){0};
+  if (!pair) return thr_nomem(err);
+  thr_status st =
+      thr_multigraph_init(&multigraph, frame, 0, passes, (const int(*)[2])pair, pair_odd_nodes(frame, passes, pair), err);
+  if (!st && !(mate = thr_calloc((size_t)multigraph.n_darts, sizeof *mate))) st = thr_nomem(err);
+  if (!st) st = thr_transition_pair(frame, &multigraph, mate, err);
+  if (!st) st = thr_transition_join(frame, &multigraph, mate, err);
+  if (!st) st = thr_walks_follow(out, frame, &multigraph, mate, err);
+  if (st) thr_walks_destroy(out);
   thr_multigraph_destroy(&multigraph);
+  free(mate);
   free(pair);
   return st;
 }
@@ -245,35 +225,35 @@ void thr_walk_reverse(int *half, int n)
   }
 }
 
-thr_status thr_walks_cords(thr_walks *walks, const thr_frame *frame, const thr_request *options, int k, int first, thr_cord *cord,
-                           thr_err *err)
+/* As a closed cord if it comes back. */
+static thr_status make_cord(thr_walk *walk, const thr_frame *frame, const thr_request *options, thr_cord *cord, thr_err *err)
 {
-  for (int i = 0; i < walks->n_walks; i++) {
-    thr_walk *walk = &walks->walk[i];
-    int start = thr_tail(frame, walk->half[0]), end = thr_head(frame, walk->half[walk->n - 1]);
-    if (start > end) thr_walk_reverse(walk->half, walk->n);
-    thr_status st = walk->cyclic ? thr_walk_rotate(walk, thr_tour_start(frame, options, walk->half, walk->n), err) : THR_OK;
-    if (st) return st;
-    cord[i] = (thr_cord){.component = k, .closed = start == end, .n_passes = walk->n, .half = walk->half};
-    thr_cord_id(first + i, cord[i].id);
-    walk->half = NULL;
-  }
-  thr_walks_destroy(walks);
+  int start = thr_tail(frame, walk->half[0]), end = thr_head(frame, walk->half[walk->n - 1]);
+  if (start > end) thr_walk_reverse(walk->half, walk->n);
+  thr_status st = walk->cyclic ? thr_walk_rotate(walk, thr_tour_start(frame, options, walk->half, walk->n), err) : THR_OK;
+  if (st) return st;
+  *cord = (thr_cord){.closed = start == end, .n_passes = walk->n, .half = walk->half};
+  walk->half = NULL;
   return THR_OK;
 }
 
-thr_status thr_walks_plan(thr_walks *walks, int n_components, thr_plan *plan, thr_err *err)
+thr_status thr_walks_cords(thr_walks *walks, const thr_frame *frame, const thr_request *options, thr_cord **cord, int *n_cords,
+                           thr_err *err)
 {
-  int n = 0;
+  const int n = walks->n_walks;
+  *n_cords = 0;
+  if (!(*cord = thr_calloc((size_t)n, sizeof **cord))) return thr_nomem(err);
   thr_status st = THR_OK;
-  for (int k = 0; k < n_components; k++)
-    n += walks[k].n_walks;
-  if (!(plan->cord = thr_calloc((size_t)n, sizeof *plan->cord))) return thr_nomem(err);
-  plan->n_cords = n;
-  for (int k = 0, first = 0; k < n_components && !st; k++) {
-    int made = walks[k].n_walks;
-    st = thr_walks_cords(&walks[k], &plan->frame, &plan->options, k, first, plan->cord + first, err);
-    first += made;
+  for (int i = 0; i < n && !st; i++) {
+    st = make_cord(&walks->walk[i], frame, options, &(*cord)[i], err);
+    thr_cord_id(i, (*cord)[i].id);
   }
-  return st;
+  if (st) {
+    thr_cords_destroy(*cord, n);
+    *cord = NULL;
+    return st;
+  }
+  *n_cords = n;
+  thr_walks_destroy(walks);
+  return THR_OK;
 }

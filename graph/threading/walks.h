@@ -7,6 +7,7 @@
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/status.h"
+#include "graph/threading/multigraph.h"
 
 /* Consecutive half-edges. */
 typedef struct {
@@ -15,7 +16,6 @@ typedef struct {
   bool cyclic;   /* comes back to its start, where no cord end is yet */
 } thr_walk;
 
-/* Those of one component. */
 typedef struct {
   int n_walks, capacity;
   thr_walk *walk; /* owned */
@@ -23,10 +23,14 @@ typedef struct {
 
 void thr_walks_destroy(thr_walks *walks);
 
-/* As few walks as pass every edge of each component passes[e] times, paired for little turning: a cyclic one where all nodes have
- * an even number of passes, else open ones between those that have not. out[n_components]; near-linear in passes. */
-thr_status thr_walks_trace(const thr_frame *frame, const int *passes, const int *component, int n_components, thr_walks *out,
-                           thr_err *err) THR_MUST_CHECK;
+/* As few walks as pass every edge passes[e] times, edges with passes being one component, paired for little turning: a cyclic one
+ * where all nodes have an even number of passes, else open ones between those that have not. Near-linear in passes. */
+thr_status thr_walks_trace(const thr_frame *frame, const int *passes, thr_walks *out, thr_err *err) THR_MUST_CHECK;
+
+/* Appends the circuits of a transition system (graph/threading/transition.h): those with virtual edges first, which are cut
+ * there; each from its lowest dart. Linear. */
+thr_status thr_walks_follow(thr_walks *walks, const thr_frame *frame, const thr_multigraph *multigraph, const int *mate,
+                            thr_err *err) THR_MUST_CHECK;
 
 /* Appends a walk, which is taken over, or released on failure. Its length is worked out. */
 thr_status thr_walks_add(thr_walks *walks, const thr_frame *frame, thr_walk walk, thr_err *err) THR_MUST_CHECK;
@@ -82,12 +86,9 @@ thr_status thr_walk_visits_init(thr_walk_visits *visits, const thr_frame *frame,
 void thr_walk_visits_forget(const thr_walk_visits *visits);
 void thr_walk_visits_destroy(thr_walk_visits *visits);
 
-/* Moves the walks into cords cord[0 .. n_walks - 1] of component k, numbered from first on: open ones from their lower end,
- * cyclic ones from where closing leaves out most (graph/threading/tour.h). */
-thr_status thr_walks_cords(thr_walks *walks, const thr_frame *frame, const thr_request *options, int k, int first, thr_cord *cord,
+/* Moves the walks into cords: open ones from their lower end, cyclic ones from where closing leaves out most
+ * (graph/threading/tour.h). On failure there are none. */
+thr_status thr_walks_cords(thr_walks *walks, const thr_frame *frame, const thr_request *options, thr_cord **cord, int *n_cords,
                            thr_err *err) THR_MUST_CHECK;
-
-/* Moves the walks walks[n_components] into the cords of plan, whose frame and options are set, component by component. */
-thr_status thr_walks_plan(thr_walks *walks, int n_components, thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -1,4 +1,5 @@
 /* The search: which walks exchange with which. */
+#include "graph/limits.h"
 #include "graph/random.h"
 #include "lp/length/balance.h"
 
@@ -14,7 +15,7 @@ enum {
 
 static bool stop(const thr_balance *balance)
 {
-  return balance->steps <= 0 || thr_limits_stop(balance->limits);
+  return balance->steps <= 0 || thr_limits_stop(balance->s->limits);
 }
 
 static int longest(const thr_walks *walks)
@@ -35,15 +36,15 @@ static double mean(const thr_walks *walks)
 
 static bool done(const thr_balance *balance)
 {
-  double most = balance->w->walk[longest(balance->w)].length;
-  return most <= balance->goal || most <= mean(balance->w) * (1 + 1e-12);
+  double most = balance->s->walks.walk[longest(&balance->s->walks)].length;
+  return most <= balance->goal || most <= mean(&balance->s->walks) * (1 + 1e-12);
 }
 
 /* What the longer of two walks must fall below for an exchange to be worth it: a part of what is too much, so that a few
  * exchanges lead to the end. */
 static double worth(const thr_balance *balance, double length)
 {
-  double too_much = fmax(length - fmax(balance->goal, mean(balance->w)), 0);
+  double too_much = fmax(length - fmax(balance->goal, mean(&balance->s->walks)), 0);
   return length - fmax(1e-9 * length, too_much / 64);
 }
 
@@ -70,19 +71,19 @@ static void rank(const thr_walks *walks, ranked *order)
 /* The best exchange of walk p with a shorter one; two tries with cyclic ones, which meet at a random node. */
 static thr_status exchange_with_shorter(thr_balance *balance, const ranked *order, int p, bool *made, thr_err *err)
 {
-  thr_exchange best = {.longer = worth(balance, balance->w->walk[p].length)};
-  int with = -1, tries = balance->w->walk[p].cyclic ? 2 : 1;
+  thr_exchange best = {.longer = worth(balance, balance->s->walks.walk[p].length)};
+  int with = -1, tries = balance->s->walks.walk[p].cyclic ? 2 : 1;
   thr_status st = THR_OK;
-  for (int k = balance->w->n_walks - 1; k >= 0 && order[k].walk != p && !st && balance->steps > 0; k--)
+  for (int k = balance->s->walks.n_walks - 1; k >= 0 && order[k].walk != p && !st && balance->steps > 0; k--)
     for (int t = 0; t < tries && !st; t++) {
       thr_exchange x;
       int q = order[k].walk;
-      if (balance->w->walk[p].cyclic && with >= 0) continue; /* only the last one found is at hand */
+      if (balance->s->walks.walk[p].cyclic && with >= 0) continue; /* only the last one found is at hand */
       st = thr_balance_find(balance, p, q, &x, err);
       if (st || x.longer >= best.longer) continue;
       best = x;
       with = q;
-      if (balance->w->walk[p].cyclic) break;
+      if (balance->s->walks.walk[p].cyclic) break;
     }
   *made = !st && with >= 0;
   return *made ? thr_balance_make(balance, p, with, &best, err) : st;
@@ -94,8 +95,8 @@ static thr_status sweep(thr_balance *balance, ranked *order, thr_err *err)
   thr_status st = THR_OK;
   for (bool any = true; any && !st && !stop(balance) && !done(balance);) {
     any = false;
-    rank(balance->w, order);
-    for (int i = 0; i + 1 < balance->w->n_walks && !st && !stop(balance); i++) {
+    rank(&balance->s->walks, order);
+    for (int i = 0; i + 1 < balance->s->walks.n_walks && !st && !stop(balance); i++) {
       bool made;
       st = exchange_with_shorter(balance, order, order[i].walk, &made, err);
       any |= made;
@@ -108,7 +109,8 @@ static thr_status sweep(thr_balance *balance, ranked *order, thr_err *err)
 /* The longest and another one in another order, so that other exchanges are possible. */
 static thr_status shuffle(thr_balance *balance, const ranked *order, thr_err *err)
 {
-  int n = balance->w->n_walks, p = order[0].walk, q = order[1 + (int)(thr_random(&balance->random) % (uint64_t)(n - 1))].walk;
+  int n = balance->s->walks.n_walks, p = order[0].walk,
+      q = order[1 + (int)(thr_random(&balance->random) % (uint64_t)(n - 1))].walk;
   thr_status st = thr_balance_shuffle(balance, p, err);
   if (!st) st = thr_balance_shuffle(balance, q, err);
   return st;
@@ -119,8 +121,8 @@ static thr_status detour(thr_balance *balance, const ranked *order, bool *made, 
   thr_status st = THR_OK;
   int p = order[0].walk, tried = 0;
   *made = false;
-  for (int k = balance->w->n_walks - 1; k > 0 && tried < PARTNERS && !*made && !st && !stop(balance); k--, tried++)
-    st = thr_balance_detour(balance, p, order[k].walk, worth(balance, balance->w->walk[p].length), made, err);
+  for (int k = balance->s->walks.n_walks - 1; k > 0 && tried < PARTNERS && !*made && !st && !stop(balance); k--, tried++)
+    st = thr_balance_detour(balance, p, order[k].walk, worth(balance, balance->s->walks.walk[p].length), made, err);
   return st;
 }
 
@@ -130,29 +132,29 @@ static thr_status search(thr_balance *balance, ranked *order, thr_err *err)
   enum { IN_VAIN = 24, STUCK = 20 };
   thr_status st = sweep(balance, order, err);
   for (int vain = 0, stuck = 0; stuck < STUCK && !st && !stop(balance) && !done(balance);) {
-    double most = balance->w->walk[longest(balance->w)].length;
+    double most = balance->s->walks.walk[longest(&balance->s->walks)].length;
     bool made = false;
-    rank(balance->w, order);
+    rank(&balance->s->walks, order);
     if (vain == IN_VAIN) st = detour(balance, order, &made, err);
     if (vain == IN_VAIN) stuck += !made;
     if (!made && !st) st = shuffle(balance, order, err);
     if (!st) st = sweep(balance, order, err);
-    bool better = balance->w->walk[longest(balance->w)].length < worth(balance, most);
+    bool better = balance->s->walks.walk[longest(&balance->s->walks)].length < worth(balance, most);
     vain = better || vain == IN_VAIN ? 0 : vain + 1;
     if (better) stuck = 0;
   }
   return st;
 }
 
-thr_status thr_balance_walks(const thr_share *share, thr_walks *walks, double goal, const thr_limits *limits, int *passes,
-                             thr_err *err)
+thr_status thr_balance_walks(thr_share *share, double goal, thr_err *err)
 {
+  const thr_walks *walks = &share->walks;
   int64_t all = 0;
   size_t n = (size_t)share->f->n_nodes;
   if (walks->n_walks < 2) return THR_OK;
   for (int i = 0; i < walks->n_walks; i++)
     all += walks->walk[i].n;
-  thr_balance balance = {.s = share, .limits = limits, .w = walks, .passes = passes, .goal = goal, .random = 1};
+  thr_balance balance = {.s = share, .goal = goal, .random = 1};
   balance.steps = STEPS_LEAST + STEPS_PER_PASS * all;
   balance.first = thr_calloc(n, sizeof *balance.first);
   ranked *order = thr_calloc((size_t)walks->n_walks, sizeof *order);

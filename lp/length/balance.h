@@ -1,4 +1,4 @@
-/* Evening out the cords of a component: exchanges until the longest cannot be made shorter (D. Ahr & G. Reinelt, "A tabu search
+/* Evening out the cords: exchanges until the longest cannot be made shorter (D. Ahr & G. Reinelt, "A tabu search
  * algorithm for the min-max k-Chinese postman problem", Computers & Operations Research 33, 2006, for closed tours from one
  * depot; here cords end where they may, and share nodes).
  *
@@ -8,19 +8,15 @@
 #ifndef THR_BALANCE_H
 #define THR_BALANCE_H
 
-#include "graph/limits.h"
 #include "graph/status.h"
 #include "graph/threading/junction_graphs.h"
 #include "graph/threading/walks.h"
 #include "lp/length/share.h"
 
-/* One component's cords on the way; all arrays are owned by whoever fills it. */
+/* Cords on the way; all arrays are owned by whoever fills it. */
 typedef struct {
-  const thr_share *s;
-  const thr_limits *limits;
-  thr_walks *w;              /* cyclic with THR_ENDS_CLOSED, else open */
+  thr_share *s;
   thr_junction_graphs *ties; /* tube joints: of these walks, which every change leaves tied; else NULL */
-  int *passes;               /* [n_edges] of these walks */
   double goal;               /* shorter than this the longest need not be */
   uint64_t random;           /* state */
   int64_t steps;             /* left; what a search costs */
@@ -30,11 +26,10 @@ typedef struct {
   int *way;                  /* [n_nodes] of a detour */
 } thr_balance;
 
-/* Exchanges until no walk is longer than goal, none helps, or the limits stop it. passes[n_edges] are those of all components and
- * change where cords take detours. With tube joints the walks tie all nodes of the component before and after. Work in proportion
+/* Exchanges until no walk is longer than goal, none helps, or the limits stop it. Passes change
+ * where cords take detours. With tube joints the walks tie all nodes before and after. Work in proportion
  * to passes, at most some hundred times as much. The same input gives the same walks. Failure (THR_ENOMEM) leaves valid walks. */
-thr_status thr_balance_walks(const thr_share *share, thr_walks *walks, double goal, const thr_limits *limits, int *passes,
-                             thr_err *err) THR_MUST_CHECK;
+thr_status thr_balance_walks(thr_share *share, double goal, thr_err *err) THR_MUST_CHECK;
 
 /* ---- internal to lp/balance*.c ---- */
 

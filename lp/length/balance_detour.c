@@ -15,7 +15,7 @@
 /* Over edges that have room for so many more passes, no further than most. */
 static thr_status spread(thr_balance *balance, thr_ways *x, int room, double most, thr_err *err)
 {
-  return thr_ways_spread(x, balance->s->o, balance->passes, room, most, &balance->steps, err);
+  return thr_ways_spread(x, balance->s->o, balance->s->passes, room, most, &balance->steps, err);
 }
 
 /* Passes from .. end - 1 of p go into q at position at, over the way to node goal; then back, or there they stay: q ends with
@@ -40,7 +40,7 @@ static int leave_at(const thr_frame *frame, const thr_ways *x, int goal, const t
 /* Walk q, and then p, as the detour leaves them. */
 static thr_splice splice_of(const thr_balance *balance, const thr_ways *x, int p, int q, const detour *d)
 {
-  const thr_walk *walk = &balance->w->walk[p], *w = &balance->w->walk[q];
+  const thr_walk *walk = &balance->s->walks.walk[p], *w = &balance->s->walks.walk[q];
   int at = d->back ? leave_at(balance->s->f, x, d->goal, w) : w->n, n = thr_ways_path(x, d->goal, balance->way);
   thr_splice splice = thr_splice_of(walk->cyclic, w, walk);
   thr_splice_add(&splice, 2, balance->way, n);
@@ -71,7 +71,7 @@ static void offer(thr_balance *balance, const thr_ways *x, int p, int q, detour 
 
 static bool spare(const thr_balance *balance, int e, int n)
 {
-  return balance->passes[e] - n >= thr_plan_cover(balance->s->f, balance->s->o, e);
+  return balance->s->passes[e] - n >= thr_plan_cover(balance->s->f, balance->s->o, e);
 }
 
 static void drop_turns_back(thr_balance *balance, thr_walk *walk)
@@ -82,11 +82,11 @@ static void drop_turns_back(thr_balance *balance, thr_walk *walk)
     walk->half[n++] = walk->half[i];
     if (n < 2 || (i == walk->n - 1 && n == 2) || walk->half[n - 2] != (walk->half[n - 1] ^ 1) || !spare(balance, e, 2)) continue;
     n -= 2;
-    balance->passes[e] -= 2;
+    balance->s->passes[e] -= 2;
   }
   walk->n = n;
   while (walk->cyclic && walk->n > 2 && walk->half[0] == (walk->half[walk->n - 1] ^ 1) && spare(balance, walk->half[0] >> 1, 2)) {
-    balance->passes[walk->half[0] >> 1] -= 2;
+    balance->s->passes[walk->half[0] >> 1] -= 2;
     walk->n -= 2;
     memmove(walk->half, walk->half + 1, (size_t)walk->n * sizeof *walk->half);
   }
@@ -109,7 +109,7 @@ static void drop_tail(thr_balance *balance, thr_walk *walk)
   const thr_frame *frame = balance->s->f;
   while (walk->n > 1 && spare(balance, walk->half[walk->n - 1] >> 1, 1) &&
          thr_plan_end_allowed(frame, balance->s->o, thr_walk_node(frame, walk, walk->n - 1)) && untie_last(balance, walk)) {
-    balance->passes[walk->half[walk->n - 1] >> 1]--;
+    balance->s->passes[walk->half[walk->n - 1] >> 1]--;
     walk->n--;
   }
 }
@@ -117,7 +117,7 @@ static void drop_tail(thr_balance *balance, thr_walk *walk)
 /* Drops the passes of a walk that nothing needs: turns back, and ends that can be drawn in; what is tied stays so. */
 static void prune(thr_balance *balance, int p)
 {
-  thr_walk *walk = &balance->w->walk[p];
+  thr_walk *walk = &balance->s->walks.walk[p];
   drop_turns_back(balance, walk);
   for (int k = 0; k < 2 && !walk->cyclic && balance->s->o->ends != THR_ENDS_COUNTS; k++) {
     drop_tail(balance, walk);
@@ -129,7 +129,7 @@ static void prune(thr_balance *balance, int p)
 static thr_status make(thr_balance *balance, const thr_ways *x, int p, int q, const detour *d, thr_err *err)
 {
   thr_splice splice = splice_of(balance, x, p, q, d);
-  thr_status st = thr_splice_make(&splice, balance->s->f, balance->w, q, p, balance->ties, balance->passes, err);
+  thr_status st = thr_splice_make(&splice, balance->s->f, &balance->s->walks, q, p, balance->ties, balance->s->passes, err);
   if (st) return st;
   prune(balance, p);
   prune(balance, q);
@@ -140,7 +140,7 @@ static thr_status make(thr_balance *balance, const thr_ways *x, int p, int q, co
 static thr_status find_sections(thr_balance *balance, thr_ways *x, int p, int q, detour *best, thr_err *err)
 {
   const thr_frame *frame = balance->s->f;
-  const thr_walk *walk = &balance->w->walk[p], *w = &balance->w->walk[q];
+  const thr_walk *walk = &balance->s->walks.walk[p], *w = &balance->s->walks.walk[q];
   thr_status st = THR_OK;
   thr_ways_clear(x);
   for (int i = 0; i < w->n && !st; i++)
@@ -168,7 +168,7 @@ static thr_status find_sections(thr_balance *balance, thr_ways *x, int p, int q,
 static thr_status find_tails(thr_balance *balance, thr_ways *x, int p, int q, detour *best, thr_err *err)
 {
   const thr_frame *frame = balance->s->f;
-  const thr_walk *walk = &balance->w->walk[p], *w = &balance->w->walk[q];
+  const thr_walk *walk = &balance->s->walks.walk[p], *w = &balance->s->walks.walk[q];
   int last = thr_walk_node(frame, walk, walk->n);
   double part = 0;
   thr_ways_clear(x);
@@ -196,9 +196,9 @@ thr_status thr_balance_detour(thr_balance *balance, int p, int q, double below, 
   if (!(balance->way = thr_calloc((size_t)balance->s->f->n_nodes, sizeof *balance->way)) && !st) st = thr_nomem(err);
   if (!st) st = find_sections(balance, &x, p, q, &best, err);
   if (!st && (*made = best.longer < below)) st = make(balance, &x, p, q, &best, err);
-  bool free_ends = !balance->w->walk[p].cyclic && balance->s->o->ends != THR_ENDS_COUNTS;
+  bool free_ends = !balance->s->walks.walk[p].cyclic && balance->s->o->ends != THR_ENDS_COUNTS;
   for (int k = 0; k < 4 && free_ends && !*made && !st; k++) {
-    thr_walk *walk = &balance->w->walk[k & 1 ? q : p]; /* all four directions of the two */
+    thr_walk *walk = &balance->s->walks.walk[k & 1 ? q : p]; /* all four directions of the two */
     thr_walk_reverse(walk->half, walk->n);
     st = find_tails(balance, &x, p, q, &best, err);
     if (!st && (*made = best.longer < below)) st = make(balance, &x, p, q, &best, err);

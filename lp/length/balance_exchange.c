@@ -96,7 +96,7 @@ static void offer(thr_balance *balance, const thr_walk *walk, const thr_walk *q,
 {
   if (x.longer >= best->longer) return;
   if (balance->ties) {
-    if (thr_limits_stop(balance->limits)) return;
+    if (thr_limits_stop(balance->s->limits)) return;
     thr_splice splice = thr_splice_of(walk->cyclic, walk, q);
     put_exchange(&splice, &x);
     thr_turn_change change = thr_splice_turns(&splice);
@@ -241,7 +241,7 @@ static thr_status make_room(thr_balance *balance, int n, thr_err *err)
 
 thr_status thr_balance_find(thr_balance *balance, int p, int q, thr_exchange *best, thr_err *err)
 {
-  const thr_walk *walk = &balance->w->walk[p], *y = &balance->w->walk[q];
+  const thr_walk *walk = &balance->s->walks.walk[p], *y = &balance->s->walks.walk[q];
   *best = (thr_exchange){.longer = INFINITY};
   balance->steps -= walk->n + y->n;
   thr_status st = make_room(balance, walk->n + y->n + 1, err);
@@ -253,14 +253,14 @@ thr_status thr_balance_find(thr_balance *balance, int p, int q, thr_exchange *be
 
 thr_status thr_balance_make(thr_balance *balance, int p, int q, const thr_exchange *x, thr_err *err)
 {
-  thr_walk walk = balance->w->walk[p], w = balance->w->walk[q];
+  thr_walk walk = balance->s->walks.walk[p], w = balance->s->walks.walk[q];
   if (walk.cyclic) {
     walk.half = balance->merged;
     w.half = balance->merged + walk.n;
   }
   thr_splice splice = thr_splice_of(walk.cyclic, &walk, &w);
   put_exchange(&splice, x);
-  return thr_splice_make(&splice, balance->s->f, balance->w, p, q, balance->ties, NULL, err);
+  return thr_splice_make(&splice, balance->s->f, &balance->s->walks, p, q, balance->ties, NULL, err);
 }
 
 /* The closed section i .. j - 1 of walk the other way round. */
@@ -282,7 +282,7 @@ static void turn_round(thr_balance *balance, thr_walk *walk, int i, int j)
 thr_status thr_balance_shuffle(thr_balance *balance, int p, thr_err *err)
 {
   enum { TURNS = 8 };
-  thr_walk *walk = &balance->w->walk[p];
+  thr_walk *walk = &balance->s->walks.walk[p];
   thr_walk_visits visits;
   balance->steps -= TURNS * (int64_t)walk->n / 4;
   for (int t = 0; t < TURNS; t++) {

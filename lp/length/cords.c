@@ -2,7 +2,6 @@
 #include "lp/length/cords.h"
 #include "graph/check/check.h"
 #include "graph/threading/walks.h"
-#include "lp/length/balance.h"
 #include "lp/length/postman.h"
 #include "lp/length/share.h"
 #include "lp/length/share_prices.h"
@@ -14,45 +13,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The framework is one component. */
-typedef struct {
-  const thr_frame *f;
-  const thr_request *o;
-  const thr_limits *limits;
-  thr_share share;
-  int *component;  /* [n_nodes] zeros: what the share says of every node */
-  thr_walks walks; /* result */
-  int *passes;     /* [n_edges] */
-  bool least;      /* the passes are the shortest that hold the cords */
-  bool certain;    /* the longest cord is as short as can be: the solver's word */
-  bool asked;      /* max_length: the table was, for any number of cords */
-} several;
-
-static void several_destroy(several *x)
-{
-  thr_walks_destroy(&x->walks);
-  free(x->component);
-  free(x->passes);
-}
-
-static thr_status several_init(several *x, thr_err *err)
-{
-  x->component = thr_calloc((size_t)x->f->n_nodes, sizeof *x->component);
-  x->passes = thr_calloc((size_t)x->f->n_edges, sizeof *x->passes);
-  x->share = (thr_share){x->f, x->o, x->component};
-  x->least = x->certain = true;
-  return x->component && x->passes ? THR_OK : thr_nomem(err);
-}
-
-static bool within(double length, double limit)
-{
-  return length <= limit * (1 + 1e-12);
-}
-
 /* ---- sharing out ---- */
 
 /* A closed cord through its passes again: its ends are where they were, where leaving out a turn saves most. */
-static thr_status open_again(const several *x, thr_walk *walk, int node, thr_err *err)
+static thr_status open_again(const thr_share *x, thr_walk *walk, int node, thr_err *err)
 {
   int best = -1;
   double most = -1;
@@ -68,7 +32,7 @@ static thr_status open_again(const several *x, thr_walk *walk, int node, thr_err
 
 /* Evening out takes the passes of a cord in any order: the same passes again with little turning. Each cord costs a look at the
  * whole framework; many cords of a large one stay as they are. */
-static thr_status straighten(several *x, int *passes, thr_err *err)
+static thr_status straighten(thr_share *x, int *passes, thr_err *err)
 {
   const double most = 1e8;
   const thr_frame *frame = x->f;
@@ -82,7 +46,7 @@ static thr_status straighten(several *x, int *passes, thr_err *err)
     memset(passes, 0, (size_t)frame->n_edges * sizeof *passes);
     for (int j = 0; j < walk->n; j++)
       passes[walk->half[j] >> 1]++;
-    st = thr_walks_trace(frame, passes, x->component, 1, &one, err);
+    st = thr_walks_trace(frame, passes, &one, err);
     if (st) break;
     free(walk->half);
     *walk = one.walk[0];
@@ -94,88 +58,67 @@ static thr_status straighten(several *x, int *passes, thr_err *err)
 }
 
 /* The walks as they are, for whoever keeps the best cords so far. */
-static thr_status tell(const several *x, thr_err *err)
+static thr_status tell(const thr_share *x, thr_err *err)
 {
-  thr_plan plan = {.frame = *x->f, .options = *x->o};
+  thr_cord *cord = NULL;
+  int n = 0;
   thr_walks copy = {0};
   thr_status st = THR_OK;
   if (!x->limits->found) return THR_OK;
   for (int i = 0; i < x->walks.n_walks && !st; i++) {
-    thr_walk walk = x->walks.walk[i];
-    size_t bytes = (size_t)walk.n * sizeof *walk.half;
-    walk.half = thr_calloc((size_t)walk.n, sizeof *walk.half);
-    if (walk.half) memcpy(walk.half, x->walks.walk[i].half, bytes);
-    st = walk.half ? thr_walks_add(&copy, x->f, walk, err) : thr_nomem(err);
+    const thr_walk *walk = &x->walks.walk[i];
+    st = thr_walks_copy(&copy, x->f, walk->half, walk->n, walk->cyclic, err);
   }
-  if (!st) st = thr_walks_plan(&copy, 1, &plan, err);
-  if (!st) thr_limits_found(x->limits, plan.cord, plan.n_cords, NULL);
-  thr_cords_destroy(plan.cord, plan.n_cords);
+  if (!st) st = thr_walks_cords(&copy, x->f, x->o, &cord, &n, err);
+  if (!st) thr_limits_found(x->limits, cord, n, NULL);
+  thr_cords_destroy(cord, n);
   thr_walks_destroy(&copy);
   return st;
 }
 
-/* What the table knows better, where the framework is small. With a goal only if it was missed, and then the fewest cords. */
-static thr_status make_exact(several *x, double goal, thr_err *err)
-{
-  const thr_request *options = x->o;
-  thr_walks *w = &x->walks;
-  bool certain, counts = options->ends == THR_ENDS_COUNTS;
-  thr_share_ask ask = {counts ? w->n_walks : options->cords_least, counts ? w->n_walks : options->cords, true, INFINITY};
-  if (goal > 0 && (x->asked || within(thr_walks_longest(w), goal))) return THR_OK;
-  if (goal > 0) ask = (thr_share_ask){ask.least, ask.most, false, goal};
-  x->asked = goal > 0;
-  thr_status st = thr_share_table(&x->share, 0, &ask, x->limits, w, x->passes, &certain, err);
-  x->certain &= certain;
-  return st;
-}
-
 /* So many closed cords as the shortest passes do not hold. */
-static thr_status make_more(several *x, int n, thr_err *err)
+static thr_status make_more(thr_share *x, int n, thr_err *err)
 {
-  thr_walks *w = &x->walks;
   bool certain, found;
-  thr_status st = thr_share_table(&x->share, 0, &(thr_share_ask){n, n, false, INFINITY}, x->limits, w, x->passes, &certain, err);
+  thr_status st = thr_share_table(x, &(thr_share_ask){n, n, false, INFINITY}, &certain, err);
   x->least &= certain;
-  found = w->n_walks >= n;
-  if (!st && !found && !certain) st = thr_share_more(&x->share, 0, n, x->passes, w, &found, err);
+  found = x->walks.n_walks >= n;
+  if (!st && !found && !certain) st = thr_share_more(x, n, &found, err);
   if (st || found) return st;
   return thr_fail(err, THR_EINFEASIBLE, "the component with node %s cannot hold %d closed cords: the capacities leave no room",
                   x->f->name[0], n);
 }
 
 /* n closed cords from the circuit. scratch[n_edges]. */
-static thr_status make_closed(several *x, int n, bool even, int *scratch, thr_err *err)
+static thr_status make_closed(thr_share *x, int n, bool even, int *scratch, thr_err *err)
 {
   bool enough;
   int must = x->o->cords_least;
-  thr_status st = thr_share_circuits(&x->share, n, even, &x->walks, &enough, err);
-  if (!st && !enough && even) st = thr_share_chords(&x->share, n, x->passes, &x->walks, err);
+  thr_status st = thr_share_circuits(x, n, even, &enough, err);
+  if (!st && !enough && even) st = thr_share_chords(x, n, err);
   if (st || enough || (even && x->walks.n_walks >= must)) return st;
   st = make_more(x, even ? must : n, err);
   return st ? st : straighten(x, scratch, err);
 }
 
 /* Room for the ends of n cords; without it there are none. */
-static thr_status make_places(several *x, int n, const thr_certificate *certificate, thr_err *err)
+static thr_status make_places(thr_share *x, int n, const thr_certificate *certificate, thr_err *err)
 {
-  bool changed;
   thr_err why = {0};
-  thr_status st = thr_share_places(&x->share, 0, n, certificate, x->limits, x->passes, &changed, &why);
+  thr_status st = thr_share_places(x, n, certificate, &why);
   return st ? thr_fail(err, st == THR_ELIMIT ? THR_EINFEASIBLE : st, "%s", why.text) : THR_OK;
 }
 
 /* n walks through the passes. */
-static thr_status share_out(several *x, int n, const thr_certificate *certificate, bool even, double goal, thr_err *err)
+static thr_status share_out(thr_share *x, int n, const thr_certificate *certificate, bool even, double goal, thr_err *err)
 {
   int *passes = thr_calloc((size_t)x->f->n_edges, sizeof *passes);
   thr_status st = passes ? make_places(x, n, certificate, err) : thr_nomem(err);
   thr_walks_destroy(&x->walks);
-  if (!st) st = thr_walks_trace(x->f, x->passes, x->component, 1, &x->walks, err);
-  if (!st)
-    st = x->o->ends == THR_ENDS_CLOSED ? make_closed(x, n, even, passes, err) : thr_share_cut(&x->share, n, even, &x->walks, err);
+  if (!st) st = thr_walks_trace(x->f, x->passes, &x->walks, err);
+  if (!st) st = x->o->ends == THR_ENDS_CLOSED ? make_closed(x, n, even, passes, err) : thr_share_cut(x, n, even, err);
   if (!st && even) st = tell(x, err);
-  if (!st && even) st = thr_balance_walks(&x->share, &x->walks, goal, x->limits, x->passes, err);
-  if (!st && even) st = make_exact(x, goal, err);
+  if (!st && even) st = thr_share_even(x, goal, err);
   if (!st && even) st = straighten(x, passes, err);
   free(passes);
   return st;
@@ -184,7 +127,7 @@ static thr_status share_out(several *x, int n, const thr_certificate *certificat
 /* ---- how many cords ---- */
 
 /* Half of the passes that arrive where a cord may end: so many cords have room. */
-static int most_cords(const several *x)
+static int most_cords(const thr_share *x)
 {
   int64_t sum = 0;
   for (int v = 0; v < x->f->n_nodes; v++) {
@@ -195,7 +138,7 @@ static int most_cords(const several *x)
   return sum / 2 > INT_MAX ? INT_MAX : (int)(sum / 2);
 }
 
-static int counted_cords(const several *x)
+static int counted_cords(const thr_share *x)
 {
   int sum = 0;
   for (int v = 0; v < x->f->n_nodes; v++)
@@ -203,7 +146,7 @@ static int counted_cords(const several *x)
   return sum / 2;
 }
 
-static int choose_number(const several *x)
+static int choose_number(const thr_share *x)
 {
   const thr_request *options = x->o;
   if (options->ends == THR_ENDS_COUNTS) return counted_cords(x);
@@ -214,7 +157,7 @@ static int choose_number(const several *x)
 
 /* ---- no cord longer than a limit ---- */
 
-static double length_of(const several *x, const int *passes)
+static double length_of(const thr_share *x, const int *passes)
 {
   double length = 0;
   for (int e = 0; e < x->f->n_edges; e++)
@@ -233,7 +176,7 @@ thr_status thr_cords_reach(const thr_frame *frame, const thr_request *options, t
   if (!st) st = thr_ways_spread(&w, options, NULL, 0, INFINITY, NULL, err);
   for (int e = 0; e < frame->n_edges && !st; e++) {
     const int *end = frame->edge[e];
-    if (closed && within(2 * frame->length[e], limit)) continue;
+    if (closed && thr_share_within(2 * frame->length[e], limit)) continue;
     if (closed) { /* there, and the shortest way back */
       thr_ways_clear(&w);
       st = thr_ways_start(&w, end[0], err);
@@ -241,7 +184,7 @@ thr_status thr_cords_reach(const thr_frame *frame, const thr_request *options, t
       if (st) break;
     }
     double least = (closed ? 0 : w.far[end[0]]) + frame->length[e] + w.far[end[1]];
-    if (!within(least, limit))
+    if (!thr_share_within(least, limit))
       st = thr_fail(err, THR_EINFEASIBLE,
                     "no cord of at most %g %s can pass the edge between nodes %s and %s: %s over it takes %g %s", limit,
                     frame->units, frame->name[end[0]], frame->name[end[1]],
@@ -251,10 +194,31 @@ thr_status thr_cords_reach(const thr_frame *frame, const thr_request *options, t
   return st;
 }
 
-/* Tries n cords. best: its certificate becomes the one that rules out the largest number of cords; *length: of the shortest
- * passes. */
-static thr_status try_number(several *x, int n, thr_shortest *best, double *length, bool *done, thr_err *err)
+thr_status thr_cords_grow(thr_share *share, double length, thr_cords_try *try_number, void *with, bool *done, thr_err *err)
 {
+  enum { IN_SINGLE_STEPS = 12 };
+  const int most = share->o->cords;
+  double least = ceil(length / share->o->max_length * (1 - 1e-9));
+  int n = most;
+  if (least < n && share->o->ends != THR_ENDS_COUNTS) n = least > share->o->cords_least ? (int)least : share->o->cords_least;
+  thr_status st = thr_cords_reach(share->f, share->o, err);
+  for (int tried = 0, step = 1; !st && !*done && n <= most; n += step) { /* larger steps where many numbers are too small */
+    st = try_number(share, with, n, done, err);
+    if (++tried > IN_SINGLE_STEPS && n < most) step = 2 * step < most - n ? 2 * step : most - n;
+  }
+  return st;
+}
+
+/* best: its certificate becomes the one that rules out the largest number of cords; length: of the shortest passes. */
+typedef struct {
+  thr_shortest *best;
+  double length;
+} growing;
+
+/* Tries n cords. */
+static thr_status try_number(thr_share *x, void *with, int n, bool *done, thr_err *err)
+{
+  growing *g = with;
   thr_request options = *x->o;
   thr_shortest shortest;
   options.cords = n;
@@ -263,21 +227,21 @@ static thr_status try_number(several *x, int n, thr_shortest *best, double *leng
   if (st == THR_EINFEASIBLE) return THR_OK; /* full edges make more cords end than n: the largest number was found possible */
   if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", why.text);
   st = THR_OK;
-  *length = length_of(x, shortest.passes);
-  if (*length <= n * x->o->max_length * (1 + 1e-9)) {
+  g->length = length_of(x, shortest.passes);
+  if (g->length <= n * x->o->max_length * (1 + 1e-9)) {
     memcpy(x->passes, shortest.passes, (size_t)x->f->n_edges * sizeof *x->passes);
     st = share_out(x, n, shortest.certificate, true, x->o->max_length, err);
-    *done = !st && within(thr_walks_longest(&x->walks), x->o->max_length);
+    *done = !st && thr_share_within(thr_walks_longest(&x->walks), x->o->max_length);
   } else {
-    thr_certificate swap = best->certificate[0];
-    best->certificate[0] = shortest.certificate[0];
+    thr_certificate swap = g->best->certificate[0];
+    g->best->certificate[0] = shortest.certificate[0];
     shortest.certificate[0] = swap;
   }
   thr_shortest_destroy(&shortest);
   return st;
 }
 
-static thr_status none_found(const several *x, double needed, thr_err *err)
+static thr_status none_found(const thr_share *x, double needed, thr_err *err)
 {
   const int most = x->o->cords;
   const char *cords = most == 1 ? "cord" : "cords", *units = x->f->units;
@@ -290,27 +254,18 @@ static thr_status none_found(const several *x, double needed, thr_err *err)
                   x->o->cords_least == most ? "" : "up to ", most, cords, length, units, found, units);
 }
 
-enum { IN_SINGLE_STEPS = 12 };
-
 /* best holds the shortest passes with most cords, which are the shortest of all. */
-static thr_status grow(several *x, thr_shortest *best, thr_err *err)
+static thr_status grow(thr_share *x, thr_shortest *best, thr_err *err)
 {
-  double length = length_of(x, best->passes);
-  double least = ceil(length / x->o->max_length * (1 - 1e-9));
-  int n = x->o->cords;
+  growing g = {best, length_of(x, best->passes)};
   bool done = false;
-  if (least < n && x->o->ends != THR_ENDS_COUNTS) n = least > x->o->cords_least ? (int)least : x->o->cords_least;
-  thr_status st = thr_cords_reach(x->f, x->o, err);
-  for (int tried = 0, step = 1; !st && !done && n <= x->o->cords; n += step) { /* larger steps where many numbers are too small */
-    st = try_number(x, n, best, &length, &done, err);
-    if (++tried > IN_SINGLE_STEPS && n < x->o->cords) step = 2 * step < x->o->cords - n ? 2 * step : x->o->cords - n;
-  }
-  return !st && !done ? none_found(x, length, err) : st;
+  thr_status st = thr_cords_grow(x, g.length, try_number, &g, &done, err);
+  return !st && !done ? none_found(x, g.length, err) : st;
 }
 
 /* ---- the plan ---- */
 
-static thr_status make(several *x, thr_shortest *shortest, thr_err *err)
+static thr_status make(thr_share *x, thr_shortest *shortest, thr_err *err)
 {
   memcpy(x->passes, shortest->passes, (size_t)x->f->n_edges * sizeof *x->passes);
   if (x->o->max_length > 0) return grow(x, shortest, err);
@@ -333,13 +288,13 @@ thr_status thr_cords_judge(const thr_plan *plan, const thr_err *unproved, thr_er
 }
 
 /* Where the cords need more passes than a join has, what proves more of that. */
-static thr_status prove_places(const several *x, thr_plan *plan, thr_err *err)
+static thr_status prove_places(const thr_share *x, thr_plan *plan, thr_err *err)
 {
   const thr_frame *frame = &plan->frame;
   thr_length_proof *proof = &plan->proof;
   thr_err found = {0};
   if (proof->optimal) return THR_OK;
-  thr_status st = thr_share_prices(&x->share, 0, x->limits, &proof->certificate[0], err);
+  thr_status st = thr_share_prices(x, &proof->certificate[0], err);
   if (st) return st;
   proof->unconfirmed += proof->certificate[0].n_prices > 0; /* GLPK was asked about other passes */
   st = thr_check_length_proof(frame, &plan->options, plan->cord, plan->n_cords, proof->certificate, proof->n_certificates,
@@ -348,7 +303,7 @@ static thr_status prove_places(const several *x, thr_plan *plan, thr_err *err)
   return thr_check_own(st, &found, err);
 }
 
-static thr_status prove(const several *x, thr_plan *plan, thr_shortest *shortest, thr_err *err)
+static thr_status prove(const thr_share *x, thr_plan *plan, thr_shortest *shortest, thr_err *err)
 {
   const thr_frame *frame = &plan->frame;
   const thr_request *options = &plan->options;
@@ -366,7 +321,7 @@ thr_status thr_cords_plan(const thr_frame *frame, const thr_request *options, co
 {
   thr_shortest shortest = {0};
   thr_err why = {0};
-  several x = {.limits = limits};
+  thr_share x = {0};
   *plan = (thr_plan){0};
   if (word) *word = (thr_cords_word){0};
   bool one = options->cords == 1 && options->max_length == 0 && options->ends != THR_ENDS_COUNTS;
@@ -374,18 +329,16 @@ thr_status thr_cords_plan(const thr_frame *frame, const thr_request *options, co
   thr_status proved = thr_postman_shortest(frame, options, limits, &shortest, &why);
   if (proved && proved != THR_ELIMIT) return thr_fail(err, proved, "%s", why.text);
   thr_status st = thr_plan_request(plan, frame, options, err);
-  x.f = &plan->frame;
-  x.o = &plan->options;
-  if (!st) st = several_init(&x, err);
+  if (!st) st = thr_share_init(&x, &plan->frame, &plan->options, limits, err);
   if (!st) st = make(&x, &shortest, err);
-  if (!st) st = thr_walks_plan(&x.walks, 1, plan, err);
+  if (!st) st = thr_walks_cords(&x.walks, &plan->frame, &plan->options, &plan->cord, &plan->n_cords, err);
   if (!st) st = prove(&x, plan, &shortest, err);
   if (word) *word = (thr_cords_word){x.least, x.certain && thr_wants_balance(options)};
   if (st)
     thr_plan_destroy(plan);
   else
     st = thr_cords_judge(plan, &why, err);
-  several_destroy(&x);
+  thr_share_destroy(&x);
   thr_shortest_destroy(&shortest);
   return st;
 }

@@ -10,6 +10,7 @@
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/status.h"
+#include "lp/length/share.h"
 
 /* What is known beyond what graph/check/check.c can verify, for the one who asked. */
 typedef struct {
@@ -32,6 +33,12 @@ thr_status thr_cords_plan(const thr_frame *frame, const thr_request *options, co
 /* THR_EINFEASIBLE, said: an edge that no cord within options.max_length can pass, coming from where it may end and going where it
  * may end. */
 thr_status thr_cords_reach(const thr_frame *frame, const thr_request *options, thr_err *err) THR_MUST_CHECK;
+
+/* For a limit on the length: tries n cords, from the fewest that cords of this length together leave possible up to
+ * options.cords, in larger steps after some, until *done. THR_EINFEASIBLE as above. */
+typedef thr_status thr_cords_try(thr_share *share, void *with, int n, bool *done, thr_err *err);
+thr_status thr_cords_grow(thr_share *share, double length, thr_cords_try *try_number, void *with, bool *done,
+                          thr_err *err) THR_MUST_CHECK;
 
 /* Is what was asked to be least proved to be, by the plan's claims? Else THR_ELIMIT, and how far it may be off; unproved: what is
  * to be said before that, if anything. */

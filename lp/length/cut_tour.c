@@ -1,6 +1,6 @@
 /* Sections of a tour, with ways to where cords may end. */
 #include "lp/length/cut_tour.h"
-#include "graph/framework/components.h"
+#include "graph/framework/frame.h"
 #include "graph/threading/walks.h"
 #include "lp/length/ways.h"
 
@@ -11,22 +11,16 @@
 typedef struct {
   const thr_frame *f;
   const thr_request *o;
-  int n_components, *component;
-  int *left;               /* [n_edges] passes still to be made */
-  thr_walks *tour, *cords; /* [n_components] */
-  thr_ways home;           /* to where cords may end, or to the start of the one at hand */
+  int *left; /* [n_edges] passes still to be made */
+  thr_walks tour, cords;
+  thr_ways home; /* to where cords may end, or to the start of the one at hand */
 } cutting;
 
 static void cutting_destroy(cutting *x)
 {
-  for (int k = 0; x->tour && k < x->n_components; k++)
-    thr_walks_destroy(&x->tour[k]);
-  for (int k = 0; x->cords && k < x->n_components; k++)
-    thr_walks_destroy(&x->cords[k]);
+  thr_walks_destroy(&x->tour);
+  thr_walks_destroy(&x->cords);
   thr_ways_destroy(&x->home);
-  free(x->tour);
-  free(x->cords);
-  free(x->component);
   free(x->left);
 }
 
@@ -35,13 +29,13 @@ static bool closed_cords(const cutting *x)
   return x->o->ends == THR_ENDS_CLOSED;
 }
 
-static thr_status trace_tours(cutting *x, thr_err *err)
+static thr_status trace_tour(cutting *x, thr_err *err)
 {
   int *even = thr_calloc((size_t)x->f->n_edges, sizeof *even);
   if (!even) return thr_nomem(err);
   for (int e = 0; e < x->f->n_edges; e++)
     even[e] = x->left[e] + x->left[e] % 2;
-  thr_status st = thr_walks_trace(x->f, even, x->component, x->n_components, x->tour, err);
+  thr_status st = thr_walks_trace(x->f, even, &x->tour, err);
   free(even);
   return st;
 }
@@ -50,20 +44,14 @@ static thr_status cutting_init(cutting *x, thr_err *err)
 {
   const thr_frame *frame = x->f;
   thr_status st = thr_ways_init(&x->home, frame, err);
-  x->component = thr_calloc((size_t)frame->n_nodes, sizeof *x->component);
-  x->left = thr_calloc((size_t)frame->n_edges, sizeof *x->left);
-  if (!st && (!x->component || !x->left)) st = thr_nomem(err);
-  if (!st) st = thr_frame_components(frame, x->component, &x->n_components, err);
   if (st) return st;
-  x->tour = thr_calloc((size_t)x->n_components, sizeof *x->tour);
-  x->cords = thr_calloc((size_t)x->n_components, sizeof *x->cords);
-  if (!x->tour || !x->cords) return thr_nomem(err);
+  if (!(x->left = thr_calloc((size_t)frame->n_edges, sizeof *x->left))) return thr_nomem(err);
   for (int e = 0; e < frame->n_edges; e++)
     x->left[e] = thr_plan_cover(frame, x->o, e);
   for (int v = 0; v < frame->n_nodes && !st && !closed_cords(x); v++)
     if (thr_plan_end_allowed(frame, x->o, v)) st = thr_ways_start(&x->home, v, err);
   if (!st) st = thr_ways_spread(&x->home, x->o, NULL, 0, INFINITY, NULL, err);
-  return st ? st : trace_tours(x, err);
+  return st ? st : trace_tour(x, err);
 }
 
 /* Closed cords: the ways to node v. */
@@ -105,7 +93,7 @@ static void way_home(const thr_ways *g, int v, int *half)
 }
 
 /* Passes from .. end - 1 of walk, and the ways to and from them. */
-static thr_status add_cord(cutting *x, thr_walks *to, const thr_walk *walk, int from, int end, thr_err *err)
+static thr_status add_cord(cutting *x, const thr_walk *walk, int from, int end, thr_err *err)
 {
   int a = thr_walk_node(x->f, walk, from), b = thr_walk_node(x->f, walk, end);
   int n_to = way_length(&x->home, a), n_back = way_length(&x->home, b), section = end - from;
@@ -117,45 +105,39 @@ static thr_status add_cord(cutting *x, thr_walks *to, const thr_walk *walk, int 
   way_home(&x->home, b, cord.half + n_to + section);
   for (int i = 0; i < cord.n; i++)
     x->left[cord.half[i] >> 1]--;
-  return thr_walks_add(to, x->f, cord, err);
+  return thr_walks_add(&x->cords, x->f, cord, err);
 }
 
 /* *found: no cord would be too long, and there are not too many. */
-static thr_status cut(cutting *x, int k, bool *found, thr_err *err)
+static thr_status cut(cutting *x, bool *found, thr_err *err)
 {
   thr_status st = THR_OK;
-  const thr_walk *walk = x->tour[k].walk;
+  const thr_walk *walk = x->tour.walk;
   *found = true;
   for (int i = 0, end; i < walk->n && !st && *found; i = end) {
     end = i + 1;
     if (x->left[walk->half[i] >> 1] <= 0) continue;
     st = begin_at(x, thr_walk_node(x->f, walk, i), err);
     if (!st) end = section_end(x, walk, i);
-    *found = end > i && x->cords[k].n_walks < x->o->cords;
-    if (!st && *found) st = add_cord(x, &x->cords[k], walk, i, end, err);
+    *found = end > i && x->cords.n_walks < x->o->cords;
+    if (!st && *found) st = add_cord(x, walk, i, end, err);
   }
-  *found &= x->cords[k].n_walks >= x->o->cords_least;
+  *found &= x->cords.n_walks >= x->o->cords_least;
   return st;
 }
 
-thr_status thr_cut_tour(const thr_frame *frame, const thr_request *options, thr_cord **cord, int *n_cords, thr_err *err)
+thr_status thr_cut_tour(const thr_frame *frame, const thr_request *options, const int *passes, thr_cord **cord, int *n_cords,
+                        thr_err *err)
 {
   cutting x = {.f = frame, .o = options};
-  thr_plan plan = {.frame = *frame, .options = *options};
-  bool found = true;
+  bool found = false;
+  (void)passes;
   *cord = NULL;
   *n_cords = 0;
   if (options->ends == THR_ENDS_COUNTS) return THR_OK;
   thr_status st = cutting_init(&x, err);
-  for (int k = 0; k < x.n_components && !st && found; k++)
-    st = cut(&x, k, &found, err);
-  if (!st && found) st = thr_walks_plan(x.cords, x.n_components, &plan, err);
+  if (!st) st = cut(&x, &found, err);
+  if (!st && found) st = thr_walks_cords(&x.cords, frame, options, cord, n_cords, err);
   cutting_destroy(&x);
-  if (st) {
-    thr_cords_destroy(plan.cord, plan.n_cords);
-  } else {
-    *cord = plan.cord;
-    *n_cords = plan.n_cords;
-  }
   return st;
 }

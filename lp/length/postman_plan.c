@@ -1,5 +1,6 @@
 /* Passes -> ends -> cords -> plan, and its proof. */
 #include "graph/check/check.h"
+#include "graph/framework/components.h"
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
@@ -55,41 +56,37 @@ thr_status thr_postman_prove(const thr_frame *frame, const thr_request *options,
 
 /* ---- one cord per component ---- */
 
-/* Where the passes leave an odd number: the two ends of each component's cord, else -1 and -1. */
-static void find_ends(const thr_frame *frame, const int *component, int n_components, const int *passes, int (*ends)[2])
+/* Where the passes leave an odd number: the two ends of the cord, else -1 and -1. */
+static void find_ends(const thr_frame *frame, const int *passes, int *end)
 {
-  for (int k = 0; k < n_components; k++)
-    ends[k][0] = ends[k][1] = -1;
+  end[0] = end[1] = -1;
   for (int v = 0; v < frame->n_nodes; v++) {
-    int sum = 0, *end = ends[component[v]];
+    int sum = 0;
     for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
       sum += passes[frame->half[i] >> 1];
     if (sum % 2) end[end[0] >= 0] = v;
   }
 }
 
+static thr_status make_cord(const thr_frame *frame, const thr_request *options, const int *passes, thr_cord **cord, int *n_cords,
+                            thr_err *err)
+{
+  int end[2];
+  find_ends(frame, passes, end);
+  *n_cords = 0;
+  if (!(*cord = thr_calloc(1, sizeof **cord))) return thr_nomem(err);
+  thr_status st = thr_tour_cord(frame, options, passes, end, *cord, err);
+  *n_cords = !st;
+  if (!st) return THR_OK;
+  free(*cord);
+  *cord = NULL;
+  return st;
+}
+
 thr_status thr_postman_cords(const thr_frame *frame, const thr_request *options, const int *passes, thr_cord **cord, int *n_cords,
                              thr_err *err)
 {
-  int n_components = 0, *component = thr_calloc((size_t)frame->n_nodes, sizeof *component), (*ends)[2] = NULL;
-  *cord = NULL;
-  *n_cords = 0;
-  thr_status st = component ? thr_frame_components(frame, component, &n_components, err) : thr_nomem(err);
-  if (!st && !(ends = thr_calloc((size_t)n_components, sizeof *ends))) st = thr_nomem(err);
-  if (!st && !(*cord = thr_calloc((size_t)n_components, sizeof **cord))) st = thr_nomem(err);
-  if (!st) {
-    find_ends(frame, component, n_components, passes, ends);
-    st = thr_tour_cords(frame, options, component, n_components, passes, (const int(*)[2])ends, *cord, err);
-  }
-  if (!st) {
-    *n_cords = n_components;
-  } else {
-    free(*cord);
-    *cord = NULL;
-  }
-  free(component);
-  free(ends);
-  return st;
+  return thr_components_cords(frame, options, passes, make_cord, cord, n_cords, err);
 }
 
 /* Cords through the passes; then metrics, and the proof as far as the checker follows it. */

@@ -1,9 +1,27 @@
-/* Cutting walks where cords may end. */
+/* Cutting walks where cords may end, and evening them out. */
 #include "lp/length/share.h"
+#include "lp/length/balance.h"
+#include "lp/length/share_table.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+thr_status thr_share_init(thr_share *share, const thr_frame *frame, const thr_request *options, const thr_limits *limits,
+                          thr_err *err)
+{
+  *share = (thr_share){.f = frame, .o = options, .limits = limits, .least = true, .certain = true};
+  share->passes = thr_calloc((size_t)frame->n_edges, sizeof *share->passes);
+  return share->passes ? THR_OK : thr_nomem(err);
+}
+
+void thr_share_destroy(thr_share *share)
+{
+  thr_walks_destroy(&share->walks);
+  free(share->passes);
+}
+
+/* ---- cutting ---- */
 
 /* A place to cut: before pass number at of a walk. */
 typedef struct {
@@ -12,9 +30,9 @@ typedef struct {
 } place;
 
 typedef struct {
-  const thr_share *s;
-  thr_walks *w;
-  int *left; /* [n_nodes] THR_ENDS_COUNTS: cuts that are still to be made there; else NULL */
+  thr_share *s;
+  thr_walks *w; /* its walks */
+  int *left;    /* [n_nodes] THR_ENDS_COUNTS: cuts that are still to be made there; else NULL */
   place *list;
   int n, capacity;
 } places;
@@ -30,9 +48,8 @@ static thr_status count_cuts(places *p, int *cuts, thr_err *err)
   const thr_frame *frame = p->s->f;
   *cuts = 0;
   if (!(p->left = thr_calloc((size_t)frame->n_nodes, sizeof *p->left))) return thr_nomem(err);
-  const int k = p->s->component[thr_tail(frame, p->w->walk[0].half[0])];
   for (int v = 0; v < frame->n_nodes; v++)
-    if (p->s->component[v] == k) p->left[v] = p->s->o->end_count[v];
+    p->left[v] = p->s->o->end_count[v];
   for (int i = 0; i < p->w->n_walks; i++) {
     const thr_walk *x = &p->w->walk[i];
     if (x->cyclic) continue;
@@ -169,9 +186,10 @@ static thr_status cut_longest(places *p, int cuts, int wanted, thr_err *err)
   return st;
 }
 
-thr_status thr_share_cut(const thr_share *share, int n, bool even, thr_walks *walks, thr_err *err)
+thr_status thr_share_cut(thr_share *share, int n, bool even, thr_err *err)
 {
-  places p = {.s = share, .w = walks};
+  const thr_walks *walks = &share->walks;
+  places p = {.s = share, .w = &share->walks};
   bool counts = share->o->ends == THR_ENDS_COUNTS;
   int open = 0, cuts = 0;
   thr_status st = THR_OK;
@@ -183,4 +201,27 @@ thr_status thr_share_cut(const thr_share *share, int n, bool even, thr_walks *wa
   free(p.left);
   free(p.list);
   return st;
+}
+
+/* ---- evening out ---- */
+
+/* What the table knows better, where the framework is small. With a goal only if it was missed, and then the fewest cords. */
+static thr_status make_exact(thr_share *share, double goal, thr_err *err)
+{
+  const thr_request *options = share->o;
+  bool certain, counts = options->ends == THR_ENDS_COUNTS;
+  const int n = share->walks.n_walks;
+  thr_share_ask ask = {counts ? n : options->cords_least, counts ? n : options->cords, true, INFINITY};
+  if (goal > 0 && (share->asked || thr_share_within(thr_walks_longest(&share->walks), goal))) return THR_OK;
+  if (goal > 0) ask = (thr_share_ask){ask.least, ask.most, false, goal};
+  share->asked = goal > 0;
+  thr_status st = thr_share_table(share, &ask, &certain, err);
+  share->certain &= certain;
+  return st;
+}
+
+thr_status thr_share_even(thr_share *share, double goal, thr_err *err)
+{
+  thr_status st = thr_balance_walks(share, goal, err);
+  return st ? st : make_exact(share, goal, err);
 }

@@ -19,8 +19,7 @@ typedef struct {
 } chord;
 
 /* The ways from the node before each pass of walk to its other nodes, over edges with room for two more passes. */
-static thr_status best_chord(thr_ways *x, const thr_share *share, const thr_walk *walk, const int *passes, chord *best,
-                             thr_err *err)
+static thr_status best_chord(thr_ways *x, const thr_share *share, const thr_walk *walk, chord *best, thr_err *err)
 {
   thr_status st = THR_OK;
   *best = (chord){walk->length * (1 - 1e-9), 0, 0};
@@ -28,7 +27,7 @@ static thr_status best_chord(thr_ways *x, const thr_share *share, const thr_walk
     double part = 0;
     thr_ways_clear(x);
     st = thr_ways_start(x, thr_walk_node(share->f, walk, i), err);
-    if (!st) st = thr_ways_spread(x, share->o, passes, 2, walk->length / 2, NULL, err);
+    if (!st) st = thr_ways_spread(x, share->o, share->passes, 2, walk->length / 2, NULL, err);
     for (int j = i + 1; j < walk->n && !st; j++) {
       part += share->f->length[walk->half[j - 1] >> 1];
       double longer = fmax(part, walk->length - part) + x->far[thr_walk_node(share->f, walk, j)];
@@ -38,10 +37,10 @@ static thr_status best_chord(thr_ways *x, const thr_share *share, const thr_walk
   return st;
 }
 
-thr_status thr_share_chord(const thr_share *share, thr_walks *walks, int i, int from, int end, const int *way, int n,
-                           thr_junction_graphs *ties, int *passes, thr_err *err)
+thr_status thr_share_chord(thr_share *share, int i, int from, int end, const int *way, int n, thr_junction_graphs *ties,
+                           thr_err *err)
 {
-  const thr_walk *old = &walks->walk[i];
+  const thr_walk *old = &share->walks.walk[i];
   thr_splice splice = thr_splice_of(true, old, NULL);
   thr_splice_add(&splice, 1, way, n);
   thr_splice_put(&splice, 0, 0, from, false);
@@ -50,28 +49,31 @@ thr_status thr_share_chord(const thr_share *share, thr_walks *walks, int i, int 
   thr_splice_next(&splice);
   thr_splice_put(&splice, 0, from, end, false);
   thr_splice_put(&splice, 1, 0, n, true);
-  return thr_splice_make(&splice, share->f, walks, i, -1, ties, passes, err);
+  return thr_splice_make(&splice, share->f, &share->walks, i, -1, ties, share->passes, err);
 }
 
 /* Walk i and a new one become the halves. */
-static thr_status split(thr_ways *x, const thr_share *share, int i, const chord *c, int *passes, thr_walks *walks, thr_err *err)
+static thr_status split(thr_ways *x, thr_share *share, int i, const chord *c, thr_err *err)
 {
+  const thr_walks *walks = &share->walks;
   const thr_frame *frame = share->f;
   int *way = thr_calloc((size_t)frame->n_nodes, sizeof *way);
   if (!way) return thr_nomem(err);
   thr_ways_clear(x);
   thr_status st = thr_ways_start(x, thr_walk_node(frame, &walks->walk[i], c->from), err);
-  if (!st) st = thr_ways_spread(x, share->o, passes, 2, walks->walk[i].length / 2, NULL, err);
+  if (!st) st = thr_ways_spread(x, share->o, share->passes, 2, walks->walk[i].length / 2, NULL, err);
   int n = st ? 0 : thr_ways_path(x, thr_walk_node(frame, &walks->walk[i], c->end), way);
-  if (!st) st = thr_share_chord(share, walks, i, c->from, c->end, way, n, NULL, passes, err);
+  if (!st) st = thr_share_chord(share, i, c->from, c->end, way, n, NULL, err);
   free(way);
   return st;
 }
 
 /* Walk i becomes a walk there and back over every edge that it passes, if that is shorter; *made: it was, and there was room. */
-static thr_status dissolve(const thr_share *share, int i, int n, int *passes, thr_walks *walks, bool *made, thr_err *err)
+static thr_status dissolve(thr_share *share, int i, int n, bool *made, thr_err *err)
 {
   const thr_frame *frame = share->f;
+  thr_walks *walks = &share->walks;
+  int *passes = share->passes;
   const thr_walk *walk = &walks->walk[i];
   int size = walk->n;
   *made = size > 1 && walks->n_walks + size - 1 <= n;
@@ -95,8 +97,9 @@ static thr_status dissolve(const thr_share *share, int i, int n, int *passes, th
   return THR_OK;
 }
 
-thr_status thr_share_chords(const thr_share *share, int n, int *passes, thr_walks *walks, thr_err *err)
+thr_status thr_share_chords(thr_share *share, int n, thr_err *err)
 {
+  const thr_walks *walks = &share->walks;
   thr_ways x;
   chord best;
   bool more = true;
@@ -105,12 +108,12 @@ thr_status thr_share_chords(const thr_share *share, int n, int *passes, thr_walk
     int longest = 0;
     for (int i = 1; i < walks->n_walks; i++)
       if (walks->walk[i].length > walks->walk[longest].length) longest = i;
-    st = best_chord(&x, share, &walks->walk[longest], passes, &best, err);
+    st = best_chord(&x, share, &walks->walk[longest], &best, err);
     more = best.end > best.from;
     if (!st && more)
-      st = split(&x, share, longest, &best, passes, walks, err);
+      st = split(&x, share, longest, &best, err);
     else if (!st)
-      st = dissolve(share, longest, n, passes, walks, &more, err);
+      st = dissolve(share, longest, n, &more, err);
   }
   thr_ways_destroy(&x);
   return st;

@@ -51,9 +51,9 @@ static bool stays_tied(thr_junction_graphs *ties, const thr_walk *x, int from, i
 }
 
 /* The section to split off: that which adds least turning, or, of walk number only, that which is nearest to half of it. */
-static thr_status best_section(const thr_share *share, const thr_walks *walks, thr_junction_graphs *ties, int only, section *best,
-                               thr_err *err)
+static thr_status best_section(const thr_share *share, thr_junction_graphs *ties, int only, section *best, thr_err *err)
 {
+  const thr_walks *walks = &share->walks;
   thr_walk_visits visits;
   *best = (section){INFINITY, -1, 0, 0};
   thr_status st = thr_walk_visits_init(&visits, share->f, walks->walk, walks->n_walks, NULL, err);
@@ -73,9 +73,9 @@ static thr_status best_section(const thr_share *share, const thr_walks *walks, t
 }
 
 /* The longest walk first that has a node twice. */
-static thr_status best_half(const thr_share *share, const thr_walks *walks, thr_junction_graphs *ties, section *best,
-                            thr_err *err)
+static thr_status best_half(const thr_share *share, thr_junction_graphs *ties, section *best, thr_err *err)
 {
+  const thr_walks *walks = &share->walks;
   thr_status st = THR_OK;
   bool *tried = thr_calloc((size_t)walks->n_walks, sizeof *tried);
   if (!tried) return thr_nomem(err);
@@ -85,18 +85,19 @@ static thr_status best_half(const thr_share *share, const thr_walks *walks, thr_
     for (int i = 0; i < walks->n_walks; i++)
       if (!tried[i] && (longest < 0 || walks->walk[i].length > walks->walk[longest].length)) longest = i;
     tried[longest] = true;
-    st = best_section(share, walks, ties, longest, best, err);
+    st = best_section(share, ties, longest, best, err);
   }
   free(tried);
   return st;
 }
 
-thr_status thr_share_split(const thr_share *share, int n, bool even, thr_junction_graphs *ties, thr_walks *walks, thr_err *err)
+thr_status thr_share_split(thr_share *share, int n, bool even, thr_junction_graphs *ties, thr_err *err)
 {
+  thr_walks *walks = &share->walks;
   thr_status st = THR_OK;
   while (walks->n_walks < n && !st) {
     section best;
-    st = even ? best_half(share, walks, ties, &best, err) : best_section(share, walks, ties, -1, &best, err);
+    st = even ? best_half(share, ties, &best, err) : best_section(share, ties, -1, &best, err);
     if (!st && best.walk < 0) break;
     if (st) break;
     thr_splice splice = split_off(&walks->walk[best.walk], best.from, best.end);
@@ -169,14 +170,14 @@ static thr_status peel_all(peeling *p, thr_walks *walks, thr_err *err)
   return st;
 }
 
-static thr_status short_circuits(const thr_share *share, const thr_walks *walks, thr_walks *out, thr_err *err)
+static thr_status short_circuits(const thr_share *share, thr_walks *out, thr_err *err)
 {
   size_t n = (size_t)share->f->n_nodes;
   peeling p = {share->f, thr_calloc((size_t)share->f->n_edges, sizeof *p.left), thr_calloc(n, sizeof *p.queue),
                thr_calloc(n, sizeof *p.from), thr_calloc(n, sizeof *p.depth)};
   *out = (thr_walks){0};
   thr_status st = p.left && p.queue && p.from && p.depth ? THR_OK : thr_nomem(err);
-  if (!st) thr_walks_count(walks, p.left);
+  if (!st) thr_walks_count(&share->walks, p.left);
   if (!st) st = peel_all(&p, out, err);
   if (st) thr_walks_destroy(out);
   free(p.left);
@@ -206,8 +207,9 @@ static void offer_junction(const thr_frame *frame, const thr_walks *walks, int a
   if (price < best->price - 1e-9) *best = (junction){price, a, at_a, b, at_b, against < along - 1e-9};
 }
 
-static thr_status best_junction(const thr_share *share, const thr_walks *walks, junction *best, thr_err *err)
+static thr_status best_junction(const thr_share *share, junction *best, thr_err *err)
 {
+  const thr_walks *walks = &share->walks;
   thr_walk_visits visits;
   *best = (junction){.price = INFINITY, .a = -1};
   thr_status st = thr_walk_visits_init(&visits, share->f, walks->walk, walks->n_walks, NULL, err);
@@ -223,8 +225,9 @@ static thr_status best_junction(const thr_share *share, const thr_walks *walks, 
 }
 
 /* Walk b goes into walk a, and its number is that of the last. */
-static thr_status merge(const thr_share *share, thr_walks *walks, const junction *j, thr_err *err)
+static thr_status merge(thr_share *share, const junction *j, thr_err *err)
 {
+  thr_walks *walks = &share->walks;
   const thr_walk *a = &walks->walk[j->a], *b = &walks->walk[j->b];
   thr_splice splice = thr_splice_of(true, a, b);
   thr_splice_put(&splice, 0, 0, j->at_a, false);
@@ -234,32 +237,32 @@ static thr_status merge(const thr_share *share, thr_walks *walks, const junction
   return thr_splice_make(&splice, share->f, walks, j->a, j->b, NULL, NULL, err);
 }
 
-thr_status thr_share_merge(const thr_share *share, int n, thr_walks *walks, thr_err *err)
+thr_status thr_share_merge(thr_share *share, int n, thr_err *err)
 {
   thr_status st = THR_OK;
-  while (walks->n_walks > n && !st) {
+  while (share->walks.n_walks > n && !st) {
     junction best;
-    st = best_junction(share, walks, &best, err);
-    if (!st && best.a < 0) return thr_fail(err, THR_ESOLVER, "circuits of one component that do not meet");
-    if (!st) st = merge(share, walks, &best, err);
+    st = best_junction(share, &best, err);
+    if (!st && best.a < 0) return thr_fail(err, THR_ESOLVER, "circuits that do not meet");
+    if (!st) st = merge(share, &best, err);
   }
   return st;
 }
 
-thr_status thr_share_circuits(const thr_share *share, int n, bool even, thr_walks *walks, bool *enough, thr_err *err)
+thr_status thr_share_circuits(thr_share *share, int n, bool even, bool *enough, thr_err *err)
 {
-  thr_walks many;
-  thr_status st = thr_share_split(share, n, even, NULL, walks, err);
+  thr_walks many, *walks = &share->walks;
+  thr_status st = thr_share_split(share, n, even, NULL, err);
   *enough = walks->n_walks >= n;
   if (st || *enough) return st;
-  if ((st = short_circuits(share, walks, &many, err))) return st;
+  if ((st = short_circuits(share, &many, err))) return st;
   bool better = many.n_walks > walks->n_walks;
   if (better) {
     thr_walks keep = *walks;
     *walks = many;
     many = keep;
     *enough = walks->n_walks >= n;
-    st = thr_share_merge(share, n, walks, err);
+    st = thr_share_merge(share, n, err);
   }
   thr_walks_destroy(&many);
   return st;
@@ -267,16 +270,16 @@ thr_status thr_share_circuits(const thr_share *share, int n, bool even, thr_walk
 
 /* ---- pairs of passes ---- */
 
-thr_status thr_share_more(const thr_share *share, int k, int n, int *passes, thr_walks *walks, bool *found, thr_err *err)
+thr_status thr_share_more(thr_share *share, int n, bool *found, thr_err *err)
 {
   const thr_frame *frame = share->f;
+  int *passes = share->passes;
   thr_status st = THR_OK;
   *found = true;
-  while (walks->n_walks < n && !st) {
+  while (share->walks.n_walks < n && !st) {
     int best = -1;
     for (int e = 0; e < frame->n_edges; e++)
-      if (share->component[frame->edge[e][0]] == k && passes[e] + 2 <= thr_plan_capacity(frame, share->o, e) &&
-          (best < 0 || frame->length[e] < frame->length[best]))
+      if (passes[e] + 2 <= thr_plan_capacity(frame, share->o, e) && (best < 0 || frame->length[e] < frame->length[best]))
         best = e;
     *found = best >= 0;
     if (!*found) return THR_OK;
@@ -285,7 +288,7 @@ thr_status thr_share_more(const thr_share *share, int k, int n, int *passes, thr
     pair.half[0] = 2 * best;
     pair.half[1] = pair.half[0] ^ 1;
     passes[best] += 2;
-    st = thr_walks_add(walks, frame, pair, err);
+    st = thr_walks_add(&share->walks, frame, pair, err);
   }
   return st;
 }

@@ -20,8 +20,8 @@ enum { MOST_EDGES = 2000000 }; /* of a matching */
 typedef struct {
   const thr_share *s;
   const thr_certificate *c;
-  int k, n_groups;
-  int *group; /* [n_nodes] or -1 */
+  int n_groups;
+  int *group; /* [n_nodes] */
   int *need;  /* [n_groups] d */
   int *first,
       *top;     /* [n_groups + 1] ports of a group are first .. first + n_ports - 1, then cores to the next first; next port */
@@ -60,12 +60,12 @@ static int covers_at(const thr_share *share, int v)
   return sum;
 }
 
-static bool enough_places(const thr_share *share, int k, int n, const int *passes)
+static bool enough_places(const thr_share *share, int n)
 {
   int free_places = 0;
   for (int v = 0; v < share->f->n_nodes; v++) {
-    if (share->component[v] != k || !thr_plan_end_allowed(share->f, share->o, v)) continue;
-    int at = passes_at(share->f, passes, v);
+    if (!thr_plan_end_allowed(share->f, share->o, v)) continue;
+    int at = passes_at(share->f, share->passes, v);
     if (share->o->ends == THR_ENDS_COUNTS && at < share->o->end_count[v]) return false;
     if (free_places < INT_MAX / 2) free_places += at;
   }
@@ -79,8 +79,6 @@ static void find_groups(ports *p, int n)
   bool counts = share->o->ends == THR_ENDS_COUNTS;
   int joint = -1; /* the group of all places where ends are free to be */
   for (int v = 0; v < share->f->n_nodes; v++) {
-    p->group[v] = -1;
-    if (share->component[v] != p->k) continue;
     bool end = thr_plan_end_allowed(share->f, share->o, v);
     int g = !counts && end && joint >= 0 ? joint : p->n_groups++;
     if (!counts && end && joint < 0) {
@@ -103,7 +101,6 @@ static thr_status count_ports(ports *p, thr_err *err)
   int64_t edges = 0;
   for (int e = 0; e < share->f->n_edges; e++) {
     int a = p->group[share->f->edge[e][0]], b = p->group[share->f->edge[e][1]];
-    if (a < 0) continue;
     int most = a == b ? (p->need[a] + 1) / 2 : p->need[a] > p->need[b] ? p->need[a] : p->need[b];
     int room = thr_plan_capacity(share->f, share->o, e) - thr_plan_cover(share->f, share->o, e);
     if (most < 1) most = 1;
@@ -178,33 +175,28 @@ static thr_status ports_init(ports *p, int n, thr_err *err)
   return st ? st : build(p, err);
 }
 
-static void take(const ports *p, const thr_matching *matching, int *passes)
+static void take(const ports *p, const thr_matching *matching, thr_share *share)
 {
-  const thr_share *share = p->s;
   for (int e = 0, n = 0; e < share->f->n_edges; e++) {
-    if (p->group[share->f->edge[e][0]] < 0) continue;
-    passes[e] = thr_plan_cover(share->f, share->o, e);
+    share->passes[e] = thr_plan_cover(share->f, share->o, e);
     for (int i = 0; i < p->copies[e]; i++, n++)
-      passes[e] += matching->mate_edge[p->edge[n][0]] == n;
+      share->passes[e] += matching->mate_edge[p->edge[n][0]] == n;
   }
 }
 
-thr_status thr_share_places(const thr_share *share, int k, int n, const thr_certificate *certificate, const thr_limits *limits,
-                            int *passes, bool *changed, thr_err *err)
+thr_status thr_share_places(thr_share *share, int n, const thr_certificate *certificate, thr_err *err)
 {
-  ports p = {.s = share, .c = certificate, .k = k};
+  ports p = {.s = share, .c = certificate};
   thr_matching matching = {0};
-  *changed = false;
-  if (share->o->ends == THR_ENDS_CLOSED || enough_places(share, k, n, passes)) return THR_OK;
+  if (share->o->ends == THR_ENDS_CLOSED || enough_places(share, n)) return THR_OK;
   thr_err why = {0};
   thr_status st = ports_init(&p, n, &why);
   if (!st) {
     thr_matching_problem problem = {p.first[p.n_groups], p.n_edges, (const int(*)[2])p.edge, p.weight};
-    st = thr_matching_solve(&problem, limits, &matching, &why);
+    st = thr_matching_solve(&problem, share->limits, &matching, &why);
     if (st == THR_EINFEASIBLE) why = (thr_err){0};
   }
-  if (!st) take(&p, &matching, passes);
-  *changed = !st;
+  if (!st) take(&p, &matching, share);
   if (st == THR_EINFEASIBLE && !why.code)
     thr_fail(&why, st, "the capacities of the edges leave no room for as many cord ends as asked for");
   if (st) thr_fail(err, st, "%s", why.text);

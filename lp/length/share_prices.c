@@ -1,4 +1,5 @@
 /* Prices of places: T-joins among priced edges. */
+#include "graph/limits.h"
 #include "lp/length/share_prices.h"
 #include "graph/check/check.h"
 #include "graph/disjoint.h"
@@ -21,10 +22,10 @@ typedef struct {
   const thr_share *s;
   const thr_limits *limits;
   bool closed, counts;
-  int64_t unit;              /* parts of a weight that prices are whole numbers of */
-  int n_edges, n_nodes;      /* of the component */
-  int *edge, *node, *loop;   /* framework's edges and nodes, shortest loops over edges */
-  int *local;                /* [f->n_nodes] position in node; where ends are free, n_nodes for all where they may be */
+  int64_t unit; /* parts of a weight that prices are whole numbers of */
+  int n_edges, n_nodes;
+  int *loop;                 /* [n_edges] shortest loops over edges */
+  int *local;                /* [n_nodes] the node; where ends are free, n_nodes for all where they may be */
   int *part, *place;         /* [n_nodes + 1] disjoint sets joined by edges with room; position of a node in its part's problem */
   thr_certificate *c, trial; /* trial: the certificate at a price */
   thr_wide bound;            /* of c, in units of 1/denominator of it */
@@ -37,8 +38,6 @@ typedef struct {
 
 static void pricing_destroy(pricing *p)
 {
-  free(p->edge);
-  free(p->node);
   free(p->loop);
   free(p->local);
   free(p->part);
@@ -52,45 +51,38 @@ static int64_t choose_unit(const pricing *p)
   static const int64_t units[] = {840, 120, 24, 12, 4};
   double sum = 1;
   for (int i = 0; i < p->n_edges; i++)
-    sum += (double)thr_certificate_weight(p->s->f, p->c, p->edge[i]);
+    sum += (double)thr_certificate_weight(p->s->f, p->c, i);
   for (int i = 0; i < 5; i++)
     if (sum * (double)units[i] < 0x1p49) return units[i];
   return 2;
 }
 
-static thr_status pricing_init(pricing *p, int k, thr_err *err)
+static thr_status pricing_init(pricing *p, thr_err *err)
 {
   const thr_frame *frame = p->s->f;
   size_t n = (size_t)frame->n_nodes, m = (size_t)frame->n_edges;
-  p->edge = thr_calloc(m, sizeof *p->edge);
-  p->node = thr_calloc(n, sizeof *p->node);
+  p->n_nodes = frame->n_nodes;
+  p->n_edges = frame->n_edges;
   p->loop = thr_calloc(m, sizeof *p->loop);
   p->local = thr_calloc(n, sizeof *p->local);
   p->part = thr_calloc(n + 1, sizeof *p->part);
   p->place = thr_calloc(n + 1, sizeof *p->place);
-  if (!p->edge || !p->node || !p->loop || !p->local || !p->part || !p->place) return thr_nomem(err);
-  for (int v = 0; v < frame->n_nodes; v++)
-    if (p->s->component[v] == k) {
-      p->local[v] = p->n_nodes;
-      p->node[p->n_nodes++] = v;
-    }
-  for (int i = 0; i < p->n_nodes && !p->closed && !p->counts; i++)
-    if (thr_plan_end_allowed(frame, p->s->o, p->node[i])) p->local[p->node[i]] = p->n_nodes;
+  if (!p->loop || !p->local || !p->part || !p->place) return thr_nomem(err);
+  for (int v = 0; v < p->n_nodes; v++)
+    p->local[v] = !p->closed && !p->counts && thr_plan_end_allowed(frame, p->s->o, v) ? p->n_nodes : v;
   for (int v = 0; v <= p->n_nodes; v++)
     p->part[v] = v;
-  for (int e = 0; e < frame->n_edges; e++) {
-    const int *end = frame->edge[e];
-    if (p->s->component[end[0]] != k) continue;
-    p->edge[p->n_edges++] = e;
+  for (int e = 0; e < p->n_edges; e++)
     if (thr_plan_capacity(frame, p->s->o, e) > thr_plan_cover(frame, p->s->o, e))
-      thr_disjoint_join(p->part, p->local[end[0]], p->local[end[1]]);
-  }
+      thr_disjoint_join(p->part, p->local[frame->edge[e][0]], p->local[frame->edge[e][1]]);
   for (int v = 0; v <= p->n_nodes; v++)
     p->part[v] = thr_disjoint_find(p->part, v);
   p->unit = choose_unit(p);
   if (!p->closed) return THR_OK;
-  int *work = thr_calloc(2 * n, sizeof *work);
-  if (work) thr_prices_loops(frame, p->edge, p->n_edges, work, p->loop);
+  int *work = thr_calloc(2 * n + m, sizeof *work);
+  for (int e = 0; work && e < p->n_edges; e++)
+    work[2 * n + (size_t)e] = e;
+  if (work) thr_prices_loops(frame, work + 2 * n, p->n_edges, work, p->loop);
   free(work);
   return work ? THR_OK : thr_nomem(err);
 }
@@ -102,17 +94,16 @@ static int ends_of(const pricing *p, int e)
   return (p->local[end[0]] == p->n_nodes) + (p->local[end[1]] == p->n_nodes);
 }
 
-static thr_priced edge_at(const pricing *p, int i)
+static thr_priced edge_at(const pricing *p, int e)
 {
   const thr_certificate *certificate = &p->trial;
-  int e = p->edge[i];
   thr_wide of = p->closed ? certificate->place_price[0] : 0;
   for (int s = 0; s < 2 && !p->closed; s++) {
     int v = p->local[p->s->f->edge[e][s]];
     if (p->counts || v == p->n_nodes) of += certificate->place_price[p->counts ? v : 0];
   }
   return thr_prices_edge(p->s->f, p->s->o, e,
-                         (thr_wide)thr_certificate_weight(p->s->f, certificate, e) * certificate->denominator, of, p->loop[i]);
+                         (thr_wide)thr_certificate_weight(p->s->f, certificate, e) * certificate->denominator, of, p->loop[e]);
 }
 
 /* The highest price at which no edge is cheaper the more it is passed; or all that there is to be had. *usual: where to look
@@ -120,8 +111,8 @@ static thr_priced edge_at(const pricing *p, int i)
 static int64_t highest_price(const pricing *p, int64_t *usual)
 {
   double sum = 1, most = INFINITY, heaviest = 1;
-  for (int i = 0; i < p->n_edges; i++) {
-    int e = p->edge[i], n = p->closed ? 1 : ends_of(p, e);
+  for (int e = 0; e < p->n_edges; e++) {
+    int n = p->closed ? 1 : ends_of(p, e);
     double weight = (double)thr_certificate_weight(p->s->f, p->c, e);
     sum += weight;
     heaviest = fmax(heaviest, weight);
@@ -163,13 +154,13 @@ static thr_status problem_init(problem *q, pricing *p, int part, const bool *odd
   if (!q->node || !q->edge || !q->number || !q->weight || !q->odd) return thr_nomem(err);
   for (int v = 0; v <= p->n_nodes; v++) {
     bool hub = v == p->n_nodes;
-    if (p->part[v] != part || (!hub && p->local[p->node[v]] != v)) continue;
+    if (p->part[v] != part || (!hub && p->local[v] != v)) continue;
     p->place[v] = q->n_nodes;
     q->odd[q->n_nodes] = odd[v];
-    q->node[q->n_nodes++] = hub ? -1 : p->node[v];
+    q->node[q->n_nodes++] = hub ? -1 : v;
   }
   for (int i = 0; i < p->n_edges; i++) {
-    const int *end = p->s->f->edge[p->edge[i]];
+    const int *end = p->s->f->edge[i];
     int a = p->local[end[0]], b = p->local[end[1]];
     thr_priced priced = edge_at(p, i);
     if (!priced.room || a == b || p->part[a] != part) continue;
@@ -246,15 +237,15 @@ static void count_odd(const pricing *p, bool *odd, thr_wide *bound)
   const thr_request *options = p->s->o;
   *bound = p->counts ? 0 : 2 * (thr_wide)options->cords_least * p->trial.place_price[0];
   for (int v = 0; v < p->n_nodes && p->counts; v++) {
-    *bound += (thr_wide)options->end_count[p->node[v]] * p->trial.place_price[v];
-    odd[v] ^= options->end_count[p->node[v]] % 2;
+    *bound += (thr_wide)options->end_count[v] * p->trial.place_price[v];
+    odd[v] ^= options->end_count[v] % 2;
   }
   for (int i = 0; i < p->n_edges; i++) {
     thr_priced priced = edge_at(p, i);
     bool flip = priced.room && priced.odd < priced.even;
     *bound += (flip ? priced.odd : priced.even) - priced.held;
     for (int s = 0; s < 2; s++)
-      odd[p->local[p->s->f->edge[p->edge[i]][s]]] ^= flip ^ (thr_plan_cover(p->s->f, options, p->edge[i]) % 2);
+      odd[p->local[p->s->f->edge[i][s]]] ^= flip ^ (thr_plan_cover(p->s->f, options, i) % 2);
   }
   bool sum = false;
   for (int v = 0; v < p->n_nodes; v++)
@@ -267,15 +258,14 @@ static void measure(const pricing *p, const bool *in_join, double *weight, doubl
 {
   *weight = 0;
   memset(places, 0, (size_t)p->trial.n_prices * sizeof *places);
-  for (int i = 0; i < p->n_edges; i++) {
-    int e = p->edge[i];
-    thr_priced at = edge_at(p, i);
-    int odd = at.room && (at.odd < at.even) != in_join[i], n = at.room ? at.passes[odd] : 0;
+  for (int e = 0; e < p->n_edges; e++) {
+    thr_priced at = edge_at(p, e);
+    int odd = at.room && (at.odd < at.even) != in_join[e], n = at.room ? at.passes[odd] : 0;
     *weight += n * (double)thr_certificate_weight(p->s->f, p->c, e);
     n += thr_plan_cover(p->s->f, p->s->o, e);
     for (int s = 0; s < 2 && p->counts; s++)
       places[p->local[p->s->f->edge[e][s]]] += n;
-    if (!p->counts) places[0] += p->closed ? n - n % 2 + n % 2 * 2.0 / p->loop[i] : n * (double)ends_of(p, e);
+    if (!p->counts) places[0] += p->closed ? n - n % 2 + n % 2 * 2.0 / p->loop[e] : n * (double)ends_of(p, e);
   }
 }
 
@@ -385,10 +375,10 @@ static thr_status find_short(programme *q, thr_err *err)
   q->x = thr_calloc(n + 1, sizeof *q->x);
   if (!q->node || !q->local || !q->column || !q->value || !q->x) return thr_nomem(err);
   for (int v = 0; v < p->n_nodes; v++) {
-    int places = 0, u = p->node[v];
-    for (int i = frame->first[u]; i < frame->first[u + 1]; i++)
+    int places = 0;
+    for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
       places += thr_plan_cover(frame, p->s->o, frame->half[i] >> 1);
-    q->local[v] = places < p->s->o->end_count[u] ? q->n : -1;
+    q->local[v] = places < p->s->o->end_count[v] ? q->n : -1;
     if (q->local[v] >= 0) q->node[q->n++] = v;
   }
   return THR_OK;
@@ -406,8 +396,8 @@ static thr_status build(programme *q, thr_err *err)
     upper[i] = (double)highest_price(p, &usual) / (double)p->unit;
   if (!st) cost[q->n] = 1;
   if (!st) st = thr_lp_create(&q->lp, q->n + 1, cost, upper, err);
-  for (int i = 0; i < p->n_edges && !st; i++) {
-    int n = 0, e = p->edge[i];
+  for (int e = 0; e < p->n_edges && !st; e++) {
+    int n = 0;
     for (int s = 0; s < 2; s++) {
       q->column[n] = q->local[p->local[frame->edge[e][s]]];
       q->value[n] = -1;
@@ -427,7 +417,7 @@ static thr_status add_passes(programme *q, double weight, const double *places, 
   const pricing *p = q->p;
   for (int i = 0; i < q->n; i++) {
     q->column[i] = i;
-    q->value[i] = p->s->o->end_count[p->node[q->node[i]]] - places[q->node[i]];
+    q->value[i] = p->s->o->end_count[q->node[i]] - places[q->node[i]];
   }
   q->column[q->n] = q->n;
   q->value[q->n] = 1;
@@ -442,10 +432,10 @@ static void take_prices(programme *q, int64_t *price)
   for (int i = 0; i < q->n; i++)
     price[q->node[i]] = (int64_t)nearbyint(fmax(0, q->x[i]) * (double)p->unit);
   for (int i = 0; i < p->n_edges; i++) {
-    const int *end = p->s->f->edge[p->edge[i]];
+    const int *end = p->s->f->edge[i];
     int64_t *a = &price[p->local[end[0]]], *b = &price[p->local[end[1]]];
-    int64_t most = thr_certificate_weight(p->s->f, p->c, p->edge[i]) * p->unit;
-    if (thr_plan_capacity(p->s->f, p->s->o, p->edge[i]) < INT_MAX || *a + *b <= most) continue;
+    int64_t most = thr_certificate_weight(p->s->f, p->c, i) * p->unit;
+    if (thr_plan_capacity(p->s->f, p->s->o, i) < INT_MAX || *a + *b <= most) continue;
     if (*a > most) *a = most;
     *b = most - *a;
   }
@@ -482,9 +472,9 @@ static thr_status search_each(pricing *p, thr_err *err)
   return st;
 }
 
-thr_status thr_share_prices(const thr_share *share, int k, const thr_limits *limits, thr_certificate *certificate, thr_err *err)
+thr_status thr_share_prices(const thr_share *share, thr_certificate *certificate, thr_err *err)
 {
-  thr_limits quiet = *limits; /* a bound at a price is not one on the weight */
+  thr_limits quiet = *share->limits; /* a bound at a price is not one on the weight */
   quiet.progress = NULL;
   pricing p = {.s = share,
                .limits = &quiet,
@@ -492,8 +482,8 @@ thr_status thr_share_prices(const thr_share *share, int k, const thr_limits *lim
                .counts = share->o->ends == THR_ENDS_COUNTS,
                .c = certificate};
   p.bound = (thr_wide)certificate->sum - 2 * (thr_wide)share->o->cords * certificate->end_price;
-  if (proved(&p) || thr_limits_stop(limits)) return THR_OK;
-  thr_status st = pricing_init(&p, k, err);
+  if (proved(&p) || thr_limits_stop(share->limits)) return THR_OK;
+  thr_status st = pricing_init(&p, err);
   if (!st && p.n_edges <= MOST_EDGES) st = p.counts ? search_each(&p, err) : search(&p, err);
   pricing_destroy(&p);
   return st;

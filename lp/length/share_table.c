@@ -1,9 +1,11 @@
 /* Cords of the table as walks. */
+#include "graph/threading/walks.h"
 #include "lp/length/share_table.h"
 #include "graph/framework/frame.h"
 #include "graph/threading/small_cords.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 static double total(const thr_walks *walks)
 {
@@ -14,7 +16,7 @@ static double total(const thr_walks *walks)
 }
 
 /* The half-edges are moved. */
-static thr_status take(const thr_share *share, int k, thr_small_cords *cords, thr_walks *walks, int *passes, thr_err *err)
+static thr_status take(thr_share *share, thr_small_cords *cords, thr_err *err)
 {
   const thr_frame *frame = share->f;
   thr_walks new = {0};
@@ -28,22 +30,21 @@ static thr_status take(const thr_share *share, int k, thr_small_cords *cords, th
     thr_walks_destroy(&new);
     return st;
   }
-  for (int e = 0; e < frame->n_edges; e++)
-    if (share->component[frame->edge[e][0]] == k) passes[e] = 0;
-  thr_walks_count(&new, passes);
-  thr_walks_destroy(walks);
-  *walks = new;
+  thr_walks_destroy(&share->walks);
+  share->walks = new;
+  memset(share->passes, 0, (size_t)frame->n_edges * sizeof *share->passes);
+  thr_walks_count(&new, share->passes);
   return THR_OK;
 }
 
-thr_status thr_share_table(const thr_share *share, int k, const thr_share_ask *ask, const thr_limits *limits, thr_walks *walks,
-                           int *passes, bool *certain, thr_err *err)
+thr_status thr_share_table(thr_share *share, const thr_share_ask *ask, bool *certain, thr_err *err)
 {
+  const thr_walks *walks = &share->walks;
   thr_small_cords cords;
   const thr_small_ask all = {ask->least,  ask->most, false, ask->even, ask->limit, walks->n_walks, thr_walks_longest(walks),
                              total(walks)};
-  thr_status st = thr_small_cords_find(share->f, share->o, share->component, k, &all, limits, &cords, certain, err);
-  if (!st && cords.n > 0) st = take(share, k, &cords, walks, passes, err);
+  thr_status st = thr_small_cords_find(share->f, share->o, &all, share->limits, &cords, certain, err);
+  if (!st && cords.n > 0) st = take(share, &cords, err);
   thr_small_cords_destroy(&cords);
   return st;
 }

@@ -13,10 +13,8 @@
 #include <string.h>
 
 typedef struct {
-  const thr_share *s;
-  thr_walks *w;
+  thr_share *s;
   thr_junction_graphs ties;
-  int *passes;
   bool even;
 } splitting;
 
@@ -27,14 +25,14 @@ static thr_status split_shuffled(splitting *x, int n, thr_err *err)
 {
   enum { ROUNDS = 12 };
   size_t nodes = (size_t)x->s->f->n_nodes;
-  thr_balance balance = {.s = x->s, .w = x->w, .ties = &x->ties, .passes = x->passes, .random = 1};
+  thr_balance balance = {.s = x->s, .ties = &x->ties, .random = 1};
   if (!(balance.first = thr_calloc(nodes, sizeof *balance.first))) return thr_nomem(err);
   memset(balance.first, 0xff, nodes * sizeof *balance.first);
-  thr_status st = thr_share_split(x->s, n, x->even, &x->ties, x->w, err);
-  for (int round = 0; round < ROUNDS && !st && x->w->n_walks < n; round++) {
-    for (int i = 0; i < x->w->n_walks && !st; i++)
+  thr_status st = thr_share_split(x->s, n, x->even, &x->ties, err);
+  for (int round = 0; round < ROUNDS && !st && x->s->walks.n_walks < n; round++) {
+    for (int i = 0; i < x->s->walks.n_walks && !st; i++)
       st = thr_balance_shuffle(&balance, i, err);
-    if (!st) st = thr_share_split(x->s, n, x->even, &x->ties, x->w, err);
+    if (!st) st = thr_share_split(x->s, n, x->even, &x->ties, err);
   }
   free(balance.first);
   return st;
@@ -59,7 +57,7 @@ static void offer_chords(const splitting *x, const thr_walk_visits *visits, int 
 {
   const thr_frame *frame = x->s->f;
   for (int i = visits->first[thr_tail(frame, h)], seen = 0; i >= 0 && seen < THR_MOST_VISITS; i = visits->next[i], seen++) {
-    const thr_walk *y = &x->w->walk[visits->walk[i]];
+    const thr_walk *y = &x->s->walks.walk[visits->walk[i]];
     if ((only >= 0 && visits->walk[i] != only) || passes_at(y, visits->at[i], h >> 1)) continue;
     for (int j = visits->first[thr_head(frame, h)], others = 0; j >= 0 && others < THR_MOST_VISITS;
          j = visits->next[j], others++) {
@@ -78,12 +76,12 @@ static thr_status best_chord(const splitting *x, chord *best, thr_err *err)
   const thr_frame *frame = x->s->f;
   int only = -1;
   *best = (chord){.price = INFINITY};
-  for (int i = 0; i < x->w->n_walks && x->even; i++)
-    if (only < 0 || x->w->walk[i].length > x->w->walk[only].length) only = i;
-  thr_status st = thr_walk_visits_init(&visits, frame, x->w->walk, x->w->n_walks, NULL, err);
+  for (int i = 0; i < x->s->walks.n_walks && x->even; i++)
+    if (only < 0 || x->s->walks.walk[i].length > x->s->walks.walk[only].length) only = i;
+  thr_status st = thr_walk_visits_init(&visits, frame, x->s->walks.walk, x->s->walks.n_walks, NULL, err);
   if (st) return st;
   for (int h = 0; h < 2 * frame->n_edges; h++)
-    if (x->passes[h >> 1] <= thr_plan_capacity(frame, x->s->o, h >> 1) - 2 && (x->even || frame->length[h >> 1] < best->price))
+    if (x->s->passes[h >> 1] <= thr_plan_capacity(frame, x->s->o, h >> 1) - 2 && (x->even || frame->length[h >> 1] < best->price))
       offer_chords(x, &visits, only, h, best);
   thr_walk_visits_destroy(&visits);
   return THR_OK;
@@ -110,7 +108,7 @@ static thr_status spread_from(const splitting *x, thr_ways *g, int v, double mos
 {
   thr_ways_clear(g);
   thr_status st = thr_ways_start(g, v, err);
-  return st ? st : thr_ways_spread(g, x->s->o, x->passes, 1, most, NULL, err);
+  return st ? st : thr_ways_spread(g, x->s->o, x->s->passes, 1, most, NULL, err);
 }
 
 static bool on_way(const thr_ways *g, int v, int e)
@@ -120,7 +118,7 @@ static bool on_way(const thr_ways *g, int v, int e)
 
 /* The shortest circuit with room for one more pass: of the ways from every node, two that leave it differently and nearly meet.
  * In large frameworks from some nodes only. */
-static thr_status best_circuit(const splitting *x, thr_ways *g, int component, circuit *best, thr_err *err)
+static thr_status best_circuit(const splitting *x, thr_ways *g, circuit *best, thr_err *err)
 {
   const double most = 5e7; /* edges looked at */
   const thr_frame *frame = x->s->f;
@@ -128,13 +126,12 @@ static thr_status best_circuit(const splitting *x, thr_ways *g, int component, c
   int step = 1 + (int)((double)frame->n_nodes * frame->n_edges / most);
   *best = (circuit){INFINITY, -1, -1};
   for (int v = 0; v < frame->n_nodes && !st; v += best->start < 0 ? 1 : step) {
-    if (x->s->component[v] != component) continue;
     st = spread_from(x, g, v, best->length, err);
     for (int e = 0; e < frame->n_edges && !st; e++) {
       int a = frame->edge[e][0], b = frame->edge[e][1];
       double length = g->far[a] + g->far[b] + frame->length[e];
       if (!(length < best->length) || on_way(g, a, e) || on_way(g, b, e)) continue;
-      if (x->passes[e] < thr_plan_capacity(frame, x->s->o, e) && leaves_by(g, a) != leaves_by(g, b))
+      if (x->s->passes[e] < thr_plan_capacity(frame, x->s->o, e) && leaves_by(g, a) != leaves_by(g, b))
         *best = (circuit){length, v, e};
     }
   }
@@ -157,14 +154,14 @@ static thr_status add_circuit(splitting *x, thr_ways *g, const circuit *c, thr_e
     thr_turn_change change = {.n = 0};
     thr_turn_change_note(&change, thr_walk_before(&new, i), new.half[i], 1);
     thr_junction_graphs_make(&x->ties, &change);
-    x->passes[new.half[i] >> 1]++;
+    x->s->passes[new.half[i] >> 1]++;
   }
-  return thr_walks_add(x->w, frame, new, err);
+  return thr_walks_add(&x->s->walks, frame, new, err);
 }
 
 static bool must_more(const splitting *x, int n)
 {
-  return x->w->n_walks < (x->even && x->s->o->cords_least < n ? x->s->o->cords_least : n);
+  return x->s->walks.n_walks < (x->even && x->s->o->cords_least < n ? x->s->o->cords_least : n);
 }
 
 /* One more walk, for few more passes. *made: there was room, and it must be or makes the longest shorter. */
@@ -172,28 +169,28 @@ static thr_status add_one(splitting *x, thr_ways *g, int n, bool *made, thr_err 
 {
   chord c;
   circuit round = {.length = INFINITY};
-  int component = x->s->component[thr_tail(x->s->f, x->w->walk[0].half[0])];
   thr_status st = best_chord(x, &c, err);
-  if (!st && must_more(x, n)) st = best_circuit(x, g, component, &round, err);
+  if (!st && must_more(x, n)) st = best_circuit(x, g, &round, err);
   if (st) return st;
   bool cut = must_more(x, n) ? c.price < INFINITY && 2 * x->s->f->length[c.half >> 1] <= round.length
-                             : c.price < thr_walks_longest(x->w) * (1 - 1e-9);
+                             : c.price < thr_walks_longest(&x->s->walks) * (1 - 1e-9);
   *made = cut || round.length < INFINITY;
-  if (cut) return thr_share_chord(x->s, x->w, c.walk, c.from, c.end, &c.half, 1, &x->ties, x->passes, err);
+  if (cut) return thr_share_chord(x->s, c.walk, c.from, c.end, &c.half, 1, &x->ties, err);
   return *made ? add_circuit(x, g, &round, err) : THR_OK;
 }
 
-thr_status thr_share_tied(const thr_share *share, int n, bool even, int *passes, thr_walks *walks, bool *found, thr_err *err)
+thr_status thr_share_tied(thr_share *share, int n, bool even, bool *found, thr_err *err)
 {
+  const thr_walks *walks = &share->walks;
   thr_ways g = {0};
-  splitting x = {.s = share, .w = walks, .passes = passes, .even = even};
+  splitting x = {.s = share, .even = even};
   bool made = true;
   thr_status st = thr_junction_graphs_init(&x.ties, share->f, walks, err);
   if (!st) st = thr_ways_init(&g, share->f, err);
   if (!st) st = split_shuffled(&x, n, err);
   while (!st && made && walks->n_walks < n) {
     st = add_one(&x, &g, n, &made, err);
-    if (!st) st = thr_share_split(share, n, even, &x.ties, walks, err);
+    if (!st) st = thr_share_split(share, n, even, &x.ties, err);
   }
   *found = !must_more(&x, n);
   thr_ways_destroy(&g);

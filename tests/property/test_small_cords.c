@@ -156,9 +156,8 @@ static void judge_cords(const example *x, const thr_small_cords *c, double *dear
 static bool ask_for(const example *x, thr_small_ask ask, thr_small_cords *out)
 {
   bool certain;
-  int component[WALKS_NODES] = {0};
   ask.turning = x->turning;
-  ck_assert_int_eq(thr_small_cords_find(&x->f, &x->o, component, 0, &ask, &(thr_limits){0}, out, &certain, NULL), THR_OK);
+  ck_assert_int_eq(thr_small_cords_find(&x->f, &x->o, &ask, &(thr_limits){0}, out, &certain, NULL), THR_OK);
   return certain;
 }
 
@@ -244,7 +243,6 @@ START_TEST(every_allocation_may_fail)
 {
   thr_frame f = wheel_make(4);
   thr_request o = options_for(_i ? THR_ENDS_CLOSED : THR_ENDS_ANY, 1);
-  int component[5] = {0};
   thr_status st = THR_ENOMEM;
   o.joint = _i ? THR_JOINT_TUBE : THR_JOINT_SOLID;
   o.capacity = _i ? 0 : 2;
@@ -253,7 +251,7 @@ START_TEST(every_allocation_may_fail)
     bool certain;
     const thr_small_ask ask = {.least = 2, .most = 3, .even = true, .limit = INFINITY};
     thr_alloc_fail_at(k);
-    st = thr_small_cords_find(&f, &o, component, 0, &ask, &(thr_limits){0}, &c, &certain, NULL);
+    st = thr_small_cords_find(&f, &o, &ask, &(thr_limits){0}, &c, &certain, NULL);
     thr_alloc_fail_at(0);
     ck_assert(st == THR_ENOMEM ? c.n == 0 && !certain : st == THR_OK && c.n >= 2);
     thr_small_cords_destroy(&c);
@@ -268,11 +266,10 @@ START_TEST(a_cube_and_two_cords_by_hand)
 {
   thr_frame f = solid_make(CUBE);
   thr_request o = options_for(THR_ENDS_ANY, 1);
-  int component[8] = {0};
   thr_small_cords c;
   bool certain;
   const thr_small_ask ask = {.least = 2, .most = 2, .even = true, .limit = INFINITY};
-  ck_assert_int_eq(thr_small_cords_find(&f, &o, component, 0, &ask, &(thr_limits){0}, &c, &certain, NULL), THR_OK);
+  ck_assert_int_eq(thr_small_cords_find(&f, &o, &ask, &(thr_limits){0}, &c, &certain, NULL), THR_OK);
   ck_assert(certain && c.n == 2);
   ck_assert_int_eq(c.n_passes[0] + c.n_passes[1], 14);
   ck_assert_int_eq(c.n_passes[0], 7);

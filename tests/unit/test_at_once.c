@@ -1,5 +1,6 @@
 /* Cords without a search: sound on every framework that they are for, and none on others. */
 #include "graph/check/check.h"
+#include "graph/framework/components.h"
 #include "lp/length/cords.h"
 #include "lp/length/cut_tour.h"
 #include "tests/support.h"
@@ -11,14 +12,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef thr_status method(const thr_frame *f, const thr_request *o, thr_cord **cord, int *n_cords, thr_err *err);
-
 /* How many cords there are; they are what the options ask for. */
-static int made(method *make, const thr_frame *f, const thr_request *o)
+static int made(thr_component_cords *make, const thr_frame *f, const thr_request *o)
 {
   thr_plan p = {.frame = *f, .options = *o};
   thr_err err = {0};
-  ck_assert_msg(make(f, o, &p.cord, &p.n_cords, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_components_cords(f, o, NULL, make, &p.cord, &p.n_cords, &err) == THR_OK, "%s", err.text);
   int n = p.n_cords;
   if (n > 0) {
     for (int i = 0; i < n; i++)

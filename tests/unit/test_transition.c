@@ -399,10 +399,10 @@ START_TEST(spliced_walks_keep_their_passes_and_count_their_turns)
 {
   rng r = rng_make((uint64_t)_i + 1300);
   thr_frame f = random_frame(&r, rng_between(&r, 3, 10), rng_below(&r, 12), LENGTHS_EUCLID);
-  int *passes = even_passes(&r, &f, 2, NULL), *component = constant(f.n_nodes, 0), i, j;
+  int *passes = even_passes(&r, &f, 2, NULL), i, j;
   thr_walks w;
   thr_junction_graphs ties;
-  ck_assert_int_eq(thr_walks_trace(&f, passes, component, 1, &w, NULL), THR_OK);
+  ck_assert_int_eq(thr_walks_trace(&f, passes, &w, NULL), THR_OK);
   ck_assert_int_eq(thr_junction_graphs_init(&ties, &f, &w, NULL), THR_OK);
   ck_assert(same_node(&r, &f, w.walk, &i, &j));
   int node = thr_walk_node(&f, w.walk, i), out = f.half[f.first[node]], way[2] = {out, out ^ 1};
@@ -429,7 +429,6 @@ START_TEST(spliced_walks_keep_their_passes_and_count_their_turns)
   thr_junction_graphs_destroy(&ties);
   thr_frame_destroy(&f);
   free(passes);
-  free(component);
 }
 END_TEST
 
@@ -453,18 +452,17 @@ START_TEST(open_cord_runs_from_end_to_end)
 {
   rng r = rng_make((uint64_t)_i + 700);
   thr_frame f = random_frame(&r, rng_between(&r, 2, 20), rng_below(&r, 20), LENGTHS_EUCLID);
-  int end[1][2] = {{rng_below(&r, f.n_nodes), 0}};
-  while ((end[0][1] = rng_below(&r, f.n_nodes)) == end[0][0])
+  int end[2] = {rng_below(&r, f.n_nodes), 0};
+  while ((end[1] = rng_below(&r, f.n_nodes)) == end[0])
     ;
-  int *passes = even_passes(&r, &f, 1, end[0]), *component = constant(f.n_nodes, 0);
+  int *passes = even_passes(&r, &f, 1, end);
   thr_request o = options_for(THR_ENDS_ANY, 1);
   thr_cord cord;
-  ck_assert_int_eq(thr_tour_cords(&f, &o, component, 1, passes, (const int(*)[2])end, &cord, NULL), THR_OK);
-  ck_assert(!cord.closed && thr_cord_start(&f, &cord) == end[0][0] && thr_cord_end(&f, &cord) == end[0][1]);
+  ck_assert_int_eq(thr_tour_cord(&f, &o, passes, end, &cord, NULL), THR_OK);
+  ck_assert(!cord.closed && thr_cord_start(&f, &cord) == end[0] && thr_cord_end(&f, &cord) == end[1]);
   assert_uses_all(&f, passes, &cord, 1);
   free(cord.half);
   free(passes);
-  free(component);
   thr_frame_destroy(&f);
 }
 END_TEST
@@ -473,20 +471,19 @@ START_TEST(closed_cord_starts_where_told_or_at_a_foot)
 {
   rng r = rng_make((uint64_t)_i + 900);
   thr_frame f = random_frame(&r, rng_between(&r, 3, 20), rng_below(&r, 20), LENGTHS_EUCLID);
-  int *passes = even_passes(&r, &f, 1, NULL), *component = constant(f.n_nodes, 0), v = rng_below(&r, f.n_nodes);
-  int at[1][2] = {{v, v}}, anywhere[1][2] = {{-1, -1}};
+  int *passes = even_passes(&r, &f, 1, NULL), v = rng_below(&r, f.n_nodes);
+  int at[2] = {v, v}, anywhere[2] = {-1, -1};
   thr_request o = options_for(THR_ENDS_ANY, 1);
   thr_cord cord;
-  ck_assert_int_eq(thr_tour_cords(&f, &o, component, 1, passes, (const int(*)[2])at, &cord, NULL), THR_OK);
+  ck_assert_int_eq(thr_tour_cord(&f, &o, passes, at, &cord, NULL), THR_OK);
   ck_assert(cord.closed && thr_cord_start(&f, &cord) == v && thr_cord_end(&f, &cord) == v);
   assert_uses_all(&f, passes, &cord, 1);
   free(cord.half);
-  ck_assert_int_eq(thr_tour_cords(&f, &o, component, 1, passes, (const int(*)[2])anywhere, &cord, NULL), THR_OK);
+  ck_assert_int_eq(thr_tour_cord(&f, &o, passes, anywhere, &cord, NULL), THR_OK);
   ck_assert(cord.closed && f.foot[thr_cord_start(&f, &cord)]);
   assert_uses_all(&f, passes, &cord, 1);
   free(cord.half);
   free(passes);
-  free(component);
   thr_frame_destroy(&f);
 }
 END_TEST
@@ -494,11 +491,11 @@ END_TEST
 START_TEST(odd_passes_are_refused)
 {
   thr_frame f = path_make(3);
-  int passes[2] = {1, 1}, component[3] = {0}, ends[1][2] = {{-1, -1}};
+  int passes[2] = {1, 1}, ends[2] = {-1, -1};
   thr_request o = options_for(THR_ENDS_CLOSED, 1);
   thr_cord cord;
   thr_err err = {0};
-  ck_assert_int_eq(thr_tour_cords(&f, &o, component, 1, passes, (const int(*)[2])ends, &cord, &err), THR_EINPUT);
+  ck_assert_int_eq(thr_tour_cord(&f, &o, passes, ends, &cord, &err), THR_EINPUT);
   ck_assert(cord.half == NULL);
   assert_one_line(&err, "node 0");
   thr_frame_destroy(&f);
@@ -522,11 +519,11 @@ END_TEST
 START_TEST(wheel_of_2000_spokes)
 {
   thr_frame f = wheel_make(2000);
-  int *passes = constant(f.n_edges, 2), component[2001] = {0}, ends[1][2] = {{-1, -1}};
+  int *passes = constant(f.n_edges, 2), ends[2] = {-1, -1};
   thr_request o = options_for(THR_ENDS_CLOSED, 2);
   thr_cord cord;
   thr_metrics m;
-  ck_assert_int_eq(thr_tour_cords(&f, &o, component, 1, passes, (const int(*)[2])ends, &cord, NULL), THR_OK);
+  ck_assert_int_eq(thr_tour_cord(&f, &o, passes, ends, &cord, NULL), THR_OK);
   assert_uses_all(&f, passes, &cord, 1);
   ck_assert_int_eq(thr_plan_measure(&f, &o, &cord, 1, &m, NULL), THR_OK);
   ck_assert_int_eq(m.u_turns, 0);

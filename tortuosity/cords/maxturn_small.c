@@ -1,5 +1,6 @@
 /* Component by component; then the limits of the task. */
 #include "tortuosity/cords/maxturn_small.h"
+#include "graph/framework/components.h"
 #include "graph/plan/request.h"
 #include "graph/threading/small_cords.h"
 #include "tortuosity/cords/extra.h"
@@ -10,6 +11,7 @@
 typedef struct {
   const thr_turning_columns *c;
   thr_request o; /* what the task says, for the table */
+  thr_components parts;
   int n_cords;
   thr_cord *cord;         /* [n_cords] the best; half of the given ones, or of the table's */
   thr_small_cords *small; /* [c->n_components] the table's */
@@ -21,6 +23,7 @@ static void table_destroy(table *x)
     thr_small_cords_destroy(&x->small[k]);
   free(x->small);
   free(x->cord);
+  thr_components_destroy(&x->parts);
   free(x->o.end_node);
   free(x->o.end_count);
 }
@@ -47,7 +50,7 @@ static thr_status table_init(table *x, const thr_turning_columns *turning_column
   }
   for (int i = 0; i < n_cords; i++)
     x->cord[i] = cord[i];
-  return THR_OK;
+  return thr_components_init(&x->parts, turning_columns->f, &x->o, err);
 }
 
 static double price_of(const table *x, const thr_cord *cord)
@@ -70,11 +73,17 @@ static thr_status improve_component(table *x, int k, const thr_limits *limits, b
   }
   ask.least = ask.most = ask.known;
   thr_small_cords *new = &x->small[k];
-  thr_status st = thr_small_cords_find(x->c->f, &x->o, x->c->component, k, &ask, limits, new, certain, err);
+  thr_plan one;
+  thr_status st = thr_component_take(&x->parts, k, &one, err);
+  if (st) return st;
+  st = thr_small_cords_find(&one.frame, &one.options, &ask, limits, new, certain, err);
+  thr_plan_destroy(&one);
   for (int i = 0, next = 0; i < x->n_cords && next < new->n; i++) {
     if (x->cord[i].component != k) continue;
     x->cord[i].half = new->half[next];
     x->cord[i].n_passes = new->n_passes[next++];
+    for (int j = 0; j < x->cord[i].n_passes; j++)
+      x->cord[i].half[j] = thr_component_half(&x->parts, k, x->cord[i].half[j]);
   }
   return st;
 }

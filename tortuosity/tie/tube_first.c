@@ -1,13 +1,12 @@
 /* Tied cords without a search. At every node each edge is followed by the next one, and the last by the first: a ring of turns,
  * which ties the node. Where two passes of one edge belong to different circuits, exchanging them behind the edge joins the
- * circuits and changes no turn; so there is one circuit in every component. It may be opened once at every node, because a ring
+ * circuits and changes no turn; so there is one circuit. It may be opened once at every node, because a ring
  * without one turn is a path; more closed cords run around a short circuit. */
 #include "tortuosity/tie/tube_first.h"
 #include "graph/disjoint.h"
-#include "graph/framework/components.h"
+#include "graph/framework/frame.h"
 #include "graph/threading/multigraph.h"
 #include "graph/threading/splice.h"
-#include "graph/threading/transition.h"
 #include "graph/threading/walks.h"
 #include "lp/length/ways.h"
 
@@ -17,22 +16,17 @@
 typedef struct {
   const thr_frame *f;
   const thr_request *o;
-  int n_components, *component;
   int passes; /* of every edge */
   thr_multigraph g;
-  int *mate, *walk; /* [n_darts] */
-  thr_walks *walks; /* [n_components] */
-  bool *mark;       /* [n_nodes] scratch of ways; then, where a circuit was opened */
+  int *mate; /* [n_darts] */
+  thr_walks walks;
+  bool *mark; /* [n_nodes] scratch of ways; then, where a circuit was opened */
 } first;
 
 static void first_destroy(first *x)
 {
-  for (int k = 0; x->walks && k < x->n_components; k++)
-    thr_walks_destroy(&x->walks[k]);
-  free(x->walks);
-  free(x->component);
+  thr_walks_destroy(&x->walks);
   free(x->mate);
-  free(x->walk);
   free(x->mark);
   thr_multigraph_destroy(&x->g);
 }
@@ -40,21 +34,16 @@ static void first_destroy(first *x)
 static thr_status first_init(first *x, thr_err *err)
 {
   const thr_frame *frame = x->f;
-  if (!(x->component = thr_calloc((size_t)frame->n_nodes, sizeof *x->component))) return thr_nomem(err);
-  thr_status st = thr_frame_components(frame, x->component, &x->n_components, err);
-  if (st) return st;
   int *passes = thr_calloc((size_t)frame->n_edges, sizeof *passes);
   if (!passes) return thr_nomem(err);
   for (int e = 0; e < frame->n_edges; e++)
     passes[e] = x->passes;
-  st = thr_multigraph_init(&x->g, frame, 0, passes, NULL, 0, err);
+  thr_status st = thr_multigraph_init(&x->g, frame, 0, passes, NULL, 0, err);
   free(passes);
   if (st) return st;
   x->mate = thr_calloc((size_t)x->g.n_darts, sizeof *x->mate);
-  x->walk = thr_calloc((size_t)x->g.n_darts, sizeof *x->walk);
-  x->walks = thr_calloc((size_t)x->n_components, sizeof *x->walks);
   x->mark = thr_calloc((size_t)frame->n_nodes, sizeof *x->mark);
-  return x->mate && x->walk && x->walks && x->mark ? THR_OK : thr_nomem(err);
+  return x->mate && x->mark ? THR_OK : thr_nomem(err);
 }
 
 /* Do these options and this framework have such cords? Sets the number of passes. */
@@ -117,25 +106,6 @@ static thr_status join_circuits(first *x, thr_err *err)
   return THR_OK;
 }
 
-/* The circuit of the component that dart d is in. */
-static thr_status take_circuit(first *x, int d, thr_err *err)
-{
-  thr_walk w = {.cyclic = true};
-  thr_transition_trace(x->mate, d, x->walk, &w.n);
-  if (!(w.half = thr_calloc((size_t)w.n, sizeof *w.half))) return thr_nomem(err);
-  for (int i = 0; i < w.n; i++)
-    w.half[i] = x->g.half[x->walk[i]];
-  return thr_walks_add(&x->walks[x->component[x->g.tail[d]]], x->f, w, err);
-}
-
-static thr_status take_circuits(first *x, thr_err *err)
-{
-  thr_status st = THR_OK;
-  for (int d = 0; d < x->g.n_darts && !st; d++)
-    if (x->walks[x->component[x->g.tail[d]]].n_walks == 0) st = take_circuit(x, d, err);
-  return st;
-}
-
 /* ---- more closed cords ---- */
 
 /* From node v back along its way to node `to`; returns how many passes, which go into half unless that is NULL. */
@@ -172,41 +142,35 @@ static thr_status add_circuit(first *x, const thr_ways *g, int e, int n, thr_err
     go_back(g, b, fork, w.half + 1);
     go_back(g, a, fork, w.half + 1 + from_b);
     thr_walk_reverse(w.half + 1 + from_b, from_a);
-    st = thr_walks_add(&x->walks[x->component[a]], x->f, w, err);
+    st = thr_walks_add(&x->walks, x->f, w, err);
   }
   return st;
 }
 
-/* The edge of every component that closes the shortest circuit with the ways to its nodes. */
-static void find_circuits(const first *x, const thr_ways *g, int *best)
+/* The edge that closes the shortest circuit with the ways to its nodes. */
+static int find_circuit(const thr_frame *frame, const thr_ways *g)
 {
-  const thr_frame *frame = x->f;
-  for (int k = 0; k < x->n_components; k++)
-    best[k] = -1;
+  int best = -1;
+  double shortest = INFINITY;
   for (int e = 0; e < frame->n_edges; e++) {
-    int a = frame->edge[e][0], b = frame->edge[e][1], *at = &best[x->component[a]];
-    if (g->over[a] >> 1 == e || g->over[b] >> 1 == e) continue;
-    if (*at < 0 ||
-        frame->length[e] + g->far[a] + g->far[b] < frame->length[*at] + g->far[frame->edge[*at][0]] + g->far[frame->edge[*at][1]])
-      *at = e;
+    int a = frame->edge[e][0], b = frame->edge[e][1];
+    double length = frame->length[e] + g->far[a] + g->far[b];
+    if (g->over[a] >> 1 == e || g->over[b] >> 1 == e || length >= shortest) continue;
+    shortest = length;
+    best = e;
   }
+  return best;
 }
 
-/* n more circuits in every component, all around the shortest that one edge closes with ways from its first node. */
+/* n more circuits, all around the shortest that one edge closes with ways from the first node. */
 static thr_status add_circuits(first *x, int n, thr_err *err)
 {
   thr_ways g;
-  int *best = thr_calloc((size_t)x->n_components, sizeof *best);
   thr_status st = thr_ways_init(&g, x->f, err);
-  if (!st && !best) st = thr_nomem(err);
-  for (int v = 0, k = 0; v < x->f->n_nodes && !st; v++) /* components are numbered by their lowest nodes */
-    if (x->component[v] == k) st = thr_ways_start(&g, v, err), k++;
+  if (!st) st = thr_ways_start(&g, 0, err);
   if (!st) st = thr_ways_spread(&g, x->o, NULL, 0, INFINITY, NULL, err);
-  if (!st) find_circuits(x, &g, best);
-  for (int k = 0; k < x->n_components && !st; k++)
-    st = add_circuit(x, &g, best[k], n, err);
+  if (!st) st = add_circuit(x, &g, find_circuit(x->f, &g), n, err);
   thr_ways_destroy(&g);
-  free(best);
   return st;
 }
 
@@ -229,66 +193,47 @@ static int next_place(const first *x, const thr_walk *w, int from, double least,
   return found;
 }
 
-/* The circuit of component k cut into pieces; *n counts them. */
-static thr_status cut_circuit(first *x, int k, int *n, thr_err *err)
+/* The circuit cut into pieces. *found: it could be cut into as many as asked for. */
+static thr_status cut_circuit(first *x, bool *found, thr_err *err)
 {
   const thr_request *options = x->o;
-  thr_walks *w = &x->walks[k];
+  thr_walks *w = &x->walks;
   int start = 0;
+  *found = false;
   while (start < w->walk[0].n && !thr_plan_end_allowed(x->f, options, thr_walk_node(x->f, &w->walk[0], start)))
     start++;
-  *n = 0;
   if (start == w->walk[0].n) return THR_OK;
   thr_status st = thr_walk_rotate(&w->walk[0], start, err);
   x->mark[thr_walk_node(x->f, &w->walk[0], 0)] = true;
-  for (int last = 0, wanted = options->cords_least; !st && w->walk[last].n > 0; last++) {
+  for (int last = 0, wanted = options->cords_least; !st; last++) {
     thr_walk *rest = &w->walk[last];
     double part = rest->length / (wanted > last ? wanted - last : 1);
     int at = options->max_length > 0 ? next_place(x, rest, 0, INFINITY, options->max_length)
                                      : next_place(x, rest, 0, part * (1 - 1e-9), INFINITY);
     if (at < 0) return THR_OK;
-    *n = last + 1;
-    if (at == rest->n) return THR_OK;
+    if (at == rest->n) break;
     x->mark[thr_walk_node(x->f, rest, at)] = true;
     st = thr_splice_cut(w, x->f, last, at, err);
   }
+  *found = w->n_walks >= options->cords_least && w->n_walks <= options->cords;
   return st;
 }
 
-/* *found: all components could be cut into as many pieces as asked for. */
-static thr_status cut_circuits(first *x, bool *found, thr_err *err)
-{
-  thr_status st = THR_OK;
-  *found = true;
-  for (int k = 0; k < x->n_components && !st && *found; k++) {
-    int n;
-    st = cut_circuit(x, k, &n, err);
-    *found = n == x->walks[k].n_walks && n >= x->o->cords_least && n <= x->o->cords;
-  }
-  return st;
-}
-
-thr_status thr_tube_first(const thr_frame *frame, const thr_request *options, thr_cord **cord, int *n_cords, thr_err *err)
+thr_status thr_tube_first(const thr_frame *frame, const thr_request *options, const int *passes, thr_cord **cord, int *n_cords,
+                          thr_err *err)
 {
   first x = {.f = frame, .o = options};
-  thr_plan plan = {.frame = *frame, .options = *options};
   bool found = true;
+  (void)passes;
   *cord = NULL;
   *n_cords = 0;
   if (!is_possible(&x)) return THR_OK;
   thr_status st = first_init(&x, err);
   if (!st) pair_in_rings(&x);
   if (!st) st = join_circuits(&x, err);
-  if (!st) st = take_circuits(&x, err);
-  if (!st)
-    st = options->ends == THR_ENDS_CLOSED ? add_circuits(&x, options->cords_least - 1, err) : cut_circuits(&x, &found, err);
-  if (!st && found) st = thr_walks_plan(x.walks, x.n_components, &plan, err);
+  if (!st) st = thr_walks_follow(&x.walks, frame, &x.g, x.mate, err);
+  if (!st) st = options->ends == THR_ENDS_CLOSED ? add_circuits(&x, options->cords_least - 1, err) : cut_circuit(&x, &found, err);
+  if (!st && found) st = thr_walks_cords(&x.walks, frame, options, cord, n_cords, err);
   first_destroy(&x);
-  if (st) {
-    thr_cords_destroy(plan.cord, plan.n_cords);
-  } else {
-    *cord = plan.cord;
-    *n_cords = plan.n_cords;
-  }
   return st;
 }
