@@ -122,6 +122,7 @@ double walks_price(const thr_frame *f, thr_turn_cost cost, int in, int out)
   bool back = in == (out ^ 1);
   vector(f, in, a);
   vector(f, out, b);
+  if (cost == THR_TURN_UTURN) return back;
   if (cost == THR_TURN_STEP) {
     scale(a);
     scale(b);

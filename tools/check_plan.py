@@ -334,7 +334,7 @@ class Options:
         if self.objective == "tortuosity":
             t, p = member(o, "turning", "object", "options"), "options.turning"
             known(t, "cost length_slack minimize tour pairings", p)
-            self.cost = choice(t, "cost", p, ("angle", "sine", "step"))
+            self.cost = choice(t, "cost", p, ("angle", "sine", "step", "uturn"))
             self.slack = None if t.get("length_slack", 0) is None else member(t, "length_slack", "number", p, 0)
             choice(t, "minimize", p, ("turning", "max-turning"))
             self.tour = choice(t, "tour", p, ("least", "fleury", "hierholzer"))
@@ -357,6 +357,8 @@ class Options:
         angle = f.angle(a, b)
         if self.objective != "tortuosity" or self.cost == "angle":
             return angle
+        if self.cost == "uturn":
+            return float(a == b)
         return math.sin(angle / 2) if self.cost == "sine" else float(f.is_step(a, b))
 
 
@@ -1102,7 +1104,7 @@ def check_turning(p):
     bound = model.bound(place + ".proof")
     require(bound is not None, f"{place}.proof: proves that there is no plan")
     bound = max(Fraction(0), Fraction(bound) / UNIT)
-    if p.closing and o.cost != "step":  # Fenchel 1929; sin(x / 2) >= x / pi
+    if p.closing and o.cost in ("angle", "sine"):  # Fenchel 1929; sin(x / 2) >= x / pi
         bound = max(bound, Fraction(2 * math.pi if o.cost == "angle" else 2) * o.least * len(f.pieces))
     rounding = 2 * TOLERANCE * Fraction(math.pi if o.cost == "angle" else 1) * sum(min(x, 2 * n) for x, n in zip(p.passes, o.need))
     optimal = price - bound <= rounding

@@ -28,9 +28,8 @@ enum {
   "Least turning (with --objective tortuosity):\n"                                                                               \
   "      --length-slack P%   at most P % more cord than the shortest; 0 = the least turning among the shortest (default: any)\n" \
   "      --minimize turning|max-turning   of all cords together, or of the cord that turns most (default: turning)\n"            \
-  "      --turn-cost " THR_TURN_COSTS                                                                                            \
-  "   price of a turn: its angle, the sine of half of it, or 1 from 90 degrees on (default: "                                    \
-  "angle)\n"                                                                                                                     \
+  "      --turn-cost " THR_TURN_COSTS "   price of a turn: its angle (default), the sine of half of it, or 1 from 90\n"          \
+  "                       degrees on, or for a U-turn\n"                                                                         \
   "      --tour least|fleury|hierholzer   the least turning (default), or a classical tour through the shortest passes\n"        \
   "      --pairings keep|ignore   of a classical tour: keep to the cheapest pairing at every node, or not (default: keep)\n"     \
   "      --frontier[=N]   also the trade-off between length and turning, at up to N lengths, 2 to 1000 (default: 9)\n"           \

@@ -39,6 +39,17 @@ static bool is_step(const thr_frame *frame, int in, int out)
   return dot <= 0 || dot * dot <= 1e-12 * squares;
 }
 
+static double from_a_half(double angle)
+{
+  return angle >= THR_PI;
+}
+
+static bool is_back(const thr_frame *frame, int in, int out)
+{
+  (void)frame;
+  return in == (out ^ 1);
+}
+
 /* All that there is to say of a cost of turns. No turn costs more than a sharper one. */
 static const struct {
   const char *name;
@@ -50,6 +61,7 @@ static const struct {
     [THR_TURN_ANGLE] = {"angle", its_angle, NULL, 2 * THR_PI},
     [THR_TURN_SINE] = {"sine", half_sine, NULL, 2},
     [THR_TURN_STEP] = {"step", from_a_quarter, is_step, 0},
+    [THR_TURN_UTURN] = {"uturn", from_a_half, is_back, 0},
 };
 
 const char *thr_turn_cost_name(int cost)

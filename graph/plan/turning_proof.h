@@ -32,14 +32,15 @@
 typedef enum {
   THR_TURN_ANGLE, /* rad, 0 = straight on */
   THR_TURN_SINE,  /* sin(angle / 2), the thesis's Fig. 13 */
-  THR_TURN_STEP   /* 1 for a turn of 90 degrees or more (to 1e-6 rad), else 0 */
+  THR_TURN_STEP,  /* 1 for a turn of 90 degrees or more (to 1e-6 rad), else 0 */
+  THR_TURN_UTURN  /* 1 for a turn back into the same edge, else 0 */
 } thr_turn_cost;
 
-enum { THR_N_TURN_COSTS = THR_TURN_STEP + 1 };
+enum { THR_N_TURN_COSTS = THR_TURN_UTURN + 1 };
 
-#define THR_TURN_COSTS "angle|sine|step" /* their names, for messages; graph/plan/turning.c holds all else in one table */
+#define THR_TURN_COSTS "angle|sine|step|uturn" /* their names, for messages; graph/plan/turning.c holds all else in one table */
 
-const char *thr_turn_cost_name(int cost); /* "angle", "sine", "step" */
+const char *thr_turn_cost_name(int cost); /* "angle", "sine", "step", "uturn" */
 double thr_turn_cost_of(thr_turn_cost cost, double angle);
 
 /* Is it 1 for some turns and 0 for the others? Then only thr_turn_price says it: two formulas for an angle at the threshold may

@@ -69,7 +69,7 @@ START_TEST(subsets_match_enumeration)
   int mate[MOST];
   for (int k = 0; k < share_of(30000); k++) {
     int n = 2 * rng_between(&r, 1, k % 20 ? 3 : 4);
-    random_star(&r, n, (thr_turn_cost)(k % 3), price);
+    random_star(&r, n, (thr_turn_cost)(k % THR_N_TURN_COSTS), price);
     must_hold(thr_pairing_best(n, price, mate, NULL) == THR_OK && is_pairing(n, mate), "no pairing", k);
     must_hold(fabs(pairing_price(n, price, mate) - least_by_enumeration(n, price, 0)) <= 1e-9, "not the least", k);
   }

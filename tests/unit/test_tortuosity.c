@@ -255,6 +255,31 @@ START_TEST(no_bound_is_reported_above_the_best_price)
 }
 END_TEST
 
+/* A cord turns back only where there is one edge: with closed cords at each of these nodes for every two passes, begun ones too;
+ * two of them can be the ends of an open cord instead. */
+START_TEST(fewest_u_turns)
+{
+  rng r = rng_make((uint64_t)_i + 1);
+  thr_frame f = random_frame(&r, rng_between(&r, 4, 12), rng_below(&r, 6), (length_kind)(_i % LENGTH_KINDS));
+  int leaves = 0;
+  for (int v = 0; v < f.n_nodes; v++)
+    leaves += thr_degree(&f, v) == 1;
+  for (int k = 0; k < 4; k++) {
+    thr_request o = options_for(k < 3 ? THR_ENDS_CLOSED : THR_ENDS_ANY, k < 3 ? k + 1 : 1);
+    thr_plan p;
+    thr_err err = {0};
+    ck_assert_int_eq(thr_aims_parse("turning:uturn", &o, &err), THR_OK);
+    ck_assert_msg(thr_tortuosity_plan(&f, &o, &(thr_limits){0}, &p, &err) == THR_OK, "%s", err.text);
+    ck_assert(p.turning.optimal);
+    ck_assert_double_eq(p.turning.price, k < 3 ? leaves * ((k + 2) / 2) : leaves - (leaves < 2 ? leaves : 2));
+    ck_assert_double_eq(p.turning.price, p.metrics.u_turns);
+    assert_plan_sound(&p);
+    thr_plan_destroy(&p);
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 int main(void)
 {
   Suite *s = suite_create("tortuosity");
@@ -264,6 +289,7 @@ int main(void)
   ADD_TEST(s, 20, trade_off_begins_at_the_shortest_plan);
   ADD_TEST(s, 20, trade_off_without_any_plan);
   ADD_TEST(s, 60, no_bound_is_reported_above_the_best_price);
+  ADD_LOOP(s, 60, fewest_u_turns, 0, 30);
   ADD_LOOP(s, 60, running_out_of_memory_leaves_nothing, 0, 3);
   return run_suite(s);
 }

@@ -37,6 +37,9 @@ START_TEST(steps_are_the_same_in_all_directions)
     ck_assert_double_eq(thr_turn_price(&f, THR_TURN_STEP, 0, 1), 1);
     ck_assert_double_eq(thr_turn_cost_of(THR_TURN_STEP, angle), off[k % 6] >= -1e-6);
     ck_assert_double_eq_tol(thr_turn_price(&f, THR_TURN_ANGLE, 2, 3), THR_PI, 1e-12);
+    for (int h = 0; h < 4; h++) /* a U-turn goes back into its edge, however sharp others are */
+      ck_assert_double_eq(thr_turn_price(&f, THR_TURN_UTURN, h, h ^ 1), 1);
+    ck_assert_double_eq(thr_turn_price(&f, THR_TURN_UTURN, 0, 2), 0);
     thr_frame_destroy(&f);
   }
 }
