@@ -1,8 +1,8 @@
 /* The rows of a relaxation that separation has found: sum value x[column] >= lower (a pool of cuts).
  *
  * After Padberg & Rinaldi, SIAM Review 33, 1991. The pool says whether a point x violates a row, knows a row that it has already,
- * and forgets rows that have been slack for long. It solves nothing: its rows may stand in a linear programme (thr_pool_load) or
- * be prices of a Lagrangian relaxation.
+ * and forgets rows that have been slack for long. It solves nothing: its rows may stand in a linear programme (lp/model/search.h)
+ * or be prices of a Lagrangian relaxation.
  *
  * A row is put together column by column and then added, or only if a point violates it and the pool has none like it:
  *   thr_pool_put(pool, 3, 1);
@@ -12,7 +12,6 @@
 #define THR_POOL_H
 
 #include "graph/status.h"
-#include "lp/solver/lp.h"
 
 #include <stdint.h>
 
@@ -65,13 +64,5 @@ void thr_pool_drop(thr_pool *p, const bool *drop);
 /* Forgets those from number `first` on that x does not violate by more than the tolerance. *added grows by the others. */
 thr_status thr_pool_keep_violated(thr_pool *p, int first, const double *x, double tolerance, int *added,
                                   thr_err *err) THR_MUST_CHECK;
-
-/* Adds the rows from number `first` on to a linear programme, each with another column of value 1 (help >= 0), which keeps it
- * feasible. */
-thr_status thr_pool_load(const thr_pool *p, int first, int help, thr_lp *lp, thr_err *err) THR_MUST_CHECK;
-
-/* Forgets rows, and drops them from the linear programme, whose rows they all are, that have been slack (basic) at more than
- * `patience` looks on end. *any: were there any? A look without dropping: patience INT_MAX. */
-thr_status thr_pool_age(thr_pool *p, int patience, thr_lp *lp, bool *any, thr_err *err) THR_MUST_CHECK;
 
 #endif

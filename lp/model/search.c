@@ -2,7 +2,6 @@
 #include "lp/model/search.h"
 
 #include <assert.h>
-#include <limits.h>
 #include <stdlib.h>
 
 thr_status thr_search_init(thr_search *s, int pool_columns, double *x, thr_err *err)
@@ -19,15 +18,36 @@ void thr_search_destroy(thr_search *s)
   *s = (thr_search){0};
 }
 
-void thr_search_use(thr_search *s, thr_separator separator)
+void thr_search_use(thr_search *s, thr_separator *find, void *user, int when)
 {
   assert(s->n_separators < (int)(sizeof s->separator / sizeof *s->separator));
-  s->separator[s->n_separators++] = separator;
+  s->separator[s->n_separators].find = find;
+  s->separator[s->n_separators].user = user;
+  s->separator[s->n_separators++].when = when;
 }
 
 thr_status thr_search_load(thr_search *s, thr_err *err)
 {
-  return thr_pool_load(&s->pool, thr_lp_rows(s->lp) - s->n_fixed, s->help, s->lp, err);
+  const thr_pool *pool = &s->pool;
+  const int first = thr_lp_rows(s->lp) - s->n_fixed;
+  size_t n = (size_t)pool->n_columns + 1;
+  if (first >= pool->count) return THR_OK;
+  int *column = thr_calloc(n, sizeof *column);
+  double *value = thr_calloc(n, sizeof *value);
+  thr_status st = column && value ? THR_OK : thr_nomem(err);
+  for (int i = first; i < pool->count && !st; i++) {
+    const thr_row *r = &pool->row[i];
+    for (int k = 0; k < r->n; k++) {
+      column[k] = r->column[k];
+      value[k] = r->value ? r->value[k] : 1;
+    }
+    column[r->n] = s->help;
+    value[r->n] = 1;
+    st = thr_lp_add_row(s->lp, r->n + (s->help >= 0), column, value, r->lower, err);
+  }
+  free(column);
+  free(value);
+  return st;
 }
 
 /* Takes over what the last solve has left: of an unfinished one, too, as any multipliers can be made a proof. */
@@ -60,9 +80,19 @@ static thr_status solve(thr_search *s, const thr_search_calls *calls, const thr_
  * risen: where it stands still (ties), the same rows would come back for ever. */
 static thr_status drop_idle(thr_search *s, int patience, thr_err *err)
 {
-  bool any, risen = s->objective > s->at_drop * (1 + 1e-9);
-  thr_status st = thr_pool_age(&s->pool, risen ? patience : INT_MAX, s->lp, &any, err);
-  if (!st && any) s->at_drop = s->objective;
+  thr_row *row = s->pool.row;
+  thr_status st = THR_OK;
+  bool any = false, risen = s->objective > s->at_drop * (1 + 1e-9);
+  bool *drop = thr_calloc((size_t)s->pool.count, sizeof *drop);
+  if (!drop) return thr_nomem(err);
+  for (int i = 0; i < s->pool.count; i++) {
+    row[i].idle = thr_lp_row_basic(s->lp, i) ? row[i].idle + 1 : 0;
+    any |= drop[i] = risen && row[i].idle > patience;
+  }
+  if (any) st = thr_lp_drop_rows(s->lp, drop, err);
+  if (any && !st) thr_pool_drop(&s->pool, drop);
+  if (any && !st) s->at_drop = s->objective;
+  free(drop);
   return st;
 }
 
@@ -71,13 +101,12 @@ static thr_status separate(thr_search *s, const thr_limits *limits, int *added, 
   thr_status st = THR_OK;
   *added = 0;
   for (int i = 0; i < s->n_separators && !st; i++) {
-    const thr_separator *at = &s->separator[i];
-    if (at->fallback && *added > 0) continue;
-    if (at->slow && thr_limits_stop(limits)) {
+    if (s->separator[i].when & THR_FALLBACK && *added > 0) continue;
+    if (s->separator[i].when & THR_SLOW && thr_limits_stop(limits)) {
       s->outcome = THR_LP_STOPPED;
       break;
     }
-    st = at->find(at->user, added, err);
+    st = s->separator[i].find(s->separator[i].user, added, err);
   }
   return st;
 }

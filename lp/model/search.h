@@ -6,8 +6,8 @@
  * of an optimum: a solution near it, a proof from its multipliers, the judgement that its bound suffices.
  *
  *   thr_search_init(&s, n, x, &err);             and s.lp, a programme of those columns
- *   thr_search_use(&s, (thr_separator){.find = find_some, .user = user});
- *   thr_search_use(&s, (thr_separator){.find = find_all, .user = user, .fallback = true});   where that has found none
+ *   thr_search_use(&s, find_some, user, 0);
+ *   thr_search_use(&s, find_all, user, THR_FALLBACK);   where that has found none
  *   thr_search_rounds(&s, &calls, &limits, &err); */
 #ifndef THR_SEARCH_H
 #define THR_SEARCH_H
@@ -18,17 +18,16 @@
 #include "lp/solver/lp.h"
 
 /* Adds rows that the point violates to the pool, counted in *added. */
-typedef struct {
-  thr_status (*find)(void *user, int *added, thr_err *err);
-  void *user;
-  bool fallback; /* only where those before have found none in this round */
-  bool slow;     /* not begun when the limits say stop: that stops the rounds */
-} thr_separator;
+typedef thr_status thr_separator(void *user, int *added, thr_err *err);
+
+/* When a separator is asked: only where those before have found none in this round; not when the limits say stop, which ends the
+ * rounds. */
+enum { THR_FALLBACK = 1, THR_SLOW = 2 };
 
 typedef struct {
   thr_lp *lp;             /* owned */
   thr_pool pool;          /* its rows after the first n_fixed; the last of them may not be in it yet */
-  int n_fixed, help;      /* help: as for thr_pool_load; at first -1 */
+  int n_fixed, help;      /* help: a column of value 1 in every row of the pool, which keeps it feasible; at first -1: none */
   bool bare;              /* the next solve begins without the pool's rows, for which its basis is not feasible */
   double *x;              /* [columns of lp] borrowed: the point of the last solve */
   double *dual;           /* [rows at the last solve] its multipliers; owned */
@@ -36,8 +35,12 @@ typedef struct {
   thr_lp_outcome outcome; /* its outcome; THR_LP_STOPPED also where a slow separator was not begun */
   bool whole, enough;     /* what thr_search_calls.look says of it */
   double at_drop;         /* objective when rows were last dropped */
-  thr_separator separator[8];
   int n_separators;
+  struct {
+    thr_separator *find;
+    void *user;
+    int when;
+  } separator[8];
 } thr_search;
 
 /* What is done in every round. */
@@ -56,8 +59,8 @@ typedef struct {
 thr_status thr_search_init(thr_search *s, int pool_columns, double *x, thr_err *err) THR_MUST_CHECK;
 void thr_search_destroy(thr_search *s);
 
-/* One more separator, asked after those before: at most 8. */
-void thr_search_use(thr_search *s, thr_separator separator);
+/* One more separator, asked after those before: at most 8. when: 0, THR_FALLBACK, THR_SLOW or both. */
+void thr_search_use(thr_search *s, thr_separator *find, void *user, int when);
 
 /* Adds the pool's rows that are not in the programme yet. */
 thr_status thr_search_load(thr_search *s, thr_err *err) THR_MUST_CHECK;

@@ -391,15 +391,30 @@ done:
 
 /* ---- for a search ---- */
 
-thr_status thr_oddcut_separate(const thr_oddcut_graph *graph, const double *x, const double *reduced_cost,
-                               const double *threshold, int n, const double *point, thr_pool *pool, int *added, thr_err *err)
+/* Keeps the rows from number `first` on that count. */
+static thr_status keep(const thr_oddcuts *odd, int first, int *added, thr_err *err)
 {
-  const int before = pool->count;
+  if (odd->point) return thr_pool_keep_violated(odd->pool, first, odd->point, tolerance, added, err);
+  *added += odd->pool->count - first;
+  return THR_OK;
+}
+
+thr_status thr_oddcuts_moats(void *oddcuts, int *added, thr_err *err)
+{
+  const thr_oddcuts *odd = oddcuts;
+  const int n = sizeof odd->threshold / sizeof *odd->threshold, first = odd->pool->count;
   thr_status st = THR_OK;
-  for (int i = 0; i < (n > 0 ? n : 1) && !st && pool->count == before; i++) {
-    st = n > 0 ? thr_oddcut_moats(graph, x, threshold[i], reduced_cost, pool, err) : thr_oddcut_exact(graph, x, pool, err);
-    if (!st && point) st = thr_pool_keep_violated(pool, before, point, tolerance, added, err);
+  for (int i = 0; i < n && odd->threshold[i] > 0 && !st && odd->pool->count == first; i++) {
+    st = thr_oddcut_moats(odd->graph, odd->x, odd->threshold[i], odd->reduced_cost, odd->pool, err);
+    if (!st) st = keep(odd, first, added, err);
   }
-  if (!point) *added += pool->count - before;
   return st;
+}
+
+thr_status thr_oddcuts_exact(void *oddcuts, int *added, thr_err *err)
+{
+  const thr_oddcuts *odd = oddcuts;
+  int first = odd->pool->count;
+  thr_status st = thr_oddcut_exact(odd->graph, odd->x, odd->pool, err);
+  return st ? st : keep(odd, first, added, err);
 }

@@ -3,8 +3,9 @@
  * Mathematics of Operations Research 7, 1982): of a tree of minimum cuts the lightest edge with an odd number of odd nodes on
  * its sides. Every set becomes a row of a pool, its members those of the row:
  *
- *   st = thr_oddcut_separate(&graph, x, reduced_cost, threshold, 3, x, &pool, &added, err);
- *   if (!st && added == 0) st = thr_oddcut_separate(&graph, x, NULL, NULL, 0, x, &pool, &added, err);
+ *   thr_oddcuts odd = {.graph = &graph, .x = x, .reduced_cost = cost, .threshold = {1e-6, 0.5}, .pool = &pool};
+ *   thr_search_use(&search, thr_oddcuts_moats, &odd, 0);
+ *   thr_search_use(&search, thr_oddcuts_exact, &odd, THR_FALLBACK);
  *
  * Example: a triangle of odd nodes with x = 1/2 on its edges and 0 on the others that leave it breaks the row of the triangle. */
 #ifndef THR_ODDCUT_H
@@ -43,10 +44,17 @@ thr_status thr_oddcut_moats(const thr_oddcut_graph *graph, const double *x, doub
  * if any odd cut is violated, one of these is. Edges with x >= 1 lie in no violated cut and are contracted first. */
 thr_status thr_oddcut_exact(const thr_oddcut_graph *graph, const double *x, thr_pool *pool, thr_err *err) THR_MUST_CHECK;
 
-/* Keeps of the rows that these find those which the pool's `point` violates (NULL = all), counted in *added: moats with one of
- * threshold[n] after the other until there are any, or with n = 0 the exact separation. */
-thr_status thr_oddcut_separate(const thr_oddcut_graph *graph, const double *x, const double *reduced_cost,
-                               const double *threshold, int n, const double *point, thr_pool *pool, int *added,
-                               thr_err *err) THR_MUST_CHECK;
+/* What a search (lp/model/search.h) looks for odd sets with; all arrays are borrowed. */
+typedef struct {
+  const thr_oddcut_graph *graph;
+  const double *x, *reduced_cost; /* of the graph's edges */
+  const double *point;            /* of the pool's columns: only rows that it violates count; NULL = all do */
+  double threshold[5];            /* of the moats, one after the other until there are rows; 0 ends them */
+  thr_pool *pool;
+} thr_oddcuts;
+
+/* Separators, of a thr_oddcuts. */
+thr_status thr_oddcuts_moats(void *oddcuts, int *added, thr_err *err) THR_MUST_CHECK;
+thr_status thr_oddcuts_exact(void *oddcuts, int *added, thr_err *err) THR_MUST_CHECK;
 
 #endif

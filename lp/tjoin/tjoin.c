@@ -18,6 +18,7 @@ typedef struct {
   const thr_tjoin_problem *p;
   const thr_limits *limits;
   thr_oddcut_graph graph;
+  thr_oddcuts odd;
   thr_search search;
   bool exact;                            /* GLPK's exact method, with the weights themselves as costs? */
   double unit;                           /* costs of the linear programme = weights / unit, so that they are about 1 */
@@ -31,20 +32,6 @@ typedef struct {
   thr_tjoin best;
   thr_scratch own; /* the arrays */
 } solver;
-
-/* Moats round the odd components of the support; failing that, of the support of larger values. */
-static thr_status find_moats(void *user, int *added, thr_err *err)
-{
-  static const double threshold[] = {1e-6, 0.2, 0.35, 0.51, 0.7};
-  solver *s = user;
-  return thr_oddcut_separate(&s->graph, s->x, s->reduced_cost, threshold, 5, NULL, &s->search.pool, added, err);
-}
-
-static thr_status find_exactly(void *user, int *added, thr_err *err)
-{
-  solver *s = user;
-  return thr_oddcut_separate(&s->graph, s->x, NULL, NULL, 0, NULL, &s->search.pool, added, err);
-}
 
 static thr_status solver_init(solver *s, const thr_tjoin_problem *tjoin_problem, const thr_limits *limits, thr_err *err)
 {
@@ -66,8 +53,13 @@ static thr_status solver_init(solver *s, const thr_tjoin_problem *tjoin_problem,
   s->best.length = INT64_MAX;
   if (!s->best.in_join || thr_scratch_check(&s->own, err)) return thr_nomem(err);
   if ((st = thr_search_init(&s->search, tjoin_problem->n_edges, s->x, err))) return st;
-  thr_search_use(&s->search, (thr_separator){.find = find_moats, .user = s});
-  thr_search_use(&s->search, (thr_separator){.find = find_exactly, .user = s, .fallback = true});
+  s->odd = (thr_oddcuts){.graph = &s->graph,
+                         .x = s->x,
+                         .reduced_cost = s->reduced_cost,
+                         .threshold = {1e-6, 0.2, 0.35, 0.51, 0.7},
+                         .pool = &s->search.pool};
+  thr_search_use(&s->search, thr_oddcuts_moats, &s->odd, 0);
+  thr_search_use(&s->search, thr_oddcuts_exact, &s->odd, THR_FALLBACK);
   double sum = 0;
   for (size_t e = 0; e < m; e++)
     sum += s->whole[e] = (double)tjoin_problem->weight[e];

@@ -190,6 +190,12 @@ static thr_status init_graph(thr_relaxation *relaxation, thr_err *err)
   thr_status st = thr_oddcut_graph_init(&relaxation->graph, &relaxation->problem, err);
   relaxation->graph.put = put_edge;
   relaxation->graph.user = relaxation;
+  relaxation->odd = (thr_oddcuts){.graph = &relaxation->graph,
+                                  .x = relaxation->weight,
+                                  .reduced_cost = relaxation->metric,
+                                  .point = relaxation->x,
+                                  .threshold = {1e-6, 0.3, 0.51},
+                                  .pool = &relaxation->search.pool};
   return st;
 }
 
@@ -204,17 +210,9 @@ static double weigh(const thr_relaxation *relaxation, int edge)
   return fmax(0, sum - relaxation->p->cover[quotient->copy[j].edge_orbit]);
 }
 
-/* Odd sets that x violates: by moats, or without thresholds exactly. */
-static thr_status add_odd(thr_relaxation *relaxation, const double *threshold, int n, int *added, thr_err *err)
-{
-  return thr_oddcut_separate(&relaxation->graph, relaxation->weight, relaxation->metric, threshold, n, relaxation->x,
-                             &relaxation->search.pool, added, err);
-}
-
 /* The first sets: balls round the nodes, as far as their turns join their dart types, with odd numbers of darts. */
 static thr_status add_first_sets(thr_relaxation *relaxation, const thr_limits *limits, thr_err *err)
 {
-  const double half = 0.5;
   int added = 0;
   for (int k = 0; k < relaxation->problem.n_edges; k++) {
     int j = relaxation->column[k];
@@ -223,25 +221,27 @@ static thr_status add_first_sets(thr_relaxation *relaxation, const thr_limits *l
   }
   for (int j = 0; j < relaxation->p->n; j++) /* every odd set is violated */
     relaxation->x[j] = relaxation->p->least[j];
-  thr_status st = add_odd(relaxation, &half, 1, &added, err);
+  thr_oddcuts first = relaxation->odd;
+  first.threshold[0] = 0.5;
+  first.threshold[1] = 0;
+  thr_status st = thr_oddcuts_moats(&first, &added, err);
   return !st && thr_limits_stop(limits) ? THR_ELIMIT : st;
 }
 
 static thr_status find_odd(void *user, int *added, thr_err *err)
 {
-  static const double threshold[] = {1e-6, 0.3, 0.51};
   thr_relaxation *relaxation = user;
   if (relaxation->search.whole) return THR_OK;
   for (int k = 0; k < relaxation->problem.n_edges; k++)
     relaxation->weight[k] = weigh(relaxation, k);
-  return add_odd(relaxation, threshold, 3, added, err);
+  return thr_oddcuts_moats(&relaxation->odd, added, err);
 }
 
 static thr_status find_odd_exactly(void *user, int *added, thr_err *err)
 {
   thr_relaxation *relaxation = user;
   if (relaxation->search.whole || relaxation->problem.n_nodes > MOST_EXACT) return THR_OK;
-  return add_odd(relaxation, NULL, 0, added, err);
+  return thr_oddcuts_exact(&relaxation->odd, added, err);
 }
 
 /* ---- connected sets ---- */
@@ -349,11 +349,11 @@ static thr_status find_folds(void *user, int *added, thr_err *err)
 static void use_separators(thr_relaxation *relaxation)
 {
   thr_search *search = &relaxation->search;
-  thr_search_use(search, (thr_separator){.find = find_odd, .user = relaxation, .slow = true});
-  thr_search_use(search, (thr_separator){.find = find_odd_exactly, .user = relaxation, .fallback = true, .slow = true});
-  if (relaxation->p->ties) thr_search_use(search, (thr_separator){.find = thr_relaxation_tie, .user = relaxation});
-  thr_search_use(search, (thr_separator){.find = find_connected, .user = relaxation, .fallback = true});
-  if (relaxation->p->open) thr_search_use(search, (thr_separator){.find = find_folds, .user = relaxation, .fallback = true});
+  thr_search_use(search, find_odd, relaxation, THR_SLOW);
+  thr_search_use(search, find_odd_exactly, relaxation, THR_FALLBACK | THR_SLOW);
+  if (relaxation->p->ties) thr_search_use(search, thr_relaxation_tie, relaxation, 0);
+  thr_search_use(search, find_connected, relaxation, THR_FALLBACK);
+  if (relaxation->p->open) thr_search_use(search, find_folds, relaxation, THR_FALLBACK);
 }
 
 thr_status thr_relaxation_init(thr_relaxation *relaxation, const thr_programme *p, int extra, const thr_limits *limits,

@@ -26,6 +26,7 @@ typedef struct {
   /* odd sets */
   thr_tjoin_problem problem;
   thr_oddcut_graph graph;
+  thr_oddcuts odd;
   int *column;    /* [problem.n_edges] that the edge stands for */
   double *metric; /* [problem.n_edges] overlap that it costs, in parts of the largest */
   bool *surplus;  /* [problem.n_edges] or rather for the surplus of its edge orbit over the cover? */

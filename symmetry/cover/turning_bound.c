@@ -461,7 +461,7 @@ static thr_status raise_bound(master *m, thr_err *err)
   thr_search *search = &m->r->search;
   const int separators = search->n_separators;
   const thr_search_calls calls = {.user = m, .look = look};
-  thr_search_use(search, (thr_separator){.find = find_cuts, .user = m});
+  thr_search_use(search, find_cuts, m, 0);
   thr_status st = thr_search_rounds(search, &calls, m->limits, err);
   search->n_separators = separators;
   return !st && search->outcome == THR_LP_STOPPED ? THR_ELIMIT : st;

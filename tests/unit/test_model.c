@@ -290,8 +290,8 @@ static void cutting_init(cutting *k, const covering *c, rng r, bool fallback)
   search_init(&k->s, c);
   ck_assert_int_eq(thr_search_init(&k->cut, COLUMNS, k->x, NULL), THR_OK);
   ck_assert_int_eq(thr_lp_create(&k->cut.lp, COLUMNS, cost, most, NULL), THR_OK);
-  thr_search_use(&k->cut, (thr_separator){.find = find_even, .user = k});
-  thr_search_use(&k->cut, (thr_separator){.find = find_odd, .user = k, .fallback = fallback, .slow = true});
+  thr_search_use(&k->cut, find_even, k, 0);
+  thr_search_use(&k->cut, find_odd, k, (fallback ? THR_FALLBACK : 0) | THR_SLOW);
 }
 
 static void cutting_destroy(cutting *k)

@@ -3,9 +3,13 @@
 #include "graph/angle.h"
 #include "graph/framework/frame.h"
 #include "lp/model/search.h"
+#include "lp/tjoin/oddcut.h"
 #include "tortuosity/proof/ascent.h"
+#include "tortuosity/proof/column_groups.h"
 #include "tortuosity/proof/cycles.h"
 #include "tortuosity/proof/nearest.h"
+#include "tortuosity/proof/partition.h"
+#include "tortuosity/proof/project.h"
 #include "tortuosity/tie/tie.h"
 
 #include <limits.h>
@@ -231,6 +235,26 @@ static thr_status solve_tied_root(thr_branch *branch, int i, thr_err *err)
   return st || !unsolved || branch->tree.stopped || closed(branch, i) ? st : solve_node(branch, i, branch->limits, err);
 }
 
+/* With tube joints tied nodes connect all; of closed cords several need not. */
+static void use_separators(thr_relax *relax)
+{
+  const thr_turning_task *turning_task = relax->c->task;
+  thr_search *search = &relax->search;
+  const bool groups = !turning_task->tube && (turning_task->end_allowed || turning_task->cords == 1);
+  if (relax->projected) {
+    thr_search_use(search, thr_project_ends, relax, 0);
+    thr_search_use(search, thr_project_sides, relax, 0);
+  } else if (turning_task->tube) {
+    thr_search_use(search, thr_junctions_separate, relax, 0);
+  }
+  if (groups) thr_search_use(search, thr_groups_apart, relax, 0);
+  if (relax->any_odd) thr_search_use(search, thr_oddcuts_moats, &relax->odd, 0);
+  if (!turning_task->end_allowed && !turning_task->tube) thr_search_use(search, thr_partitions_separate, relax, THR_FALLBACK);
+  if (groups) thr_search_use(search, thr_groups_loose, relax, THR_FALLBACK);
+  if (groups) thr_search_use(search, thr_groups_exact, relax, THR_FALLBACK | THR_SLOW);
+  if (relax->any_odd) thr_search_use(search, thr_oddcuts_exact, &relax->odd, THR_FALLBACK | THR_SLOW);
+}
+
 static thr_status set_bounds(void *user, int column, int low, int high, thr_err *err)
 {
   thr_branch *branch = user;
@@ -280,6 +304,7 @@ thr_status thr_branch_run(thr_branch *branch, thr_err *err)
   if (!st && branch->dense) return settle_for_bound(branch, tied, err);
   if (!st && !branch->projected && !branch->c->task->free_turns && branch->found && !tied && closed(branch, root)) return THR_OK;
   if (!st) st = thr_relax_init(&branch->relax, branch->c, branch->projected, penalty, branch->limits, err);
+  if (!st) use_separators(&branch->relax);
   if (!st && tied) st = climb(branch, root, err);
   const thr_tree_calls calls = {branch, NULL, set_bounds, solve};
   branch->tree.enough = enough(branch);

@@ -2,6 +2,10 @@
 #include "tortuosity/proof/column_groups.h"
 #include "graph/disjoint.h"
 #include "graph/framework/frame.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/sort.h"
+#include "lp/model/pool.h"
+#include "tortuosity/proof/relax.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -23,11 +27,47 @@ static bool joins(const thr_turning_columns *turning_columns, int j, int *a, int
   return true;
 }
 
+/* ---- rows ---- */
+
+/* Puts the columns that leave the edges of a group, which are marked. */
+static void put_crossing(thr_relax *relax, const int *edge, int n, const bool *inside)
+{
+  const thr_turning_columns *turning_columns = relax->c;
+  const thr_frame *frame = turning_columns->f;
+  for (int k = 0; k < 2 * n; k++) {
+    int h = 2 * edge[k / 2] + k % 2, v = thr_tail(frame, h);
+    for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
+      if (!inside[frame->half[i] >> 1])
+        thr_pool_put(&relax->search.pool, thr_turning_column(turning_columns, h, frame->half[i]), 1);
+    if (turning_columns->end_column[h] >= 0) thr_pool_put(&relax->search.pool, turning_columns->end_column[h], 1);
+  }
+}
+
+/* Adds the group's row if x violates it and it is new. */
+static thr_status add_group(thr_relax *relax, const int *edge, int n, int *added, thr_err *err)
+{
+  bool *inside = thr_calloc((size_t)relax->c->f->n_edges, sizeof *inside);
+  int *group = thr_calloc((size_t)n, sizeof *group);
+  thr_status st = inside && group ? THR_OK : thr_nomem(err);
+  for (int i = 0; i < n && !st; i++)
+    inside[group[i] = edge[i]] = true;
+  if (!st) {
+    thr_sort_ints(group, (size_t)n);
+    put_crossing(relax, group, n, inside);
+    const thr_row row = {.kind = THR_RELAX_GROUP, .lower = 2, .member = group, .n_members = n};
+    st = thr_pool_offer(&relax->search.pool, row, relax->x, tolerance, added, err);
+  }
+  free(inside);
+  free(group);
+  return st;
+}
+
 /* ---- components ---- */
 
-thr_status thr_groups_support(const thr_groups_call *call, double threshold, int *added, thr_err *err)
+/* Groups that turns with x > threshold join. */
+static thr_status find_groups(thr_relax *relax, double threshold, int *added, thr_err *err)
 {
-  const thr_turning_columns *turning_columns = call->c;
+  const thr_turning_columns *turning_columns = relax->c;
   int m = turning_columns->f->n_edges, n = m + turning_columns->n_components, a, b;
   int *parent = thr_calloc((size_t)n, sizeof *parent), *start = thr_calloc((size_t)n + 2, sizeof *start);
   int *list = thr_calloc((size_t)m, sizeof *list), *pieces = thr_calloc((size_t)turning_columns->n_components, sizeof *pieces);
@@ -35,7 +75,7 @@ thr_status thr_groups_support(const thr_groups_call *call, double threshold, int
   for (int v = 0; v < n && !st; v++)
     parent[v] = v;
   for (int j = 0; j < turning_columns->first_back && !st; j++)
-    if (joins(turning_columns, j, &a, &b) && call->x[j] > threshold) thr_disjoint_join(parent, a, b);
+    if (joins(turning_columns, j, &a, &b) && relax->x[j] > threshold) thr_disjoint_join(parent, a, b);
   for (int e = 0; e < m && !st; e++) {
     int root = thr_disjoint_find(parent, e);
     start[root + 2]++;
@@ -50,12 +90,25 @@ thr_status thr_groups_support(const thr_groups_call *call, double threshold, int
     int k = turning_columns->component[turning_columns->f->edge[e][0]];
     bool alone = pieces[k] == 1;
     if (thr_disjoint_find(parent, e) != e || alone) continue;
-    st = call->add(call->user, list + start[e], start[e + 1] - start[e], added, err);
+    st = add_group(relax, list + start[e], start[e + 1] - start[e], added, err);
   }
   free(parent);
   free(start);
   free(list);
   free(pieces);
+  return st;
+}
+
+thr_status thr_groups_apart(void *user, int *added, thr_err *err)
+{
+  return find_groups(user, tolerance, added, err);
+}
+
+thr_status thr_groups_loose(void *user, int *added, thr_err *err)
+{
+  thr_status st = THR_OK;
+  for (double threshold = 0.2; !st && !*added && threshold < 1; threshold += 0.25)
+    st = find_groups(user, threshold, added, err);
   return st;
 }
 
@@ -85,12 +138,12 @@ static void network_destroy(network *w)
   free(w->list);
 }
 
-static thr_status network_init(network *w, const thr_groups_call *call, thr_err *err)
+static thr_status network_init(network *w, const thr_relax *relax, thr_err *err)
 {
-  const thr_turning_columns *turning_columns = call->c;
+  const thr_turning_columns *turning_columns = relax->c;
   int links = 0, a, b;
   for (int j = 0; j < turning_columns->first_back; j++)
-    links += joins(turning_columns, j, &a, &b) && call->x[j] > 1e-9;
+    links += joins(turning_columns, j, &a, &b) && relax->x[j] > 1e-9;
   *w = (network){.n = turning_columns->f->n_edges + turning_columns->n_components, .m = 2 * links};
   size_t n = (size_t)w->n, m = (size_t)w->m;
   w->first = thr_calloc(n + 2, sizeof *w->first);
@@ -106,10 +159,10 @@ static thr_status network_init(network *w, const thr_groups_call *call, thr_err 
   if (!w->first || !w->arc || !w->to || !w->capacity || !w->flow || !w->block || !w->next || !w->by || !w->queue || !w->list)
     return thr_nomem(err);
   for (int j = 0, k = 0; j < turning_columns->first_back; j++) {
-    if (!joins(turning_columns, j, &a, &b) || call->x[j] <= 1e-9) continue;
+    if (!joins(turning_columns, j, &a, &b) || relax->x[j] <= 1e-9) continue;
     w->to[k] = b;
     w->to[k + 1] = a;
-    w->capacity[k] = w->capacity[k + 1] = call->x[j];
+    w->capacity[k] = w->capacity[k + 1] = relax->x[j];
     w->first[a + 2]++;
     w->first[b + 2]++;
     k += 2;
@@ -168,7 +221,7 @@ static double augment(network *w, int s, int t)
 }
 
 /* A flow from t's block to the root's; tells of the group on t's side if it is less than 2. */
-static thr_status separate_from(network *w, const thr_groups_call *call, int t, int root, int *added, thr_err *err)
+static thr_status separate_from(network *w, thr_relax *relax, int t, int root, int *added, thr_err *err)
 {
   double total = 0;
   int reached = 0, n = 0;
@@ -181,21 +234,22 @@ static thr_status separate_from(network *w, const thr_groups_call *call, int t, 
   for (int i = 0; i < reached; i++) {
     int v = w->queue[i];
     do {
-      if (v < call->c->f->n_edges) w->list[n++] = v;
+      if (v < relax->c->f->n_edges) w->list[n++] = v;
       v = w->next[v];
     } while (v != w->queue[i]);
   }
-  return call->add(call->user, w->list, n, added, err);
+  return add_group(relax, w->list, n, added, err);
 }
 
-thr_status thr_groups_flow(const thr_groups_call *call, int *added, thr_err *err)
+thr_status thr_groups_exact(void *user, int *added, thr_err *err)
 {
+  thr_relax *relax = user;
   enum { ENOUGH = 100 };
-  const thr_turning_columns *turning_columns = call->c;
+  const thr_turning_columns *turning_columns = relax->c;
   network w;
   int m = turning_columns->f->n_edges;
   int *root = thr_calloc((size_t)turning_columns->n_components, sizeof *root);
-  thr_status st = network_init(&w, call, err);
+  thr_status st = network_init(&w, relax, err);
   if (!st && !root) st = thr_nomem(err);
   for (int k = 0; k < w.m && !st; k += 2)
     if (w.capacity[k] >= 2 - tolerance) merge(&w, w.to[k], w.to[k + 1]);
@@ -206,7 +260,7 @@ thr_status thr_groups_flow(const thr_groups_call *call, int *added, thr_err *err
     if (root[k] < 0) root[k] = e;
     int from = thr_disjoint_find(w.block, e), to = thr_disjoint_find(w.block, root[k]);
     if (from == to) continue;
-    st = separate_from(&w, call, from, to, added, err);
+    st = separate_from(&w, relax, from, to, added, err);
     merge(&w, from, to);
   }
   network_destroy(&w);

@@ -8,23 +8,16 @@
 #ifndef THR_GROUPS_H
 #define THR_GROUPS_H
 
-#include "graph/plan/turning_proof.h"
 #include "graph/status.h"
 
-/* add is told of each group found (n edges); *added grows if it was violated and used. */
-typedef struct {
-  const thr_turning_columns *c;
-  const double *x; /* [n_columns] */
-  thr_status (*add)(void *user, const int *edge, int n, int *added, thr_err *err);
-  void *user;
-} thr_groups_call;
-
-/* Connected components of the edges under turns with x > threshold. O(columns). *added grows by the groups used. */
-thr_status thr_groups_support(const thr_groups_call *call, double threshold, int *added, thr_err *err) THR_MUST_CHECK;
+/* Separators, of a thr_relax whose cords hang together. Connected components of the edges under turns with x > 0; under turns
+ * with more, which is asked for step by step. O(columns) each. */
+thr_status thr_groups_apart(void *relax, int *added, thr_err *err) THR_MUST_CHECK;
+thr_status thr_groups_loose(void *relax, int *added, thr_err *err) THR_MUST_CHECK;
 
 /* Exact: from a root in every component (its ends, or its first edge) a flow of 2 to every edge, which is then merged with the
  * root, so that a group that any flow misses separates two edges already on one side. Groups of less than 2 are the violated
  * ones. One flow per edge, each of few augmentations because the amounts are few multiples of 1/2, 1/3, .. */
-thr_status thr_groups_flow(const thr_groups_call *call, int *added, thr_err *err) THR_MUST_CHECK;
+thr_status thr_groups_exact(void *relax, int *added, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -3,6 +3,7 @@
 #include "graph/framework/frame.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/status.h"
+#include "lp/model/pool.h"
 #include "tortuosity/proof/relax.h"
 
 #include <math.h>
@@ -84,6 +85,18 @@ static thr_status find_worst(int d, const double *between, int *block, int *n_bl
   return st;
 }
 
+/* Adds the row of a node's blocks, 0 .. n - 1, if x violates it. */
+static thr_status add_junction(thr_relax *relax, int v, int *block, int n, int *added, thr_err *err)
+{
+  const thr_turning_columns *turning_columns = relax->c;
+  const int *half = turning_columns->f->half + turning_columns->f->first[v], d = thr_degree(turning_columns->f, v);
+  for (int a = 0; a < d; a++)
+    for (int b = a + 1; b < d; b++)
+      if (block[a] != block[b]) thr_pool_put(&relax->search.pool, thr_turning_column(turning_columns, half[a], half[b]), 1);
+  const thr_row row = {.kind = THR_RELAX_JUNCTION, .index = v, .lower = n - 1, .member = block, .n_members = d};
+  return thr_pool_offer(&relax->search.pool, row, relax->x, 1e-6, added, err);
+}
+
 thr_status thr_junctions_separate(void *user, int *added, thr_err *err)
 {
   thr_relax *relax = user;
@@ -102,7 +115,7 @@ thr_status thr_junctions_separate(void *user, int *added, thr_err *err)
         between[i * d + k] =
             relax->x[thr_turning_column(turning_columns, frame->half[frame->first[v] + i], frame->half[frame->first[v] + k])];
     if (d > 1) st = find_worst(d, between, block, &blocks, err);
-    if (!st && blocks > 1) st = thr_relax_add_junction(relax, v, block, blocks, added, err);
+    if (!st && blocks > 1) st = add_junction(relax, v, block, blocks, added, err);
   }
   free(between);
   free(block);

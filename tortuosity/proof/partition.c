@@ -4,6 +4,7 @@
 #include "graph/framework/frame.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/threading/pairing.h"
+#include "lp/model/pool.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -124,6 +125,40 @@ static int by_regret(const void *pa, const void *pb)
   return (a->node > b->node) - (a->node < b->node);
 }
 
+/* Puts the coefficients of the row; returns how much less it asks for than the connections to make. even is scratch. */
+static double put_partition(thr_relax *relax, const int *block, bool *even)
+{
+  const thr_turning_columns *turning_columns = relax->c;
+  const thr_frame *frame = turning_columns->f;
+  double less = 0;
+  for (int v = 0; v < frame->n_nodes; v++) {
+    const int *half = frame->half + frame->first[v];
+    int odd, b = thr_turning_blocks_at(turning_columns, block, v, &odd, even);
+    if (b < 2) continue;
+    double share = (b - 1.0) / b;
+    less += share / 2 * odd;
+    for (int i = 0; i < thr_degree(frame, v); i++) {
+      for (int j = i + 1; j < thr_degree(frame, v); j++)
+        if (block[half[i] >> 1] != block[half[j] >> 1])
+          thr_pool_put(&relax->search.pool, thr_turning_column(turning_columns, half[i], half[j]), share);
+      if (even[i]) thr_pool_put(&relax->search.pool, turning_columns->first_extra + (half[i] >> 1), share / 2);
+    }
+  }
+  return less;
+}
+
+/* Adds the row of a partition (block as in graph/plan/turning_proof.h, which needs so many connections) if x violates it. */
+static thr_status add_partition(thr_relax *relax, int *block, int connections, int *added, thr_err *err)
+{
+  bool *even = thr_calloc((size_t)relax->c->f->n_edges, sizeof *even);
+  if (!even) return thr_nomem(err);
+  double lower = connections - put_partition(relax, block, even);
+  const thr_row row = {.kind = THR_RELAX_PARTITION, .lower = lower, .member = block, .n_members = relax->c->f->n_edges};
+  thr_status st = thr_pool_offer(&relax->search.pool, row, relax->x, 1e-4, added, err);
+  free(even);
+  return st;
+}
+
 /* Numbers the blocks and offers them as a row. false in *more when so few need not be connected. */
 static thr_status offer(splitter *s, int *added, bool *more, thr_err *err)
 {
@@ -132,7 +167,7 @@ static thr_status offer(splitter *s, int *added, bool *more, thr_err *err)
     s->block[e] = thr_disjoint_find(s->parent, e) == e ? n++ : s->block[thr_disjoint_find(s->parent, e)];
   int connections = thr_turning_connections(s->r->c, s->block, s->scratch);
   *more = connections > 0;
-  return *more ? thr_relax_add_partition(s->r, s->block, connections, added, err) : THR_OK;
+  return *more ? add_partition(s->r, s->block, connections, added, err) : THR_OK;
 }
 
 static void make_whole(splitter *s, int v)

@@ -1,19 +1,14 @@
 /* Rows, separation and multipliers of the turning relaxation. */
 #include "tortuosity/proof/relax.h"
 #include "graph/framework/frame.h"
-#include "graph/sort.h"
 #include "lp/model/pool.h"
 #include "lp/model/search.h"
 #include "lp/solver/lp.h"
-#include "tortuosity/proof/column_groups.h"
-#include "tortuosity/proof/partition.h"
 #include "tortuosity/proof/project.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const double tolerance = 1e-6;
 
 /* The first column of the programme. */
 static int first_column(const thr_relax *relax)
@@ -82,139 +77,6 @@ thr_status thr_relax_set(thr_relax *relax, int column, int low, int high, thr_er
   return thr_lp_set_bounds(relax->search.lp, column - first_column(relax), low, unbounded ? (double)INFINITY : high, err);
 }
 
-/* ---- rows ---- */
-
-/* Odd sets that x violates: by moats, or without thresholds exactly. */
-static thr_status find_odd(thr_relax *relax, const double *threshold, int n, int *added, thr_err *err)
-{
-  const double *x = relax->search.x;
-  if (!relax->any_odd) return THR_OK; /* all sets are even */
-  return thr_oddcut_separate(&relax->graph, x, relax->reduced + first_column(relax), threshold, n, x, &relax->search.pool, added,
-                             err);
-}
-
-thr_status thr_relax_odd(void *relax, int *added, thr_err *err)
-{
-  static const double threshold[] = {1e-6, 0.2, 0.35, 0.51, 0.7};
-  return find_odd(relax, threshold, 5, added, err);
-}
-
-thr_status thr_relax_odd_exactly(void *relax, int *added, thr_err *err)
-{
-  return find_odd(relax, NULL, 0, added, err);
-}
-
-/* ---- groups ---- */
-
-/* Puts the columns that leave the edges of a group, which are marked. */
-static void put_crossing(thr_relax *relax, const int *edge, int n, const bool *inside)
-{
-  const thr_turning_columns *turning_columns = relax->c;
-  const thr_frame *frame = turning_columns->f;
-  for (int k = 0; k < 2 * n; k++) {
-    int h = 2 * edge[k / 2] + k % 2, v = thr_tail(frame, h);
-    for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
-      if (!inside[frame->half[i] >> 1])
-        thr_pool_put(&relax->search.pool, thr_turning_column(turning_columns, h, frame->half[i]), 1);
-    if (turning_columns->end_column[h] >= 0) thr_pool_put(&relax->search.pool, turning_columns->end_column[h], 1);
-  }
-}
-
-/* Adds the group's row if x violates it and it is new. */
-static thr_status add_group(void *user, const int *edge, int n, int *added, thr_err *err)
-{
-  thr_relax *relax = user;
-  bool *inside = thr_calloc((size_t)relax->c->f->n_edges, sizeof *inside);
-  int *group = thr_calloc((size_t)n, sizeof *group);
-  thr_status st = inside && group ? THR_OK : thr_nomem(err);
-  for (int i = 0; i < n && !st; i++)
-    inside[group[i] = edge[i]] = true;
-  if (!st) {
-    thr_sort_ints(group, (size_t)n);
-    put_crossing(relax, group, n, inside);
-    const thr_row row = {.kind = THR_RELAX_GROUP, .lower = 2, .member = group, .n_members = n};
-    st = thr_pool_offer(&relax->search.pool, row, relax->x, tolerance, added, err);
-  }
-  free(inside);
-  free(group);
-  return st;
-}
-
-static thr_groups_call groups_of(thr_relax *relax)
-{
-  return (thr_groups_call){relax->c, relax->x, add_group, relax};
-}
-
-static thr_status find_groups(void *user, int *added, thr_err *err)
-{
-  const thr_groups_call groups = groups_of(user);
-  return thr_groups_support(&groups, tolerance, added, err);
-}
-
-/* Of turns that are made more than a little. */
-static thr_status find_thick_groups(void *user, int *added, thr_err *err)
-{
-  const thr_groups_call groups = groups_of(user);
-  thr_status st = THR_OK;
-  for (double threshold = 0.2; !st && !*added && threshold < 1; threshold += 0.25)
-    st = thr_groups_support(&groups, threshold, added, err);
-  return st;
-}
-
-static thr_status find_groups_exactly(void *user, int *added, thr_err *err)
-{
-  const thr_groups_call groups = groups_of(user);
-  return thr_groups_flow(&groups, added, err);
-}
-
-/* ---- partitions ---- */
-
-/* Puts the coefficients of the row; returns how much less it asks for than the connections to make. even is scratch. */
-static double put_partition(thr_relax *relax, const int *block, bool *even)
-{
-  const thr_turning_columns *turning_columns = relax->c;
-  const thr_frame *frame = turning_columns->f;
-  double less = 0;
-  for (int v = 0; v < frame->n_nodes; v++) {
-    const int *half = frame->half + frame->first[v];
-    int odd, b = thr_turning_blocks_at(turning_columns, block, v, &odd, even);
-    if (b < 2) continue;
-    double share = (b - 1.0) / b;
-    less += share / 2 * odd;
-    for (int i = 0; i < thr_degree(frame, v); i++) {
-      for (int j = i + 1; j < thr_degree(frame, v); j++)
-        if (block[half[i] >> 1] != block[half[j] >> 1])
-          thr_pool_put(&relax->search.pool, thr_turning_column(turning_columns, half[i], half[j]), share);
-      if (even[i]) thr_pool_put(&relax->search.pool, turning_columns->first_extra + (half[i] >> 1), share / 2);
-    }
-  }
-  return less;
-}
-
-thr_status thr_relax_add_partition(thr_relax *relax, int *block, int connections, int *added, thr_err *err)
-{
-  bool *even = thr_calloc((size_t)relax->c->f->n_edges, sizeof *even);
-  if (!even) return thr_nomem(err);
-  double lower = connections - put_partition(relax, block, even);
-  const thr_row row = {.kind = THR_RELAX_PARTITION, .lower = lower, .member = block, .n_members = relax->c->f->n_edges};
-  thr_status st = thr_pool_offer(&relax->search.pool, row, relax->x, 1e-4, added, err);
-  free(even);
-  return st;
-}
-
-/* ---- junctions ---- */
-
-thr_status thr_relax_add_junction(thr_relax *relax, int v, int *block, int n, int *added, thr_err *err)
-{
-  const thr_turning_columns *turning_columns = relax->c;
-  const int *half = turning_columns->f->half + turning_columns->f->first[v], d = thr_degree(turning_columns->f, v);
-  for (int a = 0; a < d; a++)
-    for (int b = a + 1; b < d; b++)
-      if (block[a] != block[b]) thr_pool_put(&relax->search.pool, thr_turning_column(turning_columns, half[a], half[b]), 1);
-  const thr_row row = {.kind = THR_RELAX_JUNCTION, .index = v, .lower = n - 1, .member = block, .n_members = d};
-  return thr_pool_offer(&relax->search.pool, row, relax->x, tolerance, added, err);
-}
-
 /* ---- the search ---- */
 
 /* What the equations leave of the costs. */
@@ -247,30 +109,6 @@ void thr_relax_look(thr_relax *relax)
 
 /* ---- all ---- */
 
-static void use(thr_relax *relax, thr_status (*find)(void *, int *, thr_err *), bool fallback, bool slow)
-{
-  thr_search_use(&relax->search, (thr_separator){.find = find, .user = relax, .fallback = fallback, .slow = slow});
-}
-
-/* With tube joints tied nodes connect all; of closed cords several need not. */
-static void use_separators(thr_relax *relax)
-{
-  const thr_turning_task *turning_task = relax->c->task;
-  bool groups = !turning_task->tube && (turning_task->end_allowed || turning_task->cords == 1);
-  if (relax->projected) {
-    use(relax, thr_project_ends, false, false);
-    use(relax, thr_project_sides, false, false);
-  } else if (turning_task->tube) {
-    use(relax, thr_junctions_separate, false, false);
-  }
-  if (groups) use(relax, find_groups, false, false);
-  use(relax, thr_relax_odd, false, false);
-  if (!turning_task->end_allowed && !turning_task->tube) use(relax, thr_partitions_separate, true, false);
-  if (groups) use(relax, find_thick_groups, true, false);
-  if (groups) use(relax, find_groups_exactly, true, true);
-  use(relax, thr_relax_odd_exactly, true, true);
-}
-
 thr_status thr_relax_init(thr_relax *relax, const thr_turning_columns *turning_columns, bool projected, double penalty,
                           const thr_limits *limits, thr_err *err)
 {
@@ -293,7 +131,12 @@ thr_status thr_relax_init(thr_relax *relax, const thr_turning_columns *turning_c
   if (!st && !projected) st = thr_relax_crash(relax, limits, err);
   if (!st) st = projected ? thr_project_graph(relax, err) : init_graph(relax, err);
   if (!st && !projected) st = add_node_sets(relax, err);
-  if (!st) use_separators(relax);
+  relax->odd = (thr_oddcuts){.graph = &relax->graph,
+                             .x = relax->search.x,
+                             .reduced_cost = relax->reduced + first_column(relax),
+                             .point = relax->search.x,
+                             .threshold = {1e-6, 0.2, 0.35, 0.51, 0.7},
+                             .pool = &relax->search.pool};
   if (st) thr_relax_destroy(relax);
   return st;
 }

@@ -40,6 +40,7 @@ typedef struct {
   bool any_odd;              /* is there an odd set at all? */
   thr_tjoin_problem problem; /* the graph whose nodes are half-edges and ends, whose edges are columns */
   thr_oddcut_graph graph;
+  thr_oddcuts odd;
   double *reduced; /* [n_columns] costs that the rows leave */
 } thr_relax;
 
@@ -68,18 +69,7 @@ thr_status thr_relax_create(thr_relax *relax, double penalty, thr_err *err) THR_
  * slack basis would need as many pivots for as there are rows. Where the limits stop it the basis is a worse one. */
 thr_status thr_relax_crash(thr_relax *relax, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
 
-/* Adds the row of a node's blocks (copied; n of them, 0 .. n - 1) if x violates it. */
-thr_status thr_relax_add_junction(thr_relax *relax, int v, int *block, int n, int *added, thr_err *err) THR_MUST_CHECK;
-
 /* A separator, of a thr_relax, in tortuosity/proof/junctions.c: of every node the junction row that x violates most. */
 thr_status thr_junctions_separate(void *relax, int *added, thr_err *err) THR_MUST_CHECK;
-
-/* Adds the row of a partition (block as in graph/plan/turning_proof.h, copied, which needs so many connections) if x violates it
- * and it is new. */
-thr_status thr_relax_add_partition(thr_relax *relax, int *block, int connections, int *added, thr_err *err) THR_MUST_CHECK;
-
-/* Separators, of a thr_relax: odd sets that moats find, or that are found exactly. */
-thr_status thr_relax_odd(void *relax, int *added, thr_err *err) THR_MUST_CHECK;
-thr_status thr_relax_odd_exactly(void *relax, int *added, thr_err *err) THR_MUST_CHECK;
 
 #endif
