@@ -1,4 +1,4 @@
-/* Pairing at nodes, and joining circuits by exchanging pairs (Kotzig 1968). */
+/* Pairing at nodes, joining circuits by exchanging pairs (Kotzig 1968), and pairs from walks. */
 #include "graph/threading/transition.h"
 #include "graph/disjoint.h"
 #include "graph/plan/plan.h"
@@ -163,4 +163,44 @@ done:
   free(parent);
   free(moved);
   return st;
+}
+
+void thr_transition_join_equal(const thr_multigraph *multigraph, const int *circuit, int *parent, int *mate)
+{
+  for (int d = 0; d + 2 < multigraph->n_darts; d += 2) {
+    if (multigraph->half[d] < 0 || multigraph->half[d] != multigraph->half[d + 2] ||
+        !thr_disjoint_join(parent, circuit[d], circuit[d + 2]))
+      continue;
+    int a = mate[d], b = mate[d + 2];
+    thr_set_pair(mate, d, b);
+    thr_set_pair(mate, d + 2, a);
+  }
+}
+
+/* ---- from walks ---- */
+
+void thr_transition_copies(const thr_frame *frame, const thr_multigraph *multigraph, int *next)
+{
+  for (int d = multigraph->n_darts - 2; d >= 0; d -= 2)
+    next[multigraph->half[d] >= 0 ? multigraph->half[d] >> 1 : frame->n_edges + multigraph->tail[d]] = d;
+}
+
+/* The next number is taken. */
+static int take(int *next, int i)
+{
+  next[i] += 2;
+  return next[i] - 2;
+}
+
+void thr_transition_walk(const thr_frame *frame, const thr_multigraph *multigraph, const int *half, int n, bool open, int *next,
+                         int *mate)
+{
+  int first = -1, last = open ? take(next, frame->n_edges + thr_tail(frame, half[0])) : -1;
+  for (int i = 0; i < n; i++) {
+    int copy = take(next, half[i] >> 1), d = multigraph->half[copy] == half[i] ? copy : copy ^ 1;
+    if (first < 0) first = d;
+    if (last >= 0) thr_set_pair(mate, last, d);
+    last = d ^ 1;
+  }
+  thr_set_pair(mate, last, open ? take(next, frame->n_edges + thr_head(frame, half[n - 1])) : first);
 }

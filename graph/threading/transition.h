@@ -24,6 +24,16 @@ thr_status thr_transition_pair(const thr_frame *frame, const thr_multigraph *mul
  * if both new pairings had one, an old pair would have been one. O(p log p) a round for p pairs of pairs, few rounds. */
 thr_status thr_transition_join(const thr_frame *frame, const thr_multigraph *multigraph, int *mate, thr_err *err) THR_MUST_CHECK;
 
+/* Where two passes of one edge are in different sets of circuits, exchanges their partners at one node, which joins the sets: the
+ * same turns, fewer circuits. circuit[n_darts], which parent's disjoint sets are of. Near-linear. */
+void thr_transition_join_equal(const thr_multigraph *multigraph, const int *circuit, int *parent, int *mate);
+
+/* The other way round: pairs as walks run, the passes of each being the next copies of their edges; the ends of an open one are
+ * the next virtual edges at its nodes. next[n_edges + n_nodes]: their first darts, as thr_transition_copies says. Linear. */
+void thr_transition_copies(const thr_frame *frame, const thr_multigraph *multigraph, int *next);
+void thr_transition_walk(const thr_frame *frame, const thr_multigraph *multigraph, const int *half, int n, bool open, int *next,
+                         int *mate);
+
 /* The cord from dart start on, until it comes back there or ends (mate < 0): its darts into out, room for n_darts / 2, *count how
  * many. Linear. */
 void thr_transition_trace(const int *mate, int start, int *out, int *count);

@@ -432,6 +432,67 @@ START_TEST(spliced_walks_keep_their_passes_and_count_their_turns)
 }
 END_TEST
 
+static double price_of_all(const thr_frame *f, const threading *t)
+{
+  double sum = 0;
+  for (int v = 0; v < f->n_nodes; v++)
+    sum += price_at(f, t, v);
+  return sum;
+}
+
+/* Circuits as walks, and as pairs again, of copies in another order. */
+START_TEST(circuits_as_walks_and_walks_as_circuits)
+{
+  rng r = rng_make((uint64_t)_i + 1500);
+  thr_frame f = random_frame(&r, rng_between(&r, 3, 12), rng_below(&r, 16), LENGTHS_EUCLID);
+  int *passes = even_passes(&r, &f, rng_between(&r, 1, 3), NULL), *next = constant(f.n_edges, 0);
+  threading t = thread_make(&f, passes, NULL, 0);
+  int wanted = count_circuits(&t);
+  thr_walks w = {0}, again = {0};
+  double price = price_of_all(&f, &t);
+  ck_assert_int_eq(thr_walks_follow(&w, &f, &t.g, t.mate, NULL), THR_OK);
+  ck_assert_int_eq(w.n_walks, wanted);
+  assert_closed_walks(&f, &w, passes);
+  thr_transition_copies(&f, &t.g, next);
+  for (int i = w.n_walks - 1; i >= 0; i--)
+    thr_transition_walk(&f, &t.g, w.walk[i].half, w.walk[i].n, false, next, t.mate);
+  assert_pairing(&t);
+  ck_assert_int_eq(count_circuits(&t), wanted);
+  ck_assert_double_eq_tol(price_of_all(&f, &t), price, 1e-6);
+  ck_assert_int_eq(thr_walks_follow(&again, &f, &t.g, t.mate, NULL), THR_OK);
+  assert_closed_walks(&f, &again, passes);
+  thr_walks_destroy(&w);
+  thr_walks_destroy(&again);
+  thread_destroy(&t);
+  thr_frame_destroy(&f);
+  free(passes);
+  free(next);
+}
+END_TEST
+
+/* Two passes of each edge round a ring, as two circuits: one afterwards, with the same turns. */
+START_TEST(equal_passes_join_their_circuits)
+{
+  thr_frame f = ring_make(7);
+  int *passes = constant(7, 2), circuit[28], parent[28], next[7];
+  const int ring[] = {0, 2, 4, 6, 8, 10, 12};
+  threading t = thread_make(&f, passes, NULL, 0);
+  thr_transition_copies(&f, &t.g, next);
+  for (int i = 0; i < 2; i++)
+    thr_transition_walk(&f, &t.g, ring, 7, false, next, t.mate);
+  ck_assert_int_eq(count_circuits(&t), 2);
+  double price = price_of_all(&f, &t);
+  for (int k = thr_threading_label(&t.g, t.mate, circuit) - 1; k >= 0; k--)
+    parent[k] = k;
+  thr_transition_join_equal(&t.g, circuit, parent, t.mate);
+  ck_assert_int_eq(count_circuits(&t), 1);
+  ck_assert_double_eq_tol(price_of_all(&f, &t), price, 1e-9);
+  thread_destroy(&t);
+  thr_frame_destroy(&f);
+  free(passes);
+}
+END_TEST
+
 /* ---- cords ---- */
 
 static void assert_uses_all(const thr_frame *f, const int *passes, const thr_cord *cord, int n)
@@ -573,6 +634,8 @@ int main(void)
   ADD_TEST(s, 10, octahedron_pairs_straight_then_joins);
   ADD_LOOP(s, 10, exchanges_do_what_they_say, 0, 100);
   ADD_LOOP(s, 10, spliced_walks_keep_their_passes_and_count_their_turns, 0, 100);
+  ADD_LOOP(s, 10, circuits_as_walks_and_walks_as_circuits, 0, 100);
+  ADD_TEST(s, 10, equal_passes_join_their_circuits);
   ADD_LOOP(s, 10, open_cord_runs_from_end_to_end, 0, 50);
   ADD_LOOP(s, 10, closed_cord_starts_where_told_or_at_a_foot, 0, 50);
   ADD_TEST(s, 10, odd_passes_are_refused);

@@ -2,6 +2,7 @@
 #include "tortuosity/cords/join.h"
 #include "graph/disjoint.h"
 #include "graph/framework/frame.h"
+#include "graph/threading/transition.h"
 #include "tortuosity/tie/tie.h"
 
 #include <math.h>
@@ -120,20 +121,6 @@ static void pair_columns(thr_join *j, const int *x, stock *s)
   }
 }
 
-/* Equal passes change their partners at one node if that joins two circuits: same turns, fewer circuits. */
-static void join_equal_passes(thr_join *j, const int *cord, int *parent)
-{
-  thr_multigraph *multigraph = &j->g;
-  for (int d = 0; d + 2 < multigraph->n_darts; d += 2) {
-    if (multigraph->half[d] < 0 || multigraph->half[d] != multigraph->half[d + 2] ||
-        !thr_disjoint_join(parent, cord[d], cord[d + 2]))
-      continue;
-    int a = j->mate[d], b = j->mate[d + 2];
-    thr_set_pair(j->mate, d, b);
-    thr_set_pair(j->mate, d + 2, a);
-  }
-}
-
 /* The open cords of a component are one set, and every closed one is its own: joins them over equal passes. Is a component one
  * set then? first: [n_components] scratch. */
 static bool join_all(thr_join *j, const int *cord, int n_cords, int *parent, int *first)
@@ -153,7 +140,7 @@ static bool join_all(thr_join *j, const int *cord, int n_cords, int *parent, int
     else if (j->g.half[d] < 0) /* virtual ones have the highest numbers */
       thr_disjoint_join(parent, *f, cord[d]);
   }
-  join_equal_passes(j, cord, parent);
+  thr_transition_join_equal(&j->g, cord, parent, j->mate);
   for (int d = 0; d < j->g.n_darts && single; d++)
     if (j->g.tail[d] < turning_columns->f->n_nodes)
       single = thr_disjoint_find(parent, cord[d]) == thr_disjoint_find(parent, first[turning_columns->component[j->g.tail[d]]]);
@@ -216,64 +203,29 @@ thr_status thr_join_tie(thr_join *j, const thr_turning_columns *turning_columns,
 
 /* ---- from cords ---- */
 
-/* Takes the next free copy of an edge (or virtual edge at a node) and gives the dart that runs along half-edge h. */
-static int next_copy(const thr_multigraph *multigraph, int *cursor, int h)
-{
-  int d = cursor[h >> 1];
-  cursor[h >> 1] += 2;
-  return multigraph->half[d] == h ? d : d ^ 1;
-}
-
-/* first_copy[e] = first dart of edge e; after the edges, of the virtual edges at node v. */
-static void find_copies(const thr_join *j, int *first_copy)
-{
-  int m = j->c->f->n_edges;
-  for (int d = j->g.n_darts - 2; d >= 0; d -= 2)
-    first_copy[j->g.half[d] >= 0 ? j->g.half[d] >> 1 : m + j->g.tail[d]] = d;
-}
-
-static void pair_cord(thr_join *j, const thr_cord *cord, int *cursor)
-{
-  const thr_frame *frame = j->c->f;
-  bool open = j->c->task->end_allowed != NULL;
-  int first = -1, last = -1;
-  if (open) {
-    int *from = &cursor[frame->n_edges + thr_tail(frame, cord->half[0])];
-    last = *from;
-    *from += 2;
-  }
-  for (int i = 0; i < cord->n_passes; i++) {
-    int d = next_copy(&j->g, cursor, cord->half[i]);
-    if (first < 0) first = d;
-    if (last >= 0) thr_set_pair(j->mate, last, d);
-    last = d ^ 1;
-  }
-  thr_set_pair(j->mate, last, open ? cursor[frame->n_edges + thr_head(frame, cord->half[cord->n_passes - 1])] : first);
-  if (open) cursor[frame->n_edges + thr_head(frame, cord->half[cord->n_passes - 1])] += 2;
-}
-
 thr_status thr_join_from_cords(thr_join *j, const thr_turning_columns *turning_columns, const thr_cord *cord, int n_cords,
                                thr_err *err)
 {
   const thr_frame *frame = turning_columns->f;
   size_t m = (size_t)frame->n_edges, n = (size_t)frame->n_nodes;
-  int *count = thr_calloc(m + n, sizeof *count), *cursor = thr_calloc(m + n, sizeof *cursor);
-  thr_status st = count && cursor ? THR_OK : thr_nomem(err);
+  const bool open = turning_columns->task->end_allowed != NULL;
+  int *count = thr_calloc(m + n, sizeof *count), *next = thr_calloc(m + n, sizeof *next);
+  thr_status st = count && next ? THR_OK : thr_nomem(err);
   for (int i = 0; i < n_cords && !st; i++) {
     for (int k = 0; k < cord[i].n_passes; k++)
       count[cord[i].half[k] >> 1]++;
-    if (!turning_columns->task->end_allowed) continue;
+    if (!open) continue;
     count[m + (size_t)thr_cord_start(frame, &cord[i])]++;
     count[m + (size_t)thr_cord_end(frame, &cord[i])]++;
   }
   if (!st) st = thr_join_init(j, turning_columns, count, count + m, err);
   if (!st) {
-    find_copies(j, cursor);
+    thr_transition_copies(frame, &j->g, next);
     for (int i = 0; i < n_cords; i++)
-      pair_cord(j, &cord[i], cursor);
+      thr_transition_walk(frame, &j->g, cord[i].half, cord[i].n_passes, open, next, j->mate);
     thr_join_measure(j);
   }
   free(count);
-  free(cursor);
+  free(next);
   return st;
 }

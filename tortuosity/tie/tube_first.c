@@ -3,10 +3,11 @@
  * circuits and changes no turn; so there is one circuit. It may be opened once at every node, because a ring
  * without one turn is a path; more closed cords run around a short circuit. */
 #include "tortuosity/tie/tube_first.h"
-#include "graph/disjoint.h"
 #include "graph/framework/frame.h"
 #include "graph/threading/multigraph.h"
 #include "graph/threading/splice.h"
+#include "graph/threading/threading.h"
+#include "graph/threading/transition.h"
 #include "graph/threading/walks.h"
 #include "lp/length/ways.h"
 
@@ -73,37 +74,23 @@ static void pair_in_rings(first *x)
     int n = multigraph->first[v + 1] - multigraph->first[v];
     for (int i = 1; i < n; i += 2) {
       int next = (i - 1 + x->passes) % n;
-      x->mate[dart[i]] = dart[next];
-      x->mate[dart[next]] = dart[i];
+      thr_set_pair(x->mate, dart[i], dart[next]);
     }
   }
 }
 
-static void exchange(int *mate, int a, int b)
-{
-  int behind_a = mate[a], behind_b = mate[b];
-  mate[a] = behind_b;
-  mate[behind_b] = a;
-  mate[b] = behind_a;
-  mate[behind_a] = b;
-}
-
 static thr_status join_circuits(first *x, thr_err *err)
 {
-  const thr_multigraph *multigraph = &x->g;
-  int copies = multigraph->n_darts / 2, *circuit = thr_calloc((size_t)copies, sizeof *circuit);
-  if (!circuit) return thr_nomem(err);
-  for (int c = 0; c < copies; c++)
-    circuit[c] = c;
-  for (int d = 0; d < multigraph->n_darts; d++)
-    thr_disjoint_join(circuit, d / 2, x->mate[d] / 2);
-  for (int v = 0; v < multigraph->n_nodes; v++)
-    for (int i = multigraph->first[v]; i + 1 < multigraph->first[v + 1]; i++) {
-      int a = multigraph->dart[i], b = multigraph->dart[i + 1];
-      if (multigraph->half[a] == multigraph->half[b] && thr_disjoint_join(circuit, a / 2, b / 2)) exchange(x->mate, a, b);
-    }
+  int *circuit = thr_calloc((size_t)x->g.n_darts, sizeof *circuit), *parent = thr_calloc((size_t)x->g.n_darts, sizeof *parent);
+  thr_status st = circuit && parent ? THR_OK : thr_nomem(err);
+  if (!st) {
+    for (int k = thr_threading_label(&x->g, x->mate, circuit) - 1; k >= 0; k--)
+      parent[k] = k;
+    thr_transition_join_equal(&x->g, circuit, parent, x->mate);
+  }
   free(circuit);
-  return THR_OK;
+  free(parent);
+  return st;
 }
 
 /* ---- more closed cords ---- */
