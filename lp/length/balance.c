@@ -8,9 +8,9 @@
 #include <string.h>
 
 enum {
-  STEPS_PER_PASS = 300, /* what the search may cost */
-  STEPS_LEAST = 300000, /* small ones get this much */
-  PARTNERS = 12         /* shorter walks that a walk is compared with while it cannot be made shorter otherwise */
+  STEPS_PER_PASS = 1200, /* what the search may cost without getting anywhere */
+  STEPS_LEAST = 300000,  /* small ones get this much */
+  PARTNERS = 12          /* shorter walks that a walk is compared with while it cannot be made shorter otherwise */
 };
 
 static bool stop(const thr_balance *balance)
@@ -89,7 +89,8 @@ static thr_status exchange_with_shorter(thr_balance *balance, const ranked *orde
   return *made ? thr_balance_make(balance, p, with, &best, err) : st;
 }
 
-/* Every walk exchanges with shorter ones, again and again. */
+/* Every walk exchanges with shorter ones, again and again: each exchange takes a part of what is too much, so that they come to
+ * an end, and is worth going on for as long again. */
 static thr_status sweep(thr_balance *balance, ranked *order, thr_err *err)
 {
   thr_status st = THR_OK;
@@ -100,6 +101,7 @@ static thr_status sweep(thr_balance *balance, ranked *order, thr_err *err)
       bool made;
       st = exchange_with_shorter(balance, order, order[i].walk, &made, err);
       any |= made;
+      if (made) balance->steps = balance->budget;
       if (made) break; /* the order is no longer right */
     }
   }
@@ -155,7 +157,7 @@ thr_status thr_balance_walks(thr_share *share, double goal, thr_err *err)
   for (int i = 0; i < walks->n_walks; i++)
     all += walks->walk[i].n;
   thr_balance balance = {.s = share, .goal = goal, .random = 1};
-  balance.steps = STEPS_LEAST + STEPS_PER_PASS * all;
+  balance.steps = balance.budget = STEPS_LEAST + STEPS_PER_PASS * all;
   balance.first = thr_calloc(n, sizeof *balance.first);
   ranked *order = thr_calloc((size_t)walks->n_walks, sizeof *order);
   thr_junction_graphs ties = {0};

@@ -19,7 +19,7 @@ typedef struct {
   thr_junction_graphs *ties; /* tube joints: of these walks, which every change leaves tied; else NULL */
   double goal;               /* shorter than this the longest need not be */
   uint64_t random;           /* state */
-  int64_t steps;             /* left; what a search costs */
+  int64_t steps, budget;     /* left; what a search may cost that does not get the longest walk down */
   int *first;                /* [n_nodes] -1 between uses */
   int room;                  /* of merged */
   int *merged;               /* [passes of the two walks] of an exchange between cyclic walks */
@@ -28,7 +28,8 @@ typedef struct {
 
 /* Exchanges until no walk is longer than goal, none helps, or the limits stop it. Passes change
  * where cords take detours. With tube joints the walks tie all nodes before and after. Work in proportion
- * to passes, at most some hundred times as much. The same input gives the same walks. Failure (THR_ENOMEM) leaves valid walks. */
+ * to passes, some thousand times as much, from every exchange on. The same input gives the same walks. Failure (THR_ENOMEM)
+ * leaves valid walks. */
 thr_status thr_balance_walks(thr_share *share, double goal, thr_err *err) THR_MUST_CHECK;
 
 /* ---- internal to lp/balance*.c ---- */
