@@ -21,7 +21,7 @@ thr_status thr_tree_init(thr_tree *t, int n_columns, const int *least, const int
   t->low = t->most + n;
   t->high = t->low + n;
   for (size_t j = 0; j < n; j++) {
-    t->least[j] = t->low[j] = least[j];
+    t->least[j] = t->low[j] = least ? least[j] : 0;
     t->most[j] = t->high[j] = most[j];
   }
   t->node[t->n_nodes++] = (thr_tree_node){.parent = -1, .bound = -INFINITY, .proof = -1};

@@ -54,7 +54,7 @@ typedef struct {
   thr_status (*solve)(void *user, int node, thr_tree_branch *branch, thr_err *err);
 } thr_tree_calls;
 
-/* With the root alone, of bound -INFINITY. least, most: [n_columns] bounds in force everywhere; copied. */
+/* With the root alone, of bound -INFINITY. least, most: [n_columns] bounds in force everywhere; copied. least NULL: all 0. */
 thr_status thr_tree_init(thr_tree *t, int n_columns, const int *least, const int *most, thr_err *err) THR_MUST_CHECK;
 void thr_tree_destroy(thr_tree *t);
 

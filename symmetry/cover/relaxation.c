@@ -1,5 +1,6 @@
 /* Rows and separation of the programme of a symmetric cover. */
 #include "symmetry/cover/relaxation.h"
+#include "graph/scratch.h"
 #include "lp/model/pool.h"
 #include "lp/model/search.h"
 #include "lp/model/tree.h"
@@ -36,11 +37,13 @@ thr_status thr_relaxation_add_violated(thr_relaxation *relaxation, double lower,
 static thr_status create_equations(thr_relaxation *relaxation, thr_err *err)
 {
   const thr_programme *p = relaxation->p;
+  thr_scratch own = {0};
   int darts = p->q->n_darts, n = 0;
-  int columns = p->n + relaxation->extra, *start = thr_calloc((size_t)columns + 1, sizeof *start),
-      *row = thr_calloc(2 * (size_t)p->n, sizeof *row);
-  double *value = thr_calloc(2 * (size_t)p->n, sizeof *value), *rhs = thr_calloc((size_t)darts, sizeof *rhs);
-  thr_status st = start && row && value && rhs ? THR_OK : thr_nomem(err);
+  int columns = p->n + relaxation->extra, *start = thr_scratch_array(&own, (size_t)columns + 1, sizeof *start),
+      *row = thr_scratch_array(&own, 2 * (size_t)p->n, sizeof *row);
+  double *value = thr_scratch_array(&own, 2 * (size_t)p->n, sizeof *value),
+         *rhs = thr_scratch_array(&own, (size_t)darts, sizeof *rhs);
+  thr_status st = thr_scratch_check(&own, err);
   for (int j = 0; j < p->n && !st; j++) {
     const int *d = p->join[j];
     double sign = j < p->first_pair ? 1 : -1;
@@ -58,10 +61,7 @@ static thr_status create_equations(thr_relaxation *relaxation, thr_err *err)
   for (int j = p->n; j < columns && !st; j++)
     start[j + 1] = n;
   if (!st) st = thr_lp_create_equations(&relaxation->search.lp, darts, rhs, columns, relaxation->x, NULL, start, row, value, err);
-  free(start);
-  free(row);
-  free(value);
-  free(rhs);
+  thr_scratch_free(&own);
   for (int j = 0; j < p->n && !st; j++)
     st = thr_lp_set_bounds(relaxation->search.lp, j, p->least[j], p->most[j] < 0 ? (double)INFINITY : p->most[j], err);
   return st;
@@ -287,9 +287,11 @@ static thr_status find_connected(void *user, int *added, thr_err *err)
   const thr_quotient *quotient = p->q;
   thr_programme_parts programme_parts = {0};
   thr_status st = thr_programme_parts_init(&programme_parts, p, err);
-  int *support = thr_calloc((size_t)p->n, sizeof *support), *copy = thr_calloc((size_t)quotient->n_darts, sizeof *copy);
-  bool *inside = thr_calloc((size_t)quotient->n_darts, sizeof *inside);
-  if (!support || !copy || !inside) st = thr_nomem(err);
+  thr_scratch own = {0};
+  int *support = thr_scratch_array(&own, (size_t)p->n, sizeof *support),
+      *copy = thr_scratch_array(&own, (size_t)quotient->n_darts, sizeof *copy);
+  bool *inside = thr_scratch_array(&own, (size_t)quotient->n_darts, sizeof *inside);
+  if (!st) st = thr_scratch_check(&own, err);
   for (int j = 0; j < p->n && !st; j++)
     support[j] = relaxation->x[j] > tolerance;
   if (!st) {
@@ -312,9 +314,7 @@ static thr_status find_connected(void *user, int *added, thr_err *err)
     }
   }
   thr_programme_parts_destroy(&programme_parts);
-  free(support);
-  free(copy);
-  free(inside);
+  thr_scratch_free(&own);
   return st;
 }
 

@@ -1,6 +1,7 @@
 /* Lower bounds on turning, cell by cell. */
 #include "symmetry/cover/turning_bound.h"
 #include "graph/plan/request.h"
+#include "graph/scratch.h"
 #include "lp/model/pool.h"
 #include "lp/model/search.h"
 #include "lp/solver/lp.h"
@@ -134,26 +135,8 @@ typedef struct {
   /* one cell's programme; room for the largest */
   int *start, *row;
   double *value, *cost, *rhs, *dual;
+  thr_scratch own; /* the arrays */
 } master;
-
-static void master_destroy(master *m)
-{
-  free(m->type);
-  free(m->first_type);
-  free(m->pair);
-  free(m->first_pair);
-  free(m->place);
-  free(m->used);
-  free(m->shift);
-  free(m->first);
-  free(m->copy);
-  free(m->start);
-  free(m->row);
-  free(m->value);
-  free(m->cost);
-  free(m->rhs);
-  free(m->dual);
-}
 
 /* Lists members by number, in[i] = -1: not at all. Those of number k: list[first[k] .. first[k + 1] - 1]; first[n + 2] is zero */
 static void bucket(int count, const int *in, int n, int *first, int *list)
@@ -171,16 +154,14 @@ static thr_status list_cells(master *m, thr_err *err)
   const thr_programme *p = m->c->whole;
   size_t darts = (size_t)p->q->n_darts, pairs = (size_t)p->q->n_pairs;
   int *number = thr_calloc(darts, sizeof *number), *cell = thr_calloc(pairs, sizeof *cell);
-  m->type = thr_calloc(darts, sizeof *m->type);
-  m->pair = thr_calloc(pairs, sizeof *m->pair);
-  m->place = thr_calloc(darts, sizeof *m->place);
-  m->used = thr_calloc(darts, sizeof *m->used);
-  m->shift = thr_calloc(darts, sizeof *m->shift);
-  m->first_type = thr_calloc(darts + 2, sizeof *m->first_type);
-  m->first_pair = thr_calloc(darts + 2, sizeof *m->first_pair);
-  thr_status st = number && cell && m->type && m->pair && m->place && m->used && m->shift && m->first_type && m->first_pair
-                      ? THR_OK
-                      : thr_nomem(err);
+  m->type = thr_scratch_array(&m->own, darts, sizeof *m->type);
+  m->pair = thr_scratch_array(&m->own, pairs, sizeof *m->pair);
+  m->place = thr_scratch_array(&m->own, darts, sizeof *m->place);
+  m->used = thr_scratch_array(&m->own, darts, sizeof *m->used);
+  m->shift = thr_scratch_array(&m->own, darts, sizeof *m->shift);
+  m->first_type = thr_scratch_array(&m->own, darts + 2, sizeof *m->first_type);
+  m->first_pair = thr_scratch_array(&m->own, darts + 2, sizeof *m->first_pair);
+  thr_status st = number && cell ? thr_scratch_check(&m->own, err) : thr_nomem(err);
   for (int d = 0; d < p->q->n_darts && !st; d++)
     number[d] = m->c->keep[m->c->root[d]] ? -1 : m->c->root[d] == d ? m->n++ : number[m->c->root[d]];
   for (int y = 0; y < p->q->n_pairs && !st; y++)
@@ -202,9 +183,9 @@ static thr_status list_copies(master *m, thr_err *err)
   const thr_quotient *quotient = m->c->whole->q;
   size_t both = 2 * (size_t)quotient->n_copies;
   int *in = thr_calloc(both, sizeof *in);
-  m->first = thr_calloc((size_t)quotient->n_darts + 2, sizeof *m->first);
-  m->copy = thr_calloc(both, sizeof *m->copy);
-  thr_status st = in && m->first && m->copy ? THR_OK : thr_nomem(err);
+  m->first = thr_scratch_array(&m->own, (size_t)quotient->n_darts + 2, sizeof *m->first);
+  m->copy = thr_scratch_array(&m->own, both, sizeof *m->copy);
+  thr_status st = in ? thr_scratch_check(&m->own, err) : thr_nomem(err);
   for (int k = 0; k < 2 * quotient->n_copies && !st; k++)
     in[k] = quotient->copy[k / 2].dart[k % 2]; /* a fold's second is -1 */
   if (!st) bucket(2 * quotient->n_copies, in, quotient->n_darts, m->first, m->copy);
@@ -221,13 +202,13 @@ static thr_status make_room(master *m, thr_err *err)
     if (types + 2 > rows) rows = types + 2;
     if (pairs + types + 2 * (types + 2) > columns) columns = pairs + types + 2 * (types + 2);
   }
-  m->start = thr_calloc(columns + 1, sizeof *m->start);
-  m->row = thr_calloc(2 * columns, sizeof *m->row);
-  m->value = thr_calloc(2 * columns, sizeof *m->value);
-  m->cost = thr_calloc(columns, sizeof *m->cost);
-  m->rhs = thr_calloc(rows, sizeof *m->rhs);
-  m->dual = thr_calloc(rows, sizeof *m->dual);
-  return m->start && m->row && m->value && m->cost && m->rhs && m->dual ? THR_OK : thr_nomem(err);
+  m->start = thr_scratch_array(&m->own, columns + 1, sizeof *m->start);
+  m->row = thr_scratch_array(&m->own, 2 * columns, sizeof *m->row);
+  m->value = thr_scratch_array(&m->own, 2 * columns, sizeof *m->value);
+  m->cost = thr_scratch_array(&m->own, columns, sizeof *m->cost);
+  m->rhs = thr_scratch_array(&m->own, rows, sizeof *m->rhs);
+  m->dual = thr_scratch_array(&m->own, rows, sizeof *m->dual);
+  return thr_scratch_check(&m->own, err);
 }
 
 /* Costs of the contraction's programme: kept cells' turns, and what the others cost. */
@@ -532,6 +513,6 @@ thr_status thr_turning_bound(const thr_contraction *contraction, thr_relaxation 
   if (!st) st = add_first_cuts(&m, cover, solved, err);
   if (!st) st = raise_bound(&m, err);
   *bound = m.bound;
-  master_destroy(&m);
+  thr_scratch_free(&m.own);
   return st;
 }

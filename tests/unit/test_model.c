@@ -114,10 +114,10 @@ static thr_status solve_by_least(void *user, int node, thr_tree_branch *branch, 
 
 static void search_init(search *s, const covering *c)
 {
-  static const int least[COLUMNS], most[COLUMNS] = {MOST, MOST, MOST, MOST, MOST};
+  static const int most[COLUMNS] = {MOST, MOST, MOST, MOST, MOST};
   *s = (search){.c = c};
   memcpy(s->high, most, sizeof most);
-  ck_assert_int_eq(thr_tree_init(&s->tree, COLUMNS, least, most, NULL), THR_OK);
+  ck_assert_int_eq(thr_tree_init(&s->tree, COLUMNS, NULL, most, NULL), THR_OK);
 }
 
 START_TEST(the_tree_finds_the_least_of_all_points)

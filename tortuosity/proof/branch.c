@@ -164,14 +164,10 @@ static thr_status climb(thr_branch *branch, int root, thr_err *err)
 
 static thr_status init_tree(thr_branch *branch, thr_err *err)
 {
-  size_t n = (size_t)branch->c->n_columns;
-  int *least = thr_calloc(n, sizeof *least);
-  if (!least) return thr_nomem(err);
-  for (size_t k = 0; k < n; k++)
-    branch->whole[k] = thr_turning_most(branch->c, (int)k);
-  thr_status st = thr_tree_init(&branch->tree, branch->c->n_columns, least, branch->whole, err);
+  for (int k = 0; k < branch->c->n_columns; k++)
+    branch->whole[k] = thr_turning_most(branch->c, k);
+  thr_status st = thr_tree_init(&branch->tree, branch->c->n_columns, NULL, branch->whole, err);
   branch->tree.most_nodes = branch->most_nodes;
-  free(least);
   return st;
 }
 

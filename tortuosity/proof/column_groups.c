@@ -3,6 +3,7 @@
 #include "graph/disjoint.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/turning_proof.h"
+#include "graph/scratch.h"
 #include "graph/sort.h"
 #include "lp/model/pool.h"
 #include "tortuosity/proof/relax.h"
@@ -46,9 +47,10 @@ static void put_crossing(thr_relax *relax, const int *edge, int n, const bool *i
 /* Adds the group's row if x violates it and it is new. */
 static thr_status add_group(thr_relax *relax, const int *edge, int n, int *added, thr_err *err)
 {
-  bool *inside = thr_calloc((size_t)relax->c->f->n_edges, sizeof *inside);
-  int *group = thr_calloc((size_t)n, sizeof *group);
-  thr_status st = inside && group ? THR_OK : thr_nomem(err);
+  thr_scratch own = {0};
+  bool *inside = thr_scratch_array(&own, (size_t)relax->c->f->n_edges, sizeof *inside);
+  int *group = thr_scratch_array(&own, (size_t)n, sizeof *group);
+  thr_status st = thr_scratch_check(&own, err);
   for (int i = 0; i < n && !st; i++)
     inside[group[i] = edge[i]] = true;
   if (!st) {
@@ -57,8 +59,7 @@ static thr_status add_group(thr_relax *relax, const int *edge, int n, int *added
     const thr_row row = {.kind = THR_RELAX_GROUP, .lower = 2, .member = group, .n_members = n};
     st = thr_pool_offer(&relax->search.pool, row, relax->x, tolerance, added, err);
   }
-  free(inside);
-  free(group);
+  thr_scratch_free(&own);
   return st;
 }
 
@@ -69,9 +70,12 @@ static thr_status find_groups(thr_relax *relax, double threshold, int *added, th
 {
   const thr_turning_columns *turning_columns = relax->c;
   int m = turning_columns->f->n_edges, n = m + turning_columns->n_components, a, b;
-  int *parent = thr_calloc((size_t)n, sizeof *parent), *start = thr_calloc((size_t)n + 2, sizeof *start);
-  int *list = thr_calloc((size_t)m, sizeof *list), *pieces = thr_calloc((size_t)turning_columns->n_components, sizeof *pieces);
-  thr_status st = parent && start && list && pieces ? THR_OK : thr_nomem(err);
+  thr_scratch own = {0};
+  int *parent = thr_scratch_array(&own, (size_t)n, sizeof *parent),
+      *start = thr_scratch_array(&own, (size_t)n + 2, sizeof *start);
+  int *list = thr_scratch_array(&own, (size_t)m, sizeof *list),
+      *pieces = thr_scratch_array(&own, (size_t)turning_columns->n_components, sizeof *pieces);
+  thr_status st = thr_scratch_check(&own, err);
   for (int v = 0; v < n && !st; v++)
     parent[v] = v;
   for (int j = 0; j < turning_columns->first_back && !st; j++)
@@ -92,10 +96,7 @@ static thr_status find_groups(thr_relax *relax, double threshold, int *added, th
     if (thr_disjoint_find(parent, e) != e || alone) continue;
     st = add_group(relax, list + start[e], start[e + 1] - start[e], added, err);
   }
-  free(parent);
-  free(start);
-  free(list);
-  free(pieces);
+  thr_scratch_free(&own);
   return st;
 }
 
@@ -122,21 +123,8 @@ typedef struct {
   int *next;  /* circular list of the nodes of a block */
   int *by, *queue;
   int *list;
+  thr_scratch own; /* the arrays */
 } network;
-
-static void network_destroy(network *w)
-{
-  free(w->first);
-  free(w->arc);
-  free(w->to);
-  free(w->capacity);
-  free(w->flow);
-  free(w->block);
-  free(w->next);
-  free(w->by);
-  free(w->queue);
-  free(w->list);
-}
 
 static thr_status network_init(network *w, const thr_relax *relax, thr_err *err)
 {
@@ -146,18 +134,17 @@ static thr_status network_init(network *w, const thr_relax *relax, thr_err *err)
     links += joins(turning_columns, j, &a, &b) && relax->x[j] > 1e-9;
   *w = (network){.n = turning_columns->f->n_edges + turning_columns->n_components, .m = 2 * links};
   size_t n = (size_t)w->n, m = (size_t)w->m;
-  w->first = thr_calloc(n + 2, sizeof *w->first);
-  w->arc = thr_calloc(m, sizeof *w->arc);
-  w->to = thr_calloc(m, sizeof *w->to);
-  w->capacity = thr_calloc(m, sizeof *w->capacity);
-  w->flow = thr_calloc(m, sizeof *w->flow);
-  w->block = thr_calloc(n, sizeof *w->block);
-  w->next = thr_calloc(n, sizeof *w->next);
-  w->by = thr_calloc(n, sizeof *w->by);
-  w->queue = thr_calloc(n, sizeof *w->queue);
-  w->list = thr_calloc(n, sizeof *w->list);
-  if (!w->first || !w->arc || !w->to || !w->capacity || !w->flow || !w->block || !w->next || !w->by || !w->queue || !w->list)
-    return thr_nomem(err);
+  w->first = thr_scratch_array(&w->own, n + 2, sizeof *w->first);
+  w->arc = thr_scratch_array(&w->own, m, sizeof *w->arc);
+  w->to = thr_scratch_array(&w->own, m, sizeof *w->to);
+  w->capacity = thr_scratch_array(&w->own, m, sizeof *w->capacity);
+  w->flow = thr_scratch_array(&w->own, m, sizeof *w->flow);
+  w->block = thr_scratch_array(&w->own, n, sizeof *w->block);
+  w->next = thr_scratch_array(&w->own, n, sizeof *w->next);
+  w->by = thr_scratch_array(&w->own, n, sizeof *w->by);
+  w->queue = thr_scratch_array(&w->own, n, sizeof *w->queue);
+  w->list = thr_scratch_array(&w->own, n, sizeof *w->list);
+  if (thr_scratch_check(&w->own, err)) return THR_ENOMEM;
   for (int j = 0, k = 0; j < turning_columns->first_back; j++) {
     if (!joins(turning_columns, j, &a, &b) || relax->x[j] <= 1e-9) continue;
     w->to[k] = b;
@@ -248,9 +235,9 @@ thr_status thr_groups_exact(void *user, int *added, thr_err *err)
   const thr_turning_columns *turning_columns = relax->c;
   network w;
   int m = turning_columns->f->n_edges;
-  int *root = thr_calloc((size_t)turning_columns->n_components, sizeof *root);
   thr_status st = network_init(&w, relax, err);
-  if (!st && !root) st = thr_nomem(err);
+  int *root = thr_scratch_array(&w.own, (size_t)turning_columns->n_components, sizeof *root);
+  if (!st) st = thr_scratch_check(&w.own, err);
   for (int k = 0; k < w.m && !st; k += 2)
     if (w.capacity[k] >= 2 - tolerance) merge(&w, w.to[k], w.to[k + 1]);
   for (int k = 0; k < turning_columns->n_components && !st; k++)
@@ -263,7 +250,6 @@ thr_status thr_groups_exact(void *user, int *added, thr_err *err)
     st = separate_from(&w, relax, from, to, added, err);
     merge(&w, from, to);
   }
-  network_destroy(&w);
-  free(root);
+  thr_scratch_free(&w.own);
   return st;
 }

@@ -2,6 +2,7 @@
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/turning_proof.h"
+#include "graph/scratch.h"
 #include "graph/status.h"
 #include "lp/solver/lp.h"
 #include "tortuosity/proof/relax.h"
@@ -13,6 +14,7 @@
 typedef struct {
   int n, *start, *row;
   double *value, *cost, *rhs;
+  thr_scratch own; /* the arrays */
 } matrix;
 
 static void put(matrix *m, int row, double value)
@@ -49,28 +51,16 @@ static void fill_matrix(const thr_relax *relax, double penalty, matrix *m)
     m->rhs[i] = turning_columns->supply[i - darts][0];
 }
 
-static void matrix_destroy(matrix *m)
-{
-  free(m->start);
-  free(m->row);
-  free(m->value);
-  free(m->cost);
-  free(m->rhs);
-}
-
 static thr_status matrix_init(matrix *m, const thr_relax *relax, double penalty, thr_err *err)
 {
   size_t n = (size_t)relax->n_all, entries = 3 * (size_t)relax->c->n_columns + 2 * (size_t)relax->search.n_fixed;
   *m = (matrix){0};
-  m->start = thr_calloc(n + 1, sizeof *m->start);
-  m->row = thr_calloc(entries, sizeof *m->row);
-  m->value = thr_calloc(entries, sizeof *m->value);
-  m->cost = thr_calloc(n, sizeof *m->cost);
-  m->rhs = thr_calloc((size_t)relax->search.n_fixed, sizeof *m->rhs);
-  if (!m->start || !m->row || !m->value || !m->cost || !m->rhs) {
-    matrix_destroy(m);
-    return thr_nomem(err);
-  }
+  m->start = thr_scratch_array(&m->own, n + 1, sizeof *m->start);
+  m->row = thr_scratch_array(&m->own, entries, sizeof *m->row);
+  m->value = thr_scratch_array(&m->own, entries, sizeof *m->value);
+  m->cost = thr_scratch_array(&m->own, n, sizeof *m->cost);
+  m->rhs = thr_scratch_array(&m->own, (size_t)relax->search.n_fixed, sizeof *m->rhs);
+  if (thr_scratch_check(&m->own, err)) return THR_ENOMEM;
   fill_matrix(relax, penalty, m);
   return THR_OK;
 }
@@ -79,10 +69,10 @@ thr_status thr_relax_create(thr_relax *relax, double penalty, thr_err *err)
 {
   matrix m;
   thr_status st = matrix_init(&m, relax, penalty, err);
-  if (st) return st;
-  st = thr_lp_create_equations(&relax->search.lp, relax->search.n_fixed, m.rhs, relax->n_all, m.cost, NULL, m.start, m.row,
-                               m.value, err);
-  matrix_destroy(&m);
+  if (!st)
+    st = thr_lp_create_equations(&relax->search.lp, relax->search.n_fixed, m.rhs, relax->n_all, m.cost, NULL, m.start, m.row,
+                                 m.value, err);
+  thr_scratch_free(&m.own);
   return st;
 }
 
@@ -95,14 +85,6 @@ typedef struct {
   int *back;                      /* [2 * n_edges] column of the U-turn at a half-edge, else 0 */
 } crash;
 
-static void crash_destroy(crash *k)
-{
-  matrix_destroy(&k->m);
-  free(k->row_basic);
-  free(k->column_basic);
-  free(k->back);
-}
-
 static thr_status crash_init(crash *k, const thr_relax *relax, thr_err *err)
 {
   const thr_turning_columns *turning_columns = relax->c;
@@ -111,16 +93,15 @@ static thr_status crash_init(crash *k, const thr_relax *relax, thr_err *err)
     if ((size_t)thr_degree(turning_columns->f, v) > most) most = (size_t)thr_degree(turning_columns->f, v);
   turns = most * most;
   *k = (crash){.r = relax};
-  k->m.start = thr_calloc(turns + 1, sizeof *k->m.start);
-  k->m.row = thr_calloc(2 * turns, sizeof *k->m.row);
-  k->m.value = thr_calloc(2 * turns, sizeof *k->m.value);
-  k->m.cost = thr_calloc(turns, sizeof *k->m.cost);
-  k->m.rhs = thr_calloc(most, sizeof *k->m.rhs);
-  k->row_basic = thr_calloc((size_t)thr_lp_rows(relax->search.lp), sizeof *k->row_basic);
-  k->column_basic = thr_calloc((size_t)relax->n_all, sizeof *k->column_basic);
-  k->back = thr_calloc(2 * (size_t)turning_columns->f->n_edges, sizeof *k->back);
-  if (!k->m.start || !k->m.row || !k->m.value || !k->m.cost || !k->m.rhs || !k->row_basic || !k->column_basic || !k->back)
-    return thr_nomem(err);
+  k->m.start = thr_scratch_array(&k->m.own, turns + 1, sizeof *k->m.start);
+  k->m.row = thr_scratch_array(&k->m.own, 2 * turns, sizeof *k->m.row);
+  k->m.value = thr_scratch_array(&k->m.own, 2 * turns, sizeof *k->m.value);
+  k->m.cost = thr_scratch_array(&k->m.own, turns, sizeof *k->m.cost);
+  k->m.rhs = thr_scratch_array(&k->m.own, most, sizeof *k->m.rhs);
+  k->row_basic = thr_scratch_array(&k->m.own, (size_t)thr_lp_rows(relax->search.lp), sizeof *k->row_basic);
+  k->column_basic = thr_scratch_array(&k->m.own, (size_t)relax->n_all, sizeof *k->column_basic);
+  k->back = thr_scratch_array(&k->m.own, 2 * (size_t)turning_columns->f->n_edges, sizeof *k->back);
+  if (thr_scratch_check(&k->m.own, err)) return THR_ENOMEM;
   for (int j = turning_columns->first_back; j < turning_columns->n_columns; j++)
     k->back[turning_columns->half[j][0]] = j;
   return THR_OK;
@@ -175,6 +156,6 @@ thr_status thr_relax_crash(thr_relax *relax, const thr_limits *limits, thr_err *
       k.row_basic[i] = true;
   if (!st) st = thr_lp_set_basis(relax->search.lp, k.row_basic, k.column_basic, err);
   relax->search.bare = true;
-  crash_destroy(&k);
+  thr_scratch_free(&k.m.own);
   return st;
 }

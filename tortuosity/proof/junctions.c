@@ -2,6 +2,7 @@
 #include "graph/disjoint.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/turning_proof.h"
+#include "graph/scratch.h"
 #include "graph/status.h"
 #include "lp/model/pool.h"
 #include "tortuosity/proof/relax.h"
@@ -72,16 +73,16 @@ static void judge_parts(star *s, double threshold)
 static thr_status find_worst(int d, const double *between, int *block, int *n_blocks, thr_err *err)
 {
   static const double threshold[] = {1e-6, 0.2, 0.35, 0.51, 0.7, 0.99, INFINITY}; /* the last: single edges */
+  thr_scratch own = {0};
   star s = {.d = d, .between = between, .worst = block, .violation = 1e-6};
-  s.block = thr_calloc((size_t)d, sizeof *s.block);
-  s.parent = thr_calloc((size_t)d, sizeof *s.parent);
-  thr_status st = s.block && s.parent ? THR_OK : thr_nomem(err);
+  s.block = thr_scratch_array(&own, (size_t)d, sizeof *s.block);
+  s.parent = thr_scratch_array(&own, (size_t)d, sizeof *s.parent);
+  thr_status st = thr_scratch_check(&own, err);
   if (!st && d <= ENUMERATED) divide(&s, 0, 0, 0);
   for (size_t i = 0; i < sizeof threshold / sizeof *threshold && d > ENUMERATED && !st; i++)
     judge_parts(&s, threshold[i]);
   *n_blocks = s.worst_blocks;
-  free(s.block);
-  free(s.parent);
+  thr_scratch_free(&own);
   return st;
 }
 

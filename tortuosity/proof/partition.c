@@ -3,6 +3,7 @@
 #include "graph/disjoint.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/turning_proof.h"
+#include "graph/scratch.h"
 #include "graph/threading/pairing.h"
 #include "lp/model/pool.h"
 
@@ -28,20 +29,8 @@ typedef struct {
   int *scratch;     /* [n_edges + n_components] */
   int (*pair)[2];   /* edges that the chosen pairings join, node by node */
   int *pair_first;  /* [n_nodes + 1] */
+  thr_scratch own;  /* the arrays */
 } splitter;
-
-static void splitter_destroy(splitter *s)
-{
-  free(s->price);
-  free(s->half);
-  free(s->mate);
-  free(s->order);
-  free(s->parent);
-  free(s->block);
-  free(s->scratch);
-  free(s->pair);
-  free(s->pair_first);
-}
 
 static int passes_of(const thr_relax *relax, int half)
 {
@@ -61,17 +50,16 @@ static thr_status splitter_init(splitter *s, thr_relax *relax, thr_err *err)
     all += (size_t)passes / 2;
   }
   size_t k = (size_t)s->most;
-  s->price = thr_calloc(k * k, sizeof *s->price);
-  s->half = thr_calloc(k, sizeof *s->half);
-  s->mate = thr_calloc(k, sizeof *s->mate);
-  s->order = thr_calloc(n, sizeof *s->order);
-  s->parent = thr_calloc(m, sizeof *s->parent);
-  s->block = thr_calloc(m, sizeof *s->block);
-  s->scratch = thr_calloc(m + (size_t)relax->c->n_components, sizeof *s->scratch);
-  s->pair = thr_calloc(all, sizeof *s->pair);
-  s->pair_first = thr_calloc(n + 1, sizeof *s->pair_first);
-  bool ok = s->price && s->half && s->mate && s->order && s->parent && s->block && s->scratch && s->pair && s->pair_first;
-  return ok ? THR_OK : thr_nomem(err);
+  s->price = thr_scratch_array(&s->own, k * k, sizeof *s->price);
+  s->half = thr_scratch_array(&s->own, k, sizeof *s->half);
+  s->mate = thr_scratch_array(&s->own, k, sizeof *s->mate);
+  s->order = thr_scratch_array(&s->own, n, sizeof *s->order);
+  s->parent = thr_scratch_array(&s->own, m, sizeof *s->parent);
+  s->block = thr_scratch_array(&s->own, m, sizeof *s->block);
+  s->scratch = thr_scratch_array(&s->own, m + (size_t)relax->c->n_components, sizeof *s->scratch);
+  s->pair = thr_scratch_array(&s->own, all, sizeof *s->pair);
+  s->pair_first = thr_scratch_array(&s->own, n + 1, sizeof *s->pair_first);
+  return thr_scratch_check(&s->own, err);
 }
 
 /* What the cheapest exchange of two pairs costs. */
@@ -212,6 +200,6 @@ thr_status thr_partitions_separate(void *user, int *added, thr_err *err)
       st = pair_node(&s, v, by_point, err);
     if (!st) st = go_through(&s, added, err);
   }
-  splitter_destroy(&s);
+  thr_scratch_free(&s.own);
   return st;
 }
