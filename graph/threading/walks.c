@@ -23,12 +23,25 @@ double thr_walk_length(const thr_frame *frame, const int *half, int n)
   return sum;
 }
 
-double thr_walks_longest(const thr_walks *walks)
+double thr_walks_length(const thr_walks *walks)
 {
-  double most = 0;
+  double sum = 0;
   for (int i = 0; i < walks->n_walks; i++)
-    most = walks->walk[i].length > most ? walks->walk[i].length : most;
-  return most;
+    sum += walks->walk[i].length;
+  return sum;
+}
+
+int thr_walks_longest(const thr_walks *walks)
+{
+  int best = 0;
+  for (int i = 1; i < walks->n_walks; i++)
+    if (walks->walk[i].length > walks->walk[best].length) best = i;
+  return best;
+}
+
+double thr_walks_most(const thr_walks *walks)
+{
+  return walks->n_walks > 0 ? walks->walk[thr_walks_longest(walks)].length : 0;
 }
 
 thr_status thr_walks_add(thr_walks *walks, const thr_frame *frame, thr_walk walk, thr_err *err)

@@ -44,8 +44,10 @@ void thr_walks_count(const thr_walks *walks, int *passes);
 
 double thr_walk_length(const thr_frame *frame, const int *half, int n);
 
-/* Of the longest walk; 0 if there are none. */
-double thr_walks_longest(const thr_walks *walks);
+/* Of all walks; the number of the longest, the first of equals, and its length, 0 if there are none. */
+double thr_walks_length(const thr_walks *walks);
+int thr_walks_longest(const thr_walks *walks);
+double thr_walks_most(const thr_walks *walks);
 
 /* The node before pass number at; with at = n, after the last one. */
 int thr_walk_node(const thr_frame *frame, const thr_walk *w, int at);

@@ -18,25 +18,14 @@ static bool stop(const thr_balance *balance)
   return balance->steps <= 0 || thr_limits_stop(balance->s->limits);
 }
 
-static int longest(const thr_walks *walks)
-{
-  int best = 0;
-  for (int i = 1; i < walks->n_walks; i++)
-    if (walks->walk[i].length > walks->walk[best].length) best = i;
-  return best;
-}
-
 static double mean(const thr_walks *walks)
 {
-  double sum = 0;
-  for (int i = 0; i < walks->n_walks; i++)
-    sum += walks->walk[i].length;
-  return sum / walks->n_walks;
+  return thr_walks_length(walks) / walks->n_walks;
 }
 
 static bool done(const thr_balance *balance)
 {
-  double most = balance->s->walks.walk[longest(&balance->s->walks)].length;
+  double most = thr_walks_most(&balance->s->walks);
   return most <= balance->goal || most <= mean(&balance->s->walks) * (1 + 1e-12);
 }
 
@@ -71,12 +60,12 @@ static void rank(const thr_walks *walks, ranked *order)
 /* The best exchange of walk p with a shorter one; two tries with cyclic ones, which meet at a random node. */
 static thr_status exchange_with_shorter(thr_balance *balance, const ranked *order, int p, bool *made, thr_err *err)
 {
-  thr_exchange best = {.longer = worth(balance, balance->s->walks.walk[p].length)};
+  thr_balance_exchange best = {.longer = worth(balance, balance->s->walks.walk[p].length)};
   int with = -1, tries = balance->s->walks.walk[p].cyclic ? 2 : 1;
   thr_status st = THR_OK;
   for (int k = balance->s->walks.n_walks - 1; k >= 0 && order[k].walk != p && !st && balance->steps > 0; k--)
     for (int t = 0; t < tries && !st; t++) {
-      thr_exchange x;
+      thr_balance_exchange x;
       int q = order[k].walk;
       if (balance->s->walks.walk[p].cyclic && with >= 0) continue; /* only the last one found is at hand */
       st = thr_balance_find(balance, p, q, &x, err);
@@ -134,14 +123,14 @@ static thr_status search(thr_balance *balance, ranked *order, thr_err *err)
   enum { IN_VAIN = 24, STUCK = 20 };
   thr_status st = sweep(balance, order, err);
   for (int vain = 0, stuck = 0; stuck < STUCK && !st && !stop(balance) && !done(balance);) {
-    double most = balance->s->walks.walk[longest(&balance->s->walks)].length;
+    double most = thr_walks_most(&balance->s->walks);
     bool made = false;
     rank(&balance->s->walks, order);
     if (vain == IN_VAIN) st = detour(balance, order, &made, err);
     if (vain == IN_VAIN) stuck += !made;
     if (!made && !st) st = shuffle(balance, order, err);
     if (!st) st = sweep(balance, order, err);
-    bool better = balance->s->walks.walk[longest(&balance->s->walks)].length < worth(balance, most);
+    bool better = thr_walks_most(&balance->s->walks) < worth(balance, most);
     vain = better || vain == IN_VAIN ? 0 : vain + 1;
     if (better) stuck = 0;
   }

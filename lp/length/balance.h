@@ -36,27 +36,27 @@ thr_status thr_balance_walks(thr_share *share, double goal, thr_err *err) THR_MU
 
 /* How two walks exchange passes at a node where both are. */
 typedef enum {
-  THR_EXCHANGE_NONE,
-  THR_EXCHANGE_TAILS,
-  THR_EXCHANGE_CROSS,
-  THR_EXCHANGE_GIVE,
-  THR_EXCHANGE_JOIN,
-  THR_EXCHANGE_SECTION
-} thr_exchange_kind;
+  THR_BALANCE_NONE,
+  THR_BALANCE_TAILS,
+  THR_BALANCE_CROSS,
+  THR_BALANCE_GIVE,
+  THR_BALANCE_JOIN,
+  THR_BALANCE_SECTION
+} thr_balance_kind;
 
 typedef struct {
-  thr_exchange_kind kind;
+  thr_balance_kind kind;
   double longer; /* length of the longer of the two afterwards; INFINITY: no exchange */
   int i, j, k;   /* positions, see balance_exchange.c */
-} thr_exchange;
+} thr_balance_exchange;
 
 enum { THR_MOST_VISITS = 32 }; /* of a node, that each of its visits is compared with: hubs are not quadratic */
 
 /* The exchange between two walks that leaves them most equal. */
-thr_status thr_balance_find(thr_balance *balance, int p, int q, thr_exchange *best, thr_err *err) THR_MUST_CHECK;
+thr_status thr_balance_find(thr_balance *balance, int p, int q, thr_balance_exchange *best, thr_err *err) THR_MUST_CHECK;
 
 /* Makes it: right after it was found. */
-thr_status thr_balance_make(thr_balance *balance, int p, int q, const thr_exchange *x, thr_err *err) THR_MUST_CHECK;
+thr_status thr_balance_make(thr_balance *balance, int p, int q, const thr_balance_exchange *x, thr_err *err) THR_MUST_CHECK;
 
 /* Turns round random closed sections of a walk: its passes and ends stay, their order changes. */
 thr_status thr_balance_shuffle(thr_balance *balance, int p, thr_err *err) THR_MUST_CHECK;

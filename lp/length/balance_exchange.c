@@ -29,7 +29,7 @@ static void put_in_row(thr_splice *splice, int from, int end)
 }
 
 /* The two walks in a row as x->k says, the first part of them x->i passes long. */
-static void put_joined(thr_splice *splice, const thr_exchange *x)
+static void put_joined(thr_splice *splice, const thr_balance_exchange *x)
 {
   for (int i = 0, done = 0; i < 2; done += splice->row[i].n, i++) {
     int n = splice->row[i].n, before = x->i - done;
@@ -44,25 +44,25 @@ static void put_joined(thr_splice *splice, const thr_exchange *x)
 }
 
 /* Exchange x of the two walks in splice. */
-static void put_exchange(thr_splice *splice, const thr_exchange *x)
+static void put_exchange(thr_splice *splice, const thr_balance_exchange *x)
 {
   int i = x->i, j = x->j, n = splice->row[0].n, m = splice->row[1].n;
   switch (x->kind) {
-  case THR_EXCHANGE_TAILS:
+  case THR_BALANCE_TAILS:
     thr_splice_put(splice, 0, 0, i, false);
     thr_splice_put(splice, 1, j, m, false);
     thr_splice_next(splice);
     thr_splice_put(splice, 1, 0, j, false);
     thr_splice_put(splice, 0, i, n, false);
     break;
-  case THR_EXCHANGE_CROSS:
+  case THR_BALANCE_CROSS:
     thr_splice_put(splice, 0, 0, i, false);
     thr_splice_put(splice, 1, 0, j, true);
     thr_splice_next(splice);
     thr_splice_put(splice, 0, i, n, true);
     thr_splice_put(splice, 1, j, m, false);
     break;
-  case THR_EXCHANGE_GIVE:
+  case THR_BALANCE_GIVE:
     thr_splice_put(splice, 0, 0, i, false);
     thr_splice_put(splice, 0, j, n, false);
     thr_splice_next(splice);
@@ -70,7 +70,7 @@ static void put_exchange(thr_splice *splice, const thr_exchange *x)
     thr_splice_put(splice, 0, i, j, false);
     thr_splice_put(splice, 1, x->k, m, false);
     break;
-  case THR_EXCHANGE_JOIN: put_joined(splice, x); break;
+  case THR_BALANCE_JOIN: put_joined(splice, x); break;
   default:
     put_in_row(splice, i, j);
     thr_splice_next(splice);
@@ -92,7 +92,8 @@ static int64_t hub_steps(const thr_balance *balance, const thr_turn_change *chan
 }
 
 /* The better of two, if the joints allow it. With joints to ask about this is what takes the time. */
-static void offer(thr_balance *balance, const thr_walk *walk, const thr_walk *q, thr_exchange x, thr_exchange *best)
+static void offer(thr_balance *balance, const thr_walk *walk, const thr_walk *q, thr_balance_exchange x,
+                  thr_balance_exchange *best)
 {
   if (x.longer >= best->longer) return;
   if (balance->ties) {
@@ -110,26 +111,26 @@ static void offer(thr_balance *balance, const thr_walk *walk, const thr_walk *q,
 
 /* TAILS: p[0, i) q[j, ..) and q[0, j) p[i, ..). CROSS: p[0, i) and q[0, j) backwards, p[i, ..) backwards and q[j, ..). */
 static void offer_tails(thr_balance *balance, const thr_walk_visits *visits, int i, const thr_walk_visits *walk_visits, int j,
-                        thr_exchange *best)
+                        thr_balance_exchange *best)
 {
   int np = visits->w->n, nq = walk_visits->w->n;
   double all = visits->sum[np] + walk_visits->sum[nq], tails = visits->sum[i] + walk_visits->sum[nq] - walk_visits->sum[j],
          cross = visits->sum[i] + walk_visits->sum[j];
   if (i + nq - j > 0 && j + np - i > 0)
-    offer(balance, visits->w, walk_visits->w, (thr_exchange){THR_EXCHANGE_TAILS, fmax(tails, all - tails), i, j, 0}, best);
+    offer(balance, visits->w, walk_visits->w, (thr_balance_exchange){THR_BALANCE_TAILS, fmax(tails, all - tails), i, j, 0}, best);
   if (i + j > 0 && np - i + nq - j > 0)
-    offer(balance, visits->w, walk_visits->w, (thr_exchange){THR_EXCHANGE_CROSS, fmax(cross, all - cross), i, j, 0}, best);
+    offer(balance, visits->w, walk_visits->w, (thr_balance_exchange){THR_BALANCE_CROSS, fmax(cross, all - cross), i, j, 0}, best);
 }
 
 /* GIVE: the closed section p[i, j) goes into walk_visits before its position k. */
 static void offer_sections(thr_balance *balance, const thr_walk_visits *visits, int j, const thr_walk_visits *walk_visits, int k,
-                           thr_exchange *best)
+                           thr_balance_exchange *best)
 {
   double all = visits->sum[visits->w->n] + walk_visits->sum[walk_visits->w->n];
   for (int i = visits->next[j], seen = 0; i >= 0 && seen < THR_MOST_VISITS; i = visits->next[i], seen++) {
     double left = visits->sum[visits->w->n] - (visits->sum[j] - visits->sum[i]);
     if (j - i < visits->w->n)
-      offer(balance, visits->w, walk_visits->w, (thr_exchange){THR_EXCHANGE_GIVE, fmax(left, all - left), i, j, k}, best);
+      offer(balance, visits->w, walk_visits->w, (thr_balance_exchange){THR_BALANCE_GIVE, fmax(left, all - left), i, j, k}, best);
   }
 }
 
@@ -144,7 +145,7 @@ static int in_row(const thr_walk_visits *visits, const thr_walk_visits *walk_vis
 
 /* JOIN: two walks with an end at one node become one there, which is cut where ends are allowed, at i. */
 static void offer_joins(thr_balance *balance, const thr_walk_visits *visits, const thr_walk_visits *walk_visits,
-                        thr_exchange *best)
+                        thr_balance_exchange *best)
 {
   const thr_frame *frame = balance->s->f;
   int np = visits->w->n, nq = walk_visits->w->n;
@@ -157,12 +158,13 @@ static void offer_joins(thr_balance *balance, const thr_walk_visits *visits, con
       if (!thr_plan_end_allowed(frame, balance->s->o, thr_walk_node(frame, which->w, i))) continue;
       double part = (which == visits ? k & 1 : k & 2) ? which->sum[which->w->n] - which->sum[i] : which->sum[i];
       if (which == walk_visits) part += visits->sum[np];
-      offer(balance, visits->w, walk_visits->w, (thr_exchange){THR_EXCHANGE_JOIN, fmax(part, all - part), at, 0, k}, best);
+      offer(balance, visits->w, walk_visits->w, (thr_balance_exchange){THR_BALANCE_JOIN, fmax(part, all - part), at, 0, k}, best);
     }
   }
 }
 
-static thr_status find_open(thr_balance *balance, const thr_walk *walk, const thr_walk *w, thr_exchange *best, thr_err *err)
+static thr_status find_open(thr_balance *balance, const thr_walk *walk, const thr_walk *w, thr_balance_exchange *best,
+                            thr_err *err)
 {
   const thr_frame *frame = balance->s->f;
   int *at_q = balance->merged; /* the last visit of q at each position of visits */
@@ -204,7 +206,8 @@ static thr_status common_visit(thr_balance *balance, const thr_walk *walk, const
 }
 
 /* SECTION: merged[i, j) and the rest. */
-static thr_status find_cyclic(thr_balance *balance, const thr_walk *walk, const thr_walk *q, thr_exchange *best, thr_err *err)
+static thr_status find_cyclic(thr_balance *balance, const thr_walk *walk, const thr_walk *q, thr_balance_exchange *best,
+                              thr_err *err)
 {
   int i, j, np = walk->n, nq = q->n;
   thr_status st = common_visit(balance, walk, q, &i, &j, err);
@@ -222,7 +225,8 @@ static thr_status find_cyclic(thr_balance *balance, const thr_walk *walk, const 
   for (j = 1; j < all.n; j++)
     for (int seen = 0, e = visits.next[j]; e >= 0 && seen < THR_MOST_VISITS; e = visits.next[e], seen++) {
       double part = visits.sum[j] - visits.sum[e];
-      offer(balance, &one, &other, (thr_exchange){THR_EXCHANGE_SECTION, fmax(part, visits.sum[all.n] - part), e, j, 0}, best);
+      offer(balance, &one, &other, (thr_balance_exchange){THR_BALANCE_SECTION, fmax(part, visits.sum[all.n] - part), e, j, 0},
+            best);
     }
   thr_walk_visits_destroy(&visits);
   return THR_OK;
@@ -239,10 +243,10 @@ static thr_status make_room(thr_balance *balance, int n, thr_err *err)
   return THR_OK;
 }
 
-thr_status thr_balance_find(thr_balance *balance, int p, int q, thr_exchange *best, thr_err *err)
+thr_status thr_balance_find(thr_balance *balance, int p, int q, thr_balance_exchange *best, thr_err *err)
 {
   const thr_walk *walk = &balance->s->walks.walk[p], *y = &balance->s->walks.walk[q];
-  *best = (thr_exchange){.longer = INFINITY};
+  *best = (thr_balance_exchange){.longer = INFINITY};
   balance->steps -= walk->n + y->n;
   thr_status st = make_room(balance, walk->n + y->n + 1, err);
   if (st) return st;
@@ -251,7 +255,7 @@ thr_status thr_balance_find(thr_balance *balance, int p, int q, thr_exchange *be
 
 /* ---- making it ---- */
 
-thr_status thr_balance_make(thr_balance *balance, int p, int q, const thr_exchange *x, thr_err *err)
+thr_status thr_balance_make(thr_balance *balance, int p, int q, const thr_balance_exchange *x, thr_err *err)
 {
   thr_walk walk = balance->s->walks.walk[p], w = balance->s->walks.walk[q];
   if (walk.cyclic) {

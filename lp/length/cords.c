@@ -231,7 +231,7 @@ static thr_status try_number(thr_share *x, void *with, int n, bool *done, thr_er
   if (g->length <= n * x->o->max_length * (1 + 1e-9)) {
     memcpy(x->passes, shortest.passes, (size_t)x->f->n_edges * sizeof *x->passes);
     st = share_out(x, n, shortest.certificate, true, x->o->max_length, err);
-    *done = !st && thr_share_within(thr_walks_longest(&x->walks), x->o->max_length);
+    *done = !st && thr_share_within(thr_walks_most(&x->walks), x->o->max_length);
   } else {
     thr_certificate swap = g->best->certificate[0];
     g->best->certificate[0] = shortest.certificate[0];
@@ -245,7 +245,7 @@ static thr_status none_found(const thr_share *x, double needed, thr_err *err)
 {
   const int most = x->o->cords;
   const char *cords = most == 1 ? "cord" : "cords", *units = x->f->units;
-  double length = x->o->max_length, found = thr_walks_longest(&x->walks);
+  double length = x->o->max_length, found = thr_walks_most(&x->walks);
   if (x->walks.n_walks == 0)
     return thr_fail(err, THR_EINFEASIBLE, "the component with node %s needs %g %s of cord: %d %s of at most %g %s are too few",
                     x->f->name[0], needed, units, most, cords, length, units);

@@ -78,31 +78,16 @@ static int section_end(const cutting *x, const thr_walk *walk, int from)
   return end;
 }
 
-static int way_length(const thr_ways *g, int v)
-{
-  int n = 0;
-  for (; g->over[v] >= 0; v = thr_tail(g->f, g->over[v]))
-    n++;
-  return n;
-}
-
-static void way_home(const thr_ways *g, int v, int *half)
-{
-  for (; g->over[v] >= 0; v = thr_tail(g->f, g->over[v]))
-    *half++ = g->over[v] ^ 1;
-}
-
 /* Passes from .. end - 1 of walk, and the ways to and from them. */
 static thr_status add_cord(cutting *x, const thr_walk *walk, int from, int end, thr_err *err)
 {
   int a = thr_walk_node(x->f, walk, from), b = thr_walk_node(x->f, walk, end);
-  int n_to = way_length(&x->home, a), n_back = way_length(&x->home, b), section = end - from;
+  int n_to = thr_ways_back(&x->home, a, -1, NULL), n_back = thr_ways_back(&x->home, b, -1, NULL), section = end - from;
   thr_walk cord = {n_to + section + n_back, NULL, 0, closed_cords(x)};
   if (!(cord.half = thr_calloc((size_t)cord.n, sizeof *cord.half))) return thr_nomem(err);
-  way_home(&x->home, a, cord.half);
-  thr_walk_reverse(cord.half, n_to);
+  thr_ways_path(&x->home, a, cord.half);
   memcpy(cord.half + n_to, walk->half + from, (size_t)section * sizeof *cord.half);
-  way_home(&x->home, b, cord.half + n_to + section);
+  thr_ways_back(&x->home, b, -1, cord.half + n_to + section);
   for (int i = 0; i < cord.n; i++)
     x->left[cord.half[i] >> 1]--;
   return thr_walks_add(&x->cords, x->f, cord, err);

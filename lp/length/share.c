@@ -212,7 +212,7 @@ static thr_status make_exact(thr_share *share, double goal, thr_err *err)
   bool certain, counts = options->ends == THR_ENDS_COUNTS;
   const int n = share->walks.n_walks;
   thr_share_ask ask = {counts ? n : options->cords_least, counts ? n : options->cords, true, INFINITY};
-  if (goal > 0 && (share->asked || thr_share_within(thr_walks_longest(&share->walks), goal))) return THR_OK;
+  if (goal > 0 && (share->asked || thr_share_within(thr_walks_most(&share->walks), goal))) return THR_OK;
   if (goal > 0) ask = (thr_share_ask){ask.least, ask.most, false, goal};
   share->asked = goal > 0;
   thr_status st = thr_share_table(share, &ask, &certain, err);

@@ -105,9 +105,7 @@ thr_status thr_share_chords(thr_share *share, int n, thr_err *err)
   bool more = true;
   thr_status st = thr_ways_init(&x, share->f, err);
   while (!st && more && walks->n_walks < n) {
-    int longest = 0;
-    for (int i = 1; i < walks->n_walks; i++)
-      if (walks->walk[i].length > walks->walk[longest].length) longest = i;
+    int longest = thr_walks_longest(walks);
     st = best_chord(&x, share, &walks->walk[longest], &best, err);
     more = best.end > best.from;
     if (!st && more)

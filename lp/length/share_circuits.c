@@ -283,12 +283,8 @@ thr_status thr_share_more(thr_share *share, int n, bool *found, thr_err *err)
         best = e;
     *found = best >= 0;
     if (!*found) return THR_OK;
-    thr_walk pair = {2, thr_calloc(2, sizeof *pair.half), 0, true};
-    if (!pair.half) return thr_nomem(err);
-    pair.half[0] = 2 * best;
-    pair.half[1] = pair.half[0] ^ 1;
     passes[best] += 2;
-    st = thr_walks_add(&share->walks, frame, pair, err);
+    st = thr_walks_copy(&share->walks, frame, (const int[]){2 * best, 2 * best + 1}, 2, true, err);
   }
   return st;
 }

@@ -7,14 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static double total(const thr_walks *walks)
-{
-  double sum = 0;
-  for (int i = 0; i < walks->n_walks; i++)
-    sum += walks->walk[i].length;
-  return sum;
-}
-
 /* The half-edges are moved. */
 static thr_status take(thr_share *share, thr_small_cords *cords, thr_err *err)
 {
@@ -41,8 +33,8 @@ thr_status thr_share_table(thr_share *share, const thr_share_ask *ask, bool *cer
 {
   const thr_walks *walks = &share->walks;
   thr_small_cords cords;
-  const thr_small_ask all = {ask->least,  ask->most, false, ask->even, ask->limit, walks->n_walks, thr_walks_longest(walks),
-                             total(walks)};
+  const thr_small_ask all = {
+      ask->least, ask->most, false, ask->even, ask->limit, walks->n_walks, thr_walks_most(walks), thr_walks_length(walks)};
   thr_status st = thr_small_cords_find(share->f, share->o, &all, share->limits, &cords, certain, err);
   if (!st && cords.n > 0) st = take(share, &cords, err);
   thr_small_cords_destroy(&cords);

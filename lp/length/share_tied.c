@@ -74,10 +74,8 @@ static thr_status best_chord(const splitting *x, chord *best, thr_err *err)
 {
   thr_walk_visits visits;
   const thr_frame *frame = x->s->f;
-  int only = -1;
   *best = (chord){.price = INFINITY};
-  for (int i = 0; i < x->s->walks.n_walks && x->even; i++)
-    if (only < 0 || x->s->walks.walk[i].length > x->s->walks.walk[only].length) only = i;
+  const int only = x->even ? thr_walks_longest(&x->s->walks) : -1;
   thr_status st = thr_walk_visits_init(&visits, frame, x->s->walks.walk, x->s->walks.n_walks, NULL, err);
   if (st) return st;
   for (int h = 0; h < 2 * frame->n_edges; h++)
@@ -173,7 +171,7 @@ static thr_status add_one(splitting *x, thr_ways *g, int n, bool *made, thr_err 
   if (!st && must_more(x, n)) st = best_circuit(x, g, &round, err);
   if (st) return st;
   bool cut = must_more(x, n) ? c.price < INFINITY && 2 * x->s->f->length[c.half >> 1] <= round.length
-                             : c.price < thr_walks_longest(&x->s->walks) * (1 - 1e-9);
+                             : c.price < thr_walks_most(&x->s->walks) * (1 - 1e-9);
   *made = cut || round.length < INFINITY;
   if (cut) return thr_share_chord(x->s, c.walk, c.from, c.end, &c.half, 1, &x->ties, err);
   return *made ? add_circuit(x, g, &round, err) : THR_OK;

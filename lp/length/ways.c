@@ -64,11 +64,17 @@ thr_status thr_ways_spread(thr_ways *x, const thr_request *options, const int *p
   return st;
 }
 
-int thr_ways_path(const thr_ways *x, int v, int *half)
+int thr_ways_back(const thr_ways *x, int v, int to, int *half)
 {
   int n = 0;
-  for (; x->over[v] >= 0; v = thr_tail(x->f, x->over[v]))
-    half[n++] = x->over[v] ^ 1;
+  for (; v != to && x->over[v] >= 0; v = thr_tail(x->f, x->over[v]), n++)
+    if (half) half[n] = x->over[v] ^ 1;
+  return n;
+}
+
+int thr_ways_path(const thr_ways *x, int v, int *half)
+{
+  int n = thr_ways_back(x, v, -1, half);
   thr_walk_reverse(half, n);
   return n;
 }

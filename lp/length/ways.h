@@ -28,6 +28,10 @@ thr_status thr_ways_start(thr_ways *x, int v, thr_err *err) THR_MUST_CHECK;
 thr_status thr_ways_spread(thr_ways *x, const thr_request *options, const int *passes, int room, double most, int64_t *steps,
                            thr_err *err) THR_MUST_CHECK;
 
+/* The half-edges of the shortest way to v, walked back from v to node `to` on it (-1: to its start), into half (NULL: they are
+ * only counted); returns how many. */
+int thr_ways_back(const thr_ways *x, int v, int to, int *half);
+
 /* The half-edges of the shortest way to v, from its start on, into half[n_nodes]; returns how many. */
 int thr_ways_path(const thr_ways *x, int v, int *half);
 

@@ -2,6 +2,7 @@
 #include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
 #include "graph/status.h"
+#include "graph/threading/tour.h"
 #include "symmetry/cover/cover.h"
 #include "symmetry/cover/cover_options.h"
 #include "symmetry/group/group.h"
@@ -106,17 +107,9 @@ static int trace(tracer *t, int d)
 /* Turns the walk of a closed cord so that it starts where it turns most: its two ends come out there instead of turning. */
 static void start_sharpest(tracer *t, int n)
 {
-  int best = 0, *half = t->scratch;
-  double most = -1;
   for (int i = 0; i < n; i++)
-    half[i] = thr_strands_half(&t->s, t->walk[i]);
-  for (int i = 0; i < n; i++) {
-    double angle = thr_turn_angle(t->f, half[(i + n - 1) % n], half[i]);
-    if (angle > most + 1e-9) { /* the first of equals, whatever the rounding */
-      most = angle;
-      best = i;
-    }
-  }
+    t->scratch[i] = thr_strands_half(&t->s, t->walk[i]);
+  const int best = thr_tour_start(t->f, NULL, t->scratch, n);
   memcpy(t->scratch, t->walk, (size_t)n * sizeof *t->walk);
   for (int i = 0; i < n; i++)
     t->walk[i] = t->scratch[(best + i) % n];

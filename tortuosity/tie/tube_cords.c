@@ -53,21 +53,13 @@ static thr_status short_walks(several *x, int n, thr_err *err)
   return st;
 }
 
-static double total(const thr_walks *w)
-{
-  double sum = 0;
-  for (int i = 0; i < w->n_walks; i++)
-    sum += w->walk[i].length;
-  return sum;
-}
-
 /* n closed walks from few. *found false: not so many; certain: there are none. */
 static thr_status split(several *x, int n, bool even, bool *found, bool *certain, thr_err *err)
 {
   double least = x->shortest->length * (1 + 1e-12);
   *certain = false;
   thr_status st = thr_share_tied(&x->s, n, even, found, err);
-  if (st || (*found && (even || total(&x->s.walks) <= least))) return st;
+  if (st || (*found && (even || thr_walks_length(&x->s.walks) <= least))) return st;
   st = thr_share_table(&x->s, &(thr_share_ask){n, n, false, INFINITY}, certain, err);
   *found = x->s.walks.n_walks >= n;
   if (!even) x->s.least &= *certain;
@@ -130,14 +122,14 @@ static thr_status try_number(thr_share *share, void *of, int n, bool *done, thr_
   share->walks = (thr_walks){0};
   thr_status st = short_walks(x, n, &why);
   bool none = st == THR_EINFEASIBLE;
-  if (!st && total(&share->walks) <= fmax(n, share->walks.n_walks) * share->o->max_length * (1 + 1e-9))
+  if (!st && thr_walks_length(&share->walks) <= fmax(n, share->walks.n_walks) * share->o->max_length * (1 + 1e-9))
     st = make_walks(x, n, true, share->o->max_length, &found, &certain, &why);
   if (st || !found) {
     thr_walks new = share->walks;
     share->walks = before;
     before = new;
   } else
-    *done = thr_share_within(thr_walks_longest(&share->walks), share->o->max_length);
+    *done = thr_share_within(thr_walks_most(&share->walks), share->o->max_length);
   thr_walks_destroy(&before);
   return st && !none ? thr_fail(err, st, "%s", why.text) : THR_OK;
 }
@@ -156,7 +148,7 @@ static thr_status none_found(const several *x, thr_err *err)
       err, THR_EINFEASIBLE,
       "the component with node %s: did not find up to %d cords that tie its joints, none longer than %g %s, but one of %g "
       "%s",
-      name, x->s.o->cords, limit, units, thr_walks_longest(&x->s.walks), units);
+      name, x->s.o->cords, limit, units, thr_walks_most(&x->s.walks), units);
 }
 
 /* The fewest cords that the shortest length leaves possible, and more. */

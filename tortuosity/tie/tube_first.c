@@ -95,15 +95,6 @@ static thr_status join_circuits(first *x, thr_err *err)
 
 /* ---- more closed cords ---- */
 
-/* From node v back along its way to node `to`; returns how many passes, which go into half unless that is NULL. */
-static int go_back(const thr_ways *g, int v, int to, int *half)
-{
-  int n = 0;
-  for (; v != to; v = thr_tail(g->f, g->over[v]), n++)
-    if (half) half[n] = g->over[v] ^ 1;
-  return n;
-}
-
 /* Where the ways to a and b part. */
 static int fork_of(const thr_ways *g, int a, int b, bool *mark)
 {
@@ -120,14 +111,14 @@ static int fork_of(const thr_ways *g, int a, int b, bool *mark)
 static thr_status add_circuit(first *x, const thr_ways *g, int e, int n, thr_err *err)
 {
   int a = x->f->edge[e][0], b = x->f->edge[e][1], fork = fork_of(g, a, b, x->mark);
-  int from_a = go_back(g, a, fork, NULL), from_b = go_back(g, b, fork, NULL);
+  int from_a = thr_ways_back(g, a, fork, NULL), from_b = thr_ways_back(g, b, fork, NULL);
   thr_status st = THR_OK;
   for (int i = 0; i < n && !st; i++) {
     thr_walk w = {1 + from_a + from_b, NULL, 0, true};
     if (!(w.half = thr_calloc((size_t)w.n, sizeof *w.half))) return thr_nomem(err);
     w.half[0] = 2 * e;
-    go_back(g, b, fork, w.half + 1);
-    go_back(g, a, fork, w.half + 1 + from_b);
+    thr_ways_back(g, b, fork, w.half + 1);
+    thr_ways_back(g, a, fork, w.half + 1 + from_b);
     thr_walk_reverse(w.half + 1 + from_b, from_a);
     st = thr_walks_add(&x->walks, x->f, w, err);
   }
