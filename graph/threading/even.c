@@ -112,11 +112,11 @@ static bool hand_over(thr_evener *evener, const thr_place *p, const thr_place *q
 }
 
 /* One exchange at node v. */
-static bool exchange_at(thr_evener *evener, int v, const thr_limits *limits)
+static bool exchange_at(thr_evener *evener, int v)
 {
   const thr_threading *threading = evener->t;
   const thr_multigraph *multigraph = threading->g;
-  for (int i = multigraph->first[v]; i < multigraph->first[v + 1] && !thr_limits_stop(limits); i++)
+  for (int i = multigraph->first[v]; i < multigraph->first[v + 1] && !thr_limits_stop(evener->limits); i++)
     for (int k = i + 1; k < multigraph->first[v + 1]; k++) {
       const thr_place *p = &threading->place[threading->at[multigraph->dart[i]]],
                       *q = &threading->place[threading->at[multigraph->dart[k]]];
@@ -135,16 +135,17 @@ static bool exchange_at(thr_evener *evener, int v, const thr_limits *limits)
   return false;
 }
 
-void thr_evener_even(thr_evener *evener, const thr_limits *limits)
+static bool improve_at(void *of, int v)
 {
-  for (bool changed = true; changed && !thr_limits_stop(limits);) {
-    changed = false;
-    for (int v = 0; v < evener->t->f->n_nodes && !thr_limits_stop(limits); v++)
-      while (exchange_at(evener, v, limits)) {
-        changed = true;
-        thr_evener_follow(evener);
-      }
-  }
+  thr_evener *evener = of;
+  if (!exchange_at(evener, v)) return false;
+  thr_evener_follow(evener);
+  return true;
+}
+
+void thr_evener_even(thr_evener *evener)
+{
+  thr_threading_descend(evener->t, evener->limits, improve_at, evener);
 }
 
 /* ---- annealing ---- */
@@ -213,7 +214,7 @@ static void propose(thr_evener *evener, thr_broken *old)
     thr_threading_keep(evener->t, old);
 }
 
-void thr_evener_anneal(thr_evener *evener, const thr_limits *limits, int steps, double bound, int *best)
+void thr_evener_anneal(thr_evener *evener, int steps, double bound, int *best)
 {
   static const double hot = 0.05, cold = 0.002; /* of the norm */
   size_t bytes = (size_t)evener->t->g->n_darts * sizeof *best;
@@ -221,7 +222,7 @@ void thr_evener_anneal(thr_evener *evener, const thr_limits *limits, int steps, 
   memcpy(best, evener->t->mate, bytes);
   for (int i = 0; i < steps && evener->t->n_places > 1; i++) {
     thr_broken old;
-    if (i % 64 == 0 && (thr_limits_stop(limits) || thr_evener_largest(evener) <= bound * (1 + 1e-9))) break;
+    if (i % 64 == 0 && (thr_limits_stop(evener->limits) || thr_evener_largest(evener) <= bound * (1 + 1e-9))) break;
     double heat = hot * pow(cold / hot, (double)i / steps);
     propose(evener, &old);
     if (old.n == 0) continue;

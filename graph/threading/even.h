@@ -8,9 +8,10 @@
 
 typedef struct {
   thr_threading *t; /* borrowed; all its cords are open, or all closed */
-  int n_cords;      /* that there are to be */
-  double scale;     /* a total that counts as 1 */
-  uint64_t state;   /* of the random numbers */
+  const thr_limits *limits;
+  int n_cords;    /* that there are to be */
+  double scale;   /* a total that counts as 1 */
+  uint64_t state; /* of the random numbers */
 } thr_evener;
 
 /* Follows all cords again. false: there are circuits that are no cords, or not as many cords. O(darts). */
@@ -21,10 +22,10 @@ double thr_evener_largest(const thr_evener *evener);
 
 /* Exchanges that lower the value, until none does or the limits stop it: tails and heads of two open cords that meet at a node,
  * parts run the other way round, parts cut off one cord and joined to another. */
-void thr_evener_even(thr_evener *evener, const thr_limits *limits);
+void thr_evener_even(thr_evener *evener);
 
 /* The same at random, so many steps, and some that raise the value, with falling probability; ends at the best that it came by,
  * or where the largest total is at the bound. best: [n_darts] scratch. O(darts) a step. */
-void thr_evener_anneal(thr_evener *evener, const thr_limits *limits, int steps, double bound, int *best);
+void thr_evener_anneal(thr_evener *evener, int steps, double bound, int *best);
 
 #endif

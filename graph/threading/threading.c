@@ -168,3 +168,13 @@ bool thr_threading_allows(thr_threading *threading, const thr_exchange *x)
   thr_threading_take_back(threading, &old);
   return true;
 }
+
+void thr_threading_descend(const thr_threading *threading, const thr_limits *limits, thr_node_improve *improve, void *of)
+{
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (int v = 0; v < threading->f->n_nodes; v++)
+      while (!thr_limits_stop(limits) && improve(of, v))
+        changed = true;
+  }
+}

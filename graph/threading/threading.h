@@ -5,11 +5,23 @@
  *   thr_threading_init(&t, f, &g, mate, price, of, false, err);
  *   thr_threading_follow(&t, INT_MAX);                                    t.n_cords, t.total[0], ..
  *   thr_exchange x = thr_threading_exchange(&t, i, k, true);              x.extra, x.change
- *   if (thr_threading_allows(&t, &x)) thr_threading_make(&t, &x, NULL);   then follow again */
+ *   if (thr_threading_allows(&t, &x)) thr_threading_make(&t, &x, NULL);   then follow again
+ *
+ * Walks (graph/threading/walks.h), cut into sections and joined anew (graph/threading/splice.h), are a second view of the same,
+ * with a conversion either way: thr_walks_follow, thr_transition_walk. Why there are two:
+ * - Here the passes are given, and any two pairs of a node can be exchanged. All cords are followed again afterwards, in time
+ *   proportional to all passes: 0.16 ms for 14,160 of them. Searches for little turning exchange pairs and nothing else.
+ * - Searches for short and even cords also add passes (detours, chords, circuits) and take some off. Half-edges would have to be
+ *   numbered again each time; of walks only those at hand change: 0.001 to 0.007 ms for two of 40 or of 5 with those passes.
+ * - Joining closed walks by pairs (thr_transition_join) was tried: 30 lines less, but of 258 plans four were better (even or
+ *   limited lengths of closed cords) and four worse, two of which lost their proof that no fewer cords do.
+ * Two more structures are no threadings: the turns of one node, counted (tortuosity/tie/tie.h), have no cords, and symmetric
+ * strands (symmetry/lift/strands.h) are orbits of half-edges, paired by elements of a group. */
 #ifndef THR_THREADING_H
 #define THR_THREADING_H
 
 #include "graph/framework/frame.h"
+#include "graph/limits.h"
 #include "graph/status.h"
 #include "graph/threading/multigraph.h"
 
@@ -95,5 +107,11 @@ bool thr_threading_allows(thr_threading *threading, const thr_exchange *x);
 
 /* Afterwards the cords are to be followed again. */
 void thr_threading_make(thr_threading *threading, const thr_exchange *x, thr_broken *old);
+
+/* Makes one change at node v that improves, and follows the cords again; false: there is none. */
+typedef bool thr_node_improve(void *of, int v);
+
+/* Descent: node by node, until a look at all of them improves nothing or the limits stop it. */
+void thr_threading_descend(const thr_threading *threading, const thr_limits *limits, thr_node_improve *improve, void *of);
 
 #endif

@@ -129,8 +129,9 @@ static bool reach(circuits *s, int component)
 }
 
 /* One exchange at node v that saves and keeps the number, or one that saves with one anywhere that puts the number right. */
-static bool improve_at(circuits *s, int v)
+static bool improve_at(void *of, int v)
 {
+  circuits *s = of;
   int component = s->j->c->component[v], n = thr_threading_places(&s->t, v, s->here), step = partner_step(n);
   for (int i = 0; i < n && !thr_limits_stop(s->limits); i++)
     for (int k = i + 1; k < n; k += step)
@@ -151,17 +152,6 @@ static bool improve_at(circuits *s, int v)
   return false;
 }
 
-static void improve(circuits *s)
-{
-  const thr_frame *frame = s->j->c->f;
-  for (bool changed = true; changed && !thr_limits_stop(s->limits);) {
-    changed = false;
-    for (int v = 0; v < frame->n_nodes; v++)
-      while (!thr_limits_stop(s->limits) && improve_at(s, v))
-        changed = true;
-  }
-}
-
 thr_status thr_circuits_make(thr_join *j, const thr_limits *limits, bool *found, thr_err *err)
 {
   circuits s;
@@ -169,7 +159,7 @@ thr_status thr_circuits_make(thr_join *j, const thr_limits *limits, bool *found,
   *found = !st;
   for (int k = 0; k < j->c->n_components && *found; k++)
     *found = reach(&s, k);
-  if (*found) improve(&s);
+  if (*found) thr_threading_descend(&s.t, limits, improve_at, &s);
   if (!st) thr_join_measure(j);
   circuits_destroy(&s);
   return st;

@@ -14,20 +14,27 @@ static const double enough = 1e-9; /* smaller savings are rounding */
 typedef struct {
   thr_join *j;
   thr_threading ring; /* its mates are owned: those of j, and pairs at the end nodes */
+  const thr_limits *limits;
+  int *here, *list; /* [n_darts] scratch */
 } tour;
 
 static void tour_destroy(tour *t)
 {
   free(t->ring.mate);
+  free(t->here);
+  free(t->list);
   thr_threading_destroy(&t->ring);
 }
 
-static thr_status tour_init(tour *t, thr_join *j, thr_err *err)
+static thr_status tour_init(tour *t, thr_join *j, const thr_limits *limits, thr_err *err)
 {
-  *t = (tour){.j = j};
+  size_t n = (size_t)j->g.n_darts;
+  *t = (tour){.j = j, .limits = limits};
   thr_status st = thr_join_threading(j, &t->ring, err);
-  t->ring.mate = thr_calloc((size_t)j->g.n_darts, sizeof *t->ring.mate);
-  return st || t->ring.mate ? st : thr_nomem(err);
+  t->ring.mate = thr_calloc(n, sizeof *t->ring.mate);
+  t->here = thr_calloc(n, sizeof *t->here);
+  t->list = thr_calloc(n, sizeof *t->list);
+  return st || (t->ring.mate && t->here && t->list) ? st : thr_nomem(err);
 }
 
 /* Pairs the ends of cord after cord at end node v: the far end of one with the near end of the next. */
@@ -75,17 +82,17 @@ static bool reverse_part(tour *t, int i, int k)
 }
 
 /* The cheapest way to join the part i < .. < k, once cut off, to the rest again, at any node. The cut itself does not count. */
-static thr_exchange cheapest_joint(const tour *t, int i, int k, double most, const thr_limits *limits, int *list)
+static thr_exchange cheapest_joint(const tour *t, int i, int k, double most)
 {
   const thr_threading *threading = &t->ring;
   thr_exchange best = {.extra = most};
-  for (int p = i + 1; p < k && (p % 64 || !thr_limits_stop(limits)); p++) {
+  for (int p = i + 1; p < k && (p % 64 || !thr_limits_stop(t->limits)); p++) {
     int v = threading->g->tail[threading->place[p].in];
     if (v >= threading->f->n_nodes) continue;
-    int n = thr_threading_places(threading, v, list);
+    int n = thr_threading_places(threading, v, t->list);
     for (int y = 0; y < n; y++)
-      for (int crossed = 1; crossed >= 0 && (list[y] < i || list[y] > k); crossed--) {
-        thr_exchange x = thr_threading_exchange(threading, p, list[y], crossed);
+      for (int crossed = 1; crossed >= 0 && (t->list[y] < i || t->list[y] > k); crossed--) {
+        thr_exchange x = thr_threading_exchange(threading, p, t->list[y], crossed);
         if (x.extra < best.extra - 1e-12) best = x;
       }
   }
@@ -93,11 +100,11 @@ static thr_exchange cheapest_joint(const tour *t, int i, int k, double most, con
 }
 
 /* Cuts the part between two places of one node off where that saves more than joining it again costs. */
-static bool cut_and_join(tour *t, int i, int k, const thr_limits *limits, int *list)
+static bool cut_and_join(tour *t, int i, int k)
 {
   thr_exchange x = thr_threading_exchange(&t->ring, i, k, false);
   if (x.extra >= -enough) return false;
-  thr_exchange best = cheapest_joint(t, i < k ? i : k, i < k ? k : i, -x.extra - enough, limits, list);
+  thr_exchange best = cheapest_joint(t, i < k ? i : k, i < k ? k : i, -x.extra - enough);
   if (best.extra >= -x.extra - enough) return false;
   make(t, &x);
   make(t, &best);
@@ -105,45 +112,34 @@ static bool cut_and_join(tour *t, int i, int k, const thr_limits *limits, int *l
 }
 
 /* One improvement anywhere at node v. */
-static bool improve_node(tour *t, int v, const thr_limits *limits, int *here, int *list)
+static bool improve_node(tour *t, int v)
 {
-  int n = thr_threading_places(&t->ring, v, here);
-  for (int i = 0; i < n && !thr_limits_stop(limits); i++)
+  int n = thr_threading_places(&t->ring, v, t->here);
+  for (int i = 0; i < n && !thr_limits_stop(t->limits); i++)
     for (int k = i + 1; k < n; k++)
-      if (reverse_part(t, here[i], here[k])) return true;
-  for (int i = 0; i < n && !thr_limits_stop(limits); i++)
+      if (reverse_part(t, t->here[i], t->here[k])) return true;
+  for (int i = 0; i < n && !thr_limits_stop(t->limits); i++)
     for (int k = i + 1; k < n; k++)
-      if (cut_and_join(t, here[i], here[k], limits, list)) return true;
+      if (cut_and_join(t, t->here[i], t->here[k])) return true;
   return false;
 }
 
-/* Until a look at all nodes changes nothing. */
-static void improve(tour *t, const thr_limits *limits, int *here, int *list)
+static bool improve_at(void *of, int v)
 {
-  for (bool changed = true; changed && !thr_limits_stop(limits);) {
-    changed = false;
-    for (int v = 0; v < t->ring.f->n_nodes && !thr_limits_stop(limits); v++)
-      while (improve_node(t, v, limits, here, list)) {
-        changed = true;
-        follow(t);
-      }
-  }
+  if (!improve_node(of, v)) return false;
+  follow(of);
+  return true;
 }
 
 thr_status thr_improve(thr_join *j, const thr_limits *limits, thr_err *err)
 {
   tour t;
-  size_t n = (size_t)j->g.n_darts;
-  int *here = thr_calloc(n, sizeof *here), *list = thr_calloc(n, sizeof *list);
-  thr_status st = tour_init(&t, j, err);
-  if (!st && (!here || !list)) st = thr_nomem(err);
+  thr_status st = tour_init(&t, j, limits, err);
   if (!st) {
     follow(&t);
-    improve(&t, limits, here, list);
+    thr_threading_descend(&t.ring, limits, improve_at, &t);
   }
   tour_destroy(&t);
-  free(here);
-  free(list);
   if (!st) thr_join_measure(j);
   return st;
 }

@@ -33,15 +33,15 @@ typedef struct {
 static thr_status improve_from(search *x, thr_join *j, int steps, thr_err *err)
 {
   thr_threading threading;
-  thr_evener evener = {&threading, thr_join_count(j), x->scale, 1};
+  thr_evener evener = {&threading, x->limits, thr_join_count(j), x->scale, 1};
   int *best = thr_calloc((size_t)j->g.n_darts, sizeof *best);
   thr_status st = thr_join_threading(j, &threading, err);
   if (!st && !best) st = thr_nomem(err);
   if (!st && thr_evener_follow(&evener)) {
     evener.state = thr_random(&x->state);
-    thr_evener_even(&evener, x->limits);
-    thr_evener_anneal(&evener, x->limits, evener.n_cords > 1 ? steps : 0, x->bound, best);
-    thr_evener_even(&evener, x->limits);
+    thr_evener_even(&evener);
+    thr_evener_anneal(&evener, evener.n_cords > 1 ? steps : 0, x->bound, best);
+    thr_evener_even(&evener);
     double value = thr_evener_value(&evener);
     if (value < x->value * (1 - 1e-12)) {
       thr_join_destroy(&x->best);
@@ -180,7 +180,7 @@ static thr_status is_finished(const search *x, bool *done, thr_err *err)
 {
   thr_threading threading;
   thr_join j = x->best; /* only followed */
-  thr_evener evener = {&threading, thr_join_count(&j), x->scale, 1};
+  thr_evener evener = {&threading, x->limits, thr_join_count(&j), x->scale, 1};
   thr_status st = thr_join_threading(&j, &threading, err);
   if (!st) thr_evener_follow(&evener);
   *done = st || evener.n_cords == 1 || thr_limits_stop(x->limits) || thr_evener_largest(&evener) <= x->bound * (1 + 1e-9);

@@ -53,20 +53,12 @@ static thr_status table_init(table *x, const thr_turning_columns *turning_column
   return thr_components_init(&x->parts, turning_columns->f, &x->o, err);
 }
 
-static double price_of(const table *x, const thr_cord *cord)
-{
-  double price = 0;
-  for (int i = 0; i < cord->n_passes - (x->o.ends != THR_ENDS_CLOSED); i++)
-    price += thr_turn_price(x->c->f, x->o.turning.cost, cord->half[i], cord->half[(i + 1) % cord->n_passes]);
-  return price;
-}
-
 static thr_status improve_component(table *x, int k, const thr_limits *limits, bool *certain, thr_err *err)
 {
   thr_small_ask ask = {.turning = true, .even = true, .limit = INFINITY};
   for (int i = 0; i < x->n_cords; i++) {
     if (x->cord[i].component != k) continue;
-    const double price = price_of(x, &x->cord[i]);
+    const double price = thr_cord_price(x->c->f, &x->o, &x->cord[i]);
     ask.known++;
     ask.known_dearest = fmax(ask.known_dearest, price);
     ask.known_sum += price;
