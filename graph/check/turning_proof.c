@@ -1,6 +1,7 @@
 /* Lagrangean bounds on turning, in integers. */
 #include "graph/framework/frame.h"
 #include "graph/plan/turning_proof.h"
+#include "graph/scratch.h"
 #include "graph/status.h"
 
 #include <limits.h>
@@ -48,8 +49,9 @@ void thr_turning_proof_destroy(thr_turning_proof *proof)
 typedef struct {
   const thr_turning_columns *c;
   const thr_turning_dual *d;
-  wide *reduced; /* [n_columns] price less what the multipliers take */
-  bool *member;  /* [2 * n_edges + n_ends] all false between sets */
+  thr_scratch own; /* the arrays */
+  wide *reduced;   /* [n_columns] price less what the multipliers take */
+  bool *member;    /* [2 * n_edges + n_ends] all false between sets */
   wide constant;
   int *edges; /* [n_components] */
   bool *open; /* [n_components] may cords end there? */
@@ -336,23 +338,16 @@ static thr_status check_sizes(const thr_turning_columns *turning_columns, const 
   return thr_fail(err, THR_EVIOLATED, "turning proof: a multiplier is too large, or that of the length negative");
 }
 
-static void leaf_destroy(leaf *k)
-{
-  free(k->reduced);
-  free(k->member);
-  free(k->edges);
-  free(k->open);
-  *k = (leaf){0};
-}
-
 static thr_status leaf_allocate(leaf *k, thr_err *err)
 {
   const thr_turning_columns *turning_columns = k->c;
-  k->reduced = thr_calloc((size_t)turning_columns->n_columns, sizeof *k->reduced);
-  k->member = thr_calloc(2 * (size_t)turning_columns->f->n_edges + (size_t)turning_columns->n_ends, sizeof *k->member);
-  k->edges = thr_calloc((size_t)turning_columns->n_components, sizeof *k->edges);
-  k->open = thr_calloc((size_t)turning_columns->n_components, sizeof *k->open);
-  if (!k->reduced || !k->member || !k->edges || !k->open) return thr_nomem(err);
+  k->reduced = thr_scratch_array(&k->own, (size_t)turning_columns->n_columns, sizeof *k->reduced);
+  k->member =
+      thr_scratch_array(&k->own, 2 * (size_t)turning_columns->f->n_edges + (size_t)turning_columns->n_ends, sizeof *k->member);
+  k->edges = thr_scratch_array(&k->own, (size_t)turning_columns->n_components, sizeof *k->edges);
+  k->open = thr_scratch_array(&k->own, (size_t)turning_columns->n_components, sizeof *k->open);
+  thr_status st = thr_scratch_check(&k->own, err);
+  if (st) return st;
   for (int e = 0; e < turning_columns->f->n_edges; e++)
     k->edges[turning_columns->component[turning_columns->f->edge[e][0]]]++;
   for (int v = 0; v < turning_columns->f->n_nodes; v++)
@@ -393,7 +388,7 @@ thr_status thr_turning_dual_bound(const thr_turning_columns *turning_columns, co
     total += column_adds(&k, j, least, most);
   }
   if (!st) *bound = empty ? INT64_MAX : in_64_bits(total);
-  leaf_destroy(&k);
+  thr_scratch_free(&k.own);
   return st;
 }
 
@@ -443,34 +438,25 @@ static thr_status link_tree(const thr_turning_columns *turning_columns, const th
 typedef struct {
   const thr_turning_columns *c;
   const thr_turning_proof *p;
+  thr_scratch own;      /* the arrays */
   int *parent, *column; /* [n_nodes] */
   int *low, *high;
   bool *counted;
 } boxes;
 
-static void boxes_destroy(boxes *x)
+static thr_status boxes_init(boxes *x, thr_err *err)
 {
-  free(x->parent);
-  free(x->column);
-  free(x->low);
-  free(x->high);
-  free(x->counted);
-}
-
-static thr_status boxes_init(boxes *x, const thr_turning_columns *turning_columns, const thr_turning_proof *proof, thr_err *err)
-{
-  size_t nodes = (size_t)proof->n_nodes, columns = proof->n_nodes > 1 ? (size_t)turning_columns->n_columns : 0;
-  *x = (boxes){.c = turning_columns,
-               .p = proof,
-               .parent = thr_calloc(nodes, sizeof *x->parent),
-               .column = thr_calloc(nodes, sizeof *x->column)};
-  x->low = thr_calloc(columns, sizeof *x->low);
-  x->high = thr_calloc(columns, sizeof *x->high);
-  x->counted = thr_calloc(columns, sizeof *x->counted);
-  if (!x->parent || !x->column || !x->low || !x->high || !x->counted) return thr_nomem(err);
+  size_t nodes = (size_t)x->p->n_nodes, columns = x->p->n_nodes > 1 ? (size_t)x->c->n_columns : 0;
+  x->parent = thr_scratch_array(&x->own, nodes, sizeof *x->parent);
+  x->column = thr_scratch_array(&x->own, nodes, sizeof *x->column);
+  x->low = thr_scratch_array(&x->own, columns, sizeof *x->low);
+  x->high = thr_scratch_array(&x->own, columns, sizeof *x->high);
+  x->counted = thr_scratch_array(&x->own, columns, sizeof *x->counted);
+  thr_status st = thr_scratch_check(&x->own, err);
+  if (st) return st;
   for (size_t j = 0; j < columns; j++)
-    x->high[j] = thr_turning_most(turning_columns, (int)j);
-  return link_tree(turning_columns, proof, x->parent, x->column, err);
+    x->high[j] = thr_turning_most(x->c, (int)j);
+  return link_tree(x->c, x->p, x->parent, x->column, err);
 }
 
 /* Narrows the box by the branches above node i. */
@@ -545,28 +531,27 @@ static thr_status least_of_leaves(boxes *x, const thr_turning_dual *dual, const 
     int64_t here = in_64_bits(widest + correct(x, &k, node[i], &empty));
     if (!empty && here < *least) *least = here;
   }
-  leaf_destroy(&k);
+  thr_scratch_free(&k.own);
   return st;
 }
 
 thr_status thr_turning_proof_check_columns(const thr_turning_columns *turning_columns, const thr_turning_proof *proof,
                                            double *bound, thr_err *err)
 {
-  boxes x = {0};
+  boxes x = {.c = turning_columns, .p = proof};
   int64_t least = INT64_MAX;
-  int *first = thr_calloc((size_t)proof->n_duals + 2, sizeof *first),
-      *leaves = thr_calloc((size_t)proof->n_nodes, sizeof *leaves);
-  thr_status st = first && leaves ? check_dual_shape(turning_columns, proof, err) : thr_nomem(err);
+  int *first = thr_scratch_array(&x.own, (size_t)proof->n_duals + 2, sizeof *first);
+  int *leaves = thr_scratch_array(&x.own, (size_t)proof->n_nodes, sizeof *leaves);
+  thr_status st = thr_scratch_check(&x.own, err);
   *bound = 0;
-  if (!st) st = boxes_init(&x, turning_columns, proof, err);
+  if (!st) st = check_dual_shape(turning_columns, proof, err);
+  if (!st) st = boxes_init(&x, err);
   if (!st) sort_leaves(proof, first, leaves);
   for (int d = 0; d < proof->n_duals && !st; d++)
     if (first[d + 1] > first[d])
       st = least_of_leaves(&x, &proof->dual[d], leaves + first[d], first[d + 1] - first[d], &least, err);
   if (!st && least > 0) *bound = ldexp((double)least, -THR_TURNING_BITS);
-  boxes_destroy(&x);
-  free(first);
-  free(leaves);
+  thr_scratch_free(&x.own);
   return st;
 }
 

@@ -11,12 +11,8 @@
 static void state_destroy(thr_matching_state *matching_state)
 {
   if (!matching_state) return;
-  free(matching_state->first_arc);
+  thr_scratch_free(&matching_state->own);
   free(matching_state->arc);
-  free(matching_state->node);
-  free(matching_state->b);
-  free(matching_state->spare);
-  free(matching_state->tree);
   for (int k = 0; k < BLOSSOM_BUCKETS; k++)
     free(matching_state->bucket[k].event);
   free(matching_state);
@@ -44,14 +40,13 @@ static thr_status state_create(thr_matching_state **out, int n_nodes, thr_err *e
   thr_matching_state *matching_state = *out = thr_calloc(1, sizeof *matching_state);
   if (!matching_state) return thr_nomem(err);
   matching_state->n_nodes = n_nodes;
-  matching_state->first_arc = thr_calloc(n + 1, sizeof *matching_state->first_arc);
-  matching_state->node = thr_calloc(n, sizeof *matching_state->node);
-  matching_state->b = thr_calloc(n + n / 2, sizeof *matching_state->b);
-  matching_state->spare = thr_calloc(n / 2, sizeof *matching_state->spare);
-  matching_state->tree = thr_calloc(n, sizeof *matching_state->tree);
-  if (!matching_state->first_arc || !matching_state->node || !matching_state->b || !matching_state->spare ||
-      !matching_state->tree)
-    return thr_nomem(err);
+  matching_state->first_arc = thr_scratch_array(&matching_state->own, n + 1, sizeof *matching_state->first_arc);
+  matching_state->node = thr_scratch_array(&matching_state->own, n, sizeof *matching_state->node);
+  matching_state->b = thr_scratch_array(&matching_state->own, n + n / 2, sizeof *matching_state->b);
+  matching_state->spare = thr_scratch_array(&matching_state->own, n / 2, sizeof *matching_state->spare);
+  matching_state->tree = thr_scratch_array(&matching_state->own, n, sizeof *matching_state->tree);
+  thr_status st = thr_scratch_check(&matching_state->own, err);
+  if (st) return st;
   for (int v = 0; v < n_nodes; v++) {
     matching_state->node[v] = (blossom_node){.up = ~v, .next = -1};
     matching_state->b[v] = (blossom){.match = -1, .parent = -1, .child = -1, .size = 1, .first = v, .last = v, .root = v};
@@ -128,12 +123,7 @@ static int list_blossoms(thr_matching_state *matching_state, int *order)
 /* Of the last search; the state stays. */
 static void free_result(thr_matching *matching)
 {
-  free(matching->mate);
-  free(matching->mate_edge);
-  free(matching->dual);
-  free(matching->blossom_parent);
-  free(matching->node_blossom);
-  free(matching->blossom_dual);
+  thr_scratch_free(&matching->own);
   *matching = (thr_matching){.state = matching->state};
 }
 
@@ -141,19 +131,17 @@ static thr_status take_result(thr_matching *matching, thr_err *err)
 {
   thr_matching_state *matching_state = matching->state;
   size_t n = (size_t)matching_state->n_nodes;
-  int *order = thr_calloc(n / 2, sizeof *order), *number = thr_calloc(n + n / 2, sizeof *number);
-  matching->mate = thr_calloc(n, sizeof *matching->mate);
-  matching->mate_edge = thr_calloc(n, sizeof *matching->mate_edge);
-  matching->dual = thr_calloc(n, sizeof *matching->dual);
-  matching->blossom_parent = thr_calloc(n / 2, sizeof *matching->blossom_parent);
-  matching->node_blossom = thr_calloc(n, sizeof *matching->node_blossom);
-  matching->blossom_dual = thr_calloc(n / 2, sizeof *matching->blossom_dual);
-  thr_status st = THR_OK;
-  if (!order || !number || !matching->mate || !matching->mate_edge || !matching->dual || !matching->blossom_parent ||
-      !matching->node_blossom || !matching->blossom_dual) {
-    st = thr_nomem(err);
-    goto done;
-  }
+  thr_scratch own = {0};
+  int *order = thr_scratch_array(&own, n / 2, sizeof *order), *number = thr_scratch_array(&own, n + n / 2, sizeof *number);
+  matching->mate = thr_scratch_array(&matching->own, n, sizeof *matching->mate);
+  matching->mate_edge = thr_scratch_array(&matching->own, n, sizeof *matching->mate_edge);
+  matching->dual = thr_scratch_array(&matching->own, n, sizeof *matching->dual);
+  matching->blossom_parent = thr_scratch_array(&matching->own, n / 2, sizeof *matching->blossom_parent);
+  matching->node_blossom = thr_scratch_array(&matching->own, n, sizeof *matching->node_blossom);
+  matching->blossom_dual = thr_scratch_array(&matching->own, n / 2, sizeof *matching->blossom_dual);
+  thr_status st = thr_scratch_check(&own, err);
+  if (!st) st = thr_scratch_check(&matching->own, err);
+  if (st) goto done;
   for (int b = matching_state->n_nodes; b < matching_state->n_nodes + matching_state->n_nodes / 2; b++)
     if (matching_state->b[b].child >= 0 && is_top(matching_state, b)) match_within(matching_state, b, order);
   int count = list_blossoms(matching_state, order), left = 0;
@@ -178,8 +166,7 @@ static thr_status take_result(thr_matching *matching, thr_err *err)
     if (x->match % 2 == 0) matching->weight += matching_state->p->weight[x->match / 2];
   }
 done:
-  free(order);
-  free(number);
+  thr_scratch_free(&own);
   return st;
 }
 

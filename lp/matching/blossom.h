@@ -12,6 +12,7 @@
 #define THR_BLOSSOM_H
 
 #include "graph/limits.h"
+#include "graph/scratch.h"
 #include "graph/status.h"
 
 #define THR_MATCHING_WEIGHT_MOST (INT64_C(1) << 53)
@@ -29,14 +30,15 @@ typedef struct thr_matching_state thr_matching_state;
  * one out), at most 2 * weight, and exactly that if it is matched. Blossoms are odd sets with one matched edge leaving. All
  * duals together are 2 * the weight of the matching: no perfect matching is lighter. */
 typedef struct {
-  int *mate;                 /* [n_nodes] node matched with; owned */
-  int *mate_edge;            /* [n_nodes] by which edge; owned */
+  thr_scratch own;           /* the arrays */
+  int *mate;                 /* [n_nodes] node matched with */
+  int *mate_edge;            /* [n_nodes] by which edge */
   int64_t weight;            /* of the matching */
-  int64_t *dual;             /* [n_nodes] in halves of a weight, any sign; owned */
+  int64_t *dual;             /* [n_nodes] in halves of a weight, any sign */
   int n_blossoms;            /* those with a dual; laminar, children before parents */
-  int *blossom_parent;       /* [n_blossoms] or -1; owned */
-  int *node_blossom;         /* [n_nodes] innermost blossom with that node, or -1; owned */
-  int64_t *blossom_dual;     /* [n_blossoms] > 0, in halves of a weight; owned */
+  int *blossom_parent;       /* [n_blossoms] or -1 */
+  int *node_blossom;         /* [n_nodes] innermost blossom with that node, or -1 */
+  int64_t *blossom_dual;     /* [n_blossoms] > 0, in halves of a weight */
   thr_matching_state *state; /* for thr_matching_again; owned */
 } thr_matching;
 

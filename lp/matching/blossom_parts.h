@@ -12,6 +12,7 @@
 #define THR_BLOSSOM_PARTS_H
 
 #include "graph/limits.h"
+#include "graph/scratch.h"
 #include "graph/status.h"
 #include "lp/matching/blossom.h"
 
@@ -74,6 +75,7 @@ struct thr_matching_state {
   const thr_limits *limits;
   int n_nodes, n_edges;
   const int *tail; /* [2 * n_edges] node that a dart leaves */
+  thr_scratch own; /* the arrays that stay as long as they are */
   int *first_arc;  /* [n_nodes + 1] */
   blossom_arc *arc;
   blossom_node *node;

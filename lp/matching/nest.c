@@ -8,25 +8,20 @@
 static thr_status allocate(thr_nest *nest, int n_odd, int n_blossoms, thr_err *err)
 {
   size_t n = (size_t)n_odd + (size_t)n_blossoms;
-  *nest = (thr_nest){.n_odd = n_odd,
-                     .n_sets = (int)n,
-                     .parent = thr_calloc(n, sizeof *nest->parent),
-                     .jump = thr_calloc(n, sizeof *nest->jump),
-                     .level = thr_calloc(n, sizeof *nest->level),
-                     .width = thr_calloc(n, sizeof *nest->width),
-                     .outer = thr_calloc(n, sizeof *nest->outer)};
-  if (nest->parent && nest->jump && nest->level && nest->width && nest->outer) return THR_OK;
-  thr_nest_destroy(nest);
-  return thr_nomem(err);
+  *nest = (thr_nest){.n_odd = n_odd, .n_sets = (int)n};
+  nest->parent = thr_scratch_array(&nest->own, n, sizeof *nest->parent);
+  nest->jump = thr_scratch_array(&nest->own, n, sizeof *nest->jump);
+  nest->level = thr_scratch_array(&nest->own, n, sizeof *nest->level);
+  nest->width = thr_scratch_array(&nest->own, n, sizeof *nest->width);
+  nest->outer = thr_scratch_array(&nest->own, n, sizeof *nest->outer);
+  thr_status st = thr_scratch_check(&nest->own, err);
+  if (st) thr_nest_destroy(nest);
+  return st;
 }
 
 void thr_nest_destroy(thr_nest *nest)
 {
-  free(nest->parent);
-  free(nest->jump);
-  free(nest->level);
-  free(nest->width);
-  free(nest->outer);
+  thr_scratch_free(&nest->own);
   *nest = (thr_nest){0};
 }
 
@@ -139,6 +134,7 @@ typedef struct {
   const thr_nest *nest;
   const thr_network *net;
   const thr_flood *f;
+  thr_scratch own;   /* all arrays but the cuts */
   int *set;          /* [n_places] in whose moat a place lies */
   int *first, *list; /* places of set s, deepest first: list[first[s] .. first[s + 1] - 1] */
   int *first_node;   /* [n_places + 1] nodes of place v: node[first_node[v] .. first_node[v + 1] - 1] */
@@ -155,33 +151,22 @@ static thr_status cutter_init(cutter *c, thr_err *err)
 {
   const thr_network *net = c->net;
   size_t n = (size_t)net->n_places, sets = (size_t)c->nest->n_sets, nodes = (size_t)net->p->n_nodes;
-  c->set = thr_calloc(n, sizeof *c->set);
-  c->first = thr_calloc(sets + 2, sizeof *c->first);
-  c->list = thr_calloc((size_t)c->f->n_reached, sizeof *c->list);
-  c->first_node = thr_calloc(n + 2, sizeof *c->first_node);
-  c->node = thr_calloc(nodes, sizeof *c->node);
-  c->open = thr_calloc(sets, sizeof *c->open);
-  c->last_open = thr_calloc(sets, sizeof *c->last_open);
+  c->set = thr_scratch_array(&c->own, n, sizeof *c->set);
+  c->first = thr_scratch_array(&c->own, sets + 2, sizeof *c->first);
+  c->list = thr_scratch_array(&c->own, (size_t)c->f->n_reached, sizeof *c->list);
+  c->first_node = thr_scratch_array(&c->own, n + 2, sizeof *c->first_node);
+  c->node = thr_scratch_array(&c->own, nodes, sizeof *c->node);
+  c->open = thr_scratch_array(&c->own, sets, sizeof *c->open);
+  c->last_open = thr_scratch_array(&c->own, sets, sizeof *c->last_open);
   size_t most = (size_t)c->f->n_reached + sets; /* each cut is the first of a set or ends above a place */
   c->capacity = (int)most;
   c->cut = thr_calloc(most, sizeof *c->cut);
-  c->waiting = thr_calloc(most, sizeof *c->waiting);
-  if (!c->set || !c->first || !c->list || !c->first_node || !c->node || !c->open || !c->last_open || !c->cut || !c->waiting)
-    return thr_nomem(err);
+  c->waiting = thr_scratch_array(&c->own, most, sizeof *c->waiting);
+  if (!c->cut) return thr_nomem(err);
+  thr_status st = thr_scratch_check(&c->own, err);
+  if (st) return st;
   memset(c->open, -1, sets * sizeof *c->open);
   return THR_OK;
-}
-
-static void cutter_destroy(cutter *c)
-{
-  free(c->set);
-  free(c->first);
-  free(c->list);
-  free(c->first_node);
-  free(c->node);
-  free(c->open);
-  free(c->last_open);
-  free(c->waiting);
 }
 
 /* The set of odd place i's in whose moat, or at whose inner edge, depth > 0 lies. O(log n_sets). */
@@ -274,7 +259,7 @@ thr_status thr_nest_cuts(const thr_nest *nest, const thr_network *net, const thr
     st = cut_moat(&c, s, err);
     hand_on(&c, s);
   }
-  cutter_destroy(&c);
+  thr_scratch_free(&c.own);
   if (st) {
     for (int k = 0; k < c.n_cuts; k++)
       free(c.cut[k].node);

@@ -11,6 +11,7 @@
 #define THR_NEST_H
 
 #include "graph/plan/plan.h"
+#include "graph/scratch.h"
 #include "graph/status.h"
 #include "lp/matching/blossom.h"
 #include "lp/matching/candidates.h"
@@ -20,11 +21,12 @@
  * weight. A place's depth is the total width of the moats that it lies inside of. */
 typedef struct {
   int n_odd, n_sets;
-  int *parent;    /* [n_sets] the set right around, or -1; owned */
-  int *jump;      /* [n_sets] some set around it that makes searches outwards logarithmic, or -1; owned */
-  int *level;     /* [n_sets] number of sets around it; owned */
-  int64_t *width; /* [n_sets] >= 0; owned */
-  int64_t *outer; /* [n_sets] depth just outside of its moat; owned */
+  thr_scratch own; /* the arrays */
+  int *parent;     /* [n_sets] the set right around, or -1 */
+  int *jump;       /* [n_sets] some set around it that makes searches outwards logarithmic, or -1 */
+  int *level;      /* [n_sets] number of sets around it */
+  int64_t *width;  /* [n_sets] >= 0 */
+  int64_t *outer;  /* [n_sets] depth just outside of its moat */
 } thr_nest;
 
 /* Negative widths, which no moat can have, are made 0: what place i lacks is taken from the moats between it and its mate k,

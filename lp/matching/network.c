@@ -30,7 +30,7 @@ static thr_status fill_arcs(thr_network *net, thr_err *err)
 {
   const thr_tjoin_problem *tjoin_problem = net->p;
   int at[2];
-  net->first = thr_calloc((size_t)net->n_places + 2, sizeof *net->first);
+  net->first = thr_scratch_array(&net->own, (size_t)net->n_places + 2, sizeof *net->first);
   if (!net->first) return thr_nomem(err);
   for (int e = 0; e < tjoin_problem->n_edges; e++) {
     if (!between_places(net, e, at)) continue;
@@ -40,7 +40,7 @@ static thr_status fill_arcs(thr_network *net, thr_err *err)
   }
   for (int v = 1; v <= net->n_places; v++)
     net->first[v + 1] += net->first[v];
-  net->arc = thr_calloc((size_t)net->n_arcs, sizeof *net->arc);
+  net->arc = thr_scratch_array(&net->own, (size_t)net->n_arcs, sizeof *net->arc);
   if (!net->arc) return thr_nomem(err);
   for (int e = 0; e < tjoin_problem->n_edges; e++) {
     if (!between_places(net, e, at)) continue;
@@ -52,9 +52,10 @@ static thr_status fill_arcs(thr_network *net, thr_err *err)
 
 static thr_status list_odd(thr_network *net, thr_err *err)
 {
-  net->number = thr_calloc((size_t)net->n_places, sizeof *net->number);
-  net->odd = thr_calloc((size_t)net->n_places, sizeof *net->odd);
-  if (!net->number || !net->odd) return thr_nomem(err);
+  net->number = thr_scratch_array(&net->own, (size_t)net->n_places, sizeof *net->number);
+  net->odd = thr_scratch_array(&net->own, (size_t)net->n_places, sizeof *net->odd);
+  thr_status st = thr_scratch_check(&net->own, err);
+  if (st) return st;
   for (int v = 0; v < net->p->n_nodes; v++)
     net->number[net->place[v]] ^= net->p->odd[v];
   for (int v = 0; v < net->n_places; v++) {
@@ -68,11 +69,10 @@ static thr_status list_odd(thr_network *net, thr_err *err)
 thr_status thr_network_init(thr_network *net, const thr_tjoin_problem *tjoin_problem, thr_err *err)
 {
   *net = (thr_network){.p = tjoin_problem};
-  int *parent = thr_calloc((size_t)tjoin_problem->n_nodes, sizeof *parent);
-  net->place = thr_calloc((size_t)tjoin_problem->n_nodes, sizeof *net->place);
-  thr_status st = parent && net->place ? THR_OK : thr_nomem(err);
+  int *parent = thr_scratch_array(&net->own, (size_t)tjoin_problem->n_nodes, sizeof *parent);
+  net->place = thr_scratch_array(&net->own, (size_t)tjoin_problem->n_nodes, sizeof *net->place);
+  thr_status st = thr_scratch_check(&net->own, err);
   if (!st) number_places(net, parent);
-  free(parent);
   if (!st) st = fill_arcs(net, err);
   if (!st) st = list_odd(net, err);
   if (st) thr_network_destroy(net);
@@ -81,11 +81,7 @@ thr_status thr_network_init(thr_network *net, const thr_tjoin_problem *tjoin_pro
 
 void thr_network_destroy(thr_network *net)
 {
-  free(net->place);
-  free(net->first);
-  free(net->arc);
-  free(net->odd);
-  free(net->number);
+  thr_scratch_free(&net->own);
   *net = (thr_network){0};
 }
 
@@ -176,22 +172,20 @@ thr_status thr_network_mend(const thr_network *net, bool any_weight, bool *in_jo
 {
   size_t n = (size_t)net->p->n_nodes;
   if (!any_weight && net->n_places == net->p->n_nodes) return THR_OK;
-  forest f = {.degree = thr_calloc(n, sizeof *f.degree),
-              .stack = thr_calloc(n, sizeof *f.stack),
-              .across = thr_calloc(n, sizeof *f.across),
-              .wrong = thr_calloc(n, sizeof *f.wrong)};
+  thr_scratch own = {0};
+  forest f = {.degree = thr_scratch_array(&own, n, sizeof *f.degree)};
+  f.stack = thr_scratch_array(&own, n, sizeof *f.stack);
+  f.across = thr_scratch_array(&own, n, sizeof *f.across);
+  f.wrong = thr_scratch_array(&own, n, sizeof *f.wrong);
   int *edge = NULL, n_edges = 0;
-  thr_status st = f.degree && f.stack && f.across && f.wrong ? THR_OK : thr_nomem(err);
+  thr_status st = thr_scratch_check(&own, err);
   if (!st) st = find_forest(net->p, any_weight, &edge, &n_edges, err);
   if (!st) {
     stand(net->p, in_join, edge, n_edges, &f);
     pass_on(net->p, in_join, &f);
   }
   free(edge);
-  free(f.degree);
-  free(f.stack);
-  free(f.across);
-  free(f.wrong);
+  thr_scratch_free(&own);
   return st;
 }
 

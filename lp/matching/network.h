@@ -8,6 +8,7 @@
 #ifndef THR_NETWORK_H
 #define THR_NETWORK_H
 
+#include "graph/scratch.h"
 #include "graph/status.h"
 #include "lp/tjoin/tjoin.h"
 
@@ -22,11 +23,12 @@ typedef struct {
 typedef struct {
   const thr_tjoin_problem *p; /* borrowed */
   int n_places, n_arcs, n_odd;
-  int *place;   /* [p->n_nodes] of a node */
-  int *first;   /* [n_places + 1] arcs that leave v: arc[first[v] .. first[v + 1] - 1] */
-  thr_arc *arc; /* [n_arcs] */
-  int *odd;     /* [n_odd] the odd places, ascending */
-  int *number;  /* [n_places] position of a place in odd, or -1 */
+  thr_scratch own; /* the arrays */
+  int *place;      /* [p->n_nodes] of a node */
+  int *first;      /* [n_places + 1] arcs that leave v: arc[first[v] .. first[v + 1] - 1] */
+  thr_arc *arc;    /* [n_arcs] */
+  int *odd;        /* [n_odd] the odd places, ascending */
+  int *number;     /* [n_places] position of a place in odd, or -1 */
 } thr_network;
 
 /* O(nodes + edges). Release with thr_network_destroy. */

@@ -1,5 +1,6 @@
 /* Listing a permutation group and its product table. */
 #include "symmetry/group/group.h"
+#include "graph/scratch.h"
 #include "symmetry/group/rows.h"
 
 #include <stdlib.h>
@@ -11,11 +12,12 @@ typedef struct {
   int degree, cap, n_generators;
   const int *generator;
   int order, capacity;
-  int *image;     /* [capacity * degree] */
-  int *slot;      /* [slots] element or -1; slots is a power of two and more than 2 * cap */
-  unsigned slots; /* of the hash table */
-  int *times;     /* [cap * n_generators] number of the element g * s */
-  int *from, *by; /* [cap] element g = from[g] * generator by[g] */
+  int *image;      /* [capacity * degree] */
+  thr_scratch own; /* all other arrays */
+  int *slot;       /* [slots] element or -1; slots is a power of two and more than 2 * cap */
+  unsigned slots;  /* of the hash table */
+  int *times;      /* [cap * n_generators] number of the element g * s */
+  int *from, *by;  /* [cap] element g = from[g] * generator by[g] */
 } listing;
 
 static int *row_of(const listing *l, int g)
@@ -58,11 +60,12 @@ static thr_status listing_init(listing *l, thr_err *err)
 {
   for (l->slots = 4; l->slots <= 2u * (unsigned)l->cap;)
     l->slots *= 2;
-  l->slot = thr_calloc(l->slots, sizeof *l->slot);
-  l->times = thr_calloc((size_t)l->cap * (size_t)l->n_generators, sizeof *l->times);
-  l->from = thr_calloc((size_t)l->cap + 1, sizeof *l->from);
-  l->by = thr_calloc((size_t)l->cap + 1, sizeof *l->by);
-  if (!l->slot || !l->times || !l->from || !l->by) return thr_nomem(err);
+  l->slot = thr_scratch_array(&l->own, l->slots, sizeof *l->slot);
+  l->times = thr_scratch_array(&l->own, (size_t)l->cap * (size_t)l->n_generators, sizeof *l->times);
+  l->from = thr_scratch_array(&l->own, (size_t)l->cap + 1, sizeof *l->from);
+  l->by = thr_scratch_array(&l->own, (size_t)l->cap + 1, sizeof *l->by);
+  thr_status st = thr_scratch_check(&l->own, err);
+  if (st) return st;
   memset(l->slot, -1, l->slots * sizeof *l->slot);
   return make_room(l, err);
 }
@@ -70,10 +73,7 @@ static thr_status listing_init(listing *l, thr_err *err)
 static void listing_destroy(listing *l)
 {
   free(l->image);
-  free(l->slot);
-  free(l->times);
-  free(l->from);
-  free(l->by);
+  thr_scratch_free(&l->own);
 }
 
 /* Breadth first from the identity: each element times each generator. */
@@ -130,14 +130,13 @@ static void fill_orders(thr_group *group)
 static thr_status tabulate(listing *l, thr_group *group, thr_err *err)
 {
   size_t order = (size_t)l->order;
-  int *listed = thr_calloc(order, sizeof *listed), *number = thr_calloc(order, sizeof *number);
+  int *listed = thr_scratch_array(&l->own, order, sizeof *listed), *number = thr_scratch_array(&l->own, order, sizeof *number);
   *group = (thr_group){.degree = l->degree, .order = l->order, .image = l->image};
   l->image = NULL;
   group->product = thr_calloc(order * order, sizeof *group->product);
   group->inverse = thr_calloc(order, sizeof *group->inverse);
   group->power_order = thr_calloc(order, sizeof *group->power_order);
-  thr_status st = THR_OK;
-  if (!listed || !number || !group->product || !group->inverse || !group->power_order) st = thr_nomem(err);
+  thr_status st = group->product && group->inverse && group->power_order ? thr_scratch_check(&l->own, err) : thr_nomem(err);
   if (!st) st = thr_rows_sort(group->image, group->order, group->degree, listed, err);
   if (!st) {
     for (int a = 0; a < group->order; a++)
@@ -145,8 +144,6 @@ static thr_status tabulate(listing *l, thr_group *group, thr_err *err)
     fill_products(l, number, listed, group);
     fill_orders(group);
   }
-  free(listed);
-  free(number);
   return st;
 }
 

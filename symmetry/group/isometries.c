@@ -2,6 +2,7 @@
  * to a mirror; every such motion is refined by Procrustes analysis and verified on all nodes and edges. */
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
+#include "graph/scratch.h"
 #include "graph/status.h"
 #include "symmetry/group/automorphisms.h"
 #include "symmetry/group/isometry.h"
@@ -33,6 +34,7 @@ typedef struct {
   const thr_automorphism_options *colours;
   double tolerance; /* in parts of size, of every node */
   double centroid[3], size;
+  thr_scratch own;              /* the arrays */
   double (*x)[3];               /* [n_nodes] from the centroid, in parts of size */
   double *radius, most;         /* [n_nodes] and the largest */
   int64_t *kind;                /* [n_nodes] */
@@ -136,9 +138,10 @@ static thr_status fill_cells(search *s, thr_err *err)
   double fit = fmin(fmin(2 * s->most / s->loose, cbrt(16.0 * n)), 256);
   s->side = fit < 1 ? 1 : (int)fit;
   int cells = s->side * s->side * s->side;
-  s->cell_first = thr_calloc((size_t)cells + 2, sizeof *s->cell_first);
-  s->cell = thr_calloc((size_t)n, sizeof *s->cell);
-  if (!s->cell_first || !s->cell) return thr_nomem(err);
+  s->cell_first = thr_scratch_array(&s->own, (size_t)cells + 2, sizeof *s->cell_first);
+  s->cell = thr_scratch_array(&s->own, (size_t)n, sizeof *s->cell);
+  thr_status st = thr_scratch_check(&s->own, err);
+  if (st) return st;
   for (int v = 0; v < n; v++)
     s->cell_first[cell_of(s, s->x[v]) + 2]++;
   for (int c = 0; c < cells; c++)
@@ -152,14 +155,15 @@ static thr_status search_init(search *s, thr_err *err)
 {
   const thr_frame *frame = s->f;
   size_t n = (size_t)frame->n_nodes;
-  s->x = thr_calloc(n, sizeof *s->x);
-  s->radius = thr_calloc(n, sizeof *s->radius);
-  s->kind = thr_calloc(n, sizeof *s->kind);
-  s->like = thr_calloc(n, sizeof *s->like);
-  s->image = thr_calloc(n, sizeof *s->image);
-  s->next = thr_calloc(n, sizeof *s->next);
-  s->hit = thr_calloc(n, sizeof *s->hit);
-  if (!s->x || !s->radius || !s->kind || !s->like || !s->image || !s->next || !s->hit) return thr_nomem(err);
+  s->x = thr_scratch_array(&s->own, n, sizeof *s->x);
+  s->radius = thr_scratch_array(&s->own, n, sizeof *s->radius);
+  s->kind = thr_scratch_array(&s->own, n, sizeof *s->kind);
+  s->like = thr_scratch_array(&s->own, n, sizeof *s->like);
+  s->image = thr_scratch_array(&s->own, n, sizeof *s->image);
+  s->next = thr_scratch_array(&s->own, n, sizeof *s->next);
+  s->hit = thr_scratch_array(&s->own, n, sizeof *s->hit);
+  thr_status st = thr_scratch_check(&s->own, err);
+  if (st) return st;
   thr_frame_extent(frame, s->centroid, &s->size);
   for (int v = 0; v < frame->n_nodes; v++) {
     for (int i = 0; i < 3; i++)
@@ -173,19 +177,6 @@ static thr_status search_init(search *s, thr_err *err)
   qsort(s->like, n, sizeof *s->like, by_likeness);
   choose_references(s);
   return fill_cells(s, err);
-}
-
-static void search_destroy(search *s)
-{
-  free(s->x);
-  free(s->radius);
-  free(s->kind);
-  free(s->like);
-  free(s->cell_first);
-  free(s->cell);
-  free(s->image);
-  free(s->next);
-  free(s->hit);
 }
 
 /* The node of this kind nearest to x within loose; -1: none. */
@@ -360,7 +351,7 @@ thr_status thr_isometries_find(const thr_frame *frame, const thr_automorphism_op
   thr_status st = search_init(&s, err);
   if (!st) st = s.second < 0 ? try_line(&s, cap, err) : try_all(&s, cap, err);
   if (!st) st = thr_rows_sort(s.found, s.count, frame->n_nodes, NULL, err);
-  search_destroy(&s);
+  thr_scratch_free(&s.own);
   if (st) {
     free(s.found);
     return st;
