@@ -4,6 +4,7 @@
 #include "graph/angle.h"
 #include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
+#include "graph/scratch.h"
 #include "graph/status.h"
 
 #include <limits.h>
@@ -284,7 +285,8 @@ static thr_status fill_limits(thr_turning_columns *turning_columns, thr_err *err
   const thr_turning_task *turning_task = turning_columns->task;
   const thr_request options = {.cover = turning_task->cover, .capacity = turning_task->capacity};
   turning_columns->n_ends = turning_task->end_count ? frame->n_nodes : turning_columns->n_components;
-  turning_columns->supply = thr_calloc((size_t)turning_columns->n_ends, sizeof *turning_columns->supply);
+  turning_columns->supply =
+      thr_scratch_array(&turning_columns->own, (size_t)turning_columns->n_ends, sizeof *turning_columns->supply);
   if (!turning_columns->supply) return thr_nomem(err);
   for (int e = 0; e < frame->n_edges; e++) {
     int capacity = thr_plan_capacity(frame, &options, e);
@@ -313,25 +315,24 @@ thr_status thr_turning_columns_init(thr_turning_columns *turning_columns, const 
   *turning_columns = (thr_turning_columns){.f = frame, .task = task};
   thr_status st = check_task(task, err);
   if (st) return st;
-  turning_columns->component = thr_calloc(n, sizeof *turning_columns->component);
-  turning_columns->pair_first = thr_calloc(n, sizeof *turning_columns->pair_first);
-  turning_columns->position = thr_calloc(2 * m, sizeof *turning_columns->position);
-  turning_columns->end_column = thr_calloc(2 * m, sizeof *turning_columns->end_column);
-  turning_columns->end_group = thr_calloc(n, sizeof *turning_columns->end_group);
-  turning_columns->cover = thr_calloc(m, sizeof *turning_columns->cover);
-  turning_columns->most = thr_calloc(m, sizeof *turning_columns->most);
-  turning_columns->length = thr_calloc(m, sizeof *turning_columns->length);
-  st = turning_columns->component && turning_columns->pair_first && turning_columns->position && turning_columns->end_column &&
-               turning_columns->end_group && turning_columns->cover && turning_columns->most && turning_columns->length
-           ? THR_OK
-           : thr_nomem(err);
+  turning_columns->component = thr_scratch_array(&turning_columns->own, n, sizeof *turning_columns->component);
+  turning_columns->pair_first = thr_scratch_array(&turning_columns->own, n, sizeof *turning_columns->pair_first);
+  turning_columns->position = thr_scratch_array(&turning_columns->own, 2 * m, sizeof *turning_columns->position);
+  turning_columns->end_column = thr_scratch_array(&turning_columns->own, 2 * m, sizeof *turning_columns->end_column);
+  turning_columns->end_group = thr_scratch_array(&turning_columns->own, n, sizeof *turning_columns->end_group);
+  turning_columns->cover = thr_scratch_array(&turning_columns->own, m, sizeof *turning_columns->cover);
+  turning_columns->most = thr_scratch_array(&turning_columns->own, m, sizeof *turning_columns->most);
+  turning_columns->length = thr_scratch_array(&turning_columns->own, m, sizeof *turning_columns->length);
+  st = thr_scratch_check(&turning_columns->own, err);
   if (!st) st = thr_frame_components(frame, turning_columns->component, &turning_columns->n_components, err);
   if (!st) st = fill_limits(turning_columns, err);
   if (!st) st = count_columns(turning_columns, err);
   if (!st) {
-    turning_columns->half = thr_calloc((size_t)turning_columns->n_columns, sizeof *turning_columns->half);
-    turning_columns->weight = thr_calloc((size_t)turning_columns->n_columns, sizeof *turning_columns->weight);
-    if (!turning_columns->half || !turning_columns->weight) st = thr_nomem(err);
+    turning_columns->half =
+        thr_scratch_array(&turning_columns->own, (size_t)turning_columns->n_columns, sizeof *turning_columns->half);
+    turning_columns->weight =
+        thr_scratch_array(&turning_columns->own, (size_t)turning_columns->n_columns, sizeof *turning_columns->weight);
+    st = thr_scratch_check(&turning_columns->own, err);
   }
   for (size_t e = 0; e < m && !st; e++)
     if (!(frame->length[e] * task->price_per_length < 1e4))
@@ -345,16 +346,6 @@ thr_status thr_turning_columns_init(thr_turning_columns *turning_columns, const 
 
 void thr_turning_columns_destroy(thr_turning_columns *turning_columns)
 {
-  free(turning_columns->component);
-  free(turning_columns->pair_first);
-  free(turning_columns->position);
-  free(turning_columns->end_column);
-  free(turning_columns->end_group);
-  free(turning_columns->cover);
-  free(turning_columns->most);
-  free(turning_columns->supply);
-  free(turning_columns->half);
-  free(turning_columns->weight);
-  free(turning_columns->length);
+  thr_scratch_free(&turning_columns->own);
   *turning_columns = (thr_turning_columns){0};
 }

@@ -27,6 +27,7 @@
 #include "graph/framework/frame.h"
 #include "graph/io/json.h"
 #include "graph/io/writer.h"
+#include "graph/scratch.h"
 #include "graph/status.h"
 
 typedef enum {
@@ -86,6 +87,7 @@ double thr_turning_extra_limit(const thr_frame *frame, int cover, double length_
 typedef struct {
   const thr_frame *f;
   const thr_turning_task *task;
+  thr_scratch own; /* the arrays */
   int n_components;
   int *component;   /* [n_nodes] */
   int *cover;       /* [n_edges] passes at least */

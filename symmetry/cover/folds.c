@@ -1,9 +1,9 @@
 /* Folds that outnumber the ends they could be led to: a flow. */
 #include "graph/status.h"
+#include "graph/scratch.h"
 #include "symmetry/cover/programme.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 static const double least_flow = 1e-6;
 
@@ -15,6 +15,7 @@ typedef struct {
   double *supply, *demand, *used; /* [n] left; of copies at a dart type */
   int *first, *incident;          /* as in lp/tjoin/oddcut.h */
   int *queue, *arrived;           /* [n] edge by which a node was reached, -1 = not, m = a source */
+  thr_scratch own;                /* the arrays */
 } network;
 
 static thr_status network_init(network *w, const thr_programme *p, thr_err *err)
@@ -22,33 +23,17 @@ static thr_status network_init(network *w, const thr_programme *p, thr_err *err)
   int darts = p->q->n_darts;
   size_t n = 2 * (size_t)darts, m = (size_t)p->first_end + (size_t)darts;
   w->n = 2 * darts;
-  w->edge = thr_calloc(m, sizeof *w->edge);
-  w->capacity = thr_calloc(m, sizeof *w->capacity);
-  w->flow = thr_calloc(m, sizeof *w->flow);
-  w->supply = thr_calloc(n, sizeof *w->supply);
-  w->demand = thr_calloc(n, sizeof *w->demand);
-  w->used = thr_calloc(n, sizeof *w->used);
-  w->first = thr_calloc(n + 2, sizeof *w->first);
-  w->incident = thr_calloc(2 * m, sizeof *w->incident);
-  w->queue = thr_calloc(n, sizeof *w->queue);
-  w->arrived = thr_calloc(n, sizeof *w->arrived);
-  bool all =
-      w->edge && w->capacity && w->flow && w->supply && w->demand && w->used && w->first && w->incident && w->queue && w->arrived;
-  return all ? THR_OK : thr_nomem(err);
-}
-
-static void network_destroy(network *w)
-{
-  free(w->edge);
-  free(w->capacity);
-  free(w->flow);
-  free(w->supply);
-  free(w->demand);
-  free(w->used);
-  free(w->first);
-  free(w->incident);
-  free(w->queue);
-  free(w->arrived);
+  w->edge = thr_scratch_array(&w->own, m, sizeof *w->edge);
+  w->capacity = thr_scratch_array(&w->own, m, sizeof *w->capacity);
+  w->flow = thr_scratch_array(&w->own, m, sizeof *w->flow);
+  w->supply = thr_scratch_array(&w->own, n, sizeof *w->supply);
+  w->demand = thr_scratch_array(&w->own, n, sizeof *w->demand);
+  w->used = thr_scratch_array(&w->own, n, sizeof *w->used);
+  w->first = thr_scratch_array(&w->own, n + 2, sizeof *w->first);
+  w->incident = thr_scratch_array(&w->own, 2 * m, sizeof *w->incident);
+  w->queue = thr_scratch_array(&w->own, n, sizeof *w->queue);
+  w->arrived = thr_scratch_array(&w->own, n, sizeof *w->arrived);
+  return thr_scratch_check(&w->own, err);
 }
 
 static void network_fill(network *w, const thr_programme *p, const double *value)
@@ -151,6 +136,6 @@ thr_status thr_programme_folds(const thr_programme *p, const double *value, bool
       pair_side[d] = w.arrived[2 * d + 1] >= 0;
     }
   }
-  network_destroy(&w);
+  thr_scratch_free(&w.own);
   return st;
 }

@@ -1,6 +1,7 @@
 /* Bouchet's greedy on a multigraph of passes. */
 #include "graph/disjoint.h"
 #include "graph/limits.h"
+#include "graph/scratch.h"
 #include "graph/status.h"
 #include "graph/threading/multigraph.h"
 #include "tortuosity/cords/join.h"
@@ -27,28 +28,14 @@ typedef struct {
   int *spare; /* [n_components] pieces that the component may still fall into */
   int searches; /* so far */
   ranked *order;
-  int most;      /* darts at a node */
-  int most_few;  /* darts at a node that is no hub */
-  double *price; /* [most_few * most_few] at the node at hand */
-  int *pair;     /* [most] of the node at hand, by position */
-  int *port;     /* [most] disjoint sets: what hangs together without the node */
-  int *trial;    /* [2 * most] scratch */
+  int most;        /* darts at a node */
+  int most_few;    /* darts at a node that is no hub */
+  double *price;   /* [most_few * most_few] at the node at hand */
+  int *pair;       /* [most] of the node at hand, by position */
+  int *port;       /* [most] disjoint sets: what hangs together without the node */
+  int *trial;      /* [2 * most] scratch */
+  thr_scratch own; /* the arrays */
 } greedy;
-
-static void greedy_destroy(greedy *s)
-{
-  free(s->place);
-  free(s->link);
-  free(s->stamp);
-  free(s->class);
-  free(s->queue);
-  free(s->spare);
-  free(s->order);
-  free(s->price);
-  free(s->pair);
-  free(s->port);
-  free(s->trial);
-}
 
 static thr_status greedy_init(greedy *s, thr_join *j, int apart, const thr_limits *limits, thr_err *err)
 {
@@ -61,20 +48,19 @@ static thr_status greedy_init(greedy *s, thr_join *j, int apart, const thr_limit
     if (darts > s->most_few && darts <= THR_HUB) s->most_few = darts;
   }
   size_t k = (size_t)s->most, few = (size_t)s->most_few;
-  s->place = thr_calloc((size_t)multigraph->n_darts, sizeof *s->place);
-  s->link = thr_calloc((size_t)multigraph->n_darts, sizeof *s->link);
-  s->stamp = thr_calloc(n, sizeof *s->stamp);
-  s->class = thr_calloc(n, sizeof *s->class);
-  s->queue = thr_calloc(n, sizeof *s->queue);
-  s->spare = thr_calloc((size_t)j->c->n_components, sizeof *s->spare);
-  s->order = thr_calloc(n, sizeof *s->order);
-  s->price = thr_calloc(few * few, sizeof *s->price);
-  s->pair = thr_calloc(k, sizeof *s->pair);
-  s->port = thr_calloc(k, sizeof *s->port);
-  s->trial = thr_calloc(2 * k, sizeof *s->trial);
-  if (!s->place || !s->link || !s->stamp || !s->class || !s->queue || !s->spare || !s->order || !s->price || !s->pair ||
-      !s->port || !s->trial)
-    return thr_nomem(err);
+  s->place = thr_scratch_array(&s->own, (size_t)multigraph->n_darts, sizeof *s->place);
+  s->link = thr_scratch_array(&s->own, (size_t)multigraph->n_darts, sizeof *s->link);
+  s->stamp = thr_scratch_array(&s->own, n, sizeof *s->stamp);
+  s->class = thr_scratch_array(&s->own, n, sizeof *s->class);
+  s->queue = thr_scratch_array(&s->own, n, sizeof *s->queue);
+  s->spare = thr_scratch_array(&s->own, (size_t)j->c->n_components, sizeof *s->spare);
+  s->order = thr_scratch_array(&s->own, n, sizeof *s->order);
+  s->price = thr_scratch_array(&s->own, few * few, sizeof *s->price);
+  s->pair = thr_scratch_array(&s->own, k, sizeof *s->pair);
+  s->port = thr_scratch_array(&s->own, k, sizeof *s->port);
+  s->trial = thr_scratch_array(&s->own, 2 * k, sizeof *s->trial);
+  thr_status st = thr_scratch_check(&s->own, err);
+  if (st) return st;
   for (int i = 0; i < j->c->n_components; i++)
     s->spare[i] = apart;
   for (int d = 0; d < multigraph->n_darts; d++)
@@ -290,7 +276,7 @@ thr_status thr_join_greedy(thr_join *j, int apart, const thr_limits *limits, thr
   if (!st) st = rank_nodes(&s, err);
   for (int i = 0; i < j->c->f->n_nodes && !st; i++)
     st = settle_node(&s, s.order[i].node, err);
-  greedy_destroy(&s);
+  thr_scratch_free(&s.own);
   if (!st) thr_join_measure(j);
   return st;
 }

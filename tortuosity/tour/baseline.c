@@ -1,6 +1,7 @@
 /* Fleury (1883) and Hierholzer (1873) on the multigraph of passes. */
 #include "tortuosity/tour/baseline.h"
 #include "graph/plan/turning_proof.h"
+#include "graph/scratch.h"
 #include "graph/threading/multigraph.h"
 #include "tortuosity/cords/extra.h"
 #include "tortuosity/cords/join.h"
@@ -12,38 +13,29 @@
 
 typedef struct {
   thr_join *j;
-  int *partner; /* [n_darts] in the cheapest pairing of its node; NULL if pairings are ignored */
-  bool *used;   /* [n_darts] both darts of a pass that is walked */
-  int *walk;    /* [n_darts / 2 + 1] darts in order */
-  int *stack;   /* [n_darts / 2 + 1] */
-  int *cursor;  /* [n_nodes] first dart at a node that may be unused */
-  int *stamp;   /* [n_nodes] */
-  int *queue;   /* [n_nodes] */
+  thr_scratch own; /* the arrays */
+  int *partner;    /* [n_darts] in the cheapest pairing of its node; NULL if pairings are ignored */
+  bool *used;      /* [n_darts] both darts of a pass that is walked */
+  int *walk;       /* [n_darts / 2 + 1] darts in order */
+  int *stack;      /* [n_darts / 2 + 1] */
+  int *cursor;     /* [n_nodes] first dart at a node that may be unused */
+  int *stamp;      /* [n_nodes] */
+  int *queue;      /* [n_nodes] */
   int searches;
 } walker;
-
-static void walker_destroy(walker *w)
-{
-  free(w->partner);
-  free(w->used);
-  free(w->walk);
-  free(w->stack);
-  free(w->cursor);
-  free(w->stamp);
-  free(w->queue);
-}
 
 static thr_status walker_init(walker *w, thr_join *j, thr_err *err)
 {
   size_t d = (size_t)j->g.n_darts, n = (size_t)j->g.n_nodes;
   *w = (walker){.j = j};
-  w->used = thr_calloc(d, sizeof *w->used);
-  w->walk = thr_calloc(d / 2 + 1, sizeof *w->walk);
-  w->stack = thr_calloc(d / 2 + 1, sizeof *w->stack);
-  w->cursor = thr_calloc(n, sizeof *w->cursor);
-  w->stamp = thr_calloc(n, sizeof *w->stamp);
-  w->queue = thr_calloc(n, sizeof *w->queue);
-  if (!w->used || !w->walk || !w->stack || !w->cursor || !w->stamp || !w->queue) return thr_nomem(err);
+  w->used = thr_scratch_array(&w->own, d, sizeof *w->used);
+  w->walk = thr_scratch_array(&w->own, d / 2 + 1, sizeof *w->walk);
+  w->stack = thr_scratch_array(&w->own, d / 2 + 1, sizeof *w->stack);
+  w->cursor = thr_scratch_array(&w->own, n, sizeof *w->cursor);
+  w->stamp = thr_scratch_array(&w->own, n, sizeof *w->stamp);
+  w->queue = thr_scratch_array(&w->own, n, sizeof *w->queue);
+  thr_status st = thr_scratch_check(&w->own, err);
+  if (st) return st;
   for (size_t v = 0; v < n; v++)
     w->cursor[v] = j->g.first[v];
   return THR_OK;
@@ -168,10 +160,10 @@ static thr_status pair_nodes(walker *w, thr_err *err)
   int most = 0;
   for (int v = 0; v < multigraph->n_nodes; v++)
     if (multigraph->first[v + 1] - multigraph->first[v] > most) most = multigraph->first[v + 1] - multigraph->first[v];
-  double *price = thr_calloc((size_t)most * (size_t)most, sizeof *price);
-  int *mate = thr_calloc((size_t)most, sizeof *mate);
-  w->partner = thr_calloc((size_t)multigraph->n_darts, sizeof *w->partner);
-  thr_status st = price && mate && w->partner ? THR_OK : thr_nomem(err);
+  double *price = thr_scratch_array(&w->own, (size_t)most * (size_t)most, sizeof *price);
+  int *mate = thr_scratch_array(&w->own, (size_t)most, sizeof *mate);
+  w->partner = thr_scratch_array(&w->own, (size_t)multigraph->n_darts, sizeof *w->partner);
+  thr_status st = thr_scratch_check(&w->own, err);
   for (int v = 0; v < multigraph->n_nodes && !st; v++) {
     const int *dart = multigraph->dart + multigraph->first[v];
     int n = multigraph->first[v + 1] - multigraph->first[v];
@@ -182,8 +174,6 @@ static thr_status pair_nodes(walker *w, thr_err *err)
     for (int i = 0; i < n && !st; i++)
       w->partner[dart[i]] = dart[mate[i]];
   }
-  free(price);
-  free(mate);
   return st;
 }
 
@@ -201,7 +191,7 @@ static thr_status walk_all(thr_join *j, thr_tour tour, bool ignore_pairings, thr
         start++;
     take_pairs(&w, tour == THR_TOUR_FLEURY ? fleury(&w, start) : hierholzer(&w, start));
   }
-  walker_destroy(&w);
+  thr_scratch_free(&w.own);
   return st;
 }
 
