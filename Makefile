@@ -20,7 +20,7 @@ DEMO_OUT = $(OUT)/demo
 DEMO = plan data/dome7.json --objective length -o $(DEMO_OUT)/plan.json --draw $(DEMO_OUT)
 
 # Debian 12 packages
-BUILD_PACKAGES := build-essential pkg-config libglpk-dev libigraph-dev libnauty2-dev libjansson-dev libbullet-dev \
+BUILD_PACKAGES := build-essential pkg-config libglpk-dev libigraph-dev libnauty2-dev libbullet-dev \
 	libsuitesparse-dev librsvg2-dev libcairo2-dev fonts-dejavu-core
 TEST_PACKAGES := check clang clang-format libclang-rt-14-dev librsvg2-bin libxml2-utils poppler-utils python3
 # npm from elsewhere than Debian serves as well
@@ -39,8 +39,8 @@ FUZZ_CXX ?= clang++
 CLANG_FORMAT ?= clang-format
 
 # Asked for once and only when a recipe needs it: on a bare machine `make demo` installs pkg-config and the libraries first.
-PKG_CFLAGS = $(eval PKG_CFLAGS := $$(shell pkg-config --cflags igraph nauty jansson))$(PKG_CFLAGS)
-PKG_LIBS = $(eval PKG_LIBS := $$(shell pkg-config --libs nauty jansson bullet-float64))$(PKG_LIBS)
+PKG_CFLAGS = $(eval PKG_CFLAGS := $$(shell pkg-config --cflags igraph nauty))$(PKG_CFLAGS)
+PKG_LIBS = $(eval PKG_LIBS := $$(shell pkg-config --libs nauty bullet-float64))$(PKG_LIBS)
 # Loaded when needed (graph/process/lazy.h): igraph, librsvg with cairo and GLib, SuiteSparseQR with CHOLMOD. Their names at run time, such as
 # librsvg-2.so.2, are those that the linker writes into a program.
 LAZY_LIBS = $(shell pkg-config --libs igraph librsvg-2.0) -lspqr
@@ -307,7 +307,7 @@ $(DIR)/objects.list: FORCE
 	@echo "$(OBJECTS)" | cmp -s - $@ || echo "$(OBJECTS)" > $@
 
 $(OUT)/packages.ok:
-	@command -v $(CC) >/dev/null && command -v $(CXX) >/dev/null && pkg-config --exists igraph nauty jansson bullet-float64 librsvg-2.0 cairo-pdf 2>/dev/null && \
+	@command -v $(CC) >/dev/null && command -v $(CXX) >/dev/null && pkg-config --exists igraph nauty bullet-float64 librsvg-2.0 cairo-pdf 2>/dev/null && \
 	  echo '#include <glpk.h>' | $(CC) -E -x c - >/dev/null 2>&1 || \
 	  { echo 'thread: a compiler or a library is missing: run `make deps` (or `make demo`), or install: $(BUILD_PACKAGES)' >&2; exit 1; }
 	@mkdir -p $(@D)

@@ -15,7 +15,7 @@ trap 'rm -rf "$work"' EXIT
 # shellcheck disable=SC2046
 "${CC:-cc}" -std=c11 -O2 -D_DEFAULT_SOURCE -I. -c -o "$work/matching.o" bench/matching.c
 # shellcheck disable=SC2046
-"${CXX:-c++}" -o "$work/matching" "$work/matching.o" "$library" $(pkg-config --libs igraph nauty jansson bullet-float64) -lglpk -lm
+"${CXX:-c++}" -o "$work/matching" "$work/matching.o" "$library" $(pkg-config --libs igraph nauty bullet-float64) -lglpk -lm
 lemon=
 if "${CXX:-c++}" -std=c++17 -O2 -w -o "$work/lemon" bench/lemon.cpp -llemon 2>/dev/null; then lemon=$work/lemon; fi
 

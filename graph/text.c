@@ -1,6 +1,7 @@
 /* Growing text, number formatting, cleaning of foreign text, whole-file input and atomic output. */
 #define _XOPEN_SOURCE 700
 #include "graph/text.h"
+#include "graph/number.h"
 
 #include <math.h>
 #include <errno.h>
@@ -63,12 +64,14 @@ void thr_text_printf(thr_text *text, const char *format, ...)
 
 void thr_text_double(thr_text *text, double value)
 {
-  char digits[40];
-  for (int precision = 15; precision <= 17; precision++) {
-    snprintf(digits, sizeof digits, "%.*g", precision, value == 0 ? 0.0 : value);
-    if (strtod(digits, NULL) == value) break;
-  }
-  thr_text_append(text, digits);
+  if (reserve(text, THR_NUMBER_TEXT)) text->length += thr_number_print(value, text->data + text->length);
+  if (text->data) text->data[text->length] = '\0';
+}
+
+void thr_text_int(thr_text *text, int64_t value)
+{
+  if (reserve(text, THR_INT_TEXT)) text->length += thr_int_print(value, text->data + text->length);
+  if (text->data) text->data[text->length] = '\0';
 }
 
 void thr_text_json_number(thr_text *text, double value)

@@ -16,8 +16,10 @@ void thr_text_printf(thr_text *text, const char *format, ...) THR_PRINTF(2, 3);
 void thr_text_append(thr_text *text, const char *s);
 void thr_text_append_bytes(thr_text *text, const char *s, size_t n);
 
-/* Shortest decimal that reads back as the same double; "-0" is written as 0. Finite numbers only. */
+/* Shortest decimal that reads back as the same double; "-0" is written as 0. Finite numbers only (graph/number.h). */
 void thr_text_double(thr_text *text, double value);
+
+void thr_text_int(thr_text *text, int64_t value);
 
 /* The same as JSON, which has no word for what is not finite: null. */
 void thr_text_json_number(thr_text *text, double value);

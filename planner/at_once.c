@@ -5,32 +5,98 @@
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/status.h"
+#include "graph/threading/walks.h"
 #include "lp/length/cut_tour.h"
-#include "lp/length/postman.h"
 #include "planner/planners.h"
 #include "tortuosity/tie/tube_first.h"
 
 #include <stdlib.h>
+#include <string.h>
 
-/* One cord through every edge an even number of times; *n = 0 where there is no room for that. */
+/* A closed walk over every edge as often there as back, which takes no pairing (Hierholzer 1873). */
+typedef struct {
+  const thr_frame *f;
+  int *left;         /* [2 n_edges] passes to be made over each half-edge */
+  int *cursor;       /* [n_nodes] the first place of half[] from here where some may be left */
+  int *stack, *walk; /* [room] half-edges */
+} rounds;
+
+static void rounds_destroy(rounds *x)
+{
+  free(x->left);
+  free(x->cursor);
+  free(x->stack);
+  free(x->walk);
+}
+
+/* *fits: every edge has room for an even number of passes. */
+static thr_status rounds_init(rounds *x, const thr_request *options, bool *fits, thr_err *err)
+{
+  const thr_frame *frame = x->f;
+  size_t room = 0;
+  *fits = true;
+  x->left = thr_calloc(2 * (size_t)frame->n_edges, sizeof *x->left);
+  x->cursor = thr_calloc((size_t)frame->n_nodes, sizeof *x->cursor);
+  if (!x->left || !x->cursor) return thr_nomem(err);
+  for (int e = 0; e < frame->n_edges; e++) {
+    int each_way = (thr_plan_cover(frame, options, e) + 1) / 2;
+    x->left[2 * e] = x->left[2 * e + 1] = each_way;
+    room += 2 * (size_t)each_way;
+    *fits = *fits && 2 * each_way <= thr_plan_capacity(frame, options, e);
+  }
+  memcpy(x->cursor, frame->first, (size_t)frame->n_nodes * sizeof *x->cursor);
+  x->stack = thr_calloc(room, sizeof *x->stack);
+  x->walk = thr_calloc(room, sizeof *x->walk);
+  return x->stack && x->walk ? THR_OK : thr_nomem(err);
+}
+
+/* A half-edge that leads on from v with passes left, not straight back where there is another; -1 if there is none. */
+static int next_from(rounds *x, int v, int back)
+{
+  const thr_frame *frame = x->f;
+  int *at = &x->cursor[v], end = frame->first[v + 1];
+  while (*at < end && x->left[frame->half[*at]] == 0)
+    ++*at;
+  if (*at == end) return -1;
+  for (int i = *at; i < end && frame->half[*at] == back; i++)
+    if (frame->half[i] != back && x->left[frame->half[i]] > 0) return frame->half[i];
+  return frame->half[*at];
+}
+
+/* Fills x->walk; the number of its half-edges. */
+static int walk_all(rounds *x)
+{
+  int top = 0, n = 0, v = 0;
+  for (;;) {
+    int half = next_from(x, v, top ? x->stack[top - 1] ^ 1 : -1);
+    if (half >= 0) {
+      x->left[half]--;
+      x->stack[top++] = half;
+      v = thr_head(x->f, half);
+    } else if (top) {
+      x->walk[n] = x->stack[--top] ^ 1; /* the last comes first: the walk is made backwards */
+      v = thr_head(x->f, x->walk[n++]);
+    } else {
+      return n;
+    }
+  }
+}
+
+/* One cord through every edge of a component an even number of times; *n = 0 where there is no room for that. */
 static thr_status even_cord(const thr_frame *frame, const thr_request *options, const int *given, thr_cord **cord, int *n,
                             thr_err *err)
 {
-  thr_request one = *options;
-  thr_status st = THR_OK;
-  bool room = true;
+  rounds x = {.f = frame};
+  thr_walks walks = {0};
+  bool fits = false;
   (void)given;
   *cord = NULL;
   *n = 0;
-  int *passes = thr_calloc((size_t)frame->n_edges, sizeof *passes);
-  if (!passes) return thr_nomem(err);
-  for (int e = 0; e < frame->n_edges && room; e++) {
-    passes[e] = thr_plan_cover(frame, options, e) + thr_plan_cover(frame, options, e) % 2;
-    room = passes[e] <= thr_plan_capacity(frame, options, e);
-  }
-  one.cords = one.cords_least = 1;
-  if (room) st = thr_postman_cords(frame, &one, passes, cord, n, err);
-  free(passes);
+  thr_status st = rounds_init(&x, options, &fits, err);
+  if (!st && fits) st = thr_walks_copy(&walks, frame, x.walk, walk_all(&x), true, err);
+  if (!st && fits) st = thr_walks_cords(&walks, frame, options, cord, n, err);
+  thr_walks_destroy(&walks);
+  rounds_destroy(&x);
   return st;
 }
 

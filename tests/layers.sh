@@ -28,7 +28,7 @@ longest_circle=3
 
 # foreign and Linux headers: the only file that may include them. "*" also stands for a folder of headers.
 owners='igraph.h:graph/framework/igraph.c
-jansson.h:graph/io/json_jansson.c
+charconv:graph/number.cpp
 glpk.h:lp/solver/lp_glpk.c
 nau*.h:symmetry/group/nauty.c
 traces.h:symmetry/group/nauty.c
@@ -313,7 +313,7 @@ self_test() {
   expect graph/a.c:1 graph/a.c '#include "frame.h"\n'
   expect graph/a.c:1 graph/a.c '#include "../lp/lp.h"\n'
   expect graph/a.c:1 graph/a.c '#include <igraph.h>\n'
-  expect graph/framework/frame.c:1 graph/framework/frame.c '#include <jansson.h>\n'
+  expect graph/framework/frame.cpp:1 graph/framework/frame.cpp '#include <charconv>\n'
   expect cli/main.c:1 cli/main.c '#include <glpk.h>\n'
   expect symmetry/group/group.c:1 symmetry/group/group.c '#include <traces.h>\n'
   expect symmetry/group/group.c:1 symmetry/group/group.c '#include <nauty/nausparse.h>\n'

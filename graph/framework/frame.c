@@ -1,5 +1,6 @@
 /* The framework: drafts as readers collect them, welding, adjacency, hash. */
 #include "graph/framework/frame.h"
+#include "graph/number.h"
 #include "graph/disjoint.h"
 #include "graph/framework/units.h"
 #include "graph/sort.h"
@@ -140,49 +141,45 @@ static thr_status default_tolerance(const thr_draft *draft, double *tolerance, t
     double apart = distance(draft->node[draft->edge[e].a].xyz, draft->node[draft->edge[e].b].xyz);
     if (apart > 0) length[n++] = apart;
   }
-  thr_sort_doubles(length, (size_t)n);
   *tolerance = 1e-6 * diagonal_of((const double(*)[3])draft->node[0].xyz, draft->n_nodes, sizeof *draft->node);
-  if (n > 0) *tolerance = fmin(*tolerance, 1e-3 * length[n / 2]);
+  int shorter = 0;
+  for (int i = 0; i < n; i++)
+    shorter += 1e-3 * length[i] < *tolerance;
+  if (shorter > n / 2) { /* so is the median */
+    thr_sort_doubles(length, (size_t)n);
+    *tolerance = 1e-3 * length[n / 2];
+  }
   free(length);
   return THR_OK;
 }
 
 /* ---- from draft to framework ---- */
 
-typedef struct {
-  int a, b, index;
-} keyed_edge;
-
-static int by_ends(const void *pa, const void *pb)
-{
-  const keyed_edge *x = pa, *y = pb;
-  if (x->a != y->a) return x->a < y->a ? -1 : 1;
-  if (x->b != y->b) return x->b < y->b ? -1 : 1;
-  return (x->index > y->index) - (x->index < y->index);
-}
-
 /* keep[e] = 1 for the edges that survive: not of zero length, the first of equal pairs. */
 static thr_status choose_edges(const thr_draft *draft, const int *parent, bool *keep, thr_read_report *report, thr_err *err)
 {
-  keyed_edge *k = thr_calloc((size_t)draft->n_edges, sizeof *k);
-  if (!k) return thr_nomem(err);
-  int n = 0;
-  for (int e = 0; e < draft->n_edges; e++) {
-    int a = parent[draft->edge[e].a], b = parent[draft->edge[e].b];
-    if (a == b)
-      report->zero_length_edges++;
-    else
-      k[n++] = (keyed_edge){a < b ? a : b, a < b ? b : a, e};
+  int *next = thr_calloc((size_t)draft->n_edges, sizeof *next); /* of the edges with one lower end, by number */
+  int *first = thr_calloc((size_t)draft->n_nodes, sizeof *first), *seen = thr_calloc((size_t)draft->n_nodes, sizeof *seen);
+  thr_status st = next && first && seen ? THR_OK : thr_nomem(err);
+  for (int v = 0; v < draft->n_nodes && !st; v++)
+    first[v] = seen[v] = -1;
+  for (int e = draft->n_edges - 1; e >= 0 && !st; e--) {
+    int a = parent[draft->edge[e].a], b = parent[draft->edge[e].b], low = a < b ? a : b;
+    next[e] = first[low];
+    if (a != b) first[low] = e;
+    report->zero_length_edges += a == b;
   }
-  qsort(k, (size_t)n, sizeof *k, by_ends);
-  for (int i = 0; i < n; i++) {
-    if (i > 0 && k[i].a == k[i - 1].a && k[i].b == k[i - 1].b)
-      report->duplicate_edges++;
-    else
-      keep[k[i].index] = true;
-  }
-  free(k);
-  return THR_OK;
+  for (int v = 0; v < draft->n_nodes && !st; v++)
+    for (int e = first[v]; e >= 0; e = next[e]) {
+      int a = parent[draft->edge[e].a], b = parent[draft->edge[e].b], high = a < b ? b : a;
+      keep[e] = seen[high] != v;
+      report->duplicate_edges += !keep[e];
+      seen[high] = v;
+    }
+  free(next);
+  free(first);
+  free(seen);
+  return st;
 }
 
 static thr_status allocate(thr_frame *frame, int n_nodes, int n_edges, thr_err *err)
@@ -222,6 +219,14 @@ void thr_frame_index(thr_frame *frame)
   frame->first[0] = 0;
 }
 
+/* What a node without a name is called; NULL when memory runs out. */
+static char *index_name(int v)
+{
+  char digits[THR_INT_TEXT + 1] = "";
+  thr_int_print(v, digits);
+  return thr_strdup(digits);
+}
+
 static thr_status fill_nodes(thr_frame *frame, const thr_draft *draft, const int *parent, const int *index, thr_err *err)
 {
   for (int v = 0; v < draft->n_nodes; v++) {
@@ -230,10 +235,7 @@ static thr_status fill_nodes(thr_frame *frame, const thr_draft *draft, const int
     if (draft->node[v].foot) frame->foot[i] = true;
     if (parent[v] != v) continue;
     memcpy(frame->xyz[i], draft->node[v].xyz, sizeof frame->xyz[i]);
-    char digits[16];
-    snprintf(digits, sizeof digits, "%d", v);
-    frame->name[i] = thr_strdup(draft->node[v].name ? draft->node[v].name : digits);
-    if (!frame->name[i]) return thr_nomem(err);
+    if (!(frame->name[i] = draft->node[v].name ? thr_strdup(draft->node[v].name) : index_name(v))) return thr_nomem(err);
   }
   return THR_OK;
 }
@@ -253,6 +255,10 @@ static int by_name(const void *pa, const void *pb)
 /* Options and tables call nodes by their names. O(n log n). */
 static thr_status check_names(const thr_frame *frame, const thr_draft *draft, const int *parent, const int *index, thr_err *err)
 {
+  bool indices = true; /* no two are the same */
+  for (int v = 0; v < draft->n_nodes && indices; v++)
+    indices = !draft->node[v].name;
+  if (indices) return THR_OK;
   named *list = thr_calloc((size_t)frame->n_nodes, sizeof *list);
   if (!list) return thr_nomem(err);
   for (int v = 0; v < draft->n_nodes; v++)
@@ -556,7 +562,7 @@ void thr_direction(const thr_frame *frame, int half, double d[3])
   double largest = 0;
   for (int i = 0; i < 3; i++) {
     d[i] = to[i] - from[i];
-    largest = fmax(largest, fabs(d[i]));
+    if (fabs(d[i]) > largest) largest = fabs(d[i]);
   }
   for (int i = 0; i < 3; i++)
     d[i] /= largest;

@@ -1,5 +1,5 @@
-/* Reading JSON through jansson, behind a handle, so that one file knows the library. Writing goes through graph/io/writer.h:
- * our files want a stable key order and short lines, which a generic dumper does not give. */
+/* Reading JSON: a document is parsed once, into one array of eight bytes a value (graph/io/json.c). Writing goes through
+ * graph/io/writer.h. */
 #ifndef THR_JSON_H
 #define THR_JSON_H
 
@@ -7,8 +7,9 @@
 
 typedef struct thr_json thr_json; /* a parsed value; borrowed from its document, never freed on its own */
 
-/* Parses text (n bytes) as one JSON document; duplicate keys, trailing text and depth over 2048 are errors with
- * "name:line:column: what". *doc must be released with thr_json_destroy (NULL ok). */
+/* Parses text (n bytes, not needed any more afterwards) as one JSON document, a list or an object (RFC 8259); duplicate keys,
+ * trailing text, depth over 2048, \u0000 and numbers that no int64_t or double holds are errors with "name:line:column: what".
+ * *doc must be released with thr_json_destroy (NULL ok). O(n), and O(k log k) in the members of an object. */
 thr_status thr_json_parse(thr_json **doc, const char *text, size_t n, const char *name, thr_err *err) THR_MUST_CHECK;
 void thr_json_destroy(thr_json *doc);
 
@@ -16,7 +17,7 @@ typedef enum { THR_JSON_NULL, THR_JSON_BOOL, THR_JSON_NUMBER, THR_JSON_STRING, T
 
 /* All accessors take NULL as "absent" and answer THR_JSON_NULL, 0, NULL or false for it. */
 thr_json_type thr_json_typeof(const thr_json *value);
-const thr_json *thr_json_get(const thr_json *object, const char *key); /* NULL if absent or not an object */
+const thr_json *thr_json_get(const thr_json *object, const char *key); /* NULL if absent or not an object; O(log members) */
 int thr_json_size(const thr_json *value);                              /* of an array or object, else 0 */
 const thr_json *thr_json_at(const thr_json *array, int i);             /* NULL if out of range or not an array */
 const char *thr_json_string(const thr_json *value);                    /* NULL if not a string */

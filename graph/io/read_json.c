@@ -138,11 +138,13 @@ static thr_status read_index(reader *r, const where *at, const thr_json *v, int 
 {
   int64_t i;
   if (!thr_json_int(v, &i)) return bad(r, at, "not a node number; count nodes from 0");
+  if (i >= 0 && i < n) {
+    *index = (int)i;
+    return THR_OK;
+  }
   char what[80];
   snprintf(what, sizeof what, "there is no node %lld; the %d nodes count from 0", (long long)i, n);
-  if (i < 0 || i >= n) return bad(r, at, what);
-  *index = (int)i;
-  return THR_OK;
+  return bad(r, at, what);
 }
 
 /* What is not there, or null, leaves the default. */

@@ -7,7 +7,9 @@
 
 static void break_line(thr_writer *writer)
 {
-  thr_text_printf(writer->out, "\n%*s", writer->line - 1, "");
+  thr_text_append(writer->out, "\n");
+  for (; writer->line > 1; writer->line--)
+    thr_text_append(writer->out, " ");
   writer->line = 0;
 }
 
@@ -63,7 +65,8 @@ void thr_write_line(thr_writer *writer, int blanks)
 
 void thr_write_int(thr_writer *writer, const char *key, int64_t value)
 {
-  thr_write_printf(writer, key, "%" PRId64, value);
+  begin(writer, key);
+  thr_text_int(writer->out, value);
 }
 
 void thr_write_number(thr_writer *writer, const char *key, double value)

@@ -54,6 +54,23 @@ static thr_status edge_list(const thr_field_reader *field_reader, const thr_json
   return thr_fail(field_reader->err, field_reader->code, "%s: framework.%s: not one per edge", field_reader->name, key);
 }
 
+/* The two nodes of edge e. The place is written only for who has to read it. */
+static thr_status read_ends(const thr_field_reader *field_reader, const thr_json *pair, int e, int n_nodes, int end[2])
+{
+  thr_status st = THR_OK;
+  char place[48];
+  for (int i = 0; i < 2; i++) {
+    int64_t wide;
+    if (thr_json_int(thr_json_at(pair, i), &wide) && wide >= 0 && wide < n_nodes) {
+      end[i] = (int)wide;
+      continue;
+    }
+    snprintf(place, sizeof place, "framework.edges[%d]", e);
+    if ((st = thr_field_index(field_reader, pair, i, n_nodes, place, &end[i]))) return st;
+  }
+  return st;
+}
+
 static thr_status read_edges(const thr_field_reader *field_reader, const thr_json *object, thr_draft *draft)
 {
   const thr_json *edges, *lengths = NULL, *covers = NULL, *capacities = NULL;
@@ -65,11 +82,8 @@ static thr_status read_edges(const thr_field_reader *field_reader, const thr_jso
   for (int e = 0; e < thr_json_size(edges); e++) {
     int end[2] = {0, 0};
     double length = 0;
-    char place[48];
     thr_err why = {0};
-    snprintf(place, sizeof place, "framework.edges[%d]", e);
-    for (int i = 0; i < 2; i++)
-      if ((st = thr_field_index(field_reader, thr_json_at(edges, e), i, draft->n_nodes, place, &end[i]))) return st;
+    if ((st = read_ends(field_reader, thr_json_at(edges, e), e, draft->n_nodes, end))) return st;
     if (lengths && (!thr_json_number(thr_json_at(lengths, e), &length) || !(length > 0)))
       return thr_fail(field_reader->err, THR_EINPUT, "%s: framework.lengths[%d]: not a positive number", field_reader->name, e);
     if ((st = thr_draft_add_edge(draft, end[0], end[1], length, field_reader->err))) return st;
@@ -152,20 +166,20 @@ static thr_status read_cord(const thr_field_reader *field_reader, const thr_json
   if ((st = thr_field_need(field_reader, value, "edges", THR_JSON_ARRAY, &edges))) return st;
   cord->closed = thr_json_true(closed);
   int n = thr_json_size(edges);
-  char place[40];
+  char place[40], edge_place[40], node_place[40];
   if (n < 1 || thr_json_size(nodes) != n + 1) {
     snprintf(place, sizeof place, "cords[%d]", i);
     return thr_field_bad(field_reader, place, "needs at least one edge, and one node more than edges");
   }
   if (!(cord->half = thr_calloc((size_t)n, sizeof *cord->half))) return thr_nomem(field_reader->err);
   cord->n_passes = n;
+  snprintf(edge_place, sizeof edge_place, "cords[%d].edges", i);
+  snprintf(node_place, sizeof node_place, "cords[%d].nodes", i);
   for (int k = 0; k < n; k++) {
     int e = 0, a = 0, b = 0;
-    snprintf(place, sizeof place, "cords[%d].edges", i);
-    if ((st = thr_field_index(field_reader, edges, k, frame->n_edges, place, &e))) return st;
-    snprintf(place, sizeof place, "cords[%d].nodes", i);
-    if ((st = thr_field_index(field_reader, nodes, k, frame->n_nodes, place, &a))) return st;
-    if ((st = thr_field_index(field_reader, nodes, k + 1, frame->n_nodes, place, &b))) return st;
+    if ((st = thr_field_index(field_reader, edges, k, frame->n_edges, edge_place, &e))) return st;
+    if ((st = thr_field_index(field_reader, nodes, k, frame->n_nodes, node_place, &a))) return st;
+    if ((st = thr_field_index(field_reader, nodes, k + 1, frame->n_nodes, node_place, &b))) return st;
     if ((st = half_edge(field_reader, frame, cord->id, k, e, a, b, &cord->half[k]))) return st;
   }
   return THR_OK;

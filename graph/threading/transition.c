@@ -29,8 +29,8 @@ static thr_status pair_exactly(const thr_frame *frame, const thr_multigraph *mul
   double price[EXACT_DARTS * EXACT_DARTS] = {0};
   int pair[EXACT_DARTS];
   for (int i = 0; i < n; i++)
-    for (int j = 0; j < n; j++)
-      price[i * n + j] = i == j ? 0 : thr_transition_price(frame, multigraph, dart[i], dart[j]);
+    for (int j = i + 1; j < n; j++)
+      price[i * n + j] = price[j * n + i] = thr_transition_price(frame, multigraph, dart[i], dart[j]);
   thr_status st = thr_pairing_best(n, price, pair, err);
   for (int i = 0; i < n && !st; i++)
     mate[dart[i]] = dart[pair[i]];
@@ -52,7 +52,9 @@ thr_status thr_transition_pair(const thr_frame *frame, const thr_multigraph *mul
     const int *dart = multigraph->dart + multigraph->first[v];
     int n = multigraph->first[v + 1] - multigraph->first[v];
     if (n % 2) return thr_fail(err, THR_EINPUT, "node %s has an odd number (%d) of passes and ends", frame->name[v], n);
-    if (n <= EXACT_DARTS)
+    if (n == 2)
+      thr_set_pair(mate, dart[0], dart[1]);
+    else if (n <= EXACT_DARTS)
       st = pair_exactly(frame, multigraph, dart, n, mate, err);
     else
       pair_by_halves(dart, n, mate);

@@ -3,6 +3,7 @@
 #include "tests/support.h"
 #include "graph/angle.h"
 #include "graph/io/json.h"
+#include "graph/number.h"
 #include "graph/io/writer.h"
 #include "graph/scratch.h"
 #include "graph/sort.h"
@@ -135,8 +136,7 @@ START_TEST(doubles_are_short_and_read_back)
   static const struct {
     double value;
     const char *digits;
-  } known[] = {{0.1, "0.1"}, {-0.0, "0"}, {1e21, "1e+21"}, {1.0 / 3, "0.3333333333333333"}, {5e-324, "4.94065645841247e-324"},
-               {12, "12"}};
+  } known[] = {{0.1, "0.1"}, {-0.0, "0"}, {1e21, "1e+21"}, {1.0 / 3, "0.3333333333333333"}, {5e-324, "5e-324"}, {12, "12"}};
   for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
     thr_text t = {0};
     thr_text_double(&t, known[i].value);
@@ -151,6 +151,41 @@ START_TEST(doubles_are_short_and_read_back)
     ck_assert(strtod(t.data, NULL) == x);
     thr_text_destroy(&t);
   }
+}
+END_TEST
+
+/* Oracle: the C library's %g with as few digits from 15 on as read back. Powers of two are left out: the doubles below are nearer
+ * than those above, and a number of fewer digits that reads back need not be the nearest of as many. */
+START_TEST(doubles_are_written_as_by_percent_g)
+{
+  rng r = rng_make(2);
+  for (int i = 0; i < 20000; i++) {
+    char digits[40];
+    double unit = rng_unit(&r) - 0.5, x = i % 2 ? ldexp(unit, rng_between(&r, -60, 80)) : rng_between(&r, -100000, 100000) / 1e3;
+    int precision = 15;
+    while (snprintf(digits, sizeof digits, "%.*g", precision, x), strtod(digits, NULL) != x)
+      precision++;
+    thr_text t = {0};
+    thr_text_double(&t, x);
+    ck_assert_str_eq(t.data, digits);
+    t.length = 0;
+    thr_text_int(&t, (int64_t)x);
+    ck_assert(strtoll(t.data, NULL, 10) == (int64_t)x && t.length == strlen(t.data));
+    thr_text_destroy(&t);
+  }
+}
+END_TEST
+
+START_TEST(numbers_beyond_doubles)
+{
+  static const char *const none[] = {"1e400", "-1e400", "1e99999999999999999999", "1234e306"};
+  static const char *const nothing[] = {"1e-400", "0.000e999", "-0", "0e99999999999999999999", "1e-99999999999999999999"};
+  double x;
+  for (size_t i = 0; i < sizeof none / sizeof *none; i++)
+    ck_assert_msg(!thr_number_parse(none[i], strlen(none[i]), &x), "%s", none[i]);
+  for (size_t i = 0; i < sizeof nothing / sizeof *nothing; i++)
+    ck_assert_msg(thr_number_parse(nothing[i], strlen(nothing[i]), &x) && x == 0, "%s", nothing[i]);
+  ck_assert(thr_number_parse("0.1x", 3, &x) && x == 0.1);
 }
 END_TEST
 
@@ -256,7 +291,7 @@ START_TEST(columns_are_letters)
 }
 END_TEST
 
-/* jansson takes no string that is not UTF-8 or holds a control character. */
+/* The reader takes no string that is not UTF-8 or holds a control character. */
 START_TEST(any_bytes_make_json)
 {
   rng r = rng_make(5);
@@ -451,6 +486,143 @@ START_TEST(json_absent_is_harmless)
 }
 END_TEST
 
+static thr_status verdict(const char *text)
+{
+  thr_json *doc;
+  char bytes[64]; /* without a NUL behind them */
+  size_t n = strlen(text);
+  memcpy(bytes, text, n);
+  memset(bytes + n, '1', sizeof bytes - n);
+  thr_status st = thr_json_parse(&doc, bytes, n, "file", NULL);
+  thr_json_destroy(doc);
+  return st;
+}
+
+START_TEST(json_grammar)
+{
+  static const char *const right[] = {"[]",
+                                      "{}",
+                                      " [ ] ",
+                                      "[0]",
+                                      "[-0.5e+3, 1E2,10e-1]",
+                                      "[[[]],{}]",
+                                      "{\"\": null}",
+                                      "[\"\\\"\\/\\b\\u00e4\"]",
+                                      "[true ]",
+                                      "[false]",
+                                      "{\"a\":{\"a\":1}}",
+                                      "[1]\n",
+                                      "[\"\\ud83e\\uddf5\"]",
+                                      "[1e-999]",
+                                      "[-9223372036854775808]"};
+  static const char *const wrong[] = {"1",
+                                      "[1,]",
+                                      "[,1]",
+                                      "[1 2]",
+                                      "[01]",
+                                      "[.5]",
+                                      "[1.]",
+                                      "[1e]",
+                                      "[+1]",
+                                      "[-]",
+                                      "[1e+]",
+                                      "[0x1]",
+                                      "[nul]",
+                                      "[True]",
+                                      "[nulll]",
+                                      "{\"a\"}",
+                                      "{\"a\":}",
+                                      "{\"a\":1,}",
+                                      "{a:1}",
+                                      "{1:1}",
+                                      "[1}",
+                                      "{\"a\":1]",
+                                      "[\"a]",
+                                      "[\"a\nb\"]",
+                                      "[\"\\x\"]",
+                                      "[\"\\u12\"]",
+                                      "[\"\\",
+                                      "[\"\\u",
+                                      "[\"\\u0000\"]",
+                                      "[\"\\ud83e\"]",
+                                      "[\"\\ud83e\\u0041\"]",
+                                      "[\"\\uddf5\"]",
+                                      "[\"\xc0\x80\"]",
+                                      "[\"\xff\"]",
+                                      "[9223372036854775808]",
+                                      "[-9223372036854775809]",
+                                      "[",
+                                      "{",
+                                      "[1",
+                                      "{\"a\":",
+                                      "[\v1]",
+                                      "[] []",
+                                      "[NaN]",
+                                      "[\"\x1f\"]"};
+  for (size_t i = 0; i < sizeof right / sizeof *right; i++)
+    ck_assert_msg(verdict(right[i]) == THR_OK, "%s", right[i]);
+  for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
+    ck_assert_msg(verdict(wrong[i]) == THR_EINPUT, "%s", wrong[i]);
+}
+END_TEST
+
+/* Whole numbers in a slot and beyond it, lists of few and many values, letters of one to four bytes as escapes. */
+START_TEST(json_values_of_every_size)
+{
+  static const int64_t bounds[] = {(INT64_C(1) << 47) - 1, INT64_C(1) << 47, -(INT64_C(1) << 47) - 1, INT64_MIN, INT64_MAX};
+  thr_json *doc =
+      parse("[[140737488355327, 140737488355328, -140737488355329, -9223372036854775808, 9223372036854775807],"
+            " [0,1,2,3,4,5,6,7,8,9,10,11,12,13], [0,1,2,3,4,5,6,7,8,9,10,11,12,13,14], \"\\u0041\\u00e4\\u20AC\\ud83e\\uddf5\"]");
+  int64_t whole;
+  for (int i = 0; i < 5; i++)
+    ck_assert(thr_json_int(thr_json_at(thr_json_at(doc, 0), i), &whole) && whole == bounds[i]);
+  for (int k = 1; k < 3; k++) {
+    const thr_json *list = thr_json_at(doc, k);
+    ck_assert_int_eq(thr_json_size(list), 13 + k);
+    for (int i = 0; i < 13 + k; i++)
+      ck_assert(thr_json_int(thr_json_at(list, i), &whole) && whole == i);
+    ck_assert(thr_json_at(list, 13 + k) == NULL);
+  }
+  ck_assert_str_eq(thr_json_string(thr_json_at(doc, 3)), "A\xc3\xa4\xe2\x82\xac\xf0\x9f\xa7\xb5");
+  thr_json_destroy(doc);
+}
+END_TEST
+
+/* Members by name whatever their number, in the file's order, and never one twice. */
+START_TEST(json_objects_of_many_members)
+{
+  for (int n = 0; n < 40; n++) {
+    thr_text text = {0};
+    thr_json *doc;
+    thr_err err = {0};
+    thr_text_append(&text, "{");
+    for (int i = 0; i < n; i++)
+      thr_text_printf(&text, "%s\n\"k%d\": {\"number\": %d}", i ? "," : "", 17 * i % 41, i);
+    thr_text_append(&text, "}");
+    doc = parse(text.data);
+    ck_assert_int_eq(thr_json_size(doc), n);
+    void *iter = NULL;
+    const char *key;
+    const thr_json *value;
+    int64_t number;
+    for (int i = 0; i < n; i++) {
+      ck_assert(thr_json_next(doc, &iter, &key, &value) && atoi(key + 1) == 17 * i % 41 && thr_json_get(doc, key) == value);
+      ck_assert(thr_json_int(thr_json_get(value, "number"), &number) && number == i);
+    }
+    ck_assert(!thr_json_next(doc, &iter, &key, &value) && !thr_json_get(doc, "k") && !thr_json_get(doc, "z"));
+    thr_json_destroy(doc);
+    text.data[--text.length] = '\0';
+    thr_text_printf(&text, "%s\n\"k0\": 0}", n ? "," : "");
+    ck_assert_int_eq(thr_json_parse(&doc, text.data, text.length, "file", &err), n ? THR_EINPUT : THR_OK);
+    char place[24];
+    snprintf(place, sizeof place, "file:%d:2: ", n + 2);
+    if (n) assert_one_line(&err, place);
+    thr_json_destroy(doc);
+    thr_text_destroy(&text);
+  }
+}
+END_TEST
+
 START_TEST(json_errors_name_the_place)
 {
   static const char *const wrong[] = {"{\"a\": 1,\n \"a\": 2}", "[1,\n2", "[1] x", "", "{\"a\": 1e999}", "\xff",
@@ -483,6 +655,8 @@ int main(void)
   ADD_TEST(s, 10, scratch_is_checked_once);
   ADD_TEST(s, 10, scratch_is_never_too_large);
   ADD_TEST(s, 10, doubles_are_short_and_read_back);
+  ADD_TEST(s, 10, doubles_are_written_as_by_percent_g);
+  ADD_TEST(s, 10, numbers_beyond_doubles);
   ADD_TEST(s, 10, strings_are_escaped);
   ADD_TEST(s, 60, every_letter_is_kept_or_a_blank);
   ADD_TEST(s, 10, broken_letters_are_question_marks);
@@ -497,5 +671,8 @@ int main(void)
   ADD_TEST(s, 10, json_values_are_read);
   ADD_TEST(s, 10, json_absent_is_harmless);
   ADD_TEST(s, 10, json_errors_name_the_place);
+  ADD_TEST(s, 10, json_grammar);
+  ADD_TEST(s, 10, json_values_of_every_size);
+  ADD_TEST(s, 10, json_objects_of_many_members);
   return run_suite(s);
 }

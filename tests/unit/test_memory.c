@@ -76,8 +76,7 @@ START_TEST(every_allocation_fails_once)
   while (st) {
     work w = {0};
     thr_err err = {0};
-    k += 1 +
-         k / 400; /* jansson makes one per value: later ones are taken ever wider apart; test_read takes each of the readers' */
+    k += 1 + k / 400; /* later ones are taken ever wider apart; test_read takes each of the readers' */
     thr_alloc_fail_at(k);
     st = run(&w, cases[_i].path, cases[_i].ends, &err);
     thr_alloc_fail_at(0);

@@ -721,7 +721,7 @@ static const char *const small_files[] = {"tests/fuzz/corpus/csv/six-columns.csv
                                           "tests/fuzz/corpus/json/lines.json",
                                           "tests/fuzz/corpus/json/compas-lines.json"};
 
-/* Each allocation in turn, jansson's among them: it alone, and with all after it. */
+/* Each allocation in turn: it alone, and with all after it. */
 START_TEST(every_allocation_may_fail)
 {
   static void (*const fail[])(long) = {thr_alloc_fail_at, thr_alloc_fail_once};
