@@ -23,7 +23,7 @@ typedef struct {
   int *first;                /* [n_nodes] -1 between uses */
   int room;                  /* of merged */
   int *merged;               /* [passes of the two walks] of an exchange between cyclic walks */
-  int *way;                  /* [n_nodes] of a detour */
+  int *path;                 /* [n_nodes] of a detour */
 } thr_balance;
 
 /* Exchanges until no walk is longer than goal, none helps, or the limits stop it. Passes change

@@ -6,19 +6,19 @@
 #include "graph/threading/splice.h"
 #include "graph/threading/walks.h"
 #include "lp/length/balance.h"
-#include "lp/length/ways.h"
+#include "lp/length/shortest_paths.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* Over edges that have room for so many more passes, no further than most. */
-static thr_status spread(thr_balance *balance, thr_ways *x, int room, double most, thr_err *err)
+static thr_status spread(thr_balance *balance, thr_paths *x, int room, double most, thr_err *err)
 {
-  return thr_ways_spread(x, balance->s->o, balance->s->passes, room, most, &balance->steps, err);
+  return thr_paths_spread(x, balance->s->o, balance->s->passes, room, most, &balance->steps, err);
 }
 
-/* Passes from .. end - 1 of p go into q at position at, over the way to node goal; then back, or there they stay: q ends with
+/* Passes from .. end - 1 of p go into q at position at, over the path to node goal; then back, or there they stay: q ends with
  * them. backwards: they are walked from their end. */
 typedef struct {
   double longer;
@@ -26,8 +26,8 @@ typedef struct {
   bool back, backwards;
 } detour;
 
-/* Where walk is at the start of the way to goal. */
-static int leave_at(const thr_frame *frame, const thr_ways *x, int goal, const thr_walk *walk)
+/* Where walk is at the start of the path to goal. */
+static int leave_at(const thr_frame *frame, const thr_paths *x, int goal, const thr_walk *walk)
 {
   int v = goal, at = 0;
   while (x->over[v] >= 0)
@@ -38,12 +38,12 @@ static int leave_at(const thr_frame *frame, const thr_ways *x, int goal, const t
 }
 
 /* Walk q, and then p, as the detour leaves them. */
-static thr_splice splice_of(const thr_balance *balance, const thr_ways *x, int p, int q, const detour *d)
+static thr_splice splice_of(const thr_balance *balance, const thr_paths *x, int p, int q, const detour *d)
 {
   const thr_walk *walk = &balance->s->walks.walk[p], *w = &balance->s->walks.walk[q];
-  int at = d->back ? leave_at(balance->s->f, x, d->goal, w) : w->n, n = thr_ways_path(x, d->goal, balance->way);
+  int at = d->back ? leave_at(balance->s->f, x, d->goal, w) : w->n, n = thr_paths_to(x, d->goal, balance->path);
   thr_splice splice = thr_splice_of(walk->cyclic, w, walk);
-  thr_splice_add(&splice, 2, balance->way, n);
+  thr_splice_add(&splice, 2, balance->path, n);
   thr_splice_put(&splice, 0, 0, at, false);
   thr_splice_put(&splice, 2, 0, n, false);
   thr_splice_put(&splice, 1, d->from, d->end, d->backwards);
@@ -55,7 +55,7 @@ static thr_splice splice_of(const thr_balance *balance, const thr_ways *x, int p
   return splice;
 }
 
-static void offer(thr_balance *balance, const thr_ways *x, int p, int q, detour d, detour *best)
+static void offer(thr_balance *balance, const thr_paths *x, int p, int q, detour d, detour *best)
 {
   if (d.longer >= best->longer) return;
   if (balance->ties) {
@@ -126,7 +126,7 @@ static void prune(thr_balance *balance, int p)
   walk->length = thr_walk_length(balance->s->f, walk->half, walk->n);
 }
 
-static thr_status make(thr_balance *balance, const thr_ways *x, int p, int q, const detour *d, thr_err *err)
+static thr_status make(thr_balance *balance, const thr_paths *x, int p, int q, const detour *d, thr_err *err)
 {
   thr_splice splice = splice_of(balance, x, p, q, d);
   thr_status st = thr_splice_make(&splice, balance->s->f, &balance->s->walks, q, p, balance->ties, balance->s->passes, err);
@@ -137,14 +137,14 @@ static thr_status make(thr_balance *balance, const thr_ways *x, int p, int q, co
 }
 
 /* Closed sections of p, by way of a detour from anywhere on q. */
-static thr_status find_sections(thr_balance *balance, thr_ways *x, int p, int q, detour *best, thr_err *err)
+static thr_status find_sections(thr_balance *balance, thr_paths *x, int p, int q, detour *best, thr_err *err)
 {
   const thr_frame *frame = balance->s->f;
   const thr_walk *walk = &balance->s->walks.walk[p], *w = &balance->s->walks.walk[q];
   thr_status st = THR_OK;
-  thr_ways_clear(x);
+  thr_paths_clear(x);
   for (int i = 0; i < w->n && !st; i++)
-    st = thr_ways_start(x, thr_walk_node(frame, w, i), err);
+    st = thr_paths_start(x, thr_walk_node(frame, w, i), err);
   if (!st) st = spread(balance, x, 2, best->longer / 2, err);
   thr_walk_visits visits = {0};
   thr_walk open = *walk; /* where it ends is a visit, too */
@@ -165,14 +165,14 @@ static thr_status find_sections(thr_balance *balance, thr_ways *x, int p, int q,
 }
 
 /* The end of q goes on to what is cut off the end of p, from either side of it. */
-static thr_status find_tails(thr_balance *balance, thr_ways *x, int p, int q, detour *best, thr_err *err)
+static thr_status find_tails(thr_balance *balance, thr_paths *x, int p, int q, detour *best, thr_err *err)
 {
   const thr_frame *frame = balance->s->f;
   const thr_walk *walk = &balance->s->walks.walk[p], *w = &balance->s->walks.walk[q];
   int last = thr_walk_node(frame, walk, walk->n);
   double part = 0;
-  thr_ways_clear(x);
-  thr_status st = thr_ways_start(x, thr_walk_node(frame, w, w->n), err);
+  thr_paths_clear(x);
+  thr_status st = thr_paths_start(x, thr_walk_node(frame, w, w->n), err);
   if (!st) st = spread(balance, x, 1, best->longer, err);
   for (int i = walk->n - 1; i > 0 && !st; i--) {
     int node = thr_walk_node(frame, walk, i);
@@ -188,12 +188,12 @@ static thr_status find_tails(thr_balance *balance, thr_ways *x, int p, int q, de
 
 thr_status thr_balance_detour(thr_balance *balance, int p, int q, double below, bool *made, thr_err *err)
 {
-  thr_ways x;
+  thr_paths x;
   const detour none = {.longer = below};
   detour best = none;
   *made = false;
-  thr_status st = thr_ways_init(&x, balance->s->f, err);
-  if (!(balance->way = thr_calloc((size_t)balance->s->f->n_nodes, sizeof *balance->way)) && !st) st = thr_nomem(err);
+  thr_status st = thr_paths_init(&x, balance->s->f, err);
+  if (!(balance->path = thr_calloc((size_t)balance->s->f->n_nodes, sizeof *balance->path)) && !st) st = thr_nomem(err);
   if (!st) st = find_sections(balance, &x, p, q, &best, err);
   if (!st && (*made = best.longer < below)) st = make(balance, &x, p, q, &best, err);
   bool free_ends = !balance->s->walks.walk[p].cyclic && balance->s->o->ends != THR_ENDS_COUNTS;
@@ -203,7 +203,7 @@ thr_status thr_balance_detour(thr_balance *balance, int p, int q, double below, 
     st = find_tails(balance, &x, p, q, &best, err);
     if (!st && (*made = best.longer < below)) st = make(balance, &x, p, q, &best, err);
   }
-  thr_ways_destroy(&x);
-  free(balance->way);
+  thr_paths_destroy(&x);
+  free(balance->path);
   return st;
 }

@@ -6,7 +6,7 @@
 #include "lp/length/share.h"
 #include "lp/length/share_prices.h"
 #include "lp/length/share_table.h"
-#include "lp/length/ways.h"
+#include "lp/length/shortest_paths.h"
 
 #include <limits.h>
 #include <math.h>
@@ -167,30 +167,30 @@ static double length_of(const thr_share *x, const int *passes)
 
 thr_status thr_cords_reach(const thr_frame *frame, const thr_request *options, thr_err *err)
 {
-  thr_ways w;
+  thr_paths w;
   bool closed = options->ends == THR_ENDS_CLOSED;
   double limit = options->max_length;
-  thr_status st = thr_ways_init(&w, frame, err);
+  thr_status st = thr_paths_init(&w, frame, err);
   for (int v = 0; v < frame->n_nodes && !st && !closed; v++)
-    if (thr_plan_end_allowed(frame, options, v)) st = thr_ways_start(&w, v, err);
-  if (!st) st = thr_ways_spread(&w, options, NULL, 0, INFINITY, NULL, err);
+    if (thr_plan_end_allowed(frame, options, v)) st = thr_paths_start(&w, v, err);
+  if (!st) st = thr_paths_spread(&w, options, NULL, 0, INFINITY, NULL, err);
   for (int e = 0; e < frame->n_edges && !st; e++) {
     const int *end = frame->edge[e];
     if (closed && thr_share_within(2 * frame->length[e], limit)) continue;
-    if (closed) { /* there, and the shortest way back */
-      thr_ways_clear(&w);
-      st = thr_ways_start(&w, end[0], err);
-      if (!st) st = thr_ways_spread(&w, options, NULL, 0, frame->length[e], NULL, err);
+    if (closed) { /* there, and the shortest path back */
+      thr_paths_clear(&w);
+      st = thr_paths_start(&w, end[0], err);
+      if (!st) st = thr_paths_spread(&w, options, NULL, 0, frame->length[e], NULL, err);
       if (st) break;
     }
     double least = (closed ? 0 : w.far[end[0]]) + frame->length[e] + w.far[end[1]];
     if (!thr_share_within(least, limit))
-      st = thr_fail(err, THR_EINFEASIBLE,
-                    "no cord of at most %g %s can pass the edge between nodes %s and %s: %s over it takes %g %s", limit,
-                    frame->units, frame->name[end[0]], frame->name[end[1]],
-                    closed ? "the shortest circuit" : "the shortest way between places where cords may end", least, frame->units);
+      st = thr_fail(
+          err, THR_EINFEASIBLE, "no cord of at most %g %s can pass the edge between nodes %s and %s: %s over it takes %g %s",
+          limit, frame->units, frame->name[end[0]], frame->name[end[1]],
+          closed ? "the shortest circuit" : "the shortest path between places where cords may end", least, frame->units);
   }
-  thr_ways_destroy(&w);
+  thr_paths_destroy(&w);
   return st;
 }
 

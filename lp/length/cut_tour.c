@@ -1,8 +1,8 @@
-/* Sections of a tour, with ways to where cords may end. */
+/* Sections of a tour, with paths to where cords may end. */
 #include "lp/length/cut_tour.h"
 #include "graph/framework/frame.h"
 #include "graph/threading/walks.h"
-#include "lp/length/ways.h"
+#include "lp/length/shortest_paths.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -13,14 +13,14 @@ typedef struct {
   const thr_request *o;
   int *left; /* [n_edges] passes still to be made */
   thr_walks tour, cords;
-  thr_ways home; /* to where cords may end, or to the start of the one at hand */
+  thr_paths home; /* to where cords may end, or to the start of the one at hand */
 } cutting;
 
 static void cutting_destroy(cutting *x)
 {
   thr_walks_destroy(&x->tour);
   thr_walks_destroy(&x->cords);
-  thr_ways_destroy(&x->home);
+  thr_paths_destroy(&x->home);
   free(x->left);
 }
 
@@ -43,24 +43,24 @@ static thr_status trace_tour(cutting *x, thr_err *err)
 static thr_status cutting_init(cutting *x, thr_err *err)
 {
   const thr_frame *frame = x->f;
-  thr_status st = thr_ways_init(&x->home, frame, err);
+  thr_status st = thr_paths_init(&x->home, frame, err);
   if (st) return st;
   if (!(x->left = thr_calloc((size_t)frame->n_edges, sizeof *x->left))) return thr_nomem(err);
   for (int e = 0; e < frame->n_edges; e++)
     x->left[e] = thr_plan_cover(frame, x->o, e);
   for (int v = 0; v < frame->n_nodes && !st && !closed_cords(x); v++)
-    if (thr_plan_end_allowed(frame, x->o, v)) st = thr_ways_start(&x->home, v, err);
-  if (!st) st = thr_ways_spread(&x->home, x->o, NULL, 0, INFINITY, NULL, err);
+    if (thr_plan_end_allowed(frame, x->o, v)) st = thr_paths_start(&x->home, v, err);
+  if (!st) st = thr_paths_spread(&x->home, x->o, NULL, 0, INFINITY, NULL, err);
   return st ? st : trace_tour(x, err);
 }
 
-/* Closed cords: the ways to node v. */
+/* Closed cords: the paths to node v. */
 static thr_status begin_at(cutting *x, int v, thr_err *err)
 {
   if (!closed_cords(x)) return THR_OK;
-  thr_ways_clear(&x->home);
-  thr_status st = thr_ways_start(&x->home, v, err);
-  return st ? st : thr_ways_spread(&x->home, x->o, NULL, 0, x->o->max_length, NULL, err);
+  thr_paths_clear(&x->home);
+  thr_status st = thr_paths_start(&x->home, v, err);
+  return st ? st : thr_paths_spread(&x->home, x->o, NULL, 0, x->o->max_length, NULL, err);
 }
 
 /* Where the section of tour walk that begins at pass `from` ends: after the last pass that still has to be made with which the
@@ -78,16 +78,16 @@ static int section_end(const cutting *x, const thr_walk *walk, int from)
   return end;
 }
 
-/* Passes from .. end - 1 of walk, and the ways to and from them. */
+/* Passes from .. end - 1 of walk, and the paths to and from them. */
 static thr_status add_cord(cutting *x, const thr_walk *walk, int from, int end, thr_err *err)
 {
   int a = thr_walk_node(x->f, walk, from), b = thr_walk_node(x->f, walk, end);
-  int n_to = thr_ways_back(&x->home, a, -1, NULL), n_back = thr_ways_back(&x->home, b, -1, NULL), section = end - from;
+  int n_to = thr_paths_back(&x->home, a, -1, NULL), n_back = thr_paths_back(&x->home, b, -1, NULL), section = end - from;
   thr_walk cord = {n_to + section + n_back, NULL, 0, closed_cords(x)};
   if (!(cord.half = thr_calloc((size_t)cord.n, sizeof *cord.half))) return thr_nomem(err);
-  thr_ways_path(&x->home, a, cord.half);
+  thr_paths_to(&x->home, a, cord.half);
   memcpy(cord.half + n_to, walk->half + from, (size_t)section * sizeof *cord.half);
-  thr_ways_back(&x->home, b, -1, cord.half + n_to + section);
+  thr_paths_back(&x->home, b, -1, cord.half + n_to + section);
   for (int i = 0; i < cord.n; i++)
     x->left[cord.half[i] >> 1]--;
   return thr_walks_add(&x->cords, x->f, cord, err);

@@ -61,13 +61,13 @@ thr_status thr_share_tied(thr_share *share, int n, bool even, bool *found, thr_e
  * the capacities leave no room. */
 thr_status thr_share_more(thr_share *share, int n, bool *found, thr_err *err) THR_MUST_CHECK;
 
-/* Splits the longest closed walk, again and again, into two that both pass a way between two of its nodes, or if that is no good
+/* Splits the longest closed walk, again and again, into two that both pass a path between two of its nodes, or if that is no good
  * into one for each of its edges, until there are n or none gets shorter by it. O(n * passes of a walk * edges around it). */
 thr_status thr_share_chords(thr_share *share, int n, thr_err *err) THR_MUST_CHECK;
 
-/* Closed walk i becomes two, its passes from .. end - 1 and the others, which both pass the way way[n] between their ends: from
+/* Closed walk i becomes two, its passes from .. end - 1 and the others, which both pass the path path[n] between their ends: from
  * the node before pass number from to that before number end. ties: of the walks, or NULL. */
-thr_status thr_share_chord(thr_share *share, int i, int from, int end, const int *way, int n, thr_junction_graphs *ties,
+thr_status thr_share_chord(thr_share *share, int i, int from, int end, const int *path, int n, thr_junction_graphs *ties,
                            thr_err *err) THR_MUST_CHECK;
 
 /* Joins cyclic walks at shared nodes until there are n, with little turning. */

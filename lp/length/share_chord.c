@@ -1,4 +1,4 @@
-/* More closed cords than circuits: walks are split along a way between two of their nodes, which both halves pass. */
+/* More closed cords than circuits: walks are split along a path between two of their nodes, which both halves pass. */
 #include "graph/framework/frame.h"
 #include "graph/plan/request.h"
 #include "graph/status.h"
@@ -6,28 +6,28 @@
 #include "graph/threading/splice.h"
 #include "graph/threading/walks.h"
 #include "lp/length/share.h"
-#include "lp/length/ways.h"
+#include "lp/length/shortest_paths.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Passes from .. end - 1 and the way back are one half. */
+/* Passes from .. end - 1 and the path back are one half. */
 typedef struct {
   double longer; /* of the halves */
   int from, end;
 } chord;
 
-/* The ways from the node before each pass of walk to its other nodes, over edges with room for two more passes. */
-static thr_status best_chord(thr_ways *x, const thr_share *share, const thr_walk *walk, chord *best, thr_err *err)
+/* The paths from the node before each pass of walk to its other nodes, over edges with room for two more passes. */
+static thr_status best_chord(thr_paths *x, const thr_share *share, const thr_walk *walk, chord *best, thr_err *err)
 {
   thr_status st = THR_OK;
   *best = (chord){walk->length * (1 - 1e-9), 0, 0};
   for (int i = 0; i < walk->n && !st; i++) {
     double part = 0;
-    thr_ways_clear(x);
-    st = thr_ways_start(x, thr_walk_node(share->f, walk, i), err);
-    if (!st) st = thr_ways_spread(x, share->o, share->passes, 2, walk->length / 2, NULL, err);
+    thr_paths_clear(x);
+    st = thr_paths_start(x, thr_walk_node(share->f, walk, i), err);
+    if (!st) st = thr_paths_spread(x, share->o, share->passes, 2, walk->length / 2, NULL, err);
     for (int j = i + 1; j < walk->n && !st; j++) {
       part += share->f->length[walk->half[j - 1] >> 1];
       double longer = fmax(part, walk->length - part) + x->far[thr_walk_node(share->f, walk, j)];
@@ -37,12 +37,12 @@ static thr_status best_chord(thr_ways *x, const thr_share *share, const thr_walk
   return st;
 }
 
-thr_status thr_share_chord(thr_share *share, int i, int from, int end, const int *way, int n, thr_junction_graphs *ties,
+thr_status thr_share_chord(thr_share *share, int i, int from, int end, const int *path, int n, thr_junction_graphs *ties,
                            thr_err *err)
 {
   const thr_walk *old = &share->walks.walk[i];
   thr_splice splice = thr_splice_of(true, old, NULL);
-  thr_splice_add(&splice, 1, way, n);
+  thr_splice_add(&splice, 1, path, n);
   thr_splice_put(&splice, 0, 0, from, false);
   thr_splice_put(&splice, 1, 0, n, false);
   thr_splice_put(&splice, 0, end, old->n, false);
@@ -53,18 +53,18 @@ thr_status thr_share_chord(thr_share *share, int i, int from, int end, const int
 }
 
 /* Walk i and a new one become the halves. */
-static thr_status split(thr_ways *x, thr_share *share, int i, const chord *c, thr_err *err)
+static thr_status split(thr_paths *x, thr_share *share, int i, const chord *c, thr_err *err)
 {
   const thr_walks *walks = &share->walks;
   const thr_frame *frame = share->f;
-  int *way = thr_calloc((size_t)frame->n_nodes, sizeof *way);
-  if (!way) return thr_nomem(err);
-  thr_ways_clear(x);
-  thr_status st = thr_ways_start(x, thr_walk_node(frame, &walks->walk[i], c->from), err);
-  if (!st) st = thr_ways_spread(x, share->o, share->passes, 2, walks->walk[i].length / 2, NULL, err);
-  int n = st ? 0 : thr_ways_path(x, thr_walk_node(frame, &walks->walk[i], c->end), way);
-  if (!st) st = thr_share_chord(share, i, c->from, c->end, way, n, NULL, err);
-  free(way);
+  int *path = thr_calloc((size_t)frame->n_nodes, sizeof *path);
+  if (!path) return thr_nomem(err);
+  thr_paths_clear(x);
+  thr_status st = thr_paths_start(x, thr_walk_node(frame, &walks->walk[i], c->from), err);
+  if (!st) st = thr_paths_spread(x, share->o, share->passes, 2, walks->walk[i].length / 2, NULL, err);
+  int n = st ? 0 : thr_paths_to(x, thr_walk_node(frame, &walks->walk[i], c->end), path);
+  if (!st) st = thr_share_chord(share, i, c->from, c->end, path, n, NULL, err);
+  free(path);
   return st;
 }
 
@@ -100,10 +100,10 @@ static thr_status dissolve(thr_share *share, int i, int n, bool *made, thr_err *
 thr_status thr_share_chords(thr_share *share, int n, thr_err *err)
 {
   const thr_walks *walks = &share->walks;
-  thr_ways x;
+  thr_paths x;
   chord best;
   bool more = true;
-  thr_status st = thr_ways_init(&x, share->f, err);
+  thr_status st = thr_paths_init(&x, share->f, err);
   while (!st && more && walks->n_walks < n) {
     int longest = thr_walks_longest(walks);
     st = best_chord(&x, share, &walks->walk[longest], &best, err);
@@ -113,6 +113,6 @@ thr_status thr_share_chords(thr_share *share, int n, thr_err *err)
     else if (!st)
       st = dissolve(share, longest, n, &more, err);
   }
-  thr_ways_destroy(&x);
+  thr_paths_destroy(&x);
   return st;
 }

@@ -6,7 +6,7 @@
 #include "graph/threading/walks.h"
 #include "lp/length/balance.h"
 #include "lp/length/share.h"
-#include "lp/length/ways.h"
+#include "lp/length/shortest_paths.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -87,14 +87,14 @@ static thr_status best_chord(const splitting *x, chord *best, thr_err *err)
 
 /* ---- a short circuit ---- */
 
-/* Out of node start over two ways, and between their ends over an edge. */
+/* Out of node start over two paths, and between their ends over an edge. */
 typedef struct {
   double length;
   int start, edge;
 } circuit;
 
-/* The first half-edge of the way to v; -1 at the start. */
-static int leaves_by(const thr_ways *g, int v)
+/* The first half-edge of the path to v; -1 at the start. */
+static int leaves_by(const thr_paths *g, int v)
 {
   int h = -1;
   for (; g->over[v] >= 0; v = thr_tail(g->f, g->over[v]))
@@ -102,21 +102,21 @@ static int leaves_by(const thr_ways *g, int v)
   return h;
 }
 
-static thr_status spread_from(const splitting *x, thr_ways *g, int v, double most, thr_err *err)
+static thr_status spread_from(const splitting *x, thr_paths *g, int v, double most, thr_err *err)
 {
-  thr_ways_clear(g);
-  thr_status st = thr_ways_start(g, v, err);
-  return st ? st : thr_ways_spread(g, x->s->o, x->s->passes, 1, most, NULL, err);
+  thr_paths_clear(g);
+  thr_status st = thr_paths_start(g, v, err);
+  return st ? st : thr_paths_spread(g, x->s->o, x->s->passes, 1, most, NULL, err);
 }
 
-static bool on_way(const thr_ways *g, int v, int e)
+static bool on_way(const thr_paths *g, int v, int e)
 {
   return g->over[v] >= 0 && g->over[v] >> 1 == e;
 }
 
-/* The shortest circuit with room for one more pass: of the ways from every node, two that leave it differently and nearly meet.
+/* The shortest circuit with room for one more pass: of the paths from every node, two that leave it differently and nearly meet.
  * In large frameworks from some nodes only. */
-static thr_status best_circuit(const splitting *x, thr_ways *g, circuit *best, thr_err *err)
+static thr_status best_circuit(const splitting *x, thr_paths *g, circuit *best, thr_err *err)
 {
   const double most = 5e7; /* edges looked at */
   const thr_frame *frame = x->s->f;
@@ -136,15 +136,15 @@ static thr_status best_circuit(const splitting *x, thr_ways *g, circuit *best, t
   return st;
 }
 
-static thr_status add_circuit(splitting *x, thr_ways *g, const circuit *c, thr_err *err)
+static thr_status add_circuit(splitting *x, thr_paths *g, const circuit *c, thr_err *err)
 {
   const thr_frame *frame = x->s->f;
   thr_status st = spread_from(x, g, c->start, c->length, err);
   if (st) return st;
   thr_walk new = {0, thr_calloc(2 * (size_t)frame->n_nodes + 1, sizeof *new.half), 0, true};
   if (!new.half) return thr_nomem(err);
-  int there = thr_ways_path(g, frame->edge[c->edge][0], new.half);
-  int back = thr_ways_path(g, frame->edge[c->edge][1], new.half + there + 1);
+  int there = thr_paths_to(g, frame->edge[c->edge][0], new.half);
+  int back = thr_paths_to(g, frame->edge[c->edge][1], new.half + there + 1);
   new.half[there] = 2 * c->edge;
   thr_walk_reverse(new.half + there + 1, back);
   new.n = there + 1 + back;
@@ -163,7 +163,7 @@ static bool must_more(const splitting *x, int n)
 }
 
 /* One more walk, for few more passes. *made: there was room, and it must be or makes the longest shorter. */
-static thr_status add_one(splitting *x, thr_ways *g, int n, bool *made, thr_err *err)
+static thr_status add_one(splitting *x, thr_paths *g, int n, bool *made, thr_err *err)
 {
   chord c;
   circuit round = {.length = INFINITY};
@@ -180,18 +180,18 @@ static thr_status add_one(splitting *x, thr_ways *g, int n, bool *made, thr_err 
 thr_status thr_share_tied(thr_share *share, int n, bool even, bool *found, thr_err *err)
 {
   const thr_walks *walks = &share->walks;
-  thr_ways g = {0};
+  thr_paths g = {0};
   splitting x = {.s = share, .even = even};
   bool made = true;
   thr_status st = thr_junction_graphs_init(&x.ties, share->f, walks, err);
-  if (!st) st = thr_ways_init(&g, share->f, err);
+  if (!st) st = thr_paths_init(&g, share->f, err);
   if (!st) st = split_shuffled(&x, n, err);
   while (!st && made && walks->n_walks < n) {
     st = add_one(&x, &g, n, &made, err);
     if (!st) st = thr_share_split(share, n, even, &x.ties, err);
   }
   *found = !must_more(&x, n);
-  thr_ways_destroy(&g);
+  thr_paths_destroy(&g);
   thr_junction_graphs_destroy(&x.ties);
   return st;
 }

@@ -9,7 +9,7 @@
 #include "graph/threading/threading.h"
 #include "graph/threading/transition.h"
 #include "graph/threading/walks.h"
-#include "lp/length/ways.h"
+#include "lp/length/shortest_paths.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -21,7 +21,7 @@ typedef struct {
   thr_multigraph g;
   int *mate; /* [n_darts] */
   thr_walks walks;
-  bool *mark; /* [n_nodes] scratch of ways; then, where a circuit was opened */
+  bool *mark; /* [n_nodes] scratch of paths; then, where a circuit was opened */
 } first;
 
 static void first_destroy(first *x)
@@ -95,8 +95,8 @@ static thr_status join_circuits(first *x, thr_err *err)
 
 /* ---- more closed cords ---- */
 
-/* Where the ways to a and b part. */
-static int fork_of(const thr_ways *g, int a, int b, bool *mark)
+/* Where the paths to a and b part. */
+static int fork_of(const thr_paths *g, int a, int b, bool *mark)
 {
   for (int v = a; g->over[v] >= 0; v = thr_tail(g->f, g->over[v]))
     mark[v] = true;
@@ -107,26 +107,26 @@ static int fork_of(const thr_ways *g, int a, int b, bool *mark)
   return b;
 }
 
-/* n times the circuit that edge e closes with the ways to its nodes. */
-static thr_status add_circuit(first *x, const thr_ways *g, int e, int n, thr_err *err)
+/* n times the circuit that edge e closes with the paths to its nodes. */
+static thr_status add_circuit(first *x, const thr_paths *g, int e, int n, thr_err *err)
 {
   int a = x->f->edge[e][0], b = x->f->edge[e][1], fork = fork_of(g, a, b, x->mark);
-  int from_a = thr_ways_back(g, a, fork, NULL), from_b = thr_ways_back(g, b, fork, NULL);
+  int from_a = thr_paths_back(g, a, fork, NULL), from_b = thr_paths_back(g, b, fork, NULL);
   thr_status st = THR_OK;
   for (int i = 0; i < n && !st; i++) {
     thr_walk w = {1 + from_a + from_b, NULL, 0, true};
     if (!(w.half = thr_calloc((size_t)w.n, sizeof *w.half))) return thr_nomem(err);
     w.half[0] = 2 * e;
-    thr_ways_back(g, b, fork, w.half + 1);
-    thr_ways_back(g, a, fork, w.half + 1 + from_b);
+    thr_paths_back(g, b, fork, w.half + 1);
+    thr_paths_back(g, a, fork, w.half + 1 + from_b);
     thr_walk_reverse(w.half + 1 + from_b, from_a);
     st = thr_walks_add(&x->walks, x->f, w, err);
   }
   return st;
 }
 
-/* The edge that closes the shortest circuit with the ways to its nodes. */
-static int find_circuit(const thr_frame *frame, const thr_ways *g)
+/* The edge that closes the shortest circuit with the paths to its nodes. */
+static int find_circuit(const thr_frame *frame, const thr_paths *g)
 {
   int best = -1;
   double shortest = INFINITY;
@@ -140,15 +140,15 @@ static int find_circuit(const thr_frame *frame, const thr_ways *g)
   return best;
 }
 
-/* n more circuits, all around the shortest that one edge closes with ways from the first node. */
+/* n more circuits, all around the shortest that one edge closes with paths from the first node. */
 static thr_status add_circuits(first *x, int n, thr_err *err)
 {
-  thr_ways g;
-  thr_status st = thr_ways_init(&g, x->f, err);
-  if (!st) st = thr_ways_start(&g, 0, err);
-  if (!st) st = thr_ways_spread(&g, x->o, NULL, 0, INFINITY, NULL, err);
+  thr_paths g;
+  thr_status st = thr_paths_init(&g, x->f, err);
+  if (!st) st = thr_paths_start(&g, 0, err);
+  if (!st) st = thr_paths_spread(&g, x->o, NULL, 0, INFINITY, NULL, err);
   if (!st) st = add_circuit(x, &g, find_circuit(x->f, &g), n, err);
-  thr_ways_destroy(&g);
+  thr_paths_destroy(&g);
   return st;
 }
 
