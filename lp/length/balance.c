@@ -137,22 +137,22 @@ static thr_status search(thr_balance *balance, ranked *order, thr_err *err)
   return st;
 }
 
-thr_status thr_balance_walks(thr_share *share, double goal, thr_err *err)
+thr_status thr_balance_walks(thr_decomposition *decomposition, double goal, thr_err *err)
 {
-  const thr_walks *walks = &share->walks;
+  const thr_walks *walks = &decomposition->walks;
   int64_t all = 0;
-  size_t n = (size_t)share->f->n_nodes;
+  size_t n = (size_t)decomposition->f->n_nodes;
   if (walks->n_walks < 2) return THR_OK;
   for (int i = 0; i < walks->n_walks; i++)
     all += walks->walk[i].n;
-  thr_balance balance = {.s = share, .goal = goal, .random = 1};
+  thr_balance balance = {.s = decomposition, .goal = goal, .random = 1};
   balance.steps = balance.budget = STEPS_LEAST + STEPS_PER_PASS * all;
   balance.first = thr_calloc(n, sizeof *balance.first);
   ranked *order = thr_calloc((size_t)walks->n_walks, sizeof *order);
   thr_junction_graphs ties = {0};
   thr_status st = balance.first && order ? THR_OK : thr_nomem(err);
-  if (!st && share->o->joint == THR_JOINT_TUBE) {
-    st = thr_junction_graphs_init(&ties, share->f, walks, err);
+  if (!st && decomposition->o->joint == THR_JOINT_TUBE) {
+    st = thr_junction_graphs_init(&ties, decomposition->f, walks, err);
     balance.ties = &ties;
   }
   if (!st) {

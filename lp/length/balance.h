@@ -11,11 +11,11 @@
 #include "graph/status.h"
 #include "graph/threading/junction_graphs.h"
 #include "graph/threading/walks.h"
-#include "lp/length/share.h"
+#include "lp/length/decomposition.h"
 
 /* Cords on the way; all arrays are owned by whoever fills it. */
 typedef struct {
-  thr_share *s;
+  thr_decomposition *s;
   thr_junction_graphs *ties; /* tube joints: of these walks, which every change leaves tied; else NULL */
   double goal;               /* shorter than this the longest need not be */
   uint64_t random;           /* state */
@@ -30,7 +30,7 @@ typedef struct {
  * where cords take detours. With tube joints the walks tie all nodes before and after. Work in proportion
  * to passes, some thousand times as much, from every exchange on. The same input gives the same walks. Failure (THR_ENOMEM)
  * leaves valid walks. */
-thr_status thr_balance_walks(thr_share *share, double goal, thr_err *err) THR_MUST_CHECK;
+thr_status thr_balance_walks(thr_decomposition *decomposition, double goal, thr_err *err) THR_MUST_CHECK;
 
 /* ---- internal to lp/balance*.c ---- */
 

@@ -3,9 +3,9 @@
 #include "graph/check/check.h"
 #include "graph/threading/walks.h"
 #include "lp/length/postman.h"
-#include "lp/length/share.h"
-#include "lp/length/share_prices.h"
-#include "lp/length/share_table.h"
+#include "lp/length/decomposition.h"
+#include "lp/length/decomposition_prices.h"
+#include "lp/length/decomposition_table.h"
 #include "lp/length/shortest_paths.h"
 
 #include <limits.h>
@@ -16,7 +16,7 @@
 /* ---- sharing out ---- */
 
 /* A closed cord through its passes again: its ends are where they were, where leaving out a turn saves most. */
-static thr_status open_again(const thr_share *x, thr_walk *walk, int node, thr_err *err)
+static thr_status open_again(const thr_decomposition *x, thr_walk *walk, int node, thr_err *err)
 {
   int best = -1;
   double most = -1;
@@ -32,7 +32,7 @@ static thr_status open_again(const thr_share *x, thr_walk *walk, int node, thr_e
 
 /* Evening out takes the passes of a cord in any order: the same passes again with little turning. Each cord costs a look at the
  * whole framework; many cords of a large one stay as they are. */
-static thr_status straighten(thr_share *x, int *passes, thr_err *err)
+static thr_status straighten(thr_decomposition *x, int *passes, thr_err *err)
 {
   const double most = 1e8;
   const thr_frame *frame = x->f;
@@ -58,7 +58,7 @@ static thr_status straighten(thr_share *x, int *passes, thr_err *err)
 }
 
 /* The walks as they are, for whoever keeps the best cords so far. */
-static thr_status tell(const thr_share *x, thr_err *err)
+static thr_status tell(const thr_decomposition *x, thr_err *err)
 {
   thr_cord *cord = NULL;
   int n = 0;
@@ -77,48 +77,48 @@ static thr_status tell(const thr_share *x, thr_err *err)
 }
 
 /* So many closed cords as the shortest passes do not hold. */
-static thr_status make_more(thr_share *x, int n, thr_err *err)
+static thr_status make_more(thr_decomposition *x, int n, thr_err *err)
 {
   bool certain, found;
-  thr_status st = thr_share_table(x, &(thr_share_ask){n, n, false, INFINITY}, &certain, err);
+  thr_status st = thr_decomposition_table(x, &(thr_decomposition_ask){n, n, false, INFINITY}, &certain, err);
   x->least &= certain;
   found = x->walks.n_walks >= n;
-  if (!st && !found && !certain) st = thr_share_more(x, n, &found, err);
+  if (!st && !found && !certain) st = thr_decomposition_more(x, n, &found, err);
   if (st || found) return st;
   return thr_fail(err, THR_EINFEASIBLE, "the component with node %s cannot hold %d closed cords: the capacities leave no room",
                   x->f->name[0], n);
 }
 
 /* n closed cords from the circuit. scratch[n_edges]. */
-static thr_status make_closed(thr_share *x, int n, bool even, int *scratch, thr_err *err)
+static thr_status make_closed(thr_decomposition *x, int n, bool even, int *scratch, thr_err *err)
 {
   bool enough;
   int must = x->o->cords_least;
-  thr_status st = thr_share_circuits(x, n, even, &enough, err);
-  if (!st && !enough && even) st = thr_share_chords(x, n, err);
+  thr_status st = thr_decomposition_circuits(x, n, even, &enough, err);
+  if (!st && !enough && even) st = thr_decomposition_chords(x, n, err);
   if (st || enough || (even && x->walks.n_walks >= must)) return st;
   st = make_more(x, even ? must : n, err);
   return st ? st : straighten(x, scratch, err);
 }
 
 /* Room for the ends of n cords; without it there are none. */
-static thr_status make_places(thr_share *x, int n, const thr_certificate *certificate, thr_err *err)
+static thr_status make_places(thr_decomposition *x, int n, const thr_certificate *certificate, thr_err *err)
 {
   thr_err why = {0};
-  thr_status st = thr_share_places(x, n, certificate, &why);
+  thr_status st = thr_decomposition_places(x, n, certificate, &why);
   return st ? thr_fail(err, st == THR_ELIMIT ? THR_EINFEASIBLE : st, "%s", why.text) : THR_OK;
 }
 
 /* n walks through the passes. */
-static thr_status share_out(thr_share *x, int n, const thr_certificate *certificate, bool even, double goal, thr_err *err)
+static thr_status share_out(thr_decomposition *x, int n, const thr_certificate *certificate, bool even, double goal, thr_err *err)
 {
   int *passes = thr_calloc((size_t)x->f->n_edges, sizeof *passes);
   thr_status st = passes ? make_places(x, n, certificate, err) : thr_nomem(err);
   thr_walks_destroy(&x->walks);
   if (!st) st = thr_walks_trace(x->f, x->passes, &x->walks, err);
-  if (!st) st = x->o->ends == THR_ENDS_CLOSED ? make_closed(x, n, even, passes, err) : thr_share_cut(x, n, even, err);
+  if (!st) st = x->o->ends == THR_ENDS_CLOSED ? make_closed(x, n, even, passes, err) : thr_decomposition_cut(x, n, even, err);
   if (!st && even) st = tell(x, err);
-  if (!st && even) st = thr_share_even(x, goal, err);
+  if (!st && even) st = thr_decomposition_even(x, goal, err);
   if (!st && even) st = straighten(x, passes, err);
   free(passes);
   return st;
@@ -127,7 +127,7 @@ static thr_status share_out(thr_share *x, int n, const thr_certificate *certific
 /* ---- how many cords ---- */
 
 /* Half of the passes that arrive where a cord may end: so many cords have room. */
-static int most_cords(const thr_share *x)
+static int most_cords(const thr_decomposition *x)
 {
   int64_t sum = 0;
   for (int v = 0; v < x->f->n_nodes; v++) {
@@ -138,7 +138,7 @@ static int most_cords(const thr_share *x)
   return sum / 2 > INT_MAX ? INT_MAX : (int)(sum / 2);
 }
 
-static int counted_cords(const thr_share *x)
+static int counted_cords(const thr_decomposition *x)
 {
   int sum = 0;
   for (int v = 0; v < x->f->n_nodes; v++)
@@ -146,7 +146,7 @@ static int counted_cords(const thr_share *x)
   return sum / 2;
 }
 
-static int choose_number(const thr_share *x)
+static int choose_number(const thr_decomposition *x)
 {
   const thr_request *options = x->o;
   if (options->ends == THR_ENDS_COUNTS) return counted_cords(x);
@@ -157,7 +157,7 @@ static int choose_number(const thr_share *x)
 
 /* ---- no cord longer than a limit ---- */
 
-static double length_of(const thr_share *x, const int *passes)
+static double length_of(const thr_decomposition *x, const int *passes)
 {
   double length = 0;
   for (int e = 0; e < x->f->n_edges; e++)
@@ -176,7 +176,7 @@ thr_status thr_cords_reach(const thr_frame *frame, const thr_request *options, t
   if (!st) st = thr_paths_spread(&w, options, NULL, 0, INFINITY, NULL, err);
   for (int e = 0; e < frame->n_edges && !st; e++) {
     const int *end = frame->edge[e];
-    if (closed && thr_share_within(2 * frame->length[e], limit)) continue;
+    if (closed && thr_decomposition_within(2 * frame->length[e], limit)) continue;
     if (closed) { /* there, and the shortest path back */
       thr_paths_clear(&w);
       st = thr_paths_start(&w, end[0], err);
@@ -184,7 +184,7 @@ thr_status thr_cords_reach(const thr_frame *frame, const thr_request *options, t
       if (st) break;
     }
     double least = (closed ? 0 : w.far[end[0]]) + frame->length[e] + w.far[end[1]];
-    if (!thr_share_within(least, limit))
+    if (!thr_decomposition_within(least, limit))
       st = thr_fail(
           err, THR_EINFEASIBLE, "no cord of at most %g %s can pass the edge between nodes %s and %s: %s over it takes %g %s",
           limit, frame->units, frame->name[end[0]], frame->name[end[1]],
@@ -194,16 +194,18 @@ thr_status thr_cords_reach(const thr_frame *frame, const thr_request *options, t
   return st;
 }
 
-thr_status thr_cords_grow(thr_share *share, double length, thr_cords_try *try_number, void *with, bool *done, thr_err *err)
+thr_status thr_cords_grow(thr_decomposition *decomposition, double length, thr_cords_try *try_number, void *with, bool *done,
+                          thr_err *err)
 {
   enum { IN_SINGLE_STEPS = 12 };
-  const int most = share->o->cords;
-  double least = ceil(length / share->o->max_length * (1 - 1e-9));
+  const int most = decomposition->o->cords;
+  double least = ceil(length / decomposition->o->max_length * (1 - 1e-9));
   int n = most;
-  if (least < n && share->o->ends != THR_ENDS_COUNTS) n = least > share->o->cords_least ? (int)least : share->o->cords_least;
-  thr_status st = thr_cords_reach(share->f, share->o, err);
+  if (least < n && decomposition->o->ends != THR_ENDS_COUNTS)
+    n = least > decomposition->o->cords_least ? (int)least : decomposition->o->cords_least;
+  thr_status st = thr_cords_reach(decomposition->f, decomposition->o, err);
   for (int tried = 0, step = 1; !st && !*done && n <= most; n += step) { /* larger steps where many numbers are too small */
-    st = try_number(share, with, n, done, err);
+    st = try_number(decomposition, with, n, done, err);
     if (++tried > IN_SINGLE_STEPS && n < most) step = 2 * step < most - n ? 2 * step : most - n;
   }
   return st;
@@ -216,7 +218,7 @@ typedef struct {
 } growing;
 
 /* Tries n cords. */
-static thr_status try_number(thr_share *x, void *with, int n, bool *done, thr_err *err)
+static thr_status try_number(thr_decomposition *x, void *with, int n, bool *done, thr_err *err)
 {
   growing *g = with;
   thr_request options = *x->o;
@@ -231,7 +233,7 @@ static thr_status try_number(thr_share *x, void *with, int n, bool *done, thr_er
   if (g->length <= n * x->o->max_length * (1 + 1e-9)) {
     memcpy(x->passes, shortest.passes, (size_t)x->f->n_edges * sizeof *x->passes);
     st = share_out(x, n, shortest.certificate, true, x->o->max_length, err);
-    *done = !st && thr_share_within(thr_walks_most(&x->walks), x->o->max_length);
+    *done = !st && thr_decomposition_within(thr_walks_most(&x->walks), x->o->max_length);
   } else {
     thr_certificate swap = g->best->certificate[0];
     g->best->certificate[0] = shortest.certificate[0];
@@ -241,7 +243,7 @@ static thr_status try_number(thr_share *x, void *with, int n, bool *done, thr_er
   return st;
 }
 
-static thr_status none_found(const thr_share *x, double needed, thr_err *err)
+static thr_status none_found(const thr_decomposition *x, double needed, thr_err *err)
 {
   const int most = x->o->cords;
   const char *cords = most == 1 ? "cord" : "cords", *units = x->f->units;
@@ -255,7 +257,7 @@ static thr_status none_found(const thr_share *x, double needed, thr_err *err)
 }
 
 /* best holds the shortest passes with most cords, which are the shortest of all. */
-static thr_status grow(thr_share *x, thr_shortest *best, thr_err *err)
+static thr_status grow(thr_decomposition *x, thr_shortest *best, thr_err *err)
 {
   growing g = {best, length_of(x, best->passes)};
   bool done = false;
@@ -265,7 +267,7 @@ static thr_status grow(thr_share *x, thr_shortest *best, thr_err *err)
 
 /* ---- the plan ---- */
 
-static thr_status make(thr_share *x, thr_shortest *shortest, thr_err *err)
+static thr_status make(thr_decomposition *x, thr_shortest *shortest, thr_err *err)
 {
   memcpy(x->passes, shortest->passes, (size_t)x->f->n_edges * sizeof *x->passes);
   if (x->o->max_length > 0) return grow(x, shortest, err);
@@ -288,13 +290,13 @@ thr_status thr_cords_judge(const thr_plan *plan, const thr_err *unproved, thr_er
 }
 
 /* Where the cords need more passes than a join has, what proves more of that. */
-static thr_status prove_places(const thr_share *x, thr_plan *plan, thr_err *err)
+static thr_status prove_places(const thr_decomposition *x, thr_plan *plan, thr_err *err)
 {
   const thr_frame *frame = &plan->frame;
   thr_length_proof *proof = &plan->proof;
   thr_err found = {0};
   if (proof->optimal) return THR_OK;
-  thr_status st = thr_share_prices(x, &proof->certificate[0], err);
+  thr_status st = thr_decomposition_prices(x, &proof->certificate[0], err);
   if (st) return st;
   proof->unconfirmed += proof->certificate[0].n_prices > 0; /* GLPK was asked about other passes */
   st = thr_check_length_proof(frame, &plan->options, plan->cord, plan->n_cords, proof->certificate, proof->n_certificates,
@@ -303,7 +305,7 @@ static thr_status prove_places(const thr_share *x, thr_plan *plan, thr_err *err)
   return thr_check_own(st, &found, err);
 }
 
-static thr_status prove(const thr_share *x, thr_plan *plan, thr_shortest *shortest, thr_err *err)
+static thr_status prove(const thr_decomposition *x, thr_plan *plan, thr_shortest *shortest, thr_err *err)
 {
   const thr_frame *frame = &plan->frame;
   const thr_request *options = &plan->options;
@@ -321,7 +323,7 @@ thr_status thr_cords_plan(const thr_frame *frame, const thr_request *options, co
 {
   thr_shortest shortest = {0};
   thr_err why = {0};
-  thr_share x = {0};
+  thr_decomposition x = {0};
   *plan = (thr_plan){0};
   if (word) *word = (thr_cords_word){0};
   bool one = options->cords == 1 && options->max_length == 0 && options->ends != THR_ENDS_COUNTS;
@@ -329,7 +331,7 @@ thr_status thr_cords_plan(const thr_frame *frame, const thr_request *options, co
   thr_status proved = thr_postman_shortest(frame, options, limits, &shortest, &why);
   if (proved && proved != THR_ELIMIT) return thr_fail(err, proved, "%s", why.text);
   thr_status st = thr_plan_request(plan, frame, options, err);
-  if (!st) st = thr_share_init(&x, &plan->frame, &plan->options, limits, err);
+  if (!st) st = thr_decomposition_init(&x, &plan->frame, &plan->options, limits, err);
   if (!st) st = make(&x, &shortest, err);
   if (!st) st = thr_walks_cords(&x.walks, &plan->frame, &plan->options, &plan->cord, &plan->n_cords, err);
   if (!st) st = prove(&x, plan, &shortest, err);
@@ -338,7 +340,7 @@ thr_status thr_cords_plan(const thr_frame *frame, const thr_request *options, co
     thr_plan_destroy(plan);
   else
     st = thr_cords_judge(plan, &why, err);
-  thr_share_destroy(&x);
+  thr_decomposition_destroy(&x);
   thr_shortest_destroy(&shortest);
   return st;
 }

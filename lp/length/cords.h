@@ -1,4 +1,4 @@
-/* The shortest plan with any number of cords: passes (lp/length/postman.h), shared out among cords (lp/length/share.h,
+/* The shortest plan with any number of cords: passes (lp/length/postman.h), shared out among cords (lp/length/decomposition.h,
  * lp/length/balance.h); for a length limit with more and more cords until none is longer.
  *
  * Example: a framework of 12 m of passes, no cord longer than 5 m: three cords at least, ceil(12 / 5). */
@@ -10,7 +10,7 @@
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/status.h"
-#include "lp/length/share.h"
+#include "lp/length/decomposition.h"
 
 /* What is known beyond what graph/check/check.c can verify, for the one who asked. */
 typedef struct {
@@ -36,8 +36,8 @@ thr_status thr_cords_reach(const thr_frame *frame, const thr_request *options, t
 
 /* For a limit on the length: tries n cords, from the fewest that cords of this length together leave possible up to
  * options.cords, in larger steps after some, until *done. THR_EINFEASIBLE as above. */
-typedef thr_status thr_cords_try(thr_share *share, void *with, int n, bool *done, thr_err *err);
-thr_status thr_cords_grow(thr_share *share, double length, thr_cords_try *try_number, void *with, bool *done,
+typedef thr_status thr_cords_try(thr_decomposition *decomposition, void *with, int n, bool *done, thr_err *err);
+thr_status thr_cords_grow(thr_decomposition *decomposition, double length, thr_cords_try *try_number, void *with, bool *done,
                           thr_err *err) THR_MUST_CHECK;
 
 /* Is what was asked to be least proved to be, by the plan's claims? Else THR_ELIMIT, and how far it may be off; unproved: what is

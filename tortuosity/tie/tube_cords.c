@@ -1,15 +1,15 @@
 /* The shortest tied cords, then as many as asked for, evened out by exchanges that leave the nodes tied. */
 #include "tortuosity/tie/tube_cords.h"
 #include "graph/threading/walks.h"
-#include "lp/length/share.h"
-#include "lp/length/share_table.h"
+#include "lp/length/decomposition.h"
+#include "lp/length/decomposition_table.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 typedef struct {
-  thr_share s;
+  thr_decomposition s;
   const thr_tube *shortest; /* of any number of cords that the options allow; closed: one */
   double work;              /* that searches for short cords may still do: about a second of linear programmes */
 } several;
@@ -58,9 +58,9 @@ static thr_status split(several *x, int n, bool even, bool *found, bool *certain
 {
   double least = x->shortest->length * (1 + 1e-12);
   *certain = false;
-  thr_status st = thr_share_tied(&x->s, n, even, found, err);
+  thr_status st = thr_decomposition_tied(&x->s, n, even, found, err);
   if (st || (*found && (even || thr_walks_length(&x->s.walks) <= least))) return st;
-  st = thr_share_table(&x->s, &(thr_share_ask){n, n, false, INFINITY}, certain, err);
+  st = thr_decomposition_table(&x->s, &(thr_decomposition_ask){n, n, false, INFINITY}, certain, err);
   *found = x->s.walks.n_walks >= n;
   if (!even) x->s.least &= *certain;
   return st;
@@ -73,7 +73,7 @@ static thr_status make_walks(several *x, int n, bool even, double goal, bool *fo
   *found = true;
   *certain = false;
   if (closed_cords(x)) st = split(x, n, even, found, certain, err);
-  return !st && even && *found ? thr_share_even(&x->s, goal, err) : st;
+  return !st && even && *found ? thr_decomposition_even(&x->s, goal, err) : st;
 }
 
 static thr_status make_number(several *x, int n, bool even, thr_err *err)
@@ -113,23 +113,24 @@ static thr_status make_even(several *x, thr_err *err)
 /* ---- no cord longer than a limit ---- */
 
 /* Tries n cords, if so few may do. Where there are none the walks stay as they were. */
-static thr_status try_number(thr_share *share, void *of, int n, bool *done, thr_err *err)
+static thr_status try_number(thr_decomposition *decomposition, void *of, int n, bool *done, thr_err *err)
 {
   several *x = of;
   bool found = false, certain;
   thr_err why = {0};
-  thr_walks before = share->walks;
-  share->walks = (thr_walks){0};
+  thr_walks before = decomposition->walks;
+  decomposition->walks = (thr_walks){0};
   thr_status st = short_walks(x, n, &why);
   bool none = st == THR_EINFEASIBLE;
-  if (!st && thr_walks_length(&share->walks) <= fmax(n, share->walks.n_walks) * share->o->max_length * (1 + 1e-9))
-    st = make_walks(x, n, true, share->o->max_length, &found, &certain, &why);
+  if (!st && thr_walks_length(&decomposition->walks) <=
+                 fmax(n, decomposition->walks.n_walks) * decomposition->o->max_length * (1 + 1e-9))
+    st = make_walks(x, n, true, decomposition->o->max_length, &found, &certain, &why);
   if (st || !found) {
-    thr_walks new = share->walks;
-    share->walks = before;
+    thr_walks new = decomposition->walks;
+    decomposition->walks = before;
     before = new;
   } else
-    *done = thr_share_within(thr_walks_most(&share->walks), share->o->max_length);
+    *done = thr_decomposition_within(thr_walks_most(&decomposition->walks), decomposition->o->max_length);
   thr_walks_destroy(&before);
   return st && !none ? thr_fail(err, st, "%s", why.text) : THR_OK;
 }
@@ -198,9 +199,9 @@ thr_status thr_tube_cords(thr_tube *tube, const thr_limits *limits, thr_plan *pl
     move_cords(tube, plan);
     return THR_OK;
   }
-  thr_status st = thr_share_init(&x.s, &plan->frame, options, limits, err);
+  thr_status st = thr_decomposition_init(&x.s, &plan->frame, options, limits, err);
   if (!st) st = make_some(&x, plan, err);
   if (!st) *word = (thr_cords_word){x.s.least && !lengths_asked(options), x.s.certain && thr_wants_balance(options)};
-  thr_share_destroy(&x.s);
+  thr_decomposition_destroy(&x.s);
   return st;
 }

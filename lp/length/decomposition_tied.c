@@ -5,7 +5,7 @@
 #include "graph/threading/junction_graphs.h"
 #include "graph/threading/walks.h"
 #include "lp/length/balance.h"
-#include "lp/length/share.h"
+#include "lp/length/decomposition.h"
 #include "lp/length/shortest_paths.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@
 #include <string.h>
 
 typedef struct {
-  thr_share *s;
+  thr_decomposition *s;
   thr_junction_graphs ties;
   bool even;
 } splitting;
@@ -28,11 +28,11 @@ static thr_status split_shuffled(splitting *x, int n, thr_err *err)
   thr_balance balance = {.s = x->s, .ties = &x->ties, .random = 1};
   if (!(balance.first = thr_calloc(nodes, sizeof *balance.first))) return thr_nomem(err);
   memset(balance.first, 0xff, nodes * sizeof *balance.first);
-  thr_status st = thr_share_split(x->s, n, x->even, &x->ties, err);
+  thr_status st = thr_decomposition_split(x->s, n, x->even, &x->ties, err);
   for (int round = 0; round < ROUNDS && !st && x->s->walks.n_walks < n; round++) {
     for (int i = 0; i < x->s->walks.n_walks && !st; i++)
       st = thr_balance_shuffle(&balance, i, err);
-    if (!st) st = thr_share_split(x->s, n, x->even, &x->ties, err);
+    if (!st) st = thr_decomposition_split(x->s, n, x->even, &x->ties, err);
   }
   free(balance.first);
   return st;
@@ -173,22 +173,22 @@ static thr_status add_one(splitting *x, thr_paths *g, int n, bool *made, thr_err
   bool cut = must_more(x, n) ? c.price < INFINITY && 2 * x->s->f->length[c.half >> 1] <= round.length
                              : c.price < thr_walks_most(&x->s->walks) * (1 - 1e-9);
   *made = cut || round.length < INFINITY;
-  if (cut) return thr_share_chord(x->s, c.walk, c.from, c.end, &c.half, 1, &x->ties, err);
+  if (cut) return thr_decomposition_chord(x->s, c.walk, c.from, c.end, &c.half, 1, &x->ties, err);
   return *made ? add_circuit(x, g, &round, err) : THR_OK;
 }
 
-thr_status thr_share_tied(thr_share *share, int n, bool even, bool *found, thr_err *err)
+thr_status thr_decomposition_tied(thr_decomposition *decomposition, int n, bool even, bool *found, thr_err *err)
 {
-  const thr_walks *walks = &share->walks;
+  const thr_walks *walks = &decomposition->walks;
   thr_paths g = {0};
-  splitting x = {.s = share, .even = even};
+  splitting x = {.s = decomposition, .even = even};
   bool made = true;
-  thr_status st = thr_junction_graphs_init(&x.ties, share->f, walks, err);
-  if (!st) st = thr_paths_init(&g, share->f, err);
+  thr_status st = thr_junction_graphs_init(&x.ties, decomposition->f, walks, err);
+  if (!st) st = thr_paths_init(&g, decomposition->f, err);
   if (!st) st = split_shuffled(&x, n, err);
   while (!st && made && walks->n_walks < n) {
     st = add_one(&x, &g, n, &made, err);
-    if (!st) st = thr_share_split(share, n, even, &x.ties, err);
+    if (!st) st = thr_decomposition_split(decomposition, n, even, &x.ties, err);
   }
   *found = !must_more(&x, n);
   thr_paths_destroy(&g);

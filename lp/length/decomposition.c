@@ -1,24 +1,24 @@
 /* Cutting walks where cords may end, and evening them out. */
-#include "lp/length/share.h"
+#include "lp/length/decomposition.h"
 #include "lp/length/balance.h"
-#include "lp/length/share_table.h"
+#include "lp/length/decomposition_table.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-thr_status thr_share_init(thr_share *share, const thr_frame *frame, const thr_request *options, const thr_limits *limits,
-                          thr_err *err)
+thr_status thr_decomposition_init(thr_decomposition *decomposition, const thr_frame *frame, const thr_request *options,
+                                  const thr_limits *limits, thr_err *err)
 {
-  *share = (thr_share){.f = frame, .o = options, .limits = limits, .least = true, .certain = true};
-  share->passes = thr_calloc((size_t)frame->n_edges, sizeof *share->passes);
-  return share->passes ? THR_OK : thr_nomem(err);
+  *decomposition = (thr_decomposition){.f = frame, .o = options, .limits = limits, .least = true, .certain = true};
+  decomposition->passes = thr_calloc((size_t)frame->n_edges, sizeof *decomposition->passes);
+  return decomposition->passes ? THR_OK : thr_nomem(err);
 }
 
-void thr_share_destroy(thr_share *share)
+void thr_decomposition_destroy(thr_decomposition *decomposition)
 {
-  thr_walks_destroy(&share->walks);
-  free(share->passes);
+  thr_walks_destroy(&decomposition->walks);
+  free(decomposition->passes);
 }
 
 /* ---- cutting ---- */
@@ -30,7 +30,7 @@ typedef struct {
 } place;
 
 typedef struct {
-  thr_share *s;
+  thr_decomposition *s;
   thr_walks *w; /* its walks */
   int *left;    /* [n_nodes] THR_ENDS_COUNTS: cuts that are still to be made there; else NULL */
   place *list;
@@ -186,11 +186,11 @@ static thr_status cut_longest(places *p, int cuts, int wanted, thr_err *err)
   return st;
 }
 
-thr_status thr_share_cut(thr_share *share, int n, bool even, thr_err *err)
+thr_status thr_decomposition_cut(thr_decomposition *decomposition, int n, bool even, thr_err *err)
 {
-  const thr_walks *walks = &share->walks;
-  places p = {.s = share, .w = &share->walks};
-  bool counts = share->o->ends == THR_ENDS_COUNTS;
+  const thr_walks *walks = &decomposition->walks;
+  places p = {.s = decomposition, .w = &decomposition->walks};
+  bool counts = decomposition->o->ends == THR_ENDS_COUNTS;
   int open = 0, cuts = 0;
   thr_status st = THR_OK;
   for (int i = 0; i < walks->n_walks; i++)
@@ -206,22 +206,22 @@ thr_status thr_share_cut(thr_share *share, int n, bool even, thr_err *err)
 /* ---- evening out ---- */
 
 /* What the table knows better, where the framework is small. With a goal only if it was missed, and then the fewest cords. */
-static thr_status make_exact(thr_share *share, double goal, thr_err *err)
+static thr_status make_exact(thr_decomposition *decomposition, double goal, thr_err *err)
 {
-  const thr_request *options = share->o;
+  const thr_request *options = decomposition->o;
   bool certain, counts = options->ends == THR_ENDS_COUNTS;
-  const int n = share->walks.n_walks;
-  thr_share_ask ask = {counts ? n : options->cords_least, counts ? n : options->cords, true, INFINITY};
-  if (goal > 0 && (share->asked || thr_share_within(thr_walks_most(&share->walks), goal))) return THR_OK;
-  if (goal > 0) ask = (thr_share_ask){ask.least, ask.most, false, goal};
-  share->asked = goal > 0;
-  thr_status st = thr_share_table(share, &ask, &certain, err);
-  share->certain &= certain;
+  const int n = decomposition->walks.n_walks;
+  thr_decomposition_ask ask = {counts ? n : options->cords_least, counts ? n : options->cords, true, INFINITY};
+  if (goal > 0 && (decomposition->asked || thr_decomposition_within(thr_walks_most(&decomposition->walks), goal))) return THR_OK;
+  if (goal > 0) ask = (thr_decomposition_ask){ask.least, ask.most, false, goal};
+  decomposition->asked = goal > 0;
+  thr_status st = thr_decomposition_table(decomposition, &ask, &certain, err);
+  decomposition->certain &= certain;
   return st;
 }
 
-thr_status thr_share_even(thr_share *share, double goal, thr_err *err)
+thr_status thr_decomposition_even(thr_decomposition *decomposition, double goal, thr_err *err)
 {
-  thr_status st = thr_balance_walks(share, goal, err);
-  return st ? st : make_exact(share, goal, err);
+  thr_status st = thr_balance_walks(decomposition, goal, err);
+  return st ? st : make_exact(decomposition, goal, err);
 }

@@ -6,7 +6,7 @@
 #include "graph/plan/request.h"
 #include "graph/status.h"
 #include "lp/matching/blossom.h"
-#include "lp/length/share.h"
+#include "lp/length/decomposition.h"
 
 #include <limits.h>
 #include <stdlib.h>
@@ -18,7 +18,7 @@ enum { MOST_EDGES = 2000000 }; /* of a matching */
  * with a core of its group. A group of p ports that needs d passes, or 2, 4, .. more, has p - d cores, which may be matched
  * with each other. A group is a node; or all nodes where cords may end, if ends are free to be at any of them. */
 typedef struct {
-  const thr_share *s;
+  const thr_decomposition *s;
   const thr_certificate *c;
   int n_groups;
   int *group; /* [n_nodes] */
@@ -52,43 +52,43 @@ static int passes_at(const thr_frame *frame, const int *passes, int v)
   return sum;
 }
 
-static int covers_at(const thr_share *share, int v)
+static int covers_at(const thr_decomposition *decomposition, int v)
 {
   int sum = 0;
-  for (int i = share->f->first[v]; i < share->f->first[v + 1]; i++)
-    sum += thr_plan_cover(share->f, share->o, share->f->half[i] >> 1);
+  for (int i = decomposition->f->first[v]; i < decomposition->f->first[v + 1]; i++)
+    sum += thr_plan_cover(decomposition->f, decomposition->o, decomposition->f->half[i] >> 1);
   return sum;
 }
 
-static bool enough_places(const thr_share *share, int n)
+static bool enough_places(const thr_decomposition *decomposition, int n)
 {
   int free_places = 0;
-  for (int v = 0; v < share->f->n_nodes; v++) {
-    if (!thr_plan_end_allowed(share->f, share->o, v)) continue;
-    int at = passes_at(share->f, share->passes, v);
-    if (share->o->ends == THR_ENDS_COUNTS && at < share->o->end_count[v]) return false;
+  for (int v = 0; v < decomposition->f->n_nodes; v++) {
+    if (!thr_plan_end_allowed(decomposition->f, decomposition->o, v)) continue;
+    int at = passes_at(decomposition->f, decomposition->passes, v);
+    if (decomposition->o->ends == THR_ENDS_COUNTS && at < decomposition->o->end_count[v]) return false;
     if (free_places < INT_MAX / 2) free_places += at;
   }
-  return share->o->ends == THR_ENDS_COUNTS || free_places >= 2 * n;
+  return decomposition->o->ends == THR_ENDS_COUNTS || free_places >= 2 * n;
 }
 
 /* Groups, and the passes that they need beyond the cover. */
 static void find_groups(ports *p, int n)
 {
-  const thr_share *share = p->s;
-  bool counts = share->o->ends == THR_ENDS_COUNTS;
+  const thr_decomposition *decomposition = p->s;
+  bool counts = decomposition->o->ends == THR_ENDS_COUNTS;
   int joint = -1; /* the group of all places where ends are free to be */
-  for (int v = 0; v < share->f->n_nodes; v++) {
-    bool end = thr_plan_end_allowed(share->f, share->o, v);
+  for (int v = 0; v < decomposition->f->n_nodes; v++) {
+    bool end = thr_plan_end_allowed(decomposition->f, decomposition->o, v);
     int g = !counts && end && joint >= 0 ? joint : p->n_groups++;
     if (!counts && end && joint < 0) {
       joint = g;
       p->need[g] = 2 * n;
     } else if (counts) {
-      p->need[g] = share->o->end_count[v];
+      p->need[g] = decomposition->o->end_count[v];
     }
     p->group[v] = g;
-    p->need[g] -= covers_at(share, v);
+    p->need[g] -= covers_at(decomposition, v);
   }
   for (int g = 0; g < p->n_groups; g++)
     if (p->need[g] < 0) p->need[g] = -p->need[g] % 2;
@@ -97,12 +97,12 @@ static void find_groups(ports *p, int n)
 /* More than so many extra passes of an edge are more than its groups need. */
 static thr_status count_ports(ports *p, thr_err *err)
 {
-  const thr_share *share = p->s;
+  const thr_decomposition *decomposition = p->s;
   int64_t edges = 0;
-  for (int e = 0; e < share->f->n_edges; e++) {
-    int a = p->group[share->f->edge[e][0]], b = p->group[share->f->edge[e][1]];
+  for (int e = 0; e < decomposition->f->n_edges; e++) {
+    int a = p->group[decomposition->f->edge[e][0]], b = p->group[decomposition->f->edge[e][1]];
     int most = a == b ? (p->need[a] + 1) / 2 : p->need[a] > p->need[b] ? p->need[a] : p->need[b];
-    int room = thr_plan_capacity(share->f, share->o, e) - thr_plan_cover(share->f, share->o, e);
+    int room = thr_plan_capacity(decomposition->f, decomposition->o, e) - thr_plan_cover(decomposition->f, decomposition->o, e);
     if (most < 1) most = 1;
     p->copies[e] = most < room ? most : room;
     p->n_ports[a] += p->copies[e];
@@ -175,28 +175,28 @@ static thr_status ports_init(ports *p, int n, thr_err *err)
   return st ? st : build(p, err);
 }
 
-static void take(const ports *p, const thr_matching *matching, thr_share *share)
+static void take(const ports *p, const thr_matching *matching, thr_decomposition *decomposition)
 {
-  for (int e = 0, n = 0; e < share->f->n_edges; e++) {
-    share->passes[e] = thr_plan_cover(share->f, share->o, e);
+  for (int e = 0, n = 0; e < decomposition->f->n_edges; e++) {
+    decomposition->passes[e] = thr_plan_cover(decomposition->f, decomposition->o, e);
     for (int i = 0; i < p->copies[e]; i++, n++)
-      share->passes[e] += matching->mate_edge[p->edge[n][0]] == n;
+      decomposition->passes[e] += matching->mate_edge[p->edge[n][0]] == n;
   }
 }
 
-thr_status thr_share_places(thr_share *share, int n, const thr_certificate *certificate, thr_err *err)
+thr_status thr_decomposition_places(thr_decomposition *decomposition, int n, const thr_certificate *certificate, thr_err *err)
 {
-  ports p = {.s = share, .c = certificate};
+  ports p = {.s = decomposition, .c = certificate};
   thr_matching matching = {0};
-  if (share->o->ends == THR_ENDS_CLOSED || enough_places(share, n)) return THR_OK;
+  if (decomposition->o->ends == THR_ENDS_CLOSED || enough_places(decomposition, n)) return THR_OK;
   thr_err why = {0};
   thr_status st = ports_init(&p, n, &why);
   if (!st) {
     thr_matching_problem problem = {p.first[p.n_groups], p.n_edges, (const int(*)[2])p.edge, p.weight};
-    st = thr_matching_solve(&problem, share->limits, &matching, &why);
+    st = thr_matching_solve(&problem, decomposition->limits, &matching, &why);
     if (st == THR_EINFEASIBLE) why = (thr_err){0};
   }
-  if (!st) take(&p, &matching, share);
+  if (!st) take(&p, &matching, decomposition);
   if (st == THR_EINFEASIBLE && !why.code)
     thr_fail(&why, st, "the capacities of the edges leave no room for as many cord ends as asked for");
   if (st) thr_fail(err, st, "%s", why.text);

@@ -5,7 +5,7 @@
 #include "graph/threading/junction_graphs.h"
 #include "graph/threading/splice.h"
 #include "graph/threading/walks.h"
-#include "lp/length/share.h"
+#include "lp/length/decomposition.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -51,19 +51,20 @@ static bool stays_tied(thr_junction_graphs *ties, const thr_walk *x, int from, i
 }
 
 /* The section to split off: that which adds least turning, or, of walk number only, that which is nearest to half of it. */
-static thr_status best_section(const thr_share *share, thr_junction_graphs *ties, int only, section *best, thr_err *err)
+static thr_status best_section(const thr_decomposition *decomposition, thr_junction_graphs *ties, int only, section *best,
+                               thr_err *err)
 {
-  const thr_walks *walks = &share->walks;
+  const thr_walks *walks = &decomposition->walks;
   thr_walk_visits visits;
   *best = (section){INFINITY, -1, 0, 0};
-  thr_status st = thr_walk_visits_init(&visits, share->f, walks->walk, walks->n_walks, NULL, err);
+  thr_status st = thr_walk_visits_init(&visits, decomposition->f, walks->walk, walks->n_walks, NULL, err);
   for (int j = 0; j < visits.n && !st; j++) {
     const thr_walk *y = &walks->walk[visits.walk[j]];
     if (only >= 0 && visits.walk[j] != only) continue;
     for (int i = visits.next[j], seen = 0; i >= 0 && visits.walk[i] == visits.walk[j] && seen < MOST_VISITS;
          i = visits.next[i], seen++) {
-      double score =
-          only >= 0 ? fabs(visits.sum[j] - visits.sum[i] - y->length / 2) : split_price(share->f, y, visits.at[i], visits.at[j]);
+      double score = only >= 0 ? fabs(visits.sum[j] - visits.sum[i] - y->length / 2)
+                               : split_price(decomposition->f, y, visits.at[i], visits.at[j]);
       if (score < best->score - 1e-9 && (!ties || stays_tied(ties, y, visits.at[i], visits.at[j])))
         *best = (section){score, visits.walk[j], visits.at[i], visits.at[j]};
     }
@@ -73,9 +74,9 @@ static thr_status best_section(const thr_share *share, thr_junction_graphs *ties
 }
 
 /* The longest walk first that has a node twice. */
-static thr_status best_half(const thr_share *share, thr_junction_graphs *ties, section *best, thr_err *err)
+static thr_status best_half(const thr_decomposition *decomposition, thr_junction_graphs *ties, section *best, thr_err *err)
 {
-  const thr_walks *walks = &share->walks;
+  const thr_walks *walks = &decomposition->walks;
   thr_status st = THR_OK;
   bool *tried = thr_calloc((size_t)walks->n_walks, sizeof *tried);
   if (!tried) return thr_nomem(err);
@@ -85,23 +86,23 @@ static thr_status best_half(const thr_share *share, thr_junction_graphs *ties, s
     for (int i = 0; i < walks->n_walks; i++)
       if (!tried[i] && (longest < 0 || walks->walk[i].length > walks->walk[longest].length)) longest = i;
     tried[longest] = true;
-    st = best_section(share, ties, longest, best, err);
+    st = best_section(decomposition, ties, longest, best, err);
   }
   free(tried);
   return st;
 }
 
-thr_status thr_share_split(thr_share *share, int n, bool even, thr_junction_graphs *ties, thr_err *err)
+thr_status thr_decomposition_split(thr_decomposition *decomposition, int n, bool even, thr_junction_graphs *ties, thr_err *err)
 {
-  thr_walks *walks = &share->walks;
+  thr_walks *walks = &decomposition->walks;
   thr_status st = THR_OK;
   while (walks->n_walks < n && !st) {
     section best;
-    st = even ? best_half(share, ties, &best, err) : best_section(share, ties, -1, &best, err);
+    st = even ? best_half(decomposition, ties, &best, err) : best_section(decomposition, ties, -1, &best, err);
     if (!st && best.walk < 0) break;
     if (st) break;
     thr_splice splice = split_off(&walks->walk[best.walk], best.from, best.end);
-    st = thr_splice_make(&splice, share->f, walks, best.walk, -1, ties, NULL, err);
+    st = thr_splice_make(&splice, decomposition->f, walks, best.walk, -1, ties, NULL, err);
   }
   return st;
 }
@@ -170,14 +171,14 @@ static thr_status peel_all(peeling *p, thr_walks *walks, thr_err *err)
   return st;
 }
 
-static thr_status short_circuits(const thr_share *share, thr_walks *out, thr_err *err)
+static thr_status short_circuits(const thr_decomposition *decomposition, thr_walks *out, thr_err *err)
 {
-  size_t n = (size_t)share->f->n_nodes;
-  peeling p = {share->f, thr_calloc((size_t)share->f->n_edges, sizeof *p.left), thr_calloc(n, sizeof *p.queue),
+  size_t n = (size_t)decomposition->f->n_nodes;
+  peeling p = {decomposition->f, thr_calloc((size_t)decomposition->f->n_edges, sizeof *p.left), thr_calloc(n, sizeof *p.queue),
                thr_calloc(n, sizeof *p.from), thr_calloc(n, sizeof *p.depth)};
   *out = (thr_walks){0};
   thr_status st = p.left && p.queue && p.from && p.depth ? THR_OK : thr_nomem(err);
-  if (!st) thr_walks_count(&share->walks, p.left);
+  if (!st) thr_walks_count(&decomposition->walks, p.left);
   if (!st) st = peel_all(&p, out, err);
   if (st) thr_walks_destroy(out);
   free(p.left);
@@ -207,17 +208,17 @@ static void offer_junction(const thr_frame *frame, const thr_walks *walks, int a
   if (price < best->price - 1e-9) *best = (junction){price, a, at_a, b, at_b, against < along - 1e-9};
 }
 
-static thr_status best_junction(const thr_share *share, junction *best, thr_err *err)
+static thr_status best_junction(const thr_decomposition *decomposition, junction *best, thr_err *err)
 {
-  const thr_walks *walks = &share->walks;
+  const thr_walks *walks = &decomposition->walks;
   thr_walk_visits visits;
   *best = (junction){.price = INFINITY, .a = -1};
-  thr_status st = thr_walk_visits_init(&visits, share->f, walks->walk, walks->n_walks, NULL, err);
+  thr_status st = thr_walk_visits_init(&visits, decomposition->f, walks->walk, walks->n_walks, NULL, err);
   if (st) return st;
   for (int j = 0; j < visits.n; j++)
     for (int i = visits.next[j], seen = 0; i >= 0 && seen < MOST_VISITS; i = visits.next[i])
       if (visits.walk[i] != visits.walk[j]) {
-        offer_junction(share->f, walks, visits.walk[i], visits.at[i], visits.walk[j], visits.at[j], best);
+        offer_junction(decomposition->f, walks, visits.walk[i], visits.at[i], visits.walk[j], visits.at[j], best);
         seen++;
       }
   thr_walk_visits_destroy(&visits);
@@ -225,44 +226,44 @@ static thr_status best_junction(const thr_share *share, junction *best, thr_err 
 }
 
 /* Walk b goes into walk a, and its number is that of the last. */
-static thr_status merge(thr_share *share, const junction *j, thr_err *err)
+static thr_status merge(thr_decomposition *decomposition, const junction *j, thr_err *err)
 {
-  thr_walks *walks = &share->walks;
+  thr_walks *walks = &decomposition->walks;
   const thr_walk *a = &walks->walk[j->a], *b = &walks->walk[j->b];
   thr_splice splice = thr_splice_of(true, a, b);
   thr_splice_put(&splice, 0, 0, j->at_a, false);
   thr_splice_put(&splice, 1, j->against ? 0 : j->at_b, j->against ? j->at_b : b->n, j->against);
   thr_splice_put(&splice, 1, j->against ? j->at_b : 0, j->against ? b->n : j->at_b, j->against);
   thr_splice_put(&splice, 0, j->at_a, a->n, false);
-  return thr_splice_make(&splice, share->f, walks, j->a, j->b, NULL, NULL, err);
+  return thr_splice_make(&splice, decomposition->f, walks, j->a, j->b, NULL, NULL, err);
 }
 
-thr_status thr_share_merge(thr_share *share, int n, thr_err *err)
+thr_status thr_decomposition_merge(thr_decomposition *decomposition, int n, thr_err *err)
 {
   thr_status st = THR_OK;
-  while (share->walks.n_walks > n && !st) {
+  while (decomposition->walks.n_walks > n && !st) {
     junction best;
-    st = best_junction(share, &best, err);
+    st = best_junction(decomposition, &best, err);
     if (!st && best.a < 0) return thr_fail(err, THR_ESOLVER, "circuits that do not meet");
-    if (!st) st = merge(share, &best, err);
+    if (!st) st = merge(decomposition, &best, err);
   }
   return st;
 }
 
-thr_status thr_share_circuits(thr_share *share, int n, bool even, bool *enough, thr_err *err)
+thr_status thr_decomposition_circuits(thr_decomposition *decomposition, int n, bool even, bool *enough, thr_err *err)
 {
-  thr_walks many, *walks = &share->walks;
-  thr_status st = thr_share_split(share, n, even, NULL, err);
+  thr_walks many, *walks = &decomposition->walks;
+  thr_status st = thr_decomposition_split(decomposition, n, even, NULL, err);
   *enough = walks->n_walks >= n;
   if (st || *enough) return st;
-  if ((st = short_circuits(share, &many, err))) return st;
+  if ((st = short_circuits(decomposition, &many, err))) return st;
   bool better = many.n_walks > walks->n_walks;
   if (better) {
     thr_walks keep = *walks;
     *walks = many;
     many = keep;
     *enough = walks->n_walks >= n;
-    st = thr_share_merge(share, n, err);
+    st = thr_decomposition_merge(decomposition, n, err);
   }
   thr_walks_destroy(&many);
   return st;
@@ -270,21 +271,21 @@ thr_status thr_share_circuits(thr_share *share, int n, bool even, bool *enough, 
 
 /* ---- pairs of passes ---- */
 
-thr_status thr_share_more(thr_share *share, int n, bool *found, thr_err *err)
+thr_status thr_decomposition_more(thr_decomposition *decomposition, int n, bool *found, thr_err *err)
 {
-  const thr_frame *frame = share->f;
-  int *passes = share->passes;
+  const thr_frame *frame = decomposition->f;
+  int *passes = decomposition->passes;
   thr_status st = THR_OK;
   *found = true;
-  while (share->walks.n_walks < n && !st) {
+  while (decomposition->walks.n_walks < n && !st) {
     int best = -1;
     for (int e = 0; e < frame->n_edges; e++)
-      if (passes[e] + 2 <= thr_plan_capacity(frame, share->o, e) && (best < 0 || frame->length[e] < frame->length[best]))
+      if (passes[e] + 2 <= thr_plan_capacity(frame, decomposition->o, e) && (best < 0 || frame->length[e] < frame->length[best]))
         best = e;
     *found = best >= 0;
     if (!*found) return THR_OK;
     passes[best] += 2;
-    st = thr_walks_copy(&share->walks, frame, (const int[]){2 * best, 2 * best + 1}, 2, true, err);
+    st = thr_walks_copy(&decomposition->walks, frame, (const int[]){2 * best, 2 * best + 1}, 2, true, err);
   }
   return st;
 }

@@ -1,6 +1,6 @@
 /* Prices of places: T-joins among priced edges. */
 #include "graph/limits.h"
-#include "lp/length/share_prices.h"
+#include "lp/length/decomposition_prices.h"
 #include "graph/check/check.h"
 #include "graph/disjoint.h"
 #include "graph/framework/frame.h"
@@ -19,7 +19,7 @@
 enum { MOST_EDGES = 10000, MOST_ROUNDS = 60, MOST_PRICES = 30 };
 
 typedef struct {
-  const thr_share *s;
+  const thr_decomposition *s;
   const thr_limits *limits;
   bool closed, counts;
   int64_t unit; /* parts of a weight that prices are whole numbers of */
@@ -472,17 +472,17 @@ static thr_status search_each(pricing *p, thr_err *err)
   return st;
 }
 
-thr_status thr_share_prices(const thr_share *share, thr_certificate *certificate, thr_err *err)
+thr_status thr_decomposition_prices(const thr_decomposition *decomposition, thr_certificate *certificate, thr_err *err)
 {
-  thr_limits quiet = *share->limits; /* a bound at a price is not one on the weight */
+  thr_limits quiet = *decomposition->limits; /* a bound at a price is not one on the weight */
   quiet.progress = NULL;
-  pricing p = {.s = share,
+  pricing p = {.s = decomposition,
                .limits = &quiet,
-               .closed = share->o->ends == THR_ENDS_CLOSED,
-               .counts = share->o->ends == THR_ENDS_COUNTS,
+               .closed = decomposition->o->ends == THR_ENDS_CLOSED,
+               .counts = decomposition->o->ends == THR_ENDS_COUNTS,
                .c = certificate};
-  p.bound = (thr_wide)certificate->sum - 2 * (thr_wide)share->o->cords * certificate->end_price;
-  if (proved(&p) || thr_limits_stop(share->limits)) return THR_OK;
+  p.bound = (thr_wide)certificate->sum - 2 * (thr_wide)decomposition->o->cords * certificate->end_price;
+  if (proved(&p) || thr_limits_stop(decomposition->limits)) return THR_OK;
   thr_status st = pricing_init(&p, err);
   if (!st && p.n_edges <= MOST_EDGES) st = p.counts ? search_each(&p, err) : search(&p, err);
   pricing_destroy(&p);

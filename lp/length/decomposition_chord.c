@@ -5,7 +5,7 @@
 #include "graph/threading/junction_graphs.h"
 #include "graph/threading/splice.h"
 #include "graph/threading/walks.h"
-#include "lp/length/share.h"
+#include "lp/length/decomposition.h"
 #include "lp/length/shortest_paths.h"
 
 #include <math.h>
@@ -19,28 +19,29 @@ typedef struct {
 } chord;
 
 /* The paths from the node before each pass of walk to its other nodes, over edges with room for two more passes. */
-static thr_status best_chord(thr_paths *x, const thr_share *share, const thr_walk *walk, chord *best, thr_err *err)
+static thr_status best_chord(thr_paths *x, const thr_decomposition *decomposition, const thr_walk *walk, chord *best,
+                             thr_err *err)
 {
   thr_status st = THR_OK;
   *best = (chord){walk->length * (1 - 1e-9), 0, 0};
   for (int i = 0; i < walk->n && !st; i++) {
     double part = 0;
     thr_paths_clear(x);
-    st = thr_paths_start(x, thr_walk_node(share->f, walk, i), err);
-    if (!st) st = thr_paths_spread(x, share->o, share->passes, 2, walk->length / 2, NULL, err);
+    st = thr_paths_start(x, thr_walk_node(decomposition->f, walk, i), err);
+    if (!st) st = thr_paths_spread(x, decomposition->o, decomposition->passes, 2, walk->length / 2, NULL, err);
     for (int j = i + 1; j < walk->n && !st; j++) {
-      part += share->f->length[walk->half[j - 1] >> 1];
-      double longer = fmax(part, walk->length - part) + x->far[thr_walk_node(share->f, walk, j)];
+      part += decomposition->f->length[walk->half[j - 1] >> 1];
+      double longer = fmax(part, walk->length - part) + x->far[thr_walk_node(decomposition->f, walk, j)];
       if (longer < best->longer) *best = (chord){longer, i, j};
     }
   }
   return st;
 }
 
-thr_status thr_share_chord(thr_share *share, int i, int from, int end, const int *path, int n, thr_junction_graphs *ties,
-                           thr_err *err)
+thr_status thr_decomposition_chord(thr_decomposition *decomposition, int i, int from, int end, const int *path, int n,
+                                   thr_junction_graphs *ties, thr_err *err)
 {
-  const thr_walk *old = &share->walks.walk[i];
+  const thr_walk *old = &decomposition->walks.walk[i];
   thr_splice splice = thr_splice_of(true, old, NULL);
   thr_splice_add(&splice, 1, path, n);
   thr_splice_put(&splice, 0, 0, from, false);
@@ -49,37 +50,37 @@ thr_status thr_share_chord(thr_share *share, int i, int from, int end, const int
   thr_splice_next(&splice);
   thr_splice_put(&splice, 0, from, end, false);
   thr_splice_put(&splice, 1, 0, n, true);
-  return thr_splice_make(&splice, share->f, &share->walks, i, -1, ties, share->passes, err);
+  return thr_splice_make(&splice, decomposition->f, &decomposition->walks, i, -1, ties, decomposition->passes, err);
 }
 
 /* Walk i and a new one become the halves. */
-static thr_status split(thr_paths *x, thr_share *share, int i, const chord *c, thr_err *err)
+static thr_status split(thr_paths *x, thr_decomposition *decomposition, int i, const chord *c, thr_err *err)
 {
-  const thr_walks *walks = &share->walks;
-  const thr_frame *frame = share->f;
+  const thr_walks *walks = &decomposition->walks;
+  const thr_frame *frame = decomposition->f;
   int *path = thr_calloc((size_t)frame->n_nodes, sizeof *path);
   if (!path) return thr_nomem(err);
   thr_paths_clear(x);
   thr_status st = thr_paths_start(x, thr_walk_node(frame, &walks->walk[i], c->from), err);
-  if (!st) st = thr_paths_spread(x, share->o, share->passes, 2, walks->walk[i].length / 2, NULL, err);
+  if (!st) st = thr_paths_spread(x, decomposition->o, decomposition->passes, 2, walks->walk[i].length / 2, NULL, err);
   int n = st ? 0 : thr_paths_to(x, thr_walk_node(frame, &walks->walk[i], c->end), path);
-  if (!st) st = thr_share_chord(share, i, c->from, c->end, path, n, NULL, err);
+  if (!st) st = thr_decomposition_chord(decomposition, i, c->from, c->end, path, n, NULL, err);
   free(path);
   return st;
 }
 
 /* Walk i becomes a walk there and back over every edge that it passes, if that is shorter; *made: it was, and there was room. */
-static thr_status dissolve(thr_share *share, int i, int n, bool *made, thr_err *err)
+static thr_status dissolve(thr_decomposition *decomposition, int i, int n, bool *made, thr_err *err)
 {
-  const thr_frame *frame = share->f;
-  thr_walks *walks = &share->walks;
-  int *passes = share->passes;
+  const thr_frame *frame = decomposition->f;
+  thr_walks *walks = &decomposition->walks;
+  int *passes = decomposition->passes;
   const thr_walk *walk = &walks->walk[i];
   int size = walk->n;
   *made = size > 1 && walks->n_walks + size - 1 <= n;
   for (int k = 0; k < size && *made; k++) {
     int e = walk->half[k] >> 1;
-    *made = 2 * frame->length[e] < walk->length * (1 - 1e-9) && thr_plan_capacity(frame, share->o, e) > passes[e];
+    *made = 2 * frame->length[e] < walk->length * (1 - 1e-9) && thr_plan_capacity(frame, decomposition->o, e) > passes[e];
   }
   if (!*made) return THR_OK;
   thr_status st = THR_OK;
@@ -97,21 +98,21 @@ static thr_status dissolve(thr_share *share, int i, int n, bool *made, thr_err *
   return THR_OK;
 }
 
-thr_status thr_share_chords(thr_share *share, int n, thr_err *err)
+thr_status thr_decomposition_chords(thr_decomposition *decomposition, int n, thr_err *err)
 {
-  const thr_walks *walks = &share->walks;
+  const thr_walks *walks = &decomposition->walks;
   thr_paths x;
   chord best;
   bool more = true;
-  thr_status st = thr_paths_init(&x, share->f, err);
+  thr_status st = thr_paths_init(&x, decomposition->f, err);
   while (!st && more && walks->n_walks < n) {
     int longest = thr_walks_longest(walks);
-    st = best_chord(&x, share, &walks->walk[longest], &best, err);
+    st = best_chord(&x, decomposition, &walks->walk[longest], &best, err);
     more = best.end > best.from;
     if (!st && more)
-      st = split(&x, share, longest, &best, err);
+      st = split(&x, decomposition, longest, &best, err);
     else if (!st)
-      st = dissolve(share, longest, n, &more, err);
+      st = dissolve(decomposition, longest, n, &more, err);
   }
   thr_paths_destroy(&x);
   return st;

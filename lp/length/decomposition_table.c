@@ -1,0 +1,43 @@
+/* Cords of the table as walks. */
+#include "graph/threading/walks.h"
+#include "lp/length/decomposition_table.h"
+#include "graph/framework/frame.h"
+#include "graph/threading/small_cords.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* The half-edges are moved. */
+static thr_status take(thr_decomposition *decomposition, thr_small_cords *cords, thr_err *err)
+{
+  const thr_frame *frame = decomposition->f;
+  thr_walks new = {0};
+  thr_status st = THR_OK;
+  for (int i = 0; i < cords->n && !st; i++) {
+    thr_walk walk = {cords->n_passes[i], cords->half[i], 0, decomposition->o->ends == THR_ENDS_CLOSED};
+    cords->half[i] = NULL;
+    st = thr_walks_add(&new, frame, walk, err);
+  }
+  if (st) {
+    thr_walks_destroy(&new);
+    return st;
+  }
+  thr_walks_destroy(&decomposition->walks);
+  decomposition->walks = new;
+  memset(decomposition->passes, 0, (size_t)frame->n_edges * sizeof *decomposition->passes);
+  thr_walks_count(&new, decomposition->passes);
+  return THR_OK;
+}
+
+thr_status thr_decomposition_table(thr_decomposition *decomposition, const thr_decomposition_ask *ask, bool *certain,
+                                   thr_err *err)
+{
+  const thr_walks *walks = &decomposition->walks;
+  thr_small_cords cords;
+  const thr_small_ask all = {
+      ask->least, ask->most, false, ask->even, ask->limit, walks->n_walks, thr_walks_most(walks), thr_walks_length(walks)};
+  thr_status st = thr_small_cords_find(decomposition->f, decomposition->o, &all, decomposition->limits, &cords, certain, err);
+  if (!st && cords.n > 0) st = take(decomposition, &cords, err);
+  thr_small_cords_destroy(&cords);
+  return st;
+}
