@@ -82,6 +82,8 @@ static void shortest_destroy(shortest_plan *s)
   thr_tube_destroy(&s->tube);
 }
 
+/* A classical tour needs the proved passes and nothing else, which no time limit cuts short: they are the same on every machine.
+ */
 static thr_status find_shortest(const thr_frame *frame, const thr_request *options, const thr_limits *limits, shortest_plan *s,
                                 thr_err *err)
 {
@@ -93,7 +95,9 @@ static thr_status find_shortest(const thr_frame *frame, const thr_request *optio
     any.cords_least = 1;
   }
   if (options->joint == THR_JOINT_TUBE) return thr_tube_shortest(frame, &any, &share, &s->tube, err);
-  return thr_postman_shortest(frame, options, limits, &s->solid, err);
+  thr_limits all = *limits;
+  if (options->turning.tour != THR_TOUR_LEAST) all.deadline = 0;
+  return thr_postman_shortest(frame, options, &all, &s->solid, err);
 }
 
 /* From the shortest tied cords, which may need more passes than are looked at otherwise. */
@@ -151,7 +155,7 @@ static thr_status find_cords(const thr_frame *frame, const thr_request *options,
 {
   const thr_least_options lo = search_options(options);
   if (options->turning.tour != THR_TOUR_LEAST)
-    return thr_baseline_tour(frame, &lo, options->turning.tour, options->turning.ignore_pairings, limits, least, err);
+    return thr_baseline_tour(frame, &lo, options->turning.tour, options->turning.ignore_pairings, s->solid.passes, least, err);
   if (!thr_wants_largest(options)) return find_from_shortest(frame, options, s, limits, least, err);
   const thr_limits first = thr_dispatch_share(limits, THR_STEP_LEAST);
   thr_status st = find_from_shortest(frame, options, s, &first, least, err);
@@ -257,7 +261,7 @@ thr_status thr_planner_turning(const thr_frame *frame, const thr_request *option
     return thr_fail(err, THR_EINPUT,
                     "cord above the shortest is not limited together with a range of cords, their largest length or balance");
   if (thr_planner_is_mixed(options)) return thr_planner_mixed(frame, options, limits, plan, err);
-  thr_planner_tell_first(frame, options, limits);
+  if (options->turning.tour == THR_TOUR_LEAST) thr_planner_tell_first(frame, options, limits);
   if (thr_wants_largest(options) && options->cords > 1 && options->ends != THR_ENDS_COUNTS)
     st = thr_even_seed(frame, options, limits, &seed, err);
   if (!st) st = thr_tortuosity_plan_from(frame, options, seed.n_cords ? &seed : NULL, limits, plan, err);

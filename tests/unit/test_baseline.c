@@ -4,6 +4,7 @@
 #include "tests/oracles.h"
 #include "tests/plans.h"
 #include "graph/framework/make.h"
+#include "lp/length/postman.h"
 #include "tortuosity/tour/baseline.h"
 #include "tortuosity/proof/least.h"
 
@@ -18,12 +19,15 @@ static const thr_tour tours[] = {THR_TOUR_FLEURY, THR_TOUR_HIERHOLZER};
 static thr_least tour_make(const thr_frame *f, thr_ends ends, int cover, thr_tour tour, bool ignore)
 {
   thr_least_options o = thr_least_options_default();
-  thr_limits limits = {0};
+  const thr_request shortest = options_for(ends, cover);
+  thr_shortest s;
   thr_err err = {0};
   thr_least l;
   o.ends = ends;
   o.cover = cover;
-  ck_assert_msg(thr_baseline_tour(f, &o, tour, ignore, &limits, &l, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_postman_shortest(f, &shortest, &(thr_limits){0}, &s, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_baseline_tour(f, &o, tour, ignore, s.passes, &l, &err) == THR_OK, "%s", err.text);
+  thr_shortest_destroy(&s);
   return l;
 }
 
@@ -320,14 +324,14 @@ START_TEST(what_is_no_classical_tour_is_refused)
 {
   thr_frame f = ring_make(4);
   thr_least_options o = thr_least_options_default();
-  thr_limits limits = {0};
+  const int once[] = {1, 1, 1, 1};
   thr_least l;
   thr_err err = {0}, cords = {0};
-  ck_assert_int_eq(thr_baseline_tour(&f, &o, THR_TOUR_LEAST, false, &limits, &l, &err), THR_EINPUT);
+  ck_assert_int_eq(thr_baseline_tour(&f, &o, THR_TOUR_LEAST, false, once, &l, &err), THR_EINPUT);
   assert_one_line(&err, "fleury");
   o.ends = THR_ENDS_ANY;
   o.cords = 2;
-  ck_assert_int_eq(thr_baseline_tour(&f, &o, THR_TOUR_FLEURY, false, &limits, &l, &cords), THR_EINPUT);
+  ck_assert_int_eq(thr_baseline_tour(&f, &o, THR_TOUR_FLEURY, false, once, &l, &cords), THR_EINPUT);
   assert_one_line(&cords, "--cords");
   ck_assert_ptr_null(l.cord);
   thr_frame_destroy(&f);
@@ -338,12 +342,14 @@ START_TEST(running_out_of_memory_leaves_nothing)
 {
   thr_frame f = solid_make(CUBE);
   thr_least_options o = thr_least_options_default();
-  thr_limits limits = {0};
+  int twice[MOST_EDGES];
+  for (int e = 0; e < f.n_edges; e++)
+    twice[e] = 2;
   thr_status st = THR_ENOMEM;
   for (long k = 1; st != THR_OK; k++) {
     thr_least l;
     thr_alloc_fail_at(k);
-    st = thr_baseline_tour(&f, &o, tours[_i], false, &limits, &l, NULL);
+    st = thr_baseline_tour(&f, &o, tours[_i], false, twice, &l, NULL);
     thr_alloc_fail_at(0);
     ck_assert(st == THR_OK || (st == THR_ENOMEM && !l.cord));
     thr_least_destroy(&l);

@@ -73,6 +73,44 @@ START_TEST(every_plan_comes_with_proofs)
 }
 END_TEST
 
+/* A classical tour of f with a deadline (0 = none), as text. */
+static thr_text tour_text(const thr_frame *f, const thr_request *o, double deadline)
+{
+  const thr_limits limits = {.deadline = deadline};
+  thr_text text = {0};
+  thr_plan p;
+  thr_err e = {0};
+  ck_assert_msg(thr_plan_make(f, o, &limits, &p, NULL, &e) == THR_OK, "%s", e.text);
+  ck_assert_msg(p.proof.optimal && thr_check_plan(&p, &e) == THR_OK, "%s", e.text);
+  thr_plan_write(&p, &text);
+  ck_assert(!text.failed);
+  thr_plan_destroy(&p);
+  return text;
+}
+
+/* Whatever the time that is left, and none at all, the same bytes. */
+START_TEST(classical_tours_take_no_notice_of_time)
+{
+  static const thr_tour tours[] = {THR_TOUR_FLEURY, THR_TOUR_HIERHOLZER};
+  static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET};
+  rng r = rng_make((uint64_t)_i);
+  for (int i = 0; i < 12; i++) {
+    thr_frame f = random_frame(&r, rng_between(&r, 3, 60), rng_below(&r, 60), LENGTHS_EUCLID);
+    thr_request o = options_for(ends[i % 3], 1 + i / 6);
+    want(&o, "turning");
+    o.turning.tour = tours[i / 3 % 2];
+    thr_text without = tour_text(&f, &o, 0), past = tour_text(&f, &o, thr_clock() - 1),
+             soon = tour_text(&f, &o, thr_clock() + 1e-4);
+    ck_assert_str_eq(without.data, past.data);
+    ck_assert_str_eq(without.data, soon.data);
+    thr_text_destroy(&without);
+    thr_text_destroy(&past);
+    thr_text_destroy(&soon);
+    thr_frame_destroy(&f);
+  }
+}
+END_TEST
+
 static int heard;
 
 static void hear(void *user, const thr_cord *cord, int n_cords, const thr_symmetry_record *symmetry)
@@ -123,6 +161,7 @@ int main(void)
   Suite *s = suite_create("planner");
   add_case(s, "example", 60, the_example_plans_for_every_objective, 0, 1);
   add_case(s, "proofs", 60, every_plan_comes_with_proofs, 0, 2 * THR_N_OBJECTIVES);
+  add_case(s, "tours", 20, classical_tours_take_no_notice_of_time, 0, 4);
   add_case(s, "heard", 60, some_cords_are_heard_of_early, 0, THR_N_OBJECTIVES);
   add_case(s, "time", 10, time_is_shared_out, 0, 1);
   return run_suite(s);

@@ -3,7 +3,6 @@
 #include "graph/plan/turning_proof.h"
 #include "graph/scratch.h"
 #include "graph/threading/multigraph.h"
-#include "tortuosity/cords/extra.h"
 #include "tortuosity/cords/join.h"
 #include "graph/threading/pairing.h"
 
@@ -195,20 +194,31 @@ static thr_status walk_all(thr_join *j, thr_tour tour, bool ignore_pairings, thr
   return st;
 }
 
-/* A join takes full edges only where there is none without. */
-static thr_status check_room(const thr_turning_columns *turning_columns, const int *passes, thr_err *err)
+/* Where the cords end: given, or where passes are odd in number, or, where they nowhere are, both at the first node that may
+ * have them. Closed cords end nowhere. */
+static void find_ends(const thr_turning_columns *turning_columns, const int *passes, int *ends)
 {
   const thr_frame *frame = turning_columns->f;
-  for (int e = 0; e < frame->n_edges; e++)
-    if (passes[e] > turning_columns->most[e])
-      return thr_fail(err, THR_EINFEASIBLE, "edge %s-%s is full with %d %s, and one cord in each component would need one more",
-                      frame->name[frame->edge[e][0]], frame->name[frame->edge[e][1]], turning_columns->most[e],
-                      turning_columns->most[e] == 1 ? "pass" : "passes");
-  return THR_OK;
+  const thr_turning_task *task = turning_columns->task;
+  for (int v = 0; v < frame->n_nodes; v++) {
+    int sum = 0;
+    for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
+      sum += passes[frame->half[i] >> 1];
+    ends[v] = task->end_count ? task->end_count[v] : sum % 2;
+  }
+  for (int k = 0; k < turning_columns->n_components && task->end_allowed; k++) {
+    int n = 0, first = -1;
+    for (int v = frame->n_nodes - 1; v >= 0; v--) {
+      if (turning_columns->component[v] != k) continue;
+      n += ends[v];
+      if (task->end_allowed[v]) first = v;
+    }
+    if (n == 0 && first >= 0) ends[first] = 2;
+  }
 }
 
 thr_status thr_baseline_tour(const thr_frame *frame, const thr_least_options *options, thr_tour tour, bool ignore_pairings,
-                             const thr_limits *limits, thr_least *out, thr_err *err)
+                             const int *passes, thr_least *out, thr_err *err)
 {
   thr_least made = {0};
   thr_turning_columns turning_columns = {0};
@@ -217,11 +227,10 @@ thr_status thr_baseline_tour(const thr_frame *frame, const thr_least_options *op
   if (tour != THR_TOUR_FLEURY && tour != THR_TOUR_HIERHOLZER)
     return thr_fail(err, THR_EINPUT, "the least turning is no classical tour; name fleury or hierholzer");
   if (options->cords > 1) return thr_fail(err, THR_EINPUT, "the classical tours make one cord per component; leave --cords out");
-  int *passes = thr_calloc((size_t)frame->n_edges, sizeof *passes), *ends = thr_calloc((size_t)frame->n_nodes, sizeof *ends);
-  thr_status st = passes && ends ? thr_least_task(frame, options, &made, err) : thr_nomem(err);
+  int *ends = thr_calloc((size_t)frame->n_nodes, sizeof *ends);
+  thr_status st = ends ? thr_least_task(frame, options, &made, err) : thr_nomem(err);
   if (!st) st = thr_turning_columns_init(&turning_columns, frame, &made.task, err);
-  if (!st) st = thr_extra_passes(&turning_columns, frame->length, NULL, false, limits, passes, ends, err);
-  if (!st) st = check_room(&turning_columns, passes, err);
+  if (!st) find_ends(&turning_columns, passes, ends);
   if (!st) st = thr_join_init(&j, &turning_columns, passes, made.end_allowed ? ends : NULL, err);
   if (!st) st = walk_all(&j, tour, ignore_pairings, err);
   if (!st) st = thr_least_cords(frame, &j, &made, err);
@@ -233,7 +242,6 @@ thr_status thr_baseline_tour(const thr_frame *frame, const thr_least_options *op
   thr_least_destroy(&made);
   thr_join_destroy(&j);
   thr_turning_columns_destroy(&turning_columns);
-  free(passes);
   free(ends);
   return st;
 }

@@ -8,12 +8,14 @@
 #define THR_BASELINE_H
 
 #include "graph/framework/frame.h"
-#include "graph/limits.h"
 #include "graph/plan/request.h"
 #include "graph/status.h"
 #include "tortuosity/proof/least.h"
 
-/* Fleury's tour never takes a pass that is a bridge of what is left while there is another; Hierholzer's splices closed walks
+/* passes[n_edges] are those of the shortest cords with these options (lp/length/postman.h): every node has an even number of them
+ * but for two in a component where a cord may end. Nothing here depends on time.
+ *
+ * Fleury's tour never takes a pass that is a bridge of what is left while there is another; Hierholzer's splices closed walks
  * into each other where they meet. Among the passes that are left both take by default              the partner of the one they
  * came by in its node's cheapest pairing (graph/threading/pairing.h); where that is taken, Fleury the straightest, Hierholzer the
  * first in the order of the framework's edges with ignore_pairings    the first in that order Hierholzer's closed walks are then
@@ -23,6 +25,6 @@
  * pairings are ignored, and where a walk is spliced in. One cord per component; length_slack and most_nodes are not looked at.
  * THR_EINPUT for THR_TOUR_LEAST and several cords. Fleury's bridges are found by search: O(passes^2) at worst. */
 thr_status thr_baseline_tour(const thr_frame *frame, const thr_least_options *options, thr_tour tour, bool ignore_pairings,
-                             const thr_limits *limits, thr_least *out, thr_err *err) THR_MUST_CHECK;
+                             const int *passes, thr_least *out, thr_err *err) THR_MUST_CHECK;
 
 #endif
