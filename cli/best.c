@@ -5,6 +5,8 @@
 #include "graph/limits.h"
 #include "graph/status.h"
 #include "graph/text.h"
+#include "symmetry/cover/cover.h"
+#include "symmetry/cover/cover_options.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -55,33 +57,17 @@ static bool count_cords(const thr_plan *plan, int *fewest, int *most)
   return count != NULL;
 }
 
-/* As many cords as asked for, none too long? Of a symmetric plan they are as many as they are. */
+/* As many cords as asked for, none too long? Of a symmetric plan they may be as many as they are. */
 static bool fits(thr_plan *plan)
 {
   int fewest, most;
   if (!count_cords(plan, &fewest, &most) || most > MOST_CORDS) return false;
-  if (thr_wants_symmetry(&plan->options)) plan->options.cords = most;
+  bool counted = thr_plan_counted(&plan->options);
+  if (!counted) plan->options.cords = most;
   bool few_enough = most <= plan->options.cords, enough = fewest >= plan->options.cords_least;
   for (int i = 0; plan->options.max_length > 0 && i < plan->n_cords; i++)
     few_enough = few_enough && thr_cord_length(&plan->frame, &plan->cord[i]) <= plan->options.max_length * (1 + 1e-12);
-  return few_enough && (enough || thr_wants_symmetry(&plan->options) || plan->options.ends == THR_ENDS_COUNTS);
-}
-
-/* Every cord a copy of itself, by the identity. */
-static thr_status identity_record(const thr_plan *plan, thr_symmetry_record *record)
-{
-  *record = (thr_symmetry_record){.present = true, .order = 1, .n_images = 1, .unique_paths = plan->n_cords};
-  record->image = thr_calloc((size_t)plan->frame.n_nodes, sizeof *record->image);
-  record->unique = thr_calloc((size_t)plan->n_cords, sizeof *record->unique);
-  record->element = thr_calloc((size_t)plan->n_cords, sizeof *record->element);
-  if (!record->image || !record->unique || !record->element) return THR_ENOMEM;
-  for (int v = 0; v < plan->frame.n_nodes; v++)
-    record->image[v] = v;
-  for (int i = 0; i < plan->n_cords; i++) {
-    record->unique[i] = i;
-    record->steps += plan->cord[i].n_passes;
-  }
-  return THR_OK;
+  return few_enough && (enough || !counted || plan->options.ends == THR_ENDS_COUNTS);
 }
 
 static bool is_wanted(thr_plan *plan)
@@ -116,7 +102,10 @@ void best_found(void *user, const thr_cord *cord, int n_cords, const thr_symmetr
     thr_cord_id(i, plan.cord[i].id);
   }
   bool copies = thr_wants_symmetry(best.o), sound = plan.cord != NULL;
-  if (sound && copies && !symmetry) sound = !*best.o->symmetry.group && identity_record(&plan, &own) == THR_OK;
+  if (sound && copies && !symmetry) {
+    bool all_open = thr_cover_all_open(&(thr_cover_options){.ends = best.o->ends, .tube = best.o->joint == THR_JOINT_TUBE});
+    sound = !*best.o->symmetry.group && thr_cords_alone(best.f, all_open, plan.cord, n_cords, &own, NULL) == THR_OK;
+  }
   if (copies) plan.symmetry = symmetry ? *symmetry : own;
   if (sound) keep_better(&plan, now);
   thr_symmetry_record_destroy(&own);

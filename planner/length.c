@@ -196,7 +196,7 @@ thr_status thr_planner_prove_tied(thr_plan *plan, const thr_limits *limits, thr_
   thr_tube tube;
   thr_request options = plan->options;
   thr_err why = {0};
-  if (options.ends == THR_ENDS_CLOSED) options.cords = 1;
+  if (options.ends == THR_ENDS_CLOSED) options.cords = options.cords_least = 1;
   thr_status st = thr_tube_shortest(&plan->frame, &options, limits, &tube, &why);
   if (st == THR_OK || st == THR_ELIMIT)
     st = thr_tied_least(&plan->frame, &plan->options, &tube.proof, &tube.bound, err);

@@ -1,4 +1,7 @@
-/* Symmetric plans: the table of groups and the one that is chosen from it; with tube joints its length is proved afterwards. */
+/* Symmetric plans: the table of groups and the one that is chosen from it; with tube joints its length is proved afterwards.
+ * Where something is asked of the cords (their number, a limit on their length, a short longest one), the plan of the least
+ * length that keeps to it comes first: the others are measured by it, and under the identity it is one of them. */
+#include "graph/check/check.h"
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
@@ -7,18 +10,71 @@
 #include "planner/dispatch.h"
 #include "planner/make_plan.h"
 #include "planner/planners.h"
+#include "symmetry/lift/keep.h"
 #include "symmetry/symmetry.h"
+
+enum { MOST_CORDS = 1000 }; /* that a plan may have in a component */
+
+/* Cords of the least length, or of the shortest longest cord, that keep to what is asked; none: the plan is empty, and why says
+ * it. */
+static thr_status plan_length(const thr_frame *frame, const thr_request *asked, const thr_limits *limits, thr_plan *plan,
+                              thr_err *why)
+{
+  thr_request options = *asked;
+  thr_limits share = thr_dispatch_share(limits, THR_STEP_BY_LENGTH);
+  *plan = (thr_plan){0};
+  if (!thr_keep_asked(asked)) return THR_OK;
+  options.aims = thr_aims_shortest;
+  if (thr_wants_balance(asked)) options.aims = (thr_aims){2, {THR_AIM_LONGEST, THR_AIM_LENGTH}};
+  options.symmetry = thr_request_default().symmetry;
+  if (!asked->symmetry.counted) options.cords_least = 1;
+  if (!asked->symmetry.counted) options.cords = MOST_CORDS;
+  options.confirm = THR_CONFIRM_NEVER;
+  share.found = NULL;
+  thr_status st = thr_planner_length(frame, &options, &share, plan, NULL, why);
+  if (plan->n_cords > 0) thr_limits_found(limits, plan->cord, plan->n_cords, NULL);
+  return st == THR_ENOMEM ? st : THR_OK;
+}
+
+/* What is proved of the cords one by one, where something is asked of them. */
+static thr_status prove_tied(thr_plan *plan, const thr_limits *limits, thr_err *err)
+{
+  thr_status st = thr_planner_prove_tied(plan, limits, err);
+  if (st || !thr_keep_asked(&plan->options)) return st;
+  return thr_check_tied_cords(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->proof.tied, &plan->cords_claim,
+                              err);
+}
+
+static thr_status judge_longest(const thr_plan *plan, thr_err *err)
+{
+  const thr_cords_claim *claim = &plan->cords_claim;
+  if (plan->n_cords == 0 || !thr_wants_balance(&plan->options) || claim->longest_optimal) return THR_OK;
+  return thr_fail(err, THR_ELIMIT, "the longest cord is proved to be within %.3g %% of the shortest possible",
+                  100 * (claim->longest - claim->longest_bound) / claim->longest);
+}
 
 thr_status thr_planner_symmetric(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
                                  thr_report *report, thr_err *err)
 {
   thr_symmetries *table = report ? &report->symmetries : NULL;
-  thr_err unproved = {0};
-  if (options->joint == THR_JOINT_SOLID) return thr_symmetry_plan(frame, options, limits, table, plan, err);
-  thr_planner_tell_first(frame, options, limits);
-  const thr_limits share = thr_dispatch_share(limits, THR_STEP_SYMMETRIC_TIED);
-  thr_status found = thr_symmetry_plan(frame, options, &share, table, plan, &unproved);
-  thr_status st = plan->n_cords > 0 ? thr_planner_prove_tied(plan, limits, err) : THR_OK;
-  if (st) thr_plan_destroy(plan);
-  return st || !found ? st : thr_fail(err, found, "%s", unproved.text);
+  const bool tied = options->joint == THR_JOINT_TUBE;
+  thr_plan shortest;
+  thr_err unproved = {0}, none = {0};
+  *plan = (thr_plan){0};
+  thr_status st = plan_length(frame, options, limits, &shortest, &none);
+  if (st) return thr_fail(err, st, "%s", none.text);
+  if (tied) thr_planner_tell_first(frame, options, limits);
+  const thr_limits share = tied ? thr_dispatch_share(limits, THR_STEP_SYMMETRIC_TIED) : *limits;
+  thr_status found =
+      thr_symmetry_plan_from(frame, options, shortest.n_cords > 0 ? &shortest : NULL, &share, table, plan, &unproved);
+  thr_plan_destroy(&shortest);
+  if (plan->n_cords == 0 && found && none.code)
+    return thr_fail(err, none.code, "%s", none.text); /* not without symmetry either */
+  if (plan->n_cords > 0 && tied) st = prove_tied(plan, limits, err);
+  if (st) {
+    thr_plan_destroy(plan);
+    return st;
+  }
+  if (!found) found = judge_longest(plan, &unproved);
+  return found ? thr_fail(err, found, "%s", unproved.text) : THR_OK;
 }

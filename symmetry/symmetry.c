@@ -2,8 +2,11 @@
 #include "symmetry/symmetry.h"
 #include "graph/check/check.h"
 #include "lp/length/postman.h"
-#include "symmetry/group/groups.h"
+#include "symmetry/cover/cover.h"
+#include "symmetry/cover/cover_options.h"
 #include "symmetry/cover/solve.h"
+#include "symmetry/group/groups.h"
+#include "symmetry/lift/keep.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -31,15 +34,22 @@ static int compare(double a, double b)
   return a < b - least ? -1 : a > b + least;
 }
 
-/* By learned steps (not if none is within the slack), cord, number of cords, turning. */
+/* By learned steps (not if none is within the slack), the longest cord if it is an aim, cord, number of cords, turning. */
 static bool is_better(const thr_symmetry_row *a, const thr_symmetry_row *b, bool within)
 {
   int by = within ? compare(a->record.steps, b->record.steps) : 0;
+  if (!by) by = compare(a->longest, b->longest);
   if (!by) by = compare(a->metrics.overlap, b->metrics.overlap);
   if (!by && !within) by = compare(a->record.steps, b->record.steps);
   if (!by) by = (a->n_cords > b->n_cords) - (a->n_cords < b->n_cords);
   if (!by) by = compare(a->metrics.turning, b->metrics.turning);
   return by < 0;
+}
+
+static bool is_within(const thr_symmetries *symmetries, const thr_symmetry_row *row)
+{
+  return compare(row->metrics.length, symmetries->shortest * (1 + thr_symmetry_slack)) <= 0 &&
+         compare(row->longest, symmetries->longest * (1 + thr_symmetry_slack)) <= 0;
 }
 
 static void choose(thr_symmetries *symmetries)
@@ -49,8 +59,7 @@ static void choose(thr_symmetries *symmetries)
     symmetries->within = pass == 0;
     for (int i = 0; i < symmetries->n; i++) {
       const thr_symmetry_row *row = &symmetries->row[i];
-      bool within = compare(row->metrics.length, symmetries->shortest * (1 + thr_symmetry_slack)) <= 0;
-      if (row->n_cords == 0 || (symmetries->within && !within)) continue;
+      if (row->n_cords == 0 || (symmetries->within && !is_within(symmetries, row))) continue;
       if (symmetries->chosen < 0 || is_better(row, &symmetries->row[symmetries->chosen], symmetries->within))
         symmetries->chosen = i;
     }
@@ -72,7 +81,7 @@ static thr_status tell_shortest(const thr_frame *frame, const thr_request *optio
   return st;
 }
 
-/* With one cord per component, if that can be. */
+/* With as many cords as asked for; else with one per component, if that can be. */
 static thr_status find_shortest(const thr_frame *frame, const thr_request *options, const thr_limits *limits,
                                 thr_symmetries *symmetries, thr_err *err)
 {
@@ -83,7 +92,7 @@ static thr_status find_shortest(const thr_frame *frame, const thr_request *optio
   if (options->joint == THR_JOINT_TUBE)
     return thr_symmetry_shortest_tied(frame, options, options->ends != THR_ENDS_CLOSED, &share, &symmetries->shortest,
                                       &symmetries->shortest_optimal, err);
-  few.cords = 1;
+  if (!options->symmetry.counted) few.cords = 1;
   thr_status st = thr_postman_shortest(frame, &few, &share, &shortest, &why);
   if (st == THR_EINFEASIBLE && options->ends != THR_ENDS_CLOSED) { /* capacities may ask for more cords */
     few.cords = MOST_CORDS;
@@ -92,7 +101,7 @@ static thr_status find_shortest(const thr_frame *frame, const thr_request *optio
   if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", why.text);
   symmetries->shortest = shortest.length;
   symmetries->shortest_optimal = shortest.optimal;
-  st = few.cords == 1 ? tell_shortest(frame, &few, &shortest, limits, err) : THR_OK;
+  st = few.cords == 1 && few.cords_least == 1 ? tell_shortest(frame, &few, &shortest, limits, err) : THR_OK;
   thr_shortest_destroy(&shortest);
   return st;
 }
@@ -122,32 +131,109 @@ static thr_status verdict(const thr_symmetries *symmetries, const char *group, t
                   asked == 1 ? "group was" : "groups were", open->why.text);
 }
 
+/* ---- cords without symmetry ---- */
+
+static double longest_of(const thr_frame *frame, const thr_cord *cord, int n)
+{
+  double longest = 0;
+  for (int i = 0; i < n; i++)
+    longest = fmax(longest, thr_cord_length(frame, &cord[i]));
+  return longest;
+}
+
+static thr_status copy_cords(const thr_cord *from, int n, thr_cord **to, thr_err *err)
+{
+  thr_cord *cord = *to = thr_calloc((size_t)n, sizeof *cord);
+  if (!cord) return thr_nomem(err);
+  for (int i = 0; i < n; i++) {
+    cord[i] = from[i];
+    if (!(cord[i].half = thr_calloc((size_t)from[i].n_passes, sizeof *cord[i].half))) return thr_nomem(err);
+    memcpy(cord[i].half, from[i].half, (size_t)from[i].n_passes * sizeof *cord[i].half);
+  }
+  return THR_OK;
+}
+
+/* The plan's cords as the threading of this row, under the identity alone. Of the row's bounds only that on the first aim holds
+ * for them, and that there is no more to learn of an edge than its passes. */
+static thr_status take_plan(const thr_plan *plan, thr_symmetry_row *row, thr_err *err)
+{
+  const thr_request *options = &plan->options;
+  bool all_open = thr_cover_all_open(&(thr_cover_options){.ends = options->ends, .tube = options->joint == THR_JOINT_TUBE});
+  thr_cords_destroy(row->cord, row->n_cords);
+  thr_symmetry_record_destroy(&row->record);
+  row->n_cords = plan->n_cords;
+  thr_status st = copy_cords(plan->cord, plan->n_cords, &row->cord, err);
+  if (!st) st = thr_cords_alone(&plan->frame, all_open, row->cord, row->n_cords, &row->record, err);
+  if (st) return st;
+  snprintf(row->record.name, sizeof row->record.name, "%s", row->name);
+  row->metrics = plan->metrics;
+  row->value[THR_AIM_OVERLAP] = plan->metrics.overlap;
+  row->value[THR_AIM_STEPS] = row->record.steps;
+  row->value[THR_AIM_PATHS] = row->record.unique_paths;
+  row->value[THR_AIM_TURNING] = plan->metrics.turning;
+  for (int a = 0; a < THR_N_AIMS; a++)
+    row->bound[a] = 0;
+  row->bound[THR_AIM_OVERLAP] = fmin(row->value[THR_AIM_OVERLAP], fmax(0, plan->proof.lower_bound - plan->metrics.base_length));
+  row->least_copies = row->most_copies = 1;
+  row->why = (thr_err){0};
+  return THR_OK;
+}
+
+/* Cords without symmetry that keep to what is asked are a threading under the identity, where the search has none or a worse one.
+ */
+static thr_status use_plan(const thr_plan *plan, const thr_request *options, thr_symmetries *symmetries, thr_err *err)
+{
+  for (int i = 0; i < symmetries->n; i++) {
+    thr_symmetry_row *row = &symmetries->row[i];
+    if (row->order > 1 || row->behind || !thr_symmetry_asked(symmetries, i, options->symmetry.group)) continue;
+    if (row->n_cords > 0 && is_within(symmetries, row)) continue;
+    thr_status st = take_plan(plan, row, err);
+    if (st) return st;
+    thr_fail(&row->why, THR_ELIMIT, "these are the cords of least length, which need not be the best under this group");
+    if (thr_wants_balance(options)) row->longest = longest_of(&plan->frame, row->cord, row->n_cords);
+  }
+  return THR_OK;
+}
+
+/* ---- together ---- */
+
 /* What a symmetric threading cannot be asked for. */
 static thr_status check_request(const thr_request *options, thr_err *err)
 {
-  const char *what = options->max_length > 0            ? "a largest length of the cords"
-                     : thr_wants_balance(options)       ? "cords of balanced length"
-                     : options->ends == THR_ENDS_COUNTS ? "a number of cord ends for each node"
-                                                        : NULL;
-  return what ? thr_fail(err, THR_EINPUT, "symmetric threadings do not know %s", what) : THR_OK;
+  if (options->ends != THR_ENDS_COUNTS) return THR_OK;
+  return thr_fail(err, THR_EINPUT,
+                  "symmetric threadings do not know a number of cord ends for each node, which only few groups would keep");
 }
 
-thr_status thr_symmetries_find(const thr_frame *frame, const thr_request *options, bool only_choice, const thr_limits *limits,
-                               thr_symmetries *out, thr_err *err)
+thr_status thr_symmetries_find_from(const thr_frame *frame, const thr_request *options, bool only_choice, const thr_plan *plan,
+                                    const thr_limits *limits, thr_symmetries *out, thr_err *err)
 {
   *out = (thr_symmetries){.chosen = -1};
   thr_status st = check_request(options, err);
-  if (!st) st = find_shortest(frame, options, limits, out, err);
+  if (!st && !plan) st = find_shortest(frame, options, limits, out, err);
+  if (thr_wants_balance(options)) out->longest = INFINITY;
+  if (plan) {
+    out->shortest = fmax(plan->metrics.length, plan->metrics.base_length); /* but for rounding */
+    out->shortest_optimal = plan->proof.optimal;
+    if (thr_wants_balance(options)) out->longest = longest_of(frame, plan->cord, plan->n_cords);
+  }
   const thr_limits share = thr_limits_part(limits, 0.3);
   if (!st) st = thr_symmetry_groups(frame, options, &share, out, err);
   if (!st) st = check_asked(out, options->symmetry.group, err);
   if (!st) st = thr_symmetry_solve(frame, options, only_choice, limits, out, err);
+  if (!st && plan) st = use_plan(plan, options, out, err);
   if (!st) {
     choose(out);
     st = verdict(out, options->symmetry.group, err);
   }
   if (st && st != THR_ELIMIT) thr_symmetries_destroy(out);
   return st;
+}
+
+thr_status thr_symmetries_find(const thr_frame *frame, const thr_request *options, bool only_choice, const thr_limits *limits,
+                               thr_symmetries *out, thr_err *err)
+{
+  return thr_symmetries_find_from(frame, options, only_choice, NULL, limits, out, err);
 }
 
 void thr_symmetries_destroy(thr_symmetries *symmetries)
@@ -194,7 +280,10 @@ static thr_status prove(thr_plan *plan, const thr_limits *limits, thr_err *err)
   if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", why.text);
   st = thr_postman_prove(&plan->frame, &plan->options, plan->cord, plan->n_cords, &shortest, &plan->proof, err);
   thr_shortest_destroy(&shortest);
-  return st;
+  if (st || !thr_keep_asked(&plan->options)) return st;
+  const thr_length_proof *proof = &plan->proof;
+  return thr_check_cords(&plan->frame, &plan->options, plan->cord, plan->n_cords, proof->certificate, proof->n_certificates,
+                         &plan->cords_claim, err);
 }
 
 thr_status thr_symmetries_plan(thr_symmetries *symmetries, int row, const thr_frame *frame, const thr_request *options,
@@ -202,13 +291,13 @@ thr_status thr_symmetries_plan(thr_symmetries *symmetries, int row, const thr_fr
 {
   thr_symmetry_row *symmetry_row = &symmetries->row[row];
   thr_request with = *options;
-  int least;
+  int least, most;
   *plan = (thr_plan){0};
   if (!thr_wants_symmetry(options)) with.aims = thr_aims_symmetric;
-  count_cords(symmetry_row, &least, &with.cords);
-  if (with.cords > MOST_CORDS)
-    return thr_fail(err, THR_EINFEASIBLE, "group %d makes %d cords in one component, more than %d", row + 1, with.cords,
-                    MOST_CORDS);
+  count_cords(symmetry_row, &least, &most);
+  if (most > MOST_CORDS)
+    return thr_fail(err, THR_EINFEASIBLE, "group %d makes %d cords in one component, more than %d", row + 1, most, MOST_CORDS);
+  if (!thr_plan_counted(&with)) with.cords = most;
   thr_status st = thr_plan_request(plan, frame, &with, err);
   if (!st) {
     plan->cord = symmetry_row->cord;
@@ -226,18 +315,24 @@ thr_status thr_symmetries_plan(thr_symmetries *symmetries, int row, const thr_fr
   return st;
 }
 
-thr_status thr_symmetry_plan(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_symmetries *table,
-                             thr_plan *plan, thr_err *err)
+thr_status thr_symmetry_plan_from(const thr_frame *frame, const thr_request *options, const thr_plan *shortest,
+                                  const thr_limits *limits, thr_symmetries *table, thr_plan *plan, thr_err *err)
 {
   thr_symmetries symmetries;
   thr_err early = {0}, own = {0};
   *plan = (thr_plan){0};
-  thr_status found = thr_symmetries_find(frame, options, true, limits, &symmetries, &early), st = found;
+  thr_status found = thr_symmetries_find_from(frame, options, true, shortest, limits, &symmetries, &early), st = found;
   if (symmetries.chosen >= 0) st = thr_symmetries_plan(&symmetries, symmetries.chosen, frame, options, limits, plan, &own);
   if (st == THR_OK) st = found;
   if (!table || (st && st != THR_ELIMIT)) thr_symmetries_destroy(&symmetries);
   if (table) *table = symmetries;
   return st ? thr_fail(err, st, "%s", found ? early.text : own.text) : THR_OK;
+}
+
+thr_status thr_symmetry_plan(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_symmetries *table,
+                             thr_plan *plan, thr_err *err)
+{
+  return thr_symmetry_plan_from(frame, options, NULL, limits, table, plan, err);
 }
 
 int thr_symmetries_even(const thr_symmetries *symmetries, int cords)

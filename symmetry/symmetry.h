@@ -46,6 +46,7 @@ typedef struct {
   thr_cord *cord;                /* [n_cords] owned; NULL once a plan has taken them */
   thr_symmetry_record record;    /* owned */
   thr_metrics metrics;
+  double longest; /* cord of it, if that is an aim; else 0 */
 } thr_symmetry_row;
 
 /* A listed group that rows are subgroups of. */
@@ -67,10 +68,12 @@ typedef struct {
   int n;
   thr_symmetry_row *row; /* [n] by descending order; users count them from 1; owned */
   double shortest;       /* cord that the shortest plan with one cord per component (or as many as capacities, or with tube
-                             joints anything, ask for) and these ends needs, units */
+                             joints anything, ask for) and these ends needs, or the plan that keeps to what is asked of cords;
+                             units */
   bool shortest_optimal; /* false: the shortest that was found in time */
+  double longest;        /* of that plan the longest cord, if that is an aim (INFINITY without the plan); else 0 */
   int chosen;            /* row, -1 = none has a threading */
-  bool within;           /* it needs at most thr_symmetry_slack more than shortest */
+  bool within;           /* it needs at most thr_symmetry_slack more than shortest, as its longest cord than longest */
 } thr_symmetries;
 
 /* Groups and threadings for the options' cover, ends and symmetry. Every group is one of automorphisms that keep feet and allowed
@@ -79,18 +82,25 @@ typedef struct {
  * isometries within it make, among the automorphisms that keep edge lengths (thr_length_colours).
  * options.symmetry.group: only the rows of that number or name are solved, and the best of them is chosen. Otherwise the default
  * choice: least learned steps among the rows with at most thr_symmetry_slack more cord than the shortest plan, or if there is
- * none the least cord; ties by overlap, cords, turning, number. Time is shared as symmetry/cover/solve.h says. only_choice: as
- * soon as the choice is proved, rows that are not needed for it are left out. THR_OK: every other row that was asked for is
- * solved. THR_ELIMIT: some are not (their row says so); out holds the rest. THR_EINPUT: no row of that number or name, or a
- * largest length, balance or numbers of ends are asked for. THR_EINFEASIBLE: no threading with these ends. Otherwise out is
- * empty. */
+ * none the least cord; ties by the longest cord if that is an aim, overlap, cords, turning, number. Threadings keep to the
+ * numbers (if options.symmetry.counted) and the largest length of cords that are asked for, as symmetry/lift/keep.h makes them; a
+ * row without such a threading has none. Time is shared as symmetry/cover/solve.h says. only_choice: as soon as the choice is
+ * proved, rows that are not needed for it are left out. THR_OK: every other row that was asked for is solved. THR_ELIMIT: some
+ * are not (their row says so); out holds the rest. THR_EINPUT: no row of that number or name, or numbers of ends are asked for.
+ * THR_EINFEASIBLE: no threading with these ends. Otherwise out is empty. */
 thr_status thr_symmetries_find(const thr_frame *frame, const thr_request *options, bool only_choice, const thr_limits *limits,
                                thr_symmetries *out, thr_err *err) THR_MUST_CHECK;
 void thr_symmetries_destroy(thr_symmetries *symmetries);
 
+/* The same beside a plan (NULL = none) of the least length, or longest cord, that keeps to what is asked of cords: it is the
+ * shortest that rows are measured by, and the threading under the identity where that has no better. */
+thr_status thr_symmetries_find_from(const thr_frame *frame, const thr_request *options, bool only_choice, const thr_plan *plan,
+                                    const thr_limits *limits, thr_symmetries *out, thr_err *err) THR_MUST_CHECK;
+
 /* The plan of a row that has cords, which it takes out of the table: with its record, metrics and, with solid beads, the proof of
- * length for as many cords in every component as the component with most has (with tube joints it is the caller's to add). THR_OK
- * or THR_ELIMIT (the row is not proved best for its group); otherwise the plan is empty. */
+ * length for as many cords in every component as are asked for, or else as the component with most has (with tube joints it is
+ * the caller's to add), and what that proves of the cords if something is asked of them. THR_OK or THR_ELIMIT (the row is not
+ * proved best for its group); otherwise the plan is empty. */
 thr_status thr_symmetries_plan(thr_symmetries *symmetries, int row, const thr_frame *frame, const thr_request *options,
                                const thr_limits *limits, thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 
@@ -99,6 +109,10 @@ thr_status thr_symmetries_plan(thr_symmetries *symmetries, int row, const thr_fr
  * threading yet. */
 thr_status thr_symmetry_plan(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_symmetries *table,
                              thr_plan *plan, thr_err *err) THR_MUST_CHECK;
+
+/* The same from a plan, as thr_symmetries_find_from. */
+thr_status thr_symmetry_plan_from(const thr_frame *frame, const thr_request *options, const thr_plan *shortest,
+                                  const thr_limits *limits, thr_symmetries *table, thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 
 /* The row with exactly `cords` cords in every component whose cord that turns most turns least; -1 = none. */
 int thr_symmetries_even(const thr_symmetries *symmetries, int cords);

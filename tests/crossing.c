@@ -47,14 +47,6 @@ const crossing_refused crossing_refusals[] = {
     {BY_OBJECTIVE, TORTUOSITY, BY_PREFER, 2},
     {BY_OBJECTIVE, TORTUOSITY, BY_PREFER, 3},
     {BY_OBJECTIVE, TORTUOSITY, BY_GEOMETRIC, 1},
-    {BY_OBJECTIVE, SYMMETRY, BY_LIMIT, 1},
-    {BY_OBJECTIVE, SYMMETRY, BY_BALANCE, 1},
-    {BY_OBJECTIVE, SYMMETRY, BY_CORDS, CORDS_2},
-    {BY_OBJECTIVE, SYMMETRY, BY_CORDS, CORDS_3},
-    {BY_OBJECTIVE, SYMMETRY, BY_CORDS, CORDS_1_TO_3},
-    {BY_OBJECTIVE, SYMMETRY, BY_CORDS, CORDS_2_TO_4},
-    {BY_OBJECTIVE, SYMMETRY, BY_CORDS, CORDS_UP_TO_8},
-    {BY_OBJECTIVE, SYMMETRY, BY_CORDS, CORDS_AUTO},
     {BY_OBJECTIVE, SYMMETRY, BY_SLACK, 1},
     {BY_OBJECTIVE, SYMMETRY, BY_SLACK, 2},
     {BY_OBJECTIVE, SYMMETRY, BY_SLACK, 3},
@@ -159,9 +151,7 @@ static int only_with(crossing_choice c, int value)
 bool crossing_never_meet(crossing_choice a, int value_a, crossing_choice b, int value_b)
 {
   int objective[2] = {only_with(a, value_a), only_with(b, value_b)};
-  bool several[2] = {a == BY_CORDS && value_a, b == BY_CORDS && value_b};
   if (objective[0] >= 0 && objective[1] >= 0 && objective[0] != objective[1]) return true;
-  if ((several[0] && objective[1] == SYMMETRY) || (several[1] && objective[0] == SYMMETRY)) return true;
   if ((a == BY_ENDS && value_a == ENDS_COUNTED && objective[1] == SYMMETRY) ||
       (b == BY_ENDS && value_b == ENDS_COUNTED && objective[0] == SYMMETRY))
     return true;
@@ -213,7 +203,6 @@ void crossing_choose(rng *r, const crossing_tally *t, const char *only, int *val
         try[c] = rng_below(r, 3) ? rng_below(r, crossing_values((crossing_choice)c)) : 0;
       if (try[BY_OBJECTIVE] != TORTUOSITY) try[BY_SLACK] = try[BY_COST] = try[BY_MINIMIZE] = try[BY_TOUR] = 0;
       if (try[BY_OBJECTIVE] != SYMMETRY) try[BY_PREFER] = try[BY_GEOMETRIC] = 0;
-      if (try[BY_OBJECTIVE] == SYMMETRY) try[BY_LIMIT] = try[BY_BALANCE] = 0;
     } while (crossing_is_refused(try) || !wanted(try, only));
     double found = score(t, try);
     if (found <= best) continue;
@@ -531,13 +520,14 @@ static void say_turning(crossing_case *c)
 static void say_options(crossing_case *c, const sketch *s, rng *r)
 {
   enum { BALANCED = 3 };
-  static const char *const aims[] = {"length", "turning", "overlap,steps", "longest", "longest,turning", "longest"};
+  static const char *const aims[] = {"length", "turning", "overlap,steps", "longest", "longest,turning", "longest,overlap,steps"};
   const int *v = c->value;
   c->o = thr_request_default();
   want(&c->o, aims[v[BY_BALANCE] ? BALANCED + v[BY_OBJECTIVE] : v[BY_OBJECTIVE]]);
   c->o.joint = v[BY_JOINT] ? THR_JOINT_TUBE : THR_JOINT_SOLID;
   c->o.cover = 1 + v[BY_COVER];
   c->o.capacity = v[BY_CAPACITY];
+  c->o.symmetry.counted = v[BY_CORDS] || v[BY_LIMIT];
   if (v[BY_OBJECTIVE]) say(c, " --objective %s", crossing_value[BY_OBJECTIVE][v[BY_OBJECTIVE]]);
   if (v[BY_JOINT]) say(c, " --joint tube");
   if (v[BY_COVER]) say(c, " --cover 2");

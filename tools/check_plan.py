@@ -342,9 +342,12 @@ class Options:
 
     def read_symmetry(self, o):
         require(("symmetry" in o) == (self.objective == "symmetry"), "options.symmetry: with that objective, and only with it")
+        self.counted = True  # is the number of cords asked for?
         if self.objective == "symmetry":
             s, p = member(o, "symmetry", "object", "options"), "options.symmetry"
-            known(s, "group geometric prefer", p)
+            self.counted = member(s, "counted", "truth", p, default=False)
+            self.least = self.least if self.counted else 1
+            known(s, "group geometric counted prefer", p)
             if s.get("group", 0) is not None:
                 require(1 <= len(member(s, "group", "text", p).encode()) <= 15, "options.symmetry.group: not 1 to 15 bytes")
             if s.get("geometric", "") is not None:
@@ -441,9 +444,9 @@ def check_cords(p):
             require(p.closing or v in o.allowed, f"cord {cord.id}: an end at node {v}, where none may be")
             found[v] = found.get(v, 0) + 1
     require(o.ends != "counts" or found == o.count, "cords: not the numbers of ends at the nodes that were asked for")
-    if o.objective == "symmetry":
+    if not o.counted:
         require(o.cords == max(p.per_piece), "options.cords: not the number in the component that has most")
-    elif o.objective == "tortuosity" or p.proof.get("length") is not None:
+    elif o.objective != "length" or p.proof.get("length") is not None:
         for k, number in enumerate(p.per_piece):
             require(o.least <= number <= o.cords, f"component {k}: {number} cords")
     for cord, length in zip(p.cords, p.lengths):
@@ -720,8 +723,7 @@ class Model:
             self.group, self.supply = list(range(f.n)), [(o.count.get(v, 0),) * 2 for v in range(f.n)]
         else:
             self.group = f.component
-            least = 1 if o.objective == "symmetry" else o.least  # which says the number in one component only
-            self.supply = [(0, 0) if o.ends == "closed" else (2 * least, 2 * o.cords)] * len(f.pieces)
+            self.supply = [(0, 0) if o.ends == "closed" else (2 * o.least, 2 * o.cords)] * len(f.pieces)
         self.weight, self.high = {}, {}
         for v in range(f.n):
             for i, a in enumerate(f.at[v]):

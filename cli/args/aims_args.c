@@ -55,8 +55,11 @@ void aims_args_apply(const aims_args *a, const turning_args *turning, const symm
   options->aims = thr_aims_of(objective);
   options->turning = own && thr_wants_turning(options) ? turning->options : usual.turning;
   options->symmetry = own && thr_wants_symmetry(options) ? symmetry->options : usual.symmetry;
+  if (thr_wants_symmetry(options)) options->symmetry.counted = cords->most > 0 || cords->max_length > 0;
   if (own && thr_wants_symmetry(options)) memcpy(options->aims.aim, symmetry->prefer, sizeof symmetry->prefer);
   if (own && thr_wants_turning(options) && turning->largest) options->aims.aim[0] = THR_AIM_MAX_TURNING;
-  if (own && !thr_wants_symmetry(options) && cords->balance)
-    options->aims = (thr_aims){2, {THR_AIM_LONGEST, options->aims.aim[0]}};
+  if (own && cords->balance) {
+    memmove(&options->aims.aim[1], options->aims.aim, (size_t)options->aims.n++ * sizeof *options->aims.aim);
+    options->aims.aim[0] = THR_AIM_LONGEST;
+  }
 }

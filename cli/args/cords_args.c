@@ -81,21 +81,20 @@ bool cords_option(cords_args *a, int option, const char *value, bool *ok)
   }
 }
 
-const char *cords_args_refused(const cords_args *a, const thr_request *wanted, bool rival)
+const char *cords_args_refused(const cords_args *a, const thr_request *wanted)
 {
   bool least = wanted->turning.tour == THR_TOUR_LEAST; /* classical tours take no wishes */
-  if (thr_wants_length(wanted) || (thr_wants_turning(wanted) && least)) return NULL;
-  if (a->max_length > 0) return "--max-length";
-  if (a->balance) return "--balance";
-  if (a->automatic) return "--cords auto";
-  if (a->least != a->most) return "a range of --cords";
-  if (thr_wants_turning(wanted)) return NULL;
-  return a->most > 1 && !rival ? "--cords" : NULL;
+  if (!thr_wants_turning(wanted) || least) return NULL;
+  return a->max_length > 0     ? "--max-length"
+         : a->balance          ? "--balance"
+         : a->automatic        ? "--cords auto"
+         : a->least != a->most ? "a range of --cords"
+                               : NULL;
 }
 
 int cords_args_check(const cords_args *a, const turning_args *turning, const thr_request *wanted)
 {
-  const char *refused = cords_args_refused(a, wanted, false), *tour = thr_tour_name(turning->options.tour);
+  const char *refused = cords_args_refused(a, wanted), *tour = thr_tour_name(turning->options.tour);
   if (refused) return cli_usage("plan", "%s: not with --objective %s", refused, thr_objective_name(thr_aims_objective(wanted)));
   if (a->confirm == THR_CONFIRM_ALWAYS && (!thr_wants_length(wanted) || a->joint == THR_JOINT_TUBE))
     return cli_usage("plan", "--confirm always: of shortest passes only, with --objective length and --joint solid");
@@ -193,7 +192,8 @@ static int count_cords(const thr_frame *frame, const int *counts, int *least, in
 static int apply_counts(const cords_args *a, const thr_frame *frame, thr_request *options)
 {
   int least, most, code;
-  if (thr_wants_symmetry(options)) return cli_usage("plan", "--ends NAME:N: not with --objective symmetry");
+  if (thr_wants_symmetry(options))
+    return cli_usage("plan", "--ends NAME:N: not with --objective symmetry, whose groups move ends to other nodes");
   if ((code = count_cords(frame, options->end_count, &least, &most))) return code;
   if (options->turning.tour != THR_TOUR_LEAST && most > 1)
     return cli_usage("plan", "--tour %s makes one cord in each component, not the %d of --ends %s",

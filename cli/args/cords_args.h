@@ -59,9 +59,8 @@ bool cords_option(cords_args *a, int option, const char *value, bool *ok);
 /* Does what was asked make sense together, and with the aims of what is wanted? -1, or prints and returns the code. */
 int cords_args_check(const cords_args *a, const turning_args *turning, const thr_request *wanted);
 
-/* What of these options plans with such aims cannot do: a few words like "--balance", or NULL. rival: a plan to compare with,
- * which may have another number of cords. */
-const char *cords_args_refused(const cords_args *a, const thr_request *wanted, bool rival);
+/* What of these options plans with such aims cannot do: a few words like "--balance", or NULL. */
+const char *cords_args_refused(const cords_args *a, const thr_request *wanted);
 
 /* Lays them over *options, which holds cord and beads already, for this framework. Returns EXIT_OK or prints and returns the
  * code. The caller frees options->end_node and options->end_count. */

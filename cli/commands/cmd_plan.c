@@ -215,7 +215,7 @@ static int plan_and_put(thr_writer *writer, const arguments *a, thr_objective ob
   if (objective == a->aims.objective) return put_objective(writer, a, objective, p);
   thr_request options = p->options;
   ask(a, objective, &options);
-  const char *refused = cords_args_refused(&a->cords, &options, true);
+  const char *refused = cords_args_refused(&a->cords, &options);
   if (refused) return put_refused(writer, a, objective, refused);
   thr_limits limits = cli_limits(options.time_limit);
   if (deadline > 0) limits.deadline = deadline;

@@ -83,7 +83,7 @@ static void put_number(thr_text *text, const thr_plan *plan, int components)
   enum { NO_LIMIT = 1000 };
   const thr_request *options = &plan->options;
   const char *each = components > 1 ? " in each component" : "";
-  if (thr_wants_symmetry(options) || options->ends == THR_ENDS_COUNTS)
+  if (!thr_plan_counted(options) || options->ends == THR_ENDS_COUNTS)
     thr_text_printf(text, "; %d %s", plan->n_cords, cli_plural(plan->n_cords, "cord", "cords"));
   else if (options->cords_least < options->cords && options->cords < NO_LIMIT)
     thr_text_printf(text, "; %d to %d cords%s", options->cords_least, options->cords, each);

@@ -4,6 +4,7 @@
 #include "graph/angle.h"
 #include "symmetry/group/automorphisms.h"
 #include "symmetry/group/isometry.h"
+#include "symmetry/lift/keep.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -95,10 +96,11 @@ void symmetry_put_head(thr_text *text, const thr_frame *frame, const thr_request
   double base = 0;
   for (int e = 0; e < frame->n_edges; e++)
     base += thr_plan_cover(frame, options, e) * frame->length[e];
-  thr_text_printf(text, "ends: %s; %d %s per edge%s; the shortest plan with one cord in each component has %.1f %% overlap%s\n\n",
+  thr_text_printf(text, "ends: %s; %d %s per edge%s; the shortest plan with %s has %.1f %% overlap%s\n\n",
                   thr_ends_name(options->ends), options->cover, cli_plural(options->cover, "pass", "passes"),
-                  options->joint == THR_JOINT_TUBE ? "; joints: tube" : "", 100 * (symmetries->shortest - base) / base,
-                  symmetries->shortest_optimal ? "" : " (not proved)");
+                  options->joint == THR_JOINT_TUBE ? "; joints: tube" : "",
+                  thr_keep_asked(options) ? "cords as asked for" : "one cord in each component",
+                  100 * (symmetries->shortest - base) / base, symmetries->shortest_optimal ? "" : " (not proved)");
 }
 
 static void put_row(thr_text *text, const thr_request *options, const thr_symmetries *symmetries, int i)

@@ -170,7 +170,7 @@ static thr_status walked_from_cords(thr_check_walked *check_walked, const thr_fr
   return st;
 }
 
-/* As many cords in every component as the options say; of a symmetric plan, in the one that has most. */
+/* As many cords in every component as the options say; where they were not asked for, in the one that has most. */
 static thr_status check_cord_count(const thr_check_walked *check_walked, const thr_request *options, const thr_cord *cord,
                                    int n_cords, thr_err *err)
 {
@@ -178,8 +178,9 @@ static thr_status check_cord_count(const thr_check_walked *check_walked, const t
   thr_status st = count ? THR_OK : thr_nomem(err);
   for (int i = 0; i < n_cords && !st; i++)
     count[cord[i].component]++;
-  int first = 0, end = check_walked->n_components, least = thr_wants_symmetry(options) ? options->cords : options->cords_least;
-  for (int k = 0; k < check_walked->n_components && !st && thr_wants_symmetry(options); k++) {
+  bool counted = thr_plan_counted(options);
+  int first = 0, end = check_walked->n_components, least = counted ? options->cords_least : options->cords;
+  for (int k = 0; k < check_walked->n_components && !st && !counted; k++) {
     if (count[k] > count[first]) first = k;
     end = first + 1;
   }

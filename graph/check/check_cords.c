@@ -236,7 +236,7 @@ static thr_status check_tied(const thr_frame *frame, const thr_request *options,
 {
   double length;
   int64_t most = 0;
-  thr_status st = tied_length(frame, options, tied, options->cords_least, options->cords, &length, err);
+  thr_status st = tied_length(frame, options, tied, thr_plan_cords_least(options), options->cords, &length, err);
   for (int c = 0; c < n_parts; c++)
     most += parts[c].most;
   *bound = fmax(*bound, length / (double)most);
@@ -271,7 +271,7 @@ thr_status thr_check_several(const thr_frame *frame, const thr_request *options,
   if (tied) st = check_tied(frame, options, tied, parts, check_walked->n_components, &bound, found, err);
   free(parts);
   if (st) return st;
-  if (!(options->max_length > 0 && options->cords_least < options->cords)) found->fewest = 0;
+  if (!(options->max_length > 0 && thr_plan_cords_least(options) < options->cords)) found->fewest = 0;
   st = detour(frame, options, &bound, err);
   if (unit > 0) bound = unit * ceil(bound / unit * (1 - 2e-9));
   if (bound > found->longest && !thr_check_close(bound, found->longest, found->longest))

@@ -51,7 +51,7 @@ static thr_status read_prefer(const thr_field_reader *field_reader, const thr_js
 static thr_status read_symmetry_options(const thr_field_reader *field_reader, const thr_json *object, thr_request *out)
 {
   thr_symmetry_options *options = &out->symmetry;
-  static const char *const known[] = {"group", "geometric", "prefer", NULL};
+  static const char *const known[] = {"group", "geometric", "counted", "prefer", NULL};
   const thr_json *value, *group;
   thr_status st = thr_field_need(field_reader, object, "symmetry", THR_JSON_OBJECT, &value);
   if (!st) st = thr_field_only(field_reader, value, "options.symmetry", known);
@@ -63,6 +63,10 @@ static thr_status read_symmetry_options(const thr_field_reader *field_reader, co
   snprintf(options->group, sizeof options->group, "%s", name ? name : "");
   thr_text_clean(options->group);
   if ((st = thr_field_or_null(field_reader, value, "geometric", &options->geometric))) return st;
+  const thr_json *counted = thr_json_get(value, "counted");
+  if (counted && thr_json_typeof(counted) != THR_JSON_BOOL)
+    return thr_field_bad(field_reader, "options.symmetry.counted", "not true or false");
+  options->counted = counted && thr_json_true(counted);
   out->aims.n = THR_N_AIMS;
   return read_prefer(field_reader, value, out->aims.aim);
 }

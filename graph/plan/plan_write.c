@@ -136,6 +136,7 @@ static void put_symmetry_options(thr_writer *writer, const thr_request *asked)
   else
     thr_write_null(writer, "group");
   put_or_null(writer, "geometric", options->geometric);
+  if (options->counted) thr_write_bool(writer, "counted", true);
   thr_write_array(writer, "prefer");
   for (int i = 0; i < THR_N_AIMS; i++)
     thr_write_string(writer, NULL, thr_aim_name(order[i]));

@@ -169,13 +169,17 @@ static void rename_aim(list *l, thr_aim from, thr_aim to)
 
 static thr_status settle_symmetric(list *l, thr_request *options, thr_err *err)
 {
-  if (l->named[THR_AIM_LONGEST] || l->named[THR_AIM_MAX_TURNING])
-    return thr_fail(err, THR_EINPUT, "symmetric plans, which steps and paths ask for, do not know longest and max-turning");
+  if (l->named[THR_AIM_MAX_TURNING])
+    return thr_fail(err, THR_EINPUT,
+                    "symmetric plans, which steps and paths ask for, do not know max-turning: copies turn alike");
+  if (l->named[THR_AIM_LONGEST] && l->aims.aim[0] != THR_AIM_LONGEST)
+    return thr_fail(err, THR_EINPUT, "longest comes before the other aims of a symmetric plan");
   if (l->priced) return thr_fail(err, THR_EINPUT, "of symmetric plans the turning is that of its angles: no cost of turns");
   rename_aim(l, THR_AIM_LENGTH, THR_AIM_OVERLAP);
   options->aims = l->aims;
-  thr_aims_order(options, l->aims.aim);
-  l->aims.n = THR_N_AIMS;
+  l->aims = (thr_aims){l->named[THR_AIM_LONGEST], {THR_AIM_LONGEST}};
+  thr_aims_order(options, l->aims.aim + l->aims.n);
+  l->aims.n += THR_N_AIMS;
   return THR_OK;
 }
 
@@ -300,9 +304,14 @@ bool thr_plan_within_slack(const thr_request *options, double length, double lea
   return !asked || length <= (1 + options->turning.length_slack) * least * (1 + 2e-9);
 }
 
+bool thr_plan_counted(const thr_request *options)
+{
+  return !thr_wants_symmetry(options) || options->symmetry.counted;
+}
+
 int thr_plan_cords_least(const thr_request *options)
 {
-  return thr_wants_symmetry(options) ? 1 : options->cords_least;
+  return thr_plan_counted(options) ? options->cords_least : 1;
 }
 
 int thr_plan_cover(const thr_frame *frame, const thr_request *options, int e)

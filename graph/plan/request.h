@@ -34,8 +34,9 @@ typedef enum {
 } thr_aim;
 
 /* What is minimized first, second, ... Which plan that is follows: with steps or paths a symmetric one (THR_SYMMETRY), which has
- * all THR_N_AIMS in some order; else with turning or max-turning one that turns little (THR_TORTUOSITY); else a short one
- * (THR_LENGTH), its length being the last aim if no other place is said. {0} is the least length. */
+ * all THR_N_AIMS in some order, and perhaps the longest cord before them; else with turning or max-turning one that turns little
+ * (THR_TORTUOSITY); else a short one (THR_LENGTH), its length being the last aim if no other place is said. {0} is the least
+ * length. */
 typedef struct {
   int n;
   thr_aim aim[THR_ALL_AIMS];
@@ -63,6 +64,7 @@ typedef struct {
 typedef struct {
   char group[16];   /* row of `thread symmetries` or name of a point group; "" = the default choice */
   double geometric; /* isometries within this tolerance only; < 0 = any automorphism */
+  bool counted;     /* cords and cords_least are asked for, as of other plans; otherwise there are as many as there are */
 } thr_symmetry_options;
 
 /* Which engine finds the shortest passes (lp/tjoin/engine.h). */
@@ -83,12 +85,13 @@ typedef enum {
 typedef struct {
   thr_aims aims;
   thr_joint joint;
-  int cover;         /* every edge gets at least this many passes, 1 .. 100; the framework may ask for more (cover) */
-  int capacity;      /* at most so many passes of any edge, 0 = no limit; the framework may allow fewer (capacity) */
-  int cords;         /* at most so many in every component, 1 .. 1000; of a symmetric plan: the most in any, as it came out */
-  int cords_least;   /* at least so many; = cords: exactly */
-  double max_length; /* no cord is longer, in units; 0 = no limit */
-  thr_turning_options turning;   /* of plans that turn little only */
+  int cover;                   /* every edge gets at least this many passes, 1 .. 100; the framework may ask for more (cover) */
+  int capacity;                /* at most so many passes of any edge, 0 = no limit; the framework may allow fewer (capacity) */
+  int cords;                   /* at most so many in every component, 1 .. 1000; of a symmetric plan for which they are not asked
+                                  (symmetry.counted): the most in any, as it came out */
+  int cords_least;             /* at least so many; = cords: exactly */
+  double max_length;           /* no cord is longer, in units; 0 = no limit */
+  thr_turning_options turning; /* of plans that turn little only */
   thr_symmetry_options symmetry; /* of symmetric plans only */
   thr_ends ends;
   bool *end_node;      /* [n_nodes] THR_ENDS_NODES only: where ends may be; owned, else NULL */
@@ -150,9 +153,11 @@ bool thr_plan_within_slack(const thr_request *options, double length, double lea
 
 bool thr_plan_end_allowed(const thr_frame *frame, const thr_request *options, int v);
 
-/* Cords that every component has at least. Of a symmetric plan options.cords is the most in any, and the others may have
- * fewer: 1.
- */
+/* Is the number of cords asked for? Of a symmetric plan it may be what it came to. */
+bool thr_plan_counted(const thr_request *options);
+
+/* Cords that every component has at least. Where they are not asked for, options.cords is the most in any, and the others may
+ * have fewer: 1. */
 int thr_plan_cords_least(const thr_request *options);
 
 /* Passes that edge e needs, and the most that it may have (INT_MAX: no limit): what options and framework say together. */

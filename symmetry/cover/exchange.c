@@ -64,6 +64,9 @@ typedef struct visitor {
   const thr_limits *limits;
   double worth[THR_N_AIMS];
   bool better;
+  /* trying */
+  thr_status (*attempt)(void *user, thr_err *err);
+  void *user;
 } visitor;
 
 static thr_status visitor_init(visitor *v, thr_err *err)
@@ -295,6 +298,27 @@ thr_status thr_programme_improve(const thr_programme *p, const thr_limits *limit
     for (int y = 0; y < p->q->n_pairs && !st && !thr_limits_stop(limits); y++)
       if (value[p->first_pair + y] > 0) st = visit_turn(&v, y, err);
   }
+  free(v.parent);
+  return st;
+}
+
+/* ---- trying ---- */
+
+static bool attempt(visitor *v, const exchange *x, thr_err *err, thr_status *st)
+{
+  apply(x, 1, v->value);
+  *st = v->attempt(v->user, err);
+  apply(x, -1, v->value);
+  return !*st;
+}
+
+thr_status thr_programme_attempt(const thr_programme *p, int *value, thr_status (*attempt_one)(void *user, thr_err *err),
+                                 void *user, thr_err *err)
+{
+  visitor v = {.visit = attempt, .p = p, .value = value, .attempt = attempt_one, .user = user};
+  thr_status st = visitor_init(&v, err);
+  for (int y = 0; y < p->q->n_pairs && !st; y++)
+    if (value[p->first_pair + y] > 0) st = visit_turn(&v, y, err);
   free(v.parent);
   return st;
 }

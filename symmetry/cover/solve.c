@@ -7,6 +7,7 @@
 #include "symmetry/cover/cover_options.h"
 #include "symmetry/group/group.h"
 #include "symmetry/group/quotient.h"
+#include "symmetry/lift/keep.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -26,6 +27,7 @@ typedef struct {
   thr_symmetries *t;
   thr_cover_options how;
   int *edge_cover, *edge_capacity; /* [n_edges] */
+  int *component;                  /* [n_nodes] */
   double base, passes;             /* cord that the edges need, units, and passes */
   bool only_choice;                /* rows that will not be chosen in any case need no threading */
   double end;                      /* thr_clock() at which all must be done; 0 = any time */
@@ -39,6 +41,7 @@ static void solver_destroy(solver *s)
   free(s->cover);
   free(s->edge_cover);
   free(s->edge_capacity);
+  free(s->component);
 }
 
 static thr_status solver_init(solver *s, const thr_frame *frame, const thr_request *options, thr_symmetries *symmetries,
@@ -53,9 +56,13 @@ static thr_status solver_init(solver *s, const thr_frame *frame, const thr_reque
   s->edge_cover = thr_calloc((size_t)frame->n_edges, sizeof *s->edge_cover);
   s->edge_capacity = thr_calloc((size_t)frame->n_edges, sizeof *s->edge_capacity);
   s->cover = thr_calloc((size_t)symmetries->n, sizeof *s->cover);
-  if (!s->edge_cover || !s->edge_capacity || !s->cover) {
+  s->component = thr_calloc((size_t)frame->n_nodes, sizeof *s->component);
+  bool all = s->edge_cover && s->edge_capacity && s->cover && s->component;
+  int n;
+  thr_status st = all ? thr_frame_components(frame, s->component, &n, err) : thr_nomem(err);
+  if (st) {
     solver_destroy(s);
-    return thr_nomem(err);
+    return st;
   }
   for (int e = 0; e < frame->n_edges; e++) {
     s->edge_cover[e] = thr_plan_cover(frame, options, e);
@@ -108,19 +115,56 @@ static thr_status restate(const thr_quotient *quotient, const thr_cover_options 
                                  : "a plan does not count the turn where a closed cord comes out, the search does");
 }
 
-static thr_status take_cover(const solver *s, const thr_quotient *quotient, const thr_cover *c, thr_symmetry_row *row,
-                             thr_err *err)
+static double longest_of(const thr_frame *frame, const thr_symmetry_row *row)
 {
+  double longest = 0;
+  for (int i = 0; i < row->n_cords; i++)
+    longest = fmax(longest, thr_cord_length(frame, &row->cord[i]));
+  return longest;
+}
+
+/* Takes the cords of a row away that do not keep to what is asked of them: its value and bounds stay. */
+static thr_status refuse(const thr_frame *frame, thr_symmetry_row *row, thr_err *err)
+{
+  const double longest = longest_of(frame, row);
+  const int n = row->n_cords;
+  thr_cords_destroy(row->cord, n);
+  thr_symmetry_record_destroy(&row->record);
+  row->cord = NULL;
+  row->n_cords = 0;
+  return thr_fail(err, THR_ELIMIT, "none found with cords as asked for: the best has %d, the longest of %.6g %s", n, longest,
+                  frame->units);
+}
+
+/* The cords of a cover, which becomes that of other cords where those do not keep to what is asked of them. */
+static thr_status make_cords(const solver *s, const thr_quotient *quotient, const thr_limits *limits, thr_cover *c,
+                             thr_symmetry_row *row, thr_err *err)
+{
+  bool kept = true, optimal = c->optimal;
+  thr_status st = thr_keep_asked(s->o)
+                      ? thr_keep_cords(quotient, &s->how, s->o, limits, c, &row->cord, &row->n_cords, &row->record, &kept, err)
+                      : thr_cover_cords(quotient, &s->how, c, &row->cord, &row->n_cords, &row->record, err);
   memcpy(row->value, c->value, sizeof row->value);
   memcpy(row->bound, c->bound, sizeof row->bound);
-  row->solved = c->optimal;
-  if (!c->copies) return THR_OK; /* out of time before there was any */
-  thr_status st = thr_cover_cords(quotient, &s->how, c, &row->cord, &row->n_cords, &row->record, err);
+  if (!st && !kept) st = refuse(quotient->f, row, err);
   if (st) return st;
   snprintf(row->record.name, sizeof row->record.name, "%s", row->name);
   st = count_copies(row, err);
   if (!st) st = thr_plan_measure(quotient->f, s->o, row->cord, row->n_cords, &row->metrics, err);
-  return st ? st : restate(quotient, &s->how, c, row, err);
+  if (thr_wants_balance(s->o)) row->longest = longest_of(quotient->f, row);
+  if (!st) st = restate(quotient, &s->how, c, row, err);
+  if (st || c->optimal == optimal) return st;
+  return thr_fail(err, THR_ELIMIT, "cords as asked for are made of the best cover, which the search looks for without asking");
+}
+
+static thr_status take_cover(const solver *s, const thr_quotient *quotient, const thr_limits *limits, thr_cover *c,
+                             thr_symmetry_row *row, thr_err *err)
+{
+  row->solved = c->optimal;
+  if (c->copies) return make_cords(s, quotient, limits, c, row, err);
+  memcpy(row->value, c->value, sizeof row->value); /* out of time before there was any */
+  memcpy(row->bound, c->bound, sizeof row->bound);
+  return THR_OK;
 }
 
 /* What a row can do without a threading is to say why; all else is a failure. */
@@ -141,6 +185,15 @@ static void tell(const thr_quotient *quotient, const thr_cover_options *how, con
   thr_cords_destroy(cord, n);
 }
 
+/* Are fewer cords asked for than any threading under the group has? */
+static thr_status check_fewest(const solver *s, const thr_quotient *quotient, thr_err *err)
+{
+  int fewest = s->o->symmetry.counted && thr_cover_all_open(&s->how) ? thr_keep_fewest(quotient, s->component) : 0;
+  if (fewest <= s->o->cords) return THR_OK;
+  return thr_fail(err, THR_EINFEASIBLE, "under the group of order %d there are at least %d cords in a component, more than %d",
+                  quotient->h->order, fewest, s->o->cords);
+}
+
 /* Goes on with the row's cover; the last time it becomes the row's threading. */
 static thr_status solve(const solver *s, int i, bool quick, const thr_limits *limits, thr_err *err)
 {
@@ -152,12 +205,15 @@ static thr_status solve(const solver *s, int i, bool quick, const thr_limits *li
   thr_limits first = *limits;
   if (s->end > 0) how.start_by = fmin(thr_clock() + MOMENT, s->end + LATEST);
   if (s->end > 0) first.deadline = s->cover[i].copies ? s->end + LATEST : fmax(first.deadline, how.start_by);
+  thr_limits last = *limits; /* of changes to the cords, which have their moment, too */
   thr_status st = thr_quotient_make(&quotient, s->f, &s->t->group[row->group].all, &row->elements, MOST_TYPES, &first, &row->why);
+  if (!st) st = check_fewest(s, &quotient, &row->why);
   if (!st) {
     st = thr_cover_improve(&quotient, &how, limits, &s->cover[i], &row->why);
     if (!st || st == THR_ELIMIT) tell(&quotient, &how, &s->cover[i], limits);
+    if (s->end > 0) last.deadline = fmin(s->end + LATEST, fmax(limits->deadline, thr_clock() + 2 * MOMENT));
     if (!quick && (!st || st == THR_ELIMIT)) {
-      thr_status made = take_cover(s, &quotient, &s->cover[i], row, &row->why);
+      thr_status made = take_cover(s, &quotient, &last, &s->cover[i], row, &row->why);
       if (made) st = made;
     }
   }
@@ -218,6 +274,7 @@ bool thr_symmetry_asked(const thr_symmetries *symmetries, int row, const char *g
 /* What is known of a row's threading: of its plan, else of the cover so far; least: no threading under the group has less. */
 typedef struct {
   bool there, made; /* made: the plan, whose steps count; a bare cover's may count otherwise */
+  bool even;        /* its longest cord is short enough for the choice by steps */
   double overlap, steps, least_overlap, least_steps;
 } standing;
 
@@ -227,9 +284,16 @@ static standing standing_of(const solver *s, int i)
   const thr_cover *c = &s->cover[i];
   const double steps = s->passes / row->order; /* a learned step has at most as many copies as the group has elements */
   if (row->n_cords > 0)
-    return (standing){true, true, row->metrics.overlap, row->record.steps, row->metrics.overlap, row->record.steps};
+    return (standing){true,
+                      true,
+                      row->longest <= s->t->longest * (1 + thr_symmetry_slack),
+                      row->metrics.overlap,
+                      row->record.steps,
+                      row->metrics.overlap,
+                      row->record.steps};
   return (standing){c->copies != NULL,
                     false,
+                    true,
                     c->value[THR_AIM_OVERLAP],
                     c->value[THR_AIM_STEPS],
                     fmax(0, c->bound[THR_AIM_OVERLAP]),
@@ -246,6 +310,7 @@ static double overlap_within(const solver *s)
 static bool is_ahead(const solver *s, const standing *a, const standing *b)
 {
   const double within = overlap_within(s), same = 1e-8 * fmax(1, s->base);
+  if (thr_wants_balance(s->o)) return a->even && a->overlap <= within && b->least_steps > a->steps + 1e-6;
   if (a->overlap > within) return b->least_overlap > a->overlap + same;
   if (b->least_overlap > within + same || b->least_steps > a->steps + 1e-6) return true;
   return b->least_steps > a->steps - 1e-6 && b->least_overlap > a->overlap + same;

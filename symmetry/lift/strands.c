@@ -1,6 +1,7 @@
 /* Dart orbits as cosets, their links, and the choices among them. */
 #include "symmetry/lift/strands.h"
 #include "graph/disjoint.h"
+#include "graph/framework/frame.h"
 #include "symmetry/group/group.h"
 
 #include <stdlib.h>
@@ -415,8 +416,9 @@ static void set_turn(thr_strands *strands, int o, int turn)
   if (strands->partner[o] != o) strands->turn[strands->partner[o]] = inverse(strands->q, turn);
 }
 
-/* Of the partners that orbit o has in the other orbit at the same half-edge, takes the one with the longest cord. */
-static void lengthen(thr_strands *strands, int o, int start, int *best)
+/* Of the partners that orbit o has in the other orbit at the same half-edge, takes the one with the longest cord; least > 0: with
+ * the shortest of so many passes or more. */
+static void turn_best(thr_strands *strands, int o, int start, int least, int *best)
 {
   const thr_quotient *quotient = strands->q;
   int type = strands->type[strands->partner[o]], kept = strands->turn[o];
@@ -426,7 +428,7 @@ static void lengthen(thr_strands *strands, int o, int start, int *best)
     if (coset_of(strands, type, turn) == coset_of(strands, type, kept) || !may_turn(strands, o, turn)) continue;
     set_turn(strands, o, turn);
     int length = walk_length(strands, strands->first[start]);
-    if (length > *best) {
+    if (least > 0 ? length >= least && length < *best : length > *best) {
       *best = length;
       kept = turn;
     } else
@@ -435,17 +437,63 @@ static void lengthen(thr_strands *strands, int o, int start, int *best)
 }
 
 /* The lengths of closed cords depend on where the walk round the quotient's trail comes back. */
+static void turn_trail(thr_strands *strands, const trails *t, int start, int least)
+{
+  int best = walk_length(strands, strands->first[start]);
+  for (int o = start; o < strands->n_orbits; o++)
+    if (root(t, o) == start && strands->partner[o] <= o) turn_best(strands, o, start, least, &best);
+}
+
 static void lengthen_cords(thr_strands *strands, const trails *t)
+{
+  for (int start = 0; start < strands->n_orbits; start++)
+    if (root(t, start) == start && !t->ends[start]) turn_trail(strands, t, start, 0);
+}
+
+/* ---- as many closed cords as may be ---- */
+
+/* Darts of orbit o that are in this component. */
+static int darts_within(const thr_strands *strands, int o, const int *component, int within)
+{
+  int n = 0;
+  for (int d = strands->first[o]; d < strands->first[o + 1]; d++)
+    n += component[thr_tail(strands->q->f, thr_strands_half(strands, d))] == within;
+  return n;
+}
+
+/* Passes, or the ends of open cords, that the trail from orbit start has in this component. */
+static int passes_within(const thr_strands *strands, const trails *t, int start, const int *component, int within, int *ends)
+{
+  int darts = 0;
+  *ends = 0;
+  for (int o = start; o < strands->n_orbits; o++) {
+    if (root(t, o) != start) continue;
+    int n = darts_within(strands, o, component, within);
+    darts += n;
+    if (strands->partner[o] < 0) *ends += n;
+  }
+  return darts / 2;
+}
+
+/* Makes the cords of every trail without ends as many as can be, with all others at most so many in a component. */
+static void shorten_cords(thr_strands *strands, const trails *t, const int *component, int most)
 {
   for (int start = 0; start < strands->n_orbits; start++) {
     if (root(t, start) != start || t->ends[start]) continue;
-    int best = walk_length(strands, strands->first[start]);
-    for (int o = start; o < strands->n_orbits; o++)
-      if (root(t, o) == start && strands->partner[o] <= o) lengthen(strands, o, start, &best);
+    int own = 0, ends, others = 0, within = component[thr_tail(strands->q->f, thr_strands_half(strands, strands->first[start]))];
+    for (int o = 0; o < strands->n_orbits; o++) {
+      if (root(t, o) != o) continue;
+      int passes = passes_within(strands, t, o, component, within, &ends);
+      if (o == start)
+        own = passes;
+      else if (passes > 0)
+        others += t->ends[o] ? ends / 2 : passes / walk_length(strands, strands->first[o]);
+    }
+    if (most > others) turn_trail(strands, t, start, (own + most - others - 1) / (most - others));
   }
 }
 
-static thr_status arrange(thr_strands *strands, bool all_open, thr_err *err)
+static thr_status arrange(thr_strands *strands, bool all_open, const int *component, int most, thr_err *err)
 {
   size_t n = (size_t)strands->n_orbits;
   trails t = {0};
@@ -458,9 +506,10 @@ static thr_status arrange(thr_strands *strands, bool all_open, thr_err *err)
   if (!st && all_open) st = thr_strands_open(strands, err);
   if (!st) {
     find_trails(strands, &t);
-    join_circles(strands, &t, &all);
+    if (most == 0 || all_open) join_circles(strands, &t, &all);
     if (all_open) st = all_have_ends(strands, &t, err);
     if (!st) lengthen_cords(strands, &t);
+    if (!st && most > 0) shorten_cords(strands, &t, component, most);
   }
   type_lists_destroy(&all);
   free(t.parent);
@@ -470,13 +519,13 @@ static thr_status arrange(thr_strands *strands, bool all_open, thr_err *err)
 }
 
 thr_status thr_strands_init(thr_strands *strands, const thr_quotient *quotient, const thr_cover *cover, bool all_open,
-                            thr_err *err)
+                            const int *component, int most, thr_err *err)
 {
   *strands = (thr_strands){.q = quotient};
   thr_status st = make_tables(strands, cover, err);
   if (!st) st = make_orbits(strands, cover, err);
   if (!st) st = make_pairs(strands, cover, err);
-  if (!st) st = arrange(strands, all_open, err);
+  if (!st) st = arrange(strands, all_open, component, most, err);
   if (st) thr_strands_destroy(strands);
   return st;
 }

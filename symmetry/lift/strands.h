@@ -29,11 +29,12 @@ typedef struct {
 } thr_strands;
 
 /* Fewest trails in the quotient: circles are joined to others wherever they have dart orbits of one type, which may be exchanged
- * at no price. Then fewest cords: of the ways to pair two orbits, those with which closed cords are long. all_open: no trail may
- * be closed; THR_ESOLVER if that cannot be. Also THR_ESOLVER: counts that do not balance. O(orbits * H + cosets * (H + S)), and a
- * walk along its cord for each choice in a closed one. */
+ * at no price. Then fewest cords: of the ways to pair two orbits, those with which closed cords are long; most > 0: circles stay
+ * apart, and closed cords are as many as can be, up to that in a component[n_nodes]. all_open: no trail may be closed;
+ * THR_ESOLVER if that cannot be. Also THR_ESOLVER: counts that do not balance. O(orbits * H + cosets * (H + S)), and a walk along
+ * its cord for each choice in a closed one. */
 thr_status thr_strands_init(thr_strands *strands, const thr_quotient *quotient, const thr_cover *cover, bool all_open,
-                            thr_err *err) THR_MUST_CHECK;
+                            const int *component, int most, thr_err *err) THR_MUST_CHECK;
 void thr_strands_destroy(thr_strands *strands);
 
 /* Two orbits of one type exchange what they are paired with. */

@@ -162,6 +162,20 @@ static thr_status classify_last(tracer *t, thr_err *err)
   return THR_OK;
 }
 
+/* A cord that is there already. */
+static thr_status add_given(tracer *t, const thr_cord *cord, thr_err *err)
+{
+  thr_status st = thr_grow(&t->cord, t->n_cords, &t->capacity, sizeof *t->cord, err);
+  if (st) return st;
+  traced c = {.half = thr_calloc((size_t)cord->n_passes, sizeof *c.half), .n_passes = cord->n_passes};
+  if (!c.half) return thr_nomem(err);
+  memcpy(c.half, cord->half, (size_t)cord->n_passes * sizeof *c.half);
+  c.closed = cord->closed;
+  c.round = c.closed && !t->open;
+  t->cord[t->n_cords++] = c;
+  return classify_last(t, err);
+}
+
 /* The cord from dart d on and its images under H, unless it is walked already. */
 static thr_status add_orbit(tracer *t, int d, bool open, thr_err *err)
 {
@@ -227,11 +241,11 @@ static void tracer_destroy(tracer *t)
   thr_strands_destroy(&t->s);
 }
 
-static thr_status tracer_init(tracer *t, const thr_quotient *quotient, const thr_cover *cover, bool all_open,
+static thr_status tracer_init(tracer *t, const thr_quotient *quotient, const thr_cover_options *options, const thr_cover *cover,
                               const int *component, thr_err *err)
 {
-  *t = (tracer){.f = quotient->f, .component = component};
-  thr_status st = thr_strands_init(&t->s, quotient, cover, all_open, err);
+  *t = (tracer){.f = quotient->f, .open = thr_cover_all_open(options), .component = component};
+  thr_status st = thr_strands_init(&t->s, quotient, cover, t->open, component, options->most_closed, err);
   if (st) return st;
   size_t n = (size_t)t->s.n_darts;
   t->walked = thr_calloc(n, sizeof *t->walked);
@@ -330,8 +344,7 @@ thr_status thr_cover_cords(const thr_quotient *quotient, const thr_cover_options
   *n_cords = 0;
   *record = (thr_symmetry_record){0};
   thr_status st = component ? thr_frame_components(quotient->f, component, &n_components, err) : thr_nomem(err);
-  if (!st) st = tracer_init(&t, quotient, cover, thr_cover_all_open(options), component, err);
-  t.open = thr_cover_all_open(options);
+  if (!st) st = tracer_init(&t, quotient, options, cover, component, err);
   if (!st) st = trace_all(&t, err);
   if (!st) st = order_cords(&t, n_components, &place, err);
   if (!st) st = make_record(&t, place, record, err);
@@ -341,5 +354,33 @@ thr_status thr_cover_cords(const thr_quotient *quotient, const thr_cover_options
   tracer_destroy(&t);
   free(place);
   free(component);
+  return st;
+}
+
+thr_status thr_cords_alone(const thr_frame *frame, bool all_open, const thr_cord *cord, int n_cords, thr_symmetry_record *record,
+                           thr_err *err)
+{
+  int identity = 0;
+  const thr_subgroup alone = {1, &identity};
+  thr_group group = {0};
+  thr_quotient quotient = {.f = frame, .group = &group, .h = &alone};
+  tracer t = {.f = frame, .open = all_open, .s.q = &quotient, .s.place = thr_calloc(1, sizeof(int))};
+  int *place = thr_calloc((size_t)n_cords, sizeof *place);
+  *record = (thr_symmetry_record){0};
+  quotient.half_image = thr_calloc(2 * (size_t)frame->n_edges, sizeof *quotient.half_image);
+  thr_status st = place && quotient.half_image && t.s.place ? THR_OK : thr_nomem(err);
+  if (!st) st = thr_group_generate(frame->n_nodes, NULL, 0, 1, &group, err);
+  for (int h = 0; h < 2 * frame->n_edges && !st; h++)
+    quotient.half_image[h] = h;
+  for (int i = 0; i < n_cords && !st; i++) {
+    place[i] = i;
+    st = add_given(&t, &cord[i], err);
+  }
+  if (!st) st = make_record(&t, place, record, err);
+  if (st) thr_symmetry_record_destroy(record);
+  tracer_destroy(&t);
+  thr_group_destroy(&group);
+  free(quotient.half_image);
+  free(place);
   return st;
 }

@@ -166,7 +166,7 @@ static void judge_threading(judged *j, const thr_plan *p)
     if (passes[e] < walks_cover(f, o, e) || passes[e] > walks_capacity(f, o, e)) finding(j, "edge %d: %d passes", e, passes[e]);
   for (int v = 0; v < f->n_nodes && o->ends == THR_ENDS_COUNTS; v++)
     if (ends[v] != o->end_count[v]) finding(j, "node %d has %d ends", v, ends[v]);
-  for (int k = 0; k < j->n_pieces && !thr_wants_symmetry(o); k++)
+  for (int k = 0; k < j->n_pieces && thr_plan_counted(o); k++)
     if (cords[k] < o->cords_least || cords[k] > o->cords) finding(j, "piece %d has %d cords", k, cords[k]);
   if (o->joint == THR_JOINT_TUBE) judge_ties(j, p);
 }
@@ -214,8 +214,8 @@ static void cords_of(const judged *j, int k, int *least, int *most)
 {
   const thr_request *o = &j->c.o;
   int n, component[64], sum = 0;
-  *least = thr_wants_symmetry(o) ? 1 : o->cords_least;
-  *most = thr_wants_symmetry(o) || o->cords > MOST_CORDS ? MOST_CORDS : o->cords;
+  *least = thr_plan_cords_least(o);
+  *most = !thr_plan_counted(o) || o->cords > MOST_CORDS ? MOST_CORDS : o->cords;
   if (o->ends != THR_ENDS_COUNTS) return;
   ck_assert_int_eq(thr_frame_components(&j->c.f, component, &n, NULL), THR_OK);
   for (int v = 0; v < j->c.f.n_nodes; v++)
@@ -428,7 +428,7 @@ static void judge_length(judged *j, const thr_plan *p, double least)
 {
   double length = length_of(&j->c.f, p), tolerance = 2.1e-9 * length;
   if (!p->proof.present) return;
-  if (thr_wants_symmetry(&j->c.o) && j->c.o.ends != THR_ENDS_COUNTS) {
+  if (!thr_plan_counted(&j->c.o)) {
     judge_bound(j, "length", p->proof.lower_bound, length, p->proof.optimal, least_with_its_cords(j, p, -1), tolerance);
     least = least_with_at_most(j, p->options.cords);
     if (p->proof.lower_bound > least + tolerance)
@@ -442,7 +442,8 @@ static void judge_cords(judged *j, const thr_plan *p)
 {
   const thr_cords_claim *c = &p->cords_claim;
   double longest = longest_of(&j->c.f, p), tolerance = 3e-9 * longest, limit = c->longest_bound - tolerance;
-  if (!c->present || thr_wants_symmetry(&j->c.o)) return;
+  if (j->code == 0 && thr_wants_balance(&j->c.o) && !c->longest_optimal) finding(j, "exit 0, but the longest cord is not proved");
+  if (!c->present || !thr_plan_counted(&j->c.o)) return;
   judge_bound(j, "longest", c->longest_bound, longest, c->longest_optimal, NAN, tolerance);
   if (c->longest_optimal && c->longest_bound < longest - tolerance)
     finding(j, "longest: optimal at %.12g, but bound %.12g", longest, c->longest_bound);
