@@ -85,6 +85,7 @@ command_fails() { # COMMAND..
   [ $code = 0 ] || { echo "thread $*: exit code $code without failures: $(cat whole.err)" && failed=$((failed + 1)) && return; }
   allocations=$(number 0)
   n=$(number 2)
+  [ "${n:-0}" -gt 0 ] || { echo "thread $*: no allocation was recorded: is $library loaded?" && failed=$((failed + 1)) && return; }
   readarray -t stacks < <(od -An -v -tx8 -w16 -j 24 -N $((16 * n)) "$folder/record")
   step=$((samples > 0 && n > samples ? n / samples : 1))
   for ((i = 0, at = 0; at < n; i++, at += step)); do
