@@ -31,15 +31,16 @@ static thr_least_options search_options(const thr_request *options)
 
 /* ---- cords ---- */
 
-/* Among cords that turn no more, shorter ones: the search once more with a price on length that is far below any turn's. What
- * is proved of the turning stays; that no shorter cords turn as little is not proved. */
+/* Among cords that turn no more, shorter ones: the search once more, of solid joints without a tree, with a price on length that
+ * is far below any turn's. What is proved of the turning stays; that no shorter cords turn as little is not proved. */
 static thr_status shorten(const thr_frame *frame, const thr_least_options *lo, const thr_limits *limits, thr_least *least,
                           thr_err *err)
 {
   const double small = 1e-6; /* price of a mean edge's length; a U-turn costs 1 or more */
   thr_least_options with_length = *lo;
   thr_least other;
-  if (!least->optimal || least->length <= least->shortest * (1 + 1e-9)) return THR_OK;
+  if (!least->optimal || least->shortened || least->length <= least->shortest * (1 + 1e-9)) return THR_OK;
+  if (!lo->tube) with_length.most_nodes = 0;
   with_length.price_per_length = small * frame->n_edges / thr_frame_total_length(frame);
   thr_err unused = {0};
   thr_status st = thr_least_turning(frame, &with_length, limits, &other, &unused);

@@ -170,20 +170,26 @@ done:
   return st;
 }
 
-thr_status thr_matching_solve(const thr_matching_problem *matching_problem, const thr_limits *limits, thr_matching *out,
-                              thr_err *err)
+thr_status thr_matching_near(const thr_matching_problem *matching_problem, const int64_t *dual, const int *mate,
+                             const thr_limits *limits, thr_matching *out, thr_err *err)
 {
   *out = (thr_matching){0};
   thr_status st = check_problem(matching_problem, err);
   if (!st) st = state_create(&out->state, matching_problem->n_nodes, err);
   if (!st) st = state_set_problem(out->state, matching_problem, limits, err);
   if (!st && matching_problem->n_nodes % 2) st = thr_blossom_infeasible(out->state);
-  if (!st) st = thr_blossom_start(out->state);
+  if (!st) st = thr_blossom_start(out->state, dual, mate);
   if (!st) st = thr_blossom_match_halves(out->state);
   if (!st) st = thr_blossom_match_all(out->state);
   if (!st) st = take_result(out, err);
   if (st) thr_matching_destroy(out);
   return st;
+}
+
+thr_status thr_matching_solve(const thr_matching_problem *matching_problem, const thr_limits *limits, thr_matching *out,
+                              thr_err *err)
+{
+  return thr_matching_near(matching_problem, NULL, NULL, limits, out, err);
 }
 
 thr_status thr_matching_again(const thr_matching_problem *matching_problem, const thr_limits *limits, thr_matching *matching,

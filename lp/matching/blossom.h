@@ -48,6 +48,11 @@ typedef struct {
 thr_status thr_matching_solve(const thr_matching_problem *matching_problem, const thr_limits *limits, thr_matching *out,
                               thr_err *err) THR_MUST_CHECK;
 
+/* The same, beginning with the duals and mates of another matching of these nodes, whatever its edges and weights were: the more
+ * of them fit, the sooner it ends. The weight does not hang on them. */
+thr_status thr_matching_near(const thr_matching_problem *matching_problem, const int64_t *dual, const int *mate,
+                             const thr_limits *limits, thr_matching *out, thr_err *err) THR_MUST_CHECK;
+
 /* The same after edges were added: matching_problem has the nodes and edges of the problem that matching solves, in the same
  * order, and more edges after them; matching may be empty. Goes on from matching's duals and gives up only what loads new edges
  * too much. Fails as above, matching being empty then. */

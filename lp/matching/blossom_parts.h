@@ -179,8 +179,9 @@ void thr_blossom_match_children(thr_matching_state *matching_state, int base);
 
 /* ---- blossom_start.c ---- */
 
-/* Duals without blossoms that load no edge too much, and a matching along tight edges. */
-thr_status thr_blossom_start(thr_matching_state *matching_state) THR_MUST_CHECK;
+/* Duals without blossoms that load no edge too much, and a matching along tight edges; near dual and mate, [n_nodes] of another
+ * matching, where these are given. */
+thr_status thr_blossom_start(thr_matching_state *matching_state, const int64_t *dual, const int *mate) THR_MUST_CHECK;
 
 /* Makes room for an edge that may be loaded too much: opens what blossoms it must, lowers the moat of one end. O(depth and size
  * of those blossoms). */

@@ -2,6 +2,8 @@
 #include "graph/status.h"
 #include "lp/matching/blossom_parts.h"
 
+#include <math.h>
+
 thr_status thr_blossom_infeasible(const thr_matching_state *matching_state)
 {
   return thr_fail(matching_state->err, THR_EINFEASIBLE, "the %d nodes have no perfect matching", matching_state->n_nodes);
@@ -14,10 +16,9 @@ thr_status thr_blossom_too_large(const thr_matching_state *matching_state)
 
 /* ---- from nothing ---- */
 
-/* Each node gets half of its lightest edge; then, one after the other, what is left, and a partner where an edge gets tight. */
-thr_status thr_blossom_start(thr_matching_state *matching_state)
+/* Every node gets half of its lightest edge. */
+static thr_status halve_lightest(thr_matching_state *matching_state)
 {
-  double total = 0;
   for (int v = 0; v < matching_state->n_nodes; v++) {
     int64_t least = INT64_MAX;
     for (int k = matching_state->first_arc[v]; k < matching_state->first_arc[v + 1]; k++)
@@ -25,28 +26,71 @@ thr_status thr_blossom_start(thr_matching_state *matching_state)
     if (least == INT64_MAX) return thr_blossom_infeasible(matching_state);
     matching_state->node[v].moat = least / 2;
   }
+  return THR_OK;
+}
+
+static int64_t gap_of(const thr_matching_state *matching_state, int v, const blossom_arc *arc)
+{
+  return arc->weight - matching_state->node[v].moat - matching_state->node[arc->head].moat;
+}
+
+/* Every node keeps the dual that it had, less what its edges are loaded too much, and its mate where their edge is tight. */
+static void take_over(thr_matching_state *matching_state, const int64_t *dual, const int *mate)
+{
+  for (int v = 0; v < matching_state->n_nodes; v++)
+    matching_state->node[v].moat = dual[v];
+  for (int v = 0; v < matching_state->n_nodes; v++)
+    for (int k = matching_state->first_arc[v]; k < matching_state->first_arc[v + 1]; k++) {
+      int64_t gap = gap_of(matching_state, v, &matching_state->arc[k]);
+      if (gap < 0) matching_state->node[v].moat += gap;
+    }
+  for (int v = 0; v < matching_state->n_nodes; v++)
+    for (int k = matching_state->first_arc[v]; k < matching_state->first_arc[v + 1]; k++) {
+      const blossom_arc *arc = &matching_state->arc[k];
+      if (arc->head != mate[v] || matching_state->b[v].match >= 0 || matching_state->b[arc->head].match >= 0) continue;
+      if (gap_of(matching_state, v, arc) != 0) continue;
+      matching_state->b[v].match = arc->dart;
+      matching_state->b[arc->head].match = arc->dart ^ 1;
+    }
+}
+
+/* Nodes without a mate, one after the other, are raised till an edge is tight, and matched over it if they can be. */
+static void raise_exposed(thr_matching_state *matching_state)
+{
   for (int v = 0; v < matching_state->n_nodes; v++) {
     if (matching_state->b[v].match >= 0) continue;
     const blossom_arc *best = NULL;
     int64_t least = INT64_MAX;
     for (int k = matching_state->first_arc[v]; k < matching_state->first_arc[v + 1]; k++) {
       const blossom_arc *arc = &matching_state->arc[k];
-      int64_t gap = arc->weight - matching_state->node[v].moat - matching_state->node[arc->head].moat;
+      int64_t gap = gap_of(matching_state, v, arc);
       if (gap > least || (gap == least && matching_state->b[arc->head].match >= 0)) continue;
       least = gap;
       best = arc;
     }
+    if (!best) continue;
     matching_state->node[v].moat += least;
-    if (best && matching_state->b[best->head].match < 0) {
-      matching_state->b[v].match = best->dart;
-      matching_state->b[best->head].match = best->dart ^ 1;
-    }
+    if (matching_state->b[best->head].match >= 0) continue;
+    matching_state->b[v].match = best->dart;
+    matching_state->b[best->head].match = best->dart ^ 1;
   }
+}
+
+thr_status thr_blossom_start(thr_matching_state *matching_state, const int64_t *dual, const int *mate)
+{
+  double total = 0;
+  thr_status st = THR_OK;
+  if (dual)
+    take_over(matching_state, dual, mate);
+  else
+    st = halve_lightest(matching_state);
+  if (st) return st;
+  raise_exposed(matching_state);
   for (int v = 0; v < matching_state->n_nodes; v++) {
     matching_state->b[v].dual = matching_state->node[v].moat;
     total += (double)matching_state->node[v].moat;
   }
-  if (total > 0.5 * (double)BLOSSOM_TOTAL_MOST) return thr_blossom_too_large(matching_state);
+  if (fabs(total) > 0.5 * (double)BLOSSOM_TOTAL_MOST) return thr_blossom_too_large(matching_state);
   matching_state->total = (int64_t)total;
   return THR_OK;
 }

@@ -1,12 +1,9 @@
-/* Nodes of any degree: the bound of the nodes by themselves against linear and integer programming, pairings of hubs against
- * integer programming, and plans of frameworks whose turns no programme holds. */
-#include "lp/solver/lp.h"
+/* Nodes of any degree: pairings of hubs against integer programming, and plans of frameworks whose turns no programme holds. */
 #include "tests/matchings.h"
 #include "tests/support.h"
 #include "tests/plans.h"
 #include "tests/frameworks.h"
 #include "tortuosity/proof/hubs.h"
-#include "tortuosity/proof/nearest.h"
 #include "graph/threading/pairing.h"
 #include "planner/least_turning.h"
 #include "graph/limits.h"
@@ -35,104 +32,6 @@ static thr_frame random_star(rng *r, int n)
       f.xyz[v][k] = rng_unit(r) - 0.5;
   return f;
 }
-
-static double weight(const thr_turning_columns *c, int i, int j)
-{
-  const int *half = c->f->half + c->f->first[0];
-  return ldexp((double)c->weight[thr_turning_column(c, half[i], half[j])], -THR_TURNING_BITS);
-}
-
-/* Least cost of turns at node 0 that take each half-edge once or more, by GLPK over all turns. */
-static double cover_by_programme(const thr_turning_columns *c)
-{
-  int d = thr_degree(c->f, 0), n = d * (d - 1) / 2, *column = calloc((size_t)d, sizeof *column);
-  double *cost = calloc((size_t)n, sizeof *cost);
-  thr_lp *lp;
-  thr_lp_outcome outcome;
-  ck_assert_ptr_nonnull(cost);
-  ck_assert_ptr_nonnull(column);
-  for (int i = 0, k = 0; i < d; i++)
-    for (int j = i + 1; j < d; j++)
-      cost[k++] = weight(c, i, j);
-  ck_assert_int_eq(thr_lp_create(&lp, n, cost, NULL, NULL), THR_OK);
-  for (int i = 0; i < d; i++) {
-    int used = 0;
-    for (int a = 0, k = 0; a < d; a++)
-      for (int b = a + 1; b < d; b++, k++)
-        if (a == i || b == i) column[used++] = k;
-    ck_assert_int_eq(thr_lp_add_row(lp, used, column, NULL, 1, NULL), THR_OK);
-  }
-  ck_assert_int_eq(thr_lp_solve(lp, &no_limit, &outcome, NULL), THR_OK);
-  ck_assert_int_eq(outcome, THR_LP_OPTIMAL);
-  double least = thr_lp_objective(lp);
-  thr_lp_destroy(lp);
-  free(cost);
-  free(column);
-  return least;
-}
-
-/* Of as many half-edges as need pricing, too. Stopped, the multipliers are less, but good. */
-START_TEST(nodes_pay_what_their_turns_cost)
-{
-  rng r = rng_make((uint64_t)_i + 1);
-  thr_frame f = random_star(&r, 3 + 4 * _i);
-  thr_turning_task task = closed_task(&f);
-  thr_turning_columns c;
-  ck_assert_int_eq(thr_turning_columns_init(&c, &f, &task, NULL), THR_OK);
-  const thr_limits stopped = {.deadline = 1e-9};
-  double least = cover_by_programme(&c);
-  for (int stop = 0; stop < 2; stop++) {
-    thr_turning_dual d;
-    double sum = 0;
-    int n = thr_degree(&f, 0);
-    ck_assert_int_eq(thr_nodes_bound(&c, stop ? &stopped : &no_limit, &d, NULL), THR_OK);
-    for (int i = 0; i < n; i++) {
-      sum += ldexp((double)d.potential[f.half[f.first[0] + i]], -THR_TURNING_BITS);
-      for (int j = i + 1; j < n; j++)
-        ck_assert(d.potential[f.half[f.first[0] + i]] + d.potential[f.half[f.first[0] + j]] <=
-                  c.weight[thr_turning_column(&c, f.half[f.first[0] + i], f.half[f.first[0] + j])]);
-    }
-    ck_assert_double_le(sum, least + 1e-9);
-    ck_assert_double_ge(sum, stop ? 0.5 * least : least - 1e-9);
-    thr_turning_dual_destroy(&d);
-  }
-  thr_turning_columns_destroy(&c);
-  thr_frame_destroy(&f);
-}
-END_TEST
-
-/* Of random frameworks, whose optimum the search proves by other means: closed, with ends, for every cost. */
-START_TEST(nodes_prove_no_more_than_the_optimum)
-{
-  rng r = rng_make((uint64_t)_i + 1);
-  thr_frame f = random_frame(&r, rng_between(&r, 4, 9), rng_between(&r, 1, 9), LENGTHS_EUCLID);
-  thr_request o = thr_request_default();
-  want(&o, "turning");
-  o.ends = _i % 2 ? THR_ENDS_ANY : THR_ENDS_CLOSED;
-  o.turning.cost = (thr_turn_cost)(_i % 3);
-  thr_plan p;
-  ck_assert_int_eq(thr_tortuosity_plan(&f, &o, &no_limit, &p, NULL), THR_OK);
-  bool *all = calloc((size_t)f.n_nodes, sizeof *all);
-  ck_assert_ptr_nonnull(all);
-  for (int v = 0; v < f.n_nodes; v++)
-    all[v] = true;
-  thr_turning_task task = closed_task(&f);
-  task.cost = o.turning.cost;
-  if (_i % 2) task.end_allowed = all;
-  thr_turning_columns c;
-  thr_turning_dual d;
-  int64_t bound;
-  ck_assert_int_eq(thr_turning_columns_init(&c, &f, &task, NULL), THR_OK);
-  ck_assert_int_eq(thr_nodes_bound(&c, &no_limit, &d, NULL), THR_OK);
-  ck_assert_int_eq(thr_turning_dual_bound(&c, &d, NULL, NULL, &bound, NULL), THR_OK);
-  ck_assert_double_le(ldexp((double)bound, -THR_TURNING_BITS), p.turning.price + 1e-9);
-  thr_turning_dual_destroy(&d);
-  thr_turning_columns_destroy(&c);
-  thr_plan_destroy(&p);
-  thr_frame_destroy(&f);
-  free(all);
-}
-END_TEST
 
 /* The passes of a star: every spoke as often as given. */
 static void star_join(thr_turning_columns *c, int passes_of_each, thr_join *j)
@@ -221,7 +120,7 @@ START_TEST(dense_frameworks_have_plans_and_bounds)
   thr_frame f = _i ? wheel_make(1500) : random_star(&r, 1500);
   thr_request o = thr_request_default();
   want(&o, "turning");
-  thr_limits limits = {.deadline = thr_clock() + 2};
+  thr_limits limits = {.deadline = thr_clock() + 10};
   thr_err err = {0};
   thr_plan p;
   thr_status st = thr_tortuosity_plan(&f, &o, &limits, &p, &err);
@@ -237,8 +136,6 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("hubs");
-  ADD_LOOP(s, 30, nodes_pay_what_their_turns_cost, 0, 12);
-  ADD_EXAMPLES(s, 60, nodes_prove_no_more_than_the_optimum, 60);
   ADD_EXAMPLES(s, 60, hubs_are_paired_nearly_as_cheaply_as_by_matching, 5);
   ADD_LOOP(s, 30, hubs_join_what_they_are_asked_to, 0, 2);
   ADD_LOOP(s, 60, dense_frameworks_have_plans_and_bounds, 0, 2);

@@ -7,7 +7,6 @@
 #include "tortuosity/proof/ascent.h"
 #include "tortuosity/proof/column_groups.h"
 #include "tortuosity/proof/cycles.h"
-#include "tortuosity/proof/nearest.h"
 #include "tortuosity/proof/partition.h"
 #include "tortuosity/proof/project.h"
 #include "tortuosity/tie/tie.h"
@@ -96,8 +95,7 @@ static int most_fractional(const thr_branch *branch)
 
 /* ---- nodes ---- */
 
-/* Takes multipliers over, for node i if they prove more than it has. */
-static thr_status keep_dual(thr_branch *branch, int i, thr_turning_dual dual, const int *low, const int *high, thr_err *err)
+thr_status thr_branch_keep_dual(thr_branch *branch, int i, thr_turning_dual dual, const int *low, const int *high, thr_err *err)
 {
   int64_t bound;
   thr_status st = thr_turning_dual_bound(branch->c, &dual, low, high, &bound, err);
@@ -120,7 +118,7 @@ static thr_status certify(thr_branch *branch, int i, thr_err *err)
 {
   thr_turning_dual dual;
   thr_status st = thr_relax_dual(&branch->relax, &dual, err);
-  return st ? st : keep_dual(branch, i, dual, branch->tree.low, branch->tree.high, err);
+  return st ? st : thr_branch_keep_dual(branch, i, dual, branch->tree.low, branch->tree.high, err);
 }
 
 /* A node of this bound is closed. */
@@ -132,6 +130,11 @@ static double enough(const thr_branch *branch)
 static bool closed(const thr_branch *branch, int i)
 {
   return branch->tree.node[i].bound >= enough(branch);
+}
+
+bool thr_branch_proved(const thr_branch *branch)
+{
+  return branch->found && branch->tree.n_nodes > 0 && closed(branch, 0);
 }
 
 static int largest_degree(const thr_frame *frame)
@@ -152,7 +155,7 @@ static thr_status climb(thr_branch *branch, int root, thr_err *err)
   double *mean = thr_calloc((size_t)branch->c->n_columns, sizeof *mean);
   const thr_limits half = thr_limits_part(branch->limits, branch->dense ? 0.5 : 1);
   thr_status st = mean ? thr_ascent_run(branch->c, target, &half, &dual, mean, err) : thr_nomem(err);
-  if (!st) st = keep_dual(branch, root, dual, NULL, NULL, err);
+  if (!st) st = thr_branch_keep_dual(branch, root, dual, NULL, NULL, err);
   bool more = !branch->found ||
               (!closed(branch, root) && !thr_limits_stop(branch->limits) && largest_degree(branch->c->f) <= TIED_DEGREE);
   if (!st && more) st = thr_tie_round(branch->c, mean, branch->passes, branch->ends, &found, err);
@@ -173,12 +176,8 @@ static thr_status init_tree(thr_branch *branch, thr_err *err)
 
 thr_status thr_branch_begin(thr_branch *branch, thr_err *err)
 {
-  thr_turning_dual dual;
   thr_status st = init_tree(branch, err);
-  if (st || branch->c->task->free_turns || branch->c->task->tube) return st;
-  const thr_limits some = thr_limits_part(branch->limits, 0.2);
-  st = thr_nodes_bound(branch->c, &some, &dual, err);
-  return st ? st : keep_dual(branch, 0, dual, NULL, NULL, err);
+  return st || branch->c->task->free_turns || branch->c->task->tube ? st : thr_branch_match(branch, err);
 }
 
 /* Where every open node's bound is above the best price, or none is open, that price is the bound: a plan has it. */
@@ -297,8 +296,8 @@ thr_status thr_branch_run(thr_branch *branch, thr_err *err)
   double penalty = 10 + (branch->found ? ldexp((double)branch->best_price, -THR_TURNING_BITS) : 10 * covers(branch->c));
   if (!branch->c->task->free_turns) penalty += 2 * branch->c->task->price_per_length * thr_frame_total_length(branch->c->f);
   thr_status st = branch->tree.n_nodes ? THR_OK : thr_branch_begin(branch, err);
-  if (!st && branch->dense) return settle_for_bound(branch, tied, err);
-  if (!st && !branch->projected && !branch->c->task->free_turns && branch->found && !tied && closed(branch, root)) return THR_OK;
+  if (!st && (branch->dense || branch->most_nodes == 0)) return settle_for_bound(branch, tied, err);
+  if (!st && !branch->projected && !branch->c->task->free_turns && !tied && thr_branch_proved(branch)) return THR_OK;
   if (!st) st = thr_relax_init(&branch->relax, branch->c, branch->projected, penalty, branch->limits, err);
   if (!st) use_separators(&branch->relax);
   if (!st && tied) st = climb(branch, root, err);

@@ -35,7 +35,8 @@ typedef struct {
   int *passes, *ends, *whole; /* scratch */
   double *weight, *end_weight;
   int rounds;
-  bool dense; /* so many turns that there is no programme of them */
+  bool matched; /* the best plan is the one of the first bound */
+  bool dense;   /* so many turns that there is no programme of them */
 } thr_branch;
 
 thr_status thr_branch_init(thr_branch *branch, const thr_turning_columns *turning_columns, int most_nodes,
@@ -48,6 +49,10 @@ thr_status thr_branch_try(thr_branch *branch, const int *passes, const int *ends
 /* Several closed cords in a component: circuits j, cut apart and joined until they are as many as asked for; the same. j is taken
  * over or released. */
 thr_status thr_branch_try_circuits(thr_branch *branch, thr_join *j, const int *passes, thr_err *err) THR_MUST_CHECK;
+
+/* Whole numbers x[n_columns] that keep all equations, if they hang together as they are, or joined over equal passes; the same.
+ */
+thr_status thr_branch_try_point(thr_branch *branch, const int *x, thr_err *err) THR_MUST_CHECK;
 
 /* The cords of a plan, improved by exchanges; the same. */
 thr_status thr_branch_try_cords(thr_branch *branch, const thr_cord *cord, int n_cords, thr_err *err) THR_MUST_CHECK;
@@ -63,9 +68,17 @@ void thr_branch_best(const thr_branch *branch, int *passes, int *ends);
 /* Tube joints: from the best plan by annealing (tortuosity/tie/tie.h), kept if that turns less. */
 thr_status thr_branch_anneal(thr_branch *branch, const thr_limits *limits, int rounds, thr_err *err) THR_MUST_CHECK;
 
-/* The bound of the nodes by themselves, before anything else: what there is where time is short. thr_branch_run does it if nobody
- * has. */
+/* The bound of all turns without connectedness, and its plan if that hangs together (tortuosity/proof/branch_match.c). Tube
+ * joints and free turns begin without. thr_branch_run does it if nobody has. */
 thr_status thr_branch_begin(thr_branch *branch, thr_err *err) THR_MUST_CHECK;
+thr_status thr_branch_match(thr_branch *branch, thr_err *err) THR_MUST_CHECK;
+
+/* Takes multipliers over, for node i of the tree if they prove more than it has while the columns are in this box (NULL: all). */
+thr_status thr_branch_keep_dual(thr_branch *branch, int i, thr_turning_dual dual, const int *low, const int *high,
+                                thr_err *err) THR_MUST_CHECK;
+
+/* Is the best plan found proved to be one? */
+bool thr_branch_proved(const thr_branch *branch);
 
 /* Until the tree is closed, or stopped. */
 thr_status thr_branch_run(thr_branch *branch, thr_err *err) THR_MUST_CHECK;

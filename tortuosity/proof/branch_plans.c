@@ -210,17 +210,34 @@ static thr_status round_tied(thr_branch *branch, thr_err *err)
   return st || !found ? st : thr_branch_try(branch, branch->passes, branch->ends, err);
 }
 
-/* A point of whole numbers: its own pairs if they hang together; in any case the greedy for its passes and ends. */
-thr_status thr_branch_try_whole(thr_branch *branch, thr_err *err)
+/* Passes and ends of the whole numbers, which are kept for the pairs. */
+static void take_point(thr_branch *branch, const int *x)
 {
   const thr_turning_columns *turning_columns = branch->c;
-  for (int k = 0; k < turning_columns->n_columns; k++)
-    branch->whole[k] = (int)nearbyint(branch->relax.x[k]);
+  memcpy(branch->whole, x, (size_t)turning_columns->n_columns * sizeof *x);
   memset(branch->ends, 0, (size_t)turning_columns->f->n_nodes * sizeof *branch->ends);
   for (int e = 0; e < turning_columns->f->n_edges; e++)
     branch->passes[e] = turning_columns->cover[e] + branch->whole[turning_columns->first_extra + e];
   for (int k = turning_columns->first_end; k < turning_columns->first_back; k++)
     branch->ends[thr_tail(turning_columns->f, turning_columns->half[k][0])] += branch->whole[k];
+}
+
+thr_status thr_branch_try_point(thr_branch *branch, const int *x, thr_err *err)
+{
+  take_point(branch, x);
+  return within_limits(branch->c, branch->passes) ? try_columns(branch, branch->passes, branch->ends, err) : THR_OK;
+}
+
+/* A point of whole numbers: its own pairs if they hang together; in any case the greedy for its passes and ends. */
+thr_status thr_branch_try_whole(thr_branch *branch, thr_err *err)
+{
+  const thr_turning_columns *turning_columns = branch->c;
+  int *x = thr_calloc((size_t)turning_columns->n_columns, sizeof *x);
+  if (!x) return thr_nomem(err);
+  for (int k = 0; k < turning_columns->n_columns; k++)
+    x[k] = (int)nearbyint(branch->relax.x[k]);
+  take_point(branch, x);
+  free(x);
   bool fit = !branch->projected && within_limits(turning_columns, branch->passes);
   thr_status st = fit && turning_columns->task->tube ? thr_tie_holds(turning_columns, branch->whole, &fit, err) : THR_OK;
   if (!st && fit) st = try_columns(branch, branch->passes, branch->ends, err);

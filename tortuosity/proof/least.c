@@ -199,6 +199,7 @@ static thr_status finish(const thr_frame *frame, thr_branch *branch, thr_least *
   thr_status st = thr_least_cords(frame, &branch->best, out, err);
   if (st) return st;
   out->rounds = branch->rounds;
+  out->shortened = branch->matched;
   if ((st = thr_branch_proof(branch, &out->proof, err))) return st;
   thr_err found = {0};
   st = thr_turning_proof_check_columns(branch->c, &out->proof, &out->bound, &found);
@@ -221,6 +222,14 @@ static thr_status not_found(const thr_branch *branch, thr_err *err)
     thr_fail(err, THR_EINFEASIBLE, "no plan with at most %d passes of every edge was found; allow more passes or more length",
              turning_task->most_passes);
   return THR_EINFEASIBLE;
+}
+
+static thr_status begin(thr_branch *branch, thr_err *err)
+{
+  thr_err why = {0};
+  thr_status st = thr_branch_begin(branch, &why);
+  if (st == THR_EINFEASIBLE) return not_found(branch, err);
+  return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
 }
 
 /* Checks of the proof that follow the search, each of which goes through all turns as making the columns does, with tube joints
@@ -252,8 +261,8 @@ static thr_status search(const thr_frame *frame, const thr_least_options *option
   if (!st) st = find_shortest(&turning_columns, options, limits, &made, passes, ends, &start, err);
   if (!st) st = thr_branch_init(&branch, &turning_columns, options->most_nodes, &inner, err);
   if (branch.dense) inner = without(limits, (options->tube ? CHECKS_TIED : CHECKS) * each);
-  if (!st) st = thr_branch_begin(&branch, err);
-  if (!st) st = first_plans(&branch, options, &start, passes, ends, err);
+  if (!st) st = begin(&branch, err);
+  if (!st && !thr_branch_proved(&branch)) st = first_plans(&branch, options, &start, passes, ends, err);
   if (!st) st = thr_branch_run(&branch, err);
   if (!st && !branch.found) st = not_found(&branch, err);
   if (!st) st = finish(frame, &branch, &made, err);

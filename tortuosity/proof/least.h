@@ -29,7 +29,7 @@ typedef struct {
   const thr_cord *start;   /* [n_start] a plan of the task to begin with; borrowed, NULL = none */
   int n_start;
   bool slack_from_start; /* start is the shortest plan known: the shortest passes hold none */
-  int most_nodes;        /* of the branching tree; 1 = the root only */
+  int most_nodes;        /* of the branching tree; 1 = the root only, 0 = no linear programme */
 } thr_least_options;
 
 thr_least_options thr_least_options_default(void);
@@ -46,6 +46,7 @@ typedef struct {
   double length_limit;     /* what the proof is restricted to; < 0 = none */
   double bound;            /* no plan of the task has a lower price: what the check of the proof says */
   bool optimal;            /* price and bound agree within 1e-9 of a U-turn per pass */
+  bool shortened;          /* of plans that turn as little it is a short one already */
   const char *open;        /* why it is not proved; static text, NULL if optimal */
   thr_turning_proof proof;
   int rounds; /* linear programmes solved */

@@ -19,12 +19,4 @@ thr_status thr_nearest_find(const thr_turning_columns *turning_columns, int v, i
                             thr_err *err) THR_MUST_CHECK;
 void thr_nearest_destroy(thr_nearest *nearest);
 
-/* Multipliers of the equations from every node by itself, as if extra passes had only one end: a bound that needs no programme
- * over all turns. A node's are the least cost of turns that take every half-edge at least as often as it must be passed: an edge
- * cover, whose linear programme is an assignment between two copies of the node's half-edges,
- * solved by matching over the cheapest turns and priced over all of them. Stopped, or where pricing does not end, every half-edge
- * pays what all turns leave it, at least half of its cheapest one. Release with thr_turning_dual_destroy. */
-thr_status thr_nodes_bound(const thr_turning_columns *turning_columns, const thr_limits *limits, thr_turning_dual *dual,
-                           thr_err *err) THR_MUST_CHECK;
-
 #endif

@@ -1,0 +1,95 @@
+/* Where the search begins: the least turning without connectedness. */
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/status.h"
+#include "tortuosity/proof/branch.h"
+#include "tortuosity/proof/pass_matching.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Of plans that turn equally little the shorter one: a price of extra passes that is far below the proof's tolerance, in units of
+ * 2^-THR_TURNING_BITS per mean edge. */
+enum { LENGTH_PRICE = 1024 };
+
+static void set_prices(const thr_turning_columns *c, int64_t *price)
+{
+  double mean = thr_frame_total_length(c->f) / c->f->n_edges;
+  memcpy(price, c->weight, (size_t)c->n_columns * sizeof *price);
+  for (int e = 0; e < c->f->n_edges; e++)
+    price[c->first_extra + e] += (int64_t)nearbyint(LENGTH_PRICE * fmin(100, c->f->length[e] / mean));
+}
+
+static thr_status dual_init(const thr_turning_columns *c, thr_turning_dual *dual, thr_err *err)
+{
+  *dual = (thr_turning_dual){.potential = thr_calloc(2 * (size_t)c->f->n_edges, sizeof *dual->potential),
+                             .ends = thr_calloc((size_t)c->n_ends, sizeof *dual->ends)};
+  return dual->potential && dual->ends ? THR_OK : thr_nomem(err);
+}
+
+/* Every pass pays half of the cheapest turn at its half-edge, and every end what that saves at most: where there is no time for
+ * more. */
+static void halve_cheapest(const thr_turning_columns *c, thr_turning_dual *dual)
+{
+  for (int h = 0; h < 2 * c->f->n_edges; h++)
+    dual->potential[h] = INT64_MAX;
+  for (int j = 0; j < c->n_columns; j++)
+    for (int side = 0; side < 2 && (j < c->first_extra || j >= c->first_back); side++) {
+      int64_t *own = &dual->potential[c->half[j][side]];
+      if (c->weight[j] / 2 < *own) *own = c->weight[j] / 2;
+    }
+  for (int h = 0; h < 2 * c->f->n_edges; h++)
+    if (dual->potential[h] == INT64_MAX) dual->potential[h] = 0;
+  for (int j = c->first_end; j < c->first_back; j++) {
+    int h = c->half[j][0], k = c->end_group[thr_tail(c->f, h)];
+    if (-dual->potential[h] < dual->ends[k]) dual->ends[k] = -dual->potential[h];
+  }
+}
+
+static thr_status keep_halves(thr_branch *branch, thr_err *err)
+{
+  thr_turning_dual dual;
+  thr_status st = dual_init(branch->c, &dual, err);
+  if (!st) halve_cheapest(branch->c, &dual);
+  if (!st) return thr_branch_keep_dual(branch, 0, dual, NULL, NULL, err);
+  thr_turning_dual_destroy(&dual);
+  return st;
+}
+
+/* Few turns are matched in milliseconds, whatever the time. */
+static thr_limits limits_of(const thr_branch *branch)
+{
+  enum { FEW = 5000 };
+  thr_limits limits = *branch->limits;
+  if (branch->c->n_columns <= FEW) limits.deadline = 0;
+  return limits;
+}
+
+thr_status thr_branch_match(thr_branch *branch, thr_err *err)
+{
+  const thr_limits limits = limits_of(branch);
+  const thr_turning_columns *c = branch->c;
+  thr_pass_matching passes = {0};
+  thr_turning_dual dual = {0};
+  thr_err why = {0};
+  int *x = thr_calloc((size_t)c->n_columns, sizeof *x);
+  int64_t *price = thr_calloc((size_t)c->n_columns, sizeof *price);
+  thr_status st = x && price ? dual_init(c, &dual, err) : thr_nomem(err);
+  if (!st) st = thr_pass_matching_init(&passes, c, err);
+  if (!st) set_prices(c, price);
+  thr_status found = st ? st : thr_pass_matching_solve(&passes, price, &limits, x, &dual, &why);
+  if (!st && found && found != THR_ELIMIT) st = thr_fail(err, found, "%s", why.text);
+  if (!st)
+    st = thr_branch_keep_dual(branch, 0, dual, NULL, NULL, err);
+  else
+    thr_turning_dual_destroy(&dual);
+  if (!st && found) st = keep_halves(branch, err);
+  if (!st && !found) st = thr_branch_try_point(branch, x, err);
+  branch->matched = thr_branch_proved(branch);
+  thr_pass_matching_destroy(&passes);
+  free(price);
+  free(x);
+  return st;
+}

@@ -1,0 +1,480 @@
+/* Copies of passes as nodes, their perfect matching, and its moats as multipliers. */
+#include "tortuosity/proof/pass_matching.h"
+#include "graph/framework/frame.h"
+#include "graph/scratch.h"
+#include "tortuosity/proof/nearest.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+  SMALL_NODE = 8,   /* edges of a node all of whose turns are listed at once */
+  NEAREST = 6,      /* turns of every half-edge that are, at larger nodes */
+  FINEST = 2,       /* the matching's unit is 2^FINEST of the prices' at least */
+  MOST_ROUNDS = 30, /* matchings for the same prices */
+  STEP = 2,         /* copies of an edge that are opened at a time */
+  SPARE = 3         /* copies of an edge that have nodes, but are not open yet */
+};
+
+/* ---- the graph ---- */
+
+void thr_pass_matching_destroy(thr_pass_matching *passes)
+{
+  free(passes->open);
+  free(passes->copies);
+  free(passes->first);
+  free(passes->listed);
+  free(passes->edge);
+  free(passes->column);
+  free(passes->weight);
+  free(passes->dual);
+  free(passes->mate);
+  *passes = (thr_pass_matching){0};
+}
+
+int thr_pass_needed(const thr_pass_matching *passes, int place)
+{
+  int halves = 2 * passes->c->f->n_edges;
+  return place < halves ? passes->c->cover[place >> 1] : passes->c->supply[place - halves][0];
+}
+
+static int n_nodes(const thr_pass_matching *passes)
+{
+  return passes->first[passes->n_places];
+}
+
+/* first from copies and numbers of ends. */
+static void number_nodes(thr_pass_matching *passes)
+{
+  int halves = 2 * passes->c->f->n_edges;
+  for (int i = 0; i < passes->n_places; i++)
+    passes->first[i + 1] = passes->first[i] + (i < halves ? passes->copies[i >> 1] : passes->c->supply[i - halves][1]);
+}
+
+/* The cheapest turns of every half-edge, or all where there are few. */
+static thr_status list_turns(thr_pass_matching *passes, int v, thr_err *err)
+{
+  const thr_turning_columns *c = passes->c;
+  const int *half = c->f->half + c->f->first[v];
+  int d = thr_degree(c->f, v);
+  for (int i = 0; i < d * (d - 1) / 2 && d <= SMALL_NODE; i++)
+    passes->listed[c->pair_first[v] + i] = true;
+  if (d <= SMALL_NODE) return THR_OK;
+  thr_nearest nearest;
+  thr_status st = thr_nearest_find(c, v, NEAREST, &nearest, err);
+  for (int i = 0; i < d && !st; i++)
+    for (int k = 0; k < nearest.n; k++)
+      passes->listed[thr_turning_column(c, half[i], half[nearest.partner[i * nearest.n + k]])] = true;
+  if (!st) thr_nearest_destroy(&nearest);
+  return st;
+}
+
+/* Ends at nodes whose passes without extra ones are odd, where ends save one; and wherever they are counted. */
+static void list_ends(thr_pass_matching *passes)
+{
+  const thr_turning_columns *c = passes->c;
+  for (int j = c->first_end; j < c->first_back; j++) {
+    int v = thr_tail(c->f, c->half[j][0]), odd = 0;
+    for (int i = c->f->first[v]; i < c->f->first[v + 1]; i++)
+      odd ^= c->cover[c->f->half[i] >> 1] & 1;
+    passes->listed[j] = odd || c->task->end_count;
+  }
+}
+
+/* Nodes for the copies that are open, and for some more. */
+static void allot_copies(thr_pass_matching *passes)
+{
+  const thr_turning_columns *c = passes->c;
+  for (int e = 0; e < c->f->n_edges; e++)
+    passes->copies[e] = passes->open[e] + SPARE < c->most[e] ? passes->open[e] + SPARE : c->most[e];
+  number_nodes(passes);
+}
+
+/* One more than must be, or STEP where that is cheap. */
+static int first_copies(const thr_turning_columns *c, int e)
+{
+  const int *end = c->f->edge[e];
+  bool small = thr_degree(c->f, end[0]) <= SMALL_NODE && thr_degree(c->f, end[1]) <= SMALL_NODE;
+  int copies = c->cover[e] + (small ? STEP : 1);
+  return copies < c->most[e] ? copies : c->most[e];
+}
+
+thr_status thr_pass_matching_init(thr_pass_matching *passes, const thr_turning_columns *turning_columns, thr_err *err)
+{
+  size_t m = (size_t)turning_columns->f->n_edges;
+  *passes = (thr_pass_matching){.c = turning_columns, .n_places = 2 * (int)m + turning_columns->n_ends};
+  passes->open = thr_calloc(m, sizeof *passes->open);
+  passes->copies = thr_calloc(m, sizeof *passes->copies);
+  passes->first = thr_calloc((size_t)passes->n_places + 1, sizeof *passes->first);
+  passes->listed = thr_calloc((size_t)turning_columns->n_columns, sizeof *passes->listed);
+  thr_status st = passes->open && passes->copies && passes->first && passes->listed ? THR_OK : thr_nomem(err);
+  for (size_t e = 0; e < m && !st; e++)
+    passes->open[e] = first_copies(turning_columns, (int)e);
+  for (int v = 0; v < turning_columns->f->n_nodes && !st; v++)
+    st = list_turns(passes, v, err);
+  if (st) {
+    thr_pass_matching_destroy(passes);
+    return st;
+  }
+  list_ends(passes);
+  for (int j = turning_columns->first_extra; j < turning_columns->n_columns; j++)
+    passes->listed[j] |= j < turning_columns->first_end || j >= turning_columns->first_back;
+  allot_copies(passes);
+  return THR_OK;
+}
+
+static thr_status add_edge(thr_pass_matching *passes, int a, int b, int column, thr_err *err)
+{
+  int same = passes->room, room = same, again = same;
+  thr_status st = thr_grow(&passes->edge, passes->n_edges, &room, sizeof *passes->edge, err);
+  if (!st && room > same) st = thr_grow(&passes->column, passes->n_edges, &again, sizeof *passes->column, err);
+  again = same;
+  if (!st && room > same) st = thr_grow(&passes->weight, passes->n_edges, &again, sizeof *passes->weight, err);
+  if (st) return st;
+  passes->room = room;
+  passes->edge[passes->n_edges][0] = a;
+  passes->edge[passes->n_edges][1] = b;
+  passes->column[passes->n_edges++] = column;
+  return THR_OK;
+}
+
+/* The places of which a column takes a pass each. */
+static void places_of(const thr_pass_matching *passes, int j, int place[2])
+{
+  const thr_turning_columns *c = passes->c;
+  place[0] = c->half[j][0];
+  place[1] = c->half[j][1] >= 0 ? c->half[j][1] : 2 * c->f->n_edges + c->end_group[thr_tail(c->f, place[0])];
+}
+
+/* Passes of a place that may be matched with others so far. */
+static int open_nodes(const thr_pass_matching *passes, int place)
+{
+  return place < 2 * passes->c->f->n_edges ? passes->open[place >> 1] : passes->first[place + 1] - passes->first[place];
+}
+
+/* All pairs of open passes that a column stands for; of place `only` those from number `from` on (-1: all). */
+static thr_status add_column(thr_pass_matching *passes, int j, int only, int from, thr_err *err)
+{
+  int place[2];
+  places_of(passes, j, place);
+  bool back = place[0] == place[1];
+  thr_status st = THR_OK;
+  for (int k = place[0] == only && !back ? from : 0; k < open_nodes(passes, place[0]) && !st; k++)
+    for (int l = place[1] == only ? from : 0; l < open_nodes(passes, place[1]) && !st; l++)
+      if (!back || l > k) st = add_edge(passes, passes->first[place[0]] + k, passes->first[place[1]] + l, j, err);
+  return st;
+}
+
+/* Copies that need not be made, end to end. */
+static thr_status add_idle(thr_pass_matching *passes, int e, thr_err *err)
+{
+  thr_status st = THR_OK;
+  for (int k = passes->c->cover[e]; k < passes->copies[e] && !st; k++)
+    st = add_edge(passes, passes->first[2 * e] + k, passes->first[2 * e + 1] + k, passes->c->first_extra + e, err);
+  return st;
+}
+
+static thr_status build(thr_pass_matching *passes, thr_err *err)
+{
+  const thr_turning_columns *c = passes->c;
+  thr_status st = THR_OK;
+  passes->n_edges = 0;
+  for (int e = 0; e < c->f->n_edges && !st; e++)
+    st = add_idle(passes, e, err);
+  for (int j = 0; j < c->n_columns && !st; j++)
+    if (passes->listed[j] && !(j >= c->first_extra && j < c->first_end)) st = add_column(passes, j, -1, 0, err);
+  for (int k = 0; k < c->n_ends && !st; k++) {
+    int place = 2 * c->f->n_edges + k;
+    for (int a = passes->first[place] + c->supply[k][0]; a + 1 < passes->first[place + 1] && !st; a += 2)
+      st = add_edge(passes, a, a + 1, -1, err);
+  }
+  return st;
+}
+
+/* One more open copy of edge e, with all that it may be matched with. */
+static thr_status open_copy(thr_pass_matching *passes, int e, thr_err *err)
+{
+  const thr_turning_columns *c = passes->c;
+  int from = passes->open[e]++;
+  thr_status st = THR_OK;
+  for (int h = 2 * e; h < 2 * e + 2; h++) {
+    int v = thr_tail(c->f, h), end = c->end_column[h];
+    for (int i = c->f->first[v]; i < c->f->first[v + 1] && !st; i++) {
+      int j = c->f->half[i] == h ? -1 : thr_turning_column(c, h, c->f->half[i]);
+      if (j >= 0 && passes->listed[j]) st = add_column(passes, j, h, from, err);
+    }
+    if (!st && end >= 0 && passes->listed[end]) st = add_column(passes, end, h, from, err);
+    for (int j = c->first_back; j < c->n_columns && thr_degree(c->f, v) == 1 && !st; j++)
+      if (c->half[j][0] == h) st = add_column(passes, j, h, from, err);
+  }
+  return st;
+}
+
+/* ---- prices ---- */
+
+/* What a matched edge of a column costs: an extra pass costs when it is not matched end to end. */
+static int64_t price_of(const thr_turning_columns *c, const int64_t *price, int j)
+{
+  return j < 0 ? 0 : j >= c->first_extra && j < c->first_end ? -price[j] : price[j];
+}
+
+/* x / 2^bits, rounded down. */
+static int64_t shifted(int64_t x, int bits)
+{
+  return x >= 0 ? x >> bits : -((-x + ((INT64_C(1) << bits) - 1)) >> bits);
+}
+
+/* Weights of the edges from `from` on; false: lift leaves one negative. */
+static bool weigh(thr_pass_matching *passes, const int64_t *price, int from)
+{
+  bool fit = true;
+  for (int i = from; i < passes->n_edges; i++) {
+    passes->weight[i] = shifted(price_of(passes->c, price, passes->column[i]), passes->bits) + passes->lift;
+    fit &= passes->weight[i] >= 0;
+  }
+  return fit;
+}
+
+/* What all nodes pay together when each pays for its cheapest edge, which is about what duals grow to. scratch: [nodes]. */
+static double pay_cheapest(const thr_pass_matching *passes, const int64_t *price, int64_t least, int64_t *scratch)
+{
+  double sum = 0;
+  for (int v = 0; v < n_nodes(passes); v++)
+    scratch[v] = INT64_MAX;
+  for (int i = 0; i < passes->n_edges; i++)
+    for (int side = 0; side < 2; side++) {
+      int64_t p = price_of(passes->c, price, passes->column[i]) - least, *own = &scratch[passes->edge[i][side]];
+      if (p < *own) *own = p;
+    }
+  for (int v = 0; v < n_nodes(passes); v++)
+    sum += scratch[v] < INT64_MAX ? (double)scratch[v] : 0;
+  return sum;
+}
+
+/* Weights are prices / 2^bits + lift, which makes none negative; with bits that keep all duals together far below 2^60. */
+static void set_weights(thr_pass_matching *passes, const int64_t *price, int64_t *scratch)
+{
+  int64_t least = 0, most = 0;
+  for (int i = 0; i < passes->n_edges; i++) {
+    int64_t p = price_of(passes->c, price, passes->column[i]);
+    if (p < least) least = p;
+    if (p > most) most = p;
+  }
+  double sum = pay_cheapest(passes, price, least, scratch), range = (double)most - (double)least;
+  passes->bits = FINEST;
+  while (sum * exp2(-passes->bits) > 0x1p57 || range * exp2(-passes->bits) > 0x1p52)
+    passes->bits++;
+  passes->lift = -shifted(least, passes->bits);
+  weigh(passes, price, 0);
+}
+
+/* ---- where a matching begins ---- */
+
+/* Keeps duals, less the lift and in the prices' unit, and mates for the next matching. */
+static thr_status keep(thr_pass_matching *passes, const thr_matching *matching, thr_err *err)
+{
+  const int64_t most = (INT64_C(1) << 61) >> passes->bits;
+  int n = n_nodes(passes);
+  free(passes->dual);
+  free(passes->mate);
+  passes->dual = thr_calloc((size_t)n, sizeof *passes->dual);
+  passes->mate = thr_calloc((size_t)n, sizeof *passes->mate);
+  if (!passes->dual || !passes->mate) return thr_nomem(err);
+  for (int v = 0; v < n; v++) {
+    int64_t own = matching->dual[v] - passes->lift;
+    passes->dual[v] = (own > most ? most : own < -most ? -most : own) * (INT64_C(1) << (passes->bits - 1));
+    passes->mate[v] = matching->mate[v];
+  }
+  return THR_OK;
+}
+
+/* Moves duals and mates to nodes numbered anew after copies were added, which begin end to end with the dual of the copy before.
+ * before: [n_places + 1] first as it was; moved: [nodes] scratch. */
+static void move_nodes(const thr_pass_matching *passes, const int *before, int *moved, int64_t *dual, int *mate)
+{
+  for (int i = 0; i < passes->n_places; i++)
+    for (int k = 0; passes->first[i] + k < passes->first[i + 1]; k++) {
+      int had = before[i + 1] - before[i], to = passes->first[i] + k;
+      dual[to] = passes->dual[before[i] + (k < had ? k : had - 1)];
+      if (k < had)
+        moved[before[i] + k] = to;
+      else
+        mate[to] = passes->first[i ^ 1] + k;
+    }
+  for (int v = 0; v < before[passes->n_places]; v++)
+    mate[moved[v]] = moved[passes->mate[v]];
+}
+
+static thr_status renumber(thr_pass_matching *passes, thr_err *err)
+{
+  thr_scratch own = {0};
+  int *before = thr_scratch_array(&own, (size_t)passes->n_places + 1, sizeof *before),
+      *moved = thr_scratch_array(&own, (size_t)n_nodes(passes), sizeof *moved);
+  thr_status st = thr_scratch_check(&own, err);
+  if (!st) memcpy(before, passes->first, ((size_t)passes->n_places + 1) * sizeof *before);
+  if (!st) allot_copies(passes);
+  int64_t *dual = thr_calloc((size_t)n_nodes(passes), sizeof *dual);
+  int *mate = thr_calloc((size_t)n_nodes(passes), sizeof *mate);
+  if (!st && (!dual || !mate)) st = thr_nomem(err);
+  if (!st && passes->dual) {
+    move_nodes(passes, before, moved, dual, mate);
+    free(passes->dual);
+    free(passes->mate);
+    passes->dual = dual;
+    passes->mate = mate;
+    dual = NULL;
+    mate = NULL;
+  }
+  free(dual);
+  free(mate);
+  thr_scratch_free(&own);
+  return st;
+}
+
+/* ---- the matching ---- */
+
+/* From the duals and mates of the last one, in a graph built anew. */
+static thr_status match_anew(thr_pass_matching *passes, const int64_t *price, const thr_limits *limits, thr_matching *out,
+                             thr_err *err)
+{
+  int n = n_nodes(passes);
+  int64_t *dual = thr_calloc((size_t)n, sizeof *dual);
+  thr_status st = dual ? build(passes, err) : thr_nomem(err);
+  thr_matching_destroy(out);
+  if (!st) {
+    set_weights(passes, price, dual);
+    for (int v = 0; v < n && passes->dual; v++)
+      dual[v] = shifted(passes->dual[v], passes->bits - 1) + passes->lift;
+    const thr_matching_problem problem = {n, passes->n_edges, (const int(*)[2])passes->edge, passes->weight};
+    st = thr_matching_near(&problem, passes->dual ? dual : NULL, passes->mate, limits, out, err);
+  }
+  free(dual);
+  return st;
+}
+
+/* With the edges that were added to it since, from number `known` on; anew if there is no matching. */
+static thr_status match(thr_pass_matching *passes, const int64_t *price, int known, const thr_limits *limits, thr_matching *out,
+                        thr_err *err)
+{
+  passes->rounds++;
+  if (!out->state || !weigh(passes, price, known)) return match_anew(passes, price, limits, out, err);
+  const thr_matching_problem problem = {n_nodes(passes), passes->n_edges, (const int(*)[2])passes->edge, passes->weight};
+  return thr_matching_again(&problem, limits, out, err);
+}
+
+/* Lists turns and ends that cost less than the multipliers pay for them, some of every half-edge, and opens a copy of such extra
+ * passes; without a matching (dual NULL) all of them. *fit: whether there are nodes for all. */
+static thr_status price_out(thr_pass_matching *passes, const int64_t *price, const thr_turning_dual *dual, int first_odd,
+                            bool *more, bool *fit, thr_err *err)
+{
+  const thr_turning_columns *c = passes->c;
+  thr_scratch own = {0};
+  int *news = thr_scratch_array(&own, 2 * (size_t)c->f->n_edges, sizeof *news); /* turns and ends listed now at a half-edge */
+  int64_t *left = thr_scratch_array(&own, (size_t)c->n_columns, sizeof *left), few = dual ? -(INT64_C(4) << passes->bits) : 1;
+  thr_status st = thr_scratch_check(&own, err);
+  if (!st && dual) st = thr_pass_left(passes, price, dual, first_odd, false, left, err);
+  *more = false;
+  *fit = true;
+  for (int j = 0; j < c->n_columns && !st; j++) {
+    int a = c->half[j][0], b = c->half[j][1] >= 0 ? c->half[j][1] : a;
+    if (passes->listed[j] || left[j] >= few || (news[a] >= NEAREST && news[b] >= NEAREST)) continue;
+    *more = passes->listed[j] = true;
+    news[a]++;
+    news[b]++;
+    st = add_column(passes, j, -1, 0, err);
+  }
+  for (int e = 0; e < c->f->n_edges && !st && !(dual && *more); e++)
+    for (int k = 0; k < STEP && passes->open[e] < c->most[e] && left[c->first_extra + e] < few && !st; k++) {
+      *more = true;
+      if (passes->open[e] < passes->copies[e])
+        st = open_copy(passes, e, err);
+      else {
+        passes->open[e]++;
+        *fit = false;
+      }
+    }
+  thr_scratch_free(&own);
+  return st || *fit ? st : renumber(passes, err);
+}
+
+/* How often the matching takes every column. */
+static void count_columns(const thr_pass_matching *passes, const thr_matching *matching, int *x)
+{
+  const thr_turning_columns *c = passes->c;
+  memset(x, 0, (size_t)c->n_columns * sizeof *x);
+  for (int e = 0; e < c->f->n_edges; e++)
+    x[c->first_extra + e] = passes->copies[e] - c->cover[e];
+  for (int v = 0; v < n_nodes(passes); v++) {
+    int j = passes->column[matching->mate_edge[v]];
+    if (matching->mate[v] < v || j < 0) continue;
+    x[j] += j >= c->first_extra && j < c->first_end ? -1 : 1;
+  }
+}
+
+static void drop_odd(thr_turning_dual *dual, int from)
+{
+  while (dual->n_odd > from)
+    free(dual->odd[--dual->n_odd].member);
+}
+
+/* Where the matching is not to be made again: half-edges whose multipliers pay too much for a turn or an end pay less, which
+ * leaves extra passes a price that may be negative, and the bound lower. */
+static thr_status settle(const thr_pass_matching *passes, const int64_t *price, thr_turning_dual *dual, int first_odd,
+                         thr_err *err)
+{
+  const thr_turning_columns *c = passes->c;
+  thr_scratch own = {0};
+  int64_t *left = thr_scratch_array(&own, (size_t)c->n_columns, sizeof *left),
+          *less = thr_scratch_array(&own, 2 * (size_t)c->f->n_edges, sizeof *less);
+  thr_status st = thr_scratch_check(&own, err);
+  if (!st) st = thr_pass_left(passes, price, dual, first_odd, true, left, err);
+  for (int j = 0; j < c->first_back && !st; j++) {
+    int a = c->half[j][0], b = c->half[j][1];
+    int64_t over = -left[j] - less[a] - (b >= 0 ? less[b] : 0);
+    if (over > 0 && (j < c->first_extra || j >= c->first_end)) less[a] += over;
+  }
+  for (int h = 0; h < 2 * c->f->n_edges && !st; h++)
+    dual->potential[h] -= less[h];
+  thr_scratch_free(&own);
+  return st;
+}
+
+/* What a matching says, and what it lacks. */
+static thr_status take(thr_pass_matching *passes, const int64_t *price, const thr_matching *matching, int first_odd, int *x,
+                       thr_turning_dual *dual, bool *more, bool *fit, thr_err *err)
+{
+  drop_odd(dual, first_odd);
+  count_columns(passes, matching, x);
+  thr_status st = keep(passes, matching, err);
+  if (!st) st = thr_pass_dual(passes, matching, price, dual, err);
+  return st ? st : price_out(passes, price, dual, first_odd, more, fit, err);
+}
+
+thr_status thr_pass_matching_solve(thr_pass_matching *passes, const int64_t *price, const thr_limits *limits, int *x,
+                                   thr_turning_dual *dual, thr_err *err)
+{
+  int first_odd = dual->n_odd, known = 0, round = 0;
+  thr_matching matching = {0};
+  thr_status st = THR_OK;
+  for (bool more = true, fit = true; more && !st && round < MOST_ROUNDS; round++) {
+    thr_err why = {0};
+    st = match(passes, price, known, limits, &matching, &why);
+    known = passes->n_edges;
+    if (st == THR_EINFEASIBLE) {
+      st = price_out(passes, price, NULL, 0, &more, &fit, err);
+      if (!st && !more) st = thr_fail(err, THR_EINFEASIBLE, "%s", why.text);
+    } else if (st)
+      thr_fail(err, st, "%s", why.text);
+    else
+      st = take(passes, price, &matching, first_odd, x, dual, &more, &fit, err);
+    if (!fit) thr_matching_destroy(&matching);
+    if (!more && !st) break;
+  }
+  thr_matching_destroy(&matching);
+  if (round == MOST_ROUNDS || (st == THR_ELIMIT && round > 0)) {
+    thr_status settled = settle(passes, price, dual, first_odd, err);
+    if (settled) st = settled;
+  }
+  return st;
+}
