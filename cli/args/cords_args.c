@@ -107,9 +107,10 @@ int cords_args_check(const cords_args *a, const turning_args *turning, const thr
     return cli_usage("plan", "--capacity %d leaves no room for --cover %d", a->capacity, a->cover);
   bool mixed = thr_wants_turning(wanted) && (a->max_length > 0 || a->balance || a->least != a->most);
   if (mixed && turning->options.length_slack >= 0)
-    return cli_usage("plan", "--length-slack: not with --balance, --max-length or a range of --cords");
+    return cli_usage("plan",
+                     "--length-slack: not with --balance, --max-length or a range of --cords, whose least length is not proved");
   if (mixed && (turning->frontier || turning->compare))
-    return cli_usage("plan", "%s: not with --balance, --max-length or a range of --cords",
+    return cli_usage("plan", "%s: not with --balance, --max-length or a range of --cords, whose least length is not proved",
                      turning->frontier ? "--frontier" : "--compare-shortest");
   if (turning->options.tour == THR_TOUR_LEAST) return -1;
   if (a->most > 1) return cli_usage("plan", "--tour %s makes one cord in each component, not --cords %d", tour, a->most);
