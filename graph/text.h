@@ -16,6 +16,17 @@ void thr_text_printf(thr_text *text, const char *format, ...) THR_PRINTF(2, 3);
 void thr_text_append(thr_text *text, const char *s);
 void thr_text_append_bytes(thr_text *text, const char *s, size_t n);
 
+/* One byte, which most often there is room for. */
+static inline void thr_text_byte(thr_text *text, char byte)
+{
+  if (text->failed || text->length + 2 > text->capacity) {
+    thr_text_append_bytes(text, &byte, 1);
+    return;
+  }
+  text->data[text->length++] = byte;
+  text->data[text->length] = '\0';
+}
+
 /* Shortest decimal that reads back as the same double; "-0" is written as 0. Finite numbers only (graph/number.h). */
 void thr_text_double(thr_text *text, double value);
 

@@ -322,3 +322,13 @@ thr_frame shuffled_frame(rng *r, const thr_frame *f, int *to)
   free(length);
   return g;
 }
+
+void name_nodes(thr_frame *f, const char *const *name, int n)
+{
+  thr_text names = {0};
+  for (int v = 0; v < f->n_nodes; v++) {
+    const char *own = name[v % n] ? name[v % n] : f->name[v];
+    thr_text_append_bytes(&names, own, strlen(own) + 1);
+  }
+  ck_assert_int_eq(thr_frame_take_names(f, &names, NULL), THR_OK);
+}

@@ -35,4 +35,7 @@ thr_frame random_frame_few_odd(rng *r, int n, int extra, length_kind kind, int m
 /* The framework with nodes renamed at random, edges shuffled and turned round; node v becomes to[v]. */
 thr_frame shuffled_frame(rng *r, const thr_frame *f, int *to);
 
+/* Calls node v name[v % n]; NULL: as it is called already. */
+void name_nodes(thr_frame *f, const char *const *name, int n);
+
 #endif

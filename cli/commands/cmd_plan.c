@@ -421,7 +421,8 @@ static thr_status make_plan(const arguments *a, const thr_frame *framework, cons
   return st;
 }
 
-static int plan_frame(const arguments *a, const thr_frame *framework)
+/* Releases the framework, of which the plan has its own. */
+static int plan_frame(const arguments *a, thr_frame *framework)
 {
   thr_err err = {0};
   planned x = {0};
@@ -432,6 +433,8 @@ static int plan_frame(const arguments *a, const thr_frame *framework)
   if (code == EXIT_OK) {
     thr_status st = make_plan(a, framework, &options, &x, &err);
     if (guard_deadline() > 0) best_found(NULL, x.plan.cord, x.plan.n_cords, x.plan.symmetry.present ? &x.plan.symmetry : NULL);
+    best_begin(NULL, NULL);
+    thr_frame_destroy(framework);
     if (st == THR_OK || (st == THR_ELIMIT && x.plan.n_cords > 0)) code = write_outputs(a, &x, st ? EXIT_LIMIT : EXIT_OK);
     if (code == EXIT_OK && st) code = cli_fail(&err);
   }
@@ -439,6 +442,7 @@ static int plan_frame(const arguments *a, const thr_frame *framework)
   free(options.end_count);
   thr_plan_destroy(&x.plan);
   thr_report_destroy(&x.report);
+  thr_frame_destroy(framework);
   return code;
 }
 
@@ -467,7 +471,5 @@ int cmd_plan(int argc, char **argv)
   if (code >= 0) return code;
   if (guard_fork(&a.guard, &end)) return conclude(&a, &end);
   if ((code = cli_read_frame(a.path, &a.frame, &framework))) return code;
-  code = plan_frame(&a, &framework);
-  thr_frame_destroy(&framework);
-  return code;
+  return plan_frame(&a, &framework);
 }

@@ -1,5 +1,6 @@
 /* Components of a framework, and plans of them put together again. */
 #include "graph/framework/components.h"
+#include "graph/text.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -84,15 +85,16 @@ static thr_status allocate(const thr_components *components, thr_frame *frame, t
 
 static thr_status copy_nodes(const thr_components *components, int k, thr_frame *frame, thr_request *options, thr_err *err)
 {
+  thr_text names = {0};
   for (int i = 0; i < frame->n_nodes; i++) {
     int v = components->node[components->first_node[k] + i];
     memcpy(frame->xyz[i], components->f->xyz[v], sizeof frame->xyz[i]);
     frame->foot[i] = components->f->foot[v];
     if (options->end_node) options->end_node[i] = components->o->end_node[v];
     if (options->end_count) options->end_count[i] = components->o->end_count[v];
-    if (!(frame->name[i] = thr_strdup(components->f->name[v]))) return thr_nomem(err);
+    thr_text_append_bytes(&names, components->f->name[v], strlen(components->f->name[v]) + 1);
   }
-  return THR_OK;
+  return thr_frame_take_names(frame, &names, err);
 }
 
 static void copy_edges(const thr_components *components, int k, thr_frame *frame)

@@ -1,6 +1,5 @@
 /* The framework: drafts as readers collect them, welding, adjacency, hash. */
 #include "graph/framework/frame.h"
-#include "graph/number.h"
 #include "graph/disjoint.h"
 #include "graph/framework/units.h"
 #include "graph/sort.h"
@@ -219,25 +218,43 @@ void thr_frame_index(thr_frame *frame)
   frame->first[0] = 0;
 }
 
-/* What a node without a name is called; NULL when memory runs out. */
-static char *index_name(int v)
+thr_status thr_frame_take_names(thr_frame *frame, thr_text *names, thr_err *err)
 {
-  char digits[THR_INT_TEXT + 1] = "";
-  thr_int_print(v, digits);
-  return thr_strdup(digits);
+  if (names->failed) {
+    thr_text_destroy(names);
+    return thr_nomem(err);
+  }
+  free(frame->names);
+  frame->names = names->data;
+  *names = (thr_text){0};
+  char *at = frame->names;
+  for (int v = 0; v < frame->n_nodes; v++, at += strlen(at) + 1)
+    frame->name[v] = at;
+  return THR_OK;
+}
+
+/* What a node is called, its index where the draft has no name for it, and a NUL. */
+static void append_name(thr_text *names, const thr_draft *draft, int v)
+{
+  if (draft->node[v].name)
+    thr_text_append(names, draft->node[v].name);
+  else
+    thr_text_int(names, v);
+  thr_text_append_bytes(names, "", 1);
 }
 
 static thr_status fill_nodes(thr_frame *frame, const thr_draft *draft, const int *parent, const int *index, thr_err *err)
 {
+  thr_text names = {0};
   for (int v = 0; v < draft->n_nodes; v++) {
     int i = index[parent[v]];
     if (i < 0) continue;
     if (draft->node[v].foot) frame->foot[i] = true;
     if (parent[v] != v) continue;
     memcpy(frame->xyz[i], draft->node[v].xyz, sizeof frame->xyz[i]);
-    if (!(frame->name[i] = draft->node[v].name ? thr_strdup(draft->node[v].name) : index_name(v))) return thr_nomem(err);
+    append_name(&names, draft, v);
   }
-  return THR_OK;
+  return thr_frame_take_names(frame, &names, err);
 }
 
 typedef struct {
@@ -378,9 +395,8 @@ done:
 
 void thr_frame_destroy(thr_frame *frame)
 {
-  for (int v = 0; frame->name && v < frame->n_nodes; v++)
-    free(frame->name[v]);
   free(frame->name);
+  free(frame->names);
   free(frame->xyz);
   free(frame->cover);
   free(frame->capacity);
@@ -409,11 +425,10 @@ thr_status thr_frame_copy(thr_frame *to, const thr_frame *from, thr_err *err)
   memcpy(frame.half, from->half, 2 * m * sizeof *frame.half);
   memcpy(frame.units, from->units, sizeof frame.units);
   frame.own_lengths = from->own_lengths;
+  thr_text names = {0};
   for (size_t v = 0; v < n; v++)
-    if (!(frame.name[v] = thr_strdup(from->name[v]))) {
-      st = thr_nomem(err);
-      goto done;
-    }
+    thr_text_append_bytes(&names, from->name[v], strlen(from->name[v]) + 1);
+  st = thr_frame_take_names(&frame, &names, err);
 done:
   if (st) thr_frame_destroy(&frame);
   *to = frame;

@@ -15,7 +15,8 @@ typedef struct {
   int *cover;       /* [n_edges] passes that the edge needs at least, >= 1; NULL = 1 each */
   int *capacity;    /* [n_edges] passes that fit through the edge, 0 = no limit; NULL = no limits */
   bool *foot;       /* [n_nodes] may a cord end come out here (--ends feet)? */
-  char **name;      /* [n_nodes] what the file calls the node: an OBJ vertex number, a COMPAS key, .. */
+  char **name;      /* [n_nodes] what the file calls the node: an OBJ vertex number, a COMPAS key, ..; in names */
+  char *names;      /* all names, each with its NUL */
   char units[16];   /* short name of the unit (thr_units_name): "mm" unless the file or the user says otherwise */
   bool own_lengths; /* lengths were given, not Euclidean */
   int *first;       /* [n_nodes + 1] half-edges leaving v: half[first[v] .. first[v + 1] - 1], by ascending edge */
@@ -88,6 +89,9 @@ thr_status thr_draft_build(const thr_draft *draft, double tolerance, thr_frame *
 
 void thr_frame_destroy(thr_frame *frame);
 thr_status thr_frame_copy(thr_frame *to, const thr_frame *from, thr_err *err) THR_MUST_CHECK;
+
+/* Takes over the names of all nodes, one after the other and each with its NUL, instead of those that there are. O(bytes). */
+thr_status thr_frame_take_names(thr_frame *frame, thr_text *names, thr_err *err) THR_MUST_CHECK;
 
 /* Fills first and half, which are allocated and zero, from the edges. O(n + m). */
 void thr_frame_index(thr_frame *frame);

@@ -115,6 +115,7 @@ thr_status thr_frame_read(thr_frame *frame, thr_read_report *report, const char 
   else
     st = format->parse(&draft, report, text.data, text.length, name, err);
   if (st) goto done;
+  thr_text_destroy(&text);
   if (options->units) st = thr_draft_set_units(&draft, options->units, &build);
   if (!st) st = thr_draft_build(&draft, options->weld, frame, report, &build);
   if (st) thr_fail(err, st, "%s: %s", name, build.text);

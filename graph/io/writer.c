@@ -7,9 +7,9 @@
 
 static void break_line(thr_writer *writer)
 {
-  thr_text_append(writer->out, "\n");
+  thr_text_byte(writer->out, '\n');
   for (; writer->line > 1; writer->line--)
-    thr_text_append(writer->out, " ");
+    thr_text_byte(writer->out, ' ');
   writer->line = 0;
 }
 
@@ -17,7 +17,8 @@ static void break_line(thr_writer *writer)
 static void begin(thr_writer *writer, const char *key)
 {
   const bool tight = writer->compact || (writer->tight & 1);
-  if (writer->some) thr_text_append(writer->out, tight || writer->line ? "," : ", ");
+  if (writer->some) thr_text_byte(writer->out, ',');
+  if (writer->some && !tight && !writer->line) thr_text_byte(writer->out, ' ');
   if (writer->line) break_line(writer);
   writer->some = true;
   if (!key) return;
@@ -28,7 +29,7 @@ static void begin(thr_writer *writer, const char *key)
 static void enter(thr_writer *writer, const char *key, bool array, bool tight)
 {
   begin(writer, key);
-  thr_text_append(writer->out, array ? "[" : "{");
+  thr_text_byte(writer->out, array ? '[' : '{');
   writer->array = writer->array << 1 | array;
   writer->tight = writer->tight << 1 | tight;
   writer->some = false;
@@ -52,7 +53,7 @@ void thr_write_row(thr_writer *writer, const char *key)
 void thr_write_close(thr_writer *writer)
 {
   if (writer->line) break_line(writer);
-  thr_text_append(writer->out, writer->array & 1 ? "]" : "}");
+  thr_text_byte(writer->out, writer->array & 1 ? ']' : '}');
   writer->array >>= 1;
   writer->tight >>= 1;
   writer->some = true;

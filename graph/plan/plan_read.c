@@ -334,27 +334,31 @@ static thr_status read_document(thr_field_reader *field_reader, const thr_json *
   return thr_plan_read_proofs(field_reader, doc, plan);
 }
 
-thr_status thr_plan_parse(thr_plan *p, const char *text, size_t n, const char *name, thr_err *err)
+/* Takes over the document, and says of it whether it is a plan. */
+static thr_status take_document(thr_json *doc, const char *name, thr_plan *plan, thr_err *err)
 {
-  thr_plan plan = {0};
-  thr_json *doc;
-  *p = plan;
-  thr_status st = thr_json_parse(&doc, text, n, name, err);
-  if (st) return st;
-  st = read_document(&(thr_field_reader){name, THR_EINPUT, err}, doc, &plan);
+  thr_status st = read_document(&(thr_field_reader){name, THR_EINPUT, err}, doc, plan);
   thr_json_destroy(doc);
-  if (st) thr_plan_destroy(&plan);
-  *p = plan;
+  if (st) thr_plan_destroy(plan);
   return st;
+}
+
+thr_status thr_plan_parse(thr_plan *plan, const char *text, size_t n, const char *name, thr_err *err)
+{
+  thr_json *doc;
+  *plan = (thr_plan){0};
+  thr_status st = thr_json_parse(&doc, text, n, name, err);
+  return st ? st : take_document(doc, name, plan, err);
 }
 
 thr_status thr_plan_read(thr_plan *plan, const char *path, thr_err *err)
 {
+  const char *name = strcmp(path, "-") == 0 ? "stdin" : path;
   thr_text text = {0};
+  thr_json *doc = NULL;
   *plan = (thr_plan){0};
   thr_status st = thr_text_read(&text, path, err);
-  if (st) return st;
-  st = thr_plan_parse(plan, text.data, text.length, strcmp(path, "-") == 0 ? "stdin" : path, err);
+  if (!st) st = thr_json_parse(&doc, text.data, text.length, name, err);
   thr_text_destroy(&text);
-  return st;
+  return st ? st : take_document(doc, name, plan, err);
 }

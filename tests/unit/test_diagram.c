@@ -498,10 +498,7 @@ START_TEST(hostile_names_stay_text)
   thr_plan p = shape_plan(THR_MAKE_HONEYCOMB, 1, 0, THR_ENDS_CLOSED, 1);
   const char *bad[] = {"</text><script>", "\"'&amp;", "\xff\xfe\xc3", "\x01\x1b[31m",
                        "\xed\xa0\x80",    "",         "\xef\xbf\xbf", "B\xc3\xa4r"};
-  for (int v = 0; v < p.frame.n_nodes; v++) {
-    free(p.frame.name[v]);
-    p.frame.name[v] = thr_strdup(bad[v % 8]);
-  }
+  name_nodes(&p.frame, bad, 8);
   snprintf(p.frame.units, sizeof p.frame.units, "<&>");
   snprintf(p.cord[0].id, sizeof p.cord[0].id, "bead\"<");
   thr_text svg = {0};

@@ -85,8 +85,7 @@ START_TEST(everything_survives_json)
 {
   rng r = rng_make((uint64_t)_i);
   thr_frame f = random_frame(&r, 8, 6, (length_kind)(_i % LENGTH_KINDS));
-  free(f.name[3]);
-  f.name[3] = thr_strdup("K\"no\\ten \xc3\xa4");
+  name_nodes(&f, (const char *const[]){NULL, NULL, NULL, "K\"no\\ten \xc3\xa4", NULL, NULL, NULL, NULL}, 8);
   memcpy(f.units, "in", 3);
   thr_request o = options_for(THR_ENDS_NODES, 3);
   bool end_node[8] = {false, true, true, false, false, false, true, false};

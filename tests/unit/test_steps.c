@@ -433,11 +433,7 @@ START_TEST(names_stay_single_words)
   static const char *const name[] = {"(0, 1)", "x", "x", "a name of more than forty bytes is cut so that it fits",
                                      "\xC3\xA4 \xC3\xB6"};
   thr_frame f = ring_make(5);
-  for (int v = 0; v < 5; v++) {
-    free(f.name[v]);
-    f.name[v] = thr_strdup(name[v]);
-    ck_assert_ptr_nonnull(f.name[v]);
-  }
+  name_nodes(&f, name, 5);
   thr_plan p = plan_simple(&f, THR_ENDS_CLOSED, 1);
   thr_text t = steps_of(&p, NULL);
   static const char *const label[] = {"(0,_1)", " x#1", " x#2", " a_name_of_more_than_forty_bytes_is_cut_s",

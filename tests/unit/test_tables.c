@@ -392,10 +392,10 @@ START_TEST(names_are_no_formulas)
                                         {"a=1", "a=1"},    {"-0x10", "'-0x10"}, {"=\"a\",b", "'=\"a\",b"}, {"-inf", "'-inf"}};
   enum { N = sizeof name / sizeof *name };
   thr_frame f = path_make(N);
-  for (int v = 0; v < N; v++) {
-    free(f.name[v]);
-    f.name[v] = thr_strdup(name[v][0]);
-  }
+  const char *first[N];
+  for (int v = 0; v < N; v++)
+    first[v] = name[v][0];
+  name_nodes(&f, first, N);
   thr_plan p = plan_simple(&f, THR_ENDS_ANY, 1);
   csv c = table_of(&p, STEPS, NULL), b = table_of(&p, BEADS, NULL);
   for (int row = 1; row < c.n_rows; row++) {
@@ -495,10 +495,7 @@ START_TEST(names_are_quoted)
   thr_frame f = ring_make(5);
   static const char *const name[] = {"a,b", "say \"x\"", "plain", "\"", "line\nbreak"};
   static const char *const label[] = {"a,b", "say_\"x\"", "plain", "\"", "line_break"};
-  for (int v = 0; v < 5; v++) {
-    free(f.name[v]);
-    f.name[v] = thr_strdup(name[v]);
-  }
+  name_nodes(&f, name, 5);
   thr_plan p = plan_simple(&f, THR_ENDS_CLOSED, 1);
   csv c = table_of(&p, STEPS, NULL);
   ck_assert_int_eq(c.n_rows, 6);

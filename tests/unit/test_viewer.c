@@ -213,12 +213,7 @@ START_TEST(names_cannot_end_the_script)
   static const double xyz[][3] = {{0, 0, 0}, {1, 0.2, 0}, {1.7, 1, 0.5}, {0, 1, 1.1}};
   static const int edge[][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}}, feet[] = {0, -1};
   thr_frame f = frame_make(4, xyz, 4, edge, NULL, feet);
-  for (int v = 0; v < 4; v++) {
-    free(f.name[v]);
-    f.name[v] = thr_calloc(strlen(bad[v]) + 1, 1);
-    ck_assert_ptr_nonnull(f.name[v]);
-    strcpy(f.name[v], bad[v]);
-  }
+  name_nodes(&f, bad, 4);
   thr_plan p = plan_simple(&f, THR_ENDS_CLOSED, 1);
   thr_text page = page_of(&p, NULL);
   thr_json *doc = plan_in(&page);
