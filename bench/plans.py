@@ -61,6 +61,8 @@ def value_of(plan, case):
     elif case[0] == 3:
         of = plan.get("symmetry", {})
         value = [metrics["overlap"], of.get("steps", 0), of.get("unique_paths", 0)]
+    if CORDS[case[3]].endswith("--balance") and case[0] in (1, 2):  # the longest cord comes first
+        value.insert(0, proof.get("cords", {}).get("longest", {}).get("length", 0))
     return value, part.get("lower_bound"), part.get("status", "none")
 
 
