@@ -22,10 +22,11 @@ DEMO = plan data/dome7.json --objective length -o $(DEMO_OUT)/plan.json --draw $
 # Debian 12 packages
 BUILD_PACKAGES := build-essential pkg-config libglpk-dev libigraph-dev libnauty2-dev libbullet-dev \
 	libsuitesparse-dev librsvg2-dev libcairo2-dev fonts-dejavu-core
-TEST_PACKAGES := check clang clang-format libclang-rt-14-dev librsvg2-bin libxml2-utils poppler-utils python3
+TEST_PACKAGES := check clang clang-format libclang-rt-14-dev librsvg2-bin libxml2-utils poppler-utils python3 time
 # npm from elsewhere than Debian serves as well
 VIEWER_PACKAGES = chromium $(if $(shell command -v npm),,nodejs npm)
 LINT_PACKAGES := clang-format clang-tidy cppcheck
+BENCH_PACKAGES := liblemon-dev libboost-graph-dev python3 time
 COVERAGE_PACKAGES := check gcovr
 
 ifeq ($(origin CC),default)
@@ -163,9 +164,10 @@ viewer: ## rebuild diagram/export/viewer_page.html from viewer/ (needs npm)
 	@viewer/build.sh $(OUT)/viewer > $(OUT)/viewer_page.html
 	@mv $(OUT)/viewer_page.html diagram/export/viewer_page.html
 
-bench: ## run bench/*.sh with the release build
+bench: ## times of everything, beside other codes (half an hour), write docs/benchmarks.md (BENCH="--only turning": a part)
+	+@tools/install-packages.sh $(BUILD_PACKAGES) $(BENCH_PACKAGES)
 	+@$(MAKE) --no-print-directory $(JOBS) BUILD=release all
-	@for b in bench/*.sh; do THREAD="$(OUT)/release/thread" "$$b" || exit; done
+	@bench/run.py $(OUT)/release/thread $(or $(BENCH),--output docs/benchmarks.md)
 
 validate: ## measure the pull force against theory (a few minutes), write docs/validation.md
 	+@tools/install-packages.sh $(BUILD_PACKAGES)
@@ -223,7 +225,7 @@ suite-built:
 GOLDEN_JOBS := $(patsubst tests/%,run/$(BUILD)/%,$(wildcard tests/golden/*.case))
 $(TEST_PROGRAMS:$(DIR)/tests/%=run/$(BUILD)/%): run/$(BUILD)/%: $(DIR)/tests/%
 $(FUZZ_PROGRAMS:$(DIR)/tests/%=run/%): run/%: $(DIR)/tests/%
-$(GOLDEN_JOBS) run/second/plans run/viewer/browser: $(PROGRAM)
+$(GOLDEN_JOBS) run/second/plans run/viewer/browser run/bench/smallest: $(PROGRAM)
 run/$(BUILD)/memory: $(PROGRAM) $(DIR)/tests/memory/fail_malloc.so
 run/$(BUILD)/watchdog: $(PROGRAM) $(WATCHDOG)
 run/%: FORCE

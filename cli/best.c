@@ -84,6 +84,9 @@ static void keep_better(thr_plan *plan, double now)
   if (!is_wanted(plan)) return;
   thr_plan_write(plan, &text);
   guard_keep(&text);
+  if (cli_verbose)
+    cli_note("plan: length %.10g, turning %.10g rad, %.3f CPU s", plan->metrics.length, plan->metrics.turning,
+             cli_processor_seconds());
   thr_text_destroy(&text);
   best.value = value_of(plan);
   best.at = now;

@@ -12,7 +12,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 bool cli_quiet, cli_verbose;
@@ -415,13 +417,30 @@ static void show_advance(void *user, const char *what, double done)
   fflush(stderr);
 }
 
+static double seconds_of(struct timeval time)
+{
+  return (double)time.tv_sec + 1e-6 * (double)time.tv_usec;
+}
+
+double cli_processor_seconds(void)
+{
+  double sum = 0;
+  const int whose[] = {RUSAGE_SELF, RUSAGE_CHILDREN};
+  for (int i = 0; i < 2; i++) {
+    struct rusage used;
+    if (getrusage(whose[i], &used) == 0) sum += seconds_of(used.ru_utime) + seconds_of(used.ru_stime);
+  }
+  return sum;
+}
+
 static void log_progress(void *user, const char *what, double best, double bound)
 {
   (void)user;
   if (is_turning(what)) /* in rad, or as --turn-cost prices them */
-    cli_note("turning: price of all turns %.9g, at least %.9g, gap %.3g %%", best, fmax(bound, 0), progress_gap(best, bound));
+    cli_note("turning: price of all turns %.9g, at least %.9g, gap %.3g %%, %.3f CPU s", best, fmax(bound, 0),
+             progress_gap(best, bound), cli_processor_seconds());
   else
-    cli_note("%s: best join %.0f, bound %.1f (integer weights)", what, best, bound);
+    cli_note("%s: best join %.0f, bound %.1f (integer weights), %.3f CPU s", what, best, bound, cli_processor_seconds());
 }
 
 void cli_heed_signals(void)

@@ -72,6 +72,7 @@ run() { # NAME LOG: runs the job; its exit code, 77 = skipped
   release/* | asan/*) timeout 3600 "$OUT/$build/tests/$rest" </dev/null ;;
   second/plans) timeout 1800 tests/second/compare.py "$OUT/release/thread" ;;
   viewer/page) viewer_page ;;
+  bench/smallest) bench/run.py "$OUT/release/thread" --smallest ;;
   viewer/browser) tests/viewer/run.sh "$OUT/release/thread" "$OUT/viewer-test" ;;
   fuzz/*) fuzz "$name" "$log" ;;
   esac >>"$log" 2>&1
@@ -114,7 +115,7 @@ fi
 
 tier=${1:-test}
 export SHARE_RELEASE=1 SHARE_ASAN=10 MEMORY_SAMPLES=40 FUZZ_RUNS=100000
-builds='release asan' tree='layers layers-self-test format' programs='second/plans viewer/page viewer/browser' whole='' fuzz=yes
+builds='release asan' tree='layers layers-self-test format bench/smallest' programs='second/plans viewer/page viewer/browser' whole='' fuzz=yes
 case $tier in
 test) whole='release/watchdog release/memory' MEMORY_SAMPLES=4 ;;
 fast) builds=release SHARE_RELEASE=10 programs='' fuzz='' ;;
