@@ -204,11 +204,16 @@ def data(*names):
 # ---- cells ----
 
 def figure(x, digits=2):
-    return "-" if x is None else "%.*f" % (0 if x >= 100 else digits - 1 if x >= 10 else digits, x)
+    return "-" if x is None else "%.2g" % x if 0 < x < 0.1 else "%.*f" % (0 if x >= 100 else digits - 1 if x >= 10 else digits, x)
 
 
 def ratio(a, b):
     return figure(a / b if a is not None and b and b > 2e-5 else None)
+
+
+def end_ratio(run, proved):
+    """End of the process over the proof, where starting it is not most of that."""
+    return ratio(run.seconds, proved if proved and proved >= 0.02 else None)
 
 
 def seconds(x):
@@ -301,7 +306,7 @@ shortest cord beside the proven bound.""" % b.limit
             Run(b.plan(path, "--objective", *options, "--time-limit", b.limit), b.folder)
             with open(b.path("plan.json"), encoding="utf-8") as f:
                 rivals.append(json.load(f)["metrics"]["turning"])
-        table.row(name, edges, seconds(first), seconds(proved), grows(edges, proved, goes_on), ratio(run.seconds, proved),
+        table.row(name, edges, seconds(first), seconds(proved), grows(edges, proved, goes_on), end_ratio(run, proved),
                   "0" if proved is not None else figure(100 * (1 - bound / price)) if bound and price else "-", figure(run.megabytes),
                   *(ratio(r, bound) for r in rivals))
     table.end()
@@ -322,7 +327,7 @@ the first plan and to the proof, and the end of the process beside the proof."""
         found = json.loads(one.out)
         table.row(name, edges, "%.4g" % found["order"], len(found["groups"]), seconds(one.seconds) + ("" if one.code == 0 else "*"),
                   figure(one.megabytes), ratio(two.seconds, one.seconds), ratio(one.wall, two.wall), seconds(first), seconds(proved),
-                  ratio(run.seconds, proved))
+                  end_ratio(run, proved))
     table.end()
 
 
@@ -330,7 +335,7 @@ def pull(b):
     text = """`thread eval` of the shortest cord: simulated joints with an empty cache and a full one, and the limit analysis of the
 structure, each beside the closed form."""
     table = Table(b, "Pull", text, "framework", "edges", "closed form s", "joints, cold / closed form", "warm / closed form",
-                  "limit analysis / closed form", "growth")
+                  "limit analysis s", "/ closed form", "growth")
     grows = Growth()
     for name, path, edges, goes_on in b.lines(["grid"], (84, 364, 760), data("fandisk")):
         Run(b.plan(path), b.folder)
@@ -339,7 +344,7 @@ structure, each beside the closed form."""
         warm = None if b.smallest else b.least([*evaluate, "--method", "joint", "--cache", cache])[0].seconds
         closed, limit = b.least(evaluate, [*evaluate, "--method", "structure", "--no-dynamics"])
         table.row(name, edges, seconds(closed.seconds), ratio(cold, closed.seconds), ratio(warm, closed.seconds),
-                  ratio(limit.seconds, closed.seconds), grows(edges, limit.seconds, goes_on))
+                  seconds(limit.seconds), ratio(limit.seconds, closed.seconds), grows(edges, limit.seconds, goes_on))
     table.end()
 
 
