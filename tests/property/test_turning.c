@@ -579,6 +579,29 @@ START_TEST(two_pieces_have_a_cord_each)
 }
 END_TEST
 
+/* Without a linear programme prices of partitions raise the matching's bound: three rings of 1080 degrees become one cord. Of any
+ * framework the bound is one. */
+START_TEST(prices_prove_without_a_programme)
+{
+  rng r = rng_make((uint64_t)_i + 1);
+  thr_frame f = _i ? random_frame(&r, rng_between(&r, 4, 9), rng_between(&r, 4, 12), LENGTHS_EUCLID) : solid_make(OCTAHEDRON);
+  thr_least_options o = thr_least_options_default();
+  thr_limits limits = {0};
+  thr_err err = {0};
+  if (_i % 4 == 3) o.ends = THR_ENDS_ANY;
+  thr_least l, full = solve(&f, &o, true);
+  o.most_nodes = 0;
+  thr_status st = thr_least_turning(&f, &o, &limits, &l, &err);
+  ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", err.text);
+  ck_assert_double_le(l.bound, full.price + 1e-6);
+  ck_assert_double_ge(l.price, full.price - 1e-6);
+  if (_i == 0) ck_assert_double_gt(l.bound, 1150 * THR_PI / 180);
+  thr_least_destroy(&l);
+  thr_least_destroy(&full);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* Some thousand edges get a bound before anything is solved; without time it is all there is. */
 START_TEST(large_frames_have_a_bound_without_time)
 {
@@ -833,6 +856,7 @@ int main(void)
   ADD_EXAMPLES(s, 20, cords_stay_whole_while_evened_out, 10);
   ADD_EXAMPLES(s, 60, running_out_of_memory_leaves_nothing, 2);
   ADD_TEST(s, 20, requests_without_a_plan_are_refused);
+  ADD_EXAMPLES(s, 20, prices_prove_without_a_programme, 40);
   ADD_LOOP(s, 20, large_frames_have_a_bound_without_time, 0, 2);
   ADD_TEST(s, 20, two_pieces_have_a_cord_each);
   ADD_LOOP(s, 20, false_json_is_refused, 0, (int)(sizeof false_json / sizeof *false_json));

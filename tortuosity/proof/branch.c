@@ -6,6 +6,7 @@
 #include "lp/tjoin/oddcut.h"
 #include "tortuosity/proof/ascent.h"
 #include "tortuosity/proof/column_groups.h"
+#include "tortuosity/proof/connect.h"
 #include "tortuosity/proof/cycles.h"
 #include "tortuosity/proof/partition.h"
 #include "tortuosity/proof/project.h"
@@ -59,6 +60,7 @@ void thr_branch_destroy(thr_branch *branch)
   free(branch->weight);
   free(branch->end_weight);
   if (branch->found) thr_join_destroy(&branch->best);
+  if (branch->other.found) thr_join_destroy(&branch->other.join);
   if (branch->relax.c) thr_relax_destroy(&branch->relax);
   *branch = (thr_branch){0};
 }
@@ -256,6 +258,22 @@ static thr_status set_bounds(void *user, int column, int low, int high, thr_err 
   return thr_relax_set(&branch->relax, column, low, high, err);
 }
 
+/* Plans near the best one, near the other one, and of random prices. */
+static thr_status improve_plans(thr_branch *branch, thr_err *err)
+{
+  const int tries = (int)fmin(2000, 1e6 / branch->c->f->n_edges), root = 0;
+  bool single = !branch->c->task->end_allowed && branch->c->task->cords == 1;
+  thr_status st = thr_cycles_improve(branch, tries, err);
+  if (!st && branch->other.found && !closed(branch, root) && !thr_limits_stop(branch->limits)) {
+    thr_branch_swap(branch, &branch->other);
+    st = thr_cycles_improve(branch, tries, err);
+    if (branch->other.price < branch->best_price) thr_branch_swap(branch, &branch->other);
+  }
+  if (!st && single && branch->c->n_columns < THR_CONNECT_SMALL && !closed(branch, root))
+    st = thr_connect_plans(branch, branch->limits, err);
+  return st;
+}
+
 /* A node's bound and plans; then the column to branch on. */
 static thr_status solve(void *user, int i, thr_tree_branch *branch, thr_err *err)
 {
@@ -265,8 +283,7 @@ static thr_status solve(void *user, int i, thr_tree_branch *branch, thr_err *err
   thr_status st = tied_root ? solve_tied_root(b, i, err) : solve_node(b, i, b->limits, err);
   if (st) return st;
   report(b);
-  if (root && b->found && !turning_task->tube && !b->tree.stopped && !closed(b, i))
-    st = thr_cycles_improve(b, (int)fmin(2000, 1e6 / b->c->f->n_edges), err);
+  if (root && b->found && !turning_task->tube && !b->tree.stopped && !closed(b, i)) st = improve_plans(b, err);
   b->tree.enough = enough(b);
   branch->column = most_fractional(b);
   if (branch->column >= 0) branch->value = (int)floor(b->relax.x[branch->column]);

@@ -15,6 +15,15 @@
 #include "tortuosity/cords/join.h"
 #include "tortuosity/proof/relax.h"
 
+/* A plan that is put aside. */
+typedef struct {
+  bool found;
+  thr_join join; /* if found */
+  int64_t price;
+  int passes;
+  double length;
+} thr_branch_plan;
+
 typedef struct {
   const thr_turning_columns *c;
   const thr_limits *limits;
@@ -31,6 +40,7 @@ typedef struct {
   int64_t best_price; /* in units of 2^-THR_TURNING_BITS, with the price of the extra cord; INT64_MAX = none */
   int best_passes;
   double best_length;         /* of the extra passes */
+  thr_branch_plan other;      /* no better, but found in another way */
   uint64_t tried;             /* name of the rounding tried last */
   int *passes, *ends, *whole; /* scratch */
   double *weight, *end_weight;
@@ -54,6 +64,10 @@ thr_status thr_branch_try_circuits(thr_branch *branch, thr_join *j, const int *p
  */
 thr_status thr_branch_try_point(thr_branch *branch, const int *x, thr_err *err) THR_MUST_CHECK;
 
+/* The same, but circuits that are apart are joined by the cheapest exchanges, and improved by others if that is
+ * asked for or they are the best so far: closed cords. Others are tried as they are. */
+thr_status thr_branch_try_joined(thr_branch *branch, const int *x, bool improve, thr_err *err) THR_MUST_CHECK;
+
 /* The cords of a plan, improved by exchanges; the same. */
 thr_status thr_branch_try_cords(thr_branch *branch, const thr_cord *cord, int n_cords, thr_err *err) THR_MUST_CHECK;
 
@@ -61,6 +75,9 @@ thr_status thr_branch_try_cords(thr_branch *branch, const thr_cord *cord, int n_
  * that a T-join or walks make. */
 thr_status thr_branch_try_whole(thr_branch *branch, thr_err *err) THR_MUST_CHECK;
 thr_status thr_branch_try_rounded(thr_branch *branch, thr_err *err) THR_MUST_CHECK;
+
+/* Exchanges the best plan for another. */
+void thr_branch_swap(thr_branch *branch, thr_branch_plan *plan);
 
 /* Passes and ends of the best plan, which must have been found. */
 void thr_branch_best(const thr_branch *branch, int *passes, int *ends);

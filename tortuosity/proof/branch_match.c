@@ -4,6 +4,7 @@
 #include "graph/plan/turning_proof.h"
 #include "graph/status.h"
 #include "tortuosity/proof/branch.h"
+#include "tortuosity/proof/connect.h"
 #include "tortuosity/proof/pass_matching.h"
 
 #include <math.h>
@@ -88,6 +89,10 @@ thr_status thr_branch_match(thr_branch *branch, thr_err *err)
   if (!st && found) st = keep_halves(branch, err);
   if (!st && !found) st = thr_branch_try_point(branch, x, err);
   branch->matched = thr_branch_proved(branch);
+  const thr_limits some = thr_limits_part(branch->limits, 0.4);
+  if (!st && !found && !branch->matched) st = thr_connect(branch, &passes, price, x, &some, err);
+  bool large = c->n_columns >= THR_CONNECT_SMALL, single = !c->task->end_allowed && c->task->cords == 1;
+  if (!st && !found && large && single && !thr_branch_proved(branch)) st = thr_connect_plans(branch, &some, err);
   thr_pass_matching_destroy(&passes);
   free(price);
   free(x);

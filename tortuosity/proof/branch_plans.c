@@ -5,6 +5,7 @@
 #include "graph/plan/turning_proof.h"
 #include "graph/status.h"
 #include "graph/threading/multigraph.h"
+#include "graph/threading/transition.h"
 #include "tortuosity/cords/join.h"
 #include "tortuosity/proof/branch.h"
 #include "tortuosity/cords/circuits.h"
@@ -67,6 +68,17 @@ static thr_status keep_better(thr_branch *branch, thr_join *j, const int *passes
   for (int e = 0; e < branch->c->f->n_edges; e++)
     branch->best_passes += passes[e];
   return tell(branch, &branch->best, err);
+}
+
+void thr_branch_swap(thr_branch *branch, thr_branch_plan *plan)
+{
+  const thr_branch_plan mine = {branch->found, branch->best, branch->best_price, branch->best_passes, branch->best_length};
+  branch->found = plan->found;
+  branch->best = plan->join;
+  branch->best_price = plan->found ? plan->price : INT64_MAX;
+  branch->best_passes = plan->passes;
+  branch->best_length = plan->found ? plan->length : INFINITY;
+  *plan = mine;
 }
 
 /* Is there a plan, and no time for another? */
@@ -226,6 +238,26 @@ thr_status thr_branch_try_point(thr_branch *branch, const int *x, thr_err *err)
 {
   take_point(branch, x);
   return within_limits(branch->c, branch->passes) ? try_columns(branch, branch->passes, branch->ends, err) : THR_OK;
+}
+
+thr_status thr_branch_try_joined(thr_branch *branch, const int *x, bool improve, thr_err *err)
+{
+  const thr_turning_task *task = branch->c->task;
+  thr_join j;
+  bool single;
+  if (task->end_allowed || task->cords > 1) return thr_branch_try_point(branch, x, err);
+  take_point(branch, x);
+  if (late(branch) || !within_limits(branch->c, branch->passes)) return THR_OK;
+  thr_status st = thr_join_init(&j, branch->c, branch->passes, branch->ends, err);
+  if (st) return st;
+  st = thr_join_columns(&j, branch->whole, &single, err);
+  if (!st && !single) st = thr_transition_join(branch->c->f, &j.g, j.mate, err);
+  if (!st) thr_join_measure(&j);
+  double best = branch->found ? ldexp((double)branch->best_price, -THR_TURNING_BITS) : INFINITY;
+  if (!st && !single && (improve || j.price < best)) st = thr_improve(&j, branch->limits, err);
+  if (!st) return keep_better(branch, &j, branch->passes, err);
+  thr_join_destroy(&j);
+  return st;
 }
 
 /* A point of whole numbers: its own pairs if they hang together; in any case the greedy for its passes and ends. */

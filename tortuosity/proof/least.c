@@ -136,8 +136,8 @@ static thr_status find_shortest(thr_turning_columns *turning_columns, const thr_
   return st;
 }
 
-/* First plans: the shortest passes, the plan to begin with, and those for ends far apart. */
-static thr_status first_plans(thr_branch *branch, const thr_least_options *options, const first_cords *start, int *passes,
+/* Other first plans: the shortest passes, the plan to begin with, and those for ends far apart. */
+static thr_status other_plans(thr_branch *branch, const thr_least_options *options, const first_cords *start, int *passes,
                               int *ends, thr_err *err)
 {
   thr_status st = thr_branch_try(branch, passes, ends, err);
@@ -148,6 +148,17 @@ static thr_status first_plans(thr_branch *branch, const thr_least_options *optio
   thr_extra_spread_ends(branch->c, ends);
   st = thr_extra_passes(branch->c, branch->c->f->length, NULL, true, branch->limits, passes, ends, err);
   return st ? st : thr_branch_try(branch, passes, ends, err);
+}
+
+/* The same beside the plans of the matching, if there are any: exchanges may lead from the worse ones to better ones. */
+static thr_status first_plans(thr_branch *branch, const thr_least_options *options, const first_cords *start, int *passes,
+                              int *ends, thr_err *err)
+{
+  if (thr_branch_proved(branch)) return THR_OK;
+  if (branch->found) thr_branch_swap(branch, &branch->other);
+  thr_status st = other_plans(branch, options, start, passes, ends, err);
+  if (branch->other.found && branch->other.price <= branch->best_price) thr_branch_swap(branch, &branch->other);
+  return st;
 }
 
 static void measure(const thr_frame *frame, thr_least *out)
@@ -262,7 +273,7 @@ static thr_status search(const thr_frame *frame, const thr_least_options *option
   if (!st) st = thr_branch_init(&branch, &turning_columns, options->most_nodes, &inner, err);
   if (branch.dense) inner = without(limits, (options->tube ? CHECKS_TIED : CHECKS) * each);
   if (!st) st = begin(&branch, err);
-  if (!st && !thr_branch_proved(&branch)) st = first_plans(&branch, options, &start, passes, ends, err);
+  if (!st) st = first_plans(&branch, options, &start, passes, ends, err);
   if (!st) st = thr_branch_run(&branch, err);
   if (!st && !branch.found) st = not_found(&branch, err);
   if (!st) st = finish(frame, &branch, &made, err);

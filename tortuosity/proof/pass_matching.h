@@ -22,10 +22,12 @@
 typedef struct {
   const thr_turning_columns *c;
   int n_places;
-  int *open;    /* [n_edges] passes of every edge that may be made, from its cover to its most; owned */
-  int *copies;  /* [n_edges] those with nodes, the others of which are end to end; owned */
-  int *first;   /* [n_places + 1] nodes of a place: first[i] .. first[i + 1] - 1; owned */
-  bool *listed; /* [n_columns] turns and ends that the matching knows; extra passes and U-turns always; owned */
+  int *open;       /* [n_edges] passes of every edge that may be made, from its cover to its most; owned */
+  int *copies;     /* [n_edges] those with nodes, the others of which are end to end; owned */
+  int *first;      /* [n_places + 1] nodes of a place: first[i] .. first[i + 1] - 1; owned */
+  int most_rounds; /* matchings for the same prices: after the last the multipliers may pay too much for what it does not know */
+  int spare;       /* copies that are allotted nodes beyond those that may be made */
+  bool *listed;    /* [n_columns] turns and ends that the matching knows; extra passes and U-turns always; owned */
   int n_edges, room;
   int (*edge)[2];  /* [room] of the matching; owned */
   int *column;     /* [room] of the model, -1: of no price; owned */
@@ -48,6 +50,10 @@ void thr_pass_matching_destroy(thr_pass_matching *passes);
  * frameworks. */
 thr_status thr_pass_matching_solve(thr_pass_matching *passes, const int64_t *price, const thr_limits *limits, int *x,
                                    thr_turning_dual *dual, thr_err *err) THR_MUST_CHECK;
+
+/* Forgets all copies but those that x[n_columns] needs, and one more of each edge, where many matchings under other prices
+ * follow. */
+void thr_pass_matching_shrink(thr_pass_matching *passes, const int *x);
 
 /* Passes of a place that must be; ends, for an equation of them. */
 int thr_pass_needed(const thr_pass_matching *passes, int place);
