@@ -98,7 +98,7 @@ VALIDATE := $(DIR)/validate
 VALIDATE_OBJECTS := $(patsubst %.c,$(DIR)/%.o,$(wildcard tests/validate/*.c))
 WATCHDOG := $(DIR)/watchdog
 WATCHDOG_OBJECTS := $(patsubst %.c,$(DIR)/%.o,$(wildcard tests/watchdog/*.c))
-C_FILES = $(wildcard $(foreach d,$(FOLDERS) $(CLI_FOLDERS) tests tests/unit tests/property tests/fuzz tests/validate tests/watchdog tests/memory docs,$(d)/*.c $(d)/*.h))
+C_FILES = $(wildcard $(foreach d,$(FOLDERS) $(CLI_FOLDERS) tests tests/unit tests/property tests/fuzz tests/second tests/validate tests/watchdog tests/memory docs,$(d)/*.c $(d)/*.h))
 
 Q := $(if $(V),,@)
 # `make -jN` given: share its jobs; not given: one per processor
@@ -226,6 +226,7 @@ GOLDEN_JOBS := $(patsubst tests/%,run/$(BUILD)/%,$(wildcard tests/golden/*.case)
 $(TEST_PROGRAMS:$(DIR)/tests/%=run/$(BUILD)/%): run/$(BUILD)/%: $(DIR)/tests/%
 $(FUZZ_PROGRAMS:$(DIR)/tests/%=run/%): run/%: $(DIR)/tests/%
 $(GOLDEN_JOBS) run/second/plans run/viewer/browser run/bench/smallest: $(PROGRAM)
+run/second/json: $(DIR)/tests/second/dump_json
 run/$(BUILD)/memory: $(PROGRAM) $(DIR)/tests/memory/fail_malloc.so
 run/$(BUILD)/watchdog: $(PROGRAM) $(WATCHDOG)
 run/%: FORCE
@@ -253,6 +254,10 @@ $(VALIDATE): $(VALIDATE_OBJECTS) $(LIBRARY)
 $(WATCHDOG): $(WATCHDOG_OBJECTS)
 	@echo "  LINK  $@"
 	$(Q)$(LINK) -o $@ $^ -lm
+
+$(DIR)/tests/second/dump_json: $(DIR)/tests/second/dump_json.o $(LIBRARY)
+	@echo "  LINK  $@"
+	$(Q)$(LINK) -o $@ $^ $(THR_LIBS)
 
 # for LD_PRELOAD: allocations that fail
 $(DIR)/tests/memory/fail_malloc.so: tests/memory/fail_malloc.c $(DIR)/flags.list

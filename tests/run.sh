@@ -71,6 +71,7 @@ run() { # NAME LOG: runs the job; its exit code, 77 = skipped
   release/watchdog) timeout 1800 "$OUT/release/watchdog" "$OUT/release/thread" "$OUT/watchdog" ;;
   release/* | asan/*) timeout 3600 "$OUT/$build/tests/$rest" </dev/null ;;
   second/plans) timeout 1800 tests/second/compare.py "$OUT/release/thread" ;;
+  second/json) tests/second/read_json.py "$OUT/release/tests/second/dump_json" ;;
   viewer/page) viewer_page ;;
   bench/smallest) bench/run.py "$OUT/release/thread" --smallest ;;
   viewer/browser) tests/viewer/run.sh "$OUT/release/thread" "$OUT/viewer-test" ;;
@@ -84,7 +85,7 @@ job() { # NAME
   : >"$log"
   spent=$( { time run "$name" "$log" 7>&-; } 2>&1) || code=$?
   case $name in
-  */golden/* | */memory | */watchdog | second/plans | viewer/browser) counts=$(count_lines "$log" "$code") ;;
+  */golden/* | */memory | */watchdog | second/* | viewer/browser) counts=$(count_lines "$log" "$code") ;;
   asan/* | release/*) counts=$(count_check "$log" "$code") ;;
   *) if [ "$code" -eq 0 ]; then counts='1 0 0'; else counts='0 1 0'; fi ;;
   esac
@@ -115,7 +116,7 @@ fi
 
 tier=${1:-test}
 export SHARE_RELEASE=1 SHARE_ASAN=10 MEMORY_SAMPLES=40 FUZZ_RUNS=100000
-builds='release asan' tree='layers layers-self-test format bench/smallest' programs='second/plans viewer/page viewer/browser' whole='' fuzz=yes
+builds='release asan' tree='layers layers-self-test format bench/smallest' programs='second/json second/plans viewer/page viewer/browser' whole='' fuzz=yes
 case $tier in
 test) whole='release/watchdog release/memory' MEMORY_SAMPLES=4 ;;
 fast) builds=release SHARE_RELEASE=10 programs='' fuzz='' ;;
