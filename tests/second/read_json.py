@@ -5,7 +5,7 @@ tests/second/read_json.py DUMP_JSON [--texts N] [--seed S]
 
 Texts are mutants of the fuzzers' seeds and of some with every kind of value. Where the two are meant to differ (graph/io/json.h) Python is
 told so: a document is a list or an object, keys are not repeated, integers fit 64 bits, numbers are finite, no text holds a NUL, and a
-byte order mark may come first. Prints what differs, then "N passed, N failed".
+byte order mark may come first; the sign of zero is left out. Prints what differs, then "N passed, N failed".
 """
 import argparse
 import json
@@ -68,7 +68,7 @@ def written(value):
         return "[" + ",".join(written(v) for v in value) + "]"
     if isinstance(value, dict):
         return "{" + ",".join(written(k) + ":" + written(v) for k, v in value.items()) + "}"
-    return {None: "null", True: "true", False: "false"}[value] if not isinstance(value, float) else repr(value)
+    return {None: "null", True: "true", False: "false"}[value] if not isinstance(value, float) else repr(value + 0.0)
 
 
 def by_python(text):
@@ -98,7 +98,7 @@ def main():
                            check=True).stdout.decode().split("\n")
     failed = 0
     for text, line in zip(texts, lines):
-        ours = re.sub(r"-?0x[0-9a-f.]+p[+-]\d+", lambda m: repr(float.fromhex(m.group(0))), line)
+        ours = re.sub(r"-?0x[0-9a-f.]+p[+-]\d+", lambda m: repr(float.fromhex(m.group(0)) + 0.0), line)
         if ours != by_python(text):
             failed += 1
             print(f"{text!r}\n  thread: {ours}\n  Python: {by_python(text)}")
