@@ -164,6 +164,29 @@ START_TEST(turns_are_listed_as_they_are_needed)
 }
 END_TEST
 
+/* Ends and copies that were not thought of at first come in together, and soon. */
+START_TEST(few_rounds_are_enough)
+{
+  enum { SIDE = 12, NODES = SIDE * SIDE };
+  rng r = rng_make((uint64_t)_i + 1);
+  bool all[NODES];
+  instance x = {.frame = grid_make(SIDE, SIDE)};
+  for (int v = 0; v < NODES; v++) {
+    all[v] = true;
+    for (int k = 0; k < 3; k++)
+      x.frame.xyz[v][k] += 0.8 * (rng_unit(&r) - 0.5);
+  }
+  x.task = (thr_turning_task){.cover = 1, .most_passes = 8, .cords = 1 + _i % 3, .extra_limit = -1, .end_allowed = all};
+  ck_assert_int_eq(thr_turning_columns_init(&x.c, &x.frame, &x.task, NULL), THR_OK);
+  thr_pass_matching passes;
+  ck_assert_int_eq(thr_pass_matching_init(&passes, &x.c, NULL), THR_OK);
+  ck_assert(solve_and_compare(&passes, x.c.weight));
+  ck_assert_int_lt(passes.rounds, 10);
+  thr_pass_matching_destroy(&passes);
+  instance_destroy(&x);
+}
+END_TEST
+
 START_TEST(without_memory_or_time_nothing_leaks)
 {
   rng r = rng_make(7);
@@ -195,6 +218,7 @@ int main(void)
   Suite *s = suite_create("matching of passes");
   ADD_EXAMPLES(s, 20, matchings_are_proved_by_their_moats, 400);
   ADD_EXAMPLES(s, 20, turns_are_listed_as_they_are_needed, 10);
+  ADD_EXAMPLES(s, 20, few_rounds_are_enough, 10);
   ADD_EXAMPLES(s, 60, without_memory_or_time_nothing_leaks, 1);
   return run_suite(s);
 }

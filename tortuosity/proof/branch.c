@@ -176,12 +176,6 @@ static thr_status init_tree(thr_branch *branch, thr_err *err)
   return st;
 }
 
-thr_status thr_branch_begin(thr_branch *branch, thr_err *err)
-{
-  thr_status st = init_tree(branch, err);
-  return st || branch->c->task->free_turns || branch->c->task->tube ? st : thr_branch_match(branch, err);
-}
-
 /* Where every open node's bound is above the best price, or none is open, that price is the bound: a plan has it. */
 static void report(const thr_branch *branch)
 {
@@ -189,6 +183,15 @@ static void report(const thr_branch *branch)
   double least = fmin((double)branch->best_price, thr_tree_bound(&branch->tree));
   branch->limits->progress(branch->limits->user, "turning", ldexp((double)branch->best_price, -THR_TURNING_BITS),
                            ldexp(least, -THR_TURNING_BITS));
+}
+
+thr_status thr_branch_begin(thr_branch *branch, thr_err *err)
+{
+  thr_status st = init_tree(branch, err);
+  if (st || branch->c->task->free_turns || branch->c->task->tube) return st;
+  st = thr_branch_match(branch, err);
+  if (!st && branch->found) report(branch);
+  return st;
 }
 
 /* A round: plans near the point, and whether its bound is good enough. */

@@ -390,17 +390,19 @@ static thr_status price_out(thr_pass_matching *passes, const int64_t *price, con
   int64_t *left = thr_scratch_array(&own, (size_t)c->n_columns, sizeof *left), few = dual ? -(INT64_C(4) << passes->bits) : 1;
   thr_status st = thr_scratch_check(&own, err);
   if (!st && dual) st = thr_pass_left(passes, price, dual, first_odd, false, left, err);
+  bool turns = false; /* what new turns change may need no more copies */
   *more = false;
   *fit = true;
   for (int j = 0; j < c->n_columns && !st; j++) {
     int a = c->half[j][0], b = c->half[j][1] >= 0 ? c->half[j][1] : a;
     if (passes->listed[j] || left[j] >= few || (news[a] >= NEAREST && news[b] >= NEAREST)) continue;
     *more = passes->listed[j] = true;
+    turns |= j < c->first_extra;
     news[a]++;
     news[b]++;
     st = add_column(passes, j, -1, 0, err);
   }
-  for (int e = 0; e < c->f->n_edges && !st && !(dual && *more); e++)
+  for (int e = 0; e < c->f->n_edges && !st && !(dual && turns); e++)
     for (int k = 0; k < STEP && passes->open[e] < c->most[e] && left[c->first_extra + e] < few && !st; k++) {
       *more = true;
       if (passes->open[e] < passes->copies[e])
