@@ -80,6 +80,14 @@ class Bench:
             self.output.write(text + "\n")
             self.output.flush()
 
+    def table(self, title, text, *head):
+        self.print("\n## %s\n\n%s\n" % (title, text))
+        self.row(*head)
+        self.print("|---|" + "---:|" * (len(head) - 1))
+
+    def row(self, *cells):
+        self.print("| " + " | ".join(map(str, cells)) + " |")
+
     def path(self, name):
         return os.path.join(self.folder, name)
 
@@ -148,20 +156,6 @@ class Bench:
                 self.missing.append("%s (does not compile: %s)" % (name, next(iter(done.stderr.split("\n")))))
             else:
                 self.peers[code] = PEERS[code]
-
-
-class Table:
-    def __init__(self, bench, title, text, *head):
-        self.bench = bench
-        bench.print("## %s\n\n%s\n" % (title, text))
-        bench.print("| " + " | ".join(head) + " |")
-        bench.print("|---|" + "---:|" * (len(head) - 1))
-
-    def row(self, *cells):
-        self.bench.print("| " + " | ".join(map(str, cells)) + " |")
-
-    def end(self):
-        self.bench.print("")
 
 
 # ---- frameworks ----
@@ -260,18 +254,17 @@ beside ours on the same instance: on these pairs, or on the whole graph. They mu
 theirs. *shaken*: a honeycomb with every node moved; *planar*: triangles and quadrangles at random.""" % PEER_SECONDS
     if b.missing:
         text += "\nNot here: %s." % "; ".join(b.missing)
-    table = Table(b, "Shortest cord", text, "framework", "edges", "odd", "whole s", "growth", "MB", "any / closed", "check / whole",
-                  "T-join / whole", "growth", "matching / T-join",
-                  *("%s / %s" % (name, "matching" if kind == "pairs" else "T-join") for name, kind, _ in b.peers.values()))
+    b.table("Shortest cord", text, "framework", "edges", "odd", "whole s", "growth", "MB", "any / closed", "check / whole",
+            "T-join / whole", "growth", "matching / T-join",
+            *("%s / %s" % (name, "matching" if kind == "pairs" else "T-join") for name, kind, _ in b.peers.values()))
     grows, join_grows = Growth(), Growth()
     for name, path, edges, goes_on in b.lines([*SHAPES, "shaken", "planar"], b.sizes, real_frameworks()):
         whole, other, check = b.least(b.plan(path), b.plan(path, "--ends", "any", to="any.json"), [b.thread, "check", b.path("plan.json")])
         ours, alone, odd, others = solver_times(b, path)
-        table.row(name, edges, odd, seconds(whole.seconds), grows(edges, whole.seconds, goes_on), figure(whole.megabytes),
-                  ratio(other.seconds, whole.seconds), ratio(check.seconds, whole.seconds), ratio(ours, whole.seconds),
-                  join_grows(edges, ours, goes_on), ratio(alone, ours),
-                  *(ratio(others.get(c), alone if b.peers[c][1] == "pairs" else ours) for c in b.peers))
-    table.end()
+        b.row(name, edges, odd, seconds(whole.seconds), grows(edges, whole.seconds, goes_on), figure(whole.megabytes),
+              ratio(other.seconds, whole.seconds), ratio(check.seconds, whole.seconds), ratio(ours, whole.seconds),
+              join_grows(edges, ours, goes_on), ratio(alone, ours),
+              *(ratio(others.get(c), alone if b.peers[c][1] == "pairs" else ours) for c in b.peers))
 
 
 def milestones(run, plan, part):
@@ -294,8 +287,8 @@ def turning(b):
     text = """`thread plan --objective tortuosity`, one closed cord, %g s at most: seconds to the first plan and to the proof (`-v` says
 both), the end of the process beside the proof, the gap where nothing is proved; then the turning of the classical tours and of the
 shortest cord beside the proven bound.""" % b.limit
-    table = Table(b, "Least turning", text, "framework", "edges", "first plan s", "proved s", "growth", "end / proved", "gap %", "MB",
-                  "Fleury / bound", "Hierholzer / bound", "shortest / bound")
+    b.table("Least turning", text, "framework", "edges", "first plan s", "proved s", "growth", "end / proved", "gap %", "MB",
+            "Fleury / bound", "Hierholzer / bound", "shortest / bound")
     grows = Growth()
     for name, path, edges, goes_on in b.lines(SHAPES, (150, 700, 3000, 8000), data("fandisk", "creased_shell", "liew_dome", "barrel")):
         run = b.least(said_plan(b, path, "--objective", "tortuosity"))[0]
@@ -306,18 +299,17 @@ shortest cord beside the proven bound.""" % b.limit
             Run(b.plan(path, "--objective", *options, "--time-limit", b.limit), b.folder)
             with open(b.path("plan.json"), encoding="utf-8") as f:
                 rivals.append(json.load(f)["metrics"]["turning"])
-        table.row(name, edges, seconds(first), seconds(proved), grows(edges, proved, goes_on), end_ratio(run, proved),
-                  "0" if proved is not None else figure(100 * (1 - bound / price)) if bound and price else "-", figure(run.megabytes),
-                  *(ratio(r, bound) for r in rivals))
-    table.end()
+        b.row(name, edges, seconds(first), seconds(proved), grows(edges, proved, goes_on), end_ratio(run, proved),
+              "0" if proved is not None else figure(100 * (1 - bound / price)) if bound and price else "-", figure(run.megabytes),
+              *(ratio(r, bound) for r in rivals))
 
 
 def symmetry(b):
     text = """`thread symmetries` (%g s by the clock at most; *: not all rows in that time), closed cords: seconds on one processor, and on
 two beside that, of the processor and of the clock (2 at best, less on a loaded machine); then the plan of the marked row: seconds to
 the first plan and to the proof, and the end of the process beside the proof.""" % b.limit
-    table = Table(b, "Symmetry", text, "framework", "edges", "group", "classes", "table s", "MB", "-j 2 / -j 1, processor",
-                  "-j 1 / -j 2, clock", "first plan s", "proved s", "end / proved")
+    b.table("Symmetry", text, "framework", "edges", "group", "classes", "table s", "MB", "-j 2 / -j 1, processor",
+            "-j 1 / -j 2, clock", "first plan s", "proved s", "end / proved")
     frames = list(b.lines(SHAPES, (84, 480), data("fandisk", "liew_dome", "barrel")))
     for name, path, edges, _ in frames:
         how = [b.thread, "symmetries", path, "-q", "--json", "--time-limit", b.limit]
@@ -325,17 +317,16 @@ the first plan and to the proof, and the end of the process beside the proof."""
         run = b.least(said_plan(b, path, "--objective", "symmetry"))[0]
         first, proved, _ = milestones(run, b.path("plan.json"), None)
         found = json.loads(one.out)
-        table.row(name, edges, "%.4g" % found["order"], len(found["groups"]), seconds(one.seconds) + ("" if one.code == 0 else "*"),
-                  figure(one.megabytes), ratio(two.seconds, one.seconds), ratio(one.wall, two.wall), seconds(first), seconds(proved),
-                  end_ratio(run, proved))
-    table.end()
+        b.row(name, edges, "%.4g" % found["order"], len(found["groups"]), seconds(one.seconds) + ("" if one.code == 0 else "*"),
+              figure(one.megabytes), ratio(two.seconds, one.seconds), ratio(one.wall, two.wall), seconds(first), seconds(proved),
+              end_ratio(run, proved))
 
 
 def pull(b):
     text = """`thread eval` of the shortest cord: simulated joints with an empty cache and a full one, and the limit analysis of the
 structure, each beside the closed form."""
-    table = Table(b, "Pull", text, "framework", "edges", "closed form s", "joints, cold / closed form", "warm / closed form",
-                  "limit analysis s", "/ closed form", "growth")
+    b.table("Pull", text, "framework", "edges", "closed form s", "joints, cold / closed form", "warm / closed form",
+            "limit analysis s", "/ closed form", "growth")
     grows = Growth()
     for name, path, edges, goes_on in b.lines(["grid"], (84, 364, 760), data("fandisk")):
         Run(b.plan(path), b.folder)
@@ -343,39 +334,36 @@ structure, each beside the closed form."""
         cold = None if b.smallest else Run([*evaluate, "--method", "joint", "--cache", cache], b.folder).seconds
         warm = None if b.smallest else b.least([*evaluate, "--method", "joint", "--cache", cache])[0].seconds
         closed, limit = b.least(evaluate, [*evaluate, "--method", "structure", "--no-dynamics"])
-        table.row(name, edges, seconds(closed.seconds), ratio(cold, closed.seconds), ratio(warm, closed.seconds),
-                  seconds(limit.seconds), ratio(limit.seconds, closed.seconds), grows(edges, limit.seconds, goes_on))
-    table.end()
+        b.row(name, edges, seconds(closed.seconds), ratio(cold, closed.seconds), ratio(warm, closed.seconds),
+              seconds(limit.seconds), ratio(limit.seconds, closed.seconds), grows(edges, limit.seconds, goes_on))
 
 
 def drawings(b):
     kinds = ["svg", "steps", "html", "gltf", "pdf"]
-    table = Table(b, "Drawings", "`thread draw` of the shortest cord, each kind beside `thread plan`.", "framework", "edges", "plan s",
-                  *(k + " / plan" for k in kinds), "growth of svg", "of pdf")
+    b.table("Drawings", "`thread draw` of the shortest cord, each kind beside `thread plan`.", "framework", "edges", "plan s",
+            *(k + " / plan" for k in kinds), "growth of svg", "of pdf")
     svg_grows, pdf_grows = Growth(), Growth()
     for name, path, edges, goes_on in b.lines(["grid", "sphere", "honeycomb"], (84, 480, 3000), data("fandisk", "liew_dome")):
         kinds_now = [k for k in kinds if k != "pdf" or not b.smallest]
         draw = [[b.thread, "draw", b.path("plan.json"), "-T", k, "-o", b.path("drawn." + k)] for k in kinds_now]
         plan, *drawn = b.least(b.plan(path), *draw)
         spent = {k: d.seconds for k, d in zip(kinds_now, drawn)}
-        table.row(name, edges, seconds(plan.seconds), *(ratio(spent.get(k), plan.seconds) for k in kinds),
-                  svg_grows(edges, spent["svg"], goes_on), pdf_grows(edges, spent.get("pdf"), goes_on))
-    table.end()
+        b.row(name, edges, seconds(plan.seconds), *(ratio(spent.get(k), plan.seconds) for k in kinds),
+              svg_grows(edges, spent["svg"], goes_on), pdf_grows(edges, spent.get("pdf"), goes_on))
 
 
 def joints(b):
-    table = Table(b, "Tube joints", "`thread plan` with tube joints beside solid ones.", "framework", "edges", "solid s", "tube / solid")
+    b.table("Tube joints", "`thread plan` with tube joints beside solid ones.", "framework", "edges", "solid s", "tube / solid")
     for name, path, edges, _ in b.lines(SHAPES, (100,) if b.smallest else (10000,), []):
         solid, tube = b.least(b.plan(path), b.plan(path, "--joint", "tube", to="tube.json"))
-        table.row(name, edges, seconds(solid.seconds), ratio(tube.seconds, solid.seconds) + (" (not proved)" if tube.code else ""))
-    table.end()
+        b.row(name, edges, seconds(solid.seconds), ratio(tube.seconds, solid.seconds) + (" (not proved)" if tube.code else ""))
 
 
 def files(b):
     text = """Whole processes from file to file: `thread plan` and `thread check` beside Python's json module (written in C) reading
 the same files and, for a plan, writing plan.json: what moving the text alone takes."""
-    table = Table(b, "Reading and writing", text, "framework", "edges", "plan s", "growth", "plan / json", "MB", "check s", "growth",
-                  "check / json", "MB")
+    b.table("Reading and writing", text, "framework", "edges", "plan s", "growth", "plan / json", "MB", "check s", "growth",
+            "check / json", "MB")
     plan_grows, check_grows = Growth(), Growth()
     for name, path, edges, goes_on in b.lines(["grid"], (10000, 100000, 1000000), []):
         load = "import json; d = [json.load(open(name)) for name in %r]; " % [path, b.path("plan.json")]
@@ -383,10 +371,9 @@ the same files and, for a plan, writing plan.json: what moving the text alone ta
         read = "import json; json.load(open(%r))" % b.path("plan.json")
         plan, moved, check, seen = b.least(b.plan(path), [sys.executable, "-c", load + write],
                                            [b.thread, "check", "-q", b.path("plan.json")], [sys.executable, "-c", read])
-        table.row(name, edges, seconds(plan.seconds), plan_grows(edges, plan.seconds, goes_on), ratio(plan.seconds, moved.seconds),
-                  figure(plan.megabytes), seconds(check.seconds), check_grows(edges, check.seconds, goes_on),
-                  ratio(check.seconds, seen.seconds), figure(check.megabytes))
-    table.end()
+        b.row(name, edges, seconds(plan.seconds), plan_grows(edges, plan.seconds, goes_on), ratio(plan.seconds, moved.seconds),
+              figure(plan.megabytes), seconds(check.seconds), check_grows(edges, check.seconds, goes_on),
+              ratio(check.seconds, seen.seconds), figure(check.megabytes))
 
 
 PARTS = {f.__name__: f for f in (length, files, turning, symmetry, pull, drawings, joints)}
@@ -419,7 +406,7 @@ def main():
         a.sizes, a.repeats, a.limit = [100], 1, 1
     with tempfile.TemporaryDirectory() as folder:
         b = Bench(a, folder)
-        b.print(HOW % a.repeats + machine(b) + "\n")
+        b.print(HOW % a.repeats + machine(b))
         for part in a.only or PARTS:
             PARTS[part](b)
 
