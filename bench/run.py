@@ -384,9 +384,11 @@ def machine(b):
         model = re.search(r"model name\s*: (.*)", f.read())
     start = b.least(["true"], [b.thread, "--version"])
     version = subprocess.run([b.thread, "--version"], stdout=subprocess.PIPE, text=True, check=True).stdout.split("\n")[0]
-    return "%s. %d processors (%s), %.0f GB, load %.1f before the run. %s.\n\
+    commit = subprocess.run(["git", "-C", HERE, "rev-parse", "--short", "HEAD"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                            text=True, check=False).stdout.strip()
+    return "%s%s. %d processors (%s), %.0f GB, load %.1f before the run. %s.\n\
 Starting any program takes %.1f ms here, starting `thread` %.1f ms: they are in all times of whole processes." % (
-        datetime.date.today(), os.cpu_count(), model.group(1) if model else "unknown",
+        datetime.date.today(), ", commit " + commit if commit else "", os.cpu_count(), model.group(1) if model else "unknown",
         os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30, os.getloadavg()[0], version,
         *(1000 * run.seconds for run in start))
 
