@@ -513,6 +513,14 @@ static int by_key(const void *pa, const void *pb)
   return way ? way : (a->member > b->member) - (a->member < b->member);
 }
 
+/* A key that is there a second time. */
+static thr_status repeated(const parser *p, const sorted_key *second, const thr_json *keys)
+{
+  char what[120];
+  snprintf(what, sizeof what, "duplicate object key \"%s\"", second->key);
+  return fail_at(p, p->text + block_of(keys + 2 * second->member)->bits, what);
+}
+
 /* The members of the object that ends the document, by their keys; no key is there twice. */
 static thr_status sort_members(parser *p, size_t block, size_t n)
 {
@@ -523,8 +531,7 @@ static thr_status sort_members(parser *p, size_t block, size_t n)
     list[i] = (sorted_key){key_text(key + 2 * i), i};
   if (!st) qsort(list, n, sizeof *list, by_key);
   for (size_t i = 1; i < n && !st; i++)
-    if (strcmp(list[i - 1].key, list[i].key) == 0)
-      st = fail_at(p, p->text + block_of(key + 2 * list[i].member)->bits, "duplicate object key");
+    if (strcmp(list[i - 1].key, list[i].key) == 0) st = repeated(p, &list[i], key);
   for (size_t i = 0; i < n && !st && n > FEW_MEMBERS; i++)
     p->done.slot[p->done.n++].bits = list[i].member;
   free(list);
