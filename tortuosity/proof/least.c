@@ -190,7 +190,7 @@ thr_status thr_least_cords(const thr_frame *frame, const thr_join *j, thr_least 
 
 static const char *why_open(const thr_branch *branch)
 {
-  if (branch->dense) return "too many turns for a linear programme, so the bound is that of the nodes by themselves";
+  if (branch->dense) return "too many turns for a linear programme, so the bound does not ask that cords hang together";
   if (branch->tree.stopped) return "stopped early";
   return branch->several ? "what it costs to have no fewer cords is not part of the bound" : "rounding left a gap";
 }
