@@ -120,7 +120,7 @@ START_TEST(dense_frameworks_have_plans_and_bounds)
   thr_frame f = _i ? wheel_make(1500) : random_star(&r, 700);
   thr_request o = thr_request_default();
   want(&o, "turning");
-  thr_limits limits = {.deadline = thr_clock() + 10};
+  thr_limits limits = {.deadline = thr_clock() + 20};
   thr_err err = {0};
   thr_plan p;
   thr_status st = thr_tortuosity_plan(&f, &o, &limits, &p, &err);
