@@ -19,4 +19,16 @@ static inline int thr_disjoint_join(int *parent, int a, int b)
   return 1;
 }
 
+/* number[n] receives the number of the set of each member of parent[n], in the order of the sets' lowest members; returns how
+ * many there are. number may be parent itself, which is no forest any more then. */
+static inline int thr_disjoint_number(int *parent, int n, int *number)
+{
+  int count = 0;
+  for (int v = 0; v < n; v++)
+    number[v] = thr_disjoint_find(parent, v);
+  for (int v = 0; v < n; v++) /* roots are the lowest of their sets, so their numbers are known */
+    number[v] = number[v] == v ? count++ : number[number[v]];
+  return count;
+}
+
 #endif

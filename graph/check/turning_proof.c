@@ -20,6 +20,21 @@ static void destroy_sets(thr_turning_set *set, int n)
   free(set);
 }
 
+thr_status thr_turning_dual_init(thr_turning_dual *dual, const thr_turning_columns *columns, thr_err *err)
+{
+  *dual = (thr_turning_dual){.potential = thr_calloc(2 * (size_t)columns->f->n_edges, sizeof *dual->potential),
+                             .ends = thr_calloc((size_t)columns->n_ends, sizeof *dual->ends)};
+  if (dual->potential && dual->ends) return THR_OK;
+  thr_turning_dual_destroy(dual);
+  return thr_nomem(err);
+}
+
+void thr_turning_dual_drop_odd(thr_turning_dual *dual, int from)
+{
+  while (dual->n_odd > from)
+    free(dual->odd[--dual->n_odd].member);
+}
+
 void thr_turning_dual_destroy(thr_turning_dual *dual)
 {
   free(dual->potential);

@@ -165,7 +165,14 @@ typedef struct {
   thr_turning_junction *junction;
 } thr_turning_dual;
 
+/* All multipliers 0, and no sets. O(edges). */
+thr_status thr_turning_dual_init(thr_turning_dual *turning_dual, const thr_turning_columns *turning_columns,
+                                 thr_err *err) THR_MUST_CHECK;
+
 void thr_turning_dual_destroy(thr_turning_dual *turning_dual);
+
+/* Without its odd sets from number from on. O(sets dropped). */
+void thr_turning_dual_drop_odd(thr_turning_dual *turning_dual, int from);
 
 /* A node of the tree: an inner one says that its column is at most value (low) or at least value + 1 (high). */
 typedef struct {

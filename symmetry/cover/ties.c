@@ -151,7 +151,6 @@ thr_status thr_ties_contract(thr_ties *ties, const thr_ties *whole, int whole_pa
 
 int thr_ties_blocks(const thr_ties *ties, int star, const double *value, double least, int *block)
 {
-  int n = 0;
   for (int i = 0; i < ties->degree[star]; i++)
     block[i] = i;
   for (int i = ties->first[star]; i < ties->first[star + 1]; i++) {
@@ -159,11 +158,7 @@ int thr_ties_blocks(const thr_ties *ties, int star, const double *value, double 
     for (int k = ties->join[y]; k < ties->join[y + 1] && value[y] > least; k++)
       thr_disjoint_join(block, ties->link[k][0], ties->link[k][1]);
   }
-  for (int i = 0; i < ties->degree[star]; i++)
-    block[i] = thr_disjoint_find(block, i);
-  for (int i = 0; i < ties->degree[star]; i++) /* a root is the lowest of its block, and has its number by then */
-    block[i] = block[i] == i ? n++ : block[block[i]];
-  return n;
+  return thr_disjoint_number(block, ties->degree[star], block);
 }
 
 int thr_ties_between(const thr_ties *ties, int y, const int *block)

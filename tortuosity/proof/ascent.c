@@ -273,10 +273,7 @@ static thr_status keep_junction(thr_turning_dual *dual, int *capacity, int v, in
   if (st) return st;
   thr_turning_junction turning_junction = {v, thr_calloc((size_t)degree, sizeof *turning_junction.block), value};
   if (!turning_junction.block) return thr_nomem(err);
-  for (int i = 0, n = 0; i < degree; i++) { /* the lowest of a part is its root */
-    int root = thr_disjoint_find(parent, i);
-    turning_junction.block[i] = root == i ? n++ : turning_junction.block[root];
-  }
+  thr_disjoint_number(parent, degree, turning_junction.block);
   dual->junction[dual->n_junctions++] = turning_junction;
   return THR_OK;
 }
@@ -391,9 +388,7 @@ thr_status thr_ascent_run(const thr_turning_columns *turning_columns, double tar
   *dual = (thr_turning_dual){0};
   thr_status st = ascent_init(&a, turning_columns, err);
   if (st) return st;
-  dual->potential = thr_calloc(2 * (size_t)a.m, sizeof *dual->potential);
-  dual->ends = thr_calloc((size_t)turning_columns->n_ends, sizeof *dual->ends);
-  if (!dual->potential || !dual->ends) st = thr_nomem(err);
+  st = thr_turning_dual_init(dual, turning_columns, err);
   if (!st) {
     climb(&a, target, limits);
     fill_mean(&a, mean);

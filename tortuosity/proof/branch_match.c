@@ -23,13 +23,6 @@ static void set_prices(const thr_turning_columns *c, int64_t *price)
     price[c->first_extra + e] += (int64_t)nearbyint(LENGTH_PRICE * fmin(100, c->f->length[e] / mean));
 }
 
-static thr_status dual_init(const thr_turning_columns *c, thr_turning_dual *dual, thr_err *err)
-{
-  *dual = (thr_turning_dual){.potential = thr_calloc(2 * (size_t)c->f->n_edges, sizeof *dual->potential),
-                             .ends = thr_calloc((size_t)c->n_ends, sizeof *dual->ends)};
-  return dual->potential && dual->ends ? THR_OK : thr_nomem(err);
-}
-
 /* Every pass pays half of the cheapest turn at its half-edge, and every end what that saves at most: where there is no time for
  * more. */
 static void halve_cheapest(const thr_turning_columns *c, thr_turning_dual *dual)
@@ -52,7 +45,7 @@ static void halve_cheapest(const thr_turning_columns *c, thr_turning_dual *dual)
 static thr_status keep_halves(thr_branch *branch, thr_err *err)
 {
   thr_turning_dual dual;
-  thr_status st = dual_init(branch->c, &dual, err);
+  thr_status st = thr_turning_dual_init(&dual, branch->c, err);
   if (!st) halve_cheapest(branch->c, &dual);
   if (!st) return thr_branch_keep_dual(branch, 0, dual, NULL, NULL, err);
   thr_turning_dual_destroy(&dual);
@@ -77,7 +70,7 @@ thr_status thr_branch_match(thr_branch *branch, thr_err *err)
   thr_err why = {0};
   int *x = thr_calloc((size_t)c->n_columns, sizeof *x);
   int64_t *price = thr_calloc((size_t)c->n_columns, sizeof *price);
-  thr_status st = x && price ? dual_init(c, &dual, err) : thr_nomem(err);
+  thr_status st = x && price ? thr_turning_dual_init(&dual, c, err) : thr_nomem(err);
   if (!st) st = thr_pass_matching_init(&passes, c, err);
   if (!st) set_prices(c, price);
   thr_status found = st ? st : thr_pass_matching_solve(&passes, price, &limits, x, &dual, &why);

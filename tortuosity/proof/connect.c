@@ -210,8 +210,7 @@ static thr_status overpaid(connect *s, double *sum, thr_err *err)
 static thr_status solve(connect *s, double *bound, thr_err *err)
 {
   const thr_turning_columns *c = s->branch->c;
-  while (s->dual.n_odd)
-    free(s->dual.odd[--s->dual.n_odd].member);
+  thr_turning_dual_drop_odd(&s->dual, 0);
   thr_status st = thr_pass_matching_solve(s->passes, s->price, s->limits, s->x, &s->dual, err);
   for (int j = 0; j < c->n_columns && !st; j++)
     *bound += s->x[j] * (double)s->price[j];
@@ -370,10 +369,8 @@ thr_status thr_connect(thr_branch *branch, thr_pass_matching *passes, const int6
                  .x = thr_scratch_array(&own, n, sizeof *s->x),
                  .even = thr_scratch_array(&own, m, sizeof *s->even),
                  .scratch = thr_scratch_array(&own, m + (size_t)c->n_components, sizeof *s->scratch)};
-  s->dual.potential = thr_calloc(2 * m, sizeof *s->dual.potential);
-  s->dual.ends = thr_calloc((size_t)c->n_ends, sizeof *s->dual.ends);
   thr_status st = thr_scratch_check(&own, err);
-  if (!st && (!s->dual.potential || !s->dual.ends)) st = thr_nomem(err);
+  if (!st) st = thr_turning_dual_init(&s->dual, c, err);
   if (!st) {
     double bound = 0;
     memcpy(s->x, x, n * sizeof *x);

@@ -8,29 +8,15 @@
 
 #include <stdlib.h>
 
-/* Numbers the sets of parent by their first members. */
-static int number_sets(int *parent, int n, int *number)
-{
-  int count = 0;
-  for (int i = 0; i < n; i++)
-    number[i] = thr_disjoint_find(parent, i) == i ? count++ : number[thr_disjoint_find(parent, i)]; /* a root comes first */
-  return count;
-}
-
 int thr_connect_parts(const thr_turning_columns *turning_columns, const int *x, int *part)
 {
   const thr_turning_columns *c = turning_columns;
-  int m = c->f->n_edges, *parent = part;
+  int m = c->f->n_edges;
   for (int e = 0; e < m; e++)
-    parent[e] = e;
+    part[e] = e;
   for (int j = 0; j < c->first_extra; j++)
-    if (x[j] > 0) thr_disjoint_join(parent, c->half[j][0] >> 1, c->half[j][1] >> 1);
-  for (int e = 0; e < m; e++)
-    parent[e] = thr_disjoint_find(parent, e);
-  int n = 0;
-  for (int e = 0; e < m; e++) /* roots are the lowest edges of their sets, so their numbers are known */
-    part[e] = parent[e] == e ? n++ : part[parent[e]];
-  return n;
+    if (x[j] > 0) thr_disjoint_join(part, c->half[j][0] >> 1, c->half[j][1] >> 1);
+  return thr_disjoint_number(part, m, part);
 }
 
 /* An exchange of two turns that joins two parts. */
@@ -89,7 +75,7 @@ static thr_status merge(const exchanges *s, int n, int *parent, int *number, int
   for (int i = 0; i < s->n && left > 1; i++) {
     if (thr_disjoint_find(parent, s->list[i].a) == thr_disjoint_find(parent, s->list[i].b)) continue;
     if (s->list[i].cost > told + same || told == INT64_MIN) {
-      int parts = number_sets(parent, n, number);
+      int parts = thr_disjoint_number(parent, n, number);
       for (int e = 0; e < s->c->f->n_edges; e++)
         now[e] = number[s->part[e]];
       told = s->list[i].cost;

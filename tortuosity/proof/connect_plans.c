@@ -36,8 +36,7 @@ static void draw_prices(random_plans *s, uint64_t *random)
 
 static thr_status match(random_plans *s, thr_err *err)
 {
-  while (s->dual.n_odd)
-    free(s->dual.odd[--s->dual.n_odd].member);
+  thr_turning_dual_drop_odd(&s->dual, 0);
   return thr_pass_matching_solve(s->passes, s->price, s->limits, s->x, &s->dual, err);
 }
 
@@ -74,10 +73,8 @@ thr_status thr_connect_plans(thr_branch *branch, const thr_limits *limits, thr_e
                     .part = thr_scratch_array(&own, m, sizeof *s.part),
                     .price = thr_scratch_array(&own, n, sizeof *s.price),
                     .x = thr_scratch_array(&own, n, sizeof *s.x)};
-  s.dual.potential = thr_calloc(2 * m, sizeof *s.dual.potential);
-  s.dual.ends = thr_calloc((size_t)c->n_ends, sizeof *s.dual.ends);
   thr_status st = thr_scratch_check(&own, err);
-  if (!st && (!s.dual.potential || !s.dual.ends)) st = thr_nomem(err);
+  if (!st) st = thr_turning_dual_init(&s.dual, c, err);
   if (!st) st = thr_pass_matching_init(&passes, c, err);
   if (!st) {
     st = try_plans(&s, &why);

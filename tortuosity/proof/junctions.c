@@ -51,19 +51,16 @@ static void divide(star *s, int k, int n, double crossing)
 /* The parts that turns of more than threshold connect. */
 static void judge_parts(star *s, double threshold)
 {
-  int n = 0;
   double crossing = 0;
   for (int i = 0; i < s->d; i++)
     s->parent[i] = i;
   for (int i = 0; i < s->d; i++)
     for (int k = i + 1; k < s->d; k++)
       if (s->between[i * s->d + k] > threshold) thr_disjoint_join(s->parent, i, k);
-  for (int i = 0; i < s->d; i++) { /* the lowest member of a part is its root */
-    int root = thr_disjoint_find(s->parent, i);
-    s->block[i] = root == i ? n++ : s->block[root];
+  int n = thr_disjoint_number(s->parent, s->d, s->block);
+  for (int i = 0; i < s->d; i++)
     for (int k = 0; k < i; k++)
       if (s->block[k] != s->block[i]) crossing += s->between[k * s->d + i];
-  }
   judge(s, n, crossing);
 }
 

@@ -150,9 +150,7 @@ static thr_status add_partition(thr_relax *relax, int *block, int connections, i
 /* Numbers the blocks and offers them as a row. false in *more when so few need not be connected. */
 static thr_status offer(splitter *s, int *added, bool *more, thr_err *err)
 {
-  int m = s->r->c->f->n_edges, n = 0;
-  for (int e = 0; e < m; e++)
-    s->block[e] = thr_disjoint_find(s->parent, e) == e ? n++ : s->block[thr_disjoint_find(s->parent, e)];
+  thr_disjoint_number(s->parent, s->r->c->f->n_edges, s->block);
   int connections = thr_turning_connections(s->r->c, s->block, s->scratch);
   *more = connections > 0;
   return *more ? add_partition(s->r, s->block, connections, added, err) : THR_OK;

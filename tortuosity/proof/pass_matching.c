@@ -430,12 +430,6 @@ static void count_columns(const thr_pass_matching *passes, const thr_matching *m
   }
 }
 
-static void drop_odd(thr_turning_dual *dual, int from)
-{
-  while (dual->n_odd > from)
-    free(dual->odd[--dual->n_odd].member);
-}
-
 /* Where the matching is not to be made again: half-edges whose multipliers pay too much for a turn or an end pay less, which
  * leaves extra passes a price that may be negative, and the bound lower. */
 static thr_status settle(const thr_pass_matching *passes, const int64_t *price, thr_turning_dual *dual, int first_odd,
@@ -462,7 +456,7 @@ static thr_status settle(const thr_pass_matching *passes, const int64_t *price, 
 static thr_status take(thr_pass_matching *passes, const int64_t *price, const thr_matching *matching, int first_odd, int *x,
                        thr_turning_dual *dual, bool *more, bool *fit, thr_err *err)
 {
-  drop_odd(dual, first_odd);
+  thr_turning_dual_drop_odd(dual, first_odd);
   count_columns(passes, matching, x);
   thr_status st = keep(passes, matching, err);
   if (!st) st = thr_pass_dual(passes, matching, price, dual, err);

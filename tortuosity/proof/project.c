@@ -193,12 +193,11 @@ static thr_status add_multiplier(const thr_relax *relax, thr_turning_dual *dual,
 thr_status thr_project_dual(const thr_relax *relax, thr_turning_dual *dual, thr_err *err)
 {
   const thr_turning_columns *turning_columns = relax->c;
-  *dual = (thr_turning_dual){0};
-  dual->potential = thr_calloc(2 * (size_t)turning_columns->f->n_edges, sizeof *dual->potential);
-  dual->ends = thr_calloc((size_t)turning_columns->n_ends, sizeof *dual->ends);
+  thr_status st = thr_turning_dual_init(dual, turning_columns, err);
+  if (st) return st;
   dual->odd = thr_calloc((size_t)relax->search.pool.count, sizeof *dual->odd);
   dual->junction = thr_calloc((size_t)relax->search.pool.count, sizeof *dual->junction);
-  thr_status st = dual->potential && dual->ends && dual->odd && dual->junction ? THR_OK : thr_nomem(err);
+  if (!dual->odd || !dual->junction) st = thr_nomem(err);
   for (int i = 0; i < relax->search.pool.count && !st; i++)
     if (thr_relax_whole(relax->search.dual[i]) > 0)
       st = add_multiplier(relax, dual, &relax->search.pool.row[i], thr_relax_whole(relax->search.dual[i]), err);

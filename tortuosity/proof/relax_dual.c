@@ -50,18 +50,16 @@ thr_status thr_relax_dual(const thr_relax *relax, thr_turning_dual *dual, thr_er
 {
   const thr_turning_columns *turning_columns = relax->c;
   int darts = 2 * turning_columns->f->n_edges, used[THR_RELAX_JUNCTION + 1] = {0};
-  *dual = (thr_turning_dual){0};
   if (relax->projected) return thr_project_dual(relax, dual, err);
   for (int i = 0; i < relax->search.pool.count; i++)
     used[relax->search.pool.row[i].kind] += thr_relax_whole(relax->search.dual[relax->search.n_fixed + i]) > 0;
-  dual->potential = thr_calloc((size_t)darts, sizeof *dual->potential);
-  dual->ends = thr_calloc((size_t)turning_columns->n_ends, sizeof *dual->ends);
+  thr_status st = thr_turning_dual_init(dual, turning_columns, err);
+  if (st) return st;
   dual->odd = thr_calloc((size_t)used[THR_RELAX_ODD], sizeof *dual->odd);
   dual->group = thr_calloc((size_t)used[THR_RELAX_GROUP], sizeof *dual->group);
   dual->partition = thr_calloc((size_t)used[THR_RELAX_PARTITION], sizeof *dual->partition);
   dual->junction = thr_calloc((size_t)used[THR_RELAX_JUNCTION], sizeof *dual->junction);
-  thr_status st =
-      dual->potential && dual->ends && dual->odd && dual->group && dual->partition && dual->junction ? THR_OK : thr_nomem(err);
+  if (!dual->odd || !dual->group || !dual->partition || !dual->junction) st = thr_nomem(err);
   for (int h = 0; h < darts && !st; h++)
     dual->potential[h] = thr_relax_whole(relax->search.dual[h]);
   for (int i = 0; turning_columns->task->end_allowed && i < turning_columns->n_ends && !st; i++)
