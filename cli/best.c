@@ -11,7 +11,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { MOST_CORDS = 1000 };      /* that a plan may have in a component */
 static const double OFTEN = 0.2; /* s between two plans that are kept */
 
 static struct {
@@ -31,11 +30,8 @@ void best_begin(const thr_frame *frame, const thr_request *options)
 /* What is minimized first. */
 static double value_of(const thr_plan *plan)
 {
-  double longest = 0;
-  for (int i = 0; i < plan->n_cords; i++)
-    longest = fmax(longest, thr_cord_length(&plan->frame, &plan->cord[i]));
   if (thr_wants_symmetry(&plan->options)) return plan->symmetry.steps;
-  if (thr_wants_balance(&plan->options)) return longest;
+  if (thr_wants_balance(&plan->options)) return thr_cords_longest(&plan->frame, plan->cord, plan->n_cords);
   if (thr_wants_turning(&plan->options))
     return thr_wants_largest(&plan->options) ? plan->metrics.max_turning : plan->metrics.turning;
   return plan->metrics.length;
@@ -61,13 +57,13 @@ static bool count_cords(const thr_plan *plan, int *fewest, int *most)
 static bool fits(thr_plan *plan)
 {
   int fewest, most;
-  if (!count_cords(plan, &fewest, &most) || most > MOST_CORDS) return false;
+  if (!count_cords(plan, &fewest, &most) || most > THR_MOST_CORDS) return false;
   bool counted = thr_plan_counted(&plan->options);
   if (!counted) plan->options.cords = most;
   bool few_enough = most <= plan->options.cords, enough = fewest >= plan->options.cords_least;
-  for (int i = 0; plan->options.max_length > 0 && i < plan->n_cords; i++)
-    few_enough = few_enough && thr_cord_length(&plan->frame, &plan->cord[i]) <= plan->options.max_length * (1 + 1e-12);
-  return few_enough && (enough || !counted || plan->options.ends == THR_ENDS_COUNTS);
+  const double limit = plan->options.max_length * (1 + 1e-12);
+  bool short_enough = limit == 0 || thr_cords_longest(&plan->frame, plan->cord, plan->n_cords) <= limit;
+  return few_enough && short_enough && (enough || !counted || plan->options.ends == THR_ENDS_COUNTS);
 }
 
 static bool is_wanted(thr_plan *plan)

@@ -7,7 +7,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 thr_status thr_even_seed(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *seed,
                          thr_err *err)
@@ -56,17 +55,6 @@ static thr_status seed_fits(const thr_frame *frame, const thr_least *least, cons
   return st;
 }
 
-static thr_status copy_cords(const thr_cord *from, int n, thr_cord **to, thr_err *err)
-{
-  if (!(*to = thr_calloc((size_t)n, sizeof **to))) return thr_nomem(err);
-  for (int i = 0; i < n; i++) {
-    (*to)[i] = from[i];
-    if (!((*to)[i].half = thr_calloc((size_t)from[i].n_passes, sizeof *from[i].half))) return thr_nomem(err);
-    memcpy((*to)[i].half, from[i].half, (size_t)from[i].n_passes * sizeof *from[i].half);
-  }
-  return THR_OK;
-}
-
 thr_status thr_even_turning(const thr_frame *frame, const thr_plan *seed, const thr_limits *limits, thr_least *least,
                             thr_err *err)
 {
@@ -77,7 +65,7 @@ thr_status thr_even_turning(const thr_frame *frame, const thr_plan *seed, const 
   thr_status st = seed ? seed_fits(frame, least, seed, &fits, err) : THR_OK;
   if (!st && fits) {
     const thr_limits share = thr_dispatch_share(limits, THR_STEP_EVEN_SEED);
-    st = copy_cords(seed->cord, seed->n_cords, &from.cord, err);
+    st = thr_cords_copy(seed->cord, seed->n_cords, &from.cord, err);
     if (!st) st = thr_max_turning_improve(frame, &share, &from, &other, err);
   }
   if (!st && !(other.largest <= other.bound * (1 + 1e-9))) st = thr_max_turning_improve(frame, limits, least, &own, err);

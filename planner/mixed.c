@@ -41,19 +41,11 @@ bool thr_planner_is_mixed(const thr_request *options)
 
 /* ---- the best of several ---- */
 
-static double longest_of(const thr_plan *plan)
-{
-  double longest = 0;
-  for (int i = 0; i < plan->n_cords; i++)
-    longest = fmax(longest, thr_cord_length(&plan->frame, &plan->cord[i]));
-  return longest;
-}
-
 /* What an aim makes of cords. */
 static double value_of(const mixed *m, thr_aim aim, const thr_plan *plan)
 {
   double sum = 0, most = 0;
-  if (aim == THR_AIM_LONGEST) return longest_of(plan);
+  if (aim == THR_AIM_LONGEST) return thr_cords_longest(m->f, plan->cord, plan->n_cords);
   for (int i = 0; i < plan->n_cords; i++) {
     double price = thr_cord_price(m->f, m->o, &plan->cord[i]);
     sum += price;
@@ -75,7 +67,7 @@ static bool is_better(const mixed *m, const thr_plan *plan)
 /* Takes a plan whose cords are short enough and better. */
 static void offer(mixed *m, thr_plan *plan)
 {
-  bool fits = m->o->max_length == 0 || longest_of(plan) <= m->o->max_length * (1 + 1e-12);
+  bool fits = m->o->max_length == 0 || thr_cords_longest(m->f, plan->cord, plan->n_cords) <= m->o->max_length * (1 + 1e-12);
   if (plan->n_cords == 0 || !fits || !is_better(m, plan)) return;
   thr_plan_destroy(&m->best);
   m->best = *plan;

@@ -13,8 +13,6 @@
 #include "symmetry/lift/keep.h"
 #include "symmetry/symmetry.h"
 
-enum { MOST_CORDS = 1000 }; /* that a plan may have in a component */
-
 /* Cords of the least length, or of the shortest longest cord, that keep to what is asked; none: the plan is empty, and why says
  * it. */
 static thr_status plan_length(const thr_frame *frame, const thr_request *asked, const thr_limits *limits, thr_plan *plan,
@@ -28,7 +26,7 @@ static thr_status plan_length(const thr_frame *frame, const thr_request *asked, 
   if (thr_wants_balance(asked)) options.aims = (thr_aims){2, {THR_AIM_LONGEST, THR_AIM_LENGTH}};
   options.symmetry = thr_request_default().symmetry;
   if (!asked->symmetry.counted) options.cords_least = 1;
-  if (!asked->symmetry.counted) options.cords = MOST_CORDS;
+  if (!asked->symmetry.counted) options.cords = THR_MOST_CORDS;
   options.confirm = THR_CONFIRM_NEVER;
   share.found = NULL;
   thr_status st = thr_planner_length(frame, &options, &share, plan, NULL, why);

@@ -15,8 +15,6 @@
 
 const double thr_symmetry_slack = 0.10;
 
-enum { MOST_CORDS = 1000 }; /* that a plan may have in a component */
-
 /* ---- which rows, and the choice ---- */
 
 static thr_status check_asked(const thr_symmetries *symmetries, const char *group, thr_err *err)
@@ -95,7 +93,7 @@ static thr_status find_shortest(const thr_frame *frame, const thr_request *optio
   if (!options->symmetry.counted) few.cords = 1;
   thr_status st = thr_postman_shortest(frame, &few, &share, &shortest, &why);
   if (st == THR_EINFEASIBLE && options->ends != THR_ENDS_CLOSED) { /* capacities may ask for more cords */
-    few.cords = MOST_CORDS;
+    few.cords = THR_MOST_CORDS;
     st = thr_postman_shortest(frame, &few, &share, &shortest, &why);
   }
   if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", why.text);
@@ -133,26 +131,6 @@ static thr_status verdict(const thr_symmetries *symmetries, const char *group, t
 
 /* ---- cords without symmetry ---- */
 
-static double longest_of(const thr_frame *frame, const thr_cord *cord, int n)
-{
-  double longest = 0;
-  for (int i = 0; i < n; i++)
-    longest = fmax(longest, thr_cord_length(frame, &cord[i]));
-  return longest;
-}
-
-static thr_status copy_cords(const thr_cord *from, int n, thr_cord **to, thr_err *err)
-{
-  thr_cord *cord = *to = thr_calloc((size_t)n, sizeof *cord);
-  if (!cord) return thr_nomem(err);
-  for (int i = 0; i < n; i++) {
-    cord[i] = from[i];
-    if (!(cord[i].half = thr_calloc((size_t)from[i].n_passes, sizeof *cord[i].half))) return thr_nomem(err);
-    memcpy(cord[i].half, from[i].half, (size_t)from[i].n_passes * sizeof *cord[i].half);
-  }
-  return THR_OK;
-}
-
 /* The plan's cords as the threading of this row, under the identity alone. Of the row's bounds only that on the first aim holds
  * for them, and that there is no more to learn of an edge than its passes. */
 static thr_status take_plan(const thr_plan *plan, thr_symmetry_row *row, thr_err *err)
@@ -162,7 +140,7 @@ static thr_status take_plan(const thr_plan *plan, thr_symmetry_row *row, thr_err
   thr_cords_destroy(row->cord, row->n_cords);
   thr_symmetry_record_destroy(&row->record);
   row->n_cords = plan->n_cords;
-  thr_status st = copy_cords(plan->cord, plan->n_cords, &row->cord, err);
+  thr_status st = thr_cords_copy(plan->cord, plan->n_cords, &row->cord, err);
   if (!st) st = thr_cords_alone(&plan->frame, all_open, row->cord, row->n_cords, &row->record, err);
   if (st) return st;
   snprintf(row->record.name, sizeof row->record.name, "%s", row->name);
@@ -190,7 +168,7 @@ static thr_status use_plan(const thr_plan *plan, const thr_request *options, thr
     thr_status st = take_plan(plan, row, err);
     if (st) return st;
     thr_fail(&row->why, THR_ELIMIT, "these are the cords of least length, which need not be the best under this group");
-    if (thr_wants_balance(options)) row->longest = longest_of(&plan->frame, row->cord, row->n_cords);
+    if (thr_wants_balance(options)) row->longest = thr_cords_longest(&plan->frame, row->cord, row->n_cords);
   }
   return THR_OK;
 }
@@ -215,7 +193,7 @@ thr_status thr_symmetries_find_from(const thr_frame *frame, const thr_request *o
   if (plan) {
     out->shortest = fmax(plan->metrics.length, plan->metrics.base_length); /* but for rounding */
     out->shortest_optimal = plan->proof.optimal;
-    if (thr_wants_balance(options)) out->longest = longest_of(frame, plan->cord, plan->n_cords);
+    if (thr_wants_balance(options)) out->longest = thr_cords_longest(frame, plan->cord, plan->n_cords);
   }
   const thr_limits share = thr_limits_part(limits, 0.3);
   if (!st) st = thr_symmetry_groups(frame, options, &share, out, err);
@@ -295,8 +273,9 @@ thr_status thr_symmetries_plan(thr_symmetries *symmetries, int row, const thr_fr
   *plan = (thr_plan){0};
   if (!thr_wants_symmetry(options)) with.aims = thr_aims_symmetric;
   count_cords(symmetry_row, &least, &most);
-  if (most > MOST_CORDS)
-    return thr_fail(err, THR_EINFEASIBLE, "group %d makes %d cords in one component, more than %d", row + 1, most, MOST_CORDS);
+  if (most > THR_MOST_CORDS)
+    return thr_fail(err, THR_EINFEASIBLE, "group %d makes %d cords in one component, more than %d", row + 1, most,
+                    THR_MOST_CORDS);
   if (!thr_plan_counted(&with)) with.cords = most;
   thr_status st = thr_plan_request(plan, frame, &with, err);
   if (!st) {

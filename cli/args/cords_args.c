@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_CORDS = 1000, MOST_PASSES = 100 };
+enum { MOST_PASSES = 100 };
 
 cords_args cords_args_default(void)
 {
@@ -26,7 +26,7 @@ static bool cords_number(const char *text, int n, int *out)
     return false;
   }
   snprintf(number, sizeof number, "%.*s", n, text);
-  return cli_int("plan", "--cords", number, 1, MOST_CORDS, out);
+  return cli_int("plan", "--cords", number, 1, THR_MOST_CORDS, out);
 }
 
 /* "4", "2..4", "..4", "auto". */
@@ -35,7 +35,7 @@ static bool parse_cords(cords_args *a, const char *value)
   const char *dots = strstr(value, "..");
   a->automatic = strcmp(value, "auto") == 0;
   a->least = 1;
-  a->most = MOST_CORDS;
+  a->most = THR_MOST_CORDS;
   if (a->automatic) return true;
   if (!dots) {
     bool ok = cords_number(value, (int)strlen(value), &a->most);
@@ -149,9 +149,9 @@ static int parse_counts(const thr_frame *frame, const char *ends, int *counts)
     }
     long count = strtol(number, &rest, 10);
     some = true;
-    if (rest == number || *rest || count < 1 || count > 2 * MOST_CORDS)
+    if (rest == number || *rest || count < 1 || count > 2 * THR_MOST_CORDS)
       return cli_usage("plan", "--ends %.*s: expected a number of cord ends from 1 to %d after the colon", n, word,
-                       2 * MOST_CORDS);
+                       2 * THR_MOST_CORDS);
     if (counts[v]) return cli_usage("plan", "--ends %s: node %s comes twice", ends, frame->name[v]);
     counts[v] = (int)count;
   }
@@ -169,7 +169,7 @@ static int count_cords(const thr_frame *frame, const int *counts, int *least, in
   int n, code = EXIT_OK, *component = thr_calloc((size_t)frame->n_nodes, sizeof *component);
   int *sum = thr_calloc((size_t)frame->n_nodes, sizeof *sum), *first = thr_calloc((size_t)frame->n_nodes, sizeof *first);
   thr_status st = component && sum && first ? thr_frame_components(frame, component, &n, &err) : thr_nomem(&err);
-  *least = MOST_CORDS;
+  *least = THR_MOST_CORDS;
   *most = 0;
   for (int v = frame->n_nodes - 1; v >= 0 && !st; v--) {
     sum[component[v]] += counts[v];
@@ -199,7 +199,7 @@ static int apply_counts(const cords_args *a, const thr_frame *frame, thr_request
   if (options->turning.tour != THR_TOUR_LEAST && most > 1)
     return cli_usage("plan", "--tour %s makes one cord in each component, not the %d of --ends %s",
                      thr_tour_name(options->turning.tour), most, a->ends);
-  if (most > MOST_CORDS || (a->most && (most > a->most || least < a->least))) {
+  if (most > THR_MOST_CORDS || (a->most && (most > a->most || least < a->least))) {
     cli_error("--ends %s: these are the ends of %d %s in a component; --cords says otherwise", a->ends,
               most > a->most ? most : least, cli_plural(most > a->most ? most : least, "cord", "cords"));
     return EXIT_INFEASIBLE;
@@ -230,7 +230,7 @@ static int apply_bore(thr_request *options)
 static void apply_number(const cords_args *a, thr_request *options)
 {
   bool free_number = a->most == 0 && a->max_length > 0;
-  options->cords = a->most ? a->most : free_number ? MOST_CORDS : 1;
+  options->cords = a->most ? a->most : free_number ? THR_MOST_CORDS : 1;
   options->cords_least = a->most ? a->least : 1;
 }
 

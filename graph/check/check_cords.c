@@ -253,11 +253,9 @@ thr_status thr_check_several(const thr_frame *frame, const thr_request *options,
 {
   part *parts;
   double bound = 0, unit = thr_plan_unit(frame); /* cords have whole numbers of it */
-  *found = (thr_cords_claim){.present = true};
+  *found = (thr_cords_claim){.present = true, .longest = thr_cords_longest(frame, cord, n_cords)};
   thr_status st = parts_of(frame, options, check_walked, &parts, err);
   if (st) return st;
-  for (int i = 0; i < n_cords; i++)
-    found->longest = fmax(found->longest, thr_cord_length(frame, &cord[i]));
   for (int c = 0; c < check_walked->n_components; c++) {
     const part *p = &parts[c];
     const thr_certificate *proof = verdict ? &certificate[c] : NULL;

@@ -32,6 +32,21 @@ void thr_cords_destroy(thr_cord *cord, int n)
   free(cord);
 }
 
+thr_status thr_cords_copy(const thr_cord *cord, int n, thr_cord **copy, thr_err *err)
+{
+  thr_cord *to = *copy = thr_calloc((size_t)n, sizeof *to);
+  bool complete = to != NULL;
+  for (int i = 0; i < n && complete; i++) {
+    to[i] = cord[i];
+    complete = (to[i].half = thr_calloc((size_t)cord[i].n_passes, sizeof *to[i].half)) != NULL;
+    if (complete) memcpy(to[i].half, cord[i].half, (size_t)cord[i].n_passes * sizeof *to[i].half);
+  }
+  if (complete) return THR_OK;
+  thr_cords_destroy(to, n);
+  *copy = NULL;
+  return thr_nomem(err);
+}
+
 void thr_plan_destroy(thr_plan *plan)
 {
   thr_cords_destroy(plan->cord, plan->n_cords);
@@ -132,6 +147,14 @@ double thr_cord_length(const thr_frame *frame, const thr_cord *cord)
   for (int i = 0; i < cord->n_passes; i++)
     sum += frame->length[cord->half[i] >> 1];
   return sum;
+}
+
+double thr_cords_longest(const thr_frame *frame, const thr_cord *cord, int n)
+{
+  double longest = 0;
+  for (int i = 0; i < n; i++)
+    longest = fmax(longest, thr_cord_length(frame, &cord[i]));
+  return longest;
 }
 
 double thr_turn_angle(const thr_frame *frame, int in, int out)

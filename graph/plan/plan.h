@@ -137,6 +137,7 @@ typedef struct {
 
 void thr_plan_destroy(thr_plan *plan);
 void thr_cords_destroy(thr_cord *cord, int n); /* cord[n] and their half arrays; NULL ok */
+thr_status thr_cords_copy(const thr_cord *cord, int n, thr_cord **copy, thr_err *err) THR_MUST_CHECK; /* NULL on failure */
 
 /* Copies framework and options into an empty plan. */
 thr_status thr_plan_request(thr_plan *plan, const thr_frame *framework, const thr_request *wishes, thr_err *err) THR_MUST_CHECK;
@@ -152,6 +153,7 @@ double thr_plan_unit(const thr_frame *framework);
 int thr_cord_start(const thr_frame *framework, const thr_cord *c);
 int thr_cord_end(const thr_frame *framework, const thr_cord *c);
 double thr_cord_length(const thr_frame *framework, const thr_cord *c);
+double thr_cords_longest(const thr_frame *framework, const thr_cord *cord, int n); /* length of the longest; 0 of none */
 
 /* Turning angle in rad between arriving over half-edge in and leaving over half-edge out (head(in) = tail(out)):
  * 0 = straight on, pi = U-turn. */

@@ -94,12 +94,12 @@ static thr_status read_cord_range(const thr_field_reader *field_reader, const th
   static const char *const known[] = {"least", "most", NULL};
   const thr_json *value = thr_json_get(object, "cords");
   if (!value || thr_json_typeof(value) != THR_JSON_OBJECT) {
-    thr_status st = thr_field_int(field_reader, object, "cords", 1, 1000, &out->cords);
+    thr_status st = thr_field_int(field_reader, object, "cords", 1, THR_MOST_CORDS, &out->cords);
     out->cords_least = out->cords;
     return st;
   }
   thr_status st = thr_field_only(field_reader, value, "options.cords", known);
-  if (!st) st = thr_field_int(field_reader, value, "most", 1, 1000, &out->cords);
+  if (!st) st = thr_field_int(field_reader, value, "most", 1, THR_MOST_CORDS, &out->cords);
   if (!st) st = thr_field_int(field_reader, value, "least", 1, out->cords, &out->cords_least);
   return st;
 }

@@ -12,6 +12,8 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
+enum { THR_MOST_CORDS = 1000 }; /* that a plan may have in a component */
+
 /* THR_ENDS_COUNTS: at every node exactly so many cord ends. */
 typedef enum { THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET, THR_ENDS_NODES, THR_ENDS_COUNTS } thr_ends;
 

@@ -115,19 +115,11 @@ static thr_status restate(const thr_quotient *quotient, const thr_cover_options 
                                  : "a plan does not count the turn where a closed cord comes out, the search does");
 }
 
-static double longest_of(const thr_frame *frame, const thr_symmetry_row *row)
-{
-  double longest = 0;
-  for (int i = 0; i < row->n_cords; i++)
-    longest = fmax(longest, thr_cord_length(frame, &row->cord[i]));
-  return longest;
-}
-
 /* Takes the cords of a row away that do not keep to what is asked of them: its value and bounds stay. */
 static thr_status refuse(const thr_frame *frame, thr_symmetry_row *row, thr_err *err)
 {
-  const double longest = longest_of(frame, row);
   const int n = row->n_cords;
+  const double longest = thr_cords_longest(frame, row->cord, n);
   thr_cords_destroy(row->cord, n);
   thr_symmetry_record_destroy(&row->record);
   row->cord = NULL;
@@ -151,7 +143,7 @@ static thr_status make_cords(const solver *s, const thr_quotient *quotient, cons
   snprintf(row->record.name, sizeof row->record.name, "%s", row->name);
   st = count_copies(row, err);
   if (!st) st = thr_plan_measure(quotient->f, s->o, row->cord, row->n_cords, &row->metrics, err);
-  if (thr_wants_balance(s->o)) row->longest = longest_of(quotient->f, row);
+  if (thr_wants_balance(s->o)) row->longest = thr_cords_longest(quotient->f, row->cord, row->n_cords);
   if (!st) st = restate(quotient, &s->how, c, row, err);
   if (st || c->optimal == optimal) return st;
   return thr_fail(err, THR_ELIMIT, "cords as asked for are made of the best cover, which the search looks for without asking");
@@ -267,8 +259,9 @@ thr_status thr_symmetry_shortest_tied(const thr_frame *frame, const thr_request 
 bool thr_symmetry_asked(const thr_symmetries *symmetries, int row, const char *group)
 {
   char number[16];
+  if (!*group) return true;
   snprintf(number, sizeof number, "%d", row + 1);
-  return !*group || strcmp(number, group) == 0 || strcmp(symmetries->row[row].name, group) == 0;
+  return strcmp(number, group) == 0 || strcmp(symmetries->row[row].name, group) == 0;
 }
 
 /* What is known of a row's threading: of its plan, else of the cover so far; least: no threading under the group has less. */
