@@ -216,28 +216,38 @@ static thr_status verdict(const thr_plan *plan, thr_err *err)
                   largest ? 100 * (claim->largest - claim->largest_bound) / claim->largest : 100 * claim->gap);
 }
 
+/* The plan of the least length that keeps to what is asked of its cords. THR_EINFEASIBLE: no cords whatever are short enough. */
+static thr_status plan_limited(mixed *m, thr_plan *plan, thr_err *why)
+{
+  if (m->o->max_length == 0 && !thr_wants_balance(m->o)) return THR_OK;
+  thr_status st = plan_length(m, true, plan, why);
+  if (!st) offer(m, plan);
+  if (st == THR_EINFEASIBLE) return m->o->max_length > 0 ? thr_cords_reach(m->f, m->o, &(thr_err){0}) : THR_OK;
+  return st == THR_ENOMEM ? st : THR_OK; /* plans for other aims may do */
+}
+
 thr_status thr_planner_mixed(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
                              thr_err *err)
 {
   mixed m = {.f = frame, .o = options, .limits = limits};
   thr_plan shortest = {0}, limited = {0};
-  thr_err why = {0};
+  thr_err why = {0}, why_not = {0};
   *plan = (thr_plan){0};
-  thr_status st = plan_length(&m, false, &shortest, &why);
-  if (!st && (options->max_length > 0 || thr_wants_balance(options))) {
-    thr_status found = plan_length(&m, true, &limited, &why);
-    if (!found) offer(&m, &limited);
-    if (found == THR_ENOMEM) st = found;
-  }
+  thr_status st = plan_limited(&m, &limited, &why);
   if (st) {
-    thr_fail(err, st, "%s", why.text);
+    thr_fail(err, st, "%s", st == THR_ENOMEM ? "out of memory" : why.text);
+  } else if ((st = plan_length(&m, false, &shortest, &why_not))) {
+    thr_fail(err, st, "%s", why_not.text);
   } else if (!(st = try_numbers(&m, err))) {
     const thr_length_proof proof = shortest.proof;
     shortest.proof = (thr_length_proof){0};
     offer(&m, &shortest);
     shortest.proof = proof;
     if (m.best.n_cords == 0)
-      st = thr_fail(err, THR_EINFEASIBLE, "%s", why.code ? why.text : "no plan with so many cords was found");
+      st = thr_fail(err, THR_EINFEASIBLE, "%s",
+                    why.code       ? why.text
+                    : why_not.code ? why_not.text
+                                   : "no plan with so many cords was found");
   }
   if (!st) st = assemble(&m, &shortest, plan, err);
   if (!st) st = verdict(plan, err);
