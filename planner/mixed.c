@@ -84,6 +84,11 @@ static thr_status keep_tree(mixed *m, thr_plan *plan, thr_err *err)
   thr_err why = {0};
   if (!claim.present) return THR_OK;
   thr_status st = thr_check_turning(m->f, m->o, plan->cord, plan->n_cords, &claim, &found, &why);
+  if (st == THR_EVIOLATED && claim.tree.walks.unit) { /* what walks are worth may be of one number only, too */
+    thr_walk_proof_destroy(&plan->turning.tree.walks);
+    claim = plan->turning;
+    st = thr_check_turning(m->f, m->o, plan->cord, plan->n_cords, &claim, &found, &why);
+  }
   if (st == THR_EVIOLATED) return THR_OK; /* of one number of cords only, as rows for a single closed cord are */
   if (st) return thr_fail(err, st, "%s", why.text);
   if ((m->tree.present && found.lower_bound <= m->tree.lower_bound)) return THR_OK;

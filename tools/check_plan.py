@@ -874,7 +874,8 @@ class Model:
 
     def read(self, o, place):
         """The proof, checked for shape; bound() adds it up."""
-        known(o, "tree multipliers", place)
+        known(o, "tree multipliers walks", place)
+        self.walks = member(o, "walks", "object", place, default=None)
         self.tree = member(o, "tree", "list", place)
         duals = member(o, "multipliers", "list", place)
         self.duals = [self.read_dual(d, f"{place}.multipliers[{i}]") for i, d in enumerate(duals)]
@@ -930,6 +931,7 @@ class Tied:
         self.base = sum(f.exact[e] * n for e, n in enumerate(p.options.need))
         self.model = Model(p, cords, 2 * (max(p.options.need) + degree + 2 * cords) + 1, True)
         self.model.read(o, place)
+        require(self.model.walks is None, f"{place}.walks: of the cord that turns most only")
         self.least = self.least_length(place)
         require(self.least is not None, f"{place}: proves that there is no plan")
         self.optimal = p.length - self.least <= TOLERANCE * p.length
@@ -1081,6 +1083,122 @@ def pairing_bound(p):
     return math.fsum(total)
 
 
+class Walks:
+    """Open cords as walks over half-edges, which turn back only at nodes with one edge."""
+
+    def __init__(self, model):
+        self.model, f = model, model.f
+        self.f, self.open = f, {v for a, b in model.weight if b < 0 for v in [f.tail(a)]}
+        self.steps = []  # of half-edge d, passed away from its node: (the next one, weight of the turn)
+        for d in range(2 * f.m):
+            keys = [(h, model.weight.get((min(h, d ^ 1), max(h, d ^ 1)))) for h in f.at[f.tail(d ^ 1)]]
+            self.steps.append([(h, w) for h, w in keys if w is not None])
+
+    def forced(self):
+        """The most that the turns over a single edge come to, from end to end."""
+        least = {d: 0 for d in range(2 * self.f.m) if self.f.tail(d ^ 1) in self.open}
+        queue, done = [(0, d) for d in least], set()
+        heapq.heapify(queue)
+        while queue:
+            total, d = heapq.heappop(queue)
+            if d in done:
+                continue
+            done.add(d)
+            for h in self.f.at[self.f.tail(d)]:  # walks that arrive over h and go on along d
+                here = next((total + w for to, w in self.steps[h ^ 1] if to == d), None)
+                if here is not None and here < least.get(h ^ 1, math.inf):
+                    least[h ^ 1] = here
+                    heapq.heappush(queue, (here, h ^ 1))
+        return max([least[2 * e] + least[2 * e + 1] for e in range(self.f.m) if 2 * e in least and 2 * e + 1 in least], default=0)
+
+    def read(self, o, place):
+        known(o, "unit units turning edges nodes", place)
+        self.unit = member(o, "unit", "integer", place, 1, 2**63 - 1)
+        self.units = member(o, "units", "integer", place, 0, 2**31 - 3)
+        self.turning = member(o, "turning", "integer", place, 0, 2**56)
+        self.edge = integers(member(o, "edges", "list", place), place + ".edges", 0, 2**63 - 1, self.f.m)
+        self.node = integers(member(o, "nodes", "list", place), place + ".nodes", 0, 2**63 - 1, self.f.n)
+
+    def check(self, place):
+        """The prices are allowed; the half-edges of their component in the order of the recursion."""
+        f, need = self.f, self.model.need
+        priced = [f.component[f.edge[e][0]] for e in range(f.m) if self.edge[e]]
+        c = priced[0] if priced else 0
+        require(self.model.open(c), f"{place}: of a component without cord ends")
+        require(set(priced) <= {c} and all(not y or f.component[v] == c for v, y in enumerate(self.node)), f"{place}: of two components")
+        require(not self.turning or len(f.pieces) == 1, f"{place}.turning: of several components")
+        require(all(not y or sum(need[h >> 1] for h in f.at[v]) % 2 for v, y in enumerate(self.node)), f"{place}.nodes: an even number")
+        require(Fraction(4 * UNIT, self.unit) <= 10**9, f"{place}.unit: out of range")
+        half = [d for d in range(2 * f.m) if f.component[f.tail(d)] == c]
+        largest = max(self.passing(d) + self.node[f.tail(d ^ 1)] for d in half)
+        require((largest + self.worth(4 * UNIT)) * (self.units + 2) * (len(half) + 1) < 2**61, f"{place}: prices too large")
+        return self.sort(half, place)
+
+    def sort(self, half, place):
+        """Half-edges after those that they step to without a unit."""
+        order, state = [], {}
+        for root in half:
+            stack = [(root, False)]
+            while stack:
+                d, done = stack.pop()
+                if done:
+                    state[d] = 2
+                    order.append(d)
+                elif d not in state:
+                    state[d] = 1
+                    stack.append((d, True))
+                    after = [to for to, w in self.steps[d] if w < self.unit]
+                    require(all(state.get(to) != 1 for to in after), f"{place}.unit: turns below one unit go round in a circle")
+                    stack.extend((to, False) for to in after)
+        return order
+
+    def passing(self, d):
+        return self.edge[d >> 1] + self.node[self.f.tail(d)] + self.node[self.f.tail(d ^ 1)]
+
+    def worth(self, weight):
+        return -(-self.turning * weight // UNIT)
+
+    def bound(self, cords, least, place):
+        """Price of the turns of some cord, if any plan has at most so many and their turns cost at least so much."""
+        order, f = self.check(place), self.f
+        steps = {d: [(to, w // self.unit, self.worth(w)) for to, w in self.steps[d]] for d in order}
+        longest = min(self.units, max((u for row in steps.values() for _, u, _ in row), default=0)) + 1
+        require(self.units * sum(map(len, steps.values())) <= 4e9 and longest * len(order) <= 1e9, f"{place}.units: too many")
+        rows = []  # value of half-edge d with so many units left; None: no walk
+        for r in range(self.units + 1):
+            row = {}
+            for d in order:
+                v = f.tail(d ^ 1)
+                best = self.node[v] if v in self.open else None
+                for to, u, y in steps[d]:
+                    x = (row if u == 0 else rows[r - u])[to] if u <= r else None
+                    if x is not None and (best is None or x + y > best):
+                        best = x + y
+                row[d] = None if best is None else best + self.passing(d)
+            rows.append(row)
+            if r >= longest:
+                rows[r - longest] = None
+        most = max([x + self.node[f.tail(d)] for d, x in rows[-1].items() if x is not None and f.tail(d) in self.open], default=0)
+        needed = self.turning * math.floor(least * UNIT) // UNIT
+        needed += sum(y * self.model.need[e] for e, y in enumerate(self.edge))
+        needed += sum(y * (sum(self.model.need[h >> 1] for h in f.at[v]) + 1) for v, y in enumerate(self.node))
+        require(needed > cords * max(0, most), f"{place}: the prices prove nothing")
+        return Fraction(self.unit * (self.units + 1), UNIT)
+
+
+def largest_bound(p, model, number, least, place):
+    """Of the price of the cord that turns most, from the number of cords, single edges and the prices of walks."""
+    if p.closing:
+        require(model.walks is None, f"{place}.walks: of closed cords")
+        return Fraction(0)
+    walks = Walks(model)
+    bound = Fraction(walks.forced(), UNIT)
+    if model.walks is not None:
+        walks.read(model.walks, place + ".walks")
+        bound = max(bound, walks.bound(number, least, place + ".walks"))
+    return bound
+
+
 def check_turning(p):
     claim = member(p.proof, "turning", "object", "proof", default=None)
     if claim is None:
@@ -1119,7 +1237,9 @@ def check_turning(p):
     known(largest, "status price lower_bound", place + ".largest")
     p.close(member(largest, "price", "number", place + ".largest"), max(prices), scale, place + ".largest.price")
     number = len(p.cords) if o.ends == "counts" else o.cords * len(f.pieces)
-    share = (Fraction(price) if optimal else bound) / number
+    each = len(p.cords) if o.ends == "counts" else o.cords
+    share = max((Fraction(price) if optimal else bound) / number, largest_bound(p, model, each, bound, place + ".proof"))
+    require(share - max(prices) <= rounding, f"{place}: some cord is proved to turn by {float(share)}, more than any does")
     attained = max(prices) - share <= rounding
     word = check_claim(largest, Fraction(max(prices)), attained, share, 1, place + ".largest", gap=False)
     return [f"turning {status}", f"largest turning {word}", f"at most {most} passes over any edge"] + (

@@ -7,6 +7,7 @@
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
+#include "graph/plan/walk_proof.h"
 #include "graph/status.h"
 
 #include <math.h>
@@ -247,9 +248,21 @@ static thr_status judge_cords(const walked *w, thr_turning_claim *found, thr_err
 
 /* ---- the claim ---- */
 
+/* *bound: of the cord that turns most, by what single edges force and by the worth of walks. least: of the price of all turns. */
+static thr_status judge_largest(const walked *w, const thr_turning_columns *columns, const thr_walk_proof *walks, double least,
+                                double *bound, thr_err *err)
+{
+  double worth = 0;
+  int cords = w->o->ends == THR_ENDS_COUNTS ? w->cords_most : w->o->cords;
+  thr_status st = thr_walk_forced(columns, bound, err);
+  if (!st && walks->unit) st = thr_walk_proof_check(columns, walks, cords, least, &worth, err);
+  *bound = fmax(*bound, worth);
+  return st;
+}
+
 static thr_status judge_tree(const walked *w, const thr_turning_claim *claim, thr_turning_claim *found, thr_err *err)
 {
-  double bound, passes = 0, length = 0;
+  double bound, forced, passes = 0, length = 0;
   for (int e = 0; e < w->f->n_edges; e++) {
     passes += fmin(w->passes[e], 2 * thr_plan_cover(w->f, w->o, e));
     length += w->passes[e] * w->f->length[e];
@@ -266,7 +279,12 @@ static thr_status judge_tree(const walked *w, const thr_turning_claim *claim, th
                                  .end_count = w->o->ends == THR_ENDS_COUNTS ? w->o->end_count : NULL,
                                  .cost = w->o->turning.cost,
                                  .extra_limit = thr_turning_extra_limit(w->f, w->o->cover, limit)};
-  thr_status st = thr_turning_proof_check(w->f, &task, &claim->tree, &bound, err);
+  thr_turning_columns columns;
+  thr_status st = thr_turning_columns_init(&columns, w->f, &task, err);
+  if (st) return st;
+  st = thr_turning_proof_check_columns(&columns, &claim->tree, &bound, err);
+  if (!st) st = judge_largest(w, &columns, &claim->tree.walks, bound, &forced, err);
+  thr_turning_columns_destroy(&columns);
   if (st) return st;
   if (w->o->ends == THR_ENDS_CLOSED) bound = fmax(bound, thr_turn_closed(w->o->turning.cost) * w->cords_least);
   /* prices are sums of so many roundings: equal within 1e-9 of a U-turn for each pass, of an edge at most twice those it needs */
@@ -277,7 +295,11 @@ static thr_status judge_tree(const walked *w, const thr_turning_claim *claim, th
   found->optimal = bound >= found->price - tolerance;
   found->lower_bound = found->optimal ? found->price : bound;
   found->gap = found->optimal ? 0 : (found->price - bound) / found->price;
-  found->largest_bound = found->lower_bound / w->cords_most;
+  found->largest_bound = fmax(found->lower_bound / w->cords_most, forced);
+  if (found->largest_bound > found->largest + tolerance)
+    return thr_fail(err, THR_EVIOLATED,
+                    "proof.turning: some cord is proved to turn by %.12g, which is more than any of this plan, %.12g",
+                    found->largest_bound, found->largest);
   found->largest_optimal = found->largest <= found->largest_bound + tolerance;
   if (found->largest_optimal) found->largest_bound = found->largest;
   return THR_OK;

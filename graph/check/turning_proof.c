@@ -56,6 +56,7 @@ void thr_turning_proof_destroy(thr_turning_proof *proof)
     thr_turning_dual_destroy(&proof->dual[i]);
   free(proof->dual);
   free(proof->node);
+  thr_walk_proof_destroy(&proof->walks);
   *proof = (thr_turning_proof){0};
 }
 
@@ -575,6 +576,7 @@ thr_status thr_turning_proof_check(const thr_frame *frame, const thr_turning_tas
 {
   thr_turning_columns turning_columns;
   *bound = 0;
+  if (proof->walks.unit) return thr_fail(err, THR_EVIOLATED, "turning proof: walks, which are about the cord that turns most");
   thr_status st = thr_turning_columns_init(&turning_columns, frame, task, err);
   if (st) return st;
   st = thr_turning_proof_check_columns(&turning_columns, proof, bound, err);

@@ -98,6 +98,22 @@ static void put_node(thr_writer *writer, const thr_turning_node *node)
   thr_write_close(writer);
 }
 
+/* Prices of walks; a proof with none has no member for them. */
+static void put_walks(thr_writer *writer, const thr_walk_proof *walks, const thr_frame *frame)
+{
+  if (walks->unit == 0) return;
+  thr_write_line(writer, 3);
+  thr_write_object(writer, "walks");
+  thr_write_int(writer, "unit", walks->unit);
+  thr_write_int(writer, "units", walks->units);
+  thr_write_int(writer, "turning", walks->turning);
+  thr_write_line(writer, 4);
+  put_multipliers(writer, "edges", walks->edge, frame->n_edges);
+  thr_write_line(writer, 4);
+  put_multipliers(writer, "nodes", walks->node, frame->n_nodes);
+  thr_write_close(writer);
+}
+
 void thr_turning_proof_write(const thr_turning_proof *proof, const thr_frame *frame, thr_writer *writer, const char *key)
 {
   thr_write_object(writer, key);
@@ -114,6 +130,7 @@ void thr_turning_proof_write(const thr_turning_proof *proof, const thr_frame *fr
     put_dual(writer, &proof->dual[i], frame, proof->n_ends);
   }
   thr_write_close(writer);
+  put_walks(writer, &proof->walks, frame);
   thr_write_close(writer);
 }
 
@@ -301,14 +318,29 @@ static thr_status read_node(const reader *r, const thr_json *value, thr_turning_
   return st;
 }
 
+static thr_status read_walks(const reader *r, const thr_json *value, thr_walk_proof *walks)
+{
+  static const char *const known[] = {"unit", "units", "turning", "edges", "nodes", NULL};
+  int64_t units = 0;
+  if (!value) return THR_OK;
+  thr_status st = only_members(r, value, known);
+  if (!st) st = get_int(r, thr_json_get(value, "unit"), "unit", 1, INT64_MAX, &walks->unit);
+  if (!st) st = get_int(r, thr_json_get(value, "units"), "units", 0, INT_MAX - 2, &units);
+  if (!st) st = get_int(r, thr_json_get(value, "turning"), "turning", 0, INT64_MAX, &walks->turning);
+  if (!st) st = read_multipliers(r, value, "edges", r->f->n_edges, &walks->edge);
+  if (!st) st = read_multipliers(r, value, "nodes", r->f->n_nodes, &walks->node);
+  walks->units = (int)units;
+  return st;
+}
+
 thr_status thr_turning_proof_from_json(thr_turning_proof *proof, const thr_frame *frame, const thr_json *value, const char *place,
                                        thr_err *err)
 {
-  static const char *const known[] = {"tree", "multipliers", NULL};
+  static const char *const known[] = {"tree", "multipliers", "walks", NULL}, *const without[] = {"tree", "multipliers", NULL};
   reader r = {place, frame, 0, err};
   const thr_json *tree, *duals;
   *proof = (thr_turning_proof){0};
-  thr_status st = only_members(&r, value, known);
+  thr_status st = only_members(&r, value, thr_json_get(value, "walks") ? known : without);
   if (!st) st = get_array(&r, value, "tree", &tree);
   if (!st) st = get_array(&r, value, "multipliers", &duals);
   if (st) return st;
@@ -325,6 +357,7 @@ thr_status thr_turning_proof_from_json(thr_turning_proof *proof, const thr_frame
     st = read_node(&r, thr_json_at(tree, i), &proof->node[i]);
   for (int i = 0; i < n_duals && !st; i++)
     st = read_dual(&r, thr_json_at(duals, i), &proof->dual[i]);
+  if (!st) st = read_walks(&r, thr_json_get(value, "walks"), &proof->walks);
   if (st) thr_turning_proof_destroy(proof);
   return st;
 }

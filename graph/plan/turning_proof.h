@@ -182,11 +182,22 @@ typedef struct {
   int dual; /* leaf: index of its multipliers */
 } thr_turning_node;
 
+/* Prices that bound the turning of the cord that turns most (graph/plan/walk_proof.h), >= 0; of one component. */
+typedef struct {
+  int64_t unit;         /* of turning, in 2^-THR_TURNING_BITS of the price; 0: there is no such proof */
+  int units;            /* cords of at most so many are worth too little */
+  int64_t turning;      /* price of 2^THR_TURNING_BITS of those */
+  int64_t *edge, *node; /* [n_edges] of a pass; [n_nodes] of a pass or an end at it; owned */
+} thr_walk_proof;
+
 typedef struct {
   int n_nodes, n_duals, n_ends;
   thr_turning_node *node; /* owned; node[0] is the root */
   thr_turning_dual *dual; /* owned; ends [n_ends] */
+  thr_walk_proof walks;   /* of the cord that turns most, if there is one */
 } thr_turning_proof;
+
+void thr_walk_proof_destroy(thr_walk_proof *proof);
 
 void thr_turning_proof_destroy(thr_turning_proof *proof);
 

@@ -291,7 +291,7 @@ START_TEST(trees_prove_their_worst_leaf)
   }
   for (int i = 1; i < 7; i++)
     node[i].dual = rng_below(&r, 3);
-  thr_turning_proof p = {7, 3, m.columns.n_ends, node, dual};
+  thr_turning_proof p = {7, 3, m.columns.n_ends, node, dual, {0}};
   for (int j = 0; j < m.columns.n_columns; j++)
     m.low[j] = 0, m.high[j] = m.column[j].most;
   wide exact = tree_bound(&m, &p, 0) >> THR_LENGTH_BITS;

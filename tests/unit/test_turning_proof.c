@@ -32,7 +32,7 @@ static thr_status small_check(const small *s, thr_err *err)
 {
   bool branches = s->node[0].low || s->node[0].high;
   thr_turning_dual dual = s->dual;
-  thr_turning_proof p = {branches ? 3 : 1, 1, 2, (thr_turning_node *)s->node, &dual};
+  thr_turning_proof p = {branches ? 3 : 1, 1, 2, (thr_turning_node *)s->node, &dual, {0}};
   double bound;
   *err = (thr_err){0};
   thr_status st = thr_turning_proof_check(&s->frame, &s->task, &p, &bound, err);
@@ -278,14 +278,14 @@ START_TEST(proofs_of_another_shape)
                {2, 2, true, true, "hangs nowhere"}, {1, 2, false, true, "no multipliers"}, {1, 2, true, false, "no multipliers"}};
   for (size_t i = 0; i < sizeof shape / sizeof *shape; i++) {
     thr_turning_dual dual = {.potential = shape[i].potential ? s.potential : NULL, .ends = shape[i].ends ? s.ends : NULL};
-    thr_turning_proof p = {shape[i].n_nodes, 1, shape[i].n_ends, s.node, &dual};
+    thr_turning_proof p = {shape[i].n_nodes, 1, shape[i].n_ends, s.node, &dual, {0}};
     ck_assert_int_eq(thr_turning_proof_check(&s.frame, &s.task, &p, &bound, &err), THR_EVIOLATED);
     assert_one_line(&err, shape[i].word);
     err = (thr_err){0};
   }
   thr_turning_set bad = {0, NULL, 1}; /* an empty set, in multipliers that no leaf has */
   thr_turning_dual dual[2] = {s.dual, s.dual};
-  thr_turning_proof nothing = {1, 2, 2, s.node, dual};
+  thr_turning_proof nothing = {1, 2, 2, s.node, dual, {0}};
   thr_turning_columns c;
   dual[1].odd = &bad, dual[1].n_odd = 1;
   ck_assert_int_eq(thr_turning_columns_init(&c, &s.frame, &s.task, NULL), THR_OK);

@@ -2,6 +2,7 @@
 #include "tortuosity/cords/maxturn.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/turning_proof.h"
+#include "graph/plan/walk_proof.h"
 #include "graph/random.h"
 #include "graph/threading/even.h"
 #include "graph/threading/multigraph.h"
@@ -11,6 +12,7 @@
 #include "tortuosity/cords/improve.h"
 #include "tortuosity/cords/join.h"
 #include "tortuosity/cords/maxturn_small.h"
+#include "tortuosity/cords/walk_bound.h"
 #include "tortuosity/tie/tie.h"
 
 #include <math.h>
@@ -298,8 +300,11 @@ thr_status thr_max_turning_improve(const thr_frame *frame, const thr_limits *lim
   thr_turning_columns turning_columns = {0};
   search x = {0};
   bool found = false;
+  double forced = 0;
   *out = (thr_max_turning){.bound = plan->bound / plan->n_cords};
   thr_status st = thr_turning_columns_init(&turning_columns, frame, &plan->task, err);
+  if (!st) st = thr_walk_forced(&turning_columns, &forced, err);
+  out->bound = fmax(out->bound, forced);
   if (!st) st = search_init(&x, &turning_columns, limits, plan, largest_price(frame, plan), out->bound, err);
   if (!st && out->bound < x.scale * (1 - 1e-9))
     st = thr_max_turning_small(&turning_columns, plan->cord, plan->n_cords, limits, &x.best, &found, err);
@@ -308,6 +313,8 @@ thr_status thr_max_turning_improve(const thr_frame *frame, const thr_limits *lim
     thr_join_measure(&x.best);
     st = take_cords(frame, &x.best, plan, err);
   }
+  if (!st)
+    st = thr_walk_bound(&turning_columns, plan->cord, plan->n_cords, plan->bound, limits, &plan->proof.walks, &out->bound, err);
   if (!st) out->largest = largest_price(frame, plan);
   search_destroy(&x);
   thr_turning_columns_destroy(&turning_columns);
