@@ -272,8 +272,7 @@ static thr_status improve_plans(thr_branch *branch, thr_err *err)
     st = thr_cycles_improve(branch, tries, err);
     if (branch->other.price < branch->best_price) thr_branch_swap(branch, &branch->other);
   }
-  if (!st && single && branch->c->n_columns < THR_CONNECT_SMALL && !closed(branch, root))
-    st = thr_connect_plans(branch, branch->limits, err);
+  if (!st && single && thr_connect_later(branch->c) && !closed(branch, root)) st = thr_connect_plans(branch, branch->limits, err);
   return st;
 }
 

@@ -15,6 +15,8 @@
 enum {
   ROWS = 300,    /* kept at a time */
   PATIENCE = 15, /* steps without a better bound until they are made smaller */
+  SMALL = 3000,  /* columns of a framework whose programmes take less time than many steps */
+  FEW_TURNS = 4, /* per edge; a node of four edges has three */
   FEW = 10,      /* steps for one closed cord where programmes take less time than many of them */
   MANY = 60,     /* at least for larger frameworks, and as many more as WORK allows */
   WORK = 2000000 /* columns that steps together look at */
@@ -277,11 +279,22 @@ static void keep_values(connect *s, bool back)
     *(back ? &s->row[i].value : &s->row[i].best) = back ? s->row[i].best : s->row[i].value;
 }
 
+static bool few_turns(const thr_turning_columns *c)
+{
+  return c->first_extra / FEW_TURNS <= c->f->n_edges;
+}
+
+bool thr_connect_later(const thr_turning_columns *turning_columns)
+{
+  return turning_columns->n_columns < SMALL || few_turns(turning_columns);
+}
+
+/* The first step makes a plan of the matching. */
 static int steps_of(const thr_turning_columns *c)
 {
   bool single = !c->task->end_allowed && c->task->cords == 1;
-  if (c->n_columns < THR_CONNECT_SMALL) return single ? FEW : 0;
-  return MANY + WORK / c->n_columns;
+  if (!thr_connect_later(c)) return MANY + WORK / c->n_columns;
+  return !single ? 0 : few_turns(c) ? 1 : FEW;
 }
 
 /* Does the bound close the search? */
@@ -379,7 +392,7 @@ thr_status thr_connect(thr_branch *branch, thr_pass_matching *passes, const int6
     s->n_parts = thr_connect_parts(c, x, s->part);
     thr_pass_matching_shrink(passes, x);
     st = climb(s, bound, &why);
-    if (!st && s->n_rows) st = prove(s, &why);
+    if (!st && s->best > bound) st = prove(s, &why);
     if (st && st != THR_ELIMIT) thr_fail(err, st, "%s", why.text);
   }
   for (int i = 0; i < s->n_rows; i++)

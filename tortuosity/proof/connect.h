@@ -29,8 +29,10 @@ thr_status thr_connect(thr_branch *branch, thr_pass_matching *passes, const int6
  * tortuosity/proof/connect_plans.c. The same plans every time. */
 thr_status thr_connect_plans(thr_branch *branch, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
 
-/* Columns of a framework whose programmes take less time than many steps. */
-enum { THR_CONNECT_SMALL = 3000 };
+/* Do programmes take less time than many steps? They do for small frameworks, and where most nodes have at most four edges: few
+ * rows prove most there, and steps along many crossings of the same two parts overshoot. Then programmes come first, and plans
+ * under random prices after them. O(1). */
+bool thr_connect_later(const thr_turning_columns *turning_columns);
 
 /* In tortuosity/proof/connect_parts.c. part[n_edges] receives the number of the part of each edge, 0 .. result - 1: what hangs
  * together by the turns of x. */
