@@ -294,7 +294,7 @@ static int steps_of(const thr_turning_columns *c)
 {
   bool single = !c->task->end_allowed && c->task->cords == 1;
   if (!thr_connect_later(c)) return MANY + WORK / c->n_columns;
-  return !single ? 0 : few_turns(c) ? 1 : FEW;
+  return !single ? 0 : c->n_columns < SMALL ? FEW : 1;
 }
 
 /* Does the bound close the search? */
