@@ -24,14 +24,26 @@ typedef struct {
   const thr_limits *limits;
   double bound, scale;
   thr_join best;
-  double value; /* of best: the sum of the powers */
+  double largest, value; /* of best: the largest total, the sum of the powers */
   int *passes, *ends;
   double *weight; /* [n_edges] */
   double *point;  /* [n_columns] tube joints */
   uint64_t state;
 } search;
 
-/* Exchanges and annealing from j, which becomes the best or is released. */
+/* j becomes the best if its largest total is less, or as large and the sum of the powers less. */
+static void keep_better(search *x, thr_join *j, const thr_evener *evener)
+{
+  double value = thr_evener_value(evener), largest = thr_evener_largest(evener);
+  if (largest > x->largest * (1 + 1e-12) || (largest >= x->largest * (1 - 1e-12) && value >= x->value * (1 - 1e-12))) return;
+  thr_join_destroy(&x->best);
+  x->best = *j;
+  *j = (thr_join){0};
+  x->value = value;
+  x->largest = largest;
+}
+
+/* Exchanges and annealing from j, which becomes the best or is released. Without steps it is taken as it is. */
 static thr_status improve_from(search *x, thr_join *j, int steps, thr_err *err)
 {
   thr_threading threading;
@@ -41,16 +53,10 @@ static thr_status improve_from(search *x, thr_join *j, int steps, thr_err *err)
   if (!st && !best) st = thr_nomem(err);
   if (!st && thr_evener_follow(&evener)) {
     evener.state = thr_random(&x->state);
-    thr_evener_even(&evener);
+    if (steps > 0) thr_evener_even(&evener);
     thr_evener_anneal(&evener, evener.n_cords > 1 ? steps : 0, x->bound, best);
-    thr_evener_even(&evener);
-    double value = thr_evener_value(&evener);
-    if (value < x->value * (1 - 1e-12)) {
-      thr_join_destroy(&x->best);
-      x->best = *j;
-      *j = (thr_join){0};
-      x->value = value;
-    }
+    if (steps > 0) thr_evener_even(&evener);
+    keep_better(x, j, &evener);
   }
   thr_threading_destroy(&threading);
   free(best);
@@ -203,15 +209,20 @@ static thr_status copy_best(const search *x, thr_join *j, thr_err *err)
   return st;
 }
 
+/* Of annealing. */
+static int steps_of(const search *x)
+{
+  double darts = x->best.g.n_darts;
+  return (int)fmax(2000, fmin(1000 * darts, 4e7 / darts));
+}
+
 /* From the plan itself; from other ends; and from the best of all these once more. Counted, not timed, so that the same input
  * gives the same cords. */
 static thr_status run(search *x, thr_err *err)
 {
   enum { ROUNDS = 48, LAST = 2, MORE = 4000 };
   const thr_turning_columns *turning_columns = x->c;
-  double darts = x->best.g.n_darts;
-  int rounds = ROUNDS + MORE / x->best.g.n_darts;
-  int steps = (int)fmax(2000, fmin(1000 * darts, 4e7 / darts));
+  int rounds = ROUNDS + MORE / x->best.g.n_darts, steps = steps_of(x);
   bool done = false;
   thr_join j;
   thr_status st = copy_best(x, &j, err);
@@ -255,6 +266,12 @@ static thr_status take_cords(const thr_frame *frame, const thr_join *j, thr_leas
   return THR_OK;
 }
 
+static thr_status keep_best(search *x, const thr_frame *frame, thr_least *plan, thr_err *err)
+{
+  thr_join_measure(&x->best);
+  return take_cords(frame, &x->best, plan, err);
+}
+
 static double price_of(const thr_frame *frame, const thr_least *plan, const thr_cord *cord)
 {
   double price = 0;
@@ -275,8 +292,13 @@ static thr_status search_init(search *x, const thr_turning_columns *turning_colu
                               const thr_least *plan, double largest, double bound, thr_err *err)
 {
   size_t m = (size_t)turning_columns->f->n_edges;
-  *x = (search){
-      .c = turning_columns, .limits = limits, .bound = bound, .scale = fmax(1e-9, largest), .value = INFINITY, .state = 1};
+  *x = (search){.c = turning_columns,
+                .limits = limits,
+                .bound = bound,
+                .scale = fmax(1e-9, largest),
+                .largest = INFINITY,
+                .value = INFINITY,
+                .state = 1};
   x->passes = thr_calloc(m, sizeof *x->passes);
   x->weight = thr_calloc(m, sizeof *x->weight);
   x->point = thr_calloc((size_t)turning_columns->n_columns, sizeof *x->point);
@@ -294,6 +316,25 @@ static void search_destroy(search *x)
   free(x->ends);
 }
 
+/* The programme over walks: a higher bound, and cords that it chooses, evened out as the others were. */
+static thr_status use_walks(search *x, const thr_frame *frame, thr_least *plan, double *bound, thr_err *err)
+{
+  thr_cord *better = NULL;
+  thr_join j = {0};
+  thr_status st =
+      thr_walk_bound(x->c, plan->cord, plan->n_cords, plan->bound, x->limits, &plan->proof.walks, bound, &better, err);
+  if (!st && better) {
+    x->bound = *bound;
+    for (int steps = 0; steps >= 0 && !st; steps = steps ? -1 : steps_of(x)) { /* as they are, and evened out */
+      st = thr_join_from_cords(&j, x->c, better, plan->n_cords, err);
+      if (!st) st = improve_from(x, &j, steps, err);
+    }
+    if (!st) st = keep_best(x, frame, plan, err);
+  }
+  thr_cords_destroy(better, plan->n_cords);
+  return st;
+}
+
 thr_status thr_max_turning_improve(const thr_frame *frame, const thr_limits *limits, thr_least *plan, thr_max_turning *out,
                                    thr_err *err)
 {
@@ -309,12 +350,8 @@ thr_status thr_max_turning_improve(const thr_frame *frame, const thr_limits *lim
   if (!st && out->bound < x.scale * (1 - 1e-9))
     st = thr_max_turning_small(&turning_columns, plan->cord, plan->n_cords, limits, &x.best, &found, err);
   if (!st && !found) st = run(&x, err);
-  if (!st) {
-    thr_join_measure(&x.best);
-    st = take_cords(frame, &x.best, plan, err);
-  }
-  if (!st)
-    st = thr_walk_bound(&turning_columns, plan->cord, plan->n_cords, plan->bound, limits, &plan->proof.walks, &out->bound, err);
+  if (!st) st = keep_best(&x, frame, plan, err);
+  if (!st) st = use_walks(&x, frame, plan, &out->bound, err);
   if (!st) out->largest = largest_price(frame, plan);
   search_destroy(&x);
   thr_turning_columns_destroy(&turning_columns);

@@ -1,0 +1,126 @@
+/* Diving on the columns. */
+#include "tortuosity/cords/walk_dive.h"
+#include "graph/framework/frame.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/status.h"
+#include "lp/model/pool.h"
+#include "lp/model/search.h"
+#include "lp/solver/lp.h"
+#include "tortuosity/cords/walk_programme.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+  thr_walk_programme *p;
+  double *left, *cost; /* [n_variables] the right sides that are left; costs of the dual */
+  thr_cord *cord;
+  int n_cords;
+} dive;
+
+/* Passes that the walk of a row makes of those that are still needed. */
+static double serves(const dive *d, const thr_row *row)
+{
+  double sum = 0;
+  for (int k = 0; k < row->n; k++) {
+    int j = row->column[k], e = d->p->c->f->n_edges;
+    bool is_edge = j < e && j < d->p->n_variables;
+    if (is_edge) sum += fmax(0, fmin(d->left[j], row->value ? -row->value[k] : -1));
+  }
+  return sum;
+}
+
+static thr_status take(dive *d, const thr_row *row, thr_err *err)
+{
+  thr_cord *cord = &d->cord[d->n_cords];
+  *cord = (thr_cord){.component = d->p->component, .n_passes = row->n_members};
+  if (!(cord->half = thr_calloc((size_t)row->n_members, sizeof *cord->half))) return thr_nomem(err);
+  memcpy(cord->half, row->member, (size_t)row->n_members * sizeof *cord->half);
+  d->n_cords++;
+  for (int k = 0; k < row->n; k++)
+    d->left[row->column[k]] = fmax(0, d->left[row->column[k]] + (row->value ? row->value[k] : 1));
+  return THR_OK;
+}
+
+/* Takes the walks whose columns are 1, or else the largest. *taken: 0: none serves. */
+static thr_status take_some(dive *d, int *taken, thr_err *err)
+{
+  thr_search *search = &d->p->search;
+  int best = -1, rows = thr_lp_rows(search->lp);
+  thr_status st = THR_OK;
+  *taken = 0;
+  for (int i = 0; i < rows && d->n_cords < d->p->cords && !st; i++) {
+    if (search->dual[i] < 1e-6 || serves(d, &search->pool.row[i]) == 0) continue;
+    if (best < 0 || search->dual[i] > search->dual[best] + 1e-9) best = i;
+    if (search->dual[i] < .999) continue;
+    st = take(d, &search->pool.row[i], err);
+    ++*taken;
+  }
+  if (!st && *taken == 0 && best >= 0) {
+    st = take(d, &search->pool.row[best], err);
+    ++*taken;
+  }
+  return st;
+}
+
+static bool is_covered(const dive *d)
+{
+  const thr_walk_programme *p = d->p;
+  for (int e = 0; e < p->c->f->n_edges; e++)
+    if (p->edge[e] >= 0 && d->left[p->edge[e]] > 0) return false;
+  return true;
+}
+
+/* Cords that are not needed run over as little as there is. */
+static thr_status fill_up(dive *d, thr_err *err)
+{
+  const thr_pool *pool = &d->p->search.pool;
+  const thr_row *least = NULL;
+  thr_status st = THR_OK;
+  for (int i = 0; i < pool->count; i++)
+    if (!least || pool->row[i].n_members < least->n_members) least = &pool->row[i];
+  while (!st && d->n_cords < d->p->cords)
+    st = take(d, least, err);
+  return st;
+}
+
+static thr_status run(dive *d, bool *found, thr_err *err)
+{
+  enum { FIRST_ROUNDS = 30, ROUNDS = 4 };
+  thr_walk_programme *p = d->p;
+  thr_status st = THR_OK;
+  for (int taken = 1, step = 0; taken > 0 && !st && !is_covered(d); step++) {
+    for (int j = 0; j < p->n_variables; j++)
+      d->cost[j] = -d->left[j];
+    st = thr_lp_set_costs(p->search.lp, d->cost, err);
+    if (!st) st = thr_walk_programme_rounds(p, step ? ROUNDS : FIRST_ROUNDS, err);
+    if (st || p->search.outcome != THR_LP_OPTIMAL) break;
+    if (-p->search.objective > p->cords - d->n_cords + 1e-6) break;
+    st = take_some(d, &taken, err);
+  }
+  *found = !st && is_covered(d);
+  return *found ? fill_up(d, err) : st;
+}
+
+thr_status thr_walk_dive(thr_walk_programme *p, int units, thr_cord *cord, bool *found, thr_err *err)
+{
+  const double dear = 10; /* no pass goes without a walk */
+  size_t n = (size_t)p->n_variables;
+  dive d = {.p = p, .cord = cord, .left = thr_calloc(n, sizeof *d.left), .cost = thr_calloc(n, sizeof *d.cost)};
+  *found = false;
+  thr_status st = d.left && d.cost ? THR_OK : thr_nomem(err);
+  if (!st) memcpy(d.left, p->right, n * sizeof *d.left);
+  p->to_exclude = false;
+  if (!st) st = thr_walk_programme_begin(p, units, dear, err);
+  if (!st) st = run(&d, found, err);
+  if (!st) st = thr_walk_programme_end(p, err);
+  for (int i = 0; i < d.n_cords && !*found; i++) {
+    free(cord[i].half);
+    cord[i] = (thr_cord){0};
+  }
+  free(d.left);
+  free(d.cost);
+  return st;
+}
