@@ -100,13 +100,22 @@ static thr_status even_cord(const thr_frame *frame, const thr_request *options, 
   return st;
 }
 
+/* The matching has the shortest cords about as soon as these are written, unless more is asked of them. */
+static bool is_quick(const thr_request *options)
+{
+  bool shortest = !thr_wants_turning(options) && !thr_wants_symmetry(options) && !thr_wants_balance(options);
+  return shortest && options->joint == THR_JOINT_SOLID && options->cords == 1 && options->max_length == 0 &&
+         options->ends != THR_ENDS_COUNTS && options->engine != THR_ENGINE_LP;
+}
+
 void thr_planner_tell_at_once(const thr_frame *frame, const thr_request *options, const thr_limits *limits)
 {
-  enum { MOST_EDGES = 200000 }; /* beyond, writing it takes longer than it is worth */
+  enum { MOST_EDGES = 200000, FEW_EDGES = 20000 }; /* beyond, writing it takes longer than it is worth */
   thr_cord *cord = NULL;
   int n = 0;
   thr_err why = {0};
   if (!limits->found || frame->n_edges > MOST_EDGES) return;
+  if (frame->n_edges > FEW_EDGES && limits->deadline == 0 && is_quick(options)) return;
   bool tube = options->joint == THR_JOINT_TUBE;
   thr_component_cords *make = tube ? thr_tube_first : options->max_length > 0 ? thr_cut_tour : even_cord;
   thr_status st = thr_components_cords(frame, options, NULL, make, &cord, &n, &why);

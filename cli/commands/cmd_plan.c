@@ -341,15 +341,18 @@ static int find_places(const arguments *a, places *to)
   return a->output ? EXIT_OK : cli_in_folder(folder, "plan.json", to->in_folder, sizeof to->in_folder);
 }
 
-/* What is written is first read back and checked as a whole, as by thread check: a plan that it would refuse is not left. */
-static int check_text(const thr_text *text, const char *path)
+/* What is written is first read back, which takes the place of the plan, and checked as a whole, as by thread check: a plan that
+ * it would refuse is not left. */
+static int check_text(const thr_text *text, const char *path, thr_plan *plan)
 {
-  thr_plan p = {0};
   thr_err err = {0};
-  if (text->failed) return EXIT_OK; /* writing says so */
-  thr_status st = thr_plan_parse(&p, text->data, text->length, strcmp(path, "-") == 0 ? "stdout" : path, &err);
-  if (!st) st = thr_check_plan(&p, &err);
-  thr_plan_destroy(&p);
+  if (text->failed) return EXIT_OK;                                                   /* writing says so */
+  const int confirmed = plan->proof.confirmed, unconfirmed = plan->proof.unconfirmed; /* not written */
+  thr_plan_destroy(plan); /* first: both of a large framework take much memory */
+  thr_status st = thr_plan_parse(plan, text->data, text->length, strcmp(path, "-") == 0 ? "stdout" : path, &err);
+  if (!st) st = thr_check_plan(plan, &err);
+  plan->proof.confirmed = confirmed;
+  plan->proof.unconfirmed = unconfirmed;
   if (st == THR_OK) return EXIT_OK;
   if (st == THR_ENOMEM) return cli_fail(&err);
   cli_error("a fault of this program: the plan does not pass its own check, and is not written: %s", err.text);
@@ -357,11 +360,11 @@ static int check_text(const thr_text *text, const char *path)
 }
 
 /* From here on the plan is what this run leaves, with this exit code. */
-static int write_plan(const thr_plan *p, const char *path, int code)
+static int write_plan(thr_plan *p, const char *path, int code)
 {
   thr_text text = {0};
   thr_plan_write(p, &text);
-  int refused = check_text(&text, path);
+  int refused = check_text(&text, path, p);
   if (refused) {
     thr_text_destroy(&text);
     return refused;
@@ -391,9 +394,9 @@ static int print_places(const arguments *a, const thr_plan *p, const char *plan_
 }
 
 /* code: of the plan. */
-static int write_outputs(const arguments *a, const planned *x, int planned_code)
+static int write_outputs(const arguments *a, planned *x, int planned_code)
 {
-  const thr_plan *p = &x->plan;
+  thr_plan *p = &x->plan;
   places to;
   int code = find_places(a, &to);
   if (!code) code = write_plan(p, to.plan, planned_code);

@@ -57,9 +57,9 @@ double turning_pull(const thr_plan *plan, double *cord)
   bool known = thr_eval_plan(&plan->frame, plan->cord, plan->n_cords, THR_CAPSTAN, &options, &none, &eval, NULL) == THR_OK;
   double largest = known ? eval.record.largest : NAN;
   for (int i = 0; i < plan->n_cords; i++) {
+    double pull = known ? eval.record.cord[i].force : NAN;
     /* pulled at both ends, each has half of the turning to overcome */
-    double half = plan->options.physics.mu * thr_cord_turning(&plan->frame, &plan->cord[i], false) / 2;
-    double pull = known ? eval.record.cord[i].force : half > 690 ? INFINITY : NAN;
+    if (!known && plan->options.physics.mu * thr_cord_turning(&plan->frame, &plan->cord[i], false) / 2 > 690) pull = INFINITY;
     if (cord) cord[i] = pull;
     if (isinf(pull)) largest = pull;
   }

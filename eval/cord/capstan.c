@@ -7,6 +7,7 @@
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
+#include "graph/scratch.h"
 #include "graph/status.h"
 
 #include <math.h>
@@ -20,27 +21,27 @@ static double turn_exponent(thr_law law, double mu, double angle)
   return lost < 1 ? -log1p(-lost) : INFINITY;
 }
 
-static thr_status fill_exponents(const thr_frame *frame, const thr_cord *cord, thr_law law, double mu, double *exponent,
+/* angle: of the turn after each pass. */
+static thr_status fill_exponents(const thr_cord *cord, const double *angle, thr_law law, double mu, double *exponent,
                                  thr_err *err)
 {
   for (int k = 0; k + 1 < cord->n_passes; k++) {
-    double angle = thr_turn_angle(frame, cord->half[k], cord->half[k + 1]);
-    exponent[k] = turn_exponent(law, mu, angle);
+    exponent[k] = turn_exponent(law, mu, angle[k]);
     if (!isfinite(exponent[k]))
       return thr_fail(err, THR_EINPUT,
                       "cord %s: by the mitre law no pull overcomes mu = %g at the turn after pass %d (mu sin(theta / 2) = %.3g, "
                       "must be below 1); use a smaller mu or the capstan law",
-                      cord->id, mu, k + 1, mu * sin(angle / 2));
+                      cord->id, mu, k + 1, mu * sin(angle[k] / 2));
   }
   return THR_OK;
 }
 
 /* Raises *largest to the cord's larger end force if mu were another, by the same law; INFINITY where it has no answer. */
-static thr_status raise_to_force_at(const thr_frame *frame, const thr_cord *cord, const thr_evaluation *evaluation, thr_pull pull,
+static thr_status raise_to_force_at(const thr_cord *cord, const double *angle, const thr_evaluation *evaluation, thr_pull pull,
                                     double mu, double *exponent, double *largest, thr_err *err)
 {
   thr_eval_cord other = {.force = INFINITY};
-  thr_status st = fill_exponents(frame, cord, evaluation->law, mu, exponent, NULL);
+  thr_status st = fill_exponents(cord, angle, evaluation->law, mu, exponent, NULL);
   if (!st) st = thr_profile_cord(&other, cord->id, cord->n_passes, exponent, pull, evaluation->physics.seating, NULL);
   free(other.tension);
   if (st == THR_ENOMEM) return thr_nomem(err);
@@ -52,15 +53,20 @@ static thr_status eval_cord(const thr_frame *frame, const thr_cord *cord, const 
                             double band[2], thr_err *err)
 {
   const thr_physics *physics = &evaluation->physics;
-  double *exponent = thr_calloc((size_t)cord->n_passes, sizeof *exponent);
-  if (!exponent) return thr_nomem(err);
-  thr_status st = fill_exponents(frame, cord, evaluation->law, physics->mu, exponent, err);
+  thr_scratch own = {0};
+  double *exponent = thr_scratch_array(&own, (size_t)cord->n_passes, sizeof *exponent),
+         *angle = thr_scratch_array(&own, (size_t)cord->n_passes, sizeof *angle);
+  thr_status st = thr_scratch_check(&own, err);
+  double turning = 0;
+  for (int k = 0; k + 1 < cord->n_passes && !st; k++)
+    turning += angle[k] = thr_turn_angle(frame, cord->half[k], cord->half[k + 1]);
+  if (!st) st = fill_exponents(cord, angle, evaluation->law, physics->mu, exponent, err);
   if (!st) st = thr_profile_cord(out, cord->id, cord->n_passes, exponent, out->pull, physics->seating, err);
-  if (!st) st = raise_to_force_at(frame, cord, evaluation, out->pull, physics->mu_low, exponent, &band[0], err);
-  if (!st) st = raise_to_force_at(frame, cord, evaluation, out->pull, physics->mu_high, exponent, &band[1], err);
-  out->turning = out->taut_turning = thr_cord_turning(frame, cord, false);
+  if (!st) st = raise_to_force_at(cord, angle, evaluation, out->pull, physics->mu_low, exponent, &band[0], err);
+  if (!st) st = raise_to_force_at(cord, angle, evaluation, out->pull, physics->mu_high, exponent, &band[1], err);
+  out->turning = out->taut_turning = turning;
   out->known = st == THR_OK;
-  free(exponent);
+  thr_scratch_free(&own);
   return st;
 }
 

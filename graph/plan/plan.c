@@ -206,19 +206,20 @@ double thr_cord_price(const thr_frame *frame, const thr_request *options, const 
 static void measure_cord(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int *passes,
                          thr_metrics *metrics)
 {
-  double turning = thr_cord_turning(frame, cord, options->ends == THR_ENDS_CLOSED);
+  double turning = 0;
   metrics->length += thr_cord_length(frame, cord);
   metrics->passes += cord->n_passes;
-  metrics->turning += turning;
-  if (turning > metrics->max_turning) metrics->max_turning = turning;
   for (int i = 0; i < cord->n_passes; i++)
     if (++passes[cord->half[i] >> 1] > metrics->most_passes) metrics->most_passes = passes[cord->half[i] >> 1];
   for (int i = 0; i < thr_cord_turns(options, cord); i++) {
     int next = cord->half[(i + 1) % cord->n_passes];
     double angle = thr_turn_angle(frame, cord->half[i], next);
+    if (i + 1 < cord->n_passes || cord->closed) turning += angle;
     if (angle > metrics->worst_turn) metrics->worst_turn = angle;
     if (next == (cord->half[i] ^ 1)) metrics->u_turns++;
   }
+  metrics->turning += turning;
+  if (turning > metrics->max_turning) metrics->max_turning = turning;
 }
 
 thr_status thr_plan_measure(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
