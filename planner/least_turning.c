@@ -256,13 +256,12 @@ thr_status thr_planner_turning(const thr_frame *frame, const thr_request *option
 {
   thr_plan seed = {0};
   thr_status st = THR_OK;
-  (void)report;
   *plan = (thr_plan){0};
   if (thr_planner_is_mixed(options) && options->turning.length_slack >= 0)
     return thr_fail(err, THR_EINPUT,
                     "cord above the shortest is not limited together with a range of cords, their largest length or balance");
   if (thr_planner_is_mixed(options)) return thr_planner_mixed(frame, options, limits, plan, err);
-  if (options->turning.tour == THR_TOUR_LEAST) thr_planner_tell_first(frame, options, limits);
+  if (options->turning.tour == THR_TOUR_LEAST) thr_planner_tell_first(frame, options, limits, report ? &report->shortest : NULL);
   if (thr_wants_largest(options) && options->cords > 1 && options->ends != THR_ENDS_COUNTS)
     st = thr_even_seed(frame, options, limits, &seed, err);
   if (!st) st = thr_tortuosity_plan_from(frame, options, seed.n_cords ? &seed : NULL, limits, plan, err);

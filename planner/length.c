@@ -172,20 +172,26 @@ thr_status thr_planner_length(const thr_frame *frame, const thr_request *options
   return st;
 }
 
-void thr_planner_tell_first(const thr_frame *frame, const thr_request *options, const thr_limits *limits)
+void thr_planner_tell_first(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *shortest)
 {
   thr_request length = *options;
   thr_limits share = thr_dispatch_share(limits, THR_STEP_FIRST);
   thr_plan p = {0};
   thr_tube tube = {0};
+  if (shortest) *shortest = (thr_plan){0};
   if (!limits->found) return;
   share.found = NULL;
   length.aims = thr_aims_shortest;
+  length.turning = thr_request_default().turning;
   length.confirm = THR_CONFIRM_NEVER;
   thr_status st = options->joint == THR_JOINT_TUBE ? thr_tube_some(frame, &length, &share, &tube, NULL)
                                                    : thr_planner_length(frame, &length, &share, &p, NULL, NULL);
   if (!st || st == THR_ELIMIT)
     thr_limits_found(limits, tube.cord ? tube.cord : p.cord, tube.cord ? tube.n_cords : p.n_cords, NULL);
+  if (!st && shortest) {
+    *shortest = p;
+    p = (thr_plan){0};
+  }
   thr_plan_destroy(&p);
   thr_tube_destroy(&tube);
 }

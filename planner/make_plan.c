@@ -10,6 +10,7 @@
 
 void thr_report_destroy(thr_report *report)
 {
+  thr_plan_destroy(&report->shortest);
   thr_symmetries_destroy(&report->symmetries);
   *report = (thr_report){0};
 }

@@ -11,8 +11,9 @@
 
 thr_planner thr_planner_length, thr_planner_turning, thr_planner_symmetric;
 
-/* Some cords that tie the joints, or the shortest, for whoever keeps the best so far: sooner than a search has any. */
-void thr_planner_tell_first(const thr_frame *frame, const thr_request *options, const thr_limits *limits);
+/* Some cords that tie the joints, or the shortest, for whoever keeps the best so far: sooner than a search has any. shortest
+ * (NULL = not wanted) receives those of solid joints if they are proved to be the shortest, else it is empty. */
+void thr_planner_tell_first(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *shortest);
 
 /* What the cords of a plan with tube joints are proved to be as to their length. */
 thr_status thr_planner_prove_tied(thr_plan *plan, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;

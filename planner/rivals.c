@@ -14,8 +14,13 @@ static thr_status close_rival(thr_rival *rival, thr_status st, thr_err *err)
 }
 
 /* As many cords as plan's options say. */
-static thr_status make_length(const thr_plan *plan, const thr_limits *limits, thr_rival *rival, thr_err *err)
+static thr_status make_length(const thr_plan *plan, thr_plan *shortest, const thr_limits *limits, thr_rival *rival, thr_err *err)
 {
+  if (shortest->n_cords > 0) {
+    rival->plan = *shortest;
+    *shortest = (thr_plan){0};
+    return close_rival(rival, THR_OK, err);
+  }
   thr_request options = plan->options;
   options.aims = thr_aims_shortest;
   options.turning = thr_request_default().turning;
@@ -50,8 +55,8 @@ static thr_status make_frontier(const thr_plan *plan, int points, const thr_limi
 /* s, for the shortest passes where the search has used up its time: stopped at once, they would not be the shortest. */
 static const double grace = 0.3;
 
-thr_status thr_rivals_make(const thr_plan *plan, bool optima, int frontier, const thr_limits *limits, thr_rivals *out,
-                           thr_err *err)
+thr_status thr_rivals_make(const thr_plan *plan, thr_plan *length_plan, bool optima, int frontier, const thr_limits *limits,
+                           thr_rivals *out, thr_err *err)
 {
   thr_limits own = *limits;
   bool shortest = plan->options.turning.length_slack == 0;
@@ -69,7 +74,7 @@ thr_status thr_rivals_make(const thr_plan *plan, bool optima, int frontier, cons
   bool tube =
       plan->options.joint == THR_JOINT_TUBE; /* its shortest cords are an integer programme, solved already for the proof */
   if (own.deadline > 0) own.deadline = fmax(own.deadline, thr_clock() + grace);
-  thr_status st = optima || !tube ? make_length(plan, &own, &out->length, err) : THR_OK;
+  thr_status st = optima || !tube ? make_length(plan, length_plan, &own, &out->length, err) : THR_OK;
   if (!st && optima) st = make_corner(plan, limits, &out->corner, err);
   if (!st && frontier) st = make_frontier(plan, frontier, limits, out, err);
   return st;

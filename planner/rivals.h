@@ -23,11 +23,11 @@ typedef struct {
 } thr_rivals;
 
 /* Makes them within the limits (without a deadline the frontier has the time limit of the plan once more): the shortest plan
- * where it takes no search; optima: that in any case, and the corner, which is a search as long as the plan's own; and a frontier
- * of that many points (0 = none). THR_OK also where there is no such plan (why says so); on failure out holds what was made.
- * Release with thr_rivals_destroy. */
-thr_status thr_rivals_make(const thr_plan *p, bool optima, int frontier, const thr_limits *limits, thr_rivals *out,
-                           thr_err *err) THR_MUST_CHECK;
+ * where it takes no search, or shortest, which is taken, unless it has no cords; optima: that in any case, and the corner, which
+ * is a search as long as the plan's own; and a frontier of that many points (0 = none). THR_OK also where there is no such plan
+ * (why says so); on failure out holds what was made. Release with thr_rivals_destroy. */
+thr_status thr_rivals_make(const thr_plan *p, thr_plan *shortest, bool optima, int frontier, const thr_limits *limits,
+                           thr_rivals *out, thr_err *err) THR_MUST_CHECK;
 void thr_rivals_destroy(thr_rivals *rivals);
 
 #endif

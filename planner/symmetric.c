@@ -61,7 +61,7 @@ thr_status thr_planner_symmetric(const thr_frame *frame, const thr_request *opti
   *plan = (thr_plan){0};
   thr_status st = plan_length(frame, options, limits, &shortest, &none);
   if (st) return thr_fail(err, st, "%s", none.text);
-  if (tied) thr_planner_tell_first(frame, options, limits);
+  if (tied) thr_planner_tell_first(frame, options, limits, NULL);
   const thr_limits share = tied ? thr_dispatch_share(limits, THR_STEP_SYMMETRIC_TIED) : *limits;
   thr_status found =
       thr_symmetry_plan_from(frame, options, shortest.n_cords > 0 ? &shortest : NULL, &share, table, plan, &unproved);

@@ -270,13 +270,13 @@ static void put_plan(thr_writer *writer, const arguments *a, const planned *x, c
     plan_put_summary(writer->out, &x->plan, rivals, x->report.word);
 }
 
-static int put_turning(thr_writer *writer, const arguments *a, const planned *x)
+static int put_turning(thr_writer *writer, const arguments *a, planned *x)
 {
   thr_rivals rivals = {0};
   thr_err err = {0};
   thr_limits limits = cli_limits(0);
   limits.deadline = deadline_of(a);
-  thr_status st = thr_rivals_make(&x->plan, a->turning.compare, a->turning.frontier, &limits, &rivals, &err);
+  thr_status st = thr_rivals_make(&x->plan, &x->report.shortest, a->turning.compare, a->turning.frontier, &limits, &rivals, &err);
   cli_progress_end();
   if (rivals.no_frontier.code) cli_note("no frontier: %s", rivals.no_frontier.text);
   put_plan(writer, a, x, &rivals);
@@ -300,7 +300,7 @@ static void put_symmetry(thr_writer *writer, const arguments *a, const planned *
   thr_write_close(writer);
 }
 
-static int print_summary(const arguments *a, const planned *x)
+static int print_summary(const arguments *a, planned *x)
 {
   thr_text text = {0};
   thr_writer writer = {.out = &text};
