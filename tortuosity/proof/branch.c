@@ -10,6 +10,7 @@
 #include "tortuosity/proof/cycles.h"
 #include "tortuosity/proof/partition.h"
 #include "tortuosity/proof/project.h"
+#include "tortuosity/proof/unit_matching.h"
 #include "tortuosity/tie/tie.h"
 
 #include <limits.h>
@@ -185,11 +186,23 @@ static void report(const thr_branch *branch)
                            ldexp(least, -THR_TURNING_BITS));
 }
 
+/* The shortest passes of closed cords with tube joints. */
+static thr_status match_units(thr_branch *branch, thr_err *err)
+{
+  thr_turning_dual dual;
+  bool found;
+  thr_status st = thr_unit_matching(branch->c, branch->limits, branch->passes, &dual, &found, err);
+  if (st || !found) return st;
+  st = thr_branch_keep_dual(branch, 0, dual, NULL, NULL, err);
+  return st ? st : thr_branch_try(branch, branch->passes, branch->ends, err);
+}
+
 thr_status thr_branch_begin(thr_branch *branch, thr_err *err)
 {
   thr_status st = init_tree(branch, err);
-  if (st || branch->c->task->free_turns || branch->c->task->tube) return st;
-  st = thr_branch_match(branch, err);
+  bool matching = branch->projected ? !branch->c->task->end_allowed : !branch->c->task->tube;
+  if (st || !matching) return st;
+  st = branch->projected ? match_units(branch, err) : thr_branch_match(branch, err);
   if (!st && branch->found) report(branch);
   return st;
 }
@@ -316,7 +329,7 @@ thr_status thr_branch_run(thr_branch *branch, thr_err *err)
   if (!branch->c->task->free_turns) penalty += 2 * branch->c->task->price_per_length * thr_frame_total_length(branch->c->f);
   thr_status st = branch->tree.n_nodes ? THR_OK : thr_branch_begin(branch, err);
   if (!st && (branch->dense || branch->most_nodes == 0)) return settle_for_bound(branch, tied, err);
-  if (!st && !branch->projected && !branch->c->task->free_turns && !tied && thr_branch_proved(branch)) return THR_OK;
+  if (!st && !tied && thr_branch_proved(branch)) return THR_OK;
   if (!st) st = thr_relax_init(&branch->relax, branch->c, branch->projected, penalty, branch->limits, err);
   if (!st) use_separators(&branch->relax);
   if (!st && tied) st = climb(branch, root, err);

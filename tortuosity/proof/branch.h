@@ -85,8 +85,9 @@ void thr_branch_best(const thr_branch *branch, int *passes, int *ends);
 /* Tube joints: from the best plan by annealing (tortuosity/tie/tie.h), kept if that turns less. */
 thr_status thr_branch_anneal(thr_branch *branch, const thr_limits *limits, int rounds, thr_err *err) THR_MUST_CHECK;
 
-/* The bound of all turns without connectedness, and its plan if that hangs together (tortuosity/proof/branch_match.c). Tube
- * joints and free turns begin without. thr_branch_run does it if nobody has. */
+/* The bound of a matching, and its plan: of all turns without connectedness, if that hangs together
+ * (tortuosity/proof/branch_match.c); of the shortest closed cords with tube joints (tortuosity/proof/unit_matching.h). Others
+ * begin without. thr_branch_run does it if nobody has. */
 thr_status thr_branch_begin(thr_branch *branch, thr_err *err) THR_MUST_CHECK;
 thr_status thr_branch_match(thr_branch *branch, thr_err *err) THR_MUST_CHECK;
 
