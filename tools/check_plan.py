@@ -941,6 +941,130 @@ class Tied:
         return None if bound is None else self.base + max(Fraction(0), Fraction(bound) / UNIT / self.model.rate)
 
 
+# ---- components of few edges ----
+
+FEW_EDGES, FEW_SETS = 12, 2**15
+ONE = {}  # tables that were made before
+
+
+class FewEdges:
+    """Least cost of a cord that passes at least each set of a component's edges, and of several cords."""
+
+    def __init__(self, p, edges, turning):
+        f, o = p.frame, p.options
+        self.n = len(edges)
+        key = (repr(f.xyz), repr(f.edge), repr(f.length), tuple(edges), turning and o.cost, o.ends, tuple(sorted(o.allowed)), o.tube)
+        if key not in ONE:
+            ONE[key] = self.table(f, o, edges, turning)
+        self.one = ONE[key]
+
+    def table(self, f, o, edges, turning):
+        index = {e: i for i, e in enumerate(edges)}
+        halves = [h for e in edges for h in (2 * e, 2 * e + 1)]
+        first = {h: 0.0 if turning else f.length[h >> 1] for h in halves}
+        steps = {}  # of half-edge h, passed away from its node
+        for h in halves:
+            v = f.tail(h ^ 1)
+            onward = [g for g in f.at[v] if g != h ^ 1 or not (o.tube or turning and len(f.at[v]) > 1)]
+            steps[h] = [(g, o.price(f, h ^ 1, g) if turning else f.length[g >> 1]) for g in onward]
+        one = [math.inf] * (1 << self.n)
+        closed = o.ends == "closed"
+        for i, e in enumerate(edges if closed else [None]):
+            starts = [2 * e] if closed else [h for h in halves if f.tail(h) in o.allowed]
+            cost = [None] * (1 << self.n)
+            for h in starts:
+                at = 1 << index[h >> 1]
+                cost[at] = cost[at] or {}
+                cost[at][h] = first[h]
+            for mask in range(1, 1 << self.n):
+                if cost[mask] is not None:
+                    self.settle(mask, cost, steps, index, i if closed else 0)
+                    for h, x in cost[mask].items():
+                        if closed:
+                            x += next((y for g, y in steps[h] if g == 2 * e), math.inf) - first[2 * e]
+                        elif f.tail(h ^ 1) not in o.allowed:
+                            continue
+                        one[mask] = min(one[mask], x)
+                    cost[mask] = None
+        for i in range(self.n):
+            for mask in range(1 << self.n):
+                if not mask >> i & 1:
+                    one[mask] = min(one[mask], one[mask | 1 << i])
+        return one
+
+    @staticmethod
+    def settle(mask, cost, steps, index, lowest):
+        here = cost[mask]
+        queue = [(x, h) for h, x in here.items()]
+        heapq.heapify(queue)
+        while queue:
+            x, h = heapq.heappop(queue)
+            if x > here[h]:
+                continue
+            for g, y in steps[h]:
+                i = index[g >> 1]
+                if i < lowest:
+                    continue
+                to = here
+                if not mask >> i & 1:
+                    if cost[mask | 1 << i] is None:
+                        cost[mask | 1 << i] = {}
+                    to = cost[mask | 1 << i]
+                if x + y < to.get(g, math.inf):
+                    to[g] = x + y
+                    if to is here:
+                        heapq.heappush(queue, (x + y, g))
+
+    def least(self, low, high, dearest):
+        """Of low .. high cords, the cheapest number: of the dearest cord, or in all."""
+        join = max if dearest else (lambda a, b: a + b)
+        best, result = self.one, math.inf
+        for n in range(1, min(high, self.n) + 1):
+            if n > 1:
+                best = self.one_more(best, join)
+            if low <= n:
+                result = min(result, best[-1])
+        if high > self.n:  # more cords than edges: the others may be any
+            n = max(low, self.n + 1)
+            result = min(result, max(best[-1], self.one[0]) if dearest else best[-1] + (n - self.n) * self.one[0])
+        return result
+
+    def one_more(self, best, join):
+        more = [join(self.one[0], best[0])]
+        for mask in range(1, 1 << self.n):
+            lowest = mask & -mask
+            rest = part = mask ^ lowest
+            least = math.inf
+            while True:
+                least = min(least, join(self.one[part | lowest], best[rest ^ part]))
+                if not part:
+                    break
+                part = (part - 1) & rest
+            more.append(least)
+        return more
+
+
+def few_edges(p, turning, components=None):
+    """Per component: its FewEdges, or None if it is large; and the least and the most cords it may have."""
+    f, o, sets, found = p.frame, p.options, FEW_SETS, []
+    for c in range(len(f.pieces)):
+        number = sum(o.count.get(v, 0) for v in f.pieces[c]) // 2 if o.ends == "counts" else None
+        low, high = (o.least, o.cords) if number is None else (number, number)
+        edges = f.edges_of(c)
+        small = high > 1 and len(edges) <= FEW_EDGES and 1 << len(edges) <= sets
+        sets -= (1 << len(edges)) if small else 0
+        found.append((FewEdges(p, edges, turning) if small else None, low, high))
+    return found
+
+
+def few_edges_bounds(p, turning):
+    """(Least cost in all, 0 if a component is large; of the dearest cord of any that is not)"""
+    rows = few_edges(p, turning)
+    dearest = max([t.least(low, high, True) for t, low, high in rows if t], default=0)
+    total = sum(t.least(low, high, False) for t, low, high in rows) if all(t for t, _, _ in rows) else 0
+    return Fraction(total), Fraction(dearest)
+
+
 # ---- proof.cords ----
 
 
@@ -974,27 +1098,31 @@ def forced_detour(p, enough):
 
 def fewest_cords(p):
     """Cords in all components together that no plan has fewer of."""
-    o, limit = p.options, Fraction(p.options.max_length) * (1 + 2 * TOLERANCE)
-    if o.tube:
-        if o.ends in ("any", "feet", "nodes") and len(p.frame.pieces) == 1:
-            supply = p.tied.model.supply
-            for j in range(o.least, p.per_piece[0]):
-                p.tied.model.supply = [(2 * j, 2 * j)]
-                least = p.tied.least_length("proof.length.proof")
-                if least is not None and least <= j * limit:
-                    break
-            else:
-                j = p.per_piece[0]
-            p.tied.model.supply = supply
-            return j
-        return max(math.ceil(p.tied.least / limit), o.least * len(p.frame.pieces))
-    total = 0
-    for c, certificate in enumerate(p.certificate):
-        j = o.least
-        while j < p.per_piece[c] and certificate.least(2 * j) > j * limit:
+    o, limit, total = p.options, Fraction(p.options.max_length) * (1 + 2 * TOLERANCE), 0
+    for c, (table, j, _) in enumerate(few_edges(p, False)):
+        base = sum(p.frame.exact[e] * o.need[e] for e in p.frame.edges_of(c))
+        while j < p.per_piece[c]:
+            least = base if o.tube else p.certificate[c].least(2 * j)
+            if least <= j * limit and (table is None or table.least(j, j, True) <= limit):
+                break
             j += 1
         total += j
-    return total
+    return fewest_tied(p, total, limit) if o.tube else total
+
+
+def fewest_tied(p, j, limit):
+    """The same from j on by the proof of tied length."""
+    j = max(math.ceil(p.tied.least / limit), j)
+    if p.options.ends in ("any", "feet", "nodes") and len(p.frame.pieces) == 1:
+        supply = p.tied.model.supply
+        while j < p.per_piece[0]:
+            p.tied.model.supply = [(2 * j, 2 * j)]
+            least = p.tied.least_length("proof.length.proof")
+            if least is not None and least <= j * limit:
+                break
+            j += 1
+        p.tied.model.supply = supply
+    return j
 
 
 def check_cords_claim(p):
@@ -1014,7 +1142,7 @@ def check_cords_claim(p):
         cords = [o.cords if o.ends != "counts" else p.per_piece[c] for c in range(len(p.certificate))]
         bound = max((c.own if c.optimal else c.least(2 * o.cords)) / k for c, k in zip(p.certificate, cords))
     claimed = member(stated, "lower_bound", "number", place + ".longest")
-    bound = max(bound, forced_detour(p, claimed))
+    bound = max(bound, forced_detour(p, claimed), few_edges_bounds(p, False)[1])
     unit = longest_unit(p.frame)
     if unit:
         bound = max(bound, unit * math.ceil(bound / unit * (1 - 2 * TOLERANCE)))
@@ -1223,7 +1351,9 @@ def check_turning(p):
     model.read(member(claim, "proof", "object", place), place + ".proof")
     bound = model.bound(place + ".proof")
     require(bound is not None, f"{place}.proof: proves that there is no plan")
-    bound = max(Fraction(0), Fraction(bound) / UNIT)
+    bound = tree = max(Fraction(0), Fraction(bound) / UNIT)
+    few, few_largest = few_edges_bounds(p, True)
+    bound = max(bound, few)
     if p.closing and o.cost in ("angle", "sine"):  # Fenchel 1929; sin(x / 2) >= x / pi
         bound = max(bound, Fraction(2 * math.pi if o.cost == "angle" else 2) * o.least * len(f.pieces))
     rounding = 2 * TOLERANCE * Fraction(math.pi if o.cost == "angle" else 1) * sum(min(x, 2 * n) for x, n in zip(p.passes, o.need))
@@ -1238,7 +1368,7 @@ def check_turning(p):
     p.close(member(largest, "price", "number", place + ".largest"), max(prices), scale, place + ".largest.price")
     number = len(p.cords) if o.ends == "counts" else o.cords * len(f.pieces)
     each = len(p.cords) if o.ends == "counts" else o.cords
-    share = max((Fraction(price) if optimal else bound) / number, largest_bound(p, model, each, bound, place + ".proof"))
+    share = max((Fraction(price) if optimal else bound) / number, few_largest, largest_bound(p, model, each, tree, place + ".proof"))
     require(share - max(prices) <= rounding, f"{place}: some cord is proved to turn by {float(share)}, more than any does")
     attained = max(prices) - share <= rounding
     word = check_claim(largest, Fraction(max(prices)), attained, share, 1, place + ".largest", gap=False)

@@ -1,5 +1,6 @@
 /* Claims about several cords: how short the longest can be, and how few they can be. */
 #include "graph/check/check_parts.h"
+#include "graph/check/few_edges.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/junction.h"
 #include "graph/plan/plan.h"
@@ -203,6 +204,29 @@ static bool too_long(double length, int cords, const thr_request *options)
   return length > cords * options->max_length * (1 + 2e-9);
 }
 
+/* Raises *least, cords of a component, as far as the certificate and, of few edges, all sets of cords exclude that number. sets:
+ * that may be looked at yet. */
+static thr_status rule_out_part(const thr_frame *frame, const thr_request *options, const int *component, int number,
+                                const part *p, const thr_certificate *certificate, const thr_check_verdict *check_verdict,
+                                int *sets, int *least, thr_err *err)
+{
+  thr_few_edges few = {0};
+  thr_status st = THR_OK;
+  bool ruled_out = true;
+  if (options->max_length > 0 && p->most > 1) st = thr_few_edges_init(&few, frame, options, component, number, false, err);
+  bool small = few.n > 0 && 1 << few.n <= *sets;
+  if (small) *sets -= 1 << few.n;
+  while (!st && ruled_out && *least < p->most) {
+    double longest = 0;
+    ruled_out = too_long(least_length(options, p, *least, certificate, check_verdict), *least, options);
+    if (!ruled_out && small) st = thr_few_edges_least(&few, *least, *least, true, &longest, err);
+    ruled_out |= !st && longest > options->max_length * (1 + 2e-9);
+    if (ruled_out) ++*least;
+  }
+  thr_few_edges_destroy(&few);
+  return st;
+}
+
 /* ---- tube joints: the proof is one of all components together ---- */
 
 /* No cords, from least to most in every component, are shorter together. */
@@ -252,18 +276,18 @@ thr_status thr_check_several(const thr_frame *frame, const thr_request *options,
                              thr_err *err)
 {
   part *parts;
-  double bound = 0, unit = thr_plan_unit(frame); /* cords have whole numbers of it */
+  double bound = 0, few_sum, few_longest, unit = thr_plan_unit(frame); /* cords have whole numbers of it */
+  int sets = THR_FEW_SETS;
   *found = (thr_cords_claim){.present = true, .longest = thr_cords_longest(frame, cord, n_cords)};
   thr_status st = parts_of(frame, options, check_walked, &parts, err);
   if (st) return st;
-  for (int c = 0; c < check_walked->n_components; c++) {
+  for (int c = 0; c < check_walked->n_components && !st; c++) {
     const part *p = &parts[c];
     const thr_certificate *proof = verdict ? &certificate[c] : NULL;
     const thr_check_verdict *check_verdict = verdict ? &verdict[c] : NULL;
     bound = fmax(bound, least_length(options, p, p->most, proof, check_verdict) / p->most);
     int least = p->least;
-    while (least < p->most && too_long(least_length(options, p, least, proof, check_verdict), least, options))
-      least++;
+    st = rule_out_part(frame, options, check_walked->component, c, p, proof, check_verdict, &sets, &least, err);
     found->fewest += least;
   }
   if (tied) st = check_tied(frame, options, tied, parts, check_walked->n_components, &bound, found, err);
@@ -271,6 +295,9 @@ thr_status thr_check_several(const thr_frame *frame, const thr_request *options,
   if (st) return st;
   if (!(options->max_length > 0 && thr_plan_cords_least(options) < options->cords)) found->fewest = 0;
   st = detour(frame, options, &bound, err);
+  if (!st) st = thr_few_edges_bounds(frame, options, false, &few_sum, &few_longest, err);
+  if (st) return st;
+  bound = fmax(bound, few_longest);
   if (unit > 0) bound = unit * ceil(bound / unit * (1 - 2e-9));
   if (bound > found->longest && !thr_check_close(bound, found->longest, found->longest))
     return thr_fail(err, THR_EVIOLATED, "proof: the longest cord of any plan would have %.12g or more, but this plan's has %.12g",

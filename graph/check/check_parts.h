@@ -17,6 +17,9 @@ bool thr_check_close(double a, double b, double whole);
 /* Turning angle by Kahan's formula on unit vectors, rad: another way than the one that made the plan. */
 double thr_check_angle(const thr_frame *frame, int in, int out);
 
+/* Price of a turn, by that formula; of costs with a threshold by the one definition that there is. */
+double thr_check_price(const thr_frame *frame, thr_turn_cost cost, int in, int out);
+
 /* Components and passes, worked out once for everything that is checked. */
 typedef struct {
   int n_components;

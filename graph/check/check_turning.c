@@ -2,6 +2,7 @@
  * proof is about. Prices and pairings are worked out here; the tree is graph/check/turning_proof.c's. */
 #include "graph/check/check.h"
 #include "graph/check/check_parts.h"
+#include "graph/check/few_edges.h"
 #include "graph/angle.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
@@ -30,8 +31,7 @@ static void node_points_destroy(node_points *k)
   free(k->price);
 }
 
-/* Angles by a formula of the checker's own; costs with a threshold by the one definition that there is. */
-static double price_of(const thr_frame *frame, thr_turn_cost cost, int in, int out)
+double thr_check_price(const thr_frame *frame, thr_turn_cost cost, int in, int out)
 {
   if (thr_turn_counted(cost)) return thr_turn_price(frame, cost, in, out);
   return thr_turn_cost_of(cost, in == (out ^ 1) ? THR_PI : thr_check_angle(frame, in, out));
@@ -45,7 +45,7 @@ static void set_prices(node_points *k, const thr_frame *frame, thr_turn_cost cos
   for (int i = 0; i < n; i++)
     for (int j = 0; j < n; j++) {
       bool forbidden = i == j && (i == d || d > 1);
-      k->price[i * n + j] = forbidden ? INFINITY : i == d || j == d ? 0 : price_of(frame, cost, half[i] ^ 1, half[j]);
+      k->price[i * n + j] = forbidden ? INFINITY : i == d || j == d ? 0 : thr_check_price(frame, cost, half[i] ^ 1, half[j]);
     }
 }
 
@@ -83,7 +83,7 @@ static double cheapest_turn(const thr_frame *frame, thr_turn_cost cost, const in
       if (pass == 0)
         straight = fmax(straight, cosine);
       else if (cosine >= straight - 1e-12)
-        least = fmin(least, price_of(frame, cost, half[i] ^ 1, half[j]));
+        least = fmin(least, thr_check_price(frame, cost, half[i] ^ 1, half[j]));
     }
   return least;
 }
@@ -213,7 +213,7 @@ static thr_status price_cord(const walked *w, const thr_cord *c, double *price, 
           "proof.turning: cord %s turns back at node %d after pass %d; the proof is about plans that turn back only at "
           "nodes with one edge",
           c->id, v, k + 1);
-    *price += price_of(w->f, w->o->turning.cost, in, out);
+    *price += thr_check_price(w->f, w->o->turning.cost, in, out);
   }
   return THR_OK;
 }
@@ -262,7 +262,7 @@ static thr_status judge_largest(const walked *w, const thr_turning_columns *colu
 
 static thr_status judge_tree(const walked *w, const thr_turning_claim *claim, thr_turning_claim *found, thr_err *err)
 {
-  double bound, forced, passes = 0, length = 0;
+  double bound, forced, few_sum, few_largest, passes = 0, length = 0;
   for (int e = 0; e < w->f->n_edges; e++) {
     passes += fmin(w->passes[e], 2 * thr_plan_cover(w->f, w->o, e));
     length += w->passes[e] * w->f->length[e];
@@ -285,7 +285,10 @@ static thr_status judge_tree(const walked *w, const thr_turning_claim *claim, th
   st = thr_turning_proof_check_columns(&columns, &claim->tree, &bound, err);
   if (!st) st = judge_largest(w, &columns, &claim->tree.walks, bound, &forced, err);
   thr_turning_columns_destroy(&columns);
+  if (!st) st = thr_few_edges_bounds(w->f, w->o, true, &few_sum, &few_largest, err);
   if (st) return st;
+  bound = fmax(bound, few_sum);
+  forced = fmax(forced, few_largest);
   if (w->o->ends == THR_ENDS_CLOSED) bound = fmax(bound, thr_turn_closed(w->o->turning.cost) * w->cords_least);
   /* prices are sums of so many roundings: equal within 1e-9 of a U-turn for each pass, of an edge at most twice those it needs */
   double tolerance = 2e-9 * passes * thr_turn_cost_of(w->o->turning.cost, THR_PI);
