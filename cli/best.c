@@ -11,11 +11,13 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const double OFTEN = 0.2; /* s between two plans that are kept */
+static const double OFTEN =
+    0.2; /* s between two plans that are kept, but for the first two: one that takes no search, and a good one */
 
 static struct {
   const thr_frame *f;
   const thr_request *o;
+  int n;            /* kept so far */
   double value, at; /* of the last one: what is minimized, thr_clock() */
 } best;
 
@@ -23,8 +25,8 @@ void best_begin(const thr_frame *frame, const thr_request *options)
 {
   best.f = frame;
   best.o = options;
+  best.n = 0;
   best.value = INFINITY;
-  best.at = -INFINITY;
 }
 
 /* What is minimized first. */
@@ -86,6 +88,7 @@ static void keep_better(thr_plan *plan, double now)
   thr_text_destroy(&text);
   best.value = value_of(plan);
   best.at = now;
+  best.n++;
 }
 
 void best_found(void *user, const thr_cord *cord, int n_cords, const thr_symmetry_record *symmetry)
@@ -93,7 +96,7 @@ void best_found(void *user, const thr_cord *cord, int n_cords, const thr_symmetr
   (void)user;
   double now = thr_clock();
   thr_symmetry_record own = {0};
-  if (!best.f || n_cords == 0 || now - best.at < OFTEN) return;
+  if (!best.f || n_cords == 0 || (best.n > 1 && now - best.at < OFTEN)) return;
   thr_plan plan = {.frame = *best.f, .options = *best.o, .n_cords = n_cords};
   plan.cord = thr_calloc((size_t)n_cords, sizeof *plan.cord);
   for (int i = 0; plan.cord && i < n_cords; i++) {

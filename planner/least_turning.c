@@ -84,7 +84,7 @@ static void shortest_destroy(shortest_plan *s)
 }
 
 /* A classical tour needs the proved passes and nothing else, which no time limit cuts short: they are the same on every machine.
- */
+ * Nor does one cut them short where they take no time. */
 static thr_status find_shortest(const thr_frame *frame, const thr_request *options, const thr_limits *limits, shortest_plan *s,
                                 thr_err *err)
 {
@@ -97,7 +97,7 @@ static thr_status find_shortest(const thr_frame *frame, const thr_request *optio
   }
   if (options->joint == THR_JOINT_TUBE) return thr_tube_shortest(frame, &any, &share, &s->tube, err);
   thr_limits all = *limits;
-  if (options->turning.tour != THR_TOUR_LEAST) all.deadline = 0;
+  if (options->turning.tour != THR_TOUR_LEAST || thr_planner_is_quick(frame, options)) all.deadline = 0;
   return thr_postman_shortest(frame, options, &all, &s->solid, err);
 }
 
@@ -110,23 +110,58 @@ static void begin_with(const thr_frame *frame, const thr_tube *t, thr_least_opti
   lo->most_passes = t->most_passes > most ? t->most_passes : most;
 }
 
-/* Cords of a plan for the least length, where the shortest passes alone may not hold them: as many ends as given, as many closed
- * cords as asked for that tie the nodes. None if there is no such plan: the search may find what that did not. */
-static thr_status cords_by_length(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_cord **cord,
-                                  int *n, thr_err *err)
+/* Cords of a plan for the least length: as many ends as given, as many closed cords as asked for that tie the nodes, which the
+ * shortest passes alone may not hold. None if there is no such plan: the search may find what that did not. */
+static thr_status cords_by_length(const thr_frame *frame, const thr_request *options, const thr_limits *limits,
+                                  thr_least_start *start, thr_err *err)
 {
   thr_request length = *options;
-  const thr_limits share = thr_dispatch_share(limits, THR_STEP_BY_LENGTH);
   thr_err why = {0};
   thr_plan plan = {0};
   length.aims = thr_aims_shortest;
-  thr_status st = thr_planner_length(frame, &length, &share, &plan, NULL, &why);
-  *cord = plan.cord;
-  *n = plan.n_cords;
+  thr_status st = thr_planner_length(frame, &length, limits, &plan, NULL, &why);
+  *start = (thr_least_start){plan.n_cords, plan.cord};
   plan.cord = NULL;
   plan.n_cords = 0;
   thr_plan_destroy(&plan);
   return st == THR_ENOMEM ? thr_nomem(err) : THR_OK;
+}
+
+/* ---- what the plan turns no more than ---- */
+
+enum { N_STARTS = 3 };
+
+/* A classical tour through the shortest passes, if they hold one. */
+static thr_status walk_tour(const thr_frame *frame, const thr_least_options *lo, thr_tour tour, const int *passes,
+                            thr_least_start *start, thr_err *err)
+{
+  thr_least found;
+  thr_err why = {0};
+  thr_status st = thr_baseline_tour(frame, lo, tour, false, passes, &found, &why);
+  *start = (thr_least_start){found.n_cords, found.cord};
+  found.cord = NULL;
+  found.n_cords = 0;
+  thr_least_destroy(&found);
+  return st == THR_ENOMEM ? thr_nomem(err) : THR_OK;
+}
+
+/* The shortest cords, with their pairings of little turning, and of single cords both classical tours. A small framework has a
+ * second for the first at least. */
+static thr_status find_starts(const thr_frame *frame, const thr_request *options, const shortest_plan *s,
+                              const thr_limits *limits, const thr_least_options *lo, thr_least_start *start, thr_err *err)
+{
+  const bool tours = !lo->tube && lo->cords == 1 && options->ends != THR_ENDS_COUNTS,
+             quick = thr_planner_is_quick(frame, options);
+  const thr_limits share = thr_planner_share(frame, options, limits, THR_STEP_BY_LENGTH);
+  thr_status st = THR_OK;
+  if (tours)
+    st = thr_postman_cords(frame, options, s->solid.passes, &start[0].cord, &start[0].n, err);
+  else if (lo->tube ? options->ends == THR_ENDS_CLOSED && options->cords > 1 : quick || options->ends == THR_ENDS_COUNTS)
+    st = cords_by_length(frame, options, &share, &start[0], err);
+  if (!st && tours) thr_limits_found(limits, start[0].cord, start[0].n, NULL);
+  if (!st && tours && quick) st = walk_tour(frame, lo, THR_TOUR_FLEURY, s->solid.passes, &start[1], err);
+  if (!st && tours && quick) st = walk_tour(frame, lo, THR_TOUR_HIERHOLZER, s->solid.passes, &start[2], err);
+  return st;
 }
 
 /* Begins with the cords of the shortest plan where that has as many. */
@@ -134,20 +169,18 @@ static thr_status find_from_shortest(const thr_frame *frame, const thr_request *
                                      const thr_limits *limits, thr_least *least, thr_err *err)
 {
   thr_least_options lo = search_options(options);
-  thr_cord *cord = NULL;
-  int n = 0;
-  thr_status st = THR_OK;
-  if (lo.tube ? options->ends == THR_ENDS_CLOSED && options->cords > 1 : options->ends == THR_ENDS_COUNTS)
-    st = cords_by_length(frame, options, limits, &cord, &n, err);
-  else if (!lo.tube && options->cords == 1)
-    st = thr_postman_cords(frame, options, s->solid.passes, &cord, &n, err);
+  thr_least_start start[N_STARTS] = {{0}};
+  thr_status st = find_starts(frame, options, s, limits, &lo, start, err);
   if (lo.tube) begin_with(frame, &s->tube, &lo);
-  if (n > 0) {
-    lo.start = cord;
-    lo.n_start = n;
+  if (start[0].n > 0 && (lo.tube || lo.cords <= 1 || options->ends == THR_ENDS_COUNTS)) {
+    lo.start = start[0].cord;
+    lo.n_start = start[0].n;
   }
+  lo.also = start;
+  lo.n_also = lo.tube ? 0 : N_STARTS;
   if (!st) st = find_least(frame, &lo, limits, least, err);
-  thr_cords_destroy(cord, n);
+  for (int i = 0; i < N_STARTS; i++)
+    thr_cords_destroy(start[i].cord, start[i].n);
   return st;
 }
 

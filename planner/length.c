@@ -15,6 +15,7 @@
 #include "tortuosity/tie/tube.h"
 #include "tortuosity/tie/tube_cords.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 typedef thr_status component_planner(const thr_frame *f, const thr_request *o, const thr_limits *limits, thr_plan *plan,
@@ -172,10 +173,27 @@ thr_status thr_planner_length(const thr_frame *frame, const thr_request *options
   return st;
 }
 
+bool thr_planner_is_quick(const thr_frame *frame, const thr_request *options)
+{
+  enum { EDGES = 20000, DEGREE = 1000 };
+  int most = 0;
+  for (int v = 0; v < frame->n_nodes; v++)
+    if (thr_degree(frame, v) > most) most = thr_degree(frame, v);
+  return options->joint == THR_JOINT_SOLID && frame->n_edges <= EDGES && most <= DEGREE && options->engine != THR_ENGINE_LP;
+}
+
+thr_limits thr_planner_share(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_step step)
+{
+  const double least = 1;
+  thr_limits share = thr_dispatch_share(limits, step);
+  if (share.deadline > 0 && thr_planner_is_quick(frame, options)) share.deadline = fmax(share.deadline, thr_clock() + least);
+  return share;
+}
+
 void thr_planner_tell_first(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *shortest)
 {
   thr_request length = *options;
-  thr_limits share = thr_dispatch_share(limits, THR_STEP_FIRST);
+  thr_limits share = thr_planner_share(frame, options, limits, THR_STEP_FIRST);
   thr_plan p = {0};
   thr_tube tube = {0};
   if (shortest) *shortest = (thr_plan){0};

@@ -15,6 +15,11 @@ thr_planner thr_planner_length, thr_planner_turning, thr_planner_symmetric;
  * (NULL = not wanted) receives those of solid joints if they are proved to be the shortest, else it is empty. */
 void thr_planner_tell_first(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *shortest);
 
+/* Do the shortest passes of solid joints and what runs through them take milliseconds, whatever the time? And the part of it
+ * for a step, then a second at least. O(n + m). */
+bool thr_planner_is_quick(const thr_frame *frame, const thr_request *options);
+thr_limits thr_planner_share(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_step step);
+
 /* What the cords of a plan with tube joints are proved to be as to their length. */
 thr_status thr_planner_prove_tied(thr_plan *plan, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
 

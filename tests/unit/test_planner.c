@@ -1,11 +1,13 @@
 /* Plans made by the library alone: the example of docs/ as it stands, and the proofs that come with every plan. */
 #define _XOPEN_SOURCE 700
 #include "graph/check/check.h"
+#include "graph/io/read.h"
 #include "planner/dispatch.h"
 #include "tests/support.h"
 #include "tests/plans.h"
 #include "tests/frameworks.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -111,6 +113,96 @@ START_TEST(classical_tours_take_no_notice_of_time)
 }
 END_TEST
 
+/* Does it turn back where there is another way? */
+static bool turns_back(const thr_frame *f, const thr_plan *p)
+{
+  for (int i = 0; i < p->n_cords; i++) {
+    const thr_cord *c = &p->cord[i];
+    for (int k = p->options.ends != THR_ENDS_CLOSED; k < c->n_passes; k++)
+      if (c->half[k] == (c->half[(k + c->n_passes - 1) % c->n_passes] ^ 1) && thr_degree(f, thr_tail(f, c->half[k])) > 1)
+        return true;
+  }
+  return false;
+}
+
+/* Turning of all cords of a plan within the limits; INFINITY if there is none, or if one of several cords turns back, as no plan
+ * of the least turning may. (Of a single cord an exchange takes such turns away, and others do not cost more.) */
+static double turning_of(const thr_frame *f, const thr_request *o, const thr_limits *limits)
+{
+  thr_plan p;
+  thr_err e = {0};
+  thr_status st = thr_plan_make(f, o, limits, &p, NULL, &e);
+  double turning = p.metrics.turning;
+  if (st && st != THR_ELIMIT) return INFINITY;
+  ck_assert_msg(thr_check_plan(&p, &e) == THR_OK, "%s", e.text);
+  if (o->cords > 1 && turns_back(f, &p)) turning = INFINITY;
+  thr_plan_destroy(&p);
+  return turning;
+}
+
+/* Is the least turning, searched for without any time, no more than that of the tours and of the shortest cords? */
+static void assert_begins_with_all(const thr_frame *f, thr_ends ends, int cords, const char *name)
+{
+  const thr_limits no_limit = {0}, no_time = {.deadline = thr_clock() - 1};
+  thr_request o = options_for(ends, 1);
+  double least;
+  o.cords = o.cords_least = cords;
+  want(&o, "length");
+  least = turning_of(f, &o, &no_limit);
+  want(&o, "turning");
+  for (int tour = 0; tour < 2 && cords == 1; tour++) {
+    o.turning.tour = tour ? THR_TOUR_FLEURY : THR_TOUR_HIERHOLZER;
+    least = fmin(least, turning_of(f, &o, &no_limit));
+  }
+  o.turning.tour = THR_TOUR_LEAST;
+  if (least < INFINITY) ck_assert_msg(turning_of(f, &o, &no_time) <= least + 1e-6, "%s, ends %d, %d cords", name, ends, cords);
+}
+
+static void assert_begins(const thr_frame *f, const char *name)
+{
+  for (int ends = THR_ENDS_CLOSED; ends <= THR_ENDS_FEET; ends++)
+    for (int cords = 1; cords <= 3; cords += 2)
+      assert_begins_with_all(f, (thr_ends)ends, cords, name);
+}
+
+START_TEST(turning_begins_with_tours_and_the_shortest_cords)
+{
+  rng r = rng_make((uint64_t)_i);
+  for (int i = 0; i < 10; i++) {
+    thr_frame f = random_frame(&r, rng_between(&r, 3, 60), rng_below(&r, 90), LENGTHS_EUCLID);
+    assert_begins(&f, "random");
+    thr_frame_destroy(&f);
+  }
+}
+END_TEST
+
+START_TEST(turning_of_data_begins_so)
+{
+  static const char *const paths[] = {"data/dome7.json",
+                                      "data/dome7-stairs.json",
+                                      "data/assembly-instances/C_shape.json",
+                                      "data/assembly-instances/fandisk.json",
+                                      "data/assembly-instances/klein_bottle_trail.json",
+                                      "data/assembly-instances/robarch_tree_S.json",
+                                      "data/assembly-instances/semi_sphere.json",
+                                      "data/assembly-instances/topopt-100_S1_03-14-2019_w_layer.json",
+                                      "data/assembly-instances/voronoi_S1_03-14-2019_w_layer.json",
+                                      "data/conmech/four-frame.json",
+                                      "data/conmech/tower_3D.json",
+                                      "data/jax_fdm/barrel.obj",
+                                      "data/jax_fdm/creased_shell.json",
+                                      "data/jax_fdm/liew_dome.json",
+                                      "data/jax_fdm/monkey_saddle.json"};
+  const thr_read_options options = thr_read_options_default();
+  thr_read_report report;
+  thr_frame f;
+  thr_err e = {0};
+  ck_assert_msg(thr_frame_read(&f, &report, paths[_i], &options, NULL, 0, &e) == THR_OK, "%s", e.text);
+  assert_begins(&f, paths[_i]);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 static int heard;
 
 static void hear(void *user, const thr_cord *cord, int n_cords, const thr_symmetry_record *symmetry)
@@ -162,6 +254,8 @@ int main(void)
   add_case(s, "example", 60, the_example_plans_for_every_objective, 0, 1);
   add_case(s, "proofs", 60, every_plan_comes_with_proofs, 0, 2 * THR_N_OBJECTIVES);
   add_case(s, "tours", 20, classical_tours_take_no_notice_of_time, 0, 4);
+  add_case(s, "starts", 60, turning_begins_with_tours_and_the_shortest_cords, 0, 4);
+  add_case(s, "data", 60, turning_of_data_begins_so, 0, 15);
   add_case(s, "heard", 60, some_cords_are_heard_of_early, 0, THR_N_OBJECTIVES);
   add_case(s, "time", 10, time_is_shared_out, 0, 1);
   return run_suite(s);

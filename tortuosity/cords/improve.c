@@ -143,3 +143,34 @@ thr_status thr_improve(thr_join *j, const thr_limits *limits, thr_err *err)
   if (!st) thr_join_measure(j);
   return st;
 }
+
+/* Exchanges a forbidden pair of node v for others. */
+static bool exchange_back(tour *t, int v)
+{
+  int n = thr_threading_places(&t->ring, v, t->here);
+  for (int i = 0; i < n; i++)
+    for (int k = 0; k < n && t->ring.place[t->here[i]].price >= thr_join_forbidden; k++) {
+      thr_exchange x = thr_threading_exchange(&t->ring, t->here[i], t->here[k], true);
+      if (k == i || x.extra > -thr_join_forbidden / 2) continue;
+      make(t, &x);
+      return true;
+    }
+  return false;
+}
+
+thr_status thr_improve_backs(thr_join *j, thr_err *err)
+{
+  const thr_limits no_limit = {0};
+  tour t;
+  thr_status st = tour_init(&t, j, &no_limit, err);
+  bool changed = true;
+  if (!st) follow(&t);
+  for (int d = 0; d < j->g.n_darts && !st; d += !changed) {
+    bool back = j->mate[d] >= 0 && thr_join_price(j, d, j->mate[d]) >= thr_join_forbidden;
+    changed = back && exchange_back(&t, j->g.tail[d]);
+    if (changed) follow(&t);
+  }
+  tour_destroy(&t);
+  if (!st) thr_join_measure(j);
+  return st;
+}

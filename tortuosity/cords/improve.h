@@ -16,4 +16,8 @@
  * stays joined; passes and ends stay as they are. A round of (2) is O(saving cuts * pairs at nodes); few rounds. */
 thr_status thr_improve(thr_join *j, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
 
+/* Exchanges every turn back that there is another way for, whatever the time, as (a a)(b c) becomes (a b)(a c), which turns by no
+ * more; the cords stay whole. O(turns back * passes). */
+thr_status thr_improve_backs(thr_join *j, thr_err *err) THR_MUST_CHECK;
+
 #endif

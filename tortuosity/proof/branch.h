@@ -76,6 +76,9 @@ thr_status thr_branch_try_cords(thr_branch *branch, const thr_cord *cord, int n_
 thr_status thr_branch_try_whole(thr_branch *branch, thr_err *err) THR_MUST_CHECK;
 thr_status thr_branch_try_rounded(thr_branch *branch, thr_err *err) THR_MUST_CHECK;
 
+/* The same whatever the time, of solid joints: without the turns back that there is another way for, and not improved. */
+thr_status thr_branch_try_start(thr_branch *branch, const thr_cord *cord, int n_cords, thr_err *err) THR_MUST_CHECK;
+
 /* Exchanges the best plan for another. */
 void thr_branch_swap(thr_branch *branch, thr_branch_plan *plan);
 

@@ -176,17 +176,37 @@ thr_status thr_branch_try(thr_branch *branch, const int *passes, const int *ends
   return st;
 }
 
-thr_status thr_branch_try_cords(thr_branch *branch, const thr_cord *cord, int n_cords, thr_err *err)
+/* Passes of these cords into branch->passes. */
+static void count_passes(thr_branch *branch, const thr_cord *cord, int n_cords)
 {
-  thr_join j = {0};
   memset(branch->passes, 0, (size_t)branch->c->f->n_edges * sizeof *branch->passes);
   for (int i = 0; i < n_cords; i++)
     for (int k = 0; k < cord[i].n_passes; k++)
       branch->passes[cord[i].half[k] >> 1]++;
+}
+
+thr_status thr_branch_try_cords(thr_branch *branch, const thr_cord *cord, int n_cords, thr_err *err)
+{
+  thr_join j = {0};
+  count_passes(branch, cord, n_cords);
   if (late(branch) || !within_limits(branch->c, branch->passes)) return THR_OK;
   thr_status st = thr_join_from_cords(&j, branch->c, cord, n_cords, err);
   if (!st && branch->several) return thr_branch_try_circuits(branch, &j, branch->passes, err);
   if (!st && !branch->c->task->tube) st = thr_improve(&j, branch->limits, err);
+  if (!st) return keep_better(branch, &j, branch->passes, err);
+  thr_join_destroy(&j);
+  return st;
+}
+
+thr_status thr_branch_try_start(thr_branch *branch, const thr_cord *cord, int n_cords, thr_err *err)
+{
+  const thr_turning_task *task = branch->c->task;
+  thr_join j = {0};
+  count_passes(branch, cord, n_cords);
+  if (!within_limits(branch->c, branch->passes) || (!task->end_count && n_cords != task->cords * branch->c->n_components))
+    return THR_OK;
+  thr_status st = thr_join_from_cords(&j, branch->c, cord, n_cords, err);
+  if (!st && j.price >= thr_join_forbidden && !branch->several) st = thr_improve_backs(&j, err);
   if (!st) return keep_better(branch, &j, branch->passes, err);
   thr_join_destroy(&j);
   return st;

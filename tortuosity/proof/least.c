@@ -50,16 +50,10 @@ thr_status thr_least_task(const thr_frame *frame, const thr_least_options *optio
   return THR_OK;
 }
 
-/* A plan that the search begins with. */
-typedef struct {
-  int n;
-  thr_cord *cord; /* [n] owned */
-} first_cords;
-
 /* ---- the shortest plan, from which the slack is measured ---- */
 
 /* Cords of the best plan of a search, as a plan to begin with. */
-static thr_status take_start(const thr_branch *branch, first_cords *start, thr_err *err)
+static thr_status take_start(const thr_branch *branch, thr_least_start *start, thr_err *err)
 {
   int n = thr_join_count(&branch->best);
   if (!(start->cord = thr_calloc((size_t)n, sizeof *start->cord))) return thr_nomem(err);
@@ -69,7 +63,7 @@ static thr_status take_start(const thr_branch *branch, first_cords *start, thr_e
 
 /* Several closed cords: the shortest passes if they hold them, or the shortest of all plans that the search begins with. */
 static thr_status find_several(const thr_turning_columns *turning_columns, const thr_limits *limits, const int *passes,
-                               first_cords *start, double *extra, thr_err *err)
+                               thr_least_start *start, double *extra, thr_err *err)
 {
   thr_branch branch;
   thr_status st = thr_branch_init(&branch, turning_columns, 1, limits, err);
@@ -116,7 +110,7 @@ static bool ends_fit(const thr_frame *frame, const int *passes, const int *ends)
 
 /* The shortest extra passes, and from the length of a plan with them, or nearly, the limit that the slack allows. */
 static thr_status find_shortest(thr_turning_columns *turning_columns, const thr_least_options *options, const thr_limits *limits,
-                                thr_least *out, int *passes, int *ends, first_cords *start, thr_err *err)
+                                thr_least *out, int *passes, int *ends, thr_least_start *start, thr_err *err)
 {
   const thr_frame *frame = turning_columns->f;
   thr_status st = options->tube ? tied_passes(turning_columns, options, passes, ends, err)
@@ -137,7 +131,7 @@ static thr_status find_shortest(thr_turning_columns *turning_columns, const thr_
 }
 
 /* Other first plans: the shortest passes, the plan to begin with, and those for ends far apart. */
-static thr_status other_plans(thr_branch *branch, const thr_least_options *options, const first_cords *start, int *passes,
+static thr_status other_plans(thr_branch *branch, const thr_least_options *options, const thr_least_start *start, int *passes,
                               int *ends, thr_err *err)
 {
   thr_status st = thr_branch_try(branch, passes, ends, err);
@@ -151,13 +145,15 @@ static thr_status other_plans(thr_branch *branch, const thr_least_options *optio
 }
 
 /* The same beside the plans of the matching, if there are any: exchanges may lead from the worse ones to better ones. */
-static thr_status first_plans(thr_branch *branch, const thr_least_options *options, const first_cords *start, int *passes,
+static thr_status first_plans(thr_branch *branch, const thr_least_options *options, const thr_least_start *start, int *passes,
                               int *ends, thr_err *err)
 {
   if (thr_branch_proved(branch)) return THR_OK;
   if (branch->found) thr_branch_swap(branch, &branch->other);
   thr_status st = other_plans(branch, options, start, passes, ends, err);
   if (branch->other.found && branch->other.price <= branch->best_price) thr_branch_swap(branch, &branch->other);
+  for (int i = 0; i < options->n_also && !st; i++)
+    st = thr_branch_try_start(branch, options->also[i].cord, options->also[i].n, err);
   return st;
 }
 
@@ -261,7 +257,7 @@ static thr_status search(const thr_frame *frame, const thr_least_options *option
   thr_least made = {0};
   thr_turning_columns turning_columns = {0};
   thr_branch branch = {0};
-  first_cords start = {0};
+  thr_least_start start = {0};
   *out = (thr_least){0};
   int *passes = thr_calloc((size_t)frame->n_edges, sizeof *passes), *ends = thr_calloc((size_t)frame->n_nodes, sizeof *ends);
   thr_status st = passes && ends ? thr_least_task(frame, options, &made, err) : thr_nomem(err);

@@ -15,6 +15,12 @@
 #include "graph/status.h"
 #include "tortuosity/cords/join.h"
 
+/* Cords of a plan. */
+typedef struct {
+  int n;
+  thr_cord *cord; /* [n] */
+} thr_least_start;
+
 typedef struct {
   int cover, capacity; /* as in thr_request */
   bool tube;           /* tube joints; then start must be set, closed cords of any number */
@@ -28,6 +34,9 @@ typedef struct {
   double price_per_length; /* of extra cord, in the turns' price per unit of length */
   const thr_cord *start;   /* [n_start] a plan of the task to begin with; borrowed, NULL = none */
   int n_start;
+  const thr_least_start *also; /* [n_also] plans of solid joints that the result turns no more than, whatever the time; they may
+                                  turn back; borrowed */
+  int n_also;
   bool slack_from_start; /* start is the shortest plan known: the shortest passes hold none */
   int most_nodes;        /* of the branching tree; 1 = the root only, 0 = no linear programme */
 } thr_least_options;
