@@ -114,8 +114,24 @@ static bool is_control(uint32_t code)
          (code >= 0x2028 && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069) || code == 0xfffe || code == 0xffff;
 }
 
+/* Is it a letter of ASCII that stands for itself? */
+static bool is_plain(char c)
+{
+  return c >= 0x20 && c < 0x7f;
+}
+
+/* How many of these there are from s on, up to n. */
+static size_t plain_letters(const char *s, size_t n)
+{
+  size_t i = 0;
+  while (i < n && is_plain(s[i]))
+    i++;
+  return i;
+}
+
 void thr_text_clean(char *s)
 {
+  s += plain_letters(s, strlen(s));
   char *to = s;
   for (size_t left = strlen(s), length = 0; left > 0; left -= length, s += length) {
     uint32_t code = letter_at(s, left, &length);
@@ -153,7 +169,7 @@ void thr_text_append_clean(thr_text *text, const char *s)
 
 bool thr_text_is_utf8(const char *s, size_t n)
 {
-  for (size_t i = 0, length = 0; i < n; i += length)
+  for (size_t i = plain_letters(s, n), length = 0; i < n; i += length)
     if (letter_at(s + i, n - i, &length) == BROKEN_LETTER) return false;
   return true;
 }
@@ -170,7 +186,10 @@ void thr_text_json_string(thr_text *text, const char *s)
 {
   thr_text_append(text, "\"");
   for (size_t left = strlen(s), length = 0; left > 0; left -= length, s += length) {
-    uint32_t code = letter_at(s, left, &length);
+    uint32_t code = 'a'; /* of many plain letters in one go */
+    for (length = 0; length < left && is_plain(s[length]) && s[length] != '"' && s[length] != '\\'; length++)
+      continue;
+    if (length == 0) code = letter_at(s, left, &length);
     if (code == '"' || code == '\\')
       thr_text_printf(text, "\\%c", (int)code);
     else if (code == BROKEN_LETTER || is_control(code))

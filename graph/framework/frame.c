@@ -4,6 +4,7 @@
 #include "graph/framework/units.h"
 #include "graph/sort.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,11 +22,19 @@ thr_status thr_draft_add_node(thr_draft *draft, const double xyz[3], const char 
       return thr_fail(err, THR_EINPUT, "node %d has a coordinate that is not a finite number below %g", draft->n_nodes, LONGEST);
   thr_status st = thr_grow(&draft->node, draft->n_nodes, &draft->nodes_capacity, sizeof *draft->node, err);
   if (st) return st;
-  char *copy = NULL;
-  if (name && !(copy = thr_strdup(name))) return thr_nomem(err);
-  if (copy) thr_text_clean(copy);
-  draft->node[draft->n_nodes++] = (struct thr_draft_node){{xyz[0], xyz[1], xyz[2]}, copy, foot};
+  size_t at = draft->names.length;
+  if (name) {
+    thr_text_append_clean(&draft->names, name);
+    thr_text_append_bytes(&draft->names, "", 1);
+  }
+  if (draft->names.failed || draft->names.length > INT_MAX) return thr_nomem(err);
+  draft->node[draft->n_nodes++] = (struct thr_draft_node){{xyz[0], xyz[1], xyz[2]}, name ? (int)at : -1, foot};
   return THR_OK;
+}
+
+const char *thr_draft_name(const thr_draft *draft, int v)
+{
+  return draft->node[v].name < 0 ? NULL : draft->names.data + draft->node[v].name;
 }
 
 thr_status thr_draft_add_edge(thr_draft *draft, int a, int b, double length, thr_err *err)
@@ -61,8 +70,7 @@ thr_status thr_draft_set_units(thr_draft *draft, const char *units, thr_err *err
 
 void thr_draft_destroy(thr_draft *draft)
 {
-  for (int v = 0; v < draft->n_nodes; v++)
-    free(draft->node[v].name);
+  thr_text_destroy(&draft->names);
   free(draft->node);
   free(draft->edge);
   *draft = (thr_draft){0};
@@ -236,8 +244,8 @@ thr_status thr_frame_take_names(thr_frame *frame, thr_text *names, thr_err *err)
 /* What a node is called, its index where the draft has no name for it, and a NUL. */
 static void append_name(thr_text *names, const thr_draft *draft, int v)
 {
-  if (draft->node[v].name)
-    thr_text_append(names, draft->node[v].name);
+  if (thr_draft_name(draft, v))
+    thr_text_append(names, thr_draft_name(draft, v));
   else
     thr_text_int(names, v);
   thr_text_append_bytes(names, "", 1);
@@ -274,7 +282,7 @@ static thr_status check_names(const thr_frame *frame, const thr_draft *draft, co
 {
   bool indices = true; /* no two are the same */
   for (int v = 0; v < draft->n_nodes && indices; v++)
-    indices = !draft->node[v].name;
+    indices = !thr_draft_name(draft, v);
   if (indices) return THR_OK;
   named *list = thr_calloc((size_t)frame->n_nodes, sizeof *list);
   if (!list) return thr_nomem(err);

@@ -42,7 +42,7 @@ typedef struct {
   int n_nodes, n_edges, nodes_capacity, edges_capacity;
   struct thr_draft_node {
     double xyz[3];
-    char *name; /* owned; NULL means the index in decimal */
+    int name; /* where it begins in names; -1 means the index in decimal */
     bool foot;
   } * node;
   struct thr_draft_edge {
@@ -51,8 +51,12 @@ typedef struct {
     int cover;     /* 0 = not said */
     int capacity;  /* 0 = no limit */
   } * edge;
+  thr_text names; /* each with its NUL */
   char units[16]; /* "" = not said */
 } thr_draft;
+
+/* What node v is called until another node is added; NULL means the index in decimal. */
+const char *thr_draft_name(const thr_draft *draft, int v);
 
 /* Appends a node; name may be NULL and is copied and cleaned (thr_text_clean). Coordinates must be finite and below 1e100
  * (THR_EINPUT otherwise). */

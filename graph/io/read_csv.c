@@ -316,7 +316,7 @@ static thr_status add_edge(csv *t)
     if (st) return st;
     if (end[i] < 0)
       return thr_scan_fail(&t->scan, t->err, "there is no node '%.*s'; the nodes are called '%.40s' to '%.40s'",
-                           thr_span_width(id), id.s, t->d->node[0].name, t->d->node[t->d->n_nodes - 1].name);
+                           thr_span_width(id), id.s, thr_draft_name(t->d, 0), thr_draft_name(t->d, t->d->n_nodes - 1));
   }
   return finish_edge(t, end[0], end[1]);
 }

@@ -236,7 +236,7 @@ static thr_status read_reference(reader *r, const where *at, const thr_json *v, 
 /* An edge [a, b] or a face [a, b, c, ..] by node numbers. */
 static thr_status read_polygon(reader *r, const where *at, const thr_json *v)
 {
-  int n = thr_json_size(v), *corner = thr_calloc((size_t)n, sizeof *corner);
+  int n = thr_json_size(v), few[4], *corner = n <= 4 ? few : thr_calloc((size_t)n, sizeof *corner);
   if (!corner) return thr_nomem(r->err);
   thr_status st = is_array(v) && n >= 2 ? THR_OK : bad(r, at, "not a face; list its node numbers");
   for (int i = 0; i < n && !st; i++) {
@@ -244,7 +244,7 @@ static thr_status read_polygon(reader *r, const where *at, const thr_json *v)
     st = read_index(r, &here, thr_json_at(v, i), r->d->n_nodes, &corner[i]);
   }
   if (!st) st = thr_sides_add(&r->sides, corner, n, r->err);
-  free(corner);
+  if (corner != few) free(corner);
   return st;
 }
 
