@@ -4,13 +4,12 @@
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
+#include "graph/scratch.h"
 #include "graph/status.h"
 #include "lp/matching/blossom.h"
 #include "lp/length/decomposition.h"
 
 #include <limits.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { MOST_EDGES = 2000000 }; /* of a matching */
 
@@ -20,6 +19,7 @@ enum { MOST_EDGES = 2000000 }; /* of a matching */
 typedef struct {
   const thr_decomposition *s;
   const thr_certificate *c;
+  thr_scratch own; /* the arrays */
   int n_groups;
   int *group; /* [n_nodes] */
   int *need;  /* [n_groups] d */
@@ -31,18 +31,6 @@ typedef struct {
   int (*edge)[2]; /* the passes come first */
   int64_t *weight;
 } ports;
-
-static void ports_destroy(ports *p)
-{
-  free(p->group);
-  free(p->need);
-  free(p->first);
-  free(p->top);
-  free(p->n_ports);
-  free(p->copies);
-  free(p->edge);
-  free(p->weight);
-}
 
 static int passes_at(const thr_frame *frame, const int *passes, int v)
 {
@@ -145,9 +133,10 @@ static thr_status build(ports *p, thr_err *err)
     p->top[g] = p->first[g];
     p->first[g + 1] = p->first[g] + 2 * p->n_ports[g] - p->need[g];
   }
-  p->edge = thr_calloc((size_t)p->n_edges, sizeof *p->edge);
-  p->weight = thr_calloc((size_t)p->n_edges, sizeof *p->weight);
-  if (!p->edge || !p->weight) return thr_nomem(err);
+  p->edge = thr_scratch_array(&p->own, (size_t)p->n_edges, sizeof *p->edge);
+  p->weight = thr_scratch_array(&p->own, (size_t)p->n_edges, sizeof *p->weight);
+  thr_status st = thr_scratch_check(&p->own, err);
+  if (st) return st;
   for (int e = 0; e < frame->n_edges; e++)
     for (int i = 0; i < p->copies[e]; i++) {
       int a = p->top[p->group[frame->edge[e][0]]]++, b = p->top[p->group[frame->edge[e][1]]]++;
@@ -163,15 +152,16 @@ static thr_status build(ports *p, thr_err *err)
 static thr_status ports_init(ports *p, int n, thr_err *err)
 {
   size_t nodes = (size_t)p->s->f->n_nodes;
-  p->group = thr_calloc(nodes, sizeof *p->group);
-  p->need = thr_calloc(nodes, sizeof *p->need);
-  p->first = thr_calloc(nodes + 1, sizeof *p->first);
-  p->top = thr_calloc(nodes, sizeof *p->top);
-  p->n_ports = thr_calloc(nodes, sizeof *p->n_ports);
-  p->copies = thr_calloc((size_t)p->s->f->n_edges, sizeof *p->copies);
-  if (!p->group || !p->need || !p->first || !p->top || !p->n_ports || !p->copies) return thr_nomem(err);
+  p->group = thr_scratch_array(&p->own, nodes, sizeof *p->group);
+  p->need = thr_scratch_array(&p->own, nodes, sizeof *p->need);
+  p->first = thr_scratch_array(&p->own, nodes + 1, sizeof *p->first);
+  p->top = thr_scratch_array(&p->own, nodes, sizeof *p->top);
+  p->n_ports = thr_scratch_array(&p->own, nodes, sizeof *p->n_ports);
+  p->copies = thr_scratch_array(&p->own, (size_t)p->s->f->n_edges, sizeof *p->copies);
+  thr_status st = thr_scratch_check(&p->own, err);
+  if (st) return st;
   find_groups(p, n);
-  thr_status st = count_ports(p, err);
+  st = count_ports(p, err);
   return st ? st : build(p, err);
 }
 
@@ -201,6 +191,6 @@ thr_status thr_decomposition_places(thr_decomposition *decomposition, int n, con
     thr_fail(&why, st, "the capacities of the edges leave no room for as many cord ends as asked for");
   if (st) thr_fail(err, st, "%s", why.text);
   thr_matching_destroy(&matching);
-  ports_destroy(&p);
+  thr_scratch_free(&p.own);
   return st;
 }

@@ -6,6 +6,7 @@
 #include "graph/framework/frame.h"
 #include "graph/plan/prices.h"
 #include "graph/plan/request.h"
+#include "graph/scratch.h"
 #include "lp/tjoin/cuts.h"
 #include "lp/tjoin/engine.h"
 #include "lp/solver/lp.h"
@@ -21,6 +22,7 @@ enum { MOST_EDGES = 10000, MOST_ROUNDS = 60, MOST_PRICES = 30 };
 typedef struct {
   const thr_decomposition *s;
   const thr_limits *limits;
+  thr_scratch own; /* the arrays */
   bool closed, counts;
   int64_t unit; /* parts of a weight that prices are whole numbers of */
   int n_edges, n_nodes;
@@ -38,10 +40,7 @@ typedef struct {
 
 static void pricing_destroy(pricing *p)
 {
-  free(p->loop);
-  free(p->local);
-  free(p->part);
-  free(p->place);
+  thr_scratch_free(&p->own);
   thr_certificate_destroy(&p->trial);
 }
 
@@ -63,11 +62,12 @@ static thr_status pricing_init(pricing *p, thr_err *err)
   size_t n = (size_t)frame->n_nodes, m = (size_t)frame->n_edges;
   p->n_nodes = frame->n_nodes;
   p->n_edges = frame->n_edges;
-  p->loop = thr_calloc(m, sizeof *p->loop);
-  p->local = thr_calloc(n, sizeof *p->local);
-  p->part = thr_calloc(n + 1, sizeof *p->part);
-  p->place = thr_calloc(n + 1, sizeof *p->place);
-  if (!p->loop || !p->local || !p->part || !p->place) return thr_nomem(err);
+  p->loop = thr_scratch_array(&p->own, m, sizeof *p->loop);
+  p->local = thr_scratch_array(&p->own, n, sizeof *p->local);
+  p->part = thr_scratch_array(&p->own, n + 1, sizeof *p->part);
+  p->place = thr_scratch_array(&p->own, n + 1, sizeof *p->place);
+  thr_status st = thr_scratch_check(&p->own, err);
+  if (st) return st;
   for (int v = 0; v < p->n_nodes; v++)
     p->local[v] = !p->closed && !p->counts && thr_plan_end_allowed(frame, p->s->o, v) ? p->n_nodes : v;
   for (int v = 0; v <= p->n_nodes; v++)
@@ -126,6 +126,7 @@ static int64_t highest_price(const pricing *p, int64_t *usual)
 
 /* The T-join problem of one part, nodes where cords may end being one, the last. */
 typedef struct {
+  thr_scratch own; /* the arrays */
   int n_nodes, n_edges;
   int *node; /* [n_nodes] of the framework; -1 = where cords may end */
   int (*edge)[2];
@@ -134,24 +135,17 @@ typedef struct {
   bool *odd;
 } problem;
 
-static void problem_destroy(problem *q)
-{
-  free(q->node);
-  free(q->edge);
-  free(q->number);
-  free(q->weight);
-  free(q->odd);
-}
-
 static thr_status problem_init(problem *q, pricing *p, int part, const bool *odd, thr_err *err)
 {
   size_t n = (size_t)p->n_nodes + 1, m = (size_t)p->n_edges;
-  *q = (problem){.node = thr_calloc(n, sizeof *q->node),
-                 .edge = thr_calloc(m, sizeof *q->edge),
-                 .number = thr_calloc(m, sizeof *q->number),
-                 .weight = thr_calloc(m, sizeof *q->weight),
-                 .odd = thr_calloc(n, sizeof *q->odd)};
-  if (!q->node || !q->edge || !q->number || !q->weight || !q->odd) return thr_nomem(err);
+  *q = (problem){0};
+  q->node = thr_scratch_array(&q->own, n, sizeof *q->node);
+  q->edge = thr_scratch_array(&q->own, m, sizeof *q->edge);
+  q->number = thr_scratch_array(&q->own, m, sizeof *q->number);
+  q->weight = thr_scratch_array(&q->own, m, sizeof *q->weight);
+  q->odd = thr_scratch_array(&q->own, n, sizeof *q->odd);
+  thr_status st = thr_scratch_check(&q->own, err);
+  if (st) return st;
   for (int v = 0; v <= p->n_nodes; v++) {
     bool hub = v == p->n_nodes;
     if (p->part[v] != part || (!hub && p->local[v] != v)) continue;
@@ -227,7 +221,7 @@ static thr_status solve_part(pricing *p, int part, const bool *odd, bool *in_joi
     if (st == THR_ELIMIT) st = THR_OK;
   }
   thr_tjoin_destroy(&t);
-  problem_destroy(&q);
+  thr_scratch_free(&q.own);
   return st;
 }
 
@@ -346,6 +340,7 @@ static thr_status search(pricing *p, thr_err *err)
 /* Ends given at nodes: prices of those whose edges need fewer passes than there are ends, by a programme. */
 typedef struct {
   pricing *p;
+  thr_scratch own;   /* the arrays */
   int n;             /* such nodes */
   int *node, *local; /* [n] and [p->n_nodes], -1 = none */
   thr_lp *lp;        /* columns: prices, in weights; how far the bound is below the join */
@@ -356,11 +351,7 @@ typedef struct {
 static void programme_destroy(programme *q)
 {
   thr_lp_destroy(q->lp);
-  free(q->node);
-  free(q->local);
-  free(q->column);
-  free(q->value);
-  free(q->x);
+  thr_scratch_free(&q->own);
 }
 
 static thr_status find_short(programme *q, thr_err *err)
@@ -368,12 +359,13 @@ static thr_status find_short(programme *q, thr_err *err)
   const pricing *p = q->p;
   const thr_frame *frame = p->s->f;
   size_t n = (size_t)p->n_nodes;
-  q->node = thr_calloc(n, sizeof *q->node);
-  q->local = thr_calloc(n, sizeof *q->local);
-  q->column = thr_calloc(n + 1, sizeof *q->column);
-  q->value = thr_calloc(n + 1, sizeof *q->value);
-  q->x = thr_calloc(n + 1, sizeof *q->x);
-  if (!q->node || !q->local || !q->column || !q->value || !q->x) return thr_nomem(err);
+  q->node = thr_scratch_array(&q->own, n, sizeof *q->node);
+  q->local = thr_scratch_array(&q->own, n, sizeof *q->local);
+  q->column = thr_scratch_array(&q->own, n + 1, sizeof *q->column);
+  q->value = thr_scratch_array(&q->own, n + 1, sizeof *q->value);
+  q->x = thr_scratch_array(&q->own, n + 1, sizeof *q->x);
+  thr_status st = thr_scratch_check(&q->own, err);
+  if (st) return st;
   for (int v = 0; v < p->n_nodes; v++) {
     int places = 0;
     for (int i = frame->first[v]; i < frame->first[v + 1]; i++)

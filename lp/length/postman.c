@@ -2,6 +2,7 @@
 #include "lp/length/postman.h"
 #include "graph/check/check.h"
 #include "graph/disjoint.h"
+#include "graph/scratch.h"
 #include "lp/tjoin/endjoin.h"
 #include "lp/tjoin/tjoin.h"
 
@@ -22,6 +23,7 @@ typedef struct {
   const thr_request *o;
   const thr_limits *limits;
   int n_components;
+  thr_scratch own;              /* what is no result */
   int *component;               /* [n_nodes] */
   int *edge_start, *edge;       /* edges of component k: edge[edge_start[k] .. edge_start[k + 1] - 1] */
   int *part;                    /* [n_nodes] disjoint sets: nodes that edges with room for an extra pass join */
@@ -56,22 +58,13 @@ static bool has_room(const postman *m, int e)
 
 /* The T-join problem of one domain, over the edges with room. */
 typedef struct {
+  thr_scratch own; /* the arrays */
   int n_nodes, n_edges;
   int (*edge)[2];
   int64_t *weight;
   bool *odd, *end_allowed;
   int *frame_edge; /* [n_edges] */
 } instance;
-
-static void instance_destroy(instance *in)
-{
-  free(in->edge);
-  free(in->weight);
-  free(in->odd);
-  free(in->end_allowed);
-  free(in->frame_edge);
-  *in = (instance){0};
-}
 
 /* Greatest length that all lengths are whole multiples of, as far as Euclid's algorithm can tell; remainders far below the
  * shortest length count as none. */
@@ -148,12 +141,13 @@ static thr_status instance_init(const postman *m, int d, const thr_certificate *
   *in = (instance){.n_nodes = m->start[d + 1] - first};
   for (int j = 0; j < in->n_nodes; j++)
     halves += thr_degree(frame, m->node[first + j]);
-  in->edge = thr_calloc((size_t)halves, sizeof *in->edge);
-  in->weight = thr_calloc((size_t)halves, sizeof *in->weight);
-  in->frame_edge = thr_calloc((size_t)halves, sizeof *in->frame_edge);
-  in->odd = thr_calloc((size_t)in->n_nodes, sizeof *in->odd);
-  in->end_allowed = thr_calloc((size_t)in->n_nodes, sizeof *in->end_allowed);
-  if (!in->edge || !in->weight || !in->frame_edge || !in->odd || !in->end_allowed) return thr_nomem(err);
+  in->edge = thr_scratch_array(&in->own, (size_t)halves, sizeof *in->edge);
+  in->weight = thr_scratch_array(&in->own, (size_t)halves, sizeof *in->weight);
+  in->frame_edge = thr_scratch_array(&in->own, (size_t)halves, sizeof *in->frame_edge);
+  in->odd = thr_scratch_array(&in->own, (size_t)in->n_nodes, sizeof *in->odd);
+  in->end_allowed = thr_scratch_array(&in->own, (size_t)in->n_nodes, sizeof *in->end_allowed);
+  thr_status st = thr_scratch_check(&in->own, err);
+  if (st) return st;
   for (int j = 0; j < in->n_nodes; j++) {
     int v = m->node[first + j];
     in->odd[j] = m->odd[v];
@@ -245,7 +239,7 @@ static thr_status solve_domain(postman *m, int d, thr_err *err)
   for (int v = 0; v < in.n_nodes && !st; v++)
     open |= in.end_allowed[v];
   if (!st) st = open ? solve_open(m, d, &in, c, err) : solve_closed(m, d, &in, c, err);
-  instance_destroy(&in);
+  thr_scratch_free(&in.own);
   return st;
 }
 
@@ -334,16 +328,8 @@ static void postman_destroy(postman *m)
     thr_certificate_destroy(&m->certificate[k]);
   free(m->certificate);
   thr_confirmations_destroy(&m->confirmed);
-  free(m->component);
-  free(m->edge_start);
-  free(m->edge);
-  free(m->part);
-  free(m->domain);
-  free(m->start);
-  free(m->node);
-  free(m->local);
-  free(m->odd);
   free(m->passes);
+  thr_scratch_free(&m->own);
 }
 
 /* Counting sort of items by key, from start[keys + 2], which is all 0: shifted by one place so that filling leaves the starts
@@ -387,19 +373,17 @@ static void find_domains(postman *m, int *key)
 static thr_status postman_allocate(postman *m, thr_err *err)
 {
   size_t n = (size_t)m->f->n_nodes, e = (size_t)m->f->n_edges, k = (size_t)m->n_components;
-  m->edge_start = thr_calloc(k + 2, sizeof *m->edge_start);
-  m->edge = thr_calloc(e, sizeof *m->edge);
-  m->part = thr_calloc(n, sizeof *m->part);
-  m->domain = thr_calloc(n, sizeof *m->domain);
-  m->start = thr_calloc(n + 2, sizeof *m->start);
-  m->node = thr_calloc(n, sizeof *m->node);
-  m->local = thr_calloc(n, sizeof *m->local);
-  m->odd = thr_calloc(n, sizeof *m->odd);
+  m->edge_start = thr_scratch_array(&m->own, k + 2, sizeof *m->edge_start);
+  m->edge = thr_scratch_array(&m->own, e, sizeof *m->edge);
+  m->part = thr_scratch_array(&m->own, n, sizeof *m->part);
+  m->domain = thr_scratch_array(&m->own, n, sizeof *m->domain);
+  m->start = thr_scratch_array(&m->own, n + 2, sizeof *m->start);
+  m->node = thr_scratch_array(&m->own, n, sizeof *m->node);
+  m->local = thr_scratch_array(&m->own, n, sizeof *m->local);
+  m->odd = thr_scratch_array(&m->own, n, sizeof *m->odd);
   m->passes = thr_calloc(e, sizeof *m->passes);
   m->certificate = thr_calloc(k, sizeof *m->certificate);
-  bool ok = m->edge_start && m->edge && m->part && m->domain && m->start && m->node && m->local && m->odd && m->passes &&
-            m->certificate;
-  return ok ? THR_OK : thr_nomem(err);
+  return m->passes && m->certificate ? thr_scratch_check(&m->own, err) : thr_nomem(err);
 }
 
 static void start_certificates(postman *m)
@@ -417,7 +401,7 @@ static thr_status postman_init(postman *m, thr_err *err)
   const thr_frame *frame = m->f;
   size_t most = (size_t)(frame->n_nodes > frame->n_edges ? frame->n_nodes : frame->n_edges);
   int *key = thr_calloc(most, sizeof *key);
-  m->component = thr_calloc((size_t)frame->n_nodes, sizeof *m->component);
+  m->component = thr_scratch_array(&m->own, (size_t)frame->n_nodes, sizeof *m->component);
   thr_status st = key && m->component ? thr_frame_components(frame, m->component, &m->n_components, err) : thr_nomem(err);
   if (!st) st = postman_allocate(m, err);
   if (!st) {

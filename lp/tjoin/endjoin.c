@@ -20,6 +20,7 @@ typedef struct {
 typedef struct {
   const thr_endjoin_problem *p;
   const thr_limits *limits;
+  thr_scratch own;   /* the arrays */
   int hub, n_edges;  /* edges of the graph, then one to the hub from every node where ends are allowed */
   int n_pieces;      /* of the graph without the hub */
   int *end_of_piece; /* [n_pieces] one of its edges to the hub */
@@ -31,10 +32,7 @@ typedef struct {
 
 static void search_destroy(search *s)
 {
-  free(s->edge);
-  free(s->weight);
-  free(s->odd);
-  free(s->end_of_piece);
+  thr_scratch_free(&s->own);
   thr_tjoin_destroy(&s->few.t);
   thr_tjoin_destroy(&s->many.t);
 }
@@ -44,7 +42,7 @@ static thr_status find_pieces(search *s, thr_err *err)
 {
   int n = s->p->graph.n_nodes, *parent = thr_calloc((size_t)n, sizeof *parent);
   bool *seen = thr_calloc((size_t)n, sizeof *seen);
-  s->end_of_piece = thr_calloc((size_t)n, sizeof *s->end_of_piece);
+  s->end_of_piece = thr_scratch_array(&s->own, (size_t)n, sizeof *s->end_of_piece);
   thr_status st = parent && seen && s->end_of_piece ? THR_OK : thr_nomem(err);
   for (int v = 0; v < n && !st; v++)
     parent[v] = v;
@@ -67,10 +65,11 @@ static thr_status search_init(search *s, thr_err *err)
   s->n_edges = tjoin_problem->n_edges;
   for (int v = 0; v < tjoin_problem->n_nodes; v++)
     s->n_edges += s->p->end_allowed[v];
-  s->edge = thr_calloc((size_t)s->n_edges, sizeof *s->edge);
-  s->weight = thr_calloc((size_t)s->n_edges, sizeof *s->weight);
-  s->odd = thr_calloc((size_t)tjoin_problem->n_nodes + 1, sizeof *s->odd);
-  if (!s->edge || !s->weight || !s->odd) return thr_nomem(err);
+  s->edge = thr_scratch_array(&s->own, (size_t)s->n_edges, sizeof *s->edge);
+  s->weight = thr_scratch_array(&s->own, (size_t)s->n_edges, sizeof *s->weight);
+  s->odd = thr_scratch_array(&s->own, (size_t)tjoin_problem->n_nodes + 1, sizeof *s->odd);
+  thr_status st = thr_scratch_check(&s->own, err);
+  if (st) return st;
   memcpy(s->odd, tjoin_problem->odd, (size_t)tjoin_problem->n_nodes * sizeof *s->odd);
   memcpy(s->edge, tjoin_problem->edge, (size_t)tjoin_problem->n_edges * sizeof *s->edge);
   for (int e = 0; e < tjoin_problem->n_edges; e++)
