@@ -29,6 +29,9 @@ typedef struct {
 /* Seconds on a clock that never goes back; only differences mean anything. */
 double thr_clock(void);
 
+/* Seconds of the processor that this process has had. */
+double thr_processor_clock(void);
+
 bool thr_limits_stop(const thr_limits *limits);
 
 /* Seconds left, at most `most` and at least 0. */

@@ -34,6 +34,8 @@ thr_status thr_branch_init(thr_branch *branch, const thr_turning_columns *turnin
   *branch = (thr_branch){.c = turning_columns,
                          .limits = limits,
                          .most_nodes = most_nodes < room ? most_nodes : room,
+                         .begun = thr_clock(),
+                         .begun_processor = thr_processor_clock(),
                          .best_price = INT64_MAX,
                          .best_length = INFINITY};
   branch->several = !turning_columns->task->end_allowed && turning_columns->task->cords > 1;
@@ -101,7 +103,9 @@ static int most_fractional(const thr_branch *branch)
 thr_status thr_branch_keep_dual(thr_branch *branch, int i, thr_turning_dual dual, const int *low, const int *high, thr_err *err)
 {
   int64_t bound;
+  const double begun = thr_processor_clock();
   thr_status st = thr_turning_dual_bound(branch->c, &dual, low, high, &bound, err);
+  branch->checking += thr_processor_clock() - begun;
   thr_tree_node *node = &branch->tree.node[i];
   if (!st && (node->proof < 0 || (double)bound > node->bound)) {
     st = thr_grow(&branch->dual, branch->n_duals, &branch->duals_capacity, sizeof *branch->dual, err);
@@ -289,13 +293,27 @@ static thr_status improve_plans(thr_branch *branch, thr_err *err)
   return st;
 }
 
+/* The limits less what comes after the search: the bounds of all multipliers are checked again, and the proof is written, which
+ * takes WRITTEN times as long as those bounds took; more by the clock where others use the processor as well. */
+static thr_limits limits_of_search(const thr_branch *branch)
+{
+  enum { WRITTEN = 8 };
+  double share = (thr_processor_clock() - branch->begun_processor) / (thr_clock() - branch->begun);
+  thr_limits less = *branch->limits;
+  if (less.deadline > 0) less.deadline -= WRITTEN * branch->checking / fmax(0.01, fmin(share, 1));
+  return less;
+}
+
 /* A node's bound and plans; then the column to branch on. */
 static thr_status solve(void *user, int i, thr_tree_branch *branch, thr_err *err)
 {
   thr_branch *b = user;
   const thr_turning_task *turning_task = b->c->task;
   bool root = i == 0, tied_root = root && turning_task->tube && !turning_task->free_turns;
-  thr_status st = tied_root ? solve_tied_root(b, i, err) : solve_node(b, i, b->limits, err);
+  const thr_limits search = limits_of_search(b);
+  b->tree.stopped = !root && thr_limits_stop(&search);
+  if (b->tree.stopped) return THR_OK;
+  thr_status st = tied_root ? solve_tied_root(b, i, err) : solve_node(b, i, &search, err);
   if (st) return st;
   report(b);
   if (root && b->found && !turning_task->tube && !b->tree.stopped && !closed(b, i)) st = improve_plans(b, err);

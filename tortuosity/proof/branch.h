@@ -45,8 +45,10 @@ typedef struct {
   int *passes, *ends, *whole; /* scratch */
   double *weight, *end_weight;
   int rounds;
-  bool matched; /* the best plan is the one of the first bound */
-  bool dense;   /* so many turns that there is no programme of them */
+  double begun, begun_processor; /* thr_clock() and thr_processor_clock() at thr_branch_init */
+  double checking;               /* s of the processor that the bounds of all multipliers took */
+  bool matched;                  /* the best plan is the one of the first bound */
+  bool dense;                    /* so many turns that there is no programme of them */
 } thr_branch;
 
 thr_status thr_branch_init(thr_branch *branch, const thr_turning_columns *turning_columns, int most_nodes,
