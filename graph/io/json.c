@@ -442,11 +442,27 @@ static thr_status put_whole(parser *p, int64_t whole, uint64_t *bits)
   return THR_OK;
 }
 
+/* A whole number of few digits, which most numbers of a framework are, in one go; false: it may be another. */
+static bool take_few_digits(parser *p, int64_t *whole)
+{
+  enum { FEW = 18 };
+  const char *first = p->at + (*p->at == '-'), *c = first;
+  *whole = 0;
+  while (c - first < FEW && is_digit(p, c))
+    *whole = 10 * *whole + (*c++ - '0');
+  if (c == first || (*first == '0' && c > first + 1)) return false;
+  if (is_digit(p, c) || (c < p->end && (*c == '.' || *c == 'e' || *c == 'E'))) return false;
+  if (*p->at == '-') *whole = -*whole;
+  p->at = c;
+  return true;
+}
+
 static thr_status take_number(parser *p, uint64_t *bits)
 {
   bool real;
   double value;
   int64_t whole;
+  if (take_few_digits(p, &whole)) return put_whole(p, whole, bits);
   const char *begin = p->at, *end = end_of_number(p, &real);
   if (!end) return expected(p, "a number");
   p->at = end;
