@@ -40,11 +40,20 @@ int aims_args_settle(aims_args *a, turning_args *turning, symmetry_args *symmetr
   if (thr_aims_parse(a->aims, &options, &err)) return cli_usage("plan", "--aims %s: %s", a->aims, err.text);
   a->objective = thr_aims_objective(&options);
   turning->largest = thr_wants_largest(&options);
+  turning->minimize = true;
   turning->options.cost = options.turning.cost;
   turning->options.length_slack = options.turning.length_slack;
   cords->balance = thr_wants_balance(&options);
   thr_aims_order(&options, symmetry->prefer);
   return -1;
+}
+
+/* Of several cords the hand feels the one that turns most: a small sum may leave one that nobody can pull. */
+static bool wants_largest(const turning_args *turning, const cords_args *cords)
+{
+  bool several = cords->most > 1 || cords->max_length > 0;
+  return turning->minimize ? turning->largest
+                           : several && !cords->balance && !turning->frontier && turning->options.tour == THR_TOUR_LEAST;
 }
 
 void aims_args_apply(const aims_args *a, const turning_args *turning, const symmetry_args *symmetry, const cords_args *cords,
@@ -57,7 +66,7 @@ void aims_args_apply(const aims_args *a, const turning_args *turning, const symm
   options->symmetry = own && thr_wants_symmetry(options) ? symmetry->options : usual.symmetry;
   if (thr_wants_symmetry(options)) options->symmetry.counted = cords->most > 0 || cords->max_length > 0;
   if (own && thr_wants_symmetry(options)) memcpy(options->aims.aim, symmetry->prefer, sizeof symmetry->prefer);
-  if (own && thr_wants_turning(options) && turning->largest) options->aims.aim[0] = THR_AIM_MAX_TURNING;
+  if (own && thr_wants_turning(options) && wants_largest(turning, cords)) options->aims.aim[0] = THR_AIM_MAX_TURNING;
   if (own && cords->balance) {
     memmove(&options->aims.aim[1], options->aims.aim, (size_t)options->aims.n++ * sizeof *options->aims.aim);
     options->aims.aim[0] = THR_AIM_LONGEST;

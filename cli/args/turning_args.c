@@ -39,6 +39,7 @@ bool turning_option(turning_args *a, int option, const char *value, bool *ok)
   case OPTION_TURNING_MINIMIZE:
     *ok = cli_choose("plan", "--minimize", value, thr_minimize_name, 2, &i);
     a->largest = i == 1;
+    a->minimize = true;
     a->spelled = name = "--minimize";
     break;
   case OPTION_TURNING_COST:

@@ -27,7 +27,7 @@ enum {
 #define TURNING_HELP                                                                                                             \
   "Least turning (with --objective tortuosity):\n"                                                                               \
   "      --length-slack P%   at most P % more cord than the shortest; 0 = the least turning among the shortest (default: any)\n" \
-  "      --minimize turning|max-turning   of all cords together, or of the cord that turns most (default: turning)\n"            \
+  "      --minimize turning|max-turning   of all cords together, or of the cord that turns most (default with several)\n"        \
   "      --turn-cost " THR_TURN_COSTS "   price of a turn: its angle (default), the sine of half of it, or 1 from 90\n"          \
   "                       degrees on, or for a U-turn\n"                                                                         \
   "      --tour least|fleury|hierholzer   the least turning (default), or a classical tour through the shortest passes\n"        \
@@ -39,7 +39,8 @@ enum {
 
 typedef struct {
   thr_turning_options options;
-  bool largest;        /* --minimize max-turning */
+  bool minimize;       /* --minimize, or --aims, says which: */
+  bool largest;        /* max-turning */
   int frontier;        /* points, 0 = none */
   bool compare;        /* --compare-shortest */
   const char *given;   /* the first of these options; NULL = none */
