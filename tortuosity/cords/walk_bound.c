@@ -11,7 +11,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { MOST_ROUNDS = 300, MOST_DIVES = 16 };
+enum { MOST_ROUNDS = 300, MOST_DIVES = 8 };
 
 /* Are cords of at most so many units too few? Then proof is why. */
 static thr_status exclude(thr_walk_programme *p, int units, thr_walk_proof *proof, thr_err *err)
@@ -89,7 +89,7 @@ static thr_status replace_cords(const thr_walk_programme *p, const thr_cord *cor
 /* Dives at limits just above what is excluded. They stop with the first cords that are better. */
 static thr_status dive(thr_walk_programme *p, const thr_cord *cord, int n_cords, int units, thr_cord **better, thr_err *err)
 {
-  const double step = .004;
+  const double step = .002; /* of the limit, and as much more each time */
   double largest = thr_walk_price(p->c, cord[thr_walk_dearest(p->c, cord, n_cords)].half,
                                   cord[thr_walk_dearest(p->c, cord, n_cords)].n_passes);
   thr_cord *walk = thr_calloc((size_t)p->cords, sizeof *walk);
@@ -108,7 +108,7 @@ static thr_status dive(thr_walk_programme *p, const thr_cord *cord, int n_cords,
         *better = NULL;
       }
     }
-    units += 1 + (int)(step * units);
+    units += 1 + (int)(step * (i + 1) * units);
   }
   thr_cords_destroy(walk, p->cords);
   free(passes);
