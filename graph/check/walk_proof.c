@@ -270,21 +270,27 @@ thr_status thr_walk_proof_check(const thr_turning_columns *columns, const thr_wa
 
 /* ---- what a single edge forces ---- */
 
-/* least[d]: of the turns from half-edge d on to an end. Rounds over all of them until none falls. */
-static void least_to_end(const thr_turning_columns *columns, const int64_t *back, thr_walk_step *some, int64_t *least)
+/* least[d]: of the turns from half-edge d on to an end. Those that fell wait in a ring, queue[2 * n_edges], until what leads to
+ * them is looked at: the method of Bellman, Ford and Moore. */
+static void least_to_end(const thr_turning_columns *columns, const int64_t *back, thr_walk_step *some, int64_t *least, int *queue,
+                         bool *waits)
 {
-  int m2 = 2 * columns->f->n_edges;
-  for (int d = 0; d < m2; d++)
-    least[d] = columns->end_column[d ^ 1] >= 0 ? 0 : INT64_MAX / 4;
-  for (bool falls = true; falls;) {
-    falls = false;
-    for (int round = 0; round < m2; round++) {
-      int d = round;
-      for (int n = next_steps(columns, d, back, some); n > 0; n--) {
-        int64_t here = some[n - 1].weight + least[some[n - 1].to];
-        falls |= here < least[d];
-        if (here < least[d]) least[d] = here;
-      }
+  int m2 = 2 * columns->f->n_edges, first = 0, n = 0;
+  for (int d = 0; d < m2; d++) {
+    bool ends = columns->end_column[d ^ 1] >= 0;
+    least[d] = ends ? 0 : INT64_MAX / 4;
+    waits[d] = ends;
+    if (ends) queue[n++] = d;
+  }
+  for (; n > 0; n--, first = (first + 1) % m2) {
+    int d = queue[first];
+    waits[d] = false;
+    for (int k = next_steps(columns, d ^ 1, back, some); k > 0; k--) { /* what leads to d is what d the other way leads to */
+      int from = some[k - 1].to ^ 1;
+      if (least[d] + some[k - 1].weight >= least[from]) continue;
+      least[from] = least[d] + some[k - 1].weight;
+      if (!waits[from]) queue[(first + n++) % m2] = from;
+      waits[from] = true;
     }
   }
 }
@@ -300,11 +306,13 @@ thr_status thr_walk_forced(const thr_turning_columns *columns, double *bound, th
   for (int v = 0; v < frame->n_nodes; v++)
     if ((size_t)thr_degree(frame, v) > most) most = (size_t)thr_degree(frame, v);
   int64_t *back = thr_scratch_array(&own, m2, sizeof *back), *least = thr_scratch_array(&own, m2, sizeof *least);
+  int *queue = thr_scratch_array(&own, m2, sizeof *queue);
+  bool *waits = thr_scratch_array(&own, m2, sizeof *waits);
   thr_walk_step *some = thr_scratch_array(&own, most, sizeof *some);
   thr_status st = thr_scratch_check(&own, err);
   if (!st) {
     fill_backs(columns, back);
-    least_to_end(columns, back, some, least);
+    least_to_end(columns, back, some, least, queue, waits);
     for (int e = 0; e < frame->n_edges; e++)
       if (least[2 * e] < INT64_MAX / 8 && least[2 * e + 1] < INT64_MAX / 8 && least[2 * e] + least[2 * e + 1] > largest)
         largest = least[2 * e] + least[2 * e + 1];
