@@ -186,7 +186,14 @@ static int passes_at(const model *m, const int *block, int v, int b)
   return sum;
 }
 
-static void add_partition(const model *m, const thr_turning_partition *p, sums *s)
+/* Has the node connections that are counted exactly, if any are? */
+static bool is_ranked(const model *m, int v)
+{
+  int d = thr_degree(&m->frame, v);
+  return d >= 2 && d <= 8;
+}
+
+static void add_partition(const model *m, const thr_turning_partition *p, bool rank, sums *s)
 {
   const thr_frame *f = &m->frame;
   int connections = 0, n_blocks[2] = {0, 0};
@@ -208,7 +215,7 @@ static void add_partition(const model *m, const thr_turning_partition *p, sums *
       meet += here;
       odd += here && passes_at(m, p->block, v, b) % 2;
     }
-    if (meet < 2) continue;
+    if (meet < 2 || (rank && is_ranked(m, v))) continue;
     wide share = rounded_up((wide)p->value * (meet - 1), meet), half = rounded_up((wide)p->value * (meet - 1), 2 * (wide)meet);
     for (int j = 0; j < m->columns.n_columns; j++) {
       const column *x = &m->column[j];
@@ -239,14 +246,106 @@ static void add_junction(const model *m, const thr_turning_junction *p, sums *s)
   s->constant += (wide)p->value * (blocks - 1);
 }
 
+/* ---- ranks ---- */
+
+/* A way in which half-edges at a node hang together, each named by the lowest of its part, and the cheapest turns for it. */
+typedef struct {
+  int name[8];
+  wide least;
+} state;
+
+enum { STATES = 4140 }; /* partitions of eight */
+
+static void offer_state(state *list, int *n, const state *new)
+{
+  for (int i = 0; i < *n; i++)
+    if (!memcmp(list[i].name, new->name, sizeof new->name)) {
+      if (new->least < list[i].least) list[i].least = new->least;
+      return;
+    }
+  list[(*n)++] = *new;
+}
+
+/* Blocks less the sets that they fall into when parts are joined. */
+static int rank_of(const int *block, const int *part, int d)
+{
+  bool joined[8][8];
+  int sets = 0, blocks = 0;
+  for (int i = 0; i < d; i++)
+    for (int k = 0; k < d; k++)
+      joined[i][k] = block[i] == block[k] || part[i] == part[k];
+  for (int by = 0; by < d; by++)
+    for (int i = 0; i < d; i++)
+      for (int k = 0; k < d; k++)
+        joined[i][k] |= joined[i][by] && joined[by][k];
+  for (int i = 0; i < d; i++) {
+    bool set = true, first = true;
+    for (int k = 0; k < i; k++)
+      set &= !joined[i][k], first &= block[i] != block[k];
+    sets += set;
+    blocks += first;
+  }
+  return blocks - sets;
+}
+
+/* The least over all sets of turns at v that leave no half-edge alone; left: of the columns' prices. */
+static wide ranked_node(const model *m, const thr_turning_dual *d, int v, const wide *left, wide one)
+{
+  static state list[STATES];
+  const int *half = m->frame.half + m->frame.first[v], degree = thr_degree(&m->frame, v);
+  int n = 1;
+  wide best = (wide)1 << 120;
+  memset(list, 0, sizeof *list);
+  for (int i = 0; i < degree; i++)
+    list[0].name[i] = i;
+  for (int j = 0; j < m->columns.n_columns; j++) {
+    const column *x = &m->column[j];
+    int a = 0, b = 0;
+    if (x->kind != TURN || x->node != v) continue;
+    while (half[a] != x->a)
+      a++;
+    while (half[b] != x->b)
+      b++;
+    for (int i = 0, known = n; i < known; i++) {
+      state new = list[i];
+      int to = new.name[a] < new.name[b] ? new.name[a] : new.name[b], from = new.name[a] + new.name[b] - to;
+      for (int k = 0; k < degree; k++)
+        if (new.name[k] == from) new.name[k] = to;
+      new.least += left[j] > 0 ? left[j] : 0;
+      offer_state(list, &n, &new);
+    }
+  }
+  for (int i = 0; i < n; i++) {
+    wide worth = list[i].least;
+    bool alone = false;
+    for (int k = 0; k < degree; k++) {
+      int part = 0;
+      for (int l = 0; l < degree; l++)
+        part += list[i].name[l] == list[i].name[k];
+      alone |= part == 1;
+    }
+    for (int k = 0; k < d->n_ranks && !alone; k++) {
+      int block[8];
+      for (int l = 0; l < degree; l++)
+        block[l] = d->rank[k].block[half[l] / 2];
+      worth -= (wide)d->rank[k].value * rank_of(block, list[i].name, degree) * one;
+    }
+    if (!alone && worth < best) best = worth;
+  }
+  return best;
+}
+
 wide rows_bound(const model *m, const thr_turning_dual *d, const int *low, const int *high)
 {
   const wide one = (wide)1 << THR_LENGTH_BITS;
+  static wide left[MOST];
   sums s = {{0}, 0};
   add_equations(m, d, &s);
   add_sets(m, d, &s);
   for (int i = 0; i < d->n_partitions; i++)
-    add_partition(m, &d->partition[i], &s);
+    add_partition(m, &d->partition[i], false, &s);
+  for (int i = 0; i < d->n_ranks; i++)
+    add_partition(m, &d->rank[i], true, &s);
   for (int i = 0; i < d->n_junctions; i++)
     add_junction(m, &d->junction[i], &s);
   bool limited = m->columns.extra_limit >= 0;
@@ -255,7 +354,11 @@ wide rows_bound(const model *m, const thr_turning_dual *d, const int *low, const
     const column *x = &m->column[j];
     wide reduced = (x->weight - s.taken[j]) * one;
     if (limited && x->kind == EXTRA) reduced += (wide)d->length * m->columns.length[x->a / 2];
-    total += reduced * (reduced < 0 ? high[j] : low[j]);
+    bool apart = d->n_ranks > 0 && x->kind == TURN && is_ranked(m, x->node);
+    left[j] = reduced;
+    if (reduced < 0 || !apart) total += reduced * (reduced < 0 ? high[j] : low[j]);
   }
+  for (int v = 0; v < m->frame.n_nodes && d->n_ranks > 0; v++)
+    if (is_ranked(m, v)) total += ranked_node(m, d, v, left, one);
   return total;
 }

@@ -781,7 +781,49 @@ class Model:
             constant += self.partition(row, cost, place)
         for row in dual["junctions"]:
             constant += self.junction(row, cost, place)
+        for row in dual["ranks"]:
+            constant += self.partition(row, cost, place, True)
+        if dual["ranks"]:
+            constant += sum(self.ranked_node(v, dual["ranks"], cost) for v in range(f.n) if self.ranked(v))
         return cost, constant
+
+    def ranked(self, v):
+        """Are connections at the node counted exactly?"""
+        return 2 <= len(self.f.at[v]) <= 8
+
+    def ranked_node(self, v, ranks, cost):
+        """Least price of turns at the node, with one at every half-edge at least, less what the connections gain. Turns of a price
+        below 0 are counted as columns and are free here; what the others cost is in this minimum only."""
+        at, states = self.f.at[v], {}
+        start = tuple(range(len(at)))
+        prices = {(a, b): max(cost[at[a], at[b]], 0) for a in start for b in start if a < b}
+        for a, b in prices:
+            cost[at[a], at[b]] = min(cost[at[a], at[b]], 0)
+        states[start] = 0  # the least price of turns that join half-edges so; every half-edge has the lowest of its part
+        for (a, b), price in prices.items():
+            for parts, least in list(states.items()):
+                low, high = sorted((parts[a], parts[b]))
+                joined = tuple(low if x == high else x for x in parts)
+                states[joined] = min(states.get(joined, least + price), least + price)
+        best = None
+        for parts, least in states.items():
+            if any(parts.count(x) == 1 for x in parts):
+                continue
+            for row in ranks:
+                least -= row["value"] * self.rank([row["blocks"][h >> 1] for h in at], parts)
+            best = least if best is None else min(best, least)
+        return best
+
+    @staticmethod
+    def rank(blocks, parts):
+        """Connections between blocks: blocks less the sets that they fall into when every part is joined."""
+        sets = {frozenset(i for i, x in enumerate(blocks) if x == b) for b in blocks}
+        n = len(sets)
+        for part in set(parts):
+            members = frozenset(i for i, x in enumerate(parts) if x == part)
+            touched = {s for s in sets if s & members}
+            sets = sets - touched | {frozenset().union(*touched)}
+        return n - len(sets)
 
     def odd_set(self, row, cost, place):
         f, y, inside = self.f, row["value"], set(row["members"])
@@ -815,7 +857,7 @@ class Model:
     def blocks(self, blocks, place):
         require(set(blocks) == set(range(max(blocks) + 1)), f"{place}: a block number is not in use")
 
-    def partition(self, row, cost, place):
+    def partition(self, row, cost, place, rank=False):
         f, y, block = self.f, row["value"], row["blocks"]
         require(self.o.ends == "closed", f"{place}: partitions are for closed cords")
         self.blocks(block, place)
@@ -826,7 +868,7 @@ class Model:
         right = sum(max(0, list(owner.values()).count(c) - self.cords) for c in range(len(f.pieces)))
         for v in range(f.n):
             here = {block[h >> 1] for h in f.at[v]}
-            if len(here) < 2:
+            if len(here) < 2 or rank and self.ranked(v):
                 continue
             share = Fraction(y * (len(here) - 1), len(here))
             odd = {b for b in here if sum(self.need[h >> 1] for h in f.at[v] if block[h >> 1] == b) % 2}
@@ -853,13 +895,14 @@ class Model:
     def read_dual(self, o, place):
         f = self.f
         require(type(o) is dict, f"{place}: not an object")
-        known(o, "potentials ends length odd_sets groups partitions junctions", place)
+        known(o, "potentials ends length odd_sets groups partitions ranks junctions", place)
         dual = {"length": member(o, "length", "integer", place, 0)}
         for key, n in (("potentials", 2 * f.m), ("ends", len(self.supply))):
             dual[key] = integers(member(o, key, "list", place), f"{place}.{key}", -INT64, INT64, n)
         for key, list_name, most, n in (("odd_sets", "members", 2 * f.m + len(self.supply) - 1, None), ("groups", "members", f.m - 1, None),
-                                        ("partitions", "blocks", f.m - 1, f.m), ("junctions", "blocks", f.m - 1, None)):
-            dual[key] = member(o, key, "list", place, default=[] if key == "junctions" else ...)
+                                        ("partitions", "blocks", f.m - 1, f.m), ("ranks", "blocks", f.m - 1, f.m),
+                                        ("junctions", "blocks", f.m - 1, None)):
+            dual[key] = member(o, key, "list", place, default=[] if key in ("ranks", "junctions") else ...)
             for i, row in enumerate(dual[key]):
                 name = f"{place}.{key}[{i}]"
                 require(type(row) is dict, f"{name}: not an object")

@@ -1,6 +1,7 @@
 /* Lagrangean bounds on turning, in integers. */
 #include "graph/framework/frame.h"
 #include "graph/plan/turning_proof.h"
+#include "graph/plan/turning_ranks.h"
 #include "graph/scratch.h"
 #include "graph/status.h"
 
@@ -35,15 +36,21 @@ void thr_turning_dual_drop_odd(thr_turning_dual *dual, int from)
     free(dual->odd[--dual->n_odd].member);
 }
 
+static void destroy_partitions(thr_turning_partition *partition, int n)
+{
+  for (int i = 0; partition && i < n; i++)
+    free(partition[i].block);
+  free(partition);
+}
+
 void thr_turning_dual_destroy(thr_turning_dual *dual)
 {
   free(dual->potential);
   free(dual->ends);
   destroy_sets(dual->odd, dual->n_odd);
   destroy_sets(dual->group, dual->n_groups);
-  for (int i = 0; dual->partition && i < dual->n_partitions; i++)
-    free(dual->partition[i].block);
-  free(dual->partition);
+  destroy_partitions(dual->partition, dual->n_partitions);
+  destroy_partitions(dual->rank, dual->n_ranks);
   for (int i = 0; dual->junction && i < dual->n_junctions; i++)
     free(dual->junction[i].block);
   free(dual->junction);
@@ -69,8 +76,9 @@ typedef struct {
   wide *reduced;   /* [n_columns] price less what the multipliers take */
   bool *member;    /* [2 * n_edges + n_ends] all false between sets */
   wide constant;
-  int *edges; /* [n_components] */
-  bool *open; /* [n_components] may cords end there? */
+  int *edges;  /* [n_components] */
+  bool *open;  /* [n_components] may cords end there? */
+  bool ranked; /* connections are counted exactly where they can be */
 } leaf;
 
 static thr_status check_set(const char *what, int i, const thr_turning_set *turning_set, int limit, thr_err *err)
@@ -215,14 +223,22 @@ static int64_t share_of(int64_t value, int b, int parts)
   return (int64_t)((whole + by - 1) / by);
 }
 
-static void take_partition(leaf *k, const thr_turning_partition *partition, bool *even)
+/* Nodes whose turns are a problem of their own. */
+static bool is_ranked(const leaf *k, int v)
+{
+  int d = thr_degree(k->c->f, v);
+  return k->ranked && d >= 2 && d <= THR_RANK_DEGREE;
+}
+
+/* rank: where connections are not counted exactly. */
+static void take_partition(leaf *k, const thr_turning_partition *partition, bool rank, bool *even)
 {
   const thr_turning_columns *turning_columns = k->c;
   const thr_frame *frame = turning_columns->f;
   for (int v = 0; v < frame->n_nodes; v++) {
     const int *half = frame->half + frame->first[v];
     int odd, b = thr_turning_blocks_at(turning_columns, partition->block, v, &odd, even);
-    if (b < 2) continue;
+    if (b < 2 || (rank && is_ranked(k, v))) continue;
     int64_t share = share_of(partition->value, b, 1), part = share_of(partition->value, b, 2);
     for (int i = 0; i < thr_degree(frame, v); i++) {
       for (int j = i + 1; j < thr_degree(frame, v); j++)
@@ -254,20 +270,20 @@ int thr_turning_connections(const thr_turning_columns *turning_columns, const in
   return connections;
 }
 
-static thr_status run_partition(leaf *k, int i, thr_err *err)
+static thr_status run_partition(leaf *k, const thr_turning_partition *partition, bool rank, int i, thr_err *err)
 {
   const thr_turning_columns *turning_columns = k->c;
-  const thr_turning_partition *partition = &k->d->partition[i];
-  if (partition->value < 0) return thr_fail(err, THR_EVIOLATED, "turning proof: partition %d: multiplier is negative", i);
+  const char *what = rank ? "rank" : "partition";
+  if (partition->value < 0) return thr_fail(err, THR_EVIOLATED, "turning proof: %s %d: multiplier is negative", what, i);
   if (turning_columns->task->end_allowed)
-    return thr_fail(err, THR_EVIOLATED, "turning proof: partition %d: holds for closed cords only", i);
+    return thr_fail(err, THR_EVIOLATED, "turning proof: %s %d: holds for closed cords only", what, i);
   int *scratch = thr_calloc((size_t)turning_columns->f->n_edges + (size_t)turning_columns->n_components, sizeof *scratch);
   bool *even = thr_calloc((size_t)turning_columns->f->n_edges, sizeof *even);
   thr_status st = scratch && even ? THR_OK : thr_nomem(err);
   int connections = st ? 0 : thr_turning_connections(turning_columns, partition->block, scratch);
-  if (connections < 0) st = thr_fail(err, THR_EVIOLATED, "turning proof: partition %d: bad block numbers", i);
+  if (connections < 0) st = thr_fail(err, THR_EVIOLATED, "turning proof: %s %d: bad block numbers", what, i);
   if (!st) {
-    take_partition(k, partition, even);
+    take_partition(k, partition, rank, even);
     k->constant += (wide)partition->value * connections;
   }
   free(scratch);
@@ -307,11 +323,44 @@ static thr_status run_junction(leaf *k, int i, thr_err *err)
   return THR_OK;
 }
 
+/* What the turns at a ranked node are worth: those that are left a price below 0 are counted as columns, and join for nothing. */
+static wide node_worth(const leaf *k, int v, const int64_t *value, int (*block)[THR_RANK_DEGREE])
+{
+  const int64_t most = (int64_t)1 << 58;
+  const int *half = k->c->f->half + k->c->f->first[v];
+  thr_rank_node node = {.degree = thr_degree(k->c->f, v), .n_rows = k->d->n_ranks, .value = value, .block = block};
+  for (int a = 0; a < node.degree; a++) {
+    for (int i = 0; i < node.n_rows; i++)
+      block[i][a] = k->d->rank[i].block[half[a] >> 1];
+    for (int b = 0; b < a; b++) {
+      wide left = k->reduced[thr_turning_column(k->c, half[a], half[b])];
+      node.price[a][b] = node.price[b][a] = left < 0 ? 0 : left > most ? most : (int64_t)left;
+    }
+  }
+  return thr_rank_least(&node, NULL);
+}
+
+/* All ranked nodes; after the prices of turns are known. */
+static thr_status count_ranks(leaf *k, thr_err *err)
+{
+  thr_scratch own = {0};
+  int64_t *value = thr_scratch_array(&own, (size_t)k->d->n_ranks, sizeof *value);
+  int(*block)[THR_RANK_DEGREE] = thr_scratch_array(&own, (size_t)k->d->n_ranks, sizeof *block);
+  thr_status st = thr_scratch_check(&own, err);
+  for (int i = 0; i < k->d->n_ranks && !st; i++)
+    value[i] = k->d->rank[i].value;
+  for (int v = 0; v < k->c->f->n_nodes && !st; v++)
+    if (is_ranked(k, v)) k->constant += node_worth(k, v, value, block);
+  thr_scratch_free(&own);
+  return st;
+}
+
 /* What column j adds to the least value, between these bounds. With multipliers below 2^58 and sets below 2^62 together, reduced
  * prices stay below 2^63, and nothing here comes near 2^127. */
 static wide column_adds(const leaf *k, int j, int least, int most)
 {
   wide reduced = k->reduced[j];
+  if (reduced > 0 && j < k->c->first_extra && is_ranked(k, thr_tail(k->c->f, k->c->half[j][0]))) return 0;
   return reduced * (reduced < 0 ? most : least);
 }
 
@@ -337,7 +386,7 @@ static thr_status check_sizes(const thr_turning_columns *turning_columns, const 
 {
   const int64_t most = (int64_t)1 << 58;
   bool ok = dual->length >= 0 && dual->length <= most;
-  wide sets = 0;
+  wide sets = 0, ranks = 0;
   for (int h = 0; h < 2 * turning_columns->f->n_edges; h++)
     ok &= dual->potential[h] >= -most && dual->potential[h] <= most;
   for (int i = 0; i < turning_columns->n_ends; i++)
@@ -350,7 +399,9 @@ static thr_status check_sizes(const thr_turning_columns *turning_columns, const 
     sets += dual->partition[i].value;
   for (int i = 0; i < dual->n_junctions; i++)
     sets += dual->junction[i].value;
-  if (ok && sets <= 8 * (wide)most) return THR_OK;
+  for (int i = 0; i < dual->n_ranks; i++)
+    ranks += dual->rank[i].value;
+  if (ok && ranks <= most && sets <= 8 * (wide)most) return THR_OK;
   return thr_fail(err, THR_EVIOLATED, "turning proof: a multiplier is too large, or that of the length negative");
 }
 
@@ -374,7 +425,7 @@ static thr_status leaf_allocate(leaf *k, thr_err *err)
 /* What the multipliers leave of all prices, and the sum of what they take. */
 static thr_status leaf_init(leaf *k, const thr_turning_columns *turning_columns, const thr_turning_dual *dual, thr_err *err)
 {
-  *k = (leaf){.c = turning_columns, .d = dual};
+  *k = (leaf){.c = turning_columns, .d = dual, .ranked = dual->n_ranks > 0};
   thr_status st = leaf_allocate(k, err);
   if (!st) st = check_sizes(turning_columns, dual, err);
   if (!st) take_potentials(k);
@@ -383,11 +434,13 @@ static thr_status leaf_init(leaf *k, const thr_turning_columns *turning_columns,
   for (int i = 0; i < dual->n_groups && !st; i++)
     st = run_group(k, i, err);
   for (int i = 0; i < dual->n_partitions && !st; i++)
-    st = run_partition(k, i, err);
+    st = run_partition(k, &dual->partition[i], false, i, err);
+  for (int i = 0; i < dual->n_ranks && !st; i++)
+    st = run_partition(k, &dual->rank[i], true, i, err);
   for (int i = 0; i < dual->n_junctions && !st; i++)
     st = run_junction(k, i, err);
   if (!st) take_length(k);
-  return st;
+  return st || !k->ranked ? st : count_ranks(k, err);
 }
 
 thr_status thr_turning_dual_bound(const thr_turning_columns *turning_columns, const thr_turning_dual *dual, const int *low,

@@ -45,12 +45,12 @@ static void put_sets(thr_writer *writer, const char *key, const thr_turning_set 
   thr_write_close(writer);
 }
 
-static void put_partitions(thr_writer *writer, const thr_turning_dual *dual, int n_edges)
+static void put_partitions(thr_writer *writer, const char *key, const thr_turning_partition *partition, int n, int n_edges)
 {
-  begin_list(writer, "partitions");
-  for (int i = 0; i < dual->n_partitions; i++) {
-    begin_item(writer, dual->partition[i].value);
-    thr_write_ints(writer, "blocks", dual->partition[i].block, n_edges);
+  begin_list(writer, key);
+  for (int i = 0; i < n; i++) {
+    begin_item(writer, partition[i].value);
+    thr_write_ints(writer, "blocks", partition[i].block, n_edges);
     thr_write_close(writer);
   }
   thr_write_close(writer);
@@ -78,7 +78,8 @@ static void put_dual(thr_writer *writer, const thr_turning_dual *dual, const thr
   thr_write_int(writer, "length", dual->length);
   put_sets(writer, "odd_sets", dual->odd, dual->n_odd);
   put_sets(writer, "groups", dual->group, dual->n_groups);
-  put_partitions(writer, dual, frame->n_edges);
+  put_partitions(writer, "partitions", dual->partition, dual->n_partitions, frame->n_edges);
+  if (dual->n_ranks) put_partitions(writer, "ranks", dual->rank, dual->n_ranks, frame->n_edges);
   if (dual->n_junctions) put_junctions(writer, dual, frame);
   thr_write_close(writer);
 }
@@ -233,16 +234,17 @@ static thr_status read_partition(const reader *r, const thr_json *value, thr_tur
   return st;
 }
 
-static thr_status read_partitions(const reader *r, const thr_json *object, thr_turning_dual *dual)
+static thr_status read_partitions(const reader *r, const thr_json *object, const char *key, int *count,
+                                  thr_turning_partition **out)
 {
   const thr_json *list;
-  thr_status st = get_array(r, object, "partitions", &list);
+  thr_status st = get_array(r, object, key, &list);
   if (st) return st;
   int n = thr_json_size(list);
-  if (!(dual->partition = thr_calloc((size_t)n, sizeof *dual->partition))) return thr_nomem(r->err);
-  dual->n_partitions = n;
+  if (!(*out = thr_calloc((size_t)n, sizeof **out))) return thr_nomem(r->err);
+  *count = n;
   for (int i = 0; i < n && !st; i++)
-    st = read_partition(r, thr_json_at(list, i), &dual->partition[i]);
+    st = read_partition(r, thr_json_at(list, i), &(*out)[i]);
   return st;
 }
 
@@ -285,16 +287,19 @@ static thr_status read_junctions(const reader *r, const thr_json *object, thr_tu
 
 static thr_status read_dual(const reader *r, const thr_json *value, thr_turning_dual *dual)
 {
-  static const char *const known[] = {"potentials", "ends", "length", "odd_sets", "groups", "partitions", "junctions", NULL},
-                           *const solid[] = {"potentials", "ends", "length", "odd_sets", "groups", "partitions", NULL};
+  static const char *const optional[] = {"ranks", "junctions"};
+  const char *known[9] = {"potentials", "ends", "length", "odd_sets", "groups", "partitions"};
+  for (int i = 0, n = 6; i < 2; i++)
+    if (thr_json_get(value, optional[i])) known[n++] = optional[i];
   int m = r->f->n_edges;
-  thr_status st = only_members(r, value, thr_json_get(value, "junctions") ? known : solid);
+  thr_status st = only_members(r, value, known);
   if (!st) st = read_multipliers(r, value, "potentials", 2 * m, &dual->potential);
   if (!st) st = read_multipliers(r, value, "ends", r->n_ends, &dual->ends);
   if (!st) st = get_int(r, thr_json_get(value, "length"), "length", 0, INT64_MAX, &dual->length);
   if (!st) st = read_sets(r, value, "odd_sets", 2 * m + r->n_ends, &dual->n_odd, &dual->odd);
   if (!st) st = read_sets(r, value, "groups", m, &dual->n_groups, &dual->group);
-  if (!st) st = read_partitions(r, value, dual);
+  if (!st) st = read_partitions(r, value, "partitions", &dual->n_partitions, &dual->partition);
+  if (!st && thr_json_get(value, "ranks")) st = read_partitions(r, value, "ranks", &dual->n_ranks, &dual->rank);
   if (!st) st = read_junctions(r, value, dual);
   return st;
 }

@@ -17,10 +17,12 @@
  * there) of them, because a block with an even number has 2 turns to others or none. Passes of a block with an even number of
  * edges at the node (times cover) are odd only if it has an extra pass there. A closed cord connects all blocks that it passes,
  * and the cords of a component pass all of its blocks, so with k cords the blocks of a component fall into at most k connected
- * parts: the sum over all nodes is at least the sum over the components of max(0, blocks - k); junction (tube joints only): the
- * edges at a node in b blocks: at least b - 1 turns go between different blocks; the limit on the extra length. With tube joints
- * nothing turns back, and nothing but the passes need cost: then this is the proof of least length. A tree of bounds on single
- * columns turns this into an exact method: the proved bound is the least over its leaves. */
+ * parts: the sum over all nodes is at least the sum over the components of max(0, blocks - k); rank: the same partitions, but at
+ * nodes of 2 to THR_RANK_DEGREE edges the connections are counted exactly (graph/plan/turning_ranks.h); then the turns of such a
+ * node are a problem of their own, in which every half-edge has one; junction (tube joints only): the edges at a node in b
+ * blocks: at least b - 1 turns go between different blocks; the limit on the extra length. With tube joints nothing turns back,
+ * and nothing but the passes need cost: then this is the proof of least length. A tree of bounds on single columns turns this
+ * into an exact method: the proved bound is the least over its leaves. */
 #ifndef THR_TURNING_PROOF_H
 #define THR_TURNING_PROOF_H
 
@@ -159,9 +161,9 @@ typedef struct {
   int64_t *ends;      /* [n_ends] of the equations of the cord ends, any sign */
   int64_t
       length; /* of the limit on the extra length, >= 0; per unit of length of the columns' lengths, times 2^THR_LENGTH_BITS */
-  int n_odd, n_groups, n_partitions, n_junctions;
+  int n_odd, n_groups, n_partitions, n_ranks, n_junctions;
   thr_turning_set *odd, *group;
-  thr_turning_partition *partition;
+  thr_turning_partition *partition, *rank;
   thr_turning_junction *junction;
 } thr_turning_dual;
 

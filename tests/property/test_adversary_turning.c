@@ -199,9 +199,9 @@ typedef struct {
 
 typedef struct {
   int64_t potential[2 * EDGES], ends[NODES], length;
-  int n_odd, n_groups, n_partitions, n_junctions;
+  int n_odd, n_groups, n_partitions, n_ranks, n_junctions;
   set odd[SETS], group[SETS];
-  division partition[SETS], junction[SETS];
+  division partition[SETS], rank[SETS], junction[SETS];
 } multipliers;
 
 /* A proof without pointers. */
@@ -219,7 +219,7 @@ typedef struct {
   multipliers leaf[LEAVES];
   int member[LEAVES][2][SETS][MOST_MEMBERS];
   thr_turning_set set[LEAVES][2][SETS * COPIES];
-  thr_turning_partition partition[LEAVES][SETS * COPIES];
+  thr_turning_partition partition[LEAVES][SETS * COPIES], rank[LEAVES][SETS * COPIES];
   thr_turning_junction junction[LEAVES][SETS * COPIES];
 } built;
 
@@ -236,6 +236,15 @@ static int build_sets(const set *from, int n, int (*member)[MOST_MEMBERS], thr_t
   return count;
 }
 
+static int build_partitions(division *from, int n, thr_turning_partition *to)
+{
+  int count = 0;
+  for (int k = 0; k < n; k++)
+    for (int c = 0; c < from[k].copies; c++)
+      to[count++] = (thr_turning_partition){from[k].block, from[k].value};
+  return count;
+}
+
 static void build_leaf(built *b, int i)
 {
   multipliers *m = &b->leaf[i];
@@ -244,12 +253,12 @@ static void build_leaf(built *b, int i)
   d->odd = b->set[i][0];
   d->group = b->set[i][1];
   d->partition = b->partition[i];
+  d->rank = b->rank[i];
   d->junction = b->junction[i];
   d->n_odd = build_sets(m->odd, m->n_odd, b->member[i][0], d->odd);
   d->n_groups = build_sets(m->group, m->n_groups, b->member[i][1], d->group);
-  for (int k = 0; k < m->n_partitions; k++)
-    for (int c = 0; c < m->partition[k].copies; c++)
-      d->partition[d->n_partitions++] = (thr_turning_partition){m->partition[k].block, m->partition[k].value};
+  d->n_partitions = build_partitions(m->partition, m->n_partitions, d->partition);
+  d->n_ranks = build_partitions(m->rank, m->n_ranks, d->rank);
   for (int k = 0; k < m->n_junctions; k++)
     for (int c = 0; c < m->junction[k].copies; c++)
       d->junction[d->n_junctions++] = (thr_turning_junction){m->junction[k].node, m->junction[k].block, m->junction[k].value};
@@ -274,6 +283,14 @@ static void take_sets(const thr_turning_set *from, int n, set *to, int *count)
   }
 }
 
+static void take_partitions(const thr_turning_partition *from, int n, int n_edges, division *to, int *count)
+{
+  for (*count = 0; *count < n && *count < SETS; ++*count) {
+    to[*count] = (division){.value = from[*count].value, .copies = 1};
+    memcpy(to[*count].block, from[*count].block, (size_t)n_edges * sizeof(int));
+  }
+}
+
 static void take_leaf(const target *t, const thr_turning_dual *d, multipliers *m)
 {
   const thr_frame *f = &t->plan.frame;
@@ -282,10 +299,8 @@ static void take_leaf(const target *t, const thr_turning_dual *d, multipliers *m
   m->length = d->length;
   take_sets(d->odd, d->n_odd, m->odd, &m->n_odd);
   take_sets(d->group, d->n_groups, m->group, &m->n_groups);
-  for (; m->n_partitions < d->n_partitions && m->n_partitions < SETS; m->n_partitions++) {
-    m->partition[m->n_partitions] = (division){.value = d->partition[m->n_partitions].value, .copies = 1};
-    memcpy(m->partition[m->n_partitions].block, d->partition[m->n_partitions].block, (size_t)f->n_edges * sizeof(int));
-  }
+  take_partitions(d->partition, d->n_partitions, f->n_edges, m->partition, &m->n_partitions);
+  take_partitions(d->rank, d->n_ranks, f->n_edges, m->rank, &m->n_ranks);
   for (; m->n_junctions < d->n_junctions && m->n_junctions < SETS; m->n_junctions++) {
     const thr_turning_junction *j = &d->junction[m->n_junctions];
     m->junction[m->n_junctions] = (division){.value = j->value, .node = j->node, .copies = 1};
@@ -405,17 +420,19 @@ static void change_and_pay(rng *r, const target *t, multipliers *m)
 {
   const thr_frame *f = &t->plan.frame;
   int64_t by = INT64_C(1) << rng_below(r, 44);
-  int kind = rng_below(r, 4), n = kind == 0 ? m->n_odd : kind == 1 ? m->n_groups : kind == 2 ? m->n_partitions : m->n_junctions;
+  const int sizes[] = {m->n_odd, m->n_groups, m->n_partitions, m->n_junctions, m->n_ranks};
+  int kind = rng_below(r, 5), n = sizes[kind];
   if (n == 0) return;
   int i = rng_below(r, n);
   if (kind == 0) m->odd[i].value += by;
   if (kind == 1) m->group[i].value += by;
   if (kind == 2) m->partition[i].value += by;
   if (kind == 3) m->junction[i].value += by;
+  if (kind == 4) m->rank[i].value += by;
   for (int h = 0; h < 2 * f->n_edges; h++) {
     bool pays = kind == 0 ? m->odd[i].members >> h & 1u : kind == 1 ? m->group[i].members >> (h >> 1) & 1u : false;
     if (pays) m->potential[h] -= by;
-    if (kind == 3 && thr_tail(f, h) == m->junction[i].node) m->potential[h] -= by / 2;
+    if (kind == 4 || (kind == 3 && thr_tail(f, h) == m->junction[i].node)) m->potential[h] -= by / 2;
   }
   for (int v = 0; v < f->n_nodes && kind == 2; v++)
     pay_partition(f, m->partition[i].block, v, by, m);
@@ -446,7 +463,7 @@ static void change(rng *r, const void *what, void *of)
   candidate *c = of;
   multipliers *m = &c->leaf[c->n_nodes == 1 ? c->node[0].dual : rng_below(r, LEAVES)];
   int m_edges = t->plan.frame.n_edges;
-  switch (rng_below(r, 14)) {
+  switch (rng_below(r, 15)) {
   case 12:
   case 13: change_and_pay(r, t, m); break;
   case 0:
@@ -458,6 +475,7 @@ static void change(rng *r, const void *what, void *of)
   case 6:
   case 7: change_set(r, edges_of_a_cord(r, &t->plan), m_edges + !rng_below(r, 50), m->group, &m->n_groups); break;
   case 8: change_division(r, t, m->partition, &m->n_partitions); break;
+  case 14: change_division(r, t, m->rank, &m->n_ranks); break;
   case 9: change_division(r, t, m->junction, &m->n_junctions); break;
   case 10:
     if (rng_below(r, 3) == 0) change_value(r, &m->length);

@@ -139,6 +139,7 @@ static thr_turning_dual random_dual(rng *r, const model *m)
                         .odd = calloc(8, sizeof *d.odd),
                         .group = calloc(8, sizeof *d.group),
                         .partition = calloc(2, sizeof *d.partition),
+                        .rank = calloc(2, sizeof *d.rank),
                         .junction = calloc(4, sizeof *d.junction)};
   for (int h = 0; h < darts; h++)
     d.potential[h] = random_value(r, true);
@@ -158,6 +159,8 @@ static thr_turning_dual random_dual(rng *r, const model *m)
   }
   for (; !m->task.end_allowed && d.n_partitions < 2; d.n_partitions++)
     d.partition[d.n_partitions] = random_partition(r, m);
+  for (int ranks = m->task.end_allowed ? 0 : rng_below(r, 3); d.n_ranks < ranks; d.n_ranks++)
+    d.rank[d.n_ranks] = random_partition(r, m);
   for (; m->task.tube && d.n_junctions < 4; d.n_junctions++)
     d.junction[d.n_junctions] = random_junction(r, m);
   return d;
@@ -266,6 +269,8 @@ static void make_gentle(rng *r, const model *m, thr_turning_dual *d)
     d->group[i].value = 0;
   for (int i = 0; i < d->n_partitions; i++)
     d->partition[i].value = 0;
+  for (int i = 0; i < d->n_ranks; i++)
+    d->rank[i].value /= 4;
   for (int i = 0; i < d->n_junctions; i++)
     d->junction[i].value = 0;
 }

@@ -123,11 +123,13 @@ START_TEST(partitions_that_prove_nothing)
   small_make(&s);
   for (size_t i = 0; i < sizeof partition / sizeof *partition; i++) {
     thr_turning_partition one = {(int *)partition[i].block, partition[i].value};
-    s.dual.partition = &one, s.dual.n_partitions = 1;
-    assert_small(&s, partition[i].word);
-    s.task.end_allowed = s.anywhere;
-    assert_small(&s, partition[i].value < 0 ? "negative" : "closed cords only");
-    s.task.end_allowed = NULL;
+    for (int rank = 0; rank < 2; rank++) {
+      s.dual.partition = s.dual.rank = &one, s.dual.n_partitions = !rank, s.dual.n_ranks = rank;
+      assert_small(&s, partition[i].word);
+      s.task.end_allowed = s.anywhere;
+      assert_small(&s, partition[i].value < 0 ? "negative" : "closed cords only");
+      s.task.end_allowed = NULL;
+    }
   }
   thr_turning_columns c; /* 5 blocks of one component and 3 of the other: 4 + 2 connections, whatever the room held before */
   ck_assert_int_eq(thr_turning_columns_init(&c, &s.frame, &s.task, NULL), THR_OK);
@@ -212,6 +214,11 @@ START_TEST(multipliers_that_are_too_large)
     assert_small(&s, "too large");
     --*sets[i];
   }
+  thr_turning_partition rank[2] = {{block, most - 1}, {block, 1}}; /* ranks 2^58 together */
+  s.dual.rank = rank, s.dual.n_ranks = 2;
+  assert_small(&s, NULL);
+  rank[1].value++;
+  assert_small(&s, "too large");
   thr_frame_destroy(&s.frame);
 }
 END_TEST

@@ -304,6 +304,16 @@ static thr_limits limits_of_search(const thr_branch *branch)
   return less;
 }
 
+/* A gap that no tree closes, on a framework that some thousand steps go through in a second. */
+static bool is_weak(const thr_branch *branch)
+{
+  enum { SMALL = 5000 };
+  const double wide = 0.01;
+  const thr_turning_columns *c = branch->c;
+  return !c->task->end_allowed && !c->task->tube && c->n_columns < SMALL &&
+         branch->tree.node[0].bound < (1 - wide) * (double)branch->best_price;
+}
+
 /* A node's bound and plans; then the column to branch on. */
 static thr_status solve(void *user, int i, thr_tree_branch *branch, thr_err *err)
 {
@@ -317,6 +327,8 @@ static thr_status solve(void *user, int i, thr_tree_branch *branch, thr_err *err
   if (st) return st;
   report(b);
   if (root && b->found && !turning_task->tube && !b->tree.stopped && !closed(b, i)) st = improve_plans(b, err);
+  const thr_limits rest = limits_of_search(b);
+  if (!st && root && b->found && is_weak(b)) st = thr_branch_ranks(b, &rest, err);
   b->tree.enough = enough(b);
   branch->column = most_fractional(b);
   if (branch->column >= 0) branch->value = (int)floor(b->relax.x[branch->column]);

@@ -96,6 +96,10 @@ thr_status thr_branch_anneal(thr_branch *branch, const thr_limits *limits, int r
 thr_status thr_branch_begin(thr_branch *branch, thr_err *err) THR_MUST_CHECK;
 thr_status thr_branch_match(thr_branch *branch, thr_err *err) THR_MUST_CHECK;
 
+/* Closed cords: a bound of the root by connections counted exactly at every node (tortuosity/proof/ranks.h), if it is a better
+ * one. There must be a plan. */
+thr_status thr_branch_ranks(thr_branch *branch, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
+
 /* Takes multipliers over, for node i of the tree if they prove more than it has while the columns are in this box (NULL: all). */
 thr_status thr_branch_keep_dual(thr_branch *branch, int i, thr_turning_dual dual, const int *low, const int *high,
                                 thr_err *err) THR_MUST_CHECK;

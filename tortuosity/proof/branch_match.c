@@ -6,6 +6,7 @@
 #include "tortuosity/proof/branch.h"
 #include "tortuosity/proof/connect.h"
 #include "tortuosity/proof/pass_matching.h"
+#include "tortuosity/proof/ranks.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -87,6 +88,40 @@ thr_status thr_branch_match(thr_branch *branch, thr_err *err)
   bool now = !thr_connect_later(c), single = !c->task->end_allowed && c->task->cords == 1;
   if (!st && !found && now && single && !thr_branch_proved(branch)) st = thr_connect_plans(branch, &some, err);
   thr_pass_matching_destroy(&passes);
+  free(price);
+  free(x);
+  return st;
+}
+
+/* Ranks for the parts of the first matching, beginning with the multipliers that the root has. */
+static thr_status count_ranks(thr_branch *branch, const int *x, const thr_limits *limits, thr_err *err)
+{
+  const thr_turning_columns *c = branch->c;
+  const thr_turning_dual *from = &branch->dual[branch->tree.node[0].proof];
+  thr_turning_dual dual;
+  thr_status st = thr_turning_dual_init(&dual, c, err);
+  if (!st) st = thr_ranks_run(c, x, from, (double)branch->best_price, limits, &dual, err);
+  if (!st) return thr_branch_keep_dual(branch, 0, dual, NULL, NULL, err);
+  thr_turning_dual_destroy(&dual);
+  return st;
+}
+
+thr_status thr_branch_ranks(thr_branch *branch, const thr_limits *limits, thr_err *err)
+{
+  const thr_turning_columns *c = branch->c;
+  thr_pass_matching passes = {0};
+  thr_turning_dual dual = {0};
+  thr_err why = {0};
+  int *x = thr_calloc((size_t)c->n_columns, sizeof *x);
+  int64_t *price = thr_calloc((size_t)c->n_columns, sizeof *price);
+  thr_status st = x && price ? thr_turning_dual_init(&dual, c, err) : thr_nomem(err);
+  if (!st) st = thr_pass_matching_init(&passes, c, err);
+  if (!st) set_prices(c, price);
+  thr_status found = st ? st : thr_pass_matching_solve(&passes, price, limits, x, &dual, &why);
+  if (!st && found && found != THR_ELIMIT) st = thr_fail(err, found, "%s", why.text);
+  thr_turning_dual_destroy(&dual);
+  thr_pass_matching_destroy(&passes);
+  if (!st && !found) st = count_ranks(branch, x, limits, err);
   free(price);
   free(x);
   return st;
