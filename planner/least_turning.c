@@ -26,6 +26,7 @@ static thr_least_options search_options(const thr_request *options)
   lo.cords = options->cords;
   lo.cost = options->turning.cost;
   lo.length_slack = options->turning.length_slack;
+  if (options->turning.nodes > 0) lo.most_nodes = options->turning.nodes;
   return lo;
 }
 

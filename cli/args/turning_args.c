@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FRONTIER_POINTS = 9, FRONTIER_MOST = 1000 };
+enum { FRONTIER_POINTS = 9, FRONTIER_MOST = 1000, MOST_NODES = 1000000 };
 
 turning_args turning_args_default(void)
 {
@@ -58,6 +58,10 @@ bool turning_option(turning_args *a, int option, const char *value, bool *ok)
     a->pairings = true;
     name = "--pairings";
     break;
+  case OPTION_TURNING_NODES:
+    *ok = cli_int("plan", "--nodes", value, 1, MOST_NODES, &options->nodes);
+    name = "--nodes";
+    break;
   case OPTION_TURNING_FRONTIER:
     a->frontier = FRONTIER_POINTS;
     *ok = !value || cli_int("plan", "--frontier", value, 2, FRONTIER_MOST, &a->frontier);
@@ -81,6 +85,7 @@ int turning_args_check(const turning_args *a, const thr_request *wanted)
   if (options->tour == THR_TOUR_LEAST)
     return a->pairings ? cli_usage("plan", "--pairings is for --tour fleury and --tour hierholzer") : -1;
   const char *tour = thr_tour_name(options->tour);
+  if (options->nodes > 0) return cli_usage("plan", "--tour %s searches nothing: no --nodes", tour);
   if (options->length_slack > 0) return cli_usage("plan", "--tour %s takes the shortest passes: no --length-slack but 0", tour);
   if (a->largest) return cli_usage("plan", "--tour %s minimizes nothing: no --minimize max-turning", tour);
   if (a->frontier) return cli_usage("plan", "--tour %s minimizes nothing: no --frontier", tour);

@@ -11,6 +11,7 @@ enum {
   OPTION_TURNING_COST,
   OPTION_TURNING_TOUR,
   OPTION_TURNING_PAIRINGS,
+  OPTION_TURNING_NODES,
   OPTION_TURNING_FRONTIER,
   OPTION_TURNING_COMPARE,
   OPTION_TURNING_FREE
@@ -19,7 +20,7 @@ enum {
   {"length-slack", required_argument, NULL, OPTION_TURNING_SLACK},                                                               \
       {"minimize", required_argument, NULL, OPTION_TURNING_MINIMIZE},                                                            \
       {"turn-cost", required_argument, NULL, OPTION_TURNING_COST}, {"tour", required_argument, NULL, OPTION_TURNING_TOUR},       \
-      {"pairings", required_argument, NULL, OPTION_TURNING_PAIRINGS},                                                            \
+      {"pairings", required_argument, NULL, OPTION_TURNING_PAIRINGS}, {"nodes", required_argument, NULL, OPTION_TURNING_NODES},  \
       {"compare-shortest", no_argument, NULL, OPTION_TURNING_COMPARE},                                                           \
   {                                                                                                                              \
     "frontier", optional_argument, NULL, OPTION_TURNING_FRONTIER                                                                 \
@@ -32,6 +33,7 @@ enum {
   "                       degrees on, or for a U-turn\n"                                                                         \
   "      --tour least|fleury|hierholzer   the least turning (default), or a classical tour through the shortest passes\n"        \
   "      --pairings keep|ignore   of a classical tour: keep to the cheapest pairing at every node, or not (default: keep)\n"     \
+  "      --nodes N        end the search when its tree has N nodes, wherever it runs (default: only --time-limit ends it)\n"     \
   "      --frontier[=N]   also the trade-off between length and turning, at up to N lengths, 2 to 1000 (default: 9)\n"           \
   "      --compare-shortest  beside it the least turning among the shortest cords; with --length-slack 0 that of any length, "   \
   "with\n"                                                                                                                       \

@@ -14,7 +14,7 @@
 static thr_status read_turning_options(const thr_field_reader *field_reader, const thr_json *object, thr_request *out)
 {
   thr_turning_options *options = &out->turning;
-  static const char *const known[] = {"cost", "length_slack", "minimize", "tour", "pairings", NULL};
+  static const char *const known[] = {"cost", "length_slack", "minimize", "tour", "pairings", "nodes", NULL};
   const thr_json *value;
   int cost, aim, tour, pairings;
   thr_status st = thr_field_need(field_reader, object, "turning", THR_JSON_OBJECT, &value);
@@ -24,6 +24,7 @@ static thr_status read_turning_options(const thr_field_reader *field_reader, con
   if (!st) st = thr_field_name(field_reader, value, "options.turning", "minimize", 2, thr_minimize_name, &aim);
   if (!st) st = thr_field_name(field_reader, value, "options.turning", "tour", THR_N_TOURS, thr_tour_name, &tour);
   if (!st) st = thr_field_name(field_reader, value, "options.turning", "pairings", 2, thr_pairings_name, &pairings);
+  if (!st && thr_json_get(value, "nodes")) st = thr_field_int(field_reader, value, "nodes", 1, INT32_MAX, &options->nodes);
   if (st) return st;
   options->cost = (thr_turn_cost)cost;
   out->aims = (thr_aims){1, {aim == 1 ? THR_AIM_MAX_TURNING : THR_AIM_TURNING}};

@@ -121,6 +121,7 @@ static void put_turning_options(thr_writer *writer, const thr_request *asked)
   thr_write_string(writer, "minimize", thr_minimize_name(thr_wants_largest(asked)));
   thr_write_string(writer, "tour", thr_tour_name(options->tour));
   thr_write_string(writer, "pairings", thr_pairings_name(options->ignore_pairings));
+  if (options->nodes > 0) thr_write_int(writer, "nodes", options->nodes);
   thr_write_close(writer);
   thr_write_line(writer, 2);
 }

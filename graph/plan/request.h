@@ -60,6 +60,7 @@ typedef struct {
   double length_slack; /* cord allowed above the shortest, as a part of it; < 0 = any length */
   thr_tour tour;
   bool ignore_pairings; /* of the classical tours: edges in their order instead of the cheapest pairing of every node */
+  int nodes;            /* of the search's tree at most, which ends it at the same place on any machine; 0 = any number */
 } thr_turning_options;
 
 /* What is asked for of a symmetric plan. */

@@ -5,6 +5,7 @@
 #include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
@@ -109,7 +110,10 @@ static bool open_pipes(int result[2], int words[2])
   return false;
 }
 
-thr_status thr_process_start(thr_process *process, bool (*run)(void *user, int fd), void *user, thr_err *err)
+/* One start at a time: a child of another thread would keep the pipe open that this one is to close. */
+static pthread_mutex_t starting = PTHREAD_MUTEX_INITIALIZER;
+
+static thr_status start(thr_process *process, bool (*run)(void *user, int fd), void *user, thr_err *err)
 {
   int result[2], words[2];
   sigset_t all, old;
@@ -120,6 +124,7 @@ thr_status thr_process_start(thr_process *process, bool (*run)(void *user, int f
   sigprocmask(SIG_BLOCK, &all, &old); /* or a signal would run the parent's handler in the child */
   pid_t pid = fork();
   if (pid == 0) {
+    pthread_mutex_unlock(&starting); /* the child's copy */
     close(result[READ]);
     close(words[READ]);
     run_child(run, user, parent, &old, result[WRITE], words[WRITE]);
@@ -136,6 +141,14 @@ thr_status thr_process_start(thr_process *process, bool (*run)(void *user, int f
   close(words[READ]);
   return thr_fail(err, THR_ESOLVER, "cannot start a worker: %s; close other programs or ask for fewer processes",
                   strerror(reason));
+}
+
+thr_status thr_process_start(thr_process *process, bool (*run)(void *user, int fd), void *user, thr_err *err)
+{
+  pthread_mutex_lock(&starting);
+  thr_status st = start(process, run, user, err);
+  pthread_mutex_unlock(&starting);
+  return st;
 }
 
 /* The first line of the words that says something, of at most size - 1 bytes. */

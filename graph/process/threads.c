@@ -1,101 +1,203 @@
-/* A pool of threads that take the next job each. */
+/* Threads that wait for the next run; and jobs that whichever is free takes. */
 #define _POSIX_C_SOURCE 200809L
 #include "graph/process/threads.h"
 #include "graph/plan/plan.h"
 
+#include <limits.h>
 #include <pthread.h>
 #include <stdlib.h>
 
 typedef struct {
+  pthread_t thread;
+  thr_team *team;
+  int number; /* 1 .. n - 1; the caller is 0 */
+} member;
+
+struct thr_team {
+  const thr_limits *outer;
+  thr_limits own; /* of the jobs: outer's functions, one caller at a time */
+  int n;          /* threads */
+  member *member; /* [n - 1] */
   thr_threads_job *run;
   void *user;
-  const thr_limits *outer;
-  thr_limits own;        /* of the jobs: outer's functions, one caller at a time */
-  pthread_mutex_t lock;  /* of what follows */
-  int n_jobs, next;      /* the job to begin next */
-  int failed;            /* lowest failed job; n_jobs = none */
+  int n_jobs;
+  pthread_mutex_t lock;    /* of what follows */
+  pthread_cond_t go, done; /* a run begins, or all is over; a thread is done with its jobs */
+  int runs, busy;          /* begun so far; threads that are at work on the last one */
+  bool over;
+  int failed;            /* lowest failed job; INT_MAX = none */
   thr_err failure;       /* of that job */
   pthread_mutex_t speak; /* of outer's functions */
-} pool;
+};
 
 /* ---- outer's functions, from any thread ---- */
 
 static void progress(void *user, const char *what, double best, double bound)
 {
-  pool *p = user;
-  pthread_mutex_lock(&p->speak);
-  p->outer->progress(p->outer->user, what, best, bound);
-  pthread_mutex_unlock(&p->speak);
+  thr_team *team = user;
+  pthread_mutex_lock(&team->speak);
+  team->outer->progress(team->outer->user, what, best, bound);
+  pthread_mutex_unlock(&team->speak);
 }
 
 static void advance(void *user, const char *what, double done)
 {
-  pool *p = user;
-  pthread_mutex_lock(&p->speak);
-  p->outer->advance(p->outer->user, what, done);
-  pthread_mutex_unlock(&p->speak);
+  thr_team *team = user;
+  pthread_mutex_lock(&team->speak);
+  team->outer->advance(team->outer->user, what, done);
+  pthread_mutex_unlock(&team->speak);
 }
 
 static void found(void *user, const struct thr_cord *cord, int n_cords, const struct thr_symmetry_record *symmetry)
 {
-  pool *p = user;
-  pthread_mutex_lock(&p->speak);
-  p->outer->found(p->outer->user, cord, n_cords, symmetry);
-  pthread_mutex_unlock(&p->speak);
+  thr_team *team = user;
+  pthread_mutex_lock(&team->speak);
+  team->outer->found(team->outer->user, cord, n_cords, symmetry);
+  pthread_mutex_unlock(&team->speak);
 }
 
-/* ---- the jobs ---- */
+/* ---- a team ---- */
+
+static void note_failure(thr_team *team, int job, thr_status st, const thr_err *why)
+{
+  pthread_mutex_lock(&team->lock);
+  if (job < team->failed) {
+    team->failed = job;
+    team->failure = *why;
+    team->failure.code = st;
+  }
+  pthread_mutex_unlock(&team->lock);
+}
+
+static void do_job(thr_team *team, thr_threads_job *run, void *user, int job)
+{
+  thr_err why = {0};
+  const thr_status st = run(user, job, &team->own, &why);
+  if (st) note_failure(team, job, st, &why);
+}
+
+static void do_jobs(thr_team *team, int number)
+{
+  for (int job = number; job < team->n_jobs; job += team->n)
+    do_job(team, team->run, team->user, job);
+}
+
+static void *wait_and_work(void *user)
+{
+  const member *own = user;
+  thr_team *team = own->team;
+  pthread_mutex_lock(&team->lock);
+  for (int seen = 0;;) {
+    while (team->runs == seen && !team->over)
+      pthread_cond_wait(&team->go, &team->lock);
+    if (team->over) break;
+    seen = team->runs;
+    pthread_mutex_unlock(&team->lock);
+    do_jobs(team, own->number);
+    pthread_mutex_lock(&team->lock);
+    if (--team->busy == 0) pthread_cond_signal(&team->done);
+  }
+  pthread_mutex_unlock(&team->lock);
+  return NULL;
+}
+
+thr_status thr_team_create(thr_team **out, int most, const thr_limits *limits, thr_err *err)
+{
+  const int allowed = limits->work || most < 1 ? 1 : limits->threads, wanted = allowed <= 1 ? 1 : allowed < most ? allowed : most;
+  thr_team *team = *out = thr_calloc(1, sizeof *team);
+  if (!team) return thr_nomem(err);
+  *team = (thr_team){.outer = limits, .own = *limits, .n = 1, .member = thr_calloc((size_t)wanted, sizeof *team->member)};
+  team->own.threads = 1;
+  team->own.user = team;
+  team->own.progress = limits->progress ? progress : NULL;
+  team->own.advance = limits->advance ? advance : NULL;
+  team->own.found = limits->found ? found : NULL;
+  pthread_mutex_init(&team->lock, NULL);
+  pthread_mutex_init(&team->speak, NULL);
+  pthread_cond_init(&team->go, NULL);
+  pthread_cond_init(&team->done, NULL);
+  for (; team->member && team->n < wanted; team->n++) {
+    member *next = &team->member[team->n - 1];
+    *next = (member){.team = team, .number = team->n};
+    if (pthread_create(&next->thread, NULL, wait_and_work, next) != 0) break;
+  }
+  if (team->member) return THR_OK;
+  thr_team_destroy(team);
+  *out = NULL;
+  return thr_nomem(err);
+}
+
+void thr_team_destroy(thr_team *team)
+{
+  if (!team) return;
+  pthread_mutex_lock(&team->lock);
+  team->over = true;
+  pthread_cond_broadcast(&team->go);
+  pthread_mutex_unlock(&team->lock);
+  for (int i = 0; i < team->n - 1; i++)
+    pthread_join(team->member[i].thread, NULL);
+  pthread_cond_destroy(&team->go);
+  pthread_cond_destroy(&team->done);
+  pthread_mutex_destroy(&team->lock);
+  pthread_mutex_destroy(&team->speak);
+  free(team->member);
+  free(team);
+}
+
+thr_status thr_team_run(thr_team *team, int n_jobs, thr_threads_job *run, void *user, thr_err *err)
+{
+  pthread_mutex_lock(&team->lock);
+  team->run = run;
+  team->user = user;
+  team->n_jobs = n_jobs;
+  team->failed = INT_MAX;
+  team->busy = team->n - 1;
+  team->runs++;
+  pthread_cond_broadcast(&team->go);
+  pthread_mutex_unlock(&team->lock);
+  do_jobs(team, 0);
+  pthread_mutex_lock(&team->lock);
+  while (team->busy > 0)
+    pthread_cond_wait(&team->done, &team->lock);
+  pthread_mutex_unlock(&team->lock);
+  return team->failed < INT_MAX ? thr_fail(err, team->failure.code, "%s", team->failure.text) : THR_OK;
+}
+
+/* ---- whichever is free ---- */
+
+typedef struct {
+  thr_team *team;
+  thr_threads_job *run;
+  void *user;
+  int n_jobs, next; /* the job to begin next; of the team's lock */
+} queue;
 
 /* The next job, -1 = none. */
-static int take(pool *p)
+static int take(queue *q)
 {
-  pthread_mutex_lock(&p->lock);
-  int job = p->failed == p->n_jobs && p->next < p->n_jobs ? p->next++ : -1;
-  pthread_mutex_unlock(&p->lock);
+  pthread_mutex_lock(&q->team->lock);
+  int job = q->team->failed == INT_MAX && q->next < q->n_jobs ? q->next++ : -1;
+  pthread_mutex_unlock(&q->team->lock);
   return job;
 }
 
-static void note_failure(pool *p, int job, thr_status st, const thr_err *why)
+/* A thread's job of the team: as many of the queue as it comes to. */
+static thr_status take_jobs(void *user, int number, const thr_limits *limits, thr_err *err)
 {
-  pthread_mutex_lock(&p->lock);
-  if (job < p->failed) {
-    p->failed = job;
-    p->failure = *why;
-    p->failure.code = st;
-  }
-  pthread_mutex_unlock(&p->lock);
-}
-
-static void *work(void *user)
-{
-  pool *p = user;
-  for (int job; (job = take(p)) >= 0;) {
-    thr_err why = {0};
-    const thr_status st = p->run(p->user, job, &p->own, &why);
-    if (st) note_failure(p, job, st, &why);
-  }
-  return NULL;
+  queue *q = user;
+  (void)number;
+  (void)limits;
+  (void)err;
+  for (int job; (job = take(q)) >= 0;)
+    do_job(q->team, q->run, q->user, job);
+  return THR_OK;
 }
 
 thr_status thr_threads_run(int n_jobs, thr_threads_job *run, void *user, const thr_limits *limits, thr_err *err)
 {
-  pool p = {.run = run, .user = user, .outer = limits, .own = *limits, .n_jobs = n_jobs, .failed = n_jobs};
-  int n = limits->threads < n_jobs ? limits->threads : n_jobs, begun = 0;
-  pthread_t *thread = n > 1 && !limits->work ? malloc((size_t)(n - 1) * sizeof *thread) : NULL;
-  p.own.threads = 1;
-  p.own.user = &p;
-  p.own.progress = limits->progress ? progress : NULL;
-  p.own.advance = limits->advance ? advance : NULL;
-  p.own.found = limits->found ? found : NULL;
-  pthread_mutex_init(&p.lock, NULL);
-  pthread_mutex_init(&p.speak, NULL);
-  while (thread && begun < n - 1 && pthread_create(&thread[begun], NULL, work, &p) == 0)
-    begun++;
-  work(&p);
-  for (int i = 0; i < begun; i++)
-    pthread_join(thread[i], NULL);
-  pthread_mutex_destroy(&p.lock);
-  pthread_mutex_destroy(&p.speak);
-  free(thread);
-  return p.failed < n_jobs ? thr_fail(err, p.failure.code, "%s", p.failure.text) : THR_OK;
+  queue q = {.run = run, .user = user, .n_jobs = n_jobs};
+  thr_status st = thr_team_create(&q.team, n_jobs, limits, err);
+  if (!st) st = thr_team_run(q.team, q.team->n, take_jobs, &q, err);
+  thr_team_destroy(q.team);
+  return st;
 }

@@ -168,6 +168,21 @@ thr_status thr_pool_offer(thr_pool *p, thr_row row, const double *x, double tole
   return THR_OK;
 }
 
+thr_status thr_pool_copy(thr_pool *p, const thr_pool *from, thr_err *err)
+{
+  thr_status st = THR_OK;
+  for (int i = 0; i < from->count && !st; i++) {
+    thr_row row = from->row[i];
+    for (int k = 0; k < row.n; k++)
+      thr_pool_put(p, row.column[k], row.value ? row.value[k] : 1);
+    row.n = 0;
+    row.column = NULL;
+    row.value = NULL;
+    st = thr_pool_add(p, row, err);
+  }
+  return st;
+}
+
 /* ---- rows ---- */
 
 double thr_row_sum(const thr_row *r, const double *x)

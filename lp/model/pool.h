@@ -40,6 +40,9 @@ typedef struct {
 thr_status thr_pool_init(thr_pool *p, int n_columns, thr_err *err) THR_MUST_CHECK;
 void thr_pool_destroy(thr_pool *p);
 
+/* Adds all rows of another pool for the same columns. */
+thr_status thr_pool_copy(thr_pool *p, const thr_pool *from, thr_err *err) THR_MUST_CHECK;
+
 /* Adds value to the coefficient of a column, in the row that is being put together. */
 void thr_pool_put(thr_pool *p, int column, double value);
 

@@ -18,11 +18,11 @@ thr_status thr_tree_init(thr_tree *t, int n_columns, const int *least, const int
     return st;
   }
   t->most = t->least + n;
-  t->low = t->most + n;
-  t->high = t->low + n;
+  t->here.low = t->most + n;
+  t->here.high = t->here.low + n;
   for (size_t j = 0; j < n; j++) {
-    t->least[j] = t->low[j] = least ? least[j] : 0;
-    t->most[j] = t->high[j] = most[j];
+    t->least[j] = t->here.low[j] = least ? least[j] : 0;
+    t->most[j] = t->here.high[j] = most[j];
   }
   t->node[t->n_nodes++] = (thr_tree_node){.parent = -1, .bound = -INFINITY, .proof = -1};
   t->open[t->n_open++] = 0;
@@ -83,8 +83,10 @@ static int pop(thr_tree *t)
 
 double thr_tree_bound(const thr_tree *t)
 {
-  double at = t->node[t->at].bound;
-  return t->n_open > 0 ? fmin(at, t->node[t->open[0]].bound) : at;
+  double least = t->n_open > 0 ? t->node[t->open[0]].bound : INFINITY;
+  for (int i = 0; i < t->n_taken; i++)
+    least = fmin(least, t->node[t->taken[i]].bound);
+  return least;
 }
 
 int thr_tree_undecided(const double *x, int first, int end, double tolerance, const int *decided)
@@ -116,26 +118,31 @@ static void bounds_at(const thr_tree *t, int node, int column, int *low, int *hi
 }
 
 /* Puts the bounds of node `to` in force on the columns that are decided on the way from `from` to the root. */
-static thr_status set_along(thr_tree *t, const thr_tree_calls *calls, int from, int to, thr_err *err)
+static thr_status set_along(const thr_tree *t, const thr_tree_calls *calls, thr_tree_place *place, int from, int to, thr_err *err)
 {
   thr_status st = THR_OK;
   for (int k = from, low, high; k > 0 && !st; k = t->node[k].parent) {
     int j = t->node[k].column;
     bounds_at(t, to, j, &low, &high);
-    if (low == t->low[j] && high == t->high[j]) continue;
-    t->low[j] = low;
-    t->high[j] = high;
+    if (low == place->low[j] && high == place->high[j]) continue;
+    place->low[j] = low;
+    place->high[j] = high;
     st = calls->set(calls->user, j, low, high, err);
   }
   return st;
 }
 
+thr_status thr_tree_enter_at(const thr_tree *t, const thr_tree_calls *calls, thr_tree_place *place, int node, thr_err *err)
+{
+  thr_status st = set_along(t, calls, place, place->at, node, err);
+  if (!st) st = set_along(t, calls, place, node, node, err);
+  place->at = node;
+  return st;
+}
+
 thr_status thr_tree_enter(thr_tree *t, const thr_tree_calls *calls, int node, thr_err *err)
 {
-  thr_status st = set_along(t, calls, t->at, node, err);
-  if (!st) st = set_along(t, calls, node, node, err);
-  t->at = node;
-  return st;
+  return thr_tree_enter_at(t, calls, &t->here, node, err);
 }
 
 /* ---- the search ---- */
@@ -164,17 +171,36 @@ static thr_status split(thr_tree *t, int node, thr_tree_branch branch, thr_err *
   return THR_OK;
 }
 
+/* Nodes for the next batch: the root, its children, then as many as there may be. */
+static void take(thr_tree *t, bool several)
+{
+  const int most = !several || t->n_solved == 0 ? 1 : t->n_solved < 3 ? 2 : THR_TREE_BATCH;
+  t->n_taken = 0;
+  while (t->n_taken < most && t->n_open > 0 && !thr_tree_closed(t, t->open[0]))
+    t->taken[t->n_taken++] = pop(t);
+  t->n_solved += t->n_taken;
+}
+
+static thr_status solve_taken(thr_tree *t, const thr_tree_calls *calls, thr_tree_branch *branch, thr_err *err)
+{
+  if (t->n_taken > 1) return calls->solve_all(calls->user, t->n_taken, t->taken, branch, err);
+  thr_status st = thr_tree_enter(t, calls, t->taken[0], err);
+  return st ? st : calls->solve(calls->user, t->taken[0], branch, err);
+}
+
 thr_status thr_tree_run(thr_tree *t, const thr_tree_calls *calls, thr_err *err)
 {
   thr_status st = THR_OK;
   while (!st && !t->stopped && t->n_open > 0 && !thr_tree_closed(t, t->open[0])) {
-    int node = t->open[0];
-    thr_tree_branch branch = {.column = -1};
-    t->stopped = node > 0 && calls->limits && thr_limits_stop(calls->limits);
+    thr_tree_branch branch[THR_TREE_BATCH];
+    t->stopped = t->open[0] > 0 && calls->limits && thr_limits_stop(calls->limits);
     if (t->stopped) break;
-    st = thr_tree_enter(t, calls, pop(t), err);
-    if (!st) st = calls->solve(calls->user, node, &branch, err);
-    if (!st && !t->stopped && branch.column >= 0 && !thr_tree_closed(t, node)) st = split(t, node, branch, err);
+    take(t, calls->solve_all != NULL);
+    for (int i = 0; i < t->n_taken; i++)
+      branch[i] = (thr_tree_branch){.column = -1};
+    st = solve_taken(t, calls, branch, err);
+    for (int i = 0; i < t->n_taken && !st && !t->stopped; i++)
+      if (branch[i].column >= 0 && !thr_tree_closed(t, t->taken[i])) st = split(t, t->taken[i], branch[i], err);
   }
   return st;
 }

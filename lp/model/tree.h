@@ -6,7 +6,8 @@
  * what the best solution known is worth is closed: nothing below it is looked at. So  least open bound <= optimum <= best known,
  * and when all are closed the best known is the optimum.
  *
- * The node of least bound comes first; of equal ones the deepest, then the youngest, then the side that was preferred.
+ * The node of least bound comes first; of equal ones the deepest, then the youngest, then the side that was preferred. Several
+ * may be solved at once, each in a place of its own, so that they can be given to threads: how many depends on the tree alone.
  *   thr_tree_init(&tree, n, least, most, &err);
  *   thr_tree_run(&tree, &calls, &err);   whose solve sets tree.node[node].bound, and tree.enough when it finds a solution
  *   if (!tree.stopped) ..                nothing is worth less than tree.enough */
@@ -33,16 +34,25 @@ typedef struct {
   bool high;         /* the latter is preferred */
 } thr_tree_branch;
 
+/* Where nodes are solved, one after the other. */
 typedef struct {
-  int n_columns, *least, *most, *low, *high; /* [n_columns] bounds of the root; in force, at the node that is being solved */
-  double enough;                             /* nodes of this bound or more are closed; INFINITY = no solution is known */
-  double grain;   /* bounds are equal if they are in the same multiple of it; 0 = if they are the same */
-  int most_nodes; /* at which it stops; at first any number */
-  bool stopped;   /* by most_nodes, by the limits, or by the caller */
+  int *low, *high; /* [n_columns] bounds in force; owned */
+  int at;          /* at this node */
+} thr_tree_place;
+
+enum { THR_TREE_BATCH = 4 }; /* most nodes that are solved at once */
+
+typedef struct {
+  int n_columns, *least, *most; /* [n_columns] bounds of the root */
+  double enough;                /* nodes of this bound or more are closed; INFINITY = no solution is known */
+  double grain;                 /* bounds are equal if they are in the same multiple of it; 0 = if they are the same */
+  int most_nodes;               /* at which it stops; at first any number */
+  bool stopped;                 /* by most_nodes, by the limits, or by the caller */
   int n_nodes, capacity, n_open, open_capacity;
-  thr_tree_node *node; /* [n_nodes] the root first, children always after their parents */
-  int *open;           /* [n_open] nodes to be solved: a heap */
-  int at;              /* the node whose bounds are in force */
+  thr_tree_node *node;                          /* [n_nodes] the root first, children always after their parents */
+  int *open;                                    /* [n_open] nodes to be solved: a heap */
+  int n_solved, n_taken, taken[THR_TREE_BATCH]; /* solved so far; those being solved */
+  thr_tree_place here;                          /* where one node at a time is solved */
 } thr_tree;
 
 typedef struct {
@@ -52,6 +62,8 @@ typedef struct {
   thr_status (*set)(void *user, int column, int low, int high, thr_err *err);
   /* Solves a node: may raise its bound and lower the tree's `enough`, and fills in the branch. */
   thr_status (*solve)(void *user, int node, thr_tree_branch *branch, thr_err *err);
+  /* Solves n > 1 nodes, whose bounds the caller puts in force: the same for each. NULL = they are solved one after the other. */
+  thr_status (*solve_all)(void *user, int n, const int *node, thr_tree_branch *branch, thr_err *err);
 } thr_tree_calls;
 
 /* With the root alone, of bound -INFINITY. least, most: [n_columns] bounds in force everywhere; copied. least NULL: all 0. */
@@ -61,8 +73,10 @@ void thr_tree_destroy(thr_tree *t);
 /* Until all nodes are closed, or it is stopped. */
 thr_status thr_tree_run(thr_tree *t, const thr_tree_calls *calls, thr_err *err) THR_MUST_CHECK;
 
-/* Puts the bounds of a node in force. */
+/* Puts the bounds of a node in force: in t->here, or another place, of which calls.set and its user are. */
 thr_status thr_tree_enter(thr_tree *t, const thr_tree_calls *calls, int node, thr_err *err) THR_MUST_CHECK;
+thr_status thr_tree_enter_at(const thr_tree *t, const thr_tree_calls *calls, thr_tree_place *place, int node,
+                             thr_err *err) THR_MUST_CHECK;
 
 bool thr_tree_closed(const thr_tree *t, int node);
 
@@ -70,7 +84,7 @@ bool thr_tree_closed(const thr_tree *t, int node);
  * farthest, of equal ones the first; -1 = none. Columns of decided[] > 0 are left out (NULL = none is). */
 int thr_tree_undecided(const double *x, int first, int end, double tolerance, const int *decided);
 
-/* The least bound of the node being solved and of those to be solved. */
+/* The least bound of the nodes being solved and of those to be solved. */
 double thr_tree_bound(const thr_tree *t);
 
 #endif

@@ -1,5 +1,6 @@
 /* Linear programmes behind one neutral interface: minimize cost x, row bounds on A x, column bounds on x.
- * One backend: lp_glpk.c. Not thread-safe (GLPK's environment is per process here). */
+ * One backend: lp_glpk.c. GLPK's environment is the thread's: a programme is changed, solved and destroyed in the thread that
+ * made it; different threads may have programmes of their own at the same time (graph/process/threads.h). */
 #ifndef THR_LP_H
 #define THR_LP_H
 
@@ -21,6 +22,9 @@ typedef enum {
 /* n columns with costs, 0 <= x (upper NULL) or 0 <= x <= upper. Release with thr_lp_destroy (NULL ok). */
 thr_status thr_lp_create(thr_lp **lp, int n_columns, const double *cost, const double *upper, thr_err *err) THR_MUST_CHECK;
 void thr_lp_destroy(thr_lp *lp);
+
+/* A programme of this thread with the rows, columns and basis of another, which may be another thread's that leaves it alone. */
+thr_status thr_lp_copy(thr_lp **lp, const thr_lp *from, thr_err *err) THR_MUST_CHECK;
 
 /* Adds the row  sum value[i] * x[column[i]] >= lower  (value NULL = all 1). It enters the basis with its slack, so the
  * next solve starts from the last one. */

@@ -157,6 +157,35 @@ void thr_lp_destroy(thr_lp *lp)
 
 typedef struct {
   thr_lp *lp;
+  glp_prob *from;
+} copy_call;
+
+static void do_copy(void *argument)
+{
+  copy_call *c = argument;
+  c->lp->problem = glp_create_prob();
+  glp_copy_prob(c->lp->problem, c->from, GLP_OFF);
+}
+
+thr_status thr_lp_copy(thr_lp **lp, const thr_lp *from, thr_err *err)
+{
+  *lp = NULL;
+  thr_lp *made = thr_calloc(1, sizeof *made);
+  if (!made) return thr_nomem(err);
+  made->generation = generation;
+  made->primal = from->primal;
+  copy_call c = {made, from->problem};
+  thr_status st = guarded(do_copy, &c, err);
+  if (st) {
+    free(made);
+    return st;
+  }
+  *lp = made;
+  return THR_OK;
+}
+
+typedef struct {
+  thr_lp *lp;
   int n_rows, n_columns;
   const double *rhs, *cost, *value;
   const bool *free;

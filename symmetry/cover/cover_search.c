@@ -79,7 +79,7 @@ static thr_status look(void *user, thr_err *err)
   thr_relaxation *relaxation = &s->r;
   if (relaxation->search.outcome != THR_LP_OPTIMAL) return THR_OK;
   thr_relaxation_look(relaxation);
-  if (a->tree.at == 0) s->bound[a->aim] = fmax(s->bound[a->aim], relaxation->objective);
+  if (a->tree.here.at == 0) s->bound[a->aim] = fmax(s->bound[a->aim], relaxation->objective);
   thr_status st = relaxation->search.whole ? consider(s, err) : THR_OK;
   relaxation->search.enough = thr_cover_search_beaten(s, a->aim, relaxation->objective);
   return st;
@@ -174,7 +174,7 @@ static thr_status init_tree(aim_search *a, thr_err *err)
 static thr_status minimize(thr_cover_search *s, int number, thr_err *err)
 {
   aim_search a = {.s = s, .aim = s->p->o->prefer[number]};
-  const thr_tree_calls calls = {&a, s->limits, set_bounds, solve};
+  const thr_tree_calls calls = {&a, s->limits, set_bounds, solve, NULL};
   if (thr_cover_search_beaten(s, a.aim, s->bound[a.aim])) return THR_OK;
   thr_status st = prepare(s, number, err);
   if (!st) st = init_tree(&a, err);

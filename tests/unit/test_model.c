@@ -84,8 +84,8 @@ static thr_status tell(void *user, int column, int low, int high, thr_err *err)
 static void assert_in_force(const search *s)
 {
   for (int j = 0; j < COLUMNS; j++) {
-    ck_assert_int_eq(s->low[j], s->tree.low[j]);
-    ck_assert_int_eq(s->high[j], s->tree.high[j]);
+    ck_assert_int_eq(s->low[j], s->tree.here.low[j]);
+    ck_assert_int_eq(s->high[j], s->tree.here.high[j]);
   }
 }
 
@@ -126,7 +126,7 @@ START_TEST(the_tree_finds_the_least_of_all_points)
   const covering c = covering_make(&r);
   search s;
   search_init(&s, &c);
-  const thr_tree_calls calls = {&s, NULL, tell, solve_by_least};
+  const thr_tree_calls calls = {&s, NULL, tell, solve_by_least, NULL};
   ck_assert_int_eq(thr_tree_run(&s.tree, &calls, NULL), THR_OK);
   ck_assert(!s.tree.stopped);
   ck_assert_double_eq(s.tree.enough, least_price(&c));
@@ -151,7 +151,7 @@ START_TEST(a_stopped_tree_knows_a_bound)
   for (int by_work = 0; by_work < 2; by_work++) {
     search s;
     search_init(&s, &c);
-    const thr_tree_calls calls = {&s, by_work ? &none : NULL, tell, solve_by_least};
+    const thr_tree_calls calls = {&s, by_work ? &none : NULL, tell, solve_by_least, NULL};
     if (!by_work) s.tree.most_nodes = 1 + _i % 8;
     ck_assert_int_eq(thr_tree_run(&s.tree, &calls, NULL), THR_OK);
     ck_assert_int_ge(s.n_solved, 1);
@@ -181,7 +181,7 @@ START_TEST(of_equal_bounds_the_deepest_the_youngest_the_preferred)
   search s = {.n_solved = 0};
   ck_assert_int_eq(thr_tree_init(&s.tree, COLUMNS, least, most, NULL), THR_OK);
   s.tree.grain = 1;
-  const thr_tree_calls calls = {&s, NULL, tell, solve_ties};
+  const thr_tree_calls calls = {&s, NULL, tell, solve_ties, NULL};
   ck_assert_int_eq(thr_tree_run(&s.tree, &calls, NULL), THR_OK);
   const int expected[] = {0, 2, 3, 4, 1, 5, 6}; /* 1, 2 below the root, the high one first; then the low ones */
   ck_assert_int_eq(s.n_solved, 7);
@@ -307,7 +307,7 @@ START_TEST(rows_found_on_the_way_lead_to_the_same_price)
   for (int fallback = 0; fallback < 2; fallback++) {
     cutting k;
     cutting_init(&k, &c, r, fallback);
-    const thr_tree_calls calls = {&k, NULL, set_in_programme, solve_by_programme};
+    const thr_tree_calls calls = {&k, NULL, set_in_programme, solve_by_programme, NULL};
     ck_assert_int_eq(thr_tree_run(&k.s.tree, &calls, NULL), THR_OK);
     ck_assert_double_eq(k.s.tree.enough, least_price(&c));
     if (fallback) ck_assert_int_eq(k.asked, 0);

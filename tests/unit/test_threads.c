@@ -4,6 +4,8 @@
 #include "planner/make_plan.h"
 #include "tests/support.h"
 #include "tests/frameworks.h"
+#include "graph/framework/frame.h"
+#include "graph/framework/make.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
@@ -129,6 +131,84 @@ START_TEST(the_first_failure_is_told)
 }
 END_TEST
 
+/* Where each job was last done: in the same thread every time. */
+typedef struct {
+  pthread_t thread[N_JOBS];
+  int runs, fails_from;
+} places;
+
+static thr_status stay(void *user, int job, const thr_limits *limits, thr_err *err)
+{
+  places *p = user;
+  ck_assert_int_eq(limits->threads, 1);
+  if (p->runs > 0) ck_assert(pthread_equal(p->thread[job], pthread_self()));
+  p->thread[job] = pthread_self();
+  return job >= p->fails_from ? thr_fail(err, THR_EINPUT, "job %d", job) : THR_OK;
+}
+
+START_TEST(a_team_does_the_same_job_in_the_same_thread)
+{
+  static const int threads[] = {0, 1, 2, 16, 1000};
+  places p = {.fails_from = 50};
+  thr_err err = {0};
+  const thr_limits limits = {.threads = threads[_i]};
+  thr_team *team;
+  ck_assert_int_eq(thr_team_create(&team, 20, &limits, NULL), THR_OK);
+  for (; p.runs < 20; p.runs++) {
+    ck_assert_int_eq(thr_team_run(team, p.runs ? p.runs : 50, stay, &p, NULL), THR_OK);
+    ck_assert(pthread_equal(p.thread[0], pthread_self()));
+    if (threads[_i] > 1) ck_assert(!pthread_equal(p.thread[1], pthread_self()));
+  }
+  p.runs = 0;
+  ck_assert_int_eq(thr_team_run(team, N_JOBS, stay, &p, &err), THR_EINPUT);
+  ck_assert_str_eq(err.text, "job 50");
+  ck_assert_int_eq(thr_team_run(team, 0, stay, &p, NULL), THR_OK);
+  thr_team_destroy(team);
+  thr_team_destroy(NULL);
+}
+END_TEST
+
+static thr_frame made(thr_shape shape, int size)
+{
+  thr_make_options o = thr_make_options_default(shape);
+  thr_draft d = {0};
+  thr_frame f;
+  thr_read_report report;
+  o.size = size;
+  ck_assert_int_eq(thr_make(&d, &o, NULL), THR_OK);
+  ck_assert_int_eq(thr_draft_build(&d, -1, &f, &report, NULL), THR_OK);
+  thr_draft_destroy(&d);
+  return f;
+}
+
+/* Nodes of the tree and tries of cycles: the plan with its proof, as it is written. */
+START_TEST(the_least_turning_does_not_depend_on_threads)
+{
+  static const int threads[] = {1, 2, 16};
+  thr_text plan[3] = {{0}, {0}, {0}};
+  thr_frame f = made(_i % 2 ? THR_MAKE_HONEYCOMB : THR_MAKE_SPHERE, _i % 2 ? 4 : 2);
+  for (int k = 0; k < 3; k++) {
+    thr_request o = thr_request_default();
+    thr_plan p;
+    o.aims = thr_aims_straightest;
+    o.ends = THR_ENDS_ANY;
+    if (_i % 2)
+      o.turning.length_slack = 0;
+    else
+      o.turning.nodes = 41;
+    thr_status st = thr_plan_make(&f, &o, &(thr_limits){.threads = threads[k]}, &p, NULL, NULL);
+    ck_assert_int_eq(st, _i % 2 ? THR_OK : THR_ELIMIT);
+    if (_i % 2) ck_assert_int_gt(p.turning.tree.n_nodes, 10);
+    thr_plan_write(&p, &plan[k]);
+    thr_plan_destroy(&p);
+    ck_assert_str_eq(plan[k].data, plan[0].data);
+  }
+  for (int k = 0; k < 3; k++)
+    thr_text_destroy(&plan[k]);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* The table of symmetries has its rows solved in threads. */
 START_TEST(symmetries_do_not_depend_on_threads)
 {
@@ -162,6 +242,8 @@ int main(void)
   ADD_TEST(s, 120, two_threads_plan_as_one);
   ADD_EXAMPLES(s, 60, jobs_come_to_the_same, 5);
   ADD_EXAMPLES(s, 60, the_first_failure_is_told, 5);
+  ADD_EXAMPLES(s, 60, a_team_does_the_same_job_in_the_same_thread, 5);
+  ADD_EXAMPLES(s, 120, the_least_turning_does_not_depend_on_threads, 2);
   ADD_EXAMPLES(s, 60, symmetries_do_not_depend_on_threads, 4);
   return run_suite(s);
 }

@@ -53,6 +53,7 @@ thr_status thr_branch_init(thr_branch *branch, const thr_turning_columns *turnin
 
 void thr_branch_destroy(thr_branch *branch)
 {
+  thr_branch_close_lanes(branch);
   for (int i = 0; i < branch->n_duals; i++)
     thr_turning_dual_destroy(&branch->dual[i]);
   free(branch->dual);
@@ -85,16 +86,16 @@ int64_t thr_branch_tolerance(const thr_branch *branch)
 }
 
 /* Column to branch on: extras first, then ends, then the rest; the one nearest a half. -1: the point is whole. */
-static int most_fractional(const thr_branch *branch)
+static int most_fractional(const thr_relax *relax)
 {
-  const thr_turning_columns *turning_columns = branch->c;
+  const thr_turning_columns *turning_columns = relax->c;
   const int range[4][2] = {{turning_columns->first_extra, turning_columns->first_end},
                            {turning_columns->first_end, turning_columns->first_back},
                            {0, turning_columns->first_extra},
                            {turning_columns->first_back, turning_columns->n_columns}};
   int column = -1;
   for (int r = 0; r < 4 && column < 0; r++)
-    column = thr_tree_undecided(branch->relax.x, range[r][0], range[r][1], integral, NULL);
+    column = thr_tree_undecided(relax->x, range[r][0], range[r][1], integral, NULL);
   return column;
 }
 
@@ -125,7 +126,7 @@ static thr_status certify(thr_branch *branch, int i, thr_err *err)
 {
   thr_turning_dual dual;
   thr_status st = thr_relax_dual(&branch->relax, &dual, err);
-  return st ? st : thr_branch_keep_dual(branch, i, dual, branch->tree.low, branch->tree.high, err);
+  return st ? st : thr_branch_keep_dual(branch, i, dual, branch->tree.here.low, branch->tree.here.high, err);
 }
 
 /* A node of this bound is closed. */
@@ -172,7 +173,7 @@ static thr_status climb(thr_branch *branch, int root, thr_err *err)
   return st;
 }
 
-static thr_status init_tree(thr_branch *branch, thr_err *err)
+thr_status thr_branch_init_tree(thr_branch *branch, thr_err *err)
 {
   for (int k = 0; k < branch->c->n_columns; k++)
     branch->whole[k] = thr_turning_most(branch->c, k);
@@ -203,7 +204,7 @@ static thr_status match_units(thr_branch *branch, thr_err *err)
 
 thr_status thr_branch_begin(thr_branch *branch, thr_err *err)
 {
-  thr_status st = init_tree(branch, err);
+  thr_status st = thr_branch_init_tree(branch, err);
   bool matching = branch->projected ? !branch->c->task->end_allowed : !branch->c->task->tube;
   if (st || !matching) return st;
   st = branch->projected ? match_units(branch, err) : thr_branch_match(branch, err);
@@ -219,7 +220,7 @@ static thr_status look(void *user, thr_err *err)
   bool solved = search->outcome == THR_LP_OPTIMAL;
   thr_relax_look(&branch->relax);
   branch->rounds++;
-  search->whole = solved && branch->relax.artificial < integral && most_fractional(branch) < 0;
+  search->whole = solved && branch->relax.artificial < integral && most_fractional(&branch->relax) < 0;
   thr_status st = search->whole ? thr_branch_try_whole(branch, err) : solved ? thr_branch_try_rounded(branch, err) : THR_OK;
   double target = ldexp((double)(branch->best_price - thr_branch_tolerance(branch)), -THR_TURNING_BITS);
   search->enough = search->objective >= target;
@@ -227,7 +228,7 @@ static thr_status look(void *user, thr_err *err)
 }
 
 /* Rounds of rows until none is violated, the bound is good enough, or there were many. */
-static thr_status solve_node(thr_branch *branch, int i, const thr_limits *limits, thr_err *err)
+thr_status thr_branch_solve_node(thr_branch *branch, int i, const thr_limits *limits, thr_err *err)
 {
   enum { MOST_ROUNDS = 13 };
   const thr_search_calls calls = {.user = branch, .name = "a turning relaxation", .look = look, .most_rounds = MOST_ROUNDS};
@@ -243,17 +244,18 @@ static thr_status solve_tied_root(thr_branch *branch, int i, thr_err *err)
   enum { ROUNDS = 3, LARGE = 5000 };
   bool large = branch->c->first_extra > LARGE, unsolved = large;
   thr_limits some = thr_limits_part(branch->limits, 0.4);
-  thr_status st = large ? THR_OK : solve_node(branch, i, &some, err);
+  thr_status st = large ? THR_OK : thr_branch_solve_node(branch, i, &some, err);
   unsolved |= branch->tree.stopped;
   if (st || closed(branch, i)) return st;
   some = thr_limits_part(branch->limits, large ? 0.9 : 0.6);
   if (branch->found) st = thr_branch_anneal(branch, &some, ROUNDS, err);
   branch->tree.stopped = thr_limits_stop(branch->limits);
-  return st || !unsolved || branch->tree.stopped || closed(branch, i) ? st : solve_node(branch, i, branch->limits, err);
+  return st || !unsolved || branch->tree.stopped || closed(branch, i) ? st
+                                                                      : thr_branch_solve_node(branch, i, branch->limits, err);
 }
 
 /* With tube joints tied nodes connect all; of closed cords several need not. */
-static void use_separators(thr_relax *relax)
+void thr_branch_use_separators(thr_relax *relax)
 {
   const thr_turning_task *turning_task = relax->c->task;
   thr_search *search = &relax->search;
@@ -272,7 +274,7 @@ static void use_separators(thr_relax *relax)
   if (relax->any_odd) thr_search_use(search, thr_oddcuts_exact, &relax->odd, THR_FALLBACK | THR_SLOW);
 }
 
-static thr_status set_bounds(void *user, int column, int low, int high, thr_err *err)
+thr_status thr_branch_set_bounds(void *user, int column, int low, int high, thr_err *err)
 {
   thr_branch *branch = user;
   return thr_relax_set(&branch->relax, column, low, high, err);
@@ -314,6 +316,12 @@ static bool is_weak(const thr_branch *branch)
          branch->tree.node[0].bound < (1 - wide) * (double)branch->best_price;
 }
 
+static thr_tree_branch choose(const thr_relax *relax)
+{
+  const int column = most_fractional(relax);
+  return (thr_tree_branch){.column = column, .value = column >= 0 ? (int)floor(relax->x[column]) : 0};
+}
+
 /* A node's bound and plans; then the column to branch on. */
 static thr_status solve(void *user, int i, thr_tree_branch *branch, thr_err *err)
 {
@@ -323,16 +331,29 @@ static thr_status solve(void *user, int i, thr_tree_branch *branch, thr_err *err
   const thr_limits search = limits_of_search(b);
   b->tree.stopped = !root && thr_limits_stop(&search);
   if (b->tree.stopped) return THR_OK;
-  thr_status st = tied_root ? solve_tied_root(b, i, err) : solve_node(b, i, &search, err);
+  thr_status st = tied_root ? solve_tied_root(b, i, err) : thr_branch_solve_node(b, i, &search, err);
   if (st) return st;
   report(b);
   if (root && b->found && !turning_task->tube && !b->tree.stopped && !closed(b, i)) st = improve_plans(b, err);
   const thr_limits rest = limits_of_search(b);
   if (!st && root && b->found && is_weak(b)) st = thr_branch_ranks(b, &rest, err);
   b->tree.enough = enough(b);
-  branch->column = most_fractional(b);
-  if (branch->column >= 0) branch->value = (int)floor(b->relax.x[branch->column]);
+  *branch = choose(&b->relax);
   return st;
+}
+
+static thr_status solve_all(void *user, int n, const int *node, thr_tree_branch *branch, thr_err *err)
+{
+  thr_branch *b = user;
+  const thr_limits search = limits_of_search(b);
+  b->tree.stopped = thr_limits_stop(&search);
+  thr_status st = b->tree.stopped ? THR_OK : thr_branch_solve_all(b, n, node, search.deadline, err);
+  if (st || b->tree.stopped) return st;
+  report(b);
+  b->tree.enough = enough(b);
+  for (int k = 0; k < n; k++)
+    branch[k] = choose(thr_branch_relax(b, k));
+  return THR_OK;
 }
 
 static double covers(const thr_turning_columns *turning_columns)
@@ -361,9 +382,10 @@ thr_status thr_branch_run(thr_branch *branch, thr_err *err)
   if (!st && (branch->dense || branch->most_nodes == 0)) return settle_for_bound(branch, tied, err);
   if (!st && !tied && thr_branch_proved(branch)) return THR_OK;
   if (!st) st = thr_relax_init(&branch->relax, branch->c, branch->projected, penalty, branch->limits, err);
-  if (!st) use_separators(&branch->relax);
+  if (!st) thr_branch_use_separators(&branch->relax);
   if (!st && tied) st = climb(branch, root, err);
-  const thr_tree_calls calls = {branch, NULL, set_bounds, solve};
+  /* With tube joints most of a node's work is rows that a copy of the programme has to find again. */
+  const thr_tree_calls calls = {branch, NULL, thr_branch_set_bounds, solve, branch->c->task->tube ? NULL : solve_all};
   branch->tree.enough = enough(branch);
   return st ? st : thr_tree_run(&branch->tree, &calls, err);
 }

@@ -10,6 +10,7 @@
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/turning_proof.h"
+#include "graph/process/threads.h"
 #include "graph/status.h"
 #include "lp/model/tree.h"
 #include "tortuosity/cords/join.h"
@@ -24,7 +25,7 @@ typedef struct {
   double length;
 } thr_branch_plan;
 
-typedef struct {
+typedef struct thr_branch {
   const thr_turning_columns *c;
   const thr_limits *limits;
   thr_relax relax;
@@ -44,11 +45,15 @@ typedef struct {
   uint64_t tried;             /* name of the rounding tried last */
   int *passes, *ends, *whole; /* scratch */
   double *weight, *end_weight;
-  int rounds;
+  int rounds, more_rounds;       /* linear programmes solved, in other lanes */
   double begun, begun_processor; /* thr_clock() and thr_processor_clock() at thr_branch_init */
   double checking;               /* s of the processor that the bounds of all multipliers took */
   bool matched;                  /* the best plan is the one of the first bound */
   bool dense;                    /* so many turns that there is no programme of them */
+  /* nodes that are solved at once (tortuosity/proof/branch_lanes.c) */
+  thr_team *team;
+  thr_limits quiet;        /* of the team */
+  struct thr_branch *lane; /* [THR_TREE_BATCH - 1] beside the search itself; owned, NULL at first */
 } thr_branch;
 
 thr_status thr_branch_init(thr_branch *branch, const thr_turning_columns *turning_columns, int most_nodes,
@@ -109,6 +114,28 @@ bool thr_branch_proved(const thr_branch *branch);
 
 /* Until the tree is closed, or stopped. */
 thr_status thr_branch_run(thr_branch *branch, thr_err *err) THR_MUST_CHECK;
+
+/* Steps of the search that its lanes share: the tree's root; the separators of a relaxation; bounds on a column of a branch's
+ * programme; and a node's bound and plans, whose decisions are in force there. */
+thr_status thr_branch_init_tree(thr_branch *branch, thr_err *err) THR_MUST_CHECK;
+void thr_branch_use_separators(thr_relax *relax);
+thr_status thr_branch_set_bounds(void *branch, int column, int low, int high, thr_err *err) THR_MUST_CHECK;
+thr_status thr_branch_solve_node(thr_branch *branch, int node, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
+
+/* Puts the decisions of n > 1 nodes in force, each in its lane, and solves them, in so many threads as the limits allow, until
+ * the deadline (0 = none): bounds and plans are the same whatever their number. What the lanes' points are: thr_branch_relax. */
+thr_status thr_branch_solve_all(thr_branch *branch, int n, const int *node, double deadline, thr_err *err) THR_MUST_CHECK;
+const thr_relax *thr_branch_relax(const thr_branch *branch, int lane);
+void thr_branch_close_lanes(thr_branch *branch);
+
+/* The threads of a search, and its limits for them, if there are none yet. */
+thr_status thr_branch_gather(thr_branch *branch, thr_err *err) THR_MUST_CHECK;
+
+/* Searches beside it: tells another one, without a plan of its own, what is the best so far; takes its plan over if that is
+ * better; forgets it. */
+void thr_branch_brief(thr_branch *other, const thr_branch *branch);
+thr_status thr_branch_take(thr_branch *branch, thr_branch *from, thr_err *err) THR_MUST_CHECK;
+void thr_branch_forget(thr_branch *other);
 
 /* The tree with the multipliers of its leaves, which are moved. */
 thr_status thr_branch_proof(thr_branch *branch, thr_turning_proof *proof, thr_err *err) THR_MUST_CHECK;

@@ -81,10 +81,30 @@ void thr_branch_swap(thr_branch *branch, thr_branch_plan *plan)
   *plan = mine;
 }
 
-/* Is there a plan, and no time for another? */
+void thr_branch_forget(thr_branch *other)
+{
+  thr_branch_plan plan = {0};
+  thr_branch_swap(other, &plan);
+  if (plan.found) thr_join_destroy(&plan.join);
+}
+
+thr_status thr_branch_take(thr_branch *branch, thr_branch *from, thr_err *err)
+{
+  const bool better = from->found && from->best_price < branch->best_price;
+  thr_branch_plan plan = {0};
+  if (better) {
+    thr_branch_swap(from, &plan);
+    thr_branch_swap(branch, &plan);
+    thr_branch_swap(from, &plan);
+  }
+  thr_branch_forget(from);
+  return better ? tell(branch, &branch->best, err) : THR_OK;
+}
+
+/* Is there a plan, here or where this lane is told what to do, and no time for another? */
 static bool late(const thr_branch *branch)
 {
-  return branch->found && thr_limits_stop(branch->limits);
+  return branch->best_price < INT64_MAX && thr_limits_stop(branch->limits);
 }
 
 thr_status thr_branch_try_circuits(thr_branch *branch, thr_join *j, const int *passes, thr_err *err)

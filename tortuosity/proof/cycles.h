@@ -12,7 +12,8 @@
 
 /* For every edge a shortest cycle through it (by number of edges): each of the cycle's edges that has extra passes loses one,
  * each other gets one; kept if the cords made from that turn less. Until a round over all edges changes nothing, most_tries are
- * done or the limits stop it. A plan must have been found. */
+ * done or the limits stop it. A plan must have been found. Several are tried at once where there are threads; what comes of them
+ * is what comes of one after the other. */
 thr_status thr_cycles_improve(thr_branch *branch, int most_tries, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -205,7 +205,7 @@ static thr_status finish(const thr_frame *frame, thr_branch *branch, thr_least *
 {
   thr_status st = thr_least_cords(frame, &branch->best, out, err);
   if (st) return st;
-  out->rounds = branch->rounds;
+  out->rounds = branch->rounds + branch->more_rounds;
   out->shortened = branch->matched;
   if ((st = thr_branch_proof(branch, &out->proof, err))) return st;
   thr_err found = {0};

@@ -109,8 +109,8 @@ void thr_relax_look(thr_relax *relax)
 
 /* ---- all ---- */
 
-thr_status thr_relax_init(thr_relax *relax, const thr_turning_columns *turning_columns, bool projected, double penalty,
-                          const thr_limits *limits, thr_err *err)
+/* Without programme and rows. */
+static thr_status begin(thr_relax *relax, const thr_turning_columns *turning_columns, bool projected, thr_err *err)
 {
   size_t n = (size_t)turning_columns->n_columns;
   *relax = (thr_relax){.c = turning_columns, .projected = projected};
@@ -124,19 +124,43 @@ thr_status thr_relax_init(thr_relax *relax, const thr_turning_columns *turning_c
   if (!st) st = thr_search_init(&relax->search, columns, relax->x + first_column(relax), err);
   relax->search.n_fixed = equations;
   relax->search.help = projected ? columns : relax->n_all - 1;
-  if (!st) st = projected ? thr_project_create(relax, penalty, err) : thr_relax_create(relax, penalty, err);
-  if (!st && turning_columns->extra_limit >= 0) st = add_length_row(relax, err);
-  for (int j = turning_columns->first_extra; j < turning_columns->n_columns && !st; j++) /* turns: by their equations */
-    st = thr_lp_set_bounds(relax->search.lp, j - first_column(relax), 0, thr_turning_most(turning_columns, j), err);
-  if (!st && !projected) st = thr_relax_crash(relax, limits, err);
-  if (!st) st = projected ? thr_project_graph(relax, err) : init_graph(relax, err);
-  if (!st && !projected) st = add_node_sets(relax, err);
+  return st;
+}
+
+/* What odd sets are looked for in. */
+static thr_status add_graph(thr_relax *relax, thr_err *err)
+{
   relax->odd = (thr_oddcuts){.graph = &relax->graph,
                              .x = relax->search.x,
                              .reduced_cost = relax->reduced + first_column(relax),
                              .point = relax->search.x,
                              .threshold = {1e-6, 0.2, 0.35, 0.51, 0.7},
                              .pool = &relax->search.pool};
+  return relax->projected ? thr_project_graph(relax, err) : init_graph(relax, err);
+}
+
+thr_status thr_relax_init(thr_relax *relax, const thr_turning_columns *turning_columns, bool projected, double penalty,
+                          const thr_limits *limits, thr_err *err)
+{
+  thr_status st = begin(relax, turning_columns, projected, err);
+  if (!st) st = projected ? thr_project_create(relax, penalty, err) : thr_relax_create(relax, penalty, err);
+  if (!st && turning_columns->extra_limit >= 0) st = add_length_row(relax, err);
+  for (int j = turning_columns->first_extra; j < turning_columns->n_columns && !st; j++) /* turns: by their equations */
+    st = thr_lp_set_bounds(relax->search.lp, j - first_column(relax), 0, thr_turning_most(turning_columns, j), err);
+  if (!st && !projected) st = thr_relax_crash(relax, limits, err);
+  if (!st) st = add_graph(relax, err);
+  if (!st && !projected) st = add_node_sets(relax, err);
+  if (st) thr_relax_destroy(relax);
+  return st;
+}
+
+thr_status thr_relax_copy(thr_relax *relax, const thr_relax *from, thr_err *err)
+{
+  thr_status st = begin(relax, from->c, from->projected, err);
+  relax->search.n_fixed = from->search.n_fixed;
+  if (!st) st = thr_lp_copy(&relax->search.lp, from->search.lp, err);
+  if (!st) st = thr_pool_copy(&relax->search.pool, &from->search.pool, err);
+  if (!st) st = add_graph(relax, err);
   if (st) thr_relax_destroy(relax);
   return st;
 }

@@ -50,6 +50,9 @@ thr_status thr_relax_init(thr_relax *relax, const thr_turning_columns *turning_c
                           const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
 void thr_relax_destroy(thr_relax *relax);
 
+/* The same programme with its rows and basis, of this thread (lp/solver/lp.h); without separators and a point. */
+thr_status thr_relax_copy(thr_relax *relax, const thr_relax *from, thr_err *err) THR_MUST_CHECK;
+
 /* Puts bounds on a column, for the next solve. */
 thr_status thr_relax_set(thr_relax *relax, int column, int low, int high, thr_err *err) THR_MUST_CHECK;
 
