@@ -110,7 +110,10 @@ START_TEST(no_prices_prove_more_than_is_true)
         case 0: proof.units = rng_below(&r, 80); break;
         case 1: node[rng_below(&r, x.frame.n_nodes)] = rng_below(&r, 5); break;
         case 2: proof.turning = rng_below(&r, 3) ? rng_below(&r, 12) : 0; break;
-        case 3: proof.unit = rng_below(&r, 50) ? 1 + proof.unit / 64 * rng_between(&r, 50, 80) : attack_integer(&r); break;
+        case 3:
+          proof.unit =
+              rng_below(&r, 50) ? 1 + (int64_t)fmod((double)proof.unit * rng_between(&r, 50, 80) / 64, 1e15) : attack_integer(&r);
+          break;
         case 4: edge[rng_below(&r, x.frame.n_edges)] = rng_below(&r, 200) ? rng_below(&r, 9) : attack_integer(&r); break;
         default: edge[rng_below(&r, x.frame.n_edges)] = 0;
         }
