@@ -18,6 +18,7 @@ enum { EXIT_OK = 0, EXIT_VIOLATION = 1, EXIT_USAGE = 2, EXIT_INPUT = 3, EXIT_INF
 
 int cmd_plan(int argc, char **argv);
 int cmd_symmetries(int argc, char **argv);
+int cmd_advise(int argc, char **argv);
 int cmd_check(int argc, char **argv);
 int cmd_eval(int argc, char **argv);
 int cmd_compare(int argc, char **argv);

@@ -14,6 +14,7 @@ static const struct {
   int (*run)(int argc, char **argv);
 } command[] = {
     {"plan", "find the best threading of a framework, prove it, draw it", cmd_plan},
+    {"advise", "how many cords, and from where, so that a hand can pull them", cmd_advise},
     {"symmetries", "groups of symmetries, and the best symmetric threading under each", cmd_symmetries},
     {"check", "verify every claim of a plan, without any solver", cmd_check},
     {"eval", "how hard to pull: closed form, simulated joints, whole structure", cmd_eval},

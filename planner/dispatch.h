@@ -24,6 +24,7 @@ typedef enum {
   THR_STEP_FIRST,          /* some cords, before the search has any */
   THR_STEP_TIED,           /* the shortest tied cords, and their proof; the rest is for their lengths one by one */
   THR_STEP_SEED,           /* symmetric cords that the largest turning may begin with */
+  THR_STEP_ONE_CORD,       /* one cord that turns least, to be cut into as many as are asked for */
   THR_STEP_SHORTEST,       /* with tube joints, the shortest cords: where the search for the least turning begins */
   THR_STEP_BY_LENGTH,      /* cords of the least length where the shortest passes may not hold them */
   THR_STEP_LEAST,          /* the least turning of all cords, before that of the cord that turns most */

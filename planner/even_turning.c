@@ -1,6 +1,7 @@
 /* A second start for the cord that turns most: symmetric cords turn alike. */
 #include "planner/even_turning.h"
 #include "graph/plan/junction.h"
+#include "graph/plan/turning_proof.h"
 #include "planner/dispatch.h"
 #include "symmetry/symmetry.h"
 #include "tortuosity/cords/maxturn.h"
@@ -69,11 +70,15 @@ thr_status thr_even_turning(const thr_frame *frame, const thr_plan *seed, const 
     if (!st) st = thr_max_turning_improve(frame, &share, &from, &other, err);
   }
   if (!st && !(other.largest <= other.bound * (1 + 1e-9))) st = thr_max_turning_improve(frame, limits, least, &own, err);
+  /* the two proofs differ in their walks only: those with the higher bound stay */
+  const thr_walk_proof walks = other.bound > own.bound ? from.proof.walks : least->proof.walks;
+  thr_walk_proof_destroy(other.bound > own.bound ? &least->proof.walks : &from.proof.walks);
   if (!st && other.largest < own.largest) {
     thr_cord *cord = least->cord;
     *least = from;
     from.cord = cord;
   }
   thr_cords_destroy(from.cord, least->n_cords);
+  least->proof.walks = walks;
   return st;
 }

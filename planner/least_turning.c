@@ -3,6 +3,7 @@
 #include "graph/check/check.h"
 #include "graph/plan/turning_proof.h"
 #include "lp/length/postman.h"
+#include "planner/cut.h"
 #include "planner/dispatch.h"
 #include "planner/even_turning.h"
 #include "planner/make_plan.h"
@@ -283,6 +284,29 @@ thr_status thr_tortuosity_plan(const thr_frame *frame, const thr_request *option
   return thr_tortuosity_plan_from(frame, options, NULL, limits, plan, err);
 }
 
+/* The cord that turns least, cut evenly into as many as are asked for: where cords are long, or come by many nodes for their
+ * ends, each turns little more than its share. It takes the place of a seed whose cord that turns most turns more. */
+static thr_status cut_seed(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *seed,
+                           thr_err *err)
+{
+  const thr_limits share = thr_dispatch_share(limits, THR_STEP_ONE_CORD);
+  thr_request one = *options;
+  thr_plan plan = {0}, cut = {0};
+  thr_err why = {0};
+  one.aims = thr_aims_straightest;
+  one.cords = one.cords_least = 1;
+  thr_status st = thr_tortuosity_plan_from(frame, &one, NULL, &share, &plan, &why);
+  if (plan.n_cords > 0) st = thr_cut_seed(&plan, options, &cut, err);
+  if (cut.n_cords > 0 && (seed->n_cords == 0 || cut.metrics.max_turning < seed->metrics.max_turning * (1 - 1e-9))) {
+    thr_plan_destroy(seed);
+    *seed = cut;
+    cut = (thr_plan){0};
+  }
+  thr_plan_destroy(&cut);
+  thr_plan_destroy(&plan);
+  return st == THR_ENOMEM ? thr_nomem(err) : THR_OK;
+}
+
 /* Symmetric cords turn alike: where they are as many as asked for, the one that turns most may be at its bound at once. They keep
  * to no given numbers of ends. */
 thr_status thr_planner_turning(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
@@ -298,6 +322,9 @@ thr_status thr_planner_turning(const thr_frame *frame, const thr_request *option
   if (options->turning.tour == THR_TOUR_LEAST) thr_planner_tell_first(frame, options, limits, report ? &report->shortest : NULL);
   if (thr_wants_largest(options) && options->cords > 1 && options->ends != THR_ENDS_COUNTS)
     st = thr_even_seed(frame, options, limits, &seed, err);
+  if (!st && thr_wants_largest(options) && options->cords > 1 && options->ends != THR_ENDS_COUNTS &&
+      options->ends != THR_ENDS_CLOSED && options->joint == THR_JOINT_SOLID)
+    st = cut_seed(frame, options, limits, &seed, err);
   if (!st) st = thr_tortuosity_plan_from(frame, options, seed.n_cords ? &seed : NULL, limits, plan, err);
   thr_plan_destroy(&seed);
   return st;

@@ -185,7 +185,7 @@ void svg_box(const svg_tree *t, int i, double box[4])
     double size = svg_number(t, i, "font-size");
     box[2] = (svg_has_class(t, i, "seam") ? 1.09 : 1) * size * text_width(e->text); /* bold digits: 0.696 em */
     box[3] = 0.73 * size;
-    box[0] = svg_number(t, i, "x") - (svg_has_class(t, i, "middle") ? 0.5 * box[2] : 0);
+    box[0] = svg_number(t, i, "x") - (svg_has_class(t, i, "middle") ? 0.5 : svg_has_class(t, i, "end") ? 1 : 0) * box[2];
     box[1] = svg_number(t, i, "y") - box[3];
   } else {
     ck_assert_str_eq(e->name, "rect");

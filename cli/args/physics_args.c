@@ -150,3 +150,12 @@ int cli_physics_apply(const cli_physics *a, thr_physics *physics)
                            &err);
   return st ? cli_fail(&err) : EXIT_OK;
 }
+
+void cli_physics_spell(const cli_physics *a, int i, char name[MOST_LETTERS])
+{
+  int option = a->given[i].option;
+  if (option >= OPTION_QUANTITY)
+    option_name(option - OPTION_QUANTITY, name);
+  else
+    snprintf(name, MOST_LETTERS, "%s", option == OPTION_PRESET ? "preset" : "physics");
+}

@@ -25,4 +25,7 @@ int cli_physics_option(cli_physics *a, int argc, char **argv, const char *comman
  * prints and returns the code. */
 int cli_physics_apply(const cli_physics *a, thr_physics *physics);
 
+/* The i-th option that was given, as it is spelled, without "--". */
+void cli_physics_spell(const cli_physics *a, int i, char name[24]);
+
 #endif

@@ -1,4 +1,5 @@
 /* thread plan: framework in, plan and diagrams out. */
+#include "cli/advice.h"
 #include "cli/best.h"
 #include "cli/args/aims_args.h"
 #include "cli/drawings.h"
@@ -375,7 +376,16 @@ static int write_plan(thr_plan *p, const char *path, int code)
   return written;
 }
 
-/* Where the plan is and, unless folder is NULL, the drawings. */
+/* Was nothing said of what the plan is to be, and how long it may take? */
+static bool is_usual(const arguments *a, const thr_request *options)
+{
+  const cords_args usual = cords_args_default();
+  return thr_wants_length(options) && !thr_wants_balance(options) && a->cords.most == 0 && a->cords.max_length == 0 &&
+         strcmp(a->cords.ends, usual.ends) == 0 && a->cords.cover == usual.cover && a->cords.capacity == 0 &&
+         options->joint == THR_JOINT_SOLID && a->guard.seconds < 0 && !a->compare;
+}
+
+/* Where the plan is and, unless folder is NULL, the drawings; and what to do if a hand cannot pull it. */
 static int print_places(const arguments *a, const thr_plan *p, const char *plan_path, const char *folder)
 {
   char names[DRAWINGS_NAMES];
@@ -390,6 +400,7 @@ static int print_places(const arguments *a, const thr_plan *p, const char *plan_
     thr_text_printf(&text, ": %s", names);
   }
   thr_text_append(&text, "\n");
+  if (is_usual(a, &p->options)) advice_put_after_plan(p, a->path, &a->frame, &a->pull.physics, &text);
   return cli_write(&text, "-");
 }
 

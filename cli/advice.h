@@ -1,0 +1,18 @@
+/* Asking for advice: shared by `thread advise` and by the last line of `thread plan`. */
+#ifndef THR_CLI_ADVICE_H
+#define THR_CLI_ADVICE_H
+
+#include "cli/args/physics_args.h"
+#include "cli/cli.h"
+#include "graph/plan/plan.h"
+#include "graph/text.h"
+
+/* The options that were given of how FRAME is read and of what cord and beads are, each with a blank before it, for a shell. */
+void advice_command_options(const cli_frame_args *a, const cli_physics *physics, thr_text *text);
+
+/* The lines that say that the plan's pull is beyond a hand, and what is not: nothing where it is not, or where no such
+ * cords come of cutting the plan's. path: of the framework, as typed, and the options that it was read with. */
+void advice_put_after_plan(const thr_plan *plan, const char *path, const cli_frame_args *a, const cli_physics *physics,
+                           thr_text *text);
+
+#endif

@@ -1,0 +1,208 @@
+/* thread advise: how many cords, and from where. */
+#include "cli/advice.h"
+#include "cli/args/physics_args.h"
+#include "cli/cli.h"
+#include "cli/guard.h"
+#include "cli/print/advice_table.h"
+#include "diagram/overview/advice_chart.h"
+#include "graph/framework/frame.h"
+#include "graph/io/writer.h"
+#include "graph/limits.h"
+#include "graph/plan/advice.h"
+#include "graph/plan/physics.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
+#include "graph/text.h"
+#include "planner/advise.h"
+#include "planner/dispatch.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+static const char help[] =
+    "thread advise FRAME [options]: how many cords, and from where, so that a hand can pull them\n\n"
+    "Examples:\n"
+    "  thread advise dome.json                       a table, one line of it recommended, and the command that makes its plan\n"
+    "  thread advise dome.json -T svg -o advice.svg  pull and cord against the number of cords\n"
+    "  thread advise shell.obj --feet lowest --seating 2 --mu 0.25\n\n"
+    "Options:\n"
+    "  -T, --type text|svg  a table (default), or a picture\n"
+    "  -o, --output FILE    (default: stdout)\n"
+    "      --json           the table as JSON\n"
+    "      --hand N         what the pull is to stay within, in newton, even at the upper end of the band of mu\n"
+    "                       (default: 10, what a hand manages time after time; 50: once)\n"
+    "      --cover N        at least N passes over every interface (default: 1)\n"
+    "      --time-limit S   for all rows together, 0 = until every search has ended (default: 2)\n" GUARD_MEMORY_HELP
+        CLI_FRAME_HELP "  -q, --quiet          no notes       -v, --verbose  what the solver does       -h, --help\n\n"
+    "Every row is a plan whose cord that turns most turns as little as was found in its part of the time. Steps are the passes "
+    "of\n"
+    "those cords that are no mirrored or turned copies of others: what is to be learned.\n"
+    "Exit codes: 0 a row is recommended, 2 usage, 3 bad input, 4 no row stays within the hand (table printed), or no\n"
+    "threading, 5 no row in time\n";
+
+enum { OPTION_HAND = OPTION_FREE, OPTION_COVER, OPTION_JSON };
+
+static const struct option table[] = {CLI_COMMON_OPTIONS,
+                                      CLI_FRAME_OPTIONS,
+                                      GUARD_OPTIONS,
+                                      {"type", required_argument, NULL, 'T'},
+                                      {"output", required_argument, NULL, 'o'},
+                                      {"hand", required_argument, NULL, OPTION_HAND},
+                                      {"cover", required_argument, NULL, OPTION_COVER},
+                                      {"json", no_argument, NULL, OPTION_JSON},
+                                      {NULL, 0, NULL, 0}};
+
+enum { TYPE_TEXT, TYPE_SVG, N_TYPES };
+
+typedef struct {
+  cli_frame_args frame;
+  cli_physics physics;
+  guard_limits guard;
+  thr_request request;
+  const char *path, *output;
+  double hand;
+  int type;
+  bool json;
+} arguments;
+
+static const char *type_name(int type)
+{
+  return type == TYPE_SVG ? "svg" : "text";
+}
+
+static bool take_option(arguments *a, int option, const char *value)
+{
+  bool ok = true;
+  if (cli_frame_option(&a->frame, "advise", option, value, &ok) || guard_option(&a->guard, "advise", option, value, &ok))
+    return ok;
+  switch (option) {
+  case 'T': return cli_choose("advise", "--type", value, type_name, N_TYPES, &a->type);
+  case 'o': a->output = value; return true;
+  case OPTION_HAND: return cli_double("advise", "--hand", value, 1e-6, 1e9, &a->hand);
+  case OPTION_COVER: return cli_int("advise", "--cover", value, 1, 100, &a->request.cover);
+  case OPTION_JSON: a->json = true; return true;
+  default: return true;
+  }
+}
+
+static int parse(int argc, char **argv, arguments *a)
+{
+  int done, option;
+  *a = (arguments){.frame = cli_frame_args_default(),
+                   .guard = {.seconds = 2, .memory = guard_limits_default().memory},
+                   .request = thr_request_default(),
+                   .output = "-",
+                   .hand = thr_hand_always};
+  while ((option = cli_physics_option(&a->physics, argc, argv, "advise", ":" CLI_COMMON_LETTERS "T:o:", table, help, &done)) !=
+         -1)
+    if (!take_option(a, option, optarg)) return EXIT_USAGE;
+  if (done >= 0) return done;
+  if (optind + 1 != argc) return cli_usage("advise", optind == argc ? "which framework?" : "one framework at a time");
+  a->path = argv[optind];
+  if (!*a->output) return cli_usage("advise", "an empty name is no place to write to");
+  if (a->json && a->type == TYPE_SVG) return cli_usage("advise", "--json makes no picture: one of the two");
+  return -1;
+}
+
+/* ---- rows as they are found ---- */
+
+/* On a terminal: the lines that the finished table takes the place of. */
+typedef struct {
+  const thr_frame *frame;
+  const thr_physics *physics;
+  double base_length;
+  int lines;
+} live;
+
+static void show_row(void *user, const thr_advice_row *row)
+{
+  live *l = user;
+  thr_text text = {0};
+  if (l->lines == 0) {
+    advice_put_head(&text, l->frame, l->physics);
+    l->lines = 4;
+  }
+  advice_put_row(&text, row, l->base_length, "");
+  if (!text.failed) fputs(text.data, stdout);
+  fflush(stdout);
+  l->lines++;
+  thr_text_destroy(&text);
+}
+
+static void wipe_rows(const live *l)
+{
+  if (l->lines > 0) printf("\033[%dA\033[J", l->lines);
+}
+
+/* ---- outputs ---- */
+
+static thr_status draw(const arguments *a, const thr_frame *frame, const thr_advice *advice, const char *command, thr_text *text,
+                       thr_err *err)
+{
+  char stem[256];
+  cli_stem(a->path, stem, sizeof stem);
+  return thr_advice_svg(advice, &(thr_advice_chart){.name = stem, .units = frame->units, .command = command}, text, err);
+}
+
+static int write_advice(const arguments *a, const thr_frame *frame, const thr_advice *advice)
+{
+  thr_text text = {0}, options = {0}, command = {0};
+  thr_err err = {0};
+  thr_status st = THR_OK;
+  thr_writer writer = {.out = &text};
+  advice_command_options(&a->frame, &a->physics, &options);
+  if (advice->chosen >= 0) advice_put_command(&command, a->path, options.data ? options.data : "", &advice->row[advice->chosen]);
+  const char *words = command.data ? command.data : "";
+  if (options.failed || command.failed)
+    st = thr_nomem(&err);
+  else if (a->type == TYPE_SVG)
+    st = draw(a, frame, advice, words, &text, &err);
+  else if (a->json) {
+    advice_put_json(&writer, frame, advice, words);
+    thr_text_append(&text, "\n");
+  } else
+    advice_put_table(&text, frame, advice, words);
+  int code = cli_write_drawn(st, &text, a->output, &err);
+  thr_text_destroy(&options);
+  thr_text_destroy(&command);
+  return code;
+}
+
+static int advise(arguments *a, const thr_frame *frame)
+{
+  thr_advice advice;
+  thr_err err = {0};
+  thr_physics resolved;
+  int code = cli_physics_apply(&a->physics, &a->request.physics);
+  if (code) return code;
+  if (thr_physics_resolve(&a->request.physics, frame, &resolved, &err)) return cli_fail(&err);
+  live l = {.frame = frame, .physics = &resolved, .base_length = a->request.cover * thr_frame_total_length(frame)};
+  bool shown = a->type == TYPE_TEXT && !a->json && !cli_quiet && strcmp(a->output, "-") == 0 && isatty(STDOUT_FILENO);
+  const thr_advise_options options = {.hand = a->hand, .row = shown ? show_row : NULL, .user = &l};
+  thr_limits limits = cli_limits(a->guard.seconds > 0 ? thr_dispatch_search_seconds(a->guard.seconds, false, false) : 0);
+  if (!cli_verbose) limits.progress = NULL;
+  limits.advance = NULL;
+  thr_status st = thr_advise(frame, &a->request, &options, &limits, &advice, &err);
+  wipe_rows(&l);
+  if (st) return cli_fail(&err);
+  code = write_advice(a, frame, &advice);
+  if (!advice.complete) cli_note("note: the time was over before all numbers of cords were tried; --time-limit gives more");
+  if (!code && advice.chosen < 0) code = EXIT_INFEASIBLE;
+  thr_advice_destroy(&advice);
+  return code;
+}
+
+int cmd_advise(int argc, char **argv)
+{
+  arguments a;
+  thr_frame frame;
+  guard_end end;
+  int code = parse(argc, argv, &a);
+  if (code >= 0) return code;
+  if (guard_fork(&a.guard, &end)) return guard_conclude(&end, "no advice");
+  if ((code = cli_read_frame(a.path, &a.frame, &frame))) return code;
+  code = advise(&a, &frame);
+  thr_frame_destroy(&frame);
+  return code;
+}

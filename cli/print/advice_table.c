@@ -1,0 +1,185 @@
+/* The table of advice, and the line that sums it up. */
+#include "cli/print/advice_table.h"
+#include "cli/cli.h"
+#include "graph/angle.h"
+#include "graph/plan/physics.h"
+#include "graph/plan/request.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* "3.49", "1.6e+06"; "> 1e300". */
+static const char *force_words(double newton, char out[24])
+{
+  if (isinf(newton))
+    snprintf(out, 24, "> 1e300");
+  else
+    snprintf(out, 24, newton < 1e5 ? "%.3g" : "%.1e", newton < 1e5 && newton >= 100 ? round(newton) : newton);
+  if (newton >= 1000 && newton < 1e5) snprintf(out, 24, "%.0f", newton);
+  return out;
+}
+
+void advice_put_word(thr_text *text, const char *word)
+{
+  static const char safe[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./,:+=@%";
+  if (*word && strspn(word, safe) == strlen(word)) {
+    thr_text_append(text, word);
+    return;
+  }
+  thr_text_append(text, "'");
+  for (; *word; word++)
+    if (*word == '\'')
+      thr_text_append(text, "'\\''");
+    else
+      thr_text_byte(text, *word);
+  thr_text_append(text, "'");
+}
+
+void advice_put_command(thr_text *text, const char *path, const char *options, const thr_advice_row *row)
+{
+  thr_text_append(text, "thread plan ");
+  advice_put_word(text, path);
+  thr_text_printf(text, "%s --cords %d --ends %s --objective tortuosity --minimize max-turning", options, row->cords,
+                  thr_ends_name((int)row->ends));
+}
+
+void advice_put_cords(thr_text *text, const thr_advice_row *row)
+{
+  const char *closed = row->ends == THR_ENDS_CLOSED ? "closed " : "";
+  const char *where = row->ends == THR_ENDS_CLOSED ? "" : row->ends == THR_ENDS_FEET ? " to the feet" : " with ends anywhere";
+  thr_text_printf(text, "%d %s%s%s", row->cords, closed, cli_plural(row->cords, "cord", "cords"), where);
+}
+
+/* ---- text ---- */
+
+void advice_put_head(thr_text *text, const thr_frame *frame, const thr_physics *physics)
+{
+  char units[24];
+  snprintf(units, sizeof units, "cord, %.15s", frame->units);
+  thr_text_printf(text, "%d nodes, %d %s; pull at both ends of every cord for %g N at the slackest joint, closed form;\n",
+                  frame->n_nodes, frame->n_edges, cli_plural(frame->n_edges, "edge", "edges"), physics->seating);
+  thr_text_printf(text, "mu = %g (band %g to %g)\n\n", physics->mu, physics->mu_low, physics->mu_high);
+  thr_text_printf(text, "   cords  %-11s %14s %8s %10s %12s %9s %19s %6s  %s\n", "ends", units, "overlap", "longest",
+                  "most turning", "pull, N", "in the band of mu", "steps", "proof of the turning");
+}
+
+void advice_put_row(thr_text *text, const thr_advice_row *row, double base_length, const char *mark)
+{
+  char low[24], pull[24], high[24], band[56], proof[40] = "-";
+  snprintf(band, sizeof band, "%s .. %s", force_words(row->pull[THR_ADVICE_LOW], low),
+           force_words(row->pull[THR_ADVICE_HIGH], high));
+  if (row->optimal)
+    snprintf(proof, sizeof proof, "optimal");
+  else if (row->bound > 0)
+    snprintf(proof, sizeof proof, "at least %.0f deg", floor(thr_degrees(row->bound)));
+  thr_text_printf(text, "%-3s%5d  %-11s %14.3f %6.1f %% %10.4g %8.0f deg %9s %19s %6d  %s\n", mark, row->cords,
+                  thr_advice_ends(row->ends), row->length, 100 * (row->length / base_length - 1), row->longest,
+                  thr_degrees(row->turning), force_words(row->pull[THR_ADVICE_MU], pull), band, row->steps, proof);
+}
+
+/* What a hand manages, as far as it is one of the numbers with a source. */
+static const char *hand_words(double hand)
+{
+  return hand == thr_hand_always ? ", what a hand manages time after time,"
+         : hand == thr_hand_once ? ", what a hand manages once,"
+                                 : "";
+}
+
+static void put_choice(thr_text *text, const thr_advice *advice, const char *command)
+{
+  char low[24], pull[24], high[24];
+  if (advice->chosen < 0) {
+    thr_text_printf(text, "no row stays within %g N%s at mu = %g; --hand N says what is enough\n", advice->hand,
+                    hand_words(advice->hand), advice->physics.mu_high);
+    return;
+  }
+  const thr_advice_row *row = &advice->row[advice->chosen];
+  thr_text_append(text, "> ");
+  advice_put_cords(text, row);
+  thr_text_printf(text, ": %s N (%s to %s). The fewest that stay within %g N%s even at mu = %g\n  ",
+                  force_words(row->pull[THR_ADVICE_MU], pull), force_words(row->pull[THR_ADVICE_LOW], low),
+                  force_words(row->pull[THR_ADVICE_HIGH], high), advice->hand, hand_words(advice->hand), advice->physics.mu_high);
+  thr_text_append_clean(text, command);
+  thr_text_append(text, "\n");
+}
+
+void advice_put_table(thr_text *text, const thr_frame *frame, const thr_advice *advice, const char *command)
+{
+  advice_put_head(text, frame, &advice->physics);
+  for (int i = 0; i < advice->n; i++) {
+    char mark[4];
+    snprintf(mark, sizeof mark, "%s%s", i == advice->chosen ? ">" : " ", advice->row[i].frontier ? "*" : " ");
+    advice_put_row(text, &advice->row[i], advice->base_length, mark);
+  }
+  thr_text_append(text, "\n* no other row has no more cords, no more cord and no more pull, and less of one of them");
+  if (advice->left_out)
+    thr_text_printf(text, "; %d %s nothing %s left out", advice->left_out,
+                    cli_plural(advice->left_out, "row that buys", "rows that buy"), cli_plural(advice->left_out, "is", "are"));
+  thr_text_append(text, "\n");
+  put_choice(text, advice, command);
+}
+
+/* ---- one line ---- */
+
+void advice_put_line(thr_text *text, const thr_advice *advice, double force, const char *command)
+{
+  char needs[24], pull[24];
+  const thr_advice_row *row = &advice->row[advice->chosen];
+  thr_text_printf(text, "hand     needs %s N at each end; a hand manages about %g: ", force_words(force, needs), thr_hand_once);
+  advice_put_cords(text, row);
+  thr_text_printf(text, " %s about %s N with the same cord:\n         ", cli_plural(row->cords, "needs", "need"),
+                  force_words(row->pull[THR_ADVICE_MU], pull));
+  thr_text_append_clean(text, command);
+  thr_text_append(text, "\n");
+}
+
+/* ---- JSON ---- */
+
+static void put_row_json(thr_writer *writer, const thr_advice_row *row)
+{
+  thr_write_object(writer, NULL);
+  thr_write_int(writer, "cords", row->cords);
+  thr_write_string(writer, "ends", thr_ends_name((int)row->ends));
+  thr_write_number(writer, "length", row->length);
+  thr_write_number(writer, "longest", row->longest);
+  thr_write_number(writer, "max_turning", row->turning);
+  thr_write_number(writer, "max_turning_bound", row->bound > 0 ? row->bound : NAN);
+  thr_write_string(writer, "max_turning_status", row->optimal ? "optimal" : row->bound > 0 ? "bound" : "unknown");
+  thr_write_number(writer, "pull", row->pull[THR_ADVICE_MU]);
+  thr_write_number(writer, "pull_low", row->pull[THR_ADVICE_LOW]);
+  thr_write_number(writer, "pull_high", row->pull[THR_ADVICE_HIGH]);
+  thr_write_int(writer, "passes", row->passes);
+  thr_write_int(writer, "steps", row->steps);
+  thr_write_bool(writer, "frontier", row->frontier);
+  thr_write_close(writer);
+}
+
+void advice_put_json(thr_writer *writer, const thr_frame *frame, const thr_advice *advice, const char *command)
+{
+  thr_write_object(writer, NULL);
+  thr_write_hash(writer, "framework", thr_frame_hash(frame));
+  thr_write_int(writer, "nodes", frame->n_nodes);
+  thr_write_int(writer, "edges", frame->n_edges);
+  thr_write_string(writer, "units", frame->units);
+  thr_write_number(writer, "base_length", advice->base_length);
+  thr_write_number(writer, "mu", advice->physics.mu);
+  thr_write_number(writer, "mu_low", advice->physics.mu_low);
+  thr_write_number(writer, "mu_high", advice->physics.mu_high);
+  thr_write_number(writer, "seating", advice->physics.seating);
+  thr_write_number(writer, "hand", advice->hand);
+  thr_write_bool(writer, "complete", advice->complete);
+  thr_write_int(writer, "left_out", advice->left_out);
+  thr_write_array(writer, "rows");
+  for (int i = 0; i < advice->n; i++)
+    put_row_json(writer, &advice->row[i]);
+  thr_write_close(writer);
+  if (advice->chosen < 0) {
+    thr_write_null(writer, "recommended");
+    thr_write_null(writer, "command");
+  } else {
+    thr_write_int(writer, "recommended", advice->chosen);
+    thr_write_string(writer, "command", command);
+  }
+  thr_write_close(writer);
+}

@@ -1,0 +1,32 @@
+/* The table of `thread advise`, as text and as JSON, and the command that makes the recommended plan. */
+#ifndef THR_CLI_ADVICE_TABLE_H
+#define THR_CLI_ADVICE_TABLE_H
+
+#include "graph/framework/frame.h"
+#include "graph/io/writer.h"
+#include "graph/plan/advice.h"
+#include "graph/plan/physics.h"
+#include "graph/text.h"
+
+/* Its head: what is counted and what the columns are; and a row of it. mark: "*> ", three columns. */
+void advice_put_head(thr_text *text, const thr_frame *frame, const thr_physics *physics);
+void advice_put_row(thr_text *text, const thr_advice_row *row, double base_length, const char *mark);
+
+/* All rows and, below, the recommended one with its command. */
+void advice_put_table(thr_text *text, const thr_frame *frame, const thr_advice *advice, const char *command);
+void advice_put_json(thr_writer *writer, const thr_frame *frame, const thr_advice *advice, const char *command);
+
+/* "thread plan PATH --cords 4 --ends feet --objective tortuosity --minimize max-turning", with the options that FRAME was read
+ * with (each with a blank before it), for a shell. */
+void advice_put_command(thr_text *text, const char *path, const char *options, const thr_advice_row *row);
+
+/* A word as a shell reads it: in quotes where it needs them. */
+void advice_put_word(thr_text *text, const char *word);
+
+/* "4 cords to the feet", "1 closed cord", "12 cords with ends anywhere". */
+void advice_put_cords(thr_text *text, const thr_advice_row *row);
+
+/* The last lines of `thread plan`: force N is beyond a hand, what is not when its cord is cut, and the command. */
+void advice_put_line(thr_text *text, const thr_advice *advice, double force, const char *command);
+
+#endif

@@ -1,0 +1,130 @@
+/* Rows of advice: pull, order, choice, and what buys nothing. */
+#include "graph/plan/advice.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+const double thr_hand_once = 50, thr_hand_always = 10;
+
+static const double worth = 1.05;      /* a twentieth less pull is worth another cord */
+static const double same = 1 + 1e-9;   /* as much */
+static const double same_cord = 1.001; /* as much cord, to the eye */
+
+void thr_advice_destroy(thr_advice *advice)
+{
+  free(advice->row);
+  *advice = (thr_advice){0};
+}
+
+double thr_cord_reach(const thr_frame *frame, const thr_cord *cord)
+{
+  double total = thr_cord_turning(frame, cord, false), before = 0, reach = total;
+  for (int k = 0; k + 1 < cord->n_passes; k++) {
+    before += thr_turn_angle(frame, cord->half[k], cord->half[k + 1]);
+    reach = fmin(reach, fmax(before, total - before));
+  }
+  return reach;
+}
+
+void thr_advice_pulls(const thr_physics *physics, double reach, double pull[THR_ADVICE_PULLS])
+{
+  const double mu[THR_ADVICE_PULLS] = {physics->mu_low, physics->mu, physics->mu_high};
+  for (int i = 0; i < THR_ADVICE_PULLS; i++)
+    pull[i] = mu[i] * reach > 690 ? INFINITY : physics->seating * exp(mu[i] * reach);
+}
+
+bool thr_advice_within(const thr_advice *advice, const thr_advice_row *row)
+{
+  return row->pull[THR_ADVICE_HIGH] <= advice->hand * same;
+}
+
+const char *thr_advice_ends(thr_ends ends)
+{
+  return ends == THR_ENDS_CLOSED ? "closed" : ends == THR_ENDS_FEET ? "at the feet" : "anywhere";
+}
+
+/* ---- order ---- */
+
+static int place_of(thr_ends ends)
+{
+  return ends == THR_ENDS_CLOSED ? 0 : ends == THR_ENDS_FEET ? 1 : 2;
+}
+
+static int by_ends_and_cords(const void *a, const void *b)
+{
+  const thr_advice_row *row = a, *other = b;
+  if (row->ends != other->ends) return place_of(row->ends) - place_of(other->ends);
+  return (row->cords > other->cords) - (row->cords < other->cords);
+}
+
+/* ---- choice ---- */
+
+/* Fewest cords, then ends at the feet, then the least cord. */
+static bool is_better(const thr_advice_row *row, const thr_advice_row *other)
+{
+  if (row->cords != other->cords) return row->cords < other->cords;
+  if (row->ends != other->ends) return row->ends == THR_ENDS_FEET;
+  return row->length < other->length;
+}
+
+static int choose(const thr_advice *advice)
+{
+  int chosen = -1;
+  for (int feet = 1; feet >= 0 && chosen < 0; feet--)
+    for (int i = 0; i < advice->n; i++) {
+      const thr_advice_row *row = &advice->row[i];
+      if ((feet && row->ends != THR_ENDS_FEET) || !thr_advice_within(advice, row)) continue;
+      if (chosen < 0 || is_better(row, &advice->row[chosen])) chosen = i;
+    }
+  return chosen;
+}
+
+/* ---- what buys nothing ---- */
+
+/* Has other no more of anything, and less of something? */
+static bool dominates(const thr_advice_row *other, const thr_advice_row *row)
+{
+  if (other->cords > row->cords || other->length > row->length * same ||
+      other->pull[THR_ADVICE_MU] > row->pull[THR_ADVICE_MU] * same)
+    return false;
+  return other->cords < row->cords || other->length * same < row->length ||
+         other->pull[THR_ADVICE_MU] * same < row->pull[THR_ADVICE_MU];
+}
+
+/* Infinite pulls are alike: they do not tell rows apart. */
+static bool buys_nothing(const thr_advice_row *row, const thr_advice_row *other)
+{
+  if (other->ends != row->ends && (other->ends != THR_ENDS_FEET || row->ends == THR_ENDS_CLOSED)) return false;
+  if (other->cords > row->cords || (other->cords == row->cords && other->ends == row->ends)) return false;
+  return other->pull[THR_ADVICE_MU] <= row->pull[THR_ADVICE_MU] * worth && other->length <= row->length * same_cord;
+}
+
+/* Rows are held against those that stay: the chosen one stays in any case. */
+static void drop_rows(thr_advice *advice)
+{
+  int kept = 0, chosen = -1;
+  for (int i = 0; i < advice->n; i++) {
+    const thr_advice_row row = advice->row[i];
+    bool useful = true;
+    for (int j = 0; j < kept && i != advice->chosen; j++)
+      useful &= !buys_nothing(&row, &advice->row[j]);
+    if (!useful) continue;
+    if (i == advice->chosen) chosen = kept;
+    advice->row[kept++] = row;
+  }
+  advice->left_out = advice->n - kept;
+  advice->n = kept;
+  advice->chosen = chosen;
+}
+
+void thr_advice_settle(thr_advice *advice)
+{
+  if (advice->n > 0) qsort(advice->row, (size_t)advice->n, sizeof *advice->row, by_ends_and_cords);
+  for (int i = 0; i < advice->n; i++) {
+    advice->row[i].frontier = true;
+    for (int j = 0; j < advice->n; j++)
+      advice->row[i].frontier &= !dominates(&advice->row[j], &advice->row[i]);
+  }
+  advice->chosen = choose(advice);
+  drop_rows(advice);
+}

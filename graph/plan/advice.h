@@ -1,0 +1,70 @@
+/* How many cords, and from where: what `thread advise` found out, plan by plan, and which of them it recommends. The planner
+ * fills it in (planner/advise.h), tables and pictures show it.
+ *
+ * Pulled at both ends, a cord is slackest at the pass with the turning from both ends most nearly equal. Its reach is the turning
+ * from there to the end that is farther off, and the pull in N is seating x exp(mu x reach) (docs/method.md, "Pull force").
+ *
+ * Example: turns of 30, 90 and 40 degrees: after the second there are 120 and 40 degrees, after the first 30 and 130: reach 120
+ * degrees. */
+#ifndef THR_ADVICE_H
+#define THR_ADVICE_H
+
+#include "graph/framework/frame.h"
+#include "graph/plan/physics.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+
+/* N. What a hand manages with a cord between thumb and finger: once, the mean strength of women's tip pinch (some 11 pounds:
+ * Mathiowetz et al., Arch. Phys. Med. Rehabil. 66, 1985); time after time, 14 % of the strongest (endurance of intermittent
+ * contractions: Bjorksten & Jonsson, Scand. J. Work Environ. Health 3, 1977) of their key pinch (some 16 pounds, 72 N). */
+extern const double thr_hand_once, thr_hand_always; /* 50, 10 */
+
+enum { THR_ADVICE_LOW, THR_ADVICE_MU, THR_ADVICE_HIGH, THR_ADVICE_PULLS };
+
+/* A plan of `cords` cords in every component, whose cord that turns most turns as little as was found in time. */
+typedef struct {
+  int cords;
+  thr_ends ends;                 /* closed, any or feet */
+  double length, longest;        /* units, of all cords and of the longest */
+  double turning;                /* rad, of the cord that turns most */
+  double bound;                  /* rad; no such plan has less. 0 = not known */
+  bool optimal;                  /* proved: turning is the least */
+  bool searched;                 /* false: the cords are those of another plan, cut evenly, or symmetric ones */
+  double pull[THR_ADVICE_PULLS]; /* N at the hardest end, at mu_low, mu and mu_high; INFINITY beyond 1e300 */
+  int passes;                    /* of all cords */
+  int steps;                     /* learned: passes of those cords that no automorphism maps onto an earlier one */
+  bool frontier; /* no other row has no more cords, no more cord and no more pull at mu, and less of one of them */
+} thr_advice_row;
+
+/* {0} is empty. */
+typedef struct {
+  thr_physics physics; /* resolved */
+  double hand;         /* N: what the pull is to stay within */
+  double base_length;  /* units, of the passes that the edges need */
+  int n;
+  thr_advice_row *row; /* [n] by ends (closed, feet, any), then cords; owned */
+  int left_out;        /* rows that buy nothing */
+  int chosen;          /* the recommended row; -1: no row stays within the hand at mu_high */
+  bool complete;       /* false: the time was over before all numbers of cords were tried */
+} thr_advice;
+
+void thr_advice_destroy(thr_advice *advice);
+
+/* rad. O(passes). */
+double thr_cord_reach(const thr_frame *frame, const thr_cord *cord);
+
+/* Pulls from the largest reach of a plan's cords. */
+void thr_advice_pulls(const thr_physics *physics, double reach, double pull[THR_ADVICE_PULLS]);
+
+/* Does a row stay within the hand even at mu_high? */
+bool thr_advice_within(const thr_advice *advice, const thr_advice_row *row);
+
+/* Sorts the rows, chooses, marks the frontier and drops what buys nothing. Chosen is the row with the fewest cords that stays
+ * within the hand at mu_high: of those with ends at the feet if one of them does, else of all. A row buys nothing if another with
+ * no more cords, and ends of the same kind or at the feet, has at most a twentieth more pull and no more cord. O(n^2). */
+void thr_advice_settle(thr_advice *advice);
+
+/* "closed", "at the feet", "anywhere". */
+const char *thr_advice_ends(thr_ends ends);
+
+#endif

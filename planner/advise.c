@@ -1,0 +1,442 @@
+/* Rows of advice: plans for more and more cords, each from the cords of the plan with one, cut evenly, or from symmetric cords.
+ */
+#include "planner/advise.h"
+#include "graph/plan/physics.h"
+#include "graph/plan/plan.h"
+#include "planner/cut.h"
+#include "planner/least_turning.h"
+#include "symmetry/group/automorphisms.h"
+#include "symmetry/group/group.h"
+#include "symmetry/symmetry.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Of the time that is left. */
+static const double part_group = 0.05, part_symmetric = 0.15, part_first = 0.15, part_row = 0.1;
+
+static const double little = 1.05;    /* less of the pull than this buys nothing */
+static const double slack_pull = 1.1; /* over the seating tension: there is nothing left to win */
+
+enum { MOST_ORDER = 240, IDLE = 2, TIMES = 4 };
+
+/* Plans with ends of one kind. */
+typedef struct {
+  thr_ends ends;
+  thr_plan first;            /* with one cord in every component */
+  thr_symmetries symmetries; /* with these ends */
+  bool over;                 /* no more cords than were tried have a plan */
+  double pull;               /* least so far, N at mu */
+  int idle;                  /* numbers of cords in a row that bought nothing */
+} kind;
+
+typedef struct {
+  const thr_frame *frame;
+  thr_request request;
+  const thr_limits *limits;
+  const thr_advise_options *options;
+  thr_group group; /* of automorphisms; of order 0 if it is not known */
+  int room;        /* for rows */
+  thr_advice *out;
+} adviser;
+
+/* ---- learned steps ---- */
+
+/* Does the image of cord a run as cord b does, one way or the other? The framework has one edge at most between two nodes. */
+static bool is_image(const thr_frame *frame, const int *image, const thr_cord *a, const thr_cord *b)
+{
+  int n = a->n_passes;
+  if (b->n_passes != n) return false;
+  bool forwards = image[thr_cord_start(frame, a)] == thr_cord_start(frame, b);
+  bool backwards = image[thr_cord_start(frame, a)] == thr_cord_end(frame, b);
+  for (int k = 0; k < n && (forwards || backwards); k++) {
+    int node = image[thr_head(frame, a->half[k])];
+    forwards &= node == thr_head(frame, b->half[k]);
+    backwards &= node == thr_tail(frame, b->half[n - 1 - k]);
+  }
+  return forwards || backwards;
+}
+
+static bool is_copy(const adviser *x, const thr_cord *cord, const thr_cord *earlier)
+{
+  for (int g = 1; g < x->group.order; g++)
+    if (is_image(x->frame, x->group.image + (size_t)g * (size_t)x->group.degree, earlier, cord)) return true;
+  return false;
+}
+
+/* Passes of the cords that are copies of none before them. */
+static int learned(const adviser *x, const thr_cord *cord, int n)
+{
+  int steps = 0;
+  for (int i = 0; i < n; i++) {
+    bool copy = false;
+    for (int j = 0; j < i && !copy; j++)
+      copy = is_copy(x, &cord[i], &cord[j]);
+    if (!copy) steps += cord[i].n_passes;
+  }
+  return steps;
+}
+
+static thr_status find_group(adviser *x, thr_err *err)
+{
+  const thr_automorphism_options all_alike = {0};
+  const thr_limits share = thr_limits_part(x->limits, part_group);
+  thr_automorphisms found = {0};
+  thr_err why = {0};
+  bool all;
+  thr_status st = thr_automorphisms_within(x->frame, &all_alike, &share, &all, &found, &why);
+  if (!st && all && found.exponent == 0 && found.mantissa <= MOST_ORDER)
+    st = thr_group_generate(found.n, found.generator, found.n_generators, MOST_ORDER, &x->group, &why);
+  thr_automorphisms_destroy(&found);
+  return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* without a group every cord is learned */
+}
+
+/* ---- rows ---- */
+
+static thr_advice_row *find_row(const adviser *x, const kind *k, int cords)
+{
+  for (int i = 0; i < x->out->n; i++)
+    if (x->out->row[i].ends == k->ends && x->out->row[i].cords == cords) return &x->out->row[i];
+  return NULL;
+}
+
+static thr_status new_row(adviser *x, thr_advice_row **row, thr_err *err)
+{
+  thr_advice *out = x->out;
+  if (out->n == x->room) {
+    int room = 2 * x->room + 16;
+    thr_advice_row *more = thr_realloc(out->row, (size_t)room, sizeof *more);
+    if (!more) return thr_nomem(err);
+    out->row = more;
+    x->room = room;
+  }
+  *row = &out->row[out->n++];
+  **row = (thr_advice_row){.turning = INFINITY};
+  return THR_OK;
+}
+
+static void measure_row(adviser *x, const kind *k, const thr_plan *plan, thr_advice_row *row)
+{
+  double reach = 0;
+  for (int i = 0; i < plan->n_cords; i++)
+    reach = fmax(reach, thr_cord_reach(x->frame, &plan->cord[i]));
+  row->ends = k->ends;
+  row->cords = plan->options.cords;
+  row->length = plan->metrics.length;
+  row->longest = thr_cords_longest(x->frame, plan->cord, plan->n_cords);
+  row->turning = plan->metrics.max_turning;
+  row->passes = plan->metrics.passes;
+  row->steps = learned(x, plan->cord, plan->n_cords);
+  thr_advice_pulls(&x->out->physics, reach, row->pull);
+  x->out->base_length = plan->metrics.base_length;
+}
+
+/* A row for the cords of plan, or in the place of a row whose cord that turns most turns more. claim: NULL = they were not
+ * searched. */
+static thr_status set_row(adviser *x, kind *k, const thr_plan *plan, const thr_turning_claim *claim, thr_err *err)
+{
+  thr_advice_row *row = find_row(x, k, plan->options.cords);
+  bool added = !row;
+  thr_status st = added ? new_row(x, &row, err) : THR_OK;
+  if (st) return st;
+  if (plan->metrics.max_turning < row->turning) measure_row(x, k, plan, row);
+  if (claim && claim->present) row->bound = fmax(row->bound, claim->largest_bound);
+  row->searched |= claim != NULL;
+  row->optimal = row->turning <= row->bound * (1 + 1e-9);
+  if (added) k->idle = row->pull[THR_ADVICE_MU] * little < k->pull ? 0 : k->idle + 1;
+  k->pull = fmin(k->pull, row->pull[THR_ADVICE_MU]);
+  if (x->options->row) x->options->row(x->options->user, row);
+  return THR_OK;
+}
+
+/* The fewest cords that stay within the hand; 0 = none do. */
+static int within(const adviser *x, const kind *k)
+{
+  int fewest = 0;
+  for (int i = 0; i < x->out->n; i++) {
+    const thr_advice_row *row = &x->out->row[i];
+    if (row->ends == k->ends && thr_advice_within(x->out, row) && (!fewest || row->cords < fewest)) fewest = row->cords;
+  }
+  return fewest;
+}
+
+/* The most cords that do not, of fewer than that. */
+static int beyond(const adviser *x, const kind *k, int fewest)
+{
+  int most = 0;
+  for (int i = 0; i < x->out->n; i++) {
+    const thr_advice_row *row = &x->out->row[i];
+    if (row->ends == k->ends && row->cords < fewest && row->cords > most) most = row->cords;
+  }
+  return most;
+}
+
+static thr_request request_of(const adviser *x, const kind *k, int cords)
+{
+  thr_request request = x->request;
+  request.ends = k->ends;
+  request.cords = request.cords_least = cords;
+  return request;
+}
+
+/* The better of the cords cut from one, and of the symmetric ones if there are any of that number. It may stay empty. */
+static thr_status find_seed(const adviser *x, kind *k, const thr_request *request, const thr_limits *limits, thr_plan *seed,
+                            thr_err *err)
+{
+  thr_plan symmetric = {0};
+  thr_err why = {0};
+  int row = thr_symmetries_even(&k->symmetries, request->cords);
+  thr_request plain = *request;
+  plain.aims = thr_aims_symmetric;
+  thr_status st = request->cords > 1 ? thr_cut_seed(&k->first, request, seed, err) : THR_OK;
+  if (!st && row >= 0) st = thr_symmetries_plan(&k->symmetries, row, x->frame, &plain, limits, &symmetric, &why);
+  if (symmetric.n_cords > 0 && (seed->n_cords == 0 || symmetric.metrics.max_turning <= seed->metrics.max_turning * (1 + 1e-9))) {
+    thr_plan cut = *seed;
+    *seed = symmetric;
+    symmetric = cut;
+  }
+  thr_plan_destroy(&symmetric);
+  return st == THR_ENOMEM ? thr_nomem(err) : THR_OK;
+}
+
+/* A row without a search, if there are cords for one. */
+static thr_status cut_cords(adviser *x, kind *k, int cords, thr_err *err)
+{
+  const thr_request request = request_of(x, k, cords);
+  thr_plan seed = {0};
+  thr_status st = find_seed(x, k, &request, x->limits, &seed, err);
+  if (!st && seed.n_cords > 0) st = set_row(x, k, &seed, NULL, err);
+  thr_plan_destroy(&seed);
+  return st;
+}
+
+/* A row by a search, from the cords that there are without one. */
+static thr_status search_cords(adviser *x, kind *k, int cords, double part, thr_err *err)
+{
+  const thr_request request = request_of(x, k, cords);
+  const thr_limits share = thr_limits_part(x->limits, part);
+  thr_plan seed = {0}, plan = {0};
+  thr_err why = {0};
+  thr_status st = find_seed(x, k, &request, &share, &seed, err);
+  if (!st) st = thr_tortuosity_plan_from(x->frame, &request, seed.n_cords ? &seed : NULL, &share, &plan, &why);
+  if (st == THR_ENOMEM)
+    st = thr_nomem(err);
+  else
+    st = THR_OK;
+  if (!st && plan.n_cords > 0) st = set_row(x, k, &plan, &plan.turning, err);
+  thr_advice_row *row = find_row(x, k, cords);
+  if (row) row->searched = true;
+  k->over |= !row;
+  if (!st && cords == 1 && plan.n_cords > 0) {
+    k->first = plan;
+    plan = (thr_plan){0};
+  }
+  thr_plan_destroy(&plan);
+  thr_plan_destroy(&seed);
+  return st;
+}
+
+/* ---- closed cords opened ---- */
+
+/* The closed cord begins where it turned most, of the nodes where an end may be. False: there is none. */
+static bool open_cord(const thr_frame *frame, const thr_request *request, thr_cord *cord, int *scratch)
+{
+  int best = -1, n = cord->n_passes;
+  double most = -1;
+  for (int i = 0; i < n; i++) {
+    double angle = thr_turn_angle(frame, cord->half[(i + n - 1) % n], cord->half[i]);
+    if (angle <= most || !thr_plan_end_allowed(frame, request, thr_tail(frame, cord->half[i]))) continue;
+    most = angle;
+    best = i;
+  }
+  for (int i = 0; i < n && best >= 0; i++)
+    scratch[i] = cord->half[(best + i) % n];
+  if (best >= 0) memcpy(cord->half, scratch, (size_t)n * sizeof *scratch);
+  return best >= 0;
+}
+
+/* The plan with one closed cord is one with both ends at a node: it takes the place of the first if that turns more. */
+static thr_status take_closed(adviser *x, kind *k, const thr_plan *closed, thr_err *err)
+{
+  const thr_request request = request_of(x, k, 1);
+  thr_plan opened = {0};
+  bool can = closed->n_cords > 0;
+  thr_status st = thr_plan_request(&opened, x->frame, &request, err);
+  if (!st) st = thr_cords_copy(closed->cord, closed->n_cords, &opened.cord, err);
+  if (!st) opened.n_cords = closed->n_cords;
+  int *scratch = thr_calloc((size_t)closed->metrics.passes + 1, sizeof *scratch);
+  if (!scratch) st = thr_nomem(err);
+  for (int i = 0; i < opened.n_cords && !st && can; i++)
+    can = open_cord(x->frame, &request, &opened.cord[i], scratch);
+  if (!st && can) st = thr_plan_measure(&opened.frame, &opened.options, opened.cord, opened.n_cords, &opened.metrics, err);
+  if (!st && can && (k->first.n_cords == 0 || opened.metrics.max_turning < k->first.metrics.max_turning)) {
+    thr_plan before = k->first;
+    k->first = opened;
+    opened = before;
+    st = set_row(x, k, &k->first, NULL, err);
+  }
+  free(scratch);
+  thr_plan_destroy(&opened);
+  return st;
+}
+
+/* ---- which ---- */
+
+static thr_status find_symmetric(const adviser *x, kind *k, thr_err *err)
+{
+  const thr_limits share = thr_limits_part(x->limits, part_symmetric);
+  thr_request request = request_of(x, k, 1);
+  thr_err why = {0};
+  request.aims = thr_aims_symmetric;
+  thr_status st = thr_symmetries_find(x->frame, &request, false, &share, &k->symmetries, &why);
+  return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* what else fails leaves no rows */
+}
+
+/* 1, 2, 3, 4, 6, 8, 12, 16, 24, .. */
+static int next_number(int cords)
+{
+  int power = 1;
+  while (2 * power <= cords)
+    power *= 2;
+  return cords < 4 ? cords + 1 : power == cords ? cords + cords / 2 : 2 * power;
+}
+
+static bool is_over(const adviser *x, const kind *k, int cords)
+{
+  int fewest = within(x, k);
+  return k->over || k->idle >= IDLE || k->pull <= slack_pull * x->out->physics.seating || cords > x->frame->n_edges ||
+         cords > THR_MOST_CORDS || (fewest && cords > TIMES * fewest);
+}
+
+/* The time is over: what was to be tried still is not. */
+static bool stopped(adviser *x)
+{
+  bool stop = thr_limits_stop(x->limits);
+  x->out->complete &= !stop;
+  return stop;
+}
+
+/* Rows without a search: all numbers in turn, and where the hand is enough first, by halves. */
+static thr_status cut_numbers(adviser *x, kind *k, thr_err *err)
+{
+  thr_status st = THR_OK;
+  bool some = true;
+  for (int cords = 2; !st && some && !is_over(x, k, cords); cords = next_number(cords)) {
+    st = cut_cords(x, k, cords, err);
+    some = find_row(x, k, cords) != NULL;
+  }
+  while (!st && some) {
+    int fewest = within(x, k), most = beyond(x, k, fewest), cords = (fewest + most) / 2;
+    if (fewest - most < 2) break;
+    st = cut_cords(x, k, cords, err);
+    some = find_row(x, k, cords) != NULL;
+  }
+  return st;
+}
+
+/* The fewest that stay within the hand, and one fewer as long as a search finds that they do, too. */
+static thr_status search_fewest(adviser *x, kind *k, thr_err *err)
+{
+  int fewest = within(x, k);
+  thr_status st = fewest > 1 ? search_cords(x, k, fewest, part_row, err) : THR_OK;
+  for (int cords = fewest - 1; !st && cords > 1 && within(x, k) == cords + 1 && !stopped(x); cords--)
+    st = search_cords(x, k, cords, part_row, err);
+  return st;
+}
+
+/* Of rows that wait for a search, and of the time, so that each has as much. */
+static double part_of_rows(const adviser *x)
+{
+  int waiting = 0;
+  for (int i = 0; i < x->out->n; i++)
+    waiting += !x->out->row[i].searched;
+  return fmin(part_row, 1.0 / (waiting + 2));
+}
+
+/* Searches for all numbers that are not over, with ends of all kinds side by side. */
+static thr_status search_numbers(adviser *x, kind *k, int n_kinds, thr_err *err)
+{
+  thr_status st = THR_OK;
+  bool some = true;
+  for (int cords = 2; !st && some; cords = next_number(cords)) {
+    some = false;
+    for (int i = 0; i < n_kinds && !st; i++) {
+      const thr_advice_row *row = find_row(x, &k[i], cords);
+      if (!row && is_over(x, &k[i], cords)) continue;
+      some = true;
+      if (row && (row->searched || row->optimal)) continue;
+      if (stopped(x)) return THR_OK;
+      st = search_cords(x, &k[i], cords, part_of_rows(x), err);
+    }
+  }
+  return st;
+}
+
+static void kind_destroy(kind *k)
+{
+  thr_plan_destroy(&k->first);
+  thr_symmetries_destroy(&k->symmetries);
+}
+
+static thr_status try_first(adviser *x, kind *k, const thr_plan *closed, thr_err *err)
+{
+  thr_status st = search_cords(x, k, 1, part_first, err);
+  if (!st) st = take_closed(x, k, closed, err);
+  k->over = !find_row(x, k, 1);
+  return !st && !k->over ? find_symmetric(x, k, err) : st;
+}
+
+static thr_status cut_plan(adviser *x, kind *k, thr_err *err)
+{
+  thr_status st = take_closed(x, k, x->options->plan, err);
+  return st || !find_row(x, k, 1) ? st : cut_numbers(x, k, err);
+}
+
+static thr_status search_all(adviser *x, kind *k, int n_kinds, thr_err *err)
+{
+  kind closed = {.ends = THR_ENDS_CLOSED, .pull = INFINITY};
+  thr_status st = find_group(x, err);
+  if (!st) st = search_cords(x, &closed, 1, part_first, err);
+  for (int i = 0; i < n_kinds && !st; i++)
+    st = try_first(x, &k[i], &closed.first, err);
+  for (int i = 0; i < n_kinds && !st; i++)
+    st = cut_numbers(x, &k[i], err);
+  for (int i = 0; i < n_kinds && !st; i++)
+    st = search_fewest(x, &k[i], err);
+  kind_destroy(&closed);
+  return st ? st : search_numbers(x, k, n_kinds, err);
+}
+
+thr_status thr_advise(const thr_frame *frame, const thr_request *request, const thr_advise_options *options,
+                      const thr_limits *limits, thr_advice *out, thr_err *err)
+{
+  adviser x = {.frame = frame, .request = thr_request_default(), .limits = limits, .options = options, .out = out};
+  kind k[2] = {{.ends = THR_ENDS_ANY, .pull = INFINITY}};
+  int n_kinds = 1;
+  bool feet = false;
+  *out = (thr_advice){.hand = options->hand, .complete = true, .chosen = -1};
+  for (int v = 0; v < frame->n_nodes; v++)
+    feet |= frame->foot[v];
+  if (feet) {
+    k[1] = k[0];
+    k[0].ends = THR_ENDS_FEET;
+    n_kinds = 2;
+  }
+  x.request.aims = (thr_aims){.n = 1, .aim = {THR_AIM_MAX_TURNING}};
+  x.request.cover = request->cover;
+  x.request.capacity = request->capacity;
+  x.request.physics = request->physics;
+  thr_status st = thr_physics_resolve(&request->physics, frame, &out->physics, err);
+  if (!st && !options->plan) st = search_all(&x, k, n_kinds, err);
+  for (int i = 0; i < n_kinds && !st && options->plan; i++)
+    st = cut_plan(&x, &k[i], err);
+  if (!st && out->n == 0)
+    st = thr_fail(err, stopped(&x) ? THR_ELIMIT : THR_EINFEASIBLE, "no threading with one cord or more was found");
+  if (!st) thr_advice_settle(out);
+  for (int i = 0; i < n_kinds; i++)
+    kind_destroy(&k[i]);
+  thr_group_destroy(&x.group);
+  if (st) thr_advice_destroy(out);
+  return st;
+}
