@@ -5,6 +5,7 @@
 #include "graph/plan/plan.h"
 #include "planner/cut.h"
 #include "planner/least_turning.h"
+#include "planner/make_plan.h"
 #include "symmetry/group/automorphisms.h"
 #include "symmetry/group/group.h"
 #include "symmetry/symmetry.h"
@@ -19,7 +20,7 @@ static const double part_group = 0.05, part_symmetric = 0.15, part_first = 0.15,
 static const double little = 1.05;    /* less of the pull than this buys nothing */
 static const double slack_pull = 1.1; /* over the seating tension: there is nothing left to win */
 
-enum { MOST_ORDER = 240, IDLE = 2, TIMES = 4 };
+enum { MOST_ORDER = 240, IDLE = 2, TIMES = 4, MOST_SEARCHED = 5000 }; /* edges */
 
 /* Plans with ends of one kind. */
 typedef struct {
@@ -387,9 +388,9 @@ static thr_status try_first(adviser *x, kind *k, const thr_plan *closed, thr_err
   return !st && !k->over ? find_symmetric(x, k, err) : st;
 }
 
-static thr_status cut_plan(adviser *x, kind *k, thr_err *err)
+static thr_status cut_plan(adviser *x, kind *k, const thr_plan *plan, thr_err *err)
 {
-  thr_status st = take_closed(x, k, x->options->plan, err);
+  thr_status st = take_closed(x, k, plan, err);
   return st || !find_row(x, k, 1) ? st : cut_numbers(x, k, err);
 }
 
@@ -406,6 +407,20 @@ static thr_status search_all(adviser *x, kind *k, int n_kinds, thr_err *err)
     st = search_fewest(x, &k[i], err);
   kind_destroy(&closed);
   return st ? st : search_numbers(x, k, n_kinds, err);
+}
+
+/* Of a framework that is too large for searches the shortest closed cords are cut. */
+static thr_status cut_shortest(adviser *x, kind *k, int n_kinds, const thr_plan *plan, thr_err *err)
+{
+  thr_request request = x->request;
+  thr_plan shortest = {0};
+  request.aims = thr_aims_shortest;
+  thr_status st = plan ? THR_OK : thr_plan_make(x->frame, &request, x->limits, &shortest, NULL, err);
+  if (st == THR_ELIMIT && shortest.n_cords > 0) st = THR_OK; /* not proved, but cords */
+  for (int i = 0; i < n_kinds && !st; i++)
+    st = cut_plan(x, &k[i], plan ? plan : &shortest, err);
+  thr_plan_destroy(&shortest);
+  return st;
 }
 
 thr_status thr_advise(const thr_frame *frame, const thr_request *request, const thr_advise_options *options,
@@ -428,9 +443,10 @@ thr_status thr_advise(const thr_frame *frame, const thr_request *request, const 
   x.request.capacity = request->capacity;
   x.request.physics = request->physics;
   thr_status st = thr_physics_resolve(&request->physics, frame, &out->physics, err);
-  if (!st && !options->plan) st = search_all(&x, k, n_kinds, err);
-  for (int i = 0; i < n_kinds && !st && options->plan; i++)
-    st = cut_plan(&x, &k[i], err);
+  if (!st && (options->plan || frame->n_edges > MOST_SEARCHED))
+    st = cut_shortest(&x, k, n_kinds, options->plan, err);
+  else if (!st)
+    st = search_all(&x, k, n_kinds, err);
   if (!st && out->n == 0)
     st = thr_fail(err, stopped(&x) ? THR_ELIMIT : THR_EINFEASIBLE, "no threading with one cord or more was found");
   if (!st) thr_advice_settle(out);

@@ -131,6 +131,7 @@ command_fails plan frame.json --ends feet --objective tortuosity -o new.json
 command_fails plan frame.json --ends feet --objective symmetry -o new.json
 command_fails plan frame.json --ends feet --joint tube -o new.json
 command_fails symmetries frame.json --ends feet
+command_fails advise frame.json --time-limit 0
 command_fails check plan.json
 command_fails eval plan.json --method joint --plot tension.svg
 command_fails eval plan.json --method structure --time-step 10 --iterations 0.1
