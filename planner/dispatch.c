@@ -11,13 +11,13 @@ static const struct {
 } objectives[THR_N_OBJECTIVES] = {
     {THR_LENGTH, 0, thr_planner_length}, {THR_SYMMETRY, 20, thr_planner_symmetric}, {THR_TORTUOSITY, 20, thr_planner_turning}};
 
-static const double tube_seconds = 20; /* of any objective: tied cords are an integer programme */
+static const double hard_seconds = 20; /* of any objective: tied cords, or few cords of little pull, are an integer programme */
 
 /* Of the time that is left when a step begins. */
 static const double part[THR_N_STEPS] = {
-    [THR_STEP_FIRST] = 0.2,    [THR_STEP_TIED] = 0.5,      [THR_STEP_SEED] = 0.25,
-    [THR_STEP_ONE_CORD] = 0.1, [THR_STEP_SHORTEST] = 0.3,  [THR_STEP_BY_LENGTH] = 0.2,
-    [THR_STEP_LEAST] = 0.6,    [THR_STEP_EVEN_SEED] = 0.5, [THR_STEP_SYMMETRIC_TIED] = 0.85,
+    [THR_STEP_FIRST] = 0.2,           [THR_STEP_TIED] = 0.5,      [THR_STEP_SEED] = 0.25,      [THR_STEP_ONE_CORD] = 0.1,
+    [THR_STEP_SHORTEST] = 0.3,        [THR_STEP_BY_LENGTH] = 0.2, [THR_STEP_LEAST] = 0.6,      [THR_STEP_EVEN_SEED] = 0.5,
+    [THR_STEP_SYMMETRIC_TIED] = 0.85, [THR_STEP_FEWEST] = 0.75,   [THR_STEP_FEW_BOUND] = 0.08, [THR_STEP_FEW_TRY] = 0.35,
 };
 
 /* Of all that a user allows. */
@@ -53,7 +53,8 @@ thr_limits thr_dispatch_share(const thr_limits *limits, thr_step step)
 
 double thr_dispatch_usual_seconds(const thr_request *options)
 {
-  return options->joint == THR_JOINT_TUBE ? tube_seconds : objectives[row_of(options)].seconds;
+  bool hard = options->joint == THR_JOINT_TUBE || options->max_pull > 0;
+  return hard ? hard_seconds : objectives[row_of(options)].seconds;
 }
 
 double thr_dispatch_search_seconds(double seconds, bool drawn, bool compared)

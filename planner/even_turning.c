@@ -18,6 +18,7 @@ thr_status thr_even_seed(const thr_frame *frame, const thr_request *options, con
   const thr_limits share = thr_dispatch_share(limits, THR_STEP_SEED);
   so.symmetry = thr_request_default().symmetry;
   so.aims = thr_aims_symmetric;
+  so.max_pull = 0;
   thr_status st = thr_symmetries_find(frame, &so, false, &share, &symmetries, &why);
   int row = st && st != THR_ELIMIT ? -1 : thr_symmetries_even(&symmetries, options->cords);
   if (row >= 0) st = thr_symmetries_plan(&symmetries, row, frame, &so, &share, seed, &why);
@@ -56,8 +57,8 @@ static thr_status seed_fits(const thr_frame *frame, const thr_least *least, cons
   return st;
 }
 
-thr_status thr_even_turning(const thr_frame *frame, const thr_plan *seed, const thr_limits *limits, thr_least *least,
-                            thr_err *err)
+thr_status thr_even_turning(const thr_frame *frame, const thr_plan *seed, double enough, const thr_limits *limits,
+                            thr_least *least, thr_err *err)
 {
   bool fits = false;
   thr_max_turning own = {.largest = INFINITY}, other = own;
@@ -67,9 +68,11 @@ thr_status thr_even_turning(const thr_frame *frame, const thr_plan *seed, const 
   if (!st && fits) {
     const thr_limits share = thr_dispatch_share(limits, THR_STEP_EVEN_SEED);
     st = thr_cords_copy(seed->cord, seed->n_cords, &from.cord, err);
-    if (!st) st = thr_max_turning_improve(frame, &share, &from, &other, err);
+    if (!st) st = thr_max_turning_improve(frame, enough, &share, &from, &other, err);
   }
-  if (!st && !(other.largest <= other.bound * (1 + 1e-9))) st = thr_max_turning_improve(frame, limits, least, &own, err);
+  bool done = other.largest <= other.bound * (1 + 1e-9);
+  if (!st && fits && enough > 0) done = thr_cords_pulled_turning(frame, from.cord, from.n_cords) <= enough / 2;
+  if (!st && !done) st = thr_max_turning_improve(frame, enough, limits, least, &own, err);
   /* the two proofs differ in their walks only: those with the higher bound stay */
   const thr_walk_proof walks = other.bound > own.bound ? from.proof.walks : least->proof.walks;
   thr_walk_proof_destroy(other.bound > own.bound ? &least->proof.walks : &from.proof.walks);

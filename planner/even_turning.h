@@ -13,8 +13,9 @@
 thr_status thr_even_seed(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *seed,
                          thr_err *err) THR_MUST_CHECK;
 
-/* Replaces the cords of least by the better of what comes of its own and of the seed's (NULL = none), which is tried first. */
-thr_status thr_even_turning(const thr_frame *frame, const thr_plan *seed, const thr_limits *limits, thr_least *least,
-                            thr_err *err) THR_MUST_CHECK;
+/* Replaces the cords of least by the better of what comes of its own and of the seed's (NULL = none), which is tried first.
+ * enough: as in thr_max_turning_improve. */
+thr_status thr_even_turning(const thr_frame *frame, const thr_plan *seed, double enough, const thr_limits *limits,
+                            thr_least *least, thr_err *err) THR_MUST_CHECK;
 
 #endif

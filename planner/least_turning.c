@@ -193,10 +193,11 @@ static thr_status find_cords(const thr_frame *frame, const thr_request *options,
   if (options->turning.tour != THR_TOUR_LEAST)
     return thr_baseline_tour(frame, &lo, options->turning.tour, options->turning.ignore_pairings, s->solid.passes, least, err);
   if (!thr_wants_largest(options)) return find_from_shortest(frame, options, s, limits, least, err);
+  const double enough = options->max_pull > 0 ? thr_request_most_turning(options) : 0;
   const thr_limits first = thr_dispatch_share(limits, THR_STEP_LEAST);
   thr_status st = find_from_shortest(frame, options, s, &first, least, err);
   if (st && st != THR_ELIMIT) return st;
-  st = thr_even_turning(frame, seed, limits, least, err);
+  st = thr_even_turning(frame, seed, enough, limits, least, err);
   if (st) thr_least_destroy(least);
   return st;
 }
@@ -264,13 +265,15 @@ thr_status thr_tortuosity_plan_from(const thr_frame *frame, const thr_request *o
   shortest_plan shortest = {0};
   thr_least least = {0};
   thr_err unproved = {0}; /* of the search's steps; the plan's own verdict is what counts */
+  thr_request any_pull = *options;
+  any_pull.max_pull = 0;
   *plan = (thr_plan){0};
   thr_status st = find_shortest(frame, options, limits, &shortest, &unproved);
   if (!st || st == THR_ELIMIT) st = find_cords(frame, options, &shortest, seed, limits, &least, &unproved);
   if (st && st != THR_ELIMIT)
     st = thr_fail(err, st, "%s", unproved.text);
   else
-    st = assemble(frame, options, &least, &shortest, plan, err);
+    st = assemble(frame, &any_pull, &least, &shortest, plan, err);
   if (!st) st = verdict(plan, &least, err);
   if (st && st != THR_ELIMIT) thr_plan_destroy(plan);
   thr_least_destroy(&least);
@@ -318,7 +321,7 @@ thr_status thr_planner_turning(const thr_frame *frame, const thr_request *option
   if (thr_planner_is_mixed(options) && options->turning.length_slack >= 0)
     return thr_fail(err, THR_EINPUT,
                     "cord above the shortest is not limited together with a range of cords, their largest length or balance");
-  if (thr_planner_is_mixed(options)) return thr_planner_mixed(frame, options, limits, plan, err);
+  if (thr_planner_is_mixed(options)) return thr_planner_mixed(frame, options, NULL, limits, plan, err);
   if (options->turning.tour == THR_TOUR_LEAST) thr_planner_tell_first(frame, options, limits, report ? &report->shortest : NULL);
   if (thr_wants_largest(options) && options->cords > 1 && options->ends != THR_ENDS_COUNTS)
     st = thr_even_seed(frame, options, limits, &seed, err);

@@ -15,7 +15,8 @@
  * the shortest plan found for so many cords. Both claims are what graph/check/check.c says, never what the solver hopes.
  * THR_OK: what was to be minimized is proved optimal, or the tour is a classical one. THR_ELIMIT: the plan is valid and holds its
  * bound and gap. THR_EINFEASIBLE: no node for a cord end in a component (named), or no plan within the limits on passes and
- * length. THR_EINPUT: options that do not go together (said). Otherwise the plan is empty. */
+ * length. THR_EINPUT: options that do not go together (said). Otherwise the plan is empty. The aim max-turning with max_pull: the
+ * search ends as soon as the cords keep to that, or cannot; they may not, and the plan's options do not ask it of them. */
 thr_status thr_tortuosity_plan(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
                                thr_err *err) THR_MUST_CHECK;
 

@@ -29,7 +29,8 @@ thr_status thr_plan_make(const thr_frame *frame, const thr_request *request, con
   thr_report own = {0};
   *plan = (thr_plan){0};
   thr_planner_tell_at_once(frame, request, limits);
-  thr_status st = thr_dispatch(request)(frame, request, limits, plan, &own, err), signed_ = THR_OK;
+  thr_planner *planner = request->max_pull > 0 ? thr_planner_pull : thr_dispatch(request);
+  thr_status st = planner(frame, request, limits, plan, &own, err), signed_ = THR_OK;
   if (plan->n_cords > 0) signed_ = sign(plan, err);
   if (signed_) {
     thr_plan_destroy(plan);

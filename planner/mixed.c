@@ -47,7 +47,8 @@ static double value_of(const mixed *m, thr_aim aim, const thr_plan *plan)
   double sum = 0, most = 0;
   if (aim == THR_AIM_LONGEST) return thr_cords_longest(m->f, plan->cord, plan->n_cords);
   for (int i = 0; i < plan->n_cords; i++) {
-    double price = thr_cord_price(m->f, m->o, &plan->cord[i]);
+    const thr_cord *cord = &plan->cord[i];
+    double price = aim == THR_AIM_LENGTH ? thr_cord_length(m->f, cord) : thr_cord_price(m->f, m->o, cord);
     sum += price;
     most = fmax(most, price);
   }
@@ -64,10 +65,11 @@ static bool is_better(const mixed *m, const thr_plan *plan)
   return false;
 }
 
-/* Takes a plan whose cords are short enough and better. */
+/* Takes a plan whose cords are short enough, need no more pull than is allowed, and are better. */
 static void offer(mixed *m, thr_plan *plan)
 {
   bool fits = m->o->max_length == 0 || thr_cords_longest(m->f, plan->cord, plan->n_cords) <= m->o->max_length * (1 + 1e-12);
+  fits = fits && thr_cords_within_pull(m->f, m->o, plan->cord, plan->n_cords);
   if (plan->n_cords == 0 || !fits || !is_better(m, plan)) return;
   thr_plan_destroy(&m->best);
   m->best = *plan;
@@ -82,7 +84,7 @@ static thr_status keep_tree(mixed *m, thr_plan *plan, thr_err *err)
 {
   thr_turning_claim found, claim = plan->turning;
   thr_err why = {0};
-  if (!claim.present) return THR_OK;
+  if (!claim.present || !thr_wants_turning(m->o)) return THR_OK;
   thr_status st = thr_check_turning(m->f, m->o, plan->cord, plan->n_cords, &claim, &found, &why);
   if (st == THR_EVIOLATED && claim.tree.walks.unit) { /* what walks are worth may be of one number only, too */
     thr_walk_proof_destroy(&plan->turning.tree.walks);
@@ -99,15 +101,18 @@ static thr_status keep_tree(mixed *m, thr_plan *plan, thr_err *err)
   return THR_OK;
 }
 
-static thr_status try_number(mixed *m, int n, const thr_limits *share, thr_err *err)
+/* slack: of the length above the least, < 0 = any. */
+static thr_status try_number(mixed *m, int n, double slack, const thr_limits *share, thr_err *err)
 {
   thr_plan plan;
   thr_err why = {0};
   thr_request options = *m->o;
   thr_limits quiet = *share;
   quiet.found = NULL; /* its cords may be too long */
-  options.aims = (thr_aims){1, {thr_wants_largest(m->o) ? THR_AIM_MAX_TURNING : THR_AIM_TURNING}};
-  options.max_length = 0;
+  bool largest = thr_wants_largest(m->o) || !thr_wants_turning(m->o);
+  options.aims = (thr_aims){1, {largest ? THR_AIM_MAX_TURNING : THR_AIM_TURNING}};
+  options.max_length = options.max_pull = 0;
+  options.turning.length_slack = slack;
   if (options.ends != THR_ENDS_COUNTS) options.cords = options.cords_least = n;
   thr_status st = thr_tortuosity_plan(m->f, &options, &quiet, &plan, &why);
   if (st && st != THR_ELIMIT) return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* others may do */
@@ -130,7 +135,22 @@ static thr_status try_numbers(mixed *m, thr_err *err)
   if (numbers > MOST_NUMBERS) numbers = MOST_NUMBERS;
   for (int i = 0; i < numbers && !st; i++) {
     const thr_limits share = thr_limits_part(m->limits, 1.0 / (numbers - i));
-    if (last - i >= options->cords_least) st = try_number(m, last - i, &share, err);
+    if (last - i >= options->cords_least) st = try_number(m, last - i, -1, &share, err);
+  }
+  return st;
+}
+
+/* Within a limit on the pull: so many cords for the aims. For a short plan cords of which none turns much, little longer than the
+ * shortest. */
+static thr_status try_few(mixed *m, thr_err *err)
+{
+  static const double slack[] = {0, .02, .05};
+  enum { TRIES = sizeof slack / sizeof *slack };
+  if (thr_wants_turning(m->o)) return try_number(m, m->o->cords, -1, m->limits, err);
+  thr_status st = THR_OK;
+  for (int i = 0; i < TRIES && !st; i++) {
+    const thr_limits share = thr_limits_part(m->limits, 1.0 / (TRIES - i));
+    if (!thr_limits_stop(m->limits)) st = try_number(m, m->o->cords, slack[i], &share, err);
   }
   return st;
 }
@@ -147,6 +167,7 @@ static thr_status plan_length(const mixed *m, bool limited, thr_plan *plan, thr_
   options.turning = thr_request_default().turning;
   if (limited && thr_wants_balance(m->o)) options.aims = (thr_aims){2, {THR_AIM_LONGEST, THR_AIM_LENGTH}};
   if (!limited) options.max_length = 0;
+  options.max_pull = 0;
   thr_status st = thr_planner_length(m->f, &options, &share, plan, NULL, why);
   return st == THR_ELIMIT ? THR_OK : st;
 }
@@ -211,10 +232,14 @@ static thr_status assemble(mixed *m, thr_plan *shortest, thr_plan *plan, thr_err
 static thr_status verdict(const thr_plan *plan, thr_err *err)
 {
   const thr_turning_claim *claim = &plan->turning;
+  const thr_length_proof *length = &plan->proof;
   bool largest = thr_wants_largest(&plan->options);
   if (thr_wants_balance(&plan->options) && !plan->cords_claim.longest_optimal)
     return thr_fail(err, THR_ELIMIT, "the longest cord is proved to be within %.3g %% of the shortest possible",
                     100 * (plan->cords_claim.longest - plan->cords_claim.longest_bound) / plan->cords_claim.longest);
+  if (thr_wants_length(&plan->options) && length->optimal) return THR_OK;
+  if (thr_wants_length(&plan->options))
+    return thr_fail(err, THR_ELIMIT, "the length is proved to be within %.3g %% of the least", 100 * length->gap);
   if (!claim->present) return thr_fail(err, THR_ELIMIT, "nothing is proved of the turning");
   if (largest ? claim->largest_optimal : claim->optimal) return THR_OK;
   return thr_fail(err, THR_ELIMIT, "the turning is proved to be within %.3g %% of the least",
@@ -231,19 +256,30 @@ static thr_status plan_limited(mixed *m, thr_plan *plan, thr_err *why)
   return st == THR_ENOMEM ? st : THR_OK; /* plans for other aims may do */
 }
 
-thr_status thr_planner_mixed(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
-                             thr_err *err)
+/* The seed, whose tree is one of these options' if its turns have the same price. */
+static thr_status take_seed(mixed *m, thr_plan *seed, thr_err *err)
+{
+  if (!seed || seed->n_cords == 0) return THR_OK;
+  bool same = m->o->turning.cost == THR_TURN_ANGLE;
+  thr_status st = same ? keep_tree(m, seed, err) : THR_OK;
+  if (!st) offer(m, seed);
+  return st;
+}
+
+thr_status thr_planner_mixed(const thr_frame *frame, const thr_request *options, thr_plan *seed, const thr_limits *limits,
+                             thr_plan *plan, thr_err *err)
 {
   mixed m = {.f = frame, .o = options, .limits = limits};
   thr_plan shortest = {0}, limited = {0};
   thr_err why = {0}, why_not = {0};
   *plan = (thr_plan){0};
-  thr_status st = plan_limited(&m, &limited, &why);
+  thr_status st = take_seed(&m, seed, &why);
+  if (!st) st = plan_limited(&m, &limited, &why);
   if (st) {
     thr_fail(err, st, "%s", st == THR_ENOMEM ? "out of memory" : why.text);
   } else if ((st = plan_length(&m, false, &shortest, &why_not))) {
     thr_fail(err, st, "%s", why_not.text);
-  } else if (!(st = try_numbers(&m, err))) {
+  } else if (!(st = options->max_pull > 0 ? try_few(&m, err) : try_numbers(&m, err))) {
     const thr_length_proof proof = shortest.proof;
     shortest.proof = (thr_length_proof){0};
     offer(&m, &shortest);

@@ -11,6 +11,9 @@
 
 thr_planner thr_planner_length, thr_planner_turning, thr_planner_symmetric;
 
+/* Of any objective, with a limit on the pull: as few cords as that takes, then the aims (planner/pull_limit.c). */
+thr_planner thr_planner_pull;
+
 /* Some cords that tie the joints, or the shortest, for whoever keeps the best so far: sooner than a search has any. shortest
  * (NULL = not wanted) receives those of solid joints if they are proved to be the shortest, else it is empty. */
 void thr_planner_tell_first(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *shortest);
@@ -26,9 +29,11 @@ thr_status thr_planner_prove_tied(thr_plan *plan, const thr_limits *limits, thr_
 /* Cords that take no search, sound but long, for whoever keeps the best so far; nothing where nobody listens. */
 void thr_planner_tell_at_once(const thr_frame *frame, const thr_request *options, const thr_limits *limits);
 
-/* Is more asked of the turning's plan than its search knows, and the planner that composes it then (planner/mixed.c). */
+/* Is more asked of the turning's plan than its search knows, and the planner that composes it then (planner/mixed.c). With a
+ * limit on the pull it plans for every aim, options.cords cords; seed (NULL = none) is one of the plans to choose from, whose
+ * cords and proof of turning may be taken. THR_EINFEASIBLE: none of them keeps to what is asked. */
 bool thr_planner_is_mixed(const thr_request *options);
-thr_status thr_planner_mixed(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
-                             thr_err *err) THR_MUST_CHECK;
+thr_status thr_planner_mixed(const thr_frame *frame, const thr_request *options, thr_plan *seed, const thr_limits *limits,
+                             thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -24,6 +24,7 @@ static thr_status make_length(const thr_plan *plan, thr_plan *shortest, const th
   thr_request options = plan->options;
   options.aims = thr_aims_shortest;
   options.turning = thr_request_default().turning;
+  options.max_pull = 0;
   return close_rival(rival, thr_plan_make(&plan->frame, &options, limits, &rival->plan, NULL, &rival->why), err);
 }
 

@@ -29,7 +29,8 @@ static thr_status plan_length(const thr_frame *frame, const thr_request *asked, 
   if (!asked->symmetry.counted) options.cords = THR_MOST_CORDS;
   options.confirm = THR_CONFIRM_NEVER;
   share.found = NULL;
-  thr_status st = thr_planner_length(frame, &options, &share, plan, NULL, why);
+  thr_planner *planner = asked->max_pull > 0 ? thr_planner_pull : thr_planner_length;
+  thr_status st = planner(frame, &options, &share, plan, NULL, why);
   if (plan->n_cords > 0) thr_limits_found(limits, plan->cord, plan->n_cords, NULL);
   return st == THR_ENOMEM ? st : THR_OK;
 }
@@ -65,6 +66,11 @@ thr_status thr_planner_symmetric(const thr_frame *frame, const thr_request *opti
   const thr_limits share = tied ? thr_dispatch_share(limits, THR_STEP_SYMMETRIC_TIED) : *limits;
   thr_status found =
       thr_symmetry_plan_from(frame, options, shortest.n_cords > 0 ? &shortest : NULL, &share, table, plan, &unproved);
+  if (plan->n_cords > 0 && shortest.pull_claim.present && plan->n_cords >= shortest.pull_claim.fewest) { /* it is of any plan */
+    plan->pull_claim = shortest.pull_claim;
+    plan->pull_claim.optimal = plan->n_cords == plan->pull_claim.fewest;
+    shortest.pull_claim = (thr_pull_claim){0};
+  }
   thr_plan_destroy(&shortest);
   if (plan->n_cords == 0 && found && none.code)
     return thr_fail(err, none.code, "%s", none.text); /* not without symmetry either */

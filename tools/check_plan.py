@@ -7,7 +7,9 @@ One line per plan: what is verified and for which plans it holds, or the first v
 0 every claim holds, 1 a claim does not hold, 2 usage, 3 not a plan that can be read. Sums are exact (integers, fractions of
 doubles); only angles, distances and the tolerances that the page states are floating point. Section names are the page's.
 """
+import copy
 import heapq
+import itertools
 import json
 import math
 import re
@@ -279,7 +281,7 @@ def check_physics(o, place):
 class Options:
     def __init__(self, o, f):
         p = "options"
-        known(o, "objective joint cover capacity cords max_length balance ends end_nodes end_counts engine confirm turning symmetry"
+        known(o, "objective joint cover capacity cords max_length max_pull balance ends end_nodes end_counts engine confirm turning symmetry"
               " time_limit physics", p)
         self.objective = choice(o, "objective", p, ("length", "tortuosity", "symmetry"))
         self.tube = choice(o, "joint", p, ("solid", "tube")) == "tube"
@@ -287,11 +289,12 @@ class Options:
         self.capacity = member(o, "capacity", "integer", p, 1, 100, default=0)
         self.balance = member(o, "balance", "truth", p, default=False)
         self.max_length = member(o, "max_length", "number", p, 5e-324, default=None)
+        self.max_pull = member(o, "max_pull", "number", p, 1, default=None)
         member(o, "time_limit", "number", p)
         choice(o, "engine", p, ("auto", "lp", "matching"), default="auto")
         choice(o, "confirm", p, ("auto", "always", "never"), default="auto")
         require(self.objective == "length" or "confirm" not in o, "options.confirm: only with objective length")
-        check_physics(member(o, "physics", "object", p), p + ".physics")
+        self.mu = check_physics(member(o, "physics", "object", p), p + ".physics")["mu"]
         self.read_cords(o)
         self.read_ends(o, f)
         self.read_turning(o)
@@ -416,7 +419,7 @@ class Plan:
         self.cords = [Cord(c, i, f) for i, c in enumerate(cords)]
         self.file = o
         self.proof = member(o, "proof", "object", "")
-        known(self.proof, "length cords turning", "proof")
+        known(self.proof, "length cords pull turning", "proof")
         self.closing = self.options.ends == "closed"
         self.passes = [0] * f.m
         for cord in self.cords:
@@ -1419,6 +1422,59 @@ def check_turning(p):
         [f"at most {limit} {f.units} of cord"] if limit is not None else [])
 
 
+# ---- proof.pull ----
+
+
+def check_pulls(p):
+    """Pulled at both ends: the larger part of the turning, parted where that is least."""
+    o = p.options
+    for cord in p.cords if o.max_pull is not None else []:
+        angles = [p.frame.angle(a, b) for a, b in cord.turns(False)]
+        before = list(itertools.accumulate(angles, initial=0.0))
+        part = min(max(x, before[-1] - x) for x in before)
+        require(o.mu * part <= math.log(o.max_pull) + 1e-9 * (1 + math.log(o.max_pull)), f"cord {cord.id}: needs more than options.max_pull")
+
+
+def too_few(p, claim, place):
+    """Some cord turns too much if there are so few in every component."""
+    o, f = copy.copy(p.options), p.frame
+    cords = member(claim, "excluded", "integer", place, 1, 1000)
+    most = member(claim, "most_passes", "integer", place, 4 * max(o.need) + 4, 10**6)
+    o.least, o.cords, o.cost = min(o.least, cords), cords, "angle"
+    other = copy.copy(p)
+    other.options = o
+    model = Model(other, cords, most, False)
+    model.read(member(claim, "proof", "object", place), place + ".proof")
+    all_turns = model.bound(place + ".proof")
+    require(all_turns is not None, f"{place}.proof: proves that there is no plan")
+    all_turns = max(Fraction(0), Fraction(all_turns) / UNIT)
+    bound = max(all_turns / (cords * len(f.pieces)), largest_bound(other, model, cords, all_turns, place + ".proof"))
+    if p.closing:  # Fenchel 1929; the last turn of a closed cord is at its ends
+        bound = max(bound, Fraction(2 * math.pi)) - Fraction(math.pi)
+    limit = math.log(o.max_pull)
+    require(bound * Fraction(o.mu) / 2 > limit + 2 * TOLERANCE * (1 + Fraction(limit)), f"{place}: {cords} cords are not proved to be too few")
+    return cords
+
+
+def check_pull(p):
+    check_pulls(p)
+    claim = member(p.proof, "pull", "object", "proof", default=None)
+    if claim is None:
+        return []
+    o, place = p.options, "proof.pull"
+    known(claim, "status lower_bound excluded most_passes proof", place)
+    require(o.max_pull is not None, f"{place}: without a limit on the pull")
+    require(("proof" in claim) == ("excluded" in claim) == ("most_passes" in claim), f"{place}: a part of the proof is missing")
+    fewest = len(p.cords) if o.ends == "counts" else o.least * len(p.frame.pieces)
+    if "proof" in claim:
+        fewest += max(0, too_few(p, claim, place) + 1 - o.least)
+    number = member(claim, "lower_bound", "integer", place, 1)
+    require(number <= fewest and number <= len(p.cords), f"{place}.lower_bound: stated {number}, but {fewest} is proved")
+    status = choice(claim, "status", place, ("optimal", "bound"))
+    require(status == "bound" or number == len(p.cords), f"{place}.status: not optimal")
+    return [f"fewest cords for the pull {number}"]
+
+
 # ---- symmetry ----
 
 
@@ -1803,7 +1859,7 @@ def terms(p):
     cords = count(o.cords, "cord") if o.least == o.cords else f"{o.least} to {o.cords} cords"
     words = [f"{o.objective}, {'tube' if o.tube else 'solid'} joints, ends {o.ends}, cover {o.cover}, {cords} in each component"]
     for text, given in ((f"capacity {o.capacity}", o.capacity), ("covers of edges", p.frame.cover), ("capacities of edges", p.frame.capacity),
-                        (f"max_length {o.max_length}", o.max_length), ("balanced", o.balance),
+                        (f"max_length {o.max_length}", o.max_length), ("balanced", o.balance), (f"max_pull {o.max_pull}", o.max_pull),
                         ("lengths of edges as stated", "lengths" in p.file["framework"])):
         words += [text] if given else []
     return ", ".join(words)
@@ -1814,7 +1870,7 @@ def check(data):
     p = Plan(parse(data))
     check_cords(p)
     check_metrics(p)
-    found = check_symmetry(p) + check_length(p) + check_cords_claim(p) + check_turning(p) + check_evaluation(p)
+    found = check_symmetry(p) + check_length(p) + check_cords_claim(p) + check_pull(p) + check_turning(p) + check_evaluation(p)
     return (f"{count(len(p.cords), 'cord')}, {count(sum(p.passes), 'pass')}, length {float(p.length):.6f} {p.frame.units}; "
             f"{'; '.join(found)} [{terms(p)}]")
 

@@ -64,7 +64,7 @@ void aims_args_apply(const aims_args *a, const turning_args *turning, const symm
   options->aims = thr_aims_of(objective);
   options->turning = own && thr_wants_turning(options) ? turning->options : usual.turning;
   options->symmetry = own && thr_wants_symmetry(options) ? symmetry->options : usual.symmetry;
-  if (thr_wants_symmetry(options)) options->symmetry.counted = cords->most > 0 || cords->max_length > 0;
+  if (thr_wants_symmetry(options)) options->symmetry.counted = cords->most > 0 || cords_args_few(cords);
   if (own && thr_wants_symmetry(options)) memcpy(options->aims.aim, symmetry->prefer, sizeof symmetry->prefer);
   if (own && thr_wants_turning(options) && wants_largest(turning, cords)) options->aims.aim[0] = THR_AIM_MAX_TURNING;
   if (own && cords->balance) {

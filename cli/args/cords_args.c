@@ -49,6 +49,37 @@ static bool parse_cords(cords_args *a, const char *value)
   return false;
 }
 
+/* "50" is newtons, "20x" times the seating tension. */
+static bool parse_pull(cords_args *a, const char *value)
+{
+  char number[64];
+  size_t n = strlen(value);
+  a->pull_is_factor = n > 1 && value[n - 1] == 'x';
+  snprintf(number, sizeof number, "%.*s", (int)(a->pull_is_factor ? n - 1 : n), value);
+  if (!cli_double("plan", "--max-pull", number, 0, 1e100, &a->max_pull)) return false;
+  if (a->max_pull == 0) cli_usage("plan", "--max-pull 0: a cord needs some pull");
+  return a->max_pull > 0;
+}
+
+static bool parse_force(const char *option, const char *value, double *newtons)
+{
+  if (!cli_double("plan", option, value, 0, 1e100, newtons)) return false;
+  if (*newtons == 0) cli_usage("plan", "%s 0: expected a force in newtons", option);
+  return *newtons > 0;
+}
+
+/* What hands pull again and again without effort (docs/method.md, "Few cords within a pull"). */
+static bool parse_hand(cords_args *a, const char *value)
+{
+  const double one = 50, two = 100; /* N */
+  a->hand = strcmp(value, "one") == 0 ? one : strcmp(value, "two") == 0 ? two : 0;
+  char *end;
+  if (a->hand > 0) return true;
+  (void)strtod(value, &end);
+  if (end == value) cli_usage("plan", "--hand %s: expected one, two or a force in newtons", value);
+  return end != value && parse_force("--hand", value, &a->hand);
+}
+
 bool cords_option(cords_args *a, int option, const char *value, bool *ok)
 {
   int i = 0;
@@ -61,6 +92,9 @@ bool cords_option(cords_args *a, int option, const char *value, bool *ok)
       *ok = false;
     }
     return true;
+  case OPTION_CORDS_MAX_PULL: *ok = parse_pull(a, value); return true;
+  case OPTION_CORDS_HAND: *ok = parse_hand(a, value); return true;
+  case OPTION_CORDS_STRENGTH: *ok = parse_force("--cord-strength", value, &a->strength); return true;
   case OPTION_CORDS_BALANCE: a->balance = true; return true;
   case OPTION_CORDS_COVER: *ok = cli_int("plan", "--cover", value, 1, MOST_PASSES, &a->cover); return true;
   case OPTION_CORDS_CAPACITY: *ok = cli_int("plan", "--capacity", value, 1, 10 * MOST_PASSES, &a->capacity); return true;
@@ -81,11 +115,28 @@ bool cords_option(cords_args *a, int option, const char *value, bool *ok)
   }
 }
 
+/* The option that limits the pull; NULL = none. */
+static const char *pull_limit(const cords_args *a)
+{
+  return a->max_pull > 0 ? "--max-pull" : a->hand > 0 ? "--hand" : a->strength > 0 ? "--cord-strength" : NULL;
+}
+
+bool cords_args_limits_pull(const cords_args *a)
+{
+  return pull_limit(a) != NULL;
+}
+
+bool cords_args_few(const cords_args *a)
+{
+  return a->max_length > 0 || a->max_pull > 0 || a->hand > 0;
+}
+
 const char *cords_args_refused(const cords_args *a, const thr_request *wanted)
 {
   bool least = wanted->turning.tour == THR_TOUR_LEAST; /* classical tours take no wishes */
   if (!thr_wants_turning(wanted) || least) return NULL;
   return a->max_length > 0     ? "--max-length"
+         : pull_limit(a)       ? pull_limit(a)
          : a->balance          ? "--balance"
          : a->automatic        ? "--cords auto"
          : a->least != a->most ? "a range of --cords"
@@ -102,16 +153,19 @@ int cords_args_check(const cords_args *a, const turning_args *turning, const thr
   if (a->balance && (a->max_length > 0 || a->automatic))
     return cli_usage("plan", "--balance makes the longest cord as short as can be: no --%s with it",
                      a->automatic ? "cords auto" : "max-length");
-  if (a->automatic && a->max_length == 0) return cli_usage("plan", "--cords auto: as many as needed for what? Give --max-length");
+  if (a->automatic && !cords_args_few(a))
+    return cli_usage("plan", "--cords auto: as many as needed for what? Give --max-length or --max-pull");
+  if (a->max_pull > 0 && a->hand > 0) return cli_usage("plan", "--max-pull says what --hand does: one of them");
   if (a->capacity > 0 && a->capacity < a->cover)
     return cli_usage("plan", "--capacity %d leaves no room for --cover %d", a->capacity, a->cover);
-  bool mixed = thr_wants_turning(wanted) && (a->max_length > 0 || a->balance || a->least != a->most);
+  const char *limit = pull_limit(a) ? pull_limit(a) : "--max-length";
+  bool mixed = thr_wants_turning(wanted) && (a->max_length > 0 || pull_limit(a) || a->balance || a->least != a->most);
   if (mixed && turning->options.length_slack >= 0)
-    return cli_usage("plan",
-                     "--length-slack: not with --balance, --max-length or a range of --cords, whose least length is not proved");
+    return cli_usage("plan", "--length-slack: not with --balance, %s or a range of --cords, whose least length is not proved",
+                     limit);
   if (mixed && (turning->frontier || turning->compare))
-    return cli_usage("plan", "%s: not with --balance, --max-length or a range of --cords, whose least length is not proved",
-                     turning->frontier ? "--frontier" : "--compare-shortest");
+    return cli_usage("plan", "%s: not with --balance, %s or a range of --cords, whose least length is not proved",
+                     turning->frontier ? "--frontier" : "--compare-shortest", limit);
   if (turning->options.tour == THR_TOUR_LEAST) return -1;
   if (a->most > 1) return cli_usage("plan", "--tour %s makes one cord in each component, not --cords %d", tour, a->most);
   if (a->joint == THR_JOINT_TUBE) return cli_usage("plan", "--tour %s ties no joints: no --joint tube", tour);
@@ -227,9 +281,28 @@ static int apply_bore(thr_request *options)
   return EXIT_OK;
 }
 
+/* Cord and seating tension are known: what may be pulled, as a factor on that. */
+static int apply_pull(const cords_args *a, thr_request *options)
+{
+  const double seating = options->physics.seating;
+  const char *option = pull_limit(a);
+  double newtons = a->max_pull > 0 ? a->max_pull * (a->pull_is_factor ? seating : 1) : a->hand > 0 ? a->hand : a->strength;
+  if (!option) return EXIT_OK;
+  if (a->strength > 0 && newtons > a->strength) {
+    cli_error("%s: a pull of %.6g N would break a cord of --cord-strength %.6g; --max-pull %.6g keeps to it", option, newtons,
+              a->strength, a->strength);
+    return EXIT_INFEASIBLE;
+  }
+  options->max_pull = newtons / seating;
+  if (options->max_pull >= 1) return EXIT_OK;
+  cli_error("%s: %.6g N is less than the seating tension of %.6g N, which every cord needs; --seating makes that less", option,
+            newtons, seating);
+  return EXIT_INFEASIBLE;
+}
+
 static void apply_number(const cords_args *a, thr_request *options)
 {
-  bool free_number = a->most == 0 && a->max_length > 0;
+  bool free_number = a->most == 0 && cords_args_few(a);
   options->cords = a->most ? a->most : free_number ? THR_MOST_CORDS : 1;
   options->cords_least = a->most ? a->least : 1;
 }
@@ -243,6 +316,7 @@ int cords_args_apply(const cords_args *a, const thr_frame *frame, thr_request *o
   options->confirm = a->confirm;
   options->max_length = a->max_length;
   int code = apply_bore(options);
+  if (!code) code = apply_pull(a, options);
   if (code) return code;
   apply_number(a, options);
   if (!(options->end_count = thr_calloc((size_t)frame->n_nodes, sizeof *options->end_count))) {

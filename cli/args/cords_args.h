@@ -10,6 +10,9 @@
 enum {
   OPTION_CORDS = OPTION_SYMMETRY_FREE,
   OPTION_CORDS_MAX_LENGTH,
+  OPTION_CORDS_MAX_PULL,
+  OPTION_CORDS_HAND,
+  OPTION_CORDS_STRENGTH,
   OPTION_CORDS_BALANCE,
   OPTION_CORDS_COVER,
   OPTION_CORDS_CAPACITY,
@@ -21,9 +24,11 @@ enum {
 };
 #define CORDS_OPTIONS                                                                                                            \
   {"cords", required_argument, NULL, OPTION_CORDS}, {"max-length", required_argument, NULL, OPTION_CORDS_MAX_LENGTH},            \
-      {"balance", no_argument, NULL, OPTION_CORDS_BALANCE}, {"cover", required_argument, NULL, OPTION_CORDS_COVER},              \
-      {"capacity", required_argument, NULL, OPTION_CORDS_CAPACITY}, {"joint", required_argument, NULL, OPTION_CORDS_JOINT},      \
-      {"engine", required_argument, NULL, OPTION_CORDS_ENGINE}, {"confirm", required_argument, NULL, OPTION_CORDS_CONFIRM},      \
+      {"max-pull", required_argument, NULL, OPTION_CORDS_MAX_PULL}, {"hand", required_argument, NULL, OPTION_CORDS_HAND},        \
+      {"cord-strength", required_argument, NULL, OPTION_CORDS_STRENGTH}, {"balance", no_argument, NULL, OPTION_CORDS_BALANCE},   \
+      {"cover", required_argument, NULL, OPTION_CORDS_COVER}, {"capacity", required_argument, NULL, OPTION_CORDS_CAPACITY},      \
+      {"joint", required_argument, NULL, OPTION_CORDS_JOINT}, {"engine", required_argument, NULL, OPTION_CORDS_ENGINE},          \
+      {"confirm", required_argument, NULL, OPTION_CORDS_CONFIRM},                                                                \
   {                                                                                                                              \
     "ends", required_argument, NULL, OPTION_CORDS_ENDS                                                                           \
   }
@@ -31,7 +36,11 @@ enum {
   "      --ends closed|any|feet|FILE|NAME,..   both ends of a cord at one node (default), or anywhere, at feet, at these\n"      \
   "      --ends NAME:N,.. exactly so many cord ends at each of these nodes\n"                                                    \
   "      --cords K        K cords in every component, 1 to 1000 (default: 1);  A..B, ..B: at most B;  auto: with --max-length\n" \
+  "                       or --max-pull\n"                                                                                       \
   "      --max-length L   no cord longer than L units, as few as it takes\n"                                                     \
+  "      --max-pull F     no cord needs more at its ends, both pulled: F newtons, or 20x the seating tension; few cords\n"       \
+  "      --hand one|two|N --max-pull 50 (one hand), 100 (two) or N newtons\n"                                                    \
+  "      --cord-strength N   refuse cords that need more than N newtons\n"                                                       \
   "      --balance        make the longest cord short\n"                                                                         \
   "      --cover N        at least N passes over every interface (default: 1)\n"                                                 \
   "      --capacity N     at most N; --bore and --cord-diameter together: as many as fit\n"                                      \
@@ -45,6 +54,9 @@ typedef struct {
   int least, most;     /* cords; 0 = not said */
   bool automatic;      /* --cords auto */
   double max_length;   /* 0 = not said */
+  double max_pull;     /* N, or times the seating tension; 0 = not said */
+  bool pull_is_factor;
+  double hand, strength; /* N; 0 = not said */
   bool balance;
   thr_joint joint;
   thr_engine engine;
@@ -61,6 +73,10 @@ int cords_args_check(const cords_args *a, const turning_args *turning, const thr
 
 /* What of these options plans with such aims cannot do: a few words like "--balance", or NULL. */
 const char *cords_args_refused(const cords_args *a, const thr_request *wanted);
+
+/* Is anything asked that takes as many cords as needed, and is the pull limited? */
+bool cords_args_few(const cords_args *a);
+bool cords_args_limits_pull(const cords_args *a);
 
 /* Lays them over *options, which holds cord and beads already, for this framework. Returns EXIT_OK or prints and returns the
  * code. The caller frees options->end_node and options->end_count. */

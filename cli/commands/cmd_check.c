@@ -77,6 +77,11 @@ static void put_cords(thr_text *text, const thr_plan *plan)
   if (claim->present && claim->fewest > 0)
     thr_text_printf(text, claim->fewest_optimal ? "; no fewer than %d cords, verified" : "; at least %d cords, verified",
                     claim->fewest);
+  if (plan->pull_claim.present)
+    thr_text_printf(text,
+                    plan->pull_claim.optimal ? "; no fewer than %d cords for the pull, verified"
+                                             : "; at least %d cords for the pull, verified",
+                    plan->pull_claim.fewest);
   if (plan->options.joint == THR_JOINT_TUBE) thr_text_append(text, "; every joint tied");
 }
 
@@ -136,6 +141,7 @@ static void put_claims_json(thr_writer *writer, const thr_plan *plan)
     thr_write_number(writer, "gap", plan->proof.gap);
   }
   if (plan->cords_claim.present) put_cords_json(writer, &plan->cords_claim);
+  if (plan->pull_claim.present) thr_write_int(writer, "fewest_cords_for_pull", plan->pull_claim.fewest);
   if (thr_wants_turning(&plan->options)) put_turning_json(writer, plan);
   if (plan->symmetry.present) put_symmetry_json(writer, &plan->symmetry);
   terms_put_json(writer, plan);

@@ -143,6 +143,7 @@ static void ask(const arguments *a, thr_objective objective, thr_request *option
 {
   aims_args_apply(&a->aims, &a->turning, &a->symmetry, &a->cords, objective, options);
   options->joint = a->cords.joint;
+  if (cords_args_limits_pull(&a->cords) && options->max_pull == 0) options->max_pull = 1; /* until it is known how much */
   options->time_limit = a->guard.seconds < 0 ? thr_dispatch_usual_seconds(options) : a->guard.seconds;
 }
 

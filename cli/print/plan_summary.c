@@ -85,6 +85,8 @@ static void put_number(thr_text *text, const thr_plan *plan, int components)
   const char *each = components > 1 ? " in each component" : "";
   if (!thr_plan_counted(options) || options->ends == THR_ENDS_COUNTS)
     thr_text_printf(text, "; %d %s", plan->n_cords, cli_plural(plan->n_cords, "cord", "cords"));
+  else if (options->max_pull > 0 && plan->pull_claim.present)
+    ; /* as many as the pull takes */
   else if (options->cords_least < options->cords && options->cords < NO_LIMIT)
     thr_text_printf(text, "; %d to %d cords%s", options->cords_least, options->cords, each);
   else if (options->cords_least < options->cords && options->cords_least > 1)
@@ -93,6 +95,8 @@ static void put_number(thr_text *text, const thr_plan *plan, int components)
     thr_text_printf(text, "; %d cords%s", options->cords, each);
   if (thr_wants_balance(options)) thr_text_append(text, "; of even length");
   if (options->max_length > 0) thr_text_printf(text, "; none longer than %g %s", options->max_length, plan->frame.units);
+  if (options->max_pull > 0)
+    thr_text_printf(text, "; none pulled by more than %g N", options->max_pull * options->physics.seating);
 }
 
 static void put_head(thr_text *text, const thr_plan *plan)
@@ -132,6 +136,23 @@ static void put_claim(thr_text *text, const thr_plan *plan, thr_cords_word word)
     thr_text_printf(text, "at least %d are needed (verified)\n", claim->fewest);
 }
 
+/* What hand and cord feel, and whether fewer cords would do with it. */
+static void put_pull_limit(thr_text *text, const thr_plan *plan, double largest)
+{
+  const thr_request *options = &plan->options;
+  const thr_pull_claim *claim = &plan->pull_claim;
+  double seating = options->physics.seating;
+  if (options->max_pull <= 0) return;
+  thr_text_printf(text, "hand     %.4g N at most at the end of a cord, both pulled: %.4g x %g N seating; %.6g N are allowed\n",
+                  largest * seating, largest, seating, options->max_pull * seating);
+  if (!claim->present) return;
+  thr_text_printf(text, "cords    %d; ", plan->n_cords);
+  if (claim->optimal)
+    thr_text_printf(text, "optimal: fewer than %d are impossible within that pull (verified)\n", claim->fewest);
+  else
+    thr_text_printf(text, "fewer than %d are impossible within that pull (verified)\n", claim->fewest);
+}
+
 /* What the checker has verified, and whether GLPK's exact simplex finds the same minimum on these cuts. */
 static void put_certificate(thr_text *text, const thr_plan *plan)
 {
@@ -166,7 +187,8 @@ static void put_length_status(thr_text *text, const thr_plan *plan, thr_cords_wo
                     "         optimal by the solver's word (not verified): all other passes were ruled out for so many cords\n");
 }
 
-static void put_text(thr_text *text, const thr_plan *plan, const double *pull, const thr_rivals *rivals, thr_cords_word word)
+static void put_text(thr_text *text, const thr_plan *plan, const double *pull, double largest, const thr_rivals *rivals,
+                     thr_cords_word word)
 {
   const thr_metrics *metrics = &plan->metrics;
   double mu = plan->options.physics.mu;
@@ -182,6 +204,7 @@ static void put_text(thr_text *text, const thr_plan *plan, const double *pull, c
   thr_text_append(text, "         ");
   put_length_status(text, plan, word);
   put_claim(text, plan, word);
+  put_pull_limit(text, plan, largest);
   if (rivals) turning_put_status(text, plan, rivals);
   if (rivals) thr_text_printf(text, "capstan  exp(mu x turning): the factor from one end of a cord to the other (mu = %g)\n", mu);
   thr_text_printf(text, "pull     with both ends pulled, times the tension that must reach the slackest point (mu = %g)\n", mu);
@@ -200,7 +223,7 @@ static double *pulls_of(thr_text *text, const thr_plan *plan, double *largest)
 void plan_put_summary(thr_text *text, const thr_plan *plan, const thr_rivals *rivals, thr_cords_word word)
 {
   double largest, *pull = pulls_of(text, plan, &largest);
-  if (pull) put_text(text, plan, pull, rivals, word);
+  if (pull) put_text(text, plan, pull, largest, rivals, word);
   free(pull);
 }
 
@@ -238,6 +261,11 @@ void plan_put_json(thr_writer *writer, const thr_plan *plan, const thr_rivals *r
   thr_write_number(writer, "mu", plan->options.physics.mu);
   thr_write_string(writer, "status", plan->proof.optimal ? "optimal" : "bound");
   thr_write_number(writer, "pull_factor", turning_pull(plan, NULL));
+  if (plan->options.max_pull > 0) thr_write_number(writer, "max_pull", plan->options.max_pull);
+  if (plan->pull_claim.present) {
+    thr_write_int(writer, "fewest_cords_for_pull", plan->pull_claim.fewest);
+    thr_write_string(writer, "fewest_cords_for_pull_status", plan->pull_claim.optimal ? "optimal" : "bound");
+  }
   if (plan->cords_claim.present) put_claim_json(writer, plan, word);
   if (rivals) turning_put_json(writer, plan, rivals);
   if (plan->symmetry.present) symmetry_put_json(writer, plan);

@@ -57,11 +57,17 @@ static void put_number(thr_text *text, const thr_plan *plan)
     thr_text_printf(text, "; %d %s", options->cords, cli_plural(options->cords, "cord", "cords"));
   if (components > 1 && options->ends != THR_ENDS_COUNTS) thr_text_printf(text, " in each of %d components", components);
   if (options->max_length > 0) thr_text_printf(text, ", none longer than %.12g %s", options->max_length, plan->frame.units);
+  if (options->max_pull > 0)
+    thr_text_printf(text, ", none that needs more than %.6g times the seating tension at mu = %g", options->max_pull,
+                    options->physics.mu);
 }
 
-/* Of what turning is proved. */
+/* Of what turning and fewest cords are proved. */
 static void put_kind(thr_text *text, const thr_plan *plan)
 {
+  if (plan->pull_claim.tree.n_nodes > 0)
+    thr_text_printf(text, "; for the fewest cords: at most %d passes of an edge, back only at nodes with one edge",
+                    plan->pull_claim.most_passes);
   if (!plan->turning.present) return;
   thr_text_printf(text, "; for the turning: at most %d passes of an edge, back only at nodes with one edge",
                   plan->turning.most_passes);

@@ -139,6 +139,7 @@ static thr_status check_cords(const thr_frame *frame, const thr_request *options
   if ((st = check_cover(frame, options, passes, err))) return st;
   if ((st = check_end_counts(frame, options, cord, n_cords, err))) return st;
   if ((st = check_lengths(frame, options, cord, n_cords, err))) return st;
+  if ((st = thr_check_pulls(frame, options, cord, n_cords, err))) return st;
   return check_joints(frame, options, cord, n_cords, err);
 }
 
@@ -498,6 +499,7 @@ thr_status thr_check_plan(const thr_plan *plan, thr_err *err)
   if (!st) st = check_metrics(plan, check_walked.passes, err);
   if (!st && plan->symmetry.present) st = thr_check_symmetry(plan, err);
   if (!st) st = check_claims(plan, &check_walked, &least_length, err);
+  if (!st && plan->pull_claim.present) st = thr_check_pull_claim(plan, check_walked.n_components, err);
   if (!st && plan->turning.present) st = thr_check_turning_claim(plan, least_length, err);
   if (!st && plan->evaluation.present) st = thr_check_evaluation(plan, err);
   walked_destroy(&check_walked);

@@ -70,6 +70,13 @@ thr_status thr_check_several(const thr_frame *frame, const thr_request *options,
  * least_length: what the latter proves. */
 thr_status thr_check_turning_claim(const thr_plan *plan, double least_length, thr_err *err) THR_MUST_CHECK;
 
+/* No cord needs more pull than the options allow. */
+thr_status thr_check_pulls(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
+                           thr_err *err) THR_MUST_CHECK;
+
+/* Verifies the plan's claim about the fewest cords for its pull, which must be present. */
+thr_status thr_check_pull_claim(const thr_plan *plan, int n_components, thr_err *err) THR_MUST_CHECK;
+
 /* The elements of a symmetric plan's group as images of the nodes. */
 typedef struct {
   int n, order; /* nodes; elements, the identity first */

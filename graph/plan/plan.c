@@ -55,6 +55,7 @@ void thr_plan_destroy(thr_plan *plan)
   free(plan->proof.certificate);
   thr_turning_proof_destroy(&plan->proof.tied);
   thr_turning_proof_destroy(&plan->turning.tree);
+  thr_turning_proof_destroy(&plan->pull_claim.tree);
   thr_symmetry_record_destroy(&plan->symmetry);
   thr_evaluation_destroy(&plan->evaluation);
   free(plan->options.end_node);
@@ -201,6 +202,31 @@ double thr_cord_price(const thr_frame *frame, const thr_request *options, const 
   for (int k = 0; k < thr_cord_turns(options, cord); k++)
     sum += thr_turn_price(frame, options->turning.cost, cord->half[k], cord->half[(k + 1) % cord->n_passes]);
   return sum;
+}
+
+double thr_cord_pulled_turning(const thr_frame *frame, const thr_cord *cord)
+{
+  double whole = thr_cord_turning(frame, cord, false), before = 0, larger = whole;
+  for (int k = 0; k + 1 < cord->n_passes; k++) {
+    before += thr_turn_angle(frame, cord->half[k], cord->half[k + 1]);
+    larger = fmin(larger, fmax(before, whole - before));
+  }
+  return larger;
+}
+
+double thr_cords_pulled_turning(const thr_frame *frame, const thr_cord *cord, int n)
+{
+  double most = 0;
+  for (int i = 0; i < n; i++)
+    most = fmax(most, thr_cord_pulled_turning(frame, &cord[i]));
+  return most;
+}
+
+bool thr_cords_within_pull(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n)
+{
+  const double rounding = 1e-10; /* a tenth of the checker's */
+  double most = thr_request_most_turning(options) / 2;
+  return isinf(most) || thr_cords_pulled_turning(frame, cord, n) <= most + rounding * (most + 1 / options->physics.mu);
 }
 
 static void measure_cord(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int *passes,

@@ -72,6 +72,17 @@ typedef struct {
   bool fewest_optimal;  /* this one has no more */
 } thr_cords_claim;
 
+/* What is proved about how few cords options.max_pull takes: of plans with the same options but fewer cords, U-turns at nodes
+ * with one edge only and at most most_passes over any edge. */
+typedef struct {
+  bool present;
+  bool optimal; /* proved: this plan has no more */
+  int fewest;   /* no such plan has fewer cords in all */
+  int excluded; /* at most so many in every component are too few: one would turn too much; below options.cords_least: none */
+  int most_passes;
+  thr_turning_proof tree; /* of so many cords at most; empty where nothing is excluded */
+} thr_pull_claim;
+
 /* What is proved about the turning of a plan that turns little: of no plan with the same options, U-turns at nodes with one edge
  * only, at most most_passes over any edge and no more cord than length_limit are all turns together cheaper than lower_bound. */
 typedef struct {
@@ -132,6 +143,7 @@ typedef struct {
   thr_evaluation evaluation;    /* of `thread eval`, if present */
   thr_length_proof proof;
   thr_cords_claim cords_claim;
+  thr_pull_claim pull_claim;
   thr_turning_claim turning;
 } thr_plan;
 
@@ -174,6 +186,16 @@ int thr_plan_turns_over(const thr_plan *plan, double angle);
 
 /* Price of the turns of a cord. */
 double thr_cord_price(const thr_frame *framework, const thr_request *wishes, const thr_cord *c);
+
+/* Turning that a pull has to overcome at the end that needs more, both being pulled, rad: the larger part of the cord's, parted
+ * at the pass where that is least (a closed cord's last turn is at its ends and counts for neither part); and the largest of
+ * several cords. By the capstan law the pull is exp(mu x that) times the tension at the slackest pass. O(passes).
+ * Example: turns of 30, 90 and 60 degrees part into 120 and 60. */
+double thr_cord_pulled_turning(const thr_frame *framework, const thr_cord *cord);
+double thr_cords_pulled_turning(const thr_frame *framework, const thr_cord *cord, int n);
+
+/* Do all cords need no more than options.max_pull? */
+bool thr_cords_within_pull(const thr_frame *framework, const thr_request *wishes, const thr_cord *cord, int n);
 
 /* Computes metrics from frame, options (cover, ends) and cords alone. */
 thr_status thr_plan_measure(const thr_frame *framework, const thr_request *wishes, const thr_cord *cord, int n_cords,

@@ -76,8 +76,8 @@ static thr_status read_symmetry_options(const thr_field_reader *field_reader, co
 static thr_status read_objective(const thr_field_reader *field_reader, const thr_json *value, thr_request *options)
 {
   static const char *const own[THR_N_OBJECTIVES] = {"confirm", "turning", "symmetry"};
-  const char *known[] = {"objective", "joint",      "cover",      "capacity", "cords",  "max_length", "balance", "ends",
-                         "end_nodes", "end_counts", "time_limit", "physics",  "engine", NULL,         NULL};
+  const char *known[] = {"objective", "joint",     "cover",      "capacity",   "cords",   "max_length", "max_pull", "balance",
+                         "ends",      "end_nodes", "end_counts", "time_limit", "physics", "engine",     NULL,       NULL};
   int objective, joint;
   thr_status st = thr_field_name(field_reader, value, "options", "objective", THR_N_OBJECTIVES, thr_objective_name, &objective);
   if (st) return st;
@@ -122,6 +122,10 @@ static thr_status read_limits(const thr_field_reader *field_reader, const thr_js
   if (!st && thr_json_get(value, "max_length")) {
     st = thr_field_amount(field_reader, value, "max_length", &options->max_length);
     if (!st && options->max_length == 0) st = thr_field_bad(field_reader, "options.max_length", "not above 0");
+  }
+  if (!st && thr_json_get(value, "max_pull")) {
+    st = thr_field_amount(field_reader, value, "max_pull", &options->max_pull);
+    if (!st && options->max_pull < 1) st = thr_field_bad(field_reader, "options.max_pull", "below 1");
   }
   if (!st && balance && thr_json_typeof(balance) != THR_JSON_BOOL)
     st = thr_field_bad(field_reader, "options.balance", "not true or false");

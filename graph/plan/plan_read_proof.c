@@ -171,17 +171,37 @@ static thr_status read_cords_claim(const thr_field_reader *field_reader, const t
   return st ? st : thr_field_int(field_reader, fewest, "lower_bound", 1, INT32_MAX, &claim->fewest);
 }
 
+static thr_status read_pull_claim(const thr_field_reader *field_reader, const thr_json *value, const thr_frame *frame,
+                                  thr_pull_claim *claim)
+{
+  static const char *const known[] = {"status", "lower_bound", "excluded", "most_passes", "proof", NULL};
+  const thr_json *proof = thr_json_get(value, "proof");
+  char place[256];
+  thr_status st = thr_field_only(field_reader, value, "proof.pull", known);
+  if (!st) st = get_status(field_reader, value, "proof.pull", &claim->optimal);
+  if (!st) st = thr_field_int(field_reader, value, "lower_bound", 1, INT32_MAX, &claim->fewest);
+  if (!st) claim->present = true;
+  if (st || !proof) return st;
+  st = thr_field_int(field_reader, value, "excluded", 1, THR_MOST_CORDS, &claim->excluded);
+  if (!st) st = thr_field_int(field_reader, value, "most_passes", 1, INT32_MAX, &claim->most_passes);
+  if (st) return st;
+  snprintf(place, sizeof place, "%.200s: proof.pull.proof", field_reader->name);
+  return thr_turning_proof_from_json(&claim->tree, frame, proof, place, field_reader->err);
+}
+
 /* A proof says that nothing with the plan's options is better: one of turning goes with the objective that asks for it. */
 thr_status thr_plan_read_proofs(const thr_field_reader *field_reader, const thr_json *doc, thr_plan *plan)
 {
-  static const char *const of_length[] = {"length", "cords", NULL}, *const of_turning[] = {"length", "cords", "turning", NULL};
+  static const char *const of_length[] = {"length", "cords", "pull", NULL}, *const of_turning[] = {"length", "cords", "pull",
+                                                                                                   "turning", NULL};
   const thr_json *all;
   thr_status st = thr_field_need(field_reader, doc, "proof", THR_JSON_OBJECT, &all);
   if (!st) st = thr_field_only(field_reader, all, "proof", thr_wants_turning(&plan->options) ? of_turning : of_length);
   const thr_json *length = thr_json_get(all, "length"), *turning = thr_json_get(all, "turning"),
-                 *cords = thr_json_get(all, "cords");
+                 *cords = thr_json_get(all, "cords"), *pull = thr_json_get(all, "pull");
   if (!st && length) st = read_length_proof(field_reader, length, &plan->frame, &plan->proof);
   if (!st && cords) st = read_cords_claim(field_reader, cords, &plan->cords_claim);
+  if (!st && pull) st = read_pull_claim(field_reader, pull, &plan->frame, &plan->pull_claim);
   if (!st && turning) st = read_turning_claim(field_reader, turning, &plan->frame, &plan->turning);
   return st;
 }

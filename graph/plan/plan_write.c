@@ -182,6 +182,7 @@ static void put_options(thr_writer *writer, const thr_plan *plan)
   if (options->capacity > 0) thr_write_int(writer, "capacity", options->capacity);
   put_number_of_cords(writer, options);
   if (options->max_length > 0) thr_write_number(writer, "max_length", options->max_length);
+  if (options->max_pull > 0) thr_write_number(writer, "max_pull", options->max_pull);
   if (thr_wants_balance(options)) thr_write_bool(writer, "balance", true);
   put_ends(writer, plan);
   if (thr_wants_turning(options)) put_turning_options(writer, options);
@@ -387,6 +388,22 @@ static void put_cords_claim(thr_writer *writer, const thr_cords_claim *claim)
   thr_write_close(writer);
 }
 
+static void put_pull_claim(thr_writer *writer, const thr_plan *plan)
+{
+  const thr_pull_claim *claim = &plan->pull_claim;
+  thr_write_line(writer, 2);
+  thr_write_object(writer, "pull");
+  thr_write_string(writer, "status", status_name(claim->optimal));
+  thr_write_int(writer, "lower_bound", claim->fewest);
+  if (claim->tree.n_nodes > 0) {
+    thr_write_int(writer, "excluded", claim->excluded);
+    thr_write_int(writer, "most_passes", claim->most_passes);
+    thr_write_line(writer, 2);
+    thr_turning_proof_write(&claim->tree, &plan->frame, writer, "proof");
+  }
+  thr_write_close(writer);
+}
+
 static void put_proofs(thr_writer *writer, const thr_plan *plan)
 {
   put_line(writer);
@@ -394,7 +411,9 @@ static void put_proofs(thr_writer *writer, const thr_plan *plan)
   if (plan->proof.present) put_length_proof(writer, plan);
   if (plan->proof.present && plan->cords_claim.present) thr_write_line(writer, 2);
   if (plan->cords_claim.present) put_cords_claim(writer, &plan->cords_claim);
-  if ((plan->proof.present || plan->cords_claim.present) && plan->turning.present) thr_write_line(writer, 2);
+  if (plan->pull_claim.present) put_pull_claim(writer, plan);
+  bool before = plan->proof.present || plan->cords_claim.present || plan->pull_claim.present;
+  if (before && plan->turning.present) thr_write_line(writer, 2);
   if (plan->turning.present) put_turning_proof(writer, plan);
   thr_write_close(writer);
 }

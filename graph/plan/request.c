@@ -2,6 +2,7 @@
 #include "graph/plan/request.h"
 
 #include <limits.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -312,6 +313,12 @@ bool thr_plan_counted(const thr_request *options)
 int thr_plan_cords_least(const thr_request *options)
 {
   return thr_plan_counted(options) ? options->cords_least : 1;
+}
+
+double thr_request_most_turning(const thr_request *options)
+{
+  bool limited = options->max_pull > 0 && options->physics.mu > 0;
+  return limited ? 2 * log(options->max_pull) / options->physics.mu : INFINITY;
 }
 
 int thr_plan_cover(const thr_frame *frame, const thr_request *options, int e)

@@ -94,6 +94,8 @@ typedef struct {
                                   (symmetry.counted): the most in any, as it came out */
   int cords_least;             /* at least so many; = cords: exactly */
   double max_length;           /* no cord is longer, in units; 0 = no limit */
+  double max_pull;             /* pulled at both ends, no cord needs more at either (thr_cord_pull): times the seating tension,
+                                  >= 1; 0 = no limit */
   thr_turning_options turning; /* of plans that turn little only */
   thr_symmetry_options symmetry; /* of symmetric plans only */
   thr_ends ends;
@@ -162,6 +164,10 @@ bool thr_plan_counted(const thr_request *options);
 /* Cords that every component has at least. Where they are not asked for, options.cords is the most in any, and the others may
  * have fewer: 1. */
 int thr_plan_cords_least(const thr_request *options);
+
+/* By how much a cord may turn between its ends, rad, within max_pull: half of it from each end, 2 ln(max_pull) / mu. INFINITY: by
+ * anything, without a limit or without friction. Example: 15 times the seating tension at mu = 0.2: 27.08 rad. */
+double thr_request_most_turning(const thr_request *options);
 
 /* Passes that edge e needs, and the most that it may have (INT_MAX: no limit): what options and framework say together. */
 int thr_plan_cover(const thr_frame *frame, const thr_request *options, int e);

@@ -15,7 +15,8 @@ enum { MOST_TRIALS = 128 }; /* for each change */
 
 bool thr_keep_asked(const thr_request *request)
 {
-  return thr_wants_symmetry(request) && (request->symmetry.counted || request->max_length > 0 || thr_wants_balance(request));
+  return thr_wants_symmetry(request) &&
+         (request->symmetry.counted || request->max_length > 0 || request->max_pull > 0 || thr_wants_balance(request));
 }
 
 static double length_beyond(const thr_request *request, double length)
@@ -24,7 +25,17 @@ static double length_beyond(const thr_request *request, double length)
   return request->max_length > 0 && length > limit ? length / request->max_length - 1 : 0;
 }
 
-/* Cords too few and too many, in all components together; the sum of the parts by which cords are too long, and the longest. */
+/* In parts of the turning that the pull may overcome; of straight cords in rad. */
+static double turning_beyond(const thr_frame *frame, const thr_request *request, const thr_cord *cord)
+{
+  double limit = thr_request_most_turning(request) / 2;
+  if (thr_cords_within_pull(frame, request, cord, 1)) return 0;
+  double turning = thr_cord_pulled_turning(frame, cord);
+  return limit > 0 ? turning / limit - 1 : turning;
+}
+
+/* Cords too few and too many, in all components together; the sum of the parts by which cords are too long or need too much pull,
+ * and the longest. */
 typedef struct {
   int few, many;
   double beyond, longest;
@@ -41,7 +52,7 @@ static thr_status find_excess(const thr_frame *frame, const thr_request *request
   for (int i = 0; i < n_cords; i++) {
     double length = thr_cord_length(frame, &cord[i]);
     count[cord[i].component]++;
-    out->beyond += length_beyond(request, length);
+    out->beyond += length_beyond(request, length) + turning_beyond(frame, request, &cord[i]);
     out->longest = fmax(out->longest, length);
   }
   for (int k = 0; k < components && request->symmetry.counted; k++) {

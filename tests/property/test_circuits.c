@@ -295,7 +295,7 @@ START_TEST(domes_are_proved_and_evened_out)
   ck_assert_int_eq(l.proof.n_nodes, 1);
   for (int i = 0; i < l.n_cords; i++)
     before = fmax(before, thr_cord_turning(&f, &l.cord[i], true));
-  ck_assert_int_eq(thr_max_turning_improve(&f, &limits, &l, &m, NULL), THR_OK);
+  ck_assert_int_eq(thr_max_turning_improve(&f, 0, &limits, &l, &m, NULL), THR_OK);
   ck_assert_int_eq(l.n_cords, _i);
   ck_assert_double_ge(m.largest, m.bound * (1 - 1e-9));
   ck_assert_double_le(m.largest, before * (1 + 1e-9));
@@ -319,7 +319,7 @@ START_TEST(running_out_of_memory_leaves_nothing)
     thr_err err = {0};
     thr_alloc_fail_at(k);
     st = thr_least_turning(&f, &o, &limits, &l, &err);
-    if (!st && !_i) st = thr_max_turning_improve(&f, &(thr_limits){.deadline = 1e-9}, &l, &m, &err);
+    if (!st && !_i) st = thr_max_turning_improve(&f, 0, &(thr_limits){.deadline = 1e-9}, &l, &m, &err);
     thr_alloc_fail_at(0);
     ck_assert_msg(st == THR_OK || st == THR_ENOMEM || (_i && st == THR_ELIMIT), "allocation %ld: %d %s", k, (int)st, err.text);
     thr_least_destroy(&l);

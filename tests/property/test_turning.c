@@ -482,7 +482,7 @@ static thr_max_turning even_out(const thr_frame *f, thr_least *l)
   thr_err err = {0};
   thr_limits limits = {0};
   double before = largest_price(l, f), sum_bound = l->bound;
-  ck_assert_msg(thr_max_turning_improve(f, &limits, l, &m, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_max_turning_improve(f, 0, &limits, l, &m, &err) == THR_OK, "%s", err.text);
   assert_cords(f, l);
   ck_assert_double_eq_tol(m.largest, largest_price(l, f), 1e-9 * m.largest);
   ck_assert_double_le(m.largest, before * (1 + 1e-9));
@@ -536,7 +536,7 @@ START_TEST(running_out_of_memory_leaves_nothing)
     thr_err err = {0};
     thr_alloc_fail_at(k);
     st = thr_least_turning(&f, &o, &limits, &l, &err);
-    if (!st) st = thr_max_turning_improve(&f, &limits, &l, &m, &err);
+    if (!st) st = thr_max_turning_improve(&f, 0, &limits, &l, &m, &err);
     thr_alloc_fail_at(0);
     ck_assert_msg(st == THR_OK || st == THR_ENOMEM, "allocation %ld: %d %s", k, (int)st, err.text);
     thr_least_destroy(&l);

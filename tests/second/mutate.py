@@ -101,7 +101,7 @@ def new_option(random, plan):
     """A stated option that the plan may or may not keep to."""
     o, length = plan["options"], plan["metrics"].get("length", 1)
     n = len(plan["framework"]["nodes"])
-    way = random.randrange(12)
+    way = random.randrange(13)
     if way == 10 and "length" in plan["proof"]:
         plan["proof"]["length"]["slack"] = "open"
     elif way == 11 and "symmetry" in plan:
@@ -115,6 +115,8 @@ def new_option(random, plan):
         o["capacity"] = random.randint(1, 4)
     elif way == 2:
         o["max_length"] = length * random.choice((0.3, 0.5, 0.51, 0.7, 1, 1.0000001))
+    elif way == 12:
+        o["max_pull"] = o.get("max_pull", 3) * random.choice((0.9, 1, 1 + 1e-8, 1.1, 5))
     elif way == 3:
         o["ends"] = "nodes"
         o["end_nodes"] = sorted(random.sample(range(n), random.randint(1, n)))

@@ -1,5 +1,6 @@
 /* Cords evened out from several starts. */
 #include "tortuosity/cords/maxturn.h"
+#include "graph/angle.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/plan/walk_proof.h"
@@ -23,6 +24,7 @@ typedef struct {
   const thr_turning_columns *c;
   const thr_limits *limits;
   double bound, scale;
+  double enough; /* rad that a cord may turn by, half of it from each end; 0: the less the better */
   thr_join best;
   double largest, value; /* of best: the largest total, the sum of the powers */
   int *passes, *ends;
@@ -183,6 +185,18 @@ static thr_status try_passes(search *x, bool shortest, int steps, thr_err *err)
   return st;
 }
 
+/* Does no cord of the best need more pull than is enough? */
+static thr_status is_enough(const search *x, double largest, bool *done, thr_err *err)
+{
+  int n = thr_join_count(&x->best);
+  if (x->enough <= 0 || largest > x->enough + THR_PI) return THR_OK; /* a closed cord's last turn does not count */
+  thr_cord *cord = thr_calloc((size_t)n, sizeof *cord);
+  thr_status st = cord ? thr_join_cords(&x->best, cord, n, err) : thr_nomem(err);
+  if (!st) *done = *done || thr_cords_pulled_turning(x->c->f, cord, n) <= x->enough / 2;
+  thr_cords_destroy(cord, n);
+  return st;
+}
+
 /* Is there nothing left to try? */
 static thr_status is_finished(const search *x, bool *done, thr_err *err)
 {
@@ -192,8 +206,9 @@ static thr_status is_finished(const search *x, bool *done, thr_err *err)
   thr_status st = thr_join_threading(&j, &threading, err);
   if (!st) thr_evener_follow(&evener);
   *done = st || evener.n_cords == 1 || thr_limits_stop(x->limits) || thr_evener_largest(&evener) <= x->bound * (1 + 1e-9);
+  double largest = st ? 0 : thr_evener_largest(&evener);
   thr_threading_destroy(&threading);
-  return st;
+  return st || *done ? st : is_enough(x, largest, done, err);
 }
 
 /* Copies the best, to go on from it. */
@@ -322,7 +337,7 @@ static thr_status use_walks(search *x, const thr_frame *frame, thr_least *plan, 
   thr_cord *better = NULL;
   thr_join j = {0};
   thr_status st =
-      thr_walk_bound(x->c, plan->cord, plan->n_cords, plan->bound, x->limits, &plan->proof.walks, bound, &better, err);
+      thr_walk_bound(x->c, plan->cord, plan->n_cords, plan->bound, x->enough, x->limits, &plan->proof.walks, bound, &better, err);
   if (!st && better) {
     x->bound = *bound;
     for (int steps = 0; steps >= 0 && !st; steps = steps ? -1 : steps_of(x)) { /* as they are, and evened out */
@@ -335,23 +350,38 @@ static thr_status use_walks(search *x, const thr_frame *frame, thr_least *plan, 
   return st;
 }
 
-thr_status thr_max_turning_improve(const thr_frame *frame, const thr_limits *limits, thr_least *plan, thr_max_turning *out,
-                                   thr_err *err)
+/* Cords from the search, and what the programme over walks adds. Where something is enough, it has a part of the time to itself:
+ * to rule that out. */
+static thr_status find_cords(search *x, const thr_frame *frame, thr_least *plan, double *bound, thr_err *err)
+{
+  const double part = 0.6;
+  const thr_limits *limits = x->limits, first = thr_limits_part(limits, x->enough > 0 ? part : 1);
+  bool found = false;
+  thr_status st = THR_OK;
+  if (x->enough > 0 && *bound > x->enough) return THR_OK;
+  x->limits = &first;
+  if (*bound < x->scale * (1 - 1e-9))
+    st = thr_max_turning_small(x->c, plan->cord, plan->n_cords, x->limits, &x->best, &found, err);
+  if (!st && !found) st = run(x, err);
+  x->limits = limits;
+  if (!st) st = keep_best(x, frame, plan, err);
+  if (!st && x->enough > 0 && thr_cords_pulled_turning(frame, plan->cord, plan->n_cords) <= x->enough / 2) return THR_OK;
+  return st ? st : use_walks(x, frame, plan, bound, err);
+}
+
+thr_status thr_max_turning_improve(const thr_frame *frame, double enough, const thr_limits *limits, thr_least *plan,
+                                   thr_max_turning *out, thr_err *err)
 {
   thr_turning_columns turning_columns = {0};
   search x = {0};
-  bool found = false;
   double forced = 0;
   *out = (thr_max_turning){.bound = plan->bound / plan->n_cords};
   thr_status st = thr_turning_columns_init(&turning_columns, frame, &plan->task, err);
   if (!st) st = thr_walk_forced(&turning_columns, &forced, err);
   out->bound = fmax(out->bound, forced);
   if (!st) st = search_init(&x, &turning_columns, limits, plan, largest_price(frame, plan), out->bound, err);
-  if (!st && out->bound < x.scale * (1 - 1e-9))
-    st = thr_max_turning_small(&turning_columns, plan->cord, plan->n_cords, limits, &x.best, &found, err);
-  if (!st && !found) st = run(&x, err);
-  if (!st) st = keep_best(&x, frame, plan, err);
-  if (!st) st = use_walks(&x, frame, plan, &out->bound, err);
+  x.enough = enough;
+  if (!st) st = find_cords(&x, frame, plan, &out->bound, err);
   if (!st) out->largest = largest_price(frame, plan);
   search_destroy(&x);
   thr_turning_columns_destroy(&turning_columns);

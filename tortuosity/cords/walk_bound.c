@@ -53,6 +53,20 @@ static thr_status bisect(thr_walk_programme *p, double largest, thr_walk_proof *
   return st;
 }
 
+/* Do cords have to turn by more than is enough? *open: where to look for some that do not. */
+static thr_status try_limit(thr_walk_programme *p, double enough, thr_walk_proof *proof, double *bound, int *open, thr_err *err)
+{
+  const int part = 64; /* of the limit that cords may stay below */
+  double most = floor(enough / thr_walk_programme_price(p, 1));
+  int units = most < p->most_units ? (int)most : p->most_units;
+  if (thr_walk_programme_price(p, units + 1) <= enough) units++; /* prices are rounded down */
+  *open = units - units / part;
+  if (units > p->most_units) return THR_OK;
+  thr_status st = exclude(p, units, proof, err);
+  if (!st && p->excluded) *bound = fmax(*bound, thr_walk_programme_price(p, units + 1));
+  return st;
+}
+
 /* The passes of the dive's walks, and of the cords of other components, are within the limits? */
 static bool within_limits(const thr_turning_columns *columns, const thr_cord *cord, int n, int *passes)
 {
@@ -115,7 +129,7 @@ static thr_status dive(thr_walk_programme *p, const thr_cord *cord, int n_cords,
   return st;
 }
 
-thr_status thr_walk_bound(const thr_turning_columns *columns, const thr_cord *cord, int n_cords, double least,
+thr_status thr_walk_bound(const thr_turning_columns *columns, const thr_cord *cord, int n_cords, double least, double enough,
                           const thr_limits *limits, thr_walk_proof *proof, double *bound, thr_cord **better, thr_err *err)
 {
   const thr_turning_task *task = columns->task;
@@ -127,8 +141,12 @@ thr_status thr_walk_bound(const thr_turning_columns *columns, const thr_cord *co
   int open = 0;
   if (!task->end_allowed || task->cords < 2 || *bound >= largest * (1 - 1e-9)) return THR_OK;
   thr_status st = thr_walk_programme_init(&p, columns, cord, n_cords, least, limits, &why);
-  if (!st) st = bisect(&p, largest, &made, bound, &open, &why);
-  if (!st && !task->tube && !task->end_count) st = dive(&p, cord, n_cords, open, better, &why);
+  if (!st && enough > 0)
+    st = try_limit(&p, enough, &made, bound, &open, &why);
+  else if (!st)
+    st = bisect(&p, largest, &made, bound, &open, &why);
+  bool wanted = enough <= 0 || *bound <= enough;
+  if (!st && wanted && !task->tube && !task->end_count) st = dive(&p, cord, n_cords, open, better, &why);
   if (!st && made.edge) {
     thr_walk_proof_destroy(proof);
     *proof = made;

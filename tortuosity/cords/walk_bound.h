@@ -13,8 +13,9 @@
  * bisection, in the component of the dearest cord. proof receives the prices, if there are any; what it held is released. least:
  * the proved least of the turning of all cords. *better, NULL at first, receives n_cords cords of which the dearest turns less,
  * if the columns make some; the caller's. Nothing is done for closed cords, for one cord in each component, or where half-edges
- * and turning are more than the recursion takes in a moment. */
-thr_status thr_walk_bound(const thr_turning_columns *columns, const thr_cord *cord, int n_cords, double least,
+ * and turning are more than the recursion takes in a moment. enough > 0: asked is only whether some cord turns by more than that;
+ * one limit is tried, and better cords are looked for from just below it. */
+thr_status thr_walk_bound(const thr_turning_columns *columns, const thr_cord *cord, int n_cords, double least, double enough,
                           const thr_limits *limits, thr_walk_proof *proof, double *bound, thr_cord **better,
                           thr_err *err) THR_MUST_CHECK;
 

@@ -1,0 +1,132 @@
+/* The checker's part for a limit on the pull: what each cord needs, and that fewer cords would need more. */
+#include "graph/angle.h"
+#include "graph/check/check.h"
+#include "graph/check/check_parts.h"
+#include "graph/framework/frame.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/plan/walk_proof.h"
+#include "graph/status.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Of the capstan law's exponent, mu times the turning: a pull may be above the limit by so much of it. */
+static const double rounding = 1e-9;
+
+/* ---- the cords ---- */
+
+/* The larger part of a cord's turning, rad, parted where that is least. */
+static double larger_part(const thr_frame *frame, const thr_cord *cord)
+{
+  double whole = 0, before = 0, larger;
+  for (int k = 1; k < cord->n_passes; k++)
+    whole += thr_check_angle(frame, cord->half[k - 1], cord->half[k]);
+  larger = whole;
+  for (int k = 1; k < cord->n_passes; k++) {
+    before += thr_check_angle(frame, cord->half[k - 1], cord->half[k]);
+    larger = fmin(larger, fmax(before, whole - before));
+  }
+  return larger;
+}
+
+thr_status thr_check_pulls(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords, thr_err *err)
+{
+  const double mu = options->physics.mu;
+  for (int i = 0; i < n_cords && options->max_pull > 0; i++) {
+    double exponent = mu * larger_part(frame, &cord[i]), most = log(options->max_pull);
+    if (exponent > most + rounding * (1 + most))
+      return thr_fail(err, THR_EVIOLATED,
+                      "cord %s: pulled at both ends it needs %.12g times the seating tension; the plan's options allow %.12g",
+                      cord[i].id, exp(exponent), options->max_pull);
+  }
+  return THR_OK;
+}
+
+/* ---- too few cords ---- */
+
+/* No plan of the task is without a cord that turns by *bound, rad. */
+static thr_status largest_bound(const thr_turning_columns *columns, const thr_turning_proof *tree, double *bound, thr_err *err)
+{
+  const thr_turning_task *task = columns->task;
+  double all = 0, worth = 0;
+  *bound = 0;
+  thr_status st = thr_turning_proof_check_columns(columns, tree, &all, err);
+  if (!st) st = thr_walk_forced(columns, bound, err);
+  if (!st && tree->walks.unit) st = thr_walk_proof_check(columns, &tree->walks, task->cords, all, &worth, err);
+  if (st) return st;
+  *bound = fmax(fmax(*bound, worth), all / ((double)task->cords * columns->n_components));
+  if (!task->end_allowed) *bound = fmax(*bound, thr_turn_closed(task->cost)) - THR_PI; /* its last turn is at its ends */
+  return THR_OK;
+}
+
+thr_status thr_check_too_few(const thr_frame *frame, const thr_request *options, int cords, int most_passes,
+                             const thr_turning_proof *tree, bool *too_few, thr_err *err)
+{
+  const double most = log(options->max_pull);
+  const bool closed = options->ends == THR_ENDS_CLOSED, counts = options->ends == THR_ENDS_COUNTS;
+  const int least = thr_plan_cords_least(options);
+  thr_turning_columns columns;
+  double bound = 0;
+  bool *end_allowed = thr_calloc((size_t)frame->n_nodes, sizeof *end_allowed);
+  *too_few = false;
+  if (!end_allowed) return thr_nomem(err);
+  for (int v = 0; v < frame->n_nodes; v++)
+    end_allowed[v] = thr_plan_end_allowed(frame, options, v);
+  const thr_turning_task task = {.cover = options->cover,
+                                 .capacity = options->capacity,
+                                 .tube = options->joint == THR_JOINT_TUBE,
+                                 .most_passes = most_passes,
+                                 .cords = cords,
+                                 .cords_least = least < cords ? least : cords,
+                                 .end_allowed = closed ? NULL : end_allowed,
+                                 .end_count = counts ? options->end_count : NULL,
+                                 .extra_limit = -1};
+  thr_status st = thr_turning_columns_init(&columns, frame, &task, err);
+  if (!st) {
+    st = largest_bound(&columns, tree, &bound, err);
+    thr_turning_columns_destroy(&columns);
+  }
+  free(end_allowed);
+  if (!st) *too_few = options->physics.mu * bound / 2 > most + 2 * rounding * (1 + most); /* twice that which cords are allowed */
+  return st;
+}
+
+/* ---- the claim ---- */
+
+static thr_status check_tree(const thr_plan *plan, thr_err *err)
+{
+  const thr_pull_claim *claim = &plan->pull_claim;
+  int least_most = thr_turning_most_passes(&plan->frame, plan->options.cover);
+  bool too_few;
+  if (claim->most_passes < least_most)
+    return thr_fail(err, THR_EVIOLATED, "proof.pull.most_passes: %d; a proof is about plans with up to %d passes over an edge",
+                    claim->most_passes, least_most);
+  thr_status st =
+      thr_check_too_few(&plan->frame, &plan->options, claim->excluded, claim->most_passes, &claim->tree, &too_few, err);
+  if (st || too_few) return st;
+  return thr_fail(err, THR_EVIOLATED, "proof.pull: it is not proved that %d cords in every component are too few for the pull",
+                  claim->excluded);
+}
+
+thr_status thr_check_pull_claim(const thr_plan *plan, int n_components, thr_err *err)
+{
+  const thr_pull_claim *claim = &plan->pull_claim;
+  const thr_request *options = &plan->options;
+  int least = thr_plan_cords_least(options), fewest = options->ends == THR_ENDS_COUNTS ? plan->n_cords : least * n_components;
+  if (options->max_pull <= 0) return thr_fail(err, THR_EVIOLATED, "proof.pull: the options set no limit on the pull");
+  thr_status st = claim->tree.n_nodes > 0 ? check_tree(plan, err) : THR_OK;
+  if (st) return st;
+  /* some component has one more, the others may have the least */
+  if (claim->tree.n_nodes > 0 && claim->excluded >= least) fewest += claim->excluded + 1 - least;
+  if (claim->fewest > fewest)
+    return thr_fail(err, THR_EVIOLATED, "proof.pull.lower_bound: stated %d, but only %d is proved", claim->fewest, fewest);
+  if (claim->fewest > plan->n_cords)
+    return thr_fail(err, THR_EVIOLATED, "proof.pull: any plan would have %d cords or more, but this one has %d", claim->fewest,
+                    plan->n_cords);
+  if (claim->optimal && claim->fewest != plan->n_cords)
+    return thr_fail(err, THR_EVIOLATED, "proof.pull: says optimal, but there are %d cords and its bound is %d", plan->n_cords,
+                    claim->fewest);
+  return THR_OK;
+}

@@ -1,0 +1,241 @@
+/* Plans within a limit on the pull: as few cords as that takes, then the aims with so many.
+ *
+ * With both ends pulled a cord needs at least exp(mu x turning / 2) times the seating tension, so a limit on the pull is one on
+ * the turning of the cord that turns most. How many cords it takes is bounded from below by the turning of all of them shared out
+ * evenly, by single edges, and by the worth of walks; from above by cords of which the one that turns most turns little. */
+#include "graph/angle.h"
+#include "graph/check/check.h"
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/status.h"
+#include "planner/dispatch.h"
+#include "planner/least_turning.h"
+#include "planner/make_plan.h"
+#include "planner/planners.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct {
+  const thr_frame *f;
+  const thr_request *o;
+  const thr_limits *limits;
+  double most;          /* rad that a cord may turn, with the last turn of a closed one */
+  thr_pull_claim claim; /* the most cords that are proved to be too few */
+  thr_plan found;       /* within the limit, of the fewest cords so far; n_cords is 0: none yet */
+  int number;           /* of them in every component */
+} fewest;
+
+static void fewest_destroy(fewest *x)
+{
+  thr_turning_proof_destroy(&x->claim.tree);
+  thr_plan_destroy(&x->found);
+}
+
+static bool is_range(const thr_request *options)
+{
+  return options->ends != THR_ENDS_COUNTS && options->cords_least < options->cords;
+}
+
+/* ---- too few ---- */
+
+/* Takes the tree of a plan if it proves that n cords in every component are too few. What walks are worth may be of another
+ * number of cords only: then the rest of the tree may do. */
+static thr_status rule_out(fewest *x, int n, thr_turning_claim *made, thr_err *err)
+{
+  bool too_few = false;
+  thr_err why = {0};
+  if (!made->present || n <= x->claim.excluded) return THR_OK;
+  thr_status st = thr_check_too_few(x->f, x->o, n, made->most_passes, &made->tree, &too_few, &why);
+  if (st == THR_EVIOLATED && made->tree.walks.unit) {
+    thr_walk_proof_destroy(&made->tree.walks);
+    st = thr_check_too_few(x->f, x->o, n, made->most_passes, &made->tree, &too_few, &why);
+  }
+  if (st == THR_EVIOLATED) return THR_OK; /* rows of one number of closed cords only */
+  if (st || !too_few) return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
+  thr_turning_proof_destroy(&x->claim.tree);
+  x->claim.tree = made->tree;
+  x->claim.excluded = n;
+  x->claim.most_passes = made->most_passes;
+  made->tree = (thr_turning_proof){0};
+  made->present = false;
+  return THR_OK;
+}
+
+/* ---- plans of one number ---- */
+
+/* n cords in every component for an aim, in a part of the time. THR_OK with or without a plan. */
+static thr_status plan_number(const fewest *x, int n, thr_aim aim, thr_step step, thr_plan *plan, thr_err *err)
+{
+  thr_request options = *x->o;
+  thr_limits share = thr_dispatch_share(x->limits, step);
+  thr_err why = {0};
+  share.found = NULL; /* more cords than a plan has in the end, or more pull */
+  options.aims = (thr_aims){1, {aim}};
+  options.turning = thr_request_default().turning;
+  options.max_length = 0;
+  if (options.ends != THR_ENDS_COUNTS) options.cords = options.cords_least = n;
+  thr_status st = thr_tortuosity_plan(x->f, &options, &share, plan, &why);
+  if (st == THR_ENOMEM) return thr_nomem(err);
+  return THR_OK; /* what else fails leaves no plan */
+}
+
+/* What the turning of so many cords is at least, on average; and whether they are too few. 0: not known. */
+static thr_status bound_number(fewest *x, int n, double *each, thr_err *err)
+{
+  thr_plan plan;
+  thr_status st = plan_number(x, n, THR_AIM_TURNING, THR_STEP_FEW_BOUND, &plan, err);
+  *each = plan.turning.present && plan.n_cords > 0 ? plan.turning.lower_bound * n / plan.n_cords : 0; /* of a component */
+  if (!st && x->o->cords > n && n == x->o->cords_least) st = rule_out(x, x->o->cords, &plan.turning, err);
+  if (!st && *each > 0 && ceil(*each / x->most) - 1 < n && ceil(*each / x->most) > x->o->cords_least)
+    st = rule_out(x, (int)ceil(*each / x->most) - 1, &plan.turning, err);
+  if (!st) st = rule_out(x, n, &plan.turning, err);
+  thr_plan_destroy(&plan);
+  return st;
+}
+
+/* Cords of which the one that turns most turns little enough, or a proof that there are none. */
+static thr_status try_number(fewest *x, int n, bool *fits, thr_err *err)
+{
+  thr_plan plan;
+  thr_status st = plan_number(x, n, THR_AIM_MAX_TURNING, THR_STEP_FEW_TRY, &plan, err);
+  double limit = x->o->max_length * (1 + 1e-12);
+  bool short_enough = limit == 0 || thr_cords_longest(x->f, plan.cord, plan.n_cords) <= limit;
+  *fits = !st && plan.n_cords > 0 && short_enough && thr_cords_within_pull(x->f, x->o, plan.cord, plan.n_cords);
+  if (*fits && (x->found.n_cords == 0 || n < x->number)) {
+    thr_plan_destroy(&x->found);
+    x->found = plan;
+    x->number = n;
+    thr_limits_found(x->limits, x->found.cord, x->found.n_cords, NULL);
+    return st;
+  }
+  if (!st && !*fits) st = rule_out(x, n, &plan.turning, err);
+  thr_plan_destroy(&plan);
+  return st;
+}
+
+/* ---- as few as it takes ---- */
+
+static bool is_over(const fewest *x)
+{
+  return x->claim.excluded >= x->o->cords || thr_limits_stop(x->limits);
+}
+
+/* Raises claim.excluded by bounds on the turning of all cords, between the fewest and as many as share it out evenly enough. */
+static thr_status bound_all(fewest *x, thr_err *err)
+{
+  double each;
+  thr_status st = bound_number(x, x->o->cords_least, &each, err);
+  int low = x->claim.excluded, high = (int)fmin(x->o->cords, ceil(each / fmax(x->most, 1e-3)) + 1);
+  bool first = true;
+  while (!st && high - low > 1 && !is_over(x)) {
+    int middle = first ? high : low + (high - low) / 2;
+    st = bound_number(x, middle, &each, err);
+    if (x->claim.excluded > low) low = x->claim.excluded;
+    if (x->claim.excluded < middle) high = middle;
+    first = false;
+  }
+  return st;
+}
+
+/* From the number that is not excluded upwards, in growing steps while nothing is proved of the numbers tried; then down again.
+ */
+static thr_status search_numbers(fewest *x, thr_err *err)
+{
+  int failed = x->claim.excluded, n = failed + 1, step = 1;
+  bool fits = false;
+  thr_status st = THR_OK;
+  while (!st && !fits && n <= x->o->cords && !is_over(x)) {
+    st = try_number(x, n, &fits, err);
+    if (fits) break;
+    failed = n;
+    n += n < x->o->cords && n + step > x->o->cords ? x->o->cords - n : step;
+    if (x->claim.excluded < failed) step *= 2;
+  }
+  while (!st && x->found.n_cords > 0 && x->number - failed > 1 && !is_over(x)) {
+    int middle = failed + (x->number - failed) / 2;
+    st = try_number(x, middle, &fits, err);
+    if (!fits) failed = middle;
+  }
+  return st;
+}
+
+/* ---- the plan ---- */
+
+static thr_status not_found(const fewest *x, const thr_err *why, thr_err *err)
+{
+  const thr_request *o = x->o;
+  const char *more = is_range(o) ? "time, cords" : "time";
+  double newtons = o->max_pull * o->physics.seating;
+  if (why->code == THR_EINPUT || why->code == THR_ENOMEM) return thr_fail(err, why->code, "%s", why->text);
+  if (x->claim.excluded >= o->cords && o->cords == THR_MOST_CORDS)
+    return thr_fail(
+        err, THR_EINFEASIBLE,
+        "over a single edge some cord turns so much that it needs more than %.6g N, however many cords there are (proved)",
+        newtons);
+  if (x->claim.excluded >= o->cords)
+    return thr_fail(
+        err, THR_EINFEASIBLE,
+        "with at most %d cords in a component some cord needs more than %.6g N (proved); allow more cords or more pull", o->cords,
+        newtons);
+  if (x->claim.excluded >= o->cords_least && is_range(o))
+    return thr_fail(err, THR_ELIMIT,
+                    "no cords were found of which none needs more than %.6g N; %d in every component are too few (proved); allow "
+                    "more %s or pull",
+                    newtons, x->claim.excluded, more);
+  return thr_fail(err, THR_ELIMIT, "no cords were found of which none needs more than %.6g N; allow more %s or pull", newtons,
+                  more);
+}
+
+/* What is proved of the number; said only where it was free. */
+static thr_status claim_number(fewest *x, thr_plan *plan, thr_err *err)
+{
+  int n = 0;
+  for (int i = 0; i < plan->n_cords; i++)
+    if (plan->cord[i].component >= n) n = plan->cord[i].component + 1;
+  if (!is_range(x->o)) return THR_OK;
+  x->claim.fewest = x->o->cords_least * n;
+  if (x->claim.tree.n_nodes > 0) x->claim.fewest += x->claim.excluded + 1 - x->o->cords_least;
+  x->claim.present = true;
+  x->claim.optimal = x->claim.fewest == plan->n_cords;
+  plan->pull_claim = x->claim;
+  x->claim.tree = (thr_turning_proof){0};
+  if (plan->pull_claim.optimal) return THR_OK;
+  return thr_fail(err, THR_ELIMIT, "%d cords keep to the pull; it is proved only that fewer than %d cannot", plan->n_cords,
+                  plan->pull_claim.fewest);
+}
+
+thr_status thr_planner_pull(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
+                            thr_report *report, thr_err *err)
+{
+  const thr_limits share = thr_dispatch_share(limits, THR_STEP_FEWEST);
+  fewest x = {.f = frame, .o = options, .limits = &share, .claim.excluded = options->cords_least - 1};
+  bool fits;
+  thr_err why = {0};
+  thr_request few = *options;
+  *plan = (thr_plan){0};
+  if (thr_wants_symmetry(options)) return thr_planner_symmetric(frame, options, limits, plan, report, err);
+  if (options->turning.length_slack >= 0)
+    return thr_fail(err, THR_EINPUT, "cord above the shortest is not limited together with the pull");
+  x.most = thr_request_most_turning(options) + (options->ends == THR_ENDS_CLOSED ? THR_PI : 0);
+  thr_status st = is_range(options) ? bound_all(&x, err) : THR_OK;
+  if (!st) st = is_range(options) ? search_numbers(&x, err) : try_number(&x, options->cords, &fits, err);
+  x.limits = limits;
+  if (x.found.n_cords > 0) few.cords = x.number;
+  bool hopeless = is_range(options) ? x.found.n_cords == 0 : x.claim.excluded >= options->cords;
+  if (!st && !hopeless) st = thr_planner_mixed(frame, &few, &x.found, limits, plan, &why);
+  if (!st && hopeless) st = THR_EINFEASIBLE;
+  if (st == THR_EINFEASIBLE || (st && st != THR_ELIMIT && why.code))
+    st = not_found(&x, &why, err);
+  else if (st == THR_ELIMIT)
+    thr_fail(err, st, "%s", why.text);
+  if (plan->n_cords > 0) {
+    thr_status proved = claim_number(&x, plan, err);
+    if (!st) st = proved;
+  }
+  fewest_destroy(&x);
+  return st;
+}
