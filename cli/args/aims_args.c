@@ -51,7 +51,7 @@ int aims_args_settle(aims_args *a, turning_args *turning, symmetry_args *symmetr
 /* Of several cords the hand feels the one that turns most: a small sum may leave one that nobody can pull. */
 static bool wants_largest(const turning_args *turning, const cords_args *cords)
 {
-  bool several = cords->most > 1 || cords->max_length > 0;
+  bool several = cords->most > 1 || cords_args_few(cords);
   return turning->minimize ? turning->largest
                            : several && !cords->balance && !turning->frontier && turning->options.tour == THR_TOUR_LEAST;
 }
