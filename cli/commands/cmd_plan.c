@@ -38,9 +38,8 @@ static const char help_requests[] =
     "What is planned:\n" AIMS_HELP CORDS_HELP
     "      --time-limit S   stop after S seconds with the best plan so far and its gap, 0 = never (default: 0; other\n"
     "                       objectives and tube joints: 20). --frontier, --compare-shortest and --compare-objectives share\n"
-    "                       an S that is given, and so do the drawings; else each search has its 20 s\n" GUARD_MEMORY_HELP
-    "\n" TURNING_HELP;
-static const char help_rest[] =
+    "                       an S that is given, and so do the drawings; else each search has its 20 s\n" GUARD_MEMORY_HELP "\n";
+static const char help_rest[] = TURNING_HELP
     "\nSymmetry (with --objective symmetry; thread symmetries --help says more):\n"
     "      --group ID|NAME   --geometric TOL   --prefer overlap,steps,paths,turning\n"
     "\nFramework:\n" CLI_FRAME_HELP "\nOutput:\n"
