@@ -27,6 +27,7 @@ typedef struct {
   thr_pull_claim claim; /* the most cords that are proved to be too few */
   thr_plan found;       /* within the limit, of the fewest cords so far; n_cords is 0: none yet */
   int number;           /* of them in every component */
+  double beyond;        /* the last cords turn by this part more than they may, at most twice as much */
 } fewest;
 
 static void fewest_destroy(fewest *x)
@@ -105,6 +106,8 @@ static thr_status try_number(fewest *x, int n, bool *fits, thr_err *err)
   double limit = x->o->max_length * (1 + 1e-12);
   bool short_enough = limit == 0 || thr_cords_longest(x->f, plan.cord, plan.n_cords) <= limit;
   *fits = !st && plan.n_cords > 0 && short_enough && thr_cords_within_pull(x->f, x->o, plan.cord, plan.n_cords);
+  double turning = plan.n_cords > 0 ? thr_cords_pulled_turning(x->f, plan.cord, plan.n_cords) : INFINITY;
+  x->beyond = fmin(1, fmax(0, 2 * turning / thr_request_most_turning(x->o) - 1));
   if (*fits && (x->found.n_cords == 0 || n < x->number)) {
     thr_plan_destroy(&x->found);
     x->found = plan;
@@ -141,7 +144,8 @@ static thr_status bound_all(fewest *x, thr_err *err)
   return st;
 }
 
-/* From the number that is not excluded upwards, in growing steps while nothing is proved of the numbers tried; then down again.
+/* From the number that is not excluded upwards, in growing steps while nothing is proved of the numbers tried, by as much as
+ * their cords turn too much; then down again.
  */
 static thr_status search_numbers(fewest *x, thr_err *err)
 {
@@ -152,7 +156,8 @@ static thr_status search_numbers(fewest *x, thr_err *err)
     st = try_number(x, n, &fits, err);
     if (fits) break;
     failed = n;
-    n += n < x->o->cords && n + step > x->o->cords ? x->o->cords - n : step;
+    int more = x->claim.excluded < failed ? (int)fmax(step, floor(n * x->beyond)) : 1;
+    n += n < x->o->cords && n + more > x->o->cords ? x->o->cords - n : more;
     if (x->claim.excluded < failed) step *= 2;
   }
   while (!st && x->found.n_cords > 0 && x->number - failed > 1 && !is_over(x)) {
