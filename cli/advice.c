@@ -59,7 +59,7 @@ void advice_put_after_plan(const thr_plan *plan, const char *path, const cli_fra
   const thr_advise_options options = {.hand = thr_hand_always, .plan = plan};
   thr_advice advice = {0};
   double force = force_of(plan);
-  if (force <= thr_hand_once) return;
+  if (force <= thr_hand_most) return;
   if (thr_advise(&plan->frame, &plan->options, &options, &(thr_limits){0}, &advice, NULL)) return;
   if (advice.chosen >= 0) put_line(&advice, force, path, a, physics, text);
   thr_advice_destroy(&advice);

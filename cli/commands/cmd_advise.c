@@ -31,7 +31,7 @@ static const char help[] =
     "  -o, --output FILE    (default: stdout)\n"
     "      --json           the table as JSON\n"
     "      --hand N         what the pull is to stay within, in newton, even at the upper end of the band of mu\n"
-    "                       (default: 10, what a hand manages time after time; 50: once)\n"
+    "                       (default: 10, what a hand manages time after time; 50: the most)\n"
     "      --cover N        at least N passes over every interface (default: 1)\n"
     "      --time-limit S   for all rows together, 0 = until every search has ended (default: 2)\n" GUARD_MEMORY_HELP
         CLI_FRAME_HELP "  -q, --quiet          no notes       -v, --verbose  what the solver does       -h, --help\n\n"

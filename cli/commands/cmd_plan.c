@@ -382,7 +382,7 @@ static bool is_usual(const arguments *a, const thr_request *options)
   const cords_args usual = cords_args_default();
   return thr_wants_length(options) && !thr_wants_balance(options) && a->cords.most == 0 && a->cords.max_length == 0 &&
          strcmp(a->cords.ends, usual.ends) == 0 && a->cords.cover == usual.cover && a->cords.capacity == 0 &&
-         options->joint == THR_JOINT_SOLID && a->guard.seconds < 0 && !a->compare;
+         !cords_args_limits_pull(&a->cords) && options->joint == THR_JOINT_SOLID && a->guard.seconds < 0 && !a->compare;
 }
 
 /* Where the plan is and, unless folder is NULL, the drawings; and what to do if a hand cannot pull it. */

@@ -82,7 +82,7 @@ void advice_put_row(thr_text *text, const thr_advice_row *row, double base_lengt
 static const char *hand_words(double hand)
 {
   return hand == thr_hand_always ? ", what a hand manages time after time,"
-         : hand == thr_hand_once ? ", what a hand manages once,"
+         : hand == thr_hand_most ? ", the most for a hand,"
                                  : "";
 }
 
@@ -126,7 +126,7 @@ void advice_put_line(thr_text *text, const thr_advice *advice, double force, con
 {
   char needs[24], pull[24];
   const thr_advice_row *row = &advice->row[advice->chosen];
-  thr_text_printf(text, "hand     needs %s N at each end; a hand manages about %g: ", force_words(force, needs), thr_hand_once);
+  thr_text_printf(text, "hand     needs %s N at each end; a hand manages about %g: ", force_words(force, needs), thr_hand_most);
   advice_put_cords(text, row);
   thr_text_printf(text, " %s about %s N with the same cord:\n         ", cli_plural(row->cords, "needs", "need"),
                   force_words(row->pull[THR_ADVICE_MU], pull));

@@ -136,7 +136,7 @@ static void write_hand(const picture *p, double hand, const char *what, thr_text
 
 static const char *hand_words(double hand)
 {
-  return hand == thr_hand_always ? ": a hand, time after time" : hand == thr_hand_once ? ": a hand, once" : "";
+  return hand == thr_hand_always ? ": a hand, time after time" : hand == thr_hand_most ? ": the most for a hand" : "";
 }
 
 static void write_within(const picture *p, thr_text *text)
@@ -277,7 +277,7 @@ static double write_panel(picture *p, thr_ends ends, double y, thr_text *text)
   write_band(p, text);
   write_chosen_line(p, bars, text);
   write_hand(p, p->advice->hand, hand_words(p->advice->hand), text);
-  if (p->advice->hand < thr_hand_once) write_hand(p, thr_hand_once, hand_words(thr_hand_once), text);
+  if (p->advice->hand < thr_hand_most) write_hand(p, thr_hand_most, hand_words(thr_hand_most), text);
   write_points(p, text);
   write_mu(p, text);
   write_bars(p, bars, text);

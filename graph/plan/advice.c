@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-const double thr_hand_once = 50, thr_hand_always = 10;
+const double thr_hand_most = 50, thr_hand_always = 10;
 
 static const double worth = 1.05;      /* a twentieth less pull is worth another cord */
 static const double same = 1 + 1e-9;   /* as much */

@@ -14,10 +14,11 @@
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 
-/* N. What a hand manages with a cord between thumb and finger: once, the mean strength of women's tip pinch (some 11 pounds:
- * Mathiowetz et al., Arch. Phys. Med. Rehabil. 66, 1985); time after time, 14 % of the strongest (endurance of intermittent
- * contractions: Bjorksten & Jonsson, Scand. J. Work Environ. Health 3, 1977) of their key pinch (some 16 pounds, 72 N). */
-extern const double thr_hand_once, thr_hand_always; /* 50, 10 */
+/* N. The most for a hand: what `thread plan --hand one` allows, and the mean strength of women's tip pinch (some 11 pounds:
+ * Mathiowetz et al., Arch. Phys. Med. Rehabil. 66, 1985). And what thumb and finger manage time after time: 14 % of the strongest
+ * (endurance of intermittent contractions: Bjorksten & Jonsson, Scand. J. Work Environ. Health 3, 1977) of the key pinch (some 16
+ * pounds, 72 N). */
+extern const double thr_hand_most, thr_hand_always; /* 50, 10 */
 
 enum { THR_ADVICE_LOW, THR_ADVICE_MU, THR_ADVICE_HIGH, THR_ADVICE_PULLS };
 
