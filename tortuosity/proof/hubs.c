@@ -50,7 +50,7 @@ static thr_status hub_init(hub *h, const thr_join *j, int v, thr_err *err)
     h->first[i + 1] += h->first[i];
   for (int i = 0; i < h->n; i++)
     h->sorted[h->first[place_of(h, i) + 1]++] = i;
-  return thr_nearest_find(j->c, v, NEAREST, &h->near, err);
+  return thr_nearest_find(j->c, v, j->c->weight, NEAREST, &h->near, err);
 }
 
 static double price(const hub *h, int a, int b)

@@ -7,39 +7,44 @@
 void thr_nearest_destroy(thr_nearest *nearest)
 {
   free(nearest->partner);
-  free(nearest->weight);
+  free(nearest->price);
   *nearest = (thr_nearest){0};
 }
 
-/* Puts half-edge j into the list of i, which has `have` members, sorted; the dearest falls out of a full one. */
-static void insert(thr_nearest *nearest, int i, int have, int j, int64_t weight)
+/* Puts half-edge j into the list of i, which is sorted; the dearest falls out. */
+static void insert(thr_nearest *nearest, int i, int j, int64_t price)
 {
-  int *partner = nearest->partner + (size_t)i * (size_t)nearest->n, at = have < nearest->n ? have : nearest->n - 1;
-  int64_t *by = nearest->weight + (size_t)i * (size_t)nearest->n;
-  if (have >= nearest->n && weight >= by[at]) return;
-  for (; at > 0 && weight < by[at - 1]; at--) {
+  int *partner = nearest->partner + (size_t)i * (size_t)nearest->n, at = nearest->n - 1;
+  int64_t *by = nearest->price + (size_t)i * (size_t)nearest->n;
+  if (price >= by[at]) return;
+  for (; at > 0 && price < by[at - 1]; at--) {
     by[at] = by[at - 1];
     partner[at] = partner[at - 1];
   }
-  by[at] = weight;
+  by[at] = price;
   partner[at] = j;
 }
 
-thr_status thr_nearest_find(const thr_turning_columns *turning_columns, int v, int most, thr_nearest *out, thr_err *err)
+thr_status thr_nearest_find(const thr_turning_columns *turning_columns, int v, const int64_t *price, int most, thr_nearest *out,
+                            thr_err *err)
 {
   int d = thr_degree(turning_columns->f, v), column = turning_columns->pair_first[v];
   *out = (thr_nearest){.degree = d, .n = most < d ? most : d - 1};
   size_t all = (size_t)d * (size_t)out->n;
   out->partner = thr_calloc(all, sizeof *out->partner);
-  out->weight = thr_calloc(all, sizeof *out->weight);
-  if (!out->partner || !out->weight) {
+  out->price = thr_calloc(all, sizeof *out->price);
+  if (!out->partner || !out->price) {
     thr_nearest_destroy(out);
     return thr_nomem(err);
   }
+  for (size_t i = 0; i < all; i++) {
+    out->partner[i] = -1;
+    out->price[i] = INT64_MAX;
+  }
   for (int i = 0; i < d; i++)
     for (int j = i + 1; j < d; j++, column++) {
-      insert(out, i, j - 1, j, turning_columns->weight[column]);
-      insert(out, j, i, i, turning_columns->weight[column]);
+      insert(out, i, j, price[column]);
+      insert(out, j, i, price[column]);
     }
   return THR_OK;
 }

@@ -169,17 +169,24 @@ thr_status thr_pass_dual(const thr_pass_matching *passes, const thr_matching *ma
 
 /* ---- what is left of prices ---- */
 
-/* Takes value off the turns at half-edge h that leave the marked set. */
-static void take_turns(const thr_turning_columns *c, int h, const bool *member, int64_t value, int64_t *left)
+/* Gives the turns from half-edge h to later members of the marked set the value back that both their half-edges pay. */
+static void give_back(const thr_turning_columns *c, int h, const thr_turning_set *set, const bool *member, int64_t *left)
 {
-  int v = thr_tail(c->f, h);
-  for (int i = c->f->first[v]; i < c->f->first[v + 1]; i++)
-    if (!member[c->f->half[i]]) left[thr_turning_column(c, h, c->f->half[i])] -= value;
+  int v = thr_tail(c->f, h), halves = 2 * c->f->n_edges;
+  if (set->n > thr_degree(c->f, v)) {
+    for (int i = c->f->first[v]; i < c->f->first[v + 1]; i++)
+      if (c->f->half[i] > h && member[c->f->half[i]]) left[thr_turning_column(c, h, c->f->half[i])] += 2 * set->value;
+    return;
+  }
+  for (int k = 0; k < set->n && set->member[k] < halves; k++)
+    if (set->member[k] > h && thr_tail(c->f, set->member[k]) == v)
+      left[thr_turning_column(c, h, set->member[k])] += 2 * set->value;
 }
 
-/* Of the columns at the set's half-edges; open: nodes whose turns are asked for. */
+/* Of the columns at the set's half-edges; open: nodes whose turns are asked for; paid[2 n_edges]: what all sets take off the
+ * turns of a half-edge, those within a set too. */
 static void take_set_off(const thr_turning_columns *c, const thr_turning_set *set, const bool *member, const bool *open,
-                         int64_t *left)
+                         int64_t *paid, int64_t *left)
 {
   int halves = 2 * c->f->n_edges;
   bool ends = set->member[set->n - 1] >= halves; /* members ascend */
@@ -187,8 +194,9 @@ static void take_set_off(const thr_turning_columns *c, const thr_turning_set *se
     if (member[halves + c->end_group[thr_tail(c->f, c->half[j][0])]] && !member[c->half[j][0]]) left[j] -= set->value;
   for (int k = 0; k < set->n && set->member[k] < halves; k++) {
     int h = set->member[k], v = thr_tail(c->f, h);
+    paid[h] += set->value;
     if (!member[h ^ 1]) left[c->first_extra + (h >> 1)] -= set->value;
-    if (open[v]) take_turns(c, h, member, set->value, left);
+    if (open[v]) give_back(c, h, set, member, left);
     if (c->end_column[h] >= 0 && !member[halves + c->end_group[v]]) left[c->end_column[h]] -= set->value;
   }
 }
@@ -200,21 +208,24 @@ thr_status thr_pass_left(const thr_pass_matching *passes, const int64_t *price, 
   thr_scratch own = {0};
   bool *member = thr_scratch_array(&own, (size_t)passes->n_places, sizeof *member),
        *open = thr_scratch_array(&own, (size_t)c->f->n_nodes, sizeof *open);
+  int64_t *paid = thr_scratch_array(&own, 2 * (size_t)c->f->n_edges, sizeof *paid);
   thr_status st = thr_scratch_check(&own, err);
   for (int j = 0; j < c->first_back && !st; j++) {
     int a = c->half[j][0], b = c->half[j][1];
-    int64_t paid = dual->potential[a] + (b >= 0 ? dual->potential[b] : dual->ends[c->end_group[thr_tail(c->f, a)]]);
-    left[j] = price[j] + (j >= c->first_extra && j < c->first_end ? paid : -paid);
+    int64_t both = dual->potential[a] + (b >= 0 ? dual->potential[b] : dual->ends[c->end_group[thr_tail(c->f, a)]]);
+    left[j] = price[j] + (j >= c->first_extra && j < c->first_end ? both : -both);
     if (all || !passes->listed[j]) open[thr_tail(c->f, a)] = true;
   }
   for (int i = first_odd; i < dual->n_odd && !st; i++) {
     const thr_turning_set *set = &dual->odd[i];
     for (int k = 0; k < set->n; k++)
       member[set->member[k]] = true;
-    take_set_off(c, set, member, open, left);
+    take_set_off(c, set, member, open, paid, left);
     for (int k = 0; k < set->n; k++)
       member[set->member[k]] = false;
   }
+  for (int j = 0; j < c->first_extra && !st; j++)
+    left[j] -= paid[c->half[j][0]] + paid[c->half[j][1]];
   thr_scratch_free(&own);
   return st;
 }

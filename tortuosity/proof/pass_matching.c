@@ -13,7 +13,8 @@ enum {
   NEAREST = 6,      /* turns of every half-edge that are, at larger nodes */
   FINEST = 2,       /* the matching's unit is 2^FINEST of the prices' at least */
   MOST_ROUNDS = 30, /* matchings for the same prices */
-  STEP = 2,         /* copies of an edge that are opened at a time */
+  STEP = 2,         /* copies of an edge that are opened at a time, between small nodes */
+  MOST_FAILED = 20, /* doublings of the turns that are listed */
   SPARE = 3         /* copies of an edge that have nodes, but are not open yet */
 };
 
@@ -62,7 +63,7 @@ static thr_status list_turns(thr_pass_matching *passes, int v, thr_err *err)
     passes->listed[c->pair_first[v] + i] = true;
   if (d <= SMALL_NODE) return THR_OK;
   thr_nearest nearest;
-  thr_status st = thr_nearest_find(c, v, NEAREST, &nearest, err);
+  thr_status st = thr_nearest_find(c, v, c->weight, NEAREST, &nearest, err);
   for (int i = 0; i < d && !st; i++)
     for (int k = 0; k < nearest.n; k++)
       passes->listed[thr_turning_column(c, half[i], half[nearest.partner[i * nearest.n + k]])] = true;
@@ -91,12 +92,17 @@ static void allot_copies(thr_pass_matching *passes)
   number_nodes(passes);
 }
 
-/* One more than must be, or STEP where that is cheap. */
-static int first_copies(const thr_turning_columns *c, int e)
+/* Copies that are opened at a time: more where that is cheap. */
+static int step_of(const thr_turning_columns *c, int e)
 {
   const int *end = c->f->edge[e];
   bool small = thr_degree(c->f, end[0]) <= SMALL_NODE && thr_degree(c->f, end[1]) <= SMALL_NODE;
-  int copies = c->cover[e] + (small ? STEP : 1);
+  return small ? STEP : 1;
+}
+
+static int first_copies(const thr_turning_columns *c, int e)
+{
+  int copies = c->cover[e] + step_of(c, e);
   return copies < c->most[e] ? copies : c->most[e];
 }
 
@@ -369,41 +375,74 @@ static thr_status match_anew(thr_pass_matching *passes, const int64_t *price, co
   return st;
 }
 
-/* With the edges that were added to it since, from number `known` on; anew if there is no matching. */
+/* With the edges that were added to it since, from number `known` on; anew if there is no matching, or there were few. */
 static thr_status match(thr_pass_matching *passes, const int64_t *price, int known, const thr_limits *limits, thr_matching *out,
                         thr_err *err)
 {
+  bool many = passes->n_edges - known > known / 2;
   passes->rounds++;
-  if (!out->state || !weigh(passes, price, known)) return match_anew(passes, price, limits, out, err);
+  if (!out->state || many || !weigh(passes, price, known)) return match_anew(passes, price, limits, out, err);
   const thr_matching_problem problem = {n_nodes(passes), passes->n_edges, (const int(*)[2])passes->edge, passes->weight};
   return thr_matching_again(&problem, limits, out, err);
 }
 
-/* Lists turns and ends that cost less than the multipliers pay for them, some of every half-edge, and opens a copy of such extra
- * passes; without a matching (dual NULL) all of them. *fit: whether there are nodes for all. */
+/* Lists the turns at node v of least price left, `most` of every half-edge, that is below few. left: of those that are listed
+ * INT64_MAX. */
+static thr_status list_cheapest(thr_pass_matching *passes, int v, int64_t *left, int64_t few, int most, bool *more, thr_err *err)
+{
+  const thr_turning_columns *c = passes->c;
+  const int *half = c->f->half + c->f->first[v];
+  thr_nearest nearest;
+  thr_status st = thr_nearest_find(c, v, left, most, &nearest, err);
+  if (st) return st;
+  for (int i = 0; i < nearest.degree * nearest.n && !st; i++) {
+    if (nearest.partner[i] < 0 || nearest.price[i] >= few) continue;
+    int j = thr_turning_column(c, half[i / nearest.n], half[nearest.partner[i]]);
+    if (passes->listed[j]) continue; /* of its other half-edge */
+    *more = passes->listed[j] = true;
+    st = add_column(passes, j, -1, 0, err);
+  }
+  thr_nearest_destroy(&nearest);
+  return st;
+}
+
+/* The same at all nodes, and ends. */
+static thr_status list_more(thr_pass_matching *passes, int64_t *left, int64_t few, int most, bool *more, thr_err *err)
+{
+  const thr_turning_columns *c = passes->c;
+  thr_status st = THR_OK;
+  for (int j = 0; j < c->first_extra; j++)
+    if (passes->listed[j]) left[j] = INT64_MAX;
+  for (int v = 0; v < c->f->n_nodes && !st; v++)
+    if (thr_degree(c->f, v) > SMALL_NODE) st = list_cheapest(passes, v, left, few, most, more, err);
+  for (int j = c->first_end; j < c->first_back && !st; j++) {
+    if (passes->listed[j] || left[j] >= few) continue;
+    *more = passes->listed[j] = true;
+    st = add_column(passes, j, -1, 0, err);
+  }
+  return st;
+}
+
+/* Lists turns and ends that cost less than the multipliers pay for them, the cheapest of every half-edge, and, where there are no
+ * such turns, opens copies of such extra passes. Without a matching (dual NULL) it lists the cheapest, twice as many every time,
+ * and from the second time on opens copies, too. *fit: whether there are nodes for all. */
 static thr_status price_out(thr_pass_matching *passes, const int64_t *price, const thr_turning_dual *dual, int first_odd,
                             bool *more, bool *fit, thr_err *err)
 {
   const thr_turning_columns *c = passes->c;
   thr_scratch own = {0};
-  int *news = thr_scratch_array(&own, 2 * (size_t)c->f->n_edges, sizeof *news); /* turns and ends listed now at a half-edge */
-  int64_t *left = thr_scratch_array(&own, (size_t)c->n_columns, sizeof *left), few = dual ? -(INT64_C(4) << passes->bits) : 1;
+  int64_t *left = thr_scratch_array(&own, (size_t)c->n_columns, sizeof *left),
+          few = dual ? -(INT64_C(4) << passes->bits) : INT64_MAX;
   thr_status st = thr_scratch_check(&own, err);
   if (!st && dual) st = thr_pass_left(passes, price, dual, first_odd, false, left, err);
-  bool turns = false; /* what new turns change may need no more copies */
+  if (!st && !dual) memcpy(left, price, (size_t)c->n_columns * sizeof *left);
   *more = false;
   *fit = true;
-  for (int j = 0; j < c->n_columns && !st; j++) {
-    int a = c->half[j][0], b = c->half[j][1] >= 0 ? c->half[j][1] : a;
-    if (passes->listed[j] || left[j] >= few || (news[a] >= NEAREST && news[b] >= NEAREST)) continue;
-    *more = passes->listed[j] = true;
-    turns |= j < c->first_extra;
-    news[a]++;
-    news[b]++;
-    st = add_column(passes, j, -1, 0, err);
-  }
-  for (int e = 0; e < c->f->n_edges && !st && !(dual && turns); e++)
-    for (int k = 0; k < STEP && passes->open[e] < c->most[e] && left[c->first_extra + e] < few && !st; k++) {
+  if (!dual && passes->failed < MOST_FAILED) passes->failed++;
+  if (!st) st = list_more(passes, left, few, dual ? NEAREST : NEAREST << passes->failed, more, err);
+  bool copies = dual ? !*more : !*more || passes->failed > 1; /* what new turns change may need no more copies */
+  for (int e = 0; e < c->f->n_edges && !st && copies; e++)
+    for (int k = 0; k < step_of(c, e) && passes->open[e] < c->most[e] && left[c->first_extra + e] < few && !st; k++) {
       *more = true;
       if (passes->open[e] < passes->copies[e])
         st = open_copy(passes, e, err);
@@ -430,17 +469,12 @@ static void count_columns(const thr_pass_matching *passes, const thr_matching *m
   }
 }
 
-/* Where the matching is not to be made again: half-edges whose multipliers pay too much for a turn or an end pay less, which
- * leaves extra passes a price that may be negative, and the bound lower. */
-static thr_status settle(const thr_pass_matching *passes, const int64_t *price, thr_turning_dual *dual, int first_odd,
-                         thr_err *err)
+/* Half-edges whose multipliers pay too much for a turn or an end pay less. left, less: scratch. */
+static thr_status settle_turns(const thr_pass_matching *passes, const int64_t *price, thr_turning_dual *dual, int first_odd,
+                               int64_t *left, int64_t *less, thr_err *err)
 {
   const thr_turning_columns *c = passes->c;
-  thr_scratch own = {0};
-  int64_t *left = thr_scratch_array(&own, (size_t)c->n_columns, sizeof *left),
-          *less = thr_scratch_array(&own, 2 * (size_t)c->f->n_edges, sizeof *less);
-  thr_status st = thr_scratch_check(&own, err);
-  if (!st) st = thr_pass_left(passes, price, dual, first_odd, true, left, err);
+  thr_status st = thr_pass_left(passes, price, dual, first_odd, true, left, err);
   for (int j = 0; j < c->first_back && !st; j++) {
     int a = c->half[j][0], b = c->half[j][1];
     int64_t over = -left[j] - less[a] - (b >= 0 ? less[b] : 0);
@@ -448,6 +482,48 @@ static thr_status settle(const thr_pass_matching *passes, const int64_t *price, 
   }
   for (int h = 0; h < 2 * c->f->n_edges && !st; h++)
     dual->potential[h] -= less[h];
+  return st;
+}
+
+/* Odd sets that leave an extra pass a negative price pay less: that costs the bound no more than the extra passes, of which there
+ * may be several. left: scratch. member: zeros. */
+static thr_status settle_sets(const thr_pass_matching *passes, const int64_t *price, thr_turning_dual *dual, int first_odd,
+                              int64_t *left, bool *member, thr_err *err)
+{
+  const thr_turning_columns *c = passes->c;
+  const int halves = 2 * c->f->n_edges;
+  thr_status st = thr_pass_left(passes, price, dual, first_odd, true, left, err);
+  for (int i = first_odd; i < dual->n_odd && !st; i++) {
+    thr_turning_set *set = &dual->odd[i];
+    int64_t over = 0;
+    for (int k = 0; k < set->n; k++)
+      member[set->member[k]] = true;
+    for (int k = 0; k < set->n && set->member[k] < halves; k++) {
+      int h = set->member[k], e = h >> 1;
+      if (!member[h ^ 1] && c->most[e] > c->cover[e] && -left[c->first_extra + e] > over) over = -left[c->first_extra + e];
+    }
+    if (over > set->value) over = set->value;
+    set->value -= over;
+    for (int k = 0; k < set->n && set->member[k] < halves; k++)
+      if (!member[set->member[k] ^ 1]) left[c->first_extra + (set->member[k] >> 1)] += over;
+    for (int k = 0; k < set->n; k++)
+      member[set->member[k]] = false;
+  }
+  return st;
+}
+
+/* Where the matching is not to be made again, the multipliers are made to prove what they can. */
+static thr_status settle(const thr_pass_matching *passes, const int64_t *price, thr_turning_dual *dual, int first_odd,
+                         thr_err *err)
+{
+  const thr_turning_columns *c = passes->c;
+  thr_scratch own = {0};
+  int64_t *left = thr_scratch_array(&own, (size_t)c->n_columns, sizeof *left),
+          *less = thr_scratch_array(&own, 2 * (size_t)c->f->n_edges, sizeof *less);
+  bool *member = thr_scratch_array(&own, (size_t)passes->n_places, sizeof *member);
+  thr_status st = thr_scratch_check(&own, err);
+  if (!st) st = settle_turns(passes, price, dual, first_odd, left, less, err);
+  if (!st) st = settle_sets(passes, price, dual, first_odd, left, member, err);
   thr_scratch_free(&own);
   return st;
 }

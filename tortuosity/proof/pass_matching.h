@@ -37,6 +37,7 @@ typedef struct {
   int64_t *dual; /* [nodes] of the last matching, in the prices' unit; NULL = none; owned */
   int *mate;     /* the same */
   int rounds;    /* matchings so far */
+  int failed;    /* those of them that there were not */
 } thr_pass_matching;
 
 thr_status thr_pass_matching_init(thr_pass_matching *passes, const thr_turning_columns *turning_columns,
