@@ -84,9 +84,9 @@ thr_status thr_branch_match(thr_branch *branch, thr_err *err)
   if (!st && !found) st = thr_branch_try_point(branch, x, err);
   branch->matched = thr_branch_proved(branch);
   const thr_limits some = thr_limits_part(branch->limits, 0.4);
-  if (!st && !found && !branch->matched) st = thr_connect(branch, &passes, price, x, &some, err);
+  if (!st && !found && !branch->matched && !branch->dense) st = thr_connect(branch, &passes, price, x, &some, err);
   bool now = !thr_connect_later(c), single = !c->task->end_allowed && c->task->cords == 1;
-  if (!st && !found && now && single && !thr_branch_proved(branch)) st = thr_connect_plans(branch, &some, err);
+  if (!st && !found && now && single && !branch->dense && !thr_branch_proved(branch)) st = thr_connect_plans(branch, &some, err);
   thr_pass_matching_destroy(&passes);
   free(price);
   free(x);

@@ -241,7 +241,7 @@ static thr_status begin(thr_branch *branch, thr_err *err)
 
 /* Checks of the proof that follow the search, each of which goes through all turns as making the columns does, with tube joints
  * once for every junction; with a margin. */
-enum { CHECKS = 6, CHECKS_TIED = 20 };
+enum { CHECKS = 10, CHECKS_TIED = 20 };
 
 /* The limits less so many seconds, but half of what is left at most. */
 static thr_limits without(const thr_limits *limits, double seconds)
