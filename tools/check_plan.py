@@ -1108,7 +1108,7 @@ def few_edges_bounds(p, turning):
     rows = few_edges(p, turning)
     dearest = max([t.least(low, high, True) for t, low, high in rows if t], default=0)
     total = sum(t.least(low, high, False) for t, low, high in rows) if all(t for t, _, _ in rows) else 0
-    return Fraction(total), Fraction(dearest)
+    return Fraction(min(total, sys.float_info.max)), Fraction(min(dearest, sys.float_info.max))
 
 
 # ---- proof.cords ----
@@ -1448,7 +1448,8 @@ def too_few(p, claim, place):
     all_turns = model.bound(place + ".proof")
     require(all_turns is not None, f"{place}.proof: proves that there is no plan")
     all_turns = max(Fraction(0), Fraction(all_turns) / UNIT)
-    bound = max(all_turns / (cords * len(f.pieces)), largest_bound(other, model, cords, all_turns, place + ".proof"))
+    bound = max(all_turns / (cords * len(f.pieces)), largest_bound(other, model, cords, all_turns, place + ".proof"),
+                few_edges_bounds(other, True)[1])
     if p.closing:  # Fenchel 1929; the last turn of a closed cord is at its ends
         bound = max(bound, Fraction(2 * math.pi)) - Fraction(math.pi)
     limit = math.log(o.max_pull)

@@ -41,8 +41,9 @@ thr_status thr_check_turning(const thr_frame *frame, const thr_request *options,
 
 /* Are so many cords in every component, or fewer (but not fewer than options.cords_least), too few for options.max_pull? They are
  * if one of them turns by more than thr_request_most_turning: by single edges, by the turning of all cords that tree proves
- * shared out evenly, or by the worth of walks that it holds. Of plans with at most most_passes over any edge and U-turns only at
- * nodes with one edge. THR_EVIOLATED: the tree proves nothing. As thr_check_turning. */
+ * shared out evenly, by the worth of walks that it holds, or in components of few edges by all sets of them. Of plans with at
+ * most most_passes over any edge and U-turns only at nodes with one edge. THR_EVIOLATED: the tree proves nothing. As
+ * thr_check_turning. */
 thr_status thr_check_too_few(const thr_frame *frame, const thr_request *options, int cords, int most_passes,
                              const thr_turning_proof *tree, bool *too_few, thr_err *err) THR_MUST_CHECK;
 

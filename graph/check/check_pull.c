@@ -2,6 +2,7 @@
 #include "graph/angle.h"
 #include "graph/check/check.h"
 #include "graph/check/check_parts.h"
+#include "graph/check/few_edges.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
@@ -46,17 +47,19 @@ thr_status thr_check_pulls(const thr_frame *frame, const thr_request *options, c
 
 /* ---- too few cords ---- */
 
-/* No plan of the task is without a cord that turns by *bound, rad. */
-static thr_status largest_bound(const thr_turning_columns *columns, const thr_turning_proof *tree, double *bound, thr_err *err)
+/* No plan of the task is without a cord that turns by *bound, rad. fewer: the task as a request. */
+static thr_status largest_bound(const thr_turning_columns *columns, const thr_request *fewer, const thr_turning_proof *tree,
+                                double *bound, thr_err *err)
 {
   const thr_turning_task *task = columns->task;
-  double all = 0, worth = 0;
+  double all = 0, worth = 0, few_sum, few_largest = 0;
   *bound = 0;
   thr_status st = thr_turning_proof_check_columns(columns, tree, &all, err);
   if (!st) st = thr_walk_forced(columns, bound, err);
   if (!st && tree->walks.unit) st = thr_walk_proof_check(columns, &tree->walks, task->cords, all, &worth, err);
+  if (!st) st = thr_few_edges_bounds(columns->f, fewer, true, &few_sum, &few_largest, err);
   if (st) return st;
-  *bound = fmax(fmax(*bound, worth), all / ((double)task->cords * columns->n_components));
+  *bound = fmax(fmax(*bound, few_largest), fmax(worth, all / ((double)task->cords * columns->n_components)));
   if (!task->end_allowed) *bound = fmax(*bound, thr_turn_closed(task->cost)) - THR_PI; /* its last turn is at its ends */
   return THR_OK;
 }
@@ -69,6 +72,7 @@ thr_status thr_check_too_few(const thr_frame *frame, const thr_request *options,
   const int least = thr_plan_cords_least(options);
   thr_turning_columns columns;
   double bound = 0;
+  thr_request fewer = *options; /* whose lists are borrowed */
   bool *end_allowed = thr_calloc((size_t)frame->n_nodes, sizeof *end_allowed);
   *too_few = false;
   if (!end_allowed) return thr_nomem(err);
@@ -83,9 +87,12 @@ thr_status thr_check_too_few(const thr_frame *frame, const thr_request *options,
                                  .end_allowed = closed ? NULL : end_allowed,
                                  .end_count = counts ? options->end_count : NULL,
                                  .extra_limit = -1};
+  fewer.cords_least = task.cords_least;
+  fewer.cords = cords;
+  fewer.turning.cost = task.cost;
   thr_status st = thr_turning_columns_init(&columns, frame, &task, err);
   if (!st) {
-    st = largest_bound(&columns, tree, &bound, err);
+    st = largest_bound(&columns, &fewer, tree, &bound, err);
     thr_turning_columns_destroy(&columns);
   }
   free(end_allowed);
