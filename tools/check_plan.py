@@ -990,7 +990,7 @@ class Tied:
 # ---- components of few edges ----
 
 FEW_EDGES, FEW_SETS = 12, 2**15
-ONE = {}  # tables that were made before
+ONE, LEAST = {}, {}  # tables that were made before, and what they came to
 
 
 class FewEdges:
@@ -1002,7 +1002,7 @@ class FewEdges:
         key = (repr(f.xyz), repr(f.edge), repr(f.length), tuple(edges), turning and o.cost, o.ends, tuple(sorted(o.allowed)), o.tube)
         if key not in ONE:
             ONE[key] = self.table(f, o, edges, turning)
-        self.one = ONE[key]
+        self.key, self.one = key, ONE[key]
 
     def table(self, f, o, edges, turning):
         index = {e: i for i, e in enumerate(edges)}
@@ -1063,6 +1063,12 @@ class FewEdges:
 
     def least(self, low, high, dearest):
         """Of low .. high cords, the cheapest number: of the dearest cord, or in all."""
+        key = (self.key, low, min(high, max(low, self.n + 1)), dearest)  # more only cost more
+        if key not in LEAST:
+            LEAST[key] = self.cheapest(low, high, dearest)
+        return LEAST[key]
+
+    def cheapest(self, low, high, dearest):
         join = max if dearest else (lambda a, b: a + b)
         best, result = self.one, math.inf
         for n in range(1, min(high, self.n) + 1):
