@@ -218,13 +218,21 @@ thr_status thr_branch_try_cords(thr_branch *branch, const thr_cord *cord, int n_
   return st;
 }
 
+/* Cords of all components together. */
+static int cords_asked(const thr_turning_columns *columns)
+{
+  const thr_turning_task *task = columns->task;
+  int ends = 0;
+  for (int v = 0; v < columns->f->n_nodes && task->end_count; v++)
+    ends += task->end_count[v];
+  return task->end_count ? ends / 2 : task->cords * columns->n_components;
+}
+
 thr_status thr_branch_try_start(thr_branch *branch, const thr_cord *cord, int n_cords, thr_err *err)
 {
-  const thr_turning_task *task = branch->c->task;
   thr_join j = {0};
   count_passes(branch, cord, n_cords);
-  if (!within_limits(branch->c, branch->passes) || (!task->end_count && n_cords != task->cords * branch->c->n_components))
-    return THR_OK;
+  if (!within_limits(branch->c, branch->passes) || n_cords != cords_asked(branch->c)) return THR_OK;
   thr_status st = thr_join_from_cords(&j, branch->c, cord, n_cords, err);
   if (!st && j.price >= thr_join_forbidden && !branch->several) st = thr_improve_backs(&j, err);
   if (!st) return keep_better(branch, &j, branch->passes, err);
