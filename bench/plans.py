@@ -23,7 +23,7 @@ import subprocess
 import sys
 import tempfile
 
-OBJECTIVES = ["--objective length", "--objective tortuosity", "--objective tortuosity --minimize max-turning", "--objective symmetry"]
+OBJECTIVES = ["--objective length", "--objective tortuosity --minimize turning", "--objective tortuosity --minimize max-turning", "--objective symmetry"]
 ENDS = ["", "--ends any", "--ends feet"]
 JOINTS = ["", "--joint tube"]
 CORDS = ["", "--cords 3", "--cords 3 --balance", "--max-length LENGTH", "--cover 2"]
