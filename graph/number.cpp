@@ -82,7 +82,8 @@ long magnitude_of(const char *s, const char *end)
   if (s == end) return power;
   const bool down = s[1] == '-';
   s += s[1] == '-' || s[1] == '+' ? 2 : 1;
-  if (std::from_chars(s, end, exponent).ec != std::errc()) exponent = 1L << 40; // more digits than any text's length makes up for
+  const long most = 1L << 40; // more digits than any text's length makes up for
+  if (std::from_chars(s, end, exponent).ec != std::errc() || exponent > most) exponent = most;
   return power + (down ? -exponent : exponent);
 }
 

@@ -178,8 +178,9 @@ END_TEST
 
 START_TEST(numbers_beyond_doubles)
 {
-  static const char *const none[] = {"1e400", "-1e400", "1e99999999999999999999", "1234e306"};
-  static const char *const nothing[] = {"1e-400", "0.000e999", "-0", "0e99999999999999999999", "1e-99999999999999999999"};
+  static const char *const none[] = {"1e400", "-1e400", "1e99999999999999999999", "1234e306", "12e9223372036854775807"};
+  static const char *const nothing[] = {
+      "1e-400", "0.000e999", "-0", "0e99999999999999999999", "1e-99999999999999999999", "0.01e-9223372036854775807"};
   double x;
   for (size_t i = 0; i < sizeof none / sizeof *none; i++)
     ck_assert_msg(!thr_number_parse(none[i], strlen(none[i]), &x), "%s", none[i]);
