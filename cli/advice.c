@@ -32,10 +32,8 @@ void advice_command_options(const cli_frame_args *a, const cli_physics *physics,
 /* N, of the cord that is hardest to pull. */
 static double force_of(const thr_plan *plan)
 {
-  double reach = 0, pull[THR_ADVICE_PULLS];
-  for (int i = 0; i < plan->n_cords; i++)
-    reach = fmax(reach, thr_cord_reach(&plan->frame, &plan->cord[i]));
-  thr_advice_pulls(&plan->options.physics, reach, pull);
+  double pull[THR_ADVICE_PULLS];
+  thr_advice_pulls(&plan->options.physics, thr_cords_pulled_turning(&plan->frame, plan->cord, plan->n_cords), pull);
   return pull[THR_ADVICE_MU];
 }
 

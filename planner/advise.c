@@ -119,9 +119,7 @@ static thr_status new_row(adviser *x, thr_advice_row **row, thr_err *err)
 
 static void measure_row(adviser *x, const kind *k, const thr_plan *plan, thr_advice_row *row)
 {
-  double reach = 0;
-  for (int i = 0; i < plan->n_cords; i++)
-    reach = fmax(reach, thr_cord_reach(x->frame, &plan->cord[i]));
+  double reach = thr_cords_pulled_turning(x->frame, plan->cord, plan->n_cords);
   row->ends = k->ends;
   row->cords = plan->options.cords;
   row->length = plan->metrics.length;

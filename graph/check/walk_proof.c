@@ -201,7 +201,6 @@ static int64_t from_place(const thr_walk_steps *steps, int i, int r, int levels,
 
 int64_t thr_walk_best(const thr_walk_steps *steps, int units, int levels, int64_t *value)
 {
-  const thr_turning_columns *columns = steps->c;
   int64_t best = 0;
   for (int r = 0; r <= units; r++)
     for (int i = 0; i < steps->n; i++)
@@ -211,7 +210,6 @@ int64_t thr_walk_best(const thr_walk_steps *steps, int units, int levels, int64_
     int64_t start = steps->end[steps->place[steps->half[i] ^ 1]]; /* the price at the head of the other one: its own tail */
     if (start >= 0 && last[i] >= 0 && last[i] + start > best) best = last[i] + start;
   }
-  (void)columns;
   return best;
 }
 

@@ -16,16 +16,6 @@ void thr_advice_destroy(thr_advice *advice)
   *advice = (thr_advice){0};
 }
 
-double thr_cord_reach(const thr_frame *frame, const thr_cord *cord)
-{
-  double total = thr_cord_turning(frame, cord, false), before = 0, reach = total;
-  for (int k = 0; k + 1 < cord->n_passes; k++) {
-    before += thr_turn_angle(frame, cord->half[k], cord->half[k + 1]);
-    reach = fmin(reach, fmax(before, total - before));
-  }
-  return reach;
-}
-
 void thr_advice_pulls(const thr_physics *physics, double reach, double pull[THR_ADVICE_PULLS])
 {
   const double mu[THR_ADVICE_PULLS] = {physics->mu_low, physics->mu, physics->mu_high};

@@ -51,9 +51,6 @@ typedef struct {
 
 void thr_advice_destroy(thr_advice *advice);
 
-/* rad. O(passes). */
-double thr_cord_reach(const thr_frame *frame, const thr_cord *cord);
-
 /* Pulls from the largest reach of a plan's cords. */
 void thr_advice_pulls(const thr_physics *physics, double reach, double pull[THR_ADVICE_PULLS]);
 

@@ -48,7 +48,7 @@ START_TEST(pulls_are_those_of_the_closed_form)
   options.physics.mu = 0.05 + 0.5 * rng_unit(&r);
   options.physics.seating = 0.5 + rng_unit(&r);
   ck_assert_int_eq(thr_eval_plan(&f, &cord, 1, THR_CAPSTAN, &options, &(thr_limits){0}, &eval, NULL), THR_OK);
-  thr_advice_pulls(&eval.record.physics, thr_cord_reach(&f, &cord), pull);
+  thr_advice_pulls(&eval.record.physics, thr_cord_pulled_turning(&f, &cord), pull);
   ck_assert_double_eq_tol(pull[THR_ADVICE_MU], eval.record.largest, 1e-9 * eval.record.largest);
   ck_assert_double_eq_tol(pull[THR_ADVICE_LOW], eval.band[0], 1e-9 * eval.band[0]);
   ck_assert_double_eq_tol(pull[THR_ADVICE_HIGH], eval.band[1], 1e-9 * eval.band[1]);

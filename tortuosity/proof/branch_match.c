@@ -62,34 +62,58 @@ static thr_limits limits_of(const thr_branch *branch)
   return limits;
 }
 
+/* The matching at the turns' own prices. */
+typedef struct {
+  thr_pass_matching passes;
+  thr_turning_dual dual;
+  int *x;         /* [n_columns] */
+  int64_t *price; /* [n_columns] */
+  bool stopped;   /* by the limits: dual is a bound, x is nothing */
+} first_matching;
+
+static void first_matching_destroy(first_matching *first)
+{
+  thr_turning_dual_destroy(&first->dual);
+  thr_pass_matching_destroy(&first->passes);
+  free(first->price);
+  free(first->x);
+}
+
+/* On failure it is to be destroyed, too. */
+static thr_status first_matching_find(first_matching *first, const thr_turning_columns *c, const thr_limits *limits, thr_err *err)
+{
+  thr_err why = {0};
+  *first = (first_matching){.x = thr_calloc((size_t)c->n_columns, sizeof *first->x),
+                            .price = thr_calloc((size_t)c->n_columns, sizeof *first->price)};
+  thr_status st = first->x && first->price ? thr_turning_dual_init(&first->dual, c, err) : thr_nomem(err);
+  if (!st) st = thr_pass_matching_init(&first->passes, c, err);
+  if (st) return st;
+  set_prices(c, first->price);
+  st = thr_pass_matching_solve(&first->passes, first->price, limits, first->x, &first->dual, &why);
+  first->stopped = st == THR_ELIMIT;
+  return st && !first->stopped ? thr_fail(err, st, "%s", why.text) : THR_OK;
+}
+
 thr_status thr_branch_match(thr_branch *branch, thr_err *err)
 {
   const thr_limits limits = limits_of(branch);
   const thr_turning_columns *c = branch->c;
-  thr_pass_matching passes = {0};
-  thr_turning_dual dual = {0};
-  thr_err why = {0};
-  int *x = thr_calloc((size_t)c->n_columns, sizeof *x);
-  int64_t *price = thr_calloc((size_t)c->n_columns, sizeof *price);
-  thr_status st = x && price ? thr_turning_dual_init(&dual, c, err) : thr_nomem(err);
-  if (!st) st = thr_pass_matching_init(&passes, c, err);
-  if (!st) set_prices(c, price);
-  thr_status found = st ? st : thr_pass_matching_solve(&passes, price, &limits, x, &dual, &why);
-  if (!st && found && found != THR_ELIMIT) st = thr_fail(err, found, "%s", why.text);
-  if (!st)
-    st = thr_branch_keep_dual(branch, 0, dual, NULL, NULL, err);
-  else
-    thr_turning_dual_destroy(&dual);
-  if (!st && found) st = keep_halves(branch, err);
-  if (!st && !found) st = thr_branch_try_point(branch, x, err);
+  first_matching first;
+  thr_status st = first_matching_find(&first, c, &limits, err);
+  if (!st) {
+    st = thr_branch_keep_dual(branch, 0, first.dual, NULL, NULL, err);
+    first.dual = (thr_turning_dual){0};
+  }
+  bool found = !st && !first.stopped;
+  if (!st && first.stopped) st = keep_halves(branch, err);
+  if (found) st = thr_branch_try_point(branch, first.x, err);
   branch->matched = thr_branch_proved(branch);
   const thr_limits some = thr_limits_part(branch->limits, 0.4);
-  if (!st && !found && !branch->matched && !branch->dense) st = thr_connect(branch, &passes, price, x, &some, err);
+  if (!st && found && !branch->matched && !branch->dense)
+    st = thr_connect(branch, &first.passes, first.price, first.x, &some, err);
   bool now = !thr_connect_later(c), single = !c->task->end_allowed && c->task->cords == 1;
-  if (!st && !found && now && single && !branch->dense && !thr_branch_proved(branch)) st = thr_connect_plans(branch, &some, err);
-  thr_pass_matching_destroy(&passes);
-  free(price);
-  free(x);
+  if (!st && found && now && single && !branch->dense && !thr_branch_proved(branch)) st = thr_connect_plans(branch, &some, err);
+  first_matching_destroy(&first);
   return st;
 }
 
@@ -109,20 +133,9 @@ static thr_status count_ranks(thr_branch *branch, const int *x, const thr_limits
 thr_status thr_branch_ranks(thr_branch *branch, const thr_limits *limits, thr_err *err)
 {
   const thr_turning_columns *c = branch->c;
-  thr_pass_matching passes = {0};
-  thr_turning_dual dual = {0};
-  thr_err why = {0};
-  int *x = thr_calloc((size_t)c->n_columns, sizeof *x);
-  int64_t *price = thr_calloc((size_t)c->n_columns, sizeof *price);
-  thr_status st = x && price ? thr_turning_dual_init(&dual, c, err) : thr_nomem(err);
-  if (!st) st = thr_pass_matching_init(&passes, c, err);
-  if (!st) set_prices(c, price);
-  thr_status found = st ? st : thr_pass_matching_solve(&passes, price, limits, x, &dual, &why);
-  if (!st && found && found != THR_ELIMIT) st = thr_fail(err, found, "%s", why.text);
-  thr_turning_dual_destroy(&dual);
-  thr_pass_matching_destroy(&passes);
-  if (!st && !found) st = count_ranks(branch, x, limits, err);
-  free(price);
-  free(x);
+  first_matching first;
+  thr_status st = first_matching_find(&first, c, limits, err);
+  if (!st && !first.stopped) st = count_ranks(branch, first.x, limits, err);
+  first_matching_destroy(&first);
   return st;
 }
