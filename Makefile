@@ -21,7 +21,7 @@ DEMO = plan data/dome7.json --objective length -o $(DEMO_OUT)/plan.json --draw $
 
 # Debian 12 packages
 BUILD_PACKAGES := build-essential pkg-config libglpk-dev libigraph-dev libnauty2-dev libbullet-dev \
-	libsuitesparse-dev librsvg2-dev libcairo2-dev fonts-dejavu-core
+	libsuitesparse-dev libcairo2-dev fonts-dejavu-core
 TEST_PACKAGES := check clang clang-format libclang-rt-14-dev librsvg2-bin libxml2-utils poppler-utils python3 time
 # npm from elsewhere than Debian serves as well
 VIEWER_PACKAGES = chromium $(if $(shell command -v npm),,nodejs npm)
@@ -42,13 +42,13 @@ CLANG_FORMAT ?= clang-format
 # Asked for once and only when a recipe needs it: on a bare machine `make demo` installs pkg-config and the libraries first.
 PKG_CFLAGS = $(eval PKG_CFLAGS := $$(shell pkg-config --cflags igraph nauty))$(PKG_CFLAGS)
 PKG_LIBS = $(eval PKG_LIBS := $$(shell pkg-config --libs nauty bullet-float64))$(PKG_LIBS)
-# Loaded when needed (graph/process/lazy.h): igraph, librsvg with cairo and GLib, SuiteSparseQR with CHOLMOD. Their names at run time, such as
-# librsvg-2.so.2, are those that the linker writes into a program.
-LAZY_LIBS = $(shell pkg-config --libs igraph librsvg-2.0) -lspqr
-LAZY_NAMES = $(eval LAZY_NAMES := $$(shell tools/library-names.sh $$(call quote,$$(COMPILER)) igraph rsvg-2 spqr -- $$(LAZY_LIBS)))$(LAZY_NAMES)
+# Loaded when needed (graph/process/lazy.h): igraph, cairo, SuiteSparseQR with CHOLMOD. Their names at run time, such as
+# libcairo.so.2, are those that the linker writes into a program.
+LAZY_LIBS = $(shell pkg-config --libs igraph cairo-pdf) -lspqr
+LAZY_NAMES = $(eval LAZY_NAMES := $$(shell tools/library-names.sh $$(call quote,$$(COMPILER)) igraph cairo spqr -- $$(LAZY_LIBS)))$(LAZY_NAMES)
 BULLET_CFLAGS = $(eval BULLET_CFLAGS := $$(patsubst -I%,-isystem %,$$(shell pkg-config --cflags bullet-float64)))$(BULLET_CFLAGS)
 # the cflags of one file only, paper.c
-RSVG_CFLAGS = $(eval RSVG_CFLAGS := $$(patsubst -I%,-isystem %,$$(shell pkg-config --cflags librsvg-2.0 cairo-pdf)))$(RSVG_CFLAGS)
+CAIRO_CFLAGS = $(eval CAIRO_CFLAGS := $$(patsubst -I%,-isystem %,$$(shell pkg-config --cflags cairo-pdf)))$(CAIRO_CFLAGS)
 # no pkg-config file in Debian 12
 SPQR_CFLAGS ?= -isystem /usr/include/suitesparse
 CHECK_CFLAGS = $(eval CHECK_CFLAGS := $$(shell pkg-config --cflags check))$(CHECK_CFLAGS)
@@ -163,6 +163,11 @@ viewer: ## rebuild diagram/export/viewer_page.html from viewer/ (needs npm)
 	@mkdir -p $(OUT)
 	@viewer/build.sh $(OUT)/viewer > $(OUT)/viewer_page.html
 	@mv $(OUT)/viewer_page.html diagram/export/viewer_page.html
+
+docs: ## rewrite the pictures, the gallery and the outputs in docs/tutorial.md with the program (two minutes)
+	+@tools/install-packages.sh $(BUILD_PACKAGES) python3 librsvg2-bin poppler-utils
+	+@$(MAKE) --no-print-directory $(JOBS) BUILD=release all
+	@tools/make_docs.py $(OUT)/release/thread
 
 bench: ## times of everything, beside other codes (half an hour), write docs/benchmarks.md (BENCH="--only turning": a part)
 	+@tools/install-packages.sh $(BUILD_PACKAGES) $(BENCH_PACKAGES)
@@ -293,7 +298,7 @@ $(DIR)/%.o: %.S %.html $(DIR)/flags.list
 
 $(DIR)/graph/framework/igraph.o $(OUT)/tidy/graph/framework/igraph.ok: private THR_CPPFLAGS += $(LAZY_NAMES)
 $(DIR)/eval/structure/spqr.o $(OUT)/tidy/eval/structure/spqr.ok: private THR_CPPFLAGS += $(SPQR_CFLAGS) $(LAZY_NAMES)
-$(DIR)/diagram/export/paper.o $(OUT)/tidy/diagram/export/paper.ok: private THR_CPPFLAGS += $(RSVG_CFLAGS) $(LAZY_NAMES)
+$(DIR)/diagram/export/paper.o $(OUT)/tidy/diagram/export/paper.ok: private THR_CPPFLAGS += $(CAIRO_CFLAGS) $(LAZY_NAMES)
 $(TEST_PROGRAMS:%=%.o) $(TEST_SUPPORT): private THR_CPPFLAGS += $(CHECK_CFLAGS)
 $(OUT)/mutants/tests/%: private LDFLAGS += -Wl,--wrap=_ck_assert_failed
 $(TEST_PROGRAMS): $(DIR)/%: $(DIR)/%.o $(TEST_SUPPORT) $(if $(filter mutants,$(BUILD)),$(DIR)/tools/mutants/stop.o) $(LIBRARY)
@@ -314,7 +319,7 @@ $(DIR)/objects.list: FORCE
 	@echo "$(OBJECTS)" | cmp -s - $@ || echo "$(OBJECTS)" > $@
 
 $(OUT)/packages.ok:
-	@command -v $(CC) >/dev/null && command -v $(CXX) >/dev/null && pkg-config --exists igraph nauty bullet-float64 librsvg-2.0 cairo-pdf 2>/dev/null && \
+	@command -v $(CC) >/dev/null && command -v $(CXX) >/dev/null && pkg-config --exists igraph nauty bullet-float64 cairo-pdf 2>/dev/null && \
 	  echo '#include <glpk.h>' | $(CC) -E -x c - >/dev/null 2>&1 || \
 	  { echo 'thread: a compiler or a library is missing: run `make deps` (or `make demo`), or install: $(BUILD_PACKAGES)' >&2; exit 1; }
 	@mkdir -p $(@D)

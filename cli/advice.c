@@ -1,12 +1,20 @@
 /* Advice beside a plan. */
 #include "cli/advice.h"
 #include "cli/print/advice_table.h"
+#include "cli/print/plain.h"
+#include "graph/angle.h"
+#include "graph/io/stand.h"
 #include "graph/limits.h"
 #include "graph/plan/advice.h"
 #include "planner/advise.h"
+#include "planner/dispatch.h"
 
 #include <math.h>
-#include <stdio.h>
+
+const double advice_usual_seconds = 2;
+
+/* Beside a plan the advice takes no more of what the plan has taken; little is enough for small frameworks. */
+static const double part_of_plan = 0.3, least_seconds = 1;
 
 static void put_option(thr_text *text, const char *option, const char *value)
 {
@@ -14,14 +22,21 @@ static void put_option(thr_text *text, const char *option, const char *value)
   advice_put_word(text, value);
 }
 
+static void put_number(thr_text *text, const char *option, double value)
+{
+  thr_text_printf(text, " --%s ", option);
+  thr_text_double(text, value);
+}
+
 void advice_command_options(const cli_frame_args *a, const cli_physics *physics, thr_text *text)
 {
-  char weld[32];
-  snprintf(weld, sizeof weld, "%.17g", a->read.weld);
   if (a->read.edges_path) put_option(text, "edges", a->read.edges_path);
   if (a->read.units) put_option(text, "units", a->read.units);
   if (a->feet) put_option(text, "feet", a->feet);
-  if (a->read.weld >= 0) put_option(text, "weld", weld);
+  if (a->read.weld >= 0) put_number(text, "weld", a->read.weld);
+  if (a->read.up != THR_UP_AUTO) put_option(text, "up", thr_up_name(a->read.up));
+  if (a->read.scale != 1) put_number(text, "scale", a->read.scale);
+  if (a->read.flat > 0) put_number(text, "flat", thr_degrees(a->read.flat));
   for (int i = 0; i < physics->n; i++) {
     char name[24];
     cli_physics_spell(physics, i, name);
@@ -37,16 +52,17 @@ static double force_of(const thr_plan *plan)
   return pull[THR_ADVICE_MU];
 }
 
-static void put_line(const thr_advice *advice, double force, const char *path, const cli_frame_args *a,
+static void put_line(const thr_advice *advice, const thr_plan *plan, const char *path, const cli_frame_args *a,
                      const cli_physics *physics, thr_text *text)
 {
+  const thr_advice_row *row = &advice->row[advice->chosen];
   thr_text options = {0}, command = {0};
   advice_command_options(a, physics, &options);
-  advice_put_command(&command, path, options.data ? options.data : "", &advice->row[advice->chosen]);
+  advice_put_command(&command, path, options.data ? options.data : "", row);
   if (options.failed || command.failed)
     text->failed = true; /* which whoever writes the text reports */
   else
-    advice_put_line(text, advice, force, command.data);
+    advice_put_line(text, row, plan->metrics.length, command.data);
   thr_text_destroy(&options);
   thr_text_destroy(&command);
 }
@@ -56,9 +72,25 @@ void advice_put_after_plan(const thr_plan *plan, const char *path, const cli_fra
 {
   const thr_advise_options options = {.hand = thr_hand_always, .plan = plan};
   thr_advice advice = {0};
-  double force = force_of(plan);
-  if (force <= thr_hand_most) return;
-  if (thr_advise(&plan->frame, &plan->options, &options, &(thr_limits){0}, &advice, NULL)) return;
-  if (advice.chosen >= 0) put_line(&advice, force, path, a, physics, text);
+  char force[64];
+  double newton = force_of(plan);
+  if (newton <= thr_hand_most) return;
+  thr_text_printf(text, "hand     %s is ", plain_force(newton, force));
+  plain_put_hand(text, newton);
+  thr_text_append(text, ":\n");
+  thr_limits limits = advice_limits(fmin(advice_usual_seconds, fmax(least_seconds, part_of_plan * cli_processor_seconds())));
+  if (thr_advise(&plan->frame, &plan->options, &options, &limits, &advice, NULL)) advice.chosen = -1;
+  if (advice.chosen >= 0)
+    put_line(&advice, plan, path, a, physics, text);
+  else
+    thr_text_append(text, "         no number of cords was found that it can pull; thread advise says more\n");
   thr_advice_destroy(&advice);
+}
+
+thr_limits advice_limits(double seconds)
+{
+  thr_limits limits = cli_limits(seconds > 0 ? thr_dispatch_search_seconds(seconds, false, false) : 0);
+  if (!cli_verbose) limits.progress = NULL;
+  limits.advance = NULL;
+  return limits;
 }

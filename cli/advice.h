@@ -4,14 +4,20 @@
 
 #include "cli/args/physics_args.h"
 #include "cli/cli.h"
+#include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/text.h"
 
 /* The options that were given of how FRAME is read and of what cord and beads are, each with a blank before it, for a shell. */
 void advice_command_options(const cli_frame_args *a, const cli_physics *physics, thr_text *text);
 
-/* The lines that say that the plan's pull is beyond a hand, and what is not: nothing where it is not, or where no such
- * cords come of cutting the plan's. path: of the framework, as typed, and the options that it was read with. */
+/* What is asked for advice without --time-limit, s; and limits for so many, 0 = none: silent but for --verbose. */
+extern const double advice_usual_seconds;
+thr_limits advice_limits(double seconds);
+
+/* The lines that say that the plan's pull is beyond a hand, and what is not, as `thread advise` recommends it, which takes up to
+ * its usual seconds: nothing where it is not beyond a hand. path: of the framework, as typed, and the options that it was read
+ * with. */
 void advice_put_after_plan(const thr_plan *plan, const char *path, const cli_frame_args *a, const cli_physics *physics,
                            thr_text *text);
 

@@ -105,8 +105,8 @@ void best_found(void *user, const thr_cord *cord, int n_cords, const thr_symmetr
   }
   bool copies = thr_wants_symmetry(best.o), sound = plan.cord != NULL;
   if (sound && copies && !symmetry) {
-    bool all_open = thr_cover_all_open(&(thr_cover_options){.ends = best.o->ends, .tube = best.o->joint == THR_JOINT_TUBE});
-    sound = !*best.o->symmetry.group && thr_cords_alone(best.f, all_open, plan.cord, n_cords, &own, NULL) == THR_OK;
+    const thr_cover_options how = {.ends = best.o->ends, .tube = best.o->joint == THR_JOINT_TUBE};
+    sound = !*best.o->symmetry.group && thr_cords_alone(best.f, &how, plan.cord, n_cords, &own, NULL) == THR_OK;
   }
   if (copies) plan.symmetry = symmetry ? *symmetry : own;
   if (sound) keep_better(&plan, now);

@@ -1,6 +1,8 @@
 /* Messages, options, reading and writing for all subcommands. */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/cli.h"
+#include "graph/angle.h"
+#include "graph/io/stand.h"
 #include "cli/print/copies_table.h"
 #include "cli/guard.h"
 #include "graph/check/check.h"
@@ -135,7 +137,7 @@ bool cli_int(const char *command, const char *option, const char *text, int low,
 
 bool cli_choose(const char *command, const char *option, const char *value, const char *(*name)(int), int n, int *out)
 {
-  char known[80] = "";
+  char known[160] = "";
   for (*out = 0; *out < n; ++*out)
     if (strcmp(value, name(*out)) == 0) return true;
   for (int i = 0; i < n; i++) {
@@ -164,6 +166,17 @@ bool cli_frame_option(cli_frame_args *a, const char *command, int option, const 
     if (!*ok) cli_usage(command, "--units: %s", why.text);
     return true;
   }
+  case OPTION_UP: {
+    int up;
+    *ok = cli_choose(command, "--up", value, thr_up_name, THR_UP_Z + 1, &up);
+    if (*ok) a->read.up = (thr_up)up;
+    return true;
+  }
+  case OPTION_SCALE: *ok = cli_double(command, "--scale", value, 1e-9, 1e9, &a->read.scale); return true;
+  case OPTION_FLAT:
+    *ok = cli_double(command, "--flat", value, 1e-6, 179, &a->read.flat);
+    a->read.flat *= THR_PI / 180;
+    return true;
   case OPTION_FEET: a->feet = value; return true;
   case OPTION_WELD: *ok = cli_double(command, "--weld", value, 0, 1e300, &a->read.weld); return true;
   default: return false;
@@ -186,6 +199,25 @@ static void note_report(const thr_read_report *report)
              report->skipped_records == 1 ? "record" : "records", report->skipped_kind);
 }
 
+/* What a file leaves unsaid and is worth a look. */
+static void note_unsaid(const thr_frame *frame, const thr_read_report *report)
+{
+  enum { SHORT = 2, LONG = 1000 }; /* mm: hardly anybody threads pieces outside of these */
+  int n_short = 0, n_long = 0;
+  if (report->turned)
+    cli_note("note: made by Blender, which writes y upwards: turned so that y points up (--up z leaves it as it is)");
+  if (report->lies)
+    cli_note("note: z is taken to point up, and only a line of nodes is lowest; if y points up in this file: --up y");
+  for (int e = 0; e < frame->n_edges; e++) {
+    n_short += frame->length[e] < SHORT;
+    n_long += frame->length[e] > LONG;
+  }
+  if (report->no_units && (n_short > frame->n_edges / 2 || n_long > frame->n_edges / 2))
+    cli_note("note: the file names no unit, and most of its edges are %s than %d mm; --units m says what they are, --scale 1000 "
+             "makes them others",
+             n_short > n_long ? "shorter" : "longer", n_short > n_long ? SHORT : LONG);
+}
+
 /* Disconnected frameworks are planned part by part; the user must hear it. */
 static int note_components(const thr_frame *frame, thr_err *err)
 {
@@ -206,6 +238,7 @@ int cli_read_frame(const char *path, const cli_frame_args *a, thr_frame *frame)
   if (pair[0]) cli_note("note: read together with %s", pair); /* before an error that may name that file */
   if (st) return cli_fail(&err);
   note_report(&report);
+  note_unsaid(frame, &report);
   if (note_components(frame, &err)) {
     thr_frame_destroy(frame);
     return cli_fail(&err);
@@ -220,6 +253,22 @@ int cli_read_frame(const char *path, const cli_frame_args *a, thr_frame *frame)
     }
   }
   return EXIT_OK;
+}
+
+bool cli_output_format(const char *command, const char *output, const char *type, const thr_format **format)
+{
+  const char *slash = strrchr(output, '/'), *dot = strrchr(slash ? slash : output, '.');
+  const thr_format *named = thr_format_of_path(output);
+  *format = named;
+  if (type && !(*format = thr_format_written(type))) {
+    cli_usage(command, "-T %s: expected json, obj, csv or ply", type);
+    return false;
+  }
+  if (dot && (!named || (type && named != *format))) {
+    cli_usage(command, "%s: the ending must be %s%s", output, type ? "." : ".json, .obj, .csv or .ply", type ? type : "");
+    return false;
+  }
+  return true;
 }
 
 static bool mark_node(const thr_frame *frame, const char *name, const char *option, bool *mark)

@@ -24,6 +24,7 @@ int cmd_eval(int argc, char **argv);
 int cmd_compare(int argc, char **argv);
 int cmd_draw(int argc, char **argv);
 int cmd_info(int argc, char **argv);
+int cmd_convert(int argc, char **argv);
 int cmd_make(int argc, char **argv);
 
 /* ---- messages ---- */
@@ -77,7 +78,7 @@ bool cli_choose(const char *command, const char *option, const char *value, cons
 
 /* ---- frameworks and plans ---- */
 
-/* --edges, --weld, --units, --feet: how to read FRAME. */
+/* --edges, --weld, --up, .., --feet: how to read FRAME. */
 typedef struct {
   thr_read_options read;
   const char *feet; /* NULL: as the file says; "lowest", a file's name, or node names with commas */
@@ -85,16 +86,29 @@ typedef struct {
 
 #define CLI_FRAME_OPTIONS                                                                                                        \
   {"edges", required_argument, NULL, OPTION_EDGES}, {"weld", required_argument, NULL, OPTION_WELD},                              \
-      {"units", required_argument, NULL, OPTION_UNITS},                                                                          \
+      {"units", required_argument, NULL, OPTION_UNITS}, {"up", required_argument, NULL, OPTION_UP},                              \
+      {"scale", required_argument, NULL, OPTION_SCALE}, {"flat", required_argument, NULL, OPTION_FLAT},                          \
   {                                                                                                                              \
     "feet", required_argument, NULL, OPTION_FEET                                                                                 \
   }
-enum { OPTION_EDGES = OPTION_LONG_ONLY, OPTION_WELD, OPTION_UNITS, OPTION_FEET, OPTION_FREE };
+enum {
+  OPTION_EDGES = OPTION_LONG_ONLY,
+  OPTION_WELD,
+  OPTION_UNITS,
+  OPTION_UP,
+  OPTION_SCALE,
+  OPTION_FLAT,
+  OPTION_FEET,
+  OPTION_FREE
+};
 #define CLI_FRAME_HELP                                                                                                           \
   "      --feet lowest|FILE|NAME,..  where cord ends may come out (default: as the file says)\n"                                 \
   "      --edges FILE     second file of a CSV pair: FRAME holds the nodes, FILE the edges\n"                                    \
   "      --weld TOL       merge nodes closer than TOL (default: 1e-6 of the bounding box)\n"                                     \
-  "      --units NAME     what one unit of the coordinates is called (default: as the file says, or mm)\n"
+  "      --units NAME     what one unit of the coordinates is called (default: as the file says, or mm)\n"                       \
+  "      --scale S        coordinates times S: 1000 for a file in metres whose dome is built in mm\n"                            \
+  "      --up y|z         which coordinate points up (default: z, but y in OBJ files by Blender)\n"                              \
+  "      --flat DEG       meshes: no edge between triangles that meet at less than DEG degrees\n"
 
 cli_frame_args cli_frame_args_default(void);
 /* Takes one of the options above; false if it is none of them. *ok false: its value was bad (printed). */
@@ -102,6 +116,10 @@ bool cli_frame_option(cli_frame_args *a, const char *command, int option, const 
 
 /* Reads, says on stderr what was merged, dropped or odd, and sets the feet. Returns EXIT_OK or prints and returns the code. */
 int cli_read_frame(const char *path, const cli_frame_args *a, thr_frame *frame);
+
+/* The format to write a framework in, NULL = JSON: what the output's name says, else type (NULL: nothing was said). false: they
+ * disagree, or it is not a format that is written (printed). */
+bool cli_output_format(const char *command, const char *output, const char *type, const thr_format **format);
 
 /* Marks one node by its name, the nodes in a list of names, or those in a file of names; false prints why. */
 bool cli_mark_nodes(const thr_frame *frame, const char *list, const char *option, bool *mark);

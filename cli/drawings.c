@@ -3,18 +3,32 @@
 #include "cli/print/copies_table.h"
 #include "cli/guard.h"
 #include "diagram/export/paper.h"
+#include "diagram/scene/pieces.h"
 #include "diagram/scene/polylines.h"
 #include "diagram/sheets/sheets.h"
 #include "diagram/overview/steps.h"
 #include "diagram/tables/tables.h"
 #include "diagram/export/viewer.h"
+#include "graph/plan/chains.h"
 #include "graph/limits.h"
 #include "graph/status.h"
 #include "graph/text.h"
 
 #include <stdio.h>
 
-typedef enum { OVERVIEW, SHEETS, STEPS, VIEWER, STEPS_TABLE, CORDS_TABLE, BEADS_TABLE, OBJ, GLTF, N_DOCUMENTS } document;
+typedef enum {
+  OVERVIEW,
+  SHEETS,
+  STEPS,
+  VIEWER,
+  STEPS_TABLE,
+  CORDS_TABLE,
+  BEADS_TABLE,
+  CHANNELS_TABLE,
+  OBJ,
+  GLTF,
+  N_DOCUMENTS
+} document;
 
 static const struct {
   const char *type, *file;
@@ -26,6 +40,7 @@ static const struct {
     [STEPS_TABLE] = {"steps.csv", "steps.csv"},
     [CORDS_TABLE] = {"cords.csv", "cords.csv"},
     [BEADS_TABLE] = {"beads.csv", "beads.csv"},
+    [CHANNELS_TABLE] = {"channels.csv", "channels.csv"},
     [OBJ] = {"obj", "cords.obj"},
     [GLTF] = {"gltf", "cords.gltf"},
 };
@@ -45,14 +60,14 @@ const char *drawings_file(int i)
   return documents[i].file;
 }
 
-typedef thr_status with_motion(const thr_plan *p, const char *const *motion, thr_text *t, thr_err *err);
-
 /* A document that says what moves a path to its copies. */
-static thr_status describe(const thr_plan *plan, with_motion *document_of, thr_text *text, thr_err *err)
+static thr_status describe(const thr_plan *plan, document which, const drawings_args *a, thr_text *text, thr_err *err)
 {
   cli_copies copies;
   thr_status st = cli_copies_describe(plan, &copies, err);
-  if (!st) st = document_of(plan, copies.motion, text, err);
+  if (!st && which == STEPS) st = thr_steps_text(plan, copies.motion, a->kind_tolerance, text, err);
+  if (!st && which == VIEWER) st = thr_viewer_html(plan, copies.motion, a->kind_tolerance, text, err);
+  if (!st && which == CORDS_TABLE) st = thr_table_cords(plan, copies.motion, text, err);
   cli_copies_destroy(&copies);
   return st;
 }
@@ -83,7 +98,8 @@ static int write_sheets(const thr_plan *plan, const char *path, const drawings_a
   thr_limits limits = cli_limits(0);
   if (thr_limits_stop(&limits)) limits.interrupted = NULL;
   options.page = (thr_page_size)a->page;
-  options.middle = a->middle;
+  options.middle = (a->needles ? a->needles : plan->options.needles) == 2;
+  options.kind_tolerance = a->kind_tolerance;
   thr_status st = cli_copies_describe(plan, &copies, &err);
   options.motion = copies.motion;
   if (!st) st = thr_sheets_make(&sheets, plan, &options, &limits, &err);
@@ -106,12 +122,24 @@ static const char *from_name(int i)
 
 bool drawings_option(drawings_args *a, const char *command, int option, const char *value, bool *ok)
 {
-  int from = a->middle;
+  int from = 0;
+  if (option == OPTION_KIND_TOLERANCE) {
+    *ok = cli_double(command, "--kind-tolerance", value, 1e-9, 1e9, &a->kind_tolerance);
+    return true;
+  }
   if (option != OPTION_PAGE && option != OPTION_FROM) return false;
   *ok = option == OPTION_PAGE ? cli_choose(command, "--page", value, thr_page_name, THR_N_PAGES, &a->page)
                               : cli_choose(command, "--from", value, from_name, 2, &from);
-  a->middle = from;
+  if (option == OPTION_FROM) a->needles = 1 + from;
   return true;
+}
+
+thr_status drawings_chains(const thr_plan *plan, thr_text *text, thr_err *err)
+{
+  thr_chains chains;
+  thr_status st = thr_plan_chains(plan, &chains, err);
+  if (!st) thr_text_printf(text, "longest loose chain: %d %s", chains.longest, thr_pieces_word(plan, chains.longest));
+  return st;
 }
 
 int drawings_write(const thr_plan *plan, int i, const char *path, const drawings_args *a)
@@ -122,11 +150,12 @@ int drawings_write(const thr_plan *plan, int i, const char *path, const drawings
   switch ((document)i) {
   case OVERVIEW: return write_overview(plan, path, a);
   case SHEETS: return write_sheets(plan, path, a);
-  case STEPS: st = describe(plan, thr_steps_text, &text, &err); break;
-  case VIEWER: st = describe(plan, thr_viewer_html, &text, &err); break;
-  case STEPS_TABLE: st = thr_table_steps(plan, &text, &err); break;
-  case CORDS_TABLE: st = describe(plan, thr_table_cords, &text, &err); break;
-  case BEADS_TABLE: st = thr_table_beads(plan, &text, &err); break;
+  case STEPS:
+  case VIEWER:
+  case CORDS_TABLE: st = describe(plan, (document)i, a, &text, &err); break;
+  case STEPS_TABLE: st = thr_table_steps(plan, a->kind_tolerance, &text, &err); break;
+  case BEADS_TABLE: st = thr_table_beads(plan, a->kind_tolerance, &text, &err); break;
+  case CHANNELS_TABLE: st = thr_table_channels(plan, a->kind_tolerance, &text, &err); break;
   case OBJ: st = thr_polylines_obj(plan, &text, &err); break;
   default: st = thr_polylines_gltf(plan, &text, &err);
   }
@@ -135,7 +164,7 @@ int drawings_write(const thr_plan *plan, int i, const char *path, const drawings
 
 bool drawings_no_sheets(const thr_plan *plan, const drawings_args *a)
 {
-  return a->quick && plan->frame.n_edges > DRAWINGS_SHEETS_BEADS;
+  return a->quick && thr_pieces_count(plan) > DRAWINGS_SHEETS_PIECES;
 }
 
 void drawings_names(const thr_plan *plan, const drawings_args *a, char names[DRAWINGS_NAMES])

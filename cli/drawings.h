@@ -5,6 +5,8 @@
 #include "cli/cli.h"
 #include "diagram/overview/overview.h"
 #include "graph/plan/plan.h"
+#include "graph/status.h"
+#include "graph/text.h"
 
 int drawings_count(void);
 const char *drawings_type(int i); /* as --type names it: "svg", "steps.csv" */
@@ -14,22 +16,29 @@ const char *drawings_file(int i); /* usual file name: "overview.svg" */
 typedef struct {
   double pitch_mm;            /* of the overview; 0 = automatic */
   thr_overview_colour colour; /* of the overview */
+  double kind_tolerance;      /* pieces that differ by no more are of a kind, in units; 0 = the usual one */
   int page;                   /* of the step sheets: thr_page_size */
-  bool middle;                /* cords are threaded from their middle, in the step sheets */
-  bool quick;                 /* all documents means all but the step sheets of a framework with too many beads */
+  int needles;                /* that cords are threaded with in the step sheets: 1, 2 = from their middle; 0 = not said */
+  bool quick;                 /* all documents means all but the step sheets of too many pieces */
 } drawings_args;
 
-/* With more beads step sheets are some hundred pages and take long. */
-enum { DRAWINGS_SHEETS_BEADS = 3000, DRAWINGS_NAMES = 128 };
+/* With more pieces step sheets are some hundred pages and take long. */
+enum { DRAWINGS_SHEETS_PIECES = 1500, DRAWINGS_NAMES = 128 };
 
-/* --page, --from: of the step sheets. */
+/* --kind-tolerance; --page, --from: of the step sheets. */
 #define DRAWINGS_OPTIONS                                                                                                         \
-  {"page", required_argument, NULL, OPTION_PAGE},                                                                                \
+  {"kind-tolerance", required_argument, NULL, OPTION_KIND_TOLERANCE}, {"page", required_argument, NULL, OPTION_PAGE},            \
   {                                                                                                                              \
     "from", required_argument, NULL, OPTION_FROM                                                                                 \
   }
-enum { OPTION_PAGE = 2000, OPTION_FROM }; /* beyond the options that commands number on from each other */
+enum {
+  OPTION_PAGE = 960,
+  OPTION_FROM,
+  OPTION_KIND_TOLERANCE
+}; /* between the options that commands number on from each other and those of cord and beads */
 #define DRAWINGS_HELP                                                                                                            \
+  "      --kind-tolerance X   pieces whose points differ by no more are of one kind, in units of the framework (default: a\n"    \
+  "                           hundredth of the median edge)\n"                                                                   \
   "      --page a4|letter     paper of the step sheets (default: a4)\n"                                                          \
   "      --from end|middle    the step sheets thread each cord from its end with one needle (default), or those of\n"            \
   "                           24 passes and more from their middle with two\n"
@@ -43,6 +52,9 @@ int drawings_write(const thr_plan *plan, int i, const char *path, const drawings
 /* Writes all of them into folder, which is made if needed, under their usual names; stops at the first that fails,
  * and with EXIT_LIMIT, printed, where the time of the command is over. */
 int drawings_write_all(const thr_plan *plan, const char *folder, const drawings_args *a);
+
+/* Appends how loose what is threaded is at most: "longest loose chain: 8 pieces". */
+thr_status drawings_chains(const thr_plan *plan, thr_text *text, thr_err *err) THR_MUST_CHECK;
 
 /* Does that leave out the step sheets? */
 bool drawings_no_sheets(const thr_plan *plan, const drawings_args *a);

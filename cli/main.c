@@ -21,6 +21,7 @@ static const struct {
     {"compare", "plans side by side, ranked by pull", cmd_compare},
     {"draw", "diagrams for the hand", cmd_draw},
     {"info", "what a framework is made of", cmd_info},
+    {"convert", "a framework in another format", cmd_convert},
     {"make", "example frameworks", cmd_make},
 };
 enum { N_COMMANDS = sizeof command / sizeof *command };

@@ -92,8 +92,10 @@ long magnitude_of(const char *s, const char *end)
 size_t thr_number_print(double value, char out[THR_NUMBER_TEXT])
 {
   const int few = 15; // digits up to which every decimal reads back: %g with as many turns to exponents from here on
+  const double most = 1e15;
   char *at = out;
-  if (value == 0) return static_cast<size_t>(put_zeros(out, 1) - out);
+  if (value > -most && value < most && value == static_cast<double>(static_cast<int64_t>(value)))
+    return thr_int_print(static_cast<int64_t>(value), out); // no fewer digits, as nothing shorter is as near
   if (value < 0) *at++ = '-';
   const decimal d = digits_of(value < 0 ? -value : value);
   const bool scientific = d.power < -4 || d.power >= (d.n > few ? d.n : few);
@@ -109,7 +111,9 @@ size_t thr_int_print(int64_t value, char out[THR_INT_TEXT])
 bool thr_number_parse(const char *s, size_t n, double *value)
 {
   double x = 0;
-  if (std::from_chars(s, s + n, x).ec == std::errc::result_out_of_range && magnitude_of(s, s + n) > 0) return false;
+  const std::from_chars_result read = std::from_chars(s, s + n, x);
+  if (read.ec == std::errc::invalid_argument || read.ptr != s + n) return false;
+  if (read.ec == std::errc::result_out_of_range && magnitude_of(s, s + n) > 0) return false;
   *value = x;
   return true;
 }

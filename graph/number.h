@@ -19,8 +19,9 @@ size_t thr_number_print(double value, char out[THR_NUMBER_TEXT]);
 /* The same of a whole number. */
 size_t thr_int_print(int64_t value, char out[THR_INT_TEXT]);
 
-/* The double nearest to the decimal number in s[0 .. n - 1], which is one by the grammar of JSON; what is too small is 0. false
- * if it is too large for a double. O(n). */
+/* The double nearest to the decimal number in s[0 .. n - 1]; what is too small is 0. false if that is no number, as by the
+ * grammar of JSON, but that zeros may stand in front and digits be missing on one side of the point; or if it is too large for a
+ * double. O(n). */
 bool thr_number_parse(const char *s, size_t n, double *value);
 
 #ifdef __cplusplus

@@ -80,3 +80,9 @@ char *thr_strdup(const char *s)
   if (copy) memcpy(copy, s, n);
   return copy;
 }
+
+thr_status thr_not_proved(thr_err *err, const char *what, double value, double bound)
+{
+  if (!(bound > 0)) return thr_fail(err, THR_ELIMIT, "%s is not proved to be near the least", what);
+  return thr_fail(err, THR_ELIMIT, "%s is proved to be at most %.3g %% above the least", what, 100 * (value / bound - 1));
+}

@@ -18,10 +18,8 @@ enum { MAX_INPUT_BYTES = 1 << 30 };
 
 #define NO_NAME "an empty name is no file; name one, or - for stdin or stdout"
 
-static bool reserve(thr_text *text, size_t extra)
+static bool grow(thr_text *text, size_t extra)
 {
-  if (text->failed) return false;
-  if (text->length + extra + 1 <= text->capacity) return true;
   size_t wanted = text->capacity ? text->capacity : 256;
   while (wanted < text->length + extra + 1)
     wanted *= 2;
@@ -33,6 +31,12 @@ static bool reserve(thr_text *text, size_t extra)
   text->data = data;
   text->capacity = wanted;
   return true;
+}
+
+static inline bool reserve(thr_text *text, size_t extra)
+{
+  if (text->failed) return false;
+  return text->length + extra + 1 <= text->capacity || grow(text, extra);
 }
 
 void thr_text_append_bytes(thr_text *text, const char *s, size_t n)

@@ -26,6 +26,7 @@ enum { MOST_ORDER = 240, IDLE = 2, TIMES = 4, MOST_SEARCHED = 5000 }; /* edges *
 typedef struct {
   thr_ends ends;
   thr_plan first;            /* with one cord in every component */
+  thr_parts cuts;            /* of first, where no cord needs to be looked at; empty until it is asked for */
   thr_symmetries symmetries; /* with these ends */
   bool over;                 /* no more cords than were tried have a plan */
   double pull;               /* least so far, N at mu */
@@ -66,15 +67,17 @@ static bool is_copy(const adviser *x, const thr_cord *cord, const thr_cord *earl
   return false;
 }
 
-/* Passes of the cords that are copies of none before them. */
-static int learned(const adviser *x, const thr_cord *cord, int n)
+/* Passes of the cords that are copies of none before them, and their ends where those may be anywhere. */
+static int learned(const adviser *x, const thr_plan *plan)
 {
+  const thr_cord *cord = plan->cord;
+  const int n = plan->n_cords, ends = plan->options.ends == THR_ENDS_ANY ? 2 : 0;
   int steps = 0;
   for (int i = 0; i < n; i++) {
     bool copy = false;
     for (int j = 0; j < i && !copy; j++)
       copy = is_copy(x, &cord[i], &cord[j]);
-    if (!copy) steps += cord[i].n_passes;
+    if (!copy) steps += cord[i].n_passes + (cord[i].closed ? 0 : ends);
   }
   return steps;
 }
@@ -126,9 +129,34 @@ static void measure_row(adviser *x, const kind *k, const thr_plan *plan, thr_adv
   row->longest = thr_cords_longest(x->frame, plan->cord, plan->n_cords);
   row->turning = plan->metrics.max_turning;
   row->passes = plan->metrics.passes;
-  row->steps = learned(x, plan->cord, plan->n_cords);
+  row->steps = learned(x, plan);
   thr_advice_pulls(&x->out->physics, reach, row->pull);
   x->out->base_length = plan->metrics.base_length;
+}
+
+/* The row of cuts->plan cut into so many: what measure_row would say of the cords, none of which is a copy. */
+static void measure_cuts(adviser *x, const kind *k, int cords, thr_advice_row *row)
+{
+  const thr_metrics *whole = &k->first.metrics;
+  const thr_parts_measures m = thr_parts_measure(&k->cuts);
+  const int ends = k->ends == THR_ENDS_ANY ? 2 * k->first.n_cords * cords : 0;
+  *row = (thr_advice_row){.ends = k->ends,
+                          .cords = cords,
+                          .length = whole->length,
+                          .longest = m.longest,
+                          .turning = m.turning,
+                          .passes = whole->passes,
+                          .steps = whole->passes + ends};
+  thr_advice_pulls(&x->out->physics, m.pulled, row->pull);
+}
+
+/* Looks what the row buys, and tells it. */
+static void settle_row(adviser *x, kind *k, bool added, thr_advice_row *row)
+{
+  row->optimal = row->turning <= row->bound * (1 + 1e-9);
+  if (added) k->idle = row->pull[THR_ADVICE_MU] * little < k->pull ? 0 : k->idle + 1;
+  k->pull = fmin(k->pull, row->pull[THR_ADVICE_MU]);
+  if (x->options->row) x->options->row(x->options->user, row);
 }
 
 /* A row for the cords of plan, or in the place of a row whose cord that turns most turns more. claim: NULL = they were not
@@ -142,10 +170,7 @@ static thr_status set_row(adviser *x, kind *k, const thr_plan *plan, const thr_t
   if (plan->metrics.max_turning < row->turning) measure_row(x, k, plan, row);
   if (claim && claim->present) row->bound = fmax(row->bound, claim->largest_bound);
   row->searched |= claim != NULL;
-  row->optimal = row->turning <= row->bound * (1 + 1e-9);
-  if (added) k->idle = row->pull[THR_ADVICE_MU] * little < k->pull ? 0 : k->idle + 1;
-  k->pull = fmin(k->pull, row->pull[THR_ADVICE_MU]);
-  if (x->options->row) x->options->row(x->options->user, row);
+  settle_row(x, k, added, row);
   return THR_OK;
 }
 
@@ -199,9 +224,23 @@ static thr_status find_seed(const adviser *x, kind *k, const thr_request *reques
   return st == THR_ENOMEM ? thr_nomem(err) : THR_OK;
 }
 
+/* A row without a search where no cords can be copies, or symmetric: without looking at the cords themselves. */
+static thr_status cut_large(adviser *x, kind *k, int cords, thr_err *err)
+{
+  const thr_request request = request_of(x, k, cords);
+  thr_advice_row *row;
+  thr_status st = k->cuts.plan ? THR_OK : thr_parts_open(&k->cuts, &k->first, &request, err);
+  if (st || find_row(x, k, cords) || !thr_parts_into(&k->cuts, cords)) return st;
+  if ((st = new_row(x, &row, err))) return st;
+  measure_cuts(x, k, cords, row);
+  settle_row(x, k, true, row);
+  return THR_OK;
+}
+
 /* A row without a search, if there are cords for one. */
 static thr_status cut_cords(adviser *x, kind *k, int cords, thr_err *err)
 {
+  if (x->frame->n_edges > MOST_SEARCHED) return cut_large(x, k, cords, err);
   const thr_request request = request_of(x, k, cords);
   thr_plan seed = {0};
   thr_status st = find_seed(x, k, &request, x->limits, &seed, err);
@@ -375,6 +414,7 @@ static thr_status search_numbers(adviser *x, kind *k, int n_kinds, thr_err *err)
 static void kind_destroy(kind *k)
 {
   thr_plan_destroy(&k->first);
+  thr_parts_destroy(&k->cuts);
   thr_symmetries_destroy(&k->symmetries);
 }
 
@@ -441,7 +481,7 @@ thr_status thr_advise(const thr_frame *frame, const thr_request *request, const 
   x.request.capacity = request->capacity;
   x.request.physics = request->physics;
   thr_status st = thr_physics_resolve(&request->physics, frame, &out->physics, err);
-  if (!st && (options->plan || frame->n_edges > MOST_SEARCHED))
+  if (!st && frame->n_edges > MOST_SEARCHED)
     st = cut_shortest(&x, k, n_kinds, options->plan, err);
   else if (!st)
     st = search_all(&x, k, n_kinds, err);

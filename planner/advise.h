@@ -17,7 +17,7 @@
 
 typedef struct {
   double hand;          /* N: what the pull is to stay within */
-  const thr_plan *plan; /* NULL; or with one closed cord in every component, which is cut: nothing is searched. Borrowed */
+  const thr_plan *plan; /* NULL; or the shortest closed cords, for a framework that is too large for searches. Borrowed */
   /* hears of every row as soon as it is there or better, before any is dropped; NULL = nobody */
   void (*row)(void *user, const thr_advice_row *row);
   void *user;
@@ -29,7 +29,7 @@ typedef struct {
  * one buy nothing that cords with ends anywhere do not.) First the cord that turns least is cut evenly into every number of
  * cords, or symmetric cords are taken if they turn less; then every number has a search from there, the fewest within the hand
  * first, each with a part of the time that is left: where they end before it is over the same input gives the same rows.
- * Of more than 5,000 edges only the shortest closed cords are cut, as those of a plan. THR_EINPUT: physics that do not fit.
+ * Of more than 5,000 edges only the shortest closed cords are cut. THR_EINPUT: physics that do not fit.
  * THR_ELIMIT, THR_EINFEASIBLE: no row has a plan. THR_OK also if the time was over before all searches had their turn (complete
  * says so), as long as there is a row. Release with thr_advice_destroy. */
 thr_status thr_advise(const thr_frame *frame, const thr_request *request, const thr_advise_options *options,

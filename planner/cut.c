@@ -7,10 +7,11 @@
 #include <string.h>
 
 /* Of one cord: a part of it is passes a .. b, and turns by before[b] - before[a]. */
-typedef struct {
+typedef struct thr_cut {
   int n;          /* passes */
   double *before; /* [n] turning before the pass, rad; owned */
-  bool *ends;     /* [n] may a part end with this pass? owned */
+  double *length; /* [n + 1] of the passes before; owned */
+  int *end;       /* [n] the last pass up to this one that a part may end with, -1 = none; owned */
   int *last;      /* [n] last passes of the parts; owned */
   int n_parts;
 } cutter;
@@ -18,7 +19,8 @@ typedef struct {
 static void cutter_destroy(cutter *x)
 {
   free(x->before);
-  free(x->ends);
+  free(x->length);
+  free(x->end);
   free(x->last);
 }
 
@@ -27,14 +29,32 @@ static thr_status cutter_init(cutter *x, const thr_plan *plan, const thr_request
   size_t n = (size_t)cord->n_passes;
   *x = (cutter){.n = cord->n_passes,
                 .before = thr_calloc(n, sizeof *x->before),
-                .ends = thr_calloc(n, sizeof *x->ends),
+                .length = thr_calloc(n + 1, sizeof *x->length),
+                .end = thr_calloc(n, sizeof *x->end),
                 .last = thr_calloc(n, sizeof *x->last)};
-  if (!x->before || !x->ends || !x->last) return thr_nomem(err);
+  if (!x->before || !x->length || !x->end || !x->last) return thr_nomem(err);
   for (int k = 0; k < x->n; k++) {
-    x->ends[k] = k + 1 == x->n || thr_plan_end_allowed(&plan->frame, options, thr_head(&plan->frame, cord->half[k]));
-    if (k > 0) x->before[k] = x->before[k - 1] + thr_turn_angle(&plan->frame, cord->half[k - 1], cord->half[k]);
+    const int half = cord->half[k];
+    const bool ends = k + 1 == x->n || thr_plan_end_allowed(&plan->frame, options, thr_head(&plan->frame, half));
+    x->end[k] = ends ? k : k > 0 ? x->end[k - 1] : -1;
+    x->length[k + 1] = x->length[k] + plan->frame.length[half >> 1];
+    if (k > 0) x->before[k] = x->before[k - 1] + thr_turn_angle(&plan->frame, cord->half[k - 1], half);
   }
   return THR_OK;
+}
+
+/* The last pass from first on, at most most, that the cord has not turned more than the limit before. O(log passes). */
+static int reach_of(const cutter *x, int first, int most, double limit)
+{
+  int low = first, high = most + 1;
+  while (high - low > 1) {
+    int middle = low + (high - low) / 2;
+    if (x->before[middle] - x->before[first] <= limit)
+      low = middle;
+    else
+      high = middle;
+  }
+  return low;
 }
 
 /* Parts that turn by at most the limit, each as long as can be: there are no fewer such parts. False: some part turns more. */
@@ -42,10 +62,8 @@ static bool cut_within(cutter *x, double limit)
 {
   x->n_parts = 0;
   for (int first = 0; first < x->n;) {
-    int last = -1;
-    for (int k = first; k < x->n && x->before[k] - x->before[first] <= limit; k++)
-      if (x->ends[k]) last = k;
-    if (last < 0) return false;
+    int last = x->end[reach_of(x, first, x->n - 1, limit)];
+    if (last < first) return false;
     x->last[x->n_parts++] = last;
     first = last + 1;
   }
@@ -61,7 +79,7 @@ static bool cut_once_more(cutter *x)
     double turning = x->before[x->last[i]] - x->before[first], nearest = INFINITY;
     for (int k = first; k < x->last[i] && turning > most; k++) {
       double larger = fmax(x->before[k] - x->before[first], x->before[x->last[i]] - x->before[k + 1]);
-      if (!x->ends[k] || larger >= nearest) continue;
+      if (x->end[k] != k || larger >= nearest) continue;
       nearest = larger;
       part = i;
       at = k;
@@ -108,19 +126,69 @@ static thr_status add_parts(const cutter *x, const thr_cord *cord, thr_plan *see
   return THR_OK;
 }
 
+thr_status thr_parts_open(thr_parts *cuts, const thr_plan *plan, const thr_request *options, thr_err *err)
+{
+  *cuts = (thr_parts){.plan = plan, .cord = thr_calloc((size_t)plan->n_cords, sizeof *cuts->cord)};
+  thr_status st = cuts->cord ? THR_OK : thr_nomem(err);
+  while (!st && cuts->n < plan->n_cords) {
+    st = cutter_init(&cuts->cord[cuts->n], plan, options, &plan->cord[cuts->n], err);
+    cuts->n++;
+  }
+  return st;
+}
+
+void thr_parts_destroy(thr_parts *cuts)
+{
+  for (int i = 0; i < cuts->n; i++)
+    cutter_destroy(&cuts->cord[i]);
+  free(cuts->cord);
+  *cuts = (thr_parts){0};
+}
+
+bool thr_parts_into(thr_parts *cuts, int parts)
+{
+  bool done = cuts->n > 0;
+  for (int i = 0; i < cuts->n && done; i++)
+    done = cut_evenly(&cuts->cord[i], parts);
+  return done;
+}
+
+/* What passes first .. last turn before the slackest of them, both ends pulled. */
+static double pulled_of(const cutter *x, int first, int last)
+{
+  const double whole = x->before[last] - x->before[first];
+  const int k = reach_of(x, first, last, whole / 2); /* the larger of both sides is least here or at the next */
+  double larger = fmax(x->before[k] - x->before[first], x->before[last] - x->before[k]);
+  return k < last ? fmin(larger, x->before[k + 1] - x->before[first]) : larger;
+}
+
+thr_parts_measures thr_parts_measure(const thr_parts *cuts)
+{
+  thr_parts_measures m = {0};
+  for (int c = 0; c < cuts->n; c++) {
+    const cutter *x = &cuts->cord[c];
+    for (int i = 0, first = 0; i < x->n_parts; first = x->last[i++] + 1) {
+      const int last = x->last[i];
+      m.turning = fmax(m.turning, x->before[last] - x->before[first]);
+      m.pulled = fmax(m.pulled, pulled_of(x, first, last));
+      m.longest = fmax(m.longest, x->length[last + 1] - x->length[first]);
+    }
+  }
+  return m;
+}
+
 thr_status thr_cut_seed(const thr_plan *plan, const thr_request *options, thr_plan *seed, thr_err *err)
 {
-  bool done = plan->n_cords > 0;
-  thr_status st = thr_plan_request(seed, &plan->frame, options, err);
-  if (!st && !(seed->cord = thr_calloc((size_t)plan->n_cords * (size_t)options->cords, sizeof *seed->cord))) st = thr_nomem(err);
-  for (int i = 0; i < plan->n_cords && !st && done; i++) {
-    cutter x;
-    st = cutter_init(&x, plan, options, &plan->cord[i], err);
-    done = !st && cut_evenly(&x, options->cords);
-    if (done) st = add_parts(&x, &plan->cord[i], seed, err);
-    cutter_destroy(&x);
-  }
+  thr_parts cuts;
+  thr_status st = thr_parts_open(&cuts, plan, options, err);
+  const bool done = !st && thr_parts_into(&cuts, options->cords);
+  if (done) st = thr_plan_request(seed, &plan->frame, options, err);
+  if (done && !st && !(seed->cord = thr_calloc((size_t)plan->n_cords * (size_t)options->cords, sizeof *seed->cord)))
+    st = thr_nomem(err);
+  for (int i = 0; i < plan->n_cords && !st && done; i++)
+    st = add_parts(&cuts.cord[i], &plan->cord[i], seed, err);
   if (!st && done) st = thr_plan_measure(&seed->frame, &seed->options, seed->cord, seed->n_cords, &seed->metrics, err);
-  if (st || !done) thr_plan_destroy(seed);
+  if (st) thr_plan_destroy(seed);
+  thr_parts_destroy(&cuts);
   return st;
 }

@@ -6,10 +6,30 @@
 #include "graph/plan/request.h"
 #include "graph/status.h"
 
-/* Cuts every cord of plan, one in each component, into options->cords where a pass ends at a node that may hold an end, such that
- * of all such cuts the part that turns most turns least: a limit is halved, and parts are made as long as it lets them be. The
- * turns at the cuts are saved. seed is an empty plan; it stays empty where the cords do not come by enough such nodes. O(passes)
- * for each of some 60 limits. */
+/* The cords of a plan with what they turn up to each pass. */
+typedef struct {
+  const thr_plan *plan; /* borrowed; must stay */
+  int n;                /* its cords */
+  struct thr_cut *cord; /* [n]; owned */
+} thr_parts;
+
+/* options: where ends may be. O(passes). Release with thr_parts_destroy, after a failure too. */
+thr_status thr_parts_open(thr_parts *cuts, const thr_plan *plan, const thr_request *options, thr_err *err) THR_MUST_CHECK;
+void thr_parts_destroy(thr_parts *cuts);
+
+/* Cuts every cord, one in each component, into so many where a pass ends at a node that may hold an end, such that of all such
+ * cuts the part that turns most turns least: a limit is halved, and parts are made as long as it lets them be. The turns at the
+ * cuts are saved. False where the cords do not come by enough such nodes. O(parts log passes) for each of some 60 limits. */
+bool thr_parts_into(thr_parts *cuts, int parts);
+
+/* Of the parts: what the one turns that turns most, what one of them turns at most before its slackest pass when both its ends
+ * are pulled (thr_cord_pulled_turning), rad, and the length of the longest. O(parts log passes). */
+typedef struct {
+  double turning, pulled, longest;
+} thr_parts_measures;
+thr_parts_measures thr_parts_measure(const thr_parts *cuts);
+
+/* Both, and a plan of the parts for options->cords. seed is an empty plan; it stays empty where there are no such parts. */
 thr_status thr_cut_seed(const thr_plan *plan, const thr_request *options, thr_plan *seed, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -15,9 +15,11 @@ static const double hard_seconds = 20; /* of any objective: tied cords, or few c
 
 /* Of the time that is left when a step begins. */
 static const double part[THR_N_STEPS] = {
-    [THR_STEP_FIRST] = 0.2,           [THR_STEP_TIED] = 0.5,      [THR_STEP_SEED] = 0.25,      [THR_STEP_ONE_CORD] = 0.1,
-    [THR_STEP_SHORTEST] = 0.3,        [THR_STEP_BY_LENGTH] = 0.2, [THR_STEP_LEAST] = 0.6,      [THR_STEP_EVEN_SEED] = 0.5,
-    [THR_STEP_SYMMETRIC_TIED] = 0.85, [THR_STEP_FEWEST] = 0.75,   [THR_STEP_FEW_BOUND] = 0.08, [THR_STEP_FEW_TRY] = 0.35,
+    [THR_STEP_FIRST] = 0.2,           [THR_STEP_TIED] = 0.5,      [THR_STEP_SEED] = 0.25,
+    [THR_STEP_ONE_CORD] = 0.1,        [THR_STEP_SHORTEST] = 0.3,  [THR_STEP_BY_LENGTH] = 0.2,
+    [THR_STEP_LEAST] = 0.6,           [THR_STEP_EVEN_SEED] = 0.5, [THR_STEP_EXCHANGES] = 0.5,
+    [THR_STEP_SYMMETRIC_TIED] = 0.85, [THR_STEP_FEWEST] = 0.75,   [THR_STEP_FEW_BOUND] = 0.08,
+    [THR_STEP_FEW_TRY] = 0.35,        [THR_STEP_ANY_CORDS] = 0.4, [THR_STEP_COVERS] = 0.3,
 };
 
 /* Of all that a user allows. */

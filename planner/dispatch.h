@@ -28,11 +28,14 @@ typedef enum {
   THR_STEP_SHORTEST,       /* with tube joints, the shortest cords: where the search for the least turning begins */
   THR_STEP_BY_LENGTH,      /* cords of the least length where the shortest passes may not hold them */
   THR_STEP_LEAST,          /* the least turning of all cords, before that of the cord that turns most */
-  THR_STEP_EVEN_SEED,      /* evening out the turning from the seed; the rest is for the search's own cords */
+  THR_STEP_EXCHANGES,      /* evening out the turning by exchanges; the rest is for the programme over walks */
+  THR_STEP_EVEN_SEED,      /* of that, from the seed; the rest is for the search's own cords */
   THR_STEP_FEWEST,         /* the fewest cords within a limit on the pull; the rest is for the aims with so many */
   THR_STEP_FEW_BOUND,      /* of that, a bound on the turning of so many cords */
   THR_STEP_FEW_TRY,        /* of that, cords of one number */
   THR_STEP_SYMMETRIC_TIED, /* a symmetric plan with tube joints; the rest is for its proof of length */
+  THR_STEP_ANY_CORDS,      /* cords of a plan for different ones, whichever pass an edge; the rest is for making them different */
+  THR_STEP_COVERS,         /* of what is left then, several covers by cords of their own, one after the other */
   THR_N_STEPS
 } thr_step;
 

@@ -57,8 +57,16 @@ static thr_status seed_fits(const thr_frame *frame, const thr_least *least, cons
   return st;
 }
 
-thr_status thr_even_turning(const thr_frame *frame, const thr_plan *seed, double enough, const thr_limits *limits,
-                            thr_least *least, thr_err *err)
+/* Nothing is left to look for. */
+static bool is_done(const thr_frame *frame, const thr_least *least, const thr_max_turning *found, double enough)
+{
+  if (found->largest <= found->bound * (1 + 1e-9)) return true;
+  return enough > 0 && thr_cords_pulled_turning(frame, least->cord, least->n_cords) <= enough / 2;
+}
+
+/* Exchanges from the seed's cords, and if that is not enough from least's; the better cords stay. */
+static thr_status exchange(const thr_frame *frame, const thr_plan *seed, double enough, const thr_limits *limits,
+                           thr_least *least, thr_max_turning *found, thr_err *err)
 {
   bool fits = false;
   thr_max_turning own = {.largest = INFINITY}, other = own;
@@ -70,18 +78,23 @@ thr_status thr_even_turning(const thr_frame *frame, const thr_plan *seed, double
     st = thr_cords_copy(seed->cord, seed->n_cords, &from.cord, err);
     if (!st) st = thr_max_turning_improve(frame, enough, &share, &from, &other, err);
   }
-  bool done = other.largest <= other.bound * (1 + 1e-9);
-  if (!st && fits && enough > 0) done = thr_cords_pulled_turning(frame, from.cord, from.n_cords) <= enough / 2;
-  if (!st && !done) st = thr_max_turning_improve(frame, enough, limits, least, &own, err);
-  /* the two proofs differ in their walks only: those with the higher bound stay */
-  const thr_walk_proof walks = other.bound > own.bound ? from.proof.walks : least->proof.walks;
-  thr_walk_proof_destroy(other.bound > own.bound ? &least->proof.walks : &from.proof.walks);
+  if (!st && !(fits && is_done(frame, &from, &other, enough)))
+    st = thr_max_turning_improve(frame, enough, limits, least, &own, err);
   if (!st && other.largest < own.largest) {
     thr_cord *cord = least->cord;
     *least = from;
     from.cord = cord;
   }
+  *found = other.largest < own.largest ? other : own;
   thr_cords_destroy(from.cord, least->n_cords);
-  least->proof.walks = walks;
   return st;
+}
+
+thr_status thr_even_turning(const thr_frame *frame, const thr_plan *seed, double enough, const thr_limits *limits,
+                            thr_least *least, thr_err *err)
+{
+  const thr_limits share = thr_dispatch_share(limits, THR_STEP_EXCHANGES);
+  thr_max_turning found;
+  thr_status st = exchange(frame, seed, enough, &share, least, &found, err);
+  return st || is_done(frame, least, &found, enough) ? st : thr_max_turning_walks(frame, enough, limits, least, &found, err);
 }

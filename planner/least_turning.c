@@ -8,12 +8,27 @@
 #include "planner/even_turning.h"
 #include "planner/make_plan.h"
 #include "planner/planners.h"
+#include "symmetry/group/isometry.h"
 #include "tortuosity/proof/least.h"
 #include "tortuosity/tie/tube.h"
 #include "tortuosity/tour/baseline.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+
+/* All motions of the framework onto itself, to rounding, if they are not very many. */
+static thr_status find_motions(const thr_frame *frame, const thr_limits *limits, int **image, int *n, thr_err *err)
+{
+  enum { MOST = 240 };
+  const double rounding = 1e-9; /* of the framework's size */
+  thr_err why = {0};
+  thr_status st = thr_isometries_find(frame, NULL, rounding, MOST, limits, image, n, &why);
+  if (!st) return THR_OK;
+  *image = NULL;
+  *n = 0;
+  return st == THR_ELIMIT ? THR_OK : thr_fail(err, st, "%s", why.text);
+}
 
 static thr_least_options search_options(const thr_request *options)
 {
@@ -28,6 +43,7 @@ static thr_least_options search_options(const thr_request *options)
   lo.cost = options->turning.cost;
   lo.length_slack = options->turning.length_slack;
   if (options->turning.nodes > 0) lo.most_nodes = options->turning.nodes;
+  lo.motions = find_motions;
   return lo;
 }
 
@@ -251,12 +267,11 @@ static thr_status verdict(const thr_plan *plan, const thr_least *least, thr_err 
     return thr_fail(err, THR_ELIMIT, "the least length is not proved: the cords may be %.3g %% longer, more than --length-slack",
                     100 * (plan->metrics.length / plan->proof.lower_bound - 1));
   if (thr_wants_largest(&plan->options) && !claim->largest_optimal)
-    return thr_fail(err, THR_ELIMIT, "the largest turning of a cord is proved to be within %.3g %% of the least",
-                    100 * (claim->largest - claim->largest_bound) / claim->largest);
-  if (!thr_wants_largest(&plan->options) && !claim->optimal)
-    return thr_fail(err, THR_ELIMIT, "%s: the turning is proved to be within %.3g %% of the least", why_open(least),
-                    100 * claim->gap);
-  return THR_OK;
+    return thr_not_proved(err, "the largest turning of a cord", claim->largest, claim->largest_bound);
+  if (thr_wants_largest(&plan->options) || claim->optimal) return THR_OK;
+  char what[160];
+  snprintf(what, sizeof what, "%s: the turning", why_open(least));
+  return thr_not_proved(err, what, claim->price, claim->lower_bound);
 }
 
 thr_status thr_tortuosity_plan_from(const thr_frame *frame, const thr_request *options, const thr_plan *seed,
@@ -381,7 +396,8 @@ static thr_status add_point(sweep *s, double slack, thr_err *err)
                                                       .lower_bound = found.lower_bound,
                                                       .open = found.optimal ? NULL : why_open(&least),
                                                       .turning = least.turning,
-                                                      .max_turning = largest_turning(s->f, s->o, &least)};
+                                                      .max_turning = largest_turning(s->f, s->o, &least),
+                                                      .pulled = thr_cords_pulled_turning(s->f, least.cord, least.n_cords)};
   thr_turning_proof_destroy(&found.tree);
   thr_least_destroy(&least);
   return st;

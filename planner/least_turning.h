@@ -31,6 +31,7 @@ typedef struct {
   double price, lower_bound;   /* of all turns */
   const char *open;            /* why it is not proved; static text, NULL if it is */
   double turning, max_turning; /* rad */
+  double pulled;               /* rad, thr_cords_pulled_turning: what the hardest pull has to overcome */
 } thr_frontier_point;
 
 typedef struct {

@@ -39,7 +39,7 @@ static thr_status plan_component(const thr_components *components, int k, compon
   thr_plan_destroy(&asked);
   all->passes_least &= word.passes_least;
   all->longest_least &= word.longest_least || made->cords_claim.longest_optimal;
-  return st && st != THR_ELIMIT ? thr_fail(err, st, "%s", why.text) : THR_OK;
+  return st && (st != THR_ELIMIT || made->n_cords == 0) ? thr_fail(err, st, "%s", why.text) : THR_OK;
 }
 
 /* The certificates of the components' plans, and how often GLPK agreed. */

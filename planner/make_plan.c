@@ -1,8 +1,9 @@
-/* Request -> planner -> plan, with the versions of the libraries that made it. */
+/* Request -> planner -> plan, in the order that was asked for, with the versions of the libraries that made it. */
 #include "planner/make_plan.h"
 #include "lp/solver/lp.h"
 #include "graph/framework/cuttree.h"
 #include "planner/dispatch.h"
+#include "planner/order.h"
 #include "planner/planners.h"
 #include "symmetry/group/automorphisms.h"
 
@@ -29,12 +30,15 @@ thr_status thr_plan_make(const thr_frame *frame, const thr_request *request, con
   thr_report own = {0};
   *plan = (thr_plan){0};
   thr_planner_tell_at_once(frame, request, limits);
-  thr_planner *planner = request->max_pull > 0 ? thr_planner_pull : thr_dispatch(request);
-  thr_status st = planner(frame, request, limits, plan, &own, err), signed_ = THR_OK;
-  if (plan->n_cords > 0) signed_ = sign(plan, err);
-  if (signed_) {
+  thr_planner *planner = request->distinct > 0   ? thr_planner_distinct
+                         : request->max_pull > 0 ? thr_planner_pull
+                                                 : thr_dispatch(request);
+  thr_status st = planner(frame, request, limits, plan, &own, err), finished = THR_OK;
+  if (plan->n_cords > 0) finished = thr_plan_order(plan, err);
+  if (plan->n_cords > 0 && !finished) finished = sign(plan, err);
+  if (finished) {
     thr_plan_destroy(plan);
-    st = signed_;
+    st = finished;
   }
   if (report)
     *report = own;

@@ -169,51 +169,10 @@ static thr_status plan_length(const mixed *m, bool limited, thr_plan *plan, thr_
   if (!limited) options.max_length = 0;
   options.max_pull = 0;
   thr_status st = thr_planner_length(m->f, &options, &share, plan, NULL, why);
-  return st == THR_ELIMIT ? THR_OK : st;
-}
-
-/* The proof of the length of p, which is moved, is one of these cords' as well: they are of the same request. */
-static thr_status prove_length(thr_plan *plan, thr_plan *p, thr_err *err)
-{
-  const thr_frame *frame = &plan->frame;
-  const thr_request *options = &plan->options;
-  thr_length_proof *from = &p->proof;
-  if (options->joint == THR_JOINT_TUBE) {
-    thr_tube tube = {.proof = from->tied};
-    from->tied = (thr_turning_proof){0};
-    thr_status st = thr_tied_least(frame, options, &tube.proof, &tube.bound, err);
-    if (!st) thr_tube_prove(&tube, plan->metrics.length, &plan->proof);
-    thr_tube_destroy(&tube);
-    return st ? st : thr_check_tied_cords(frame, options, plan->cord, plan->n_cords, &plan->proof.tied, &plan->cords_claim, err);
-  }
-  thr_shortest s = {.n_certificates = from->n_certificates, .certificate = from->certificate};
-  s.confirmed.confirmed = from->confirmed;
-  s.confirmed.skipped = from->unconfirmed;
-  from->certificate = NULL;
-  from->n_certificates = 0;
-  thr_status st = thr_postman_prove(frame, options, plan->cord, plan->n_cords, &s, &plan->proof, err);
-  thr_shortest_destroy(&s);
-  return st ? st
-            : thr_check_cords(frame, options, plan->cord, plan->n_cords, plan->proof.certificate, plan->proof.n_certificates,
-                              &plan->cords_claim, err);
+  return st == THR_ELIMIT && plan->n_cords > 0 ? THR_OK : st;
 }
 
 /* ---- the plan ---- */
-
-/* No claim where the cords are of another kind than the tree is about. */
-static thr_status prove_turning(mixed *m, thr_plan *plan, thr_err *err)
-{
-  thr_err why = {0};
-  if (!m->tree.present) return THR_OK;
-  thr_turning_claim found;
-  thr_status st = thr_check_turning(&plan->frame, &plan->options, plan->cord, plan->n_cords, &m->tree, &found, &why);
-  if (st == THR_EVIOLATED) return THR_OK;
-  if (st) return thr_fail(err, st, "%s", why.text);
-  plan->turning = found;
-  plan->turning.tree = m->tree.tree;
-  m->tree.tree = (thr_turning_proof){0};
-  return THR_OK;
-}
 
 static thr_status assemble(mixed *m, thr_plan *shortest, thr_plan *plan, thr_err *err)
 {
@@ -224,26 +183,9 @@ static thr_status assemble(mixed *m, thr_plan *shortest, thr_plan *plan, thr_err
   m->best.cord = NULL;
   m->best.n_cords = 0;
   st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
-  if (!st) st = prove_length(plan, shortest, err);
-  if (!st) st = prove_turning(m, plan, err);
+  if (!st) st = thr_planner_prove_length(plan, shortest, err);
+  if (!st) st = thr_planner_prove_turning(plan, &m->tree, err);
   return st;
-}
-
-static thr_status verdict(const thr_plan *plan, thr_err *err)
-{
-  const thr_turning_claim *claim = &plan->turning;
-  const thr_length_proof *length = &plan->proof;
-  bool largest = thr_wants_largest(&plan->options);
-  if (thr_wants_balance(&plan->options) && !plan->cords_claim.longest_optimal)
-    return thr_fail(err, THR_ELIMIT, "the longest cord is proved to be within %.3g %% of the shortest possible",
-                    100 * (plan->cords_claim.longest - plan->cords_claim.longest_bound) / plan->cords_claim.longest);
-  if (thr_wants_length(&plan->options) && length->optimal) return THR_OK;
-  if (thr_wants_length(&plan->options))
-    return thr_fail(err, THR_ELIMIT, "the length is proved to be within %.3g %% of the least", 100 * length->gap);
-  if (!claim->present) return thr_fail(err, THR_ELIMIT, "nothing is proved of the turning");
-  if (largest ? claim->largest_optimal : claim->optimal) return THR_OK;
-  return thr_fail(err, THR_ELIMIT, "the turning is proved to be within %.3g %% of the least",
-                  largest ? 100 * (claim->largest - claim->largest_bound) / claim->largest : 100 * claim->gap);
 }
 
 /* The plan of the least length that keeps to what is asked of its cords. THR_EINFEASIBLE: no cords whatever are short enough. */
@@ -252,7 +194,7 @@ static thr_status plan_limited(mixed *m, thr_plan *plan, thr_err *why)
   if (m->o->max_length == 0 && !thr_wants_balance(m->o)) return THR_OK;
   thr_status st = plan_length(m, true, plan, why);
   if (!st) offer(m, plan);
-  if (st == THR_EINFEASIBLE) return m->o->max_length > 0 ? thr_cords_reach(m->f, m->o, &(thr_err){0}) : THR_OK;
+  if (st == THR_EINFEASIBLE && m->o->max_length > 0) return st;
   return st == THR_ENOMEM ? st : THR_OK; /* plans for other aims may do */
 }
 
@@ -285,13 +227,13 @@ thr_status thr_planner_mixed(const thr_frame *frame, const thr_request *options,
     offer(&m, &shortest);
     shortest.proof = proof;
     if (m.best.n_cords == 0)
-      st = thr_fail(err, THR_EINFEASIBLE, "%s",
+      st = thr_fail(err, THR_ELIMIT, "%s",
                     why.code       ? why.text
                     : why_not.code ? why_not.text
                                    : "no plan with so many cords was found");
   }
   if (!st) st = assemble(&m, &shortest, plan, err);
-  if (!st) st = verdict(plan, err);
+  if (!st) st = thr_planner_verdict(plan, err);
   if (st && st != THR_ELIMIT) thr_plan_destroy(plan);
   thr_plan_destroy(&shortest);
   thr_plan_destroy(&limited);

@@ -14,6 +14,9 @@ thr_planner thr_planner_length, thr_planner_turning, thr_planner_symmetric;
 /* Of any objective, with a limit on the pull: as few cords as that takes, then the aims (planner/pull_limit.c). */
 thr_planner thr_planner_pull;
 
+/* Of any objective but symmetry: every edge is passed by options.distinct different cords (planner/distinct.c). */
+thr_planner thr_planner_distinct;
+
 /* Some cords that tie the joints, or the shortest, for whoever keeps the best so far: sooner than a search has any. shortest
  * (NULL = not wanted) receives those of solid joints if they are proved to be the shortest, else it is empty. */
 void thr_planner_tell_first(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *shortest);
@@ -28,6 +31,15 @@ thr_status thr_planner_prove_tied(thr_plan *plan, const thr_limits *limits, thr_
 
 /* Cords that take no search, sound but long, for whoever keeps the best so far; nothing where nobody listens. */
 void thr_planner_tell_at_once(const thr_frame *frame, const thr_request *options, const thr_limits *limits);
+
+/* A proof that was made for other cords of the same request, which is moved, is one of the cords of plan as well; what it proves
+ * of these. from: a plan with a proof of length. claim: of the turning, none where the cords are of another kind than it is
+ * about. */
+thr_status thr_planner_prove_length(thr_plan *plan, thr_plan *from, thr_err *err) THR_MUST_CHECK;
+thr_status thr_planner_prove_turning(thr_plan *plan, thr_turning_claim *claim, thr_err *err) THR_MUST_CHECK;
+
+/* Is what was asked to be least proved to be, by the plan's claims? Else THR_ELIMIT, and how far it may be off. */
+thr_status thr_planner_verdict(const thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 
 /* Is more asked of the turning's plan than its search knows, and the planner that composes it then (planner/mixed.c). With a
  * limit on the pull it plans for every aim, options.cords cords; seed (NULL = none) is one of the plans to choose from, whose

@@ -233,7 +233,7 @@ thr_status thr_planner_pull(const thr_frame *frame, const thr_request *options, 
   bool hopeless = is_range(options) ? x.found.n_cords == 0 : x.claim.excluded >= options->cords;
   if (!st && !hopeless) st = thr_planner_mixed(frame, &few, &x.found, limits, plan, &why);
   if (!st && hopeless) st = THR_EINFEASIBLE;
-  if (st == THR_EINFEASIBLE || (st && st != THR_ELIMIT && why.code))
+  if (st == THR_EINFEASIBLE || (st && plan->n_cords == 0 && why.code))
     st = not_found(&x, &why, err);
   else if (st == THR_ELIMIT)
     thr_fail(err, st, "%s", why.text);

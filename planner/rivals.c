@@ -6,11 +6,11 @@
 
 #include <math.h>
 
-/* Where there is no such plan that is said; what else fails is an error. */
+/* Where there is no such plan, or none was found, that is said; what else fails is an error. */
 static thr_status close_rival(thr_rival *rival, thr_status st, thr_err *err)
 {
-  rival->made = !st || st == THR_ELIMIT;
-  return rival->made || st == THR_EINFEASIBLE || st == THR_EINPUT ? THR_OK : thr_fail(err, st, "%s", rival->why.text);
+  rival->made = rival->plan.n_cords > 0 && (!st || st == THR_ELIMIT);
+  return !st || st == THR_ELIMIT || st == THR_EINFEASIBLE || st == THR_EINPUT ? THR_OK : thr_fail(err, st, "%s", rival->why.text);
 }
 
 /* As many cords as plan's options say. */

@@ -48,8 +48,7 @@ static thr_status judge_longest(const thr_plan *plan, thr_err *err)
 {
   const thr_cords_claim *claim = &plan->cords_claim;
   if (plan->n_cords == 0 || !thr_wants_balance(&plan->options) || claim->longest_optimal) return THR_OK;
-  return thr_fail(err, THR_ELIMIT, "the longest cord is proved to be within %.3g %% of the shortest possible",
-                  100 * (claim->longest - claim->longest_bound) / claim->longest);
+  return thr_not_proved(err, "the length of the longest cord", claim->longest, claim->longest_bound);
 }
 
 thr_status thr_planner_symmetric(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,

@@ -131,17 +131,15 @@ static thr_status verdict(const thr_symmetries *symmetries, const char *group, t
 
 /* ---- cords without symmetry ---- */
 
-/* The plan's cords as the threading of this row, under the identity alone. Of the row's bounds only that on the first aim holds
- * for them, and that there is no more to learn of an edge than its passes. */
+/* The plan's cords as the threading of this row, which has none, under the identity alone. Of the row's bounds only that on the
+ * first aim holds for them, and that there is no more to learn of an edge than its passes. */
 static thr_status take_plan(const thr_plan *plan, thr_symmetry_row *row, thr_err *err)
 {
   const thr_request *options = &plan->options;
-  bool all_open = thr_cover_all_open(&(thr_cover_options){.ends = options->ends, .tube = options->joint == THR_JOINT_TUBE});
-  thr_cords_destroy(row->cord, row->n_cords);
-  thr_symmetry_record_destroy(&row->record);
+  const thr_cover_options how = {.ends = options->ends, .tube = options->joint == THR_JOINT_TUBE};
   row->n_cords = plan->n_cords;
   thr_status st = thr_cords_copy(plan->cord, plan->n_cords, &row->cord, err);
-  if (!st) st = thr_cords_alone(&plan->frame, all_open, row->cord, row->n_cords, &row->record, err);
+  if (!st) st = thr_cords_alone(&plan->frame, &how, row->cord, row->n_cords, &row->record, err);
   if (st) return st;
   snprintf(row->record.name, sizeof row->record.name, "%s", row->name);
   row->metrics = plan->metrics;
@@ -164,11 +162,20 @@ static thr_status use_plan(const thr_plan *plan, const thr_request *options, thr
   for (int i = 0; i < symmetries->n; i++) {
     thr_symmetry_row *row = &symmetries->row[i];
     if (row->order > 1 || row->behind || !thr_symmetry_asked(symmetries, i, options->symmetry.group)) continue;
-    if (row->n_cords > 0 && is_within(symmetries, row)) continue;
-    thr_status st = take_plan(plan, row, err);
+    thr_symmetry_row other = *row;
+    other.cord = NULL;
+    other.n_cords = 0;
+    other.record = (thr_symmetry_record){0};
+    thr_status st = take_plan(plan, &other, err);
+    if (thr_wants_balance(options)) other.longest = thr_cords_longest(&plan->frame, plan->cord, plan->n_cords);
+    const bool kept = st || (row->n_cords > 0 && is_within(symmetries, row) && !is_better(&other, row, true));
+    if (!kept)
+      thr_fail(&other.why, THR_ELIMIT, "these are the cords of least length, which need not be the best under this group");
+    thr_symmetry_row *dropped = kept ? &other : row;
+    thr_cords_destroy(dropped->cord, dropped->n_cords);
+    thr_symmetry_record_destroy(&dropped->record);
+    if (!kept) *row = other;
     if (st) return st;
-    thr_fail(&row->why, THR_ELIMIT, "these are the cords of least length, which need not be the best under this group");
-    if (thr_wants_balance(options)) row->longest = thr_cords_longest(&plan->frame, row->cord, row->n_cords);
   }
   return THR_OK;
 }
@@ -200,6 +207,8 @@ thr_status thr_symmetries_find_from(const thr_frame *frame, const thr_request *o
   if (!st) st = check_asked(out, options->symmetry.group, err);
   if (!st) st = thr_symmetry_solve(frame, options, only_choice, limits, out, err);
   if (!st && plan) st = use_plan(plan, options, out, err);
+  for (int i = 0; i < out->n && !st; i++)
+    out->row[i].pulled = thr_cords_pulled_turning(frame, out->row[i].cord, out->row[i].n_cords);
   if (!st) {
     choose(out);
     st = verdict(out, options->symmetry.group, err);

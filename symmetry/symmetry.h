@@ -47,6 +47,7 @@ typedef struct {
   thr_symmetry_record record;    /* owned */
   thr_metrics metrics;
   double longest; /* cord of it, if that is an aim; else 0 */
+  double pulled;  /* rad, thr_cords_pulled_turning: what the hardest pull has to overcome */
 } thr_symmetry_row;
 
 /* A listed group that rows are subgroups of. */

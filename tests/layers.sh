@@ -36,7 +36,6 @@ traces.h:symmetry/group/nauty.c
 SuiteSparse*.h:eval/structure/spqr.c
 cholmod*.h:eval/structure/spqr.c
 cairo*.h:diagram/export/paper.c
-librsvg/*.h:diagram/export/paper.c
 sys/prctl.h:graph/process/process.c
 dlfcn.h:graph/process/lazy.c'
 

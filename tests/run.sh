@@ -120,7 +120,7 @@ builds='release asan' tree='layers layers-self-test format bench/smallest' progr
 case $tier in
 test) whole='release/watchdog release/memory' MEMORY_SAMPLES=4 ;;
 fast) builds=release SHARE_RELEASE=10 programs='' fuzz='' ;;
-rest) builds=asan SHARE_ASAN=1 tree='' programs='' whole='release/watchdog release/memory' FUZZ_RUNS=1000000 ;;
+rest) builds=asan SHARE_ASAN=1 tree='' programs='' whole='release/watchdog release/memory' FUZZ_RUNS=300000 ;;
 all) SHARE_ASAN=1 whole='release/watchdog release/memory' FUZZ_RUNS=1000000 ;;
 fuzz) builds='' tree='' programs='' FUZZ_RUNS=0 ;;
 *) echo "tests/run.sh: $tier is none of test, fast, rest, all and fuzz" >&2 && exit 2 ;;

@@ -281,7 +281,7 @@ def check_physics(o, place):
 class Options:
     def __init__(self, o, f):
         p = "options"
-        known(o, "objective joint cover capacity cords max_length max_pull balance ends end_nodes end_counts engine confirm turning symmetry"
+        known(o, "objective joint cover capacity distinct cords max_length max_pull balance ends end_nodes end_counts needles order engine confirm turning symmetry"
               " time_limit physics", p)
         self.objective = choice(o, "objective", p, ("length", "tortuosity", "symmetry"))
         self.tube = choice(o, "joint", p, ("solid", "tube")) == "tube"
@@ -291,6 +291,8 @@ class Options:
         self.max_length = member(o, "max_length", "number", p, 5e-324, default=None)
         self.max_pull = member(o, "max_pull", "number", p, 1, default=None)
         member(o, "time_limit", "number", p)
+        member(o, "needles", "integer", p, 1, 2, default=0)
+        choice(o, "order", p, ("hand", "planned"), default="planned")
         choice(o, "engine", p, ("auto", "lp", "matching"), default="auto")
         choice(o, "confirm", p, ("auto", "always", "never"), default="auto")
         require(self.objective == "length" or "confirm" not in o, "options.confirm: only with objective length")
@@ -299,6 +301,7 @@ class Options:
         self.read_ends(o, f)
         self.read_turning(o)
         self.read_symmetry(o)
+        self.read_distinct(o)
         self.need = [max(self.cover, f.cover[e] if f.cover else 1) for e in range(f.m)]
         self.most = []  # passes that fit through each edge, None: any number
         for e in range(f.m):
@@ -314,6 +317,18 @@ class Options:
             self.cords = member(cords, "most", "integer", "options.cords", self.least, 1000)
         else:
             self.least = self.cords = member(o, "cords", "integer", "options", 1, 1000)
+
+    def read_distinct(self, o):
+        self.distinct = member(o, "distinct", "integer", "options", 2, min(self.cover, self.least), default=0)
+        exact = self.least == self.cords or self.ends == "counts"
+        plain = not self.balance and self.max_length is None and self.max_pull is None and self.objective != "symmetry"
+        turning = self.objective != "tortuosity" or (self.slack is None and self.tour == "least")
+        require(not self.distinct or (exact and plain and turning), "options.distinct: does not go with other options")
+
+    def alike(self, f):
+        """Does every cord pass every edge, each of them being on its own?"""
+        return (self.distinct and self.distinct == self.cords == self.least == self.cover and self.ends != "counts" and not self.tube
+                and not (self.capacity or f.cover or f.capacity))
 
     def read_ends(self, o, f):
         self.ends = choice(o, "ends", "options", ("closed", "any", "feet", "nodes", "counts"))
@@ -336,7 +351,8 @@ class Options:
         self.tour = None
         if self.objective == "tortuosity":
             t, p = member(o, "turning", "object", "options"), "options.turning"
-            known(t, "cost length_slack minimize tour pairings", p)
+            known(t, "cost length_slack minimize tour pairings nodes", p)
+            member(t, "nodes", "integer", p, 1, 2**31 - 1, default=1)
             self.cost = choice(t, "cost", p, ("angle", "sine", "step", "uturn"))
             self.slack = None if t.get("length_slack", 0) is None else member(t, "length_slack", "number", p, 0)
             choice(t, "minimize", p, ("turning", "max-turning"))
@@ -430,6 +446,11 @@ class Plan:
         self.extra = [x - n for x, n in zip(self.passes, self.options.need)]
         self.per_piece = [sum(c.component == k for c in self.cords) for k in range(len(f.pieces))]
 
+    def compared(self, c):
+        """Cords of component c that its length is compared with: as many, where the fewest are asked for before the shortest."""
+        o = self.options
+        return self.per_piece[c] if o.max_length is not None and o.counted and o.least < o.cords else o.cords
+
     def close(self, stated, value, scale, name):
         require(abs(Fraction(stated) - Fraction(value)) <= TOLERANCE * Fraction(scale), f"{name}: stated {stated}, but it is {float(value)}")
 
@@ -478,7 +499,8 @@ def check_tied(p):
 
 def check_metrics(p):
     f, m = p.frame, member(p.file, "metrics", "object", "")
-    known(m, "length base_length overlap passes most_passes turning max_turning worst_turn u_turns", "metrics")
+    known(m, "length base_length overlap passes most_passes turning max_turning worst_turn u_turns"
+          + (" distinct" if p.options.distinct else ""), "metrics")
     base = sum(f.exact[e] * n for e, n in enumerate(p.options.need))
     angles = [[f.angle(a, b) for a, b in cord.turns(p.closing)] for cord in p.cords]
     p.turning = [math.fsum(x) for x in angles]
@@ -490,6 +512,52 @@ def check_metrics(p):
     back = sum(a == b for cord in p.cords for a, b in cord.turns(p.closing))
     for key, value in (("passes", sum(p.passes)), ("most_passes", max(p.passes)), ("u_turns", back)):
         require(member(m, key, "integer", "metrics") == value, f"metrics.{key}: not {value}")
+
+
+def check_distinct(p):
+    """How many edges are passed by enough different cords; without all of them nothing is optimal."""
+    if not p.options.distinct:
+        return []
+    cords = [set() for _ in range(p.frame.m)]
+    for i, cord in enumerate(p.cords):
+        for h in cord.half:
+            cords[h >> 1].add(i)
+    p.met = sum(len(c) >= p.options.distinct for c in cords)
+    require(member(p.file["metrics"], "distinct", "integer", "metrics") == p.met, f"metrics.distinct: not {p.met}")
+    for claim in [x for x in p.proof.values() if type(x) is dict]:
+        for part in [claim] + [x for x in claim.values() if type(x) is dict]:
+            require(p.met == p.frame.m or part.get("status") != "optimal", "proof: optimal, but some edges have too few different cords")
+    return [f"{p.met} of {p.frame.m} edges passed by {p.options.distinct} different cords"]
+
+
+def parts(p):
+    """What the proofs are about: the plan, or if every cord passes every edge each of its rounds of cords by itself."""
+    if not (p.options.alike(p.frame) and p.met == p.frame.m):
+        return [p]
+    rounds = []
+    for i in range(p.options.distinct):
+        r = copy.copy(p)
+        r.options = copy.copy(p.options)
+        r.options.cover = r.options.cords = r.options.least = 1
+        r.options.distinct = 0
+        r.options.need = [1] * p.frame.m
+        chosen = [[k for k, c in enumerate(p.cords) if c.component == piece][i] for piece in range(len(p.frame.pieces))]
+        r.cords, r.lengths = [p.cords[k] for k in chosen], [p.lengths[k] for k in chosen]
+        r.turning = [p.turning[k] for k in chosen]
+        r.length = sum(r.lengths)
+        r.passes = [0] * p.frame.m
+        for cord in r.cords:
+            for h in cord.half:
+                r.passes[h >> 1] += 1
+        r.extra = [x - 1 for x in r.passes]
+        require(min(r.extra) >= 0, "cords: one does not pass every edge")
+        r.per_piece = [1] * len(p.frame.pieces)
+        r.proof = dict(p.proof)
+        for key, names in (("length", ("lower_bound",)), ("turning", ("price", "lower_bound", "pairing_bound"))):
+            if type(r.proof.get(key)) is dict:
+                r.proof[key] = {k: x / p.options.distinct if k in names and type(x) in (int, float) else x for k, x in r.proof[key].items()}
+        rounds.append(r)
+    return rounds
 
 
 # ---- proof.length, solid joints ----
@@ -603,7 +671,7 @@ class Certificate:
         self.up = self.round_up(p, edges, bool(prices))
         extra = [e for e in edges if p.extra[e]]
         total = sum(f.exact[e] for e in edges)
-        weight = self.weight_bound(2 * opt.cords)
+        weight = self.weight_bound(2 * p.compared(c))
         require(weight <= join, f"{place}: proves a weight of {weight}, but the plan's extra passes have {join}")
         closes = weight == join and all(self.weight[e] for e in extra)
         self.optimal = not extra or closes and self.own - self.base - self.as_length(join) <= TOLERANCE * total
@@ -699,7 +767,7 @@ def check_length(p):
             require(type(o) is dict, f"{place}.certificate[{c}]: not an object")
             p.certificate.append(Certificate(p, o, f"{place}.certificate[{c}]", c))
         optimal = all(c.optimal for c in p.certificate)
-        bound = sum(c.own if c.optimal else c.least(2 * p.options.cords) for c in p.certificate)
+        bound = sum(c.own if c.optimal else c.least(2 * p.compared(i)) for i, c in enumerate(p.certificate))
     status = check_claim(claim, p.length, optimal, bound, 0, place)
     p.least = p.length if optimal else bound
     slack = p.options.slack if p.options.objective == "tortuosity" else None
@@ -773,7 +841,7 @@ class Model:
         if dual["length"] and self.limit is not None:
             longest = max(f.exact)
             for e in range(f.m):
-                cost[2 * e, 2 * e + 1] += Fraction(dual["length"]) * f.exact[e] / longest
+                cost[2 * e, 2 * e + 1] += Fraction(dual["length"]) * self.length[e] / longest
             base = sum(x * n for x, n in zip(f.exact, self.need))
             constant -= Fraction(dual["length"]) * max(Fraction(0), Fraction(self.limit) - base) / longest
         for row in dual["odd_sets"]:
@@ -920,7 +988,10 @@ class Model:
 
     def read(self, o, place):
         """The proof, checked for shape; bound() adds it up."""
-        known(o, "tree multipliers walks", place)
+        known(o, "tree multipliers walks symmetries", place)
+        images = member(o, "symmetries", "list", place, default=[])
+        self.symmetries = [self.symmetry(x, f"{place}.symmetries[{i}]") for i, x in enumerate(images)]
+        self.lower()
         self.walks = member(o, "walks", "object", place, default=None)
         self.tree = member(o, "tree", "list", place)
         duals = member(o, "multipliers", "list", place)
@@ -934,13 +1005,50 @@ class Model:
                 known(node, "multipliers", name)
                 member(node, "multipliers", "integer", name, 0, len(duals) - 1)
                 continue
-            known(node, "low high a b value", name)
+            known(node, "low high a b value orbit", name)
+            integers(member(node, "orbit", "list", name, default=[]), f"{name}.orbit", 0, len(images) - 1)
             for key in ("low", "high"):
                 parents[member(node, key, "integer", name, i + 1, len(self.tree) - 1)] += 1
             a, b = (member(node, key, "integer", name, low, 2 * self.f.m - 1) for key, low in (("a", 0), ("b", -1)))
             self.column(a, b)
             member(node, "value", "integer", name, 0, 10**6)
         require(parents == [0] + [1] * (len(self.tree) - 1), f"{place}.tree: not a tree")
+
+    def symmetry(self, image, place):
+        """A map of half-edges, as a list of the images of all columns' keys; it must map plans to plans."""
+        f = self.f
+        integers(image, place, 0, 2 * f.m - 1, f.m)
+        g = [image[h >> 1] ^ h & 1 for h in range(2 * f.m)]
+        require(len(set(g)) == 2 * f.m, f"{place}: an edge is the image of two")
+        for v in range(f.n):
+            tails = {f.tail(g[h]) for h in f.at[v]}
+            require(len(tails) <= 1, f"{place}: the edges of node {v} come apart")
+            require(not tails or len(f.at[v]) == len(f.at[tails.pop()]), f"{place}: node {v} is joined with another")
+            for h in f.at[v]:
+                require(self.supply[self.group[v]] == self.supply[self.group[f.tail(g[h])]], f"{place}: other numbers of cord ends")
+        require(all(self.need[e] == self.need[image[e] >> 1] and self.most[e] == self.most[image[e] >> 1] for e in range(f.m)),
+                f"{place}: other numbers of passes")
+        out = {}
+        for a, b in self.weight:
+            out[a, b] = self.column(g[a], g[b] if b >= 0 else b)
+            require(self.high[a, b] == self.high[out[a, b]], f"{place}: a column of another limit")
+        return out
+
+    def lower(self):
+        """Prices of columns, and lengths under the limit, become the least of all their images under any symmetries in turn."""
+        self.length = list(self.f.exact)
+        changed = bool(self.symmetries)
+        while changed:
+            changed = False
+            for image in self.symmetries:
+                for c, d in image.items():
+                    least = min(self.weight[c], self.weight[d])
+                    changed |= self.weight[c] > least or self.weight[d] > least
+                    self.weight[c] = self.weight[d] = least
+                    if c[0] ^ 1 == c[1]:
+                        short = min(self.length[c[0] >> 1], self.length[d[0] >> 1])
+                        changed |= self.length[c[0] >> 1] > short or self.length[d[0] >> 1] > short
+                        self.length[c[0] >> 1] = self.length[d[0] >> 1] = short
 
     def bound(self, place):
         """Least price over all leaves, in units of 1 / UNIT; None if no plan is left."""
@@ -960,8 +1068,16 @@ class Model:
                 continue
             c = self.column(node["a"], node["b"])
             low, high = box.get(c, (0, self.high[c]))
-            if low <= min(high, node["value"]):
-                stack.append((node["low"], {**box, c: (low, min(high, node["value"]))}))
+            orbit = [self.symmetries[k] for k in node.get("orbit", [])]
+            for image in orbit:
+                kept = all(box.get(image[d], (0, self.high[d])) == limits for d, limits in box.items())
+                require(kept, f"{place}.tree[{i}].orbit: a symmetry does not keep what was decided before")
+            below = dict(box)
+            for d in {c, *(image[c] for image in orbit)}:
+                least, most = box.get(d, (0, self.high[d]))
+                below[d] = least, min(most, node["value"])
+            if all(least <= most for least, most in below.values()):
+                stack.append((node["low"], below))
             if max(low, node["value"] + 1) <= high:
                 stack.append((node["high"], {**box, c: (max(low, node["value"] + 1), high)}))
         return best
@@ -989,17 +1105,19 @@ class Tied:
 
 # ---- components of few edges ----
 
-FEW_EDGES, FEW_SETS = 12, 2**15
+FEW_EDGES, FEW_SUMMED, FEW_SETS = 18, 12, 2**18
 ONE, LEAST = {}, {}  # tables that were made before, and what they came to
 
 
 class FewEdges:
-    """Least cost of a cord that passes at least each set of a component's edges, and of several cords."""
+    """Least cost of a cord that passes at least each set of a component's edges, as far as it is no more than enough, and of several
+    cords."""
 
-    def __init__(self, p, edges, turning):
+    def __init__(self, p, edges, turning, enough):
         f, o = p.frame, p.options
-        self.n = len(edges)
-        key = (repr(f.xyz), repr(f.edge), repr(f.length), tuple(edges), turning and o.cost, o.ends, tuple(sorted(o.allowed)), o.tube)
+        self.n, self.enough = len(edges), enough if len(edges) > FEW_SUMMED else math.inf
+        key = (repr(f.xyz), repr(f.edge), repr(f.length), tuple(edges), turning and o.cost, o.ends, tuple(sorted(o.allowed)), o.tube,
+               self.enough)
         if key not in ONE:
             ONE[key] = self.table(f, o, edges, turning)
         self.key, self.one = key, ONE[key]
@@ -1030,16 +1148,16 @@ class FewEdges:
                             x += next((y for g, y in steps[h] if g == 2 * e), math.inf) - first[2 * e]
                         elif f.tail(h ^ 1) not in o.allowed:
                             continue
-                        one[mask] = min(one[mask], x)
+                        if x <= self.enough:
+                            one[mask] = min(one[mask], x)
                     cost[mask] = None
-        for i in range(self.n):
+        for i in range(self.n if self.n <= FEW_SUMMED else 0):
             for mask in range(1 << self.n):
                 if not mask >> i & 1:
                     one[mask] = min(one[mask], one[mask | 1 << i])
         return one
 
-    @staticmethod
-    def settle(mask, cost, steps, index, lowest):
+    def settle(self, mask, cost, steps, index, lowest):
         here = cost[mask]
         queue = [(x, h) for h, x in here.items()]
         heapq.heapify(queue)
@@ -1049,7 +1167,7 @@ class FewEdges:
                 continue
             for g, y in steps[h]:
                 i = index[g >> 1]
-                if i < lowest:
+                if i < lowest or x + y > self.enough:
                     continue
                 to = here
                 if not mask >> i & 1:
@@ -1081,6 +1199,58 @@ class FewEdges:
             result = min(result, max(best[-1], self.one[0]) if dearest else best[-1] + (n - self.n) * self.one[0])
         return result
 
+    def suffice(self, cords):
+        """Do so many cords, each no dearer than enough, pass everything? Unions of sets are counted by sums over all parts."""
+        fields, half = 1 << self.n, min(cords, self.n) // 2
+        low = []  # of every edge, 64 bits for each set without it
+        for i in range(self.n):
+            bits, span = (1 << (64 << i)) - 1, 2 << i
+            while span < fields:
+                bits |= bits << 64 * span
+                span *= 2
+            low.append(bits)
+
+        def packed(some):
+            return int.from_bytes(struct.pack(f"<{fields}Q", *some), "little")
+
+        def unpacked(number):
+            return struct.unpack(f"<{fields}Q", number.to_bytes(8 * fields, "little"))
+
+        def sums(number, sign):
+            for i, bits in enumerate(low):
+                number += sign * ((number & bits) << (64 << i))
+            return number
+
+        def union(a, b):
+            pairs = [x * y for x, y in zip(unpacked(sums(a, 1)), unpacked(sums(b, 1)))]
+            return packed([int(x > 0) for x in unpacked(sums(packed(pairs), -1))])
+
+        some = packed([int(x <= self.enough) for x in self.one])
+        for i, bits in enumerate(low):  # and all their parts
+            some |= some >> (64 << i) & bits
+        if half == 0:
+            return some >> 64 * (fields - 1) > 0
+        first = some
+        for bit in bin(half)[3:]:
+            first = union(first, first)
+            if bit == "1":
+                first = union(first, some)
+        others = union(first, some) if min(cords, self.n) % 2 else first
+        return any(x and y for x, y in zip(unpacked(first), reversed(unpacked(others))))
+
+    def dearest(self, low, high):
+        """Least cost of the dearest of low .. high cords; of many edges, enough if it is that or more, else 0."""
+        if self.n <= FEW_SUMMED:
+            return self.least(low, high, True)
+        key = (self.key, high)
+        if key not in LEAST:
+            LEAST[key] = 0 if self.suffice(high) else self.enough
+        return LEAST[key]
+
+    def fit(self, cords, limit):
+        """Is none of so many cords above the limit, which is enough?"""
+        return self.least(cords, cords, True) <= limit if self.n <= FEW_SUMMED else self.suffice(cords)
+
     def one_more(self, best, join):
         more = [join(self.one[0], best[0])]
         for mask in range(1, 1 << self.n):
@@ -1096,7 +1266,7 @@ class FewEdges:
         return more
 
 
-def few_edges(p, turning, components=None):
+def few_edges(p, turning, enough):
     """Per component: its FewEdges, or None if it is large; and the least and the most cords it may have."""
     f, o, sets, found = p.frame, p.options, FEW_SETS, []
     for c in range(len(f.pieces)):
@@ -1105,15 +1275,16 @@ def few_edges(p, turning, components=None):
         edges = f.edges_of(c)
         small = high > 1 and len(edges) <= FEW_EDGES and 1 << len(edges) <= sets
         sets -= (1 << len(edges)) if small else 0
-        found.append((FewEdges(p, edges, turning) if small else None, low, high))
+        found.append((FewEdges(p, edges, turning, enough) if small else None, low, high))
     return found
 
 
-def few_edges_bounds(p, turning):
-    """(Least cost in all, 0 if a component is large; of the dearest cord of any that is not)"""
-    rows = few_edges(p, turning)
-    dearest = max([t.least(low, high, True) for t, low, high in rows if t], default=0)
-    total = sum(t.least(low, high, False) for t, low, high in rows) if all(t for t, _, _ in rows) else 0
+def few_edges_bounds(p, turning, enough):
+    """(Least cost in all, 0 if a component is large; of the dearest cord of any that is not, which is known up to enough)"""
+    rows = few_edges(p, turning, float(enough) * (1 - 5e-10))
+    dearest = max([t.dearest(low, high) for t, low, high in rows if t], default=0)
+    summed = all(t and t.n <= FEW_SUMMED for t, _, _ in rows)
+    total = sum(t.least(low, high, False) for t, low, high in rows) if summed else 0
     return Fraction(min(total, sys.float_info.max)), Fraction(min(dearest, sys.float_info.max))
 
 
@@ -1151,11 +1322,11 @@ def forced_detour(p, enough):
 def fewest_cords(p):
     """Cords in all components together that no plan has fewer of."""
     o, limit, total = p.options, Fraction(p.options.max_length) * (1 + 2 * TOLERANCE), 0
-    for c, (table, j, _) in enumerate(few_edges(p, False)):
+    for c, (table, j, _) in enumerate(few_edges(p, False, float(limit))):
         base = sum(p.frame.exact[e] * o.need[e] for e in p.frame.edges_of(c))
         while j < p.per_piece[c]:
             least = base if o.tube else p.certificate[c].least(2 * j)
-            if least <= j * limit and (table is None or table.least(j, j, True) <= limit):
+            if least <= j * limit and (table is None or table.fit(j, limit)):
                 break
             j += 1
         total += j
@@ -1192,9 +1363,11 @@ def check_cords_claim(p):
         bound = p.tied.least / (len(p.cords) if o.ends == "counts" else o.cords * len(p.frame.pieces))
     else:
         cords = [o.cords if o.ends != "counts" else p.per_piece[c] for c in range(len(p.certificate))]
-        bound = max((c.own if c.optimal else c.least(2 * o.cords)) / k for c, k in zip(p.certificate, cords))
+        rows = [(c, p.compared(i) < o.cords and o.ends not in ("closed", "counts")) for i, c in enumerate(p.certificate)]
+        bound = max((c.own if c.optimal and not fewer else c.least(2 * o.cords)) / k for (c, fewer), k in zip(rows, cords))
     claimed = member(stated, "lower_bound", "number", place + ".longest")
-    bound = max(bound, forced_detour(p, claimed), few_edges_bounds(p, False)[1])
+    bound = max(bound, forced_detour(p, claimed))
+    bound = max(bound, few_edges_bounds(p, False, claimed)[1])
     unit = longest_unit(p.frame)
     if unit:
         bound = max(bound, unit * math.ceil(bound / unit * (1 - 2 * TOLERANCE)))
@@ -1404,7 +1577,8 @@ def check_turning(p):
     bound = model.bound(place + ".proof")
     require(bound is not None, f"{place}.proof: proves that there is no plan")
     bound = tree = max(Fraction(0), Fraction(bound) / UNIT)
-    few, few_largest = few_edges_bounds(p, True)
+    largest = member(claim, "largest", "object", place)
+    few, few_largest = few_edges_bounds(p, True, member(largest, "lower_bound", "number", place + ".largest", 0))
     bound = max(bound, few)
     if p.closing and o.cost in ("angle", "sine"):  # Fenchel 1929; sin(x / 2) >= x / pi
         bound = max(bound, Fraction(2 * math.pi if o.cost == "angle" else 2) * o.least * len(f.pieces))
@@ -1415,7 +1589,6 @@ def check_turning(p):
     status = check_claim(claim, Fraction(price), optimal, bound, 1, place)
     pairing = pairing_bound(p)
     require(member(claim, "pairing_bound", "number", place, 0) <= pairing + 1e-9 * (1 + pairing), f"{place}.pairing_bound: not {pairing}")
-    largest = member(claim, "largest", "object", place)
     known(largest, "status price lower_bound", place + ".largest")
     p.close(member(largest, "price", "number", place + ".largest"), max(prices), scale, place + ".largest.price")
     number = len(p.cords) if o.ends == "counts" else o.cords * len(f.pieces)
@@ -1454,8 +1627,9 @@ def too_few(p, claim, place):
     all_turns = model.bound(place + ".proof")
     require(all_turns is not None, f"{place}.proof: proves that there is no plan")
     all_turns = max(Fraction(0), Fraction(all_turns) / UNIT)
+    needed = 2 * math.log(o.max_pull) / o.mu + (math.pi if p.closing else 0) if o.mu > 0 else 0
     bound = max(all_turns / (cords * len(f.pieces)), largest_bound(other, model, cords, all_turns, place + ".proof"),
-                few_edges_bounds(other, True)[1])
+                few_edges_bounds(other, True, needed * (1 + 1e-7) + 1e-7)[1])
     if p.closing:  # Fenchel 1929; the last turn of a closed cord is at its ends
         bound = max(bound, Fraction(2 * math.pi)) - Fraction(math.pi)
     limit = math.log(o.max_pull)
@@ -1508,7 +1682,7 @@ class Paths:
 
     def __init__(self, p):
         free = p.closing or p.options.ends == "any" and not p.options.tube
-        self.round = [free and cord.closed for cord in p.cords]
+        self.round = [free and cord.closed and (p.closing or cord.half[0] >> 1 != cord.half[-1] >> 1) for cord in p.cords]
         self.text = ["".join(map(chr, cord.nodes[:-1] if r else cord.nodes)) for cord, r in zip(p.cords, self.round)]
 
     def form(self, i, image):
@@ -1723,7 +1897,8 @@ def check_copies(p, s, generators, images, group):
             require(other == i, f"symmetry: cords {other} and {i} are images of each other, and both unique paths")
     require(member(s, "unique_paths", "integer", "symmetry") == len(unique), f"symmetry.unique_paths: not {len(unique)}")
     tables = [table(g) for g in group]
-    steps = sum(Fraction(len(p.cords[i].half), paths.ways(i, tables)) for i in unique)
+    ends = [2 if p.options.ends == "any" and not r else 0 for r in paths.round]  # each a step, for it may be anywhere
+    steps = sum(Fraction(len(p.cords[i].half) + ends[i], paths.ways(i, tables)) for i in unique)
     p.close(member(s, "steps", "number", "symmetry"), steps, steps, "symmetry.steps")
 
 
@@ -1866,7 +2041,7 @@ def terms(p):
     cords = count(o.cords, "cord") if o.least == o.cords else f"{o.least} to {o.cords} cords"
     words = [f"{o.objective}, {'tube' if o.tube else 'solid'} joints, ends {o.ends}, cover {o.cover}, {cords} in each component"]
     for text, given in ((f"capacity {o.capacity}", o.capacity), ("covers of edges", p.frame.cover), ("capacities of edges", p.frame.capacity),
-                        (f"max_length {o.max_length}", o.max_length), ("balanced", o.balance), (f"max_pull {o.max_pull}", o.max_pull),
+                        (f"{o.distinct} different cords over every edge", o.distinct), (f"max_length {o.max_length}", o.max_length), ("balanced", o.balance), (f"max_pull {o.max_pull}", o.max_pull),
                         ("lengths of edges as stated", "lengths" in p.file["framework"])):
         words += [text] if given else []
     return ", ".join(words)
@@ -1877,7 +2052,10 @@ def check(data):
     p = Plan(parse(data))
     check_cords(p)
     check_metrics(p)
-    found = check_symmetry(p) + check_length(p) + check_cords_claim(p) + check_pull(p) + check_turning(p) + check_evaluation(p)
+    found = check_distinct(p) + check_symmetry(p)
+    for part in parts(p):
+        proved = check_length(part) + check_cords_claim(part) + check_pull(part) + check_turning(part)
+    found += proved + check_evaluation(p)
     return (f"{count(len(p.cords), 'cord')}, {count(sum(p.passes), 'pass')}, length {float(p.length):.6f} {p.frame.units}; "
             f"{'; '.join(found)} [{terms(p)}]")
 

@@ -1,5 +1,5 @@
 // The viewer: connects the plan, the picture and the controls of the page.
-import {findBead, findPass, forceText, instruction, passesThrough, plural, progress, readPlan} from './plan.js';
+import {findPass, findPiece, forceText, instruction, passesThrough, plural, progress, readPlan} from './plan.js';
 import {Stage} from './stage.js';
 import {recall, remember} from './store.js';
 
@@ -116,7 +116,7 @@ function placeTags() {
 function showPicture() {
   const at = stage.show(done, coloursOf, hidden, done ? colourOf(plan.steps[done - 1]) : '#000000');
   const {dataset} = document.documentElement;
-  [dataset.step, dataset.bead, dataset.next] = [done, at.now, at.next];
+  [dataset.step, dataset.piece, dataset.next] = [done, at.now, at.next];
   $('canvas').setAttribute('aria-label', `The framework in space, ${done} of ${plural(plan.steps.length, 'pass')} threaded`);
 }
 
@@ -139,7 +139,7 @@ function goTo(step) {
   slider.setAttribute('aria-valuetext', `${done} of ${plural(plan.steps.length, 'pass')}`);
   remember(plan.key, done);
   refresh();
-  if (stage && $('follow').checked) stage.face(plan.steps[Math.max(done - 1, 0)].edge, still.matches);
+  if (stage && $('follow').checked) stage.face(plan.steps[Math.max(done - 1, 0)].piece, still.matches);
   if (done === plan.steps.length) pause();
 }
 
@@ -235,26 +235,27 @@ function thinTicks() {
 }
 
 function fillPanel() {
-  const {cords, steps, edges, paths} = plan;
+  const {cords, steps, pieces, paths} = plan;
   const learn = paths < cords.length ? `, ${plural(paths, 'path')} to learn` : '';
-  const title = `${plural(cords.length, 'cord')}${learn}, ${plural(edges.length, 'bead')}, ${plural(steps.length, 'pass')}`;
+  const title = `${plural(cords.length, 'cord')}${learn}, ${plural(pieces.length, plan.solid ? 'piece' : 'tube')}, ${plural(steps.length, 'pass')}`;
   $('title').textContent = title;
   document.title = `Threading: ${title}`;
-  $('seen').textContent = plan.sides
-    ? 'Left and right: as seen from outside, going with the needle.'
-    : 'Turns have no left and right in this framework.';
+  $('seen').textContent = plan.solid
+    ? 'Arms are called by the piece that they face.'
+    : 'Tubes are called by the places at their ends.';
+  document.documentElement.classList.toggle('solid', plan.solid);
   $('cords').append(...plan.order.map(cordItem));
   $('slider').max = String(steps.length);
   $('show').hidden = !plan.scale;
   if (plan.scale) showScale();
 }
 
-function describe(bead) {
-  const [a, b] = plan.edges[bead], through = passesThrough(plan, bead);
+function describe(piece) {
+  const through = passesThrough(plan, piece);
   const name = ({cord, k}) => (plan.cords.length > 1 ? plan.cords[cord].id : '') + (k + 1);
   const names = through.map((i) => name(plan.steps[i - 1]));
   const passes = through.length ? `pass ${names.join(', ')}` : 'no pass';
-  $('found').textContent = `Bead ${bead}, ${plan.labels[a]} to ${plan.labels[b]}: ${passes}.`;
+  $('found').textContent = `${plan.pieces[piece]}, kind ${plan.kinds[piece]}: ${passes}.`;
   return through;
 }
 
@@ -262,18 +263,18 @@ function describe(bead) {
 
 function jump(event) {
   event.preventDefault();
-  const pass = $('pass').value, bead = $('bead').value;
+  const pass = $('pass').value, name = $('piece').value;
   if (pass.trim()) {
     const step = findPass(plan, pass);
     $('found').textContent = Number.isNaN(step) ? `There is no pass ${pass.trim()}.` : '';
     if (!Number.isNaN(step)) stepTo(step);
-  } else if (bead.trim()) {
-    const edge = findBead(plan, bead);
-    if (edge < 0) {
-      $('found').textContent = `There is no bead ${bead.trim()}.`;
+  } else if (name.trim()) {
+    const piece = findPiece(plan, name);
+    if (piece < 0) {
+      $('found').textContent = `There is no ${plan.solid ? 'piece' : 'tube'} ${name.trim()}.`;
       return;
     }
-    const through = describe(edge);
+    const through = describe(piece);
     if (through.length) stepTo(through.find((step) => step > done) ?? through[0]);
   }
 }
@@ -332,17 +333,17 @@ function onKey(event) {
   act();
 }
 
-// A click that is no drag says which bead it is.
+// A click that is no drag says which piece it is.
 function listenForPicks(canvas) {
   let down = null;
   canvas.addEventListener('pointerdown', (event) => (down = [event.offsetX, event.offsetY]));
   canvas.addEventListener('pointerup', (event) => {
     if (!down || Math.hypot(event.offsetX - down[0], event.offsetY - down[1]) > 5) return;
-    const bead = stage.pick(event.offsetX, event.offsetY);
-    if (bead < 0) return;
-    describe(bead);
+    const piece = stage.pick(event.offsetX, event.offsetY);
+    if (piece < 0) return;
+    describe(piece);
     $('pass').value = '';
-    $('bead').value = String(bead);
+    $('piece').value = plan.pieces[piece];
   });
 }
 
@@ -367,8 +368,8 @@ function listen() {
   $('reset').addEventListener('click', () => stage?.reset());
   $('theme').addEventListener('click', switchTheme);
   $('jump').addEventListener('submit', jump);
-  $('pass').addEventListener('input', () => ($('bead').value = ''));
-  $('bead').addEventListener('input', () => ($('pass').value = ''));
+  $('pass').addEventListener('input', () => ($('piece').value = ''));
+  $('piece').addEventListener('input', () => ($('pass').value = ''));
   for (const choice of document.querySelectorAll('input[name="show"]')) {
     choice.addEventListener('change', () => {
       tension = choice.value === 'tension';

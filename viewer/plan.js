@@ -19,7 +19,7 @@ function orderOf(cords) {
 
 export function readPlan(text) {
   const plan = JSON.parse(text);
-  const held = new Int32Array(plan.edges.length), last = new Int32Array(plan.edges.length).fill(-1);
+  const held = new Int32Array(plan.edges.length);
   const steps = [];
   plan.order = orderOf(plan.cords);
   plan.tail = (h) => plan.edges[h >> 1][h & 1];
@@ -31,8 +31,7 @@ export function readPlan(text) {
     cord.half.forEach((half, k) => {
       const edge = half >> 1;
       used += plan.lengths[edge];
-      steps.push({cord: c, k, half, edge, visit: ++held[edge], back: last[edge] === (half ^ 1), used});
-      last[edge] = half;
+      steps.push({cord: c, k, half, edge, piece: plan.solid ? plan.head(half) : edge, visit: ++held[edge], used});
     });
     cord.total = used;
   }
@@ -54,12 +53,14 @@ export function forceText(newton) {
   return `${newton >= 1e6 ? newton.toExponential(2) : newton >= 100 ? newton.toFixed(0) : newton.toPrecision(3)} N`;
 }
 
-// What to do in a step, for its pass: "turn left 90 degrees to C4, pick up bead 12".
+// The piece in which a cord starts, where pieces are solid: it is held before the first pass; else -1.
+export const startOf = (plan, step) => (plan.solid && step.k === 0 ? plan.tail(step.half) : -1);
+
+// What to do in a step, for its pass: "pick up X-10 (B5): in from A5, out to C5"; before the first one what the start needs.
 export function instruction(plan, step) {
-  const cord = plan.cords[step.cord], from = plan.places[plan.tail(step.half)], to = plan.places[plan.head(step.half)];
-  const way = step.k === 0 ? `start at ${from}, go to ${to}` : `${cord.turns[step.k]} to ${to}`;
-  if (step.visit === 1) return `${way}: pick up bead ${step.edge}`;
-  return `${way}: pass ${step.back ? 'back ' : ''}through bead ${step.edge} (${plan.nth[step.visit - 1]} pass)`;
+  const {does} = plan.cords[step.cord];
+  if (!plan.solid) return does[step.k];
+  return step.k ? does[step.k + 1] : `${does[0]}; ${does[1]}`;
 }
 
 // How far along, after a step.
@@ -81,16 +82,17 @@ export function findPass(plan, text) {
   return cord && number >= 1 && number <= cord.half.length ? cord.first + number : NaN;
 }
 
-// Bead (edge) called "12" or by its two places, "A1 B1"; -1 if there is none.
-export function findBead(plan, text) {
-  const words = text.trim().split(/[\s,;–]+/).filter(Boolean);
-  if (words.length === 1 && /^[0-9]+$/.test(words[0])) return Number(words[0]) < plan.edges.length ? Number(words[0]) : -1;
-  if (words.length !== 2) return -1;
-  const [a, b] = words.map((word) => plan.labels.findIndex((label) => label.toUpperCase() === word.toUpperCase()));
+// Piece by its name ("B5", "A1-A2") or a tube by its two places, "A1 B1"; -1 if there is none.
+export function findPiece(plan, text) {
+  const word = text.trim().toUpperCase(), named = plan.pieces.findIndex((name) => name.toUpperCase() === word);
+  if (named >= 0 || plan.solid) return named;
+  const ends = word.split(/[\s,;–-]+/).filter(Boolean);
+  if (ends.length !== 2) return -1;
+  const [a, b] = ends.map((end) => plan.labels.findIndex((label) => label.toUpperCase() === end));
   return plan.edges.findIndex((edge) => a >= 0 && b >= 0 && edge.includes(a) && edge.includes(b));
 }
 
-// Steps done after each pass through a bead.
-export function passesThrough(plan, bead) {
-  return plan.steps.flatMap((step, i) => (step.edge === bead ? [i + 1] : []));
+// Steps done after the needle has come to a piece, each time.
+export function passesThrough(plan, piece) {
+  return plan.steps.flatMap((step, i) => (step.piece === piece || startOf(plan, step) === piece ? [i + 1] : []));
 }

@@ -1,13 +1,14 @@
-// The picture in space: beads, cords, feet, the camera. Draws only when something changed.
+// The picture in space: pieces, cords, feet, the camera. Draws only when something changed.
 import {
   AmbientLight, BackSide, BufferAttribute, BufferGeometry, Color, ConeGeometry, CylinderGeometry, DirectionalLight, Fog, InstancedMesh,
   LatheGeometry, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, Quaternion, Raycaster, Scene,
   Sphere, SphereGeometry, Vector2, Vector3, WebGLRenderer,
 } from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
+import {startOf} from './plan.js';
 import {across, centreLine, frames, lanes, sizesOf, tubes} from './strands.js';
 
-// A dark rim around a mesh, so that no colour of a cord fades into a bead or the page: its far side, wider by so much.
+// A dark rim around a mesh, so that no colour of a cord fades into a piece or the page: its far side, wider by so much.
 function lined(mesh, material) {
   mesh.add(new Mesh(mesh.geometry, material));
   mesh.children[0].frustumCulled = false;
@@ -23,7 +24,7 @@ function rimMaterial(width) {
   return material;
 }
 
-// Coarser shapes for more beads or passes, so that the picture moves fluently.
+// Coarser shapes for more pieces or passes, so that the picture moves fluently.
 const detailOf = (count) => (count < 700 ? 0 : count < 6000 ? 1 : 2);
 
 export class Stage {
@@ -45,7 +46,8 @@ export class Stage {
     const lamp = new DirectionalLight(0xffffff, 1.7);
     lamp.position.set(-0.5, 0.8, 1);
     this.camera.add(lamp);
-    this.addBeads();
+    this.centre = this.nodes.reduce((sum, p) => sum.add(p), new Vector3()).divideScalar(this.nodes.length || 1);
+    this.addPieces();
     this.addFeet();
     this.rim = rimMaterial(0.28 * this.sizes.cord);
     this.addCords();
@@ -58,26 +60,88 @@ export class Stage {
     canvas.addEventListener('webglcontextrestored', () => this.request());
   }
 
-  addBeads() {
-    const {plan, sizes} = this, count = plan.edges.length, at = new Matrix4(), turn = new Quaternion(), up = new Vector3(0, 1, 0);
-    // a barrel of length and radius 1, closed by caps that are half round on a bead of usual length
+  // What hands pick up: solid pieces are hubs with arms, through which one sees the cords; tubes are barrels.
+  addPieces() {
+    const {plan} = this;
+    this.parts = []; // meshes of many like parts, and of each part its piece and where it is
+    this.partsOf = plan.pieces.map(() => []);
+    if (plan.solid) this.addSolid();
+    else this.addTubes();
+    this.place = plan.pieces.map((_, i) => (plan.solid ? this.nodePlace(i) : this.edgePlace(i)));
+  }
+
+  nodePlace(v) {
+    const middle = this.nodes[v], out = new Vector3(...this.plan.outward[v]);
+    if (out.lengthSq() < 1e-3) out.subVectors(middle, this.centre);
+    return {middle, out: out.lengthSq() > 1e-12 ? out.normalize() : out.set(0, 0, 1)};
+  }
+
+  edgePlace(e) {
+    const [a, b] = this.plan.edges[e];
+    return {middle: this.nodes[a].clone().lerp(this.nodes[b], 0.5), out: this.frame[e].out};
+  }
+
+  // matrix: of each part {piece, middle, turn, scale}.
+  addParts(shape, material, matrix) {
+    const mesh = new InstancedMesh(shape, material, matrix.length), at = new Matrix4();
+    matrix.forEach(({piece, middle, turn, scale}, i) => {
+      mesh.setMatrixAt(i, at.compose(middle, turn, scale));
+      this.partsOf[piece].push([this.parts.length, i]);
+    });
+    mesh.setColorAt(0, new Color());
+    this.parts.push({mesh, matrix});
+    this.scene.add(mesh);
+    return mesh;
+  }
+
+  // Only the nearest faces of translucent parts are blended, once: a first mesh of the same parts fills the depths alone.
+  addTranslucent(shape, material, matrix) {
+    const mesh = this.addParts(shape, material, matrix);
+    const depth = new InstancedMesh(shape, new MeshBasicMaterial({colorWrite: false, transparent: true}), matrix.length);
+    depth.instanceMatrix = mesh.instanceMatrix;
+    [depth.renderOrder, mesh.renderOrder] = [1, 2];
+    depth.frustumCulled = mesh.frustumCulled = false;
+    this.scene.add(depth);
+  }
+
+  addSolid() {
+    const {plan, sizes, nodes} = this, detail = detailOf(plan.edges.length), up = new Vector3(0, 1, 0), arms = [];
+    const material = new MeshLambertMaterial({transparent: true, opacity: 0.5});
+    const widest = new Float64Array(nodes.length);
+    plan.edges.forEach((ends, e) => {
+      const radius = Math.min(sizes.radius, 0.28 * sizes.lengths[e]), length = Math.max(0.5 * sizes.lengths[e] - 0.02 * sizes.pitch, 0.1 * radius);
+      ends.forEach((v, side) => {
+        const axis = this.frame[e].axis.clone().multiplyScalar(side ? -1 : 1);
+        const middle = nodes[v].clone().addScaledVector(axis, 0.5 * length);
+        arms.push({piece: v, middle, turn: new Quaternion().setFromUnitVectors(up, axis), scale: new Vector3(radius, length, radius)});
+        widest[v] = Math.max(widest[v], radius);
+      });
+    });
+    const hubs = nodes.map((middle, piece) => {
+      const radius = 1.08 * (widest[piece] || sizes.radius);
+      return {piece, middle, turn: new Quaternion(), scale: new Vector3(radius, radius, radius)};
+    });
+    const sides = [16, 10, 6][detail];
+    this.addTranslucent(new CylinderGeometry(1, 1, 1, sides), material, arms);
+    this.addTranslucent(new SphereGeometry(1, sides, Math.max(sides >> 1, 4)), material, hubs);
+  }
+
+  addTubes() {
+    const {plan, sizes} = this, up = new Vector3(0, 1, 0);
+    // a barrel of length and radius 1, closed by caps that are half round on a tube of usual length
     const cap = Math.min(0.3, (0.7 * sizes.radius) / (0.56 * sizes.pitch)), outline = [];
-    const detail = detailOf(count), rings = [5, 2, 2][detail];
+    const detail = detailOf(plan.edges.length), rings = [5, 2, 2][detail];
     for (let i = 0; i <= rings; i++) {
       const angle = (0.5 * Math.PI * i) / rings;
       outline.push(new Vector2(Math.sin(angle), -0.5 + cap * (1 - Math.cos(angle))));
     }
     const shape = new LatheGeometry([...outline, ...outline.map((p) => new Vector2(p.x, -p.y)).reverse()], [16, 8, 6][detail]);
-    this.beads = new InstancedMesh(shape, new MeshLambertMaterial(), count);
-    this.beadMatrix = plan.edges.map(([a, b], e) => {
-      const radius = Math.min(sizes.radius, 0.28 * sizes.lengths[e]), length = sizes.lengths[e] - 2 * sizes.gap[e];
-      turn.setFromUnitVectors(up, this.frame[e].axis);
+    this.addParts(shape, new MeshLambertMaterial(), plan.edges.map(([a, b], piece) => {
+      const radius = Math.min(sizes.radius, 0.28 * sizes.lengths[piece]), length = sizes.lengths[piece] - 2 * sizes.gap[piece];
+      const turn = new Quaternion().setFromUnitVectors(up, this.frame[piece].axis);
       const middle = this.nodes[a].clone().lerp(this.nodes[b], 0.5);
-      return {middle, turn: turn.clone(), scale: new Vector3(radius, Math.max(length, 0.4 * radius), radius)};
-    });
-    this.beadMatrix.forEach((m, e) => this.beads.setMatrixAt(e, at.compose(m.middle, m.turn, m.scale)));
-    this.beads.setColorAt(0, new Color());
-    this.scene.add(this.beads);
+      return {piece, middle, turn, scale: new Vector3(radius, Math.max(length, 0.4 * radius), radius)};
+    }));
   }
 
   addFeet() {
@@ -115,8 +179,10 @@ export class Stage {
     this.current = new Mesh(new BufferGeometry(), this.needleMaterial);
     this.arrow = new Mesh(new ConeGeometry(3.4 * this.sizes.cord, 9 * this.sizes.cord, 18), this.needleMaterial);
     this.ball = new Mesh(new SphereGeometry(2.1 * this.sizes.cord, 18, 12), this.needleMaterial);
+    if (this.plan.solid) Object.assign(this.needleMaterial, {transparent: true, depthTest: false}); // seen through all pieces
     for (const mesh of [this.current, this.arrow, this.ball]) {
       lined(mesh, this.rim).frustumCulled = false;
+      if (this.plan.solid) mesh.renderOrder = 3;
       this.scene.add(mesh);
     }
   }
@@ -146,14 +212,20 @@ export class Stage {
 
   // Shows the plan with so many steps done. colours(c): of a cord's passes; hidden: set of cords; current: colour of the pass.
   show(done, colours, hidden, current) {
-    const {plan} = this, held = new Uint8Array(plan.edges.length);
-    for (let i = 0; i < done; i++) held[plan.steps[i].edge] = 1;
-    const now = done ? plan.steps[done - 1].edge : -1, next = done < plan.steps.length ? plan.steps[done].edge : -1;
-    for (let e = 0; e < held.length; e++) {
-      const look = e === now ? 'now' : e === next ? 'next' : held[e] ? 'held' : 'bare';
-      this.beads.setColorAt(e, this.theme[look]);
+    const {plan} = this, held = new Uint8Array(plan.pieces.length);
+    for (let i = 0; i < done; i++) {
+      const start = startOf(plan, plan.steps[i]);
+      held[plan.steps[i].piece] = 1;
+      if (start >= 0) held[start] = 1;
     }
-    this.beads.instanceColor.needsUpdate = true;
+    const now = done ? plan.steps[done - 1].piece : -1, next = done < plan.steps.length ? plan.steps[done].piece : -1;
+    for (const {mesh, matrix} of this.parts) {
+      matrix.forEach(({piece}, i) => {
+        const look = piece === now ? 'now' : piece === next ? 'next' : held[piece] ? 'held' : 'bare';
+        mesh.setColorAt(i, this.theme[look]);
+      });
+      mesh.instanceColor.needsUpdate = true;
+    }
     this.swell(now);
     this.cords.forEach(({mesh, tube}, c) => {
       const passes = Math.min(Math.max(done - plan.cords[c].first, 0), plan.cords[c].half.length);
@@ -166,16 +238,18 @@ export class Stage {
     return {now, next};
   }
 
-  // The bead in hand is a little thicker.
-  swell(bead) {
-    const at = new Matrix4(), set = (e, factor) => {
-      const {middle, turn, scale} = this.beadMatrix[e];
-      this.beads.setMatrixAt(e, at.compose(middle, turn, new Vector3(scale.x * factor, scale.y, scale.z * factor)));
+  // The piece in hand is a little thicker.
+  swell(wanted) {
+    const at = new Matrix4(), set = (piece, factor) => {
+      for (const [p, i] of this.partsOf[piece]) {
+        const {mesh, matrix} = this.parts[p], {middle, turn, scale} = matrix[i];
+        mesh.setMatrixAt(i, at.compose(middle, turn, new Vector3(scale.x * factor, scale.y, scale.z * factor)));
+      }
     };
     if (this.swollen >= 0) set(this.swollen, 1);
-    if (bead >= 0) set(bead, 1.12);
-    this.swollen = bead;
-    this.beads.instanceMatrix.needsUpdate = true;
+    if (wanted >= 0) set(wanted, 1.12);
+    this.swollen = wanted;
+    for (const {mesh} of this.parts) mesh.instanceMatrix.needsUpdate = true;
   }
 
   showNeedle(done, colour, hidden) {
@@ -262,9 +336,9 @@ export class Stage {
     controls.update();
   }
 
-  // Looks at a bead from outside, near enough to see its neighbours.
-  face(bead, still) {
-    const {camera, controls, sizes} = this, {middle} = this.beadMatrix[bead], {out} = this.frame[bead];
+  // Looks at a piece from outside, near enough to see its neighbours.
+  face(piece, still) {
+    const {camera, controls, sizes} = this, {middle, out} = this.place[piece];
     const far = Math.min(9 * sizes.pitch, 2.5 * this.radius + 3 * sizes.pitch), view = out.clone();
     if (Math.abs(view.z) > 0.97) view.y -= 0.3; // from straight above the picture would spin
     const goal = middle.clone().addScaledVector(view.normalize(), far);
@@ -295,12 +369,12 @@ export class Stage {
     return {x: ((p.x + 1) / 2) * clientWidth, y: ((1 - p.y) / 2) * clientHeight, depth: p.z};
   }
 
-  // The bead under a point of the canvas (CSS pixels), or -1.
+  // The piece under a point of the canvas (CSS pixels), or -1.
   pick(x, y) {
     const {clientWidth, clientHeight} = this.canvas, ray = new Raycaster();
     ray.setFromCamera(new Vector2((2 * x) / clientWidth - 1, 1 - (2 * y) / clientHeight), this.camera);
-    const hit = ray.intersectObject(this.beads)[0];
-    return hit ? hit.instanceId : -1;
+    const hit = ray.intersectObjects(this.parts.map(({mesh}) => mesh), false)[0];
+    return hit ? this.parts.find(({mesh}) => mesh === hit.object).matrix[hit.instanceId].piece : -1;
   }
 
   resize() {

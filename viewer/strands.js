@@ -1,15 +1,18 @@
-// Where the cords run in space: every pass has a lane of its own on the outer side of its bead, and turns are curves in the gap
-// between beads. Pure geometry.
+// Where the cords run in space: every pass has a lane of its own, inside a solid piece side by side around the middle of its arm, of
+// a tube on its outer side; turns are curves. Pure geometry.
 import {Vector3} from 'three';
 
-const LANES = (140 * Math.PI) / 180; // the fan of lanes on the outer side of a bead
+const LANES = (140 * Math.PI) / 180; // the fan of lanes on the outer side of a tube
+const BORE = 0.5; // of the radius of an arm: how far from its middle several lanes lie
 
-// Sizes of beads and cords, all from the median edge.
+// Sizes of pieces and cords, all from the median edge.
 export function sizesOf(plan, nodes) {
   const lengths = plan.edges.map(([a, b]) => nodes[a].distanceTo(nodes[b]));
   const sorted = [...lengths].sort((x, y) => x - y);
   const pitch = sorted[sorted.length >> 1] || 1;
-  const radius = 0.095 * pitch, cord = Math.min(0.03 * pitch, (0.8 * radius * LANES) / (2 * plan.most));
+  const radius = (plan.solid ? 0.14 : 0.095) * pitch;
+  const room = plan.solid ? 2.4 * BORE * radius : 0.8 * radius * LANES;
+  const cord = Math.min(0.03 * pitch, room / (2 * plan.most));
   return {pitch, radius, cord, lengths, gap: lengths.map((l) => Math.min(0.22 * pitch, 0.3 * l))};
 }
 
@@ -39,9 +42,10 @@ export function lanes(plan, nodes, sizes, frame) {
   for (const step of plan.steps) total[step.edge]++;
   return plan.steps.map(({edge, half, visit}) => {
     const {axis, out} = frame[edge], side = new Vector3().crossVectors(axis, out);
-    const n = total[edge], part = n > 1 ? (visit - 0.5) / n - 0.5 : 0, angle = part * LANES;
-    const off = out.clone().multiplyScalar(Math.cos(angle)).addScaledVector(side, Math.sin(angle));
-    off.multiplyScalar(sizes.radius + 0.8 * sizes.cord);
+    const n = total[edge], part = n > 1 ? (visit - 0.5) / n - 0.5 : 0, angle = part * (plan.solid ? 2 * Math.PI : LANES);
+    const off = side.clone().multiplyScalar(Math.sin(angle)).addScaledVector(out, Math.cos(angle));
+    if (plan.solid) off.multiplyScalar(n > 1 ? BORE * Math.min(sizes.radius, 0.28 * sizes.lengths[edge]) : 0);
+    else off.multiplyScalar(sizes.radius + 0.8 * sizes.cord);
     const [a, b] = plan.edges[edge], gap = sizes.gap[edge];
     const low = nodes[a].clone().addScaledVector(axis, gap).add(off);
     const high = nodes[b].clone().addScaledVector(axis, -gap).add(off);

@@ -13,7 +13,7 @@ enum { MOST_PASSES = 100 };
 cords_args cords_args_default(void)
 {
   const thr_request usual = thr_request_default();
-  return (cords_args){.ends = "closed", .cover = usual.cover, .capacity = usual.capacity, .joint = usual.joint};
+  return (cords_args){.ends = "closed", .capacity = usual.capacity, .distinct = usual.distinct, .joint = usual.joint};
 }
 
 /* ---- parsing ---- */
@@ -98,6 +98,7 @@ bool cords_option(cords_args *a, int option, const char *value, bool *ok)
   case OPTION_CORDS_BALANCE: a->balance = true; return true;
   case OPTION_CORDS_COVER: *ok = cli_int("plan", "--cover", value, 1, MOST_PASSES, &a->cover); return true;
   case OPTION_CORDS_CAPACITY: *ok = cli_int("plan", "--capacity", value, 1, 10 * MOST_PASSES, &a->capacity); return true;
+  case OPTION_CORDS_DISTINCT: *ok = cli_int("plan", "--distinct", value, 2, MOST_PASSES, &a->distinct); return true;
   case OPTION_CORDS_JOINT:
     *ok = cli_choose("plan", "--joint", value, thr_joint_name, 2, &i);
     a->joint = i ? THR_JOINT_TUBE : THR_JOINT_SOLID;
@@ -143,6 +144,32 @@ const char *cords_args_refused(const cords_args *a, const thr_request *wanted)
                                : NULL;
 }
 
+/* Passes over every edge: as many as different cords unless it was said. */
+static int cover_of(const cords_args *a)
+{
+  return a->cover ? a->cover : a->distinct ? a->distinct : 1;
+}
+
+static int check_distinct(const cords_args *a, const turning_args *turning, const thr_request *wanted)
+{
+  if (a->distinct == 0) return -1;
+  const char *against = thr_wants_symmetry(wanted)                                            ? "--objective symmetry"
+                        : a->balance                                                          ? "--balance"
+                        : a->max_length > 0                                                   ? "--max-length"
+                        : pull_limit(a)                                                       ? pull_limit(a)
+                        : a->least != a->most                                                 ? "a range of --cords"
+                        : turning->frontier                                                   ? "--frontier"
+                        : thr_wants_turning(wanted) && wanted->turning.length_slack >= 0      ? "--length-slack"
+                        : thr_wants_turning(wanted) && wanted->turning.tour != THR_TOUR_LEAST ? "a classical --tour"
+                                                                                              : NULL;
+  if (against) return cli_usage("plan", "--distinct: not with %s", against);
+  if (a->cover > 0 && a->cover < a->distinct)
+    return cli_usage("plan", "--cover %d: --distinct %d needs as many passes", a->cover, a->distinct);
+  if (a->most == 0 || a->most >= a->distinct) return -1;
+  cli_error("--cords %d: no edge is passed by %d different cords (proved: there are too few)", a->most, a->distinct);
+  return EXIT_INFEASIBLE;
+}
+
 int cords_args_check(const cords_args *a, const turning_args *turning, const thr_request *wanted)
 {
   const char *refused = cords_args_refused(a, wanted), *tour = thr_tour_name(turning->options.tour);
@@ -156,8 +183,11 @@ int cords_args_check(const cords_args *a, const turning_args *turning, const thr
   if (a->automatic && !cords_args_few(a))
     return cli_usage("plan", "--cords auto: as many as needed for what? Give --max-length or --max-pull");
   if (a->max_pull > 0 && a->hand > 0) return cli_usage("plan", "--max-pull says what --hand does: one of them");
-  if (a->capacity > 0 && a->capacity < a->cover)
-    return cli_usage("plan", "--capacity %d leaves no room for --cover %d", a->capacity, a->cover);
+  if (a->capacity > 0 && a->capacity < cover_of(a))
+    return cli_usage("plan", "--capacity %d leaves no room for --%s %d", a->capacity, a->cover ? "cover" : "distinct",
+                     cover_of(a));
+  int code = check_distinct(a, turning, wanted);
+  if (code >= 0) return code;
   const char *limit = pull_limit(a) ? pull_limit(a) : "--max-length";
   bool mixed = thr_wants_turning(wanted) && (a->max_length > 0 || pull_limit(a) || a->balance || a->least != a->most);
   if (mixed && turning->options.length_slack >= 0)
@@ -258,6 +288,11 @@ static int apply_counts(const cords_args *a, const thr_frame *frame, thr_request
               most > a->most ? most : least, cli_plural(most > a->most ? most : least, "cord", "cords"));
     return EXIT_INFEASIBLE;
   }
+  if (least < options->distinct) {
+    cli_error("--ends %s: these are the ends of %d %s in a component; --distinct %d needs as many", a->ends, least,
+              cli_plural(least, "cord", "cords"), options->distinct);
+    return EXIT_INFEASIBLE;
+  }
   options->ends = THR_ENDS_COUNTS;
   options->cords_least = least;
   options->cords = most;
@@ -303,13 +338,15 @@ static int apply_pull(const cords_args *a, thr_request *options)
 static void apply_number(const cords_args *a, thr_request *options)
 {
   bool free_number = a->most == 0 && cords_args_few(a);
-  options->cords = a->most ? a->most : free_number ? THR_MOST_CORDS : 1;
-  options->cords_least = a->most ? a->least : 1;
+  int usual = a->distinct ? a->distinct : 1;
+  options->cords = a->most ? a->most : free_number ? THR_MOST_CORDS : usual;
+  options->cords_least = a->most ? a->least : usual;
 }
 
 int cords_args_apply(const cords_args *a, const thr_frame *frame, thr_request *options)
 {
-  options->cover = a->cover;
+  options->cover = cover_of(a);
+  options->distinct = a->distinct;
   options->capacity = a->capacity;
   options->joint = a->joint;
   options->engine = a->engine;

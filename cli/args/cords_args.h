@@ -16,6 +16,7 @@ enum {
   OPTION_CORDS_BALANCE,
   OPTION_CORDS_COVER,
   OPTION_CORDS_CAPACITY,
+  OPTION_CORDS_DISTINCT,
   OPTION_CORDS_JOINT,
   OPTION_CORDS_ENDS,
   OPTION_CORDS_ENGINE,
@@ -27,8 +28,8 @@ enum {
       {"max-pull", required_argument, NULL, OPTION_CORDS_MAX_PULL}, {"hand", required_argument, NULL, OPTION_CORDS_HAND},        \
       {"cord-strength", required_argument, NULL, OPTION_CORDS_STRENGTH}, {"balance", no_argument, NULL, OPTION_CORDS_BALANCE},   \
       {"cover", required_argument, NULL, OPTION_CORDS_COVER}, {"capacity", required_argument, NULL, OPTION_CORDS_CAPACITY},      \
-      {"joint", required_argument, NULL, OPTION_CORDS_JOINT}, {"engine", required_argument, NULL, OPTION_CORDS_ENGINE},          \
-      {"confirm", required_argument, NULL, OPTION_CORDS_CONFIRM},                                                                \
+      {"distinct", required_argument, NULL, OPTION_CORDS_DISTINCT}, {"joint", required_argument, NULL, OPTION_CORDS_JOINT},      \
+      {"engine", required_argument, NULL, OPTION_CORDS_ENGINE}, {"confirm", required_argument, NULL, OPTION_CORDS_CONFIRM},      \
   {                                                                                                                              \
     "ends", required_argument, NULL, OPTION_CORDS_ENDS                                                                           \
   }
@@ -44,17 +45,20 @@ enum {
   "      --balance        make the longest cord short\n"                                                                         \
   "      --cover N        at least N passes over every interface (default: 1)\n"                                                 \
   "      --capacity N     at most N; --bore and --cord-diameter together: as many as fit\n"                                      \
+  "      --distinct N     at least N different cords over every interface: two hold planar faces, three any (thesis);\n"         \
+  "                       --cover and --cords are N if not given\n"                                                              \
   "      --engine auto|lp|matching   what finds the shortest passes (default: auto)\n"                                           \
   "      --confirm auto|always|never  does GLPK find the same length, exactly? auto: asked for a second at most\n"               \
   "      --joint solid|tube   node beads are rigid pieces (default), or the cord ties the edges together at every node\n"
 
 typedef struct {
   const char *ends;
-  int cover, capacity; /* as thr_request */
-  int least, most;     /* cords; 0 = not said */
-  bool automatic;      /* --cords auto */
-  double max_length;   /* 0 = not said */
-  double max_pull;     /* N, or times the seating tension; 0 = not said */
+  int cover;              /* as thr_request; 0 = not said */
+  int capacity, distinct; /* as thr_request */
+  int least, most;        /* cords; 0 = not said */
+  bool automatic;         /* --cords auto */
+  double max_length;      /* 0 = not said */
+  double max_pull;        /* N, or times the seating tension; 0 = not said */
   bool pull_is_factor;
   double hand, strength; /* N; 0 = not said */
   bool balance;

@@ -2,12 +2,13 @@
 #include "cli/args/physics_args.h"
 #include "graph/status.h"
 
+#include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { OPTION_PRESET = 1024, OPTION_PRESETS, OPTION_FILE, OPTION_QUANTITY };
-enum { MOST_OPTIONS = 64, MOST_LETTERS = 24 };
+enum { MOST_OPTIONS = 128, MOST_LETTERS = 24 };
 
 static void option_name(int field, char name[MOST_LETTERS])
 {
@@ -22,10 +23,12 @@ static void join_tables(const struct option *own, struct option *table, char (*n
   static const struct option extra[] = {{"preset", required_argument, NULL, OPTION_PRESET},
                                         {"presets", no_argument, NULL, OPTION_PRESETS},
                                         {"physics", required_argument, NULL, OPTION_FILE}};
+  enum { N_EXTRA = sizeof extra / sizeof *extra };
   int n = 0;
   for (; own->name; own++)
     table[n++] = *own;
-  for (size_t i = 0; i < sizeof extra / sizeof *extra; i++)
+  assert(n + N_EXTRA + thr_physics_n_fields < MOST_OPTIONS); /* a command's options are known when it is compiled */
+  for (int i = 0; i < N_EXTRA; i++)
     table[n++] = extra[i];
   for (int i = 0; i < thr_physics_n_fields; i++) {
     option_name(i, name[i]);

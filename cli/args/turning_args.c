@@ -71,6 +71,10 @@ bool turning_option(turning_args *a, int option, const char *value, bool *ok)
     a->compare = true;
     name = "--compare-shortest";
     break;
+  case OPTION_TURNING_PLOT:
+    a->plot = value;
+    name = "--plot";
+    break;
   default: return false;
   }
   if (!a->given) a->given = name;
@@ -82,6 +86,9 @@ int turning_args_check(const turning_args *a, const thr_request *wanted)
 {
   const thr_turning_options *options = &a->options;
   if (!thr_wants_turning(wanted) && a->given) return cli_usage("plan", "%s needs --objective tortuosity", a->given);
+  if (a->plot && !*a->plot) return cli_usage("plan", "an empty name is no place to write to");
+  if (a->plot && strcmp(a->plot, "-") == 0) return cli_usage("plan", "--plot -: the summary has stdout; name a file");
+  if (a->plot && !a->frontier) return cli_usage("plan", "--plot draws the frontier: it needs --frontier");
   if (options->tour == THR_TOUR_LEAST)
     return a->pairings ? cli_usage("plan", "--pairings is for --tour fleury and --tour hierholzer") : -1;
   const char *tour = thr_tour_name(options->tour);

@@ -14,6 +14,7 @@ enum {
   OPTION_TURNING_NODES,
   OPTION_TURNING_FRONTIER,
   OPTION_TURNING_COMPARE,
+  OPTION_TURNING_PLOT,
   OPTION_TURNING_FREE
 };
 #define TURNING_OPTIONS                                                                                                          \
@@ -21,7 +22,7 @@ enum {
       {"minimize", required_argument, NULL, OPTION_TURNING_MINIMIZE},                                                            \
       {"turn-cost", required_argument, NULL, OPTION_TURNING_COST}, {"tour", required_argument, NULL, OPTION_TURNING_TOUR},       \
       {"pairings", required_argument, NULL, OPTION_TURNING_PAIRINGS}, {"nodes", required_argument, NULL, OPTION_TURNING_NODES},  \
-      {"compare-shortest", no_argument, NULL, OPTION_TURNING_COMPARE},                                                           \
+      {"plot", required_argument, NULL, OPTION_TURNING_PLOT}, {"compare-shortest", no_argument, NULL, OPTION_TURNING_COMPARE},   \
   {                                                                                                                              \
     "frontier", optional_argument, NULL, OPTION_TURNING_FRONTIER                                                                 \
   }
@@ -35,6 +36,7 @@ enum {
   "      --pairings keep|ignore   of a classical tour: keep to the cheapest pairing at every node, or not (default: keep)\n"     \
   "      --nodes N        end the search when its tree has N nodes, wherever it runs (default: only --time-limit ends it)\n"     \
   "      --frontier[=N]   also the trade-off between length and turning, at up to N lengths, 2 to 1000 (default: 9)\n"           \
+  "      --plot FILE      with --frontier: a picture of it, pull against cord, as SVG\n"                                         \
   "      --compare-shortest  beside it the least turning among the shortest cords; with --length-slack 0 that of any length, "   \
   "with\n"                                                                                                                       \
   "                       a classical tour the least turning: one more search, as long as the first\n"
@@ -45,6 +47,7 @@ typedef struct {
   bool largest;        /* max-turning */
   int frontier;        /* points, 0 = none */
   bool compare;        /* --compare-shortest */
+  const char *plot;    /* where the picture of the frontier goes; NULL = nowhere */
   const char *given;   /* the first of these options; NULL = none */
   const char *spelled; /* one of them that says a part of --aims; NULL = none */
   bool pairings;       /* --pairings was given */

@@ -14,7 +14,6 @@
 #include "graph/status.h"
 #include "graph/text.h"
 #include "planner/advise.h"
-#include "planner/dispatch.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -37,7 +36,8 @@ static const char help[] =
         CLI_FRAME_HELP "  -q, --quiet          no notes       -v, --verbose  what the solver does       -h, --help\n\n"
     "Every row is a plan whose cord that turns most turns as little as was found in its part of the time. Steps are the passes "
     "of\n"
-    "those cords that are no mirrored or turned copies of others: what is to be learned.\n"
+    "those cords that are no mirrored or turned copies of others, and their ends if they may be anywhere: what is to be "
+    "learned.\n"
     "Exit codes: 0 a row is recommended, 2 usage, 3 bad input, 4 no row stays within the hand (table printed), or no\n"
     "threading, 5 no row in time\n";
 
@@ -90,7 +90,7 @@ static int parse(int argc, char **argv, arguments *a)
 {
   int done, option;
   *a = (arguments){.frame = cli_frame_args_default(),
-                   .guard = {.seconds = 2, .memory = guard_limits_default().memory},
+                   .guard = {.seconds = advice_usual_seconds, .memory = guard_limits_default().memory},
                    .request = thr_request_default(),
                    .output = "-",
                    .hand = thr_hand_always};
@@ -180,9 +180,7 @@ static int advise(arguments *a, const thr_frame *frame)
   live l = {.frame = frame, .physics = &resolved, .base_length = a->request.cover * thr_frame_total_length(frame)};
   bool shown = a->type == TYPE_TEXT && !a->json && !cli_quiet && strcmp(a->output, "-") == 0 && isatty(STDOUT_FILENO);
   const thr_advise_options options = {.hand = a->hand, .row = shown ? show_row : NULL, .user = &l};
-  thr_limits limits = cli_limits(a->guard.seconds > 0 ? thr_dispatch_search_seconds(a->guard.seconds, false, false) : 0);
-  if (!cli_verbose) limits.progress = NULL;
-  limits.advance = NULL;
+  thr_limits limits = advice_limits(a->guard.seconds);
   thr_status st = thr_advise(frame, &a->request, &options, &limits, &advice, &err);
   wipe_rows(&l);
   if (st) return cli_fail(&err);

@@ -1,16 +1,19 @@
 /* thread check: is everything that a plan says true? */
 #include "cli/cli.h"
 #include "cli/guard.h"
+#include "cli/print/plain.h"
 #include "cli/print/terms.h"
 #include "graph/angle.h"
 #include "graph/check/check.h"
 #include "graph/io/writer.h"
+#include "graph/plan/channels.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/status.h"
 #include "graph/text.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -21,7 +24,8 @@ static const char help[] =
     "  thread plan dome.obj -o - | thread check -\n\n"
     "Options:\n"
     "      --json           one JSON line per plan\n" GUARD_HELP
-    "  -q, --quiet          print nothing for plans that hold       -h, --help\n\n"
+    "  -q, --quiet          print nothing for plans that hold       -v, --verbose  what proofs are made of, crossings\n"
+    "  -h, --help\n\n"
     "Exit codes: 0 all plans hold, 1 a violation (printed with its place), 2 usage, 3 not a plan,\n"
     "5 not verified in the time or memory\n";
 
@@ -33,33 +37,30 @@ static const struct option table[] = {
 static void put_turning(thr_text *text, const thr_plan *plan)
 {
   const thr_turning_claim *claim = &plan->turning;
-  int branchings = claim->tree.n_nodes / 2;
   const char *cost = thr_turn_cost_name(plan->options.turning.cost);
   bool angles = plan->options.turning.cost == THR_TURN_ANGLE;
   if (!thr_wants_turning(&plan->options)) return;
-  thr_text_printf(text, "; turning %.3f deg: ", thr_degrees(plan->metrics.turning));
+  thr_text_printf(text, "; turning %.1f deg: ", thr_degrees(plan->metrics.turning));
   if (!claim->present) {
-    thr_text_append(text, "no claim of optimality");
+    thr_text_append(text, "nothing is claimed");
     return;
   }
   if (!angles) thr_text_printf(text, "price %.9g (%s), ", claim->price, cost);
-  if (claim->optimal)
-    thr_text_append(text, "optimal, proof verified");
-  else
-    thr_text_printf(text, "lower bound %.*f verified, gap %.3g %%", angles ? 3 : 6,
-                    angles ? thr_degrees(claim->lower_bound) : claim->lower_bound, 100 * claim->gap);
-  thr_text_printf(text, " (%d %s", branchings, cli_plural(branchings, "branching", "branchings"));
-  thr_text_append(text, ")");
-  if (claim->largest_optimal && plan->n_cords > 1) thr_text_append(text, "; largest cord: bound attained");
+  plain_put_proof(text, claim->optimal, claim->price, claim->lower_bound,
+                  angles ? "nothing turns less" : "nothing has a lower price", "least possible");
+  if (plan->n_cords == 1 && !thr_wants_largest(&plan->options)) return;
+  thr_text_printf(text, angles ? "; the cord that turns most, %.1f deg: " : "; the dearest cord, %.6g: ",
+                  angles ? thr_degrees(claim->largest) : claim->largest);
+  plain_put_proof(text, claim->largest_optimal, claim->largest, claim->largest_bound,
+                  angles ? "it cannot turn less" : "it cannot cost less", "least possible");
 }
 
 static void put_symmetry(thr_text *text, const thr_plan *plan)
 {
   const thr_symmetry_record *record = &plan->symmetry;
   if (!record->present) return;
-  thr_text_printf(text, "; group %s%sof order %d, %d unique %s, %g learned steps, verified", record->name,
-                  record->name[0] ? " " : "", record->order, record->unique_paths,
-                  cli_plural(record->unique_paths, "path", "paths"), record->steps);
+  thr_text_printf(text, "; group %s%sof order %d, %d unique %s, %g learned steps", record->name, record->name[0] ? " " : "",
+                  record->order, record->unique_paths, cli_plural(record->unique_paths, "path", "paths"), record->steps);
 }
 
 /* What was verified of several cords, where the plan asked for it. */
@@ -67,43 +68,61 @@ static void put_cords(thr_text *text, const thr_plan *plan)
 {
   const thr_cords_claim *claim = &plan->cords_claim;
   if (claim->present && thr_wants_balance(&plan->options)) {
-    thr_text_printf(text, "; longest cord %.6f %s: ", claim->longest, plan->frame.units);
-    if (claim->longest_optimal)
-      thr_text_append(text, "optimal, verified");
-    else
-      thr_text_printf(text, "lower bound %.6f verified, gap %.3g %%", claim->longest_bound,
-                      100 * (claim->longest - claim->longest_bound) / claim->longest);
+    thr_text_printf(text, "; longest cord %.7g %s: ", claim->longest, plan->frame.units);
+    plain_put_proof(text, claim->longest_optimal, claim->longest, claim->longest_bound, "it can be no shorter",
+                    "shortest possible");
   }
-  if (claim->present && claim->fewest > 0)
-    thr_text_printf(text, claim->fewest_optimal ? "; no fewer than %d cords, verified" : "; at least %d cords, verified",
-                    claim->fewest);
-  if (plan->pull_claim.present)
-    thr_text_printf(text,
-                    plan->pull_claim.optimal ? "; no fewer than %d cords for the pull, verified"
-                                             : "; at least %d cords for the pull, verified",
-                    plan->pull_claim.fewest);
+  if (claim->present && claim->fewest > 1) thr_text_printf(text, "; proved: fewer than %d cords are impossible", claim->fewest);
+  if (plan->pull_claim.present && plan->pull_claim.fewest > 1)
+    thr_text_printf(text, "; proved: fewer than %d cords are impossible within that pull", plan->pull_claim.fewest);
   if (plan->options.joint == THR_JOINT_TUBE) thr_text_append(text, "; every joint tied");
+}
+
+/* What the checker has added up, for those who ask. */
+static void put_machinery(thr_text *text, const thr_plan *plan)
+{
+  const thr_turning_proof *tree = &plan->turning.tree;
+  int cuts = thr_length_proof_cuts(&plan->proof), branchings = tree->n_nodes / 2;
+  if (!cli_verbose || !plan->proof.present) return;
+  thr_text_printf(text, "  certificate: %d %s, at least %.6f %s", cuts, cli_cuts_word(plan, cuts), plan->proof.lower_bound,
+                  plan->frame.units);
+  if (plan->turning.present)
+    thr_text_printf(text, "; of the turning: %d %s, %d %s", branchings, cli_plural(branchings, "branching", "branchings"),
+                    tree->n_duals, cli_plural(tree->n_duals, "multiplier set", "multiplier sets"));
+  thr_text_append(text, "\n");
+}
+
+/* With solid joints: how many pieces hold cords that cross inside them, for those who ask. */
+static void put_crossings(thr_text *text, const thr_plan *plan)
+{
+  thr_channels channels = {0};
+  if (!cli_verbose || plan->options.joint != THR_JOINT_SOLID) return;
+  if (thr_channels_make(&channels, plan, NULL))
+    text->failed = true;
+  else
+    thr_text_printf(text, "  pieces: %d, %d of them with cords that cross inside (%" PRId64 " %s)\n", plan->frame.n_nodes,
+                    channels.crossed, channels.crossings, cli_plural((int)channels.crossings, "crossing", "crossings"));
+  thr_channels_destroy(&channels);
 }
 
 static void put_verdict(thr_text *text, const char *path, const thr_plan *plan)
 {
   const thr_metrics *metrics = &plan->metrics;
   const char *units = plan->frame.units;
-  int cuts = thr_length_proof_cuts(&plan->proof);
   thr_text_append_clean(text, path);
-  thr_text_printf(text, ": %d %s, %d passes, every edge covered, length %.6f %s: ", plan->n_cords,
+  thr_text_printf(text, ": holds: %d %s, %d passes, every edge covered, %.7g %s: ", plan->n_cords,
                   cli_plural(plan->n_cords, "cord", "cords"), metrics->passes, metrics->length, units);
-  if (!plan->proof.present)
-    thr_text_append(text, "no claim of optimality");
-  else if (plan->proof.optimal)
-    thr_text_printf(text, "optimal, certificate verified (%d %s)", cuts, cli_cuts_word(plan, cuts));
+  if (plan->proof.present)
+    plain_put_length_proof(text, plan);
   else
-    thr_text_printf(text, "lower bound %.6f verified, gap %.3g %%", plan->proof.lower_bound, 100 * plan->proof.gap);
+    thr_text_append(text, "nothing is claimed");
   put_cords(text, plan);
   put_turning(text, plan);
   put_symmetry(text, plan);
   thr_text_append(text, "\n");
   terms_put(text, plan);
+  put_machinery(text, plan);
+  put_crossings(text, plan);
 }
 
 static void put_turning_json(thr_writer *writer, const thr_plan *plan)

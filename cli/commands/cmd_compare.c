@@ -1,6 +1,7 @@
 /* thread compare: plans of one framework side by side, ranked by how hard they are to pull. */
 #include "cli/print/compare_rows.h"
 #include "cli/print/ranking.h"
+#include "diagram/overview/compare_chart.h"
 #include "eval/eval.h"
 #include "eval/structure/beads.h"
 #include "eval/structure/holding.h"
@@ -31,7 +32,9 @@ static const char help[] =
     "Options:\n"
     "      --method joint|capstan|structure|all\n"
     "                       what to rank by (default: joint); the closed form is always shown beside it\n" PULL_HELP(
-        "largest holding pull of the plans") "      --json           as JSON\n"
+        "largest holding pull of the plans") "      --plot FILE      write a picture as SVG: the plans side by side, small, with "
+                                             "pull, cord and number of cords\n"
+                                             "      --json           as JSON\n"
                                              "  -q, --quiet          no notes and no progress       -h, --help\n\n"
                                              "A difference within the measured error is a tie. The simulation of the structure "
                                              "runs twice for each plan, the second time "
@@ -41,7 +44,9 @@ static const char help[] =
                                              "--no-dynamics is fast. How far its index spreads over seeds is not counted: try a "
                                              "few --seed before you rely on it.\n";
 
-static const struct option table[] = {CLI_COMMON_OPTIONS, PULL_OPTIONS, GUARD_OPTIONS, {NULL, 0, NULL, 0}};
+enum { OPTION_PLOT = OPTION_PULL_FREE };
+static const struct option table[] = {
+    CLI_COMMON_OPTIONS, PULL_OPTIONS, GUARD_OPTIONS, {"plot", required_argument, NULL, OPTION_PLOT}, {NULL, 0, NULL, 0}};
 
 enum { CAPSTAN, JOINT, HOLDING, SIMULATION, N_RANKINGS };
 
@@ -144,19 +149,35 @@ static void put_agreement(const ranking *r, int count, const char *const *name, 
 
 /* ---- output ---- */
 
+/* Names that are wider than a column stand above the table, with numbers. */
+static void put_names(thr_text *text, const entry *e, int n)
+{
+  bool wide = false;
+  for (int i = 0; i < n; i++)
+    wide |= strlen(e[i].path) > 16;
+  for (int i = 0; i < n && wide; i++)
+    thr_text_printf(text, "plan %d  %s\n", i + 1, e[i].path);
+  thr_text_printf(text, "%s%-32s", wide ? "\n" : "", "");
+  for (int i = 0; i < n; i++) {
+    char number[24];
+    snprintf(number, sizeof number, "plan %d", i + 1);
+    thr_text_printf(text, " %16s ", wide ? number : e[i].path);
+  }
+}
+
 static void put_head(thr_text *text, const entry *e, int n)
 {
-  thr_text_printf(text, "%-32s", "");
-  for (int i = 0; i < n; i++) {
-    size_t letters = strlen(e[i].path);
-    thr_text_printf(text, letters > 16 ? " ..%s " : " %16s ", letters > 16 ? e[i].path + letters - 14 : e[i].path);
-  }
+  put_names(text, e, n);
   thr_text_printf(text, "\n%-32s", "objective");
   for (int i = 0; i < n; i++)
     thr_text_printf(text, " %16s ", thr_objective_name(thr_aims_objective(&e[i].plan.options)));
   thr_text_printf(text, "\n%-32s", "ends");
   for (int i = 0; i < n; i++)
     thr_text_printf(text, " %16s ", thr_ends_name(e[i].plan.options.ends));
+  if (n < 2) return;
+  thr_text_printf(text, "\n%-32s", "on the frontier");
+  for (int i = 0; i < n; i++)
+    thr_text_printf(text, " %16s ", compare_on_frontier(e, n, i) ? "yes" : "-");
 }
 
 static bool same_physics(const thr_physics *a, const thr_physics *b)
@@ -186,6 +207,7 @@ static void put_text(thr_text *text, const pull_args *a, const entry *e, int n, 
   else
     thr_text_append(text, "each plan's own\n");
   if (n < 2) return;
+  thr_text_append(text, "frontier: no other plan is as good in cord, number of cords and pull, and better in one of them\n");
   thr_text_append(text, "\n");
   for (int k = 0; k < count; k++)
     ranking_put_text(&r[k], name, text);
@@ -203,6 +225,9 @@ static void put_plan_json(thr_writer *writer, const pull_args *a, const entry *e
   thr_physics_write(&e[i].eval[THR_CAPSTAN].record.physics, writer, "physics");
   for (int k = 0; k < compare_n_rows; k++)
     if (wanted(a, compare_rows[k].method)) thr_write_number(writer, compare_rows[k].key, compare_rows[k].value(&e[i]));
+  thr_write_bool(writer, "frontier", compare_on_frontier(e, n, i));
+  thr_write_number(writer, "pull_low", e[i].eval[THR_CAPSTAN].band[0]);
+  thr_write_number(writer, "pull_high", e[i].eval[THR_CAPSTAN].band[1]);
   thr_write_array(writer, "best");
   for (int k = 0; k < compare_n_rows; k++)
     if (compare_is_best(e, n, &compare_rows[k], i)) thr_write_string(writer, NULL, compare_rows[k].key);
@@ -233,6 +258,46 @@ static void put_json(thr_text *text, const pull_args *a, const entry *e, int n, 
   thr_write_bool(&writer, "agree", !find_disagreement(r, count, which, pair));
   thr_write_close(&writer);
   thr_text_append(text, "\n");
+}
+
+/* "Pull at both ends of every cord, .. ": how the pulls of the picture were found. */
+static void put_note(thr_text *text, const pull_args *a, const entry *e, int n)
+{
+  const thr_physics *physics = &e[0].eval[THR_CAPSTAN].record.physics;
+  bool same = true;
+  for (int i = 1; i < n; i++)
+    same = same && same_physics(physics, &e[i].eval[THR_CAPSTAN].record.physics);
+  thr_text_printf(text, "Pull at %s of every cord, ",
+                  strcmp(a->pull, "both") == 0 ? "both ends"
+                  : strchr(a->pull, '=')       ? "given ends"
+                                               : a->pull);
+  if (same)
+    thr_text_printf(text,
+                    "so that %g N is left where it is slackest (closed form; mu = %g, the pale bars its band from %g to %g).",
+                    physics->seating, physics->mu, physics->mu_low, physics->mu_high);
+  else
+    thr_text_append(text, "by the closed form, each plan with its own cord and beads; the pale bars are the bands of mu.");
+}
+
+static int write_plot(const pull_args *a, const entry *e, int n, const char *path)
+{
+  thr_err err = {0};
+  thr_text svg = {0}, note = {0};
+  thr_compare_column *column = thr_calloc((size_t)n, sizeof *column);
+  thr_status st = column ? THR_OK : thr_nomem(&err);
+  put_note(&note, a, e, n);
+  if (note.failed && !st) st = thr_nomem(&err);
+  for (int i = 0; i < n && !st; i++) {
+    const thr_eval *eval = &e[i].eval[THR_CAPSTAN];
+    column[i] = (thr_compare_column){.name = e[i].path,
+                                     .plan = &e[i].plan,
+                                     .pull = {eval->band[0], compare_largest(&e[i], THR_CAPSTAN), eval->band[1]},
+                                     .frontier = compare_on_frontier(e, n, i)};
+  }
+  if (!st) st = thr_compare_svg(column, n, note.data, &svg, &err);
+  free(column);
+  thr_text_destroy(&note);
+  return cli_write_drawn(st, &svg, path, &err);
 }
 
 /* ---- work ---- */
@@ -397,7 +462,8 @@ static int print(const pull_args *a, const entry *e, int n)
   return st ? cli_fail(&err) : cli_write(&text, "-");
 }
 
-static int compare(const pull_args *a, char **path, int n, entry *e)
+/* plot: where the picture goes, NULL = nowhere. */
+static int compare(const pull_args *a, char **path, int n, entry *e, const char *plot)
 {
   int code = read_entries(path, n, e);
   if (code) return code;
@@ -409,7 +475,9 @@ static int compare(const pull_args *a, char **path, int n, entry *e)
   }
   for (int i = 0; i < n && !a->json; i++)
     thr_text_clean(path[i]); /* the files are read; what follows is for people */
-  int printed = print(a, e, n);
+  int drawn = plot ? write_plot(a, e, n, plot) : EXIT_OK;
+  if (!code) code = drawn;
+  int printed = plot && strcmp(plot, "-") == 0 ? EXIT_OK : print(a, e, n);
   if (code == EXIT_LIMIT) cli_error("stopped: what is - above is not known");
   return printed ? printed : code;
 }
@@ -421,14 +489,19 @@ int cmd_compare(int argc, char **argv)
   pull_args a;
   guard_limits guard = guard_limits_default();
   guard_end end;
+  const char *plot = NULL;
   pull_args_init(&a, THR_JOINT);
   while ((option = cli_physics_option(&a.physics, argc, argv, "compare", ":" CLI_COMMON_LETTERS PULL_LETTERS, table, help,
-                                      &done)) != -1)
+                                      &done)) != -1) {
+    if (option == OPTION_PLOT) plot = optarg;
+    if (plot && !*plot) return cli_usage("compare", "an empty name is no place to write to");
     if ((pull_option(&a, "compare", option, optarg, &ok) || guard_option(&guard, "compare", option, optarg, &ok)) && !ok)
       return EXIT_USAGE;
+  }
   if (done >= 0) return done;
   int n = argc - optind;
   if (n < 1) return cli_usage("compare", "which plans?");
+  if (a.json && plot && strcmp(plot, "-") == 0) return cli_usage("compare", "--json and --plot - both want stdout");
   int code = pull_check(&a, "compare");
   if (code) return code;
   if (guard_fork(&guard, &end)) return guard_conclude(&end, "no comparison");
@@ -437,7 +510,7 @@ int cmd_compare(int argc, char **argv)
     cli_error("out of memory");
     return EXIT_INTERNAL;
   }
-  code = compare(&a, argv + optind, n, e);
+  code = compare(&a, argv + optind, n, e, plot);
   for (int i = 0; i < n; i++) {
     thr_plan_destroy(&e[i].plan);
     for (int k = 0; k < THR_N_METHODS; k++)

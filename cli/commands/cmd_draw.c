@@ -24,14 +24,15 @@ static const char help[] =
     "                       pdf         sheets.pdf: what to prepare, each step with its picture, what to do last\n"
     "                       steps       steps.txt: each path to learn once, then its copies\n"
     "                       html        viewer.html: step by step in space, in any browser\n"
-    "                       steps.csv   a row per pass: from, to, turn, cord used and left\n"
+    "                       steps.csv   a row per piece that the needle comes to: arms, turn, cord used\n"
     "                       cords.csv   the cut list: a row per cord, with tails and allowances\n"
-    "                       beads.csv   the bead schedule: a row per edge and node, bores, kinds\n"
+    "                       beads.csv   the bead schedule: a row per piece, kinds, arms, bores\n"
+    "                       channels.csv   which pass goes from which arm to which, piece by piece, and what crosses\n"
     "                       obj, gltf   cords.obj, cords.gltf: cords as lines for CAD and Blender\n"
     "                       all         all of these, into the folder of -o, else the current one\n"
     "      --color cord|tension|turning   what colours of the overview tell apart: cords (default), how\n"
-    "                       tight each pass is, or how sharply the cord turns between two beads\n"
-    "      --pitch MM       millimetres on paper per bead (default: 24, less for large frameworks)\n" DRAWINGS_HELP GUARD_HELP
+    "                       tight each pass is, or how sharply the cord turns\n"
+    "      --pitch MM       millimetres on paper per edge (default: 24, less for large frameworks)\n" DRAWINGS_HELP GUARD_HELP
     "  -o, --output FILE|DIR   (default: its usual name in the current folder; - = stdout)\n"
     "  -h, --help\n\n"
     "Exit codes: 0 drawn, 2 usage, 3 not a plan, 5 not all drawn in the time or memory\n";

@@ -1,4 +1,5 @@
 /* thread eval: how hard must one pull? */
+#include "cli/print/plain.h"
 #include "cli/pull.h"
 #include "diagram/overview/still.h"
 #include "diagram/overview/tension.h"
@@ -9,6 +10,7 @@
 #include "graph/framework/frame.h"
 #include "graph/framework/units.h"
 #include "graph/io/writer.h"
+#include "graph/limits.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
@@ -37,7 +39,10 @@ static const char help[] =
     "                       drawn in, and which fails first\n" PULL_HELP(
         "holding pull") "      --tension        print the tension in every pass\n"
                         "  -o, --output FILE    write the plan with this evaluation in it (- = stdout)\n"
-                        "      --plot FILE      write a plot of the tension along each cord, as SVG\n"
+                        "      --plot FILE      write a plot of the tension along each cord, as SVG: with a fan over the band of "
+                        "mu,\n"
+                        "                       and with lines at what a hand manages and at --cord-strength\n"
+                        "      --cord-strength N   newtons that the cord bears: says whether the pull would break it\n"
                         "      --still FILE     structure: write a picture of the beads before and after the fall, as SVG\n"
                         "      --json           everything as JSON\n"
                         "  -q, --quiet          no notes and no progress       -h, --help\n\n"
@@ -50,7 +55,7 @@ static const char help[] =
                         "every\n"
                         "bead; a cord thinner than the bore cuts corners, turns less and needs less: method joint knows.\n";
 
-enum { OPTION_TENSION = OPTION_PULL_FREE, OPTION_PLOT, OPTION_STILL };
+enum { OPTION_TENSION = OPTION_PULL_FREE, OPTION_PLOT, OPTION_STILL, OPTION_STRENGTH };
 static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       PULL_OPTIONS,
                                       GUARD_OPTIONS,
@@ -58,6 +63,7 @@ static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       {"output", required_argument, NULL, 'o'},
                                       {"plot", required_argument, NULL, OPTION_PLOT},
                                       {"still", required_argument, NULL, OPTION_STILL},
+                                      {"cord-strength", required_argument, NULL, OPTION_STRENGTH},
                                       {NULL, 0, NULL, 0}};
 
 typedef struct {
@@ -65,6 +71,7 @@ typedef struct {
   guard_limits guard;
   bool tension;
   const char *path, *output, *plot, *still;
+  double strength; /* N, of the cord; 0 = not said */
 } arguments;
 
 static int parse(int argc, char **argv, arguments *a)
@@ -84,6 +91,8 @@ static int parse(int argc, char **argv, arguments *a)
     case 'o': a->output = optarg; break;
     case OPTION_PLOT: a->plot = optarg; break;
     case OPTION_STILL: a->still = optarg; break;
+    case OPTION_STRENGTH:
+      if (!cli_double("eval", "--cord-strength", optarg, 1e-6, 1e9, &a->strength)) return EXIT_USAGE;
     }
     if (optarg && !*optarg) return cli_usage("eval", "an empty name is no place to write to");
   }
@@ -112,15 +121,16 @@ static const char *method_words(const thr_evaluation *evaluation, bool refused)
                    : "joints measured in simulation, composed along the path of the tight cord";
   case THR_STRUCTURE: return "structure: least pull at which rigid beads can stand while the cord is drawn in (limit analysis)";
   default:
-    return evaluation->law == THR_LAW_MITRE ? "mitred beads, closed form; --method joint measures joints in simulation"
-                                            : "capstan law, closed form; --method joint measures joints in simulation";
+    return evaluation->law == THR_LAW_MITRE
+               ? "mitred beads, by the closed form; --method joint measures the joints in simulation"
+               : "by the closed form exp(mu x turning); --method joint measures the joints in simulation";
   }
 }
 
 static void put_heading(thr_text *text, const thr_evaluation *evaluation, bool refused, const char *pulled)
 {
   const thr_physics *physics = &evaluation->physics;
-  thr_text_printf(text, "%s\nmu = %g (band %g to %g), ", method_words(evaluation, refused), physics->mu, physics->mu_low,
+  thr_text_printf(text, "%s\nfriction mu = %g (band %g to %g), ", method_words(evaluation, refused), physics->mu, physics->mu_low,
                   physics->mu_high);
   if (evaluation->method == THR_STRUCTURE) {
     thr_text_printf(text, "bead on bead %g, foot on ground %g, ", physics->mu_bead, physics->mu_ground);
@@ -221,7 +231,18 @@ static void put_band(thr_text *text, const thr_evaluation *evaluation, const dou
   thr_text_append(text, "\n");
 }
 
-static void put_sums(thr_text *text, const thr_plan *plan, const thr_eval *eval)
+/* Can hand and cord do it? */
+static void put_hand(thr_text *text, double newton, double strength)
+{
+  char force[64];
+  thr_text_printf(text, "%s is ", plain_force(newton, force));
+  plain_put_hand(text, newton);
+  thr_text_append(text, "\n");
+  if (strength > 0)
+    thr_text_printf(text, "a cord that bears %s %s\n", plain_force(strength, force), newton > strength ? "breaks" : "holds");
+}
+
+static void put_sums(thr_text *text, const thr_plan *plan, const thr_eval *eval, double strength)
 {
   const thr_evaluation *evaluation = &plan->evaluation;
   thr_text_printf(text, "\nlargest pull %.*g N, all pulls together %.*g N", digits(evaluation->method), evaluation->largest,
@@ -232,6 +253,7 @@ static void put_sums(thr_text *text, const thr_plan *plan, const thr_eval *eval)
     thr_text_printf(text, ", error of each at most %.2f %%", pull_percent(eval->error));
   thr_text_append(text, "\n");
   put_band(text, evaluation, eval->band);
+  if (eval->complete && evaluation->method != THR_STRUCTURE) put_hand(text, evaluation->largest, strength);
   if (!eval->complete) {
     thr_text_append(text, "stopped; not known: ");
     pull_unknown_cords(plan, evaluation, text);
@@ -355,7 +377,7 @@ static void put_text(thr_text *text, const arguments *a, const thr_plan *plan, c
   const thr_evaluation *evaluation = &plan->evaluation;
   put_heading(text, evaluation, eval->refused > 0, a->pull.pull);
   put_cords(text, plan, evaluation);
-  put_sums(text, plan, eval);
+  put_sums(text, plan, eval, a->strength);
   if (evaluation->method == THR_JOINT) put_joint(text, plan, eval);
   if (evaluation->method == THR_STRUCTURE) put_structure(text, a, plan, eval, stopped);
   if (a->tension) put_tension(text, plan, evaluation);
@@ -435,12 +457,46 @@ static void put_json(thr_text *text, const thr_plan *plan, const thr_eval *eval,
 
 /* ---- outputs ---- */
 
-static int write_plot(const thr_plan *plan, const char *path)
+/* The plan's cords pulled as they were, at another mu, by the closed form. */
+static thr_status eval_at(const thr_plan *plan, double mu, thr_eval *out, thr_err *err)
 {
+  const thr_evaluation *evaluation = &plan->evaluation;
+  const thr_limits none = {0};
+  thr_eval_options options = thr_eval_options_default();
+  thr_pull *pull = thr_calloc((size_t)evaluation->n_cords, sizeof *pull);
+  if (!pull) return thr_nomem(err);
+  for (int i = 0; i < evaluation->n_cords; i++)
+    pull[i] = evaluation->cord[i].pull;
+  options.physics = evaluation->physics;
+  options.physics.mu = mu;
+  options.physics.mu_low = options.physics.mu_high = 0; /* as they follow from mu */
+  options.law = evaluation->law;
+  options.cord_pull = pull;
+  thr_status st = thr_eval_plan(&plan->frame, plan->cord, plan->n_cords, THR_CAPSTAN, &options, &none, out, err);
+  free(pull);
+  return st;
+}
+
+/* With a fan where the method has one: the limit analysis has none, and beyond 1e300 N nothing is drawn. */
+static int write_plot(const thr_plan *plan, double strength, const char *path)
+{
+  const thr_evaluation *evaluation = &plan->evaluation;
+  const thr_physics *physics = &evaluation->physics;
   thr_err err = {0};
   thr_text svg = {0};
+  thr_eval low = {0}, high = {0};
   thr_tension_options options = thr_tension_options_default();
-  return thr_tension_svg(plan, &options, &svg, &err) ? cli_fail(&err) : cli_write(&svg, path);
+  options.hand = evaluation->method != THR_STRUCTURE;
+  options.strength = strength;
+  thr_status st = evaluation->method != THR_STRUCTURE && physics->mu_low < physics->mu_high ? THR_OK : THR_EINFEASIBLE;
+  if (!st) st = eval_at(plan, physics->mu_low, &low, &err);
+  if (!st) st = eval_at(plan, physics->mu_high, &high, &err);
+  options.low = st ? NULL : &low.record;
+  options.high = st ? NULL : &high.record;
+  if (st != THR_ENOMEM) st = thr_tension_svg(plan, &options, &svg, &err);
+  thr_eval_destroy(&low);
+  thr_eval_destroy(&high);
+  return cli_write_drawn(st, &svg, path, &err);
 }
 
 /* Poses come in m and with the ground at 0; the picture wants units of the framework. */
@@ -498,7 +554,7 @@ static int write_outputs(const arguments *a, const thr_plan *plan, const thr_eva
     thr_plan_write(plan, &text);
     code = cli_write(&text, a->output);
   }
-  if (!code && a->plot) code = write_plot(plan, a->plot);
+  if (!code && a->plot) code = write_plot(plan, a->strength, a->plot);
   if (!code && a->still) code = write_still(plan, &eval->settle, stopped, a->still);
   const char *const out[] = {a->output, a->plot, a->still};
   for (int i = 0; i < 3; i++)

@@ -6,7 +6,6 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
-#include <stdio.h>
 #include <string.h>
 
 static const char help[] = "thread make SHAPE [options]: an example framework\n\n"
@@ -24,7 +23,7 @@ static const char help[] = "thread make SHAPE [options]: an example framework\n\
                            "      --rings N        tube: rings along the axis\n"
                            "      --pitch MM       distance between neighbours in mm\n"
                            "      --rise R         dome, honeycomb: height over half span\n"
-                           "  -o, --output FILE    .json, .obj or .csv (default: JSON on stdout)       -h, --help\n";
+                           "  -o, --output FILE    .json, .obj, .csv or .ply (default: JSON on stdout) -h, --help\n";
 
 enum { OPTION_SIZE = OPTION_FREE, OPTION_RINGS, OPTION_PITCH, OPTION_RISE };
 static const struct option table[] = {CLI_COMMON_OPTIONS,
@@ -63,14 +62,7 @@ static bool apply(const arguments *a, thr_make_options *options)
   return !a->rise || cli_double("make", "--rise", a->rise, 0, 100, &options->rise);
 }
 
-/* JSON on stdout and for names without an ending; nothing is written in a format that its name does not say. */
-static bool known_ending(const char *output)
-{
-  const char *slash = strrchr(output, '/'), *dot = strrchr(slash ? slash : output, '.');
-  return !dot || thr_format_of_path(output);
-}
-
-static int make(const thr_make_options *options, const char *output)
+static int make(const thr_make_options *options, const thr_format *format, const char *output)
 {
   thr_err err = {0};
   thr_draft draft = {0};
@@ -79,7 +71,7 @@ static int make(const thr_make_options *options, const char *output)
   thr_text text = {0};
   thr_status st = thr_make(&draft, options, &err);
   if (!st) st = thr_draft_build(&draft, -1, &frame, &report, &err);
-  if (!st) thr_frame_write(&frame, thr_format_of_path(output), &text);
+  if (!st) thr_frame_write(&frame, format, &text);
   thr_draft_destroy(&draft);
   thr_frame_destroy(&frame);
   if (st == THR_EINPUT) return cli_usage("make", "%s", err.text);
@@ -105,7 +97,8 @@ int cmd_make(int argc, char **argv)
   int shape = find_shape(argv[optind]);
   if (shape < 0)
     return cli_usage("make", "there is no shape %s; there are dome, geodesic, sphere, tube and honeycomb", argv[optind]);
-  if (!known_ending(a.output)) return cli_usage("make", "%s: the ending must be .json, .obj or .csv", a.output);
+  const thr_format *format;
+  if (!cli_output_format("make", a.output, NULL, &format)) return EXIT_USAGE;
   thr_make_options options = thr_make_options_default((thr_shape)shape);
-  return apply(&a, &options) ? make(&options, a.output) : EXIT_USAGE;
+  return apply(&a, &options) ? make(&options, format, a.output) : EXIT_USAGE;
 }

@@ -6,17 +6,20 @@
 #include "cli/guard.h"
 #include "cli/print/plan_summary.h"
 #include "cli/print/symmetry_table.h"
+#include "diagram/overview/frontier_chart.h"
 #include "eval/eval.h"
 #include "graph/check/check.h"
 #include "graph/framework/frame.h"
 #include "graph/io/writer.h"
 #include "graph/limits.h"
+#include "graph/plan/advice.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/status.h"
 #include "graph/text.h"
 #include "planner/dispatch.h"
+#include "planner/least_turning.h"
 #include "planner/make_plan.h"
 #include "planner/rivals.h"
 
@@ -24,6 +27,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static const char help_requests[] =
     "thread plan FRAME [options]: plan how cord is threaded: shortest or turning least, proved, or symmetric\n\n"
@@ -45,7 +49,10 @@ static const char help_rest[] = TURNING_HELP
     "\nFramework:\n" CLI_FRAME_HELP "\nOutput:\n"
     "  -o, --output FILE    write the plan here (- = stdout), and no diagrams unless --draw\n"
     "      --draw DIR       write the diagrams into this folder, and without -o the plan too\n"
-    "                       (no sheets.pdf for more than 3000 beads: thread draw PLAN -T pdf makes it)\n" DRAWINGS_HELP
+    "      --force          in a folder named after FRAME, replace another plan (else FRAME-2, FRAME-3, ..)\n"
+    "                       (no sheets.pdf for more than 1500 pieces: thread draw PLAN -T pdf makes it)\n" DRAWINGS_HELP
+    "      --order planned|hand   cords as they are found (default), or begun and run so that what is threaded holds\n"
+    "                       together, for at most a tenth more turning\n"
     "      --json           summary as JSON on stdout\n"
     "      --compare-objectives   pull of this plan beside those for the other objectives, joints simulated\n" PULL_RUN_HELP
     "  -q, --quiet          no notes and no summary       -v, --verbose  what the solver does       -h, --help\n\n"
@@ -60,7 +67,7 @@ static const char *help(void)
   return text;
 }
 
-enum { OPTION_COMPARE = OPTION_AIMS_FREE, OPTION_DRAW, OPTION_JSON };
+enum { OPTION_COMPARE = OPTION_AIMS_FREE, OPTION_DRAW, OPTION_FORCE, OPTION_JSON, OPTION_ORDER };
 
 static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       CLI_FRAME_OPTIONS,
@@ -73,8 +80,10 @@ static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       GUARD_OPTIONS,
                                       {"output", required_argument, NULL, 'o'},
                                       {"draw", required_argument, NULL, OPTION_DRAW},
+                                      {"force", no_argument, NULL, OPTION_FORCE},
                                       DRAWINGS_OPTIONS,
                                       {"json", no_argument, NULL, OPTION_JSON},
+                                      {"order", required_argument, NULL, OPTION_ORDER},
                                       {NULL, 0, NULL, 0}};
 
 /* ---- options ---- */
@@ -90,7 +99,8 @@ typedef struct {
   thr_request wanted; /* aims, and what belongs to them */
   const char *path, *output, *draw;
   drawings_args drawings;
-  bool json, compare;
+  bool json, compare, force;
+  int order; /* 1: of work, by hand */
 } arguments;
 
 static int parse(int argc, char **argv, arguments *a)
@@ -116,7 +126,9 @@ static int parse(int argc, char **argv, arguments *a)
     switch (o) {
     case OPTION_COMPARE: a->compare = true; break;
     case OPTION_DRAW: a->draw = optarg; break;
+    case OPTION_FORCE: a->force = true; break;
     case OPTION_JSON: a->json = true; break;
+    case OPTION_ORDER: ok = cli_choose("plan", "--order", optarg, thr_order_name, 2, &a->order); break;
     case 'o': a->output = optarg; break;
     }
     if (!ok) return EXIT_USAGE;
@@ -142,6 +154,8 @@ static void ask(const arguments *a, thr_objective objective, thr_request *option
 {
   aims_args_apply(&a->aims, &a->turning, &a->symmetry, &a->cords, objective, options);
   options->joint = a->cords.joint;
+  options->by_hand = a->order;
+  if (options->by_hand) options->needles = a->drawings.needles;
   if (cords_args_limits_pull(&a->cords) && options->max_pull == 0) options->max_pull = 1; /* until it is known how much */
   options->time_limit = a->guard.seconds < 0 ? thr_dispatch_usual_seconds(options) : a->guard.seconds;
 }
@@ -271,6 +285,37 @@ static void put_plan(thr_writer *writer, const arguments *a, const planned *x, c
     plan_put_summary(writer->out, &x->plan, rivals, x->report.word);
 }
 
+/* The frontier as a picture; where there is none, why. */
+static int write_frontier(const arguments *a, const thr_plan *plan, const thr_rivals *rivals)
+{
+  const thr_frontier *frontier = &rivals->frontier;
+  thr_err err = {0};
+  thr_text svg = {0};
+  thr_physics physics;
+  char stem[256];
+  if (frontier->n == 0) {
+    cli_error("%s: nothing to draw: there is no frontier", a->turning.plot);
+    return EXIT_INPUT;
+  }
+  cli_stem(a->path, stem, sizeof stem);
+  thr_frontier_mark *mark = thr_calloc((size_t)frontier->n, sizeof *mark);
+  thr_status st = mark ? thr_physics_resolve(&plan->options.physics, &plan->frame, &physics, &err) : thr_nomem(&err);
+  for (int i = 0; i < frontier->n && !st; i++) {
+    const thr_frontier_point *point = &frontier->point[i];
+    mark[i] = (thr_frontier_mark){.length = point->length, .turning = point->turning, .proved = !point->open};
+    thr_advice_pulls(&physics, point->pulled, mark[i].pull);
+  }
+  const thr_frontier_chart chart = {.name = stem,
+                                    .units = plan->frame.units,
+                                    .physics = &physics,
+                                    .shortest = plan->proof.lower_bound,
+                                    .n = frontier->n,
+                                    .mark = mark};
+  if (!st) st = thr_frontier_svg(&chart, &svg, &err);
+  free(mark);
+  return cli_write_drawn(st, &svg, a->turning.plot, &err);
+}
+
 static int put_turning(thr_writer *writer, const arguments *a, planned *x)
 {
   thr_rivals rivals = {0};
@@ -281,8 +326,10 @@ static int put_turning(thr_writer *writer, const arguments *a, planned *x)
   cli_progress_end();
   if (rivals.no_frontier.code) cli_note("no frontier: %s", rivals.no_frontier.text);
   put_plan(writer, a, x, &rivals);
+  int code = st ? cli_fail(&err) : EXIT_OK;
+  if (!code && a->turning.plot) code = write_frontier(a, &x->plan, &rivals);
   thr_rivals_destroy(&rivals);
-  return st ? cli_fail(&err) : EXIT_OK;
+  return code;
 }
 
 static void put_symmetry(thr_writer *writer, const arguments *a, const planned *x)
@@ -321,7 +368,11 @@ static int print_summary(const arguments *a, planned *x)
     thr_write_close(&writer);
     thr_text_append(&text, "\n");
   }
-  int written = cli_write(&text, "-");
+  int written = EXIT_OK;
+  if (cli_quiet && !a->json) /* it was made for the picture */
+    thr_text_destroy(&text);
+  else
+    written = cli_write(&text, "-");
   return code ? code : written;
 }
 
@@ -330,27 +381,51 @@ static int print_summary(const arguments *a, planned *x)
 /* Where plan and diagrams go: where the options say; where they say nothing, in a folder named after the framework. */
 typedef struct {
   const char *plan, *folder; /* folder: NULL = no diagrams */
-  char stem[256], in_folder[1200];
+  char own[280], in_folder[1200];
 } places;
 
-static int find_places(const arguments *a, places *to)
+/* Does the folder hold a plan, and not this text? */
+static bool holds_another(const char *folder, const thr_text *text)
 {
-  cli_stem(a->path, to->stem, sizeof to->stem);
-  const char *folder = a->draw ? a->draw : to->stem;
+  char path[1200];
+  thr_text there = {0};
+  snprintf(path, sizeof path, "%s/plan.json", folder);
+  if (access(path, F_OK) != 0) return false;
+  bool same = !thr_text_read(&there, path, NULL) && there.length == text->length &&
+              (text->length == 0 || memcmp(there.data, text->data, text->length) == 0);
+  thr_text_destroy(&there);
+  return !same;
+}
+
+/* dome, or the first of dome-2, dome-3, .. that holds no other plan. */
+static void find_folder(const arguments *a, const thr_text *text, char folder[280])
+{
+  enum { MOST = 1000 };
+  char stem[256];
+  cli_stem(a->path, stem, sizeof stem);
+  snprintf(folder, 280, "%s", stem);
+  for (int i = 2; i <= MOST && !a->force && holds_another(folder, text); i++)
+    snprintf(folder, 280, "%s-%d", stem, i);
+  if (strcmp(folder, stem) != 0)
+    cli_note("note: %s holds another plan: this one is in %s (--force replaces the other)", stem, folder);
+}
+
+static int find_places(const arguments *a, const thr_text *text, places *to)
+{
+  if (!a->draw && !a->output) find_folder(a, text, to->own);
+  to->folder = a->draw ? a->draw : a->output ? NULL : to->own;
   to->plan = a->output ? a->output : to->in_folder;
-  to->folder = a->draw || !a->output ? folder : NULL;
-  return a->output ? EXIT_OK : cli_in_folder(folder, "plan.json", to->in_folder, sizeof to->in_folder);
+  return to->folder ? cli_in_folder(to->folder, "plan.json", to->in_folder, sizeof to->in_folder) : EXIT_OK;
 }
 
 /* What is written is first read back, which takes the place of the plan, and checked as a whole, as by thread check: a plan that
- * it would refuse is not left. */
+ * it would refuse is not left. The framework in it is compared with the one in memory, number by number. */
 static int check_text(const thr_text *text, const char *path, thr_plan *plan)
 {
   thr_err err = {0};
   if (text->failed) return EXIT_OK;                                                   /* writing says so */
   const int confirmed = plan->proof.confirmed, unconfirmed = plan->proof.unconfirmed; /* not written */
-  thr_plan_destroy(plan); /* first: both of a large framework take much memory */
-  thr_status st = thr_plan_parse(plan, text->data, text->length, strcmp(path, "-") == 0 ? "stdout" : path, &err);
+  thr_status st = thr_plan_parse_back(plan, text->data, text->length, strcmp(path, "-") == 0 ? "stdout" : path, &err);
   if (!st) st = thr_check_plan(plan, &err);
   plan->proof.confirmed = confirmed;
   plan->proof.unconfirmed = unconfirmed;
@@ -361,17 +436,18 @@ static int check_text(const thr_text *text, const char *path, thr_plan *plan)
 }
 
 /* From here on the plan is what this run leaves, with this exit code. */
-static int write_plan(thr_plan *p, const char *path, int code)
+static int write_plan(const arguments *a, thr_plan *p, places *to, int code)
 {
   thr_text text = {0};
   thr_plan_write(p, &text);
-  int refused = check_text(&text, path, p);
+  int refused = find_places(a, &text, to);
+  if (!refused) refused = check_text(&text, to->plan, p);
   if (refused) {
     thr_text_destroy(&text);
     return refused;
   }
   guard_writing();
-  int written = cli_write(&text, path);
+  int written = cli_write(&text, to->plan);
   guard_written(written ? written : code);
   return written;
 }
@@ -381,8 +457,17 @@ static bool is_usual(const arguments *a, const thr_request *options)
 {
   const cords_args usual = cords_args_default();
   return thr_wants_length(options) && !thr_wants_balance(options) && a->cords.most == 0 && a->cords.max_length == 0 &&
-         strcmp(a->cords.ends, usual.ends) == 0 && a->cords.cover == usual.cover && a->cords.capacity == 0 &&
-         !cords_args_limits_pull(&a->cords) && options->joint == THR_JOINT_SOLID && a->guard.seconds < 0 && !a->compare;
+         strcmp(a->cords.ends, usual.ends) == 0 && a->cords.cover == usual.cover && a->cords.distinct == 0 &&
+         a->cords.capacity == 0 && !cords_args_limits_pull(&a->cords) && options->joint == THR_JOINT_SOLID &&
+         a->guard.seconds < 0 && !a->compare;
+}
+
+static void put_order(const thr_plan *p, thr_text *text)
+{
+  thr_err err = {0};
+  thr_text_append(text, "order    ");
+  if (drawings_chains(p, text, &err)) thr_text_append(text, err.text);
+  thr_text_append(text, "\n");
 }
 
 /* Where the plan is and, unless folder is NULL, the drawings; and what to do if a hand cannot pull it. */
@@ -400,7 +485,10 @@ static int print_places(const arguments *a, const thr_plan *p, const char *plan_
     thr_text_printf(&text, ": %s", names);
   }
   thr_text_append(&text, "\n");
-  if (is_usual(a, &p->options)) advice_put_after_plan(p, a->path, &a->frame, &a->pull.physics, &text);
+  if (p->options.by_hand || cli_verbose) put_order(p, &text);
+  int code = cli_write(&text, "-");
+  if (code || !is_usual(a, &p->options)) return code;
+  advice_put_after_plan(p, a->path, &a->frame, &a->pull.physics, &text);
   return cli_write(&text, "-");
 }
 
@@ -409,17 +497,16 @@ static int write_outputs(const arguments *a, planned *x, int planned_code)
 {
   thr_plan *p = &x->plan;
   places to;
-  int code = find_places(a, &to);
-  if (!code) code = write_plan(p, to.plan, planned_code);
+  int code = write_plan(a, p, &to, planned_code);
   int drawn = !code && to.folder ? drawings_write_all(p, to.folder, &a->drawings) : EXIT_OK;
   if (drawn != EXIT_LIMIT) code = code ? code : drawn; /* the plan's own code says how it was with the time */
   bool to_stdout = strcmp(to.plan, "-") == 0;
   if (!code && to.folder && drawings_no_sheets(p, &a->drawings))
-    cli_note("no sheets.pdf, which takes long for more than %d beads: thread draw %s -T pdf", DRAWINGS_SHEETS_BEADS,
+    cli_note("no sheets.pdf, which takes long for more than %d pieces: thread draw %s -T pdf", DRAWINGS_SHEETS_PIECES,
              to_stdout ? "plan.json" : to.plan);
-  if (code || to_stdout || (cli_quiet && !a->json)) return code;
+  if (code || to_stdout || (cli_quiet && !a->json && !a->turning.plot)) return code;
   code = print_summary(a, x);
-  return code || a->json ? code : print_places(a, p, to.plan, drawn ? NULL : to.folder);
+  return code || a->json || cli_quiet ? code : print_places(a, p, to.plan, drawn ? NULL : to.folder);
 }
 
 /* Time that nobody asked for is the search's alone. */
@@ -469,7 +556,7 @@ static int conclude(const arguments *a, guard_end *end)
   bool searched = end->code == EXIT_LIMIT || end->code == EXIT_INFEASIBLE || end->code == EXIT_INTERNAL;
   bool told = end->reason == GUARD_DONE && !searched; /* what the user wants to know */
   if (end->kept.length == 0 || told) return guard_conclude(end, "no plan was found");
-  int code = find_places(a, &to);
+  int code = find_places(a, &end->kept, &to);
   if (!code) code = cli_write(&end->kept, to.plan);
   thr_text_destroy(&end->kept);
   if (code) return code;

@@ -31,7 +31,8 @@ static const char help[] =
     "      --time-limit S   for all groups together, 0 = no limit (default: 20)\n" GUARD_MEMORY_HELP CLI_PROCESSES_HELP
     "      --json           as JSON\n" CLI_FRAME_HELP
     "  -q, --quiet          no notes and no progress       -v, --verbose  what the solver does       -h, --help\n\n"
-    "* marks the default choice of thread plan --objective symmetry. A step is a pass of a unique path: what is to be learned.\n"
+    "* marks the default choice of thread plan --objective symmetry. A step, what is to be learned, is a pass of a unique\n"
+    "path or, with --ends any, an end of it.\n"
     "Exit codes: 0 every row optimal by the solver's word, 2 usage, 3 bad input, 4 infeasible, 5 some rows not in\n"
     "time (table printed)\n";
 

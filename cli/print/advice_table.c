@@ -1,6 +1,7 @@
 /* The table of advice, and the line that sums it up. */
 #include "cli/print/advice_table.h"
 #include "cli/cli.h"
+#include "cli/print/plain.h"
 #include "graph/angle.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/request.h"
@@ -8,17 +9,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-/* "3.49", "1.6e+06"; "> 1e300". */
-static const char *force_words(double newton, char out[24])
-{
-  if (isinf(newton))
-    snprintf(out, 24, "> 1e300");
-  else
-    snprintf(out, 24, newton < 1e5 ? "%.3g" : "%.1e", newton < 1e5 && newton >= 100 ? round(newton) : newton);
-  if (newton >= 1000 && newton < 1e5) snprintf(out, 24, "%.0f", newton);
-  return out;
-}
 
 void advice_put_word(thr_text *text, const char *word)
 {
@@ -57,25 +47,27 @@ void advice_put_head(thr_text *text, const thr_frame *frame, const thr_physics *
 {
   char units[24];
   snprintf(units, sizeof units, "cord, %.15s", frame->units);
-  thr_text_printf(text, "%d nodes, %d %s; pull at both ends of every cord for %g N at the slackest joint, closed form;\n",
+  thr_text_printf(text, "%d nodes, %d %s; pull at both ends of every cord, so that %g N is left at its slackest joint;\n",
                   frame->n_nodes, frame->n_edges, cli_plural(frame->n_edges, "edge", "edges"), physics->seating);
-  thr_text_printf(text, "mu = %g (band %g to %g)\n\n", physics->mu, physics->mu_low, physics->mu_high);
+  thr_text_printf(text, "friction mu = %g, or anything in its band from %g to %g\n\n", physics->mu, physics->mu_low,
+                  physics->mu_high);
   thr_text_printf(text, "   cords  %-11s %14s %8s %10s %12s %9s %19s %6s  %s\n", "ends", units, "overlap", "longest",
-                  "most turning", "pull, N", "in the band of mu", "steps", "proof of the turning");
+                  "most turning", "pull, N", "in the band of mu", "steps", "proved");
 }
 
 void advice_put_row(thr_text *text, const thr_advice_row *row, double base_length, const char *mark)
 {
+  const double over = 100 * (row->length / base_length - 1);
   char low[24], pull[24], high[24], band[56], proof[40] = "-";
-  snprintf(band, sizeof band, "%s .. %s", force_words(row->pull[THR_ADVICE_LOW], low),
-           force_words(row->pull[THR_ADVICE_HIGH], high));
+  snprintf(band, sizeof band, "%s .. %s", plain_newtons(row->pull[THR_ADVICE_LOW], low),
+           plain_newtons(row->pull[THR_ADVICE_HIGH], high));
   if (row->optimal)
-    snprintf(proof, sizeof proof, "optimal");
+    snprintf(proof, sizeof proof, "it cannot turn less");
   else if (row->bound > 0)
-    snprintf(proof, sizeof proof, "at least %.0f deg", floor(thr_degrees(row->bound)));
+    snprintf(proof, sizeof proof, "turning of at least %.0f deg", floor(thr_degrees(row->bound)));
   thr_text_printf(text, "%-3s%5d  %-11s %14.3f %6.1f %% %10.4g %8.0f deg %9s %19s %6d  %s\n", mark, row->cords,
-                  thr_advice_ends(row->ends), row->length, 100 * (row->length / base_length - 1), row->longest,
-                  thr_degrees(row->turning), force_words(row->pull[THR_ADVICE_MU], pull), band, row->steps, proof);
+                  thr_advice_ends(row->ends), row->length, over < 0.05 ? 0 : over, row->longest, thr_degrees(row->turning),
+                  plain_newtons(row->pull[THR_ADVICE_MU], pull), band, row->steps, proof);
 }
 
 /* What a hand manages, as far as it is one of the numbers with a source. */
@@ -88,18 +80,19 @@ static const char *hand_words(double hand)
 
 static void put_choice(thr_text *text, const thr_advice *advice, const char *command)
 {
-  char low[24], pull[24], high[24];
+  char low[24], pull[64], high[24], hand[64];
+  plain_force(advice->hand, hand);
   if (advice->chosen < 0) {
-    thr_text_printf(text, "no row stays within %g N%s at mu = %g; --hand N says what is enough\n", advice->hand,
-                    hand_words(advice->hand), advice->physics.mu_high);
+    thr_text_printf(text, "no row stays within %s%s at mu = %g; --hand N says what is enough\n", hand, hand_words(advice->hand),
+                    advice->physics.mu_high);
     return;
   }
   const thr_advice_row *row = &advice->row[advice->chosen];
   thr_text_append(text, "> ");
   advice_put_cords(text, row);
-  thr_text_printf(text, ": %s N (%s to %s). The fewest that stay within %g N%s even at mu = %g\n  ",
-                  force_words(row->pull[THR_ADVICE_MU], pull), force_words(row->pull[THR_ADVICE_LOW], low),
-                  force_words(row->pull[THR_ADVICE_HIGH], high), advice->hand, hand_words(advice->hand), advice->physics.mu_high);
+  thr_text_printf(text, ": %s, or %s to %s N in the band. The fewest that stay within %s%s even at mu = %g\n  ",
+                  plain_force(row->pull[THR_ADVICE_MU], pull), plain_newtons(row->pull[THR_ADVICE_LOW], low),
+                  plain_newtons(row->pull[THR_ADVICE_HIGH], high), hand, hand_words(advice->hand), advice->physics.mu_high);
   thr_text_append_clean(text, command);
   thr_text_append(text, "\n");
 }
@@ -112,7 +105,7 @@ void advice_put_table(thr_text *text, const thr_frame *frame, const thr_advice *
     snprintf(mark, sizeof mark, "%s%s", i == advice->chosen ? ">" : " ", advice->row[i].frontier ? "*" : " ");
     advice_put_row(text, &advice->row[i], advice->base_length, mark);
   }
-  thr_text_append(text, "\n* no other row has no more cords, no more cord and no more pull, and less of one of them");
+  thr_text_append(text, "\n* no other row is as good in number of cords, cord and pull, and better in one of them");
   if (advice->left_out)
     thr_text_printf(text, "; %d %s nothing %s left out", advice->left_out,
                     cli_plural(advice->left_out, "row that buys", "rows that buy"), cli_plural(advice->left_out, "is", "are"));
@@ -122,14 +115,18 @@ void advice_put_table(thr_text *text, const thr_frame *frame, const thr_advice *
 
 /* ---- one line ---- */
 
-void advice_put_line(thr_text *text, const thr_advice *advice, double force, const char *command)
+void advice_put_line(thr_text *text, const thr_advice_row *row, double length, const char *command)
 {
-  char needs[24], pull[24];
-  const thr_advice_row *row = &advice->row[advice->chosen];
-  thr_text_printf(text, "hand     needs %s N at each end; a hand manages about %g: ", force_words(force, needs), thr_hand_most);
+  char pull[64];
+  double more = 100 * (row->length / length - 1);
+  thr_text_append(text, "         ");
   advice_put_cords(text, row);
-  thr_text_printf(text, " %s about %s N with the same cord:\n         ", cli_plural(row->cords, "needs", "need"),
-                  force_words(row->pull[THR_ADVICE_MU], pull));
+  thr_text_printf(text, " %s about %s", cli_plural(row->cords, "needs", "need"), plain_force(row->pull[THR_ADVICE_MU], pull));
+  if (fabs(more) < 0.05)
+    thr_text_append(text, " with as much cord");
+  else
+    thr_text_printf(text, " with %.1f %% %s cord", fabs(more), more > 0 ? "more" : "less");
+  thr_text_append(text, ":\n         ");
   thr_text_append_clean(text, command);
   thr_text_append(text, "\n");
 }

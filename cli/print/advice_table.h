@@ -26,7 +26,8 @@ void advice_put_word(thr_text *text, const char *word);
 /* "4 cords to the feet", "1 closed cord", "12 cords with ends anywhere". */
 void advice_put_cords(thr_text *text, const thr_advice_row *row);
 
-/* The last lines of `thread plan`: force N is beyond a hand, what is not when its cord is cut, and the command. */
-void advice_put_line(thr_text *text, const thr_advice *advice, double force, const char *command);
+/* The last lines of `thread plan` where a hand cannot pull it: what it can, held against a plan of that length, and the command.
+ */
+void advice_put_line(thr_text *text, const thr_advice_row *row, double length, const char *command);
 
 #endif

@@ -1,6 +1,7 @@
 /* The rows of `thread compare`. */
 #include "cli/print/compare_rows.h"
 #include "cli/print/turning_summary.h"
+#include "graph/plan/advice.h"
 #include "graph/angle.h"
 
 #include <math.h>
@@ -29,6 +30,16 @@ static double overlap_percent(const compare_entry *e)
 static double gap_percent(const compare_entry *e)
 {
   return e->plan.proof.present ? 100 * e->plan.proof.gap : NAN;
+}
+static double above_shortest(const compare_entry *e)
+{
+  const thr_length_proof *proof = &e->plan.proof;
+  return proof->present && proof->lower_bound > 0 ? 100 * fmax(0, e->plan.metrics.length / proof->lower_bound - 1) : NAN;
+}
+static double above_least_turning(const compare_entry *e)
+{
+  const thr_turning_claim *claim = &e->plan.turning;
+  return claim->present && claim->lower_bound > 0 ? 100 * fmax(0, claim->price / claim->lower_bound - 1) : NAN;
 }
 static double turning(const compare_entry *e)
 {
@@ -137,33 +148,35 @@ static double settle_index_fine(const compare_entry *e)
 }
 
 const compare_row compare_rows[] = {
-    {"cords", "cords", cords, false, -1, THR_CAPSTAN, false},
-    {"passes", "passes", passes, true, -1, THR_CAPSTAN, false},
-    {"length", "length", length, true, 3, THR_CAPSTAN, false},
-    {"overlap", "overlap", overlap, true, 3, THR_CAPSTAN, false},
-    {"overlap %", "overlap_percent", overlap_percent, true, 2, THR_CAPSTAN, false},
-    {"length: gap to its bound %", "gap_percent", gap_percent, false, -6, THR_CAPSTAN, false},
-    {"turning with closing turns, deg", "turning_deg", turning, true, 1, THR_CAPSTAN, false},
-    {"the same, largest cord, deg", "max_turning_deg", max_turning, true, 1, THR_CAPSTAN, false},
-    {"capstan factor of that cord", "max_capstan", capstan, true, -6, THR_CAPSTAN, false},
-    {"turning: proven bound, deg", "turning_bound_deg", turning_bound, false, 1, THR_CAPSTAN, true},
-    {"turning: gap to it %", "turning_gap_percent", turning_gap, false, -6, THR_CAPSTAN, true},
-    {"turning: pairing bound, deg", "pairing_bound_deg", pairing_bound, false, 1, THR_CAPSTAN, true},
-    {"turning: bound of a cord, deg", "max_turning_bound_deg", largest_bound, false, 1, THR_CAPSTAN, true},
-    {"sharpest turn, deg", "worst_turn_deg", worst_turn, true, 1, THR_CAPSTAN, false},
-    {"turns over 60 deg", "turns_over_60", turns_over_60, true, -1, THR_CAPSTAN, false},
-    {"turns over 90 deg", "turns_over_90", turns_over_90, true, -1, THR_CAPSTAN, false},
-    {"U-turns", "u_turns", u_turns, true, -1, THR_CAPSTAN, false},
-    {"largest pull, closed form, N", "largest_pull", closed_largest, true, -6, THR_CAPSTAN, false},
-    {"all pulls together, N", "total_pull", closed_total, true, -6, THR_CAPSTAN, false},
-    {"turning of the tight cords, deg", "taut_turning_deg", taut_turning, true, 1, THR_JOINT, false},
-    {"largest pull, simulated, N", "joint_pull", joint_largest, true, -4, THR_JOINT, false},
-    {"its error where measured, +- %", "joint_error_percent", joint_error, false, -3, THR_JOINT, false},
-    {"turns by closed form", "joint_refused", joint_refused, false, -1, THR_JOINT, false},
-    {"all pulls together, simulated, N", "joint_total", joint_total, true, -4, THR_JOINT, false},
-    {"holding pull while drawn in, N", "holding_pull", holding, true, -6, THR_STRUCTURE, false},
-    {"simulation: index, no newtons", "ranking_index", settle_index, false, -3, THR_STRUCTURE, false},
-    {"the same, finer steps", "ranking_index_fine", settle_index_fine, false, -3, THR_STRUCTURE, false},
+    {"cords", "cords", cords, false, -1, THR_CAPSTAN, false, false},
+    {"passes", "passes", passes, true, -1, THR_CAPSTAN, false, false},
+    {"length", "length", length, true, 3, THR_CAPSTAN, false, false},
+    {"overlap", "overlap", overlap, true, 3, THR_CAPSTAN, false, false},
+    {"overlap %", "overlap_percent", overlap_percent, true, 2, THR_CAPSTAN, false, false},
+    {"above the shortest possible, %", "above_shortest_percent", above_shortest, false, -3, THR_CAPSTAN, false, false},
+    {"length: gap to its bound %", "gap_percent", gap_percent, false, -6, THR_CAPSTAN, false, true},
+    {"turning with closing turns, deg", "turning_deg", turning, true, 1, THR_CAPSTAN, false, false},
+    {"the same, largest cord, deg", "max_turning_deg", max_turning, true, 1, THR_CAPSTAN, false, false},
+    {"capstan factor of that cord", "max_capstan", capstan, true, -6, THR_CAPSTAN, false, true},
+    {"above the least turning, %", "above_least_turning_percent", above_least_turning, false, -3, THR_CAPSTAN, true, false},
+    {"turning: proven bound, deg", "turning_bound_deg", turning_bound, false, 1, THR_CAPSTAN, true, true},
+    {"turning: gap to it %", "turning_gap_percent", turning_gap, false, -6, THR_CAPSTAN, true, true},
+    {"turning: pairing bound, deg", "pairing_bound_deg", pairing_bound, false, 1, THR_CAPSTAN, true, true},
+    {"turning: bound of a cord, deg", "max_turning_bound_deg", largest_bound, false, 1, THR_CAPSTAN, true, true},
+    {"sharpest turn, deg", "worst_turn_deg", worst_turn, true, 1, THR_CAPSTAN, false, false},
+    {"turns over 60 deg", "turns_over_60", turns_over_60, true, -1, THR_CAPSTAN, false, false},
+    {"turns over 90 deg", "turns_over_90", turns_over_90, true, -1, THR_CAPSTAN, false, false},
+    {"U-turns", "u_turns", u_turns, true, -1, THR_CAPSTAN, false, false},
+    {"largest pull, closed form, N", "largest_pull", closed_largest, true, -6, THR_CAPSTAN, false, false},
+    {"all pulls together, N", "total_pull", closed_total, true, -6, THR_CAPSTAN, false, false},
+    {"turning of the tight cords, deg", "taut_turning_deg", taut_turning, true, 1, THR_JOINT, false, false},
+    {"largest pull, simulated, N", "joint_pull", joint_largest, true, -4, THR_JOINT, false, false},
+    {"its error where measured, +- %", "joint_error_percent", joint_error, false, -3, THR_JOINT, false, false},
+    {"turns by closed form", "joint_refused", joint_refused, false, -1, THR_JOINT, false, false},
+    {"all pulls together, simulated, N", "joint_total", joint_total, true, -4, THR_JOINT, false, false},
+    {"holding pull while drawn in, N", "holding_pull", holding, true, -6, THR_STRUCTURE, false, false},
+    {"simulation: index, no newtons", "ranking_index", settle_index, false, -3, THR_STRUCTURE, false, false},
+    {"the same, finer steps", "ranking_index_fine", settle_index_fine, false, -3, THR_STRUCTURE, false, false},
 };
 const int compare_n_rows = (int)(sizeof compare_rows / sizeof *compare_rows);
 
@@ -176,8 +189,21 @@ bool compare_is_best(const compare_entry *e, int n, const compare_row *r, int i)
   return true;
 }
 
+bool compare_on_frontier(const compare_entry *e, int n, int i)
+{
+  thr_method method = THR_JOINT;
+  for (int k = 0; k < n; k++)
+    if (!is_known(&e[k], THR_JOINT)) method = THR_CAPSTAN;
+  const thr_price mine = {e[i].plan.n_cords, e[i].plan.metrics.length, compare_largest(&e[i], method)};
+  for (int k = 0; k < n; k++)
+    if (thr_price_beats(&(thr_price){e[k].plan.n_cords, e[k].plan.metrics.length, compare_largest(&e[k], method)}, &mine))
+      return false;
+  return true;
+}
+
 bool compare_is_shown(const compare_entry *e, int n, const compare_row *r)
 {
+  if (r->machinery && !cli_verbose) return false;
   for (int i = 0; i < n && r->optional; i++)
     if (!isnan(r->value(&e[i]))) return true;
   return !r->optional;

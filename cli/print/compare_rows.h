@@ -22,6 +22,7 @@ typedef struct {
   int decimals;                           /* -1: whole number, -k: k significant digits */
   thr_method method;                      /* that must be wanted */
   bool optional;                          /* left out of the text where no plan has it */
+  bool machinery;                         /* in the text only with --verbose: what proofs are made of */
 } compare_row;
 
 extern const compare_row compare_rows[];
@@ -32,6 +33,9 @@ double compare_largest(const compare_entry *e, thr_method method);
 
 /* Is row r of plan i the best of n? Within a millionth is a tie: both are. */
 bool compare_is_best(const compare_entry *e, int n, const compare_row *r, int i);
+
+/* Is plan i on the frontier: does no other plan beat it in cord, number of cords and pull (as measured, if every plan's is)? */
+bool compare_on_frontier(const compare_entry *e, int n, int i);
 
 /* Is row r in the text for n plans? */
 bool compare_is_shown(const compare_entry *e, int n, const compare_row *r);

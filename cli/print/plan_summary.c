@@ -1,7 +1,9 @@
 /* The summary of `thread plan`, as text and as JSON. */
 #include "cli/print/plan_summary.h"
+#include "cli/print/plain.h"
 #include "cli/print/symmetry_table.h"
 #include "graph/framework/frame.h"
+#include "graph/plan/physics.h"
 #include "graph/plan/request.h"
 #include "graph/status.h"
 #include "graph/angle.h"
@@ -38,19 +40,19 @@ static cord_turns turns_of(const thr_plan *plan, const thr_cord *cord)
   return x;
 }
 
+/* pull: times the seating tension. */
 static void put_cord(thr_text *text, const thr_plan *plan, const thr_cord *cord, double pull)
 {
   const cord_turns x = turns_of(plan, cord);
   const char *from = plan->frame.name[thr_cord_start(&plan->frame, cord)],
              *to = plan->frame.name[thr_cord_end(&plan->frame, cord)];
-  char factor[24];
+  char factor[24], force[64];
   thr_text_printf(text, "%-5s %7d %14.3f %6.0f deg ", cord->id, cord->n_passes, thr_cord_length(&plan->frame, cord),
                   thr_degrees(x.turning));
   if (turns_least(plan)) thr_text_printf(text, "%6.0f deg ", thr_degrees(x.sharpest));
   thr_text_printf(text, "%8d ", x.u_turns);
-  if (turns_least(plan))
-    thr_text_printf(text, "%12s ", turning_factor(turning_capstan(plan->options.physics.mu, x.turning), factor));
-  thr_text_printf(text, "%12s", turning_factor(pull, factor));
+  if (cli_verbose) thr_text_printf(text, "%12s ", turning_factor(turning_capstan(plan->options.physics.mu, x.turning), factor));
+  thr_text_printf(text, "%18s", plain_force(pull * plan->options.physics.seating, force));
   thr_text_printf(text, cord->closed ? "  both at %s\n" : "  %s and %s\n", from, to);
 }
 
@@ -60,8 +62,8 @@ static void put_cords(thr_text *text, const thr_plan *plan, const double *pull)
   thr_text_printf(text, "%-5s %7s %14s %10s ", "cord", "passes", "length", "turning");
   if (turns_least(plan)) thr_text_printf(text, "%10s ", "sharpest");
   thr_text_printf(text, "%8s ", "U-turns");
-  if (turns_least(plan)) thr_text_printf(text, "%12s ", "capstan");
-  thr_text_printf(text, "%12s  %s\n", "pull", "ends");
+  if (cli_verbose) thr_text_printf(text, "%12s ", "capstan");
+  thr_text_printf(text, "%18s  %s\n", "pull", "ends");
   for (int i = 0; i < plan->n_cords && i < MOST; i++)
     put_cord(text, plan, &plan->cord[i], pull[i]);
   if (plan->n_cords > MOST) thr_text_printf(text, "..    and %d more\n", plan->n_cords - MOST);
@@ -114,26 +116,33 @@ static void put_head(thr_text *text, const thr_plan *plan)
   thr_text_append(text, "\n\n");
 }
 
+/* Whether fewer cords would do. */
+static void put_fewest(thr_text *text, int cords, int fewest, bool optimal, const char *within)
+{
+  thr_text_printf(text, "cords    %d", cords);
+  if (fewest > 1)
+    thr_text_printf(text, "; proved: fewer than %d are impossible%s", fewest, within);
+  else if (!optimal && cords > 1)
+    thr_text_append(text, "; whether fewer would do is not known");
+  thr_text_append(text, "\n");
+}
+
 /* How long the longest cord is, and whether fewer would do. */
 static void put_claim(thr_text *text, const thr_plan *plan, thr_cords_word word)
 {
   const thr_cords_claim *claim = &plan->cords_claim;
   const char *units = plan->frame.units;
   if (!claim->present) return;
-  thr_text_printf(text, "longest  %.6f %s", claim->longest, units);
-  if (claim->longest_optimal)
-    thr_text_append(text, "; optimal: with these options the longest cord is no shorter (verified)");
-  else if (thr_wants_balance(&plan->options))
-    thr_text_printf(text, "; at least %.6f %s is needed (verified), gap %.3g %%%s", claim->longest_bound, units,
-                    100 * (claim->longest - claim->longest_bound) / claim->longest,
-                    word.longest_least ? ";\n         optimal by the solver's word (not verified): none shorter exists" : "");
+  thr_text_printf(text, "longest  %.7g %s", claim->longest, units);
+  if (claim->longest_optimal || thr_wants_balance(&plan->options)) {
+    thr_text_append(text, "; ");
+    plain_put_proof(text, claim->longest_optimal, claim->longest, claim->longest_bound, "the longest cord can be no shorter",
+                    "shortest possible");
+  }
   thr_text_append(text, "\n");
-  if (claim->fewest == 0) return;
-  thr_text_printf(text, "cords    %d; ", plan->n_cords);
-  if (claim->fewest_optimal)
-    thr_text_append(text, "optimal: no fewer will do (verified)\n");
-  else
-    thr_text_printf(text, "at least %d are needed (verified)\n", claim->fewest);
+  if (!claim->longest_optimal && thr_wants_balance(&plan->options) && word.longest_least)
+    thr_text_append(text, "         the search ruled out every shorter one (not verified)\n");
+  if (claim->fewest > 0) put_fewest(text, plan->n_cords, claim->fewest, claim->fewest_optimal, "");
 }
 
 /* What hand and cord feel, and whether fewer cords would do with it. */
@@ -142,25 +151,23 @@ static void put_pull_limit(thr_text *text, const thr_plan *plan, double largest)
   const thr_request *options = &plan->options;
   const thr_pull_claim *claim = &plan->pull_claim;
   double seating = options->physics.seating;
+  char force[64];
   if (options->max_pull <= 0) return;
-  thr_text_printf(text, "hand     %.4g N at most at the end of a cord, both pulled: %.4g x %g N seating; %.6g N are allowed\n",
-                  largest * seating, largest, seating, options->max_pull * seating);
-  if (!claim->present) return;
-  thr_text_printf(text, "cords    %d; ", plan->n_cords);
-  if (claim->optimal)
-    thr_text_printf(text, "optimal: fewer than %d are impossible within that pull (verified)\n", claim->fewest);
-  else
-    thr_text_printf(text, "fewer than %d are impossible within that pull (verified)\n", claim->fewest);
+  thr_text_printf(text, "hand     %s at most at the end of a cord; %.6g N are allowed\n", plain_force(largest * seating, force),
+                  options->max_pull * seating);
+  if (claim->present) put_fewest(text, plan->n_cords, claim->fewest, claim->optimal, " within that pull");
 }
 
-/* What the checker has verified, and whether GLPK's exact simplex finds the same minimum on these cuts. */
+/* What the checker has verified, and whether GLPK's exact simplex finds the same minimum on these cuts: for those who ask. */
 static void put_certificate(thr_text *text, const thr_plan *plan)
 {
   const thr_length_proof *proof = &plan->proof;
   int cuts = thr_length_proof_cuts(proof);
   bool agreed = proof->confirmed > 0 && proof->unconfirmed == 0;
   bool missed = proof->unconfirmed > 0 && plan->options.confirm == THR_CONFIRM_ALWAYS;
-  thr_text_printf(text, "(certificate: %d %s, verified%s)", cuts, cli_cuts_word(plan, cuts),
+  if (!cli_verbose && plan->options.confirm != THR_CONFIRM_ALWAYS) return;
+  thr_text_printf(text, "         certificate: %d %s, verified; at least %.6f %s%s\n", cuts, cli_cuts_word(plan, cuts),
+                  proof->lower_bound, plan->frame.units,
                   agreed   ? "; GLPK agrees"
                   : missed ? "; not confirmed by GLPK"
                            : "");
@@ -169,45 +176,95 @@ static void put_certificate(thr_text *text, const thr_plan *plan)
 static void put_length_status(thr_text *text, const thr_plan *plan, thr_cords_word word)
 {
   const thr_length_proof *proof = &plan->proof;
-  if (proof->optimal) {
-    thr_text_append(text, "optimal: no threading with these options uses less cord ");
-    put_certificate(text, plan);
-    thr_text_append(text, "\n");
-  } else if (!thr_wants_length(&plan->options) || plan->options.max_length > 0 ||
-             thr_wants_balance(&plan->options)) { /* which asks for more */
-    thr_text_printf(text, "at least %.6f %s is needed ", proof->lower_bound, plan->frame.units);
-    put_certificate(text, plan);
-    thr_text_printf(text, "; this is %.2f %% more\n", 100 * (plan->metrics.length / proof->lower_bound - 1));
-  } else {
-    thr_text_printf(text, "not proved optimal: at least %.6f %s is needed, gap %.3g %%\n", proof->lower_bound, plan->frame.units,
-                    100 * proof->gap);
-  }
+  thr_text_append(text, "         ");
+  plain_put_length_proof(text, plan);
+  thr_text_append(text, "\n");
   if (!proof->optimal && word.passes_least && plan->options.max_length == 0 && !thr_wants_balance(&plan->options))
-    thr_text_append(text,
-                    "         optimal by the solver's word (not verified): all other passes were ruled out for so many cords\n");
+    thr_text_append(text, "         the search ruled out everything shorter with so many cords (not verified)\n");
+  put_certificate(text, plan);
+}
+
+/* What has no other cord, by cord: interfaces between rigid pieces, or with tube joints the pieces. */
+static int edges_alone(const thr_plan *plan, const int *only, int cord)
+{
+  int n = 0;
+  for (int e = 0; e < plan->frame.n_edges; e++)
+    n += only[e] == cord;
+  return n;
+}
+
+/* Pieces all of whose interfaces have no other cord. */
+static int pieces_alone(const thr_plan *plan, const int *only, int cord)
+{
+  const thr_frame *frame = &plan->frame;
+  int n = 0;
+  if (plan->options.joint == THR_JOINT_TUBE) return edges_alone(plan, only, cord);
+  for (int v = 0; v < frame->n_nodes; v++) {
+    bool alone = thr_degree(frame, v) > 0;
+    for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
+      alone = alone && only[frame->half[i] >> 1] == cord;
+    n += alone;
+  }
+  return n;
+}
+
+/* What comes loose if one of several cords is cut: the worst of them, and each if more is to be said. */
+static void put_cut(thr_text *text, const thr_plan *plan)
+{
+  int worst = 0, most = 0, *only = plan->n_cords > 1 ? thr_calloc((size_t)plan->frame.n_edges, sizeof *only) : NULL;
+  const char *what = plan->options.joint == THR_JOINT_TUBE ? "piece" : "interface";
+  if (plan->n_cords <= 1) return;
+  if (!only) {
+    text->failed = true;
+    return;
+  }
+  thr_cords_only(&plan->frame, plan->cord, plan->n_cords, only);
+  for (int i = 0; i < plan->n_cords; i++) {
+    int n = edges_alone(plan, only, i);
+    if (n > most) worst = i;
+    if (n > most) most = n;
+  }
+  if (most == 0)
+    thr_text_printf(text, "cut      whichever cord is cut, every %s keeps another\n", what);
+  else
+    thr_text_printf(text, "cut      if one cord is cut, at worst %d of %d %ss are left without any (cord %s)\n", most,
+                    plan->frame.n_edges, what, plan->cord[worst].id);
+  for (int i = 0; i < plan->n_cords && cli_verbose && most > 0; i++)
+    thr_text_printf(text, "         cord %s: %d without any, %d %s wholly loose\n", plan->cord[i].id, edges_alone(plan, only, i),
+                    pieces_alone(plan, only, i), cli_plural(pieces_alone(plan, only, i), "piece", "pieces"));
+  free(only);
+}
+
+/* By how many different cords the edges are passed, where that was asked for. */
+static void put_distinct(thr_text *text, const thr_plan *plan)
+{
+  int asked = plan->options.distinct, met = plan->metrics.distinct, n = plan->frame.n_edges;
+  if (asked > 0) thr_text_printf(text, "distinct %d of %d edges are passed by %d different cords\n", met, n, asked);
 }
 
 static void put_text(thr_text *text, const thr_plan *plan, const double *pull, double largest, const thr_rivals *rivals,
                      thr_cords_word word)
 {
   const thr_metrics *metrics = &plan->metrics;
-  double mu = plan->options.physics.mu;
+  const thr_physics *physics = &plan->options.physics;
   put_head(text, plan);
   put_cords(text, plan, pull);
   if (plan->symmetry.present) symmetry_put_paths(text, plan);
-  thr_text_printf(text, "\nlength   %.6f %s = %.6f for ", metrics->length, plan->frame.units, metrics->base_length);
+  thr_text_printf(text, "\nlength   %.7g %s = %.7g for ", metrics->length, plan->frame.units, metrics->base_length);
   if (plan->frame.cover)
     thr_text_append(text, "the passes that every edge needs");
   else
     thr_text_printf(text, "%d %s over every edge", plan->options.cover, cli_plural(plan->options.cover, "pass", "passes"));
-  thr_text_printf(text, " + %.6f overlap (%.1f %%)\n", metrics->overlap, 100 * metrics->overlap / metrics->base_length);
-  thr_text_append(text, "         ");
+  thr_text_printf(text, " + %.7g overlap (%.1f %%)\n", metrics->overlap, 100 * metrics->overlap / metrics->base_length);
   put_length_status(text, plan, word);
   put_claim(text, plan, word);
+  put_distinct(text, plan);
+  put_cut(text, plan);
   put_pull_limit(text, plan, largest);
   if (rivals) turning_put_status(text, plan, rivals);
-  if (rivals) thr_text_printf(text, "capstan  exp(mu x turning): the factor from one end of a cord to the other (mu = %g)\n", mu);
-  thr_text_printf(text, "pull     with both ends pulled, times the tension that must reach the slackest point (mu = %g)\n", mu);
+  if (cli_verbose) thr_text_append(text, "capstan  exp(mu x turning): the factor from one end of a cord to the other\n");
+  thr_text_printf(text, "pull     at both ends of every cord, so that %g N is left where it is slackest (friction mu = %g)\n",
+                  physics->seating, physics->mu);
   if (rivals) turning_put_table(text, plan, rivals);
   if (rivals) turning_put_frontier(text, plan, rivals);
 }
@@ -243,6 +300,30 @@ static void put_claim_json(thr_writer *writer, const thr_plan *plan, thr_cords_w
   thr_write_string(writer, "fewest_status", claim->fewest_optimal ? "optimal" : "bound");
 }
 
+/* Of several cords, the edges that each alone passes, and how many pieces come wholly loose without it. */
+static void put_cut_json(thr_writer *writer, const thr_plan *plan)
+{
+  int *only = thr_calloc((size_t)plan->frame.n_edges, sizeof *only);
+  if (!only) {
+    writer->out->failed = true;
+    return;
+  }
+  thr_cords_only(&plan->frame, plan->cord, plan->n_cords, only);
+  thr_write_array(writer, "cut");
+  for (int i = 0; i < plan->n_cords; i++) {
+    thr_write_object(writer, NULL);
+    thr_write_string(writer, "cord", plan->cord[i].id);
+    thr_write_int(writer, "pieces", pieces_alone(plan, only, i));
+    thr_write_row(writer, "edges");
+    for (int e = 0; e < plan->frame.n_edges; e++)
+      if (only[e] == i) thr_write_int(writer, NULL, e);
+    thr_write_close(writer);
+    thr_write_close(writer);
+  }
+  thr_write_close(writer);
+  free(only);
+}
+
 void plan_put_json(thr_writer *writer, const thr_plan *plan, const thr_rivals *rivals, thr_cords_word word)
 {
   const thr_metrics *metrics = &plan->metrics;
@@ -260,13 +341,17 @@ void plan_put_json(thr_writer *writer, const thr_plan *plan, const thr_rivals *r
   thr_write_number(writer, "max_turning", metrics->max_turning);
   thr_write_number(writer, "mu", plan->options.physics.mu);
   thr_write_string(writer, "status", plan->proof.optimal ? "optimal" : "bound");
-  thr_write_number(writer, "pull_factor", turning_pull(plan, NULL));
+  double factor = turning_pull(plan, NULL);
+  thr_write_number(writer, "pull_factor", factor);
+  thr_write_number(writer, "pull", factor * plan->options.physics.seating);
   if (plan->options.max_pull > 0) thr_write_number(writer, "max_pull", plan->options.max_pull);
   if (plan->pull_claim.present) {
     thr_write_int(writer, "fewest_cords_for_pull", plan->pull_claim.fewest);
     thr_write_string(writer, "fewest_cords_for_pull_status", plan->pull_claim.optimal ? "optimal" : "bound");
   }
   if (plan->cords_claim.present) put_claim_json(writer, plan, word);
+  if (plan->options.distinct > 0) thr_write_int(writer, "distinct", metrics->distinct);
+  if (plan->n_cords > 1) put_cut_json(writer, plan);
   if (rivals) turning_put_json(writer, plan, rivals);
   if (plan->symmetry.present) symmetry_put_json(writer, plan);
 }

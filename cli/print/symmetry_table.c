@@ -1,7 +1,9 @@
 /* Groups and copies in words and in JSON. */
 #include "cli/print/symmetry_table.h"
+#include "cli/print/plain.h"
 #include "cli/print/turning_summary.h"
 #include "graph/angle.h"
+#include "graph/plan/reading.h"
 #include "symmetry/group/automorphisms.h"
 #include "symmetry/group/isometry.h"
 #include "symmetry/lift/keep.h"
@@ -59,15 +61,13 @@ static void copies_of(const thr_symmetry_row *row, char out[40])
     snprintf(out, 40, "%d x %d-%d", paths, row->least_copies, row->most_copies);
 }
 
-/* The solver's word, which no checker verifies: "optimal", or the first aim that may not be as low as can be. */
+/* The solver's word, which no checker verifies: "nothing", or the first aim that may not be as low as can be. */
 static const char *solvers_word(const thr_request *options, const thr_symmetry_row *row)
 {
-  static const char *const no[] = {[THR_AIM_OVERLAP] = "not overlap",
-                                   [THR_AIM_STEPS] = "not steps",
-                                   [THR_AIM_PATHS] = "not paths",
-                                   [THR_AIM_TURNING] = "not turning"};
+  static const char *const no[] = {
+      [THR_AIM_OVERLAP] = "overlap", [THR_AIM_STEPS] = "steps", [THR_AIM_PATHS] = "paths", [THR_AIM_TURNING] = "turning"};
   thr_aim order[THR_N_AIMS];
-  if (row->why.code == THR_OK) return "optimal";
+  if (row->why.code == THR_OK) return "nothing";
   thr_aims_order(options, order);
   for (int k = 0; k < THR_N_AIMS - 1; k++) {
     thr_aim aim = order[k];
@@ -83,15 +83,16 @@ void symmetry_put_head(thr_text *text, const thr_frame *frame, const thr_request
   bool shape = options->symmetry.geometric >= 0;
   double kept = shape ? symmetries->keep_lengths[0] : symmetries->mantissa;
   int exponent = shape ? (int)symmetries->keep_lengths[1] : symmetries->exponent;
-  const char *automorphisms = exponent == 0 && kept == 1 ? "automorphism" : "automorphisms";
+  const char *ways = exponent == 0 && kept == 1 ? "way" : "ways";
   if (shape)
-    thr_text_printf(text, "%.0f %s within %g, of ", symmetries->mantissa, symmetries->mantissa == 1 ? "isometry" : "isometries",
-                    options->symmetry.geometric);
+    thr_text_printf(text, "%.0f %s of the shape within %g, of ", symmetries->mantissa,
+                    symmetries->mantissa == 1 ? "motion" : "motions", options->symmetry.geometric);
   put_order(text, kept, exponent);
-  thr_text_printf(text, " %s by nauty %s%s", automorphisms, thr_nauty_version(), shape ? " that keep edge lengths" : "");
-  thr_text_printf(text, "; %d %s of %d nodes, %d of %d edges; %d %s of groups%s\n", symmetries->node_orbits,
-                  cli_plural(symmetries->node_orbits, "orbit", "orbits"), frame->n_nodes, symmetries->edge_orbits, frame->n_edges,
-                  symmetries->n, cli_plural(symmetries->n, "class", "classes"), symmetries->listed ? "" : ", not all:");
+  thr_text_printf(text, " %s to map the framework onto itself%s", ways, shape ? " with edges as long" : "");
+  if (cli_verbose) thr_text_printf(text, " (automorphisms by nauty %s)", thr_nauty_version());
+  thr_text_printf(text, "; %d %s among %d nodes, %d among %d edges; %d %s of groups%s\n", symmetries->node_orbits,
+                  cli_plural(symmetries->node_orbits, "kind", "kinds"), frame->n_nodes, symmetries->edge_orbits, frame->n_edges,
+                  symmetries->n, cli_plural(symmetries->n, "kind", "kinds"), symmetries->listed ? "" : ", not all:");
   if (!symmetries->listed) thr_text_printf(text, "%s\n", symmetries->note);
   double base = 0;
   for (int e = 0; e < frame->n_edges; e++)
@@ -103,22 +104,27 @@ void symmetry_put_head(thr_text *text, const thr_frame *frame, const thr_request
                   100 * (symmetries->shortest - base) / base, symmetries->shortest_optimal ? "" : " (not proved)");
 }
 
+/* N at the hardest end. */
+static double row_pull(const thr_request *options, const thr_symmetry_row *row)
+{
+  return options->physics.seating * turning_capstan(options->physics.mu, row->pulled);
+}
+
 static void put_row(thr_text *text, const thr_request *options, const thr_symmetries *symmetries, int i)
 {
   const thr_symmetry_row *row = &symmetries->row[i];
   const thr_metrics *metrics = &row->metrics;
-  char copies[40], factor[24];
+  char copies[40], force[24];
   thr_text_printf(text, "%c %4d %6d  %-6s ", i == symmetries->chosen ? '*' : ' ', i + 1, row->order,
                   *row->name ? row->name : "graph");
   if (row->n_cords > 0) {
     copies_of(row, copies);
-    thr_text_printf(text, "%7.1f %% %11s %8.6g %6d %8.0f deg %8.0f deg %12s %11s", 100 * metrics->overlap / metrics->base_length,
+    thr_text_printf(text, "%7.1f %% %14s %8.6g %6d %8.0f deg %8.0f deg %12s %11s", 100 * metrics->overlap / metrics->base_length,
                     copies, row->record.steps, row->n_cords, thr_degrees(metrics->turning), thr_degrees(metrics->max_turning),
-                    turning_factor(turning_capstan(options->physics.mu, metrics->max_turning), factor),
-                    solvers_word(options, row));
+                    plain_newtons(row_pull(options, row), force), solvers_word(options, row));
   } else {
     bool open = row->why.code == THR_ELIMIT || row->why.code == THR_ESOLVER;
-    thr_text_printf(text, "  %-86.86s", open ? row->why.text : row->why.code ? "no threading" : "not asked for");
+    thr_text_printf(text, "  %-89.89s", open ? row->why.text : row->why.code ? "no threading" : "not asked for");
   }
   thr_text_printf(text, " %8.3f  ", row->residual);
   put_kinds(text, row);
@@ -163,8 +169,8 @@ void symmetry_put_table(thr_text *text, const thr_request *options, const thr_sy
 {
   int first, last, behind = 0, at = 0;
   choose_window(options, symmetries, *options->symmetry.group ? symmetries->n : most, &first, &last);
-  thr_text_printf(text, "%6s %6s  %-6s %9s %11s %8s %6s %12s %12s %12s %11s %8s  %s\n", "number", "order", "group", "overlap",
-                  "unique x", "steps", "cords", "turning", "largest", "capstan", "solver says", "residual", "elements");
+  thr_text_printf(text, "%6s %6s  %-6s %9s %14s %8s %6s %12s %12s %12s %11s %8s  %s\n", "number", "order", "group", "overlap",
+                  "paths x copies", "steps", "cords", "turning", "largest", "pull, N", "may be less", "residual", "elements");
   if (first > 0) thr_text_printf(text, "    ..  %d larger\n", first);
   for (int i = 0; i < symmetries->n; i++) {
     behind += symmetries->row[i].behind > 0;
@@ -207,6 +213,20 @@ static void put_copies_of(thr_text *text, const thr_plan *plan, int path)
   thr_text_append(text, n > MOST ? ", ..\n" : "\n");
 }
 
+/* "to read: 16 instructions; beads straight on are one, 7 paths are others moved along". */
+static void put_reading(thr_text *text, const thr_plan *plan)
+{
+  const thr_reading reading = thr_reading_of(plan);
+  thr_text_printf(text, "         to read: %d %s; beads straight on are one", reading.instructions,
+                  cli_plural(reading.instructions, "instruction", "instructions"));
+  if (reading.repeated > 0)
+    thr_text_printf(text, ", %d %s the same again further on", reading.repeated,
+                    cli_plural(reading.repeated, "path does", "paths do"));
+  if (reading.moved > 0)
+    thr_text_printf(text, ", %d %s moved along", reading.moved, cli_plural(reading.moved, "path is another", "paths are others"));
+  thr_text_append(text, "\n");
+}
+
 void symmetry_put_paths(thr_text *text, const thr_plan *plan)
 {
   enum { MOST = 12 };
@@ -219,6 +239,7 @@ void symmetry_put_paths(thr_text *text, const thr_plan *plan)
   for (int i = 0; i < plan->n_cords; i++)
     if (record->unique[i] == i && n++ < MOST) put_copies_of(text, plan, i);
   if (n > MOST) thr_text_printf(text, "         .. and %d more unique paths\n", n - MOST);
+  put_reading(text, plan);
 }
 
 /* ---- JSON ---- */
@@ -265,6 +286,7 @@ static void put_threading_json(thr_writer *writer, const thr_request *options, c
   thr_write_number(writer, "turning", metrics->turning);
   thr_write_number(writer, "max_turning", metrics->max_turning);
   thr_write_number(writer, "max_capstan", turning_capstan(options->physics.mu, metrics->max_turning));
+  thr_write_number(writer, "pull", row_pull(options, row));
   thr_write_object(writer, "bound");
   for (int a = 0; a < THR_N_AIMS; a++)
     thr_write_number(writer, thr_aim_name(a), row->bound[a]);
@@ -328,6 +350,10 @@ void symmetry_put_json(thr_writer *writer, const thr_plan *plan)
   thr_write_close(writer);
   thr_write_int(writer, "unique_paths", record->unique_paths);
   thr_write_number(writer, "steps", record->steps);
+  const thr_reading reading = thr_reading_of(plan);
+  thr_write_int(writer, "instructions", reading.instructions);
+  thr_write_int(writer, "repeated_paths", reading.repeated);
+  thr_write_int(writer, "moved_paths", reading.moved);
   thr_write_array(writer, "copies");
   for (int i = 0; i < plan->n_cords; i++) {
     thr_text by = {0};

@@ -40,6 +40,7 @@ static void put_passes(thr_text *text, const thr_plan *plan)
   const thr_request *options = &plan->options;
   thr_text_printf(text, "; %d %s of every edge or more", options->cover, cli_plural(options->cover, "pass", "passes"));
   if (plan->frame.cover) thr_text_append(text, ", as the framework says");
+  if (options->distinct) thr_text_printf(text, ", by %d different cords", options->distinct);
   if (options->capacity) thr_text_printf(text, ", at most %d", options->capacity);
   if (plan->frame.capacity)
     thr_text_append(text, options->capacity ? " or what the framework allows" : ", at most what the framework allows");

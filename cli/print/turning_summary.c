@@ -1,5 +1,6 @@
 /* The table "each against", what is proved of the turning, and the frontier. */
 #include "cli/print/turning_summary.h"
+#include "cli/print/plain.h"
 #include "eval/eval.h"
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
@@ -20,7 +21,7 @@ typedef struct {
   double value[N_FIGURES];
 } figures;
 
-typedef enum { FORMAT_LENGTH, FORMAT_PERCENT, FORMAT_ANGLE, FORMAT_PRICE, FORMAT_FACTOR, FORMAT_COUNT } format;
+typedef enum { FORMAT_LENGTH, FORMAT_PERCENT, FORMAT_ANGLE, FORMAT_PRICE, FORMAT_FACTOR, FORMAT_FORCE, FORMAT_COUNT } format;
 
 /* Those that any plan's JSON has are not written again. */
 static const struct {
@@ -38,7 +39,7 @@ static const struct {
     [OVER_60] = {"turns over 60 deg", "turns_over_60", FORMAT_COUNT, false},
     [OVER_90] = {"turns over 90 deg", "turns_over_90", FORMAT_COUNT, false},
     [U_TURNS] = {"U-turns", "u_turns", FORMAT_COUNT, false},
-    [PULL] = {"largest pull", "pull_factor", FORMAT_FACTOR, true},
+    [PULL] = {"largest pull, N", "pull_factor", FORMAT_FORCE, true}, /* times the seating tension */
 };
 
 double turning_capstan(double mu, double turning)
@@ -139,17 +140,25 @@ static figures figures_of_bound(const thr_plan *plan, const thr_rivals *rivals)
 static void put_price(thr_text *text, const thr_plan *plan, double price)
 {
   if (in_angles(plan))
-    thr_text_printf(text, "%.3f deg", thr_degrees(price));
+    thr_text_printf(text, "%.1f deg", thr_degrees(price));
   else
     thr_text_printf(text, "%.6g (%s)", price, thr_turn_cost_name(plan->options.turning.cost));
 }
 
-/* Branchings, and sets of multipliers at the leaves. */
-static void put_proof(thr_text *text, const thr_turning_proof *tree)
+/* For those who ask: branchings, sets of multipliers at the leaves, and what every node would turn on its own. */
+static void put_machinery(thr_text *text, const thr_plan *plan)
 {
+  const thr_turning_claim *claim = &plan->turning;
+  const thr_turning_proof *tree = &claim->tree;
   int n = tree->n_nodes / 2;
-  thr_text_printf(text, "(proof: %d %s, %d %s, verified)\n", n, cli_plural(n, "branching", "branchings"), tree->n_duals,
+  if (!cli_verbose) return;
+  thr_text_printf(text, "         proof: %d %s, %d %s, verified; all cords together need at least ", n,
+                  cli_plural(n, "branching", "branchings"), tree->n_duals,
                   cli_plural(tree->n_duals, "multiplier set", "multiplier sets"));
+  put_price(text, plan, claim->lower_bound);
+  thr_text_append(text, "\n         these passes, paired at every node on its own: ");
+  put_price(text, plan, claim->pairing_bound);
+  thr_text_append(text, "; that may be several loops\n");
 }
 
 /* What a limit on the length is measured from, where that is more than the length proof needs: the shortest passes may not hold
@@ -158,7 +167,7 @@ static void put_shortest(thr_text *text, const thr_plan *plan)
 {
   double shortest = plan->turning.length_limit / (1 + plan->options.turning.length_slack), least = plan->proof.lower_bound;
   if (plan->turning.length_limit < 0 || shortest <= least * (1 + 1e-9)) return;
-  thr_text_printf(text, "         shortest found for %s: %.6f %s, %.2f %% above the least length that is proved\n",
+  thr_text_printf(text, "         shortest found for %s: %.7g %s, %.2f %% above the least length that is proved\n",
                   plan->options.cords > 1 ? "so many cords" : "one cord", shortest, plan->frame.units,
                   100 * (shortest / least - 1));
 }
@@ -168,12 +177,9 @@ static void put_restriction(thr_text *text, const thr_plan *plan)
   const thr_turning_claim *claim = &plan->turning;
   thr_text_printf(text, "         among threadings with at most %d %s over an edge", claim->most_passes,
                   cli_plural(claim->most_passes, "pass", "passes"));
-  if (claim->length_limit >= 0) thr_text_printf(text, ", cord up to %.6f %s", claim->length_limit, plan->frame.units);
+  if (claim->length_limit >= 0) thr_text_printf(text, ", cord up to %.7g %s", claim->length_limit, plan->frame.units);
   thr_text_append(text, " and U-turns only at beads with one interface\n");
   put_shortest(text, plan);
-  thr_text_append(text, "         these passes, paired at every node on its own: ");
-  put_price(text, plan, claim->pairing_bound);
-  thr_text_append(text, "; that may be several loops\n");
 }
 
 static void put_largest(thr_text *text, const thr_plan *plan)
@@ -181,15 +187,10 @@ static void put_largest(thr_text *text, const thr_plan *plan)
   const thr_turning_claim *claim = &plan->turning;
   thr_text_append(text, "largest  ");
   put_price(text, plan, claim->largest);
-  if (claim->largest_optimal) {
-    thr_text_printf(text, "\n         optimal: the cord that turns most cannot %s less, the bound is attained\n",
-                    in_angles(plan) ? "turn" : "cost");
-    return;
-  }
-  thr_text_append(text, "\n         not proved optimal: at least ");
-  put_price(text, plan, claim->largest_bound);
-  thr_text_printf(text, " is needed by the cord that turns most, gap %.3g %%\n",
-                  100 * (1 - claim->largest_bound / claim->largest));
+  thr_text_append(text, ", the cord that turns most; ");
+  plain_put_proof(text, claim->largest_optimal, claim->largest, claim->largest_bound,
+                  in_angles(plan) ? "it cannot turn less" : "it cannot cost less", "least possible");
+  thr_text_append(text, "\n");
 }
 
 /* Names of the nodes where cords turn back, each once. */
@@ -221,48 +222,45 @@ static void put_u_turns(thr_text *text, const thr_plan *plan)
 static void put_tour_status(thr_text *text, const thr_plan *plan, const thr_rivals *rivals)
 {
   const thr_turning_claim *claim = claim_of(plan, rivals);
-  thr_text_append(text, "         a classical tour, nothing proved");
-  if (claim) {
-    thr_text_append(text, "; least turning needs at least ");
-    put_price(text, plan, claim->lower_bound);
-  }
+  thr_text_append(text, "; a classical tour, of which nothing is proved\n");
+  if (!claim) return;
+  thr_text_append(text, "         the least turning is at least ");
+  put_price(text, plan, claim->lower_bound);
   thr_text_append(text, "\n");
 }
 
 void turning_put_status(thr_text *text, const thr_plan *plan, const thr_rivals *rivals)
 {
   const thr_turning_claim *claim = &plan->turning;
-  thr_text_printf(text, "turning  %.3f deg", thr_degrees(plan->metrics.turning));
+  thr_text_printf(text, "turning  %.1f deg", thr_degrees(plan->metrics.turning));
+  if (plan->n_cords > 1) thr_text_append(text, ", all cords together");
   if (!in_angles(plan)) {
     thr_text_append(text, ", price ");
     put_price(text, plan, price_of(plan, plan));
   }
-  thr_text_append(text, "\n");
   if (!claim->present) {
     put_tour_status(text, plan, rivals);
-  } else if (claim->optimal) {
-    thr_text_printf(text, "         optimal: no threading with these options %s ",
-                    in_angles(plan) ? "turns less" : "has a lower price");
-    put_proof(text, &claim->tree);
   } else {
-    thr_text_append(text, thr_wants_largest(&plan->options) ? "         all cords together need at least "
-                                                            : "         not proved optimal: at least ");
-    put_price(text, plan, claim->lower_bound);
-    thr_text_printf(text, "%s, gap %.3g %% ", thr_wants_largest(&plan->options) ? "" : " is needed", 100 * claim->gap);
-    put_proof(text, &claim->tree);
+    thr_text_append(text, "; ");
+    plain_put_proof(text, claim->optimal, claim->price, claim->lower_bound,
+                    in_angles(plan) ? "nothing turns less" : "nothing has a lower price", "least possible");
+    thr_text_append(text, "\n");
+    if (plan->n_cords > 1 || thr_wants_largest(&plan->options)) put_largest(text, plan);
+    put_restriction(text, plan);
+    put_machinery(text, plan);
   }
-  if (claim->present) put_restriction(text, plan);
-  if (claim->present && (plan->n_cords > 1 || thr_wants_largest(&plan->options))) put_largest(text, plan);
   put_u_turns(text, plan);
 }
 
-static void put_cell(thr_text *text, format kind, double value)
+static void put_cell(thr_text *text, format kind, double value, double seating)
 {
   char cell[40], factor[24];
   if (isnan(value))
     snprintf(cell, sizeof cell, "-");
   else if (kind == FORMAT_FACTOR)
     snprintf(cell, sizeof cell, "%s", turning_factor(value, factor));
+  else if (kind == FORMAT_FORCE)
+    plain_newtons(value * seating, cell);
   else if (kind == FORMAT_PRICE)
     snprintf(cell, sizeof cell, "%.6g", value);
   else
@@ -293,7 +291,7 @@ static int make_columns(const thr_plan *plan, const thr_rivals *rivals, column o
 {
   int n = 0;
   out[n++] = (column){"this plan", yes_or_no(plan), figures_of(plan, plan)};
-  out[n++] = (column){"lower bound", "-", figures_of_bound(plan, rivals)};
+  out[n++] = (column){"at least", "-", figures_of_bound(plan, rivals)};
   if (rivals->corner.made)
     out[n++] = (column){rivals->corner.title, yes_or_no(&rivals->corner.plan), figures_of(plan, &rivals->corner.plan)};
   if (rivals->length.made) out[n++] = (column){rivals->length.title, "-", figures_of(plan, &rivals->length.plan)};
@@ -313,13 +311,13 @@ void turning_put_table(thr_text *text, const thr_plan *plan, const thr_rivals *r
   for (int k = 0; k < n; k++)
     thr_text_printf(text, " %18s", c[k].title);
   for (int i = 0; i < N_FIGURES; i++) {
-    if (i == PRICE && in_angles(plan)) continue; /* the turning itself */
+    if ((i == PRICE && in_angles(plan)) || (i == CAPSTAN && !cli_verbose)) continue; /* the turning itself; for those who ask */
     if (i == LENGTH)
       thr_text_printf(text, "\nlength, %-19s", plan->frame.units);
     else
       thr_text_printf(text, "\n%-27s", figure[i].label);
     for (int k = 0; k < n; k++)
-      put_cell(text, figure[i].format, c[k].figures.value[i]);
+      put_cell(text, figure[i].format, c[k].figures.value[i], plan->options.physics.seating);
   }
   thr_text_printf(text, "\n%-27s", "proved to turn least");
   for (int k = 0; k < n; k++)
@@ -329,6 +327,11 @@ void turning_put_table(thr_text *text, const thr_plan *plan, const thr_rivals *r
   put_left_out(text, &rivals->length);
 }
 
+double turning_point_pull(const thr_plan *plan, const thr_frontier_point *point, double mu)
+{
+  return plan->options.physics.seating * turning_capstan(mu, point->pulled);
+}
+
 void turning_put_frontier(thr_text *text, const thr_plan *plan, const thr_rivals *rivals)
 {
   const thr_frontier *frontier = &rivals->frontier;
@@ -336,26 +339,23 @@ void turning_put_frontier(thr_text *text, const thr_plan *plan, const thr_rivals
   if (frontier->n == 0) return;
   thr_text_printf(text, "\nfrontier: the least turning for each length\n%14s %16s %13s", "length", "above shortest", "turning");
   if (!angles) thr_text_printf(text, " %13s", "price");
-  thr_text_printf(text, " %13s %9s %13s %12s\n", "lower bound", "gap", "largest cord", "capstan");
+  thr_text_printf(text, " %13s %13s %12s\n", "at least", "largest cord", "pull, N");
   for (int i = 0; i < frontier->n; i++) {
     const thr_frontier_point *frontier_point = &frontier->point[i];
-    char factor[24];
+    char force[24];
     thr_text_printf(text, "%14.3f %14.2f %% %9.1f deg", frontier_point->length,
                     100 * fmax(0, frontier_point->length / plan->proof.lower_bound - 1), thr_degrees(frontier_point->turning));
     if (angles)
       thr_text_printf(text, " %9.1f deg", thr_degrees(frontier_point->lower_bound));
     else
       thr_text_printf(text, " %13.6g %13.6g", frontier_point->price, frontier_point->lower_bound);
-    thr_text_printf(text, " %7.3g %% %9.1f deg %12s%s\n",
-                    !frontier_point->open || frontier_point->price <= 0
-                        ? 0
-                        : 100 * fmax(0, 1 - frontier_point->lower_bound / frontier_point->price),
-                    thr_degrees(frontier_point->max_turning),
-                    turning_factor(turning_capstan(plan->options.physics.mu, frontier_point->max_turning), factor),
+    thr_text_printf(text, " %9.1f deg %12s%s\n", thr_degrees(frontier_point->max_turning),
+                    plain_newtons(turning_point_pull(plan, frontier_point, plan->options.physics.mu), force),
                     frontier_point->open ? "  *" : "");
     proved &= !frontier_point->open;
   }
-  if (!proved) thr_text_append(text, "* not proved optimal: of that length, or less, none turns less than the lower bound\n");
+  if (!proved)
+    thr_text_append(text, "* not proved: of that length, or less, something may turn less, but not less than \"at least\"\n");
 }
 
 /* ---- JSON ---- */
@@ -419,6 +419,7 @@ static void put_frontier_json(thr_writer *writer, const thr_plan *plan, const th
     put_bound_json(writer, plan, frontier_point->lower_bound);
     thr_write_number(writer, "max_turning", frontier_point->max_turning);
     thr_write_number(writer, "max_capstan", turning_capstan(plan->options.physics.mu, frontier_point->max_turning));
+    thr_write_number(writer, "pull", turning_point_pull(plan, frontier_point, plan->options.physics.mu));
     thr_write_string(writer, "turning_status", frontier_point->open ? "bound" : "optimal");
     thr_write_close(writer);
   }

@@ -6,6 +6,7 @@
 #include "graph/io/writer.h"
 #include "graph/plan/plan.h"
 #include "graph/text.h"
+#include "planner/least_turning.h"
 #include "planner/rivals.h"
 
 static const double turning_right_angle = 1.57079632679489661923;
@@ -16,6 +17,9 @@ double turning_capstan(double mu, double turning);
 /* Largest pull of a plan by the closed form, times the tension at the slackest point: INFINITY beyond 1e300, NAN if not known.
  * cord (NULL or [n_cords]) receives that of each. */
 double turning_pull(const thr_plan *plan, double *cord);
+
+/* N at the hardest end of the cords of a point of the frontier, at that friction; INFINITY beyond 1e300. */
+double turning_point_pull(const thr_plan *plan, const thr_frontier_point *point, double mu);
 
 /* "65.9 x", "1.2e+34 x", "> 1e300 x"; "-" for NAN. */
 const char *turning_factor(double value, char out[24]);

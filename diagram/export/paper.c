@@ -1,9 +1,9 @@
 #define _POSIX_C_SOURCE 200809L
 #include "diagram/export/paper.h"
+#include "graph/angle.h"
 #include "graph/process/lazy.h"
 
 #include <cairo-pdf.h>
-#include <librsvg/rsvg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,33 +25,53 @@ const char *__lsan_default_options(void)
 #endif
 
 #define FUNCTIONS(F)                                                                                                             \
+  F(cairo_arc)                                                                                                                   \
+  F(cairo_clip)                                                                                                                  \
+  F(cairo_close_path)                                                                                                            \
   F(cairo_create)                                                                                                                \
+  F(cairo_curve_to)                                                                                                              \
   F(cairo_destroy)                                                                                                               \
+  F(cairo_fill)                                                                                                                  \
+  F(cairo_fill_preserve)                                                                                                         \
+  F(cairo_line_to)                                                                                                               \
+  F(cairo_move_to)                                                                                                               \
+  F(cairo_new_path)                                                                                                              \
+  F(cairo_new_sub_path)                                                                                                          \
   F(cairo_pdf_surface_create_for_stream)                                                                                         \
   F(cairo_pdf_surface_set_metadata)                                                                                              \
+  F(cairo_rectangle)                                                                                                             \
+  F(cairo_restore)                                                                                                               \
+  F(cairo_save)                                                                                                                  \
+  F(cairo_scale)                                                                                                                 \
+  F(cairo_select_font_face)                                                                                                      \
+  F(cairo_set_dash)                                                                                                              \
+  F(cairo_set_font_size)                                                                                                         \
+  F(cairo_set_line_cap)                                                                                                          \
+  F(cairo_set_line_join)                                                                                                         \
+  F(cairo_set_line_width)                                                                                                        \
+  F(cairo_set_miter_limit)                                                                                                       \
+  F(cairo_set_source_rgba)                                                                                                       \
   F(cairo_show_page)                                                                                                             \
+  F(cairo_show_text)                                                                                                             \
   F(cairo_status)                                                                                                                \
   F(cairo_status_to_string)                                                                                                      \
+  F(cairo_stroke)                                                                                                                \
   F(cairo_surface_destroy)                                                                                                       \
   F(cairo_surface_finish)                                                                                                        \
   F(cairo_surface_status)                                                                                                        \
-  F(g_error_free)                                                                                                                \
-  F(g_object_unref)                                                                                                              \
-  F(rsvg_handle_new_from_data)                                                                                                   \
-  F(rsvg_handle_render_document)
+  F(cairo_text_extents)                                                                                                          \
+  F(cairo_translate)
 
-/* Of librsvg, and of what it needs itself: cairo and GLib. */
+/* Of cairo. */
 static struct {
   FUNCTIONS(THR_LAZY_POINTER)
   bool loaded;
 } lib;
 
-/* GLib must not allocate by slices: where memory is out it says so with the lock of slices held, and waits for itself. */
 static thr_status load(thr_err *err)
 {
   static const thr_lazy_symbol symbol[] = {FUNCTIONS(THR_LAZY_SYMBOL)};
-  if (setenv("G_SLICE", "always-malloc", 0)) return thr_nomem(err);
-  return thr_lazy_load(&lib.loaded, THR_LIBRARY_RSVG_2, symbol, sizeof symbol / sizeof *symbol, err);
+  return thr_lazy_load(&lib.loaded, THR_LIBRARY_CAIRO, symbol, sizeof symbol / sizeof *symbol, err);
 }
 
 static const double POINT = 25.4 / 72; /* mm */
@@ -59,8 +79,7 @@ static const double POINT = 25.4 / 72; /* mm */
 struct thr_paper {
   cairo_surface_t *surface;
   cairo_t *cairo;
-  double width, height; /* pt */
-  const thr_text *out;  /* borrowed */
+  const thr_text *out; /* borrowed */
 };
 
 const char *thr_page_name(int s)
@@ -98,6 +117,14 @@ static void describe(cairo_surface_t *surface, const char *title)
   lib.cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_MOD_DATE, epoch);
 }
 
+/* In mm; mitres as long as in SVG. */
+static void begin_page(thr_paper *paper)
+{
+  lib.cairo_save(paper->cairo);
+  lib.cairo_scale(paper->cairo, 1 / POINT, 1 / POINT);
+  lib.cairo_set_miter_limit(paper->cairo, 4);
+}
+
 thr_status thr_paper_open(thr_paper **paper, thr_page_size size, const char *title, thr_text *out, thr_err *err)
 {
   double mm[2];
@@ -108,31 +135,128 @@ thr_status thr_paper_open(thr_paper **paper, thr_page_size size, const char *tit
   thr_paper *new = *paper = thr_calloc(1, sizeof *new);
   if (!new) return thr_nomem(err);
   new->out = out;
-  new->width = mm[0] / POINT;
-  new->height = mm[1] / POINT;
-  new->surface = lib.cairo_pdf_surface_create_for_stream(append, out, new->width, new->height);
+  new->surface = lib.cairo_pdf_surface_create_for_stream(append, out, mm[0] / POINT, mm[1] / POINT);
   new->cairo = lib.cairo_create(new->surface);
   cairo_status_t status = lib.cairo_status(new->cairo);
   if (status) return failed(status, err);
   describe(new->surface, title);
+  begin_page(new);
   return THR_OK;
 }
 
-thr_status thr_paper_add(thr_paper *paper, const thr_text *svg, thr_err *err)
+thr_status thr_paper_turn(thr_paper *paper, thr_err *err)
 {
-  GError *why = NULL;
-  thr_status st = THR_OK;
-  if (svg->failed) return thr_nomem(err);
-  RsvgHandle *page = lib.rsvg_handle_new_from_data((const guint8 *)(svg->data ? svg->data : ""), svg->length, &why);
-  RsvgRectangle whole = {0, 0, paper->width, paper->height};
-  if (!page || !lib.rsvg_handle_render_document(page, paper->cairo, &whole, &why))
-    st = thr_fail(err, THR_ESOLVER, "librsvg cannot draw a page: %s", why ? why->message : "no reason given");
-  if (page) lib.g_object_unref(page);
-  if (why) lib.g_error_free(why);
+  lib.cairo_restore(paper->cairo);
   lib.cairo_show_page(paper->cairo);
+  begin_page(paper);
   cairo_status_t status = lib.cairo_status(paper->cairo);
-  return !st && status ? failed(status, err) : st;
+  return status ? failed(status, err) : THR_OK;
 }
+
+/* ---- drawing ---- */
+
+void thr_paper_push(thr_paper *paper)
+{
+  lib.cairo_save(paper->cairo);
+}
+
+void thr_paper_pop(thr_paper *paper)
+{
+  lib.cairo_restore(paper->cairo);
+}
+
+void thr_paper_shift(thr_paper *paper, const double by[2])
+{
+  lib.cairo_translate(paper->cairo, by[0], by[1]);
+}
+
+void thr_paper_move(thr_paper *paper, const double to[2])
+{
+  lib.cairo_move_to(paper->cairo, to[0], to[1]);
+}
+
+void thr_paper_line(thr_paper *paper, const double to[2])
+{
+  lib.cairo_line_to(paper->cairo, to[0], to[1]);
+}
+
+void thr_paper_curve(thr_paper *paper, const double a[2], const double b[2], const double to[2])
+{
+  lib.cairo_curve_to(paper->cairo, a[0], a[1], b[0], b[1], to[0], to[1]);
+}
+
+void thr_paper_end(thr_paper *paper)
+{
+  lib.cairo_close_path(paper->cairo);
+}
+
+void thr_paper_rect(thr_paper *paper, const double at[2], const double size[2], double radius)
+{
+  if (radius <= 0) {
+    lib.cairo_rectangle(paper->cairo, at[0], at[1], size[0], size[1]);
+    return;
+  }
+  lib.cairo_new_sub_path(paper->cairo);
+  for (int i = 0; i < 4; i++) {
+    double x = at[0] + (i == 0 || i == 3 ? size[0] - radius : radius), y = at[1] + (i < 2 ? size[1] - radius : radius);
+    lib.cairo_arc(paper->cairo, x, y, radius, i * THR_PI / 2, (i + 1) * THR_PI / 2);
+  }
+  lib.cairo_close_path(paper->cairo);
+}
+
+void thr_paper_circle(thr_paper *paper, const double middle[2], double radius)
+{
+  lib.cairo_new_sub_path(paper->cairo);
+  lib.cairo_arc(paper->cairo, middle[0], middle[1], radius, 0, 2 * THR_PI);
+  lib.cairo_close_path(paper->cairo);
+}
+
+static void take_ink(cairo_t *cairo, const thr_ink *ink)
+{
+  lib.cairo_set_source_rgba(cairo, ink->colour[0], ink->colour[1], ink->colour[2], ink->opacity);
+}
+
+void thr_paper_paint(thr_paper *paper, const thr_ink *fill, const thr_line *line)
+{
+  cairo_t *cairo = paper->cairo;
+  if (fill) {
+    take_ink(cairo, fill);
+    if (line)
+      lib.cairo_fill_preserve(cairo);
+    else
+      lib.cairo_fill(cairo);
+  }
+  if (line) {
+    take_ink(cairo, &line->ink);
+    lib.cairo_set_line_width(cairo, line->width);
+    lib.cairo_set_line_cap(cairo, line->round_ends ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
+    lib.cairo_set_line_join(cairo, line->round_corners ? CAIRO_LINE_JOIN_ROUND : CAIRO_LINE_JOIN_MITER);
+    lib.cairo_set_dash(cairo, line->dash, line->n_dash, line->dash_offset);
+    lib.cairo_stroke(cairo);
+  }
+  lib.cairo_new_path(cairo);
+}
+
+void thr_paper_clip(thr_paper *paper)
+{
+  lib.cairo_clip(paper->cairo);
+}
+
+void thr_paper_text(thr_paper *paper, const double at[2], const thr_letters *letters, const char *words)
+{
+  cairo_t *cairo = paper->cairo;
+  cairo_text_extents_t extents = {0};
+  lib.cairo_select_font_face(cairo, letters->mono ? "DejaVu Sans Mono" : "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
+                             letters->bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  lib.cairo_set_font_size(cairo, letters->size);
+  if (letters->anchor > 0) lib.cairo_text_extents(cairo, words, &extents);
+  take_ink(cairo, &letters->ink);
+  lib.cairo_move_to(cairo, at[0] - letters->anchor * extents.x_advance, at[1]);
+  lib.cairo_show_text(cairo, words);
+  lib.cairo_new_path(cairo);
+}
+
+/* ---- the end ---- */
 
 /* Where text stands last; NULL if it does not. */
 static const char *last_of(const thr_text *pdf, const char *text)

@@ -4,6 +4,7 @@
 #include "diagram/scene/copies.h"
 #include "diagram/overview/guide.h"
 #include "diagram/scene/palette.h"
+#include "diagram/scene/pieces.h"
 #include "diagram/scene/scene.h"
 #include "diagram/overview/svg.h"
 #include "diagram/overview/tension.h"
@@ -27,7 +28,9 @@ typedef struct {
   thr_copy *copy; /* [n_cords] */
   bool tension;   /* are there any? */
   double range[2];
-  int most; /* passes of one bead */
+  thr_pieces pieces;
+  thr_visit *visit; /* [n_visits] in the order of threading */
+  int n_visits;
   thr_writer out;
 } viewer;
 
@@ -90,6 +93,25 @@ static void put_edges(viewer *s)
   thr_write_close(&s->out);
 }
 
+/* What a hand picks up: names and kinds. */
+static void put_pieces(viewer *s)
+{
+  char kind[24];
+  thr_write_array(next_line(s), "pieces");
+  for (int i = 0; i < s->pieces.n; i++) {
+    thr_text name = {0};
+    thr_pieces_name(&s->pieces, (const char(*)[THR_LABEL])s->guide.label, i, &name);
+    thr_write_words(&s->out, NULL, &name);
+  }
+  thr_write_close(&s->out);
+  thr_write_array(next_line(s), "kinds");
+  for (int i = 0; i < s->pieces.n; i++) {
+    thr_pieces_kind_name(&s->pieces, s->pieces.kind[i], kind);
+    thr_write_string(&s->out, NULL, kind);
+  }
+  thr_write_close(&s->out);
+}
+
 /* ---- the cords ---- */
 
 static void put_tension(viewer *s, const thr_eval_cord *cord)
@@ -112,17 +134,18 @@ static void put_tension(viewer *s, const thr_eval_cord *cord)
   thr_write_close(writer);
 }
 
-static void put_turns(viewer *s, const thr_cord *cord)
+/* What is done at every visit of a cord; of solid pieces the first is where it starts. */
+static void put_visits(viewer *s, int c)
 {
+  int i = 0;
+  while (s->visit[i].cord != c)
+    i++;
   thr_write_line(&s->out, 1);
-  thr_write_array(&s->out, "turns");
-  for (int k = 0; k < cord->n_passes; k++) {
-    thr_text turn = {0};
-    if (k > 0)
-      thr_guide_say(&s->guide, cord->half[k - 1], cord->half[k], &turn);
-    else
-      thr_text_append(&turn, "go");
-    thr_write_words(&s->out, NULL, &turn);
+  thr_write_array(&s->out, "does");
+  for (; i < s->n_visits && s->visit[i].cord == c; i++) {
+    thr_text words = {0};
+    thr_pieces_say(&s->pieces, (const char(*)[THR_LABEL])s->guide.label, s->visit, i, NULL, &words);
+    thr_write_words(&s->out, NULL, &words);
   }
   thr_write_close(&s->out);
 }
@@ -146,7 +169,7 @@ static void put_cord(viewer *s, int c)
   thr_write_string(writer, "length", words);
   thr_write_line(writer, 1);
   thr_write_ints(writer, "half", cord->half, cord->n_passes);
-  put_turns(s, cord);
+  put_visits(s, c);
   if (s->tension && s->plan->evaluation.cord[c].known) put_tension(s, &s->plan->evaluation.cord[c]);
   thr_write_close(writer);
 }
@@ -198,15 +221,8 @@ static void put_head(viewer *s)
   thr_write_hash(writer, "frame", thr_frame_hash(s->f));
   thr_write_string(writer, "units", s->f->units);
   thr_write_string(writer, "seen", thr_layout_words(s->guide.layout.kind));
-  thr_write_bool(writer, "sides", s->guide.sides);
+  thr_write_bool(writer, "solid", s->pieces.solid);
   thr_write_int(writer, "paths", thr_copies_paths(s->copy, p->n_cords));
-  thr_write_array(next_line(s), "nth");
-  for (int i = 1; i <= s->most; i++) {
-    char nth[16];
-    thr_guide_ordinal(i, nth);
-    thr_write_string(writer, NULL, nth);
-  }
-  thr_write_close(writer);
   /* one cord on its own changes its colour on the way, as in the overview */
   thr_write_int(next_line(s), "run", p->n_cords == 1 ? THR_COLOUR_PASSES : 0);
   thr_write_array(writer, "palette");
@@ -221,6 +237,7 @@ static void put_plan(viewer *s)
   put_head(s);
   put_nodes(s);
   put_edges(s);
+  put_pieces(s);
   if (s->tension) put_scale(s);
   thr_write_array(next_line(s), "cords");
   for (int c = 0; c < s->plan->n_cords; c++)
@@ -242,7 +259,7 @@ static void put_in_script(const thr_text *json, thr_text *out)
   thr_text_append_bytes(out, from, (size_t)(end - from));
 }
 
-static thr_status prepare(viewer *s, thr_err *err)
+static thr_status prepare(viewer *s, double tolerance, thr_err *err)
 {
   const thr_plan *p = s->plan;
   int n_passes;
@@ -252,25 +269,25 @@ static thr_status prepare(viewer *s, thr_err *err)
   if (s->tension) st = thr_tension_usable(p, err);
   if (st) return st;
   s->copy = thr_calloc((size_t)p->n_cords, sizeof *s->copy);
-  int *held = thr_calloc((size_t)s->f->n_edges, sizeof *held);
-  st = s->copy && held ? thr_guide_make(&s->guide, s->f, err) : thr_nomem(err);
+  thr_part *part = thr_calloc((size_t)p->n_cords, sizeof *part);
+  st = s->copy && part ? thr_guide_make(&s->guide, s->f, err) : thr_nomem(err);
   if (!st) st = thr_copies_find(p, s->copy, err);
-  for (int c = 0; c < p->n_cords && !st; c++)
-    for (int k = 0; k < p->cord[c].n_passes; k++) {
-      int now = ++held[p->cord[c].half[k] >> 1];
-      if (now > s->most) s->most = now;
-    }
-  free(held);
+  if (!st) st = thr_pieces_make(&s->pieces, p, tolerance, err);
+  if (!st) {
+    thr_pieces_parts(p, s->copy, part);
+    st = thr_pieces_follow(&s->pieces, part, p->n_cords, &s->visit, &s->n_visits, err);
+  }
+  free(part);
   return st;
 }
 
-thr_status thr_viewer_html(const thr_plan *p, const char *const *motion, thr_text *html, thr_err *err)
+thr_status thr_viewer_html(const thr_plan *p, const char *const *motion, double tolerance, thr_text *html, thr_err *err)
 {
   thr_text json = {0}, page = {0};
   viewer s = {.plan = p, .f = &p->frame, .motion = motion, .out = {.out = &json, .compact = true}};
   const char *mark = strstr(thr_viewer_page, THR_VIEWER_MARK);
   assert(mark);
-  thr_status st = prepare(&s, err);
+  thr_status st = prepare(&s, tolerance, err);
   if (st) goto done;
   put_plan(&s);
   thr_text_append_bytes(&page, thr_viewer_page, (size_t)(mark - thr_viewer_page));
@@ -282,6 +299,8 @@ done:
   thr_text_destroy(&json);
   thr_text_destroy(&page);
   thr_guide_destroy(&s.guide);
+  thr_pieces_destroy(&s.pieces);
+  free(s.visit);
   free(s.copy);
   return st;
 }

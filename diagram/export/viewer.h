@@ -13,7 +13,8 @@
  * for cords that do not fit the framework and for an evaluation that does not fit the cords. O(n log n). html is unchanged on
  * failure.
  */
-thr_status thr_viewer_html(const thr_plan *plan, const char *const *motion, thr_text *html, thr_err *err) THR_MUST_CHECK;
+thr_status thr_viewer_html(const thr_plan *plan, const char *const *motion, double tolerance, thr_text *html,
+                           thr_err *err) THR_MUST_CHECK;
 
 /* The bytes of the page, with THR_VIEWER_MARK where the plan belongs; NUL-terminated. */
 extern const char thr_viewer_page[];

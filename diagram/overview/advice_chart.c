@@ -1,5 +1,6 @@
 /* Pull and cord against the number of cords, as SVG. */
 #include "diagram/overview/advice_chart.h"
+#include "diagram/overview/pull_axis.h"
 #include "diagram/overview/svg.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/request.h"
@@ -9,10 +10,10 @@
 #include <stdlib.h>
 
 /* mm */
-static const double MARGIN = 10, WIDTH = 190, TITLE_SIZE = 6, NAME_SIZE = 4.4, TEXT_SIZE = 3.2, SMALL = 2.6;
-static const double LEFT = 22, RIGHT = 16; /* room for the numbers of the axis and for the names of the lines */
+static const double MARGIN = THR_CHART_MARGIN, TITLE_SIZE = THR_CHART_TITLE, NAME_SIZE = THR_CHART_NAME,
+                    TEXT_SIZE = THR_CHART_TEXT, SMALL = THR_CHART_SMALL, MARK = THR_CHART_MARK;
+static const double WIDTH = 190, LEFT = 22, RIGHT = 16; /* room for the numbers of the axis and for the names of the lines */
 static const double FLAG = 7, PLOT = 50, BARS = 16, ROW = 4.4;
-static const double MARK = 1.3, WIDEST_BAR = 9;
 static const double COMMAND = 178; /* width of lines whose letters are all wide */
 enum { MOST_DECADES = 5 };
 
@@ -21,28 +22,15 @@ typedef struct {
   const thr_advice_chart *chart;
   const thr_advice_row *row; /* [n] of the panel at hand */
   int n, chosen;             /* -1: none of them */
-  int low, high;             /* powers of ten at the ends of the axis, the same in every panel */
   double most;               /* longest cord of any row, units */
-  double x, y, width;        /* mm, of the plot at hand */
+  thr_pull_axis axis;        /* of the panel at hand; the same powers of ten in every one */
 } picture;
 
 /* ---- places ---- */
 
 static double place_x(const picture *p, int i)
 {
-  return p->x + p->width * (i + 0.5) / p->n;
-}
-
-/* Within the plot, whatever the pull. */
-static double place_y(const picture *p, double newton)
-{
-  double part = isinf(newton) ? 1 : (log10(newton) - p->low) / (p->high - p->low);
-  return p->y + PLOT * (1 - fmin(fmax(part, 0), 1));
-}
-
-static bool is_beyond(const picture *p, double newton)
-{
-  return isinf(newton) || log10(newton) > p->high + 1e-9;
+  return p->axis.x + p->axis.width * (i + 0.5) / p->n;
 }
 
 /* One axis for all panels: from the slackest pull to the tightest, at most five powers of ten, and the hand well inside. */
@@ -56,126 +44,58 @@ static void choose_axis(picture *p)
     if (isfinite(row->pull[THR_ADVICE_MU])) high = fmax(high, row->pull[THR_ADVICE_MU]);
     p->most = fmax(p->most, row->length);
   }
-  p->low = (int)floor(log10(low) + 1e-9);
-  p->high = (int)ceil(log10(high) - 1e-9);
-  if (p->high > p->low + MOST_DECADES) p->high = p->low + MOST_DECADES;
-  while (pow(10, p->high) < 2 * p->advice->hand)
-    p->high++;
+  thr_pull_choose(&p->axis, low, high, p->advice->hand, MOST_DECADES);
 }
 
 /* ---- words ---- */
-
-/* A pull with two or three digits: "3.5", "151", "2e6"; "> 1e300". */
-static void short_force(double newton, char words[24])
-{
-  if (isinf(newton))
-    snprintf(words, 24, ">1e300");
-  else if (newton >= 9999.5)
-    snprintf(words, 24, "%.0fe%d", newton / pow(10, floor(log10(newton))), (int)floor(log10(newton)));
-  else
-    snprintf(words, 24, "%.*f", newton < 9.95 ? 1 : 0, newton);
-}
-
-/* A round number of the axis: "10 N", "1000 N", "1e6 N"; "0.1 N". */
-static void decade_words(int power, char words[24])
-{
-  if (power > 4)
-    snprintf(words, 24, "1e%d N", power);
-  else
-    snprintf(words, 24, "%g N", pow(10, power));
-}
 
 /* "4 cords: 3.5 N (1.9 to 6.5)" */
 static void flag_words(const thr_advice_row *row, char words[120])
 {
   char low[24], pull[24], high[24];
-  short_force(row->pull[THR_ADVICE_LOW], low);
-  short_force(row->pull[THR_ADVICE_MU], pull);
-  short_force(row->pull[THR_ADVICE_HIGH], high);
+  thr_pull_words(row->pull[THR_ADVICE_LOW], low);
+  thr_pull_words(row->pull[THR_ADVICE_MU], pull);
+  thr_pull_words(row->pull[THR_ADVICE_HIGH], high);
   snprintf(words, 120, "%d %s: %s N (%s to %s)", row->cords, row->cords == 1 ? "cord" : "cords", pull, low, high);
 }
 
 /* ---- plot ---- */
 
-static void write_grid(const picture *p, thr_text *text)
-{
-  char words[24];
-  for (int power = p->low; power <= p->high; power++) {
-    double y = thr_svg_round(place_y(p, pow(10, power)));
-    thr_text_printf(text, "<path class=\"grid\" d=\"M%.2f %.2fh%.2f\"/>\n", p->x, y, p->width);
-    decade_words(power, words);
-    thr_svg_text(text, p->x - 1.6, y + 0.36 * SMALL, SMALL, " class=\"end\"", words);
-  }
-}
-
 /* Does the band leave words of that width over the line free, at the right end of the plot or at its left? */
 static bool is_free(const picture *p, double hand, double wide, bool right)
 {
-  double y = place_y(p, hand), column = p->width / p->n;
+  double y = thr_pull_y(&p->axis, hand), column = p->axis.width / p->n;
   for (int i = 0; i < p->n; i++) {
-    double from_end = right ? p->x + p->width - place_x(p, i) : place_x(p, i) - p->x;
-    bool above = place_y(p, p->row[i].pull[THR_ADVICE_LOW]) < y - 1.5 * SMALL - MARK;
-    bool below = place_y(p, p->row[i].pull[THR_ADVICE_HIGH]) > y - MARK;
+    double from_end = right ? p->axis.x + p->axis.width - place_x(p, i) : place_x(p, i) - p->axis.x;
+    bool above = thr_pull_y(&p->axis, p->row[i].pull[THR_ADVICE_LOW]) < y - 1.5 * SMALL - MARK;
+    bool below = thr_pull_y(&p->axis, p->row[i].pull[THR_ADVICE_HIGH]) > y - MARK;
     if (from_end < wide + column / 2 && !above && !below) return false;
   }
   return true;
 }
 
-static void write_hand(const picture *p, double hand, const char *what, thr_text *text)
+static void write_hand(const picture *p, double hand, thr_text *text)
 {
   char words[80];
-  double y = thr_svg_round(place_y(p, hand));
-  if (is_beyond(p, hand)) return;
-  thr_text_printf(text, "<path class=\"hand\" d=\"M%.2f %.2fh%.2f\"/>\n", p->x, y, p->width);
-  snprintf(words, sizeof words, "%g N%s", hand, what);
-  double wide = 0.6 * SMALL * thr_text_columns(words, sizeof words);
-  bool left = !is_free(p, hand, wide, true) && is_free(p, hand, wide, false);
-  thr_svg_text(text, left ? p->x + 1 : p->x + p->width - 1, y - 1, SMALL,
-               left ? " class=\"halo\" fill=\"#00664B\"" : " class=\"end halo\" fill=\"#00664B\"", words);
-}
-
-static const char *hand_words(double hand)
-{
-  return hand == thr_hand_always ? ": a hand, time after time" : hand == thr_hand_most ? ": the most for a hand" : "";
-}
-
-static void write_within(const picture *p, thr_text *text)
-{
-  double y = thr_svg_round(place_y(p, p->advice->hand));
-  thr_text_printf(text, "<rect class=\"within\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/>\n", p->x, y, p->width,
-                  p->y + PLOT - y);
+  double wide = thr_pull_hand_words(hand, words);
+  thr_pull_hand(&p->axis, hand, !is_free(p, hand, wide, true) && is_free(p, hand, wide, false), text);
 }
 
 static void write_band(const picture *p, thr_text *text)
 {
   thr_text_append(text, "<path class=\"band\" d=\"");
   for (int i = 0; i < p->n; i++) {
-    const double at[2] = {place_x(p, i), place_y(p, p->row[i].pull[THR_ADVICE_HIGH])};
+    const double at[2] = {place_x(p, i), thr_pull_y(&p->axis, p->row[i].pull[THR_ADVICE_HIGH])};
     (i ? thr_svg_line : thr_svg_move)(text, at);
   }
   for (int i = p->n - 1; i >= 0; i--)
-    thr_svg_line(text, (double[2]){place_x(p, i), place_y(p, p->row[i].pull[THR_ADVICE_LOW])});
+    thr_svg_line(text, (double[2]){place_x(p, i), thr_pull_y(&p->axis, p->row[i].pull[THR_ADVICE_LOW])});
   thr_text_append(text, "Z\"/>\n<path class=\"pull\" d=\"");
   for (int i = 0; i < p->n; i++) {
-    const double at[2] = {place_x(p, i), place_y(p, p->row[i].pull[THR_ADVICE_MU])};
+    const double at[2] = {place_x(p, i), thr_pull_y(&p->axis, p->row[i].pull[THR_ADVICE_MU])};
     (i ? thr_svg_line : thr_svg_move)(text, at);
   }
   thr_text_append(text, "\"/>\n");
-}
-
-/* Beyond the axis a triangle. */
-static void write_points(const picture *p, thr_text *text)
-{
-  for (int i = 0; i < p->n; i++) {
-    double newton = p->row[i].pull[THR_ADVICE_MU];
-    double x = thr_svg_round(place_x(p, i)), y = thr_svg_round(place_y(p, newton));
-    if (is_beyond(p, newton))
-      thr_text_printf(text, "<path class=\"beyond\" d=\"M%.2f %.2fl%.2f %.2fh%.2fz\"/>\n", x, y - MARK, 1.2 * MARK, 2 * MARK,
-                      -2.4 * MARK);
-    else
-      thr_text_printf(text, "<circle class=\"%s\" cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\"/>\n", i == p->chosen ? "chosen" : "point", x,
-                      y, i == p->chosen ? 1.5 * MARK : MARK);
-  }
 }
 
 /* Names of the three lines at their right ends, pushed apart. */
@@ -184,12 +104,12 @@ static void write_mu(const picture *p, thr_text *text)
   const thr_physics *physics = &p->advice->physics;
   const double mu[THR_ADVICE_PULLS] = {physics->mu_low, physics->mu, physics->mu_high};
   const thr_advice_row *last = &p->row[p->n - 1];
-  double room = 1.35 * SMALL, below = p->y + PLOT;
+  double room = 1.35 * SMALL, below = p->axis.y + PLOT;
   char words[32];
   for (int i = 0; i < THR_ADVICE_PULLS; i++) { /* upwards: the lowest name stays in the plot */
-    double y = fmin(place_y(p, last->pull[i]), below);
+    double y = fmin(thr_pull_y(&p->axis, last->pull[i]), below);
     snprintf(words, sizeof words, "mu %g", mu[i]);
-    thr_svg_text(text, p->x + p->width + 1.5, y + 0.36 * SMALL, SMALL,
+    thr_svg_text(text, p->axis.x + p->axis.width + 1.5, y + 0.36 * SMALL, SMALL,
                  i == THR_ADVICE_MU ? " fill=\"#0072B2\" font-weight=\"bold\"" : " fill=\"#0072B2\"", words);
     below = y - room;
   }
@@ -199,18 +119,14 @@ static void write_mu(const picture *p, thr_text *text)
 
 static void write_bars(const picture *p, double y, thr_text *text)
 {
-  double wide = fmin(0.62 * p->width / p->n, WIDEST_BAR), base = thr_svg_round(BARS * p->advice->base_length / p->most);
+  double wide = fmin(0.62 * p->axis.width / p->n, THR_CHART_WIDEST_BAR),
+         base = thr_svg_round(BARS * p->advice->base_length / p->most);
   for (int i = 0; i < p->n; i++) {
-    double x = thr_svg_round(place_x(p, i) - wide / 2), over = thr_svg_round(BARS * p->row[i].length / p->most) - base;
-    const char *chosen = i == p->chosen ? " chosen" : "";
-    thr_text_printf(text, "<rect class=\"base%s\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/>\n", chosen, x, y - base,
-                    wide, base);
-    if (over > 0)
-      thr_text_printf(text, "<rect class=\"over%s\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/>\n", chosen, x,
-                      y - base - over, wide, over);
+    double over = thr_svg_round(BARS * p->row[i].length / p->most) - base;
+    thr_pull_bar(place_x(p, i) - wide / 2, y, wide, base, over, i == p->chosen, text);
   }
-  thr_text_printf(text, "<path class=\"axis\" d=\"M%.2f %.2fh%.2f\"/>\n", p->x, y, p->width);
-  thr_svg_text(text, p->x - 1.6, y - BARS / 2 + 0.36 * SMALL, SMALL, " class=\"end\"", "cord");
+  thr_text_printf(text, "<path class=\"axis\" d=\"M%.2f %.2fh%.2f\"/>\n", p->axis.x, y, p->axis.width);
+  thr_svg_text(text, p->axis.x - 1.6, y - BARS / 2 + 0.36 * SMALL, SMALL, " class=\"end\"", "cord");
 }
 
 typedef enum { LINE_CORDS, LINE_PULL, LINE_OVERLAP, N_LINES } cell;
@@ -221,7 +137,7 @@ static void cell_words(const picture *p, cell l, int i, char words[24])
   if (l == LINE_CORDS)
     snprintf(words, 24, "%d", row->cords);
   else if (l == LINE_PULL)
-    short_force(row->pull[THR_ADVICE_MU], words);
+    thr_pull_words(row->pull[THR_ADVICE_MU], words);
   else
     snprintf(words, 24, "%.0f", fmax(0, 100 * (row->length / p->advice->base_length - 1)));
 }
@@ -231,7 +147,7 @@ static void write_lines(const picture *p, double y, thr_text *text)
   static const char *const title[N_LINES] = {"cords", "pull, N", "overlap, %"};
   for (int l = 0; l < N_LINES; l++, y += ROW) {
     double size = l == LINE_CORDS ? TEXT_SIZE : SMALL;
-    thr_svg_text(text, p->x - 1.6, y, SMALL, " class=\"end\"", title[l]);
+    thr_svg_text(text, p->axis.x - 1.6, y, SMALL, " class=\"end\"", title[l]);
     for (int i = 0; i < p->n; i++) {
       char words[24];
       cell_words(p, (cell)l, i, words);
@@ -246,8 +162,8 @@ static void write_lines(const picture *p, double y, thr_text *text)
 static void write_chosen_line(const picture *p, double bottom, thr_text *text)
 {
   if (p->chosen < 0) return;
-  thr_text_printf(text, "<path class=\"chosen-line\" d=\"M%.2f %.2fV%.2f\"/>\n", thr_svg_round(place_x(p, p->chosen)), p->y - 1.5,
-                  bottom);
+  thr_text_printf(text, "<path class=\"chosen-line\" d=\"M%.2f %.2fV%.2f\"/>\n", thr_svg_round(place_x(p, p->chosen)),
+                  p->axis.y - 1.5, bottom);
 }
 
 static void write_flag(const picture *p, thr_text *text)
@@ -256,29 +172,31 @@ static void write_flag(const picture *p, thr_text *text)
   if (p->chosen < 0) return;
   flag_words(&p->row[p->chosen], words);
   double wide = 0.66 * TEXT_SIZE * thr_text_columns(words, sizeof words) + 4, x = place_x(p, p->chosen) - wide / 2;
-  x = thr_svg_round(fmin(fmax(x, p->x), p->x + p->width - wide));
+  x = thr_svg_round(fmin(fmax(x, p->axis.x), p->axis.x + p->axis.width - wide));
   thr_text_printf(text, "<rect class=\"flag\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"5.50\" rx=\"0.8\"/>\n", x,
-                  p->y - FLAG, wide);
-  thr_svg_text(text, x + wide / 2, p->y - FLAG + 3.9, TEXT_SIZE, " class=\"middle\" font-weight=\"bold\" style=\"fill:#fff\"",
-               words);
+                  p->axis.y - FLAG, wide);
+  thr_svg_text(text, x + wide / 2, p->axis.y - FLAG + 3.9, TEXT_SIZE,
+               " class=\"middle\" font-weight=\"bold\" style=\"fill:#fff\"", words);
 }
 
 static double write_panel(picture *p, thr_ends ends, double y, thr_text *text)
 {
   double size = NAME_SIZE - 0.6, bars = y + size + FLAG + 3 + PLOT + 4 + BARS;
-  p->x = MARGIN + LEFT;
-  p->y = y + size + FLAG + 3;
-  p->width = WIDTH - LEFT - RIGHT;
+  p->axis.x = MARGIN + LEFT;
+  p->axis.y = y + size + FLAG + 3;
+  p->axis.width = WIDTH - LEFT - RIGHT;
+  p->axis.height = PLOT;
   thr_svg_text(text, MARGIN, y + size, size, " font-weight=\"bold\"",
                ends == THR_ENDS_FEET ? "ends at the feet" : "ends anywhere");
   thr_text_printf(text, "<g class=\"%s\">\n", thr_ends_name((int)ends));
-  write_within(p, text);
-  write_grid(p, text);
+  thr_pull_within(&p->axis, p->advice->hand, text);
+  thr_pull_grid(&p->axis, text);
   write_band(p, text);
   write_chosen_line(p, bars, text);
-  write_hand(p, p->advice->hand, hand_words(p->advice->hand), text);
-  if (p->advice->hand < thr_hand_most) write_hand(p, thr_hand_most, hand_words(thr_hand_most), text);
-  write_points(p, text);
+  write_hand(p, p->advice->hand, text);
+  if (p->advice->hand < thr_hand_most) write_hand(p, thr_hand_most, text);
+  for (int i = 0; i < p->n; i++)
+    thr_pull_point(&p->axis, place_x(p, i), p->row[i].pull[THR_ADVICE_MU], i == p->chosen, text);
   write_mu(p, text);
   write_bars(p, bars, text);
   write_lines(p, bars + ROW, text);
@@ -317,7 +235,7 @@ static double write_heading(const picture *p, thr_text *text)
       physics->seating, physics->mu, physics->mu_low, physics->mu_high);
   y = thr_svg_wrap(text, MARGIN, y - 0.5, TEXT_SIZE, WIDTH, " class=\"quiet\"", line);
   if (p->advice->n > 0 && p->advice->row[0].ends == THR_ENDS_CLOSED) {
-    short_force(p->advice->row[0].pull[THR_ADVICE_MU], force);
+    thr_pull_words(p->advice->row[0].pull[THR_ADVICE_MU], force);
     snprintf(line, sizeof line, "One closed cord needs %s N.", force);
     y = thr_svg_wrap(text, MARGIN, y, TEXT_SIZE, WIDTH, " class=\"quiet\"", line);
   }
@@ -344,39 +262,16 @@ static double write_foot(const picture *p, double y, thr_text *text)
   return thr_svg_wrap(text, MARGIN, y, TEXT_SIZE, WIDTH, " class=\"quiet\"", line);
 }
 
-static void write_style(thr_text *text)
-{
-  thr_text_append(
-      text, "<style>\n.thread text{stroke:none;font-family:'DejaVu Sans',Verdana,sans-serif}\n"
-            ".thread .middle{text-anchor:middle}.thread .end{text-anchor:end}.thread .quiet{fill:#555}\n"
-            ".thread .command{font-family:'DejaVu Sans Mono',monospace}\n"
-            ".thread text.halo{stroke:#fff;stroke-width:0.80;stroke-linejoin:round;paint-order:stroke}\n"
-            ".thread .grid{fill:none;stroke:#ddd;stroke-width:0.20}.thread .axis{fill:none;stroke:#222;stroke-width:0.35}\n"
-            ".thread .within{fill:#E3F3EE}.thread .hand{fill:none;stroke:#009E73;stroke-width:0.35;stroke-dasharray:1.6 1}\n"
-            ".thread .band{fill:#0072B2;fill-opacity:0.18}.thread .pull{fill:none;stroke:#0072B2;stroke-width:0.80}\n"
-            ".thread .point{fill:#fff;stroke:#0072B2;stroke-width:0.55}.thread .beyond{fill:#0072B2}\n"
-            ".thread circle.chosen{fill:#D55E00}.thread .chosen-line{fill:none;stroke:#D55E00;stroke-width:0.50}\n"
-            ".thread .flag{fill:#B84F00}.thread .base{fill:#D9DCDF}.thread .over{fill:#98A1AA}\n"
-            ".thread .base.chosen{fill:#F4C9A5}.thread .over.chosen{fill:#D55E00}\n</style>\n");
-}
-
 thr_status thr_advice_svg(const thr_advice *advice, const thr_advice_chart *chart, thr_text *svg, thr_err *err)
 {
   picture p = {.advice = advice, .chart = chart};
-  thr_text body = {0}, out = {0};
+  thr_text body = {0};
   choose_axis(&p);
   double y = write_heading(&p, &body);
   y = write_kind(&p, THR_ENDS_FEET, y, &body);
   y = write_kind(&p, THR_ENDS_ANY, y, &body);
   double bottom = write_foot(&p, y, &body) + MARGIN - TEXT_SIZE, width = WIDTH + 2 * MARGIN;
-  thr_svg_open(&out, width, bottom, "How many cords?", "Pull and cord against the number of cords.");
-  write_style(&out);
-  thr_text_printf(&out, "<rect width=\"%.2f\" height=\"%.2f\" fill=\"#fff\"/>\n", width, bottom);
-  if (body.data) thr_text_append_bytes(&out, body.data, body.length);
-  thr_text_append(&out, "</svg>\n");
-  bool failed = body.failed || out.failed;
-  if (!failed) thr_text_append_bytes(svg, out.data, out.length);
+  thr_status st = thr_pull_sheet(&body, width, bottom, "How many cords?", "Pull and cord against the number of cords.", svg, err);
   thr_text_destroy(&body);
-  thr_text_destroy(&out);
-  return failed || svg->failed ? thr_nomem(err) : THR_OK;
+  return st;
 }

@@ -1,16 +1,18 @@
 #include "diagram/overview/crop.h"
 
 #include "diagram/overview/svg.h"
+#include "diagram/scene/outlines.h"
 #include "graph/framework/frame.h"
 
 #include <math.h>
 #include <stdio.h>
 
-static const double PITCH[THR_CROP_SCALES] = {28, 24, 20.5, 17.5, 15, 13, 11, 9, 7.5, 6, 4.5, 3, 2, 1}; /* mm */
+static const double PITCH[THR_CROP_SCALES] = {40,   35, 31, 28, 25.5, 23, 21, 19, 17.5, 16,
+                                              14.5, 13, 12, 11, 9.5,  8,  6,  4,  2,    1}; /* mm */
 static const double RING = 0.85; /* pitches of context around what is drawn now */
 static const double EDGE = 1;    /* mm of white around the whole */
 static const double BETWEEN = 4; /* mm between two windows */
-enum { BASE = 2 };               /* scale at which sizes are asked for first */
+enum { BASE = 6 };               /* scale at which sizes are asked for first */
 
 static void box_point(thr_box *box, const double at[2])
 {
@@ -159,12 +161,13 @@ thr_status thr_crop_draw(thr_crops *crops, const thr_crop *crop, const thr_crop_
     shown[k] = window_of(scene, crop, view, k);
     if ((st = thr_crop_label(scene, crop, view->panel[k], shown[k], err))) break;
     thr_box paper = {corner[0], corner[1], corner[0] + view->window[k][0], corner[1] + view->window[k][1]};
-    thr_draw_style style = {.state = crop->state, .window = &shown[k], .anonymous = true, .no_beads = true};
+    thr_draw_style style = {.state = crop->state, .window = &shown[k], .anonymous = true, .no_pieces = true};
     thr_text_printf(text, "<clipPath id=\"%s-%d\"><rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/></clipPath>\n",
                     scope, k, paper.x0, paper.y0, paper.x1 - paper.x0, paper.y1 - paper.y0);
     thr_text_printf(text, "<g clip-path=\"url(#%s-%d)\"><g transform=\"translate(%.2f %.2f)\">\n", scope, k,
                     thr_svg_round(paper.x0 - shown[k].x0), thr_svg_round(paper.y0 - shown[k].y0));
-    st = thr_crop_beads(scene, crop->filled, &shown[k], text, err);
+    thr_draw_feet(scene, &style, text);
+    st = thr_crop_pieces(scene, crop->piece, &shown[k], text, err);
     thr_draw_scene(scene, &style, NULL, text);
     thr_text_append(text, "</g></g>\n");
     put_frame(paper, "#999", 0.25, text);
@@ -174,7 +177,38 @@ thr_status thr_crop_draw(thr_crops *crops, const thr_crop *crop, const thr_crop_
   return st;
 }
 
-/* A line for every bead, or for the passes drawn now; passes that follow each other are one line. */
+/* How far the piece at a point reaches from its hub, mm. */
+static double reach_of(const thr_scene *scene, int point)
+{
+  thr_box box = thr_outline_box(scene, point);
+  return 0.5 * (box.x1 - box.x0);
+}
+
+thr_status thr_crop_piece(thr_crops *crops, int node, const double at[2], double room, const thr_scene **scene, int *point,
+                          thr_text *text, thr_err *err)
+{
+  thr_text data = {0};
+  thr_status st = make_scene(crops, BASE, err);
+  if (st) return st;
+  int twin = crops->scene[BASE].twin[node], i = 0;
+  const thr_frame *paper = crops->scene[BASE].paper;
+  *point = twin >= 0 && thr_degree(paper, twin) > thr_degree(paper, node) ? twin : node;
+  double pitches = reach_of(&crops->scene[BASE], *point) / PITCH[BASE];
+  while (i < THR_CROP_SCALES - 1 && pitches * PITCH[i] > room)
+    i++;
+  if ((st = make_scene(crops, i, err))) return st;
+  *scene = &crops->scene[i];
+  thr_outline_solid(*scene, *point, &data);
+  thr_text_printf(text, "<g transform=\"translate(%.2f %.2f)\">", thr_svg_round(at[0] - (*scene)->at[*point][0]),
+                  thr_svg_round(at[1] - (*scene)->at[*point][1]));
+  if (data.data && !data.failed) thr_draw_outlines(*scene, THR_PIECE_NEW, data.data, text);
+  thr_text_append(text, "</g>\n");
+  if (data.failed) st = thr_nomem(err);
+  thr_text_destroy(&data);
+  return st;
+}
+
+/* A line for every edge, or for the passes drawn now; passes that follow each other are one line. */
 static void put_lines(const thr_scene *scene, const thr_crop *crop, bool now, const double map[3], thr_text *text)
 {
   int last = -1;
@@ -229,10 +263,11 @@ thr_status thr_crop_whole(const thr_plan *plan, const thr_layout *layout, const 
   }
   double x = 0.5 * (paper.x0 + paper.x1 - scene.extent.x0 - scene.extent.x1),
          y = 0.5 * (paper.y0 + paper.y1 - scene.extent.y0 - scene.extent.y1);
-  thr_draw_style style = {.state = state, .anonymous = true, .no_beads = true};
+  thr_draw_style style = {.state = state, .anonymous = true, .no_pieces = true};
   thr_draw_css(&scene, "thread", text);
   thr_text_printf(text, "<g transform=\"translate(%.2f %.2f)\">\n", thr_svg_round(x), thr_svg_round(y));
-  st = thr_crop_beads(&scene, NULL, &scene.extent, text, err);
+  thr_draw_feet(&scene, &style, text);
+  st = thr_crop_pieces(&scene, NULL, &scene.extent, text, err);
   thr_draw_scene(&scene, &style, &scene.extent, text);
   thr_text_append(text, "</g>\n");
   thr_scene_destroy(&scene);

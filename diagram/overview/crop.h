@@ -12,7 +12,7 @@
 #include "graph/text.h"
 
 /* Scenes of one plan at a few scales, each made when it is first asked for. */
-enum { THR_CROP_SCALES = 14 };
+enum { THR_CROP_SCALES = 20 };
 
 typedef struct {
   const thr_plan *plan;
@@ -26,11 +26,11 @@ typedef struct {
 void thr_crops_make(thr_crops *crops, const thr_plan *p, const thr_layout *l);
 void thr_crops_destroy(thr_crops *crops);
 
-/* What a picture shows: passes in their state (see thr_draw_state), beads that hold cord. Arrays are borrowed. */
+/* What a picture shows: passes and pieces in their states (thr_draw_state, thr_piece_state). Arrays are borrowed. */
 typedef struct {
   int number;                 /* of the picture, its own in the document */
   const unsigned char *state; /* [n_passes] */
-  const bool *filled;         /* [n_edges]; NULL: none does */
+  const unsigned char *piece; /* [pieces]; NULL: all are plain */
   const int *now;             /* [n_now] the passes drawn now, in the order of threading; n_now >= 1 */
   int n_now;
   bool backward; /* they are threaded against the plan's direction, from the last to the first */
@@ -67,14 +67,20 @@ void thr_crop_locate(const thr_crops *crops, const thr_crop *crop, const thr_cro
 thr_status thr_crop_whole(const thr_plan *p, const thr_layout *l, const unsigned char *state, thr_box paper,
                           const thr_limits *limits, thr_text *text, thr_err *err) THR_MUST_CHECK;
 
+/* Appends a solid piece alone, as it lies in the picture: its hub at a point of the page, at the largest scale at which it is
+ * within room mm of it. *scene receives the scene at that scale, *point the point that is drawn: of a node with two that with
+ * more arms. */
+thr_status thr_crop_piece(thr_crops *crops, int node, const double at[2], double room, const thr_scene **scene, int *point,
+                          thr_text *text, thr_err *err) THR_MUST_CHECK;
+
 /* Places numbers, arrows and names of the passes drawn now that lie in the panel where they hide least in a window of the scene;
  * all others have none then (crop_labels.c). */
 thr_status thr_crop_label(thr_scene *s, const thr_crop *crop, int panel, thr_box window, thr_err *err) THR_MUST_CHECK;
 
-/* Appends the beads in a window of the scene: capsules, in few elements, for pages would take ten times as long with one for each
- * (crop_beads.c). filled: as in thr_crop. O(n log n). */
-thr_status thr_crop_beads(const thr_scene *s, const bool *filled, const thr_box *window, thr_text *text,
-                          thr_err *err) THR_MUST_CHECK;
+/* Appends the pieces in a window of the scene, in few elements, for pages would take ten times as long with one for each
+ * (crop_pieces.c). state: as piece in thr_crop. O(n log n). */
+thr_status thr_crop_pieces(const thr_scene *s, const unsigned char *state, const thr_box *window, thr_text *text,
+                           thr_err *err) THR_MUST_CHECK;
 
 /* Panel that pass i is drawn in: 0, or with two panels 1 for the right one. */
 int thr_crop_panel(const thr_scene *s, int i);

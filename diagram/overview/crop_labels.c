@@ -26,6 +26,12 @@ static void along(const thr_scene_pass *pass, double part, double at[2])
     at[k] = pass->from[k] + part * (pass->to[k] - pass->from[k]);
 }
 
+/* A part of the way of the needle, as part of the way of the pass. */
+static double towards(const labelling *l, double part)
+{
+  return l->c->backward && l->s->solid ? 1 - part : part;
+}
+
 static bool inside(thr_box outer, thr_box box)
 {
   return box.x0 >= outer.x0 && box.x1 <= outer.x1 && box.y0 >= outer.y0 && box.y1 <= outer.y1;
@@ -90,16 +96,19 @@ static void judge(labelling *l, thr_box box, const double at[2], double penalty,
 /* On the pass where it hides nothing, else beside it. */
 static thr_status place_number(labelling *l, int i, thr_err *err)
 {
-  static const double at_part[] = {0.30, 0.22, 0.38, 0.46, 0.54, 0.14, 0.62, 0.70, 0.80, 0.90};
+  enum { PARTS = 10 };
+  static const double parts[2][PARTS] = {{0.30, 0.22, 0.38, 0.46, 0.54, 0.14, 0.62, 0.70, 0.80, 0.90},
+                                         {0.76, 0.70, 0.82, 0.64, 0.88, 0.94, 0.58, 0.52, 0.40, 0.20}};
   thr_scene_pass *pass = &l->s->pass[i];
   double least = HUGE_VAL, at[2], high = thr_scene_pill_height(l->s);
-  for (int k = 0; k < (int)(sizeof at_part / sizeof at_part[0]) && least > 0; k++) {
-    along(pass, at_part[k], at);
+  const double *at_part = parts[l->s->solid];
+  for (int k = 0; k < PARTS && least > 0; k++) {
+    along(pass, towards(l, at_part[k]), at);
     judge(l, pill_box(l->s, i, at), at, 1e-3 * k, &least, pass->pill);
   }
   for (int k = 0; k < 48 && least > 1; k++) {
     double turn = 0.5235987755982988 * (k % 12), reach = 0.6 * (1 + k / 12) * high;
-    along(pass, at_part[0], at);
+    along(pass, towards(l, at_part[0]), at);
     at[0] += 1.5 * reach * cos(turn);
     at[1] += reach * sin(turn);
     judge(l, pill_box(l->s, i, at), at, 1 + 0.01 * k, &least, pass->pill);
@@ -110,12 +119,15 @@ static thr_status place_number(labelling *l, int i, thr_err *err)
 
 static void place_arrow(labelling *l, int i)
 {
-  static const double at_part[] = {0.68, 0.76, 0.60, 0.84, 0.52, 0.92, 0.44, 0.30, 0.20, 0.10};
+  enum { PARTS = 10 };
+  static const double parts[2][PARTS] = {{0.68, 0.76, 0.60, 0.84, 0.52, 0.92, 0.44, 0.30, 0.20, 0.10},
+                                         {0.32, 0.26, 0.38, 0.20, 0.44, 0.14, 0.50, 0.08, 0.60, 0.70}};
+  const double *at_part = parts[l->s->solid];
   thr_scene_pass *pass = &l->s->pass[i];
   double least = HUGE_VAL, at[2], length = hypot(pass->to[0] - pass->from[0], pass->to[1] - pass->from[1]);
   pass->arrow_size = fmin(l->s->size.arrow, 0.8 * length);
-  for (int k = 0; k < (int)(sizeof at_part / sizeof at_part[0]) && least > 0; k++) {
-    along(pass, at_part[k], at);
+  for (int k = 0; k < PARTS && least > 0; k++) {
+    along(pass, towards(l, at_part[k]), at);
     thr_box box = thr_box_around(at[0], at[1], 0.45 * pass->arrow_size, 0.45 * pass->arrow_size);
     double hidden = thr_boxes_overlap(&l->boxes, box, THR_BOX_MARK | THR_BOX_NUMBER, least);
     if (hidden >= least) continue;

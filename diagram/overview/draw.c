@@ -3,6 +3,7 @@
 
 #include "diagram/layout/layout.h"
 #include "diagram/overview/svg.h"
+#include "diagram/scene/outlines.h"
 #include "diagram/scene/palette.h"
 #include "diagram/scene/places.h"
 #include "graph/angle.h"
@@ -77,11 +78,11 @@ static void open_element(const drawing *d, const char *element, const char *pref
   thr_text_append(text, "\"");
 }
 
-/* ---- beads ---- */
+/* ---- pieces ---- */
 
-static void write_feet(const drawing *d, thr_text *text)
+void thr_draw_feet(const thr_scene *scene, const thr_draw_style *style, thr_text *text)
 {
-  const thr_scene *scene = d->s;
+  const drawing drawn = {scene, style}, *d = &drawn;
   open_element(d, "g", "feet", "", -1, text);
   thr_text_append(text, ">\n");
   for (int v = 0; v < scene->layout->n_points; v++)
@@ -91,8 +92,37 @@ static void write_feet(const drawing *d, thr_text *text)
   thr_text_append(text, "</g>\n");
 }
 
-/* Beads are closed at both ends: rounded boxes turned into the direction of their edge. */
-static void write_bead(const drawing *d, int e, thr_text *text)
+/* Appends id and name of a piece. */
+static void open_piece(const drawing *d, const char *element, int piece, thr_text *text)
+{
+  const thr_scene *scene = d->s;
+  const int *end = scene->solid ? NULL : scene->frame->edge[piece];
+  open_element(d, element, "piece-", "", piece, text);
+  if (d->style->anonymous) return;
+  thr_text_append(text, " data-piece=\"");
+  thr_text_xml(text, scene->label[scene->solid ? piece : end[0]]);
+  if (!scene->solid) {
+    thr_text_append(text, "-");
+    thr_text_xml(text, scene->label[end[1]]);
+  }
+  thr_text_append(text, "\"");
+}
+
+/* A node of a seam has its arms on both panels. */
+static void write_solid(const drawing *d, int v, thr_text *text)
+{
+  const thr_scene *scene = d->s;
+  int twin = scene->twin[v];
+  if (!in_window(d, thr_outline_box(scene, v)) && (twin < 0 || !in_window(d, thr_outline_box(scene, twin)))) return;
+  open_piece(d, "path", v, text);
+  thr_text_append(text, " d=\"");
+  thr_outline_solid(scene, v, text);
+  if (twin >= 0) thr_outline_solid(scene, twin, text);
+  thr_text_append(text, "\"/>\n");
+}
+
+/* Tubes are closed at both ends: rounded boxes turned into the direction of their edge. */
+static void write_tube(const drawing *d, int e, thr_text *text)
 {
   const thr_scene *scene = d->s;
   const double *a = scene->at[scene->paper->edge[e][0]], *b = scene->at[scene->paper->edge[e][1]];
@@ -102,18 +132,20 @@ static void write_bead(const drawing *d, int e, thr_text *text)
   double x = 0.5 * (a[0] + b[0] + (near - far) * along[0]), y = 0.5 * (a[1] + b[1] + (near - far) * along[1]);
   if (!in_window(d, thr_box_around(x, y, 0.5 * (length + w), 0.5 * (length + w)))) return;
   double turn = thr_svg_round(atan2(along[1], along[0]) * 180 / THR_PI);
-  open_element(d, "rect", "bead-", "", e, text);
+  open_piece(d, "rect", e, text);
   thr_text_printf(text, " x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" rx=\"%.2f\"", thr_svg_round(-0.5 * length),
                   thr_svg_round(-0.5 * w), length, w, 0.4 * fmin(w, length));
   thr_text_printf(text, " transform=\"translate(%.2f %.2f) rotate(%.2f)\"/>\n", thr_svg_round(x), thr_svg_round(y), turn);
 }
 
-static void write_beads(const drawing *d, thr_text *text)
+static void write_pieces(const drawing *d, thr_text *text)
 {
-  open_element(d, "g", "beads", "", -1, text);
-  thr_text_append(text, " class=\"bead\">\n");
-  for (int e = 0; e < d->s->frame->n_edges; e++)
-    write_bead(d, e, text);
+  open_element(d, "g", "pieces", "", -1, text);
+  thr_text_append(text, " class=\"piece\">\n");
+  for (int v = 0; v < d->s->frame->n_nodes && d->s->solid; v++)
+    write_solid(d, v, text);
+  for (int e = 0; e < d->s->frame->n_edges && !d->s->solid; e++)
+    write_tube(d, e, text);
   thr_text_append(text, "</g>\n");
 }
 
@@ -425,7 +457,10 @@ static void write_places(const drawing *d, const thr_box *grid, thr_text *text)
     if (!scene->named[v] || !in_window(d, (thr_box){at[0], at[1], at[0], at[1]})) continue;
     thr_scene_place_name(scene, v, name);
     thr_svg_text(text, at[0], at[1] + 0.36 * scene->size.text, scene->size.text,
-                 scene->twin[v] < 0 ? " class=\"middle\"" : " class=\"middle seam\"", name);
+                 scene->twin[v] >= 0                       ? " class=\"middle seam\""
+                 : d->style->anonymous && d->style->window ? " class=\"middle own\""
+                                                           : " class=\"middle\"",
+                 name);
   }
   thr_text_append(text, "</g>\n");
 }
@@ -433,8 +468,8 @@ static void write_places(const drawing *d, const thr_box *grid, thr_text *text)
 void thr_draw_scene(const thr_scene *scene, const thr_draw_style *style, const thr_box *grid, thr_text *text)
 {
   drawing d = {scene, style};
-  write_feet(&d, text);
-  if (!style->no_beads) write_beads(&d, text);
+  if (!style->no_pieces) thr_draw_feet(scene, style, text);
+  if (!style->no_pieces) write_pieces(&d, text);
   if (style->state) write_cords(&d, THR_DRAW_EARLIER, text);
   write_cords(&d, THR_DRAW_NOW, text);
   if (scene->turning) write_sharp_turns(&d, text);

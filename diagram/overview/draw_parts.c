@@ -62,21 +62,45 @@ void thr_draw_dash(const thr_scene *scene, const double *dash, thr_text *text)
   thr_text_append(text, "\"");
 }
 
-/* Capsules of beads, of those that hold cord already, their outlines. */
-static const char *const EMPTY = "#f3f1ea", *const FILLED = "#dccfa9", *const OUTLINE = "#bdb8a8";
+/* Looks of pieces by state: fill and outline, how much bolder that is than thr_draw_outline, dashed. */
+static const struct {
+  const char *fill, *outline;
+  double bold;
+  bool dashed;
+} look[THR_PIECE_STATES] = {[THR_PIECE_PLAIN] = {"#f3f1ea", "#a8a291", 1, false},
+                            [THR_PIECE_LATER] = {"#fff", "#a0a0a0", 1, true},
+                            [THR_PIECE_HELD] = {"#d5ccb8", "#857a64", 1.2, false},
+                            [THR_PIECE_NEW] = {"#ffdf8c", "#5c4600", 2.8, false}};
 
 double thr_draw_outline(const thr_scene *scene)
 {
   return fmin(0.2, 0.02 * scene->size.pitch);
 }
 
-void thr_draw_capsules(const thr_scene *scene, double width, bool filled, const char *data, thr_text *text)
+void thr_draw_capsules(const thr_scene *scene, double width, thr_piece_state state, const char *data, thr_text *text)
 {
-  double thin = thr_draw_outline(scene), wide[2] = {width + thin, fmax(width - thin, 0.5 * width)};
-  const char *const colour[2] = {OUTLINE, filled ? FILLED : EMPTY};
+  double bold = look[state].bold * thr_draw_outline(scene), wide[2] = {width + bold, fmax(width - bold, 0.5 * width)};
+  const char *const colour[2] = {look[state].outline, look[state].fill};
   for (int k = 0; k < 2; k++)
     thr_text_printf(text, "<path fill=\"none\" stroke-linecap=\"round\" stroke=\"%s\" stroke-width=\"%.2f\" d=\"%s\"/>\n",
                     colour[k], wide[k], data);
+}
+
+void thr_draw_outlines(const thr_scene *scene, thr_piece_state state, const char *data, thr_text *text)
+{
+  double thin = thr_draw_outline(scene);
+  thr_text_printf(text, "<path fill=\"%s\" stroke=\"%s\" stroke-width=\"%.2f\" stroke-linejoin=\"round\"", look[state].fill,
+                  look[state].outline, look[state].bold * thin);
+  if (look[state].dashed) thr_text_printf(text, " stroke-dasharray=\"%.2f %.2f\"", 5 * thin, 4 * thin);
+  thr_text_printf(text, " d=\"%s\"/>\n", data);
+}
+
+void thr_draw_key(double x, double y, double width, double height, thr_piece_state state, thr_text *text)
+{
+  thr_text_printf(text,
+                  "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"%s\" stroke=\"%s\" stroke-width=\"%.2f\"", x,
+                  y, width, height, look[state].fill, look[state].outline, 0.2 * look[state].bold);
+  thr_text_append(text, look[state].dashed ? " stroke-dasharray=\"1.00 0.80\"/>\n" : "/>\n");
 }
 
 void thr_draw_css(const thr_scene *scene, const char *scope, thr_text *text)
@@ -85,7 +109,9 @@ void thr_draw_css(const thr_scene *scene, const char *scope, thr_text *text)
   double w = scene->size.cord, c = scene->size.casing, thin = thr_draw_outline(scene);
   thr_text_printf(text, "<style>\n.%s text{stroke:none;fill:#222;font-family:'DejaVu Sans',Verdana,sans-serif}\n", k);
   thr_text_printf(text, ".%s .middle{text-anchor:middle}.%s text.light{fill:#fff}.%s .place text{fill:#555}\n", k, k, k);
-  thr_text_printf(text, ".%s .bead{fill:%s;stroke:%s;stroke-width:%.2f}\n", k, EMPTY, OUTLINE, thin);
+  thr_text_printf(text, ".%s .place text.own{fill:#111;font-weight:bold}\n", k);
+  thr_text_printf(text, ".%s .piece{fill:%s;stroke:%s;stroke-width:%.2f;stroke-linejoin:round}\n", k, look[THR_PIECE_PLAIN].fill,
+                  look[THR_PIECE_PLAIN].outline, thin);
   thr_text_printf(text, ".%s .foot{fill:#e3d6b8;stroke:#8f7c4f;stroke-width:%.2f}\n", k, thin);
   thr_text_printf(text, ".%s .casing{fill:none;stroke:#fff;stroke-width:%.2f;stroke-linejoin:round}\n", k, w + 2 * c);
   thr_text_printf(text, ".%s .rim{fill:none;stroke-width:%.2f;stroke-linejoin:round}\n", k, w + 0.7 * c);

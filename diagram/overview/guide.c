@@ -1,62 +1,17 @@
 #include "diagram/overview/guide.h"
 
 #include "diagram/scene/scene.h"
+#include "graph/plan/reading.h"
 #include "graph/angle.h"
+#include "graph/plan/channels.h"
 #include "graph/vector.h"
 
-#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 static const double AHEAD = 0.13962634015954636; /* rad, 8 degrees: to that side it is still ahead */
-
-/* ---- names ---- */
-
-typedef struct {
-  const char *label;
-  int node;
-} named;
-
-static int by_label(const void *a, const void *b)
-{
-  const named *p = a, *q = b;
-  int order = strcmp(p->label, q->label);
-  return order ? order : p->node - q->node;
-}
-
-/* Adds the node's number to each of those that share a label. */
-static void tell_apart(thr_guide *guide, named *k)
-{
-  int n = guide->f->n_nodes;
-  for (int v = 0; v < n; v++)
-    k[v] = (named){guide->label[v], v};
-  qsort(k, (size_t)n, sizeof *k, by_label);
-  for (int i = 0, next; i < n; i = next) {
-    for (next = i + 1; next < n && strcmp(k[next].label, k[i].label) == 0;)
-      next++;
-    for (int j = i; j < next && next - i > 1; j++) {
-      char *label = guide->label[k[j].node];
-      size_t length = strlen(label);
-      snprintf(label + length, THR_LABEL - length, "#%d", k[j].node);
-    }
-  }
-}
-
-static thr_status name_nodes(thr_guide *guide, thr_err *err)
-{
-  named *k = thr_calloc((size_t)guide->f->n_nodes, sizeof *k);
-  if (!k) return thr_nomem(err);
-  for (int v = 0; v < guide->f->n_nodes; v++) {
-    thr_places_name(&guide->places, guide->f, v, guide->label[v]);
-    for (char *c = guide->label[v]; *c; c++)
-      if (isspace((unsigned char)*c)) *c = '_';
-  }
-  tell_apart(guide, k);
-  free(k);
-  return THR_OK;
-}
 
 void thr_guide_place(const thr_guide *guide, int v, thr_text *text)
 {
@@ -76,36 +31,6 @@ void thr_guide_ordinal(int n, char word[16])
     snprintf(word, 16, n == 2 ? "second" : "third");
   else
     snprintf(word, 16, "%d%s", n, end[last]);
-}
-
-/* ---- beads ---- */
-
-const char *thr_deed_words(thr_deed d)
-{
-  static const char *const words[] = {"pick up", "pass through", "pass back through"};
-  return words[d];
-}
-
-thr_status thr_held_make(thr_held *held, int n_edges, thr_err *err)
-{
-  *held = (thr_held){.cords = thr_calloc((size_t)n_edges, sizeof *held->cords),
-                     .last = thr_calloc((size_t)n_edges, sizeof *held->last)};
-  return held->cords && held->last ? THR_OK : thr_nomem(err);
-}
-
-void thr_held_destroy(thr_held *held)
-{
-  free(held->cords);
-  free(held->last);
-  *held = (thr_held){0};
-}
-
-thr_deed thr_held_pass(thr_held *held, int half)
-{
-  int e = half >> 1, before = held->last[e];
-  held->last[e] = half;
-  if (held->cords[e]++ == 0) return THR_PICK_UP;
-  return before == half ? THR_PASS_THROUGH : THR_PASS_BACK;
 }
 
 /* ---- sides ---- */
@@ -164,6 +89,53 @@ static thr_status find_outward(thr_guide *guide, thr_err *err)
   return st;
 }
 
+/* Do the arms in around[n] of node v follow each other counter-clockwise seen from outside? False too where that is not known. */
+static bool counter_clockwise(const thr_guide *guide, int v, const int *around, int n)
+{
+  double sum[3] = {0}, a[3], b[3], cross[3];
+  for (int i = 0; i < n; i++) {
+    if (!direction(guide->f, around[i], a) || !direction(guide->f, around[(i + 1) % n], b)) continue;
+    thr_cross(a, b, cross);
+    for (int k = 0; k < 3; k++)
+      sum[k] += cross[k];
+  }
+  return thr_dot(sum, guide->outward[v]) > 0;
+}
+
+static void turn_round(int *list, int first, int end)
+{
+  for (int i = first, j = end - 1; i < j; i++, j--) {
+    int t = list[i];
+    list[i] = list[j];
+    list[j] = t;
+  }
+}
+
+/* How far a half-edge points up in the picture: 1 = all of its length. */
+static double points_up(const thr_guide *guide, int h)
+{
+  const thr_frame *paper = thr_layout_paper(&guide->layout, guide->f);
+  const double *a = guide->layout.xy[thr_tail(paper, h)], *b = guide->layout.xy[thr_head(paper, h)];
+  double length = hypot(b[0] - a[0], b[1] - a[1]);
+  return length > 0 ? nearbyint((b[1] - a[1]) / length * 1e6) / 1e6 : 0;
+}
+
+thr_status thr_guide_around(const thr_guide *guide, int *around, thr_err *err)
+{
+  const thr_frame *frame = guide->f;
+  thr_status st = thr_channels_around(frame, around, err);
+  for (int v = 0; v < frame->n_nodes && !st; v++) {
+    int *own = around + frame->first[v], n = thr_degree(frame, v), top = 0;
+    if (counter_clockwise(guide, v, own, n)) turn_round(own, 0, n);
+    for (int i = 1; i < n; i++)
+      if (points_up(guide, own[i]) > points_up(guide, own[top])) top = i;
+    turn_round(own, 0, top); /* three reversals move the top one to the front */
+    turn_round(own, top, n);
+    turn_round(own, 0, n);
+  }
+  return st;
+}
+
 thr_status thr_guide_make(thr_guide *guide, const thr_frame *frame, thr_err *err)
 {
   *guide = (thr_guide){.f = frame};
@@ -175,7 +147,7 @@ thr_status thr_guide_make(thr_guide *guide, const thr_frame *frame, thr_err *err
     st = thr_places_find(&guide->places, frame, (const double(*)[2])guide->layout.xy, guide->layout.median, err);
   guide->sides = !guide->layout.crossings && !guide->layout.estimated && guide->layout.kind != THR_LAYOUT_DRAWN;
   if (!st && guide->sides) st = find_outward(guide, err);
-  return st ? st : name_nodes(guide, err);
+  return st ? st : thr_places_labels(&guide->places, frame, guide->label, err);
 }
 
 void thr_guide_destroy(thr_guide *guide)
@@ -193,7 +165,7 @@ thr_way thr_guide_way(const thr_guide *guide, int in, int out)
 {
   double a[3], b[3], cross[3], *n = guide->outward[thr_tail(guide->f, out)];
   if (out == (in ^ 1)) return THR_WAY_BACK;
-  if (thr_turn_angle(guide->f, in, out) < THR_GUIDE_STRAIGHT) return THR_WAY_STRAIGHT;
+  if (thr_turn_angle(guide->f, in, out) < THR_STRAIGHT) return THR_WAY_STRAIGHT;
   if (!guide->sides || thr_dot(n, n) == 0 || !direction(guide->f, in, a) || !direction(guide->f, out, b)) return THR_WAY_TURN;
   thr_cross(a, b, cross);
   double turn = atan2(thr_dot(n, cross), thr_dot(a, b) - thr_dot(a, n) * thr_dot(b, n));

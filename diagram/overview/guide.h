@@ -9,11 +9,6 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
-/* Turns of less are "straight on". */
-static const double THR_GUIDE_STRAIGHT = 0.26179938779914943654; /* rad, 15 degrees */
-
-enum { THR_LABEL = 64 };
-
 /* {0} is valid and empty. Arrays are owned, the frame is borrowed. */
 typedef struct {
   const thr_frame *f;
@@ -31,6 +26,10 @@ void thr_guide_destroy(thr_guide *guide);
 /* Appends "foot A1 (node 17)": the node's own name where it is called by its place. */
 void thr_guide_place(const thr_guide *guide, int v, thr_text *text);
 
+/* The half-edges that leave each node in around[2 * n_edges], as frame->half, but clockwise as seen from outside where that is
+ * known, from the one on that points up most nearly in the picture. O(n log n). */
+thr_status thr_guide_around(const thr_guide *guide, int *around, thr_err *err) THR_MUST_CHECK;
+
 /* How half-edge out goes on from half-edge in (head(in) = tail(out)). */
 typedef enum {
   THR_WAY_STRAIGHT,
@@ -45,27 +44,6 @@ thr_way thr_guide_way(const thr_guide *guide, int in, int out);
 
 /* Appends "straight on", "turn left 90 degrees", "over the curve 24 degrees", "turn back". */
 void thr_guide_say(const thr_guide *guide, int in, int out, thr_text *text);
-
-/* What a pass does with the bead of its edge. */
-typedef enum {
-  THR_PICK_UP,      /* no cord has been in it yet */
-  THR_PASS_THROUGH, /* the way that the cord in it went that came last */
-  THR_PASS_BACK     /* against that one */
-} thr_deed;
-
-const char *thr_deed_words(thr_deed d); /* "pick up", "pass through", "pass back through" */
-
-/* What the beads hold so far. {0} is valid and empty. */
-typedef struct {
-  int *cords; /* [n_edges] */
-  int *last;  /* [n_edges] half-edge of the latest pass, if cords > 0 */
-} thr_held;
-
-thr_status thr_held_make(thr_held *held, int n_edges, thr_err *err) THR_MUST_CHECK;
-void thr_held_destroy(thr_held *held);
-
-/* Takes the needle over a half-edge. */
-thr_deed thr_held_pass(thr_held *held, int half);
 
 /* "second", "third", "4th", "21st" */
 void thr_guide_ordinal(int n, char word[16]);

@@ -7,6 +7,7 @@
 #include "diagram/overview/tension.h"
 #include "diagram/scene/copies.h"
 #include "diagram/scene/palette.h"
+#include "diagram/scene/pieces.h"
 #include "diagram/scene/places.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/evaluation.h"
@@ -30,9 +31,11 @@ static const char *plural(int n)
 
 void thr_legend_title(const thr_scene *scene, const char *given, char title[160])
 {
-  int n = scene->plan->n_cords, paths = scene->copy ? thr_copies_paths(scene->copy, n) : n, beads = scene->frame->n_edges;
+  int n = scene->plan->n_cords, paths = scene->copy ? thr_copies_paths(scene->copy, n) : n,
+      pieces = thr_pieces_count(scene->plan);
   char size[64];
-  snprintf(size, sizeof size, "%d bead%s, %d pass%s", beads, plural(beads), scene->n_passes, scene->n_passes == 1 ? "" : "es");
+  snprintf(size, sizeof size, "%d %s, %d pass%s", pieces, thr_pieces_word(scene->plan, pieces), scene->n_passes,
+           scene->n_passes == 1 ? "" : "es");
   if (given && *given)
     snprintf(title, 160, "%.159s", given);
   else if (n == 1)
@@ -86,7 +89,7 @@ static double write_view(const thr_scene *scene, double x, double y, double widt
            layout->estimated ? two_digits((double)layout->crossings) : (double)layout->crossings);
   snprintf(
       line, sizeof line,
-      "In this layout %s pair%s of beads cross or touch that do not in space: at these places follow the arrows and numbers.",
+      "In this layout %s pair%s of edges cross or touch that do not in space: at these places follow the arrows and numbers.",
       number, plural(layout->crossings == 1 ? 1 : 2));
   return thr_svg_wrap(text, x, y, TEXT_SIZE, width, " fill=\"#A03000\"", line);
 }
@@ -101,9 +104,11 @@ double thr_legend_heading(const thr_scene *scene, const char *title, double x, d
   thr_svg_length(total, frame->units, length);
   y = thr_svg_wrap(text, x, y + TITLE_SIZE, TITLE_SIZE, width, " font-weight=\"bold\"", title);
   int feet = count_feet(frame);
-  snprintf(line, sizeof line, "%d nodes, %d bead%s (edge%s), %d %s; %d cord%s, %d pass%s, %s of cord.", frame->n_nodes,
-           frame->n_edges, plural(frame->n_edges), plural(frame->n_edges), feet, feet == 1 ? "foot" : "feet",
-           scene->plan->n_cords, plural(scene->plan->n_cords), scene->n_passes, scene->n_passes == 1 ? "" : "es", length);
+  snprintf(line, sizeof line, "%d %s, %d %s%s, %d %s; %d cord%s, %d pass%s, %s of cord.", thr_pieces_count(scene->plan),
+           thr_pieces_word(scene->plan, thr_pieces_count(scene->plan)), scene->solid ? frame->n_edges : frame->n_nodes,
+           scene->solid ? "joint" : "place", plural(scene->solid ? frame->n_edges : frame->n_nodes), feet,
+           feet == 1 ? "foot" : "feet", scene->plan->n_cords, plural(scene->plan->n_cords), scene->n_passes,
+           scene->n_passes == 1 ? "" : "es", length);
   y = thr_svg_wrap(text, x, y, TEXT_SIZE, width, "", line);
   y = write_view(scene, x, y, width, text);
   if (scene->number_step == 1)
@@ -147,7 +152,7 @@ static double write_scale_bar(const thr_scene *scene, double x, double y, double
   return y + ROW + 2;
 }
 
-/* One line of signs: start, end, bead, number, foot. */
+/* One line of signs: start, end, number, piece, foot. */
 static double write_key(const thr_scene *scene, double x, double y, thr_text *text)
 {
   thr_mark mark = scene->mark[0][0];
@@ -165,9 +170,14 @@ static double write_key(const thr_scene *scene, double x, double y, thr_text *te
   thr_draw_pill(scene, scene->plan->n_cords > 1 ? "A1" : "1", colour, x, y, text);
   thr_svg_text(text, x += 5, line, TEXT_SIZE, "", "number of a pass");
   x += 38;
-  thr_text_printf(text, "<rect class=\"bead\" x=\"%.2f\" y=\"%.2f\" width=\"9.00\" height=\"4.00\" rx=\"1.20\"/>\n", x - 4,
-                  y - 2);
-  thr_svg_text(text, x += 7, line, TEXT_SIZE, "", "bead");
+  if (scene->solid)
+    thr_text_printf(text,
+                    "<path class=\"piece\" d=\"M%.2f %.2fh1.60v1.70h1.70v1.60h-1.70v1.70h-1.60v-1.70h-1.70v-1.60h1.70z\"/>\n",
+                    x - 0.8, y - 2.5);
+  else
+    thr_text_printf(text, "<rect class=\"piece\" x=\"%.2f\" y=\"%.2f\" width=\"9.00\" height=\"4.00\" rx=\"1.20\"/>\n", x - 4,
+                    y - 2);
+  thr_svg_text(text, x += scene->solid ? 4 : 7, line, TEXT_SIZE, "", thr_pieces_word(scene->plan, 1));
   if (!count_feet(scene->frame)) return y + ROW + 2;
   thr_text_printf(text, "<rect class=\"foot\" x=\"%.2f\" y=\"%.2f\" width=\"4.00\" height=\"4.00\"/>\n", x + 14, y - 2);
   thr_svg_text(text, x + 20, line, TEXT_SIZE, "", "foot");
@@ -213,17 +223,23 @@ static void ranges_of_colour(const thr_scene *scene, int k, char line[320])
   snprintf(line + n, (size_t)(320 - n), " (%s)", thr_palette(k).name);
 }
 
-/* "Cord A: 86 passes through 84 beads, 2413 mm, from A3 to C1"; seen[e] = c + 1 marks beads met. */
+/* The piece that a pass leads to; of tubes the one that it goes through. */
+static int piece_at(const thr_scene *scene, int half)
+{
+  return scene->solid ? thr_head(scene->frame, half) : half >> 1;
+}
+
+/* "Cord A: 86 passes through 49 pieces, 2413 mm, from A3 to C1"; seen[piece] = c + 1 marks those met. */
 static void describe_cord(const thr_scene *scene, int c, int *seen, char line[320])
 {
   const thr_cord *cord = &scene->plan->cord[c];
   const thr_frame *frame = scene->frame;
   char length[64], from[48], to[48], where[128];
-  int beads = 0;
-  for (int i = 0; i < cord->n_passes; i++) {
-    int e = cord->half[i] >> 1;
-    beads += seen[e] != c + 1;
-    seen[e] = c + 1;
+  int pieces = 0;
+  for (int i = scene->solid ? -1 : 0; i < cord->n_passes; i++) {
+    int piece = i < 0 ? thr_cord_start(frame, cord) : piece_at(scene, cord->half[i]);
+    pieces += seen[piece] != c + 1;
+    seen[piece] = c + 1;
   }
   thr_svg_length(thr_cord_length(frame, cord), frame->units, length);
   thr_places_name(&scene->places, frame, thr_cord_start(frame, cord), from);
@@ -232,8 +248,8 @@ static void describe_cord(const thr_scene *scene, int c, int *seen, char line[32
     snprintf(where, sizeof where, "from %s and back to it", from);
   else
     snprintf(where, sizeof where, "from %s to %s", from, to);
-  snprintf(line, 320, "Cord %s: %d pass%s through %d bead%s, %s, %s", scene->id[c], cord->n_passes,
-           cord->n_passes == 1 ? "" : "es", beads, plural(beads), length, where);
+  snprintf(line, 320, "Cord %s: %d pass%s through %d %s, %s, %s", scene->id[c], cord->n_passes, cord->n_passes == 1 ? "" : "es",
+           pieces, thr_pieces_word(scene->plan, pieces), length, where);
 }
 
 /* "1200 DEG of turning, sharpest turn 120 DEG, 14 over 60 DEG, 3 over 90 DEG": of the cords from first to before end. */
@@ -347,7 +363,8 @@ static double write_turning_scale(const thr_scene *scene, double x, double y, do
   describe_turning(scene, 0, scene->plan->n_cords, sum);
   snprintf(line, sizeof line, "%s%s.", scene->plan->n_cords > 1 ? "All cords: " : "", sum);
   y = thr_svg_wrap(text, x, y, TEXT_SIZE, width, "", line);
-  snprintf(line, sizeof line, "Colour: turn between two beads, in degrees (0 = straight); %s.",
+  snprintf(line, sizeof line, "Colour: turn %s, in degrees (0 = straight); %s.",
+           scene->solid ? "in a piece" : "between two tubes",
            scene->plan->options.ends == THR_ENDS_CLOSED ? "ends: closing turn" : "ends do not turn");
   y = thr_svg_wrap(text, x, y, TEXT_SIZE, width, "", line) - 0.5 * TEXT_SIZE;
   write_sharp_key(scene, x + RAMP + 8, y + 2, text);
@@ -428,7 +445,7 @@ static double write_rows(const thr_scene *scene, const row *rows, int n, double 
     widest = w > widest ? w : widest;
     widest = other > widest ? other : widest;
   }
-  memset(seen, 0, (size_t)scene->frame->n_edges * sizeof *seen);
+  memset(seen, 0, (size_t)thr_pieces_count(scene->plan) * sizeof *seen);
   double column = SWATCH + 0.58 * TEXT_SIZE * widest + 6;
   int columns = (int)fmax(1, floor((width + 6) / column)), down = (n + columns - 1) / columns;
   double room = fmin(column - SWATCH, width - SWATCH), base = y, bottom = y;
@@ -453,7 +470,7 @@ thr_status thr_legend_foot(const thr_scene *scene, double x, double y, double wi
 {
   char line[320];
   *bottom = y;
-  int *seen = thr_calloc((size_t)scene->frame->n_edges, sizeof *seen), most = 2 * scene->plan->n_cords + THR_COLOURS;
+  int *seen = thr_calloc((size_t)thr_pieces_count(scene->plan), sizeof *seen), most = 2 * scene->plan->n_cords + THR_COLOURS;
   row *rows = thr_calloc((size_t)most, sizeof *rows);
   thr_status st = seen && rows ? THR_OK : thr_nomem(err);
   if (st) goto done;

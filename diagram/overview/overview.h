@@ -12,7 +12,7 @@ typedef enum { THR_COLOUR_CORD, THR_COLOUR_TENSION, THR_COLOUR_TURNING, THR_N_CO
 const char *thr_overview_colour_name(int c); /* "cord", "tension", "turning" */
 
 typedef struct {
-  const char *title;          /* NULL or "": "Cord A: 84 beads, 86 passes"; borrowed */
+  const char *title;          /* NULL or "": "Cord A: 49 pieces, 86 passes"; borrowed */
   double pitch_mm;            /* mm on paper for the median edge, 2 .. 200; 0 = automatic: 24 if the sheet stays within A0 */
   const thr_layout *layout;   /* NULL: thr_layout_choose; borrowed */
   thr_overview_colour colour; /* what colours tell apart; tension needs the plan's evaluation */
@@ -23,7 +23,8 @@ typedef struct {
 thr_overview_options thr_overview_options_default(void);
 
 /* Appends the picture to svg. Its size is physical (mm); no text is under 7 pt. Elements: <g id="cord-A"> holds the
- * passes, <g id="A-17"> is pass 17 (counted from 1), "bead-12" is edge 12 (counted from 0), "n-A-17" a pass's number.
+ * passes, <g id="A-17"> is pass 17 (counted from 1), "piece-12" is node 12 (counted from 0; with tube joints edge 12) with
+ * its name in data-piece, "n-A-17" a pass's number.
  * A cord's id is used if it is capital letters only, else the id that its index would have. With turning shown, a pass holds the
  * halves of the turns before and after it as <path class="turn">: the curve with the half lane that follows, and the other half
  * lane; "t-A-17" marks a turn of more than 90 degrees to pass 17. Turns that do not count (graph/plan/plan.h) have no colour.

@@ -3,6 +3,7 @@
 #include "diagram/layout/layout.h"
 #include "diagram/scene/copies.h"
 #include "diagram/overview/guide.h"
+#include "diagram/scene/pieces.h"
 #include "diagram/scene/scene.h"
 #include "diagram/overview/svg.h"
 #include "graph/framework/frame.h"
@@ -19,7 +20,11 @@ typedef struct {
   const char *const *motion;
   thr_guide guide;
   thr_copy *copy; /* [n_cords] */
-  thr_held held;  /* by the passes so far */
+  thr_pieces pieces;
+  thr_part *part;   /* [n_cords] in the order of threading */
+  thr_visit *visit; /* [n_visits] in that order */
+  int n_visits;
+  int *first; /* [n_cords] visit */
   int n_passes;
   thr_text *out;
 } steps;
@@ -60,70 +65,50 @@ static void put_line(steps *s, const char *line)
 
 /* ---- paths ---- */
 
-/* Does pass k of a cord go straight on from the one before? */
-static bool is_straight(const steps *s, const thr_cord *cord, int k)
-{
-  return k > 0 && thr_guide_way(&s->guide, cord->half[k - 1], cord->half[k]) == THR_WAY_STRAIGHT;
-}
-
-/* One row: the passes from first on that go straight on through beads that hold as many cords. Returns the pass after it. */
-static int put_row(steps *s, const thr_cord *cord, int first)
+/* One row: a visit. Rows are numbered as the passes are in the pictures; S: here the cord starts. */
+static void put_row(steps *s, const thr_cord *cord, int i)
 {
   thr_text words = {0};
-  char range[32], prefix[64], nth[16];
-  int k = first, times = s->held.cords[cord->half[k] >> 1] + 1, digits = snprintf(range, sizeof range, "%d", cord->n_passes);
-  if (k == 0)
-    thr_text_append(&words, "go");
+  char number[32], prefix[64];
+  int digits = snprintf(number, sizeof number, "%d", cord->n_passes);
+  if (s->visit[i].number)
+    snprintf(number, sizeof number, "%d", s->visit[i].number);
   else
-    thr_guide_say(&s->guide, cord->half[k - 1], cord->half[k], &words);
-  bool straight = is_straight(s, cord, k);
-  thr_text_printf(&words, " to %s", s->guide.label[thr_head(s->f, cord->half[k])]);
-  thr_held_pass(&s->held, cord->half[k++]);
-  for (; k < cord->n_passes && is_straight(s, cord, k) && s->held.cords[cord->half[k] >> 1] + 1 == times; k++) {
-    if (k == first + 1 && !straight) thr_text_append(&words, ", straight on to");
-    thr_text_printf(&words, " %s", s->guide.label[thr_head(s->f, cord->half[k])]);
-    thr_held_pass(&s->held, cord->half[k]);
-  }
-  thr_guide_ordinal(times, nth);
-  if (times > 1) thr_text_printf(&words, " (%s pass)", nth);
-  if (k == first + 1)
-    snprintf(range, sizeof range, "%d", k);
-  else
-    snprintf(range, sizeof range, "%d-%d", first + 1, k);
-  snprintf(prefix, sizeof prefix, "[ ] %*s  ", 2 * digits + 1, range);
+    snprintf(number, sizeof number, "S");
+  snprintf(prefix, sizeof prefix, "[ ] %*s  ", digits, number);
+  thr_pieces_say(&s->pieces, (const char(*)[THR_LABEL])s->guide.label, s->visit, i, NULL, &words);
   put_wrapped(s, prefix, &words);
-  return k;
 }
 
-static void put_rows(steps *s, const thr_cord *cord)
+static void put_rows(steps *s, int c)
 {
   thr_text words = {0};
+  const thr_cord *cord = &s->plan->cord[c];
   char indent[INDENT + 1];
   int start = thr_cord_start(s->f, cord), end = thr_cord_end(s->f, cord);
   snprintf(indent, sizeof indent, "%*s", INDENT, "");
   thr_text_append(&words, "start at ");
   thr_guide_place(&s->guide, start, &words);
   put_wrapped(s, indent, &words);
-  for (int k = 0; k < cord->n_passes;)
-    k = put_row(s, cord, k);
+  for (int i = s->first[c]; i < s->n_visits && s->visit[i].cord == c; i++)
+    put_row(s, cord, i);
   thr_text_append(&words, "the needle comes out at ");
   thr_guide_place(&s->guide, end, &words);
   if (start == end) thr_text_append(&words, ", where it began");
   put_wrapped(s, indent, &words);
 }
 
-/* ", 17 passes through 15 beads, 510.0 mm". A bead is counted at its first pass. */
-static void put_measure(const steps *s, const thr_cord *cord, int *seen, int mark, thr_text *text)
+/* ", 17 passes, 15 pieces to pick up, 510.0 mm" */
+static void put_measure(const steps *s, int c, thr_text *text)
 {
   char length[64];
-  int beads = 0;
-  for (int k = 0; k < cord->n_passes; k++) {
-    beads += seen[cord->half[k] >> 1] != mark;
-    seen[cord->half[k] >> 1] = mark;
-  }
+  const thr_cord *cord = &s->plan->cord[c];
+  int picked = 0;
+  for (int i = s->first[c]; i < s->n_visits && s->visit[i].cord == c; i++)
+    picked += s->visit[i].nth == 1;
   thr_svg_length(thr_cord_length(s->f, cord), s->f->units, length);
-  thr_text_printf(text, ", %d pass%s through %d bead%s, %s", cord->n_passes, cord->n_passes == 1 ? "" : "es", beads,
-                  beads == 1 ? "" : "s", length);
+  thr_text_printf(text, ", %d pass%s, %d %s to pick up, %s", cord->n_passes, cord->n_passes == 1 ? "" : "es", picked,
+                  thr_pieces_word(s->plan, picked), length);
 }
 
 /* ---- copies ---- */
@@ -155,7 +140,7 @@ static void put_copy(steps *s, int c)
   if (!s->motion || !s->motion[c]) {
     thr_text_printf(&words, "Cord %s: copy of path %d%s, in full:", cord->id, s->copy[c].path + 1, how);
     put_wrapped(s, "", &words);
-    put_rows(s, cord);
+    put_rows(s, c);
     return;
   }
   thr_text_printf(&words, "Cord %s: the same%s%s: start at ", cord->id, how,
@@ -164,11 +149,9 @@ static void put_copy(steps *s, int c)
   thr_text_printf(&words, ", first to %s, end at ", s->guide.label[thr_head(s->f, cord->half[0])]);
   thr_guide_place(&s->guide, thr_cord_end(s->f, cord), &words);
   put_wrapped(s, "[ ] ", &words);
-  for (int k = 0; k < cord->n_passes; k++)
-    thr_held_pass(&s->held, cord->half[k]);
 }
 
-static void put_path(steps *s, int c, int n_paths, int *seen)
+static void put_path(steps *s, int c, int n_paths)
 {
   thr_text words = {0};
   int copies = thr_copies_count(s->copy, s->plan->n_cords, c);
@@ -178,9 +161,9 @@ static void put_path(steps *s, int c, int n_paths, int *seen)
   else
     thr_text_append(&words, "Cord ");
   thr_text_append(&words, s->plan->cord[c].id);
-  put_measure(s, &s->plan->cord[c], seen, c + 1, &words);
+  put_measure(s, c, &words);
   put_wrapped(s, "", &words);
-  put_rows(s, &s->plan->cord[c]);
+  put_rows(s, c);
   if (!copies) return;
   thr_text_printf(s->out, "\nRepeat path %d with %d other cord%s:\n", s->copy[c].path + 1, copies, copies == 1 ? "" : "s");
   for (int i = 0; i < s->plan->n_cords; i++)
@@ -188,6 +171,24 @@ static void put_path(steps *s, int c, int n_paths, int *seen)
 }
 
 /* ---- the whole ---- */
+
+/* How kinds and names are told apart, by a piece that has both. */
+static void put_example(steps *s)
+{
+  thr_text words = {0};
+  char name[24];
+  int i = 0;
+  while (i < s->n_visits && s->pieces.members[s->pieces.kind[s->visit[i].piece]] == 1)
+    i++;
+  if (i == s->n_visits) return;
+  int piece = s->visit[i].piece;
+  thr_pieces_kind_name(&s->pieces, s->pieces.kind[piece], name);
+  thr_pieces_pick(&s->pieces, (const char(*)[THR_LABEL])s->guide.label, piece, &words);
+  thr_text_printf(&words, ": a %s of kind %s, which comes to ", thr_pieces_word(s->plan, 1), name);
+  thr_pieces_name(&s->pieces, (const char(*)[THR_LABEL])s->guide.label, piece, &words);
+  thr_text_append(&words, ". Kinds: beads.csv.");
+  put_wrapped(s, "", &words);
+}
 
 static void put_heading(steps *s, int n_paths)
 {
@@ -200,48 +201,60 @@ static void put_heading(steps *s, int n_paths)
   thr_svg_length(total, s->f->units, length);
   thr_text_printf(&words, "Steps: %d cord%s", n, n == 1 ? "" : "s");
   if (n_paths < n) thr_text_printf(&words, ", %d path%s to learn", n_paths, n_paths == 1 ? "" : "s");
-  thr_text_printf(&words, ", %d beads, %d passes, %s of cord", s->f->n_edges, s->n_passes, length);
+  thr_text_printf(&words, ", %d %s, %d passes, %s of cord", s->pieces.n, thr_pieces_word(s->plan, s->pieces.n), s->n_passes,
+                  length);
   put_wrapped(s, "", &words);
   thr_text_append(s->out, "\n");
   put_line(s, thr_layout_words(s->guide.layout.kind));
-  put_line(s, !s->guide.sides ? "Turns have no left and right here: in this view beads cross that do not in space."
-                              : "Left and right are meant as seen there, going with the needle. Over the curve: ahead, where the "
-                                "surface bends.");
-  put_line(s, "Rows: box to tick, passes, the nodes that they come to. Straight on: a turn of less than 15 degrees. Second pass: "
-              "the beads hold a cord already.");
+  put_line(
+      s,
+      s->pieces.solid
+          ? "Rows: box to tick, the number of the pass that leads into the piece (S: the cord starts), whether the piece is new "
+            "or on a cord already, and by which arms the cord goes in and out: an arm is called by the piece that it faces."
+          : "Rows: box to tick, the number of the pass, whether the tube is new or on a cord already, and the places at which "
+            "the cord goes in and out. Back through: against the way of the cord that came before.");
+  put_example(s);
 }
 
-static thr_status prepare(steps *s, thr_err *err)
+static thr_status prepare(steps *s, double tolerance, thr_err *err)
 {
   const thr_plan *p = s->plan;
   thr_status st = thr_scene_check_cords(p, &s->n_passes, err);
   if (!st && !p->n_cords) st = thr_fail(err, THR_EINPUT, "the plan has no cord to thread");
   if (st) return st;
   s->copy = thr_calloc((size_t)p->n_cords, sizeof *s->copy);
-  st = s->copy ? thr_held_make(&s->held, s->f->n_edges, err) : thr_nomem(err);
-  if (!st) st = thr_guide_make(&s->guide, s->f, err);
+  s->part = thr_calloc((size_t)p->n_cords, sizeof *s->part);
+  s->first = thr_calloc((size_t)p->n_cords, sizeof *s->first);
+  st = s->copy && s->part && s->first ? thr_guide_make(&s->guide, s->f, err) : thr_nomem(err);
   if (!st) st = thr_copies_find(p, s->copy, err);
+  if (!st) st = thr_pieces_make(&s->pieces, p, tolerance, err);
+  if (st) return st;
+  thr_pieces_parts(p, s->copy, s->part);
+  st = thr_pieces_follow(&s->pieces, s->part, p->n_cords, &s->visit, &s->n_visits, err);
+  for (int i = s->n_visits - 1; i >= 0; i--)
+    s->first[s->visit[i].cord] = i;
   return st;
 }
 
-thr_status thr_steps_text(const thr_plan *p, const char *const *motion, thr_text *out, thr_err *err)
+thr_status thr_steps_text(const thr_plan *p, const char *const *motion, double tolerance, thr_text *out, thr_err *err)
 {
   thr_text text = {0};
   steps s = {.plan = p, .f = &p->frame, .motion = motion, .out = &text};
-  int *seen = thr_calloc((size_t)p->frame.n_edges, sizeof *seen);
-  thr_status st = seen ? prepare(&s, err) : thr_nomem(err);
+  thr_status st = prepare(&s, tolerance, err);
   if (st) goto done;
   int n_paths = thr_copies_paths(s.copy, p->n_cords);
   put_heading(&s, n_paths);
   for (int c = 0; c < p->n_cords; c++)
-    if (s.copy[c].of == c) put_path(&s, c, n_paths, seen);
+    if (s.copy[c].of == c) put_path(&s, c, n_paths);
   if (!text.failed) thr_text_append_bytes(out, text.data, text.length);
   if (text.failed || out->failed) st = thr_nomem(err);
 done:
   thr_text_destroy(&text);
   thr_guide_destroy(&s.guide);
   free(s.copy);
-  thr_held_destroy(&s.held);
-  free(seen);
+  thr_pieces_destroy(&s.pieces);
+  free(s.part);
+  free(s.visit);
+  free(s.first);
   return st;
 }

@@ -3,6 +3,8 @@
 
 #include "diagram/scene/palette.h"
 #include "diagram/overview/svg.h"
+#include "graph/plan/advice.h"
+#include "graph/plan/physics.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -15,11 +17,13 @@ static const double LEFT = 17, LABELS = 46; /* room for the numbers of the y axi
 static const double PANEL_HEIGHT = 95, SMALL_HEIGHT = 34, SMALL_GAP = 9;
 static const double LINE = 0.6, SIGN = 1.5; /* width of a cord's line, radius of a mark */
 static const double LOGARITHMIC = 20;       /* from this ratio of tensions on */
+static const double NEAR = 5;               /* times the tensions: a limit that far above them is still shown */
 enum { COLUMNS = 3, MOST_TICKS = 10, FEW_TICKS = 5 };
 
 typedef struct {
   const thr_plan *plan;
   const thr_evaluation *e;
+  const thr_tension_options *options;
   bool passes, logarithmic, small;
   bool seating;     /* does the line of the seating tension mean anything? */
   double low, high; /* N, of the y axis */
@@ -92,14 +96,45 @@ static double place_x(const plot *s, double along)
 
 static double place_y(const plot *s, double tension)
 {
-  double part = s->logarithmic ? log(tension / s->low) / log(s->high / s->low) : (tension - s->low) / (s->high - s->low);
+  double part =
+      s->logarithmic ? log(fmax(tension, s->low) / s->low) / log(s->high / s->low) : (tension - s->low) / (s->high - s->low);
   return s->y + s->height * (1 - fmin(fmax(part, 0), 1));
+}
+
+enum { MOST_LIMITS = 3 };
+
+/* What cord and hands bear, N, the strength first, then the most for a hand; returns how many. */
+static int limits_of(const plot *s, double newton[MOST_LIMITS])
+{
+  int n = 0;
+  if (s->options->strength > 0) newton[n++] = s->options->strength;
+  if (s->options->hand) newton[n++] = thr_hand_most;
+  if (s->options->hand) newton[n++] = thr_hand_always;
+  return n;
+}
+
+/* The range of the tensions, of the fan, and of the nearest limit above. */
+static void range_of(const plot *s, double range[2])
+{
+  const thr_evaluation *const fan[2] = {s->options->low, s->options->high};
+  double limit[MOST_LIMITS], nearest = INFINITY;
+  thr_evaluation_range(s->e, range);
+  for (int i = 0; i < 2; i++) {
+    double more[2] = {0, 0};
+    if (!fan[i]) continue;
+    thr_evaluation_range(fan[i], more);
+    range[0] = fmin(range[0], more[0]);
+    range[1] = fmax(range[1], more[1]);
+  }
+  for (int i = limits_of(s, limit) - 1; i >= 0; i--)
+    if (limit[i] >= range[1] && limit[i] <= NEAR * range[1]) nearest = fmin(nearest, limit[i]);
+  if (isfinite(nearest)) range[1] = nearest;
 }
 
 static void choose_axes(plot *s)
 {
   double range[2] = {0, 0};
-  thr_evaluation_range(s->e, range);
+  range_of(s, range);
   if (s->seating) {
     range[0] = fmin(range[0], s->e->physics.seating);
     range[1] = fmax(range[1], s->e->physics.seating);
@@ -138,7 +173,7 @@ static void write_y_axis(const plot *s, bool labelled, thr_text *text)
     double y = thr_svg_round(place_y(s, tick[i]));
     thr_text_printf(text, "<path class=\"grid\" d=\"M%.2f %.2fh%.2f\"/>\n", s->x, y, s->width);
     if (!labelled) continue;
-    snprintf(number, sizeof number, "%.10g", tick[i]);
+    snprintf(number, sizeof number, tick[i] >= 1e6 ? "%.0e" : "%.10g", tick[i]);
     thr_svg_text(text, s->x - 1.4, y + 0.36 * SMALL, SMALL, " class=\"end\"", number);
   }
 }
@@ -218,6 +253,60 @@ static void write_steps(const plot *s, int c, thr_text *text)
   thr_text_printf(text, "H%.2f\"/>\n", thr_svg_round(place_x(s, along)));
 }
 
+/* Between the tensions at both ends of the band of mu: along the upper ones, and back along the lower ones. */
+static void write_fan(const plot *s, int c, thr_text *text)
+{
+  const thr_evaluation *const fan[2] = {s->options->high, s->options->low};
+  const int n = s->e->cord[c].n_passes;
+  double along = 0;
+  char id[12];
+  if (!fan[0] || !fan[1] || !fan[0]->cord[c].known || !fan[1]->cord[c].known) return;
+  thr_cord_id(c, id);
+  thr_text_printf(text, "<path id=\"fan-%s\" class=\"fan\" fill=\"%s\" d=\"M%.2f %.2f", id, thr_palette(c).hex, s->x,
+                  thr_svg_round(place_y(s, fan[0]->cord[c].tension[0])));
+  for (int k = 0; k < n; k++) {
+    along += step_of(s, c, k);
+    thr_text_printf(text, "V%.2fH%.2f", thr_svg_round(place_y(s, fan[0]->cord[c].tension[k])), thr_svg_round(place_x(s, along)));
+  }
+  for (int k = n - 1; k >= 0; k--) {
+    along -= step_of(s, c, k);
+    thr_text_printf(text, "V%.2fH%.2f", thr_svg_round(place_y(s, fan[1]->cord[c].tension[k])), thr_svg_round(place_x(s, along)));
+  }
+  thr_text_append(text, "Z\"/>\n");
+}
+
+static double slackest_at(const plot *s, int c)
+{
+  double along = 0;
+  for (int k = 0; k < s->e->cord[c].slackest; k++)
+    along += step_of(s, c, k);
+  return along + 0.5 * step_of(s, c, s->e->cord[c].slackest);
+}
+
+/* Limits within the axis, each with its number above the slackest pass of cord c, where the lines are low; no number on another.
+ */
+static void write_limits(const plot *s, int c, thr_text *text)
+{
+  double limit[MOST_LIMITS], at[MOST_LIMITS];
+  int n = limits_of(s, limit), named = 0;
+  for (int i = 0; i < n; i++) {
+    char words[32];
+    double y = thr_svg_round(place_y(s, limit[i]));
+    bool apart = true;
+    if (limit[i] > s->high || limit[i] < s->low) continue;
+    thr_text_printf(text, "<path class=\"%s\" d=\"M%.2f %.2fh%.2f\"/>\n",
+                    i == 0 && s->options->strength > 0 ? "strength" : "hand", s->x, y, s->width);
+    for (int k = 0; k < named; k++)
+      apart &= fabs(at[k] - y) > 1.5 * SMALL;
+    if (!apart) continue;
+    at[named++] = y;
+    snprintf(words, sizeof words, "%g N", limit[i]);
+    double half = 0.35 * SMALL * (double)strlen(words) + 1;
+    double x = fmin(fmax(place_x(s, slackest_at(s, c)), s->x + half), s->x + s->width - half);
+    thr_svg_text(text, x, y + (y - s->y > 1.4 * SMALL ? -0.6 : 0.4 + SMALL), SMALL, " class=\"middle halo\"", words);
+  }
+}
+
 static void write_pulled_end(const plot *s, int c, double along, double tension, double way, thr_text *text)
 {
   double x = thr_svg_round(place_x(s, along)), y = thr_svg_round(place_y(s, tension));
@@ -228,11 +317,9 @@ static void write_pulled_end(const plot *s, int c, double along, double tension,
 static void write_cord_marks(const plot *s, int c, thr_text *text)
 {
   const thr_eval_cord *cord = &s->e->cord[c];
-  double along = 0, slackest = 0;
-  for (int k = 0; k < cord->n_passes; k++) {
-    if (k == cord->slackest) slackest = along + 0.5 * step_of(s, c, k);
+  double along = 0, slackest = slackest_at(s, c);
+  for (int k = 0; k < cord->n_passes; k++)
     along += step_of(s, c, k);
-  }
   thr_text_printf(text, "<circle class=\"slackest\" stroke=\"%s\" cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\"/>\n", thr_palette(c).hex,
                   thr_svg_round(place_x(s, slackest)), thr_svg_round(place_y(s, cord->tension[cord->slackest])), 0.7 * SIGN);
   if (cord->pull != THR_PULL_END) write_pulled_end(s, c, 0, cord->tension[0], -1, text);
@@ -249,14 +336,14 @@ static void write_cord(const plot *s, int c, thr_text *text)
   thr_text_append(text, "</g>\n");
 }
 
-/* "A: 39.7 and 39.3 N" */
+/* "A: 39.7 and 39.3 N"; of long numbers the larger one, "A: 4.49e+06 N". */
 static void label_cord(const plot *s, int c, char label[96])
 {
   const thr_eval_cord *cord = &s->e->cord[c];
   char force[32], other[32];
   thr_svg_force(cord->force, force);
   thr_svg_force(cord->other_force, other);
-  if (cord->pull == THR_PULL_BOTH)
+  if (cord->pull == THR_PULL_BOTH && cord->force < 1e6)
     snprintf(label, 96, "%.11s: %.*s and %s", s->plan->cord[c].id, (int)strcspn(force, " "), force, other);
   else
     snprintf(label, 96, "%.11s: %s", s->plan->cord[c].id, force);
@@ -303,6 +390,9 @@ static double write_one_panel(plot *s, double y, thr_text *text)
   thr_svg_text(text, MARGIN, y, TEXT_SIZE, "", s->logarithmic ? "tension, N (logarithmic)" : "tension, N");
   write_panel(s, true, true, text);
   for (int i = 0; i < s->n_shown; i++)
+    write_fan(s, s->shown[i], text);
+  write_limits(s, s->shown[0], text);
+  for (int i = 0; i < s->n_shown; i++)
     write_cord(s, s->shown[i], text);
   write_line_labels(s, text);
   write_axis_titles(s, text);
@@ -324,6 +414,8 @@ static double write_small_panels(plot *s, double y, thr_text *text)
     write_panel(s, i % COLUMNS == 0, i + COLUMNS >= s->n_shown, text);
     label_cord(s, s->shown[i], label);
     thr_svg_text(text, s->x, s->y - 2, TEXT_SIZE, "", label);
+    write_fan(s, s->shown[i], text);
+    write_limits(s, s->shown[i], text);
     write_cord(s, s->shown[i], text);
   }
   int rows = (s->n_shown + COLUMNS - 1) / COLUMNS;
@@ -367,6 +459,34 @@ static double write_heading(const plot *s, const char *title, thr_text *text)
   return y + 3;
 }
 
+/* What the fan and the lines mean, and at what: a second row of the key. */
+static double write_key_of_limits(const plot *s, double y, thr_text *text)
+{
+  const thr_physics *physics = &s->e->physics;
+  double x = MARGIN + LEFT, base = y + 0.36 * TEXT_SIZE;
+  char words[120];
+  if (s->options->low && s->options->high) {
+    thr_text_printf(text, "<rect class=\"fan\" fill=\"#555\" x=\"%.2f\" y=\"%.2f\" width=\"8.00\" height=\"3.00\"/>\n", x,
+                    y - 1.5);
+    snprintf(words, sizeof words, "mu from %g to %g", physics->mu_low, physics->mu_high);
+    thr_svg_text(text, x + 10, base, TEXT_SIZE, "", words);
+    y += 5.5;
+  }
+  if (s->options->hand) {
+    thr_text_printf(text, "<path class=\"hand\" d=\"M%.2f %.2fh8.00\"/>\n", x, y);
+    snprintf(words, sizeof words, "what a hand manages: %g N time after time, %g N at most", thr_hand_always, thr_hand_most);
+    thr_svg_text(text, x + 10, y + 0.36 * TEXT_SIZE, TEXT_SIZE, "", words);
+    y += 5.5;
+  }
+  if (s->options->strength > 0) {
+    thr_text_printf(text, "<path class=\"strength\" d=\"M%.2f %.2fh8.00\"/>\n", x, y);
+    snprintf(words, sizeof words, "at %g N the cord breaks", s->options->strength);
+    thr_svg_text(text, x + 10, y + 0.36 * TEXT_SIZE, TEXT_SIZE, "", words);
+    y += 5.5;
+  }
+  return y - 6 + TEXT_SIZE;
+}
+
 static double write_key(const plot *s, double y, thr_text *text)
 {
   double x = MARGIN + LEFT, base = y + 0.36 * TEXT_SIZE;
@@ -380,7 +500,7 @@ static double write_key(const plot *s, double y, thr_text *text)
     thr_text_printf(text, "<path class=\"seating\" d=\"M%.2f %.2fh8.00\"/>\n", x, y);
     thr_svg_text(text, x + 10, base, TEXT_SIZE, "", "seating tension");
   }
-  return y + TEXT_SIZE;
+  return write_key_of_limits(s, y + 6, text);
 }
 
 static void write_style(thr_text *text)
@@ -391,6 +511,10 @@ static void write_style(thr_text *text)
   thr_text_printf(text, ".thread .line{fill:none;stroke-width:%.2f;stroke-linejoin:round}\n", LINE);
   thr_text_append(text,
                   ".thread .seating{fill:none;stroke:#444;stroke-width:0.25;stroke-dasharray:1.2 0.8}\n"
+                  ".thread .fan{fill-opacity:0.18;stroke:none}.thread "
+                  ".hand{fill:none;stroke:#009E73;stroke-width:0.35;stroke-dasharray:1.6 1}\n"
+                  ".thread .strength{fill:none;stroke:#D55E00;stroke-width:0.45;stroke-dasharray:3 0.8 0.6 0.8}\n"
+                  ".thread text.halo{stroke:#fff;stroke-width:0.80;stroke-linejoin:round;paint-order:stroke}\n"
                   ".thread .slackest{fill:#fff;stroke-width:0.50}.thread .pulled{stroke:#fff;stroke-width:0.20}\n</style>\n");
 }
 
@@ -443,12 +567,16 @@ static thr_status write_sheet(plot *s, const char *given, thr_text *svg, thr_err
 
 thr_status thr_tension_svg(const thr_plan *p, const thr_tension_options *options, thr_text *svg, thr_err *err)
 {
-  plot s = {.plan = p, .e = &p->evaluation, .passes = options->passes, .seating = p->evaluation.method != THR_STRUCTURE};
+  plot s = {.plan = p,
+            .e = &p->evaluation,
+            .options = options,
+            .passes = options->passes,
+            .seating = p->evaluation.method != THR_STRUCTURE};
   thr_text out = {0};
   thr_status st = thr_tension_usable(p, err);
   if (!st) st = choose_cords(&s, err);
   if (st) return st;
-  s.small = s.n_shown > THR_TENSION_LINES;
+  s.small = s.n_shown > THR_TENSION_LINES || (options->low && options->high && s.n_shown > 1);
   choose_axes(&s);
   st = write_sheet(&s, options->title, &out, err);
   if (!st) thr_text_append_bytes(svg, out.data, out.length);

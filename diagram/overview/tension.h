@@ -10,6 +10,10 @@
 typedef struct {
   const char *title; /* NULL or "": "Tension along 3 cords"; borrowed */
   bool passes;       /* x counts passes, else it is distance along the cord */
+  /* the same plan at both ends of the band of mu, between which a fan opens; NULL = no fan; borrowed */
+  const thr_evaluation *low, *high;
+  bool hand;       /* lines at what a hand manages, time after time and at most */
+  double strength; /* N, a line at what the cord bears; 0 = none */
 } thr_tension_options;
 
 thr_tension_options thr_tension_options_default(void);
@@ -18,10 +22,12 @@ thr_tension_options thr_tension_options_default(void);
 enum { THR_TENSION_LINES = 6, THR_TENSION_PANELS = 48 };
 
 /* Appends the plot of plan->evaluation to svg: a step per pass, one line per cord, all axes alike, logarithmic where the tensions
- * differ by more than a factor of 20. Sizes are physical (mm); no text is under 7 pt. Elements: <g id="cord-A"> holds a cord's
- * line, its pulled ends and its slackest pass; cords are called by index as in the overview. The same plan and options give the
- * same bytes. THR_EINPUT if the plan has no evaluation, no known cord, or one that does not fit its cords. O(n). svg is unchanged
- * on failure. */
+ * differ by more than a factor of 20; with a fan every cord has a panel of its own. Sizes are physical (mm); no text is under 7
+ * pt. Elements: <g id="cord-A"> holds a cord's line, its pulled ends and its slackest pass, <path id="fan-A"> its fan; cords are
+ * called by index as in the overview. Lines of class "hand" and "strength" are drawn where they lie within the axis, which
+ * reaches up to the nearest one that is at most 5 times as much as the pull. The same plan and options give the same bytes.
+ * THR_EINPUT if the plan has no evaluation, no known cord, or one that does not fit its cords. O(n). svg is unchanged on failure.
+ */
 thr_status thr_tension_svg(const thr_plan *plan, const thr_tension_options *options, thr_text *svg, thr_err *err) THR_MUST_CHECK;
 
 /* THR_EINPUT with advice unless the plan's evaluation is there and has a tension per pass of every known cord. */

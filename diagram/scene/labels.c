@@ -7,8 +7,12 @@
 #include <math.h>
 
 enum { MAX_PLACES = 10 };
-static const double NUMBER_AT[MAX_PLACES] = {0.30, 0.22, 0.38, 0.46, 0.14, 0.54, 0.62, 0.70, 0.80, 0.90};
-static const double ARROW_AT[MAX_PLACES] = {0.68, 0.76, 0.60, 0.84, 0.52, 0.92, 0.44, 0.30, 0.20, 0.10};
+/* Along the straight part of a pass. Of a solid piece the number is on the arm by which the cord comes in, the arrow on that by
+ * which it goes out: they say which piece they belong to, and the hub stays free. */
+static const double NUMBER_AT[2][MAX_PLACES] = {{0.30, 0.22, 0.38, 0.46, 0.14, 0.54, 0.62, 0.70, 0.80, 0.90},
+                                                {0.76, 0.70, 0.82, 0.64, 0.88, 0.94, 0.58, 0.52, 0.40, 0.20}};
+static const double ARROW_AT[2][MAX_PLACES] = {{0.68, 0.76, 0.60, 0.84, 0.52, 0.92, 0.44, 0.30, 0.20, 0.10},
+                                               {0.32, 0.26, 0.38, 0.20, 0.44, 0.14, 0.50, 0.08, 0.60, 0.70}};
 enum { TAKEN = THR_BOX_MARK | THR_BOX_NUMBER | THR_BOX_NAME }; /* what a number may not cover, and what would hide an arrow */
 static const double CAPTION = 1.4;                             /* size of captions, over that of numbers */
 static const double MUCH = 1e6;                                /* cost of a number on another, over that of one on arrows */
@@ -79,7 +83,7 @@ static thr_status place_number(thr_scene *scene, int i, bool must, thr_err *err)
   thr_scene_pass *pass = &scene->pass[i];
   double least = HUGE_VAL, at[2];
   for (int k = 0; k < MAX_PLACES && least > 0; k++) {
-    along(pass, NUMBER_AT[k], at);
+    along(pass, NUMBER_AT[scene->solid][k], at);
     thr_box box = pill_box(scene, i, at);
     double taken = thr_boxes_overlap(&scene->boxes, box, TAKEN, must ? HUGE_VAL : 1e-9);
     double cost = (taken > 0 ? MUCH + 1000 * taken : 0) + thr_boxes_overlap(&scene->boxes, box, THR_BOX_ARROW, least);
@@ -109,7 +113,7 @@ static void place_arrow(thr_scene *scene, int i)
   if (pass->arrow_size < 0.4 * scene->size.arrow || pass->arrow_size < SEEN || !wants_arrow(scene, i)) pass->arrow_size = 0;
   if (pass->arrow_size == 0) return;
   for (int k = 0; k < MAX_PLACES && least > 0; k++) {
-    along(pass, ARROW_AT[k], at);
+    along(pass, ARROW_AT[scene->solid][k], at);
     double hidden = thr_boxes_overlap(&scene->boxes, arrow_box(at, 0.9 * pass->arrow_size), TAKEN, least);
     if (hidden >= least) continue;
     least = hidden;
@@ -124,7 +128,7 @@ static thr_status place_numbers(thr_scene *scene, thr_err *err)
   double at[2];
   scene->number_step = choose_step(scene->size.pitch);
   for (int i = 0; i < scene->n_passes && scene->size.arrow >= SEEN && !st; i++) {
-    along(&scene->pass[i], ARROW_AT[0], at);
+    along(&scene->pass[i], ARROW_AT[scene->solid][0], at);
     if (wants_arrow(scene, i)) st = thr_boxes_add(&scene->boxes, arrow_box(at, scene->size.arrow), THR_BOX_ARROW, err);
   }
   for (int level = 0; level < 4; level++)

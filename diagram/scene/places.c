@@ -2,6 +2,7 @@
 #include "diagram/scene/places.h"
 #include "graph/text.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -152,4 +153,49 @@ void thr_places_name(const thr_places *p, const thr_frame *frame, int v, char na
     thr_text_copy_clean(name, 41, frame->name[v]);
   else
     snprintf(name, 48, "%d", v);
+}
+
+/* ---- labels ---- */
+
+typedef struct {
+  const char *label;
+  int node;
+} named;
+
+static int by_label(const void *a, const void *b)
+{
+  const named *p = a, *q = b;
+  int order = strcmp(p->label, q->label);
+  return order ? order : p->node - q->node;
+}
+
+/* Adds the node's number to each of those that share a label. */
+static void tell_apart(char (*label)[THR_LABEL], named *k, int n)
+{
+  for (int v = 0; v < n; v++)
+    k[v] = (named){label[v], v};
+  qsort(k, (size_t)n, sizeof *k, by_label);
+  for (int i = 0, next; i < n; i = next) {
+    for (next = i + 1; next < n && strcmp(k[next].label, k[i].label) == 0;)
+      next++;
+    for (int j = i; j < next && next - i > 1; j++) {
+      char *own = label[k[j].node];
+      size_t length = strlen(own);
+      snprintf(own + length, THR_LABEL - length, "#%d", k[j].node);
+    }
+  }
+}
+
+thr_status thr_places_labels(const thr_places *p, const thr_frame *frame, char (*label)[THR_LABEL], thr_err *err)
+{
+  named *k = thr_calloc((size_t)frame->n_nodes, sizeof *k);
+  if (!k) return thr_nomem(err);
+  for (int v = 0; v < frame->n_nodes; v++) {
+    thr_places_name(p, frame, v, label[v]);
+    for (char *c = label[v]; *c; c++)
+      if (isspace((unsigned char)*c)) *c = '_';
+  }
+  tell_apart(label, k, frame->n_nodes);
+  free(k);
+  return THR_OK;
 }

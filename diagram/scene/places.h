@@ -24,4 +24,9 @@ void thr_places_destroy(thr_places *p);
 /* "C4" on a grid, else the node's name, cut to 40 bytes. */
 void thr_places_name(const thr_places *p, const thr_frame *frame, int v, char name[48]);
 
+/* What the nodes are called in all documents, in label[n_nodes]: as above, blanks as "_", and names that are there several times
+ * with the node's number, "x#17". O(n log n). */
+enum { THR_LABEL = 64 };
+thr_status thr_places_labels(const thr_places *p, const thr_frame *frame, char (*label)[THR_LABEL], thr_err *err) THR_MUST_CHECK;
+
 #endif

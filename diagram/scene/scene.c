@@ -114,7 +114,7 @@ const double *thr_scene_turn_start(const thr_scene *scene, int i)
 
 void thr_scene_place_name(const thr_scene *scene, int point, char name[48])
 {
-  thr_places_name(&scene->places, scene->frame, thr_layout_node(scene->layout, point), name);
+  snprintf(name, 48, "%.47s", scene->label[thr_layout_node(scene->layout, point)]);
 }
 
 double thr_scene_edge_length(const thr_scene *scene, int e)
@@ -162,6 +162,7 @@ static thr_status allocate(thr_scene *scene, thr_err *err)
   scene->id = thr_scratch_array(&scene->own, c, sizeof *scene->id);
   scene->named = thr_scratch_array(&scene->own, n, sizeof *scene->named);
   scene->name_at = thr_scratch_array(&scene->own, n, sizeof *scene->name_at);
+  scene->label = thr_scratch_array(&scene->own, (size_t)scene->frame->n_nodes, sizeof *scene->label);
   return thr_scratch_check(&scene->own, err);
 }
 
@@ -238,9 +239,9 @@ static void choose_sizes(thr_scene *scene)
   scene->size.lane = 0.115 * u;
   scene->size.cord = fmin(0.045 * u, 1.6);
   scene->size.casing = fmin(0.025 * u, 0.8);
-  scene->size.bead = 0.28 * u;
+  scene->size.bead = scene->solid ? 0.33 * u : 0.28 * u;
   scene->size.gap = 0.15 * u;
-  scene->size.foot = fmax(0.16 * u, 0.5);
+  scene->size.foot = fmax(scene->solid ? 0.26 * u : 0.16 * u, 0.5);
   scene->size.arrow = fmin(0.14 * u, 5);
   scene->size.text = u > 28 ? 3 : 2.5;
 }
@@ -334,10 +335,10 @@ static void size_gaps(thr_scene *scene)
   }
 }
 
-/* Tells the boxes where the beads are: small squares along each. */
+/* Tells the boxes where tubes and arms are: small squares along each. Names may touch the sides of arms. */
 static thr_status box_beads(thr_scene *scene, thr_err *err)
 {
-  double u = scene->size.pitch;
+  double u = scene->size.pitch, seen = scene->solid ? 0.75 : 0.9;
   thr_status st = thr_boxes_init(&scene->boxes, (thr_box){-u, -u, scene->width + u, scene->height + u}, fmax(0.5 * u, 4), err);
   for (int e = 0; e < scene->frame->n_edges && !st; e++) {
     double d[2], half = 0.5 * scene->bead[e],
@@ -347,7 +348,7 @@ static thr_status box_beads(thr_scene *scene, thr_err *err)
     int n = (int)fmin(ceil(length / scene->bead[e]) + 1, 64);
     for (int i = 0; i < n && !st; i++) {
       double t = scene->gap[2 * e] + (n > 1 ? fmin(half, 0.5 * length) + i * fmax(length - 2 * half, 0) / (n - 1) : 0.5 * length);
-      st = thr_boxes_add(&scene->boxes, thr_box_around(a[0] + t * d[0], a[1] + t * d[1], 0.9 * half, 0.9 * half), THR_BOX_BEAD,
+      st = thr_boxes_add(&scene->boxes, thr_box_around(a[0] + t * d[0], a[1] + t * d[1], seen * half, seen * half), THR_BOX_BEAD,
                          err);
     }
   }
@@ -358,6 +359,7 @@ thr_status thr_scene_build(thr_scene *scene, const thr_plan *plan, const thr_lay
                            thr_err *err)
 {
   *scene = (thr_scene){.plan = plan, .frame = &plan->frame, .layout = layout, .paper = thr_layout_paper(layout, &plan->frame)};
+  scene->solid = plan->options.joint == THR_JOINT_SOLID;
   thr_status st = thr_scene_check_cords(plan, &scene->n_passes, err);
   if (!st) st = allocate(scene, err);
   if (!st && pale_copies) st = find_copies(scene, err);
@@ -366,6 +368,7 @@ thr_status thr_scene_build(thr_scene *scene, const thr_plan *plan, const thr_lay
   if ((st = place_nodes(scene, pitch_mm, err))) goto done;
   if (thr_layout_to_scale(layout->kind))
     st = thr_places_find(&scene->places, scene->frame, (const double(*)[2])layout->xy, layout->median, err);
+  if (!st) st = thr_places_labels(&scene->places, scene->frame, scene->label, err);
   if (st) goto done;
   if ((st = sort_around(scene, err))) goto done;
   size_beads(scene);

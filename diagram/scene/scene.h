@@ -22,8 +22,8 @@ typedef struct {
   double lane;   /* between neighbouring lanes of a bead, at most */
   double cord;   /* line width */
   double casing; /* white on each side of it */
-  double bead;   /* width of a bead with one lane */
-  double gap;    /* between a node and its beads, at least */
+  double bead;   /* width of a tube, or of a solid piece's arm, with one lane */
+  double gap;    /* between a node and its tubes, and where cords begin to turn, at least */
   double arrow;  /* length */
   double foot;   /* half the side of a foot's pad */
   double text;   /* font size of numbers and names, >= 2.5 (7 pt = 2.47) */
@@ -68,18 +68,20 @@ typedef struct {
   thr_copy *copy;                /* [n_cords] if copies are drawn pale and there are any, else NULL */
   const char *const *motion;     /* [n_cords] what moves a unique path to a copy (see thr_copies_words), or NULL */
   thr_sizes size;
+  bool solid; /* pieces are nodes with arms, not tubes along edges */
   thr_places places;
-  double scale;         /* mm per unit of the layout */
-  double origin[2];     /* what of the layout lies at (0, 0): least x, greatest y */
-  double width, height; /* of the nodes' bounding box */
-  double (*at)[2];      /* [points of the layout] */
-  int *twin;            /* [points] the other point of its node, -1 = none */
-  double *angle;        /* [2 * n_edges] direction in which a half-edge leaves its point, rad in (-pi, pi] */
-  int *around;          /* [2 * n_edges] as paper->half, but by ascending angle within a point */
-  int *rank;            /* [2 * n_edges] place of a half-edge among those at its point: around[first[p] + rank[h]] = h */
-  double *gap;          /* [2 * n_edges] from the point to the bead's end at the half-edge's tail */
-  double *lane;         /* [n_edges] between neighbouring lanes */
-  double *bead;         /* [n_edges] width */
+  char (*label)[THR_LABEL]; /* [n_nodes] their places in words (see thr_places_labels) */
+  double scale;             /* mm per unit of the layout */
+  double origin[2];         /* what of the layout lies at (0, 0): least x, greatest y */
+  double width, height;     /* of the nodes' bounding box */
+  double (*at)[2];          /* [points of the layout] */
+  int *twin;                /* [points] the other point of its node, -1 = none */
+  double *angle;            /* [2 * n_edges] direction in which a half-edge leaves its point, rad in (-pi, pi] */
+  int *around;              /* [2 * n_edges] as paper->half, but by ascending angle within a point */
+  int *rank;                /* [2 * n_edges] place of a half-edge among those at its point: around[first[p] + rank[h]] = h */
+  double *gap;              /* [2 * n_edges] from the point at the half-edge's tail to the tube's end, and to where turns begin */
+  double *lane;             /* [n_edges] between neighbouring lanes */
+  double *bead;             /* [n_edges] width of the tube or the arms */
   int n_passes;
   thr_scene_pass *pass; /* [n_passes] of all cords in order */
   int *first_pass;      /* [n_cords + 1] */

@@ -1,11 +1,13 @@
 #define _XOPEN_SOURCE 700
+#include "diagram/scene/pieces.h"
 #include "diagram/sheets/sheets_parts.h"
 
+#include "diagram/export/paper.h"
+#include "diagram/export/svg_page.h"
 #include "diagram/layout/layout.h"
 #include "diagram/overview/crop.h"
 #include "diagram/overview/guide.h"
 #include "diagram/scene/copies.h"
-#include "diagram/tables/kinds.h"
 #include "diagram/overview/svg.h"
 #include "diagram/tables/supplies.h"
 #include "graph/process/child.h"
@@ -17,7 +19,7 @@
 
 thr_sheets_options thr_sheets_options_default(void)
 {
-  return (thr_sheets_options){.page = THR_PAGE_A4, .middle = false, .motion = NULL};
+  return (thr_sheets_options){.page = THR_PAGE_A4, .middle = false, .kind_tolerance = 0, .motion = NULL};
 }
 
 void thr_sheets_destroy(thr_sheets *sheets)
@@ -27,41 +29,21 @@ void thr_sheets_destroy(thr_sheets *sheets)
   thr_supplies_destroy(&sheets->supplies);
   thr_crops_destroy(&sheets->crops);
   free(sheets->copy);
-  free(sheets->edge_kind);
-  free(sheets->node_kind);
-  free(sheets->edge_sort);
-  free(sheets->move);
-  free(sheets->first_move);
-  free(sheets->first_pass);
+  thr_pieces_destroy(&sheets->pieces);
+  free(sheets->part);
   free(sheets->fold);
+  free(sheets->visit);
+  free(sheets->move);
+  free(sheets->step);
+  free(sheets->first_visit);
   free(sheets->threaded);
-  free(sheets->moved);
+  free(sheets->first_pass);
+  free(sheets->visited);
   for (int i = 0; i < sheets->n_pages; i++)
     thr_text_destroy(&sheets->page[i]);
   free(sheets->page);
   free(sheets->locator);
   free(sheets);
-}
-
-static int most(const int *a, int n)
-{
-  int high = 0;
-  for (int i = 0; i < n; i++)
-    high = a[i] > high ? a[i] : high;
-  return high;
-}
-
-static thr_status find_sorts(thr_sheets *sheets, thr_err *err)
-{
-  int n = sheets->f->n_edges;
-  thr_bead *bead = thr_calloc((size_t)n, sizeof *bead);
-  sheets->edge_sort = thr_calloc((size_t)n, sizeof *sheets->edge_sort);
-  bool made = bead && sheets->edge_sort;
-  if (made) thr_sheets_beads(sheets, bead);
-  for (int i = 0; i < n && made; i++)
-    sheets->edge_sort[bead[i].item] = bead[i].sort;
-  free(bead);
-  return made ? THR_OK : thr_nomem(err);
 }
 
 /* All that pages are made from. */
@@ -72,17 +54,12 @@ static thr_status prepare(thr_sheets *sheets, thr_err *err)
   if (!st) st = thr_supplies_find_sizes(&sheets->supplies, err);
   if (st) return st;
   sheets->copy = thr_calloc((size_t)plan->n_cords, sizeof *sheets->copy);
-  sheets->edge_kind = thr_calloc((size_t)sheets->f->n_edges, sizeof *sheets->edge_kind);
-  sheets->node_kind = thr_calloc((size_t)sheets->f->n_nodes, sizeof *sheets->node_kind);
-  if (!sheets->copy || !sheets->edge_kind || !sheets->node_kind) return thr_nomem(err);
+  if (!sheets->copy) return thr_nomem(err);
   st = thr_copies_find(plan, sheets->copy, err);
-  if (!st) st = thr_kinds_find(sheets->f, sheets->edge_kind, sheets->node_kind, err);
-  if (!st) st = find_sorts(sheets, err);
+  if (!st) st = thr_pieces_make(&sheets->pieces, plan, sheets->o.kind_tolerance, err);
   if (!st) st = thr_guide_make(&sheets->guide, sheets->f, err);
-  if (!st) st = thr_sheets_plan_moves(sheets, err);
+  if (!st) st = thr_sheets_follow(sheets, err);
   if (st) return st;
-  sheets->edge_kinds = most(sheets->edge_kind, sheets->f->n_edges);
-  sheets->node_kinds = most(sheets->node_kind, sheets->f->n_nodes);
   thr_crops_make(&sheets->crops, plan, &sheets->guide.layout);
   return THR_OK;
 }
@@ -92,7 +69,9 @@ static void lay_out(thr_sheets *sheets)
 {
   int first[THR_SHEET_PARTS];
   first[THR_SHEET_PREPARE] = sheets->n_pages;
+  thr_sheets_making(sheets);
   thr_sheets_prepare(sheets);
+  thr_sheets_key(sheets);
   first[THR_SHEET_STEPS] = sheets->n_pages;
   for (int c = 0; c < sheets->plan->n_cords && !sheets->st; c++) {
     if (sheets->copy[c].of != c) continue;
@@ -101,6 +80,7 @@ static void lay_out(thr_sheets *sheets)
   }
   first[THR_SHEET_LAST] = sheets->n_pages;
   thr_sheets_last(sheets);
+  thr_sheets_name_tags(sheets);
   thr_sheets_front(sheets, first);
   if (sheets->st) return;
   thr_text title = sheets->page[sheets->n_pages - 1];
@@ -141,7 +121,7 @@ int thr_sheets_pages(const thr_sheets *sheets)
 static void title_of(const thr_sheets *sheets, char title[96])
 {
   int n = sheets->plan->n_cords;
-  snprintf(title, 96, "Step sheets: %d bead%s, %d cord%s", sheets->f->n_edges, sheets->f->n_edges == 1 ? "" : "s", n,
+  snprintf(title, 96, "Step sheets: %d %s, %d cord%s", sheets->pieces.n, thr_pieces_word(sheets->plan, sheets->pieces.n), n,
            n == 1 ? "" : "s");
 }
 
@@ -190,7 +170,8 @@ static void bound_page(void)
   setrlimit(RLIMIT_CPU, &r);
 }
 
-/* Pango leaves words out where an allocation fails, and says nothing: a page is begun only with room for all that it may need. */
+/* fontconfig leaves fonts out where an allocation fails, and says nothing: a page is begun only with room for all that it may
+ * need. */
 static thr_status check_room(thr_err *err)
 {
   enum { ROOM = 16 << 20 };
@@ -199,7 +180,7 @@ static thr_status check_room(thr_err *err)
   return room ? THR_OK : thr_nomem(err);
 }
 
-/* In a child process: librsvg, cairo and GLib end the program when memory runs out. */
+/* In a child process: fontconfig ends the program, or never ends, when memory runs out. */
 static thr_status make_pdf(void *user, const thr_limits *limits, thr_sender *to, thr_err *err)
 {
   const thr_sheets *sheets = *(const thr_sheets **)user;
@@ -216,7 +197,7 @@ static thr_status make_pdf(void *user, const thr_limits *limits, thr_sender *to,
     bound_page();
     if (!st) st = check_room(err);
     if (!st) st = thr_sheets_svg(sheets, i, &svg, err);
-    if (!st) st = thr_paper_add(paper, &svg, err);
+    if (!st) st = thr_svg_page(paper, &svg, err);
     thr_text_destroy(&svg);
   }
   thr_status closed = thr_paper_close(paper, st ? NULL : err);

@@ -10,12 +10,10 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
-/* Shorter cords are threaded from their end in any case. */
-enum { THR_SHEETS_FOLD = 24 };
-
 typedef struct {
   thr_page_size page;
-  bool middle; /* cords of THR_SHEETS_FOLD passes and more are folded in their middle and threaded with two needles */
+  bool middle;           /* cords of THR_FOLD_LEAST passes and more are folded in their middle and threaded with two needles */
+  double kind_tolerance; /* as in thr_pieces_make */
   const char *const *motion; /* as in thr_overview_options; borrowed */
 } thr_sheets_options;
 
@@ -24,13 +22,12 @@ thr_sheets_options thr_sheets_options_default(void);
 /* Pages that are laid out and not yet written. Release with thr_sheets_destroy (NULL ok). */
 typedef struct thr_sheets thr_sheets;
 
-/* Lays out all pages. Every row names its passes, its turn, every place that the needle comes to, and whether it picks up the
- * beads, passes through them or back through them, so that the sheets alone hold the exact sequence of half-edges (a framework
- * has at most one edge between two nodes). Places are called as in the overview. Nothing is smaller than 7 pt. Text is set in
- * DejaVu Sans (Debian: fonts-dejavu-core). The plan is borrowed and must outlive the sheets. THR_EINPUT for a plan without cords,
- * for cords that do not fit the framework, and for sizes of cord and beads that do not fit it. O(n log n) for each of the few
- * scales that pictures have, and O(n) a page. Tells limits->advance how far it is; THR_ELIMIT if it was interrupted. *sheets is
- * NULL on failure. */
+/* Lays out all pages. Every row names a piece, whether it is picked up or passed through, and the arms by which the needle goes
+ * in and out, so that the sheets alone hold the exact sequence of half-edges (a framework has at most one edge between two
+ * nodes). Places are called as in the overview. Nothing is smaller than 7 pt. Text is set in DejaVu Sans (Debian:
+ * fonts-dejavu-core). The plan is borrowed and must outlive the sheets. THR_EINPUT for a plan without cords, for cords that do
+ * not fit the framework, and for sizes of cord and beads that do not fit it. O(n log n) for each of the few scales that pictures
+ * have, and O(n) a page. Tells limits->advance how far it is; THR_ELIMIT if it was interrupted. *sheets is NULL on failure. */
 thr_status thr_sheets_make(thr_sheets **sheets, const thr_plan *plan, const thr_sheets_options *options, const thr_limits *limits,
                            thr_err *err) THR_MUST_CHECK;
 void thr_sheets_destroy(thr_sheets *sheets);

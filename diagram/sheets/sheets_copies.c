@@ -3,6 +3,7 @@
 #include "diagram/overview/guide.h"
 #include "diagram/scene/boxes.h"
 #include "diagram/scene/copies.h"
+#include "diagram/scene/pieces.h"
 #include "diagram/sheets/sheets_parts.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
@@ -18,7 +19,7 @@ enum { ROW = 16 }; /* passes in a row of places */
 /* The path bold, its copies pale, other cords grey if they are threaded already. */
 static void put_picture(thr_sheets *sheets, int path)
 {
-  unsigned char *state = thr_calloc((size_t)sheets->n_moves, sizeof *state);
+  unsigned char *state = thr_calloc((size_t)sheets->n_passes, sizeof *state);
   if (!state) {
     thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
     return;
@@ -66,24 +67,33 @@ static void put_copy(thr_sheets *sheets, int c)
   tick(sheets, &words);
 }
 
-/* "Cord B, passes 1-16: G1 to F1 E1 (D1) .." */
+/* A piece that holds cord already is in brackets. */
+static void put_place(const thr_sheets *sheets, int node, bool held, thr_text *words)
+{
+  thr_text_printf(words, held ? " (%s)" : " %s", sheets->guide.label[node]);
+}
+
+/* "Cord B, passes 1-16: G1 to F1 E1 (D1) ..": of tubes the brackets tell of the way to a place. Returns the visit after them. */
 static int put_places(thr_sheets *sheets, int first, int end)
 {
   thr_text words = {0};
-  const thr_move *move = &sheets->move[first];
+  const thr_visit *visit = &sheets->visit[first];
+  int part = sheets->move[first].part;
+  bool starts = visit->number == 0, held = starts ? visit->nth > 1 : sheets->pieces.solid;
+  if (starts) visit = &sheets->visit[++first];
   int next = first + 1;
-  while (next < end && next < first + ROW && sheets->move[next].needle == move->needle)
+  while (next < end && next < first + ROW && sheets->move[next].part == part)
     next++;
-  thr_text_printf(&words, "Cord %s%s, ", sheets->plan->cord[move->cord].id,
-                  move->needle == THR_NEEDLE_RIGHT  ? ", right needle"
-                  : move->needle == THR_NEEDLE_LEFT ? ", left needle"
-                                                    : "");
-  thr_text_printf(&words, next > first + 1 ? "passes %d-%d: " : "pass %d: ", move->pass + 1, sheets->move[next - 1].pass + 1);
-  thr_text_printf(&words, "%s to", sheets->guide.label[thr_tail(sheets->f, move->half)]);
-  for (int i = first; i < next; i++) {
-    bool held = sheets->move[i].deed != THR_PICK_UP;
-    thr_text_printf(&words, held ? " (%s)" : " %s", sheets->guide.label[thr_head(sheets->f, sheets->move[i].half)]);
-  }
+  thr_needle needle = sheets->move[first].needle;
+  thr_text_printf(&words, "Cord %s%s, ", sheets->plan->cord[visit->cord].id,
+                  needle == THR_NEEDLE_RIGHT  ? ", right needle"
+                  : needle == THR_NEEDLE_LEFT ? ", left needle"
+                                              : "");
+  thr_text_printf(&words, next > first + 1 ? "passes %d-%d:" : "pass %d:", visit->number, sheets->visit[next - 1].number);
+  put_place(sheets, thr_tail(sheets->f, visit->in), held, &words);
+  thr_text_append(&words, " to");
+  for (int i = first; i < next; i++)
+    put_place(sheets, thr_head(sheets->f, sheets->visit[i].in), sheets->visit[i].nth > 1, &words);
   tick(sheets, &words);
   return next;
 }
@@ -101,11 +111,14 @@ void thr_sheets_copies(thr_sheets *sheets, int c)
     if (i != c && sheets->copy[i].of == c) put_copy(sheets, i);
   thr_sheets_title(sheets, "The places of these cords, in order");
   thr_sheets_paragraph(
-      sheets, 0, "To check by. In brackets: the way there is through a bead that holds cord already. All other beads are new.");
+      sheets, 0,
+      sheets->pieces.solid
+          ? "To check by. In brackets: pieces that hold cord already. All others are picked up."
+          : "To check by. In brackets: the way there is through a tube that holds cord already. All others are picked up.");
   for (int i = 0; i < n; i++) {
     if (i == c || sheets->copy[i].of != c) continue;
-    int end = sheets->first_move[i] + sheets->plan->cord[i].n_passes;
-    for (int k = sheets->first_move[i]; k < end && !sheets->st;)
+    int end = thr_sheets_end(sheets, i);
+    for (int k = sheets->first_visit[i]; k < end && !sheets->st;)
       k = put_places(sheets, k, end);
   }
 }

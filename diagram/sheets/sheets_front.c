@@ -2,12 +2,14 @@
 #include "diagram/overview/crop.h"
 #include "diagram/scene/boxes.h"
 #include "diagram/scene/copies.h"
+#include "diagram/scene/pieces.h"
 #include "diagram/sheets/sheets_parts.h"
 #include "diagram/overview/svg.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/status.h"
+#include "graph/text.h"
 
 #include <stdio.h>
 
@@ -16,21 +18,34 @@ static const char *plural(int n)
   return n == 1 ? "" : "s";
 }
 
+/* "49 pieces (4 L, 20 T, 25 X) meet at 84 faces, 4 feet; 1 cord, 86 passes, 1771 mm of cord." */
 static void put_counts(thr_sheets *sheets)
 {
-  char line[320], length[64];
+  char length[64];
+  thr_text words = {0};
   const thr_frame *frame = sheets->f;
   double total = 0;
-  int feet = 0;
-  for (int c = 0; c < sheets->plan->n_cords; c++)
+  int feet = 0, n = sheets->pieces.n, cords = sheets->plan->n_cords;
+  for (int c = 0; c < cords; c++)
     total += thr_cord_length(frame, &sheets->plan->cord[c]);
   for (int v = 0; v < frame->n_nodes; v++)
     feet += frame->foot[v];
   thr_svg_length(total, frame->units, length);
-  snprintf(line, sizeof line, "%d beads (edges) between %d nodes, %d %s; %d cord%s, %d passes, %s of cord.", frame->n_edges,
-           frame->n_nodes, feet, feet == 1 ? "foot" : "feet", sheets->plan->n_cords, plural(sheets->plan->n_cords),
-           sheets->n_moves, length);
-  thr_sheets_paragraph(sheets, 0, line);
+  thr_text_printf(&words, "%d %s", n, thr_pieces_word(sheets->plan, n));
+  if (sheets->pieces.solid) {
+    thr_text_append(&words, " (");
+    thr_pieces_shapes(&sheets->pieces, &words);
+    thr_text_printf(&words, ") that meet in %d place%s, face to face", frame->n_edges, plural(frame->n_edges));
+  } else
+    thr_text_printf(&words, " of %d length%s between %d places", sheets->pieces.n_kinds, plural(sheets->pieces.n_kinds),
+                    frame->n_nodes);
+  thr_text_printf(&words, "; %d %s; %d cord%s, %d pass%s, %s of cord.", feet, feet == 1 ? "foot" : "feet", cords, plural(cords),
+                  sheets->n_passes, sheets->n_passes == 1 ? "" : "es", length);
+  if (words.failed)
+    thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
+  else
+    thr_sheets_paragraph(sheets, 0, words.data);
+  thr_text_destroy(&words);
 }
 
 /* What the plan says that is proved: "as little as possible", or how far from it. */

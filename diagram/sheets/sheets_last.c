@@ -1,4 +1,5 @@
 /* What to do when all cords are through: which ends to pull, knots, what to look at. */
+#include "diagram/scene/pieces.h"
 #include "diagram/sheets/sheets_parts.h"
 #include "diagram/overview/svg.h"
 #include "graph/angle.h"
@@ -37,6 +38,23 @@ static const thr_eval_cord *known_of(const thr_sheets *sheets, int c)
 {
   const thr_evaluation *evaluation = &sheets->plan->evaluation;
   return evaluation->present && evaluation->cord[c].known ? &evaluation->cord[c] : NULL;
+}
+
+static pull pull_of(const thr_sheets *sheets, int c)
+{
+  const thr_eval_cord *known = known_of(sheets, c);
+  double force = known ? fmax(known->force, known->other_force) : thr_cord_turning(sheets->f, &sheets->plan->cord[c], false);
+  return (pull){c, known != NULL, force};
+}
+
+int thr_sheets_hardest(const thr_sheets *sheets)
+{
+  pull first = pull_of(sheets, 0);
+  for (int c = 1; c < sheets->plan->n_cords; c++) {
+    pull other = pull_of(sheets, c);
+    if (by_hardness(&other, &first) < 0) first = other;
+  }
+  return first.cord;
 }
 
 /* Which end(s) to pull and how hard. */
@@ -84,11 +102,8 @@ static void put_pulling(thr_sheets *sheets, pull *p)
   const thr_evaluation *evaluation = &sheets->plan->evaluation;
   char line[320], head[CELLS][96] = {"cord", "pull at its", "", "", "", "turning"};
   int n = sheets->plan->n_cords;
-  for (int c = 0; c < n; c++) {
-    const thr_eval_cord *known = known_of(sheets, c);
-    double force = known ? fmax(known->force, known->other_force) : thr_cord_turning(sheets->f, &sheets->plan->cord[c], false);
-    p[c] = (pull){c, known != NULL, force};
-  }
+  for (int c = 0; c < n; c++)
+    p[c] = pull_of(sheets, c);
   qsort(p, (size_t)n, sizeof *p, by_hardness);
   thr_sheets_title(sheets, n > 1 ? "Pull the cords tight, in this order" : "Pull the cord tight");
   for (int i = 2; evaluation->present && i < 5; i++)
@@ -104,7 +119,7 @@ static void put_pulling(thr_sheets *sheets, pull *p)
              "cord that "
              "turns most is the first in the list. Pulling at both ends halves the way that slack has to go.");
   thr_sheets_paragraph(sheets, 0, line);
-  thr_sheets_paragraph(sheets, 0, "How cords that share beads hinder each other has not been worked out. Turning in degrees.");
+  thr_sheets_paragraph(sheets, 0, "How cords that share pieces hinder each other has not been worked out. Turning in degrees.");
   sheets->y += 1.5;
   thr_sheets_cells(sheets, CELLS, x, head, true);
   for (int i = 0; i < n; i++)
@@ -117,13 +132,13 @@ static void put_knots(thr_sheets *sheets)
   thr_sheets_title(sheets, "Knots");
   if (sheets->supplies.mm > 0)
     snprintf(line, sizeof line,
-             "An overhand knot at each end, drawn up to its bead; it takes %.0f mm of this cord. Cut the tails only when all "
+             "An overhand knot at each end, drawn up to its piece; it takes %.0f mm of this cord. Cut the tails only when all "
              "cords are "
              "tight.",
              ceil(THR_SUPPLIES_KNOT * sheets->supplies.cord));
   else
     snprintf(line, sizeof line,
-             "An overhand knot at each end, drawn up to its bead. Cut the tails only when all cords are tight.");
+             "An overhand knot at each end, drawn up to its piece. Cut the tails only when all cords are tight.");
   thr_sheets_paragraph(sheets, 0, line);
 }
 
@@ -134,13 +149,15 @@ static void put_checks(thr_sheets *sheets)
   for (int e = 0; e < sheets->f->n_edges; e++)
     most = sheets->supplies.passes[e] > most ? sheets->supplies.passes[e] : most;
   thr_sheets_title(sheets, "Check list");
-  snprintf(line, sizeof line, "All %d beads are on a cord, none is left over.", sheets->f->n_edges);
+  snprintf(line, sizeof line, "All %d %s are on a cord, none is left over.", sheets->pieces.n,
+           thr_pieces_word(sheets->plan, sheets->pieces.n));
   thr_sheets_tick(sheets, line);
   snprintf(line, sizeof line, "All %d ends of cord come out where the cut list says.", 2 * sheets->plan->n_cords);
   thr_sheets_tick(sheets, line);
-  snprintf(line, sizeof line, "No bead holds fewer or more cords than the table of beads says (%d at most).", most);
+  snprintf(line, sizeof line, "No %s holds fewer or more cords than channels.csv says (%d at most).",
+           sheets->pieces.solid ? "arm" : "tube", most);
   thr_sheets_tick(sheets, line);
-  thr_sheets_tick(sheets, "No cord can be drawn further at its ends; no bead turns or gapes; all knots sit on their beads.");
+  thr_sheets_tick(sheets, "No cord can be drawn further at its ends; no piece turns or gapes; all knots sit on their pieces.");
 }
 
 void thr_sheets_last(thr_sheets *sheets)

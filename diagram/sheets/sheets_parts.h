@@ -6,6 +6,7 @@
 #include "diagram/scene/copies.h"
 #include "diagram/overview/crop.h"
 #include "diagram/overview/guide.h"
+#include "diagram/scene/pieces.h"
 #include "diagram/sheets/sheets.h"
 #include "diagram/tables/supplies.h"
 #include "graph/framework/frame.h"
@@ -20,19 +21,17 @@ static const double THR_SHEET_TEXT = 3, THR_SHEET_SMALL = 2.6, THR_SHEET_LINE = 
 
 typedef enum { THR_NEEDLE_ONLY, THR_NEEDLE_RIGHT, THR_NEEDLE_LEFT } thr_needle;
 
-/* A pass as it is threaded. */
+/* What goes with a visit to a piece. */
 typedef struct {
-  int cord, pass; /* pass from 0 */
-  int half;       /* as the needle goes: against the plan's for the left needle */
-  thr_deed deed;
+  int part; /* of the cord, threaded in one go */
   thr_needle needle;
-  double used; /* cord that this needle has used up by its end, in units */
+  double used; /* cord that this needle has used up by then, in units */
 } thr_move;
 
 /* The small picture beside a step, drawn when its page is written: with all beads in it, it is most of the page. */
 typedef struct {
   int page;       /* of the booklet, the title page being 0 */
-  int first, end; /* moves of the step */
+  int first, end; /* visits of the step */
   thr_crop_view view;
   thr_box shown[2], paper;
 } thr_locator;
@@ -46,17 +45,20 @@ struct thr_sheets {
   thr_err why;
   thr_guide guide;
   thr_supplies supplies;
-  thr_copy *copy;             /* [n_cords] */
-  int *edge_kind, *node_kind; /* as thr_kinds_find */
-  int *edge_sort;             /* as thr_beads_sort */
-  int edge_kinds, node_kinds; /* how many */
-  int n_moves;
-  thr_move *move;  /* [n_moves] in the order of threading: every path, then its copies */
-  int *first_move; /* [n_cords] */
-  int *fold;       /* [n_cords] pass at whose start the cord is folded; 0 = threaded from its end */
-  int *threaded;   /* [n_edges] first move over it; n_moves = none */
-  int *first_pass; /* [n_cords] in moved */
-  int *moved;      /* [n_passes] the move of each pass, cord by cord as in a scene */
+  thr_copy *copy; /* [n_cords] */
+  thr_pieces pieces;
+  int n_parts;
+  thr_part *part; /* [n_parts] in the order of threading: every path, then its copies */
+  int *fold;      /* [n_cords] pass at whose start the cord is folded; 0 = threaded from its end */
+  int n_visits;
+  thr_visit *visit; /* [n_visits] of the parts in order */
+  thr_move *move;   /* [n_visits] */
+  int *step;        /* [n_visits] the step in which it is; 0 = in none: of a copy, or not laid out yet */
+  int *first_visit; /* [n_cords] */
+  int *threaded;    /* [pieces] the visit that picks it up */
+  int n_passes;
+  int *first_pass; /* [n_cords] in visited */
+  int *visited;    /* [n_passes] the visit that each pass leads to, cord by cord as in a scene */
   thr_crops crops;
   double size[2];           /* of a page, mm */
   const thr_limits *limits; /* while pages are laid out */
@@ -105,23 +107,24 @@ void thr_sheets_cells(thr_sheets *sheets, int n, const double *x, char (*cell)[9
 
 /* ---- what is on them ---- */
 
-thr_status thr_sheets_plan_moves(thr_sheets *sheets, thr_err *err) THR_MUST_CHECK; /* sheets_moves.c */
+thr_status thr_sheets_follow(thr_sheets *sheets, thr_err *err) THR_MUST_CHECK; /* sheets_moves.c */
+int thr_sheets_end(const thr_sheets *sheets, int c);                           /* visit after the last one of a cord */
+const char (*thr_sheets_labels(const thr_sheets *sheets))[THR_LABEL];
 void thr_sheets_locate(const thr_sheets *sheets, int page,
                        thr_text *text); /* sheets_steps.c: the locators of a page of the booklet */
 /* sheets_front.c: the title page; first[THR_SHEET_PARTS]: pages before each part, this one not counted. */
 typedef enum { THR_SHEET_PREPARE, THR_SHEET_STEPS, THR_SHEET_LAST, THR_SHEET_PARTS } thr_sheet_part;
 void thr_sheets_front(thr_sheets *sheets, const int *first);
-void thr_sheets_beads(const thr_sheets *sheets, thr_bead *b); /* all edges in the order of thr_beads_sort */
-void thr_sheets_prepare(thr_sheets *sheets);                  /* sheets_prepare.c */
-void thr_sheets_steps(thr_sheets *sheets, int c);             /* sheets_steps.c: of a path */
-void thr_sheets_copies(thr_sheets *sheets, int c);            /* sheets_copies.c: of a path, if it has any */
-void thr_sheets_last(thr_sheets *sheets);                     /* sheets_last.c */
+void thr_sheets_making(thr_sheets *sheets);        /* sheets_making.c: how pieces are handled */
+void thr_sheets_prepare(thr_sheets *sheets);       /* sheets_prepare.c */
+void thr_sheets_key(thr_sheets *sheets);           /* sheets_key.c: solid pieces drawn, kind by kind */
+void thr_sheets_name_tags(thr_sheets *sheets);     /* sheets_key.c: the names of all pieces, to stick on */
+void thr_sheets_steps(thr_sheets *sheets, int c);  /* sheets_steps.c: of a path */
+void thr_sheets_copies(thr_sheets *sheets, int c); /* sheets_copies.c: of a path, if it has any */
+void thr_sheets_last(thr_sheets *sheets);          /* sheets_last.c */
+int thr_sheets_hardest(const thr_sheets *sheets);  /* of the cords the one to pull first */
 
 /* Words of a cord: "Cord A (blue)", with its dash if it has one; colour as "#rrggbb" for a row of passes. */
 void thr_sheets_cord_words(const thr_sheets *sheets, int c, char words[96]);
-
-/* One row: the moves from first on, before end, that go on ahead and do alike with their beads. Appends its words and returns
- * the move after it. */
-int thr_sheets_run(const thr_sheets *sheets, int first, int end, thr_text *words);
 
 #endif

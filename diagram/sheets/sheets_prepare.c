@@ -1,4 +1,5 @@
-/* What to prepare: cords to cut, beads to make, feet; and how the sheets are read. */
+/* What to prepare: cords to cut, pieces to make, feet; and how the sheets are read. */
+#include "diagram/scene/pieces.h"
 #include "diagram/sheets/sheets_parts.h"
 #include "diagram/overview/svg.h"
 #include "diagram/tables/supplies.h"
@@ -61,16 +62,16 @@ static void put_cords(thr_sheets *sheets)
   sheets->y += 1;
   if (sheets->supplies.mm > 0)
     snprintf(line, sizeof line,
-             "Cut = length through the middles of the beads + a tail of %.0f mm to hold at each end + an overhand knot at each "
+             "Cut = length through the middles of the pieces + a tail of %.0f mm to hold at each end + an overhand knot at each "
              "end + what turns take at most where the cord lies at the outside of its bores.%s",
              THR_SUPPLIES_TAIL,
              sheets->o.middle ? " Fold at: from the end that comes out at the first place of the last column." : "");
   else
-    snprintf(line, sizeof line, "The size of cord and beads is not known: add tails, knots and what turns take.");
+    snprintf(line, sizeof line, "The size of cord and pieces is not known: add tails, knots and what turns take.");
   thr_sheets_paragraph(sheets, 0, line);
 }
 
-/* ---- beads ---- */
+/* ---- pieces ---- */
 
 enum { CELLS = 5 };
 
@@ -83,72 +84,73 @@ static void put_bore(const thr_sheets *sheets, double cords, char cell[96])
     snprintf(cell, 96, "%.2f cords", cords);
 }
 
-/* Rows in two columns, from left to right, then down. */
-static void put_groups(thr_sheets *sheets, const thr_bead *g, int n, bool edges, char (*head)[96])
-{
-  static const double x[2 * CELLS] = {-8, -24, -46, -62, -84, -103, -119, -141, -157, -179};
-  char cell[2 * CELLS][96];
-  int filled = 0;
-  for (int i = 0; i < 2 * CELLS; i++)
-    snprintf(cell[i], 96, "%.95s", head[i % CELLS]);
-  thr_sheets_cells(sheets, 2 * CELLS, x, cell, true);
-  for (int i = 0, next; i < n; i = next) {
-    char(*row)[96] = cell + filled;
-    for (next = i + 1; next < n && g[next].kind == g[i].kind && g[next].passes == g[i].passes;)
-      next++;
-    thr_bead_name(g[i].kind, g[i].sort, row[0]);
-    snprintf(row[1], 96, "%d", next - i);
-    if (edges)
-      put_length(sheets, sheets->f->length[g[i].item], row[2]);
-    else
-      snprintf(row[2], 96, "%d", thr_degree(sheets->f, g[i].item));
-    snprintf(row[3], 96, "%d", g[i].passes);
-    put_bore(sheets,
-             edges ? thr_supplies_bore(&sheets->supplies, g[i].item) : thr_supplies_node_bore(&sheets->supplies, g[i].item),
-             row[4]);
-    filled = (filled + CELLS) % (2 * CELLS);
-    if (!filled || next == n) thr_sheets_cells(sheets, filled ? CELLS : 2 * CELLS, x, cell, false);
-  }
-}
-
-void thr_sheets_beads(const thr_sheets *sheets, thr_bead *b)
-{
-  for (int e = 0; e < sheets->f->n_edges; e++)
-    b[e] = (thr_bead){.kind = sheets->edge_kind[e], .passes = sheets->supplies.passes[e], .item = e};
-  thr_beads_sort(b, sheets->f->n_edges);
-}
-
-static void put_beads(thr_sheets *sheets, thr_bead *g)
-{
-  char edge_head[CELLS][96] = {"kind", "pieces", "length", "cords", "bore"}, line[200];
-  thr_sheets_beads(sheets, g);
-  snprintf(line, sizeof line, "Beads: %d in %d kind%s by length (in %s), by the cords that each will hold", sheets->f->n_edges,
-           sheets->edge_kinds, sheets->edge_kinds == 1 ? "" : "s", sheets->f->units);
-  thr_sheets_title(sheets, line);
-  put_groups(sheets, g, sheets->f->n_edges, true, edge_head);
-}
-
-/* Most passes of an edge at node v. */
-static int most_passes(const thr_sheets *sheets, int v)
+/* Most cords in an arm of a piece. */
+static int most_cords(const thr_sheets *sheets, int piece)
 {
   int most = 0;
-  for (int i = sheets->f->first[v]; i < sheets->f->first[v + 1]; i++) {
+  if (!sheets->pieces.solid) return sheets->supplies.passes[piece];
+  for (int i = sheets->f->first[piece]; i < sheets->f->first[piece + 1]; i++) {
     int n = sheets->supplies.passes[sheets->f->half[i] >> 1];
     most = n > most ? n : most;
   }
   return most;
 }
 
-static void put_joints(thr_sheets *sheets, thr_bead *g)
+/* Kind k in a row of the table: the bore is the widest that one of its pieces needs. */
+static void put_kind(thr_sheets *sheets, int k, int most, double bore, char (*row)[96])
 {
-  char node_head[CELLS][96] = {"kind", "pieces", "arms", "cords", "bore"}, line[200];
-  for (int v = 0; v < sheets->f->n_nodes; v++)
-    g[v] = (thr_bead){.kind = sheets->node_kind[v], .passes = most_passes(sheets, v), .item = v};
-  thr_beads_sort(g, sheets->f->n_nodes);
-  snprintf(line, sizeof line, "Node beads: %d in %d kind%s by their arms, by the most cords that an arm will hold",
-           sheets->f->n_nodes, sheets->node_kinds, sheets->node_kinds == 1 ? "" : "s");
-  thr_sheets_title(sheets, line);
-  put_groups(sheets, g, sheets->f->n_nodes, false, node_head);
+  const thr_pieces *pieces = &sheets->pieces;
+  char name[24];
+  thr_pieces_kind_name(pieces, k, name);
+  snprintf(row[0], 96, "%s", name);
+  snprintf(row[1], 96, "%d", pieces->members[k]);
+  if (pieces->solid)
+    snprintf(row[2], 96, "%d", thr_pieces_arms(pieces, pieces->model[k]));
+  else
+    put_length(sheets, sheets->f->length[pieces->model[k]], row[2]);
+  snprintf(row[3], 96, "%d", most);
+  put_bore(sheets, bore, row[4]);
+}
+
+/* Rows in two columns, from left to right, then down. */
+static void put_kinds(thr_sheets *sheets, const int *most, const double *bore)
+{
+  static const double x[2 * CELLS] = {-14, -28, -48, -64, -86, -109, -123, -143, -159, -181};
+  char cell[2 * CELLS][96];
+  const char *const head[CELLS] = {"kind", "pieces", sheets->pieces.solid ? "arms" : "length", "cords", "bore"};
+  int filled = 0, n = sheets->pieces.n_kinds;
+  for (int i = 0; i < 2 * CELLS; i++)
+    snprintf(cell[i], 96, "%s", head[i % CELLS]);
+  thr_sheets_cells(sheets, n > 1 ? 2 * CELLS : CELLS, x, cell, true);
+  for (int k = 1; k <= n; k++) {
+    put_kind(sheets, k, most[k], bore[k], cell + filled);
+    filled = (filled + CELLS) % (2 * CELLS);
+    if (!filled || k == n) thr_sheets_cells(sheets, filled ? CELLS : 2 * CELLS, x, cell, false);
+  }
+}
+
+static void put_pieces(thr_sheets *sheets)
+{
+  const thr_pieces *pieces = &sheets->pieces;
+  char line[240];
+  int *most = thr_calloc((size_t)pieces->n_kinds + 1, sizeof *most);
+  double *bore = thr_calloc((size_t)pieces->n_kinds + 1, sizeof *bore);
+  if (!most || !bore) thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
+  for (int i = 0; i < pieces->n && !sheets->st; i++) {
+    int k = pieces->kind[i], cords = most_cords(sheets, i);
+    most[k] = cords > most[k] ? cords : most[k];
+    bore[k] =
+        fmax(bore[k], pieces->solid ? thr_supplies_node_bore(&sheets->supplies, i) : thr_supplies_bore(&sheets->supplies, i));
+  }
+  if (!sheets->st) {
+    int n = snprintf(line, sizeof line, "%d %s in %d kind%s by shape", pieces->n, thr_pieces_word(sheets->plan, pieces->n),
+                     pieces->n_kinds, pieces->n_kinds == 1 ? "" : "s");
+    if (!pieces->solid) snprintf(line + n, sizeof line - (size_t)n, " (lengths in %s)", sheets->f->units);
+    thr_sheets_title(sheets, line);
+    put_kinds(sheets, most, bore);
+  }
+  free(most);
+  free(bore);
 }
 
 static void put_feet(thr_sheets *sheets)
@@ -177,20 +179,23 @@ static void put_reading(thr_sheets *sheets)
   thr_sheets_title(sheets, "How to read the steps");
   thr_sheets_paragraph(
       sheets, 0,
-      "Each row is one go of the needle: the passes with their numbers in the picture, how the first of them goes on "
-      "from the pass before, every place that the needle comes to, and what it does with the beads between these "
-      "places. Pick up: a new bead goes on the cord. Pass through: it holds cord already, and the needle goes the way "
-      "it went there last. Pass back through: against that way.");
-  thr_sheets_paragraph(sheets, 0,
-                       sheets->guide.sides
-                           ? "Left and right are meant as seen in the pictures, going with the needle. Straight on: a turn of "
-                             "less than 15 degrees. Over the curve: ahead, where the surface bends."
-                           : "Turns have no left and right here: in this view beads cross that do not in space. Straight on: "
-                             "a turn of less than 15 degrees.");
+      sheets->pieces.solid
+          ? "Each row is a piece that the needle comes to. Pick up: a new piece goes on the cord. Through: it is on a cord "
+            "already. In from A5, out to C5: arms are called by the pieces that they face; all pieces lie with their outer "
+            "side up and turned as in the picture. The number of a row is that in the picture, on the arm by which the "
+            "cord comes in. S: the cord starts in this piece."
+          : "Each row is a tube that the needle comes to. Pick up: a new tube goes on the cord. Through: it is on a cord "
+            "already, and the needle goes the way that the cord in it went last; back through: against that way. The "
+            "number of a row is that in the picture.");
   thr_sheets_paragraph(
       sheets, 0,
-      "In the pictures darker beads hold cord already, grey lines are earlier passes, coloured ones those of the step. "
-      "The small picture shows where they are. S: a cord starts. E: it ends.");
+      "A piece has its kind in the box, by letter and number, and its place in the whole: X-10 (B5) is one of kind X-10 "
+      "that comes to B5. Put its place on it when it goes on the cord: later rows call it by that.");
+  thr_sheets_paragraph(
+      sheets, 0,
+      "In the pictures pieces to pick up have a bold outline, those that are on a cord are grey, those that wait are "
+      "dashed. Grey lines are earlier passes, coloured ones those of the step. The small picture shows where they are. "
+      "S: a cord starts. E: it ends.");
   if (sheets->o.middle)
     thr_sheets_paragraph(
         sheets, 0,
@@ -200,21 +205,14 @@ static void put_reading(thr_sheets *sheets)
 
 void thr_sheets_prepare(thr_sheets *sheets)
 {
-  int most = sheets->f->n_edges > sheets->f->n_nodes ? sheets->f->n_edges : sheets->f->n_nodes;
-  thr_bead *g = thr_calloc((size_t)most, sizeof *g);
-  if (!g) {
-    thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
-    return;
-  }
   thr_sheets_page(sheets, "Prepare first", "Prepare first (continued)");
   put_reading(sheets);
   put_cords(sheets);
   put_feet(sheets);
-  put_beads(sheets, g);
-  if (sheets->plan->options.joint == THR_JOINT_SOLID) put_joints(sheets, g);
+  put_pieces(sheets);
   sheets->y += 1;
-  thr_sheets_paragraph(sheets, 0,
-                       "A letter tells beads of a kind apart that are bored for different numbers of cords. The steps say the "
-                       "kinds, with these letters, of the beads that they pick up. Which bead is of which kind: beads.csv.");
-  free(g);
+  thr_sheets_paragraph(
+      sheets, 0,
+      "Cords: the most in one arm of such a piece; the bore holds them side by side. Which piece is of which kind: "
+      "beads.csv. Which way the cords take through each: channels.csv.");
 }

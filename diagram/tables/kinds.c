@@ -210,7 +210,7 @@ static void find_edges(int n, const keyed *k, double tolerance, int *edge, int *
   renumber(edge, n, next);
 }
 
-thr_status thr_kinds_find(const thr_frame *frame, int *edge, int *node, thr_err *err)
+thr_status thr_kinds_find(const thr_frame *frame, double tolerance, int *edge, int *node, thr_err *err)
 {
   int most = frame->n_edges > frame->n_nodes ? frame->n_edges : frame->n_nodes;
   double median;
@@ -219,8 +219,9 @@ thr_status thr_kinds_find(const thr_frame *frame, int *edge, int *node, thr_err 
   thr_status st = k && next ? THR_OK : thr_nomem(err);
   if (!st) {
     sort_edges(frame, k, &median);
-    find_edges(frame->n_edges, k, THR_KINDS_TOLERANCE * median, edge, next);
-    st = find_nodes(frame, THR_KINDS_TOLERANCE * median, node, k, err);
+    if (tolerance == 0) tolerance = THR_KINDS_TOLERANCE * median;
+    if (edge) find_edges(frame->n_edges, k, tolerance, edge, next);
+    if (node) st = find_nodes(frame, tolerance, node, k, err);
   }
   free(k);
   free(next);

@@ -7,12 +7,11 @@
 #include "graph/plan/physics.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 thr_status thr_supplies_make(thr_supplies *supplies, const thr_plan *plan, thr_err *err)
 {
-  int n, most = 0;
+  int n;
   *supplies = (thr_supplies){.plan = plan};
   thr_status st = thr_scene_check_cords(plan, &n, err);
   if (!st && !plan->n_cords) st = thr_fail(err, THR_EINPUT, "the plan has no cord to thread");
@@ -22,16 +21,12 @@ thr_status thr_supplies_make(thr_supplies *supplies, const thr_plan *plan, thr_e
   for (int c = 0; c < plan->n_cords; c++)
     for (int k = 0; k < plan->cord[c].n_passes; k++)
       supplies->passes[plan->cord[c].half[k] >> 1]++;
-  for (int e = 0; e < plan->frame.n_edges; e++)
-    if (supplies->passes[e] > most) most = supplies->passes[e];
-  supplies->narrowest = thr_calloc((size_t)most + 1, sizeof *supplies->narrowest);
-  return supplies->narrowest ? THR_OK : thr_nomem(err);
+  return THR_OK;
 }
 
 void thr_supplies_destroy(thr_supplies *supplies)
 {
   free(supplies->passes);
-  free(supplies->narrowest);
   *supplies = (thr_supplies){0};
 }
 
@@ -54,14 +49,13 @@ thr_status thr_supplies_find_sizes(thr_supplies *supplies, thr_err *err)
   return THR_OK;
 }
 
-double thr_supplies_bore(thr_supplies *supplies, int e)
+double thr_supplies_bore(const thr_supplies *supplies, int e)
 {
-  double *bore = &supplies->narrowest[supplies->passes[e]];
-  if (*bore == 0 && supplies->passes[e]) *bore = thr_bore_for(supplies->passes[e]);
-  return *bore;
+  double planned = supplies->mm > 0 ? supplies->bore / supplies->cord : THR_BORE_CORDS;
+  return supplies->passes[e] ? fmax(planned, thr_bore_clear(supplies->passes[e])) : 0;
 }
 
-double thr_supplies_node_bore(thr_supplies *supplies, int v)
+double thr_supplies_node_bore(const thr_supplies *supplies, int v)
 {
   const thr_frame *frame = &supplies->plan->frame;
   double bore = 0;
@@ -76,20 +70,19 @@ double thr_supplies_bore_mm(const thr_supplies *supplies, double cords)
 }
 
 /* Cord that turns take at most beside the way through the middles, mm. */
-static double in_turns(thr_supplies *supplies, const thr_cord *cord)
+static double in_turns(const thr_supplies *supplies, const thr_cord *cord)
 {
   double sum = 0;
   int turns = thr_cord_turns(&supplies->plan->options, cord);
   for (int k = 0; k < turns; k++) {
     int in = cord->half[k], out = cord->half[(k + 1) % cord->n_passes];
-    double bore =
-        fmax(supplies->bore, supplies->cord * fmax(thr_supplies_bore(supplies, in >> 1), thr_supplies_bore(supplies, out >> 1)));
+    double bore = supplies->cord * fmax(thr_supplies_bore(supplies, in >> 1), thr_supplies_bore(supplies, out >> 1));
     sum += (bore - supplies->cord) / 2 * thr_turn_angle(&supplies->plan->frame, in, out);
   }
   return sum;
 }
 
-thr_cut_length thr_supplies_cut(thr_supplies *supplies, int c)
+thr_cut_length thr_supplies_cut(const thr_supplies *supplies, int c)
 {
   const thr_cord *cord = &supplies->plan->cord[c];
   thr_cut_length cut = {.length = thr_cord_length(&supplies->plan->frame, cord)};
@@ -110,31 +103,4 @@ void thr_supplies_visits(const thr_plan *plan, int *visits)
       visits[thr_tail(&plan->frame, cord->half[k])]++;
     if (!cord->closed) visits[thr_cord_end(&plan->frame, cord)]++;
   }
-}
-
-static int by_sort(const void *a, const void *b)
-{
-  const thr_bead *p = a, *q = b;
-  if (p->kind != q->kind) return p->kind - q->kind;
-  return p->passes != q->passes ? p->passes - q->passes : p->item - q->item;
-}
-
-void thr_beads_sort(thr_bead *b, int n)
-{
-  qsort(b, (size_t)n, sizeof *b, by_sort);
-  for (int i = 0, next; i < n; i = next) {
-    for (next = i; next < n && b[next].kind == b[i].kind; next++)
-      b[next].sort = next == i ? 1 : b[next - 1].sort + (b[next].passes != b[next - 1].passes);
-    for (int k = i; k < next && b[next - 1].sort == 1; k++)
-      b[k].sort = 0;
-  }
-}
-
-void thr_bead_name(int kind, int sort, char name[16])
-{
-  char letters[8], *first = letters + sizeof letters - 1;
-  *first = '\0';
-  for (int rest = sort; rest > 0; rest = (rest - 1) / 26)
-    *--first = (char)('a' + (rest - 1) % 26);
-  snprintf(name, 16, "%d%s", kind, first);
 }

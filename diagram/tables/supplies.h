@@ -8,11 +8,10 @@
 /* {0} is valid and empty. Arrays are owned, the plan is borrowed. */
 typedef struct {
   const thr_plan *plan;
-  int *passes;       /* [n_edges] over it, of all cords */
-  double *narrowest; /* [most passes of an edge + 1] bore for so many, in cord diameters; 0 = not asked for yet */
-  double mm;         /* per unit; 0 = sizes in mm are not known */
-  double cord;       /* mm, diameter; > 0 if mm is */
-  double bore;       /* mm, of the plan */
+  int *passes; /* [n_edges] over it, of all cords */
+  double mm;   /* per unit; 0 = sizes in mm are not known */
+  double cord; /* mm, diameter; > 0 if mm is */
+  double bore; /* mm, of the plan */
 } thr_supplies;
 
 /* Counts passes; THR_EINPUT for a plan without cords and for cords that do not fit the framework. Release with
@@ -24,9 +23,10 @@ void thr_supplies_destroy(thr_supplies *supplies);
  * framework whose size is not known, or is no bead's, leaves them open. THR_EINPUT for sizes that do not fit the framework. */
 thr_status thr_supplies_find_sizes(thr_supplies *supplies, thr_err *err) THR_MUST_CHECK;
 
-/* Bore that the passes of edge e need, in cord diameters (graph/framework/bore.h); and of the node's widest one. */
-double thr_supplies_bore(thr_supplies *supplies, int e);
-double thr_supplies_node_bore(thr_supplies *supplies, int v);
+/* Bore of edge e as it is printed, in cord diameters: that of the plan (as evaluated or asked for, else THR_BORE_CORDS), or wider
+ * where its passes need more to be drawn with ease (thr_bore_clear); 0 without a pass. And of the node's widest one. */
+double thr_supplies_bore(const thr_supplies *supplies, int e);
+double thr_supplies_node_bore(const thr_supplies *supplies, int v);
 
 /* A bore of so many cord diameters in mm, rounded up: a hundredth of a mm too narrow is too narrow. 0 if mm is not known. */
 double thr_supplies_bore_mm(const thr_supplies *supplies, double cords);
@@ -47,19 +47,7 @@ typedef struct {
   double cut;                 /* all of these */
 } thr_cut_length;
 
-thr_cut_length thr_supplies_cut(thr_supplies *supplies, int c);
-
-/* Beads that are bored for as many cords are of a sort: of a kind (diagram/tables/kinds.h) there may be several. */
-typedef struct {
-  int kind, passes, item; /* passes: most in a bore; item: edge or node */
-  int sort;               /* 0 = the only one of the kind, else 1, 2, .. from the fewest cords on */
-} thr_bead;
-
-/* Orders them by kind, passes and item, and fills sort. O(n log n). */
-void thr_beads_sort(thr_bead *b, int n);
-
-/* "1", or of several sorts "1a", "1b", .. "1z", "1aa". */
-void thr_bead_name(int kind, int sort, char name[16]);
+thr_cut_length thr_supplies_cut(const thr_supplies *supplies, int c);
 
 /* Adds to visits[n_nodes] how often cords run through each node, start or end in it. */
 void thr_supplies_visits(const thr_plan *p, int *visits);

@@ -1,11 +1,12 @@
 #include "diagram/tables/tables.h"
 
-#include "diagram/scene/copies.h"
 #include "diagram/overview/guide.h"
-#include "diagram/tables/kinds.h"
+#include "diagram/scene/copies.h"
+#include "diagram/scene/pieces.h"
 #include "diagram/tables/supplies.h"
 #include "graph/angle.h"
 #include "graph/framework/frame.h"
+#include "graph/plan/channels.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -17,6 +18,7 @@ typedef struct {
   const thr_frame *f;
   thr_guide guide;
   thr_supplies supplies;
+  thr_pieces pieces;
   thr_copy *copy; /* [n_cords] */
   thr_text *out;
 } table;
@@ -51,6 +53,14 @@ static void put_text(table *t, const char *s)
   thr_text_destroy(&word);
 }
 
+/* A text that is made for the field; destroys it. */
+static void put_words(table *t, thr_text *words)
+{
+  if (words->failed) t->out->failed = true;
+  put_text(t, words->data && !words->failed ? words->data : "");
+  thr_text_destroy(words);
+}
+
 static void put_int(table *t, int i)
 {
   thr_text_printf(t->out, "%d,", i);
@@ -81,7 +91,7 @@ static void put_unit(table *t)
 
 /* ---- what they share ---- */
 
-static thr_status table_make(table *t, const thr_plan *p, thr_text *out, thr_err *err)
+static thr_status table_make(table *t, const thr_plan *p, double tolerance, thr_text *out, thr_err *err)
 {
   *t = (table){.plan = p, .f = &p->frame, .out = out};
   thr_status st = thr_supplies_make(&t->supplies, p, err);
@@ -89,6 +99,7 @@ static thr_status table_make(table *t, const thr_plan *p, thr_text *out, thr_err
   t->copy = thr_calloc((size_t)p->n_cords, sizeof *t->copy);
   if (!t->copy) return thr_nomem(err);
   st = thr_copies_find(p, t->copy, err);
+  if (!st) st = thr_pieces_make(&t->pieces, p, tolerance, err);
   return st ? st : thr_guide_make(&t->guide, t->f, err);
 }
 
@@ -100,6 +111,7 @@ static thr_status table_close(table *t, thr_status st, thr_text *out, thr_err *e
   thr_text_destroy(t->out);
   thr_guide_destroy(&t->guide);
   thr_supplies_destroy(&t->supplies);
+  thr_pieces_destroy(&t->pieces);
   free(t->copy);
   return st;
 }
@@ -107,6 +119,26 @@ static thr_status table_close(table *t, thr_status st, thr_text *out, thr_err *e
 static const char *place(const table *t, int v)
 {
   return t->guide.label[v];
+}
+
+static void put_name(table *t, int piece)
+{
+  thr_text name = {0};
+  thr_pieces_name(&t->pieces, (const char(*)[THR_LABEL])t->guide.label, piece, &name);
+  put_words(t, &name);
+}
+
+static void put_kind(table *t, int piece)
+{
+  char name[24];
+  thr_pieces_kind_name(&t->pieces, t->pieces.kind[piece], name);
+  put_text(t, name);
+}
+
+/* What the arm of a half-edge that leaves a piece faces; with tube joints the place at that end. -1 = no arm. */
+static void put_arm(table *t, int half)
+{
+  put_text(t, half < 0 ? "" : place(t, t->pieces.solid ? thr_head(t->f, half) : thr_tail(t->f, half)));
 }
 
 /* ---- steps.csv ---- */
@@ -126,49 +158,83 @@ static int path_step(const table *t, int c, int k)
   return (how->backward ? how->start - k + n : how->start + k) % n + 1;
 }
 
-static void put_step(table *t, int c, int k, double *used, double length, thr_held *held)
+/* The arms that a visit comes in and goes out by, as half-edges that leave the piece. */
+static int arm_in(const thr_visit *visit, bool solid)
 {
-  const thr_cord *cord = &t->plan->cord[c];
-  int h = cord->half[k], e = h >> 1, from = thr_tail(t->f, h), to = thr_head(t->f, h);
-  put_text(t, cord->id);
-  put_int(t, k + 1);
-  put_text(t, place(t, from));
-  put_text(t, place(t, to));
-  put_text(t, thr_deed_words(thr_held_pass(held, h)));
-  put_int(t, held->cords[e]);
-  if (k) {
-    put_text(t, way_name(thr_guide_way(&t->guide, cord->half[k - 1], h)));
-    put_angle(t, thr_turn_angle(t->f, cord->half[k - 1], h));
+  return visit->in < 0 ? -1 : solid ? visit->in ^ 1 : visit->in;
+}
+
+static int arm_out(const thr_visit *visit, bool solid)
+{
+  return visit->out < 0 ? -1 : solid ? visit->out : visit->out ^ 1;
+}
+
+/* How the cord turns: in a solid piece, or from the tube before into this one. */
+static void put_turn(table *t, const thr_visit *visit)
+{
+  const thr_cord *cord = &t->plan->cord[visit->cord];
+  int in = t->pieces.solid ? visit->in : visit->number > 1 ? cord->half[visit->number - 2] : -1;
+  int out = t->pieces.solid ? visit->out : visit->in;
+  if (in >= 0 && out >= 0) {
+    put_text(t, way_name(thr_guide_way(&t->guide, in, out)));
+    put_angle(t, thr_turn_angle(t->f, in, out));
   } else
-    thr_text_append(t->out, "start,,");
-  *used += t->f->length[e];
-  put_number(t, t->f->length[e]);
+    thr_text_printf(t->out, "%s,,", in < 0 ? "start" : "end");
+}
+
+static void put_step(table *t, const thr_visit *visit, double *used, double length)
+{
+  const thr_cord *cord = &t->plan->cord[visit->cord];
+  bool solid = t->pieces.solid;
+  double pass = visit->number ? t->f->length[visit->in >> 1] : 0;
+  *used = visit->number > 1 ? *used + pass : pass;
+  put_text(t, cord->id);
+  put_int(t, visit->number);
+  put_name(t, visit->piece);
+  put_kind(t, visit->piece);
+  put_text(t, visit->nth == 1 ? "pick up" : visit->back ? "back through" : "through");
+  put_int(t, visit->nth);
+  put_arm(t, arm_in(visit, solid));
+  put_arm(t, arm_out(visit, solid));
+  put_turn(t, visit);
+  put_number(t, pass);
   put_number(t, *used);
-  put_number(t, k + 1 < cord->n_passes ? length - *used : 0);
-  put_text(t, t->plan->cord[t->copy[c].of].id);
-  put_int(t, path_step(t, c, k));
-  put_int(t, e);
-  put_int(t, from);
-  put_int(t, to);
+  put_number(t, visit->number < cord->n_passes ? length - *used : 0);
+  put_text(t, t->plan->cord[t->copy[visit->cord].of].id);
+  put_int(t, visit->number ? path_step(t, visit->cord, visit->number - 1) : 0);
+  if (visit->number)
+    put_int(t, visit->in >> 1);
+  else
+    put_text(t, "");
+  if (visit->number)
+    put_int(t, thr_tail(t->f, visit->in));
+  else
+    put_text(t, "");
+  put_int(t, visit->number ? thr_head(t->f, visit->in) : thr_tail(t->f, visit->out));
   put_unit(t);
 }
 
-thr_status thr_table_steps(const thr_plan *p, thr_text *out, thr_err *err)
+thr_status thr_table_steps(const thr_plan *p, double tolerance, thr_text *out, thr_err *err)
 {
   table t;
   thr_text text = {0};
-  thr_status st = table_make(&t, p, &text, err);
-  thr_held held = {0};
-  if (!st) st = thr_held_make(&held, p->frame.n_edges, err);
+  thr_status st = table_make(&t, p, tolerance, &text, err);
+  thr_part *part = st ? NULL : thr_calloc((size_t)p->n_cords, sizeof *part);
+  thr_visit *visit = NULL;
+  int n = 0;
+  double used = 0;
+  if (!st && !part) st = thr_nomem(err);
+  if (!st) {
+    thr_pieces_parts(p, t.copy, part);
+    st = thr_pieces_follow(&t.pieces, part, p->n_cords, &visit, &n, err);
+  }
   thr_text_append(&text,
-                  "cord,step,from,to,how,visit,turn,degrees,length,used,left,path,path_step,edge,from_node,to_node,unit\n");
-  for (int path = 0; path < p->n_cords && !st; path++)
-    for (int c = path; c < p->n_cords && t.copy[path].of == path; c++) {
-      double used = 0, length = thr_cord_length(t.f, &p->cord[c]);
-      for (int k = 0; k < p->cord[c].n_passes && t.copy[c].of == path; k++)
-        put_step(&t, c, k, &used, length, &held);
-    }
-  thr_held_destroy(&held);
+                  "cord,step,piece,kind,how,visit,in,out,turn,degrees,length,used,left,path,path_step,edge,from_node,to_node,"
+                  "unit\n");
+  for (int i = 0; i < n; i++)
+    put_step(&t, &visit[i], &used, thr_cord_length(t.f, &p->cord[visit[i].cord]));
+  free(part);
+  free(visit);
   return table_close(&t, st, out, err);
 }
 
@@ -203,7 +269,7 @@ thr_status thr_table_cords(const thr_plan *p, const char *const *motion, thr_tex
 {
   table t;
   thr_text text = {0};
-  thr_status st = table_make(&t, p, &text, err);
+  thr_status st = table_make(&t, p, 0, &text, err);
   if (!st) st = thr_supplies_find_sizes(&t.supplies, err);
   thr_text_append(&text, "cord,closed,start,end,passes,length,tails,knots,turns,cut,turning_degrees,path,repeated,unit\n");
   for (int c = 0; c < p->n_cords && !st; c++)
@@ -222,66 +288,113 @@ static void put_bore(table *t, double cords)
     thr_text_append(t->out, ",");
 }
 
-static void put_edge(table *t, int e, int kind)
+/* What the arms of a piece face and how many cords are in each, in the order of thr_guide_around; of a tube its two places and
+ * the cords in it. */
+static void put_arms(table *t, int piece, const int *around)
 {
-  const int *end = t->f->edge[e];
-  thr_text_append(t->out, "edge,");
-  put_int(t, e);
-  put_int(t, kind);
-  for (int i = 0; i < 2; i++)
-    put_text(t, place(t, end[i]));
-  put_number(t, t->f->length[e]);
-  put_int(t, t->supplies.passes[e]);
-  put_bore(t, thr_supplies_bore(&t->supplies, e));
-  for (int i = 0; i < 2; i++)
-    put_int(t, thr_degree(t->f, end[i]));
-  for (int i = 0; i < 2; i++)
-    put_yes(t, t->f->foot[end[i]]);
-  put_unit(t);
+  thr_text faces = {0}, cords = {0};
+  if (!t->pieces.solid) {
+    thr_text_printf(&faces, "%s %s", place(t, t->f->edge[piece][0]), place(t, t->f->edge[piece][1]));
+    thr_text_printf(&cords, "%d", t->supplies.passes[piece]);
+  } else
+    for (int i = t->f->first[piece]; i < t->f->first[piece + 1]; i++) {
+      const char *blank = i > t->f->first[piece] ? " " : "";
+      thr_text_printf(&faces, "%s%s", blank, place(t, thr_head(t->f, around[i])));
+      thr_text_printf(&cords, "%s%d", blank, t->supplies.passes[around[i] >> 1]);
+    }
+  put_words(t, &faces);
+  put_words(t, &cords);
 }
 
-/* visits: of cords that run through it, start or end in it. */
-static void put_node(table *t, int v, int kind, int visits)
+/* Of its arms together, in units. */
+static double length_of(const table *t, int piece)
 {
   double length = 0;
-  for (int i = t->f->first[v]; i < t->f->first[v + 1]; i++)
+  if (!t->pieces.solid) return t->f->length[piece];
+  for (int i = t->f->first[piece]; i < t->f->first[piece + 1]; i++)
     length += t->f->length[t->f->half[i] >> 1] / 2;
-  thr_text_append(t->out, "node,");
-  put_int(t, v);
-  put_int(t, kind);
-  put_text(t, place(t, v));
-  put_text(t, "");
-  put_number(t, length);
-  put_int(t, visits);
-  put_bore(t, thr_supplies_node_bore(&t->supplies, v));
-  put_int(t, thr_degree(t->f, v));
-  put_text(t, "");
-  put_yes(t, t->f->foot[v]);
-  put_text(t, "");
+  return length;
+}
+
+static bool is_foot(const table *t, int piece)
+{
+  const bool *foot = t->f->foot;
+  return t->pieces.solid ? foot[piece] : foot[t->f->edge[piece][0]] || foot[t->f->edge[piece][1]];
+}
+
+static void put_piece(table *t, int piece, const int *around, const int *visits)
+{
+  bool solid = t->pieces.solid;
+  put_name(t, piece);
+  put_kind(t, piece);
+  put_int(t, piece);
+  put_int(t, thr_pieces_arms(&t->pieces, piece));
+  put_arms(t, piece, around);
+  put_number(t, length_of(t, piece));
+  put_int(t, solid ? visits[piece] : t->supplies.passes[piece]);
+  put_bore(t, solid ? thr_supplies_node_bore(&t->supplies, piece) : thr_supplies_bore(&t->supplies, piece));
+  put_yes(t, is_foot(t, piece));
   put_unit(t);
 }
 
-thr_status thr_table_beads(const thr_plan *p, thr_text *out, thr_err *err)
+thr_status thr_table_beads(const thr_plan *p, double tolerance, thr_text *out, thr_err *err)
 {
   table t;
   thr_text text = {0};
-  thr_status st = table_make(&t, p, &text, err);
+  thr_status st = table_make(&t, p, tolerance, &text, err);
   if (!st) st = thr_supplies_find_sizes(&t.supplies, err);
-  int n = p->frame.n_nodes;
-  int *edge_kind = st ? NULL : thr_calloc((size_t)p->frame.n_edges, sizeof *edge_kind);
-  int *node_kind = st ? NULL : thr_calloc((size_t)n, sizeof *node_kind);
-  int *visits = st ? NULL : thr_calloc((size_t)n, sizeof *visits);
-  if (!st && (!edge_kind || !node_kind || !visits)) st = thr_nomem(err);
-  if (!st) st = thr_kinds_find(t.f, edge_kind, node_kind, err);
+  int *visits = st ? NULL : thr_calloc((size_t)p->frame.n_nodes, sizeof *visits);
+  int *around = st ? NULL : thr_calloc(2 * (size_t)p->frame.n_edges, sizeof *around);
+  if (!st && (!visits || !around)) st = thr_nomem(err);
+  if (!st) st = thr_guide_around(&t.guide, around, err);
   if (!st) thr_supplies_visits(p, visits);
-  thr_text_append(&text,
-                  "bead,number,kind,from,to,length,passes,bore_cords,bore_mm,from_degree,to_degree,from_foot,to_foot,unit\n");
-  for (int e = 0; e < p->frame.n_edges && !st; e++)
-    put_edge(&t, e, edge_kind[e]);
-  for (int v = 0; v < n && p->options.joint == THR_JOINT_SOLID && !st; v++)
-    put_node(&t, v, node_kind[v], visits[v]);
-  free(edge_kind);
-  free(node_kind);
+  thr_text_append(&text, "piece,kind,number,arms,faces,cords,length,visits,bore_cords,bore_mm,foot,unit\n");
+  for (int i = 0; i < t.pieces.n && !st; i++)
+    put_piece(&t, i, around, visits);
   free(visits);
+  free(around);
+  return table_close(&t, st, out, err);
+}
+
+/* ---- channels.csv ---- */
+
+static void put_channel(table *t, const thr_channel *channel, int piece)
+{
+  const int *passes = t->supplies.passes;
+  put_name(t, piece);
+  put_kind(t, piece);
+  put_text(t, t->plan->cord[channel->cord].id);
+  put_int(t, channel->pass + 1);
+  put_arm(t, channel->in);
+  put_arm(t, channel->out);
+  put_int(t, channel->in < 0 ? 0 : passes[channel->in >> 1]);
+  put_int(t, channel->out < 0 ? 0 : passes[channel->out >> 1]);
+  put_int(t, channel->crosses);
+  put_angle(t, channel->in < 0 || channel->out < 0 || !t->pieces.solid ? 0 : thr_turn_angle(t->f, channel->in ^ 1, channel->out));
+  if (!t->out->failed) t->out->data[t->out->length - 1] = '\n';
+}
+
+static void put_tube_channels(table *t)
+{
+  for (int c = 0; c < t->plan->n_cords; c++)
+    for (int k = 0; k < t->plan->cord[c].n_passes; k++) {
+      int h = t->plan->cord[c].half[k];
+      put_channel(t, &(thr_channel){.cord = c, .pass = k, .in = h, .out = h ^ 1}, h >> 1);
+    }
+}
+
+thr_status thr_table_channels(const thr_plan *p, double tolerance, thr_text *out, thr_err *err)
+{
+  table t;
+  thr_text text = {0};
+  thr_channels channels = {0};
+  thr_status st = table_make(&t, p, tolerance, &text, err);
+  if (!st) st = thr_channels_make(&channels, p, err);
+  thr_text_append(&text, "piece,kind,cord,step,in,out,cords_in,cords_out,crosses,degrees\n");
+  for (int v = 0; v < p->frame.n_nodes && !st && t.pieces.solid; v++)
+    for (int i = channels.first[v]; i < channels.first[v + 1]; i++)
+      put_channel(&t, &channels.channel[i], v);
+  if (!st && !t.pieces.solid) put_tube_channels(&t);
+  thr_channels_destroy(&channels);
   return table_close(&t, st, out, err);
 }

@@ -10,16 +10,18 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
-/* A row per pass in the order of thr_steps_text: each unique path, then its copies. Places and turns are called as there.
- * O(n log n). */
-thr_status thr_table_steps(const thr_plan *plan, thr_text *out, thr_err *err) THR_MUST_CHECK;
+/* A row per visit to a piece, in the order of thr_steps_text and in its words. tolerance: as in thr_pieces_make. O(n log n). */
+thr_status thr_table_steps(const thr_plan *plan, double tolerance, thr_text *out, thr_err *err) THR_MUST_CHECK;
 
 /* A row per cord: the cut list, with allowances as in diagram/tables/supplies.h. motion: as in thr_overview_options. O(n log n).
  */
 thr_status thr_table_cords(const thr_plan *plan, const char *const *motion, thr_text *out, thr_err *err) THR_MUST_CHECK;
 
-/* A row per edge and, for solid joints, then a row per node: the bead schedule. Kinds as in diagram/tables/kinds.h, bores as in
- * graph/framework/bore.h for as many cords as there are passes. As thr_kinds_find. */
-thr_status thr_table_beads(const thr_plan *plan, thr_text *out, thr_err *err) THR_MUST_CHECK;
+/* A row per piece: the bead schedule. Kinds as in diagram/scene/pieces.h, bores as in graph/framework/bore.h for as many cords as
+ * there are passes. As thr_kinds_find. */
+thr_status thr_table_beads(const thr_plan *plan, double tolerance, thr_text *out, thr_err *err) THR_MUST_CHECK;
+
+/* A row per channel, piece by piece: which arm to which arm, for which pass (graph/plan/channels.h). */
+thr_status thr_table_channels(const thr_plan *plan, double tolerance, thr_text *out, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -13,20 +13,31 @@ bool thr_check_close(double a, double b, double whole)
   return fabs(a - b) <= 1e-9 * whole;
 }
 
-double thr_check_angle(const thr_frame *frame, int in, int out)
+/* Direction of a half-edge, of length 1. */
+static void unit_direction(const thr_frame *frame, int half, double unit[3])
 {
-  double unit[2][3], sum = 0, difference = 0;
-  for (int k = 0; k < 2; k++) {
-    thr_direction(frame, k ? out : in, unit[k]);
-    double size = sqrt(thr_dot(unit[k], unit[k]));
-    for (int i = 0; i < 3; i++)
-      unit[k][i] /= size;
-  }
+  thr_direction(frame, half, unit);
+  double size = sqrt(thr_dot(unit, unit));
+  for (int i = 0; i < 3; i++)
+    unit[i] /= size;
+}
+
+static double angle_of_units(const double a[3], const double b[3])
+{
+  double sum = 0, difference = 0;
   for (int i = 0; i < 3; i++) {
-    sum += (unit[0][i] + unit[1][i]) * (unit[0][i] + unit[1][i]);
-    difference += (unit[0][i] - unit[1][i]) * (unit[0][i] - unit[1][i]);
+    sum += (a[i] + b[i]) * (a[i] + b[i]);
+    difference += (a[i] - b[i]) * (a[i] - b[i]);
   }
   return 2 * atan2(sqrt(difference), sqrt(sum));
+}
+
+double thr_check_angle(const thr_frame *frame, int in, int out)
+{
+  double unit[2][3];
+  unit_direction(frame, in, unit[0]);
+  unit_direction(frame, out, unit[1]);
+  return angle_of_units(unit[0], unit[1]);
 }
 
 /* ---- cords ---- */
@@ -147,38 +158,54 @@ static void walked_destroy(thr_check_walked *check_walked)
 {
   free(check_walked->component);
   free(check_walked->passes);
+  free(check_walked->cords);
   *check_walked = (thr_check_walked){0};
 }
 
 /* Without passes yet. On failure check_walked is empty. */
-static thr_status walked_init(thr_check_walked *check_walked, const thr_frame *frame, thr_err *err)
+static thr_status walked_init(thr_check_walked *check_walked, const thr_frame *frame, const thr_request *options, thr_err *err)
 {
   *check_walked = (thr_check_walked){.component = thr_calloc((size_t)frame->n_nodes, sizeof *check_walked->component),
                                      .passes = thr_calloc((size_t)frame->n_edges, sizeof *check_walked->passes)};
   thr_status st = check_walked->component && check_walked->passes ? THR_OK : thr_nomem(err);
   if (!st) st = thr_frame_components(frame, check_walked->component, &check_walked->n_components, err);
+  if (!st && !(check_walked->cords = thr_calloc((size_t)check_walked->n_components, sizeof *check_walked->cords)))
+    st = thr_nomem(err);
+  for (int k = 0; k < check_walked->n_components && !st; k++)
+    check_walked->cords[k] = options->cords;
   if (st) walked_destroy(check_walked);
   return st;
+}
+
+bool thr_check_fewest_first(const thr_request *options)
+{
+  return options->max_length > 0 && thr_plan_counted(options) && options->cords_least < options->cords;
+}
+
+static void count_cords(thr_check_walked *check_walked, const thr_cord *cord, int n_cords)
+{
+  for (int k = 0; k < check_walked->n_components; k++)
+    check_walked->cords[k] = 0;
+  for (int i = 0; i < n_cords; i++)
+    check_walked->cords[cord[i].component]++;
 }
 
 /* The same from cords, which are checked on the way. */
 static thr_status walked_from_cords(thr_check_walked *check_walked, const thr_frame *frame, const thr_request *options,
                                     const thr_cord *cord, int n_cords, thr_err *err)
 {
-  thr_status st = walked_init(check_walked, frame, err);
+  thr_status st = walked_init(check_walked, frame, options, err);
   if (!st) st = check_cords(frame, options, check_walked->component, cord, n_cords, check_walked->passes, err);
+  if (!st) count_cords(check_walked, cord, n_cords);
   if (st) walked_destroy(check_walked);
   return st;
 }
 
 /* As many cords in every component as the options say; where they were not asked for, in the one that has most. */
-static thr_status check_cord_count(const thr_check_walked *check_walked, const thr_request *options, const thr_cord *cord,
-                                   int n_cords, thr_err *err)
+static thr_status check_cord_count(const thr_check_walked *check_walked, const thr_request *options, thr_err *err)
 {
-  int *count = thr_calloc((size_t)check_walked->n_components, sizeof *count);
-  thr_status st = count ? THR_OK : thr_nomem(err);
-  for (int i = 0; i < n_cords && !st; i++)
-    count[cord[i].component]++;
+  const int *count = check_walked->cords;
+  thr_status st = THR_OK;
   bool counted = thr_plan_counted(options);
   int first = 0, end = check_walked->n_components, least = counted ? options->cords_least : options->cords;
   for (int k = 0; k < check_walked->n_components && !st && !counted; k++) {
@@ -194,7 +221,6 @@ static thr_status check_cord_count(const thr_check_walked *check_walked, const t
       st = thr_fail(err, THR_EVIOLATED, "component %d: has %d %s; the plan's options say %d to %d", k, count[k], cords, least,
                     options->cords);
   }
-  free(count);
   return st;
 }
 
@@ -260,7 +286,7 @@ thr_status thr_check_length_proof(const thr_frame *frame, const thr_request *opt
   thr_check_walked check_walked;
   double length = 0;
   thr_status st = walked_from_cords(&check_walked, frame, options, cord, n_cords, err);
-  if (!st) st = check_cord_count(&check_walked, options, cord, n_cords, err);
+  if (!st) st = check_cord_count(&check_walked, options, err);
   for (int i = 0; i < n_cords; i++)
     length += thr_cord_length(frame, &cord[i]);
   if (!st) st = check_proof(frame, options, &check_walked, length, certificate, n_certificates, optimal, lower_bound, err);
@@ -275,7 +301,7 @@ thr_status thr_check_cords(const thr_frame *frame, const thr_request *options, c
   thr_check_verdict *verdict = NULL;
   *found = (thr_cords_claim){0};
   thr_status st = walked_from_cords(&check_walked, frame, options, cord, n_cords, err);
-  if (!st) st = check_cord_count(&check_walked, options, cord, n_cords, err);
+  if (!st) st = check_cord_count(&check_walked, options, err);
   if (!st && certificate) st = judge_certificates(frame, options, &check_walked, certificate, n_certificates, &verdict, err);
   if (!st) st = thr_check_several(frame, options, &check_walked, cord, n_cords, certificate, verdict, NULL, found, err);
   free(verdict);
@@ -289,7 +315,7 @@ thr_status thr_check_tied_cords(const thr_frame *frame, const thr_request *optio
   thr_check_walked check_walked;
   *found = (thr_cords_claim){0};
   thr_status st = walked_from_cords(&check_walked, frame, options, cord, n_cords, err);
-  if (!st) st = check_cord_count(&check_walked, options, cord, n_cords, err);
+  if (!st) st = check_cord_count(&check_walked, options, err);
   if (!st) st = thr_check_several(frame, options, &check_walked, cord, n_cords, NULL, NULL, tied, found, err);
   walked_destroy(&check_walked);
   return st;
@@ -322,7 +348,7 @@ thr_status thr_check_length_of_passes(const thr_frame *frame, const thr_request 
                                       thr_err *err)
 {
   thr_check_walked check_walked;
-  thr_status st = walked_init(&check_walked, frame, err);
+  thr_status st = walked_init(&check_walked, frame, options, err);
   if (st) return st;
   memcpy(check_walked.passes, passes, (size_t)frame->n_edges * sizeof *passes);
   st = check_passes(frame, options, &check_walked, err);
@@ -356,10 +382,13 @@ static thr_metrics recompute(const thr_plan *plan, const int *passes)
   }
   for (int i = 0; i < plan->n_cords; i++) {
     const thr_cord *cord = &plan->cord[i];
-    double turning = 0;
-    for (int k = plan->options.ends == THR_ENDS_CLOSED ? 0 : 1; k < cord->n_passes; k++) {
+    const int first = plan->options.ends == THR_ENDS_CLOSED ? 0 : 1;
+    double turning = 0, unit[2][3]; /* of pass k at k % 2 */
+    unit_direction(frame, cord->half[first ? 0 : cord->n_passes - 1], unit[1 - first]);
+    for (int k = first; k < cord->n_passes; k++) {
       int in = cord->half[k ? k - 1 : cord->n_passes - 1], out = cord->half[k];
-      double angle = thr_check_angle(frame, in, out);
+      unit_direction(frame, out, unit[k % 2]);
+      double angle = angle_of_units(unit[1 - k % 2], unit[k % 2]);
       turning += angle;
       metrics.worst_turn = fmax(metrics.worst_turn, angle);
       metrics.u_turns += in >> 1 == out >> 1;
@@ -487,20 +516,103 @@ thr_status thr_check_own(thr_status st, const thr_err *found, thr_err *err)
   return st ? thr_fail(err, st, "%s", found->text) : THR_OK;
 }
 
+/* Edges that enough different cords pass, counted anew; without all of them nothing is optimal. */
+static thr_status check_distinct(const thr_plan *plan, thr_err *err)
+{
+  const thr_frame *frame = &plan->frame;
+  int *cords = thr_calloc((size_t)frame->n_edges, sizeof *cords), found = 0;
+  bool *here = thr_calloc((size_t)frame->n_edges, sizeof *here);
+  thr_status st = cords && here ? THR_OK : thr_nomem(err);
+  for (int i = 0; i < plan->n_cords && !st; i++) {
+    const thr_cord *cord = &plan->cord[i];
+    for (int k = 0; k < cord->n_passes; k++) {
+      cords[cord->half[k] >> 1] += !here[cord->half[k] >> 1];
+      here[cord->half[k] >> 1] = true;
+    }
+    for (int k = 0; k < cord->n_passes; k++)
+      here[cord->half[k] >> 1] = false;
+  }
+  for (int e = 0; e < frame->n_edges && !st; e++)
+    found += cords[e] >= plan->options.distinct;
+  free(cords);
+  free(here);
+  if (!st) st = metric("distinct", plan->metrics.distinct, found, 0, err);
+  bool optimal = plan->proof.optimal || plan->cords_claim.longest_optimal || plan->cords_claim.fewest_optimal ||
+                 plan->pull_claim.optimal || plan->turning.optimal || plan->turning.largest_optimal;
+  if (!st && optimal && found < frame->n_edges)
+    st = thr_fail(err, THR_EVIOLATED, "proof: says optimal, but only %d of %d edges are passed by %d different cords", found,
+                  frame->n_edges, plan->options.distinct);
+  return st;
+}
+
+/* All that is proved of cords that were checked already. */
+static thr_status check_proofs(const thr_plan *plan, const thr_check_walked *check_walked, thr_err *err)
+{
+  double least_length = 0;
+  thr_status st = check_claims(plan, check_walked, &least_length, err);
+  if (!st && plan->pull_claim.present) st = thr_check_pull_claim(plan, check_walked->n_components, err);
+  if (!st && plan->turning.present) st = thr_check_turning_claim(plan, least_length, err);
+  return st;
+}
+
+/* Takes the next cord of every component, after the numbers next[n_components], and the part of the claims that is about these.
+ */
+static void take_round(const thr_plan *plan, int n_components, int *next, thr_plan *part)
+{
+  const int rounds = plan->options.distinct;
+  part->n_cords = 0;
+  part->metrics.length = 0;
+  for (int c = 0; c < n_components; c++) {
+    while (plan->cord[next[c]].component != c)
+      next[c]++;
+    part->metrics.length += thr_cord_length(&plan->frame, &plan->cord[next[c]]);
+    part->cord[part->n_cords++] = plan->cord[next[c]++];
+  }
+  part->proof.lower_bound = plan->proof.lower_bound / rounds;
+  part->turning.price = plan->turning.price / rounds;
+  part->turning.lower_bound = plan->turning.lower_bound / rounds;
+  part->turning.pairing_bound = plan->turning.pairing_bound / rounds;
+}
+
+/* Every cord passes every edge (thr_request_alike): the claims hold of a cord of every component by itself, whichever it is, in
+ * equal parts. */
+static thr_status check_alike(const thr_plan *plan, const thr_request *one, int n_components, thr_err *err)
+{
+  thr_plan part = *plan;
+  int *next = thr_calloc((size_t)n_components, sizeof *next);
+  part.options = *one;
+  part.cord = thr_calloc((size_t)n_components, sizeof *part.cord); /* whose passes are plan's */
+  thr_status st = next && part.cord ? THR_OK : thr_nomem(err);
+  for (int i = 0; i < plan->options.distinct && !st; i++) {
+    thr_check_walked round;
+    take_round(plan, n_components, next, &part);
+    st = walked_from_cords(&round, &part.frame, one, part.cord, part.n_cords, err);
+    if (st) break;
+    st = check_proofs(&part, &round, err);
+    walked_destroy(&round);
+  }
+  free(next);
+  free(part.cord);
+  return st;
+}
+
 thr_status thr_check_plan(const thr_plan *plan, thr_err *err)
 {
   thr_check_walked check_walked;
-  double least_length = 0;
+  thr_request one;
   thr_status st = check_names(plan, err);
   if (st) return st;
   if ((st = walked_from_cords(&check_walked, &plan->frame, &plan->options, plan->cord, plan->n_cords, err))) return st;
-  if (plan->proof.present || plan->cords_claim.present || !thr_wants_length(&plan->options))
-    st = check_cord_count(&check_walked, &plan->options, plan->cord, plan->n_cords, err);
+  if (plan->proof.present || plan->cords_claim.present || plan->options.distinct > 0 || !thr_wants_length(&plan->options))
+    st = check_cord_count(&check_walked, &plan->options, err);
   if (!st) st = check_metrics(plan, check_walked.passes, err);
+  if (!st && plan->options.distinct > 0) st = check_distinct(plan, err);
   if (!st && plan->symmetry.present) st = thr_check_symmetry(plan, err);
-  if (!st) st = check_claims(plan, &check_walked, &least_length, err);
-  if (!st && plan->pull_claim.present) st = thr_check_pull_claim(plan, check_walked.n_components, err);
-  if (!st && plan->turning.present) st = thr_check_turning_claim(plan, least_length, err);
+  bool whole = plan->metrics.distinct == plan->frame.n_edges;
+  if (!st && whole && thr_request_alike(&plan->frame, &plan->options, &one))
+    st = check_alike(plan, &one, check_walked.n_components, err);
+  else if (!st)
+    st = check_proofs(plan, &check_walked, err);
   if (!st && plan->evaluation.present) st = thr_check_evaluation(plan, err);
   walked_destroy(&check_walked);
   return st;

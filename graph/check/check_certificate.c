@@ -215,6 +215,7 @@ static thr_status check_loads(const workspace *k, const thr_certificate *certifi
   for (int j = k->edge_start[certificate->component]; j < k->edge_start[certificate->component + 1]; j++) {
     int e = k->edge[j];
     wide load = k->held[k->f->edge[e][0]] + k->held[k->f->edge[e][1]] - 2 * k->shared[e];
+    if (load <= 0) continue; /* bears any price */
     thr_priced p = priced(k, certificate, j);
     if (p.room && load > (p.odd > p.even ? p.odd - p.even : p.even - p.odd))
       return thr_fail(err, THR_EVIOLATED, "certificate of component %d: the cuts over edge %d add up to more than its weight",
@@ -257,9 +258,9 @@ static int most_extra(const workspace *k, const thr_certificate *certificate, in
 }
 
 /* What rounding an edge's length up to its weight may add to a bound. */
-static void charge_rounding(const workspace *k, const thr_certificate *certificate, int e, thr_check_verdict *out)
+static void charge_rounding(const workspace *k, const thr_certificate *certificate, int e, int64_t units, thr_check_verdict *out)
 {
-  double weight = (double)thr_certificate_weight(k->f, certificate, e) / certificate->scale, added = weight - k->f->length[e];
+  double weight = (double)units / certificate->scale, added = weight - k->f->length[e];
   int most = most_extra(k, certificate, e);
   out->rounding += fmax(0, added) * most;
   out->rounding_above += fmax(0, added - THR_CHECK_ROUNDING * weight) * most;
@@ -280,7 +281,7 @@ static thr_status judge(const workspace *k, const thr_certificate *certificate, 
     weightless |= more > 0 && weight == 0;
     extra += k->f->length[e] * more;
     total += k->f->length[e];
-    charge_rounding(k, certificate, e, out);
+    charge_rounding(k, certificate, e, weight, out);
   }
   if (sum != certificate->sum)
     return thr_fail(err, THR_EVIOLATED, "certificate of component %d: the multipliers do not add up to the stated sum %" PRId64,
@@ -288,7 +289,8 @@ static thr_status judge(const workspace *k, const thr_certificate *certificate, 
   if (join != certificate->join)
     return thr_fail(err, THR_EVIOLATED, "certificate of component %d: the extra passes do not weigh the stated %" PRId64,
                     certificate->component, certificate->join);
-  int64_t ends = thr_check_ends_free(k->o) ? 2 * (int64_t)k->o->cords : 0;
+  int cords = thr_check_fewest_first(k->o) ? k->w->cords[certificate->component] : k->o->cords;
+  int64_t ends = thr_check_ends_free(k->o) ? 2 * (int64_t)cords : 0;
   if (least_weight(certificate, places, ends) > join)
     return thr_fail(err, THR_EVIOLATED,
                     "certificate of component %d: its bound is above the weight of the plan's own extra passes",

@@ -152,6 +152,7 @@ static thr_status detour(const thr_frame *frame, const thr_request *options, dou
 typedef struct {
   double base, length; /* of the passes that its edges need, and of all, in units */
   int least, most;     /* cords that it may have */
+  int cords;           /* that it has */
 } part;
 
 void thr_check_most_cords(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked, int *cords)
@@ -179,6 +180,7 @@ static thr_status parts_of(const thr_frame *frame, const thr_request *options, c
   if (most) thr_check_most_cords(frame, options, check_walked, most);
   for (int c = 0; c < check_walked->n_components && most; c++) {
     part_of[c].most = most[c];
+    part_of[c].cords = check_walked->cords[c];
     part_of[c].least = options->ends == THR_ENDS_COUNTS ? most[c] : thr_plan_cords_least(options);
   }
   free(most);
@@ -193,9 +195,10 @@ static double least_length(const thr_request *options, const part *p, int cords,
                            const thr_check_verdict *check_verdict)
 {
   if (!check_verdict) return p->base;
-  double any = check_verdict->optimal ? p->length : p->base + check_verdict->extra;
-  return thr_check_ends_free(options) ? fmax(any, p->base + thr_check_extra(certificate, check_verdict, 2 * (int64_t)cords))
-                                      : any;
+  double own = check_verdict->optimal ? p->length : p->base + check_verdict->extra;
+  if (!thr_check_ends_free(options)) return own;
+  double length = p->base + thr_check_extra(certificate, check_verdict, 2 * (int64_t)cords);
+  return thr_check_fewest_first(options) && cords > p->cords ? length : fmax(own, length);
 }
 
 /* Is this more cord than so many of the greatest length? */
@@ -204,26 +207,40 @@ static bool too_long(double length, int cords, const thr_request *options)
   return length > cords * options->max_length * (1 + 2e-9);
 }
 
-/* Raises *least, cords of a component, as far as the certificate and, of few edges, all sets of cords exclude that number. sets:
- * that may be looked at yet. */
-static thr_status rule_out_part(const thr_frame *frame, const thr_request *options, const int *component, int number,
-                                const part *p, const thr_certificate *certificate, const thr_check_verdict *check_verdict,
-                                int *sets, int *least, thr_err *err)
+/* Raises *least, cords of a component, as far as the certificate and, of few edges, all sets of cords exclude that number. */
+static thr_status rule_out_part(const thr_request *options, const part *p, const thr_certificate *certificate,
+                                const thr_check_verdict *check_verdict, const thr_few_edges *few, int *least, thr_err *err)
 {
-  thr_few_edges few = {0};
   thr_status st = THR_OK;
-  bool ruled_out = true;
-  if (options->max_length > 0 && p->most > 1) st = thr_few_edges_init(&few, frame, options, component, number, false, err);
-  bool small = few.n > 0 && 1 << few.n <= *sets;
-  if (small) *sets -= 1 << few.n;
+  bool ruled_out = options->max_length > 0;
   while (!st && ruled_out && *least < p->most) {
     double longest = 0;
     ruled_out = too_long(least_length(options, p, *least, certificate, check_verdict), *least, options);
-    if (!ruled_out && small) st = thr_few_edges_least(&few, *least, *least, true, &longest, err);
+    if (!ruled_out && few->n > 0) st = thr_few_edges_dearest(few, *least, &longest, err);
     ruled_out |= !st && longest > options->max_length * (1 + 2e-9);
     if (ruled_out) ++*least;
   }
+  return st;
+}
+
+/* What is claimed of component number: its fewest cords, and what raises *bound on the longest. sets: of edges that may be looked
+ * at yet. */
+static thr_status judge_part(const thr_frame *frame, const thr_request *options, const int *component, int number, const part *p,
+                             const thr_certificate *certificate, const thr_check_verdict *verdict, int *sets, double *bound,
+                             thr_cords_claim *found, thr_err *err)
+{
+  const double limit = fmax(found->longest, options->max_length) * (1 + 1e-6);
+  thr_few_edges few = {0};
+  double longest = 0;
+  int least = p->least;
+  thr_status st = THR_OK;
+  if (p->most > 1) st = thr_few_edges_init(&few, frame, options, component, number, false, limit, *sets, err);
+  if (few.n > 0) *sets -= 1 << few.n;
+  if (!st && few.n > 0) st = thr_few_edges_dearest(&few, p->most, &longest, err);
+  if (!st) st = rule_out_part(options, p, certificate, verdict, &few, &least, err);
   thr_few_edges_destroy(&few);
+  *bound = fmax(*bound, fmax(longest, least_length(options, p, p->most, certificate, verdict) / p->most));
+  found->fewest += least;
   return st;
 }
 
@@ -276,28 +293,22 @@ thr_status thr_check_several(const thr_frame *frame, const thr_request *options,
                              thr_err *err)
 {
   part *parts;
-  double bound = 0, few_sum, few_longest, unit = thr_plan_unit(frame); /* cords have whole numbers of it */
+  double bound = 0, unit = thr_plan_unit(frame); /* cords have whole numbers of it */
   int sets = THR_FEW_SETS;
   *found = (thr_cords_claim){.present = true, .longest = thr_cords_longest(frame, cord, n_cords)};
   thr_status st = parts_of(frame, options, check_walked, &parts, err);
   if (st) return st;
   for (int c = 0; c < check_walked->n_components && !st; c++) {
-    const part *p = &parts[c];
     const thr_certificate *proof = verdict ? &certificate[c] : NULL;
     const thr_check_verdict *check_verdict = verdict ? &verdict[c] : NULL;
-    bound = fmax(bound, least_length(options, p, p->most, proof, check_verdict) / p->most);
-    int least = p->least;
-    st = rule_out_part(frame, options, check_walked->component, c, p, proof, check_verdict, &sets, &least, err);
-    found->fewest += least;
+    st = judge_part(frame, options, check_walked->component, c, &parts[c], proof, check_verdict, &sets, &bound, found, err);
   }
   if (tied) st = check_tied(frame, options, tied, parts, check_walked->n_components, &bound, found, err);
   free(parts);
   if (st) return st;
   if (!(options->max_length > 0 && thr_plan_cords_least(options) < options->cords)) found->fewest = 0;
   st = detour(frame, options, &bound, err);
-  if (!st) st = thr_few_edges_bounds(frame, options, false, &few_sum, &few_longest, err);
   if (st) return st;
-  bound = fmax(bound, few_longest);
   if (unit > 0) bound = unit * ceil(bound / unit * (1 - 2e-9));
   if (bound > found->longest && !thr_check_close(bound, found->longest, found->longest))
     return thr_fail(err, THR_EVIOLATED, "proof: the longest cord of any plan would have %.12g or more, but this plan's has %.12g",

@@ -25,7 +25,11 @@ typedef struct {
   int n_components;
   int *component; /* [n_nodes] owned */
   int *passes;    /* [n_edges] owned */
+  int *cords;     /* [n_components] owned; of cords that are not known: the most */
 } thr_check_walked;
+
+/* Are few cords asked for before little length? Then length is compared with that of as many cords as a plan has. */
+bool thr_check_fewest_first(const thr_request *options);
 
 /* Cord ends at allowed nodes, their number at each being free? */
 static inline bool thr_check_ends_free(const thr_request *options)
@@ -39,7 +43,7 @@ static inline bool thr_check_ends_free(const thr_request *options)
 /* What a certificate proves about its component. Lengths round to weights, and what is rounded up is taken off every bound: for
  * as many extra passes of each edge as a shortest plan with these options may have, not those of this plan. */
 typedef struct {
-  bool optimal;          /* the passes are the shortest for at most options.cords cords */
+  bool optimal;          /* the passes are the shortest for at most options.cords cords (thr_check_fewest_first: as many) */
   double extra;          /* no such cords have less extra cord, in units */
   double rounding;       /* what it adds at most, in units */
   double rounding_above; /* the same beyond THR_CHECK_ROUNDING of each edge's weight */
@@ -69,6 +73,11 @@ thr_status thr_check_several(const thr_frame *frame, const thr_request *options,
 /* Verifies the plan's claim about its turning, which must be present, with cords and length proof that were checked already.
  * least_length: what the latter proves. */
 thr_status thr_check_turning_claim(const thr_plan *plan, double least_length, thr_err *err) THR_MUST_CHECK;
+
+/* What a tree, single edges, walks and, through few edges, all sets of cords prove of the price of turns: *all: of all cords;
+ * *largest: of the dearest (limit: it need not be known above that). cords: that every component has at most. */
+thr_status thr_check_tree(const thr_turning_columns *columns, const thr_request *options, int cords,
+                          const thr_turning_proof *tree, double limit, double *all, double *largest, thr_err *err) THR_MUST_CHECK;
 
 /* No cord needs more pull than the options allow. */
 thr_status thr_check_pulls(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,

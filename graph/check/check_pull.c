@@ -2,12 +2,10 @@
 #include "graph/angle.h"
 #include "graph/check/check.h"
 #include "graph/check/check_parts.h"
-#include "graph/check/few_edges.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
-#include "graph/plan/walk_proof.h"
 #include "graph/status.h"
 
 #include <math.h>
@@ -52,15 +50,13 @@ static thr_status largest_bound(const thr_turning_columns *columns, const thr_re
                                 double *bound, thr_err *err)
 {
   const thr_turning_task *task = columns->task;
-  double all = 0, worth = 0, few_sum, few_largest = 0;
-  *bound = 0;
-  thr_status st = thr_turning_proof_check_columns(columns, tree, &all, err);
-  if (!st) st = thr_walk_forced(columns, bound, err);
-  if (!st && tree->walks.unit) st = thr_walk_proof_check(columns, &tree->walks, task->cords, all, &worth, err);
-  if (!st) st = thr_few_edges_bounds(columns->f, fewer, true, &few_sum, &few_largest, err);
+  const double last = task->end_allowed ? 0 : THR_PI; /* of a closed cord: that turn is at its ends */
+  double all = 0;
+  thr_status st =
+      thr_check_tree(columns, fewer, task->cords, tree, thr_request_most_turning(fewer) + last + 1e-3, &all, bound, err);
   if (st) return st;
-  *bound = fmax(fmax(*bound, few_largest), fmax(worth, all / ((double)task->cords * columns->n_components)));
-  if (!task->end_allowed) *bound = fmax(*bound, thr_turn_closed(task->cost)) - THR_PI; /* its last turn is at its ends */
+  *bound = fmax(*bound, all / ((double)task->cords * columns->n_components));
+  if (!task->end_allowed) *bound = fmax(*bound, thr_turn_closed(task->cost)) - last;
   return THR_OK;
 }
 

@@ -91,18 +91,11 @@ static void paths_destroy(paths *s)
   thr_scratch_free(&s->own);
 }
 
-/* Does it not matter where the cord starts? Of a closed one, where its ends may be anywhere and tie nothing. */
-static bool runs_round(const thr_plan *plan, const thr_cord *c)
-{
-  const thr_request *options = &plan->options;
-  return c->closed && (options->ends == THR_ENDS_CLOSED || (options->ends == THR_ENDS_ANY && options->joint == THR_JOINT_SOLID));
-}
-
 static thr_status paths_init(paths *s, const thr_plan *plan, thr_err *err)
 {
   size_t n = (size_t)plan->n_cords, all = 0, longest = 0;
   for (int i = 0; i < plan->n_cords; i++) {
-    size_t nodes = (size_t)plan->cord[i].n_passes + !runs_round(plan, &plan->cord[i]);
+    size_t nodes = (size_t)plan->cord[i].n_passes + !thr_cord_runs_round(&plan->options, &plan->cord[i]);
     all += nodes;
     if (nodes > longest) longest = nodes;
   }
@@ -124,7 +117,7 @@ static void fill_paths(paths *s)
   const thr_plan *plan = s->p;
   for (int i = 0, next = 0; i < plan->n_cords; i++) {
     const thr_cord *c = &plan->cord[i];
-    bool closed = runs_round(plan, c);
+    bool closed = thr_cord_runs_round(&plan->options, c);
     int n = c->n_passes + !closed, *run = s->run + next;
     for (int k = 0; k < n; k++)
       run[k] = k < c->n_passes ? thr_tail(&plan->frame, c->half[k]) : thr_cord_end(&plan->frame, c);
@@ -228,8 +221,8 @@ static const int *element(const thr_check_elements *check_elements, int i)
   return check_elements->image + (size_t)i * (size_t)check_elements->n;
 }
 
-/* Passes of unique path u over the number of ways in which the group maps it to itself: as many elements as fix all its nodes do
- * so in the same way. No other unique path may be an image. */
+/* Passes of unique path u and, where they may be anywhere, ends, over the number of ways in which the group maps it to itself: as
+ * many elements as fix all its nodes do so in the same way. No other unique path may be an image. */
 static thr_status add_steps(paths *s, const thr_check_elements *check_elements, int u, double *steps, thr_err *err)
 {
   const thr_symmetry_record *record = &s->p->symmetry;
@@ -252,7 +245,8 @@ static thr_status add_steps(paths *s, const thr_check_elements *check_elements, 
                         s->sorted[low].cord, s->p->cord[s->sorted[low].cord].id, s->p->cord[u].id,
                         s->p->cord[record->unique[s->sorted[low].cord]].id);
   }
-  *steps += (double)s->p->cord[u].n_passes * fixed / mapped / ways_to_read(s, &s->cord[u]);
+  const int ends = s->p->options.ends == THR_ENDS_ANY && !s->cord[u].closed ? 2 : 0;
+  *steps += (double)(s->p->cord[u].n_passes + ends) * fixed / mapped / ways_to_read(s, &s->cord[u]);
   return THR_OK;
 }
 

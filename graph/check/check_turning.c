@@ -248,21 +248,25 @@ static thr_status judge_cords(const walked *w, thr_turning_claim *found, thr_err
 
 /* ---- the claim ---- */
 
-/* *bound: of the cord that turns most, by what single edges force and by the worth of walks. least: of the price of all turns. */
-static thr_status judge_largest(const walked *w, const thr_turning_columns *columns, const thr_walk_proof *walks, double least,
-                                double *bound, thr_err *err)
+thr_status thr_check_tree(const thr_turning_columns *columns, const thr_request *options, int cords,
+                          const thr_turning_proof *tree, double limit, double *all, double *largest, thr_err *err)
 {
-  double worth = 0;
-  int cords = w->o->ends == THR_ENDS_COUNTS ? w->cords_most : w->o->cords;
-  thr_status st = thr_walk_forced(columns, bound, err);
-  if (!st && walks->unit) st = thr_walk_proof_check(columns, walks, cords, least, &worth, err);
-  *bound = fmax(*bound, worth);
-  return st;
+  double worth = 0, few_sum, few_largest;
+  *largest = 0;
+  thr_status st = thr_turning_proof_check_columns(columns, tree, all, err);
+  if (!st) st = thr_walk_forced(columns, largest, err);
+  if (!st && tree->walks.unit) st = thr_walk_proof_check(columns, &tree->walks, cords, *all, &worth, err);
+  if (!st) st = thr_few_edges_bounds(columns->f, options, limit, &few_sum, &few_largest, err);
+  if (st) return st;
+  *all = fmax(*all, few_sum);
+  *largest = fmax(*largest, fmax(worth, few_largest));
+  return THR_OK;
 }
 
 static thr_status judge_tree(const walked *w, const thr_turning_claim *claim, thr_turning_claim *found, thr_err *err)
 {
-  double bound, forced, few_sum, few_largest, passes = 0, length = 0;
+  double bound, forced, passes = 0, length = 0;
+  const int cords = w->o->ends == THR_ENDS_COUNTS ? w->cords_most : w->o->cords;
   for (int e = 0; e < w->f->n_edges; e++) {
     passes += fmin(w->passes[e], 2 * thr_plan_cover(w->f, w->o, e));
     length += w->passes[e] * w->f->length[e];
@@ -282,13 +286,9 @@ static thr_status judge_tree(const walked *w, const thr_turning_claim *claim, th
   thr_turning_columns columns;
   thr_status st = thr_turning_columns_init(&columns, w->f, &task, err);
   if (st) return st;
-  st = thr_turning_proof_check_columns(&columns, &claim->tree, &bound, err);
-  if (!st) st = judge_largest(w, &columns, &claim->tree.walks, bound, &forced, err);
+  st = thr_check_tree(&columns, w->o, cords, &claim->tree, found->largest + 1e-3, &bound, &forced, err);
   thr_turning_columns_destroy(&columns);
-  if (!st) st = thr_few_edges_bounds(w->f, w->o, true, &few_sum, &few_largest, err);
   if (st) return st;
-  bound = fmax(bound, few_sum);
-  forced = fmax(forced, few_largest);
   if (w->o->ends == THR_ENDS_CLOSED) bound = fmax(bound, thr_turn_closed(w->o->turning.cost) * w->cords_least);
   /* prices are sums of so many roundings: equal within 1e-9 of a U-turn for each pass, of an edge at most twice those it needs */
   double tolerance = 2e-9 * passes * thr_turn_cost_of(w->o->turning.cost, THR_PI);

@@ -5,20 +5,31 @@
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/scratch.h"
+#include "graph/sort.h"
 #include "graph/status.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { STATES = 2 * THR_FEW_EDGES };
+
+/* Going on from one half-edge with another. */
+typedef struct {
+  int to;
+  double cost;
+} step;
 
 typedef struct {
   const thr_frame *f;
   const thr_request *o;
   bool turning;
+  double limit;
   int n, edge[THR_FEW_EDGES];
-  double step[STATES][STATES]; /* cost of going on from one half-edge with another; INFINITY: that is not done */
-  double *cost;                /* [2^n * 2 n] least to a set and half-edge */
+  int first[STATES + 1]; /* steps of state s: step[first[s]] .. step[first[s + 1] - 1] */
+  step step[STATES * STATES];
+  double *cost; /* [2^n * 2 n] least to a set and half-edge */
   thr_few_edges *out;
 } search;
 
@@ -47,6 +58,19 @@ static double *costs_at(const search *x, unsigned set)
   return x->cost + (size_t)set * 2 * (size_t)x->n;
 }
 
+static void list_steps(search *x)
+{
+  int n = 0;
+  for (int s = 0; s < 2 * x->n; s++) {
+    x->first[s] = n;
+    for (int to = 0; to < 2 * x->n; to++) {
+      double cost = step_cost(x, s, to);
+      if (cost < INFINITY) x->step[n++] = (step){to, cost};
+    }
+  }
+  x->first[2 * x->n] = n;
+}
+
 /* Dijkstra's method over the half-edges of one set; steps to a further edge go to its set. Edges below the lowest are left out.
  */
 static void settle(const search *x, unsigned set, int lowest)
@@ -55,32 +79,40 @@ static void settle(const search *x, unsigned set, int lowest)
   bool done[STATES] = {false};
   for (;;) {
     int best = -1;
-    for (int s = 0; s < 2 * x->n; s++)
+    for (int s = 2 * lowest; s < 2 * x->n; s++)
       if (!done[s] && cost[s] < INFINITY && (best < 0 || cost[s] < cost[best])) best = s;
     if (best < 0) return;
     done[best] = true;
-    for (int s = 2 * lowest; s < 2 * x->n; s++) {
-      double *to = &costs_at(x, set | 1u << (s >> 1))[s], here = cost[best] + x->step[best][s];
-      if (here < *to) *to = here;
+    for (int k = x->first[best]; k < x->first[best + 1]; k++) {
+      int s = x->step[k].to;
+      double *to = &costs_at(x, set | 1u << (s >> 1))[s], here = cost[best] + x->step[k].cost;
+      if (s >= 2 * lowest && here < *to && here <= x->limit) *to = here;
     }
   }
 }
 
-static void forget(const search *x)
+/* The sets of edges from the lowest on: one after the other. */
+static unsigned next_set(unsigned set, int lowest)
 {
-  for (size_t i = 0; i < ((size_t)1 << x->n) * 2 * (size_t)x->n; i++)
-    x->cost[i] = INFINITY;
+  return set + (1u << lowest);
+}
+
+static void forget(const search *x, int lowest)
+{
+  for (unsigned set = 0; set < 1u << x->n; set = next_set(set, lowest))
+    for (int s = 0; s < 2 * x->n; s++)
+      costs_at(x, set)[s] = INFINITY;
 }
 
 static void open_cords(const search *x)
 {
-  forget(x);
+  forget(x, 0);
   for (int s = 0; s < 2 * x->n; s++)
     if (thr_plan_end_allowed(x->f, x->o, thr_tail(x->f, half_of(x, s)))) costs_at(x, 1u << (s >> 1))[s] = first_cost(x, s);
   for (unsigned set = 1; set < 1u << x->n; set++) {
     settle(x, set, 0);
     for (int s = 0; s < 2 * x->n; s++)
-      if (thr_plan_end_allowed(x->f, x->o, thr_head(x->f, half_of(x, s))))
+      if (thr_plan_end_allowed(x->f, x->o, thr_head(x->f, half_of(x, s))) && costs_at(x, set)[s] <= x->limit)
         x->out->one[set] = fmin(x->out->one[set], costs_at(x, set)[s]);
   }
 }
@@ -89,14 +121,14 @@ static void open_cords(const search *x)
 static void closed_cords(const search *x)
 {
   for (int i = 0; i < x->n; i++) {
-    forget(x);
+    forget(x, i);
     costs_at(x, 1u << i)[2 * i] = first_cost(x, 2 * i);
-    for (unsigned set = 1u << i; set < 1u << x->n; set += 1u << i) { /* sets without edges below i */
+    for (unsigned set = 1u << i; set < 1u << x->n; set = next_set(set, i)) {
       if (!(set >> i & 1u)) continue;
       settle(x, set, i);
       for (int s = 2 * i; s < 2 * x->n; s++) {
-        double back = x->step[s][2 * i] - (x->turning ? 0 : first_cost(x, 2 * i));
-        x->out->one[set] = fmin(x->out->one[set], costs_at(x, set)[s] + back);
+        double cost = costs_at(x, set)[s] + step_cost(x, s, 2 * i) - (x->turning ? 0 : first_cost(x, 2 * i));
+        if (cost <= x->limit) x->out->one[set] = fmin(x->out->one[set], cost);
       }
     }
   }
@@ -122,11 +154,13 @@ static int count_edges(const thr_frame *frame, const int *component, int number,
 }
 
 thr_status thr_few_edges_init(thr_few_edges *few, const thr_frame *frame, const thr_request *options, const int *component,
-                              int number, bool turning, thr_err *err)
+                              int number, bool turning, double limit, int sets, thr_err *err)
 {
-  search x = {.f = frame, .o = options, .turning = turning, .out = few};
+  search x = {.f = frame, .o = options, .turning = turning, .limit = limit, .out = few};
   *few = (thr_few_edges){.n = x.n = count_edges(frame, component, number, x.edge)};
-  if (x.n == 0) return THR_OK;
+  if (x.n > 0 && 1 << x.n > sets) few->n = 0;
+  if (few->n == 0) return THR_OK;
+  if (x.n <= THR_FEW_SUMMED) x.limit = INFINITY;
   few->one = thr_calloc((size_t)1 << x.n, sizeof *few->one);
   x.cost = thr_calloc(((size_t)1 << x.n) * 2 * (size_t)x.n, sizeof *x.cost);
   if (!few->one || !x.cost) {
@@ -136,9 +170,7 @@ thr_status thr_few_edges_init(thr_few_edges *few, const thr_frame *frame, const 
   }
   for (unsigned set = 0; set < 1u << x.n; set++)
     few->one[set] = INFINITY;
-  for (int s = 0; s < 2 * x.n; s++)
-    for (int to = 0; to < 2 * x.n; to++)
-      x.step[s][to] = step_cost(&x, s, to);
+  list_steps(&x);
   if (options->ends == THR_ENDS_CLOSED)
     closed_cords(&x);
   else
@@ -154,29 +186,119 @@ void thr_few_edges_destroy(thr_few_edges *few)
   *few = (thr_few_edges){0};
 }
 
-/* ---- several cords ---- */
+/* ---- the dearest of several cords ---- */
 
-static double together(double one, double others, bool dearest)
+/* Families of sets that hold all parts of their sets, as 0 or 1 for each set. */
+typedef struct {
+  int n;
+  size_t sets;
+  int64_t *some, *all, *half; /* [sets] the sets below a limit; unions of some of them; of half of all */
+  int64_t *other, *product;   /* [sets] while unions are made */
+  thr_scratch own;            /* the arrays */
+} families;
+
+/* Sums over all parts of every set; or back. */
+static void add_parts(int64_t *f, int n, int64_t sign)
 {
-  return dearest ? fmax(one, others) : one + others;
+  for (int i = 0; i < n; i++)
+    for (size_t block = 0; block < (size_t)1 << n; block += (size_t)2 << i)
+      for (size_t k = block; k < block + ((size_t)1 << i); k++)
+        f[k + ((size_t)1 << i)] += sign * f[k];
 }
 
-/* more[S]: one cord more than best[S] has. */
-static void add_cord(const thr_few_edges *few, const double *best, bool dearest, double *more)
+/* *of: the unions of two of its sets; or of one of them and one below the limit. There are at most 4^n pairs. */
+static void unite(families *x, bool itself)
 {
-  more[0] = together(few->one[0], best[0], dearest);
+  memcpy(x->product, x->all, x->sets * sizeof *x->product);
+  memcpy(x->other, itself ? x->all : x->some, x->sets * sizeof *x->other);
+  add_parts(x->product, x->n, 1);
+  add_parts(x->other, x->n, 1);
+  for (size_t set = 0; set < x->sets; set++)
+    x->product[set] *= x->other[set];
+  add_parts(x->product, x->n, -1);
+  for (size_t set = 0; set < x->sets; set++)
+    x->all[set] = x->product[set] > 0;
+}
+
+/* Do so many cords, none above the limit, pass everything? Half of them pass a set, and the others what is left. */
+static bool suffice(families *x, const thr_few_edges *few, int cords, double limit)
+{
+  const int half = cords / 2;
+  int highest = 1;
+  for (size_t set = 0; set < x->sets; set++)
+    x->some[set] = x->all[set] = few->one[set] <= limit;
+  if (half == 0) return x->some[x->sets - 1];
+  while (2 * highest <= half)
+    highest *= 2;
+  for (int bit = highest / 2; bit > 0; bit /= 2) {
+    unite(x, true);
+    if (half & bit) unite(x, false);
+  }
+  memcpy(x->half, x->all, x->sets * sizeof *x->half);
+  if (cords % 2) unite(x, false);
+  for (size_t set = 0; set < x->sets; set++)
+    if (x->half[set] && x->all[x->sets - 1 - set]) return true;
+  return false;
+}
+
+/* value[n], ascending: the costs that there are. */
+static thr_status list_costs(const thr_few_edges *few, double **value, size_t *n, thr_err *err)
+{
+  size_t sets = (size_t)1 << few->n, all = 0;
+  *n = 0;
+  if (!(*value = thr_calloc(sets, sizeof **value))) return thr_nomem(err);
+  for (size_t set = 0; set < sets; set++)
+    if (few->one[set] < INFINITY) (*value)[all++] = few->one[set];
+  thr_sort_doubles(*value, all);
+  for (size_t k = 0; k < all; k++)
+    if (*n == 0 || (*value)[k] > (*value)[*n - 1]) (*value)[(*n)++] = (*value)[k];
+  return THR_OK;
+}
+
+thr_status thr_few_edges_dearest(const thr_few_edges *few, int cords, double *cost, thr_err *err)
+{
+  families x = {.n = few->n, .sets = (size_t)1 << few->n};
+  size_t low = 0, n = 0;
+  double *value = NULL;
+  x.some = thr_scratch_array(&x.own, x.sets, sizeof *x.some);
+  x.all = thr_scratch_array(&x.own, x.sets, sizeof *x.all);
+  x.half = thr_scratch_array(&x.own, x.sets, sizeof *x.half);
+  x.other = thr_scratch_array(&x.own, x.sets, sizeof *x.other);
+  x.product = thr_scratch_array(&x.own, x.sets, sizeof *x.product);
+  if (cords > few->n) cords = few->n; /* more cords than edges cost no less */
+  thr_status st = thr_scratch_check(&x.own, err);
+  if (!st) st = list_costs(few, &value, &n, err);
+  for (size_t high = n; !st && low < high;) {
+    size_t middle = low + (high - low) / 2;
+    if (suffice(&x, few, cords, value[middle]))
+      high = middle;
+    else
+      low = middle + 1;
+  }
+  *cost = !st && low < n ? value[low] : (double)INFINITY;
+  free(value);
+  thr_scratch_free(&x.own);
+  return st;
+}
+
+/* ---- several cords in all ---- */
+
+/* more[S]: one cord more than best[S] has. */
+static void add_cord(const thr_few_edges *few, const double *best, double *more)
+{
+  more[0] = few->one[0] + best[0];
   for (unsigned set = 1; set < 1u << few->n; set++) {
     unsigned lowest = set & (~set + 1), rest = set & ~lowest;
     more[set] = INFINITY;
     for (unsigned part = rest;; part = (part - 1) & rest) {
-      more[set] = fmin(more[set], together(few->one[part | lowest], best[rest & ~part], dearest));
+      more[set] = fmin(more[set], few->one[part | lowest] + best[rest & ~part]);
       if (part == 0) break;
     }
   }
 }
 
 /* of[k], k = 1 .. most: least cost of k cords. */
-static thr_status costs_of(const thr_few_edges *few, int most, bool dearest, double *of, thr_err *err)
+static thr_status costs_of(const thr_few_edges *few, int most, double *of, thr_err *err)
 {
   thr_scratch own = {0};
   size_t sets = (size_t)1 << few->n;
@@ -186,7 +308,7 @@ static thr_status costs_of(const thr_few_edges *few, int most, bool dearest, dou
     best[set] = few->one[set];
   for (int n = 1; n <= most && !st; n++) {
     of[n] = best[sets - 1];
-    add_cord(few, best, dearest, more);
+    add_cord(few, best, more);
     double *swap = best;
     best = more;
     more = swap;
@@ -195,16 +317,14 @@ static thr_status costs_of(const thr_few_edges *few, int most, bool dearest, dou
   return st;
 }
 
-thr_status thr_few_edges_least(const thr_few_edges *few, int least, int most, bool dearest, double *cost, thr_err *err)
+thr_status thr_few_edges_sum(const thr_few_edges *few, int least, int most, double *cost, thr_err *err)
 {
-  double of[THR_FEW_EDGES + 1];
+  double of[THR_FEW_SUMMED + 1];
   int n = few->n;
-  thr_status st = costs_of(few, most < n ? most : n, dearest, of, err);
+  thr_status st = costs_of(few, most < n ? most : n, of, err);
   *cost = INFINITY;
   for (int k = least; k <= most && !st; k++) {
-    double here = of[k < n ? k : n];
-    if (k > n) here = dearest ? fmax(here, few->one[0]) : here + (k - n) * few->one[0];
-    *cost = fmin(*cost, here);
+    *cost = fmin(*cost, k > n ? of[n] + (k - n) * few->one[0] : of[k]);
     if (k > n) break; /* more cords than edges only cost more */
   }
   return st;
@@ -212,8 +332,8 @@ thr_status thr_few_edges_least(const thr_few_edges *few, int least, int most, bo
 
 /* ---- all components ---- */
 
-/* Cords that component number may have. */
-static void cords_of(const thr_frame *frame, const thr_request *options, const int *component, int number, int *least, int *most)
+void thr_few_edges_cords(const thr_frame *frame, const thr_request *options, const int *component, int number, int *least,
+                         int *most)
 {
   int ends = 0;
   *least = thr_plan_cords_least(options);
@@ -224,7 +344,7 @@ static void cords_of(const thr_frame *frame, const thr_request *options, const i
   *least = *most = ends / 2;
 }
 
-thr_status thr_few_edges_bounds(const thr_frame *frame, const thr_request *options, bool turning, double *sum, double *dearest,
+thr_status thr_few_edges_bounds(const thr_frame *frame, const thr_request *options, double limit, double *sum, double *dearest,
                                 thr_err *err)
 {
   thr_scratch own = {0};
@@ -237,13 +357,13 @@ thr_status thr_few_edges_bounds(const thr_frame *frame, const thr_request *optio
     thr_few_edges few = {0};
     double worst = 0, total = 0;
     int least, most;
-    cords_of(frame, options, component, c, &least, &most);
-    if (most > 1) st = thr_few_edges_init(&few, frame, options, component, c, turning, err);
-    bool small = few.n > 0 && 1 << few.n <= sets;
-    if (small) sets -= 1 << few.n;
-    if (!st && small) st = thr_few_edges_least(&few, least, most, true, &worst, err);
-    if (!st && small) st = thr_few_edges_least(&few, least, most, false, &total, err);
-    all &= small;
+    thr_few_edges_cords(frame, options, component, c, &least, &most);
+    if (most > 1) st = thr_few_edges_init(&few, frame, options, component, c, true, limit, sets, err);
+    if (few.n > 0) sets -= 1 << few.n;
+    bool summed = few.n > 0 && few.n <= THR_FEW_SUMMED;
+    if (!st && few.n > 0) st = thr_few_edges_dearest(&few, most, &worst, err);
+    if (!st && summed) st = thr_few_edges_sum(&few, least, most, &total, err);
+    all &= summed;
     *dearest = fmax(*dearest, worst);
     *sum += total;
     thr_few_edges_destroy(&few);

@@ -2,9 +2,13 @@
  * checker.
  *
  *   one[S]: least cost of a cord that passes at least the edges S. States are (set passed so far, half-edge passed last); sets
- * only grow, so they are settled in ascending order, each by Dijkstra's method. n cords: one of them passes the lowest edge, so
- * best_n[S] = min over T in S with that edge of one[T] + best_(n-1)[S - T], or of the larger of the two. M. Held & R. M. Karp
- * 1962, with walks. All covers count as 1, and nothing else that couples cords is asked: lower bounds then.
+ * only grow, so they are settled in ascending order, each by Dijkstra's method.
+ *   The dearest of n cords costs at most L if the sets of one[S] <= L have n whose union is everything. The unions of a set of
+ * one family and a set of another are those that some pair makes; pairs are counted by their zeta transforms over all subsets,
+ * which are multiplied, in 2^n n (A. Bjoerklund, T. Husfeldt & M. Koivisto, "Set partitioning via inclusion-exclusion", SIAM
+ * J. Computing 39, 2009). L is found by bisection.
+ *   In all: best_n[S] = min over T in S with its lowest edge of one[T] + best_(n-1)[S - T] (M. Held & R. M. Karp 1962, with
+ * walks). All covers count as 1, and nothing else that couples cords is asked: lower bounds then.
  *
  * Example: a ring of four unit edges, two open cords, ends anywhere: 4 together, the longer one 2. */
 #ifndef THR_FEW_EDGES_H
@@ -14,28 +18,41 @@
 #include "graph/plan/request.h"
 #include "graph/status.h"
 
-enum { THR_FEW_EDGES = 12, THR_FEW_SETS = 1 << 15 /* of all components together */ };
+enum {
+  THR_FEW_EDGES = 18,
+  THR_FEW_SUMMED = 12,   /* of which the least in all is known, too */
+  THR_FEW_SETS = 1 << 18 /* of all components together */
+};
 
 typedef struct {
-  int n;       /* edges; 0: more than few */
+  int n;       /* edges; 0: more than few, or than there are sets for */
   double *one; /* [2^n] owned */
 } thr_few_edges;
 
 /* Of a component (component[n_nodes] as of thr_frame_components). By the price of turns, without U-turns but at nodes with one
- * edge (with tube joints none at all), or by length, with any (tube joints: none). O(2^n n^2), for closed cords 2^n n^3. */
+ * edge (with tube joints none at all), or by length, with any (tube joints: none). Of more than
+ * THR_FEW_SUMMED edges cords above limit need not be told apart: they cost INFINITY. At most so many sets. O(2^n n^2), and 16 n
+ * 2^n bytes while it is made. */
 thr_status thr_few_edges_init(thr_few_edges *few, const thr_frame *frame, const thr_request *options, const int *component,
-                              int number, bool turning, thr_err *err) THR_MUST_CHECK;
+                              int number, bool turning, double limit, int sets, thr_err *err) THR_MUST_CHECK;
 void thr_few_edges_destroy(thr_few_edges *few);
 
-/* Least cost of least .. most cords through the component, each passing something, whichever number has the least: of the
- * dearest, or in all. INFINITY: there are none. O(3^n * n). */
-thr_status thr_few_edges_least(const thr_few_edges *few, int least, int most, bool dearest, double *cost,
-                               thr_err *err) THR_MUST_CHECK;
+/* Least cost of the dearest of so many cords through the component: fewer are no cheaper. INFINITY: there are none. O(2^n n^2).
+ */
+thr_status thr_few_edges_dearest(const thr_few_edges *few, int cords, double *cost, thr_err *err) THR_MUST_CHECK;
 
-/* The same for the components of a framework, as many cords in each as the options allow. *sum: in all, 0 if there are too many
- * edges; *dearest: of the dearest cord in any component of few edges. Components that may have one cord only, and those for which
- * the sets of the ones before leave no room (THR_FEW_SETS), count as large. */
-thr_status thr_few_edges_bounds(const thr_frame *frame, const thr_request *options, bool turning, double *sum, double *dearest,
+/* Least cost in all of least .. most cords, each passing something, whichever number has the least. At most THR_FEW_SUMMED edges.
+ * O(3^n n). */
+thr_status thr_few_edges_sum(const thr_few_edges *few, int least, int most, double *cost, thr_err *err) THR_MUST_CHECK;
+
+/* Cords that component number may have. */
+void thr_few_edges_cords(const thr_frame *frame, const thr_request *options, const int *component, int number, int *least,
+                         int *most);
+
+/* By the price of turns, for the components of a framework, as many cords in each as the options allow. *sum: in all, 0 if there
+ * are too many edges; *dearest: of the dearest cord in any component of few edges, INFINITY above limit. Components that may have
+ * one cord only, and those for which the sets of the ones before leave no room (THR_FEW_SETS), count as large. */
+thr_status thr_few_edges_bounds(const thr_frame *frame, const thr_request *options, double limit, double *sum, double *dearest,
                                 thr_err *err) THR_MUST_CHECK;
 
 #endif

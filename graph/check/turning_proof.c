@@ -2,6 +2,7 @@
 #include "graph/framework/frame.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/plan/turning_ranks.h"
+#include "graph/plan/turning_symmetry.h"
 #include "graph/scratch.h"
 #include "graph/status.h"
 
@@ -62,7 +63,10 @@ void thr_turning_proof_destroy(thr_turning_proof *proof)
   for (int i = 0; proof->dual && i < proof->n_duals; i++)
     thr_turning_dual_destroy(&proof->dual[i]);
   free(proof->dual);
+  for (int i = 0; proof->node && i < proof->n_nodes; i++)
+    free(proof->node[i].orbit);
   free(proof->node);
+  free(proof->symmetry);
   thr_walk_proof_destroy(&proof->walks);
   *proof = (thr_turning_proof){0};
 }
@@ -503,14 +507,15 @@ static thr_status link_tree(const thr_turning_columns *turning_columns, const th
   return THR_OK;
 }
 
-/* The boxes of the leaves: [n_columns] each, as wide as can be between two leaves. */
+/* The boxes of the nodes: [n_columns] each, as wide as can be between two nodes. */
 typedef struct {
   const thr_turning_columns *c;
   const thr_turning_proof *p;
   thr_scratch own;      /* the arrays */
   int *parent, *column; /* [n_nodes] */
   int *low, *high;
-  bool *counted;
+  int *narrowed, n_narrowed; /* columns that are decided above the node */
+  bool *listed;
 } boxes;
 
 static thr_status boxes_init(boxes *x, thr_err *err)
@@ -520,12 +525,27 @@ static thr_status boxes_init(boxes *x, thr_err *err)
   x->column = thr_scratch_array(&x->own, nodes, sizeof *x->column);
   x->low = thr_scratch_array(&x->own, columns, sizeof *x->low);
   x->high = thr_scratch_array(&x->own, columns, sizeof *x->high);
-  x->counted = thr_scratch_array(&x->own, columns, sizeof *x->counted);
+  x->narrowed = thr_scratch_array(&x->own, columns, sizeof *x->narrowed);
+  x->listed = thr_scratch_array(&x->own, columns, sizeof *x->listed);
   thr_status st = thr_scratch_check(&x->own, err);
   if (st) return st;
   for (size_t j = 0; j < columns; j++)
     x->high[j] = thr_turning_most(x->c, (int)j);
   return link_tree(x->c, x->p, x->parent, x->column, err);
+}
+
+/* Images of the half-edges under the k-th symmetry of a node's orbit. */
+static const int *symmetry_of(const boxes *x, const thr_turning_node *node, int k)
+{
+  return x->p->symmetry + (size_t)node->orbit[k] * (size_t)x->c->f->n_edges;
+}
+
+static void narrow_column(boxes *x, int j, int low, int high)
+{
+  if (!x->listed[j]) x->narrowed[x->n_narrowed++] = j;
+  x->listed[j] = true;
+  if (low > x->low[j]) x->low[j] = low;
+  if (high < x->high[j]) x->high[j] = high;
 }
 
 /* Narrows the box by the branches above node i. */
@@ -534,33 +554,84 @@ static void narrow(boxes *x, int i)
   for (int above = x->parent[i]; above >= 0; i = above, above = x->parent[i]) {
     const thr_turning_node *node = &x->p->node[above];
     int j = x->column[above];
-    if (node->low == i) {
-      if (node->value < x->high[j]) x->high[j] = node->value;
-    } else if (node->value >= x->low[j]) {
-      x->low[j] = node->value < INT_MAX ? node->value + 1 : INT_MAX;
+    if (node->low != i) {
+      narrow_column(x, j, node->value < INT_MAX ? node->value + 1 : INT_MAX, INT_MAX);
+      continue;
     }
+    narrow_column(x, j, 0, node->value);
+    for (int k = 0; k < node->n_orbit; k++)
+      narrow_column(x, thr_turning_image(x->c, symmetry_of(x, node, k), j), 0, node->value);
   }
 }
 
-/* What the narrow box of node i adds to the value over the widest one; *empty if nothing is in it. Widens it again. */
-static wide correct(boxes *x, const leaf *k, int i, bool *empty)
+static void widen(boxes *x)
+{
+  for (int i = 0; i < x->n_narrowed; i++) {
+    int j = x->narrowed[i];
+    x->low[j] = 0;
+    x->high[j] = thr_turning_most(x->c, j);
+    x->listed[j] = false;
+  }
+  x->n_narrowed = 0;
+}
+
+/* What the narrow box adds to the value over the widest one; *empty if nothing is in it. */
+static wide correct(const boxes *x, const leaf *k, bool *empty)
 {
   wide sum = 0;
   *empty = false;
-  for (int above = x->parent[i]; above >= 0; above = x->parent[above]) {
-    int j = x->column[above];
-    if (x->counted[j]) continue;
-    x->counted[j] = true;
+  for (int i = 0; i < x->n_narrowed; i++) {
+    int j = x->narrowed[i];
     *empty |= x->low[j] > x->high[j];
     sum += column_adds(k, j, x->low[j], x->high[j]) - column_adds(k, j, 0, thr_turning_most(x->c, j));
   }
-  for (int above = x->parent[i]; above >= 0; above = x->parent[above]) {
-    int j = x->column[above];
-    x->low[j] = 0;
-    x->high[j] = thr_turning_most(x->c, j);
-    x->counted[j] = false;
-  }
   return sum;
+}
+
+/* Does the symmetry keep the narrow box? */
+static bool keeps_box(const boxes *x, const int *image)
+{
+  for (int i = 0; i < x->n_narrowed; i++) {
+    int j = x->narrowed[i], k = thr_turning_image(x->c, image, j);
+    if (x->low[k] != x->low[j] || x->high[k] != x->high[j]) return false;
+  }
+  return true;
+}
+
+/* An orbit is decided at once where all its symmetries are there, and keep the box. */
+static thr_status check_orbits(boxes *x, thr_err *err)
+{
+  for (int i = 0; i < x->p->n_nodes; i++) {
+    const thr_turning_node *node = &x->p->node[i];
+    if (node->n_orbit == 0) continue;
+    if (!node->low) return thr_fail(err, THR_EVIOLATED, "turning proof: node %d: an orbit, but nothing is decided", i);
+    for (int k = 0; k < node->n_orbit; k++)
+      if (node->orbit[k] < 0 || node->orbit[k] >= x->p->n_symmetries)
+        return thr_fail(err, THR_EVIOLATED, "turning proof: node %d: no symmetry %d", i, node->orbit[k]);
+  }
+  for (int i = 0; i < x->p->n_nodes; i++) {
+    const thr_turning_node *node = &x->p->node[i];
+    bool kept = true;
+    if (node->n_orbit == 0) continue;
+    narrow(x, i);
+    for (int k = 0; k < node->n_orbit && kept; k++)
+      kept = keeps_box(x, symmetry_of(x, node, k));
+    widen(x);
+    if (!kept) return thr_fail(err, THR_EVIOLATED, "turning proof: node %d: a symmetry does not keep what was decided before", i);
+  }
+  return THR_OK;
+}
+
+static thr_status check_symmetries(const thr_turning_columns *turning_columns, const thr_turning_proof *proof, thr_err *err)
+{
+  bool yes;
+  for (int i = 0; i < proof->n_symmetries; i++) {
+    const int *image = proof->symmetry + (size_t)i * (size_t)turning_columns->f->n_edges;
+    thr_status st = thr_turning_symmetric(turning_columns, image, &yes, err);
+    if (st) return st;
+    if (!yes) return thr_fail(err, THR_EVIOLATED, "turning proof: symmetry %d does not map plans to plans", i);
+  }
+  return THR_OK;
 }
 
 static thr_status check_dual_shape(const thr_turning_columns *turning_columns, const thr_turning_proof *proof, thr_err *err)
@@ -597,30 +668,46 @@ static thr_status least_of_leaves(boxes *x, const thr_turning_dual *dual, const 
     widest += column_adds(&k, j, 0, thr_turning_most(x->c, j));
   for (int i = 0; i < n && !st; i++) {
     narrow(x, node[i]);
-    int64_t here = in_64_bits(widest + correct(x, &k, node[i], &empty));
+    int64_t here = in_64_bits(widest + correct(x, &k, &empty));
+    widen(x);
     if (!empty && here < *least) *least = here;
   }
   thr_scratch_free(&k.own);
   return st;
 }
 
-thr_status thr_turning_proof_check_columns(const thr_turning_columns *turning_columns, const thr_turning_proof *proof,
-                                           double *bound, thr_err *err)
+/* The least over all leaves. */
+static thr_status check_tree(const thr_turning_columns *turning_columns, const thr_turning_proof *proof, double *bound,
+                             thr_err *err)
 {
   boxes x = {.c = turning_columns, .p = proof};
   int64_t least = INT64_MAX;
   int *first = thr_scratch_array(&x.own, (size_t)proof->n_duals + 2, sizeof *first);
   int *leaves = thr_scratch_array(&x.own, (size_t)proof->n_nodes, sizeof *leaves);
   thr_status st = thr_scratch_check(&x.own, err);
-  *bound = 0;
-  if (!st) st = check_dual_shape(turning_columns, proof, err);
   if (!st) st = boxes_init(&x, err);
+  if (!st) st = check_orbits(&x, err);
   if (!st) sort_leaves(proof, first, leaves);
   for (int d = 0; d < proof->n_duals && !st; d++)
     if (first[d + 1] > first[d])
       st = least_of_leaves(&x, &proof->dual[d], leaves + first[d], first[d + 1] - first[d], &least, err);
   if (!st && least > 0) *bound = ldexp((double)least, -THR_TURNING_BITS);
   thr_scratch_free(&x.own);
+  return st;
+}
+
+thr_status thr_turning_proof_check_columns(const thr_turning_columns *turning_columns, const thr_turning_proof *proof,
+                                           double *bound, thr_err *err)
+{
+  thr_turning_columns lower;
+  *bound = 0;
+  thr_status st = check_dual_shape(turning_columns, proof, err);
+  if (st || proof->n_symmetries == 0) return st ? st : check_tree(turning_columns, proof, bound, err);
+  st = check_symmetries(turning_columns, proof, err);
+  if (!st) st = thr_turning_lower(turning_columns, proof->symmetry, proof->n_symmetries, &lower, err);
+  if (st) return st;
+  st = check_tree(&lower, proof, bound, err);
+  thr_turning_columns_destroy(&lower);
   return st;
 }
 

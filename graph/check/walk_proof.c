@@ -130,8 +130,7 @@ void thr_walk_steps_destroy(thr_walk_steps *steps)
 
 /* ---- prices ---- */
 
-/* Passes that the edges of node v need. */
-static int64_t needed_at(const thr_turning_columns *columns, int v)
+int64_t thr_walk_needed_at(const thr_turning_columns *columns, int v)
 {
   int64_t sum = 0;
   for (int i = columns->f->first[v]; i < columns->f->first[v + 1]; i++)
@@ -150,7 +149,7 @@ static thr_status check_prices(const thr_walk_steps *steps, const thr_walk_proof
       return thr_fail(err, THR_EVIOLATED, "walks: the price of edge %d is negative, or of another component", e);
   for (int v = 0; v < frame->n_nodes; v++)
     if (proof->node[v] < 0 ||
-        (proof->node[v] > 0 && (needed_at(steps->c, v) % 2 == 0 || steps->place[frame->half[frame->first[v]]] < 0)))
+        (proof->node[v] > 0 && (thr_walk_needed_at(steps->c, v) % 2 == 0 || steps->place[frame->half[frame->first[v]]] < 0)))
       return thr_fail(err, THR_EVIOLATED,
                       "walks: the price of node %d is negative, of another component, or of an even number of needed passes", v);
   return THR_OK;
@@ -227,7 +226,7 @@ static wide needed(const thr_walk_steps *steps, const thr_walk_proof *proof, dou
   for (int e = 0; e < columns->f->n_edges; e++)
     sum += (wide)proof->edge[e] * columns->cover[e];
   for (int v = 0; v < columns->f->n_nodes; v++)
-    if (proof->node[v] > 0) sum += (wide)proof->node[v] * (needed_at(columns, v) + 1);
+    if (proof->node[v] > 0) sum += (wide)proof->node[v] * (thr_walk_needed_at(columns, v) + 1);
   return sum;
 }
 

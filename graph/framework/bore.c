@@ -36,16 +36,8 @@ int thr_bore_fits(double bore, double cord)
   return n;
 }
 
-double thr_bore_for(int n)
+double thr_bore_clear(int n)
 {
-  if (n <= N_BEST) return best[n - 1];
-  double rings = ceil((sqrt(12.0 * n - 3) - 3) / 6), low = sqrt(n), high = 2 * rings + 1; /* 1 + 3 k (k + 1) places in k rings */
-  for (int i = 0; i < 40 && n <= THR_BORE_MOST; i++) {
-    double middle = (low + high) / 2;
-    if (thr_bore_fits(middle, 1) >= n)
-      high = middle;
-    else
-      low = middle;
-  }
-  return high;
+  double fill = n == 1 ? 0.53 : n == 2 ? 0.31 : 0.40;
+  return sqrt(n / fill);
 }

@@ -1,4 +1,4 @@
-/* How many cords fit side by side through a round bore, and how wide a bore a number of them needs: equal circles in a circle. */
+/* Round bores: how many cords fit side by side through one, and how wide one has to be for so many to be drawn with ease. */
 #ifndef THR_BORE_H
 #define THR_BORE_H
 
@@ -10,8 +10,12 @@ enum { THR_BORE_MOST = 1000 }; /* cords that are counted */
  * beyond them the fullest of three places of a hexagonal grid. O(n). */
 int thr_bore_fits(double bore, double cord);
 
-/* Diameter of the narrowest bore of these packings for n >= 1 cords, in cord diameters; beyond THR_BORE_MOST of full hexagonal
- * rings. O(n) times 40. */
-double thr_bore_for(int n);
+/* Bore where none is given, in cord diameters: wide enough for one cord. */
+static const double THR_BORE_CORDS = 2;
+
+/* Bore through which n >= 1 cords are drawn with ease, in cord diameters: sqrt(n / fill), where the cords' sections fill no more
+ * of the bore's than is allowed in a conduit through which cables are pulled: 0.53 for one, 0.31 for two, 0.40 for more (NFPA 70,
+ * National Electrical Code, chapter 9, table 1). So 1.37, 2.54, 2.74, 3.16: always wider than the narrowest that holds them. */
+double thr_bore_clear(int n);
 
 #endif

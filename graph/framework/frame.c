@@ -2,6 +2,7 @@
 #include "graph/framework/frame.h"
 #include "graph/disjoint.h"
 #include "graph/framework/units.h"
+#include "graph/number.h"
 #include "graph/sort.h"
 
 #include <limits.h>
@@ -12,6 +13,17 @@
 
 /* Lengths outside these bounds are nonsense in any unit, and their sums and quotients would overflow. */
 static const double SHORTEST = 1e-100, LONGEST = 1e100;
+
+/* 64-bit FNV-1a (Fowler, Noll, Vo), continued from a hash. */
+#define FNV_START UINT64_C(14695981039346656037)
+
+static uint64_t fnv(uint64_t hash, const void *bytes, size_t n)
+{
+  const unsigned char *b = bytes;
+  for (size_t i = 0; i < n; i++)
+    hash = (hash ^ b[i]) * UINT64_C(1099511628211);
+  return hash;
+}
 
 /* ---- drafts ---- */
 
@@ -94,6 +106,37 @@ static int by_projection(const void *pa, const void *pb)
   return (a->node > b->node) - (a->node < b->node);
 }
 
+/* Which of n buckets of equal width from low to high, of which one is the last: no lower for what is further along. */
+static int bucket_of(const projected *p, double low, double high, int n)
+{
+  return high > low ? (int)((p->along - low) / (high - low) * (n - 1)) : 0;
+}
+
+/* p[n] by projection: into a bucket for each node, and then each bucket by itself. O(n) where nodes are spread evenly. */
+static thr_status sort_projected(projected *p, int n, thr_err *err)
+{
+  projected *sorted = thr_calloc((size_t)n, sizeof *sorted);
+  int *start = thr_calloc((size_t)n + 2, sizeof *start); /* shifted by one place so that filling leaves the starts right */
+  thr_status st = sorted && start ? THR_OK : thr_nomem(err);
+  double low = p[0].along, high = low;
+  for (int i = 1; i < n; i++) {
+    low = fmin(low, p[i].along);
+    high = fmax(high, p[i].along);
+  }
+  for (int i = 0; i < n && !st; i++)
+    start[bucket_of(&p[i], low, high, n) + 2]++;
+  for (int i = 2; i <= n + 1 && !st; i++)
+    start[i] += start[i - 1];
+  for (int i = 0; i < n && !st; i++)
+    sorted[start[bucket_of(&p[i], low, high, n) + 1]++] = p[i];
+  for (int i = 0; i < n && !st; i++)
+    if (start[i + 1] - start[i] > 1) qsort(sorted + start[i], (size_t)(start[i + 1] - start[i]), sizeof *sorted, by_projection);
+  if (!st) memcpy(p, sorted, (size_t)n * sizeof *p);
+  free(sorted);
+  free(start);
+  return st;
+}
+
 static double distance(const double a[3], const double b[3])
 {
   return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
@@ -110,8 +153,8 @@ static thr_status weld(const thr_draft *draft, double tolerance, int *parent, th
     parent[v] = v;
     p[v] = (projected){0.6324 * x[0] + 0.5477 * x[1] + 0.5478 * x[2], x, v}; /* length 0.99999: never above 1 */
   }
-  qsort(p, (size_t)n, sizeof *p, by_projection);
-  for (int i = 0; i < n; i++)
+  thr_status st = sort_projected(p, n, err);
+  for (int i = 0; i < n && !st; i++)
     for (int j = i - 1; j >= 0 && !(p[i].along - p[j].along > tolerance); j--) {
       double apart = distance(p[i].xyz, p[j].xyz);
       if (apart <= tolerance) thr_disjoint_join(parent, p[i].node, p[j].node);
@@ -121,7 +164,7 @@ static thr_status weld(const thr_draft *draft, double tolerance, int *parent, th
   for (int v = 0; v < n; v++)
     parent[v] = thr_disjoint_find(parent, v);
   free(p);
-  return THR_OK;
+  return st;
 }
 
 static double diagonal_of(const double (*xyz)[3], int n, size_t stride)
@@ -277,19 +320,42 @@ static int by_name(const void *pa, const void *pb)
   return order ? order : (a->node > b->node) - (a->node < b->node);
 }
 
-/* Options and tables call nodes by their names. O(n log n). */
+/* Has every node a name of its own? Names go into a table by their hashes, the next free place counting. O(bytes). */
+static thr_status names_differ(const thr_frame *frame, bool *differ, thr_err *err)
+{
+  size_t places = 1;
+  while (places < 2 * (size_t)frame->n_nodes)
+    places *= 2;
+  int *table = thr_calloc(places, sizeof *table); /* node + 1 */
+  if (!table) return thr_nomem(err);
+  *differ = true;
+  for (int v = 0; v < frame->n_nodes && *differ; v++) {
+    const uint64_t hash = fnv(FNV_START, frame->name[v], strlen(frame->name[v]));
+    size_t at = (hash ^ hash >> 32) & (places - 1);
+    while (table[at] && strcmp(frame->name[table[at] - 1], frame->name[v]) != 0)
+      at = (at + 1) & (places - 1);
+    *differ = !table[at];
+    table[at] = v + 1;
+  }
+  free(table);
+  return THR_OK;
+}
+
+/* Options and tables call nodes by their names. O(bytes), and O(n log n) to say which two have one. */
 static thr_status check_names(const thr_frame *frame, const thr_draft *draft, const int *parent, const int *index, thr_err *err)
 {
   bool indices = true; /* no two are the same */
   for (int v = 0; v < draft->n_nodes && indices; v++)
     indices = !thr_draft_name(draft, v);
   if (indices) return THR_OK;
+  bool differ;
+  thr_status st = names_differ(frame, &differ, err);
+  if (st || differ) return st;
   named *list = thr_calloc((size_t)frame->n_nodes, sizeof *list);
   if (!list) return thr_nomem(err);
   for (int v = 0; v < draft->n_nodes; v++)
     if (parent[v] == v && index[v] >= 0) list[index[v]] = (named){frame->name[index[v]], v};
   qsort(list, (size_t)frame->n_nodes, sizeof *list, by_name);
-  thr_status st = THR_OK;
   for (int i = 1; i < frame->n_nodes && !st; i++)
     if (strcmp(list[i - 1].name, list[i].name) == 0)
       st = thr_fail(err, THR_EINPUT, "nodes %d and %d, counted from 0, are both called '%.40s'; give each its own name",
@@ -399,6 +465,41 @@ done:
   return st;
 }
 
+/* The number as text, as readers call nodes without a name. */
+static bool is_index(const char *name, int v)
+{
+  char digits[THR_INT_TEXT];
+  size_t n = thr_int_print(v, digits);
+  return strlen(name) == n && memcmp(name, digits, n) == 0;
+}
+
+static bool says_node(const thr_draft *draft, const thr_frame *frame, int v)
+{
+  const struct thr_draft_node *node = &draft->node[v];
+  const char *name = thr_draft_name(draft, v);
+  return memcmp(node->xyz, frame->xyz[v], sizeof node->xyz) == 0 && node->foot == frame->foot[v] &&
+         (name ? strcmp(name, frame->name[v]) == 0 : is_index(frame->name[v], v));
+}
+
+static bool says_edge(const thr_draft *draft, const thr_frame *frame, int e)
+{
+  const struct thr_draft_edge *edge = &draft->edge[e];
+  const double length = frame->own_lengths ? edge->length : distance(frame->xyz[edge->a], frame->xyz[edge->b]);
+  return edge->a == frame->edge[e][0] && edge->b == frame->edge[e][1] && length == frame->length[e] &&
+         frame->own_lengths == (edge->length != 0) && edge->cover == (frame->cover ? frame->cover[e] : 0) &&
+         edge->capacity == (frame->capacity ? frame->capacity[e] : 0);
+}
+
+bool thr_draft_says(const thr_draft *draft, const thr_frame *frame)
+{
+  bool same = draft->n_nodes == frame->n_nodes && draft->n_edges == frame->n_edges && strcmp(draft->units, frame->units) == 0;
+  for (int v = 0; v < frame->n_nodes && same; v++)
+    same = says_node(draft, frame, v);
+  for (int e = 0; e < frame->n_edges && same; e++)
+    same = says_edge(draft, frame, e);
+  return same;
+}
+
 /* ---- the framework itself ---- */
 
 void thr_frame_destroy(thr_frame *frame)
@@ -434,8 +535,8 @@ thr_status thr_frame_copy(thr_frame *to, const thr_frame *from, thr_err *err)
   memcpy(frame.units, from->units, sizeof frame.units);
   frame.own_lengths = from->own_lengths;
   thr_text names = {0};
-  for (size_t v = 0; v < n; v++)
-    thr_text_append_bytes(&names, from->name[v], strlen(from->name[v]) + 1);
+  const char *last = n ? from->name[n - 1] : "";
+  if (n) thr_text_append_bytes(&names, from->names, (size_t)(last - from->names) + strlen(last) + 1);
   st = thr_frame_take_names(&frame, &names, err);
 done:
   if (st) thr_frame_destroy(&frame);
@@ -452,12 +553,10 @@ int thr_frame_find(const thr_frame *frame, const char *name)
 
 bool thr_frame_names_are_indices(const thr_frame *frame)
 {
-  char digits[16];
-  for (int v = 0; v < frame->n_nodes; v++) {
-    snprintf(digits, sizeof digits, "%d", v);
-    if (strcmp(digits, frame->name[v]) != 0) return false;
-  }
-  return true;
+  bool indices = true;
+  for (int v = 0; v < frame->n_nodes && indices; v++)
+    indices = is_index(frame->name[v], v);
+  return indices;
 }
 
 int thr_frame_edge_between(const thr_frame *frame, int a, int b)
@@ -489,17 +588,9 @@ double thr_frame_total_length(const thr_frame *frame)
   return sum;
 }
 
-static uint64_t fnv(uint64_t hash, const void *bytes, size_t n)
-{
-  const unsigned char *b = bytes;
-  for (size_t i = 0; i < n; i++)
-    hash = (hash ^ b[i]) * UINT64_C(1099511628211);
-  return hash;
-}
-
 uint64_t thr_frame_hash(const thr_frame *frame)
 {
-  uint64_t hash = UINT64_C(14695981039346656037);
+  uint64_t hash = FNV_START;
   hash = fnv(hash, &frame->n_nodes, sizeof frame->n_nodes);
   hash = fnv(hash, &frame->n_edges, sizeof frame->n_edges);
   hash = fnv(hash, frame->xyz, (size_t)frame->n_nodes * sizeof *frame->xyz);

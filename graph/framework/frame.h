@@ -53,6 +53,8 @@ typedef struct {
   } * edge;
   thr_text names; /* each with its NUL */
   char units[16]; /* "" = not said */
+  bool y_up;      /* the file's maker is known to write y upwards */
+  double flat;    /* asked of the readers of meshes, rad: triangles that meet at less have no edge between them; 0 = all have */
 } thr_draft;
 
 /* What node v is called until another node is added; NULL means the index in decimal. */
@@ -80,6 +82,9 @@ typedef struct {
   int isolated_nodes;    /* dropped: no edge */
   int skipped_records;   /* records of the file that the reader knows but does not use (set by the reader) */
   char skipped_kind[32]; /* the first such record's keyword */
+  bool turned;           /* y was taken to point up, because the file's maker is known to write that */
+  bool lies;             /* z was taken to point up, but it may be y: the structure seems to lie on its side */
+  bool no_units;         /* nobody said what one unit is */
 } thr_read_report;
 
 /* Welds nodes closer than tolerance (< 0: 1e-6 of the bounding box's diagonal, at most a thousandth of the median edge), drops
@@ -90,6 +95,10 @@ typedef struct {
  * log n) as long as few nodes lie within the tolerance of each other along one fixed skew direction; quadratic in those. */
 thr_status thr_draft_build(const thr_draft *draft, double tolerance, thr_frame *frame, thr_read_report *report,
                            thr_err *err) THR_MUST_CHECK;
+
+/* Would thr_draft_build make this framework again, which it made, of the draft with tolerance 0: the same nodes and edges in the
+ * same order, with equal numbers and names? O(n). */
+bool thr_draft_says(const thr_draft *draft, const thr_frame *frame);
 
 void thr_frame_destroy(thr_frame *frame);
 thr_status thr_frame_copy(thr_frame *to, const thr_frame *from, thr_err *err) THR_MUST_CHECK;

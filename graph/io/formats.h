@@ -14,16 +14,19 @@ struct thr_format {
   /* Does a text of this format begin with such a line? Blank lines and # comments before it are left out. NULL: it is not
    * told by that; what begins like nothing else is CSV. */
   bool (*begins)(thr_span line);
-  /* The contract of thr_draft_parse. */
+  /* As thr_draft_parse, which clears the draft and the report after a failure. */
   thr_status (*parse)(thr_draft *d, thr_read_report *r, const char *text, size_t n, const char *name, thr_err *err);
   void (*write)(const thr_frame *f, thr_text *out); /* NULL: it is only read */
   bool pairs;                                       /* a second file may hold the edges (thr_csv_parse_pair) */
+  bool (*is)(const char *text, size_t n);           /* is the whole text one of this format? NULL: it is not told by that */
 };
 
 /* By the file's name: NULL if that says nothing; THR_EINPUT if it says a format that is not read. */
 thr_status thr_format_by_name(const char *name, const thr_format **format, thr_err *err) THR_MUST_CHECK;
 
-/* By the first line of the text that says anything. */
-const thr_format *thr_format_by_text(const char *text, size_t n);
+/* By the whole text or its first line that says anything: CSV if it is like nothing else. named: what the file's name says, which
+ * counts unless the text is plainly of another format; NULL = nothing. THR_EINPUT if the text is of a format that is not read. */
+thr_status thr_format_by_text(const char *text, size_t n, const char *name, const thr_format *named, const thr_format **format,
+                              thr_err *err) THR_MUST_CHECK;
 
 #endif

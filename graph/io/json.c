@@ -173,6 +173,25 @@ bool thr_json_int(const thr_json *value, int64_t *out)
   return true;
 }
 
+bool thr_json_numbers(const thr_json *array, int n, double *out)
+{
+  const thr_json *value = n > 0 && thr_json_size(array) >= n ? thr_json_at(array, 0) : NULL;
+  for (int i = 0; i < n; i++)
+    if (!value || !thr_json_number(value + i, &out[i])) return false;
+  return true;
+}
+
+bool thr_json_indices(const thr_json *array, int n, int limit, int *out)
+{
+  const thr_json *value = n > 0 && thr_json_size(array) >= n ? thr_json_at(array, 0) : NULL;
+  int64_t whole;
+  for (int i = 0; i < n; i++) {
+    if (!value || !thr_json_int(value + i, &whole) || whole < 0 || whole >= limit) return false;
+    out[i] = (int)whole;
+  }
+  return true;
+}
+
 bool thr_json_true(const thr_json *value)
 {
   double x;
@@ -233,11 +252,14 @@ static thr_status reserve(slots *list, size_t more, thr_err *err)
   return THR_OK;
 }
 
-static thr_status push(parser *p, uint64_t bits)
+static inline thr_status push(parser *p, uint64_t bits)
 {
-  thr_status st = reserve(&p->open, 1, p->err);
-  if (!st) p->open.slot[p->open.n++].bits = bits;
-  return st;
+  if (p->open.n == p->open.capacity) {
+    thr_status st = reserve(&p->open, 1, p->err);
+    if (st) return st;
+  }
+  p->open.slot[p->open.n++].bits = bits;
+  return THR_OK;
 }
 
 /* The message says line and column of the place, both from 1. */
@@ -268,14 +290,16 @@ static thr_status expected(const parser *p, const char *what)
   return fail_at(p, p->at, near);
 }
 
-static void skip_blanks(parser *p)
+static inline void skip_blanks(parser *p)
 {
-  while (p->at < p->end && (*p->at == ' ' || *p->at == '\n' || *p->at == '\r' || *p->at == '\t'))
-    p->at++;
+  const char *c = p->at;
+  while (c < p->end && (*c == ' ' || *c == '\n' || *c == '\r' || *c == '\t'))
+    c++;
+  p->at = c;
 }
 
 /* Is this what comes next? Then it is taken. */
-static bool take(parser *p, char c)
+static inline bool take(parser *p, char c)
 {
   skip_blanks(p);
   if (p->at == p->end || *p->at != c) return false;
@@ -431,10 +455,8 @@ static bool read_whole(const char *c, const char *end, int64_t *whole)
   return true;
 }
 
-static thr_status put_whole(parser *p, int64_t whole, uint64_t *bits)
+static thr_status put_long(parser *p, int64_t whole, uint64_t *bits)
 {
-  *bits = tagged(TAG_INT, whole);
-  if (whole >= -INT_LIMIT && whole < INT_LIMIT) return THR_OK;
   thr_status st = reserve(&p->done, 1, p->err);
   if (st) return st;
   *bits = pointing(TAG_LONG, (int64_t)p->done.n, 0);
@@ -442,18 +464,41 @@ static thr_status put_whole(parser *p, int64_t whole, uint64_t *bits)
   return THR_OK;
 }
 
-/* A whole number of few digits, which most numbers of a framework are, in one go; false: it may be another. */
-static bool take_few_digits(parser *p, int64_t *whole)
+static inline thr_status put_whole(parser *p, int64_t whole, uint64_t *bits)
 {
-  enum { FEW = 18 };
-  const char *first = p->at + (*p->at == '-'), *c = first;
-  *whole = 0;
-  while (c - first < FEW && is_digit(p, c))
-    *whole = 10 * *whole + (*c++ - '0');
-  if (c == first || (*first == '0' && c > first + 1)) return false;
-  if (is_digit(p, c) || (c < p->end && (*c == '.' || *c == 'e' || *c == 'E'))) return false;
-  if (*p->at == '-') *whole = -*whole;
-  p->at = c;
+  if (whole < -INT_LIMIT || whole >= INT_LIMIT) return put_long(p, whole, bits);
+  *bits = tagged(TAG_INT, whole);
+  return THR_OK;
+}
+
+/* The digits at the beginning of eight letters, which are in memory's order with the first one lowest, and what they mean,
+ * without a branch: bytes that are no digits are found all at once, then digits become pairs, these fours, and these the number.
+ */
+static int digits_of_eight(uint64_t letters, uint64_t *value)
+{
+  const uint64_t others = ((letters + 0x4646464646464646u) | (letters - 0x3030303030303030u)) & 0x8080808080808080u;
+  const int n = others ? __builtin_ctzll(others) / 8 : 8;
+  uint64_t digits = n ? (letters & 0x0f0f0f0f0f0f0f0fu) << (64 - 8 * n) : 0; /* zeros in front */
+  digits = (digits * 10 + (digits >> 8)) & 0x00ff00ff00ff00ffu;
+  digits = (digits * 100 + (digits >> 16)) & 0x0000ffff0000ffffu;
+  *value = (digits * 10000 + (digits >> 32)) & 0xffffffffu;
+  return n;
+}
+
+/* A whole number of few digits, which most numbers of a framework are, in one go; false: it may be another. */
+static inline bool take_few_digits(parser *p, uint64_t *bits)
+{
+  uint64_t letters, value;
+  if (p->end - p->at <= 1 + (ptrdiff_t)sizeof letters) return false;
+  const bool negative = *p->at == '-';
+  const char *first = p->at + negative;
+  memcpy(&letters, first, sizeof letters);
+  const int n = digits_of_eight(letters, &value);
+  const char next = first[n];
+  if (n == 0 || (*first == '0' && n > 1) || (next >= '0' && next <= '9') || next == '.' || next == 'e' || next == 'E')
+    return false;
+  *bits = tagged(TAG_INT, negative ? -(int64_t)value : (int64_t)value);
+  p->at = first + n;
   return true;
 }
 
@@ -462,7 +507,6 @@ static thr_status take_number(parser *p, uint64_t *bits)
   bool real;
   double value;
   int64_t whole;
-  if (take_few_digits(p, &whole)) return put_whole(p, whole, bits);
   const char *begin = p->at, *end = end_of_number(p, &real);
   if (!end) return expected(p, "a number");
   p->at = end;
@@ -503,7 +547,8 @@ static thr_status take_array(parser *p, uint64_t *bits)
   uint64_t value;
   if (!take(p, ']')) {
     do {
-      st = parse_value(p, &value);
+      skip_blanks(p);
+      st = take_few_digits(p, &value) ? THR_OK : parse_value(p, &value);
       if (!st) st = push(p, value);
     } while (!st && take(p, ','));
     if (!st && !take(p, ']')) st = expected(p, "']'");

@@ -17,13 +17,15 @@ typedef enum { THR_JSON_NULL, THR_JSON_BOOL, THR_JSON_NUMBER, THR_JSON_STRING, T
 
 /* All accessors take NULL as "absent" and answer THR_JSON_NULL, 0, NULL or false for it. */
 thr_json_type thr_json_typeof(const thr_json *value);
-const thr_json *thr_json_get(const thr_json *object, const char *key); /* NULL if absent or not an object; O(log members) */
-int thr_json_size(const thr_json *value);                              /* of an array or object, else 0 */
-const thr_json *thr_json_at(const thr_json *array, int i);             /* NULL if out of range or not an array */
-const char *thr_json_string(const thr_json *value);                    /* NULL if not a string */
-bool thr_json_number(const thr_json *value, double *out);              /* finite number; false otherwise */
-bool thr_json_int(const thr_json *value, int64_t *out);                /* integer (2 or 2.0); false otherwise */
-bool thr_json_true(const thr_json *value);                             /* true, or a non-zero number */
+const thr_json *thr_json_get(const thr_json *object, const char *key);    /* NULL if absent or not an object; O(log members) */
+int thr_json_size(const thr_json *value);                                 /* of an array or object, else 0 */
+const thr_json *thr_json_at(const thr_json *array, int i);                /* NULL if out of range or not an array */
+const char *thr_json_string(const thr_json *value);                       /* NULL if not a string */
+bool thr_json_number(const thr_json *value, double *out);                 /* finite number; false otherwise */
+bool thr_json_int(const thr_json *value, int64_t *out);                   /* integer (2 or 2.0); false otherwise */
+bool thr_json_numbers(const thr_json *array, int n, double *out);         /* its first n values; false unless all are numbers */
+bool thr_json_indices(const thr_json *array, int n, int limit, int *out); /* likewise whole numbers from 0 to limit - 1 */
+bool thr_json_true(const thr_json *value);                                /* true, or a non-zero number */
 
 /* Iterates an object in file order: start with *iter = NULL; false at the end. */
 bool thr_json_next(const thr_json *object, void **iter, const char **key, const thr_json **value);

@@ -9,21 +9,25 @@
 
 thr_read_options thr_read_options_default(void)
 {
-  return (thr_read_options){NULL, -1, NULL};
+  return (thr_read_options){.weld = -1, .scale = 1};
 }
 
 static thr_status find_format(const char *text, size_t n, const char *name, const thr_format **format, thr_err *err)
 {
-  thr_status st = *format ? THR_OK : thr_format_by_name(name, format, err);
-  if (!st && !*format) *format = thr_format_by_text(text, n);
-  return st;
+  const thr_format *named;
+  thr_status st = thr_format_by_name(name, &named, err);
+  return st ? st : thr_format_by_text(text, n, name, named, format, err);
 }
 
 thr_status thr_draft_parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n, const char *name,
                            const thr_format *format, thr_err *err)
 {
-  thr_status st = find_format(text, n, name, &format, err);
-  return st ? st : format->parse(draft, report, text, n, name, err);
+  thr_status st = format ? THR_OK : find_format(text, n, name, &format, err);
+  if (!st && (st = format->parse(draft, report, text, n, name, err))) {
+    thr_draft_destroy(draft);
+    *report = (thr_read_report){0};
+  }
+  return st;
 }
 
 /* ---- the other half of a CSV pair ---- */
@@ -96,7 +100,7 @@ thr_status thr_frame_read(thr_frame *frame, thr_read_report *report, const char 
                           char *pair_path, size_t pair_size, thr_err *err)
 {
   thr_text text = {0};
-  thr_draft draft = {0};
+  thr_draft draft = {.flat = options->flat};
   const thr_format *format = NULL;
   thr_err build = {0};
   const char *name = strcmp(path, "-") == 0 ? "stdin" : path;
@@ -104,7 +108,7 @@ thr_status thr_frame_read(thr_frame *frame, thr_read_report *report, const char 
   *report = (thr_read_report){0};
   if (pair_path && pair_size) *pair_path = '\0';
 
-  thr_status st = thr_format_by_name(name, &format, err);
+  thr_status st = thr_format_by_name(name, &format, err); /* refuses before it reads */
   if (!st) st = thr_text_read(&text, path, err);
   if (!st) st = find_format(text.data, text.length, name, &format, err);
   if (st) goto done;
@@ -116,7 +120,9 @@ thr_status thr_frame_read(thr_frame *frame, thr_read_report *report, const char 
     st = format->parse(&draft, report, text.data, text.length, name, err);
   if (st) goto done;
   thr_text_destroy(&text);
+  report->no_units = !options->units && !draft.units[0];
   if (options->units) st = thr_draft_set_units(&draft, options->units, &build);
+  if (!st) st = thr_draft_stand(&draft, options->up, options->scale, report, &build);
   if (!st) st = thr_draft_build(&draft, options->weld, frame, report, &build);
   if (st) thr_fail(err, st, "%s: %s", name, build.text);
 done:

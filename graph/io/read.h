@@ -4,18 +4,23 @@
 
 #include "graph/framework/frame.h"
 #include "graph/io/json.h"
+#include "graph/io/stand.h"
 #include "graph/status.h"
 #include "graph/text.h"
 
 typedef struct thr_format thr_format; /* graph/io/formats.h */
 
-/* "json", "obj" or "csv"; NULL if there is none of that name. */
+/* "json", "obj", "csv", "ply", "off" or "stl"; NULL if there is none of that name. */
 const thr_format *thr_format_named(const char *name);
+const thr_format *thr_format_written(const char *name); /* of those that are written */
 
 typedef struct {
   const char *edges_path; /* second file of a CSV nodes + edges pair, or NULL */
   double weld;            /* weld tolerance in units, < 0 = 1e-6 of the bounding box's diagonal */
   const char *units;      /* overrides the file's, or NULL */
+  thr_up up;              /* with y, a node at x, y, z stands at x, -z, y */
+  double scale;           /* of all coordinates and lengths, > 0 */
+  double flat;            /* rad: two triangles that meet at less have no edge between them; 0 = all sides are edges */
 } thr_read_options;
 
 thr_read_options thr_read_options_default(void);

@@ -461,4 +461,5 @@ thr_status thr_csv_parse_pair(thr_draft *draft, const thr_text *nodes, const cha
   return st;
 }
 
-const thr_format thr_csv_format = {"csv", {"csv", "tsv"}, NULL, parse, thr_csv_write, true};
+const thr_format thr_csv_format = {
+    .name = "csv", .ending = {"csv", "tsv"}, .parse = parse, .write = thr_csv_write, .pairs = true};

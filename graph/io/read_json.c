@@ -2,6 +2,7 @@
  * The kind is told by its members, and the first one found in the document, however deep, is the framework. */
 #include "graph/framework/frame.h"
 #include "graph/io/json.h"
+#include "graph/io/faces.h"
 #include "graph/io/formats.h"
 #include "graph/io/read.h"
 #include "graph/io/scan.h"
@@ -25,7 +26,7 @@ typedef struct {
   thr_read_report *report;
   thr_err *err;
   thr_names names;
-  thr_sides sides;
+  thr_faces faces;
   thr_text scratch; /* for one name at a time */
   int found;
 } reader;
@@ -87,6 +88,11 @@ static thr_status read_number(reader *r, const where *at, const thr_json *v, dou
 static thr_status read_point(reader *r, const where *at, const thr_json *v, const thr_json *defaults, double xyz[3])
 {
   static const char *const letter[] = {"x", "y", "z"}, *const capital[] = {"X", "Y", "Z"};
+  if (thr_json_numbers(v, 3, xyz)) {
+    for (int i = 0; i < 3; i++)
+      if (xyz[i] == 0) xyz[i] = 0; /* -0, as below */
+    return THR_OK;
+  }
   if (!is_array(v) && !is_object(v)) return bad(r, at, "no coordinates; give [x, y, z]");
   for (int i = 0; i < 3; i++) {
     const char *which = NULL;
@@ -243,7 +249,7 @@ static thr_status read_polygon(reader *r, const where *at, const thr_json *v)
     where here = {at, NULL, i};
     st = read_index(r, &here, thr_json_at(v, i), r->d->n_nodes, &corner[i]);
   }
-  if (!st) st = thr_sides_add(&r->sides, corner, n, r->err);
+  if (!st) st = thr_faces_add(&r->faces, corner, n, r->err);
   if (corner != few) free(corner);
   return st;
 }
@@ -258,7 +264,8 @@ static thr_status read_own_nodes(reader *r, const where *at, const thr_json *nod
     double xyz[3];
     const char *name = NULL;
     thr_status st = read_point(r, &here, thr_json_at(nodes, i), NULL, xyz);
-    if (!st && names) st = name_of(r, &name_here, thr_json_at(names, i), &name);
+    if (names) name = thr_json_string(thr_json_at(names, i));
+    if (!st && names && (!name || !*name)) st = name_of(r, &name_here, thr_json_at(names, i), &name);
     if (!st) st = thr_draft_add_node(r->d, xyz, name, false, r->err);
     if (st) return st;
   }
@@ -275,6 +282,19 @@ static thr_status edge_list(reader *r, const where *up, const thr_json *object, 
   return bad(r, &here, "not one for each edge");
 }
 
+/* The two nodes of an edge. */
+static thr_status read_pair(reader *r, const where *at, const thr_json *pair, int end[2])
+{
+  if (!is_array(pair) || thr_json_size(pair) != 2) return bad(r, at, "not an edge; give two node numbers");
+  if (thr_json_indices(pair, 2, r->d->n_nodes, end)) return THR_OK;
+  thr_status st = THR_OK;
+  for (int i = 0; i < 2 && !st; i++) {
+    where side = {at, NULL, i};
+    st = read_index(r, &side, thr_json_at(pair, i), r->d->n_nodes, &end[i]);
+  }
+  return st;
+}
+
 static thr_status read_own_edges(reader *r, const where *up, const thr_json *object)
 {
   const char *key;
@@ -287,18 +307,12 @@ static thr_status read_own_edges(reader *r, const where *up, const thr_json *obj
   if (listed) return listed;
   for (int e = 0; e < thr_json_size(edges); e++) {
     where here = {&list, NULL, e}, length_here = {&length_list, NULL, e};
-    const thr_json *pair = thr_json_at(edges, e);
-    if (!is_array(pair) || thr_json_size(pair) != 2) return bad(r, &here, "not an edge; give two node numbers");
-    int end[2] = {0, 0};
-    double length;
-    thr_status st = THR_OK;
-    for (int i = 0; i < 2 && !st; i++) {
-      where side = {&here, NULL, i};
-      st = read_index(r, &side, thr_json_at(pair, i), r->d->n_nodes, &end[i]);
-    }
-    if (!st) st = read_length(r, &length_here, thr_json_at(lengths, e), &length);
+    int end[2];
+    double length = 0;
+    thr_status st = read_pair(r, &here, thr_json_at(edges, e), end);
+    if (!st && lengths) st = read_length(r, &length_here, thr_json_at(lengths, e), &length);
     if (!st) st = thr_draft_add_edge(r->d, end[0], end[1], length, r->err);
-    if (!st) st = read_passes(r, &here, thr_json_at(covers, e), thr_json_at(capacities, e));
+    if (!st && (covers || capacities)) st = read_passes(r, &here, thr_json_at(covers, e), thr_json_at(capacities, e));
     if (st) return st;
   }
   return THR_OK;
@@ -448,7 +462,7 @@ static thr_status read_compas_face(reader *r, const where *at, const thr_json *f
     where here = {at, NULL, i};
     st = read_reference(r, &here, thr_json_at(face, i), &corner[i]);
   }
-  if (!st) st = thr_sides_add(&r->sides, corner, n, r->err);
+  if (!st) st = thr_faces_add(&r->faces, corner, n, r->err);
   free(corner);
   return st;
 }
@@ -697,15 +711,11 @@ static thr_status parse(thr_draft *draft, thr_read_report *read_report, const ch
   st = search(&reading, &top, doc);
   if (!st && !reading.found)
     st = thr_fail(err, THR_EINPUT, "%s: no framework in this JSON; docs/formats.md shows the forms that are read", name);
-  if (!st) st = thr_sides_finish(&reading.sides, draft, err);
+  if (!st) st = thr_faces_finish(&reading.faces, draft, name, err);
   thr_names_destroy(&reading.names);
-  thr_sides_destroy(&reading.sides);
+  thr_faces_destroy(&reading.faces);
   thr_text_destroy(&reading.scratch);
   thr_json_destroy(doc);
-  if (st) {
-    thr_draft_destroy(draft);
-    *read_report = (thr_read_report){0};
-  }
   return st;
 }
 
@@ -714,4 +724,5 @@ static bool begins(thr_span line)
   return line.s[0] == '{' || line.s[0] == '[';
 }
 
-const thr_format thr_json_format = {"json", {"json"}, begins, parse, thr_json_frame_write, false};
+const thr_format thr_json_format = {
+    .name = "json", .ending = {"json"}, .begins = begins, .parse = parse, .write = thr_json_frame_write};

@@ -1,5 +1,6 @@
 /* Wavefront OBJ: v, l, f and Rhino's degree-1 curves. Names are the file's own vertex numbers, from 1. */
 #include "graph/framework/frame.h"
+#include "graph/io/faces.h"
 #include "graph/io/formats.h"
 #include "graph/io/scan.h"
 #include "graph/status.h"
@@ -13,7 +14,7 @@ typedef struct {
   thr_draft *d;
   thr_read_report *report;
   thr_err *err;
-  thr_sides sides;
+  thr_faces faces;
   int *corner; /* of the record being read; owned */
   int corner_capacity;
   struct foot {
@@ -108,7 +109,7 @@ static thr_status read_face(obj *o, thr_span rest)
 {
   int n;
   thr_status st = read_corners(o, rest, &n);
-  return st ? st : thr_sides_add(&o->sides, o->corner, n, o->err);
+  return st ? st : thr_faces_add(&o->faces, o->corner, n, o->err);
 }
 
 /* curv u0 u1 v1 v2 ..: of degree 1 it is the polyline through its control points. */
@@ -136,6 +137,7 @@ static void read_curve_type(obj *o, thr_span rest)
 static thr_status read_comment(obj *o, thr_span line)
 {
   thr_span word;
+  if (thr_span_starts(line, "# Blender ")) o->d->y_up = true; /* what its exporters write unless told otherwise */
   if (thr_span_starts(line, "# units: ")) {
     line = thr_span_trim((thr_span){line.s + 9, line.n - 9});
     char units[sizeof o->d->units];
@@ -199,18 +201,14 @@ static thr_status parse(thr_draft *draft, thr_read_report *read_report, const ch
     }
     st = read_record(&o, line);
   }
-  if (!st) st = thr_sides_finish(&o.sides, draft, err);
+  if (!st) st = thr_faces_finish(&o.faces, draft, name, err);
   if (!st) st = mark_feet(&o);
   if (!st && draft->n_edges == 0)
     st = thr_fail(err, THR_EINPUT, "%s: no l, f or degree-1 curv record; export lines or polylines%s%s", name,
                   read_report->skipped_records ? ", not " : "", read_report->skipped_records ? read_report->skipped_kind : "");
-  thr_sides_destroy(&o.sides);
+  thr_faces_destroy(&o.faces);
   free(o.corner);
   free(o.foot);
-  if (st) {
-    thr_draft_destroy(draft);
-    *read_report = (thr_read_report){0};
-  }
   return st;
 }
 
@@ -225,4 +223,4 @@ static bool begins(thr_span line)
   return word < line.n && is_one_of((thr_span){line.s, word}, keywords);
 }
 
-const thr_format thr_obj_format = {"obj", {"obj"}, begins, parse, thr_obj_write, false};
+const thr_format thr_obj_format = {.name = "obj", .ending = {"obj"}, .begins = begins, .parse = parse, .write = thr_obj_write};

@@ -1,8 +1,8 @@
-/* Lines, words and numbers of text formats; node names; sides of faces. */
+/* Lines, words and numbers of text formats; node names. */
 #include "graph/io/scan.h"
+#include "graph/number.h"
 
 #include <limits.h>
-#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -86,6 +86,17 @@ thr_span thr_span_trim(thr_span t)
   return t;
 }
 
+thr_span thr_span_word(thr_span *rest)
+{
+  thr_span t = thr_span_trim(*rest);
+  size_t n = 0;
+  if (t.n == 0) return *rest = t;
+  while (n < t.n && !is_blank(t.s[n]))
+    n++;
+  *rest = (thr_span){t.s + n, t.n - n};
+  return (thr_span){t.s, n};
+}
+
 static char lower(char c)
 {
   return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
@@ -117,7 +128,7 @@ static bool is_digit(char c)
 
 bool thr_span_number(thr_span t, bool decimal_comma, double *x)
 {
-  char copy[128]; /* strtod wants an end; no sane number is longer */
+  char copy[128]; /* with a point; no sane number is longer */
   if (t.n == 0 || t.n >= sizeof copy) return false;
   for (size_t i = 0; i < t.n; i++) {
     char c = t.s[i];
@@ -125,10 +136,10 @@ bool thr_span_number(thr_span t, bool decimal_comma, double *x)
     if (!is_digit(c) && c != '+' && c != '-' && c != '.' && c != 'e' && c != 'E' && !comma) return false; /* inf, nan, hex */
     copy[i] = comma ? '.' : c;
   }
-  copy[t.n] = '\0';
-  char *end;
-  double value = strtod(copy, &end);
-  if (end == copy || *end || !isfinite(value)) return false;
+  const size_t plus = copy[0] == '+';
+  double value;
+  if (plus && t.n > 1 && copy[1] == '-') return false;
+  if (!thr_number_parse(copy + plus, t.n - plus, &value)) return false;
   *x = value == 0 ? 0 : value;
   return true;
 }
@@ -197,61 +208,6 @@ void thr_names_destroy(thr_names *names)
 {
   free(names->entry);
   *names = (thr_names){0};
-}
-
-/* ---- sides of faces ---- */
-
-thr_status thr_sides_add(thr_sides *sides, const int *corner, int n, thr_err *err)
-{
-  for (int i = 0; i < (n > 2 ? n : n - 1); i++) {
-    thr_status st = thr_grow(&sides->ends, sides->n, &sides->capacity, sizeof *sides->ends, err);
-    if (st) return st;
-    sides->ends[sides->n][0] = corner[i];
-    sides->ends[sides->n++][1] = corner[(i + 1) % n];
-  }
-  return THR_OK;
-}
-
-typedef struct {
-  int low, high, index;
-} keyed_side;
-
-static int by_ends(const void *pa, const void *pb)
-{
-  const keyed_side *a = pa, *b = pb;
-  if (a->low != b->low) return a->low < b->low ? -1 : 1;
-  if (a->high != b->high) return a->high < b->high ? -1 : 1;
-  return (a->index > b->index) - (a->index < b->index);
-}
-
-thr_status thr_sides_finish(thr_sides *sides, thr_draft *draft, thr_err *err)
-{
-  thr_status st = THR_OK;
-  keyed_side *key = thr_calloc((size_t)sides->n, sizeof *key);
-  bool *again = thr_calloc((size_t)sides->n, sizeof *again);
-  if (!key || !again) {
-    st = thr_nomem(err);
-    goto done;
-  }
-  for (int i = 0; i < sides->n; i++) {
-    int a = sides->ends[i][0], b = sides->ends[i][1];
-    key[i] = (keyed_side){a < b ? a : b, a < b ? b : a, i};
-  }
-  qsort(key, (size_t)sides->n, sizeof *key, by_ends);
-  for (int i = 1; i < sides->n; i++)
-    again[key[i].index] = key[i].low == key[i - 1].low && key[i].high == key[i - 1].high;
-  for (int i = 0; i < sides->n && !st; i++)
-    if (!again[i]) st = thr_draft_add_edge(draft, sides->ends[i][0], sides->ends[i][1], 0, err);
-done:
-  free(key);
-  free(again);
-  return st;
-}
-
-void thr_sides_destroy(thr_sides *sides)
-{
-  free(sides->ends);
-  *sides = (thr_sides){0};
 }
 
 /* ---- draft and report ---- */

@@ -1,4 +1,4 @@
-/* Internal to the readers: lines, words and numbers of text formats, node names, sides shared by faces. */
+/* Internal to the readers: lines, words and numbers of text formats, node names. */
 #ifndef THR_SCAN_H
 #define THR_SCAN_H
 
@@ -30,6 +30,7 @@ thr_status thr_scan_fail(const thr_scan *scan, thr_err *err, const char *format,
 
 thr_span thr_span_of(const char *s);
 thr_span thr_span_trim(thr_span t);                  /* without blanks at both ends */
+thr_span thr_span_word(thr_span *rest);              /* takes the first word off, as far as a blank; n is 0 if there is none */
 bool thr_span_is(thr_span t, const char *word);      /* equal but for ASCII case */
 bool thr_span_starts(thr_span t, const char *start); /* case counts */
 int thr_span_width(thr_span t);                      /* for "%.*s" in messages: at most 40 bytes */
@@ -52,18 +53,6 @@ typedef struct {
 thr_status thr_names_build(thr_names *names, const thr_draft *draft, const char *file, thr_err *err) THR_MUST_CHECK;
 int thr_names_find(const thr_names *names, thr_span name); /* -1 if there is none. O(log n) */
 void thr_names_destroy(thr_names *names);
-
-/* Sides of faces: most belong to two faces, which is no oddity to report, so each goes to the draft once. */
-typedef struct {
-  int n, capacity;
-  int (*ends)[2]; /* owned */
-} thr_sides;
-
-/* Collects the sides of one polygon; two nodes make one side. */
-thr_status thr_sides_add(thr_sides *sides, const int *corner, int n, thr_err *err) THR_MUST_CHECK;
-/* Appends each different side to the draft, in order of first appearance. O(n log n). */
-thr_status thr_sides_finish(thr_sides *sides, thr_draft *draft, thr_err *err) THR_MUST_CHECK;
-void thr_sides_destroy(thr_sides *sides);
 
 /* Counts a record that is known or harmless but not used. */
 void thr_report_skip(thr_read_report *report, thr_span keyword);

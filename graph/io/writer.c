@@ -13,17 +13,21 @@ static void break_line(thr_writer *writer)
   writer->line = 0;
 }
 
+static void put_key(const thr_writer *writer, const char *key)
+{
+  thr_text_json_string(writer->out, key);
+  thr_text_append(writer->out, writer->compact ? ":" : ": ");
+}
+
 /* What stands before a value. */
-static void begin(thr_writer *writer, const char *key)
+static inline void begin(thr_writer *writer, const char *key)
 {
   const bool tight = writer->compact || (writer->tight & 1);
   if (writer->some) thr_text_byte(writer->out, ',');
   if (writer->some && !tight && !writer->line) thr_text_byte(writer->out, ' ');
   if (writer->line) break_line(writer);
   writer->some = true;
-  if (!key) return;
-  thr_text_json_string(writer->out, key);
-  thr_text_append(writer->out, writer->compact ? ":" : ": ");
+  if (key) put_key(writer, key);
 }
 
 static void enter(thr_writer *writer, const char *key, bool array, bool tight)

@@ -71,14 +71,17 @@ static int choose(const thr_advice *advice)
 
 /* ---- what buys nothing ---- */
 
-/* Has other no more of anything, and less of something? */
+bool thr_price_beats(const thr_price *other, const thr_price *one)
+{
+  if (isnan(other->pull) || isnan(one->pull)) return false;
+  if (other->cords > one->cords || other->length > one->length * same || other->pull > one->pull * same) return false;
+  return other->cords < one->cords || other->length * same < one->length || other->pull * same < one->pull;
+}
+
 static bool dominates(const thr_advice_row *other, const thr_advice_row *row)
 {
-  if (other->cords > row->cords || other->length > row->length * same ||
-      other->pull[THR_ADVICE_MU] > row->pull[THR_ADVICE_MU] * same)
-    return false;
-  return other->cords < row->cords || other->length * same < row->length ||
-         other->pull[THR_ADVICE_MU] * same < row->pull[THR_ADVICE_MU];
+  return thr_price_beats(&(thr_price){other->cords, other->length, other->pull[THR_ADVICE_MU]},
+                         &(thr_price){row->cords, row->length, row->pull[THR_ADVICE_MU]});
 }
 
 /* Infinite pulls are alike: they do not tell rows apart. */

@@ -33,7 +33,8 @@ typedef struct {
   bool searched;                 /* false: the cords are those of another plan, cut evenly, or symmetric ones */
   double pull[THR_ADVICE_PULLS]; /* N at the hardest end, at mu_low, mu and mu_high; INFINITY beyond 1e300 */
   int passes;                    /* of all cords */
-  int steps;                     /* learned: passes of those cords that no automorphism maps onto an earlier one */
+  int steps;                     /* learned: passes of those cords that no automorphism maps onto an earlier one, and with
+                                    THR_ENDS_ANY their ends */
   bool frontier; /* no other row has no more cords, no more cord and no more pull at mu, and less of one of them */
 } thr_advice_row;
 
@@ -48,6 +49,16 @@ typedef struct {
   int chosen;          /* the recommended row; -1: no row stays within the hand at mu_high */
   bool complete;       /* false: the time was over before all numbers of cords were tried */
 } thr_advice;
+
+/* What plans of a framework cost. */
+typedef struct {
+  int cords;
+  double length, pull; /* units, N */
+} thr_price;
+
+/* Has other no more of anything than one, and less of something? What differs by a part in 1e9 is as much. Plans that no other
+ * beats are the frontier. A pull of NAN neither beats nor is beaten. */
+bool thr_price_beats(const thr_price *other, const thr_price *one);
 
 void thr_advice_destroy(thr_advice *advice);
 

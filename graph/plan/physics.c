@@ -1,5 +1,6 @@
 /* Physical quantities: one table of fields, presets, JSON, and what follows from the framework. */
 #include "graph/plan/physics.h"
+#include "graph/framework/bore.h"
 #include "graph/text.h"
 
 #include <math.h>
@@ -266,7 +267,7 @@ static void fill_in(thr_physics *physics, const edges *e)
   if (physics->mu_low == 0) physics->mu_low = fmin(physics->mu, rounded(physics->mu / 2));
   if (physics->mu_high == 0) physics->mu_high = fmax(physics->mu, rounded(1.5 * physics->mu));
   if (physics->cord_diameter == 0) physics->cord_diameter = fmin(e->median / 20, e->shortest / 4);
-  if (physics->bore == 0) physics->bore = 2 * physics->cord_diameter;
+  if (physics->bore == 0) physics->bore = THR_BORE_CORDS * physics->cord_diameter;
   if (physics->bead_diameter == 0) physics->bead_diameter = fmax(0.35 * e->median, 1.5 * physics->bore);
 }
 

@@ -180,6 +180,13 @@ int thr_cord_turns(const thr_request *options, const thr_cord *cord)
   return options->ends == THR_ENDS_CLOSED ? cord->n_passes : cord->n_passes - 1;
 }
 
+bool thr_cord_runs_round(const thr_request *options, const thr_cord *cord)
+{
+  if (!cord->closed || options->ends == THR_ENDS_CLOSED) return cord->closed;
+  return options->ends == THR_ENDS_ANY && options->joint == THR_JOINT_SOLID &&
+         cord->half[0] >> 1 != cord->half[cord->n_passes - 1] >> 1;
+}
+
 bool thr_turn_over(double turn, double angle)
 {
   return turn > angle + 1e-9;
@@ -229,6 +236,31 @@ bool thr_cords_within_pull(const thr_frame *frame, const thr_request *options, c
   return isinf(most) || thr_cords_pulled_turning(frame, cord, n) <= most + rounding * (most + 1 / options->physics.mu);
 }
 
+/* met[n_edges]: number of the last cord over the edge, from 1, and how many cords there were; zeros to begin with. */
+static void measure_distinct(const thr_request *options, const thr_cord *cord, int number, int (*met)[2], thr_metrics *metrics)
+{
+  for (int i = 0; i < cord->n_passes && options->distinct > 0; i++) {
+    int *edge = met[cord->half[i] >> 1];
+    if (edge[0] == number) continue;
+    edge[0] = number;
+    metrics->distinct += ++edge[1] == options->distinct;
+  }
+}
+
+void thr_cords_only(const thr_frame *frame, const thr_cord *cord, int n, int *only)
+{
+  enum { NONE = -2, SEVERAL = -1 };
+  for (int e = 0; e < frame->n_edges; e++)
+    only[e] = NONE;
+  for (int i = 0; i < n; i++)
+    for (int k = 0; k < cord[i].n_passes; k++) {
+      int *edge = &only[cord[i].half[k] >> 1];
+      *edge = *edge == NONE || *edge == i ? i : SEVERAL;
+    }
+  for (int e = 0; e < frame->n_edges; e++)
+    if (only[e] == NONE) only[e] = SEVERAL;
+}
+
 static void measure_cord(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int *passes,
                          thr_metrics *metrics)
 {
@@ -237,9 +269,12 @@ static void measure_cord(const thr_frame *frame, const thr_request *options, con
   metrics->passes += cord->n_passes;
   for (int i = 0; i < cord->n_passes; i++)
     if (++passes[cord->half[i] >> 1] > metrics->most_passes) metrics->most_passes = passes[cord->half[i] >> 1];
+  double way[2][3]; /* of passes i and i + 1, in turns */
+  thr_direction(frame, cord->half[0], way[0]);
   for (int i = 0; i < thr_cord_turns(options, cord); i++) {
-    int next = cord->half[(i + 1) % cord->n_passes];
-    double angle = thr_turn_angle(frame, cord->half[i], next);
+    int next = cord->half[i + 1 < cord->n_passes ? i + 1 : 0];
+    thr_direction(frame, next, way[(i + 1) % 2]);
+    double angle = thr_angle_between(way[i % 2], way[(i + 1) % 2]);
     if (i + 1 < cord->n_passes || cord->closed) turning += angle;
     if (angle > metrics->worst_turn) metrics->worst_turn = angle;
     if (next == (cord->half[i] ^ 1)) metrics->u_turns++;
@@ -252,15 +287,22 @@ thr_status thr_plan_measure(const thr_frame *frame, const thr_request *options, 
                             thr_metrics *metrics, thr_err *err)
 {
   *metrics = (thr_metrics){0};
-  int *passes = thr_calloc((size_t)frame->n_edges, sizeof *passes);
-  if (!passes) return thr_nomem(err);
-  for (int i = 0; i < n_cords; i++)
+  int *passes = thr_calloc((size_t)frame->n_edges, sizeof *passes), (*met)[2] = thr_calloc((size_t)frame->n_edges, sizeof *met);
+  if (!passes || !met) {
+    free(passes);
+    free(met);
+    return thr_nomem(err);
+  }
+  for (int i = 0; i < n_cords; i++) {
     measure_cord(frame, options, &cord[i], passes, metrics);
+    measure_distinct(options, &cord[i], i + 1, met, metrics);
+  }
   for (int e = 0; e < frame->n_edges; e++) {
     int cover = thr_plan_cover(frame, options, e);
     metrics->base_length += cover * frame->length[e];
     metrics->overlap += (passes[e] - cover) * frame->length[e]; /* not a difference of two sums: exactly 0 without overlap */
   }
   free(passes);
+  free(met);
   return THR_OK;
 }

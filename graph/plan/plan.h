@@ -113,8 +113,8 @@ typedef struct thr_symmetry_record {
   int *unique;      /* [n_cords] the cord that this one is a copy of; itself for a unique path; owned */
   int *element;     /* [n_cords] image that maps that one to this, perhaps reversed, and a closed one perhaps from another start
                        (not where its ends matter: THR_ENDS_FEET and _NODES, with tube joints also _ANY); owned */
-  double steps;     /* learned: passes of each unique path over the number of ways (from another start, reversed) in which it is
-                       its own image under the group */
+  double steps;     /* learned: passes of each unique path and, with THR_ENDS_ANY, ends (of one that runs round none), over the
+                       number of ways (from another start, reversed) in which it is its own image under the group */
   int unique_paths; /* number of different values of unique */
 } thr_symmetry_record;
 
@@ -126,6 +126,7 @@ typedef struct {
   double overlap;     /* length - base_length */
   int passes;         /* of all cords */
   int most_passes;    /* on one edge */
+  int distinct;       /* edges passed by at least options.distinct different cords; 0 where that is not asked for */
   double turning;     /* sum of turning angles over all cords, rad; with THR_ENDS_CLOSED also the turn where a cord closes */
   double max_turning; /* of the cord that turns most, rad */
   double worst_turn;  /* sharpest single turn, rad */
@@ -178,6 +179,10 @@ double thr_cord_turning(const thr_frame *framework, const thr_cord *c, bool with
  * pass k to pass k + 1 (or 0). */
 int thr_cord_turns(const thr_request *wishes, const thr_cord *c);
 
+/* Does it not matter where the cord starts? Of a closed one, where its ends may be anywhere and tie nothing; but with ends of any
+ * kind not if it would turn back there. */
+bool thr_cord_runs_round(const thr_request *wishes, const thr_cord *c);
+
 /* Is a turn sharper than angle (both in rad), by more than 1e-9? */
 bool thr_turn_over(double turn, double angle);
 
@@ -197,6 +202,10 @@ double thr_cords_pulled_turning(const thr_frame *framework, const thr_cord *cord
 /* Do all cords need no more than options.max_pull? */
 bool thr_cords_within_pull(const thr_frame *framework, const thr_request *wishes, const thr_cord *cord, int n);
 
+/* only[n_edges] receives the number of the one cord over each edge: what holds there until that cord is cut. -1 where there are
+ * several cords, or none. O(passes). */
+void thr_cords_only(const thr_frame *framework, const thr_cord *cord, int n, int *only);
+
 /* Computes metrics from frame, options (cover, ends) and cords alone. */
 thr_status thr_plan_measure(const thr_frame *framework, const thr_request *wishes, const thr_cord *cord, int n_cords,
                             thr_metrics *m, thr_err *err) THR_MUST_CHECK;
@@ -206,5 +215,10 @@ thr_status thr_plan_measure(const thr_frame *framework, const thr_request *wishe
 void thr_plan_write(const thr_plan *plan, thr_text *out);
 thr_status thr_plan_read(thr_plan *plan, const char *path, thr_err *err) THR_MUST_CHECK;
 thr_status thr_plan_parse(thr_plan *plan, const char *text, size_t n, const char *name, thr_err *err) THR_MUST_CHECK;
+
+/* Reads back what thr_plan_write wrote of the plan, and puts it in the plan's place: all is read as by thr_plan_parse, but the
+ * framework is not built again. Every number and name of it in the text is compared with the plan's, which thr_draft_build
+ * made; a difference is THR_EINPUT. On failure plan is empty. */
+thr_status thr_plan_parse_back(thr_plan *plan, const char *text, size_t n, const char *name, thr_err *err) THR_MUST_CHECK;
 
 #endif

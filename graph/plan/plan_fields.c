@@ -65,6 +65,16 @@ thr_status thr_field_index(const thr_field_reader *field_reader, const thr_json 
   return THR_OK;
 }
 
+thr_status thr_field_indices(const thr_field_reader *field_reader, const thr_json *list, int n, int limit, const char *place,
+                             int *out)
+{
+  if (thr_json_indices(list, n, limit, out)) return THR_OK;
+  thr_status st = THR_OK;
+  for (int i = 0; i < n && !st; i++)
+    st = thr_field_index(field_reader, list, i, limit, place, &out[i]);
+  return st;
+}
+
 /* A member that this version does not know may be a claim that nobody checked. known ends with NULL. */
 thr_status thr_field_only(const thr_field_reader *field_reader, const thr_json *object, const char *place,
                           const char *const *known)

@@ -39,6 +39,10 @@ thr_status thr_field_int(const thr_field_reader *field_reader, const thr_json *o
 thr_status thr_field_index(const thr_field_reader *field_reader, const thr_json *list, int i, int limit, const char *place,
                            int *out) THR_MUST_CHECK;
 
+/* n of them, all that there are. */
+thr_status thr_field_indices(const thr_field_reader *field_reader, const thr_json *list, int n, int limit, const char *place,
+                             int *out) THR_MUST_CHECK;
+
 /* A member that this version does not know may be a claim that nobody checked. known ends with NULL. */
 thr_status thr_field_only(const thr_field_reader *field_reader, const thr_json *object, const char *place,
                           const char *const *known) THR_MUST_CHECK;

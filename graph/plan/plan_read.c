@@ -12,6 +12,7 @@
 #include <assert.h>
 #include <inttypes.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static thr_status read_nodes(const thr_field_reader *field_reader, const thr_json *object, thr_draft *draft)
@@ -26,10 +27,7 @@ static thr_status read_nodes(const thr_field_reader *field_reader, const thr_jso
   for (int v = 0; v < n; v++) {
     const thr_json *p = thr_json_at(nodes, v);
     double x[3];
-    bool ok = thr_json_size(p) == 3;
-    for (int i = 0; i < 3 && ok; i++)
-      ok = thr_json_number(thr_json_at(p, i), &x[i]);
-    if (!ok)
+    if (thr_json_size(p) != 3 || !thr_json_numbers(p, 3, x))
       return thr_fail(field_reader->err, THR_EINPUT, "%s: framework.nodes[%d]: not three finite numbers", field_reader->name, v);
     const char *name = thr_json_string(thr_json_at(names, v));
     if (names && !name)
@@ -57,18 +55,10 @@ static thr_status edge_list(const thr_field_reader *field_reader, const thr_json
 /* The two nodes of edge e. The place is written only for who has to read it. */
 static thr_status read_ends(const thr_field_reader *field_reader, const thr_json *pair, int e, int n_nodes, int end[2])
 {
-  thr_status st = THR_OK;
   char place[48];
-  for (int i = 0; i < 2; i++) {
-    int64_t wide;
-    if (thr_json_int(thr_json_at(pair, i), &wide) && wide >= 0 && wide < n_nodes) {
-      end[i] = (int)wide;
-      continue;
-    }
-    snprintf(place, sizeof place, "framework.edges[%d]", e);
-    if ((st = thr_field_index(field_reader, pair, i, n_nodes, place, &end[i]))) return st;
-  }
-  return st;
+  if (thr_json_indices(pair, 2, n_nodes, end)) return THR_OK;
+  snprintf(place, sizeof place, "framework.edges[%d]", e);
+  return thr_field_indices(field_reader, pair, 2, n_nodes, place, end);
 }
 
 static thr_status read_edges(const thr_field_reader *field_reader, const thr_json *object, thr_draft *draft)
@@ -87,7 +77,7 @@ static thr_status read_edges(const thr_field_reader *field_reader, const thr_jso
     if (lengths && (!thr_json_number(thr_json_at(lengths, e), &length) || !(length > 0)))
       return thr_fail(field_reader->err, THR_EINPUT, "%s: framework.lengths[%d]: not a positive number", field_reader->name, e);
     if ((st = thr_draft_add_edge(draft, end[0], end[1], length, field_reader->err))) return st;
-    if ((st = thr_json_edge_passes(draft, thr_json_at(covers, e), thr_json_at(capacities, e), &why)))
+    if ((covers || capacities) && (st = thr_json_edge_passes(draft, thr_json_at(covers, e), thr_json_at(capacities, e), &why)))
       return thr_fail(field_reader->err, st, "%s: framework: %s", field_reader->name, why.text);
   }
   return THR_OK;
@@ -112,35 +102,46 @@ static thr_status read_hash(const thr_field_reader *field_reader, const thr_json
                   "%s: framework.hash: the framework is not the one that was planned (its hash is %s)", field_reader->name, hash);
 }
 
-static thr_status read_frame(const thr_field_reader *field_reader, const thr_json *doc, thr_frame *frame)
+/* Of a draft that is to be the known framework, that; else the draft's own. */
+static thr_status take_frame(const thr_field_reader *field_reader, const thr_draft *draft, thr_frame *known, thr_frame *frame)
+{
+  thr_read_report report = {0};
+  thr_err why = {0};
+  if (known && !thr_draft_says(draft, known)) return thr_field_bad(field_reader, "framework", "is not the one that was written");
+  if (known) {
+    *frame = *known;
+    *known = (thr_frame){0};
+    return THR_OK;
+  }
+  thr_status st = thr_draft_build(draft, 0, frame, &report, &why);
+  if (st) return thr_fail(field_reader->err, st, "%s: framework: %s", field_reader->name, why.text);
+  return frame->n_nodes == draft->n_nodes && frame->n_edges == draft->n_edges
+             ? THR_OK
+             : thr_field_bad(field_reader, "framework", "has coincident nodes, isolated nodes, or an edge twice");
+}
+
+static thr_status read_frame(const thr_field_reader *field_reader, const thr_json *doc, thr_frame *known, thr_frame *frame)
 {
   const thr_json *object;
   thr_draft draft = {0};
-  thr_read_report report = {0};
-  thr_err why = {0};
   thr_status st = thr_field_need(field_reader, doc, "framework", THR_JSON_OBJECT, &object);
   if (st) return st;
   if ((st = read_nodes(field_reader, object, &draft))) goto done;
   if ((st = read_edges(field_reader, object, &draft))) goto done;
   if ((st = read_units(field_reader, thr_json_get(object, "units"), &draft))) goto done;
-  if ((st = thr_draft_build(&draft, 0, frame, &report, &why))) {
-    thr_fail(field_reader->err, st, "%s: framework: %s", field_reader->name, why.text);
-    goto done;
-  }
-  if (frame->n_nodes != draft.n_nodes || frame->n_edges != draft.n_edges)
-    st = thr_field_bad(field_reader, "framework", "has coincident nodes, isolated nodes, or an edge twice");
-  else
-    st = read_hash(field_reader, object, frame);
+  if (!(st = take_frame(field_reader, &draft, known, frame))) st = read_hash(field_reader, object, frame);
 done:
   if (st) thr_frame_destroy(frame);
   thr_draft_destroy(&draft);
   return st;
 }
 
-/* Pass k of a cord runs over edge e from node a to node b. What a hand-edited plan gets wrong first, so say it well. */
-static thr_status half_edge(const thr_field_reader *field_reader, const thr_frame *frame, const char *id, int k, int e, int a,
-                            int b, int *half)
+/* Pass k of a cord runs over edge *half, which becomes a half-edge, from node a to node b. What a hand-edited plan gets wrong
+ * first, so say it well. */
+static thr_status half_edge(const thr_field_reader *field_reader, const thr_frame *frame, const char *id, int k, int a, int b,
+                            int *half)
 {
+  const int e = *half;
   for (int s = 0; s < 2; s++)
     if (frame->edge[e][s] == a && frame->edge[e][1 - s] == b) {
       *half = 2 * e + s;
@@ -149,6 +150,23 @@ static thr_status half_edge(const thr_field_reader *field_reader, const thr_fram
   return thr_fail(field_reader->err, field_reader->code,
                   "%s: cord %s, pass %d: edge %d joins nodes %d and %d, but the cord goes from %d to %d", field_reader->name, id,
                   k + 1, e, frame->edge[e][0], frame->edge[e][1], a, b);
+}
+
+/* The passes of a cord of n, which has one node more. */
+static thr_status read_passes(const thr_field_reader *field_reader, const thr_json *nodes, const thr_json *edges, int n,
+                              const thr_frame *frame, int i, thr_cord *cord)
+{
+  char place[40];
+  int *node = thr_calloc((size_t)n + 1, sizeof *node);
+  thr_status st = node ? THR_OK : thr_nomem(field_reader->err);
+  snprintf(place, sizeof place, "cords[%d].edges", i);
+  if (!st) st = thr_field_indices(field_reader, edges, n, frame->n_edges, place, cord->half);
+  snprintf(place, sizeof place, "cords[%d].nodes", i);
+  if (!st) st = thr_field_indices(field_reader, nodes, n + 1, frame->n_nodes, place, node);
+  for (int k = 0; k < n && !st; k++)
+    st = half_edge(field_reader, frame, cord->id, k, node[k], node[k + 1], &cord->half[k]);
+  free(node);
+  return st;
 }
 
 static thr_status read_cord(const thr_field_reader *field_reader, const thr_json *value, const thr_frame *frame, int i,
@@ -166,23 +184,14 @@ static thr_status read_cord(const thr_field_reader *field_reader, const thr_json
   if ((st = thr_field_need(field_reader, value, "edges", THR_JSON_ARRAY, &edges))) return st;
   cord->closed = thr_json_true(closed);
   int n = thr_json_size(edges);
-  char place[40], edge_place[40], node_place[40];
+  char place[40];
   if (n < 1 || thr_json_size(nodes) != n + 1) {
     snprintf(place, sizeof place, "cords[%d]", i);
     return thr_field_bad(field_reader, place, "needs at least one edge, and one node more than edges");
   }
   if (!(cord->half = thr_calloc((size_t)n, sizeof *cord->half))) return thr_nomem(field_reader->err);
   cord->n_passes = n;
-  snprintf(edge_place, sizeof edge_place, "cords[%d].edges", i);
-  snprintf(node_place, sizeof node_place, "cords[%d].nodes", i);
-  for (int k = 0; k < n; k++) {
-    int e = 0, a = 0, b = 0;
-    if ((st = thr_field_index(field_reader, edges, k, frame->n_edges, edge_place, &e))) return st;
-    if ((st = thr_field_index(field_reader, nodes, k, frame->n_nodes, node_place, &a))) return st;
-    if ((st = thr_field_index(field_reader, nodes, k + 1, frame->n_nodes, node_place, &b))) return st;
-    if ((st = half_edge(field_reader, frame, cord->id, k, e, a, b, &cord->half[k]))) return st;
-  }
-  return THR_OK;
+  return read_passes(field_reader, nodes, edges, n, frame, i, cord);
 }
 
 static thr_status read_cords(const thr_field_reader *field_reader, const thr_json *doc, thr_plan *plan)
@@ -216,10 +225,8 @@ static thr_status read_images(const thr_field_reader *field_reader, const thr_js
   *count = n;
   for (int i = 0; i < n; i++) {
     snprintf(place, sizeof place, "symmetry.%s[%d]", key, i);
-    for (int v = 0; v < n_nodes; v++)
-      if ((st = thr_field_index(field_reader, thr_json_at(list, i), v, n_nodes, place,
-                                &(*image)[(size_t)i * (size_t)n_nodes + (size_t)v])))
-        return st;
+    st = thr_field_indices(field_reader, thr_json_at(list, i), n_nodes, n_nodes, place, *image + (size_t)i * (size_t)n_nodes);
+    if (st) return st;
   }
   return THR_OK;
 }
@@ -270,10 +277,11 @@ static thr_status read_symmetry(const thr_field_reader *field_reader, const thr_
   return st;
 }
 
-static thr_status read_metrics(const thr_field_reader *field_reader, const thr_json *doc, thr_metrics *metrics)
+static thr_status read_metrics(const thr_field_reader *field_reader, const thr_json *doc, thr_plan *plan)
 {
+  thr_metrics *metrics = &plan->metrics;
   const thr_json *value;
-  static const char *const known[] = {"length",  "base_length", "overlap",    "passes",  "most_passes",
+  static const char *const known[] = {"length",  "base_length", "overlap",    "passes",  "most_passes", "distinct",
                                       "turning", "max_turning", "worst_turn", "u_turns", NULL};
   thr_status st = thr_field_need(field_reader, doc, "metrics", THR_JSON_OBJECT, &value);
   if (!st) st = thr_field_only(field_reader, value, "metrics", known);
@@ -283,6 +291,10 @@ static thr_status read_metrics(const thr_field_reader *field_reader, const thr_j
   if ((st = thr_field_double(field_reader, value, "overlap", &metrics->overlap))) return st;
   if ((st = thr_field_int(field_reader, value, "passes", 0, INT32_MAX, &metrics->passes))) return st;
   if ((st = thr_field_int(field_reader, value, "most_passes", 0, INT32_MAX, &metrics->most_passes))) return st;
+  if ((plan->options.distinct > 0) != (thr_json_get(value, "distinct") != NULL))
+    return thr_field_bad(field_reader, "metrics.distinct", "goes with options.distinct");
+  if (plan->options.distinct > 0 && (st = thr_field_int(field_reader, value, "distinct", 0, INT32_MAX, &metrics->distinct)))
+    return st;
   if ((st = thr_field_double(field_reader, value, "turning", &metrics->turning))) return st;
   if ((st = thr_field_double(field_reader, value, "max_turning", &metrics->max_turning))) return st;
   if ((st = thr_field_double(field_reader, value, "worst_turn", &metrics->worst_turn))) return st;
@@ -311,7 +323,7 @@ static thr_status read_evaluation(const thr_field_reader *field_reader, const th
   return THR_OK;
 }
 
-static thr_status read_document(thr_field_reader *field_reader, const thr_json *doc, thr_plan *plan)
+static thr_status read_document(thr_field_reader *field_reader, const thr_json *doc, thr_frame *known, thr_plan *plan)
 {
   const char *format = thr_json_string(thr_json_get(doc, "format"));
   int version;
@@ -324,20 +336,20 @@ static thr_status read_document(thr_field_reader *field_reader, const thr_json *
   const char *generator = thr_json_string(thr_json_get(doc, "generator"));
   if (!(plan->generator = thr_strdup(generator ? generator : ""))) return thr_nomem(field_reader->err);
   thr_text_clean(plan->generator);
-  if ((st = read_frame(field_reader, doc, &plan->frame))) return st;
+  if ((st = read_frame(field_reader, doc, known, &plan->frame))) return st;
   if ((st = thr_plan_read_options(field_reader, doc, &plan->frame, &plan->options))) return st;
   field_reader->code = THR_EVIOLATED;
   if ((st = read_cords(field_reader, doc, plan))) return st;
   if ((st = read_symmetry(field_reader, doc, plan, &plan->symmetry))) return st;
-  if ((st = read_metrics(field_reader, doc, &plan->metrics))) return st;
+  if ((st = read_metrics(field_reader, doc, plan))) return st;
   if ((st = read_evaluation(field_reader, doc, plan))) return st;
   return thr_plan_read_proofs(field_reader, doc, plan);
 }
 
-/* Takes over the document, and says of it whether it is a plan. */
-static thr_status take_document(thr_json *doc, const char *name, thr_plan *plan, thr_err *err)
+/* Takes over the document, and says of it whether it is a plan; known: of this framework, which becomes the plan's, or NULL. */
+static thr_status take_document(thr_json *doc, const char *name, thr_frame *known, thr_plan *plan, thr_err *err)
 {
-  thr_status st = read_document(&(thr_field_reader){name, THR_EINPUT, err}, doc, plan);
+  thr_status st = read_document(&(thr_field_reader){name, THR_EINPUT, err}, doc, known, plan);
   thr_json_destroy(doc);
   if (st) thr_plan_destroy(plan);
   return st;
@@ -348,7 +360,19 @@ thr_status thr_plan_parse(thr_plan *plan, const char *text, size_t n, const char
   thr_json *doc;
   *plan = (thr_plan){0};
   thr_status st = thr_json_parse(&doc, text, n, name, err);
-  return st ? st : take_document(doc, name, plan, err);
+  return st ? st : take_document(doc, name, NULL, plan, err);
+}
+
+thr_status thr_plan_parse_back(thr_plan *plan, const char *text, size_t n, const char *name, thr_err *err)
+{
+  thr_json *doc;
+  thr_frame known = plan->frame;
+  plan->frame = (thr_frame){0};
+  thr_plan_destroy(plan); /* first: a large document takes much memory */
+  thr_status st = thr_json_parse(&doc, text, n, name, err);
+  if (!st) st = take_document(doc, name, &known, plan, err);
+  thr_frame_destroy(&known);
+  return st;
 }
 
 thr_status thr_plan_read(thr_plan *plan, const char *path, thr_err *err)
@@ -360,5 +384,5 @@ thr_status thr_plan_read(thr_plan *plan, const char *path, thr_err *err)
   thr_status st = thr_text_read(&text, path, err);
   if (!st) st = thr_json_parse(&doc, text.data, text.length, name, err);
   thr_text_destroy(&text);
-  return st ? st : take_document(doc, name, plan, err);
+  return st ? st : take_document(doc, name, NULL, plan, err);
 }

@@ -76,8 +76,9 @@ static thr_status read_symmetry_options(const thr_field_reader *field_reader, co
 static thr_status read_objective(const thr_field_reader *field_reader, const thr_json *value, thr_request *options)
 {
   static const char *const own[THR_N_OBJECTIVES] = {"confirm", "turning", "symmetry"};
-  const char *known[] = {"objective", "joint",     "cover",      "capacity",   "cords",   "max_length", "max_pull", "balance",
-                         "ends",      "end_nodes", "end_counts", "time_limit", "physics", "engine",     NULL,       NULL};
+  const char *known[] = {"objective", "joint",   "cover", "capacity",  "distinct",   "cords",      "max_length",
+                         "max_pull",  "balance", "ends",  "end_nodes", "end_counts", "time_limit", "physics",
+                         "engine",    "needles", "order", NULL,        NULL};
   int objective, joint;
   thr_status st = thr_field_name(field_reader, value, "options", "objective", THR_N_OBJECTIVES, thr_objective_name, &objective);
   if (st) return st;
@@ -119,6 +120,8 @@ static thr_status read_limits(const thr_field_reader *field_reader, const thr_js
   if (!st) st = thr_field_int(field_reader, value, "cover", 1, 100, &options->cover);
   if (!st && thr_json_get(value, "capacity"))
     st = thr_field_int(field_reader, value, "capacity", 1, INT32_MAX, &options->capacity);
+  if (!st && thr_json_get(value, "distinct"))
+    st = thr_field_int(field_reader, value, "distinct", 2, options->cover, &options->distinct);
   if (!st && thr_json_get(value, "max_length")) {
     st = thr_field_amount(field_reader, value, "max_length", &options->max_length);
     if (!st && options->max_length == 0) st = thr_field_bad(field_reader, "options.max_length", "not above 0");
@@ -136,12 +139,16 @@ static thr_status read_limits(const thr_field_reader *field_reader, const thr_js
 /* How it was found. What is not there was left to the program. */
 static thr_status read_means(const thr_field_reader *field_reader, const thr_json *value, thr_request *options)
 {
-  int engine = THR_ENGINE_AUTO, confirm = THR_CONFIRM_AUTO;
+  int engine = THR_ENGINE_AUTO, confirm = THR_CONFIRM_AUTO, order = false;
   thr_status st = thr_field_double(field_reader, value, "time_limit", &options->time_limit);
+  if (!st && thr_json_get(value, "needles")) st = thr_field_int(field_reader, value, "needles", 1, 2, &options->needles);
+  if (!st && thr_json_get(value, "order"))
+    st = thr_field_name(field_reader, value, "options", "order", 2, thr_order_name, &order);
   if (!st && thr_json_get(value, "engine"))
     st = thr_field_name(field_reader, value, "options", "engine", 3, thr_engine_name, &engine);
   if (!st && thr_json_get(value, "confirm"))
     st = thr_field_name(field_reader, value, "options", "confirm", 3, thr_confirm_name, &confirm);
+  options->by_hand = order;
   options->engine = (thr_engine)engine;
   options->confirm = (thr_confirm)confirm;
   return st;
@@ -199,6 +206,10 @@ thr_status thr_plan_read_options(const thr_field_reader *field_reader, const thr
   if ((st = read_means(field_reader, value, options))) return st;
   if ((st = thr_field_name(field_reader, value, "options", "ends", THR_ENDS_COUNTS + 1, thr_ends_name, &kind))) return st;
   options->ends = (thr_ends)kind;
+  if (options->distinct > options->cords_least) return thr_field_bad(field_reader, "options.distinct", "more than the cords");
+  const char *against = options->distinct > 0 ? thr_request_not_distinct(options) : NULL;
+  if (against)
+    return thr_fail(field_reader->err, field_reader->code, "%s: options.distinct: not with %s", field_reader->name, against);
   if (thr_json_get(value, "end_nodes") && options->ends != THR_ENDS_NODES)
     return thr_field_bad(field_reader, "options.end_nodes", "only with ends `nodes`");
   if (thr_json_get(value, "end_counts") && options->ends != THR_ENDS_COUNTS)

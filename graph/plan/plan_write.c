@@ -180,6 +180,7 @@ static void put_options(thr_writer *writer, const thr_plan *plan)
   thr_write_string(writer, "joint", thr_joint_name(options->joint));
   thr_write_int(writer, "cover", options->cover);
   if (options->capacity > 0) thr_write_int(writer, "capacity", options->capacity);
+  if (options->distinct > 0) thr_write_int(writer, "distinct", options->distinct);
   put_number_of_cords(writer, options);
   if (options->max_length > 0) thr_write_number(writer, "max_length", options->max_length);
   if (options->max_pull > 0) thr_write_number(writer, "max_pull", options->max_pull);
@@ -187,6 +188,8 @@ static void put_options(thr_writer *writer, const thr_plan *plan)
   put_ends(writer, plan);
   if (thr_wants_turning(options)) put_turning_options(writer, options);
   if (thr_wants_symmetry(options)) put_symmetry_options(writer, options);
+  if (options->by_hand) thr_write_string(writer, "order", thr_order_name(options->by_hand));
+  if (options->needles) thr_write_int(writer, "needles", options->needles);
   if (options->engine != THR_ENGINE_AUTO) thr_write_string(writer, "engine", thr_engine_name(options->engine));
   if (thr_wants_length(options) && options->confirm != THR_CONFIRM_AUTO)
     thr_write_string(writer, "confirm", thr_confirm_name(options->confirm));
@@ -265,8 +268,9 @@ static void put_symmetry(thr_writer *writer, const thr_plan *plan)
   thr_write_close(writer);
 }
 
-static void put_metrics(thr_writer *writer, const thr_metrics *metrics)
+static void put_metrics(thr_writer *writer, const thr_plan *plan)
 {
+  const thr_metrics *metrics = &plan->metrics;
   put_line(writer);
   thr_write_object(writer, "metrics");
   thr_write_number(writer, "length", metrics->length);
@@ -274,6 +278,7 @@ static void put_metrics(thr_writer *writer, const thr_metrics *metrics)
   thr_write_number(writer, "overlap", metrics->overlap);
   thr_write_int(writer, "passes", metrics->passes);
   thr_write_int(writer, "most_passes", metrics->most_passes);
+  if (plan->options.distinct > 0) thr_write_int(writer, "distinct", metrics->distinct);
   thr_write_line(writer, 2);
   thr_write_number(writer, "turning", metrics->turning);
   thr_write_number(writer, "max_turning", metrics->max_turning);
@@ -432,7 +437,7 @@ void thr_plan_write(const thr_plan *plan, thr_text *text)
   put_options(&writer, plan);
   put_cords(&writer, plan);
   if (plan->symmetry.present) put_symmetry(&writer, plan);
-  put_metrics(&writer, &plan->metrics);
+  put_metrics(&writer, plan);
   put_line(&writer);
   if (plan->evaluation.present) thr_evaluation_write(&plan->evaluation, &writer, "evaluation");
   put_proofs(&writer, plan);

@@ -285,6 +285,11 @@ const char *thr_joint_name(int j)
   return j == THR_JOINT_TUBE ? "tube" : "solid";
 }
 
+const char *thr_order_name(int by_hand)
+{
+  return by_hand ? "hand" : "planned";
+}
+
 const char *thr_engine_name(int e)
 {
   static const char *const name[] = {[THR_ENGINE_AUTO] = "auto", [THR_ENGINE_LP] = "lp", [THR_ENGINE_MATCHING] = "matching"};
@@ -321,15 +326,26 @@ double thr_request_most_turning(const thr_request *options)
   return limited ? 2 * log(options->max_pull) / options->physics.mu : INFINITY;
 }
 
-int thr_plan_cover(const thr_frame *frame, const thr_request *options, int e)
+const char *thr_request_not_distinct(const thr_request *options)
 {
-  return frame->cover && frame->cover[e] > options->cover ? frame->cover[e] : options->cover;
+  return thr_wants_symmetry(options)                                                  ? "objective symmetry"
+         : thr_wants_balance(options)                                                 ? "cords of even length"
+         : options->max_length > 0                                                    ? "a greatest length"
+         : options->max_pull > 0                                                      ? "a greatest pull"
+         : options->cords_least != options->cords && options->ends != THR_ENDS_COUNTS ? "a range of cords"
+         : thr_wants_turning(options) && options->turning.length_slack >= 0           ? "a limit on the length"
+         : thr_wants_turning(options) && options->turning.tour != THR_TOUR_LEAST      ? "a classical tour"
+                                                                                      : NULL;
 }
 
-int thr_plan_capacity(const thr_frame *frame, const thr_request *options, int e)
+bool thr_request_alike(const thr_frame *frame, const thr_request *options, thr_request *one)
 {
-  int own = frame->capacity && frame->capacity[e] > 0 ? frame->capacity[e] : INT_MAX;
-  return options->capacity > 0 && options->capacity < own ? options->capacity : own;
+  *one = *options;
+  one->cover = one->cords = one->cords_least = 1;
+  one->distinct = 0;
+  return options->distinct > 0 && options->distinct == options->cords && options->cords == options->cords_least &&
+         options->distinct == options->cover && !frame->cover && !frame->capacity && options->capacity == 0 &&
+         options->joint == THR_JOINT_SOLID && options->ends != THR_ENDS_COUNTS;
 }
 
 bool thr_plan_end_allowed(const thr_frame *frame, const thr_request *options, int v)

@@ -12,6 +12,8 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
+#include <limits.h>
+
 enum { THR_MOST_CORDS = 1000 }; /* that a plan may have in a component */
 
 /* THR_ENDS_COUNTS: at every node exactly so many cord ends. */
@@ -88,15 +90,16 @@ typedef enum {
 typedef struct {
   thr_aims aims;
   thr_joint joint;
-  int cover;                   /* every edge gets at least this many passes, 1 .. 100; the framework may ask for more (cover) */
-  int capacity;                /* at most so many passes of any edge, 0 = no limit; the framework may allow fewer (capacity) */
-  int cords;                   /* at most so many in every component, 1 .. 1000; of a symmetric plan for which they are not asked
-                                  (symmetry.counted): the most in any, as it came out */
-  int cords_least;             /* at least so many; = cords: exactly */
-  double max_length;           /* no cord is longer, in units; 0 = no limit */
-  double max_pull;             /* pulled at both ends, no cord needs more at either (thr_cord_pull): times the seating tension,
-                                  >= 1; 0 = no limit */
-  thr_turning_options turning; /* of plans that turn little only */
+  int cover;         /* every edge gets at least this many passes, 1 .. 100; the framework may ask for more (cover) */
+  int capacity;      /* at most so many passes of any edge, 0 = no limit; the framework may allow fewer (capacity) */
+  int distinct;      /* every edge is passed by at least so many different cords, at most cover and cords_least; 0 = any */
+  int cords;         /* at most so many in every component, 1 .. 1000; of a symmetric plan for which they are not asked
+                        (symmetry.counted): the most in any, as it came out */
+  int cords_least;   /* at least so many; = cords: exactly */
+  double max_length; /* no cord is longer, in units; 0 = no limit */
+  double max_pull;   /* pulled at both ends, no cord needs more at either (thr_cord_pull): times the seating tension,
+                        >= 1; 0 = no limit */
+  thr_turning_options turning;   /* of plans that turn little only */
   thr_symmetry_options symmetry; /* of symmetric plans only */
   thr_ends ends;
   bool *end_node;      /* [n_nodes] THR_ENDS_NODES only: where ends may be; owned, else NULL */
@@ -104,6 +107,8 @@ typedef struct {
                           2 * cords; owned, else NULL */
   thr_physics physics; /* of cord and beads, as asked: what eval starts from */
   double time_limit;   /* s, 0 = none */
+  bool by_hand;        /* cords begin and run so that what is threaded holds together (planner/order.h) */
+  int needles;         /* that long cords are threaded with then: 2 (graph/plan/chains.h), else one */
   thr_engine engine;   /* changes no length */
   thr_confirm confirm; /* of the least length with THR_JOINT_SOLID only */
 } thr_request;
@@ -149,6 +154,7 @@ const char *thr_minimize_name(int largest); /* "turning", "max-turning" */
 const char *thr_pairings_name(int ignore);  /* "keep", "ignore" */
 const char *thr_ends_name(int e);           /* "closed", "any", "feet", "nodes", "counts" */
 const char *thr_joint_name(int j);          /* "solid", "tube" */
+const char *thr_order_name(int by_hand);    /* "planned", "hand" */
 const char *thr_engine_name(int e);         /* "auto", "lp", "matching" */
 const char *thr_confirm_name(int c);        /* "auto", "always", "never" */
 
@@ -169,8 +175,23 @@ int thr_plan_cords_least(const thr_request *options);
  * anything, without a limit or without friction. Example: 15 times the seating tension at mu = 0.2: 27.08 rad. */
 double thr_request_most_turning(const thr_request *options);
 
+/* What else is asked for that does not go with distinct, in a few words; NULL: nothing. */
+const char *thr_request_not_distinct(const thr_request *options);
+
+/* Does every cord pass every edge, because there are no more cords than distinct asks for? Then each may be planned by itself,
+ * once over every edge, and all of them are alike: *one is that request, whose arrays are borrowed. True of solid joints, if no
+ * edge needs more passes, none has a capacity, and the numbers of ends are free. */
+bool thr_request_alike(const thr_frame *frame, const thr_request *options, thr_request *one);
+
 /* Passes that edge e needs, and the most that it may have (INT_MAX: no limit): what options and framework say together. */
-int thr_plan_cover(const thr_frame *frame, const thr_request *options, int e);
-int thr_plan_capacity(const thr_frame *frame, const thr_request *options, int e);
+static inline int thr_plan_cover(const thr_frame *frame, const thr_request *options, int e)
+{
+  return frame->cover && frame->cover[e] > options->cover ? frame->cover[e] : options->cover;
+}
+static inline int thr_plan_capacity(const thr_frame *frame, const thr_request *options, int e)
+{
+  int own = frame->capacity && frame->capacity[e] > 0 ? frame->capacity[e] : INT_MAX;
+  return options->capacity > 0 && options->capacity < own ? options->capacity : own;
+}
 
 #endif

@@ -93,8 +93,22 @@ static void put_node(thr_writer *writer, const thr_turning_node *node)
     thr_write_int(writer, "a", node->a);
     thr_write_int(writer, "b", node->b);
     thr_write_int(writer, "value", node->value);
+    if (node->n_orbit) thr_write_ints(writer, "orbit", node->orbit, node->n_orbit);
   } else {
     thr_write_int(writer, "multipliers", node->dual);
+  }
+  thr_write_close(writer);
+}
+
+/* A proof with none has no member for them. */
+static void put_symmetries(thr_writer *writer, const thr_turning_proof *proof, const thr_frame *frame)
+{
+  if (proof->n_symmetries == 0) return;
+  thr_write_line(writer, 3);
+  thr_write_array(writer, "symmetries");
+  for (int i = 0; i < proof->n_symmetries; i++) {
+    thr_write_line(writer, 4);
+    thr_write_ints(writer, NULL, proof->symmetry + (size_t)i * (size_t)frame->n_edges, frame->n_edges);
   }
   thr_write_close(writer);
 }
@@ -131,6 +145,7 @@ void thr_turning_proof_write(const thr_turning_proof *proof, const thr_frame *fr
     put_dual(writer, &proof->dual[i], frame, proof->n_ends);
   }
   thr_write_close(writer);
+  put_symmetries(writer, proof, frame);
   put_walks(writer, &proof->walks, frame);
   thr_write_close(writer);
 }
@@ -140,7 +155,7 @@ void thr_turning_proof_write(const thr_turning_proof *proof, const thr_frame *fr
 typedef struct {
   const char *place;
   const thr_frame *f;
-  int n_ends;
+  int n_ends, n_symmetries;
   thr_err *err;
 } reader;
 
@@ -183,6 +198,18 @@ static thr_status read_multipliers(const reader *r, const thr_json *object, cons
   return st;
 }
 
+/* A list of integers from 0 to limit - 1. */
+static thr_status read_ints(const reader *r, const thr_json *list, const char *key, int limit, int *out)
+{
+  thr_status st = THR_OK;
+  for (int i = 0; i < thr_json_size(list) && !st; i++) {
+    int64_t value = 0;
+    st = get_int(r, thr_json_at(list, i), key, 0, limit - 1, &value);
+    out[i] = (int)value;
+  }
+  return st;
+}
+
 static thr_status read_set(const reader *r, const thr_json *value, const char *key, int limit, thr_turning_set *set)
 {
   static const char *const known[] = {"value", "members", NULL};
@@ -194,12 +221,7 @@ static thr_status read_set(const reader *r, const thr_json *value, const char *k
   int n = thr_json_size(list);
   if (!(set->member = thr_calloc((size_t)n, sizeof *set->member))) return thr_nomem(r->err);
   set->n = n;
-  for (int i = 0; i < n && !st; i++) {
-    int64_t member = 0;
-    st = get_int(r, thr_json_at(list, i), key, 0, limit - 1, &member);
-    set->member[i] = (int)member;
-  }
-  return st;
+  return read_ints(r, list, key, limit, set->member);
 }
 
 static thr_status read_sets(const reader *r, const thr_json *object, const char *key, int limit, int *count,
@@ -226,12 +248,7 @@ static thr_status read_partition(const reader *r, const thr_json *value, thr_tur
   if (!st) st = get_array(r, value, "blocks", &list);
   if (!st && thr_json_size(list) != m) st = bad(r, "blocks", "not one per edge");
   if (!st && !(partition->block = thr_calloc((size_t)m, sizeof *partition->block))) st = thr_nomem(r->err);
-  for (int e = 0; e < m && !st; e++) {
-    int64_t block = 0;
-    st = get_int(r, thr_json_at(list, e), "blocks", 0, m - 1, &block);
-    partition->block[e] = (int)block;
-  }
-  return st;
+  return st ? st : read_ints(r, list, "blocks", m, partition->block);
 }
 
 static thr_status read_partitions(const reader *r, const thr_json *object, const char *key, int *count,
@@ -262,12 +279,7 @@ static thr_status read_junction(const reader *r, const thr_json *value, thr_turn
   int d = thr_degree(r->f, turning_junction->node);
   if (thr_json_size(list) != d) return bad(r, "blocks", "not one per edge of the node");
   if (!(turning_junction->block = thr_calloc((size_t)d, sizeof *turning_junction->block))) return thr_nomem(r->err);
-  for (int k = 0; k < d && !st; k++) {
-    int64_t block = 0;
-    st = get_int(r, thr_json_at(list, k), "blocks", 0, d - 1, &block);
-    turning_junction->block[k] = (int)block;
-  }
-  return st;
+  return read_ints(r, list, "blocks", d, turning_junction->block);
 }
 
 /* Plans with tube joints only. */
@@ -304,13 +316,26 @@ static thr_status read_dual(const reader *r, const thr_json *value, thr_turning_
   return st;
 }
 
+static thr_status read_orbit(const reader *r, const thr_json *value, thr_turning_node *node)
+{
+  const thr_json *list;
+  if (!thr_json_get(value, "orbit")) return THR_OK;
+  thr_status st = get_array(r, value, "orbit", &list);
+  if (st) return st;
+  int n = thr_json_size(list);
+  if (!(node->orbit = thr_calloc((size_t)n, sizeof *node->orbit))) return thr_nomem(r->err);
+  node->n_orbit = n;
+  return read_ints(r, list, "orbit", r->n_symmetries, node->orbit);
+}
+
 static thr_status read_node(const reader *r, const thr_json *value, thr_turning_node *node)
 {
   static const char *const inner[] = {"low", "high", "a", "b", "value", NULL}, *const leaf[] = {"multipliers", NULL};
+  static const char *const at_once[] = {"low", "high", "a", "b", "value", "orbit", NULL};
   int64_t number[5] = {0};
   bool is_leaf = thr_json_get(value, "multipliers") != NULL;
   const char *const *key = is_leaf ? leaf : inner;
-  thr_status st = only_members(r, value, key);
+  thr_status st = only_members(r, value, thr_json_get(value, "orbit") && !is_leaf ? at_once : key);
   for (int i = 0; key[i] && !st; i++)
     st = get_int(r, thr_json_get(value, key[i]), key[i], i == 3 ? -1 : 0, INT_MAX, &number[i]);
   if (!st && !is_leaf && (number[0] == 0 || number[1] == 0)) return bad(r, "low", "a branch needs two nodes below it");
@@ -320,6 +345,24 @@ static thr_status read_node(const reader *r, const thr_json *value, thr_turning_
   else
     node->low = (int)number[0], node->high = (int)number[1], node->a = (int)number[2], node->b = (int)number[3],
     node->value = (int)number[4];
+  return st || is_leaf ? st : read_orbit(r, value, node);
+}
+
+static thr_status read_symmetries(reader *r, const thr_json *value, thr_turning_proof *proof)
+{
+  const thr_json *list;
+  const int m = r->f->n_edges;
+  if (!thr_json_get(value, "symmetries")) return THR_OK;
+  thr_status st = get_array(r, value, "symmetries", &list);
+  if (st) return st;
+  int n = thr_json_size(list);
+  if (!(proof->symmetry = thr_calloc((size_t)n * (size_t)m, sizeof *proof->symmetry))) return thr_nomem(r->err);
+  proof->n_symmetries = r->n_symmetries = n;
+  for (int i = 0; i < n && !st; i++) {
+    const thr_json *image = thr_json_at(list, i);
+    if (thr_json_typeof(image) != THR_JSON_ARRAY || thr_json_size(image) != m) return bad(r, "symmetries", "not one per edge");
+    st = read_ints(r, image, "symmetries", 2 * m, proof->symmetry + (size_t)i * (size_t)m);
+  }
   return st;
 }
 
@@ -341,11 +384,14 @@ static thr_status read_walks(const reader *r, const thr_json *value, thr_walk_pr
 thr_status thr_turning_proof_from_json(thr_turning_proof *proof, const thr_frame *frame, const thr_json *value, const char *place,
                                        thr_err *err)
 {
-  static const char *const known[] = {"tree", "multipliers", "walks", NULL}, *const without[] = {"tree", "multipliers", NULL};
-  reader r = {place, frame, 0, err};
+  static const char *const optional[] = {"symmetries", "walks"};
+  const char *known[5] = {"tree", "multipliers"};
+  reader r = {.place = place, .f = frame, .err = err};
   const thr_json *tree, *duals;
   *proof = (thr_turning_proof){0};
-  thr_status st = only_members(&r, value, thr_json_get(value, "walks") ? known : without);
+  for (int i = 0, n = 2; i < 2; i++)
+    if (thr_json_get(value, optional[i])) known[n++] = optional[i];
+  thr_status st = only_members(&r, value, known);
   if (!st) st = get_array(&r, value, "tree", &tree);
   if (!st) st = get_array(&r, value, "multipliers", &duals);
   if (st) return st;
@@ -357,6 +403,7 @@ thr_status thr_turning_proof_from_json(thr_turning_proof *proof, const thr_frame
   if (!st) {
     proof->n_nodes = n_nodes;
     proof->n_duals = n_duals;
+    st = read_symmetries(&r, value, proof);
   }
   for (int i = 0; i < n_nodes && !st; i++)
     st = read_node(&r, thr_json_at(tree, i), &proof->node[i]);

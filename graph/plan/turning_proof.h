@@ -176,12 +176,14 @@ void thr_turning_dual_destroy(thr_turning_dual *turning_dual);
 /* Without its odd sets from number from on. O(sets dropped). */
 void thr_turning_dual_drop_odd(thr_turning_dual *turning_dual, int from);
 
-/* A node of the tree: an inner one says that its column is at most value (low) or at least value + 1 (high). */
+/* A node of the tree: an inner one says that its column, and its images under some symmetries, are at most value (low), or that
+ * it is at least value + 1 itself (high). */
 typedef struct {
   int low, high; /* nodes after this one; 0 = a leaf */
   int a, b;      /* the branched column's half-edges, as in thr_turning_columns */
   int value;
-  int dual; /* leaf: index of its multipliers */
+  int n_orbit, *orbit; /* indices of symmetries that keep the bounds on columns here; owned */
+  int dual;            /* leaf: index of its multipliers */
 } thr_turning_node;
 
 /* Prices that bound the turning of the cord that turns most (graph/plan/walk_proof.h), >= 0; of one component. */
@@ -193,8 +195,9 @@ typedef struct {
 } thr_walk_proof;
 
 typedef struct {
-  int n_nodes, n_duals, n_ends;
+  int n_nodes, n_duals, n_ends, n_symmetries;
   thr_turning_node *node; /* owned; node[0] is the root */
+  int *symmetry;          /* [n_symmetries * n_edges] images of the half-edges 2e (graph/plan/turning_symmetry.h); owned */
   thr_turning_dual *dual; /* owned; ends [n_ends] */
   thr_walk_proof walks;   /* of the cord that turns most, if there is one */
 } thr_turning_proof;
@@ -211,7 +214,8 @@ thr_status thr_turning_dual_bound(const thr_turning_columns *turning_columns, co
                                   const int *low, const int *high, int64_t *bound, thr_err *err) THR_MUST_CHECK;
 
 /* Checks the tree and all leaves; *bound is the price that no plan of the task undercuts (>= 0). Arrays come from a reader:
- * nothing in them is trusted. THR_EVIOLATED with the place. Each multipliers' bound once, and O(depth) for every leaf. */
+ * nothing in them is trusted. THR_EVIOLATED with the place. Each multipliers' bound once, and for every node as many steps as
+ * columns are decided above it, for an orbit times its size. */
 thr_status thr_turning_proof_check(const thr_frame *frame, const thr_turning_task *task, const thr_turning_proof *proof,
                                    double *bound, thr_err *err) THR_MUST_CHECK;
 

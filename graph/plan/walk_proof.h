@@ -51,6 +51,9 @@ thr_status thr_walk_steps_init(thr_walk_steps *steps, const thr_turning_columns 
                                thr_err *err) THR_MUST_CHECK;
 void thr_walk_steps_destroy(thr_walk_steps *steps);
 
+/* Passes that the edges of node v need. */
+int64_t thr_walk_needed_at(const thr_turning_columns *columns, int v);
+
 /* Takes over the prices of a proof. THR_EVIOLATED: negative, outside of the component, at a node with an even number of needed
  * passes, or so large that a walk's worth might not fit 64 bits. */
 thr_status thr_walk_steps_price(thr_walk_steps *steps, const thr_walk_proof *proof, thr_err *err) THR_MUST_CHECK;

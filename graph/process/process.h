@@ -46,8 +46,8 @@ thr_status thr_process_end(thr_process *process, const char *who, const char *ad
 /* In a child: it is killed when its parent dies, whose process it was told; at once if that is dead already. */
 void thr_process_die_with(pid_t parent);
 
-/* Has it slept for some 20 s of such calls, one every 0.1 s? A library that waits for itself, as GLib does where memory is out
- * while it holds a lock, never ends. */
+/* Has it slept for some 20 s of such calls, one every 0.1 s? A library that waits for itself where memory is out while it
+ * holds a lock never ends. */
 bool thr_process_stuck(thr_process *process);
 
 /* Ends it at once, whatever it does, and closes the pipes; nothing if there is no child. */

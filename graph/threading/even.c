@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { POWER = 8 };
+enum { POWER = 8 }; /* as power() has it */
 
 bool thr_evener_follow(thr_evener *evener)
 {
@@ -15,7 +15,8 @@ bool thr_evener_follow(thr_evener *evener)
 
 static double power(const thr_evener *evener, double total)
 {
-  return pow(total / evener->scale, POWER);
+  double one = total / evener->scale, two = one * one, four = two * two;
+  return four * four;
 }
 
 double thr_evener_value(const thr_evener *evener)
@@ -150,12 +151,20 @@ void thr_evener_even(thr_evener *evener)
 
 /* ---- annealing ---- */
 
-/* Pairs two places of one node anew, unless that is forbidden. */
-static bool exchange(thr_evener *evener, thr_broken *old, int i, int k, bool crossed)
+/* Pairs to be made, and what that makes of the totals of one cord or two; n_cords 0: that is found out by following them all. */
+typedef struct {
+  int n, n_cords;
+  thr_exchange x[2];
+  int cord[2];
+  double total[2];
+} change;
+
+/* Adds an exchange of two places of one node, unless that is forbidden. */
+static bool add_exchange(const thr_evener *evener, change *c, int i, int k, bool crossed)
 {
-  thr_exchange x = thr_threading_exchange(evener->t, i, k, crossed);
-  if (x.extra >= THR_FORBIDDEN / 2) return false;
-  thr_threading_make(evener->t, &x, old);
+  c->x[c->n] = thr_threading_exchange(evener->t, i, k, crossed);
+  if (c->x[c->n].extra >= THR_FORBIDDEN / 2) return false;
+  c->n++;
   return true;
 }
 
@@ -168,9 +177,35 @@ static int other_at_node(thr_evener *evener, int i)
   return k == i ? -1 : k;
 }
 
+/* Two open cords that meet in places p and q go on as the other does, or as it did before, turned round. */
+static void measure_tails(const thr_evener *evener, change *c, const thr_place *p, const thr_place *q, bool crossed)
+{
+  const double here[2] = {price(evener, p->in, crossed ? q->in : q->out), price(evener, p->out, crossed ? q->out : q->in)};
+  c->n_cords = 2;
+  c->cord[0] = p->cord;
+  c->cord[1] = q->cord;
+  c->total[0] = p->before + here[0] + (crossed ? q->before : after(evener, q));
+  c->total[1] = after(evener, p) + here[1] + (crossed ? after(evener, q) : q->before);
+}
+
+/* The part between places p and q of one cord is cut off, and joined elsewhere to place z, of the same cord or another. */
+static void measure_part(const thr_evener *evener, change *c, const thr_place *p, const thr_place *q, const thr_place *z)
+{
+  const double *total = evener->t->total;
+  double inside = q->before - p->before - p->price,
+         rest = total[p->cord] - inside - p->price - q->price + price(evener, p->in, q->out);
+  double part = inside + price(evener, q->in, p->out) + c->x[1].extra;
+  bool same = z->cord == p->cord;
+  c->n_cords = same ? 1 : 2;
+  c->cord[0] = p->cord;
+  c->cord[1] = z->cord;
+  c->total[0] = same ? rest + part : rest;
+  c->total[1] = total[z->cord] + part;
+}
+
 /* Two cords joined into one circuit are cut apart again somewhere else, and a part that an exchange of places p and q cuts off
  * one cord is joined to another cord or elsewhere. false: nothing found. */
-static bool put_right(thr_evener *evener, thr_broken *old, int p, int q)
+static bool put_right(thr_evener *evener, change *c, int p, int q)
 {
   enum { TRIES = 8 };
   const thr_threading *threading = evener->t;
@@ -189,53 +224,102 @@ static bool put_right(thr_evener *evener, thr_broken *old, int p, int q)
     if (joined ? place[z].cord != place[p].cord && place[z].cord != place[q].cord : z > from && z < to) continue;
     bool crossed =
         joined ? place[m].cord != place[z].cord && thr_random_below(&evener->state, 2) : thr_random_below(&evener->state, 2);
-    if (exchange(evener, old, m, z, crossed)) return true;
+    if (!add_exchange(evener, c, m, z, crossed)) continue;
+    if (!joined) measure_part(evener, c, &place[p], &place[q], &place[z]);
+    return true;
   }
   return false;
 }
 
-/* A change at random that keeps the number of cords, if *old is not empty and thr_evener_follow says so. */
-static void propose(thr_evener *evener, thr_broken *old)
+/* A change at random at a place that keeps the number of cords, if thr_evener_follow says so; false: none. */
+static bool propose(thr_evener *evener, int p, change *c)
 {
-  int p = thr_random_below(&evener->state, evener->t->n_places), q = other_at_node(evener, p);
-  old->n = 0;
-  if (q < 0) return;
-  bool same = evener->t->place[p].cord == evener->t->place[q].cord;
+  int q = other_at_node(evener, p);
+  *c = (change){0};
+  if (q < 0) return false;
+  const thr_place *place = evener->t->place;
+  bool same = place[p].cord == place[q].cord;
   if (same && p > q) {
     int later = p;
     p = q;
     q = later;
   }
   bool crossed = thr_random_below(&evener->state, 2);
-  if (!exchange(evener, old, p, q, crossed)) return;
-  if (!(same ? crossed : !closed(evener)) && !put_right(evener, old, p, q))
-    thr_threading_take_back(evener->t, old);
-  else
-    thr_threading_keep(evener->t, old);
+  if (!add_exchange(evener, c, p, q, crossed)) return false;
+  if (!(same ? crossed : !closed(evener))) return put_right(evener, c, p, q);
+  if (!same) measure_tails(evener, c, &place[p], &place[q], crossed);
+  if (same) {
+    c->n_cords = 1;
+    c->cord[0] = place[p].cord;
+    c->total[0] = evener->t->total[place[p].cord] + c->x[0].extra;
+  }
+  return true;
+}
+
+/* The value after a change whose totals are known. */
+static double value_after(const thr_evener *evener, const change *c, double now)
+{
+  for (int i = 0; i < c->n_cords; i++)
+    now += power(evener, c->total[i]) - power(evener, evener->t->total[c->cord[i]]);
+  return now;
+}
+
+/* Makes a change, if its nodes stay tied. */
+static bool make(thr_evener *evener, const change *c, thr_broken *old)
+{
+  *old = (thr_broken){0};
+  for (int i = 0; i < c->n; i++)
+    thr_threading_make(evener->t, &c->x[i], old);
+  return thr_threading_keep(evener->t, old);
+}
+
+void thr_evener_propose(thr_evener *evener, int place, thr_broken *old)
+{
+  change c;
+  *old = (thr_broken){0};
+  if (propose(evener, place, &c)) make(evener, &c, old);
+}
+
+/* Is a value that may be higher taken, at this heat? */
+static bool is_taken(thr_evener *evener, double now, double next, double heat)
+{
+  return next <= now || thr_random_unit(&evener->state) < exp(-log(next / now) / POWER / heat);
+}
+
+/* One change, or none; *now: the value. */
+static void try_change(thr_evener *evener, double heat, double *now)
+{
+  change c;
+  thr_broken old;
+  if (!propose(evener, thr_random_below(&evener->state, evener->t->n_places), &c)) return;
+  const bool known = c.n_cords > 0;
+  if (known && !is_taken(evener, *now, value_after(evener, &c, *now), heat)) return;
+  if (!make(evener, &c, &old)) return;
+  const double next = thr_evener_follow(evener) ? thr_evener_value(evener) : (double)INFINITY;
+  if (next < INFINITY && (known || is_taken(evener, *now, next, heat))) {
+    *now = next;
+    return;
+  }
+  thr_threading_take_back(evener->t, &old);
+  thr_evener_follow(evener);
 }
 
 void thr_evener_anneal(thr_evener *evener, int steps, double bound, int *best)
 {
-  static const double hot = 0.05, cold = 0.002; /* of the norm */
+  const double hot = fmin(0.05, fmax(0.024 / evener->n_cords, 2.4 / fmax(1, evener->t->n_places))),
+               cold = hot / 10; /* of the norm: some turns of one cord */
   size_t bytes = (size_t)evener->t->g->n_darts * sizeof *best;
-  double now = thr_evener_value(evener), least = now;
+  double now = thr_evener_value(evener), least = now, heat = hot;
   memcpy(best, evener->t->mate, bytes);
   for (int i = 0; i < steps && evener->t->n_places > 1; i++) {
-    thr_broken old;
-    if (i % 64 == 0 && (thr_limits_stop(evener->limits) || thr_evener_largest(evener) <= bound * (1 + 1e-9))) break;
-    double heat = hot * pow(cold / hot, (double)i / steps);
-    propose(evener, &old);
-    if (old.n == 0) continue;
-    double next = thr_evener_follow(evener) ? thr_evener_value(evener) : (double)INFINITY;
-    if (next <= now || thr_random_unit(&evener->state) < exp(-log(next / now) / POWER / heat)) {
-      now = next;
-      if (now >= least * (1 - 1e-12)) continue;
-      least = now;
-      memcpy(best, evener->t->mate, bytes);
-    } else {
-      thr_threading_take_back(evener->t, &old);
-      thr_evener_follow(evener);
+    if (i % 64 == 0) {
+      if (thr_limits_stop(evener->limits) || thr_evener_largest(evener) <= bound * (1 + 1e-9)) break;
+      heat = hot * pow(cold / hot, (double)i / steps);
     }
+    try_change(evener, heat, &now);
+    if (now >= least * (1 - 1e-12)) continue;
+    least = now;
+    memcpy(best, evener->t->mate, bytes);
   }
   memcpy(evener->t->mate, best, bytes);
   thr_evener_follow(evener);

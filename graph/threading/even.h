@@ -24,8 +24,13 @@ double thr_evener_largest(const thr_evener *evener);
  * parts run the other way round, parts cut off one cord and joined to another. */
 void thr_evener_even(thr_evener *evener);
 
+/* One change at random, at this place among others, that keeps the number of cords if *old is not empty and thr_evener_follow,
+ * which is to be called next, says so. Else the pairs are to be taken back, and followed again. */
+void thr_evener_propose(thr_evener *evener, int place, thr_broken *old);
+
 /* The same at random, so many steps, and some that raise the value, with falling probability; ends at the best that it came by,
- * or where the largest total is at the bound. best: [n_darts] scratch. O(darts) a step. */
+ * or where the largest total is at the bound. What most changes make of the totals is known from running sums: O(1) a step that
+ * is not taken, O(darts) one that is. best: [n_darts] scratch. */
 void thr_evener_anneal(thr_evener *evener, int steps, double bound, int *best);
 
 #endif

@@ -1,5 +1,6 @@
 /* One cord through all passes. */
 #include "graph/threading/tour.h"
+#include "graph/angle.h"
 #include "graph/threading/walks.h"
 
 #include <stdlib.h>
@@ -11,7 +12,9 @@ static int best_start(const thr_frame *frame, const thr_request *options, const 
   for (int i = 0; i < n; i++) {
     int v = thr_tail(frame, half[i]);
     if (only >= 0 ? v != only : options && !thr_plan_end_allowed(frame, options, v)) continue;
-    double score = thr_turn_angle(frame, half[(i + n - 1) % n], half[i]) + (options && frame->foot[v] ? 100 : 0);
+    double foot = options && frame->foot[v] ? 100 : 0;
+    if (foot + THR_PI <= best_score) continue;
+    double score = thr_turn_angle(frame, half[(i + n - 1) % n], half[i]) + foot;
     if (score > best_score + 1e-9) { /* the first of equals, whatever the rounding */
       best_score = score;
       best = i;

@@ -1,5 +1,6 @@
 /* Pairing at nodes, joining circuits by exchanging pairs (Kotzig 1968), and pairs from walks. */
 #include "graph/threading/transition.h"
+#include "graph/angle.h"
 #include "graph/disjoint.h"
 #include "graph/plan/plan.h"
 #include "graph/threading/pairing.h"
@@ -11,26 +12,46 @@
 
 enum { EXACT_DARTS = 12 }; /* largest node paired at least price: 2^12 subsets */
 
-static bool same_pass_back(const thr_multigraph *multigraph, int a, int b)
+/* price[n * n]: of pairing each of at most EXACT_DARTS darts with each other. The angle between two passes at a node is what two
+ * ways out of it lack of half a turn. */
+static void price_pairs(const thr_frame *frame, const thr_multigraph *multigraph, const int *dart, int n, double *price)
 {
-  return multigraph->half[a] == multigraph->half[b]; /* both leave over one edge, or both are cord ends */
+  double out[EXACT_DARTS][3], in[EXACT_DARTS][3];
+  for (int i = 0; i < n; i++) {
+    const int half = multigraph->half[dart[i]];
+    if (half >= 0) thr_direction(frame, half, out[i]);
+    for (int k = 0; k < 3 && half >= 0; k++)
+      in[i][k] = -out[i][k];
+    for (int j = 0; j < i; j++) {
+      const int other = multigraph->half[dart[j]];
+      price[i * n + j] = (half == other ? THR_U_TURN_PRICE : 0) + (half < 0 || other < 0 ? 0 : thr_angle_between(in[j], out[i]));
+      price[j * n + i] = price[i * n + j];
+    }
+  }
 }
 
-double thr_transition_price(const thr_frame *frame, const thr_multigraph *multigraph, int a, int b)
+/* Four darts, of which there are three pairings: total[j - 1] is the price of the one that pairs the first dart with number j.
+ * The first of the cheapest is taken. */
+static void pair_four(const thr_frame *frame, const thr_multigraph *multigraph, const int *dart, double total[3], int *mate)
 {
-  double price = same_pass_back(multigraph, a, b) ? THR_U_TURN_PRICE : 0;
-  if (multigraph->half[a] < 0 || multigraph->half[b] < 0) return price;
-  return price + thr_turn_angle(frame, multigraph->half[a] ^ 1, multigraph->half[b]);
+  double price[4][4];
+  price_pairs(frame, multigraph, dart, 4, price[0]);
+  total[0] = price[0][1] + price[2][3];
+  total[1] = price[0][2] + price[1][3];
+  total[2] = price[0][3] + price[1][2];
+  const int best = total[1] < total[0] ? (total[2] < total[1] ? 3 : 2) : (total[2] < total[0] ? 3 : 1), other = best == 1 ? 2 : 1;
+  thr_set_pair(mate, dart[0], dart[best]);
+  thr_set_pair(mate, dart[other], dart[6 - best - other]);
 }
 
 static thr_status pair_exactly(const thr_frame *frame, const thr_multigraph *multigraph, const int *dart, int n, int *mate,
                                thr_err *err)
 {
-  double price[EXACT_DARTS * EXACT_DARTS] = {0};
+  double price[EXACT_DARTS * EXACT_DARTS];
   int pair[EXACT_DARTS];
   for (int i = 0; i < n; i++)
-    for (int j = i + 1; j < n; j++)
-      price[i * n + j] = price[j * n + i] = thr_transition_price(frame, multigraph, dart[i], dart[j]);
+    price[i * n + i] = 0;
+  price_pairs(frame, multigraph, dart, n, price);
   thr_status st = thr_pairing_best(n, price, pair, err);
   for (int i = 0; i < n && !st; i++)
     mate[dart[i]] = dart[pair[i]];
@@ -45,8 +66,10 @@ static void pair_by_halves(const int *dart, int n, int *mate)
     thr_set_pair(mate, dart[i], dart[i + n / 2]);
 }
 
-thr_status thr_transition_pair(const thr_frame *frame, const thr_multigraph *multigraph, int *mate, thr_err *err)
+thr_status thr_transition_pair(const thr_frame *frame, const thr_multigraph *multigraph, int *mate, double (*four)[3],
+                               thr_err *err)
 {
+  double unused[3];
   thr_status st = THR_OK;
   for (int v = 0; v < multigraph->n_nodes && !st; v++) {
     const int *dart = multigraph->dart + multigraph->first[v];
@@ -54,6 +77,8 @@ thr_status thr_transition_pair(const thr_frame *frame, const thr_multigraph *mul
     if (n % 2) return thr_fail(err, THR_EINPUT, "node %s has an odd number (%d) of passes and ends", frame->name[v], n);
     if (n == 2)
       thr_set_pair(mate, dart[0], dart[1]);
+    else if (n == 4)
+      pair_four(frame, multigraph, dart, four ? four[v] : unused, mate);
     else if (n <= EXACT_DARTS)
       st = pair_exactly(frame, multigraph, dart, n, mate, err);
     else
@@ -93,18 +118,33 @@ static int by_extra(const void *pa, const void *pb)
   return (x->c > y->c) - (x->c < y->c);
 }
 
-static exchange best_exchange(const thr_frame *frame, const thr_multigraph *multigraph, const int *mate, int a, int c)
+static exchange cheaper_exchange(int a, int c, double old, double straight_total, double cross_total)
 {
-  int b = mate[a], d = mate[c];
-  double old = thr_transition_price(frame, multigraph, a, b) + thr_transition_price(frame, multigraph, c, d);
-  double straight = thr_transition_price(frame, multigraph, a, c) + thr_transition_price(frame, multigraph, b, d) - old;
-  double cross = thr_transition_price(frame, multigraph, a, d) + thr_transition_price(frame, multigraph, b, c) - old;
+  double straight = straight_total - old, cross = cross_total - old;
   return (exchange){straight <= cross ? straight : cross, a, c, cross < straight};
 }
 
+static exchange best_exchange(const thr_frame *frame, const thr_multigraph *multigraph, const int *mate, int a, int c)
+{
+  const int dart[] = {a, mate[a], c, mate[c]};
+  double price[4][4];
+  price_pairs(frame, multigraph, dart, 4, price[0]);
+  return cheaper_exchange(a, c, price[0][1] + price[2][3], price[0][2] + price[1][3], price[0][3] + price[1][2]);
+}
+
+/* The same at a node with four darts, the first of them a, from the prices of their pairings. */
+static exchange best_of_four(const int *dart, const double total[3], const int *mate, int c)
+{
+  double by_partner[3];
+  const int partner[] = {mate[dart[0]], c, mate[c]};
+  for (int i = 0; i < 3; i++)
+    by_partner[i] = total[partner[i] == dart[1] ? 0 : partner[i] == dart[2] ? 1 : 2];
+  return cheaper_exchange(dart[0], c, by_partner[0], by_partner[1], by_partner[2]);
+}
+
 /* Exchanges between different circuits at node v: all of them at a small node; at a large one each pair with the next. */
-static thr_status collect(const thr_frame *frame, const thr_multigraph *multigraph, const int *mate, const int *circuit, int v,
-                          exchanges *x, thr_err *err)
+static thr_status collect(const thr_frame *frame, const thr_multigraph *multigraph, const int *mate, const double (*four)[3],
+                          const int *circuit, int v, exchanges *x, thr_err *err)
 {
   int n = multigraph->first[v + 1] - multigraph->first[v];
   const int *dart = multigraph->dart + multigraph->first[v];
@@ -116,7 +156,8 @@ static thr_status collect(const thr_frame *frame, const thr_multigraph *multigra
       if (circuit[dart[i]] == circuit[dart[j]]) continue;
       thr_status st = thr_grow(&x->list, x->count, &x->capacity, sizeof *x->list, err);
       if (st) return st;
-      x->list[x->count++] = best_exchange(frame, multigraph, mate, dart[i], dart[j]);
+      x->list[x->count++] =
+          four && n == 4 ? best_of_four(dart, four[v], mate, dart[j]) : best_exchange(frame, multigraph, mate, dart[i], dart[j]);
     }
   }
   return THR_OK;
@@ -139,7 +180,8 @@ static int apply_cheapest(exchanges *x, int *mate, const int *circuit, int *pare
   return applied;
 }
 
-thr_status thr_transition_join(const thr_frame *frame, const thr_multigraph *multigraph, int *mate, thr_err *err)
+thr_status thr_transition_join(const thr_frame *frame, const thr_multigraph *multigraph, int *mate, const double (*four)[3],
+                               thr_err *err)
 {
   thr_status st = THR_OK;
   exchanges x = {0};
@@ -157,7 +199,7 @@ thr_status thr_transition_join(const thr_frame *frame, const thr_multigraph *mul
     for (int d = 0; d < multigraph->n_darts; d++)
       parent[d] = d;
     for (int v = 0; v < multigraph->n_nodes; v++)
-      if ((st = collect(frame, multigraph, mate, circuit, v, &x, err))) goto done;
+      if ((st = collect(frame, multigraph, mate, four, circuit, v, &x, err))) goto done;
   } while (apply_cheapest(&x, mate, circuit, parent, moved) > 0);
 done:
   free(x.list);

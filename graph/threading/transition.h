@@ -12,17 +12,20 @@
 /* Price of continuing from dart a to dart b at their node: the turning angle in rad (0 for a cord end), and
  * THR_U_TURN_PRICE more for a U-turn or for joining two cord ends, which would leave a cord without a pass. */
 #define THR_U_TURN_PRICE 1000.0
-double thr_transition_price(const thr_frame *frame, const thr_multigraph *multigraph, int a, int b);
 
 /* Pairs the darts at every node. Up to 12 darts: least total price, by dynamic programming over subsets, so a node has
  * a U-turn only where no pairing is without one. More darts: no U-turn where one can be avoided, price not minimized;
- * linear. Every degree must be even (THR_EINPUT otherwise). */
-thr_status thr_transition_pair(const thr_frame *frame, const thr_multigraph *multigraph, int *mate, thr_err *err) THR_MUST_CHECK;
+ * linear. Every degree must be even (THR_EINPUT otherwise). four[n_nodes], if it is not NULL, receives for thr_transition_join
+ * the prices of the three pairings at nodes with four darts, which most nodes of shells have. */
+thr_status thr_transition_pair(const thr_frame *frame, const thr_multigraph *multigraph, int *mate, double (*four)[3],
+                               thr_err *err) THR_MUST_CHECK;
 
 /* Exchanges pairs (a b)(c d) -> (a c)(b d) or (a d)(b c) at nodes where two circuits meet, cheapest first, until each
  * component of the multigraph is one circuit. Adds no U-turn where the pairs at hand have none:
- * if both new pairings had one, an old pair would have been one. O(p log p) a round for p pairs of pairs, few rounds. */
-thr_status thr_transition_join(const thr_frame *frame, const thr_multigraph *multigraph, int *mate, thr_err *err) THR_MUST_CHECK;
+ * if both new pairings had one, an old pair would have been one. O(p log p) a round for p pairs of pairs, few rounds. four: as
+ * thr_transition_pair left it, or NULL. */
+thr_status thr_transition_join(const thr_frame *frame, const thr_multigraph *multigraph, int *mate, const double (*four)[3],
+                               thr_err *err) THR_MUST_CHECK;
 
 /* Where two passes of one edge are in different sets of circuits, exchanges their partners at one node, which joins the sets: the
  * same turns, fewer circuits. circuit[n_darts], which parent's disjoint sets are of. Near-linear. */

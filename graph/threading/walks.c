@@ -133,13 +133,16 @@ thr_status thr_walks_trace(const thr_frame *frame, const int *passes, thr_walks 
 {
   thr_multigraph multigraph = {0};
   int *mate = NULL, (*pair)[2] = thr_calloc((size_t)frame->n_nodes / 2 + 1, sizeof *pair);
+  double(*four)[3] = NULL;
   *out = (thr_walks){0};
   if (!pair) return thr_nomem(err);
   thr_status st =
       thr_multigraph_init(&multigraph, frame, 0, passes, (const int(*)[2])pair, pair_odd_nodes(frame, passes, pair), err);
   if (!st && !(mate = thr_calloc((size_t)multigraph.n_darts, sizeof *mate))) st = thr_nomem(err);
-  if (!st) st = thr_transition_pair(frame, &multigraph, mate, err);
-  if (!st) st = thr_transition_join(frame, &multigraph, mate, err);
+  if (!st && !(four = thr_calloc((size_t)frame->n_nodes, sizeof *four))) st = thr_nomem(err);
+  if (!st) st = thr_transition_pair(frame, &multigraph, mate, four, err);
+  if (!st) st = thr_transition_join(frame, &multigraph, mate, (const double(*)[3])four, err);
+  free(four);
   if (!st) st = thr_walks_follow(out, frame, &multigraph, mate, err);
   if (st) thr_walks_destroy(out);
   thr_multigraph_destroy(&multigraph);

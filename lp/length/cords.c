@@ -76,6 +76,15 @@ static thr_status tell(const thr_decomposition *x, thr_err *err)
   return st;
 }
 
+/* That all edges have room for. */
+static double most_passes(const thr_decomposition *x)
+{
+  double sum = 0;
+  for (int e = 0; e < x->f->n_edges; e++)
+    sum += thr_plan_capacity(x->f, x->o, e); /* no limit: INT_MAX */
+  return sum;
+}
+
 /* So many closed cords as the shortest passes do not hold. */
 static thr_status make_more(thr_decomposition *x, int n, thr_err *err)
 {
@@ -85,7 +94,10 @@ static thr_status make_more(thr_decomposition *x, int n, thr_err *err)
   found = x->walks.n_walks >= n;
   if (!st && !found && !certain) st = thr_decomposition_more(x, n, &found, err);
   if (st || found) return st;
-  return thr_fail(err, THR_EINFEASIBLE, "the component with node %s cannot hold %d closed cords: the capacities leave no room",
+  if (certain || 2.0 * n > most_passes(x))
+    return thr_fail(err, THR_EINFEASIBLE, "the component with node %s cannot hold %d closed cords: the capacities leave no room",
+                    x->f->name[0], n);
+  return thr_fail(err, THR_ELIMIT, "the component with node %s: did not find %d closed cords; the capacities leave little room",
                   x->f->name[0], n);
 }
 
@@ -101,19 +113,11 @@ static thr_status make_closed(thr_decomposition *x, int n, bool even, int *scrat
   return st ? st : straighten(x, scratch, err);
 }
 
-/* Room for the ends of n cords; without it there are none. */
-static thr_status make_places(thr_decomposition *x, int n, const thr_certificate *certificate, thr_err *err)
-{
-  thr_err why = {0};
-  thr_status st = thr_decomposition_places(x, n, certificate, &why);
-  return st ? thr_fail(err, st == THR_ELIMIT ? THR_EINFEASIBLE : st, "%s", why.text) : THR_OK;
-}
-
 /* n walks through the passes. */
 static thr_status share_out(thr_decomposition *x, int n, const thr_certificate *certificate, bool even, double goal, thr_err *err)
 {
   int *passes = thr_calloc((size_t)x->f->n_edges, sizeof *passes);
-  thr_status st = passes ? make_places(x, n, certificate, err) : thr_nomem(err);
+  thr_status st = passes ? thr_decomposition_places(x, n, certificate, err) : thr_nomem(err);
   thr_walks_destroy(&x->walks);
   if (!st) st = thr_walks_trace(x->f, x->passes, &x->walks, err);
   if (!st) st = x->o->ends == THR_ENDS_CLOSED ? make_closed(x, n, even, passes, err) : thr_decomposition_cut(x, n, even, err);
@@ -211,67 +215,98 @@ thr_status thr_cords_grow(thr_decomposition *decomposition, double length, thr_c
   return st;
 }
 
-/* best: its certificate becomes the one that rules out the largest number of cords; length: of the shortest passes. */
+/* The shortest passes of as many cords as there are walks at last; few: the certificate of the largest number that is ruled out.
+ */
 typedef struct {
   thr_shortest *best;
-  double length;
+  thr_certificate few;
 } growing;
+
+static void swap_certificates(thr_certificate *a, thr_certificate *b)
+{
+  thr_certificate other = *a;
+  *a = *b;
+  *b = other;
+}
+
+/* Of at most n cords; *found false: full edges make more of them end. */
+static thr_status shortest_of(const thr_decomposition *x, int n, thr_shortest *shortest, bool *found, thr_err *err)
+{
+  thr_request options = *x->o;
+  thr_err why = {0};
+  options.cords = n;
+  thr_status st = thr_postman_shortest(x->f, &options, x->limits, shortest, &why);
+  *found = !st || st == THR_ELIMIT;
+  return *found || st == THR_EINFEASIBLE ? THR_OK : thr_fail(err, st, "%s", why.text);
+}
+
+/* The certificate of as many cords as were found. */
+static thr_status take_certificate(const thr_decomposition *x, growing *g, int n, thr_certificate *made, thr_err *err)
+{
+  thr_shortest other = {0};
+  bool found = false;
+  thr_status st = x->walks.n_walks == n ? THR_OK : shortest_of(x, x->walks.n_walks, &other, &found, err);
+  swap_certificates(&g->best->certificate[0], found ? &other.certificate[0] : made);
+  thr_shortest_destroy(&other);
+  return st;
+}
 
 /* Tries n cords. */
 static thr_status try_number(thr_decomposition *x, void *with, int n, bool *done, thr_err *err)
 {
   growing *g = with;
-  thr_request options = *x->o;
   thr_shortest shortest;
-  options.cords = n;
-  thr_err why = {0};
-  thr_status st = thr_postman_shortest(x->f, &options, x->limits, &shortest, &why);
-  if (st == THR_EINFEASIBLE) return THR_OK; /* full edges make more cords end than n: the largest number was found possible */
-  if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", why.text);
-  st = THR_OK;
-  g->length = length_of(x, shortest.passes);
-  if (g->length <= n * x->o->max_length * (1 + 1e-9)) {
+  bool found;
+  thr_status st = shortest_of(x, n, &shortest, &found, err);
+  if (st || !found) return st;
+  if (length_of(x, shortest.passes) <= n * x->o->max_length * (1 + 1e-9)) {
     memcpy(x->passes, shortest.passes, (size_t)x->f->n_edges * sizeof *x->passes);
     st = share_out(x, n, shortest.certificate, true, x->o->max_length, err);
     *done = !st && thr_decomposition_within(thr_walks_most(&x->walks), x->o->max_length);
+    if (*done) st = take_certificate(x, g, n, &shortest.certificate[0], err);
   } else {
-    thr_certificate swap = g->best->certificate[0];
-    g->best->certificate[0] = shortest.certificate[0];
-    shortest.certificate[0] = swap;
+    swap_certificates(&g->few, &shortest.certificate[0]);
   }
   thr_shortest_destroy(&shortest);
   return st;
 }
 
-static thr_status none_found(const thr_decomposition *x, double needed, thr_err *err)
+/* Whether there are no such cords is known of all together, and of few edges. */
+static thr_status none_found(const thr_decomposition *x, double least, thr_err *err)
 {
   const int most = x->o->cords;
-  const char *cords = most == 1 ? "cord" : "cords", *units = x->f->units;
-  double length = x->o->max_length, found = thr_walks_most(&x->walks);
-  if (x->walks.n_walks == 0)
+  const char *cords = most == 1 ? "cord" : "cords", *units = x->f->units, *up_to = x->o->cords_least == most ? "" : "up to ";
+  double limit = x->o->max_length;
+  if (least > most * limit * (1 + 1e-9))
     return thr_fail(err, THR_EINFEASIBLE, "the component with node %s needs %g %s of cord: %d %s of at most %g %s are too few",
-                    x->f->name[0], needed, units, most, cords, length, units);
-  return thr_fail(err, THR_EINFEASIBLE,
+                    x->f->name[0], least, units, most, cords, limit, units);
+  if (x->none)
+    return thr_fail(err, THR_EINFEASIBLE, "the component with node %s: of %s%d %s one is longer than %g %s (all were tried)",
+                    x->f->name[0], up_to, most, cords, limit, units);
+  if (x->walks.n_walks == 0)
+    return thr_fail(err, THR_ELIMIT, "the component with node %s: did not find %s%d %s with none longer than %g %s",
+                    x->f->name[0], up_to, most, cords, limit, units);
+  return thr_fail(err, THR_ELIMIT,
                   "the component with node %s: did not find %s%d %s with none longer than %g %s, but one of %g %s", x->f->name[0],
-                  x->o->cords_least == most ? "" : "up to ", most, cords, length, units, found, units);
+                  up_to, most, cords, limit, units, thr_walks_most(&x->walks), units);
 }
 
-/* best holds the shortest passes with most cords, which are the shortest of all. */
-static thr_status grow(thr_decomposition *x, thr_shortest *best, thr_err *err)
+/* g->best holds the shortest passes with most cords, which are the shortest of all. */
+static thr_status grow(thr_decomposition *x, growing *g, thr_err *err)
 {
-  growing g = {best, length_of(x, best->passes)};
+  const double least = g->best->lower_bound;
   bool done = false;
-  thr_status st = thr_cords_grow(x, g.length, try_number, &g, &done, err);
-  return !st && !done ? none_found(x, g.length, err) : st;
+  thr_status st = thr_cords_grow(x, length_of(x, g->best->passes), try_number, g, &done, err);
+  return !st && !done ? none_found(x, least, err) : st;
 }
 
 /* ---- the plan ---- */
 
-static thr_status make(thr_decomposition *x, thr_shortest *shortest, thr_err *err)
+static thr_status make(thr_decomposition *x, growing *g, thr_err *err)
 {
-  memcpy(x->passes, shortest->passes, (size_t)x->f->n_edges * sizeof *x->passes);
-  if (x->o->max_length > 0) return grow(x, shortest, err);
-  return share_out(x, choose_number(x), shortest->certificate, thr_wants_balance(x->o), 0, err);
+  memcpy(x->passes, g->best->passes, (size_t)x->f->n_edges * sizeof *x->passes);
+  if (x->o->max_length > 0) return grow(x, g, err);
+  return share_out(x, choose_number(x), g->best->certificate, thr_wants_balance(x->o), 0, err);
 }
 
 thr_status thr_cords_judge(const thr_plan *plan, const thr_err *unproved, thr_err *err)
@@ -289,39 +324,63 @@ thr_status thr_cords_judge(const thr_plan *plan, const thr_err *unproved, thr_er
                   100 * plan->proof.gap);
 }
 
-/* Where the cords need more passes than a join has, what proves more of that. */
-static thr_status prove_places(const thr_decomposition *x, thr_plan *plan, thr_err *err)
+static thr_status judge_length(thr_plan *plan, thr_err *err)
 {
-  const thr_frame *frame = &plan->frame;
   thr_length_proof *proof = &plan->proof;
   thr_err found = {0};
-  if (proof->optimal) return THR_OK;
-  thr_status st = thr_decomposition_prices(x, &proof->certificate[0], err);
-  if (st) return st;
-  proof->unconfirmed += proof->certificate[0].n_prices > 0; /* GLPK was asked about other passes */
-  st = thr_check_length_proof(frame, &plan->options, plan->cord, plan->n_cords, proof->certificate, proof->n_certificates,
-                              &proof->optimal, &proof->lower_bound, &found);
+  thr_status st = thr_check_length_proof(&plan->frame, &plan->options, plan->cord, plan->n_cords, proof->certificate,
+                                         proof->n_certificates, &proof->optimal, &proof->lower_bound, &found);
   proof->gap = (plan->metrics.length - proof->lower_bound) / plan->metrics.length;
   return thr_check_own(st, &found, err);
 }
 
-static thr_status prove(const thr_decomposition *x, thr_plan *plan, thr_shortest *shortest, thr_err *err)
+/* Where the cords need more passes than a join has, what proves more of that. */
+static thr_status prove_places(const thr_decomposition *x, thr_plan *plan, thr_err *err)
+{
+  const int cords = x->o->max_length > 0 ? plan->n_cords : x->o->cords;
+  thr_length_proof *proof = &plan->proof;
+  if (proof->optimal) return THR_OK;
+  thr_status st = thr_decomposition_prices(x, cords, &proof->certificate[0], err);
+  if (st) return st;
+  proof->unconfirmed += proof->certificate[0].n_prices > 0; /* GLPK was asked about other passes */
+  return judge_length(plan, err);
+}
+
+/* Where the certificate of as many cords as there are does not rule out fewer, the one that does. */
+static thr_status prove_number(thr_plan *plan, thr_certificate *few, thr_err *err)
+{
+  thr_length_proof *proof = &plan->proof;
+  thr_cords_claim claim;
+  if (!plan->cords_claim.fewest || plan->cords_claim.fewest_optimal || few->scale == 0) return THR_OK;
+  few->join = proof->certificate[0].join;
+  swap_certificates(&proof->certificate[0], few);
+  thr_status st = thr_check_cords(&plan->frame, &plan->options, plan->cord, plan->n_cords, proof->certificate,
+                                  proof->n_certificates, &claim, err);
+  if (!st && claim.fewest > plan->cords_claim.fewest)
+    plan->cords_claim = claim;
+  else
+    swap_certificates(&proof->certificate[0], few);
+  return st ? st : judge_length(plan, err);
+}
+
+static thr_status prove(const thr_decomposition *x, thr_plan *plan, growing *g, thr_err *err)
 {
   const thr_frame *frame = &plan->frame;
   const thr_request *options = &plan->options;
   thr_status st = thr_plan_measure(frame, options, plan->cord, plan->n_cords, &plan->metrics, err);
-  if (!st) st = thr_postman_prove(frame, options, plan->cord, plan->n_cords, shortest, &plan->proof, err);
+  if (!st) st = thr_postman_prove(frame, options, plan->cord, plan->n_cords, g->best, &plan->proof, err);
   if (!st) st = prove_places(x, plan, err);
   if (!st)
     st = thr_check_cords(frame, options, plan->cord, plan->n_cords, plan->proof.certificate, plan->proof.n_certificates,
                          &plan->cords_claim, err);
-  return st;
+  return st ? st : prove_number(plan, &g->few, err);
 }
 
 thr_status thr_cords_plan(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
                           thr_cords_word *word, thr_err *err)
 {
   thr_shortest shortest = {0};
+  growing g = {.best = &shortest};
   thr_err why = {0};
   thr_decomposition x = {0};
   *plan = (thr_plan){0};
@@ -332,15 +391,16 @@ thr_status thr_cords_plan(const thr_frame *frame, const thr_request *options, co
   if (proved && proved != THR_ELIMIT) return thr_fail(err, proved, "%s", why.text);
   thr_status st = thr_plan_request(plan, frame, options, err);
   if (!st) st = thr_decomposition_init(&x, &plan->frame, &plan->options, limits, err);
-  if (!st) st = make(&x, &shortest, err);
+  if (!st) st = make(&x, &g, err);
   if (!st) st = thr_walks_cords(&x.walks, &plan->frame, &plan->options, &plan->cord, &plan->n_cords, err);
-  if (!st) st = prove(&x, plan, &shortest, err);
+  if (!st) st = prove(&x, plan, &g, err);
   if (word) *word = (thr_cords_word){x.least, x.certain && thr_wants_balance(options)};
   if (st)
     thr_plan_destroy(plan);
   else
     st = thr_cords_judge(plan, &why, err);
   thr_decomposition_destroy(&x);
+  thr_certificate_destroy(&g.few);
   thr_shortest_destroy(&shortest);
   return st;
 }

@@ -24,7 +24,7 @@ typedef struct {
  * - balance: the longest cord is made as short as the search finds, extra passes included;
  * - max_length: the fewest cords none of which is longer, as far as the search finds them.
  * word may be NULL. THR_OK: what was asked to be least is proved to be. THR_ELIMIT: the plan is valid and says its bounds.
- * THR_EINFEASIBLE: there is none, or none was found: the text says which, and why. Otherwise the plan is empty. */
+ * An empty plan, too: none was found. THR_EINFEASIBLE: there is none (says why). Otherwise the plan is empty. */
 thr_status thr_cords_plan(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
                           thr_cords_word *word, thr_err *err) THR_MUST_CHECK;
 

@@ -217,6 +217,7 @@ static thr_status make_exact(thr_decomposition *decomposition, double goal, thr_
   decomposition->asked = goal > 0;
   thr_status st = thr_decomposition_table(decomposition, &ask, &certain, err);
   decomposition->certain &= certain;
+  decomposition->none = goal > 0 && certain && !thr_decomposition_within(thr_walks_most(&decomposition->walks), goal);
   return st;
 }
 

@@ -26,6 +26,7 @@ typedef struct {
   bool least;      /* the passes are the shortest that hold the cords */
   bool certain;    /* the longest cord is as short as can be: the solver's word */
   bool asked;      /* options.max_length: the table was, for any number of cords */
+  bool none;       /* and there are none */
 } thr_decomposition;
 
 /* No walks yet, and no passes. On failure it is to be destroyed too. */

@@ -464,7 +464,7 @@ static thr_status search_each(pricing *p, thr_err *err)
   return st;
 }
 
-thr_status thr_decomposition_prices(const thr_decomposition *decomposition, thr_certificate *certificate, thr_err *err)
+thr_status thr_decomposition_prices(const thr_decomposition *decomposition, int cords, thr_certificate *certificate, thr_err *err)
 {
   thr_limits quiet = *decomposition->limits; /* a bound at a price is not one on the weight */
   quiet.progress = NULL;
@@ -473,7 +473,7 @@ thr_status thr_decomposition_prices(const thr_decomposition *decomposition, thr_
                .closed = decomposition->o->ends == THR_ENDS_CLOSED,
                .counts = decomposition->o->ends == THR_ENDS_COUNTS,
                .c = certificate};
-  p.bound = (thr_wide)certificate->sum - 2 * (thr_wide)decomposition->o->cords * certificate->end_price;
+  p.bound = (thr_wide)certificate->sum - 2 * (thr_wide)cords * certificate->end_price;
   if (proved(&p) || thr_limits_stop(decomposition->limits)) return THR_OK;
   thr_status st = pricing_init(&p, err);
   if (!st && p.n_edges <= MOST_EDGES) st = p.counts ? search_each(&p, err) : search(&p, err);

@@ -11,12 +11,12 @@
 #include "graph/status.h"
 #include "lp/length/decomposition.h"
 
-/* Where certificate, found without prices, proves less than these passes need, looks for prices
+/* Where certificate, found without prices, proves less than these passes need for so many cords, looks for prices
  * that prove more: the bound is a concave function of the price, found between prices of too few and of too many places, each by
  * a minimum T-join. With ends free that closes the gap (places are one degree constraint; Edmonds & Johnson 1973); with closed
  * cords it need not. certificate then has the best found. What the limits stop, or is too large, leaves certificate as it is or
  * better. About 10 T-joins. */
-thr_status thr_decomposition_prices(const thr_decomposition *decomposition, thr_certificate *certificate,
+thr_status thr_decomposition_prices(const thr_decomposition *decomposition, int cords, thr_certificate *certificate,
                                     thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -8,6 +8,7 @@
 
 #include <assert.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -460,10 +461,12 @@ thr_status thr_postman_shortest(const thr_frame *frame, const thr_request *optio
   }
   if (!st) st = thr_confirmations_run(counter(&m), limits, err);
   if (!st) st = judge(&m, out, err);
-  if (!st && !out->optimal)
-    st = thr_fail(err, THR_ELIMIT, "%s: the cord is proved to be within %.3g %% of the shortest",
-                  unproved.code ? unproved.text : "too many edges to round their lengths finely enough",
-                  100 * (out->length - out->lower_bound) / out->length);
+  if (!st && !out->optimal) {
+    char what[sizeof unproved.text + 20];
+    snprintf(what, sizeof what, "%s: the cord's length",
+             unproved.code ? unproved.text : "too many edges to round their lengths finely enough");
+    st = thr_not_proved(err, what, out->length, out->lower_bound);
+  }
   if (st && st != THR_ELIMIT) thr_shortest_destroy(out);
   postman_destroy(&m);
   return st;

@@ -12,7 +12,7 @@ thr_status thr_tree_init(thr_tree *t, int n_columns, const int *least, const int
   *t = (thr_tree){.n_columns = n_columns, .enough = INFINITY, .most_nodes = INT_MAX};
   thr_status st = thr_grow(&t->node, 0, &t->capacity, sizeof *t->node, err);
   if (!st) st = thr_grow(&t->open, 0, &t->open_capacity, sizeof *t->open, err);
-  if (!st && !(t->least = thr_calloc(4 * n, sizeof *t->least))) st = thr_nomem(err);
+  if (!st && !(t->least = thr_calloc(6 * n, sizeof *t->least))) st = thr_nomem(err);
   if (st) {
     thr_tree_destroy(t);
     return st;
@@ -20,6 +20,8 @@ thr_status thr_tree_init(thr_tree *t, int n_columns, const int *least, const int
   t->most = t->least + n;
   t->here.low = t->most + n;
   t->here.high = t->here.low + n;
+  t->here.next[0] = t->here.high + n;
+  t->here.next[1] = t->here.next[0] + n;
   for (size_t j = 0; j < n; j++) {
     t->least[j] = t->here.low[j] = least ? least[j] : 0;
     t->most[j] = t->here.high[j] = most[j];
@@ -31,6 +33,8 @@ thr_status thr_tree_init(thr_tree *t, int n_columns, const int *least, const int
 
 void thr_tree_destroy(thr_tree *t)
 {
+  for (int i = 0; i < t->n_nodes; i++)
+    free(t->node[i].also);
   free(t->least);
   free(t->node);
   free(t->open);
@@ -104,38 +108,58 @@ int thr_tree_undecided(const double *x, int first, int end, double tolerance, co
 
 /* ---- bounds on columns ---- */
 
-/* What the decisions of a node leave of a column. */
-static void bounds_at(const thr_tree *t, int node, int column, int *low, int *high)
+/* Number i of the columns that a node decides on, 0 .. n_also. */
+static int decided(const thr_tree_node *node, int i)
 {
-  *low = t->least[column];
-  *high = t->most[column];
+  return i == 0 ? node->column : node->also[i - 1];
+}
+
+/* What the root leaves of the columns that are decided on the way from a node to it. */
+static void widen(const thr_tree *t, thr_tree_place *place, int node)
+{
+  for (int k = node; k > 0; k = t->node[k].parent)
+    for (int i = 0; i <= t->node[k].n_also; i++) {
+      int j = decided(&t->node[k], i);
+      place->next[0][j] = t->least[j];
+      place->next[1][j] = t->most[j];
+    }
+}
+
+/* What the decisions of a node leave of them. */
+static void narrow(const thr_tree *t, thr_tree_place *place, int node)
+{
   for (int k = node; k > 0; k = t->node[k].parent) {
     const thr_tree_node *n = &t->node[k];
-    if (n->column != column) continue;
-    if (n->high && n->value + 1 > *low) *low = n->value + 1;
-    if (!n->high && n->value < *high) *high = n->value;
+    for (int i = 0; i <= n->n_also; i++) {
+      int j = decided(n, i);
+      if (n->high && n->value + 1 > place->next[0][j]) place->next[0][j] = n->value + 1;
+      if (!n->high && n->value < place->next[1][j]) place->next[1][j] = n->value;
+    }
   }
 }
 
-/* Puts the bounds of node `to` in force on the columns that are decided on the way from `from` to the root. */
-static thr_status set_along(const thr_tree *t, const thr_tree_calls *calls, thr_tree_place *place, int from, int to, thr_err *err)
+/* Puts those bounds in force. */
+static thr_status set_along(const thr_tree *t, const thr_tree_calls *calls, thr_tree_place *place, int node, thr_err *err)
 {
   thr_status st = THR_OK;
-  for (int k = from, low, high; k > 0 && !st; k = t->node[k].parent) {
-    int j = t->node[k].column;
-    bounds_at(t, to, j, &low, &high);
-    if (low == place->low[j] && high == place->high[j]) continue;
-    place->low[j] = low;
-    place->high[j] = high;
-    st = calls->set(calls->user, j, low, high, err);
-  }
+  for (int k = node; k > 0 && !st; k = t->node[k].parent)
+    for (int i = 0; i <= t->node[k].n_also && !st; i++) {
+      int j = decided(&t->node[k], i), low = place->next[0][j], high = place->next[1][j];
+      if (low == place->low[j] && high == place->high[j]) continue;
+      place->low[j] = low;
+      place->high[j] = high;
+      st = calls->set(calls->user, j, low, high, err);
+    }
   return st;
 }
 
 thr_status thr_tree_enter_at(const thr_tree *t, const thr_tree_calls *calls, thr_tree_place *place, int node, thr_err *err)
 {
-  thr_status st = set_along(t, calls, place, place->at, node, err);
-  if (!st) st = set_along(t, calls, place, node, node, err);
+  widen(t, place, place->at);
+  widen(t, place, node);
+  narrow(t, place, node);
+  thr_status st = set_along(t, calls, place, place->at, err);
+  if (!st) st = set_along(t, calls, place, node, err);
   place->at = node;
   return st;
 }
@@ -166,6 +190,11 @@ static thr_status split(thr_tree *t, int node, thr_tree_branch branch, thr_err *
                              .bound = parent->bound,
                              .proof = parent->proof};
     parent->child[side] = t->n_nodes++;
+    if (side == 0 && branch.n_also > 0) {
+      if (!(child->also = thr_calloc((size_t)branch.n_also, sizeof *child->also))) return thr_nomem(err);
+      memcpy(child->also, branch.also, (size_t)branch.n_also * sizeof *child->also);
+      child->n_also = branch.n_also;
+    }
     if ((st = push(t, parent->child[side], err))) return st;
   }
   return THR_OK;

@@ -6,6 +6,9 @@
  * what the best solution known is worth is closed: nothing below it is looked at. So  least open bound <= optimum <= best known,
  * and when all are closed the best known is the optimum.
  *
+ * Solutions may have images of the same worth. Where the image of a decision is as good as that, one side decides for all images
+ * at once (orbital branching: Ostrowski, Linderoth, Rossi & Smriglio, Math. Programming 126, 2011).
+ *
  * The node of least bound comes first; of equal ones the deepest, then the youngest, then the side that was preferred. Several
  * may be solved at once, each in a place of its own, so that they can be given to threads: how many depends on the tree alone.
  *   thr_tree_init(&tree, n, least, most, &err);
@@ -22,6 +25,7 @@ enum { THR_TREE_ANY = INT32_MAX }; /* a column that has no upper bound */
 typedef struct {
   int parent, depth; /* the root: -1, 0 */
   int column, value; /* what it decides: column <= value, or >= value + 1 if high */
+  int n_also, *also; /* if not high: other columns that are <= value as well; owned */
   bool high, first;  /* first: it is preferred to the other child */
   int child[2];      /* that with the lower values, the other one; 0 = none */
   double bound;      /* no solution here is worth less; at first its parent's */
@@ -32,11 +36,14 @@ typedef struct {
 typedef struct {
   int column, value; /* children: <= value, >= value + 1; column -1: no children */
   bool high;         /* the latter is preferred */
+  int n_also;        /* of other columns that the first child has <= value, since where one of them is more there is a solution */
+  const int *also;   /* worth the same with this column more; borrowed until the node is split */
 } thr_tree_branch;
 
 /* Where nodes are solved, one after the other. */
 typedef struct {
   int *low, *high; /* [n_columns] bounds in force; owned */
+  int *next[2];    /* [n_columns] scratch: the same of the node to be entered; owned */
   int at;          /* at this node */
 } thr_tree_place;
 

@@ -57,11 +57,12 @@ static void find_manners(const thr_programme *p, const int *component, int count
 
 /* ---- learned steps ---- */
 
-/* Of edge orbits in components that are not plain: passes that any threading has to learn, each orbit once or, if an element
- * turns its edges round, by half; and what the cover has there. */
-static void count_steps(const thr_quotient *quotient, const thr_cover *cover, const int *component, const manner *m, bool plain,
+/* Of edge orbits in components that are not plain: what any threading has to learn, each orbit once or, if an element turns its
+ * edges round, by half, with the ends of a cord that has but this edge; and what the cover has there. */
+static void count_steps(const thr_programme *p, const thr_cover *cover, const int *component, const manner *m, bool plain,
                         double *fewest, double *has)
 {
+  const thr_quotient *quotient = p->q;
   const thr_frame *frame = quotient->f;
   *fewest = *has = 0;
   for (int e = 0, orbit = 0; e < frame->n_edges; e++) {
@@ -71,11 +72,15 @@ static void count_steps(const thr_quotient *quotient, const thr_cover *cover, co
     bool reversed = false;
     for (int i = 0; i < quotient->h->order && !reversed; i++)
       reversed = quotient->half_image[2 * ((size_t)i * (size_t)frame->n_edges + (size_t)e)] == 2 * e + 1;
-    *fewest += reversed ? 0.5 : 1;
+    const bool alone = m[component[frame->edge[e][0]]] == ALONG;
+    *fewest += (reversed ? 0.5 : 1) * (1 + (alone ? 2 * thr_cover_steps_of_end(p->o) : 0));
   }
   for (int k = 0; k < quotient->n_copies; k++)
     if (plain || m[component[frame->edge[quotient->copy[k].edge][0]]] != PLAIN)
-      *has += cover->copies[k] * (quotient->copy[k].fold ? 0.5 : 1);
+      *has += cover->copies[k] * p->cost[THR_AIM_STEPS][k];
+  for (int d = 0; d < quotient->n_darts; d++)
+    if (plain || m[component[frame->edge[quotient->dart[d].half >> 1][0]]] != PLAIN)
+      *has += cover->ends[d] * p->cost[THR_AIM_STEPS][p->first_end + d];
 }
 
 /* Are the aims before steps, and steps, as low as can be? Then so they are in each component and its images. */
@@ -93,19 +98,21 @@ static bool steps_proved(const thr_programme *p, const thr_cover *cover)
 static double bound_steps(const thr_programme *p, const thr_cover *cover, const int *component, const manner *m, bool repeats)
 {
   double all, fewest, has, known;
-  count_steps(p->q, cover, component, m, true, &all, &known);
-  count_steps(p->q, cover, component, m, false, &fewest, &has);
+  count_steps(p, cover, component, m, true, &all, &known);
+  count_steps(p, cover, component, m, false, &fewest, &has);
   if (loosened(p, THR_AIM_STEPS, repeats) || (repeats && !steps_proved(p, cover))) return all;
   return fmax(all, (repeats ? cover->value : cover->bound)[THR_AIM_STEPS] - has + fewest);
 }
 
 /* ---- turning ---- */
 
-/* The most that a plan leaves out of an orbit of closed cords, beyond what ends at all images of one of their turns would save,
- * which make no path more. Cords without folds: nothing, but that in a warped framework images turn differently. With two folds:
- * one turn of every cord, and the cords are no more than half the turns of an orbit, or than the turns of a fold. */
+/* The most that a plan leaves out of an orbit of closed cords: one turn of every cord. Cords without folds are no more than the
+ * turns of an orbit, those with two folds no more than half of them, or than the turns of a fold. Unless steps count before
+ * turning, what ends at all images of a turn of cords without folds would save is in the programme's bound, for they make no
+ * path more: then only what turns more in a warped framework than its images is left out. */
 static double most_left_out(const thr_programme *p)
 {
+  const bool ends_count = comes_before(p->o, THR_AIM_STEPS, THR_AIM_TURNING);
   const thr_quotient *quotient = p->q;
   double plain = 0, folded = 0;
   bool folds = false;
@@ -120,19 +127,38 @@ static double most_left_out(const thr_programme *p)
       const int *to = &quotient->half_image[(size_t)i * 2 * (size_t)quotient->f->n_edges];
       sharpest = fmax(sharpest, thr_turn_angle(quotient->f, to[type->half[0]] ^ 1, to[type->half[1]]));
     }
-    if (!type->self) plain = fmax(plain, type->turns * (sharpest - type->angle));
+    if (!type->self) plain = fmax(plain, type->turns * (sharpest - (ends_count ? 0 : type->angle)));
     folded = fmax(folded, (type->self ? 1 : 0.5) * type->turns * sharpest);
   }
   return folds ? fmax(plain, folded) : plain;
 }
 
-/* Orbits of closed cords that a cover has at most: as many as paths, or as its copies could make. */
+/* Orbits of ends of any cover with no more overlap than this one: the steps that are none of its copies'. */
+static double fewest_ends(const thr_programme *p, const thr_cover *cover)
+{
+  const thr_quotient *quotient = p->q;
+  double steps = 0, beyond = 0; /* the most of the passes that are needed; of a unit of overlap */
+  for (int k = 0, end; k < quotient->n_copies; k = end) {
+    const int orbit = quotient->copy[k].edge_orbit;
+    double pass = 0;
+    for (end = k; end < quotient->n_copies && quotient->copy[end].edge == quotient->copy[k].edge; end++)
+      if (p->most[end] != 0) pass = fmax(pass, p->cost[THR_AIM_STEPS][end] / quotient->copy[end].passes);
+    steps += p->cover[orbit] * pass;
+    beyond = fmax(beyond, pass / quotient->orbit_length[orbit]);
+  }
+  return fmax(0, ceil(cover->bound[THR_AIM_STEPS] - steps - cover->value[THR_AIM_OVERLAP] * beyond - 1e-4));
+}
+
+/* Orbits of closed cords that a cover has at most: as many as paths that need no ends, or as its copies could make. */
 static double most_closed(const thr_programme *p, const thr_cover *cover, bool paths_known)
 {
-  double copies = 0;
+  double copies = 0, ends = 0;
   for (int k = 0; k < p->first_pair; k++)
     copies += p->most[k];
-  return paths_known ? fmin(copies, cover->value[THR_AIM_PATHS]) : copies;
+  if (!paths_known) return copies;
+  if (comes_before(p->o, THR_AIM_OVERLAP, THR_AIM_STEPS) && comes_before(p->o, THR_AIM_STEPS, THR_AIM_TURNING))
+    ends = fewest_ends(p, cover);
+  return fmax(0, fmin(copies, cover->value[THR_AIM_PATHS] - ceil(ends / 2)));
 }
 
 static thr_status bound_turning(const thr_programme *p, const thr_cover *cover, bool repeats, double *bound, thr_err *err)

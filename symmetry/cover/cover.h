@@ -54,9 +54,9 @@ thr_status thr_cover_improve(const thr_quotient *quotient, const thr_cover_optio
 thr_status thr_cover_cords(const thr_quotient *quotient, const thr_cover_options *options, const thr_cover *c, thr_cord **cord,
                            int *n_cords, thr_symmetry_record *record, thr_err *err) THR_MUST_CHECK;
 
-/* The record of any cords: symmetric under the identity alone. all_open: as thr_cover_all_open. O(cords^2 * passes^2) at worst.
- */
-thr_status thr_cords_alone(const thr_frame *frame, bool all_open, const thr_cord *cord, int n_cords, thr_symmetry_record *record,
-                           thr_err *err) THR_MUST_CHECK;
+/* The record of any cords: symmetric under the identity alone. options: where ends may be, and the joints. O(cords^2 * passes^2)
+ * at worst. */
+thr_status thr_cords_alone(const thr_frame *frame, const thr_cover_options *options, const thr_cord *cord, int n_cords,
+                           thr_symmetry_record *record, thr_err *err) THR_MUST_CHECK;
 
 #endif

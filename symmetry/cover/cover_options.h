@@ -13,6 +13,7 @@ typedef struct {
   thr_aim prefer[THR_N_AIMS]; /* what is minimized first, second, .. */
   const int *edge_cover;      /* [n_edges] instead of cover; NULL = all alike; borrowed */
   const int *edge_capacity;   /* [n_edges] passes that an edge may have at most, INT_MAX = any number; NULL = any; borrowed */
+  int most_ends;              /* of cords, in all; 0 = any number */
   bool tube;                  /* tube joints: the turns tie the edges at every node (graph/plan/junction.h), none goes back */
   double start_by;            /* thr_clock() until when a first cover is looked for, even after the limits' deadline */
   bool quick;                 /* overlap and steps only, as far as they come before turning: the rest is as it comes */
@@ -24,6 +25,13 @@ typedef struct {
 static inline bool thr_cover_all_open(const thr_cover_options *options)
 {
   return options->ends == THR_ENDS_FEET || options->ends == THR_ENDS_NODES || (options->ends == THR_ENDS_ANY && options->tube);
+}
+
+/* Where ends may be anywhere, it is to be learned of each where it comes out: a step like a pass. Feet, and nodes that are named,
+ * show it by themselves. */
+static inline int thr_cover_steps_of_end(const thr_cover_options *options)
+{
+  return options->ends == THR_ENDS_ANY;
 }
 
 #endif

@@ -96,6 +96,7 @@ static void fill_darts(thr_programme *p)
     p->most[z] = !p->open;
     p->join[t][0] = p->join[z][0] = p->join[z][1] = d;
     p->join[t][1] = quotient->n_darts;
+    p->cost[THR_AIM_STEPS][t] = thr_cover_steps_of_end(p->o);
     p->cost[THR_AIM_PATHS][t] = 0.5;
     p->cost[THR_AIM_PATHS][z] = 1;
   }
@@ -307,6 +308,15 @@ static bool fits_capacity(const thr_programme *p, const int *value)
   return fits;
 }
 
+/* Are there no more ends of cords than asked for? */
+static bool fits_ends(const thr_programme *p, const int *value)
+{
+  long ends = 0;
+  for (int d = 0; d < p->q->n_darts; d++)
+    ends += (long)value[p->first_end + d] * p->q->dart[d].darts;
+  return p->o->most_ends == 0 || ends <= p->o->most_ends;
+}
+
 /* Clears *valid if not every node is tied. */
 static thr_status all_tied(const thr_programme *p, const int *value, bool *valid, thr_err *err)
 {
@@ -330,7 +340,7 @@ thr_status thr_programme_value(const thr_programme *p, const int *value, double 
     for (int j = 0; j < p->first_circle; j++)
       worth[a] += p->cost[a][j] * value[j];
   }
-  *valid = fits_capacity(p, value);
+  *valid = fits_capacity(p, value) && fits_ends(p, value);
   if (!st && p->ties) st = all_tied(p, value, valid, err);
   if (!st) {
     thr_programme_parts_find(&programme_parts, p, value);

@@ -96,6 +96,15 @@ static thr_status add_cover_rows(thr_relaxation *relaxation, thr_err *err)
   return st;
 }
 
+static thr_status add_ends_row(thr_relaxation *relaxation, thr_err *err)
+{
+  const thr_programme *p = relaxation->p;
+  if (p->o->most_ends == 0) return THR_OK;
+  for (int d = 0; d < p->q->n_darts; d++)
+    thr_pool_put(&relaxation->search.pool, p->first_end + d, -p->q->dart[d].darts);
+  return thr_relaxation_add_row(relaxation, -p->o->most_ends, err);
+}
+
 /* ---- odd sets ---- */
 
 /* First of the copy types of one edge orbit. */
@@ -366,6 +375,7 @@ thr_status thr_relaxation_init(thr_relaxation *relaxation, const thr_programme *
   relaxation->search.n_fixed = p->q->n_darts;
   if (!st) st = create_equations(relaxation, err);
   if (!st) st = add_cover_rows(relaxation, err);
+  if (!st) st = add_ends_row(relaxation, err);
   if (!st && p->ties) st = thr_relaxation_tie_first(relaxation, err);
   if (!st) st = init_graph(relaxation, err);
   if (!st) st = add_first_sets(relaxation, limits, err);

@@ -9,6 +9,7 @@
 #include "symmetry/group/quotient.h"
 #include "symmetry/lift/keep.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -70,6 +71,8 @@ static thr_status solver_init(solver *s, const thr_frame *frame, const thr_reque
     s->base += s->edge_cover[e] * frame->length[e];
     s->passes += s->edge_cover[e];
   }
+  const long most_ends = 2L * options->cords * n;
+  if (options->symmetry.counted && options->ends != THR_ENDS_CLOSED && most_ends <= INT_MAX) s->how.most_ends = (int)most_ends;
   s->how.edge_cover = s->edge_cover;
   s->how.edge_capacity = s->edge_capacity;
   return THR_OK;

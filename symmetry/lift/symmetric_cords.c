@@ -23,6 +23,7 @@ typedef struct {
   thr_strands s;
   const thr_frame *f;
   bool open;            /* every cord is open: where a cord ends matters (thr_cover_all_open) */
+  int end_steps;        /* of every end (thr_cover_steps_of_end) */
   const int *component; /* [n_nodes] */
   bool *walked;         /* [darts] of the cords so far */
   int *walk, *scratch;  /* [darts] the leaving darts of the cord at hand */
@@ -78,8 +79,8 @@ static bool fixes(const tracer *t, const traced *a, int x)
   return true;
 }
 
-/* What has to be learned of a unique path: its passes over the number of ways in which H maps it to itself. Elements that fix all
- * its nodes do so in the same ways. */
+/* What has to be learned of a unique path: its passes and, unless it runs round, the steps of its two ends, over the number of
+ * ways in which H maps it to itself. Elements that fix all its nodes do so in the same ways. */
 static double steps_of(const tracer *t, const traced *a)
 {
   const thr_subgroup *subgroup = t->s.q->h;
@@ -88,7 +89,7 @@ static double steps_of(const tracer *t, const traced *a)
     mapped += ways(t, a, subgroup->element[i], a, 2 * a->n_passes);
     fixed += fixes(t, a, subgroup->element[i]);
   }
-  return (double)a->n_passes * fixed / mapped;
+  return (double)(a->n_passes + (a->round ? 0 : 2 * t->end_steps)) * fixed / mapped;
 }
 
 /* ---- tracing ---- */
@@ -115,6 +116,13 @@ static void start_sharpest(tracer *t, int n)
     t->walk[i] = t->scratch[(best + i) % n];
 }
 
+/* Does it not matter where the cord starts? Not where ends may be anywhere and it leaves its first node over the edge over which
+ * it comes back: it would turn back there. */
+static bool runs_round(const tracer *t, const traced *c)
+{
+  return c->closed && !t->open && (t->end_steps == 0 || c->half[0] >> 1 != c->half[c->n_passes - 1] >> 1);
+}
+
 /* Appends the image under x of the walk of n darts. */
 static thr_status add_cord(tracer *t, const int *walk, int n, int x, thr_err *err)
 {
@@ -128,7 +136,7 @@ static thr_status add_cord(tracer *t, const int *walk, int n, int x, thr_err *er
     c.half[i] = thr_strands_half(&t->s, d);
   }
   c.closed = thr_tail(t->f, c.half[0]) == thr_head(t->f, c.half[n - 1]);
-  c.round = c.closed && !t->open;
+  c.round = runs_round(t, &c);
   c.component = t->component[thr_tail(t->f, c.half[0])];
   t->cord[t->n_cords++] = c;
   return THR_OK;
@@ -171,7 +179,7 @@ static thr_status add_given(tracer *t, const thr_cord *cord, thr_err *err)
   if (!c.half) return thr_nomem(err);
   memcpy(c.half, cord->half, (size_t)cord->n_passes * sizeof *c.half);
   c.closed = cord->closed;
-  c.round = c.closed && !t->open;
+  c.round = runs_round(t, &c);
   t->cord[t->n_cords++] = c;
   return classify_last(t, err);
 }
@@ -244,7 +252,10 @@ static void tracer_destroy(tracer *t)
 static thr_status tracer_init(tracer *t, const thr_quotient *quotient, const thr_cover_options *options, const thr_cover *cover,
                               const int *component, thr_err *err)
 {
-  *t = (tracer){.f = quotient->f, .open = thr_cover_all_open(options), .component = component};
+  *t = (tracer){.f = quotient->f,
+                .open = thr_cover_all_open(options),
+                .end_steps = thr_cover_steps_of_end(options),
+                .component = component};
   thr_status st = thr_strands_init(&t->s, quotient, cover, t->open, component, options->most_closed, err);
   if (st) return st;
   size_t n = (size_t)t->s.n_darts;
@@ -357,14 +368,18 @@ thr_status thr_cover_cords(const thr_quotient *quotient, const thr_cover_options
   return st;
 }
 
-thr_status thr_cords_alone(const thr_frame *frame, bool all_open, const thr_cord *cord, int n_cords, thr_symmetry_record *record,
-                           thr_err *err)
+thr_status thr_cords_alone(const thr_frame *frame, const thr_cover_options *options, const thr_cord *cord, int n_cords,
+                           thr_symmetry_record *record, thr_err *err)
 {
   int identity = 0;
   const thr_subgroup alone = {1, &identity};
   thr_group group = {0};
   thr_quotient quotient = {.f = frame, .group = &group, .h = &alone};
-  tracer t = {.f = frame, .open = all_open, .s.q = &quotient, .s.place = thr_calloc(1, sizeof(int))};
+  tracer t = {.f = frame,
+              .open = thr_cover_all_open(options),
+              .end_steps = thr_cover_steps_of_end(options),
+              .s.q = &quotient,
+              .s.place = thr_calloc(1, sizeof(int))};
   int *place = thr_calloc((size_t)n_cords, sizeof *place);
   *record = (thr_symmetry_record){0};
   quotient.half_image = thr_calloc(2 * (size_t)frame->n_edges, sizeof *quotient.half_image);

@@ -44,7 +44,7 @@ try_stack() { # STACK AT ON COMMAND..
   try run FAIL_STACK="$stack" $on -- "$@"
 }
 
-# Pango and fontconfig may leave a word out, or set it in another place, when a single allocation of theirs fails, and say nothing.
+# fontconfig may leave a word out, or set it in another place, when a single allocation of theirs fails, and say nothing.
 pages_and_fonts() { # FILE
   pdfinfo "$1" 2>&1 | grep -E '^Pages|Error'
   pdffonts "$1" 2>&1 | sed '1,2d; s/^[A-Z]*+//' | awk '{ print $1, $2 }'

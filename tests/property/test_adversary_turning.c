@@ -5,6 +5,9 @@
 #include "tests/attack.h"
 #include "tests/truth.h"
 #include "planner/least_turning.h"
+#include "lp/model/tree.h"
+#include "tortuosity/proof/branch.h"
+#include "tortuosity/proof/relax.h"
 #include "tortuosity/tie/tube_cords.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
@@ -17,7 +20,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { EDGES = TRUTH_TABLE_EDGES + 1, NODES = 7, SETS = 10, COPIES = 40, LEAVES = 3, TREE = 5, MOST_MEMBERS = 2 * EDGES + NODES };
+enum {
+  EDGES = TRUTH_TABLE_EDGES + 1,
+  NODES = 7,
+  SETS = 10,
+  COPIES = 40,
+  LEAVES = 3,
+  TREE = 5,
+  MOTIONS = 24,
+  SYMMETRIES = 3,
+  MOST_MEMBERS = 2 * EDGES + NODES
+};
 
 /* ---- what is attacked ---- */
 
@@ -26,10 +39,11 @@ typedef struct {
   bool end_node[NODES], end_allowed[NODES];
   int end_count[NODES];
   thr_turning_task task;
-  bool tied;            /* the proof is one of length, with tube joints */
-  int n_pieces, n_ends; /* components; equations of ends */
-  long double least;    /* the truth: a price, or a length */
-  long double largest;  /* of the dearest cord, if a whole plan is attacked */
+  bool tied;                             /* the proof is one of length, with tube joints */
+  int n_pieces, n_ends;                  /* components; equations of ends */
+  long double least;                     /* the truth: a price, or a length */
+  long double largest;                   /* of the dearest cord, if a whole plan is attacked */
+  int n_motions, motion[MOTIONS][EDGES]; /* of the graph onto itself, whatever prices and passes are: half-edges 2e */
 } target;
 
 static void target_destroy(target *t)
@@ -154,6 +168,33 @@ static bool counts_fit(const thr_frame *f, const int *end_count)
   return true;
 }
 
+/* The motion that maps nodes so, if it is one. */
+static void take_motion(const thr_frame *f, const int *node, target *t)
+{
+  int *image = t->motion[t->n_motions];
+  for (int e = 0; e < f->n_edges; e++) {
+    image[e] = -1;
+    for (int h = 0; h < 2 * f->n_edges; h++)
+      if (thr_tail(f, h) == node[f->edge[e][0]] && thr_head(f, h) == node[f->edge[e][1]]) image[e] = h;
+    if (image[e] < 0) return;
+  }
+  t->n_motions++;
+}
+
+/* All permutations of the nodes are tried. */
+static void find_motions(const thr_frame *f, int *node, int fixed, target *t)
+{
+  if (fixed == f->n_nodes && t->n_motions < MOTIONS) take_motion(f, node, t);
+  for (int i = fixed; i < f->n_nodes && t->n_motions < MOTIONS; i++) {
+    int other = node[i];
+    node[i] = node[fixed];
+    node[fixed] = other;
+    find_motions(f, node, fixed + 1, t);
+    node[fixed] = node[i];
+    node[i] = other;
+  }
+}
+
 static bool target_make(rng *r, target *t, bool tied)
 {
   thr_err err = {0};
@@ -180,6 +221,10 @@ static bool target_make(rng *r, target *t, bool tied)
     return false;
   }
   find_task(t);
+  int node[2 * NODES];
+  for (int v = 0; v < 2 * NODES; v++)
+    node[v] = v;
+  find_motions(&t->plan.frame, node, 0, t);
   t->least = tied ? t->plan.metrics.length : least_price(t);
   return true;
 }
@@ -206,7 +251,7 @@ typedef struct {
 
 /* A proof without pointers. */
 typedef struct {
-  int n_nodes;
+  int n_nodes, n_symmetries, symmetry[SYMMETRIES][EDGES], orbit[TREE][SYMMETRIES];
   thr_turning_node node[TREE];
   multipliers leaf[LEAVES];
 } candidate;
@@ -217,6 +262,7 @@ typedef struct {
   thr_turning_node node[TREE];
   thr_turning_dual dual[LEAVES];
   multipliers leaf[LEAVES];
+  int symmetry[SYMMETRIES * EDGES], orbit[TREE][SYMMETRIES];
   int member[LEAVES][2][SETS][MOST_MEMBERS];
   thr_turning_set set[LEAVES][2][SETS * COPIES];
   thr_turning_partition partition[LEAVES][SETS * COPIES], rank[LEAVES][SETS * COPIES];
@@ -270,7 +316,19 @@ static void build(const target *t, const candidate *c, built *b)
   memcpy(b->leaf, c->leaf, sizeof b->leaf);
   for (int i = 0; i < LEAVES; i++)
     build_leaf(b, i);
-  b->proof = (thr_turning_proof){.n_nodes = c->n_nodes, .n_duals = LEAVES, .n_ends = t->n_ends, .node = b->node, .dual = b->dual};
+  const int m = t->plan.frame.n_edges;
+  for (int i = 0; i < c->n_symmetries; i++)
+    memcpy(b->symmetry + i * m, c->symmetry[i], (size_t)m * sizeof(int));
+  memcpy(b->orbit, c->orbit, sizeof b->orbit);
+  for (int i = 0; i < TREE; i++)
+    b->node[i].orbit = b->orbit[i];
+  b->proof = (thr_turning_proof){.n_nodes = c->n_nodes,
+                                 .n_duals = LEAVES,
+                                 .n_ends = t->n_ends,
+                                 .n_symmetries = c->n_symmetries,
+                                 .node = b->node,
+                                 .symmetry = b->symmetry,
+                                 .dual = b->dual};
 }
 
 /* As much of the program's own proof as there is room for. */
@@ -311,7 +369,7 @@ static void take_leaf(const target *t, const thr_turning_dual *d, multipliers *m
 static void take_own_proof(const target *t, candidate *c)
 {
   const thr_turning_proof *p = t->tied ? &t->plan.proof.tied : &t->plan.turning.tree;
-  bool whole = p->n_nodes <= TREE && p->n_duals <= LEAVES;
+  bool whole = p->n_nodes <= TREE && p->n_duals <= LEAVES && p->n_symmetries == 0;
   *c = (candidate){.n_nodes = whole ? p->n_nodes : 1};
   for (int i = 0; i < c->n_nodes && whole; i++)
     c->node[i] = p->node[i];
@@ -457,13 +515,36 @@ static void change_tree(rng *r, const target *t, candidate *c)
   if (rng_below(r, 4) == 0) c->leaf[rng_below(r, LEAVES)] = c->leaf[rng_below(r, LEAVES)];
 }
 
+/* Motions that may be none of the task, at nodes that they may not keep; now and then what is no motion at all. */
+static void change_orbits(rng *r, const target *t, candidate *c)
+{
+  const int i = rng_below(r, TREE), k = rng_below(r, SYMMETRIES), m = t->plan.frame.n_edges;
+  switch (rng_below(r, 5)) {
+  case 0:
+    memcpy(c->symmetry[k], t->motion[rng_below(r, t->n_motions)], (size_t)m * sizeof(int));
+    if (c->n_symmetries <= k) c->n_symmetries = k + 1;
+    break;
+  case 1: c->symmetry[k][rng_below(r, m)] = rng_below(r, 20) ? rng_below(r, 2 * m) : (int)attack_integer(r); break;
+  case 2: c->n_symmetries = 0; break;
+  default:
+    c->node[i].n_orbit = rng_below(r, SYMMETRIES + 1);
+    c->orbit[i][k] = rng_below(r, 20) ? rng_below(r, SYMMETRIES) : (int)attack_integer(r);
+  }
+  for (int e = 0; e < m * SYMMETRIES; e++) /* what was never set is the identity */
+    if (c->n_symmetries == 0 || e / m >= c->n_symmetries) c->symmetry[e / m][e % m] = 2 * (e % m);
+  for (int n = 0; n < TREE; n++)
+    if (c->n_symmetries == 0 || !c->node[n].low) c->node[n].n_orbit = 0;
+}
+
 static void change(rng *r, const void *what, void *of)
 {
   const target *t = what;
   candidate *c = of;
   multipliers *m = &c->leaf[c->n_nodes == 1 ? c->node[0].dual : rng_below(r, LEAVES)];
   int m_edges = t->plan.frame.n_edges;
-  switch (rng_below(r, 15)) {
+  switch (rng_below(r, 17)) {
+  case 15:
+  case 16: change_orbits(r, t, c); break;
   case 12:
   case 13: change_and_pay(r, t, m); break;
   case 0:
@@ -527,6 +608,164 @@ static void attack(bool tied, long most, attack_tally *tally)
   }
   attack_report(tally);
 }
+
+/* ---- orbits that hide the least ---- */
+
+/* A random tree with random orbits, of which most hide plans and some hide the cheapest: climbing finds no multipliers for those,
+ * so linear programmes give the best of every leaf. */
+typedef struct {
+  const target *t;
+  thr_turning_columns columns;
+  candidate c;
+  thr_turning_dual leaf[LEAVES];
+  int n_leaves;
+} hidden;
+
+/* Columns of every kind, but mostly extra passes and turns. */
+static void choose_column(rng *r, const thr_turning_columns *columns, thr_turning_node *node)
+{
+  const int j = rng_below(r, rng_below(r, 2) ? columns->n_columns : columns->first_end);
+  node->a = columns->half[j][0];
+  node->b = columns->half[j][1];
+  node->value = rng_below(r, 5) == 0;
+}
+
+static void choose_tree(rng *r, hidden *x)
+{
+  candidate *c = &x->c;
+  const int m = x->t->plan.frame.n_edges;
+  *c = (candidate){.n_nodes = rng_below(r, 2) ? 3 : 5, .n_symmetries = SYMMETRIES};
+  for (int k = 0; k < SYMMETRIES; k++)
+    memcpy(c->symmetry[k], x->t->motion[rng_below(r, x->t->n_motions)], (size_t)m * sizeof(int));
+  if (rng_below(r, 20) == 0) c->symmetry[0][rng_below(r, m)] = rng_below(r, 2 * m);
+  const int second = rng_below(r, 2) ? 1 : 2;
+  c->node[0].low = 1;
+  c->node[0].high = 2;
+  if (c->n_nodes > 3) {
+    c->node[second].low = 3;
+    c->node[second].high = 4;
+  }
+  x->n_leaves = 0;
+  for (int i = 0; i < c->n_nodes; i++)
+    if (!c->node[i].low) {
+      c->node[i].dual = x->n_leaves++;
+    } else {
+      choose_column(r, &x->columns, &c->node[i]);
+      for (int k = 0; k < SYMMETRIES; k++)
+        if (rng_below(r, 2)) c->orbit[i][c->node[i].n_orbit++] = k;
+    }
+}
+
+static int column_at(const thr_turning_columns *c, int a, int b)
+{
+  for (int j = 0; j < c->n_columns; j++)
+    if ((c->half[j][0] == a && c->half[j][1] == b) || (c->half[j][0] == b && c->half[j][1] == a)) return j;
+  return -1;
+}
+
+/* The column that a symmetry makes of another, -1: none. */
+static int moved_column(const hidden *x, const int *image, int j)
+{
+  const int *half = x->columns.half[j];
+  const int a = image[half[0] >> 1] ^ (half[0] & 1), b = half[1] < 0 ? -1 : image[half[1] >> 1] ^ (half[1] & 1);
+  return column_at(&x->columns, a, b);
+}
+
+/* What node i leaves of the columns on one side, if it has one. */
+static void cut(const hidden *x, int i, bool high, thr_tree_place *box)
+{
+  const thr_turning_node *node = &x->c.node[i];
+  const int j = column_at(&x->columns, node->a, node->b);
+  if (high) {
+    if (box->low[j] <= node->value) box->low[j] = node->value + 1;
+    return;
+  }
+  if (box->high[j] > node->value) box->high[j] = node->value;
+  for (int k = 0; k < node->n_orbit; k++) {
+    const int to = moved_column(x, x->c.symmetry[x->c.orbit[i][k]], j);
+    if (to >= 0 && box->high[to] > node->value) box->high[to] = node->value;
+  }
+}
+
+/* The multipliers of a leaf's linear programme; none if nothing is in its box. */
+static void solve_leaf(const hidden *x, int i, const thr_limits *limits, thr_turning_dual *dual)
+{
+  thr_branch b;
+  thr_err err = {0};
+  ck_assert_int_eq(thr_branch_init(&b, &x->columns, 1, limits, &err), THR_OK);
+  ck_assert_int_eq(thr_branch_init_tree(&b, &err), THR_OK);
+  ck_assert_int_eq(thr_relax_init(&b.relax, &x->columns, false, 1000, limits, &err), THR_OK);
+  thr_branch_use_separators(&b.relax);
+  thr_tree_place *box = &b.tree.here;
+  for (int at = i; at > 0;) {
+    const int up = at > 2 ? (x->c.node[1].low ? 1 : 2) : 0;
+    cut(x, up, x->c.node[up].high == at, box);
+    at = up;
+  }
+  bool room = true;
+  for (int j = 0; j < x->columns.n_columns; j++)
+    room &= box->low[j] <= box->high[j];
+  for (int j = 0; j < x->columns.n_columns && room; j++)
+    ck_assert_int_eq(thr_branch_set_bounds(&b, j, box->low[j], box->high[j], &err), THR_OK);
+  if (room) ck_assert_int_eq(thr_branch_solve_node(&b, 0, limits, &err), THR_OK);
+  *dual = (thr_turning_dual){0};
+  if (room && b.n_duals > 0) {
+    *dual = b.dual[0];
+    b.dual[0] = (thr_turning_dual){0};
+  } else {
+    ck_assert_int_eq(thr_turning_dual_init(dual, &x->columns, &err), THR_OK);
+  }
+  thr_branch_destroy(&b);
+}
+
+static void hide(rng *r, const target *t, attack_tally *tally)
+{
+  const thr_limits none = {0};
+  hidden x = {.t = t};
+  double bound;
+  ck_assert_int_eq(thr_turning_columns_init(&x.columns, &t->plan.frame, &t->task, NULL), THR_OK);
+  for (int again = 0; again < 20; again++) {
+    choose_tree(r, &x);
+    candidate *c = &x.c;
+    build(t, c, &scratch);
+    for (int i = 0; i < LEAVES; i++)
+      ck_assert_int_eq(thr_turning_dual_init(&x.leaf[i], &x.columns, NULL), THR_OK);
+    scratch.proof.dual = x.leaf;
+    tally->judged++;
+    if (!thr_turning_proof_check(&t->plan.frame, &t->task, &scratch.proof, &bound, NULL)) {
+      for (int i = 0; i < c->n_nodes; i++) {
+        if (c->node[i].low) continue;
+        thr_turning_dual_destroy(&x.leaf[c->node[i].dual]);
+        solve_leaf(&x, i, &none, &x.leaf[c->node[i].dual]);
+      }
+      ck_assert_int_eq(thr_turning_proof_check(&t->plan.frame, &t->task, &scratch.proof, &bound, NULL), THR_OK);
+      const double above = (double)((bound - t->least) / (t->least + 1));
+      tally->accepted++;
+      tally->holes += above > 1e-15;
+      tally->best = fmax(tally->best, above);
+    }
+    for (int i = 0; i < LEAVES; i++)
+      thr_turning_dual_destroy(&x.leaf[i]);
+  }
+  thr_turning_columns_destroy(&x.columns);
+}
+
+START_TEST(no_orbit_hides_the_least)
+{
+  attack_tally tally = {.name = "orbits", .best = -INFINITY};
+  const long most = attack_number(4000);
+  for (uint64_t seed = attack_seed(); tally.judged < most; seed++) {
+    rng r = rng_make(seed);
+    target t;
+    if (!target_make(&r, &t, false)) continue;
+    hide(&r, &t, &tally);
+    target_destroy(&t);
+  }
+  attack_report(&tally);
+  ck_assert_int_eq(tally.holes, 0);
+  ck_assert_int_gt(tally.accepted, most / 10);
+}
+END_TEST
 
 START_TEST(no_turning_is_proved_above_the_least)
 {
@@ -825,6 +1064,7 @@ int main(void)
 {
   Suite *s = suite_create("adversary of turning");
   ADD_TEST(s, 100000, no_turning_is_proved_above_the_least);
+  ADD_TEST(s, 4000, no_orbit_hides_the_least);
   ADD_TEST(s, 100000, no_tied_length_is_proved_above_the_least);
   ADD_TEST(s, 100000, no_claim_of_turning_is_above_the_truth);
   ADD_TEST(s, 100000, no_claim_of_a_tied_plan_is_above_the_truth);

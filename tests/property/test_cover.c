@@ -15,6 +15,7 @@
 #include "symmetry/cover/relaxation.h"
 #include "symmetry/group/quotient.h"
 #include "symmetry/cover/cover_options.h"
+#include "symmetry/lift/keep.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -64,6 +65,7 @@ typedef struct {
 typedef struct {
   const thr_frame *f;
   const thr_cover_options *o;
+  int most_cords; /* 0 = any number */
   int order;
   int image[48][MOST_NODES], product[48][48];
   int n_orbits, first_edge[MOST_ORBITS], size[MOST_ORBITS];
@@ -191,15 +193,37 @@ static bool is_tied(const exhaustive *x)
   return true;
 }
 
+static int count_ends(const exhaustive *x)
+{
+  int ends = 0;
+  for (int d = 0; d < 2 * x->n_copies; d++)
+    ends += x->partner[d] == -2;
+  return ends;
+}
+
+/* Orbits of ends: each is one step, where they may be anywhere. */
+static int count_end_orbits(const exhaustive *x)
+{
+  int orbits = 0;
+  for (int d = 0; d < 2 * x->n_copies && x->o->ends == THR_ENDS_ANY; d++) {
+    bool lowest = x->partner[d] == -2;
+    for (int g = 0; g < x->order && lowest; g++)
+      lowest = x->dart_image[g][d] >= d;
+    orbits += lowest;
+  }
+  return orbits;
+}
+
 /* Everything has a partner: which cords are there, and which are copies of each other? */
 static void weigh(exhaustive *x, double overlap, double steps)
 {
   int cord[MOST_COPIES], unique[MOST_COPIES];
   double left_out = 0, sharpest[MOST_COPIES] = {0};
   bool open[MOST_COPIES] = {false}, counted[MOST_COPIES] = {false}, used[MOST_COPIES] = {false};
-  double worth[THR_N_AIMS] = {overlap, steps, 0, 0};
+  double worth[THR_N_AIMS] = {overlap, steps + count_end_orbits(x), 0, 0};
   x->leaves++;
   if (x->o->tube && !is_tied(x)) return;
+  if (x->o->most_ends > 0 && count_ends(x) > x->o->most_ends) return;
   for (int c = 0; c < x->n_copies; c++)
     cord[c] = unique[c] = c;
   for (int d = 0; d < 2 * x->n_copies; d++)
@@ -207,6 +231,10 @@ static void weigh(exhaustive *x, double overlap, double steps)
       join(cord, d / 2, x->partner[d] / 2);
       worth[THR_AIM_TURNING] += x->angle[x->half[d]][x->half[x->partner[d]]];
     }
+  int cords = 0;
+  for (int c = 0; c < x->n_copies; c++)
+    cords += cord[c] == c;
+  if (x->most_cords > 0 && cords > x->most_cords) return;
   for (int d = 0; d < 2 * x->n_copies; d++)
     if (x->partner[d] == -2) open[root_of(cord, d / 2)] = true;
   for (int c = 0; c < x->n_copies; c++) {
@@ -689,6 +717,81 @@ START_TEST(capacities_match_exhaustion)
 }
 END_TEST
 
+/* At most so many cords: the bounds of the limited cover hold, and what is made of it keeps to the number; where it is said to be
+ * optimal it is. */
+static void compare_cords(const example *t, const thr_frame *f, const thr_group *g, const thr_subgroup *h, thr_ends ends,
+                          int cords, tally *n)
+{
+  static exhaustive x;
+  thr_cover_options o = cover_options(ends, 1);
+  thr_request asked = options_for(ends, 1);
+  const thr_limits limits = {.deadline = thr_clock() + 20};
+  thr_quotient q;
+  thr_cover c;
+  thr_cord *cord = NULL;
+  thr_symmetry_record record = {0};
+  int n_cords = 0;
+  bool kept = false;
+  asked.aims = thr_aims_symmetric;
+  asked.symmetry.counted = true;
+  asked.cords = cords;
+  exhaustive_init(&x, f, g, h, &o);
+  x.most_cords = cords;
+  bool known = exhaust(&x);
+  o.most_ends = 2 * cords;
+  ck_assert_int_eq(thr_quotient_init(&q, f, g, h, 10000, NULL), THR_OK);
+  thr_status st = known ? thr_cover_find(&q, &o, &limits, &c, NULL) : THR_ELIMIT;
+  if (!st) st = thr_keep_cords(&q, &o, &asked, &limits, &c, &cord, &n_cords, &record, &kept, NULL);
+  const bool beyond = !st && passes_of(&q, &c) > most_passes(&x);
+  if (known && st) ck_assert_msg(!x.found, "%s, order %d, %d cords: there are some", t->name, h->order, cords);
+  if (known && !st && !beyond) {
+    const double worth[] = {c.value[THR_AIM_OVERLAP], record.steps, record.unique_paths};
+    ck_assert_msg(!x.found || c.bound[THR_AIM_OVERLAP] <= x.best[THR_AIM_OVERLAP] + 1e-4, "%s, order %d, %d cords: bound %g, %g",
+                  t->name, h->order, cords, c.bound[THR_AIM_OVERLAP], x.best[THR_AIM_OVERLAP]);
+    ck_assert(!kept || (x.found && n_cords <= cords));
+    for (int a = 0; a < 3 && kept && c.optimal; a++)
+      ck_assert_msg(fabs(worth[a] - x.best[a]) < 1e-4, "%s, order %d, ends %s, %d cords: %s %g, by exhaustion %g", t->name,
+                    h->order, thr_ends_name(ends), cords, thr_aim_name((thr_aim)a), worth[a], x.best[a]);
+    n->compared++;
+    n->near += kept;
+    n->bounds += x.found;
+  }
+  n->beyond += beyond;
+  if (known && !st) thr_symmetry_record_destroy(&record);
+  if (known && !st) thr_cords_destroy(cord, n_cords);
+  if (known) thr_cover_destroy(&c);
+  thr_quotient_destroy(&q);
+}
+
+/* Fewer ends than a cover without a limit may have: the same comparison, and that of cords. */
+START_TEST(limited_ends_match_exhaustion)
+{
+  const example *t = &examples[_i];
+  tally n = {0}, cords = {0};
+  for (int ends = THR_ENDS_ANY; ends <= THR_ENDS_FEET; ends++) {
+    static const int nowhere = -1;
+    thr_frame f = frame_from(t->n, t->m, t->edge, ends == THR_ENDS_FEET ? t->feet : &nowhere);
+    thr_group g = automorphisms_by_hand(&f);
+    thr_subgroup_classes classes;
+    ck_assert_int_eq(thr_subgroup_classes_find(&g, 1000, &classes, NULL), THR_OK);
+    for (int k = 0; k < classes.n; k++)
+      for (int most = 1; most <= 2; most++) {
+        thr_cover_options o = cover_options((thr_ends)ends, 1);
+        o.most_ends = 2 * most;
+        if (classes.subgroup[k].order > 48) continue;
+        if (most == 1 && ends == THR_ENDS_ANY) compare_with_exhaustion(t, &f, &g, &classes.subgroup[k], &o, &n);
+        compare_cords(t, &f, &g, &classes.subgroup[k], (thr_ends)ends, most, &cords);
+      }
+    thr_subgroup_classes_destroy(&classes);
+    thr_group_destroy(&g);
+    thr_frame_destroy(&f);
+  }
+  ck_assert_int_ge(n.compared, 2);
+  ck_assert_int_ge(cords.compared, 4);
+  ck_assert_msg(2 * cords.near >= cords.bounds, "%s: %d of %d", t->name, cords.near, cords.bounds);
+}
+END_TEST
+
 /* Every other edge of a square twice, under all groups that keep those edges. */
 START_TEST(covers_by_edge)
 {
@@ -873,6 +976,7 @@ int main(void)
   ADD_EXAMPLES(s, 120, covers_match_exhaustion, EXAMPLES);
   ADD_EXAMPLES(s, 120, capacities_match_exhaustion, EXAMPLES);
   ADD_EXAMPLES(s, 240, tied_covers_match_exhaustion, EXAMPLES);
+  ADD_EXAMPLES(s, 240, limited_ends_match_exhaustion, EXAMPLES);
   ADD_TEST(s, 20, covers_by_edge);
   ADD_TEST(s, 60, domes);
   ADD_TEST(s, 60, solids);

@@ -1,10 +1,13 @@
 /* Several cords through few edges, by the checker's tables, against all numbers of passes of all cords (tests/truth.h). */
 #include "graph/check/few_edges.h"
+#include "graph/angle.h"
 #include "graph/framework/frame.h"
+#include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/status.h"
+#include "graph/threading/small_cords.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
 #include "tests/support.h"
@@ -26,20 +29,20 @@ START_TEST(tables_are_true)
     int component[8] = {0};
     thr_few_edges by_length, by_turning;
     truth_table table = truth_table_make(&f, &o, 3);
-    ck_assert_int_eq(thr_few_edges_init(&by_length, &f, &o, component, 0, false, NULL), THR_OK);
-    ck_assert_int_eq(thr_few_edges_init(&by_turning, &f, &o, component, 0, true, NULL), THR_OK);
+    ck_assert_int_eq(thr_few_edges_init(&by_length, &f, &o, component, 0, false, INFINITY, THR_FEW_SETS, NULL), THR_OK);
+    ck_assert_int_eq(thr_few_edges_init(&by_turning, &f, &o, component, 0, true, INFINITY, THR_FEW_SETS, NULL), THR_OK);
     for (int n = 1; n <= MOST_CORDS; n++) {
       double longest, dearest, sum, range, least = INFINITY;
       long double price = truth_price(&table, n, true, -1), all = truth_price(&table, n, false, -1);
-      ck_assert_int_eq(thr_few_edges_least(&by_length, n, n, true, &longest, NULL), THR_OK);
-      ck_assert_int_eq(thr_few_edges_least(&by_turning, n, n, true, &dearest, NULL), THR_OK);
-      ck_assert_int_eq(thr_few_edges_least(&by_turning, n, n, false, &sum, NULL), THR_OK);
+      ck_assert_int_eq(thr_few_edges_dearest(&by_length, n, &longest, NULL), THR_OK);
+      ck_assert_int_eq(thr_few_edges_dearest(&by_turning, n, &dearest, NULL), THR_OK);
+      ck_assert_int_eq(thr_few_edges_sum(&by_turning, n, n, &sum, NULL), THR_OK);
       ck_assert_double_eq_tol(longest, truth_longest(&table, n), 1e-9 * longest);
       if (price < INFINITY || dearest < INFINITY) ck_assert_double_eq_tol(dearest, (double)price, 1e-9);
       if (all < INFINITY || sum < INFINITY) ck_assert_double_eq_tol(sum, (double)all, 1e-9);
       for (int k = n; k <= MOST_CORDS; k++)
         least = fmin(least, (double)truth_price(&table, k, false, -1));
-      ck_assert_int_eq(thr_few_edges_least(&by_turning, n, MOST_CORDS, false, &range, NULL), THR_OK);
+      ck_assert_int_eq(thr_few_edges_sum(&by_turning, n, MOST_CORDS, &range, NULL), THR_OK);
       if (least < INFINITY || range < INFINITY) ck_assert_double_eq_tol(range, least, 1e-9);
     }
     thr_few_edges_destroy(&by_length);
@@ -58,21 +61,62 @@ START_TEST(bounds_are_of_all_pieces)
   thr_request o = options_for(THR_ENDS_ANY, 1);
   double sum, dearest;
   o.cords = o.cords_least = 2;
-  ck_assert_int_eq(thr_few_edges_bounds(&few, &o, false, &sum, &dearest, NULL), THR_OK);
-  ck_assert_double_eq_tol(sum, 9, 1e-12);
-  ck_assert_double_eq_tol(dearest, 2, 1e-12);
-  ck_assert_int_eq(thr_few_edges_bounds(&f, &o, false, &sum, &dearest, NULL), THR_OK);
+  ck_assert_int_eq(thr_few_edges_bounds(&few, &o, INFINITY, &sum, &dearest, NULL), THR_OK);
+  ck_assert_double_eq_tol(sum, 2 * THR_PI, 1e-12); /* in each one cord goes round a corner */
+  ck_assert_double_eq_tol(dearest, 2 * THR_PI / 3, 1e-12);
+  ck_assert_int_eq(thr_few_edges_bounds(&f, &o, INFINITY, &sum, &dearest, NULL), THR_OK);
   ck_assert_double_eq(sum, 0); /* the chain has too many */
-  ck_assert_double_eq_tol(dearest, 2, 1e-12);
+  ck_assert_double_eq_tol(dearest, 2 * THR_PI / 3, 1e-12);
   int ends[9] = {2, 0, 2, 2, 0, 0, 0, 0, 2}; /* two cords, one to and fro, one */
   o.ends = THR_ENDS_COUNTS;
   o.end_count = ends;
-  ck_assert_int_eq(thr_few_edges_bounds(&few, &o, false, &sum, &dearest, NULL), THR_OK);
+  ck_assert_int_eq(thr_few_edges_bounds(&few, &o, INFINITY, &sum, &dearest, NULL), THR_OK);
   ck_assert_double_eq(sum, 0); /* single cords have proofs of their own */
-  ck_assert_double_eq_tol(dearest, 2, 1e-12);
+  ck_assert_double_eq_tol(dearest, 2 * THR_PI / 3, 1e-12);
   thr_frame_destroy(&few);
   thr_frame_destroy(&many);
   thr_frame_destroy(&chain);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* Of more edges, by length or by turning: against the planner's table, which is another one (graph/threading/small_cords.h); and
+ * with a limit. */
+START_TEST(larger_ones_are_those_of_the_planner)
+{
+  static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET};
+  rng r = rng_make((uint64_t)_i + 77);
+  int component[16] = {0};
+  thr_frame f = random_frame(&r, rng_between(&r, 14, 16), rng_below(&r, 3), LENGTHS_EUCLID); /* 13 to 17 edges */
+  thr_request o = options_for(ends[_i % 3], 1);
+  const bool turning = rng_below(&r, 2);
+  const int cords = rng_between(&r, 2, 5);
+  const thr_small_ask ask = {.least = cords, .most = cords, .turning = turning, .even = true, .limit = INFINITY};
+  const thr_limits limits = {0};
+  thr_small_cords best;
+  thr_few_edges few;
+  double dearest, other, least = 0;
+  bool certain;
+  ck_assert_int_eq(thr_small_cords_find(&f, &o, &ask, &limits, &best, &certain, NULL), THR_OK);
+  for (int i = 0; i < best.n; i++) {
+    thr_cord cord = {.n_passes = best.n_passes[i], .half = best.half[i]};
+    least = fmax(least, turning ? thr_cord_price(&f, &o, &cord) : thr_cord_length(&f, &cord));
+  }
+  ck_assert(certain && f.n_edges > THR_FEW_SUMMED);
+  ck_assert_int_eq(thr_few_edges_init(&few, &f, &o, component, 0, turning, INFINITY, THR_FEW_SETS, NULL), THR_OK);
+  ck_assert_int_eq(few.n, f.n_edges);
+  ck_assert_int_eq(thr_few_edges_dearest(&few, cords, &dearest, NULL), THR_OK);
+  if (best.n > 0) ck_assert_double_eq_tol(dearest, least, 1e-9);
+  ck_assert(best.n > 0 || isinf(dearest));
+  thr_few_edges_destroy(&few);
+  for (int below = 0; below < 2 && best.n > 0 && dearest > 1e-3; below++) {
+    double limit = dearest * (below ? 1 - 1e-6 : 1 + 1e-6);
+    ck_assert_int_eq(thr_few_edges_init(&few, &f, &o, component, 0, turning, limit, THR_FEW_SETS, NULL), THR_OK);
+    ck_assert_int_eq(thr_few_edges_dearest(&few, cords, &other, NULL), THR_OK);
+    ck_assert(below ? isinf(other) : other == dearest);
+    thr_few_edges_destroy(&few);
+  }
+  thr_small_cords_destroy(&best);
   thr_frame_destroy(&f);
 }
 END_TEST
@@ -81,6 +125,7 @@ int main(void)
 {
   Suite *s = suite_create("few edges");
   ADD_EXAMPLES(s, 60, tables_are_true, 300);
+  ADD_EXAMPLES(s, 60, larger_ones_are_those_of_the_planner, 30);
   ADD_TEST(s, 20, bounds_are_of_all_pieces);
   return run_suite(s);
 }

@@ -288,15 +288,18 @@ START_TEST(trees_prove_their_worst_leaf)
   int one = rng_below(&r, m.columns.n_columns);
   for (int i = 0; i < 3; i++) {
     int j = rng_below(&r, 2) ? rng_below(&r, m.columns.n_columns) : one;
-    node[branch[_i % 3][i]] =
-        (thr_turning_node){2 * i + 1, 2 * i + 2, m.column[j].a, m.column[j].b, rng_below(&r, m.column[j].most + 1), 0};
+    node[branch[_i % 3][i]] = (thr_turning_node){.low = 2 * i + 1,
+                                                 .high = 2 * i + 2,
+                                                 .a = m.column[j].a,
+                                                 .b = m.column[j].b,
+                                                 .value = rng_below(&r, m.column[j].most + 1)};
     dual[i] = random_dual(&r, &m);
     dual[i].length = 0;
     if (!m.task.end_allowed) make_gentle(&r, &m, &dual[i]);
   }
   for (int i = 1; i < 7; i++)
     node[i].dual = rng_below(&r, 3);
-  thr_turning_proof p = {7, 3, m.columns.n_ends, node, dual, {0}};
+  thr_turning_proof p = {.n_nodes = 7, .n_duals = 3, .n_ends = m.columns.n_ends, .node = node, .dual = dual};
   for (int j = 0; j < m.columns.n_columns; j++)
     m.low[j] = 0, m.high[j] = m.column[j].most;
   wide exact = tree_bound(&m, &p, 0) >> THR_LENGTH_BITS;

@@ -146,6 +146,35 @@ def move_nodes(random, plan):
             p[k] += random.choice((0, 1e-8, 0.1, 1)) * random.random()
 
 
+def change_orbits(random, plan):
+    """Symmetries of a proof of turning, or what is decided by them: moved, exchanged, made up; or a framework that has them not."""
+    proof = plan["proof"]["turning"]["proof"]
+    m, images = len(plan["framework"]["edges"]), proof.setdefault("symmetries", [])
+    inner = [node for node in proof["tree"] if "low" in node]
+    way = random.randrange(7)
+    if way == 0 or not images:
+        images.append([2 * e for e in range(m)])
+    image = random.choice(images)
+    e, f = random.randrange(m), random.randrange(m)
+    if way == 1:
+        image[e], image[f] = image[f], image[e]
+    elif way == 2:
+        image[e] ^= 1
+    elif way == 3:
+        other = random.choice(images)  # one after the other is a symmetry as well
+        image[:] = [other[h >> 1] ^ h & 1 for h in image]
+    elif way == 4:
+        key = random.choice(("covers", "capacities"))
+        plan["framework"].setdefault(key, [1] * m if key == "covers" else [None] * m)[e] = 2
+    elif inner:
+        node = random.choice(inner)
+        orbit = node.setdefault("orbit", [])
+        if orbit and way == 5:
+            orbit.pop(random.randrange(len(orbit)))
+        else:
+            orbit.append(random.randrange(len(images)))
+
+
 def weaken(random, plan):
     """A claim of a bound only, near what is proved or far from it."""
     claims = [c for c, key in places(plan["proof"]) if key == "lower_bound" and type(c[key]) in (int, float)]
@@ -175,12 +204,14 @@ def mutant(random, plan, frame_hash):
     plan = copy.deepcopy(plan)
     try:
         for _ in range(random.choice((1, 1, 1, 2, 3))):
-            way = random.randrange(12)
+            way = random.randrange(13)
             if way < 5 or way == 11:
                 part = [plan.get(x) for x in ("proof", "proof", "options", "symmetry", "cords", "metrics", "framework", "evaluation") if x in plan]
                 found = places(random.choice(part))
                 if found:
                     change(random, *random.choice(found))
+            elif way == 12:
+                change_orbits(random, plan)
             else:
                 (move_node, scale_proof, scale_weights, new_option, weaken, weaken)[way - 5](random, plan)
         repair(random, plan, frame_hash)

@@ -16,7 +16,7 @@
  * that all need, shared out; in whole units, if lengths have one. */
 static double longest_by_definition(const thr_frame *f, const thr_request *o, double base, int most, double unit)
 {
-  double far[16][16], bound = base / most;
+  double far[22][22], bound = base / most;
   for (int a = 0; a < f->n_nodes; a++)
     for (int b = 0; b < f->n_nodes; b++)
       far[a][b] = a == b ? 0 : INFINITY;
@@ -45,7 +45,7 @@ START_TEST(the_longest_cord_has_its_detour)
   static const length_kind kinds[] = {LENGTHS_RANDOM, LENGTHS_SMALL_INTEGERS, LENGTHS_EUCLID};
   rng r = rng_make((uint64_t)_i + 1);
   length_kind kind = kinds[_i % 3];
-  thr_frame f = random_frame(&r, rng_between(&r, 14, 16), rng_below(&r, 9), kind); /* more edges than all sets are tried of */
+  thr_frame f = random_frame(&r, rng_between(&r, 20, 22), rng_below(&r, 9), kind); /* more edges than all sets are tried of */
   thr_request o = options_for(ends[_i / 3 % 3], 1 + rng_below(&r, 2));
   o.cords = 1 + rng_below(&r, 6);
   o.cords_least = 1 + rng_below(&r, o.cords);
@@ -131,9 +131,9 @@ START_TEST(bounds_are_whole_numbers_of_the_unit)
     double bound, whole;
   } cases[] = {{5, 5}, {5 + 5e-10, 5}, {5 + 5e-6, 6}, {4.5, 5}};
   thr_frame f = chain_make(2, length);
-  int half[4] = {0, 2, 3, 1}, component[3] = {0}, passes[2] = {2, 2};
+  int half[4] = {0, 2, 3, 1}, component[3] = {0}, passes[2] = {2, 2}, cords[1] = {1};
   const thr_cord cord = {.id = "A", .closed = true, .n_passes = 4, .half = half};
-  const thr_check_walked w = {1, component, passes};
+  const thr_check_walked w = {1, component, passes, cords};
   const thr_certificate c = {.scale = 1, .denominator = 1};
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     thr_request o = options_for(THR_ENDS_CLOSED, 1);
@@ -368,9 +368,9 @@ START_TEST(bounds_beyond_the_plan_are_refused)
                {1, 2, "any plan would have 3 cords or more, but this one has 1"}, /* there and back over one edge is more */
                {1, 5, NULL}};
   thr_frame f = chain_make(2, length);
-  int half[4] = {0, 2, 3, 1}, component[3] = {0}, passes[2] = {2, 2};
+  int half[4] = {0, 2, 3, 1}, component[3] = {0}, passes[2] = {2, 2}, cords[1] = {1};
   const thr_cord cord = {.id = "A", .closed = true, .n_passes = 4, .half = half};
-  const thr_check_walked w = {1, component, passes};
+  const thr_check_walked w = {1, component, passes, cords};
   const thr_certificate c = {.scale = 1, .denominator = 1};
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     thr_request o = options_for(THR_ENDS_CLOSED, 1);

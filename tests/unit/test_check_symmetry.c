@@ -564,7 +564,7 @@ START_TEST(what_is_kept_is_learned_whole)
     for (int v = 0; v < 4; v++)
       f.foot[v] = false;
     thr_plan p = plan_with(f, THR_ENDS_ANY, 3, cord);
-    p.symmetry = (thr_symmetry_record){true, 2, "", 1, exchange, 2, image, unique, which, 2, 2};
+    p.symmetry = (thr_symmetry_record){true, 2, "", 1, exchange, 2, image, unique, which, 6, 2};
     assert_symmetry(&p, NULL);
     thr_frame_destroy(&f);
   }
@@ -634,14 +634,14 @@ START_TEST(copies_are_of_unique_paths)
                                      .unique = unique,
                                      .element = which,
                                      .unique_paths = 1,
-                                     .steps = 1};
+                                     .steps = 3};
   assert_symmetry(&p, NULL);
   for (int i = 1; i < 3; i++) { /* one that is said to be a unique path, too */
     unique[i] = i, which[i] = 0;
-    p.symmetry.unique_paths = 2, p.symmetry.steps = 2;
+    p.symmetry.unique_paths = 2, p.symmetry.steps = 6;
     assert_symmetry(&p, "is an image of cord A, but said to be one of cord");
     unique[i] = 0, which[i] = i;
-    p.symmetry.unique_paths = 1, p.symmetry.steps = 1;
+    p.symmetry.unique_paths = 1, p.symmetry.steps = 3;
   }
   unique[2] = which[2] = 1; /* image 1 of the second is the third, too */
   assert_symmetry(&p, "which is a copy itself");
@@ -676,7 +676,7 @@ START_TEST(an_open_cord_is_no_copy_of_a_closed_one)
   assert_symmetry(&p, "cord B is not image 0 of cord A");
   unique[1] = 1;
   p.symmetry.unique_paths = 2;
-  p.symmetry.steps = 5;
+  p.symmetry.steps = 7;
   assert_symmetry(&p, NULL);
   thr_frame_destroy(&f);
 }

@@ -179,7 +179,7 @@ START_TEST(proofs_of_tied_length_are_about_the_plan)
   int64_t potential[6] = {0}, ends[1] = {0};
   thr_turning_dual dual = {.potential = potential, .ends = ends};
   thr_turning_node leaf = {0};
-  thr_turning_proof proof = {1, 1, 1, &leaf, &dual, {0}};
+  thr_turning_proof proof = {.n_nodes = 1, .n_duals = 1, .n_ends = 1, .node = &leaf, .dual = &dual};
   double least;
   ck_assert_int_eq(thr_tied_least(&f, &o, &proof, &least, NULL), THR_OK);
   ck_assert_double_eq_tol(least, 6, 1e-12);
@@ -241,7 +241,7 @@ START_TEST(the_fewest_cords_of_tube_joints)
   thr_turning_junction junction[3] = {{1, block, 2 * unit}, {2, block, 2 * unit}, {3, block, 2 * unit}};
   thr_turning_dual dual = {.potential = potential, .ends = ends, .n_junctions = 3, .junction = junction};
   thr_turning_node leaf = {0};
-  thr_turning_proof proof = {1, 1, 1, &leaf, &dual, {0}};
+  thr_turning_proof proof = {.n_nodes = 1, .n_duals = 1, .n_ends = 1, .node = &leaf, .dual = &dual};
   thr_request o = options_for(THR_ENDS_ANY, 1);
   thr_cords_claim found;
   thr_err err = {0};
@@ -296,7 +296,7 @@ START_TEST(cords_have_too_few_ends_for_the_tips)
     thr_turning_junction junction = {0, block, 4 * one};
     thr_turning_dual dual = {.potential = potential, .ends = ends, .n_junctions = 1, .junction = &junction};
     thr_turning_node leaf = {0};
-    thr_turning_proof proof = {1, 1, 1, &leaf, &dual, {0}};
+    thr_turning_proof proof = {.n_nodes = 1, .n_duals = 1, .n_ends = 1, .node = &leaf, .dual = &dual};
     thr_request o = options_for(THR_ENDS_ANY, 1);
     thr_cords_claim found;
     thr_err err = {0};
@@ -350,7 +350,7 @@ START_TEST(the_fewest_cords_of_two_components)
     junction[i] = (thr_turning_junction){i + 1 + 2 * (i / 3), block, 2 * unit};
   thr_turning_dual dual = {.potential = potential, .ends = ends, .n_junctions = 6, .junction = junction};
   thr_turning_node leaf = {0};
-  thr_turning_proof proof = {1, 1, 2, &leaf, &dual, {0}};
+  thr_turning_proof proof = {.n_nodes = 1, .n_duals = 1, .n_ends = 2, .node = &leaf, .dual = &dual};
   thr_request o = options_for(THR_ENDS_ANY, 1);
   o.joint = THR_JOINT_TUBE;
   o.cords = 3;
@@ -381,7 +381,7 @@ START_TEST(rounding_needs_no_cord_more)
   thr_turning_junction junction = {1, block, -1};
   thr_turning_dual dual = {.potential = potential, .ends = ends, .junction = &junction};
   thr_turning_node leaf = {0};
-  thr_turning_proof proof = {1, 1, 1, &leaf, &dual, {0}};
+  thr_turning_proof proof = {.n_nodes = 1, .n_duals = 1, .n_ends = 1, .node = &leaf, .dual = &dual};
   thr_request o = options_for(THR_ENDS_ANY, 1);
   o.joint = THR_JOINT_TUBE;
   o.cords_least = 1;
@@ -435,8 +435,10 @@ static void tied_pair_make(tied_pair *x, const double *length, double part)
   x->junction = (thr_turning_junction){1, x->block, 2 * unit};
   x->dual = (thr_turning_dual){.potential = x->potential, .ends = x->ends, .n_junctions = 1, .junction = &x->junction};
   ck_assert_int_eq(thr_plan_measure(&f, &o, p->cord, 2, &p->metrics, NULL), THR_OK);
-  p->proof = (thr_length_proof){
-      .present = true, .optimal = true, .lower_bound = p->metrics.length, .tied = {1, 1, 1, &x->leaf, &x->dual}};
+  p->proof = (thr_length_proof){.present = true,
+                                .optimal = true,
+                                .lower_bound = p->metrics.length,
+                                .tied = {.n_nodes = 1, .n_duals = 1, .n_ends = 1, .node = &x->leaf, .dual = &x->dual}};
   thr_frame_destroy(&f);
 }
 

@@ -43,7 +43,8 @@ static void add_cord(thr_plan *p, const int *node)
 static void empty_tree(thr_plan *p, int n_ends)
 {
   thr_turning_proof *t = &p->turning.tree;
-  *t = (thr_turning_proof){1, 1, n_ends, calloc(1, sizeof *t->node), calloc(1, sizeof *t->dual), {0}};
+  *t = (thr_turning_proof){
+      .n_nodes = 1, .n_duals = 1, .n_ends = n_ends, .node = calloc(1, sizeof *t->node), .dual = calloc(1, sizeof *t->dual)};
   t->dual->potential = calloc(2 * (size_t)p->frame.n_edges, sizeof(int64_t));
   t->dual->ends = calloc((size_t)n_ends, sizeof(int64_t));
   ck_assert(t->dual->potential && t->dual->ends);
@@ -578,10 +579,11 @@ END_TEST
  * above the price need the turn to be made at most once, those that ask for passes need it to be made four times. */
 START_TEST(branches_on_one_turn_narrow_it)
 {
-  static const thr_turning_node tree[][5] = {
-      {{1, 2, 0, 2, 3, 0}, {3, 4, 0, 2, 1, 0}, {0, 0, 0, 0, 0, 1}, {0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 1}},
-      {{1, 2, 0, 2, 0, 0}, {0, 0, 0, 0, 0, 0}, {3, 4, 0, 2, 3, 0}, {0, 0, 0, 0, 0, 1}, {0, 0, 0, 0, 0, 2}},
-      {{1, 2, 0, 2, INT_MAX, 0}, {0, 0, 0, 0, 0, 1}, {0, 0, 0, 0, 0, 2}}};
+  static const struct {
+    int low, high, value, dual;
+  } tree[][5] = {{{1, 2, 3, 0}, {3, 4, 1, 0}, {0, 0, 0, 1}, {0, 0, 0, 0}, {0, 0, 0, 1}},
+                 {{1, 2, 0, 0}, {0, 0, 0, 0}, {3, 4, 3, 0}, {0, 0, 0, 1}, {0, 0, 0, 2}},
+                 {{1, 2, INT_MAX, 0}, {0, 0, 0, 1}, {0, 0, 0, 2}}};
   for (int k = 0; k < 3; k++) {
     thr_plan p = bend_make(1, THR_TURN_ANGLE, (int64_t)3 << (THR_TURNING_BITS - 1));
     thr_turning_proof *t = &p.turning.tree;
@@ -590,7 +592,12 @@ START_TEST(branches_on_one_turn_narrow_it)
     t->node = realloc(t->node, (size_t)t->n_nodes * sizeof *t->node);
     t->dual = realloc(t->dual, 3 * sizeof *t->dual);
     ck_assert(t->node && t->dual);
-    memcpy(t->node, tree[k], (size_t)t->n_nodes * sizeof *t->node);
+    for (int i = 0; i < t->n_nodes; i++)
+      t->node[i] = (thr_turning_node){.low = tree[k][i].low,
+                                      .high = tree[k][i].high,
+                                      .b = tree[k][i].low ? 2 : 0,
+                                      .value = tree[k][i].value,
+                                      .dual = tree[k][i].dual};
     for (int d = 1; d < 3; d++) {
       t->dual[d] = (thr_turning_dual){.potential = calloc(4, sizeof(int64_t)), .ends = calloc(3, sizeof(int64_t))};
       ck_assert(t->dual[d].potential && t->dual[d].ends);

@@ -175,9 +175,9 @@ static void assert_ids(const thr_plan *p, const char *svg)
       snprintf(want, sizeof want, "%s-%d", p->cord[c].id, i + 1);
       ck_assert_msg(bsearch(&key, id, (size_t)n, sizeof *id, by_text) != NULL, "pass %s is not drawn", want);
     }
-  for (int e = 0; e < p->frame.n_edges; e++) {
+  for (int i = 0; i < (p->options.joint == THR_JOINT_SOLID ? p->frame.n_nodes : p->frame.n_edges); i++) {
     const char *key = want;
-    snprintf(want, sizeof want, "bead-%d", e);
+    snprintf(want, sizeof want, "piece-%d", i);
     ck_assert_msg(bsearch(&key, id, (size_t)n, sizeof *id, by_text) != NULL, "%s is not drawn", want);
   }
   free_list(id, n);
@@ -384,7 +384,7 @@ START_TEST(the_legend_says_how_paths_repeat)
   thr_overview_options o = thr_overview_options_default();
   ck_assert_int_eq(p.n_cords, 4);
   ck_assert_int_eq(thr_overview_svg(&p, &o, &svg, NULL), THR_OK);
-  ck_assert_ptr_nonnull(strstr(svg.data, ">4 cords, 1 path to learn: 60 beads, 68 passes<"));
+  ck_assert_ptr_nonnull(strstr(svg.data, ">4 cords, 1 path to learn: 36 pieces, 68 passes<"));
   ck_assert_ptr_nonnull(strstr(svg.data, ">Cord B: repeat A from foot "));
   ck_assert_ptr_null(strstr(svg.data, "no motion"));
   thr_text_destroy(&svg);

@@ -1,9 +1,11 @@
 /* Drafts, welding and the framework: small cases with known answers, and every allocation failing once. */
 #include "graph/framework/frame.h"
 #include "graph/status.h"
+#include "tests/support.h"
 
 #include <check.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -114,6 +116,75 @@ START_TEST(zero_tolerance_welds_equal_points_only)
   ck_assert_int_eq(f.n_nodes, 3);
   ck_assert_int_eq(thr_degree(&f, 1), 2);
   thr_frame_destroy(&f);
+}
+END_TEST
+
+/* lowest[v]: of the nodes that steps of at most the tolerance lead to. */
+static void weld_by_all_pairs(const double (*x)[3], int n, double tolerance, int *lowest)
+{
+  for (int v = 0; v < n; v++)
+    lowest[v] = v;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (int v = 0; v < n; v++)
+      for (int w = 0; w < n; w++) {
+        if (lowest[w] >= lowest[v]) continue;
+        double d[3] = {x[v][0] - x[w][0], x[v][1] - x[w][1], x[v][2] - x[w][2]};
+        if (sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) > tolerance) continue;
+        lowest[v] = lowest[w];
+        changed = true;
+      }
+  }
+}
+
+/* Points close together, far apart, on top of each other and all in one plane across the direction that they are sorted by. */
+START_TEST(welds_what_all_pairs_weld)
+{
+  enum { N = 90 };
+  rng r = rng_make((uint64_t)_i);
+  const double tolerance = _i % 3 == 0 ? 0 : 0.06, spread = _i % 2 ? 1 : 1e6;
+  double x[N][3];
+  int lowest[N], group = 0;
+  thr_draft d = {0};
+  thr_read_report report = {0};
+  for (int v = 0; v < N; v++) {
+    for (int k = 0; k < 3; k++)
+      x[v][k] = rng_below(&r, 4) ? rng_below(&r, 5) + 0.04 * rng_below(&r, 3) : spread * rng_unit(&r);
+    if (_i % 4 == 3) x[v][2] = -(0.6324 * x[v][0] + 0.5477 * x[v][1]) / 0.5478;
+    node(&d, x[v][0], x[v][1], x[v][2]);
+  }
+  node(&d, -1e7, 0, 0);
+  for (int v = 0; v < N; v++)
+    edge(&d, v, N);
+  weld_by_all_pairs((const double(*)[3])x, N, tolerance, lowest);
+  thr_frame f = build(&d, tolerance, &report);
+  for (int v = 0; v < N; v++)
+    if (lowest[v] == v) ck_assert(memcmp(f.xyz[group++], x[v], sizeof x[v]) == 0);
+  ck_assert_int_eq(f.n_nodes, group + 1);
+  ck_assert_int_eq(report.welded_nodes, N - group);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+START_TEST(two_nodes_of_one_name_are_found)
+{
+  for (int twice = -1; twice < 500; twice += 83) {
+    thr_draft d = {0};
+    thr_frame f;
+    thr_read_report report = {0};
+    for (int v = 0; v < 500; v++) {
+      char name[16];
+      snprintf(name, sizeof name, "n%d", v == twice ? 250 : v);
+      ck_assert_int_eq(thr_draft_add_node(&d, (double[3]){v, 0, 0}, name, false, NULL), THR_OK);
+      if (v > 0) edge(&d, v - 1, v);
+    }
+    thr_err err = {0};
+    thr_status st = thr_draft_build(&d, 0, &f, &report, &err);
+    ck_assert_int_eq(st, twice < 0 ? THR_OK : THR_EINPUT);
+    if (st) ck_assert_msg(strstr(err.text, "are both called 'n250'") != NULL, "%s", err.text);
+    thr_frame_destroy(&f);
+    thr_draft_destroy(&d);
+  }
 }
 END_TEST
 
@@ -333,6 +404,8 @@ int main(void)
   tcase_add_test(t, welds_the_lowest_index);
   tcase_add_test(t, welds_chains_and_respects_the_tolerance);
   tcase_add_test(t, zero_tolerance_welds_equal_points_only);
+  tcase_add_loop_test(t, welds_what_all_pairs_weld, 0, 24);
+  tcase_add_test(t, two_nodes_of_one_name_are_found);
   tcase_add_test(t, keeps_own_lengths);
   tcase_add_test(t, refuses_bad_drafts);
   tcase_add_test(t, half_edges_leave_and_arrive);

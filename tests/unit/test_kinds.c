@@ -20,7 +20,7 @@ static kinds kinds_of(const thr_frame *f)
   kinds k = {calloc((size_t)f->n_edges, sizeof(int)), calloc((size_t)f->n_nodes, sizeof(int))};
   thr_err err = {0};
   ck_assert(k.edge && k.node);
-  ck_assert_msg(thr_kinds_find(f, k.edge, k.node, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_kinds_find(f, 0, k.edge, k.node, &err) == THR_OK, "%s", err.text);
   return k;
 }
 
@@ -168,26 +168,38 @@ START_TEST(bores_are_the_proved_ones)
                             {11, 1 + 1 / sin(THR_PI / 9)},
                             {13, 2 + sqrt(5)},
                             {19, 1 + sqrt(2) + sqrt(6)}};
-  for (int i = 0; i < 4; i++)
-    ck_assert_double_eq_tol(thr_bore_for((int)ratio[i][0]), ratio[i][1], 1e-8);
-  for (int i = 0; i < 8; i++)
-    ck_assert_double_eq_tol(thr_bore_for((int)more[i][0]), more[i][1], 1e-8);
+  for (int i = 0; i < 12; i++) {
+    const double *known = i < 4 ? ratio[i] : more[i - 4];
+    int n = (int)known[0];
+    ck_assert_int_ge(thr_bore_fits(1.3 * known[1] * (1 + 1e-8), 1.3), n);
+    ck_assert_int_lt(thr_bore_fits(1.3 * known[1] * (1 - 1e-8), 1.3), n);
+  }
 }
 END_TEST
 
-/* So many fit, no narrower bore is said to hold them, and more than the areas allow never do. */
-START_TEST(bores_hold_what_they_are_for)
+/* More than the areas allow never fit, and a wider bore never holds fewer. Rings of a hexagonal grid fit exactly. */
+START_TEST(bores_hold_no_more_than_areas_allow)
 {
-  for (int n = 1; n <= 400; n++) {
-    double bore = thr_bore_for(n);
-    ck_assert_int_ge(thr_bore_fits(bore * 1.3, 1.3), n);
-    ck_assert_int_lt(thr_bore_fits(bore * (1 - 1e-7), 1), n);
+  int before = 0;
+  for (double bore = 1; bore < 20; bore += 0.013) {
+    int n = thr_bore_fits(bore, 1);
     ck_assert_double_ge(bore * bore * (n == 1 ? 1 : THR_PI / sqrt(12)), n * (1 - 1e-9));
-    if (n > 1) ck_assert_double_ge(bore * (1 + 1e-8), thr_bore_for(n - 1));
+    ck_assert_int_ge(n, before);
+    before = n;
   }
   ck_assert_int_eq(thr_bore_fits(0.9, 1), 0);
-  ck_assert_double_eq_tol(thr_bore_for(1 + 3 * 20 * 21), 41, 1e-9); /* twenty full rings */
-  ck_assert_double_gt(thr_bore_for(2 + 3 * 20 * 21), 42);
+  for (int k = 1; k < 17; k++)
+    ck_assert_int_ge(thr_bore_fits(2 * k + 1, 1), 1 + 3 * k * (k + 1));
+}
+END_TEST
+
+/* Cords are drawn with ease only where they have play: thicker ones still fit all at once. */
+START_TEST(clear_bores_leave_play)
+{
+  for (int n = 1; n <= 400; n++)
+    ck_assert_int_ge(thr_bore_fits(thr_bore_clear(n), n < 20 ? 1.15 : 1.02), n);
+  ck_assert_double_gt(thr_bore_clear(1), 1.15);
+  ck_assert_double_ge(THR_BORE_CORDS, thr_bore_clear(1));
 }
 END_TEST
 
@@ -198,6 +210,7 @@ int main(void)
   ADD_LOOP(s, 20, turned_beads_are_alike_mirrored_ones_are_not, 0, 20);
   ADD_LOOP(s, 20, kinds_do_not_hang_on_names, 0, 4);
   ADD_TEST(s, 20, bores_are_the_proved_ones);
-  ADD_TEST(s, 20, bores_hold_what_they_are_for);
+  ADD_TEST(s, 20, bores_hold_no_more_than_areas_allow);
+  ADD_TEST(s, 20, clear_bores_leave_play);
   return run_suite(s);
 }

@@ -164,6 +164,59 @@ START_TEST(a_stopped_tree_knows_a_bound)
 }
 END_TEST
 
+/* Columns that are alike in every row and in price, and whose bounds in force are. */
+static bool are_alike(const search *s, int a, int b)
+{
+  bool alike = s->c->cost[a] == s->c->cost[b] && s->low[a] == s->low[b] && s->high[a] == s->high[b];
+  for (int i = 0; i < ROWS; i++)
+    alike &= s->c->row[i][a] == s->c->row[i][b];
+  return alike;
+}
+
+/* The same, deciding for all that are alike at once. */
+static thr_status solve_by_orbits(void *user, int node, thr_tree_branch *branch, thr_err *err)
+{
+  static int also[COLUMNS];
+  search *s = user;
+  thr_status st = solve_by_least(user, node, branch, err);
+  const int j = branch->column;
+  for (int k = 0; k < COLUMNS && j >= 0; k++)
+    if (k != j && are_alike(s, j, k)) also[branch->n_also++] = k;
+  branch->also = also;
+  return st;
+}
+
+START_TEST(columns_that_are_alike_are_decided_at_once)
+{
+  rng r = rng_make((uint64_t)_i);
+  covering c = covering_make(&r);
+  const int from = _i % COLUMNS, apart = (_i / COLUMNS) % COLUMNS; /* all but one are like the first */
+  for (int j = 0; j < COLUMNS; j++) {
+    if (j == apart) continue;
+    c.cost[j] = c.cost[from];
+    for (int i = 0; i < ROWS; i++)
+      c.row[i][j] = c.row[i][from];
+  }
+  for (int i = 0; i < ROWS; i++) { /* there is a point */
+    const int most[COLUMNS] = {MOST, MOST, MOST, MOST, MOST}, missing = short_of(&c, i, most);
+    if (missing > 0) c.lower[i] -= missing;
+  }
+  int solved[2];
+  for (int at_once = 0; at_once < 2; at_once++) {
+    search s;
+    search_init(&s, &c);
+    const thr_tree_calls calls = {&s, NULL, tell, at_once ? solve_by_orbits : solve_by_least, NULL};
+    ck_assert_int_eq(thr_tree_run(&s.tree, &calls, NULL), THR_OK);
+    ck_assert_double_eq(s.tree.enough, least_price(&c));
+    solved[at_once] = s.n_solved;
+    ck_assert_int_eq(thr_tree_enter(&s.tree, &calls, 0, NULL), THR_OK);
+    assert_in_force(&s);
+    thr_tree_destroy(&s.tree);
+  }
+  ck_assert_int_le(solved[1], solved[0]);
+}
+END_TEST
+
 /* Two columns of 0 or 1, all bounds within one grain of each other. */
 static thr_status solve_ties(void *user, int node, thr_tree_branch *branch, thr_err *err)
 {
@@ -171,7 +224,7 @@ static thr_status solve_ties(void *user, int node, thr_tree_branch *branch, thr_
   search *s = user;
   s->solved[s->n_solved++] = node;
   s->tree.node[node].bound = 10.5 - 0.01 * s->n_solved;
-  if (s->tree.node[node].depth < 2) *branch = (thr_tree_branch){s->tree.node[node].depth, 0, node == 0};
+  if (s->tree.node[node].depth < 2) *branch = (thr_tree_branch){.column = s->tree.node[node].depth, .high = node == 0};
   return THR_OK;
 }
 
@@ -434,6 +487,7 @@ int main(void)
   Suite *s = suite_create("rows, rounds and tree");
   ADD_LOOP(s, 20, the_tree_finds_the_least_of_all_points, 0, 200);
   ADD_LOOP(s, 20, a_stopped_tree_knows_a_bound, 0, 50);
+  ADD_LOOP(s, 20, columns_that_are_alike_are_decided_at_once, 0, 200);
   ADD_TEST(s, 5, of_equal_bounds_the_deepest_the_youngest_the_preferred);
   ADD_LOOP(s, 20, rows_found_on_the_way_lead_to_the_same_price, 0, 200);
   ADD_LOOP(s, 20, rounds_end_where_they_are_told_to, 0, 50);

@@ -145,13 +145,56 @@ static stroke stroke_of(const view *v, int group)
   return s;
 }
 
-/* A point in the coordinates of a bead: along it from its middle, and across; and half its size. */
-static void in_bead(const view *v, int e, const double at[2], double *along, double *across, double half[2])
+static bool is_solid(const view *v)
+{
+  return v->p.options.joint == THR_JOINT_SOLID;
+}
+
+static int element_of_piece(const view *v, int piece)
 {
   char id[32];
-  snprintf(id, sizeof id, "bead-%d", e);
+  snprintf(id, sizeof id, "piece-%d", piece);
   int i = svg_by_id(&v->t, id);
   ck_assert_msg(i >= 0, "%s is not drawn", id);
+  return i;
+}
+
+/* Is a point inside the outline of a solid piece, or within so much of it? By the winding of its polygons. */
+static bool in_outline(const view *v, int piece, const double at[2], double air)
+{
+  enum { MOST = 400 };
+  const svg_element *e = &v->t.element[element_of_piece(v, piece)];
+  const char *d = strstr(e->attributes, " d=\"") + 4;
+  double p[MOST][2], angle = 0;
+  bool near = false;
+  while (*d == 'M') {
+    int n = 0, length;
+    do {
+      ck_assert_int_eq(sscanf(d + 1, "%lf %lf%n", &p[n][0], &p[n][1], &length), 2);
+      p[n][0] += e->shift[0];
+      p[n++][1] += e->shift[1];
+      ck_assert_int_lt(n, MOST);
+      d += 1 + length;
+    } while (*d == 'L');
+    ck_assert_int_eq(*d++, 'z');
+    angle = 0;
+    for (int i = 0; i < n; i++) {
+      const double *a = p[i], *b = p[(i + 1) % n];
+      double u[2] = {a[0] - at[0], a[1] - at[1]}, w[2] = {b[0] - at[0], b[1] - at[1]};
+      angle += atan2(u[0] * w[1] - u[1] * w[0], u[0] * w[0] + u[1] * w[1]);
+      double side[2] = {b[0] - a[0], b[1] - a[1]}, length2 = side[0] * side[0] + side[1] * side[1];
+      double part = length2 > 0 ? fmin(fmax(-(u[0] * side[0] + u[1] * side[1]) / length2, 0), 1) : 0;
+      near |= hypot(u[0] + part * side[0], u[1] + part * side[1]) <= air;
+    }
+    if (fabs(angle) > 3) return true;
+  }
+  return near;
+}
+
+/* A point in the coordinates of a tube: along it from its middle, and across; and half its size. */
+static void in_tube(const view *v, int e, const double at[2], double *along, double *across, double half[2])
+{
+  int i = element_of_piece(v, e);
   const svg_element *b = &v->t.element[i];
   double x = at[0] - b->shift[0], y = at[1] - b->shift[1], c = cos(b->angle * acos(-1) / 180), s = sin(b->angle * acos(-1) / 180);
   *along = c * x + s * y;
@@ -160,12 +203,23 @@ static void in_bead(const view *v, int e, const double at[2], double *along, dou
   half[1] = 0.5 * svg_number(&v->t, i, "height");
 }
 
-/* The lane of a pass runs inside its bead from the end at its tail to the end at its head. */
+/* The lane of a pass runs inside its tube from the end at its tail to the end at its head, or from one solid piece to the next.
+ */
 static void assert_lane(const view *v, int h, const stroke *s)
 {
   double along[2], across[2], half[2], sign = h & 1 ? -1 : 1;
-  in_bead(v, h >> 1, s->from, &along[0], &across[0], half);
-  in_bead(v, h >> 1, s->to, &along[1], &across[1], half);
+  if (is_solid(v)) {
+    double wide = 0.1 * hypot(s->to[0] - s->from[0], s->to[1] - s->from[1]);
+    const double *const at[2] = {s->from, s->to};
+    for (int k = 0; k < 2; k++) {
+      int node = k ? thr_head(&v->p.frame, h) : thr_tail(&v->p.frame, h);
+      ck_assert_msg(thr_degree(&v->p.frame, node) > 8 || in_outline(v, node, at[k], fmax(wide, 0.3)),
+                    "half-edge %d runs beside piece %d at %g %g", h, node, at[k][0], at[k][1]);
+    }
+    return;
+  }
+  in_tube(v, h >> 1, s->from, &along[0], &across[0], half);
+  in_tube(v, h >> 1, s->to, &along[1], &across[1], half);
   ck_assert_double_le(fabs(across[0]), half[1]);
   ck_assert_double_le(fabs(across[1]), half[1]);
   ck_assert_double_eq_tol(across[0], across[1], 0.1);
@@ -174,22 +228,33 @@ static void assert_lane(const view *v, int h, const stroke *s)
   ck_assert_double_le(fabs(along[1]), half[0] + 0.05);
 }
 
-/* Every bead lies in the direction of its edge: the layout's, with y down. */
-static void assert_beads(const view *v)
+/* Every tube lies in the direction of its edge: the layout's, with y down. */
+static void assert_tubes(const view *v)
 {
-  int beads = 0;
   for (int e = 0; e < v->p.frame.n_edges; e++) {
-    char id[32];
-    snprintf(id, sizeof id, "bead-%d", e);
-    int i = svg_by_id(&v->t, id);
-    ck_assert_msg(i >= 0, "%s is not drawn", id);
+    int i = element_of_piece(v, e);
     const double *a = v->l.xy[paper_of(v)->edge[e][0]], *b = v->l.xy[paper_of(v)->edge[e][1]];
     double turn = atan2(a[1] - b[1], b[0] - a[0]) * 180 / acos(-1) - v->t.element[i].angle;
     ck_assert_double_lt(fabs(remainder(turn, 360)), 0.1);
   }
+}
+
+/* One element for every piece, each with a name of its own, and no others. */
+static void assert_pieces(const view *v)
+{
+  int pieces = is_solid(v) ? v->p.frame.n_nodes : v->p.frame.n_edges, drawn = 0;
+  char name[2][256];
   for (int i = 0; i < v->t.n; i++)
-    beads += strncmp(v->t.element[i].id, "bead-", 5) == 0;
-  ck_assert_int_eq(beads, v->p.frame.n_edges);
+    drawn += svg_attribute(&v->t, i, "data-piece", name[0]);
+  ck_assert_int_eq(drawn, pieces);
+  for (int i = 0; i < pieces && pieces < 400; i++) {
+    ck_assert(svg_attribute(&v->t, element_of_piece(v, i), "data-piece", name[0]));
+    for (int k = 0; k < i; k++) {
+      svg_attribute(&v->t, element_of_piece(v, k), "data-piece", name[1]);
+      ck_assert_str_ne(name[0], name[1]);
+    }
+  }
+  if (!is_solid(v)) assert_tubes(v);
 }
 
 static void assert_at(const double a[2], const double b[2], double air)
@@ -301,7 +366,7 @@ static void assert_cord(const view *v, int c, int *seams, int *labelled)
 static void assert_passes(const view *v)
 {
   int seams = 0, labelled = 0;
-  assert_beads(v);
+  assert_pieces(v);
   for (int c = 0; c < v->p.n_cords; c++)
     assert_cord(v, c, &seams, &labelled);
   if (!v->l.node) ck_assert_int_eq(seams, 0);
@@ -456,6 +521,32 @@ START_TEST(every_pass_is_drawn_once_and_in_order)
 }
 END_TEST
 
+START_TEST(tubes_lie_along_edges)
+{
+  thr_plan p = drawn_plan(_i);
+  p.options.joint = THR_JOINT_TUBE;
+  view v = view_of(p, 0);
+  assert_passes(&v);
+  assert_legible(&v);
+  assert_apart(&v);
+  view_destroy(&v);
+}
+END_TEST
+
+/* The acceptance of the whole: what a maker counts is what is drawn. */
+START_TEST(the_dome_has_49_pieces_or_84_tubes)
+{
+  for (int tube = 0; tube < 2; tube++) {
+    thr_plan p = drawn_plan(0);
+    p.options.joint = tube ? THR_JOINT_TUBE : THR_JOINT_SOLID;
+    view v = view_of(p, 0);
+    assert_pieces(&v);
+    ck_assert_ptr_nonnull(strstr(v.svg, tube ? ">Cord A: 84 tubes, 96 passes<" : ">Cord A: 49 pieces, 96 passes<"));
+    view_destroy(&v);
+  }
+}
+END_TEST
+
 START_TEST(what_is_written_is_legible)
 {
   view v = view_of(drawn_plan(_i), 0);
@@ -503,6 +594,8 @@ int main(void)
 {
   Suite *s = suite_create("overview");
   ADD_EXAMPLES(s, 60, every_pass_is_drawn_once_and_in_order, N_DRAWN);
+  ADD_EXAMPLES(s, 60, tubes_lie_along_edges, 6);
+  ADD_TEST(s, 20, the_dome_has_49_pieces_or_84_tubes);
   ADD_EXAMPLES(s, 60, what_is_written_is_legible, N_DRAWN);
   ADD_EXAMPLES(s, 60, small_pictures_stay_legible, 11);
   ADD_TEST(s, 20, letters_tell_cords_apart);

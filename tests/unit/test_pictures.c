@@ -109,6 +109,66 @@ START_TEST(steps_are_as_high_as_the_logarithm)
 }
 END_TEST
 
+/* Heights of the steps of a fan, there and back. */
+static int fan_heights(const char *svg, const char *id, double *y)
+{
+  char name[40];
+  int n = 0;
+  snprintf(name, sizeof name, "<path id=\"fan-%s\"", id);
+  const char *s = strstr(svg, name);
+  ck_assert_ptr_nonnull(s);
+  for (s = strstr(s, " d=\"M") + 5; *s != '"'; s++)
+    if (*s == 'V') y[n++] = atof(s + 1);
+  return n;
+}
+
+static double line_height(const char *svg, const char *word)
+{
+  char start[40];
+  double x, y;
+  snprintf(start, sizeof start, "<path class=\"%s\" d=\"M", word);
+  const char *s = strstr(svg, start);
+  ck_assert_ptr_nonnull(s);
+  ck_assert_int_eq(sscanf(s + strlen(start), "%lf %lf", &x, &y), 2);
+  return y;
+}
+
+/* The fan is as high as the tensions at both ends of the band, and the limits lie among them, on the scale of the line's steps.
+ */
+START_TEST(the_fan_and_the_limits_are_to_scale)
+{
+  enum { N = 9 };
+  thr_plan p = path_plan(N, 1), low = path_plan(N, 1), high = path_plan(N, 1);
+  thr_tension_options o = thr_tension_options_default();
+  thr_text svg = {0};
+  double y[N + 1], fan[2 * N + 2];
+  fill(&p, 0, 40);
+  fill(&low, 0, 6);
+  fill(&high, 0, 300);
+  o.low = &low.evaluation;
+  o.high = &high.evaluation;
+  o.hand = true;
+  o.strength = 80;
+  ck_assert_int_eq(thr_tension_svg(&p, &o, &svg, NULL), THR_OK);
+  assert_legible(svg.data);
+  ck_assert_int_eq(heights(svg.data, "A", y), N);
+  double mm_per_log = (y[N - 1] - y[0]) / log(40);
+  ck_assert_int_eq(fan_heights(svg.data, "A", fan), 2 * N);
+  for (int k = 0; k < N; k++) {
+    ck_assert_double_eq_tol(y[N - 1] - fan[k], mm_per_log * log(high.evaluation.cord[0].tension[k]), 0.02);
+    ck_assert_double_eq_tol(y[N - 1] - fan[N + k], mm_per_log * log(low.evaluation.cord[0].tension[N - 1 - k]), 0.02);
+  }
+  ck_assert_double_eq_tol(y[N - 1] - line_height(svg.data, "strength"), mm_per_log * log(80), 0.02);
+  ck_assert_double_eq_tol(y[N - 1] - line_height(svg.data, "hand"), mm_per_log * log(50), 0.02);
+  ck_assert_ptr_nonnull(strstr(svg.data, ">80 N<"));
+  ck_assert_ptr_nonnull(strstr(svg.data, ">10 N<"));
+  thr_text_destroy(&svg);
+  thr_plan_destroy(&p);
+  thr_plan_destroy(&low);
+  thr_plan_destroy(&high);
+}
+END_TEST
+
 START_TEST(small_ratios_are_drawn_from_zero)
 {
   thr_plan p = path_plan(5, 1);
@@ -504,7 +564,7 @@ START_TEST(overview_shows_turning)
     snprintf(label, sizeof label, ">%d</text>", tick);
     ck_assert_ptr_nonnull(strstr(strstr(svg.data, "id=\"turning-scale\""), label));
   }
-  ck_assert(says(svg.data, "turn between two beads"));
+  ck_assert(says(svg.data, "turn in a piece"));
   ck_assert(says(svg.data, "558" DEGREE " of turning, sharpest turn 150" DEGREE ", 4 over 60" DEGREE ", 3 over 90" DEGREE));
   assert_legible(svg.data);
   thr_text_destroy(&svg);
@@ -768,6 +828,7 @@ int main(void)
   ADD_TEST(s, 10, steps_are_as_high_as_the_logarithm);
   ADD_TEST(s, 10, small_ratios_are_drawn_from_zero);
   ADD_TEST(s, 20, many_cords);
+  ADD_TEST(s, 10, the_fan_and_the_limits_are_to_scale);
   ADD_TEST(s, 10, extreme_tensions);
   ADD_TEST(s, 10, turns_by_closed_form_are_said);
   ADD_TEST(s, 10, without_a_usable_evaluation);

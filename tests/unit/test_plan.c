@@ -3,6 +3,7 @@
 #include "tests/frameworks.h"
 #include "tests/plans.h"
 #include "graph/angle.h"
+#include "graph/check/check.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -124,6 +125,78 @@ static char *replaced(const char *text, const char *mark, const char *from, cons
   strcat(out, at + strlen(from));
   return out;
 }
+
+/* A triangle with a tail, of which all is said that can be said of a framework. */
+static thr_plan full_plan(void)
+{
+  thr_draft d = {0};
+  thr_frame f;
+  thr_read_report report = {0};
+  static const double xyz[4][3] = {{0.1, 0, 0}, {7.25, 0.5, 0}, {3, 5, 1}, {9, 9, 2}};
+  static const char *const name[] = {"a", "b", "c", "d"};
+  static const int end[4][2] = {{0, 1}, {1, 2}, {2, 0}, {2, 3}};
+  for (int v = 0; v < 4; v++)
+    ck_assert_int_eq(thr_draft_add_node(&d, xyz[v], name[v], v == 3, NULL), THR_OK);
+  for (int e = 0; e < 4; e++) {
+    ck_assert_int_eq(thr_draft_add_edge(&d, end[e][0], end[e][1], 20 + e, NULL), THR_OK);
+    ck_assert_int_eq(thr_draft_edge_passes(&d, e == 0 ? 1 : 0, e == 3 ? 4 : 0, NULL), THR_OK);
+  }
+  ck_assert_int_eq(thr_draft_set_units(&d, "cm", NULL), THR_OK);
+  ck_assert_int_eq(thr_draft_build(&d, 0, &f, &report, NULL), THR_OK);
+  thr_request o = options_for(THR_ENDS_CLOSED, 1);
+  thr_plan p = plan_make(&f, &o);
+  thr_draft_destroy(&d);
+  thr_frame_destroy(&f);
+  return p;
+}
+
+START_TEST(what_is_read_back_is_the_plan)
+{
+  thr_plan p = full_plan();
+  thr_text once = plan_text(&p);
+  ck_assert_int_eq(thr_plan_parse_back(&p, once.data, once.length, "plan", NULL), THR_OK);
+  ck_assert_int_eq(thr_check_plan(&p, NULL), THR_OK);
+  thr_text twice = plan_text(&p);
+  assert_same_text(&once, &twice);
+  thr_text_destroy(&once);
+  thr_text_destroy(&twice);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+static const struct {
+  const char *from, *to;
+} other_framework[] = {{"\"cm\"", "\"mm\""},
+                       {"0.1,", "0.10000000000000002,"},
+                       {"0,0]", "-0.0,0]"},
+                       {"[9,9,2]", "[9,9,3]"},
+                       {"[2,3]", "[3,2]"},
+                       {",[2,3]", ""},
+                       {"[20,21", "[20,21.000000000000004"},
+                       {"\"lengths\"", "\"other\""},
+                       {"[1,1,1,1]", "[1,2,1,1]"},
+                       {"\"covers\"", "\"other\""},
+                       {"[null,null,null,4]", "[null,null,null,5]"},
+                       {"\"capacities\"", "\"other\""},
+                       {"\"b\"", "\"B\""},
+                       {"\"names\"", "\"other\""},
+                       {"\"feet\": [3]", "\"feet\": [2]"},
+                       {"\"feet\": [3]", "\"feet\": []"},
+                       {"\"hash\": \"", "\"hash\": \"f"}};
+
+START_TEST(another_framework_is_not_read_back)
+{
+  thr_plan p = full_plan();
+  thr_text t = plan_text(&p);
+  char *text = replaced(t.data, "\"framework\"", other_framework[_i].from, other_framework[_i].to);
+  ck_assert_int_ne(thr_plan_parse_back(&p, text, strlen(text), "plan", NULL), THR_OK);
+  ck_assert_int_eq(p.n_cords, 0);
+  ck_assert_int_eq(p.frame.n_nodes, 0);
+  thr_plan_destroy(&p);
+  thr_text_destroy(&t);
+  free(text);
+}
+END_TEST
 
 START_TEST(nonsense_is_refused_with_its_place)
 {
@@ -249,6 +322,8 @@ int main(void)
   ADD_TEST(s, 10, ring_is_measured);
   ADD_TEST(s, 10, path_there_and_back_is_measured);
   ADD_LOOP(s, 10, everything_survives_json, 1, 9);
+  ADD_TEST(s, 10, what_is_read_back_is_the_plan);
+  ADD_LOOP(s, 10, another_framework_is_not_read_back, 0, sizeof other_framework / sizeof *other_framework);
   ADD_TEST(s, 10, nonsense_is_refused_with_its_place);
   ADD_TEST(s, 10, every_cut_short_text_is_refused);
   ADD_TEST(s, 10, plan_without_proof_is_a_plan);

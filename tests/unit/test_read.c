@@ -1,15 +1,38 @@
 /* Readers and writers: every dialect with a known answer, the stored frameworks' totals, error texts, round trips, and
  * every allocation failing once. */
 #include "graph/io/read.h"
+#include "graph/io/scan.h"
 #include "graph/framework/frame.h"
 #include "graph/status.h"
 #include "graph/text.h"
+#include "tests/support.h"
 
 #include <check.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* Oracle: strtod, where it takes the whole word and finds it finite. */
+START_TEST(numbers_are_what_strtod_takes_them_for)
+{
+  static const char letters[] = "00112345678999..+-eE";
+  rng r = rng_make((uint64_t)_i);
+  int read = 0;
+  for (int k = 0; k < 20000; k++) {
+    char word[32] = "", *end;
+    int n = rng_between(&r, 1, k % 2 ? 6 : 30);
+    for (int i = 0; i < n; i++) /* signs and exponents mostly where they belong */
+      word[i] = letters[rng_below(&r, rng_below(&r, 3) ? 16 : (int)sizeof letters - 1)];
+    double value = 0, true_value = strtod(word, &end);
+    bool good = *end == '\0' && end > word && isfinite(true_value);
+    ck_assert_msg(thr_span_number(thr_span_of(word), false, &value) == good, "%s", word);
+    ck_assert_msg(!good || (value == true_value && (value != 0 || !signbit(value))), "%s", word);
+    read += good;
+  }
+  ck_assert_int_gt(read, 2000);
+}
+END_TEST
 
 static const double SQRT2 = 1.41421356237309504880;
 
@@ -375,7 +398,8 @@ START_TEST(formats_by_name_and_content)
   ck_assert_ptr_eq(thr_format_of_path("a.json"), thr_format_named("json"));
   ck_assert_ptr_null(thr_format_of_path("-"));
   ck_assert_ptr_null(thr_format_of_path("obj"));
-  ck_assert_ptr_null(thr_format_named("stl"));
+  ck_assert_ptr_null(thr_format_of_path("a.stl")); /* is read, not written */
+  ck_assert_ptr_null(thr_format_named("dwg"));
   check_error("a.b\n", NULL, "f:1: a row of 1 fields without a header; an edge is x1,y1,z1,x2,y2,z2, a node x,y,z or id,x,y,z");
   check_text("# c\n v 0 0 0\nv 1 0 0\nl 1 2\n", NULL, 2, 1, 1, "");
   check_text("# c\n0 0 0 1 0 0\n", NULL, 2, 1, 1, "");
@@ -528,7 +552,7 @@ START_TEST(file_errors)
     thr_status status;
   } bad[] = {{"data/none.json", "data/none.json: cannot open", THR_EIO},
              {"data", "data: cannot read", THR_EIO},
-             {"roof.DXF", "roof.DXF: dxf files are not read", THR_EINPUT},
+             {"roof.3DM", "roof.3DM: 3dm files are not read", THR_EINPUT},
              {"LICENSE", "LICENSE: edges but no columns x and y", THR_EINPUT},
              {"tests/unit/files/alone-nodes.csv", "tests/unit/files/alone-nodes.csv: nodes but no edges", THR_EINPUT}};
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
@@ -748,6 +772,7 @@ static void add_tests(TCase *t)
 {
   tcase_add_test(t, passes_of_edges);
   tcase_add_test(t, csv_shapes);
+  tcase_add_loop_test(t, numbers_are_what_strtod_takes_them_for, 0, 5);
   tcase_add_test(t, csv_first_edge_is_not_taken_for_a_header);
   tcase_add_test(t, csv_errors);
   tcase_add_test(t, csv_nul_byte);

@@ -67,21 +67,27 @@ typedef struct {
   const thr_plan *p;
   thr_guide guide; /* for the places' names */
   int **half;      /* [n_cords][n_passes] as read, -1 = not yet */
-  int *held, *last;
-  char (*kind)[16]; /* [n_edges] as the row calls it that picks the bead up; "" = none does */
-  int at;           /* node where the needle is; -1 = not known */
-  int due;          /* node that the last check announced as the next one; -1 = none */
+  bool solid;
+  int n_pieces;
+  int *cord, *row, *step; /* [pieces] where it was picked up: -1 = nowhere yet */
+  char (*kind)[16];       /* [pieces] as the row calls it that picks it up; "" = none does */
+  int now;                /* step that is read */
+  int at, due;            /* node where the needle is, and the one that it goes to next; -1 = not known */
 } reader;
 
 static reader reader_make(const thr_plan *p)
 {
-  reader r = {.p = p, .at = -1, .due = -1};
+  reader r = {.p = p, .at = -1, .due = -1, .solid = p->options.joint == THR_JOINT_SOLID};
+  r.n_pieces = r.solid ? p->frame.n_nodes : p->frame.n_edges;
   ck_assert_int_eq(thr_guide_make(&r.guide, &p->frame, NULL), THR_OK);
   r.half = calloc((size_t)p->n_cords, sizeof *r.half);
-  r.held = calloc((size_t)p->frame.n_edges, sizeof *r.held);
-  r.last = calloc((size_t)p->frame.n_edges, sizeof *r.last);
-  r.kind = calloc((size_t)p->frame.n_edges, sizeof *r.kind);
-  ck_assert(r.half && r.held && r.last && r.kind);
+  r.cord = calloc((size_t)r.n_pieces, sizeof *r.cord);
+  r.row = calloc((size_t)r.n_pieces, sizeof *r.row);
+  r.step = calloc((size_t)r.n_pieces, sizeof *r.step);
+  r.kind = calloc((size_t)r.n_pieces, sizeof *r.kind);
+  ck_assert(r.half && r.cord && r.row && r.step && r.kind);
+  for (int i = 0; i < r.n_pieces; i++)
+    r.cord[i] = -1;
   for (int c = 0; c < p->n_cords; c++) {
     r.half[c] = malloc((size_t)p->cord[c].n_passes * sizeof **r.half);
     ck_assert_ptr_nonnull(r.half[c]);
@@ -96,8 +102,9 @@ static void reader_destroy(reader *r)
   for (int c = 0; c < r->p->n_cords; c++)
     free(r->half[c]);
   free(r->half);
-  free(r->held);
-  free(r->last);
+  free(r->cord);
+  free(r->row);
+  free(r->step);
   free(r->kind);
   thr_guide_destroy(&r->guide);
 }
@@ -116,19 +123,24 @@ static int cord_named(const reader *r, const char *id, size_t n)
   ck_abort_msg("no cord is called %.*s", (int)n, id);
 }
 
-/* The needle goes over an edge as pass number k + 1 of cord c, forwards or (left needle) backwards. deed 0 .. 2, -1: not said but
- * whether the bead was new. */
-static void go(reader *r, int c, int k, bool forwards, int from, int to, int deed, bool new)
+/* The needle goes over an edge as pass number k + 1 of cord c, forwards or (left needle) backwards. Returns its edge. */
+static int go(reader *r, int c, int k, bool forwards, int from, int to)
 {
   int e = thr_frame_edge_between(&r->p->frame, from, to);
-  ck_assert_msg(e >= 0, "no bead between %s and %s", r->guide.label[from], r->guide.label[to]);
+  ck_assert_msg(e >= 0, "nothing between %s and %s", r->guide.label[from], r->guide.label[to]);
   int h = 2 * e + (r->p->frame.edge[e][0] != from);
   ck_assert(k >= 0 && k < r->p->cord[c].n_passes && r->half[c][k] < 0);
   r->half[c][k] = forwards ? h : h ^ 1;
-  if (deed >= 0) ck_assert_int_eq(deed, !r->held[e] ? 0 : r->last[e] == h ? 1 : 2);
-  ck_assert(new == !r->held[e]);
-  r->held[e]++;
-  r->last[e] = h;
+  return e;
+}
+
+/* The novice takes a piece out of the box, once. */
+static void take(reader *r, int piece, int c, int row)
+{
+  ck_assert_msg(r->cord[piece] < 0, "piece %d is taken twice", piece);
+  r->cord[piece] = c;
+  r->row[piece] = row;
+  r->step[piece] = r->now;
 }
 
 /* Blank-separated words; returns how many. */
@@ -150,96 +162,150 @@ static const char *read_range(const char *s, int *first, int *last)
   return end;
 }
 
-/* " (kinds 1a, 2 x 2)": of the n beads of a row; words are cut up. */
-static void read_kinds(reader *r, char *words, const int *edge, int n)
+/* The place that a text begins with, followed by one of these; *s moves behind it. */
+static int read_name(const reader *r, const char **s, const char *followers)
 {
-  int k = 0, times;
-  char *s = strstr(words, " (kind"), name[16];
-  if (!s) return;
-  s += strcspn(s + 1, " ") + 1;
-  bool one = !strchr(s, ',') && !strstr(s, " x ");
-  while (*s == ' ') {
-    int length = 0;
-    ck_assert_msg(sscanf(s, " %15[0-9a-z]%n", name, &length) == 1, "%s", s);
-    s += length;
-    times = one ? n : 1;
-    if (sscanf(s, " x %d%n", &times, &length) == 1) s += length;
-    while (times-- > 0 && k < n)
-      snprintf(r->kind[edge[k++]], 16, "%s", name);
-    s += *s == ',';
+  int found = -1;
+  size_t longest = 0;
+  for (int v = 0; v < r->p->frame.n_nodes; v++) {
+    size_t n = strlen(r->guide.label[v]);
+    if (n <= longest || strncmp(r->guide.label[v], *s, n) != 0 || !strchr(followers, (*s)[n])) continue;
+    found = v;
+    longest = n;
   }
-  ck_assert_msg(*s == ')' && k == n, "%s", words);
+  ck_assert_msg(found >= 0, "no place is called as in: %s", *s);
+  *s += longest;
+  return found;
 }
 
-/* "pass 4-6: turn left 93 degrees, then straight on, 3 beads, D7 to D6 D5 D4: pick up 3 (kinds 1a, 2 x 2)" */
-static void read_row(reader *r, int c, const char *row)
+static bool skip(const char **s, const char *word)
 {
-  static const char *const deeds[] = {": pick up ", ": pass through ", ": pass back through "};
-  int first, last, deed = -1;
-  const char *s = read_range(row + strlen("pass "), &first, &last), *deed_at = NULL;
-  ck_assert_msg(*s == ':', "%s", row);
-  for (int i = 0; i < 3; i++) {
-    const char *found = strstr(s + 1, deeds[i]);
-    if (found) deed = i, deed_at = found;
-  }
-  ck_assert_msg(deed >= 0, "%s", row);
-  ck_assert_int_eq(atoi(deed_at + strlen(deeds[deed])), abs(last - first) + 1);
-  const char *to = strstr(s, " to "), *from = to;
-  ck_assert_msg(to && to < deed_at, "%s", row);
-  while (from > s && from[-1] != ' ')
-    from--;
-  char name[64], places[2048], *word[MOST_WORDS];
-  snprintf(name, sizeof name, "%.*s", (int)(to - from), from);
-  snprintf(places, sizeof places, "%.*s", (int)(deed_at - to - 4), to + 4);
-  int at = place_named(r, name), n = words_of(places, word);
-  ck_assert_msg(n == abs(last - first) + 1, "%s", row);
-  int edge[MOST_WORDS];
-  if (r->at >= 0) ck_assert_int_eq(at, r->at);
-  for (int i = 0; i < n; i++) {
-    int next = place_named(r, word[i]);
-    if (i == 0 && r->due >= 0) ck_assert_int_eq(next, r->due);
-    go(r, c, (last < first ? first - i : first + i) - 1, s && last >= first, at, next, deed, deed == 0);
-    edge[i] = thr_frame_edge_between(&r->p->frame, at, next);
-    at = next;
-  }
-  char kinds[1024];
-  snprintf(kinds, sizeof kinds, "%s", deed_at);
-  if (deed == 0) read_kinds(r, kinds, edge, n);
-  r->at = at;
-  r->due = -1;
+  size_t n = strlen(word);
+  if (strncmp(*s, word, n) != 0) return false;
+  *s += n;
+  return true;
 }
 
-/* A row of one pass does not say which way its numbers run: the heading does. */
-static void read_single(reader *r, int c, const char *row, bool left)
+/* A piece by its place, or a tube by both of its places. */
+static int read_piece(const reader *r, const char **s)
 {
-  if (!left) {
-    read_row(r, c, row);
+  if (r->solid) return read_name(r, s, " ),:");
+  int a = read_name(r, s, "-");
+  ++*s;
+  int e = thr_frame_edge_between(&r->p->frame, a, read_name(r, s, " ),:"));
+  ck_assert_int_ge(e, 0);
+  return e;
+}
+
+/* "X-10 (B5): ", "tube 2 (A1-A2): ", or of a kind with one member "24 (an X): ", "A1-A2: ". */
+static int read_new(reader *r, const char **s, int c, int row)
+{
+  const char *open = strstr(*s, " ("), *colon = strstr(*s, ": "), *inside = open + 2;
+  ck_assert_ptr_nonnull(colon);
+  bool alone = !open || open > colon || strncmp(inside, "an ", 3) == 0 || strncmp(inside, "a ", 2) == 0 ||
+               strncmp(inside, "with ", 5) == 0;
+  int piece = read_piece(r, alone ? s : &inside);
+  if (!alone) snprintf(r->kind[piece], 16, "%.*s", (int)(open - *s), *s);
+  *s = colon + 2;
+  take(r, piece, c, row);
+  return piece;
+}
+
+/* "F5, on cord A: ", "F5, on since step 3: ", "F5, your row 12: ", "F5, on the cord since its start: ": a piece that was taken
+ * there.
+ */
+static int read_held(reader *r, const char **s, int c)
+{
+  int piece = read_piece(r, s);
+  ck_assert_int_ge(r->cord[piece], 0);
+  if (skip(s, ", on cord ")) {
+    size_t n = strcspn(*s, ":");
+    ck_assert_int_eq(cord_named(r, *s, n), r->cord[piece]);
+    ck_assert_int_ne(r->cord[piece], c);
+  } else {
+    ck_assert_int_eq(r->cord[piece], c);
+    if (skip(s, ", on since step ")) {
+      ck_assert_int_eq(atoi(*s), r->step[piece]);
+      ck_assert_int_lt(r->step[piece], r->now);
+    } else if (skip(s, ", your row ")) {
+      ck_assert_int_eq(atoi(*s), r->row[piece]);
+      ck_assert_int_eq(r->step[piece], r->now);
+    } else {
+      ck_assert_msg(skip(s, ", on the cord since its start"), "%s", *s);
+      ck_assert_int_eq(r->row[piece], 0);
+    }
+  }
+  *s = strstr(*s, ": ");
+  ck_assert_ptr_nonnull(*s);
+  *s += 2;
+  return piece;
+}
+
+/* "4 pick up X-10 (B5): in from A5, out to C5": with the piece before and the arm by which it was left, a pass. */
+static void read_row(reader *r, int c, const char *line, bool left)
+{
+  const char *s = line;
+  int row = skip(&s, "S ") ? 0 : (int)strtol(s, (char **)&s, 10);
+  s += *s == ' ';
+  bool starts = strncmp(s, "start", 5) == 0;
+  ck_assert_int_eq(starts, row == 0);
+  if (!skip(&s, "start, ") && !skip(&s, "start in ")) skip(&s, "back ");
+  skip(&s, "through ");
+  int piece = skip(&s, "pick up ") ? read_new(r, &s, c, row) : read_held(r, &s, c);
+  if (!r->solid) {
+    ck_assert(skip(&s, "in at "));
+    int in = read_name(r, &s, ",");
+    ck_assert(skip(&s, ", out at "));
+    int out = read_name(r, &s, "");
+    ck_assert(r->at < 0 || in == r->at);
+    ck_assert(r->due < 0 || out == r->due);
+    ck_assert_int_eq(go(r, c, row - 1, !left, in, out), piece);
+    r->at = out;
+    r->due = -1;
     return;
   }
-  int first, last;
-  read_range(row + strlen("pass "), &first, &last);
-  read_row(r, c, row);
-  if (first == last) r->half[c][first - 1] ^= 1;
+  if (!starts) {
+    ck_assert(skip(&s, "in from "));
+    int in = read_name(r, &s, ",");
+    ck_assert(skip(&s, ", "));
+    ck_assert(r->at < 0 || (in == r->at && piece == r->due));
+    go(r, c, row - 1, !left, in, piece);
+  }
+  r->at = piece;
+  r->due = skip(&s, "out to ") ? read_name(r, &s, "") : -1;
+  ck_assert_msg(*s == '\0' || strcmp(s, "here the end comes out") == 0, "%s", s);
 }
 
-/* "Check: the left needle comes out at foot F12 (node 3); next E12." */
+/* "Check: the left needle comes out of foot F12 (node 3) and points at E12." Tubes: "comes out at F12; next E12." */
 static void read_check(reader *r, char *line)
 {
-  char *word[MOST_WORDS], *out = strstr(line, "comes out at "), *next = strstr(line, "; next ");
+  char *word[MOST_WORDS], *out = strstr(line, r->solid ? "comes out of " : "comes out at ");
+  char *next = strstr(line, r->solid ? " and points at " : "; next ");
   ck_assert_ptr_nonnull(out);
-  out += strlen("comes out at ");
-  if (strncmp(out, "foot ", 5) == 0) out += 5;
-  char name[64];
-  snprintf(name, sizeof name, "%.*s", (int)strcspn(out, " ;:"), out);
-  ck_assert_int_eq(place_named(r, name), r->at);
+  const char *s = out + strlen("comes out at ");
+  skip(&s, "foot ");
+  ck_assert_int_eq(read_name(r, &s, " ;:"), r->at);
   if (!next) {
-    r->at = -1;
+    if (r->solid) ck_assert_int_eq(r->due, -1);
+    r->at = r->due = -1;
     return;
   }
-  ck_assert_int_eq(words_of(next + strlen("; next "), word), 1);
+  ck_assert_int_eq(words_of(next + strlen(r->solid ? " and points at " : "; next "), word), 1);
   ck_assert(word[0][strlen(word[0]) - 1] == '.');
   word[0][strlen(word[0]) - 1] = '\0';
+  if (r->solid) ck_assert_int_eq(place_named(r, word[0]), r->due);
   r->due = place_named(r, word[0]);
+}
+
+/* A place in a list; in brackets if the piece holds cord already. */
+static int read_place(const reader *r, char *word, bool *held)
+{
+  *held = *word == '(' && word[strlen(word) - 1] == ')';
+  if (*held) {
+    word++;
+    word[strlen(word) - 1] = '\0';
+  }
+  return place_named(r, word);
 }
 
 /* "Cord B, left needle, passes 7-1: G1 to F1 (E1)": rest continues it until all places are there. Returns whether they are. */
@@ -248,7 +314,7 @@ static bool read_places(reader *r, const char *row)
   int first, last;
   size_t id = strcspn(row + strlen("Cord "), ",");
   int c = cord_named(r, row + strlen("Cord "), id);
-  bool left = strstr(row, "left needle, ") != NULL;
+  bool left = strstr(row, "left needle, ") != NULL, held;
   const char *range = strstr(row, "pass");
   range += strcspn(range, " ") + 1;
   const char *s = read_range(range, &first, &last);
@@ -258,17 +324,13 @@ static bool read_places(reader *r, const char *row)
   int n = words_of(copy, word), passes = abs(last - first) + 1;
   if (n < passes + 2) return false;
   ck_assert_str_eq(word[1], "to");
-  int at = place_named(r, word[0]);
+  int at = read_place(r, word[0], &held);
+  if (r->solid && !held) take(r, at, c, 0);
   for (int i = 0; i < passes; i++) {
-    char *name = word[i + 2];
-    bool new = *name != '(';
-    if (!new) {
-      name++;
-      ck_assert(name[strlen(name) - 1] == ')');
-      name[strlen(name) - 1] = '\0';
-    }
-    int next = place_named(r, name);
-    go(r, c, (left ? first - i : first + i) - 1, !left, at, next, -1, new);
+    int number = left ? first - i : first + i, next = read_place(r, word[i + 2], &held);
+    int e = go(r, c, number - 1, !left, at, next), piece = r->solid ? next : e;
+    ck_assert_int_eq(held, r->cord[piece] >= 0);
+    if (!held) take(r, piece, c, number);
     at = next;
   }
   return true;
@@ -279,24 +341,56 @@ static bool starts(const char *line, const char *word)
   return strncmp(line, word, strlen(word)) == 0;
 }
 
+/* Does a line begin a row of a step: its number, then what is done? */
+static bool is_row(const char *line)
+{
+  if (starts(line, "S start")) return true;
+  size_t digits = strspn(line, "0123456789");
+  return digits && line[digits] == ' ' &&
+         (starts(line + digits + 1, "pick up ") || starts(line + digits + 1, "through ") ||
+          starts(line + digits + 1, "back through "));
+}
+
+/* Two rows side by side may be told as one line: breaks it before the number of the second. */
+static void split_rows(char *text)
+{
+  static const char *const deeds[] = {" pick up ", " through ", " back through "};
+  for (int i = 0; i < 3; i++)
+    for (char *s = strstr(text, deeds[i]); s; s = strstr(s + 1, deeds[i])) {
+      char *number = s;
+      while (number > text && isdigit((unsigned char)number[-1]))
+        number--;
+      if (number < s && number > text && number[-1] == ' ') number[-1] = '\n';
+    }
+}
+
+/* "12 Cord B (blue), left needle: passes 7-1 of 24": the number of the step, and what it is about. */
+static void read_heading(reader *r, const char *line, const char *title, int *cord, bool *left)
+{
+  r->now = atoi(line);
+  ck_assert_int_gt(r->now, 0);
+  *cord = cord_named(r, title + strlen("Cord "), strcspn(title + strlen("Cord "), " ,:"));
+  *left = strstr(line, "left needle") != NULL;
+}
+
 /* Joins the lines of a row: it ends where the next one, or what is no row, begins. */
 static void read_text(reader *r, char *text)
 {
   char row[4096] = "", step[4096] = "";
   int cord = -1;
   bool left = false;
+  split_rows(text);
   for (char *line = strtok_r(text, "\n\f", &text); line; line = strtok_r(NULL, "\n\f", &text)) {
     const char *title = line + strspn(line, "0123456789 "); /* behind the number of the step */
     bool heading = starts(title, "Cord ") && strstr(title, " of ") && strstr(title, ": pass");
-    bool begins = starts(line, "pass ") && isdigit((unsigned char)line[5]), check = starts(line, "Check: the ");
+    bool begins = cord >= 0 && is_row(line), check = starts(line, "Check: the ");
     bool places = starts(line, "Cord ") && strstr(line, ", pass") && strstr(line, " to ");
     if (step[0] && (heading || begins || check)) {
-      read_single(r, cord, step, left);
+      read_row(r, cord, step, left);
       step[0] = '\0';
     }
     if (heading) {
-      cord = cord_named(r, title + strlen("Cord "), strcspn(title + strlen("Cord "), " ,:"));
-      left = strstr(line, "left needle") != NULL;
+      read_heading(r, line, title, &cord, &left);
     } else if (begins) {
       snprintf(step, sizeof step, "%s", line);
     } else if (check) {
@@ -313,38 +407,18 @@ static void read_text(reader *r, char *text)
   ck_assert_msg(!row[0] && !step[0], "%s%s", row, step);
 }
 
-static int by_length(const void *a, const void *b)
-{
-  double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
-static double median_length(const thr_frame *f)
-{
-  double *length = malloc((size_t)f->n_edges * sizeof *length);
-  ck_assert_ptr_nonnull(length);
-  for (int e = 0; e < f->n_edges; e++)
-    length[e] = f->length[e];
-  qsort(length, (size_t)f->n_edges, sizeof *length, by_length);
-  double median = length[f->n_edges / 2];
-  free(length);
-  return median;
-}
-
-/* Beads of one number differ by at most two hundredths of the median; they have one name if and only if they hold as many cords.
- */
+/* Pieces of one kind, as the rows call them, have arms that are as long; a kind's letter is that of its arms. */
 static void assert_kinds(const reader *r)
 {
   const thr_frame *f = &r->p->frame;
-  double most = 0.021 * median_length(f);
-  for (int a = 0; a < f->n_edges; a++)
-    for (int b = 0; b < a; b++) {
-      const char *p = r->kind[a], *q = r->kind[b];
-      if (!*p || !*q || atoi(p) != atoi(q)) continue;
-      ck_assert_double_eq_tol(f->length[a], f->length[b], most);
-      ck_assert_msg((strcmp(p, q) == 0) == (r->held[a] == r->held[b]), "%s for %d cords, %s for %d", p, r->held[a], q,
-                    r->held[b]);
-    }
+  for (int a = 0; a < r->n_pieces; a++) {
+    const char *kind = r->kind[a];
+    if (!*kind || !r->solid) continue;
+    int arms = thr_degree(f, a), said = *kind == 'P' ? 1 : strchr("IL", *kind) ? 2 : strchr("TY", *kind) ? 3 : atoi(kind);
+    ck_assert_int_eq(arms, *kind == 'X' ? 4 : said);
+    for (int b = 0; b < a; b++)
+      if (strcmp(kind, r->kind[b]) == 0) ck_assert_int_eq(arms, thr_degree(f, b));
+  }
 }
 
 static void assert_reads_back(const thr_plan *p, const thr_text *pdf)
@@ -355,6 +429,8 @@ static void assert_reads_back(const thr_plan *p, const thr_text *pdf)
   for (int c = 0; c < p->n_cords; c++)
     for (int k = 0; k < p->cord[c].n_passes; k++)
       ck_assert_msg(r.half[c][k] == p->cord[c].half[k], "cord %s, pass %d", p->cord[c].id, k + 1);
+  for (int i = 0; i < r.n_pieces; i++)
+    ck_assert_msg(r.cord[i] >= 0, "piece %d is left over", i);
   assert_kinds(&r);
   thr_text_destroy(&text);
   reader_destroy(&r);
@@ -488,13 +564,17 @@ static void judge(thr_plan p, bool middle, thr_page_size page)
 
 START_TEST(plans_are_read_back_from_the_pdf)
 {
-  judge(plan_number(_i), false, _i % 2 ? THR_PAGE_LETTER : THR_PAGE_A4);
+  thr_plan p = plan_number(_i % N_PLANS);
+  if (_i >= N_PLANS) p.options.joint = THR_JOINT_TUBE;
+  judge(p, false, _i % 2 ? THR_PAGE_LETTER : THR_PAGE_A4);
 }
 END_TEST
 
 START_TEST(plans_threaded_from_the_middle_too)
 {
-  judge(plan_number(_i), true, _i % 2 ? THR_PAGE_A4 : THR_PAGE_LETTER);
+  thr_plan p = plan_number(_i % N_PLANS);
+  if (_i >= N_PLANS) p.options.joint = THR_JOINT_TUBE;
+  judge(p, true, _i % 2 ? THR_PAGE_A4 : THR_PAGE_LETTER);
 }
 END_TEST
 
@@ -520,6 +600,32 @@ START_TEST(a_large_plan_is_read_back)
   thr_text pdf = pdf_of(s);
   assert_reads_back(&p, &pdf);
   assert_pages(&pdf, thr_sheets_pages(s), 210, 297);
+  thr_text_destroy(&pdf);
+  thr_sheets_destroy(s);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+/* What hands have to know beside the steps, and of this plan: how many pieces and cords, where one starts, where its feet are. */
+START_TEST(making_is_told)
+{
+  static const char *const said[] = {"stopper",
+                                     "join",
+                                     "went wrong",
+                                     "slack",
+                                     "Tightening",
+                                     "overhand knot",
+                                     "16 pieces; 1 cord of ",
+                                     "starts at foot A1",
+                                     "(feet: A1, A4, D1, D4)"};
+  thr_plan p = plan_of(shape_make(THR_MAKE_DOME, 4, 0), THR_ENDS_FEET, 1);
+  thr_sheets *s = sheets_of(&p, THR_PAGE_A4, false);
+  thr_text pdf = pdf_of(s), told = told_by("pdftotext", &pdf);
+  for (char *c = told.data; *c; c++)
+    if (*c == '\n') *c = ' ';
+  for (size_t i = 0; i < sizeof said / sizeof *said; i++)
+    ck_assert_msg(strstr(told.data, said[i]), "\"%s\" is not said", said[i]);
+  thr_text_destroy(&told);
   thr_text_destroy(&pdf);
   thr_sheets_destroy(s);
   thr_plan_destroy(&p);
@@ -570,7 +676,7 @@ START_TEST(an_interrupt_stops_the_layout)
   thr_sheets_options o = thr_sheets_options_default();
   thr_sheets *s;
   ck_assert_int_eq(thr_sheets_make(&s, &p, &o, &limits, &err), THR_ELIMIT);
-  assert_one_line(&err, "interrupted at page 2 of the step sheets");
+  assert_one_line(&err, "interrupted at page 4 of the step sheets");
   ck_assert_ptr_null(s);
   thr_plan_destroy(&p);
 }
@@ -654,10 +760,11 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("sheets");
-  ADD_EXAMPLES(s, 60, plans_are_read_back_from_the_pdf, N_PLANS);
-  ADD_EXAMPLES(s, 60, plans_threaded_from_the_middle_too, N_PLANS);
+  ADD_EXAMPLES(s, 60, plans_are_read_back_from_the_pdf, 2 * N_PLANS);
+  ADD_EXAMPLES(s, 60, plans_threaded_from_the_middle_too, 2 * N_PLANS);
   ADD_EXAMPLES(s, 60, odd_plans_are_read_back, 10);
   ADD_LARGE(s, 120, a_large_plan_is_read_back, 0, 1);
+  ADD_TEST(s, 20, making_is_told);
   ADD_TEST(s, 20, a_pdf_tells_no_time_and_no_place);
   ADD_TEST(s, 20, an_interrupt_stops_it);
   ADD_TEST(s, 20, an_interrupt_stops_the_layout);

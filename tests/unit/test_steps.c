@@ -2,6 +2,7 @@
 #include "diagram/scene/copies.h"
 #include "diagram/scene/places.h"
 #include "diagram/layout/layout.h"
+#include "diagram/overview/guide.h"
 #include "diagram/overview/steps.h"
 #include "graph/angle.h"
 #include "graph/framework/make.h"
@@ -37,7 +38,7 @@ static thr_text steps_of(const thr_plan *p, const char *const *motion)
 {
   thr_text t = {0};
   thr_err err = {0};
-  ck_assert_msg(thr_steps_text(p, motion, &t, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_steps_text(p, motion, 0, &t, &err) == THR_OK, "%s", err.text);
   return t;
 }
 
@@ -48,19 +49,26 @@ typedef struct {
   char (*label)[48]; /* [n_nodes] what the overview calls the nodes */
   const char *next;  /* text that is left */
   char line[MOST_LINE];
-  int *held;    /* [n_edges] passes so far */
-  int **half;   /* [n_cords] as read back, or NULL */
-  int sides[3]; /* rows with left, right, neither */
+  int *cord, *row; /* [pieces] where it was picked up: -1 = nowhere yet; row 0 = where the cord starts */
+  int **half;      /* [n_cords] as read back, or NULL */
 } reader;
+
+static int pieces_in(const thr_plan *p)
+{
+  return p->options.joint == THR_JOINT_SOLID ? p->frame.n_nodes : p->frame.n_edges;
+}
 
 static reader reader_make(const thr_plan *p, const char *text)
 {
   thr_layout l;
   thr_places places = {0};
   reader r = {.p = p, .next = text, .label = calloc((size_t)p->frame.n_nodes, sizeof *r.label)};
-  r.held = calloc((size_t)p->frame.n_edges, sizeof *r.held);
+  r.cord = calloc((size_t)pieces_in(p), sizeof *r.cord);
+  r.row = calloc((size_t)pieces_in(p), sizeof *r.row);
   r.half = calloc((size_t)p->n_cords, sizeof *r.half);
-  ck_assert(r.label && r.held && r.half);
+  ck_assert(r.label && r.cord && r.row && r.half);
+  for (int i = 0; i < pieces_in(p); i++)
+    r.cord[i] = -1;
   ck_assert_int_eq(thr_layout_choose(&l, &p->frame, NULL, 0, NULL), THR_OK);
   if (thr_layout_to_scale(l.kind))
     ck_assert_int_eq(thr_places_find(&places, &p->frame, (const double(*)[2])l.xy, l.median, NULL), THR_OK);
@@ -76,7 +84,8 @@ static void reader_destroy(reader *r)
   for (int c = 0; c < r->p->n_cords; c++)
     free(r->half[c]);
   free(r->half);
-  free(r->held);
+  free(r->cord);
+  free(r->row);
   free(r->label);
 }
 
@@ -141,59 +150,122 @@ static int half_between(const thr_frame *f, int a, int b)
   return 2 * e + (f->edge[e][1] == a);
 }
 
-static int read_times(const char *row)
-{
-  const char *open = strrchr(row, '(');
-  if (!open) return 1;
-  if (strcmp(open, "(second pass)") == 0) return 2;
-  if (strcmp(open, "(third pass)") == 0) return 3;
-  ck_assert_int_gt(atoi(open + 1), 3);
-  return atoi(open + 1);
-}
+/* ---- what a novice holds, who has the text alone ---- */
 
-/* What the row says of its first pass, against the angle in space. */
-static void assert_move(reader *r, const char *move, const int *half, int k)
+/* The node whose label begins the text and is followed by one of these; the longest if there are several. *text moves behind it.
+ */
+static int read_name(const reader *r, const char **text, const char *followers)
 {
-  double angle = k ? thr_turn_angle(&r->p->frame, half[k - 1], half[k]) * 180 / THR_PI : 0;
-  const char *number = move + strcspn(move, "0123456789");
-  if (k == 0)
-    ck_assert_int_eq(strncmp(move, "go to ", 6), 0);
-  else if (half[k] == (half[k - 1] ^ 1))
-    ck_assert_int_eq(strncmp(move, "turn back to ", 13), 0);
-  else if (strncmp(move, "straight on to ", 15) == 0)
-    ck_assert_double_lt(angle, 15);
-  else {
-    ck_assert(strncmp(move, "turn ", 5) == 0 || strncmp(move, "over the curve ", 15) == 0);
-    ck_assert_double_ge(angle, 15 - 1e-9);
-    ck_assert_double_eq_tol(atof(number), angle, 0.5 + 1e-9);
-    r->sides[strncmp(move, "turn left", 9) == 0 ? 0 : strncmp(move, "turn right", 10) == 0 ? 1 : 2]++;
+  int found = -1;
+  size_t longest = 0;
+  for (int v = 0; v < r->p->frame.n_nodes; v++) {
+    size_t length = strlen(r->label[v]);
+    if (length <= longest || strncmp(r->label[v], *text, length) != 0 || !strchr(followers, (*text)[length])) continue;
+    found = v;
+    longest = length;
   }
+  ck_assert_msg(found >= 0, "no node is called as in: %s", *text);
+  *text += longest;
+  return found;
 }
 
-/* One row: returns the passes so far. */
-static int read_row(reader *r, int start, int *half, int n)
+/* A piece's name: of a node, or of an edge by its two places. */
+static int read_piece(const reader *r, const char **text)
+{
+  if (r->p->options.joint == THR_JOINT_SOLID) return read_name(r, text, " ),");
+  int a = read_name(r, text, "-");
+  *text += 1;
+  int b = read_name(r, text, " ),:");
+  int e = thr_frame_edge_between(&r->p->frame, a, b);
+  ck_assert_int_ge(e, 0);
+  return e;
+}
+
+static bool skip(const char **text, const char *word)
+{
+  size_t n = strlen(word);
+  if (strncmp(*text, word, n) != 0) return false;
+  *text += n;
+  return true;
+}
+
+/* "X-10 (B5)", "tube 3 (A1-A2)", "24 (an X)", "24 (with 5 arms)": the piece, taken from the box. */
+static int pick_up(reader *r, const char **text, int c, int row)
+{
+  const char *open = strchr(*text, '('), *inside = open + 1;
+  ck_assert_ptr_nonnull(open);
+  bool alone = strncmp(open, "(an ", 4) == 0 || strncmp(open, "(a ", 3) == 0 || strncmp(open, "(with ", 6) == 0;
+  if (!strstr(*text, " (") || strstr(*text, " (") > strstr(*text, ": ")) alone = true; /* a tube of its own kind */
+  int piece = read_piece(r, alone ? text : &inside);
+  *text = strstr(alone ? *text : inside, ": ");
+  ck_assert_ptr_nonnull(*text);
+  ck_assert_int_eq(r->cord[piece], -1);
+  r->cord[piece] = c;
+  r->row[piece] = row;
+  return piece;
+}
+
+/* "F5, on cord A since its row 3", "F5, on the cord since its start": a piece that was picked up there. */
+static int find_held(reader *r, const char **text, int c)
+{
+  int piece = read_piece(r, text), cord = c;
+  if (!skip(text, ", on the cord since ")) {
+    ck_assert_msg(skip(text, ", on cord "), "%s", *text);
+    cord = cord_of(r, *text);
+    *text = strstr(*text, " since its ") + 11;
+    ck_assert_int_ne(cord, c);
+  } else
+    skip(text, "its ");
+  ck_assert_int_eq(r->cord[piece], cord);
+  ck_assert_int_eq(r->row[piece], skip(text, "row ") ? atoi(*text) : 0);
+  *text = strstr(*text, ": ");
+  ck_assert_ptr_nonnull(*text);
+  return piece;
+}
+
+/* One row of a cord, the n-th pass being the latest so far; from and due: the piece before and that whose arm the cord left by.
+ * Fills half[n] if the row has a pass. */
+static void read_row(reader *r, int c, int *half, int *n, int *from, int *due)
 {
   const thr_frame *f = &r->p->frame;
-  char *end;
-  int first = (int)strtol(r->line + 4, &end, 10), last = *end == '-' ? (int)strtol(end + 1, &end, 10) : first, k = first - 1;
-  ck_assert_int_eq(k, n);
-  const char *move = end + strspn(end, " "), *at = strstr(move, " to ");
-  int times = read_times(move), node = k ? thr_head(f, half[k - 1]) : start;
-  for (at += 4; k < last; k++) {
-    int to = read_node(r, &at);
-    half[k] = half_between(f, node, to);
-    ck_assert_int_eq(++r->held[half[k] >> 1], times);
-    if (k >= first) ck_assert_double_lt(thr_turn_angle(f, half[k - 1], half[k]), THR_PI / 12);
-    if (strncmp(at, ", straight on to", 16) == 0) {
-      ck_assert_int_eq(k, first - 1);
-      at += 16;
-    }
-    at += *at == ' ';
-    node = to;
+  bool rigid = r->p->options.joint == THR_JOINT_SOLID;
+  const char *s = r->line + 4;
+  s += strspn(s, " ");
+  int row = *s == 'S' ? 0 : atoi(s);
+  ck_assert_int_eq(row, rigid && *from < 0 ? 0 : *n + 1);
+  s += strcspn(s, " ");
+  s += strspn(s, " ");
+  bool starts = skip(&s, "start, ") || strncmp(s, "start in ", 9) == 0, back = false;
+  if (!skip(&s, "start in ")) back = skip(&s, "back ");
+  skip(&s, "through ");
+  ck_assert_int_eq(starts, row == 0);
+  int piece = skip(&s, "pick up ") ? pick_up(r, &s, c, row) : find_held(r, &s, c), in, out = -1;
+  ck_assert(skip(&s, ": "));
+  if (!rigid) {
+    ck_assert(skip(&s, "in at "));
+    in = read_name(r, &s, ",");
+    ck_assert(skip(&s, ", out at "));
+    out = read_name(r, &s, "");
+    half[*n] = half_between(f, in, out);
+    ck_assert_int_eq(half[*n] >> 1, piece);
+    if (*n) ck_assert_int_eq(in, thr_head(f, half[*n - 1]));
+    ck_assert(!back || r->cord[piece] >= 0);
+    ++*n;
+    return;
   }
-  ck_assert(*at == '\0' || *at == '(');
-  assert_move(r, move, half, first - 1);
-  return last;
+  if (!starts) {
+    ck_assert(skip(&s, "in from "));
+    in = read_name(r, &s, ",");
+    ck_assert(skip(&s, ", "));
+    ck_assert(in == *from && piece == *due);
+    half[(*n)++] = half_between(f, in, piece);
+  }
+  if (skip(&s, "out to "))
+    out = read_name(r, &s, "");
+  else
+    ck_assert_str_eq(s, "here the end comes out");
+  *from = piece;
+  *due = out;
 }
 
 /* The lines of a path that is listed, up to where the needle comes out. */
@@ -205,16 +277,31 @@ static void read_path(reader *r, int c)
   ck_assert_ptr_nonnull(r->half[c]);
   ck_assert(next_line(r));
   ck_assert_int_eq(strncmp(r->line, "    start at ", 13), 0);
-  int start = read_place(r, r->line + 13);
+  int start = read_place(r, r->line + 13), from = -1, due = -1;
   while (next_line(r) && strncmp(r->line, "[ ] ", 4) == 0) {
-    n = read_row(r, start, r->half[c], n);
+    read_row(r, c, r->half[c], &n, &from, &due);
     ck_assert_int_le(n, cord->n_passes);
   }
   ck_assert_int_eq(n, cord->n_passes);
+  ck_assert_int_eq(due, -1);
+  ck_assert_int_eq(start, thr_tail(&r->p->frame, r->half[c][0]));
   ck_assert_int_eq(strncmp(r->line, "    the needle comes out at ", 28), 0);
   int end = read_place(r, r->line + 28);
   ck_assert_int_eq(end, thr_head(&r->p->frame, r->half[c][n - 1]));
   ck_assert_int_eq(strstr(r->line, ", where it began") != NULL, start == end);
+}
+
+/* A copy picks up what is not held: its rows are numbered as they would be if they were listed. */
+static void thread_copy(reader *r, int c)
+{
+  bool rigid = r->p->options.joint == THR_JOINT_SOLID;
+  for (int row = rigid ? 0 : 1; row <= r->p->cord[c].n_passes; row++) {
+    int h = r->half[c][row ? row - 1 : 0];
+    int piece = !rigid ? h >> 1 : row ? thr_head(&r->p->frame, h) : thr_tail(&r->p->frame, h);
+    if (r->cord[piece] >= 0) continue;
+    r->cord[piece] = c;
+    r->row[piece] = row;
+  }
 }
 
 /* "Cord B: the same, moved, threaded backwards, beginning with its pass 3: start at A1, first to A2, end at A6": the image of
@@ -234,8 +321,8 @@ static void read_copy(reader *r)
   for (int k = 0; k < n; k++) {
     int h = r->half[u][((backward ? from - k : from + k) % n + n) % n] ^ (backward ? 1 : 0);
     r->half[c][k] = half_between(f, image[thr_tail(f, h)], image[thr_head(f, h)]);
-    r->held[r->half[c][k] >> 1]++;
   }
+  thread_copy(r, c);
   first = strstr(start, ", first to ") + 11;
   end = strstr(first, ", end at ") + 9;
   ck_assert_int_eq(read_place(r, start + 11), thr_tail(f, r->half[c][0]));
@@ -258,6 +345,8 @@ static int assert_read_back(reader *r)
       copies++;
     }
   }
+  for (int i = 0; i < pieces_in(r->p); i++)
+    ck_assert_int_ge(r->cord[i], 0);
   for (int c = 0; c < r->p->n_cords; c++) {
     ck_assert_msg(r->half[c] != NULL, "cord %s is missing", r->p->cord[c].id);
     ck_assert_mem_eq(r->half[c], r->p->cord[c].half, (size_t)r->p->cord[c].n_passes * sizeof(int));
@@ -269,7 +358,8 @@ static int assert_read_back(reader *r)
 
 START_TEST(what_is_said_is_the_plan)
 {
-  thr_plan p = plan_number(_i / 2);
+  thr_plan p = plan_number(_i / 4);
+  if (_i % 4 > 1) p.options.joint = THR_JOINT_TUBE;
   const char **motion = words_for(&p, _i % 2 ? 3 : 1000);
   thr_text t = steps_of(&p, motion), again = steps_of(&p, motion);
   assert_same_text(&t, &again);
@@ -355,44 +445,48 @@ START_TEST(left_is_left_from_outside)
                {THR_MAKE_HONEYCOMB, 3, 0, false}};
   thr_plan p = plan_of(shape_make(shape[_i].shape, shape[_i].size, shape[_i].rings), THR_ENDS_CLOSED, 1);
   const thr_frame *f = &p.frame;
-  thr_text t = steps_of(&p, NULL);
+  thr_guide guide;
+  ck_assert_int_eq(thr_guide_make(&guide, f, NULL), THR_OK);
   int left = 0, right = 0;
-  for (const char *s = strstr(t.data, "\n[ ] "); s; s = strstr(s + 1, "\n[ ] ")) {
-    int k = atoi(s + 5) - 1;
-    bool is_left = strncmp(s + 5 + strcspn(s + 5, "tsg"), "turn left", 9) == 0;
-    bool is_right = strncmp(s + 5 + strcspn(s + 5, "tsg"), "turn right", 10) == 0;
-    if (!is_left && !is_right) continue;
+  for (int k = 1; k < p.cord[0].n_passes; k++) {
     double a[3], b[3], cross[3], out[3];
     int in = p.cord[0].half[k - 1], go = p.cord[0].half[k];
+    thr_way way = thr_guide_way(&guide, in, go);
+    if (way != THR_WAY_LEFT && way != THR_WAY_RIGHT) continue;
     for (int i = 0; i < 3; i++) {
       a[i] = f->xyz[thr_head(f, in)][i] - f->xyz[thr_tail(f, in)][i];
       b[i] = f->xyz[thr_head(f, go)][i] - f->xyz[thr_tail(f, go)][i];
     }
     thr_cross(a, b, cross);
     outward_at(f, shape[_i].sphere, thr_tail(f, go), out);
-    ck_assert_msg((thr_dot(cross, out) > 0) == is_left, "pass %d goes to the other side", k + 1);
-    left += is_left;
-    right += is_right;
+    ck_assert_msg((thr_dot(cross, out) > 0) == (way == THR_WAY_LEFT), "pass %d goes to the other side", k + 1);
+    left += way == THR_WAY_LEFT;
+    right += way == THR_WAY_RIGHT;
   }
   ck_assert_int_gt(left + right, 10);
   if (shape[_i].sphere) ck_assert(left > 3 && right > 3);
-  thr_text_destroy(&t);
+  thr_guide_destroy(&guide);
   thr_plan_destroy(&p);
 }
 END_TEST
 
-/* In a tangle no side is said, only angles. */
+/* In a tangle no side is said. */
 START_TEST(a_tangle_has_no_sides)
 {
   rng r = rng_make(11);
   thr_frame f = random_frame(&r, 14, 40, LENGTHS_EUCLID);
   thr_plan p = plan_simple(&f, THR_ENDS_ANY, 1);
   thr_text t = steps_of(&p, NULL);
+  thr_guide guide;
   reader back = reader_make(&p, t.data);
   assert_read_back(&back);
-  ck_assert_int_eq(back.sides[0] + back.sides[1], 0);
-  ck_assert_int_gt(back.sides[2], 10);
-  ck_assert(strstr(t.data, "no left and right") != NULL);
+  ck_assert_int_eq(thr_guide_make(&guide, &f, NULL), THR_OK);
+  ck_assert(!guide.sides);
+  for (int k = 1; k < p.cord[0].n_passes; k++) {
+    thr_way way = thr_guide_way(&guide, p.cord[0].half[k - 1], p.cord[0].half[k]);
+    ck_assert(way != THR_WAY_LEFT && way != THR_WAY_RIGHT);
+  }
+  thr_guide_destroy(&guide);
   reader_destroy(&back);
   thr_text_destroy(&t);
   thr_plan_destroy(&p);
@@ -436,7 +530,7 @@ START_TEST(names_stay_single_words)
   name_nodes(&f, name, 5);
   thr_plan p = plan_simple(&f, THR_ENDS_CLOSED, 1);
   thr_text t = steps_of(&p, NULL);
-  static const char *const label[] = {"(0,_1)", " x#1", " x#2", " a_name_of_more_than_forty_bytes_is_cut_s",
+  static const char *const label[] = {"(0,_1)", " x#1", " x#2", "(a_name_of_more_than_forty_bytes_is_cut_s",
                                       " \xC3\xA4_\xC3\xB6"};
   for (int v = 0; v < 5; v++)
     ck_assert_msg(strstr(t.data, label[v]) != NULL, "%s is not in:\n%s", label[v], t.data);
@@ -454,17 +548,17 @@ START_TEST(broken_plans_are_refused)
   thr_err err = {0};
   int half = p.cord[0].half[2];
   p.cord[0].half[2] = half ^ 1;
-  ck_assert_int_eq(thr_steps_text(&p, NULL, &t, &err), THR_EINPUT);
+  ck_assert_int_eq(thr_steps_text(&p, NULL, 0, &t, &err), THR_EINPUT);
   assert_one_line(&err, "pass 3");
   p.cord[0].half[2] = 1000;
   err = (thr_err){0};
-  ck_assert_int_eq(thr_steps_text(&p, NULL, &t, &err), THR_EINPUT);
+  ck_assert_int_eq(thr_steps_text(&p, NULL, 0, &t, &err), THR_EINPUT);
   assert_one_line(&err, "edge 500");
   p.cord[0].half[2] = half;
   int n = p.n_cords;
   p.n_cords = 0;
   err = (thr_err){0};
-  ck_assert_int_eq(thr_steps_text(&p, NULL, &t, &err), THR_EINPUT);
+  ck_assert_int_eq(thr_steps_text(&p, NULL, 0, &t, &err), THR_EINPUT);
   assert_one_line(&err, "no cord");
   ck_assert_uint_eq(t.length, 0);
   p.n_cords = n;
@@ -481,7 +575,7 @@ START_TEST(every_allocation_may_fail)
     thr_text t = {0};
     thr_err err = {0};
     thr_alloc_fail_at(k);
-    st = thr_steps_text(&p, NULL, &t, &err);
+    st = thr_steps_text(&p, NULL, 0, &t, &err);
     thr_alloc_fail_at(0);
     if (st) {
       ck_assert_int_eq(st, THR_ENOMEM);
@@ -501,7 +595,7 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("steps");
-  ADD_LOOP(s, 30, what_is_said_is_the_plan, 0, 2 * N_PLANS);
+  ADD_LOOP(s, 30, what_is_said_is_the_plan, 0, 4 * N_PLANS);
   ADD_LOOP(s, 30, copies_written_otherwise, 0, 2);
   ADD_TEST(s, 20, false_copies_are_listed);
   ADD_LOOP(s, 20, left_is_left_from_outside, 0, 4);

@@ -217,7 +217,8 @@ static const known plans[] = {
      {0},
      ring_generator,
      identity},
-    {"folded path", path4, THR_ENDS_ANY, 1, 1, 2, 1, 1, 1, 1, 1.5, "C2", {{{0, 1, 2, 3, -1}}}, {0}, {0}, end_for_end, identity},
+    /* three passes and two ends, by half */
+    {"folded path", path4, THR_ENDS_ANY, 1, 1, 2, 1, 1, 1, 1, 2.5, "C2", {{{0, 1, 2, 3, -1}}}, {0}, {0}, end_for_end, identity},
     /* one cord in each of two pieces */
     {"two triangles",
      triangles2,
@@ -285,7 +286,7 @@ static const known plans[] = {
      0,
      1,
      2,
-     4,
+     8,
      "C1",
      {{{1, 0, 2, -1}}, {{3, 0, 4, -1}}},
      {0, 1},
@@ -303,7 +304,7 @@ static const known plans[] = {
      1,
      1,
      2,
-     3,
+     6,
      "",
      {{{1, 0, 2, -1}}, {{3, 0, 4, -1}}},
      {0, 1},

@@ -160,7 +160,7 @@ START_TEST(ends_are_mapped_to_ends)
                                        .image = calloc(8, sizeof(int)),
                                        .unique = calloc(2, sizeof(int)),
                                        .element = calloc(2, sizeof(int)),
-                                       .steps = 4,
+                                       .steps = 6, /* four passes, two ends */
                                        .unique_paths = 1};
     ck_assert(p.cord && p.symmetry.generator && p.symmetry.image && p.symmetry.unique && p.symmetry.element);
     memcpy(p.symmetry.generator, images + 4, 4 * sizeof *images);

@@ -38,7 +38,7 @@ static threading thread_make(const thr_frame *f, const int *passes, const int (*
   thr_err err = {0};
   ck_assert_int_eq(thr_multigraph_init(&t.g, f, 0, passes, end, n_ends, &err), THR_OK);
   t.mate = constant(t.g.n_darts, -1);
-  ck_assert_msg(thr_transition_pair(f, &t.g, t.mate, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_transition_pair(f, &t.g, t.mate, NULL, &err) == THR_OK, "%s", err.text);
   return t;
 }
 
@@ -58,11 +58,18 @@ static void assert_pairing(const threading *t)
   }
 }
 
+/* The price of a pair as its definition says it. */
+static double price_of(const thr_frame *f, const thr_multigraph *g, int a, int b)
+{
+  double price = g->half[a] == g->half[b] ? THR_U_TURN_PRICE : 0;
+  return g->half[a] < 0 || g->half[b] < 0 ? price : price + thr_turn_angle(f, g->half[a] ^ 1, g->half[b]);
+}
+
 static double price_at(const thr_frame *f, const threading *t, int v)
 {
   double sum = 0;
   for (int i = t->g.first[v]; i < t->g.first[v + 1]; i++)
-    sum += thr_transition_price(f, &t->g, t->g.dart[i], t->mate[t->g.dart[i]]) / 2;
+    sum += price_of(f, &t->g, t->g.dart[i], t->mate[t->g.dart[i]]) / 2;
   return sum;
 }
 
@@ -214,7 +221,7 @@ START_TEST(odd_nodes_are_refused)
   thr_multigraph g;
   thr_err err = {0};
   ck_assert_int_eq(thr_multigraph_init(&g, &f, 0, passes, NULL, 0, NULL), THR_OK);
-  ck_assert_int_eq(thr_transition_pair(&f, &g, mate, &err), THR_EINPUT);
+  ck_assert_int_eq(thr_transition_pair(&f, &g, mate, NULL, &err), THR_EINPUT);
   assert_one_line(&err, "node 0");
   thr_multigraph_destroy(&g);
   free(passes);
@@ -228,8 +235,15 @@ START_TEST(join_leaves_one_circuit_and_no_new_u_turn)
   thr_frame f = random_frame(&r, rng_between(&r, 3, 30), rng_below(&r, 40), LENGTHS_EUCLID);
   int *passes = even_passes(&r, &f, rng_between(&r, 1, 3), NULL);
   threading t = thread_make(&f, passes, NULL, 0);
-  int before = count_u_turns(&t);
-  ck_assert_int_eq(thr_transition_join(&f, &t.g, t.mate, NULL), THR_OK);
+  int before = count_u_turns(&t), *again = constant(t.g.n_darts, -1);
+  double(*four)[3] = calloc((size_t)f.n_nodes, sizeof *four);
+  ck_assert_int_eq(thr_transition_pair(&f, &t.g, again, four, NULL), THR_OK);
+  ck_assert(memcmp(again, t.mate, (size_t)t.g.n_darts * sizeof *again) == 0);
+  ck_assert_int_eq(thr_transition_join(&f, &t.g, again, (const double(*)[3])four, NULL), THR_OK);
+  ck_assert_int_eq(thr_transition_join(&f, &t.g, t.mate, NULL, NULL), THR_OK);
+  ck_assert(memcmp(again, t.mate, (size_t)t.g.n_darts * sizeof *again) == 0);
+  free(again);
+  free(four);
   assert_pairing(&t);
   ck_assert_int_eq(count_circuits(&t), 1);
   ck_assert_int_le(count_u_turns(&t), before);
@@ -249,7 +263,7 @@ START_TEST(octahedron_pairs_straight_then_joins)
     turning += price_at(&f, &t, v);
   ck_assert_double_eq_tol(turning, 6 * THR_PI, 1e-9); /* 1080 degrees in three squares */
   ck_assert_int_eq(count_circuits(&t), 3);
-  ck_assert_int_eq(thr_transition_join(&f, &t.g, t.mate, NULL), THR_OK);
+  ck_assert_int_eq(thr_transition_join(&f, &t.g, t.mate, NULL, NULL), THR_OK);
   ck_assert_int_eq(count_circuits(&t), 1);
   thread_destroy(&t);
   thr_frame_destroy(&f);
@@ -267,7 +281,7 @@ typedef struct {
 static double turning_price(const void *of, int a, int b)
 {
   const priced *p = of;
-  return thr_transition_price(p->f, p->g, a, b);
+  return price_of(p->f, p->g, a, b);
 }
 
 static double sum_of_totals(const thr_threading *t)
@@ -334,7 +348,7 @@ START_TEST(exchanges_do_what_they_say)
   threading made = {.mate = NULL};
   ck_assert_int_eq(thr_multigraph_init(&made.g, &f, 1, passes, (const int(*)[2])ends, open ? 2 : 0, NULL), THR_OK);
   made.mate = constant(made.g.n_darts, -1);
-  ck_assert_int_eq(thr_transition_pair(&f, &made.g, made.mate, NULL), THR_OK);
+  ck_assert_int_eq(thr_transition_pair(&f, &made.g, made.mate, NULL, NULL), THR_OK);
   for (int i = made.g.first[f.n_nodes]; i < made.g.n_darts; i++)
     made.mate[made.g.dart[i]] = -1;
   priced p = {&f, &made.g};
@@ -599,7 +613,7 @@ START_TEST(hub_whose_darts_all_pair_badly_is_joined_fast)
   thr_frame f = star_make(20000);
   int *passes = constant(f.n_edges, 2);
   threading t = thread_make(&f, passes, NULL, 0);
-  ck_assert_int_eq(thr_transition_join(&f, &t.g, t.mate, NULL), THR_OK);
+  ck_assert_int_eq(thr_transition_join(&f, &t.g, t.mate, NULL, NULL), THR_OK);
   ck_assert_int_eq(count_circuits(&t), 1);
   thread_destroy(&t);
   free(passes);

@@ -14,7 +14,8 @@ typedef struct {
   bool anywhere[7];
   thr_turning_dual dual;
   int64_t potential[16], ends[7];
-  thr_turning_node node[3];
+  thr_turning_node node[5];
+  int n_symmetries, symmetry[16];
 } small;
 
 static void small_make(small *s)
@@ -30,9 +31,17 @@ static void small_make(small *s)
 
 static thr_status small_check(const small *s, thr_err *err)
 {
-  bool branches = s->node[0].low || s->node[0].high;
+  bool branches = s->node[0].low || s->node[0].high, twice = s->node[1].low > 2 || s->node[2].low > 2;
   thr_turning_dual dual = s->dual;
-  thr_turning_proof p = {branches ? 3 : 1, 1, 2, (thr_turning_node *)s->node, &dual, {0}};
+  thr_turning_proof p = {.n_nodes = twice      ? 5
+                                    : branches ? 3
+                                               : 1,
+                         .n_duals = 1,
+                         .n_ends = 2,
+                         .n_symmetries = s->n_symmetries,
+                         .node = (thr_turning_node *)s->node,
+                         .symmetry = (int *)s->symmetry,
+                         .dual = &dual};
   double bound;
   *err = (thr_err){0};
   thr_status st = thr_turning_proof_check(&s->frame, &s->task, &p, &bound, err);
@@ -228,7 +237,7 @@ START_TEST(trees_that_prove_nothing)
   small s;
   small_make(&s);
   s.task.most_passes = 3;
-  s.node[0] = (thr_turning_node){1, 2, 0, 1, 0, 0};
+  s.node[0] = (thr_turning_node){.low = 1, .high = 2, .a = 0, .b = 1};
   assert_small(&s, NULL);
   static const struct {
     int a, b;
@@ -254,10 +263,10 @@ START_TEST(trees_that_prove_nothing)
   s.task.end_allowed = NULL;
   static const int child[][2] = {{1, 1}, {2, 2}, {0, 1}, {1, 0}, {1, 3}, {3, 2}, {-1, 2}, {2, -1}};
   for (size_t i = 0; i < sizeof child / sizeof *child; i++) {
-    s.node[0] = (thr_turning_node){child[i][0], child[i][1], 0, 1, 0, 0};
+    s.node[0] = (thr_turning_node){.low = child[i][0], .high = child[i][1], .a = 0, .b = 1};
     assert_small(&s, "bad child");
   }
-  s.node[0] = (thr_turning_node){1, 2, 0, 1, 0, 0};
+  s.node[0] = (thr_turning_node){.low = 1, .high = 2, .a = 0, .b = 1};
   for (int i = 1; i < 3; i++) {
     s.node[i].dual = 1;
     assert_small(&s, "no multipliers");
@@ -265,8 +274,80 @@ START_TEST(trees_that_prove_nothing)
     assert_small(&s, "no multipliers");
     s.node[i].dual = 0;
   }
-  s.node[1] = (thr_turning_node){2, 2, 0, 1, 0, 0};
+  s.node[1] = (thr_turning_node){.low = 2, .high = 2, .a = 0, .b = 1};
   assert_small(&s, "bad child");
+  thr_frame_destroy(&s.frame);
+}
+END_TEST
+
+/* Edges 0 .. 3 run round the square, edge 4 across it; its half turn swaps 0 with 2 and 1 with 3, and turns 4 round. */
+static const int half_turn[8] = {4, 6, 0, 2, 9, 10, 12, 14};
+
+START_TEST(symmetries_that_map_no_plans_to_plans)
+{
+  small s;
+  small_make(&s);
+  s.n_symmetries = 1;
+  memcpy(s.symmetry, half_turn, sizeof half_turn);
+  assert_small(&s, NULL);
+  static const struct {
+    int edge, image;
+  } wrong[] = {{0, -1}, {0, 16}, {0, 5}, {0, 6}, {4, 8}, {4, 0}, {5, 11}, {5, 12}, {7, 0}};
+  for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+    s.symmetry[wrong[i].edge] = wrong[i].image;
+    assert_small(&s, "plans to plans");
+    s.symmetry[wrong[i].edge] = half_turn[wrong[i].edge];
+  }
+  int cover[8] = {1, 1, 2, 1, 1, 1, 1, 1}, capacity[8] = {0, 0, 3, 0, 0, 0, 0, 0};
+  s.frame.cover = cover;
+  assert_small(&s, "plans to plans");
+  s.frame.cover = NULL;
+  s.frame.capacity = capacity;
+  assert_small(&s, "plans to plans");
+  s.frame.capacity = NULL;
+  s.task.end_allowed = s.anywhere;
+  assert_small(&s, NULL);
+  s.anywhere[2] = false;
+  assert_small(&s, "plans to plans");
+  s.task.end_allowed = NULL;
+  const int square_to_triangle[8] = {10, 12, 14, 0, 2, 4, 6, 8};
+  memcpy(s.symmetry, square_to_triangle, sizeof square_to_triangle);
+  assert_small(&s, "plans to plans");
+  thr_frame_destroy(&s.frame);
+}
+END_TEST
+
+START_TEST(orbits_that_hide_plans)
+{
+  small s;
+  int first[2] = {0, 0}, second[1] = {0};
+  small_make(&s);
+  s.n_symmetries = 1;
+  memcpy(s.symmetry, half_turn, sizeof half_turn);
+  s.node[0] = (thr_turning_node){.low = 1, .high = 2, .a = 0, .b = 1, .n_orbit = 1, .orbit = first};
+  assert_small(&s, NULL);
+  s.node[0].n_orbit = 2; /* twice the same: no harm */
+  assert_small(&s, NULL);
+  first[1] = 1;
+  assert_small(&s, "no symmetry 1");
+  first[1] = -1;
+  assert_small(&s, "no symmetry -1");
+  s.node[0].n_orbit = 1;
+  s.node[2].n_orbit = 1; /* a leaf decides nothing */
+  s.node[2].orbit = second;
+  assert_small(&s, "an orbit");
+  s.node[2] = (thr_turning_node){0};
+  s.node[1] = (thr_turning_node){.low = 3, .high = 4, .a = 2, .b = 3, .n_orbit = 1, .orbit = second};
+  assert_small(&s, NULL); /* edges 0 and 2 have no extra pass: the half turn keeps that */
+  s.node[0].n_orbit = 0;
+  assert_small(&s, "does not keep");
+  s.node[0].a = 8, s.node[0].b = 9; /* edge 4 is its own image */
+  assert_small(&s, NULL);
+  s.node[2] = s.node[1]; /* below the other side */
+  s.node[1] = (thr_turning_node){0};
+  assert_small(&s, NULL);
+  s.node[0].a = 0, s.node[0].b = 1, s.node[0].n_orbit = 1; /* edge 0 alone has an extra pass */
+  assert_small(&s, "does not keep");
   thr_frame_destroy(&s.frame);
 }
 END_TEST
@@ -285,14 +366,14 @@ START_TEST(proofs_of_another_shape)
                {2, 2, true, true, "hangs nowhere"}, {1, 2, false, true, "no multipliers"}, {1, 2, true, false, "no multipliers"}};
   for (size_t i = 0; i < sizeof shape / sizeof *shape; i++) {
     thr_turning_dual dual = {.potential = shape[i].potential ? s.potential : NULL, .ends = shape[i].ends ? s.ends : NULL};
-    thr_turning_proof p = {shape[i].n_nodes, 1, shape[i].n_ends, s.node, &dual, {0}};
+    thr_turning_proof p = {.n_nodes = shape[i].n_nodes, .n_duals = 1, .n_ends = shape[i].n_ends, .node = s.node, .dual = &dual};
     ck_assert_int_eq(thr_turning_proof_check(&s.frame, &s.task, &p, &bound, &err), THR_EVIOLATED);
     assert_one_line(&err, shape[i].word);
     err = (thr_err){0};
   }
   thr_turning_set bad = {0, NULL, 1}; /* an empty set, in multipliers that no leaf has */
   thr_turning_dual dual[2] = {s.dual, s.dual};
-  thr_turning_proof nothing = {1, 2, 2, s.node, dual, {0}};
+  thr_turning_proof nothing = {.n_nodes = 1, .n_duals = 2, .n_ends = 2, .node = s.node, .dual = dual};
   thr_turning_columns c;
   dual[1].odd = &bad, dual[1].n_odd = 1;
   ck_assert_int_eq(thr_turning_columns_init(&c, &s.frame, &s.task, NULL), THR_OK);
@@ -368,6 +449,8 @@ int main(void)
   ADD_TEST(s, 20, junctions_that_prove_nothing);
   ADD_TEST(s, 20, multipliers_that_are_too_large);
   ADD_TEST(s, 20, trees_that_prove_nothing);
+  ADD_TEST(s, 20, symmetries_that_map_no_plans_to_plans);
+  ADD_TEST(s, 20, orbits_that_hide_plans);
   ADD_TEST(s, 20, proofs_of_another_shape);
   ADD_TEST(s, 20, tasks_out_of_range);
   return run_suite(s);

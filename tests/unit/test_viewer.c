@@ -26,7 +26,7 @@ static thr_text page_of(const thr_plan *p, const char *const *motion)
 {
   thr_text t = {0};
   thr_err err = {0};
-  ck_assert_msg(thr_viewer_html(p, motion, &t, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_viewer_html(p, motion, 0, &t, &err) == THR_OK, "%s", err.text);
   return t;
 }
 
@@ -84,7 +84,9 @@ static void assert_cords_kept(const thr_json *doc, const thr_plan *p)
     const thr_json *cord = thr_json_at(cords, c);
     assert_string(thr_json_get(cord, "id"), p->cord[c].id);
     ck_assert_int_eq(thr_json_size(thr_json_get(cord, "half")), p->cord[c].n_passes);
-    ck_assert_int_eq(thr_json_size(thr_json_get(cord, "turns")), p->cord[c].n_passes);
+    bool rigid = thr_json_true(thr_json_get(doc, "solid"));
+    ck_assert_int_eq(rigid, p->options.joint == THR_JOINT_SOLID);
+    ck_assert_int_eq(thr_json_size(thr_json_get(cord, "does")), p->cord[c].n_passes + rigid);
     for (int k = 0; k < p->cord[c].n_passes; k++)
       ck_assert_int_eq((int)number(thr_json_at(thr_json_get(cord, "half"), k)), p->cord[c].half[k]);
   }
@@ -106,33 +108,26 @@ START_TEST(page_holds_the_plan)
 }
 END_TEST
 
-/* Turns of a path round a square seen from above: counter-clockwise is to the left. */
-START_TEST(turns_are_said)
+/* Pieces and what is done with them: nodes, or edges. */
+START_TEST(pieces_are_those_of_the_joint)
 {
-  static const double xyz[][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}};
-  static const int edge[][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {1, 4}}, feet[] = {0, 4, -1};
-  thr_frame f = frame_make(5, xyz, 5, edge, NULL, feet);
-  thr_plan p = plan_simple(&f, THR_ENDS_FEET, 1);
-  thr_text page = page_of(&p, NULL);
-  thr_json *doc = plan_in(&page);
-  const thr_json *turns = thr_json_get(thr_json_at(thr_json_get(doc, "cords"), 0), "turns");
-  int left = 0, right = 0;
-  assert_string(thr_json_at(turns, 0), "go");
-  for (int k = 1; k < thr_json_size(turns); k++) {
-    left += strcmp(thr_json_string(thr_json_at(turns, k)), "turn left 90 degrees") == 0;
-    right += strcmp(thr_json_string(thr_json_at(turns, k)), "turn right 90 degrees") == 0;
+  for (int tube = 0; tube < 2; tube++) {
+    thr_plan p = dome_plan();
+    p.options.joint = tube ? THR_JOINT_TUBE : THR_JOINT_SOLID;
+    thr_text page = page_of(&p, NULL);
+    thr_json *doc = plan_in(&page);
+    int n = tube ? p.frame.n_edges : p.frame.n_nodes, picked = 0;
+    ck_assert_int_eq(thr_json_size(thr_json_get(doc, "pieces")), n);
+    ck_assert_int_eq(thr_json_size(thr_json_get(doc, "kinds")), n);
+    assert_cords_kept(doc, &p);
+    const thr_json *does = thr_json_get(thr_json_at(thr_json_get(doc, "cords"), 0), "does");
+    for (int i = 0; i < thr_json_size(does); i++)
+      picked += strstr(thr_json_string(thr_json_at(does, i)), "pick up ") != NULL;
+    ck_assert_int_eq(picked, n);
+    thr_json_destroy(doc);
+    thr_text_destroy(&page);
+    thr_plan_destroy(&p);
   }
-  double sense = 0; /* twice the area that the cord goes round, positive counter-clockwise */
-  for (int k = 0; k < p.cord[0].n_passes; k++) {
-    const double *a = p.frame.xyz[thr_tail(&p.frame, p.cord[0].half[k])], *b = p.frame.xyz[thr_head(&p.frame, p.cord[0].half[k])];
-    sense += a[0] * b[1] - a[1] * b[0];
-  }
-  ck_assert_int_ge(sense > 0 ? left : right, 3);
-  ck_assert_int_gt(sense > 0 ? left : right, sense > 0 ? right : left);
-  thr_json_destroy(doc);
-  thr_text_destroy(&page);
-  thr_plan_destroy(&p);
-  thr_frame_destroy(&f);
 }
 END_TEST
 
@@ -238,7 +233,7 @@ static void assert_refused(const thr_plan *p, const char *word)
   thr_text t = {0};
   thr_err err = {0};
   thr_text_append(&t, "kept");
-  ck_assert_int_eq(thr_viewer_html(p, NULL, &t, &err), THR_EINPUT);
+  ck_assert_int_eq(thr_viewer_html(p, NULL, 0, &t, &err), THR_EINPUT);
   assert_one_line(&err, word);
   ck_assert_str_eq(t.data, "kept");
   thr_text_destroy(&t);
@@ -270,7 +265,7 @@ START_TEST(every_allocation_fails_once)
     thr_text t = {0};
     thr_err err = {0};
     thr_alloc_fail_at(++k);
-    st = thr_viewer_html(&p, NULL, &t, &err);
+    st = thr_viewer_html(&p, NULL, 0, &t, &err);
     thr_alloc_fail_at(0);
     if (st) {
       ck_assert_msg(st == THR_ENOMEM, "allocation %ld: status %d, %s", k, (int)st, err.text);
@@ -288,7 +283,7 @@ int main(void)
 {
   Suite *s = suite_create("viewer");
   ADD_TEST(s, 10, page_holds_the_plan);
-  ADD_TEST(s, 10, turns_are_said);
+  ADD_TEST(s, 10, pieces_are_those_of_the_joint);
   ADD_TEST(s, 30, copies_are_named);
   ADD_TEST(s, 10, tension_has_colours_and_a_scale);
   ADD_TEST(s, 10, names_cannot_end_the_script);

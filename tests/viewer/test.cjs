@@ -10,7 +10,7 @@ const {pathToFileURL} = require('node:url');
 
 const [packages, program, scratch] = process.argv.slice(2).map((name) => path.resolve(name));
 const {chromium} = createRequire(path.join(packages, 'package.json'))('playwright-core');
-const LIME = [196, 238, 0]; // the bead in hand
+const LIME = [196, 238, 0]; // the piece in hand
 const WIDE = {width: 900, height: 700}, PHONE = {width: 360, height: 740};
 let browser, reader;
 
@@ -29,12 +29,30 @@ function draw(name) {
   return {name, url: pathToFileURL(file(`${name}.html`)).href, plan: JSON.parse(fs.readFileSync(file(`${name}.json`), 'utf8'))};
 }
 
+// The same cords through tubes along the edges, whatever ties them.
+function asTubes(name) {
+  const plan = JSON.parse(fs.readFileSync(file(`${name}.json`), 'utf8'));
+  plan.options.joint = 'tube';
+  fs.writeFileSync(file(`${name}-tubes.json`), JSON.stringify(plan));
+  return draw(`${name}-tubes`);
+}
+
 // Passes in the order of threading: a unique path, then its copies.
 function passesOf(plan) {
   const record = plan.symmetry ? plan.symmetry.cords.map((cord) => cord.of) : plan.cords.map((_, c) => c);
   const copiesOf = (c) => record.flatMap((of, d) => (d !== c && of === c ? [d] : []));
   const order = record.flatMap((of, c) => (of === c ? [c, ...copiesOf(c)] : []));
-  return order.flatMap((c) => plan.cords[c].edges.map((edge, k) => ({c, k, edge, to: plan.cords[c].nodes[k + 1]})));
+  const solid = plan.options.joint !== 'tube';
+  return order.flatMap((c) => plan.cords[c].edges.map((edge, k) => {
+    const to = plan.cords[c].nodes[k + 1];
+    return {c, k, edge, to, piece: solid ? to : edge};
+  }));
+}
+
+// Names of the pieces, by their number.
+function namesOf(drawn) {
+  const rows = thread('draw', file(`${drawn.name}.json`), '-T', 'beads.csv', '-o', '-').trim().split('\n').slice(1);
+  return rows.map((row) => row.split(',')[0]);
 }
 
 // ---- pages ----
@@ -53,8 +71,8 @@ async function open(drawn, {viewport = WIDE, context = null, before = null, ...m
 }
 
 const state = (page) => page.evaluate(() => {
-  const {step, bead, next, theme} = document.documentElement.dataset;
-  return {step: Number(step), bead: Number(bead), next: Number(next), theme};
+  const {step, piece, next, theme} = document.documentElement.dataset;
+  return {step: Number(step), piece: Number(piece), next: Number(next), theme};
 });
 const text = (page, selector) => page.locator(selector).innerText();
 const drawn = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
@@ -72,8 +90,8 @@ const walk = (page) => page.evaluate(() => {
   for (let i = 1; i <= Number(slider.max); i++) {
     slider.value = String(i);
     slider.dispatchEvent(new Event('input'));
-    const [step, bead, next] = [dataset.step, dataset.bead, dataset.next].map(Number);
-    seen.push({step, bead, next, words: document.getElementById('now').textContent});
+    const [step, piece, next] = [dataset.step, dataset.piece, dataset.next].map(Number);
+    seen.push({step, piece, next, words: document.getElementById('now').textContent});
   }
   return seen;
 });
@@ -97,12 +115,12 @@ async function look(page, colour, box = null) {
       near += shade <= 3;
     }
     return {near, colours: seen.size, lime: limeIn(data)};
-    // lit from one side, lime keeps its hue: much green, some red, hardly any blue
+    // lit from one side and half transparent, lime keeps its hue: much green, some red, less blue
     function limeIn(d) {
       let n = 0;
       for (let i = 0; i < d.length; i += 4) {
         const [red, green, blue] = [d[i], d[i + 1], d[i + 2]];
-        n += green > 90 && blue < 0.35 * green && red > 0.6 * green && red < 0.95 * green;
+        n += green > 90 && blue < 0.62 * green && red > 0.6 * green && red < 0.95 * green;
       }
       return n;
     }
@@ -111,10 +129,9 @@ async function look(page, colour, box = null) {
 
 const rgb = (hex) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
 
-// Where the middle of an edge of the plan is on the page.
-async function middleOf(page, plan, edge) {
-  const [a, b] = plan.framework.edges[edge].map((v) => plan.framework.nodes[v]);
-  const at = a.map((x, i) => (x + b[i]) / 2), canvas = await page.locator('#canvas').boundingBox();
+// Where the middle of a solid piece of the plan is on the page.
+async function middleOf(page, plan, node) {
+  const at = plan.framework.nodes[node], canvas = await page.locator('#canvas').boundingBox();
   const p = await page.evaluate((point) => {
     const {project, nodes} = window.threadViewer;
     return project(nodes[0].clone().set(...point));
@@ -137,33 +154,33 @@ const tests = {
     await close();
   },
 
-  async 'slider, words and bead follow the plan'({dome}) {
-    const {page, close} = await open(dome), passes = passesOf(dome.plan);
+  async 'slider, words and piece follow the plan'({dome}) {
+    const {page, close} = await open(dome), passes = passesOf(dome.plan), names = namesOf(dome);
     assert.equal(Number(await page.locator('#slider').getAttribute('max')), passes.length);
     const seen = await walk(page);
     assert.equal(seen.length, passes.length);
-    for (const [i, {step, bead, next, words}] of seen.entries()) {
+    for (const [i, {step, piece, next, words}] of seen.entries()) {
       const pass = passes[i], cord = dome.plan.cords[pass.c].id;
-      assert.deepEqual([step, bead, next], [i + 1, pass.edge, i + 1 < passes.length ? passes[i + 1].edge : -1]);
-      assert.ok(words.includes(`bead ${pass.edge}`), words);
+      assert.deepEqual([step, piece, next], [i + 1, pass.piece, i + 1 < passes.length ? passes[i + 1].piece : -1]);
+      assert.ok(words.includes(names[pass.piece]), words);
       assert.ok(words.startsWith(dome.plan.cords.length > 1 ? `Cord ${cord}, pass ${pass.k + 1}` : `Pass ${pass.k + 1}`), words);
     }
     await setSlider(page, 0);
-    assert.deepEqual((({step, bead, next}) => [step, bead, next])(await state(page)), [0, -1, passes[0].edge]);
+    assert.deepEqual((({step, piece, next}) => [step, piece, next])(await state(page)), [0, -1, passes[0].piece]);
     await close();
   },
 
-  async 'the lit bead is where the plan has it'({dome}) {
+  async 'the lit piece is where the plan has it'({dome}) {
     const {page, close} = await open(dome), passes = passesOf(dome.plan);
     await page.locator('#follow').check();
     for (const step of [1, Math.floor(passes.length / 3), Math.floor(passes.length / 2), passes.length]) {
       await setSlider(page, step);
-      const at = await middleOf(page, dome.plan, passes[step - 1].edge);
+      const at = await middleOf(page, dome.plan, passes[step - 1].piece);
       const canvas = await page.locator('#canvas').boundingBox();
-      const lit = (await look(page, LIME, {x: at.x - 30, y: at.y - 30, width: 60, height: 60})).lime;
+      const lit = (await look(page, LIME, {x: at.x - 50, y: at.y - 50, width: 100, height: 100})).lime;
       const all = (await look(page, LIME, canvas)).lime;
       assert.ok(lit > 60, `step ${step}: ${lit} pixels are lit`);
-      assert.ok(all < 6 * lit, `step ${step}: ${all} pixels are lit, ${lit} of them near the bead`);
+      assert.ok(all < 6 * lit, `step ${step}: ${all} pixels are lit, ${lit} of them near the piece`);
     }
     await close();
   },
@@ -210,7 +227,7 @@ const tests = {
       await page.keyboard.press('Tab');
       reached.add(await page.evaluate(() => document.activeElement.id));
     }
-    for (const id of ['canvas', 'theme', 'reset', 'pass', 'bead', 'follow', 'back', 'play', 'on', 'speed', 'slider'])
+    for (const id of ['canvas', 'theme', 'reset', 'pass', 'piece', 'follow', 'back', 'play', 'on', 'speed', 'slider'])
       assert.ok(reached.has(id), id);
     const nameless = await page.locator('button, input, select, canvas').evaluateAll((all) => {
       const named = (node) => node.getAttribute('aria-label') || (node.labels && node.labels.length) || node.innerText?.trim();
@@ -220,8 +237,8 @@ const tests = {
     await close();
   },
 
-  async 'a cord that is off is not drawn'({several}) {
-    const {page, close} = await open(several), colour = rgb('#0072B2');
+  async 'a cord that is off is not drawn'({tubes}) {
+    const {page, close} = await open(tubes), colour = rgb('#0072B2');
     await page.keyboard.press('End');
     const on = (await look(page, colour)).near;
     await page.getByLabel('Show cord A').uncheck();
@@ -246,8 +263,8 @@ const tests = {
     await close();
   },
 
-  async 'cords have a dark rim'({several}) {
-    const {page, close} = await open(several), colour = [0x2a, 0x2a, 0x2e];
+  async 'cords have a dark rim'({tubes}) {
+    const {page, close} = await open(tubes), colour = [0x2a, 0x2a, 0x2e];
     await page.locator('#follow').check();
     assert.equal((await look(page, colour)).near, 0, 'nothing is threaded');
     await page.locator('#on').click();
@@ -287,7 +304,7 @@ const tests = {
     await page.goto(dome.url);
     await page.locator('#trouble').waitFor();
     await setSlider(page, 3);
-    assert.ok((await text(page, '#now')).includes(`bead ${passesOf(dome.plan)[2].edge}`));
+    assert.ok((await text(page, '#now')).includes(namesOf(dome)[passesOf(dome.plan)[2].piece]));
     const swatch = await page.locator('.swatch').first().evaluate((node) => getComputedStyle(node).backgroundImage);
     assert.ok(swatch.includes('rgb(0, 114, 178)'), swatch);
     await own.close();
@@ -329,7 +346,7 @@ const tests = {
   },
 
   async 'jumps'({several}) {
-    const {page, close} = await open(several), passes = passesOf(several.plan);
+    const {page, close} = await open(several), passes = passesOf(several.plan), names = namesOf(several);
     const jump = async (field, words) => {
       await page.locator(field).fill(words);
       await page.locator('#jump button').click();
@@ -340,22 +357,22 @@ const tests = {
     assert.equal(await jump('#pass', 'b3'), first + 3);
     assert.equal(await jump('#pass', 'B9999'), first + 3);
     assert.ok((await text(page, '#found')).includes('no pass B9999'));
-    const through = passes.flatMap((pass, i) => (pass.edge === 5 ? [i + 1] : []));
-    assert.equal(await jump('#bead', '5'), through.find((step) => step > first + 3) ?? through[0]);
-    assert.equal((await state(page)).bead, 5);
+    const through = passes.flatMap((pass, i) => (pass.piece === 24 ? [i + 1] : []));
+    assert.equal(await jump('#piece', names[24].toLowerCase()), through.find((step) => step > first + 3) ?? through[0]);
+    assert.equal((await state(page)).piece, 24);
     const stay = (await state(page)).step;
-    assert.equal(await jump('#bead', 'no such bead'), stay);
-    assert.ok((await text(page, '#found')).includes('no bead'));
+    assert.equal(await jump('#piece', 'no such piece'), stay);
+    assert.ok((await text(page, '#found')).includes('no piece'));
     await close();
   },
 
-  async 'a click says which bead it is'({dome}) {
+  async 'a click says which piece it is'({dome}) {
     const {page, close} = await open(dome);
     await page.locator('#follow').check();
     await page.keyboard.press('End');
-    const {bead} = await state(page), at = await middleOf(page, dome.plan, bead);
+    const {piece} = await state(page), at = await middleOf(page, dome.plan, piece);
     await page.mouse.click(at.x, at.y);
-    assert.ok((await text(page, '#found')).startsWith(`Bead ${bead},`));
+    assert.ok((await text(page, '#found')).startsWith(`${namesOf(dome)[piece]}, kind `));
     await close();
   },
 
@@ -365,23 +382,42 @@ const tests = {
     assert.ok((await text(page, '#title')).includes(`${plan.symmetry.unique_paths} path`));
     const seen = await walk(page);
     assert.equal(seen.length, passes.length);
-    for (const [i, {bead, words}] of seen.entries()) {
+    for (const [i, {piece, words}] of seen.entries()) {
       const {of} = plan.symmetry.cords[passes[i].c];
-      assert.equal(bead, passes[i].edge);
+      assert.equal(piece, passes[i].piece);
       if (passes[i].k === 0) assert.equal(words.includes(`the same as cord ${plan.cords[of].id},`), of !== passes[i].c, words);
     }
     await close();
   },
 
-  async 'turns are those of the steps in words'({dome}) {
+  async 'words are those of the steps'({dome}) {
     const {page, close} = await open(dome);
-    thread('draw', file(`${dome.name}.json`), '-T', 'steps', '-o', file('steps.txt'));
-    const steps = fs.readFileSync(file('steps.txt'), 'utf8').split('\n\nCord').slice(1).join(' ').replace(/\s+/g, ' ');
-    const turn = /(?:turn(?: left| right| back)?|over the curve)(?: \d+ degrees)? to [^\s,:]+/g;
-    const plain = (words) => words.toLowerCase().replace(/foot | \(node [^)]*\)/g, '');
-    const seen = (await walk(page)).flatMap(({words}) => plain(words).match(turn) || []);
+    const steps = thread('draw', file(`${dome.name}.json`), '-T', 'steps', '-o', '-').replace(/\n {4,}(?=\S)/g, ' ');
+    const rows = [...steps.matchAll(/^\[ \] +[0-9]+ +(.*?)(?: the needle comes out at .*)?$/gm)].map(([, row]) => row.toLowerCase());
+    const seen = (await walk(page)).map(({words}) => words.replace(/^.*?pass \d+ /i, '').replace(/^start.*?; /i, '').toLowerCase());
     assert.ok(seen.length > 10);
-    assert.deepEqual(seen, steps.toLowerCase().match(turn));
+    assert.deepEqual(seen, rows);
+    await close();
+  },
+
+  async 'pieces, not edges, are counted'({dome, tubes}) {
+    for (const [drawn, count] of [[dome, '49 pieces'], [tubes, '84 tubes']]) {
+      const {page, close} = await open(drawn);
+      assert.ok((await text(page, '#title')).includes(count));
+      await close();
+    }
+  },
+
+  async 'a telephone that follows the needle shows the piece in hand'({space}) {
+    const {page, close} = await open(space, {viewport: PHONE, hasTouch: true, isMobile: true}), passes = passesOf(space.plan);
+    await page.locator('#follow').evaluate((box) => box.click());
+    for (let i = 1; i < passes.length; i += Math.floor(passes.length / 9)) {
+      await setSlider(page, i);
+      const {lime} = await look(page, LIME), at = await middleOf(page, space.plan, passes[i - 1].piece);
+      const canvas = await page.locator('#canvas').boundingBox();
+      assert.ok(lime > 150, `step ${i}: ${lime} pixels`);
+      assert.ok(Math.abs(at.x - canvas.x - canvas.width / 2) < 0.4 * canvas.width, `step ${i}: at ${at.x}`);
+    }
     await close();
   },
 
@@ -430,7 +466,7 @@ const tests = {
       return (performance.now() - begun) / 20;
     });
     assert.ok(took < 100, `${took.toFixed(1)} ms for a step`);
-    assert.equal((await state(page)).bead, passes[19].edge);
+    assert.equal((await state(page)).piece, passes[19].piece);
     await close();
   },
 };
@@ -456,6 +492,8 @@ function plans() {
     several: make('several', path.join(data, 'dome7.json'), '--objective', 'length', '--cords', '3', '--ends', 'any'),
     symmetric: make('symmetric', file('d6.json'), '--objective', 'symmetry'),
     evaluated: draw('evaluated'),
+    tubes: asTubes('several'),
+    space: make('space', path.join(data, 'assembly-instances/voronoi_S1_03-14-2019_w_layer.json'), '--time-limit', '3'),
     hostile: make('hostile', file('hostile-frame.json'), '--objective', 'length', '--ends', 'closed'),
   };
 }

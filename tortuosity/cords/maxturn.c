@@ -228,14 +228,14 @@ static thr_status copy_best(const search *x, thr_join *j, thr_err *err)
 static int steps_of(const search *x)
 {
   double darts = x->best.g.n_darts;
-  return (int)fmax(2000, fmin(1000 * darts, 4e7 / darts));
+  return (int)fmax(2000, fmin(1000 * darts, 8e8 / darts));
 }
 
 /* From the plan itself; from other ends; and from the best of all these once more. Counted, not timed, so that the same input
  * gives the same cords. */
 static thr_status run(search *x, thr_err *err)
 {
-  enum { ROUNDS = 48, LAST = 2, MORE = 4000 };
+  enum { ROUNDS = 48, LAST = 2, MORE = 20000 };
   const thr_turning_columns *turning_columns = x->c;
   int rounds = ROUNDS + MORE / x->best.g.n_darts, steps = steps_of(x);
   bool done = false;
@@ -252,7 +252,7 @@ static thr_status run(search *x, thr_err *err)
       else
         move_ends(x);
     }
-    st = try_passes(x, i % 2 == 0 || i < 2, steps / ROUNDS * 2, err);
+    st = try_passes(x, i % 2 == 0 || i < 2, steps / 4, err);
     if (!st) st = is_finished(x, &done, err);
   }
   for (int i = 0; i < LAST && !st && !done; i++) {
@@ -331,59 +331,65 @@ static void search_destroy(search *x)
   free(x->ends);
 }
 
+/* Cords from the table, or from the search. */
+static thr_status find_cords(search *x, const thr_frame *frame, thr_least *plan, thr_err *err)
+{
+  bool found = false;
+  thr_status st = THR_OK;
+  if (x->enough > 0 && x->bound > x->enough) return THR_OK;
+  if (x->bound < x->scale * (1 - 1e-9))
+    st = thr_max_turning_small(x->c, plan->cord, plan->n_cords, x->limits, &x->best, &found, err);
+  if (!st && !found) st = run(x, err);
+  return st ? st : keep_best(x, frame, plan, err);
+}
+
 /* The programme over walks: a higher bound, and cords that it chooses, evened out as the others were. */
-static thr_status use_walks(search *x, const thr_frame *frame, thr_least *plan, double *bound, thr_err *err)
+static thr_status use_walks(search *x, const thr_frame *frame, thr_least *plan, thr_err *err)
 {
   thr_cord *better = NULL;
   thr_join j = {0};
-  thr_status st =
-      thr_walk_bound(x->c, plan->cord, plan->n_cords, plan->bound, x->enough, x->limits, &plan->proof.walks, bound, &better, err);
-  if (!st && better) {
-    x->bound = *bound;
-    for (int steps = 0; steps >= 0 && !st; steps = steps ? -1 : steps_of(x)) { /* as they are, and evened out */
-      st = thr_join_from_cords(&j, x->c, better, plan->n_cords, err);
-      if (!st) st = improve_from(x, &j, steps, err);
-    }
-    if (!st) st = keep_best(x, frame, plan, err);
+  thr_status st = thr_walk_bound(x->c, plan->cord, plan->n_cords, plan->bound, x->enough, x->limits, &plan->proof.walks,
+                                 &x->bound, &better, err);
+  for (int steps = 0; steps >= 0 && !st && better; steps = steps ? -1 : steps_of(x)) { /* as they are, and evened out */
+    st = thr_join_from_cords(&j, x->c, better, plan->n_cords, err);
+    if (!st) st = improve_from(x, &j, steps, err);
   }
+  if (!st && better) st = keep_best(x, frame, plan, err);
   thr_cords_destroy(better, plan->n_cords);
   return st;
 }
 
-/* Cords from the search, and what the programme over walks adds. Where something is enough, it has a part of the time to itself:
- * to rule that out. */
-static thr_status find_cords(search *x, const thr_frame *frame, thr_least *plan, double *bound, thr_err *err)
-{
-  const double part = 0.6;
-  const thr_limits *limits = x->limits, first = thr_limits_part(limits, x->enough > 0 ? part : 1);
-  bool found = false;
-  thr_status st = THR_OK;
-  if (x->enough > 0 && *bound > x->enough) return THR_OK;
-  x->limits = &first;
-  if (*bound < x->scale * (1 - 1e-9))
-    st = thr_max_turning_small(x->c, plan->cord, plan->n_cords, x->limits, &x->best, &found, err);
-  if (!st && !found) st = run(x, err);
-  x->limits = limits;
-  if (!st) st = keep_best(x, frame, plan, err);
-  if (!st && x->enough > 0 && thr_cords_pulled_turning(frame, plan->cord, plan->n_cords) <= x->enough / 2) return THR_OK;
-  return st ? st : use_walks(x, frame, plan, bound, err);
-}
+typedef thr_status way(search *x, const thr_frame *frame, thr_least *plan, thr_err *err);
 
-thr_status thr_max_turning_improve(const thr_frame *frame, double enough, const thr_limits *limits, thr_least *plan,
-                                   thr_max_turning *out, thr_err *err)
+/* out->bound: what is known already, 0 = nothing. */
+static thr_status improve(way *by, const thr_frame *frame, double enough, const thr_limits *limits, thr_least *plan,
+                          thr_max_turning *out, thr_err *err)
 {
   thr_turning_columns turning_columns = {0};
   search x = {0};
   double forced = 0;
-  *out = (thr_max_turning){.bound = plan->bound / plan->n_cords};
+  out->bound = fmax(out->bound, plan->bound / plan->n_cords);
   thr_status st = thr_turning_columns_init(&turning_columns, frame, &plan->task, err);
   if (!st) st = thr_walk_forced(&turning_columns, &forced, err);
   out->bound = fmax(out->bound, forced);
   if (!st) st = search_init(&x, &turning_columns, limits, plan, largest_price(frame, plan), out->bound, err);
   x.enough = enough;
-  if (!st) st = find_cords(&x, frame, plan, &out->bound, err);
-  if (!st) out->largest = largest_price(frame, plan);
+  if (!st) st = by(&x, frame, plan, err);
+  if (!st) *out = (thr_max_turning){.largest = largest_price(frame, plan), .bound = x.bound};
   search_destroy(&x);
   thr_turning_columns_destroy(&turning_columns);
   return st;
+}
+
+thr_status thr_max_turning_improve(const thr_frame *frame, double enough, const thr_limits *limits, thr_least *plan,
+                                   thr_max_turning *out, thr_err *err)
+{
+  *out = (thr_max_turning){0};
+  return improve(find_cords, frame, enough, limits, plan, out, err);
+}
+
+thr_status thr_max_turning_walks(const thr_frame *frame, double enough, const thr_limits *limits, thr_least *plan,
+                                 thr_max_turning *out, thr_err *err)
+{
+  return improve(use_walks, frame, enough, limits, plan, out, err);
 }

@@ -26,8 +26,13 @@ typedef struct {
  * length of plan change; its proof (of the sum) still holds, its claim of optimality (of the sum) may not. Stops when the largest
  * is at the bound, when the count is used up, or by the limits (no error). The same input gives the same cords.
  * enough > 0, rad: it also stops as soon as half of that is no less than any cord's thr_cord_pulled_turning, or at once if
- * some cord is known to turn by more than enough; that is what it tries to prove in the last part of the time. */
+ * some cord is known to turn by more than enough. */
 thr_status thr_max_turning_improve(const thr_frame *frame, double enough, const thr_limits *limits, thr_least *plan,
                                    thr_max_turning *out, thr_err *err) THR_MUST_CHECK;
+
+/* What the programme over walks adds for open cords (tortuosity/cords/walk_bound.h): raises out->bound, of which plan.proof then
+ * has the walks, and changes the cords if it finds better ones; also where the limits stop it. */
+thr_status thr_max_turning_walks(const thr_frame *frame, double enough, const thr_limits *limits, thr_least *plan,
+                                 thr_max_turning *out, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -66,15 +66,6 @@ static int64_t choose_unit(const thr_turning_columns *columns, const thr_cord *c
   return (int64_t)floor(ldexp(unit, THR_TURNING_BITS) * (1 - 1e-9));
 }
 
-/* Passes that the edges at node v need. */
-static int needed_at(const thr_turning_columns *columns, int v)
-{
-  int sum = 0;
-  for (int i = columns->f->first[v]; i < columns->f->first[v + 1]; i++)
-    sum += columns->cover[columns->f->half[i] >> 1];
-  return sum;
-}
-
 static void number_variables(thr_walk_programme *p)
 {
   const thr_frame *frame = p->c->f;
@@ -83,9 +74,9 @@ static void number_variables(thr_walk_programme *p)
     if (p->edge[e] >= 0) p->right[p->n_variables++] = p->c->cover[e];
   }
   for (int v = 0; v < frame->n_nodes; v++) {
-    int needed = needed_at(p->c, v);
+    const int64_t needed = thr_walk_needed_at(p->c, v);
     p->node[v] = p->c->component[v] == p->component && needed % 2 ? p->n_variables : -1;
-    if (p->node[v] >= 0) p->right[p->n_variables++] = needed + 1;
+    if (p->node[v] >= 0) p->right[p->n_variables++] = (double)needed + 1;
   }
   if (p->least > 0) p->right[p->n_variables++] = 1;
 }

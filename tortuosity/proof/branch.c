@@ -66,6 +66,9 @@ void thr_branch_destroy(thr_branch *branch)
   if (branch->found) thr_join_destroy(&branch->best);
   if (branch->other.found) thr_join_destroy(&branch->other.join);
   if (branch->relax.c) thr_relax_destroy(&branch->relax);
+  for (int k = 0; k < THR_TREE_BATCH; k++)
+    thr_orbit_destroy(&branch->orbit[k]);
+  thr_orbits_destroy(&branch->orbits);
   *branch = (thr_branch){0};
 }
 
@@ -280,6 +283,20 @@ thr_status thr_branch_set_bounds(void *user, int column, int low, int high, thr_
   return thr_relax_set(&branch->relax, column, low, high, err);
 }
 
+/* Plans of matchings near the best one, then of other extra passes, as long as both find better ones. */
+static thr_status improve_near(thr_branch *branch, int tries, thr_err *err)
+{
+  const thr_limits some = thr_limits_part(branch->limits, 0.4);
+  thr_status st = THR_OK;
+  for (int64_t best = INT64_MAX; branch->best_price < best && !st && !thr_branch_proved(branch) && !thr_limits_stop(&some);) {
+    const int64_t before = branch->best_price;
+    st = thr_connect_near(branch, &some, err);
+    if (!st && branch->best_price < before) st = thr_cycles_improve(branch, tries, err);
+    best = before;
+  }
+  return st;
+}
+
 /* Plans near the best one, near the other one, and of random prices. */
 static thr_status improve_plans(thr_branch *branch, thr_err *err)
 {
@@ -292,6 +309,7 @@ static thr_status improve_plans(thr_branch *branch, thr_err *err)
     if (branch->other.price < branch->best_price) thr_branch_swap(branch, &branch->other);
   }
   if (!st && single && thr_connect_later(branch->c) && !closed(branch, root)) st = thr_connect_plans(branch, branch->limits, err);
+  if (!st && single) st = improve_near(branch, tries, err);
   return st;
 }
 
@@ -310,16 +328,26 @@ static thr_limits limits_of_search(const thr_branch *branch)
 static bool is_weak(const thr_branch *branch)
 {
   enum { SMALL = 5000 };
-  const double wide = 0.01;
+  const double wide = 0.005;
   const thr_turning_columns *c = branch->c;
   return !c->task->end_allowed && !c->task->tube && c->n_columns < SMALL &&
          branch->tree.node[0].bound < (1 - wide) * (double)branch->best_price;
 }
 
-static thr_tree_branch choose(const thr_relax *relax)
+/* The column to decide on where a lane's point is, with all its images. */
+static thr_status choose(thr_branch *branch, int k, thr_tree_branch *out, thr_err *err)
 {
-  const int column = most_fractional(relax);
-  return (thr_tree_branch){.column = column, .value = column >= 0 ? (int)floor(relax->x[column]) : 0};
+  const thr_branch *lane = thr_branch_lane(branch, k);
+  const int column = most_fractional(&lane->relax);
+  thr_orbit *orbit = &branch->orbit[k];
+  thr_orbit_destroy(orbit);
+  *out = (thr_tree_branch){.column = column};
+  if (column < 0) return THR_OK;
+  thr_status st = thr_orbits_at(&branch->orbits, &branch->tree, &lane->tree.here, column, orbit, err);
+  out->value = (int)floor(lane->relax.x[column]);
+  out->n_also = orbit->n;
+  out->also = orbit->column;
+  return st;
 }
 
 /* A node's bound and plans; then the column to branch on. */
@@ -338,8 +366,11 @@ static thr_status solve(void *user, int i, thr_tree_branch *branch, thr_err *err
   const thr_limits rest = limits_of_search(b);
   if (!st && root && b->found && is_weak(b)) st = thr_branch_ranks(b, &rest, err);
   b->tree.enough = enough(b);
-  *branch = choose(&b->relax);
-  return st;
+  if (!st && root && !closed(b, i) && !b->tree.stopped) {
+    const thr_limits some = thr_limits_part(&rest, 0.05);
+    st = thr_orbits_init(&b->orbits, b->c, b->motions, &some, err);
+  }
+  return st ? st : choose(b, 0, branch, err);
 }
 
 static thr_status solve_all(void *user, int n, const int *node, thr_tree_branch *branch, thr_err *err)
@@ -351,9 +382,9 @@ static thr_status solve_all(void *user, int n, const int *node, thr_tree_branch 
   if (st || b->tree.stopped) return st;
   report(b);
   b->tree.enough = enough(b);
-  for (int k = 0; k < n; k++)
-    branch[k] = choose(thr_branch_relax(b, k));
-  return THR_OK;
+  for (int k = 0; k < n && !st; k++)
+    st = choose(b, k, &branch[k], err);
+  return st;
 }
 
 static double covers(const thr_turning_columns *turning_columns)
@@ -412,15 +443,68 @@ static int place_nodes(const thr_tree *t, double enough, int *place)
   return n;
 }
 
-static thr_turning_node proof_node(const thr_branch *branch, const thr_tree_node *node, const int *place)
+static thr_status no_bounds(void *user, int column, int low, int high, thr_err *err)
 {
-  const thr_tree_node *child = &branch->tree.node[node->child[0]];
-  return (thr_turning_node){.low = place[node->child[0]],
+  (void)user;
+  (void)column;
+  (void)low;
+  (void)high;
+  (void)err;
+  return THR_OK;
+}
+
+/* What node i of the tree decides. Symmetries are numbered as the tree has them. */
+static thr_status write_node(thr_branch *branch, int i, const int *place, thr_turning_node *out, thr_err *err)
+{
+  const thr_tree *t = &branch->tree;
+  const thr_tree_node *node = &t->node[i], *child = &t->node[node->child[0]];
+  const thr_tree_calls nothing = {.set = no_bounds};
+  thr_orbit orbit = {0};
+  *out = (thr_turning_node){.low = place[node->child[0]],
                             .high = place[node->child[1]],
                             .a = branch->c->half[child->column][0],
                             .b = branch->c->half[child->column][1],
                             .value = child->value,
                             .dual = -1};
+  if (child->n_also == 0) return THR_OK;
+  thr_status st = thr_tree_enter(&branch->tree, &nothing, i, err);
+  if (!st) st = thr_orbits_at(&branch->orbits, t, &t->here, child->column, &orbit, err);
+  if (st) return st;
+  out->n_orbit = orbit.n;
+  out->orbit = orbit.symmetry;
+  orbit.symmetry = NULL;
+  thr_orbit_destroy(&orbit);
+  return THR_OK;
+}
+
+/* The symmetries that the proof's nodes name, numbered anew. */
+static thr_status write_symmetries(const thr_branch *branch, thr_turning_proof *proof, thr_err *err)
+{
+  const size_t m = (size_t)branch->c->f->n_edges;
+  int *number = thr_calloc((size_t)branch->orbits.n, sizeof *number);
+  proof->symmetry = thr_calloc((size_t)branch->orbits.n * m, sizeof *proof->symmetry);
+  thr_status st = number && proof->symmetry ? THR_OK : thr_nomem(err);
+  for (int i = 0; i < proof->n_nodes && !st; i++)
+    for (int k = 0; k < proof->node[i].n_orbit; k++) {
+      int *s = &proof->node[i].orbit[k];
+      if (!number[*s]) {
+        memcpy(proof->symmetry + (size_t)proof->n_symmetries * m, branch->orbits.image + (size_t)*s * m, m * sizeof(int));
+        number[*s] = ++proof->n_symmetries;
+      }
+      *s = number[*s] - 1;
+    }
+  free(number);
+  return st;
+}
+
+static void write_leaf(thr_branch *branch, int dual, int *moved, thr_turning_proof *proof, thr_turning_node *out)
+{
+  if (!moved[dual]) {
+    proof->dual[proof->n_duals] = branch->dual[dual];
+    branch->dual[dual] = (thr_turning_dual){0};
+    moved[dual] = ++proof->n_duals;
+  }
+  *out = (thr_turning_node){.dual = moved[dual] - 1};
 }
 
 thr_status thr_branch_proof(thr_branch *branch, thr_turning_proof *proof, thr_err *err)
@@ -436,17 +520,12 @@ thr_status thr_branch_proof(thr_branch *branch, thr_turning_proof *proof, thr_er
   for (int i = 0; i < t->n_nodes && !st; i++) {
     const thr_tree_node *node = &t->node[i];
     if (place[i] < 0) continue;
-    if (node->child[0] && node->bound < needed) {
-      proof->node[place[i]] = proof_node(branch, node, place);
-      continue;
-    }
-    if (!moved[node->proof]) {
-      proof->dual[proof->n_duals] = branch->dual[node->proof];
-      branch->dual[node->proof] = (thr_turning_dual){0};
-      moved[node->proof] = ++proof->n_duals;
-    }
-    proof->node[place[i]] = (thr_turning_node){.dual = moved[node->proof] - 1};
+    if (node->child[0] && node->bound < needed)
+      st = write_node(branch, i, place, &proof->node[place[i]], err);
+    else
+      write_leaf(branch, node->proof, moved, proof, &proof->node[place[i]]);
   }
+  if (!st) st = write_symmetries(branch, proof, err);
   free(moved);
   free(place);
   if (st) thr_turning_proof_destroy(proof);

@@ -14,6 +14,7 @@
 #include "graph/status.h"
 #include "lp/model/tree.h"
 #include "tortuosity/cords/join.h"
+#include "tortuosity/proof/orbits.h"
 #include "tortuosity/proof/relax.h"
 
 /* A plan that is put aside. */
@@ -45,11 +46,14 @@ typedef struct thr_branch {
   uint64_t tried;             /* name of the rounding tried last */
   int *passes, *ends, *whole; /* scratch */
   double *weight, *end_weight;
-  int rounds, more_rounds;       /* linear programmes solved, in other lanes */
-  double begun, begun_processor; /* thr_clock() and thr_processor_clock() at thr_branch_init */
-  double checking;               /* s of the processor that the bounds of all multipliers took */
-  bool matched;                  /* the best plan is the one of the first bound */
-  bool dense;                    /* so many turns that there is no programme of them */
+  int rounds, more_rounds;         /* linear programmes solved, in other lanes */
+  double begun, begun_processor;   /* thr_clock() and thr_processor_clock() at thr_branch_init */
+  double checking;                 /* s of the processor that the bounds of all multipliers took */
+  bool matched;                    /* the best plan is the one of the first bound */
+  bool dense;                      /* so many turns that there is no programme of them */
+  thr_orbits_motions *motions;     /* NULL = none are looked for */
+  thr_orbits orbits;               /* from the root on */
+  thr_orbit orbit[THR_TREE_BATCH]; /* of the columns that the nodes at hand are to decide on */
   /* nodes that are solved at once (tortuosity/proof/branch_lanes.c) */
   thr_team *team;
   thr_limits quiet;        /* of the team */
@@ -123,9 +127,9 @@ thr_status thr_branch_set_bounds(void *branch, int column, int low, int high, th
 thr_status thr_branch_solve_node(thr_branch *branch, int node, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
 
 /* Puts the decisions of n > 1 nodes in force, each in its lane, and solves them, in so many threads as the limits allow, until
- * the deadline (0 = none): bounds and plans are the same whatever their number. What the lanes' points are: thr_branch_relax. */
+ * the deadline (0 = none): bounds and plans are the same whatever their number. What the lanes' points are: thr_branch_lane. */
 thr_status thr_branch_solve_all(thr_branch *branch, int n, const int *node, double deadline, thr_err *err) THR_MUST_CHECK;
-const thr_relax *thr_branch_relax(const thr_branch *branch, int lane);
+const thr_branch *thr_branch_lane(const thr_branch *branch, int lane);
 void thr_branch_close_lanes(thr_branch *branch);
 
 /* The threads of a search, and its limits for them, if there are none yet. */

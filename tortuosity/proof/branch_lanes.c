@@ -141,7 +141,7 @@ thr_status thr_branch_solve_all(thr_branch *branch, int n, const int *node, doub
   return st;
 }
 
-const thr_relax *thr_branch_relax(const thr_branch *branch, int lane)
+const thr_branch *thr_branch_lane(const thr_branch *branch, int lane)
 {
-  return lane > 0 ? &branch->lane[lane - 1].relax : &branch->relax;
+  return lane > 0 ? &branch->lane[lane - 1] : branch;
 }

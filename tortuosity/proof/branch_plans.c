@@ -299,7 +299,7 @@ thr_status thr_branch_try_joined(thr_branch *branch, const int *x, bool improve,
   thr_status st = thr_join_init(&j, branch->c, branch->passes, branch->ends, err);
   if (st) return st;
   st = thr_join_columns(&j, branch->whole, &single, err);
-  if (!st && !single) st = thr_transition_join(branch->c->f, &j.g, j.mate, err);
+  if (!st && !single) st = thr_transition_join(branch->c->f, &j.g, j.mate, NULL, err);
   if (!st) thr_join_measure(&j);
   double best = branch->found ? ldexp((double)branch->best_price, -THR_TURNING_BITS) : INFINITY;
   if (!st && !single && (improve || j.price < best)) st = thr_improve(&j, branch->limits, err);

@@ -29,6 +29,10 @@ thr_status thr_connect(thr_branch *branch, thr_pass_matching *passes, const int6
  * tortuosity/proof/connect_plans.c. The same plans every time. */
 thr_status thr_connect_plans(thr_branch *branch, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
 
+/* The same near the best plan, which must have been found, and improved by exchanges: turns that it has not are dearer by random
+ * amounts. As long as that finds better ones. */
+thr_status thr_connect_near(thr_branch *branch, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
+
 /* Do programmes take less time than many steps? They do for small frameworks, and where most nodes have at most four edges: few
  * rows prove most there, and steps along many crossings of the same two parts overshoot. Then programmes come first, and plans
  * under random prices after them. O(1). */

@@ -7,6 +7,7 @@
 #include "tortuosity/tie/tie.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -267,6 +268,7 @@ static thr_status search(const thr_frame *frame, const thr_least_options *option
   const double each = thr_clock() - begun;
   if (!st) st = find_shortest(&turning_columns, options, limits, &made, passes, ends, &start, err);
   if (!st) st = thr_branch_init(&branch, &turning_columns, options->most_nodes, &inner, err);
+  branch.motions = options->motions;
   if (branch.dense) inner = without(limits, (options->tube ? CHECKS_TIED : CHECKS) * each);
   if (!st) st = begin(&branch, err);
   if (!st) st = first_plans(&branch, options, &start, passes, ends, err);
@@ -276,9 +278,11 @@ static thr_status search(const thr_frame *frame, const thr_least_options *option
   if (!st) {
     *out = made;
     made = (thr_least){0};
-    if (!out->optimal)
-      st = thr_fail(err, THR_ELIMIT, "%s: the turning is proved to be within %.3g %% of the least", out->open,
-                    100 * (out->price - out->bound) / out->price);
+    if (!out->optimal) {
+      char what[160];
+      snprintf(what, sizeof what, "%s: the turning", out->open);
+      st = thr_not_proved(err, what, out->price, out->bound);
+    }
   }
   thr_least_destroy(&made);
   thr_branch_destroy(&branch);

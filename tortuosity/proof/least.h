@@ -14,6 +14,7 @@
 #include "graph/plan/turning_proof.h"
 #include "graph/status.h"
 #include "tortuosity/cords/join.h"
+#include "tortuosity/proof/orbits.h"
 
 /* Cords of a plan. */
 typedef struct {
@@ -37,8 +38,9 @@ typedef struct {
   const thr_least_start *also; /* [n_also] plans of solid joints that the result turns no more than, whatever the time; they may
                                   turn back; borrowed */
   int n_also;
-  bool slack_from_start; /* start is the shortest plan known: the shortest passes hold none */
-  int most_nodes;        /* of the branching tree; 1 = the root only, 0 = no linear programme */
+  bool slack_from_start;       /* start is the shortest plan known: the shortest passes hold none */
+  int most_nodes;              /* of the branching tree; 1 = the root only, 0 = no linear programme */
+  thr_orbits_motions *motions; /* asked when a tree begins: its nodes then decide for all images of a column; NULL = none */
 } thr_least_options;
 
 thr_least_options thr_least_options_default(void);

@@ -136,8 +136,7 @@ thr_status thr_tube_shortest(const thr_frame *frame, const thr_request *options,
                     "tube joints take one closed cord in every component; let the cords end somewhere, or ask for one");
   thr_status st = make(frame, options, true, limits, out, err);
   if (st || proved(out)) return st;
-  return thr_fail(err, THR_ELIMIT, "the length is proved to be within %.3g %% of the least",
-                  100 * (out->length - out->bound) / out->length);
+  return thr_not_proved(err, "the length", out->length, out->bound);
 }
 
 thr_status thr_tube_some(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_tube *out,

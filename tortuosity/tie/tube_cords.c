@@ -82,7 +82,8 @@ static thr_status make_number(several *x, int n, bool even, thr_err *err)
   thr_status st = short_walks(x, n, err);
   if (!st) st = make_walks(x, n, even, 0, &found, &certain, err);
   if (st || found) return st;
-  return thr_fail(err, THR_EINFEASIBLE, "the component with node %s: %s %d closed cords that tie its joints", x->s.f->name[0],
+  return thr_fail(err, certain ? THR_EINFEASIBLE : THR_ELIMIT,
+                  "the component with node %s: %s %d closed cords that tie its joints", x->s.f->name[0],
                   certain ? "there are no" : "did not find", n);
 }
 
@@ -100,13 +101,15 @@ static thr_status make_even(several *x, thr_err *err)
   enum { IN_SINGLE_STEPS = 12 };
   const int least = x->s.o->cords_least;
   thr_err why = {0};
-  thr_status st = THR_EINFEASIBLE;
-  for (int n = x->s.o->cords; n >= least && st == THR_EINFEASIBLE; n = n > 2 * least && n > IN_SINGLE_STEPS ? n / 2 : n - 1) {
+  bool none = true;
+  thr_status st = THR_OK;
+  for (int n = x->s.o->cords; n >= least && none; n = n > 2 * least && n > IN_SINGLE_STEPS ? n / 2 : n - 1) {
     why = (thr_err){0};
     x->s.least = x->s.certain = true;
     st = make_number(x, n, true, &why);
+    none = st == THR_EINFEASIBLE || st == THR_ELIMIT;
   }
-  if (st == THR_EINFEASIBLE && !closed_cords(x)) st = even_shortest(x, &why);
+  if (none && !closed_cords(x)) st = even_shortest(x, &why);
   return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
 }
 
@@ -139,14 +142,20 @@ static thr_status none_found(const several *x, thr_err *err)
 {
   const char *units = x->s.f->units, *name = x->s.f->name[0];
   double limit = x->s.o->max_length;
-  if (x->s.walks.n_walks == 0)
+  bool proved = x->shortest->bound > x->s.o->cords * limit * (1 + 1e-9) || x->s.none;
+  if (proved)
     return thr_fail(
         err, THR_EINFEASIBLE,
+        "the component with node %s: of up to %d cords that tie its joints one is longer than %g %s; together they need %g %s",
+        name, x->s.o->cords, limit, units, x->shortest->bound, units);
+  if (x->s.walks.n_walks == 0)
+    return thr_fail(
+        err, THR_ELIMIT,
         "the component with node %s: did not find up to %d cords that tie its joints, none longer than %g %s; together "
         "they need %g %s",
         name, x->s.o->cords, limit, units, x->shortest->length, units);
   return thr_fail(
-      err, THR_EINFEASIBLE,
+      err, THR_ELIMIT,
       "the component with node %s: did not find up to %d cords that tie its joints, none longer than %g %s, but one of %g "
       "%s",
       name, x->s.o->cords, limit, units, thr_walks_most(&x->s.walks), units);

@@ -1,0 +1,29 @@
+/* Forces and proofs in plain words, for the first screen of every command: newtons with the weight that pulls as much, and one
+ * clause for what is proved. Cuts, multipliers and solvers are for --verbose. */
+#ifndef THR_CLI_PLAIN_H
+#define THR_CLI_PLAIN_H
+
+#include "graph/plan/plan.h"
+#include "graph/text.h"
+
+#include <stdbool.h>
+
+/* "3.49", "225", "4.5e+06"; "> 1e300", "-" for NAN. */
+const char *plain_newtons(double newton, char out[24]);
+
+/* "225 N (23 kg)": the weight hangs at 9.80665 m/s2. Beyond 1e6 N no weight: "4.5e+06 N", "> 1e300 N". "-" for NAN. */
+const char *plain_force(double newton, char out[64]);
+
+/* What is proved of a value that should be small. optimal: "proved: nothing shorter exists" for `less` "nothing shorter exists";
+ * else "at most 3.1 % above the shortest possible (proved)", rounded up, for `least` "shortest possible". bound <= 0: "how near
+ * that is to the shortest possible is not known". */
+void plain_put_proof(thr_text *text, bool optimal, double value, double bound, const char *less, const char *least);
+
+/* The same of a plan's length. */
+void plain_put_length_proof(thr_text *text, const thr_plan *plan);
+
+/* Whether a hand can pull that much: "too hard for a hand, which manages about 50 N (5.1 kg)"; "within the 10 N (1 kg) that a
+ * hand manages time after time". */
+void plain_put_hand(thr_text *text, double newton);
+
+#endif

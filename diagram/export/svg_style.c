@@ -1,0 +1,315 @@
+#include "diagram/export/svg_style.h"
+
+#include "graph/number.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- text ---- */
+
+bool thr_slice_is(thr_slice slice, const char *word)
+{
+  return strlen(word) == slice.n && memcmp(slice.s, word, slice.n) == 0;
+}
+
+static bool is_blank(char c)
+{
+  return c == ' ' || c == '\n' || c == '\t' || c == '\r';
+}
+
+thr_slice thr_slice_trim(thr_slice slice)
+{
+  while (slice.n && is_blank(*slice.s))
+    slice = (thr_slice){slice.s + 1, slice.n - 1};
+  while (slice.n && is_blank(slice.s[slice.n - 1]))
+    slice.n--;
+  return slice;
+}
+
+bool thr_slice_number(thr_slice *text, double *value)
+{
+  size_t n = 0, end;
+  while (n < text->n && (is_blank(text->s[n]) || text->s[n] == ','))
+    n++;
+  for (end = n + (n < text->n && text->s[n] == '-'); end < text->n; end++)
+    if ((text->s[end] < '0' || text->s[end] > '9') && text->s[end] != '.') break;
+  if (!thr_number_parse(text->s + n, end - n, value)) return false;
+  *text = (thr_slice){text->s + end, text->n - end};
+  return true;
+}
+
+/* Takes off the front what stands before a character, and the character; all if it is not there. */
+static thr_slice take_until(thr_slice *text, char stop)
+{
+  const char *end = text->n ? memchr(text->s, stop, text->n) : NULL;
+  thr_slice taken = {text->s, end ? (size_t)(end - text->s) : text->n};
+  size_t used = taken.n + (end != NULL);
+  *text = (thr_slice){text->s + used, text->n - used};
+  return thr_slice_trim(taken);
+}
+
+static thr_status unknown(const char *what, thr_slice words, thr_err *err)
+{
+  return thr_fail(err, THR_ESOLVER, "a page cannot be drawn: its %s '%.*s' is not known", what,
+                  (int)(words.n < 60 ? words.n : 60), words.s);
+}
+
+/* ---- properties ---- */
+
+typedef enum { COLOUR, NUMBERS, WORD } kind;
+
+enum { WORDS = 3 };
+
+static const struct {
+  const char *name;
+  kind kind;
+  int most;                /* numbers */
+  const char *word[WORDS]; /* the value is the place of the word */
+} property[THR_SVG_PROPERTIES] = {
+    [THR_SVG_FILL] = {"fill", COLOUR, 3, {NULL}},
+    [THR_SVG_STROKE] = {"stroke", COLOUR, 3, {NULL}},
+    [THR_SVG_FILL_OPACITY] = {"fill-opacity", NUMBERS, 1, {NULL}},
+    [THR_SVG_STROKE_OPACITY] = {"stroke-opacity", NUMBERS, 1, {NULL}},
+    [THR_SVG_STROKE_WIDTH] = {"stroke-width", NUMBERS, 1, {NULL}},
+    [THR_SVG_LINECAP] = {"stroke-linecap", WORD, 1, {"butt", "round"}},
+    [THR_SVG_LINEJOIN] = {"stroke-linejoin", WORD, 1, {"miter", "round"}},
+    [THR_SVG_DASHARRAY] = {"stroke-dasharray", NUMBERS, 4, {NULL}},
+    [THR_SVG_DASHOFFSET] = {"stroke-dashoffset", NUMBERS, 1, {NULL}},
+    [THR_SVG_ANCHOR] = {"text-anchor", WORD, 1, {"start", "middle", "end"}},
+    [THR_SVG_FONT_SIZE] = {"font-size", NUMBERS, 1, {NULL}},
+    [THR_SVG_FONT_WEIGHT] = {"font-weight", WORD, 1, {"normal", "bold"}},
+    [THR_SVG_FONT_FAMILY] = {"font-family", WORD, 1, {"'DejaVu Sans'", "'DejaVu Sans Mono'"}},
+    [THR_SVG_PAINT_ORDER] = {"paint-order", WORD, 1, {"normal", "stroke"}},
+};
+
+thr_svg_style thr_svg_style_first(void)
+{
+  thr_svg_style style = {{{0}}};
+  for (int i = 0; i < THR_SVG_PROPERTIES; i++)
+    style.value[i].n = i == THR_SVG_STROKE || i == THR_SVG_DASHARRAY ? 0 : property[i].most;
+  style.value[THR_SVG_FILL_OPACITY].x[0] = style.value[THR_SVG_STROKE_OPACITY].x[0] = style.value[THR_SVG_STROKE_WIDTH].x[0] = 1;
+  style.value[THR_SVG_FONT_SIZE].x[0] = 16;
+  return style;
+}
+
+/* -1: not known. */
+static int find_property(thr_slice name)
+{
+  for (int i = 0; i < THR_SVG_PROPERTIES; i++)
+    if (thr_slice_is(name, property[i].name)) return i;
+  return -1;
+}
+
+bool thr_svg_is_property(thr_slice name)
+{
+  return find_property(name) >= 0;
+}
+
+static int hex_digit(char c)
+{
+  const char *digits = "0123456789abcdef", *at = c ? strchr(digits, c >= 'A' && c <= 'F' ? c - 'A' + 'a' : c) : NULL;
+  return at ? (int)(at - digits) : -1;
+}
+
+/* "#rgb" or "#rrggbb". */
+static bool read_colour(thr_slice text, thr_svg_value *value)
+{
+  if ((text.n != 4 && text.n != 7) || *text.s != '#') return false;
+  size_t each = text.n / 3;
+  for (size_t i = 0; i < 3; i++) {
+    int high = hex_digit(text.s[1 + i * each]), low = hex_digit(text.s[i * each + each]);
+    if (high < 0 || low < 0) return false;
+    value->x[i] = (16 * high + low) / 255.0;
+  }
+  value->n = 3;
+  return true;
+}
+
+static bool read_numbers(thr_slice text, int most, thr_svg_value *value)
+{
+  for (value->n = 0; text.n; value->n++)
+    if (value->n == most || !thr_slice_number(&text, &value->x[value->n])) return false;
+  return value->n > 0;
+}
+
+/* Of a list of fonts the first. */
+static bool read_word(thr_slice text, const char *const *word, thr_svg_value *value)
+{
+  thr_slice first = take_until(&text, ',');
+  for (int i = 0; i < WORDS && word[i]; i++)
+    if (thr_slice_is(first, word[i])) {
+      *value = (thr_svg_value){1, {i}};
+      return true;
+    }
+  return false;
+}
+
+static thr_status read_property(thr_slice name, thr_slice text, int *which, thr_svg_value *value, thr_err *err)
+{
+  *which = find_property(name);
+  *value = (thr_svg_value){0};
+  if (*which < 0) return unknown("property", name, err);
+  kind k = property[*which].kind;
+  bool may_lack = k == COLOUR || *which == THR_SVG_DASHARRAY, ok = may_lack && thr_slice_is(text, "none");
+  if (!ok && k == COLOUR) ok = read_colour(text, value);
+  if (!ok && k == NUMBERS) ok = read_numbers(text, property[*which].most, value);
+  if (!ok && k == WORD) ok = read_word(text, property[*which].word, value);
+  return ok ? THR_OK : unknown(property[*which].name, text, err);
+}
+
+thr_status thr_svg_style_set(thr_svg_style *style, thr_slice name, thr_slice text, thr_err *err)
+{
+  int which;
+  thr_svg_value value;
+  thr_status st = read_property(name, thr_slice_trim(text), &which, &value, err);
+  if (!st) style->value[which] = value;
+  return st;
+}
+
+thr_status thr_svg_style_list(thr_svg_style *style, thr_slice list, thr_err *err)
+{
+  thr_status st = THR_OK;
+  while (list.n && !st) {
+    thr_slice text = take_until(&list, ';'), name = take_until(&text, ':');
+    if (name.n) st = thr_svg_style_set(style, name, text, err);
+  }
+  return st;
+}
+
+/* ---- style sheets ---- */
+
+enum { COMPOUNDS = 4, CLASSES = 2 };
+
+/* "text.own": an element (none: any) with classes. */
+typedef struct {
+  thr_slice name, class[CLASSES];
+  int n_classes;
+  bool not_dashed;
+} compound;
+
+struct thr_svg_rule {
+  compound compound[COMPOUNDS];
+  int n, strength; /* what CSS calls specificity */
+  int first, end;  /* declarations */
+};
+
+struct thr_svg_declaration {
+  int property;
+  thr_svg_value value;
+};
+
+static size_t word_length(thr_slice text)
+{
+  size_t n = 0;
+  while (n < text.n && !strchr(".:#[>+~,*", text.s[n]))
+    n++;
+  return n;
+}
+
+static thr_status read_compound(thr_slice text, compound *c, thr_err *err)
+{
+  static const char not_dashed[] = ":not([stroke-dasharray])";
+  thr_slice whole = text;
+  *c = (compound){0};
+  c->name = (thr_slice){text.s, word_length(text)};
+  text = (thr_slice){text.s + c->name.n, text.n - c->name.n};
+  while (text.n && *text.s == '.' && c->n_classes < CLASSES) {
+    thr_slice rest = {text.s + 1, text.n - 1}, name = {rest.s, word_length(rest)};
+    c->class[c->n_classes++] = name;
+    text = (thr_slice){rest.s + name.n, rest.n - name.n};
+  }
+  c->not_dashed = thr_slice_is(text, not_dashed);
+  return !text.n || c->not_dashed ? THR_OK : unknown("selector", whole, err);
+}
+
+static thr_status read_selector(thr_slice text, thr_svg_rule *rule, thr_err *err)
+{
+  thr_slice whole = text;
+  thr_status st = THR_OK;
+  while (text.n && !st) {
+    thr_slice part = take_until(&text, ' ');
+    if (!part.n) continue;
+    if (rule->n == COMPOUNDS) return unknown("selector", whole, err);
+    compound *c = &rule->compound[rule->n++];
+    st = read_compound(part, c, err);
+    rule->strength += 16 * (c->n_classes + c->not_dashed) + (c->name.n > 0);
+  }
+  return rule->n || st ? st : unknown("selector", whole, err);
+}
+
+static thr_status read_declarations(thr_svg_sheet *sheet, thr_slice list, thr_err *err)
+{
+  thr_status st = THR_OK;
+  while (list.n && !st) {
+    thr_slice text = take_until(&list, ';'), name = take_until(&text, ':');
+    if (!name.n) continue;
+    st = thr_grow(&sheet->declaration, sheet->n_declarations, &sheet->declarations_capacity, sizeof *sheet->declaration, err);
+    if (st) break;
+    thr_svg_declaration *next = &sheet->declaration[sheet->n_declarations++];
+    st = read_property(name, text, &next->property, &next->value, err);
+  }
+  return st;
+}
+
+thr_status thr_svg_sheet_add(thr_svg_sheet *sheet, thr_slice css, thr_err *err)
+{
+  thr_status st = THR_OK;
+  for (css = thr_slice_trim(css); css.n && !st; css = thr_slice_trim(css)) {
+    thr_svg_rule rule = {.first = sheet->n_declarations};
+    thr_slice selector = take_until(&css, '{'), list = take_until(&css, '}');
+    st = read_selector(selector, &rule, err);
+    if (!st) st = read_declarations(sheet, list, err);
+    if (!st) st = thr_grow(&sheet->rule, sheet->n_rules, &sheet->rules_capacity, sizeof *sheet->rule, err);
+    if (st) break;
+    rule.end = sheet->n_declarations;
+    int at = sheet->n_rules++;
+    for (; at > 0 && sheet->rule[at - 1].strength > rule.strength; at--)
+      sheet->rule[at] = sheet->rule[at - 1];
+    sheet->rule[at] = rule;
+  }
+  return st;
+}
+
+static bool has_class(thr_slice classes, thr_slice wanted)
+{
+  while (classes.n) {
+    thr_slice one = take_until(&classes, ' ');
+    if (one.n == wanted.n && memcmp(one.s, wanted.s, one.n) == 0) return true;
+  }
+  return false;
+}
+
+static bool meets(const compound *c, const thr_svg_element *element)
+{
+  if (c->name.n && (c->name.n != element->name.n || memcmp(c->name.s, element->name.s, c->name.n) != 0)) return false;
+  for (int i = 0; i < c->n_classes; i++)
+    if (!has_class(element->classes, c->class[i])) return false;
+  return !c->not_dashed || !element->dashed;
+}
+
+/* The last compound is the element's, those before it are met from the inside out. */
+static bool rule_meets(const thr_svg_rule *rule, const thr_svg_element *const *element, int n)
+{
+  int left = rule->n - 1;
+  if (!meets(&rule->compound[left], element[n - 1])) return false;
+  for (int i = n - 2; i >= 0 && left > 0; i--)
+    left -= meets(&rule->compound[left - 1], element[i]);
+  return left == 0;
+}
+
+void thr_svg_sheet_apply(const thr_svg_sheet *sheet, const thr_svg_element *const *element, int n, thr_svg_style *style)
+{
+  for (int i = 0; i < sheet->n_rules; i++) {
+    const thr_svg_rule *rule = &sheet->rule[i];
+    if (!rule_meets(rule, element, n)) continue;
+    for (int d = rule->first; d < rule->end; d++)
+      style->value[sheet->declaration[d].property] = sheet->declaration[d].value;
+  }
+}
+
+void thr_svg_sheet_destroy(thr_svg_sheet *sheet)
+{
+  free(sheet->rule);
+  free(sheet->declaration);
+  *sheet = (thr_svg_sheet){0};
+}

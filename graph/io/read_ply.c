@@ -1,0 +1,364 @@
+/* PLY, the Stanford polygon format: ascii and both binary orders, elements and properties in any order. Vertices have x, y and z,
+ * edges vertex1 and vertex2, faces vertex_indices (or vertex_index). G. Turk, "The PLY Polygon File Format", 1994. */
+#include "graph/framework/frame.h"
+#include "graph/io/faces.h"
+#include "graph/io/formats.h"
+#include "graph/io/scan.h"
+#include "graph/status.h"
+#include "graph/text.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef enum { INT8, UINT8, INT16, UINT16, INT32, UINT32, FLOAT32, FLOAT64, N_TYPES } number_type;
+typedef enum { IGNORED, X, Y, Z, VERTEX_1, VERTEX_2, CORNERS } role;
+typedef enum { ASCII, LITTLE, BIG } encoding;
+typedef enum { OTHER, VERTEX, EDGE, FACE } element_kind;
+
+typedef struct {
+  bool list;
+  number_type count, type; /* count: of a list's length */
+  role role;
+} property;
+
+typedef struct {
+  element_kind kind;
+  char name[24];
+  double n;        /* how many, a whole number */
+  int first, last; /* its properties are first .. last - 1 */
+} element;
+
+typedef struct {
+  thr_scan scan; /* the header, then, if ascii, the rest */
+  thr_span line; /* ascii: what is left of the current line */
+  encoding encoding;
+  thr_draft *draft;
+  thr_read_report *report;
+  thr_err *err;
+  thr_faces faces;
+  element *element; /* owned */
+  int n_elements, elements_capacity;
+  property *property; /* owned */
+  int n_properties, properties_capacity;
+  const element *now; /* the element being read, and which of its items, from 0 */
+  double item;
+} ply;
+
+static thr_status fail(ply *p, const char *what)
+{
+  if (p->encoding == ASCII) return thr_scan_fail(&p->scan, p->err, "%s %.0f: %s", p->now->name, p->item, what);
+  return thr_fail(p->err, THR_EINPUT, "%s: %s %.0f: %s", p->scan.name, p->now->name, p->item, what);
+}
+
+/* ---- the header ---- */
+
+/* N_TYPES if the word is none. */
+static number_type type_named(thr_span word)
+{
+  static const char *const names[N_TYPES][2] = {{"char", "int8"},     {"uchar", "uint8"},   {"short", "int16"},
+                                                {"ushort", "uint16"}, {"int", "int32"},     {"uint", "uint32"},
+                                                {"float", "float32"}, {"double", "float64"}};
+  number_type t = INT8;
+  while (t < N_TYPES && !thr_span_is(word, names[t][0]) && !thr_span_is(word, names[t][1]))
+    t++;
+  return t;
+}
+
+static role role_of(element_kind kind, bool list, thr_span name)
+{
+  static const struct {
+    element_kind kind;
+    bool list;
+    const char *name;
+    role role;
+  } known[] = {{VERTEX, false, "x", X},
+               {VERTEX, false, "y", Y},
+               {VERTEX, false, "z", Z},
+               {EDGE, false, "vertex1", VERTEX_1},
+               {EDGE, false, "vertex2", VERTEX_2},
+               {FACE, true, "vertex_indices", CORNERS},
+               {FACE, true, "vertex_index", CORNERS}};
+  for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+    if (known[i].kind == kind && known[i].list == list && thr_span_is(name, known[i].name)) return known[i].role;
+  return IGNORED;
+}
+
+static thr_status read_element(ply *p, thr_span rest)
+{
+  thr_span name = thr_span_word(&rest), count = thr_span_word(&rest);
+  element e = {OTHER, "", 0, p->n_properties, p->n_properties};
+  if (!name.n || !thr_span_number(count, false, &e.n) || e.n < 0 || e.n != floor(e.n))
+    return thr_scan_fail(&p->scan, p->err, "an element needs a name and how many there are");
+  if (e.n > INT_MAX) return thr_scan_fail(&p->scan, p->err, "more than %d are not read", INT_MAX);
+  e.kind = thr_span_is(name, "vertex") ? VERTEX : thr_span_is(name, "edge") ? EDGE : thr_span_is(name, "face") ? FACE : OTHER;
+  snprintf(e.name, sizeof e.name, "%.*s", name.n < 20 ? (int)name.n : 20, name.s);
+  thr_text_clean(e.name);
+  if (e.kind == OTHER && e.n > 0) thr_report_skip(p->report, name);
+  thr_status st = thr_grow(&p->element, p->n_elements, &p->elements_capacity, sizeof *p->element, p->err);
+  if (!st) p->element[p->n_elements++] = e;
+  return st;
+}
+
+static thr_status read_property(ply *p, thr_span rest)
+{
+  property q = {0};
+  thr_span word = thr_span_word(&rest);
+  if (p->n_elements == 0) return thr_scan_fail(&p->scan, p->err, "a property before the first element");
+  element *e = &p->element[p->n_elements - 1];
+  q.list = thr_span_is(word, "list");
+  if (q.list) {
+    q.count = type_named(thr_span_word(&rest));
+    word = thr_span_word(&rest);
+  }
+  q.type = type_named(word);
+  word = thr_span_word(&rest);
+  if (q.type == N_TYPES || q.count == N_TYPES || !word.n)
+    return thr_scan_fail(&p->scan, p->err, "a property is a type (char .. double, int8 .. float64) or a list of one, and a name");
+  q.role = role_of(e->kind, q.list, word);
+  thr_status st = thr_grow(&p->property, p->n_properties, &p->properties_capacity, sizeof *p->property, p->err);
+  if (st) return st;
+  p->property[p->n_properties++] = q;
+  e->last = p->n_properties;
+  return THR_OK;
+}
+
+static thr_status read_format(ply *p, thr_span rest)
+{
+  static const char *const names[] = {"ascii", "binary_little_endian", "binary_big_endian"};
+  thr_span word = thr_span_word(&rest);
+  for (int i = ASCII; i <= BIG; i++)
+    if (thr_span_is(word, names[i])) {
+      p->encoding = (encoding)i;
+      return THR_OK;
+    }
+  return thr_scan_fail(&p->scan, p->err, "the format is '%.*s'; ascii, binary_little_endian and binary_big_endian are read",
+                       thr_span_width(word), word.s);
+}
+
+/* Our writer's comment "units: mm"; other people's comments are left alone. */
+static thr_status read_comment(ply *p, thr_span rest)
+{
+  char units[sizeof p->draft->units];
+  thr_span word = thr_span_word(&rest), unit = thr_span_word(&rest);
+  if (!thr_span_is(word, "units:") || unit.n >= sizeof units) return THR_OK;
+  snprintf(units, sizeof units, "%.*s", (int)unit.n, unit.s);
+  thr_err why = {0};
+  if (!thr_draft_set_units(p->draft, units, &why)) return THR_OK;
+  return thr_scan_fail(&p->scan, p->err, "this comment's '%s' is no unit of length; correct or delete the comment", units);
+}
+
+/* Has the element a property for each role from first to last? */
+static bool has_roles(const ply *p, const element *e, role first, role last)
+{
+  for (role r = first; r <= last; r++) {
+    bool found = false;
+    for (int i = e->first; i < e->last; i++)
+      found = found || p->property[i].role == r;
+    if (!found) return false;
+  }
+  return true;
+}
+
+static thr_status check_header(ply *p)
+{
+  static const struct {
+    role first, last;
+    const char *missing;
+  } needs[] = {[OTHER] = {CORNERS, IGNORED, ""},
+               [VERTEX] = {X, Z, "vertices need the properties x, y and z"},
+               [EDGE] = {VERTEX_1, VERTEX_2, "edges need the properties vertex1 and vertex2"},
+               [FACE] = {CORNERS, CORNERS, "faces need the property list vertex_indices"}};
+  for (int i = 0; i < p->n_elements; i++) {
+    const element *e = &p->element[i];
+    if (e->n > 0 && !has_roles(p, e, needs[e->kind].first, needs[e->kind].last))
+      return thr_fail(p->err, THR_EINPUT, "%s: %s; export it again with them", p->scan.name, needs[e->kind].missing);
+  }
+  return THR_OK;
+}
+
+static thr_status read_header(ply *p)
+{
+  thr_span line;
+  bool has_format = false;
+  for (int i = 0; thr_scan_line(&p->scan, &line); i++) {
+    thr_span word = thr_span_word(&line);
+    thr_status st = THR_OK;
+    if (i == 0 && !thr_span_is(word, "ply")) break;
+    if (thr_span_is(word, "format")) {
+      st = read_format(p, line);
+      has_format = true;
+    } else if (thr_span_is(word, "element")) {
+      st = read_element(p, line);
+    } else if (thr_span_is(word, "property")) {
+      st = read_property(p, line);
+    } else if (thr_span_is(word, "comment")) {
+      st = read_comment(p, line);
+    } else if (thr_span_is(word, "end_header") && has_format) {
+      return check_header(p);
+    }
+    if (st) return st;
+  }
+  return thr_fail(p->err, THR_EINPUT, "%s: the header has no %s, so this is not a whole PLY file", p->scan.name,
+                  has_format ? "line end_header" : "lines ply and format");
+}
+
+/* ---- numbers ---- */
+
+static thr_status next_text_number(ply *p, double *x)
+{
+  thr_span word;
+  while (!(word = thr_span_word(&p->line)).n)
+    if (!thr_scan_line(&p->scan, &p->line)) return fail(p, "the file ends here; it is not whole");
+  if (thr_span_number(word, false, x)) return THR_OK;
+  return fail(p, "not a finite number");
+}
+
+/* The bytes of a number of this machine's order as a double. */
+static double number_of(const unsigned char *b, number_type type)
+{
+  union {
+    uint64_t bits;
+    unsigned char bytes[8];
+    int8_t i8;
+    int16_t i16;
+    int32_t i32;
+    uint16_t u16;
+    uint32_t u32;
+    float f;
+    double d;
+  } u = {0};
+  memcpy(u.bytes, b, 8);
+  switch (type) {
+  case INT8: return u.i8;
+  case UINT8: return u.bytes[0];
+  case INT16: return u.i16;
+  case UINT16: return u.u16;
+  case INT32: return u.i32;
+  case UINT32: return u.u32;
+  case FLOAT32: return u.f;
+  default: return u.d;
+  }
+}
+
+static bool this_machine_is_big(void)
+{
+  const uint16_t one = 1;
+  unsigned char first;
+  memcpy(&first, &one, 1);
+  return first == 0;
+}
+
+static thr_status next_binary_number(ply *p, number_type type, double *x)
+{
+  static const unsigned char size[N_TYPES] = {1, 1, 2, 2, 4, 4, 4, 8};
+  unsigned char b[8] = {0};
+  size_t n = size[type];
+  if ((size_t)(p->scan.end - p->scan.at) < n) return fail(p, "the file ends here; it is not whole");
+  const bool turn = (p->encoding == BIG) != this_machine_is_big();
+  for (size_t i = 0; i < n; i++)
+    b[i] = (unsigned char)p->scan.at[turn ? n - 1 - i : i];
+  p->scan.at += n;
+  *x = number_of(b, type);
+  return isfinite(*x) ? THR_OK : fail(p, "a number that is not finite");
+}
+
+static thr_status next_number(ply *p, number_type type, double *x)
+{
+  return p->encoding == ASCII ? next_text_number(p, x) : next_binary_number(p, type, x);
+}
+
+/* ---- items ---- */
+
+static thr_status corner(ply *p, double x)
+{
+  if (x != floor(x) || x < 0 || x > INT_MAX) return fail(p, "a vertex number must be a whole number from 0");
+  return thr_faces_corner(&p->faces, (int)x, p->err);
+}
+
+static thr_status read_list(ply *p, const property *q)
+{
+  double n, x;
+  thr_status st = next_number(p, q->count, &n);
+  if (!st && (n < 0 || n != floor(n))) return fail(p, "the length of a list must be a whole number from 0");
+  for (double i = 0; !st && i < n; i++) {
+    st = next_number(p, q->type, &x);
+    if (!st && q->role == CORNERS) st = corner(p, x);
+  }
+  return st;
+}
+
+static thr_status read_item(ply *p)
+{
+  double value[CORNERS] = {0};
+  thr_status st = THR_OK;
+  for (int i = p->now->first; i < p->now->last && !st; i++) {
+    const property *q = &p->property[i];
+    double x;
+    if (q->list) {
+      st = read_list(p, q);
+      continue;
+    }
+    st = next_number(p, q->type, &x);
+    if (!st) value[q->role] = x;
+  }
+  if (!st && p->now->kind == VERTEX) {
+    const double xyz[3] = {value[X] + 0., value[Y] + 0., value[Z] + 0.};
+    st = thr_draft_add_node(p->draft, xyz, NULL, false, p->err);
+  }
+  if (!st && p->now->kind == EDGE) st = corner(p, value[VERTEX_1]);
+  if (!st && p->now->kind == EDGE) st = corner(p, value[VERTEX_2]);
+  return st ? st : thr_faces_close(&p->faces, p->err);
+}
+
+static thr_status read_items(ply *p)
+{
+  thr_status st = THR_OK;
+  for (int i = 0; i < p->n_elements && !st; i++) {
+    p->now = &p->element[i];
+    if (p->now->first == p->now->last) continue; /* nothing is written of these */
+    for (p->item = 0; p->item < p->now->n && !st; p->item++)
+      st = read_item(p);
+  }
+  return st;
+}
+
+static thr_status parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n, const char *name, thr_err *err)
+{
+  ply p = {.scan = {name, text, text + n, 1, 1}, .draft = draft, .report = report, .err = err};
+  thr_status st = n ? read_header(&p) : thr_fail(err, THR_EINPUT, "%s: the file is empty", name);
+  if (!st) st = read_items(&p);
+  if (!st) st = thr_faces_finish(&p.faces, draft, name, err);
+  if (!st && draft->n_edges == 0)
+    st = thr_fail(err, THR_EINPUT, "%s: no edges and no faces, only %d points; export the lines or the mesh", name,
+                  draft->n_nodes);
+  thr_faces_destroy(&p.faces);
+  free(p.element);
+  free(p.property);
+  return st;
+}
+
+static bool begins(thr_span line)
+{
+  return thr_span_is(line, "ply");
+}
+
+/* Feet and lengths of their own are lost. */
+static void write(const thr_frame *frame, thr_text *out)
+{
+  thr_text_append(out, "ply\nformat ascii 1.0\ncomment units: ");
+  thr_text_append_clean(out, frame->units);
+  thr_text_printf(out, "\nelement vertex %d\nproperty double x\nproperty double y\nproperty double z\n", frame->n_nodes);
+  thr_text_printf(out, "element edge %d\nproperty int vertex1\nproperty int vertex2\nend_header\n", frame->n_edges);
+  for (int v = 0; v < frame->n_nodes; v++)
+    for (int i = 0; i < 3; i++) {
+      thr_text_double(out, frame->xyz[v][i]);
+      thr_text_byte(out, i < 2 ? ' ' : '\n');
+    }
+  for (int e = 0; e < frame->n_edges; e++)
+    thr_text_printf(out, "%d %d\n", frame->edge[e][0], frame->edge[e][1]);
+}
+
+const thr_format thr_ply_format = {.name = "ply", .ending = {"ply"}, .begins = begins, .parse = parse, .write = write};

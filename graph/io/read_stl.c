@@ -1,0 +1,116 @@
+/* STL: triangles, as text or binary. Corners at exactly one place are one node. */
+#include "graph/framework/frame.h"
+#include "graph/io/faces.h"
+#include "graph/io/formats.h"
+#include "graph/io/sites.h"
+#include "graph/io/scan.h"
+#include "graph/status.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Binary: 80 bytes of anything, the number of triangles, then for each twelve floats (normal, three corners) and two bytes. */
+enum { HEAD = 84, TRIANGLE = 50, FIRST_CORNER = 12 };
+
+/* ---- binary ---- */
+
+static uint32_t little32(const char *at)
+{
+  const unsigned char *b = (const unsigned char *)at;
+  return (uint32_t)b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24;
+}
+
+static double little_float(const char *at)
+{
+  uint32_t bits = little32(at);
+  float f;
+  memcpy(&f, &bits, sizeof f);
+  return f;
+}
+
+/* Is the text exactly as long as its number of triangles says? Nothing else tells, as a binary file may begin with "solid", too.
+ */
+static bool is_binary(const char *text, size_t n)
+{
+  return n >= HEAD && n == HEAD + (size_t)TRIANGLE * little32(text + HEAD - 4);
+}
+
+static thr_status read_binary(thr_sites *c, const char *text, size_t n, const char *name, thr_err *err)
+{
+  thr_status st = THR_OK;
+  for (const char *t = text + HEAD; t < text + n && !st; t += TRIANGLE)
+    for (int i = 0; i < 3 && !st; i++) {
+      double xyz[3];
+      for (int j = 0; j < 3; j++)
+        xyz[j] = little_float(t + FIRST_CORNER + 12 * i + 4 * j);
+      if (!isfinite(xyz[0]) || !isfinite(xyz[1]) || !isfinite(xyz[2]))
+        return thr_fail(err, THR_EINPUT, "%s: triangle %ld has a corner that is not finite", name,
+                        (long)((t - text - HEAD) / TRIANGLE + 1));
+      st = thr_sites_add(c, xyz, err);
+    }
+  return st;
+}
+
+/* ---- text ---- */
+
+static thr_status read_vertex(const thr_scan *scan, thr_sites *c, thr_span rest, thr_err *err)
+{
+  double xyz[3];
+  for (int i = 0; i < 3; i++) {
+    thr_span word = thr_span_word(&rest);
+    if (!thr_span_number(word, false, &xyz[i]))
+      return thr_scan_fail(scan, err, "a vertex needs x, y and z; '%.*s' is not a finite number", thr_span_width(word), word.s);
+  }
+  return thr_sites_add(c, xyz, err);
+}
+
+static thr_status read_text(thr_sites *c, const char *text, size_t n, const char *name, thr_err *err)
+{
+  thr_scan scan;
+  thr_span line;
+  thr_status st = thr_scan_start(&scan, text, n, name, err);
+  while (!st && thr_scan_line(&scan, &line)) {
+    thr_span word = thr_span_word(&line);
+    if (thr_span_is(word, "vertex")) st = read_vertex(&scan, c, line, err);
+    if (!st && thr_span_is(word, "endfacet") && c->n % 3) st = thr_scan_fail(&scan, err, "a facet needs three vertices");
+  }
+  return st;
+}
+
+/* ---- the draft ---- */
+
+static thr_status fill_draft(const thr_sites *c, thr_draft *draft, const char *name, thr_err *err)
+{
+  thr_faces faces = {0};
+  if (c->n < 3) return thr_fail(err, THR_EINPUT, "%s: no triangles; this is an empty STL file, or none", name);
+  int *node = thr_calloc((size_t)c->n, sizeof *node);
+  if (!node) return thr_nomem(err);
+  thr_status st = thr_sites_finish(c, node, draft, err);
+  for (int i = 0; i + 2 < c->n && !st; i += 3) {
+    for (int j = 0; j < 3 && !st; j++)
+      st = thr_faces_corner(&faces, node[i + j], err);
+    if (!st) st = thr_faces_close(&faces, err);
+  }
+  if (!st) st = thr_faces_finish(&faces, draft, name, err);
+  thr_faces_destroy(&faces);
+  free(node);
+  return st;
+}
+
+static thr_status parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n, const char *name, thr_err *err)
+{
+  (void)report; /* nothing of such a file is skipped */
+  thr_sites c = {0};
+  thr_status st = is_binary(text, n) ? read_binary(&c, text, n, name, err) : read_text(&c, text, n, name, err);
+  if (!st) st = fill_draft(&c, draft, name, err);
+  thr_sites_destroy(&c);
+  return st;
+}
+
+static bool begins(thr_span line)
+{
+  return thr_span_starts(line, "solid ") || thr_span_is(line, "solid");
+}
+
+const thr_format thr_stl_format = {.name = "stl", .ending = {"stl"}, .begins = begins, .parse = parse, .is = is_binary};

@@ -1,0 +1,30 @@
+/* What the files that order the work share. Private to planner/. */
+#ifndef THR_ORDER_PARTS_H
+#define THR_ORDER_PARTS_H
+
+#include "graph/framework/frame.h"
+#include "graph/plan/chains.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
+
+/* How much a cord may turn, rad: in all, and to the slackest pass (thr_cord_pulled_turning). */
+typedef struct {
+  double turning, pulled;
+} thr_turning_room;
+
+/* May a closed cord begin anywhere? Where ends matter its start is theirs. */
+bool thr_order_turns(const thr_request *request, const thr_cord *cord);
+
+/* May it be run otherwise between visits of its nodes? */
+bool thr_order_reverses(const thr_request *request, const thr_cord *cord);
+
+/* Replaces the passes of cord, within room, by those of less loose chains, after the pieces that are kept, if it finds any:
+ * simulated annealing (S. Kirkpatrick, C. D. Gelatt & M. P. Vecchi 1983). Parts between two visits of a node are run the other
+ * way round, and two parts of three change places. At most 20,000 steps of O(passes). */
+thr_status thr_order_reverse(const thr_frame *frame, const thr_request *request, thr_turning_room room, thr_threaded *threaded,
+                             thr_cord *cord, thr_err *err) THR_MUST_CHECK;
+
+enum { THR_HELD_WELL = 8 }; /* pieces of a loose chain that a hand holds well */
+
+#endif

@@ -1,0 +1,65 @@
+/* Proofs of one plan for the cords of another. */
+#include "graph/check/check.h"
+#include "graph/framework/frame.h"
+#include "graph/plan/junction.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/status.h"
+#include "lp/length/postman.h"
+#include "planner/planners.h"
+#include "tortuosity/tie/tube.h"
+
+thr_status thr_planner_prove_length(thr_plan *plan, thr_plan *p, thr_err *err)
+{
+  const thr_frame *frame = &plan->frame;
+  const thr_request *options = &plan->options;
+  thr_length_proof *from = &p->proof;
+  if (options->joint == THR_JOINT_TUBE) {
+    thr_tube tube = {.proof = from->tied};
+    from->tied = (thr_turning_proof){0};
+    thr_status st = thr_tied_least(frame, options, &tube.proof, &tube.bound, err);
+    if (!st) thr_tube_prove(&tube, plan->metrics.length, &plan->proof);
+    thr_tube_destroy(&tube);
+    return st ? st : thr_check_tied_cords(frame, options, plan->cord, plan->n_cords, &plan->proof.tied, &plan->cords_claim, err);
+  }
+  thr_shortest s = {.n_certificates = from->n_certificates, .certificate = from->certificate};
+  s.confirmed.confirmed = from->confirmed;
+  s.confirmed.skipped = from->unconfirmed;
+  from->certificate = NULL;
+  from->n_certificates = 0;
+  thr_status st = thr_postman_prove(frame, options, plan->cord, plan->n_cords, &s, &plan->proof, err);
+  thr_shortest_destroy(&s);
+  return st ? st
+            : thr_check_cords(frame, options, plan->cord, plan->n_cords, plan->proof.certificate, plan->proof.n_certificates,
+                              &plan->cords_claim, err);
+}
+
+thr_status thr_planner_prove_turning(thr_plan *plan, thr_turning_claim *claim, thr_err *err)
+{
+  thr_err why = {0};
+  if (!claim->present) return THR_OK;
+  thr_turning_claim found;
+  thr_status st = thr_check_turning(&plan->frame, &plan->options, plan->cord, plan->n_cords, claim, &found, &why);
+  if (st == THR_EVIOLATED) return THR_OK;
+  if (st) return thr_fail(err, st, "%s", why.text);
+  plan->turning = found;
+  plan->turning.tree = claim->tree;
+  claim->tree = (thr_turning_proof){0};
+  return THR_OK;
+}
+
+thr_status thr_planner_verdict(const thr_plan *plan, thr_err *err)
+{
+  const thr_turning_claim *claim = &plan->turning;
+  const thr_length_proof *length = &plan->proof;
+  bool largest = thr_wants_largest(&plan->options);
+  if (thr_wants_balance(&plan->options) && !plan->cords_claim.longest_optimal)
+    return thr_not_proved(err, "the length of the longest cord", plan->cords_claim.longest, plan->cords_claim.longest_bound);
+  if (thr_wants_length(&plan->options) && length->optimal) return THR_OK;
+  if (thr_wants_length(&plan->options)) return thr_not_proved(err, "the length", plan->metrics.length, length->lower_bound);
+  if (!claim->present) return thr_fail(err, THR_ELIMIT, "nothing is proved of the turning");
+  if (largest ? claim->largest_optimal : claim->optimal) return THR_OK;
+  return largest ? thr_not_proved(err, "the largest turning of a cord", claim->largest, claim->largest_bound)
+                 : thr_not_proved(err, "the turning", claim->price, claim->lower_bound);
+}

@@ -1,0 +1,250 @@
+/* Several different cords over every edge, against all choices of the edges that each cord passes; and what the checker makes of
+ * claims about them. */
+#include "graph/check/check.h"
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/status.h"
+#include "planner/make_plan.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "tests/support.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* ---- the oracle ---- */
+
+enum { MOST_EDGES = 6, SETS = 1 << MOST_EDGES, MOST_NODES = 7 };
+
+/* least[set]: of one cord over all these edges and perhaps others, closed or between any nodes, turning back anywhere. (Bellman's
+ * iteration over node and set, from every node.) */
+static void least_of_one(const thr_frame *f, bool closed, double *least)
+{
+  int sets = 1 << f->n_edges;
+  for (int set = 0; set < sets; set++)
+    least[set] = INFINITY;
+  for (int start = 0; start < f->n_nodes; start++) {
+    double far[MOST_NODES][SETS];
+    for (int v = 0; v < f->n_nodes; v++)
+      for (int set = 0; set < sets; set++)
+        far[v][set] = v == start && set == 0 ? 0 : INFINITY;
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (int h = 0; h < 2 * f->n_edges; h++)
+        for (int set = 0; set < sets; set++) {
+          double length = far[thr_tail(f, h)][set] + f->length[h >> 1], *to = &far[thr_head(f, h)][set | 1 << (h >> 1)];
+          if (length >= *to - 1e-12) continue;
+          *to = length;
+          changed = true;
+        }
+    }
+    for (int v = 0; v < f->n_nodes; v++)
+      for (int set = 1; set < sets && (!closed || v == start); set++)
+        for (int part = set; part > 0; part = (part - 1) & set)
+          least[part] = fmin(least[part], far[v][set]);
+  }
+}
+
+/* The least length of so many cords, from set `from` downwards, that pass edge e lacks[e] times more at least. */
+static double least_of_all(int n_edges, const double *least, int cords, int from, const int *lacks)
+{
+  double best = INFINITY;
+  bool done = true;
+  for (int e = 0; e < n_edges; e++)
+    done = done && lacks[e] <= 0;
+  if (cords == 0) return done ? 0 : INFINITY;
+  for (int set = from; set > 0; set--) {
+    int left[MOST_EDGES];
+    bool enough = true;
+    for (int e = 0; e < n_edges; e++) {
+      left[e] = lacks[e] - (set >> e & 1);
+      enough = enough && left[e] < cords;
+    }
+    if (enough && least[set] < best) best = fmin(best, least[set] + least_of_all(n_edges, least, cords - 1, set, left));
+  }
+  return best;
+}
+
+static double truth(const thr_frame *f, const thr_request *o)
+{
+  double least[SETS];
+  int lacks[MOST_EDGES];
+  for (int e = 0; e < MOST_EDGES; e++)
+    lacks[e] = o->distinct;
+  least_of_one(f, o->ends == THR_ENDS_CLOSED, least);
+  return least_of_all(f->n_edges, least, o->cords, (1 << f->n_edges) - 1, lacks);
+}
+
+/* ---- plans ---- */
+
+static int edges_met(const thr_plan *p)
+{
+  int met = 0;
+  for (int e = 0; e < p->frame.n_edges && p->options.distinct > 0; e++) {
+    int cords = 0;
+    for (int i = 0; i < p->n_cords; i++) {
+      bool here = false;
+      for (int k = 0; k < p->cord[i].n_passes; k++)
+        here = here || p->cord[i].half[k] / 2 == e;
+      cords += here;
+    }
+    met += cords >= p->options.distinct;
+  }
+  return met;
+}
+
+static thr_request asked(int distinct, int cords, thr_ends ends, const char *aims)
+{
+  thr_request o = options_for(ends, distinct);
+  o.distinct = distinct;
+  o.cords = o.cords_least = cords;
+  want(&o, aims);
+  return o;
+}
+
+static thr_plan made(const thr_frame *f, const thr_request *o)
+{
+  thr_plan p;
+  thr_err err = {0};
+  thr_status st = thr_plan_make(f, o, &(thr_limits){0}, &p, NULL, &err);
+  ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", err.text);
+  assert_plan_sound(&p);
+  ck_assert_int_eq(p.metrics.distinct, edges_met(&p));
+  return p;
+}
+
+/* No plan is shorter than the truth, no bound above it; with as many cords as every edge needs the plan is the truth. */
+START_TEST(plans_are_between_bound_and_truth)
+{
+  const int examples = share_of(60);
+  int attained = 0, several = 0;
+  for (int i = 0; i < examples; i++) {
+    rng r = rng_make((uint64_t)i + 1);
+    int nodes = rng_between(&r, 3, 5);
+    thr_frame f = random_frame(&r, nodes, rng_below(&r, MOST_EDGES - nodes + 2), LENGTHS_RANDOM);
+    int distinct = 2 + (i % 5 == 0), cords = distinct + rng_below(&r, 3);
+    thr_request o = asked(distinct, cords, i % 2 ? THR_ENDS_ANY : THR_ENDS_CLOSED, "length");
+    double least = truth(&f, &o);
+    thr_plan p = made(&f, &o);
+    ck_assert_int_eq(p.metrics.distinct, f.n_edges);
+    ck_assert_double_ge(p.metrics.length, least * (1 - 1e-9));
+    ck_assert_double_le(p.proof.lower_bound, least * (1 + 1e-9));
+    if (p.proof.optimal || cords == distinct) ck_assert_double_eq_tol(p.metrics.length, least, 1e-9 * least);
+    if (cords == distinct) ck_assert(p.proof.optimal);
+    attained += cords > distinct && p.metrics.length <= least * (1 + 1e-9);
+    several += cords > distinct;
+    thr_plan_destroy(&p);
+    thr_frame_destroy(&f);
+  }
+  ck_assert_msg(10 * attained >= 8 * several, "%d of %d are the shortest", attained, several);
+}
+END_TEST
+
+/* Of solids, where every edge can have its cords without more length. */
+START_TEST(solids_need_no_more_cord)
+{
+  static const char *const aims[] = {"length", "turning", "max-turning"};
+  static const int cords[] = {4, 4, 3, 4, 5};
+  for (int s = TETRAHEDRON; s <= ICOSAHEDRON; s++) {
+    thr_frame f = solid_make((solid)s);
+    thr_request o = asked(2, cords[s], THR_ENDS_CLOSED, aims[_i]);
+    thr_plan p = made(&f, &o);
+    ck_assert_int_eq(p.metrics.distinct, f.n_edges);
+    ck_assert(_i > 0 || p.proof.optimal);
+    ck_assert_double_eq_tol(p.metrics.length, 2 * f.n_edges, 1e-9);
+    thr_plan_destroy(&p);
+    thr_frame_destroy(&f);
+  }
+}
+END_TEST
+
+/* ---- the checker ---- */
+
+START_TEST(false_claims_are_refused)
+{
+  thr_frame f = grid_make(3, 3);
+  thr_request o = asked(2, 3, THR_ENDS_CLOSED, "length");
+  thr_plan p = made(&f, &o);
+  thr_err err = {0};
+  ck_assert_int_eq(p.metrics.distinct, f.n_edges);
+  ck_assert(p.proof.optimal);
+  p.metrics.distinct--;
+  assert_violated(&p, "distinct");
+  p.metrics.distinct += 2;
+  assert_violated(&p, "distinct");
+  p.metrics.distinct--;
+  p.options.distinct = 3; /* of three cords, with two passes: not a request */
+  ck_assert_int_eq(judge_plan(&p, &err), THR_EINPUT);
+  p.options.distinct = 2;
+  p.options.max_length = 1e6;
+  ck_assert_int_eq(judge_plan(&p, &err), THR_EINPUT);
+  p.options.max_length = 0;
+  assert_holds(&p);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* Cords of a plan that was not asked for different ones: nothing may be said to be the least. */
+START_TEST(the_least_needs_all_edges)
+{
+  thr_frame f = grid_make(3, 3);
+  thr_request o = asked(2, 3, THR_ENDS_CLOSED, "length");
+  o.distinct = 0;
+  thr_plan p;
+  ck_assert_int_eq(thr_plan_make(&f, &o, &(thr_limits){0}, &p, NULL, NULL), THR_OK);
+  ck_assert(p.proof.optimal);
+  p.options.distinct = 2;
+  ck_assert_int_eq(thr_plan_measure(&p.frame, &p.options, p.cord, p.n_cords, &p.metrics, NULL), THR_OK);
+  ck_assert_int_eq(p.metrics.distinct, edges_met(&p));
+  if (p.metrics.distinct < f.n_edges) {
+    assert_violated(&p, "optimal");
+    p.proof.optimal = p.cords_claim.longest_optimal = false;
+    assert_holds(&p);
+  }
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* As many cords as every edge needs: the proof is one of each. */
+START_TEST(alike_cords_have_the_proof_of_one)
+{
+  static const char *const aims[] = {"length", "turning", "max-turning"};
+  thr_frame f = grid_make(3, 3);
+  thr_request o = asked(3, 3, _i % 2 ? THR_ENDS_ANY : THR_ENDS_CLOSED, aims[_i / 2]), one = o;
+  one.distinct = 0;
+  one.cover = one.cords = one.cords_least = 1;
+  thr_plan p = made(&f, &o), single = made(&f, &one);
+  ck_assert_double_eq_tol(p.metrics.length, 3 * single.metrics.length, 1e-9);
+  ck_assert_double_eq_tol(p.proof.lower_bound, 3 * single.proof.lower_bound, 1e-9);
+  ck_assert_int_eq(p.proof.optimal, single.proof.optimal);
+  ck_assert_int_eq(p.turning.largest_optimal, single.turning.largest_optimal);
+  p.proof.lower_bound *= 1 + 1e-6;
+  assert_violated(&p, NULL);
+  p.proof.lower_bound /= 1 + 1e-6;
+  if (p.turning.present) {
+    p.turning.largest_bound *= 1 + 1e-6;
+    assert_violated(&p, "largest");
+    p.turning.largest_bound /= 1 + 1e-6;
+    p.turning.lower_bound *= 1 + 1e-6;
+    assert_violated(&p, "lower_bound");
+  }
+  thr_plan_destroy(&p);
+  thr_plan_destroy(&single);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+int main(void)
+{
+  Suite *s = suite_create("different cords");
+  ADD_TEST(s, 120, plans_are_between_bound_and_truth);
+  ADD_LOOP(s, 120, solids_need_no_more_cord, 0, 3);
+  ADD_TEST(s, 20, false_claims_are_refused);
+  ADD_TEST(s, 20, the_least_needs_all_edges);
+  ADD_LOOP(s, 60, alike_cords_have_the_proof_of_one, 0, 6);
+  return run_suite(s);
+}

@@ -1,0 +1,428 @@
+/* Meshes: PLY in its three encodings, OFF and STL with known counts, diagonals of flat faces, which way is up, and texts that are
+ * cut or wrong. The cube: 8 corners, 12 edges, 6 faces of two triangles, so 6 diagonals; Euler: 8 - 18 + 12 = 2. */
+#include "graph/angle.h"
+#include "graph/framework/frame.h"
+#include "graph/io/read.h"
+#include "graph/text.h"
+#include "tests/support.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const double corner[8][3] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 0, 2}, {2, 0, 2}, {2, 2, 2}, {0, 2, 2}};
+static const int quad[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+
+static void put_bytes(thr_text *t, const void *value, size_t n, bool big)
+{
+  const char *b = value;
+  for (size_t i = 0; i < n; i++)
+    thr_text_append_bytes(t, &b[big ? n - 1 - i : i], 1); /* the tests run where the least byte comes first */
+}
+
+static void put_float(thr_text *t, double x, bool big)
+{
+  float f = (float)x;
+  put_bytes(t, &f, sizeof f, big);
+}
+
+static void put_u32(thr_text *t, uint32_t x, bool big)
+{
+  put_bytes(t, &x, sizeof x, big);
+}
+
+/* The cube's triangles, each second one of a face in the other sense if mixed. */
+static void triangle(int i, bool mixed, int out[3])
+{
+  const int *q = quad[i / 2];
+  out[0] = q[0];
+  out[1] = i % 2 ? q[2] : q[1];
+  out[2] = i % 2 ? q[3] : q[2];
+  if (mixed && i % 2) {
+    int swap = out[1];
+    out[1] = out[2];
+    out[2] = swap;
+  }
+}
+
+/* faces before vertices, a property that nobody needs between the coordinates, an element of its own kind */
+static void put_ply(thr_text *t, const char *encoding)
+{
+  const bool big = strstr(encoding, "big"), text = strcmp(encoding, "ascii") == 0;
+  thr_text_printf(t,
+                  "ply\nformat %s 1.0\ncomment units: cm\nelement face 6\nproperty list uchar int vertex_indices\n"
+                  "element vertex 8\nproperty float x\nproperty uchar red\nproperty float y\nproperty float z\n"
+                  "element material 1\nproperty list uint8 float shade\nend_header\n",
+                  encoding);
+  for (int f = 0; f < 6; f++) {
+    if (text) thr_text_printf(t, "4 %d %d %d %d\n", quad[f][0], quad[f][1], quad[f][2], quad[f][3]);
+    if (!text) thr_text_append_bytes(t, "\x04", 1);
+    for (int i = 0; !text && i < 4; i++)
+      put_u32(t, (uint32_t)quad[f][i], big);
+  }
+  for (int v = 0; v < 8; v++) {
+    if (text) {
+      thr_text_printf(t, "%g 255 %g %g\n", corner[v][0], corner[v][1], corner[v][2]);
+      continue;
+    }
+    put_float(t, corner[v][0], big);
+    thr_text_append_bytes(t, "\xff", 1);
+    put_float(t, corner[v][1], big);
+    put_float(t, corner[v][2], big);
+  }
+  if (text) {
+    thr_text_append(t, "2 0.5 0.25\n");
+  } else {
+    thr_text_append_bytes(t, "\x02", 1);
+    put_float(t, .5, big);
+    put_float(t, .25, big);
+  }
+}
+
+static void put_off(thr_text *t)
+{
+  thr_text_append(t, "# a cube\nCOFF\n8 6 12\n");
+  for (int v = 0; v < 8; v++)
+    thr_text_printf(t, "%g %g %g 255 0 0 255\n", corner[v][0], corner[v][1], corner[v][2]);
+  for (int f = 0; f < 6; f++)
+    thr_text_printf(t, "4  %d %d %d %d 0.5 0.5 1 # blue\n", quad[f][0], quad[f][1], quad[f][2], quad[f][3]);
+}
+
+static void put_stl(thr_text *t, bool binary, bool mixed)
+{
+  char head[80] = "solid cube, which a binary file may say as well";
+  int c[3];
+  if (binary) {
+    thr_text_append_bytes(t, head, sizeof head);
+    put_u32(t, 12, false);
+  } else {
+    thr_text_append(t, "solid cube\n");
+  }
+  for (int i = 0; i < 12; i++) {
+    triangle(i, mixed, c);
+    if (!binary) thr_text_append(t, " facet normal 0 0 0\n  outer loop\n");
+    for (int k = 0; binary && k < 3; k++)
+      put_float(t, 0, false);
+    for (int j = 0; j < 3; j++) {
+      if (!binary) thr_text_printf(t, "   vertex %e %e %e\n", corner[c[j]][0], corner[c[j]][1], corner[c[j]][2]);
+      for (int k = 0; binary && k < 3; k++)
+        put_float(t, corner[c[j]][k], false);
+    }
+    thr_text_append_bytes(t, binary ? "\0\0" : "  endloop\n endfacet\n", binary ? 2 : strlen("  endloop\n endfacet\n"));
+  }
+  if (!binary) thr_text_append(t, "endsolid cube\n");
+}
+
+/* Reads the text as a file of that name would be, with the angle below which triangles are flat. */
+static thr_frame read_as(const thr_text *t, const char *name, double flat, thr_read_report *r)
+{
+  thr_draft d = {.flat = flat};
+  thr_frame f = {0};
+  thr_err err = {0};
+  *r = (thr_read_report){0};
+  ck_assert_msg(thr_draft_parse(&d, r, t->data, t->length, name, NULL, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_draft_build(&d, -1, &f, r, &err) == THR_OK, "%s", err.text);
+  thr_draft_destroy(&d);
+  return f;
+}
+
+static void check_counts(const thr_text *t, const char *name, double flat, int n_edges, double total)
+{
+  thr_read_report r;
+  thr_frame f = read_as(t, name, flat, &r);
+  ck_assert_int_eq(f.n_nodes, 8);
+  ck_assert_int_eq(f.n_edges, n_edges);
+  ck_assert_int_eq(r.duplicate_edges, 0);
+  ck_assert_int_eq(r.welded_nodes, 0);
+  ck_assert_double_eq_tol(thr_frame_total_length(&f), total, 1e-6);
+  thr_frame_destroy(&f);
+}
+
+/* By the ending, by the text alone, and by the text against an ending that is wrong. */
+static void check_cube(const thr_text *t, const char *name, bool triangles)
+{
+  const char *names[] = {name, "stdin", "cube.obj"};
+  const double diagonals = 6 * 2 * sqrt(2);
+  for (int i = 0; i < 3; i++) {
+    check_counts(t, names[i], 0, triangles ? 18 : 12, 24 + (triangles ? diagonals : 0));
+    check_counts(t, names[i], .01, 12, 24);
+  }
+  /* above a right angle the faces themselves are flat: no side is left */
+  thr_draft d = {.flat = 2};
+  thr_read_report r = {0};
+  thr_err err = {0};
+  ck_assert_int_eq(thr_draft_parse(&d, &r, t->data, t->length, name, NULL, &err), THR_OK);
+  ck_assert_int_eq(d.n_edges, triangles ? 0 : 12);
+  thr_draft_destroy(&d);
+}
+
+START_TEST(cubes)
+{
+  thr_text t[6] = {0};
+  put_ply(&t[0], "ascii");
+  put_ply(&t[1], "binary_little_endian");
+  put_ply(&t[2], "binary_big_endian");
+  put_off(&t[3]);
+  put_stl(&t[4], false, _i);
+  put_stl(&t[5], true, _i);
+  for (int i = 0; i < 6; i++) {
+    check_cube(&t[i], i < 3 ? "cube.ply" : i == 3 ? "cube.off" : "cube.stl", i > 3);
+    thr_text_destroy(&t[i]);
+  }
+}
+END_TEST
+
+START_TEST(ply_tells_units_and_what_it_skips)
+{
+  thr_text t = {0};
+  thr_read_report r;
+  put_ply(&t, "binary_big_endian");
+  thr_frame f = read_as(&t, "stdin", 0, &r);
+  ck_assert_str_eq(f.units, "cm");
+  ck_assert_int_eq(r.skipped_records, 1);
+  ck_assert_str_eq(r.skipped_kind, "material");
+  thr_frame_destroy(&f);
+  thr_text_destroy(&t);
+}
+END_TEST
+
+/* Every beginning of a whole file is an error of one line, or (ascii, where only blanks were cut) the same framework. */
+START_TEST(what_is_cut_is_refused)
+{
+  thr_text t = {0};
+  if (_i < 3)
+    put_ply(&t, _i == 0 ? "ascii" : _i == 1 ? "binary_little_endian" : "binary_big_endian");
+  else if (_i == 3)
+    put_off(&t);
+  else
+    put_stl(&t, true, false);
+  const char *name = _i < 3 ? "f.ply" : _i == 3 ? "f.off" : "f.stl";
+  int whole = 0;
+  for (size_t n = 0; n < t.length; n++) {
+    thr_draft d = {0};
+    thr_read_report r = {0};
+    thr_err err = {0};
+    thr_status st = thr_draft_parse(&d, &r, t.data, n, name, NULL, &err);
+    whole += st == THR_OK;
+    if (st) assert_one_line(&err, NULL);
+    thr_draft_destroy(&d);
+  }
+  /* what may go without being missed: all but the first digit of 0.25 and a line end; colour and comment of the last face */
+  ck_assert_int_eq(whole, _i == 0 ? 4 : _i == 3 ? 18 : 0);
+  thr_text_destroy(&t);
+}
+END_TEST
+
+static void check_refused(const char *text, const char *name, const char *message)
+{
+  thr_draft d = {0};
+  thr_read_report r = {0};
+  thr_err err = {0};
+  ck_assert_int_eq(thr_draft_parse(&d, &r, text, strlen(text), name, NULL, &err), THR_EINPUT);
+  ck_assert_str_eq(err.text, message);
+  thr_draft_destroy(&d);
+}
+
+START_TEST(errors_say_where)
+{
+  check_refused("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n", "a.ply",
+                "a.ply: vertices need the properties x, y and z; export it again with them");
+  check_refused(
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n"
+      "1 nan 0\n",
+      "a.ply", "a.ply:9: vertex 1: not a finite number");
+  check_refused("ply\nformat ascii 1.0\nelement vertex -2\n", "a.ply", "a.ply:3: an element needs a name and how many there are");
+  check_refused("ply\nformat ascii 1.0\nelement vertex 1\nproperty quad x\n", "a.ply",
+                "a.ply:4: a property is a type (char .. double, int8 .. float64) or a list of one, and a name");
+  check_refused("ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nelement edge 1\n"
+                "property int vertex1\nproperty int vertex2\nend_header\n0 0 0\n1 0 0\n0 2\n",
+                "a.ply", "a.ply: a face or edge names vertex 2; there are 2, and the first is 0");
+  check_refused(
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n",
+      "a.ply", "a.ply: no edges and no faces, only 1 points; export the lines or the mesh");
+  check_refused("OFF BINARY\n", "a.off", "a.off:1: binary OFF is not read; export it as text, or as PLY");
+  check_refused("OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n3 0 1 x\n", "a.off",
+                "a.off:6: 'x' is not a number of vertices, faces or corners");
+  check_refused("solid a\nfacet\nvertex 0 0 0\nvertex 1 0 0\nendfacet\n", "a.stl", "a.stl:5: a facet needs three vertices");
+  check_refused("solid a\nendsolid a\n", "a.stl", "a.stl: no triangles; this is an empty STL file, or none");
+}
+END_TEST
+
+START_TEST(foreign_formats_are_called_by_name)
+{
+  static const struct {
+    const char *text, *name;
+  } foreign[] = {{"<svg xmlns='x'/>", "an SVG picture"},
+                 {"\n<?xml version='1.0'?>\n<graphml>", "XML"},
+                 {"graph [\n node [ id 1 ]\n", "GML"},
+                 {"ISO-10303-21;\nHEADER;\n", "STEP"}};
+  for (size_t i = 0; i < sizeof foreign / sizeof *foreign; i++) {
+    char message[200];
+    snprintf(message, sizeof message,
+             "stdin: this is %s, which is not read; export the lines or the mesh as OBJ, PLY, CSV or JSON", foreign[i].name);
+    check_refused(foreign[i].text, "stdin", message);
+  }
+}
+END_TEST
+
+/* ---- files: which way is up, how large ---- */
+
+static thr_frame read_file(const char *text, const char *name, const thr_read_options *options, thr_read_report *r)
+{
+  thr_text t = {0};
+  thr_frame f;
+  thr_err err = {0};
+  thr_text_append(&t, text);
+  ck_assert_int_eq(thr_text_write(&t, name, &err), THR_OK);
+  ck_assert_msg(thr_frame_read(&f, r, name, options, NULL, 0, &err) == THR_OK, "%s", err.text);
+  thr_text_destroy(&t);
+  unlink(name);
+  return f;
+}
+
+/* A tripod of height 3 with y up, as Blender writes it. */
+#define TRIPOD "v 0 0 0\nv 4 0 0\nv 0 0 4\nv 1 3 1\nl 1 4\nl 2 4\nl 3 4\n"
+
+START_TEST(which_way_is_up)
+{
+  thr_read_options options = thr_read_options_default();
+  thr_read_report r;
+  char name[64];
+  snprintf(name, sizeof name, "up-%ld.obj", (long)getpid());
+  thr_frame f = read_file("# Blender v2.93 OBJ File\n" TRIPOD, name, &options, &r);
+  ck_assert(r.turned && !r.lies && r.no_units);
+  ck_assert(f.xyz[3][0] == 1 && f.xyz[3][1] == -1 && f.xyz[3][2] == 3);
+  thr_frame_feet_lowest(&f);
+  ck_assert(f.foot[0] && f.foot[1] && f.foot[2] && !f.foot[3]);
+  thr_frame_destroy(&f);
+
+  options.up = THR_UP_Z;
+  f = read_file("# Blender v2.93 OBJ File\n" TRIPOD, name, &options, &r);
+  ck_assert(!r.turned && !r.lies && f.xyz[3][2] == 1);
+  thr_frame_destroy(&f);
+
+  options = thr_read_options_default();
+  f = read_file(TRIPOD, name, &options, &r);
+  ck_assert(!r.turned && r.lies); /* two nodes are lowest with z up, three that span a level with y up */
+  thr_frame_destroy(&f);
+
+  options.up = THR_UP_Y;
+  options.scale = 10;
+  f = read_file("# units: cm\n" TRIPOD, name, &options, &r);
+  ck_assert(!r.turned && !r.lies && !r.no_units && f.xyz[3][2] == 30);
+  ck_assert_double_eq_tol(thr_frame_total_length(&f), 10 * (sqrt(11) + 2 * sqrt(19)), 1e-9);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* Written and read again, a framework is what it was, but for feet and lengths of its own. */
+START_TEST(ply_round_trip)
+{
+  static const char *const files[] = {"data/jax_fdm/barrel.obj", "data/conmech/tower_3D.json",
+                                      "data/assembly-instances/fandisk.json"};
+  thr_frame before, after;
+  thr_read_report r;
+  thr_err err = {0};
+  thr_text t = {0};
+  thr_read_options options = thr_read_options_default();
+  ck_assert_msg(thr_frame_read(&before, &r, files[_i], &options, NULL, 0, &err) == THR_OK, "%s", err.text);
+  thr_frame_write(&before, thr_format_named("ply"), &t);
+  after = read_as(&t, "stdin", 0, &r);
+  ck_assert_int_eq(after.n_nodes, before.n_nodes);
+  ck_assert_int_eq(after.n_edges, before.n_edges);
+  ck_assert_int_eq(memcmp(after.xyz, before.xyz, (size_t)before.n_nodes * sizeof *before.xyz), 0);
+  ck_assert_int_eq(memcmp(after.edge, before.edge, (size_t)before.n_edges * sizeof *before.edge), 0);
+  ck_assert_str_eq(after.units, before.units);
+  thr_frame_destroy(&before);
+  thr_frame_destroy(&after);
+  thr_text_destroy(&t);
+}
+END_TEST
+
+/* Made by ezdxf 0.18 with every kind of entity that is read, blocks in blocks, an array of them and an extrusion; ezdxf's own
+ * decomposition of it has 62 points and 68 different sides. */
+START_TEST(drawing)
+{
+  thr_frame f;
+  thr_read_report r;
+  thr_err err = {0};
+  thr_read_options options = thr_read_options_default();
+  const double quarter = 5 * THR_PI; /* of a circle of radius 10, which is also half of one of radius 5 */
+  int quarters = 0, splines = 0, ellipses = 0;
+  ck_assert_msg(thr_frame_read(&f, &r, "tests/formats/ezdxf-all.dxf", &options, NULL, 0, &err) == THR_OK, "%s", err.text);
+  ck_assert_int_eq(f.n_nodes, 62);
+  ck_assert_int_eq(f.n_edges, 68);
+  ck_assert_str_eq(f.units, "mm");
+  ck_assert_int_eq(r.skipped_records, 2); /* a circle and a text */
+  for (int e = 0; e < f.n_edges; e++) {
+    quarters += fabs(f.length[e] - quarter) < 1e-7;
+    splines += fabs(f.length[e] - 23.110287536) < 1e-5; /* ezdxf's flattening to 1e-6 */
+    ellipses += fabs(f.length[e] - 24.2211205) < 1e-6;  /* half the perimeter 2 a E(3/4) = 48.4422411 with a = 10, b = 5 */
+  }
+  ck_assert_int_eq(quarters, 2);
+  ck_assert_int_eq(splines, 1);
+  ck_assert_int_eq(ellipses, 1);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+#define DXF(entities) "0\nSECTION\n2\nENTITIES\n" entities "0\nENDSEC\n0\nEOF\n"
+
+START_TEST(drawings_that_are_wrong)
+{
+  check_refused(DXF("0\nLINE\n10\nx\n"), "a.dxf", "a.dxf:6: this LINE has a value that is not a finite number");
+  check_refused(DXF("0\nINSERT\n2\nnobody\n"), "a.dxf", "a.dxf: the block 'nobody' is inserted and not there");
+  check_refused(DXF("0\nTEXT\n1\nhello\n"), "a.dxf",
+                "a.dxf: no lines, polylines, faces or curves in its model, but others: TEXT");
+  check_refused(DXF("0\nSPLINE\n71\n3\n10\n0\n20\n0\n10\n1\n20\n0\n"), "a.dxf",
+                "a.dxf:6: this SPLINE has knots, weights and control points that do not fit together");
+  check_refused("0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\na\n0\nINSERT\n2\na\n0\nENDBLK\n0\nENDSEC\n" DXF("0\nINSERT\n2\na\n"),
+                "a.dxf", "a.dxf: blocks are nested more than 16 deep, or inserted more than 1000000 times");
+  check_refused("0\nSECTION\n2\n", "a.dxf", "a.dxf:3: the file ends in the middle of a pair");
+  check_refused("AutoCAD Binary DXF\r\n\x1a", "a.dxf", "a.dxf: binary DXF is not read; export it as text");
+}
+END_TEST
+
+static thr_status parse_one(const void *user, thr_text *t, thr_err *err)
+{
+  const thr_text *text = user;
+  thr_draft d = {.flat = .1};
+  thr_read_report r = {0};
+  thr_status st = thr_draft_parse(&d, &r, text->data, text->length, "f", NULL, err);
+  if (!st) thr_text_append(t, "read");
+  if (!st && t->failed) st = thr_nomem(err);
+  if (st) thr_text_destroy(t);
+  thr_draft_destroy(&d);
+  return st;
+}
+
+START_TEST(every_allocation_may_fail)
+{
+  thr_text t[3] = {0};
+  put_ply(&t[0], "ascii");
+  put_off(&t[1]);
+  put_stl(&t[2], true, false);
+  for (int i = 0; i < 3; i++) {
+    assert_allocations_may_fail(parse_one, &t[i], 200);
+    thr_text_destroy(&t[i]);
+  }
+}
+END_TEST
+
+int main(void)
+{
+  Suite *s = suite_create("meshes");
+  ADD_LOOP(s, 4, cubes, 0, 2);
+  ADD_TEST(s, 4, ply_tells_units_and_what_it_skips);
+  ADD_LOOP(s, 4, what_is_cut_is_refused, 0, 5);
+  ADD_TEST(s, 4, errors_say_where);
+  ADD_TEST(s, 4, foreign_formats_are_called_by_name);
+  ADD_TEST(s, 4, which_way_is_up);
+  ADD_TEST(s, 4, drawing);
+  ADD_TEST(s, 4, drawings_that_are_wrong);
+  ADD_LOOP(s, 4, ply_round_trip, 0, 3);
+  ADD_TEST(s, 4, every_allocation_may_fail);
+  return run_suite(s);
+}

@@ -1,0 +1,127 @@
+/* Symmetries of a task, and which of them keep what was decided. */
+#include "tortuosity/proof/orbits.h"
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/plan/turning_symmetry.h"
+#include "graph/status.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Half-edges from the images of nodes; false if some edge has none. */
+static bool map_edges(const thr_frame *frame, const int *node, int *image)
+{
+  for (int e = 0; e < frame->n_edges; e++) {
+    const int a = node[frame->edge[e][0]], b = node[frame->edge[e][1]];
+    image[e] = -1;
+    for (int i = frame->first[a]; i < frame->first[a + 1]; i++)
+      if (thr_head(frame, frame->half[i]) == b) image[e] = frame->half[i];
+    if (image[e] < 0) return false;
+  }
+  return true;
+}
+
+static bool is_near(int64_t a, int64_t b, int64_t most)
+{
+  return a - b <= most && b - a <= most;
+}
+
+/* Are all prices, and under a limit all lengths, the same but for rounding? */
+static bool keeps_prices(const thr_turning_columns *c, const int *image)
+{
+  const int64_t price = 1 << 10, length = 2; /* 6e-11 of a radian; 2e-12 of the longest edge */
+  bool same = true;
+  for (int j = 0; j < c->n_columns && same; j++)
+    same = is_near(c->weight[j], c->weight[thr_turning_image(c, image, j)], price);
+  for (int e = 0; e < c->f->n_edges && same && c->extra_limit >= 0; e++)
+    same = is_near(c->length[e], c->length[image[e] >> 1], length);
+  return same;
+}
+
+static bool is_identity(const int *image, int n_edges)
+{
+  for (int e = 0; e < n_edges; e++)
+    if (image[e] != 2 * e) return false;
+  return true;
+}
+
+/* Keeps those that are symmetries of the task. */
+static thr_status choose(thr_orbits *orbits, const int *node, int n, thr_err *err)
+{
+  const thr_frame *frame = orbits->c->f;
+  const size_t m = (size_t)frame->n_edges;
+  thr_status st = THR_OK;
+  if (!(orbits->image = thr_calloc((size_t)n * m, sizeof *orbits->image))) return thr_nomem(err);
+  for (int i = 0; i < n && !st; i++) {
+    int *image = orbits->image + (size_t)orbits->n * m;
+    bool yes = map_edges(frame, node + (size_t)i * (size_t)frame->n_nodes, image) && !is_identity(image, frame->n_edges);
+    if (yes) st = thr_turning_symmetric(orbits->c, image, &yes, err);
+    orbits->n += !st && yes && keeps_prices(orbits->c, image);
+  }
+  return st;
+}
+
+thr_status thr_orbits_init(thr_orbits *orbits, const thr_turning_columns *turning_columns, thr_orbits_motions *motions,
+                           const thr_limits *limits, thr_err *err)
+{
+  int *node = NULL, n = 0;
+  *orbits = (thr_orbits){.c = turning_columns};
+  thr_status st = motions ? motions(turning_columns->f, limits, &node, &n, err) : THR_OK;
+  if (!st && n > 0) st = choose(orbits, node, n, err);
+  free(node);
+  if (st) thr_orbits_destroy(orbits);
+  return st;
+}
+
+void thr_orbits_destroy(thr_orbits *orbits)
+{
+  free(orbits->image);
+  *orbits = (thr_orbits){0};
+}
+
+/* Does it keep the bounds in force on all columns that are decided on the way to the root? */
+static bool keeps_bounds(const thr_orbits *orbits, const thr_tree *tree, const thr_tree_place *place, const int *image)
+{
+  for (int k = place->at; k > 0; k = tree->node[k].parent) {
+    const thr_tree_node *node = &tree->node[k];
+    for (int i = 0; i <= node->n_also; i++) {
+      const int j = i > 0 ? node->also[i - 1] : node->column, to = thr_turning_image(orbits->c, image, j);
+      if (place->low[to] != place->low[j] || place->high[to] != place->high[j]) return false;
+    }
+  }
+  return true;
+}
+
+static bool is_listed(const thr_orbit *orbit, int column)
+{
+  for (int i = 0; i < orbit->n; i++)
+    if (orbit->column[i] == column) return true;
+  return false;
+}
+
+thr_status thr_orbits_at(const thr_orbits *orbits, const thr_tree *tree, const thr_tree_place *place, int column,
+                         thr_orbit *orbit, thr_err *err)
+{
+  *orbit = (thr_orbit){.column = thr_calloc((size_t)orbits->n, sizeof *orbit->column),
+                       .symmetry = thr_calloc((size_t)orbits->n, sizeof *orbit->symmetry)};
+  if (!orbit->column || !orbit->symmetry) {
+    thr_orbit_destroy(orbit);
+    return thr_nomem(err);
+  }
+  for (int s = 0; s < orbits->n; s++) {
+    const int *image = orbits->image + (size_t)s * (size_t)orbits->c->f->n_edges;
+    const int to = thr_turning_image(orbits->c, image, column);
+    if (to == column || is_listed(orbit, to) || !keeps_bounds(orbits, tree, place, image)) continue;
+    orbit->column[orbit->n] = to;
+    orbit->symmetry[orbit->n++] = s;
+  }
+  return THR_OK;
+}
+
+void thr_orbit_destroy(thr_orbit *orbit)
+{
+  free(orbit->column);
+  free(orbit->symmetry);
+  *orbit = (thr_orbit){0};
+}
