@@ -11,10 +11,8 @@
 
 #include <math.h>
 
-const double advice_usual_seconds = 2;
-
-/* Beside a plan the advice takes no more of what the plan has taken; little is enough for small frameworks. */
-static const double part_of_plan = 0.3, least_seconds = 1;
+/* Work that is counted, in seconds: of advice, and of the line beside a plan. */
+static const double usual_work = 2, work_beside_plan = 1;
 
 static void put_option(thr_text *text, const char *option, const char *value)
 {
@@ -78,7 +76,8 @@ void advice_put_after_plan(const thr_plan *plan, const char *path, const cli_fra
   thr_text_printf(text, "hand     %s is ", plain_force(newton, force));
   plain_put_hand(text, newton);
   thr_text_append(text, ":\n");
-  thr_limits limits = advice_limits(fmin(advice_usual_seconds, fmax(least_seconds, part_of_plan * cli_processor_seconds())));
+  double work = work_beside_plan;
+  thr_limits limits = advice_limits(0, &work);
   if (thr_advise(&plan->frame, &plan->options, &options, &limits, &advice, NULL)) advice.chosen = -1;
   if (advice.chosen >= 0)
     put_line(&advice, plan, path, a, physics, text);
@@ -87,10 +86,12 @@ void advice_put_after_plan(const thr_plan *plan, const char *path, const cli_fra
   thr_advice_destroy(&advice);
 }
 
-thr_limits advice_limits(double seconds)
+thr_limits advice_limits(double seconds, double *work)
 {
+  if (seconds < 0) *work = usual_work;
   thr_limits limits = cli_limits(seconds > 0 ? thr_dispatch_search_seconds(seconds, false, false) : 0);
   if (!cli_verbose) limits.progress = NULL;
   limits.advance = NULL;
+  if (*work > 0) limits.work = work;
   return limits;
 }

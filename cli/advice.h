@@ -11,9 +11,9 @@
 /* The options that were given of how FRAME is read and of what cord and beads are, each with a blank before it, for a shell. */
 void advice_command_options(const cli_frame_args *a, const cli_physics *physics, thr_text *text);
 
-/* What is asked for advice without --time-limit, s; and limits for so many, 0 = none: silent but for --verbose. */
-extern const double advice_usual_seconds;
-thr_limits advice_limits(double seconds);
+/* Limits for so many seconds by the clock, 0 = none, silent but for --verbose; and for so much counted work, 0 = any. Seconds below
+ * 0: as much work as advice is usually given, which *work becomes. *work stays while the limits are used. */
+thr_limits advice_limits(double seconds, double *work);
 
 /* The lines that say that the plan's pull is beyond a hand, and what is not, as `thread advise` recommends it, which takes up to
  * its usual seconds: nothing where it is not beyond a hand. path: of the framework, as typed, and the options that it was read

@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "graph/limits.h"
 
+#include <math.h>
 #include <time.h>
 
 static double read_clock(clockid_t id)
@@ -21,9 +22,14 @@ double thr_processor_clock(void)
   return read_clock(CLOCK_PROCESS_CPUTIME_ID);
 }
 
+void thr_limits_spend(const thr_limits *limits, double seconds)
+{
+  if (limits->work) *limits->work -= seconds;
+}
+
 double thr_limits_left(const thr_limits *limits, double most)
 {
-  if ((limits->interrupted && *limits->interrupted) || (limits->work && *limits->work <= 0)) return 0;
+  if ((limits->interrupted && *limits->interrupted) || (limits->work && *limits->work <= limits->work_kept)) return 0;
   if (limits->deadline == 0) return most;
   double left = limits->deadline - thr_clock();
   return left < 0 ? 0 : left < most ? left : most;
@@ -34,11 +40,14 @@ thr_limits thr_limits_part(const thr_limits *limits, double part)
   thr_limits some = *limits;
   double now = thr_clock(), left = limits->deadline - now;
   if (limits->deadline > 0) some.deadline = now + part * (left > 0 ? left : 0);
+  if (limits->work) some.work_kept = fmax(limits->work_kept, *limits->work - part * (*limits->work - limits->work_kept));
   return some;
 }
 
 bool thr_limits_stop(const thr_limits *limits)
 {
+  const double between = 1e-5; /* s */
+  thr_limits_spend(limits, between);
   return thr_limits_left(limits, 1) <= 0;
 }
 

@@ -15,8 +15,9 @@ typedef struct {
   double deadline;                          /* thr_clock() at which to stop; 0 = none */
   const volatile sig_atomic_t *interrupted; /* set by a signal handler, or NULL */
   int threads; /* in which independent parts may run (graph/process/threads.h); 0 = 1. The results do not depend on it */
-  double
-      *work; /* NULL, or what linear programmes may still do (lp/solver/lp.h): ends a search at the same place on any machine */
+  /* NULL, or the work that may still be done, in seconds that are counted (thr_limits_spend) and not measured: it ends a search at
+   * the same place on any machine, whatever else that does. Work is over when work_kept of it is left. One thread at a time. */
+  double *work, work_kept;
   /* called now and then with what is being done and the best value and proven bound so far (same unit) */
   void (*progress)(void *user, const char *what, double best, double bound);
   /* called by work whose amount is known beforehand, with the part that is done: 0 .. 1 */
@@ -32,12 +33,16 @@ double thr_clock(void);
 /* Seconds of the processor that this process has had. */
 double thr_processor_clock(void);
 
+/* Is it time to stop? Where work is counted, what is done between two such questions counts as 10 microseconds. */
 bool thr_limits_stop(const thr_limits *limits);
 
-/* Seconds left, at most `most` and at least 0. */
+/* Seconds by the clock that are left, at most `most` and at least 0. */
 double thr_limits_left(const thr_limits *limits, double most);
 
-/* The same with only a part of the time that is left, 0 .. 1. */
+/* Work is counted that takes about so many seconds, beyond what thr_limits_stop counts. Without limits->work: nothing. */
+void thr_limits_spend(const thr_limits *limits, double seconds);
+
+/* The same with only a part of the time and the work that are left, 0 .. 1. */
 thr_limits thr_limits_part(const thr_limits *limits, double part);
 
 /* Cords of the whole framework that may be what is asked for, as soon as there are some and whenever there are better ones: they

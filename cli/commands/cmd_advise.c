@@ -32,7 +32,8 @@ static const char help[] =
     "      --hand N         what the pull is to stay within, in newton, even at the upper end of the band of mu\n"
     "                       (default: 10, what a hand manages time after time; 50: the most)\n"
     "      --cover N        at least N passes over every interface (default: 1)\n"
-    "      --time-limit S   for all rows together, 0 = until every search has ended (default: 2)\n" GUARD_MEMORY_HELP
+    "      --time-limit S   for all rows together, 0 = until every search has ended\n"
+    "                       (without it some two seconds, counted: the same rows on every machine)\n" GUARD_MEMORY_HELP
         CLI_FRAME_HELP "  -q, --quiet          no notes       -v, --verbose  what the solver does       -h, --help\n\n"
     "Every row is a plan whose cord that turns most turns as little as was found in its part of the time. Steps are the passes "
     "of\n"
@@ -90,7 +91,7 @@ static int parse(int argc, char **argv, arguments *a)
 {
   int done, option;
   *a = (arguments){.frame = cli_frame_args_default(),
-                   .guard = {.seconds = advice_usual_seconds, .memory = guard_limits_default().memory},
+                   .guard = guard_limits_default(),
                    .request = thr_request_default(),
                    .output = "-",
                    .hand = thr_hand_always};
@@ -180,7 +181,8 @@ static int advise(arguments *a, const thr_frame *frame)
   live l = {.frame = frame, .physics = &resolved, .base_length = a->request.cover * thr_frame_total_length(frame)};
   bool shown = a->type == TYPE_TEXT && !a->json && !cli_quiet && strcmp(a->output, "-") == 0 && isatty(STDOUT_FILENO);
   const thr_advise_options options = {.hand = a->hand, .row = shown ? show_row : NULL, .user = &l};
-  thr_limits limits = advice_limits(a->guard.seconds);
+  double work = 0;
+  thr_limits limits = advice_limits(a->guard.seconds, &work);
   thr_status st = thr_advise(frame, &a->request, &options, &limits, &advice, &err);
   wipe_rows(&l);
   if (st) return cli_fail(&err);

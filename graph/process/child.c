@@ -129,7 +129,7 @@ static bool receive(parent *p)
 static bool watch(parent *p)
 {
   while (!p->arrived.failed && !p->answer->failed && !p->stuck && receive(p)) {
-    if (!p->asked && thr_limits_stop(p->limits)) {
+    if (!p->asked && thr_limits_left(p->limits, 1) <= 0) { /* what waiting takes is no work */
       p->asked = thr_clock();
       kill(p->process.pid, SIGUSR1);
     }

@@ -158,7 +158,7 @@ static thr_status run_pool(pool *p, thr_err *err)
 {
   const int n_jobs = p->work->n_jobs;
   for (;;) {
-    if (p->n_finished < n_jobs && thr_limits_stop(p->limits)) {
+    if (p->n_finished < n_jobs && thr_limits_left(p->limits, 1) <= 0) { /* what waiting takes is no work */
       kill_from(p, 0);
       return thr_fail(err, THR_ELIMIT, "%s: stopped after %d of %d", p->work->what, p->n_finished, n_jobs);
     }

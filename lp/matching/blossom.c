@@ -58,6 +58,9 @@ static thr_status state_create(thr_matching_state **out, int n_nodes, thr_err *e
   return THR_OK;
 }
 
+/* Counted for a matching, a usual mean. */
+static const double seconds_per_edge = 5e-7;
+
 /* Points the state at a problem with its number of nodes: arcs by node. */
 static thr_status state_set_problem(thr_matching_state *matching_state, const thr_matching_problem *matching_problem,
                                     const thr_limits *limits, thr_err *err)
@@ -68,6 +71,7 @@ static thr_status state_set_problem(thr_matching_state *matching_state, const th
   if (!matching_state->arc) return thr_nomem(err);
   matching_state->p = matching_problem;
   matching_state->limits = limits;
+  thr_limits_spend(limits, seconds_per_edge * (double)matching_problem->n_edges);
   matching_state->err = err;
   matching_state->n_edges = matching_problem->n_edges;
   matching_state->tail = matching_problem->n_edges ? &matching_problem->edge[0][0] : NULL;

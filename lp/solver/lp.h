@@ -7,8 +7,7 @@
 #include "graph/limits.h"
 #include "graph/status.h"
 
-/* The work of limits counts pivots, each as the number of rows and columns of its programme and 3000: some 100 million a second.
- */
+/* The work of limits counts every pivot as a hundred-millionth of a second for each row and column of its programme, and 3000. */
 typedef struct thr_lp thr_lp;
 
 typedef enum {

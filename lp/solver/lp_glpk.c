@@ -426,7 +426,8 @@ static thr_lp_outcome outcome_of(glp_prob *problem)
 static void spend(const thr_limits *limits, glp_prob *p, int pivots)
 {
   enum { SMALL = 3000 };
-  if (limits->work) *limits->work -= (double)pivots * (SMALL + glp_get_num_rows(p) + glp_get_num_cols(p));
+  const double each = 1e-8; /* s for a row or a column */
+  thr_limits_spend(limits, each * pivots * (SMALL + glp_get_num_rows(p) + glp_get_num_cols(p)));
 }
 
 static thr_status solve(thr_lp *lp, bool exact, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)

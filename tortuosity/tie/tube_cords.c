@@ -202,7 +202,7 @@ static thr_status make_some(several *x, thr_plan *plan, thr_err *err)
 thr_status thr_tube_cords(thr_tube *tube, const thr_limits *limits, thr_plan *plan, thr_cords_word *word, thr_err *err)
 {
   const thr_request *options = &plan->options;
-  several x = {.shortest = tube, .work = 1e8};
+  several x = {.shortest = tube, .work = 1};
   *word = (thr_cords_word){0};
   if (!thr_tube_shares(options)) {
     move_cords(tube, plan);
