@@ -11,8 +11,8 @@
 /* The options that were given of how FRAME is read and of what cord and beads are, each with a blank before it, for a shell. */
 void advice_command_options(const cli_frame_args *a, const cli_physics *physics, thr_text *text);
 
-/* Limits for so many seconds by the clock, 0 = none, silent but for --verbose; and for so much counted work, 0 = any. Seconds below
- * 0: as much work as advice is usually given, which *work becomes. *work stays while the limits are used. */
+/* Limits for so many seconds by the clock, 0 = none, silent but for --verbose; and for so much counted work, 0 = any. Seconds
+ * below 0: as much work as advice is usually given, which *work becomes. *work stays while the limits are used. */
 thr_limits advice_limits(double seconds, double *work);
 
 /* The lines that say that the plan's pull is beyond a hand, and what is not, as `thread advise` recommends it, which takes up to
