@@ -77,7 +77,7 @@ LINK = $(COMPILER_CXX) $(MODE_$(BUILD)) $(CFLAGS) $(LDFLAGS)
 STRICT = $(if $(filter-out 0,$(WERROR)),$(if $(filter fuzz,$(BUILD)),,-Werror))
 
 DIR := $(OUT)/$(BUILD)
-MODULES := graph lp symmetry tortuosity planner eval diagram
+MODULES := graph lp symmetry tortuosity planner eval diagram lib
 # every module, and its folders by stage
 FOLDERS := $(MODULES) $(patsubst %/,%,$(wildcard $(addsuffix /*/,$(MODULES))))
 CLI_FOLDERS := cli $(patsubst %/,%,$(wildcard cli/*/))

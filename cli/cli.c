@@ -3,7 +3,6 @@
 #include "cli/cli.h"
 #include "graph/angle.h"
 #include "graph/io/stand.h"
-#include "cli/print/copies_table.h"
 #include "cli/guard.h"
 #include "graph/check/check.h"
 #include "graph/framework/units.h"

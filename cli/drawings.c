@@ -1,118 +1,15 @@
 #include "cli/drawings.h"
 
-#include "cli/print/copies_table.h"
 #include "cli/guard.h"
 #include "diagram/export/paper.h"
 #include "diagram/scene/pieces.h"
-#include "diagram/scene/polylines.h"
-#include "diagram/sheets/sheets.h"
-#include "diagram/overview/steps.h"
-#include "diagram/tables/tables.h"
-#include "diagram/export/viewer.h"
 #include "graph/plan/chains.h"
 #include "graph/limits.h"
 #include "graph/status.h"
 #include "graph/text.h"
+#include "lib/documents.h"
 
 #include <stdio.h>
-
-typedef enum {
-  OVERVIEW,
-  SHEETS,
-  STEPS,
-  VIEWER,
-  STEPS_TABLE,
-  CORDS_TABLE,
-  BEADS_TABLE,
-  CHANNELS_TABLE,
-  OBJ,
-  GLTF,
-  N_DOCUMENTS
-} document;
-
-static const struct {
-  const char *type, *file;
-} documents[N_DOCUMENTS] = {
-    [OVERVIEW] = {"svg", "overview.svg"},
-    [SHEETS] = {"pdf", "sheets.pdf"},
-    [STEPS] = {"steps", "steps.txt"},
-    [VIEWER] = {"html", "viewer.html"},
-    [STEPS_TABLE] = {"steps.csv", "steps.csv"},
-    [CORDS_TABLE] = {"cords.csv", "cords.csv"},
-    [BEADS_TABLE] = {"beads.csv", "beads.csv"},
-    [CHANNELS_TABLE] = {"channels.csv", "channels.csv"},
-    [OBJ] = {"obj", "cords.obj"},
-    [GLTF] = {"gltf", "cords.gltf"},
-};
-
-int drawings_count(void)
-{
-  return N_DOCUMENTS;
-}
-
-const char *drawings_type(int i)
-{
-  return documents[i].type;
-}
-
-const char *drawings_file(int i)
-{
-  return documents[i].file;
-}
-
-/* A document that says what moves a path to its copies. */
-static thr_status describe(const thr_plan *plan, document which, const drawings_args *a, thr_text *text, thr_err *err)
-{
-  cli_copies copies;
-  thr_status st = cli_copies_describe(plan, &copies, err);
-  if (!st && which == STEPS) st = thr_steps_text(plan, copies.motion, a->kind_tolerance, text, err);
-  if (!st && which == VIEWER) st = thr_viewer_html(plan, copies.motion, a->kind_tolerance, text, err);
-  if (!st && which == CORDS_TABLE) st = thr_table_cords(plan, copies.motion, text, err);
-  cli_copies_destroy(&copies);
-  return st;
-}
-
-static int write_overview(const thr_plan *plan, const char *path, const drawings_args *a)
-{
-  thr_err err = {0};
-  thr_text svg = {0};
-  cli_copies copies;
-  thr_overview_options options = thr_overview_options_default();
-  options.pitch_mm = a->pitch_mm;
-  options.colour = a->colour;
-  thr_status st = cli_copies_describe(plan, &copies, &err);
-  options.motion = copies.motion;
-  if (!st) st = thr_overview_svg(plan, &options, &svg, &err);
-  cli_copies_destroy(&copies);
-  return cli_write_drawn(st, &svg, path, &err);
-}
-
-/* Says how many pages there will be before it draws them. An interrupt that has ended the planning does not end this. */
-static int write_sheets(const thr_plan *plan, const char *path, const drawings_args *a)
-{
-  thr_err err = {0};
-  thr_text pdf = {0};
-  thr_sheets *sheets = NULL;
-  cli_copies copies;
-  thr_sheets_options options = thr_sheets_options_default();
-  thr_limits limits = cli_limits(0);
-  if (thr_limits_stop(&limits)) limits.interrupted = NULL;
-  options.page = (thr_page_size)a->page;
-  options.middle = (a->needles ? a->needles : plan->options.needles) == 2;
-  options.kind_tolerance = a->kind_tolerance;
-  thr_status st = cli_copies_describe(plan, &copies, &err);
-  options.motion = copies.motion;
-  if (!st) st = thr_sheets_make(&sheets, plan, &options, &limits, &err);
-  if (!st) {
-    int n = thr_sheets_pages(sheets);
-    cli_note("%s: %d %s", documents[SHEETS].file, n, cli_plural(n, "page", "pages"));
-    st = thr_sheets_pdf(sheets, &limits, &pdf, &err);
-    cli_progress_end();
-  }
-  thr_sheets_destroy(sheets);
-  cli_copies_destroy(&copies);
-  return cli_write_drawn(st, &pdf, path, &err);
-}
 
 static const char *from_name(int i)
 {
@@ -142,23 +39,25 @@ thr_status drawings_chains(const thr_plan *plan, thr_text *text, thr_err *err)
   return st;
 }
 
+static void note_pages(int n)
+{
+  cli_note("%s: %d %s", thr_document_file(thr_document_sheets()), n, cli_plural(n, "page", "pages"));
+}
+
 int drawings_write(const thr_plan *plan, int i, const char *path, const drawings_args *a)
 {
   thr_err err = {0};
   thr_text text = {0};
-  thr_status st;
-  switch ((document)i) {
-  case OVERVIEW: return write_overview(plan, path, a);
-  case SHEETS: return write_sheets(plan, path, a);
-  case STEPS:
-  case VIEWER:
-  case CORDS_TABLE: st = describe(plan, (document)i, a, &text, &err); break;
-  case STEPS_TABLE: st = thr_table_steps(plan, a->kind_tolerance, &text, &err); break;
-  case BEADS_TABLE: st = thr_table_beads(plan, a->kind_tolerance, &text, &err); break;
-  case CHANNELS_TABLE: st = thr_table_channels(plan, a->kind_tolerance, &text, &err); break;
-  case OBJ: st = thr_polylines_obj(plan, &text, &err); break;
-  default: st = thr_polylines_gltf(plan, &text, &err);
-  }
+  const thr_document_options options = {.pitch_mm = a->pitch_mm,
+                                        .colour = a->colour,
+                                        .kind_tolerance = a->kind_tolerance,
+                                        .page = a->page,
+                                        .needles = a->needles,
+                                        .pages = note_pages};
+  thr_limits limits = cli_limits(0);
+  if (thr_limits_stop(&limits)) limits.interrupted = NULL; /* an interrupt that has ended the planning does not end this */
+  thr_status st = thr_document_make(plan, i, &options, &limits, &text, &err);
+  cli_progress_end();
   return cli_write_drawn(st, &text, path, &err);
 }
 
@@ -171,35 +70,36 @@ void drawings_names(const thr_plan *plan, const drawings_args *a, char names[DRA
 {
   int n = 0;
   names[0] = '\0';
-  for (int i = 0; i < N_DOCUMENTS && n < DRAWINGS_NAMES; i++)
-    if (i != SHEETS || !drawings_no_sheets(plan, a))
-      n += snprintf(names + n, (size_t)(DRAWINGS_NAMES - n), "%s%s", n ? " " : "", documents[i].file);
+  for (int i = 0; i < thr_documents_count() && n < DRAWINGS_NAMES; i++)
+    if (i != thr_document_sheets() || !drawings_no_sheets(plan, a))
+      n += snprintf(names + n, (size_t)(DRAWINGS_NAMES - n), "%s%s", n ? " " : "", thr_document_file(i));
 }
 
 /* In this order: the step sheets last, which take longest, so that who stops them has all others. */
 static int nth_document(int k)
 {
-  return k == N_DOCUMENTS - 1 ? SHEETS : k < SHEETS ? k : k + 1;
+  const int sheets = thr_document_sheets();
+  return k == thr_documents_count() - 1 ? sheets : k < sheets ? k : k + 1;
 }
 
 /* Is there no time for document k and those after it? Says so. */
 static bool too_late(int k)
 {
   if (guard_deadline() == 0 || thr_clock() < guard_deadline()) return false;
-  cli_error("not drawn for lack of time: %s%s", documents[nth_document(k)].file,
-            k + 1 < N_DOCUMENTS ? " and what follows it" : "");
+  cli_error("not drawn for lack of time: %s%s", thr_document_file(nth_document(k)),
+            k + 1 < thr_documents_count() ? " and what follows it" : "");
   return true;
 }
 
 int drawings_write_all(const thr_plan *plan, const char *folder, const drawings_args *a)
 {
   int code = EXIT_OK;
-  for (int k = 0; k < N_DOCUMENTS && !code; k++) {
+  for (int k = 0; k < thr_documents_count() && !code; k++) {
     int i = nth_document(k);
     char path[1200];
-    if (i == SHEETS && drawings_no_sheets(plan, a)) break;
+    if (i == thr_document_sheets() && drawings_no_sheets(plan, a)) break;
     if (too_late(k)) return EXIT_LIMIT;
-    code = cli_in_folder(folder, documents[i].file, path, sizeof path);
+    code = cli_in_folder(folder, thr_document_file(i), path, sizeof path);
     if (!code) code = drawings_write(plan, i, path, a);
   }
   return code;

@@ -8,10 +8,6 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
-int drawings_count(void);
-const char *drawings_type(int i); /* as --type names it: "svg", "steps.csv" */
-const char *drawings_file(int i); /* usual file name: "overview.svg" */
-
 /* How documents are drawn. */
 typedef struct {
   double pitch_mm;            /* of the overview; 0 = automatic */

@@ -17,7 +17,9 @@ tortuosity:tortuosity graph lp
 eval:eval graph lp
 diagram:diagram graph
 planner:planner graph lp symmetry tortuosity
-cli:cli graph lp symmetry tortuosity planner eval diagram'
+include:include
+lib:lib include graph lp symmetry tortuosity planner eval diagram
+cli:cli lib include graph lp symmetry tortuosity planner eval diagram'
 
 # The checker reaches, also through other headers, only headers of these folders: nothing that makes plans.
 checker=graph/check
@@ -255,7 +257,7 @@ check_machine() { # every text file except build output and fuzz seeds
 
 check_tree() {
   local -a sources=() headers=() tests=()
-  mapfile -t sources < <(for m in graph lp symmetry tortuosity planner eval diagram cli; do
+  mapfile -t sources < <(for m in graph lp symmetry tortuosity planner eval diagram include lib cli; do
     for f in "$m"/*.c "$m"/*.h "$m"/*.cpp "$m"/*/*.c "$m"/*/*.h "$m"/*/*.cpp; do [ -e "$f" ] && echo "$f"; done
   done)
   mapfile -t tests < <(for f in tests/*.c tests/*.h tests/*/*.c tests/*/*.h bench/*.c; do [ -e "$f" ] && echo "$f"; done)

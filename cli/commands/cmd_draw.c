@@ -3,6 +3,7 @@
 #include "cli/guard.h"
 #include "diagram/overview/overview.h"
 #include "graph/plan/plan.h"
+#include "lib/documents.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -56,17 +57,17 @@ static bool is_folder(const char *path)
 
 static const char *type_name(int t)
 {
-  return t < drawings_count() ? drawings_type(t) : "all";
+  return t < thr_documents_count() ? thr_document_type(t) : "all";
 }
 
 /* Is output called like a document of another type, or of one that is not made? */
 static bool is_misnamed(const char *output, int type)
 {
-  const char *dot = strrchr(output, '.'), *own = strrchr(drawings_file(type), '.');
+  const char *dot = strrchr(output, '.'), *own = strrchr(thr_document_file(type), '.');
   if (!dot || strcmp(dot, own) == 0) return false;
   bool other = strcmp(dot, ".png") == 0;
-  for (int i = 0; i < drawings_count() && !other; i++)
-    other = strcmp(dot, strrchr(drawings_file(i), '.')) == 0;
+  for (int i = 0; i < thr_documents_count() && !other; i++)
+    other = strcmp(dot, strrchr(thr_document_file(i), '.')) == 0;
   return other;
 }
 
@@ -75,9 +76,9 @@ static int draw_one(const thr_plan *plan, int type, const char *output, const dr
 {
   char inside[1200];
   int code = EXIT_OK;
-  if (!output) output = drawings_file(type);
+  if (!output) output = thr_document_file(type);
   if (is_folder(output)) {
-    code = cli_in_folder(output, drawings_file(type), inside, sizeof inside);
+    code = cli_in_folder(output, thr_document_file(type), inside, sizeof inside);
     output = inside;
   }
   return code ? code : drawings_write(plan, type, output, a);
@@ -92,7 +93,7 @@ int cmd_draw(int argc, char **argv)
   int color = THR_COLOUR_CORD, type = 0;
   const char *output = NULL;
   while ((option = cli_next_option(argc, argv, "draw", ":" CLI_COMMON_LETTERS "T:o:", table, help, &done)) != -1) {
-    if (option == 'T' && !cli_choose("draw", "--type", optarg, type_name, drawings_count() + 1, &type)) return EXIT_USAGE;
+    if (option == 'T' && !cli_choose("draw", "--type", optarg, type_name, thr_documents_count() + 1, &type)) return EXIT_USAGE;
     bool ok = true;
     if ((drawings_option(&a, "draw", option, optarg, &ok) || guard_option(&guard, "draw", option, optarg, &ok)) && !ok)
       return EXIT_USAGE;
@@ -103,11 +104,11 @@ int cmd_draw(int argc, char **argv)
   }
   if (done >= 0) return done;
   a.colour = (thr_overview_colour)color;
-  bool all = type == drawings_count();
+  bool all = type == thr_documents_count();
   if (output && !*output) return cli_usage("draw", "an empty name is no place to write to");
   if (all && output && strcmp(output, "-") == 0) return cli_usage("draw", "--type all makes several files: -o names a folder");
   if (!all && output && is_misnamed(output, type))
-    return cli_usage("draw", "%s: --type %s makes %s; say which type", output, type_name(type), drawings_file(type));
+    return cli_usage("draw", "%s: --type %s makes %s; say which type", output, type_name(type), thr_document_file(type));
   if (optind + 1 != argc) return cli_usage("draw", optind == argc ? "which plan?" : "one plan at a time");
   if (guard_fork(&guard, &end)) return guard_conclude(&end, all ? "not all documents are drawn" : "nothing is drawn");
   thr_plan plan;

@@ -1,4 +1,4 @@
-#include "cli/print/copies_table.h"
+#include "lib/motions.h"
 
 #include "graph/angle.h"
 #include "graph/framework/frame.h"
@@ -89,18 +89,18 @@ static bool is_permutation(const int *image, int n, bool *hit)
   return yes;
 }
 
-void cli_copies_destroy(cli_copies *c)
+void thr_motions_destroy(thr_motions *c)
 {
   free(c->motion);
   free(c->words);
-  *c = (cli_copies){0};
+  *c = (thr_motions){0};
 }
 
-thr_status cli_copies_describe(const thr_plan *plan, cli_copies *out, thr_err *err)
+thr_status thr_motions_describe(const thr_plan *plan, thr_motions *out, thr_err *err)
 {
   const thr_symmetry_record *record = &plan->symmetry;
-  cli_copies c = {.motion = thr_calloc((size_t)plan->n_cords, sizeof *c.motion),
-                  .words = thr_calloc((size_t)record->n_images, sizeof *c.words)};
+  thr_motions c = {.motion = thr_calloc((size_t)plan->n_cords, sizeof *c.motion),
+                   .words = thr_calloc((size_t)record->n_images, sizeof *c.words)};
   bool *hit = thr_calloc((size_t)plan->frame.n_nodes, sizeof *hit);
   thr_status st = c.motion && c.words && hit ? THR_OK : thr_nomem(err);
   for (int i = 0; i < record->n_images && !st; i++) {
@@ -110,7 +110,7 @@ thr_status cli_copies_describe(const thr_plan *plan, cli_copies *out, thr_err *e
   for (int i = 0; i < plan->n_cords && record->present && !st; i++)
     if (record->unique[i] != i && c.words[record->element[i]][0]) c.motion[i] = c.words[record->element[i]];
   free(hit);
-  if (st) cli_copies_destroy(&c);
+  if (st) thr_motions_destroy(&c);
   *out = c;
   return st;
 }

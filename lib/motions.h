@@ -1,6 +1,6 @@
 /* What takes a unique path of a symmetric plan to its copies, in words for who threads. */
-#ifndef THR_CLI_COPIES_H
-#define THR_CLI_COPIES_H
+#ifndef THR_MOTIONS_H
+#define THR_MOTIONS_H
 
 #include "graph/plan/plan.h"
 #include "graph/status.h"
@@ -8,11 +8,11 @@
 typedef struct {
   const char **motion; /* [n_cords] "turned by 90 degrees .."; NULL for no copy, and for one that no motion makes; owned */
   char (*words)[104];  /* [n_images] owned */
-} cli_copies;
+} thr_motions;
 
 /* Of each image the motion in space that is nearest to it, if it is within thr_symmetry_near. Plans that are not symmetric have
- * no words. Release with cli_copies_destroy. O(images * n). */
-thr_status cli_copies_describe(const thr_plan *plan, cli_copies *out, thr_err *err) THR_MUST_CHECK;
-void cli_copies_destroy(cli_copies *c);
+ * no words. Release with thr_motions_destroy. O(images * n). */
+thr_status thr_motions_describe(const thr_plan *plan, thr_motions *out, thr_err *err) THR_MUST_CHECK;
+void thr_motions_destroy(thr_motions *c);
 
 #endif

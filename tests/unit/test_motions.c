@@ -1,5 +1,6 @@
 /* What the words for copies say, against matrices whose geometry is known: x to the right, y to the back, z up. */
-#include "cli/print/copies_table.c"
+#include "lib/motions.c"
+#include "lib/motions.h"
 #include "graph/angle.h"
 #include "tests/symmetric.h"
 #include "tests/frameworks.h"
@@ -60,7 +61,7 @@ static void plan_release(thr_plan *p)
 /* shape: where the nodes stand; number: which cords' words are looked at. */
 static void expect_words(thr_frame shape, const known *k, int n)
 {
-  cli_copies c;
+  thr_motions c;
   thr_plan p = plan_with(shape, n + 1);
   for (int i = 0; i < n; i++)
     for (int v = 0; v < shape.n_nodes; v++) {
@@ -68,13 +69,13 @@ static void expect_words(thr_frame shape, const known *k, int n)
       ck_assert_msg(to >= 0, "%s: not a symmetry of the shape", k[i].words);
       p.symmetry.image[(i + 1) * shape.n_nodes + v] = to;
     }
-  ck_assert_int_eq(cli_copies_describe(&p, &c, NULL), THR_OK);
+  ck_assert_int_eq(thr_motions_describe(&p, &c, NULL), THR_OK);
   ck_assert_ptr_null(c.motion[0]); /* the unique path itself */
   for (int i = 0; i < n; i++) {
     ck_assert_msg(c.motion[i + 1] != NULL, "%s: no words", k[i].words);
     ck_assert_str_eq(c.motion[i + 1], k[i].words);
   }
-  cli_copies_destroy(&c);
+  thr_motions_destroy(&c);
   plan_release(&p);
 }
 
@@ -148,17 +149,17 @@ START_TEST(no_motion_no_words)
   const double turn[3][3] = {{0, -1, 0}, {1, 0, 0}, {0, 0, 1}};
   thr_plan p = plan_with(f, 4);
   int n = f.n_nodes, *image = p.symmetry.image;
-  cli_copies c;
+  thr_motions c;
   for (int v = 0; v < n; v++)
     image[n + v] = moved(&f, turn, v);
   for (int v = 0; v < n; v++)
     p.frame.xyz[v][0] *= 3;
   image[2 * n] = image[2 * n + 1];
   image[3 * n + 2] = n;
-  ck_assert_int_eq(cli_copies_describe(&p, &c, NULL), THR_OK);
+  ck_assert_int_eq(thr_motions_describe(&p, &c, NULL), THR_OK);
   for (int i = 0; i < 4; i++)
     ck_assert_ptr_null(c.motion[i]);
-  cli_copies_destroy(&c);
+  thr_motions_destroy(&c);
   plan_release(&p);
 }
 END_TEST
@@ -169,13 +170,13 @@ START_TEST(every_allocation_fails_once)
   thr_status st = THR_ENOMEM;
   long k = 0;
   while (st) {
-    cli_copies c;
+    thr_motions c;
     thr_err err = {0};
     thr_alloc_fail_at(++k);
-    st = cli_copies_describe(&p, &c, &err);
+    st = thr_motions_describe(&p, &c, &err);
     thr_alloc_fail_at(0);
     ck_assert(st == THR_OK || (st == THR_ENOMEM && !c.motion && !c.words));
-    cli_copies_destroy(&c);
+    thr_motions_destroy(&c);
   }
   ck_assert_int_gt(k, 3);
   plan_release(&p);

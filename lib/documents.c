@@ -1,0 +1,125 @@
+#include "lib/documents.h"
+
+#include "diagram/export/paper.h"
+#include "diagram/export/viewer.h"
+#include "diagram/overview/steps.h"
+#include "diagram/scene/polylines.h"
+#include "diagram/sheets/sheets.h"
+#include "diagram/tables/tables.h"
+#include "lib/motions.h"
+
+#include <string.h>
+
+typedef enum {
+  OVERVIEW,
+  SHEETS,
+  STEPS,
+  VIEWER,
+  STEPS_TABLE,
+  CORDS_TABLE,
+  BEADS_TABLE,
+  CHANNELS_TABLE,
+  OBJ,
+  GLTF,
+  N_DOCUMENTS
+} document;
+
+static const struct {
+  const char *type, *file;
+} documents[N_DOCUMENTS] = {
+    [OVERVIEW] = {"svg", "overview.svg"},
+    [SHEETS] = {"pdf", "sheets.pdf"},
+    [STEPS] = {"steps", "steps.txt"},
+    [VIEWER] = {"html", "viewer.html"},
+    [STEPS_TABLE] = {"steps.csv", "steps.csv"},
+    [CORDS_TABLE] = {"cords.csv", "cords.csv"},
+    [BEADS_TABLE] = {"beads.csv", "beads.csv"},
+    [CHANNELS_TABLE] = {"channels.csv", "channels.csv"},
+    [OBJ] = {"obj", "cords.obj"},
+    [GLTF] = {"gltf", "cords.gltf"},
+};
+
+int thr_documents_count(void)
+{
+  return N_DOCUMENTS;
+}
+
+const char *thr_document_type(int i)
+{
+  return documents[i].type;
+}
+
+const char *thr_document_file(int i)
+{
+  return documents[i].file;
+}
+
+int thr_document_find(const char *type)
+{
+  int i = N_DOCUMENTS - 1;
+  while (i >= 0 && strcmp(documents[i].type, type) != 0)
+    i--;
+  return i;
+}
+
+int thr_document_sheets(void)
+{
+  return SHEETS;
+}
+
+static thr_status overview(const thr_plan *plan, const thr_document_options *a, const char *const *motion, thr_text *out,
+                           thr_err *err)
+{
+  thr_overview_options options = thr_overview_options_default();
+  options.pitch_mm = a->pitch_mm;
+  options.colour = a->colour;
+  options.motion = motion;
+  return thr_overview_svg(plan, &options, out, err);
+}
+
+static thr_status sheets(const thr_plan *plan, const thr_document_options *a, const char *const *motion, const thr_limits *limits,
+                         thr_text *out, thr_err *err)
+{
+  thr_sheets *pages = NULL;
+  thr_sheets_options options = thr_sheets_options_default();
+  options.page = (thr_page_size)a->page;
+  options.middle = (a->needles ? a->needles : plan->options.needles) == 2;
+  options.kind_tolerance = a->kind_tolerance;
+  options.motion = motion;
+  thr_status st = thr_sheets_make(&pages, plan, &options, limits, err);
+  if (!st && a->pages) a->pages(thr_sheets_pages(pages));
+  if (!st) st = thr_sheets_pdf(pages, limits, out, err);
+  thr_sheets_destroy(pages);
+  return st;
+}
+
+/* A document that says what moves a path to its copies. */
+static thr_status describe(const thr_plan *plan, document which, const thr_document_options *a, const thr_limits *limits,
+                           thr_text *out, thr_err *err)
+{
+  thr_motions copies;
+  thr_status st = thr_motions_describe(plan, &copies, err);
+  if (st) return st;
+  switch (which) {
+  case OVERVIEW: st = overview(plan, a, copies.motion, out, err); break;
+  case SHEETS: st = sheets(plan, a, copies.motion, limits, out, err); break;
+  case STEPS: st = thr_steps_text(plan, copies.motion, a->kind_tolerance, out, err); break;
+  case VIEWER: st = thr_viewer_html(plan, copies.motion, a->kind_tolerance, out, err); break;
+  default: st = thr_table_cords(plan, copies.motion, out, err);
+  }
+  thr_motions_destroy(&copies);
+  return st;
+}
+
+thr_status thr_document_make(const thr_plan *plan, int i, const thr_document_options *options, const thr_limits *limits,
+                             thr_text *out, thr_err *err)
+{
+  switch ((document)i) {
+  case STEPS_TABLE: return thr_table_steps(plan, options->kind_tolerance, out, err);
+  case BEADS_TABLE: return thr_table_beads(plan, options->kind_tolerance, out, err);
+  case CHANNELS_TABLE: return thr_table_channels(plan, options->kind_tolerance, out, err);
+  case OBJ: return thr_polylines_obj(plan, out, err);
+  case GLTF: return thr_polylines_gltf(plan, out, err);
+  default: return describe(plan, (document)i, options, limits, out, err);
+  }
+}

@@ -1,0 +1,32 @@
+/* The documents that are made from a plan: one table says what they are called and who makes them. */
+#ifndef THR_DOCUMENTS_H
+#define THR_DOCUMENTS_H
+
+#include "diagram/overview/overview.h"
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/status.h"
+#include "graph/text.h"
+
+int thr_documents_count(void);
+const char *thr_document_type(int i);    /* as `thread draw --type` names it: "svg", "steps.csv" */
+const char *thr_document_file(int i);    /* usual file name: "overview.svg" */
+int thr_document_find(const char *type); /* -1: there is none of that name */
+int thr_document_sheets(void);           /* the one that takes longest: sheets.pdf */
+
+/* How they are drawn; {0} is the usual way. */
+typedef struct {
+  double pitch_mm;            /* of the overview; 0 = automatic */
+  thr_overview_colour colour; /* of the overview */
+  double kind_tolerance;      /* pieces that differ by no more are of a kind, in units; 0 = the usual one */
+  int page;                   /* of the step sheets: thr_page_size */
+  int needles;          /* that cords are threaded with in the step sheets: 1, 2 = from their middle; 0 = as the plan says */
+  void (*pages)(int n); /* hears how many the step sheets will have, before they are drawn; NULL = nobody */
+} thr_document_options;
+
+/* Appends document i of the plan to out. THR_EINPUT: the plan has not what it shows, or an option does not fit. out is for the
+ * caller to destroy in any case. */
+thr_status thr_document_make(const thr_plan *plan, int i, const thr_document_options *options, const thr_limits *limits,
+                             thr_text *out, thr_err *err) THR_MUST_CHECK;
+
+#endif
