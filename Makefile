@@ -3,11 +3,12 @@ VERSION := 0.1.0
 
 # Choices, as `make BUILD=asan` or in the environment
 BUILD ?= release
-# release | debug | asan (address + undefined behaviour) | cov (gcov) | fuzz (clang) | mutants (shared library); into $(OUT)/$(BUILD)
+# release | debug | asan (address + undefined behaviour) | cov (gcov) | fuzz (clang) | mutants (its modules in a shared library); into $(OUT)/$(BUILD)
 OUT ?= build
 # everything made goes below this folder
 PREFIX ?= /usr/local
 DESTDIR ?=
+LIBDIR ?= $(PREFIX)/lib
 FUZZ_SECONDS ?= 60
 # seconds per target of `make fuzz`
 WERROR ?= $(filter true 1,$(CI))
@@ -38,6 +39,7 @@ endif
 FUZZ_CC ?= clang
 FUZZ_CXX ?= clang++
 CLANG_FORMAT ?= clang-format
+OBJCOPY ?= objcopy
 
 # Asked for once and only when a recipe needs it: on a bare machine `make demo` installs pkg-config and the libraries first.
 PKG_CFLAGS = $(eval PKG_CFLAGS := $$(shell pkg-config --cflags igraph nauty))$(PKG_CFLAGS)
@@ -56,7 +58,8 @@ CHECK_LIBS = $(eval CHECK_LIBS := $$(shell pkg-config --libs check))$(CHECK_LIBS
 
 WARN := -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes -Wvla
 SANITIZE := -g -fno-sanitize-recover=all -fno-omit-frame-pointer
-MODE_release := -O2
+# one build of the modules serves the program and the shared library, of which only thread_* is seen
+MODE_release := -O2 -fPIC -fvisibility=hidden
 MODE_debug := -O0 -g
 MODE_asan := -O1 -fsanitize=address,undefined $(SANITIZE)
 MODE_cov := -O0 -g --coverage
@@ -88,7 +91,11 @@ ifeq ($(BUILD),fuzz)
 OBJECTS := $(filter $(DIR)/graph/% $(DIR)/eval/% $(DIR)/lp/solver/%,$(OBJECTS))
 endif
 CLI_OBJECTS := $(patsubst %.c,$(DIR)/%.o,$(wildcard $(addsuffix /*.c,$(CLI_FOLDERS))))
-LIBRARY := $(DIR)/libthread.$(if $(filter mutants,$(BUILD)),so,a)
+# all modules, for the program and for tests, which call any function; in DIST what other programs get
+LIBRARY := $(DIR)/$(if $(filter mutants,$(BUILD)),modules.so,modules.a)
+SONAME := libthread.so.0
+SHARED := $(DIR)/libthread.so.$(VERSION)
+STATIC := $(DIR)/libthread.a
 PROGRAM := $(DIR)/thread
 # tests/*.c is shared by all test programs; each file of tests/unit and tests/property is a program
 TEST_SUPPORT := $(patsubst %.c,$(DIR)/%.o,$(wildcard tests/*.c))
@@ -98,7 +105,7 @@ VALIDATE := $(DIR)/validate
 VALIDATE_OBJECTS := $(patsubst %.c,$(DIR)/%.o,$(wildcard tests/validate/*.c))
 WATCHDOG := $(DIR)/watchdog
 WATCHDOG_OBJECTS := $(patsubst %.c,$(DIR)/%.o,$(wildcard tests/watchdog/*.c))
-C_FILES = $(wildcard $(foreach d,$(FOLDERS) $(CLI_FOLDERS) tests tests/unit tests/property tests/fuzz tests/second tests/validate tests/watchdog tests/memory docs,$(d)/*.c $(d)/*.h))
+C_FILES = $(wildcard $(foreach d,include $(FOLDERS) $(CLI_FOLDERS) tests tests/unit tests/property tests/fuzz tests/second tests/validate tests/watchdog tests/memory docs,$(d)/*.c $(d)/*.h))
 
 Q := $(if $(V),,@)
 # `make -jN` given: share its jobs; not given: one per processor
@@ -110,7 +117,9 @@ quote = '$(subst ','\'',$(1))'
 .SECONDARY:
 .SUFFIXES:
 
-all: $(if $(CLI_OBJECTS),$(PROGRAM),$(LIBRARY)) ## build the program (BUILD=release|debug|asan|cov)
+all: $(PROGRAM) ## build the program (BUILD=release|debug|asan|cov)
+
+library: $(SHARED) $(STATIC) $(DIR)/thread.pc ## build libthread, shared and static
 
 demo: ## install what is missing, build, plan a dome, check the plan
 	+@tools/install-packages.sh $(BUILD_PACKAGES)
@@ -271,11 +280,29 @@ $(DIR)/tests/memory/fail_malloc.so: tests/memory/fail_malloc.c $(DIR)/flags.list
 	$(Q)$(COMPILER) $(THR_CFLAGS) $(STRICT) -shared -fPIC -o $@ $<
 
 # a mutated object, loaded before it, takes the place of its own
-$(DIR)/libthread.so: $(OBJECTS) $(DIR)/objects.list
+$(DIR)/modules.so: $(OBJECTS) $(DIR)/objects.list
 	@echo "  LINK  $@"
 	$(Q)$(LINK) -shared -o $@ $(OBJECTS) $(THR_LIBS)
 
-$(DIR)/libthread.a: $(OBJECTS) $(DIR)/objects.list
+$(SHARED): $(OBJECTS) $(DIR)/objects.list lib/libthread.map
+	@echo "  LINK  $@"
+	$(Q)$(LINK) -shared -Wl,-soname,$(SONAME) -Wl,--version-script=lib/libthread.map -Wl,-z,defs -o $@ $(OBJECTS) $(THR_LIBS)
+	$(Q)ln -sf $(@F) $(DIR)/$(SONAME)
+	$(Q)ln -sf $(SONAME) $(DIR)/libthread.so
+
+# one object, in which all names but thread_* are its own
+$(STATIC): $(OBJECTS) $(DIR)/objects.list
+	@echo "  AR    $@"
+	$(Q)$(LD) -r -o $(DIR)/libthread.o $(OBJECTS)
+	$(Q)$(OBJCOPY) --wildcard --keep-global-symbol='thread_*' $(DIR)/libthread.o
+	$(Q)rm -f $@
+	$(Q)ar rcs $@ $(DIR)/libthread.o
+
+$(DIR)/thread.pc: lib/thread.pc.in Makefile FORCE
+	@mkdir -p $(@D)
+	@sed -e 's|@PREFIX@|$(PREFIX)|; s|@LIBDIR@|$(LIBDIR)|; s|@VERSION@|$(VERSION)|; s|@LIBS@|$(THR_LIBS) -lstdc++ -ldl|' $< > $@
+
+$(DIR)/modules.a: $(OBJECTS) $(DIR)/objects.list
 	@echo "  AR    $@"
 	$(Q)rm -f $@
 	$(Q)ar rcs $@ $(OBJECTS)
@@ -326,6 +353,6 @@ $(OUT)/packages.ok:
 	@touch $@
 
 FORCE:
-.PHONY: all demo test test-fast test-rest test-all fuzz asan layers lint format-check tidy cppcheck format viewer bench validate memory watchdog mutants coverage deps test-deps install uninstall clean help
+.PHONY: all library demo test test-fast test-rest test-all fuzz asan layers lint format-check tidy cppcheck format viewer bench validate memory watchdog mutants coverage deps test-deps install uninstall clean help
 .PHONY: suite-release suite-asan suite-fuzz suite-built test-programs fuzz-programs list-tests list-fuzz list-flags list-c FORCE
 -include $(wildcard $(DIR)/*/*.d $(DIR)/*/*/*.d)

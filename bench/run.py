@@ -138,7 +138,7 @@ class Bench:
     def compile(self):
         """matching.c, and peers.cpp once for every other code that is here."""
         need = subprocess.run(["pkg-config", "--libs", "nauty", "bullet-float64"], stdout=subprocess.PIPE, text=True, check=True)
-        library = os.path.join(os.path.dirname(self.thread), "libthread.a")
+        library = os.path.join(os.path.dirname(self.thread), "modules.a")
         make = ["cc", "-std=c11", "-O2", "-Wall", "-Wextra", "-D_DEFAULT_SOURCE", "-I" + os.path.dirname(HERE),
                 os.path.join(HERE, "matching.c"), library, *need.stdout.split(), "-lglpk", "-lm", "-lstdc++", "-o", self.path("matching")]
         subprocess.run(make, check=True)

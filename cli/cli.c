@@ -6,6 +6,7 @@
 #include "cli/guard.h"
 #include "graph/check/check.h"
 #include "graph/framework/units.h"
+#include "lib/notes.h"
 
 #include <errno.h>
 #include <math.h>
@@ -182,49 +183,15 @@ bool cli_frame_option(cli_frame_args *a, const char *command, int option, const 
   }
 }
 
-static void note_count(int n, const char *one, const char *many, const char *what)
+/* What reading did, a note for each line. */
+static thr_status note_read(const thr_frame *frame, const thr_read_report *report, thr_err *err)
 {
-  if (n) cli_note("note: %d %s %s", n, n == 1 ? one : many, what);
-}
-
-static void note_report(const thr_read_report *report)
-{
-  note_count(report->welded_nodes, "node", "nodes", "merged into another within the weld tolerance");
-  note_count(report->zero_length_edges, "edge of zero length", "edges of zero length", "dropped");
-  note_count(report->duplicate_edges, "edge that was there already", "edges that were there already", "dropped");
-  note_count(report->isolated_nodes, "node without an edge", "nodes without an edge", "dropped");
-  if (report->skipped_records)
-    cli_note("note: %d %s not used (the first is %s)", report->skipped_records,
-             report->skipped_records == 1 ? "record" : "records", report->skipped_kind);
-}
-
-/* What a file leaves unsaid and is worth a look. */
-static void note_unsaid(const thr_frame *frame, const thr_read_report *report)
-{
-  enum { SHORT = 2, LONG = 1000 }; /* mm: hardly anybody threads pieces outside of these */
-  int n_short = 0, n_long = 0;
-  if (report->turned)
-    cli_note("note: made by Blender, which writes y upwards: turned so that y points up (--up z leaves it as it is)");
-  if (report->lies)
-    cli_note("note: z is taken to point up, and only a line of nodes is lowest; if y points up in this file: --up y");
-  for (int e = 0; e < frame->n_edges; e++) {
-    n_short += frame->length[e] < SHORT;
-    n_long += frame->length[e] > LONG;
-  }
-  if (report->no_units && (n_short > frame->n_edges / 2 || n_long > frame->n_edges / 2))
-    cli_note("note: the file names no unit, and most of its edges are %s than %d mm; --units m says what they are, --scale 1000 "
-             "makes them others",
-             n_short > n_long ? "shorter" : "longer", n_short > n_long ? SHORT : LONG);
-}
-
-/* Disconnected frameworks are planned part by part; the user must hear it. */
-static int note_components(const thr_frame *frame, thr_err *err)
-{
-  int count, *component = thr_calloc((size_t)frame->n_nodes, sizeof *component);
-  if (!component) return thr_nomem(err);
-  thr_status st = thr_frame_components(frame, component, &count, err);
-  if (!st && count > 1) cli_note("note: the framework is in %d separate components; each gets its own cord", count);
-  free(component);
+  thr_text text = {0};
+  thr_status st = thr_read_notes(frame, report, &text, err);
+  for (char *save = NULL, *line = st || !text.data ? NULL : strtok_r(text.data, "\n", &save); line;
+       line = strtok_r(NULL, "\n", &save))
+    cli_note("note: %s", line);
+  thr_text_destroy(&text);
   return st;
 }
 
@@ -236,9 +203,7 @@ int cli_read_frame(const char *path, const cli_frame_args *a, thr_frame *frame)
   thr_status st = thr_frame_read(frame, &report, path, &a->read, pair, sizeof pair, &err);
   if (pair[0]) cli_note("note: read together with %s", pair); /* before an error that may name that file */
   if (st) return cli_fail(&err);
-  note_report(&report);
-  note_unsaid(frame, &report);
-  if (note_components(frame, &err)) {
+  if (note_read(frame, &report, &err)) {
     thr_frame_destroy(frame);
     return cli_fail(&err);
   }

@@ -241,7 +241,7 @@ check_guards() { # FILE..
   awk '
     function report() { if (last != "" && state != 2) print last ":1: no include guard THR_.._H" }
     FNR == 1 { report(); last = FILENAME; state = 0; name = "" }
-    state == 0 && /^#ifndef THR_[A-Z0-9_]+_H$/ { state = 1; name = $2; next }
+    state == 0 && (/^#ifndef THR_[A-Z0-9_]+_H$/ || (FILENAME ~ /^include\// && /^#ifndef [A-Z]+_H$/)) { state = 1; name = $2; next }
     state == 1 { state = ($1 == "#define" && $2 == name) ? 2 : 3
       if (name in seen) print FILENAME ":" FNR ": " name " guards " seen[name] " too"
       seen[name] = FILENAME }

@@ -34,13 +34,10 @@ static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       {"output", required_argument, NULL, 'o'},
                                       {NULL, 0, NULL, 0}};
 
-static const char *const shape_name[] = {"dome", "geodesic", "tube", "sphere", "honeycomb"}; /* as thr_shape */
-enum { N_SHAPES = sizeof shape_name / sizeof *shape_name };
-
 static int find_shape(const char *name)
 {
-  for (int i = 0; i < N_SHAPES; i++)
-    if (strcmp(name, shape_name[i]) == 0) return i;
+  for (int i = 0; i < THR_N_SHAPES; i++)
+    if (strcmp(name, thr_shape_name(i)) == 0) return i;
   return -1;
 }
 
@@ -52,7 +49,7 @@ static bool apply(const arguments *a, thr_make_options *options)
 {
   bool has_rise = options->shape == THR_MAKE_DOME || options->shape == THR_MAKE_HONEYCOMB;
   if ((a->rings && options->shape != THR_MAKE_TUBE) || (a->rise && !has_rise)) {
-    cli_usage("make", "a %s has no %s", shape_name[options->shape],
+    cli_usage("make", "a %s has no %s", thr_shape_name(options->shape),
               a->rings && options->shape != THR_MAKE_TUBE ? "--rings" : "--rise");
     return false;
   }

@@ -8,6 +8,12 @@
 
 enum { MAX_NODES = 2000000 };
 
+const char *thr_shape_name(int shape)
+{
+  static const char *const name[THR_N_SHAPES] = {"dome", "geodesic", "tube", "sphere", "honeycomb"};
+  return name[shape];
+}
+
 thr_make_options thr_make_options_default(thr_shape shape)
 {
   static const int size[] = {
@@ -320,7 +326,7 @@ thr_status thr_make(thr_draft *draft, const thr_make_options *options, thr_err *
   case THR_MAKE_TUBE: st = make_tube(draft, options, err); break;
   case THR_MAKE_GEODESIC: st = make_rows(draft, options, options->size + (options->size + 1) / 2, err); break;
   case THR_MAKE_SPHERE: st = make_rows(draft, options, 3 * options->size, err); break;
-  case THR_MAKE_HONEYCOMB: st = make_honeycomb(draft, options, err); break;
+  default: st = make_honeycomb(draft, options, err);
   }
   if (st) thr_draft_destroy(draft);
   return st;

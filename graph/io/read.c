@@ -94,6 +94,32 @@ static thr_status parse_csv_file(thr_draft *draft, const thr_format *format, con
   return st;
 }
 
+/* What the options say of all formats, and the framework of the draft. */
+static thr_status build(const thr_read_options *options, const char *name, thr_draft *draft, thr_frame *frame,
+                        thr_read_report *report, thr_err *err)
+{
+  thr_err why = {0};
+  thr_status st = THR_OK;
+  report->no_units = !options->units && !draft->units[0];
+  if (options->units) st = thr_draft_set_units(draft, options->units, &why);
+  if (!st) st = thr_draft_stand(draft, options->up, options->scale, report, &why);
+  if (!st) st = thr_draft_build(draft, options->weld, frame, report, &why);
+  if (st) thr_fail(err, st, "%s: %s", name, why.text);
+  return st;
+}
+
+thr_status thr_frame_parse(thr_frame *frame, thr_read_report *report, const char *text, size_t n, const char *name,
+                           const thr_read_options *options, thr_err *err)
+{
+  thr_draft draft = {.flat = options->flat};
+  *frame = (thr_frame){0};
+  thr_status st = thr_draft_parse(&draft, report, text, n, name, NULL, err);
+  if (!st) st = build(options, name, &draft, frame, report, err);
+  if (st) *report = (thr_read_report){0};
+  thr_draft_destroy(&draft);
+  return st;
+}
+
 /* ---- files ---- */
 
 thr_status thr_frame_read(thr_frame *frame, thr_read_report *report, const char *path, const thr_read_options *options,
@@ -102,7 +128,6 @@ thr_status thr_frame_read(thr_frame *frame, thr_read_report *report, const char 
   thr_text text = {0};
   thr_draft draft = {.flat = options->flat};
   const thr_format *format = NULL;
-  thr_err build = {0};
   const char *name = strcmp(path, "-") == 0 ? "stdin" : path;
   *frame = (thr_frame){0};
   *report = (thr_read_report){0};
@@ -120,11 +145,7 @@ thr_status thr_frame_read(thr_frame *frame, thr_read_report *report, const char 
     st = format->parse(&draft, report, text.data, text.length, name, err);
   if (st) goto done;
   thr_text_destroy(&text);
-  report->no_units = !options->units && !draft.units[0];
-  if (options->units) st = thr_draft_set_units(&draft, options->units, &build);
-  if (!st) st = thr_draft_stand(&draft, options->up, options->scale, report, &build);
-  if (!st) st = thr_draft_build(&draft, options->weld, frame, report, &build);
-  if (st) thr_fail(err, st, "%s: %s", name, build.text);
+  st = build(options, name, &draft, frame, report, err);
 done:
   if (st) *report = (thr_read_report){0};
   thr_draft_destroy(&draft);

@@ -32,6 +32,11 @@ thr_read_options thr_read_options_default(void);
 thr_status thr_frame_read(thr_frame *frame, thr_read_report *report, const char *path, const thr_read_options *options,
                           char *pair_path, size_t pair_size, thr_err *err) THR_MUST_CHECK;
 
+/* The same of a text in memory; its name only says the format, and is for messages. No pair of files: options->edges_path does
+ * not count. */
+thr_status thr_frame_parse(thr_frame *frame, thr_read_report *report, const char *text, size_t n, const char *name,
+                           const thr_read_options *options, thr_err *err) THR_MUST_CHECK;
+
 /* Parses one text into a draft; format: NULL = the one that the name's ending or, failing that, the text says. On failure the
  * draft is empty. What the fuzzers call. CSV text with nodes only or edges only gives THR_EINPUT that says so: use
  * thr_csv_parse_pair. */

@@ -1,0 +1,36 @@
+/* What is behind the opaque types of include/thread.h, and how statuses and texts get there. */
+#ifndef THR_HANDLES_H
+#define THR_HANDLES_H
+
+#include "graph/framework/frame.h"
+#include "graph/plan/plan.h"
+#include "graph/status.h"
+#include "graph/text.h"
+#include "include/thread.h"
+
+struct thread_frame {
+  thr_frame frame;
+  thr_text notes; /* what reading did and found odd */
+};
+
+struct thread_plan {
+  thr_plan plan;
+  thread_frame lent; /* the plan's framework, for thread_plan_frame: a shallow copy */
+  int **node;        /* [n_cords] where each cord runs; owned */
+};
+
+/* The calls that use what is not reentrant come one after another. */
+void thr_library_lock(void);
+void thr_library_unlock(void);
+
+/* The status and text of the house as those of the library; err may be NULL. */
+thread_status thr_library_status(thr_status st, const thr_err *from, thread_error *err);
+
+/* Fills own, of which a program knows the first *size bytes, *size being the first member of both; theirs may be NULL. THR_EINPUT
+ * if that size is none. */
+thr_status thr_library_options(void *own, size_t own_size, const void *theirs, const char *what, thr_err *err) THR_MUST_CHECK;
+
+/* The text becomes the caller's. THR_ENOMEM if an append failed. */
+thr_status thr_library_give(thr_text *text, char **bytes, size_t *n, thr_err *err) THR_MUST_CHECK;
+
+#endif
