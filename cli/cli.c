@@ -177,6 +177,8 @@ bool cli_frame_option(cli_frame_args *a, const char *command, int option, const 
     *ok = cli_double(command, "--flat", value, 1e-6, 179, &a->read.flat);
     a->read.flat *= THR_PI / 180;
     return true;
+  case OPTION_PICK: *ok = cli_int(command, "--pick", value, 1, 1000000000, &a->read.pick); return true;
+  case OPTION_SPLIT: a->read.split = true; return true;
   case OPTION_FEET: a->feet = value; return true;
   case OPTION_WELD: *ok = cli_double(command, "--weld", value, 0, 1e300, &a->read.weld); return true;
   default: return false;
@@ -186,6 +188,7 @@ bool cli_frame_option(cli_frame_args *a, const char *command, int option, const 
 /* What reading did, a note for each line. */
 static thr_status note_read(const thr_frame *frame, const thr_read_report *report, thr_err *err)
 {
+  if (cli_quiet) return THR_OK;
   thr_text text = {0};
   thr_status st = thr_read_notes(frame, report, &text, err);
   for (char *save = NULL, *line = st || !text.data ? NULL : strtok_r(text.data, "\n", &save); line;

@@ -88,6 +88,7 @@ typedef struct {
   {"edges", required_argument, NULL, OPTION_EDGES}, {"weld", required_argument, NULL, OPTION_WELD},                              \
       {"units", required_argument, NULL, OPTION_UNITS}, {"up", required_argument, NULL, OPTION_UP},                              \
       {"scale", required_argument, NULL, OPTION_SCALE}, {"flat", required_argument, NULL, OPTION_FLAT},                          \
+      {"pick", required_argument, NULL, OPTION_PICK}, {"split", no_argument, NULL, OPTION_SPLIT},                                \
   {                                                                                                                              \
     "feet", required_argument, NULL, OPTION_FEET                                                                                 \
   }
@@ -98,6 +99,8 @@ enum {
   OPTION_UP,
   OPTION_SCALE,
   OPTION_FLAT,
+  OPTION_PICK,
+  OPTION_SPLIT,
   OPTION_FEET,
   OPTION_FREE
 };
@@ -108,7 +111,9 @@ enum {
   "      --units NAME     what one unit of the coordinates is called (default: as the file says, or mm)\n"                       \
   "      --scale S        coordinates times S: 1000 for a file in metres whose dome is built in mm\n"                            \
   "      --up y|z         which coordinate points up (default: z, but y in OBJ files by Blender)\n"                              \
-  "      --flat DEG       meshes: no edge between triangles that meet at less than DEG degrees\n"
+  "      --flat DEG       meshes: no edge between triangles that meet at less than DEG degrees\n"                                \
+  "      --split          cut an edge where a node lies on it\n"                                                                 \
+  "      --pick N         the Nth framework of a file that holds several (default: all of a list as one)\n"
 
 cli_frame_args cli_frame_args_default(void);
 /* Takes one of the options above; false if it is none of them. *ok false: its value was bad (printed). */

@@ -1,6 +1,6 @@
 #include "lib/notes.h"
 
-#include <stdlib.h>
+#include "graph/framework/near.h"
 
 static void put_count(thr_text *out, int n, const char *one, const char *many, const char *what)
 {
@@ -16,6 +16,14 @@ static void put_report(thr_text *out, const thr_read_report *report)
   if (report->skipped_records)
     thr_text_printf(out, "%d %s not used (the first is %s)\n", report->skipped_records,
                     report->skipped_records == 1 ? "record" : "records", report->skipped_kind);
+  put_count(out, report->split_edges, "edge", "edges", "cut where a node lies on it");
+  if (report->unused[0]) thr_text_printf(out, "columns that are not used: %s\n", report->unused);
+  const int left = report->frameworks - report->frameworks_read;
+  if (report->frameworks_read > 1)
+    thr_text_printf(out, "%d frameworks of the file are read as one; --pick N reads the Nth alone\n", report->frameworks_read);
+  if (left)
+    thr_text_printf(out, "%d more %s in the file, which %s not read; --pick N reads the Nth\n", left,
+                    left == 1 ? "framework is" : "frameworks are", left == 1 ? "is" : "are");
 }
 
 /* What a file leaves unsaid and is worth a look. */
@@ -27,6 +35,7 @@ static void put_unsaid(thr_text *out, const thr_frame *frame, const thr_read_rep
     thr_text_append(out, "made by Blender, which writes y upwards: turned so that y points up (--up z leaves it as it is)\n");
   if (report->lies)
     thr_text_append(out, "z is taken to point up, and only a line of nodes is lowest; if y points up in this file: --up y\n");
+  if (report->no_z) thr_text_append(out, "no node has a z: the framework is taken to be flat, z = 0\n");
   for (int e = 0; e < frame->n_edges; e++) {
     n_short += frame->length[e] < SHORT;
     n_long += frame->length[e] > LONG;
@@ -38,21 +47,48 @@ static void put_unsaid(thr_text *out, const thr_frame *frame, const thr_read_rep
                     n_short > n_long ? "shorter" : "longer", n_short > n_long ? SHORT : LONG);
 }
 
-/* Disconnected frameworks are planned part by part; the user must hear it. */
-static thr_status put_components(thr_text *out, const thr_frame *frame, thr_err *err)
+/* Nodes that are nearly one, and what welding them comes to. */
+static void put_close(thr_text *out, const thr_frame *frame, const thr_near *near)
 {
-  int count, *component = thr_calloc((size_t)frame->n_nodes, sizeof *component);
-  if (!component) return thr_nomem(err);
-  thr_status st = thr_frame_components(frame, component, &count, err);
-  if (!st && count > 1) thr_text_printf(out, "the framework is in %d separate components; each gets its own cord\n", count);
-  free(component);
-  return st;
+  thr_text_printf(out, "%d %s of nodes nearly one (%s and %s: %.3g apart): --weld %g merges %d %s", near->n_close,
+                  near->n_close == 1 ? "pair" : "pairs", frame->name[near->closest[0]], frame->name[near->closest[1]], near->gap,
+                  near->weld, near->n_welded, near->n_welded == 1 ? "node" : "nodes");
+  if (near->n_merged) thr_text_printf(out, " and %d %s", near->n_merged, near->n_merged == 1 ? "edge" : "edges");
+  if (near->components_welded < near->components)
+    thr_text_printf(out, ", %d %s instead of %d", near->components_welded,
+                    near->components_welded == 1 ? "component" : "components", near->components);
+  if (near->n_lost) thr_text_printf(out, ", but drops %d %s", near->n_lost, near->n_lost == 1 ? "edge" : "edges");
+  thr_text_append(out, "\n");
+}
+
+/* What the drawing nearly says, and into how many components it falls: those are planned one by one. */
+static thr_status put_near(thr_text *out, const thr_frame *frame, thr_err *err)
+{
+  thr_near near;
+  thr_status st = thr_frame_near(frame, &near, err);
+  if (st) return st;
+  const int *on = frame->edge[near.on_edge[1]], *one = frame->edge[near.crossing[0]], *other = frame->edge[near.crossing[1]];
+  if (near.components > 1)
+    thr_text_printf(out, "the framework is in %d separate components; each gets its own cord\n", near.components);
+  if (near.n_close) put_close(out, frame, &near);
+  if (near.n_on_edge)
+    thr_text_printf(out, "%d %s on an edge that does not end there (%s on %s to %s): --split cuts such edges\n", near.n_on_edge,
+                    near.n_on_edge == 1 ? "node lies" : "nodes lie", frame->name[near.on_edge[0]], frame->name[on[0]],
+                    frame->name[on[1]]);
+  if (near.n_crossings)
+    thr_text_printf(out,
+                    "%d %s of edges cross without a node (%s to %s and %s to %s); no cord turns from one into the other there\n",
+                    near.n_crossings, near.n_crossings == 1 ? "pair" : "pairs", frame->name[one[0]], frame->name[one[1]],
+                    frame->name[other[0]], frame->name[other[1]]);
+  if (near.tangled)
+    thr_text_append(out, "too many edges pass close to each other to look at all places where they nearly meet\n");
+  return THR_OK;
 }
 
 thr_status thr_read_notes(const thr_frame *frame, const thr_read_report *report, thr_text *out, thr_err *err)
 {
   put_report(out, report);
   put_unsaid(out, frame, report);
-  thr_status st = put_components(out, frame, err);
+  thr_status st = put_near(out, frame, err);
   return !st && out->failed ? thr_nomem(err) : st;
 }

@@ -80,6 +80,29 @@ thr_status thr_draft_set_units(thr_draft *draft, const char *units, thr_err *err
   return st;
 }
 
+thr_status thr_draft_append(thr_draft *draft, const thr_draft *other, const char *prefix, thr_err *err)
+{
+  const int base = draft->n_nodes;
+  thr_text name = {0};
+  thr_status st = THR_OK;
+  for (int v = 0; v < other->n_nodes && !st; v++) {
+    const char *own = thr_draft_name(other, v);
+    name.length = 0;
+    thr_text_append(&name, prefix);
+    if (own) thr_text_append(&name, own);
+    if (!own) thr_text_int(&name, v);
+    st = name.failed ? thr_nomem(err) : thr_draft_add_node(draft, other->node[v].xyz, name.data, other->node[v].foot, err);
+  }
+  for (int e = 0; e < other->n_edges && !st; e++) {
+    const struct thr_draft_edge *edge = &other->edge[e];
+    st = thr_draft_add_edge(draft, base + edge->a, base + edge->b, edge->length, err);
+    if (!st) st = thr_draft_edge_passes(draft, edge->cover, edge->capacity, err);
+  }
+  memcpy(draft->units, other->units, sizeof draft->units);
+  thr_text_destroy(&name);
+  return st;
+}
+
 void thr_draft_destroy(thr_draft *draft)
 {
   thr_text_destroy(&draft->names);

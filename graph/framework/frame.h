@@ -54,6 +54,7 @@ typedef struct {
   thr_text names; /* each with its NUL */
   char units[16]; /* "" = not said */
   bool y_up;      /* the file's maker is known to write y upwards */
+  int pick;       /* asked of the readers of files that hold several frameworks: which of them, from 1; 0 = all of a list */
   double flat;    /* asked of the readers of meshes, rad: triangles that meet at less have no edge between them; 0 = all have */
 } thr_draft;
 
@@ -70,6 +71,8 @@ thr_status thr_draft_add_edge(thr_draft *draft, int a, int b, double length, thr
 thr_status thr_draft_edge_passes(thr_draft *draft, int cover, int capacity, thr_err *err) THR_MUST_CHECK;
 /* Says what one unit of the coordinates is: a word that thr_units_find knows, kept as its short name. THR_EINPUT otherwise. */
 thr_status thr_draft_set_units(thr_draft *draft, const char *units, thr_err *err) THR_MUST_CHECK;
+/* Appends the nodes and edges of another draft, with prefix before the names of its nodes, and its units. */
+thr_status thr_draft_append(thr_draft *draft, const thr_draft *other, const char *prefix, thr_err *err) THR_MUST_CHECK;
 void thr_draft_destroy(thr_draft *draft);
 
 /* What was done to the file's data, and what is odd about it. */
@@ -85,6 +88,11 @@ typedef struct {
   bool turned;           /* y was taken to point up, because the file's maker is known to write that */
   bool lies;             /* z was taken to point up, but it may be y: the structure seems to lie on its side */
   bool no_units;         /* nobody said what one unit is */
+  bool no_z;             /* no node has a z: the framework is flat */
+  int frameworks;        /* that the file holds, and how many were read as one; 0 = the format holds one only */
+  int frameworks_read;
+  int split_edges;  /* cut where a node lies on them */
+  char unused[120]; /* columns of a table that mean nothing, with commas */
 } thr_read_report;
 
 /* Welds nodes closer than tolerance (< 0: 1e-6 of the bounding box's diagonal, at most a thousandth of the median edge), drops

@@ -1,4 +1,5 @@
 /* Reading a framework from a file: which format, which second file, then weld. */
+#include "graph/framework/near.h"
 #include "graph/io/formats.h"
 #include "graph/io/scan.h"
 
@@ -63,32 +64,32 @@ static thr_status find_partner(const char *path, thr_csv_content content, char *
 }
 
 /* Parses the nodes in one text and the edges in the file at edges_path (nodes_first), or the other way round. */
-static thr_status parse_with(thr_draft *draft, const thr_text *text, const char *path, const char *other_path, bool nodes_first,
-                             thr_err *err)
+static thr_status parse_with(thr_draft *draft, thr_read_report *report, const thr_text *text, const char *path,
+                             const char *other_path, bool nodes_first, thr_err *err)
 {
   thr_text other = {0};
   thr_status st = thr_text_read(&other, other_path, err);
-  if (!st && nodes_first) st = thr_csv_parse_pair(draft, text, path, &other, other_path, err);
-  if (!st && !nodes_first) st = thr_csv_parse_pair(draft, &other, other_path, text, path, err);
+  if (!st && nodes_first) st = thr_csv_parse_pair(draft, report, text, path, &other, other_path, err);
+  if (!st && !nodes_first) st = thr_csv_parse_pair(draft, report, &other, other_path, text, path, err);
   thr_text_destroy(&other);
   return st;
 }
 
-static thr_status parse_csv_file(thr_draft *draft, const thr_format *format, const thr_text *text, const char *path,
-                                 const char *name, char *pair_path, size_t pair_size, thr_err *err)
+static thr_status parse_csv_file(thr_draft *draft, thr_read_report *report, const thr_format *format, const thr_text *text,
+                                 const char *path, const char *name, char *pair_path, size_t pair_size, thr_err *err)
 {
   thr_csv_content content;
-  thr_read_report unused = {0};
   char *partner = NULL;
-  thr_status st = thr_csv_scan(draft, text->data, text->length, name, &content, err);
+  thr_status st = thr_csv_scan(draft, report, text->data, text->length, name, &content, err);
   if (st || content == THR_CSV_WHOLE) return st;
   thr_draft_destroy(draft);
+  *report = (thr_read_report){0};
   st = find_partner(path, content, &partner, err);
   if (!st && partner) {
     if (pair_path) snprintf(pair_path, pair_size, "%s", partner);
-    st = parse_with(draft, text, path, partner, content == THR_CSV_NODES_ONLY, err);
+    st = parse_with(draft, report, text, path, partner, content == THR_CSV_NODES_ONLY, err);
   } else if (!st) {
-    st = format->parse(draft, &unused, text->data, text->length, name, err); /* says what is missing */
+    st = format->parse(draft, report, text->data, text->length, name, err); /* says what is missing */
   }
   free(partner);
   return st;
@@ -104,16 +105,26 @@ static thr_status build(const thr_read_options *options, const char *name, thr_d
   if (options->units) st = thr_draft_set_units(draft, options->units, &why);
   if (!st) st = thr_draft_stand(draft, options->up, options->scale, report, &why);
   if (!st) st = thr_draft_build(draft, options->weld, frame, report, &why);
-  if (st) thr_fail(err, st, "%s: %s", name, why.text);
-  return st;
+  if (!st && options->split) st = thr_frame_split(frame, &report->split_edges, report, &why);
+  if (!st) return THR_OK;
+  thr_frame_destroy(frame);
+  return thr_fail(err, st, "%s: %s", name, why.text);
+}
+
+/* THR_EINPUT if there is no framework of the number that the options name. */
+static thr_status check_pick(const thr_read_options *options, const thr_read_report *report, const char *name, thr_err *err)
+{
+  if (options->pick <= 1 || report->frameworks) return THR_OK;
+  return thr_fail(err, THR_EINPUT, "%s: there is no framework %d to pick; the file holds 1", name, options->pick);
 }
 
 thr_status thr_frame_parse(thr_frame *frame, thr_read_report *report, const char *text, size_t n, const char *name,
                            const thr_read_options *options, thr_err *err)
 {
-  thr_draft draft = {.flat = options->flat};
+  thr_draft draft = {.flat = options->flat, .pick = options->pick};
   *frame = (thr_frame){0};
   thr_status st = thr_draft_parse(&draft, report, text, n, name, NULL, err);
+  if (!st) st = check_pick(options, report, name, err);
   if (!st) st = build(options, name, &draft, frame, report, err);
   if (st) *report = (thr_read_report){0};
   thr_draft_destroy(&draft);
@@ -126,7 +137,7 @@ thr_status thr_frame_read(thr_frame *frame, thr_read_report *report, const char 
                           char *pair_path, size_t pair_size, thr_err *err)
 {
   thr_text text = {0};
-  thr_draft draft = {.flat = options->flat};
+  thr_draft draft = {.flat = options->flat, .pick = options->pick};
   const thr_format *format = NULL;
   const char *name = strcmp(path, "-") == 0 ? "stdin" : path;
   *frame = (thr_frame){0};
@@ -138,11 +149,12 @@ thr_status thr_frame_read(thr_frame *frame, thr_read_report *report, const char 
   if (!st) st = find_format(text.data, text.length, name, &format, err);
   if (st) goto done;
   if (options->edges_path)
-    st = parse_with(&draft, &text, name, options->edges_path, true, err);
+    st = parse_with(&draft, report, &text, name, options->edges_path, true, err);
   else if (format->pairs)
-    st = parse_csv_file(&draft, format, &text, path, name, pair_path, pair_size, err);
+    st = parse_csv_file(&draft, report, format, &text, path, name, pair_path, pair_size, err);
   else
     st = format->parse(&draft, report, text.data, text.length, name, err);
+  if (!st) st = check_pick(options, report, name, err);
   if (st) goto done;
   thr_text_destroy(&text);
   st = build(options, name, &draft, frame, report, err);

@@ -21,6 +21,8 @@ typedef struct {
   thr_up up;              /* with y, a node at x, y, z stands at x, -z, y */
   double scale;           /* of all coordinates and lengths, > 0 */
   double flat;            /* rad: two triangles that meet at less have no edge between them; 0 = all sides are edges */
+  int pick;               /* which framework of a file that holds several, from 1; 0 = all of a list */
+  bool split;             /* an edge is cut where a node lies on it */
 } thr_read_options;
 
 thr_read_options thr_read_options_default(void);
@@ -44,8 +46,8 @@ thr_status thr_draft_parse(thr_draft *draft, thr_read_report *report, const char
                            const thr_format *format, thr_err *err) THR_MUST_CHECK;
 
 /* CSV pair: a table of nodes (id, x, y, z by header or position) and a table of edges (two node ids first). */
-thr_status thr_csv_parse_pair(thr_draft *draft, const thr_text *nodes, const char *nodes_name, const thr_text *edges,
-                              const char *edges_name, thr_err *err) THR_MUST_CHECK;
+thr_status thr_csv_parse_pair(thr_draft *draft, thr_read_report *report, const thr_text *nodes, const char *nodes_name,
+                              const thr_text *edges, const char *edges_name, thr_err *err) THR_MUST_CHECK;
 
 /* What a JSON document says of the edge added last: cover and capacity, NULL or null = nothing. THR_EINPUT: why not, without the
  * place. */

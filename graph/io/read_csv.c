@@ -31,7 +31,9 @@ typedef struct {
   thr_names names;  /* once edges begin */
   thr_text scratch; /* for one name at a time */
   thr_draft *d;
+  thr_read_report *report;
   thr_err *err;
+  bool has_z; /* some node has a z */
   int n_fields;
   thr_span field[MAX_FIELDS];
 } csv;
@@ -223,12 +225,13 @@ static thr_status node_in(csv *t, thr_span field, int *node)
 
 /* ---- rows ---- */
 
-static thr_status read_coordinates(const csv *t, const int *at, double xyz[3])
+static thr_status read_coordinates(csv *t, const int *at, double xyz[3])
 {
   for (int i = 0; i < 3; i++) {
     thr_span f = field_at(t, at[i]);
     xyz[i] = 0;
     if (i == 2 && f.n == 0) continue; /* flat frameworks have no z */
+    t->has_z |= i == 2;
     if (f.n == 0) return thr_scan_fail(&t->scan, t->err, "no %c coordinate in column %d; give a number", 'x' + i, at[i] + 1);
     if (!number_at(t, at[i], &xyz[i]))
       return thr_scan_fail(&t->scan, t->err, "'%.*s' in column %d is not a finite number; give %c as a decimal number",
@@ -390,6 +393,27 @@ static thr_status learn(csv *t, bool *used)
   return THR_OK;
 }
 
+/* Columns that mean nothing go into the report by name, of the row that the columns were learnt from. */
+static void note_unused(csv *t)
+{
+  const columns *c = &t->c;
+  for (int i = 0; i < t->n_fields; i++) {
+    bool used = i == c->id || i == c->foot || i == c->length || i == c->cover || i == c->capacity;
+    for (int k = 0; k < 6; k++)
+      used |= c->kind != EDGE_ROWS && i == c->xyz[k];
+    for (int k = 0; k < 2; k++)
+      used |= c->kind == EDGE_ROWS && i == c->ends[k];
+    const size_t n = strlen(t->report->unused), size = sizeof t->report->unused;
+    if (used || n + 1 >= size) continue;
+    const char *comma = n ? ", " : "";
+    if (c->header && t->field[i].n)
+      snprintf(t->report->unused + n, size - n, "%s%.*s", comma, thr_span_width(t->field[i]), t->field[i].s);
+    else
+      snprintf(t->report->unused + n, size - n, "%scolumn %d", comma, i + 1);
+  }
+  thr_text_clean(t->report->unused);
+}
+
 static thr_status add_row(csv *t)
 {
   if (!t->c.header && t->n_fields != t->c.width && !(t->expected == EDGE_TABLE && t->n_fields >= 2))
@@ -409,7 +433,9 @@ static thr_status read_table(csv *t, const char *text, size_t n, const char *nam
   *content = THR_CSV_WHOLE;
   thr_status st = thr_scan_start(&t->scan, text, n, name, t->err);
   while (!st && !(st = next_row(t, &more)) && more) {
+    const row_kind before = t->c.kind;
     if ((st = learn(t, &used))) break;
+    if (used || t->c.kind != before) note_unused(t);
     *content = t->c.kind == NODE_ROWS ? THR_CSV_NODES_ONLY : THR_CSV_WHOLE;
     if (t->c.kind == EDGE_ROWS && t->d->n_nodes == 0) {
       *content = THR_CSV_EDGES_ONLY;
@@ -421,10 +447,12 @@ static thr_status read_table(csv *t, const char *text, size_t n, const char *nam
   return st;
 }
 
-thr_status thr_csv_scan(thr_draft *draft, const char *text, size_t n, const char *name, thr_csv_content *content, thr_err *err)
+thr_status thr_csv_scan(thr_draft *draft, thr_read_report *report, const char *text, size_t n, const char *name,
+                        thr_csv_content *content, thr_err *err)
 {
-  csv t = {.expected = ANY_TABLE, .d = draft, .err = err};
+  csv t = {.expected = ANY_TABLE, .d = draft, .report = report, .err = err};
   thr_status st = read_table(&t, text, n, name, content);
+  report->no_z = !t.has_z;
   thr_names_destroy(&t.names);
   thr_text_destroy(&t.scratch);
   if (st) thr_draft_destroy(draft);
@@ -434,8 +462,7 @@ thr_status thr_csv_scan(thr_draft *draft, const char *text, size_t n, const char
 static thr_status parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n, const char *name, thr_err *err)
 {
   thr_csv_content content;
-  (void)report; /* every row is used */
-  thr_status st = thr_csv_scan(draft, text, n, name, &content, err);
+  thr_status st = thr_csv_scan(draft, report, text, n, name, &content, err);
   if (st || content == THR_CSV_WHOLE) return st;
   thr_draft_destroy(draft);
   return content == THR_CSV_NODES_ONLY
@@ -444,12 +471,14 @@ static thr_status parse(thr_draft *draft, thr_read_report *report, const char *t
              : thr_fail(err, THR_EINPUT, "%s: edges but no columns x and y before them; give the table of nodes too", name);
 }
 
-thr_status thr_csv_parse_pair(thr_draft *draft, const thr_text *nodes, const char *nodes_name, const thr_text *edges,
-                              const char *edges_name, thr_err *err)
+thr_status thr_csv_parse_pair(thr_draft *draft, thr_read_report *report, const thr_text *nodes, const char *nodes_name,
+                              const thr_text *edges, const char *edges_name, thr_err *err)
 {
   thr_csv_content content;
-  csv n = {.expected = NODE_TABLE, .d = draft, .err = err}, e = {.expected = EDGE_TABLE, .d = draft, .err = err};
+  csv n = {.expected = NODE_TABLE, .d = draft, .report = report, .err = err};
+  csv e = {.expected = EDGE_TABLE, .d = draft, .report = report, .err = err};
   thr_status st = read_table(&n, nodes->data, nodes->length, nodes_name, &content);
+  report->no_z = !n.has_z;
   if (!st && draft->n_nodes == 0) st = thr_fail(err, THR_EINPUT, "%s: no row with a node's coordinates", nodes_name);
   if (!st) st = thr_names_build(&e.names, draft, nodes_name, err);
   if (!st) st = read_table(&e, edges->data, edges->length, edges_name, &content);

@@ -1,5 +1,6 @@
-/* JSON frameworks: our own, COMPAS 1.x and 2.x, assembly_instances, conmech, networkx node-link (docs/formats.md).
- * The kind is told by its members, and the first one found in the document, however deep, is the framework. */
+/* JSON frameworks: our own, COMPAS 1.x and 2.x, assembly_instances, conmech, networkx node-link and adjacency, Cytoscape, sigma
+ * (docs/formats.md). The kind is told by its members. A document may hold several, however deep: those that stand where the
+ * first one stands, but for numbers in lists, are read as one. */
 #include "graph/framework/frame.h"
 #include "graph/io/json.h"
 #include "graph/io/faces.h"
@@ -28,7 +29,11 @@ typedef struct {
   thr_names names;
   thr_faces faces;
   thr_text scratch; /* for one name at a time */
-  int found;
+  bool has_z;       /* some point has a z of its own */
+  uint64_t *place;  /* [n_found] of the frameworks of the document, where each stands but for numbers (place_of); owned */
+  int n_found, found_capacity;
+  int n_seen;   /* in the second walk through the document */
+  int n_chosen; /* how many are read */
 } reader;
 
 static size_t write_path(const where *at, char *out, size_t size)
@@ -91,6 +96,7 @@ static thr_status read_point(reader *r, const where *at, const thr_json *v, cons
   if (thr_json_numbers(v, 3, xyz)) {
     for (int i = 0; i < 3; i++)
       if (xyz[i] == 0) xyz[i] = 0; /* -0, as below */
+    r->has_z = true;
     return THR_OK;
   }
   if (!is_array(v) && !is_object(v)) return bad(r, at, "no coordinates; give [x, y, z]");
@@ -101,6 +107,7 @@ static thr_status read_point(reader *r, const where *at, const thr_json *v, cons
     where here = {at, which, i};
     xyz[i] = 0;
     if (i == 2 && !c) continue;
+    r->has_z |= i == 2;
     thr_status st = read_number(r, &here, c, &xyz[i]);
     if (st) return st;
   }
@@ -500,17 +507,19 @@ static thr_status read_compas(reader *r, const where *at, const thr_json *object
   return st ? st : read_compas_faces(r, &face_list, faces);
 }
 
-/* ---- lines: [[[x, y, z], [x, y, z]], ..] or COMPAS Line and Polyline objects ---- */
+/* ---- lines: [[[x, y, z], [x, y, z]], ..] or COMPAS Line and Polyline objects, in a list or an object ---- */
 
+/* Of a COMPAS Line the object with its start and end, of a Polyline the list of its points; NULL if it is neither. */
 static const thr_json *points_of_line(const thr_json *v, const char **key)
 {
   const char *which;
   *key = NULL;
   if (is_array(v)) return v;
   const thr_json *data = MEMBER(v, &which, "data", "value");
+  if (!data) data = v;
   *key = "points";
   const thr_json *points = thr_json_get(data, "points");
-  return points ? points : thr_json_get(data, "start") ? data : NULL;
+  return points ? points : thr_json_get(data, "start") && thr_json_get(data, "end") ? data : NULL;
 }
 
 static thr_status read_line(reader *r, const where *at, const thr_json *v)
@@ -535,9 +544,16 @@ static thr_status read_line(reader *r, const where *at, const thr_json *v)
 static thr_status read_lines(reader *r, const where *at, const thr_json *list)
 {
   thr_status st = THR_OK;
-  for (int i = 0; i < thr_json_size(list) && !st; i++) {
+  for (int i = 0; is_array(list) && i < thr_json_size(list) && !st; i++) {
     where here = {at, NULL, i};
     st = read_line(r, &here, thr_json_at(list, i));
+  }
+  void *iter = NULL;
+  const char *key;
+  const thr_json *line;
+  while (!st && thr_json_next(list, &iter, &key, &line)) {
+    where here = {at, key, 0};
+    st = read_line(r, &here, line);
   }
   return st;
 }
@@ -603,18 +619,63 @@ static thr_status read_assembly(reader *r, const where *at, const thr_json *obje
   return st;
 }
 
-/* ---- networkx node-link ---- */
+/* ---- networkx, Cytoscape, sigma: lists of nodes and of links, each an object ---- */
+
+/* What is said of a node or a link: in its member data (Cytoscape) or attributes (graphology, sigma), or beside its name. */
+static const thr_json *said_of(const thr_json *item)
+{
+  const char *key;
+  const thr_json *said = MEMBER(item, &key, "data", "attributes");
+  return is_object(said) ? said : item;
+}
+
+/* First of an item's members that says something, in what is said of it or beside that. */
+static const thr_json *said(const thr_json *item, const char *const *keys, const char **which)
+{
+  const thr_json *v = member(said_of(item), keys, which);
+  return v ? v : member(item, keys, which);
+}
+
+#define SAID(item, which, ...) said(item, (const char *const[]){__VA_ARGS__, NULL}, which)
 
 static thr_status read_link(reader *r, const where *at, const thr_json *link)
 {
+  const char *key;
   where source = {at, "source", 0}, target = {at, "target", 0}, length_here = {at, "length", 0};
   int a = 0, b = 0;
   double length;
-  thr_status st = read_reference(r, &source, thr_json_get(link, "source"), &a);
-  if (!st) st = read_reference(r, &target, thr_json_get(link, "target"), &b);
-  if (!st) st = read_length(r, &length_here, thr_json_get(link, "length"), &length);
+  thr_status st = read_reference(r, &source, SAID(link, &key, "source"), &a);
+  if (!st) st = read_reference(r, &target, SAID(link, &key, "target"), &b);
+  if (!st) st = read_length(r, &length_here, SAID(link, &key, "length"), &length);
   if (!st) st = thr_draft_add_edge(r->d, a, b, length, r->err);
-  return st ? st : read_passes(r, at, thr_json_get(link, "cover"), thr_json_get(link, "capacity"));
+  return st ? st : read_passes(r, at, SAID(link, &key, "cover"), SAID(link, &key, "capacity"));
+}
+
+/* A node's place: pos, else x and y, else position (where Cytoscape has drawn it). */
+static thr_status read_graph_node(reader *r, const where *at, const thr_json *node, int i)
+{
+  const char *key, *x_key, *id_key;
+  const thr_json *pos = SAID(node, &key, "pos"), *x = SAID(node, &x_key, "x", "X"), *id = SAID(node, &id_key, "id", "key");
+  if (!pos && !x) pos = SAID(node, &key, "position");
+  if (!pos) pos = thr_json_get(said_of(node), x_key) ? said_of(node) : node;
+  where pos_here = {at, key, 0}, id_here = {at, id_key, 0};
+  double xyz[3];
+  char number[16];
+  snprintf(number, sizeof number, "%d", i);
+  const char *name = number;
+  thr_status st = read_point(r, x || strcmp(key, "pos") == 0 ? at : &pos_here, pos, NULL, xyz);
+  if (!st && id) st = name_of(r, &id_here, id, &name);
+  return st ? st : thr_draft_add_node(r->d, xyz, name, is_support(said_of(node), node), r->err);
+}
+
+static thr_status read_graph_nodes(reader *r, const where *list, const thr_json *nodes)
+{
+  thr_status st = THR_OK;
+  for (int i = 0; i < thr_json_size(nodes) && !st; i++) {
+    where here = {list, NULL, i};
+    st = read_graph_node(r, &here, thr_json_at(nodes, i), i);
+  }
+  return st ? st : thr_names_build(&r->names, r->d, r->file, r->err);
 }
 
 static thr_status read_node_link(reader *r, const where *at, const thr_json *object)
@@ -622,22 +683,72 @@ static thr_status read_node_link(reader *r, const where *at, const thr_json *obj
   const char *link_key;
   const thr_json *nodes = thr_json_get(object, "nodes"), *links = MEMBER(object, &link_key, "links", "edges");
   where node_list = {at, "nodes", 0}, link_list = {at, link_key, 0};
-  thr_status st = THR_OK;
-  for (int i = 0; i < thr_json_size(nodes) && !st; i++) {
-    const thr_json *node = thr_json_at(nodes, i), *pos = thr_json_get(node, "pos"), *id = thr_json_get(node, "id");
-    where here = {&node_list, NULL, i}, pos_here = {&here, "pos", 0}, id_here = {&here, "id", 0};
-    double xyz[3];
-    char number[16];
-    snprintf(number, sizeof number, "%d", i);
-    const char *name = number;
-    st = read_point(r, pos ? &pos_here : &here, pos ? pos : node, NULL, xyz);
-    if (!st && id) st = name_of(r, &id_here, id, &name);
-    if (!st) st = thr_draft_add_node(r->d, xyz, name, is_support(node, NULL), r->err);
-  }
-  if (!st) st = thr_names_build(&r->names, r->d, r->file, r->err);
+  thr_status st = read_graph_nodes(r, &node_list, nodes);
   for (int i = 0; i < thr_json_size(links) && !st; i++) {
     where here = {&link_list, NULL, i};
     st = read_link(r, &here, thr_json_at(links, i));
+  }
+  return st;
+}
+
+/* Cytoscape: {"elements": {"nodes": .., "edges": ..}}, or one list of both in which links name a source. */
+static thr_status read_cytoscape(reader *r, const where *at, const thr_json *object)
+{
+  const thr_json *elements = thr_json_get(object, "elements");
+  const char *key;
+  where here = {at, "elements", 0};
+  thr_status st = THR_OK;
+  if (is_object(elements)) return read_node_link(r, &here, elements);
+  for (int i = 0; i < thr_json_size(elements) && !st; i++) {
+    where item = {&here, NULL, i};
+    if (!SAID(thr_json_at(elements, i), &key, "source")) st = read_graph_node(r, &item, thr_json_at(elements, i), r->d->n_nodes);
+  }
+  if (!st) st = thr_names_build(&r->names, r->d, r->file, r->err);
+  for (int i = 0; i < thr_json_size(elements) && !st; i++) {
+    where item = {&here, NULL, i};
+    if (SAID(thr_json_at(elements, i), &key, "source")) st = read_link(r, &item, thr_json_at(elements, i));
+  }
+  return st;
+}
+
+/* Does the list of neighbours name node v? */
+static thr_status lists_node(reader *r, const where *at, const thr_json *neighbours, int v, bool *lists)
+{
+  *lists = false;
+  thr_status st = THR_OK;
+  for (int i = 0; i < thr_json_size(neighbours) && !st && !*lists; i++) {
+    where here = {at, NULL, i};
+    int to = -1;
+    st = read_reference(r, &here, thr_json_get(thr_json_at(neighbours, i), "id"), &to);
+    *lists = to == v;
+  }
+  return st;
+}
+
+/* networkx adjacency data: for each node the list of its neighbours. An edge that both ends list counts once. */
+static thr_status read_adjacency(reader *r, const where *at, const thr_json *object)
+{
+  const thr_json *nodes = thr_json_get(object, "nodes"), *adjacency = thr_json_get(object, "adjacency");
+  where node_list = {at, "nodes", 0}, list = {at, "adjacency", 0};
+  if (thr_json_size(adjacency) != thr_json_size(nodes)) return bad(r, &list, "not one list of neighbours for each node");
+  thr_status st = read_graph_nodes(r, &node_list, nodes);
+  for (int v = 0; v < thr_json_size(adjacency) && !st; v++) {
+    const thr_json *neighbours = thr_json_at(adjacency, v);
+    where here = {&list, NULL, v};
+    for (int i = 0; i < thr_json_size(neighbours) && !st; i++) {
+      const thr_json *item = thr_json_at(neighbours, i);
+      where there = {&here, NULL, i}, back = {&list, NULL, 0}, length_here = {&there, "length", 0};
+      int to = 0;
+      bool twice = false;
+      double length;
+      st = read_reference(r, &there, thr_json_get(item, "id"), &to);
+      back.index = to;
+      if (!st && to < v) st = lists_node(r, &back, thr_json_at(adjacency, to), v, &twice);
+      if (!st) st = read_length(r, &length_here, thr_json_get(item, "length"), &length);
+      if (st || twice) continue;
+      st = thr_draft_add_edge(r->d, v, to, length, r->err);
+      if (!st) st = read_passes(r, &there, thr_json_get(item, "cover"), thr_json_get(item, "capacity"));
+    }
   }
   return st;
 }
@@ -646,19 +757,41 @@ static thr_status read_node_link(reader *r, const where *at, const thr_json *obj
 
 typedef thr_status read_function(reader *r, const where *at, const thr_json *v);
 
-/* A bare list of lines is taken at the top of a document only: deeper down it may be anything. */
-static bool is_line_list(const thr_json *v)
+static bool ends_in(const char *text, const char *end)
 {
-  const char *key;
-  const thr_json *points = points_of_line(thr_json_at(v, 0), &key);
-  if (is_object(points)) return true;
+  const size_t n = strlen(text), m = strlen(end);
+  return n >= m && strcmp(text + n - m, end) == 0;
+}
+
+/* A bare list of points is taken for a line only where lines are expected. */
+static bool is_line(const thr_json *v, bool expected)
+{
+  const char *key, *type = thr_json_string(thr_json_get(v, "dtype"));
   double x;
-  return thr_json_size(points) >= 2 && thr_json_number(thr_json_at(thr_json_at(points, 0), 0), &x);
+  if (type ? !ends_in(type, "Line") && !ends_in(type, "/Polyline") : !expected) return false;
+  const thr_json *points = points_of_line(v, &key);
+  return is_object(points) || (thr_json_size(points) >= 2 && thr_json_number(thr_json_at(thr_json_at(points, 0), 0), &x)) ||
+         (is_object(v) && is_object(thr_json_at(points, 0)));
+}
+
+/* Lines are expected at the top of a document and in a member called lines; elsewhere only objects that say what they are count.
+ * Of an object each member must be a line. */
+static bool is_line_list(const where *at, const thr_json *v)
+{
+  const bool expected = !at->up || (at->key && ends_in(at->key, "lines"));
+  if (is_array(v)) return is_line(thr_json_at(v, 0), expected);
+  void *iter = NULL;
+  const char *key;
+  const thr_json *member;
+  bool lines = thr_json_size(v) > 0;
+  while (lines && thr_json_next(v, &iter, &key, &member))
+    lines = is_line(member, expected && is_object(member));
+  return lines;
 }
 
 static read_function *recognise(const where *at, const thr_json *v)
 {
-  if (is_array(v)) return !at->up && is_line_list(v) ? read_lines : NULL;
+  if (is_array(v)) return is_line_list(at, v) ? read_lines : NULL;
   if (!is_object(v)) return NULL;
   const char *format = thr_json_string(thr_json_get(v, "format"));
   if (format && strcmp(format, "thread-plan") == 0) return read_plan;
@@ -666,38 +799,107 @@ static read_function *recognise(const where *at, const thr_json *v)
 
   const char *key;
   const thr_json *nodes = MEMBER(v, &key, "nodes", "vertices"), *links = MEMBER(v, &key, "links", "edges", "lines", "faces");
+  const thr_json *elements = thr_json_get(v, "elements");
   if (is_array(thr_json_get(v, "node_list")) && is_array(thr_json_get(v, "element_list"))) return read_assembly;
-  if (is_array(nodes) && is_array(thr_json_get(v, "elements"))) return read_assembly;
+  if (is_array(nodes) && is_array(elements)) return read_assembly;
   if (is_array(nodes) && is_array(links) && is_array(thr_json_at(nodes, 0))) return read_own;
-  if (is_array(thr_json_get(v, "nodes")) && is_array(links) && is_object(thr_json_at(nodes, 0))) return read_node_link;
+  if (is_array(thr_json_get(v, "nodes")) && is_object(thr_json_at(nodes, 0))) {
+    if (is_array(links)) return read_node_link;
+    if (is_array(thr_json_get(v, "adjacency"))) return read_adjacency;
+  }
+  if (is_array(thr_json_get(elements, "nodes")) || is_object(thr_json_get(thr_json_at(elements, 0), "data")))
+    return read_cytoscape;
 
   const thr_json *keyed_nodes = MEMBER(v, &key, "node", "vertex");
   if (is_object(keyed_nodes) && MEMBER(v, &key, "edge", "face", "adjacency", "halfedge")) return read_compas;
-  return NULL;
+  return is_line_list(at, v) ? read_lines : NULL;
 }
 
-/* Depth is bounded by the JSON parser. */
-static thr_status search(reader *r, const where *at, const thr_json *v)
+/* FNV-1a of the way to a value without numbers, be they indices or keys. */
+static uint64_t place_of(const where *at)
+{
+  uint64_t hash = at->up ? place_of(at->up) : UINT64_C(0xcbf29ce484222325);
+  int64_t number;
+  const bool numbered = at->up && (!at->key || parse_key(at->key, &number));
+  for (const char *c = numbered || !at->key ? "*" : at->key; *c; c++)
+    hash = (hash ^ (unsigned char)*c) * UINT64_C(0x100000001b3);
+  return (hash ^ '/') * UINT64_C(0x100000001b3);
+}
+
+/* Notes where a framework of the document stands. */
+static thr_status note_place(reader *r, const where *at, const thr_json *v, read_function *read)
+{
+  (void)v;
+  (void)read;
+  thr_status st = thr_grow(&r->place, r->n_found, &r->found_capacity, sizeof *r->place, r->err);
+  if (st) return st;
+  r->place[r->n_found++] = place_of(at);
+  return THR_OK;
+}
+
+static bool is_chosen(const reader *r, int i)
+{
+  return r->d->pick ? i + 1 == r->d->pick : r->place[i] == r->place[0];
+}
+
+/* Reads a framework into a draft of its own and appends that, its nodes called by its number as well: 3:17. */
+static thr_status read_part(reader *r, const where *at, const thr_json *v, read_function *read)
+{
+  thr_draft *whole = r->d, part = {.flat = whole->flat};
+  char prefix[16];
+  snprintf(prefix, sizeof prefix, "%d:", r->n_seen);
+  r->d = &part;
+  thr_status st = read(r, at, v);
+  if (!st) st = thr_faces_finish(&r->faces, &part, r->file, r->err);
+  if (!st && whole->units[0] && strcmp(whole->units, part.units) != 0)
+    st = bad(r, at, "in other units than the one before it; read one of them with --pick");
+  if (!st) st = thr_draft_append(whole, &part, prefix, r->err);
+  r->d = whole;
+  thr_names_destroy(&r->names);
+  thr_faces_destroy(&r->faces);
+  thr_draft_destroy(&part);
+  return st;
+}
+
+static thr_status read_chosen(reader *r, const where *at, const thr_json *v, read_function *read)
+{
+  if (!is_chosen(r, r->n_seen++)) return THR_OK;
+  return r->n_chosen > 1 ? read_part(r, at, v, read) : read(r, at, v);
+}
+
+/* Calls visit for each framework, which are not looked into. Depth is bounded by the JSON parser. */
+static thr_status walk(reader *r, const where *at, const thr_json *v,
+                       thr_status (*visit)(reader *r, const where *at, const thr_json *v, read_function *read))
 {
   read_function *read = recognise(at, v);
-  if (read && r->found++ == 0) return read(r, at, v);
-  if (read) {
-    thr_report_skip(r->report, thr_span_of("framework"));
-    return THR_OK;
-  }
+  if (read) return visit(r, at, v, read);
   thr_status st = THR_OK;
   for (int i = 0; is_array(v) && i < thr_json_size(v) && !st; i++) {
     where here = {at, NULL, i};
-    st = search(r, &here, thr_json_at(v, i));
+    st = walk(r, &here, thr_json_at(v, i), visit);
   }
   void *iter = NULL;
   const char *key;
   const thr_json *value;
   while (!st && thr_json_next(v, &iter, &key, &value)) {
     where here = {at, key, 0};
-    st = search(r, &here, value);
+    st = walk(r, &here, value, visit);
   }
   return st;
+}
+
+static thr_status read_document(reader *r, const thr_json *doc)
+{
+  where top = {0};
+  thr_status st = walk(r, &top, doc, note_place);
+  if (!st && !r->n_found)
+    st = thr_fail(r->err, THR_EINPUT, "%s: no framework in this JSON; docs/formats.md shows the forms that are read", r->file);
+  if (!st && r->d->pick > r->n_found)
+    st = thr_fail(r->err, THR_EINPUT, "%s: there is no framework %d to pick; the file holds %d", r->file, r->d->pick, r->n_found);
+  for (int i = 0; i < r->n_found && !st; i++)
+    r->n_chosen += is_chosen(r, i);
+  if (!st) st = walk(r, &top, doc, read_chosen);
+  return st ? st : thr_faces_finish(&r->faces, r->d, r->file, r->err);
 }
 
 static thr_status parse(thr_draft *draft, thr_read_report *read_report, const char *text, size_t n, const char *name,
@@ -707,14 +909,14 @@ static thr_status parse(thr_draft *draft, thr_read_report *read_report, const ch
   thr_status st = thr_json_parse(&doc, text, n, name, err);
   if (st) return st;
   reader reading = {.file = name, .d = draft, .report = read_report, .err = err};
-  where top = {0};
-  st = search(&reading, &top, doc);
-  if (!st && !reading.found)
-    st = thr_fail(err, THR_EINPUT, "%s: no framework in this JSON; docs/formats.md shows the forms that are read", name);
-  if (!st) st = thr_faces_finish(&reading.faces, draft, name, err);
+  st = read_document(&reading, doc);
+  read_report->frameworks = reading.n_found;
+  read_report->frameworks_read = reading.n_chosen;
+  read_report->no_z = !reading.has_z;
   thr_names_destroy(&reading.names);
   thr_faces_destroy(&reading.faces);
   thr_text_destroy(&reading.scratch);
+  free(reading.place);
   thr_json_destroy(doc);
   return st;
 }

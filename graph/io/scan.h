@@ -59,8 +59,8 @@ void thr_report_skip(thr_read_report *report, thr_span keyword);
 
 /* CSV with word of what the table lacks, so that the other half of a pair can be looked for. */
 typedef enum { THR_CSV_WHOLE, THR_CSV_NODES_ONLY, THR_CSV_EDGES_ONLY } thr_csv_content;
-thr_status thr_csv_scan(thr_draft *draft, const char *text, size_t n, const char *name, thr_csv_content *content,
-                        thr_err *err) THR_MUST_CHECK;
+thr_status thr_csv_scan(thr_draft *draft, thr_read_report *report, const char *text, size_t n, const char *name,
+                        thr_csv_content *content, thr_err *err) THR_MUST_CHECK;
 
 /* The writers of write.c. */
 void thr_json_frame_write(const thr_frame *frame, thr_text *out);

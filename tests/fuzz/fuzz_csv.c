@@ -13,7 +13,7 @@ static void fuzz_pair(const uint8_t *data, size_t size, const uint8_t *cut)
   thr_err err = {0};
   thr_text_append_bytes(&nodes, (const char *)data, (size_t)(cut - data));
   thr_text_append_bytes(&edges, (const char *)cut + 1, size - (size_t)(cut - data) - 1);
-  thr_status st = thr_csv_parse_pair(&d, &nodes, "nodes", &edges, "edges", &err);
+  thr_status st = thr_csv_parse_pair(&d, &r, &nodes, "nodes", &edges, "edges", &err);
   check_draft(st, &d, &r, &err);
   thr_text_destroy(&nodes);
   thr_text_destroy(&edges);

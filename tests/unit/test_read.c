@@ -182,9 +182,10 @@ END_TEST
 static thr_status parse_pair(const char *nodes, const char *edges, thr_draft *d, thr_err *err)
 {
   thr_text n = {0}, e = {0};
+  thr_read_report r = {0};
   thr_text_append(&n, nodes);
   thr_text_append(&e, edges);
-  thr_status st = thr_csv_parse_pair(d, &n, "nodes", &e, "edges", err);
+  thr_status st = thr_csv_parse_pair(d, &r, &n, "nodes", &e, "edges", err);
   thr_text_destroy(&n);
   thr_text_destroy(&e);
   return st;
@@ -328,13 +329,25 @@ START_TEST(json_units_and_grounded_nodes)
 }
 END_TEST
 
-START_TEST(json_takes_the_first_framework)
+START_TEST(json_takes_a_list_whole_and_else_the_first)
 {
   thr_read_report r;
   thr_frame f = read_text("[{\"nodes\":[[0,0],[1,0]],\"edges\":[[0,1]]},{\"nodes\":[[0,0],[2,0]],\"edges\":[[0,1]]}]",
                           thr_format_named("json"), &r);
+  ck_assert_int_eq(f.n_edges, 2);
   ck_assert_double_eq(f.length[0], 1);
-  ck_assert_int_eq(r.skipped_records, 1);
+  ck_assert_double_eq(f.length[1], 2);
+  ck_assert_str_eq(f.name[2], "2:1");
+  ck_assert_int_eq(r.frameworks, 2);
+  ck_assert_int_eq(r.frameworks_read, 2);
+  thr_frame_destroy(&f);
+  f = read_text("{\"mesh\":{\"nodes\":[[0,0],[1,0]],\"edges\":[[0,1]]},\"dual\":{\"nodes\":[[0,0],[2,0]],\"edges\":[[0,1]]}}",
+                thr_format_named("json"), &r);
+  ck_assert_int_eq(f.n_edges, 1);
+  ck_assert_double_eq(f.length[0], 1);
+  ck_assert_str_eq(f.name[1], "1");
+  ck_assert_int_eq(r.frameworks, 2);
+  ck_assert_int_eq(r.frameworks_read, 1);
   thr_frame_destroy(&f);
 }
 END_TEST
@@ -783,7 +796,7 @@ static void add_tests(TCase *t)
   tcase_add_test(t, obj_errors);
   tcase_add_test(t, json_dialects);
   tcase_add_test(t, json_units_and_grounded_nodes);
-  tcase_add_test(t, json_takes_the_first_framework);
+  tcase_add_test(t, json_takes_a_list_whole_and_else_the_first);
   tcase_add_test(t, json_errors);
   tcase_add_test(t, json_syntax_and_depth);
   tcase_add_test(t, formats_by_name_and_content);
