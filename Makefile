@@ -70,7 +70,9 @@ $(error BUILD=$(BUILD) is not one of release debug asan cov fuzz mutants)
 endif
 # -ffp-contract=off: no fused multiply-add, so the same digits on every machine
 THR_CFLAGS = -std=c11 $(WARN) -ffp-contract=off $(MODE_$(BUILD)) $(CFLAGS)
-THR_CXXFLAGS = -std=c++17 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -fno-exceptions -fno-rtti -ffp-contract=off $(MODE_$(BUILD)) $(CXXFLAGS)
+# gcc's unique symbols would be seen outside of the library
+NO_UNIQUE = $(if $(filter %g++,$(CXX)),$(if $(filter fuzz,$(BUILD)),,-fno-gnu-unique))
+THR_CXXFLAGS = -std=c++17 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -fno-exceptions -fno-rtti -ffp-contract=off $(NO_UNIQUE) $(MODE_$(BUILD)) $(CXXFLAGS)
 THR_CPPFLAGS = -I. -DTHR_VERSION='"$(VERSION)"' $(PKG_CFLAGS) $(CPPFLAGS)
 THR_LIBS = $(PKG_LIBS) -lglpk -lm $(LDLIBS)
 COMPILER = $(if $(filter fuzz,$(BUILD)),$(FUZZ_CC),$(CC))
@@ -215,12 +217,40 @@ deps: ## install the packages that building needs (apt, as root or with sudo)
 test-deps: ## install the packages that building, testing and linting need
 	+@tools/install-packages.sh $(BUILD_PACKAGES) $(TEST_PACKAGES) $(LINT_PACKAGES)
 
-install: all docs/thread.1 ## install program and man page under $(DESTDIR)$(PREFIX)
-	install -D -m 755 $(PROGRAM) "$(DESTDIR)$(PREFIX)/bin/thread"
-	install -D -m 644 docs/thread.1 "$(DESTDIR)$(PREFIX)/share/man/man1/thread.1"
+# What `make install` installs where: source and place below DESTDIR.
+COMMANDS := plan advise symmetries check eval compare draw info convert make
+MAN_PAGES := $(COMMANDS:%=$(DIR)/man/thread-%.1)
+BIN = $(DESTDIR)$(PREFIX)/bin
+SHARE = $(DESTDIR)$(PREFIX)/share
+LIB = $(DESTDIR)$(LIBDIR)
+
+man: $(MAN_PAGES) ## man pages of the commands, from their help
+$(DIR)/man/thread-%.1: $(PROGRAM) tools/man_page.awk
+	@mkdir -p $(@D)
+	@$(PROGRAM) $* --help | awk -v command=$* -v version=$(VERSION) -f tools/man_page.awk > $@
+
+install: all library man ## install program, library, man pages, completions, docs, examples under $(DESTDIR)$(PREFIX)
+	install -d "$(BIN)" "$(LIB)/pkgconfig" "$(DESTDIR)$(PREFIX)/include" "$(SHARE)/man/man1" "$(SHARE)/doc/thread/pictures"
+	install -m 755 $(PROGRAM) "$(BIN)/thread"
+	install -m 755 $(SHARED) "$(LIB)/$(notdir $(SHARED))"
+	ln -sf $(notdir $(SHARED)) "$(LIB)/$(SONAME)"
+	ln -sf $(SONAME) "$(LIB)/libthread.so"
+	install -m 644 $(STATIC) "$(LIB)/libthread.a"
+	install -m 644 $(DIR)/thread.pc "$(LIB)/pkgconfig/thread.pc"
+	install -m 644 include/thread.h "$(DESTDIR)$(PREFIX)/include/thread.h"
+	install -m 644 docs/thread.1 $(MAN_PAGES) "$(SHARE)/man/man1/"
+	install -m 644 README.md CHANGELOG.md docs/*.md "$(SHARE)/doc/thread/"
+	install -m 644 docs/pictures/* "$(SHARE)/doc/thread/pictures/"
+	cp -R examples "$(SHARE)/doc/thread/"
+	install -D -m 644 completions/thread.bash "$(SHARE)/bash-completion/completions/thread"
+	install -D -m 644 completions/_thread "$(SHARE)/zsh/site-functions/_thread"
+	install -D -m 644 completions/thread.fish "$(SHARE)/fish/vendor_completions.d/thread.fish"
 
 uninstall: ## remove what `make install` installed
-	rm -f "$(DESTDIR)$(PREFIX)/bin/thread" "$(DESTDIR)$(PREFIX)/share/man/man1/thread.1"
+	rm -f "$(BIN)/thread" "$(LIB)"/libthread.so "$(LIB)"/libthread.so.* "$(LIB)/libthread.a" "$(LIB)/pkgconfig/thread.pc"
+	rm -f "$(DESTDIR)$(PREFIX)/include/thread.h" "$(SHARE)/man/man1/thread.1" $(COMMANDS:%="$(SHARE)/man/man1/thread-%.1")
+	rm -f "$(SHARE)/bash-completion/completions/thread" "$(SHARE)/zsh/site-functions/_thread" "$(SHARE)/fish/vendor_completions.d/thread.fish"
+	rm -rf "$(SHARE)/doc/thread"
 
 clean: ## remove everything made
 	rm -rf $(OUT)
@@ -239,7 +269,8 @@ suite-built:
 GOLDEN_JOBS := $(patsubst tests/%,run/$(BUILD)/%,$(wildcard tests/golden/*.case))
 $(TEST_PROGRAMS:$(DIR)/tests/%=run/$(BUILD)/%): run/$(BUILD)/%: $(DIR)/tests/%
 $(FUZZ_PROGRAMS:$(DIR)/tests/%=run/%): run/%: $(DIR)/tests/%
-$(GOLDEN_JOBS) run/second/plans run/viewer/browser run/bench/smallest: $(PROGRAM)
+run/library/install: $(PROGRAM) $(SHARED) $(STATIC) $(DIR)/thread.pc $(MAN_PAGES)
+$(GOLDEN_JOBS) run/readme run/second/plans run/viewer/browser run/bench/smallest: $(PROGRAM)
 run/second/json: $(DIR)/tests/second/dump_json
 run/$(BUILD)/memory: $(PROGRAM) $(DIR)/tests/memory/fail_malloc.so
 run/$(BUILD)/watchdog: $(PROGRAM) $(WATCHDOG)
@@ -353,6 +384,6 @@ $(OUT)/packages.ok:
 	@touch $@
 
 FORCE:
-.PHONY: all library demo test test-fast test-rest test-all fuzz asan layers lint format-check tidy cppcheck format viewer bench validate memory watchdog mutants coverage deps test-deps install uninstall clean help
+.PHONY: all library man demo test test-fast test-rest test-all fuzz asan layers lint format-check tidy cppcheck format viewer bench validate memory watchdog mutants coverage deps test-deps install uninstall clean help
 .PHONY: suite-release suite-asan suite-fuzz suite-built test-programs fuzz-programs list-tests list-fuzz list-flags list-c FORCE
 -include $(wildcard $(DIR)/*/*.d $(DIR)/*/*/*.d)

@@ -1,6 +1,8 @@
 /* Messages, options, reading and writing for all subcommands. */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/cli.h"
+#include "cli/args/config.h"
+#include "cli/args/suggestion.h"
 #include "graph/angle.h"
 #include "graph/io/stand.h"
 #include "cli/guard.h"
@@ -20,6 +22,7 @@
 #include <unistd.h>
 
 bool cli_quiet, cli_verbose;
+void (*cli_show_options)(const struct option *table, const char *help);
 static int processes; /* 0 = not said */
 
 enum { MOST_PROCESSES = 1024 };
@@ -70,9 +73,11 @@ int cli_fail(const thr_err *err)
 
 int cli_usage(const char *command, const char *format, ...)
 {
-  char where[64];
+  char where[400];
   va_list args;
-  snprintf(where, sizeof where, " (see `thread %s --help`)", command);
+  const char *config = cli_config_of(optind - 1); /* the word that is being looked at */
+  snprintf(where, sizeof where, " (%s%.300s%ssee `thread %s --help`)", config ? "in " : "", config ? config : "",
+           config ? "; " : "", command);
   va_start(args, format);
   say(format, args, where);
   va_end(args);
@@ -81,12 +86,36 @@ int cli_usage(const char *command, const char *format, ...)
 
 /* ---- options ---- */
 
+/* The word is "--name" or "--name=value" of no option, of several, or of one that takes no value. */
+static int bad_long_option(const char *word, const char *command, const struct option *table)
+{
+  char name[64], question[CLI_SUGGESTION_TEXT], several[160] = "";
+  cli_suggestion suggestion = {.word = name};
+  int n = 0;
+  snprintf(name, sizeof name, "%.*s", (int)strcspn(word + 2, "="), word + 2);
+  for (; table->name; table++) {
+    if (strcmp(table->name, name) == 0) return cli_usage(command, "--%s takes no value", name);
+    cli_suggestion_try(&suggestion, table->name);
+    if (strncmp(table->name, name, strlen(name)) != 0) continue;
+    size_t length = strlen(several);
+    snprintf(several + length, sizeof several - length, "%s--%s", n++ ? ", " : "", table->name);
+  }
+  if (n == 1) return cli_usage(command, "%s takes no value", several);
+  if (n > 1) return cli_usage(command, "--%s may be %s", name, several);
+  cli_suggestion_ask(&suggestion, question);
+  char *at = strstr(question, "mean ");
+  if (!at) return cli_usage(command, "--%s is not an option here", name);
+  return cli_usage(command, "--%s is not an option here; did you mean --%s", name, at + strlen("mean "));
+}
+
 /* What the user typed: getopt has moved operands behind the options, so the culprit is the word before optind, or inside it. */
-static int bad_option(char **argv, const char *command, const char *problem)
+static int bad_option(int o, char **argv, const char *command, const struct option *table)
 {
   const char *word = argv[optind - 1];
-  if (strncmp(word, "--", 2) == 0) return cli_usage(command, "%s %s", word, problem);
-  return cli_usage(command, "-%c %s", optopt, problem);
+  bool is_long = strncmp(word, "--", 2) == 0;
+  if (o == ':') return is_long ? cli_usage(command, "%s needs a value", word) : cli_usage(command, "-%c needs a value", optopt);
+  if (is_long) return bad_long_option(word, command, table);
+  return cli_usage(command, "-%c is not an option here", optopt);
 }
 
 int cli_next_option(int argc, char **argv, const char *command, const char *letters, const struct option *table, const char *help,
@@ -94,6 +123,11 @@ int cli_next_option(int argc, char **argv, const char *command, const char *lett
 {
   *done = -1;
   opterr = 0;
+  if (cli_show_options) {
+    cli_show_options(table, help);
+    *done = EXIT_OK;
+    return -1;
+  }
   for (;;) {
     int o = getopt_long(argc, argv, letters, table, NULL);
     for (int i = optind; o == -1 && *done < 0 && i < argc; i++)
@@ -105,8 +139,8 @@ int cli_next_option(int argc, char **argv, const char *command, const char *lett
       return -1;
     case 'q': cli_quiet = true; break;
     case 'v': cli_verbose = true; break;
-    case ':': *done = bad_option(argv, command, "needs a value"); return -1;
-    case '?': *done = bad_option(argv, command, "is not an option here, or takes no value"); return -1;
+    case ':':
+    case '?': *done = bad_option(o, argv, command, table); return -1;
     default: return o;
     }
   }
@@ -137,14 +171,18 @@ bool cli_int(const char *command, const char *option, const char *text, int low,
 
 bool cli_choose(const char *command, const char *option, const char *value, const char *(*name)(int), int n, int *out)
 {
-  char known[160] = "";
-  for (*out = 0; *out < n; ++*out)
+  char known[160] = "", question[CLI_SUGGESTION_TEXT];
+  cli_suggestion suggestion = {.word = value};
+  for (*out = 0; *out < n; ++*out) {
     if (strcmp(value, name(*out)) == 0) return true;
+    cli_suggestion_try(&suggestion, name(*out));
+  }
+  cli_suggestion_ask(&suggestion, question);
   for (int i = 0; i < n; i++) {
     size_t length = strlen(known);
     snprintf(known + length, sizeof known - length, "%s%s", i == 0 ? "" : i == n - 1 ? " or " : ", ", name(i));
   }
-  cli_usage(command, "%s %s: expected %s", option, value, known);
+  cli_usage(command, "%s %s: expected %s%s", option, value, known, question);
   return false;
 }
 
@@ -242,7 +280,12 @@ static bool mark_node(const thr_frame *frame, const char *name, const char *opti
 {
   int v = thr_frame_find(frame, name);
   if (v < 0) {
-    cli_error("%s: there is no file and no node called %s; the first node is %s", option, name, frame->name[0]);
+    char question[CLI_SUGGESTION_TEXT];
+    cli_suggestion suggestion = {.word = name};
+    for (v = 0; v < frame->n_nodes; v++)
+      cli_suggestion_try(&suggestion, frame->name[v]);
+    cli_suggestion_ask(&suggestion, question);
+    cli_error("%s: there is no file and no node called %s; the first node is %s%s", option, name, frame->name[0], question);
     return false;
   }
   mark[v] = true;
@@ -459,6 +502,12 @@ static void log_progress(void *user, const char *what, double best, double bound
     cli_note("%s: best join %.0f, bound %.1f (integer weights), %.3f CPU s", what, best, bound, cli_processor_seconds());
 }
 
+bool cli_is_terminal(int file)
+{
+  const char *term = getenv("TERM");
+  return isatty(file) && term && *term && strcmp(term, "dumb") != 0;
+}
+
 void cli_heed_signals(void)
 {
   struct sigaction act = {.sa_handler = on_interrupt};
@@ -488,15 +537,15 @@ thr_limits cli_limits(double seconds)
   if (guard_deadline() > 0 && (limits.deadline == 0 || limits.deadline > guard_deadline())) limits.deadline = guard_deadline();
   if (cli_verbose)
     limits.progress = log_progress;
-  else if (!cli_quiet && isatty(STDERR_FILENO))
+  else if (!cli_quiet && cli_is_terminal(STDERR_FILENO))
     limits.progress = show_progress;
-  if (!cli_quiet && isatty(STDERR_FILENO)) limits.advance = show_advance;
+  if (!cli_quiet && cli_is_terminal(STDERR_FILENO)) limits.advance = show_advance;
   return limits;
 }
 
 void cli_wipe_line(void)
 {
-  if (isatty(STDERR_FILENO)) fputs("\r\033[K", stderr);
+  if (cli_is_terminal(STDERR_FILENO)) fputs("\r\033[K", stderr);
 }
 
 void cli_progress_end(void)

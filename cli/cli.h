@@ -26,6 +26,15 @@ int cmd_draw(int argc, char **argv);
 int cmd_info(int argc, char **argv);
 int cmd_convert(int argc, char **argv);
 int cmd_make(int argc, char **argv);
+int cmd_complete(int argc, char **argv); /* for shells: what may follow */
+
+/* The commands, in the order in which a user reads them. */
+typedef struct {
+  const char *name, *summary;
+  int (*run)(int argc, char **argv);
+} cli_command;
+extern const cli_command cli_commands[];
+extern const int cli_n_commands;
 
 /* ---- messages ---- */
 
@@ -45,10 +54,10 @@ int cli_usage(const char *command, const char *format, ...) THR_PRINTF(2, 3);
 
 enum { OPTION_LONG_ONLY = 256 }; /* first value for options without a letter */
 
-/* -h, -q and -v, in every table and every letter string. */
+/* -h, -q, -v and --config (cli/args/config.h, which takes it out), in every table and every letter string. */
 #define CLI_COMMON_LETTERS "hqv"
 #define CLI_COMMON_OPTIONS                                                                                                       \
-  {"help", no_argument, NULL, 'h'}, {"quiet", no_argument, NULL, 'q'},                                                           \
+  {"help", no_argument, NULL, 'h'}, {"quiet", no_argument, NULL, 'q'}, {"config", required_argument, NULL, 0},                   \
   {                                                                                                                              \
     "verbose", no_argument, NULL, 'v'                                                                                            \
   }
@@ -57,6 +66,9 @@ enum { OPTION_LONG_ONLY = 256 }; /* first value for options without a letter */
  * sets *done to EXIT_USAGE; *done < 0 means go on. -q and -v are taken here. */
 int cli_next_option(int argc, char **argv, const char *command, const char *letters, const struct option *table, const char *help,
                     int *done);
+
+/* Somebody to whom a command shows its options and its help instead of doing anything; NULL = nobody. */
+extern void (*cli_show_options)(const struct option *table, const char *help);
 
 /* -j: how many things are done at a time, at first one per processor. It changes no result. false: the value was bad (printed).
  */
@@ -160,6 +172,9 @@ double cli_processor_seconds(void);
 thr_limits cli_limits(double seconds);
 void cli_progress_end(void); /* wipes the progress line */
 void cli_wipe_line(void);    /* the same for one that another process has left */
+
+/* Is it a terminal that understands more than lines? Not with TERM=dumb. There are no colours (NO_COLOR). */
+bool cli_is_terminal(int file);
 
 /* ---- tables ---- */
 

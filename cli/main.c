@@ -1,4 +1,6 @@
 /* thread: plans how cord is threaded through bead structures. This file only finds the subcommand. */
+#include "cli/args/config.h"
+#include "cli/args/suggestion.h"
 #include "cli/cli.h"
 #include "cli/guard.h"
 #include "eval/joint/world.h"
@@ -9,10 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const struct {
-  const char *name, *summary;
-  int (*run)(int argc, char **argv);
-} command[] = {
+const cli_command cli_commands[] = {
     {"plan", "find the best threading of a framework, prove it, draw it", cmd_plan},
     {"advise", "how many cords, and from where, so that a hand can pull them", cmd_advise},
     {"symmetries", "groups of symmetries, and the best symmetric threading under each", cmd_symmetries},
@@ -24,7 +23,7 @@ static const struct {
     {"convert", "a framework in another format", cmd_convert},
     {"make", "example frameworks", cmd_make},
 };
-enum { N_COMMANDS = sizeof command / sizeof *command };
+const int cli_n_commands = sizeof cli_commands / sizeof *cli_commands;
 
 static void help(FILE *to)
 {
@@ -36,17 +35,40 @@ static void help(FILE *to)
         "  thread eval dome/plan.json --method joint     how hard to pull, measured in simulation\n\n"
         "Commands:\n",
         to);
-  for (int i = 0; i < N_COMMANDS; i++)
-    fprintf(to, "  %-10s %s\n", command[i].name, command[i].summary);
-  fputs("\n`thread COMMAND --help` says more; `man thread` says all.\n", to);
+  for (int i = 0; i < cli_n_commands; i++)
+    fprintf(to, "  %-10s %s\n", cli_commands[i].name, cli_commands[i].summary);
+  fputs("\nOptions of every command: -h, --help; -q, --quiet; -v, --verbose; --config FILE: options from a file.\n"
+        "`thread help COMMAND` and `man thread-COMMAND` say more; `man thread` says all.\n",
+        to);
 }
 
 static int version(void)
 {
   int bullet = thr_bullet_version();
-  printf("thread %s (GLPK %s, igraph %s, nauty %s, Bullet %d.%d)\n", THR_VERSION, thr_glpk_version(), thr_igraph_version(),
-         thr_nauty_version(), bullet / 100, bullet % 100);
+  printf(
+      "thread %s\n"
+      "License GPLv3+: GNU GPL version 3 or later <https://gnu.org/licenses/gpl.html>\n"
+      "This is free software: you are free to change and redistribute it. There is NO WARRANTY, to the extent permitted by law.\n"
+      "With GLPK %s, igraph %s, nauty %s, Bullet %d.%d.\n",
+      THR_VERSION, thr_glpk_version(), thr_igraph_version(), thr_nauty_version(), bullet / 100, bullet % 100);
   return EXIT_OK;
+}
+
+static int run(const cli_command *command, int argc, char **argv)
+{
+  int code = cli_config(&argc, &argv);
+  return code ? code : command->run(argc - 1, argv + 1);
+}
+
+static int no_command(const char *name)
+{
+  char question[CLI_SUGGESTION_TEXT];
+  cli_suggestion suggestion = {.word = name};
+  for (int i = 0; i < cli_n_commands; i++)
+    cli_suggestion_try(&suggestion, cli_commands[i].name);
+  cli_suggestion_ask(&suggestion, question);
+  cli_error("there is no command %s%s%s `thread --help` lists them", name, question, *question ? "" : ";");
+  return EXIT_USAGE;
 }
 
 static int dispatch(int argc, char **argv)
@@ -56,7 +78,8 @@ static int dispatch(int argc, char **argv)
     return EXIT_USAGE;
   }
   const char *name = argv[1];
-  if (strcmp(name, "--version") == 0) return version();
+  if (strcmp(name, "--version") == 0 || strcmp(name, "-V") == 0) return version();
+  if (strcmp(name, "complete") == 0) return cmd_complete(argc - 1, argv + 1);
   if (strcmp(name, "help") == 0 && argc > 2) { /* `thread help plan` */
     argv[1] = argv[2];
     argv[2] = (char[]){"--help"};
@@ -67,10 +90,9 @@ static int dispatch(int argc, char **argv)
     help(stdout);
     return EXIT_OK;
   }
-  for (int i = 0; i < N_COMMANDS; i++)
-    if (strcmp(name, command[i].name) == 0) return command[i].run(argc - 1, argv + 1);
-  cli_error("there is no command %s; `thread --help` lists them", name);
-  return EXIT_USAGE;
+  for (int i = 0; i < cli_n_commands; i++)
+    if (strcmp(name, cli_commands[i].name) == 0) return run(&cli_commands[i], argc, argv);
+  return no_command(name);
 }
 
 int main(int argc, char **argv)

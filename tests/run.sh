@@ -21,7 +21,7 @@ count_check() { # sums Check's closing lines; a program that ends badly after th
     END { passed = checks - bad; if ((code != 0 && bad == 0) || checks == 0) bad++; print passed + 0, bad + 0, 0 }' "$1"
 }
 
-count_lines() { # the closing line of tests/golden/run.sh, tests/second/compare.py, tests/viewer/run.sh, tests/memory/run.sh and the watchdog
+count_lines() { # the closing line of tests/golden/run.sh, tests/second/compare.py, tests/viewer/run.sh, tests/memory/run.sh, the watchdog, ..
   awk -v code="$2" '
     /^[0-9]+ passed, [0-9]+ failed$/ { passed = $1; failed = $3; seen = 1 }
     END { if (!seen || (code != 0 && failed == 0)) failed++; print passed + 0, failed + 0, 0 }' "$1"
@@ -74,6 +74,8 @@ run() { # NAME LOG: runs the job; its exit code, 77 = skipped
   second/json) tests/second/read_json.py "$OUT/release/tests/second/dump_json" ;;
   viewer/page) viewer_page ;;
   bench/smallest) bench/run.py "$OUT/release/thread" --smallest ;;
+  library/install) tests/library/run.sh "$OUT/release" "$OUT/library-test" ;;
+  readme) tests/readme/run.sh "$OUT/release/thread" ;;
   viewer/browser) tests/viewer/run.sh "$OUT/release/thread" "$OUT/viewer-test" ;;
   fuzz/*) fuzz "$name" "$log" ;;
   esac >>"$log" 2>&1
@@ -85,7 +87,7 @@ job() { # NAME
   : >"$log"
   spent=$( { time run "$name" "$log" 7>&-; } 2>&1) || code=$?
   case $name in
-  */golden/* | */memory | */watchdog | second/* | viewer/browser) counts=$(count_lines "$log" "$code") ;;
+  */golden/* | */memory | */watchdog | second/* | viewer/browser | library/* | readme) counts=$(count_lines "$log" "$code") ;;
   asan/* | release/*) counts=$(count_check "$log" "$code") ;;
   *) if [ "$code" -eq 0 ]; then counts='1 0 0'; else counts='0 1 0'; fi ;;
   esac
@@ -116,7 +118,7 @@ fi
 
 tier=${1:-test}
 export SHARE_RELEASE=1 SHARE_ASAN=10 MEMORY_SAMPLES=40 FUZZ_RUNS=100000
-builds='release asan' tree='layers layers-self-test format bench/smallest' programs='second/json second/plans viewer/page viewer/browser' whole='' fuzz=yes
+builds='release asan' tree='layers layers-self-test format bench/smallest library/install readme' programs='second/json second/plans viewer/page viewer/browser' whole='' fuzz=yes
 case $tier in
 test) whole='release/watchdog release/memory' MEMORY_SAMPLES=4 ;;
 fast) builds=release SHARE_RELEASE=10 programs='' fuzz='' ;;

@@ -35,12 +35,12 @@ enum {
   }
 #define CORDS_HELP                                                                                                               \
   "      --ends closed|any|feet|FILE|NAME,..   both ends of a cord at one node (default), or anywhere, at feet, at these\n"      \
-  "      --ends NAME:N,.. exactly so many cord ends at each of these nodes\n"                                                    \
+  "      --ends NAME:N,..  exactly so many cord ends at each of these nodes\n"                                                   \
   "      --cords K        K cords in every component, 1 to 1000 (default: 1);  A..B, ..B: at most B;  auto: with --max-length\n" \
   "                       or --max-pull\n"                                                                                       \
   "      --max-length L   no cord longer than L units, as few as it takes\n"                                                     \
   "      --max-pull F     no cord needs more at its ends, both pulled: F newtons, or 20x the seating tension; few cords\n"       \
-  "      --hand one|two|N --max-pull 50 (one hand), 100 (two) or N newtons\n"                                                    \
+  "      --hand one|two|N   the same: 50 newtons (one hand), 100 (two) or N\n"                                                   \
   "      --cord-strength N   refuse cords that need more than N newtons\n"                                                       \
   "      --balance        make the longest cord short\n"                                                                         \
   "      --cover N        at least N passes over every interface (default: 1)\n"                                                 \

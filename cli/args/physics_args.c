@@ -3,6 +3,7 @@
 #include "graph/status.h"
 
 #include <assert.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,27 +38,43 @@ static void join_tables(const struct option *own, struct option *table, char (*n
   table[n] = (struct option){NULL, 0, NULL, 0};
 }
 
-static void print_help(void)
+static size_t THR_PRINTF(3, 4) put(char *to, size_t room, const char *format, ...)
 {
+  va_list args;
+  va_start(args, format);
+  int n = vsnprintf(to, room, format, args);
+  va_end(args);
+  return n < 0 ? 0 : (size_t)n < room ? (size_t)n : room - 1;
+}
+
+/* The command's help and then ours. */
+static const char *join_help(const char *own)
+{
+  static char whole[16384]; /* a help text has at most 8,190 bytes, two literals */
   const thr_physics usual = thr_physics_default();
-  puts("\nCord and beads (default: what the plan says, else what stands here):");
+  size_t n = 0;
+  n += put(whole + n, sizeof whole - n, "%s\nCord and beads (default: what the plan says, else what stands here):\n", own);
   for (int i = 0; i < thr_physics_n_fields; i++) {
     const thr_physics_field *field = &thr_physics_fields[i];
     char name[MOST_LETTERS], both[40];
     double value = thr_physics_get(&usual, field);
     option_name(i, name);
     snprintf(both, sizeof both, "--%s %s", name, *field->unit ? field->unit : "X");
-    printf("      %-22s %s", both, field->help);
-    printf(value > 0 ? " (%g)\n" : "\n", value);
+    n += put(whole + n, sizeof whole - n, "      %-22s %s", both, field->help);
+    n += put(whole + n, sizeof whole - n, value > 0 ? " (%g)\n" : "\n", value);
   }
-  puts("      --physics FILE         these as JSON: {\"mu\": 0.25, \"bore\": 3}, with _ for -\n"
-       "      --preset NAME          a set of values (--presets: what each rests on):");
+  n += put(whole + n, sizeof whole - n, "%s",
+           "      --physics FILE         these as JSON: {\"mu\": 0.25, \"bore\": 3}, with _ for -\n"
+           "      --preset NAME          a set of values:\n");
   for (int i = 0; i < thr_physics_n_presets; i++) {
     const thr_physics *physics = &thr_physics_presets[i].physics;
-    printf("                               %-14s mu %g (%g to %g), density %g\n", thr_physics_presets[i].name, physics->mu,
-           physics->mu_low, physics->mu_high, physics->density);
+    n += put(whole + n, sizeof whole - n, "                               %-14s mu %g (%g to %g), density %g\n",
+             thr_physics_presets[i].name, physics->mu, physics->mu_low, physics->mu_high, physics->density);
   }
-  puts("  Presets and files count before single quantities, whatever the order.");
+  n += put(whole + n, sizeof whole - n, "%s",
+           "      --presets              what each of them rests on\n"
+           "  Presets and files count before single quantities, whatever the order.\n");
+  return whole;
 }
 
 /* Indented, in lines that fit a terminal. */
@@ -116,10 +133,10 @@ int cli_physics_option(cli_physics *a, int argc, char **argv, const char *comman
 {
   struct option table[MOST_OPTIONS];
   char name[MOST_OPTIONS][MOST_LETTERS];
+  const char *whole = join_help(help);
   join_tables(own, table, name);
   for (;;) {
-    int o = cli_next_option(argc, argv, command, letters, table, help, done);
-    if (o == -1 && *done == EXIT_OK) print_help();
+    int o = cli_next_option(argc, argv, command, letters, table, whole, done);
     if (o < OPTION_PRESET) return o;
     if (o == OPTION_PRESETS) {
       print_presets();

@@ -179,7 +179,7 @@ static int advise(arguments *a, const thr_frame *frame)
   if (code) return code;
   if (thr_physics_resolve(&a->request.physics, frame, &resolved, &err)) return cli_fail(&err);
   live l = {.frame = frame, .physics = &resolved, .base_length = a->request.cover * thr_frame_total_length(frame)};
-  bool shown = a->type == TYPE_TEXT && !a->json && !cli_quiet && strcmp(a->output, "-") == 0 && isatty(STDOUT_FILENO);
+  bool shown = a->type == TYPE_TEXT && !a->json && !cli_quiet && strcmp(a->output, "-") == 0 && cli_is_terminal(STDOUT_FILENO);
   const thr_advise_options options = {.hand = a->hand, .row = shown ? show_row : NULL, .user = &l};
   double work = 0;
   thr_limits limits = advice_limits(a->guard.seconds, &work);

@@ -1,4 +1,5 @@
 /* thread make: example frameworks. */
+#include "cli/args/suggestion.h"
 #include "cli/cli.h"
 #include "graph/framework/frame.h"
 #include "graph/framework/make.h"
@@ -36,8 +37,14 @@ static const struct option table[] = {CLI_COMMON_OPTIONS,
 
 static int find_shape(const char *name)
 {
-  for (int i = 0; i < THR_N_SHAPES; i++)
+  char question[CLI_SUGGESTION_TEXT];
+  cli_suggestion suggestion = {.word = name};
+  for (int i = 0; i < THR_N_SHAPES; i++) {
     if (strcmp(name, thr_shape_name(i)) == 0) return i;
+    cli_suggestion_try(&suggestion, thr_shape_name(i));
+  }
+  cli_suggestion_ask(&suggestion, question);
+  cli_usage("make", "there is no shape %s; there are dome, geodesic, sphere, tube and honeycomb%s", name, question);
   return -1;
 }
 
@@ -92,8 +99,7 @@ int cmd_make(int argc, char **argv)
   if (optind + 1 != argc)
     return cli_usage("make", optind == argc ? "which shape? dome, geodesic, sphere, tube or honeycomb" : "one shape at a time");
   int shape = find_shape(argv[optind]);
-  if (shape < 0)
-    return cli_usage("make", "there is no shape %s; there are dome, geodesic, sphere, tube and honeycomb", argv[optind]);
+  if (shape < 0) return EXIT_USAGE;
   const thr_format *format;
   if (!cli_output_format("make", a.output, NULL, &format)) return EXIT_USAGE;
   thr_make_options options = thr_make_options_default((thr_shape)shape);

@@ -1,0 +1,118 @@
+#include "cli/args/config.h"
+#include "cli/cli.h"
+#include "graph/status.h"
+#include "graph/text.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *source; /* the file, NULL = none was named */
+static int n_words;        /* of it, from argv[1] of the command on */
+static char **words;       /* of the new command line, for as long as the program runs */
+
+const char *cli_config_of(int i)
+{
+  return i >= 1 && i <= n_words ? source : NULL;
+}
+
+/* Cuts blanks off both ends, in place. */
+static char *trim(char *s)
+{
+  size_t n = strlen(s);
+  while (n > 0 && strchr(" \t\r", s[n - 1]))
+    s[--n] = '\0';
+  return s + strspn(s, " \t");
+}
+
+/* One line as a word of the command line, "" if it is none; false prints what is wrong with it. It takes no more room. */
+static bool word_of(char *line, int number, const char *command, bool *applies, char *word, size_t size)
+{
+  char *name = trim(line), *value = strchr(name, '='), *after;
+  size_t n = strlen(name);
+  *word = '\0';
+  if (n == 0 || *name == '#') return true;
+  if (*name == '[' && name[n - 1] == ']') {
+    name[n - 1] = '\0';
+    *applies = strcmp(trim(name + 1), command) == 0;
+    return true;
+  }
+  if (value) *value++ = '\0';
+  name = trim(name);
+  after = name + strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789-");
+  if (*name == '-' || *name == '\0' || *after || strcmp(name, "config") == 0) {
+    cli_error("%s:%d: %s: expected `name = value`, the name of an option without dashes, or [command]", source, number, name);
+    return false;
+  }
+  if (*applies) snprintf(word, size, value ? "--%s=%s" : "--%s", name, value ? trim(value) : "");
+  return true;
+}
+
+/* The words of the file behind the command, then the others. */
+static int join(thr_text *file, const char *command, int argc, char **argv, int *n)
+{
+  int lines = 1, number = 0;
+  bool applies = true;
+  for (size_t i = 0; i < file->length; i++)
+    lines += file->data[i] == '\n';
+  if (!(words = thr_calloc((size_t)(argc + lines + 1), sizeof *words))) return cli_fail(&(thr_err){THR_ENOMEM, "out of memory"});
+  words[(*n)++] = argv[0];
+  words[(*n)++] = argv[1];
+  for (char *line = file->data, *end; line; line = end) {
+    size_t size = strlen(line) + 8;
+    char *word = thr_calloc(size, 1);
+    if (!word) return cli_fail(&(thr_err){THR_ENOMEM, "out of memory"});
+    if ((end = strchr(line, '\n'))) *end++ = '\0';
+    if (!word_of(line, ++number, command, &applies, word, size)) return EXIT_INPUT;
+    if (*word)
+      words[(*n)++] = word;
+    else
+      free(word);
+  }
+  n_words = *n - 2;
+  return EXIT_OK;
+}
+
+/* Takes --config FILE or --config=FILE out; the last one counts. false: its value is missing. */
+static bool take_out(int *argc, char **argv)
+{
+  int n = 2;
+  for (int i = 2; i < *argc; i++) {
+    if (strcmp(argv[i], "--") == 0) {
+      while (i < *argc)
+        argv[n++] = argv[i++];
+      break;
+    }
+    if (strncmp(argv[i], "--config=", 9) == 0) {
+      source = argv[i] + 9;
+    } else if (strcmp(argv[i], "--config") == 0) {
+      if (++i == *argc) return false;
+      source = argv[i];
+    } else {
+      argv[n++] = argv[i];
+    }
+  }
+  argv[n] = NULL;
+  *argc = n;
+  return true;
+}
+
+int cli_config(int *argc, char ***argv)
+{
+  thr_err err = {0};
+  thr_text file = {0};
+  int n = 0;
+  if (!take_out(argc, *argv)) return cli_usage((*argv)[1], "--config needs a value");
+  if (!source) return EXIT_OK;
+  if (strcmp(source, "-") == 0) return cli_usage((*argv)[1], "--config -: options come from a file, not from stdin");
+  if (thr_text_read(&file, source, &err)) return cli_fail(&err);
+  int code = join(&file, (*argv)[1], *argc, *argv, &n);
+  thr_text_destroy(&file);
+  if (code) return code;
+  for (int i = 2; i < *argc; i++)
+    words[n++] = (*argv)[i];
+  words[n] = NULL;
+  *argc = n;
+  *argv = words;
+  return EXIT_OK;
+}

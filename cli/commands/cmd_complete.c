@@ -1,0 +1,103 @@
+/* thread complete: what may stand next on a command line, for the completions of shells. */
+#include "cli/args/listing.h"
+#include "cli/cli.h"
+#include "graph/framework/make.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* Of the command that is asked: filled while it shows its options. */
+static const char *wanted; /* the option whose values are looked for, as it was typed; NULL = all options */
+static bool found;
+
+static void put(void *user, const char *word)
+{
+  (void)user;
+  found = true;
+  puts(word);
+}
+
+static bool is_wanted(const cli_listed *option)
+{
+  if (wanted[1] != '-') return option->letter && wanted[1] == option->letter && wanted[2] == '\0';
+  return strncmp(wanted + 2, option->name, strlen(wanted + 2)) == 0;
+}
+
+/* Is it the first of its name that the help lists? */
+static bool find_listed(const struct option *table, const char *help, const char *name, cli_listed *out)
+{
+  for (const char *at = help; cli_listed_next(&at, table, out);)
+    if (strcmp(out->name, name) == 0) return true;
+  return false;
+}
+
+/* A line for each option that the command knows: the word, a tab, what its help says first. */
+static void show(const struct option *table, const char *help)
+{
+  cli_listed option;
+  if (wanted) {
+    for (const char *at = help; !found && cli_listed_next(&at, table, &option);)
+      if (is_wanted(&option)) cli_listed_values(&option, put, NULL);
+    return;
+  }
+  for (const struct option *o = table; o->name; o++) {
+    if (find_listed(table, help, o->name, &option))
+      printf("--%s\t%.*s\n", o->name, option.length, option.text);
+    else
+      printf("--%s\n", o->name);
+  }
+}
+
+static const cli_command *find_command(const char *name)
+{
+  for (int i = 0; i < cli_n_commands; i++)
+    if (strcmp(name, cli_commands[i].name) == 0) return &cli_commands[i];
+  return NULL;
+}
+
+static void ask(const cli_command *command, const char *option)
+{
+  char name[16];
+  snprintf(name, sizeof name, "%s", command->name);
+  char *argv[] = {name, NULL};
+  wanted = option;
+  cli_show_options = show;
+  (void)command->run(1, argv);
+  cli_show_options = NULL;
+}
+
+static void put_commands(void)
+{
+  for (int i = 0; i < cli_n_commands; i++)
+    printf("%s\t%s\n", cli_commands[i].name, cli_commands[i].summary);
+}
+
+/* argv: "complete" and the words of the line after "thread", of which the last is being typed. Prints a line for each word that
+ * may stand in its place, whatever of it is typed already, with a tab and an explanation; nothing where any file may. */
+int cmd_complete(int argc, char **argv)
+{
+  const char *last = argc > 1 ? argv[argc - 1] : "", *before = argc > 2 ? argv[argc - 2] : "";
+  const cli_command *command = argc > 2 ? find_command(argv[1]) : NULL;
+  if (strcmp(before, "=") == 0 && argc > 3) before = argv[argc - 3]; /* shells that take --name=value for three words */
+  if (strcmp(last, "=") == 0) {
+    last = "";
+  } else if (strncmp(last, "--", 2) == 0 && strchr(last, '=')) {
+    char name[64];
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(last, "="), last);
+    if (command) ask(command, name);
+    return EXIT_OK;
+  }
+  if (argc <= 2 || strcmp(argv[1], "help") == 0) {
+    put_commands();
+    if (argc <= 2) puts("help\twhat a command does");
+    return EXIT_OK;
+  }
+  if (!command) return EXIT_OK;
+  if (before[0] == '-' && before[1]) ask(command, before);
+  if (found) return EXIT_OK;
+  if (last[0] == '-') ask(command, NULL);
+  if (last[0] != '-' && argc == 3 && command->run == cmd_make)
+    for (int i = 0; i < THR_N_SHAPES; i++)
+      puts(thr_shape_name(i));
+  return EXIT_OK;
+}

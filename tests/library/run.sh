@@ -1,0 +1,98 @@
+#!/usr/bin/env bash
+# What `make install` leaves is complete: the library's names, the examples in C and Python with nothing but what is installed, man
+# pages and completions. tests/library/run.sh BUILD_FOLDER OUT; closes with "N passed, N failed".
+set -u
+[ $# -eq 2 ] || { echo "usage: tests/library/run.sh BUILD_FOLDER OUT" >&2; exit 2; }
+build=$(realpath "$1")
+mkdir -p "$2"
+out=$(realpath "$2")
+cd "$(dirname "$0")/../.." || exit 2
+root=$out/root usr=$out/root/usr
+length=1995.248611 # mm, the least length of the dome with 7 x 7 nodes (data/README.md)
+passed=0 failed=0
+export LC_ALL=C
+
+test_that() { # WORDS COMMAND ..
+  local words=$1
+  shift
+  if "$@" >"$out/said" 2>&1; then passed=$((passed + 1)); return; fi
+  failed=$((failed + 1))
+  echo "not so: $words"
+  sed 's/^/    /' "$out/said"
+}
+
+rm -rf "$root"
+"${MAKE:-make}" -s OUT="$(dirname "$build")" BUILD="$(basename "$build")" DESTDIR="$root" PREFIX=/usr install \
+  >"$out/install.log" 2>&1 || { cat "$out/install.log"; echo "0 passed, 1 failed"; exit 1; }
+export PKG_CONFIG_PATH=$usr/lib/pkgconfig PKG_CONFIG_SYSROOT_DIR=$root PKG_CONFIG_ALLOW_SYSTEM_CFLAGS=1 PKG_CONFIG_ALLOW_SYSTEM_LIBS=1
+examples=$usr/share/doc/thread/examples
+
+only_ours() { [ -z "$(nm -D --defined-only "$usr/lib/libthread.so" | awk '$3 !~ /^thread_/')" ]; }
+only_ours_static() { [ -z "$(nm -g --defined-only "$usr/lib/libthread.a" | awk 'NF == 3 && $3 !~ /^thread_/')" ]; }
+all_declared() { # every name of the header is in the library, and none else
+  diff <(nm -D --defined-only "$usr/lib/libthread.so" | awk '{ print $3 }' | sort) \
+    <(grep -o 'thread_[a-z_]*(' "$usr/include/thread.h" | tr -d '(' | sort -u)
+}
+soname() { readelf -d "$usr/lib/libthread.so" | grep -q 'SONAME.*\[libthread\.so\.0\]'; }
+short() { [ "$(wc -l <"$usr/include/thread.h")" -le 150 ]; }
+# shellcheck disable=SC2046 # words
+c_example() { cc -Wall -Wextra -Werror -std=c99 "$examples/c/dome.c" $(pkg-config --cflags --libs thread) -o "$out/dome"; }
+# shellcheck disable=SC2046
+c_static() { g++ "$out/dome.o" "$usr/lib/libthread.a" $(pkg-config --static --libs thread | sed 's/-lthread//') -o "$out/dome-static"; }
+# shellcheck disable=SC2046
+c_object() { cc -c "$examples/c/dome.c" $(pkg-config --cflags thread) -o "$out/dome.o"; }
+# shellcheck disable=SC2046
+cplusplus() { echo '#include <thread.h>
+int main() { return thread_version() != THREAD_VERSION; }' | g++ -Wall -Wextra -Werror -x c++ - $(pkg-config --cflags --libs thread) -o "$out/version" && "$out/version"; }
+prints_length() { [ "$("$@")" = $length ]; }
+python_example() { PYTHONDONTWRITEBYTECODE=1 LIBTHREAD=$usr/lib/libthread.so.0 prints_length python3 "$examples/python/dome.py" "$out/python.svg"; }
+as_drawn() { "$usr/bin/thread" draw "$out/plan.json" -o "$out/program.svg" && cmp "$out/program.svg" "$out/c.svg"; }
+same_picture() { cmp "$out/c.svg" "$out/python.svg"; }
+has_options() { # the man page of a command names every option that the command knows
+  local option missing=
+  while IFS=$'\t' read -r option _; do
+    grep -qF -e "${option//-/\\-}" "$usr/share/man/man1/thread-$1.1" || missing+=" $option"
+  done < <("$usr/bin/thread" complete "$1" - | grep -vE '^--(config|verbose|quiet|presets)	')
+  echo "$missing"
+  [ -z "$missing" ]
+}
+opens() { ! man --warnings -l "$usr/share/man/man1/$1" 2>&1 >/dev/null | grep .; }
+completes() { # WANTED WORDS: bash completes the last of the words so
+  local wanted=$1
+  shift
+  # shellcheck disable=SC2016
+  [ "$(PATH=$usr/bin:$PATH bash -c '. "$1"; shift; COMP_WORDS=(thread "$@"); COMP_CWORD=$#; _thread; echo "${COMPREPLY[*]}"' - \
+    "$usr/share/bash-completion/completions/thread" "$@" | tr '\n' ' ' | sed 's/ $//')" = "$wanted" ]
+}
+
+export LD_LIBRARY_PATH=$usr/lib
+test_that 'the shared library exports thread_* only' only_ours
+test_that 'the static library exports thread_* only' only_ours_static
+test_that 'the header declares what is exported' all_declared
+test_that 'the soname is libthread.so.0' soname
+test_that 'the header has at most 150 lines' short
+test_that 'the C example compiles with pkg-config alone' c_example
+test_that 'the C example prints the least length' prints_length "$out/dome" "$out/c.svg"
+test_that 'the C example is compiled' c_object
+test_that 'and linked with the static library' c_static
+test_that 'the static example prints the least length' env -u LD_LIBRARY_PATH bash -c "[ \"\$('$out/dome-static')\" = $length ]"
+test_that 'the header is C++, too' cplusplus
+test_that 'the Python example prints the least length' python_example
+test_that 'C and Python draw the same picture' same_picture
+test_that 'the program plans the dome' bash -c "'$usr/bin/thread' make dome | '$usr/bin/thread' plan - -o '$out/plan.json'"
+test_that 'and draws the same picture' as_drawn
+for command in $("$usr/bin/thread" complete '' | cut -f 1 | grep -v help); do
+  test_that "thread-$command(1) names every option" has_options "$command"
+  if command -v man >/dev/null; then test_that "thread-$command(1) opens without warnings" opens "thread-$command.1"; fi
+done
+test_that 'bash completes a command' completes plan pla
+test_that 'bash completes an option' completes --objective plan --objec
+test_that 'bash completes values' completes 'tortuosity' plan --objective t
+test_that 'bash completes values after =' completes 'tube' plan --joint = t
+test_that 'bash completes values that the help explains below' completes 'steps steps.csv' draw -T st
+test_that 'bash leaves files to itself' completes '' check pl
+if command -v zsh >/dev/null; then test_that 'zsh reads its completion' zsh -n "$usr/share/zsh/site-functions/_thread"; fi
+if command -v fish >/dev/null; then test_that 'fish reads its completion' fish -n "$usr/share/fish/vendor_completions.d/thread.fish"; fi
+
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]

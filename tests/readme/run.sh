@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# Runs what README.md shows: every line "$ command" in a block, in order and in one folder, and compares what it prints to stdout
+# with what stands below it. ".." there, on a line of its own or inside, stands for anything; a command with nothing below it may
+# print anything. tests/readme/run.sh PROGRAM; closes with "N passed, N failed".
+set -u
+[ $# -eq 1 ] || { echo "usage: tests/readme/run.sh PROGRAM" >&2; exit 2; }
+program=$(realpath "$1")
+cd "$(dirname "$0")/../.." || exit 2
+work=$(mktemp -d) || exit 2
+trap 'rm -rf "$work"' EXIT
+# One golden case each. Searches get the time to end by themselves on any machine; exit code 5 says that not all is proved.
+awk '
+  function finish() { if (shown && !lines) print " ..."; if (shown) print "? 0"; shown = lines = gap = 0 }
+  /^```/ { inside = !inside; finish(); next }
+  !inside { next }
+  /^\$ / {
+    finish()
+    shown = 1
+    command = substr($0, 3)
+    if (command ~ /--objective|symmetries/) command = command " --time-limit 600"
+    print "$ cd {TMP} && { " command " 2>messages || [ $? -eq 5 ] || cat messages; }"
+    next
+  }
+  !shown { next }
+  /^$/ { gap++; next }
+  {
+    for (; gap > 0; gap--) print ""
+    lines++
+    if ($0 == "..") $0 = " ..."
+    gsub(/ \.\. /, "...")
+    print
+  }' README.md >"$work/readme.case"
+tests/golden/run.sh "$program" "$work/readme.case"
