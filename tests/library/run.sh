@@ -52,7 +52,7 @@ has_options() { # the man page of a command names every option that the command 
   local option missing=
   while IFS=$'\t' read -r option _; do
     grep -qF -e "${option//-/\\-}" "$usr/share/man/man1/thread-$1.1" || missing+=" $option"
-  done < <("$usr/bin/thread" complete "$1" - | grep -vE '^--(config|verbose|quiet|presets)	')
+  done < <("$usr/bin/thread" complete "$1" -)
   echo "$missing"
   [ -z "$missing" ]
 }
